@@ -29,7 +29,7 @@
 vtkStandardNewMacro(vtkDeformableSurface);
 
 //------------------------------------------------------------------------------
-vtkDeformableSurface::vtkDeformableSurface() : Internals(std::make_unique<vtkInternals>())
+vtkDeformableSurface::vtkDeformableSurface() : Internals(std::make_unique<vtkInternals>(*this))
 {
   this->SetNumberOfInputPorts(3);
   this->SetNumberOfOutputPorts(4);
@@ -271,7 +271,7 @@ int vtkDeformableSurface::RequestData(
     },
     [&]
     {
-      this->RunOrGoOn(inputVector, outputVector);
+      this->Internals->RunOrGoOn(inputVector, outputVector);
       volumic::ScatterOutputs(ranks, request, outputVector);
       ranks.IsAny(false); // Who is through with it here hears of no failure any more.
     });

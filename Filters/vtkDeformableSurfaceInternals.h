@@ -21,10 +21,29 @@
 #include <string>
 #include <vector>
 
-/** What vtkDeformableSurface holds, beside what all algorithms do. */
+namespace volumic
+{
+struct SegmentationRequest;
+class SurfaceSegmentation;
+}
+
+/**
+ * What vtkDeformableSurface holds, beside what all algorithms do, and what RequestData() does.
+ * All is called on the thread that updates the filter. Errors are thrown, std::invalid_argument
+ * where something given is wrong.
+ */
 class vtkDeformableSurface::vtkInternals
 {
 public:
+  explicit vtkInternals(vtkDeformableSurface& filter) : Filter(filter) {}
+
+  /**
+   * On all ranks at once, once Ranks and Alone are set: shows what is kept, or goes on with the
+   * last run, or makes another one, until it is over or told to stop. Afterwards rank 0 has filled
+   * the outputs, of which the other ranks are to get their pieces, and keeps the run.
+   */
+  void RunOrGoOn(vtkInformationVector** input, vtkInformationVector* output);
+
   volumic::SegmentationSettings Settings; ///< the properties
   volumic::LimitedMemory Memory;          ///< as the last run had it; outlives what is kept
   volumic::SegmentationCache Cache;       ///< of the last run
@@ -42,6 +61,40 @@ public:
   bool IsWatched = false;    ///< Someone asks whether a finer level is still to come.
   bool IsOnTheWay = false;   ///< One is, and nobody has asked yet.
   bool GoesToTheEnd = false; ///< The next run shows no level before.
+
+private:
+  /** What becomes of the last run. */
+  enum class Course
+  {
+    IsShown, ///< It has all that is asked for: the outputs are filled.
+    GoesOn,
+    BeginsAnew ///< It is gone; another one is to be made.
+  };
+  /**
+   * What a run is asked for by the properties and the inputs. By all ranks, as a surface, and
+   * points, that they hold in pieces come to rank 0. From now on the run's time counts.
+   */
+  volumic::SegmentationRequest RequestAsSet(vtkInformationVector** input);
+  /** With ShowLevels: makes it a request for the next level to be shown, if it is not the last. */
+  void ChooseStep(volumic::SegmentationRequest& request, bool isKept);
+  /** At rank 0: fills the outputs with what is kept. @return whether it is all that is wanted */
+  bool ShowKept(const volumic::SegmentationRequest& request, vtkInformationVector* output);
+  /**
+   * By all ranks: makes the levels, and of them, at rank 0, a run that has not begun. Null on the
+   * other ranks, and on all where the making of the levels was stopped.
+   */
+  std::unique_ptr<volumic::SurfaceSegmentation> NewRun(
+    const volumic::SegmentationRequest& request, vtkDataObject* input);
+  /** At rank 0: afterwards only what is shown is kept. @param run gets the one that goes on */
+  Course ChooseCourse(bool isKept, volumic::SegmentationRequest& request,
+    std::unique_ptr<volumic::SurfaceSegmentation>& run, vtkInformationVector* output);
+  /** At rank 0: fills the outputs with what a run has, that is over or was stopped. */
+  void ShowRun(const volumic::SurfaceSegmentation& run,
+    const volumic::SegmentationRequest& request, vtkInformationVector* output);
+  /** Whether this rank or another one was asked to stop. */
+  bool IsStopped();
+
+  vtkDeformableSurface& Filter;
 };
 
 #endif

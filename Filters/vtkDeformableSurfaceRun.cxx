@@ -165,69 +165,68 @@ bool vtkDeformableSurface::ShowPyramidProgress(double share, const char* text)
 }
 
 //------------------------------------------------------------------------------
-bool vtkDeformableSurface::IsStopped()
+bool vtkDeformableSurface::vtkInternals::IsStopped()
 {
-  return volumic::IsAbortRequested(this) || this->Internals->Alone->IsStoppedByOthers();
+  return volumic::IsAbortRequested(&this->Filter) || this->Alone->IsStoppedByOthers();
 }
 
 //------------------------------------------------------------------------------
-volumic::SegmentationRequest vtkDeformableSurface::RequestAsSet(vtkInformationVector** input)
+volumic::SegmentationRequest vtkDeformableSurface::vtkInternals::RequestAsSet(
+  vtkInformationVector** input)
 {
   volumic::SegmentationRequest request;
   request.Started = volumic::Deadline::Clock::now();
-  request.End = this->Internals->Settings.End;
-  request.End.FinestLevel = this->Internals->Settings.LastLevel();
+  request.End = this->Settings.End;
+  request.End.FinestLevel = this->Settings.LastLevel();
   const double limit = request.End.TimeLimit;
   if (!(limit >= 0.0))
   {
     volumic::Refuse("Time Limit is ", limit, "; it must be 0 (none) or more.");
   }
   request.Limit = volumic::Deadline(request.Started, limit);
-  this->Internals->Limit = request.Limit;
-  vtkInternals& internals = *this->Internals;
-  internals.InitialSurface =
-    volumic::JoinPieces(*internals.Ranks, vtkPolyData::GetData(input[1]));
-  internals.AttractingPoints =
-    volumic::JoinPieces(*internals.Ranks, vtkPolyData::GetData(input[2]));
-  request.InitialSurface = internals.InitialSurface;
-  request.AttractingPoints = internals.AttractingPoints;
-  request.EdgeSelection = this->GetInputArrayInformation(1);
+  this->Limit = request.Limit;
+  this->InitialSurface = volumic::JoinPieces(*this->Ranks, vtkPolyData::GetData(input[1]));
+  this->AttractingPoints = volumic::JoinPieces(*this->Ranks, vtkPolyData::GetData(input[2]));
+  request.InitialSurface = this->InitialSurface;
+  request.AttractingPoints = this->AttractingPoints;
+  request.EdgeSelection = this->Filter.GetInputArrayInformation(1);
   request.Checkpoints.AreLeft =
     request.End.MemoryLimit > 0 || !request.End.ScratchDirectory.empty() || request.End.Resume;
-  request.MayGoOn = volumic::SegmentationCache::MayKeep(this);
+  request.MayGoOn = volumic::SegmentationCache::MayKeep(&this->Filter);
   // Whoever watches may choose others; else, and where memory is short, it would be held in vain.
-  request.KeepsWhole = internals.IsWatched && !request.Checkpoints.AreLeft;
+  request.KeepsWhole = this->IsWatched && !request.Checkpoints.AreLeft;
   request.Checkpoints.Directory = request.End.ScratchDirectory;
   request.Checkpoints.Resumes = request.End.Resume;
-  request.Checkpoints.Stay = this->Internals->LeavesCheckpoints;
+  request.Checkpoints.Stay = this->LeavesCheckpoints;
   request.Checkpoints.Prepared = [this](const auto& checkpoint)
-  { this->Internals->Checkpoint = checkpoint; };
+  { this->Checkpoint = checkpoint; };
   const double before = BuildsPyramid(vtkDataObject::GetData(input[0])) ? PyramidShare : 0.0;
   request.Progress = [this, before](double share, const std::string& text)
-  { return this->Internals->Alone->GoOn(before + (1.0 - before) * share, text); };
-  request.Warn = [this](const std::string& text) { this->Warn(text); };
-  if (this->Internals->Ranks->NumberOfRanks() > 1)
+  { return this->Alone->GoOn(before + (1.0 - before) * share, text); };
+  request.Warn = [this](const std::string& text) { this->Filter.Warn(text); };
+  if (this->Ranks->NumberOfRanks() > 1)
   {
-    request.Ranks = this->Internals->Ranks.get();
-    request.Together = [this](const std::function<void()>& part)
-    { this->Internals->Alone->Together(part); };
+    request.Ranks = this->Ranks.get();
+    request.OnAllRanks = [this](const std::function<void()>& work)
+    { this->Alone->OnAllRanks(work); };
   }
   return request;
 }
 
 //------------------------------------------------------------------------------
-void vtkDeformableSurface::ChooseStep(volumic::SegmentationRequest& request, bool isKept)
+void vtkDeformableSurface::vtkInternals::ChooseStep(
+  volumic::SegmentationRequest& request, bool isKept)
 {
-  const volumic::SegmentationSettings& settings = this->Internals->Settings;
+  const volumic::SegmentationSettings& settings = this->Settings;
   // Whoever asks whether a finer level is still to come asks one rank only: the others would not
   // run again.
-  const bool isWatched = settings.End.ShowLevels && this->Internals->IsWatched &&
-    this->Internals->Ranks->NumberOfRanks() == 1;
-  if (!isWatched || std::exchange(this->Internals->GoesToTheEnd, false))
+  const bool isWatched =
+    settings.End.ShowLevels && this->IsWatched && this->Ranks->NumberOfRanks() == 1;
+  if (!isWatched || std::exchange(this->GoesToTheEnd, false))
   {
     return;
   }
-  const volumic::SegmentationCache& cache = this->Internals->Cache;
+  const volumic::SegmentationCache& cache = this->Cache;
   if (!isKept || !cache.CanGoOn())
   {
     request.End.Preview = true;
@@ -245,32 +244,31 @@ void vtkDeformableSurface::ChooseStep(volumic::SegmentationRequest& request, boo
 }
 
 //------------------------------------------------------------------------------
-bool vtkDeformableSurface::ShowKept(
+bool vtkDeformableSurface::vtkInternals::ShowKept(
   const volumic::SegmentationRequest& request, vtkInformationVector* output)
 {
-  volumic::SegmentationCache& cache = this->Internals->Cache;
-  const volumic::SegmentationResults* results =
-    cache.ResultsFor(this->Internals->Settings, request);
+  volumic::SegmentationCache& cache = this->Cache;
+  const volumic::SegmentationResults* results = cache.ResultsFor(this->Settings, request);
   if (!results)
   {
     return false;
   }
   const int end = cache.EndOf(request.End);
   results->FillOutputs(end, output);
-  results->WarnOf(end, this->Internals->Settings.WantsAllParts(), request.Warn);
+  results->WarnOf(end, this->Settings.WantsAllParts(), request.Warn);
   return true;
 }
 
 //------------------------------------------------------------------------------
-std::unique_ptr<volumic::SurfaceSegmentation> vtkDeformableSurface::NewRun(
+std::unique_ptr<volumic::SurfaceSegmentation> vtkDeformableSurface::vtkInternals::NewRun(
   const volumic::SegmentationRequest& request, vtkDataObject* input)
 {
   if (BuildsPyramid(input))
   {
-    this->ShowPyramidProgress(0.0); // Whether to stop is asked when there is more to do.
+    this->Filter.ShowPyramidProgress(0.0); // Whether to stop is asked when there is more to do.
   }
-  volumic::Communicator& ranks = *this->Internals->Ranks;
-  volumic::SegmentationVolume volume = this->PrepareVolume(input);
+  volumic::Communicator& ranks = *this->Ranks;
+  volumic::SegmentationVolume volume = this->Filter.PrepareVolume(input);
   const bool hasLevels = volume.Levels != nullptr;
   if (ranks.IsAny(!hasLevels))
   {
@@ -281,11 +279,11 @@ std::unique_ptr<volumic::SurfaceSegmentation> vtkDeformableSurface::NewRun(
   {
     request.Warn(aboutWhole);
   }
-  this->Internals->InPieces = volume.InPieces;
+  this->InPieces = volume.InPieces;
   std::unique_ptr<volumic::SurfaceSegmentation> run;
-  this->Internals->Alone->Run(
+  this->Alone->Run(
     [&] { run = std::make_unique<volumic::SurfaceSegmentation>(volume, request); });
-  if (!volume.LevelsAreOwn && volumic::AreReleased(this, 0))
+  if (!volume.LevelsAreOwn && volumic::AreReleased(&this->Filter, 0))
   {
     input->ReleaseData(); // Now: the run lets go of each level when it has left it.
   }
@@ -293,11 +291,11 @@ std::unique_ptr<volumic::SurfaceSegmentation> vtkDeformableSurface::NewRun(
 }
 
 //------------------------------------------------------------------------------
-vtkDeformableSurface::Course vtkDeformableSurface::ChooseCourse(bool isKept,
+auto vtkDeformableSurface::vtkInternals::ChooseCourse(bool isKept,
   volumic::SegmentationRequest& request, std::unique_ptr<volumic::SurfaceSegmentation>& run,
-  vtkInformationVector* output)
+  vtkInformationVector* output) -> Course
 {
-  volumic::SegmentationCache& cache = this->Internals->Cache;
+  volumic::SegmentationCache& cache = this->Cache;
   isKept = isKept && cache.GradesFor(request.End);
   if (isKept && this->ShowKept(request, output))
   {
@@ -318,21 +316,21 @@ vtkDeformableSurface::Course vtkDeformableSurface::ChooseCourse(bool isKept,
 }
 
 //------------------------------------------------------------------------------
-void vtkDeformableSurface::RunOrGoOn(
+void vtkDeformableSurface::vtkInternals::RunOrGoOn(
   vtkInformationVector** input, vtkInformationVector* output)
 {
-  const volumic::SegmentationSettings& settings = this->Internals->Settings;
-  volumic::SegmentationCache& cache = this->Internals->Cache;
-  volumic::Communicator& ranks = *this->Internals->Ranks;
-  volumic::FirstRankWork& alone = *this->Internals->Alone;
+  const volumic::SegmentationSettings& settings = this->Settings;
+  volumic::SegmentationCache& cache = this->Cache;
+  volumic::Communicator& ranks = *this->Ranks;
+  volumic::FirstRankWork& alone = *this->Alone;
   // What has changed on one rank has changed for all.
-  const bool isKept = !ranks.IsAny(!cache.IsValidFor(this, ranks.NumberOfRanks()));
+  const bool isKept = !ranks.IsAny(!cache.IsValidFor(&this->Filter, ranks.NumberOfRanks()));
   // ParaView leaves the flag of an earlier run as it is.
-  volumic::ForgetAbort(this);
-  this->SetErrorCode(vtkErrorCode::NoError);
-  this->Internals->Memory.Set(settings.End.MemoryLimit, settings.End.ScratchDirectory);
+  volumic::ForgetAbort(&this->Filter);
+  this->Filter.SetErrorCode(vtkErrorCode::NoError);
+  this->Memory.Set(settings.End.MemoryLimit, settings.End.ScratchDirectory);
   volumic::SegmentationRequest request = this->RequestAsSet(input);
-  this->Internals->IsOnTheWay = false;
+  this->IsOnTheWay = false;
   std::unique_ptr<volumic::SurfaceSegmentation> run; // At rank 0; the others never have one.
   auto course = Course::IsShown;
   alone.Run([&] { course = this->ChooseCourse(isKept, request, run, output); });
@@ -342,7 +340,7 @@ void vtkDeformableSurface::RunOrGoOn(
     return;
   }
   cache.Drop();
-  this->Internals->Checkpoint.reset();
+  this->Checkpoint.reset();
   if (course == Course::BeginsAnew)
   {
     run = this->NewRun(request, vtkDataObject::GetData(input[0]));
@@ -356,22 +354,22 @@ void vtkDeformableSurface::RunOrGoOn(
   alone.Run([&] { run->Run(); },
     [&]
     {
-      volumic::HelpWithLevel(ranks, this->Internals->InPieces,
-        [this] { return !volumic::IsAbortRequested(this); });
+      volumic::HelpWithLevel(ranks, this->InPieces,
+        [this] { return !volumic::IsAbortRequested(&this->Filter); });
     });
   if (run)
   {
     this->ShowRun(*run, request, output);
   }
-  cache.Keep(std::move(run), this, ranks.NumberOfRanks());
+  cache.Keep(std::move(run), &this->Filter, ranks.NumberOfRanks());
   volumic::GiveBackFreeMemory();
 }
 
 //------------------------------------------------------------------------------
-void vtkDeformableSurface::ShowRun(const volumic::SurfaceSegmentation& run,
+void vtkDeformableSurface::vtkInternals::ShowRun(const volumic::SurfaceSegmentation& run,
   const volumic::SegmentationRequest& request, vtkInformationVector* output)
 {
-  const volumic::SegmentationSettings& settings = this->Internals->Settings;
+  const volumic::SegmentationSettings& settings = this->Settings;
   run.Results().FillOutputs(run.EndsAt(), output);
   const bool isCutOff = request.Limit.IsOver() || this->IsStopped();
   const bool isFinest =
@@ -380,5 +378,5 @@ void vtkDeformableSurface::ShowRun(const volumic::SurfaceSegmentation& run,
   {
     run.Results().WarnOf(run.EndsAt(), settings.WantsAllParts(), request.Warn);
   }
-  this->Internals->IsOnTheWay = request.IsStep && !isCutOff && !isFinest;
+  this->IsOnTheWay = request.IsStep && !isCutOff && !isFinest;
 }

@@ -21,17 +21,24 @@
  * @par Output:
  * Port 0: a vtkMultiBlockDataSet. Block h is the vtkImageData of level h, named `Level h`; block 0
  * is the input itself, whose arrays are shared, not copied (of several components the array holds
- * the selected one, under the same name). All levels have the origin (the place
- * of the first voxel), the direction and the real size of the input; the spacing of level h is
- * spacing * size / size of level h, in world units, and its extent starts at 0. Each level from 1
- * on has one array, under the name that it has on the input: double if that is double, or integers
- * of 32 or 64 bits whose differences single precision would lose (their size is over 168 times
- * their range: 10^9 to 10^9 + 50), else float.
- * Field data of every level: `Level` (int) and `Unit` (double, the U_h of the paper: the distance
- * that stands for one voxel at that level, world units). Field data of the whole: `StopReason`
- * (string), `complete` or, after AbortExecute, `cancelled`: then the levels that were finished are
- * there, and count as up to date; to run anew call Modified() before Update(); and `NaNVoxels`
- * (vtkIdType), the number of NaN voxels of level 0.
+ * the selected one, under the same name). All levels have the origin (the place of the first
+ * voxel), the direction and the real size of the input; the spacing of level h is
+ * spacing * size / size of level h, in world units, and its extent starts at 0.
+ *
+ * Point data of each level from 1 on:
+ * - one array, under the name that it has on the input: double if that is double, or integers of 32
+ *   or 64 bits whose differences single precision would lose (their size is over 168 times their
+ *   range: 10^9 to 10^9 + 50), else float
+ *
+ * Field data of every level:
+ * - `Level` (int)
+ * - `Unit` (double): the U_h of the paper, the distance that stands for one voxel at that level,
+ *   world units
+ *
+ * Field data of the whole:
+ * - `StopReason` (string): `complete` or, after AbortExecute, `cancelled`: then the levels that were
+ *   finished are there, and count as up to date; to run anew call Modified() before Update()
+ * - `NaNVoxels` (vtkIdType): the number of NaN voxels of level 0
  *
  * @par Algorithm:
  * Equations 3 to 5 of the paper, with all places as there: voxel i of level h lies at i times the

@@ -19,30 +19,36 @@
  * `LabelNames` (strings) and `LabelColors` (3 components, 0 to 1; as unsigned char 0 to 255).
  *
  * @par Output:
- * A vtkMultiBlockDataSet, a block (vtkPolyData) per label, in the order of the labels' values,
- * named by the label's name, or `Label 3`; with Merge one block, named `Labels 1, 3`, or `Label 3`.
- * A label that asks for more than the triangles can hold has an empty block: `LostLabels` (string,
- * field data of the whole; only where there are any) tells which, and of which more voxels than half
- * are on the wrong side; a warning, too, where these are more than 5 % of the labels' voxels. With
- * Gap a warning tells of which triangles touch those of neighbours all the same. World coordinates;
- * arrays and field data of each block as vtkDeformableSurface has them, and:
- * - cell data: `Label` (int; with Merge, that of the nearest voxel of the merged ones).
- * - field data: with an entry for the label, with Merge for each that was merged, `Label` (int),
- *   `LabelName` (string) and `LabelColor` (double, 3 components, 0 to 1: as given, or one of a
- *   fixed palette); `LabelVoxels` (vtkIdType: voxels of the label), `WrongVoxels` (vtkIdType: of
- *   the label's that have their centres outside, and of others that have them inside; with Gap,
- *   those that it puts there count, too); `MissedVoxels` (vtkIdType: those of them that are further
- *   from the surface than VoxelTolerance).
- * @par
- * Port 1, `Interfaces`: a vtkPolyData, empty but with SharedInterfaces. Points as those of the blocks,
- * whose point data `GlobalIds` (vtkIdType) then say which; cells are the segments of junction lines,
- * where three labels or more meet (outside is one of them), then triangles.
- * - cell data: `BoundaryLabels` (int, 2 components, as vtkSurfaceNets3D has them): the label behind a
+ * World coordinates. Port 0: a vtkMultiBlockDataSet, a block (vtkPolyData) per label, in the order
+ * of the labels' values, named by the label's name, or `Label 3`; with Merge one block, named
+ * `Labels 1, 3`, or `Label 3`. A label that asks for more than the triangles can hold has an empty
+ * block.
+ *
+ * Arrays and field data of each block as vtkDeformableSurface has them, and:
+ * - cell data `Label` (int): with Merge, that of the nearest voxel of the merged ones
+ *
+ * and field data, with an entry for the label, with Merge for each that was merged:
+ * - `Label` (int)
+ * - `LabelName` (string)
+ * - `LabelColor` (double, 3 components, 0 to 1): as given, or one of a fixed palette
+ * - `LabelVoxels` (vtkIdType): voxels of the label
+ * - `WrongVoxels` (vtkIdType): those of the label that have their centres outside, and those of
+ *   others that have them inside; with Gap, those that it puts there count, too
+ * - `MissedVoxels` (vtkIdType): those of them that are further from the surface than VoxelTolerance
+ *
+ * Field data of the whole, only where there is anything to tell:
+ * - `LostLabels` (string): which labels are lost, and of which more voxels than half are on the
+ *   wrong side; a warning, too, where these are more than 5 % of the labels' voxels
+ *
+ * Port 1, `Interfaces`: a vtkPolyData, empty but with SharedInterfaces. Its points are those of the
+ * blocks, whose point data `GlobalIds` (vtkIdType) then say which. Its cells are the segments of
+ * junction lines, where three labels or more meet (outside is one of them), then triangles.
+ * - cell data `BoundaryLabels` (int, 2 components, as vtkSurfaceNets3D has them): the label behind a
  *   triangle, and that which its normal points to, BackgroundLabel where that is outside; of a line
  *   BackgroundLabel twice. With Merge the label behind is that of the nearest voxel.
- * - point data: `Junction` (unsigned char): 0 on an interface, 1 on a junction line, 2 where lines
- *   meet or end.
- * - field data: `Label`, `LabelName`, `LabelColor`, `LabelVoxels`, with an entry for each label.
+ * - point data `Junction` (unsigned char): 0 on an interface, 1 on a junction line, 2 where lines
+ *   meet or end
+ * - field data `Label`, `LabelName`, `LabelColor`, `LabelVoxels`: with an entry for each label
  *
  * @par Algorithm:
  * What is not the paper's. The field of which vtkDeformableSurface takes the isopotential is made
@@ -61,7 +67,8 @@
  *
  * @par Errors:
  * As vtkDeformableSurface: the message names the port, the array or the value, and the way out; the
- * output is empty; ask GetErrorCode() after Update().
+ * output is empty; ask GetErrorCode() after Update(). With Gap a warning tells of which labels
+ * triangles touch those of neighbours all the same.
  *
  * @par Progress:
  * GetProgressText() tells how many surfaces are finished and which is under way, of several the one

@@ -113,7 +113,6 @@ set(volumic_core_sources
   Evolution/SurfaceIteration.cxx
   Evolution/VerticesOfSlabs.cxx)
 set(volumic_core_headers
-  Common/Blocks.h
   Common/Box.h
   Common/CheckedFile.h
   Common/Communicator.h
@@ -136,6 +135,7 @@ set(volumic_core_headers
   Common/ScratchMemory.h
   Common/ScratchStore.h
   Common/Select.h
+  Common/Spans.h
   Common/StandardThreads.h
   Common/Vector.h
   Common/VisitSchedule.h
@@ -212,7 +212,7 @@ set(volumic_core_headers
   Surface/NormalCone.h
   Surface/Proximity.h
   Surface/RankBlocks.h
-  Surface/RankPart.h
+  Surface/RankPiece.h
   Surface/ReachOfStar.h
   Surface/RemainingContacts.h
   Surface/Remesher.h

@@ -15,7 +15,7 @@ constexpr std::chrono::milliseconds Interval(100);
 enum class Word
 {
   Progress, ///< How far it is, follows.
-  Help      ///< A part is for all.
+  Help      ///< There is work for all.
 };
 }
 
@@ -49,7 +49,7 @@ void FirstRankWork::Run(
   }
 }
 
-void FirstRankWork::Together(const std::function<void()>& part)
+void FirstRankWork::OnAllRanks(const std::function<void()>& work)
 {
   const bool othersWait = std::exchange(this->OthersWait, false);
   if (othersWait)
@@ -58,7 +58,7 @@ void FirstRankWork::Together(const std::function<void()>& part)
     writer.Add(Word::Help);
     this->Ranks.Broadcast(writer.Take());
   }
-  part();
+  work();
   this->OthersWait = othersWait;
   this->Told = Clock::now();
 }

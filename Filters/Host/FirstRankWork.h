@@ -26,12 +26,12 @@ public:
   /**
    * All ranks call it; it returns on all when the work is done. What the work throws must become
    * Communicator::Fail(), then the others leave it, too.
-   * @param help what the others do for rank 0, while it is in Together()
+   * @param help what the others do for rank 0, while it is in OnAllRanks()
    */
   void Run(const std::function<void()>& work, const std::function<void()>& help = {});
 
-  /** From within the work at rank 0: a part that all ranks do, it so, the others by `help`. */
-  void Together(const std::function<void()>& part);
+  /** From within the work at rank 0: what all ranks do, it by `work`, the others by `help`. */
+  void OnAllRanks(const std::function<void()>& work);
 
   /**
    * From within the work at rank 0, as often as it likes; outside of Run(), on any rank, without a

@@ -30,7 +30,7 @@ public:
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;
 
-  /** With all that is in it; nobody else gets it before it is gone. */
+  /** Removes the folder with all that is in it; nobody else gets it before it is gone. */
   void RemoveFolder();
 
 private:

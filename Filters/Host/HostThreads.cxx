@@ -167,16 +167,16 @@ void HostThreads::For(
     this->Share(n, grain, body);
     return;
   }
-  // Room is waited for piece by piece, however large the level is: an item that looks at a voxel or
+  // Room is waited for step by step, however large the level is: an item that looks at a voxel or
   // two may bring in 16 pages with each, so that 12,000 of them are more than all that is free.
-  const std::size_t piece = std::max(grain / 8, std::size_t(1));
+  const std::size_t step = std::max(grain / 8, std::size_t(1));
   this->Share(n, grain,
     [&](std::size_t begin, std::size_t end)
     {
-      for (; begin < end; begin += piece)
+      for (; begin < end; begin += step)
       {
         KeepMemoryLimit();
-        body(begin, std::min(end, begin + piece));
+        body(begin, std::min(end, begin + step));
       }
     });
 }

@@ -41,7 +41,7 @@ public:
 
   /**
    * @see Executor. Outside Run() everything is done on the calling thread. With a limit of memory
-   * (ScratchMemory) in smaller chunks, between which it is kept.
+   * (ScratchMemory) in smaller steps, between which it is kept.
    */
   void For(std::size_t n, std::size_t grain,
     const std::function<void(std::size_t, std::size_t)>& body) override;

@@ -36,7 +36,7 @@ public:
   /** What ScratchMemory warns of, each as long as it is new, for the end of a run. */
   std::vector<std::string> TakeWarnings();
 
-  /** The bytes of the property; 0 where it is none. */
+  /** The property's mebibytes in bytes; 0 where it is no limit. */
   static std::size_t BytesOf(int mebibytes)
   {
     return static_cast<std::size_t>(mebibytes > 0 ? mebibytes : 0) << 20;

@@ -19,7 +19,7 @@ namespace volumic
 class ProgressMonitor final : public Monitor
 {
 public:
-  /** Share of the work that is done and what is being done; false asks to stop. */
+  /** Told the share of the work that is done, and what is being done; false asks to stop. */
   using Callback = std::function<bool(double share, const std::string& text)>;
 
   /**
@@ -28,7 +28,7 @@ public:
    */
   ProgressMonitor(Callback callback, int coarsest, int finest, const Deadline& limit = Deadline());
 
-  /** May look at the surface. */
+  /** Called after each sweep, on the thread of the run; it may look at the surface. */
   std::function<void(const Status&)> AfterSweep = [](const Status&) {};
 
   bool Continue(const Status& status) override;

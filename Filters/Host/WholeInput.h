@@ -66,7 +66,7 @@ inline bool IsFirstProcess(vtkInformation* request, vtkInformationVector* output
   return !isOfNone && info->Get(Pipeline::UPDATE_PIECE_NUMBER()) <= 0;
 }
 
-/** Of an output that someone asks for, layers beyond a piece. */
+/** How many layers beyond a piece someone asks for, of an output. */
 inline int GhostLevelsAskedOf(vtkInformation* request, vtkInformationVector* output)
 {
   const int port = std::max(0, request->Get(vtkExecutive::FROM_OUTPUT_PORT()));

@@ -46,7 +46,7 @@ vtkSmartPointer<vtkDataArray> SelectComponent(vtkDataArray* array, int component
  */
 vtkSmartPointer<vtkImageData> WithVoxels(vtkImageData* image, vtkDataArray* voxels);
 
-/** The same values in one plain block of memory: the array itself where it is one already. */
+/** The same values plain and contiguous in memory: the array itself where it is one already. */
 vtkSmartPointer<vtkDataArray> ContiguousVoxels(vtkDataArray* voxels);
 
 /**

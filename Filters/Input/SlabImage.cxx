@@ -32,7 +32,7 @@ void CopyTuples(vtkDataArray* from, vtkDataArray* to, vtkIdType first)
     from->GetVoidPointer(0), static_cast<std::size_t>(from->GetNumberOfTuples()) * bytes);
 }
 
-/** The numbers of a point array of a slab, in one block; null where they are no numbers. */
+/** The numbers of a point array of a slab, contiguous in memory; null where they are no numbers. */
 vtkSmartPointer<vtkDataArray> NumbersOf(vtkImageData* slab, int number)
 {
   vtkDataArray* array = slab->GetPointData()->GetArray(number);

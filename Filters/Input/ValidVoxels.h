@@ -33,7 +33,7 @@ struct ValidVoxels
  * Looks at all voxels. Blanked are points that the image's ghost array hides, and those whose cells
  * are all hidden; duplicates are none of them.
  * @param original   the array as the user knows it
- * @param contiguous the same values in one block of memory (ContiguousVoxels)
+ * @param contiguous the same values contiguous in memory (ContiguousVoxels)
  * @throws std::invalid_argument naming the array and the first of them where voxels are infinite,
  *         or NaN without nanIsBackground.
  */

@@ -15,13 +15,13 @@
 namespace volumic
 {
 /** What a rank has done of the items that are due. */
-struct LabelPart
+struct LabelProgress
 {
   double Done = 0.0; ///< of their sizes
   std::int64_t Finished = 0;
   std::int64_t UnderWay = -1; ///< that which was begun last of those under way; -1: none
 
-  void Add(const LabelPart& other)
+  void Add(const LabelProgress& other)
   {
     this->Done += other.Done;
     this->Finished += other.Finished;
@@ -78,24 +78,24 @@ public:
     ++this->Finished;
   }
 
-  LabelPart Here() const
+  LabelProgress Here() const
   {
     const std::lock_guard<std::mutex> lock(this->Mutex);
-    LabelPart part;
+    LabelProgress here;
     for (const std::size_t item : this->Own)
     {
-      part.Done += this->Sizes[item] * this->Shares[item];
+      here.Done += this->Sizes[item] * this->Shares[item];
     }
-    part.Finished = this->Finished;
-    part.UnderWay = this->UnderWay.empty() ? -1 : static_cast<std::int64_t>(this->UnderWay.back());
-    return part;
+    here.Finished = this->Finished;
+    here.UnderWay = this->UnderWay.empty() ? -1 : static_cast<std::int64_t>(this->UnderWay.back());
+    return here;
   }
 
-  /** Of all items, where the ranks have done this part. */
-  double Share(const LabelPart& all) const { return (this->Before + all.Done) / this->Whole; }
+  /** Of all items, where the ranks have done this here. */
+  double Share(const LabelProgress& all) const { return (this->Before + all.Done) / this->Whole; }
 
   /** `12 of 39, liver`: how many are finished, and one that is under way. */
-  std::string Text(const LabelPart& all) const
+  std::string Text(const LabelProgress& all) const
   {
     const std::string text =
       this->Title + std::to_string(all.Finished) + " of " + std::to_string(this->Expected);

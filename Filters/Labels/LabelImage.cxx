@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Labels/LabelImage.h"
 
-#include "Core/Common/Blocks.h"
 #include "Core/Common/Refuse.h"
+#include "Core/Common/Spans.h"
 #include "Input/CellVoxels.h"
 #include "Input/ImageVoxels.h"
 #include "Input/InputImage.h"
@@ -150,7 +150,7 @@ void LabelImage::CountLabels(Executor& executor)
       using Value = std::decay_t<decltype(*voxels)>;
       bool isWrong = false;
       std::size_t wrongAt = count;
-      ForBlocks(executor, count, Grain,
+      ForSpans(executor, count, Grain,
         [&](std::size_t, std::size_t begin, std::size_t end)
         {
           std::unordered_map<int, LabelVoxels> counts;

@@ -39,7 +39,7 @@ struct LabelSurface
 class LabelSurfaceMaker
 {
 public:
-  /** What there is to do, as a share, and whether to go on; called on the thread that does it. */
+  /** Told the share that is done, on the thread that does it; false asks to stop. */
   using Progress = std::function<bool(double share, const std::string& text)>;
 
   /**
@@ -61,7 +61,7 @@ public:
   /** Where objects meet by threes: first of all objects, before any surface is made. */
   bool HasClaims() const { return this->Bricks.HasContested(); }
   void AddClaim(int object, HostThreads& threads);
-  /** By all ranks, each of which has added some. */
+  /** By all ranks, each of which has added some claims: all know of all afterwards. */
   void ShareClaims(Communicator& ranks) { this->Claims.Share(ranks); }
 
   /**
@@ -82,7 +82,7 @@ public:
     Communicator& ranks, std::vector<LabelSurface>& surfaces, HostThreads& threads);
 
 private:
-  /** Where the next surfaces stay further inside, by object. */
+  /** The places where the next surface of each object stays further inside. */
   std::vector<std::vector<std::array<int, 3>>> FindTouchingVoxels(
     std::vector<LabelSurface>& surfaces, HostThreads& threads) const;
   /** A field and the image that shows its values. */
@@ -91,7 +91,7 @@ private:
     LabelField Field;
     vtkSmartPointer<vtkImageData> Image;
   };
-  /** Unit of a level over that of the level below. */
+  /** How many times as large the unit of a level is as that of the level below. */
   double LevelFactor() const
   {
     return this->Settings.EdgeLength != 0.0 ? this->Plan.ReductionFactor : std::sqrt(3.0);
@@ -137,7 +137,9 @@ private:
   LabelFieldOptions Options;
   EdgeLengthPlan Plan; ///< with EdgeLength
   LabelClaims Claims;
-  /** Of each object the voxels at which its field is lowered, as often as they are named. */
+  /**
+   * By object: the voxels at which its field is lowered, once for each time that they are named.
+   */
   std::vector<std::vector<std::array<int, 3>>> Lowered;
 };
 }

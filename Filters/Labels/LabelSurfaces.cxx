@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Labels/LabelSurfaces.h"
 
-#include "Host/SideBySide.h"
+#include "Core/Common/StandardThreads.h"
 #include "Input/SurfaceFile.h"
 #include "Labels/LabelCourse.h"
 
@@ -100,7 +100,7 @@ private:
   std::vector<int> Objects; ///< of each item
   std::vector<double> Sizes;
   LabelCourse State;
-  LabelPart Others; ///< what they had done when they told last
+  LabelProgress Others; ///< what they had done when they told last
   std::vector<std::uint8_t> IsDue;
   std::vector<int> RankOf; ///< of each item that is due
   std::vector<LabelSurface> Surfaces;
@@ -164,7 +164,7 @@ std::vector<std::size_t> Making::ShareOut()
 
 bool Making::Tell(bool isThrough)
 {
-  LabelPart all = this->State.Here();
+  LabelProgress all = this->State.Here();
   all.Add(this->Others);
   if (!this->Progress(this->Before + this->Whole * this->State.Share(all), this->State.Text(all)))
   {
@@ -172,13 +172,13 @@ bool Making::Tell(bool isThrough)
   }
   struct Word
   {
-    LabelPart Done;
+    LabelProgress Done;
     bool IsStopped;
     bool IsThrough;
   };
   const std::vector<Word> words =
     GatherValues(this->Ranks, Word{ this->State.Here(), this->State.IsStopped, isThrough });
-  this->Others = LabelPart();
+  this->Others = LabelProgress();
   bool areThrough = true;
   for (int rank = 0; rank < this->Ranks.NumberOfRanks(); ++rank)
   {
@@ -196,7 +196,7 @@ bool Making::Tell(bool isThrough)
 void Making::Do(const std::string& title, const Work& work)
 {
   const std::vector<std::size_t> own = this->ShareOut();
-  this->Others = LabelPart();
+  this->Others = LabelProgress();
   this->State.Expect(title, this->IsDue, own);
   this->Tell();
   const auto doItem = [&](std::size_t item, int numberOfThreads, HostThreads& threads)
@@ -225,30 +225,37 @@ void Making::Do(const std::string& title, const Work& work)
   {
     rest -= this->Sizes[*small];
   }
-  SideBySide large({ own.begin(), small },
-    [&](std::size_t item) { doItem(item, this->NumberOfThreads, this->Threads); });
-  SideBySide others({ small, own.end() },
-    [&](std::size_t item)
-    {
-      HostThreads one(1);
-      doItem(item, 1, one);
-    });
-  try
+  const auto tell = [this]
   {
-    const auto tell = [this] { this->Tell(); };
-    // On the calling thread, which tells of each iteration, or, if others listen, beside it.
-    const bool isOne = this->Ranks.NumberOfRanks() == 1;
-    large.Run(isOne ? 0 : 1, tell);
-    others.Run(most, tell);
-    while (!isOne && this->Tell(true))
+    try
     {
-      std::this_thread::sleep_for(SideBySide::Pause);
+      this->Tell();
     }
-  }
-  catch (...)
+    catch (...)
+    {
+      this->State.IsStopped = true; // Those that are under way are waited for.
+      throw;
+    }
+  };
+  // On the calling thread, which tells of each iteration, or, if others listen, beside it.
+  const bool isOne = this->Ranks.NumberOfRanks() == 1;
+  const auto large = static_cast<std::size_t>(small - own.begin());
+  StandardThreads(isOne ? 1 : 2)
+    .ForEach(
+      large, [&](std::size_t i) { doItem(own[i], this->NumberOfThreads, this->Threads); }, tell);
+  const std::size_t others = own.size() - large;
+  StandardThreads(static_cast<int>(std::min(others, static_cast<std::size_t>(most))) + 1)
+    .ForEach(
+      others,
+      [&](std::size_t i)
+      {
+        HostThreads one(1);
+        doItem(own[large + i], 1, one);
+      },
+      tell);
+  while (!isOne && this->Tell(true))
   {
-    this->State.IsStopped = true; // Those that are under way are waited for.
-    throw;
+    std::this_thread::sleep_for(StandardThreads::Pause);
   }
 }
 

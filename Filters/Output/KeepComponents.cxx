@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Output/KeepComponents.h"
 
-#include "Core/Common/Blocks.h"
 #include "Core/Common/Refuse.h"
+#include "Core/Common/Spans.h"
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "Core/Surface/SizingField.h"
 #include "Input/InputPoints.h"
@@ -21,7 +21,7 @@ namespace volumic
 namespace
 {
 /** Triangles that one thread looks at at a time. */
-constexpr std::size_t BlockSize = 16384;
+constexpr std::size_t SpanSize = 16384;
 
 /**
  * Places sorted along y, so that what is near a triangle or a vertex is found without a search of
@@ -92,10 +92,10 @@ std::vector<int> InnermostAbout(const std::vector<Point>& places, const std::vec
 {
   const SortedPlaces sorted(places);
   const std::size_t n = surface.Triangles.size();
-  // Places and components, by blocks of triangles.
-  std::vector<std::vector<std::pair<std::size_t, int>>> blocks((n + BlockSize - 1) / BlockSize);
-  ForBlocks(executor, n, BlockSize,
-    [&](std::size_t block, std::size_t begin, std::size_t end)
+  // Places and components, by spans of triangles.
+  std::vector<std::vector<std::pair<std::size_t, int>>> spans((n + SpanSize - 1) / SpanSize);
+  ForSpans(executor, n, SpanSize,
+    [&](std::size_t span, std::size_t begin, std::size_t end)
     {
       for (std::size_t t = begin; t < end; ++t)
       {
@@ -110,15 +110,15 @@ std::vector<int> InnermostAbout(const std::vector<Point>& places, const std::vec
           {
             if ((own.empty() || own[i] != component) && Pierces(places[i], a, b, c))
             {
-              blocks[block].emplace_back(i, component);
+              spans[span].emplace_back(i, component);
             }
           });
       }
     });
   std::vector<std::vector<int>> pierced(places.size());
-  for (const auto& block : blocks)
+  for (const auto& span : spans)
   {
-    for (const auto& found : block)
+    for (const auto& found : span)
     {
       pierced[found.first].push_back(found.second);
     }
@@ -186,9 +186,9 @@ void MarkTouching(const SurfaceResult& surface, const SurfaceFeatures& features,
   const SortedPlaces sorted(places);
   const double reach = SizingField::LongestEdgeInDelta * surface.Delta;
   const std::size_t n = surface.Triangles.size();
-  std::vector<std::vector<int>> touching((n + BlockSize - 1) / BlockSize);
-  ForBlocks(executor, n, BlockSize,
-    [&](std::size_t block, std::size_t begin, std::size_t end)
+  std::vector<std::vector<int>> touching((n + SpanSize - 1) / SpanSize);
+  ForSpans(executor, n, SpanSize,
+    [&](std::size_t span, std::size_t begin, std::size_t end)
     {
       for (std::size_t t = begin; t < end; ++t)
       {
@@ -204,7 +204,7 @@ void MarkTouching(const SurfaceResult& surface, const SurfaceFeatures& features,
               const double z = p[2] - places[i][2];
               if (host >= 0 && x * x + y * y + z * z <= reach * reach)
               {
-                touching[block].push_back(host);
+                touching[span].push_back(host);
               }
             });
         }

@@ -31,16 +31,16 @@ namespace volumic
 class SegmentationResults
 {
 public:
-  /** Of the object's boundary: more that is missing matters. */
+  /** A share of the object's boundary: where more is missing it matters. */
   static constexpr double NotableShare = 0.05;
 
   struct Level
   {
-    vtkSmartPointer<vtkPolyData> Surface;       ///< of the components that are chosen
-    std::shared_ptr<const SurfaceResult> Whole; ///< of all; null: it was not kept
+    vtkSmartPointer<vtkPolyData> Surface;       ///< the components that are chosen
+    std::shared_ptr<const SurfaceResult> Whole; ///< all components; null: not kept
     SurfaceDescription Description;
     bool KeepsNone = false; ///< KeepComponents has left nothing of a surface that was there.
-    bool IsAtRest = false;  ///< Not cut off while it evolved.
+    bool IsAtRest = false;  ///< It was not cut off while it evolved.
   };
 
   struct Snapshot
@@ -81,21 +81,21 @@ public:
 
   /** Whether the surface rests at a level. */
   bool HasAtRest(int level) const;
-  /** Those above `last`, too: they are kept. */
+  /** Fills them as those of a run that has ended at `last`. */
   void FillOutputs(int last, vtkInformationVector* outputs) const;
   /**
    * What is worth a warning where a run has ended at a level; empty: nothing.
    * @param wantsAll whether it matters if parts of the object are missing
    */
   std::string WarningOf(int last, bool wantsAll) const;
-  /** Tells it, where there is any. */
+  /** Warns of what is worth a warning, if anything is. */
   void WarnOf(
     int last, bool wantsAll, const std::function<void(const std::string& text)>& warn) const;
   /** What FillOutputs() gives as output 0. */
   vtkPolyData* Outcome(int last) const;
   vtkPolyData* SurfaceOf(int level) const { return this->ByLevel.at(level).Surface; }
 
-  /** All that were set. */
+  /** All levels that were set. */
   const std::map<int, Level>& Levels() const { return this->ByLevel; }
   const std::vector<Snapshot>& AllSnapshots() const { return this->Snapshots; }
 

@@ -65,7 +65,7 @@ template <typename Body>
 void ForRanges(Executor& executor, std::size_t n, const Body& body)
 {
   constexpr std::size_t size = 16384;
-  ForBlocks(executor, n, size,
+  ForSpans(executor, n, size,
     [&body](std::size_t, std::size_t begin, std::size_t end) { body(begin, end); });
 }
 

@@ -39,7 +39,7 @@ vtkSmartPointer<vtkPolyData> MakePolyData(SurfaceResult surface,
   const SurfaceDescription& description, const Workspace& space,
   Executor& executor = OnThisThread());
 
-/** In the place of the one that it has; what it was copied from keeps its own. */
+/** Sets `StopReason` instead of the one that it has; what it was copied from keeps its own. */
 void SetStopReason(vtkPolyData* surface, const std::string& reason);
 
 /** `StopReason` of what a run hands over that has come to the end of its time. */

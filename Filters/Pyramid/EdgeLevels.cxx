@@ -41,7 +41,7 @@ double FactorOf(vtkMultiBlockDataSet* blocks)
 
 /** The blocks where all of them carry the map, else the pyramid of block 0's; null after a stop. */
 vtkSmartPointer<vtkMultiBlockDataSet> LevelsOfMap(vtkMultiBlockDataSet* blocks,
-  vtkInformation* selection, int numberOfThreads, const Checkpoint& goOn)
+  vtkInformation* selection, int numberOfThreads, const ProgressQuestion& goOn)
 {
   auto* image = vtkImageData::SafeDownCast(blocks->GetBlock(0));
   ChooseVoxels(selection, image);
@@ -66,7 +66,7 @@ vtkSmartPointer<vtkMultiBlockDataSet> LevelsOfMap(vtkMultiBlockDataSet* blocks,
 }
 
 EdgeLevels::EdgeLevels(vtkMultiBlockDataSet* blocks, vtkInformation* selection,
-  int numberOfThreads, const Checkpoint& goOn)
+  int numberOfThreads, const ProgressQuestion& goOn)
 {
   const bool isChosen = selection && (selection->Has(vtkDataObject::FIELD_NAME()) ||
                                        selection->Has(vtkDataObject::FIELD_ATTRIBUTE_TYPE()));

@@ -29,7 +29,7 @@ public:
    * @throws std::invalid_argument if no array is selected or block 0 has none of that name.
    */
   EdgeLevels(vtkMultiBlockDataSet* blocks, vtkInformation* selection, int numberOfThreads,
-    const Checkpoint& goOn);
+    const ProgressQuestion& goOn);
 
   /**
    * The voxels of the map, for LevelImage::Edges; valid until the next call.

@@ -182,7 +182,7 @@ private:
     }
     const MarkedVoxels<Below> voxels = { below, marks.data(), this->HaveAllValues };
     return ReducePieces(this->Ranks, pieces, voxels, this->Levels[h - 1], made,
-      LevelPart(this->Levels[h], this->BoxOf(h)), this->Threads, progress);
+      LevelPiece(this->Levels[h], this->BoxOf(h)), this->Threads, progress);
   }
 
   Communicator& Ranks;

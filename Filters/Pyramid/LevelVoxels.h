@@ -35,7 +35,7 @@ struct LevelVoxels
  * neighbourhood has more voxels without a value than with one. By all ranks together, each of which
  * makes its piece; when one is told to stop, all do. The bits don't depend on how many there are.
  * @param pieces     of level 0
- * @param voxels     of this rank's piece, in one block of memory (ContiguousVoxels)
+ * @param voxels     of this rank's piece, contiguous in memory (ContiguousVoxels)
  * @throws std::invalid_argument if their type is not supported; std::runtime_error if the memory
  *         does not suffice.
  */

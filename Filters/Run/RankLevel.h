@@ -30,7 +30,9 @@ public:
    */
   RankLevel(Communicator& ranks, const LevelImage& image, const LevelInPieces* pieces);
 
-  /** At rank 0 where it was; else with room for all voxels, which takes no memory before Need(). */
+  /**
+   * At rank 0 its voxels are where they were; elsewhere there is room for them, empty until Need().
+   */
   const LevelImage& Image() const { return this->Level; }
 
   /** By all ranks together: brings this rank the voxels of a box, and no others. */
@@ -55,21 +57,26 @@ struct SharedLevel
   SurfaceOptions Options;
   int Level = 0;
   int NumberOfThreads = 0;
-  bool IsLast = false; ///< The surface does not go on from there.
+  bool IsLast = false; ///< The surface is not to go on from there, so need not be whole.
 };
 
 /**
- * At rank 0: the division to a level that all ranks share, and the run there, on all ranks; they must be in
- * HelpWithLevel(). @return false as SurfaceEvolution::Divide().
+ * At rank 0, while the other ranks are in HelpWithLevel(): divides the surface to a level that all
+ * ranks share, and evolves it there. Afterwards rank 0 has the result, and the whole surface where
+ * the run goes on from there. @return false as SurfaceEvolution::Divide()
  */
 bool EvolveOnRanks(Communicator& ranks, const SharedLevel& shared, RankLevel& level,
   SurfaceEvolution& evolution, StopReason& reason, SurfaceResult& surface);
 
-/** At rank 0, likewise: the level of which it wants the voxels, or on which all evolve. */
+/**
+ * At rank 0, likewise: tells the others of a level whose voxels it wants, or on which all evolve.
+ */
 std::unique_ptr<RankLevel> ShareLevel(Communicator& ranks, const SharedLevel& shared,
   const LevelImage& image, const LevelsInPieces& pieces);
 
-/** At the others. @param goOn asked now and then; false ends the run on all ranks */
+/**
+ * At the others, until rank 0 is done. @param goOn asked now and then; false ends the run of all
+ */
 void HelpWithLevel(
   Communicator& ranks, const LevelsInPieces& pieces, const std::function<bool()>& goOn);
 }

@@ -31,11 +31,11 @@ public:
   RunFingerprint(const SegmentationSettings& settings, const SegmentationRequest& request,
     const SegmentationLevels& levels, Executor& threads);
 
-  /** Of all: the same only for runs that give the same surfaces. */
+  /** A hash of all entries: only runs that give the same surfaces have the same one. */
   std::uint64_t Hash() const;
 
   bool IsSameVolume(const RunFingerprint& other) const;
-  /** As `Iso Value was 20 and is 30; not the same voxels`; empty: nothing differs. */
+  /** Tells what differs, as `Iso Value was 20 and is 30; not the same voxels`; empty: nothing. */
   std::string DifferencesFrom(const RunFingerprint& before) const;
   int NumberOfDifferences(const RunFingerprint& other) const;
 
@@ -63,7 +63,7 @@ private:
     const SegmentationRequest& request, const SegmentationLevels& levels, Executor& threads);
   void Add(const std::string& name, const std::string& value, Kind kind = Kind::Hidden);
 
-  std::vector<Entry> Entries; ///< The same names, in the same order, of all runs of a version.
+  std::vector<Entry> Entries; ///< All runs of a version have the same names, in the same order.
 };
 }
 

@@ -29,7 +29,7 @@ public:
   SegmentationCache();
   ~SegmentationCache();
 
-  /** Whether a run of it may be kept: not where data are released. */
+  /** Whether a run of this filter may be kept: not where data are released. */
   static bool MayKeep(vtkAlgorithm* filter);
 
   /**
@@ -52,13 +52,13 @@ public:
    */
   const SegmentationResults* ResultsFor(
     const SegmentationSettings& settings, const SegmentationRequest& request);
-  /** The level at which it ends. */
+  /** The level at which such a run ends. */
   int EndOf(const SegmentationEnd& end) const;
-  /** Whether there is a run that can. */
+  /** Whether a run is kept that can go on. */
   bool CanGoOn() const { return this->Run != nullptr; }
   /** The one after the level at which it has ended, or, where it was stopped before, that level. */
   int NextLevel() const;
-  /** Whether the level at which a run is to end is one that this one grades, or it grades none. */
+  /** Whether the run that is kept grades no level, or just the one at which another is to end. */
   bool GradesFor(const SegmentationEnd& end) const
   {
     return !this->IsGraded || end.FinestLevel == this->PlannedEnd;

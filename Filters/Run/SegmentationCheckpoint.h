@@ -41,8 +41,8 @@ public:
   /** Where a run stands. */
   struct Place
   {
-    int Level = 0;       ///< the last at which the surface rests
-    bool GoesOn = false; ///< to finer ones, if they are wanted
+    int Level = 0;       ///< the last level at which the surface rests
+    bool GoesOn = false; ///< whether it is fit for a finer one
   };
 
   /**
@@ -61,7 +61,7 @@ public:
   std::string Save(
     const SegmentationResults& results, const SurfaceEvolution& evolution, const Place& place);
 
-  /** All of it, once the run is over; nothing where another process is at it. */
+  /** Removes all of it, once the run is over; nothing where another process is at it. */
   void Remove();
 
   /** The folder, if it holds what a run can go on from; else empty. */
@@ -83,8 +83,8 @@ private:
   std::string Folder;
   RunFingerprint Fingerprint;
   std::unique_ptr<FolderLock> Locked; ///< null: nothing of the folder is ours
-  std::set<int> WrittenLevels;   ///< whose files are there
-  std::optional<Place> Existing; ///< of the state that is there
+  std::set<int> WrittenLevels;   ///< the levels whose files are there
+  std::optional<Place> Existing; ///< where the run stood whose files are there
   std::optional<int> Resumed;
   bool HasFailed = false;
 };

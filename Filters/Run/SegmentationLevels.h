@@ -29,6 +29,9 @@ namespace volumic
 /**
  * The levels of a volume as a surface evolves on them: the voxels as attracting points bend them,
  * and the map of edges. Errors are std::invalid_argument; messages name the port or the property.
+ *
+ * A level is asked for from the coarsest on: what ReleaseCoarserThan() has let go of cannot be
+ * loaded again. All is called on one thread; `threads` share the loops over voxels.
  */
 class SegmentationLevels
 {
@@ -37,7 +40,7 @@ public:
   explicit SegmentationLevels(const SegmentationVolume& volume);
   ~SegmentationLevels();
 
-  /** Takes the points and the map of edges, where the settings give them a weight. */
+  /** Once, before Load(): takes the points and the map of edges that the settings give a weight. */
   void ReadAttraction(vtkMultiBlockDataSet* blocks, const SegmentationSettings& settings,
     const SegmentationRequest& request);
   bool HasPoints() const { return this->Points != nullptr; }
@@ -63,7 +66,7 @@ public:
   /** What is to be reported of the NaN voxels of level 0; empty: nothing, or it has been. */
   std::string DescribeUnreportedNaNs() const;
 
-  /** The field of a level, valid until the next call. */
+  /** The field of a level, whose voxels must be here still; valid until the next call. */
   LevelImage Load(int level, const SurfaceOptions& options, Executor& threads);
 
   /**
@@ -73,10 +76,12 @@ public:
   void ReleaseCoarserThan(int level);
   bool HasVoxels(int level) const { return this->Voxels.HasVoxels(level); }
 
-  /** Those whose voxels the ranks have (SegmentationVolume); what Load() gives has none then. */
+  /**
+   * The levels whose voxels lie with the ranks (SegmentationVolume): Load() gives these without.
+   */
   const LevelsInPieces& InPieces() const { return this->Pieces; }
   bool IsInPieces(int level) const { return this->Pieces.count(std::max(level, 0)) > 0; }
-  /** Its voxels are here from now on. */
+  /** To be called when the voxels of a level have come here: Load() gives them from now on. */
   void TakeWhole(int level) { this->Pieces.erase(std::max(level, 0)); }
 
   /** PyramidLevels::HashOfVoxels() of the map of edges, all levels; 0: there is none. */

@@ -323,7 +323,7 @@ bool SurfaceSegmentation::PreviewMissesParts(int level) const
 bool SurfaceSegmentation::MayBeShared(int level) const
 {
   // Snapshots, mean or graded edges, and what attracts are for the whole surface, on one rank.
-  return this->Request.Together && level < this->Choice.Coarsest && level >= 0 &&
+  return this->Request.OnAllRanks && level < this->Choice.Coarsest && level >= 0 &&
     SurfaceEvolution::AreShared(
       this->Settings.Options, this->Levels.Pyramid().SizeOf(level)) &&
     this->Settings.SnapshotInterval == 0 && this->Settings.EdgeLength == 0.0 &&
@@ -338,7 +338,7 @@ void SurfaceSegmentation::GatherVoxels(int level)
   shared.Level = std::max(level, 0);
   const LevelImage image =
     this->Levels.Load(shared.Level, this->Settings.Options, *this->Threads);
-  this->Request.Together(
+  this->Request.OnAllRanks(
     [&] { ShareLevel(*this->Request.Ranks, shared, image, this->Levels.InPieces()); });
   this->Levels.TakeWhole(level);
 }
@@ -354,7 +354,7 @@ bool SurfaceSegmentation::EvolveOn(
     const bool isLast = level == 0 && this->Choice.Last == 0;
     const SharedLevel shared{ false, this->Settings.Options, level,
       this->Settings.End.NumberOfThreads, isLast };
-    this->Request.Together(
+    this->Request.OnAllRanks(
       [&]
       {
         Communicator& ranks = *this->Request.Ranks;
@@ -380,7 +380,7 @@ bool SurfaceSegmentation::EvolveOn(
   surface = evolution.Result();
   const bool mayBeRevised = this->Request.Revise && level == this->Choice.Last && level <= 0 &&
     reason != StopReason::Cancelled &&
-    !(this->Request.Together &&
+    !(this->Request.OnAllRanks &&
       SurfaceEvolution::AreShared(this->Settings.Options, image.Size));
   while (mayBeRevised && !evolution.IsStopped() && !surface.Points.empty() &&
     this->Request.Revise(surface))

@@ -32,6 +32,10 @@ class RankLevel;
  * The run from the coarsest level to the finest: starts, evolves, divides, and keeps what the
  * outputs of vtkDeformableSurface hold. One that has ended at a level can go on from there, as if
  * it had never ended; one that was stopped, from the last level at which the surface rested.
+ *
+ * One thread calls all of it, and is the one on which Progress, Warn, Prepared and Revise of the
+ * request are called; others work within the loops of HostThreads only. Where several ranks share a
+ * run it lives on rank 0, and the others help in OnAllRanks().
  */
 class SurfaceSegmentation
 {
@@ -54,10 +58,12 @@ public:
   bool CanServe() const;
 
   /**
+   * Goes on from the level at which the last Run() has ended, or begins, and ends at the level that
+   * the request asks for: EndsAt() tells it, Results() have all that were passed.
    * Where Progress asks to stop, or time is over, the surface is what there is then, and marked so;
    * it is empty where there is none yet. Another Run() takes up the level that was under way from
-   * its begin.
-   * @throws std::invalid_argument if settings and image do not fit.
+   * its begin. After an exception the object is of no use any more.
+   * @throws std::invalid_argument if settings and image do not fit, std::bad_alloc, ScratchFull.
    */
   void Run();
 
@@ -72,23 +78,51 @@ public:
 
 private:
   void CheckGrading() const;
+  /** With EdgeLength: plans finest level, sampling ratio and factor below level 0, if need be. */
   void ChooseEdgeLength(const SegmentationVolume& volume);
+  /**
+   * On the coarsest level: gives the evolution its surface. @throws as SurfaceEvolution's starts
+   */
   void Start(SurfaceEvolution& evolution, const LevelImage& image);
+  /** Forgets the last run, its results included; the next level is the coarsest one. */
   void Begin();
+  /**
+   * Within HostThreads::Run. Before: Choice is made, the results of levels at rest are in Found.
+   * Brings the surface level by level to Choice.Last, as long as it is fit to go on and nobody asks
+   * to stop. At the end of each pass of the loop the surface lies on level Reached, Found has it,
+   * and a checkpoint of it is left where these are wanted. Afterwards Found has the history; after
+   * a stop the evolution is back where it rested last (ReturnToRest).
+   */
   void RunLevels();
   void MakeEvolution();
+  /** Before the surface leaves Reached: saves the evolution in Rest, where a stop may need it. */
   void KeepRest();
+  /** After a stop: makes the evolution again of Rest. Empties Rest in any case. */
   void ReturnToRest();
   /** Whether a preview that has come to this level must go on, as too much is missing. */
   bool PreviewMissesParts(int level) const;
+  /** Whether all ranks may work on a level. */
   bool MayBeShared(int level) const;
+  /** On all ranks: brings rank 0 the voxels of a level that is in pieces. */
   void GatherVoxels(int level);
+  /**
+   * Brings the surface to a level, by a start or a division, and evolves it there, on all ranks
+   * where MayBeShared(). @return false where it was stopped before it had come there: then it still
+   * lies on the level before, and reason and surface say nothing
+   */
   bool EvolveOn(
     const LevelImage& image, int level, StopReason& reason, SurfaceResult& surface);
+  /** Puts the surface of a level into Found. @return whether it is fit for a finer level */
   bool KeepLevel(int level, StopReason reason, SurfaceResult surface);
+  /** Once a Run(), before RunLevels(): finds out of which run a checkpoint would be. */
   void PrepareCheckpoint();
+  /** Once a run, before its first level: goes on from a checkpoint, where that is asked for. */
   void Resume();
+  /** After KeepLevel(), where checkpoints are left: what cannot be written is a warning. */
   void LeaveCheckpoint(int level);
+  /**
+   * Where a run was stopped before it came to a level: what it shows is the surface of the last.
+   */
   void KeepStoppedSurface(int level);
   std::string DescribeStop() const;
 
@@ -106,7 +140,7 @@ private:
   bool GoesOn = false; ///< It does, and is fit for a finer one.
   FileInMemory Rest; ///< The evolution as it rested there, while it is at a finer one.
   bool HasChosen = true; ///< The components of what is there are those that are wanted.
-  std::shared_ptr<SegmentationCheckpoint> Left;
+  std::shared_ptr<SegmentationCheckpoint> Left; ///< null: none is left
   std::unique_ptr<RankLevel> Shared; ///< what the evolution refers to, after a level on all ranks
 };
 }

@@ -55,8 +55,8 @@ struct SegmentationRequest
    * that the surface must be revised, and it asked again. Empty: they stay.
    */
   std::function<bool(const SurfaceResult& surface)> Revise;
-  /** Does a part of the run on all ranks (FirstRankWork::Together); empty: there is one rank. */
-  std::function<void(const std::function<void()>& part)> Together;
+  /** Does some work on all ranks (FirstRankWork::OnAllRanks); empty: there is one rank. */
+  std::function<void(const std::function<void()>& work)> OnAllRanks;
   Communicator* Ranks = nullptr; ///< these
 };
 }

@@ -20,7 +20,7 @@ namespace volumic
 struct LevelInPieces
 {
   VoxelPieces Pieces;
-  vtkSmartPointer<vtkDataArray> Values; ///< of this rank's, in one block of memory; null: none
+  vtkSmartPointer<vtkDataArray> Values; ///< of this rank's, contiguous in memory; null: none
   std::array<double, 2> Range = { 0.0, 0.0 }; ///< of all
 };
 using LevelsInPieces = std::map<int, LevelInPieces>;

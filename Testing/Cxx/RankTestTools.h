@@ -3,7 +3,7 @@
 #ifndef volumicRankTestTools_h
 #define volumicRankTestTools_h
 
-#include "Core/Surface/RankPart.h"
+#include "Core/Surface/RankPiece.h"
 #include "Core/Surface/SurfaceComponents.h"
 #include "Core/Surface/SurfaceState.h"
 
@@ -94,7 +94,7 @@ inline void TakePart(SurfaceState& part, const SurfaceState& whole, const OwnerO
   }
 }
 
-inline RankPart PartOf(Communicator& ranks, const OwnerOf& ownerOf)
+inline RankPiece PartOf(Communicator& ranks, const OwnerOf& ownerOf)
 {
   const int count = ranks.NumberOfRanks();
   const int own = ranks.Rank();

@@ -24,7 +24,7 @@ using namespace volumic;
 
 namespace
 {
-/** More than a block. */
+/** More than a buffer. */
 std::vector<int> LongList()
 {
   std::vector<int> list(700001);
@@ -157,9 +157,9 @@ TEST(CheckedFile, DoesNotBelieveWhatIsDamaged)
     SetBytes(name, bytes.substr(0, place)); // Cut off.
     ExpectDamaged(name);
   }
-  // Two whole blocks that have changed places.
-  const std::size_t block = 16 + (std::size_t(1) << 20);
-  SetBytes(name, bytes.substr(block, block) + bytes.substr(0, block) + bytes.substr(2 * block));
+  // Two whole buffers that have changed places.
+  const std::size_t buffer = 16 + (std::size_t(1) << 20);
+  SetBytes(name, bytes.substr(buffer, buffer) + bytes.substr(0, buffer) + bytes.substr(2 * buffer));
   ExpectDamaged(name);
   SetBytes(name, bytes);
   ExpectSome(name);

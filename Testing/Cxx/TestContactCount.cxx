@@ -126,7 +126,7 @@ TEST(ContactCount, OfRanksIsThatOfOne)
         {
           SurfaceState state;
           TakePart(state, whole, ownerOf, ranks, 12.f, Vector(-20, -20, -20), Vector(40, 40, 40));
-          const RankPart part = PartOf(ranks, ownerOf);
+          const RankPiece part = PartOf(ranks, ownerOf);
           const RemainingContacts own =
             FindRemainingContacts(state, field, OnThisThread(), part.IsOwn);
           std::vector<std::array<int, 2>> pairs(own.Pairs.begin(), own.Pairs.end());

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Every property of the filter reaches the surface: what it does there, the tests of the core tell.
+#include "Settings/PropertyTable.h"
 #include "SurfaceTestTools.h"
 
 #include <vtkTable.h>
@@ -11,6 +12,7 @@
 #include <functional>
 #include <sstream>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 using namespace volumic;
@@ -60,57 +62,50 @@ struct Property
   double Value;
 };
 
-#define VolumicTestedProperty(name, value)                                                         \
-  Property                                                                                         \
-  {                                                                                                \
-    #name, [](vtkDeformableSurface& f) { f.Set##name(value); },                                    \
-      [](vtkDeformableSurface& f) { return static_cast<double>(f.Get##name()); }, value            \
-  }
+/** A value that it does not have: of another sign or size, which texts show exactly. */
+double AnotherThan(double value)
+{
+  return std::isnan(value) ? 7.0 : value != 0.375 ? 0.375 : 0.25;
+}
+int AnotherThan(int value)
+{
+  return value + 1;
+}
+bool AnotherThan(bool value)
+{
+  return !value;
+}
 
+template <typename T>
+Property MakeProperty(const char* name, void (vtkDeformableSurface::*set)(T),
+  T (vtkDeformableSurface::*get)())
+{
+  const T value = AnotherThan((vtkSmartPointer<vtkDeformableSurface>::New()->*get)());
+  return { name, [set, value](vtkDeformableSurface& f) { (f.*set)(value); },
+    [get](vtkDeformableSurface& f) { return static_cast<double>((f.*get)()); },
+    static_cast<double>(value) };
+}
+
+/** The numbers of the table; texts and lists are tested elsewhere. */
 std::vector<Property> AllProperties()
 {
-  return {
-    VolumicTestedProperty(SelectedComponent, 2),
-    VolumicTestedProperty(NaNIsBackground, 0),
-    VolumicTestedProperty(Metric, 0),
-    VolumicTestedProperty(EdgeLength, 2.5),
-    VolumicTestedProperty(Tolerance, 0.25),
-    VolumicTestedProperty(MaximumEdgeLength, 4.5),
-    VolumicTestedProperty(Gradation, 0.3),
-    VolumicTestedProperty(ThinParts, 1),
-    VolumicTestedProperty(IsoValue, 7),
-    VolumicTestedProperty(ObjectIsBright, 0),
-    VolumicTestedProperty(Initialization, 3),
-    VolumicTestedProperty(SeedRadius, 1.5),
-    VolumicTestedProperty(CoarsestLevel, 4),
-    VolumicTestedProperty(FinestLevel, 1),
-    VolumicTestedProperty(SamplingRatio, 0.75),
-    VolumicTestedProperty(TensionWeight, 0.25),
-    VolumicTestedProperty(ElasticityWeight, 0.5),
-    VolumicTestedProperty(IsopotentialWeight, 0.375),
-    VolumicTestedProperty(GradientWeight, 0.125),
-    VolumicTestedProperty(PointAttractionWeight, 0.625),
-    VolumicTestedProperty(EdgeAttractionWeight, 0.875),
-    VolumicTestedProperty(Friction, 6),
-    VolumicTestedProperty(BorderValue, 1),
-    VolumicTestedProperty(Recovery, 2),
-    VolumicTestedProperty(MinimumPartSize, 30),
-    VolumicTestedProperty(KeepComponents, 3),
-    VolumicTestedProperty(MinimumComponentVolume, 9),
-    VolumicTestedProperty(TopologyChanges, 0),
-    VolumicTestedProperty(MaximumNumberOfIterations, 11),
-    VolumicTestedProperty(ConvergenceTolerance, 0.25),
-    VolumicTestedProperty(FreezeMotionlessVertices, 0),
-    VolumicTestedProperty(SnapToIsoValue, 0),
-    VolumicTestedProperty(NumberOfThreads, 3),
-    VolumicTestedProperty(MemoryLimit, 4000),
-    VolumicTestedProperty(Resume, true),
-    VolumicTestedProperty(TimeLimit, 12),
-    VolumicTestedProperty(Preview, 1),
-    VolumicTestedProperty(ShowLevels, 1),
-    VolumicTestedProperty(Profile, 1),
-    VolumicTestedProperty(SnapshotInterval, 13),
+  std::vector<Property> all;
+  const auto add = [&all](const char* name, auto set, auto get)
+  {
+    if constexpr (!std::is_same_v<decltype(get), const char* (vtkDeformableSurface::*)()>)
+    {
+      all.push_back(MakeProperty(name, set, get));
+    }
   };
+#define VOLUMIC_MADE(name, type, member, change, print)                                            \
+  add(#name, &vtkDeformableSurface::Set##name, &vtkDeformableSurface::Get##name);
+#define VOLUMIC_WRITTEN(name, type, member, change, print)
+  VOLUMIC_SURFACE_PROPERTIES(VOLUMIC_MADE, VOLUMIC_WRITTEN)
+#undef VOLUMIC_WRITTEN
+#undef VOLUMIC_MADE
+  add("NumberOfThreads", &vtkDeformableSurface::SetNumberOfThreads,
+    &vtkDeformableSurface::GetNumberOfThreads);
+  return all;
 }
 
 bool AreSame(double a, double b)
@@ -122,6 +117,7 @@ bool AreSame(double a, double b)
 TEST(DeformableSurfaceProperties, EachHasAValueOfItsOwn)
 {
   const std::vector<Property> all = AllProperties();
+  ASSERT_GT(all.size(), 35u);
   const auto usual = vtkSmartPointer<vtkDeformableSurface>::New();
   for (const Property& changed : all)
   {

@@ -161,18 +161,18 @@ TEST(LevelReduction, GivesPartsOfALevelTheSameBits)
 {
   const auto levels = TwoLevels({ 61, 203, 23 }, { 1, 1, 2.5 });
   const auto voxels = RandomVoxels<float>(levels[0].NumberOfVoxels());
-  const VoxelBox all = LevelPart::VoxelsOf(levels[0]);
+  const VoxelBox all = LevelPiece::VoxelsOf(levels[0]);
   SequentialExecutor executor;
   const auto whole = Reduce(voxels, levels, executor);
-  for (const VoxelBox& box : BoxesOf(LevelPart::VoxelsOf(levels[1])))
+  for (const VoxelBox& box : BoxesOf(LevelPiece::VoxelsOf(levels[1])))
   {
     const VoxelBox source = SourceOf(box, levels[0], levels[1]);
     EXPECT_EQ(source.CommonWith(all), source);
     const auto input = VoxelsIn(source, voxels, all);
     std::vector<float> part(box.Count());
-    EXPECT_TRUE(ReduceLevel(input.data(), LevelPart(levels[0], source), part.data(),
-      LevelPart(levels[1], box), executor, GoOn));
-    EXPECT_EQ(part, VoxelsIn(box, whole, LevelPart::VoxelsOf(levels[1])));
+    EXPECT_TRUE(ReduceLevel(input.data(), LevelPiece(levels[0], source), part.data(),
+      LevelPiece(levels[1], box), executor, GoOn));
+    EXPECT_EQ(part, VoxelsIn(box, whole, LevelPiece::VoxelsOf(levels[1])));
   }
 }
 
@@ -187,18 +187,18 @@ TEST(ValidReduction, GivesPartsOfALevelTheSameBits)
   }
   const auto reduce = [&](const VoxelBox& source, const VoxelBox& box)
   {
-    const VoxelBox all = LevelPart::VoxelsOf(levels[0]);
+    const VoxelBox all = LevelPiece::VoxelsOf(levels[0]);
     const auto input = VoxelsIn(source, voxels, all);
     const auto part = VoxelsIn(source, marks, all);
     const LargeVector<std::uint8_t> valid(part.begin(), part.end());
     std::vector<float> made(box.Count());
     SequentialExecutor executor;
-    EXPECT_TRUE(ReduceValidVoxels(input.data(), valid, LevelPart(levels[0], source), made.data(),
-      LevelPart(levels[1], box), executor, GoOn));
+    EXPECT_TRUE(ReduceValidVoxels(input.data(), valid, LevelPiece(levels[0], source), made.data(),
+      LevelPiece(levels[1], box), executor, GoOn));
     return BitsOf(made);
   };
-  const VoxelBox all = LevelPart::VoxelsOf(levels[1]);
-  const auto whole = reduce(LevelPart::VoxelsOf(levels[0]), all);
+  const VoxelBox all = LevelPiece::VoxelsOf(levels[1]);
+  const auto whole = reduce(LevelPiece::VoxelsOf(levels[0]), all);
   for (const VoxelBox& box : BoxesOf(all))
   {
     EXPECT_EQ(reduce(SourceOf(box, levels[0], levels[1]), box), VoxelsIn(box, whole, all));
@@ -234,8 +234,8 @@ TEST(PieceReduction, GivesRanksTheBitsOfTheWholeLevel)
   std::vector<std::uint8_t> marks(voxels.size());
   std::transform(voxels.begin(), voxels.end(), marks.begin(),
     [](short voxel) { return static_cast<std::uint8_t>(voxel % 3 != 0); });
-  const VoxelBox below = LevelPart::VoxelsOf(levels[0]);
-  const VoxelBox above = LevelPart::VoxelsOf(levels[1]);
+  const VoxelBox below = LevelPiece::VoxelsOf(levels[0]);
+  const VoxelBox above = LevelPiece::VoxelsOf(levels[1]);
   SequentialExecutor executor;
   const auto whole = Reduce(voxels, levels, executor);
   std::vector<float> valid(whole.size());
@@ -259,7 +259,7 @@ TEST(PieceReduction, GivesRanksTheBitsOfTheWholeLevel)
           const MarkedVoxels<short> own = { values.data(), heldMarks.data(), haveAll };
           // So few bytes that each rank makes several slabs.
           EXPECT_TRUE(ReducePieces(ranks, pieces, own, levels[0], made.data(),
-            LevelPart(levels[1], box), thread, GoOn, 50000));
+            LevelPiece(levels[1], box), thread, GoOn, 50000));
           EXPECT_EQ(BitsOf(made), BitsOf(VoxelsIn(box, haveAll ? whole : valid, above)))
             << count << " ranks";
         }
@@ -273,9 +273,9 @@ TEST(PieceReduction, StopsOnAllRanksWhenOneIsAskedTo)
   ThreadRanks::Run(3,
     [&](Communicator& ranks)
     {
-      const VoxelBox held = PieceOf(LevelPart::VoxelsOf(levels[0]), ranks.Rank(), 3);
+      const VoxelBox held = PieceOf(LevelPiece::VoxelsOf(levels[0]), ranks.Rank(), 3);
       const std::vector<float> values(static_cast<std::size_t>(held.Count()), 1.f);
-      const VoxelBox box = PieceOf(LevelPart::VoxelsOf(levels[1]), ranks.Rank(), 3);
+      const VoxelBox box = PieceOf(LevelPiece::VoxelsOf(levels[1]), ranks.Rank(), 3);
       std::vector<float> made(static_cast<std::size_t>(box.Count()));
       MarkedVoxels<float> own;
       own.Values = values.data();
@@ -283,7 +283,7 @@ TEST(PieceReduction, StopsOnAllRanksWhenOneIsAskedTo)
       const auto stopOnOne = [&](double) { return ++reports < 2 || ranks.Rank() != 1; };
       SequentialExecutor thread;
       EXPECT_FALSE(ReducePieces(ranks, VoxelPieces(ranks, held), own, levels[0], made.data(),
-        LevelPart(levels[1], box), thread, stopOnOne, 1000));
+        LevelPiece(levels[1], box), thread, stopOnOne, 1000));
       EXPECT_EQ(reports, 2);
     });
 }

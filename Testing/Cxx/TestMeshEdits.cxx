@@ -67,7 +67,7 @@ bool IsBefore(const std::array<unsigned, 3>& a, const std::array<unsigned, 3>& b
 }
 }
 
-TEST(SurfaceMesh, IsOneListWhicheverBlocksItWasMadeIn)
+TEST(SurfaceMesh, IsOneListWhicheverSpansItWasMadeIn)
 {
   const SurfaceMesh mesh = LargeMesh();
   StandardThreads threads(3);
@@ -124,7 +124,7 @@ TEST(SurfaceMesh, IsOrderedAlongTheCurveAsAWhole)
 
 TEST(SurfaceMesh, TellsTheFirstFaultWhicheverThreadFindsOne)
 {
-  // Two vertices of different blocks, a triangle of each left out.
+  // Two vertices of different spans, a triangle of each left out.
   IndexedSurface surface = DividedIcosahedron({ 0, 0, 0 }, 20, 0.4);
   const auto uses = [](int v)
   { return [v](const Triangle& t) { return std::find(t.begin(), t.end(), v) != t.end(); }; };

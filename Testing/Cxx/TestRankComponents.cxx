@@ -72,7 +72,7 @@ struct Scene
           {
             SurfaceState part;
             TakePart(part, this->State, cuts[cut], ranks, Halo, Low, High);
-            const RankPart own = PartOf(ranks, cuts[cut]);
+            const RankPiece own = PartOf(ranks, cuts[cut]);
             work(own, part);
           });
       }
@@ -90,7 +90,7 @@ std::vector<IndexedSurface> Nested()
 }
 
 /** What there is of the surface, by index; of ranks what they own. */
-std::vector<int> AliveOnes(const SurfaceState& state, const RankPart* part = nullptr)
+std::vector<int> AliveOnes(const SurfaceState& state, const RankPiece* part = nullptr)
 {
   std::vector<int> alive;
   for (int v = 0; v < state.Mesh.Size(); ++v)
@@ -110,7 +110,7 @@ int SumOf(Communicator& ranks, int value)
 }
 
 /** Whether all that is left is what is left of the whole, and counted in the same way. */
-void ExpectSame(const SurfaceState& expected, const RankPart& part, const SurfaceState& state,
+void ExpectSame(const SurfaceState& expected, const RankPiece& part, const SurfaceState& state,
   int eulerCharacteristicBefore)
 {
   const std::vector<int> alive = AliveOnes(expected);
@@ -136,7 +136,7 @@ TEST(SurfaceComponentsOnRanks, AreLabelledAsOnOne)
   ofAll.Label(whole, scene.Alone);
   ASSERT_EQ(ofAll.NumberOfComponents(), 12);
   scene.OnRanks(
-    [&](const RankPart& part, SurfaceState& state)
+    [&](const RankPiece& part, SurfaceState& state)
     {
       StandardThreads threads(2);
       SurfaceComponents components(part);
@@ -160,7 +160,7 @@ TEST(SurfaceComponentsOnRanks, AreFoundThatAreInsideOut)
   const std::vector<int> expected = ofAll.FindInsideOut(scene.State, scene.Alone);
   ASSERT_EQ(expected.size(), 2u) << "an island in the object, a cavity in the open";
   scene.OnRanks(
-    [&](const RankPart& part, SurfaceState& state)
+    [&](const RankPiece& part, SurfaceState& state)
     {
       StandardThreads threads(2);
       SurfaceComponents components(part);
@@ -176,7 +176,7 @@ TEST(SurfaceComponentsOnRanks, AreDeletedThatAreInsideOut)
   Scene expected(Nested());
   ASSERT_TRUE(OfAll().DeleteInsideOut(expected.State, expected.Alone));
   scene.OnRanks(
-    [&](const RankPart& part, SurfaceState& state)
+    [&](const RankPiece& part, SurfaceState& state)
     {
       SurfaceComponents components(part);
       const int all = state.Mesh.NumberOfVertices();
@@ -221,7 +221,7 @@ TEST(SurfaceComponentsOnRanks, AreDeletedThatAreSmallAndMustGo)
   ASSERT_EQ(ofAll.NumberOfComponents(), 3) << "of four points, or tiny and on the wrong side";
   const int before = scene.State.EulerCharacteristic;
   scene.OnRanks(
-    [&](const RankPart& part, SurfaceState& state)
+    [&](const RankPiece& part, SurfaceState& state)
     {
       SurfaceComponents ofRanks(part);
       ofRanks.Label(state, OnThisThread());
@@ -239,7 +239,7 @@ TEST(SurfaceComponentsOnRanks, OfNoSurfaceAreNone)
     [](Communicator& ranks)
     {
       SurfaceState state;
-      const RankPart part = PartOf(ranks, ByTurns());
+      const RankPiece part = PartOf(ranks, ByTurns());
       SurfaceComponents components(part);
       EXPECT_FALSE(components.DeleteInsideOut(state, OnThisThread()));
       EXPECT_FALSE(components.DeleteDegenerate(state));

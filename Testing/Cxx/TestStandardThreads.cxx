@@ -10,7 +10,9 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <mutex>
 #include <new>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -124,6 +126,115 @@ TEST(StandardThreads, DoWhatIsWithinABodyOnItsThread)
     });
   EXPECT_EQ(done, 300);
   EXPECT_EQ(elsewhere, 0);
+}
+
+TEST(StandardThreads, DoEachItemOnceWhileTheCallerTells)
+{
+  for (const int number : { 1, 3 })
+  {
+    StandardThreads threads(number);
+    for (const std::size_t n : { 0, 1, 2, 200 })
+    {
+      std::vector<std::atomic<int>> done(n);
+      std::atomic<int> byCaller{ 0 };
+      const auto caller = std::this_thread::get_id();
+      threads.ForEach(
+        n,
+        [&](std::size_t item)
+        {
+          ++done[item];
+          byCaller += std::this_thread::get_id() == caller;
+        },
+        [] {});
+      for (std::size_t i = 0; i < n; ++i)
+      {
+        ASSERT_EQ(done[i], 1) << i << " of " << n;
+      }
+      EXPECT_EQ(byCaller, number == 1 ? int(n) : 0);
+    }
+  }
+  // An item that waits for a word of the caller gets it.
+  StandardThreads threads(3);
+  std::atomic<int> told{ 0 };
+  threads.ForEach(
+    2,
+    [&](std::size_t)
+    {
+      while (told == 0)
+      {
+        std::this_thread::yield();
+      }
+    },
+    [&] { ++told; });
+  EXPECT_GT(told, 0);
+}
+
+TEST(StandardThreads, LetAnItemHaveThreadsOfItsOwn)
+{
+  StandardThreads threads(2);
+  StandardThreads own(3);
+  std::set<std::thread::id> seen;
+  std::mutex mutex;
+  threads.ForEach(
+    1,
+    [&](std::size_t)
+    {
+      const auto start = std::chrono::steady_clock::now();
+      std::atomic<std::size_t> present{ 0 };
+      own.For(3, 1,
+        [&](std::size_t, std::size_t)
+        {
+          // Each waits for another one.
+          do
+          {
+            const std::lock_guard<std::mutex> lock(mutex);
+            seen.insert(std::this_thread::get_id());
+            present = seen.size();
+          } while (
+            present < 2 && std::chrono::steady_clock::now() - start < std::chrono::seconds(20));
+        });
+    },
+    [] {});
+  EXPECT_GT(seen.size(), 1u);
+}
+
+TEST(StandardThreads, BeginNoFurtherItemAfterAnException)
+{
+  StandardThreads threads(3);
+  std::atomic<int> begun{ 0 };
+  const auto one = [&](std::size_t item)
+  {
+    ++begun;
+    if (item == 3)
+    {
+      throw std::runtime_error("item 3");
+    }
+  };
+  EXPECT_THROW(threads.ForEach(100000, one, [] {}), std::runtime_error);
+  EXPECT_LT(begun, 100000);
+  // What the caller throws goes out when the items that are under way are done.
+  std::atomic<bool> hasTold{ false };
+  std::atomic<int> done{ 0 };
+  begun = 0;
+  const auto waiting = [&](std::size_t)
+  {
+    ++begun;
+    while (!hasTold)
+    {
+      std::this_thread::yield();
+    }
+    ++done;
+  };
+  const auto tell = [&]
+  {
+    hasTold = true;
+    throw std::runtime_error("told");
+  };
+  EXPECT_THROW(threads.ForEach(1 << 30, waiting, tell), std::runtime_error);
+  EXPECT_EQ(done, begun);
+  begun = 0;
+  threads.ForEach(2, [&](std::size_t) { ++begun; }, [] {});
+  EXPECT_EQ(begun, 2) << "they go on after an exception";
 }
 
 namespace

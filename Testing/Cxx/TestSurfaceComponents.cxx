@@ -61,9 +61,9 @@ TEST(SurfaceComponents, KeepsCavitiesInsideAndIslandsInThem)
   EXPECT_EQ(components.NumberOfComponents(), 4);
 }
 
-TEST(SurfaceComponents, LabelsComponentsByTheirFirstVerticesInAnyBlocks)
+TEST(SurfaceComponents, LabelsComponentsByTheirFirstVerticesInAnySpans)
 {
-  // Vertices of all components by turns, so that each lies in all blocks.
+  // Vertices of all components by turns, so that each lies in all spans.
   SurfaceState state;
   const IndexedSurface ball = DividedIcosahedron({ 0, 0, 0 }, 10, 0.3);
   Fill(state, { ball, ball, ball, Ball({ 30, 0, 0 }, 3) });
@@ -91,7 +91,7 @@ TEST(SurfaceComponents, LabelsComponentsByTheirFirstVerticesInAnyBlocks)
   }
 }
 
-TEST(SurfaceComponents, WatchesSmallComponentsInAllBlocks)
+TEST(SurfaceComponents, WatchesSmallComponentsInAllSpans)
 {
   SurfaceState state;
   Fill(state,
@@ -108,7 +108,7 @@ TEST(SurfaceComponents, WatchesSmallComponentsInAllBlocks)
 
 TEST(SurfaceComponents, KnowsACavityByItsWholeVolume)
 {
-  // A ring that has what faces its first vertex, and alone has the other sign, in the last blocks.
+  // A ring that has what faces its first vertex, and alone has the other sign, in the last spans.
   const IndexedSurface ring = MakeTorus({ 0, 0, 0 }, 10, 4, 500, 200);
   for (const bool isCavity : { false, true })
   {
@@ -290,9 +290,9 @@ TEST(SurfaceComponents, DeletesWhatHasHardlyAnyVertices)
   EXPECT_EQ(components.NumberOfComponents(), 1);
 }
 
-TEST(SurfaceComponents, LabelsComponentsOfManyBlocks)
+TEST(SurfaceComponents, LabelsComponentsOfManySpans)
 {
-  // Vertices are labelled in blocks side by side; these components lie across several.
+  // Vertices are labelled in spans side by side; these components lie across several.
   SurfaceState state;
   state.Mesh.Append(DividedIcosahedron({ 0, 0, 0 }, 10, 0.3));
   state.Mesh.Append(DividedIcosahedron({ 30, 0, 0 }, 10, 0.3));

@@ -24,19 +24,19 @@ struct Box
   Vector Low;
   Vector High;
 
-  /** Of three points. */
+  /** The smallest box about three points. */
   static Box Of(const Vector& a, const Vector& b, const Vector& c)
   {
     return { Minimum(a, Minimum(b, c)), Maximum(a, Maximum(b, c)) };
   }
 
-  /** By a margin on all sides. */
+  /** The box made larger by a margin on all sides. */
   Box Grown(float margin) const
   {
     const Vector by(margin, margin, margin);
     return { this->Low - by, this->High + by };
   }
-  /** That holds another one, too. */
+  /** The smallest box that holds another one, too. */
   Box With(const Box& other) const
   {
     return { Minimum(this->Low, other.Low), Maximum(this->High, other.High) };

@@ -23,13 +23,13 @@ namespace volumic
 {
 namespace
 {
-// A file is a row of blocks: their head, then so many bytes. The last one has none.
-constexpr std::size_t BlockSize = 1 << 20;
+// A file is a row of buffers: their head, then so many bytes. The last one has none.
+constexpr std::size_t BufferSize = 1 << 20;
 
-struct BlockHead
+struct BufferHead
 {
   std::uint64_t Count;
-  std::uint64_t Hash; ///< Of all blocks up to this one: none is missing, or of another file.
+  std::uint64_t Hash; ///< Of all buffers up to this one: none is missing, or of another file.
 };
 
 std::string ReasonOf(int error)
@@ -95,8 +95,8 @@ CheckedWriter::CheckedWriter(const std::string& name)
   {
     this->Fail();
   }
-  std::setvbuf(this->File, nullptr, _IONBF, 0); // Blocks are large.
-  this->Block.reserve(BlockSize);
+  std::setvbuf(this->File, nullptr, _IONBF, 0); // Buffers are large.
+  this->Buffer.reserve(BufferSize);
 }
 
 CheckedWriter::CheckedWriter(FileInMemory& memory)
@@ -130,18 +130,18 @@ bool CheckedWriter::Append(const void* bytes, std::size_t count)
   return std::fwrite(bytes, 1, count, this->File) == count;
 }
 
-void CheckedWriter::WriteBlock()
+void CheckedWriter::WriteBuffer()
 {
-  const std::size_t count = this->Block.size();
+  const std::size_t count = this->Buffer.size();
   this->Hash =
-    CombineHashes(this->Hash, CombineHashes(count, ContentHash(this->Block.data(), count)));
-  const BlockHead head = { count, this->Hash };
+    CombineHashes(this->Hash, CombineHashes(count, ContentHash(this->Buffer.data(), count)));
+  const BufferHead head = { count, this->Hash };
   errno = 0;
-  if (!this->Append(&head, sizeof(head)) || !this->Append(this->Block.data(), count))
+  if (!this->Append(&head, sizeof(head)) || !this->Append(this->Buffer.data(), count))
   {
     this->Fail();
   }
-  this->Block.clear();
+  this->Buffer.clear();
 }
 
 void CheckedWriter::Write(const void* bytes, std::size_t count)
@@ -149,13 +149,13 @@ void CheckedWriter::Write(const void* bytes, std::size_t count)
   const auto* next = static_cast<const unsigned char*>(bytes);
   while (count > 0)
   {
-    const std::size_t part = std::min(count, BlockSize - this->Block.size());
-    this->Block.insert(this->Block.end(), next, next + part);
+    const std::size_t part = std::min(count, BufferSize - this->Buffer.size());
+    this->Buffer.insert(this->Buffer.end(), next, next + part);
     next += part;
     count -= part;
-    if (this->Block.size() == BlockSize)
+    if (this->Buffer.size() == BufferSize)
     {
-      this->WriteBlock();
+      this->WriteBuffer();
     }
   }
 }
@@ -168,11 +168,11 @@ void CheckedWriter::PutText(const std::string& text)
 
 void CheckedWriter::Commit()
 {
-  if (!this->Block.empty())
+  if (!this->Buffer.empty())
   {
-    this->WriteBlock();
+    this->WriteBuffer();
   }
-  this->WriteBlock(); // The end.
+  this->WriteBuffer(); // The end.
   if (this->Memory)
   {
     return;
@@ -218,9 +218,9 @@ CheckedReader::CheckedReader(const std::string& name)
 CheckedReader::CheckedReader(const FileInMemory& memory)
   : Memory(&memory)
 {
-  for (const auto& piece : memory)
+  for (const auto& list : memory)
   {
-    this->Left += piece.size();
+    this->Left += list.size();
   }
 }
 
@@ -243,29 +243,29 @@ bool CheckedReader::Fetch(void* bytes, std::size_t count)
   this->Left -= std::min<std::uint64_t>(left, count);
   if (this->Memory)
   {
-    // A piece is what was appended at a time.
-    if (this->Pieces == this->Memory->size() || (*this->Memory)[this->Pieces].size() != count)
+    // A list is what was appended at a time.
+    if (this->Fetches == this->Memory->size() || (*this->Memory)[this->Fetches].size() != count)
     {
       return false;
     }
-    std::copy_n((*this->Memory)[this->Pieces++].data(), count, static_cast<unsigned char*>(bytes));
+    std::copy_n((*this->Memory)[this->Fetches++].data(), count, static_cast<unsigned char*>(bytes));
     return true;
   }
   return std::fread(bytes, 1, count, this->File) == count;
 }
 
-void CheckedReader::ReadBlock()
+void CheckedReader::ReadBuffer()
 {
-  BlockHead head;
-  if (!this->Fetch(&head, sizeof(head)) || head.Count > BlockSize)
+  BufferHead head;
+  if (!this->Fetch(&head, sizeof(head)) || head.Count > BufferSize)
   {
     this->Refuse("is damaged");
   }
-  this->Block.resize(head.Count);
+  this->Buffer.resize(head.Count);
   this->Taken = 0;
-  const bool isWhole = this->Fetch(this->Block.data(), head.Count);
+  const bool isWhole = this->Fetch(this->Buffer.data(), head.Count);
   this->Hash = CombineHashes(
-    this->Hash, CombineHashes(head.Count, ContentHash(this->Block.data(), head.Count)));
+    this->Hash, CombineHashes(head.Count, ContentHash(this->Buffer.data(), head.Count)));
   if (!isWhole || this->Hash != head.Hash || head.Count == 0)
   {
     this->Refuse("is damaged");
@@ -277,12 +277,12 @@ void CheckedReader::Read(void* bytes, std::size_t count)
   auto* next = static_cast<unsigned char*>(bytes);
   while (count > 0)
   {
-    if (this->Taken == this->Block.size())
+    if (this->Taken == this->Buffer.size())
     {
-      this->ReadBlock();
+      this->ReadBuffer();
     }
-    const std::size_t part = std::min(count, this->Block.size() - this->Taken);
-    std::memcpy(next, this->Block.data() + this->Taken, part);
+    const std::size_t part = std::min(count, this->Buffer.size() - this->Taken);
+    std::memcpy(next, this->Buffer.data() + this->Taken, part);
     this->Taken += part;
     next += part;
     count -= part;
@@ -291,7 +291,7 @@ void CheckedReader::Read(void* bytes, std::size_t count)
 
 void CheckedReader::Need(std::uint64_t count, std::size_t bytes) const
 {
-  if (count > (this->Left + this->Block.size() - this->Taken) / std::max<std::size_t>(bytes, 1))
+  if (count > (this->Left + this->Buffer.size() - this->Taken) / std::max<std::size_t>(bytes, 1))
   {
     this->Refuse("is damaged");
   }

@@ -25,7 +25,10 @@ struct FileError : std::runtime_error
   using std::runtime_error::runtime_error;
 };
 
-/** What stands for a file in memory, which may be limited: in pieces, so that it grows in place. */
+/**
+ * What stands for a file in memory, which may be limited: a list for each append, so that it grows
+ * in place.
+ */
 using FileInMemory = std::vector<LargeVector<unsigned char>>;
 
 /**
@@ -64,14 +67,14 @@ public:
 
 private:
   [[noreturn]] void Fail();
-  void WriteBlock();
+  void WriteBuffer();
   bool Append(const void* bytes, std::size_t count);
 
   std::string Name;
   FileInMemory* Memory = nullptr; ///< null: a file
   std::FILE* File = nullptr;
-  std::vector<unsigned char> Block;
-  std::uint64_t Hash = 0; ///< Of all blocks so far.
+  std::vector<unsigned char> Buffer;
+  std::uint64_t Hash = 0; ///< Of all buffers so far.
 };
 
 /**
@@ -116,15 +119,15 @@ public:
   [[noreturn]] void Refuse(const std::string& reason) const;
 
 private:
-  void ReadBlock();
+  void ReadBuffer();
   bool Fetch(void* bytes, std::size_t count);
 
   std::string Name;
   const FileInMemory* Memory = nullptr; ///< null: a file
-  std::size_t Pieces = 0;               ///< So many of it have been read.
+  std::size_t Fetches = 0;              ///< So many of its lists have been read.
   std::FILE* File = nullptr;
-  std::vector<unsigned char> Block;
-  std::size_t Taken = 0;  ///< Of the block.
+  std::vector<unsigned char> Buffer;
+  std::size_t Taken = 0;  ///< Of the buffer.
   std::uint64_t Left = 0; ///< Bytes of the file that have not been read.
   std::uint64_t Hash = 0;
 };

@@ -47,7 +47,7 @@ public:
     std::vector<Message> messages, const std::vector<int>& partners = {});
   /** @return the messages of all ranks at rank 0, by rank; nothing elsewhere. */
   std::vector<Message> Gather(Message message);
-  /** From one rank to another, which both call. @return it at `to`; nothing elsewhere. */
+  /** Sends a message from one rank to another; both call it. @return it at `to`, else nothing */
   Message Pass(int from, int to, Message message = {});
   /** @return the message of rank 0. */
   Message Broadcast(Message message);
@@ -65,9 +65,9 @@ protected:
    * order, and a rank that waits for any of them takes small ones (Header) without the other's help.
    */
   virtual void Send(int to, const void* bytes, std::size_t count) = 0;
-  /** From another rank, as many bytes as have been sent at once. */
+  /** Waits for another rank's next bytes: as many as it has sent at once. */
   virtual void Receive(int from, void* bytes, std::size_t count) = 0;
-  /** From whichever rank sends next; the header tells which. */
+  /** Waits for whichever rank sends next; the header tells which. */
   virtual void ReceiveFromAny(void* bytes, std::size_t count) = 0;
 
 private:
@@ -75,7 +75,7 @@ private:
   {
     Content,
     Failure, ///< Its text follows.
-    Done     ///< Of a rank in Fail() that nothing is on the way to any more.
+    Done     ///< By a rank in Fail(): nothing that it has sent is on the way any more.
   };
   struct Header
   {
@@ -90,10 +90,10 @@ private:
   void EndRun(const Message& reason);
 
   std::vector<char> HasFailed; ///< By rank: its failure has arrived.
-  std::vector<char> Dropped;   ///< The place for what is dropped.
+  std::vector<char> Dropped;   ///< What nobody wants any more is read to here.
 };
 
-/** Alone: what a program without MPI has. */
+/** One rank alone, as a program without MPI has it. */
 class SingleRank final : public Communicator
 {
 public:
@@ -106,7 +106,7 @@ protected:
   void ReceiveFromAny(void*, std::size_t) override {}
 };
 
-/** Who has no others to ask. */
+/** A rank that has no others to ask. */
 inline Communicator& OnThisRank()
 {
   static SingleRank rank;
@@ -139,7 +139,7 @@ private:
   Message Content;
 };
 
-/** Takes them out again, in the same order. */
+/** Takes values and arrays out of a message, in the order in which they were put in. */
 class MessageReader
 {
 public:

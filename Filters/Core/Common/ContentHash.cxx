@@ -12,7 +12,7 @@ namespace volumic
 namespace
 {
 /** Bytes that one thread takes at a time. */
-constexpr std::size_t BlockSize = 1 << 20;
+constexpr std::size_t SpanSize = 1 << 20;
 /** Words that are worked on side by side: a product waits for the one before it. */
 constexpr std::size_t Strands = 4;
 
@@ -31,7 +31,7 @@ std::uint64_t Add(std::uint64_t hash, std::uint64_t word)
   return hash ^ hash >> 32;
 }
 
-std::uint64_t HashOfBlock(const unsigned char* bytes, std::size_t count)
+std::uint64_t HashOfSpan(const unsigned char* bytes, std::size_t count)
 {
   std::array<std::uint64_t, Strands> hash = { 1, 2, 3, 4 };
   std::array<std::uint64_t, Strands> words;
@@ -66,10 +66,10 @@ std::uint64_t CombineHashes(std::uint64_t first, std::uint64_t second)
 std::uint64_t ContentHash(const void* bytes, std::size_t count, Executor& executor)
 {
   const auto* first = static_cast<const unsigned char*>(bytes);
-  std::vector<std::uint64_t> hashes((count + BlockSize - 1) / BlockSize);
-  ForBlocks(executor, count, BlockSize,
-    [&](std::size_t block, std::size_t begin, std::size_t end)
-    { hashes[block] = HashOfBlock(first + begin, end - begin); });
+  std::vector<std::uint64_t> hashes((count + SpanSize - 1) / SpanSize);
+  ForSpans(executor, count, SpanSize,
+    [&](std::size_t span, std::size_t begin, std::size_t end)
+    { hashes[span] = HashOfSpan(first + begin, end - begin); });
   std::uint64_t all = 0;
   for (const std::uint64_t hash : hashes)
   {

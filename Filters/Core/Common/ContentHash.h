@@ -18,10 +18,10 @@ namespace volumic
 std::uint64_t ContentHash(
   const void* bytes, std::size_t count, Executor& executor = OnThisThread());
 
-/** Of two contents, one after the other. */
+/** The hash of two contents, one after the other, of their hashes. */
 std::uint64_t CombineHashes(std::uint64_t first, std::uint64_t second);
 
-/** As 16 hexadecimal digits. */
+/** A hash as 16 hexadecimal digits. */
 std::string HashText(std::uint64_t hash);
 }
 

@@ -51,7 +51,7 @@ public:
     return i;
   }
 
-  /** The same without any change, for threads that all look at once. */
+  /** The same without changing anything, so that threads may look at once. */
   int FindRoot(int i) const
   {
     while (this->Parent[i] != i)
@@ -92,7 +92,7 @@ public:
     }
   }
 
-  /** The root of the set that i is in; of the moment, while others join. */
+  /** The root of the set that i is in at the moment, as other threads may join sets. */
   int Find(int i)
   {
     for (;;)

@@ -22,7 +22,7 @@ using VisitBody = std::function<void(int item, std::size_t place, Executor& idle
  *
  * Contract: For() calls `body(begin, end)` on ranges that cover [0, n) exactly once, in any
  * order, on any threads, and returns when all are done. The bodies that the core hands in write
- * to disjoint places only and reduce in fixed blocks, so the chunks an implementation chooses
+ * to disjoint places only and reduce in fixed spans, so the chunks an implementation chooses
  * never change a result. For() may be called for small n: run those without threads.
  * An exception thrown by `body` must leave For() on the calling thread.
  */
@@ -31,7 +31,7 @@ class Executor
 public:
   virtual ~Executor() = default;
 
-  /** `grain`: number of items under which a chunk is not worth a thread. */
+  /** @param grain the number of items under which a chunk is not worth a thread */
   virtual void For(std::size_t n, std::size_t grain,
     const std::function<void(std::size_t begin, std::size_t end)>& body) = 0;
 
@@ -78,12 +78,12 @@ inline Executor& OnThisThread()
   return executor;
 }
 
-/** Runs body(block, begin, end) over fixed blocks of [0, n): the same for any executor. */
+/** Runs body(span, begin, end) over fixed spans of [0, n): the same for any executor. */
 template <typename Body>
-void ForBlocks(Executor& executor, std::size_t n, std::size_t size, Body&& body)
+void ForSpans(Executor& executor, std::size_t n, std::size_t size, Body&& body)
 {
-  const std::size_t blocks = (n + size - 1) / size;
-  executor.For(blocks, 1,
+  const std::size_t spans = (n + size - 1) / size;
+  executor.For(spans, 1,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t b = begin; b < end; ++b)
@@ -94,14 +94,14 @@ void ForBlocks(Executor& executor, std::size_t n, std::size_t size, Body&& body)
 }
 
 /**
- * The sum of sumOf(begin, end) over fixed blocks of [0, n), in their order: the same bits for any
+ * The sum of sumOf(begin, end) over fixed spans of [0, n), in their order: the same bits for any
  * executor.
  */
 template <typename SumOf>
-double SumOfBlocks(Executor& executor, std::size_t n, std::size_t size, SumOf&& sumOf)
+double SumOfSpans(Executor& executor, std::size_t n, std::size_t size, SumOf&& sumOf)
 {
   std::vector<double> sums((n + size - 1) / size);
-  ForBlocks(executor, n, size,
+  ForSpans(executor, n, size,
     [&](std::size_t b, std::size_t begin, std::size_t end) { sums[b] = sumOf(begin, end); });
   return std::accumulate(sums.begin(), sums.end(), 0.);
 }

@@ -9,7 +9,7 @@
 
 namespace volumic
 {
-/** What a block, or a rank, has of a connected set: its smallest element, and how many. */
+/** What a span, or a rank, has of a connected set: its smallest element, and how many. */
 struct SetPiece
 {
   std::int64_t First;
@@ -26,8 +26,8 @@ struct JoinedSets
 };
 
 /**
- * Sets that were found block by block: pieces that touch over a border become one. They are labelled
- * from 0 in the order of their smallest elements, however they were cut.
+ * Sets that were found span by span, or rank by rank: pieces that touch over a border become one.
+ * They are labelled from 0 in the order of their smallest elements, however they were cut.
  * @param joins places of pieces that are of one set
  * @param least sets of fewer elements are left out
  */

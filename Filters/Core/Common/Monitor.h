@@ -8,10 +8,11 @@
 namespace volumic
 {
 /**
- * Told the share of a piece of work that is done, in [0, 1]; false asks to stop. Called on the
- * thread that does the work, never from within an executor.
+ * By which work asks, now and then, whether to go on: it tells the share of it that is done, in
+ * [0, 1]; the answer false means stop. Asked on the thread that does the work, never from within an
+ * executor.
  */
-using Checkpoint = std::function<bool(double share)>;
+using ProgressQuestion = std::function<bool(double share)>;
 
 /** For work that nobody follows. */
 inline bool NeverStop(double)
@@ -42,11 +43,11 @@ public:
     int Level = 0;           ///< Level that is running; 0 is the finest.
     Activity Doing = Activity::Iterating;
     int Iteration = 0;       ///< Iterations done on this level.
-    int Sweep = 0;           ///< Of the level, from 1; 0 before the first.
-    int Block = 0;           ///< Visits of blocks in this sweep, and
+    int Sweep = 0;           ///< Number of the level's sweep, from 1; 0 before the first.
+    int Block = 0;           ///< Blocks that were visited in this sweep, and
     int Blocks = 0;          ///< how many there are at most.
     int Vertices = 0;        ///< Vertices of the surface now.
-    int ActiveVertices = 0;  ///< Of them, those that are not frozen.
+    int ActiveVertices = 0;  ///< How many of them are not frozen.
     double Fraction = 0;     ///< Estimate of the share of this level that is done, in [0, 1]. It
                              ///< never becomes less.
   };

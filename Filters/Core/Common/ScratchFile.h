@@ -20,14 +20,16 @@ constexpr bool ScratchIsPossible = false;
 
 constexpr std::size_t Mebibyte = std::size_t(1) << 20;
 
-/** For messages; rounded up. */
+/** Bytes in mebibytes, rounded up, for messages. */
 constexpr double Mebibytes(std::size_t bytes)
 {
   return static_cast<double>((bytes + Mebibyte - 1) / Mebibyte);
 }
 
-/** What one drops at a time; mappings begin and end with whole pages, which are smaller. */
-constexpr std::size_t ScratchChunk = 2 * Mebibyte;
+/**
+ * So many bytes are dropped at a time; mappings begin and end with whole pages, which are smaller.
+ */
+constexpr std::size_t ScratchStep = 2 * Mebibyte;
 
 /**
  * The directory that files are made in, as an absolute path: the given one, or, where that is
@@ -36,7 +38,7 @@ constexpr std::size_t ScratchChunk = 2 * Mebibyte;
  */
 std::string CheckedScratchDirectory(const std::string& given);
 
-/** Whether its files are memory themselves (tmpfs), so that nothing is won. */
+/** Whether a directory's files are memory themselves (tmpfs), so that nothing is won. */
 bool IsMemory(const std::string& directory);
 
 /** Bytes that a user may still fill in the file system of a directory; all where it is unknown. */
@@ -61,7 +63,7 @@ void* MapZeroed(std::size_t bytes);
 void DropPages(void* memory, std::size_t bytes) noexcept;
 /** Has pages of a mapping read from the disk, without waiting. */
 void ReadPagesAhead(void* memory, std::size_t bytes) noexcept;
-/** From now on only to be read. */
+/** Lets a mapping only be read from now on. */
 void ProtectPages(void* memory, std::size_t bytes) noexcept;
 
 /** Has these called whenever the process is forked, the last one in the child. */
@@ -73,7 +75,7 @@ void AskForPromptTurns();
 struct ResidentMemory
 {
   std::size_t All = 0;       ///< Bytes; 0 where it is not known.
-  std::size_t Anonymous = 0; ///< What no file holds: heap and stacks.
+  std::size_t Anonymous = 0; ///< Bytes that no file holds: heap and stacks.
 };
 
 /** Asks the system again and again, in 2 microseconds. A process that was forked needs its own. */

@@ -33,14 +33,14 @@ struct ScratchFull : std::runtime_error
 
 struct ScratchLimit;
 
-/** What became of a limit, since it was set. Bytes. */
+/** What became of a limit since it was set; all in bytes. */
 struct ScratchStatistics
 {
-  std::size_t MostResident = 0;  ///< Of the whole process.
-  std::size_t MostAnonymous = 0; ///< Of the process, what no file holds: it cannot leave.
-  std::size_t Mapped = 0;        ///< Arrays in files, now,
+  std::size_t MostResident = 0;  ///< The most memory that the whole process has had.
+  std::size_t MostAnonymous = 0; ///< The most of it that no file held, and that could not leave.
+  std::size_t Mapped = 0;        ///< What arrays in files take now,
   std::size_t MostMapped = 0;    ///< and at most: the room that was needed on the disk.
-  std::size_t Dropped = 0;       ///< Taken out of memory, again and again.
+  std::size_t Dropped = 0;       ///< What was taken out of memory, counted again each time.
 };
 
 /**
@@ -138,7 +138,7 @@ struct LargeAllocator
     return static_cast<T*>(AllocateLarge(n * sizeof(T), alignof(T)));
   }
   void deallocate(T* memory, std::size_t) noexcept { FreeLarge(memory); }
-  /** In memory that is zero already nothing is written. */
+  /** Writes nothing where the memory is zero already. */
   template <typename U>
   void construct(U* place)
   {

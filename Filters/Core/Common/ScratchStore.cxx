@@ -253,12 +253,12 @@ void ScratchStore::KeepIfDue()
 
 ResidentMemory ScratchStore::Drop(const ResidentMemoryMeter& meter, std::size_t goal)
 {
-  constexpr std::size_t chunksAtATime = 4;
+  constexpr std::size_t stepsAtATime = 4;
   ResidentMemory before = meter.Read();
-  std::size_t left = this->Mapped + ScratchChunk * this->Arrays.size(); // Once around.
+  std::size_t left = this->Mapped + ScratchStep * this->Arrays.size(); // Once around.
   while (before.All > goal && left > 0 && !this->Arrays.empty())
   {
-    for (std::size_t i = 0; i < chunksAtATime && left > 0; ++i)
+    for (std::size_t i = 0; i < stepsAtATime && left > 0; ++i)
     {
       // The array that the hand is in, or the next one, or the first.
       auto array = this->Arrays.upper_bound(this->Hand);
@@ -273,9 +273,9 @@ ResidentMemory ScratchStore::Drop(const ResidentMemoryMeter& meter, std::size_t 
         this->Hand = array->first;
       }
       const std::uintptr_t begin = this->Hand;
-      // Up to the next multiple of a chunk, which is a table of the processor's.
+      // Up to the next multiple of a step, which is a table of the processor's.
       const std::uintptr_t end = std::min(
-        array->first + array->second, begin / ScratchChunk * ScratchChunk + ScratchChunk);
+        array->first + array->second, begin / ScratchStep * ScratchStep + ScratchStep);
       DropPages(reinterpret_cast<void*>(begin), end - begin);
       this->Hand = end;
       left -= std::min(left, end - begin);

@@ -3,8 +3,8 @@
 #ifndef volumicSelect_h
 #define volumicSelect_h
 
-#include "Core/Common/Blocks.h"
 #include "Core/Common/Executor.h"
+#include "Core/Common/Spans.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -17,8 +17,8 @@ template <typename IsWanted>
 std::vector<int> SelectIndices(Executor& executor, std::size_t n, IsWanted&& isWanted)
 {
   constexpr std::size_t size = 2048;
-  std::vector<std::vector<int>> blocks((n + size - 1) / size);
-  ForBlocks(executor, n, size,
+  std::vector<std::vector<int>> spans((n + size - 1) / size);
+  ForSpans(executor, n, size,
     [&](std::size_t b, std::size_t begin, std::size_t end)
     {
       int found[size];
@@ -30,10 +30,10 @@ std::vector<int> SelectIndices(Executor& executor, std::size_t n, IsWanted&& isW
           found[count++] = static_cast<int>(i);
         }
       }
-      blocks[b].assign(found, found + count);
+      spans[b].assign(found, found + count);
     });
   std::vector<int> selected;
-  Concatenate(executor, blocks, selected);
+  Concatenate(executor, spans, selected);
   return selected;
 }
 

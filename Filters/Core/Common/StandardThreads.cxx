@@ -20,9 +20,9 @@ thread_local bool isInBody = false;
 StandardThreads::StandardThreads(int numberOfThreads)
 {
   const auto wanted = static_cast<std::size_t>(std::max(numberOfThreads, 1) - 1);
-  this->Threads.reserve(wanted);
   try
   {
+    this->Threads.reserve(wanted);
     while (this->Threads.size() < wanted)
     {
       this->Threads.emplace_back([this] { this->Wait(); });
@@ -80,7 +80,7 @@ void StandardThreads::Help(std::unique_lock<std::mutex>& lock)
     job.Next = end;
     lock.unlock();
     std::exception_ptr exception;
-    isInBody = true;
+    isInBody = !job.IsOfItems;
     try
     {
       (*job.Body)(begin, end);
@@ -113,10 +113,52 @@ void StandardThreads::For(
   }
   std::unique_lock<std::mutex> lock(this->Mutex);
   const std::size_t chunks = ChunksPerThread * (this->Threads.size() + 1);
-  this->Present = { &body, 0, n, std::max({ grain, n / chunks, std::size_t(1) }), nullptr };
+  this->Present = { &body, 0, n, std::max({ grain, n / chunks, std::size_t(1) }), nullptr, false };
   this->HasWork.notify_all();
   this->Help(lock);
   this->IsIdle.wait(lock, [this] { return this->Helpers == 0; });
+  this->EndJob(lock);
+}
+
+void StandardThreads::ForEach(std::size_t n, const std::function<void(std::size_t item)>& work,
+  const std::function<void()>& tell)
+{
+  const std::function<void(std::size_t, std::size_t)> body = [&work](std::size_t item, std::size_t)
+  { work(item); };
+  std::unique_lock<std::mutex> lock(this->Mutex);
+  this->Present = { &body, 0, n, 1, nullptr, true };
+  this->HasWork.notify_all();
+  if (this->Threads.empty())
+  {
+    this->Help(lock);
+  }
+  const auto isDone = [this]
+  { return this->Present.Next == this->Present.End && this->Helpers == 0; };
+  while (!this->IsIdle.wait_for(lock, Pause, isDone))
+  {
+    lock.unlock();
+    std::exception_ptr exception;
+    try
+    {
+      tell();
+    }
+    catch (...)
+    {
+      exception = std::current_exception();
+    }
+    lock.lock();
+    if (exception)
+    {
+      this->Present.Next = this->Present.End;
+      this->Present.Exception = exception;
+      this->IsIdle.wait(lock, isDone);
+    }
+  }
+  this->EndJob(lock);
+}
+
+void StandardThreads::EndJob(std::unique_lock<std::mutex>& lock)
+{
   const std::exception_ptr exception = this->Present.Exception;
   this->Present = Job();
   lock.unlock();

@@ -5,6 +5,7 @@
 
 #include "Core/Common/Executor.h"
 
+#include <chrono>
 #include <condition_variable>
 #include <cstddef>
 #include <exception>
@@ -39,6 +40,18 @@ public:
   void For(std::size_t n, std::size_t grain,
     const std::function<void(std::size_t, std::size_t)>& body) override;
 
+  /** How often ForEach() tells how it goes. */
+  static constexpr std::chrono::milliseconds Pause{ 50 };
+
+  /**
+   * Calls work(item) for 0 to n - 1, in this order, each item on one of the threads beside the
+   * calling one, which calls tell() every Pause meanwhile; where there are no others it does all the
+   * work, and tells nothing. An item may use other executors, but not this one. After an exception
+   * of either no further item is begun; it is thrown again when those under way are done.
+   */
+  void ForEach(std::size_t n, const std::function<void(std::size_t item)>& work,
+    const std::function<void()>& tell);
+
 private:
   /** What the present call of For() is about. */
   struct Job
@@ -48,10 +61,13 @@ private:
     std::size_t End = 0;
     std::size_t Chunk = 1;
     std::exception_ptr Exception;
+    bool IsOfItems = false; ///< ForEach(): a body may have threads of its own.
   };
 
   void Wait();
   void Help(std::unique_lock<std::mutex>& lock);
+  /** Forgets the job, which is done. What it has thrown is thrown again. */
+  void EndJob(std::unique_lock<std::mutex>& lock);
 
   std::mutex Mutex; ///< Of all that follows but Threads.
   std::condition_variable HasWork;

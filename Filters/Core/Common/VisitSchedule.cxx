@@ -16,17 +16,17 @@ namespace volumic
 {
 namespace
 {
-/** Threads that take visits, or parts of them, at most. */
+/** Threads that take visits, or chunks of them, at most. */
 constexpr std::size_t MostThreads = 256;
-/** Parts for each thread that shares in a visit, as some take longer than others. */
-constexpr std::size_t PartsPerThread = 4;
+/** Chunks for each thread that shares in a visit, as some take longer than others. */
+constexpr std::size_t ChunksPerThread = 4;
 /** How long visits are taken before the host is asked whether to go on. */
 constexpr std::chrono::milliseconds Round(50);
 }
 
 /**
  * What is ready, under way and done; threads share it. Those that find no visit that is ready take
- * parts of what visits under way have handed to For().
+ * chunks of what visits under way have handed to For().
  */
 class VisitSchedule::Progress final : public Executor
 {
@@ -74,11 +74,11 @@ public:
       }
       return;
     }
-    SharedWork work{ body, 0, n, std::max(grain, n / (PartsPerThread * (idle + 1))), 0, nullptr };
+    SharedWork work{ body, 0, n, std::max(grain, n / (ChunksPerThread * (idle + 1))), 0, nullptr };
     std::unique_lock<std::mutex> lock(this->Mutex);
     this->Shared.push_back(&work);
     this->HasChanged.notify_all();
-    this->TakeParts(work, lock);
+    this->TakeChunks(work, lock);
     this->HasEnded.wait(lock, [&work] { return work.UnderWay == 0; });
     this->Shared.erase(std::find(this->Shared.begin(), this->Shared.end(), &work));
     lock.unlock();
@@ -104,7 +104,7 @@ public:
       }
       if (shared && (this->Ready.empty() || this->IsOver()))
       {
-        this->TakeParts(*shared, lock);
+        this->TakeChunks(*shared, lock);
         continue;
       }
       // A round makes one visit at least; it needs no end where the calling thread asks itself.
@@ -156,8 +156,8 @@ private:
     const std::function<void(std::size_t begin, std::size_t end)>& Body;
     std::size_t Next;
     std::size_t End;
-    std::size_t Part;
-    int UnderWay; ///< Parts.
+    std::size_t Chunk; ///< Items of one.
+    int UnderWay; ///< Chunks.
     std::exception_ptr Exception;
   };
 
@@ -202,7 +202,7 @@ private:
     this->End = std::chrono::steady_clock::now() + Round;
   }
 
-  /** The first of which any part is left, or null. */
+  /** The first of which any chunk is left, or null. */
   SharedWork* FindShared() const
   {
     const auto found = std::find_if(this->Shared.begin(), this->Shared.end(),
@@ -211,12 +211,12 @@ private:
   }
 
   /** Until none is left; others may be under way then. */
-  void TakeParts(SharedWork& work, std::unique_lock<std::mutex>& lock)
+  void TakeChunks(SharedWork& work, std::unique_lock<std::mutex>& lock)
   {
     while (work.Next < work.End)
     {
       const std::size_t begin = work.Next;
-      const std::size_t end = std::min(begin + work.Part, work.End);
+      const std::size_t end = std::min(begin + work.Chunk, work.End);
       work.Next = end;
       ++work.UnderWay;
       lock.unlock();
@@ -245,7 +245,7 @@ private:
   const std::thread::id Caller = std::this_thread::get_id();
   std::mutex Mutex; ///< Of all that follows, while threads work.
   std::condition_variable HasChanged;
-  std::condition_variable HasEnded; ///< Parts of what is shared.
+  std::condition_variable HasEnded; ///< Chunks of what is shared.
   std::vector<SharedWork*> Shared;
   std::atomic<std::size_t> Idle{ 0 }; ///< Threads that wait for something to do.
   std::vector<int> Waits; ///< Of an item: how many of those before it are not done.

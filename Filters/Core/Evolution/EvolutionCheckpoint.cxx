@@ -17,7 +17,7 @@ namespace volumic
 namespace
 {
 /** Rings that are packed at a time. */
-constexpr std::size_t PackedBlock = 1 << 16;
+constexpr std::size_t PackedSpan = 1 << 16;
 
 /** Only the neighbours that there are: half of what the rings take. */
 void SaveRings(CheckedWriter& file, const decltype(SurfaceMesh::Rings)& rings)
@@ -29,7 +29,7 @@ void SaveRings(CheckedWriter& file, const decltype(SurfaceMesh::Rings)& rings)
   {
     counts.clear();
     items.clear();
-    for (; v < rings.size() && counts.size() < PackedBlock; ++v)
+    for (; v < rings.size() && counts.size() < PackedSpan; ++v)
     {
       counts.push_back(static_cast<std::uint8_t>(rings[v].Count));
       items.insert(items.end(), rings[v].Item, rings[v].Item + rings[v].Count);

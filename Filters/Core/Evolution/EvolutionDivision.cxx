@@ -3,9 +3,9 @@
 
 // The way of a surface to the next level's edge lengths, on one rank or on all.
 
-#include "Core/Common/Blocks.h"
 #include "Core/Common/RankLists.h"
 #include "Core/Common/Select.h"
+#include "Core/Common/Spans.h"
 #include "Core/Evolution/EvolutionImplementation.h"
 #include "Core/Mesh/Division.h"
 
@@ -22,12 +22,12 @@ namespace volumic
 namespace
 {
 /** Vertices that one thread looks at at a time. */
-constexpr std::size_t VertexBlock = 8192;
+constexpr std::size_t VertexSpan = 8192;
 /** Rounds in which more and more edges are kept, until none is flipped in the last. */
 constexpr int KeepingRounds = 6;
 
 /**
- * Calls visit(v, w, squared length) for each edge whose smaller end is in a block; blocks may be
+ * Calls visit(v, w, squared length) for each edge whose smaller end is in a span; spans may be
  * visited side by side.
  */
 template <typename Visit>
@@ -51,7 +51,7 @@ void VisitEdges(const SurfaceMesh& mesh, std::size_t begin, std::size_t end, con
 bool HasEdgeOver(const SurfaceState& state, float share, Executor& executor)
 {
   const SurfaceMesh& mesh = state.Mesh;
-  return CountInBlocks(executor, mesh.Rings.size(), VertexBlock,
+  return CountInSpans(executor, mesh.Rings.size(), VertexSpan,
            [&](std::size_t begin, std::size_t end)
            {
              std::size_t count = 0;
@@ -109,17 +109,17 @@ void KeepAbout(const std::array<int, 3>& face, const LargeVector<Triangle>& face
 float SurfaceEvolution::Implementation::LongestEdge()
 {
   const SurfaceMesh& mesh = this->State.Mesh;
-  std::vector<float> longest((mesh.Rings.size() + VertexBlock - 1) / VertexBlock, 0.f);
-  ForBlocks(this->Threads, mesh.Rings.size(), VertexBlock,
-    [&](std::size_t block, std::size_t begin, std::size_t end)
+  std::vector<float> longest((mesh.Rings.size() + VertexSpan - 1) / VertexSpan, 0.f);
+  ForSpans(this->Threads, mesh.Rings.size(), VertexSpan,
+    [&](std::size_t span, std::size_t begin, std::size_t end)
     {
       VisitEdges(mesh, begin, end, [&](int, int, float squared)
-        { longest[block] = std::max(longest[block], squared); });
+        { longest[span] = std::max(longest[span], squared); });
     });
   float most = 0.f;
-  for (const float ofBlock : longest)
+  for (const float ofSpan : longest)
   {
-    most = std::max(most, ofBlock);
+    most = std::max(most, ofSpan);
   }
   for (const float ofRank : GatherValues(this->Sharers(), most))
   {
@@ -210,7 +210,7 @@ bool SurfaceEvolution::Implementation::HasEdgeTooLong() const
   return HasEdgeOver(this->State, 1.0001f, this->Threads);
 }
 
-void SurfaceEvolution::Implementation::LayGridOfPart()
+void SurfaceEvolution::Implementation::LayGridOfPiece()
 {
   SurfaceState& s = this->State;
   const std::size_t n = s.Mesh.Rings.size();
@@ -238,16 +238,16 @@ std::vector<int> SurfaceEvolution::Implementation::OwnVertices() const
     [this](std::size_t i)
     {
       const int v = static_cast<int>(i);
-      return this->State.Mesh.IsAlive(v) && (!this->Parts || this->Parts->IsOwnVertex(v));
+      return this->State.Mesh.IsAlive(v) && (!this->Piece || this->Piece->IsOwnVertex(v));
     });
 }
 
-std::vector<Proximity::FacePair> SurfaceEvolution::Implementation::FindIntersectionsInParts()
+std::vector<Proximity::FacePair> SurfaceEvolution::Implementation::FindIntersectionsInPieces()
 {
   SurfaceState& s = this->State;
   const SizingField sizing = s.Sizing;
   s.Sizing = sizing.ForEdgesOf(this->LongestEdge());
-  this->LayGridOfPart();
+  this->LayGridOfPiece();
   const std::vector<int> own = this->OwnVertices();
   const std::vector<Proximity::FacePair> found =
     Proximity::FindIntersections(s, own, this->Threads);
@@ -258,7 +258,7 @@ std::vector<Proximity::FacePair> SurfaceEvolution::Implementation::FindIntersect
     s.NearOthers[v] = 1;
   }
   s.Sizing = sizing;
-  this->LayGridOfPart();
+  this->LayGridOfPiece();
   return GatherListsOnAll(this->Sharers(), found);
 }
 
@@ -269,14 +269,14 @@ void SurfaceEvolution::Implementation::SpreadMesh()
   const SurfaceMesh whole = std::exchange(s.Mesh, SurfaceMesh());
   this->FindGridBox(whole);
   this->AgreeOnGridBox();
-  if (!this->IsInParts())
+  if (!this->IsInPieces())
   {
     this->ShareBlocks(whole);
   }
-  this->Parts->ScatterMesh(whole, this->GridLow, this->GridHigh);
+  this->Piece->ScatterMesh(whole, this->GridLow, this->GridHigh);
 }
 
-void SurfaceEvolution::Implementation::DivideInParts()
+void SurfaceEvolution::Implementation::DivideInPieces()
 {
   SurfaceState& s = this->State;
   this->ForgetBlocks();
@@ -300,7 +300,7 @@ void SurfaceEvolution::Implementation::DivideInParts()
       faces = volumic::Divide(s.Mesh, round > 0 ? kept.get() : nullptr, this->Threads);
     }
     this->SpreadMesh();
-    const std::vector<Proximity::FacePair> found = this->FindIntersectionsInParts();
+    const std::vector<Proximity::FacePair> found = this->FindIntersectionsInPieces();
     if (found.empty())
     {
       return;
@@ -326,10 +326,10 @@ void SurfaceEvolution::Implementation::SpreadWhole()
       this->Threads);
   }
   this->SpreadMesh();
-  this->LayGridOfPart();
+  this->LayGridOfPiece();
 }
 
-bool SurfaceEvolution::Implementation::LayOutInParts(int divisions)
+bool SurfaceEvolution::Implementation::LayOutInPieces(int divisions)
 {
   // All but the last division are rank 0's, which has the whole.
   bool goesOn = true;
@@ -343,7 +343,7 @@ bool SurfaceEvolution::Implementation::LayOutInParts(int divisions)
   }
   if (goesOn && divisions > 0)
   {
-    this->DivideInParts();
+    this->DivideInPieces();
   }
   else
   {

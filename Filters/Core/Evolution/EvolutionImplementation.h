@@ -32,6 +32,12 @@ namespace volumic
  * for both, EvolutionRanks.cxx on several ranks, RankResult.cxx puts together what these have,
  * EvolutionGrading.cxx divides it here and there, and gives it longer edges where it is flat,
  * EvolutionVerification.cxx has a last look at it, EvolutionHistory.cxx tells of it.
+ *
+ * All is called on the thread that calls SurfaceEvolution, but for what a visit calls (VisitBlock,
+ * VisitToEvolve, TakeIteration), which is called on any thread. The listener is asked on the
+ * calling thread only. Where the level is shared (IsShared) all ranks call the same functions in
+ * the same order, and a stop is agreed on between sweeps (AgreeOnStop), so that none waits for
+ * another.
  */
 struct SurfaceEvolution::Implementation
 {
@@ -47,39 +53,39 @@ struct SurfaceEvolution::Implementation
   std::vector<HistoryRow> Rows;
   int LastIterations = 0;
   LostParts LastLost;
-  LostBoundary Lost; ///< Of the parts that the last division found.
-  int NumberOfComponents = 0; ///< When last labelled.
+  LostBoundary Lost; ///< The boundary of the parts that were lost at the last division.
+  int NumberOfComponents = 0; ///< As they were labelled last.
   int Unchecked = 1; ///< Starts, cuts and deletions since components were judged from outside in.
   std::vector<std::unique_ptr<SurfaceIteration>> Iterations; ///< Of visits, one for each thread.
-  std::vector<SurfaceIteration*> Idle;                       ///< Of them, those in no visit.
-  std::mutex Handing; ///< Held while visits take them, or add to what is all visits'.
+  std::vector<SurfaceIteration*> Idle;                       ///< Those of them in no visit.
+  std::mutex Handing; ///< Held while a visit takes one of them, or changes what all visits share.
   RestCriterion Rest;
   CycleCriterion Cycle;
   double WantedMeanEdge = 0.; ///< See SurfaceEvolution::SetMeanEdgeLength.
   Grading WantedGrading;      ///< See SurfaceEvolution::SetGrading.
-  HistoryRow Preparing; ///< Phases before the first iteration of a level: start or division.
+  HistoryRow Preparing; ///< The phases before a level's first iteration: start or division.
   std::chrono::steady_clock::time_point LastLap = std::chrono::steady_clock::now();
   double LevelSeconds = 0.; ///< Of all laps since the last level.
-  bool Stopped = false;     ///< By the monitor.
+  bool Stopped = false;     ///< The monitor has said stop; it is not asked again.
   Verdict LastVerdict;
-  bool IsMending = false;   ///< Which is not stopped.
+  bool IsMending = false;   ///< Faces that intersect are being mended: nobody is asked meanwhile.
   bool IsShared = false;    ///< The level is worked on by all ranks.
   Communicator* Ranks = &OnThisRank();
-  // Once a level has begun:
+  // There are these while a surface lies on a level (MakeBlocks), else null:
   std::unique_ptr<SurfaceBlocks> Blocks;
-  std::unique_ptr<RankBlocks> Parts;             ///< Whose the blocks are; of one rank all.
-  std::unique_ptr<SurfaceComponents> Components; ///< Of the surface in these parts.
+  std::unique_ptr<RankBlocks> Piece; ///< Of this rank; one alone has the whole surface.
+  std::unique_ptr<SurfaceComponents> Components; ///< Of all pieces.
   std::function<void(const VoxelBox&)> NeedVoxels; ///< See SetRanks.
-  Vector GridLow, GridHigh;              ///< As the grid was laid last.
+  Vector GridLow, GridHigh;              ///< The box over which the grid was laid last.
   struct
   {
     int Sweep = 0;  ///< Of the level, from 1.
-    int Active = 0; ///< Vertices, in the last one.
-    int Block = 0;  ///< Visits of this sweep, and
+    int Active = 0; ///< How many vertices were active in the last sweep.
+    int Block = 0;  ///< How many visits of this sweep are done, and
     int Blocks = 0; ///< how many there are at most.
-    double Iterations = 0.; ///< Beyond LastIterations: an estimate.
+    double Iterations = 0.; ///< How many of the sweep's iterations are done, as an estimate.
   } Visit;
-  EditCounts SinceEvolved; ///< Of what is like an iteration, but after the last one of a level.
+  EditCounts SinceEvolved; ///< Edits after the last iteration of a level, on this rank.
 
   /** A sweep over blocks: what is done in each. */
   struct BlockVisits
@@ -87,18 +93,20 @@ struct SurfaceEvolution::Implementation
     bool OnlyActive = true; ///< Blocks in which nothing may move are left out.
     bool IsAsked = true;    ///< The listener is told, and may stop it.
     Monitor::Activity Doing = Monitor::Activity::Iterating;
-    double From = 0.; ///< Shares of the activity, before and after.
-    double To = 1.;
-    double Iterations = 0.; ///< That a visit makes.
-    /** On any thread; State::Counts is the sum of the shares' afterwards. */
+    double From = 0.; ///< The share of the activity that is done before the sweep, and
+    double To = 1.;   ///< after it.
+    double Iterations = 0.; ///< How many a visit makes.
+    /**
+     * Called on any thread. The sum of what the visits have edited is in State.Counts afterwards.
+     */
     std::function<void(BlockVisit& visit, SurfaceIteration& iteration)> Visit;
   };
-  /** An iteration in all the blocks of a sweep. */
+  /** What one iteration, made in all the blocks of a sweep, adds to the history. */
   struct SweptRow
   {
     HistoryRow Row;
     EditCounts Counts;
-    int Vertices = 0; ///< How many more there are.
+    int Vertices = 0; ///< By how many there are more.
     int EulerCharacteristic = 0;
     std::vector<double> KineticEnergy; ///< Of each block.
   };
@@ -113,40 +121,43 @@ struct SurfaceEvolution::Implementation
   bool Ask(
     bool (Monitor::*question)(const Monitor::Status&), Monitor::Activity doing, double share);
   bool GoOn(Monitor::Activity doing, double share);
-  Checkpoint CheckpointOf(Monitor::Activity doing, double from = 0., double to = 1.);
+  ProgressQuestion QuestionOf(Monitor::Activity doing, double from = 0., double to = 1.);
   bool HasIteration() const;
   double Lap();
   void Enter(const LevelImage& image, int level);
   void Clear();
-  void Reset(); ///< All is forgotten but the mesh, whose vertices get their numbers along a curve.
-  void LayOut(); ///< The same with the numbers that they have.
+  /** Forgets all but the mesh, numbers its vertices along a curve, and lays it out. */
+  void Reset();
+  /** Makes grid, blocks and labels of a mesh of which nothing else is known; splits long edges. */
+  void LayOut();
   void Recover();
   void FindGridBox(const SurfaceMesh& mesh);
   void LayGrid();
   bool HasEdgeTooLong() const;
   int CountIntersecting();
   void Verify();
-  void SplitLongEdges(); ///< All of them, whoever asks to stop.
-  /** @param visits whom they ask whether to go on; where they are stopped some edges are left */
+  /** Splits all edges that are too long; it cannot be stopped. */
+  void SplitLongEdges();
+  /** @param visits tell whom to ask whether to go on; after a stop some long edges are left */
   void SplitLongEdges(BlockVisits visits);
-  float LongestEdge(); ///< On all ranks.
+  float LongestEdge(); ///< That of the surface on all ranks.
   std::vector<Proximity::FacePair> FindIntersections();
   void DivideOnce();
   bool DivideWhole(int divisions); ///< @return whether nothing asked to stop
   void KeepEdgesAbout(const std::vector<Proximity::FacePair>& pairs,
     const LargeVector<Triangle>& faces, const SurfaceMesh& old, int round, KeptEdges& kept);
   SurfaceBlocks::Frame FrameOfLevel() const;
-  /** @param sharers whose they will be; one rank has all of them */
+  /** Makes the blocks of the mesh as it is. @param sharers the ranks that will own them */
   void MakeBlocks(Communicator& sharers = OnThisRank());
-  void ForgetBlocks(); ///< Their places are anyone's again.
+  void ForgetBlocks(); ///< Any new vertex may have their places again.
   std::vector<int> OwnVertices() const;
-  // From a surface that is whole on rank 0 to one that is in parts, with so many divisions.
-  bool LayOutInParts(int divisions);
-  void DivideInParts();
+  /** Divides a surface that is whole on rank 0 so many times, and spreads it over the ranks. */
+  bool LayOutInPieces(int divisions);
+  void DivideInPieces();
   void SpreadWhole();
   void SpreadMesh();
-  void LayGridOfPart();
-  std::vector<Proximity::FacePair> FindIntersectionsInParts();
+  void LayGridOfPiece();
+  std::vector<Proximity::FacePair> FindIntersectionsInPieces();
   /** @param isSound it has been made well: its edges need not be legal already */
   void Take(const IndexedSurface& surface, bool isSound);
   void TakeRemeshed(const IndexedSurface& surface);
@@ -158,14 +169,16 @@ struct SurfaceEvolution::Implementation
   // By visits: EvolutionVisits.cxx.
   SurfaceIteration& TakeIteration();
   void VisitBlock(int block, const BlockVisits& visits, Executor& idle);
+  /** A sweep. After a stop some blocks were not visited; the surface is valid all the same. */
   void VisitBlocks(const BlockVisits& visits);
+  /** A sweep of a few iterations. Adds their rows to the history, and labels the components. */
   void RunSweep(const Dynamics& dynamics);
   void VisitToEvolve(BlockVisit& visit, SurfaceIteration& iteration, const Dynamics& dynamics,
     std::vector<SweptRow>& rows);
   /** @param inside seconds of the sweep that were spent within For() of a MeasuredExecutor */
   void KeepSweptRows(
     std::vector<SweptRow>& rows, int vertices, int eulerCharacteristic, double inside);
-  /** Some iterations in each block that has active vertices. */
+  /** A sweep that makes some iterations in each block with active vertices; no rows are kept. */
   void VisitAll(SurfaceIteration::Mode mode, const Dynamics& dynamics, int iterations,
     Monitor::Activity doing, double from, double to);
   void KeepActiveIfMoving(const SurfaceIteration& iteration);
@@ -177,10 +190,12 @@ struct SurfaceEvolution::Implementation
   double Volume();
 
   // On several ranks: EvolutionRanks.cxx.
-  /** Those that have parts of the surface as it is now: one while it is whole. */
-  Communicator& Sharers() const { return this->Parts ? this->Parts->Sharers() : OnThisRank(); }
-  bool IsInParts() const { return this->Parts && this->Parts->AreShared(); }
+  /** The ranks that have pieces of the surface as it is now: this one alone while it is whole. */
+  Communicator& Sharers() const { return this->Piece ? this->Piece->Sharers() : OnThisRank(); }
+  bool IsInPieces() const { return this->Piece && this->Piece->AreShared(); }
+  /** Spreads the surface of a shared level over the ranks, where it is still whole. */
   void BeginVisits();
+  /** Forgets the blocks of a surface that is whole; pieces stay with their ranks. */
   void EndVisits();
   bool IsFirstRank() const { return this->Ranks->Rank() == 0; }
   void ShareBlocks(const SurfaceMesh& mesh);
@@ -188,11 +203,13 @@ struct SurfaceEvolution::Implementation
   VoxelBox OwnVoxels() const;
   void VisitBlocksOnRanks(
     const BlockVisits& visits, const std::function<bool(std::size_t done)>& goOn);
+  /** By all ranks, between sweeps: where one was told to stop, all are. */
   void AgreeOnStop();
   bool IsOnAnyRank(bool isHere);
   void AddUpRows(std::vector<SweptRow>& rows);
   void AddUpSinceEvolved();
   std::vector<std::uint8_t> AreNear(std::vector<std::int64_t> voxels);
+  /** By all ranks: the surface is whole on rank 0 afterwards. */
   void Unite();
   SurfaceResult ResultOnRanks() const;
   void CountComponents();
@@ -221,7 +238,15 @@ struct SurfaceEvolution::Implementation
   void FindMissing();
   void Regularise(const Dynamics& dynamics);
   void Revise(const LevelImage& image);
+  /**
+   * Sweeps until the level rests, goes in circles, has had its iterations, vanishes or is stopped.
+   * Before and after each sweep the surface is closed, oriented, manifold and free of
+   * intersections, its components are labelled, and the history has a row for each iteration.
+   */
   StopReason Evolve();
+  /**
+   * Evolve(), then what ends a level, also after a stop: nothing inside out or unverified stays.
+   */
   StopReason Run();
 };
 }

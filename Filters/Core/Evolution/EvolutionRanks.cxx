@@ -18,7 +18,7 @@ namespace volumic
 void SurfaceEvolution::Implementation::ShareBlocks(const SurfaceMesh& mesh)
 {
   this->MakeBlocks(*this->Ranks);
-  this->Parts->ChooseOwners(mesh);
+  this->Piece->ChooseOwners(mesh);
   if (this->NeedVoxels)
   {
     this->NeedVoxels(this->OwnVoxels());
@@ -40,7 +40,7 @@ VoxelBox SurfaceEvolution::Implementation::OwnVoxels() const
   VoxelBox voxels;
   for (int block = 0; block < this->Blocks->NumberOfBlocks(); ++block)
   {
-    if (!this->Parts->IsOwn(block))
+    if (!this->Piece->IsOwn(block))
     {
       continue;
     }
@@ -64,19 +64,19 @@ VoxelBox SurfaceEvolution::Implementation::OwnVoxels() const
 
 void SurfaceEvolution::Implementation::BeginVisits()
 {
-  if (!this->IsShared || this->IsInParts())
+  if (!this->IsShared || this->IsInPieces())
   {
     return; // It has come here in blocks.
   }
   this->State.Sizing = SizingField(BroadcastValue(*this->Ranks, this->State.Sizing.OfLevel()));
   this->ShareBlocks(this->State.Mesh);
   this->AgreeOnGridBox();
-  this->Parts->Scatter(this->GridLow, this->GridHigh);
+  this->Piece->Scatter(this->GridLow, this->GridHigh);
 }
 
 void SurfaceEvolution::Implementation::EndVisits()
 {
-  if (!this->IsInParts()) // Else it stays so until it is wanted as a whole.
+  if (!this->IsInPieces()) // Else it stays so until it is wanted as a whole.
   {
     this->ForgetBlocks();
   }
@@ -93,29 +93,29 @@ void SurfaceEvolution::Implementation::VisitBlocksOnRanks(
     std::copy_if(ofColour.begin(), ofColour.end(), std::back_inserter(own),
       [&](int block)
       {
-        return this->Parts->IsOwn(block) && !this->Stopped &&
+        return this->Piece->IsOwn(block) && !this->Stopped &&
           !(visits.OnlyActive && !this->Blocks->HasActive(block));
       });
     for (const int block : own)
     {
-      this->Parts->BeginVisit(block);
+      this->Piece->BeginVisit(block);
     }
-    ForBlocks(this->Threads, own.size(), 1,
+    ForSpans(this->Threads, own.size(), 1,
       [&](std::size_t i, std::size_t, std::size_t)
       { this->VisitBlock(own[i], visits, OnThisThread()); });
     for (const int block : own)
     {
-      this->Parts->EndVisit(block);
+      this->Piece->EndVisit(block);
     }
     visited += ofColour.size();
     if (colour % 2 == 1)
     {
-      this->Parts->Exchange(); // Blocks before and after each other along x are of one rank.
+      this->Piece->Exchange(); // Blocks before and after each other along x are of one rank.
       goOn(visited);
     }
   }
   this->AgreeOnStop();
-  this->Parts->ShareCounts();
+  this->Piece->ShareCounts();
 }
 
 bool SurfaceEvolution::Implementation::IsOnAnyRank(bool isHere)
@@ -167,7 +167,7 @@ void SurfaceEvolution::Implementation::AddUpRows(std::vector<SweptRow>& rows)
       swept.Vertices += ofRank.Vertices;
       swept.EulerCharacteristic += ofRank.EulerCharacteristic;
     }
-    row.KineticEnergy = this->Parts->AddUp(swept.KineticEnergy);
+    row.KineticEnergy = this->Piece->AddUp(swept.KineticEnergy);
   }
 }
 
@@ -183,7 +183,7 @@ void SurfaceEvolution::Implementation::AddUpSinceEvolved()
 
 void SurfaceEvolution::Implementation::CountComponents()
 {
-  this->Parts->ShareCounts();
+  this->Piece->ShareCounts();
   this->NumberOfComponents = this->Components->NumberOfComponents();
 }
 
@@ -227,9 +227,9 @@ std::vector<std::uint8_t> SurfaceEvolution::Implementation::AreNear(
 
 void SurfaceEvolution::Implementation::Unite()
 {
-  if (this->IsInParts())
+  if (this->IsInPieces())
   {
-    this->Parts->Gather();
+    this->Piece->Gather();
     this->MakeBlocks();
   }
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Common/Spans.h"
 #include "Core/Evolution/EvolutionImplementation.h"
-#include "Core/Common/Blocks.h"
 #include "Core/Evolution/Stopwatch.h"
 #include "Core/Surface/SurfacePolish.h"
 
@@ -81,7 +81,7 @@ bool SurfaceEvolution::Implementation::Ask(
   return !this->Stopped;
 }
 
-Checkpoint SurfaceEvolution::Implementation::CheckpointOf(
+ProgressQuestion SurfaceEvolution::Implementation::QuestionOf(
   Monitor::Activity doing, double from, double to)
 {
   return [this, doing, from, to](double share)

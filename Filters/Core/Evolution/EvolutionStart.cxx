@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Common/Blocks.h"
 #include "Core/Common/Box.h"
+#include "Core/Common/Spans.h"
 #include "Core/Evolution/EvolutionImplementation.h"
 #include "Core/Evolution/InitialSurface.h"
 #include "Core/Evolution/LostParts.h"
@@ -19,7 +19,7 @@ namespace volumic
 namespace
 {
 /** Vertices that one thread looks at at a time. */
-constexpr std::size_t VertexBlock = 8192;
+constexpr std::size_t VertexSpan = 8192;
 }
 
 void SurfaceEvolution::Implementation::Enter(const LevelImage& image, int level)
@@ -76,22 +76,22 @@ void SurfaceEvolution::Implementation::FindGridBox(const SurfaceMesh& mesh)
   Vector high(static_cast<float>(image.Size[0] * image.Step[0]),
     static_cast<float>(image.Size[1] * image.Step[1]),
     static_cast<float>(image.Size[2] * image.Step[2]));
-  const std::size_t blocks = (mesh.Position.size() + VertexBlock - 1) / VertexBlock;
-  std::vector<Vector> lows(blocks, low);
-  std::vector<Vector> highs(blocks, high);
-  ForBlocks(this->Threads, mesh.Position.size(), VertexBlock,
-    [&](std::size_t block, std::size_t begin, std::size_t end)
+  const std::size_t spans = (mesh.Position.size() + VertexSpan - 1) / VertexSpan;
+  std::vector<Vector> lows(spans, low);
+  std::vector<Vector> highs(spans, high);
+  ForSpans(this->Threads, mesh.Position.size(), VertexSpan,
+    [&](std::size_t span, std::size_t begin, std::size_t end)
     {
       for (std::size_t v = begin; v < end; ++v)
       {
-        lows[block] = Minimum(lows[block], mesh.Position[v]);
-        highs[block] = Maximum(highs[block], mesh.Position[v]);
+        lows[span] = Minimum(lows[span], mesh.Position[v]);
+        highs[span] = Maximum(highs[span], mesh.Position[v]);
       }
     });
-  for (std::size_t block = 0; block < blocks; ++block)
+  for (std::size_t span = 0; span < spans; ++span)
   {
-    low = Minimum(low, lows[block]);
-    high = Maximum(high, highs[block]);
+    low = Minimum(low, lows[span]);
+    high = Maximum(high, highs[span]);
   }
   const float delta = this->State.Sizing.Largest();
   const Vector margin(2 * delta, 2 * delta, 2 * delta);
@@ -110,7 +110,7 @@ void SurfaceEvolution::Implementation::LayGrid()
 void SurfaceEvolution::Implementation::ActivateAll()
 {
   SurfaceState& s = this->State;
-  ForBlocks(this->Threads, s.Mesh.Rings.size(), VertexBlock,
+  ForSpans(this->Threads, s.Mesh.Rings.size(), VertexSpan,
     [&](std::size_t, std::size_t begin, std::size_t end)
     {
       for (std::size_t v = begin; v < end; ++v)
@@ -134,18 +134,18 @@ void SurfaceEvolution::Implementation::Recover()
   }
   const bool recovers = this->Options.RecoverLostParts;
   const double objectShare = recovers && this->Options.RecoverCavities ? 0.5 : 1.;
-  std::unique_ptr<RankRows> part;
-  if (this->IsInParts())
+  std::unique_ptr<RankRows> rows;
+  if (this->IsInPieces())
   {
-    part = std::make_unique<RankRows>(
-      RankRows{ *this->Ranks, this->Parts->RowsOf(this->TheField->Image()) });
+    rows = std::make_unique<RankRows>(
+      RankRows{ *this->Ranks, this->Piece->RowsOf(this->TheField->Image()) });
   }
   const auto find = [&](PartKind kind, double from, double to)
   {
     const auto look = [&]
     {
       return FindLostParts(this->State, *this->TheField, kind, this->Options.MinimumPartSize,
-        this->Threads, this->CheckpointOf(Monitor::Activity::Recovering, from, to), part.get());
+        this->Threads, this->QuestionOf(Monitor::Activity::Recovering, from, to), rows.get());
     };
     LostPartCover cover = look();
     if (cover.Found > 0 && recovers && this->State.Sizing.IsGraded())
@@ -177,12 +177,12 @@ void SurfaceEvolution::Implementation::Recover()
   }
   if (this->LastLost.Enclosed > 0)
   {
-    this->Parts->Append(objects.Surface, this->Threads);
+    this->Piece->Append(objects.Surface, this->Threads);
     ++this->Unchecked;
   }
   if (this->LastLost.EnclosedCavities > 0)
   {
-    this->Parts->Append(cavities.Surface, this->Threads);
+    this->Piece->Append(cavities.Surface, this->Threads);
     ++this->Unchecked;
   }
 }

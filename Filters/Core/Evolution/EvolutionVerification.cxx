@@ -26,8 +26,8 @@ std::string SurfaceEvolution::Verdict::Describe(int level) const
 int SurfaceEvolution::Implementation::CountIntersecting()
 {
   const int count = static_cast<int>(volumic::CountIntersecting(
-    this->State, [this](int v) { return this->Parts->IsOwnVertex(v); },
-    this->IsInParts() ? this->LongestEdge() : 0.f, this->Threads));
+    this->State, [this](int v) { return this->Piece->IsOwnVertex(v); },
+    this->IsInPieces() ? this->LongestEdge() : 0.f, this->Threads));
   this->Threads.EndPhase("Last look");
   const std::vector<int> counts = GatherValues(this->Sharers(), count);
   return std::accumulate(counts.begin(), counts.end(), 0);

@@ -3,8 +3,8 @@
 
 // How a surface is worked on: in visits of blocks, see SurfaceBlocks, and in sums over blocks.
 
-#include "Core/Common/Blocks.h"
 #include "Core/Common/ScratchMemory.h"
+#include "Core/Common/Spans.h"
 #include "Core/Evolution/EvolutionImplementation.h"
 #include "Core/Mesh/SurfaceMeasures.h"
 
@@ -63,15 +63,15 @@ void SurfaceEvolution::Implementation::MakeBlocks(Communicator& sharers)
   this->ForgetBlocks();
   this->Blocks =
     std::make_unique<SurfaceBlocks>(this->State, this->FrameOfLevel(), this->Threads);
-  this->Parts = std::make_unique<RankBlocks>(this->State, *this->Blocks, sharers);
+  this->Piece = std::make_unique<RankBlocks>(this->State, *this->Blocks, sharers);
   this->Components = std::make_unique<SurfaceComponents>(
-    RankPart{ sharers, [this](int v) { return this->Parts->IsOwnVertex(v); } });
+    RankPiece{ sharers, [this](int v) { return this->Piece->IsOwnVertex(v); } });
 }
 
 void SurfaceEvolution::Implementation::ForgetBlocks()
 {
   this->Components.reset();
-  this->Parts.reset();
+  this->Piece.reset();
   this->Blocks.reset();
 }
 
@@ -115,7 +115,7 @@ void SurfaceEvolution::Implementation::VisitBlock(
 void SurfaceEvolution::Implementation::VisitBlocks(const BlockVisits& visits)
 {
   this->State.Counts = EditCounts();
-  this->Parts->AddPlaces(this->Threads);
+  this->Piece->AddPlaces(this->Threads);
   const auto count = static_cast<std::size_t>(this->Blocks->NumberOfBlocks());
   this->Visit.Blocks = static_cast<int>(count);
   const auto goOn = [&](std::size_t done)
@@ -126,7 +126,7 @@ void SurfaceEvolution::Implementation::VisitBlocks(const BlockVisits& visits)
     return !visits.IsAsked ||
       this->GoOn(visits.Doing, visits.From + share * (visits.To - visits.From));
   };
-  if (this->IsInParts())
+  if (this->IsInPieces())
   {
     this->VisitBlocksOnRanks(visits, goOn);
   }
@@ -187,8 +187,8 @@ void SurfaceEvolution::Implementation::VisitToEvolve(BlockVisit& visit,
 double SurfaceEvolution::Implementation::SumOfBlocksOf(
   const std::function<double(int v)>& ofVertex) const
 {
-  const auto isOwn = [this](int block) { return this->Parts->IsOwn(block); };
-  return this->Parts->AddUp(this->Blocks->Sums(isOwn, ofVertex, this->Threads));
+  const auto isOwn = [this](int block) { return this->Piece->IsOwn(block); };
+  return this->Piece->AddUp(this->Blocks->Sums(isOwn, ofVertex, this->Threads));
 }
 
 double SurfaceEvolution::Implementation::Area()

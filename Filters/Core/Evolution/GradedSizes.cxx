@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Evolution/GradedSizes.h"
 
-#include "Core/Common/Blocks.h"
+#include "Core/Common/Spans.h"
 
 #include <algorithm>
 #include <array>
@@ -344,10 +344,10 @@ Fit GradedSizes::Measure() const
   const float tolerance = static_cast<float>(this->Wanted.Tolerance);
   const std::size_t n = s.Mesh.Rings.size();
   std::vector<Sum> sums((n + VertexGrain - 1) / VertexGrain);
-  ForBlocks(this->Threads, n, VertexGrain,
-    [&](std::size_t block, std::size_t begin, std::size_t end)
+  ForSpans(this->Threads, n, VertexGrain,
+    [&](std::size_t span, std::size_t begin, std::size_t end)
     {
-      Sum& sum = sums[block];
+      Sum& sum = sums[span];
       this->VisitMiddles(begin, end,
         [&](const Vector& middle, const auto& corners)
         {

@@ -28,9 +28,9 @@ class GradedSizes
 public:
   GradedSizes(SurfaceState& state, const Field& field, const Grading& grading, Executor& executor);
 
-  /** All begin with this delta, or what is nearest to it of those allowed; the mesh is laid out. */
+  /** All sizes become this one, or the nearest that is allowed; the mesh must be laid out. */
   void Begin(float delta);
-  /** From here on they may be all that is allowed, and keep the gradation. */
+  /** From here on sizes may become as large as is allowed; they keep the gradation. */
   void Widen();
 
   /**
@@ -47,7 +47,7 @@ public:
    */
   std::vector<int> Adjust(float growth);
 
-  /** What faces are from the isopotential, at their centroids and the middles of their edges. */
+  /** How far faces are from the isopotential, at their centroids and the middles of their edges. */
   Fit Measure() const;
   /**
    * The lesser of what the object measures along the normal of a vertex at rest, inward, and the
@@ -71,7 +71,7 @@ private:
    */
   template <typename Look>
   void VisitMiddles(std::size_t begin, std::size_t end, const Look& look) const;
-  /** About each vertex the largest that `of` makes of a middle's SignedDistanceAt and corners. */
+  /** For each vertex the largest value of `of` at the middles about it. */
   template <typename OfMiddle>
   Largest LargestAbout(const OfMiddle& of) const;
   /**
@@ -88,8 +88,8 @@ private:
   /** Gives all vertices what `wanted` tells, as far as the gradation allows. @return see Adjust */
   std::vector<int> Change(const std::function<float(int v)>& wanted);
   /**
-   * So that nowhere they grow by more than the gradation, along the surface or across space: of
-   * each what the least allowing vertex within reach allows.
+   * Lowers sizes until nowhere they grow by more than the gradation, along the surface or across
+   * space: each becomes what the vertices within its reach allow.
    */
   LargeVector<float> Limited(const LargeVector<float>& sizes) const;
 

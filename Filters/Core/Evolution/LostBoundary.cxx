@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Evolution/LostBoundary.h"
 
-#include "Core/Common/Blocks.h"
 #include "Core/Common/RankLists.h"
+#include "Core/Common/Spans.h"
 #include "Core/Image/VoxelNumbers.h"
 #include "Core/Mesh/SurfaceMeasures.h"
 
@@ -20,7 +20,7 @@ constexpr double FacesOverArea = 1.5;
 /** A part is missed where the surface lacks more than this share of its boundary. */
 constexpr double MissedShare = 0.5;
 /** Patches that one thread looks at at a time. */
-constexpr std::size_t PatchBlock = 256;
+constexpr std::size_t PatchSpan = 256;
 }
 
 namespace
@@ -52,7 +52,7 @@ void LostBoundary::Add(
 {
   const VoxelNumbers numbers(field.Image().Size);
   std::vector<std::vector<Patch>> slabs(lost.Slabs().size());
-  ForBlocks(executor, slabs.size(), 1,
+  ForSpans(executor, slabs.size(), 1,
     [&](std::size_t slab, std::size_t, std::size_t)
     {
       for (const VoxelRun& run : lost.Slabs()[slab])
@@ -106,7 +106,7 @@ std::vector<std::uint8_t> LostBoundary::AreNear(const std::vector<std::int64_t>&
   const VoxelNumbers numbers(image.Size);
   const float reach = static_cast<float>(NearUnits * image.Unit);
   std::vector<std::uint8_t> areNear(voxels.size(), 0);
-  ForBlocks(executor, voxels.size(), PatchBlock,
+  ForSpans(executor, voxels.size(), PatchSpan,
     [&](std::size_t, std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end; ++i)

@@ -17,7 +17,7 @@ namespace volumic
 {
 /**
  * The boundary of the parts that a surface has lost, kept from when they were found, so that it can
- * be told later what of it the surface still misses. Costs nothing for voxels that were not lost.
+ * be told later what of it the surface still misses. Voxels that were not lost cost nothing.
  */
 class LostBoundary
 {
@@ -25,7 +25,7 @@ public:
   /** Takes the boundary of lost parts: the faces of their voxels towards the other side. */
   void Add(const LostVoxels& lost, const Field& field, PartKind kind, Executor& executor);
   void Add(const LostBoundary& other);
-  /** What the ranks have of one kind of parts, each of its own rows, goes to rank 0. */
+  /** By all ranks: what each has found of one kind of parts, in its own rows, goes to rank 0. */
   void Gather(Communicator& ranks);
 
   struct Missing
@@ -33,14 +33,14 @@ public:
     int Parts = 0; ///< Those of which the surface misses more than half of the boundary.
     double Share = 0.; ///< Area of all the boundary that is missed, over that and the surface's.
   };
-  /** What has no vertex of the surface within NearUnits. Areas: workspace. */
+  /** Finds what has no vertex of the surface within NearUnits. Areas: workspace. */
   Missing MissedBy(const SurfaceState& state, const Field& field, Executor& executor) const
   {
     return this->MissedBy(AreNear(this->Voxels(), state, field, executor),
       SurfaceArea(state.Mesh, executor));
   }
 
-  /** The same where the surface is on several ranks: rank 0 asks each about its part. */
+  /** The same where ranks have pieces of the surface: rank 0 asks each about its own. */
   std::vector<std::int64_t> Voxels() const;
   /** Whether each of some voxels has a vertex near. */
   static std::vector<std::uint8_t> AreNear(const std::vector<std::int64_t>& voxels,

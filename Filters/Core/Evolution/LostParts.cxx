@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Evolution/LostParts.h"
 
-#include "Core/Common/Blocks.h"
 #include "Core/Common/RankLists.h"
+#include "Core/Common/Spans.h"
 #include "Core/Evolution/LostVoxels.h"
 #include "Core/Image/VoxelNumbers.h"
 #include "Core/Mesh/CellSurface.h"
@@ -20,44 +20,44 @@ namespace volumic
 namespace
 {
 /**
- * Longest piece of a voxel that is looked at by its middle alone, in units of the level: cells of
- * the cover are longer.
+ * The longest voxel that is looked at by its middle alone, in units of the level: cells of the
+ * cover are longer.
  */
-constexpr double LongestPiece = 1.5;
-/** Slabs between two calls of the checkpoint. */
+constexpr double LongestSampled = 1.5;
+/** Slabs between two questions whether to go on. */
 constexpr std::size_t SlabsPerBatch = 32;
 
-/** Shares of the whole work that are done after its steps, for the checkpoint. */
+/** Shares of the whole work that are done after its steps, as the questions tell them. */
 constexpr double AfterLost = 0.7;
 constexpr double AfterCells = 0.9;
 
 /** The places that stand for a voxel. */
-class VoxelPieces
+class VoxelSamples
 {
 public:
-  explicit VoxelPieces(const LevelImage& image) : Step(image.Step)
+  explicit VoxelSamples(const LevelImage& image) : Step(image.Step)
   {
     for (int k = 0; k < 3; ++k)
     {
-      this->Pieces[k] =
-        std::max(1, static_cast<int>(std::ceil(image.Step[k] / image.Unit / LongestPiece)));
+      this->Samples[k] =
+        std::max(1, static_cast<int>(std::ceil(image.Step[k] / image.Unit / LongestSampled)));
     }
   }
 
   /**
-   * Calls visit(point) for the middle of a voxel, or, where it is longer than LongestPiece along an
-   * axis, for the middles of equal pieces of it that are not.
+   * Calls visit(point) for the middle of a voxel, or, where it is longer than LongestSampled along
+   * an axis, for the middles of the fewest equal boxes of it that are not.
    */
   template <typename Visit>
   void VisitAll(const std::array<int, 3>& voxel, const Visit& visit) const
   {
-    const auto place = [&](int axis, int piece)
-    { return this->Step[axis] * (voxel[axis] + (piece + 0.5) / this->Pieces[axis] - 0.5); };
-    for (int c = 0; c < this->Pieces[2]; ++c)
+    const auto place = [&](int axis, int sample)
+    { return this->Step[axis] * (voxel[axis] + (sample + 0.5) / this->Samples[axis] - 0.5); };
+    for (int c = 0; c < this->Samples[2]; ++c)
     {
-      for (int b = 0; b < this->Pieces[1]; ++b)
+      for (int b = 0; b < this->Samples[1]; ++b)
       {
-        for (int a = 0; a < this->Pieces[0]; ++a)
+        for (int a = 0; a < this->Samples[0]; ++a)
         {
           visit(Point{ place(0, a), place(1, b), place(2, c) });
         }
@@ -67,7 +67,7 @@ public:
 
 private:
   std::array<double, 3> Step;
-  std::array<int, 3> Pieces; ///< Of a voxel along each axis.
+  std::array<int, 3> Samples; ///< Of a voxel along each axis.
 };
 
 /**
@@ -93,7 +93,7 @@ struct PartCell
 
 /** Those of a slab's runs, each once. */
 std::vector<PartCell> CellsOf(const std::vector<VoxelRun>& runs, const VoxelNumbers& numbers,
-  const VoxelPieces& pieces, const CellLattice& lattice)
+  const VoxelSamples& samples, const CellLattice& lattice)
 {
   std::vector<PartCell> cells;
   for (const VoxelRun& run : runs)
@@ -101,7 +101,7 @@ std::vector<PartCell> CellsOf(const std::vector<VoxelRun>& runs, const VoxelNumb
     std::array<int, 3> voxel = numbers.PlaceOf(run.First);
     for (int i = 0; i < run.Length; ++i, ++voxel[0])
     {
-      pieces.VisitAll(voxel,
+      samples.VisitAll(voxel,
         [&](const Point& place)
         {
           const PartCell cell = { lattice.CellAt(place), run.Part };
@@ -186,20 +186,21 @@ void LeaveClear(
  * surface. Asked to stop it returns none.
  */
 std::vector<PartCell> FindPartCells(const SurfaceState& state, const Field& field,
-  const LostVoxels& lost, const CellLattice& lattice, Executor& executor, const Checkpoint& goOn)
+  const LostVoxels& lost, const CellLattice& lattice, Executor& executor,
+  const ProgressQuestion& goOn)
 {
   const VoxelNumbers numbers(field.Image().Size);
-  const VoxelPieces pieces(field.Image());
+  const VoxelSamples samples(field.Image());
   const std::size_t n = lost.Slabs().size();
   std::vector<std::vector<PartCell>> slabs(n);
   for (std::size_t first = 0; first < n; first += SlabsPerBatch)
   {
     const std::size_t count = std::min(SlabsPerBatch, n - first);
-    ForBlocks(executor, count, 1,
+    ForSpans(executor, count, 1,
       [&](std::size_t slab, std::size_t, std::size_t)
       {
         std::vector<PartCell>& cells = slabs[first + slab];
-        cells = CellsOf(lost.Slabs()[first + slab], numbers, pieces, lattice);
+        cells = CellsOf(lost.Slabs()[first + slab], numbers, samples, lattice);
         LeaveClear(cells, state, lattice);
       });
     if (!goOn(static_cast<double>(first + count) / static_cast<double>(n)))
@@ -208,7 +209,7 @@ std::vector<PartCell> FindPartCells(const SurfaceState& state, const Field& fiel
     }
   }
   std::vector<PartCell> all = Joined(executor, slabs);
-  SortInBlocks(executor, all);
+  SortInSpans(executor, all);
   all.erase(std::unique(all.begin(), all.end()), all.end());
   return all;
 }
@@ -236,7 +237,7 @@ void Cover(std::vector<PartCell> cells, const CellLattice& lattice, int numberOf
   Executor& executor, Communicator& ranks, LostPartCover& result)
 {
   cells = GatherLists(ranks, cells);
-  SortInBlocks(executor, cells);
+  SortInSpans(executor, cells);
   MessageWriter writer;
   if (ranks.Rank() == 0)
   {
@@ -256,15 +257,15 @@ void Cover(std::vector<PartCell> cells, const CellLattice& lattice, int numberOf
 }
 
 LostPartCover FindLostParts(const SurfaceState& state, const Field& field, PartKind kind,
-  int minimumSize, Executor& executor, const Checkpoint& goOn, const RankRows* part)
+  int minimumSize, Executor& executor, const ProgressQuestion& goOn, const RankRows* rows)
 {
   LostPartCover stopped;
   stopped.IsStopped = true;
-  Communicator& ranks = part ? part->Ranks : OnThisRank();
+  Communicator& ranks = rows ? rows->Ranks : OnThisRank();
   const auto agreeOn = [&ranks](bool goesOn) // A rank may be asked to stop, or one of the others.
   { return !ranks.IsAny(!goesOn); };
   const LostVoxels lost(state, field, kind, minimumSize, executor,
-    [&goOn](double share) { return goOn(AfterLost * share); }, part);
+    [&goOn](double share) { return goOn(AfterLost * share); }, rows);
   if (lost.IsStopped())
   {
     return stopped;

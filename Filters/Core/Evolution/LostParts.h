@@ -14,10 +14,10 @@ namespace volumic
 struct LostPartCover
 {
   int Found = 0;          ///< Parts that the surface has lost.
-  int Covered = 0;        ///< Of them, those that the surface below encloses, at least partly.
+  int Covered = 0;        ///< How many of them the surface below encloses, at least partly.
   IndexedSurface Surface; ///< Closed, manifold, inward for cavities; workspace.
-  LostBoundary Boundary;  ///< Of all that were found.
-  bool IsStopped = false; ///< The checkpoint said stop: nothing is told, there is no surface.
+  LostBoundary Boundary;  ///< The boundary of all that were found.
+  bool IsStopped = false; ///< The answer was to stop: nothing is told, there is no surface.
 };
 
 /**
@@ -34,13 +34,13 @@ struct LostPartCover
  * Inside is found by parity along rows of voxels, so the cost is O(voxels + triangles). The grid
  * of the state must be up to date, and no edge longer than 2.5 delta.
  *
- * Where ranks look through parts of the image all of them get the same, but for the boundary: it is
- * rank 0's, others have none. Messages go with what is lost along the borders of the parts, with
- * the cover and with the boundary.
+ * Where each rank looks through its own rows of the image, all of them get the same result, but for
+ * the boundary, which rank 0 has alone. Messages grow with what is lost along the borders of the
+ * rows, with the cover and with the boundary.
  */
 LostPartCover FindLostParts(const SurfaceState& state, const Field& field, PartKind kind,
-  int minimumSize, Executor& executor, const Checkpoint& goOn = NeverStop,
-  const RankRows* part = nullptr);
+  int minimumSize, Executor& executor, const ProgressQuestion& goOn = NeverStop,
+  const RankRows* rows = nullptr);
 }
 
 #endif

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Evolution/LostVoxels.h"
 
-#include "Core/Common/Blocks.h"
 #include "Core/Common/DisjointSets.h"
 #include "Core/Common/JoinLabels.h"
 #include "Core/Common/RankLists.h"
+#include "Core/Common/Spans.h"
 #include "Core/Evolution/SlabSearch.h"
 #include "Core/Evolution/VerticesOfSlabs.h"
 #include "Core/Image/VoxelNumbers.h"
@@ -21,7 +21,7 @@ namespace
 {
 /** Layers of a slab. */
 constexpr int LayersOfSlab = 8;
-/** Slabs between two calls of the checkpoint. */
+/** Slabs between two questions whether to go on. */
 constexpr std::size_t SlabsPerBatch = 32;
 static_assert(VoxelRun::NoPart == JoinedSets::None, "labels become numbers of parts");
 
@@ -109,10 +109,10 @@ std::vector<std::pair<int, int>> FindJoins(
 }
 
 LostVoxels::LostVoxels(const SurfaceState& state, const Field& field, PartKind kind,
-  int minimumSize, Executor& executor, const Checkpoint& goOn, const RankRows* part)
+  int minimumSize, Executor& executor, const ProgressQuestion& goOn, const RankRows* rows)
   : Size(field.Image().Size)
 {
-  const RankRows own = part ? *part : RankRows{ OnThisRank(), VoxelBox::Of(this->Size) };
+  const RankRows own = rows ? *rows : RankRows{ OnThisRank(), VoxelBox::Of(this->Size) };
   PartsOfSlabs parts = this->Search(state, field, kind, minimumSize, executor, goOn, own);
   this->Stopped = own.Ranks.IsAny(this->Stopped);
   if (this->Stopped)
@@ -124,7 +124,7 @@ LostVoxels::LostVoxels(const SurfaceState& state, const Field& field, PartKind k
 }
 
 LostVoxels::PartsOfSlabs LostVoxels::Search(const SurfaceState& state, const Field& field,
-  PartKind kind, std::int64_t minimumSize, Executor& executor, const Checkpoint& goOn,
+  PartKind kind, std::int64_t minimumSize, Executor& executor, const ProgressQuestion& goOn,
   const RankRows& own)
 {
   const VoxelBox& rows = own.Rows;
@@ -143,7 +143,7 @@ LostVoxels::PartsOfSlabs LostVoxels::Search(const SurfaceState& state, const Fie
   for (std::size_t first = 0; first < slabs && !this->Stopped; first += SlabsPerBatch)
   {
     const std::size_t count = std::min(SlabsPerBatch, slabs - first);
-    ForBlocks(executor, count, 1,
+    ForSpans(executor, count, 1,
       [&](std::size_t place, std::size_t, std::size_t)
       {
         const std::size_t slab = firstSlab + first + place; // Of the image.
@@ -192,7 +192,7 @@ void LostVoxels::JoinParts(PartsOfSlabs& parts, std::int64_t minimumSize,
   MessageReader reader(answer);
   this->Parts = reader.Take<int>();
   const std::vector<int> number = reader.TakeVector<int>();
-  ForBlocks(executor, this->Runs.size(), 1,
+  ForSpans(executor, this->Runs.size(), 1,
     [&](std::size_t slab, std::size_t, std::size_t)
     {
       std::vector<VoxelRun>& runs = this->Runs[slab];

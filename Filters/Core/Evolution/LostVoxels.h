@@ -32,12 +32,13 @@ public:
    * The state's edges must not be longer than its sizing allows.
    * @param minimumSize voxels; what has fewer is left out
    * @param goOn        told the share that is done now and then; once it says no nothing is found
-   * @param part        those of its rows are found, in parts of the whole image; null: all
+   * @param rows        of this rank: it finds the voxels of these rows, as they belong to parts of
+   *                    the whole image; null: all rows
    */
   LostVoxels(const SurfaceState& state, const Field& field, PartKind kind, int minimumSize,
-    Executor& executor, const Checkpoint& goOn, const RankRows* part = nullptr);
+    Executor& executor, const ProgressQuestion& goOn, const RankRows* rows = nullptr);
 
-  /** The checkpoint said stop. */
+  /** Whether it was told to stop: then nothing is found. */
   bool IsStopped() const { return this->Stopped; }
   /** Parts of the image are numbered from 0 in the order of their first voxels. */
   int NumberOfParts() const { return this->Parts; }
@@ -48,8 +49,9 @@ private:
   using PartsOfSlabs = std::vector<std::vector<SetPiece>>;
 
   PartsOfSlabs Search(const SurfaceState& state, const Field& field, PartKind kind,
-    std::int64_t minimumSize, Executor& executor, const Checkpoint& goOn, const RankRows& own);
-  /** What the slabs of all ranks have found, each for itself, becomes parts of the whole. */
+    std::int64_t minimumSize, Executor& executor, const ProgressQuestion& goOn,
+    const RankRows& own);
+  /** Joins what the slabs of all ranks have found, each for itself, to parts of the whole image. */
   void JoinParts(PartsOfSlabs& parts, std::int64_t minimumSize, const RankRows& own,
     Executor& executor);
   /** By rank 0. @return to each rank: how many parts there are, and the number of each of its own */

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A surface in parts as it is handed out: each rank finds what is to be said of its own vertices,
+// A surface in pieces as it is handed out: each rank finds what is to be said of its own vertices,
 // rank 0 puts it together, in the order in which one rank would.
 
 #include "Core/Evolution/EvolutionImplementation.h"
@@ -19,7 +19,7 @@ namespace volumic
 namespace
 {
 /** Of the own vertices of a rank, by index. */
-struct ResultPart
+struct ResultPiece
 {
   std::vector<int> Vertices;
   std::vector<std::uint8_t> Faces; ///< How many have a vertex as their smallest one.
@@ -70,7 +70,7 @@ struct ResultPart
   }
 };
 
-/** The whole that parts are put into. */
+/** The whole that pieces are put into. */
 class WholeResult
 {
 public:
@@ -80,12 +80,12 @@ public:
   {
   }
 
-  void Count(const ResultPart& part)
+  void Count(const ResultPiece& piece)
   {
-    for (std::size_t i = 0; i < part.Vertices.size(); ++i)
+    for (std::size_t i = 0; i < piece.Vertices.size(); ++i)
     {
-      this->Point[part.Vertices[i]] = 0;
-      this->FirstFace[part.Vertices[i]] = part.Faces[i];
+      this->Point[piece.Vertices[i]] = 0;
+      this->FirstFace[piece.Vertices[i]] = piece.Faces[i];
     }
   }
 
@@ -111,26 +111,26 @@ public:
     result.Triangles.resize(static_cast<std::size_t>(faces));
   }
 
-  void Take(const ResultPart& part, SurfaceResult& result)
+  void Take(const ResultPiece& piece, SurfaceResult& result)
   {
     std::size_t face = 0;
-    for (std::size_t i = 0; i < part.Vertices.size(); ++i)
+    for (std::size_t i = 0; i < piece.Vertices.size(); ++i)
     {
-      const int v = part.Vertices[i];
+      const int v = piece.Vertices[i];
       const int p = this->Point[v];
-      result.Points[p] = { part.Places[i][0], part.Places[i][1], part.Places[i][2] };
-      result.Normals[p] = part.Normals[i];
-      result.Residual[p] = part.Residual[i];
-      result.Motionless[p] = part.Motionless[i];
-      result.Held[p] = part.Held[i];
-      for (int k = 0; k < part.Faces[i]; ++k, ++face)
+      result.Points[p] = { piece.Places[i][0], piece.Places[i][1], piece.Places[i][2] };
+      result.Normals[p] = piece.Normals[i];
+      result.Residual[p] = piece.Residual[i];
+      result.Motionless[p] = piece.Motionless[i];
+      result.Held[p] = piece.Held[i];
+      for (int k = 0; k < piece.Faces[i]; ++k, ++face)
       {
-        const std::array<int, 3>& t = part.Triangles[face];
+        const std::array<int, 3>& t = piece.Triangles[face];
         result.Triangles[static_cast<std::size_t>(this->FirstFace[v] + k)] = { this->Point[t[0]],
           this->Point[t[1]], this->Point[t[2]] };
       }
     }
-    for (const std::array<int, 2>& pair : part.Contacts)
+    for (const std::array<int, 2>& pair : piece.Contacts)
     {
       result.Contacts.push_back({ this->Point[pair[0]], this->Point[pair[1]] });
     }
@@ -145,10 +145,10 @@ private:
 SurfaceResult SurfaceEvolution::Implementation::ResultOnRanks() const
 {
   const SurfaceState& s = this->State;
-  ResultPart own;
+  ResultPiece own;
   own.Vertices = this->OwnVertices();
   const RemainingContacts contacts = FindRemainingContacts(
-    s, *this->TheField, this->Threads, [this](int v) { return this->Parts->IsOwnVertex(v); });
+    s, *this->TheField, this->Threads, [this](int v) { return this->Piece->IsOwnVertex(v); });
   const float sign = this->Options.ObjectIsBright ? 1.f : -1.f;
   for (const int v : own.Vertices)
   {
@@ -175,17 +175,17 @@ SurfaceResult SurfaceEvolution::Implementation::ResultOnRanks() const
     this->Ranks->Pass(this->Ranks->Rank(), 0, own.Contents());
     return result;
   }
-  std::vector<ResultPart> parts(ranks);
+  std::vector<ResultPiece> pieces(ranks);
   const std::vector<Message> sizes = this->Ranks->Gather(own.Sizes());
-  parts[0] = std::move(own);
+  pieces[0] = std::move(own);
   WholeResult whole(s.Mesh.Rings.size());
   for (std::size_t rank = 0; rank < ranks; ++rank)
   {
     if (rank > 0)
     {
-      parts[rank].TakeSizes(sizes[rank]);
+      pieces[rank].TakeSizes(sizes[rank]);
     }
-    whole.Count(parts[rank]);
+    whole.Count(pieces[rank]);
   }
   whole.MakeRoom(result);
   for (std::size_t rank = 0; rank < ranks; ++rank)
@@ -193,9 +193,9 @@ SurfaceResult SurfaceEvolution::Implementation::ResultOnRanks() const
     // One after the other: all together are as much as the surface.
     if (rank > 0)
     {
-      parts[rank].TakeContents(this->Ranks->Pass(static_cast<int>(rank), 0));
+      pieces[rank].TakeContents(this->Ranks->Pass(static_cast<int>(rank), 0));
     }
-    whole.Take(std::exchange(parts[rank], ResultPart()), result);
+    whole.Take(std::exchange(pieces[rank], ResultPiece()), result);
   }
   std::sort(result.Contacts.begin(), result.Contacts.end());
   return result;

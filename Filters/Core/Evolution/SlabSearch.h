@@ -15,10 +15,10 @@
 
 namespace volumic
 {
-/** What lies no farther than so many units of the level from a vertex is not lost. */
+/** A voxel that lies no farther than so many units of the level from a vertex is not lost. */
 constexpr double NearUnits = 2.;
 
-/** What a surface may have lost. */
+/** Which kind of parts a surface may have lost. */
 enum class PartKind
 {
   Object, ///< Object outside the surface.
@@ -32,18 +32,18 @@ enum class PartKind
 class SlabSearch
 {
 public:
-  /** Of these rows, which are whole. What is given must outlive it. */
+  /** Searches these rows, which are whole. What is given must outlive it. */
   SlabSearch(
     const SurfaceState& state, const Field& field, PartKind kind, const VoxelBox& rows);
 
   /**
-   * Leaves open what is outside the surface, for objects, or inside, for cavities. `vertices`: all
-   * of which a face may cross a layer.
+   * Leaves the voxels open that lie outside the surface (for cavities: inside). `vertices`: all of
+   * whose faces one may cross a layer.
    */
   void LeaveSide(const int* vertices, std::size_t count);
-  /** Closes what is no farther than NearUnits from a vertex. */
+  /** Closes the voxels that are no farther than NearUnits from a vertex. */
   void CloseNear(int v);
-  /** What is open and of the kind that is looked for, by number. */
+  /** The voxels that are open and of the kind that is looked for, by number. */
   std::vector<VoxelRun> FindRuns() const;
 
 private:
@@ -74,7 +74,7 @@ private:
   PartKind Kind;
   std::array<int, 3> Size;
   VoxelBox Rows;
-  int Words; ///< Of a row.
+  int Words; ///< How many words of bits a row has.
   double Inverse[3];
   std::vector<std::uint64_t> Open; ///< A bit for each voxel that may be lost, row by row.
   std::vector<Crossing> Crossings;

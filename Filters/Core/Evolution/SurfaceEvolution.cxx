@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Evolution/SurfaceEvolution.h"
 
-#include "Core/Common/Blocks.h"
 #include "Core/Common/Refuse.h"
+#include "Core/Common/Spans.h"
 #include "Core/Evolution/EvolutionImplementation.h"
 #include "Core/Evolution/GradedSizes.h"
 #include "Core/Evolution/InitialSurface.h"
@@ -23,7 +23,7 @@ namespace volumic
 namespace
 {
 /** Vertices that one thread hands out at a time. */
-constexpr std::size_t ResultBlock = 256; // They look at voxels: HostThreads::For.
+constexpr std::size_t ResultSpan = 256; // They look at voxels: HostThreads::For.
 
 void CheckRange(const char* name, double value, double low, double high)
 {
@@ -201,7 +201,7 @@ bool SurfaceEvolution::Divide(const LevelImage& image, int level)
   bool goesOn = true;
   if (self.IsShared)
   {
-    goesOn = self.LayOutInParts(divisions);
+    goesOn = self.LayOutInPieces(divisions);
   }
   else if (!self.WantedGrading.IsWanted() || divisions == 0 || !self.DivideWhereWanted(coarse))
   {
@@ -222,7 +222,7 @@ bool SurfaceEvolution::Divide(const LevelImage& image, int level)
 
 SurfaceResult SurfaceEvolution::Result() const
 {
-  if (this->Self->IsInParts())
+  if (this->Self->IsInPieces())
   {
     return this->Self->ResultOnRanks();
   }
@@ -239,7 +239,7 @@ SurfaceResult SurfaceEvolution::Result() const
   static_cast<IndexedSurface&>(result) = s.Mesh.ToIndexed(threads);
   const float sign = this->Self->Options.ObjectIsBright ? 1.f : -1.f;
   const std::size_t n = s.Mesh.Rings.size();
-  const std::vector<std::size_t> first = FirstOfBlocks(threads, n, ResultBlock,
+  const std::vector<std::size_t> first = FirstOfSpans(threads, n, ResultSpan,
     [&s](std::size_t begin, std::size_t end)
     {
       std::size_t count = 0;
@@ -259,10 +259,10 @@ SurfaceResult SurfaceEvolution::Result() const
   result.Size.resize(isGraded ? first.back() : 0);
   result.Thickness.resize(grading.ThinParts ? first.back() : 0);
   LargeVector<int> index(n, -1); // As ToIndexed numbers them.
-  ForBlocks(threads, n, ResultBlock,
-    [&](std::size_t block, std::size_t begin, std::size_t end)
+  ForSpans(threads, n, ResultSpan,
+    [&](std::size_t span, std::size_t begin, std::size_t end)
     {
-      std::size_t point = first[block];
+      std::size_t point = first[span];
       for (std::size_t v = begin; v < end; ++v)
       {
         if (s.Mesh.IsAlive(static_cast<int>(v)))

@@ -10,7 +10,7 @@ namespace volumic
 namespace
 {
 /** Vertices that one thread looks at at a time. */
-constexpr std::size_t VertexBlock = 16384;
+constexpr std::size_t VertexSpan = 16384;
 /** Faces so near to a layer, in layers, are taken to cross it. */
 constexpr double Margin = 0.01;
 
@@ -71,13 +71,13 @@ VerticesOfSlabs::VerticesOfSlabs(const SurfaceMesh& mesh, const LevelImage& imag
   const SlabFinder finder(mesh, image, layersOfSlab, reach);
   const auto slabs = static_cast<std::size_t>((image.Size[2] + layersOfSlab - 1) / layersOfSlab);
   const std::size_t n = mesh.Rings.size();
-  const std::size_t blocks = (n + VertexBlock - 1) / VertexBlock;
+  const std::size_t spans = (n + VertexSpan - 1) / VertexSpan;
   LargeVector<SlabRange> ranges;
   MakeZeroed(ranges, n); // Where there is no vertex it stays so.
-  // Of each block and slab: first how many there are, then where the next one goes.
-  std::vector<std::size_t> next(blocks * slabs, 0);
-  ForBlocks(executor, n, VertexBlock,
-    [&](std::size_t block, std::size_t begin, std::size_t end)
+  // Of each span and slab: first how many there are, then where the next one goes.
+  std::vector<std::size_t> next(spans * slabs, 0);
+  ForSpans(executor, n, VertexSpan,
+    [&](std::size_t span, std::size_t begin, std::size_t end)
     {
       for (std::size_t v = begin; v < end; ++v)
       {
@@ -88,7 +88,7 @@ VerticesOfSlabs::VerticesOfSlabs(const SurfaceMesh& mesh, const LevelImage& imag
         ranges[v] = finder.SlabsOf(static_cast<int>(v));
         for (int slab = ranges[v].Begin; slab < ranges[v].End; ++slab)
         {
-          ++next[block * slabs + slab];
+          ++next[span * slabs + slab];
         }
       }
     });
@@ -96,23 +96,23 @@ VerticesOfSlabs::VerticesOfSlabs(const SurfaceMesh& mesh, const LevelImage& imag
   std::size_t sum = 0;
   for (std::size_t slab = 0; slab < slabs; ++slab)
   {
-    for (std::size_t block = 0; block < blocks; ++block)
+    for (std::size_t span = 0; span < spans; ++span)
     {
-      const std::size_t count = next[block * slabs + slab];
-      next[block * slabs + slab] = sum;
+      const std::size_t count = next[span * slabs + slab];
+      next[span * slabs + slab] = sum;
       sum += count;
     }
     this->First[slab + 1] = sum;
   }
   this->Vertices.resize(sum);
-  ForBlocks(executor, n, VertexBlock,
-    [&](std::size_t block, std::size_t begin, std::size_t end)
+  ForSpans(executor, n, VertexSpan,
+    [&](std::size_t span, std::size_t begin, std::size_t end)
     {
       for (std::size_t v = begin; v < end; ++v)
       {
         for (int slab = ranges[v].Begin; slab < ranges[v].End; ++slab)
         {
-          this->Vertices[next[block * slabs + slab]++] = static_cast<int>(v);
+          this->Vertices[next[span * slabs + slab]++] = static_cast<int>(v);
         }
       }
     });

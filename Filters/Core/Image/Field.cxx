@@ -15,8 +15,8 @@ namespace volumic
 namespace
 {
 /** Voxels that one thread looks through at a time for the extreme values. */
-constexpr std::size_t RangeBlock = 1 << 16;
-/** Blocks of them under which a chunk is not worth a thread. */
+constexpr std::size_t RangeSpan = 1 << 16;
+/** Spans of them under which a chunk is not worth a thread. */
 constexpr std::size_t RangeGrain = 4;
 /** The typical slope is measured on about as many rows: enough for a mean. */
 constexpr std::int64_t SlopeRows = 4096;
@@ -56,22 +56,22 @@ std::array<float, 2> Field::FindExtremes(Executor& executor) const
 {
   const std::size_t count =
     static_cast<std::size_t>(this->Level.Size[0]) * this->Level.Size[1] * this->Level.Size[2];
-  const std::size_t blocks = (count + RangeBlock - 1) / RangeBlock;
-  std::vector<float> lows(blocks);
-  std::vector<float> highs(blocks);
+  const std::size_t spans = (count + RangeSpan - 1) / RangeSpan;
+  std::vector<float> lows(spans);
+  std::vector<float> highs(spans);
   this->Level.Values.Visit(
     [&](const auto& voxels)
     {
-      executor.For(blocks, RangeGrain,
+      executor.For(spans, RangeGrain,
         [&](std::size_t begin, std::size_t end)
         {
           for (std::size_t b = begin; b < end; ++b)
           {
             // As they are stored: the values are in the same order.
-            auto low = voxels.Voxels[b * RangeBlock];
+            auto low = voxels.Voxels[b * RangeSpan];
             auto high = low;
-            const std::size_t last = std::min(count, (b + 1) * RangeBlock);
-            for (std::size_t i = b * RangeBlock; i < last; ++i)
+            const std::size_t last = std::min(count, (b + 1) * RangeSpan);
+            for (std::size_t i = b * RangeSpan; i < last; ++i)
             {
               const auto x = voxels.Voxels[i];
               low = x < low ? x : low;

@@ -36,7 +36,7 @@ public:
     Vector Gradient; ///< Of Value, per unit of length of the workspace.
   };
 
-  /** What all voxels of the image are asked for, once. */
+  /** What is found out once, of all voxels of the image. */
   struct Measures
   {
     float Outside = 0; ///< Of the background, as the voxels.
@@ -47,7 +47,7 @@ public:
 
   /** @throws std::invalid_argument for an image without voxels. */
   Field(const LevelImage& image, const FieldOptions& options, Executor& executor);
-  /** The same of an image that is here in part only, measured where it is whole. */
+  /** Of an image of which only some voxels are here; the measures come from where it is whole. */
   Field(const LevelImage& image, const FieldOptions& options, const Measures& measured);
   const Measures& Measured() const { return this->Of; }
   /** The voxels, beside LevelImage::Extremes, that the measures need of an image of this size. */

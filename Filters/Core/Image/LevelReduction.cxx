@@ -20,12 +20,12 @@ constexpr std::int64_t TileBytes = 768 * 1024;
 /** Input voxels between two calls of the progress: about a millisecond of work. */
 constexpr std::int64_t VoxelsPerBatch = 4 * 1024 * 1024;
 /** Rows of a tile, at least: its rows at the border are combined along z for its neighbour too. */
-constexpr std::int64_t LeastRowsPerTile = 4 * RowsPerBlock;
+constexpr std::int64_t LeastRowsPerTile = 4 * RowsAtOnce;
 /** Slices of a tile under which a chunk is not worth a thread. */
 constexpr std::size_t TileGrain = 4;
 /** Voxels that one thread looks through at a time for values that are not finite. */
-constexpr std::int64_t ScanBlock = 64 * 1024;
-/** Blocks of them under which a chunk is not worth a thread. */
+constexpr std::int64_t ScanSpan = 64 * 1024;
+/** Spans of them under which a chunk is not worth a thread. */
 constexpr std::size_t ScanGrain = 8;
 
 AxisOperator OperatorOf(const LevelGeometry& input, const LevelGeometry& output, int axis)
@@ -36,15 +36,15 @@ AxisOperator OperatorOf(const LevelGeometry& input, const LevelGeometry& output,
   return AxisOperator(input.Size[axis], output.Size[axis], offset);
 }
 
-/** An axis operator of parts, with its weights in the type of the computation. */
+/** An axis operator of pieces, with its weights in the type of the computation. */
 template <typename Real>
 struct Axis
 {
-  std::vector<std::int64_t> First; ///< in the input part, by the voxel in the output part
+  std::vector<std::int64_t> First; ///< in the input piece, by the voxel in the output piece
   std::vector<Real> Weights;
   int Taps;
 
-  Axis(const LevelPart& input, const LevelPart& output, int axis)
+  Axis(const LevelPiece& input, const LevelPiece& output, int axis)
   {
     const AxisOperator axisOperator = OperatorOf(input.Level, output.Level, axis);
     const int size = output.Box.Length(axis);
@@ -71,16 +71,17 @@ class Reduction
 public:
   using Real = typename RealOf<T>::Type;
 
-  /** Of parts that are not empty. */
-  Reduction(const T* input, const LevelPart& inputPart, Real* output, const LevelPart& outputPart)
-    : Input(input), Output(output), InputSize(SizeOf(inputPart)), OutputSize(SizeOf(outputPart)),
-      X(inputPart, outputPart, 0), Y(inputPart, outputPart, 1), Z(inputPart, outputPart, 2),
-      Stride((InputSize[0] + RowsPerBlock - 1) / RowsPerBlock * RowsPerBlock)
+  /** Of pieces that are not empty. */
+  Reduction(
+    const T* input, const LevelPiece& inputPiece, Real* output, const LevelPiece& outputPiece)
+    : Input(input), Output(output), InputSize(SizeOf(inputPiece)), OutputSize(SizeOf(outputPiece)),
+      X(inputPiece, outputPiece, 0), Y(inputPiece, outputPiece, 1), Z(inputPiece, outputPiece, 2),
+      Stride((InputSize[0] + RowsAtOnce - 1) / RowsAtOnce * RowsAtOnce)
   {
     const std::int64_t rowBytes = InputSize[0] * Z.Taps * static_cast<std::int64_t>(sizeof(T));
     const std::int64_t inputRows = TileBytes / std::max<std::int64_t>(rowBytes, 1);
     const std::int64_t rows = inputRows * OutputSize[1] / InputSize[1];
-    this->RowsPerTile = std::max(rows, LeastRowsPerTile) / RowsPerBlock * RowsPerBlock;
+    this->RowsPerTile = std::max(rows, LeastRowsPerTile) / RowsAtOnce * RowsAtOnce;
     this->Tiles = (OutputSize[1] + this->RowsPerTile - 1) / this->RowsPerTile;
   }
 
@@ -106,9 +107,9 @@ public:
   }
 
 private:
-  static LevelSize SizeOf(const LevelPart& part)
+  static LevelSize SizeOf(const LevelPiece& piece)
   {
-    return { part.Box.Length(0), part.Box.Length(1), part.Box.Length(2) };
+    return { piece.Box.Length(0), piece.Box.Length(1), piece.Box.Length(2) };
   }
 
   /** Rows in work, of one thread. */
@@ -117,11 +118,11 @@ private:
     // Enough for the rows of one band along y: the ring's size is a power of two over six.
     static constexpr std::int64_t RingRows = 8;
     std::vector<Real> Ring;    ///< rows combined along z, by their y modulo RingRows
-    std::vector<Real> Block;   ///< rows combined along z and y
+    std::vector<Real> Rows;    ///< rows combined along z and y
     std::vector<Real> Columns; ///< work space of ReduceRows
 
     explicit WorkSpace(std::int64_t stride)
-      : Ring(RingRows * stride), Block(RowsPerBlock * stride), Columns(RowsPerBlock * stride)
+      : Ring(RingRows * stride), Rows(RowsAtOnce * stride), Columns(RowsAtOnce * stride)
     {
     }
   };
@@ -142,22 +143,22 @@ private:
   void MakeRows(std::int64_t slice, std::int64_t begin, std::int64_t end, WorkSpace& work) const
   {
     std::int64_t made = this->Y.First[begin]; // rows of the ring before this one are done
-    for (std::int64_t block = begin; block < end; block += RowsPerBlock)
+    for (std::int64_t first = begin; first < end; first += RowsAtOnce)
     {
-      const auto rows = static_cast<int>(std::min<std::int64_t>(RowsPerBlock, end - block));
-      std::array<Real*, RowsPerBlock> out{};
+      const auto rows = static_cast<int>(std::min<std::int64_t>(RowsAtOnce, end - first));
+      std::array<Real*, RowsAtOnce> out{};
       for (int r = 0; r < rows; ++r)
       {
-        const std::int64_t y = block + r;
+        const std::int64_t y = first + r;
         const std::int64_t last = this->Y.First[y] + this->Y.Taps;
         for (made = std::max(made, this->Y.First[y]); made < last; ++made)
         {
           this->CombineAlongZ(slice, made, this->RingRow(work, made));
         }
-        this->CombineAlongY(y, work, work.Block.data() + r * this->Stride);
+        this->CombineAlongY(y, work, work.Rows.data() + r * this->Stride);
         out[r] = this->Output + (slice * this->OutputSize[1] + y) * this->OutputSize[0];
       }
-      ReduceRows(work.Block.data(), this->Stride, this->X.First.data(), this->X.Weights.data(),
+      ReduceRows(work.Rows.data(), this->Stride, this->X.First.data(), this->X.Weights.data(),
         this->X.Taps, this->OutputSize[0], work.Columns.data(), out.data(), rows);
     }
   }
@@ -202,7 +203,7 @@ private:
 };
 }
 
-VoxelBox LevelPart::VoxelsOf(const LevelGeometry& level)
+VoxelBox LevelPiece::VoxelsOf(const LevelGeometry& level)
 {
   return VoxelBox::Of({ static_cast<int>(level.Size[0]), static_cast<int>(level.Size[1]),
     static_cast<int>(level.Size[2]) });
@@ -223,14 +224,14 @@ VoxelBox SourceOf(
 }
 
 template <typename T>
-bool ReduceLevel(const T* input, const LevelPart& inputPart, typename RealOf<T>::Type* output,
-  const LevelPart& outputPart, Executor& executor, const LevelProgress& progress)
+bool ReduceLevel(const T* input, const LevelPiece& inputPiece, typename RealOf<T>::Type* output,
+  const LevelPiece& outputPiece, Executor& executor, const LevelProgress& progress)
 {
-  if (outputPart.Box.IsEmpty())
+  if (outputPiece.Box.IsEmpty())
   {
     return true;
   }
-  const Reduction<T> reduction(input, inputPart, output, outputPart);
+  const Reduction<T> reduction(input, inputPiece, output, outputPiece);
   return reduction.Run(executor, progress);
 }
 
@@ -240,27 +241,27 @@ NotFiniteVoxels FindNotFiniteVoxels(const T* values, std::int64_t n, Executor& e
   NotFiniteVoxels found;
   if constexpr (std::is_floating_point_v<T>)
   {
-    std::vector<std::int64_t> counts((n + ScanBlock - 1) / ScanBlock);
-    const auto sizeOf = [n](std::int64_t block)
-    { return std::min(ScanBlock, n - block * ScanBlock); };
+    std::vector<std::int64_t> counts((n + ScanSpan - 1) / ScanSpan);
+    const auto sizeOf = [n](std::int64_t span)
+    { return std::min(ScanSpan, n - span * ScanSpan); };
     executor.For(counts.size(), ScanGrain,
       [&](std::size_t begin, std::size_t end)
       {
-        for (std::size_t block = begin; block < end; ++block)
+        for (std::size_t span = begin; span < end; ++span)
         {
-          const auto b = static_cast<std::int64_t>(block);
-          counts[block] = CountNotFinite(values + b * ScanBlock, sizeOf(b));
+          const auto b = static_cast<std::int64_t>(span);
+          counts[span] = CountNotFinite(values + b * ScanSpan, sizeOf(b));
         }
       });
-    for (std::int64_t block = 0; block < static_cast<std::int64_t>(counts.size()); ++block)
+    for (std::int64_t span = 0; span < static_cast<std::int64_t>(counts.size()); ++span)
     {
-      if (counts[block] > 0 && found.First < 0)
+      if (counts[span] > 0 && found.First < 0)
       {
-        const T* begin = values + block * ScanBlock;
+        const T* begin = values + span * ScanSpan;
         const auto isNotFinite = [](T value) { return !std::isfinite(value); };
-        found.First = std::find_if(begin, begin + sizeOf(block), isNotFinite) - values;
+        found.First = std::find_if(begin, begin + sizeOf(span), isNotFinite) - values;
       }
-      found.Count += counts[block];
+      found.Count += counts[span];
     }
   }
   else
@@ -273,8 +274,8 @@ NotFiniteVoxels FindNotFiniteVoxels(const T* values, std::int64_t n, Executor& e
 }
 
 #define VOLUMIC_INSTANTIATE(T)                                                   \
-  template bool ReduceLevel<T>(const T*, const LevelPart&, RealOf<T>::Type*,     \
-    const LevelPart&, Executor&, const LevelProgress&);                          \
+  template bool ReduceLevel<T>(const T*, const LevelPiece&, RealOf<T>::Type*,     \
+    const LevelPiece&, Executor&, const LevelProgress&);                          \
   template NotFiniteVoxels FindNotFiniteVoxels<T>(const T*, std::int64_t, Executor&);
 VOLUMIC_FOR_EACH_SCALAR(VOLUMIC_INSTANTIATE)
 #undef VOLUMIC_INSTANTIATE

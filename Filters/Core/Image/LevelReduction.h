@@ -19,12 +19,12 @@ namespace volumic
  */
 using LevelProgress = std::function<bool(double share)>;
 
-/** Some voxels of a level, in an array of their own; all of them where no box is named. */
-struct LevelPart
+/** Some voxels of a level that lie in an array of their own; all of them where no box is named. */
+struct LevelPiece
 {
-  /** Meant to convert: most levels are whole. */
-  LevelPart(const LevelGeometry& level) : Level(level), Box(VoxelsOf(level)) {}
-  LevelPart(const LevelGeometry& level, const VoxelBox& box) : Level(level), Box(box) {}
+  /** Not explicit: most levels are whole, and are given as they are. */
+  LevelPiece(const LevelGeometry& level) : Level(level), Box(VoxelsOf(level)) {}
+  LevelPiece(const LevelGeometry& level, const VoxelBox& box) : Level(level), Box(box) {}
 
   static VoxelBox VoxelsOf(const LevelGeometry& level);
 
@@ -44,16 +44,16 @@ VoxelBox SourceOf(
  * x fastest. An output voxel is always made by the same operations in the same order, so that the
  * result does not depend on the executor.
  *
- * @param input      voxels of level h
- * @param inputPart  which those are; the Unit of the level, U_h, is the offset of the kernel
- * @param output     room for the voxels of level h+1 that are wanted
- * @param outputPart which those are: the same bits as if the whole level were made. Their
- *                   SourceOf() must lie in inputPart.
+ * @param input       voxels of level h
+ * @param inputPiece  which those are; the Unit of the level, U_h, is the offset of the kernel
+ * @param output      room for the voxels of level h+1 that are wanted
+ * @param outputPiece which those are: the same bits as if the whole level were made. Their
+ *                    SourceOf() must lie in inputPiece.
  * @return false if `progress` asked to stop before the end; the output is unfinished then.
  */
 template <typename T>
-bool ReduceLevel(const T* input, const LevelPart& inputPart, typename RealOf<T>::Type* output,
-  const LevelPart& outputPart, Executor& executor, const LevelProgress& progress);
+bool ReduceLevel(const T* input, const LevelPiece& inputPiece, typename RealOf<T>::Type* output,
+  const LevelPiece& outputPiece, Executor& executor, const LevelProgress& progress);
 
 /** Voxels that are NaN or infinite. */
 struct NotFiniteVoxels

@@ -11,7 +11,7 @@ namespace volumic
 {
 namespace
 {
-/** The slices of the part along z that are made at a time. */
+/** The slices of the piece along z that are made at a time. */
 int SlicesAtATime(const VoxelBox& source, const VoxelBox& made, double bytesOfVoxel, double most)
 {
   const double slice = bytesOfVoxel * source.Length(0) * source.Length(1);
@@ -29,8 +29,8 @@ VoxelBox SlabOf(const VoxelBox& box, int slices, int n)
 }
 
 template <typename T>
-void Reduce(const MarkedVoxels<T>& voxels, const LevelPart& input,
-  typename RealOf<T>::Type* made, const LevelPart& output, Executor& executor)
+void Reduce(const MarkedVoxels<T>& voxels, const LevelPiece& input,
+  typename RealOf<T>::Type* made, const LevelPiece& output, Executor& executor)
 {
   const LevelProgress goOn = [](double) { return true; };
   if (voxels.HaveAllValues)
@@ -45,12 +45,12 @@ void Reduce(const MarkedVoxels<T>& voxels, const LevelPart& input,
 
 template <typename T>
 bool ReducePieces(Communicator& ranks, const VoxelPieces& pieces, const MarkedVoxels<T>& below,
-  const LevelGeometry& inputGeometry, typename RealOf<T>::Type* made, const LevelPart& outputPart,
+  const LevelGeometry& inputGeometry, typename RealOf<T>::Type* made, const LevelPiece& outputPiece,
   Executor& executor, const LevelProgress& progress, std::size_t bytesOfSlab)
 {
   const VoxelBox held = pieces.HeldBy(ranks.Rank());
-  const VoxelBox box = outputPart.Box;
-  const VoxelBox whole = SourceOf(box, inputGeometry, outputPart.Level);
+  const VoxelBox box = outputPiece.Box;
+  const VoxelBox whole = SourceOf(box, inputGeometry, outputPiece.Level);
   const int slices = box.IsEmpty() ? 1 : SlicesAtATime(whole, box,
     sizeof(T) + (below.HaveAllValues ? 0 : 1), static_cast<double>(bytesOfSlab));
   const int own = box.IsEmpty() ? 0 : (box.Length(2) + slices - 1) / slices;
@@ -59,7 +59,7 @@ bool ReducePieces(Communicator& ranks, const VoxelPieces& pieces, const MarkedVo
   for (int n = 0; n < count; ++n)
   {
     const VoxelBox slab = SlabOf(box, slices, n);
-    const VoxelBox source = SourceOf(slab, inputGeometry, outputPart.Level);
+    const VoxelBox source = SourceOf(slab, inputGeometry, outputPiece.Level);
     const bool isHere = source.CommonWith(held) == source;
     const VoxelBox wanted = isHere ? VoxelBox() : source;
     LargeVector<T> values(static_cast<std::size_t>(wanted.Count()));
@@ -75,9 +75,9 @@ bool ReducePieces(Communicator& ranks, const VoxelPieces& pieces, const MarkedVo
       MarkedVoxels<T> voxels = below;
       voxels.Values = isHere ? below.Values : values.data();
       voxels.Marks = isHere ? below.Marks : marks.data();
-      Reduce(voxels, LevelPart(inputGeometry, isHere ? held : source),
+      Reduce(voxels, LevelPiece(inputGeometry, isHere ? held : source),
         made + box.NumberOf(box.First[0], box.First[1], slab.First[2]),
-        LevelPart(outputPart.Level, slab), executor);
+        LevelPiece(outputPiece.Level, slab), executor);
     }
     if (ranks.IsAny(!progress(static_cast<double>(n + 1) / count)))
     {
@@ -89,7 +89,7 @@ bool ReducePieces(Communicator& ranks, const VoxelPieces& pieces, const MarkedVo
 
 #define VOLUMIC_INSTANTIATE(T)                                                                   \
   template bool ReducePieces<T>(Communicator&, const VoxelPieces&, const MarkedVoxels<T>&,       \
-    const LevelGeometry&, RealOf<T>::Type*, const LevelPart&, Executor&, const LevelProgress&,   \
+    const LevelGeometry&, RealOf<T>::Type*, const LevelPiece&, Executor&, const LevelProgress&,   \
     std::size_t);
 VOLUMIC_FOR_EACH_SCALAR(VOLUMIC_INSTANTIATE)
 #undef VOLUMIC_INSTANTIATE

@@ -30,14 +30,14 @@ constexpr std::size_t BytesOfSlab = std::size_t(48) << 20;
  * by slab along z. The same bits as ReduceLevel() of the whole level, or ReduceValidVoxels().
  *
  * @param pieces      of level h: `below` are those of this rank
- * @param made        room for the voxels of this rank's part of level h+1
+ * @param made        room for the voxels of this rank's piece of level h+1
  * @param progress    told the share of this rank's work that is done
  * @return false if `progress` asked to stop on any rank, on all of them; what is made is unfinished
  *         then.
  */
 template <typename T>
 bool ReducePieces(Communicator& ranks, const VoxelPieces& pieces, const MarkedVoxels<T>& below,
-  const LevelGeometry& inputGeometry, typename RealOf<T>::Type* made, const LevelPart& outputPart,
+  const LevelGeometry& inputGeometry, typename RealOf<T>::Type* made, const LevelPiece& outputPiece,
   Executor& executor, const LevelProgress& progress, std::size_t bytesOfSlab = BytesOfSlab);
 }
 

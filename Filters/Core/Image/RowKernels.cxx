@@ -109,17 +109,17 @@ VOLUMIC_INLINE std::int64_t CountNotFiniteOf(const T* values, std::int64_t n)
 template <typename Real>
 struct VectorOf
 {
-  typedef Real Type __attribute__((vector_size(RowsPerBlock * sizeof(Real))));
+  typedef Real Type __attribute__((vector_size(RowsAtOnce * sizeof(Real))));
   // The same without the promise that memory is aligned to the vector's size.
   typedef Real Unaligned
-    __attribute__((vector_size(RowsPerBlock * sizeof(Real)), aligned(alignof(Real)), may_alias));
+    __attribute__((vector_size(RowsAtOnce * sizeof(Real)), aligned(alignof(Real)), may_alias));
 };
 #endif
 
 #if VOLUMIC_HAS_SHUFFLE
-/** out[c][r] = in[r][c] for an 8 x 8 block, by three rounds of exchanging halves. */
+/** out[c][r] = in[r][c] for an 8 x 8 square, by three rounds of exchanging halves. */
 template <typename Real>
-VOLUMIC_INLINE void TransposeBlock(
+VOLUMIC_INLINE void TransposeSquare(
   const Real* in, std::int64_t inStride, Real* out, std::int64_t outStride)
 {
   using Vector = typename VectorOf<Real>::Type;
@@ -157,7 +157,7 @@ VOLUMIC_INLINE void TransposeBlock(
 }
 #else
 template <typename Real>
-VOLUMIC_INLINE void TransposeBlock(
+VOLUMIC_INLINE void TransposeSquare(
   const Real* in, std::int64_t inStride, Real* out, std::int64_t outStride)
 {
   for (int r = 0; r < 8; ++r)
@@ -170,7 +170,7 @@ VOLUMIC_INLINE void TransposeBlock(
 }
 #endif
 
-/** One output voxel of all rows of the block: the lanes are the rows. */
+/** One output voxel of all rows: the lanes are the rows. */
 template <int Taps, typename Real>
 VOLUMIC_INLINE void ReduceColumn(const Real* columns, const Real* weights, Real* out)
 {
@@ -185,12 +185,12 @@ VOLUMIC_INLINE void ReduceColumn(const Real* columns, const Real* weights, Real*
   }
   *reinterpret_cast<Unaligned*>(out) = sum;
 #else
-  for (int r = 0; r < RowsPerBlock; ++r)
+  for (int r = 0; r < RowsAtOnce; ++r)
   {
     Real sum = columns[r] * weights[0];
     for (int t = 1; t < Taps; ++t)
     {
-      sum += columns[t * RowsPerBlock + r] * weights[t];
+      sum += columns[t * RowsAtOnce + r] * weights[t];
     }
     out[r] = sum;
   }
@@ -202,28 +202,28 @@ VOLUMIC_INLINE void ReduceRowsOfTaps(const Real* rows, std::int64_t stride,
   const std::int64_t* first, const Real* weights, std::int64_t outputSize, Real* columns,
   Real* const* out, int numberOfRows)
 {
-  static_assert(RowsPerBlock == 8, "the blocks are transposed eight by eight");
-  for (std::int64_t x = 0; x < stride; x += RowsPerBlock)
+  static_assert(RowsAtOnce == 8, "squares are transposed eight by eight");
+  for (std::int64_t x = 0; x < stride; x += RowsAtOnce)
   {
-    TransposeBlock(rows + x, stride, columns + x * RowsPerBlock, RowsPerBlock);
+    TransposeSquare(rows + x, stride, columns + x * RowsAtOnce, RowsAtOnce);
   }
-  Real reduced[RowsPerBlock * RowsPerBlock];
-  Real back[RowsPerBlock * RowsPerBlock];
-  for (std::int64_t x = 0; x < outputSize; x += RowsPerBlock)
+  Real reduced[RowsAtOnce * RowsAtOnce];
+  Real back[RowsAtOnce * RowsAtOnce];
+  for (std::int64_t x = 0; x < outputSize; x += RowsAtOnce)
   {
     const auto width = static_cast<int>(
-      outputSize - x < RowsPerBlock ? outputSize - x : std::int64_t{ RowsPerBlock });
+      outputSize - x < RowsAtOnce ? outputSize - x : std::int64_t{ RowsAtOnce });
     for (int i = 0; i < width; ++i)
     {
-      ReduceColumn<Taps>(columns + first[x + i] * RowsPerBlock, weights + (x + i) * Taps,
-        reduced + i * RowsPerBlock);
+      ReduceColumn<Taps>(columns + first[x + i] * RowsAtOnce, weights + (x + i) * Taps,
+        reduced + i * RowsAtOnce);
     }
-    if (width == RowsPerBlock && numberOfRows == RowsPerBlock)
+    if (width == RowsAtOnce && numberOfRows == RowsAtOnce)
     {
-      TransposeBlock(reduced, RowsPerBlock, back, RowsPerBlock);
-      for (int r = 0; r < RowsPerBlock; ++r)
+      TransposeSquare(reduced, RowsAtOnce, back, RowsAtOnce);
+      for (int r = 0; r < RowsAtOnce; ++r)
       {
-        std::memcpy(out[r] + x, back + r * RowsPerBlock, RowsPerBlock * sizeof(Real));
+        std::memcpy(out[r] + x, back + r * RowsAtOnce, RowsAtOnce * sizeof(Real));
       }
     }
     else
@@ -232,7 +232,7 @@ VOLUMIC_INLINE void ReduceRowsOfTaps(const Real* rows, std::int64_t stride,
       {
         for (int i = 0; i < width; ++i)
         {
-          out[r][x + i] = reduced[i * RowsPerBlock + r];
+          out[r][x + i] = reduced[i * RowsAtOnce + r];
         }
       }
     }

@@ -13,7 +13,7 @@
 namespace volumic
 {
 /** Rows that are worked on together along x; the lanes of the vectors are these rows. */
-constexpr int RowsPerBlock = 8;
+constexpr int RowsAtOnce = 8;
 
 /** Doubles stay doubles, every other scalar type becomes float. */
 template <typename T>
@@ -43,13 +43,13 @@ VOLUMIC_FOR_EACH_SCALAR(VOLUMIC_DECLARE_ROW_KERNELS)
 #undef VOLUMIC_DECLARE_ROW_KERNELS
 
 /**
- * The operator along x, for RowsPerBlock rows at once.
- * @param rows      RowsPerBlock rows of `stride` values, of which the first inputSize count
- * @param stride    a multiple of RowsPerBlock, at least inputSize
+ * The operator along x, for RowsAtOnce rows at once.
+ * @param rows      RowsAtOnce rows of `stride` values, of which the first inputSize count
+ * @param stride    a multiple of RowsAtOnce, at least inputSize
  * @param first     first input voxel of each output voxel
  * @param weights   `taps` weights of each output voxel
- * @param columns   work space of RowsPerBlock * stride values
- * @param out       where the output rows go; fewer than RowsPerBlock may be wanted
+ * @param columns   work space of RowsAtOnce * stride values
+ * @param out       where the output rows go; fewer than RowsAtOnce may be wanted
  */
 void ReduceRows(const float* rows, std::int64_t stride, const std::int64_t* first,
   const float* weights, int taps, std::int64_t outputSize, float* columns, float* const* out,

@@ -18,7 +18,7 @@ namespace volumic
  */
 template <typename T>
 bool ReduceValidVoxels(const T* input, const LargeVector<std::uint8_t>& valid,
-  const LevelPart& inputPart, typename RealOf<T>::Type* output, const LevelPart& outputPart,
+  const LevelPiece& inputPiece, typename RealOf<T>::Type* output, const LevelPiece& outputPiece,
   Executor& executor, const LevelProgress& progress);
 
 /** 1 for numbers, 0 for NaN. */

@@ -17,21 +17,21 @@ int SlicesAtATime(const VoxelBox& box, std::size_t bytes, std::size_t most)
   return static_cast<int>(std::clamp(static_cast<double>(most) / slice, 1.0, 1e6));
 }
 
-/** The n-th of such parts; none past the last. */
-VoxelBox PartOf(const VoxelBox& box, std::size_t bytes, std::size_t most, int n)
+/** The n-th of such rounds; nothing past the last. */
+VoxelBox SlicesOfRound(const VoxelBox& box, std::size_t bytes, std::size_t most, int n)
 {
   if (box.IsEmpty())
   {
     return box;
   }
   const int slices = SlicesAtATime(box, bytes, most);
-  VoxelBox part = box;
-  part.First[2] = std::min(box.First[2] + n * slices, box.End[2]);
-  part.End[2] = std::min(part.First[2] + slices, box.End[2]);
-  return part;
+  VoxelBox round = box;
+  round.First[2] = std::min(box.First[2] + n * slices, box.End[2]);
+  round.End[2] = std::min(round.First[2] + slices, box.End[2]);
+  return round;
 }
 
-int NumberOfParts(const VoxelBox& box, std::size_t bytes, std::size_t most)
+int NumberOfRounds(const VoxelBox& box, std::size_t bytes, std::size_t most)
 {
   const int slices = box.IsEmpty() ? 1 : SlicesAtATime(box, bytes, most);
   return box.IsEmpty() ? 0 : (box.Length(2) + slices - 1) / slices;
@@ -74,9 +74,10 @@ std::vector<VoxelBox> VoxelPieces::OwnOf(int rank) const
   return own;
 }
 
-std::vector<VoxelPieces::Part> VoxelPieces::PartsFor(int rank, const VoxelBox& wanted) const
+std::vector<VoxelPieces::Delivery> VoxelPieces::DeliveriesFor(
+  int rank, const VoxelBox& wanted) const
 {
-  std::vector<Part> parts;
+  std::vector<Delivery> deliveries;
   std::vector<VoxelBox> rest = { wanted };
   const auto take = [&](int from)
   {
@@ -86,7 +87,7 @@ std::vector<VoxelPieces::Part> VoxelPieces::PartsFor(int rank, const VoxelBox& w
       const VoxelBox common = box.CommonWith(held);
       if (!common.IsEmpty())
       {
-        parts.push_back({ from, common });
+        deliveries.push_back({ from, common });
       }
     }
     rest = Without(rest, held);
@@ -96,7 +97,7 @@ std::vector<VoxelPieces::Part> VoxelPieces::PartsFor(int rank, const VoxelBox& w
   {
     take(from);
   }
-  return parts;
+  return deliveries;
 }
 
 void VoxelPieces::Fetch(Communicator& ranks, const void* voxels, std::size_t bytes,
@@ -112,16 +113,16 @@ void VoxelPieces::FetchInto(Communicator& ranks, const void* voxels, std::size_t
   int count = 0;
   for (const VoxelBox& box : all)
   {
-    count = std::max(count, NumberOfParts(box, bytes, this->BytesAtATime));
+    count = std::max(count, NumberOfRounds(box, bytes, this->BytesAtATime));
   }
   for (int n = 0; n < count; ++n)
   {
-    std::vector<VoxelBox> parts;
+    std::vector<VoxelBox> round;
     for (const VoxelBox& box : all)
     {
-      parts.push_back(PartOf(box, bytes, this->BytesAtATime, n));
+      round.push_back(SlicesOfRound(box, bytes, this->BytesAtATime, n));
     }
-    this->FetchOnce(ranks, static_cast<const char*>(voxels), bytes, parts, place,
+    this->FetchOnce(ranks, static_cast<const char*>(voxels), bytes, round, place,
       static_cast<char*>(fetched));
   }
 }
@@ -136,19 +137,19 @@ void VoxelPieces::FetchOnce(Communicator& ranks, const char* voxels, std::size_t
   for (int to = 0; to < ranks.NumberOfRanks(); ++to)
   {
     Message& message = messages[static_cast<std::size_t>(to)];
-    for (const Part& part : this->PartsFor(to, wanted[static_cast<std::size_t>(to)]))
+    for (const Delivery& delivery : this->DeliveriesFor(to, wanted[static_cast<std::size_t>(to)]))
     {
-      if (to == own && part.From != own)
+      if (to == own && delivery.From != own)
       {
-        partners.push_back(part.From);
+        partners.push_back(delivery.From);
       }
-      if (to == own || part.From != own)
+      if (to == own || delivery.From != own)
       {
         continue;
       }
       partners.push_back(to);
-      message.reserve(message.size() + static_cast<std::size_t>(part.Box.Count()) * bytes);
-      ForRowsOf(part.Box, held,
+      message.reserve(message.size() + static_cast<std::size_t>(delivery.Box.Count()) * bytes);
+      ForRowsOf(delivery.Box, held,
         [&](std::int64_t first, std::int64_t count)
         {
           const char* row = voxels + static_cast<std::size_t>(first) * bytes;
@@ -161,19 +162,19 @@ void VoxelPieces::FetchOnce(Communicator& ranks, const char* voxels, std::size_t
   messages = ranks.Exchange(std::move(messages), partners);
 
   std::vector<std::size_t> read(messages.size(), 0);
-  for (const Part& part : this->PartsFor(own, wanted[static_cast<std::size_t>(own)]))
+  for (const Delivery& delivery : this->DeliveriesFor(own, wanted[static_cast<std::size_t>(own)]))
   {
-    const auto from = static_cast<std::size_t>(part.From);
-    int row = 0; // of the part
-    ForRowsOf(part.Box, place,
+    const auto from = static_cast<std::size_t>(delivery.From);
+    int row = 0; // of the delivery
+    ForRowsOf(delivery.Box, place,
       [&](std::int64_t first, std::int64_t count)
       {
-        const int j = part.Box.First[1] + row % part.Box.Length(1);
-        const int k = part.Box.First[2] + row / part.Box.Length(1);
+        const int j = delivery.Box.First[1] + row % delivery.Box.Length(1);
+        const int k = delivery.Box.First[2] + row / delivery.Box.Length(1);
         ++row;
         const auto size = static_cast<std::size_t>(count) * bytes;
-        const char* source = part.From == own
-          ? voxels + static_cast<std::size_t>(held.NumberOf(part.Box.First[0], j, k)) * bytes
+        const char* source = delivery.From == own
+          ? voxels + static_cast<std::size_t>(held.NumberOf(delivery.Box.First[0], j, k)) * bytes
           : messages[from].data() + read[from];
         read[from] += size;
         std::memcpy(fetched + static_cast<std::size_t>(first) * bytes, source, size);

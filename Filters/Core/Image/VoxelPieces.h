@@ -66,12 +66,13 @@ public:
   std::size_t BytesAtATime = std::size_t(16) << 20;
 
 private:
-  struct Part
+  /** Voxels that a rank gets from another one. */
+  struct Delivery
   {
     int From;
     VoxelBox Box;
   };
-  std::vector<Part> PartsFor(int rank, const VoxelBox& wanted) const;
+  std::vector<Delivery> DeliveriesFor(int rank, const VoxelBox& wanted) const;
   void FetchOnce(Communicator& ranks, const char* voxels, std::size_t bytes,
     const std::vector<VoxelBox>& wanted, const VoxelBox& place, char* fetched) const;
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Interfaces/InterfaceFields.h"
 
-#include "Core/Common/Blocks.h"
+#include "Core/Common/Spans.h"
 #include "Core/Labels/BoundaryRows.h"
 
 #include <algorithm>
@@ -99,7 +99,7 @@ InterfaceFields::InterfaceFields(const LabelBricks& bricks, const LabelFieldOpti
     rest -= bricks.ExtentOf(order[first]).Bricks.Count();
     make(order[first], executor);
   }
-  ForBlocks(executor, count - first, 1,
+  ForSpans(executor, count - first, 1,
     [&](std::size_t n, std::size_t, std::size_t) { make(order[first + n], OnThisThread()); });
   this->Shifts.assign(count, 0.f);
   this->First.assign(static_cast<std::size_t>(VoxelBox::Of(bricks.Size()).Count()) + 1, 0);

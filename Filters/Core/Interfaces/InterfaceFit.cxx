@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Interfaces/InterfaceFit.h"
 
-#include "Core/Common/Blocks.h"
+#include "Core/Common/Spans.h"
 #include "Core/Image/VoxelNumbers.h"
 #include "Core/Labels/WrongVoxels.h"
 
@@ -46,7 +46,7 @@ std::vector<std::vector<std::int64_t>> FindWrong(const InterfaceMesh& mesh,
   std::vector<std::vector<std::int64_t>> wrong(
     static_cast<std::size_t>(bricks.Map().NumberOfObjects) + 1);
   faces.resize(wrong.size());
-  ForBlocks(executor, wrong.size(), 1,
+  ForSpans(executor, wrong.size(), 1,
     [&](std::size_t object, std::size_t, std::size_t)
     {
       if (object == 0)

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Interfaces/InterfaceMotion.h"
 
-#include "Core/Common/Blocks.h"
+#include "Core/Common/Spans.h"
 #include "Core/Interfaces/InterfaceClearance.h"
 #include "Core/Interfaces/VertexTargets.h"
 
@@ -96,7 +96,7 @@ private:
     // Each block remembers what it has seen of all faces.
     const std::size_t size = std::max(BlockSize, faces.size() / MostBlocks + 1);
     std::vector<std::vector<std::array<int, 2>>> ofBlocks((faces.size() + size - 1) / size);
-    ForBlocks(this->Threads, faces.size(), size,
+    ForSpans(this->Threads, faces.size(), size,
       [&](std::size_t block, std::size_t begin, std::size_t end)
       {
         std::vector<int> near;
@@ -187,7 +187,7 @@ void MoveInterfaces(InterfaceMesh& mesh, const InterfaceFields& fields, int step
   std::vector<Vector> after = before;
   for (int step = 0; step < steps; ++step)
   {
-    ForBlocks(executor, before.size(), BlockSize,
+    ForSpans(executor, before.size(), BlockSize,
       [&](std::size_t, std::size_t begin, std::size_t end)
       {
         VertexTargets targets(mesh, fields, share, shortest);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Interfaces/LatticeCutter.h"
 
-#include "Core/Common/Blocks.h"
+#include "Core/Common/Spans.h"
 
 #include <algorithm>
 #include <limits>
@@ -57,7 +57,7 @@ struct Tetrahedron
 void LatticeCutter::FindMiddles(Executor& executor)
 {
   this->ObjectOfMiddle.resize(static_cast<std::size_t>(this->Middles.Count()));
-  ForBlocks(executor, static_cast<std::size_t>(this->Middles.Length(2)), 1,
+  ForSpans(executor, static_cast<std::size_t>(this->Middles.Length(2)), 1,
     [&](std::size_t layer, std::size_t, std::size_t)
     {
       const int k = static_cast<int>(layer);
@@ -115,7 +115,7 @@ LatticeCutter::Number LatticeCutter::ObjectOf(const std::array<int, 3>& voxel) c
 void LatticeCutter::FollowFields(Executor& executor)
 {
   constexpr int side = LabelBricks::Side;
-  ForBlocks(executor, static_cast<std::size_t>(this->Map.Size[2]), 1,
+  ForSpans(executor, static_cast<std::size_t>(this->Map.Size[2]), 1,
     [&](std::size_t layer, std::size_t, std::size_t)
     {
       const int k = static_cast<int>(layer);

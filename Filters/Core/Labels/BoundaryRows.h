@@ -23,7 +23,7 @@ class BoundaryRows
 public:
   BoundaryRows(const LabelBricks& bricks, int object);
 
-  /** In voxels of the map; of whole bricks. */
+  /** The box, in voxels of the map, which is one of whole bricks. */
   const VoxelBox& Box() const { return this->Voxels; }
 
   /** The same voxels and those so many further along an axis, to whole bricks; within the box. */
@@ -42,7 +42,7 @@ public:
   template <typename Visitor>
   void For(Executor& executor, Visitor&& visit) const
   {
-    ForBlocks(executor, static_cast<std::size_t>(this->Count[2]), 1,
+    ForSpans(executor, static_cast<std::size_t>(this->Count[2]), 1,
       [&](std::size_t layer, std::size_t, std::size_t)
       { this->ForLayer(static_cast<int>(layer), visit); });
   }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Labels/LabelBricks.h"
 
-#include "Core/Common/Blocks.h"
+#include "Core/Common/Spans.h"
 
 #include <algorithm>
 #include <mutex>
@@ -181,7 +181,7 @@ void LabelBricks::FindObjects(Executor& executor)
   const auto layers = static_cast<std::size_t>(this->Count[2]);
   std::vector<std::vector<LabelMap::Number>> objects(layers);
   std::vector<std::size_t> counts(layers * bricksOfLayer + 1, 0);
-  ForBlocks(executor, layers, 1,
+  ForSpans(executor, layers, 1,
     [&](std::size_t k, std::size_t, std::size_t)
     {
       std::vector<LabelMap::Number> found;
@@ -254,7 +254,7 @@ void LabelBricks::FindContested(Executor& executor)
   const auto layers = static_cast<std::size_t>(this->Count[2]);
   const auto forBricks = [&](const auto& visit)
   {
-    ForBlocks(executor, layers, 1,
+    ForSpans(executor, layers, 1,
       [&](std::size_t layer, std::size_t, std::size_t)
       {
         const int k = static_cast<int>(layer);

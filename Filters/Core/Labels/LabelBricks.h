@@ -13,11 +13,11 @@
 
 namespace volumic
 {
-/** Where an object is. */
+/** Which bricks an object is in. */
 struct LabelExtent
 {
   std::int64_t Voxels = 0;
-  VoxelBox Bricks; ///< those that have voxels of it
+  VoxelBox Bricks; ///< the box of bricks that have voxels of it
 };
 
 /**
@@ -28,7 +28,7 @@ struct LabelExtent
 class LabelBricks
 {
 public:
-  static constexpr int Side = 4; ///< voxels
+  static constexpr int Side = 4; ///< of a brick, in voxels
 
   /** The map must outlive it. */
   LabelBricks(const LabelMap& map, Executor& executor);

@@ -22,10 +22,10 @@ public:
   /** The bricks must outlive it. */
   explicit LabelClaims(const LabelBricks& bricks);
 
-  /** Of each object but 0 once, in any order, on any thread. */
+  /** Once for each object but 0, in any order, on any thread. */
   void Add(int object, const LabelField& field);
 
-  /** By all ranks: then each knows what any has added. */
+  /** By all ranks: afterwards each knows what any has added. */
   void Share(Communicator& ranks);
 
   /**
@@ -40,7 +40,7 @@ private:
   {
     float Most = -LabelField::Far;
     float Second = -LabelField::Far;
-    LabelMap::Number Claimant = 0; ///< whose the first one is
+    LabelMap::Number Claimant = 0; ///< the object that claims most
 
     /** Those of other objects, or of the same. */
     void Add(const Claims& others);
@@ -50,7 +50,7 @@ private:
 
   const LabelBricks* Bricks;
   std::vector<int> Places; ///< of the claims of each brick, -1: none
-  std::vector<Claims> All; ///< brick after brick
+  std::vector<Claims> All; ///< one brick after the other
   std::mutex Mutex;
 };
 }

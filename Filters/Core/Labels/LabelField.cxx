@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Labels/LabelField.h"
 
-#include "Core/Common/Blocks.h"
+#include "Core/Common/Spans.h"
 #include "Core/Labels/BoundaryRows.h"
 #include "Core/Labels/LabelDistance.h"
 #include "Core/Labels/LabelHold.h"
@@ -87,7 +87,7 @@ private:
   {
     const float size = this->Options.Sigma > 0. ? LabelField::Far : 0.5f;
     const VoxelBox& box = this->Field.Box;
-    ForBlocks(this->Threads, static_cast<std::size_t>(box.Length(2)), 1,
+    ForSpans(this->Threads, static_cast<std::size_t>(box.Length(2)), 1,
       [&](std::size_t layer, std::size_t, std::size_t)
       {
         const int k = box.First[2] + static_cast<int>(layer);
@@ -216,7 +216,7 @@ private:
   bool FindLost()
   {
     std::vector<unsigned char> ofLayers(static_cast<std::size_t>(this->Rows.NumberOfLayers()), 0);
-    ForBlocks(this->Threads, ofLayers.size(), 1,
+    ForSpans(this->Threads, ofLayers.size(), 1,
       [&](std::size_t layer, std::size_t, std::size_t)
       {
         this->Rows.ForLayer(static_cast<int>(layer),
@@ -268,7 +268,7 @@ private:
   {
     std::vector<std::vector<VoxelConstraint>> ofLayers(
       static_cast<std::size_t>(this->Rows.NumberOfLayers()));
-    ForBlocks(this->Threads, ofLayers.size(), 1,
+    ForSpans(this->Threads, ofLayers.size(), 1,
       [&](std::size_t layer, std::size_t, std::size_t)
       {
         this->Rows.ForLayer(static_cast<int>(layer),

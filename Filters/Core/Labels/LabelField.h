@@ -62,7 +62,7 @@ struct LabelField
 
   VoxelBox Box;
   LargeVector<float> Values; ///< positive inside; x fastest
-  /** With a tolerance those that have none, as no voxel beside them is where it belongs. */
+  /** With a tolerance: the voxels without one, as no voxel beside them is where it belongs. */
   LargeVector<unsigned char> IsStrict;
 };
 

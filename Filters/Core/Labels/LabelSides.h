@@ -19,10 +19,10 @@ public:
   }
 
   bool IsObject(int i, int j, int k) const { return this->Map->At(i, j, k) == this->Object; }
-  /** 1 in the object, -1 elsewhere. */
+  /** The side of a voxel: 1 in the object, -1 elsewhere. */
   float Of(int i, int j, int k) const { return this->IsObject(i, j, k) ? 1.f : -1.f; }
 
-  /** Of `count` voxels along x: 1 in the object, 0 elsewhere. */
+  /** Writes for each of `count` voxels along x: 1 in the object, 0 elsewhere. */
   void CopyMembership(int i, int j, int k, int count, float* values) const;
 
   /** Whether the field has the right sign there; beyond its box it has. */

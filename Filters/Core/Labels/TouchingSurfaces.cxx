@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Labels/TouchingSurfaces.h"
 
-#include "Core/Common/Blocks.h"
+#include "Core/Common/Spans.h"
 #include "Core/Mesh/SelfIntersections.h"
 #include "Core/Mesh/TriangleTree.h"
 
@@ -36,14 +36,14 @@ std::vector<std::vector<int>> FindTouching(
   const std::size_t count = surfaces.size();
   std::vector<Bounds> bounds(count);
   std::vector<std::unique_ptr<TriangleTree>> trees(count);
-  ForBlocks(executor, count, 1,
+  ForSpans(executor, count, 1,
     [&](std::size_t i, std::size_t, std::size_t)
     {
       bounds[i] = Bounds::Of(surfaces[i]);
       trees[i] = std::make_unique<TriangleTree>(surfaces[i]);
     });
   std::vector<std::vector<int>> touching(count);
-  ForBlocks(executor, count, 1,
+  ForSpans(executor, count, 1,
     [&](std::size_t i, std::size_t, std::size_t)
     {
       std::vector<int>& found = touching[i];

@@ -127,10 +127,10 @@ namespace
 std::vector<std::uint16_t> BareFaces(
   const std::vector<CellLattice::Cell>& cells, Executor& executor)
 {
-  constexpr std::size_t blockSize = 1024;
+  constexpr std::size_t spanSize = 1024;
   const std::vector<Face>& faces = Faces();
   std::vector<std::uint16_t> bare(cells.size(), 0);
-  ForBlocks(executor, cells.size(), blockSize,
+  ForSpans(executor, cells.size(), spanSize,
     [&](std::size_t, std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end; ++i)

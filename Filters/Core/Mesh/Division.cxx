@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Mesh/Division.h"
 
-#include "Core/Common/Blocks.h"
+#include "Core/Common/Spans.h"
 
 #include <utility>
 
@@ -11,7 +11,7 @@ namespace volumic
 namespace
 {
 /** Vertices, faces or edges that one thread looks at at a time. */
-constexpr std::size_t BlockSize = 8192;
+constexpr std::size_t SpanSize = 8192;
 }
 
 EdgeSlots::EdgeSlots(const SurfaceMesh& mesh, Executor& executor) : First(mesh.Rings.size() + 1, 0)
@@ -26,11 +26,11 @@ EdgeSlots::EdgeSlots(const SurfaceMesh& mesh, Executor& executor) : First(mesh.R
     return sum;
   };
   const std::size_t n = mesh.Rings.size();
-  const std::vector<std::size_t> before = FirstOfBlocks(executor, n, BlockSize, sumOf);
-  ForBlocks(executor, n, BlockSize,
-    [&](std::size_t block, std::size_t begin, std::size_t end)
+  const std::vector<std::size_t> before = FirstOfSpans(executor, n, SpanSize, sumOf);
+  ForSpans(executor, n, SpanSize,
+    [&](std::size_t span, std::size_t begin, std::size_t end)
     {
-      std::size_t next = before[block];
+      std::size_t next = before[span];
       for (std::size_t v = begin; v < end; ++v)
       {
         next += static_cast<std::size_t>(mesh.Rings[v].Count);
@@ -111,7 +111,7 @@ public:
     this->Mesh.Rings.resize(this->Mesh.Position.size());
     const auto forAll = [this](std::size_t n, void (SqrtThreeDivision::*join)(std::size_t))
     {
-      ForBlocks(this->Threads, n, BlockSize,
+      ForSpans(this->Threads, n, SpanSize,
         [&](std::size_t, std::size_t begin, std::size_t end)
         {
           for (std::size_t i = begin; i < end; ++i)
@@ -155,15 +155,15 @@ private:
 
 void SqrtThreeDivision::AddCentres()
 {
-  const std::vector<std::size_t> first = FirstOfBlocks(this->Threads, this->Olds, BlockSize,
+  const std::vector<std::size_t> first = FirstOfSpans(this->Threads, this->Olds, SpanSize,
     [this](std::size_t begin, std::size_t end) { return this->Mesh.CountFaces(begin, end); });
   this->Faces.resize(first.back());
   LargeVector<Vector>& position = this->Mesh.Position;
   position.resize(this->Olds + this->Faces.size());
-  ForBlocks(this->Threads, this->Olds, BlockSize,
-    [&](std::size_t block, std::size_t begin, std::size_t end)
+  ForSpans(this->Threads, this->Olds, SpanSize,
+    [&](std::size_t span, std::size_t begin, std::size_t end)
     {
-      std::size_t next = first[block];
+      std::size_t next = first[span];
       this->Mesh.VisitFaces(begin, end,
         [&](int a, int b, int c)
         {
@@ -199,7 +199,7 @@ void SqrtThreeDivision::AddMiddles()
   {
     return;
   }
-  const std::vector<std::size_t> first = FirstOfBlocks(this->Threads, this->Olds, BlockSize,
+  const std::vector<std::size_t> first = FirstOfSpans(this->Threads, this->Olds, SpanSize,
     [this](std::size_t begin, std::size_t end)
     {
       std::size_t count = 0;
@@ -210,10 +210,10 @@ void SqrtThreeDivision::AddMiddles()
   LargeVector<Vector>& position = this->Mesh.Position;
   const std::size_t before = position.size();
   position.resize(before + this->HalvedEdges.size());
-  ForBlocks(this->Threads, this->Olds, BlockSize,
-    [&](std::size_t block, std::size_t begin, std::size_t end)
+  ForSpans(this->Threads, this->Olds, SpanSize,
+    [&](std::size_t span, std::size_t begin, std::size_t end)
     {
-      std::size_t next = first[block];
+      std::size_t next = first[span];
       this->VisitKept(begin, end,
         [&](int v, int i)
         {
@@ -287,7 +287,7 @@ SurfaceMesh Undivided(const SurfaceMesh& mesh, int numberOfVertices, Executor& e
   SurfaceMesh old;
   old.Position.assign(mesh.Position.begin(), mesh.Position.begin() + numberOfVertices);
   old.Rings.resize(numberOfVertices);
-  ForBlocks(executor, old.Rings.size(), BlockSize,
+  ForSpans(executor, old.Rings.size(), SpanSize,
     [&](std::size_t, std::size_t begin, std::size_t end)
     {
       for (std::size_t v = begin; v < end; ++v)

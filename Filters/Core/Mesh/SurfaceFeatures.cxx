@@ -21,9 +21,9 @@ constexpr double FlatVolume = 1e-9;
 constexpr int TensorAxes[6][2] = { { 0, 0 }, { 1, 1 }, { 2, 2 }, { 0, 1 }, { 1, 2 }, { 0, 2 } };
 
 /** Points or triangles that one thread looks at at a time. */
-constexpr std::size_t BlockSize = 8192;
+constexpr std::size_t SpanSize = 8192;
 /** Triangles whose terms are kept until they are added up. */
-constexpr std::size_t BatchSize = 16 * BlockSize;
+constexpr std::size_t BatchSize = 16 * SpanSize;
 
 /** What a triangle adds: it spans a tetrahedron with a reference point of the component. */
 struct Terms
@@ -152,7 +152,7 @@ Components::Components(const IndexedSurface& surface, Executor& executor)
 void Components::FindRoots(const IndexedSurface& surface, Executor& executor)
 {
   SharedDisjointSets joined(surface.Points.size());
-  ForBlocks(executor, surface.Triangles.size(), BlockSize,
+  ForSpans(executor, surface.Triangles.size(), SpanSize,
     [&](std::size_t, std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end; ++i)
@@ -163,7 +163,7 @@ void Components::FindRoots(const IndexedSurface& surface, Executor& executor)
       }
     });
   this->Root.resize(surface.Points.size());
-  ForBlocks(executor, this->Root.size(), BlockSize,
+  ForSpans(executor, this->Root.size(), SpanSize,
     [&](std::size_t, std::size_t begin, std::size_t end)
     {
       for (std::size_t p = begin; p < end; ++p)
@@ -187,7 +187,7 @@ void Components::Number(const IndexedSurface& surface, Executor& executor)
     }
   }
   this->OfTriangle.resize(surface.Triangles.size());
-  ForBlocks(executor, this->OfTriangle.size(), BlockSize,
+  ForSpans(executor, this->OfTriangle.size(), SpanSize,
     [&](std::size_t, std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end; ++i)
@@ -218,7 +218,7 @@ std::vector<Sums> SumsOf(
   for (std::size_t first = 0; first < surface.Triangles.size(); first += BatchSize)
   {
     const std::size_t count = std::min(BatchSize, surface.Triangles.size() - first);
-    ForBlocks(executor, count, BlockSize,
+    ForSpans(executor, count, SpanSize,
       [&](std::size_t, std::size_t begin, std::size_t end)
       {
         for (std::size_t i = begin; i < end; ++i)
@@ -258,7 +258,7 @@ SurfaceFeatures ComputeFeatures(const IndexedSurface& surface, Executor& executo
     result.Components.push_back(features);
   }
   result.ComponentOfTriangle = std::move(components.OfTriangle);
-  ForBlocks(executor, result.ComponentOfTriangle.size(), BlockSize,
+  ForSpans(executor, result.ComponentOfTriangle.size(), SpanSize,
     [&](std::size_t, std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end; ++i)

@@ -11,14 +11,14 @@ namespace volumic
 namespace
 {
 /** Vertices that one thread sums up at a time. */
-constexpr std::size_t BlockSize = 2048;
+constexpr std::size_t SpanSize = 2048;
 }
 
 double EnclosedVolume(const SurfaceMesh& mesh, Executor& executor)
 {
   const Vector origin = mesh.Position.front();
   SignedVolume whole;
-  whole.Eighteenfold = SumOfBlocks(executor, mesh.Rings.size(), BlockSize,
+  whole.Eighteenfold = SumOfSpans(executor, mesh.Rings.size(), SpanSize,
     [&](std::size_t begin, std::size_t end)
     {
       SignedVolume volume(origin);
@@ -38,22 +38,22 @@ Box BoundsOf(const SurfaceMesh& mesh, Executor& executor)
 {
   constexpr float most = std::numeric_limits<float>::max();
   const Box none = { Vector(most, most, most), Vector(-most, -most, -most) };
-  std::vector<Box> boxes((mesh.Rings.size() + BlockSize - 1) / BlockSize, none);
-  ForBlocks(executor, mesh.Rings.size(), BlockSize,
-    [&](std::size_t block, std::size_t begin, std::size_t end)
+  std::vector<Box> boxes((mesh.Rings.size() + SpanSize - 1) / SpanSize, none);
+  ForSpans(executor, mesh.Rings.size(), SpanSize,
+    [&](std::size_t span, std::size_t begin, std::size_t end)
     {
       for (std::size_t v = begin; v < end; ++v)
       {
         if (mesh.IsAlive(static_cast<int>(v)))
         {
-          boxes[block] = boxes[block].With({ mesh.Position[v], mesh.Position[v] });
+          boxes[span] = boxes[span].With({ mesh.Position[v], mesh.Position[v] });
         }
       }
     });
   Box box = none;
-  for (const Box& ofBlock : boxes)
+  for (const Box& ofSpan : boxes)
   {
-    box = box.With(ofBlock);
+    box = box.With(ofSpan);
   }
   return mesh.NumberOfVertices() > 0 ? box : Box();
 }
@@ -81,20 +81,20 @@ double AreaShare(const SurfaceMesh& mesh, int v)
 
 double SurfaceArea(const SurfaceMesh& mesh, Executor& executor)
 {
-  const double sum = SumOfBlocks(executor, mesh.Rings.size(), BlockSize,
+  const double sum = SumOfSpans(executor, mesh.Rings.size(), SpanSize,
     [&](std::size_t begin, std::size_t end)
     {
-      double block = 0.;
+      double span = 0.;
       for (std::size_t v = begin; v < end; ++v)
       {
         const Ring& ring = mesh.Rings[v];
         const Vector& p = mesh.Position[v];
         for (int i = 0; i < ring.Count; ++i)
         {
-          block += Length(Cross(mesh.Position[ring.Item[i]] - p, mesh.Position[ring.Next(i)] - p));
+          span += Length(Cross(mesh.Position[ring.Item[i]] - p, mesh.Position[ring.Next(i)] - p));
         }
       }
-      return block;
+      return span;
     });
   // Twice the area of each face, which is seen from its three corners.
   return sum / 6.;

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Mesh/SurfaceMesh.h"
 
-#include "Core/Common/Blocks.h"
 #include "Core/Common/Box.h"
 #include "Core/Common/Grow.h"
 #include "Core/Common/Refuse.h"
+#include "Core/Common/Spans.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -19,7 +19,7 @@ namespace volumic
 namespace
 {
 /** Vertices that one thread looks at at a time. */
-constexpr std::size_t VertexBlock = 8192;
+constexpr std::size_t VertexSpan = 8192;
 }
 
 bool SurfaceMesh::AreFarApart(int v, int w) const
@@ -101,7 +101,7 @@ void SurfaceMesh::FreeFromAside(VertexPlaces& places, const UnusedPlaces& unused
 
 std::int64_t SurfaceMesh::NumberOfFaces(Executor& executor) const
 {
-  const std::size_t ends = CountInBlocks(executor, this->Rings.size(), VertexBlock,
+  const std::size_t ends = CountInSpans(executor, this->Rings.size(), VertexSpan,
     [this](std::size_t begin, std::size_t end)
     {
       std::size_t count = 0;
@@ -122,10 +122,10 @@ int SurfaceMesh::CountEulerCharacteristic(Executor& executor) const
 
 namespace
 {
-/** For each block of vertices the number of alive ones before it, and that of all. */
+/** For each span of vertices the number of alive ones before it, and that of all. */
 std::vector<std::size_t> FirstAlive(const SurfaceMesh& mesh, Executor& executor)
 {
-  return FirstOfBlocks(executor, mesh.Rings.size(), VertexBlock,
+  return FirstOfSpans(executor, mesh.Rings.size(), VertexSpan,
     [&mesh](std::size_t begin, std::size_t end)
     {
       std::size_t count = 0;
@@ -144,10 +144,10 @@ IndexedSurface SurfaceMesh::ToIndexed(Executor& executor) const
   LargeVector<int> place(this->Rings.size(), -1);
   const std::vector<std::size_t> firstPoint = FirstAlive(*this, executor);
   surface.Points.resize(firstPoint.back());
-  ForBlocks(executor, this->Rings.size(), VertexBlock,
-    [&](std::size_t block, std::size_t begin, std::size_t end)
+  ForSpans(executor, this->Rings.size(), VertexSpan,
+    [&](std::size_t span, std::size_t begin, std::size_t end)
     {
-      std::size_t next = firstPoint[block];
+      std::size_t next = firstPoint[span];
       for (std::size_t v = begin; v < end; ++v)
       {
         if (this->IsAlive(static_cast<int>(v)))
@@ -159,13 +159,13 @@ IndexedSurface SurfaceMesh::ToIndexed(Executor& executor) const
       }
     });
   const std::vector<std::size_t> firstFace =
-    FirstOfBlocks(executor, this->Rings.size(), VertexBlock,
+    FirstOfSpans(executor, this->Rings.size(), VertexSpan,
       [this](std::size_t begin, std::size_t end) { return this->CountFaces(begin, end); });
   surface.Triangles.resize(firstFace.back());
-  ForBlocks(executor, this->Rings.size(), VertexBlock,
-    [&](std::size_t block, std::size_t begin, std::size_t end)
+  ForSpans(executor, this->Rings.size(), VertexSpan,
+    [&](std::size_t span, std::size_t begin, std::size_t end)
     {
-      std::size_t next = firstFace[block];
+      std::size_t next = firstFace[span];
       this->VisitFaces(begin, end, [&](int a, int b, int c)
         { surface.Triangles[next++] = { place[a], place[b], place[c] }; });
     });
@@ -260,9 +260,9 @@ int SurfaceMesh::Append(const IndexedSurface& surface, Executor& executor)
       }
     }
   };
-  std::vector<std::exception_ptr> faults((n + VertexBlock - 1) / VertexBlock);
-  ForBlocks(executor, n, VertexBlock,
-    [&](std::size_t block, std::size_t begin, std::size_t end)
+  std::vector<std::exception_ptr> faults((n + VertexSpan - 1) / VertexSpan);
+  ForSpans(executor, n, VertexSpan,
+    [&](std::size_t span, std::size_t begin, std::size_t end)
     {
       try
       {
@@ -270,7 +270,7 @@ int SurfaceMesh::Append(const IndexedSurface& surface, Executor& executor)
       }
       catch (...)
       {
-        faults[block] = std::current_exception();
+        faults[span] = std::current_exception();
       }
     });
   for (const std::exception_ptr& fault : faults)
@@ -300,7 +300,7 @@ void SurfaceMesh::Reorder(const std::vector<int>& order, Executor& executor)
   LargeVector<Ring> rings;
   rings.reserve(WithRoomToGrow(order.size()));
   rings.resize(order.size());
-  ForBlocks(executor, order.size(), VertexBlock,
+  ForSpans(executor, order.size(), VertexSpan,
     [&](std::size_t, std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end; ++i)
@@ -310,7 +310,7 @@ void SurfaceMesh::Reorder(const std::vector<int>& order, Executor& executor)
       }
     });
   this->Position.swap(position);
-  ForBlocks(executor, order.size(), VertexBlock,
+  ForSpans(executor, order.size(), VertexSpan,
     [&](std::size_t, std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end; ++i)
@@ -363,31 +363,31 @@ std::vector<int> SpaceFillingOrder(const SurfaceMesh& mesh, double cell, Executo
 {
   const std::size_t n = mesh.Rings.size();
   constexpr float most = std::numeric_limits<float>::max();
-  std::vector<Vector> lows((n + VertexBlock - 1) / VertexBlock, Vector(most, most, most));
-  ForBlocks(executor, n, VertexBlock,
-    [&](std::size_t block, std::size_t begin, std::size_t end)
+  std::vector<Vector> lows((n + VertexSpan - 1) / VertexSpan, Vector(most, most, most));
+  ForSpans(executor, n, VertexSpan,
+    [&](std::size_t span, std::size_t begin, std::size_t end)
     {
       for (std::size_t v = begin; v < end; ++v)
       {
         if (mesh.IsAlive(static_cast<int>(v)))
         {
-          lows[block] = Minimum(lows[block], mesh.Position[v]);
+          lows[span] = Minimum(lows[span], mesh.Position[v]);
         }
       }
     });
   Vector low(most, most, most);
-  for (const Vector& ofBlock : lows)
+  for (const Vector& ofSpan : lows)
   {
-    low = Minimum(low, ofBlock);
+    low = Minimum(low, ofSpan);
   }
   const auto bits = [cell](float x, float from)
   { return SpreadBits(static_cast<std::uint64_t>((x - from) / cell)); };
   const std::vector<std::size_t> first = FirstAlive(mesh, executor);
   LargeVector<std::pair<std::uint64_t, int>> keys(first.back());
-  ForBlocks(executor, n, VertexBlock,
-    [&](std::size_t block, std::size_t begin, std::size_t end)
+  ForSpans(executor, n, VertexSpan,
+    [&](std::size_t span, std::size_t begin, std::size_t end)
     {
-      std::size_t next = first[block];
+      std::size_t next = first[span];
       for (std::size_t v = begin; v < end; ++v)
       {
         if (mesh.IsAlive(static_cast<int>(v)))
@@ -398,9 +398,9 @@ std::vector<int> SpaceFillingOrder(const SurfaceMesh& mesh, double cell, Executo
         }
       }
     });
-  SortInBlocks(executor, keys);
+  SortInSpans(executor, keys);
   std::vector<int> order(keys.size());
-  ForBlocks(executor, keys.size(), VertexBlock,
+  ForSpans(executor, keys.size(), VertexSpan,
     [&](std::size_t, std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end; ++i)

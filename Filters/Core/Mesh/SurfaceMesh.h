@@ -78,8 +78,8 @@ struct alignas(64) Ring
  */
 struct VertexPlaces
 {
-  std::vector<int> Free;    ///< No vertices yet; taken from the back.
-  std::vector<int> Removed; ///< Not to be taken before the edits of a pass are done.
+  std::vector<int> Free;    ///< Places without a vertex; new vertices take them from the back.
+  std::vector<int> Removed; ///< Places that must not be taken before the pass is over.
 };
 
 /** Places that follow each other and have never been taken. */
@@ -105,7 +105,7 @@ public:
 
   /** Indices, of alive vertices or not, run below this. */
   int Size() const { return static_cast<int>(this->Rings.size()); }
-  /** As told by CountOthers() where places are aside. */
+  /** Alive ones; those of places that are aside as CountOthers() has told. */
   int NumberOfVertices() const
   {
     return this->Size() - static_cast<int>(static_cast<std::int64_t>(this->Free.size()) + this->Aside);
@@ -135,9 +135,9 @@ public:
   UnusedPlaces AddUnusedPlaces(int n);
   /** Puts all free places aside, so that only their keeper uses them. */
   void PutAside(VertexPlaces& places);
-  /** Ends the keeping: these are anyone's. */
+  /** Takes these places back from their keeper: any new vertex may have them. */
   void FreeFromAside(VertexPlaces& places, const UnusedPlaces& unused);
-  /** Tells of vertices that came from, or went to, places aside, or are on other ranks. */
+  /** Counts vertices that came from, or went to, places aside, or are on other ranks. */
   void CountOthers(int more) { this->Aside -= more; }
 
   /** Calls visit(a, b, c) once for each face, counter-clockwise, a the smallest index. */
@@ -173,7 +173,7 @@ public:
   }
 
   std::int64_t NumberOfFaces(Executor& executor = OnThisThread()) const;
-  /** V - E + F, counted. */
+  /** V - E + F, counted now. */
   int CountEulerCharacteristic(Executor& executor = OnThisThread()) const;
 
   /** All alive vertices, in order of index. */
@@ -194,7 +194,7 @@ public:
   /** Empties it; of n places, which take no memory, all are aside but those of some vertices. */
   void Remake(std::size_t n, int vertices);
 
-  /** The places that no vertex has, the next to be taken last: what a copy needs to go on alike. */
+  /** The places that no vertex has, the next one to be taken at the end, as a copy needs them. */
   const std::vector<int>& FreePlaces() const { return this->Free; }
   void SetFreePlaces(std::vector<int> places) { this->Free = std::move(places); }
 

@@ -24,7 +24,7 @@ constexpr std::size_t ManyBricks = 1 << 15;
 /** What cells grow by until they are few enough. */
 constexpr float CellGrowth = 1.25f;
 /** Vertices that one thread sorts into layers at a time. */
-constexpr std::size_t InsertedBlock = 1 << 14;
+constexpr std::size_t InsertedSpan = 1 << 14;
 }
 
 void VertexGrid::Reset(const Vector& low, const Vector& high, float cell)
@@ -141,9 +141,9 @@ public:
   /** @param put(i, add): calls add(layer, vertex) for the item, or not. */
   template <typename Put>
   LayeredWork(Executor& executor, std::size_t items, std::size_t layers, Put&& put)
-    : Layers(layers), Lists((items + InsertedBlock - 1) / InsertedBlock)
+    : Layers(layers), Lists((items + InsertedSpan - 1) / InsertedSpan)
   {
-    ForBlocks(executor, items, InsertedBlock,
+    ForSpans(executor, items, InsertedSpan,
       [&](std::size_t b, std::size_t begin, std::size_t end)
       {
         this->Lists[b].resize(layers);
@@ -158,12 +158,12 @@ public:
   template <typename Work>
   void Do(Executor& executor, Work&& work) const
   {
-    ForBlocks(executor, this->Layers, 1,
+    ForSpans(executor, this->Layers, 1,
       [&](std::size_t layer, std::size_t, std::size_t)
       {
-        for (const auto& block : this->Lists)
+        for (const auto& span : this->Lists)
         {
-          for (int v : block[layer])
+          for (int v : span[layer])
           {
             work(v);
           }
@@ -173,7 +173,7 @@ public:
 
 private:
   std::size_t Layers;
-  std::vector<std::vector<std::vector<int>>> Lists; ///< By block, then by layer.
+  std::vector<std::vector<std::vector<int>>> Lists; ///< By span, then by layer.
 };
 }
 

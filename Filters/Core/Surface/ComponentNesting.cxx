@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Surface/ComponentNesting.h"
 
-#include "Core/Common/Blocks.h"
+#include "Core/Common/Spans.h"
 #include "Core/Mesh/RowCrossing.h"
 #include "Core/Mesh/SurfaceMeasures.h"
 
@@ -17,19 +17,19 @@ namespace volumic
 namespace
 {
 /** Vertices that one thread looks for crossings at at a time. */
-constexpr std::size_t CrossedBlock = 8192;
+constexpr std::size_t CrossedSpan = 8192;
 
 Point PointAt(const Vector& p)
 {
   return { p.X, p.Y, p.Z };
 }
 
-/** Faces of one label in a block. */
+/** Faces of one label in a span. */
 using PartialVolume = std::pair<int, ExactSum>;
 
 /** Of the faces whose smallest vertex is in a range, by label. */
 std::vector<PartialVolume> VolumesOf(const SurfaceMesh& mesh, const LargeVector<int>& labels,
-  const MarkedVertices& part, const std::vector<Vector>& origins, std::size_t begin,
+  const MarkedVertices& piece, const std::vector<Vector>& origins, std::size_t begin,
   std::size_t end)
 {
   std::vector<PartialVolume> volumes;
@@ -38,7 +38,7 @@ std::vector<PartialVolume> VolumesOf(const SurfaceMesh& mesh, const LargeVector<
   mesh.VisitFaces(begin, end,
     [&](int a, int b, int c)
     {
-      if (!part.Has(a))
+      if (!piece.Has(a))
       {
         return;
       }
@@ -95,17 +95,17 @@ void AddCrossings(const SurfaceMesh& mesh, int v, int component,
 }
 
 std::vector<ExactSum> VolumesOfFaces(const SurfaceMesh& mesh, const LargeVector<int>& labels,
-  const MarkedVertices& part, const std::vector<Vector>& origins, Executor& executor)
+  const MarkedVertices& piece, const std::vector<Vector>& origins, Executor& executor)
 {
   const std::size_t n = mesh.Rings.size();
-  std::vector<std::vector<PartialVolume>> parts((n + CrossedBlock - 1) / CrossedBlock);
-  ForBlocks(executor, n, CrossedBlock,
+  std::vector<std::vector<PartialVolume>> pieces((n + CrossedSpan - 1) / CrossedSpan);
+  ForSpans(executor, n, CrossedSpan,
     [&](std::size_t b, std::size_t begin, std::size_t end)
-    { parts[b] = VolumesOf(mesh, labels, part, origins, begin, end); });
+    { pieces[b] = VolumesOf(mesh, labels, piece, origins, begin, end); });
   std::vector<ExactSum> volumes(origins.size());
-  for (const std::vector<PartialVolume>& ofBlock : parts)
+  for (const std::vector<PartialVolume>& ofSpan : pieces)
   {
-    for (const PartialVolume& volume : ofBlock)
+    for (const PartialVolume& volume : ofSpan)
     {
       volumes[volume.first].Add(volume.second);
     }
@@ -129,23 +129,23 @@ std::vector<ComponentRay> CastRays(const std::vector<int>& roots,
 }
 
 std::vector<RayCrossing> FindCrossings(const SurfaceMesh& mesh, const LargeVector<int>& labels,
-  const MarkedVertices& part, const std::vector<ComponentRay>& rays, Executor& executor)
+  const MarkedVertices& piece, const std::vector<ComponentRay>& rays, Executor& executor)
 {
   const std::size_t n = mesh.Rings.size();
-  std::vector<std::vector<RayCrossing>> blocks((n + CrossedBlock - 1) / CrossedBlock);
-  ForBlocks(executor, n, CrossedBlock,
+  std::vector<std::vector<RayCrossing>> spans((n + CrossedSpan - 1) / CrossedSpan);
+  ForSpans(executor, n, CrossedSpan,
     [&](std::size_t b, std::size_t begin, std::size_t end)
     {
       for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
       {
-        if (part.Has(v))
+        if (piece.Has(v))
         {
-          AddCrossings(mesh, v, labels[v], rays, blocks[b]);
+          AddCrossings(mesh, v, labels[v], rays, spans[b]);
         }
       }
-      KeepOdd(blocks[b]);
+      KeepOdd(spans[b]);
     });
-  std::vector<RayCrossing> crossings = Joined(executor, blocks);
+  std::vector<RayCrossing> crossings = Joined(executor, spans);
   KeepOdd(crossings);
   return crossings;
 }

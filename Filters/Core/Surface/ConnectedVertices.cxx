@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Surface/ConnectedVertices.h"
 
-#include "Core/Common/Blocks.h"
+#include "Core/Common/Spans.h"
 
 #include <algorithm>
 #include <atomic>
@@ -13,7 +13,7 @@ namespace volumic
 namespace
 {
 /** Vertices that one thread joins at a time. */
-constexpr std::size_t JoinedBlock = 4096;
+constexpr std::size_t JoinedSpan = 4096;
 
 /** Of a root, while the others of its set still bear its index; no index. */
 constexpr int MarkOfRoot(int label)
@@ -22,7 +22,7 @@ constexpr int MarkOfRoot(int label)
 }
 
 /** Gives the vertices of a range, but not the roots, their root's label, and counts them. */
-void LabelOthers(const MarkedVertices& part, LargeVector<int>& labels, int begin, int end,
+void LabelOthers(const MarkedVertices& piece, LargeVector<int>& labels, int begin, int end,
   std::vector<std::atomic<int>>& sizes)
 {
   // Mostly neighbours follow each other: they are added up before the others are told.
@@ -38,7 +38,7 @@ void LabelOthers(const MarkedVertices& part, LargeVector<int>& labels, int begin
   for (int v = begin; v < end; ++v)
   {
     const int root = labels[v];
-    if (root < 0 || !part.Has(v))
+    if (root < 0 || !piece.Has(v))
     {
       continue;
     }
@@ -55,29 +55,29 @@ void LabelOthers(const MarkedVertices& part, LargeVector<int>& labels, int begin
   add();
 }
 
-/** Where a neighbour is, seen from a vertex of a block. */
+/** Where a neighbour is, seen from a vertex of a span. */
 enum class Side
 {
   Later, ///< It sees to the edge between them itself.
-  SameBlock,
-  BlockBefore,
+  SameSpan,
+  SpanBefore,
   Nowhere ///< It takes no part.
 };
 }
 
-void ConnectedVertices::Label(const SurfaceMesh& mesh, const MarkedVertices& part,
+void ConnectedVertices::Label(const SurfaceMesh& mesh, const MarkedVertices& piece,
   LargeVector<int>& labels, Executor& executor)
 {
   const std::size_t n = mesh.Rings.size();
-  this->JoinVertices(mesh, part, executor);
+  this->JoinVertices(mesh, piece, executor);
   // Roots first: they are the smallest of their set, and numbered in their order.
-  const std::vector<std::size_t> first = FirstOfBlocks(executor, n, JoinedBlock,
+  const std::vector<std::size_t> first = FirstOfSpans(executor, n, JoinedSpan,
     [&](std::size_t begin, std::size_t end)
     {
       std::size_t roots = 0;
       for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
       {
-        if (part.Has(v))
+        if (piece.Has(v))
         {
           labels[v] = this->Joined.FindRoot(v);
           roots += labels[v] == v;
@@ -86,33 +86,33 @@ void ConnectedVertices::Label(const SurfaceMesh& mesh, const MarkedVertices& par
       return roots;
     });
   this->SmallestOnes.resize(first.back());
-  ForBlocks(executor, n, JoinedBlock,
+  ForSpans(executor, n, JoinedSpan,
     [&](std::size_t b, std::size_t begin, std::size_t end)
     {
       std::size_t label = first[b];
       for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
       {
-        if (labels[v] == v && part.Has(v))
+        if (labels[v] == v && piece.Has(v))
         {
           labels[v] = MarkOfRoot(static_cast<int>(label));
           this->SmallestOnes[label++] = v;
         }
       }
     });
-  this->CountAndLabel(part, labels, n, executor);
+  this->CountAndLabel(piece, labels, n, executor);
 }
 
 void ConnectedVertices::CountAndLabel(
-  const MarkedVertices& part, LargeVector<int>& labels, std::size_t n, Executor& executor)
+  const MarkedVertices& piece, LargeVector<int>& labels, std::size_t n, Executor& executor)
 {
   std::vector<std::atomic<int>> sizes(this->SmallestOnes.size());
   for (std::atomic<int>& size : sizes)
   {
     size.store(1, std::memory_order_relaxed); // The root.
   }
-  ForBlocks(executor, n, JoinedBlock,
+  ForSpans(executor, n, JoinedSpan,
     [&](std::size_t, std::size_t begin, std::size_t end)
-    { LabelOthers(part, labels, static_cast<int>(begin), static_cast<int>(end), sizes); });
+    { LabelOthers(piece, labels, static_cast<int>(begin), static_cast<int>(end), sizes); });
   for (std::size_t label = 0; label < this->SmallestOnes.size(); ++label)
   {
     labels[this->SmallestOnes[label]] = static_cast<int>(label);
@@ -121,19 +121,19 @@ void ConnectedVertices::CountAndLabel(
 }
 
 void ConnectedVertices::JoinVertices(
-  const SurfaceMesh& mesh, const MarkedVertices& part, Executor& executor)
+  const SurfaceMesh& mesh, const MarkedVertices& piece, Executor& executor)
 {
-  // First within blocks, side by side, then across their borders.
+  // First within spans, side by side, then across their borders.
   const std::size_t n = mesh.Rings.size();
   this->Joined.MakeRoom(n);
-  this->Borders.resize((n + JoinedBlock - 1) / JoinedBlock);
-  ForBlocks(executor, n, JoinedBlock,
+  this->Borders.resize((n + JoinedSpan - 1) / JoinedSpan);
+  ForSpans(executor, n, JoinedSpan,
     [&](std::size_t b, std::size_t begin, std::size_t end)
     {
       this->Borders[b].clear();
       for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
       {
-        if (!part.Has(v))
+        if (!piece.Has(v))
         {
           continue;
         }
@@ -146,14 +146,14 @@ void ConnectedVertices::JoinVertices(
           // Neighbours next to each other are neighbours themselves: on one side one is enough.
           const int w = ring.Item[i];
           const Side side = w >= v         ? Side::Later
-            : !part.Has(w)                 ? Side::Nowhere
-            : w >= static_cast<int>(begin) ? Side::SameBlock
-                                           : Side::BlockBefore;
-          if (side == Side::BlockBefore && side != before)
+            : !piece.Has(w)                ? Side::Nowhere
+            : w >= static_cast<int>(begin) ? Side::SameSpan
+                                           : Side::SpanBefore;
+          if (side == Side::SpanBefore && side != before)
           {
             this->Borders[b].emplace_back(v, w);
           }
-          else if (side == Side::SameBlock && side != before)
+          else if (side == Side::SameSpan && side != before)
           {
             root = this->Joined.Join(root, w);
           }
@@ -162,7 +162,7 @@ void ConnectedVertices::JoinVertices(
       }
     });
   // Of the many edges between the same two sets one is enough.
-  ForBlocks(executor, this->Borders.size(), 1,
+  ForSpans(executor, this->Borders.size(), 1,
     [this](std::size_t b, std::size_t, std::size_t)
     {
       std::vector<std::pair<int, int>>& border = this->Borders[b];

@@ -16,8 +16,8 @@
 namespace volumic
 {
 /**
- * Vertices with a mark. Where the others take no memory (MakeZeroed) it stays so: what is told of a
- * part says nothing of others.
+ * The vertices that have a mark. Nothing is written for others, so that the zeroed memory of places
+ * that no vertex has (MakeZeroed) stays untouched and takes no room.
  */
 struct MarkedVertices
 {
@@ -27,8 +27,8 @@ struct MarkedVertices
 };
 
 /**
- * The sets of vertices that edges join: the components of a surface, or, of a part of it, what of
- * them the part has. The same for any executor; O(vertices).
+ * The sets of vertices that edges join: the components of a surface, or, of a piece of it, what of
+ * them the piece has. The same for any executor; O(vertices).
  */
 class ConnectedVertices
 {
@@ -38,7 +38,7 @@ public:
    * edges between them.
    * @param labels by vertex; those of others stay
    */
-  void Label(const SurfaceMesh& mesh, const MarkedVertices& part, LargeVector<int>& labels,
+  void Label(const SurfaceMesh& mesh, const MarkedVertices& piece, LargeVector<int>& labels,
     Executor& executor);
 
   /** By label: its smallest vertex. */
@@ -47,12 +47,12 @@ public:
   const std::vector<int>& Sizes() const { return this->Numbers; }
 
 private:
-  void JoinVertices(const SurfaceMesh& mesh, const MarkedVertices& part, Executor& executor);
+  void JoinVertices(const SurfaceMesh& mesh, const MarkedVertices& piece, Executor& executor);
   void CountAndLabel(
-    const MarkedVertices& part, LargeVector<int>& labels, std::size_t n, Executor& executor);
+    const MarkedVertices& piece, LargeVector<int>& labels, std::size_t n, Executor& executor);
 
   DisjointSets Joined;
-  std::vector<std::vector<std::pair<int, int>>> Borders; ///< Edges from each block to those before.
+  std::vector<std::vector<std::pair<int, int>>> Borders; ///< Edges from each span to those before.
   std::vector<int> SmallestOnes;
   std::vector<int> Numbers;
 };

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Surface/NewFaces.h"
 
-#include "Core/Common/Blocks.h"
 #include "Core/Common/Box.h"
+#include "Core/Common/Spans.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,7 +27,7 @@ constexpr float ReachShare = 1.1f;
 constexpr float AboveRounding = 1.0001f;
 
 /** Vertices that one thread looks at at a time. */
-constexpr std::size_t TestedBlock = 4096;
+constexpr std::size_t TestedSpan = 4096;
 
 /** A new face, as floats tell most others apart from it: by a box and a plane. */
 struct NewFace
@@ -308,7 +308,7 @@ std::size_t CountIntersecting(const SurfaceState& state, const std::function<boo
   LargeVector<float> longest(mesh.Rings.size(), longestEdge);
   if (longestEdge == 0.f)
   {
-    executor.For(longest.size(), TestedBlock,
+    executor.For(longest.size(), TestedSpan,
       [&](std::size_t begin, std::size_t end)
       {
         for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
@@ -324,7 +324,7 @@ std::size_t CountIntersecting(const SurfaceState& state, const std::function<boo
         }
       });
   }
-  return CountInBlocks(executor, state.Mesh.Rings.size(), TestedBlock,
+  return CountInSpans(executor, state.Mesh.Rings.size(), TestedSpan,
     [&](std::size_t begin, std::size_t end)
     {
       FacesOfMesh faces(state, isOwn, longest);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Surface/Proximity.h"
 
-#include "Core/Common/Blocks.h"
+#include "Core/Common/Spans.h"
 #include "Core/Mesh/TriangleTests.h"
 #include "Core/Surface/ReachOfStar.h"
 #include "Core/Surface/StarFaces.h"
@@ -23,7 +23,7 @@ constexpr float LeastRoom = 2e-3f;
 /** Room that the test of triangles looks for first, to spare some tests to come. */
 constexpr float SomeRoom = 0.01f;
 /** Vertices that one thread examines at a time, as each may take long. */
-constexpr std::size_t ExaminedBlock = 64;
+constexpr std::size_t ExaminedSpan = 64;
 /** Room along the normals that needs no look for more along the line between the vertices. */
 constexpr float EnoughRoom = 0.02f;
 /** Slack of a vertex with nothing else in reach. */
@@ -439,20 +439,20 @@ void Proximity::Examine(
                              !state.Mesh.IsAlive(pair.V) || !state.Mesh.IsAlive(pair.W);
                          }),
     this->AllPairs.end());
-  const std::size_t blocks = (vertices.size() + ExaminedBlock - 1) / ExaminedBlock;
-  this->OfBlocks.resize(std::max(this->OfBlocks.size(), blocks));
-  executor.For(blocks, 1,
+  const std::size_t spans = (vertices.size() + ExaminedSpan - 1) / ExaminedSpan;
+  this->OfSpans.resize(std::max(this->OfSpans.size(), spans));
+  executor.For(spans, 1,
     [&](std::size_t begin, std::size_t end)
     {
       Search search(state);
-      for (std::size_t block = begin; block < end; ++block)
+      for (std::size_t span = begin; span < end; ++span)
       {
-        Proximity::Findings& found = this->OfBlocks[block];
+        Proximity::Findings& found = this->OfSpans[span];
         found.Pairs.clear();
         found.Intersections.clear();
         found.Tight.clear();
-        const std::size_t last = std::min(vertices.size(), (block + 1) * ExaminedBlock);
-        for (std::size_t i = block * ExaminedBlock; i < last; ++i)
+        const std::size_t last = std::min(vertices.size(), (span + 1) * ExaminedSpan);
+        for (std::size_t i = span * ExaminedSpan; i < last; ++i)
         {
           if (state.Mesh.IsAlive(vertices[i]))
           {
@@ -462,9 +462,9 @@ void Proximity::Examine(
       }
     });
   this->AllIntersections.clear();
-  for (std::size_t block = 0; block < blocks; ++block)
+  for (std::size_t span = 0; span < spans; ++span)
   {
-    const Proximity::Findings& found = this->OfBlocks[block];
+    const Proximity::Findings& found = this->OfSpans[span];
     this->AllPairs.insert(this->AllPairs.end(), found.Pairs.begin(), found.Pairs.end());
     this->AllIntersections.insert(
       this->AllIntersections.end(), found.Intersections.begin(), found.Intersections.end());

@@ -43,13 +43,13 @@ public:
   {
     std::vector<ClosePair> Pairs;
     std::vector<FacePair> Intersections;
-    std::vector<int> Tight; ///< Corners of faces without room.
+    std::vector<int> Tight; ///< Corners of faces that have no room left.
   };
 
   /**
    * Fills Pairs, Intersections, and NearOthers and Slack of the vertices in the list. Slack is the
-   * room that their stars have: while neither of two stars has moved by half of its slack they
-   * can't intersect. Threads share the list; what is found does not depend on them.
+   * room that their stars have: two stars can't intersect while neither has moved by half of it.
+   * Threads share the list; what is found does not depend on them.
    */
   void Examine(SurfaceState& state, const std::vector<int>& vertices, Executor& executor);
 
@@ -73,7 +73,7 @@ public:
 private:
   std::vector<ClosePair> AllPairs;
   std::vector<FacePair> AllIntersections;
-  std::vector<Findings> OfBlocks; ///< Of the last list; kept for their memory.
+  std::vector<Findings> OfSpans; ///< Of the last list; kept for their memory.
 };
 }
 

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Surface/RankBlocks.h"
 
-#include "Core/Common/Blocks.h"
 #include "Core/Common/RankLists.h"
+#include "Core/Common/Spans.h"
 
 #include <algorithm>
 #include <iterator>
@@ -165,7 +165,7 @@ void RankBlocks::Exchange()
   }
 }
 
-Message RankBlocks::SendParts(const SurfaceMesh& mesh,
+Message RankBlocks::SendPieces(const SurfaceMesh& mesh,
   const std::function<void(MessageWriter&, const std::vector<int>&)>& write)
 {
   if (this->Ranks.Rank() != 0)
@@ -194,7 +194,7 @@ Message RankBlocks::SendParts(const SurfaceMesh& mesh,
   return own;
 }
 
-void RankBlocks::BeginParts(const Sizes& sizes, const Vector& low, const Vector& high)
+void RankBlocks::BeginPieces(const Sizes& sizes, const Vector& low, const Vector& high)
 {
   this->Low = low;
   this->High = high;
@@ -209,9 +209,9 @@ void RankBlocks::Scatter(const Vector& low, const Vector& high)
   SurfaceState& s = this->State;
   const Sizes sizes = BroadcastValue(this->Ranks,
     Sizes{ s.Mesh.Rings.size(), s.Mesh.NumberOfVertices(), s.EulerCharacteristic });
-  const Message own = this->SendParts(s.Mesh,
+  const Message own = this->SendPieces(s.Mesh,
     [&s](MessageWriter& writer, const std::vector<int>& vertices) { s.Write(writer, vertices); });
-  this->BeginParts(sizes, low, high);
+  this->BeginPieces(sizes, low, high);
   MessageReader reader(own);
   this->Blocks.AddOthers(s.Read(reader));
 }
@@ -221,10 +221,10 @@ void RankBlocks::ScatterMesh(const SurfaceMesh& mesh, const Vector& low, const V
   const Sizes sizes = BroadcastValue(this->Ranks,
     Sizes{
       mesh.Rings.size(), mesh.NumberOfVertices(), mesh.CountEulerCharacteristic() });
-  const Message own = this->SendParts(mesh,
+  const Message own = this->SendPieces(mesh,
     [&mesh](MessageWriter& writer, const std::vector<int>& vertices)
     { SurfaceState::WriteMesh(mesh, writer, vertices); });
-  this->BeginParts(sizes, low, high);
+  this->BeginPieces(sizes, low, high);
   MessageReader reader(own);
   this->Blocks.Take(this->State.ReadMesh(reader));
 }
@@ -252,8 +252,8 @@ void RankBlocks::Gather()
   {
     if (isFirst)
     {
-      const Message part = this->Ranks.Pass(rank, 0, rank == 0 ? std::move(message) : Message());
-      MessageReader reader(part);
+      const Message piece = this->Ranks.Pass(rank, 0, rank == 0 ? std::move(message) : Message());
+      MessageReader reader(piece);
       this->Blocks.AddOthers(s.Read(reader));
     }
     else if (rank == this->Ranks.Rank())
@@ -277,7 +277,7 @@ void RankBlocks::Append(const IndexedSurface& surface, Executor& executor)
       near.push_back(v);
     }
   }
-  const std::vector<int> here = s.AddPart(added, first, near);
+  const std::vector<int> here = s.AddPiece(added, first, near);
   this->Blocks.Take(here);
   std::vector<int> inside; // With all their neighbours.
   std::copy_if(here.begin(), here.end(), std::back_inserter(inside),
@@ -379,7 +379,7 @@ std::vector<T> RankBlocks::InOrder(const std::vector<std::vector<T>>& ofRanks) c
 void RankBlocks::AddPlaces(Executor& executor)
 {
   std::vector<int> counts(this->Owners.size(), 0);
-  ForBlocks(executor, counts.size(), 1,
+  ForSpans(executor, counts.size(), 1,
     [&](std::size_t b, std::size_t, std::size_t)
     {
       const int block = static_cast<int>(b);

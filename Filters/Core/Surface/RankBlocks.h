@@ -30,61 +30,61 @@ namespace volumic
 class RankBlocks
 {
 public:
-  /** All are of rank 0 until owners are chosen. */
+  /** All blocks belong to rank 0 until owners are chosen. */
   RankBlocks(SurfaceState& state, SurfaceBlocks& blocks, Communicator& ranks);
 
-  /** Those that have a part of the surface; one alone has all of it. */
+  /** The ranks that have pieces of the surface; one alone has all of it. */
   Communicator& Sharers() const { return this->Ranks; }
   bool AreShared() const { return this->Ranks.NumberOfRanks() > 1; }
 
   /**
-   * Which rank gets which block, so that each has as many vertices as is possible with boxes of
-   * blocks: the rows of blocks along x are cut along y and z, again and again, into halves.
-   * @param vertices of each block @return by block
+   * Chooses an owner for each block, so that all ranks have about as many vertices: the rows of
+   * blocks along x are cut along y and z, again and again, into halves.
+   * @param vertices of each block @return the rank of each block
    */
   static std::vector<int> ChooseOwners(
     const SurfaceBlocks::Frame& frame, const std::vector<int>& vertices, int ranks);
 
-  /** The same on all ranks, of a mesh that is whole on rank 0. */
+  /** By all ranks: chooses owners for a mesh that is whole on rank 0. */
   void ChooseOwners(const SurfaceMesh& mesh);
   void SetOwners(std::vector<int> owners);
   int OwnerOf(int block) const { return this->Owners[block]; }
   bool IsOwn(int block) const { return this->Owners[block] == this->Ranks.Rank(); }
-  /** Of a vertex that is here. */
+  /** Whether a vertex that is here belongs to a block of this rank. On any thread. */
   bool IsOwnVertex(int v) const { return this->IsOwn(this->State.Block[v]); }
 
   /**
-   * From a surface that is whole on rank 0 to one that each rank has its part of. `low`, `high`:
-   * the box of the grid, the same on all ranks.
+   * By all ranks: the surface is whole on rank 0 before, and each rank has its piece of it
+   * afterwards, with the halo. `low`, `high`: the box of the grid, the same on all ranks.
    */
   void Scatter(const Vector& low, const Vector& high);
-  /** The same for a mesh of which nothing else is known. */
+  /** The same for a mesh whose vertices know nothing else: they are as after a reset. */
   void ScatterMesh(const SurfaceMesh& mesh, const Vector& low, const Vector& high);
-  /** Back again: rank 0 has all vertices, the others none. */
+  /** By all ranks, back again: rank 0 has all vertices afterwards, the others none. */
   void Gather();
 
   /**
-   * A closed surface that is added to that of all ranks, the same on each: they keep what is near
-   * them of it. Its vertices follow all others, as on one rank.
+   * By all ranks, with the same surface: adds this closed surface to that of all ranks, each of
+   * which keeps what is near its blocks. Its vertices follow all others, as on one rank.
    */
   void Append(const IndexedSurface& surface, Executor& executor);
-  /** The rows of an image beside own blocks: each row is of one rank. */
+  /** The rows of voxels of an image that this rank looks after; each row has one such rank. */
   VoxelBox RowsOf(const LevelImage& image) const;
 
-  /** About a visit of an own block. */
+  /** To be called before, and after, the visit of an own block, not while blocks are visited. */
   void BeginVisit(int block);
   void EndVisit(int block);
-  /** After the visits of two colours. */
+  /** By all ranks, after visits of two colours: tells what has become of vertices at borders. */
   void Exchange();
-  /** Between sweeps: how many vertices there are, and the Euler characteristic, of all. */
+  /** By all ranks, between sweeps: agrees on the number of vertices and chi of the surface. */
   void ShareCounts();
-  /** SurfaceBlocks::AddPlaces, as the owners wish. */
+  /** By all ranks, between sweeps: gives blocks the places that their owners want for them. */
   void AddPlaces(Executor& executor);
-  /** The sum of what the owners have of their blocks, added in the order of the blocks. */
+  /** By all ranks: adds up what the owners say of their blocks, in the order of the blocks. */
   double AddUp(const std::vector<double>& ofBlocks);
 
 private:
-  /** A vertex that a visit has removed, and whose place it had. */
+  /** A vertex that a visit has removed, and the block that its place belongs to. */
   struct Removed
   {
     int Vertex;
@@ -96,14 +96,14 @@ private:
     int Vertices;
     int Characteristic;
   };
-  /** Of values of blocks those of own ones, and those of all ranks' own ones put together. */
+  /** Picks the values of own blocks; InOrder() brings those of all ranks back to their order. */
   template <typename T>
   std::vector<T> OfOwn(const std::vector<T>& ofBlocks) const;
   template <typename T>
   std::vector<T> InOrder(const std::vector<std::vector<T>>& ofRanks) const;
-  Message SendParts(const SurfaceMesh& mesh,
+  Message SendPieces(const SurfaceMesh& mesh,
     const std::function<void(MessageWriter&, const std::vector<int>&)>& write);
-  void BeginParts(const Sizes& sizes, const Vector& low, const Vector& high);
+  void BeginPieces(const Sizes& sizes, const Vector& low, const Vector& high);
   void CollectNear(const Vector& position, int v);
   void CollectZone(int block);
   bool IsNearOwn(const Vector& position) const;
@@ -113,11 +113,11 @@ private:
   SurfaceBlocks& Blocks;
   Communicator& Ranks;
   std::vector<int> Owners;               ///< By block.
-  std::vector<char> IsAtBorder;          ///< By block: it is own, and a neighbour is not.
-  std::vector<int> Partners;             ///< Ranks with blocks beside own ones, and this one.
-  std::vector<std::vector<int>> Touched; ///< By rank: what it must be told of.
+  std::vector<char> IsAtBorder;          ///< By block: whether it is own and a neighbour is not.
+  std::vector<int> Partners;             ///< This rank, and those with blocks beside own ones.
+  std::vector<std::vector<int>> Touched; ///< By rank: the vertices that it must be told of.
   Vector Low, High;                      ///< Of the grid.
-  int KnownVertices = 0;                 ///< When the ranks last agreed.
+  int KnownVertices = 0;                 ///< What the ranks last agreed on.
   int KnownCharacteristic = 0;
 };
 }

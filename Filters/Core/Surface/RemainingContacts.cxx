@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Surface/RemainingContacts.h"
 
-#include "Core/Common/Blocks.h"
+#include "Core/Common/Spans.h"
 
 #include <algorithm>
 #include <cmath>
@@ -32,10 +32,10 @@ RemainingContacts FindRemainingContacts(const SurfaceState& state, const Field& 
   const SurfaceMesh& mesh = state.Mesh;
   constexpr std::size_t size = 2048;
   const std::size_t n = mesh.Rings.size();
-  std::vector<std::vector<std::array<int, 2>>> blocks((n + size - 1) / size);
+  std::vector<std::vector<std::array<int, 2>>> spans((n + size - 1) / size);
   RemainingContacts contacts;
   MakeZeroed(contacts.Held, n); // Where there is no vertex it takes no memory.
-  ForBlocks(executor, n, size,
+  ForSpans(executor, n, size,
     [&](std::size_t b, std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end; ++i)
@@ -64,7 +64,7 @@ RemainingContacts FindRemainingContacts(const SurfaceState& state, const Field& 
               hasOther = hasOther || mayHold;
               if (isForbidden && w > v)
               {
-                blocks[b].push_back({ v, w });
+                spans[b].push_back({ v, w });
               }
             }
           });
@@ -75,9 +75,9 @@ RemainingContacts FindRemainingContacts(const SurfaceState& state, const Field& 
             FarFromIso * state.Sizing.At(v) * field.SlopeOf(sample);
         }
       }
-      std::sort(blocks[b].begin(), blocks[b].end());
+      std::sort(spans[b].begin(), spans[b].end());
     });
-  Concatenate(executor, blocks, contacts.Pairs); // Sorted, as blocks are.
+  Concatenate(executor, spans, contacts.Pairs); // Sorted, as spans are.
   return contacts;
 }
 }

@@ -15,8 +15,8 @@
 namespace volumic
 {
 /**
- * Where the object, or a gap in it, is thinner than the mesh can hold, and the image does not want
- * it cut or merged.
+ * The places where the object, or a gap in it, is thinner than the mesh can hold, and the image
+ * does not want it cut or merged.
  */
 struct RemainingContacts
 {
@@ -28,8 +28,8 @@ struct RemainingContacts
    */
   LargeVector<std::array<int, 2>> Pairs;
   /**
-   * Per vertex, 1 where eq. (1) is kept at the cost of the place: such a vertex, with the opposite
-   * normal, is less than 1.15 lambda delta away, and the isopotential more than 0.1 delta.
+   * Per vertex, 1 where eq. (1) holds it off its place: a vertex of the opposite normal is less
+   * than 1.15 lambda delta away, and the isopotential is more than 0.1 delta away.
    */
   LargeVector<std::uint8_t> Held;
 };
@@ -37,7 +37,7 @@ struct RemainingContacts
 /**
  * The grid of the state must be up to date. The same for any executor. Cost: O(vertices).
  *
- * @param isOwn where ranks have parts of the surface (RankPart): of the pairs those whose smaller
+ * @param isOwn where ranks have pieces of the surface (RankPiece): of the pairs those whose smaller
  *              vertex is own are told, and which of the own vertices are held. Empty: all
  */
 RemainingContacts FindRemainingContacts(const SurfaceState& state, const Field& field,

@@ -34,8 +34,8 @@ public:
   }
 
   /**
-   * Splits all edges at these vertices that are longer than eq. (1) allows, where a ring is full
-   * after others that make room. New vertices are appended to the list.
+   * Splits all edges at these vertices that are longer than eq. (1) allows. Where a ring is full,
+   * other edges are split first to make room. New vertices are appended to the list.
    * Changes no geometry, so it comes before verification, which relies on it.
    */
   void Split(std::vector<int>& vertices);
@@ -49,7 +49,7 @@ public:
   /** Flips edges that are not locally Delaunay where the surface is nearly flat. */
   void Flip(const std::vector<int>& vertices);
 
-  /** Vertices rolled back again and again: collapses and smooths, verified. */
+  /** Collapses or smooths, verified, about vertices that are rolled back again and again. */
   void Unstick(const std::vector<int>& vertices);
 
   /** Changed vertices of all edits since the last call, in order; some may be named often. */
@@ -75,7 +75,7 @@ private:
   SurfaceEditor Editor;
   const Field* TheField;
   bool TopologyChanges;
-  std::vector<int> Items; ///< Of a pass.
+  std::vector<int> Items; ///< The vertices of a pass.
 };
 }
 

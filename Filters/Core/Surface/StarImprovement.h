@@ -36,7 +36,7 @@ public:
   {
   }
 
-  /** @return whether an edit was made. The vertex must be alive. */
+  /** Mends the star; the vertex must be alive. @return whether an edit was made */
   bool Improve(int v);
   bool Separate(int v);
 
@@ -62,7 +62,7 @@ private:
   std::vector<Candidate> Candidates;
 };
 
-/** Away from the vertices that are nearer than lambda delta, though far apart on the surface. */
+/** A push away from vertices that are nearer than lambda delta though far apart on the surface. */
 Vector PushAt(const SurfaceState& state, int v);
 }
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Surface/SurfaceBlocks.h"
 
-#include "Core/Common/Blocks.h"
+#include "Core/Common/Spans.h"
 #include "Core/Surface/Proximity.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace volumic
 namespace
 {
 /** Vertices that one thread looks at at a time. */
-constexpr std::size_t VertexBlock = 8192;
+constexpr std::size_t VertexSpan = 8192;
 /**
  * Places for new vertices that a block gets at least, for how many of its own one more, and how many
  * for each that its last visit took: a surface that grows takes more each time.
@@ -162,7 +162,7 @@ void SurfaceBlocks::Collect(Executor& executor)
 {
   const SurfaceMesh& mesh = this->State.Mesh;
   const std::size_t n = mesh.Rings.size();
-  ForBlocks(executor, n, VertexBlock,
+  ForSpans(executor, n, VertexSpan,
     [&](std::size_t, std::size_t begin, std::size_t end)
     {
       for (std::size_t v = begin; v < end; ++v)
@@ -301,7 +301,7 @@ std::vector<double> SurfaceBlocks::Sums(const std::function<bool(int block)>& is
   const std::function<double(int v)>& ofVertex, Executor& executor) const
 {
   std::vector<double> sums(this->All.size(), 0.);
-  ForBlocks(executor, this->All.size(), 1,
+  ForSpans(executor, this->All.size(), 1,
     [&](std::size_t b, std::size_t, std::size_t)
     {
       const int block = static_cast<int>(b);

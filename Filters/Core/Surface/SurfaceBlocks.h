@@ -28,11 +28,11 @@ struct BlockVisit
   Box Moving;                ///< Vertices that lie in it may move; EditShare::Region is for edits.
   Box Written;               ///< Beyond it nothing is changed.
   EditShare Share;
-  /** Threads that may share in what writes to its own vertex only, and reads nothing written so. */
+  /** Threads that may share in loops that write to their own vertex only, and read nothing such. */
   Executor* Idle = &OnThisThread();
 
-  std::ptrdiff_t OldOnes = 0; ///< Of the vertices, those that there were when it was opened.
-  int PlacesBefore = 0;       ///< As many as the share had then.
+  std::ptrdiff_t OldOnes = 0; ///< So many of the vertices were there when the visit was opened.
+  int PlacesBefore = 0;       ///< The share had so many places then.
 };
 
 /**
@@ -48,13 +48,14 @@ struct BlockVisit
  *
  * - a vertex moves only while it lies within MovingInDelta of the block, and edits begin at stars
  *   within EditedInDelta; what is refused for that is left for the neighbour's visit;
- * - an edge is at most 4.5 delta long: HugeEdge times the longest legal one, 3.5 delta, and what
- *   both ends move in an iteration, after which they keep still until it is split;
- * - so positions, rings and shapes are written within WrittenInDelta of the block: an edit's region
- *   and an edge;
- * - what is examined moved, was edited, or is a neighbour of what did or was (7.5 delta); it looks
- *   for vertices within the reach of 2.05 delta, and reads their stars: all within HaloInDelta.
- * Blocks are as wide as both together and a cell of the grid: SideInDelta.
+ * - an edge is at most 4.5 delta long: from HugeEdge times the longest legal one on, which is 3.5
+ *   delta, its ends keep still until it is split; they may have moved by an iteration before;
+ * - so positions, rings and shapes are written within WrittenInDelta of the block, which is the
+ *   region of edits and the length of an edge beyond it;
+ * - vertices are examined which have moved, were edited, or are neighbours of such ones: these lie
+ *   within 7.5 delta. Each looks for others within its reach of 2.05 delta, and reads their stars:
+ *   so all that is read lies within HaloInDelta.
+ * Blocks are as wide as what is written and what is read, and a cell of the grid: SideInDelta.
  */
 class SurfaceBlocks
 {
@@ -62,13 +63,14 @@ public:
   /** Where the blocks lie; the outermost go on without end. */
   struct Frame
   {
-    Vector Low; ///< Where the first one would begin were it as wide as the others.
+    Vector Low; ///< The first one would begin here if it were as wide as the others.
     std::array<float, 3> Side = { 1.f, 1.f, 1.f }; ///< Of a block, workspace.
     std::array<int, 3> Size = { 1, 1, 1 };
   };
   /**
-   * Of an image, workspace, one corner of which is the origin. Along each axis the outermost blocks
-   * share what whole ones leave; what is shorter than two of them is one block.
+   * The frame for an image of this extent, in the workspace, with one corner at the origin. Along
+   * each axis the outermost blocks share what whole ones leave; an axis that is shorter than two of
+   * them has one block.
    */
   static Frame FrameOf(const std::array<double, 3>& extent, double side);
 
@@ -90,36 +92,39 @@ public:
   /** The same blocks by colour, those of a colour in order of their number. */
   const std::array<std::vector<int>, Colours>& ByColour() const { return this->OfColour; }
   int NumberOfBlocks() const { return static_cast<int>(this->All.size()); }
-  /** Of the surface; those of visits that are open count when these end. */
+  /** Those of the surface; what open visits add or remove counts when these end. On any thread. */
   int NumberOfVertices() const
   {
     const std::lock_guard<std::mutex> lock(this->Closing);
     return this->State.Mesh.NumberOfVertices();
   }
 
-  /** Begins a visit. Others may be open that do not touch it. */
+  /**
+   * Begins a visit. On any thread, while no block is open that touches this one. Until Close() the
+   * block's vertices, and what lies about them, are the visit's alone.
+   */
   BlockVisit Open(int block);
-  /** Of the vertices of a list, those that are new are the open block's from now on. */
+  /** Gives the open block those vertices of a list that are new. */
   void AddNew(BlockVisit& visit, const std::vector<int>& vertices) const;
   /**
-   * Ends it: vertices that have left the block are others' from now on, and the state's number of
-   * vertices and chi are those after the visit.
+   * Ends it, on the thread that made it: vertices that have left the block are others' from now on,
+   * and the state's number of vertices and chi are those after the visit.
    */
   void Close(BlockVisit&& visit);
 
-  /** Asks for what most of a block's vertices know, before a visit. */
+  /** Before a visit: has the memory fetch most of what the block's vertices know. */
   void Prefetch(int block) const;
 
   /** Whether a vertex of the block may move. */
   bool HasActive(int block) const;
 
-  /** Places that a block would like to have for new vertices beyond those that it has. */
+  /** How many places a block would like to have for new vertices, beyond those that it has. */
   int MissingPlaces(int block) const;
-  /** Gives them, to each block as many; between sweeps. */
+  /** Gives each block so many more. Between sweeps, while no visit is open. */
   void AddPlaces(const std::vector<int>& counts, Executor& executor);
 
   int BlockAt(const Vector& position) const;
-  /** What a block fills; those at the border go on without end. */
+  /** The box that a block fills; at the border of the frame it goes on without end. */
   Box BoxOf(int block) const;
   /** Those that touch it, in order of their number. */
   std::vector<int> NeighboursOf(int block) const;
@@ -140,21 +145,21 @@ public:
       }
     }
   }
-  /** The vertices of a block, and some that no longer are, or are there twice. */
+  /** The vertices of a block; the list may name some twice, and some that are no longer its own. */
   const std::vector<int>& ListOf(int block) const { return this->All[block].Vertices; }
-  /** Of all blocks; their places stay. */
+  /** Empties all blocks of their vertices; they keep their places. */
   void ForgetVertices();
-  /** New vertices, not of a visit: their blocks have them from now on. */
+  /** Gives vertices that are new, but not made by a visit, to their blocks. */
   void Take(const std::vector<int>& vertices);
-  /** The place of a vertex of a block that another one's visit has removed. */
+  /** Gives a block its place back of a vertex that the visit of another block has removed. */
   void GiveBack(int block, int place) { this->All[block].Places.Free.push_back(place); }
-  /** Vertices that have come from elsewhere, with their block. */
+  /** Puts vertices that have come from another rank, and know their block, on its list. */
   void AddOthers(const std::vector<int>& vertices);
   const Frame& GetFrame() const { return this->TheFrame; }
 
   /**
-   * A sum for each block of those that are asked for, 0 for the others: ofVertex(v) of the vertices
-   * that it has now, in order of index.
+   * Adds up ofVertex(v) of the vertices that a block has now, in order of index. @return the sum of
+   * each block that is wanted, 0 for the others
    */
   std::vector<double> Sums(const std::function<bool(int block)>& isWanted,
     const std::function<double(int v)>& ofVertex, Executor& executor) const;
@@ -162,15 +167,15 @@ public:
 private:
   struct OfBlock
   {
-    std::vector<int> Vertices; ///< Some are others' by now, or no more.
+    std::vector<int> Vertices; ///< Some may be others' by now, or be removed.
     VertexPlaces Places;       ///< For new vertices.
     UnusedPlaces Unused;
-    int Taken = 0; ///< Of the places, by its last visit.
+    int Taken = 0; ///< Its last visit has taken so many of the places.
   };
   std::array<int, 3> PlaceOf(const Vector& position) const;
   std::array<int, 3> PlaceOf(int block) const;
   int BlockOf(const std::array<int, 3>& place) const;
-  /** Leaves the vertices of the block, each once, in order. */
+  /** Leaves of a list those that are the block's, each once, in order. */
   void Clean(int block, std::vector<int>& vertices) const;
   void Collect(Executor& executor);
   void FindOrder();
@@ -178,10 +183,10 @@ private:
   SurfaceState& State;
   Frame TheFrame;
   std::vector<OfBlock> All;
-  VertexPlaces Others; ///< Free before, for nobody.
+  VertexPlaces Others; ///< Places that were free before there were blocks: no block takes them.
   std::unique_ptr<VisitSchedule> Visits;
   std::array<std::vector<int>, Colours> OfColour;
-  mutable std::mutex Closing; ///< Held while a visit hands over what others have, too.
+  mutable std::mutex Closing; ///< Held while a visit changes what all visits share.
 };
 }
 

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Surface/SurfaceComponents.h"
 
-#include "Core/Common/Blocks.h"
 #include "Core/Common/Box.h"
 #include "Core/Common/JoinLabels.h"
 #include "Core/Common/RankLists.h"
 #include "Core/Common/Select.h"
+#include "Core/Common/Spans.h"
 #include "Core/Surface/ComponentNesting.h"
 #include "Core/Surface/ComponentWatch.h"
 
@@ -18,7 +18,7 @@ namespace volumic
 namespace
 {
 /** Vertices that one thread looks at at a time. */
-constexpr std::size_t VertexBlock = 4096;
+constexpr std::size_t VertexSpan = 4096;
 
 /** All that a small component is judged by. */
 struct VertexRecord
@@ -104,13 +104,13 @@ void SurfaceComponents::Mark(const SurfaceState& state, Executor& executor)
   {
     MakeZeroed(this->Marks, n);
   }
-  ForBlocks(executor, this->Marks.size(), VertexBlock,
+  ForSpans(executor, this->Marks.size(), VertexSpan,
     [&](std::size_t, std::size_t begin, std::size_t end)
     {
       for (std::size_t v = begin; v < end; ++v)
       {
         const bool isOwn = v < n && state.Mesh.IsAlive(static_cast<int>(v)) &&
-          this->Part.IsOwn(static_cast<int>(v));
+          this->Piece.IsOwn(static_cast<int>(v));
         if (isOwn != (this->Marks[v] == Own))
         {
           this->Marks[v] = isOwn ? Own : 0;
@@ -133,13 +133,13 @@ void SurfaceComponents::FindOwnSets(SurfaceState& state, Executor& executor)
 std::vector<SurfaceComponents::Name> SurfaceComponents::NameBorders(
   const SurfaceState& state, Executor& executor) const
 {
-  if (this->Part.Ranks.NumberOfRanks() == 1)
+  if (this->Piece.Ranks.NumberOfRanks() == 1)
   {
     return {}; // There are none.
   }
   const std::size_t n = state.Mesh.Rings.size();
-  std::vector<std::vector<Name>> blocks((n + VertexBlock - 1) / VertexBlock);
-  ForBlocks(executor, n, VertexBlock,
+  std::vector<std::vector<Name>> spans((n + VertexSpan - 1) / VertexSpan);
+  ForSpans(executor, n, VertexSpan,
     [&](std::size_t b, std::size_t begin, std::size_t end)
     {
       for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
@@ -149,23 +149,23 @@ std::vector<SurfaceComponents::Name> SurfaceComponents::NameBorders(
           continue;
         }
         const int set = state.Component[v]; // So far.
-        const std::size_t before = blocks[b].size();
+        const std::size_t before = spans[b].size();
         const Ring& ring = state.Mesh.Rings[v];
         for (int i = 0; i < ring.Count; ++i)
         {
           if (this->Marks[ring.Item[i]] != Own)
           {
-            blocks[b].push_back({ ring.Item[i], set });
+            spans[b].push_back({ ring.Item[i], set });
           }
         }
-        if (blocks[b].size() > before)
+        if (spans[b].size() > before)
         {
-          blocks[b].push_back({ v, set }); // The others name it, too.
+          spans[b].push_back({ v, set }); // The others name it, too.
         }
       }
-      SortUnique(blocks[b]);
+      SortUnique(spans[b]);
     });
-  std::vector<Name> names = Joined(executor, blocks);
+  std::vector<Name> names = Joined(executor, spans);
   SortUnique(names);
   return names;
 }
@@ -231,7 +231,7 @@ std::vector<Message> SurfaceComponents::JoinSets(const std::vector<Message>& ofR
 
 void SurfaceComponents::FindWholes(const std::vector<Name>& names)
 {
-  Communicator& ranks = this->Part.Ranks;
+  Communicator& ranks = this->Piece.Ranks;
   MessageWriter writer;
   writer.AddArray(this->Sets);
   writer.AddArray(names);
@@ -252,7 +252,7 @@ void SurfaceComponents::Label(SurfaceState& state, Executor& executor)
   this->Mark(state, executor);
   this->FindOwnSets(state, executor);
   this->FindWholes(this->NameBorders(state, executor));
-  ForBlocks(executor, state.Mesh.Rings.size(), VertexBlock,
+  ForSpans(executor, state.Mesh.Rings.size(), VertexSpan,
     [&](std::size_t, std::size_t begin, std::size_t end)
     {
       for (std::size_t v = begin; v < end; ++v)
@@ -267,8 +267,8 @@ void SurfaceComponents::Label(SurfaceState& state, Executor& executor)
 
 bool SurfaceComponents::DeleteDegenerate(SurfaceState& state)
 {
-  std::vector<VertexRecord> whole; // Of components that no other rank has a part of.
-  std::vector<VertexRecord> parts;
+  std::vector<VertexRecord> whole; // Of components that no other rank has a piece of.
+  std::vector<VertexRecord> pieces;
   for (int v = 0; v < state.Mesh.Size(); ++v)
   {
     if (this->Marks[v] != Own || !state.Mesh.IsAlive(v))
@@ -279,14 +279,14 @@ bool SurfaceComponents::DeleteDegenerate(SurfaceState& state)
     if (this->Wholes[set].Size <= ComponentWatch::SmallSize)
     {
       const bool isWhole = this->Wholes[set].Size == this->Sets[set].Size;
-      (isWhole ? whole : parts)
+      (isWhole ? whole : pieces)
         .push_back({ v, state.FieldValue[v], state.Mesh.Position[v], state.Mesh.Rings[v] });
     }
   }
-  Communicator& ranks = this->Part.Ranks;
+  Communicator& ranks = this->Piece.Ranks;
   std::vector<int> found = FindDegenerate(std::move(whole), state.Sizing);
   const std::vector<int> ofParts =
-    FindDegenerate(GatherLists(ranks, parts), state.Sizing);
+    FindDegenerate(GatherLists(ranks, pieces), state.Sizing);
   found.insert(found.end(), ofParts.begin(), ofParts.end());
   found = GatherListsOnAll(ranks, found);
   std::sort(found.begin(), found.end());
@@ -296,8 +296,8 @@ bool SurfaceComponents::DeleteDegenerate(SurfaceState& state)
 
 std::vector<int> SurfaceComponents::FindInsideOut(const SurfaceState& state, Executor& executor)
 {
-  // The volumes of all parts, by label, to rank 0, which casts the rays.
-  Communicator& ranks = this->Part.Ranks;
+  // The volumes of all pieces, by label, to rank 0, which casts the rays.
+  Communicator& ranks = this->Piece.Ranks;
   const LargeVector<int>& labels = state.Component.AsVector();
   std::vector<Vector> places(this->SetOf.size());
   for (const Whole& whole : this->Wholes)
@@ -327,9 +327,9 @@ std::vector<int> SurfaceComponents::FindInsideOut(const SurfaceState& state, Exe
     places.push_back(component.Place);
   }
   std::vector<ExactSum> volumes(roots.size());
-  for (const Volume& part : GatherLists(ranks, own))
+  for (const Volume& piece : GatherLists(ranks, own))
   {
-    volumes[part.Label].Add(part.Sum);
+    volumes[piece.Label].Add(piece.Sum);
   }
   const std::vector<ComponentRay> rays = BroadcastList(ranks, CastRays(roots, places, volumes));
   std::vector<RayCrossing> crossings = GatherLists(
@@ -354,13 +354,13 @@ bool SurfaceComponents::DeleteInsideOut(SurfaceState& state, Executor& executor)
 std::vector<int> SurfaceComponents::LabelsOf(const std::vector<int>& roots) const
 {
   std::vector<int> labels;
-  for (std::size_t i = 0; this->Part.Ranks.Rank() == 0 && i < roots.size(); ++i)
+  for (std::size_t i = 0; this->Piece.Ranks.Rank() == 0 && i < roots.size(); ++i)
   {
     const auto found = std::lower_bound(this->All.begin(), this->All.end(), roots[i],
       [](const Whole& component, int root) { return component.Root < root; });
     labels.push_back(found->Label);
   }
-  return BroadcastList(this->Part.Ranks, labels);
+  return BroadcastList(this->Piece.Ranks, labels);
 }
 
 void SurfaceComponents::Remove(SurfaceState& state, const std::vector<int>& roots)
@@ -404,15 +404,15 @@ void SurfaceComponents::Remove(SurfaceState& state, const std::vector<int>& root
       state.Mesh.RemoveVertex(v);
     }
   }
-  for (const int v : GatherListsOnAll(this->Part.Ranks, removed))
+  for (const int v : GatherListsOnAll(this->Piece.Ranks, removed))
   {
     state.Forget(v); // Where it is another rank's.
   }
   std::vector<Removal> whole(roots.size());
-  for (const Removal& part : GatherListsOnAll(this->Part.Ranks, removals))
+  for (const Removal& piece : GatherListsOnAll(this->Piece.Ranks, removals))
   {
-    whole[part.Place].Vertices += part.Vertices;
-    whole[part.Place].Neighbours += part.Neighbours;
+    whole[piece.Place].Vertices += piece.Vertices;
+    whole[piece.Place].Neighbours += piece.Neighbours;
   }
   for (std::size_t i = 0; i < roots.size(); ++i)
   {

@@ -5,7 +5,7 @@
 
 #include "Core/Common/Executor.h"
 #include "Core/Surface/ConnectedVertices.h"
-#include "Core/Surface/RankPart.h"
+#include "Core/Surface/RankPiece.h"
 #include "Core/Surface/SurfaceState.h"
 
 #include <cstddef>
@@ -15,7 +15,7 @@
 namespace volumic
 {
 /**
- * The components of a surface, of which each rank has a part (RankPart), or one has all: their
+ * The components of a surface, of which each rank has a piece (RankPiece), or one has all: their
  * labels, and which of them must go. All that is said of them is the same on all ranks, for any
  * number of them, and for any executor.
  *
@@ -24,15 +24,15 @@ namespace volumic
  * messages go with the borders and the number of components. Places that no vertex has are not
  * written, and of vertices of other ranks only those are looked at that are neighbours of own ones.
  *
- * Of what is deleted SurfaceState::Counts tell on all ranks. The number of vertices falls by what
- * was a rank's own, the Euler characteristic where the first vertex of a component was: the changes
- * of all ranks are those of the surface (RankBlocks::ShareCounts).
+ * SurfaceState::Counts tell on all ranks what was deleted. On each rank the number of vertices
+ * falls by its own ones, and the Euler characteristic changes where it owns the first vertex of the
+ * component: so the changes of all ranks add up to that of the surface (RankBlocks::ShareCounts).
  */
 class SurfaceComponents
 {
 public:
-  explicit SurfaceComponents(const RankPart& part)
-    : Part(part)
+  explicit SurfaceComponents(const RankPiece& piece)
+    : Piece(piece)
   {
   }
 
@@ -42,7 +42,7 @@ public:
    */
   void Label(SurfaceState& state, Executor& executor);
 
-  /** When last labelled, less those deleted since. */
+  /** How many there were when they were last labelled, less those deleted since. */
   int NumberOfComponents() const { return this->Components; }
 
   /**
@@ -64,7 +64,7 @@ public:
   std::vector<int> FindInsideOut(const SurfaceState& state, Executor& executor);
 
 private:
-  static constexpr std::uint8_t Own = 1; ///< Mark.
+  static constexpr std::uint8_t Own = 1; ///< The mark of own vertices.
 
   /** What a rank has of a component: a set of own vertices that edges join. */
   struct OwnSet
@@ -105,13 +105,13 @@ private:
   std::vector<int> LabelsOf(const std::vector<int>& roots) const;
   void Remove(SurfaceState& state, const std::vector<int>& roots);
 
-  const RankPart Part;
+  const RankPiece Piece;
   ConnectedVertices Connected;
   LargeVector<std::uint8_t> Marks; ///< By vertex: Own or 0.
   std::vector<OwnSet> Sets;
   std::vector<Whole> Wholes; ///< Of each set.
   std::vector<int> SetOf;    ///< By label: an own set, or -1.
-  std::vector<Whole> All;    ///< On rank 0: by label.
+  std::vector<Whole> All;    ///< By label; on rank 0 only.
   int Components = 0;
 };
 }

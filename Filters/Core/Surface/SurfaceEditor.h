@@ -39,16 +39,16 @@ struct Edit
 /** What an editor has to itself where others are at work elsewhere: see SurfaceBlocks. */
 struct EditShare
 {
-  int Block = NoBlock; ///< Whose it is.
+  int Block = NoBlock; ///< The block that is visited.
   Box Region;          ///< The vertices whose stars are edited lie in it; others are refused.
   VertexPlaces Places; ///< For new vertices; edits that find too few are refused.
   UnusedPlaces Unused; ///< More of them.
-  /** Of removed vertices of other blocks, whose they stay: what is far away takes none of them. */
+  /** Places of removed vertices of other blocks. These get them back: edits take none of them. */
   std::vector<int> Others;
-  EditCounts Counts;
+  EditCounts Counts; ///< Of the edits of the visit.
   int EulerCharacteristic = 0; ///< What its edits have added to that of the surface.
 
-  /** Places that no vertex has; what they become fewer by are vertices more. */
+  /** How many places no vertex has: one less is a vertex more. */
   int NumberOfPlaces() const
   {
     return static_cast<int>(
@@ -87,27 +87,28 @@ public:
     }
   }
 
-  /** At the midpoint; always possible unless a valence is at its limit. */
+  /** Splits an edge at its midpoint; always possible unless a valence is at its limit. */
   Edit Split(int u, int v);
-  /** Into the midpoint, else either end. */
+  /** Collapses an edge into its midpoint, or else into one of its ends. */
   Edit Collapse(int u, int v, EditTolerance tolerance);
-  /** Into a given position. */
+  /** Collapses an edge into a given position. */
   Edit CollapseTo(int u, int v, const Vector& position, EditTolerance tolerance);
   /**
-   * Smooth: where the surface is nearly flat and the new edge legal. Loose: to join two vertices
-   * that are nearer than the constraint allows to those that are far apart on the surface.
+   * Flips an edge. Smooth: only where the surface is nearly flat and the new edge legal. Loose:
+   * wherever the new faces are well-shaped, to join two vertices that are too near to each other
+   * across a fold.
    */
   Edit Flip(int u, int v, EditTolerance tolerance);
-  /** A vertex of valence 3. */
+  /** Removes a vertex of valence 3. */
   Edit Remove(int v);
   /** Moves a vertex; Smooth: the faces about it turn little. */
   Edit Move(int v, const Vector& position, EditTolerance tolerance);
-  /** Merge of two stars. */
+  /** Merges the stars of two vertices. */
   Edit Merge(int u, int v);
-  /** Cut along u, v, w; both sides are drawn apart. */
+  /** Cuts the surface along the 3-cycle u, v, w, and draws both sides apart. */
   Edit Cut(int u, int v, int w);
 
-  /** Of the surface, or what the edits of the visit have added to it. */
+  /** That of the surface; within a visit only what the visit's edits have added to it. */
   int EulerCharacteristic() const
   {
     return this->Share ? this->Share->EulerCharacteristic : this->State.EulerCharacteristic;

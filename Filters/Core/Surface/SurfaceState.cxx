@@ -107,7 +107,7 @@ std::vector<int> SurfaceState::ReadMesh(MessageReader& message)
   return vertices;
 }
 
-std::vector<int> SurfaceState::AddPart(
+std::vector<int> SurfaceState::AddPiece(
   const SurfaceMesh& mesh, int first, const std::vector<int>& vertices)
 {
   std::vector<int> added;

@@ -63,21 +63,21 @@ constexpr float LeastCotangentSum = -0.05f;
  */
 constexpr float HugeEdge = 1.4f;
 /**
- * Longest bridge edge of a merge, of the longest legal edge: between sharp rims they are long. The
- * remesher splits them.
+ * How many times as long as the longest legal edge an edge may be that a merge makes between two
+ * rims: between sharp ones they are long. The remesher splits them.
  */
 constexpr float LongestBridgeEdge = 1.6f;
 
 /** What a vertex may need of the remesher. */
 enum RemeshFlag : std::uint8_t
 {
-  HasLongEdge = 1,      ///< One is longer than eq. (1) allows.
-  HasShortEdge = 2,     ///< One is shorter.
+  HasLongEdge = 1,      ///< An edge is longer than eq. (1) allows.
+  HasShortEdge = 2,     ///< An edge is shorter than eq. (1) allows.
   IsNotDelaunay = 4,    ///< An edge is not locally Delaunay.
-  HasHugeEdge = 8       ///< One is longer than HugeEdge.
+  HasHugeEdge = 8       ///< An edge is longer than HugeEdge times the longest legal one.
 };
 
-/** In the place of a block: of a vertex that is new. */
+/** Stands for the block of a vertex that is new and belongs to none yet. */
 constexpr int NoBlock = -1;
 
 /** What the steps of a visit note about a vertex for each other; no bit is set between visits. */
@@ -85,10 +85,10 @@ enum VertexMark : std::uint8_t
 {
   IsWorking = 1,  ///< SurfaceIteration: it may have moved, or a neighbour has.
   IsListed = 2,   ///< Proximity: it is being examined.
-  HasMoved = 4,   ///< Dynamics: visibly.
-  IsMoving = 32,  ///< Dynamics: it is about to.
-  IsSeen = 8,     ///< ComponentWatch.
-  IsOfLarge = 16  ///< ComponentWatch: seen, and of a component that is not small.
+  HasMoved = 4,   ///< Dynamics: it has moved visibly.
+  IsMoving = 32,  ///< Dynamics: it is about to move.
+  IsSeen = 8,     ///< ComponentWatch: it has been looked at.
+  IsOfLarge = 16  ///< ComponentWatch: it was looked at, and its component is not small.
 };
 
 /**
@@ -98,7 +98,7 @@ enum VertexMark : std::uint8_t
  */
 class SurfaceState
 {
-  VertexProperties Properties; // Before them.
+  VertexProperties Properties; // Must be made before those that register there.
 
 public:
   SurfaceMesh Mesh;
@@ -110,7 +110,7 @@ public:
 
   // Motion: Dynamics. An edit gives a vertex the mean of those that it comes of.
   VertexProperty<Vector> Velocity{ this->Properties, Vector() };
-  /** Before the last displacement: the surface was free of intersections then. */
+  /** Its place before the last displacement, when the surface was free of intersections. */
   VertexProperty<Vector> PreviousPosition{ this->Properties, Vector() };
   VertexProperty<Vector> Anchor{ this->Properties, Vector() }; ///< Where it last was seen to move.
   VertexProperty<float> FieldValue{ this->Properties, 0.f };   ///< When last evaluated.
@@ -137,15 +137,15 @@ public:
   VertexProperty<std::uint8_t> RemeshFlags{ this->Properties, 0, 0 }; ///< Bits of RemeshFlag.
 
   // Proximity.
-  /** Way its star has gone since it was last examined; NotExamined makes it be. */
+  /** How far its star has moved since it was last examined; NotExamined: it must be examined. */
   VertexProperty<float> Drift{ this->Properties, NotExamined, NotExamined };
-  VertexProperty<float> Slack{ this->Properties, 0.f, 0.f }; ///< Room it had then, see Proximity.
-  /** Little of that would be used up in an iteration like the last. */
+  VertexProperty<float> Slack{ this->Properties, 0.f, 0.f }; ///< The room it had then: Proximity.
+  /** Whether another iteration like the last one would use up little of that room. */
   VertexProperty<std::uint8_t> IsSlow{ this->Properties, 1, 0 };
   /** Something that is not the smooth surface about it lies within reach. */
   VertexProperty<std::uint8_t> NearOthers{ this->Properties, 1 };
 
-  // Grading: GradedSizes. A point of an edge, which it is split at or collapsed to, gets that there.
+  // Grading: GradedSizes. Where an edge is split, or collapsed, its point gets the size there.
   /** delta about it, workspace, where the surface is graded: see SizingField. */
   VertexProperty<float> Size{ this->Properties, 0.f };
 
@@ -166,23 +166,23 @@ public:
   /** SurfaceMesh::AddUnusedPlaces, with room for what their vertices will know. */
   UnusedPlaces AddUnusedPlaces(int n, Executor& executor);
   /**
-   * Forgets all vertices and lays the grid; there is room for n, without memory, of which so many
-   * are said to be vertices (some are on other ranks).
+   * Forgets all vertices and lays the grid. There are n places then, which take no memory yet; the
+   * mesh counts so many vertices, some of which are on other ranks.
    */
   void Remake(std::size_t n, int vertices, const Vector& low, const Vector& high);
-  /** All of some alive vertices, for another rank. */
+  /** Writes all that is known of some alive vertices, for another rank. */
   void Write(MessageWriter& message, const std::vector<int>& vertices) const;
-  /** Takes them in, in the place of what was known of them. @return them */
+  /** Takes in what another rank has written, instead of what was known. @return the vertices */
   std::vector<int> Read(MessageReader& message);
-  /** The same for some of a mesh of which nothing else is known: they are as after Reset(). */
+  /** The same for a mesh whose vertices know nothing else: they are as after Reset(). */
   static void WriteMesh(
     const SurfaceMesh& mesh, MessageWriter& message, const std::vector<int>& vertices);
   std::vector<int> ReadMesh(MessageReader& message);
   /**
-   * Some vertices of a whole mesh that all ranks have put behind theirs, so that it has `first` and
-   * the places after it. @return them, here
+   * Takes some vertices of a whole mesh that all ranks put behind theirs, from the place `first`
+   * on. @return the places of these vertices here
    */
-  std::vector<int> AddPart(const SurfaceMesh& mesh, int first, const std::vector<int>& vertices);
+  std::vector<int> AddPiece(const SurfaceMesh& mesh, int first, const std::vector<int>& vertices);
   /** Forgets a vertex that another rank has removed. */
   void Forget(int v);
 

@@ -52,7 +52,7 @@ public:
   void Register(VertexPropertyBase& property) { this->All.push_back(&property); }
   void Reset(std::size_t n, Executor& executor)
   {
-    ForBlocks(executor, this->All.size(), 1,
+    ForSpans(executor, this->All.size(), 1,
       [&](std::size_t i, std::size_t, std::size_t) { this->All[i]->Reset(n); });
   }
   void Resize(std::size_t n)

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Common/Blocks.h"
+#include "Core/Common/Spans.h"
 #include "Core/Common/StandardThreads.h"
 
 #include <gtest/gtest.h>
@@ -11,9 +11,9 @@
 
 using namespace volumic;
 
-TEST(Blocks, BeginWhereThoseBeforeThemEnd)
+TEST(Spans, BeginWhereThoseBeforeThemEnd)
 {
-  // Of the numbers below 103 the multiples of 4, in blocks of 10.
+  // Of the numbers below 103 the multiples of 4, in spans of 10.
   const auto countIn = [](std::size_t begin, std::size_t end)
   {
     std::size_t count = 0;
@@ -24,13 +24,13 @@ TEST(Blocks, BeginWhereThoseBeforeThemEnd)
     return count;
   };
   StandardThreads threads(3);
-  EXPECT_EQ(FirstOfBlocks(threads, 103, 10, countIn),
+  EXPECT_EQ(FirstOfSpans(threads, 103, 10, countIn),
     (std::vector<std::size_t>{ 0, 3, 5, 8, 10, 13, 15, 18, 20, 23, 25, 26 }));
-  EXPECT_EQ(CountInBlocks(threads, 103, 10, countIn), 26u);
-  EXPECT_EQ(CountInBlocks(threads, 0, 10, countIn), 0u);
+  EXPECT_EQ(CountInSpans(threads, 103, 10, countIn), 26u);
+  EXPECT_EQ(CountInSpans(threads, 0, 10, countIn), 0u);
 }
 
-TEST(Blocks, ListsAreJoinedInTheirOrder)
+TEST(Spans, ListsAreJoinedInTheirOrder)
 {
   StandardThreads threads(3);
   std::vector<std::vector<int>> lists = { { 3, 1 }, {}, { 4 }, { 1, 5, 9 } };
@@ -38,11 +38,11 @@ TEST(Blocks, ListsAreJoinedInTheirOrder)
   EXPECT_TRUE(lists[3].empty());
 }
 
-TEST(Blocks, AreSortedAsAWhole)
+TEST(Spans, AreSortedAsAWhole)
 {
   StandardThreads threads(3);
   std::mt19937 random(1);
-  // Of whole blocks and not, with an odd one out in some round of the merge; many equal values.
+  // Of whole spans and not, with an odd one out in some round of the merge; many equal values.
   for (const std::size_t n : { 0, 1, 15, 16, 17, 32, 48, 80, 81, 257, 1000 })
   {
     for (const int values : { 5, 100000 })
@@ -54,7 +54,7 @@ TEST(Blocks, AreSortedAsAWhole)
       }
       std::vector<int> sorted = numbers;
       std::sort(sorted.begin(), sorted.end());
-      SortInBlocks(threads, numbers, 16);
+      SortInSpans(threads, numbers, 16);
       EXPECT_EQ(numbers, sorted) << n << " values up to " << values;
     }
   }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef volumicBlocks_h
-#define volumicBlocks_h
+#ifndef volumicSpans_h
+#define volumicSpans_h
 
 #include "Core/Common/Executor.h"
 
@@ -13,16 +13,16 @@
 namespace volumic
 {
 /**
- * For lists that threads fill at once: what each block of [0, n) begins at if its items follow
- * those of the blocks before, and the number of all as the last entry. countIn(begin, end): items
- * of a block.
+ * For lists that threads fill at once: the place at which the items of each span of [0, n) begin,
+ * if they follow those of the spans before, and the number of all as the last entry.
+ * countIn(begin, end) tells how many items a span has.
  */
 template <typename CountIn>
-std::vector<std::size_t> FirstOfBlocks(
+std::vector<std::size_t> FirstOfSpans(
   Executor& executor, std::size_t n, std::size_t size, CountIn&& countIn)
 {
   std::vector<std::size_t> first((n + size - 1) / size + 1, 0);
-  ForBlocks(executor, n, size,
+  ForSpans(executor, n, size,
     [&](std::size_t b, std::size_t begin, std::size_t end)
     { first[b + 1] = static_cast<std::size_t>(countIn(begin, end)); });
   for (std::size_t b = 1; b < first.size(); ++b)
@@ -32,14 +32,14 @@ std::vector<std::size_t> FirstOfBlocks(
   return first;
 }
 
-/** The sum of the counts countIn(begin, end) of all blocks of [0, n). */
+/** The sum of the counts countIn(begin, end) of all spans of [0, n). */
 template <typename CountIn>
-std::size_t CountInBlocks(Executor& executor, std::size_t n, std::size_t size, CountIn&& countIn)
+std::size_t CountInSpans(Executor& executor, std::size_t n, std::size_t size, CountIn&& countIn)
 {
-  return FirstOfBlocks(executor, n, size, countIn).back();
+  return FirstOfSpans(executor, n, size, countIn).back();
 }
 
-/** All lists as one, in their order; its memory is used again. They are emptied. */
+/** Joins lists, which are emptied, in their order; the memory of `all` is used again. */
 template <typename T, typename Allocator>
 void Concatenate(
   Executor& executor, std::vector<std::vector<T>>& lists, std::vector<T, Allocator>& all)
@@ -50,7 +50,7 @@ void Concatenate(
     first[b + 1] = first[b] + lists[b].size();
   }
   all.resize(first.back());
-  ForBlocks(executor, lists.size(), 1,
+  ForSpans(executor, lists.size(), 1,
     [&](std::size_t b, std::size_t, std::size_t)
     {
       std::copy(lists[b].begin(), lists[b].end(),
@@ -96,23 +96,23 @@ std::ptrdiff_t CountOfLeft(Iterator left, std::ptrdiff_t lefts, Iterator right,
 }
 
 /**
- * std::sort by threads, for values of which equal ones are alike: sorted in blocks, which are then
+ * std::sort by threads, for values of which equal ones are alike: sorted in spans, which are then
  * merged by twos. Needs as much memory again.
  */
 template <typename T, typename Allocator>
-void SortInBlocks(
+void SortInSpans(
   Executor& executor, std::vector<T, Allocator>& values, std::size_t size = 1 << 15)
 {
   const std::size_t n = values.size();
   const auto at = [](std::vector<T, Allocator>& list, std::size_t i)
   { return list.begin() + static_cast<std::ptrdiff_t>(i); };
-  ForBlocks(executor, n, size, [&](std::size_t, std::size_t begin, std::size_t end)
+  ForSpans(executor, n, size, [&](std::size_t, std::size_t begin, std::size_t end)
     { std::sort(at(values, begin), at(values, end)); });
   std::vector<T, Allocator> merged(n > size ? n : 0);
   for (std::size_t width = size; width < n; width *= 2)
   {
-    // Each block of what is merged is made of parts of two sorted ranges.
-    ForBlocks(executor, n, size,
+    // Each span of what is merged is made of parts of two sorted ranges.
+    ForSpans(executor, n, size,
       [&](std::size_t, std::size_t begin, std::size_t end)
       {
         const std::size_t first = begin / (2 * width) * (2 * width);
