@@ -6,7 +6,13 @@
 #include <cmath>
 #include <string>
 
+// Newer versions of VTK have a copy of their own, whose headers and Debian's shut each other out.
+#if __has_include(<vtk_nlohmannjson.h>)
+#include <vtk_nlohmannjson.h>
+#include VTK_NLOHMANN_JSON(json.hpp)
+#else
 #include <nlohmann/json.hpp>
+#endif
 
 namespace tool
 {
