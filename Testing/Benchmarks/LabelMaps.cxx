@@ -17,9 +17,7 @@
 #include <limits>
 #include <stdexcept>
 
-namespace volumic
-{
-namespace bench
+namespace volumic::bench
 {
 namespace
 {
@@ -224,5 +222,4 @@ LabelMap CropToLabel(const LabelMap& map, int label, int margin)
   return crop;
 }
 
-} // namespace bench
-} // namespace volumic
+} // namespace volumic::bench

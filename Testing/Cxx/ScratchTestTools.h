@@ -14,9 +14,7 @@
 
 #include <unistd.h>
 
-namespace volumic
-{
-namespace test
+namespace volumic::test
 {
 constexpr std::size_t MiB = std::size_t(1) << 20;
 
@@ -74,7 +72,6 @@ inline std::size_t CountWrongNumbers(const std::uint64_t* values, std::size_t be
 
 /** Whether an address lies in a mapped file, as the system sees it. */
 bool IsInFile(const void* address);
-}
 }
 
 #endif

@@ -10,9 +10,7 @@
 #include <cstdint>
 #include <stdexcept>
 
-namespace volumic
-{
-namespace support
+namespace volumic::support
 {
 namespace
 {
@@ -333,5 +331,4 @@ ReachVerdict JudgeReach(const TriangleSurface& surface, const JudgedVolume& volu
   return verdict;
 }
 
-} // namespace support
-} // namespace volumic
+} // namespace volumic::support

@@ -10,9 +10,7 @@
 #include <random>
 #include <stdexcept>
 
-namespace volumic
-{
-namespace support
+namespace volumic::support
 {
 namespace
 {
@@ -302,5 +300,4 @@ LabelMap MakeBodyMap(const std::array<int, 3>& size, int labels)
   return map;
 }
 
-} // namespace support
-} // namespace volumic
+} // namespace volumic::support

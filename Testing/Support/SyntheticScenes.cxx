@@ -10,9 +10,7 @@
 #include <random>
 #include <stdexcept>
 
-namespace volumic
-{
-namespace support
+namespace volumic::support
 {
 namespace
 {
@@ -203,5 +201,4 @@ std::vector<SceneKind> SceneKindsReachableFromOutside()
   return kinds;
 }
 
-} // namespace support
-} // namespace volumic
+} // namespace volumic::support
