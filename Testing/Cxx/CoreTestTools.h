@@ -7,6 +7,7 @@
 #include "Core/Image/LevelImage.h"
 #include "Core/Mesh/SurfaceCheck.h"
 #include "Core/Mesh/SurfaceMesh.h"
+#include "ForVoxels.h"
 #include "MeshInvariants.h"
 
 #include <algorithm>
@@ -28,16 +29,8 @@ inline TestVolume MakeVolume(int n, const std::function<double(double, double, d
 {
   TestVolume volume;
   volume.Values.reserve(static_cast<std::size_t>(n) * n * n);
-  for (int k = 0; k < n; ++k)
-  {
-    for (int j = 0; j < n; ++j)
-    {
-      for (int i = 0; i < n; ++i)
-      {
-        volume.Values.push_back(static_cast<float>(f(i, j, k)));
-      }
-    }
-  }
+  ForVoxels({ n, n, n },
+    [&](int i, int j, int k) { volume.Values.push_back(static_cast<float>(f(i, j, k))); });
   volume.Image.Values = volume.Values.data();
   volume.Image.Size = { n, n, n };
   return volume;

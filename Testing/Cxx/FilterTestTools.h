@@ -3,6 +3,7 @@
 #ifndef volumicFilterTestTools_h
 #define volumicFilterTestTools_h
 
+#include "ForVoxels.h"
 #include "vtkImagePyramid.h"
 
 #include <vtkAlgorithm.h>
@@ -211,20 +212,16 @@ inline vtkSmartPointer<vtkImageData> BallImage(int nx, int ny, int nz, double ra
   voxels->SetName("Voxels");
   const double radius = radiusShare * std::min({ nx, ny, nz });
   vtkIdType index = 0;
-  for (int k = 0; k < nz; ++k)
-  {
-    for (int j = 0; j < ny; ++j)
+  ForVoxels({ nx, ny, nz },
+    [&](int i, int j, int k)
     {
-      for (int i = 0; i < nx; ++i, ++index)
-      {
-        const double x = i - 0.5 * (nx - 1);
-        const double y = j - 0.5 * (ny - 1);
-        const double z = k - 0.5 * (nz - 1);
-        const double inside = radius - std::sqrt(x * x + y * y + z * z);
-        voxels->SetComponent(index, 0, 100.0 * std::clamp(0.5 + 0.4 * inside, 0.0, 1.0));
-      }
-    }
-  }
+      const double x = i - 0.5 * (nx - 1);
+      const double y = j - 0.5 * (ny - 1);
+      const double z = k - 0.5 * (nz - 1);
+      const double inside = radius - std::sqrt(x * x + y * y + z * z);
+      voxels->SetComponent(index, 0, 100.0 * std::clamp(0.5 + 0.4 * inside, 0.0, 1.0));
+      ++index;
+    });
   return image;
 }
 }

@@ -32,16 +32,12 @@ inline vtkSmartPointer<vtkImageData> LabelImageOf(int nx, int ny, int nz,
   vtkDataArray* voxels = image->GetPointData()->GetScalars();
   voxels->SetName("Labels");
   vtkIdType index = 0;
-  for (int k = 0; k < nz; ++k)
-  {
-    for (int j = 0; j < ny; ++j)
+  ForVoxels({ nx, ny, nz },
+    [&](int i, int j, int k)
     {
-      for (int i = 0; i < nx; ++i, ++index)
-      {
-        voxels->SetComponent(index, 0, labelAt(i, j, k));
-      }
-    }
-  }
+      voxels->SetComponent(index, 0, labelAt(i, j, k));
+      ++index;
+    });
   return image;
 }
 

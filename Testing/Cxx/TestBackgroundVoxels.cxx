@@ -46,19 +46,15 @@ bool Right(int i, int, int)
 void ForEach(const Where& where, const std::function<void(vtkIdType)>& use)
 {
   vtkIdType voxel = 0;
-  for (int k = 0; k < Size; ++k)
-  {
-    for (int j = 0; j < Size; ++j)
+  ForVoxels({ Size, Size, Size },
+    [&](int i, int j, int k)
     {
-      for (int i = 0; i < Size; ++i, ++voxel)
+      if (where(i, j, k))
       {
-        if (where(i, j, k))
-        {
-          use(voxel);
-        }
+        use(voxel);
       }
-    }
-  }
+      ++voxel;
+    });
 }
 
 vtkSmartPointer<vtkImageData> BallWith(double value, const Where& where)

@@ -28,16 +28,8 @@ namespace
 vtkSmartPointer<vtkImageData> Scene(int size = 44)
 {
   const auto image = BallImage(size, size, size, 0.3);
-  for (int k = 5; k < size - 5; ++k)
-  {
-    for (int j = 4; j < 7; ++j)
-    {
-      for (int i = 4; i < 7; ++i)
-      {
-        Voxels(image)->SetComponent((k * size + j) * size + i, 0, 100.0);
-      }
-    }
-  }
+  ForBox({ 4, 4, 5 }, { 7, 7, size - 5 },
+    [&](int i, int j, int k) { Voxels(image)->SetComponent((k * size + j) * size + i, 0, 100.0); });
   return image;
 }
 

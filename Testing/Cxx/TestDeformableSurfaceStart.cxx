@@ -132,16 +132,8 @@ vtkSmartPointer<vtkImageData> BallAndRod()
 {
   const auto image = BallImage(64, 64, 64, 0.25);
   vtkDataArray* voxels = image->GetPointData()->GetScalars();
-  for (int k = 8; k < 56; ++k)
-  {
-    for (int j = 6; j < 9; ++j)
-    {
-      for (int i = 6; i < 9; ++i)
-      {
-        voxels->SetComponent((k * 64 + j) * 64 + i, 0, 100.0);
-      }
-    }
-  }
+  ForBox({ 6, 6, 8 }, { 9, 9, 56 },
+    [&](int i, int j, int k) { voxels->SetComponent((k * 64 + j) * 64 + i, 0, 100.0); });
   return image;
 }
 }
@@ -176,20 +168,15 @@ TEST(DeformableSurfaceStart, FindsCavitiesOnRequest)
   // A bubble in the ball, which no surface from outside comes into.
   const auto image = BallImage(64, 64, 64, 0.4);
   vtkDataArray* voxels = image->GetPointData()->GetScalars();
-  for (int k = 0; k < 64; ++k)
-  {
-    for (int j = 0; j < 64; ++j)
+  ForVoxels({ 64, 64, 64 },
+    [&](int i, int j, int k)
     {
-      for (int i = 0; i < 64; ++i)
-      {
-        const double distance = std::hypot(i - 30.0, j - 32.0, k - 33.0);
-        const vtkIdType voxel = (k * 64 + j) * 64 + i;
-        voxels->SetComponent(voxel, 0,
-          std::min(voxels->GetComponent(voxel, 0),
-            std::clamp(50.0 + 25.0 * (distance - 9.0), 0.0, 100.0)));
-      }
-    }
-  }
+      const double distance = std::hypot(i - 30.0, j - 32.0, k - 33.0);
+      const vtkIdType voxel = (k * 64 + j) * 64 + i;
+      voxels->SetComponent(voxel, 0,
+        std::min(voxels->GetComponent(voxel, 0),
+          std::clamp(50.0 + 25.0 * (distance - 9.0), 0.0, 100.0)));
+    });
   for (int recovery :
     { vtkDeformableSurface::RecoverObjects, vtkDeformableSurface::RecoverObjectsAndCavities })
   {

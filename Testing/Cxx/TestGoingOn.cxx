@@ -23,16 +23,8 @@ vtkSmartPointer<vtkImageData> Scene(int size = 64)
 {
   const auto image = BallImage(size, size, size, 0.3);
   vtkDataArray* voxels = image->GetPointData()->GetScalars();
-  for (int k = 6; k < size - 6; ++k)
-  {
-    for (int j = 5; j < 8; ++j)
-    {
-      for (int i = 5; i < 8; ++i)
-      {
-        voxels->SetComponent((k * size + j) * size + i, 0, 100.0);
-      }
-    }
-  }
+  ForBox({ 5, 5, 6 }, { 8, 8, size - 6 },
+    [&](int i, int j, int k) { voxels->SetComponent((k * size + j) * size + i, 0, 100.0); });
   return image;
 }
 

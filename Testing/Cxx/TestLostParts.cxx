@@ -63,16 +63,8 @@ struct KnownBall
 int VoxelsOfTheLostBall(const Field& field)
 {
   int count = 0;
-  for (int k = 0; k < 48; ++k)
-  {
-    for (int j = 0; j < 48; ++j)
-    {
-      for (int i = 34; i < 48; ++i)
-      {
-        count += field.Voxel(i, j, k) > 0;
-      }
-    }
-  }
+  ForBox({ 34, 0, 0 }, { 48, 48, 48 },
+    [&](int i, int j, int k) { count += field.Voxel(i, j, k) > 0; });
   return count;
 }
 

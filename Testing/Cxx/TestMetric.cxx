@@ -57,19 +57,14 @@ vtkSmartPointer<vtkImageData> FlatBall(double zSpacing)
   // A ball in the world: an ellipsoid in voxels.
   const auto image = BallImage(48, 48, 24);
   image->SetSpacing(1, 1, zSpacing);
-  for (int k = 0; k < 24; ++k)
-  {
-    for (int j = 0; j < 48; ++j)
+  ForVoxels({ 48, 48, 24 },
+    [&](int i, int j, int k)
     {
-      for (int i = 0; i < 48; ++i)
-      {
-        const double distance =
-          std::hypot(i - 23.5, j - 23.5, zSpacing * (k - 11.5));
-        image->SetScalarComponentFromDouble(
-          i, j, k, 0, std::clamp(50. + 12. * (16. - distance), 0., 100.));
-      }
-    }
-  }
+      const double distance =
+        std::hypot(i - 23.5, j - 23.5, zSpacing * (k - 11.5));
+      image->SetScalarComponentFromDouble(
+        i, j, k, 0, std::clamp(50. + 12. * (16. - distance), 0., 100.));
+    });
   return image;
 }
 
@@ -162,16 +157,8 @@ TEST(Metric, RecoversWhatLiesAcrossSlicesFarApart)
   // A needle along z that no coarse level shows, beside a ball that they do.
   const double stretch = 4.;
   const auto image = FlatBall(stretch);
-  for (int k = 2; k < 22; ++k)
-  {
-    for (int j = 4; j < 7; ++j)
-    {
-      for (int i = 4; i < 7; ++i)
-      {
-        image->SetScalarComponentFromDouble(i, j, k, 0, 90.);
-      }
-    }
-  }
+  ForBox({ 4, 4, 2 }, { 7, 7, 22 },
+    [&](int i, int j, int k) { image->SetScalarComponentFromDouble(i, j, k, 0, 90.); });
   const auto surface = SurfaceIn(vtkDeformableSurface::World, image);
   EXPECT_EQ(FieldOf(surface, "NumberOfComponents"), 2) << "the needle in one piece";
   EXPECT_EQ(FieldOf(surface, "Genus"), 0);

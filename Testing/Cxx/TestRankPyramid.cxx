@@ -182,20 +182,15 @@ void ExpectPiecesOf(vtkImageData* whole, unsigned int h, const std::vector<Outco
     }
     EXPECT_EQ(UnitOf(piece), UnitOf(whole));
     const int* e = piece->GetExtent();
-    for (int k = e[4]; k <= e[5]; ++k)
-    {
-      for (int j = e[2]; j <= e[3]; ++j)
+    ForBox({ e[0], e[2], e[4] }, { e[1] + 1, e[3] + 1, e[5] + 1 },
+      [&](int i, int j, int k)
       {
-        for (int i = e[0]; i <= e[1]; ++i)
-        {
-          int place[3] = { i, j, k };
-          const vtkIdType inWhole = whole->ComputePointId(place);
-          found[static_cast<std::size_t>(inWhole)] = 1;
-          differences += !AreSameBits(Voxels(piece)->GetTuple1(piece->ComputePointId(place)),
-            Voxels(whole)->GetTuple1(inWhole));
-        }
-      }
-    }
+        int place[3] = { i, j, k };
+        const vtkIdType inWhole = whole->ComputePointId(place);
+        found[static_cast<std::size_t>(inWhole)] = 1;
+        differences += !AreSameBits(Voxels(piece)->GetTuple1(piece->ComputePointId(place)),
+          Voxels(whole)->GetTuple1(inWhole));
+      });
   }
   EXPECT_EQ(differences, 0) << "level " << h;
   EXPECT_EQ(std::count(found.begin(), found.end(), 0), 0) << "level " << h;

@@ -138,21 +138,17 @@ void BallSource::Fill(vtkImageData* image, const std::array<int, 6>& extent, boo
   ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
   const int hidden = isCell ? static_cast<int>(vtkDataSetAttributes::HIDDENCELL)
                             : static_cast<int>(vtkDataSetAttributes::HIDDENPOINT);
-  for (int k = extent[4]; k <= extent[5] - isCell; ++k)
-  {
-    for (int j = extent[2]; j <= extent[3] - isCell; ++j)
+  ForBox({ extent[0], extent[2], extent[4] },
+    { extent[1] + 1 - isCell, extent[3] + 1 - isCell, extent[5] + 1 - isCell },
+    [&](int i, int j, int k)
     {
-      for (int i = extent[0]; i <= extent[1] - isCell; ++i)
-      {
-        const double value = ValueAt(i, j, k);
-        const bool isNaN = this->Made.HasNaNs && (i + 2 * j + 3 * k) % 97 == 0;
-        voxels->InsertNextTuple4(1.0, 2.0,
-          isNaN ? std::numeric_limits<float>::quiet_NaN() : value, value * 0.5);
-        other->InsertNextValue(static_cast<float>(i + j + k));
-        ghosts->InsertNextValue(static_cast<unsigned char>((i * j + k) % 31 == 0 ? hidden : 0));
-      }
-    }
-  }
+      const double value = ValueAt(i, j, k);
+      const bool isNaN = this->Made.HasNaNs && (i + 2 * j + 3 * k) % 97 == 0;
+      voxels->InsertNextTuple4(1.0, 2.0,
+        isNaN ? std::numeric_limits<float>::quiet_NaN() : value, value * 0.5);
+      other->InsertNextValue(static_cast<float>(i + j + k));
+      ghosts->InsertNextValue(static_cast<unsigned char>((i * j + k) % 31 == 0 ? hidden : 0));
+    });
   vtkDataSetAttributes* attributes = image->GetPointData();
   attributes = isCell ? static_cast<vtkDataSetAttributes*>(image->GetCellData()) : attributes;
   if (this->Made.HasOther)

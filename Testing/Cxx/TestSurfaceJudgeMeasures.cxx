@@ -3,6 +3,7 @@
 
 // The second half of TestSurfaceJudge.cxx: what the judge measures.
 
+#include "ForVoxels.h"
 #include "SimpleSurfaces.h"
 #include "SurfaceJudge.h"
 
@@ -32,16 +33,8 @@ struct Block
 
   void Fill(const std::array<int, 3>& from, const std::array<int, 3>& to, float value)
   {
-    for (int k = from[2]; k <= to[2]; ++k)
-    {
-      for (int j = from[1]; j <= to[1]; ++j)
-      {
-        for (int i = from[0]; i <= to[0]; ++i)
-        {
-          this->At(i, j, k) = value;
-        }
-      }
-    }
+    ForBox(from, { to[0] + 1, to[1] + 1, to[2] + 1 },
+      [&](int i, int j, int k) { this->At(i, j, k) = value; });
   }
 
   JudgedVolume Judged(double isoValue, bool bright = true) const
@@ -192,16 +185,11 @@ TEST(JudgeIsoDistance, IsRightInARamp)
 TEST(JudgeIsoDistance, DiffersAtVerticesAndCentroids)
 {
   Block block(24);
-  for (int k = 0; k < 24; ++k)
-  {
-    for (int j = 0; j < 24; ++j)
+  ForVoxels({ 24, 24, 24 },
+    [&](int i, int j, int k)
     {
-      for (int i = 0; i < 24; ++i)
-      {
-        block.At(i, j, k) = static_cast<float>(std::hypot(i - 11.5, j - 11.5, k - 11.5));
-      }
-    }
-  }
+      block.At(i, j, k) = static_cast<float>(std::hypot(i - 11.5, j - 11.5, k - 11.5));
+    });
   // Corners of a cube on a sphere of radius 8 around the middle: its faces lie far inside.
   const double c = 8.0 / std::sqrt(3.0);
   TriangleSurface surface;

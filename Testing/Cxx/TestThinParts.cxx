@@ -230,18 +230,13 @@ TEST(ThinParts, AreOfLabelsToo)
   vtkNew<vtkImageData> map;
   map->SetDimensions(40, 40, 40);
   map->AllocateScalars(VTK_UNSIGNED_CHAR, 1);
-  for (int k = 0; k < 40; ++k)
-  {
-    for (int j = 0; j < 40; ++j)
+  ForVoxels({ 40, 40, 40 },
+    [&](int i, int j, int k)
     {
-      for (int i = 0; i < 40; ++i)
-      {
-        const bool isBlock = std::max({ std::abs(i - 10), std::abs(j - 20), std::abs(k - 20) }) < 8;
-        const double r = std::hypot(i - 28.3, j - 19.8, k - 20.1);
-        map->SetScalarComponentFromDouble(i, j, k, 0, isBlock ? 1. : r > 7.5 && r < 8.5 ? 2. : 0.);
-      }
-    }
-  }
+      const bool isBlock = std::max({ std::abs(i - 10), std::abs(j - 20), std::abs(k - 20) }) < 8;
+      const double r = std::hypot(i - 28.3, j - 19.8, k - 20.1);
+      map->SetScalarComponentFromDouble(i, j, k, 0, isBlock ? 1. : r > 7.5 && r < 8.5 ? 2. : 0.);
+    });
   vtkNew<vtkLabelsToSurfaces> filter;
   filter->SetInputData(map);
   const auto surface = [&filter](unsigned int block)
