@@ -10,11 +10,6 @@
 #include "ForVoxels.h"
 #include "MeshInvariants.h"
 
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <vector>
-
 namespace volumic
 {
 /** Voxels with their image; keep it alive as long as the image is used. */

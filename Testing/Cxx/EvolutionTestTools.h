@@ -7,9 +7,6 @@
 #include "Core/Evolution/SurfaceOptions.h"
 #include "CoreTestTools.h"
 
-#include <functional>
-#include <vector>
-
 namespace volumic
 {
 /** A ball in the middle of a cube of n voxels; the iso-value is .5. */

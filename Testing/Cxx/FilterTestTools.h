@@ -4,6 +4,7 @@
 #define volumicFilterTestTools_h
 
 #include "ForVoxels.h"
+#include "TestPrelude.h"
 #include "vtkImagePyramid.h"
 
 #include <vtkAlgorithm.h>
@@ -17,14 +18,6 @@
 #include <vtkPointData.h>
 #include <vtkSmartPointer.h>
 #include <vtkWeakPointer.h>
-
-#include <algorithm>
-#include <cmath>
-#include <random>
-#include <set>
-#include <string>
-#include <utility>
-#include <vector>
 
 /** What the tests of the VTK classes share. */
 namespace volumic

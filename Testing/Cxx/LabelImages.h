@@ -7,17 +7,8 @@
 #include "vtkLabelsToSurfaces.h"
 
 #include <vtkCompositeDataSet.h>
-#include <vtkDataArray.h>
-#include <vtkImageData.h>
 #include <vtkInformation.h>
-#include <vtkMultiBlockDataSet.h>
 #include <vtkPolyData.h>
-#include <vtkSmartPointer.h>
-
-#include <cmath>
-#include <functional>
-#include <string>
-#include <vector>
 
 /** What the tests of vtkLabelsToSurfaces share. */
 namespace volumic

@@ -7,11 +7,7 @@
 #include "Core/Labels/LabelField.h"
 #include "Core/Labels/LabelMap.h"
 #include "ForVoxels.h"
-
-#include <array>
-#include <cmath>
-#include <cstddef>
-#include <functional>
+#include "TestPrelude.h"
 
 namespace volumic
 {

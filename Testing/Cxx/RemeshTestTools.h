@@ -9,11 +9,6 @@
 #include "Core/Surface/SurfaceState.h"
 #include "CoreTestTools.h"
 
-#include <algorithm>
-#include <numeric>
-#include <utility>
-#include <vector>
-
 namespace volumic
 {
 inline void AddSurface(IndexedSurface& to, const IndexedSurface& more)

@@ -5,12 +5,10 @@
 
 #include "Core/Common/ScratchFile.h"
 #include "Core/Common/ScratchMemory.h"
+#include "TestPrelude.h"
 
-#include <cstddef>
-#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
-#include <string>
 
 #include <unistd.h>
 

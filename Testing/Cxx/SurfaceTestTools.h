@@ -6,20 +6,10 @@
 #include "FilterTestTools.h"
 #include "vtkDeformableSurface.h"
 
-#include <vtkDataArray.h>
 #include <vtkFeatureEdges.h>
-#include <vtkFieldData.h>
 #include <vtkMath.h>
-#include <vtkMultiBlockDataSet.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkStringArray.h>
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <string>
 
 /** What the tests of vtkDeformableSurface share. */
 namespace volumic

@@ -1,26 +1,13 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfaceTestTools.h"
-#include "vtkImagePyramid.h"
 #include "vtkOtsuThreshold.h"
 #include "vtkVolumeToSurface.h"
 
 #include <vtkCellData.h>
 #include <vtkDataSetAttributes.h>
 #include <vtkImageCast.h>
-#include <vtkImageData.h>
-#include <vtkMultiBlockDataSet.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPolyData.h>
 #include <vtkUnsignedCharArray.h>
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
-#include <limits>
-#include <string>
 
 using namespace volumic;
 

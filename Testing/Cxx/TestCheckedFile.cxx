@@ -5,15 +5,7 @@
 #include "Core/Common/StandardThreads.h"
 #include "TemporaryFolder.h"
 
-#include <gtest/gtest.h>
-
-#include <cstddef>
-#include <cstdint>
 #include <fstream>
-#include <numeric>
-#include <set>
-#include <string>
-#include <vector>
 
 #ifndef _WIN32
 #include <sys/stat.h>

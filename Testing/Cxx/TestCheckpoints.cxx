@@ -1,24 +1,12 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SameOutputs.h"
-#include "SurfaceTestTools.h"
 #include "TemporaryFolder.h"
 #include "vtkVolumeToSurface.h"
 
-#include <vtkCallbackCommand.h>
-#include <vtkCommand.h>
-#include <vtkMultiBlockDataSet.h>
 #include <vtkSphereSource.h>
-#include <vtkTable.h>
-#include <vtkVariant.h>
 
-#include <filesystem>
 #include <fstream>
-#include <functional>
-#include <set>
-#include <string>
-#include <utility>
-#include <vector>
 
 using namespace volumic;
 

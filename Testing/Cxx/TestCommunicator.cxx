@@ -3,10 +3,7 @@
 #include "Core/Common/Communicator.h"
 #include "ThreadRanks.h"
 
-#include <gtest/gtest.h>
-
 #include <atomic>
-#include <string>
 
 namespace
 {

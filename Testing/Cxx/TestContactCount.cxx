@@ -9,12 +9,6 @@
 #include "RemeshTestTools.h"
 #include "ThreadRanks.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <vector>
-
 using namespace volumic;
 
 namespace

@@ -1,25 +1,11 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "FilterTestTools.h"
 #include "SurfaceTestTools.h"
-#include "vtkDeformableSurface.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
-#include <vtkImageData.h>
-#include <vtkMath.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
 #include <vtkPoints.h>
-#include <vtkPolyData.h>
 #include <vtkSphereSource.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <utility>
-#include <vector>
 
 using namespace volumic;
 

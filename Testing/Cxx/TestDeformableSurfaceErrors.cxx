@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FilterTestTools.h"
 #include "vtkDeformableSurface.h"
-#include "vtkImagePyramid.h"
 
 #include <vtkAppendPolyData.h>
 #include <vtkCellArray.h>
@@ -10,26 +9,13 @@
 #include <vtkCubeSource.h>
 #include <vtkErrorCode.h>
 #include <vtkExecutive.h>
-#include <vtkFieldData.h>
 #include <vtkImageCast.h>
-#include <vtkImageData.h>
-#include <vtkMultiBlockDataSet.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkReverseSense.h>
 #include <vtkSphereSource.h>
 #include <vtkTable.h>
 #include <vtkTriangleFilter.h>
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
-#include <limits>
-#include <string>
-#include <vector>
 
 using namespace volumic;
 

@@ -5,23 +5,10 @@
 #include <vtkCellData.h>
 #include <vtkCompositeDataSet.h>
 #include <vtkDataObject.h>
-#include <vtkFieldData.h>
-#include <vtkImageData.h>
 #include <vtkInformation.h>
-#include <vtkMath.h>
-#include <vtkMultiBlockDataSet.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPolyData.h>
 #include <vtkTable.h>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <string>
-#include <vector>
 
 using namespace volumic;
 

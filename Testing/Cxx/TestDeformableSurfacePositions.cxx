@@ -2,18 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfaceTestTools.h"
 
-#include <vtkImageData.h>
-#include <vtkNew.h>
 #include <vtkPoints.h>
-#include <vtkPolyData.h>
-
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-#include <limits>
-#include <string>
-#include <vector>
 
 using namespace volumic;
 

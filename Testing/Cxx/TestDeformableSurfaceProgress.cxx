@@ -2,23 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfaceTestTools.h"
 
-#include <vtkCallbackCommand.h>
-#include <vtkCommand.h>
 #include <vtkDataObject.h>
-#include <vtkFeatureEdges.h>
 #include <vtkFloatArray.h>
-#include <vtkImageData.h>
-#include <vtkMultiBlockDataSet.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPolyData.h>
-#include <vtkSmartPointer.h>
 #include <vtkTable.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <string>
 
 using namespace volumic;
 

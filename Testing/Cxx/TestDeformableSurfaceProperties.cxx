@@ -7,11 +7,7 @@
 #include <vtkTable.h>
 #include <vtkVariant.h>
 
-#include <cmath>
-#include <functional>
 #include <sstream>
-#include <string>
-#include <vector>
 
 using namespace volumic;
 

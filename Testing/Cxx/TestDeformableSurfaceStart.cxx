@@ -3,25 +3,10 @@
 #include "SurfaceTestTools.h"
 
 #include <vtkCleanPolyData.h>
-#include <vtkCommand.h>
 #include <vtkCylinderSource.h>
-#include <vtkDataArray.h>
-#include <vtkFieldData.h>
-#include <vtkImageData.h>
-#include <vtkMath.h>
-#include <vtkMultiBlockDataSet.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
 #include <vtkPoints.h>
-#include <vtkPolyData.h>
-#include <vtkSmartPointer.h>
 #include <vtkSphereSource.h>
 #include <vtkTable.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 
 using namespace volumic;
 

@@ -1,13 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Evolution/EdgeLengthPlan.h"
-
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-#include <stdexcept>
-#include <string>
+#include "TestPrelude.h"
 
 using namespace volumic;
 

@@ -12,13 +12,6 @@
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "EvolutionTestTools.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <random>
-#include <string>
-#include <utility>
-
 using namespace volumic;
 
 namespace

@@ -6,16 +6,7 @@
 #include "EvolutionTestTools.h"
 #include "TemporaryFolder.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstddef>
 #include <fstream>
-#include <functional>
-#include <iterator>
-#include <memory>
-#include <string>
-#include <vector>
 
 using namespace volumic;
 

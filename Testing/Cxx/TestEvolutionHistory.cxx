@@ -6,15 +6,8 @@
 #include "Core/Surface/SurfaceState.h"
 #include "EvolutionTestTools.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <cstddef>
-#include <string>
 #include <thread>
-#include <vector>
 
 using namespace volumic;
 

@@ -9,10 +9,6 @@
 #include "Core/Surface/StarScore.h"
 #include "RemeshTestTools.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 using namespace volumic;
 
 namespace

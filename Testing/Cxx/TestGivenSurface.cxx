@@ -9,13 +9,6 @@
 #include "Core/Surface/Remesher.h"
 #include "EvolutionTestTools.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <stdexcept>
-#include <string>
-
 using namespace volumic;
 
 namespace

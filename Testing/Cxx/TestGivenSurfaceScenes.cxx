@@ -8,6 +8,7 @@
 #include "Core/Evolution/SurfaceOptions.h"
 #include "ForVoxels.h"
 #include "SurfaceJudge.h"
+#include "TestPrelude.h"
 
 #include <vtkCellArray.h>
 #include <vtkCleanPolyData.h>
@@ -27,16 +28,6 @@
 #include <vtkSmartPointer.h>
 #include <vtkSphereSource.h>
 #include <vtkTriangleFilter.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <random>
-#include <stdexcept>
-#include <string>
-#include <vector>
 
 using namespace volumic;
 using namespace volumic::support;

@@ -1,18 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SameOutputs.h"
-#include "SurfaceTestTools.h"
 #include "vtkVolumeToSurface.h"
 
-#include <vtkCommand.h>
-#include <vtkMultiBlockDataSet.h>
-#include <vtkPolyData.h>
-#include <vtkTable.h>
-
-#include <algorithm>
 #include <chrono>
-#include <functional>
-#include <iterator>
 
 using namespace volumic;
 

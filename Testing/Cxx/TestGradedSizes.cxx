@@ -8,15 +8,6 @@
 #include "GradedTestTools.h"
 #include "ThreadTestTools.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <functional>
-#include <numeric>
-#include <vector>
-
 using namespace volumic;
 
 namespace

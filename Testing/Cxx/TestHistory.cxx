@@ -5,12 +5,6 @@
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "EvolutionTestTools.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numeric>
-#include <string>
-
 using namespace volumic;
 
 namespace

@@ -1,32 +1,17 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FilterTestTools.h"
-#include "vtkImagePyramid.h"
 
 #include <vtkBitArray.h>
 #include <vtkCompositeDataSet.h>
-#include <vtkDataArray.h>
 #include <vtkDoubleArray.h>
-#include <vtkFieldData.h>
 #include <vtkFloatArray.h>
-#include <vtkImageData.h>
 #include <vtkInformation.h>
 #include <vtkMatrix3x3.h>
-#include <vtkMultiBlockDataSet.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
 #include <vtkRTAnalyticSource.h>
 #include <vtkSMPTools.h>
 #include <vtkSOADataArrayTemplate.h>
 #include <vtkStringArray.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <string>
-#include <vector>
 
 using namespace volumic;
 

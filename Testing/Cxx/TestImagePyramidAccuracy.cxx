@@ -3,19 +3,8 @@
 
 // The levels hold what equation 5 says: the kernel's sum over places of the interpolated image.
 #include "FilterTestTools.h"
-#include "vtkImagePyramid.h"
 
-#include <vtkDataArray.h>
 #include <vtkDoubleArray.h>
-#include <vtkImageData.h>
-#include <vtkMultiBlockDataSet.h>
-#include <vtkNew.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
 
 using namespace volumic;
 

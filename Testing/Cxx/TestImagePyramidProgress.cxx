@@ -1,19 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FilterTestTools.h"
-#include "vtkImagePyramid.h"
 
-#include <vtkFieldData.h>
-#include <vtkImageData.h>
-#include <vtkMultiBlockDataSet.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
 #include <vtkStringArray.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <string>
 
 using namespace volumic;
 

@@ -6,17 +6,7 @@
 #include "Core/Image/Field.h"
 #include "Core/Mesh/SelfIntersections.h"
 #include "Core/Mesh/SurfaceFeatures.h"
-#include "CoreTestTools.h"
 #include "EvolutionTestTools.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <stdexcept>
-#include <string>
-#include <vector>
 
 using namespace volumic;
 

@@ -4,11 +4,6 @@
 #include "Core/Labels/BoundaryRows.h"
 #include "LabelTestTools.h"
 
-#include <gtest/gtest.h>
-
-#include <set>
-#include <vector>
-
 using namespace volumic;
 
 namespace

@@ -6,12 +6,6 @@
 #include "LabelTestTools.h"
 #include "ThreadTestTools.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
 using namespace volumic;
 
 namespace

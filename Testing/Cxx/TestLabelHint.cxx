@@ -3,12 +3,6 @@
 #include "LabelImages.h"
 #include "vtkVolumeToSurface.h"
 
-#include <vtkImageData.h>
-#include <vtkNew.h>
-#include <vtkPolyData.h>
-
-#include <gtest/gtest.h>
-
 using namespace volumic;
 
 namespace

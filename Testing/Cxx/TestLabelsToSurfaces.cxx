@@ -2,36 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LabelImages.h"
 #include "SameOutputs.h"
-#include "SurfaceTestTools.h"
 #include "vtkLabelTable.h"
-#include "vtkLabelsToSurfaces.h"
 
 #include <vtkCell.h>
-#include <vtkCellData.h>
-#include <vtkCommand.h>
 #include <vtkDoubleArray.h>
-#include <vtkFieldData.h>
-#include <vtkImageData.h>
 #include <vtkIntArray.h>
-#include <vtkMath.h>
-#include <vtkMultiBlockDataSet.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
 #include <vtkPoints.h>
-#include <vtkPolyData.h>
-#include <vtkStringArray.h>
-#include <vtkTable.h>
 #include <vtkUnsignedCharArray.h>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
 #include <sstream>
-#include <string>
-#include <vector>
 
 using namespace volumic;
 

@@ -2,26 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LabelImages.h"
 #include "SurfaceTestTools.h"
-#include "vtkLabelsToSurfaces.h"
 
 #include <vtkDoubleArray.h>
 #include <vtkErrorCode.h>
-#include <vtkFieldData.h>
-#include <vtkImageData.h>
 #include <vtkIntArray.h>
-#include <vtkMultiBlockDataSet.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkStringArray.h>
 #include <vtkUnstructuredGrid.h>
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
 #include <new>
-#include <string>
-#include <vector>
 
 using namespace volumic;
 

@@ -7,15 +7,7 @@
 #include "ForVoxels.h"
 #include "ThreadRanks.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstring>
-#include <limits>
-#include <random>
 #include <type_traits>
-#include <vector>
 
 using namespace volumic;
 

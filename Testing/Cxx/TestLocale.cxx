@@ -6,23 +6,14 @@
 #include "SurfaceTestTools.h"
 #include "vtkOtsuThreshold.h"
 
-#include <vtkImageData.h>
-#include <vtkNew.h>
 #include <vtkPoints.h>
-#include <vtkPolyData.h>
 #include <vtkReverseSense.h>
 #include <vtkSphereSource.h>
 
-#include <gtest/gtest.h>
-
 #include <clocale>
-#include <cmath>
-#include <limits>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <memory>
-#include <string>
 
 using namespace volumic;
 

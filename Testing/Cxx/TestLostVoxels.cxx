@@ -6,13 +6,6 @@
 #include "Core/Image/VoxelParts.h"
 #include "EvolutionTestTools.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cstdint>
-#include <vector>
-
 using namespace volumic;
 
 namespace

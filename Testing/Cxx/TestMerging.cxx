@@ -8,12 +8,6 @@
 #include "Core/Surface/Remesher.h"
 #include "RemeshTestTools.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
-#include <memory>
-
 using namespace volumic;
 
 namespace

@@ -9,17 +9,6 @@
 #include "Core/Mesh/VertexRemoval.h"
 #include "CoreTestTools.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <initializer_list>
-#include <stdexcept>
-#include <string>
-#include <utility>
-#include <vector>
-
 using namespace volumic;
 
 namespace

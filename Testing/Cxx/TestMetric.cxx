@@ -3,16 +3,7 @@
 //
 // Metric and EdgeLength of the surface's filters: which lengths are even, and how long they are.
 #include "SurfaceTestTools.h"
-#include "vtkImagePyramid.h"
 #include "vtkVolumeToSurface.h"
-
-#include <vtkImageData.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <string>
 
 using namespace volumic;
 

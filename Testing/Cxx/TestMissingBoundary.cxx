@@ -2,9 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfaceTestTools.h"
 
-#include <vtkCommand.h>
-#include <vtkMultiBlockDataSet.h>
-
 using namespace volumic;
 
 namespace

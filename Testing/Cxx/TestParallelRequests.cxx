@@ -2,25 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FilterTestTools.h"
 #include "vtkDeformableSurface.h"
-#include "vtkImagePyramid.h"
 #include "vtkOtsuThreshold.h"
 #include "vtkVolumeToSurface.h"
 
 #include <vtkDataObject.h>
 #include <vtkImageAlgorithm.h>
-#include <vtkImageData.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
-#include <vtkNew.h>
 #include <vtkObjectFactory.h>
-#include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
-
-#include <gtest/gtest.h>
-
-#include <array>
-#include <vector>
 
 using namespace volumic;
 

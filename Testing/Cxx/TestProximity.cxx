@@ -7,14 +7,6 @@
 #include "Core/Surface/Proximity.h"
 #include "CoreTestTools.h"
 
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-#include <numeric>
-#include <set>
-#include <utility>
-
 using namespace volumic;
 
 namespace

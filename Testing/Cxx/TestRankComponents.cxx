@@ -8,13 +8,6 @@
 #include "RemeshTestTools.h"
 #include "ThreadRanks.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <numeric>
-#include <set>
-#include <vector>
-
 using namespace volumic;
 
 namespace

@@ -5,13 +5,7 @@
 #include "BarTestScene.h"
 #include "Core/Common/StandardThreads.h"
 #include "EvolutionTestTools.h"
-#include "MeshInvariants.h"
 #include "ThreadRanks.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <vector>
 
 using namespace volumic;
 

@@ -6,13 +6,6 @@
 #include "Core/Surface/SizingField.h"
 #include "EvolutionTestTools.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <set>
-#include <stdexcept>
-
 using namespace volumic;
 
 namespace

@@ -5,14 +5,9 @@
 #include "Core/Common/ScratchStore.h"
 #include "Core/Mesh/SurfaceMesh.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <fstream>
-#include <memory>
 #include <sstream>
 #include <thread>
-#include <vector>
 
 using namespace volumic;
 using namespace volumic::test;

@@ -5,13 +5,7 @@
 
 #include "ScratchTestTools.h"
 
-#include <gtest/gtest.h>
-
 #include <csignal>
-#include <functional>
-#include <stdexcept>
-#include <string>
-#include <vector>
 
 #include <pthread.h>
 #include <sys/resource.h>

@@ -3,13 +3,6 @@
 #include "SurfaceTestTools.h"
 #include "vtkVolumeToSurface.h"
 
-#include <vtkCommand.h>
-#include <vtkMath.h>
-#include <vtkPolyData.h>
-#include <vtkSmartPointer.h>
-
-#include <vector>
-
 using namespace volumic;
 
 namespace

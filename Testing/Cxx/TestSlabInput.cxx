@@ -4,7 +4,6 @@
 // With a limit of memory a filter asks for its image slab by slab; what it makes of it is the same
 // bits.
 #include "SurfaceTestTools.h"
-#include "vtkImagePyramid.h"
 #include "vtkVolumeToSurface.h"
 
 #include <vtkCellData.h>
@@ -12,26 +11,16 @@
 #include <vtkErrorCode.h>
 #include <vtkFloatArray.h>
 #include <vtkImageAlgorithm.h>
-#include <vtkImageData.h>
 #include <vtkImageFlip.h>
 #include <vtkImageShiftScale.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
 #include <vtkMatrix3x3.h>
-#include <vtkMultiBlockDataSet.h>
 #include <vtkObjectFactory.h>
-#include <vtkPointData.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
 #include <vtkUnsignedCharArray.h>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstring>
-#include <functional>
-#include <limits>
-#include <string>
-#include <vector>
 
 using namespace volumic;
 

@@ -3,15 +3,7 @@
 
 // Every check of a given surface and of a live one, each with a surface that only it refuses.
 #include "Core/Mesh/SurfaceCheck.h"
-#include "CoreTestTools.h"
 #include "RemeshTestTools.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <stdexcept>
-#include <string>
 
 using namespace volumic;
 

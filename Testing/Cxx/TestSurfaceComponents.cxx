@@ -9,12 +9,6 @@
 #include "RankTestTools.h"
 #include "RemeshTestTools.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <numeric>
-#include <vector>
-
 using namespace volumic;
 
 namespace

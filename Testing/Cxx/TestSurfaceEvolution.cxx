@@ -5,14 +5,6 @@
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "EvolutionTestTools.h"
 
-#include <gtest/gtest.h>
-
-#include <cstddef>
-#include <random>
-#include <stdexcept>
-#include <string>
-#include <utility>
-
 using namespace volumic;
 
 namespace

@@ -6,10 +6,7 @@
 #include "ForVoxels.h"
 #include "SimpleSurfaces.h"
 #include "SurfaceJudge.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "TestPrelude.h"
 
 using namespace volumic::support;
 

@@ -5,16 +5,10 @@
 
 #include "ForVoxels.h"
 #include "SupportVtkConversions.h"
+#include "TestPrelude.h"
 
 #include <vtkFlyingEdges3D.h>
 #include <vtkImageConstantPad.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <vector>
 
 using namespace volumic::support;
 

@@ -1,19 +1,10 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SameOutputs.h"
-#include "SurfaceTestTools.h"
 #include "vtkLabelsToSurfaces.h"
 #include "vtkVolumeToSurface.h"
 
 #include <vtkErrorCode.h>
-#include <vtkMultiBlockDataSet.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <functional>
-#include <string>
-#include <vector>
 
 using namespace volumic;
 

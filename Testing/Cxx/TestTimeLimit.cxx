@@ -2,14 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfaceTestTools.h"
 
-#include <vtkCallbackCommand.h>
-#include <vtkCommand.h>
 #include <vtkErrorCode.h>
-#include <vtkMultiBlockDataSet.h>
 #include <vtkTable.h>
 
 #include <chrono>
-#include <limits>
 #include <thread>
 
 using namespace volumic;

@@ -10,14 +10,6 @@
 #include "EvolutionTestTools.h"
 #include "RemeshTestTools.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cstddef>
-#include <functional>
-#include <random>
-#include <string>
-
 using namespace volumic;
 
 namespace

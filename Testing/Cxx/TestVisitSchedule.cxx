@@ -4,24 +4,8 @@
 #include "Core/Common/VisitSchedule.h"
 #include "ThreadTestTools.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <atomic>
-#include <chrono>
-#include <cstddef>
-#include <cstdint>
 #include <cstdlib>
-#include <functional>
-#include <initializer_list>
 #include <mutex>
-#include <numeric>
-#include <random>
-#include <stdexcept>
-#include <string>
-#include <thread>
-#include <vector>
 
 using namespace volumic;
 

@@ -1,30 +1,16 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfaceTestTools.h"
-#include "vtkImagePyramid.h"
 #include "vtkOtsuThreshold.h"
 #include "vtkVolumeToSurface.h"
 
 #include <vtkCellData.h>
-#include <vtkDataArray.h>
 #include <vtkDoubleArray.h>
 #include <vtkErrorCode.h>
-#include <vtkImageData.h>
 #include <vtkIntArray.h>
-#include <vtkMultiBlockDataSet.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPolyData.h>
 #include <vtkTable.h>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numeric>
 #include <sstream>
-#include <vector>
 
 using namespace volumic;
 

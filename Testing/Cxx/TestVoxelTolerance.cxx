@@ -7,13 +7,6 @@
 #include "JudgedLabels.h"
 
 #include <vtkImplicitPolyDataDistance.h>
-#include <vtkNew.h>
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdint>
-#include <vector>
 
 using namespace volumic::support;
 
