@@ -11,6 +11,7 @@
 #include <vtkCallbackCommand.h>
 #include <vtkCommand.h>
 #include <vtkDataArray.h>
+#include <vtkErrorCode.h>
 #include <vtkFieldData.h>
 #include <vtkImageData.h>
 #include <vtkMultiBlockDataSet.h>
@@ -59,6 +60,18 @@ private:
   vtkNew<vtkCallbackCommand> Command;
   std::vector<std::pair<vtkWeakPointer<vtkObject>, unsigned long>> Observed;
 };
+
+/** Updates a filter, which is to fail, and to tell so in a message with these parts. */
+inline void ExpectErrorOf(vtkAlgorithm* filter, const std::vector<std::string>& parts)
+{
+  const MessagesOf errors(filter);
+  filter->Update();
+  for (const std::string& part : parts)
+  {
+    EXPECT_TRUE(Has(errors.Get(), part));
+  }
+  EXPECT_EQ(filter->GetErrorCode(), static_cast<unsigned long>(vtkErrorCode::UserError));
+}
 
 /** Level h of a pyramid. */
 inline vtkImageData* Level(vtkMultiBlockDataSet* pyramid, unsigned int h)
@@ -216,6 +229,14 @@ inline vtkSmartPointer<vtkImageData> BallImage(int nx, int ny, int nz, double ra
       ++index;
     });
   return image;
+}
+
+/** Sets the voxels from first to before end of an image that begins at 0. */
+inline void FillBox(vtkImageData* image, const std::array<int, 3>& first,
+  const std::array<int, 3>& end, double value = 100.0)
+{
+  ForBox(first, end,
+    [&](int i, int j, int k) { image->SetScalarComponentFromDouble(i, j, k, 0, value); });
 }
 }
 

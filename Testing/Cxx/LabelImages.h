@@ -8,7 +8,10 @@
 
 #include <vtkCompositeDataSet.h>
 #include <vtkInformation.h>
+#include <vtkIntArray.h>
 #include <vtkPolyData.h>
+#include <vtkStringArray.h>
+#include <vtkUnsignedCharArray.h>
 
 /** What the tests of vtkLabelsToSurfaces share. */
 namespace volumic
@@ -40,11 +43,42 @@ inline double TwoBalls(int i, int j, int k)
                                                     : 0;
 }
 
-/** The updated filter. */
-inline vtkSmartPointer<vtkLabelsToSurfaces> LabelSurfacesOf(vtkDataObject* input)
+inline vtkSmartPointer<vtkImageData> BallsImage(int type = VTK_SHORT)
+{
+  return LabelImageOf(34, 28, 28, TwoBalls, type);
+}
+
+/** Names and colours of labels 3 and 7. */
+inline void AddNames(vtkImageData* image)
+{
+  vtkNew<vtkIntArray> values;
+  values->SetName("LabelValues");
+  values->InsertNextValue(7);
+  values->InsertNextValue(3);
+  vtkNew<vtkStringArray> names;
+  names->SetName("LabelNames");
+  names->InsertNextValue("kidney");
+  names->InsertNextValue("liver");
+  vtkNew<vtkUnsignedCharArray> colors;
+  colors->SetName("LabelColors");
+  colors->SetNumberOfComponents(3);
+  colors->InsertNextTuple3(255, 0, 51);
+  colors->InsertNextTuple3(0, 102, 0);
+  image->GetFieldData()->AddArray(values);
+  image->GetFieldData()->AddArray(names);
+  image->GetFieldData()->AddArray(colors);
+}
+
+/** The updated filter, with what is chosen. */
+inline vtkSmartPointer<vtkLabelsToSurfaces> LabelSurfacesOf(
+  vtkDataObject* input, const std::function<void(vtkLabelsToSurfaces*)>& choose = {})
 {
   auto filter = vtkSmartPointer<vtkLabelsToSurfaces>::New();
   filter->SetInputDataObject(input);
+  if (choose)
+  {
+    choose(filter);
+  }
   filter->Update();
   return filter;
 }

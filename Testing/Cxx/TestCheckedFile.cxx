@@ -256,9 +256,7 @@ TEST(CheckedFile, LeavesNothingOnAFullDisk)
   }
   catch (const FileError& error)
   {
-    EXPECT_NE(std::string(error.what()).find("cannot be written (File too large)"),
-      std::string::npos)
-      << error.what();
+    EXPECT_TRUE(Has(error.what(), "cannot be written (File too large)"));
   }
   EXPECT_EQ(folder.Names(), std::set<std::string>());
 }

@@ -3,7 +3,6 @@
 
 // Which pairs count as contacts that remain, and which vertices as held by them.
 #include "Core/Common/RankLists.h"
-#include "Core/Evolution/SurfaceOptions.h"
 #include "Core/Surface/RemainingContacts.h"
 #include "RankTestTools.h"
 #include "RemeshTestTools.h"

@@ -47,13 +47,8 @@ protected:
 
   void ExpectError(const std::vector<std::string>& parts)
   {
-    MessagesOf errors(this->Filter);
     this->Filter->Modified();
-    this->Filter->Update();
-    for (const std::string& part : parts)
-    {
-      EXPECT_TRUE(errors.Has(part)) << "no `" << part << "` in: " << errors.Get();
-    }
+    ExpectErrorOf(this->Filter, parts);
     EXPECT_EQ(this->Filter->GetOutput()->GetNumberOfPoints(), 0);
   }
 

@@ -28,19 +28,6 @@ vtkSmartPointer<vtkImageData> TwoBalls()
   return image;
 }
 
-vtkSmartPointer<vtkPolyData> PointsAt(const Places& places)
-{
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  for (const auto& place : places)
-  {
-    points->InsertNextPoint(place.data());
-  }
-  auto data = vtkSmartPointer<vtkPolyData>::New();
-  data->SetPoints(points);
-  return data;
-}
-
 const std::array<double, 3> InLeft = { 112, 12, 13 };
 const std::array<double, 3> InRight = { 138, 13, 12 };
 
@@ -69,13 +56,8 @@ protected:
 
   void ExpectError(const std::vector<std::string>& parts)
   {
-    MessagesOf errors(this->Filter);
     this->Filter->Modified();
-    this->Filter->Update();
-    for (const std::string& part : parts)
-    {
-      EXPECT_TRUE(errors.Has(part)) << "no `" << part << "` in: " << errors.Get();
-    }
+    ExpectErrorOf(this->Filter, parts);
     EXPECT_EQ(this->Filter->GetOutput()->GetNumberOfPoints(), 0);
   }
 

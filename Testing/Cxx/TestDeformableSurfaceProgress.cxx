@@ -10,9 +10,7 @@ using namespace volumic;
 
 TEST(DeformableSurfaceProgress, GrowsAndNamesLevelAndIteration)
 {
-  vtkNew<vtkDeformableSurface> filter;
-  filter->SetInputData(BallImage(40, 40, 40));
-  filter->SetIsoValue(50.0);
+  const auto filter = FilterOf(BallImage(40, 40, 40));
   ProgressListener listener(filter);
   filter->Update();
   EXPECT_TRUE(std::is_sorted(listener.Shares.begin(), listener.Shares.end()));
@@ -30,9 +28,7 @@ TEST(DeformableSurfaceProgress, GrowsAndNamesLevelAndIteration)
 
 TEST(DeformableSurfaceProgress, CancellingHandsOverAValidSurface)
 {
-  vtkNew<vtkDeformableSurface> filter;
-  filter->SetInputData(BallImage(40, 40, 40));
-  filter->SetIsoValue(50.0);
+  const auto filter = FilterOf(BallImage(40, 40, 40));
   ProgressListener listener(filter);
   listener.StopAt = 0.1;
   filter->Update();
@@ -166,9 +162,7 @@ TEST(DeformableSurfaceProgress, CancellingEndsThePyramidOfTheMapOfEdges)
 
 TEST(DeformableSurfaceProgress, RunsToTheEndAfterACancelledRun)
 {
-  vtkNew<vtkDeformableSurface> filter;
-  filter->SetInputData(BallImage(40, 40, 40));
-  filter->SetIsoValue(50.0);
+  const auto filter = FilterOf(BallImage(40, 40, 40));
   ProgressListener listener(filter);
   listener.StopAt = 0.05;
   filter->Update();

@@ -7,8 +7,6 @@
  */
 
 #include "Core/Evolution/CycleCriterion.h"
-#include "Core/Evolution/SurfaceEvolution.h"
-#include "Core/Evolution/SurfaceOptions.h"
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "EvolutionTestTools.h"
 
@@ -16,9 +14,6 @@ using namespace volumic;
 
 namespace
 {
-SequentialExecutor Threads;
-Monitor Silent;
-
 double Work(const SurfaceEvolution& evolution)
 {
   double work = 0;

@@ -129,10 +129,7 @@ TEST_P(FarFromZero, FromSeeds)
 
 TEST_P(FarFromZero, WithAnAttractingPoint)
 {
-  vtkNew<vtkPoints> points;
-  points->InsertNextPoint(19.5, 19.5, 33);
-  vtkNew<vtkPolyData> point;
-  point->SetPoints(points);
+  const auto point = PointsAt({ { 19.5, 19.5, 33 } });
   ExpectSame(0.0,
     [&](vtkDeformableSurface* filter)
     {

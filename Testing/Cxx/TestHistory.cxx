@@ -9,9 +9,6 @@ using namespace volumic;
 
 namespace
 {
-SequentialExecutor Threads;
-Monitor Silent;
-
 template <typename Value>
 long Sum(const std::vector<HistoryRow>& rows, Value HistoryRow::*column)
 {

@@ -241,6 +241,6 @@ TEST(ImagePyramid, PrintsItsProperties)
   for (const char* property : { "ReductionFactor: 1.73205", "NumberOfLevels: 0",
          "MinimumLevelSize: 10", "NumberOfThreads: 0", "MemoryLimit: 0", "ScratchDirectory: " })
   {
-    EXPECT_NE(text.str().find(property), std::string::npos) << property;
+    EXPECT_TRUE(Has(text.str(), property)) << property;
   }
 }

@@ -36,7 +36,7 @@ protected:
     const std::string error = this->ErrorOf(image);
     for (const std::string& part : parts)
     {
-      EXPECT_NE(error.find(part), std::string::npos) << "no `" << part << "` in: " << error;
+      EXPECT_TRUE(Has(error, part)) << "no `" << part << "` in: " << error;
     }
   }
 

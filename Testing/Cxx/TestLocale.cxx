@@ -73,12 +73,7 @@ protected:
   }
   void TearDown() override { std::setlocale(LC_NUMERIC, "C"); }
 
-  void ExpectError(const std::string& part)
-  {
-    const MessagesOf errors(this->Filter);
-    this->Filter->Update();
-    EXPECT_TRUE(errors.Has(part)) << "no `" << part << "` in: " << errors.Get();
-  }
+  void ExpectError(const std::string& part) { ExpectErrorOf(this->Filter, { part }); }
 
   std::unique_ptr<CommaLocale> Streams;
   vtkNew<vtkDeformableSurface> Filter;
@@ -99,10 +94,7 @@ TEST_P(FilterLocale, SettingsOutOfRange)
 
 TEST_P(FilterLocale, PlacesOutsideTheImage)
 {
-  vtkNew<vtkPoints> points;
-  points->InsertNextPoint(20, 20, 1234.5);
-  vtkNew<vtkPolyData> seeds;
-  seeds->SetPoints(points);
+  const auto seeds = PointsAt({ { 20, 20, 1234.5 } });
   this->Filter->SetInitializationToSeeds();
   this->Filter->SetInitialSurfaceData(seeds);
   this->ExpectError(
@@ -149,7 +141,7 @@ TEST_P(FilterLocale, Progress)
   EXPECT_GT(listener.Texts.size(), 10u);
   for (const std::string& text : listener.Texts)
   {
-    EXPECT_EQ(text.find('.'), std::string::npos) << text;
+    EXPECT_FALSE(Has(text, "."));
   }
 }
 

@@ -1,9 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Evolution/InitialSurface.h"
 #include "Core/Evolution/LostParts.h"
-#include "Core/Evolution/SurfaceOptions.h"
-#include "Core/Mesh/SurfaceCheck.h"
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "EvolutionTestTools.h"
 
@@ -12,8 +9,6 @@ using namespace volumic;
 namespace
 {
 constexpr float Delta = 0.85f;
-SequentialExecutor Threads;
-
 /** A ball that the surface knows, holding a bubble that it does not know, and a lost ball. */
 TestVolume Scene()
 {

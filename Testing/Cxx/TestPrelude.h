@@ -29,4 +29,30 @@
 #include <utility>
 #include <vector>
 
+namespace volumic
+{
+/** Whether a text has a part; an expectation that fails shows both. */
+inline ::testing::AssertionResult Has(const std::string& text, const std::string& part)
+{
+  return text.find(part) != std::string::npos
+    ? ::testing::AssertionSuccess() << '`' << part << "` in: " << text
+    : ::testing::AssertionFailure() << "no `" << part << "` in: " << text;
+}
+
+/** What work says as it refuses an argument; nothing where it takes it. */
+template <typename Work>
+std::string RefusalOf(const Work& work)
+{
+  try
+  {
+    work();
+    return "";
+  }
+  catch (const std::invalid_argument& error)
+  {
+    return error.what();
+  }
+}
+}
+
 #endif

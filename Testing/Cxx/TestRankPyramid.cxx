@@ -322,7 +322,7 @@ TEST(RankPyramid, ReportsTheErrorOfOneRankOnAllAndWorksAgain)
     }
     const MessagesOf errors(pyramid);
     ThreadControllers::Update(pyramid, controller);
-    EXPECT_NE(errors.Get().find("no point array 'none'"), std::string::npos) << errors.Get();
+    EXPECT_TRUE(Has(errors.Get(), "no point array 'none'"));
     EXPECT_EQ(pyramid->GetErrorCode(), static_cast<unsigned long>(vtkErrorCode::UserError));
     pyramid->SetInputArrayToProcess(
       0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS);

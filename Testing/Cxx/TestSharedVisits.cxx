@@ -3,7 +3,6 @@
 
 // Visits in which threads share that find no visit to make.
 #include "Core/Common/StandardThreads.h"
-#include "Core/Common/VisitSchedule.h"
 #include "TestPrelude.h"
 #include "WorkModel.h"
 

@@ -30,7 +30,7 @@ struct Block
 
   void Fill(const std::array<int, 3>& from, const std::array<int, 3>& to, float value)
   {
-    ForBox(from, { to[0] + 1, to[1] + 1, to[2] + 1 },
+    volumic::ForBox(from, { to[0] + 1, to[1] + 1, to[2] + 1 },
       [&](int i, int j, int k) { this->At(i, j, k) = value; });
   }
 
@@ -182,7 +182,7 @@ TEST(JudgeIsoDistance, IsRightInARamp)
 TEST(JudgeIsoDistance, DiffersAtVerticesAndCentroids)
 {
   Block block(24);
-  ForVoxels({ 24, 24, 24 },
+  volumic::ForVoxels({ 24, 24, 24 },
     [&](int i, int j, int k)
     {
       block.At(i, j, k) = static_cast<float>(std::hypot(i - 11.5, j - 11.5, k - 11.5));
@@ -268,6 +268,6 @@ TEST(JudgeSurface, TellsEverythingInWords)
   for (const char* words : { "4 vertices", "closed, manifold, oriented, outward", "genus 0",
          "self-intersecting pairs 0", "radius ratio", "isopotential", "reached" })
   {
-    EXPECT_NE(text.find(words), std::string::npos) << words << " is missing in\n" << text;
+    EXPECT_TRUE(volumic::Has(text, words)) << words << " is missing in\n" << text;
   }
 }

@@ -88,7 +88,7 @@ void ReduceAxis(Scene& level, int axis, double unit, int fullSize)
   std::array<int, 3> reduced = size;
   reduced[axis] = static_cast<int>(size[axis] / std::sqrt(3.0));
   std::vector<float> values;
-  ForVoxels(reduced,
+  volumic::ForVoxels(reduced,
     [&](int i, int j, int k)
     {
       std::array<int, 3> at = { i, j, k };
@@ -225,7 +225,7 @@ TEST_P(SyntheticScenes, HaveTheirSeedsInside)
   for (const auto& seed : scene.Seeds)
   {
     EXPECT_GT(scene.SeedRadius, 2.0);
-    ForVoxels(scene.Size,
+    volumic::ForVoxels(scene.Size,
       [&](int i, int j, int k)
       {
         const double distance = std::hypot(i - seed[0], j - seed[1], k - seed[2]);

@@ -16,25 +16,17 @@ vtkSmartPointer<vtkImageData> Image()
   static const vtkSmartPointer<vtkImageData> image = []
   {
     auto made = BallImage(60, 48, 48, 0.3);
-    for (int k = 10; k < 38; ++k)
-    {
-      for (int i = 48; i < 58; ++i)
-      {
-        made->SetScalarComponentFromDouble(i, 24, k, 0, 100.0);
-      }
-    }
+    FillBox(made, { 48, 24, 10 }, { 58, 25, 38 });
     return made;
   }();
   return image;
 }
 
-using Choice = std::function<void(vtkVolumeToSurface*)>;
+using ThinChoice = ChoiceOf<vtkVolumeToSurface>;
 
-vtkSmartPointer<vtkVolumeToSurface> Filter(bool thinParts, const Choice& choose = {})
+vtkSmartPointer<vtkVolumeToSurface> Filter(bool thinParts, const ThinChoice& choose = {})
 {
-  auto filter = vtkSmartPointer<vtkVolumeToSurface>::New();
-  filter->SetInputData(Image());
-  filter->SetIsoValue(50.0);
+  const auto filter = FilterOf<vtkVolumeToSurface>(Image());
   filter->SetThinParts(thinParts);
   if (choose)
   {
@@ -44,7 +36,7 @@ vtkSmartPointer<vtkVolumeToSurface> Filter(bool thinParts, const Choice& choose 
 }
 
 /** Run to its end. */
-vtkSmartPointer<vtkVolumeToSurface> Made(bool thinParts, const Choice& choose = {})
+vtkSmartPointer<vtkVolumeToSurface> Made(bool thinParts, const ThinChoice& choose = {})
 {
   auto filter = Filter(thinParts, choose);
   filter->Update();
@@ -178,7 +170,7 @@ TEST(ThinParts, WhatIsWrongIsToldAndAGoodRunFollows)
 {
   struct Case
   {
-    Choice Break;
+    ThinChoice Break;
     std::vector<std::string> Parts;
   };
   const std::vector<Case> cases = {

@@ -17,13 +17,9 @@ vtkSmartPointer<vtkImageData> Image()
   return image;
 }
 
-using Choice = std::function<void(vtkDeformableSurface*)>;
-
 vtkSmartPointer<vtkDeformableSurface> Graded(double tolerance, const Choice& choose = {})
 {
-  auto filter = vtkSmartPointer<vtkDeformableSurface>::New();
-  filter->SetInputData(Image());
-  filter->SetIsoValue(50.0);
+  const auto filter = FilterOf(Image());
   filter->SetTolerance(tolerance);
   if (choose)
   {
@@ -151,8 +147,7 @@ TEST(Tolerance, TakesNoPartForMissingAsItsTrianglesAreLarge)
   // A block beside the ball, which a start from a seed in the ball does not know: it is enclosed as
   // a lost part at level 0.
   const auto image = BallImage(72, 72, 72, 0.2);
-  ForBox({ 4, 6, 6 }, { 14, 66, 66 },
-    [&](int i, int j, int k) { image->SetScalarComponentFromDouble(i, j, k, 0, 100.0); });
+  FillBox(image, { 4, 6, 6 }, { 14, 66, 66 });
   const auto run = [&image](double tolerance)
   {
     const auto filter = Graded(tolerance,

@@ -161,9 +161,7 @@ TEST(VolumeToSurface, FindsAnObjectWithoutAnyChoice)
 TEST(VolumeToSurface, GivesWhatTheTwoFiltersGive)
 {
   const auto image = BallImage(40, 40, 40);
-  vtkNew<vtkVolumeToSurface> filter;
-  filter->SetInputData(image);
-  filter->SetIsoValue(50.0);
+  const auto filter = FilterOf<vtkVolumeToSurface>(image);
   filter->SetNumberOfLevels(2);
   filter->SetReductionFactor(1.5);
   filter->Update();
@@ -229,6 +227,6 @@ TEST(VolumeToSurface, PrintsItsProperties)
   for (const char* property :
     { "IsoValue: nan", "NumberOfLevels: 0", "MinimumLevelSize: 10", "ReductionFactor: 1.73205" })
   {
-    EXPECT_NE(text.str().find(property), std::string::npos) << property;
+    EXPECT_TRUE(Has(text.str(), property)) << property;
   }
 }

@@ -30,7 +30,7 @@ LabelMap RoughBall(double stretch = 1.0)
   LabelMap map;
   map.Size = { Size, Size, Size };
   map.Spacing = { 0.5, 0.5, 0.5 * stretch };
-  ForVoxels({ Size, Size, Size },
+  volumic::ForVoxels({ Size, Size, Size },
     [&](int i, int j, int k)
     {
       const double radius = std::hypot(i - 19.3, j - 19.6, k - 19.4);
