@@ -3,7 +3,6 @@
 
 // Includes ITK, which need not be there, thus only where it was found.
 
-#include "ForVoxels.h"
 #include "SurfacePeersVtk.h"
 
 #include "SupportVtkConversions.h"
@@ -61,11 +60,16 @@ void CopyInto(vtkImageData* image, Image* result)
 {
   const int* size = image->GetDimensions();
   float* voxel = result->GetBufferPointer();
-  ForVoxels(size,
-    [&](int i, int j, int k)
+  for (int k = 0; k < size[2]; ++k)
+  {
+    for (int j = 0; j < size[1]; ++j)
     {
-      *voxel++ = static_cast<float>(image->GetScalarComponentAsDouble(i, j, k, 0));
-    });
+      for (int i = 0; i < size[0]; ++i)
+      {
+        *voxel++ = static_cast<float>(image->GetScalarComponentAsDouble(i, j, k, 0));
+      }
+    }
+  }
 }
 
 vtkSmartPointer<vtkPolyData> ZeroSurface(Image* levelSet, const int* size)
