@@ -11,9 +11,7 @@
 #include <cstdint>
 #include <stdexcept>
 
-namespace volumic
-{
-namespace bench
+namespace volumic::bench
 {
 
 vtkSmartPointer<vtkImageData> ReadVolume(const std::string& file)
@@ -66,5 +64,4 @@ vtkSmartPointer<vtkImageData> GenerateVolume(int size)
   return image;
 }
 
-} // namespace bench
-} // namespace volumic
+} // namespace volumic::bench

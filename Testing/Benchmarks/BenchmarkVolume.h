@@ -11,9 +11,7 @@
 
 #include <string>
 
-namespace volumic
-{
-namespace bench
+namespace volumic::bench
 {
 
 /** Reads a .vti as int16, the type of a CT, whatever type the file has: all programs that are
@@ -24,7 +22,6 @@ vtkSmartPointer<vtkImageData> ReadVolume(const std::string& file);
 /** int16, `size` voxels along each axis, spacing 1: shells around the middle and noise. */
 vtkSmartPointer<vtkImageData> GenerateVolume(int size);
 
-} // namespace bench
-} // namespace volumic
+} // namespace volumic::bench
 
 #endif

@@ -12,9 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace volumic
-{
-namespace bench
+namespace volumic::bench
 {
 
 struct LabelBenchmarkOptions
@@ -36,7 +34,6 @@ struct LabelBenchmarkOptions
   bool IsOfShapes() const { return this->Map.empty() && this->Scan.empty() && this->Body[0] == 0; }
 };
 
-} // namespace bench
-} // namespace volumic
+} // namespace volumic::bench
 
 #endif

@@ -3,6 +3,8 @@
 
 #include "LabelMaps.h"
 
+#include "ForVoxels.h"
+
 #include <vtkDataArray.h>
 #include <vtkImageData.h>
 #include <vtkImageMedian3D.h>
@@ -17,9 +19,7 @@
 #include <limits>
 #include <stdexcept>
 
-namespace volumic
-{
-namespace bench
+namespace volumic::bench
 {
 namespace
 {
@@ -178,20 +178,16 @@ LabelMap CropToLabel(const LabelMap& map, int label, int margin)
 {
   std::array<int, 3> from = map.Size, to = { -1, -1, -1 };
   std::size_t voxel = 0;
-  for (int k = 0; k < map.Size[2]; ++k)
-  {
-    for (int j = 0; j < map.Size[1]; ++j)
+  ForVoxels(map.Size,
+    [&](int i, int j, int k)
     {
-      for (int i = 0; i < map.Size[0]; ++i, ++voxel)
+      if (map.Values[voxel] == label)
       {
-        if (map.Values[voxel] == label)
-        {
-          from = { std::min(from[0], i), std::min(from[1], j), std::min(from[2], k) };
-          to = { std::max(to[0], i), std::max(to[1], j), std::max(to[2], k) };
-        }
+        from = { std::min(from[0], i), std::min(from[1], j), std::min(from[2], k) };
+        to = { std::max(to[0], i), std::max(to[1], j), std::max(to[2], k) };
       }
-    }
-  }
+      ++voxel;
+    });
   if (to[0] < 0)
   {
     throw std::runtime_error("the map has no label " + std::to_string(label));
@@ -207,22 +203,17 @@ LabelMap CropToLabel(const LabelMap& map, int label, int margin)
   crop.Values.resize(static_cast<std::size_t>(crop.Size[0]) * crop.Size[1] * crop.Size[2]);
   voxel = 0;
   const auto isIn = [&map](int a, int i) { return i >= 0 && i < map.Size[a]; };
-  for (int k = from[2]; k < from[2] + crop.Size[2]; ++k)
-  {
-    for (int j = from[1]; j < from[1] + crop.Size[1]; ++j)
+  ForBox(from, { from[0] + crop.Size[0], from[1] + crop.Size[1], from[2] + crop.Size[2] },
+    [&](int i, int j, int k)
     {
-      for (int i = from[0]; i < from[0] + crop.Size[0]; ++i, ++voxel)
+      if (isIn(0, i) && isIn(1, j) && isIn(2, k))
       {
-        if (isIn(0, i) && isIn(1, j) && isIn(2, k))
-        {
-          crop.Values[voxel] =
-            map.Values[(static_cast<std::size_t>(k) * map.Size[1] + j) * map.Size[0] + i];
-        }
+        crop.Values[voxel] =
+          map.Values[(static_cast<std::size_t>(k) * map.Size[1] + j) * map.Size[0] + i];
       }
-    }
-  }
+      ++voxel;
+    });
   return crop;
 }
 
-} // namespace bench
-} // namespace volumic
+} // namespace volumic::bench

@@ -12,9 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace volumic
-{
-namespace bench
+namespace volumic::bench
 {
 
 /**
@@ -39,7 +37,6 @@ std::map<int, long long> CountLabels(const support::LabelMap& map);
 /** The box of a label with `margin` voxels about it, those outside of the map background. */
 support::LabelMap CropToLabel(const support::LabelMap& map, int label, int margin);
 
-} // namespace bench
-} // namespace volumic
+} // namespace volumic::bench
 
 #endif

@@ -18,9 +18,7 @@
 
 #include <memory>
 
-namespace volumic
-{
-namespace bench
+namespace volumic::bench
 {
 namespace
 {
@@ -135,5 +133,4 @@ SurfaceJob NetsLabelJob(vtkImageData* image, int label)
 }
 #endif
 
-} // namespace bench
-} // namespace volumic
+} // namespace volumic::bench

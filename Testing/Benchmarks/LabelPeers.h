@@ -17,9 +17,7 @@
 #define VOLUMIC_BENCHMARK_SURFACE_NETS
 #endif
 
-namespace volumic
-{
-namespace bench
+namespace volumic::bench
 {
 
 /** vtkDiscreteFlyingEdges3D and vtkWindowedSincPolyDataFilter with normalized coordinates; its
@@ -38,7 +36,6 @@ SurfaceJob NetsLabelJob(vtkImageData* image, int label);
 /** itk::AntiAliasBinaryImageFilter with its defaults, then vtkFlyingEdges3D. */
 SurfaceJob AntiAliasedLabelJob(vtkImageData* image, int label);
 
-} // namespace bench
-} // namespace volumic
+} // namespace volumic::bench
 
 #endif

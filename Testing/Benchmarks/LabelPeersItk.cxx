@@ -15,9 +15,7 @@
 
 #include <memory>
 
-namespace volumic
-{
-namespace bench
+namespace volumic::bench
 {
 namespace
 {
@@ -81,5 +79,4 @@ SurfaceJob AntiAliasedLabelJob(vtkImageData* image, int label)
   return job;
 }
 
-} // namespace bench
-} // namespace volumic
+} // namespace volumic::bench

@@ -25,9 +25,7 @@
 #include <tuple>
 #include <utility>
 
-namespace volumic
-{
-namespace bench
+namespace volumic::bench
 {
 namespace
 {
@@ -330,5 +328,4 @@ void SetOverlap(const std::vector<LabelSurface>& surfaces, double unit, RunFigur
   figures.Set("OverlapIntersections", intersections);
 }
 
-} // namespace bench
-} // namespace volumic
+} // namespace volumic::bench

@@ -14,9 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace volumic
-{
-namespace bench
+namespace volumic::bench
 {
 
 struct LabelSettings
@@ -61,7 +59,6 @@ void SetLabelVerdict(const LabelSurface& surface, const support::LabelMap& map,
     OverlapMean, OverlapLargest (depths in smallest distances of voxels), OverlapIntersections. */
 void SetOverlap(const std::vector<LabelSurface>& surfaces, double unit, RunFigures& figures);
 
-} // namespace bench
-} // namespace volumic
+} // namespace volumic::bench
 
 #endif

@@ -10,9 +10,7 @@
 #include <malloc.h>
 #endif
 
-namespace volumic
-{
-namespace bench
+namespace volumic::bench
 {
 namespace
 {
@@ -60,5 +58,4 @@ long long PeakGrowth(const std::function<void()>& run)
   return use.Before < 0 || use.Peak < 0 ? -1 : use.Peak - use.Before;
 }
 
-} // namespace bench
-} // namespace volumic
+} // namespace volumic::bench

@@ -8,9 +8,7 @@
 
 #include <functional>
 
-namespace volumic
-{
-namespace bench
+namespace volumic::bench
 {
 
 /** Bytes by which the resident memory at its peak exceeded what was resident before. -1 where the
@@ -27,7 +25,6 @@ struct MemoryUse
 
 MemoryUse MeasureMemory(const std::function<void()>& run);
 
-} // namespace bench
-} // namespace volumic
+} // namespace volumic::bench
 
 #endif

@@ -15,9 +15,7 @@
 
 class vtkImageData;
 
-namespace volumic
-{
-namespace bench
+namespace volumic::bench
 {
 
 /** Sizes of the levels from 1 on. The first is made from the volume, each other from the one
@@ -34,7 +32,6 @@ void RunCopy(vtkImageData* volume, std::vector<std::int16_t>& copy, int threads)
    itk::ResampleImageFilter with linear interpolation. Only where ITK was found. */
 void RunItkPyramid(vtkImageData* volume, const LevelSizes& sizes, int threads);
 
-} // namespace bench
-} // namespace volumic
+} // namespace volumic::bench
 
 #endif

@@ -13,9 +13,7 @@
 #include <itkMultiThreaderBase.h>
 #include <itkResampleImageFilter.h>
 
-namespace volumic
-{
-namespace bench
+namespace volumic::bench
 {
 namespace
 {
@@ -78,5 +76,4 @@ void RunItkPyramid(vtkImageData* volume, const LevelSizes& sizes, int threads)
   }
 }
 
-} // namespace bench
-} // namespace volumic
+} // namespace volumic::bench

@@ -14,9 +14,7 @@
 
 #include <cstring>
 
-namespace volumic
-{
-namespace bench
+namespace volumic::bench
 {
 
 void RunVtkPyramid(vtkImageData* volume, const LevelSizes& sizes, int threads)
@@ -58,5 +56,4 @@ void RunCopy(vtkImageData* volume, std::vector<std::int16_t>& copy, int threads)
   benchmark::ClobberMemory();
 }
 
-} // namespace bench
-} // namespace volumic
+} // namespace volumic::bench

@@ -6,9 +6,7 @@
 #include <limits>
 #include <ostream>
 
-namespace volumic
-{
-namespace bench
+namespace volumic::bench
 {
 double RunFigures::Get(const std::string& name) const
 {
@@ -36,5 +34,4 @@ void RunFigures::Write(std::ostream& stream) const
   stream.flush();
 }
 
-} // namespace bench
-} // namespace volumic
+} // namespace volumic::bench

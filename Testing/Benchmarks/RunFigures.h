@@ -11,9 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace volumic
-{
-namespace bench
+namespace volumic::bench
 {
 
 /** Names hold no blanks; texts hold no line feeds. */
@@ -43,7 +41,6 @@ private:
   std::map<std::string, std::string> Texts;
 };
 
-} // namespace bench
-} // namespace volumic
+} // namespace volumic::bench
 
 #endif

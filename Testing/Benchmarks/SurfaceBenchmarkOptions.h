@@ -9,9 +9,7 @@
 #include <limits>
 #include <string>
 
-namespace volumic
-{
-namespace bench
+namespace volumic::bench
 {
 
 /** Which lengths count where voxels are not cubes; the numbers of vtkDeformableSurface::MetricType. */
@@ -49,7 +47,6 @@ struct SurfaceBenchmarkOptions
   std::string Output; ///< a .vtp
 };
 
-} // namespace bench
-} // namespace volumic
+} // namespace volumic::bench
 
 #endif

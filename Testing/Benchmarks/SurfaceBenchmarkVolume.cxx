@@ -16,9 +16,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace volumic
-{
-namespace bench
+namespace volumic::bench
 {
 namespace
 {
@@ -198,5 +196,4 @@ vtkSmartPointer<vtkImageData> InSteps(vtkImageData* image, const std::array<doub
   return result;
 }
 
-} // namespace bench
-} // namespace volumic
+} // namespace volumic::bench

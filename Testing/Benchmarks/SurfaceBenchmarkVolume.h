@@ -15,9 +15,7 @@
 
 #include <array>
 
-namespace volumic
-{
-namespace bench
+namespace volumic::bench
 {
 
 struct BenchmarkedVolume
@@ -54,7 +52,6 @@ vtkSmartPointer<vtkImageData> InSteps(vtkImageData* image, const std::array<doub
 support::TriangleSurface Stretched(
   support::TriangleSurface surface, const std::array<double, 3>& factors);
 
-} // namespace bench
-} // namespace volumic
+} // namespace volumic::bench
 
 #endif

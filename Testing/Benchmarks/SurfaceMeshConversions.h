@@ -11,9 +11,7 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>
 
-namespace volumic
-{
-namespace bench
+namespace volumic::bench
 {
 
 using CgalKernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -41,7 +39,6 @@ inline support::TriangleSurface ToTriangleSurface(const CgalMesh& mesh)
   return surface;
 }
 
-} // namespace bench
-} // namespace volumic
+} // namespace volumic::bench
 
 #endif

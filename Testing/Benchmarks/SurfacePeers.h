@@ -16,9 +16,7 @@
 
 class vtkImageData;
 
-namespace volumic
-{
-namespace bench
+namespace volumic::bench
 {
 
 struct SurfaceJob
@@ -54,7 +52,6 @@ double MesherRadius(double edgeLength);
     or 1200 iterations, then vtkFlyingEdges3D on its level set. One thread. */
 SurfaceJob LevelSetJob(vtkImageData* image, double isoValue, bool objectIsBright);
 
-} // namespace bench
-} // namespace volumic
+} // namespace volumic::bench
 
 #endif

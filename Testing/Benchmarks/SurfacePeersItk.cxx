@@ -17,9 +17,7 @@
 #include <limits>
 #include <memory>
 
-namespace volumic
-{
-namespace bench
+namespace volumic::bench
 {
 namespace
 {
@@ -134,5 +132,4 @@ SurfaceJob LevelSetJob(vtkImageData* image, double isoValue, bool objectIsBright
   return job;
 }
 
-} // namespace bench
-} // namespace volumic
+} // namespace volumic::bench

@@ -19,9 +19,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace volumic
-{
-namespace bench
+namespace volumic::bench
 {
 namespace
 {
@@ -226,5 +224,4 @@ SurfaceJob MesherJob(vtkImageData* image, double isoValue, bool objectIsBright, 
   return job;
 }
 
-} // namespace bench
-} // namespace volumic
+} // namespace volumic::bench

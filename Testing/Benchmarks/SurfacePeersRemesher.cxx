@@ -12,9 +12,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace volumic
-{
-namespace bench
+namespace volumic::bench
 {
 namespace
 {
@@ -67,5 +65,4 @@ SurfaceJob RemeshedJob(vtkImageData* image, double isoValue, double edgeLength)
   return job;
 }
 
-} // namespace bench
-} // namespace volumic
+} // namespace volumic::bench

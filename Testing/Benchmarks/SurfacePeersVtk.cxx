@@ -13,9 +13,7 @@
 #include <algorithm>
 #include <memory>
 
-namespace volumic
-{
-namespace bench
+namespace volumic::bench
 {
 namespace
 {
@@ -84,5 +82,4 @@ SurfaceJob DecimatedJob(vtkImageData* image, double isoValue, long long vertices
     });
 }
 
-} // namespace bench
-} // namespace volumic
+} // namespace volumic::bench

@@ -11,9 +11,7 @@
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 
-namespace volumic
-{
-namespace bench
+namespace volumic::bench
 {
 
 vtkSmartPointer<vtkPolyData> FlyingEdges(vtkImageData* image, double isoValue);
@@ -21,7 +19,6 @@ vtkSmartPointer<vtkPolyData> FlyingEdges(vtkImageData* image, double isoValue);
 /** The largest component of the former, smoothed. What it was made from is freed. */
 vtkSmartPointer<vtkPolyData> Smoothed(vtkImageData* image, double isoValue);
 
-} // namespace bench
-} // namespace volumic
+} // namespace volumic::bench
 
 #endif

@@ -24,9 +24,7 @@
 #include <chrono>
 #include <stdexcept>
 
-namespace volumic
-{
-namespace bench
+namespace volumic::bench
 {
 namespace
 {
@@ -289,5 +287,4 @@ RunFigures MeasureOurs(const BenchmarkedVolume& volume, const SurfaceBenchmarkOp
   return figures;
 }
 
-} // namespace bench
-} // namespace volumic
+} // namespace volumic::bench

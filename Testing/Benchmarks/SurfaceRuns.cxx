@@ -20,9 +20,7 @@
 #include <limits>
 #include <stdexcept>
 
-namespace volumic
-{
-namespace bench
+namespace volumic::bench
 {
 namespace
 {
@@ -284,5 +282,4 @@ RunFigures MeasureSurfaceRun(const SurfaceBenchmarkOptions& options)
   return figures;
 }
 
-} // namespace bench
-} // namespace volumic
+} // namespace volumic::bench

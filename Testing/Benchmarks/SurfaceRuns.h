@@ -15,9 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace volumic
-{
-namespace bench
+namespace volumic::bench
 {
 
 /** The run options.Run. Figures, with lengths in the metric of the run:
@@ -60,7 +58,6 @@ support::JudgedVolume ToJudgedVolume(vtkImageData* inAir, const BenchmarkedVolum
 /** As float, as it is or in air. */
 vtkSmartPointer<vtkImageData> AsFloat(vtkImageData* image);
 
-} // namespace bench
-} // namespace volumic
+} // namespace volumic::bench
 
 #endif

@@ -9,9 +9,7 @@
 #include <queue>
 #include <utility>
 
-namespace volumic
-{
-namespace bench
+namespace volumic::bench
 {
 namespace
 {
@@ -443,5 +441,4 @@ void WorkModel::EndPhase(const char* name)
   this->Mark = Now();
 }
 
-} // namespace bench
-} // namespace volumic
+} // namespace volumic::bench

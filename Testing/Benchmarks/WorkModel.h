@@ -15,9 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace volumic
-{
-namespace bench
+namespace volumic::bench
 {
 
 /** Numbers of threads that are modelled. */
@@ -111,7 +109,6 @@ private:
   std::vector<Phase> Ended;
 };
 
-} // namespace bench
-} // namespace volumic
+} // namespace volumic::bench
 
 #endif

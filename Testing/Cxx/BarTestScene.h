@@ -5,9 +5,6 @@
 
 #include "CoreTestTools.h"
 
-#include <algorithm>
-#include <cmath>
-
 namespace volumic
 {
 /** A lattice of bars, thick and thin: merges, cuts, lost parts and cavities. */

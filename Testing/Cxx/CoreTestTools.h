@@ -7,12 +7,8 @@
 #include "Core/Image/LevelImage.h"
 #include "Core/Mesh/SurfaceCheck.h"
 #include "Core/Mesh/SurfaceMesh.h"
+#include "ForVoxels.h"
 #include "MeshInvariants.h"
-
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <vector>
 
 namespace volumic
 {
@@ -28,16 +24,8 @@ inline TestVolume MakeVolume(int n, const std::function<double(double, double, d
 {
   TestVolume volume;
   volume.Values.reserve(static_cast<std::size_t>(n) * n * n);
-  for (int k = 0; k < n; ++k)
-  {
-    for (int j = 0; j < n; ++j)
-    {
-      for (int i = 0; i < n; ++i)
-      {
-        volume.Values.push_back(static_cast<float>(f(i, j, k)));
-      }
-    }
-  }
+  ForVoxels({ n, n, n },
+    [&](int i, int j, int k) { volume.Values.push_back(static_cast<float>(f(i, j, k))); });
   volume.Image.Values = volume.Values.data();
   volume.Image.Size = { n, n, n };
   return volume;
@@ -59,6 +47,43 @@ inline SurfaceMesh MakeSphere(const Point& centre, double radius, double meanEdg
   SurfaceMesh mesh;
   mesh.Append(DividedIcosahedron(centre, radius, meanEdge));
   return mesh;
+}
+
+/** Makes one surface of two. */
+inline void AddSurface(IndexedSurface& to, const IndexedSurface& more)
+{
+  const int first = static_cast<int>(to.Points.size());
+  to.Points.insert(to.Points.end(), more.Points.begin(), more.Points.end());
+  for (const Triangle& t : more.Triangles)
+  {
+    to.Triangles.push_back({ t[0] + first, t[1] + first, t[2] + first });
+  }
+}
+
+inline IndexedSurface InsideOut(IndexedSurface surface)
+{
+  for (Triangle& t : surface.Triangles)
+  {
+    std::swap(t[1], t[2]);
+  }
+  return surface;
+}
+
+/** A double cone along z, with so many neighbours at either tip, 0 and 1; the rest in order. */
+inline IndexedSurface MakeDoubleCone(const Point& centre, double radius, double height, int sides)
+{
+  IndexedSurface cone;
+  const auto& [x, y, z] = centre;
+  cone.Points = { { x, y, z + height }, { x, y, z - height } };
+  for (int i = 0; i < sides; ++i)
+  {
+    const double a = 2 * 3.14159265358979 * i / sides;
+    const int next = 2 + (i + 1) % sides;
+    cone.Points.push_back({ x + radius * std::cos(a), y + radius * std::sin(a), z });
+    cone.Triangles.push_back({ 0, 2 + i, next });
+    cone.Triangles.push_back({ 1, next, 2 + i });
+  }
+  return cone;
 }
 
 /** A torus about the z axis with n x m vertices. */

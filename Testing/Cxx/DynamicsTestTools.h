@@ -10,9 +10,6 @@
 #include "Core/Surface/SurfaceState.h"
 #include "CoreTestTools.h"
 
-#include <numeric>
-#include <vector>
-
 namespace volumic
 {
 /** A surface in an image, ready for forces to act on it. */

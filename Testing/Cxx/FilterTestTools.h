@@ -3,12 +3,15 @@
 #ifndef volumicFilterTestTools_h
 #define volumicFilterTestTools_h
 
+#include "ForVoxels.h"
+#include "TestPrelude.h"
 #include "vtkImagePyramid.h"
 
 #include <vtkAlgorithm.h>
 #include <vtkCallbackCommand.h>
 #include <vtkCommand.h>
 #include <vtkDataArray.h>
+#include <vtkErrorCode.h>
 #include <vtkFieldData.h>
 #include <vtkImageData.h>
 #include <vtkMultiBlockDataSet.h>
@@ -16,14 +19,6 @@
 #include <vtkPointData.h>
 #include <vtkSmartPointer.h>
 #include <vtkWeakPointer.h>
-
-#include <algorithm>
-#include <cmath>
-#include <random>
-#include <set>
-#include <string>
-#include <utility>
-#include <vector>
 
 /** What the tests of the VTK classes share. */
 namespace volumic
@@ -65,6 +60,18 @@ private:
   vtkNew<vtkCallbackCommand> Command;
   std::vector<std::pair<vtkWeakPointer<vtkObject>, unsigned long>> Observed;
 };
+
+/** Updates a filter, which is to fail, and to tell so in a message with these parts. */
+inline void ExpectErrorOf(vtkAlgorithm* filter, const std::vector<std::string>& parts)
+{
+  const MessagesOf errors(filter);
+  filter->Update();
+  for (const std::string& part : parts)
+  {
+    EXPECT_TRUE(Has(errors.Get(), part));
+  }
+  EXPECT_EQ(filter->GetErrorCode(), static_cast<unsigned long>(vtkErrorCode::UserError));
+}
 
 /** Level h of a pyramid. */
 inline vtkImageData* Level(vtkMultiBlockDataSet* pyramid, unsigned int h)
@@ -211,21 +218,25 @@ inline vtkSmartPointer<vtkImageData> BallImage(int nx, int ny, int nz, double ra
   voxels->SetName("Voxels");
   const double radius = radiusShare * std::min({ nx, ny, nz });
   vtkIdType index = 0;
-  for (int k = 0; k < nz; ++k)
-  {
-    for (int j = 0; j < ny; ++j)
+  ForVoxels({ nx, ny, nz },
+    [&](int i, int j, int k)
     {
-      for (int i = 0; i < nx; ++i, ++index)
-      {
-        const double x = i - 0.5 * (nx - 1);
-        const double y = j - 0.5 * (ny - 1);
-        const double z = k - 0.5 * (nz - 1);
-        const double inside = radius - std::sqrt(x * x + y * y + z * z);
-        voxels->SetComponent(index, 0, 100.0 * std::clamp(0.5 + 0.4 * inside, 0.0, 1.0));
-      }
-    }
-  }
+      const double x = i - 0.5 * (nx - 1);
+      const double y = j - 0.5 * (ny - 1);
+      const double z = k - 0.5 * (nz - 1);
+      const double inside = radius - std::sqrt(x * x + y * y + z * z);
+      voxels->SetComponent(index, 0, 100.0 * std::clamp(0.5 + 0.4 * inside, 0.0, 1.0));
+      ++index;
+    });
   return image;
+}
+
+/** Sets the voxels from first to before end of an image that begins at 0. */
+inline void FillBox(vtkImageData* image, const std::array<int, 3>& first,
+  const std::array<int, 3>& end, double value = 100.0)
+{
+  ForBox(first, end,
+    [&](int i, int j, int k) { image->SetScalarComponentFromDouble(i, j, k, 0, value); });
 }
 }
 

@@ -9,13 +9,6 @@
 #include "Core/Surface/SurfaceBlocks.h"
 #include "EvolutionTestTools.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <functional>
-
 namespace volumic
 {
 inline Grading Within(double tolerance)

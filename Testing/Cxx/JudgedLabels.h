@@ -5,16 +5,10 @@
 
 #include "LabelJudge.h"
 #include "SupportVtkConversions.h"
-#include "SurfaceJudge.h"
+#include "TestPrelude.h"
 #include "vtkLabelsToSurfaces.h"
 
-#include <vtkFieldData.h>
-#include <vtkImageData.h>
 #include <vtkMultiBlockDataSet.h>
-#include <vtkPolyData.h>
-#include <vtkSmartPointer.h>
-
-#include <gtest/gtest.h>
 
 /** What tests share that have surfaces of labels judged. */
 namespace volumic::support

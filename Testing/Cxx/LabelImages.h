@@ -7,17 +7,11 @@
 #include "vtkLabelsToSurfaces.h"
 
 #include <vtkCompositeDataSet.h>
-#include <vtkDataArray.h>
-#include <vtkImageData.h>
 #include <vtkInformation.h>
-#include <vtkMultiBlockDataSet.h>
+#include <vtkIntArray.h>
 #include <vtkPolyData.h>
-#include <vtkSmartPointer.h>
-
-#include <cmath>
-#include <functional>
-#include <string>
-#include <vector>
+#include <vtkStringArray.h>
+#include <vtkUnsignedCharArray.h>
 
 /** What the tests of vtkLabelsToSurfaces share. */
 namespace volumic
@@ -32,16 +26,12 @@ inline vtkSmartPointer<vtkImageData> LabelImageOf(int nx, int ny, int nz,
   vtkDataArray* voxels = image->GetPointData()->GetScalars();
   voxels->SetName("Labels");
   vtkIdType index = 0;
-  for (int k = 0; k < nz; ++k)
-  {
-    for (int j = 0; j < ny; ++j)
+  ForVoxels({ nx, ny, nz },
+    [&](int i, int j, int k)
     {
-      for (int i = 0; i < nx; ++i, ++index)
-      {
-        voxels->SetComponent(index, 0, labelAt(i, j, k));
-      }
-    }
-  }
+      voxels->SetComponent(index, 0, labelAt(i, j, k));
+      ++index;
+    });
   return image;
 }
 
@@ -53,11 +43,42 @@ inline double TwoBalls(int i, int j, int k)
                                                     : 0;
 }
 
-/** The updated filter. */
-inline vtkSmartPointer<vtkLabelsToSurfaces> LabelSurfacesOf(vtkDataObject* input)
+inline vtkSmartPointer<vtkImageData> BallsImage(int type = VTK_SHORT)
+{
+  return LabelImageOf(34, 28, 28, TwoBalls, type);
+}
+
+/** Names and colours of labels 3 and 7. */
+inline void AddNames(vtkImageData* image)
+{
+  vtkNew<vtkIntArray> values;
+  values->SetName("LabelValues");
+  values->InsertNextValue(7);
+  values->InsertNextValue(3);
+  vtkNew<vtkStringArray> names;
+  names->SetName("LabelNames");
+  names->InsertNextValue("kidney");
+  names->InsertNextValue("liver");
+  vtkNew<vtkUnsignedCharArray> colors;
+  colors->SetName("LabelColors");
+  colors->SetNumberOfComponents(3);
+  colors->InsertNextTuple3(255, 0, 51);
+  colors->InsertNextTuple3(0, 102, 0);
+  image->GetFieldData()->AddArray(values);
+  image->GetFieldData()->AddArray(names);
+  image->GetFieldData()->AddArray(colors);
+}
+
+/** The updated filter, with what is chosen. */
+inline vtkSmartPointer<vtkLabelsToSurfaces> LabelSurfacesOf(
+  vtkDataObject* input, const std::function<void(vtkLabelsToSurfaces*)>& choose = {})
 {
   auto filter = vtkSmartPointer<vtkLabelsToSurfaces>::New();
   filter->SetInputDataObject(input);
+  if (choose)
+  {
+    choose(filter);
+  }
   filter->Update();
   return filter;
 }

@@ -6,11 +6,8 @@
 #include "Core/Labels/LabelBricks.h"
 #include "Core/Labels/LabelField.h"
 #include "Core/Labels/LabelMap.h"
-
-#include <array>
-#include <cmath>
-#include <cstddef>
-#include <functional>
+#include "ForVoxels.h"
+#include "TestPrelude.h"
 
 namespace volumic
 {
@@ -21,16 +18,11 @@ inline LabelMap MakeLabelMap(const std::array<int, 3>& size, int objects,
   LabelMap map;
   map.Size = size;
   map.NumberOfObjects = objects;
-  for (int k = 0; k < size[2]; ++k)
-  {
-    for (int j = 0; j < size[1]; ++j)
+  ForVoxels(size,
+    [&](int i, int j, int k)
     {
-      for (int i = 0; i < size[0]; ++i)
-      {
-        map.Voxels.push_back(static_cast<LabelMap::Number>(objectAt(i, j, k)));
-      }
-    }
-  }
+      map.Voxels.push_back(static_cast<LabelMap::Number>(objectAt(i, j, k)));
+    });
   return map;
 }
 
@@ -62,16 +54,8 @@ inline float ValueAt(const LabelField& field, int i, int j, int k)
 template <typename Visitor>
 void ForVoxelsOf(const LabelField& field, Visitor&& visit)
 {
-  for (int k = field.Box.First[2]; k < field.Box.End[2]; ++k)
-  {
-    for (int j = field.Box.First[1]; j < field.Box.End[1]; ++j)
-    {
-      for (int i = field.Box.First[0]; i < field.Box.End[0]; ++i)
-      {
-        visit(i, j, k, ValueAt(field, i, j, k));
-      }
-    }
-  }
+  ForBox(field.Box.First, field.Box.End,
+    [&](int i, int j, int k) { visit(i, j, k, ValueAt(field, i, j, k)); });
 }
 }
 

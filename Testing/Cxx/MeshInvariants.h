@@ -4,9 +4,7 @@
 #define volumicMeshInvariants_h
 
 #include "Core/Mesh/SurfaceMesh.h"
-
-#include <cmath>
-#include <string>
+#include "TestPrelude.h"
 
 namespace volumic
 {

@@ -3,14 +3,12 @@
 #ifndef volumicMessageQueues_h
 #define volumicMessageQueues_h
 
+#include "TestPrelude.h"
+
 #include <condition_variable>
-#include <cstddef>
 #include <cstring>
 #include <deque>
 #include <mutex>
-#include <stdexcept>
-#include <utility>
-#include <vector>
 
 namespace volumic
 {

@@ -6,11 +6,7 @@
 #include "Core/Surface/RankPiece.h"
 #include "Core/Surface/SurfaceComponents.h"
 #include "Core/Surface/SurfaceState.h"
-
-#include <cmath>
-#include <functional>
-#include <limits>
-#include <vector>
+#include "TestPrelude.h"
 
 namespace volumic
 {

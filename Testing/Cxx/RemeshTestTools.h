@@ -9,32 +9,8 @@
 #include "Core/Surface/SurfaceState.h"
 #include "CoreTestTools.h"
 
-#include <algorithm>
-#include <numeric>
-#include <utility>
-#include <vector>
-
 namespace volumic
 {
-inline void AddSurface(IndexedSurface& to, const IndexedSurface& more)
-{
-  const int first = static_cast<int>(to.Points.size());
-  to.Points.insert(to.Points.end(), more.Points.begin(), more.Points.end());
-  for (const Triangle& t : more.Triangles)
-  {
-    to.Triangles.push_back({ t[0] + first, t[1] + first, t[2] + first });
-  }
-}
-
-inline IndexedSurface InsideOut(IndexedSurface surface)
-{
-  for (Triangle& t : surface.Triangles)
-  {
-    std::swap(t[1], t[2]);
-  }
-  return surface;
-}
-
 /** A live surface without neighbourhood in an evolution; delta is 1. */
 struct Bench
 {

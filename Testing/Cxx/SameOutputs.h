@@ -8,14 +8,9 @@
 #include <vtkAbstractArray.h>
 #include <vtkCellData.h>
 #include <vtkCompositeDataSet.h>
-#include <vtkFieldData.h>
 #include <vtkInformation.h>
-#include <vtkMultiBlockDataSet.h>
-#include <vtkPolyData.h>
 #include <vtkTable.h>
 #include <vtkVariant.h>
-
-#include <string>
 
 /** Tests that compare runs of vtkDeformableSurface to the bit. */
 namespace volumic

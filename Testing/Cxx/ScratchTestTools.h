@@ -5,18 +5,14 @@
 
 #include "Core/Common/ScratchFile.h"
 #include "Core/Common/ScratchMemory.h"
+#include "TestPrelude.h"
 
-#include <cstddef>
-#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
-#include <string>
 
 #include <unistd.h>
 
-namespace volumic
-{
-namespace test
+namespace volumic::test
 {
 constexpr std::size_t MiB = std::size_t(1) << 20;
 
@@ -74,7 +70,6 @@ inline std::size_t CountWrongNumbers(const std::uint64_t* values, std::size_t be
 
 /** Whether an address lies in a mapped file, as the system sees it. */
 bool IsInFile(const void* address);
-}
 }
 
 #endif

@@ -6,30 +6,45 @@
 #include "FilterTestTools.h"
 #include "vtkDeformableSurface.h"
 
-#include <vtkDataArray.h>
 #include <vtkFeatureEdges.h>
-#include <vtkFieldData.h>
 #include <vtkMath.h>
-#include <vtkMultiBlockDataSet.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
+#include <vtkPoints.h>
 #include <vtkPolyData.h>
+#include <vtkSphereSource.h>
 #include <vtkStringArray.h>
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <string>
 
 /** What the tests of vtkDeformableSurface share. */
 namespace volumic
 {
-/** The updated filter, for the objects of FilterTestTools.h. */
-inline vtkSmartPointer<vtkDeformableSurface> SurfaceOf(vtkDataObject* input)
+/** What a test sets of a filter; of which filter a call says, as it cannot be deduced. */
+template <typename Filter>
+struct ChoiceFor
 {
-  auto filter = vtkSmartPointer<vtkDeformableSurface>::New();
+  using Type = std::function<void(Filter*)>;
+};
+template <typename Filter>
+using ChoiceOf = typename ChoiceFor<Filter>::Type;
+using Choice = ChoiceOf<vtkDeformableSurface>;
+
+/** A filter for the objects of FilterTestTools.h, with what is chosen; not updated yet. */
+template <typename Filter = vtkDeformableSurface>
+vtkSmartPointer<Filter> FilterOf(vtkDataObject* input, const ChoiceOf<Filter>& choose = {})
+{
+  auto filter = vtkSmartPointer<Filter>::New();
   filter->SetInputDataObject(input);
   filter->SetIsoValue(50.0);
+  if (choose)
+  {
+    choose(filter);
+  }
+  return filter;
+}
+
+/** The updated one. */
+template <typename Filter = vtkDeformableSurface>
+vtkSmartPointer<Filter> SurfaceOf(vtkDataObject* input, const ChoiceOf<Filter>& choose = {})
+{
+  const auto filter = FilterOf<Filter>(input, choose);
   filter->Update();
   return filter;
 }
@@ -76,6 +91,53 @@ inline double EnclosedVolume(vtkPolyData* surface)
 inline vtkPolyData* SurfaceAt(vtkDeformableSurface* filter, unsigned int level)
 {
   return vtkPolyData::SafeDownCast(filter->GetLevels()->GetBlock(level));
+}
+
+/** Points without cells. */
+inline vtkSmartPointer<vtkPolyData> PointsAt(const std::vector<std::array<double, 3>>& places)
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (const auto& place : places)
+  {
+    points->InsertNextPoint(place.data());
+  }
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  data->SetPoints(points);
+  return data;
+}
+
+/** VTK's sphere, with so many sides about its axis and along it. */
+inline vtkSmartPointer<vtkPolyData> SphereAt(
+  const std::array<double, 3>& centre, double radius, int sides = 8)
+{
+  vtkNew<vtkSphereSource> sphere;
+  sphere->SetCenter(centre[0], centre[1], centre[2]);
+  sphere->SetRadius(radius);
+  sphere->SetThetaResolution(sides);
+  sphere->SetPhiResolution(sides);
+  sphere->Update();
+  return sphere->GetOutput();
+}
+
+/** Calls visit(p, q) with the ends of each edge of each triangle: of those within, twice. */
+template <typename Visit>
+void VisitEdges(vtkPolyData* surface, const Visit& visit)
+{
+  for (vtkIdType c = 0; c < surface->GetNumberOfCells(); ++c)
+  {
+    vtkIdType size;
+    const vtkIdType* ids;
+    surface->GetCellPoints(c, size, ids);
+    for (vtkIdType k = 0; k < size; ++k)
+    {
+      std::array<double, 3> p;
+      std::array<double, 3> q;
+      surface->GetPoint(ids[k], p.data());
+      surface->GetPoint(ids[(k + 1) % size], q.data());
+      visit(p, q);
+    }
+  }
 }
 
 /** How many edges do not have two triangles. */

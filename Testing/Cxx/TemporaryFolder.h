@@ -3,12 +3,11 @@
 #ifndef volumicTemporaryFolder_h
 #define volumicTemporaryFolder_h
 
+#include "TestPrelude.h"
+
 #include <csignal>
 #include <filesystem>
-#include <set>
-#include <stdexcept>
 #include <stdlib.h>
-#include <string>
 #include <sys/resource.h>
 
 namespace volumic

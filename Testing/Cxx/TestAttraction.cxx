@@ -7,11 +7,6 @@
 #include "Core/Image/PointAttraction.h"
 #include "CoreTestTools.h"
 
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-
 using namespace volumic;
 
 namespace

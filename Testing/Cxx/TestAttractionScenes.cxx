@@ -4,29 +4,15 @@
 // What the iso-value alone can't do: a few points close a gap in a wall, a map of edges finds a
 // boundary that no iso-value gives.
 #include "SupportVtkConversions.h"
-#include "SurfaceJudge.h"
-#include "SyntheticScenes.h"
+#include "TestPrelude.h"
 #include "WrongVoxels.h"
 #include "vtkDeformableSurface.h"
 #include "vtkImagePyramid.h"
 
 #include <vtkDoubleArray.h>
-#include <vtkFieldData.h>
-#include <vtkImageData.h>
 #include <vtkImageGradientMagnitude.h>
 #include <vtkMultiBlockDataSet.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
 #include <vtkPoints.h>
-#include <vtkPolyData.h>
-#include <vtkSmartPointer.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <vector>
 
 using namespace volumic::support;
 

@@ -6,14 +6,6 @@
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "CoreTestTools.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <map>
-#include <string>
-#include <utility>
-#include <vector>
-
 using namespace volumic;
 
 namespace

@@ -3,13 +3,7 @@
 #include "Core/Mesh/CellSurface.h"
 #include "Core/Mesh/SurfaceCheck.h"
 #include "Core/Mesh/SurfaceFeatures.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <random>
-#include <set>
+#include "TestPrelude.h"
 
 using namespace volumic;
 

@@ -5,15 +5,7 @@
 #include "Core/Common/StandardThreads.h"
 #include "TemporaryFolder.h"
 
-#include <gtest/gtest.h>
-
-#include <cstddef>
-#include <cstdint>
 #include <fstream>
-#include <numeric>
-#include <set>
-#include <string>
-#include <vector>
 
 #ifndef _WIN32
 #include <sys/stat.h>
@@ -264,9 +256,7 @@ TEST(CheckedFile, LeavesNothingOnAFullDisk)
   }
   catch (const FileError& error)
   {
-    EXPECT_NE(std::string(error.what()).find("cannot be written (File too large)"),
-      std::string::npos)
-      << error.what();
+    EXPECT_TRUE(Has(error.what(), "cannot be written (File too large)"));
   }
   EXPECT_EQ(folder.Names(), std::set<std::string>());
 }

@@ -1,12 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Common/Communicator.h"
 #include "ThreadRanks.h"
 
-#include <gtest/gtest.h>
-
 #include <atomic>
-#include <string>
 
 namespace
 {

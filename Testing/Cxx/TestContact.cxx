@@ -4,10 +4,6 @@
 // Contacts stop what comes near, whether forces or the final smoothing move it.
 #include "DynamicsTestTools.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 using namespace volumic;
 
 namespace

@@ -3,17 +3,10 @@
 
 // Which pairs count as contacts that remain, and which vertices as held by them.
 #include "Core/Common/RankLists.h"
-#include "Core/Evolution/SurfaceOptions.h"
 #include "Core/Surface/RemainingContacts.h"
 #include "RankTestTools.h"
 #include "RemeshTestTools.h"
 #include "ThreadRanks.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <vector>
 
 using namespace volumic;
 

@@ -1,20 +1,10 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfaceTestTools.h"
-#include "vtkImagePyramid.h"
 
-#include <vtkDataArray.h>
-#include <vtkImageData.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPolyData.h>
 #include <vtkSMPTools.h>
 
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <sstream>
-#include <string>
 
 using namespace volumic;
 
@@ -32,9 +22,7 @@ TEST(DeformableSurface, FindsABallInAnImage)
 TEST(DeformableSurface, AnImageGivesWhatItsPyramidGives)
 {
   const auto image = BallImage(40, 40, 40);
-  vtkNew<vtkImagePyramid> pyramid;
-  pyramid->SetInputData(image);
-  pyramid->Update();
+  const auto pyramid = PyramidOf(image);
   const auto fromPyramid = SurfaceOf(pyramid->GetOutput());
   const auto fromImage = SurfaceOf(image);
   ASSERT_GT(fromImage->GetOutput()->GetNumberOfPoints(), 0);
@@ -91,11 +79,7 @@ TEST(DeformableSurface, FindsDarkObjects)
   {
     voxels->SetComponent(i, 0, 100.0 - voxels->GetComponent(i, 0));
   }
-  vtkNew<vtkDeformableSurface> filter;
-  filter->SetInputData(image);
-  filter->SetIsoValue(50.0);
-  filter->ObjectIsBrightOff();
-  filter->Update();
+  const auto filter = SurfaceOf(image, [](vtkDeformableSurface* f) { f->ObjectIsBrightOff(); });
   ExpectSphere(filter->GetOutput(), BallCentre, BallRadius, 0.2);
 }
 
@@ -117,18 +101,11 @@ TEST(DeformableSurface, ClosesAtTheBorderOfTheImage)
 TEST(DeformableSurface, IsTheSameBitsForAnyNumberOfThreadsAndAnyRun)
 {
   const auto image = BallImage(48, 48, 48);
-  vtkNew<vtkDeformableSurface> one;
-  one->SetInputData(image);
-  one->SetIsoValue(50.0);
-  one->SetNumberOfThreads(1);
-  one->Update();
+  const auto one = SurfaceOf(image, [](vtkDeformableSurface* f) { f->SetNumberOfThreads(1); });
   for (const int threads : { 1, 2, 3 })
   {
-    vtkNew<vtkDeformableSurface> other;
-    other->SetInputData(image);
-    other->SetIsoValue(50.0);
-    other->SetNumberOfThreads(threads);
-    other->Update();
+    const auto other = SurfaceOf(image,
+      [&](vtkDeformableSurface* f) { f->SetNumberOfThreads(threads); });
     ASSERT_GT(other->GetOutput()->GetNumberOfPoints(), 0);
     EXPECT_TRUE(AreSameSurfaces(other->GetOutput(), one->GetOutput())) << threads << " threads";
   }
@@ -137,10 +114,7 @@ TEST(DeformableSurface, IsTheSameBitsForAnyNumberOfThreadsAndAnyRun)
 TEST(DeformableSurface, IsTheSameBitsOnEveryBackend)
 {
   const auto image = BallImage(48, 48, 48);
-  vtkNew<vtkDeformableSurface> one;
-  one->SetInputData(image);
-  one->SetIsoValue(50.0);
-  one->Update();
+  const auto one = SurfaceOf(image);
   const std::string host = vtkSMPTools::GetBackend();
   int tried = 0;
   for (const char* backend : { "Sequential", "STDThread", "TBB", "OpenMP" })
@@ -152,11 +126,8 @@ TEST(DeformableSurface, IsTheSameBitsOnEveryBackend)
     ++tried;
     for (const int threads : { 0, 2 })
     {
-      vtkNew<vtkDeformableSurface> other;
-      other->SetInputData(image);
-      other->SetIsoValue(50.0);
-      other->SetNumberOfThreads(threads);
-      other->Update();
+      const auto other = SurfaceOf(image,
+        [&](vtkDeformableSurface* f) { f->SetNumberOfThreads(threads); });
       EXPECT_TRUE(AreSameSurfaces(other->GetOutput(), one->GetOutput())) << backend;
       EXPECT_EQ(std::string(vtkSMPTools::GetBackend()), backend) << "the host's choice is restored";
     }
@@ -167,11 +138,8 @@ TEST(DeformableSurface, IsTheSameBitsOnEveryBackend)
 
 TEST(DeformableSurface, StopsAtTheIterationLimit)
 {
-  vtkNew<vtkDeformableSurface> filter;
-  filter->SetInputData(BallImage(40, 40, 40));
-  filter->SetIsoValue(50.0);
-  filter->SetMaximumNumberOfIterations(3);
-  filter->Update();
+  const auto filter = SurfaceOf(BallImage(40, 40, 40),
+    [](vtkDeformableSurface* f) { f->SetMaximumNumberOfIterations(3); });
   EXPECT_EQ(StopReason(filter->GetOutput()), "iteration limit");
   EXPECT_EQ(FieldOf(filter->GetOutput(), "Iterations"), 3);
   EXPECT_EQ(OpenOrNonManifoldEdges(filter->GetOutput()), 0);
@@ -187,6 +155,6 @@ TEST(DeformableSurface, PrintsItsProperties)
       "FinestLevel: 0", "GradientWeight: 0", "BorderValue: 0", "TopologyChanges: 1",
       "MaximumNumberOfIterations: 1000", "SnapToIsoValue: 1", "NumberOfThreads: 0" })
   {
-    EXPECT_NE(text.str().find(property), std::string::npos) << property;
+    EXPECT_TRUE(Has(text.str(), property)) << property;
   }
 }

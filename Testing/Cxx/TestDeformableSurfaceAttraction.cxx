@@ -1,23 +1,11 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "FilterTestTools.h"
 #include "SurfaceTestTools.h"
-#include "vtkDeformableSurface.h"
 
 #include <vtkCellArray.h>
 #include <vtkDoubleArray.h>
-#include <vtkImageData.h>
 #include <vtkIntArray.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
 #include <vtkPoints.h>
-#include <vtkPolyData.h>
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <vector>
 
 using namespace volumic;
 
@@ -59,13 +47,8 @@ protected:
 
   void ExpectError(const std::vector<std::string>& parts)
   {
-    MessagesOf errors(this->Filter);
     this->Filter->Modified();
-    this->Filter->Update();
-    for (const std::string& part : parts)
-    {
-      EXPECT_TRUE(errors.Has(part)) << "no `" << part << "` in: " << errors.Get();
-    }
+    ExpectErrorOf(this->Filter, parts);
     EXPECT_EQ(this->Filter->GetOutput()->GetNumberOfPoints(), 0);
   }
 

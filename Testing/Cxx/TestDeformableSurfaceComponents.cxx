@@ -1,25 +1,11 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "FilterTestTools.h"
 #include "SurfaceTestTools.h"
-#include "vtkDeformableSurface.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
-#include <vtkImageData.h>
-#include <vtkMath.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
 #include <vtkPoints.h>
-#include <vtkPolyData.h>
 #include <vtkSphereSource.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <utility>
-#include <vector>
 
 using namespace volumic;
 
@@ -135,11 +121,7 @@ protected:
 
   void SetSeed(double x, double y, double z)
   {
-    vtkNew<vtkPoints> points;
-    points->InsertNextPoint(x, y, z);
-    vtkNew<vtkPolyData> seed;
-    seed->SetPoints(points);
-    this->Filter->SetInitialSurfaceData(seed);
+    this->Filter->SetInitialSurfaceData(PointsAt({ { x, y, z } }));
   }
 
   vtkNew<vtkDeformableSurface> Filter;
@@ -218,22 +200,13 @@ TEST_F(DeformableSurfaceComponents, SeedsDropWhatTheyMark)
 TEST_F(DeformableSurfaceComponents, PointsKnownToBelongToTheObjectChooseToo)
 {
   this->Filter->SetKeepComponentsToComponentsAtPoints();
-  vtkNew<vtkPoints> points;
-  points->InsertNextPoint(38, 16, 16);
-  points->InsertNextPoint(16, 16, 17);
-  vtkNew<vtkPolyData> known;
-  known->SetPoints(points);
-  this->Filter->SetAttractingPointsData(known);
+  this->Filter->SetAttractingPointsData(PointsAt({ { 38, 16, 16 }, { 16, 16, 17 } }));
   ExpectVolumes(this->Volumes(), { this->Beside, this->Inner });
 }
 
 TEST_F(DeformableSurfaceComponents, OfPointsWithVerticesOnlyThoseChoose)
 {
-  vtkNew<vtkPoints> points;
-  points->InsertNextPoint(38, 16, 16);
-  points->InsertNextPoint(16, 16, 17);
-  vtkNew<vtkPolyData> known;
-  known->SetPoints(points);
+  const auto known = PointsAt({ { 38, 16, 16 }, { 16, 16, 17 } });
   known->SetVerts(vtkNew<vtkCellArray>());
   const vtkIdType id = 1;
   known->GetVerts()->InsertNextCell(1, &id);
@@ -248,11 +221,7 @@ TEST_F(DeformableSurfaceComponents, OfPointsWithVerticesOnlyThoseChoose)
 
 TEST_F(DeformableSurfaceComponents, LinesAreNoSeeds)
 {
-  vtkNew<vtkPoints> points;
-  points->InsertNextPoint(38, 16, 16);
-  points->InsertNextPoint(16, 16, 17);
-  vtkNew<vtkPolyData> line;
-  line->SetPoints(points);
+  const auto line = PointsAt({ { 38, 16, 16 }, { 16, 16, 17 } });
   line->SetLines(vtkNew<vtkCellArray>());
   const vtkIdType ids[2] = { 0, 1 };
   line->GetLines()->InsertNextCell(2, ids);
@@ -271,11 +240,7 @@ TEST_F(DeformableSurfaceComponents, LinesAreNoSeeds)
 
 TEST_F(DeformableSurfaceComponents, ASurfaceToStartFromHasNoSeeds)
 {
-  vtkNew<vtkSphereSource> sphere;
-  sphere->SetCenter(16, 16, 16);
-  sphere->SetRadius(5);
-  sphere->Update();
-  this->Filter->SetInitialSurfaceData(sphere->GetOutput());
+  this->Filter->SetInitialSurfaceData(SphereAt({ 16, 16, 16 }, 5));
   this->Filter->SetKeepComponentsToComponentsAtPoints();
   MessagesOf errors(this->Filter);
   this->Filter->Update();

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "FilterTestTools.h"
+#include "SurfaceTestTools.h"
 #include "vtkDeformableSurface.h"
-#include "vtkImagePyramid.h"
 
 #include <vtkAppendPolyData.h>
 #include <vtkCellArray.h>
@@ -10,26 +9,13 @@
 #include <vtkCubeSource.h>
 #include <vtkErrorCode.h>
 #include <vtkExecutive.h>
-#include <vtkFieldData.h>
 #include <vtkImageCast.h>
-#include <vtkImageData.h>
-#include <vtkMultiBlockDataSet.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkReverseSense.h>
 #include <vtkSphereSource.h>
 #include <vtkTable.h>
 #include <vtkTriangleFilter.h>
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
-#include <limits>
-#include <string>
-#include <vector>
 
 using namespace volumic;
 
@@ -47,16 +33,10 @@ protected:
 
   void ExpectError(const std::vector<std::string>& parts)
   {
-    MessagesOf errors(this->Filter);
-    this->Filter->Update();
-    for (const std::string& part : parts)
-    {
-      EXPECT_TRUE(errors.Has(part)) << "no `" << part << "` in: " << errors.Get();
-    }
+    ExpectErrorOf(this->Filter, parts);
     EXPECT_EQ(this->Filter->GetOutput()->GetNumberOfPoints(), 0) << "no output half made";
     EXPECT_EQ(this->Filter->GetLevels()->GetNumberOfBlocks(), 0u);
     EXPECT_EQ(this->Filter->GetHistory()->GetNumberOfRows(), 0);
-    EXPECT_EQ(this->Filter->GetErrorCode(), vtkErrorCode::UserError);
   }
 
   void ExpectSurfaceError(vtkPolyData* surface, const std::vector<std::string>& parts)
@@ -68,12 +48,7 @@ protected:
 
   static vtkSmartPointer<vtkPolyData> Ball(double x, double radius)
   {
-    vtkNew<vtkSphereSource> source;
-    source->SetCenter(x, 16, 16);
-    source->SetRadius(radius);
-    source->Update();
-    vtkSmartPointer<vtkPolyData> ball = source->GetOutput();
-    return ball;
+    return SphereAt({ x, 16, 16 }, radius);
   }
 
   static vtkSmartPointer<vtkPolyData> Together(vtkPolyData* a, vtkPolyData* b)
@@ -98,9 +73,7 @@ protected:
 
   vtkSmartPointer<vtkMultiBlockDataSet> Pyramid()
   {
-    vtkNew<vtkImagePyramid> pyramid;
-    pyramid->SetInputData(BallImage(32, 32, 32));
-    pyramid->Update();
+    const auto pyramid = PyramidOf(BallImage(32, 32, 32));
     auto blocks = vtkSmartPointer<vtkMultiBlockDataSet>::New();
     blocks->DeepCopy(pyramid->GetOutput());
     return blocks;
@@ -333,13 +306,8 @@ TEST_F(DeformableSurfaceErrors, OpenInitialSurface)
 TEST_F(DeformableSurfaceErrors, NonManifoldInitialSurface)
 {
   // Two tetrahedra that share an edge: closed, but four triangles meet there.
-  vtkNew<vtkPoints> points;
-  points->InsertNextPoint(16, 16, 10);
-  points->InsertNextPoint(16, 16, 22);
-  points->InsertNextPoint(8, 10, 16);
-  points->InsertNextPoint(8, 22, 16);
-  points->InsertNextPoint(24, 22, 16);
-  points->InsertNextPoint(24, 10, 16);
+  const auto glued = PointsAt({ { 16, 16, 10 }, { 16, 16, 22 }, { 8, 10, 16 }, { 8, 22, 16 },
+    { 24, 22, 16 }, { 24, 10, 16 } });
   const vtkIdType triangles[8][3] = { { 0, 1, 2 }, { 0, 3, 1 }, { 0, 2, 3 }, { 1, 3, 2 },
     { 0, 1, 4 }, { 0, 5, 1 }, { 0, 4, 5 }, { 1, 5, 4 } };
   vtkNew<vtkCellArray> cells;
@@ -347,8 +315,6 @@ TEST_F(DeformableSurfaceErrors, NonManifoldInitialSurface)
   {
     cells->InsertNextCell(3, triangle);
   }
-  vtkNew<vtkPolyData> glued;
-  glued->SetPoints(points);
   glued->SetPolys(cells);
   this->ExpectSurfaceError(glued, { "Input port 1", "manifold" });
 }
@@ -373,13 +339,8 @@ TEST_F(DeformableSurfaceErrors, InitialSurfaceOutsideTheImage)
 
 TEST_F(DeformableSurfaceErrors, SeedsOutsideTheImage)
 {
-  vtkNew<vtkPoints> points;
-  points->InsertNextPoint(16, 16, 16);
-  points->InsertNextPoint(16, 16, 99);
-  vtkNew<vtkPolyData> seeds;
-  seeds->SetPoints(points);
   this->Filter->SetInitializationToSeeds();
-  this->Filter->SetInitialSurfaceData(seeds);
+  this->Filter->SetInitialSurfaceData(PointsAt({ { 16, 16, 16 }, { 16, 16, 99 } }));
   this->ExpectError({ "Input port 1", "Seed 1", "outside the image" });
 }
 

@@ -5,23 +5,10 @@
 #include <vtkCellData.h>
 #include <vtkCompositeDataSet.h>
 #include <vtkDataObject.h>
-#include <vtkFieldData.h>
-#include <vtkImageData.h>
 #include <vtkInformation.h>
-#include <vtkMath.h>
-#include <vtkMultiBlockDataSet.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPolyData.h>
 #include <vtkTable.h>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <string>
-#include <vector>
 
 using namespace volumic;
 
@@ -129,7 +116,7 @@ TEST(DeformableSurfaceOutputs, WritesARowOfHistoryPerIteration)
   for (unsigned int h = 0; h < 3; ++h)
   {
     iterations += static_cast<int>(
-      FieldOf(vtkPolyData::SafeDownCast(filter->GetLevels()->GetBlock(h)), "Iterations"));
+      FieldOf(SurfaceAt(filter, h), "Iterations"));
   }
   ASSERT_EQ(history->GetNumberOfRows(), iterations);
   for (vtkIdType r = 0; r < iterations; ++r)
@@ -138,7 +125,7 @@ TEST(DeformableSurfaceOutputs, WritesARowOfHistoryPerIteration)
     EXPECT_GT(history->GetValueByName(r, "Vertices").ToInt(), 0);
     EXPECT_GE(history->GetValueByName(r, "TimeStep").ToDouble(), 0.0);
     const int level = history->GetValueByName(r, "Level").ToInt();
-    auto* surface = vtkPolyData::SafeDownCast(filter->GetLevels()->GetBlock(level));
+    auto* surface = SurfaceAt(filter, level);
     const double delta = FieldOf(surface, "Delta");
     EXPECT_GT(history->GetValueByName(r, "MeanEdgeLength").ToDouble(), delta);
     EXPECT_LT(history->GetValueByName(r, "MeanEdgeLength").ToDouble(), 2.5 * delta);
@@ -155,11 +142,8 @@ TEST(DeformableSurfaceOutputs, WritesARowOfHistoryPerIteration)
 
 TEST(DeformableSurfaceOutputs, LastRowOfALevelAlsoTellsOfItsSurface)
 {
-  vtkNew<vtkDeformableSurface> filter;
-  filter->SetInputData(BallImage(40, 40, 40));
-  filter->SetIsoValue(50.0);
-  filter->SetSnapshotInterval(1);
-  filter->Update();
+  const auto filter = SurfaceOf(BallImage(40, 40, 40),
+    [](vtkDeformableSurface* f) { f->SetSnapshotInterval(1); });
   vtkTable* history = filter->GetHistory();
   vtkMultiBlockDataSet* snapshots = filter->GetSnapshots();
   int levels = 0;
@@ -174,7 +158,7 @@ TEST(DeformableSurfaceOutputs, LastRowOfALevelAlsoTellsOfItsSurface)
     auto* left = vtkPolyData::SafeDownCast(
       snapshots->GetBlock(static_cast<unsigned int>(r / 5 + 3 - level)));
     ASSERT_EQ(FieldOf(left, "Iteration"), r + 1);
-    auto* block = vtkPolyData::SafeDownCast(filter->GetLevels()->GetBlock(level));
+    auto* block = SurfaceAt(filter, level);
     EXPECT_EQ(value("IterationVertices").ToInt(), left->GetNumberOfPoints());
     EXPECT_EQ(value("IterationEulerCharacteristic").ToInt(), FieldOf(left, "EulerCharacteristic"));
     EXPECT_EQ(value("IterationComponents").ToInt(), FieldOf(left, "NumberOfComponents"));
@@ -192,9 +176,7 @@ TEST(DeformableSurfaceOutputs, LastRowOfALevelAlsoTellsOfItsSurface)
 
 TEST(DeformableSurfaceOutputs, SecondsOfRowsAndLevelsAddUpToThoseOfTheRun)
 {
-  vtkNew<vtkDeformableSurface> filter;
-  filter->SetInputData(BallImage(40, 40, 40));
-  filter->SetIsoValue(50.0);
+  const auto filter = FilterOf(BallImage(40, 40, 40));
   const auto start = std::chrono::steady_clock::now();
   filter->Update();
   const double run =
@@ -228,10 +210,7 @@ std::string SerialOf(const std::string& phase)
 
 TEST(DeformableSurfaceOutputs, TellsWhereTheTimeGoesIfAsked)
 {
-  vtkNew<vtkDeformableSurface> filter;
-  filter->SetInputData(BallImage(40, 40, 40));
-  filter->SetIsoValue(50.0);
-  filter->Update();
+  const auto filter = SurfaceOf(BallImage(40, 40, 40));
   EXPECT_FALSE(filter->GetHistory()->GetColumnByName("ForcesSeconds"));
   filter->ProfileOn();
   filter->Update();
@@ -271,11 +250,8 @@ TEST(DeformableSurfaceOutputs, TellsWhereTheTimeGoesIfAsked)
 
 TEST(DeformableSurfaceOutputs, TellsHowMuchOfEachPhaseOneThreadDoesAlone)
 {
-  vtkNew<vtkDeformableSurface> filter;
-  filter->SetInputData(BallImage(40, 40, 40));
-  filter->SetIsoValue(50.0);
-  filter->ProfileOn();
-  filter->Update();
+  const auto filter = SurfaceOf(BallImage(40, 40, 40),
+    [](vtkDeformableSurface* f) { f->ProfileOn(); });
   vtkTable* history = filter->GetHistory();
   const auto value = [history](vtkIdType row, const std::string& name)
   { return history->GetValueByName(row, name.c_str()).ToDouble(); };
@@ -319,11 +295,8 @@ TEST(DeformableSurfaceOutputs, HasNoSnapshotsUnlessAsked)
 TEST(DeformableSurfaceOutputs, KeepsTheSurfaceOnItsWay)
 {
   const auto plain = SurfaceOf(BallImage(40, 40, 40));
-  vtkNew<vtkDeformableSurface> filter;
-  filter->SetInputData(BallImage(40, 40, 40));
-  filter->SetIsoValue(50.0);
-  filter->SetSnapshotInterval(20);
-  filter->Update();
+  const auto filter = SurfaceOf(BallImage(40, 40, 40),
+    [](vtkDeformableSurface* f) { f->SetSnapshotInterval(20); });
   EXPECT_TRUE(AreSameSurfaces(filter->GetOutput(), plain->GetOutput()))
     << "looking on does not disturb";
 
@@ -331,7 +304,7 @@ TEST(DeformableSurfaceOutputs, KeepsTheSurfaceOnItsWay)
   std::vector<std::string> expected;
   for (int level = 2; level >= 0; --level)
   {
-    auto* rested = vtkPolyData::SafeDownCast(filter->GetLevels()->GetBlock(level));
+    auto* rested = SurfaceAt(filter, level);
     for (int iteration = 0; iteration <= FieldOf(rested, "Iterations"); iteration += 20)
     {
       expected.push_back(

@@ -2,18 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfaceTestTools.h"
 
-#include <vtkImageData.h>
-#include <vtkNew.h>
 #include <vtkPoints.h>
-#include <vtkPolyData.h>
-
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-#include <limits>
-#include <string>
-#include <vector>
 
 using namespace volumic;
 
@@ -37,19 +26,6 @@ vtkSmartPointer<vtkImageData> TwoBalls()
     Voxels(image)->SetComponent(i, 0, std::max(0.0, std::min(100.0, 50.0 - 50.0 * distance)));
   }
   return image;
-}
-
-vtkSmartPointer<vtkPolyData> PointsAt(const Places& places)
-{
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  for (const auto& place : places)
-  {
-    points->InsertNextPoint(place.data());
-  }
-  auto data = vtkSmartPointer<vtkPolyData>::New();
-  data->SetPoints(points);
-  return data;
 }
 
 const std::array<double, 3> InLeft = { 112, 12, 13 };
@@ -80,13 +56,8 @@ protected:
 
   void ExpectError(const std::vector<std::string>& parts)
   {
-    MessagesOf errors(this->Filter);
     this->Filter->Modified();
-    this->Filter->Update();
-    for (const std::string& part : parts)
-    {
-      EXPECT_TRUE(errors.Has(part)) << "no `" << part << "` in: " << errors.Get();
-    }
+    ExpectErrorOf(this->Filter, parts);
     EXPECT_EQ(this->Filter->GetOutput()->GetNumberOfPoints(), 0);
   }
 

@@ -2,31 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfaceTestTools.h"
 
-#include <vtkCallbackCommand.h>
-#include <vtkCommand.h>
 #include <vtkDataObject.h>
-#include <vtkFeatureEdges.h>
 #include <vtkFloatArray.h>
-#include <vtkImageData.h>
-#include <vtkMultiBlockDataSet.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPolyData.h>
-#include <vtkSmartPointer.h>
 #include <vtkTable.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <string>
 
 using namespace volumic;
 
 TEST(DeformableSurfaceProgress, GrowsAndNamesLevelAndIteration)
 {
-  vtkNew<vtkDeformableSurface> filter;
-  filter->SetInputData(BallImage(40, 40, 40));
-  filter->SetIsoValue(50.0);
+  const auto filter = FilterOf(BallImage(40, 40, 40));
   ProgressListener listener(filter);
   filter->Update();
   EXPECT_TRUE(std::is_sorted(listener.Shares.begin(), listener.Shares.end()));
@@ -44,9 +28,7 @@ TEST(DeformableSurfaceProgress, GrowsAndNamesLevelAndIteration)
 
 TEST(DeformableSurfaceProgress, CancellingHandsOverAValidSurface)
 {
-  vtkNew<vtkDeformableSurface> filter;
-  filter->SetInputData(BallImage(40, 40, 40));
-  filter->SetIsoValue(50.0);
+  const auto filter = FilterOf(BallImage(40, 40, 40));
   ProgressListener listener(filter);
   listener.StopAt = 0.1;
   filter->Update();
@@ -180,9 +162,7 @@ TEST(DeformableSurfaceProgress, CancellingEndsThePyramidOfTheMapOfEdges)
 
 TEST(DeformableSurfaceProgress, RunsToTheEndAfterACancelledRun)
 {
-  vtkNew<vtkDeformableSurface> filter;
-  filter->SetInputData(BallImage(40, 40, 40));
-  filter->SetIsoValue(50.0);
+  const auto filter = FilterOf(BallImage(40, 40, 40));
   ProgressListener listener(filter);
   listener.StopAt = 0.05;
   filter->Update();

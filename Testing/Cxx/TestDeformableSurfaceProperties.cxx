@@ -8,8 +8,6 @@
 #include <vtkTable.h>
 #include <vtkVariant.h>
 
-#include <cmath>
-#include <functional>
 #include <sstream>
 #include <string>
 #include <type_traits>
@@ -138,7 +136,7 @@ TEST(DeformableSurfaceProperties, EachHasAValueOfItsOwn)
     std::ostringstream line;
     filter->Print(printed);
     line << "  " << changed.Name << ": " << changed.Value << "\n";
-    EXPECT_NE(printed.str().find(line.str()), std::string::npos) << line.str();
+    EXPECT_TRUE(Has(printed.str(), line.str())) << line.str();
   }
 }
 
@@ -155,7 +153,7 @@ TEST(DeformableSurfaceProperties, TheScratchDirectoryIsAText)
     EXPECT_STREQ(filter->GetScratchDirectory(), "/some/folder");
     std::ostringstream printed;
     filter->Print(printed);
-    EXPECT_NE(printed.str().find("  ScratchDirectory: /some/folder\n"), std::string::npos);
+    EXPECT_TRUE(Has(printed.str(), "  ScratchDirectory: /some/folder\n"));
   };
   check(vtkSmartPointer<vtkDeformableSurface>::New().Get());
   check(vtkSmartPointer<vtkImagePyramid>::New().Get());

@@ -3,71 +3,39 @@
 #include "SurfaceTestTools.h"
 
 #include <vtkCleanPolyData.h>
-#include <vtkCommand.h>
 #include <vtkCylinderSource.h>
-#include <vtkDataArray.h>
-#include <vtkFieldData.h>
-#include <vtkImageData.h>
-#include <vtkMath.h>
-#include <vtkMultiBlockDataSet.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
 #include <vtkPoints.h>
-#include <vtkPolyData.h>
-#include <vtkSmartPointer.h>
 #include <vtkSphereSource.h>
 #include <vtkTable.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 
 using namespace volumic;
 
 TEST(DeformableSurfaceStart, StartsFromTheIsoSurface)
 {
-  vtkNew<vtkDeformableSurface> filter;
-  filter->SetInputData(BallImage(40, 40, 40));
-  filter->SetIsoValue(50.0);
-  filter->SetInitializationToIsoSurface();
-  filter->Update();
+  const auto filter = SurfaceOf(BallImage(40, 40, 40),
+    [](vtkDeformableSurface* f) { f->SetInitializationToIsoSurface(); });
   ExpectSphere(filter->GetOutput(), BallCentre, BallRadius, 0.2);
   const auto enclosing = SurfaceOf(BallImage(40, 40, 40));
-  EXPECT_LT(FieldOf(vtkPolyData::SafeDownCast(filter->GetLevels()->GetBlock(2)), "Iterations"),
-    FieldOf(vtkPolyData::SafeDownCast(enclosing->GetLevels()->GetBlock(2)), "Iterations"));
+  EXPECT_LT(FieldOf(SurfaceAt(filter, 2), "Iterations"),
+    FieldOf(SurfaceAt(enclosing, 2), "Iterations"));
 }
 
 TEST(DeformableSurfaceStart, StartsFromSeeds)
 {
-  vtkNew<vtkDeformableSurface> filter;
-  filter->SetInputData(BallImage(40, 40, 40));
-  filter->SetIsoValue(50.0);
-  filter->SetInitializationToSeeds();
-  filter->Update();
+  const auto filter = SurfaceOf(BallImage(40, 40, 40),
+    [](vtkDeformableSurface* f) { f->SetInitializationToSeeds(); });
   ExpectSphere(filter->GetOutput(), BallCentre, BallRadius, 0.2);
-
-  vtkNew<vtkPoints> points;
-  points->InsertNextPoint(21, 18, 20);
-  vtkNew<vtkPolyData> seeds;
-  seeds->SetPoints(points);
-  filter->SetInitialSurfaceData(seeds);
+  filter->SetInitialSurfaceData(PointsAt({ { 21, 18, 20 } }));
   filter->Update();
   ExpectSphere(filter->GetOutput(), BallCentre, BallRadius, 0.2);
 }
 
 TEST(DeformableSurfaceStart, SeedsHaveTheRadiusThatTheHeaderSays)
 {
-  vtkNew<vtkPoints> points;
-  points->InsertNextPoint(20, 20, 20);
-  vtkNew<vtkPolyData> seeds;
-  seeds->SetPoints(points);
-  vtkNew<vtkDeformableSurface> filter;
-  filter->SetInputData(BallImage(40, 40, 40));
-  filter->SetIsoValue(50.0);
+  const auto filter = FilterOf(BallImage(40, 40, 40));
   filter->SetCoarsestLevel(0);
   filter->SetInitializationToSeeds();
-  filter->SetInitialSurfaceData(seeds);
+  filter->SetInitialSurfaceData(PointsAt({ { 20, 20, 20 } }));
   filter->SetMaximumNumberOfIterations(1);
   filter->SetSnapshotInterval(2); // that of the start only
   const double delta = 0.85;
@@ -95,9 +63,7 @@ TEST(DeformableSurfaceStart, StartsFromAGivenSurface)
   sphere->SetRadius(14);
   sphere->SetThetaResolution(24);
   sphere->SetPhiResolution(20);
-  vtkNew<vtkDeformableSurface> filter;
-  filter->SetInputData(BallImage(40, 40, 40));
-  filter->SetIsoValue(50.0);
+  const auto filter = FilterOf(BallImage(40, 40, 40));
   filter->SetInitializationToInputSurface();
   filter->SetInitialSurfaceConnection(sphere->GetOutputPort());
   filter->Update();
@@ -114,9 +80,7 @@ TEST(DeformableSurfaceStart, StartsFromAnIsoSurfaceThroughVoxels)
     const double value = voxels->GetComponent(voxel, 0);
     voxels->SetComponent(voxel, 0, value < 25.0 ? 0.0 : (value > 75.0 ? 100.0 : 50.0));
   }
-  vtkNew<vtkDeformableSurface> filter;
-  filter->SetInputData(image);
-  filter->SetIsoValue(50.0);
+  const auto filter = FilterOf(image);
   filter->SetInitializationToIsoSurface();
   filter->SetCoarsestLevel(0);
   filter->Update();
@@ -131,26 +95,14 @@ namespace
 vtkSmartPointer<vtkImageData> BallAndRod()
 {
   const auto image = BallImage(64, 64, 64, 0.25);
-  vtkDataArray* voxels = image->GetPointData()->GetScalars();
-  for (int k = 8; k < 56; ++k)
-  {
-    for (int j = 6; j < 9; ++j)
-    {
-      for (int i = 6; i < 9; ++i)
-      {
-        voxels->SetComponent((k * 64 + j) * 64 + i, 0, 100.0);
-      }
-    }
-  }
+  FillBox(image, { 6, 6, 8 }, { 9, 9, 56 });
   return image;
 }
 }
 
 TEST(DeformableSurfaceStart, FindsAgainWhatCoarseLevelsLose)
 {
-  vtkNew<vtkDeformableSurface> filter;
-  filter->SetInputData(BallAndRod());
-  filter->SetIsoValue(50.0);
+  const auto filter = FilterOf(BallAndRod());
   const MessagesOf warnings(filter, vtkCommand::WarningEvent);
   filter->Update();
   EXPECT_EQ(FieldOf(filter->GetOutput(), "NumberOfComponents"), 2);
@@ -158,7 +110,7 @@ TEST(DeformableSurfaceStart, FindsAgainWhatCoarseLevelsLose)
   for (unsigned int h = 0; h < filter->GetLevels()->GetNumberOfBlocks(); ++h)
   {
     recovered +=
-      FieldOf(vtkPolyData::SafeDownCast(filter->GetLevels()->GetBlock(h)), "RecoveredParts");
+      FieldOf(SurfaceAt(filter, h), "RecoveredParts");
   }
   EXPECT_GE(recovered, 1);
   EXPECT_EQ(warnings.Get(), "");
@@ -176,30 +128,22 @@ TEST(DeformableSurfaceStart, FindsCavitiesOnRequest)
   // A bubble in the ball, which no surface from outside comes into.
   const auto image = BallImage(64, 64, 64, 0.4);
   vtkDataArray* voxels = image->GetPointData()->GetScalars();
-  for (int k = 0; k < 64; ++k)
-  {
-    for (int j = 0; j < 64; ++j)
+  ForVoxels({ 64, 64, 64 },
+    [&](int i, int j, int k)
     {
-      for (int i = 0; i < 64; ++i)
-      {
-        const double distance = std::hypot(i - 30.0, j - 32.0, k - 33.0);
-        const vtkIdType voxel = (k * 64 + j) * 64 + i;
-        voxels->SetComponent(voxel, 0,
-          std::min(voxels->GetComponent(voxel, 0),
-            std::clamp(50.0 + 25.0 * (distance - 9.0), 0.0, 100.0)));
-      }
-    }
-  }
+      const double distance = std::hypot(i - 30.0, j - 32.0, k - 33.0);
+      const vtkIdType voxel = (k * 64 + j) * 64 + i;
+      voxels->SetComponent(voxel, 0,
+        std::min(voxels->GetComponent(voxel, 0),
+          std::clamp(50.0 + 25.0 * (distance - 9.0), 0.0, 100.0)));
+    });
   for (int recovery :
     { vtkDeformableSurface::RecoverObjects, vtkDeformableSurface::RecoverObjectsAndCavities })
   {
     SCOPED_TRACE(recovery);
     const bool wanted = recovery == vtkDeformableSurface::RecoverObjectsAndCavities;
-    vtkNew<vtkDeformableSurface> filter;
-    filter->SetInputData(image);
-    filter->SetIsoValue(50.0);
-    filter->SetRecovery(recovery);
-    filter->Update();
+    const auto filter = SurfaceOf(image,
+      [&](vtkDeformableSurface* f) { f->SetRecovery(recovery); });
     vtkPolyData* surface = filter->GetOutput();
     ASSERT_EQ(FieldOf(surface, "NumberOfComponents"), wanted ? 2 : 1);
     EXPECT_EQ(FieldOf(surface, "Genus"), 0);
@@ -209,7 +153,7 @@ TEST(DeformableSurfaceStart, FindsCavitiesOnRequest)
       for (unsigned int h = 0; h < filter->GetLevels()->GetNumberOfBlocks(); ++h)
       {
         cavities +=
-          FieldOf(vtkPolyData::SafeDownCast(filter->GetLevels()->GetBlock(h)), "RecoveredCavities");
+          FieldOf(SurfaceAt(filter, h), "RecoveredCavities");
       }
       EXPECT_EQ(cavities, 1);
       vtkDataArray* volumes = surface->GetFieldData()->GetArray("ComponentVolume");
@@ -223,18 +167,8 @@ TEST(DeformableSurfaceStart, BeginsWhereTheObjectIsStillThere)
 {
   // The rod alone, which the coarsest levels do not show at all.
   const auto image = BallAndRod();
-  vtkDataArray* voxels = image->GetPointData()->GetScalars();
-  for (vtkIdType voxel = 0; voxel < voxels->GetNumberOfTuples(); ++voxel)
-  {
-    if (voxel % 64 > 10)
-    {
-      voxels->SetComponent(voxel, 0, 0.0);
-    }
-  }
-  vtkNew<vtkDeformableSurface> filter;
-  filter->SetInputData(image);
-  filter->SetIsoValue(50.0);
-  filter->Update();
+  FillBox(image, { 11, 0, 0 }, { 64, 64, 64 }, 0.0);
+  const auto filter = SurfaceOf(image);
   EXPECT_EQ(FieldOf(filter->GetOutput(), "NumberOfComponents"), 1);
   const unsigned int last = filter->GetLevels()->GetNumberOfBlocks() - 1;
   EXPECT_FALSE(filter->GetLevels()->GetBlock(last)) << "not visited";
@@ -267,9 +201,7 @@ TEST(DeformableSurfaceStart, WithoutRecoveryBeginsWhereEnoughOfTheObjectIsLeft)
   for (const double radius : { 2.5, 3.5, 4.5 })
   {
     SCOPED_TRACE(radius);
-    vtkNew<vtkDeformableSurface> filter;
-    filter->SetInputData(BallOfRadius(radius, 40));
-    filter->SetIsoValue(50.0);
+    const auto filter = FilterOf(BallOfRadius(radius, 40));
     filter->SetRecovery(vtkDeformableSurface::NoRecovery);
     const MessagesOf warnings(filter, vtkCommand::WarningEvent);
     filter->Update();
@@ -283,9 +215,7 @@ TEST(DeformableSurfaceStart, WithoutRecoveryBeginsWhereEnoughOfTheObjectIsLeft)
 TEST(DeformableSurfaceStart, WithoutRecoveryEndsAtTheFinestLevelAtLeast)
 {
   // Too thin for a surface on any level: begun where it is to end, not refused.
-  vtkNew<vtkDeformableSurface> filter;
-  filter->SetInputData(BallOfRadius(0.8, 40));
-  filter->SetIsoValue(50.0);
+  const auto filter = FilterOf(BallOfRadius(0.8, 40));
   filter->SetRecovery(vtkDeformableSurface::NoRecovery);
   const MessagesOf errors(filter);
   const MessagesOf warnings(filter, vtkCommand::WarningEvent);
@@ -351,9 +281,7 @@ TEST(DeformableSurfaceStart, TakesAllThatThePyramidMakes)
 
 TEST(DeformableSurfaceStart, TellsWhatStaysLostWithoutRecovery)
 {
-  vtkNew<vtkDeformableSurface> filter;
-  filter->SetInputData(BallAndRod());
-  filter->SetIsoValue(50.0);
+  const auto filter = FilterOf(BallAndRod());
   filter->SetRecovery(vtkDeformableSurface::NoRecovery);
   const MessagesOf warnings(filter, vtkCommand::WarningEvent);
   filter->Update();
@@ -376,9 +304,7 @@ TEST(DeformableSurfaceStart, StartsFromTheCoarseFacetsOfACylinder)
     cylinder->SetResolution(12);
     vtkNew<vtkCleanPolyData> shared; // Caps and side have points of their own.
     shared->SetInputConnection(cylinder->GetOutputPort());
-    vtkNew<vtkDeformableSurface> filter;
-    filter->SetInputData(BallImage(40, 40, 40));
-    filter->SetIsoValue(50.0);
+    const auto filter = FilterOf(BallImage(40, 40, 40));
     filter->SetInitializationToInputSurface();
     filter->SetInitialSurfaceConnection(shared->GetOutputPort());
     filter->SetCoarsestLevel(0);
@@ -393,21 +319,12 @@ TEST(DeformableSurfaceStart, StartsFromTheCoarseFacetsOfACylinder)
     const double volume = 0.5 * 12 * std::sin(vtkMath::Pi() / 6.0) * radius * radius * 25.5;
     EXPECT_NEAR(EnclosedVolume(start) / volume, 1.0, 0.03);
     const double delta = FieldOf(start, "Delta");
-    for (vtkIdType cell = 0; cell < start->GetNumberOfCells(); ++cell)
-    {
-      vtkIdType size;
-      const vtkIdType* corners;
-      start->GetCellPoints(cell, size, corners);
-      for (int k = 0; k < 3; ++k)
+    VisitEdges(start,
+      [delta](const auto& p, const auto& q)
       {
-        double p[3];
-        double q[3];
-        start->GetPoint(corners[k], p);
-        start->GetPoint(corners[(k + 1) % 3], q);
-        const double length = std::sqrt(vtkMath::Distance2BetweenPoints(p, q));
-        ASSERT_GE(length, 0.99 * delta);
-        ASSERT_LE(length, 2.51 * delta);
-      }
-    }
+        const double length = std::sqrt(vtkMath::Distance2BetweenPoints(p.data(), q.data()));
+        EXPECT_GE(length, 0.99 * delta);
+        EXPECT_LE(length, 2.51 * delta);
+      });
   }
 }

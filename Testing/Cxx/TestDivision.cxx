@@ -7,11 +7,6 @@
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "CoreTestTools.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <random>
-
 using namespace volumic;
 
 namespace

@@ -7,25 +7,13 @@
  */
 
 #include "Core/Evolution/CycleCriterion.h"
-#include "Core/Evolution/SurfaceEvolution.h"
-#include "Core/Evolution/SurfaceOptions.h"
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "EvolutionTestTools.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <random>
-#include <string>
-#include <utility>
 
 using namespace volumic;
 
 namespace
 {
-SequentialExecutor Threads;
-Monitor Silent;
-
 double Work(const SurfaceEvolution& evolution)
 {
   double work = 0;

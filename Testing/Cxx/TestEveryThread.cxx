@@ -7,12 +7,6 @@
 #include "EvolutionTestTools.h"
 #include "ThreadTestTools.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <set>
-#include <string>
-
 using namespace volumic;
 
 namespace

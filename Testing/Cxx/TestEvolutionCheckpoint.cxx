@@ -1,29 +1,15 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Common/CheckedFile.h"
-#include "Core/Evolution/SurfaceEvolution.h"
-#include "Core/Evolution/SurfaceOptions.h"
 #include "EvolutionTestTools.h"
 #include "TemporaryFolder.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstddef>
 #include <fstream>
-#include <functional>
-#include <iterator>
-#include <memory>
-#include <string>
-#include <vector>
 
 using namespace volumic;
 
 namespace
 {
-SequentialExecutor Threads;
-Monitor Silent;
-
 /** Waves, and balls that merge and are lost and found, at three levels; the coarsest comes first. */
 struct Scene
 {
@@ -71,27 +57,6 @@ std::string BytesOf(const std::string& name)
 {
   std::ifstream file(name, std::ios::binary);
   return { std::istreambuf_iterator<char>(file), {} };
-}
-
-void ExpectSameHistory(const std::vector<HistoryRow>& a, const std::vector<HistoryRow>& b)
-{
-  ASSERT_EQ(a.size(), b.size());
-  for (std::size_t i = 0; i < a.size(); ++i)
-  {
-    const auto numbers = [](const HistoryRow& row)
-    {
-      return std::vector<double>{ double(row.Iteration), double(row.Level), double(row.Vertices),
-        row.KineticEnergy, row.MeanEdgeLength, row.TimeStep, double(row.ActiveVertices),
-        double(row.Merges), double(row.Cuts), double(row.Splits), double(row.Collapses),
-        double(row.Flips), double(row.EulerCharacteristic), double(row.Components),
-        double(row.Recovered), double(row.Deletions), double(row.DeletedGenus),
-        double(row.AddedEulerCharacteristic), double(row.IterationVertices),
-        row.IterationMeanEdgeLength, double(row.IterationEulerCharacteristic),
-        double(row.IterationComponents), double(row.RegularisationCuts),
-        double(row.RegularisationDeletions) };
-    };
-    ASSERT_EQ(numbers(a[i]), numbers(b[i])) << "row " << i;
-  }
 }
 
 void ExpectSameSurface(const SurfaceEvolution& a, const SurfaceEvolution& b)

@@ -1,28 +1,16 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Evolution/SurfaceEvolution.h"
-#include "Core/Evolution/SurfaceOptions.h"
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "Core/Surface/SurfaceState.h"
 #include "EvolutionTestTools.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <cstddef>
-#include <string>
 #include <thread>
-#include <vector>
 
 using namespace volumic;
 
 namespace
 {
-SequentialExecutor Threads;
-Monitor Silent;
-
 /** A scene as two levels, both sampled. */
 struct TwoLevels
 {
@@ -158,28 +146,18 @@ TEST(EvolutionHistory, CountsTheHandlesOfADeletedComponent)
 
 TEST(EvolutionHistory, LastRowTellsWhatTheIterationsLeftAndWhatTheRegularisationMadeOfIt)
 {
-  /** Keeps what the surface was after the last iteration. */
-  class Last final : public Monitor
-  {
-  public:
-    const SurfaceEvolution* Evolution = nullptr;
-    std::size_t Vertices = 0;
-    bool Continue(const Status&) override
-    {
-      this->Vertices = this->Evolution->Result().Points.size();
-      return true;
-    }
-  };
   const TwoLevels scene = SceneWithLostBalls();
-  Last last;
-  SurfaceEvolution evolution(IsoHalf(), Threads, last);
-  last.Evolution = &evolution;
+  const SurfaceEvolution* watched = nullptr;
+  std::size_t last = 0; // Vertices after the last iteration.
+  Observer observer([&](const Monitor::Status&) { last = watched->Result().Points.size(); });
+  SurfaceEvolution evolution(IsoHalf(), Threads, observer);
+  watched = &evolution;
   evolution.StartEnclosing(scene.Coarse.Image, 1);
   evolution.Run();
   const HistoryRow row = evolution.History().back();
   const std::size_t regularised = evolution.Result().Points.size();
-  ASSERT_NE(last.Vertices, regularised) << "otherwise this test would show nothing";
-  EXPECT_EQ(row.IterationVertices, static_cast<int>(last.Vertices));
+  ASSERT_NE(last, regularised) << "otherwise this test would show nothing";
+  EXPECT_EQ(row.IterationVertices, static_cast<int>(last));
   EXPECT_EQ(row.Vertices, static_cast<int>(regularised));
   EXPECT_NE(row.MeanEdgeLength, row.IterationMeanEdgeLength);
   const HistoryRow& other = evolution.History()[evolution.History().size() - 2];

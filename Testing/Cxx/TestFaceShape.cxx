@@ -4,14 +4,9 @@
 // What the editor and the polish take for well-shaped: faces, edges, stars.
 
 #include "Core/Common/Box.h"
-#include "Core/Evolution/InitialSurface.h"
 #include "Core/Surface/FaceShape.h"
 #include "Core/Surface/StarScore.h"
 #include "RemeshTestTools.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
 
 using namespace volumic;
 

@@ -4,22 +4,9 @@
 // Voxels that lie far from zero beside what they differ by, such as times, counters and addresses:
 // single precision has steps of 64 at 10^9.
 #include "SurfaceTestTools.h"
-#include "vtkImagePyramid.h"
 #include "vtkVolumeToSurface.h"
 
-#include <vtkDataArray.h>
-#include <vtkImageData.h>
-#include <vtkMultiBlockDataSet.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
 #include <vtkPoints.h>
-#include <vtkPolyData.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <functional>
 
 using namespace volumic;
 
@@ -142,10 +129,7 @@ TEST_P(FarFromZero, FromSeeds)
 
 TEST_P(FarFromZero, WithAnAttractingPoint)
 {
-  vtkNew<vtkPoints> points;
-  points->InsertNextPoint(19.5, 19.5, 33);
-  vtkNew<vtkPolyData> point;
-  point->SetPoints(points);
+  const auto point = PointsAt({ { 19.5, 19.5, 33 } });
   ExpectSame(0.0,
     [&](vtkDeformableSurface* filter)
     {

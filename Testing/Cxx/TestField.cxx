@@ -4,12 +4,6 @@
 #include "Core/Image/Field.h"
 #include "CoreTestTools.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <functional>
-#include <stdexcept>
-
 using namespace volumic;
 
 namespace

@@ -3,27 +3,13 @@
 
 // FinestLevel -1: a last division on the field of level 0, for walls thinner than its triangles.
 #include "SupportVtkConversions.h"
-#include "SurfaceJudge.h"
-#include "SyntheticScenes.h"
+#include "TestPrelude.h"
 #include "vtkDeformableSurface.h"
 
 #include <vtkCompositeDataSet.h>
-#include <vtkDataArray.h>
-#include <vtkFieldData.h>
-#include <vtkImageData.h>
 #include <vtkInformation.h>
 #include <vtkMultiBlockDataSet.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPolyData.h>
 #include <vtkTable.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <string>
 
 using namespace volumic::support;
 

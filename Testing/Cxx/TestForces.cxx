@@ -4,12 +4,6 @@
 // rest.
 #include "DynamicsTestTools.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
 using namespace volumic;
 
 namespace

@@ -1,12 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Common/FreeMemory.h"
+#include "TestPrelude.h"
 
-#include <gtest/gtest.h>
-
-#include <cstddef>
 #include <fstream>
-#include <vector>
 
 #include <unistd.h>
 

@@ -5,10 +5,6 @@
 #include "Core/Surface/SurfaceEditor.h"
 #include "DynamicsTestTools.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-
 using namespace volumic;
 
 namespace

@@ -6,7 +6,9 @@
 // by the judge's exact tests, or be refused because it is not legal itself.
 #include "Core/Evolution/SurfaceEvolution.h"
 #include "Core/Evolution/SurfaceOptions.h"
+#include "ForVoxels.h"
 #include "SurfaceJudge.h"
+#include "TestPrelude.h"
 
 #include <vtkCellArray.h>
 #include <vtkCleanPolyData.h>
@@ -26,16 +28,6 @@
 #include <vtkSmartPointer.h>
 #include <vtkSphereSource.h>
 #include <vtkTriangleFilter.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <random>
-#include <stdexcept>
-#include <string>
-#include <vector>
 
 using namespace volumic;
 using namespace volumic::support;
@@ -137,22 +129,17 @@ vtkSmartPointer<vtkPolyData> Decimated(Dice& dice, bool quadric)
   image->SetDimensions(Size, Size, Size);
   image->AllocateScalars(VTK_FLOAT, 1);
   auto* value = static_cast<float*>(image->GetScalarPointer());
-  for (int k = 0; k < Size; ++k)
-  {
-    for (int j = 0; j < Size; ++j)
+  ForVoxels({ Size, Size, Size },
+    [&](int i, int j, int k)
     {
-      for (int i = 0; i < Size; ++i)
+      double bumps = 0.0;
+      for (int m = 0; m < 4; ++m)
       {
-        double bumps = 0.0;
-        for (int m = 0; m < 4; ++m)
-        {
-          bumps += std::sin(wave[3 * m] * i + wave[3 * m + 1] * j + wave[3 * m + 2] * k + phase[m]);
-        }
-        const double r = std::hypot(i - Middle, j - Middle, k - Middle);
-        *value++ = static_cast<float>(r > 18.0 ? -3.0 : 13.0 - r + height * bumps);
+        bumps += std::sin(wave[3 * m] * i + wave[3 * m + 1] * j + wave[3 * m + 2] * k + phase[m]);
       }
-    }
-  }
+      const double r = std::hypot(i - Middle, j - Middle, k - Middle);
+      *value++ = static_cast<float>(r > 18.0 ? -3.0 : 13.0 - r + height * bumps);
+    });
   vtkNew<vtkFlyingEdges3D> contour;
   contour->SetInputData(image);
   contour->SetValue(0, 0.013);

@@ -1,100 +1,12 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "SameOutputs.h"
-#include "SurfaceTestTools.h"
-#include "vtkVolumeToSurface.h"
+#include "GoingOnTestTools.h"
 
-#include <vtkCommand.h>
-#include <vtkMultiBlockDataSet.h>
-#include <vtkPolyData.h>
 #include <vtkTable.h>
 
-#include <algorithm>
 #include <chrono>
-#include <functional>
-#include <iterator>
 
 using namespace volumic;
-
-namespace
-{
-/** A ball, a thin rod and a bubble: something is lost, found again and merged. */
-vtkSmartPointer<vtkImageData> Scene(int size = 64)
-{
-  const auto image = BallImage(size, size, size, 0.3);
-  vtkDataArray* voxels = image->GetPointData()->GetScalars();
-  for (int k = 6; k < size - 6; ++k)
-  {
-    for (int j = 5; j < 8; ++j)
-    {
-      for (int i = 5; i < 8; ++i)
-      {
-        voxels->SetComponent((k * size + j) * size + i, 0, 100.0);
-      }
-    }
-  }
-  return image;
-}
-
-using Choice = std::function<void(vtkDeformableSurface*)>;
-
-/** What a run from the start gives. */
-vtkSmartPointer<vtkDeformableSurface> FromTheStart(
-  vtkDataObject* input, const Choice& choose, int finest)
-{
-  auto filter = vtkSmartPointer<vtkDeformableSurface>::New();
-  filter->SetInputDataObject(input);
-  filter->SetIsoValue(50.0);
-  choose(filter);
-  filter->SetFinestLevel(finest);
-  filter->Update();
-  return filter;
-}
-
-/** Updates; @return whether levels coarser than `level` have iterated, or the pyramid was built. */
-bool Reruns(vtkAlgorithm* filter, int level)
-{
-  ProgressListener listener(filter);
-  filter->Update();
-  filter->RemoveAllObservers();
-  return std::any_of(listener.Texts.begin(), listener.Texts.end(),
-    [level](const std::string& text)
-    {
-      for (int coarse = level + 1; coarse < 9; ++coarse)
-      {
-        if (text.find("Level " + std::to_string(coarse) + ", iteration") != std::string::npos)
-        {
-          return true;
-        }
-      }
-      return text.find("Building the pyramid") != std::string::npos;
-    });
-}
-
-/**
- * Updates; @return whether nothing at all is worked on. (The last text of the run before stays.)
- */
-bool ShowsAtOnce(vtkAlgorithm* filter)
-{
-  ProgressListener listener(filter);
-  filter->Update();
-  filter->RemoveAllObservers();
-  return listener.Texts.size() <= 1;
-}
-
-class GoingOn : public ::testing::Test
-{
-protected:
-  void SetUp() override
-  {
-    this->Filter->SetInputData(this->Image);
-    this->Filter->SetIsoValue(50.0);
-  }
-
-  vtkSmartPointer<vtkImageData> Image = Scene();
-  vtkNew<vtkDeformableSurface> Filter;
-};
-}
 
 TEST_F(GoingOn, GivesTheSameBitsAsARunFromTheStart)
 {
@@ -114,12 +26,12 @@ TEST_F(GoingOn, GivesTheSameBitsAsARunFromTheStart)
   for (const Choice& choose : choices)
   {
     SCOPED_TRACE(number++);
-    const auto filter = FromTheStart(this->Image, choose, 2);
+    const auto filter = FromTheStart(this->Image, 2, choose);
     for (const int finest : { 1, 0 })
     {
       filter->SetFinestLevel(finest);
       EXPECT_FALSE(Reruns(filter, finest)) << "goes on from level " << finest + 1;
-      ExpectSameOutputs(filter, FromTheStart(this->Image, choose, finest));
+      ExpectSameOutputs(filter, FromTheStart(this->Image, finest, choose));
     }
   }
 }
@@ -130,19 +42,18 @@ TEST_F(GoingOn, GoesBeyondTheImage)
   this->Filter->Update();
   this->Filter->SetFinestLevel(-1);
   EXPECT_FALSE(Reruns(this->Filter, 0));
-  ExpectSameOutputs(this->Filter, FromTheStart(this->Image, [](vtkDeformableSurface*) {}, -1));
+  ExpectSameOutputs(this->Filter, FromTheStart(this->Image, -1));
 }
 
 TEST_F(GoingOn, ServesAPyramidAndAnyNumberOfThreads)
 {
   const auto pyramid = PyramidOf(this->Image);
   const auto filter = FromTheStart(
-    pyramid->GetOutput(), [](vtkDeformableSurface* f) { f->SetNumberOfThreads(1); }, 2);
+    pyramid->GetOutput(), 2, [](vtkDeformableSurface* f) { f->SetNumberOfThreads(1); });
   filter->SetFinestLevel(0);
   filter->SetNumberOfThreads(2);
   EXPECT_FALSE(Reruns(filter, 1));
-  ExpectSameOutputs(
-    filter, FromTheStart(pyramid->GetOutput(), [](vtkDeformableSurface*) {}, 0));
+  ExpectSameOutputs(filter, FromTheStart(pyramid->GetOutput(), 0));
 }
 
 TEST_F(GoingOn, ShowsLevelsAtRestAtOnce)
@@ -154,7 +65,7 @@ TEST_F(GoingOn, ShowsLevelsAtRestAtOnce)
   {
     this->Filter->SetFinestLevel(finest);
     EXPECT_TRUE(ShowsAtOnce(this->Filter)) << "no level iterates";
-    ExpectSameOutputs(this->Filter, FromTheStart(this->Image, same, finest));
+    ExpectSameOutputs(this->Filter, FromTheStart(this->Image, finest, same));
   }
 }
 
@@ -192,12 +103,12 @@ TEST_F(GoingOn, ChoosesComponentsOfWhatIsThereWhereSomeoneWatches)
     EXPECT_EQ(warnings.Has("Level 0: Keep Components leaves none"), i == 3);
     const Choice allSoFar = [&](vtkDeformableSurface* filter)
     { std::for_each(choices, choices + i + 1, [&](const Choice& choose) { choose(filter); }); };
-    ExpectSameOutputs(this->Filter, FromTheStart(this->Image, allSoFar, 0));
+    ExpectSameOutputs(this->Filter, FromTheStart(this->Image, 0, allSoFar));
   }
   this->Filter->SetKeepComponentsToLargestComponent();
   this->Filter->SetFinestLevel(1);
   EXPECT_TRUE(ShowsAtOnce(this->Filter));
-  ExpectSameOutputs(this->Filter, FromTheStart(this->Image, choices[0], 1));
+  ExpectSameOutputs(this->Filter, FromTheStart(this->Image, 1, choices[0]));
 }
 
 TEST_F(GoingOn, GoesOnWithOtherComponents)
@@ -210,21 +121,7 @@ TEST_F(GoingOn, GoesOnWithOtherComponents)
   EXPECT_FALSE(Reruns(this->Filter, 1));
   ExpectSameOutputs(this->Filter,
     FromTheStart(
-      this->Image, [](vtkDeformableSurface* f) { f->SetKeepComponentsToLargestComponent(); }, 0));
-}
-
-TEST_F(GoingOn, HoldsNoOtherComponentsWhereNobodyWatchesOrMemoryIsShort)
-{
-  for (const int limit : { 0, 1000 })
-  {
-    this->Filter->SetMemoryLimit(limit);
-    this->Filter->SetKeepComponentsToAllComponents();
-    this->Filter->Modified();
-    this->Filter->Update();
-    this->Filter->SetKeepComponentsToLargestComponent();
-    EXPECT_TRUE(Reruns(this->Filter, 1));
-    this->Filter->GetNeedsUpdate();
-  }
+      this->Image, 0, [](vtkDeformableSurface* f) { f->SetKeepComponentsToLargestComponent(); }));
 }
 
 TEST_F(GoingOn, GoesOnFromTheLastLevelAtRestAfterAStop)
@@ -248,10 +145,7 @@ TEST_F(GoingOn, GoesOnFromTheLastLevelAtRestAfterAStop)
          Case{ "Level -1, iteration", 2, -1, -1 } })
   {
     SCOPED_TRACE(test.Part);
-    auto filter = vtkSmartPointer<vtkDeformableSurface>::New();
-    filter->SetInputData(this->Image);
-    filter->SetIsoValue(50.0);
-    choose(filter);
+    const auto filter = FilterOf(this->Image, choose);
     filter->SetFinestLevel(test.Finest);
     for (int stops = 0; stops < test.Stops; ++stops)
     {
@@ -264,7 +158,7 @@ TEST_F(GoingOn, GoesOnFromTheLastLevelAtRestAfterAStop)
       filter->GoOn();
     }
     EXPECT_FALSE(Reruns(filter, test.Level));
-    ExpectSameOutputs(filter, FromTheStart(this->Image, choose, test.Finest));
+    ExpectSameOutputs(filter, FromTheStart(this->Image, test.Finest, choose));
   }
 }
 
@@ -285,161 +179,7 @@ TEST_F(GoingOn, ShowsCoarserLevelsAfterAStop)
   this->Filter->Update();
   this->Filter->SetFinestLevel(1);
   EXPECT_TRUE(ShowsAtOnce(this->Filter));
-  ExpectSameOutputs(this->Filter, FromTheStart(this->Image, [](vtkDeformableSurface*) {}, 1));
-}
-
-TEST_F(GoingOn, BeginsAnewAfterAStopWhereTheSurfaceIsToBeAnother)
-{
-  {
-    const StopAtText stop(this->Filter, "Level 0, iteration", 2);
-    this->Filter->Update();
-  }
-  this->Filter->GoOn();
-  this->Filter->SetIsoValue(45.0);
-  EXPECT_TRUE(Reruns(this->Filter, 0));
-}
-
-TEST_F(GoingOn, BeginsAnewWithOtherSeedsToStartFrom)
-{
-  this->Filter->GetNeedsUpdate();
-  this->Filter->SetInitializationToSeeds();
-  this->Filter->AddSeedPosition(32, 32, 32);
-  this->Filter->Update();
-  this->Filter->AddSeedPosition(6, 6, 30);
-  EXPECT_TRUE(Reruns(this->Filter, 1));
-}
-
-TEST_F(GoingOn, BeginsAnewAfterAnyOtherChange)
-{
-  const std::function<void()> changes[] = { [&] { this->Filter->SetIsoValue(45.0); },
-    [&] { this->Filter->SetSnapshotInterval(5); },
-    [&] { this->Filter->Modified(); },
-    [&] { this->Filter->SetMetricToVoxels(); },
-    [&] { this->Filter->ForgetRun(); },
-    [&]
-    {
-      this->Image->GetPointData()->GetScalars()->SetComponent(5, 0, 20.0);
-      this->Image->GetPointData()->GetScalars()->Modified();
-    },
-    [&]
-    {
-      Voxels(this->Image)->SetComponent(6, 0, 20.0);
-      this->Image->Modified();
-    },
-    [&] { this->Filter->SetInputData(Scene(56)); } };
-  for (const auto& change : changes)
-  {
-    this->Filter->SetFinestLevel(2);
-    this->Filter->Update();
-    change();
-    this->Filter->SetFinestLevel(1);
-    EXPECT_TRUE(Reruns(this->Filter, 1));
-  }
-}
-
-TEST_F(GoingOn, BeginsAnewWhereABlockOfThePyramidHasChanged)
-{
-  const auto pyramid = PyramidOf(this->Image);
-  vtkNew<vtkMultiBlockDataSet> blocks;
-  blocks->ShallowCopy(pyramid->GetOutput());
-  this->Filter->SetInputDataObject(blocks);
-  this->Filter->SetFinestLevel(2);
-  this->Filter->Update();
-  vtkDataArray* voxels = Voxels(Level(blocks, 1));
-  voxels->SetComponent(voxels->GetNumberOfTuples() / 2, 0, 1.0);
-  voxels->Modified();
-  this->Filter->SetFinestLevel(1);
-  EXPECT_TRUE(Reruns(this->Filter, 1));
-}
-
-TEST_F(GoingOn, KeepsNothingAfterAnError)
-{
-  this->Filter->SetFinestLevel(2);
-  this->Filter->Update();
-  {
-    const MessagesOf errors(this->Filter);
-    this->Filter->SetFinestLevel(77);
-    this->Filter->Update();
-    ASSERT_TRUE(errors.Has("Finest Level is 77")) << errors.Get();
-    EXPECT_EQ(this->Filter->GetOutput()->GetNumberOfPoints(), 0);
-  }
-  this->Filter->SetFinestLevel(1);
-  EXPECT_TRUE(Reruns(this->Filter, 1));
-  ExpectSameOutputs(this->Filter, FromTheStart(this->Image, [](vtkDeformableSurface*) {}, 1));
-}
-
-TEST_F(GoingOn, KeepsNothingWhereDataAreReleased)
-{
-  this->Filter->ReleaseDataFlagOn();
-  this->Filter->SetFinestLevel(2);
-  this->Filter->Update();
-  this->Filter->SetFinestLevel(1);
-  EXPECT_TRUE(Reruns(this->Filter, 1));
-}
-
-TEST_F(GoingOn, BeginsWhereARunFromTheStartBegins)
-{
-  // The rod alone, thin: without recovery the level to begin at depends on the one to end at.
-  vtkDataArray* voxels = this->Image->GetPointData()->GetScalars();
-  for (vtkIdType voxel = 0; voxel < voxels->GetNumberOfTuples(); ++voxel)
-  {
-    if (voxel % 64 > 10)
-    {
-      voxels->SetComponent(voxel, 0, 0.0);
-    }
-  }
-  const Choice choose = [](vtkDeformableSurface* filter)
-  { filter->SetRecovery(vtkDeformableSurface::NoRecovery); };
-  const MessagesOf warnings(this->Filter, vtkCommand::WarningEvent);
-  vtkSmartPointer<vtkDeformableSurface> filter = FromTheStart(this->Image, choose, 1);
-  filter->SetFinestLevel(0);
-  filter->Update();
-  ExpectSameOutputs(filter, FromTheStart(this->Image, choose, 0));
-  filter->SetFinestLevel(1);
-  filter->Update();
-  ExpectSameOutputs(filter, FromTheStart(this->Image, choose, 1));
-}
-
-TEST_F(GoingOn, BeginsAtALevelThatWasLetGo)
-{
-  // A thicker rod: one that is to end at level 2 begins there, others at level 1.
-  vtkDataArray* voxels = this->Image->GetPointData()->GetScalars();
-  for (vtkIdType voxel = 0; voxel < voxels->GetNumberOfTuples(); ++voxel)
-  {
-    const auto isIn = [](vtkIdType x, vtkIdType low, vtkIdType high)
-    { return x >= low && x <= high; };
-    const bool isRod =
-      isIn(voxel % 64, 5, 9) && isIn(voxel / 64 % 64, 5, 9) && isIn(voxel / 4096, 6, 57);
-    voxels->SetComponent(voxel, 0, isRod ? 100.0 : 0.0);
-  }
-  const Choice choose = [](vtkDeformableSurface* filter)
-  { filter->SetRecovery(vtkDeformableSurface::NoRecovery); };
-  const auto filter = FromTheStart(this->Image, choose, 1);
-  ASSERT_EQ(filter->GetHistory()->GetValueByName(0, "Level").ToInt(), 1);
-  for (const int finest : { 2, 1 })
-  {
-    filter->SetFinestLevel(finest);
-    filter->Update();
-    EXPECT_EQ(filter->GetErrorCode(), 0u);
-    EXPECT_EQ(filter->GetHistory()->GetValueByName(0, "Level").ToInt(), finest);
-    ExpectSameOutputs(filter, FromTheStart(this->Image, choose, finest));
-  }
-}
-
-TEST_F(GoingOn, BeginsAnewAfterACancelledRun)
-{
-  ProgressListener listener(this->Filter);
-  listener.StopAt = 0.7;
-  this->Filter->Update();
-  ASSERT_EQ(StopReason(this->Filter->GetOutput()), "cancelled");
-  this->Filter->RemoveAllObservers();
-  for (const int finest : { 1, 0 })
-  {
-    this->Filter->SetFinestLevel(finest);
-    this->Filter->Update();
-    ExpectSameOutputs(
-      this->Filter, FromTheStart(this->Image, [](vtkDeformableSurface*) {}, finest));
-  }
+  ExpectSameOutputs(this->Filter, FromTheStart(this->Image, 1));
 }
 
 TEST_F(GoingOn, AddsUpTheSecondsOfBothRuns)
@@ -470,15 +210,12 @@ TEST_F(GoingOn, AddsUpTheSecondsOfBothRuns)
 TEST_F(GoingOn, PreviewEndsAtALevelOfFewVoxels)
 {
   const auto large = BallImage(180, 160, 128);
-  vtkNew<vtkVolumeToSurface> filter;
-  filter->SetInputData(large);
-  filter->SetIsoValue(50.0);
-  filter->PreviewOn();
-  filter->Update();
+  const auto filter = SurfaceOf<vtkVolumeToSurface>(large,
+    [](vtkVolumeToSurface* f) { f->PreviewOn(); });
   EXPECT_EQ(FieldOf(filter->GetOutput(), "Level"), 1) << "104 x 92 x 74 voxels";
   filter->PreviewOff();
   EXPECT_FALSE(Reruns(filter, 0));
-  ExpectSameOutputs(filter, FromTheStart(large, [](vtkDeformableSurface*) {}, 0));
+  ExpectSameOutputs(filter, FromTheStart(large, 0));
   filter->PreviewOn();
   EXPECT_TRUE(ShowsAtOnce(filter));
   EXPECT_EQ(FieldOf(filter->GetOutput(), "Level"), 1);

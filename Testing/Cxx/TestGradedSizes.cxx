@@ -1,21 +1,11 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Evolution/GradedSizes.h"
-#include "Core/Evolution/SurfaceEvolution.h"
 #include "Core/Image/Field.h"
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "Core/Surface/SizingField.h"
 #include "GradedTestTools.h"
 #include "ThreadTestTools.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <functional>
-#include <numeric>
-#include <vector>
 
 using namespace volumic;
 

@@ -4,22 +4,11 @@
 // An object with a shading across the volume, which no iso-value segments: descent along the
 // gradient of the negative gradient magnitude, whose valleys are the boundaries, does.
 #include "SupportVtkConversions.h"
-#include "SurfaceJudge.h"
-#include "SyntheticScenes.h"
+#include "TestPrelude.h"
 #include "WrongVoxels.h"
 #include "vtkDeformableSurface.h"
 
-#include <vtkDataArray.h>
-#include <vtkImageData.h>
 #include <vtkImageGradientMagnitude.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPolyData.h>
-#include <vtkSmartPointer.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
 
 using namespace volumic::support;
 

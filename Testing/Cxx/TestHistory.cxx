@@ -5,19 +5,10 @@
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "EvolutionTestTools.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numeric>
-#include <string>
-
 using namespace volumic;
 
 namespace
 {
-SequentialExecutor Threads;
-Monitor Silent;
-
 template <typename Value>
 long Sum(const std::vector<HistoryRow>& rows, Value HistoryRow::*column)
 {

@@ -5,25 +5,15 @@
 #include "FilterTestTools.h"
 #include "Host/HostThreads.h"
 #include "vtkDeformableSurface.h"
-#include "vtkImagePyramid.h"
 
-#include <vtkImageData.h>
-#include <vtkNew.h>
 #include <vtkPolyData.h>
 #include <vtkSMPTools.h>
-#include <vtkSmartPointer.h>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <mutex>
 #include <optional>
-#include <set>
-#include <string>
 #include <thread>
-#include <vector>
 
 using namespace volumic;
 

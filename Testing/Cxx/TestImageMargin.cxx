@@ -5,13 +5,6 @@
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "CoreTestTools.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <random>
-#include <string>
-
 using namespace volumic;
 
 namespace

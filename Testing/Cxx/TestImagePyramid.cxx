@@ -1,32 +1,17 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FilterTestTools.h"
-#include "vtkImagePyramid.h"
 
 #include <vtkBitArray.h>
 #include <vtkCompositeDataSet.h>
-#include <vtkDataArray.h>
 #include <vtkDoubleArray.h>
-#include <vtkFieldData.h>
 #include <vtkFloatArray.h>
-#include <vtkImageData.h>
 #include <vtkInformation.h>
 #include <vtkMatrix3x3.h>
-#include <vtkMultiBlockDataSet.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
 #include <vtkRTAnalyticSource.h>
 #include <vtkSMPTools.h>
 #include <vtkSOADataArrayTemplate.h>
 #include <vtkStringArray.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <string>
-#include <vector>
 
 using namespace volumic;
 
@@ -256,6 +241,6 @@ TEST(ImagePyramid, PrintsItsProperties)
   for (const char* property : { "ReductionFactor: 1.73205", "NumberOfLevels: 0",
          "MinimumLevelSize: 10", "NumberOfThreads: 0", "MemoryLimit: 0", "ScratchDirectory: " })
   {
-    EXPECT_NE(text.str().find(property), std::string::npos) << property;
+    EXPECT_TRUE(Has(text.str(), property)) << property;
   }
 }

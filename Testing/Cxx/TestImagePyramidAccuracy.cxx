@@ -3,19 +3,8 @@
 
 // The levels hold what equation 5 says: the kernel's sum over places of the interpolated image.
 #include "FilterTestTools.h"
-#include "vtkImagePyramid.h"
 
-#include <vtkDataArray.h>
 #include <vtkDoubleArray.h>
-#include <vtkImageData.h>
-#include <vtkMultiBlockDataSet.h>
-#include <vtkNew.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
 
 using namespace volumic;
 
@@ -58,23 +47,18 @@ double DirectSum(vtkImageData* below, const double* spacing, const std::array<in
   const double kernel[5] = { 1 / 16., 4 / 16., 6 / 16., 4 / 16., 1 / 16. };
   const double unit = UnitOf(below);
   double sum = 0.0;
-  for (int p = -2; p <= 2; ++p)
-  {
-    for (int n = -2; n <= 2; ++n)
+  ForBox({ -2, -2, -2 }, { 3, 3, 3 },
+    [&](int m, int n, int p)
     {
-      for (int m = -2; m <= 2; ++m)
+      const int offset[3] = { m, n, p };
+      std::array<double, 3> place;
+      for (int axis = 0; axis < 3; ++axis)
       {
-        const int offset[3] = { m, n, p };
-        std::array<double, 3> place;
-        for (int axis = 0; axis < 3; ++axis)
-        {
-          const double real = voxel[axis] * spacing[axis] + offset[axis] * unit;
-          place[axis] = real / below->GetSpacing()[axis];
-        }
-        sum += kernel[m + 2] * kernel[n + 2] * kernel[p + 2] * Field(below, place);
+        const double real = voxel[axis] * spacing[axis] + offset[axis] * unit;
+        place[axis] = real / below->GetSpacing()[axis];
       }
-    }
-  }
+      sum += kernel[m + 2] * kernel[n + 2] * kernel[p + 2] * Field(below, place);
+    });
   return sum;
 }
 
@@ -86,18 +70,14 @@ void ExpectDirectSums(vtkMultiBlockDataSet* pyramid, double tolerance)
     const int* size = level->GetDimensions();
     double worst = 0.0;
     vtkIdType index = 0;
-    for (int k = 0; k < size[2]; ++k)
-    {
-      for (int j = 0; j < size[1]; ++j)
+    ForVoxels({ size[0], size[1], size[2] },
+      [&](int i, int j, int k)
       {
-        for (int i = 0; i < size[0]; ++i, ++index)
-        {
-          const double expected =
-            DirectSum(Level(pyramid, h - 1), level->GetSpacing(), { i, j, k });
-          worst = std::max(worst, std::abs(Voxels(level)->GetComponent(index, 0) - expected));
-        }
-      }
-    }
+        const double expected =
+          DirectSum(Level(pyramid, h - 1), level->GetSpacing(), { i, j, k });
+        worst = std::max(worst, std::abs(Voxels(level)->GetComponent(index, 0) - expected));
+        ++index;
+      });
     EXPECT_LE(worst, tolerance) << "level " << h;
   }
 }

@@ -1,28 +1,17 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FilterTestTools.h"
-#include "vtkImagePyramid.h"
 
 #include <vtkCellData.h>
 #include <vtkErrorCode.h>
 #include <vtkExecutive.h>
-#include <vtkFieldData.h>
 #include <vtkFloatArray.h>
-#include <vtkImageData.h>
-#include <vtkMultiBlockDataSet.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkStringArray.h>
-
-#include <gtest/gtest.h>
 
 #include <sys/resource.h>
 
 #include <cstdio>
-#include <limits>
-#include <string>
-#include <vector>
 
 using namespace volumic;
 
@@ -47,7 +36,7 @@ protected:
     const std::string error = this->ErrorOf(image);
     for (const std::string& part : parts)
     {
-      EXPECT_NE(error.find(part), std::string::npos) << "no `" << part << "` in: " << error;
+      EXPECT_TRUE(Has(error, part)) << "no `" << part << "` in: " << error;
     }
   }
 

@@ -1,19 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FilterTestTools.h"
-#include "vtkImagePyramid.h"
 
-#include <vtkFieldData.h>
-#include <vtkImageData.h>
-#include <vtkMultiBlockDataSet.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
 #include <vtkStringArray.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <string>
 
 using namespace volumic;
 
@@ -34,64 +23,61 @@ vtkSmartPointer<vtkImageData> LargeImage()
   image->GetPointData()->GetScalars()->FillComponent(0, 1);
   return image;
 }
+
+class ImagePyramidProgress : public ::testing::Test
+{
+protected:
+  /** Stops a run at a share of the work, if it is less than 1. */
+  void Run(double stopAt)
+  {
+    this->Listener.StopAt = stopAt;
+    this->Filter->SetInputData(LargeImage());
+    this->Filter->SetNumberOfLevels(3);
+    this->Filter->Update();
+  }
+
+  vtkNew<vtkImagePyramid> Filter;
+  ProgressListener Listener{ this->Filter };
+};
 }
 
-TEST(ImagePyramidProgress, GrowsWithinALevelAndNamesIt)
+TEST_F(ImagePyramidProgress, GrowsWithinALevelAndNamesIt)
 {
-  vtkNew<vtkImagePyramid> filter;
-  filter->SetInputData(LargeImage());
-  filter->SetNumberOfLevels(3);
-  ProgressListener listener(filter);
-  filter->Update();
-  EXPECT_TRUE(std::is_sorted(listener.Shares.begin(), listener.Shares.end()));
+  this->Run(2.0);
+  EXPECT_TRUE(std::is_sorted(this->Listener.Shares.begin(), this->Listener.Shares.end()));
   const auto inside = [](double share) { return share > 0.01 && share < 0.5; };
-  EXPECT_TRUE(std::any_of(listener.Shares.begin(), listener.Shares.end(), inside));
-  EXPECT_EQ(listener.Shares.back(), 1.0);
-  EXPECT_TRUE(listener.Texts.count("Level 1 of 2"));
-  EXPECT_TRUE(listener.Texts.count("Level 2 of 2"));
+  EXPECT_TRUE(std::any_of(this->Listener.Shares.begin(), this->Listener.Shares.end(), inside));
+  EXPECT_EQ(this->Listener.Shares.back(), 1.0);
+  EXPECT_TRUE(this->Listener.Texts.count("Level 1 of 2"));
+  EXPECT_TRUE(this->Listener.Texts.count("Level 2 of 2"));
 }
 
-TEST(ImagePyramidProgress, CancellingWithinALevelHandsOverTheLevelsBefore)
+TEST_F(ImagePyramidProgress, CancellingWithinALevelHandsOverTheLevelsBefore)
 {
-  vtkNew<vtkImagePyramid> filter;
-  filter->SetInputData(LargeImage());
-  filter->SetNumberOfLevels(3);
-  ProgressListener listener(filter);
-  listener.StopAt = 0.2; // within level 1
-  filter->Update();
-  ASSERT_EQ(filter->GetOutput()->GetNumberOfBlocks(), 1u);
-  EXPECT_EQ(StopReason(filter->GetOutput()), "cancelled");
+  this->Run(0.2); // within level 1
+  ASSERT_EQ(this->Filter->GetOutput()->GetNumberOfBlocks(), 1u);
+  EXPECT_EQ(StopReason(this->Filter->GetOutput()), "cancelled");
 }
 
-TEST(ImagePyramidProgress, CancellingBetweenLevelsKeepsTheFinishedOnes)
+TEST_F(ImagePyramidProgress, CancellingBetweenLevelsKeepsTheFinishedOnes)
 {
-  vtkNew<vtkImagePyramid> filter;
-  filter->SetInputData(LargeImage());
-  filter->SetNumberOfLevels(3);
-  ProgressListener listener(filter);
-  listener.StopAt = 0.83; // level 1 is 0.84 of the work
-  filter->Update();
-  ASSERT_EQ(filter->GetOutput()->GetNumberOfBlocks(), 2u);
-  EXPECT_EQ(StopReason(filter->GetOutput()), "cancelled");
-  auto* level1 = vtkImageData::SafeDownCast(filter->GetOutput()->GetBlock(1));
+  this->Run(0.83); // level 1 is 0.84 of the work
+  ASSERT_EQ(this->Filter->GetOutput()->GetNumberOfBlocks(), 2u);
+  EXPECT_EQ(StopReason(this->Filter->GetOutput()), "cancelled");
+  auto* level1 = vtkImageData::SafeDownCast(this->Filter->GetOutput()->GetBlock(1));
   const double* range = level1->GetPointData()->GetScalars()->GetRange();
   EXPECT_NEAR(range[0], 1.0, 1e-6) << "what is handed over is finished";
   EXPECT_NEAR(range[1], 1.0, 1e-6);
 }
 
-TEST(ImagePyramidProgress, RunsToTheEndAfterACancelledRun)
+TEST_F(ImagePyramidProgress, RunsToTheEndAfterACancelledRun)
 {
-  vtkNew<vtkImagePyramid> filter;
-  filter->SetInputData(LargeImage());
-  filter->SetNumberOfLevels(3);
-  ProgressListener listener(filter);
-  listener.StopAt = 0.0;
-  filter->Update();
-  ASSERT_EQ(filter->GetOutput()->GetNumberOfBlocks(), 1u);
-  listener.StopAt = 2.0;
-  filter->SetAbortExecute(0);
-  filter->Modified();
-  filter->Update();
-  EXPECT_EQ(filter->GetOutput()->GetNumberOfBlocks(), 3u);
-  EXPECT_EQ(StopReason(filter->GetOutput()), "complete");
+  this->Run(0.0);
+  ASSERT_EQ(this->Filter->GetOutput()->GetNumberOfBlocks(), 1u);
+  this->Listener.StopAt = 2.0;
+  this->Filter->SetAbortExecute(0);
+  this->Filter->Modified();
+  this->Filter->Update();
+  EXPECT_EQ(this->Filter->GetOutput()->GetNumberOfBlocks(), 3u);
+  EXPECT_EQ(StopReason(this->Filter->GetOutput()), "complete");
 }

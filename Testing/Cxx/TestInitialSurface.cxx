@@ -1,29 +1,15 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Common/Executor.h"
-#include "Core/Evolution/InitialSurface.h"
-#include "Core/Evolution/SurfaceOptions.h"
 #include "Core/Image/Field.h"
 #include "Core/Mesh/SelfIntersections.h"
 #include "Core/Mesh/SurfaceFeatures.h"
-#include "CoreTestTools.h"
 #include "EvolutionTestTools.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <stdexcept>
-#include <string>
-#include <vector>
 
 using namespace volumic;
 
 namespace
 {
-SequentialExecutor Threads;
-
 /** Object for x < 10. */
 TestVolume Half()
 {
@@ -100,8 +86,7 @@ TEST(InitialSurface, RefusesToEncloseVoxelsOfAnyLength)
     }
     catch (const std::invalid_argument& error)
     {
-      EXPECT_NE(std::string(error.what()).find("times as long as wide. Check the Spacing"),
-        std::string::npos) << error.what();
+      EXPECT_TRUE(Has(error.what(), "times as long as wide. Check the Spacing"));
     }
   }
 }

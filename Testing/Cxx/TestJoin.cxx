@@ -2,10 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CommaLocale.h"
 #include "Core/Common/Refuse.h"
+#include "TestPrelude.h"
 
-#include <gtest/gtest.h>
-
-#include <cstdint>
 #include <sstream>
 
 using namespace volumic;

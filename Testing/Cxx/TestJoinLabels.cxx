@@ -1,10 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Common/JoinLabels.h"
-
-#include <gtest/gtest.h>
-
-#include <vector>
+#include "TestPrelude.h"
 
 using namespace volumic;
 

@@ -4,11 +4,6 @@
 #include "Core/Labels/BoundaryRows.h"
 #include "LabelTestTools.h"
 
-#include <gtest/gtest.h>
-
-#include <set>
-#include <vector>
-
 using namespace volumic;
 
 namespace
@@ -26,21 +21,16 @@ TEST(LabelBricks, KnowTheObjectsOfEachBrick)
   StandardThreads threads(3);
   const LabelBricks bricks(map, threads);
   EXPECT_EQ(bricks.Size(), (std::array<int, 3>{ 3, 3, 3 }));
-  for (int k = 0; k < 3; ++k)
-  {
-    for (int j = 0; j < 3; ++j)
+  ForVoxels({ 3, 3, 3 },
+    [&](int i, int j, int k)
     {
-      for (int i = 0; i < 3; ++i)
+      std::set<int> wanted;
+      for (int v = 0; v < 64; ++v)
       {
-        std::set<int> wanted;
-        for (int v = 0; v < 64; ++v)
-        {
-          wanted.insert(map.At(4 * i + v % 4, 4 * j + v / 4 % 4, 4 * k + v / 16));
-        }
-        EXPECT_EQ(ObjectsOf(bricks, i, j, k), std::vector<int>(wanted.begin(), wanted.end()));
+        wanted.insert(map.At(4 * i + v % 4, 4 * j + v / 4 % 4, 4 * k + v / 16));
       }
-    }
-  }
+      EXPECT_EQ(ObjectsOf(bricks, i, j, k), std::vector<int>(wanted.begin(), wanted.end()));
+    });
 }
 
 TEST(LabelBricks, BricksThatEndOutsideHaveWhatIsNoObject)

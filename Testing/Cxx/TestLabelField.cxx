@@ -6,12 +6,6 @@
 #include "LabelTestTools.h"
 #include "ThreadTestTools.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
 using namespace volumic;
 
 namespace
@@ -61,18 +55,13 @@ TEST(BoundaryGaussian, IsTheSumOfItsWeights)
       const int i = first + (5 * j + 3 * k + 100) % count;
       double sum = 0.;
       double all = 0.;
-      for (int c = -2; c <= 2; ++c)
-      {
-        for (int b = -5; b <= 5; ++b)
+      ForBox({ -3, -5, -2 }, { 4, 6, 3 },
+        [&](int a, int b, int c)
         {
-          for (int a = -3; a <= 3; ++a)
-          {
-            const double weight = along(1., a) * along(1.5, b) * along(0.5, c);
-            all += weight;
-            sum += map.At(i + a, j + b, k + c) == 1 ? weight : 0.;
-          }
-        }
-      }
+          const double weight = along(1., a) * along(1.5, b) * along(0.5, c);
+          all += weight;
+          sum += map.At(i + a, j + b, k + c) == 1 ? weight : 0.;
+        });
       ++tested;
       inside += sum > 0.2 * all;
       ASSERT_NEAR(smooth[static_cast<std::size_t>(rows.Box().NumberOf(i, j, k))], sum / all, 1e-5);
@@ -157,16 +146,11 @@ TEST(LabelField, OfTwoObjectsThatMeetIsTheSameButForTheSign)
   const LabelMap map = MakeLabelMap({ 40, 40, 40 }, 2, wave);
   const LabelField one = FieldOf(map, 1);
   const LabelField other = FieldOf(map, 2);
-  for (int k = 14; k < 26; ++k)
-  {
-    for (int j = 14; j < 26; ++j)
+  ForBox({ 14, 14, 14 }, { 26, 26, 26 },
+    [&](int i, int j, int k)
     {
-      for (int i = 14; i < 26; ++i)
-      {
-        ASSERT_NEAR(ValueAt(one, i, j, k), -ValueAt(other, i, j, k), 0.02);
-      }
-    }
-  }
+      ASSERT_NEAR(ValueAt(one, i, j, k), -ValueAt(other, i, j, k), 0.02);
+    });
 }
 
 TEST(LabelField, ReachesBeyondTheMapWhereTheObjectDoes)

@@ -5,13 +5,7 @@
 
 #include "LabelJudge.h"
 #include "SimpleSurfaces.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <map>
-#include <stdexcept>
+#include "TestPrelude.h"
 
 using namespace volumic::support;
 

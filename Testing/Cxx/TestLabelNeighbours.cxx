@@ -4,13 +4,6 @@
 // Surfaces of labels that touch, by the judge that shares no code with the filter.
 #include "JudgedLabels.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <string>
-
 using namespace volumic::support;
 
 TEST(LabelNeighbours, HardlyOverlap)

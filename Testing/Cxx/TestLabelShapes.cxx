@@ -6,19 +6,8 @@
 #include "JudgedLabels.h"
 
 #include <vtkCellData.h>
-#include <vtkImageData.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPolyData.h>
-#include <vtkSmartPointer.h>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <ostream>
-#include <string>
-#include <vector>
 
 using namespace volumic::support;
 

@@ -2,77 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LabelImages.h"
 #include "SameOutputs.h"
-#include "SurfaceTestTools.h"
-#include "vtkLabelTable.h"
-#include "vtkLabelsToSurfaces.h"
 
 #include <vtkCell.h>
-#include <vtkCellData.h>
-#include <vtkCommand.h>
-#include <vtkDoubleArray.h>
-#include <vtkFieldData.h>
-#include <vtkImageData.h>
 #include <vtkIntArray.h>
-#include <vtkMath.h>
-#include <vtkMultiBlockDataSet.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
 #include <vtkPoints.h>
-#include <vtkPolyData.h>
-#include <vtkStringArray.h>
-#include <vtkTable.h>
-#include <vtkUnsignedCharArray.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-#include <sstream>
-#include <string>
-#include <vector>
 
 using namespace volumic;
 
 namespace
 {
-vtkSmartPointer<vtkImageData> BallsImage(int type = VTK_SHORT)
-{
-  return LabelImageOf(34, 28, 28, TwoBalls, type);
-}
-
 using Names = std::vector<std::string>;
-
-/** Names and colours of labels 3 and 7. */
-void AddNames(vtkImageData* image)
-{
-  vtkNew<vtkIntArray> values;
-  values->SetName("LabelValues");
-  values->InsertNextValue(7);
-  values->InsertNextValue(3);
-  vtkNew<vtkStringArray> names;
-  names->SetName("LabelNames");
-  names->InsertNextValue("kidney");
-  names->InsertNextValue("liver");
-  vtkNew<vtkUnsignedCharArray> colors;
-  colors->SetName("LabelColors");
-  colors->SetNumberOfComponents(3);
-  colors->InsertNextTuple3(255, 0, 51);
-  colors->InsertNextTuple3(0, 102, 0);
-  image->GetFieldData()->AddArray(values);
-  image->GetFieldData()->AddArray(names);
-  image->GetFieldData()->AddArray(colors);
-}
-
-using Extent = std::array<int, 6>;
-
-Extent ExtentIn(vtkIntArray* extents, vtkIdType row)
-{
-  Extent extent;
-  extents->GetTypedTuple(row, extent.data());
-  return extent;
-}
 
 /** How many points of one surface are inside a ball. */
 int PointsInBall(vtkPolyData* surface, const double* centre, double radius)
@@ -153,17 +92,12 @@ TEST(LabelsToSurfaces, AreTheSameBitsOnAnyNumberOfThreadsAndAgain)
   const auto cells = [](int i, int j, int k)
   { return i < 20 ? 1 + i / 10 + 2 * (j / 14) + 4 * (k / 14) : j < 14 ? 20 : 0; };
   const auto image = LabelImageOf(40, 28, 28, cells);
-  vtkNew<vtkLabelsToSurfaces> one;
-  one->SetInputData(image);
-  one->SetNumberOfThreads(1);
-  one->Update();
+  const auto one = LabelSurfacesOf(image, [](vtkLabelsToSurfaces* f) { f->SetNumberOfThreads(1); });
   EXPECT_EQ(one->GetOutput()->GetNumberOfBlocks(), 9u);
   for (const int threads : { 2, 3, 0 })
   {
-    vtkNew<vtkLabelsToSurfaces> more;
-    more->SetInputData(image);
-    more->SetNumberOfThreads(threads);
-    more->Update();
+    const auto more = LabelSurfacesOf(image,
+      [&](vtkLabelsToSurfaces* f) { f->SetNumberOfThreads(threads); });
     ExpectSameBlocks(more->GetOutput(), one->GetOutput());
   }
 }
@@ -198,10 +132,7 @@ TEST(LabelsToSurfaces, ALabelHasTheSameSurfaceWhicheverOthersAreMade)
   const auto all = LabelSurfacesOf(image);
   for (const int label : { 1, 2, 3, 9 })
   {
-    vtkNew<vtkLabelsToSurfaces> one;
-    one->SetInputData(image);
-    one->AddLabel(label);
-    one->Update();
+    const auto one = LabelSurfacesOf(image, [&](vtkLabelsToSurfaces* f) { f->AddLabel(label); });
     ExpectSameSurfaces(
       BlockOf(one, 0), BlockOf(all, static_cast<unsigned int>(label == 9 ? 3 : label - 1)));
   }
@@ -209,10 +140,7 @@ TEST(LabelsToSurfaces, ALabelHasTheSameSurfaceWhicheverOthersAreMade)
 
 TEST(LabelsToSurfaces, MergesLabelsToOneSurface)
 {
-  vtkNew<vtkLabelsToSurfaces> filter;
-  filter->SetInputData(BallsImage());
-  filter->MergeOn();
-  filter->Update();
+  const auto filter = LabelSurfacesOf(BallsImage(), [](vtkLabelsToSurfaces* f) { f->MergeOn(); });
   ASSERT_EQ(BlockNames(filter->GetOutput()), (Names{ "Labels 3, 7" }));
   vtkPolyData* surface = BlockOf(filter, 0);
   EXPECT_EQ(FieldOf(surface, "NumberOfComponents"), 1.);
@@ -235,10 +163,7 @@ TEST(LabelsToSurfaces, LabelsOfMergedCellsAreOfTheNearestVoxels)
   const auto image = LabelImageOf(21, 13, 13, [](int i, int j, int k)
     { return std::hypot(i - 10., j - 6., k - 6.) > 5. ? 0 : i + j > 16 ? 7 : 3; });
   image->SetSpacing(3., 0.5, 1.);
-  vtkNew<vtkLabelsToSurfaces> filter;
-  filter->SetInputData(image);
-  filter->MergeOn();
-  filter->Update();
+  const auto filter = LabelSurfacesOf(image, [](vtkLabelsToSurfaces* f) { f->MergeOn(); });
   vtkPolyData* surface = BlockOf(filter, 0);
   vtkDataArray* labels = surface->GetCellData()->GetArray("Label");
   vtkDataArray* voxels = image->GetPointData()->GetScalars();
@@ -277,10 +202,7 @@ TEST(LabelsToSurfaces, DrawsNeighboursBackByAGap)
   const auto image = BallsImage();
   image->SetSpacing(0.8, 0.8, 0.8);
   const auto together = LabelSurfacesOf(image);
-  vtkNew<vtkLabelsToSurfaces> apart;
-  apart->SetInputData(image);
-  apart->SetGap(0.4);
-  apart->Update();
+  const auto apart = LabelSurfacesOf(image, [](vtkLabelsToSurfaces* f) { f->SetGap(0.4); });
   for (const unsigned int block : { 0u, 1u })
   {
     const double radius = block == 0 ? 6.4 : 5.6;
@@ -372,9 +294,7 @@ TEST(LabelsToSurfaces, CloseAtTheBorderOfTheImage)
 TEST(LabelsToSurfaces, TrianglesAreAsLargeAsAskedFor)
 {
   const auto image = BallsImage();
-  vtkNew<vtkLabelsToSurfaces> filter;
-  filter->SetInputData(image);
-  filter->Update();
+  const auto filter = LabelSurfacesOf(image);
   const vtkIdType atLevel0 = BlockOf(filter, 0)->GetNumberOfCells();
   filter->SetFinestLevel(-1);
   filter->Update();
@@ -390,18 +310,9 @@ TEST(LabelsToSurfaces, TrianglesAreAsLargeAsAskedFor)
   filter->Update();
   vtkPolyData* surface = BlockOf(filter, 0);
   double sum = 0.;
-  for (vtkIdType c = 0; c < surface->GetNumberOfCells(); ++c)
-  {
-    vtkIdType size;
-    const vtkIdType* ids;
-    surface->GetCellPoints(c, size, ids);
-    double p[3];
-    double q[3];
-    surface->GetPoint(ids[0], p);
-    surface->GetPoint(ids[1], q);
-    sum += std::sqrt(vtkMath::Distance2BetweenPoints(p, q));
-  }
-  EXPECT_NEAR(sum / static_cast<double>(surface->GetNumberOfCells()), 2.5, 0.3);
+  VisitEdges(surface, [&sum](const auto& p, const auto& q)
+    { sum += std::sqrt(vtkMath::Distance2BetweenPoints(p.data(), q.data())); });
+  EXPECT_NEAR(sum / static_cast<double>(3 * surface->GetNumberOfCells()), 2.5, 0.3);
 }
 
 TEST(LabelsToSurfaces, KeepComponentsThatAreLarge)
@@ -412,9 +323,7 @@ TEST(LabelsToSurfaces, KeepComponentsThatAreLarge)
       ? 1
       : 0;
   };
-  vtkNew<vtkLabelsToSurfaces> filter;
-  filter->SetInputData(LabelImageOf(34, 24, 24, islands));
-  filter->Update();
+  const auto filter = LabelSurfacesOf(LabelImageOf(34, 24, 24, islands));
   EXPECT_EQ(FieldOf(BlockOf(filter, 0), "NumberOfComponents"), 2.);
   filter->SetKeepComponents(1);
   filter->Update();
@@ -431,10 +340,8 @@ TEST(LabelsToSurfaces, SmoothingRemovesStairsButNoVoxels)
   const auto image = BallsImage();
   const auto roughness = [&](double smoothing)
   {
-    vtkNew<vtkLabelsToSurfaces> filter;
-    filter->SetInputData(image);
-    filter->SetSmoothing(smoothing);
-    filter->Update();
+    const auto filter = LabelSurfacesOf(image,
+      [&](vtkLabelsToSurfaces* f) { f->SetSmoothing(smoothing); });
     vtkPolyData* surface = BlockOf(filter, 0);
     const double centre[3] = { 11., 14., 14. };
     double sum = 0.;
@@ -450,196 +357,4 @@ TEST(LabelsToSurfaces, SmoothingRemovesStairsButNoVoxels)
     return sum / static_cast<double>(surface->GetNumberOfPoints());
   };
   EXPECT_LT(roughness(2.), 0.25 * roughness(0.));
-}
-
-TEST(LabelsToSurfaces, TellsWhichIsUnderWay)
-{
-  vtkNew<vtkLabelsToSurfaces> filter;
-  filter->SetInputData(BallsImage());
-  AddNames(vtkImageData::SafeDownCast(filter->GetInputDataObject(0, 0)));
-  filter->SetMerge(true); // it is made on the calling thread, which tells of each iteration
-  filter->SetLabelName(3, "left half");
-  filter->AddLabel(3);
-  ProgressListener one(filter);
-  filter->Update();
-  EXPECT_EQ(one.Texts.count("0 of 1, left half"), 1u);
-  filter->SetMerge(false);
-  filter->AddLabel(7);
-  ProgressListener listener(filter);
-  filter->Update();
-  EXPECT_EQ(listener.Texts.count("0 of 2"), 1u);
-}
-
-TEST(LabelsToSurfaces, GoesOnWithWhatIsMissingAfterAStop)
-{
-  vtkNew<vtkLabelsToSurfaces> filter;
-  filter->SetInputData(BallsImage());
-  filter->SetNumberOfThreads(2); // The first is so large that one comes after the other.
-  vtkNew<vtkLabelsToSurfaces> whole;
-  whole->SetInputData(filter->GetInputDataObject(0, 0));
-  whole->Update();
-  const auto stopAndGoOn = [&]
-  {
-    {
-      const StopAtText stop(filter, "1 of 2, ", 2);
-      const MessagesOf warnings(filter, vtkCommand::WarningEvent);
-      filter->Modified();
-      filter->Update();
-      EXPECT_LE(stop.Left, 0);
-      EXPECT_EQ(warnings.Get(), "") << "what was not finished is not lost";
-    }
-    filter->SetAbortExecute(1); // Heard after the run has ended.
-    ProgressListener late(filter);
-    filter->Update();
-    filter->RemoveAllObservers();
-    EXPECT_EQ(late.Texts.count("0 of 1"), 0u);
-    filter->GoOn();
-    return [&]
-    {
-      ProgressListener listener(filter);
-      filter->Update();
-      for (const unsigned int block : { 0u, 1u })
-      {
-        EXPECT_TRUE(AreSameSurfaces(BlockOf(filter, block), BlockOf(whole, block)));
-        EXPECT_GT(filter->GetSeconds(static_cast<int>(block)), 0.0);
-      }
-      EXPECT_EQ(listener.Texts.count("0 of 1") + listener.Texts.count("0 of 2"), 1u);
-      return listener.Texts.count("0 of 2") > 0;
-    };
-  };
-  EXPECT_FALSE(stopAndGoOn()());
-  const auto afterChange = stopAndGoOn();
-  whole->SetSmoothing(0.9);
-  whole->Update();
-  filter->SetSmoothing(0.9);
-  EXPECT_TRUE(afterChange());
-}
-
-TEST(LabelsToSurfaces, TellsProgressAndCanBeStopped)
-{
-  vtkNew<vtkLabelsToSurfaces> filter;
-  filter->SetInputData(BallsImage());
-  filter->SetNumberOfThreads(1);
-  ProgressListener listener(filter);
-  filter->Update();
-  EXPECT_TRUE(std::is_sorted(listener.Shares.begin(), listener.Shares.end()));
-  EXPECT_EQ(listener.Shares.back(), 1.);
-  EXPECT_GT(filter->GetSeconds(0), 0.);
-  EXPECT_GT(filter->GetSeconds(1), 0.);
-  EXPECT_EQ(filter->GetSeconds(-1), 0.);
-  EXPECT_EQ(filter->GetSeconds(2), 0.);
-  const vtkIdType all = BlockOf(filter, 0)->GetNumberOfCells();
-
-  listener.StopAt = 0.;
-  filter->Modified();
-  filter->Update();
-  EXPECT_EQ(filter->GetErrorCode(), 0u);
-  ASSERT_EQ(filter->GetOutput()->GetNumberOfBlocks(), 2u);
-  for (const unsigned int block : { 0u, 1u })
-  {
-    EXPECT_EQ(StopReason(BlockOf(filter, block)), "cancelled");
-    EXPECT_TRUE(BlockOf(filter, block)->GetCellData()->HasArray("Label"));
-  }
-  listener.StopAt = 2.;
-  filter->Modified();
-  filter->Update();
-  EXPECT_EQ(BlockOf(filter, 0)->GetNumberOfCells(), all) << "works again";
-}
-
-TEST(LabelsToSurfaces, PrintsAllThatIsSet)
-{
-  vtkNew<vtkLabelsToSurfaces> filter;
-  filter->AddLabel(4);
-  filter->SetGap(0.25);
-  filter->SetNumberOfThreads(-3);
-  filter->SetScratchDirectory("/scratch");
-  std::ostringstream text;
-  filter->Print(text);
-  // That all are told, with their values, Python's test_reference.py knows.
-  for (const char* part : { "Labels: 4\n", "Merge: 0", "Smoothing: 2", "Gap: 0.25",
-         "NumberOfThreads: 0", "ScratchDirectory: /scratch" })
-  {
-    EXPECT_NE(text.str().find(part), std::string::npos) << part;
-  }
-}
-
-TEST(LabelTable, ListsTheLabelsOfAnImage)
-{
-  const auto image = BallsImage();
-  AddNames(image);
-  image->GetFieldData()->RemoveArray("LabelColors");
-  vtkNew<vtkLabelTable> table;
-  table->SetInputData(image);
-  table->Update();
-  vtkTable* labels = table->GetOutput();
-  ASSERT_EQ(labels->GetNumberOfRows(), 3);
-  EXPECT_EQ(labels->GetValueByName(0, "Label").ToInt(), 0);
-  EXPECT_EQ(labels->GetValueByName(0, "Name").ToString(), "Label 0");
-  EXPECT_EQ(labels->GetValueByName(2, "Label").ToInt(), 7);
-  EXPECT_EQ(labels->GetValueByName(2, "Name").ToString(), "kidney");
-  const double sum = labels->GetValueByName(0, "Voxels").ToDouble() +
-    labels->GetValueByName(1, "Voxels").ToDouble() + labels->GetValueByName(2, "Voxels").ToDouble();
-  EXPECT_EQ(sum, 34. * 28. * 28.);
-  auto* extents = vtkIntArray::SafeDownCast(labels->GetColumnByName("Extent"));
-  ASSERT_TRUE(extents);
-  EXPECT_EQ(ExtentIn(extents, 0), (Extent{ 0, 33, 0, 27, 0, 27 }));
-  EXPECT_EQ(ExtentIn(extents, 1), (Extent{ 4, 18, 7, 21, 7, 21 }));
-  auto* colors = vtkDoubleArray::SafeDownCast(labels->GetColumnByName("Color"));
-  ASSERT_TRUE(colors);
-  EXPECT_EQ(colors->GetNumberOfComponents(), 3);
-  EXPECT_NE(colors->GetComponent(1, 0), colors->GetComponent(2, 0)) << "a palette";
-}
-
-TEST(LabelTable, GivesTheOnlyObjectAColorThatShowsItsRelief)
-{
-  vtkNew<vtkLabelTable> table;
-  table->SetInputData(LabelImageOf(
-    34, 28, 28, [](int i, int, int) { return i < 10 ? 0 : (i < 20 ? 1 : 255); }));
-  table->Update();
-  auto* colors = vtkDoubleArray::SafeDownCast(table->GetOutput()->GetColumnByName("Color"));
-  for (const int row : { 1, 2 })
-  {
-    EXPECT_GT(0.21 * colors->GetComponent(row, 0) + 0.72 * colors->GetComponent(row, 1) +
-        0.07 * colors->GetComponent(row, 2),
-      0.4)
-      << row;
-  }
-}
-
-TEST(LabelTable, TellsWhereLabelsAre)
-{
-  // A run of voxels over the end of rows and of slices, on both sides of what a thread takes.
-  const int begins[3] = { -2, 5, 70 };
-  const auto image = LabelImageOf(80, 70, 60,
-    [](int i, int j, int k)
-    {
-      const int place = i + 80 * (j + 70 * k);
-      return place == 81 || place == 325    ? 5
-        : place >= 262100 && place < 262200 ? 6
-        : i == 9 && j > 30 && j < 33        ? 7
-                                            : 1;
-    });
-  image->SetExtent(begins[0], begins[0] + 79, begins[1], begins[1] + 69, begins[2], begins[2] + 59);
-  vtkNew<vtkLabelTable> table;
-  table->SetInputData(image);
-  table->Update();
-  auto* extents = vtkIntArray::SafeDownCast(table->GetOutput()->GetColumnByName("Extent"));
-  ASSERT_EQ(extents->GetNumberOfTuples(), 4);
-  EXPECT_EQ(ExtentIn(extents, 0), (Extent{ -2, 77, 5, 74, 70, 129 }));
-  EXPECT_EQ(ExtentIn(extents, 1), (Extent{ -1, 3, 6, 9, 70, 70 }));
-  EXPECT_EQ(ExtentIn(extents, 2), (Extent{ -2, 77, 61, 62, 116, 116 }));
-  EXPECT_EQ(ExtentIn(extents, 3), (Extent{ 7, 7, 36, 37, 70, 129 }));
-}
-
-TEST(LabelTable, RefusesWhatIsNoLabelMap)
-{
-  vtkNew<vtkLabelTable> table;
-  table->SetInputData(RandomImage(30, 30, 30));
-  const MessagesOf errors(table);
-  table->Update();
-  EXPECT_TRUE(errors.Has("labels must be integers")) << errors.Get();
-  EXPECT_EQ(table->GetOutput()->GetNumberOfRows(), 0);
-  table->SetInputData(BallsImage());
-  table->Update();
-  EXPECT_EQ(table->GetOutput()->GetNumberOfRows(), 3);
 }

@@ -8,13 +8,6 @@
 #include "Core/Surface/SurfaceState.h"
 #include "CoreTestTools.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <vector>
-
 using namespace volumic;
 
 namespace

@@ -4,17 +4,10 @@
 #include "Core/Image/LevelReduction.h"
 #include "Core/Image/PieceReduction.h"
 #include "Core/Image/ValidReduction.h"
+#include "ForVoxels.h"
 #include "ThreadRanks.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstring>
-#include <limits>
-#include <random>
 #include <type_traits>
-#include <vector>
 
 using namespace volumic;
 
@@ -106,19 +99,14 @@ TEST(LevelReduction, IsTheProductOfTheOperatorsAlongTheAxes)
   {
     const std::int64_t place[3] = { i % out[0], i / out[0] % out[1], i / out[0] / out[1] };
     double sum = 0;
-    for (int c = 0; c < z.NumberOfTaps(); ++c)
-    {
-      for (int b = 0; b < y.NumberOfTaps(); ++b)
+    ForVoxels({ x.NumberOfTaps(), y.NumberOfTaps(), z.NumberOfTaps() },
+      [&](int a, int b, int c)
       {
-        for (int a = 0; a < x.NumberOfTaps(); ++a)
-        {
-          const std::int64_t voxel = x.First(place[0]) + a +
-            in[0] * (y.First(place[1]) + b + in[1] * (z.First(place[2]) + c));
-          sum += x.Weights(place[0])[a] * y.Weights(place[1])[b] * z.Weights(place[2])[c] *
-            voxels[voxel];
-        }
-      }
-    }
+        const std::int64_t voxel = x.First(place[0]) + a +
+          in[0] * (y.First(place[1]) + b + in[1] * (z.First(place[2]) + c));
+        sum += x.Weights(place[0])[a] * y.Weights(place[1])[b] * z.Weights(place[2])[c] *
+          voxels[voxel];
+      });
     EXPECT_NEAR(found[i], sum, 1e-10) << "voxel " << i;
   }
 }

@@ -5,10 +5,7 @@
 #include "Core/Common/Grow.h"
 #include "Core/Common/Select.h"
 #include "Core/Common/StandardThreads.h"
-
-#include <gtest/gtest.h>
-
-#include <vector>
+#include "TestPrelude.h"
 
 using namespace volumic;
 

@@ -4,12 +4,6 @@
 #include "GradedTestTools.h"
 #include "ThreadTestTools.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-
 using namespace volumic;
 
 namespace

@@ -6,23 +6,14 @@
 #include "SurfaceTestTools.h"
 #include "vtkOtsuThreshold.h"
 
-#include <vtkImageData.h>
-#include <vtkNew.h>
 #include <vtkPoints.h>
-#include <vtkPolyData.h>
 #include <vtkReverseSense.h>
 #include <vtkSphereSource.h>
 
-#include <gtest/gtest.h>
-
 #include <clocale>
-#include <cmath>
-#include <limits>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <memory>
-#include <string>
 
 using namespace volumic;
 
@@ -82,12 +73,7 @@ protected:
   }
   void TearDown() override { std::setlocale(LC_NUMERIC, "C"); }
 
-  void ExpectError(const std::string& part)
-  {
-    const MessagesOf errors(this->Filter);
-    this->Filter->Update();
-    EXPECT_TRUE(errors.Has(part)) << "no `" << part << "` in: " << errors.Get();
-  }
+  void ExpectError(const std::string& part) { ExpectErrorOf(this->Filter, { part }); }
 
   std::unique_ptr<CommaLocale> Streams;
   vtkNew<vtkDeformableSurface> Filter;
@@ -108,10 +94,7 @@ TEST_P(FilterLocale, SettingsOutOfRange)
 
 TEST_P(FilterLocale, PlacesOutsideTheImage)
 {
-  vtkNew<vtkPoints> points;
-  points->InsertNextPoint(20, 20, 1234.5);
-  vtkNew<vtkPolyData> seeds;
-  seeds->SetPoints(points);
+  const auto seeds = PointsAt({ { 20, 20, 1234.5 } });
   this->Filter->SetInitializationToSeeds();
   this->Filter->SetInitialSurfaceData(seeds);
   this->ExpectError(
@@ -158,7 +141,7 @@ TEST_P(FilterLocale, Progress)
   EXPECT_GT(listener.Texts.size(), 10u);
   for (const std::string& text : listener.Texts)
   {
-    EXPECT_EQ(text.find('.'), std::string::npos) << text;
+    EXPECT_FALSE(Has(text, "."));
   }
 }
 

@@ -3,11 +3,7 @@
 #include "Core/Mesh/LongEdges.h"
 #include "Core/Mesh/SelfIntersections.h"
 #include "Core/Mesh/SurfaceFeatures.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
+#include "TestPrelude.h"
 
 using namespace volumic;
 

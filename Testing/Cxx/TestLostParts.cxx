@@ -1,25 +1,14 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Evolution/InitialSurface.h"
 #include "Core/Evolution/LostParts.h"
-#include "Core/Evolution/SurfaceOptions.h"
-#include "Core/Mesh/SurfaceCheck.h"
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "EvolutionTestTools.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <limits>
-#include <utility>
 
 using namespace volumic;
 
 namespace
 {
 constexpr float Delta = 0.85f;
-SequentialExecutor Threads;
-
 /** A ball that the surface knows, holding a bubble that it does not know, and a lost ball. */
 TestVolume Scene()
 {
@@ -63,16 +52,8 @@ struct KnownBall
 int VoxelsOfTheLostBall(const Field& field)
 {
   int count = 0;
-  for (int k = 0; k < 48; ++k)
-  {
-    for (int j = 0; j < 48; ++j)
-    {
-      for (int i = 34; i < 48; ++i)
-      {
-        count += field.Voxel(i, j, k) > 0;
-      }
-    }
-  }
+  ForBox({ 34, 0, 0 }, { 48, 48, 48 },
+    [&](int i, int j, int k) { count += field.Voxel(i, j, k) > 0; });
   return count;
 }
 

@@ -6,13 +6,6 @@
 #include "Core/Image/VoxelParts.h"
 #include "EvolutionTestTools.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cstdint>
-#include <vector>
-
 using namespace volumic;
 
 namespace
@@ -60,19 +53,14 @@ std::vector<std::uint8_t> Marks(const SurfaceState& state, const Field& field, P
   {
     const auto first = [](float x) { return std::max(0, static_cast<int>(x - NearUnits)); };
     const auto end = [](float x) { return std::min(Size, static_cast<int>(x + NearUnits) + 1); };
-    for (int k = first(v.Z); k < end(v.Z); ++k)
-    {
-      for (int j = first(v.Y); j < end(v.Y); ++j)
+    ForBox({ first(v.X), first(v.Y), first(v.Z) }, { end(v.X), end(v.Y), end(v.Z) },
+      [&](int i, int j, int k)
       {
-        for (int i = first(v.X); i < end(v.X); ++i)
+        if (Distance(i, j, k, v.X, v.Y, v.Z) <= NearUnits)
         {
-          if (Distance(i, j, k, v.X, v.Y, v.Z) <= NearUnits)
-          {
-            marks[numbers.Of(i, j, k)] = 0;
-          }
+          marks[numbers.Of(i, j, k)] = 0;
         }
-      }
-    }
+      });
   }
   return marks;
 }

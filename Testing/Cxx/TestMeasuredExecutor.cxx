@@ -6,16 +6,8 @@
 #include "Core/Common/StandardThreads.h"
 #include "EvolutionTestTools.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <chrono>
-#include <cstddef>
-#include <functional>
-#include <stdexcept>
-#include <string>
 #include <thread>
-#include <vector>
 
 using namespace volumic;
 

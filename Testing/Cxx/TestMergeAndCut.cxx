@@ -5,12 +5,6 @@
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "CoreTestTools.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <utility>
-
 using namespace volumic;
 
 namespace

@@ -3,16 +3,9 @@
 
 // What has come near is merged where the image wants it, nearest first.
 #include "Core/Evolution/SurfaceEvolution.h"
-#include "Core/Evolution/SurfaceOptions.h"
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "Core/Surface/Remesher.h"
 #include "RemeshTestTools.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
-#include <memory>
 
 using namespace volumic;
 

@@ -9,17 +9,6 @@
 #include "Core/Mesh/VertexRemoval.h"
 #include "CoreTestTools.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <initializer_list>
-#include <stdexcept>
-#include <string>
-#include <utility>
-#include <vector>
-
 using namespace volumic;
 
 namespace
@@ -246,36 +235,17 @@ TEST(SurfaceMesh, KeepsPlacesAsideForTheirKeeper)
   EXPECT_EQ(mesh.NumberOfVertices(), size + 1);
 }
 
-TEST(SurfaceMeshInvalid, RefusesAnOpenSurface)
+TEST(SurfaceMeshInvalid, RefusesWhatIsNoSurface)
 {
-  IndexedSurface open = Icosahedron({ 0, 0, 0 }, 1);
+  const IndexedSurface once = Icosahedron({ 0, 0, 0 }, 1);
+  IndexedSurface open = once;
   open.Triangles.pop_back();
-  SurfaceMesh mesh;
-  EXPECT_THROW(mesh.Append(open), std::invalid_argument);
-}
-
-TEST(SurfaceMeshInvalid, RefusesATwistedSurface)
-{
-  IndexedSurface twisted = Icosahedron({ 0, 0, 0 }, 1);
+  IndexedSurface twisted = once;
   std::swap(twisted.Triangles[3][0], twisted.Triangles[3][1]);
-  SurfaceMesh mesh;
-  EXPECT_THROW(mesh.Append(twisted), std::invalid_argument);
-}
-
-TEST(SurfaceMeshInvalid, RefusesASurfaceThatIsThereTwice)
-{
-  // Every fan closes and begins anew.
-  IndexedSurface twice = Icosahedron({ 0, 0, 0 }, 1);
-  const IndexedSurface once = twice;
+  IndexedSurface twice = once; // Every fan closes and begins anew.
   twice.Triangles.insert(twice.Triangles.end(), once.Triangles.begin(), once.Triangles.end());
-  SurfaceMesh mesh;
-  EXPECT_THROW(mesh.Append(twice), std::invalid_argument);
-}
-
-TEST(SurfaceMeshInvalid, RefusesAPointWhereTwoFansTouch)
-{
-  // Two icosahedra with one point in common.
-  IndexedSurface pinched = Icosahedron({ 0, 0, 0 }, 1);
+  // Two icosahedra with one point in common, where two fans touch.
+  IndexedSurface pinched = once;
   const IndexedSurface other = Icosahedron({ 5, 0, 0 }, 1);
   pinched.Points.insert(pinched.Points.end(), other.Points.begin() + 1, other.Points.end());
   for (const Triangle& t : other.Triangles)
@@ -283,8 +253,13 @@ TEST(SurfaceMeshInvalid, RefusesAPointWhereTwoFansTouch)
     const auto moved = [](int v) { return v == 0 ? 9 : v + 11; };
     pinched.Triangles.push_back({ moved(t[0]), moved(t[1]), moved(t[2]) });
   }
-  SurfaceMesh mesh;
-  EXPECT_THROW(mesh.Append(pinched), std::invalid_argument);
+  const std::map<std::string, IndexedSurface> wrong = { { "open", open }, { "twisted", twisted },
+    { "twice", twice }, { "pinched", pinched } };
+  for (const auto& [name, surface] : wrong)
+  {
+    SurfaceMesh mesh;
+    EXPECT_THROW(mesh.Append(surface), std::invalid_argument) << name;
+  }
 }
 
 TEST(EdgeFlip, JoinsTheOppositeVertices)
@@ -320,23 +295,11 @@ TEST(EdgeFlip, IsIllegalOnATetrahedron)
 
 namespace
 {
-/** A double cone: `sides` neighbours at either tip, 0 and 1; the rest in order about them. */
+/** With `sides` neighbours at either tip, 0 and 1; the rest in order about them. */
 SurfaceMesh DoubleCone(int sides)
 {
-  IndexedSurface cone;
-  cone.Points = { { 0, 0, 2 }, { 0, 0, -2 } };
-  for (int i = 0; i < sides; ++i)
-  {
-    const double a = 2 * 3.14159265358979 * i / sides;
-    cone.Points.push_back({ 3 * std::cos(a), 3 * std::sin(a), 0 });
-  }
-  for (int i = 0; i < sides; ++i)
-  {
-    cone.Triangles.push_back({ 0, 2 + i, 2 + (i + 1) % sides });
-    cone.Triangles.push_back({ 1, 2 + (i + 1) % sides, 2 + i });
-  }
   SurfaceMesh mesh;
-  mesh.Append(cone);
+  mesh.Append(MakeDoubleCone({ 0, 0, 0 }, 3, 2, sides));
   return mesh;
 }
 }

@@ -3,16 +3,7 @@
 //
 // Metric and EdgeLength of the surface's filters: which lengths are even, and how long they are.
 #include "SurfaceTestTools.h"
-#include "vtkImagePyramid.h"
 #include "vtkVolumeToSurface.h"
-
-#include <vtkImageData.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <string>
 
 using namespace volumic;
 
@@ -30,24 +21,15 @@ Edges EdgesOf(vtkPolyData* surface, double stretch = 1.)
 {
   Edges edges;
   int count = 0;
-  for (vtkIdType c = 0; c < surface->GetNumberOfCells(); ++c)
-  {
-    vtkIdType size;
-    const vtkIdType* ids;
-    surface->GetCellPoints(c, size, ids);
-    for (int k = 0; k < 3; ++k, ++count)
+  VisitEdges(surface,
+    [&](const auto& p, const auto& q)
     {
-      double p[3];
-      double q[3];
-      surface->GetPoint(ids[k], p);
-      surface->GetPoint(ids[(k + 1) % 3], q);
-      const double length =
-        std::hypot(p[0] - q[0], p[1] - q[1], (p[2] - q[2]) / stretch);
+      const double length = std::hypot(p[0] - q[0], p[1] - q[1], (p[2] - q[2]) / stretch);
       edges.Shortest = std::min(edges.Shortest, length);
       edges.Longest = std::max(edges.Longest, length);
       edges.Mean += length;
-    }
-  }
+      ++count;
+    });
   edges.Mean /= std::max(count, 1);
   return edges;
 }
@@ -57,30 +39,20 @@ vtkSmartPointer<vtkImageData> FlatBall(double zSpacing)
   // A ball in the world: an ellipsoid in voxels.
   const auto image = BallImage(48, 48, 24);
   image->SetSpacing(1, 1, zSpacing);
-  for (int k = 0; k < 24; ++k)
-  {
-    for (int j = 0; j < 48; ++j)
+  ForVoxels({ 48, 48, 24 },
+    [&](int i, int j, int k)
     {
-      for (int i = 0; i < 48; ++i)
-      {
-        const double distance =
-          std::hypot(i - 23.5, j - 23.5, zSpacing * (k - 11.5));
-        image->SetScalarComponentFromDouble(
-          i, j, k, 0, std::clamp(50. + 12. * (16. - distance), 0., 100.));
-      }
-    }
-  }
+      const double distance =
+        std::hypot(i - 23.5, j - 23.5, zSpacing * (k - 11.5));
+      image->SetScalarComponentFromDouble(
+        i, j, k, 0, std::clamp(50. + 12. * (16. - distance), 0., 100.));
+    });
   return image;
 }
 
 vtkSmartPointer<vtkPolyData> SurfaceIn(int metric, vtkImageData* image)
 {
-  vtkNew<vtkDeformableSurface> filter;
-  filter->SetMetric(metric);
-  filter->SetInputData(image);
-  filter->SetIsoValue(50.);
-  filter->Update();
-  return filter->GetOutput();
+  return SurfaceOf(image, [metric](vtkDeformableSurface* f) { f->SetMetric(metric); })->GetOutput();
 }
 
 std::string ErrorOf(vtkDeformableSurface* filter)
@@ -162,16 +134,7 @@ TEST(Metric, RecoversWhatLiesAcrossSlicesFarApart)
   // A needle along z that no coarse level shows, beside a ball that they do.
   const double stretch = 4.;
   const auto image = FlatBall(stretch);
-  for (int k = 2; k < 22; ++k)
-  {
-    for (int j = 4; j < 7; ++j)
-    {
-      for (int i = 4; i < 7; ++i)
-      {
-        image->SetScalarComponentFromDouble(i, j, k, 0, 90.);
-      }
-    }
-  }
+  FillBox(image, { 4, 4, 2 }, { 7, 7, 22 }, 90.);
   const auto surface = SurfaceIn(vtkDeformableSurface::World, image);
   EXPECT_EQ(FieldOf(surface, "NumberOfComponents"), 2) << "the needle in one piece";
   EXPECT_EQ(FieldOf(surface, "Genus"), 0);
@@ -184,11 +147,9 @@ TEST(Metric, RecoversWhatLiesAcrossSlicesFarApart)
 
 TEST(Metric, MustBeOneThatThereIs)
 {
-  vtkNew<vtkDeformableSurface> filter;
-  filter->SetInputData(BallImage(40, 40, 40));
-  filter->SetIsoValue(50.);
+  const auto filter = FilterOf(BallImage(40, 40, 40));
   filter->SetMetric(2);
-  EXPECT_NE(ErrorOf(filter).find("Metric is 2; it must be 0 to 1"), std::string::npos);
+  EXPECT_TRUE(Has(ErrorOf(filter), "Metric is 2; it must be 0 to 1"));
 }
 
 TEST(EdgeLength, IsMetFromFinerThanTheImageToSeveralLevelsUp)
@@ -197,9 +158,7 @@ TEST(EdgeLength, IsMetFromFinerThanTheImageToSeveralLevelsUp)
   image->SetSpacing(0.5, 0.5, 0.5);
   for (const double length : { 0.4, 0.6, 0.75, 0.9, 1.2, 1.6, 2.3, 3.2 })
   {
-    vtkNew<vtkVolumeToSurface> filter;
-    filter->SetInputData(image);
-    filter->SetIsoValue(50.);
+    const auto filter = FilterOf<vtkVolumeToSurface>(image);
     filter->SetEdgeLength(length);
     filter->SetFinestLevel(7); // not looked at
     filter->Update();
@@ -216,55 +175,40 @@ TEST(EdgeLength, IsInTheUnitOfTheWorld)
 {
   const auto image = BallImage(64, 64, 64);
   image->SetSpacing(25., 25., 25.); // micrometres
-  vtkNew<vtkDeformableSurface> filter;
-  filter->SetInputData(image);
-  filter->SetIsoValue(50.);
-  filter->SetEdgeLength(60.);
-  filter->Update();
+  const auto filter = SurfaceOf(image, [](vtkDeformableSurface* f) { f->SetEdgeLength(60.); });
   EXPECT_NEAR(EdgesOf(filter->GetOutput()).Mean, 60., 9.);
 }
 
 TEST(EdgeLength, ChoosesOfThePyramidThatIsGiven)
 {
-  vtkNew<vtkImagePyramid> pyramid;
-  pyramid->SetInputData(BallImage(64, 64, 64));
-  pyramid->Update();
-  vtkNew<vtkDeformableSurface> filter;
-  filter->SetInputDataObject(pyramid->GetOutput());
-  filter->SetIsoValue(50.);
-  filter->SetEdgeLength(2.6);
-  filter->Update();
+  const auto pyramid = PyramidOf(BallImage(64, 64, 64));
+  const auto filter = SurfaceOf(pyramid->GetOutput(),
+    [](vtkDeformableSurface* f) { f->SetEdgeLength(2.6); });
   EXPECT_EQ(FieldOf(filter->GetOutput(), "Level"), 1);
   EXPECT_NEAR(EdgesOf(filter->GetOutput()).Mean, 2.6, 0.4);
   // Between what levels 0 and 1 can give.
   filter->SetEdgeLength(1.85);
   const std::string error = ErrorOf(filter);
-  EXPECT_NE(error.find("Edge Length is 1.85"), std::string::npos) << error;
-  EXPECT_NE(error.find("to 1.7, 2.0"), std::string::npos) << error;
-  EXPECT_NE(error.find("the image instead of its pyramid"), std::string::npos) << error;
+  EXPECT_TRUE(Has(error, "Edge Length is 1.85"));
+  EXPECT_TRUE(Has(error, "to 1.7, 2.0"));
+  EXPECT_TRUE(Has(error, "the image instead of its pyramid"));
 }
 
 TEST(EdgeLength, ThatIsNotPossibleIsRefused)
 {
-  vtkNew<vtkVolumeToSurface> filter;
-  filter->SetInputData(BallImage(40, 40, 40));
-  filter->SetIsoValue(50.);
+  const auto filter = FilterOf<vtkVolumeToSurface>(BallImage(40, 40, 40));
   filter->SetEdgeLength(0.1);
-  EXPECT_NE(
-    ErrorOf(filter).find("Edge Length is 0.1, but edges of this image can have mean lengths"),
-    std::string::npos);
+  EXPECT_TRUE(
+    Has(ErrorOf(filter), "Edge Length is 0.1, but edges of this image can have mean lengths"));
   filter->SetEdgeLength(1000.);
-  EXPECT_NE(
-    ErrorOf(filter).find("Give a shorter one, or allow coarser levels by Minimum Level Size"),
-    std::string::npos);
+  EXPECT_TRUE(
+    Has(ErrorOf(filter), "Give a shorter one, or allow coarser levels by Minimum Level Size"));
   filter->SetEdgeLength(-2.);
-  EXPECT_NE(ErrorOf(filter).find("Edge Length is -2; it must be 0 (automatic) or a length"),
-    std::string::npos);
+  EXPECT_TRUE(Has(ErrorOf(filter), "Edge Length is -2; it must be 0 (automatic) or a length"));
   filter->SetEdgeLength(3.);
   filter->SetCoarsestLevel(0);
-  EXPECT_NE(ErrorOf(filter).find("Edge Length is 3, for which the finest level is 1, but "
-                                 "Coarsest Level is 0"),
-    std::string::npos);
+  EXPECT_TRUE(Has(ErrorOf(filter),
+    "Edge Length is 3, for which the finest level is 1, but Coarsest Level is 0"));
   filter->SetCoarsestLevel(-1);
   EXPECT_EQ(ErrorOf(filter), "");
   EXPECT_GT(filter->GetOutput()->GetNumberOfPoints(), 30);

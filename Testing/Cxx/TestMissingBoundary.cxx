@@ -2,9 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfaceTestTools.h"
 
-#include <vtkCommand.h>
-#include <vtkMultiBlockDataSet.h>
-
 using namespace volumic;
 
 namespace
@@ -15,16 +12,9 @@ namespace
 vtkSmartPointer<vtkImageData> BallAndSheets(int sheets)
 {
   const auto image = BallImage(64, 64, 64, 0.25);
-  vtkDataArray* voxels = image->GetPointData()->GetScalars();
   for (int sheet = 0; sheet < sheets; ++sheet)
   {
-    for (int k = 10; k < 54; ++k)
-    {
-      for (int j = 10; j < 54; ++j)
-      {
-        voxels->SetComponent((k * 64 + j) * 64 + 4 + 4 * sheet, 0, 62.0);
-      }
-    }
+    FillBox(image, { 4 + 4 * sheet, 10, 10 }, { 5 + 4 * sheet, 54, 54 }, 62.0);
   }
   return image;
 }
@@ -74,10 +64,8 @@ TEST(MissingBoundary, TellsTheShareOfWhatIsTooThin)
   EXPECT_EQ(TimesIn(warnings, "of the object's boundary at level 0 is not on the surface"), 1)
     << warnings;
   EXPECT_EQ(TimesIn(warnings, "Warning: In "), 1) << "once for the whole run: " << warnings;
-  EXPECT_NE(warnings.find("all of 2 parts that coarser levels had lost, too thin"),
-    std::string::npos)
-    << warnings;
-  EXPECT_NE(warnings.find("Set Finest Level to -1"), std::string::npos) << warnings;
+  EXPECT_TRUE(Has(warnings, "all of 2 parts that coarser levels had lost, too thin"));
+  EXPECT_TRUE(Has(warnings, "Set Finest Level to -1"));
 }
 
 TEST(MissingBoundary, IsLessAtTheLevelThatTheWarningNames)
@@ -151,7 +139,7 @@ TEST(MissingBoundary, DoesNotDependOnThreads)
   WarningsOf(all, BallAndSheets(2));
   for (unsigned int h = 0; h + 1 < one->GetLevels()->GetNumberOfBlocks(); ++h)
   {
-    EXPECT_EQ(FieldOf(vtkPolyData::SafeDownCast(one->GetLevels()->GetBlock(h)), "MissingBoundary"),
-      FieldOf(vtkPolyData::SafeDownCast(all->GetLevels()->GetBlock(h)), "MissingBoundary"));
+    EXPECT_EQ(FieldOf(SurfaceAt(one, h), "MissingBoundary"),
+      FieldOf(SurfaceAt(all, h), "MissingBoundary"));
   }
 }

@@ -4,12 +4,6 @@
 // Newton's law with friction, the time step, and how far a vertex may go.
 #include "DynamicsTestTools.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
 using namespace volumic;
 
 namespace

@@ -2,25 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FilterTestTools.h"
 #include "vtkDeformableSurface.h"
-#include "vtkImagePyramid.h"
 #include "vtkOtsuThreshold.h"
 #include "vtkVolumeToSurface.h"
 
 #include <vtkDataObject.h>
 #include <vtkImageAlgorithm.h>
-#include <vtkImageData.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
-#include <vtkNew.h>
 #include <vtkObjectFactory.h>
-#include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
-
-#include <gtest/gtest.h>
-
-#include <array>
-#include <vector>
 
 using namespace volumic;
 
@@ -66,17 +57,12 @@ protected:
     vtkImageData* image = vtkImageData::GetData(output);
     image->SetExtent(extent);
     image->AllocateScalars(VTK_FLOAT, 1);
-    for (int k = extent[4]; k <= extent[5]; ++k)
-    {
-      for (int j = extent[2]; j <= extent[3]; ++j)
+    ForBox({ extent[0], extent[2], extent[4] }, { extent[1] + 1, extent[3] + 1, extent[5] + 1 },
+      [&](int i, int j, int k)
       {
-        for (int i = extent[0]; i <= extent[1]; ++i)
-        {
-          image->SetScalarComponentFromDouble(
-            i, j, k, 0, whole->GetScalarComponentAsDouble(i, j, k, 0));
-        }
-      }
-    }
+        image->SetScalarComponentFromDouble(
+          i, j, k, 0, whole->GetScalarComponentAsDouble(i, j, k, 0));
+      });
     this->Made = image->GetNumberOfPoints();
     return 1;
   }

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Surface/Remesher.h"
 #include "Core/Surface/SurfaceEditor.h"
-#include "CoreTestTools.h"
 #include "RemeshTestTools.h"
 
 #include "Core/Mesh/CycleCut.h"
@@ -11,13 +10,6 @@
 #include "Core/Mesh/EdgeSplit.h"
 #include "Core/Mesh/StarMerge.h"
 #include "Core/Mesh/VertexRemoval.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <random>
-#include <string>
-#include <vector>
 
 using namespace volumic;
 

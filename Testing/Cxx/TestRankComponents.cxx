@@ -3,17 +3,9 @@
 
 // What ranks that have parts of a surface say of its components, against what one says that has all.
 #include "Core/Common/StandardThreads.h"
-#include "Core/Surface/SurfaceComponents.h"
 #include "RankTestTools.h"
 #include "RemeshTestTools.h"
 #include "ThreadRanks.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <numeric>
-#include <set>
-#include <vector>
 
 using namespace volumic;
 

@@ -4,27 +4,11 @@
 #include "LabelImages.h"
 #include "SameOutputs.h"
 #include "ThreadControllers.h"
-#include "vtkLabelsToSurfaces.h"
 
 #include <vtkErrorCode.h>
-#include <vtkImageData.h>
-#include <vtkMultiBlockDataSet.h>
-#include <vtkMultiProcessController.h>
-#include <vtkPolyData.h>
-#include <vtkSmartPointer.h>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <cstddef>
-#include <functional>
 #include <new>
-#include <set>
-#include <string>
-#include <thread>
-#include <vector>
 
 using namespace volumic;
 

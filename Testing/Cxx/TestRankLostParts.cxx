@@ -8,15 +8,6 @@
 #include "RankTestTools.h"
 #include "ThreadRanks.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdint>
-#include <mutex>
-#include <vector>
-
 using namespace volumic;
 
 namespace

@@ -1,37 +1,17 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "FilterTestTools.h"
 #include "SameOutputs.h"
 #include "ThreadControllers.h"
-#include "vtkDeformableSurface.h"
 #include "vtkVolumeToSurface.h"
 
-#include <vtkAbstractArray.h>
 #include <vtkErrorCode.h>
-#include <vtkFieldData.h>
-#include <vtkImageData.h>
 #include <vtkIntArray.h>
-#include <vtkMultiBlockDataSet.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPolyData.h>
-#include <vtkSmartPointer.h>
 #include <vtkSphereSource.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
-#include <vtkStringArray.h>
-#include <vtkTable.h>
 #include <vtkTriangle.h>
 #include <vtkUnsignedCharArray.h>
 
-#include <gtest/gtest.h>
-
 #include <chrono>
-#include <map>
-#include <mutex>
-#include <set>
-#include <string>
-#include <thread>
-#include <vector>
 
 using namespace volumic;
 

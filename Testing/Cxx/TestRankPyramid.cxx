@@ -2,38 +2,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FilterTestTools.h"
 #include "ThreadControllers.h"
-#include "vtkImagePyramid.h"
 #include "vtkOtsuThreshold.h"
 #include "vtkVolumeToSurface.h"
 
-#include <vtkCallbackCommand.h>
 #include <vtkCellData.h>
 #include <vtkDataSetAttributes.h>
 #include <vtkErrorCode.h>
-#include <vtkFieldData.h>
 #include <vtkImageAlgorithm.h>
-#include <vtkImageData.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
-#include <vtkMultiBlockDataSet.h>
-#include <vtkNew.h>
 #include <vtkObjectFactory.h>
-#include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
 #include <vtkStringArray.h>
 #include <vtkUnsignedCharArray.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstring>
-#include <functional>
-#include <limits>
-#include <mutex>
-#include <string>
-#include <vector>
 
 using namespace volumic;
 
@@ -182,20 +164,15 @@ void ExpectPiecesOf(vtkImageData* whole, unsigned int h, const std::vector<Outco
     }
     EXPECT_EQ(UnitOf(piece), UnitOf(whole));
     const int* e = piece->GetExtent();
-    for (int k = e[4]; k <= e[5]; ++k)
-    {
-      for (int j = e[2]; j <= e[3]; ++j)
+    ForBox({ e[0], e[2], e[4] }, { e[1] + 1, e[3] + 1, e[5] + 1 },
+      [&](int i, int j, int k)
       {
-        for (int i = e[0]; i <= e[1]; ++i)
-        {
-          int place[3] = { i, j, k };
-          const vtkIdType inWhole = whole->ComputePointId(place);
-          found[static_cast<std::size_t>(inWhole)] = 1;
-          differences += !AreSameBits(Voxels(piece)->GetTuple1(piece->ComputePointId(place)),
-            Voxels(whole)->GetTuple1(inWhole));
-        }
-      }
-    }
+        int place[3] = { i, j, k };
+        const vtkIdType inWhole = whole->ComputePointId(place);
+        found[static_cast<std::size_t>(inWhole)] = 1;
+        differences += !AreSameBits(Voxels(piece)->GetTuple1(piece->ComputePointId(place)),
+          Voxels(whole)->GetTuple1(inWhole));
+      });
   }
   EXPECT_EQ(differences, 0) << "level " << h;
   EXPECT_EQ(std::count(found.begin(), found.end(), 0), 0) << "level " << h;
@@ -345,7 +322,7 @@ TEST(RankPyramid, ReportsTheErrorOfOneRankOnAllAndWorksAgain)
     }
     const MessagesOf errors(pyramid);
     ThreadControllers::Update(pyramid, controller);
-    EXPECT_NE(errors.Get().find("no point array 'none'"), std::string::npos) << errors.Get();
+    EXPECT_TRUE(Has(errors.Get(), "no point array 'none'"));
     EXPECT_EQ(pyramid->GetErrorCode(), static_cast<unsigned long>(vtkErrorCode::UserError));
     pyramid->SetInputArrayToProcess(
       0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS);

@@ -5,27 +5,17 @@
 // that are a matter of degree are asserted well below what is reached (Documentation/measured.md),
 // so that a failure means that something broke.
 #include "SupportVtkConversions.h"
-#include "SurfaceJudge.h"
+#include "TestPrelude.h"
 #include "vtkDeformableSurface.h"
 
-#include <vtkFieldData.h>
 #include <vtkImageCast.h>
 #include <vtkImageConstantPad.h>
-#include <vtkImageData.h>
 #include <vtkMultiBlockDataSet.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPolyData.h>
-#include <vtkSmartPointer.h>
 #include <vtkStringArray.h>
 #include <vtkTable.h>
 #include <vtkXMLImageDataReader.h>
 
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <fstream>
-#include <string>
 
 using namespace volumic::support;
 

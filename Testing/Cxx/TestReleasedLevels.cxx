@@ -2,15 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfaceTestTools.h"
 
-#include <vtkCallbackCommand.h>
-#include <vtkCommand.h>
-#include <vtkMultiBlockDataSet.h>
-#include <vtkWeakPointer.h>
-
-#include <algorithm>
-#include <string>
-#include <vector>
-
 using namespace volumic;
 
 namespace

@@ -3,23 +3,10 @@
 
 // Walls that are too thin are told of: the filter's counts against the judge's.
 #include "SupportVtkConversions.h"
-#include "SurfaceJudge.h"
-#include "SyntheticScenes.h"
+#include "TestPrelude.h"
 #include "vtkDeformableSurface.h"
 
-#include <vtkDataArray.h>
-#include <vtkFieldData.h>
-#include <vtkImageData.h>
 #include <vtkMultiBlockDataSet.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPolyData.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
 
 using namespace volumic::support;
 

@@ -8,10 +8,6 @@
 #include "Core/Surface/Remesher.h"
 #include "RemeshTestTools.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 using namespace volumic;
 
 namespace

@@ -1,24 +1,14 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Evolution/SurfaceEvolution.h"
 #include "Core/Mesh/SelfIntersections.h"
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "Core/Surface/SizingField.h"
 #include "EvolutionTestTools.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <set>
-#include <stdexcept>
-
 using namespace volumic;
 
 namespace
 {
-SequentialExecutor Threads;
-Monitor Silent;
 const Point Middle = { 16., 16., 16. };
 
 /** Positive inside a ball about the middle, as the field of a label is: about the distance. */

@@ -4,12 +4,7 @@
 #include "Core/Mesh/SelfIntersections.h"
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "Core/Mesh/SurfaceMesh.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <vector>
+#include "TestPrelude.h"
 
 using namespace volumic;
 

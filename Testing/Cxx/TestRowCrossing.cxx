@@ -1,11 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Mesh/RowCrossing.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <vector>
+#include "TestPrelude.h"
 
 using namespace volumic;
 

@@ -5,13 +5,7 @@
 
 #include "ScratchTestTools.h"
 
-#include <gtest/gtest.h>
-
 #include <csignal>
-#include <functional>
-#include <stdexcept>
-#include <string>
-#include <vector>
 
 #include <pthread.h>
 #include <sys/resource.h>
@@ -69,9 +63,8 @@ TEST_F(ScratchProcess, RoomIsTakenBeforehand)
   const ScratchMemory scratch(options);
   LargeVector<char> six(6 * MiB, 'x');
   const std::string message = WhyItIsFull(5 * MiB);
-  EXPECT_NE(message.find("has no room for 5 MiB more: 6 of 10 MiB are taken"), std::string::npos)
-    << message;
-  EXPECT_NE(message.find(this->Directory.Path), std::string::npos) << message;
+  EXPECT_TRUE(Has(message, "has no room for 5 MiB more: 6 of 10 MiB are taken"));
+  EXPECT_TRUE(Has(message, this->Directory.Path));
   EXPECT_EQ(scratch.Statistics().Mapped, 6 * MiB);
   LargeVector<char>().swap(six);
   EXPECT_EQ(WhyItIsFull(10 * MiB), "");
@@ -89,7 +82,7 @@ TEST_F(ScratchProcess, FilesMayHaveALimitOfTheSystem)
   const std::string message = WhyItIsFull(5 * MiB);
   const std::string fits = WhyItIsFull(4 * MiB);
   setrlimit(RLIMIT_FSIZE, &before);
-  EXPECT_NE(message.find("ulimit -f"), std::string::npos) << message;
+  EXPECT_TRUE(Has(message, "ulimit -f"));
   EXPECT_EQ(fits, "");
   EXPECT_EQ(scratch.Statistics().Mapped, 0u);
 }

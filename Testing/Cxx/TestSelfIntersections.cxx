@@ -5,11 +5,6 @@
 #include "Core/Mesh/TriangleTree.h"
 #include "CoreTestTools.h"
 
-#include <gtest/gtest.h>
-
-#include <array>
-#include <random>
-
 using namespace volumic;
 
 namespace

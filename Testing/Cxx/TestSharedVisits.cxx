@@ -3,21 +3,13 @@
 
 // Visits in which threads share that find no visit to make.
 #include "Core/Common/StandardThreads.h"
-#include "Core/Common/VisitSchedule.h"
+#include "TestPrelude.h"
 #include "WorkModel.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <cstddef>
-#include <numeric>
-#include <set>
-#include <stdexcept>
 #include <mutex>
 #include <thread>
-#include <vector>
 
 using namespace volumic;
 using bench::ScheduledSeconds;

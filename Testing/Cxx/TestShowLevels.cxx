@@ -3,25 +3,15 @@
 #include "SurfaceTestTools.h"
 #include "vtkVolumeToSurface.h"
 
-#include <vtkCommand.h>
-#include <vtkMath.h>
-#include <vtkPolyData.h>
-#include <vtkSmartPointer.h>
-
-#include <vector>
-
 using namespace volumic;
 
 namespace
 {
 /** Shows its levels; its preview is level 1 of 2. */
-vtkSmartPointer<vtkVolumeToSurface> FilterOf(vtkImageData* image)
+vtkSmartPointer<vtkVolumeToSurface> ShowingFilterOf(vtkImageData* image)
 {
-  auto filter = vtkSmartPointer<vtkVolumeToSurface>::New();
-  filter->SetInputData(image);
-  filter->SetIsoValue(50.0);
-  filter->ShowLevelsOn();
-  return filter;
+  return FilterOf<vtkVolumeToSurface>(
+    image, [](vtkVolumeToSurface* f) { f->ShowLevelsOn(); });
 }
 
 /** The levels that who asks for updates sees, one after the other. */
@@ -46,9 +36,9 @@ vtkSmartPointer<vtkImageData> LargeBall()
 TEST(ShowLevels, GivesThemOneByOneToWhoAsks)
 {
   const auto image = LargeBall();
-  const auto filter = FilterOf(image);
+  const auto filter = ShowingFilterOf(image);
   EXPECT_EQ(LevelsShown(filter), (std::vector<int>{ 1, 0 }));
-  const auto atOnce = FilterOf(image);
+  const auto atOnce = ShowingFilterOf(image);
   atOnce->ShowLevelsOff();
   atOnce->Update();
   EXPECT_TRUE(AreSameSurfaces(filter->GetOutput(), atOnce->GetOutput()));
@@ -63,7 +53,7 @@ TEST(ShowLevels, ShowsTheLevelThatWasStopped)
 {
   for (const bool isPreview : { false, true })
   {
-    const auto filter = FilterOf(LargeBall());
+    const auto filter = ShowingFilterOf(LargeBall());
     filter->SetPreview(isPreview);
     filter->GetNeedsUpdate();
     {
@@ -79,7 +69,7 @@ TEST(ShowLevels, ShowsTheLevelThatWasStopped)
 
 TEST(ShowLevels, HasNoEffectWhereNobodyAsks)
 {
-  const auto filter = FilterOf(LargeBall());
+  const auto filter = ShowingFilterOf(LargeBall());
   filter->Update();
   EXPECT_EQ(FieldOf(filter->GetOutput(), "Level"), 0);
   EXPECT_FALSE(filter->GetNeedsUpdate());
@@ -87,7 +77,7 @@ TEST(ShowLevels, HasNoEffectWhereNobodyAsks)
 
 TEST(ShowLevels, EndsWherePreviewDoes)
 {
-  const auto filter = FilterOf(LargeBall());
+  const auto filter = ShowingFilterOf(LargeBall());
   filter->PreviewOn();
   EXPECT_EQ(LevelsShown(filter), std::vector<int>{ 1 });
   filter->PreviewOff();
@@ -96,7 +86,7 @@ TEST(ShowLevels, EndsWherePreviewDoes)
 
 TEST(ShowLevels, ReachesALevelFinerThanTheImage)
 {
-  const auto filter = FilterOf(BallImage(30, 30, 30));
+  const auto filter = ShowingFilterOf(BallImage(30, 30, 30));
   filter->SetFinestLevel(-1);
   EXPECT_EQ(LevelsShown(filter), (std::vector<int>{ 0, -1 }));
 }
@@ -104,10 +94,10 @@ TEST(ShowLevels, ReachesALevelFinerThanTheImage)
 TEST(ShowLevels, KeepsToTheEdgeLength)
 {
   const auto image = BallImage(128, 110, 110);
-  const auto filter = FilterOf(image);
+  const auto filter = ShowingFilterOf(image);
   filter->SetEdgeLength(1.7);
   EXPECT_EQ(LevelsShown(filter), (std::vector<int>{ 1, 0 }));
-  const auto atOnce = FilterOf(image);
+  const auto atOnce = ShowingFilterOf(image);
   atOnce->ShowLevelsOff();
   atOnce->SetEdgeLength(1.7);
   atOnce->Update();
@@ -116,7 +106,7 @@ TEST(ShowLevels, KeepsToTheEdgeLength)
 
 TEST(ShowLevels, ReachesTheEndWhereNothingIsKept)
 {
-  const auto filter = FilterOf(LargeBall());
+  const auto filter = ShowingFilterOf(LargeBall());
   filter->ReleaseDataFlagOn();
   filter->GetNeedsUpdate();
   filter->Update();
@@ -130,7 +120,7 @@ TEST(ShowLevels, WarnsAtTheEndOnly)
 {
   const auto image = LargeBall();
   Voxels(image)->SetComponent(0, 0, vtkMath::Nan());
-  const auto filter = FilterOf(image);
+  const auto filter = ShowingFilterOf(image);
   filter->SetKeepComponents(vtkDeformableSurface::LargeComponents);
   filter->SetMinimumComponentVolume(1e9);
   const MessagesOf warnings(filter, vtkCommand::WarningEvent);
@@ -145,7 +135,7 @@ TEST(ShowLevels, WarnsAtTheEndOnly)
 
 TEST(ShowLevels, WarnsWhereTheFirstLevelShownIsTheLast)
 {
-  const auto filter = FilterOf(BallImage(30, 30, 30));
+  const auto filter = ShowingFilterOf(BallImage(30, 30, 30));
   filter->SetKeepComponents(vtkDeformableSurface::LargeComponents);
   filter->SetMinimumComponentVolume(1e9);
   const MessagesOf warnings(filter, vtkCommand::WarningEvent);
@@ -155,7 +145,7 @@ TEST(ShowLevels, WarnsWhereTheFirstLevelShownIsTheLast)
 
 TEST(ShowLevels, IsOverAfterAnErrorAndAtTheTimeLimit)
 {
-  const auto filter = FilterOf(LargeBall());
+  const auto filter = ShowingFilterOf(LargeBall());
   filter->GetNeedsUpdate();
   filter->Update();
   filter->SetIsoValue(1e5);

@@ -2,10 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Surface/NormalCone.h"
 #include "Core/Surface/SizingField.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "TestPrelude.h"
 
 using namespace volumic;
 

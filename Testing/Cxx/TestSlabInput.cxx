@@ -3,186 +3,21 @@
 
 // With a limit of memory a filter asks for its image slab by slab; what it makes of it is the same
 // bits.
+#include "SlabSource.h"
 #include "SurfaceTestTools.h"
-#include "vtkImagePyramid.h"
 #include "vtkVolumeToSurface.h"
 
-#include <vtkCellData.h>
-#include <vtkDataSetAttributes.h>
 #include <vtkErrorCode.h>
-#include <vtkFloatArray.h>
-#include <vtkImageAlgorithm.h>
-#include <vtkImageData.h>
 #include <vtkImageFlip.h>
 #include <vtkImageShiftScale.h>
-#include <vtkInformation.h>
-#include <vtkInformationVector.h>
 #include <vtkMatrix3x3.h>
-#include <vtkMultiBlockDataSet.h>
-#include <vtkObjectFactory.h>
-#include <vtkPointData.h>
-#include <vtkStreamingDemandDrivenPipeline.h>
-#include <vtkUnsignedCharArray.h>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstring>
-#include <functional>
-#include <limits>
-#include <string>
-#include <vector>
 
 using namespace volumic;
 
 namespace
 {
-constexpr std::array<int, 6> Whole = { -20, 123, 7, 150, 3, 130 };
-constexpr double Spacing[3] = { 0.5, 0.5, 0.75 };
-constexpr double Origin[3] = { 10.0, -5.0, 2.0 };
-constexpr double Direction[9] = { 0, 1, 0, -1, 0, 0, 0, 0, 1 };
-/** MiB: slabs have a sixty-fourth of it. */
-constexpr int Limit = 640;
-/** Floats of a voxel: so many that there are several slabs. */
-constexpr int Components = 4;
-
-/** What the source makes beside the voxels. */
-struct Scene
-{
-  bool HasNaNs = false;
-  bool AreCells = false;   ///< The voxels are cells, not points.
-  bool HasGhosts = false;  ///< Some points and some cells are hidden.
-  bool IsNamed = true;
-  bool HasOther = true;    ///< Another array.
-  bool GivesParts = true;
-  int FailingSlab = -1;    ///< counted from 0
-  int WrongSlab = -1;      ///< of another type
-};
-
-/** A ball in an image that is turned, shifted and does not begin at 0, with other arrays. */
-class BallSource : public vtkImageAlgorithm
-{
-public:
-  static BallSource* New();
-  vtkTypeMacro(BallSource, vtkImageAlgorithm);
-
-  Scene Made;
-  std::vector<std::array<int, 2>> Slices; ///< that were asked for
-
-protected:
-  BallSource() { this->SetNumberOfInputPorts(0); }
-
-  int RequestInformation(
-    vtkInformation*, vtkInformationVector**, vtkInformationVector* output) override
-  {
-    vtkInformation* info = output->GetInformationObject(0);
-    info->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), Whole.data(), 6);
-    vtkDataObject::SetPointDataActiveScalarInfo(info, VTK_FLOAT, Components);
-    info->Set(vtkDataObject::SPACING(), Spacing, 3);
-    info->Set(vtkDataObject::ORIGIN(), Origin, 3);
-    info->Set(vtkDataObject::DIRECTION(), Direction, 9);
-    if (this->Made.GivesParts)
-    {
-      info->Set(vtkAlgorithm::CAN_PRODUCE_SUB_EXTENT(), 1);
-    }
-    return 1;
-  }
-
-  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector* output) override
-  {
-    std::array<int, 6> extent = Whole;
-    if (this->Made.GivesParts)
-    {
-      output->GetInformationObject(0)->Get(
-        vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(), extent.data());
-    }
-    const int number = static_cast<int>(this->Slices.size());
-    this->Slices.push_back({ extent[4], extent[5] });
-    if (number == this->Made.FailingSlab)
-    {
-      vtkErrorMacro("the disk has gone.");
-      return 0;
-    }
-    this->Fill(vtkImageData::GetData(output), extent, number == this->Made.WrongSlab);
-    return 1;
-  }
-
-private:
-  void Fill(vtkImageData* image, const std::array<int, 6>& extent, bool isWrong);
-};
-
-vtkStandardNewMacro(BallSource);
-
-double ValueAt(int i, int j, int k)
-{
-  const double x = i - 50.3;
-  const double y = j - 70.1;
-  const double z = k - 60.7;
-  return 100.0 - std::sqrt(x * x + y * y + z * z) + 3.0 * std::sin(0.7 * i + 1.3 * j * k);
-}
-
-void BallSource::Fill(vtkImageData* image, const std::array<int, 6>& extent, bool isWrong)
-{
-  image->SetExtent(extent[0], extent[1], extent[2], extent[3], extent[4], extent[5]);
-  image->SetSpacing(Spacing);
-  image->SetOrigin(Origin);
-  image->SetDirectionMatrix(Direction);
-  const int isCell = this->Made.AreCells ? 1 : 0;
-  const auto voxels = vtk::TakeSmartPointer(
-    isWrong ? static_cast<vtkDataArray*>(vtkUnsignedCharArray::New()) : vtkFloatArray::New());
-  vtkNew<vtkFloatArray> other;
-  voxels->SetName(this->Made.IsNamed ? "Ball" : nullptr);
-  voxels->SetNumberOfComponents(Components);
-  other->SetName("Other");
-  vtkNew<vtkUnsignedCharArray> ghosts;
-  ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
-  const int hidden = isCell ? static_cast<int>(vtkDataSetAttributes::HIDDENCELL)
-                            : static_cast<int>(vtkDataSetAttributes::HIDDENPOINT);
-  for (int k = extent[4]; k <= extent[5] - isCell; ++k)
-  {
-    for (int j = extent[2]; j <= extent[3] - isCell; ++j)
-    {
-      for (int i = extent[0]; i <= extent[1] - isCell; ++i)
-      {
-        const double value = ValueAt(i, j, k);
-        const bool isNaN = this->Made.HasNaNs && (i + 2 * j + 3 * k) % 97 == 0;
-        voxels->InsertNextTuple4(1.0, 2.0,
-          isNaN ? std::numeric_limits<float>::quiet_NaN() : value, value * 0.5);
-        other->InsertNextValue(static_cast<float>(i + j + k));
-        ghosts->InsertNextValue(static_cast<unsigned char>((i * j + k) % 31 == 0 ? hidden : 0));
-      }
-    }
-  }
-  vtkDataSetAttributes* attributes = image->GetPointData();
-  attributes = isCell ? static_cast<vtkDataSetAttributes*>(image->GetCellData()) : attributes;
-  if (this->Made.HasOther)
-  {
-    attributes->AddArray(other);
-  }
-  attributes->SetScalars(voxels);
-  if (this->Made.HasGhosts)
-  {
-    attributes->AddArray(ghosts);
-    vtkNew<vtkUnsignedCharArray> cells; // in which some lie between slabs, whatever their size
-    cells->SetName(vtkDataSetAttributes::GhostArrayName());
-    for (int k = extent[4]; k < extent[5] && !isCell; ++k)
-    {
-      for (int c = 0; c < (extent[1] - extent[0]) * (extent[3] - extent[2]); ++c)
-      {
-        cells->InsertNextValue(c % 900 < 300 ? vtkDataSetAttributes::HIDDENCELL : 0);
-      }
-    }
-    image->GetCellData()->AddArray(isCell ? ghosts : cells);
-  }
-}
-
-vtkSmartPointer<BallSource> SourceOf(const Scene& scene)
-{
-  auto source = vtkSmartPointer<BallSource>::New();
-  source->Made = scene;
-  return source;
-}
-
 void ExpectSameArrays(vtkDataSetAttributes* a, vtkDataSetAttributes* b)
 {
   ASSERT_EQ(a->GetNumberOfArrays(), b->GetNumberOfArrays());
@@ -228,7 +63,7 @@ void ExpectSamePyramids(vtkMultiBlockDataSet* a, vtkMultiBlockDataSet* b)
 }
 
 /** Pyramids of what the source, or a filter behind it, gives, with a limit and without. */
-void ExpectSamePyramids(const Scene& scene, int component,
+void ExpectSamePyramids(const SlabScene& scene, int component,
   const std::function<vtkSmartPointer<vtkAlgorithm>(vtkAlgorithm*)>& behind = {})
 {
   std::array<vtkSmartPointer<vtkImagePyramid>, 2> pyramids;
@@ -269,33 +104,33 @@ void ExpectSamePyramids(const Scene& scene, int component,
 
 TEST(SlabInput, GivesTheSamePyramid)
 {
-  ExpectSamePyramids(Scene(), 2);
+  ExpectSamePyramids(SlabScene(), 2);
 }
 
 TEST(SlabInput, KnowsNaNsAndMagnitudes)
 {
-  Scene scene;
+  SlabScene scene;
   scene.HasNaNs = true;
   ExpectSamePyramids(scene, -1);
 }
 
 TEST(SlabInput, KnowsWhatIsHiddenAlsoBetweenSlabs)
 {
-  Scene scene;
+  SlabScene scene;
   scene.HasGhosts = true;
   ExpectSamePyramids(scene, 2);
 }
 
 TEST(SlabInput, TakesAnArrayWithoutAName)
 {
-  Scene scene;
+  SlabScene scene;
   scene.IsNamed = false;
   ExpectSamePyramids(scene, 3);
 }
 
 TEST(SlabInput, ComesThroughFiltersThatStream)
 {
-  Scene scene;
+  SlabScene scene;
   scene.HasOther = false; // Filters pass other arrays with the whole only.
   ExpectSamePyramids(scene, 2,
     [](vtkAlgorithm* source) -> vtkSmartPointer<vtkAlgorithm>
@@ -318,7 +153,7 @@ TEST(SlabInput, ComesThroughFiltersThatStream)
 
 TEST(SlabInput, IsTheWholeWhereTheSourceGivesNoParts)
 {
-  Scene scene;
+  SlabScene scene;
   scene.GivesParts = false;
   const auto source = SourceOf(scene);
   vtkNew<vtkImagePyramid> limited;
@@ -353,7 +188,7 @@ TEST(SlabInput, IsTheWholeWhereTheSourceGivesNoParts)
 
 TEST(SlabInput, IsNotAskedForAgainWhereItIsAtHand)
 {
-  const auto source = SourceOf(Scene());
+  const auto source = SourceOf(SlabScene());
   source->Update();
   vtkNew<vtkImagePyramid> pyramid;
   pyramid->SetInputData(source->GetOutput());
@@ -374,7 +209,7 @@ TEST(SlabInput, TellsOfAFailureAndWorksAgain)
   {
     for (const int slab : { 1, 3 })
     {
-      Scene scene;
+      SlabScene scene;
       (isWrong ? scene.WrongSlab : scene.FailingSlab) = slab;
       const auto source = SourceOf(scene);
       vtkNew<vtkImagePyramid> pyramid;
@@ -389,7 +224,7 @@ TEST(SlabInput, TellsOfAFailureAndWorksAgain)
                                      : "BallSource failed: the disk has gone."))
         << errors.Get();
       EXPECT_EQ(pyramid->GetOutput()->GetNumberOfBlocks(), 0u);
-      source->Made = Scene();
+      source->Made = SlabScene();
       source->Modified();
       pyramid->Update();
       EXPECT_EQ(pyramid->GetErrorCode(), vtkErrorCode::NoError);
@@ -400,7 +235,7 @@ TEST(SlabInput, TellsOfAFailureAndWorksAgain)
 
 TEST(SlabInput, CanBeCancelled)
 {
-  const auto source = SourceOf(Scene());
+  const auto source = SourceOf(SlabScene());
   vtkNew<vtkImagePyramid> pyramid;
   pyramid->SetInputConnection(source->GetOutputPort());
   pyramid->SetMemoryLimit(Limit);
@@ -419,7 +254,7 @@ TEST(SlabInput, CanBeCancelled)
 
 TEST(SlabInput, IsRefusedWithALimitThatIsNone)
 {
-  const auto source = SourceOf(Scene());
+  const auto source = SourceOf(SlabScene());
   vtkNew<vtkImagePyramid> pyramid;
   pyramid->SetInputConnection(source->GetOutputPort());
   const auto expectError = [&](int limit, const char* directory, const char* text)
@@ -461,11 +296,11 @@ vtkSmartPointer<Filter> SurfaceFrom(BallSource* source, double isoValue, int lim
 
 TEST(SlabInput, GivesTheSameSurfaces)
 {
-  Scene cells;
+  SlabScene cells;
   cells.AreCells = true;
   cells.HasGhosts = true;
   const double otsu = std::nan("");
-  for (const Scene& scene : { Scene(), cells })
+  for (const SlabScene& scene : { SlabScene(), cells })
   {
     const auto whole = SourceOf(scene);
     const auto slabs = SourceOf(scene);
@@ -473,17 +308,17 @@ TEST(SlabInput, GivesTheSameSurfaces)
       SurfaceFrom<vtkVolumeToSurface>(slabs, otsu, Limit)->GetOutput()));
     EXPECT_GT(slabs->Slices.size(), 3u);
   }
-  const auto slabs = SourceOf(Scene());
+  const auto slabs = SourceOf(SlabScene());
   EXPECT_TRUE(
-    AreSameSurfaces(SurfaceFrom<vtkDeformableSurface>(SourceOf(Scene()), 50.0, 0)->GetOutput(),
+    AreSameSurfaces(SurfaceFrom<vtkDeformableSurface>(SourceOf(SlabScene()), 50.0, 0)->GetOutput(),
       SurfaceFrom<vtkDeformableSurface>(slabs, 50.0, Limit)->GetOutput()));
   EXPECT_GT(slabs->Slices.size(), 3u);
 }
 
 TEST(SlabInput, IsNotAskedForWhereARunGoesOn)
 {
-  const auto whole = SourceOf(Scene());
-  const auto slabs = SourceOf(Scene());
+  const auto whole = SourceOf(SlabScene());
+  const auto slabs = SourceOf(SlabScene());
   const auto usual = SurfaceFrom<vtkVolumeToSurface>(whole, 50.0, 0);
   const auto limited = SurfaceFrom<vtkVolumeToSurface>(slabs, 50.0, Limit);
   const std::size_t asked = slabs->Slices.size();

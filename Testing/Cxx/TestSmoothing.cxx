@@ -4,10 +4,6 @@
 // The displacements at the end of a level: along the surface, and onto what is searched.
 #include "DynamicsTestTools.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 using namespace volumic;
 
 namespace

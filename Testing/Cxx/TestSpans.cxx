@@ -2,12 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Common/Spans.h"
 #include "Core/Common/StandardThreads.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <random>
-#include <vector>
+#include "TestPrelude.h"
 
 using namespace volumic;
 

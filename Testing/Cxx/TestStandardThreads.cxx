@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Common/StandardThreads.h"
-
-#include <gtest/gtest.h>
+#include "TestPrelude.h"
 
 #include <sys/resource.h>
 
@@ -16,7 +15,6 @@
 #include <stdexcept>
 #include <string>
 #include <thread>
-#include <vector>
 
 using namespace volumic;
 

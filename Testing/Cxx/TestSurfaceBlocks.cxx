@@ -3,17 +3,7 @@
 #include "Core/Mesh/SurfaceMeasures.h"
 #include "Core/Surface/SurfaceBlocks.h"
 #include "Core/Surface/SurfaceEditor.h"
-#include "MeshInvariants.h"
 #include "RemeshTestTools.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <map>
-#include <numeric>
-#include <utility>
-#include <vector>
 
 using namespace volumic;
 

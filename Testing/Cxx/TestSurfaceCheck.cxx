@@ -2,16 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Every check of a given surface and of a live one, each with a surface that only it refuses.
-#include "Core/Mesh/SurfaceCheck.h"
-#include "CoreTestTools.h"
 #include "RemeshTestTools.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <stdexcept>
-#include <string>
 
 using namespace volumic;
 
@@ -19,15 +10,7 @@ namespace
 {
 std::string ErrorOf(const IndexedSurface& surface)
 {
-  try
-  {
-    CheckInitialSurface(surface);
-  }
-  catch (const std::invalid_argument& error)
-  {
-    return error.what();
-  }
-  return "";
+  return RefusalOf([&] { CheckInitialSurface(surface); });
 }
 
 std::string OutsideErrorOf(const IndexedSurface& surface)
@@ -35,18 +18,8 @@ std::string OutsideErrorOf(const IndexedSurface& surface)
   const TestVolume volume = MakeVolume(20, [](double, double, double) { return 0.; });
   LevelImage image = volume.Image;
   image.Step = { 1, 1, 2 }; // 20 x 20 x 40
-  try
-  {
-    CheckOverlapsImage(surface, image);
-  }
-  catch (const std::invalid_argument& error)
-  {
-    return error.what();
-  }
-  return "";
+  return RefusalOf([&] { CheckOverlapsImage(surface, image); });
 }
-
-#define EXPECT_SAYS(error, words) EXPECT_NE((error).find(words), std::string::npos) << (error)
 
 IndexedSurface Ball(double x = 0, double radius = 2)
 {
@@ -69,18 +42,18 @@ TEST(SurfaceCheck, TakesWhatIsClosedOrientedAndFreeOfIntersections)
 
 TEST(SurfaceCheck, RefusesIndicesAndCoordinatesOutOfRange)
 {
-  EXPECT_SAYS(ErrorOf({}), "is empty");
+  EXPECT_TRUE(Has(ErrorOf({}), "is empty"));
   for (const int corner : { -1, 12, std::numeric_limits<int>::max() })
   {
     IndexedSurface surface = Ball();
     surface.Triangles[7][1] = corner;
-    EXPECT_SAYS(ErrorOf(surface), "triangle 7 with point " + std::to_string(corner));
+    EXPECT_TRUE(Has(ErrorOf(surface), "triangle 7 with point " + std::to_string(corner)));
   }
   for (const double x : { std::nan(""), HUGE_VAL, -HUGE_VAL })
   {
     IndexedSurface surface = Ball();
     surface.Points[5][2] = x;
-    EXPECT_SAYS(ErrorOf(surface), "not finite at point 5");
+    EXPECT_TRUE(Has(ErrorOf(surface), "not finite at point 5"));
   }
 }
 
@@ -90,7 +63,7 @@ TEST(SurfaceCheck, RefusesTrianglesThatUseAPointTwice)
   {
     IndexedSurface surface = Ball();
     surface.Triangles[4][k] = surface.Triangles[4][(k + 1) % 3];
-    EXPECT_SAYS(ErrorOf(surface), "degenerate triangle (number 4");
+    EXPECT_TRUE(Has(ErrorOf(surface), "degenerate triangle (number 4"));
   }
 }
 
@@ -98,17 +71,17 @@ TEST(SurfaceCheck, RefusesHolesDoubleWallsAndTwists)
 {
   IndexedSurface open = Ball();
   open.Triangles.erase(open.Triangles.begin() + 3);
-  EXPECT_SAYS(ErrorOf(open), "is open: 3 edges");
+  EXPECT_TRUE(Has(ErrorOf(open), "is open: 3 edges"));
   // Two tetrahedra that share an edge, though no triangle: every edge else has two triangles.
   IndexedSurface hinge;
   hinge.Points = { { 0, 0, 0 }, { 0, 0, 1 }, { 1, 0, 0 }, { 0.6, 1, 0.5 }, { -1, 0, 0 },
     { -0.6, -1, 0.5 } };
   hinge.Triangles = { { 0, 3, 2 }, { 0, 2, 1 }, { 0, 1, 3 }, { 1, 2, 3 }, { 0, 5, 4 }, { 0, 4, 1 },
     { 0, 1, 5 }, { 1, 4, 5 } };
-  EXPECT_SAYS(ErrorOf(hinge), "1 edges have more than two triangles");
+  EXPECT_TRUE(Has(ErrorOf(hinge), "1 edges have more than two triangles"));
   IndexedSurface twisted = Ball();
   std::swap(twisted.Triangles[3][0], twisted.Triangles[3][1]);
-  EXPECT_SAYS(ErrorOf(twisted), "is not oriented: 3 edges");
+  EXPECT_TRUE(Has(ErrorOf(twisted), "is not oriented: 3 edges"));
 }
 
 TEST(SurfaceCheck, RefusesFansThatTouchInAPoint)
@@ -124,19 +97,19 @@ TEST(SurfaceCheck, RefusesFansThatTouchInAPoint)
     }
   }
   surface.Points[9] = { 5, 0, 0 };
-  EXPECT_SAYS(ErrorOf(surface), "at 1 points several fans of triangles touch");
+  EXPECT_TRUE(Has(ErrorOf(surface), "at 1 points several fans of triangles touch"));
 }
 
 TEST(SurfaceCheck, RefusesWhatIsInsideOutOrEnclosesNothing)
 {
-  EXPECT_SAYS(ErrorOf(InsideOut(Ball())), "is inside out");
+  EXPECT_TRUE(Has(ErrorOf(InsideOut(Ball())), "is inside out"));
   IndexedSurface mostly = InsideOut(Ball(0, 4));
   AddSurface(mostly, Ball(10));
-  EXPECT_SAYS(ErrorOf(mostly), "is inside out");
+  EXPECT_TRUE(Has(ErrorOf(mostly), "is inside out"));
   IndexedSurface pillow; // Two triangles, back to back.
   pillow.Points = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } };
   pillow.Triangles = { { 0, 1, 2 }, { 0, 2, 1 } };
-  EXPECT_SAYS(ErrorOf(pillow), "encloses no volume");
+  EXPECT_TRUE(Has(ErrorOf(pillow), "encloses no volume"));
 }
 
 TEST(SurfaceCheck, RefusesIntersectionsAndCountsThemOnce)
@@ -145,7 +118,7 @@ TEST(SurfaceCheck, RefusesIntersectionsAndCountsThemOnce)
   AddSurface(crossing, Ball(2.3));
   const int pairs = CountSelfIntersections(crossing);
   EXPECT_GT(pairs, 5);
-  EXPECT_SAYS(ErrorOf(crossing), "intersects itself: " + std::to_string(pairs) + " pairs");
+  EXPECT_TRUE(Has(ErrorOf(crossing), "intersects itself: " + std::to_string(pairs) + " pairs"));
   // By brute force.
   int expected = 0;
   for (std::size_t i = 0; i < 20; ++i)
@@ -168,9 +141,9 @@ TEST(SurfaceCheck, RefusesWhatLiesOutsideTheImage)
   EXPECT_EQ(OutsideErrorOf(Icosahedron({ 10, 10, 20 }, 3)), "");
   EXPECT_EQ(OutsideErrorOf(Icosahedron({ -2, 10, 20 }, 3)), "") << "partly";
   EXPECT_EQ(OutsideErrorOf(Icosahedron({ 10, 10, 38 }, 3)), "");
-  EXPECT_SAYS(OutsideErrorOf(Icosahedron({ -10, 10, 20 }, 3)), "along axis 0");
-  EXPECT_SAYS(OutsideErrorOf(Icosahedron({ 10, 30, 20 }, 3)), "along axis 1");
-  EXPECT_SAYS(OutsideErrorOf(Icosahedron({ 10, 10, 50 }, 3)), "along axis 2");
+  EXPECT_TRUE(Has(OutsideErrorOf(Icosahedron({ -10, 10, 20 }, 3)), "along axis 0"));
+  EXPECT_TRUE(Has(OutsideErrorOf(Icosahedron({ 10, 30, 20 }, 3)), "along axis 1"));
+  EXPECT_TRUE(Has(OutsideErrorOf(Icosahedron({ 10, 10, 50 }, 3)), "along axis 2"));
 }
 
 TEST(SurfaceCheck, FindsEveryBrokenInvariantOfALiveMesh)
@@ -180,41 +153,41 @@ TEST(SurfaceCheck, FindsEveryBrokenInvariantOfALiveMesh)
   {
     SurfaceMesh mesh = good;
     mesh.Rings[5].Count = 2;
-    EXPECT_SAYS(DescribeBrokenInvariant(mesh), "has 2 neighbours");
+    EXPECT_TRUE(Has(DescribeBrokenInvariant(mesh), "has 2 neighbours"));
   }
   {
     SurfaceMesh mesh = good;
     mesh.Position[5].Y = std::nanf("");
-    EXPECT_SAYS(DescribeBrokenInvariant(mesh), "not finite");
+    EXPECT_TRUE(Has(DescribeBrokenInvariant(mesh), "not finite"));
   }
   for (const int unknown : { -1, 0, good.Size() })
   {
     SurfaceMesh mesh = good;
     mesh.Rings[0].Item[0] = unknown;
-    EXPECT_SAYS(DescribeBrokenInvariant(mesh), "which is none");
+    EXPECT_TRUE(Has(DescribeBrokenInvariant(mesh), "which is none"));
   }
   {
     SurfaceMesh mesh = good;
     const int w = mesh.Rings[0].Item[0];
     mesh.RemoveVertex(w);
-    EXPECT_SAYS(DescribeBrokenInvariant(mesh), "which is none") << "it has died";
+    EXPECT_TRUE(Has(DescribeBrokenInvariant(mesh), "which is none")) << "it has died";
   }
   {
     // 0 comes first: its ring is looked at before anything that it disagrees with.
     SurfaceMesh mesh = good;
     mesh.Rings[0].Item[3] = mesh.Rings[0].Item[1];
-    EXPECT_SAYS(DescribeBrokenInvariant(mesh), "twice");
+    EXPECT_TRUE(Has(DescribeBrokenInvariant(mesh), "twice"));
   }
   {
     SurfaceMesh mesh = good;
     std::swap(mesh.Rings[0].Item[0], mesh.Rings[0].Item[1]);
-    EXPECT_SAYS(DescribeBrokenInvariant(mesh), "disagree");
+    EXPECT_TRUE(Has(DescribeBrokenInvariant(mesh), "disagree"));
   }
   {
     SurfaceMesh mesh = good;
     mesh.RemoveVertex(mesh.AddVertex(Vector()));
     EXPECT_EQ(DescribeBrokenInvariant(mesh), "");
     mesh.AddVertex(Vector());
-    EXPECT_SAYS(DescribeBrokenInvariant(mesh), "free list");
+    EXPECT_TRUE(Has(DescribeBrokenInvariant(mesh), "free list"));
   }
 }

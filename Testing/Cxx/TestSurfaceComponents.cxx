@@ -4,16 +4,8 @@
 #include "Core/Common/StandardThreads.h"
 #include "Core/Mesh/SurfaceMeasures.h"
 #include "Core/Surface/ComponentWatch.h"
-#include "Core/Surface/SurfaceComponents.h"
-#include "Core/Surface/SurfaceState.h"
 #include "RankTestTools.h"
 #include "RemeshTestTools.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <numeric>
-#include <vector>
 
 using namespace volumic;
 
@@ -39,25 +31,14 @@ void Fill(SurfaceState& state, const std::vector<IndexedSurface>& components)
 }
 }
 
-TEST(SurfaceComponents, CountsComponents)
-{
-  SurfaceState state;
-  Fill(state, { Ball({ 0, 0, 0 }, 10), Ball({ 0, 0, 0 }, 5, true), Ball({ 30, 0, 0 }, 5) });
-  SequentialExecutor executor;
-  SurfaceComponents components = OfAll();
-  components.Label(state, executor);
-  EXPECT_EQ(components.NumberOfComponents(), 3);
-}
-
 TEST(SurfaceComponents, KeepsCavitiesInsideAndIslandsInThem)
 {
   SurfaceState state;
   Fill(state,
     { Ball({ 0, 0, 0 }, 15), Ball({ 0, 0, 0 }, 10, true), Ball({ 1, 0, 0 }, 4),
       Ball({ 30, 0, 0 }, 5) });
-  SequentialExecutor executor;
   SurfaceComponents components = OfAll();
-  EXPECT_FALSE(components.DeleteInsideOut(state, executor));
+  EXPECT_FALSE(components.DeleteInsideOut(state, OnThisThread()));
   EXPECT_EQ(components.NumberOfComponents(), 4);
 }
 
@@ -138,9 +119,8 @@ TEST(SurfaceComponents, DeletesACavityInTheOpen)
   SurfaceState state;
   const IndexedSurface ball = Ball({ 0, 0, 0 }, 10);
   Fill(state, { ball, Ball({ 20, 0, 0 }, 3, true), Ball({ -20, 3, 1 }, 3, true) });
-  SequentialExecutor executor;
   SurfaceComponents components = OfAll();
-  EXPECT_TRUE(components.DeleteInsideOut(state, executor));
+  EXPECT_TRUE(components.DeleteInsideOut(state, OnThisThread()));
   EXPECT_EQ(components.NumberOfComponents(), 1);
   EXPECT_EQ(state.Mesh.NumberOfVertices(), static_cast<int>(ball.Points.size()));
   EXPECT_EQ(DescribeBrokenInvariant(state.Mesh), "");
@@ -150,9 +130,8 @@ TEST(SurfaceComponents, DeletesAnIslandWithinTheObject)
 {
   SurfaceState state;
   Fill(state, { Ball({ 0, 0, 0 }, 15), Ball({ 2, 1, 3 }, 4) });
-  SequentialExecutor executor;
   SurfaceComponents components = OfAll();
-  EXPECT_TRUE(components.DeleteInsideOut(state, executor));
+  EXPECT_TRUE(components.DeleteInsideOut(state, OnThisThread()));
   EXPECT_EQ(components.NumberOfComponents(), 1);
 }
 
@@ -163,13 +142,12 @@ TEST(SurfaceComponents, KeepsTheGoodThatLieInTheInverted)
   const IndexedSurface good = Ball({ 1, 0, 0 }, 9);
   const IndexedSurface cavity = Ball({ 1, 1, 0 }, 4, true);
   Fill(state, { Ball({ 0, 0, 0 }, 15, true), good, cavity });
-  SequentialExecutor executor;
   SurfaceComponents components = OfAll();
-  EXPECT_TRUE(components.DeleteInsideOut(state, executor));
+  EXPECT_TRUE(components.DeleteInsideOut(state, OnThisThread()));
   EXPECT_EQ(components.NumberOfComponents(), 2);
   EXPECT_EQ(state.Mesh.NumberOfVertices(),
     static_cast<int>(good.Points.size() + cavity.Points.size()));
-  EXPECT_FALSE(components.DeleteInsideOut(state, executor)) << "nothing wrong is left";
+  EXPECT_FALSE(components.DeleteInsideOut(state, OnThisThread())) << "nothing wrong is left";
 }
 
 TEST(SurfaceComponents, JudgesAfreshWhatLosesItsIsland)
@@ -178,20 +156,18 @@ TEST(SurfaceComponents, JudgesAfreshWhatLosesItsIsland)
   SurfaceState state;
   Fill(state, { Ball({ 0, 0, 0 }, 15), Ball({ 0, 0, 0 }, 10), Ball({ 0, 1, 0 }, 5, true),
                 Ball({ 0, 1, 0 }, 2, true) });
-  SequentialExecutor executor;
   SurfaceComponents components = OfAll();
-  EXPECT_TRUE(components.DeleteInsideOut(state, executor));
+  EXPECT_TRUE(components.DeleteInsideOut(state, OnThisThread()));
   EXPECT_EQ(components.NumberOfComponents(), 2) << "the outermost and the larger cavity";
-  EXPECT_FALSE(components.DeleteInsideOut(state, executor));
+  EXPECT_FALSE(components.DeleteInsideOut(state, OnThisThread()));
 }
 
 TEST(SurfaceComponents, DeletesTheOnlyComponentIfItIsInsideOut)
 {
   SurfaceState state;
   Fill(state, { Ball({ 0, 0, 0 }, 8, true) });
-  SequentialExecutor executor;
   SurfaceComponents components = OfAll();
-  EXPECT_TRUE(components.DeleteInsideOut(state, executor));
+  EXPECT_TRUE(components.DeleteInsideOut(state, OnThisThread()));
   EXPECT_EQ(state.Mesh.NumberOfVertices(), 0);
 }
 
@@ -212,9 +188,8 @@ TEST(SurfaceComponents, LooksThroughEdgesAndCorners)
     }
     SurfaceState state;
     Fill(state, { octahedron, cavity });
-    SequentialExecutor executor;
     SurfaceComponents components = OfAll();
-    EXPECT_FALSE(components.DeleteInsideOut(state, executor)) << shift;
+    EXPECT_FALSE(components.DeleteInsideOut(state, OnThisThread())) << shift;
     EXPECT_EQ(components.NumberOfComponents(), 2);
   }
 }
@@ -223,9 +198,8 @@ TEST(SurfaceComponents, DeletesSmallOnesAndKeepsCount)
 {
   SurfaceState state;
   Fill(state, { Ball({ 0, 0, 0 }, 10), Ball({ 30, 0, 0 }, 1) });
-  SequentialExecutor executor;
   SurfaceComponents components = OfAll();
-  components.Label(state, executor);
+  components.Label(state, OnThisThread());
   ASSERT_EQ(components.NumberOfComponents(), 2);
   EXPECT_FALSE(components.DeleteDegenerate(state)) << "no reason yet";
   // Wholly in the background, and tiny.
@@ -236,7 +210,7 @@ TEST(SurfaceComponents, DeletesSmallOnesAndKeepsCount)
   const bool deleted = components.DeleteDegenerate(state);
   EXPECT_TRUE(deleted);
   EXPECT_EQ(components.NumberOfComponents(), 1);
-  components.Label(state, executor);
+  components.Label(state, OnThisThread());
   EXPECT_EQ(components.NumberOfComponents(), 1) << "counted afresh";
   EXPECT_EQ(DescribeBrokenInvariant(state.Mesh), "");
 }
@@ -249,9 +223,8 @@ bool IsDeleted(double edge, double value, bool isCavity)
   SurfaceState state;
   const IndexedSurface ball = DividedIcosahedron({ 30, 0, 0 }, 2, edge);
   Fill(state, { Ball({ 0, 0, 0 }, 10), isCavity ? InsideOut(ball) : ball });
-  SequentialExecutor executor;
   SurfaceComponents components = OfAll();
-  components.Label(state, executor);
+  components.Label(state, OnThisThread());
   for (int v = 0; v < state.Mesh.Size(); ++v)
   {
     state.FieldValue[v] = state.Mesh.Position[v].X > 20 ? static_cast<float>(value) : 0.f;
@@ -283,9 +256,8 @@ TEST(SurfaceComponents, DeletesWhatHasHardlyAnyVertices)
   tetrahedron.Points = { { 30, 0, 0 }, { 32, 0, 0 }, { 30, 2, 0 }, { 30, 0, 2 } };
   tetrahedron.Triangles = { { 0, 2, 1 }, { 0, 1, 3 }, { 1, 2, 3 }, { 2, 0, 3 } };
   Fill(state, { Ball({ 0, 0, 0 }, 10), tetrahedron });
-  SequentialExecutor executor;
   SurfaceComponents components = OfAll();
-  components.Label(state, executor);
+  components.Label(state, OnThisThread());
   EXPECT_TRUE(components.DeleteDegenerate(state));
   EXPECT_EQ(components.NumberOfComponents(), 1);
 }
@@ -299,9 +271,8 @@ TEST(SurfaceComponents, LabelsComponentsOfManySpans)
   ASSERT_GT(state.Mesh.Size(), 40000);
   state.Sizing = SizingField(1);
   state.Reset(Vector(-40, -40, -40), Vector(60, 40, 40));
-  SequentialExecutor executor;
   SurfaceComponents components = OfAll();
-  components.Label(state, executor);
+  components.Label(state, OnThisThread());
   EXPECT_EQ(components.NumberOfComponents(), 2);
   for (int v = 0; v < state.Mesh.Size(); ++v)
   {

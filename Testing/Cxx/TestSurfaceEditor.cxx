@@ -8,16 +8,6 @@
 #include "Core/Surface/SurfaceEditor.h"
 #include "RemeshTestTools.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <set>
-#include <string>
-#include <utility>
-#include <vector>
-
 using namespace volumic;
 
 namespace

@@ -9,12 +9,7 @@
 #include "Core/Image/PyramidGeometry.h"
 #include "SurfaceJudge.h"
 #include "SyntheticScenes.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <string>
-#include <vector>
+#include "TestPrelude.h"
 
 using namespace volumic;
 using namespace volumic::support;

@@ -3,8 +3,6 @@
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "CoreTestTools.h"
 
-#include <gtest/gtest.h>
-
 using namespace volumic;
 
 namespace

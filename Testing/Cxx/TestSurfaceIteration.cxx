@@ -4,14 +4,7 @@
 // What a visit of a block may move, and how far.
 #include "Core/Evolution/SurfaceIteration.h"
 #include "EvolutionTestTools.h"
-#include "MeshInvariants.h"
 #include "RemeshTestTools.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <utility>
-#include <vector>
 
 using namespace volumic;
 

@@ -6,11 +6,7 @@
 
 #include "SimpleSurfaces.h"
 #include "SurfaceJudge.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
+#include "TestPrelude.h"
 
 using namespace volumic::support;
 

@@ -3,12 +3,10 @@
 
 // The second half of TestSurfaceJudge.cxx: what the judge measures.
 
+#include "ForVoxels.h"
 #include "SimpleSurfaces.h"
 #include "SurfaceJudge.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "TestPrelude.h"
 
 using namespace volumic::support;
 
@@ -32,16 +30,8 @@ struct Block
 
   void Fill(const std::array<int, 3>& from, const std::array<int, 3>& to, float value)
   {
-    for (int k = from[2]; k <= to[2]; ++k)
-    {
-      for (int j = from[1]; j <= to[1]; ++j)
-      {
-        for (int i = from[0]; i <= to[0]; ++i)
-        {
-          this->At(i, j, k) = value;
-        }
-      }
-    }
+    volumic::ForBox(from, { to[0] + 1, to[1] + 1, to[2] + 1 },
+      [&](int i, int j, int k) { this->At(i, j, k) = value; });
   }
 
   JudgedVolume Judged(double isoValue, bool bright = true) const
@@ -192,16 +182,11 @@ TEST(JudgeIsoDistance, IsRightInARamp)
 TEST(JudgeIsoDistance, DiffersAtVerticesAndCentroids)
 {
   Block block(24);
-  for (int k = 0; k < 24; ++k)
-  {
-    for (int j = 0; j < 24; ++j)
+  volumic::ForVoxels({ 24, 24, 24 },
+    [&](int i, int j, int k)
     {
-      for (int i = 0; i < 24; ++i)
-      {
-        block.At(i, j, k) = static_cast<float>(std::hypot(i - 11.5, j - 11.5, k - 11.5));
-      }
-    }
-  }
+      block.At(i, j, k) = static_cast<float>(std::hypot(i - 11.5, j - 11.5, k - 11.5));
+    });
   // Corners of a cube on a sphere of radius 8 around the middle: its faces lie far inside.
   const double c = 8.0 / std::sqrt(3.0);
   TriangleSurface surface;
@@ -283,6 +268,6 @@ TEST(JudgeSurface, TellsEverythingInWords)
   for (const char* words : { "4 vertices", "closed, manifold, oriented, outward", "genus 0",
          "self-intersecting pairs 0", "radius ratio", "isopotential", "reached" })
   {
-    EXPECT_NE(text.find(words), std::string::npos) << words << " is missing in\n" << text;
+    EXPECT_TRUE(volumic::Has(text, words)) << words << " is missing in\n" << text;
   }
 }

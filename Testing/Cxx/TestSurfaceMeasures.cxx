@@ -5,8 +5,6 @@
 #include "Core/Mesh/SurfaceMeasures.h"
 #include "RemeshTestTools.h"
 
-#include <gtest/gtest.h>
-
 using namespace volumic;
 
 namespace

@@ -6,12 +6,6 @@
 #include "Core/Surface/SurfacePolish.h"
 #include "CoreTestTools.h"
 
-#include <gtest/gtest.h>
-
-#include <numeric>
-#include <random>
-#include <string>
-
 using namespace volumic;
 
 namespace

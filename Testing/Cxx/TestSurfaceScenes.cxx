@@ -4,23 +4,11 @@
 // The acceptance of the deformable surface: scenes whose components and genus are known, segmented
 // through the VTK class, judged by the judge that shares no code with it.
 #include "SupportVtkConversions.h"
-#include "SurfaceJudge.h"
-#include "SyntheticScenes.h"
+#include "TestPrelude.h"
 #include "vtkDeformableSurface.h"
 
-#include <vtkFieldData.h>
-#include <vtkImageData.h>
 #include <vtkMultiBlockDataSet.h>
-#include <vtkNew.h>
-#include <vtkPolyData.h>
-#include <vtkSmartPointer.h>
 #include <vtkStringArray.h>
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <string>
-#include <vector>
 
 using namespace volumic::support;
 

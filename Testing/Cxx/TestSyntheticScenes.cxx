@@ -3,17 +3,12 @@
 
 // The scenes hold what they promise: judged on a marching surface of the sampled values.
 
+#include "ForVoxels.h"
 #include "SupportVtkConversions.h"
+#include "TestPrelude.h"
 
 #include <vtkFlyingEdges3D.h>
 #include <vtkImageConstantPad.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <vector>
 
 using namespace volumic::support;
 
@@ -93,32 +88,27 @@ void ReduceAxis(Scene& level, int axis, double unit, int fullSize)
   std::array<int, 3> reduced = size;
   reduced[axis] = static_cast<int>(size[axis] / std::sqrt(3.0));
   std::vector<float> values;
-  for (int k = 0; k < reduced[2]; ++k)
-  {
-    for (int j = 0; j < reduced[1]; ++j)
+  volumic::ForVoxels(reduced,
+    [&](int i, int j, int k)
     {
-      for (int i = 0; i < reduced[0]; ++i)
+      std::array<int, 3> at = { i, j, k };
+      const double place = static_cast<double>(at[axis]) * size[axis] / reduced[axis];
+      const double weights[] = { 1.0 / 16, 4.0 / 16, 6.0 / 16, 4.0 / 16, 1.0 / 16 };
+      double sum = 0.0;
+      for (int m = -2; m <= 2; ++m)
       {
-        std::array<int, 3> at = { i, j, k };
-        const double place = static_cast<double>(at[axis]) * size[axis] / reduced[axis];
-        const double weights[] = { 1.0 / 16, 4.0 / 16, 6.0 / 16, 4.0 / 16, 1.0 / 16 };
-        double sum = 0.0;
-        for (int m = -2; m <= 2; ++m)
+        const double x =
+          std::clamp(place + m * unit * size[axis] / fullSize, 0.0, size[axis] - 1.0);
+        const int low = std::min(static_cast<int>(x), size[axis] - 2);
+        for (int side = 0; side < 2; ++side)
         {
-          const double x =
-            std::clamp(place + m * unit * size[axis] / fullSize, 0.0, size[axis] - 1.0);
-          const int low = std::min(static_cast<int>(x), size[axis] - 2);
-          for (int side = 0; side < 2; ++side)
-          {
-            at[axis] = low + side;
-            sum += weights[m + 2] * (side ? x - low : 1.0 - x + low) *
-              level.Values[VoxelAt(level, at[0], at[1], at[2])];
-          }
+          at[axis] = low + side;
+          sum += weights[m + 2] * (side ? x - low : 1.0 - x + low) *
+            level.Values[VoxelAt(level, at[0], at[1], at[2])];
         }
-        values.push_back(static_cast<float>(sum));
       }
-    }
-  }
+      values.push_back(static_cast<float>(sum));
+    });
   level.Size = reduced;
   level.Values = values;
 }
@@ -235,17 +225,12 @@ TEST_P(SyntheticScenes, HaveTheirSeedsInside)
   for (const auto& seed : scene.Seeds)
   {
     EXPECT_GT(scene.SeedRadius, 2.0);
-    for (int k = 0; k < scene.Size[2]; ++k)
-    {
-      for (int j = 0; j < scene.Size[1]; ++j)
+    volumic::ForVoxels(scene.Size,
+      [&](int i, int j, int k)
       {
-        for (int i = 0; i < scene.Size[0]; ++i)
-        {
-          const double distance = std::hypot(i - seed[0], j - seed[1], k - seed[2]);
-          ASSERT_TRUE(distance > scene.SeedRadius || scene.Inside[VoxelAt(scene, i, j, k)]);
-        }
-      }
-    }
+        const double distance = std::hypot(i - seed[0], j - seed[1], k - seed[2]);
+        ASSERT_TRUE(distance > scene.SeedRadius || scene.Inside[VoxelAt(scene, i, j, k)]);
+      });
   }
 }
 

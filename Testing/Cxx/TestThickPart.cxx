@@ -6,13 +6,6 @@
 #include "Core/Image/VoxelNumbers.h"
 #include "CoreTestTools.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdint>
-#include <functional>
-#include <vector>
-
 using namespace volumic;
 
 namespace

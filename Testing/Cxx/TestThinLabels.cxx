@@ -4,14 +4,6 @@
 // Labels that are a voxel thin, by the judge that shares no code with the filter.
 #include "JudgedLabels.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
-#include <string>
-#include <utility>
-#include <vector>
-
 using namespace volumic::support;
 
 namespace

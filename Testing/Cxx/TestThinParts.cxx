@@ -1,19 +1,10 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SameOutputs.h"
-#include "SurfaceTestTools.h"
 #include "vtkLabelsToSurfaces.h"
 #include "vtkVolumeToSurface.h"
 
 #include <vtkErrorCode.h>
-#include <vtkMultiBlockDataSet.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <functional>
-#include <string>
-#include <vector>
 
 using namespace volumic;
 
@@ -25,25 +16,17 @@ vtkSmartPointer<vtkImageData> Image()
   static const vtkSmartPointer<vtkImageData> image = []
   {
     auto made = BallImage(60, 48, 48, 0.3);
-    for (int k = 10; k < 38; ++k)
-    {
-      for (int i = 48; i < 58; ++i)
-      {
-        made->SetScalarComponentFromDouble(i, 24, k, 0, 100.0);
-      }
-    }
+    FillBox(made, { 48, 24, 10 }, { 58, 25, 38 });
     return made;
   }();
   return image;
 }
 
-using Choice = std::function<void(vtkVolumeToSurface*)>;
+using ThinChoice = ChoiceOf<vtkVolumeToSurface>;
 
-vtkSmartPointer<vtkVolumeToSurface> Filter(bool thinParts, const Choice& choose = {})
+vtkSmartPointer<vtkVolumeToSurface> Filter(bool thinParts, const ThinChoice& choose = {})
 {
-  auto filter = vtkSmartPointer<vtkVolumeToSurface>::New();
-  filter->SetInputData(Image());
-  filter->SetIsoValue(50.0);
+  const auto filter = FilterOf<vtkVolumeToSurface>(Image());
   filter->SetThinParts(thinParts);
   if (choose)
   {
@@ -53,7 +36,7 @@ vtkSmartPointer<vtkVolumeToSurface> Filter(bool thinParts, const Choice& choose 
 }
 
 /** Run to its end. */
-vtkSmartPointer<vtkVolumeToSurface> Made(bool thinParts, const Choice& choose = {})
+vtkSmartPointer<vtkVolumeToSurface> Made(bool thinParts, const ThinChoice& choose = {})
 {
   auto filter = Filter(thinParts, choose);
   filter->Update();
@@ -187,7 +170,7 @@ TEST(ThinParts, WhatIsWrongIsToldAndAGoodRunFollows)
 {
   struct Case
   {
-    Choice Break;
+    ThinChoice Break;
     std::vector<std::string> Parts;
   };
   const std::vector<Case> cases = {
@@ -230,18 +213,13 @@ TEST(ThinParts, AreOfLabelsToo)
   vtkNew<vtkImageData> map;
   map->SetDimensions(40, 40, 40);
   map->AllocateScalars(VTK_UNSIGNED_CHAR, 1);
-  for (int k = 0; k < 40; ++k)
-  {
-    for (int j = 0; j < 40; ++j)
+  ForVoxels({ 40, 40, 40 },
+    [&](int i, int j, int k)
     {
-      for (int i = 0; i < 40; ++i)
-      {
-        const bool isBlock = std::max({ std::abs(i - 10), std::abs(j - 20), std::abs(k - 20) }) < 8;
-        const double r = std::hypot(i - 28.3, j - 19.8, k - 20.1);
-        map->SetScalarComponentFromDouble(i, j, k, 0, isBlock ? 1. : r > 7.5 && r < 8.5 ? 2. : 0.);
-      }
-    }
-  }
+      const bool isBlock = std::max({ std::abs(i - 10), std::abs(j - 20), std::abs(k - 20) }) < 8;
+      const double r = std::hypot(i - 28.3, j - 19.8, k - 20.1);
+      map->SetScalarComponentFromDouble(i, j, k, 0, isBlock ? 1. : r > 7.5 && r < 8.5 ? 2. : 0.);
+    });
   vtkNew<vtkLabelsToSurfaces> filter;
   filter->SetInputData(map);
   const auto surface = [&filter](unsigned int block)

@@ -2,14 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfaceTestTools.h"
 
-#include <vtkCallbackCommand.h>
-#include <vtkCommand.h>
 #include <vtkErrorCode.h>
-#include <vtkMultiBlockDataSet.h>
 #include <vtkTable.h>
 
 #include <chrono>
-#include <limits>
 #include <thread>
 
 using namespace volumic;
@@ -67,9 +63,7 @@ TEST_F(TimeLimit, HandsOverAValidSurface)
          Case{ "Level 0, division", 1, 0, false }, Case{ "Level 0, regularisation", 3, 0, false } })
   {
     SCOPED_TRACE(test.Part);
-    vtkNew<vtkDeformableSurface> filter;
-    filter->SetInputData(this->Image);
-    filter->SetIsoValue(50.0);
+    const auto filter = FilterOf(this->Image);
     filter->SetTimeLimit(1.5);
     const Sleeper sleeper(filter, test.Part, test.Number, 1.6);
     const MessagesOf errors(filter);
@@ -86,7 +80,7 @@ TEST_F(TimeLimit, HandsOverAValidSurface)
     EXPECT_GT(EnclosedVolume(surface), 0.0);
     for (int level = 0; level < 3; ++level)
     {
-      auto* block = vtkPolyData::SafeDownCast(filter->GetLevels()->GetBlock(level));
+      auto* block = SurfaceAt(filter, level);
       ASSERT_EQ(block != nullptr, level >= test.Level);
       if (block)
       {

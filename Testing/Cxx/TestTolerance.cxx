@@ -1,19 +1,10 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SameOutputs.h"
-#include "SurfaceTestTools.h"
 #include "vtkLabelsToSurfaces.h"
 #include "vtkVolumeToSurface.h"
 
-#include <vtkCommand.h>
 #include <vtkErrorCode.h>
-#include <vtkMultiBlockDataSet.h>
-
-#include <cmath>
-#include <functional>
-#include <limits>
-#include <string>
-#include <vector>
 
 using namespace volumic;
 
@@ -26,13 +17,9 @@ vtkSmartPointer<vtkImageData> Image()
   return image;
 }
 
-using Choice = std::function<void(vtkDeformableSurface*)>;
-
 vtkSmartPointer<vtkDeformableSurface> Graded(double tolerance, const Choice& choose = {})
 {
-  auto filter = vtkSmartPointer<vtkDeformableSurface>::New();
-  filter->SetInputData(Image());
-  filter->SetIsoValue(50.0);
+  const auto filter = FilterOf(Image());
   filter->SetTolerance(tolerance);
   if (choose)
   {
@@ -160,16 +147,7 @@ TEST(Tolerance, TakesNoPartForMissingAsItsTrianglesAreLarge)
   // A block beside the ball, which a start from a seed in the ball does not know: it is enclosed as
   // a lost part at level 0.
   const auto image = BallImage(72, 72, 72, 0.2);
-  for (int k = 6; k < 66; ++k)
-  {
-    for (int j = 6; j < 66; ++j)
-    {
-      for (int i = 4; i < 14; ++i)
-      {
-        image->SetScalarComponentFromDouble(i, j, k, 0, 100.0);
-      }
-    }
-  }
+  FillBox(image, { 4, 6, 6 }, { 14, 66, 66 });
   const auto run = [&image](double tolerance)
   {
     const auto filter = Graded(tolerance,
@@ -303,16 +281,8 @@ TEST(Tolerance, IsOfLabelsToo)
   map->SetDimensions(40, 40, 40);
   map->AllocateScalars(VTK_UNSIGNED_CHAR, 1);
   map->GetPointData()->GetScalars()->FillComponent(0, 0.);
-  for (int k = 5; k < 35; ++k)
-  {
-    for (int j = 5; j < 35; ++j)
-    {
-      for (int i = 5; i < 35; ++i)
-      {
-        map->SetScalarComponentFromDouble(i, j, k, 0, i < 20 ? 1. : 2.);
-      }
-    }
-  }
+  ForBox({ 5, 5, 5 }, { 35, 35, 35 },
+    [&](int i, int j, int k) { map->SetScalarComponentFromDouble(i, j, k, 0, i < 20 ? 1. : 2.); });
   vtkNew<vtkLabelsToSurfaces> filter;
   filter->SetInputData(map);
   const auto surface = [&filter](unsigned int block)

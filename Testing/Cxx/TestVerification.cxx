@@ -3,20 +3,11 @@
 
 // The last look at a surface: it finds whatever intersects, and the surface gets another mesh.
 #include "Core/Evolution/EvolutionImplementation.h"
-#include "Core/Evolution/InitialSurface.h"
 #include "Core/Mesh/SelfIntersections.h"
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "Core/Surface/NewFaces.h"
 #include "EvolutionTestTools.h"
 #include "RemeshTestTools.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cstddef>
-#include <functional>
-#include <random>
-#include <string>
 
 using namespace volumic;
 
@@ -30,8 +21,6 @@ struct Opened
   friend SurfaceState& StateOf(SurfaceEvolution& evolution) { return (evolution.*Member)->State; }
 };
 template struct Opened<&SurfaceEvolution::Self>;
-
-SequentialExecutor Threads;
 
 bool All(int)
 {
@@ -185,9 +174,8 @@ TEST(Verification, TheEndOfALevelIsMended)
     EXPECT_EQ(evolution.Run(), goesOn ? StopReason::IterationLimit : StopReason::Cancelled);
     EXPECT_GT(evolution.Verified().Found, 0);
     EXPECT_EQ(evolution.Verified().Left, 0);
-    EXPECT_NE(evolution.Verified().Describe(3).find("level 3 intersected itself at "),
-      std::string::npos);
-    EXPECT_NE(evolution.Verified().Describe(3).find("another mesh"), std::string::npos);
+    EXPECT_TRUE(Has(evolution.Verified().Describe(3), "level 3 intersected itself at "));
+    EXPECT_TRUE(Has(evolution.Verified().Describe(3), "another mesh"));
     EXPECT_EQ(evolution.IsStopped(), !goesOn) << "mending does not ask";
     const SurfaceResult surface = evolution.Result();
     EXPECT_EQ(CountSelfIntersections(surface), 0);
@@ -218,6 +206,6 @@ TEST(Verification, WhatCannotBeMendedIsTold)
   evolution.Revise(volume.Image);
   EXPECT_GT(evolution.Verified().Found, 0);
   EXPECT_EQ(evolution.Verified().Left, evolution.Verified().Found);
-  EXPECT_NE(evolution.Verified().Describe(0).find("could not be mended"), std::string::npos);
+  EXPECT_TRUE(Has(evolution.Verified().Describe(0), "could not be mended"));
   EXPECT_FALSE(evolution.Result().Points.empty()) << "it is handed over as it is";
 }

@@ -4,11 +4,6 @@
 #include "Core/Mesh/VertexGrid.h"
 #include "CoreTestTools.h"
 
-#include <gtest/gtest.h>
-
-#include <set>
-#include <vector>
-
 using namespace volumic;
 
 TEST(VertexGrid, FindsAllWithinTheRadius)

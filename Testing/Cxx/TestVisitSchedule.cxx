@@ -1,27 +1,10 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Common/StandardThreads.h"
-#include "Core/Common/VisitSchedule.h"
 #include "ThreadTestTools.h"
+#include "VisitTestTools.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <atomic>
-#include <chrono>
-#include <cstddef>
-#include <cstdint>
 #include <cstdlib>
-#include <functional>
-#include <initializer_list>
 #include <mutex>
-#include <numeric>
-#include <random>
-#include <stdexcept>
-#include <string>
-#include <thread>
-#include <vector>
 
 using namespace volumic;
 
@@ -58,8 +41,7 @@ Neighbours GridOf(const std::array<int, 3>& size, double share, std::mt19937& ra
 
 std::vector<int> Shuffled(int n, std::mt19937& random)
 {
-  std::vector<int> order(static_cast<std::size_t>(n));
-  std::iota(order.begin(), order.end(), 0);
+  std::vector<int> order = InOrder(n);
   std::shuffle(order.begin(), order.end(), random);
   return order;
 }
@@ -67,19 +49,6 @@ std::vector<int> Shuffled(int n, std::mt19937& random)
 VisitSchedule ScheduleOf(const std::vector<int>& order, const Neighbours& neighbours)
 {
   return VisitSchedule(order, [&neighbours](int item) { return neighbours[item]; });
-}
-
-/** Items that do not touch. */
-VisitSchedule Apart(int n)
-{
-  std::vector<int> order(static_cast<std::size_t>(n));
-  std::iota(order.begin(), order.end(), 0);
-  return VisitSchedule(order, [](int) { return std::vector<int>(); });
-}
-
-bool Always(std::size_t)
-{
-  return true;
 }
 
 /** Hears of visits from any thread, and whether each comes when it may. */
@@ -144,44 +113,6 @@ private:
   int Most = 0;
   std::string First;
   std::mutex Mutex;
-};
-
-/** For by a thread of its own, while the calling one waits. */
-class OtherThread final : public Executor
-{
-public:
-  void For(std::size_t n, std::size_t,
-    const std::function<void(std::size_t, std::size_t)>& body) override
-  {
-    std::thread thread([&] { body(0, n); });
-    thread.join();
-    ++this->Calls;
-  }
-
-  int Calls = 0;
-};
-
-/** Makes the visits itself, from the last to the first. */
-class OwnWay final : public Executor
-{
-public:
-  void For(std::size_t n, std::size_t,
-    const std::function<void(std::size_t, std::size_t)>& body) override
-  {
-    ++this->Calls;
-    body(0, n);
-  }
-  bool MakeVisits(const VisitSchedule& schedule, const VisitBody& visit) override
-  {
-    const std::vector<int>& order = schedule.Order();
-    for (std::size_t place = order.size(); place > 0; --place)
-    {
-      visit(order[place - 1], place - 1, *this);
-    }
-    return true;
-  }
-
-  int Calls = 0;
 };
 }
 
@@ -275,7 +206,7 @@ TEST(VisitSchedule, KeepsTheOrderOnOneThread)
   const VisitSchedule schedule = ScheduleOf(order, neighbours);
   SequentialExecutor sequential;
   StandardThreads alone(1);
-  OtherThread elsewhere;
+  ToldExecutor elsewhere(OnAnotherThread);
   for (Executor* executor : std::initializer_list<Executor*>{ &sequential, &alone, &elsewhere })
   {
     std::vector<int> visited;
@@ -294,103 +225,28 @@ TEST(VisitSchedule, WaitsForNoMoreThanWhatItTouches)
 {
   // The first one ends when all have been visited but the one that touches it.
   constexpr int n = 40;
-  std::vector<int> order(n);
-  std::iota(order.begin(), order.end(), 0);
-  const VisitSchedule schedule(order,
+  const VisitSchedule schedule(InOrder(n),
     [](int item)
     { return item == 0 ? std::vector<int>{ 1 } : std::vector<int>(item == 1 ? 1 : 0, 0); });
   StandardThreads threads(2);
   std::atomic<int> others{ 0 };
-  std::atomic<bool> isLate{ false };
+  std::atomic<bool> isFree{ false };
   schedule.Run(threads,
     [&](int item, std::size_t, Executor&)
     {
       others += item > 1;
-      const auto start = std::chrono::steady_clock::now();
-      while (item == 0 && others < n - 2 && !isLate)
-      {
-        isLate = std::chrono::steady_clock::now() - start > std::chrono::seconds(20);
-        std::this_thread::yield();
-      }
+      isFree = isFree || (item == 0 && HasCome([&] { return others == n - 2; }));
     },
     Always);
-  EXPECT_FALSE(isLate);
+  EXPECT_TRUE(isFree);
   EXPECT_EQ(others, n - 2);
-}
-
-TEST(VisitSchedule, AsksWhereOthersHaveMadeAllTheVisits)
-{
-  // The calling thread comes when all is done.
-  struct LateCaller final : Executor
-  {
-    void For(std::size_t n, std::size_t,
-      const std::function<void(std::size_t, std::size_t)>& body) override
-    {
-      std::thread other([&] { body(0, 1); });
-      other.join();
-      body(1, n);
-    }
-  } late;
-  std::atomic<std::size_t> visits{ 0 };
-  std::vector<std::size_t> asked; // More than once only where the machine is slow.
-  const auto goOn = [&](std::size_t done)
-  {
-    EXPECT_EQ(done, visits);
-    asked.push_back(done);
-    return true;
-  };
-  EXPECT_TRUE(Apart(9).Run(late, [&](int, std::size_t, Executor&) { ++visits; }, goOn));
-  ASSERT_FALSE(asked.empty());
-  EXPECT_EQ(asked.back(), 9u);
-}
-
-TEST(VisitSchedule, AsksWhileOthersAreInLongVisits)
-{
-  // Another thread makes the one visit that there is, until the host has been asked twice.
-  std::atomic<bool> hasBegun{ false };
-  std::atomic<int> questions{ 0 };
-  struct Waiting final : Executor
-  {
-    explicit Waiting(const std::atomic<bool>& hasBegun)
-      : HasBegun(hasBegun)
-    {
-    }
-    void For(std::size_t n, std::size_t,
-      const std::function<void(std::size_t, std::size_t)>& body) override
-    {
-      std::thread other([&] { body(0, 1); });
-      while (!this->HasBegun)
-      {
-        std::this_thread::yield();
-      }
-      body(1, n);
-      other.join();
-    }
-    const std::atomic<bool>& HasBegun;
-  } waiting(hasBegun);
-  bool isLate = false;
-  EXPECT_TRUE(Apart(1).Run(waiting,
-    [&](int, std::size_t, Executor&)
-    {
-      hasBegun = true;
-      const auto start = std::chrono::steady_clock::now();
-      while (questions < 2 && !isLate)
-      {
-        isLate = std::chrono::steady_clock::now() - start > std::chrono::seconds(20);
-        std::this_thread::yield();
-      }
-    },
-    [&](std::size_t) { return ++questions > 0; }));
-  EXPECT_FALSE(isLate);
 }
 
 TEST(VisitSchedule, HandsOnWhatAVisitThrows)
 {
   // Each is before the next one, or none touches another: others wait, or are at work, or both.
   constexpr int n = 300;
-  std::vector<int> order(n);
-  std::iota(order.begin(), order.end(), 0);
-  const VisitSchedule chain(order,
+  const VisitSchedule chain(InOrder(n),
     [](int item)
     {
       std::vector<int> beside;
@@ -445,83 +301,6 @@ TEST(VisitSchedule, HandsOnWhatAVisitThrows)
   }
 }
 
-TEST(VisitSchedule, EndsWhereItIsTold)
-{
-  const VisitSchedule schedule = Apart(50);
-  SequentialExecutor thread;
-  for (const std::size_t last : { 1, 7, 49 })
-  {
-    std::size_t visits = 0;
-    std::vector<std::size_t> asked;
-    EXPECT_FALSE(schedule.Run(thread, [&visits](int, std::size_t, Executor&) { ++visits; },
-      [&](std::size_t done)
-      {
-        asked.push_back(done);
-        return done != last;
-      }));
-    EXPECT_EQ(visits, last);
-    std::vector<std::size_t> each(last);
-    std::iota(each.begin(), each.end(), std::size_t(1));
-    EXPECT_EQ(asked, each) << "once after each visit, and not again";
-  }
-}
-
-TEST(VisitSchedule, EndsSoonWhereItIsToldOnThreads)
-{
-  constexpr int n = 2000;
-  const VisitSchedule schedule = Apart(n);
-  StandardThreads standard(4);
-  OtherThread other;
-  for (Executor* executor : std::initializer_list<Executor*>{ &standard, &other })
-  {
-    std::atomic<int> visits{ 0 };
-    std::atomic<int> underWay{ 0 };
-    int asked = 0;
-    EXPECT_FALSE(schedule.Run(*executor,
-      [&](int, std::size_t, Executor&)
-      {
-        ++visits;
-        ++underWay;
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        --underWay;
-      },
-      [&asked](std::size_t) { return ++asked < 3; }));
-    EXPECT_EQ(asked, 3) << "not asked again";
-    EXPECT_EQ(underWay, 0);
-    EXPECT_GE(visits, 3);
-    EXPECT_LT(visits, n / 2);
-  }
-}
-
-TEST(VisitSchedule, AsksOnTheCallingThreadAlone)
-{
-  constexpr int n = 300;
-  const VisitSchedule schedule = Apart(n);
-  StandardThreads standard(5);
-  OtherThread other;
-  const std::thread::id caller = std::this_thread::get_id();
-  for (Executor* executor : std::initializer_list<Executor*>{ &standard, &other })
-  {
-    int asked = 0;
-    int elsewhere = 0;
-    std::size_t most = 0;
-    EXPECT_TRUE(schedule.Run(*executor,
-      [](int, std::size_t, Executor&) { std::this_thread::sleep_for(std::chrono::milliseconds(1)); },
-      [&](std::size_t done)
-      {
-        ++asked;
-        elsewhere += std::this_thread::get_id() != caller;
-        EXPECT_GE(done, most);
-        most = done;
-        return true;
-      }));
-    EXPECT_GE(asked, 2) << "several times a second";
-    EXPECT_EQ(elsewhere, 0);
-    EXPECT_LE(most, static_cast<std::size_t>(n));
-  }
-  EXPECT_GT(other.Calls, 2) << "rounds, between which it is asked";
-}
-
 TEST(VisitSchedule, OfNoneOrOne)
 {
   SequentialExecutor sequential;
@@ -539,27 +318,5 @@ TEST(VisitSchedule, OfNoneOrOne)
     EXPECT_EQ(visits, 0);
     EXPECT_TRUE(Apart(1).Run(*executor, visit, Always));
     EXPECT_EQ(visits, 1);
-  }
-}
-
-TEST(VisitSchedule, LeavesTheVisitsToAnExecutorThatMakesThem)
-{
-  const VisitSchedule schedule = Apart(6);
-  for (const bool goesOn : { true, false })
-  {
-    OwnWay executor;
-    std::vector<int> visited;
-    std::vector<std::size_t> asked;
-    EXPECT_EQ(schedule.Run(executor,
-                [&visited](int item, std::size_t, Executor&) { visited.push_back(item); },
-                [&](std::size_t done)
-                {
-                  asked.push_back(done);
-                  return goesOn;
-                }),
-      goesOn);
-    EXPECT_EQ(visited, (std::vector<int>{ 5, 4, 3, 2, 1, 0 }));
-    EXPECT_EQ(asked, std::vector<std::size_t>{ 6 });
-    EXPECT_EQ(executor.Calls, 0);
   }
 }

@@ -7,18 +7,7 @@
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "Core/Mesh/SurfaceMeasures.h"
 #include "EvolutionTestTools.h"
-#include "MeshInvariants.h"
 #include "ThreadTestTools.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <memory>
-#include <numeric>
-#include <string>
-#include <utility>
-#include <vector>
 
 using namespace volumic;
 

@@ -1,30 +1,16 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfaceTestTools.h"
-#include "vtkImagePyramid.h"
 #include "vtkOtsuThreshold.h"
 #include "vtkVolumeToSurface.h"
 
 #include <vtkCellData.h>
-#include <vtkDataArray.h>
 #include <vtkDoubleArray.h>
 #include <vtkErrorCode.h>
-#include <vtkImageData.h>
 #include <vtkIntArray.h>
-#include <vtkMultiBlockDataSet.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPolyData.h>
 #include <vtkTable.h>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numeric>
 #include <sstream>
-#include <vector>
 
 using namespace volumic;
 
@@ -175,9 +161,7 @@ TEST(VolumeToSurface, FindsAnObjectWithoutAnyChoice)
 TEST(VolumeToSurface, GivesWhatTheTwoFiltersGive)
 {
   const auto image = BallImage(40, 40, 40);
-  vtkNew<vtkVolumeToSurface> filter;
-  filter->SetInputData(image);
-  filter->SetIsoValue(50.0);
+  const auto filter = FilterOf<vtkVolumeToSurface>(image);
   filter->SetNumberOfLevels(2);
   filter->SetReductionFactor(1.5);
   filter->Update();
@@ -243,6 +227,6 @@ TEST(VolumeToSurface, PrintsItsProperties)
   for (const char* property :
     { "IsoValue: nan", "NumberOfLevels: 0", "MinimumLevelSize: 10", "ReductionFactor: 1.73205" })
   {
-    EXPECT_NE(text.str().find(property), std::string::npos) << property;
+    EXPECT_TRUE(Has(text.str(), property)) << property;
   }
 }

@@ -2,11 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Image/VoxelNumbers.h"
 #include "Core/Mesh/SurfaceMesh.h"
-
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cstdint>
+#include "TestPrelude.h"
 
 using namespace volumic;
 

@@ -3,13 +3,6 @@
 #include "Core/Image/VoxelPieces.h"
 #include "ThreadRanks.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cstdint>
-#include <random>
-#include <vector>
-
 namespace
 {
 using namespace volumic;

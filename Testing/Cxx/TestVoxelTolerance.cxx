@@ -3,16 +3,10 @@
 
 // Rough labels, smooth or strict: VoxelTolerance and Smoothing, by judges that share no code with
 // the filter.
+#include "ForVoxels.h"
 #include "JudgedLabels.h"
 
 #include <vtkImplicitPolyDataDistance.h>
-#include <vtkNew.h>
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdint>
-#include <vector>
 
 using namespace volumic::support;
 
@@ -36,17 +30,12 @@ LabelMap RoughBall(double stretch = 1.0)
   LabelMap map;
   map.Size = { Size, Size, Size };
   map.Spacing = { 0.5, 0.5, 0.5 * stretch };
-  for (int k = 0; k < Size; ++k)
-  {
-    for (int j = 0; j < Size; ++j)
+  volumic::ForVoxels({ Size, Size, Size },
+    [&](int i, int j, int k)
     {
-      for (int i = 0; i < Size; ++i)
-      {
-        const double radius = std::hypot(i - 19.3, j - 19.6, k - 19.4);
-        map.Values.push_back(radius + 1.2 * NoiseAt(i, j, k) - 0.6 < 13.0 ? 1 : 0);
-      }
-    }
-  }
+      const double radius = std::hypot(i - 19.3, j - 19.6, k - 19.4);
+      map.Values.push_back(radius + 1.2 * NoiseAt(i, j, k) - 0.6 < 13.0 ? 1 : 0);
+    });
   return map;
 }
 

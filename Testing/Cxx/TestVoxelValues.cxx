@@ -5,15 +5,9 @@
 #include "Core/Image/Field.h"
 #include "Core/Image/VoxelRows.h"
 #include "Core/Image/VoxelValues.h"
+#include "TestPrelude.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdint>
 #include <cstring>
-#include <limits>
-#include <random>
-#include <vector>
 
 using namespace volumic;
 

@@ -2,14 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // The model of more threads than there are, of Testing/Benchmarks.
+#include "TestPrelude.h"
 #include "WorkModel.h"
 
-#include <gtest/gtest.h>
-
 #include <ctime>
-#include <stdexcept>
-#include <utility>
-#include <vector>
 
 using namespace volumic::bench;
 

@@ -12,11 +12,7 @@
 #include <vtkNew.h>
 #include <vtkSmartPointer.h>
 
-#include <functional>
-#include <memory>
 #include <thread>
-#include <utility>
-#include <vector>
 
 namespace volumic
 {

@@ -6,13 +6,8 @@
 #include "Core/Common/Communicator.h"
 #include "MessageQueues.h"
 
-#include <cstddef>
 #include <exception>
-#include <functional>
-#include <memory>
 #include <thread>
-#include <utility>
-#include <vector>
 
 namespace volumic
 {

@@ -4,13 +4,10 @@
 #define volumicThreadTestTools_h
 
 #include "Core/Common/StandardThreads.h"
+#include "TestPrelude.h"
 
-#include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <cstddef>
-#include <cstdint>
-#include <functional>
 #include <thread>
 
 namespace volumic

@@ -67,6 +67,9 @@ def watch(manager, event):
                     while os.path.exists(os.path.join({FOLDER!r}, "hold")):
                         time.sleep(0.02)
                         caller.UpdateProgress(caller.GetProgress())
+                        if caller.GetAbortExecute() and 2 not in told:
+                            told.add(2)
+                            tell("It is asked to stop.")
             def end(caller, event):
                 told.clear()
                 tell("Run ended:", facts(caller.GetOutputDataObject(0)))
@@ -244,20 +247,21 @@ class AbortWindowTest(unittest.TestCase):
         self.session.start(IN_THE_WINDOW)
         self.hand.move(700, 500)
         self.hand.focus()
+        before = self.session.pixels()
         self.hand.shortcut("space")
-        time.sleep(1)
+        self.session.wait_for_rest(before)
         for letter in "volume to surface":
             self.hand.key({" ": "space"}.get(letter, letter))
-        time.sleep(1)
+        self.session.wait_for_rest()
         self.hand.key("Return")
-        place = self.wait_for(apply_button, "made")
-        time.sleep(2)  # till the panel rests
-        return place
+        self.wait_for(apply_button, "made")
+        self.session.wait_for_rest()
+        return self.wait_for(apply_button, "made")
 
     def place_of_preview(self):
         """Its box: what looks different when a script ticks it. It is below the histogram."""
         self.hand.scroll((20, 640), 3)
-        time.sleep(1)  # till it has come to rest
+        self.session.wait_for_rest()
         before = self.picture("box").astype(int)
 
         def ticked_box(pixels):
@@ -282,7 +286,7 @@ class AbortWindowTest(unittest.TestCase):
             end = self.session.next_run()
             # Answered when the view is done, too: before, ParaView takes no presses.
             self.assertEqual(self.session.ask("points_in_view()"), [end[1]])
-            time.sleep(1)
+            self.session.wait_for_rest()
         self.assertEqual(end, self.whole)
 
     def test_stops_a_run_and_shows_the_surface_as_it_is(self):
@@ -291,7 +295,7 @@ class AbortWindowTest(unittest.TestCase):
             self.hand.press(apply)
             self.session.line_with("Iterations have begun")
             self.hand.press(self.wait_for(abort_button, "during"))
-            time.sleep(1)  # till the press has arrived
+            self.session.line_with("It is asked to stop")
         reason, points, _, bad_edges = self.session.next_run()
         self.assertEqual((reason, bad_edges), ("cancelled", 0))
         self.assertGreater(points, 100)
@@ -316,14 +320,14 @@ class AbortWindowTest(unittest.TestCase):
             self.hand.press((place[0] + 60, place[1]))
             self.hand.press((x, y), times=2)
             self.hand.shortcut("o")
-            time.sleep(1)  # till all has arrived
+            time.sleep(1)  # Nothing tells of presses that have no effect.
             self.session.output += self.session.wait_for("\n", 0.1)
             self.assertNotIn("Run ended", self.session.output, "all this was during the run")
         self.assertEqual(self.session.next_run(), self.whole)
         self.assertEqual(self.session.ask("(len(simple.GetSources()), "
                                           "simple.GetActiveSource().Preview, points_in_view())"),
                          (2, 0, [self.whole[1]]))
-        time.sleep(1)
+        self.session.wait_for_rest()
         pixels = self.picture("untouched")
         self.assertIsNone(apply_button(pixels), "nothing is to be applied")
         for part in (numpy.s_[:20, :400], numpy.s_[25:50, 10:100]):  # menus; first icons

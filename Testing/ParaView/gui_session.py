@@ -127,8 +127,8 @@ class Session:
                 said += piece
         return said.decode(errors="replace")
 
-    def screenshot(self, path):
-        """Write the window, without the empty rest of the screen, as PNG; return its pixels."""
+    def pixels(self):
+        """Of the window, without the empty rest of the screen."""
         with open(os.path.join(self._folder.name, "Xvfb_screen0"), "rb") as file:
             data = file.read()
         # The format of xwd: a header of big-endian words, a colour map, rows of 4 bytes a pixel.
@@ -141,6 +141,24 @@ class Session:
         if lit.any():
             pixels = pixels[: lit.any(axis=1).nonzero()[0][-1] + 1,
                             : lit.any(axis=0).nonzero()[0][-1] + 1]
+        return pixels
+
+    def wait_for_rest(self, before=None, timeout=30):
+        """Till nothing of the window has changed for a while; if there is a picture of it from
+        before, till it has become another one, too."""
+        end = time.monotonic() + timeout
+        last, since = before, None if before is not None else time.monotonic()
+        while time.monotonic() < end:
+            now = self.pixels()
+            if last is None or now.shape != last.shape or (now != last).any():
+                last, since = now, time.monotonic()
+            elif since and time.monotonic() - since > 0.4:  # A cursor blinks every half second.
+                return
+            time.sleep(0.05)
+
+    def screenshot(self, path):
+        """Write the window as PNG; return its pixels."""
+        pixels = self.pixels()
         image = vtkImageData()
         image.SetDimensions(pixels.shape[1], pixels.shape[0], 1)
         flipped = numpy.ascontiguousarray(pixels[::-1]).reshape(-1, 3)

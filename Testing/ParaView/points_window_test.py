@@ -130,7 +130,7 @@ class PointsWindowTest(window.WindowTestCase):
         while not self.is_marked(self.picture(name), *place):
             self.assertLess(time.monotonic(), end, f"no handle is drawn; see {name}.png")
             time.sleep(0.2)
-        time.sleep(0.5)  # till the panel has it as well
+        self.session.wait_for_rest()  # The panel has it as well.
         return self.picture(name)
 
     def pick(self, place, name):

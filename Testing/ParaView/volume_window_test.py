@@ -5,7 +5,6 @@
 import os
 import re
 import sys
-import time
 import unittest
 
 import numpy
@@ -169,8 +168,9 @@ class VolumeWindowTest(window.WindowTestCase):
         wide = self.left_of_view(
             self.play(VOLUME + [FILTER, APPLY, gui.pause(2000)], "volume-dock-wide"))
         self.assertGreater(wide, before + 10)
+        before_it = self.session.pixels()
         x_input.Input(self.session.display).drag((wide - 4, 650), (wide - 34, 650))
-        time.sleep(2)
+        self.session.wait_for_rest(before_it)
         narrow = self.left_of_view(
             self.session.screenshot(testing.output_path("volume-dock-narrow.png")))
         self.assertLess(narrow, wide - 10)

@@ -12,9 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace volumic
-{
-namespace support
+namespace volumic::support
 {
 
 inline std::array<double, 3> Difference(
@@ -55,7 +53,6 @@ std::vector<int> NestingDepths(const std::vector<std::array<double, 3>>& places,
   const std::vector<std::array<int, 3>>& triangles, const std::vector<int>& component,
   const std::vector<char>& sound);
 
-} // namespace support
-} // namespace volumic
+} // namespace volumic::support
 
 #endif

@@ -14,9 +14,7 @@
 
 #include <utility>
 
-namespace volumic
-{
-namespace support
+namespace volumic::support
 {
 namespace
 {
@@ -166,5 +164,4 @@ IntersectionVerdict JudgeIntersections(const TriangleSurface& surface)
   return verdict;
 }
 
-} // namespace support
-} // namespace volumic
+} // namespace volumic::support

@@ -11,9 +11,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace volumic
-{
-namespace support
+namespace volumic::support
 {
 namespace
 {
@@ -177,5 +175,4 @@ ShapeVerdict JudgeShapes(const TriangleSurface& surface)
   return verdict;
 }
 
-} // namespace support
-} // namespace volumic
+} // namespace volumic::support

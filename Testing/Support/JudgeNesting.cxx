@@ -7,9 +7,7 @@
 #include <cmath>
 #include <map>
 
-namespace volumic
-{
-namespace support
+namespace volumic::support
 {
 namespace
 {
@@ -166,5 +164,4 @@ std::vector<int> NestingDepths(const std::vector<Point>& places,
   return depths;
 }
 
-} // namespace support
-} // namespace volumic
+} // namespace volumic::support

@@ -18,9 +18,7 @@
 
 #include <algorithm>
 
-namespace volumic
-{
-namespace support
+namespace volumic::support
 {
 namespace
 {
@@ -127,5 +125,4 @@ OverlapVerdict JudgeOverlap(const TriangleSurface& a, const TriangleSurface& b)
   return verdict;
 }
 
-} // namespace support
-} // namespace volumic
+} // namespace volumic::support

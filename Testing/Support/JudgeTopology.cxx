@@ -8,9 +8,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace volumic
-{
-namespace support
+namespace volumic::support
 {
 namespace
 {
@@ -336,5 +334,4 @@ TopologyVerdict JudgeTopology(const TriangleSurface& surface)
   return TopologyJudge(surface).Judge();
 }
 
-} // namespace support
-} // namespace volumic
+} // namespace volumic::support

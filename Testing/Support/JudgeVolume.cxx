@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "ForVoxels.h"
 #include "SurfaceJudge.h"
 
 #include "JudgeInternals.h"
@@ -10,9 +11,7 @@
 #include <cstdint>
 #include <stdexcept>
 
-namespace volumic
-{
-namespace support
+namespace volumic::support
 {
 namespace
 {
@@ -143,19 +142,14 @@ public:
   std::vector<std::ptrdiff_t> Ball(double radius) const
   {
     std::vector<std::ptrdiff_t> offsets;
-    for (int k = -Border; k <= Border; ++k)
-    {
-      for (int j = -Border; j <= Border; ++j)
+    ForBox({ -Border, -Border, -Border }, { Border + 1, Border + 1, Border + 1 },
+      [&](int i, int j, int k)
       {
-        for (int i = -Border; i <= Border; ++i)
+        if (i * i + j * j + k * k <= radius * radius)
         {
-          if (i * i + j * j + k * k <= radius * radius)
-          {
-            offsets.push_back(this->Offset(i, j, k));
-          }
+          offsets.push_back(this->Offset(i, j, k));
         }
-      }
-    }
+      });
     return offsets;
   }
 
@@ -333,5 +327,4 @@ ReachVerdict JudgeReach(const TriangleSurface& surface, const JudgedVolume& volu
   return verdict;
 }
 
-} // namespace support
-} // namespace volumic
+} // namespace volumic::support

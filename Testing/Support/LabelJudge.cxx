@@ -11,9 +11,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace volumic
-{
-namespace support
+namespace volumic::support
 {
 namespace
 {
@@ -204,5 +202,4 @@ WrongVoxelVerdict JudgeVoxels(const TriangleSurface& surface, const LabelMap& ma
   return verdict;
 }
 
-} // namespace support
-} // namespace volumic
+} // namespace volumic::support

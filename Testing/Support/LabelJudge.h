@@ -15,9 +15,7 @@
 
 #include <cstddef>
 
-namespace volumic
-{
-namespace support
+namespace volumic::support
 {
 
 /** World units. The angle is that of normals of triangles, means are by area where they can be. */
@@ -67,7 +65,6 @@ struct OverlapVerdict
 
 OverlapVerdict JudgeOverlap(const TriangleSurface& a, const TriangleSurface& b);
 
-} // namespace support
-} // namespace volumic
+} // namespace volumic::support
 
 #endif

@@ -3,6 +3,7 @@
 
 #include "LabelShapes.h"
 
+#include "ForVoxels.h"
 #include "SceneShapes.h"
 
 #include <algorithm>
@@ -10,9 +11,7 @@
 #include <random>
 #include <stdexcept>
 
-namespace volumic
-{
-namespace support
+namespace volumic::support
 {
 namespace
 {
@@ -156,20 +155,15 @@ void Paint(LabelMap& map, int label, const Vector& centre, double reach, const I
     from[a] = std::max(0, static_cast<int>(std::floor(centre[a] - reach)));
     to[a] = std::min(map.Size[a] - 1, static_cast<int>(std::ceil(centre[a] + reach)));
   }
-  for (int k = from[2]; k <= to[2]; ++k)
-  {
-    for (int j = from[1]; j <= to[1]; ++j)
+  ForBox(from, { to[0] + 1, to[1] + 1, to[2] + 1 },
+    [&](int i, int j, int k)
     {
-      for (int i = from[0]; i <= to[0]; ++i)
+      if (value({ i - centre[0], j - centre[1], k - centre[2] }) < 0.0)
       {
-        if (value({ i - centre[0], j - centre[1], k - centre[2] }) < 0.0)
-        {
-          map.Values[(static_cast<std::size_t>(k) * map.Size[1] + j) * map.Size[0] + i] =
-            static_cast<std::int16_t>(label);
-        }
+        map.Values[(static_cast<std::size_t>(k) * map.Size[1] + j) * map.Size[0] + i] =
+          static_cast<std::int16_t>(label);
       }
-    }
-  }
+    });
 }
 
 } // namespace
@@ -233,19 +227,15 @@ DigitisedShapes Digitise(LabelShapeKind kind, int size, double stretch)
           { (p[0] - centre[0]) / unit, (p[1] - centre[1]) / unit, (p[2] - centre[2]) / unit });
     };
     std::size_t voxel = 0;
-    for (int k = 0; k < map.Size[2]; ++k)
-    {
-      for (int j = 0; j < size; ++j)
+    ForVoxels({ size, size, map.Size[2] },
+      [&](int i, int j, int k)
       {
-        for (int i = 0; i < size; ++i, ++voxel)
+        if (distance({ 1.0 * i, 1.0 * j, stretch * k }) < 0.0)
         {
-          if (distance({ 1.0 * i, 1.0 * j, stretch * k }) < 0.0)
-          {
-            map.Values[voxel] = static_cast<std::int16_t>(shape.Label);
-          }
+          map.Values[voxel] = static_cast<std::int16_t>(shape.Label);
         }
-      }
-    }
+        ++voxel;
+      });
     LabelShape truth;
     truth.Label = shape.Label;
     if (shape.IsSmooth)
@@ -302,5 +292,4 @@ LabelMap MakeBodyMap(const std::array<int, 3>& size, int labels)
   return map;
 }
 
-} // namespace support
-} // namespace volumic
+} // namespace volumic::support

@@ -15,9 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace volumic
-{
-namespace support
+namespace volumic::support
 {
 
 /** The centre of voxel (i, j, k) is at origin + spacing * (i, j, k). */
@@ -78,7 +76,6 @@ DigitisedShapes Digitise(LabelShapeKind kind, int size, double stretch = 1.0);
  */
 LabelMap MakeBodyMap(const std::array<int, 3>& size, int labels);
 
-} // namespace support
-} // namespace volumic
+} // namespace volumic::support
 
 #endif

@@ -12,9 +12,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace volumic
-{
-namespace support
+namespace volumic::support
 {
 
 class PointGrid
@@ -147,7 +145,6 @@ private:
   std::vector<int> Members;
 };
 
-} // namespace support
-} // namespace volumic
+} // namespace volumic::support
 
 #endif

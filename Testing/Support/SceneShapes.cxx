@@ -7,9 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace volumic
-{
-namespace support
+namespace volumic::support
 {
 namespace
 {
@@ -265,5 +263,4 @@ SceneShape MakeSceneShape(SceneKind kind, double thinWall)
   throw std::invalid_argument("MakeScene: unknown kind of scene");
 }
 
-} // namespace support
-} // namespace volumic
+} // namespace volumic::support

@@ -13,9 +13,7 @@
 
 #include <functional>
 
-namespace volumic
-{
-namespace support
+namespace volumic::support
 {
 
 /** A shape in reference units, of which 64 fill the smallest extent of the volume, around 0. */
@@ -38,7 +36,6 @@ struct SceneShape
 /** Walls that are said to be thin get `thinWall` as thickness, in reference units. */
 SceneShape MakeSceneShape(SceneKind kind, double thinWall);
 
-} // namespace support
-} // namespace volumic
+} // namespace volumic::support
 
 #endif

@@ -6,9 +6,7 @@
 #include <cmath>
 #include <utility>
 
-namespace volumic
-{
-namespace support
+namespace volumic::support
 {
 
 TriangleSurface Tetrahedron(double size, const std::array<double, 3>& at)
@@ -78,5 +76,4 @@ TriangleSurface Sheet(int n, double height)
   return surface;
 }
 
-} // namespace support
-} // namespace volumic
+} // namespace volumic::support

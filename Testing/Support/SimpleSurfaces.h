@@ -8,9 +8,7 @@
 
 #include "TriangleSurface.h"
 
-namespace volumic
-{
-namespace support
+namespace volumic::support
 {
 
 /**
@@ -37,7 +35,6 @@ TriangleSurface Reversed(TriangleSurface surface);
 /** Adds the points and triangles of another surface. */
 void Append(TriangleSurface& to, const TriangleSurface& from);
 
-} // namespace support
-} // namespace volumic
+} // namespace volumic::support
 
 #endif

@@ -29,9 +29,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace volumic
-{
-namespace support
+namespace volumic::support
 {
 
 /** The scene with its spacing, origin 0, and the values as float point scalars named `Scene`. */
@@ -132,7 +130,6 @@ inline JudgedVolume ToJudgedVolume(const Scene& scene)
   return volume;
 }
 
-} // namespace support
-} // namespace volumic
+} // namespace volumic::support
 
 #endif

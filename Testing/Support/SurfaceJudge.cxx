@@ -10,9 +10,7 @@
 #include <sstream>
 #include <stdexcept>
 
-namespace volumic
-{
-namespace support
+namespace volumic::support
 {
 
 void CheckSurface(const TriangleSurface& surface)
@@ -126,5 +124,4 @@ std::string Describe(const SurfaceVerdict& verdict)
   return text.str();
 }
 
-} // namespace support
-} // namespace volumic
+} // namespace volumic::support

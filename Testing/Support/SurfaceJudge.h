@@ -23,9 +23,7 @@
 #include <string>
 #include <vector>
 
-namespace volumic
-{
-namespace support
+namespace volumic::support
 {
 
 //------------------------------------------------------------------------------
@@ -191,7 +189,6 @@ SurfaceVerdict JudgeSurface(
 /** A few lines of text with all figures, for logs and messages of failing tests. */
 std::string Describe(const SurfaceVerdict& verdict);
 
-} // namespace support
-} // namespace volumic
+} // namespace volumic::support
 
 #endif

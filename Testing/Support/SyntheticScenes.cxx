@@ -3,6 +3,7 @@
 
 #include "SyntheticScenes.h"
 
+#include "ForVoxels.h"
 #include "SceneShapes.h"
 
 #include <algorithm>
@@ -10,9 +11,7 @@
 #include <random>
 #include <stdexcept>
 
-namespace volumic
-{
-namespace support
+namespace volumic::support
 {
 namespace
 {
@@ -121,35 +120,31 @@ Scene MakeScene(SceneKind kind, const SceneOptions& options)
   GaussianNoise noise(options.NoiseSeed);
   const double blur = std::sqrt(0.5) / (0.5 * options.EdgeWidth);
   std::size_t voxel = 0;
-  for (int k = 0; k < options.Size[2]; ++k)
-  {
-    for (int j = 0; j < options.Size[1]; ++j)
+  ForVoxels(options.Size,
+    [&](int i, int j, int k)
     {
-      for (int i = 0; i < options.Size[0]; ++i, ++voxel)
+      const int index[3] = { i, j, k };
+      std::array<double, 3> place;
+      for (int a = 0; a < 3; ++a)
       {
-        const int index[3] = { i, j, k };
-        std::array<double, 3> place;
-        for (int a = 0; a < 3; ++a)
-        {
-          place[a] = (index[a] - 0.5 * (options.Size[a] - 1)) * step[a] / scale;
-        }
-        const double distance = shape.Distance(place) * scale;
-        const double occupied = 0.5 * std::erfc(distance * blur);
-        const double share = options.ObjectIsBright ? occupied : 1.0 - occupied;
-        double value = background + contrast * share;
-        if (shape.Shaded)
-        {
-          value *= Shading(i / (options.Size[0] - 1.0));
-        }
-        if (options.NoiseShare > 0.0)
-        {
-          value += options.NoiseShare * contrast * noise.Next();
-        }
-        scene.Values[voxel] = static_cast<float>(value);
-        scene.Inside[voxel] = distance < 0.0 ? 1 : 0;
+        place[a] = (index[a] - 0.5 * (options.Size[a] - 1)) * step[a] / scale;
       }
-    }
-  }
+      const double distance = shape.Distance(place) * scale;
+      const double occupied = 0.5 * std::erfc(distance * blur);
+      const double share = options.ObjectIsBright ? occupied : 1.0 - occupied;
+      double value = background + contrast * share;
+      if (shape.Shaded)
+      {
+        value *= Shading(i / (options.Size[0] - 1.0));
+      }
+      if (options.NoiseShare > 0.0)
+      {
+        value += options.NoiseShare * contrast * noise.Next();
+      }
+      scene.Values[voxel] = static_cast<float>(value);
+      scene.Inside[voxel] = distance < 0.0 ? 1 : 0;
+      ++voxel;
+    });
   return scene;
 }
 
@@ -203,5 +198,4 @@ std::vector<SceneKind> SceneKindsReachableFromOutside()
   return kinds;
 }
 
-} // namespace support
-} // namespace volumic
+} // namespace volumic::support

@@ -19,9 +19,7 @@
 #include <string>
 #include <vector>
 
-namespace volumic
-{
-namespace support
+namespace volumic::support
 {
 
 /** What is in the volume. Counts are those of the iso-surface; see Scene for the details. */
@@ -133,7 +131,6 @@ std::vector<SceneKind> AllSceneKinds();
  */
 std::vector<SceneKind> SceneKindsReachableFromOutside();
 
-} // namespace support
-} // namespace volumic
+} // namespace volumic::support
 
 #endif

@@ -7,9 +7,7 @@
 #include <array>
 #include <vector>
 
-namespace volumic
-{
-namespace support
+namespace volumic::support
 {
 
 /**
@@ -21,7 +19,6 @@ struct TriangleSurface
   std::vector<std::array<int, 3>> Triangles; ///< indices into Points
 };
 
-} // namespace support
-} // namespace volumic
+} // namespace volumic::support
 
 #endif

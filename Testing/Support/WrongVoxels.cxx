@@ -9,9 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace volumic
-{
-namespace support
+namespace volumic::support
 {
 
 std::vector<char> EnclosedVoxels(
@@ -85,5 +83,4 @@ double ShareOfWrongVoxels(const TriangleSurface& surface, const Scene& scene)
   return static_cast<double>(wrong) / static_cast<double>(object);
 }
 
-} // namespace support
-} // namespace volumic
+} // namespace volumic::support

@@ -9,9 +9,7 @@
 #include <array>
 #include <vector>
 
-namespace volumic
-{
-namespace support
+namespace volumic::support
 {
 
 /**
@@ -27,7 +25,6 @@ std::vector<char> EnclosedVoxels(
  */
 double ShareOfWrongVoxels(const TriangleSurface& surface, const Scene& scene);
 
-} // namespace support
-} // namespace volumic
+} // namespace volumic::support
 
 #endif

@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "LabelImages.h"
+#include "vtkLabelTable.h"
+
+#include <vtkDoubleArray.h>
+#include <vtkTable.h>
+#include <vtkVariant.h>
+
+using namespace volumic;
+
+namespace
+{
+using Extent = std::array<int, 6>;
+
+Extent ExtentIn(vtkIntArray* extents, vtkIdType row)
+{
+  Extent extent;
+  extents->GetTypedTuple(row, extent.data());
+  return extent;
+}
+}
+
+TEST(LabelTable, ListsTheLabelsOfAnImage)
+{
+  const auto image = BallsImage();
+  AddNames(image);
+  image->GetFieldData()->RemoveArray("LabelColors");
+  vtkNew<vtkLabelTable> table;
+  table->SetInputData(image);
+  table->Update();
+  vtkTable* labels = table->GetOutput();
+  ASSERT_EQ(labels->GetNumberOfRows(), 3);
+  EXPECT_EQ(labels->GetValueByName(0, "Label").ToInt(), 0);
+  EXPECT_EQ(labels->GetValueByName(0, "Name").ToString(), "Label 0");
+  EXPECT_EQ(labels->GetValueByName(2, "Label").ToInt(), 7);
+  EXPECT_EQ(labels->GetValueByName(2, "Name").ToString(), "kidney");
+  const double sum = labels->GetValueByName(0, "Voxels").ToDouble() +
+    labels->GetValueByName(1, "Voxels").ToDouble() + labels->GetValueByName(2, "Voxels").ToDouble();
+  EXPECT_EQ(sum, 34. * 28. * 28.);
+  auto* extents = vtkIntArray::SafeDownCast(labels->GetColumnByName("Extent"));
+  ASSERT_TRUE(extents);
+  EXPECT_EQ(ExtentIn(extents, 0), (Extent{ 0, 33, 0, 27, 0, 27 }));
+  EXPECT_EQ(ExtentIn(extents, 1), (Extent{ 4, 18, 7, 21, 7, 21 }));
+  auto* colors = vtkDoubleArray::SafeDownCast(labels->GetColumnByName("Color"));
+  ASSERT_TRUE(colors);
+  EXPECT_EQ(colors->GetNumberOfComponents(), 3);
+  EXPECT_NE(colors->GetComponent(1, 0), colors->GetComponent(2, 0)) << "a palette";
+}
+
+TEST(LabelTable, GivesTheOnlyObjectAColorThatShowsItsRelief)
+{
+  vtkNew<vtkLabelTable> table;
+  table->SetInputData(LabelImageOf(
+    34, 28, 28, [](int i, int, int) { return i < 10 ? 0 : (i < 20 ? 1 : 255); }));
+  table->Update();
+  auto* colors = vtkDoubleArray::SafeDownCast(table->GetOutput()->GetColumnByName("Color"));
+  for (const int row : { 1, 2 })
+  {
+    EXPECT_GT(0.21 * colors->GetComponent(row, 0) + 0.72 * colors->GetComponent(row, 1) +
+        0.07 * colors->GetComponent(row, 2),
+      0.4)
+      << row;
+  }
+}
+
+TEST(LabelTable, TellsWhereLabelsAre)
+{
+  // A run of voxels over the end of rows and of slices, on both sides of what a thread takes.
+  const int begins[3] = { -2, 5, 70 };
+  const auto image = LabelImageOf(80, 70, 60,
+    [](int i, int j, int k)
+    {
+      const int place = i + 80 * (j + 70 * k);
+      return place == 81 || place == 325    ? 5
+        : place >= 262100 && place < 262200 ? 6
+        : i == 9 && j > 30 && j < 33        ? 7
+                                            : 1;
+    });
+  image->SetExtent(begins[0], begins[0] + 79, begins[1], begins[1] + 69, begins[2], begins[2] + 59);
+  vtkNew<vtkLabelTable> table;
+  table->SetInputData(image);
+  table->Update();
+  auto* extents = vtkIntArray::SafeDownCast(table->GetOutput()->GetColumnByName("Extent"));
+  ASSERT_EQ(extents->GetNumberOfTuples(), 4);
+  EXPECT_EQ(ExtentIn(extents, 0), (Extent{ -2, 77, 5, 74, 70, 129 }));
+  EXPECT_EQ(ExtentIn(extents, 1), (Extent{ -1, 3, 6, 9, 70, 70 }));
+  EXPECT_EQ(ExtentIn(extents, 2), (Extent{ -2, 77, 61, 62, 116, 116 }));
+  EXPECT_EQ(ExtentIn(extents, 3), (Extent{ 7, 7, 36, 37, 70, 129 }));
+}
+
+TEST(LabelTable, RefusesWhatIsNoLabelMap)
+{
+  vtkNew<vtkLabelTable> table;
+  table->SetInputData(RandomImage(30, 30, 30));
+  const MessagesOf errors(table);
+  table->Update();
+  EXPECT_TRUE(errors.Has("labels must be integers")) << errors.Get();
+  EXPECT_EQ(table->GetOutput()->GetNumberOfRows(), 0);
+  table->SetInputData(BallsImage());
+  table->Update();
+  EXPECT_EQ(table->GetOutput()->GetNumberOfRows(), 3);
+}

@@ -1,0 +1,160 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Whether two triangles intersect, and new faces what is there.
+#include "Core/Surface/NewFaces.h"
+#include "LiveSurface.h"
+
+using namespace volumic;
+
+namespace
+{
+const MeshTriangle Corner = Named(0, { 0, 0, 0 }, { 4, 0, 0 }, { 0, 4, 0 });
+}
+
+TEST(TriangleTests, FindsACrossing)
+{
+  EXPECT_TRUE(TrianglesIntersect(Corner, Named(3, { 1, 1, -1 }, { 1, 1, 1 }, { 2, 1, 1 }), 1e-9));
+  EXPECT_FALSE(TrianglesIntersect(Corner, Named(3, { 3, 3, -1 }, { 3, 3, 1 }, { 4, 3, 1 }), 1e-9));
+  EXPECT_FALSE(TrianglesIntersect(Corner, Named(3, { 1, 1, 1 }, { 1, 1, 2 }, { 2, 1, 1 }), 1e-9));
+}
+
+TEST(TriangleTests, CountsWhatComesNearerThanTheTolerance)
+{
+  const MeshTriangle g = Named(3, { 1, 1, 0.001 }, { 1, 1, 1 }, { 2, 1, 1 });
+  EXPECT_FALSE(TrianglesIntersect(Corner, g, 1e-4));
+  EXPECT_TRUE(TrianglesIntersect(Corner, g, 1e-2));
+}
+
+TEST(TriangleTests, TellsCoplanarTrianglesApart)
+{
+  EXPECT_TRUE(TrianglesIntersect(Corner, Named(3, { 1, 1, 0 }, { 5, 1, 0 }, { 1, 5, 0 }), 1e-9));
+  EXPECT_FALSE(TrianglesIntersect(Corner, Named(3, { 5, 5, 0 }, { 9, 5, 0 }, { 5, 9, 0 }), 1e-9));
+}
+
+TEST(TriangleTests, DoesNotStretchANeedleBeyondItsTips)
+{
+  // The other triangle shares a tip and lies on its far side: set off by the tolerance, the lines
+  // of the needle's long edges meet a hundred lengths further.
+  const float thin = 1e-6f;
+  const MeshTriangle needle = { { 0, 1, 2 }, { { 0, 0, 0 }, { 1, 0, 0 }, { 0.5, thin, 0 } } };
+  const MeshTriangle behind = { { 0, 3, 4 },
+    { { 0, 0, 0 }, { -0.25, -0.5, -0.25 }, { -0.25, 0.5, 0.25 } } };
+  EXPECT_FALSE(TrianglesIntersect(needle, behind, 1e-4));
+  EXPECT_FALSE(TrianglesIntersect(behind, needle, 1e-4));
+  const MeshTriangle across = { { 0, 3, 4 },
+    { { 0, 0, 0 }, { 0.25, -0.5, -0.25 }, { 0.25, 0.5, 0.25 } } };
+  EXPECT_TRUE(TrianglesIntersect(needle, across, 1e-4));
+  // All corners on one line.
+  const MeshTriangle line = { { 0, 1, 2 }, { { 0, 0, 0 }, { 1, 0, 0 }, { 0.5, 0, 0 } } };
+  EXPECT_FALSE(TrianglesIntersect(line, behind, 1e-4));
+}
+
+TEST(TriangleTests, FindsACrossingWhicheverHasTheEdge)
+{
+  // The second pierces the first with an edge; seen from the second, no edge of its own is met.
+  const MeshTriangle large = Named(0, { -9, -9, 0 }, { 9, -9, 0 }, { 0, 9, 0 });
+  const MeshTriangle small = Named(3, { 0, 0, -1 }, { 0, 0, 1 }, { 1, 0, 1 });
+  EXPECT_TRUE(TrianglesIntersect(large, small, 1e-9));
+  EXPECT_TRUE(TrianglesIntersect(small, large, 1e-9));
+}
+
+TEST(TriangleTests, FindsOneTriangleWithinTheOtherInAPlane)
+{
+  // However the plane lies: the flat test leaves one coordinate out.
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const auto turned = [axis](double a, double b)
+    {
+      return axis == 0 ? VectorD(0, a, b) : (axis == 1 ? VectorD(b, 0, a) : VectorD(a, b, 0));
+    };
+    const MeshTriangle large = Named(0, turned(-9, -9), turned(9, -9), turned(0, 9));
+    const MeshTriangle small = Named(3, turned(0, 0), turned(1, 0), turned(0, 1));
+    EXPECT_TRUE(TrianglesIntersect(large, small, 1e-9)) << axis;
+    EXPECT_TRUE(TrianglesIntersect(small, large, 1e-9)) << axis;
+    const MeshTriangle beside = Named(3, turned(8, 8), turned(9, 8), turned(8, 9));
+    EXPECT_FALSE(TrianglesIntersect(large, beside, 1e-9)) << axis;
+  }
+}
+
+TEST(TriangleTests, FindsAFoldWhicheverWayFacesAreOriented)
+{
+  const VectorD a(0, 0, 0);
+  const VectorD b(4, 0, 0);
+  for (const double side : { 1., -1. })
+  {
+    const VectorD c(1, 3 * side, 0.001);
+    EXPECT_EQ(TrianglesIntersect(Corner, { { 1, 0, 3 }, { b, a, c } }, 1e-9), side > 0.);
+    EXPECT_EQ(TrianglesIntersect(Corner, { { 0, 1, 3 }, { a, b, c } }, 1e-9), side > 0.);
+    EXPECT_EQ(TrianglesIntersect(Corner, { { 3, 0, 1 }, { c, a, b } }, 1e-9), side > 0.);
+  }
+}
+
+TEST(TriangleTests, AllowsSharedCornersAndEdgesOnly)
+{
+  // A common edge, flat and folded.
+  EXPECT_FALSE(
+    TrianglesIntersect(Corner, { { 1, 3, 2 }, { { 4, 0, 0 }, { 4, 4, 0 }, { 0, 4, 0 } } }, 1e-9));
+  EXPECT_TRUE(
+    TrianglesIntersect(Corner, { { 1, 3, 2 }, { { 4, 0, 0 }, { 1, 1, 0 }, { 0, 4, 0 } } }, 1e-9));
+  // A common corner, beside and through.
+  EXPECT_FALSE(
+    TrianglesIntersect(Corner, { { 0, 3, 4 }, { { 0, 0, 0 }, { -4, 0, 0 }, { 0, -4, 0 } } }, 1e-9));
+  EXPECT_TRUE(
+    TrianglesIntersect(Corner, { { 0, 3, 4 }, { { 0, 0, 0 }, { 2, 2, 1 }, { 1, 1, -1 } } }, 1e-9));
+}
+
+TEST(NewFacesIntersect, SeesWhatIsThereButNotWhatGoes)
+{
+  const LiveSurface state(DividedIcosahedron({ 0, 0, 0 }, 6, 1.6));
+  const Vector p = state.Mesh.Position[9];
+  // A triangle through the surface at vertex 9.
+  const VectorD n(Normalized(p));
+  const VectorD side(0.1, 0.2, 0.1);
+  const std::vector<MeshTriangle> through = { Named(
+    1000, VectorD(p) * 1.1 + side, VectorD(p) * 0.9 + side, VectorD(p) * 0.9 + side * 2.) };
+  EXPECT_TRUE(NewFacesIntersect(state, through, RemovedFaces()));
+  EXPECT_FALSE(NewFacesIntersect(state, through, { { 9 }, 1, false }));
+}
+
+TEST(NewFacesIntersect, SeesNewFacesThatMeetEachOther)
+{
+  const LiveSurface state(DividedIcosahedron({ 0, 0, 0 }, 6, 1.6));
+  const MeshTriangle flat = Named(1000, { 10, 0, 0 }, { 12, 0, 0 }, { 10, 2, 0 });
+  const MeshTriangle across = Named(2000, { 10.5, 0.5, -1 }, { 10.5, 0.5, 1 }, { 11, 0.5, 1 });
+  const MeshTriangle beside = Named(2000, { 10.5, 0.5, 1 }, { 10.5, 0.5, 2 }, { 11, 0.5, 2 });
+  EXPECT_TRUE(NewFacesIntersect(state, { flat, across }, RemovedFaces()));
+  EXPECT_FALSE(NewFacesIntersect(state, { flat, beside }, RemovedFaces()));
+}
+
+TEST(NewFacesIntersect, SeesTheMiddleOfTheLargestLegalTriangle)
+{
+  // All its corners are lambda delta away from where a needle passes through it.
+  IndexedSurface surface;
+  const double lambda = SizingField::LambdaInDelta;
+  for (int i = 0; i < 3; ++i)
+  {
+    const double a = 2 * 3.14159265358979 * i / 3;
+    surface.Points.push_back({ lambda * std::cos(a), lambda * std::sin(a), 0 });
+  }
+  surface.Points.push_back({ 0, 0, -2 });
+  surface.Triangles = { { 0, 1, 2 }, { 0, 3, 1 }, { 1, 3, 2 }, { 2, 3, 0 } };
+  const LiveSurface state(surface);
+  const std::vector<MeshTriangle> needle = { Named(
+    1000, { 0, 0, 0.3 }, { 0, 0, -0.3 }, { 0.02, 0.02, 0.3 }) };
+  EXPECT_TRUE(NewFacesIntersect(state, needle, RemovedFaces()));
+  const std::vector<MeshTriangle> above = { Named(
+    1000, { 0, 0, 0.3 }, { 0, 0, 0.1 }, { 0.02, 0.02, 0.3 }) };
+  EXPECT_FALSE(NewFacesIntersect(state, above, RemovedFaces()));
+}
+
+TEST(NewFacesIntersect, OfAnEdgeTakesAwayTheTwoFacesOnly)
+{
+  RemovedFaces edge{ { 4, 5 }, 2, true };
+  EXPECT_TRUE(edge.Contains({ 4, 5, 6 }));
+  EXPECT_TRUE(edge.Contains({ 5, 9, 4 }));
+  EXPECT_FALSE(edge.Contains({ 4, 6, 7 }));
+  RemovedFaces stars{ { 4, 5 }, 2, false };
+  EXPECT_TRUE(stars.Contains({ 4, 6, 7 }));
+  EXPECT_FALSE(stars.Contains({ 8, 6, 7 }));
+}

@@ -1,0 +1,177 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Whether visits are to go on is asked, by the calling thread.
+#include "Core/Common/StandardThreads.h"
+#include "VisitTestTools.h"
+
+#include <atomic>
+
+using namespace volumic;
+
+namespace
+{
+/** Makes the visits itself, from the last to the first. */
+class OwnWay final : public ToldExecutor
+{
+public:
+  OwnWay()
+    : ToldExecutor([](std::size_t n, const Body& body) { body(0, n); })
+  {
+  }
+  bool MakeVisits(const VisitSchedule& schedule, const VisitBody& visit) override
+  {
+    const std::vector<int>& order = schedule.Order();
+    for (std::size_t place = order.size(); place > 0; --place)
+    {
+      visit(order[place - 1], place - 1, *this);
+    }
+    return true;
+  }
+};
+}
+
+TEST(VisitSchedule, AsksWhereOthersHaveMadeAllTheVisits)
+{
+  // The calling thread comes when all is done.
+  ToldExecutor late(
+    [](std::size_t n, const Body& body)
+    {
+      OnAnotherThread(1, body);
+      body(1, n);
+    });
+  std::atomic<std::size_t> visits{ 0 };
+  std::vector<std::size_t> asked; // More than once only where the machine is slow.
+  const auto goOn = [&](std::size_t done)
+  {
+    EXPECT_EQ(done, visits);
+    asked.push_back(done);
+    return true;
+  };
+  EXPECT_TRUE(Apart(9).Run(late, [&](int, std::size_t, Executor&) { ++visits; }, goOn));
+  ASSERT_FALSE(asked.empty());
+  EXPECT_EQ(asked.back(), 9u);
+}
+
+TEST(VisitSchedule, AsksWhileOthersAreInLongVisits)
+{
+  // Another thread makes the one visit that there is, until the host has been asked twice.
+  std::atomic<bool> hasBegun{ false };
+  std::atomic<int> questions{ 0 };
+  ToldExecutor waiting(
+    [&](std::size_t n, const Body& body)
+    {
+      std::thread other([&] { body(0, 1); });
+      HasCome([&] { return hasBegun.load(); });
+      body(1, n);
+      other.join();
+    });
+  bool areAsked = false;
+  EXPECT_TRUE(Apart(1).Run(waiting,
+    [&](int, std::size_t, Executor&)
+    {
+      hasBegun = true;
+      areAsked = HasCome([&] { return questions >= 2; });
+    },
+    [&](std::size_t) { return ++questions > 0; }));
+  EXPECT_TRUE(areAsked);
+}
+
+TEST(VisitSchedule, EndsWhereItIsTold)
+{
+  const VisitSchedule schedule = Apart(50);
+  SequentialExecutor thread;
+  for (const std::size_t last : { 1, 7, 49 })
+  {
+    std::size_t visits = 0;
+    std::vector<std::size_t> asked;
+    EXPECT_FALSE(schedule.Run(thread, [&visits](int, std::size_t, Executor&) { ++visits; },
+      [&](std::size_t done)
+      {
+        asked.push_back(done);
+        return done != last;
+      }));
+    EXPECT_EQ(visits, last);
+    std::vector<std::size_t> each(last);
+    std::iota(each.begin(), each.end(), std::size_t(1));
+    EXPECT_EQ(asked, each) << "once after each visit, and not again";
+  }
+}
+
+TEST(VisitSchedule, EndsSoonWhereItIsToldOnThreads)
+{
+  constexpr int n = 2000;
+  const VisitSchedule schedule = Apart(n);
+  StandardThreads standard(4);
+  ToldExecutor other(OnAnotherThread);
+  for (Executor* executor : std::initializer_list<Executor*>{ &standard, &other })
+  {
+    std::atomic<int> visits{ 0 };
+    std::atomic<int> underWay{ 0 };
+    int asked = 0;
+    EXPECT_FALSE(schedule.Run(*executor,
+      [&](int, std::size_t, Executor&)
+      {
+        ++visits;
+        ++underWay;
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        --underWay;
+      },
+      [&asked](std::size_t) { return ++asked < 3; }));
+    EXPECT_EQ(asked, 3) << "not asked again";
+    EXPECT_EQ(underWay, 0);
+    EXPECT_GE(visits, 3);
+    EXPECT_LT(visits, n / 2);
+  }
+}
+
+TEST(VisitSchedule, AsksOnTheCallingThreadAlone)
+{
+  constexpr int n = 300;
+  const VisitSchedule schedule = Apart(n);
+  StandardThreads standard(5);
+  ToldExecutor other(OnAnotherThread);
+  const std::thread::id caller = std::this_thread::get_id();
+  for (Executor* executor : std::initializer_list<Executor*>{ &standard, &other })
+  {
+    int asked = 0;
+    int elsewhere = 0;
+    std::size_t most = 0;
+    EXPECT_TRUE(schedule.Run(*executor,
+      [](int, std::size_t, Executor&) { std::this_thread::sleep_for(std::chrono::milliseconds(1)); },
+      [&](std::size_t done)
+      {
+        ++asked;
+        elsewhere += std::this_thread::get_id() != caller;
+        EXPECT_GE(done, most);
+        most = done;
+        return true;
+      }));
+    EXPECT_GE(asked, 2) << "several times a second";
+    EXPECT_EQ(elsewhere, 0);
+    EXPECT_LE(most, static_cast<std::size_t>(n));
+  }
+  EXPECT_GT(other.Calls, 2) << "rounds, between which it is asked";
+}
+
+TEST(VisitSchedule, LeavesTheVisitsToAnExecutorThatMakesThem)
+{
+  const VisitSchedule schedule = Apart(6);
+  for (const bool goesOn : { true, false })
+  {
+    OwnWay executor;
+    std::vector<int> visited;
+    std::vector<std::size_t> asked;
+    EXPECT_EQ(schedule.Run(executor,
+                [&visited](int item, std::size_t, Executor&) { visited.push_back(item); },
+                [&](std::size_t done)
+                {
+                  asked.push_back(done);
+                  return goesOn;
+                }),
+      goesOn);
+    EXPECT_EQ(visited, (std::vector<int>{ 5, 4, 3, 2, 1, 0 }));
+    EXPECT_EQ(asked, std::vector<std::size_t>{ 6 });
+    EXPECT_EQ(executor.Calls, 0);
+  }
+}
