@@ -7,7 +7,6 @@
 #include "BinaryFile.h"
 #include "CheckInputs.h"
 #include "ToolErrors.h"
-#include "Unpack.h"
 
 #include <algorithm>
 #include <cstdint>

@@ -3,9 +3,9 @@
 #include "GltfScene.h"
 
 #include "Json.h"
-#include "StreamedWriters.h"
 #include "SurfaceFields.h"
 #include "ToolErrors.h"
+#include "VtkWriters.h"
 
 #include <vtkBoundingBox.h>
 #include <vtkByteSwap.h>

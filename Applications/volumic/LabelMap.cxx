@@ -3,7 +3,7 @@
 #include "LabelMap.h"
 
 #include "LabelNames.h"
-#include "LoadVolume.h"
+#include "LoadInputs.h"
 #include "ReadVolume.h"
 #include "Texts.h"
 #include "ToolErrors.h"

@@ -3,9 +3,9 @@
 #ifndef volumicRawSlabs_h
 #define volumicRawSlabs_h
 
+#include "BinaryFile.h"
 #include "Descriptor.h"
 #include "SlabReader.h"
-#include "Unpack.h"
 
 #include <cstdint>
 #include <fstream>

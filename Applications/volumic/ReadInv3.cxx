@@ -6,7 +6,6 @@
 #include "CheckInputs.h"
 #include "Texts.h"
 #include "ToolErrors.h"
-#include "Unpack.h"
 #include "VolumeImage.h"
 #include "VtkMessages.h"
 

@@ -11,7 +11,6 @@
 #include "Texts.h"
 #include "ToolErrors.h"
 #include "VolumeImage.h"
-#include "VtkReaders.h"
 
 #include <vtkMetaImageReader.h>
 #include <vtkType.h>

@@ -7,10 +7,8 @@
 #include "RawSlabs.h"
 #include "Texts.h"
 #include "ToolErrors.h"
-#include "Unpack.h"
 #include "VolumeImage.h"
 #include "VtkMessages.h"
-#include "VtkReaders.h"
 
 #include <vtkImageData.h>
 #include <vtkMatrix4x4.h>

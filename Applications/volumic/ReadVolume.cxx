@@ -9,7 +9,6 @@
 #include "ToolErrors.h"
 #include "VolumeImage.h"
 #include "VtkMessages.h"
-#include "VtkReaders.h"
 
 #include <vtkDataArray.h>
 #include <vtkGenericDataObjectReader.h>

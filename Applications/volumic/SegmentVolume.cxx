@@ -4,12 +4,11 @@
 
 #include "GatherSurface.h"
 #include "LabelMap.h"
-#include "LoadVolume.h"
+#include "LoadInputs.h"
 #include "Ranks.h"
 #include "Report.h"
 #include "RunFilter.h"
 #include "SurfaceFields.h"
-#include "SurfaceInputs.h"
 #include "SurfaceProperties.h"
 #include "Texts.h"
 #include "ToolErrors.h"

@@ -3,9 +3,9 @@
 #include "SolverFiles.h"
 
 #include "SolidRegions.h"
-#include "StreamedWriters.h"
 #include "Texts.h"
 #include "ToolErrors.h"
+#include "VtkWriters.h"
 
 #include <vtkBoundingBox.h>
 #include <vtkPoints.h>

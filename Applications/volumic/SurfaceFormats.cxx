@@ -5,13 +5,12 @@
 #include "CheckInputs.h"
 #include "GltfScene.h"
 #include "OutputFiles.h"
-#include "RunWriter.h"
 #include "SolverFiles.h"
-#include "StreamedWriters.h"
 #include "SurfaceFields.h"
 #include "SurfacePieces.h"
 #include "Texts.h"
 #include "ToolErrors.h"
+#include "VtkWriters.h"
 
 #include <vtkBYUWriter.h>
 #include <vtkFacetWriter.h>

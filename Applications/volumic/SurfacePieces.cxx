@@ -3,8 +3,7 @@
 #include "SurfacePieces.h"
 
 #include "OutputFiles.h"
-#include "RunWriter.h"
-#include "StreamedWriters.h"
+#include "VtkWriters.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>

@@ -3,10 +3,10 @@
 #include "WriteOutputs.h"
 
 #include "GatherSurface.h"
+#include "LoadInputs.h"
 #include "OutputFiles.h"
 #include "Ranks.h"
 #include "Report.h"
-#include "SurfaceInputs.h"
 #include "ToolErrors.h"
 #include "ToolOptions.h"
 #include "WriteResults.h"

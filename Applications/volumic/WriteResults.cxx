@@ -5,12 +5,11 @@
 #include "GltfScene.h"
 #include "OutputFiles.h"
 #include "Ranks.h"
-#include "RunWriter.h"
-#include "StreamedWriters.h"
 #include "SurfaceFormats.h"
 #include "SurfacePieces.h"
 #include "Texts.h"
 #include "ToolErrors.h"
+#include "VtkWriters.h"
 
 #include <vtkDelimitedTextWriter.h>
 #include <vtkMultiBlockDataSet.h>

@@ -1,18 +1,25 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef volumicRunWriter_h
-#define volumicRunWriter_h
+#ifndef volumicVtkWriters_h
+#define volumicVtkWriters_h
 
+#include "Descriptor.h"
 #include "ProgressLine.h"
+
+#include <vtkSmartPointer.h>
 
 #include <condition_variable>
 #include <cstdint>
 #include <functional>
 #include <mutex>
+#include <streambuf>
 #include <string>
 #include <thread>
+#include <vector>
 
 class vtkAlgorithm;
+class vtkImageData;
+class vtkPolyData;
 
 namespace tool
 {
@@ -66,6 +73,57 @@ void CheckLines(const std::string& path, std::uint64_t lines);
 
 /** The file, or each one of a folder, ends as VTK's XML files do. */
 void CheckXml(const std::string& path);
+
+// ---- VTK's own formats -------------------------------------------------------------------------
+
+// The writers of VTK's own formats, with a full disk told (see FileBuffer) and no memory but some
+// megabytes, whatever the size of what they write. All throw a Failure without the file's name.
+
+/** The surface as .vtp; its cells are triangles, or lines too. */
+void WriteVtp(vtkPolyData* surface, const std::string& path, ProgressLine& line);
+
+/** The surface in VTK's legacy format, binary. */
+void WriteLegacy(vtkPolyData* surface, const std::string& path, ProgressLine& line);
+
+/** The volume as .vti. */
+void WriteVti(vtkImageData* volume, const std::string& path, ProgressLine& line);
+
+/**
+ * The surface again, its arrays shared, which knows that its cells are triangles: VTK's writers make
+ * a table of the types of the cells of others, eight bytes each.
+ */
+vtkSmartPointer<vtkPolyData> AsTriangles(vtkPolyData* surface);
+
+/**
+ * A new file for the stream of a writer of VTK. On a full disk such writers end the program, or
+ * destroy memory; so this takes all that they write, keeps the first error of the system to itself,
+ * and tells it at the end.
+ */
+class FileBuffer : public std::streambuf
+{
+public:
+  explicit FileBuffer(const std::string& path);
+
+  /** To call when all is written. @throws Failure with the system's reason, without the name. */
+  void Finish();
+
+private:
+  int_type overflow(int_type character) override;
+  int sync() override;
+  pos_type seekoff(
+    off_type distance, std::ios_base::seekdir from, std::ios_base::openmode which) override;
+  pos_type seekpos(pos_type place, std::ios_base::openmode which) override;
+
+  /** Hand the buffer to the file. */
+  void Empty();
+  void KeepError(bool isWell);
+
+  Descriptor File;
+  std::vector<char> Buffer;
+  off_type Start = 0; ///< of the buffer, in the file
+  off_type End = 0;   ///< of the file
+  int Error = 0;      ///< errno of what failed first
+};
 }
 
 #endif
