@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ToolOptions.h"
 
-#include "LabelOutputs.h"
 #include "ToolErrors.h"
+#include "WriteOutputs.h"
 
 #include <algorithm>
 #include <iterator>

@@ -34,7 +34,6 @@ list(TRANSFORM volumic_reader_sources PREPEND "${CMAKE_CURRENT_LIST_DIR}/")
 
 # Sets volumic_writer_sources: what writes surfaces (WriteResults.h), beside the readers.
 set(volumic_writer_sources
-  CheckMeshes.cxx
   GltfScene.cxx
   OutputFiles.cxx
   ProgressLine.cxx

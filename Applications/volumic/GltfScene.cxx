@@ -9,11 +9,8 @@
 
 #include <vtkBoundingBox.h>
 #include <vtkByteSwap.h>
-#include <vtkCellArray.h>
-#include <vtkCellArrayIterator.h>
 #include <vtkDataArray.h>
 #include <vtkPointData.h>
-#include <vtkPolyData.h>
 
 #include <algorithm>
 #include <array>
@@ -43,15 +40,12 @@ std::map<int, Corners> CornersOf(vtkPolyData* surface)
 {
   std::map<int, Corners> corners;
   const int* labels = TriangleLabels(surface);
-  auto cells = vtk::TakeSmartPointer(surface->GetPolys()->NewIterator());
-  for (cells->GoToFirstCell(); !cells->IsDoneWithTraversal(); cells->GoToNextCell())
-  {
-    vtkIdType count = 0;
-    const vtkIdType* points = nullptr;
-    cells->GetCurrentCell(count, points);
-    Corners& own = corners[labels ? labels[cells->GetCurrentCellId()] : 0];
-    own.insert(own.end(), points, points + count);
-  }
+  ForEachPolygon(surface,
+    [&](vtkIdType polygon, const vtkIdType* points, vtkIdType count)
+    {
+      Corners& own = corners[labels ? labels[polygon] : 0];
+      own.insert(own.end(), points, points + count);
+    });
   return corners;
 }
 

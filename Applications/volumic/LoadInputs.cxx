@@ -4,6 +4,7 @@
 
 #include "BinaryFile.h"
 #include "InputFiles.h"
+#include "LabelNames.h"
 #include "Ranks.h"
 #include "ReadStart.h"
 #include "ReadVolume.h"
@@ -254,8 +255,11 @@ std::vector<std::string> InputsOf(const ToolOptions& options)
   std::vector<std::string> inputs = FilesOfVolume(options.Volume);
   const std::vector<std::string> edges = FilesOfVolume(options.Edges);
   inputs.insert(inputs.end(), edges.begin(), edges.end());
-  inputs.insert(
-    inputs.end(), { options.Seeds, options.InitialSurface, options.AttractingPoints });
+  inputs.insert(inputs.end(),
+    { options.Seeds, options.InitialSurface, options.AttractingPoints, options.NamesOfLabels });
+  const std::vector<std::string> names =
+    options.Labels.empty() ? std::vector<std::string>() : FilesBeside(options.Volume);
+  inputs.insert(inputs.end(), names.begin(), names.end());
   return inputs;
 }
 

@@ -25,8 +25,6 @@ public:
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 
-  bool IsShown() const { return this->Style != ProgressStyle::None; }
-
   /** `share` of the work is done, 0 to 1. */
   void Show(double share, const std::string& text);
 

@@ -5,9 +5,9 @@
 
 #include "GatherSurface.h"
 #include "LabelChoice.h"
-#include "LabelOutputs.h"
 #include "SurfaceProperties.h"
 #include "VolumePart.h"
+#include "WriteOutputs.h"
 
 #include <iosfwd>
 #include <string>

@@ -4,13 +4,13 @@
 
 #include "LabelMap.h"
 #include "LabelNames.h"
-#include "LabelOutputs.h"
 #include "Ranks.h"
 #include "Report.h"
 #include "RunFilter.h"
 #include "SurfaceProperties.h"
 #include "Texts.h"
 #include "ToolOptions.h"
+#include "WriteOutputs.h"
 #include "WriteResults.h"
 
 #include <vtkCompositeDataSet.h>
@@ -295,7 +295,7 @@ std::vector<LabelSurface> Prepare(const ToolOptions& options, const FilterTrio& 
   vtkImagePyramid* holder, const Announcer& announcer, LabelMap& map, MadeFolders& folders,
   LabelReport& report)
 {
-  CheckLabelFiles(options);
+  CheckFiles(options);
   map = LoadLabelMap(options, filters.Surface, holder, announcer);
   report.Volume = map.Facts;
   report.ReaderMemory = PeakMemory();

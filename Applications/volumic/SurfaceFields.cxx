@@ -2,13 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfaceFields.h"
 
-#include <vtkCellArray.h>
-#include <vtkCellArrayIterator.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
 #include <vtkIntArray.h>
-#include <vtkPolyData.h>
 #include <vtkStringArray.h>
 #include <vtkUnsignedCharArray.h>
 
@@ -80,22 +77,19 @@ vtkSmartPointer<vtkUnsignedCharArray> VertexColors(vtkPolyData* surface)
   vertices->SetNumberOfTuples(surface->GetNumberOfPoints());
   vertices->FillValue(0);
   std::vector<bool> isColored(static_cast<std::size_t>(surface->GetNumberOfPoints()), false);
-  auto cells = vtk::TakeSmartPointer(surface->GetPolys()->NewIterator());
-  for (cells->GoToFirstCell(); !cells->IsDoneWithTraversal(); cells->GoToNextCell())
-  {
-    vtkIdType count = 0;
-    const vtkIdType* corners = nullptr;
-    cells->GetCurrentCell(count, corners);
-    const Bytes& color = colors[labels[cells->GetCurrentCellId()]];
-    for (vtkIdType c = 0; c < count; ++c)
+  ForEachPolygon(surface,
+    [&](vtkIdType polygon, const vtkIdType* corners, vtkIdType count)
     {
-      if (!isColored[static_cast<std::size_t>(corners[c])])
+      const Bytes& color = colors[labels[polygon]];
+      for (vtkIdType c = 0; c < count; ++c)
       {
-        isColored[static_cast<std::size_t>(corners[c])] = true;
-        vertices->SetTypedTuple(corners[c], color.data());
+        if (!isColored[static_cast<std::size_t>(corners[c])])
+        {
+          isColored[static_cast<std::size_t>(corners[c])] = true;
+          vertices->SetTypedTuple(corners[c], color.data());
+        }
       }
-    }
-  }
+    });
   return vertices;
 }
 }

@@ -5,16 +5,32 @@
 
 #include "VolumeImage.h"
 
+#include <vtkCellArray.h>
+#include <vtkCellArrayIterator.h>
+#include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 
 #include <string>
 #include <vector>
 
-class vtkPolyData;
 class vtkUnsignedCharArray;
 
 namespace tool
 {
+/** Call `take(polygon, corners, count)` for each polygon of a surface, from the first one on. */
+template <class Take>
+void ForEachPolygon(vtkPolyData* surface, const Take& take)
+{
+  const auto cells = vtk::TakeSmartPointer(surface->GetPolys()->NewIterator());
+  for (cells->GoToFirstCell(); !cells->IsDoneWithTraversal(); cells->GoToNextCell())
+  {
+    vtkIdType count = 0;
+    const vtkIdType* corners = nullptr;
+    cells->GetCurrentCell(count, corners);
+    take(cells->GetCurrentCellId(), corners, count);
+  }
+}
+
 /** A label that a surface of vtkLabelsToSurfaces is about. */
 struct SurfaceLabel
 {

@@ -17,7 +17,6 @@
 #include <vtkXMLPolyDataWriter.h>
 
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <locale>
@@ -46,52 +45,6 @@ void RunWriter(vtkAlgorithm* writer, const std::function<void()>& write, Progres
   }
 }
 
-// ---- How a file grows ---------------------------------------------------------------------------
-
-FileGrowth::FileGrowth(const std::string& path, std::uint64_t bytes, ProgressLine& line)
-{
-  if (!line.IsShown())
-  {
-    return;
-  }
-  try
-  {
-    this->Watcher = std::thread([this, path, bytes, &line] { this->Watch(path, bytes, line); });
-  }
-  catch (const std::system_error&)
-  {
-    // No thread can be had: the file is written all the same.
-  }
-}
-
-FileGrowth::~FileGrowth()
-{
-  {
-    const std::lock_guard<std::mutex> lock(this->Mutex);
-    this->IsOver = true;
-  }
-  this->Changed.notify_all();
-  if (this->Watcher.joinable())
-  {
-    this->Watcher.join();
-  }
-}
-
-void FileGrowth::Watch(const std::string& path, std::uint64_t bytes, ProgressLine& line)
-{
-  std::unique_lock<std::mutex> lock(this->Mutex);
-  const std::chrono::milliseconds pause(100);
-  while (!this->Changed.wait_for(lock, pause, [this] { return this->IsOver; }))
-  {
-    std::error_code failed;
-    const std::uintmax_t size = std::filesystem::file_size(path, failed);
-    if (!failed && bytes > 0)
-    {
-      line.Show(static_cast<double>(size) / static_cast<double>(bytes), "");
-    }
-  }
-}
-
 // ---- What the disk took -------------------------------------------------------------------------
 
 namespace
@@ -109,15 +62,6 @@ std::uint64_t SizeOf(const std::string& path)
   const std::uintmax_t size = fs::file_size(path, failed);
   return failed ? 0 : size;
 }
-}
-
-void CheckSize(const std::string& path, std::uint64_t bytes)
-{
-  const std::uint64_t size = SizeOf(path);
-  if (size != bytes)
-  {
-    Refuse(std::to_string(size) + " of " + std::to_string(bytes) + " bytes were");
-  }
 }
 
 void CheckLines(const std::string& path, std::uint64_t lines)

@@ -8,13 +8,10 @@
 
 #include <vtkSmartPointer.h>
 
-#include <condition_variable>
 #include <cstdint>
 #include <functional>
-#include <mutex>
 #include <streambuf>
 #include <string>
-#include <thread>
 #include <vector>
 
 class vtkAlgorithm;
@@ -37,36 +34,10 @@ void RunWriter(Writer* writer, ProgressLine& line)
   RunWriter(writer, [writer] { writer->Write(); }, line);
 }
 
-// ---- How a file grows ---------------------------------------------------------------------------
-
-/**
- * As long as it is there, shows how a file grows to the size that it will have: for writers that do
- * not tell how far they are.
- */
-class FileGrowth
-{
-public:
-  FileGrowth(const std::string& path, std::uint64_t bytes, ProgressLine& line);
-  ~FileGrowth();
-  FileGrowth(const FileGrowth&) = delete;
-  FileGrowth& operator=(const FileGrowth&) = delete;
-
-private:
-  void Watch(const std::string& path, std::uint64_t bytes, ProgressLine& line);
-
-  std::mutex Mutex;
-  std::condition_variable Changed;
-  bool IsOver = false;
-  std::thread Watcher;
-};
-
 // ---- What the disk took -------------------------------------------------------------------------
 
 // Most of VTK's writers don't look whether the disk took what they wrote. All throw a Failure,
 // without the name of the file, if something is missing.
-
-/** The file has this many bytes. */
-void CheckSize(const std::string& path, std::uint64_t bytes);
 
 /** The file ends with a complete line, and has no fewer than this many. */
 void CheckLines(const std::string& path, std::uint64_t lines);

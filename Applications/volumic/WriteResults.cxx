@@ -6,7 +6,6 @@
 #include "OutputFiles.h"
 #include "Ranks.h"
 #include "SurfaceFormats.h"
-#include "SurfacePieces.h"
 #include "Texts.h"
 #include "ToolErrors.h"
 #include "VtkWriters.h"
@@ -169,7 +168,7 @@ void WriteSurfaceOfRanks(
     [&]
     {
       ProgressLine line(TitleOf(name), writing.Style);
-      arrays = WritePieceFiles(part, path, writing.PieceSize, first, line);
+      arrays = WritePieceFiles({ part, path, writing.Remark, writing.PieceSize, line }, first);
     });
   for (const std::string& told : ranks.GatherOnAll(arrays))
   {
