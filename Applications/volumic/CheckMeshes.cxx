@@ -169,7 +169,11 @@ public:
     }
   }
 
-  bool IsComplete() const { return this->File && !this->IsShort; }
+  /** So far. VTK's reader ends the program where the last line of a text does not end. */
+  bool IsComplete() const
+  {
+    return this->File && !this->IsShort && !(this->IsText && this->File.eof());
+  }
 
 private:
   std::istream& File;

@@ -17,11 +17,10 @@ set(volumic_reader_sources
   RawSlabs.cxx
   ReadDicom.cxx
   ReadInv3.cxx
-  ReadMeta.cxx
-  ReadMrc.cxx
   ReadNifti.cxx
   ReadNrrd.cxx
   ReadPictures.cxx
+  ReadRaw.cxx
   ReadVolume.cxx
   SlabReader.cxx
   Texts.cxx

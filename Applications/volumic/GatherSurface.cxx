@@ -19,7 +19,6 @@
 #include <vtkPolyData.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -73,17 +72,6 @@ vtkSmartPointer<vtkIdList> First(vtkIdType count)
   ids->SetNumberOfIds(count);
   std::iota(ids->begin(), ids->end(), vtkIdType(0));
   return ids;
-}
-
-/** Numbers of all ranks. */
-std::vector<vtkIdType> GatherNumbers(const Ranks& ranks, vtkIdType number)
-{
-  std::vector<vtkIdType> numbers;
-  for (const std::string& text : ranks.GatherOnAll(std::to_string(number)))
-  {
-    numbers.push_back(std::atoll(text.c_str()));
-  }
-  return numbers;
 }
 
 /** Arrays like those of a piece, for a whole; what tells the ids is of no use in it. */
@@ -216,24 +204,18 @@ vtkPolyData* BlockOf(vtkMultiBlockDataSet* blocks, unsigned int index)
 /** As many as the rank has that knows of the most. */
 unsigned int NumberOfBlocks(const Ranks& ranks, vtkMultiBlockDataSet* pieces)
 {
-  const std::vector<vtkIdType> numbers =
-    GatherNumbers(ranks, pieces ? pieces->GetNumberOfBlocks() : 0);
+  const std::vector<double> numbers = ranks.GatherOnAll(pieces ? pieces->GetNumberOfBlocks() : 0.0);
   return static_cast<unsigned int>(*std::max_element(numbers.begin(), numbers.end()));
 }
 }
 
 SurfaceSize SizeOf(const Ranks& ranks, vtkPolyData* piece)
 {
-  SurfaceSize size;
-  for (const vtkIdType vertices : GatherNumbers(ranks, VerticesBy(piece)))
-  {
-    size.Vertices = std::max(size.Vertices, vertices);
-  }
-  for (const vtkIdType triangles : GatherNumbers(ranks, TrianglesIn(piece)))
-  {
-    size.Triangles += triangles;
-  }
-  return size;
+  // Numbers of double precision hold all that there can be.
+  const std::vector<double> vertices = ranks.GatherOnAll(static_cast<double>(VerticesBy(piece)));
+  const std::vector<double> triangles = ranks.GatherOnAll(static_cast<double>(TrianglesIn(piece)));
+  return { static_cast<vtkIdType>(*std::max_element(vertices.begin(), vertices.end())),
+    static_cast<vtkIdType>(std::accumulate(triangles.begin(), triangles.end(), 0.0)) };
 }
 
 std::vector<SurfaceSize> SizesOf(const Ranks& ranks, vtkMultiBlockDataSet* pieces)
@@ -252,7 +234,7 @@ vtkSmartPointer<vtkPolyData> GatherSurface(const Ranks& ranks, vtkPolyData* piec
   {
     return piece;
   }
-  const std::vector<vtkIdType> counts = GatherNumbers(ranks, TrianglesIn(piece));
+  const std::vector<double> counts = ranks.GatherOnAll(static_cast<double>(TrianglesIn(piece)));
   const SurfaceSize size = SizeOf(ranks, piece);
   if (!ranks.IsFirst())
   {

@@ -15,6 +15,9 @@ namespace tool
  */
 std::vector<std::string> FilesOfVolume(const std::string& name);
 
+/** The files of a folder: the slices of DICOM alone, or, if there are none, all. */
+std::vector<std::string> FilesOfFolder(const std::string& folder);
+
 /** @throws Failure that names the one of these files that is a pipe or a device. */
 void NeedFilesOfVolume(const std::string& name);
 

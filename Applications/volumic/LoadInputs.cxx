@@ -64,10 +64,7 @@ vtkSmartPointer<vtkImageData> GatherSlabs(
   // What a reader warns of are data that it lacked and made up.
   messages.Errors.insert(
     messages.Errors.end(), messages.Warnings.begin(), messages.Warnings.end());
-  if (!messages.Errors.empty())
-  {
-    throw Failure(name + ": cannot be read (" + messages.JoinedErrors() + ")");
-  }
+  messages.ThrowErrors(name);
   FailIf(!failure.empty(), name + ": " + failure);
   auto image = vtkSmartPointer<vtkImageData>::New();
   auto* level = vtkImageData::SafeDownCast(holder->GetOutput()->GetBlock(0));

@@ -292,6 +292,16 @@ std::vector<std::string> Ranks::GatherOnAll(const std::string& bytes) const
   return all;
 }
 
+std::vector<double> Ranks::GatherOnAll(double number) const
+{
+  std::vector<double> all(static_cast<std::size_t>(this->Count()), number);
+  if (!this->IsOne())
+  {
+    this->Controller->AllGather(&number, all.data(), 1);
+  }
+  return all;
+}
+
 void Ranks::SendToFirst(vtkDataObject* data) const
 {
   this->Controller->Send(data, 0, DataTag);

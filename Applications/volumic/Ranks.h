@@ -82,6 +82,7 @@ public:
 
   /** What each rank has, on all ranks. */
   std::vector<std::string> GatherOnAll(const std::string& bytes) const;
+  std::vector<double> GatherOnAll(double number) const;
 
   /** To the first rank, which calls Receive() meanwhile. */
   void SendToFirst(vtkDataObject* data) const;

@@ -49,10 +49,9 @@ public:
       this->IsBig = isBig;
       this->IsWide = this->Number(0, 4) == 540;
     }
-    if (bytes.size() < (this->IsWide ? 540 : 348) || (!this->IsWide && this->Number(0, 4) != 348))
-    {
-      throw Failure("not a NIfTI or Analyze file, or its header is damaged or cut off");
-    }
+    FailIf(
+      bytes.size() < (this->IsWide ? 540 : 348) || (!this->IsWide && this->Number(0, 4) != 348),
+      "not a NIfTI or Analyze file, or its header is damaged or cut off");
   }
 
   /** Whether it and the voxels are in one file, in two ("ni1"), or it is Analyze's (""). */

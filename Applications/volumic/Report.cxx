@@ -19,7 +19,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <functional>
 #include <map>
 #include <ostream>
@@ -30,15 +29,7 @@ namespace tool
 {
 std::vector<double> PeaksByRank(const Ranks& ranks)
 {
-  std::vector<double> peaks;
-  if (!ranks.IsOne())
-  {
-    for (const std::string& peak : ranks.GatherOnAll(std::to_string(PeakMemory())))
-    {
-      peaks.push_back(std::atof(peak.c_str()));
-    }
-  }
-  return peaks;
+  return ranks.IsOne() ? std::vector<double>() : ranks.GatherOnAll(PeakMemory());
 }
 
 double PeakMemory()

@@ -72,10 +72,8 @@ std::vector<KnownLabel> KnownLabels(const ToolOptions& options, const LabelMap& 
       // A few of very many labels can be chosen by their numbers, but not told of.
       const std::vector<KnownLabel> some =
         NumberedLabels(options.Labels, GetLabelNames(map.Layers[static_cast<std::size_t>(layer)]));
-      if (some.empty() || map.Layers.size() > 1 || options.ListsLabels)
-      {
-        throw Failure(options.Volume + ": " + failure.what());
-      }
+      FailIf(some.empty() || map.Layers.size() > 1 || options.ListsLabels,
+        options.Volume + ": " + failure.what());
       return some;
     }
   }
@@ -151,7 +149,7 @@ FilterRun RunOnLayer(const ToolOptions& options, const LabelMap& map, int layer,
   std::string failure; // One rank may not leave while others are in the filter yet.
   try
   {
-    run = RunFilter(filter, "Making surfaces", style, ranks);
+    run = RunFilter(filter, "Making surfaces", style, &ranks);
   }
   catch (const Failure& error)
   {

@@ -65,7 +65,7 @@ FilterRun RunOnVolume(
   std::string failure;
   try
   {
-    run = RunFilter(filter, title, style, job.All);
+    run = RunFilter(filter, title, style, &job.All);
   }
   catch (const std::bad_alloc&)
   {
@@ -126,35 +126,40 @@ FilterRun GiveLevels(const Job& job)
 }
 
 /** Says, as soon as it is known, where a run with --resume goes on from. */
-class ResumeTeller : public vtkCommand
+class ResumeTeller
 {
 public:
-  static ResumeTeller* New() { return new ResumeTeller; }
-
-  void Execute(vtkObject* caller, unsigned long, void*) override
+  explicit ResumeTeller(const Job& job)
+    : Filter(job.Filter), Says(job.Says),
+      Observer(job.Filter->AddObserver(vtkCommand::ProgressEvent, this, &ResumeTeller::Follow))
   {
-    auto* filter = static_cast<vtkDeformableSurface*>(caller);
-    const char* text = filter->GetProgressText();
-    if (text && std::strncmp(text, "Level", 5) == 0)
-    {
-      this->Tell(filter);
-    }
   }
+  ~ResumeTeller() { this->Filter->RemoveObserver(this->Observer); }
 
-  void Tell(vtkDeformableSurface* filter)
+  void Tell()
   {
-    if (filter->GetResume() && !std::exchange(this->HasTold, true))
+    if (this->Filter->GetResume() && !std::exchange(this->HasTold, true))
     {
-      const int level = filter->GetResumedLevel();
-      this->Says->Say(level >= -1
+      const int level = this->Filter->GetResumedLevel();
+      this->Says.Say(level >= -1
           ? "going on from level " + std::to_string(level) + ", to which a run before has come"
           : "there is no checkpoint to resume from: the run begins anew");
     }
   }
 
-  const Announcer* Says = nullptr;
-
 private:
+  void Follow()
+  {
+    const char* text = this->Filter->GetProgressText();
+    if (text && std::strncmp(text, "Level", 5) == 0)
+    {
+      this->Tell();
+    }
+  }
+
+  vtkDeformableSurface* Filter;
+  const Announcer& Says;
+  unsigned long Observer;
   bool HasTold = false;
 };
 
@@ -197,12 +202,10 @@ void FindSurface(const Job& job, ReportInput& results)
   CatchInterrupts(job.All);
   job.Filter->LeaveCheckpoints(); // Until all is written.
   const FilterRun pyramidRun = GiveLevels(job);
-  vtkNew<ResumeTeller> teller;
-  teller->Says = &job.Says;
-  job.Filter->AddObserver(vtkCommand::ProgressEvent, teller);
+  ResumeTeller teller(job);
   const FilterRun run =
     RunOnVolume(job, job.Filter, "Evolving the surface", job.Says.Style);
-  teller->Tell(job.Filter);
+  teller.Tell();
   for (const FilterRun& each : { pyramidRun, run })
   {
     for (const std::string& warning : each.Warnings)

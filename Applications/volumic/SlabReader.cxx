@@ -247,10 +247,7 @@ vtkSmartPointer<vtkDataArray> ReaderSlabs::Read(int first, int count)
   VtkMessages messages;
   messages.UpdateReader(reader, this->Name, this->HasTrustedWarnings, extent);
   vtkSmartPointer<vtkDataArray> values = reader->GetOutput()->GetPointData()->GetScalars();
-  if (!values)
-  {
-    throw Failure(this->Name + ": holds no voxels");
-  }
+  FailIf(!values, this->Name + ": holds no voxels");
   return this->Slope == 1.0 && this->Shift == 0.0 ? values
                                                   : Rescaled(values, this->Slope, this->Shift);
 }

@@ -23,6 +23,7 @@
 #include <exception>
 #include <new>
 #include <type_traits>
+#include <vector>
 
 namespace tool
 {
@@ -126,15 +127,10 @@ void VolumePart::SetWhole(const Ranks& ranks, vtkImageData* image)
 VolumeFacts VolumePart::FactsOfAll(const Ranks& ranks) const
 {
   VolumeFacts facts = this->Known;
-  std::string bytes(sizeof(facts.Range), '\0');
-  std::memcpy(bytes.data(), facts.Range.data(), bytes.size());
-  for (const std::string& told : ranks.GatherOnAll(bytes))
-  {
-    std::array<double, 2> range;
-    std::memcpy(range.data(), told.data(), sizeof(range));
-    facts.Range[0] = std::min(facts.Range[0], range[0]);
-    facts.Range[1] = std::max(facts.Range[1], range[1]);
-  }
+  const std::vector<double> least = ranks.GatherOnAll(facts.Range[0]);
+  const std::vector<double> most = ranks.GatherOnAll(facts.Range[1]);
+  facts.Range = { *std::min_element(least.begin(), least.end()),
+    *std::max_element(most.begin(), most.end()) };
   return facts;
 }
 

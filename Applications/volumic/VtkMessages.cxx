@@ -160,21 +160,23 @@ void VtkMessages::UpdateReader(
     // What a reader warns of are data that it lacked and made up.
     this->Errors.insert(this->Errors.end(), this->Warnings.begin(), this->Warnings.end());
   }
-  if (!this->Errors.empty() || reader->GetErrorCode() != 0)
+  if (this->Errors.empty() && reader->GetErrorCode() != 0)
   {
-    const std::string reason = this->JoinedErrors();
-    throw Failure(name + ": cannot be read (" + (reason.empty() ? "damaged file" : reason) + ")");
+    this->Errors.emplace_back("damaged file");
   }
+  this->ThrowErrors(name);
 }
 
 void VtkMessages::AskReader(vtkAlgorithm* reader, const std::string& name)
 {
   this->ListenTo(reader);
   this->Catch([&] { reader->UpdateInformation(); });
-  if (!this->Errors.empty())
-  {
-    throw Failure(name + ": cannot be read (" + this->JoinedErrors() + ")");
-  }
+  this->ThrowErrors(name);
+}
+
+void VtkMessages::ThrowErrors(const std::string& name) const
+{
+  FailIf(!this->Errors.empty(), name + ": cannot be read (" + this->JoinedErrors() + ")");
 }
 
 void VtkMessages::Catch(const std::function<void()>& action)

@@ -45,6 +45,9 @@ public:
    */
   void Catch(const std::function<void()>& action);
 
+  /** @throws Failure "NAME: cannot be read (reasons)" if there was an error. */
+  void ThrowErrors(const std::string& name) const;
+
   /** Each error once, with semicolons between. */
   std::string JoinedErrors() const;
 

@@ -300,10 +300,7 @@ void MadeFolders::Make(const std::string& name)
   this->Make(folder.parent_path().string());
   std::error_code failed;
   fs::create_directory(folder, failed);
-  if (failed)
-  {
-    throw Failure(name + ": cannot be written: " + failed.message());
-  }
+  FailIf(static_cast<bool>(failed), name + ": cannot be written: " + failed.message());
   this->Names.push_back(folder.string());
 }
 

@@ -18,13 +18,13 @@
 #include <vtkXMLMultiBlockDataWriter.h>
 
 #include <cstdint>
-#include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <functional>
 #include <iostream>
 #include <memory>
 #include <new>
+#include <numeric>
 #include <vector>
 
 namespace tool
@@ -153,22 +153,16 @@ void WriteSurfaceOfRanks(
       }
     });
   path = ranks.Broadcast(std::move(path));
-  const int own = NumberOfPieces(part, writing.PieceSize);
-  int first = 0;
-  int all = 0;
-  const std::vector<std::string> numbers = ranks.GatherOnAll(std::to_string(own));
-  for (int rank = 0; rank < ranks.Count(); ++rank)
-  {
-    const int number = std::atoi(numbers[static_cast<std::size_t>(rank)].c_str());
-    first += rank < ranks.Rank() ? number : 0;
-    all += number;
-  }
+  const std::vector<double> pieces =
+    ranks.GatherOnAll(static_cast<double>(NumberOfPieces(part, writing.PieceSize)));
+  const auto before = [&pieces](int rank)
+  { return static_cast<int>(std::accumulate(pieces.begin(), pieces.begin() + rank, 0.0)); };
   std::string arrays;
   together(
     [&]
     {
       ProgressLine line(TitleOf(name), writing.Style);
-      arrays = WritePieceFiles({ part, path, writing.Remark, writing.PieceSize, line }, first);
+      arrays = WritePieceFiles({ part, path, writing.Remark, writing.PieceSize, line }, before(ranks.Rank()));
     });
   for (const std::string& told : ranks.GatherOnAll(arrays))
   {
@@ -179,7 +173,7 @@ void WriteSurfaceOfRanks(
     {
       if (file)
       {
-        WritePieceList(path, arrays, all);
+        WritePieceList(path, arrays, before(ranks.Count()));
         CheckXml(path);
         file->Publish();
       }
