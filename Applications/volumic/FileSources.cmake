@@ -14,6 +14,7 @@ set(volumic_reader_sources
   LabelJson.cxx
   LabelNames.cxx
   LabelTable.cxx
+  Messages.cxx
   RawSlabs.cxx
   ReadDicom.cxx
   ReadInv3.cxx
@@ -24,8 +25,7 @@ set(volumic_reader_sources
   ReadVolume.cxx
   SlabReader.cxx
   Texts.cxx
-  VolumeImage.cxx
-  VtkMessages.cxx)
+  VolumeImage.cxx)
 find_package(nlohmann_json 3.9 REQUIRED) # headers, in Debian's nlohmann-json3-dev
 find_package(LibArchive REQUIRED)        # in Debian's libarchive-dev
 set(volumic_file_libraries nlohmann_json::nlohmann_json LibArchive::LibArchive)
@@ -35,12 +35,11 @@ list(TRANSFORM volumic_reader_sources PREPEND "${CMAKE_CURRENT_LIST_DIR}/")
 set(volumic_writer_sources
   GltfScene.cxx
   OutputFiles.cxx
-  ProgressLine.cxx
   Ranks.cxx
   SolidRegions.cxx
   SolidShells.cxx
   SolverFiles.cxx
-  SurfaceFields.cxx
+  SurfaceFacts.cxx
   SurfaceFormats.cxx
   SurfacePieces.cxx
   VtkWriters.cxx

@@ -3,7 +3,7 @@
 #include "GltfScene.h"
 
 #include "Json.h"
-#include "SurfaceFields.h"
+#include "SurfaceFacts.h"
 #include "ToolErrors.h"
 #include "VtkWriters.h"
 

@@ -5,6 +5,7 @@
 #include "BinaryFile.h"
 #include "InputFiles.h"
 #include "LabelNames.h"
+#include "Messages.h"
 #include "Ranks.h"
 #include "ReadStart.h"
 #include "ReadVolume.h"
@@ -14,7 +15,6 @@
 #include "ToolErrors.h"
 #include "ToolOptions.h"
 #include "VolumeImage.h"
-#include "VtkMessages.h"
 
 #include <vtkAlgorithm.h>
 #include <vtkDataArray.h>

@@ -8,11 +8,11 @@
 
 #include "BinaryFile.h"
 #include "DicomHeader.h"
+#include "Messages.h"
 #include "SlabReader.h"
 #include "Texts.h"
 #include "ToolErrors.h"
 #include "VolumeImage.h"
-#include "VtkMessages.h"
 
 #include <vtkDICOMImageReader.h>
 #include <vtkDataArray.h>

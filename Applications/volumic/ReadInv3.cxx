@@ -4,10 +4,10 @@
 
 #include "BinaryFile.h"
 #include "CheckInputs.h"
+#include "Messages.h"
 #include "Texts.h"
 #include "ToolErrors.h"
 #include "VolumeImage.h"
-#include "VtkMessages.h"
 
 #include <vtkDataArray.h>
 #include <vtkXMLDataElement.h>

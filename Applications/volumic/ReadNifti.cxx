@@ -4,11 +4,11 @@
 
 #include "BinaryFile.h"
 #include "LabelNames.h"
+#include "Messages.h"
 #include "RawSlabs.h"
 #include "Texts.h"
 #include "ToolErrors.h"
 #include "VolumeImage.h"
-#include "VtkMessages.h"
 
 #include <vtkImageData.h>
 #include <vtkMatrix4x4.h>

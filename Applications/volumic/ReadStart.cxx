@@ -4,9 +4,9 @@
 
 #include "BinaryFile.h"
 #include "CheckInputs.h"
+#include "Messages.h"
 #include "Texts.h"
 #include "ToolErrors.h"
-#include "VtkMessages.h"
 
 #include <vtkCellArray.h>
 #include <vtkCleanPolyData.h>

@@ -4,11 +4,11 @@
 
 #include "CheckInputs.h"
 #include "InputFiles.h"
+#include "Messages.h"
 #include "SlabReader.h"
 #include "Texts.h"
 #include "ToolErrors.h"
 #include "VolumeImage.h"
-#include "VtkMessages.h"
 
 #include <vtkDataArray.h>
 #include <vtkGenericDataObjectReader.h>
@@ -30,7 +30,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <functional>
-#include <iterator>
 #include <memory>
 #include <new>
 #include <stdexcept>

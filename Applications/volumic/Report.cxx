@@ -4,7 +4,7 @@
 
 #include "Json.h"
 #include "Ranks.h"
-#include "SurfaceFields.h"
+#include "SurfaceFacts.h"
 
 #include <vtkDataArray.h>
 #include <vtkDeformableSurface.h>

@@ -3,8 +3,8 @@
 #ifndef volumicReport_h
 #define volumicReport_h
 
-#include "GatherSurface.h"
-#include "LabelChoice.h"
+#include "LabelMap.h"
+#include "SurfaceFacts.h"
 #include "SurfaceProperties.h"
 #include "VolumePart.h"
 #include "WriteOutputs.h"

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RunFilter.h"
 
+#include "Messages.h"
 #include "Ranks.h"
 #include "SurfaceProperties.h"
 #include "ToolErrors.h"
-#include "VtkMessages.h"
 
 #include <vtkAlgorithm.h>
 #include <vtkCallbackCommand.h>

@@ -3,7 +3,7 @@
 #ifndef volumicRunFilter_h
 #define volumicRunFilter_h
 
-#include "ProgressLine.h"
+#include "Messages.h"
 
 #include <string>
 #include <vector>

@@ -2,13 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Segment.h"
 
-#include "GatherSurface.h"
 #include "LabelMap.h"
 #include "LoadInputs.h"
 #include "Ranks.h"
 #include "Report.h"
 #include "RunFilter.h"
-#include "SurfaceFields.h"
+#include "SurfaceFacts.h"
 #include "SurfaceProperties.h"
 #include "Texts.h"
 #include "ToolErrors.h"

@@ -3,7 +3,7 @@
 #ifndef volumicSolidRegions_h
 #define volumicSolidRegions_h
 
-#include "SurfaceFields.h"
+#include "SurfaceFacts.h"
 #include "VolumeImage.h"
 
 #include <array>

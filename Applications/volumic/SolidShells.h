@@ -3,7 +3,7 @@
 #ifndef volumicSolidShells_h
 #define volumicSolidShells_h
 
-#include "SurfaceFields.h"
+#include "SurfaceFacts.h"
 #include "VolumeImage.h"
 
 #include <vtkBoundingBox.h>

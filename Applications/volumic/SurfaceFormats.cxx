@@ -4,7 +4,7 @@
 
 #include "GltfScene.h"
 #include "OutputFiles.h"
-#include "SurfaceFields.h"
+#include "SurfaceFacts.h"
 #include "Texts.h"
 #include "ToolErrors.h"
 #include "VtkWriters.h"

@@ -3,7 +3,7 @@
 #ifndef volumicSurfaceFormats_h
 #define volumicSurfaceFormats_h
 
-#include "ProgressLine.h"
+#include "Messages.h"
 
 #include <string>
 

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "VolumePart.h"
 
+#include "Messages.h"
 #include "Ranks.h"
 #include "ReadVolume.h"
 #include "ToolErrors.h"
-#include "VtkMessages.h"
 
 #include <vtkDataArray.h>
 #include <vtkDataObject.h>

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "VtkWriters.h"
 
+#include "Messages.h"
 #include "ToolErrors.h"
-#include "VtkMessages.h"
 
 #include <vtkAlgorithm.h>
 #include <vtkCallbackCommand.h>

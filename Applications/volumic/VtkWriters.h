@@ -4,7 +4,7 @@
 #define volumicVtkWriters_h
 
 #include "Descriptor.h"
-#include "ProgressLine.h"
+#include "Messages.h"
 
 #include <vtkSmartPointer.h>
 

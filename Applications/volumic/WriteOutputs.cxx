@@ -2,13 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "WriteOutputs.h"
 
-#include "GatherSurface.h"
 #include "GltfScene.h"
 #include "LoadInputs.h"
 #include "OutputFiles.h"
 #include "Ranks.h"
 #include "Report.h"
-#include "SurfaceFields.h"
+#include "SurfaceFacts.h"
 #include "Texts.h"
 #include "ToolErrors.h"
 #include "ToolOptions.h"

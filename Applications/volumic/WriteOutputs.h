@@ -3,8 +3,8 @@
 #ifndef volumicWriteOutputs_h
 #define volumicWriteOutputs_h
 
-#include "LabelChoice.h"
-#include "ProgressLine.h"
+#include "LabelMap.h"
+#include "Messages.h"
 
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
