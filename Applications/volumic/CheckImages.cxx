@@ -142,10 +142,9 @@ void CheckChosen(vtkObject* reader, const std::string& name)
     CheckTga(name);
   }
   const std::string mark = BinaryFile(name).Text(0, 2);
-  if (reader->IsA("vtkHDRReader") || (reader->IsA("vtkPNMReader") && mark != "P5" && mark != "P6"))
-  {
-    throw Failure("pictures of this kind are not read; PNG, TIFF, JPEG, BMP, PGM and PPM are");
-  }
+  FailIf(
+    reader->IsA("vtkHDRReader") || (reader->IsA("vtkPNMReader") && mark != "P5" && mark != "P6"),
+    "pictures of this kind are not read; PNG, TIFF, JPEG, BMP, PGM and PPM are");
 }
 
 int CheckPicture(const std::string& name)

@@ -5,7 +5,7 @@
 // all, appended; if they are packed, they begin with the number of blocks.
 #include "BinaryFile.h"
 #include "CheckInputs.h"
-#include "InputFiles.h"
+#include "ReadVolume.h"
 #include "ToolErrors.h"
 
 #include <vtkBase64Utilities.h>

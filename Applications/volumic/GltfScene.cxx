@@ -16,6 +16,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <map>
 #include <ostream>
@@ -84,7 +85,7 @@ private:
   std::size_t AddNumbers(
     std::size_t piece, std::uint64_t offset, std::uint64_t count, GltfCode type);
 
-  std::array<float, 3> Vertex(vtkPolyData* surface, vtkIdType point) const;
+  Floats Vertex(vtkPolyData* surface, vtkIdType point) const;
   void WriteVertices(std::ostream& out, vtkPolyData* surface) const;
 
   std::vector<SceneObject> Objects; ///< that have points
@@ -146,7 +147,7 @@ Json Scene::DescribeVertices(vtkPolyData* surface)
   Vector3 most = { -infinity, -infinity, -infinity };
   for (vtkIdType i = 0; i < surface->GetNumberOfPoints(); ++i)
   {
-    const std::array<float, 3> vertex = this->Vertex(surface, i);
+    const Floats vertex = this->Vertex(surface, i);
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
       least[axis] = std::min(least[axis], static_cast<double>(vertex[axis]));
@@ -218,21 +219,17 @@ std::string Scene::Description() const
   return described;
 }
 
-std::array<float, 3> Scene::Vertex(vtkPolyData* surface, vtkIdType point) const
+Floats Scene::Vertex(vtkPolyData* surface, vtkIdType point) const
 {
   Vector3 place;
   surface->GetPoint(point, place.data());
-  std::array<float, 3> vertex;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    vertex[axis] = static_cast<float>(place[axis] - this->Middle[axis]);
-  }
-  return vertex;
+  std::transform(place.begin(), place.end(), this->Middle.begin(), place.begin(), std::minus<>());
+  return AsFloats(place.data());
 }
 
 void Scene::WriteVertices(std::ostream& out, vtkPolyData* surface) const
 {
-  const auto write = [&out](const std::array<float, 3>& numbers)
+  const auto write = [&out](const Floats& numbers)
   { vtkByteSwap::SwapWrite4LERange(numbers.data(), 3, &out); };
   const vtkIdType count = surface->GetNumberOfPoints();
   for (vtkIdType i = 0; i < count; ++i)
@@ -242,9 +239,7 @@ void Scene::WriteVertices(std::ostream& out, vtkPolyData* surface) const
   vtkDataArray* normals = surface->GetPointData()->GetNormals();
   for (vtkIdType i = 0; normals && i < count; ++i)
   {
-    const double* normal = normals->GetTuple3(i);
-    write({ static_cast<float>(normal[0]), static_cast<float>(normal[1]),
-      static_cast<float>(normal[2]) });
+    write(AsFloats(normals->GetTuple3(i)));
   }
 }
 

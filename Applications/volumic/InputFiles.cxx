@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "InputFiles.h"
+#include "ReadVolume.h"
 
 #include "BinaryFile.h"
-#include "ReadVolume.h"
 #include "Texts.h"
 
 #include <algorithm>

@@ -3,7 +3,6 @@
 #include "LoadInputs.h"
 
 #include "BinaryFile.h"
-#include "InputFiles.h"
 #include "LabelNames.h"
 #include "Messages.h"
 #include "Ranks.h"
@@ -33,7 +32,6 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <system_error>
 
@@ -279,17 +277,12 @@ void CheckInputsOnAll(const ToolOptions& options, Ranks& ranks)
     file += !isThere ? ": no such file or folder"
                      : failed ? "" : ": a file of " + std::to_string(size) + " bytes";
   }
-  const std::optional<Ranks::Difference> difference = ranks.FindDifference(files);
-  ranks.Together(
-    [&difference]
+  ranks.NeedSame(files,
+    [](const std::string& here, const std::string& first)
     {
-      if (difference)
-      {
-        throw Failure((difference->Here.empty() ? "finds fewer files" : difference->Here) +
-          ", where the first rank finds " +
-          (difference->First.empty() ? "fewer files" : difference->First) +
-          "; all ranks need the same files, from a disk that they share");
-      }
+      throw Failure((here.empty() ? "finds fewer files" : here) + ", where the first rank finds " +
+        (first.empty() ? "fewer files" : first) +
+        "; all ranks need the same files, from a disk that they share");
     });
 }
 

@@ -5,7 +5,7 @@
 #include "RawSlabs.h"
 
 #include "BinaryFile.h"
-#include "InputFiles.h"
+#include "ReadVolume.h"
 #include "Texts.h"
 #include "ToolErrors.h"
 #include "VolumeImage.h"

@@ -3,7 +3,6 @@
 #include "ReadVolume.h"
 
 #include "CheckInputs.h"
-#include "InputFiles.h"
 #include "Messages.h"
 #include "SlabReader.h"
 #include "Texts.h"

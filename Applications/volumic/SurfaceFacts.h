@@ -11,6 +11,7 @@
 #include <vtkSmartPointer.h>
 #include <vtkType.h>
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,15 @@ void ForEachPolygon(vtkPolyData* surface, const Take& take)
     cells->GetCurrentCell(count, corners);
     take(cells->GetCurrentCellId(), corners, count);
   }
+}
+
+using Floats = std::array<float, 3>;
+
+/** Three numbers as binary files have them. */
+inline Floats AsFloats(const double* numbers)
+{
+  return { static_cast<float>(numbers[0]), static_cast<float>(numbers[1]),
+    static_cast<float>(numbers[2]) };
 }
 
 /** A label that a surface of vtkLabelsToSurfaces is about. */

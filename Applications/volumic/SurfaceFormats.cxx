@@ -21,7 +21,6 @@
 #include <vtkTriangle.h>
 #include <vtkUnsignedCharArray.h>
 
-#include <array>
 #include <cstdint>
 #include <iostream>
 #include <locale>
@@ -56,14 +55,6 @@ template <class Number>
 void Put(std::ostream& out, const Number* numbers, std::size_t count)
 {
   vtkByteSwap::SwapWrite4LERange(numbers, count, &out);
-}
-
-using Floats = std::array<float, 3>;
-
-Floats AsFloats(const double* numbers)
-{
-  return { static_cast<float>(numbers[0]), static_cast<float>(numbers[1]),
-    static_cast<float>(numbers[2]) };
 }
 
 /** Binary: each triangle with its normal, its corners and two bytes for nothing. */

@@ -45,41 +45,44 @@ std::string TitleOf(const std::string& name)
   return "Writing " + fs::path(name).filename().string();
 }
 
-/** @param beside the folder, which is of no interest to the user */
-[[noreturn]] void ThrowWithout(
-  const std::string& beside, const std::string& name, const std::exception& error)
+/**
+ * Do some of the work on a file. @throws Failure that names the file
+ * @param path beside it, whose folder is of no interest to the user; may be empty
+ */
+template <class Work>
+void WorkOn(const std::string& name, const std::string& path, const Work& work)
 {
-  std::string reason = ReasonOf(error);
-  for (std::size_t at = reason.find(beside); !beside.empty() && at != std::string::npos;
-       at = reason.find(beside))
+  try
   {
-    reason.erase(at, beside.size());
+    work();
   }
-  throw Failure(name + ": " + reason);
-}
-
-std::string FolderAbout(const std::string& path)
-{
-  return fs::path(path).parent_path().string() + "/";
+  catch (const std::exception& error)
+  {
+    std::string reason = ReasonOf(error);
+    const std::string beside = fs::path(path).parent_path().string() + "/";
+    for (std::size_t at = reason.find(beside); !path.empty() && at != std::string::npos;
+         at = reason.find(beside))
+    {
+      reason.erase(at, beside.size());
+    }
+    throw Failure(name + ": " + reason);
+  }
 }
 
 /** Have `write` write to a path beside the file, which takes the file's place if all went well. */
 template <class Write>
 void WriteBeside(const std::string& name, ProgressStyle style, const Write& write)
 {
-  std::string beside;
-  try
-  {
-    OutputFile file(name);
-    beside = FolderAbout(file.Path());
-    ProgressLine line(TitleOf(name), style);
-    write(file.Path(), line);
-    file.Publish();
-  }
-  catch (const std::exception& error)
-  {
-    ThrowWithout(beside, name, error);
-  }
+  std::string path;
+  WorkOn(name, path,
+    [&]
+    {
+      OutputFile file(name);
+      path = file.Path();
+      ProgressLine line(TitleOf(name), style);
+      write(path, line);
+      file.Publish();
+    });
 }
 }
 
@@ -128,20 +131,7 @@ void WriteSurfaceOfRanks(
   std::unique_ptr<OutputFile> file; // of the first rank
   std::string path;
   const auto together = [&](const std::function<void()>& work)
-  {
-    ranks.Together(
-      [&]
-      {
-        try
-        {
-          work();
-        }
-        catch (const std::exception& error)
-        {
-          ThrowWithout(path.empty() ? path : FolderAbout(path), name, error);
-        }
-      });
-  };
+  { ranks.Together([&] { WorkOn(name, path, work); }); };
   together(
     [&]
     {
@@ -199,10 +189,7 @@ void WriteScene(
   const std::vector<SceneObject>& objects, const std::string& name, ProgressStyle style)
 {
   WriteBeside(name, style,
-    [&](const std::string& path, ProgressLine& line)
-    {
-      WriteGlb(objects, path, line);
-    });
+    [&](const std::string& path, ProgressLine& line) { WriteGlb(objects, path, line); });
 }
 
 void WriteBlocks(vtkMultiBlockDataSet* blocks, const std::string& name, ProgressStyle style)
