@@ -10,11 +10,8 @@
 #include <vtk_zlib.h>
 
 #include <algorithm>
-#include <cstdint>
 #include <cstdlib>
 #include <limits>
-#include <string>
-#include <vector>
 
 namespace tool
 {

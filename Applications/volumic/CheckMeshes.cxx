@@ -6,16 +6,11 @@
 #include "ToolErrors.h"
 
 #include <algorithm>
-#include <array>
-#include <cstddef>
 #include <cstdlib>
-#include <fstream>
 #include <limits>
 #include <map>
 #include <set>
 #include <sstream>
-#include <string>
-#include <vector>
 
 namespace tool
 {

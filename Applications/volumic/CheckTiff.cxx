@@ -9,16 +9,13 @@
 #include "ToolErrors.h"
 
 #include <algorithm>
-#include <cstdint>
 #include <iterator>
 #include <limits>
 #include <map>
 #include <set>
 #include <sstream>
-#include <string>
 #include <tuple>
 #include <utility>
-#include <vector>
 
 namespace tool
 {

@@ -14,15 +14,9 @@
 #include <vtkXMLParser.h>
 
 #include <algorithm>
-#include <array>
-#include <cstdint>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
-#include <istream>
 #include <limits>
-#include <string>
-#include <vector>
 
 namespace tool
 {

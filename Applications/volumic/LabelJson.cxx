@@ -8,7 +8,6 @@
 #include "ToolErrors.h"
 
 #include <algorithm>
-#include <cmath>
 #include <initializer_list>
 #include <limits>
 

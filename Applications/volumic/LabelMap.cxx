@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LabelMap.h"
 
-#include "LabelNames.h"
 #include "LoadInputs.h"
 #include "ReadVolume.h"
 #include "Texts.h"

@@ -27,12 +27,10 @@
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
-#include <vtkSmartPointer.h>
 
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <string>
 #include <system_error>
 
 namespace tool

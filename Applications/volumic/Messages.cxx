@@ -10,7 +10,6 @@
 #include <vtkLogger.h>
 #include <vtkNew.h>
 #include <vtkOutputWindow.h>
-#include <vtkSmartPointer.h>
 
 #include <algorithm>
 #include <cstdio>

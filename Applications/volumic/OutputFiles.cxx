@@ -12,7 +12,6 @@
 #include <map>
 #include <system_error>
 #include <utility>
-#include <vector>
 
 #include <sys/stat.h>
 #include <unistd.h>

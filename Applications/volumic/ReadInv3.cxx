@@ -2,12 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SlabReader.h"
 
-#include "BinaryFile.h"
 #include "CheckInputs.h"
 #include "Messages.h"
 #include "Texts.h"
-#include "ToolErrors.h"
-#include "VolumeImage.h"
 
 #include <vtkDataArray.h>
 #include <vtkXMLDataElement.h>

@@ -2,30 +2,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SlabReader.h"
 
-#include "BinaryFile.h"
 #include "LabelNames.h"
 #include "Messages.h"
-#include "RawSlabs.h"
 #include "Texts.h"
-#include "ToolErrors.h"
-#include "VolumeImage.h"
 
-#include <vtkImageData.h>
 #include <vtkMatrix4x4.h>
 #include <vtkNIFTIImageReader.h>
-#include <vtkNew.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <limits>
 #include <map>
-#include <memory>
-#include <string>
 #include <tuple>
 #include <utility>
 

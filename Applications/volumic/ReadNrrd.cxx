@@ -5,23 +5,16 @@
 // here: https://teem.sourceforge.net/nrrd/format.html.
 #include "SlabReader.h"
 
-#include "BinaryFile.h"
 #include "LabelNames.h"
-#include "RawSlabs.h"
 #include "Texts.h"
-#include "ToolErrors.h"
-#include "VolumeImage.h"
 
 #include <vtkType.h>
 
 #include <algorithm>
-#include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <locale>
 #include <map>
-#include <memory>
 #include <set>
 #include <sstream>
 

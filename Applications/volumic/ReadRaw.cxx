@@ -2,20 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // MetaImage and MRC: a header tells of the voxels, which lie behind it or in other files as they are.
-#include "RawSlabs.h"
+#include "SlabReader.h"
 
-#include "BinaryFile.h"
 #include "ReadVolume.h"
 #include "Texts.h"
-#include "ToolErrors.h"
-#include "VolumeImage.h"
 
 #include <vtkMetaImageReader.h>
 #include <vtkType.h>
 
 #include <algorithm>
-#include <array>
-#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -23,10 +18,8 @@
 #include <iterator>
 #include <limits>
 #include <map>
-#include <memory>
 #include <set>
 #include <sstream>
-#include <string>
 #include <tuple>
 #include <utility>
 

@@ -4,7 +4,6 @@
 
 #include "Json.h"
 #include "Ranks.h"
-#include "SurfaceFacts.h"
 
 #include <vtkDataArray.h>
 #include <vtkDeformableSurface.h>

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RunFilter.h"
 
-#include "Messages.h"
 #include "Ranks.h"
 #include "SurfaceProperties.h"
 #include "ToolErrors.h"

@@ -10,7 +10,6 @@
 #include "SurfaceFacts.h"
 #include "SurfaceProperties.h"
 #include "Texts.h"
-#include "ToolErrors.h"
 #include "ToolOptions.h"
 #include "WriteOutputs.h"
 #include "WriteResults.h"

@@ -3,33 +3,27 @@
 #include "SlabReader.h"
 
 #include "Messages.h"
-#include "ToolErrors.h"
 
 #include <vtkAlgorithm.h>
 #include <vtkDataArray.h>
 #include <vtkDataObject.h>
 #include <vtkImageAlgorithm.h>
-#include <vtkImageData.h>
 #include <vtkImageReader2.h>
 #include <vtkImageReader2Factory.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
 #include <vtkMatrix3x3.h>
 #include <vtkMatrix4x4.h>
-#include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkPointData.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
-#include <cstdint>
 #include <cstring>
 #include <exception>
 #include <limits>
 #include <new>
-#include <string>
 #include <utility>
 
 namespace tool

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "SolidShells.h"
+#include "SolidRegions.h"
 
 #include "ToolErrors.h"
 

@@ -23,7 +23,6 @@
 #include <numeric>
 #include <ostream>
 #include <sstream>
-#include <string>
 #include <vector>
 
 namespace tool

@@ -11,8 +11,6 @@
 #include <iterator>
 #include <ostream>
 #include <sstream>
-#include <string>
-#include <utility>
 
 namespace tool
 {

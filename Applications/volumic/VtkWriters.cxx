@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "VtkWriters.h"
 
-#include "Messages.h"
 #include "ToolErrors.h"
 
 #include <vtkAlgorithm.h>
@@ -24,7 +23,6 @@
 #include <ostream>
 #include <sstream>
 #include <system_error>
-#include <vector>
 
 namespace tool
 {

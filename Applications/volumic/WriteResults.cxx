@@ -25,7 +25,6 @@
 #include <memory>
 #include <new>
 #include <numeric>
-#include <vector>
 
 namespace tool
 {

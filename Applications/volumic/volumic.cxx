@@ -25,8 +25,6 @@
 #include <exception>
 #include <iostream>
 #include <new>
-#include <string>
-#include <vector>
 
 namespace
 {
