@@ -125,7 +125,7 @@ void NeedJustBytes(std::uint64_t there, std::uint64_t needed)
       std::to_string(there - needed) + ")");
 }
 
-// ---- Packed data -------------------------------------------------------------------------------
+// ---- Packed data --------------------------------------------------------------------------------
 
 namespace
 {

@@ -89,7 +89,7 @@ void NeedBytes(std::uint64_t there, std::uint64_t needed);
  */
 void NeedJustBytes(std::uint64_t there, std::uint64_t needed);
 
-// ---- Packed data -------------------------------------------------------------------------------
+// ---- Packed data --------------------------------------------------------------------------------
 
 /** Takes unpacked bytes, in their order. */
 using UnpackedSink = std::function<void(const char* bytes, std::size_t count)>;

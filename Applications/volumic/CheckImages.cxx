@@ -152,7 +152,7 @@ int CheckPicture(const std::string& name)
   return std::max(CheckTiff(name), 1);
 }
 
-// ---- netCDF ------------------------------------------------------------------------------------
+// ---- netCDF -------------------------------------------------------------------------------------
 
 // The classic form (its specification: NetCDF Classic Format, in netCDF's documentation).
 namespace

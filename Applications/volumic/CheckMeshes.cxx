@@ -251,7 +251,7 @@ void CheckPly(const std::string& name)
   }
 }
 
-// ---- .obj --------------------------------------------------------------------------------------
+// ---- .obj ---------------------------------------------------------------------------------------
 
 // Lines of words. Corners of faces are numbers of points, of texture coordinates and of normals, as
 // 1/2/3, 1/2, 1//3 or 1; less than 0 they count from the last one so far.

@@ -202,7 +202,7 @@ void NameLabels(const ToolOptions& options, vtkImageData* image, const Announcer
   }
 }
 
-// ---- Which labels ------------------------------------------------------------------------------
+// ---- Which labels -------------------------------------------------------------------------------
 
 namespace
 {

@@ -56,7 +56,7 @@ std::vector<KnownLabel> NumberedLabels(
  */
 std::vector<std::string> FileNamesOf(const std::vector<KnownLabel>& known);
 
-// ---- Which volume ------------------------------------------------------------------------------
+// ---- Which volume -------------------------------------------------------------------------------
 
 class Announcer;
 struct ToolOptions;

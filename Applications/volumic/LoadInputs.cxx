@@ -201,7 +201,7 @@ LoadedVolume LoadVolume(const ToolOptions& options, vtkDeformableSurface* filter
   return volume;
 }
 
-// ---- What else a surface is made of ------------------------------------------------------------
+// ---- What else a surface is made of -------------------------------------------------------------
 
 namespace
 {

@@ -53,7 +53,7 @@ struct LoadedVoxels
 LoadedVoxels LoadVoxels(const std::string& name, const std::string& array,
   vtkDeformableSurface* filter, vtkImagePyramid* holder, const Announcer& announcer);
 
-// ---- What else a surface is made of ------------------------------------------------------------
+// ---- What else a surface is made of -------------------------------------------------------------
 
 class Announcer;
 class Ranks;

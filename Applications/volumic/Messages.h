@@ -56,7 +56,7 @@ private:
   std::vector<vtkSmartPointer<vtkCallbackCommand>> Observers;
 };
 
-// ---- Progress ----------------------------------------------------------------------------------
+// ---- Progress -----------------------------------------------------------------------------------
 
 /** How the progress is shown on stderr. */
 enum class ProgressStyle

@@ -169,7 +169,7 @@ void NeedRoom(const std::string& path, std::size_t count)
     truncate(path.c_str(), 0) == 0);
 }
 
-// ---- Before the work begins --------------------------------------------------------------------
+// ---- Before the work begins ---------------------------------------------------------------------
 
 namespace
 {

@@ -212,7 +212,7 @@ std::unique_ptr<SlabReader> OpenMeta(const std::string& name, const Opening& ope
   return slabs;
 }
 
-// ---- MRC ---------------------------------------------------------------------------------------
+// ---- MRC ----------------------------------------------------------------------------------------
 
 // MRC2014 (https://www.ccpem.ac.uk/mrc_format/mrc2014.php), 1024 bytes of a header, then voxels.
 namespace

@@ -65,7 +65,7 @@ std::vector<std::string> MatchFiles(const std::string& pattern);
 /** All regular files of the folder, sorted likewise. */
 std::vector<std::string> FilesOf(const std::string& folder);
 
-// ---- Files of volumes --------------------------------------------------------------------------
+// ---- Files of volumes ---------------------------------------------------------------------------
 
 /**
  * All files that ReadVolume would read: those of a folder, of a pattern or of a DICOM series, and

@@ -222,17 +222,14 @@ void FindSurface(const Job& job, ReportInput& results)
     return;
   }
   RemoveCheckpointOfEnded(job, results.StopReason);
-  if (results.StopReason == "time limit")
-  {
-    job.All.ThrowOnAll("the time limit came before there was a surface; nothing is written");
-  }
-  if (run.IsInterrupted)
-  {
-    job.All.ThrowOnAll("interrupted before there was a surface; nothing is written");
-  }
-  job.All.ThrowOnAll("the surface vanished: is the object where the image is " +
-    std::string(job.Filter->GetObjectIsBright() ? "above " : "below ") +
-    NumberText(job.Filter->GetIsoValue()) + "? (--iso, --dark)");
+  const bool isLate = results.StopReason == "time limit";
+  job.All.ThrowOnAll(isLate
+      ? "the time limit came before there was a surface; nothing is written"
+      : run.IsInterrupted
+      ? "interrupted before there was a surface; nothing is written"
+      : "the surface vanished: is the object where the image is " +
+        std::string(job.Filter->GetObjectIsBright() ? "above " : "below ") +
+        NumberText(job.Filter->GetIsoValue()) + "? (--iso, --dark)");
 }
 }
 

@@ -23,7 +23,6 @@
 #include <cstring>
 #include <exception>
 #include <limits>
-#include <new>
 #include <utility>
 
 namespace tool
@@ -144,14 +143,10 @@ protected:
       FillImage(*this->Reader, extent, vtkImageData::GetData(info));
       return 1;
     }
-    catch (const std::bad_alloc&)
-    {
-      vtkErrorMacro(<< "not enough memory to read it; crop it, or resample it to fewer voxels");
-      return 0;
-    }
     catch (const std::exception& error)
     {
-      vtkErrorMacro(<< error.what());
+      vtkErrorMacro(<< ReasonOf(
+        error, "not enough memory to read it; crop it, or resample it to fewer voxels"));
       return 0;
     }
   }
@@ -176,7 +171,7 @@ vtkSmartPointer<vtkImageData> ReadAllSlabs(SlabReader& reader)
   return image;
 }
 
-// ---- Readers of VTK ----------------------------------------------------------------------------
+// ---- Readers of VTK -----------------------------------------------------------------------------
 
 vtkSmartPointer<vtkImageData> ImageOf(vtkAlgorithm* reader, const std::string& name)
 {

@@ -92,7 +92,7 @@ std::unique_ptr<SlabReader> OpenPictures(const std::vector<std::string>& files);
 /** A picture, the pages of a TIFF, or what else a reader of VTK takes for its own. */
 std::unique_ptr<SlabReader> OpenByContent(const std::string& name, const Opening& opening);
 
-// ---- Readers of VTK ----------------------------------------------------------------------------
+// ---- Readers of VTK -----------------------------------------------------------------------------
 
 /** The image that a reader of VTK gives. @throws Failure if it, or one within it, complains. */
 vtkSmartPointer<vtkImageData> ImageOf(vtkAlgorithm* reader, const std::string& name);
@@ -154,7 +154,7 @@ private:
   Factory Make;
 };
 
-// ---- Voxels that lie in files ------------------------------------------------------------------
+// ---- Voxels that lie in files -------------------------------------------------------------------
 
 /** A file without a name in a folder: it is there as long as this object or the process. */
 class NamelessFile

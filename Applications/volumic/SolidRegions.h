@@ -50,7 +50,7 @@ struct SolidRegions
  */
 SolidRegions FindRegions(vtkPolyData* surface);
 
-// ---- Shells ------------------------------------------------------------------------------------
+// ---- Shells -------------------------------------------------------------------------------------
 
 // Each triangle t has two sides: side 2 t is behind it, 2 t + 1 in front of it, where its normal
 // points. Sides that face each other across a wedge of an edge are of the same region of space; those

@@ -103,7 +103,7 @@ vtkSmartPointer<vtkUnsignedCharArray> VertexColors(vtkPolyData* surface)
   return vertices;
 }
 
-// ---- Surfaces of which each rank has a piece ---------------------------------------------------
+// ---- Surfaces of which each rank has a piece ----------------------------------------------------
 
 namespace
 {

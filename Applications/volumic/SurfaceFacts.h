@@ -63,7 +63,7 @@ const int* TriangleLabels(vtkPolyData* surface);
 /** A colour for each vertex, that of the first triangle about it; null as above. */
 vtkSmartPointer<vtkUnsignedCharArray> VertexColors(vtkPolyData* surface);
 
-// ---- Surfaces of which each rank has a piece ---------------------------------------------------
+// ---- Surfaces of which each rank has a piece ----------------------------------------------------
 
 class Ranks;
 

@@ -295,7 +295,7 @@ void PrintProperties(std::ostream& out, const FilterTrio& filters)
   }
 }
 
-// ---- What makes sense --------------------------------------------------------------------------
+// ---- What makes sense ---------------------------------------------------------------------------
 
 namespace
 {

@@ -21,7 +21,6 @@
 #include <algorithm>
 #include <cstring>
 #include <exception>
-#include <new>
 #include <type_traits>
 #include <vector>
 
@@ -172,14 +171,9 @@ int VolumePart::RequestData(
       this->MakeEmpty(image);
     }
   }
-  catch (const std::bad_alloc&)
-  {
-    this->Failure = this->Name + ": not enough memory for a part of it";
-    this->MakeEmpty(image);
-  }
   catch (const std::exception& error)
   {
-    this->Failure = error.what();
+    this->Failure = ReasonOf(error, this->Name + ": not enough memory for a part of it");
     this->MakeEmpty(image);
   }
   return 1;

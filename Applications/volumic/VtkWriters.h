@@ -45,7 +45,7 @@ void CheckLines(const std::string& path, std::uint64_t lines);
 /** The file, or each one of a folder, ends as VTK's XML files do. */
 void CheckXml(const std::string& path);
 
-// ---- VTK's own formats -------------------------------------------------------------------------
+// ---- VTK's own formats --------------------------------------------------------------------------
 
 // The writers of VTK's own formats, with a full disk told (see FileBuffer) and no memory but some
 // megabytes, whatever the size of what they write. All throw a Failure without the file's name.

@@ -98,7 +98,7 @@ void CheckFiles(const ToolOptions& options)
   CheckOutputs(outputs, InputsOf(options));
 }
 
-// ---- Surfaces ------------------------------------------------------------------------------------
+// ---- Surfaces -----------------------------------------------------------------------------------
 
 namespace
 {

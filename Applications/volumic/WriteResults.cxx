@@ -23,7 +23,6 @@
 #include <functional>
 #include <iostream>
 #include <memory>
-#include <new>
 #include <numeric>
 
 namespace tool
@@ -32,12 +31,7 @@ namespace
 {
 namespace fs = std::filesystem;
 
-/** Why the file cannot be written. */
-std::string ReasonOf(const std::exception& error)
-{
-  const bool isOfMemory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
-  return isOfMemory ? "cannot be written (not enough memory)" : error.what();
-}
+const char* const OfMemory = "cannot be written (not enough memory)";
 
 std::string TitleOf(const std::string& name)
 {
@@ -57,7 +51,7 @@ void WorkOn(const std::string& name, const std::string& path, const Work& work)
   }
   catch (const std::exception& error)
   {
-    std::string reason = ReasonOf(error);
+    std::string reason = ReasonOf(error, OfMemory);
     const std::string beside = fs::path(path).parent_path().string() + "/";
     for (std::size_t at = reason.find(beside); !path.empty() && at != std::string::npos;
          at = reason.find(beside))
@@ -243,7 +237,7 @@ void WriteFolder(vtkMultiBlockDataSet* blocks, const std::string& name, const st
     {
       fs::remove(name, failed); // only if it is empty
     }
-    throw Failure(name + ": " + ReasonOf(error));
+    throw Failure(name + ": " + ReasonOf(error, OfMemory));
   }
 }
 
