@@ -4,9 +4,16 @@
 #define volumicBinaryFile_h
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <fstream>
+#include <functional>
+#include <istream>
+#include <memory>
 #include <string>
+#include <vector>
+
+struct archive;
 
 namespace tool
 {
@@ -81,6 +88,89 @@ void NeedBytes(std::uint64_t there, std::uint64_t needed);
  * that follow.
  */
 void NeedJustBytes(std::uint64_t there, std::uint64_t needed);
+
+// ---- Packed data --------------------------------------------------------------------------------
+
+/** Takes unpacked bytes, in their order. */
+using UnpackedSink = std::function<void(const char* bytes, std::size_t count)>;
+
+/** Lets them go: only the checksum is wanted. */
+inline const UnpackedSink Nowhere = [](const char*, std::size_t) {};
+
+/** Hands them on without so many at the begin. */
+UnpackedSink Without(std::uint64_t before, const UnpackedSink& sink);
+
+/**
+ * Unpack zlib or gzip data to their end, which alone tells whether they are what was packed: the
+ * checksum stands there. Several members, one behind the other, are one file.
+ * @return how many bytes there were
+ * @throws Failure, without a name, if they are damaged or cut off, or as soon as they give more.
+ */
+std::uint64_t Inflate(std::istream& packed, const UnpackedSink& sink, std::uint64_t most);
+
+/** The same of data that must give just so many bytes. @throws Failure if they don't. */
+void InflateJust(std::istream& packed, const UnpackedSink& sink, std::uint64_t count);
+
+/** Likewise of bzip2. */
+void BunzipJust(std::istream& packed, const UnpackedSink& sink, std::uint64_t count);
+
+/** Whether a file begins as those of gzip do. */
+bool IsGzip(const std::string& name);
+
+/**
+ * The first bytes that a gzip file unpacks to, or those of a file that is not packed; `count` at
+ * most. What follows them is not looked at.
+ */
+std::string HeadOf(const std::string& name, std::size_t count);
+
+// ---- Archives -----------------------------------------------------------------------------------
+
+/** What libarchive reads. Nothing is unpacked to disk. Failures are without the name of the file. */
+class Archive
+{
+public:
+  /** Gives the next bytes, as many as asked for if there are so many; -1: they are damaged. */
+  using Source = std::function<std::int64_t(char* bytes, std::size_t count)>;
+
+  enum class Kind
+  {
+    Tar,
+    Bzip2 ///< with one member, which has no name
+  };
+
+  /** @throws Failure if it is of another kind, or damaged where it begins. */
+  Archive(Kind kind, Source source);
+  Archive(const Archive&) = delete; // libarchive knows where it is
+  Archive& operator=(const Archive&) = delete;
+
+  /** A tar archive in a file, packed by gzip or not. @throws Failure if it cannot be opened. */
+  static Source TarIn(const std::string& name);
+
+  /** Go to the next regular file. @return false at the end. @throws Failure if it is damaged. */
+  bool Next();
+
+  const std::string& Name() const { return this->MemberName; } ///< without folders
+  std::uint64_t Size() const { return this->MemberSize; }      ///< as a head tells
+
+  /** The next bytes of the member. @return how many there were. @throws as Next. */
+  std::size_t Read(char* bytes, std::size_t count);
+
+  /** Read what there is to its end, where the checksum of packed data stands. @throws as Next. */
+  void Finish();
+
+private:
+  /** @throws Failure with libarchive's reason if a call of it has failed. */
+  std::int64_t Need(std::int64_t result) const;
+
+  Source Packed;
+  std::vector<char> Piece;
+  std::unique_ptr<archive, int (*)(archive*)> Reader;
+  std::string MemberName;
+  std::uint64_t MemberSize = 0;
+  std::uint64_t MemberDone = 0; ///< bytes of it that have been read
+  const char* Block = nullptr;  ///< the next ones,
+  std::size_t BlockLeft = 0;    ///< so many
+};
 }
 
 #endif

@@ -7,18 +7,15 @@
 #include "BinaryFile.h"
 #include "CheckInputs.h"
 #include "ToolErrors.h"
-#include "Unpack.h"
 
 #include <algorithm>
-#include <cstdint>
 #include <iterator>
 #include <limits>
 #include <map>
 #include <set>
 #include <sstream>
-#include <string>
+#include <tuple>
 #include <utility>
-#include <vector>
 
 namespace tool
 {
@@ -54,14 +51,9 @@ struct Part
 {
   std::uint64_t Begin;
   std::uint64_t End;
-  bool operator<(const Part& other) const
-  {
-    return this->Begin != other.Begin ? this->Begin < other.Begin : this->End < other.End;
-  }
-  bool operator==(const Part& other) const
-  {
-    return this->Begin == other.Begin && this->End == other.End;
-  }
+  auto Both() const { return std::tie(this->Begin, this->End); }
+  bool operator<(const Part& other) const { return this->Both() < other.Both(); }
+  bool operator==(const Part& other) const { return this->Both() == other.Both(); }
 };
 
 /** A directory of tags, which most often is that of a page. */

@@ -5,7 +5,7 @@
 // all, appended; if they are packed, they begin with the number of blocks.
 #include "BinaryFile.h"
 #include "CheckInputs.h"
-#include "InputFiles.h"
+#include "ReadVolume.h"
 #include "ToolErrors.h"
 
 #include <vtkBase64Utilities.h>
@@ -14,15 +14,9 @@
 #include <vtkXMLParser.h>
 
 #include <algorithm>
-#include <array>
-#include <cstdint>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
-#include <istream>
 #include <limits>
-#include <string>
-#include <vector>
 
 namespace tool
 {

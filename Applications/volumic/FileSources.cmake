@@ -6,8 +6,7 @@
 # program has them, and the reader of the ParaView plugin.
 set(volumic_reader_sources
   BinaryFile.cxx
-  CheckNetcdf.cxx
-  CheckPictures.cxx
+  CheckImages.cxx
   CheckTiff.cxx
   CheckXmlInput.cxx
   DicomHeader.cxx
@@ -15,21 +14,18 @@ set(volumic_reader_sources
   LabelJson.cxx
   LabelNames.cxx
   LabelTable.cxx
+  Messages.cxx
   RawSlabs.cxx
   ReadDicom.cxx
   ReadInv3.cxx
-  ReadMeta.cxx
-  ReadMrc.cxx
   ReadNifti.cxx
   ReadNrrd.cxx
   ReadPictures.cxx
+  ReadRaw.cxx
   ReadVolume.cxx
-  SlabSource.cxx
+  SlabReader.cxx
   Texts.cxx
-  Unpack.cxx
-  VolumeImage.cxx
-  VtkMessages.cxx
-  VtkReaders.cxx)
+  VolumeImage.cxx)
 find_package(nlohmann_json 3.9 REQUIRED) # headers, in Debian's nlohmann-json3-dev
 find_package(LibArchive REQUIRED)        # in Debian's libarchive-dev
 set(volumic_file_libraries nlohmann_json::nlohmann_json LibArchive::LibArchive)
@@ -37,18 +33,15 @@ list(TRANSFORM volumic_reader_sources PREPEND "${CMAKE_CURRENT_LIST_DIR}/")
 
 # Sets volumic_writer_sources: what writes surfaces (WriteResults.h), beside the readers.
 set(volumic_writer_sources
-  CheckPly.cxx
   GltfScene.cxx
   OutputFiles.cxx
-  ProgressLine.cxx
   Ranks.cxx
-  RunWriter.cxx
   SolidRegions.cxx
   SolidShells.cxx
   SolverFiles.cxx
-  StreamedWriters.cxx
-  SurfaceFields.cxx
+  SurfaceFacts.cxx
   SurfaceFormats.cxx
   SurfacePieces.cxx
+  VtkWriters.cxx
   WriteResults.cxx)
 list(TRANSFORM volumic_writer_sources PREPEND "${CMAKE_CURRENT_LIST_DIR}/")

@@ -3,22 +3,20 @@
 #include "GltfScene.h"
 
 #include "Json.h"
-#include "StreamedWriters.h"
-#include "SurfaceFields.h"
+#include "SurfaceFacts.h"
 #include "ToolErrors.h"
+#include "VtkWriters.h"
 
 #include <vtkBoundingBox.h>
 #include <vtkByteSwap.h>
-#include <vtkCellArray.h>
-#include <vtkCellArrayIterator.h>
 #include <vtkDataArray.h>
 #include <vtkPointData.h>
-#include <vtkPolyData.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <map>
 #include <ostream>
@@ -43,15 +41,12 @@ std::map<int, Corners> CornersOf(vtkPolyData* surface)
 {
   std::map<int, Corners> corners;
   const int* labels = TriangleLabels(surface);
-  auto cells = vtk::TakeSmartPointer(surface->GetPolys()->NewIterator());
-  for (cells->GoToFirstCell(); !cells->IsDoneWithTraversal(); cells->GoToNextCell())
-  {
-    vtkIdType count = 0;
-    const vtkIdType* points = nullptr;
-    cells->GetCurrentCell(count, points);
-    Corners& own = corners[labels ? labels[cells->GetCurrentCellId()] : 0];
-    own.insert(own.end(), points, points + count);
-  }
+  ForEachPolygon(surface,
+    [&](vtkIdType polygon, const vtkIdType* points, vtkIdType count)
+    {
+      Corners& own = corners[labels ? labels[polygon] : 0];
+      own.insert(own.end(), points, points + count);
+    });
   return corners;
 }
 
@@ -90,7 +85,7 @@ private:
   std::size_t AddNumbers(
     std::size_t piece, std::uint64_t offset, std::uint64_t count, GltfCode type);
 
-  std::array<float, 3> Vertex(vtkPolyData* surface, vtkIdType point) const;
+  Floats Vertex(vtkPolyData* surface, vtkIdType point) const;
   void WriteVertices(std::ostream& out, vtkPolyData* surface) const;
 
   std::vector<SceneObject> Objects; ///< that have points
@@ -152,7 +147,7 @@ Json Scene::DescribeVertices(vtkPolyData* surface)
   Vector3 most = { -infinity, -infinity, -infinity };
   for (vtkIdType i = 0; i < surface->GetNumberOfPoints(); ++i)
   {
-    const std::array<float, 3> vertex = this->Vertex(surface, i);
+    const Floats vertex = this->Vertex(surface, i);
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
       least[axis] = std::min(least[axis], static_cast<double>(vertex[axis]));
@@ -224,21 +219,17 @@ std::string Scene::Description() const
   return described;
 }
 
-std::array<float, 3> Scene::Vertex(vtkPolyData* surface, vtkIdType point) const
+Floats Scene::Vertex(vtkPolyData* surface, vtkIdType point) const
 {
   Vector3 place;
   surface->GetPoint(point, place.data());
-  std::array<float, 3> vertex;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    vertex[axis] = static_cast<float>(place[axis] - this->Middle[axis]);
-  }
-  return vertex;
+  std::transform(place.begin(), place.end(), this->Middle.begin(), place.begin(), std::minus<>());
+  return AsFloats(place.data());
 }
 
 void Scene::WriteVertices(std::ostream& out, vtkPolyData* surface) const
 {
-  const auto write = [&out](const std::array<float, 3>& numbers)
+  const auto write = [&out](const Floats& numbers)
   { vtkByteSwap::SwapWrite4LERange(numbers.data(), 3, &out); };
   const vtkIdType count = surface->GetNumberOfPoints();
   for (vtkIdType i = 0; i < count; ++i)
@@ -248,9 +239,7 @@ void Scene::WriteVertices(std::ostream& out, vtkPolyData* surface) const
   vtkDataArray* normals = surface->GetPointData()->GetNormals();
   for (vtkIdType i = 0; normals && i < count; ++i)
   {
-    const double* normal = normals->GetTuple3(i);
-    write({ static_cast<float>(normal[0]), static_cast<float>(normal[1]),
-      static_cast<float>(normal[2]) });
+    write(AsFloats(normals->GetTuple3(i)));
   }
 }
 

@@ -3,7 +3,7 @@
 #ifndef volumicGltfScene_h
 #define volumicGltfScene_h
 
-#include "ProgressLine.h"
+#include "Messages.h"
 
 #include <string>
 #include <vector>

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "InputFiles.h"
+#include "ReadVolume.h"
 
 #include "BinaryFile.h"
-#include "ReadVolume.h"
 #include "Texts.h"
 
 #include <algorithm>
@@ -111,15 +110,14 @@ void AddCompanions(const std::string& name, std::vector<std::string>& files)
     }
   }
 }
+}
 
-/** The slices in the folder, or all files if none is DICOM. */
 std::vector<std::string> FilesOfFolder(const std::string& folder)
 {
   const std::vector<std::string> files = FilesOf(folder);
   std::vector<std::string> slices;
   std::copy_if(files.begin(), files.end(), std::back_inserter(slices), IsDicom);
   return slices.empty() ? files : slices;
-}
 }
 
 bool IsOfKey(const std::string& line, const std::string& key)

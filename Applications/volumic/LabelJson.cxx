@@ -8,7 +8,7 @@
 #include "ToolErrors.h"
 
 #include <algorithm>
-#include <cmath>
+#include <initializer_list>
 #include <limits>
 
 namespace tool
@@ -74,37 +74,42 @@ bool AreNumbers(const Json& list)
     std::all_of(list.begin(), list.end(), [](const Json& item) { return item.is_number(); });
 }
 
-std::optional<Vector3> ColorOf(const Json& segment)
+/** The first of these members that there is and that passes; null: none does. */
+const Json* FindFirst(
+  const Json& segment, std::initializer_list<const char*> keys, bool (*passes)(const Json&))
 {
-  for (const char* key : { "color", "colour", "rgb", "recommendedDisplayRGBValue" })
+  for (const char* key : keys)
   {
-    const Json* color = Find(segment, key);
-    if (color && color->is_string())
+    const Json* value = Find(segment, key);
+    if (value && passes(*value))
     {
-      return ParseHexColor(color->get<std::string>());
-    }
-    if (color && AreNumbers(*color) && color->size() >= 3)
-    {
-      return Vector3{ (*color)[0].get<double>(), (*color)[1].get<double>(),
-        (*color)[2].get<double>() };
+      return value;
     }
   }
-  return std::nullopt;
+  return nullptr;
+}
+
+std::optional<Vector3> ColorOf(const Json& segment)
+{
+  const Json* color = FindFirst(segment, { "color", "colour", "rgb", "recommendedDisplayRGBValue" },
+    [](const Json& value)
+    { return value.is_string() || (AreNumbers(value) && value.size() >= 3); });
+  if (!color || color->is_string())
+  {
+    return color ? ParseHexColor(color->get<std::string>()) : std::nullopt;
+  }
+  return Vector3{ color->at(0).get<double>(), color->at(1).get<double>(),
+    color->at(2).get<double>() };
 }
 
 /** The text of the first of these members that there is. */
 std::optional<std::string> NameOf(const Json& segment)
 {
-  for (const char* key : { "name", "labelName", "SegmentLabel", "SegmentDescription", "structure",
-         "label", "text", "description" })
-  {
-    const Json* name = Find(segment, key);
-    if (name && name->is_string())
-    {
-      return name->get<std::string>();
-    }
-  }
-  return std::nullopt;
+  const Json* name = FindFirst(segment,
+    { "name", "labelName", "SegmentLabel", "SegmentDescription", "structure", "label", "text",
+      "description" },
+    [](const Json& value) { return value.is_string(); });
+  return name ? std::optional<std::string>(name->get<std::string>()) : std::nullopt;
 }
 
 /** {"1": "liver"}, or {"1": {"name": "liver"}}; nothing if the object is something else. */
@@ -116,9 +121,7 @@ LabelNames NamesByLabel(const Json& object)
     const std::optional<int> label = AsNumber<int>(member.key());
     const Json& value = member.value();
     const std::optional<std::string> name =
-      value.is_string()
-      ? std::optional<std::string>(value.get<std::string>())
-      : NameOf(value);
+      value.is_string() ? value.get<std::string>() : NameOf(value);
     if (!label || !name)
     {
       return {};
@@ -161,19 +164,16 @@ LabelNames NamesInList(const Json& list)
       names.insert(names.end(), more.begin(), more.end());
       continue;
     }
-    std::optional<int> label;
-    for (const char* key : { "labelValue", "labelID", "label_value", "label_id", "value", "label",
-           "index", "id", "number", "key" })
-    {
-      const Json* value = Find(segment, key);
-      label = !label && value ? AsLabel(*value) : label;
-    }
+    const Json* label = FindFirst(segment,
+      { "labelValue", "labelID", "label_value", "label_id", "value", "label", "index", "id",
+        "number", "key" },
+      [](const Json& value) { return AsLabel(value).has_value(); });
     const std::optional<std::string> name = NameOf(segment);
     if (!label || !name)
     {
       return {};
     }
-    names.push_back({ *label, *name, ColorOf(segment) });
+    names.push_back({ *AsLabel(*label), *name, ColorOf(segment) });
   }
   return names;
 }

@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LabelMap.h"
 
-#include "LabelNames.h"
-#include "LoadVolume.h"
+#include "LoadInputs.h"
 #include "ReadVolume.h"
 #include "Texts.h"
 #include "ToolErrors.h"
@@ -14,17 +13,26 @@
 #include <vtkDeformableSurface.h>
 #include <vtkImageData.h>
 #include <vtkImagePyramid.h>
-#include <vtkMatrix3x3.h>
+#include <vtkIntArray.h>
 #include <vtkPointData.h>
+#include <vtkTable.h>
+#include <vtkVariant.h>
 
 #include <algorithm>
+#include <fnmatch.h>
+#include <map>
+#include <optional>
+#include <set>
 
 namespace tool
 {
 namespace
 {
-/** Make an array of cells the active one, if the option or the lack of others means it. */
-bool ChooseCells(vtkImageData* image, const std::string& array)
+/**
+ * Make an array of cells the active one, if the option or the lack of others means it; else one of
+ * points. @return whether it is one of cells
+ */
+bool ChooseLabels(vtkImageData* image, const std::string& array)
 {
   vtkPointData* points = image->GetPointData();
   vtkCellData* cells = image->GetCellData();
@@ -33,6 +41,7 @@ bool ChooseCells(vtkImageData* image, const std::string& array)
     : !points->HasArray(array.c_str()) && cells->HasArray(array.c_str());
   if (!isMeant)
   {
+    ChooseScalars(image, array);
     return false;
   }
   vtkDataArray* labels = !array.empty() ? cells->GetArray(array.c_str())
@@ -51,15 +60,7 @@ bool ChooseCells(vtkImageData* image, const std::string& array)
 vtkSmartPointer<vtkImageData> ReadWhole(const ToolOptions& options, bool& isOfCells)
 {
   const vtkSmartPointer<vtkImageData> image = ReadVolume(options.Volume);
-  Named(options.Volume,
-    [&]
-    {
-      isOfCells = ChooseCells(image, options.Array);
-      if (!isOfCells)
-      {
-        ChooseScalars(image, options.Array);
-      }
-    });
+  Named(options.Volume, [&] { isOfCells = ChooseLabels(image, options.Array); });
   return image;
 }
 
@@ -102,17 +103,6 @@ LabelNames OwnNames(const ToolOptions& options, vtkImageData* image)
   return own.empty() ? ReadNamesWithin(options.Volume) : own;
 }
 
-VolumeFacts FactsOfMap(const LabelMap& map)
-{
-  VolumeFacts facts =
-    FactsOf(map.Image, AttributesOf(map.Image, map.IsOfCells)->GetScalars(), -1);
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    facts.Extent[2 * axis + 1] -= map.IsOfCells ? 1 : 0;
-  }
-  return facts;
-}
-
 /** The components that are label maps. */
 std::vector<int> ComponentsOf(
   const ToolOptions& options, int components, int component, const LabelNames& own)
@@ -149,19 +139,19 @@ LabelMap LoadLabelMap(const ToolOptions& options, vtkDeformableSurface* settings
   {
     const LoadedVoxels loaded =
       LoadVoxels(options.Volume, options.Array, settings, holder, announcer);
-    const bool isOne = loaded.Components == 1 || component >= 0;
-    map.Image = isOne ? loaded.Image : ReadWhole(options, map.IsOfCells);
+    map.Image = loaded.Components == 1 || component >= 0 ? loaded.Image : nullptr;
   }
-  else
-  {
-    map.Image = ReadWhole(options, map.IsOfCells);
-  }
+  map.Image = map.Image ? map.Image : ReadWhole(options, map.IsOfCells);
   if (options.Spacing)
   {
     map.Image->SetSpacing(options.Spacing->data());
   }
   const LabelNames own = OwnNames(options, map.Image);
-  map.Facts = FactsOfMap(map);
+  map.Facts = FactsOf(map.Image, AttributesOf(map.Image, map.IsOfCells)->GetScalars(), -1);
+  for (const std::size_t last : { 1, 3, 5 })
+  {
+    map.Facts.Extent[last] -= map.IsOfCells ? 1 : 0;
+  }
   const bool isTaken = settings->GetMemoryLimit() > 0 && component >= 0; // out of the others
   const std::vector<int> components =
     ComponentsOf(options, map.Facts.Components, isTaken ? -1 : component, own);
@@ -210,5 +200,196 @@ void NameLabels(const ToolOptions& options, vtkImageData* image, const Announcer
   {
     announcer.Say("names of labels are those of " + beside.File);
   }
+}
+
+// ---- Which labels -------------------------------------------------------------------------------
+
+namespace
+{
+/** Places of the labels that pass. */
+template <class Test>
+std::vector<std::size_t> Find(const std::vector<KnownLabel>& known, const Test& passes)
+{
+  std::vector<std::size_t> found;
+  for (std::size_t i = 0; i < known.size(); ++i)
+  {
+    if (passes(known[i]))
+    {
+      found.push_back(i);
+    }
+  }
+  return found;
+}
+
+/** Whether it has a name, and not only a number. */
+bool IsNamed(const KnownLabel& label)
+{
+  return label.Name != "Label " + std::to_string(label.Label);
+}
+
+/** By the name, of other case if there is none of this; else by the names that a pattern means. */
+std::vector<std::size_t> FindNamed(
+  const std::string& text, const std::vector<KnownLabel>& known, int background)
+{
+  std::vector<std::size_t> same =
+    Find(known, [&](const KnownLabel& label) { return label.Name == text; });
+  if (same.empty())
+  {
+    same = Find(known, [&](const KnownLabel& label) { return Lower(label.Name) == Lower(text); });
+  }
+  if (!same.empty() || text.find('*') == std::string::npos)
+  {
+    return same;
+  }
+  // Brackets and so on are letters of names.
+  std::string pattern;
+  for (const char c : Lower(text))
+  {
+    pattern += (c == '*' ? "" : "\\") + std::string(1, c);
+  }
+  return Find(known,
+    [&](const KnownLabel& label)
+    {
+      return IsNamed(label) && label.Label != background &&
+        fnmatch(pattern.c_str(), Lower(label.Name).c_str(), 0) == 0;
+    });
+}
+
+/** What one text asks for; empty if there is no such label. */
+std::vector<std::size_t> FindText(
+  const std::string& text, const std::vector<KnownLabel>& known, int background)
+{
+  if (const std::optional<int> value = AsNumber<int>(text))
+  {
+    return Find(known, [&](const KnownLabel& label) { return label.Label == *value; });
+  }
+  const std::vector<std::size_t> named = FindNamed(text, known, background);
+  if (!named.empty())
+  {
+    return named;
+  }
+  if (Lower(text) == "all")
+  {
+    return Find(known, [&](const KnownLabel& label) { return label.Label != background; });
+  }
+  // "7-9", also of negative numbers: "-9--7".
+  const std::size_t dash = std::min(text.find('-', 1), text.size());
+  const std::optional<int> first = AsNumber<int>(text.substr(0, dash));
+  const std::optional<int> last = AsNumber<int>(text.substr(std::min(dash + 1, text.size())));
+  return Find(known,
+    [&](const KnownLabel& label)
+    {
+      return first && last && label.Label >= *first && label.Label <= *last &&
+        label.Label != background;
+    });
+}
+
+/** The labels for a message, not all if there are many. */
+std::string ListOf(const std::vector<KnownLabel>& known)
+{
+  constexpr std::size_t most = 20;
+  std::string list;
+  for (std::size_t i = 0; i < std::min(known.size(), most); ++i)
+  {
+    list += (i > 0 ? ", " : "") + std::to_string(known[i].Label) +
+      (IsNamed(known[i]) ? " " + known[i].Name : "");
+  }
+  return list +
+    (known.size() > most ? " and " + std::to_string(known.size() - most) + " more" : "");
+}
+}
+
+std::vector<KnownLabel> LabelsOf(vtkTable* table, int layer)
+{
+  std::vector<KnownLabel> labels;
+  auto* colors = vtkDataArray::SafeDownCast(table->GetColumnByName("Color"));
+  auto* extents = vtkIntArray::SafeDownCast(table->GetColumnByName("Extent"));
+  for (vtkIdType row = 0; row < table->GetNumberOfRows(); ++row)
+  {
+    KnownLabel label;
+    label.Label = table->GetValueByName(row, "Label").ToInt();
+    label.Name = table->GetValueByName(row, "Name").ToString();
+    label.Voxels = table->GetValueByName(row, "Voxels").ToTypeInt64();
+    colors->GetTuple(row, label.Color.data());
+    extents->GetTypedTuple(row, label.Box.data());
+    label.Layer = layer;
+    labels.push_back(label);
+  }
+  return labels;
+}
+
+std::vector<std::size_t> ChooseLabels(const std::vector<std::string>& texts,
+  const std::vector<KnownLabel>& known, int background)
+{
+  std::set<std::size_t> chosen;
+  for (const std::string& text : texts)
+  {
+    // A name may have commas.
+    const bool isName = !FindNamed(text, known, background).empty();
+    for (const std::string& part :
+      isName ? std::vector<std::string>{ text } : SplitAtCommas(text))
+    {
+      const std::vector<std::size_t> found = FindText(part, known, background);
+      FailIf(found.empty() && Lower(part) != "all",
+        "there is no label '" + part + "' (--labels); there are " +
+          (known.empty() ? "none" : ListOf(known)));
+      chosen.insert(found.begin(), found.end());
+    }
+  }
+  return { chosen.begin(), chosen.end() };
+}
+
+std::vector<KnownLabel> NumberedLabels(
+  const std::vector<std::string>& texts, const LabelNames& names)
+{
+  std::set<int> numbers;
+  for (const std::string& text : texts)
+  {
+    for (const std::string& part : SplitAtCommas(text))
+    {
+      const std::optional<int> value = AsNumber<int>(part);
+      if (!value)
+      {
+        return {};
+      }
+      numbers.insert(*value);
+    }
+  }
+  std::vector<KnownLabel> known;
+  for (const int number : numbers)
+  {
+    known.push_back({ number, "Label " + std::to_string(number) });
+    for (const LabelName& name : names)
+    {
+      const bool isIts = name.Label == number && !name.Name.empty();
+      known.back().Name = isIts ? name.Name : known.back().Name;
+    }
+  }
+  return known;
+}
+
+std::vector<std::string> FileNamesOf(const std::vector<KnownLabel>& known)
+{
+  std::vector<std::string> names;
+  std::map<std::string, int> uses;
+  for (const KnownLabel& label : known)
+  {
+    const std::string safe = IsNamed(label) ? SafeName(label.Name) : "";
+    names.push_back(safe.empty() ? "label-" + std::to_string(label.Label) : safe);
+    ++uses[Lower(names.back())];
+  }
+  std::set<std::string> taken;
+  for (std::size_t i = 0; i < names.size(); ++i)
+  {
+    const bool isShared = uses[Lower(names[i])] > 1;
+    const std::string start =
+      isShared ? names[i] + "-" + std::to_string(known[i].Label) : names[i];
+    names[i] = start;
+    for (int more = 2; !taken.insert(Lower(names[i])).second; ++more)
+    {
+      names[i] = start + "-" + std::to_string(more);
+    }
+  }
+  return names;
 }
 }

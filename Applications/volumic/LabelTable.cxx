@@ -22,9 +22,10 @@ struct Row
   std::vector<std::string> Words;
 };
 
-[[noreturn]] void RefuseLine(int line, const std::string& reason)
+/** @throws Failure that names the line if it is so. */
+void RefuseLineIf(bool isSo, int line, const std::string& reason)
 {
-  throw Failure("line " + std::to_string(line) + ": " + reason);
+  FailIf(isSo, "line " + std::to_string(line) + ": " + reason);
 }
 
 /** Words between separators, or blanks if that is ' '; quotes hold together, two stand for one. */
@@ -69,10 +70,7 @@ std::vector<std::string> SplitLine(const std::string& text, char separator, int 
       isBlank = isBlank && (c == ' ' || c == '\t' || c == '\r' || c == '\n');
     }
   }
-  if (isQuoted)
-  {
-    RefuseLine(line, "a quote does not end");
-  }
+  RefuseLineIf(isQuoted, line, "a quote does not end");
   end();
   return words;
 }
@@ -166,11 +164,8 @@ Columns ColumnsOf(const Row& head)
   {
     columns.Name = FindColumn(head, { "label", "text", "class" }, columns.Label);
   }
-  if (columns.Label < 0 || columns.Name < 0)
-  {
-    RefuseLine(head.Line,
-      "neither a label and its name, nor names of columns such as 'label' and 'name'");
-  }
+  RefuseLineIf(columns.Label < 0 || columns.Name < 0, head.Line,
+    "neither a label and its name, nor names of columns such as 'label' and 'name'");
   const std::vector<std::string> colors[3] = { { "r", "red", "colorr" },
     { "g", "green", "colorg" }, { "b", "blue", "colorb" } };
   std::transform(std::begin(colors), std::end(colors), columns.Colors,
@@ -210,16 +205,12 @@ LabelNames NamesInColumns(const std::vector<Row>& rows, std::size_t first, const
   for (std::size_t i = first; i < rows.size(); ++i)
   {
     const Row& row = rows[i];
-    if (static_cast<int>(row.Words.size()) <= std::max(columns.Label, columns.Name))
-    {
-      RefuseLine(row.Line, "it has fewer columns than the first one");
-    }
+    RefuseLineIf(static_cast<int>(row.Words.size()) <= std::max(columns.Label, columns.Name),
+      row.Line, "it has fewer columns than the first one");
     const std::string& label = row.Words[static_cast<std::size_t>(columns.Label)];
     const std::optional<int> value = AsNumber<int>(label);
-    if (!value)
-    {
-      RefuseLine(row.Line, "'" + label.substr(0, 40) + "' is no label: a whole number is");
-    }
+    RefuseLineIf(
+      !value, row.Line, "'" + label.substr(0, 40) + "' is no label: a whole number is");
     names.push_back({ *value, row.Words[static_cast<std::size_t>(columns.Name)],
       ColorOf(row, columns.Colors) });
   }
@@ -261,10 +252,8 @@ LabelNames NamesBetweenNumbers(const std::vector<Row>& rows)
   for (const Row& row : rows)
   {
     const std::optional<int> label = AsNumber<int>(row.Words[0]);
-    if (!label || row.Words.size() < 2)
-    {
-      RefuseLine(row.Line, "a label, which is a whole number, and a name are wanted");
-    }
+    RefuseLineIf(!label || row.Words.size() < 2, row.Line,
+      "a label, which is a whole number, and a name are wanted");
     LabelName name;
     name.Label = *label;
     const int end = static_cast<int>(row.Words.size()) - numbers;
@@ -274,10 +263,8 @@ LabelNames NamesBetweenNumbers(const std::vector<Row>& rows)
     }
     const int colors[] = { end, end + 1, end + 2 };
     name.Color = numbers >= 3 ? ColorOf(row, colors) : std::nullopt;
-    if (AsNumber<double>(name.Name))
-    {
-      RefuseLine(row.Line, "'" + name.Name + "' is a number, no name");
-    }
+    RefuseLineIf(AsNumber<double>(name.Name).has_value(), row.Line,
+      "'" + name.Name + "' is a number, no name");
     names.push_back(name);
   }
   return names;
@@ -326,9 +313,11 @@ LabelNames ParseLabelTable(const std::string& text)
   std::iota(std::begin(columns.Colors), std::end(columns.Colors), 2);
   for (const Row& row : rows)
   {
-    if (row.Words.size() > 1 && AsNumber<double>(row.Words[static_cast<std::size_t>(columns.Name)]))
+    if (row.Words.size() > 1)
     {
-      RefuseLine(row.Line, "'" + row.Words[1] + "' is a number, no name");
+      const std::string& name = row.Words[static_cast<std::size_t>(columns.Name)];
+      RefuseLineIf(AsNumber<double>(name).has_value(), row.Line,
+        "'" + row.Words[1] + "' is a number, no name");
     }
   }
   return NamesInColumns(rows, 0, columns);

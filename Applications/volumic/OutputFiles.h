@@ -79,7 +79,7 @@ void WriteBytes(const std::string& path, const char* bytes, std::size_t count);
  */
 void NeedRoom(const std::string& path, std::size_t count);
 
-// ---- Before the work begins ----------------------------------------------------------------------
+// ---- Before the work begins ---------------------------------------------------------------------
 
 /** What is to be written, as the command line names it. */
 struct OutputName

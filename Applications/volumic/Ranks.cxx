@@ -242,7 +242,8 @@ double Ranks::Broadcast(double value) const
   return value;
 }
 
-std::optional<Ranks::Difference> Ranks::FindDifference(const std::vector<std::string>& here) const
+void Ranks::NeedSame(const std::vector<std::string>& here,
+  const std::function<void(const std::string& here, const std::string& first)>& refuse)
 {
   std::string joined;
   for (const std::string& item : here)
@@ -250,20 +251,23 @@ std::optional<Ranks::Difference> Ranks::FindDifference(const std::vector<std::st
     joined += item + '\0';
   }
   std::istringstream first(this->Broadcast(joined));
-  std::string ofFirst;
-  for (const std::string& item : here)
-  {
-    if (!std::getline(first, ofFirst, '\0'))
+  this->Together(
+    [&]
     {
-      return Difference{ item, "" };
-    }
-    if (item != ofFirst)
-    {
-      return Difference{ item, ofFirst };
-    }
-  }
-  return std::getline(first, ofFirst, '\0') ? std::make_optional(Difference{ "", ofFirst })
-                                            : std::nullopt;
+      std::string ofFirst;
+      for (const std::string& item : here)
+      {
+        const bool isThere = static_cast<bool>(std::getline(first, ofFirst, '\0'));
+        if (!isThere || item != ofFirst)
+        {
+          refuse(item, isThere ? ofFirst : "");
+        }
+      }
+      if (std::getline(first, ofFirst, '\0'))
+      {
+        refuse("", ofFirst);
+      }
+    });
 }
 
 std::vector<std::string> Ranks::GatherOnAll(const std::string& bytes) const
@@ -288,6 +292,16 @@ std::vector<std::string> Ranks::GatherOnAll(const std::string& bytes) const
   {
     all.push_back(joined.substr(
       static_cast<std::size_t>(begins[rank]), static_cast<std::size_t>(sizes[rank])));
+  }
+  return all;
+}
+
+std::vector<double> Ranks::GatherOnAll(double number) const
+{
+  std::vector<double> all(static_cast<std::size_t>(this->Count()), number);
+  if (!this->IsOne())
+  {
+    this->Controller->AllGather(&number, all.data(), 1);
   }
   return all;
 }

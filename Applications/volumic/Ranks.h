@@ -6,7 +6,6 @@
 #include <vtkSmartPointer.h>
 
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -71,17 +70,16 @@ public:
   std::string Broadcast(std::string bytes) const;
   double Broadcast(double value) const;
 
-  /** What differs from what the first rank has. */
-  struct Difference
-  {
-    std::string Here;  ///< Empty: the first rank has more.
-    std::string First; ///< Empty: this rank has more.
-  };
-  /** The first difference between lists that all ranks should have alike. */
-  std::optional<Difference> FindDifference(const std::vector<std::string>& here) const;
+  /**
+   * Lists that all ranks should have alike: where one differs from that of the first rank, `refuse`
+   * is called there, to throw, with the items that differ. Empty: there is nothing more.
+   */
+  void NeedSame(const std::vector<std::string>& here,
+    const std::function<void(const std::string& here, const std::string& first)>& refuse);
 
   /** What each rank has, on all ranks. */
   std::vector<std::string> GatherOnAll(const std::string& bytes) const;
+  std::vector<double> GatherOnAll(double number) const;
 
   /** To the first rank, which calls Receive() meanwhile. */
   void SendToFirst(vtkDataObject* data) const;

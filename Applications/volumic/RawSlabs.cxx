@@ -1,11 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "RawSlabs.h"
+#include "SlabReader.h"
 
-#include "BinaryFile.h"
 #include "Texts.h"
-#include "ToolErrors.h"
-#include "VolumeImage.h"
 
 #include <vtkDataArray.h>
 

@@ -8,11 +8,11 @@
 
 #include "BinaryFile.h"
 #include "DicomHeader.h"
+#include "Messages.h"
 #include "SlabReader.h"
 #include "Texts.h"
 #include "ToolErrors.h"
 #include "VolumeImage.h"
-#include "VtkMessages.h"
 
 #include <vtkDICOMImageReader.h>
 #include <vtkDataArray.h>
@@ -28,6 +28,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <memory>
 #include <utility>
 
@@ -99,34 +100,24 @@ DicomHeader ReadHeader(const std::string& file)
 void CheckSingleSeries(
   const std::vector<std::string>& files, const std::vector<DicomHeader>& headers)
 {
-  std::vector<std::pair<std::size_t, int>> series; // the first file of each, and how many it has
+  std::map<std::string, int> counts; // of the files of each series
+  for (const DicomHeader& header : headers)
+  {
+    ++counts[header.Series];
+  }
+  std::string names; // in the order of their first files
   for (std::size_t i = 0; i < headers.size(); ++i)
   {
-    const auto found = std::find_if(series.begin(), series.end(),
-      [&](const auto& other) { return headers[other.first].Series == headers[i].Series; });
-    if (found == series.end())
+    if (const int count = std::exchange(counts[headers[i].Series], 0); count > 0)
     {
-      series.emplace_back(i, 1);
-    }
-    else
-    {
-      ++found->second;
+      const std::string& description = headers[i].Description;
+      names += (names.empty() ? "" : "; ") + (description.empty() ? "unnamed" : description) +
+        ": " + NumberText(count) + (count == 1 ? " file, " : " files, from ") +
+        std::filesystem::path(files[i]).filename().string();
     }
   }
-  if (series.size() < 2)
-  {
-    return;
-  }
-  std::string names;
-  for (const auto& [first, count] : series)
-  {
-    const std::string& description = headers[first].Description;
-    names += (names.empty() ? "" : "; ") + (description.empty() ? "unnamed" : description) + ": " +
-      NumberText(count) + (count == 1 ? " file, " : " files, from ") +
-      std::filesystem::path(files[first]).filename().string();
-  }
-  throw Failure(NumberText(static_cast<int>(series.size())) +
-    " series, one per folder is needed (" + names + ")");
+  FailIf(counts.size() > 1,
+    std::to_string(counts.size()) + " series, one per folder is needed (" + names + ")");
 }
 
 /** @throws Failure naming the first of several slices that can't be placed among the others. */
@@ -193,18 +184,16 @@ double SliceDistance(const std::vector<Slice>& slices, const Vector3& normal)
   const auto along = [&](std::size_t i) { return Dot(slices[i].Position, normal); };
   const double mean =
     (along(slices.size() - 1) - along(0)) / static_cast<double>(slices.size() - 1);
-  for (std::size_t i = 1; i < slices.size(); ++i)
-  {
-    FailIf(along(i) - along(i - 1) <= 1e-4,
-      slices[i].File + " lies where " + slices[i - 1].File +
-        " does; one series per folder is needed");
-  }
   double shortest = mean;
   double longest = mean;
   for (std::size_t i = 1; i < slices.size(); ++i)
   {
-    shortest = std::min(shortest, along(i) - along(i - 1));
-    longest = std::max(longest, along(i) - along(i - 1));
+    const double step = along(i) - along(i - 1);
+    FailIf(step <= 1e-4,
+      slices[i].File + " lies where " + slices[i - 1].File +
+        " does; one series per folder is needed");
+    shortest = std::min(shortest, step);
+    longest = std::max(longest, step);
   }
   if (std::max(longest - mean, mean - shortest) > UnevenDistance * mean)
   {

@@ -2,13 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SlabReader.h"
 
-#include "BinaryFile.h"
 #include "CheckInputs.h"
+#include "Messages.h"
 #include "Texts.h"
-#include "ToolErrors.h"
-#include "Unpack.h"
-#include "VolumeImage.h"
-#include "VtkMessages.h"
 
 #include <vtkDataArray.h>
 #include <vtkXMLDataElement.h>
@@ -25,14 +21,20 @@ namespace
 {
 using Element = vtkSmartPointer<vtkXMLDataElement>;
 
-/** What the project says of its volume. */
-struct Description
+/** The archive is packed, and would be unpacked from its begin for each part. */
+class ProjectSlabs : public SlabReader
 {
-  int Type = VTK_SHORT;
-  std::array<int, 3> Size = { 0, 0, 0 }; ///< voxels along x, y, z
-  VolumePlacement Placement;
-  std::string File = "matrix.dat";
-  bool IsAxial = true; ///< the slices
+public:
+  explicit ProjectSlabs(const std::string& name);
+
+  vtkSmartPointer<vtkDataArray> Read(int, int count) override;
+
+private:
+  /** Take what the project says of its volume. */
+  void Take(const std::string& plist);
+
+  std::string Name;
+  std::string File = "matrix.dat"; ///< in the archive
 };
 
 std::string TextOf(vtkXMLDataElement* element)
@@ -80,7 +82,7 @@ int TypeOf(const std::string& name)
   return EntryOf(types, name, "main.plist: voxels of type '" + name + "' are not read");
 }
 
-Description Describe(const std::string& plist)
+void ProjectSlabs::Take(const std::string& plist)
 {
   std::istringstream text(plist);
   CheckXmlInput(text);
@@ -90,29 +92,26 @@ Description Describe(const std::string& plist)
   vtkXMLDataElement* project =
     root && std::strcmp(root->GetName(), "plist") == 0 ? root->GetNestedElement(0) : nullptr;
   FailIf(!project, "main.plist cannot be parsed");
-  Description description;
   vtkXMLDataElement* matrix = Need(project, "matrix");
-  description.Type = TypeOf(TextOf(Need(matrix, "dtype")));
+  this->Type = TypeOf(TextOf(Need(matrix, "dtype")));
   if (vtkXMLDataElement* file = Find(matrix, "filename"))
   {
     const std::string path = TextOf(file);
-    description.File = path.substr(path.find_last_of('/') + 1);
+    this->File = path.substr(path.find_last_of('/') + 1);
   }
   const std::array<std::string, 3> shape = ThreeOf(Need(matrix, "shape"), "shape");
   const std::array<std::string, 3> spacing = ThreeOf(Need(project, "spacing"), "spacing");
   for (int axis = 0; axis < 3; ++axis)
   {
-    description.Size[axis] = ParseNumber<int>(shape[2 - axis]); // z, y, x
-    description.Placement.Spacing[axis] = ParseNumber<double>(spacing[axis]);
+    this->Size[axis] = ParseNumber<int>(shape[2 - axis]); // z, y, x
+    this->Placement.Spacing[axis] = ParseNumber<double>(spacing[axis]);
   }
-  FailIf(*std::min_element(description.Size.begin(), description.Size.end()) < 1,
+  FailIf(*std::min_element(this->Size.begin(), this->Size.end()) < 1,
     "main.plist: the sizes " + shape[0] + " x " + shape[1] + " x " + shape[2] +
       " are not those of a volume");
-  if (vtkXMLDataElement* orientation = Find(project, "orientation"))
-  {
-    description.IsAxial = TextOf(orientation) == "1";
-  }
-  return description;
+  // The rows of axial slices are stored from back to front: a left-handed frame.
+  vtkXMLDataElement* orientation = Find(project, "orientation");
+  this->WorldAxes = !orientation || TextOf(orientation) == "1" ? "LAS" : "";
 }
 
 /** Go to the file of that name. */
@@ -135,8 +134,9 @@ void ReadMember(Archive& archive, char* bytes)
   archive.Finish();
 }
 
-Description ReadDescription(const std::string& name)
+ProjectSlabs::ProjectSlabs(const std::string& name) : Name(name)
 {
+  this->HasParts = false;
   Archive archive(Archive::Kind::Tar, Archive::TarIn(name));
   GoTo(archive, "main.plist");
   FailIf(
@@ -145,7 +145,7 @@ Description ReadDescription(const std::string& name)
   ReadMember(archive, plist.data());
   try
   {
-    return Describe(plist);
+    this->Take(plist);
   }
   catch (const UsageError& error)
   {
@@ -153,44 +153,21 @@ Description ReadDescription(const std::string& name)
   }
 }
 
-/** The archive is packed, and would be unpacked from its begin for each part. */
-class ProjectSlabs : public SlabReader
+vtkSmartPointer<vtkDataArray> ProjectSlabs::Read(int, int count)
 {
-public:
-  explicit ProjectSlabs(const std::string& name) : Name(name)
-  {
-    const Description description = ReadDescription(name);
-    this->Size = description.Size;
-    this->Type = description.Type;
-    this->Placement = description.Placement;
-    this->File = description.File;
-    // The rows of axial slices are stored from back to front: a left-handed frame.
-    this->WorldAxes = description.IsAxial ? "LAS" : "";
-    this->HasParts = false;
-  }
-
-  vtkSmartPointer<vtkDataArray> Read(int, int count) override
-  {
-    auto values = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(this->Type));
-    const std::uint64_t expected = BytesOfVoxels(this->Type, 1, this->Size);
-    Archive archive(Archive::Kind::Tar, Archive::TarIn(this->Name));
-    GoTo(archive, this->File);
-    if (archive.Size() != expected)
-    {
-      throw Failure(this->File + " has " + std::to_string(archive.Size()) +
-        " bytes, the sizes in main.plist ask for " + std::to_string(expected));
-    }
-    NeedPackedBytes(BinaryFile(this->Name).Size(), MostOfZlib, expected);
-    values->SetNumberOfTuples(static_cast<vtkIdType>(this->Size[0]) * this->Size[1] * count);
-    ReadMember(archive, static_cast<char*>(values->GetVoidPointer(0)));
-    ToNativeOrder(values, false);
-    return values;
-  }
-
-private:
-  std::string Name;
-  std::string File; ///< in the archive
-};
+  auto values = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(this->Type));
+  const std::uint64_t expected = BytesOfVoxels(this->Type, 1, this->Size);
+  Archive archive(Archive::Kind::Tar, Archive::TarIn(this->Name));
+  GoTo(archive, this->File);
+  FailIf(archive.Size() != expected,
+    this->File + " has " + std::to_string(archive.Size()) +
+      " bytes, the sizes in main.plist ask for " + std::to_string(expected));
+  NeedPackedBytes(BinaryFile(this->Name).Size(), MostOfZlib, expected);
+  values->SetNumberOfTuples(static_cast<vtkIdType>(this->Size[0]) * this->Size[1] * count);
+  ReadMember(archive, static_cast<char*>(values->GetVoidPointer(0)));
+  ToNativeOrder(values, false);
+  return values;
+}
 }
 
 std::unique_ptr<SlabReader> OpenInv3(const std::string& name, const Opening&)

@@ -2,32 +2,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SlabReader.h"
 
-#include "BinaryFile.h"
 #include "LabelNames.h"
-#include "RawSlabs.h"
+#include "Messages.h"
 #include "Texts.h"
-#include "ToolErrors.h"
-#include "Unpack.h"
-#include "VolumeImage.h"
-#include "VtkMessages.h"
-#include "VtkReaders.h"
 
-#include <vtkImageData.h>
 #include <vtkMatrix4x4.h>
 #include <vtkNIFTIImageReader.h>
-#include <vtkNew.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <limits>
 #include <map>
-#include <memory>
-#include <string>
 #include <tuple>
 #include <utility>
 
@@ -51,10 +39,9 @@ public:
       this->IsBig = isBig;
       this->IsWide = this->Number(0, 4) == 540;
     }
-    if (bytes.size() < (this->IsWide ? 540 : 348) || (!this->IsWide && this->Number(0, 4) != 348))
-    {
-      throw Failure("not a NIfTI or Analyze file, or its header is damaged or cut off");
-    }
+    FailIf(
+      bytes.size() < (this->IsWide ? 540 : 348) || (!this->IsWide && this->Number(0, 4) != 348),
+      "not a NIfTI or Analyze file, or its header is damaged or cut off");
   }
 
   /** Whether it and the voxels are in one file, in two ("ni1"), or it is Analyze's (""). */

@@ -5,23 +5,16 @@
 // here: https://teem.sourceforge.net/nrrd/format.html.
 #include "SlabReader.h"
 
-#include "BinaryFile.h"
 #include "LabelNames.h"
-#include "RawSlabs.h"
 #include "Texts.h"
-#include "ToolErrors.h"
-#include "VolumeImage.h"
 
 #include <vtkType.h>
 
 #include <algorithm>
-#include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <locale>
 #include <map>
-#include <memory>
 #include <set>
 #include <sstream>
 
@@ -174,13 +167,8 @@ struct Header
 {
   Fields All;
   Fields Pairs; ///< what programs tell each other
-  std::array<int, 3> Size = { 0, 0, 0 };
-  int Components = 1;
-  int Type = 0;
-  VolumePlacement Placement;
-  std::string WorldAxes;       ///< may be empty
-  std::string DataFile;        ///< the file itself, or another one
-  std::uint64_t DataStart = 0; ///< bytes before the data in it
+  /** Where the voxels are, but for what is to be skipped, and what is known of them. */
+  std::unique_ptr<RawSlabs> Slabs = std::make_unique<RawSlabs>();
 };
 
 RawSlabs::Packing PackingOf(const std::string& encoding)
@@ -219,32 +207,34 @@ bool FirstAxisIsComponents(const Fields& fields)
 Header ReadHeader(const std::string& name)
 {
   Header header;
+  RawSlabs& slabs = *header.Slabs;
   std::size_t start = 0;
   header.All = ParseHeader(FirstText(name), start, header.Pairs);
-  std::array<int, 3>& size = header.Size;
+  std::array<int, 3>& size = slabs.Size;
   std::istringstream sizes(EntryOr(header.All, "sizes", ""));
   std::string more;
   const bool hasComponents = FirstAxisIsComponents(header.All);
-  FailIf((hasComponents && !(sizes >> header.Components)) ||
-      !(sizes >> size[0] >> size[1] >> size[2]) || sizes >> more || header.Components < 1 ||
+  FailIf((hasComponents && !(sizes >> slabs.Components)) ||
+      !(sizes >> size[0] >> size[1] >> size[2]) || sizes >> more || slabs.Components < 1 ||
       *std::min_element(size.begin(), size.end()) < 1,
     "sizes '" + EntryOr(header.All, "sizes", "") +
       "'; a volume with one scalar component has three, one with several a list of them first");
-  header.Type = TypeOf(Lower(EntryOr(header.All, "type", "")));
+  slabs.Type = TypeOf(Lower(EntryOr(header.All, "type", "")));
   const std::string dimension = EntryOr(header.All, "dimension", "");
   FailIf(dimension != (hasComponents ? "4" : "3"),
     "dimension '" + dimension + "', which has not as many sizes");
   const std::string endian = Lower(EntryOr(header.All, "endian", "little"));
   FailIf(
     endian != "little" && endian != "big", "endian '" + endian + "'; little and big are known");
+  slabs.IsBig = endian == "big";
   const std::string file = EntryOr(header.All, "data file", "");
   FailIf(file.compare(0, 4, "LIST") == 0 || file.find('%') != std::string::npos,
     "data spread over several files are not read");
-  header.DataFile =
-    file.empty() ? name : (std::filesystem::path(name).parent_path() / file).string();
-  header.DataStart = file.empty() ? start : 0;
-  header.Placement = PlacementOf(header.All, hasComponents);
-  header.WorldAxes = WorldAxesOf(EntryOr(header.All, "space", ""));
+  slabs.Files = { file.empty() ? name
+                               : (std::filesystem::path(name).parent_path() / file).string() };
+  slabs.Start = file.empty() ? start : 0;
+  slabs.Placement = PlacementOf(header.All, hasComponents);
+  slabs.WorldAxes = WorldAxesOf(EntryOr(header.All, "space", ""));
   return header;
 }
 
@@ -316,22 +306,15 @@ LabelNames NamesOfSegments(const Fields& pairs, int components)
 LabelNames NamesInNrrd(const std::string& name)
 {
   const Header header = ReadHeader(name);
-  return NamesOfSegments(header.Pairs, header.Components);
+  return NamesOfSegments(header.Pairs, header.Slabs->Components);
 }
 
 std::unique_ptr<SlabReader> OpenNrrd(const std::string& name, const Opening& opening)
 {
-  const Header header = ReadHeader(name);
-  auto slabs = std::make_unique<RawSlabs>();
-  slabs->Size = header.Size;
-  slabs->Components = header.Components;
-  slabs->Type = header.Type;
-  slabs->Placement = header.Placement;
-  slabs->WorldAxes = header.WorldAxes;
-  slabs->IsBig = Lower(EntryOr(header.All, "endian", "little")) == "big";
-  slabs->Files = { header.DataFile };
+  Header header = ReadHeader(name);
+  std::unique_ptr<RawSlabs>& slabs = header.Slabs;
   slabs->Code = PackingOf(Lower(EntryOr(header.All, "encoding", "raw")));
-  slabs->Start = BehindLines(header.DataFile, header.DataStart,
+  slabs->Start = BehindLines(slabs->Files.front(), slabs->Start,
     ParseNumber<int>(EntryOr(header.All, "line skip", "0")));
   // -1: the voxels are the last bytes.
   const int skip = ParseNumber<int>(EntryOr(header.All, "byte skip", "0"));
@@ -339,6 +322,6 @@ std::unique_ptr<SlabReader> OpenNrrd(const std::string& name, const Opening& ope
   slabs->AreLast = isRaw && skip < 0;
   (isRaw ? slabs->Start : slabs->Before) += static_cast<std::uint64_t>(std::max(skip, 0));
   slabs->Prepare(opening);
-  return slabs;
+  return std::move(slabs);
 }
 }

@@ -3,9 +3,9 @@
 #include "ReadVolume.h"
 
 #include "CheckInputs.h"
+#include "Messages.h"
+#include "SlabReader.h"
 #include "ToolErrors.h"
-#include "VtkMessages.h"
-#include "VtkReaders.h"
 
 #include <vtkDataArray.h>
 #include <vtkImageData.h>

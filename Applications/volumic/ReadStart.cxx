@@ -4,14 +4,14 @@
 
 #include "BinaryFile.h"
 #include "CheckInputs.h"
+#include "Messages.h"
+#include "SurfaceFacts.h"
 #include "Texts.h"
 #include "ToolErrors.h"
-#include "VtkMessages.h"
 
 #include <vtkCellArray.h>
 #include <vtkCleanPolyData.h>
 #include <vtkDoubleArray.h>
-#include <vtkIdList.h>
 #include <vtkNew.h>
 #include <vtkOBJReader.h>
 #include <vtkPLYReader.h>
@@ -89,22 +89,19 @@ vtkSmartPointer<vtkPolyData> ReadMeshFile(const std::string& name)
 vtkSmartPointer<vtkPolyData> ReadMesh(const std::string& name)
 {
   vtkSmartPointer<vtkPolyData> mesh = ReadMeshFile(name);
-  vtkNew<vtkIdList> corners;
-  vtkCellArray* polygons = mesh->GetPolys();
-  FailIf(!polygons->IsValid(), name + ": is damaged: its polygons overlap in the file");
-  for (vtkIdType i = 0; i < polygons->GetNumberOfCells(); ++i)
-  {
-    polygons->GetCellAtId(i, corners);
-    for (vtkIdType c = 0; c < corners->GetNumberOfIds(); ++c)
+  const vtkIdType points = mesh->GetNumberOfPoints();
+  FailIf(!mesh->GetPolys()->IsValid(), name + ": is damaged: its polygons overlap in the file");
+  ForEachPolygon(mesh,
+    [&](vtkIdType, const vtkIdType* corners, vtkIdType count)
     {
-      if (corners->GetId(c) < 0 || corners->GetId(c) >= mesh->GetNumberOfPoints())
+      const auto wrong = std::find_if(
+        corners, corners + count, [points](vtkIdType c) { return c < 0 || c >= points; });
+      if (wrong != corners + count)
       {
-        throw Failure(name + ": is damaged: a polygon has point " +
-          std::to_string(corners->GetId(c)) + ", there are " +
-          std::to_string(mesh->GetNumberOfPoints()));
+        throw Failure(name + ": is damaged: a polygon has point " + std::to_string(*wrong) +
+          ", there are " + std::to_string(points));
       }
-    }
-  }
+    });
   return mesh;
 }
 

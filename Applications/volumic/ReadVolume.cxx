@@ -3,13 +3,11 @@
 #include "ReadVolume.h"
 
 #include "CheckInputs.h"
-#include "InputFiles.h"
+#include "Messages.h"
 #include "SlabReader.h"
 #include "Texts.h"
 #include "ToolErrors.h"
 #include "VolumeImage.h"
-#include "VtkMessages.h"
-#include "VtkReaders.h"
 
 #include <vtkDataArray.h>
 #include <vtkGenericDataObjectReader.h>
@@ -31,7 +29,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <functional>
-#include <iterator>
 #include <memory>
 #include <new>
 #include <stdexcept>
@@ -103,18 +100,15 @@ Image ReadMinc(const std::string& name)
 /** The slices of a folder, of DICOM or pictures, and whether they are DICOM. */
 std::pair<std::vector<std::string>, bool> SlicesOf(const std::string& folder)
 {
-  const std::vector<std::string> files = FilesOf(folder);
-  std::vector<std::string> slices;
-  std::copy_if(files.begin(), files.end(), std::back_inserter(slices), IsDicom);
-  for (const std::string& file : files)
+  const std::vector<std::string> slices = FilesOfFolder(folder);
+  const bool areDicom = !slices.empty() && IsDicom(slices.front());
+  for (const std::string& file : areDicom ? FilesOf(folder) : std::vector<std::string>())
   {
-    if (!IsDicom(file) && IsLikeSlice(file, slices))
-    {
-      throw Failure(file + ": no DICOM file, though like the slices beside it: it is cut off or "
-                           "damaged; copy it again, or take it out of the folder");
-    }
+    FailIf(!IsDicom(file) && IsLikeSlice(file, slices),
+      file + ": no DICOM file, though like the slices beside it: it is cut off or damaged; copy it "
+             "again, or take it out of the folder");
   }
-  return slices.empty() ? std::pair{ files, false } : std::pair{ slices, true };
+  return { slices, areDicom };
 }
 
 FoundVolume OpenSlices(

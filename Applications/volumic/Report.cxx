@@ -4,7 +4,6 @@
 
 #include "Json.h"
 #include "Ranks.h"
-#include "SurfaceFields.h"
 
 #include <vtkDataArray.h>
 #include <vtkDeformableSurface.h>
@@ -19,7 +18,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <functional>
 #include <map>
 #include <ostream>
@@ -30,15 +28,7 @@ namespace tool
 {
 std::vector<double> PeaksByRank(const Ranks& ranks)
 {
-  std::vector<double> peaks;
-  if (!ranks.IsOne())
-  {
-    for (const std::string& peak : ranks.GatherOnAll(std::to_string(PeakMemory())))
-    {
-      peaks.push_back(std::atof(peak.c_str()));
-    }
-  }
-  return peaks;
+  return ranks.IsOne() ? std::vector<double>() : ranks.GatherOnAll(PeakMemory());
 }
 
 double PeakMemory()

@@ -3,11 +3,11 @@
 #ifndef volumicReport_h
 #define volumicReport_h
 
-#include "GatherSurface.h"
-#include "LabelChoice.h"
-#include "LabelOutputs.h"
+#include "LabelMap.h"
+#include "SurfaceFacts.h"
 #include "SurfaceProperties.h"
 #include "VolumePart.h"
+#include "WriteOutputs.h"
 
 #include <iosfwd>
 #include <string>

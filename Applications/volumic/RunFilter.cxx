@@ -5,7 +5,6 @@
 #include "Ranks.h"
 #include "SurfaceProperties.h"
 #include "ToolErrors.h"
-#include "VtkMessages.h"
 
 #include <vtkAlgorithm.h>
 #include <vtkCallbackCommand.h>
@@ -13,7 +12,6 @@
 
 #include <chrono>
 #include <csignal>
-#include <functional>
 
 #include <unistd.h>
 
@@ -40,9 +38,10 @@ void FollowProgress(vtkObject* caller, unsigned long, void* line, void*)
   const char* text = filter->GetProgressText();
   static_cast<ProgressLine*>(line)->Show(filter->GetProgress(), text ? text : "");
 }
+}
 
-FilterRun Run(vtkAlgorithm* filter, const std::string& title, ProgressStyle style,
-  const std::function<void()>& update)
+FilterRun RunFilter(
+  vtkAlgorithm* filter, const std::string& title, ProgressStyle style, const Ranks* ranks)
 {
   VtkMessages messages;
   messages.ListenTo(filter);
@@ -53,7 +52,7 @@ FilterRun Run(vtkAlgorithm* filter, const std::string& title, ProgressStyle styl
   const unsigned long tag = filter->AddObserver(vtkCommand::ProgressEvent, observer);
 
   const auto started = std::chrono::steady_clock::now();
-  update();
+  ranks ? ranks->Update(filter) : filter->Update();
   FilterRun run;
   run.Seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   filter->RemoveObserver(tag);
@@ -67,7 +66,6 @@ FilterRun Run(vtkAlgorithm* filter, const std::string& title, ProgressStyle styl
     throw Failure(InWordsOfOptions(messages.Errors.front()));
   }
   return run;
-}
 }
 
 void CatchInterrupts(const Ranks& ranks)
@@ -83,17 +81,6 @@ void CatchInterrupts(const Ranks& ranks)
 bool WasInterrupted()
 {
   return interrupted != 0;
-}
-
-FilterRun RunFilter(vtkAlgorithm* filter, const std::string& title, ProgressStyle style)
-{
-  return Run(filter, title, style, [filter] { filter->Update(); });
-}
-
-FilterRun RunFilter(
-  vtkAlgorithm* filter, const std::string& title, ProgressStyle style, const Ranks& ranks)
-{
-  return Run(filter, title, style, [filter, &ranks] { ranks.Update(filter); });
 }
 
 // ---- Full disks ---------------------------------------------------------------------------------

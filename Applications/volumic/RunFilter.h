@@ -3,7 +3,7 @@
 #ifndef volumicRunFilter_h
 #define volumicRunFilter_h
 
-#include "ProgressLine.h"
+#include "Messages.h"
 
 #include <string>
 #include <vector>
@@ -31,12 +31,12 @@ void CatchInterrupts(const Ranks& ranks);
 /** Whether there was such a signal. */
 bool WasInterrupted();
 
-/** Update the filter, showing its progress. @throws Failure with the errors that it reports. */
-FilterRun RunFilter(vtkAlgorithm* filter, const std::string& title, ProgressStyle style);
-
-/** By all ranks together, of which each gets its piece; errors are those of this rank. */
-FilterRun RunFilter(
-  vtkAlgorithm* filter, const std::string& title, ProgressStyle style, const Ranks& ranks);
+/**
+ * Update the filter, showing its progress; with ranks by all of them together, of which each gets
+ * its piece. @throws Failure with the errors that it reports, on this rank.
+ */
+FilterRun RunFilter(vtkAlgorithm* filter, const std::string& title, ProgressStyle style,
+  const Ranks* ranks = nullptr);
 
 // ---- Full disks ---------------------------------------------------------------------------------
 

@@ -4,13 +4,13 @@
 
 #include "LabelMap.h"
 #include "LabelNames.h"
-#include "LabelOutputs.h"
 #include "Ranks.h"
 #include "Report.h"
 #include "RunFilter.h"
 #include "SurfaceProperties.h"
 #include "Texts.h"
 #include "ToolOptions.h"
+#include "WriteOutputs.h"
 #include "WriteResults.h"
 
 #include <vtkCompositeDataSet.h>
@@ -72,10 +72,8 @@ std::vector<KnownLabel> KnownLabels(const ToolOptions& options, const LabelMap& 
       // A few of very many labels can be chosen by their numbers, but not told of.
       const std::vector<KnownLabel> some =
         NumberedLabels(options.Labels, GetLabelNames(map.Layers[static_cast<std::size_t>(layer)]));
-      if (some.empty() || map.Layers.size() > 1 || options.ListsLabels)
-      {
-        throw Failure(options.Volume + ": " + failure.what());
-      }
+      FailIf(some.empty() || map.Layers.size() > 1 || options.ListsLabels,
+        options.Volume + ": " + failure.what());
       return some;
     }
   }
@@ -151,7 +149,7 @@ FilterRun RunOnLayer(const ToolOptions& options, const LabelMap& map, int layer,
   std::string failure; // One rank may not leave while others are in the filter yet.
   try
   {
-    run = RunFilter(filter, "Making surfaces", style, ranks);
+    run = RunFilter(filter, "Making surfaces", style, &ranks);
   }
   catch (const Failure& error)
   {
@@ -295,7 +293,7 @@ std::vector<LabelSurface> Prepare(const ToolOptions& options, const FilterTrio& 
   vtkImagePyramid* holder, const Announcer& announcer, LabelMap& map, MadeFolders& folders,
   LabelReport& report)
 {
-  CheckLabelFiles(options);
+  CheckFiles(options);
   map = LoadLabelMap(options, filters.Surface, holder, announcer);
   report.Volume = map.Facts;
   report.ReaderMemory = PeakMemory();

@@ -2,17 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Segment.h"
 
-#include "GatherSurface.h"
 #include "LabelMap.h"
-#include "LoadVolume.h"
+#include "LoadInputs.h"
 #include "Ranks.h"
 #include "Report.h"
 #include "RunFilter.h"
-#include "SurfaceFields.h"
-#include "SurfaceInputs.h"
+#include "SurfaceFacts.h"
 #include "SurfaceProperties.h"
 #include "Texts.h"
-#include "ToolErrors.h"
 #include "ToolOptions.h"
 #include "WriteOutputs.h"
 #include "WriteResults.h"
@@ -66,7 +63,7 @@ FilterRun RunOnVolume(
   std::string failure;
   try
   {
-    run = RunFilter(filter, title, style, job.All);
+    run = RunFilter(filter, title, style, &job.All);
   }
   catch (const std::bad_alloc&)
   {
@@ -127,35 +124,40 @@ FilterRun GiveLevels(const Job& job)
 }
 
 /** Says, as soon as it is known, where a run with --resume goes on from. */
-class ResumeTeller : public vtkCommand
+class ResumeTeller
 {
 public:
-  static ResumeTeller* New() { return new ResumeTeller; }
-
-  void Execute(vtkObject* caller, unsigned long, void*) override
+  explicit ResumeTeller(const Job& job)
+    : Filter(job.Filter), Says(job.Says),
+      Observer(job.Filter->AddObserver(vtkCommand::ProgressEvent, this, &ResumeTeller::Follow))
   {
-    auto* filter = static_cast<vtkDeformableSurface*>(caller);
-    const char* text = filter->GetProgressText();
-    if (text && std::strncmp(text, "Level", 5) == 0)
-    {
-      this->Tell(filter);
-    }
   }
+  ~ResumeTeller() { this->Filter->RemoveObserver(this->Observer); }
 
-  void Tell(vtkDeformableSurface* filter)
+  void Tell()
   {
-    if (filter->GetResume() && !std::exchange(this->HasTold, true))
+    if (this->Filter->GetResume() && !std::exchange(this->HasTold, true))
     {
-      const int level = filter->GetResumedLevel();
-      this->Says->Say(level >= -1
+      const int level = this->Filter->GetResumedLevel();
+      this->Says.Say(level >= -1
           ? "going on from level " + std::to_string(level) + ", to which a run before has come"
           : "there is no checkpoint to resume from: the run begins anew");
     }
   }
 
-  const Announcer* Says = nullptr;
-
 private:
+  void Follow()
+  {
+    const char* text = this->Filter->GetProgressText();
+    if (text && std::strncmp(text, "Level", 5) == 0)
+    {
+      this->Tell();
+    }
+  }
+
+  vtkDeformableSurface* Filter;
+  const Announcer& Says;
+  unsigned long Observer;
   bool HasTold = false;
 };
 
@@ -198,12 +200,10 @@ void FindSurface(const Job& job, ReportInput& results)
   CatchInterrupts(job.All);
   job.Filter->LeaveCheckpoints(); // Until all is written.
   const FilterRun pyramidRun = GiveLevels(job);
-  vtkNew<ResumeTeller> teller;
-  teller->Says = &job.Says;
-  job.Filter->AddObserver(vtkCommand::ProgressEvent, teller);
+  ResumeTeller teller(job);
   const FilterRun run =
     RunOnVolume(job, job.Filter, "Evolving the surface", job.Says.Style);
-  teller->Tell(job.Filter);
+  teller.Tell();
   for (const FilterRun& each : { pyramidRun, run })
   {
     for (const std::string& warning : each.Warnings)
@@ -222,17 +222,14 @@ void FindSurface(const Job& job, ReportInput& results)
     return;
   }
   RemoveCheckpointOfEnded(job, results.StopReason);
-  if (results.StopReason == "time limit")
-  {
-    job.All.ThrowOnAll("the time limit came before there was a surface; nothing is written");
-  }
-  if (run.IsInterrupted)
-  {
-    job.All.ThrowOnAll("interrupted before there was a surface; nothing is written");
-  }
-  job.All.ThrowOnAll("the surface vanished: is the object where the image is " +
-    std::string(job.Filter->GetObjectIsBright() ? "above " : "below ") +
-    NumberText(job.Filter->GetIsoValue()) + "? (--iso, --dark)");
+  const bool isLate = results.StopReason == "time limit";
+  job.All.ThrowOnAll(isLate
+      ? "the time limit came before there was a surface; nothing is written"
+      : run.IsInterrupted
+      ? "interrupted before there was a surface; nothing is written"
+      : "the surface vanished: is the object where the image is " +
+        std::string(job.Filter->GetObjectIsBright() ? "above " : "below ") +
+        NumberText(job.Filter->GetIsoValue()) + "? (--iso, --dark)");
 }
 }
 

@@ -3,17 +3,27 @@
 #ifndef volumicSlabReader_h
 #define volumicSlabReader_h
 
+#include "BinaryFile.h"
+#include "Descriptor.h"
+#include "ToolErrors.h"
 #include "VolumeImage.h"
 
+#include <vtkImageData.h>
+#include <vtkNew.h>
 #include <vtkSmartPointer.h>
 
 #include <array>
+#include <cstdint>
+#include <fstream>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
 class vtkAlgorithm;
 class vtkDataArray;
+class vtkImageReader2;
+class vtkMatrix4x4;
 
 namespace tool
 {
@@ -81,6 +91,134 @@ std::unique_ptr<SlabReader> OpenPictures(const std::vector<std::string>& files);
 
 /** A picture, the pages of a TIFF, or what else a reader of VTK takes for its own. */
 std::unique_ptr<SlabReader> OpenByContent(const std::string& name, const Opening& opening);
+
+// ---- Readers of VTK -----------------------------------------------------------------------------
+
+/** The image that a reader of VTK gives. @throws Failure if it, or one within it, complains. */
+vtkSmartPointer<vtkImageData> ImageOf(vtkAlgorithm* reader, const std::string& name);
+
+template <class Reader>
+vtkSmartPointer<vtkImageData> ReadWith(const std::string& name)
+{
+  vtkNew<Reader> reader;
+  reader->SetFileName(name.c_str());
+  return ImageOf(reader, name);
+}
+
+/** The one of VTK's readers of images that takes the file for its own. @throws Failure for none. */
+vtkSmartPointer<vtkImageReader2> ReaderOf(const std::string& name);
+
+/** A reader for the file. @throws Failure if it is of another format. */
+template <class Reader>
+vtkSmartPointer<Reader> NewReader(const std::string& name)
+{
+  auto reader = vtkSmartPointer<Reader>::New();
+  if (!reader->CanReadFile(name.c_str()))
+  {
+    throw Failure(name + ": is not what its suffix says");
+  }
+  reader->SetFileName(name.c_str());
+  return reader;
+}
+
+template <class Reader>
+vtkSmartPointer<vtkImageData> ReadIfItsFormat(const std::string& name)
+{
+  return ImageOf(NewReader<Reader>(name), name);
+}
+
+/** Columns of the matrix, each times the spacing along its axis, and the translation. */
+VolumePlacement PlacementOf(vtkMatrix4x4* matrix, const double* spacing);
+
+/**
+ * Slices by a reader of VTK that gives parts of an image: each time by a new one, as vtkTIFFReader
+ * gives other slices when it is asked again.
+ */
+class ReaderSlabs : public SlabReader
+{
+public:
+  using Factory = std::function<vtkSmartPointer<vtkImageReader2>()>;
+
+  /** Size, type and so on are what a reader of the file `name` tells. */
+  ReaderSlabs(const std::string& name, const Factory& make);
+
+  bool HasTrustedWarnings = true; ///< as VtkMessages::UpdateReader says
+  bool IsReversed = false; ///< The reader reverses the slices, of each part by itself.
+  double Slope = 1.0; ///< What is read gets multiplied,
+  double Shift = 0.0; ///< and shifted, and is float then.
+
+  vtkSmartPointer<vtkDataArray> Read(int first, int count) override;
+
+private:
+  std::string Name;
+  Factory Make;
+};
+
+// ---- Voxels that lie in files -------------------------------------------------------------------
+
+/** A file without a name in a folder: it is there as long as this object or the process. */
+class NamelessFile
+{
+public:
+  /** @param directory empty: TMPDIR, or /var/tmp. @throws Failure if there can be none. */
+  explicit NamelessFile(const std::string& directory);
+
+  /** @throws Failure if the disk is full. */
+  void Append(const char* bytes, std::size_t count);
+
+  /** By which it can be opened, in this process. */
+  const std::string& Path() const { return this->Link; }
+
+private:
+  NamelessFile(const std::string& directory, int number);
+
+  std::string Directory;
+  std::string Link;
+  Descriptor File;
+};
+
+/** The stream of a data file, at that byte. @throws Failure that names it if it cannot be opened. */
+std::ifstream OpenData(const std::string& name, std::uint64_t start);
+
+/** Values one behind the other in a file, or in several, an equal share in each, x fastest. */
+class RawSlabs : public SlabReader
+{
+public:
+  enum class Packing
+  {
+    None,
+    Zlib, ///< or gzip
+    Bzip2,
+    Text ///< numbers with blanks between
+  };
+
+  std::vector<std::string> Files;
+  Packing Code = Packing::None;
+  std::uint64_t Start = 0;  ///< Each file has so many bytes before its values, packed or not.
+  std::uint64_t Before = 0; ///< What is packed begins with so many bytes before the values.
+  bool AreLast = false;     ///< The values are the last bytes of a file, whatever is before.
+  bool IsBig = false;       ///< The most significant byte of a value comes first.
+
+  /**
+   * To call when all this is known. Packed values, of which parts will be wanted, are unpacked.
+   * @throws Failure, before memory is taken, if a file is too short or too long.
+   */
+  void Prepare(const Opening& opening);
+
+  vtkSmartPointer<vtkDataArray> Read(int first, int count) override;
+
+private:
+  /** Bytes of all values, and of those in each file. */
+  std::uint64_t Bytes() const;
+  std::uint64_t Share() const { return this->Bytes() / this->Files.size(); }
+
+  void CheckLength(const std::string& file) const;
+  std::uint64_t StartIn(const std::string& file) const;
+  void Unpack(const UnpackedSink& sink) const;
+  void ReadBytes(std::uint64_t first, std::uint64_t count, char* values) const;
+
+  std::unique_ptr<NamelessFile> Unpacked; ///< If it is there, it is the only one of Files.
+};
 }
 
 #endif

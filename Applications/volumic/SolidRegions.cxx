@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SolidRegions.h"
 
-#include "SolidShells.h"
 #include "ToolErrors.h"
 
 #include <vtkMath.h>

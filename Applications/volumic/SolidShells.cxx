@@ -1,14 +1,11 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "SolidShells.h"
+#include "SolidRegions.h"
 
 #include "ToolErrors.h"
 
-#include <vtkCellArray.h>
-#include <vtkCellArrayIterator.h>
 #include <vtkCellData.h>
 #include <vtkIntArray.h>
-#include <vtkPolyData.h>
 
 #include <algorithm>
 #include <cmath>
@@ -75,22 +72,18 @@ void LabelledTriangles::ReadTriangles(vtkPolyData* surface)
   }
   auto* labels = vtkIntArray::SafeDownCast(surface->GetCellData()->GetArray("BoundaryLabels"));
   const vtkIdType before = surface->GetNumberOfVerts() + surface->GetNumberOfLines(); // cells
-  auto cells = vtk::TakeSmartPointer(surface->GetPolys()->NewIterator());
-  for (cells->GoToFirstCell(); !cells->IsDoneWithTraversal(); cells->GoToNextCell())
-  {
-    vtkIdType count = 0;
-    const vtkIdType* corners = nullptr;
-    cells->GetCurrentCell(count, corners);
-    FailIf(count != 3, "cannot be written (it has cells that are no triangles)");
-    this->Triangles.push_back({ corners[0], corners[1], corners[2] });
-    for (int side = 0; side < 2; ++side)
+  ForEachPolygon(surface,
+    [&](vtkIdType polygon, const vtkIdType* corners, vtkIdType count)
     {
-      const int label = labels
-        ? EntryOr(numbers, labels->GetTypedComponent(before + cells->GetCurrentCellId(), side), -1)
-        : -side;
-      this->LabelOf.push_back(label);
-    }
-  }
+      FailIf(count != 3, "cannot be written (it has cells that are no triangles)");
+      this->Triangles.push_back({ corners[0], corners[1], corners[2] });
+      for (int side = 0; side < 2; ++side)
+      {
+        this->LabelOf.push_back(labels
+            ? EntryOr(numbers, labels->GetTypedComponent(before + polygon, side), -1)
+            : -side);
+      }
+    });
   FailIf(this->Triangles.empty(), "cannot be written (there is no surface)");
 }
 

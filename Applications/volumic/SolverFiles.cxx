@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "SolverFiles.h"
+#include "SurfaceFormats.h"
 
 #include "SolidRegions.h"
-#include "StreamedWriters.h"
 #include "Texts.h"
 #include "ToolErrors.h"
+#include "VtkWriters.h"
 
 #include <vtkBoundingBox.h>
 #include <vtkPoints.h>
@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cstdint>
 #include <iterator>
 #include <locale>
 #include <map>
@@ -304,14 +303,13 @@ void WriteInside(std::ostream& out, const SolverModel& model, bool isSolid)
 }
 
 /** @param isPoly whether facets are told as .poly has them: polygons and holes of each */
-void WriteTetgen(vtkPolyData* surface, const std::string& path, const std::string& remark,
-  bool isPoly, ProgressLine& line)
+void WriteTetgen(const SurfaceFile& to, bool isPoly)
 {
-  const SolverModel model(surface);
-  FileBuffer file(path);
+  const SolverModel model(to.Surface);
+  FileBuffer file(to.Path);
   std::ostream out(&file);
   out.imbue(std::locale::classic());
-  out << "# " << remark << "\n";
+  out << "# " << to.Remark << "\n";
   for (std::size_t label = 0; label < model.Solids.Labels.size(); ++label)
   {
     const int index = static_cast<int>(label);
@@ -326,7 +324,7 @@ void WriteTetgen(vtkPolyData* surface, const std::string& path, const std::strin
   {
     out << point + 1 << " " << PlaceText(model.Points, point) << "\n";
   }
-  line.Show(0.4, "");
+  to.Line.Show(0.4, "");
   out << model.Solids.Triangles.size() << " 1\n";
   for (const SolidRegions::Triangle& triangle : model.Solids.Triangles)
   {
@@ -342,17 +340,16 @@ void WriteTetgen(vtkPolyData* surface, const std::string& path, const std::strin
     }
     out << (isPoly ? "" : " " + std::to_string(mark)) << "\n";
   }
-  line.Show(0.9, "");
+  to.Line.Show(0.9, "");
   WriteInside(out, model, false);
   WriteInside(out, model, true);
   file.Finish();
 }
 }
 
-void WriteMsh(vtkPolyData* surface, const std::string& path, const std::string& remark,
-  ProgressLine& line)
+void WriteMsh(const SurfaceFile& to)
 {
-  const SolverModel model(surface);
+  const SolverModel model(to.Surface);
   const std::map<Pair, MshSurface> surfaces = MshSurfaces(model);
   std::set<int> labels;
   std::size_t solids = 0; // which come first
@@ -364,25 +361,23 @@ void WriteMsh(vtkPolyData* surface, const std::string& path, const std::string& 
       ++solids;
     }
   }
-  FileBuffer file(path);
+  FileBuffer file(to.Path);
   std::ostream out(&file);
   out.imbue(std::locale::classic());
-  out << "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Comments\n" << remark << "\n$EndComments\n";
+  out << "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Comments\n" << to.Remark << "\n$EndComments\n";
   WriteNames(out, model, labels);
   WriteEntities(out, model, surfaces, solids);
-  WriteElements(out, model, surfaces, WriteNodes(out, model, surfaces), line);
+  WriteElements(out, model, surfaces, WriteNodes(out, model, surfaces), to.Line);
   file.Finish();
 }
 
-void WriteSmesh(vtkPolyData* surface, const std::string& path, const std::string& remark,
-  ProgressLine& line)
+void WriteSmesh(const SurfaceFile& to)
 {
-  WriteTetgen(surface, path, remark, false, line);
+  WriteTetgen(to, false);
 }
 
-void WritePoly(vtkPolyData* surface, const std::string& path, const std::string& remark,
-  ProgressLine& line)
+void WritePoly(const SurfaceFile& to)
 {
-  WriteTetgen(surface, path, remark, true, line);
+  WriteTetgen(to, true);
 }
 }

@@ -2,32 +2,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfaceFormats.h"
 
-#include "CheckInputs.h"
 #include "GltfScene.h"
 #include "OutputFiles.h"
-#include "RunWriter.h"
-#include "SolverFiles.h"
-#include "StreamedWriters.h"
-#include "SurfaceFields.h"
-#include "SurfacePieces.h"
+#include "SurfaceFacts.h"
 #include "Texts.h"
 #include "ToolErrors.h"
+#include "VtkWriters.h"
 
 #include <vtkBYUWriter.h>
+#include <vtkByteSwap.h>
+#include <vtkDataArray.h>
 #include <vtkFacetWriter.h>
 #include <vtkHoudiniPolyDataWriter.h>
 #include <vtkIVWriter.h>
-#include <vtkMCubesWriter.h>
 #include <vtkNew.h>
 #include <vtkOBJWriter.h>
-#include <vtkPLYWriter.h>
 #include <vtkPointData.h>
-#include <vtkPolyData.h>
-#include <vtkSTLWriter.h>
+#include <vtkTriangle.h>
 #include <vtkUnsignedCharArray.h>
 
 #include <cstdint>
 #include <iostream>
+#include <locale>
 #include <map>
 #include <vector>
 
@@ -54,40 +50,100 @@ void WriteWith(const SurfaceFile& file)
   RunWriter(writer.Get(), file.Line);
 }
 
-void WriteStl(const SurfaceFile& file)
+/** Numbers of files that are binary, the least significant byte first. */
+template <class Number>
+void Put(std::ostream& out, const Number* numbers, std::size_t count)
 {
-  const FileGrowth growth(file.Path, 50 * TrianglesIn(file), file.Line);
-  vtkNew<vtkSTLWriter> writer;
-  writer->SetInputData(file.Surface);
-  writer->SetFileName(file.Path.c_str());
-  writer->SetFileTypeToBinary();
-  // The head of a binary file has 80 bytes.
-  vtkNew<vtkUnsignedCharArray> head;
-  for (std::size_t i = 0; i < 80; ++i)
-  {
-    head->InsertNextValue(
-      i < file.Remark.size() ? static_cast<unsigned char>(file.Remark[i]) : ' ');
-  }
-  writer->SetBinaryHeader(head);
-  RunWriter(writer.Get(), file.Line);
+  vtkByteSwap::SwapWrite4LERange(numbers, count, &out);
 }
 
-/** With the colour of its label at each vertex, if there are labels. */
+/** Binary: each triangle with its normal, its corners and two bytes for nothing. */
+void WriteStl(const SurfaceFile& file)
+{
+  FileBuffer buffer(file.Path);
+  std::ostream out(&buffer);
+  const std::size_t headBytes = 80;
+  std::string head = file.Remark;
+  head.resize(headBytes, ' ');
+  const auto triangles = static_cast<std::uint32_t>(TrianglesIn(file));
+  out << head;
+  Put(out, &triangles, 1);
+  ForEachPolygon(file.Surface,
+    [&](vtkIdType triangle, const vtkIdType* corners, vtkIdType count)
+    {
+      FailIf(count != 3, "cannot be written (STL file only supports triangles)");
+      file.Line.Show(static_cast<double>(triangle) / triangles, "");
+      double places[3][3];
+      double normal[3];
+      for (int k = 0; k < 3; ++k)
+      {
+        file.Surface->GetPoint(corners[k], places[k]);
+      }
+      vtkTriangle::ComputeNormal(places[0], places[1], places[2], normal);
+      for (const double* numbers : { normal, places[0], places[1], places[2] })
+      {
+        Put(out, AsFloats(numbers).data(), 3);
+      }
+      out.write("\0\0", 2);
+    });
+  buffer.Finish();
+}
+
+/** Binary, with the colour of its label at each vertex, if there are labels. */
 void WritePly(const SurfaceFile& file)
 {
-  const FileGrowth growth(file.Path, 12 * PointsIn(file) + 13 * TrianglesIn(file), file.Line);
-  vtkNew<vtkPLYWriter> writer;
-  vtkNew<vtkPolyData> surface;
-  surface->ShallowCopy(file.Surface);
-  if (const auto colors = VertexColors(file.Surface))
+  const vtkSmartPointer<vtkUnsignedCharArray> colors = VertexColors(file.Surface);
+  FileBuffer buffer(file.Path);
+  std::ostream out(&buffer);
+  out.imbue(std::locale::classic());
+  out << "ply\nformat binary_little_endian 1.0\ncomment VTK generated PLY File\ncomment "
+      << file.Remark << "\nobj_info vtkPolyData points and polygons: vtk4.0\nelement vertex "
+      << PointsIn(file) << "\nproperty float x\nproperty float y\nproperty float z\n"
+      << (colors ? "property uchar red\nproperty uchar green\nproperty uchar blue\n" : "")
+      << "element face " << TrianglesIn(file)
+      << "\nproperty list uchar int vertex_indices\nend_header\n";
+  for (vtkIdType point = 0; point < file.Surface->GetNumberOfPoints(); ++point)
   {
-    surface->GetPointData()->AddArray(colors);
-    writer->SetArrayName(colors->GetName());
+    Put(out, AsFloats(file.Surface->GetPoint(point)).data(), 3);
+    if (colors)
+    {
+      out.write(reinterpret_cast<const char*>(colors->GetPointer(3 * point)), 3);
+    }
   }
-  writer->SetInputData(surface);
-  writer->SetFileName(file.Path.c_str());
-  writer->AddComment(file.Remark);
-  RunWriter(writer.Get(), file.Line);
+  ForEachPolygon(file.Surface,
+    [&](vtkIdType polygon, const vtkIdType* corners, vtkIdType count)
+    {
+      FailIf(count > 255, "cannot be written (Ply file only supports polygons with <256 points)");
+      file.Line.Show(static_cast<double>(polygon) / static_cast<double>(TrianglesIn(file)), "");
+      out.put(static_cast<char>(count));
+      const std::vector<std::int32_t> numbers(corners, corners + count);
+      Put(out, numbers.data(), numbers.size());
+    });
+  buffer.Finish();
+}
+
+/** Places and normals of the corners, the most significant byte of a number first. */
+void WriteTri(const SurfaceFile& file)
+{
+  vtkDataArray* normals = file.Surface->GetPointData()->GetNormals();
+  FailIf(!normals,
+    "cannot be written (No normals to write!: use vtkPolyDataNormals to generate them)");
+  FileBuffer buffer(file.Path);
+  std::ostream out(&buffer);
+  ForEachPolygon(file.Surface,
+    [&](vtkIdType triangle, const vtkIdType* corners, vtkIdType)
+    {
+      file.Line.Show(static_cast<double>(triangle) / static_cast<double>(TrianglesIn(file)), "");
+      for (int k = 0; k < 3; ++k)
+      {
+        for (const double* numbers :
+          { file.Surface->GetPoint(corners[k]), normals->GetTuple(corners[k]) })
+        {
+          vtkByteSwap::SwapWrite4BERange(AsFloats(numbers).data(), 3, &out);
+        }
+      }
+    });
+  buffer.Finish();
 }
 
 /**
@@ -136,29 +192,10 @@ void CheckXmlFile(const SurfaceFile& file)
   CheckXml(file.Path);
 }
 
-void CheckPlyFile(const SurfaceFile& file)
-{
-  try
-  {
-    CheckPly(file.Path);
-  }
-  catch (const Failure&)
-  {
-    throw Failure("cannot be written (not all of it was; is the disk full?)");
-  }
-}
-
 void CheckObjFile(const SurfaceFile& file)
 {
   const bool hasNormals = file.Surface->GetPointData()->GetNormals() != nullptr;
   CheckLines(file.Path, 1 + (hasNormals ? 2 : 1) * PointsIn(file) + TrianglesIn(file));
-}
-
-/** A file of fixed size: a head, and the triangles. */
-template <int Head, int Triangle>
-void CheckTriangles(const SurfaceFile& file)
-{
-  CheckSize(file.Path, Head + Triangle * TrianglesIn(file));
 }
 
 /** A text of so many lines, one for so many points, and one for each triangle. */
@@ -175,19 +212,14 @@ const SurfaceFormat* FindSurfaceFormat(const std::string& name)
   using File = const SurfaceFile&;
   static const std::map<std::string, SurfaceFormat> formats = {
     { ".vtp", { [](File file) { WriteVtp(file.Surface, file.Path, file.Line); }, CheckXmlFile } },
-    { ".pvtp",
-      { [](File file) { WritePieces(file.Surface, file.Path, file.PieceSize, file.Line); },
-        CheckXmlFile } },
+    { ".pvtp", { WritePieces, CheckXmlFile } },
     { ".vtk", { [](File file) { WriteLegacy(file.Surface, file.Path, file.Line); }, nullptr } },
-    { ".stl", { WriteStl, CheckTriangles<84, 50> } },
-    { ".ply", { WritePly, CheckPlyFile } },
+    { ".stl", { WriteStl, nullptr } },
+    { ".ply", { WritePly, nullptr } },
     { ".glb", { WriteScene, nullptr } },
-    { ".msh",
-      { [](File file) { WriteMsh(file.Surface, file.Path, file.Remark, file.Line); }, nullptr } },
-    { ".smesh",
-      { [](File file) { WriteSmesh(file.Surface, file.Path, file.Remark, file.Line); }, nullptr } },
-    { ".poly",
-      { [](File file) { WritePoly(file.Surface, file.Path, file.Remark, file.Line); }, nullptr } },
+    { ".msh", { WriteMsh, nullptr } },
+    { ".smesh", { WriteSmesh, nullptr } },
+    { ".poly", { WritePoly, nullptr } },
     { ".obj", { WriteWith<vtkOBJWriter>, CheckObjFile } },
     { ".iv",
       { [](File file)
@@ -199,7 +231,7 @@ const SurfaceFormat* FindSurfaceFormat(const std::string& name)
     { ".g", { WriteByu, CheckText<2, 2> } },
     { ".geo", { WriteWith<vtkHoudiniPolyDataWriter>, CheckText<7, 1> } },
     { ".facet", { WriteFacet, CheckText<8, 1> } },
-    { ".tri", { WriteWith<vtkMCubesWriter>, CheckTriangles<0, 72> } },
+    { ".tri", { WriteTri, nullptr } },
   };
   const auto found = formats.find(SuffixOf(name));
   return found == formats.end() ? nullptr : &found->second;

@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "SurfacePieces.h"
+#include "SurfaceFormats.h"
 
 #include "OutputFiles.h"
-#include "RunWriter.h"
-#include "StreamedWriters.h"
+#include "VtkWriters.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -24,7 +23,6 @@
 #include <numeric>
 #include <ostream>
 #include <sstream>
-#include <string>
 #include <vector>
 
 namespace tool
@@ -191,17 +189,16 @@ int NumberOfPieces(vtkPolyData* surface, int size)
   return static_cast<int>((surface->GetNumberOfPolys() + size - 1) / size);
 }
 
-std::string WritePieceFiles(
-  vtkPolyData* surface, const std::string& path, int size, int first, ProgressLine& line)
+std::string WritePieceFiles(const SurfaceFile& file, int first)
 {
-  const vtkIdType triangles = surface->GetNumberOfPolys();
-  const fs::path folder = FolderOf(path);
+  const vtkIdType triangles = file.Surface->GetNumberOfPolys();
+  const fs::path folder = FolderOf(file.Path);
   std::string arrays;
-  for (vtkIdType begin = 0; begin < triangles; begin += size, ++first)
+  for (vtkIdType begin = 0; begin < triangles; begin += file.PieceSize, ++first)
   {
-    line.Show(static_cast<double>(begin) / static_cast<double>(triangles), "");
+    file.Line.Show(static_cast<double>(begin) / static_cast<double>(triangles), "");
     const vtkSmartPointer<vtkPolyData> piece =
-      MakePiece(surface, begin, std::min(triangles, begin + size));
+      MakePiece(file.Surface, begin, std::min(triangles, begin + file.PieceSize));
     const std::string place = (folder / PieceName(folder.filename().string(), first)).string();
     ProgressLine noLine("", ProgressStyle::None);
     WriteVtp(piece, place, noLine);
@@ -225,11 +222,11 @@ void WritePieceList(const std::string& path, const std::string& arrays, int piec
   WriteBytes(path, text.data(), text.size());
 }
 
-void WritePieces(vtkPolyData* surface, const std::string& path, int size, ProgressLine& line)
+void WritePieces(const SurfaceFile& file)
 {
-  fs::create_directory(FolderOf(path));
-  const std::string arrays = WritePieceFiles(surface, path, size, 0, line);
-  WritePieceList(
-    path, arrays.empty() ? DescribeArrays(surface) : arrays, NumberOfPieces(surface, size));
+  fs::create_directory(FolderOf(file.Path));
+  const std::string arrays = WritePieceFiles(file, 0);
+  WritePieceList(file.Path, arrays.empty() ? DescribeArrays(file.Surface) : arrays,
+    NumberOfPieces(file.Surface, file.PieceSize));
 }
 }

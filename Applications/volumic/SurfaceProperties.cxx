@@ -52,14 +52,18 @@ int FindName(const std::vector<std::string>& names, const std::string& name)
   VOLUMIC_NUMBER(Labels, "vtkLabelsToSurfaces", PROPERTY, OPTION, ARGUMENT, HELP)
 
 // An option without argument that gives a boolean property the value that is not its default.
-#define SURFACE_SWITCH(PROPERTY, VALUE, OPTION, HELP)                                              \
-  PropertyOption                                                                                   \
-  {                                                                                                \
-    OPTION, "", "vtkDeformableSurface", #PROPERTY, HELP,                                           \
-      [](const FilterTrio& filters)                                                                \
-    { return std::string(filters.Surface->Get##PROPERTY() ? "on" : "off"); },                      \
-      [](const FilterTrio& filters, const std::string&) { filters.Surface->Set##PROPERTY(VALUE); } \
+#define VOLUMIC_SWITCH(FILTER, CLASS, PROPERTY, VALUE, OPTION, HELP)                              \
+  PropertyOption                                                                                  \
+  {                                                                                               \
+    OPTION, "", CLASS, #PROPERTY, HELP,                                                           \
+      [](const FilterTrio& filters)                                                               \
+    { return std::string(filters.FILTER->Get##PROPERTY() ? "on" : "off"); },                      \
+      [](const FilterTrio& filters, const std::string&) { filters.FILTER->Set##PROPERTY(VALUE); } \
   }
+#define SURFACE_SWITCH(PROPERTY, VALUE, OPTION, HELP) \
+  VOLUMIC_SWITCH(Surface, "vtkDeformableSurface", PROPERTY, VALUE, OPTION, HELP)
+#define LABELS_SWITCH(PROPERTY, VALUE, OPTION, HELP) \
+  VOLUMIC_SWITCH(Labels, "vtkLabelsToSurfaces", PROPERTY, VALUE, OPTION, HELP)
 
 // An enumeration; its names in the order of its values.
 template <class Getter, class Setter>
@@ -201,11 +205,8 @@ std::vector<PropertyOption> MakeProperties()
       "iterations from one of the --snapshots to the next; 0: none"),
     LABELS_NUMBER(BackgroundLabel, "background", "LABEL",
       "with --labels: the label that is nothing, and not one of all"),
-    { "merge", "", "vtkLabelsToSurfaces", "Merge",
-      "with --labels: one surface about all of them together",
-      [](const FilterTrio& filters)
-      { return std::string(filters.Labels->GetMerge() ? "on" : "off"); },
-      [](const FilterTrio& filters, const std::string&) { filters.Labels->SetMerge(true); } },
+    LABELS_SWITCH(
+      Merge, true, "merge", "with --labels: one surface about all of them together"),
     LABELS_NUMBER(Smoothing, "smoothing", "VOXELS",
       "with --labels: how far the stairs between voxels are smoothed, in smallest distances of "
       "voxels or 5/8 of the longest; 0: not at all"),
@@ -214,13 +215,9 @@ std::vector<PropertyOption> MakeProperties()
       "of voxels: .5 makes noise and stairs smooth, 0 keeps each voxel"),
     LABELS_NUMBER(Gap, "gap", "LENGTH",
       "with --labels: the space between the surfaces of neighbours, in world units"),
-    { "shared-interfaces", "", "vtkLabelsToSurfaces", "SharedInterfaces",
+    LABELS_SWITCH(SharedInterfaces, true, "shared-interfaces",
       "with --labels: one mesh, in which neighbours have the same triangles between them; a file "
-      "for meshers of solids, .msh, .smesh or .poly, implies it",
-      [](const FilterTrio& filters)
-      { return std::string(filters.Labels->GetSharedInterfaces() ? "on" : "off"); },
-      [](const FilterTrio& filters, const std::string&)
-      { filters.Labels->SetSharedInterfaces(true); } },
+      "for meshers of solids, .msh, .smesh or .poly, implies it"),
   };
 }
 }

@@ -3,6 +3,8 @@
 #ifndef volumicToolErrors_h
 #define volumicToolErrors_h
 
+#include <exception>
+#include <new>
 #include <stdexcept>
 #include <string>
 
@@ -51,6 +53,12 @@ auto Named(const std::string& name, const Work& work) -> decltype(work())
   {
     throw Error(name + ": " + error.what());
   }
+}
+
+/** What an error says; one of memory, which says nothing, these words. */
+inline std::string ReasonOf(const std::exception& error, const std::string& ofMemory)
+{
+  return dynamic_cast<const std::bad_alloc*>(&error) ? ofMemory : error.what();
 }
 
 /** What a table has under a key. @throws Failure of these words if it has nothing there. */

@@ -3,7 +3,7 @@
 #ifndef volumicToolOptions_h
 #define volumicToolOptions_h
 
-#include "ProgressLine.h"
+#include "Messages.h"
 #include "SurfaceProperties.h"
 
 #include <array>

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "VolumePart.h"
 
+#include "Messages.h"
 #include "Ranks.h"
 #include "ReadVolume.h"
 #include "ToolErrors.h"
-#include "VtkMessages.h"
 
 #include <vtkDataArray.h>
 #include <vtkDataObject.h>
@@ -21,8 +21,8 @@
 #include <algorithm>
 #include <cstring>
 #include <exception>
-#include <new>
 #include <type_traits>
+#include <vector>
 
 namespace tool
 {
@@ -126,15 +126,10 @@ void VolumePart::SetWhole(const Ranks& ranks, vtkImageData* image)
 VolumeFacts VolumePart::FactsOfAll(const Ranks& ranks) const
 {
   VolumeFacts facts = this->Known;
-  std::string bytes(sizeof(facts.Range), '\0');
-  std::memcpy(bytes.data(), facts.Range.data(), bytes.size());
-  for (const std::string& told : ranks.GatherOnAll(bytes))
-  {
-    std::array<double, 2> range;
-    std::memcpy(range.data(), told.data(), sizeof(range));
-    facts.Range[0] = std::min(facts.Range[0], range[0]);
-    facts.Range[1] = std::max(facts.Range[1], range[1]);
-  }
+  const std::vector<double> least = ranks.GatherOnAll(facts.Range[0]);
+  const std::vector<double> most = ranks.GatherOnAll(facts.Range[1]);
+  facts.Range = { *std::min_element(least.begin(), least.end()),
+    *std::max_element(most.begin(), most.end()) };
   return facts;
 }
 
@@ -176,14 +171,9 @@ int VolumePart::RequestData(
       this->MakeEmpty(image);
     }
   }
-  catch (const std::bad_alloc&)
-  {
-    this->Failure = this->Name + ": not enough memory for a part of it";
-    this->MakeEmpty(image);
-  }
   catch (const std::exception& error)
   {
-    this->Failure = error.what();
+    this->Failure = ReasonOf(error, this->Name + ": not enough memory for a part of it");
     this->MakeEmpty(image);
   }
   return 1;

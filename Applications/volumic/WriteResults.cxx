@@ -5,12 +5,10 @@
 #include "GltfScene.h"
 #include "OutputFiles.h"
 #include "Ranks.h"
-#include "RunWriter.h"
-#include "StreamedWriters.h"
 #include "SurfaceFormats.h"
-#include "SurfacePieces.h"
 #include "Texts.h"
 #include "ToolErrors.h"
+#include "VtkWriters.h"
 
 #include <vtkDelimitedTextWriter.h>
 #include <vtkMultiBlockDataSet.h>
@@ -20,14 +18,12 @@
 #include <vtkXMLMultiBlockDataWriter.h>
 
 #include <cstdint>
-#include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <functional>
 #include <iostream>
 #include <memory>
-#include <new>
-#include <vector>
+#include <numeric>
 
 namespace tool
 {
@@ -35,53 +31,51 @@ namespace
 {
 namespace fs = std::filesystem;
 
-/** Why the file cannot be written. */
-std::string ReasonOf(const std::exception& error)
-{
-  const bool isOfMemory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
-  return isOfMemory ? "cannot be written (not enough memory)" : error.what();
-}
+const char* const OfMemory = "cannot be written (not enough memory)";
 
 std::string TitleOf(const std::string& name)
 {
   return "Writing " + fs::path(name).filename().string();
 }
 
-/** @param beside the folder, which is of no interest to the user */
-[[noreturn]] void ThrowWithout(
-  const std::string& beside, const std::string& name, const std::exception& error)
+/**
+ * Do some of the work on a file. @throws Failure that names the file
+ * @param path beside it, whose folder is of no interest to the user; may be empty
+ */
+template <class Work>
+void WorkOn(const std::string& name, const std::string& path, const Work& work)
 {
-  std::string reason = ReasonOf(error);
-  for (std::size_t at = reason.find(beside); !beside.empty() && at != std::string::npos;
-       at = reason.find(beside))
+  try
   {
-    reason.erase(at, beside.size());
+    work();
   }
-  throw Failure(name + ": " + reason);
-}
-
-std::string FolderAbout(const std::string& path)
-{
-  return fs::path(path).parent_path().string() + "/";
+  catch (const std::exception& error)
+  {
+    std::string reason = ReasonOf(error, OfMemory);
+    const std::string beside = fs::path(path).parent_path().string() + "/";
+    for (std::size_t at = reason.find(beside); !path.empty() && at != std::string::npos;
+         at = reason.find(beside))
+    {
+      reason.erase(at, beside.size());
+    }
+    throw Failure(name + ": " + reason);
+  }
 }
 
 /** Have `write` write to a path beside the file, which takes the file's place if all went well. */
 template <class Write>
 void WriteBeside(const std::string& name, ProgressStyle style, const Write& write)
 {
-  std::string beside;
-  try
-  {
-    OutputFile file(name);
-    beside = FolderAbout(file.Path());
-    ProgressLine line(TitleOf(name), style);
-    write(file.Path(), line);
-    file.Publish();
-  }
-  catch (const std::exception& error)
-  {
-    ThrowWithout(beside, name, error);
-  }
+  std::string path;
+  WorkOn(name, path,
+    [&]
+    {
+      OutputFile file(name);
+      path = file.Path();
+      ProgressLine line(TitleOf(name), style);
+      write(path, line);
+      file.Publish();
+    });
 }
 }
 
@@ -130,20 +124,7 @@ void WriteSurfaceOfRanks(
   std::unique_ptr<OutputFile> file; // of the first rank
   std::string path;
   const auto together = [&](const std::function<void()>& work)
-  {
-    ranks.Together(
-      [&]
-      {
-        try
-        {
-          work();
-        }
-        catch (const std::exception& error)
-        {
-          ThrowWithout(path.empty() ? path : FolderAbout(path), name, error);
-        }
-      });
-  };
+  { ranks.Together([&] { WorkOn(name, path, work); }); };
   together(
     [&]
     {
@@ -155,22 +136,16 @@ void WriteSurfaceOfRanks(
       }
     });
   path = ranks.Broadcast(std::move(path));
-  const int own = NumberOfPieces(part, writing.PieceSize);
-  int first = 0;
-  int all = 0;
-  const std::vector<std::string> numbers = ranks.GatherOnAll(std::to_string(own));
-  for (int rank = 0; rank < ranks.Count(); ++rank)
-  {
-    const int number = std::atoi(numbers[static_cast<std::size_t>(rank)].c_str());
-    first += rank < ranks.Rank() ? number : 0;
-    all += number;
-  }
+  const std::vector<double> pieces =
+    ranks.GatherOnAll(static_cast<double>(NumberOfPieces(part, writing.PieceSize)));
+  const auto before = [&pieces](int rank)
+  { return static_cast<int>(std::accumulate(pieces.begin(), pieces.begin() + rank, 0.0)); };
   std::string arrays;
   together(
     [&]
     {
       ProgressLine line(TitleOf(name), writing.Style);
-      arrays = WritePieceFiles(part, path, writing.PieceSize, first, line);
+      arrays = WritePieceFiles({ part, path, writing.Remark, writing.PieceSize, line }, before(ranks.Rank()));
     });
   for (const std::string& told : ranks.GatherOnAll(arrays))
   {
@@ -181,7 +156,7 @@ void WriteSurfaceOfRanks(
     {
       if (file)
       {
-        WritePieceList(path, arrays, all);
+        WritePieceList(path, arrays, before(ranks.Count()));
         CheckXml(path);
         file->Publish();
       }
@@ -207,10 +182,7 @@ void WriteScene(
   const std::vector<SceneObject>& objects, const std::string& name, ProgressStyle style)
 {
   WriteBeside(name, style,
-    [&](const std::string& path, ProgressLine& line)
-    {
-      WriteGlb(objects, path, line);
-    });
+    [&](const std::string& path, ProgressLine& line) { WriteGlb(objects, path, line); });
 }
 
 void WriteBlocks(vtkMultiBlockDataSet* blocks, const std::string& name, ProgressStyle style)
@@ -265,7 +237,7 @@ void WriteFolder(vtkMultiBlockDataSet* blocks, const std::string& name, const st
     {
       fs::remove(name, failed); // only if it is empty
     }
-    throw Failure(name + ": " + ReasonOf(error));
+    throw Failure(name + ": " + ReasonOf(error, OfMemory));
   }
 }
 

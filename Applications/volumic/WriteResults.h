@@ -3,7 +3,7 @@
 #ifndef volumicWriteResults_h
 #define volumicWriteResults_h
 
-#include "ProgressLine.h"
+#include "Messages.h"
 
 #include <string>
 #include <vector>

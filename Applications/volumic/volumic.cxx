@@ -3,9 +3,9 @@
 
 // From a volume to a closed surface: the program `volumic`. See volumic.1, or
 //   volumic --help
-#include "InputFiles.h"
 #include "LabelNames.h"
 #include "Ranks.h"
+#include "ReadVolume.h"
 #include "RunFilter.h"
 #include "Segment.h"
 #include "SurfaceProperties.h"
@@ -25,9 +25,6 @@
 #include <exception>
 #include <iostream>
 #include <new>
-#include <optional>
-#include <string>
-#include <vector>
 
 namespace
 {
@@ -38,17 +35,13 @@ void CheckThatWordsAgree(int argc, char* argv[], Ranks& ranks)
 {
   std::vector<std::string> words = { "volumic " VOLUMIC_VERSION };
   words.insert(words.end(), argv + std::min(argc, 1), argv + argc);
-  const std::optional<Ranks::Difference> difference = ranks.FindDifference(words);
-  ranks.Together(
-    [&difference]
+  ranks.NeedSame(words,
+    [](const std::string& here, const std::string& first)
     {
       const auto named = [](const std::string& word)
       { return word.empty() ? "nothing more" : "'" + word + "'"; };
-      if (difference)
-      {
-        throw UsageError("has " + named(difference->Here) + " where the first rank has " +
-          named(difference->First) + "; start all with the same command line");
-      }
+      throw UsageError("has " + named(here) + " where the first rank has " + named(first) +
+        "; start all with the same command line");
     });
 }
 

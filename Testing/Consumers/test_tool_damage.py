@@ -294,6 +294,9 @@ class MeshesTest(DamageTest):
         self.refused_mesh("c.ply", "the file is cut off: it ends in element 4 of 4")
         self.write_bytes("c.ply", head.encode() + b"3 0 3 9\n")
         self.refused_mesh("c.ply", "is damaged: a polygon has point 9, there are 4")
+        # At a last line that does not end VTK's reader ends the program.
+        self.write_bytes("c.ply", head.encode() + b"3 0 3 1")
+        self.refused_mesh("c.ply", "the file is cut off: it ends in element 4 of 4")
 
 
 class SeriesTest(DamageTest):

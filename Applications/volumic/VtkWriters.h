@@ -1,22 +1,52 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef volumicStreamedWriters_h
-#define volumicStreamedWriters_h
+#ifndef volumicVtkWriters_h
+#define volumicVtkWriters_h
 
 #include "Descriptor.h"
-#include "ProgressLine.h"
+#include "Messages.h"
 
 #include <vtkSmartPointer.h>
 
+#include <cstdint>
+#include <functional>
 #include <streambuf>
 #include <string>
 #include <vector>
 
+class vtkAlgorithm;
 class vtkImageData;
 class vtkPolyData;
 
 namespace tool
 {
+/**
+ * Have a writer of VTK, whose input and file are set, do its work: `write` calls its Write, which is
+ * no method of what they have in common. What it tells of its progress is shown. It cannot be
+ * interrupted: what there is of an interrupted run is to be written.
+ * @throws Failure, without the name of the file, if it reports an error.
+ */
+void RunWriter(vtkAlgorithm* writer, const std::function<void()>& write, ProgressLine& line);
+
+template <class Writer>
+void RunWriter(Writer* writer, ProgressLine& line)
+{
+  RunWriter(writer, [writer] { writer->Write(); }, line);
+}
+
+// ---- What the disk took -------------------------------------------------------------------------
+
+// Most of VTK's writers don't look whether the disk took what they wrote. All throw a Failure,
+// without the name of the file, if something is missing.
+
+/** The file ends with a complete line, and has no fewer than this many. */
+void CheckLines(const std::string& path, std::uint64_t lines);
+
+/** The file, or each one of a folder, ends as VTK's XML files do. */
+void CheckXml(const std::string& path);
+
+// ---- VTK's own formats --------------------------------------------------------------------------
+
 // The writers of VTK's own formats, with a full disk told (see FileBuffer) and no memory but some
 // megabytes, whatever the size of what they write. All throw a Failure without the file's name.
 

@@ -1,8 +1,12 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "LoadVolume.h"
+#include "LoadInputs.h"
 
+#include "BinaryFile.h"
+#include "LabelNames.h"
+#include "Messages.h"
 #include "Ranks.h"
+#include "ReadStart.h"
 #include "ReadVolume.h"
 #include "RunFilter.h"
 #include "SurfaceProperties.h"
@@ -10,7 +14,6 @@
 #include "ToolErrors.h"
 #include "ToolOptions.h"
 #include "VolumeImage.h"
-#include "VtkMessages.h"
 
 #include <vtkAlgorithm.h>
 #include <vtkDataArray.h>
@@ -23,10 +26,12 @@
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
+#include <vtkPolyData.h>
 
 #include <algorithm>
 #include <array>
-#include <string>
+#include <filesystem>
+#include <system_error>
 
 namespace tool
 {
@@ -55,10 +60,7 @@ vtkSmartPointer<vtkImageData> GatherSlabs(
   // What a reader warns of are data that it lacked and made up.
   messages.Errors.insert(
     messages.Errors.end(), messages.Warnings.begin(), messages.Warnings.end());
-  if (!messages.Errors.empty())
-  {
-    throw Failure(name + ": cannot be read (" + messages.JoinedErrors() + ")");
-  }
+  messages.ThrowErrors(name);
   FailIf(!failure.empty(), name + ": " + failure);
   auto image = vtkSmartPointer<vtkImageData>::New();
   auto* level = vtkImageData::SafeDownCast(holder->GetOutput()->GetBlock(0));
@@ -197,5 +199,142 @@ LoadedVolume LoadVolume(const ToolOptions& options, vtkDeformableSurface* filter
   }
   volume.Part = part;
   return volume;
+}
+
+// ---- What else a surface is made of -------------------------------------------------------------
+
+namespace
+{
+/** What the file holds, on the first rank; pieces without points on the others. */
+template <class Read>
+vtkSmartPointer<vtkPolyData> ReadOnFirst(Ranks& ranks, const Read& read, const std::string& name)
+{
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  ranks.OnFirst(
+    [&]
+    {
+      NeedFile(name);
+      data = read(name);
+    });
+  return data;
+}
+
+/** @return the name of the array of the volume that is the map. */
+std::string AddEdges(const ToolOptions& options, vtkImageData* volume,
+  vtkDeformableSurface* filter, vtkImagePyramid* holder, const Announcer& announcer)
+{
+  std::string name = options.Edges;
+  vtkPointData* points = volume->GetPointData();
+  if (!points->HasArray(name.c_str()))
+  {
+    const vtkSmartPointer<vtkImageData> edges =
+      LoadVoxels(options.Edges, "", filter, holder, announcer).Image;
+    FailIf(!std::equal(edges->GetDimensions(), edges->GetDimensions() + 3, volume->GetDimensions()),
+      options.Edges + ": its size differs from the volume's");
+    name = "Edges";
+    while (points->HasArray(name.c_str()))
+    {
+      name += "_";
+    }
+    edges->GetPointData()->GetScalars()->SetName(name.c_str());
+    points->AddArray(edges->GetPointData()->GetScalars());
+  }
+  return name;
+}
+}
+
+std::vector<std::string> InputsOf(const ToolOptions& options)
+{
+  std::vector<std::string> inputs = FilesOfVolume(options.Volume);
+  const std::vector<std::string> edges = FilesOfVolume(options.Edges);
+  inputs.insert(inputs.end(), edges.begin(), edges.end());
+  inputs.insert(inputs.end(),
+    { options.Seeds, options.InitialSurface, options.AttractingPoints, options.NamesOfLabels });
+  const std::vector<std::string> names =
+    options.Labels.empty() ? std::vector<std::string>() : FilesBeside(options.Volume);
+  inputs.insert(inputs.end(), names.begin(), names.end());
+  return inputs;
+}
+
+void CheckInputsOnAll(const ToolOptions& options, Ranks& ranks)
+{
+  if (ranks.IsOne())
+  {
+    return;
+  }
+  std::vector<std::string> files = InputsOf(options);
+  if (files.empty() || files.front() != options.Volume)
+  {
+    files.insert(files.begin(), options.Volume);
+  }
+  for (std::string& file : files)
+  {
+    std::error_code failed;
+    const bool isThere = std::filesystem::exists(file, failed);
+    const auto size = std::filesystem::file_size(file, failed);
+    file += !isThere ? ": no such file or folder"
+                     : failed ? "" : ": a file of " + std::to_string(size) + " bytes";
+  }
+  ranks.NeedSame(files,
+    [](const std::string& here, const std::string& first)
+    {
+      throw Failure((here.empty() ? "finds fewer files" : here) + ", where the first rank finds " +
+        (first.empty() ? "fewer files" : first) +
+        "; all ranks need the same files, from a disk that they share");
+    });
+}
+
+void SetStart(const ToolOptions& options, vtkDeformableSurface* filter, Ranks& ranks)
+{
+  const bool isChosen = options.HasProperty("Initialization");
+  for (const auto& place : options.SeedPositions)
+  {
+    filter->AddSeedPosition(place[0], place[1], place[2]);
+  }
+  for (const auto& place : options.AttractingPositions)
+  {
+    filter->AddAttractingPosition(place[0], place[1], place[2]);
+  }
+  if (!options.Seeds.empty())
+  {
+    filter->SetInitialSurfaceData(ReadOnFirst(ranks, ReadSeeds, options.Seeds));
+  }
+  if (!options.Seeds.empty() || !options.SeedPositions.empty())
+  {
+    if (!isChosen)
+    {
+      filter->SetInitializationToSeeds();
+    }
+  }
+  else if (!options.InitialSurface.empty())
+  {
+    filter->SetInitialSurfaceData(ReadOnFirst(ranks, ReadSurface, options.InitialSurface));
+    if (!isChosen)
+    {
+      filter->SetInitializationToInputSurface();
+    }
+  }
+  if (!options.AttractingPoints.empty())
+  {
+    filter->SetAttractingPointsData(
+      ReadOnFirst(ranks, ReadAttractingPoints, options.AttractingPoints));
+  }
+}
+
+void SetEdges(const ToolOptions& options, vtkImageData* volume, vtkDeformableSurface* filter,
+  vtkImagePyramid* holder, const Announcer& announcer, Ranks& ranks)
+{
+  if (options.Edges.empty())
+  {
+    return;
+  }
+  std::string name;
+  ranks.OnFirst([&] { name = AddEdges(options, volume, filter, holder, announcer); });
+  name = ranks.Broadcast(std::move(name));
+  filter->SetInputArrayToProcess(1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, name.c_str());
+  if (!options.HasProperty("EdgeAttractionWeight"))
+  {
+    filter->SetEdgeAttractionWeight(2.0);
+  }
 }
 }

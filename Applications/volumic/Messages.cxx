@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "VtkMessages.h"
+#include "Messages.h"
 
 #include "ToolErrors.h"
 
@@ -10,11 +10,14 @@
 #include <vtkLogger.h>
 #include <vtkNew.h>
 #include <vtkOutputWindow.h>
-#include <vtkSmartPointer.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <sstream>
 #include <stdexcept>
+
+#include <sys/ioctl.h>
+#include <unistd.h>
 
 namespace tool
 {
@@ -160,21 +163,23 @@ void VtkMessages::UpdateReader(
     // What a reader warns of are data that it lacked and made up.
     this->Errors.insert(this->Errors.end(), this->Warnings.begin(), this->Warnings.end());
   }
-  if (!this->Errors.empty() || reader->GetErrorCode() != 0)
+  if (this->Errors.empty() && reader->GetErrorCode() != 0)
   {
-    const std::string reason = this->JoinedErrors();
-    throw Failure(name + ": cannot be read (" + (reason.empty() ? "damaged file" : reason) + ")");
+    this->Errors.emplace_back("damaged file");
   }
+  this->ThrowErrors(name);
 }
 
 void VtkMessages::AskReader(vtkAlgorithm* reader, const std::string& name)
 {
   this->ListenTo(reader);
   this->Catch([&] { reader->UpdateInformation(); });
-  if (!this->Errors.empty())
-  {
-    throw Failure(name + ": cannot be read (" + this->JoinedErrors() + ")");
-  }
+  this->ThrowErrors(name);
+}
+
+void VtkMessages::ThrowErrors(const std::string& name) const
+{
+  FailIf(!this->Errors.empty(), name + ": cannot be read (" + this->JoinedErrors() + ")");
 }
 
 void VtkMessages::Catch(const std::function<void()>& action)
@@ -192,5 +197,66 @@ std::string VtkMessages::JoinedErrors() const
     joined += !isNew ? "" : (joined.empty() ? "" : "; ") + *error;
   }
   return joined;
+}
+
+// ---- Progress -----------------------------------------------------------------------------------
+
+namespace
+{
+/** Columns of the terminal behind stderr. */
+std::size_t TerminalWidth()
+{
+  winsize size{};
+  const bool isKnown = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+  return isKnown ? size.ws_col : 80;
+}
+}
+
+ProgressLine::ProgressLine(const std::string& title, ProgressStyle style)
+  : Title(title), Style(style)
+{
+}
+
+ProgressLine::~ProgressLine()
+{
+  if (this->IsDrawn)
+  {
+    std::fprintf(stderr, "\r%*s\r", static_cast<int>(TerminalWidth() - 1), "");
+  }
+}
+
+void ProgressLine::Show(double share, const std::string& text)
+{
+  share = std::clamp(share, 0.0, 1.0);
+  if (this->Style == ProgressStyle::OneLine)
+  {
+    this->Redraw(share, text);
+  }
+  else if (this->Style == ProgressStyle::Lines && share >= this->NextShare)
+  {
+    const std::string more = text.empty() ? "" : "  " + text;
+    std::fprintf(stderr, "%s: %3.0f %%%s\n", this->Title.c_str(), 100.0 * share, more.c_str());
+    this->NextShare = share + 0.1;
+  }
+}
+
+void ProgressLine::Redraw(double share, const std::string& text)
+{
+  const auto now = std::chrono::steady_clock::now();
+  if (this->IsDrawn && now - this->DrawnAt < std::chrono::milliseconds(100))
+  {
+    return;
+  }
+  this->IsDrawn = true;
+  this->DrawnAt = now;
+  const std::size_t barWidth = 24;
+  const auto filled = static_cast<std::size_t>(share * barWidth);
+  char percent[16];
+  std::snprintf(percent, sizeof(percent), "%3.0f %% ", 100.0 * share);
+  std::string line = this->Title + " [" + std::string(filled, '#') +
+    std::string(barWidth - filled, '.') + "] " + percent + text;
+  line.resize(TerminalWidth() - 1, ' '); // a longer one would leave its rests
+  std::fprintf(stderr, "\r%s", line.c_str());
+  std::fflush(stderr);
 }
 }

@@ -1,31 +1,110 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "GatherSurface.h"
+#include "SurfaceFacts.h"
 
 #include "Ranks.h"
 #include "ToolErrors.h"
 
-#include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkDataSetAttributes.h>
 #include <vtkFieldData.h>
 #include <vtkIdList.h>
 #include <vtkIdTypeArray.h>
+#include <vtkIntArray.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
-#include <vtkPolyData.h>
+#include <vtkStringArray.h>
+#include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
-#include <cstdlib>
+#include <cmath>
+#include <map>
 #include <numeric>
-#include <string>
-#include <vector>
 
 namespace tool
 {
+namespace
+{
+using Bytes = std::array<unsigned char, 3>;
+
+Bytes AsBytes(const Vector3& color)
+{
+  Bytes bytes;
+  std::transform(color.begin(), color.end(), bytes.begin(),
+    [](double part)
+    { return static_cast<unsigned char>(std::lround(255.0 * std::clamp(part, 0.0, 1.0))); });
+  return bytes;
+}
+}
+
+std::string StopReason(vtkPolyData* surface)
+{
+  auto* reason =
+    vtkStringArray::SafeDownCast(surface->GetFieldData()->GetAbstractArray("StopReason"));
+  return reason && reason->GetNumberOfValues() > 0 ? reason->GetValue(0) : "";
+}
+
+std::vector<SurfaceLabel> LabelsOf(vtkPolyData* surface)
+{
+  vtkFieldData* fields = surface->GetFieldData();
+  vtkDataArray* numbers = fields->GetArray("Label");
+  auto* names = vtkStringArray::SafeDownCast(fields->GetAbstractArray("LabelName"));
+  vtkDataArray* colors = fields->GetArray("LabelColor");
+  std::vector<SurfaceLabel> labels;
+  for (vtkIdType i = 0; numbers && names && colors && i < numbers->GetNumberOfTuples(); ++i)
+  {
+    SurfaceLabel label{ static_cast<int>(numbers->GetComponent(i, 0)), names->GetValue(i) };
+    colors->GetTuple(i, label.Color.data());
+    labels.push_back(label);
+  }
+  return labels;
+}
+
+const int* TriangleLabels(vtkPolyData* surface)
+{
+  auto* labels = vtkIntArray::SafeDownCast(surface->GetCellData()->GetArray("Label"));
+  return labels ? labels->GetPointer(0) : nullptr;
+}
+
+vtkSmartPointer<vtkUnsignedCharArray> VertexColors(vtkPolyData* surface)
+{
+  const int* labels = TriangleLabels(surface);
+  std::map<int, Bytes> colors;
+  for (const SurfaceLabel& label : LabelsOf(surface))
+  {
+    colors[label.Label] = AsBytes(label.Color);
+  }
+  if (!labels || colors.empty())
+  {
+    return nullptr;
+  }
+  auto vertices = vtkSmartPointer<vtkUnsignedCharArray>::New();
+  vertices->SetName("Color");
+  vertices->SetNumberOfComponents(3);
+  vertices->SetNumberOfTuples(surface->GetNumberOfPoints());
+  vertices->FillValue(0);
+  std::vector<bool> isColored(static_cast<std::size_t>(surface->GetNumberOfPoints()), false);
+  ForEachPolygon(surface,
+    [&](vtkIdType polygon, const vtkIdType* corners, vtkIdType count)
+    {
+      const Bytes& color = colors[labels[polygon]];
+      for (vtkIdType c = 0; c < count; ++c)
+      {
+        if (!isColored[static_cast<std::size_t>(corners[c])])
+        {
+          isColored[static_cast<std::size_t>(corners[c])] = true;
+          vertices->SetTypedTuple(corners[c], color.data());
+        }
+      }
+    });
+  return vertices;
+}
+
+// ---- Surfaces of which each rank has a piece ----------------------------------------------------
+
 namespace
 {
 vtkIdType PointsIn(vtkPolyData* piece)
@@ -73,17 +152,6 @@ vtkSmartPointer<vtkIdList> First(vtkIdType count)
   ids->SetNumberOfIds(count);
   std::iota(ids->begin(), ids->end(), vtkIdType(0));
   return ids;
-}
-
-/** Numbers of all ranks. */
-std::vector<vtkIdType> GatherNumbers(const Ranks& ranks, vtkIdType number)
-{
-  std::vector<vtkIdType> numbers;
-  for (const std::string& text : ranks.GatherOnAll(std::to_string(number)))
-  {
-    numbers.push_back(std::atoll(text.c_str()));
-  }
-  return numbers;
 }
 
 /** Arrays like those of a piece, for a whole; what tells the ids is of no use in it. */
@@ -216,24 +284,18 @@ vtkPolyData* BlockOf(vtkMultiBlockDataSet* blocks, unsigned int index)
 /** As many as the rank has that knows of the most. */
 unsigned int NumberOfBlocks(const Ranks& ranks, vtkMultiBlockDataSet* pieces)
 {
-  const std::vector<vtkIdType> numbers =
-    GatherNumbers(ranks, pieces ? pieces->GetNumberOfBlocks() : 0);
+  const std::vector<double> numbers = ranks.GatherOnAll(pieces ? pieces->GetNumberOfBlocks() : 0.0);
   return static_cast<unsigned int>(*std::max_element(numbers.begin(), numbers.end()));
 }
 }
 
 SurfaceSize SizeOf(const Ranks& ranks, vtkPolyData* piece)
 {
-  SurfaceSize size;
-  for (const vtkIdType vertices : GatherNumbers(ranks, VerticesBy(piece)))
-  {
-    size.Vertices = std::max(size.Vertices, vertices);
-  }
-  for (const vtkIdType triangles : GatherNumbers(ranks, TrianglesIn(piece)))
-  {
-    size.Triangles += triangles;
-  }
-  return size;
+  // Numbers of double precision hold all that there can be.
+  const std::vector<double> vertices = ranks.GatherOnAll(static_cast<double>(VerticesBy(piece)));
+  const std::vector<double> triangles = ranks.GatherOnAll(static_cast<double>(TrianglesIn(piece)));
+  return { static_cast<vtkIdType>(*std::max_element(vertices.begin(), vertices.end())),
+    static_cast<vtkIdType>(std::accumulate(triangles.begin(), triangles.end(), 0.0)) };
 }
 
 std::vector<SurfaceSize> SizesOf(const Ranks& ranks, vtkMultiBlockDataSet* pieces)
@@ -252,7 +314,7 @@ vtkSmartPointer<vtkPolyData> GatherSurface(const Ranks& ranks, vtkPolyData* piec
   {
     return piece;
   }
-  const std::vector<vtkIdType> counts = GatherNumbers(ranks, TrianglesIn(piece));
+  const std::vector<double> counts = ranks.GatherOnAll(static_cast<double>(TrianglesIn(piece)));
   const SurfaceSize size = SizeOf(ranks, piece);
   if (!ranks.IsFirst())
   {
