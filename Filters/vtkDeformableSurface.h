@@ -227,8 +227,8 @@ public:
   ///@{
   /**
    * Which lengths are even where voxels are not cubes: World (default): those of the world; Voxels:
-   * those of an affine space in which voxels are cubes, so that triangles are stretched as the
-   * voxels are.
+   * those of an affine space in which voxels are cubes: triangles are stretched as the voxels
+   * are.
    */
   virtual void SetMetric(int value);
   virtual int GetMetric();
