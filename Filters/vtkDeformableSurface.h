@@ -227,7 +227,8 @@ public:
   ///@{
   /**
    * Which lengths are even where voxels are not cubes: World (default): those of the world; Voxels:
-   * those of an affine space in which voxels are cubes.
+   * those of an affine space in which voxels are cubes: triangles are stretched as the voxels
+   * are.
    */
   virtual void SetMetric(int value);
   virtual int GetMetric();
@@ -237,12 +238,12 @@ public:
 
   ///@{
   /**
-   * The isopotential that is searched, in the units of the voxels, and whether the object is where
-   * the field is above it (default) or below. IsoValue must be set: NaN, the default, is an error
-   * that tells the range.
+   * The isopotential that is searched, in the units of the voxels. It must be set: NaN, the
+   * default, is an error that tells the range.
    */
   virtual void SetIsoValue(double value);
   virtual double GetIsoValue();
+  /** The object is where the field is above IsoValue (off: below). Default: on. */
   virtual void SetObjectIsBright(bool value);
   virtual bool GetObjectIsBright();
   vtkBooleanMacro(ObjectIsBright, bool);
@@ -253,9 +254,8 @@ public:
    * Which components the outputs Surface and Levels hold. AllComponents (default);
    * LargestComponent: that of the largest area; ComponentsAtPoints: those that enclose, or pass
    * within 2.5 Delta, a point of port 1 or 2 or one of the positions below; LargeComponents: those
-   * that enclose at least MinimumComponentVolume (world units cubed, default 0);
-   * ComponentsNotAtSeeds: all but those at points of port 1 and SeedPositions. Cavities go with the
-   * component about them.
+   * that enclose at least MinimumComponentVolume; ComponentsNotAtSeeds: all but those at points of
+   * port 1 and SeedPositions. Cavities go with the component about them.
    */
   virtual void SetKeepComponents(int value);
   virtual int GetKeepComponents();
@@ -264,6 +264,7 @@ public:
   void SetKeepComponentsToComponentsAtPoints() { this->SetKeepComponents(ComponentsAtPoints); }
   void SetKeepComponentsToLargeComponents() { this->SetKeepComponents(LargeComponents); }
   void SetKeepComponentsToComponentsNotAtSeeds() { this->SetKeepComponents(ComponentsNotAtSeeds); }
+  /** For LargeComponents: world units cubed. Default: 0. */
   virtual void SetMinimumComponentVolume(double value);
   virtual double GetMinimumComponentVolume();
   ///@}
@@ -285,29 +286,34 @@ public:
 
   ///@{
   /**
-   * Centres of seeds, in world coordinates, which add to the points of port 1, and the radius of
-   * all seeds, world units, at least 0.96 delta; 0, the default: 1.2 delta of the coarsest level. A
-   * centre that lies outside the image by more than a voxel is an error; those outside the object,
-   * or too near to another, are left out. An index that is none gives NaN.
+   * Centres of seeds, in world coordinates, which add to the points of port 1. One that lies
+   * outside the image by more than a voxel is an error; those outside the object, or too near to
+   * another, are left out. An index that is none gives NaN.
    */
   void AddSeedPosition(double x, double y, double z);
   void ClearSeedPositions();
   int GetNumberOfSeedPositions();
   void GetSeedPosition(int index, double position[3]);
+  /**
+   * Of all seeds, world units, at least 0.96 delta; 0, the default: 1.2 delta of the coarsest
+   * level.
+   */
   virtual void SetSeedRadius(double value);
   virtual double GetSeedRadius();
   ///@}
 
   ///@{
   /**
-   * The levels to start and to end at; the same twice: one level alone. CoarsestLevel -1, the
-   * default: the last of the pyramid on which anything of the object is left; without Recovery, on
-   * which a surface holds a part of it. FinestLevel 0, the default: the input; -1: one level finer
-   * than the image, with triangles sqrt(3) times smaller on the field of level 0. What belongs to
-   * it is called level -1, and is the last block of the output Levels.
+   * The level to start at. -1, the default: the last of the pyramid on which anything of the object
+   * is left; without Recovery, on which a surface holds a part of it.
    */
   virtual void SetCoarsestLevel(int value);
   virtual int GetCoarsestLevel();
+  /**
+   * The level to end at; the same as CoarsestLevel: one level alone. 0, the default: the input; -1:
+   * one level finer than the image, with triangles sqrt(3) times smaller on the field of level 0.
+   * What belongs to it is called level -1, and is the last block of the output Levels.
+   */
   void SetFinestLevel(int level);
   virtual int GetFinestLevel();
   ///@}
@@ -324,18 +330,17 @@ public:
 
   ///@{
   /**
-   * Graded triangles. Tolerance: how far a face of the finest level's surface may be from the
-   * isopotential for the sake of longer edges, in world units; 0, the default: edges of one length,
-   * delta to 2.5 delta; `WithinTolerance` and `LargestDistance` tell what is further away, as the
-   * uniform surface is. Not with EdgeLength, and not without SnapToIsoValue. MaximumEdgeLength:
-   * world units, taken as at least 2.5 delta and at most 12.5; 0, the default: 10 delta. Gradation:
-   * by how much edges, in delta, grow for each length that is walked; more than 0, at most 0.3, by
-   * default 0.2.
+   * Graded triangles: how far a face of the finest level's surface may be from the isopotential for
+   * the sake of longer edges, in world units; 0, the default: edges of one length, delta to 2.5
+   * delta. `WithinTolerance` and `LargestDistance` tell what is further away, as the uniform
+   * surface is. Not with EdgeLength, and not without SnapToIsoValue.
    */
   virtual void SetTolerance(double value);
   virtual double GetTolerance();
+  /** World units, taken as at least 2.5 delta and at most 12.5; 0, the default: 10 delta. */
   virtual void SetMaximumEdgeLength(double value);
   virtual double GetMaximumEdgeLength();
+  /** How much edges, in delta, grow per length walked; more than 0, at most 0.3. Default: 0.2. */
   virtual void SetGradation(double value);
   virtual double GetGradation();
   ///@}
@@ -359,17 +364,21 @@ public:
 
   ///@{
   /**
-   * Weights of the four forces, at least 0, without unit: to the barycentre of the neighbours
-   * (default 0.2), of the springs along the edges (0.1), along the normal to the iso-value (1), and
-   * down the gradient, for images whose valleys are the boundaries, such as the negative gradient
-   * magnitude (0).
+   * Weight of the force to the barycentre of the neighbours; at least 0, without unit, as all four.
+   * Default: 0.2.
    */
   virtual void SetTensionWeight(double value);
   virtual double GetTensionWeight();
+  /** Weight of the springs along the edges. Default: 0.1. */
   virtual void SetElasticityWeight(double value);
   virtual double GetElasticityWeight();
+  /** Weight of the force along the normal to the iso-value. Default: 1. */
   virtual void SetIsopotentialWeight(double value);
   virtual double GetIsopotentialWeight();
+  /**
+   * Weight of the descent along the gradient, for images whose valleys are the boundaries, such as
+   * the negative gradient magnitude. Default: 0.
+   */
   virtual void SetGradientWeight(double value);
   virtual double GetGradientWeight();
   ///@}
@@ -420,14 +429,14 @@ public:
 
   ///@{
   /**
-   * What is done about parts of the object, of at least MinimumPartSize voxels of a level (default
-   * 20), that lie outside the surface when it comes there. RecoverObjects (default): each gets a
-   * component of its own; RecoverObjectsAndCavities: also background that the object encloses;
-   * NoRecovery: nothing, as in the paper. `MissingParts` and `MissingBoundary` tell what is missing
-   * in the end.
+   * What is done about parts of the object that lie outside the surface when it comes to a level.
+   * RecoverObjects (default): each gets a component of its own; RecoverObjectsAndCavities: also
+   * background that the object encloses; NoRecovery: nothing, as in the paper. `MissingParts` and
+   * `MissingBoundary` tell what is missing in the end.
    */
   virtual void SetRecovery(int value);
   virtual int GetRecovery();
+  /** Voxels of a level that such a part must have there. Default: 20. */
   virtual void SetMinimumPartSize(int value);
   virtual int GetMinimumPartSize();
   ///@}
@@ -440,26 +449,23 @@ public:
   ///@}
 
   ///@{
-  /**
-   * When a level ends: after so many iterations (default 1000), or, at rest, when the enclosed
-   * volume changes by less than this share of it (default 0.0005), or than delta^3, over 10 and
-   * over 20 iterations.
-   */
+  /** Iterations per level at most. Default: 1000. */
   virtual void SetMaximumNumberOfIterations(int value);
   virtual int GetMaximumNumberOfIterations();
+  /**
+   * A level rests when the enclosed volume changes by less than this share of it, or than delta^3,
+   * over 10 and over 20 iterations. Default: 0.0005.
+   */
   virtual void SetConvergenceTolerance(double value);
   virtual double GetConvergenceTolerance();
   ///@}
 
   ///@{
-  /**
-   * Whether vertices at rest are skipped until something near them changes, as in the paper; and
-   * whether at the end of a level vertices go onto the isopotential as far as the constraints
-   * allow. Defaults: on.
-   */
+  /** Vertices at rest are skipped until something near them changes. Default: on. */
   virtual void SetFreezeMotionlessVertices(bool value);
   virtual bool GetFreezeMotionlessVertices();
   vtkBooleanMacro(FreezeMotionlessVertices, bool);
+  /** At a level's end vertices go onto the isopotential as far as they may. Default: on. */
   virtual void SetSnapToIsoValue(bool value);
   virtual bool GetSnapToIsoValue();
   vtkBooleanMacro(SnapToIsoValue, bool);
@@ -473,12 +479,15 @@ public:
 
   ///@{
   /**
-   * Resident memory that the process may have, MiB (2^20 bytes); 0, the default: no limit. Results
-   * do not depend on it. What does not fit goes to the folder, on a disk with room for all of it;
-   * empty, the default: TMPDIR of the environment, or /var/tmp. See Memory.
+   * Resident memory that the process may have, MiB (2^20 bytes); 0, the default: no limit. See
+   * Memory. Results do not depend on it.
    */
   void SetMemoryLimit(int mebibytes);
   virtual int GetMemoryLimit();
+  /**
+   * The folder for what does not fit, on a disk with room for all of it; empty, the default: TMPDIR
+   * of the environment, or /var/tmp.
+   */
   void SetScratchDirectory(const char* directory);
   virtual const char* GetScratchDirectory();
   ///@}
@@ -552,14 +561,11 @@ public:
   void ForgetRun();
 
   ///@{
-  /**
-   * What else is kept of the way: more columns in the history, by which one sees where the time
-   * goes (default: off); and the surface, in output 3, after every so many iterations (0, the
-   * default: never).
-   */
+  /** More columns in the history, which tell where the time goes. Default: off. */
   virtual void SetProfile(bool value);
   virtual bool GetProfile();
   vtkBooleanMacro(Profile, bool);
+  /** Iterations from one of the Snapshots to the next; 0, the default: none. */
   virtual void SetSnapshotInterval(int value);
   virtual int GetSnapshotInterval();
   ///@}
@@ -571,14 +577,16 @@ public:
   ///@}
 
   ///@{
-  /** Port 1, the initial surface or the centres of the seeds: of a filter, or as data. */
+  /** Port 1: the initial surface or the centres of the seeds. */
   void SetInitialSurfaceConnection(vtkAlgorithmOutput* output);
+  /** The same as data that is no filter's output. */
   void SetInitialSurfaceData(vtkDataObject* data);
   ///@}
 
   ///@{
-  /** Port 2, the points known to belong to the object: of a filter, or as data. */
+  /** Port 2: the points known to belong to the object. */
   void SetAttractingPointsConnection(vtkAlgorithmOutput* output);
+  /** The same as data that is no filter's output. */
   void SetAttractingPointsData(vtkDataObject* data);
   ///@}
 
