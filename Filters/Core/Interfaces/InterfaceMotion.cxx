@@ -14,8 +14,7 @@ namespace volumic
 {
 namespace
 {
-constexpr std::size_t BlockSize = 1024;
-constexpr std::size_t MostBlocks = 64;
+constexpr std::size_t SpanSize = 1024;
 /** Cosine of the angle by which a face may turn. */
 constexpr double LeastTurnCosine = 0.3;
 
@@ -93,11 +92,9 @@ private:
   void TakeBackIntersecting(const std::vector<int>& faces, bool isFirst, std::vector<int>& back)
   {
     this->Follow(back);
-    // Each block remembers what it has seen of all faces.
-    const std::size_t size = std::max(BlockSize, faces.size() / MostBlocks + 1);
-    std::vector<std::vector<std::array<int, 2>>> ofBlocks((faces.size() + size - 1) / size);
-    ForSpans(this->Threads, faces.size(), size,
-      [&](std::size_t block, std::size_t begin, std::size_t end)
+    std::vector<std::vector<std::array<int, 2>>> ofSpans((faces.size() + SpanSize - 1) / SpanSize);
+    ForSpans(this->Threads, faces.size(), SpanSize,
+      [&](std::size_t span, std::size_t begin, std::size_t end)
       {
         std::vector<int> near;
         for (std::size_t n = begin; n < end; ++n)
@@ -106,12 +103,12 @@ private:
             this->Clearance.FindIntersecting(faces[n], isFirst ? faces[n] : 0, near);
           if (other >= 0)
           {
-            ofBlocks[block].push_back({ faces[n], other });
+            ofSpans[span].push_back({ faces[n], other });
           }
         }
       });
     this->TakeBackOutOfOrder(back);
-    for (const std::array<int, 2>& pair : Joined(this->Threads, ofBlocks))
+    for (const std::array<int, 2>& pair : Joined(this->Threads, ofSpans))
     {
       for (const int f : pair)
       {
@@ -187,7 +184,7 @@ void MoveInterfaces(InterfaceMesh& mesh, const InterfaceFields& fields, int step
   std::vector<Vector> after = before;
   for (int step = 0; step < steps; ++step)
   {
-    ForSpans(executor, before.size(), BlockSize,
+    ForSpans(executor, before.size(), SpanSize,
       [&](std::size_t, std::size_t begin, std::size_t end)
       {
         VertexTargets targets(mesh, fields, share, shortest);
