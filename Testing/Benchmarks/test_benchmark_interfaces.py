@@ -290,8 +290,11 @@ class BenchmarkTest(SharedFolderTestCase):
 
     def test_targets_are_of_the_shared_interfaces(self):
         is_here = "shared" in runs_here()
-        for row in self.targets.values():
-            self.assertEqual(row["verdict"] == "not run", not is_here, row)
+        solver_of = {"filled by TetGen -pY": "tetgen", "filled by gmsh": "gmsh"}
+        for what, row in self.targets.items():
+            can_run = is_here and (
+                what not in solver_of or solver_of[what] in interface_solvers.solvers_here())
+            self.assertEqual(row["verdict"] == "not run", not can_run, row)
 
     def test_names_that_there_are_not(self):
         for words in (("--maps", "small,moon"), ("--runs", "separate,moon")):
