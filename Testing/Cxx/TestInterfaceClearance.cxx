@@ -79,6 +79,23 @@ TEST(InterfaceClearance, FindsWhatIntersectsAFace)
   EXPECT_EQ(clearance.FindIntersecting(2, 0, near), -1);
 }
 
+TEST(InterfaceClearance, LetsNoFaceIntersectThoseThatStay)
+{
+  InterfaceMesh mesh = FacesAt({ 0., 90., 180., 270. });
+  const int first = mesh.AddVertex(Vector(0.4f, 0.1f, 0.5f), Stratum::Interface);
+  mesh.AddVertex(Vector(0.4f, 0.2f, 0.5f), Stratum::Interface);
+  mesh.AddVertex(Vector(0.6f, 0.2f, 0.5f), Stratum::Interface);
+  const int beside = mesh.AddFace({ { first, first + 1, first + 2 }, 1, 2 });
+  InterfaceClearance clearance(mesh, 1e-3);
+  clearance.Reset();
+  std::vector<int> near;
+  std::vector<PlacedFace> made = { PlacedFaceOf(mesh, mesh.Faces[beside]) };
+  EXPECT_TRUE(clearance.AreClear(made, { beside }, near));
+  made.front().Corner[0] = VectorD(0.4, -0.2, 0.5); // Through the face at 0 degrees.
+  EXPECT_FALSE(clearance.AreClear(made, { beside }, near));
+  EXPECT_TRUE(clearance.AreClear(made, { 0, beside }, near)) << "that one goes, too";
+}
+
 TEST(InterfaceClearance, FollowsFacesThatChange)
 {
   // Two small faces far from each other, and a third one that is stretched between them.

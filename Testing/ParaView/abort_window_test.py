@@ -255,7 +255,7 @@ class AbortWindowTest(unittest.TestCase):
         self.session.wait_for_rest()
         self.hand.key("Return")
         self.wait_for(apply_button, "made")
-        self.session.wait_for_rest()
+        self.session.wait_for_rest(least=2)
         return self.wait_for(apply_button, "made")
 
     def place_of_preview(self):

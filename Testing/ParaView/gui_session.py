@@ -143,16 +143,19 @@ class Session:
                             : lit.any(axis=0).nonzero()[0][-1] + 1]
         return pixels
 
-    def wait_for_rest(self, before=None, timeout=30):
-        """Till nothing of the window has changed for a while; if there is a picture of it from
-        before, till it has become another one, too."""
-        end = time.monotonic() + timeout
+    def wait_for_rest(self, before=None, least=1, timeout=30):
+        """Till nothing of the window has changed for a while, some seconds at least, as a window
+        that is busy does not change either; if there is a picture of it from before, till it has
+        become another one, too."""
+        begin = time.monotonic()
+        end = begin + timeout
         last, since = before, None if before is not None else time.monotonic()
         while time.monotonic() < end:
             now = self.pixels()
             if last is None or now.shape != last.shape or (now != last).any():
                 last, since = now, time.monotonic()
-            elif since and time.monotonic() - since > 0.4:  # A cursor blinks every half second.
+            # A cursor blinks every half second.
+            elif since and time.monotonic() - since > 0.4 and time.monotonic() - begin > least:
                 return
             time.sleep(0.05)
 

@@ -170,7 +170,7 @@ class VolumeWindowTest(window.WindowTestCase):
         self.assertGreater(wide, before + 10)
         before_it = self.session.pixels()
         x_input.Input(self.session.display).drag((wide - 4, 650), (wide - 34, 650))
-        self.session.wait_for_rest(before_it)
+        self.session.wait_for_rest(before_it, least=2)
         narrow = self.left_of_view(
             self.session.screenshot(testing.output_path("volume-dock-narrow.png")))
         self.assertLess(narrow, wide - 10)

@@ -10,9 +10,6 @@ namespace volumic
 {
 namespace
 {
-/** The side of a cell of the grid, in the mean longest side of a box. */
-constexpr float CellOfBox = 1.f;
-
 TriangleBox BoxOf(const MeshTriangle& t)
 {
   return { Vector(t.Corner[0]), Vector(t.Corner[1]), Vector(t.Corner[2]) };
@@ -133,14 +130,19 @@ void InterfaceClearance::Reset()
     {
       const std::array<int, 3>& v = faces[f].Vertex;
       const TriangleBox& box = this->Boxes[f] = TriangleBox(at[v[0]], at[v[1]], at[v[2]]);
-      count == 0 ? void(all = box) : all.Add(box);
+      if (count == 0)
+      {
+        all = box;
+      }
+      all.Add(box);
       sides += LongestSide(box);
       this->Reach = std::max(this->Reach, 0.5f * LongestSide(box));
       ++count;
     }
   }
-  const float side = static_cast<float>(sides / static_cast<double>(std::max<std::size_t>(count, 1)));
-  this->Grid.Reset(all.Low, all.High, std::max(CellOfBox * side, 1e-6f));
+  // A cell is as wide as a box is long in the mean.
+  const double cell = sides / static_cast<double>(std::max<std::size_t>(count, 1));
+  this->Grid.Reset(all.Low, all.High, std::max(static_cast<float>(cell), 1e-6f));
   this->Grid.Resize(faces.size());
   for (std::size_t f = 0; f < faces.size(); ++f)
   {
