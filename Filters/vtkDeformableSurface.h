@@ -304,8 +304,10 @@ public:
 
   ///@{
   /**
-   * The level to start at. -1, the default: the last of the pyramid on which anything of the object
-   * is left; without Recovery, on which a surface holds a part of it.
+   * The level to start at. -1, the default: the last of the pyramid. Where that shows nothing of
+   * the object: the last on which a part of it has MinimumPartSize voxels, and the surface starts
+   * about these parts, as where it has lost them. Without Recovery: the last on which a surface
+   * holds a part of it.
    */
   virtual void SetCoarsestLevel(int value);
   virtual int GetCoarsestLevel();

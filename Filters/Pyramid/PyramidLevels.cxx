@@ -4,7 +4,6 @@
 
 #include "Core/Common/ContentHash.h"
 #include "Core/Common/Refuse.h"
-#include "Core/Image/ThickPart.h"
 #include "Core/Image/VoxelNumbers.h"
 #include "Host/PrefixErrors.h"
 #include "Input/ImageVoxels.h"
@@ -152,7 +151,8 @@ double PyramidLevels::UnitOf(int level) const
   return level < 0 ? this->Units[0] / this->FactorBelowLevel0 : this->Units[level];
 }
 
-bool PyramidLevels::HoldsObject(int level, double isoValue, bool objectIsBright) const
+bool PyramidLevels::HoldsPart(
+  int level, const PartSize& least, double isoValue, bool objectIsBright) const
 {
   const vtkSmartPointer<vtkDataArray> voxels = ContiguousVoxels(this->Voxels[level]);
   SequentialExecutor thread;
@@ -165,7 +165,7 @@ bool PyramidLevels::HoldsObject(int level, double isoValue, bool objectIsBright)
         const auto number = static_cast<double>(values[voxel]);
         return (objectIsBright ? number > isoValue : number < isoValue) && valid.Has(voxel);
       },
-      this->Sizes[level], VoxelsThatHold);
+      this->Sizes[level], least);
   };
   switch (voxels->GetDataType())
   {

@@ -7,6 +7,7 @@
 #include "Core/Common/IndexedSurface.h"
 #include "Core/Common/ScratchMemory.h"
 #include "Core/Image/LevelImage.h"
+#include "Core/Image/ThickPart.h"
 #include "Input/ValidVoxels.h"
 #include "Input/Workspace.h"
 
@@ -69,10 +70,10 @@ public:
   void SetFactorBelowLevel0(double t) { this->FactorBelowLevel0 = t; }
 
   /**
-   * Whether something of the object, which is above the value (bright) or below, is thick enough
-   * at a level to hold a surface there (ThickPart.h).
+   * Whether a part of the object, which is above the value (bright) or below, is at least that
+   * large at a level (ThickPart.h).
    */
-  bool HoldsObject(int level, double isoValue, bool objectIsBright) const;
+  bool HoldsPart(int level, const PartSize& least, double isoValue, bool objectIsBright) const;
 
   /**
    * Smallest and largest voxel of a level among those that are valid (ValidVoxels.h); the first is

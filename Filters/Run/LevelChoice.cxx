@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace volumic
 {
@@ -90,25 +91,30 @@ int CoarsestLevelWithObject(
 }
 
 /**
- * At most `from`, at least the level to end at: the coarsest on which the object is thick enough
- * for a surface that starts there not to vanish, if that would be the end.
+ * Begins at the coarsest level that holds the object, at most `there`, the coarsest with any of it,
+ * and at least the level to end at.
  */
-int CoarsestLevelThatHolds(
-  const SegmentationLevels& levels, const SurfaceOptions& options, int from, int last)
+void BeginWhereHeld(LevelChoice& choice, int there, const SegmentationLevels& levels,
+  const SurfaceOptions& options)
 {
-  // With recovery a surface that has vanished comes again, sooner than one that starts on a finer
-  // level. Where other forces stop the surface, the object is not what its voxels' values tell.
-  if (options.RecoverLostParts || !(options.IsopotentialWeight > 0.0) ||
-    options.GradientWeight > 0.0 || levels.HasEdges())
+  const int last = std::exchange(choice.Coarsest, there);
+  // Where other forces stop the surface, the object is not what its voxels' values tell.
+  if (!(options.IsopotentialWeight > 0.0) || options.GradientWeight > 0.0 || levels.HasEdges())
   {
-    return from;
+    return;
   }
-  int level = from;
-  while (level > std::max(last, 0) && !levels.HoldsObject(level, options))
+  // With recovery a surface that has vanished comes again, and the way on the last level is short.
+  if (options.RecoverLostParts && there == last)
+  {
+    return;
+  }
+  int level = there;
+  while (level > std::max(choice.Last, 0) && !levels.HoldsObject(level, options))
   {
     --level;
   }
-  return level;
+  choice.StartsAtParts = options.RecoverLostParts && levels.HoldsObject(level, options);
+  choice.Coarsest = options.RecoverLostParts && !choice.StartsAtParts ? there : level;
 }
 
 /** @param there the coarsest level that has any of the object, finer than the one to start at */
@@ -146,7 +152,7 @@ LevelChoice ChooseLevels(const SegmentationLevels& levels, const SegmentationSet
   }
   if (settings.CoarsestLevel == -1 && there >= choice.Last)
   {
-    choice.Coarsest = CoarsestLevelThatHolds(levels, settings.Options, there, choice.Last);
+    BeginWhereHeld(choice, there, levels, settings.Options);
     return choice;
   }
   if (there != choice.Coarsest)

@@ -15,14 +15,16 @@ struct LevelChoice
   static constexpr int VoxelsOfPreview = 1000000;
 
   int Coarsest = 0;
+  /** Whether to start about the parts that the coarsest shows, as coarser ones show none. */
+  bool StartsAtParts = false;
   int Last = 0;    ///< the finest to visit
   int Preview = 0; ///< the finest to visit for a preview
 };
 
 /**
  * Those that the settings ask for. CoarsestLevel -1 becomes the coarsest level on which anything of
- * the object is left; without recovery, and where nothing but the isopotential moves the surface,
- * on which it is thick enough for a surface that starts there not to vanish.
+ * the object is left; and if that is not the last, or there is no recovery, on which a part of it is
+ * large enough for a surface that starts there, where nothing but the isopotential moves it.
  * @throws std::invalid_argument if there are no such levels, if the iso-value is not within the
  *         voxels, or if nothing of the object is left at the coarsest level.
  */

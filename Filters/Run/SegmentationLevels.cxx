@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Run/SegmentationLevels.h"
 
+#include "Core/Evolution/SurfaceEvolution.h"
+#include "Core/Image/ThickPart.h"
 #include "Host/PrefixErrors.h"
 #include "Input/InputPoints.h"
 #include "Settings/CheckEnumeration.h"
@@ -101,17 +103,21 @@ std::array<double, 2> SegmentationLevels::Range(int level) const
 
 bool SegmentationLevels::HoldsObject(int level, const SurfaceOptions& options) const
 {
-  if (this->IsInPieces(level))
+  // What the coarser levels show is too thin for them; a large one is the last resort.
+  const bool isLarge = SurfaceEvolution::AreShared(options, this->Voxels.SizeOf(level));
+  if (this->IsInPieces(level) || (options.RecoverLostParts && isLarge))
   {
-    return true; // What the coarser levels show is too thin for them; this is the last resort.
+    return true;
   }
   const auto found = this->Holds.find(level);
   if (found != this->Holds.end())
   {
     return found->second;
   }
+  const PartSize least =
+    options.RecoverLostParts ? PartSize{ options.MinimumPartSize, 1 } : PartThatHolds;
   return this->Holds[level] =
-           this->Voxels.HoldsObject(level, options.IsoValue, options.ObjectIsBright);
+           this->Voxels.HoldsPart(level, least, options.IsoValue, options.ObjectIsBright);
 }
 
 std::string SegmentationLevels::DescribeUnreportedNaNs() const

@@ -60,7 +60,11 @@ public:
   /** Smallest and largest voxel of a level; the first is the larger one if none is valid. */
   std::array<double, 2> Range(int level) const;
 
-  /** PyramidLevels::HoldsObject; looks once at a level, so the options must be the same always. */
+  /**
+   * Whether a surface that starts at a level finds something that it is to hold there: with recovery
+   * a part that this would enclose, else one that is thick enough for it. Looks once at a level, so
+   * the options must be the same always.
+   */
   bool HoldsObject(int level, const SurfaceOptions& options) const;
 
   /** What is to be reported of the NaN voxels of level 0; empty: nothing, or it has been. */

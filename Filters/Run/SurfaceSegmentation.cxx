@@ -134,7 +134,14 @@ void SurfaceSegmentation::Start(SurfaceEvolution& evolution, const LevelImage& i
           evolution.StartSurface(image, level, SurfaceOf(given, space));
           break;
         case InitializationType::EnclosingIcosahedron:
-          evolution.StartEnclosing(image, level);
+          if (this->Choice.StartsAtParts)
+          {
+            evolution.StartEnclosingParts(image, level);
+          }
+          else
+          {
+            evolution.StartEnclosing(image, level);
+          }
           break;
       }
     });
@@ -406,7 +413,7 @@ bool SurfaceSegmentation::KeepLevel(int level, StopReason reason, SurfaceResult 
   {
     this->Request.Warn(verdict.Describe(level));
   }
-  if (level < this->Choice.Coarsest)
+  if (level < this->Choice.Coarsest || this->Choice.StartsAtParts)
   {
     const SurfaceEvolution::LostParts lost = this->Evolution->Lost();
     description.LostParts = lost.Found;

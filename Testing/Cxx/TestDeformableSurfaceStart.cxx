@@ -174,6 +174,61 @@ TEST(DeformableSurfaceStart, BeginsWhereTheObjectIsStillThere)
   EXPECT_FALSE(filter->GetLevels()->GetBlock(last)) << "not visited";
 }
 
+TEST(DeformableSurfaceStart, BeginsAboutThePartsThatComeInSightFirst)
+{
+  // A shell that coarse levels do not show: from a box the way to it would be long.
+  const auto image = BallImage(64, 64, 64, 0.4);
+  vtkDataArray* voxels = image->GetPointData()->GetScalars();
+  ForVoxels({ 64, 64, 64 },
+    [&](int i, int j, int k)
+    {
+      const double distance = std::hypot(i - 32.0, j - 31.0, k - 33.0);
+      voxels->SetComponent((k * 64 + j) * 64 + i, 0,
+        std::clamp(100.0 * (1.3 - std::abs(distance - 24.0)), 0.0, 100.0));
+    });
+  const auto filter = SurfaceOf(image, [](vtkDeformableSurface* f) { f->SetIsoValue(50.5); });
+  unsigned int first = filter->GetLevels()->GetNumberOfBlocks() - 1;
+  ASSERT_FALSE(filter->GetLevels()->GetBlock(first));
+  while (!filter->GetLevels()->GetBlock(first))
+  {
+    --first;
+  }
+  vtkPolyData* start = SurfaceAt(filter, first);
+  EXPECT_GE(FieldOf(start, "LostParts"), 1) << "as the coarser levels have lost it";
+  EXPECT_EQ(FieldOf(start, "RecoveredParts"), FieldOf(start, "LostParts"));
+  const double iterations = FieldOf(start, "Iterations");
+  EXPECT_EQ(FieldOf(filter->GetOutput(), "NumberOfComponents"), 2) << "both its walls";
+  EXPECT_EQ(FieldOf(filter->GetOutput(), "Genus"), 0);
+  // Who chooses the level gets the box.
+  filter->SetCoarsestLevel(static_cast<int>(first));
+  filter->Update();
+  EXPECT_EQ(FieldOf(SurfaceAt(filter, first), "LostParts"), 0);
+  EXPECT_GE(FieldOf(SurfaceAt(filter, first), "Iterations"), 2 * iterations);
+}
+
+TEST(DeformableSurfaceStart, LeavesOutLevelsThatShowSpecksOnly)
+{
+  // Of a rod the level on which it comes in sight shows the middle only, which is brighter: fewer
+  // voxels than MinimumPartSize.
+  const auto image = BallImage(64, 64, 64, 0.4);
+  FillBox(image, { 0, 0, 0 }, { 64, 64, 64 }, 0.0);
+  FillBox(image, { 8, 30, 30 }, { 56, 33, 33 });
+  FillBox(image, { 30, 30, 30 }, { 33, 33, 33 }, 400.0);
+  const auto filter = SurfaceOf(image, [](vtkDeformableSurface* f) { f->SetIsoValue(50.5); });
+  const unsigned int last = filter->GetLevels()->GetNumberOfBlocks() - 1;
+  unsigned int first = last;
+  while (!filter->GetLevels()->GetBlock(first))
+  {
+    --first;
+  }
+  EXPECT_GE(FieldOf(SurfaceAt(filter, first), "RecoveredParts"), 1);
+  EXPECT_EQ(FieldOf(filter->GetOutput(), "NumberOfComponents"), 1);
+  // Where nowhere there are so many it is the first level that has any.
+  filter->SetMinimumPartSize(100000);
+  filter->Update();
+  EXPECT_TRUE(filter->GetLevels()->GetBlock(first + 1)) << "one that was left out";
+}
+
 namespace
 {
 /** A ball with a ramp of about a voxel, 100 inside. */

@@ -28,7 +28,13 @@ bool HasThick(
   const std::vector<std::uint8_t>& marks, int minimum, const std::array<int, 3>& size = Size)
 {
   return HasThickPart(
-    [&marks](std::int64_t voxel) { return marks[voxel] != 0; }, size, minimum);
+    [&marks](std::int64_t voxel) { return marks[voxel] != 0; }, size, { minimum, 2 });
+}
+
+bool HasAny(const std::vector<std::uint8_t>& marks, int minimum)
+{
+  return HasThickPart(
+    [&marks](std::int64_t voxel) { return marks[voxel] != 0; }, Size, { minimum, 1 });
 }
 
 bool IsIn(int x, int low, int high)
@@ -54,6 +60,16 @@ TEST(ThickPart, LeavesOutWhatIsThin)
     { return (IsIn(i, 0, 1) && IsIn(j, 0, 1) && IsIn(k, 0, 1)) || (j == 0 && k == 0); });
   EXPECT_TRUE(HasThick(wire, 8));
   EXPECT_FALSE(HasThick(wire, 9));
+}
+
+TEST(ThickPart, CountsAllVoxelsWhereThinnessIsAllowed)
+{
+  // The plate, and a wire that touches it by a corner only; both to the rim of the image.
+  const auto plate = Marks([](int i, int j, int k)
+    { return i == 11 || (i == 10 && j == 0 && k == 0) || (i == 9 && j == 1); });
+  EXPECT_TRUE(HasAny(plate, Size[1] * Size[2] + 1));
+  EXPECT_FALSE(HasAny(plate, Size[1] * Size[2] + 2));
+  EXPECT_FALSE(HasThick(plate, 1));
 }
 
 TEST(ThickPart, DoesNotAddUpParts)
@@ -103,7 +119,7 @@ TEST(ThickPart, OfEnoughVoxelsHoldsASurfaceThatShrinksOntoIt)
       {
         marks.push_back(value > 0.5f);
       }
-      if (HasThick(marks, VoxelsThatHold, volume.Image.Size))
+      if (HasThick(marks, PartThatHolds.Voxels, volume.Image.Size))
       {
         SurfaceOptions options;
         options.IsoValue = 0.5;

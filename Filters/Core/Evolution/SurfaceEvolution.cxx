@@ -86,6 +86,23 @@ void SurfaceEvolution::StartEnclosing(const LevelImage& image, int level)
   self.GoOn(Monitor::Activity::Starting, 1.);
 }
 
+void SurfaceEvolution::StartEnclosingParts(const LevelImage& image, int level)
+{
+  Implementation& self = *this->Self;
+  Stopwatch watch(self.Preparing, self.Threads);
+  self.Enter(image, level);
+  self.Clear();
+  self.Reset();
+  self.Recover();
+  watch.Lap(Phase::Recovery);
+  if (self.LastLost.Enclosed == 0 && !self.Stopped)
+  {
+    self.LastLost = LostParts();
+    self.Lost = LostBoundary();
+    this->StartEnclosing(image, level);
+  }
+}
+
 int SurfaceEvolution::StartSeeds(
   const LevelImage& image, int level, const std::vector<Point>& centres)
 {

@@ -149,6 +149,14 @@ public:
   void StartEnclosing(const LevelImage& image, int level);
 
   /**
+   * Start as where all of the object has been lost: from what encloses its parts of at least
+   * MinimumPartSize voxels, see FindLostParts and Lost(). It is near to them, where the way from a
+   * box takes hundreds of iterations if the level is not a coarse one. Where there is no such part,
+   * or RecoverLostParts is off: as StartEnclosing.
+   */
+  void StartEnclosingParts(const LevelImage& image, int level);
+
+  /**
    * Start from icosahedra of SeedRadius about the centres (workspace); where there are none, on a
    * grid of points inside the object. Centres outside the object or too near to each other are
    * left out. @return the number of seeds set.
