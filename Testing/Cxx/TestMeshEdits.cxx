@@ -26,6 +26,39 @@ SurfaceMesh Tetrahedron()
   EXPECT_EQ((mesh).CountEulerCharacteristic(), chi)
 }
 
+TEST(SurfaceMesh, AppendsTheSameOnThreads)
+{
+  // More triangles than one thread takes at a time, in an order in which those of a vertex are far
+  // from each other.
+  IndexedSurface surface = MakeSphere({ 0, 0, 0 }, 20, 0.5).ToIndexed();
+  const std::size_t n = surface.Triangles.size();
+  ASSERT_GT(n, 40000u);
+  LargeVector<Triangle> mixed(n);
+  constexpr std::size_t step = 7919; // A prime.
+  ASSERT_NE(n % step, 0u);
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    mixed[i] = surface.Triangles[i * step % n];
+  }
+  surface.Triangles = mixed;
+  SurfaceMesh one;
+  one.Append(surface);
+  EXPECT_SOUND(one, 2);
+  StandardThreads threads(3);
+  for (int run = 0; run < 5; ++run)
+  {
+    SurfaceMesh other;
+    other.Append(surface, threads);
+    ASSERT_EQ(one.Rings.size(), other.Rings.size());
+    for (int v = 0; v < one.Size(); ++v)
+    {
+      const Ring& ring = one.Rings[v];
+      ASSERT_TRUE(ring.Count == other.Rings[v].Count &&
+        std::equal(ring.Item, ring.Item + ring.Count, other.Rings[v].Item)) << v;
+    }
+  }
+}
+
 namespace
 {
 /** More vertices than threads look at at a time, and many places without one before them. */

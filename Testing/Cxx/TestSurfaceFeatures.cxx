@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Common/StandardThreads.h"
 #include "Core/Mesh/SurfaceFeatures.h"
+#include "VisitTestTools.h"
 #include "CoreTestTools.h"
 
 using namespace volumic;
@@ -62,6 +64,51 @@ TEST(SurfaceFeatures, SortsComponentsByAreaAndSignsCavities)
   EXPECT_EQ(features.ComponentOfTriangle.front(), 1);
   EXPECT_EQ(features.ComponentOfTriangle.back(), 0);
   EXPECT_EQ(features.EulerCharacteristic, 4);
+}
+
+TEST(SurfaceFeatures, AreTheSameOnThreads)
+{
+  // Many boxes of one size, told apart by their order alone; their triangles take turns.
+  constexpr int count = 3000;
+  IndexedSurface surface;
+  for (int b = 0; b < count; ++b)
+  {
+    const IndexedSurface box = Box(1, 1, 1, { 2. * (b % 50), 2. * (b / 50), 0. });
+    surface.Points.insert(surface.Points.end(), box.Points.begin(), box.Points.end());
+  }
+  surface.Points.push_back({ 0, 0, 9 }); // Of no triangle.
+  const IndexedSurface unit = Box(1, 1, 1, { 0, 0, 0 });
+  for (const Triangle& t : unit.Triangles)
+  {
+    for (int b = count - 1; b >= 0; --b)
+    {
+      surface.Triangles.push_back({ 8 * b + t[0], 8 * b + t[1], 8 * b + t[2] });
+    }
+  }
+  const SurfaceFeatures one = ComputeFeatures(surface);
+  ASSERT_EQ(one.Components.size(), static_cast<std::size_t>(count));
+  EXPECT_EQ(one.ComponentOfTriangle.front(), 0) << "in the order of their first triangles";
+  StandardThreads threads(3);
+  ToldExecutor backwards(
+    [](std::size_t n, const Body& body)
+    {
+      for (std::size_t i = n; i > 0; --i)
+      {
+        body(i - 1, i);
+      }
+    });
+  for (Executor* executor : { static_cast<Executor*>(&threads), static_cast<Executor*>(&backwards) })
+  {
+    const SurfaceFeatures other = ComputeFeatures(surface, *executor);
+    ASSERT_EQ(other.Components.size(), one.Components.size());
+    EXPECT_EQ(one.ComponentOfTriangle, other.ComponentOfTriangle);
+    for (int c = 0; c < count; ++c)
+    {
+      ASSERT_EQ(other.Components[c].Vertices, 8);
+      ASSERT_EQ(other.Components[c].Triangles, 12);
+      ASSERT_EQ(one.Components[c].Centroid, other.Components[c].Centroid);
+    }
+  }
 }
 
 TEST(SurfaceFeatures, CountsHandles)

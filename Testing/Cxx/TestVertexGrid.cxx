@@ -89,7 +89,7 @@ TEST(VertexGrid, IsTheSameWhenFilledAtOnce)
   VertexGrid other;
   other.Reset(Vector(3, 3, 3), Vector(40, 40, 33), 1.3f);
   StandardThreads threads(3);
-  other.InsertAll(mesh.Position, isThere, threads);
+  other.InsertAll(mesh.Position, 0, isThere, threads);
   // In the same order, too: what is found first may be decided by it.
   const auto visited = [](const VertexGrid& grid)
   {
@@ -99,6 +99,19 @@ TEST(VertexGrid, IsTheSameWhenFilledAtOnce)
   };
   EXPECT_GT(visited(one).size(), 1000u);
   EXPECT_EQ(visited(one), visited(other));
+  // And where it is not empty: what comes behind those that are there.
+  VertexGrid third;
+  third.Reset(Vector(3, 3, 3), Vector(40, 40, 33), 1.3f);
+  const int first = mesh.Size() / 3;
+  for (int v = first - 1; v >= 0; --v)
+  {
+    if (isThere(v))
+    {
+      third.Insert(v, mesh.Position[v]);
+    }
+  }
+  third.InsertAll(mesh.Position, static_cast<std::size_t>(first), isThere, threads);
+  EXPECT_EQ(visited(one), visited(third));
 }
 
 TEST(VertexGrid, VisitsInTheSameOrderHoweverTheVerticesHaveCome)
@@ -113,7 +126,7 @@ TEST(VertexGrid, VisitsInTheSameOrderHoweverTheVerticesHaveCome)
   VertexGrid all;
   all.Reset(Vector(0, 0, 0), Vector(40, 40, 40), 1.3f);
   StandardThreads threads(3);
-  all.InsertAll(mesh.Position, [](int) { return true; }, threads);
+  all.InsertAll(mesh.Position, 0, [](int) { return true; }, threads);
   // From the last to the first, each by way of somewhere else.
   VertexGrid one;
   one.Reset(Vector(0, 0, 0), Vector(40, 40, 40), 1.3f);

@@ -49,8 +49,6 @@ void FreeOnHeap(void* memory) noexcept
 #endif
 }
 
-thread_local int NumberOfZeroed = 0;
-
 /** Memory that is zero and not there before it is written: its bytes, by address. */
 class ZeroedMemory
 {
@@ -109,21 +107,6 @@ void* AllocateZeroed(std::size_t bytes, std::size_t alignment)
   std::memset(memory, 0, bytes);
   return memory;
 }
-}
-
-ZeroedAllocations::ZeroedAllocations()
-{
-  ++NumberOfZeroed;
-}
-
-ZeroedAllocations::~ZeroedAllocations()
-{
-  --NumberOfZeroed;
-}
-
-bool ZeroedAllocations::AreOn()
-{
-  return NumberOfZeroed > 0;
 }
 
 bool IsAllZero(const void* begin, std::size_t bytes)

@@ -117,11 +117,15 @@ void KeepMemoryLimit();
 class ZeroedAllocations
 {
 public:
-  ZeroedAllocations();
-  ~ZeroedAllocations();
+  ZeroedAllocations() { ++Alive; }
+  ~ZeroedAllocations() { --Alive; }
   ZeroedAllocations(const ZeroedAllocations&) = delete;
   ZeroedAllocations& operator=(const ZeroedAllocations&) = delete;
-  static bool AreOn();
+  /** Asked for each value of an array. */
+  static bool AreOn() { return Alive > 0; }
+
+private:
+  inline static thread_local int Alive = 0;
 };
 
 template <typename T>

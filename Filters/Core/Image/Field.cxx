@@ -20,6 +20,8 @@ constexpr std::size_t RangeSpan = 1 << 16;
 constexpr std::size_t RangeGrain = 4;
 /** The typical slope is measured on about as many rows: enough for a mean. */
 constexpr std::int64_t SlopeRows = 4096;
+/** Of these, those that one thread looks at at a time. */
+constexpr std::size_t SlopeSpan = 128;
 /**
  * As many voxels past the border everything is background or replicated (until it fades): far
  * places are taken to there, which also keeps the indices small.
@@ -31,7 +33,7 @@ Field::Field(const LevelImage& image, const FieldOptions& options, Executor& exe
   : Field(image, options, Measures())
 {
   this->MeasureRange(image.Extremes ? *image.Extremes : this->FindExtremes(executor));
-  this->MeasureSlope();
+  this->MeasureSlope(executor);
 }
 
 Field::Field(const LevelImage& image, const FieldOptions& options, const Measures& measured)
@@ -121,47 +123,64 @@ std::vector<VoxelBox> Field::MeasuredVoxels(const std::array<int, 3>& size)
   return boxes;
 }
 
-void Field::MeasureSlope()
+namespace
+{
+/** Edges between voxels that the iso-value lies on. */
+struct Crossings
+{
+  double Slopes = 0.; ///< Their sum.
+  std::int64_t Count = 0;
+};
+}
+
+void Field::MeasureSlope(Executor& executor)
 {
   const auto& size = this->Level.Size;
-  const std::int64_t rows = static_cast<std::int64_t>(size[1]) * size[2];
   const std::int64_t stride = SlopeStride(size);
-  double sum = 0.;
-  std::int64_t crossings = 0;
-  std::vector<float> work(3 * static_cast<std::size_t>(size[0]));
-  float* values = work.data();
-  float* below = values + size[0];
-  float* behind = below + size[0];
-  for (std::int64_t row = 0; row < rows; row += stride)
+  const std::int64_t rows = static_cast<std::int64_t>(size[1]) * size[2];
+  const auto sampled = static_cast<std::size_t>((rows + stride - 1) / stride);
+  const auto length = static_cast<std::size_t>(size[0]);
+  std::vector<Crossings> ofSpans((sampled + SlopeSpan - 1) / SlopeSpan);
+  const auto look = [this](Crossings& found, float here, float beside, int axis)
   {
-    const int j = static_cast<int>(row % size[1]);
-    const int k = static_cast<int>(row / size[1]);
-    this->Level.Values.Copy(this->Offset(0, j, k), size[0], values);
-    this->Level.Values.Copy(this->Offset(0, std::min(j + 1, size[1] - 1), k), size[0], below);
-    this->Level.Values.Copy(this->Offset(0, j, std::min(k + 1, size[2] - 1)), size[0], behind);
-    for (int i = 0; i + 1 < size[0]; ++i)
+    if ((here > this->Iso) != (beside > this->Iso))
     {
-      const bool here = values[i] > this->Iso;
-      if (here != (values[i + 1] > this->Iso))
-      {
-        sum += std::abs(values[i + 1] - values[i]) * this->Inverse[0];
-        ++crossings;
-      }
-      if (here != (below[i] > this->Iso))
-      {
-        sum += std::abs(below[i] - values[i]) * this->Inverse[1];
-        ++crossings;
-      }
-      if (here != (behind[i] > this->Iso))
-      {
-        sum += std::abs(behind[i] - values[i]) * this->Inverse[2];
-        ++crossings;
-      }
+      found.Slopes += std::abs(beside - here) * this->Inverse[axis];
+      ++found.Count;
     }
+  };
+  ForSpans(executor, sampled, SlopeSpan,
+    [&](std::size_t span, std::size_t begin, std::size_t end)
+    {
+      std::vector<float> work(3 * length);
+      float* values = work.data();
+      float* below = values + length;
+      float* behind = below + length;
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        const std::int64_t row = static_cast<std::int64_t>(i) * stride;
+        const int j = static_cast<int>(row % size[1]);
+        const int k = static_cast<int>(row / size[1]);
+        this->Level.Values.Copy(this->Offset(0, j, k), size[0], values);
+        this->Level.Values.Copy(this->Offset(0, std::min(j + 1, size[1] - 1), k), size[0], below);
+        this->Level.Values.Copy(this->Offset(0, j, std::min(k + 1, size[2] - 1)), size[0], behind);
+        for (int x = 0; x + 1 < size[0]; ++x)
+        {
+          look(ofSpans[span], values[x], values[x + 1], 0);
+          look(ofSpans[span], values[x], below[x], 1);
+          look(ofSpans[span], values[x], behind[x], 2);
+        }
+      }
+    });
+  Crossings all;
+  for (const Crossings& ofSpan : ofSpans)
+  {
+    all.Slopes += ofSpan.Slopes;
+    all.Count += ofSpan.Count;
   }
   const double range = static_cast<double>(this->Of.HighestValue) - this->Of.LowestValue;
   this->Of.Slope = static_cast<float>(
-    crossings > 0 ? sum / static_cast<double>(crossings) : range * this->Inverse[0]);
+    all.Count > 0 ? all.Slopes / static_cast<double>(all.Count) : range * this->Inverse[0]);
   if (!(this->Of.Slope > 0))
   {
     this->Of.Slope = 1;

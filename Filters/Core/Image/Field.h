@@ -111,7 +111,7 @@ private:
   Sample Faded(const Vector& position, const Sample& sample) const;
   std::array<float, 2> FindExtremes(Executor& executor) const;
   void MeasureRange(const std::array<float, 2>& extremes);
-  void MeasureSlope();
+  void MeasureSlope(Executor& executor);
 
   LevelImage Level;
   ImageMargin Around;

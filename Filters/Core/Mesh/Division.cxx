@@ -4,6 +4,7 @@
 
 #include "Core/Common/Spans.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace volumic
@@ -14,8 +15,9 @@ namespace
 constexpr std::size_t SpanSize = 8192;
 }
 
-EdgeSlots::EdgeSlots(const SurfaceMesh& mesh, Executor& executor) : First(mesh.Rings.size() + 1, 0)
+EdgeSlots::EdgeSlots(const SurfaceMesh& mesh, Executor& executor)
 {
+  MakeZeroed(this->First, mesh.Rings.size() + 1);
   const auto sumOf = [&mesh](std::size_t begin, std::size_t end)
   {
     std::size_t sum = 0;
@@ -100,15 +102,16 @@ class SqrtThreeDivision
 public:
   SqrtThreeDivision(SurfaceMesh& mesh, const KeptEdges* kept, Executor& executor)
     : Mesh(mesh), Kept(kept), Threads(executor), Olds(mesh.Rings.size()), Slots(mesh, executor),
-      Centre(Slots.Count(), None), Middle(kept ? Slots.Count() : 0, None)
+      Middle(kept ? Slots.Count() : 0, None)
   {
+    MakeZeroed(this->Centre, this->Slots.Count()); // All of them get one.
   }
 
   LargeVector<Triangle> Run()
   {
     this->AddCentres();
     this->AddMiddles();
-    this->Mesh.Rings.resize(this->Mesh.Position.size());
+    this->Lengthen(this->Mesh.Rings, this->Mesh.Position.size());
     const auto forAll = [this](std::size_t n, void (SqrtThreeDivision::*join)(std::size_t))
     {
       ForSpans(this->Threads, n, SpanSize,
@@ -127,6 +130,17 @@ public:
   }
 
 private:
+  /** What is new is zero. */
+  template <typename T>
+  void Lengthen(LargeVector<T>& values, std::size_t n)
+  {
+    LargeVector<T> longer;
+    MakeZeroed(longer, n);
+    ForSpans(this->Threads, values.size(), SpanSize,
+      [&](std::size_t, std::size_t begin, std::size_t end)
+      { std::copy(values.data() + begin, values.data() + end, longer.data() + begin); });
+    values.swap(longer);
+  }
   std::size_t Slot(int v, int neighbour) const
   {
     return this->Slots.At(v, this->Mesh.Rings[v].Find(neighbour));
@@ -157,9 +171,9 @@ void SqrtThreeDivision::AddCentres()
 {
   const std::vector<std::size_t> first = FirstOfSpans(this->Threads, this->Olds, SpanSize,
     [this](std::size_t begin, std::size_t end) { return this->Mesh.CountFaces(begin, end); });
-  this->Faces.resize(first.back());
+  MakeZeroed(this->Faces, first.back());
   LargeVector<Vector>& position = this->Mesh.Position;
-  position.resize(this->Olds + this->Faces.size());
+  this->Lengthen(position, this->Olds + this->Faces.size());
   ForSpans(this->Threads, this->Olds, SpanSize,
     [&](std::size_t span, std::size_t begin, std::size_t end)
     {

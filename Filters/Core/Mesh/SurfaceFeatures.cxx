@@ -3,8 +3,10 @@
 #include "Core/Mesh/SurfaceFeatures.h"
 
 #include "Core/Common/DisjointSets.h"
+#include "Core/Common/Select.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <numeric>
@@ -124,8 +126,6 @@ ComponentFeatures Finish(const Sums& sums)
   return result;
 }
 
-constexpr int NoComponent = -1;
-
 /** The components of a surface, numbered in the order of their first triangles. */
 class Components
 {
@@ -162,7 +162,7 @@ void Components::FindRoots(const IndexedSurface& surface, Executor& executor)
         joined.Join(t[0], t[2]);
       }
     });
-  this->Root.resize(surface.Points.size());
+  MakeZeroed(this->Root, surface.Points.size());
   ForSpans(executor, this->Root.size(), SpanSize,
     [&](std::size_t, std::size_t begin, std::size_t end)
     {
@@ -175,32 +175,50 @@ void Components::FindRoots(const IndexedSurface& surface, Executor& executor)
 
 void Components::Number(const IndexedSurface& surface, Executor& executor)
 {
-  // By the place of the root: its number.
-  LargeVector<int> number(this->Root.size(), NoComponent);
-  for (std::size_t i = 0; i < surface.Triangles.size(); ++i)
-  {
-    int& c = number[this->Root[surface.Triangles[i][0]]];
-    if (c == NoComponent)
+  // By the place of a root its first triangle, then its number, counted from 1; 0 where it has none.
+  LargeVector<std::atomic<int>> number(this->Root.size());
+  ForSpans(executor, surface.Triangles.size(), SpanSize,
+    [&](std::size_t, std::size_t begin, std::size_t end)
     {
-      c = static_cast<int>(this->FirstTriangle.size());
-      this->FirstTriangle.push_back(static_cast<int>(i));
-    }
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        std::atomic<int>& first = number[this->Root[surface.Triangles[i][0]]];
+        const int own = static_cast<int>(i) + 1;
+        int found = first.load(std::memory_order_relaxed);
+        while ((found == 0 || own < found) &&
+          !first.compare_exchange_weak(found, own, std::memory_order_relaxed))
+        {
+        }
+      }
+    });
+  this->FirstTriangle = SelectIndices(
+    executor, number.size(), [&](std::size_t root) { return number[root].load() != 0; });
+  for (int& root : this->FirstTriangle)
+  {
+    root = number[root] - 1;
   }
-  this->OfTriangle.resize(surface.Triangles.size());
+  std::sort(this->FirstTriangle.begin(), this->FirstTriangle.end());
+  for (std::size_t c = 0; c < this->FirstTriangle.size(); ++c)
+  {
+    number[this->Root[surface.Triangles[this->FirstTriangle[c]][0]]] = static_cast<int>(c) + 1;
+  }
+  MakeZeroed(this->OfTriangle, surface.Triangles.size());
   ForSpans(executor, this->OfTriangle.size(), SpanSize,
     [&](std::size_t, std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end; ++i)
       {
-        this->OfTriangle[i] = number[this->Root[surface.Triangles[i][0]]];
+        this->OfTriangle[i] =
+          number[this->Root[surface.Triangles[i][0]]].load(std::memory_order_relaxed) - 1;
       }
     });
   this->Vertices.assign(this->FirstTriangle.size(), 0);
   for (const int root : this->Root)
   {
-    if (number[root] != NoComponent)
+    const int own = number[root].load(std::memory_order_relaxed);
+    if (own > 0)
     {
-      ++this->Vertices[number[root]];
+      ++this->Vertices[own - 1];
     }
   }
 }
@@ -214,7 +232,8 @@ std::vector<Sums> SumsOf(
     sums[c].Reference = surface.Points[surface.Triangles[components.FirstTriangle[c]][0]];
     sums[c].Vertices = components.Vertices[c];
   }
-  std::vector<Terms> terms(std::min(surface.Triangles.size(), BatchSize));
+  LargeVector<Terms> terms;
+  MakeZeroed(terms, std::min(surface.Triangles.size(), BatchSize));
   for (std::size_t first = 0; first < surface.Triangles.size(); first += BatchSize)
   {
     const std::size_t count = std::min(BatchSize, surface.Triangles.size() - first);

@@ -8,6 +8,7 @@
 #include "Core/Common/Spans.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstdint>
 #include <exception>
 #include <limits>
@@ -141,9 +142,10 @@ std::vector<std::size_t> FirstAlive(const SurfaceMesh& mesh, Executor& executor)
 IndexedSurface SurfaceMesh::ToIndexed(Executor& executor) const
 {
   IndexedSurface surface;
-  LargeVector<int> place(this->Rings.size(), -1);
+  LargeVector<int> place; // Written, and made room for, by threads.
+  MakeZeroed(place, this->Rings.size());
   const std::vector<std::size_t> firstPoint = FirstAlive(*this, executor);
-  surface.Points.resize(firstPoint.back());
+  MakeZeroed(surface.Points, firstPoint.back());
   ForSpans(executor, this->Rings.size(), VertexSpan,
     [&](std::size_t span, std::size_t begin, std::size_t end)
     {
@@ -161,7 +163,7 @@ IndexedSurface SurfaceMesh::ToIndexed(Executor& executor) const
   const std::vector<std::size_t> firstFace =
     FirstOfSpans(executor, this->Rings.size(), VertexSpan,
       [this](std::size_t begin, std::size_t end) { return this->CountFaces(begin, end); });
-  surface.Triangles.resize(firstFace.back());
+  MakeZeroed(surface.Triangles, firstFace.back());
   ForSpans(executor, this->Rings.size(), VertexSpan,
     [&](std::size_t span, std::size_t begin, std::size_t end)
     {
@@ -176,37 +178,74 @@ namespace
 {
 using DirectedEdge = std::pair<int, int>;
 
-/** For each vertex the directed edges (b, c) that its triangles have opposite to it. */
-struct OppositeEdges
-{
-  LargeVector<int> Start; ///< Of those of each vertex, and the end of the last.
-  LargeVector<DirectedEdge> Edges;
+/** Triangles that one thread looks at at a time. */
+constexpr std::size_t TriangleSpan = 16384;
 
-  explicit OppositeEdges(const IndexedSurface& surface) : Start(surface.Points.size() + 1, 0)
+/** For each point of a surface the corners of triangles that lie there. */
+class CornersOfPoints
+{
+public:
+  CornersOfPoints(const IndexedSurface& surface, Executor& executor)
+    : Surface(surface)
+    , Left(surface.Points.size())
+    , Start(surface.Points.size() + 1, 0)
+    , Corners(3 * surface.Triangles.size())
   {
-    for (const Triangle& t : surface.Triangles)
+    const auto forCorners = [&](auto&& visit)
     {
-      for (int corner : t)
-      {
-        ++this->Start[corner + 1];
-      }
+      ForSpans(executor, surface.Triangles.size(), TriangleSpan,
+        [&](std::size_t, std::size_t begin, std::size_t end)
+        {
+          for (std::size_t t = begin; t < end; ++t)
+          {
+            for (int k = 0; k < 3; ++k)
+            {
+              visit(surface.Triangles[t][k], static_cast<int>(3 * t) + k);
+            }
+          }
+        });
+    };
+    forCorners([this](int point, int)
+      { this->Left[point].fetch_add(1, std::memory_order_relaxed); });
+    for (std::size_t p = 0; p < this->Left.size(); ++p)
+    {
+      this->Start[p + 1] = this->Start[p] + this->Left[p].load(std::memory_order_relaxed);
     }
-    std::partial_sum(this->Start.begin(), this->Start.end(), this->Start.begin());
-    this->Edges.resize(this->Start.back());
-    LargeVector<int> fill(this->Start.begin(), this->Start.end() - 1);
-    for (const Triangle& t : surface.Triangles)
-    {
-      for (int k = 0; k < 3; ++k)
+    forCorners(
+      [this](int point, int corner)
       {
-        this->Edges[fill[t[k]]++] = { t[(k + 1) % 3], t[(k + 2) % 3] };
-      }
+        const int last = this->Left[point].fetch_sub(1, std::memory_order_relaxed) - 1;
+        this->Corners[this->Start[point] + last] = corner;
+      });
+  }
+
+  int Count(std::size_t point) const { return this->Start[point + 1] - this->Start[point]; }
+
+  /** The edges opposite to a point, in the order of the triangles, whichever thread came first. */
+  void FindOppositeEdges(std::size_t point, std::vector<DirectedEdge>& edges)
+  {
+    std::sort(this->Corners.begin() + this->Start[point],
+      this->Corners.begin() + this->Start[point + 1]);
+    edges.clear();
+    for (int i = this->Start[point]; i < this->Start[point + 1]; ++i)
+    {
+      const Triangle& t = this->Surface.Triangles[this->Corners[i] / 3];
+      const int k = this->Corners[i] % 3;
+      edges.emplace_back(t[(k + 1) % 3], t[(k + 2) % 3]);
     }
   }
+
+private:
+  const IndexedSurface& Surface;
+  LargeVector<std::atomic<int>> Left; ///< Of the corners of a point those that have no place yet.
+  LargeVector<int> Start;             ///< Of those of each point, and the end of the last.
+  LargeVector<int> Corners;           ///< 3 x triangle + place in it.
 };
 
-/** The ring that the edges opposite to a vertex make; changes their order. */
-Ring RingOf(int vertex, DirectedEdge* edges, int count)
+/** The ring that the edges opposite to a vertex make, which are left in `edges`. */
+Ring RingOf(int vertex, CornersOfPoints& corners, std::vector<DirectedEdge>& edges)
 {
+  const int count = corners.Count(static_cast<std::size_t>(vertex));
   if (count < 3)
   {
     Refuse("the surface is not closed: vertex ", vertex, " has ", count, " triangles");
@@ -216,6 +255,7 @@ Ring RingOf(int vertex, DirectedEdge* edges, int count)
     Refuse(
       "vertex ", vertex, " of the surface has ", count, " neighbours, more than ", Ring::Capacity);
   }
+  corners.FindOppositeEdges(static_cast<std::size_t>(vertex), edges);
   Ring ring;
   ring.Count = count;
   for (int i = 0; i < count; ++i)
@@ -244,16 +284,15 @@ Ring RingOf(int vertex, DirectedEdge* edges, int count)
 int SurfaceMesh::Append(const IndexedSurface& surface, Executor& executor)
 {
   const std::size_t n = surface.Points.size();
-  OppositeEdges opposite(surface);
+  CornersOfPoints corners(surface, executor);
   const int first = this->Size();
   LargeVector<Ring> rings(n); // Nothing is added before all is found to be sound.
   const auto find = [&](std::size_t begin, std::size_t end)
   {
+    std::vector<DirectedEdge> edges;
     for (std::size_t v = begin; v < end; ++v)
     {
-      const int start = opposite.Start[v];
-      rings[v] = RingOf(
-        static_cast<int>(v), opposite.Edges.data() + start, opposite.Start[v + 1] - start);
+      rings[v] = RingOf(static_cast<int>(v), corners, edges);
       for (int i = 0; i < rings[v].Count; ++i)
       {
         rings[v].Item[i] += first;
@@ -293,13 +332,12 @@ int SurfaceMesh::Append(const IndexedSurface& surface, Executor& executor)
 
 void SurfaceMesh::Reorder(const std::vector<int>& order, Executor& executor)
 {
-  LargeVector<int> place(this->Rings.size(), -1);
+  LargeVector<int> place;
+  MakeZeroed(place, this->Rings.size());
   LargeVector<Vector> position;
-  position.reserve(WithRoomToGrow(order.size()));
-  position.resize(order.size());
+  MakeZeroed(position, order.size(), WithRoomToGrow(order.size()));
   LargeVector<Ring> rings;
-  rings.reserve(WithRoomToGrow(order.size()));
-  rings.resize(order.size());
+  MakeZeroed(rings, order.size(), WithRoomToGrow(order.size()));
   ForSpans(executor, order.size(), VertexSpan,
     [&](std::size_t, std::size_t begin, std::size_t end)
     {
@@ -383,7 +421,8 @@ std::vector<int> SpaceFillingOrder(const SurfaceMesh& mesh, double cell, Executo
   const auto bits = [cell](float x, float from)
   { return SpreadBits(static_cast<std::uint64_t>((x - from) / cell)); };
   const std::vector<std::size_t> first = FirstAlive(mesh, executor);
-  LargeVector<std::pair<std::uint64_t, int>> keys(first.back());
+  LargeVector<std::pair<std::uint64_t, int>> keys;
+  MakeZeroed(keys, first.back());
   ForSpans(executor, n, VertexSpan,
     [&](std::size_t span, std::size_t begin, std::size_t end)
     {

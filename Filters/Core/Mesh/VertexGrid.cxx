@@ -177,18 +177,18 @@ private:
 };
 }
 
-void VertexGrid::InsertAll(const LargeVector<Vector>& positions,
+void VertexGrid::InsertAll(const LargeVector<Vector>& positions, std::size_t first,
   const std::function<bool(int v)>& isThere, Executor& executor)
 {
   this->Resize(positions.size());
   const auto layers = static_cast<std::size_t>((this->Size[2] + Mask) >> Bits);
-  const LayeredWork linking(executor, positions.size(), layers,
+  const LayeredWork linking(executor, positions.size() - first, layers,
     [&](std::size_t i, auto&& add)
     {
-      const int v = static_cast<int>(i);
+      const int v = static_cast<int>(first + i);
       if (isThere(v))
       {
-        add(this->LayerOf(this->CellOf(positions[i])), v);
+        add(this->LayerOf(this->CellOf(positions[v])), v);
       }
     });
   linking.Do(executor, [&](int v) { this->Link(v, this->CellOf(positions[v])); });

@@ -47,9 +47,12 @@ public:
   void Lengthen(std::size_t n);
 
   void Insert(int v, const Vector& position);
-  /** All vertices of an empty grid for which isThere(v), as if one by one, in order of index. */
-  void InsertAll(const LargeVector<Vector>& positions, const std::function<bool(int v)>& isThere,
-    Executor& executor);
+  /**
+   * All vertices from `first` on for which isThere(v), as if one by one, in order of index. None of
+   * these may be in it before.
+   */
+  void InsertAll(const LargeVector<Vector>& positions, std::size_t first,
+    const std::function<bool(int v)>& isThere, Executor& executor);
   void Remove(int v);
   /** To be called after the vertex has moved. */
   void Move(int v, const Vector& position)

@@ -27,7 +27,7 @@ constexpr float ReachShare = 1.1f;
 constexpr float AboveRounding = 1.0001f;
 
 /** Vertices that one thread looks at at a time. */
-constexpr std::size_t TestedSpan = 4096;
+constexpr std::size_t TestedSpan = 512;
 
 /** A new face, as floats tell most others apart from it: by a box and a plane. */
 struct NewFace

@@ -3,6 +3,7 @@
 #include "Core/Surface/RankBlocks.h"
 
 #include "Core/Common/RankLists.h"
+#include "Core/Common/Select.h"
 #include "Core/Common/Spans.h"
 
 #include <algorithm>
@@ -269,24 +270,21 @@ void RankBlocks::Append(const IndexedSurface& surface, Executor& executor)
   SurfaceMesh added;
   added.Append(surface, executor);
   const int first = s.AddUnusedPlaces(added.Size(), executor).Next;
-  std::vector<int> near;
-  for (int v = 0; v < added.Size(); ++v)
-  {
-    if (this->IsNearOwn(added.Position[v]))
-    {
-      near.push_back(v);
-    }
-  }
-  const std::vector<int> here = s.AddPiece(added, first, near);
+  const std::vector<int> near = SelectIndices(executor, added.Rings.size(),
+    [&](std::size_t v) { return this->IsNearOwn(added.Position[v]); });
+  const std::vector<int> here = s.AddPiece(added, first, near, executor);
   this->Blocks.Take(here);
-  std::vector<int> inside; // With all their neighbours.
-  std::copy_if(here.begin(), here.end(), std::back_inserter(inside),
-    [&s](int v)
+  std::vector<int> inside = SelectIndices(executor, here.size(), // With all their neighbours.
+    [&](std::size_t i)
     {
-      const Ring& ring = s.Mesh.Rings[v];
+      const Ring& ring = s.Mesh.Rings[here[i]];
       return std::all_of(
         ring.Item, ring.Item + ring.Count, [&s](int w) { return s.Mesh.IsAlive(w); });
     });
+  for (int& v : inside)
+  {
+    v = here[v];
+  }
   s.UpdateShape(inside, executor);
   s.Mesh.CountOthers(added.Size());
   s.EulerCharacteristic += added.CountEulerCharacteristic(executor);

@@ -29,7 +29,7 @@ void SurfaceState::Reset(const Vector& low, const Vector& high, Executor& execut
   this->Anchor.Assign(this->Mesh.Position);
   this->Grid.Reset(low, high, this->Sizing.SmallestReach());
   this->Grid.InsertAll(
-    this->Mesh.Position, [this](int v) { return this->Mesh.IsAlive(v); }, executor);
+    this->Mesh.Position, 0, [this](int v) { return this->Mesh.IsAlive(v); }, executor);
   executor.For(static_cast<std::size_t>(this->Mesh.Size()), AliveGrain,
     [this](std::size_t begin, std::size_t end)
     {
@@ -99,7 +99,7 @@ std::vector<int> SurfaceState::Read(MessageReader& message)
 std::vector<int> SurfaceState::ReadMesh(MessageReader& message)
 {
   std::vector<int> vertices = this->ReadConnectivity(message);
-  this->Properties.Initialise(vertices);
+  this->Properties.Initialise(vertices, OnThisThread());
   for (const int v : vertices)
   {
     this->PreviousPosition[v] = this->Anchor[v] = this->Mesh.Position[v];
@@ -108,22 +108,26 @@ std::vector<int> SurfaceState::ReadMesh(MessageReader& message)
 }
 
 std::vector<int> SurfaceState::AddPiece(
-  const SurfaceMesh& mesh, int first, const std::vector<int>& vertices)
+  const SurfaceMesh& mesh, int first, const std::vector<int>& vertices, Executor& executor)
 {
-  std::vector<int> added;
-  for (const int v : vertices)
-  {
-    Ring ring = mesh.Rings[v];
-    for (int i = 0; i < ring.Count; ++i)
+  std::vector<int> added(vertices.size());
+  ForSpans(executor, vertices.size(), AliveGrain,
+    [&](std::size_t, std::size_t begin, std::size_t end)
     {
-      ring.Item[i] += first;
-    }
-    added.push_back(first + v);
-    this->Mesh.Rings[first + v] = ring;
-    this->Mesh.Position[first + v] = mesh.Position[v];
-    this->Grid.Insert(first + v, mesh.Position[v]);
-  }
-  this->Properties.Initialise(added);
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        const int v = vertices[i];
+        added[i] = first + v;
+        Ring& ring = this->Mesh.Rings[added[i]];
+        ring = mesh.Rings[v];
+        std::for_each(ring.Item, ring.Item + ring.Count, [first](int& w) { w += first; });
+        this->Mesh.Position[added[i]] = mesh.Position[v];
+      }
+    });
+  this->Grid.InsertAll(
+    this->Mesh.Position, static_cast<std::size_t>(first),
+    [this](int v) { return this->Mesh.IsAlive(v); }, executor);
+  this->Properties.Initialise(added, executor);
   for (const int v : added)
   {
     this->PreviousPosition[v] = this->Anchor[v] = this->Mesh.Position[v];

@@ -182,7 +182,8 @@ public:
    * Takes some vertices of a whole mesh that all ranks put behind theirs, from the place `first`
    * on. @return the places of these vertices here
    */
-  std::vector<int> AddPiece(const SurfaceMesh& mesh, int first, const std::vector<int>& vertices);
+  std::vector<int> AddPiece(const SurfaceMesh& mesh, int first,
+    const std::vector<int>& vertices, Executor& executor);
   /** Forgets a vertex that another rank has removed. */
   void Forget(int v);
 

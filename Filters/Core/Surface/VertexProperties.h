@@ -81,12 +81,10 @@ public:
       property->Remake(n);
     }
   }
-  void Initialise(const std::vector<int>& vertices)
+  void Initialise(const std::vector<int>& vertices, Executor& executor)
   {
-    for (VertexPropertyBase* property : this->All)
-    {
-      property->Initialise(vertices);
-    }
+    ForSpans(executor, this->All.size(), 1,
+      [&](std::size_t i, std::size_t, std::size_t) { this->All[i]->Initialise(vertices); });
   }
   void Write(MessageWriter& message, const std::vector<int>& vertices) const
   {
