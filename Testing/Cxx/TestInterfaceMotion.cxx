@@ -81,7 +81,7 @@ TEST(InterfaceMotion, TakesBackWhatWouldBeNarrow)
   constexpr double least = 0.5;
   const InterfaceScene scene(ManyCells(28, 7, 3));
   InterfaceMesh mesh = RoughMesh(scene);
-  const std::vector<Vector> before = mesh.Position;
+  const LargeVector<Vector> before = mesh.Position;
   MoveInterfaces(mesh, *scene.Fields, 2, 0., 0., 1e-3, least, OnThisThread());
   int narrow = 0;
   for (const InterfaceMesh::Face& face : mesh.Faces)

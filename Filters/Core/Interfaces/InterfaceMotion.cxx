@@ -23,7 +23,7 @@ constexpr double LeastTurnCosine = 0.3;
 class Verification
 {
 public:
-  Verification(InterfaceMesh& mesh, const std::vector<Vector>& before, double tolerance,
+  Verification(InterfaceMesh& mesh, const LargeVector<Vector>& before, double tolerance,
     double leastAngle, Executor& executor)
     : Mesh(mesh), Before(before), Clearance(mesh, tolerance), LeastAngle(leastAngle),
       Threads(executor), Lines(mesh.FindLines()), IsBack(mesh.Position.size(), 0)
@@ -176,7 +176,7 @@ private:
   }
 
   InterfaceMesh& Mesh;
-  const std::vector<Vector>& Before;
+  const LargeVector<Vector>& Before;
   InterfaceClearance Clearance;
   double LeastAngle;
   Executor& Threads;
@@ -188,8 +188,8 @@ private:
 void MoveInterfaces(InterfaceMesh& mesh, const InterfaceFields& fields, int steps, double share,
   double shortest, double tolerance, double leastAngle, Executor& executor)
 {
-  const std::vector<Vector> before = mesh.Position;
-  std::vector<Vector> after = before;
+  const LargeVector<Vector> before = mesh.Position;
+  LargeVector<Vector> after = before;
   for (int step = 0; step < steps; ++step)
   {
     ForSpans(executor, before.size(), SpanSize,
