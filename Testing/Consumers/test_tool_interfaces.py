@@ -152,6 +152,13 @@ class OneMeshTest(InterfacesTest):
         self.assertEqual(report["properties"]["SharedInterfaces"], "off")
         self.assertEqual(sorted(os.listdir(self.path("o"))), ["label-1.msh", "label-2.msh"])
 
+    def test_a_limit_of_memory_changes_nothing(self):
+        volume = self.map_of(sectors())
+        self.run_tool(volume, self.path("a.vtp"), "--labels", "all", "--shared-interfaces")
+        self.run_tool(volume, self.path("b.vtp"), "--labels", "all", "--shared-interfaces",
+                      "--memory", "500M", "--scratch", self.folder, "--threads", "1")
+        self.assertEqual(self.content("a.vtp"), self.content("b.vtp"))
+
     def test_what_does_not_go_with_it(self):
         for options in (("--gap", "1"), ("--tolerance", "0.1"), ("--thin-parts",)):
             with self.subTest(options):

@@ -97,5 +97,5 @@ TEST(InterfaceFields, EndWhereTheyAreToldTo)
   // After the first one, that of the outside.
   const InterfaceFields fields(bricks, LabelFieldOptions(), map.Spacing, OnThisThread(),
     [](double) { return false; });
-  EXPECT_EQ(std::abs(fields.At(1, 6, 6, 6)), LabelField::Far);
+  EXPECT_EQ(fields.At(1, 6, 6, 6), 0.f);
 }

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Common/ScratchMemory.h"
 #include "InterfaceTestTools.h"
 
 using namespace volumic;
@@ -41,6 +42,28 @@ TEST(InterfaceMesh, KnowsWhatMeetsAtAVertex)
   EXPECT_EQ(found, (std::vector<int>{ 0, 2 }));
   EXPECT_TRUE(mesh.HasEdge(0, 4));
   EXPECT_FALSE(mesh.HasEdge(3, 4));
+}
+
+TEST(InterfaceMesh, LiesInFilesWhereMemoryIsLimited)
+{
+  ScratchOptions options;
+  options.Limit = std::size_t(8) << 30;
+  const ScratchMemory scratch(options);
+  InterfaceMesh mesh;
+  const int count = 1 << 18;
+  for (int v = 0; v < count; ++v)
+  {
+    mesh.AddVertex(Vector(static_cast<float>(v), 0.f, 0.f), Stratum::Interface);
+    if (v >= 2)
+    {
+      mesh.AddFace({ { v - 2, v - 1, v }, 0, 1 });
+    }
+  }
+  mesh.Compact();
+  // Places, faces, and of both what has which corner.
+  const std::size_t ofVertex = sizeof(Vector) + sizeof(int);
+  const std::size_t ofFace = sizeof(InterfaceMesh::Face) + 3 * sizeof(int);
+  EXPECT_GE(scratch.Statistics().Mapped, (count - 2) * (ofVertex + ofFace));
 }
 
 TEST(InterfaceMesh, HasLinesWhereThreeFacesMeet)

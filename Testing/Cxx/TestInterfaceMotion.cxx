@@ -4,6 +4,7 @@
 
 #include "Core/Interfaces/InterfaceLattice.h"
 #include "Core/Interfaces/InterfaceRemesher.h"
+#include "Core/Interfaces/TriangleShape.h"
 #include "Core/Interfaces/VertexTargets.h"
 #include "InterfaceTestTools.h"
 
@@ -51,7 +52,7 @@ TEST(InterfaceMotion, BringsVerticesToWhereFieldsAreTheSame)
   const double before = MeanDifference(mesh, *scene.Fields);
   for (int round = 0; round < 3; ++round)
   {
-    MoveInterfaces(mesh, *scene.Fields, 2, 0.7, 0.6, 1e-3, OnThisThread());
+    MoveInterfaces(mesh, *scene.Fields, 2, 0.7, 0.6, 1e-3, 0., OnThisThread());
     ExpectSound(mesh);
   }
   EXPECT_LT(MeanDifference(mesh, *scene.Fields), 0.35 * before);
@@ -70,9 +71,28 @@ TEST(InterfaceMotion, TakesBackWhatWouldIntersect)
   ExpectSound(mesh);
   for (int round = 0; round < 4; ++round)
   {
-    MoveInterfaces(mesh, *scene.Fields, 4, 1.5, 0., 1e-3, OnThisThread());
+    MoveInterfaces(mesh, *scene.Fields, 4, 1.5, 0., 1e-3, 0., OnThisThread());
     ExpectSound(mesh);
   }
+}
+
+TEST(InterfaceMotion, TakesBackWhatWouldBeNarrow)
+{
+  constexpr double least = 0.5;
+  const InterfaceScene scene(ManyCells(28, 7, 3));
+  InterfaceMesh mesh = RoughMesh(scene);
+  const LargeVector<Vector> before = mesh.Position;
+  MoveInterfaces(mesh, *scene.Fields, 2, 0., 0., 1e-3, least, OnThisThread());
+  int narrow = 0;
+  for (const InterfaceMesh::Face& face : mesh.Faces)
+  {
+    const auto at = [&](int k)
+    { return VectorD(before[static_cast<std::size_t>(face.Vertex[k])]); };
+    const double angle = SmallestAngle(at(0), at(1), at(2));
+    EXPECT_GE(SmallestAngle(TriangleOf(mesh, face.Vertex)), std::min(angle, least));
+    narrow += angle < least ? 1 : 0;
+  }
+  EXPECT_GT(narrow, 100);
 }
 
 TEST(VertexTargets, GoNoFurtherThanHalfOfAnEdge)

@@ -11,6 +11,13 @@ using namespace volumic;
 
 namespace
 {
+bool IsOffLines(const InterfaceMesh& mesh, const InterfaceMesh::Face& face)
+{
+  return std::all_of(face.Vertex.begin(), face.Vertex.end(),
+    [&](int v)
+    { return mesh.StratumOf[static_cast<std::size_t>(v)] == Stratum::Interface; });
+}
+
 InterfaceMesh Make(InterfaceScene& scene, Executor& executor = OnThisThread(),
   const std::function<bool(double)>& goOn = [](double) { return true; })
 {
@@ -60,15 +67,33 @@ TEST(MakeInterfaces, HasGoodTriangles)
     { return VectorD(mesh.Position[static_cast<std::size_t>(face.Vertex[k])]); };
     const double ratio = RadiusRatio(at(0), at(1), at(2));
     sum += ratio;
-    bool isOff = true;
-    for (const int v : face.Vertex)
-    {
-      isOff = isOff && mesh.StratumOf[static_cast<std::size_t>(v)] == Stratum::Interface;
-    }
-    least = isOff ? std::min(least, ratio) : least;
+    least = IsOffLines(mesh, face) ? std::min(least, ratio) : least;
   }
   EXPECT_GT(sum / static_cast<double>(mesh.Faces.size()), 0.94);
   EXPECT_GT(least, 0.5);
+}
+
+TEST(MakeInterfaces, HasNoSliversAboutNecks)
+{
+  // Needles, here and there as thin as a voxel.
+  InterfaceScene scene(MakeLabelMap({ 56, 48, 48 }, 1,
+    [](int i, int j, int k)
+    {
+      const int n = j / 12 + 4 * (k / 12);
+      const double y = j % 12 - 6. - 0.035 * (n % 4) * (i - 28);
+      const double z = k % 12 - 6. - 0.006 * n * (i - 28);
+      const double thick = 1. + 0.6 * std::sin(0.35 * i + n);
+      return i > 5 && i < 50 && std::hypot(y, z) < thick ? 1 : 0;
+    }));
+  const InterfaceMesh mesh = Make(scene);
+  ExpectSound(mesh);
+  double least = 90.;
+  for (const InterfaceMesh::Face& face : mesh.Faces)
+  {
+    const double angle = SmallestAngle(TriangleOf(mesh, face.Vertex));
+    least = IsOffLines(mesh, face) ? std::min(least, angle * 57.2958) : least;
+  }
+  EXPECT_GT(least, 25.);
 }
 
 TEST(MakeInterfaces, GivesTheSameBitsWithThreads)

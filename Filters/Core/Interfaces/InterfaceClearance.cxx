@@ -117,7 +117,7 @@ InterfaceClearance::InterfaceClearance(const InterfaceMesh& mesh, double toleran
 
 void InterfaceClearance::Reset()
 {
-  const std::vector<InterfaceMesh::Face>& faces = this->Mesh.Faces;
+  const LargeVector<InterfaceMesh::Face>& faces = this->Mesh.Faces;
   const Vector* at = this->Mesh.Position.data();
   this->Boxes.resize(faces.size());
   this->Reach = 0.f;

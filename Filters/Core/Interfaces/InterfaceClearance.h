@@ -81,7 +81,7 @@ private:
 
   const InterfaceMesh& Mesh;
   double Tolerance;
-  std::vector<TriangleBox> Boxes; ///< of each face, which the grid has at its middle
+  LargeVector<TriangleBox> Boxes; ///< of each face, which the grid has at its middle
   float Reach = 0.f;              ///< half of the longest side of a box, at least
   VertexGrid Grid;
 };

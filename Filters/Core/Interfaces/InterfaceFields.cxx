@@ -18,17 +18,11 @@ namespace
 /** One of so many is a large part. */
 constexpr std::int64_t LargePart = 8;
 
-/** The values of one object: brick after brick. */
-struct BricksOfObject
-{
-  std::vector<std::size_t> Bricks;
-  std::vector<float> Values;
-};
-
-BricksOfObject CopyBricks(const LabelField& field, const LabelBricks& map, int object)
+/** Calls visit(brick, first voxel) for the bricks of the map about the boundary of an object. */
+template <typename Visitor>
+void ForBricks(const LabelBricks& map, int object, Visitor&& visit)
 {
   constexpr int side = LabelBricks::Side;
-  BricksOfObject copied;
   const BoundaryRows rows(map, object);
   const std::array<int, 3>& first = rows.Box().First;
   const VoxelBox all = VoxelBox::Of(map.Size());
@@ -40,24 +34,14 @@ BricksOfObject CopyBricks(const LabelField& field, const LabelBricks& map, int o
       {
         const std::array<int, 3> at = { first[0] / side + i, first[1] / side + j,
           first[2] / side + k };
-        if (!all.Contains(at) || !rows.Has(i, j, k))
+        if (all.Contains(at) && rows.Has(i, j, k))
         {
-          continue;
-        }
-        copied.Bricks.push_back(static_cast<std::size_t>(all.NumberOf(at[0], at[1], at[2])));
-        for (int z = at[2] * side; z < (at[2] + 1) * side; ++z)
-        {
-          for (int y = at[1] * side; y < (at[1] + 1) * side; ++y)
-          {
-            const float* row =
-              field.Values.data() + field.Box.NumberOf(at[0] * side, y, z);
-            copied.Values.insert(copied.Values.end(), row, row + side);
-          }
+          visit(static_cast<std::size_t>(all.NumberOf(at[0], at[1], at[2])),
+            std::array<int, 3>{ at[0] * side, at[1] * side, at[2] * side });
         }
       }
     }
   }
-  return copied;
 }
 }
 
@@ -72,15 +56,15 @@ InterfaceFields::InterfaceFields(const LabelBricks& bricks, const LabelFieldOpti
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](int a, int b)
     { return bricks.ExtentOf(a).Bricks.Count() > bricks.ExtentOf(b).Bricks.Count(); });
-  std::vector<BricksOfObject> made(count);
+  this->Shifts.assign(count, 0.f);
+  this->FindBricks(executor);
   std::atomic<std::size_t> done{ 0 };
   std::atomic<bool> goesOn{ true };
   const auto make = [&](int object, Executor& threads)
   {
     if (goesOn && bricks.ExtentOf(object).Voxels > 0)
     {
-      const LabelField field = MakeLabelField(bricks, object, options, threads);
-      made[static_cast<std::size_t>(object)] = CopyBricks(field, bricks, object);
+      this->Take(object, MakeLabelField(bricks, object, options, threads));
     }
     if (!goOn(static_cast<double>(++done) / static_cast<double>(count)))
     {
@@ -101,31 +85,56 @@ InterfaceFields::InterfaceFields(const LabelBricks& bricks, const LabelFieldOpti
   }
   ForSpans(executor, count - first, 1,
     [&](std::size_t n, std::size_t, std::size_t) { make(order[first + n], OnThisThread()); });
-  this->Shifts.assign(count, 0.f);
-  this->First.assign(static_cast<std::size_t>(VoxelBox::Of(bricks.Size()).Count()) + 1, 0);
-  for (const BricksOfObject& of : made)
+}
+
+void InterfaceFields::FindBricks(Executor& executor)
+{
+  std::vector<std::vector<std::size_t>> ofObjects(this->Shifts.size());
+  ForSpans(executor, ofObjects.size(), 1,
+    [&](std::size_t object, std::size_t, std::size_t)
+    {
+      if (this->Map.ExtentOf(static_cast<int>(object)).Voxels > 0)
+      {
+        ForBricks(this->Map, static_cast<int>(object),
+          [&](std::size_t brick, const std::array<int, 3>&)
+          { ofObjects[object].push_back(brick); });
+      }
+    });
+  this->First.assign(static_cast<std::size_t>(VoxelBox::Of(this->Map.Size()).Count()) + 1, 0);
+  for (const std::vector<std::size_t>& found : ofObjects)
   {
-    for (const std::size_t brick : of.Bricks)
+    for (const std::size_t brick : found)
     {
       ++this->First[brick + 1];
     }
   }
   std::partial_sum(this->First.begin(), this->First.end(), this->First.begin());
   this->Objects.resize(this->First.back());
-  MakeZeroed(this->Values, this->First.back() * VoxelsOfBrick);
   std::vector<std::size_t> next(this->First.begin(), this->First.end() - 1);
-  for (std::size_t object = 0; object < count; ++object)
+  for (std::size_t object = 0; object < ofObjects.size(); ++object)
   {
-    BricksOfObject& of = made[object];
-    for (std::size_t n = 0; n < of.Bricks.size(); ++n)
+    for (const std::size_t brick : ofObjects[object])
     {
-      const std::size_t place = next[of.Bricks[n]]++;
-      this->Objects[place] = static_cast<LabelMap::Number>(object);
-      std::copy_n(of.Values.data() + n * VoxelsOfBrick, VoxelsOfBrick,
-        this->Values.data() + place * VoxelsOfBrick);
+      this->Objects[next[brick]++] = static_cast<LabelMap::Number>(object);
     }
-    of = BricksOfObject();
   }
+  MakeZeroed(this->Values, this->First.back() * VoxelsOfBrick);
+}
+
+void InterfaceFields::Take(int object, const LabelField& field)
+{
+  ForBricks(this->Map, object,
+    [&](std::size_t brick, const std::array<int, 3>& at)
+    {
+      float* to = this->Values.data() + (this->ValuesIn(brick, object) - this->Values.data());
+      for (int z = at[2]; z < at[2] + Side; ++z)
+      {
+        for (int y = at[1]; y < at[1] + Side; ++y)
+        {
+          to = std::copy_n(field.Values.data() + field.Box.NumberOf(at[0], y, z), Side, to);
+        }
+      }
+    });
 }
 
 const float* InterfaceFields::ValuesIn(std::size_t brick, int object) const

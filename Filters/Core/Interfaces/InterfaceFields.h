@@ -92,6 +92,10 @@ private:
   {
     return static_cast<std::size_t>(((k % Side) * Side + j % Side) * Side + i % Side);
   }
+  /** Finds the bricks of all objects, and makes room for their values. */
+  void FindBricks(Executor& executor);
+  /** The values of an object that are in these. */
+  void Take(int object, const LabelField& field);
   /** The values of a brick, x fastest; null: it has none of this object. */
   const float* ValuesIn(std::size_t brick, int object) const;
 

@@ -4,6 +4,7 @@
 #define volumicInterfaceMesh_h
 
 #include "Core/Common/IndexedSurface.h"
+#include "Core/Common/ScratchMemory.h"
 #include "Core/Common/Vector.h"
 #include "Core/Labels/LabelMap.h"
 
@@ -50,9 +51,9 @@ public:
     }
   };
 
-  std::vector<Vector> Position;
-  std::vector<Stratum> StratumOf;
-  std::vector<Face> Faces;
+  LargeVector<Vector> Position;
+  LargeVector<Stratum> StratumOf;
+  LargeVector<Face> Faces;
 
   int AddVertex(const Vector& position, Stratum stratum);
   int AddFace(const Face& face);
@@ -103,8 +104,8 @@ private:
   void Link(int corner, int v);
   void Unlink(int corner, int v);
 
-  std::vector<int> Head; ///< of each vertex its last corner, 3 times the face and its place in it
-  std::vector<int> Next; ///< of each corner another one of the same vertex
+  LargeVector<int> Head; ///< of each vertex its last corner, 3 times the face and its place in it
+  LargeVector<int> Next; ///< of each corner another one of the same vertex
 };
 }
 

@@ -4,6 +4,7 @@
 
 #include "Core/Common/Spans.h"
 #include "Core/Interfaces/InterfaceClearance.h"
+#include "Core/Interfaces/TriangleShape.h"
 #include "Core/Interfaces/VertexTargets.h"
 
 #include <algorithm>
@@ -22,10 +23,10 @@ constexpr double LeastTurnCosine = 0.3;
 class Verification
 {
 public:
-  Verification(
-    InterfaceMesh& mesh, const std::vector<Vector>& before, double tolerance, Executor& executor)
-    : Mesh(mesh), Before(before), Clearance(mesh, tolerance), Threads(executor),
-      Lines(mesh.FindLines()), IsBack(mesh.Position.size(), 0)
+  Verification(InterfaceMesh& mesh, const LargeVector<Vector>& before, double tolerance,
+    double leastAngle, Executor& executor)
+    : Mesh(mesh), Before(before), Clearance(mesh, tolerance), LeastAngle(leastAngle),
+      Threads(executor), Lines(mesh.FindLines()), IsBack(mesh.Position.size(), 0)
   {
   }
 
@@ -80,7 +81,13 @@ private:
     { return VectorD(this->Before[static_cast<std::size_t>(face.Vertex[k])]); };
     const VectorD before = Cross(at(1) - at(0), at(2) - at(0));
     const VectorD after = this->Mesh.NormalOf(face);
-    if (Dot(before, after) < LeastTurnCosine * Length(before) * Length(after))
+    const auto isSpoilt = [&]
+    {
+      const double angle = SmallestAngle(TriangleOf(this->Mesh, face.Vertex));
+      return angle < this->LeastAngle && angle < SmallestAngle(at(0), at(1), at(2));
+    };
+    if ((this->LeastAngle > 0. && isSpoilt()) ||
+      Dot(before, after) < LeastTurnCosine * Length(before) * Length(after))
     {
       for (const int v : face.Vertex)
       {
@@ -169,8 +176,9 @@ private:
   }
 
   InterfaceMesh& Mesh;
-  const std::vector<Vector>& Before;
+  const LargeVector<Vector>& Before;
   InterfaceClearance Clearance;
+  double LeastAngle;
   Executor& Threads;
   std::vector<std::array<int, 2>> Lines;
   std::vector<unsigned char> IsBack;
@@ -178,10 +186,10 @@ private:
 }
 
 void MoveInterfaces(InterfaceMesh& mesh, const InterfaceFields& fields, int steps, double share,
-  double shortest, double tolerance, Executor& executor)
+  double shortest, double tolerance, double leastAngle, Executor& executor)
 {
-  const std::vector<Vector> before = mesh.Position;
-  std::vector<Vector> after = before;
+  const LargeVector<Vector> before = mesh.Position;
+  LargeVector<Vector> after = before;
   for (int step = 0; step < steps; ++step)
   {
     ForSpans(executor, before.size(), SpanSize,
@@ -198,6 +206,6 @@ void MoveInterfaces(InterfaceMesh& mesh, const InterfaceFields& fields, int step
       });
     mesh.Position.swap(after);
   }
-  Verification(mesh, before, tolerance, executor).Run();
+  Verification(mesh, before, tolerance, leastAngle, executor).Run();
 }
 }

@@ -13,14 +13,15 @@ namespace volumic
  * Steps of all vertices at once: along their interface or junction line to the middle of their
  * neighbours, by this share of the way, then to where the fields of all objects about them are the
  * same (Newton). No vertex goes further than half of its shortest edge in a step. Those whose triangles
- * intersect after the last one, or have turned too far, are taken back to where they were before the
- * first, which is safe as all was safe then.
+ * intersect after the last one, have turned too far, or have become too narrow, are taken back to
+ * where they were before the first, which is safe as all was safe then.
  *
  * @param shortest  no edge is made shorter than that; workspace
  * @param tolerance nearer than that triangles are never; workspace
+ * @param leastAngle of triangles, radian: those that have a smaller one have had it before
  */
 void MoveInterfaces(InterfaceMesh& mesh, const InterfaceFields& fields, int steps, double share,
-  double shortest, double tolerance, Executor& executor);
+  double shortest, double tolerance, double leastAngle, Executor& executor);
 }
 
 #endif

@@ -301,10 +301,8 @@ bool InterfaceRemesher::TryFlip(int u, int v, double flatness)
   std::replace(first.Vertex.begin(), first.Vertex.end(), v, q);
   std::replace(second.Vertex.begin(), second.Vertex.end(), u, p);
   this->Made = { PlacedFaceOf(this->Mesh, first), PlacedFaceOf(this->Mesh, second) };
-  const auto smallest = [](const MeshTriangle& t)
-  { return SmallestAngle(t.Corner[0], t.Corner[1], t.Corner[2]); };
-  if (std::min(smallest(this->Made[0]), smallest(this->Made[1])) <
-    std::min(smallest(before[0]), smallest(before[1])) + LeastGain)
+  if (std::min(SmallestAngle(this->Made[0]), SmallestAngle(this->Made[1])) <
+    std::min(SmallestAngle(before[0]), SmallestAngle(before[1])) + LeastGain)
   {
     return false;
   }

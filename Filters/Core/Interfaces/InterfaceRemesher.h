@@ -41,7 +41,8 @@ public:
   int FlipEdges();
   /**
    * Triangles with a small angle: their longest edge is flipped, or their shortest collapsed, or one
-   * of their vertices moved to between its neighbours.
+   * of their vertices moved to between its neighbours; those that stay, off lines, have all three
+   * moved about. Such are about necks of three edges, which no collapse may close.
    */
   int RemoveSlivers();
 
@@ -61,6 +62,15 @@ private:
   bool TryFlip(int u, int v, double flatness);
   /** To between its neighbours, or some of the way, if its worst triangle is better then. */
   bool TryMove(int v);
+  /**
+   * If its worst triangle is better then, or this face is and no other one of it becomes a sliver,
+   * or a worse one. @param face -1: none
+   */
+  bool TryMoveTo(int v, const Vector& target, int face = -1);
+  /** The vertices of a sliver off lines, little by little, whichever way makes it better. */
+  bool TryMoveAbout(int face);
+  /** A vertex of it, by a share of the longest edge along one of its sides, or across it. */
+  bool TryMoveAlongSides(int corner, int face, double share);
   void Split(int u, int v);
   float SquaredEdge(int u, int v) const
   {

@@ -8,6 +8,7 @@
 #include "Core/Interfaces/TriangleShape.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace volumic
 {
@@ -15,8 +16,11 @@ namespace
 {
 /** Cosine of the angle between two faces of which one is a sliver, and whose edge is flipped. */
 constexpr double LeastSliverCosine = 0.5;
-/** Triangles with a smaller angle are slivers, radian. */
-constexpr double LeastAngle = 0.5;
+/** How far a sliver's vertices are moved at a time, in the longest edge: half as far and so on, */
+constexpr double LargestMove = 0.2;
+constexpr double SmallestMove = 0.01;
+/** and so often at most by each of these. */
+constexpr int MostMoves = 8;
 }
 
 int InterfaceRemesher::RemoveSlivers()
@@ -30,8 +34,7 @@ int InterfaceRemesher::RemoveSlivers()
     {
       continue;
     }
-    const MeshTriangle t = TriangleOf(this->Mesh, v);
-    if (SmallestAngle(t.Corner[0], t.Corner[1], t.Corner[2]) >= LeastAngle)
+    if (SmallestAngle(TriangleOf(this->Mesh, v)) >= SliverAngle)
     {
       continue;
     }
@@ -43,11 +46,10 @@ int InterfaceRemesher::RemoveSlivers()
       });
     const int shortest = order[0];
     const int longest = order[2];
-    count += this->TryFlip(v[longest], v[(longest + 1) % 3], LeastSliverCosine) ||
+    const bool isDone = this->TryFlip(v[longest], v[(longest + 1) % 3], LeastSliverCosine) ||
         this->TryCollapse(v[shortest], v[(shortest + 1) % 3]) ||
-        std::any_of(v.begin(), v.end(), [this](int corner) { return this->TryMove(corner); })
-      ? 1
-      : 0;
+        std::any_of(v.begin(), v.end(), [this](int corner) { return this->TryMove(corner); });
+    count += this->TryMoveAbout(static_cast<int>(f)) || isDone ? 1 : 0;
   }
   return count;
 }
@@ -71,34 +73,96 @@ bool InterfaceRemesher::TryMove(int v)
     { normal += this->Mesh.NormalOf(this->Mesh.Faces[static_cast<std::size_t>(f)]); });
   normal = Normalized(normal);
   const VectorD way = middle - place - normal * Dot(normal, middle - place); // No volume is lost.
-  for (const double share : { 1., 0.5, 0.25 })
-  {
-    const Vector target(place + way * share);
-    this->Made.clear();
-    this->Changed.clear();
-    double before = 1.;
-    double after = 1.;
-    bool isFair = true;
-    this->Mesh.ForFaces(v,
-      [&](int f)
-      {
-        PlacedFace t = PlacedFaceOf(this->Mesh, this->Mesh.Faces[static_cast<std::size_t>(f)]);
-        const VectorD old = NormalOf(t);
-        before = std::min(before, RadiusRatio(t));
-        t.Corner[std::find(t.Vertex, t.Vertex + 3, v) - t.Vertex] = VectorD(target);
-        after = std::min(after, RadiusRatio(t));
-        isFair = isFair && CosineOf(old, NormalOf(t)) > LeastTurnCosine;
-        this->Changed.push_back(f);
-        this->Made.push_back(t);
-      });
-    if (isFair && after > before &&
-      this->Clearance.AreClear(this->Made, this->Changed, this->Near))
+  return this->TryMoveTo(v, Vector(place + way)) || this->TryMoveTo(v, Vector(place + way * 0.5)) ||
+    this->TryMoveTo(v, Vector(place + way * 0.25));
+}
+
+bool InterfaceRemesher::TryMoveTo(int v, const Vector& target, int face)
+{
+  this->Made.clear();
+  this->Changed.clear();
+  double before = 1.;
+  double after = 1.;
+  bool isFair = true;
+  bool isBetter = face >= 0;
+  this->Mesh.ForFaces(v,
+    [&](int f)
     {
-      this->Mesh.Position[static_cast<std::size_t>(v)] = target;
-      for (const int f : this->Changed)
+      PlacedFace t = PlacedFaceOf(this->Mesh, this->Mesh.Faces[static_cast<std::size_t>(f)]);
+      const MeshTriangle old = t;
+      t.Corner[std::find(t.Vertex, t.Vertex + 3, v) - t.Vertex] = VectorD(target);
+      before = std::min(before, RadiusRatio(old));
+      after = std::min(after, RadiusRatio(t));
+      isFair = isFair && CosineOf(NormalOf(old), NormalOf(t)) > LeastTurnCosine;
+      if (isBetter)
       {
-        this->Clearance.Change(f);
+        const double angle = SmallestAngle(old);
+        isBetter = f == face ? SmallestAngle(t) > angle
+                             : SmallestAngle(t) >= std::min(angle, SliverAngle);
       }
+      this->Changed.push_back(f);
+      this->Made.push_back(t);
+    });
+  isBetter = isBetter || after > before;
+  if (!isFair || !isBetter || !this->Clearance.AreClear(this->Made, this->Changed, this->Near))
+  {
+    return false;
+  }
+  this->Mesh.Position[static_cast<std::size_t>(v)] = target;
+  for (const int f : this->Changed)
+  {
+    this->Clearance.Change(f);
+  }
+  return true;
+}
+
+bool InterfaceRemesher::TryMoveAbout(int face)
+{
+  const std::array<int, 3> v = this->Mesh.Faces[static_cast<std::size_t>(face)].Vertex;
+  // At lines voxels would be cut off for shapes that lines do not allow.
+  const auto isOffLines = [this](int corner)
+  {
+    return corner >= 0 &&
+      this->Mesh.StratumOf[static_cast<std::size_t>(corner)] == Stratum::Interface;
+  };
+  if (!std::all_of(v.begin(), v.end(), isOffLines))
+  {
+    return false;
+  }
+  bool hasMoved = false;
+  for (double share = LargestMove; share > SmallestMove; share *= 0.5)
+  {
+    for (int n = 0; n < MostMoves && SmallestAngle(TriangleOf(this->Mesh, v)) < SliverAngle; ++n)
+    {
+      bool moves = false;
+      for (const int corner : v)
+      {
+        moves = this->TryMoveAlongSides(corner, face, share) || moves;
+      }
+      hasMoved = hasMoved || moves;
+      if (!moves)
+      {
+        break;
+      }
+    }
+  }
+  return hasMoved;
+}
+
+bool InterfaceRemesher::TryMoveAlongSides(int corner, int face, double share)
+{
+  const MeshTriangle t =
+    TriangleOf(this->Mesh, this->Mesh.Faces[static_cast<std::size_t>(face)].Vertex);
+  const VectorD normal = Normalized(NormalOf(t));
+  const VectorD place(this->Mesh.Position[static_cast<std::size_t>(corner)]);
+  const double length = share * std::sqrt(static_cast<double>(this->Longest));
+  for (int k = 0; k < 4; ++k)
+  {
+    const VectorD way =
+      (k < 3 ? Normalized(t.Corner[(k + 1) % 3] - t.Corner[k]) : normal) * length;
+    if (this->TryMoveTo(corner, Vector(place + way), face) ||
+      this->TryMoveTo(corner, Vector(place - way), face))
+    {
       return true;
     }
   }

@@ -6,6 +6,7 @@
 #include "Core/Interfaces/InterfaceLattice.h"
 #include "Core/Interfaces/InterfaceMotion.h"
 #include "Core/Interfaces/InterfaceRemesher.h"
+#include "Core/Interfaces/TriangleShape.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -23,6 +24,8 @@ constexpr int MostLastRounds = 5;
 constexpr double FewWrong = 0.01;
 /** The round from which on vertices are so near to their places that fields are changed. */
 constexpr int FirstFit = 2;
+/** Rounds of slivers' repair at the end: one makes some anew. */
+constexpr int LastSliverRounds = 3;
 /** Steps of vertices in a round; the first one has too many of them. */
 constexpr int Steps = 2;
 /** Edges that are split and collapsed, in the mean length. */
@@ -53,7 +56,8 @@ void Edit(InterfaceMesh& mesh, double wanted, int round, const std::function<boo
     remesher.CollapseShortEdges();
   }
   remesher.FlipEdges();
-  if (round >= FirstFit)
+  const bool isLast = round == Rounds + MostLastRounds;
+  for (int n = 0; round >= FirstFit && n < (isLast ? LastSliverRounds : 1); ++n)
   {
     remesher.RemoveSlivers();
   }
@@ -89,7 +93,7 @@ InterfaceMesh MakeInterfaces(InterfaceFields& fields, const InterfaceOptions& op
       wrong = PushWrongVoxels(mesh, fields, options.VoxelTolerance, executor);
     }
     MoveInterfaces(mesh, fields, round == 0 ? 1 : Steps, StepShare, LeastShare * options.Edge,
-      ToleranceOfEdge * options.Edge, executor);
+      ToleranceOfEdge * options.Edge, 0., executor);
     share = std::min(1., static_cast<double>(all / 2 + round) / all);
   }
   // Of the last steps some slivers are left; without them volumes are a little different again.
@@ -99,7 +103,7 @@ InterfaceMesh MakeInterfaces(InterfaceFields& fields, const InterfaceOptions& op
   {
     CorrectVolumes(mesh, fields);
     MoveInterfaces(mesh, fields, 1, 0., LeastShare * options.Edge, ToleranceOfEdge * options.Edge,
-      executor);
+      SliverAngle, executor);
   }
   goOn(1.);
   return mesh;

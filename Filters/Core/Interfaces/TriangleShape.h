@@ -21,6 +21,9 @@ inline double RadiusRatio(const VectorD& a, const VectorD& b, const VectorD& c)
   return product > 0. ? 4. * SquaredLength(Cross(b - a, c - a)) / product : 0.;
 }
 
+/** Triangles with a smaller angle are slivers, radian. */
+constexpr double SliverAngle = 0.5;
+
 /** Radian: it is opposite the shortest edge. */
 inline double SmallestAngle(const VectorD& a, const VectorD& b, const VectorD& c)
 {
@@ -36,6 +39,11 @@ inline double SmallestAngle(const VectorD& a, const VectorD& b, const VectorD& c
 inline double RadiusRatio(const MeshTriangle& t)
 {
   return RadiusRatio(t.Corner[0], t.Corner[1], t.Corner[2]);
+}
+
+inline double SmallestAngle(const MeshTriangle& t)
+{
+  return SmallestAngle(t.Corner[0], t.Corner[1], t.Corner[2]);
 }
 
 inline VectorD NormalOf(const MeshTriangle& t)
