@@ -158,6 +158,7 @@ set(volumic_core_headers
   Image/VoxelPieces.h
   Image/VoxelRows.h
   Image/VoxelValues.h
+  Image/WayToZero.h
   Labels/BoundaryGaussian.h
   Labels/BoundaryRows.h
   Labels/DrawBack.h
@@ -179,6 +180,7 @@ set(volumic_core_headers
   Mesh/EdgeSplit.h
   Mesh/LatticeInside.h
   Mesh/LatticeSurface.h
+  Mesh/LimitedSizes.h
   Mesh/LongEdges.h
   Mesh/ObliqueRotation.h
   Mesh/RingRelief.h
@@ -232,7 +234,7 @@ set(volumic_core_headers
   Evolution/EdgeLengthPlan.h
   Evolution/EvolutionImplementation.h
   Evolution/GradedSizes.h
-  Evolution/Grading.h
+  Mesh/Grading.h
   Evolution/InitialSurface.h
   Evolution/LostBoundary.h
   Evolution/LostParts.h

@@ -5,7 +5,7 @@
 
 #include "Core/Common/Join.h"
 #include "Core/Common/Refuse.h"
-#include "Core/Evolution/Grading.h"
+#include "Core/Mesh/Grading.h"
 
 #include <cmath>
 #include <string>

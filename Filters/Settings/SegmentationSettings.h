@@ -4,8 +4,8 @@
 #define volumicSegmentationSettings_h
 
 #include "Core/Common/IndexedSurface.h"
-#include "Core/Evolution/Grading.h"
 #include "Core/Evolution/SurfaceOptions.h"
+#include "Core/Mesh/Grading.h"
 #include "Input/Workspace.h"
 
 #include <limits>

@@ -8,10 +8,10 @@
 #include "Core/Common/Executor.h"
 #include "Core/Common/IndexedSurface.h"
 #include "Core/Common/Monitor.h"
-#include "Core/Evolution/Grading.h"
 #include "Core/Evolution/SurfaceOptions.h"
 #include "Core/Image/LevelImage.h"
 #include "Core/Image/VoxelBox.h"
+#include "Core/Mesh/Grading.h"
 
 #include <array>
 #include <chrono>
