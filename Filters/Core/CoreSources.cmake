@@ -66,6 +66,7 @@ set(volumic_core_sources
   Interfaces/InterfaceMesh.cxx
   Interfaces/InterfaceMotion.cxx
   Interfaces/InterfaceRemesher.cxx
+  Interfaces/InterfaceSizes.cxx
   Interfaces/InterfaceSlivers.cxx
   Interfaces/LatticeCutter.cxx
   Interfaces/MakeInterfaces.cxx
@@ -202,6 +203,7 @@ set(volumic_core_headers
   Interfaces/InterfaceMesh.h
   Interfaces/InterfaceMotion.h
   Interfaces/InterfaceRemesher.h
+  Interfaces/InterfaceSizes.h
   Interfaces/LatticeCutter.h
   Interfaces/MakeInterfaces.h
   Interfaces/TriangleShape.h

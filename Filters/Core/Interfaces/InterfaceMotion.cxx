@@ -4,7 +4,6 @@
 
 #include "Core/Common/Spans.h"
 #include "Core/Interfaces/InterfaceClearance.h"
-#include "Core/Interfaces/VertexTargets.h"
 
 #include <algorithm>
 #include <array>
@@ -178,7 +177,7 @@ private:
 }
 
 void MoveInterfaces(InterfaceMesh& mesh, const InterfaceFields& fields, int steps, double share,
-  double shortest, double tolerance, Executor& executor)
+  double shortest, double tolerance, Executor& executor, double straightening)
 {
   const std::vector<Vector> before = mesh.Position;
   std::vector<Vector> after = before;
@@ -187,7 +186,7 @@ void MoveInterfaces(InterfaceMesh& mesh, const InterfaceFields& fields, int step
     ForSpans(executor, before.size(), SpanSize,
       [&](std::size_t, std::size_t begin, std::size_t end)
       {
-        VertexTargets targets(mesh, fields, share, shortest);
+        VertexTargets targets(mesh, fields, share, shortest, straightening);
         for (std::size_t v = begin; v < end; ++v)
         {
           if (mesh.IsVertex(static_cast<int>(v)))

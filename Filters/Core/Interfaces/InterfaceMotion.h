@@ -6,6 +6,7 @@
 #include "Core/Common/Executor.h"
 #include "Core/Interfaces/InterfaceFields.h"
 #include "Core/Interfaces/InterfaceMesh.h"
+#include "Core/Interfaces/VertexTargets.h"
 
 namespace volumic
 {
@@ -16,11 +17,12 @@ namespace volumic
  * intersect after the last one, or have turned too far, are taken back to where they were before the
  * first, which is safe as all was safe then.
  *
- * @param shortest  no edge is made shorter than that; workspace
- * @param tolerance nearer than that triangles are never; workspace
+ * @param shortest      no edge is made shorter than that; workspace
+ * @param tolerance     nearer than that triangles are never; workspace
+ * @param straightening see VertexTargets
  */
 void MoveInterfaces(InterfaceMesh& mesh, const InterfaceFields& fields, int steps, double share,
-  double shortest, double tolerance, Executor& executor);
+  double shortest, double tolerance, Executor& executor, double straightening = MostStraightening);
 }
 
 #endif
