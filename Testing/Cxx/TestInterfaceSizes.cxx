@@ -86,6 +86,26 @@ TEST(InterfaceSizes, MakeFewerTrianglesThatKeepTheTolerance)
   }
 }
 
+TEST(InterfaceSizes, HaveLinesAsNearAsTheTolerance)
+{
+  InterfaceScene scene(ManyCells(40, 9, 2));
+  const InterfaceMesh mesh = Make(scene, 0.05);
+  std::vector<float> off;
+  for (const InterfaceMesh::Face& face : mesh.Faces)
+  {
+    for (const int v : face.Vertex)
+    {
+      if (mesh.StratumOf[static_cast<std::size_t>(v)] == Stratum::Line)
+      {
+        const Vector& place = mesh.Position[static_cast<std::size_t>(v)];
+        off.push_back(std::abs(scene.Fields->Between(face.Behind, face.Front, place).Value));
+      }
+    }
+  }
+  std::sort(off.begin(), off.end());
+  EXPECT_LT(off[off.size() / 2], 0.06f); // Some are held by what is thin.
+}
+
 TEST(InterfaceSizes, KeepVolumesWithALargeTolerance)
 {
   InterfaceScene scene(ManyCells(40, 9, 2));
@@ -111,6 +131,18 @@ TEST(InterfaceSizes, GrowWhereInterfacesAreFlatAndKeepTheGradation)
   EXPECT_LT(SteepestSize(mesh), 1.001 * bounds.Gradation);
   EXPECT_EQ(LargestSize(mesh), 1.8f);
   EXPECT_EQ(*std::min_element(mesh.Size.begin(), mesh.Size.end()), 1.f); // at edges of the cube
+}
+
+TEST(InterfaceSizes, GrowWhereVerticesAreOffOnPurpose)
+{
+  InterfaceScene scene(FourBlocks(10));
+  InterfaceMesh mesh = Make(scene, 0.);
+  for (Vector& p : mesh.Position)
+  {
+    p += Vector(0.2f, 0.2f, 0.2f); // as junction lines are, to be straight
+  }
+  AdjustSizes(mesh, *scene.Fields, { 0.1, 2.5, 1.8, 0.2 }, OnThisThread());
+  EXPECT_EQ(LargestSize(mesh), 1.8f);
 }
 
 TEST(InterfaceSizes, ShrinkWhereTheToleranceIsNotKept)
