@@ -122,6 +122,7 @@ set(volumic_core_headers
   Common/ExactSum.h
   Common/Executor.h
   Common/FreeMemory.h
+  Common/Grading.h
   Common/Grow.h
   Common/IndexedSurface.h
   Common/Join.h
@@ -236,7 +237,6 @@ set(volumic_core_headers
   Evolution/EdgeLengthPlan.h
   Evolution/EvolutionImplementation.h
   Evolution/GradedSizes.h
-  Mesh/Grading.h
   Evolution/InitialSurface.h
   Evolution/LostBoundary.h
   Evolution/LostParts.h

@@ -3,7 +3,7 @@
 #ifndef volumicLabelSettings_h
 #define volumicLabelSettings_h
 
-#include "Core/Mesh/Grading.h"
+#include "Core/Common/Grading.h"
 
 namespace volumic
 {

@@ -3,9 +3,9 @@
 #ifndef volumicSegmentationSettings_h
 #define volumicSegmentationSettings_h
 
+#include "Core/Common/Grading.h"
 #include "Core/Common/IndexedSurface.h"
 #include "Core/Evolution/SurfaceOptions.h"
-#include "Core/Mesh/Grading.h"
 #include "Input/Workspace.h"
 
 #include <limits>

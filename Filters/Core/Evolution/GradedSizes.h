@@ -4,8 +4,8 @@
 #define volumicGradedSizes_h
 
 #include "Core/Common/Executor.h"
+#include "Core/Common/Grading.h"
 #include "Core/Image/Field.h"
-#include "Core/Mesh/Grading.h"
 #include "Core/Surface/SurfaceState.h"
 
 #include <atomic>

@@ -6,12 +6,12 @@
 #include "Core/Common/CheckedFile.h"
 #include "Core/Common/Communicator.h"
 #include "Core/Common/Executor.h"
+#include "Core/Common/Grading.h"
 #include "Core/Common/IndexedSurface.h"
 #include "Core/Common/Monitor.h"
 #include "Core/Evolution/SurfaceOptions.h"
 #include "Core/Image/LevelImage.h"
 #include "Core/Image/VoxelBox.h"
-#include "Core/Mesh/Grading.h"
 
 #include <array>
 #include <chrono>

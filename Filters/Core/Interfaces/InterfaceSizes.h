@@ -4,9 +4,9 @@
 #define volumicInterfaceSizes_h
 
 #include "Core/Common/Executor.h"
+#include "Core/Common/Grading.h"
 #include "Core/Interfaces/InterfaceFields.h"
 #include "Core/Interfaces/InterfaceMesh.h"
-#include "Core/Mesh/Grading.h"
 
 #include <vector>
 

@@ -32,6 +32,8 @@ constexpr int Steps = 2;
 /** Edges that are split and collapsed, in the mean length. */
 constexpr double LongestShare = 4. / 3.;
 constexpr double ShortestShare = 4. / 5.;
+/** In the last rounds those are split that steps have drawn out. */
+constexpr double LongestLast = 1.8;
 /** How much longer than they are edges are made in a round. */
 constexpr double MostGrowth = 3.;
 /** No step makes an edge shorter than that, in the same. */
@@ -47,7 +49,7 @@ void Edit(InterfaceMesh& mesh, double wanted, int round, bool hasCollapses,
 {
   // What is searched near goes with the square of the lengths: they grow by rounds.
   const double edge = std::min(wanted, MostGrowth * mesh.MeanEdge());
-  const double longest = (hasCollapses ? LongestShare : InterfaceOptions::LongestInEdge) * edge;
+  const double longest = (hasCollapses ? LongestShare : LongestLast) * edge;
   InterfaceRemesher remesher(
     mesh, ShortestShare * edge, longest, ToleranceOfEdge * wanted, goOn);
   remesher.SplitLongEdges();

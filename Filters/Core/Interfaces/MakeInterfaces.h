@@ -22,8 +22,8 @@ struct InterfaceOptions
   double MostSize = 4.;   ///< With a tolerance, how many times longer edges may become.
   double Gradation = 0.3; ///< With a tolerance, by how much they grow per length at most.
 
-  /** No edge is longer than that times Edge and the size about it, but for the last step. */
-  static constexpr double LongestInEdge = 1.8;
+  /** How long edges were at most, in Edge and the size about them: the last step draws some out. */
+  static constexpr double LongestInEdge = 2.2;
 };
 
 /**
