@@ -48,6 +48,7 @@
  *   BackgroundLabel twice. With Merge the label behind is that of the nearest voxel.
  * - point data `Junction` (unsigned char): 0 on an interface, 1 on a junction line, 2 where lines
  *   meet or end
+ * - point data `EdgeSize` (float): with Tolerance, the length of edges that is wanted there
  * - field data `Label`, `LabelName`, `LabelColor`, `LabelVoxels`: with an entry for each label
  *
  * @par Algorithm:
@@ -195,8 +196,7 @@ public:
    * parts out by their voxels, and gives these to the neighbour that has most of their faces. The
    * first process makes them, and listens to its own AbortExecute alone; MemoryLimit does not bound
    * the mesh. A run that was stopped hands over all surfaces as they are by then, or, before there
-   * are any, empty blocks; afterwards all is made anew. Not with Gap, Tolerance or ThinParts.
-   * Default: off.
+   * are any, empty blocks; afterwards all is made anew. Not with Gap or ThinParts. Default: off.
    */
   void SetSharedInterfaces(bool shared);
   bool GetSharedInterfaces();
@@ -218,7 +218,11 @@ public:
   ///@}
 
   ///@{
-  /** As vtkDeformableSurface: graded triangles, world units. Defaults: 0 (none), 0 and 0.2. */
+  /**
+   * As vtkDeformableSurface: graded triangles, world units. With SharedInterfaces faces keep to where
+   * the fields of the labels on both sides are the same, volumes are those of the voxels even so, and
+   * junction lines are straightened by no more than the tolerance. Defaults: 0 (none), 0 and 0.2.
+   */
   void SetTolerance(double value);
   double GetTolerance();
   void SetMaximumEdgeLength(double value);

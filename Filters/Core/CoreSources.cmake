@@ -66,6 +66,7 @@ set(volumic_core_sources
   Interfaces/InterfaceMesh.cxx
   Interfaces/InterfaceMotion.cxx
   Interfaces/InterfaceRemesher.cxx
+  Interfaces/InterfaceSizes.cxx
   Interfaces/InterfaceSlivers.cxx
   Interfaces/LatticeCutter.cxx
   Interfaces/MakeInterfaces.cxx
@@ -121,6 +122,7 @@ set(volumic_core_headers
   Common/ExactSum.h
   Common/Executor.h
   Common/FreeMemory.h
+  Common/Grading.h
   Common/Grow.h
   Common/IndexedSurface.h
   Common/Join.h
@@ -158,6 +160,7 @@ set(volumic_core_headers
   Image/VoxelPieces.h
   Image/VoxelRows.h
   Image/VoxelValues.h
+  Image/WayToZero.h
   Labels/BoundaryGaussian.h
   Labels/BoundaryRows.h
   Labels/DrawBack.h
@@ -179,6 +182,7 @@ set(volumic_core_headers
   Mesh/EdgeSplit.h
   Mesh/LatticeInside.h
   Mesh/LatticeSurface.h
+  Mesh/LimitedSizes.h
   Mesh/LongEdges.h
   Mesh/ObliqueRotation.h
   Mesh/RingRelief.h
@@ -200,6 +204,7 @@ set(volumic_core_headers
   Interfaces/InterfaceMesh.h
   Interfaces/InterfaceMotion.h
   Interfaces/InterfaceRemesher.h
+  Interfaces/InterfaceSizes.h
   Interfaces/LatticeCutter.h
   Interfaces/MakeInterfaces.h
   Interfaces/TriangleShape.h
@@ -232,7 +237,6 @@ set(volumic_core_headers
   Evolution/EdgeLengthPlan.h
   Evolution/EvolutionImplementation.h
   Evolution/GradedSizes.h
-  Evolution/Grading.h
   Evolution/InitialSurface.h
   Evolution/LostBoundary.h
   Evolution/LostParts.h

@@ -4,7 +4,7 @@
 
 #include "Core/Evolution/SurfaceOptions.h"
 #include "Core/Image/VoxelNumbers.h"
-#include "Core/Interfaces/MakeInterfaces.h"
+#include "Core/Interfaces/InterfaceSizes.h"
 #include "Core/Labels/SmallParts.h"
 #include "Core/Labels/WrongVoxels.h"
 #include "Core/Surface/SizingField.h"
@@ -13,6 +13,7 @@
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
+#include <vtkFloatArray.h>
 #include <vtkIdTypeArray.h>
 #include <vtkIntArray.h>
 #include <vtkNew.h>
@@ -136,6 +137,19 @@ LabelInterfaceMaker::LabelInterfaceMaker(LabelMap map, int objects, vtkImageData
   threads.Run([&] { this->Bricks.emplace(this->Map, threads); });
 }
 
+InterfaceOptions LabelInterfaceMaker::Options() const
+{
+  InterfaceOptions options;
+  options.Edge = EdgeOf(this->Settings, this->Space);
+  options.VoxelTolerance = this->Settings.VoxelTolerance;
+  Grading grading = this->Settings.Grading;
+  grading.MaximumEdgeLength /= this->Space.WorldUnit();
+  options.Tolerance = grading.Tolerance / this->Space.WorldUnit();
+  options.MostSize = grading.Growth(InterfaceOptions::LongestInEdge * options.Edge);
+  options.Gradation = SizingField::RestLengthInDelta * grading.Gradation / options.Edge;
+  return options;
+}
+
 void LabelInterfaceMaker::Make(HostThreads& threads, const LabelSurfaceMaker::Progress& progress)
 {
   const std::thread::id caller = std::this_thread::get_id();
@@ -156,10 +170,7 @@ void LabelInterfaceMaker::Make(HostThreads& threads, const LabelSurfaceMaker::Pr
         [&](double share) { return tell(FieldShare * share, "Fields of the labels"); });
       if (goesOn)
       {
-        InterfaceOptions options;
-        options.Edge = EdgeOf(this->Settings, this->Space);
-        options.VoxelTolerance = this->Settings.VoxelTolerance;
-        this->Mesh = MakeInterfaces(*this->Fields, options, threads,
+        this->Mesh = MakeInterfaces(*this->Fields, this->Options(), threads,
           [&](double share)
           {
             return tell(FieldShare + (1.0 - FieldShare) * share, "Interfaces of the labels");
@@ -206,6 +217,17 @@ LabelSurface LabelInterfaceMaker::SurfaceOf(int object, const std::vector<int>& 
   }
   vtkNew<vtkIdTypeArray> ids;
   ids->SetName("GlobalIds");
+  surface.Delta = EdgeOf(this->Settings, this->Space) / SizingField::RestLengthInDelta;
+  const double tolerance = this->Options().Tolerance;
+  if (tolerance > 0.)
+  {
+    surface.FitToTolerance = MeasureFit(this->Mesh, *this->Fields, faces, tolerance);
+    for (const int v : vertices)
+    {
+      surface.Size.push_back(
+        static_cast<float>(surface.Delta) * this->Mesh.Size[static_cast<std::size_t>(v)]);
+    }
+  }
   std::vector<int> objects;
   for (std::size_t n = 0; n < vertices.size(); ++n)
   {
@@ -227,7 +249,6 @@ LabelSurface LabelInterfaceMaker::SurfaceOf(int object, const std::vector<int>& 
     surface.Held.push_back(0);
     ids->InsertNextValue(vertices[n]);
   }
-  surface.Delta = EdgeOf(this->Settings, this->Space) / SizingField::RestLengthInDelta;
   SurfaceDescription description;
   description.Level = this->Settings.FinestLevel;
   description.Unit = this->Space.WorldUnit() * std::pow(std::sqrt(3.0), this->Settings.FinestLevel);
@@ -270,11 +291,15 @@ vtkSmartPointer<vtkPolyData> LabelInterfaceMaker::Interfaces(
   points->SetDataTypeToDouble();
   vtkNew<vtkUnsignedCharArray> junction;
   junction->SetName("Junction");
+  vtkNew<vtkFloatArray> sizes;
+  sizes->SetName("EdgeSize");
+  const double edge = EdgeOf(this->Settings, this->Space) * this->Space.WorldUnit();
   for (std::size_t v = 0; v < this->Mesh.Position.size(); ++v)
   {
     points->InsertNextPoint(
       this->Space.ToWorld(this->InWorkspace(this->Mesh.Position[v])).data());
     junction->InsertNextValue(static_cast<unsigned char>(this->Mesh.StratumOf[v]));
+    sizes->InsertNextValue(static_cast<float>(edge * this->Mesh.Size[v]));
   }
   vtkNew<vtkIntArray> sides;
   sides->SetName("BoundaryLabels");
@@ -304,6 +329,10 @@ vtkSmartPointer<vtkPolyData> LabelInterfaceMaker::Interfaces(
   interfaces->SetPolys(triangles);
   interfaces->GetCellData()->AddArray(sides);
   interfaces->GetPointData()->AddArray(junction);
+  if (this->Settings.Grading.HasTolerance())
+  {
+    interfaces->GetPointData()->AddArray(sizes);
+  }
   return interfaces;
 }
 }

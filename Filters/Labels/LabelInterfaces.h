@@ -6,6 +6,7 @@
 #include "Core/Image/VoxelBox.h"
 #include "Core/Interfaces/InterfaceFields.h"
 #include "Core/Interfaces/InterfaceMesh.h"
+#include "Core/Interfaces/MakeInterfaces.h"
 #include "Core/Labels/LabelBricks.h"
 #include "Core/Labels/LabelMap.h"
 #include "Host/HostThreads.h"
@@ -44,7 +45,8 @@ public:
   std::vector<LabelSurface> Surfaces(HostThreads& threads) const;
 
   /**
-   * All interfaces, each once, with `BoundaryLabels` and `Junction`, and the lines where they meet.
+   * All interfaces, each once, with `BoundaryLabels` and `Junction`, with a tolerance `EdgeSize`,
+   * and the lines where they meet.
    * @param labels of the objects, from 1 on
    * @param outside the value outside
    */
@@ -56,6 +58,7 @@ private:
   /** That part of the map with a margin, and 0 for all that is no object of a label. */
   static LabelMap Padded(
     const LabelMap& map, int objects, const VoxelBox& box, int margin);
+  InterfaceOptions Options() const; ///< as the settings ask for
   LabelSurface SurfaceOf(int object, const std::vector<int>& faces) const;
   Point InWorkspace(const Vector& place) const;
 

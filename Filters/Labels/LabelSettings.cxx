@@ -53,13 +53,11 @@ void LabelSettings::Check(double unit) const
       ": neighbours have the same triangles, or space between them. Set Gap to 0, or Shared "
       "Interfaces off (files for meshers of solids, .msh, .smesh and .poly, need them).");
   }
-  if (this->SharedInterfaces && (this->Grading.Tolerance > 0.0 || this->Grading.ThinParts))
+  if (this->SharedInterfaces && this->Grading.ThinParts)
   {
-    Refuse(this->Grading.ThinParts ? "Thin Parts are" : "A Tolerance is",
-      " asked for and Shared Interfaces, whose triangles have one size. Set ",
-      this->Grading.ThinParts ? "Thin Parts off" : "Tolerance to 0",
-      ", or Shared Interfaces off (files for meshers of solids, .msh, .smesh and .poly, need them); "
-      "a shorter Edge Length makes all triangles smaller.");
+    Refuse("Thin Parts are asked for and Shared Interfaces, which have no smaller triangles where "
+      "labels are thin. Set Thin Parts off, or Shared Interfaces off (files for meshers of solids, "
+      ".msh, .smesh and .poly, need them); a shorter Edge Length makes all triangles smaller.");
   }
   CheckNumber("Edge Length", this->EdgeLength);
   CheckGrading(this->Grading, this->EdgeLength);

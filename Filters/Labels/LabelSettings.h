@@ -3,7 +3,7 @@
 #ifndef volumicLabelSettings_h
 #define volumicLabelSettings_h
 
-#include "Core/Evolution/Grading.h"
+#include "Core/Common/Grading.h"
 
 namespace volumic
 {

@@ -3,9 +3,9 @@
 #ifndef volumicCheckGrading_h
 #define volumicCheckGrading_h
 
+#include "Core/Common/Grading.h"
 #include "Core/Common/Join.h"
 #include "Core/Common/Refuse.h"
-#include "Core/Evolution/Grading.h"
 
 #include <cmath>
 #include <string>

@@ -3,8 +3,8 @@
 #ifndef volumicSegmentationSettings_h
 #define volumicSegmentationSettings_h
 
+#include "Core/Common/Grading.h"
 #include "Core/Common/IndexedSurface.h"
-#include "Core/Evolution/Grading.h"
 #include "Core/Evolution/SurfaceOptions.h"
 #include "Input/Workspace.h"
 

@@ -3,7 +3,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Surfaces of labels that touch: those of vtkLabelsToSurfaces that share their interfaces beside
 those that do not, vtkSurfaceNets3D (VTK 9.3) and vtkDiscreteFlyingEdges3D with
-vtkWindowedSincPolyDataFilter, all judged by the same code, all labels of a map together.
+vtkWindowedSincPolyDataFilter, all judged by the same code, all labels of a map together. `graded` are
+shared ones with a Tolerance of a fifth of a voxel.
 
 `s` is processor seconds, of one thread, the median of the repetitions, by turns; `time` is that over
 the separate surfaces'. `crossing` are pairs of triangles that meet elsewhere than in corners and edges

@@ -282,6 +282,14 @@ class BenchmarkTest(SharedFolderTestCase):
         self.assertTrue(0 < number(row, "VolumeMedian") < number(row, "VolumeLargest") < 5)
         self.assertTrue(20 < number(row, "AngleLeast") <= number(row, "AngleInner") < 60)
 
+    def test_graded_interfaces_are_coarser_and_as_sound(self):
+        if "graded" not in runs_here():
+            self.skipTest("this vtkLabelsToSurfaces has no shared interfaces")
+        row = self.rows["graded"]
+        self.assertLess(number(row, "Vertices"), .6 * number(self.rows["shared"], "Vertices"))
+        for what in ("Intersections", "WrongEdges", "Folded", "Pinched", "WrongLines", "WrongBlocks"):
+            self.assertEqual(number(row, what), 0, what)
+
     def test_a_peer_has_junctions_and_no_lines(self):
         row = self.rows["windowed"]
         self.assertGreater(number(row, "Lines"), 100)

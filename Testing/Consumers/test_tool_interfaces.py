@@ -159,8 +159,18 @@ class OneMeshTest(InterfacesTest):
                       "--memory", "500M", "--scratch", self.folder, "--threads", "1")
         self.assertEqual(self.content("a.vtp"), self.content("b.vtp"))
 
+    def test_a_tolerance_makes_fewer_triangles(self):
+        volume = self.map_of(sectors())
+        self.run_tool(volume, self.path("a.vtp"), "--labels", "all", "--shared-interfaces")
+        self.run_tool(volume, self.path("b.vtp"), "--labels", "all", "--shared-interfaces",
+                      "--tolerance", "0.3")
+        even, graded = read(self.path("a.vtp")), read(self.path("b.vtp"))
+        self.assertLess(graded.GetNumberOfPolys(), .8 * even.GetNumberOfPolys())
+        self.assertFalse(even.GetPointData().HasArray("EdgeSize"))
+        self.assertTrue(graded.GetPointData().HasArray("EdgeSize"))
+
     def test_what_does_not_go_with_it(self):
-        for options in (("--gap", "1"), ("--tolerance", "0.1"), ("--thin-parts",)):
+        for options in (("--gap", "1"), ("--thin-parts",)):
             with self.subTest(options):
                 self.refused("map.vti: .*Shared", self.map_of(sectors()), self.path("a.msh"),
                              "--labels", "all", *options)

@@ -9,6 +9,7 @@
 #include "vtkLabelsToSurfaces.h"
 
 #include <vtkCallbackCommand.h>
+#include <vtkCell.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkCommand.h>
@@ -26,6 +27,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <set>
@@ -244,6 +246,64 @@ TEST(SharedInterfaces, AreSmallerWithShorterEdges)
   EXPECT_LT(filter->GetInterfaces()->GetNumberOfPolys(), 0.6 * coarse);
 }
 
+TEST(SharedInterfaces, AreCoarserWithATolerance)
+{
+  const auto filter = FilterOf(BlocksImage());
+  filter->Update();
+  const auto fine = static_cast<double>(filter->GetInterfaces()->GetNumberOfPoints());
+  EXPECT_FALSE(filter->GetInterfaces()->GetPointData()->GetArray("EdgeSize"));
+  EXPECT_FALSE(BlockOf(filter, 0)->GetFieldData()->GetArray("WithinTolerance"));
+  filter->SetTolerance(0.3);
+  filter->Update();
+  vtkPolyData* interfaces = filter->GetInterfaces();
+  EXPECT_LT(static_cast<double>(interfaces->GetNumberOfPoints()), 0.7 * fine);
+  vtkDataArray* sizes = interfaces->GetPointData()->GetArray("EdgeSize");
+  ASSERT_TRUE(sizes);
+  EXPECT_GT(sizes->GetRange()[1], 1.5 * sizes->GetRange()[0]);
+  for (unsigned int block = 0; block < 3; ++block)
+  {
+    SCOPED_TRACE(block);
+    vtkPolyData* surface = BlockOf(filter, block);
+    ExpectClosedSurface(surface);
+    EXPECT_NEAR(FieldOf(surface, "Volume") / FieldOf(surface, "LabelVoxels"), 1., 6e-3);
+    EXPECT_GT(FieldOf(surface, "WithinTolerance"), 0.9);
+    EXPECT_GT(FieldOf(surface, "LargestDistance"), 0.);
+    vtkDataArray* own = surface->GetPointData()->GetArray("EdgeSize");
+    vtkDataArray* ids = surface->GetPointData()->GetGlobalIds();
+    ASSERT_TRUE(own && ids);
+    for (vtkIdType p = 0; p < surface->GetNumberOfPoints(); ++p)
+    {
+      const auto shared = static_cast<vtkIdType>(ids->GetComponent(p, 0));
+      ASSERT_NEAR(own->GetComponent(p, 0), sizes->GetComponent(shared, 0), 1e-5);
+    }
+  }
+}
+
+TEST(SharedInterfaces, HaveNoLongerEdgesThanTheMaximum)
+{
+  const auto image = BlocksImage();
+  image->SetSpacing(0.5, 0.5, 0.5);
+  const auto filter = FilterOf(image);
+  filter->SetTolerance(0.2);
+  filter->SetMaximumEdgeLength(1.5);
+  filter->Update();
+  vtkPolyData* interfaces = filter->GetInterfaces();
+  vtkDataArray* sizes = interfaces->GetPointData()->GetArray("EdgeSize");
+  EXPECT_NEAR(sizes->GetRange()[0], 0.5 * 1.36, 1e-3);
+  EXPECT_NEAR(sizes->GetRange()[1], 1.5 / 2.2, 1e-3); // The longest are 2.2 of what is wanted.
+  double longest = 0.;
+  for (vtkIdType cell = interfaces->GetNumberOfLines(); cell < interfaces->GetNumberOfCells();
+       ++cell)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      vtkCell* edge = interfaces->GetCell(cell)->GetEdge(k);
+      longest = std::max(longest, std::sqrt(edge->GetLength2()));
+    }
+  }
+  EXPECT_LT(longest, 1.5);
+}
+
 TEST(SharedInterfaces, AreTheSameWithThreads)
 {
   const auto one = FilterOf(BlocksImage());
@@ -283,7 +343,6 @@ TEST_P(SharedInterfacesErrors, NameTheWayOut)
   EXPECT_EQ(filter->GetOutput()->GetNumberOfBlocks(), 0u);
   EXPECT_EQ(filter->GetInterfaces()->GetNumberOfCells(), 0);
   filter->SetGap(0.);
-  filter->SetTolerance(0.);
   filter->ThinPartsOff();
   EXPECT_EQ(ErrorOf(filter), "");
   EXPECT_EQ(filter->GetOutput()->GetNumberOfBlocks(), 3u);
@@ -293,8 +352,6 @@ INSTANTIATE_TEST_SUITE_P(Of, SharedInterfacesErrors,
   testing::Values(
     std::make_pair(std::string("Set Gap to 0"),
       +[](vtkLabelsToSurfaces* filter) { filter->SetGap(0.5); }),
-    std::make_pair(std::string("Set Tolerance to 0"),
-      +[](vtkLabelsToSurfaces* filter) { filter->SetTolerance(0.5); }),
     std::make_pair(std::string("Set Thin Parts off"),
       +[](vtkLabelsToSurfaces* filter) { filter->ThinPartsOn(); })));
 

@@ -3,6 +3,8 @@
 #include "Core/Evolution/GradedSizes.h"
 
 #include "Core/Common/Spans.h"
+#include "Core/Image/WayToZero.h"
+#include "Core/Mesh/LimitedSizes.h"
 
 #include <algorithm>
 #include <array>
@@ -43,10 +45,9 @@ constexpr float SmallChange = 0.02f;
 constexpr float WallInDelta = 2.5f;
 /** Of what is looked through for walls, in the least delta. */
 constexpr float WallStep = 0.5f;
-/** How far the isopotential is looked for, in units of the level or tolerances, and the steps. */
+/** How far the isopotential is looked for, in units of the level or tolerances. */
 constexpr float FurthestInUnits = 2.f;
 constexpr float FurthestInTolerances = 3.f;
-constexpr float DistanceSteps = 20.f;
 }
 
 GradedSizes::GradedSizes(
@@ -59,11 +60,9 @@ GradedSizes::GradedSizes(
         ? static_cast<float>(grading.Tolerance)
         : MostOffset * static_cast<float>(field.Image().Unit))
   , Least(state.Sizing.OfLevel())
-  , Most(grading.MaximumEdgeLength > 0.
-        ? static_cast<float>(std::clamp(
-            grading.MaximumEdgeLength / SizingField::LongestEdgeInDelta / state.Sizing.OfLevel(),
-            1., static_cast<double>(Grading::MostGrowth))) * state.Sizing.OfLevel()
-        : Grading::AutomaticGrowth * state.Sizing.OfLevel())
+  , Most(static_cast<float>(
+      grading.Growth(SizingField::LongestEdgeInDelta * static_cast<double>(state.Sizing.OfLevel()))) *
+      state.Sizing.OfLevel())
 {
 }
 
@@ -98,24 +97,8 @@ float GradedSizes::SignedDistanceAt(const Vector& position, const Vector& normal
     return -near;
   }
   // Where the image is steeper, or flatter, than here that is a guess: look.
-  const float furthest = this->Furthest();
-  const float step = furthest / DistanceSteps;
-  const float sign = sample.Value > 0 ? -1.f : 1.f;
-  float before[2] = { sample.Value, sample.Value };
-  for (float way = step; way < furthest; way += step)
-  {
-    for (int side = 0; side < 2; ++side)
-    {
-      const float value =
-        this->TheField.ValueAt(position + normal * (side == 0 ? way : -way));
-      if ((value > 0) != (sample.Value > 0))
-      {
-        return sign * (way - step * value / (value - before[side]));
-      }
-      before[side] = value;
-    }
-  }
-  return sign * furthest;
+  return SignedWayToZero(position, normal, sample.Value, this->Furthest(),
+    [this](const Vector& place) { return this->TheField.ValueAt(place); });
 }
 
 template <typename Look>
@@ -211,32 +194,6 @@ float GradedSizes::WantedSize(int v, float distance, float growth) const
   return size > this->Least ? this->MostBetweenWalls(v, size) : size;
 }
 
-LargeVector<float> GradedSizes::Limited(const LargeVector<float>& sizes) const
-{
-  const SurfaceState& s = this->State;
-  const float gradation = static_cast<float>(this->Wanted.Gradation);
-  LargeVector<float> limited = sizes;
-  this->Threads.For(sizes.size(), VertexGrain,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
-      {
-        if (!s.Mesh.IsAlive(v) || sizes[v] <= this->Least)
-        {
-          continue;
-        }
-        const Vector p = s.Mesh.Position[v];
-        s.Grid.Visit(p, (sizes[v] - this->Least) / gradation,
-          [&](int w)
-          {
-            limited[v] = std::min(limited[v],
-              sizes[w] + gradation * std::sqrt(SquaredDistance(p, s.Mesh.Position[w])));
-          });
-      }
-    });
-  return limited;
-}
-
 float GradedSizes::RefinedSize(int v, float offset, float sag) const
 {
   float size = this->State.Sizing.At(v);
@@ -315,7 +272,8 @@ std::vector<int> GradedSizes::Change(const std::function<float(int v)>& wanted)
         }
       }
     });
-  sizes = this->Limited(sizes);
+  sizes = LimitedSizes(sizes, s.Mesh.Position, s.Grid, this->Least,
+    static_cast<float>(this->Wanted.Gradation), this->Threads);
   std::vector<int> changed;
   for (int v = 0; v < s.Mesh.Size(); ++v)
   {

@@ -4,7 +4,7 @@
 #define volumicGradedSizes_h
 
 #include "Core/Common/Executor.h"
-#include "Core/Evolution/Grading.h"
+#include "Core/Common/Grading.h"
 #include "Core/Image/Field.h"
 #include "Core/Surface/SurfaceState.h"
 
@@ -87,11 +87,6 @@ private:
   float RefinedSize(int v, float offset, float sag) const;
   /** Gives all vertices what `wanted` tells, as far as the gradation allows. @return see Adjust */
   std::vector<int> Change(const std::function<float(int v)>& wanted);
-  /**
-   * Lowers sizes until nowhere they grow by more than the gradation, along the surface or across
-   * space: each becomes what the vertices within its reach allow.
-   */
-  LargeVector<float> Limited(const LargeVector<float>& sizes) const;
 
   SurfaceState& State;
   const Field& TheField;

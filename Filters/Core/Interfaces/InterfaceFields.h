@@ -60,6 +60,14 @@ public:
     return this->Interpolate(object, place).Value;
   }
 
+  /** Half of what one object's field is more than another one's: 0 on their interface. */
+  Sample Between(int object, int other, const Vector& place) const
+  {
+    const Sample a = this->Interpolate(object, place);
+    const Sample b = this->Interpolate(other, place);
+    return { 0.5f * (a.Value - b.Value), (a.Gradient - b.Gradient) * 0.5f };
+  }
+
   /**
    * Takes the field of an object further from 0 at a voxel, and half as much at those of the same
    * object as it beside it, so that no sign changes: where triangles have cut the voxel off.
@@ -68,12 +76,13 @@ public:
 
   /**
    * Adds a number to the whole field of an object, between the voxels; all of these together stay
-   * within MostShift.
+   * within MostShift, and what faces may be off.
    */
-  void Shift(int object, float by)
+  void Shift(int object, float by, float tolerance = 0.f)
   {
     float& shift = this->Shifts[static_cast<std::size_t>(object)];
-    shift = std::clamp(shift + by, -MostShift, MostShift);
+    const float most = MostShift + tolerance;
+    shift = std::clamp(shift + by, -most, most);
   }
 
   /** The object whose field is the largest at a voxel. */

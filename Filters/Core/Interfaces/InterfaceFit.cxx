@@ -33,8 +33,7 @@ double SlopeAt(
   {
     middle += mesh.Position[static_cast<std::size_t>(v)] * (1.f / 3.f);
   }
-  return 0.5 * Length(fields.Interpolate(face.Behind, middle).Gradient -
-                 fields.Interpolate(face.Front, middle).Gradient);
+  return Length(fields.Between(face.Behind, face.Front, middle).Gradient);
 }
 
 /** Of each object but 0 the voxels that its surface has on the wrong side. */
@@ -72,7 +71,7 @@ std::vector<std::vector<std::int64_t>> FindWrong(const InterfaceMesh& mesh,
 }
 }
 
-void CorrectVolumes(const InterfaceMesh& mesh, InterfaceFields& fields)
+void CorrectVolumes(const InterfaceMesh& mesh, InterfaceFields& fields, double tolerance)
 {
   const LabelBricks& bricks = fields.Bricks();
   const auto count = static_cast<std::size_t>(bricks.Map().NumberOfObjects) + 1;
@@ -122,7 +121,8 @@ void CorrectVolumes(const InterfaceMesh& mesh, InterfaceFields& fields)
   }
   for (std::size_t object = 1; object < count; ++object)
   {
-    fields.Shift(static_cast<int>(object), static_cast<float>(shifts[object]));
+    fields.Shift(static_cast<int>(object), static_cast<float>(shifts[object]),
+      static_cast<float>(tolerance));
   }
 }
 

@@ -16,8 +16,9 @@ namespace volumic
  * others, gets the volume of its voxels: an interface moves by half of what its two fields are
  * shifted by, over the slope of half of their difference. The equations, one per object, are a
  * Laplacian whose weights are the areas between two objects.
+ * @param tolerance how far faces may be from the interfaces of the fields; workspace
  */
-void CorrectVolumes(const InterfaceMesh& mesh, InterfaceFields& fields);
+void CorrectVolumes(const InterfaceMesh& mesh, InterfaceFields& fields, double tolerance = 0.);
 
 /**
  * Changes fields at voxels that the mesh has on the wrong side, so that the next steps take

@@ -10,10 +10,11 @@
 
 namespace volumic
 {
-int InterfaceMesh::AddVertex(const Vector& position, Stratum stratum)
+int InterfaceMesh::AddVertex(const Vector& position, Stratum stratum, float size)
 {
   this->Position.push_back(position);
   this->StratumOf.push_back(stratum);
+  this->Size.push_back(size);
   this->Head.push_back(-1);
   return static_cast<int>(this->Position.size()) - 1;
 }
@@ -250,7 +251,7 @@ void InterfaceMesh::Compact()
   {
     if (this->Head[v] >= 0)
     {
-      number[v] = kept.AddVertex(this->Position[v], this->StratumOf[v]);
+      number[v] = kept.AddVertex(this->Position[v], this->StratumOf[v], this->Size[v]);
     }
   }
   for (Face face : this->Faces)

@@ -53,9 +53,11 @@ public:
 
   LargeVector<Vector> Position;
   LargeVector<Stratum> StratumOf;
+  /** By how much longer edges are wanted about a vertex than where they are shortest. */
+  LargeVector<float> Size;
   LargeVector<Face> Faces;
 
-  int AddVertex(const Vector& position, Stratum stratum);
+  int AddVertex(const Vector& position, Stratum stratum, float size = 1.f);
   int AddFace(const Face& face);
   void RemoveFace(int face);
   /** Has a face have another vertex in the place of one. */
@@ -93,6 +95,12 @@ public:
   /** The closed surface of an object, of its faces; vertices[n] is point n of it. */
   IndexedSurface SurfaceOf(
     int object, const std::vector<int>& faces, std::vector<int>& vertices) const;
+
+  /** Of an edge (u, v), which need not be there yet. */
+  float SizeOf(int u, int v) const
+  {
+    return 0.5f * (this->Size[static_cast<std::size_t>(u)] + this->Size[static_cast<std::size_t>(v)]);
+  }
 
   VectorD NormalOf(const Face& face) const; ///< twice the area long
   double MeanEdge() const; ///< of the faces' edges

@@ -5,7 +5,6 @@
 #include "Core/Common/Spans.h"
 #include "Core/Interfaces/InterfaceClearance.h"
 #include "Core/Interfaces/TriangleShape.h"
-#include "Core/Interfaces/VertexTargets.h"
 
 #include <algorithm>
 #include <array>
@@ -186,7 +185,7 @@ private:
 }
 
 void MoveInterfaces(InterfaceMesh& mesh, const InterfaceFields& fields, int steps, double share,
-  double shortest, double tolerance, double leastAngle, Executor& executor)
+  double shortest, double tolerance, double leastAngle, Executor& executor, double straightening)
 {
   const LargeVector<Vector> before = mesh.Position;
   LargeVector<Vector> after = before;
@@ -195,7 +194,7 @@ void MoveInterfaces(InterfaceMesh& mesh, const InterfaceFields& fields, int step
     ForSpans(executor, before.size(), SpanSize,
       [&](std::size_t, std::size_t begin, std::size_t end)
       {
-        VertexTargets targets(mesh, fields, share, shortest);
+        VertexTargets targets(mesh, fields, share, shortest, straightening);
         for (std::size_t v = begin; v < end; ++v)
         {
           if (mesh.IsVertex(static_cast<int>(v)))

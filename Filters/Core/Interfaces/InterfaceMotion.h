@@ -6,6 +6,7 @@
 #include "Core/Common/Executor.h"
 #include "Core/Interfaces/InterfaceFields.h"
 #include "Core/Interfaces/InterfaceMesh.h"
+#include "Core/Interfaces/VertexTargets.h"
 
 namespace volumic
 {
@@ -16,12 +17,14 @@ namespace volumic
  * intersect after the last one, have turned too far, or have become too narrow, are taken back to
  * where they were before the first, which is safe as all was safe then.
  *
- * @param shortest  no edge is made shorter than that; workspace
- * @param tolerance nearer than that triangles are never; workspace
- * @param leastAngle of triangles, radian: those that have a smaller one have had it before
+ * @param shortest      no edge is made shorter than that; workspace
+ * @param tolerance     nearer than that triangles are never; workspace
+ * @param leastAngle    of triangles, radian: those that have a smaller one have had it before
+ * @param straightening see VertexTargets
  */
 void MoveInterfaces(InterfaceMesh& mesh, const InterfaceFields& fields, int steps, double share,
-  double shortest, double tolerance, double leastAngle, Executor& executor);
+  double shortest, double tolerance, double leastAngle, Executor& executor,
+  double straightening = MostStraightening);
 }
 
 #endif

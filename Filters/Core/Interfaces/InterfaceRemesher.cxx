@@ -56,7 +56,9 @@ int InterfaceRemesher::SplitLongEdges()
     float length = 0.f;
     for (int k = 0; k < 3; ++k)
     {
-      const float squared = this->SquaredEdge(face.Vertex[k], face.Vertex[(k + 1) % 3]);
+      const int u = face.Vertex[k];
+      const int v = face.Vertex[(k + 1) % 3];
+      const float squared = this->SquaredEdge(u, v) / this->SquaredSize(u, v);
       if (squared > length)
       {
         longest = k;
@@ -79,7 +81,7 @@ void InterfaceRemesher::Split(int u, int v)
   const Vector middle = (this->Mesh.Position[static_cast<std::size_t>(u)] +
                           this->Mesh.Position[static_cast<std::size_t>(v)]) * 0.5f;
   const int added = this->Mesh.AddVertex(
-    middle, this->AtEdge.size() > 2 ? Stratum::Line : Stratum::Interface);
+    middle, this->AtEdge.size() > 2 ? Stratum::Line : Stratum::Interface, this->Mesh.SizeOf(u, v));
   for (const int f : this->AtEdge)
   {
     InterfaceMesh::Face half = this->Mesh.Faces[static_cast<std::size_t>(f)];
@@ -99,7 +101,8 @@ int InterfaceRemesher::CollapseShortEdges()
     {
       const int u = this->Mesh.Faces[f].Vertex[k];
       const int v = this->Mesh.Faces[f].Vertex[(k + 1) % 3];
-      count += this->SquaredEdge(u, v) < this->Shortest && this->TryCollapse(u, v) ? 1 : 0;
+      const bool isShort = this->SquaredEdge(u, v) < this->Shortest * this->SquaredSize(u, v);
+      count += isShort && this->TryCollapse(u, v) ? 1 : 0;
     }
   }
   return count;
@@ -218,7 +221,8 @@ bool InterfaceRemesher::TryCollapseAt(const Vector& place, int kept, int removed
           else
           {
             isFair = isFair &&
-              SquaredDistance(after.Corner[k], VectorD(place)) <= longest;
+              SquaredDistance(after.Corner[k], VectorD(place)) <=
+                longest * this->SquaredSize(kept, after.Vertex[k]);
           }
         }
         // The normals of slivers say nothing.
@@ -292,7 +296,7 @@ bool InterfaceRemesher::TryFlip(int u, int v, double flatness)
   InterfaceMesh::Face second = this->Mesh.Faces[static_cast<std::size_t>(g)];
   const int p = first.Opposite(u, v);
   const int q = second.Opposite(u, v);
-  if (p == q || this->SquaredEdge(p, q) > this->Longest)
+  if (p == q || this->SquaredEdge(p, q) > this->Longest * this->SquaredSize(p, q))
   {
     return false;
   }

@@ -28,7 +28,8 @@ class InterfaceRemesher
 {
 public:
   /**
-   * @param shortest, longest between which edges are wanted; lengths of the workspace
+   * @param shortest, longest between which edges are wanted, times the mesh's sizes; lengths of the
+   *                  workspace
    * @param tolerance nearer than that triangles are never
    * @param goOn      asked now and then; after false no more edits are made
    */
@@ -77,6 +78,11 @@ private:
     return SquaredDistance(this->Mesh.Position[static_cast<std::size_t>(u)],
       this->Mesh.Position[static_cast<std::size_t>(v)]);
   }
+  float SquaredSize(int u, int v) const
+  {
+    const float size = this->Mesh.SizeOf(u, v);
+    return size * size;
+  }
 
   static constexpr std::size_t FacesPerQuestion = 4096;
   /** Cosine of the angle by which an edit may turn a face. */
@@ -86,8 +92,8 @@ private:
   std::function<bool()> GoOn;
   InterfaceClearance Clearance;
   bool HasGrid = false; ///< of the mesh as it is
-  float Shortest; ///< squared
-  float Longest;  ///< squared
+  float Shortest; ///< squared, where sizes are 1
+  float Longest;  ///< squared, where sizes are 1
   std::vector<int> AtEdge;
   std::vector<int> Changed;
   std::vector<int> Near;

@@ -6,9 +6,11 @@
 #include "Core/Interfaces/InterfaceLattice.h"
 #include "Core/Interfaces/InterfaceMotion.h"
 #include "Core/Interfaces/InterfaceRemesher.h"
+#include "Core/Interfaces/InterfaceSizes.h"
 #include "Core/Interfaces/TriangleShape.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 
 namespace volumic
@@ -22,6 +24,8 @@ constexpr int LeastLastRounds = 2;
 constexpr int MostLastRounds = 5;
 /** while more voxels are on the wrong side than this share of the vertices. */
 constexpr double FewWrong = 0.01;
+/** With a tolerance there are other last rounds; by what factor sizes may grow in each of them. */
+constexpr std::array<double, 3> Growths = { 2.5, 1.5, 1.1 };
 /** The round from which on vertices are so near to their places that fields are changed. */
 constexpr int FirstFit = 2;
 /** Rounds of slivers' repair at the end: one makes some anew. */
@@ -42,16 +46,17 @@ constexpr double ToleranceOfEdge = 1e-3;
 /** How far vertices go to the middle of their neighbours. */
 constexpr double StepShare = 0.7;
 
-/** A round's edits. */
-void Edit(InterfaceMesh& mesh, double wanted, int round, const std::function<bool()>& goOn)
+/** A round's edits. @param hasCollapses else edges are split that steps have drawn out */
+void Edit(InterfaceMesh& mesh, double wanted, int round, bool hasCollapses,
+  const std::function<bool()>& goOn)
 {
   // What is searched near goes with the square of the lengths: they grow by rounds.
   const double edge = std::min(wanted, MostGrowth * mesh.MeanEdge());
-  const double longest = (round < Rounds ? LongestShare : LongestLast) * edge;
+  const double longest = (hasCollapses ? LongestShare : LongestLast) * edge;
   InterfaceRemesher remesher(
     mesh, ShortestShare * edge, longest, ToleranceOfEdge * wanted, goOn);
   remesher.SplitLongEdges();
-  if (round < Rounds)
+  if (hasCollapses)
   {
     remesher.CollapseShortEdges();
   }
@@ -69,19 +74,29 @@ InterfaceMesh MakeInterfaces(InterfaceFields& fields, const InterfaceOptions& op
 {
   // The first round is as much work as all others, as the start has many short edges.
   constexpr int all = 2 * (Rounds + LeastLastRounds);
+  const bool isGraded = options.Tolerance > 0.;
+  const int rounds = Rounds + (isGraded ? static_cast<int>(Growths.size()) : MostLastRounds);
+  const double straightening =
+    isGraded ? std::min(options.Tolerance, MostStraightening) : MostStraightening;
   double share = 0.;
   const auto mayGoOn = [&] { return goOn(share); };
   InterfaceMesh mesh = InterfaceLattice(fields, options.Edge, executor).Start(executor);
   std::size_t wrong = 0;
-  for (int round = 0; round < Rounds + MostLastRounds && mayGoOn(); ++round)
+  for (int round = 0; round < rounds && mayGoOn(); ++round)
   {
     const bool hasFewWrong =
       static_cast<double>(wrong) <= FewWrong * static_cast<double>(mesh.Position.size());
-    if (round >= Rounds + LeastLastRounds && hasFewWrong)
+    const bool isLast = round >= Rounds;
+    if (!isGraded && round >= Rounds + LeastLastRounds && hasFewWrong)
     {
       break;
     }
-    Edit(mesh, options.Edge, round, mayGoOn);
+    if (isGraded && isLast)
+    {
+      AdjustSizes(mesh, fields, { options.Tolerance, Growths[static_cast<std::size_t>(round - Rounds)],
+        options.MostSize, options.Gradation }, executor);
+    }
+    Edit(mesh, options.Edge, round, isGraded || !isLast, mayGoOn);
     mesh.Compact();
     if (!mayGoOn())
     {
@@ -89,21 +104,22 @@ InterfaceMesh MakeInterfaces(InterfaceFields& fields, const InterfaceOptions& op
     }
     if (round >= FirstFit)
     {
-      CorrectVolumes(mesh, fields);
-      wrong = PushWrongVoxels(mesh, fields, options.VoxelTolerance, executor);
+      CorrectVolumes(mesh, fields, options.Tolerance);
+      wrong = PushWrongVoxels(
+        mesh, fields, options.VoxelTolerance + (isLast ? options.Tolerance : 0.), executor);
     }
     MoveInterfaces(mesh, fields, round == 0 ? 1 : Steps, StepShare, LeastShare * options.Edge,
-      ToleranceOfEdge * options.Edge, 0., executor);
+      ToleranceOfEdge * options.Edge, 0., executor, straightening);
     share = std::min(1., static_cast<double>(all / 2 + round) / all);
   }
   // Of the last steps some slivers are left; without them volumes are a little different again.
-  Edit(mesh, options.Edge, Rounds + MostLastRounds, mayGoOn);
+  Edit(mesh, options.Edge, Rounds + MostLastRounds, false, mayGoOn);
   mesh.Compact();
   if (mayGoOn())
   {
-    CorrectVolumes(mesh, fields);
+    CorrectVolumes(mesh, fields, options.Tolerance);
     MoveInterfaces(mesh, fields, 1, 0., LeastShare * options.Edge, ToleranceOfEdge * options.Edge,
-      SliverAngle, executor);
+      SliverAngle, executor, straightening);
   }
   goOn(1.);
   return mesh;

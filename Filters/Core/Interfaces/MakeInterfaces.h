@@ -11,12 +11,19 @@
 
 namespace volumic
 {
-/** How interfaces are made. */
+/** How interfaces are made; lengths: workspace. */
 struct InterfaceOptions
 {
-  double Edge = 1.36; ///< mean length of edges that is wanted; workspace
+  double Edge = 1.36; ///< mean length of edges that is wanted, where they are not to be longer
   /** How far voxels may be on the wrong side, in smallest distances of voxels. */
   double VoxelTolerance = 0.;
+  /** How far faces may be from the interfaces of the fields; 0: all edges are of one length. */
+  double Tolerance = 0.;
+  double MostSize = 4.;   ///< With a tolerance, how many times longer edges may become.
+  double Gradation = 0.3; ///< With a tolerance, by how much they grow per length at most.
+
+  /** How long edges were at most, in Edge and the size about them: the last step draws some out. */
+  static constexpr double LongestInEdge = 2.2;
 };
 
 /**
@@ -28,6 +35,7 @@ struct InterfaceOptions
  *    where the fields of the objects beside them are the same (MoveInterfaces).
  * 3. Meanwhile fields are shifted so that each object keeps the volume of its voxels, and changed at
  *    voxels that triangles cut off, until these are few.
+ * 4. With a tolerance the last rounds are others: edges become as long as it allows (AdjustSizes).
  *
  * @param fields   are changed, see 3
  * @param goOn     told the share that is done, on the calling thread; after false the mesh is what

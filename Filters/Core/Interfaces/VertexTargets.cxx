@@ -18,8 +18,6 @@ constexpr float LeastPart = 0.1f;
  * voxels less than interfaces do.
  */
 constexpr float LineSmoothing = 0.8f;
-/** At most, workspace. */
-constexpr float MostSmoothing = 0.3f;
 /** Keeps Newton's steps small where the fields say little, as a share of their squared slopes. */
 constexpr double Damping = 0.02;
 }
@@ -79,12 +77,15 @@ Vector VertexTargets::AlongInterface(int v) const
     {
       const InterfaceMesh::Face& face = this->Mesh.Faces[static_cast<std::size_t>(f)];
       const VectorD across = this->Mesh.NormalOf(face);
-      const double area = Length(across);
+      double size = 0.;
       VectorD middle;
       for (const int w : face.Vertex)
       {
+        size += this->Mesh.Size[static_cast<std::size_t>(w)] * (1. / 3.);
         middle += VectorD(this->Mesh.Position[static_cast<std::size_t>(w)]) * (1. / 3.);
       }
+      // Larger ones are not to draw vertices from where they are to be smaller.
+      const double area = Length(across) / (size * size);
       normal += across;
       sum += (middle - place) * area;
       areas += area;
@@ -119,8 +120,8 @@ Vector VertexTargets::Straightening(const Vector& place) const
     way -= along * Dot(along, way);
   }
   const float length = Length(way);
-  return length * LineSmoothing > MostSmoothing ? way * (MostSmoothing / length)
-                                                : way * LineSmoothing;
+  return length * LineSmoothing > this->Straightest ? way * (this->Straightest / length)
+                                                    : way * LineSmoothing;
 }
 
 Vector VertexTargets::MiddleOfEnds() const

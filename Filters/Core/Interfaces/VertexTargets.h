@@ -11,6 +11,9 @@
 
 namespace volumic
 {
+/** How far vertices of junction lines go from where the fields have them; workspace. */
+constexpr double MostStraightening = 0.3;
+
 /**
  * Where the vertices of interfaces go in a step: along their interface or junction line to the
  * middle of their neighbours, by a share of the way, then to where the fields of all objects about
@@ -19,11 +22,15 @@ namespace volumic
 class VertexTargets
 {
 public:
-  /** @param shortest no edge is made shorter than that; workspace */
-  VertexTargets(
-    const InterfaceMesh& mesh, const InterfaceFields& fields, double share, double shortest)
+  /**
+   * @param shortest      no edge is made shorter than that; workspace
+   * @param straightening how far vertices of junction lines go towards straight ones, at most;
+   *                      workspace
+   */
+  VertexTargets(const InterfaceMesh& mesh, const InterfaceFields& fields, double share,
+    double shortest, double straightening = MostStraightening)
     : Mesh(mesh), Fields(fields), Share(static_cast<float>(share)),
-      Shortest(static_cast<float>(shortest))
+      Shortest(static_cast<float>(shortest)), Straightest(static_cast<float>(straightening))
   {
   }
 
@@ -35,7 +42,7 @@ private:
    * objects want to be in one place.
    */
   bool Shortens(const Vector& place, const Vector& target) const;
-  /** To the middle of its faces, by their areas, without what is across. */
+  /** To the middle of its faces, by their areas for their sizes, without what is across. */
   Vector AlongInterface(int v) const;
   /** To the middle of its two neighbours on the line, without what is across; 0 of a corner. */
   Vector AlongLine(int v) const;
@@ -53,6 +60,7 @@ private:
   const InterfaceFields& Fields;
   float Share;
   float Shortest;
+  float Straightest;
   std::vector<int> Neighbours; ///< of the vertex that is looked at
   std::vector<int> Objects;    ///< about it
   std::vector<Vector> Ends;    ///< its neighbours on junction lines

@@ -3,6 +3,8 @@
 #ifndef volumicGrading_h
 #define volumicGrading_h
 
+#include <algorithm>
+
 namespace volumic
 {
 /**
@@ -27,6 +29,13 @@ struct Grading
 
   bool IsWanted() const { return this->HasTolerance() || this->ThinParts; }
   bool HasTolerance() const { return this->Tolerance != 0.0; }
+  /** How many times longer edges may become that may be up to `longest` elsewhere. */
+  double Growth(double longest) const
+  {
+    return this->MaximumEdgeLength > 0.0
+      ? std::clamp(this->MaximumEdgeLength / longest, 1.0, static_cast<double>(MostGrowth))
+      : AutomaticGrowth;
+  }
 };
 
 /** How far a surface is from the isopotential. */
