@@ -194,9 +194,9 @@ public:
    * labels is there once, at output port 1, and each block of port 0 is a closed surface of the same
    * points. What nobody has chosen is outside. Volumes are those of the voxels. KeepComponents leaves
    * parts out by their voxels, and gives these to the neighbour that has most of their faces. The
-   * first process makes them, and listens to its own AbortExecute alone; MemoryLimit does not bound
-   * the mesh. A run that was stopped hands over all surfaces as they are by then, or, before there
-   * are any, empty blocks; afterwards all is made anew. Not with Gap or ThinParts. Default: off.
+   * first process makes them, and listens to its own AbortExecute alone. A run that was stopped hands
+   * over all surfaces as they are by then, or, before there are any, empty blocks; afterwards all is
+   * made anew. Not with Gap or ThinParts. Default: off.
    */
   void SetSharedInterfaces(bool shared);
   bool GetSharedInterfaces();

@@ -4,7 +4,6 @@
 #define volumicSpans_h
 
 #include "Core/Common/Executor.h"
-#include "Core/Common/ScratchMemory.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -70,19 +69,6 @@ std::vector<T> Joined(Executor& executor, std::vector<std::vector<T>>& lists)
 
 namespace detail
 {
-template <typename T>
-void MakeRoom(std::vector<T>& values, std::size_t n)
-{
-  values.resize(n);
-}
-
-/** Threads that write them make them: no memory is touched here. */
-template <typename T>
-void MakeRoom(LargeVector<T>& values, std::size_t n)
-{
-  MakeZeroed(values, n);
-}
-
 /**
  * How many of the first `count` items of two sorted ranges, merged, come from the left one; of
  * equal ones those on the left come first.
@@ -122,8 +108,7 @@ void SortInSpans(
   { return list.begin() + static_cast<std::ptrdiff_t>(i); };
   ForSpans(executor, n, size, [&](std::size_t, std::size_t begin, std::size_t end)
     { std::sort(at(values, begin), at(values, end)); });
-  std::vector<T, Allocator> merged;
-  detail::MakeRoom(merged, n > size ? n : 0);
+  std::vector<T, Allocator> merged(n > size ? n : 0);
   for (std::size_t width = size; width < n; width *= 2)
   {
     // Each span of what is merged is made of parts of two sorted ranges.

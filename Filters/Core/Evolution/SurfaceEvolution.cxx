@@ -97,8 +97,6 @@ void SurfaceEvolution::StartEnclosingParts(const LevelImage& image, int level)
   watch.Lap(Phase::Recovery);
   if (self.LastLost.Enclosed == 0 && !self.Stopped)
   {
-    self.LastLost = LostParts();
-    self.Lost = LostBoundary();
     this->StartEnclosing(image, level);
   }
 }

@@ -44,6 +44,7 @@ public:
     }
   }
 
+  /** Whether there is one that is large enough. */
   bool HaveOne()
   {
     for (int k = 0; k + this->More < this->Size[2]; ++k)

@@ -47,7 +47,7 @@ constexpr double ToleranceOfEdge = 1e-3;
 constexpr double StepShare = 0.7;
 
 /** A round's edits. @param hasCollapses else edges are split that steps have drawn out */
-void Edit(InterfaceMesh& mesh, double wanted, int round, bool hasCollapses,
+void Edit(InterfaceMesh& mesh, double wanted, bool hasCollapses, int sliverRounds,
   const std::function<bool()>& goOn)
 {
   // What is searched near goes with the square of the lengths: they grow by rounds.
@@ -61,8 +61,7 @@ void Edit(InterfaceMesh& mesh, double wanted, int round, bool hasCollapses,
     remesher.CollapseShortEdges();
   }
   remesher.FlipEdges();
-  const bool isLast = round == Rounds + MostLastRounds;
-  for (int n = 0; round >= FirstFit && n < (isLast ? LastSliverRounds : 1); ++n)
+  for (int n = 0; n < sliverRounds; ++n)
   {
     remesher.RemoveSlivers();
   }
@@ -96,7 +95,7 @@ InterfaceMesh MakeInterfaces(InterfaceFields& fields, const InterfaceOptions& op
       AdjustSizes(mesh, fields, { options.Tolerance, Growths[static_cast<std::size_t>(round - Rounds)],
         options.MostSize, options.Gradation }, executor);
     }
-    Edit(mesh, options.Edge, round, isGraded || !isLast, mayGoOn);
+    Edit(mesh, options.Edge, isGraded || !isLast, round >= FirstFit ? 1 : 0, mayGoOn);
     mesh.Compact();
     if (!mayGoOn())
     {
@@ -113,7 +112,7 @@ InterfaceMesh MakeInterfaces(InterfaceFields& fields, const InterfaceOptions& op
     share = std::min(1., static_cast<double>(all / 2 + round) / all);
   }
   // Of the last steps some slivers are left; without them volumes are a little different again.
-  Edit(mesh, options.Edge, Rounds + MostLastRounds, false, mayGoOn);
+  Edit(mesh, options.Edge, false, LastSliverRounds, mayGoOn);
   mesh.Compact();
   if (mayGoOn())
   {

@@ -4,7 +4,6 @@
 
 #include "Core/Common/Spans.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace volumic
@@ -111,7 +110,7 @@ public:
   {
     this->AddCentres();
     this->AddMiddles();
-    this->Lengthen(this->Mesh.Rings, this->Mesh.Position.size());
+    LengthenZeroed(this->Mesh.Rings, this->Mesh.Position.size());
     const auto forAll = [this](std::size_t n, void (SqrtThreeDivision::*join)(std::size_t))
     {
       ForSpans(this->Threads, n, SpanSize,
@@ -130,17 +129,6 @@ public:
   }
 
 private:
-  /** What is new is zero. */
-  template <typename T>
-  void Lengthen(LargeVector<T>& values, std::size_t n)
-  {
-    LargeVector<T> longer;
-    MakeZeroed(longer, n);
-    ForSpans(this->Threads, values.size(), SpanSize,
-      [&](std::size_t, std::size_t begin, std::size_t end)
-      { std::copy(values.data() + begin, values.data() + end, longer.data() + begin); });
-    values.swap(longer);
-  }
   std::size_t Slot(int v, int neighbour) const
   {
     return this->Slots.At(v, this->Mesh.Rings[v].Find(neighbour));
@@ -173,7 +161,7 @@ void SqrtThreeDivision::AddCentres()
     [this](std::size_t begin, std::size_t end) { return this->Mesh.CountFaces(begin, end); });
   MakeZeroed(this->Faces, first.back());
   LargeVector<Vector>& position = this->Mesh.Position;
-  this->Lengthen(position, this->Olds + this->Faces.size());
+  LengthenZeroed(position, this->Olds + this->Faces.size());
   ForSpans(this->Threads, this->Olds, SpanSize,
     [&](std::size_t span, std::size_t begin, std::size_t end)
     {
