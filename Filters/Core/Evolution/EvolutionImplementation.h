@@ -201,6 +201,8 @@ struct SurfaceEvolution::Implementation
   void ShareBlocks(const SurfaceMesh& mesh);
   void AgreeOnGridBox();
   VoxelBox OwnVoxels() const;
+  /** By all ranks, before a sweep of this kind: has them share its work. */
+  void BalanceRanks(bool onlyActive);
   void VisitBlocksOnRanks(
     const BlockVisits& visits, const std::function<bool(std::size_t done)>& goOn);
   /** By all ranks, between sweeps: where one was told to stop, all are. */

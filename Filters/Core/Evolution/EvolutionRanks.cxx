@@ -32,6 +32,14 @@ void SurfaceEvolution::Implementation::AgreeOnGridBox()
   this->GridHigh = BroadcastValue(*this->Ranks, this->GridHigh);
 }
 
+void SurfaceEvolution::Implementation::BalanceRanks(bool onlyActive)
+{
+  if (this->Piece->Balance(onlyActive, this->Threads) && this->NeedVoxels)
+  {
+    this->NeedVoxels(this->OwnVoxels());
+  }
+}
+
 VoxelBox SurfaceEvolution::Implementation::OwnVoxels() const
 {
   // Those of the blocks, and of the halo, which is further than any vertex gets.
@@ -108,11 +116,8 @@ void SurfaceEvolution::Implementation::VisitBlocksOnRanks(
       this->Piece->EndVisit(block);
     }
     visited += ofColour.size();
-    if (colour % 2 == 1)
-    {
-      this->Piece->Exchange(); // Blocks before and after each other along x are of one rank.
-      goOn(visited);
-    }
+    this->Piece->Exchange();
+    goOn(visited);
   }
   this->AgreeOnStop();
   this->Piece->ShareCounts();

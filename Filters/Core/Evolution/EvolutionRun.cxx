@@ -232,6 +232,7 @@ void SurfaceEvolution::Implementation::Polish(const std::function<bool(int v)>& 
     this->Blocks->AddNew(visit, changed);
     SurfaceIteration::UpdateChanged(s, std::move(changed));
   };
+  this->BalanceRanks(visits.OnlyActive);
   this->VisitBlocks(visits);
   const bool hasCut = this->IsOnAnyRank(s.Counts.Cuts > 0);
   this->SinceEvolved.Cuts += s.Counts.Cuts;

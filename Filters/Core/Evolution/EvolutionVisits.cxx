@@ -229,6 +229,7 @@ void SurfaceEvolution::Implementation::RunSweep(const Dynamics& dynamics)
   visits.Iterations = iterations;
   visits.Visit = [&](BlockVisit& visit, SurfaceIteration& iteration)
   { this->VisitToEvolve(visit, iteration, dynamics, rows); };
+  this->BalanceRanks(visits.OnlyActive);
   this->VisitBlocks(visits);
   this->AddUpRows(rows);
 
@@ -326,6 +327,7 @@ void SurfaceEvolution::Implementation::VisitAll(SurfaceIteration::Mode mode,
     }
     iteration.EndVisit();
   };
+  this->BalanceRanks(visits.OnlyActive);
   this->VisitBlocks(visits);
   this->SinceEvolved.Cuts += this->State.Counts.Cuts;
   this->SinceEvolved.Removed += this->State.Counts.Removed;

@@ -1,13 +1,16 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Which rank gets which block: RankBlocks::ChooseOwners.
+// Which rank gets which block: RankBlocks::ChooseOwners for a start, BalancedOwners from then on.
 
 #include "Core/Surface/RankBlocks.h"
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <numeric>
 #include <vector>
 
 namespace volumic
@@ -103,6 +106,106 @@ private:
   std::vector<std::int64_t> Vertices; ///< By row.
   std::vector<int> OwnerOfRow;
 };
+
+/** Cuts sets of blocks into halves of as much work as their ranks, those of each colour apart. */
+class BalancedChoice
+{
+public:
+  BalancedChoice(const SurfaceBlocks& blocks, const std::vector<int>& work)
+    : Blocks(blocks)
+    , Work(work)
+    , Owners(work.size(), 0)
+  {
+  }
+
+  /** @param ofColours of each colour the blocks that ranks from the first one on share */
+  void Cut(std::vector<std::vector<int>> ofColours, int firstRank, int ranks)
+  {
+    if (ranks == 1)
+    {
+      for (const std::vector<int>& blocks : ofColours)
+      {
+        for (const int block : blocks)
+        {
+          this->Owners[block] = firstRank;
+        }
+      }
+      return;
+    }
+    const int axis = this->LongestAxis(ofColours);
+    const int lower = ranks / 2;
+    std::vector<std::vector<int>> rest;
+    for (std::vector<int>& blocks : ofColours)
+    {
+      this->SortAlong(axis, blocks);
+      const auto half = blocks.begin() + this->CountOfShare(blocks, lower, ranks);
+      rest.emplace_back(half, blocks.end());
+      blocks.erase(half, blocks.end());
+    }
+    this->Cut(std::move(ofColours), firstRank, lower);
+    this->Cut(std::move(rest), firstRank + lower, ranks - lower);
+  }
+
+  std::vector<int> Take() { return std::move(this->Owners); }
+
+private:
+  int LongestAxis(const std::vector<std::vector<int>>& ofColours) const
+  {
+    std::array<int, 3> low = this->Blocks.GetFrame().Size;
+    std::array<int, 3> high = { -1, -1, -1 };
+    for (const std::vector<int>& blocks : ofColours)
+    {
+      for (const int block : blocks)
+      {
+        const std::array<int, 3> place = this->Blocks.PlaceOf(block);
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          low[axis] = std::min(low[axis], place[axis]);
+          high[axis] = std::max(high[axis], place[axis]);
+        }
+      }
+    }
+    int longest = 2; // Slabs of the image, where it may be so.
+    for (const int axis : { 1, 0 })
+    {
+      longest = high[axis] - low[axis] > high[longest] - low[longest] ? axis : longest;
+    }
+    return longest;
+  }
+
+  void SortAlong(int axis, std::vector<int>& blocks) const
+  {
+    std::sort(blocks.begin(), blocks.end(),
+      [&](int a, int b)
+      {
+        std::array<int, 3> ofA = this->Blocks.PlaceOf(a);
+        std::array<int, 3> ofB = this->Blocks.PlaceOf(b);
+        std::swap(ofA[axis], ofA[2]);
+        std::swap(ofB[axis], ofB[2]);
+        return std::lexicographical_compare(ofA.rbegin(), ofA.rend(), ofB.rbegin(), ofB.rend());
+      });
+  }
+
+  /** How many of the blocks, from the first on, have about this share of their work. */
+  std::ptrdiff_t CountOfShare(const std::vector<int>& blocks, int lower, int ranks) const
+  {
+    const std::int64_t all = std::accumulate(blocks.begin(), blocks.end(), std::int64_t(0),
+      [this](std::int64_t sum, int block) { return sum + this->Work[block]; });
+    std::int64_t sum = 0;
+    std::ptrdiff_t count = 0;
+    // A block goes to those that have more of it.
+    while (count < static_cast<std::ptrdiff_t>(blocks.size()) &&
+      (2 * sum + this->Work[blocks[count]]) * ranks < 2 * all * lower)
+    {
+      sum += this->Work[blocks[count++]];
+    }
+    return count;
+  }
+
+  const SurfaceBlocks& Blocks;
+  const std::vector<int>& Work; ///< By block.
+  std::vector<int> Owners;
+};
 }
 
 std::vector<int> RankBlocks::ChooseOwners(
@@ -111,5 +214,29 @@ std::vector<int> RankBlocks::ChooseOwners(
   OwnerChoice choice(frame, vertices);
   choice.Cut({ { 0, 0 }, { frame.Size[1], frame.Size[2] } }, 0, ranks);
   return choice.Owners(vertices.size());
+}
+
+std::vector<int> RankBlocks::BalancedOwners(
+  const SurfaceBlocks& blocks, const std::vector<int>& work, int ranks)
+{
+  BalancedChoice choice(blocks, work);
+  choice.Cut({ blocks.ByColour().begin(), blocks.ByColour().end() }, 0, ranks);
+  return choice.Take();
+}
+
+std::int64_t RankBlocks::WorkOfSweep(const SurfaceBlocks& blocks, const std::vector<int>& work,
+  const std::vector<int>& owners, int ranks)
+{
+  std::int64_t all = 0;
+  for (const std::vector<int>& ofColour : blocks.ByColour())
+  {
+    std::vector<std::int64_t> ofRanks(static_cast<std::size_t>(ranks), 0);
+    for (const int block : ofColour)
+    {
+      ofRanks[owners[block]] += work[block];
+    }
+    all += *std::max_element(ofRanks.begin(), ofRanks.end());
+  }
+  return all;
 }
 }

@@ -12,6 +12,7 @@
 #include "Core/Surface/SurfaceBlocks.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -22,10 +23,11 @@ namespace volumic
  * visits it. A rank has the vertices of its own blocks and, as a halo, those near them, with the indices
  * that they have everywhere; the places of all others are there, but take no memory.
  *
- * The ranks visit their blocks of two colours, which differ along x, then tell each other what has
- * become of the vertices near the borders (Exchange), then go on with the next two. A row of blocks
- * along x is of one rank, and other blocks of these colours do not touch: each visit sees what it
- * would see on one rank. Messages grow with the border of the ranks.
+ * The ranks visit their blocks of a colour, then tell each other what has become of the vertices
+ * near the borders (Exchange), then go on with the next one. Blocks of a colour do not touch: each
+ * visit sees what it would see on one rank. Messages grow with the border of the ranks. As they wait
+ * for each other after each colour, blocks go from rank to rank (Balance) until all have as much to
+ * do with each colour; who owns what has no influence on what becomes of the surface.
  */
 class RankBlocks
 {
@@ -44,6 +46,17 @@ public:
    */
   static std::vector<int> ChooseOwners(
     const SurfaceBlocks::Frame& frame, const std::vector<int>& vertices, int ranks);
+
+  /**
+   * Others, so that all ranks have as much to do with the blocks of each colour: those of a colour
+   * are cut along the longest axis, again and again, into halves.
+   * @param work of each block, see SurfaceBlocks::WorkOf() @return the rank of each block
+   */
+  static std::vector<int> BalancedOwners(
+    const SurfaceBlocks& blocks, const std::vector<int>& work, int ranks);
+  /** What ranks that wait for each other after each colour have to do in a sweep, one of them. */
+  static std::int64_t WorkOfSweep(const SurfaceBlocks& blocks, const std::vector<int>& work,
+    const std::vector<int>& owners, int ranks);
 
   /** By all ranks: chooses owners for a mesh that is whole on rank 0. */
   void ChooseOwners(const SurfaceMesh& mesh);
@@ -68,14 +81,23 @@ public:
    * which keeps what is near its blocks. Its vertices follow all others, as on one rank.
    */
   void Append(const IndexedSurface& surface, Executor& executor);
-  /** The rows of voxels of an image that this rank looks after; each row has one such rank. */
+  /**
+   * The rows of voxels of an image that this rank looks after; each row has one such rank. As long
+   * as the owners are those chosen first.
+   */
   VoxelBox RowsOf(const LevelImage& image) const;
 
   /** To be called before, and after, the visit of an own block, not while blocks are visited. */
   void BeginVisit(int block);
   void EndVisit(int block);
-  /** By all ranks, after visits of two colours: tells what has become of vertices at borders. */
+  /** By all ranks, after visits of a colour: tells what has become of vertices at borders. */
   void Exchange();
+  /**
+   * By all ranks, before a sweep: has blocks visited by other ranks from then on, with all that is
+   * known of their vertices, where that saves a good part of the sweep.
+   * @return whether any has gone, on all ranks: then the ranks need other voxels
+   */
+  bool Balance(bool onlyActive, Executor& executor);
   /** By all ranks, between sweeps: agrees on the number of vertices and chi of the surface. */
   void ShareCounts();
   /** By all ranks, between sweeps: gives blocks the places that their owners want for them. */
@@ -104,6 +126,12 @@ private:
   Message SendPieces(const SurfaceMesh& mesh,
     const std::function<void(MessageWriter&, const std::vector<int>&)>& write);
   void BeginPieces(const Sizes& sizes, const Vector& low, const Vector& high);
+  std::vector<int> WorkOfBlocks(bool onlyActive, Executor& executor) const;
+  void MoveBlocks(std::vector<int> owners);
+  Message LeaveBlocks(int rank, const std::vector<int>& before, const std::vector<int>& vertices);
+  void TakeBlocks(const Message& message);
+  /** Whether a block, or one that touches it, has another owner than before. */
+  bool IsNearMoved(int block, const std::vector<int>& before) const;
   void CollectNear(const Vector& position, int v);
   void CollectZone(int block);
   bool IsNearOwn(const Vector& position) const;

@@ -224,9 +224,7 @@ int SurfaceBlocks::MissingPlaces(int block) const
   {
     return 0; // Also for those of the list that it really has.
   }
-  std::vector<int> vertices = own.Vertices;
-  this->Clean(block, vertices);
-  const int wanted = wantedFor(vertices);
+  const int wanted = wantedFor(this->VerticesOf(block));
   return has < wanted / 2 ? wanted : 0;
 }
 
@@ -307,9 +305,7 @@ std::vector<double> SurfaceBlocks::Sums(const std::function<bool(int block)>& is
       const int block = static_cast<int>(b);
       if (isWanted(block))
       {
-        std::vector<int> vertices = this->All[b].Vertices;
-        this->Clean(block, vertices);
-        for (const int v : vertices)
+        for (const int v : this->VerticesOf(block))
         {
           sums[b] += ofVertex(v);
         }
@@ -401,6 +397,29 @@ void SurfaceBlocks::AddOthers(const std::vector<int>& vertices)
   }
 }
 
+std::vector<int> SurfaceBlocks::VerticesOf(int block) const
+{
+  std::vector<int> vertices = this->All[block].Vertices;
+  this->Clean(block, vertices);
+  return vertices;
+}
+
+void SurfaceBlocks::WritePlaces(MessageWriter& message, int block) const
+{
+  const OfBlock& own = this->All[block];
+  message.AddArray(own.Places.Free);
+  message.Add(own.Unused);
+  message.Add(own.Taken);
+}
+
+void SurfaceBlocks::ReadPlaces(MessageReader& message, int block)
+{
+  OfBlock& own = this->All[block];
+  message.TakeArray(own.Places.Free);
+  own.Unused = message.Take<UnusedPlaces>();
+  own.Taken = message.Take<int>();
+}
+
 SurfaceBlocks::~SurfaceBlocks()
 {
   for (OfBlock& block : this->All)
@@ -431,5 +450,24 @@ bool SurfaceBlocks::HasActive(int block) const
   const std::vector<int>& vertices = this->All[block].Vertices;
   return std::any_of(vertices.begin(), vertices.end(),
     [&](int v) { return this->State.Block[v] == block && this->State.Active[v] != 0; });
+}
+
+int SurfaceBlocks::WorkOf(int block, bool onlyActive) const
+{
+  /** What is looked at, but does not move, in vertices for each that does. */
+  constexpr int stillOnes = 8;
+  int vertices = 0;
+  int active = 0;
+  for (const int v : this->All[block].Vertices)
+  {
+    const bool isOwn = this->State.Block[v] == block;
+    vertices += isOwn;
+    active += isOwn && this->State.Active[v] != 0;
+  }
+  if (onlyActive)
+  {
+    return active > 0 ? active + vertices / stillOnes : 0;
+  }
+  return vertices;
 }
 }

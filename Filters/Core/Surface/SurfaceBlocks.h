@@ -117,6 +117,8 @@ public:
 
   /** Whether a vertex of the block may move. */
   bool HasActive(int block) const;
+  /** What the next visit of a block costs, in about as many vertices; 0: there will be none. */
+  int WorkOf(int block, bool onlyActive) const;
 
   /** How many places a block would like to have for new vertices, beyond those that it has. */
   int MissingPlaces(int block) const;
@@ -126,6 +128,8 @@ public:
   int BlockAt(const Vector& position) const;
   /** The box that a block fills; at the border of the frame it goes on without end. */
   Box BoxOf(int block) const;
+  /** Its place in the frame, along each axis. */
+  std::array<int, 3> PlaceOf(int block) const;
   /** Those that touch it, in order of their number. */
   std::vector<int> NeighboursOf(int block) const;
   /** Calls visit(block) for those within a distance, less than a side, of a position. */
@@ -155,6 +159,11 @@ public:
   void GiveBack(int block, int place) { this->All[block].Places.Free.push_back(place); }
   /** Puts vertices that have come from another rank, and know their block, on its list. */
   void AddOthers(const std::vector<int>& vertices);
+  /** The vertices that are the block's now, each once, in order. */
+  std::vector<int> VerticesOf(int block) const;
+  /** The places of a block, for the rank that visits it from now on, which takes them instead of its own. */
+  void WritePlaces(MessageWriter& message, int block) const;
+  void ReadPlaces(MessageReader& message, int block);
   const Frame& GetFrame() const { return this->TheFrame; }
 
   /**
@@ -173,7 +182,6 @@ private:
     int Taken = 0; ///< Its last visit has taken so many of the places.
   };
   std::array<int, 3> PlaceOf(const Vector& position) const;
-  std::array<int, 3> PlaceOf(int block) const;
   int BlockOf(const std::array<int, 3>& place) const;
   /** Leaves of a list those that are the block's, each once, in order. */
   void Clean(int block, std::vector<int>& vertices) const;

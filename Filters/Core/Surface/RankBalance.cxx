@@ -1,0 +1,148 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Blocks that go from rank to rank, so that all have as much to do: RankBlocks::Balance.
+
+#include "Core/Common/RankLists.h"
+#include "Core/Common/Spans.h"
+#include "Core/Surface/RankBlocks.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+namespace volumic
+{
+namespace
+{
+/** What has to be saved of a sweep, as a share of it, and in vertices: moving has its price. */
+constexpr double LeastGain = 0.1;
+constexpr std::int64_t LeastGainInVertices = 500;
+}
+
+std::vector<int> RankBlocks::WorkOfBlocks(bool onlyActive, Executor& executor) const
+{
+  std::vector<int> work(this->Owners.size(), 0);
+  ForSpans(executor, work.size(), 1,
+    [&](std::size_t b, std::size_t, std::size_t)
+    {
+      const int block = static_cast<int>(b);
+      work[b] = this->IsOwn(block) ? this->Blocks.WorkOf(block, onlyActive) : 0;
+    });
+  return this->InOrder(GatherEachOnAll(this->Ranks, this->OfOwn(work)));
+}
+
+bool RankBlocks::Balance(bool onlyActive, Executor& executor)
+{
+  const int ranks = this->Ranks.NumberOfRanks();
+  if (ranks == 1)
+  {
+    return false;
+  }
+  const std::vector<int> work = this->WorkOfBlocks(onlyActive, executor);
+  std::vector<int> owners = BalancedOwners(this->Blocks, work, ranks);
+  const std::int64_t now = WorkOfSweep(this->Blocks, work, this->Owners, ranks);
+  const std::int64_t gain = now - WorkOfSweep(this->Blocks, work, owners, ranks);
+  if (gain < LeastGainInVertices || static_cast<double>(gain) < LeastGain * now)
+  {
+    return false;
+  }
+  this->MoveBlocks(std::move(owners));
+  return true;
+}
+
+bool RankBlocks::IsNearMoved(int block, const std::vector<int>& before) const
+{
+  const auto hasMoved = [&](int b) { return this->Owners[b] != before[b]; };
+  const std::vector<int> others = this->Blocks.NeighboursOf(block);
+  return hasMoved(block) || std::any_of(others.begin(), others.end(), hasMoved);
+}
+
+void RankBlocks::MoveBlocks(std::vector<int> owners)
+{
+  const std::vector<int> before = this->Owners;
+  this->SetOwners(std::move(owners));
+  // What others may lack of the own vertices, and what this rank may not be told of any more.
+  std::vector<int> own;
+  std::vector<int> known;
+  for (int block = 0; block < this->Blocks.NumberOfBlocks(); ++block)
+  {
+    if (this->IsNearMoved(block, before))
+    {
+      const std::vector<int> vertices = this->Blocks.VerticesOf(block);
+      known.insert(known.end(), vertices.begin(), vertices.end());
+      if (before[block] == this->Ranks.Rank())
+      {
+        own.insert(own.end(), vertices.begin(), vertices.end());
+      }
+    }
+  }
+  std::vector<Message> messages(static_cast<std::size_t>(this->Ranks.NumberOfRanks()));
+  for (int rank = 0; rank < this->Ranks.NumberOfRanks(); ++rank)
+  {
+    if (rank != this->Ranks.Rank())
+    {
+      messages[rank] = this->LeaveBlocks(rank, before, own);
+    }
+  }
+  for (const int v : known)
+  {
+    if (!this->IsNearOwn(this->State.Mesh.Position[v]))
+    {
+      this->State.Forget(v);
+    }
+  }
+  for (const Message& message : this->Ranks.Exchange(std::move(messages)))
+  {
+    if (!message.empty())
+    {
+      this->TakeBlocks(message);
+    }
+  }
+}
+
+Message RankBlocks::LeaveBlocks(
+  int rank, const std::vector<int>& before, const std::vector<int>& vertices)
+{
+  std::vector<int> blocks;
+  for (int block = 0; block < this->Blocks.NumberOfBlocks(); ++block)
+  {
+    if (before[block] == this->Ranks.Rank() && this->Owners[block] == rank)
+    {
+      blocks.push_back(block);
+    }
+  }
+  MessageWriter writer;
+  writer.AddArray(blocks);
+  for (const int block : blocks)
+  {
+    this->Blocks.WritePlaces(writer, block);
+  }
+  std::vector<int> unknown; // To that rank.
+  std::copy_if(vertices.begin(), vertices.end(), std::back_inserter(unknown),
+    [&](int v)
+    {
+      bool isNear = false;
+      bool wasNear = false;
+      this->Blocks.VisitNear(this->State.Mesh.Position[v], this->Halo(),
+        [&](int block)
+        {
+          isNear = isNear || this->Owners[block] == rank;
+          wasNear = wasNear || before[block] == rank;
+        });
+      return isNear && !wasNear;
+    });
+  this->State.Write(writer, unknown);
+  return writer.Take();
+}
+
+void RankBlocks::TakeBlocks(const Message& message)
+{
+  MessageReader reader(message);
+  for (const int block : reader.TakeVector<int>())
+  {
+    this->Blocks.ReadPlaces(reader, block);
+  }
+  this->Blocks.AddOthers(this->State.Read(reader));
+}
+}
