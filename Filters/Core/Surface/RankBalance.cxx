@@ -118,21 +118,17 @@ Message RankBlocks::LeaveBlocks(
   {
     this->Blocks.WritePlaces(writer, block);
   }
-  std::vector<int> unknown; // To that rank.
-  std::copy_if(vertices.begin(), vertices.end(), std::back_inserter(unknown),
+  // Also those that it has: of the outermost ones it does not know the shape.
+  std::vector<int> near;
+  std::copy_if(vertices.begin(), vertices.end(), std::back_inserter(near),
     [&](int v)
     {
       bool isNear = false;
-      bool wasNear = false;
       this->Blocks.VisitNear(this->State.Mesh.Position[v], this->Halo(),
-        [&](int block)
-        {
-          isNear = isNear || this->Owners[block] == rank;
-          wasNear = wasNear || before[block] == rank;
-        });
-      return isNear && !wasNear;
+        [&](int block) { isNear = isNear || this->Owners[block] == rank; });
+      return isNear;
     });
-  this->State.Write(writer, unknown);
+  this->State.Write(writer, near);
   return writer.Take();
 }
 

@@ -148,6 +148,33 @@ private:
   int KnownVertices = 0;                 ///< What the ranks last agreed on.
   int KnownCharacteristic = 0;
 };
+
+template <typename T>
+std::vector<T> RankBlocks::OfOwn(const std::vector<T>& ofBlocks) const
+{
+  std::vector<T> own;
+  for (std::size_t block = 0; block < ofBlocks.size(); ++block)
+  {
+    if (this->IsOwn(static_cast<int>(block)))
+    {
+      own.push_back(ofBlocks[block]);
+    }
+  }
+  return own;
+}
+
+template <typename T>
+std::vector<T> RankBlocks::InOrder(const std::vector<std::vector<T>>& ofRanks) const
+{
+  std::vector<std::size_t> next(ofRanks.size(), 0);
+  std::vector<T> all;
+  all.reserve(this->Owners.size());
+  for (const int owner : this->Owners)
+  {
+    all.push_back(ofRanks[owner][next[owner]++]);
+  }
+  return all;
+}
 }
 
 #endif
