@@ -201,6 +201,7 @@ void SurfaceEvolution::Implementation::KeepActiveIfMoving(const SurfaceIteration
 
 void SurfaceEvolution::Implementation::RunPasses(const Dynamics& dynamics)
 {
+  this->Blocks->ForgetWork();
   for (int sweep = 0; sweep < RegularisingSweeps && !this->Stopped; ++sweep)
   {
     this->VisitAll(SurfaceIteration::Mode::Regularise, dynamics, SweptPasses,

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <mutex>
 #include <utility>
@@ -168,6 +169,7 @@ void SurfaceEvolution::Implementation::VisitToEvolve(BlockVisit& visit,
     const EditCounts counts = visit.Share.Counts;
     iteration.Run(own[i].Row, dynamics, remesher, SurfaceIteration::Mode::Evolve);
     this->Blocks->AddNew(visit, iteration.WorkingVertices());
+    visit.Looks += static_cast<std::int64_t>(iteration.WorkingVertices().size());
     rows[i].KineticEnergy[static_cast<std::size_t>(visit.Block)] = this->KineticEnergy(iteration);
     own[i].Counts = visit.Share.Counts - counts;
     own[i].Vertices = places - visit.Share.NumberOfPlaces();
@@ -316,6 +318,7 @@ void SurfaceEvolution::Implementation::VisitAll(SurfaceIteration::Mode mode,
       HistoryRow row;
       iteration.Run(row, dynamics, remesher, mode);
       this->Blocks->AddNew(visit, iteration.WorkingVertices());
+      visit.Looks += static_cast<std::int64_t>(iteration.WorkingVertices().size());
       if (mode == SurfaceIteration::Mode::Regularise)
       {
         this->KeepActiveIfMoving(iteration); // Also beyond the block, for the visits to come.

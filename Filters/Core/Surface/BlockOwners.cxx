@@ -111,7 +111,7 @@ private:
 class BalancedChoice
 {
 public:
-  BalancedChoice(const SurfaceBlocks& blocks, const std::vector<int>& work)
+  BalancedChoice(const SurfaceBlocks& blocks, const std::vector<std::int64_t>& work)
     : Blocks(blocks)
     , Work(work)
     , Owners(work.size(), 0)
@@ -203,7 +203,7 @@ private:
   }
 
   const SurfaceBlocks& Blocks;
-  const std::vector<int>& Work; ///< By block.
+  const std::vector<std::int64_t>& Work; ///< By block.
   std::vector<int> Owners;
 };
 }
@@ -217,14 +217,14 @@ std::vector<int> RankBlocks::ChooseOwners(
 }
 
 std::vector<int> RankBlocks::BalancedOwners(
-  const SurfaceBlocks& blocks, const std::vector<int>& work, int ranks)
+  const SurfaceBlocks& blocks, const std::vector<std::int64_t>& work, int ranks)
 {
   BalancedChoice choice(blocks, work);
   choice.Cut({ blocks.ByColour().begin(), blocks.ByColour().end() }, 0, ranks);
   return choice.Take();
 }
 
-std::int64_t RankBlocks::WorkOfSweep(const SurfaceBlocks& blocks, const std::vector<int>& work,
+std::int64_t RankBlocks::WorkOfSweep(const SurfaceBlocks& blocks, const std::vector<std::int64_t>& work,
   const std::vector<int>& owners, int ranks)
 {
   std::int64_t all = 0;

@@ -20,9 +20,9 @@ constexpr double LeastGain = 0.1;
 constexpr std::int64_t LeastGainInVertices = 500;
 }
 
-std::vector<int> RankBlocks::WorkOfBlocks(bool onlyActive, Executor& executor) const
+std::vector<std::int64_t> RankBlocks::WorkOfBlocks(bool onlyActive, Executor& executor) const
 {
-  std::vector<int> work(this->Owners.size(), 0);
+  std::vector<std::int64_t> work(this->Owners.size(), 0);
   ForSpans(executor, work.size(), 1,
     [&](std::size_t b, std::size_t, std::size_t)
     {
@@ -39,7 +39,7 @@ bool RankBlocks::Balance(bool onlyActive, Executor& executor)
   {
     return false;
   }
-  const std::vector<int> work = this->WorkOfBlocks(onlyActive, executor);
+  const std::vector<std::int64_t> work = this->WorkOfBlocks(onlyActive, executor);
   std::vector<int> owners = BalancedOwners(this->Blocks, work, ranks);
   const std::int64_t now = WorkOfSweep(this->Blocks, work, this->Owners, ranks);
   const std::int64_t gain = now - WorkOfSweep(this->Blocks, work, owners, ranks);
@@ -116,7 +116,7 @@ Message RankBlocks::LeaveBlocks(
   writer.AddArray(blocks);
   for (const int block : blocks)
   {
-    this->Blocks.WritePlaces(writer, block);
+    this->Blocks.Write(writer, block);
   }
   // Also those that it has: of the outermost ones it does not know the shape.
   std::vector<int> near;
@@ -137,7 +137,7 @@ void RankBlocks::TakeBlocks(const Message& message)
   MessageReader reader(message);
   for (const int block : reader.TakeVector<int>())
   {
-    this->Blocks.ReadPlaces(reader, block);
+    this->Blocks.Read(reader, block);
   }
   this->Blocks.AddOthers(this->State.Read(reader));
 }

@@ -53,9 +53,9 @@ public:
    * @param work of each block, see SurfaceBlocks::WorkOf() @return the rank of each block
    */
   static std::vector<int> BalancedOwners(
-    const SurfaceBlocks& blocks, const std::vector<int>& work, int ranks);
+    const SurfaceBlocks& blocks, const std::vector<std::int64_t>& work, int ranks);
   /** What ranks that wait for each other after each colour have to do in a sweep, one of them. */
-  static std::int64_t WorkOfSweep(const SurfaceBlocks& blocks, const std::vector<int>& work,
+  static std::int64_t WorkOfSweep(const SurfaceBlocks& blocks, const std::vector<std::int64_t>& work,
     const std::vector<int>& owners, int ranks);
 
   /** By all ranks: chooses owners for a mesh that is whole on rank 0. */
@@ -126,7 +126,7 @@ private:
   Message SendPieces(const SurfaceMesh& mesh,
     const std::function<void(MessageWriter&, const std::vector<int>&)>& write);
   void BeginPieces(const Sizes& sizes, const Vector& low, const Vector& high);
-  std::vector<int> WorkOfBlocks(bool onlyActive, Executor& executor) const;
+  std::vector<std::int64_t> WorkOfBlocks(bool onlyActive, Executor& executor) const;
   void MoveBlocks(std::vector<int> owners);
   Message LeaveBlocks(int rank, const std::vector<int>& before, const std::vector<int>& vertices);
   void TakeBlocks(const Message& message);

@@ -24,6 +24,22 @@ constexpr int FewPlaces = 128;
 constexpr int VerticesPerPlace = 4;
 constexpr int PlacesPerTaken = 4;
 
+/**
+ * What takes about as long as looks at a vertex: as measured, with a part of each that one thread
+ * finds in no other way. A vertex that encloses a lost part has some way to go.
+ */
+constexpr int LooksAtMerge = 200;
+constexpr int LooksAtFlip = 45;
+constexpr int LooksAtSplit = 18;
+constexpr int LooksAtNew = 8;
+
+std::int64_t WorkOfEdits(const EditCounts& counts)
+{
+  return static_cast<std::int64_t>(LooksAtMerge) * (counts.Merges + counts.Cuts) +
+    static_cast<std::int64_t>(LooksAtFlip) * counts.Flips +
+    static_cast<std::int64_t>(LooksAtSplit) * (counts.Splits + counts.Collapses);
+}
+
 // See SurfaceBlocks; in delta. An edge, of which both ends may move by half a delta at once:
 constexpr float LongestEdge = HugeEdge * SizingField::LongestEdgeInDelta + 1.f;
 static_assert(LongestBridgeEdge * SizingField::LongestEdgeInDelta <= LongestEdge &&
@@ -357,6 +373,8 @@ void SurfaceBlocks::Close(BlockVisit&& visit)
   own.Unused = visit.Share.Unused;
   const int places = static_cast<int>(own.Places.Free.size()) + own.Unused.Count();
   own.Taken = std::max(0, visit.PlacesBefore - places);
+  own.New = 0;
+  own.Work = visit.Looks + WorkOfEdits(visit.Share.Counts);
   const std::lock_guard<std::mutex> lock(this->Closing);
   own.Vertices.insert(own.Vertices.end(), stay.begin(), stay.end());
   for (const int v : gone)
@@ -377,6 +395,7 @@ void SurfaceBlocks::ForgetVertices()
   for (OfBlock& block : this->All)
   {
     block.Vertices = std::vector<int>();
+    block.New = 0;
   }
 }
 
@@ -385,6 +404,7 @@ void SurfaceBlocks::Take(const std::vector<int>& vertices)
   for (const int v : vertices)
   {
     this->State.Block[v] = this->BlockAt(this->State.Mesh.Position[v]);
+    ++this->All[this->State.Block[v]].New;
   }
   this->AddOthers(vertices);
 }
@@ -404,20 +424,24 @@ std::vector<int> SurfaceBlocks::VerticesOf(int block) const
   return vertices;
 }
 
-void SurfaceBlocks::WritePlaces(MessageWriter& message, int block) const
+void SurfaceBlocks::Write(MessageWriter& message, int block) const
 {
   const OfBlock& own = this->All[block];
   message.AddArray(own.Places.Free);
   message.Add(own.Unused);
   message.Add(own.Taken);
+  message.Add(own.New);
+  message.Add(own.Work);
 }
 
-void SurfaceBlocks::ReadPlaces(MessageReader& message, int block)
+void SurfaceBlocks::Read(MessageReader& message, int block)
 {
   OfBlock& own = this->All[block];
   message.TakeArray(own.Places.Free);
   own.Unused = message.Take<UnusedPlaces>();
   own.Taken = message.Take<int>();
+  own.New = message.Take<int>();
+  own.Work = message.Take<std::int64_t>();
 }
 
 SurfaceBlocks::~SurfaceBlocks()
@@ -452,22 +476,23 @@ bool SurfaceBlocks::HasActive(int block) const
     [&](int v) { return this->State.Block[v] == block && this->State.Active[v] != 0; });
 }
 
-int SurfaceBlocks::WorkOf(int block, bool onlyActive) const
+std::int64_t SurfaceBlocks::WorkOf(int block, bool onlyActive) const
 {
-  /** What is looked at, but does not move, in vertices for each that does. */
-  constexpr int stillOnes = 8;
-  int vertices = 0;
-  int active = 0;
-  for (const int v : this->All[block].Vertices)
+  const OfBlock& own = this->All[block];
+  if (onlyActive && !this->HasActive(block))
   {
-    const bool isOwn = this->State.Block[v] == block;
-    vertices += isOwn;
-    active += isOwn && this->State.Active[v] != 0;
+    return 0;
   }
-  if (onlyActive)
+  return onlyActive && own.Work >= 0
+    ? own.Work
+    : static_cast<std::int64_t>(own.Vertices.size()) + LooksAtNew * own.New;
+}
+
+void SurfaceBlocks::ForgetWork()
+{
+  for (OfBlock& block : this->All)
   {
-    return active > 0 ? active + vertices / stillOnes : 0;
+    block.Work = -1;
   }
-  return vertices;
 }
 }

@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -31,6 +32,7 @@ struct BlockVisit
   /** Threads that may share in loops that write to their own vertex only, and read nothing such. */
   Executor* Idle = &OnThisThread();
 
+  std::int64_t Looks = 0;     ///< At working vertices, all iterations: what the visit takes time for.
   std::ptrdiff_t OldOnes = 0; ///< So many of the vertices were there when the visit was opened.
   int PlacesBefore = 0;       ///< The share had so many places then.
 };
@@ -117,8 +119,13 @@ public:
 
   /** Whether a vertex of the block may move. */
   bool HasActive(int block) const;
-  /** What the next visit of a block costs, in about as many vertices; 0: there will be none. */
-  int WorkOf(int block, bool onlyActive) const;
+  /**
+   * How long the next visit of a block will take, as an estimate, in looks at a vertex; 0: there
+   * will be none. As long as the last one, or what its vertices make likely.
+   */
+  std::int64_t WorkOf(int block, bool onlyActive) const;
+  /** What is to come has nothing to do with what the last visits did. */
+  void ForgetWork();
 
   /** How many places a block would like to have for new vertices, beyond those that it has. */
   int MissingPlaces(int block) const;
@@ -161,9 +168,9 @@ public:
   void AddOthers(const std::vector<int>& vertices);
   /** The vertices that are the block's now, each once, in order. */
   std::vector<int> VerticesOf(int block) const;
-  /** The places of a block, for the rank that visits it from now on, which takes them instead of its own. */
-  void WritePlaces(MessageWriter& message, int block) const;
-  void ReadPlaces(MessageReader& message, int block);
+  /** What is known of a block but its vertices, for the rank that visits it from now on. */
+  void Write(MessageWriter& message, int block) const;
+  void Read(MessageReader& message, int block);
   const Frame& GetFrame() const { return this->TheFrame; }
 
   /**
@@ -180,6 +187,8 @@ private:
     VertexPlaces Places;       ///< For new vertices.
     UnusedPlaces Unused;
     int Taken = 0; ///< Its last visit has taken so many of the places.
+    int New = 0;   ///< So many of the vertices were made by no visit, and are not yet visited.
+    std::int64_t Work = -1; ///< How long its last visit took, in looks at a vertex; -1: not known.
   };
   std::array<int, 3> PlaceOf(const Vector& position) const;
   int BlockOf(const std::array<int, 3>& place) const;
