@@ -274,6 +274,7 @@ void RankBlocks::Append(const IndexedSurface& surface, Executor& executor)
     [&](std::size_t v) { return this->IsNearOwn(added.Position[v]); });
   const std::vector<int> here = s.AddPiece(added, first, near, executor);
   this->Blocks.Take(here);
+  this->Blocks.ExpectMoves(here);
   std::vector<int> inside = SelectIndices(executor, here.size(), // With all their neighbours.
     [&](std::size_t i)
     {

@@ -31,7 +31,7 @@ constexpr int PlacesPerTaken = 4;
 constexpr int LooksAtMerge = 200;
 constexpr int LooksAtFlip = 45;
 constexpr int LooksAtSplit = 18;
-constexpr int LooksAtNew = 8;
+constexpr int LooksAtFar = 8;
 
 std::int64_t WorkOfEdits(const EditCounts& counts)
 {
@@ -373,8 +373,11 @@ void SurfaceBlocks::Close(BlockVisit&& visit)
   own.Unused = visit.Share.Unused;
   const int places = static_cast<int>(own.Places.Free.size()) + own.Unused.Count();
   own.Taken = std::max(0, visit.PlacesBefore - places);
-  own.New = 0;
-  own.Work = visit.Looks + WorkOfEdits(visit.Share.Counts);
+  if (visit.Looks > 0)
+  {
+    own.Far = 0;
+    own.Work = visit.Looks + WorkOfEdits(visit.Share.Counts);
+  }
   const std::lock_guard<std::mutex> lock(this->Closing);
   own.Vertices.insert(own.Vertices.end(), stay.begin(), stay.end());
   for (const int v : gone)
@@ -395,7 +398,7 @@ void SurfaceBlocks::ForgetVertices()
   for (OfBlock& block : this->All)
   {
     block.Vertices = std::vector<int>();
-    block.New = 0;
+    block.Far = 0;
   }
 }
 
@@ -404,9 +407,16 @@ void SurfaceBlocks::Take(const std::vector<int>& vertices)
   for (const int v : vertices)
   {
     this->State.Block[v] = this->BlockAt(this->State.Mesh.Position[v]);
-    ++this->All[this->State.Block[v]].New;
   }
   this->AddOthers(vertices);
+}
+
+void SurfaceBlocks::ExpectMoves(const std::vector<int>& vertices)
+{
+  for (const int v : vertices)
+  {
+    ++this->All[this->State.Block[v]].Far;
+  }
 }
 
 void SurfaceBlocks::AddOthers(const std::vector<int>& vertices)
@@ -430,7 +440,7 @@ void SurfaceBlocks::Write(MessageWriter& message, int block) const
   message.AddArray(own.Places.Free);
   message.Add(own.Unused);
   message.Add(own.Taken);
-  message.Add(own.New);
+  message.Add(own.Far);
   message.Add(own.Work);
 }
 
@@ -440,7 +450,7 @@ void SurfaceBlocks::Read(MessageReader& message, int block)
   message.TakeArray(own.Places.Free);
   own.Unused = message.Take<UnusedPlaces>();
   own.Taken = message.Take<int>();
-  own.New = message.Take<int>();
+  own.Far = message.Take<int>();
   own.Work = message.Take<std::int64_t>();
 }
 
@@ -485,7 +495,7 @@ std::int64_t SurfaceBlocks::WorkOf(int block, bool onlyActive) const
   }
   return onlyActive && own.Work >= 0
     ? own.Work
-    : static_cast<std::int64_t>(own.Vertices.size()) + LooksAtNew * own.New;
+    : static_cast<std::int64_t>(own.Vertices.size()) + LooksAtFar * own.Far;
 }
 
 void SurfaceBlocks::ForgetWork()

@@ -32,7 +32,7 @@ struct BlockVisit
   /** Threads that may share in loops that write to their own vertex only, and read nothing such. */
   Executor* Idle = &OnThisThread();
 
-  std::int64_t Looks = 0;     ///< At working vertices, all iterations: what the visit takes time for.
+  std::int64_t Looks = 0; ///< At working vertices, in all iterations: what takes the time.
   std::ptrdiff_t OldOnes = 0; ///< So many of the vertices were there when the visit was opened.
   int PlacesBefore = 0;       ///< The share had so many places then.
 };
@@ -162,6 +162,8 @@ public:
   void ForgetVertices();
   /** Gives vertices that are new, but not made by a visit, to their blocks. */
   void Take(const std::vector<int>& vertices);
+  /** These are far from where they will rest: the first visits of their blocks take longer. */
+  void ExpectMoves(const std::vector<int>& vertices);
   /** Gives a block its place back of a vertex that the visit of another block has removed. */
   void GiveBack(int block, int place) { this->All[block].Places.Free.push_back(place); }
   /** Puts vertices that have come from another rank, and know their block, on its list. */
@@ -187,7 +189,7 @@ private:
     VertexPlaces Places;       ///< For new vertices.
     UnusedPlaces Unused;
     int Taken = 0; ///< Its last visit has taken so many of the places.
-    int New = 0;   ///< So many of the vertices were made by no visit, and are not yet visited.
+    int Far = 0;   ///< So many of the vertices have a way to go, and have not begun.
     std::int64_t Work = -1; ///< How long its last visit took, in looks at a vertex; -1: not known.
   };
   std::array<int, 3> PlaceOf(const Vector& position) const;
