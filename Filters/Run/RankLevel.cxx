@@ -7,6 +7,7 @@
 #include "Core/Image/Field.h"
 #include "Host/HostThreads.h"
 
+#include <algorithm>
 #include <cstddef>
 
 namespace volumic
@@ -59,9 +60,27 @@ RankLevel::RankLevel(
 
 void RankLevel::Need(const VoxelBox& box)
 {
-  const bool hasAll = this->Ranks.Rank() == 0 && !this->StaysInPieces;
-  this->Pieces.FetchInto(this->Ranks, this->Held, this->Level.Values.BytesPerVoxel(),
-    hasAll ? VoxelBox() : box, VoxelBox::Of(this->Level.Size), this->Room);
+  std::vector<VoxelBox> lacking;
+  if (this->Ranks.Rank() != 0 || this->StaysInPieces)
+  {
+    lacking.push_back(box);
+    for (const VoxelBox& had : this->Fetched)
+    {
+      lacking = Without(lacking, had);
+    }
+    this->Fetched.push_back(box);
+  }
+  std::size_t most = 0;
+  for (const std::size_t count : GatherValues(this->Ranks, lacking.size()))
+  {
+    most = std::max(most, count);
+  }
+  lacking.resize(most);
+  for (const VoxelBox& part : lacking)
+  {
+    this->Pieces.FetchInto(this->Ranks, this->Held, this->Level.Values.BytesPerVoxel(), part,
+      VoxelBox::Of(this->Level.Size), this->Room);
+  }
 }
 
 void RankLevel::NeedMeasures()

@@ -15,6 +15,7 @@
 
 #include <functional>
 #include <memory>
+#include <vector>
 
 namespace volumic
 {
@@ -35,7 +36,7 @@ public:
    */
   const LevelImage& Image() const { return this->Level; }
 
-  /** By all ranks together: brings this rank the voxels of a box, and no others. */
+  /** By all ranks together: brings this rank the voxels of a box that it has not. */
   void Need(const VoxelBox& box);
   /** By all ranks together: brings rank 0 what Field asks of a whole image. */
   void NeedMeasures();
@@ -46,6 +47,7 @@ private:
   const bool StaysInPieces;
   VoxelPieces Pieces;
   const void* Held = nullptr; ///< this rank's piece
+  std::vector<VoxelBox> Fetched; ///< what it has asked for so far
   LargeVector<char> Voxels;   ///< of the whole level; written where they are needed
   char* Room = nullptr;       ///< these, or those of rank 0
 };

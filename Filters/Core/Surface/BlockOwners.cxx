@@ -111,15 +111,27 @@ private:
 class BalancedChoice
 {
 public:
-  BalancedChoice(const SurfaceBlocks& blocks, const std::vector<std::int64_t>& work)
+  using Colours = std::vector<std::vector<int>>; ///< Blocks, by colour.
+
+  /** @param before the owners so far, of whom as many as possible shall stay it */
+  BalancedChoice(const SurfaceBlocks& blocks, const std::vector<std::int64_t>& work,
+    const std::vector<int>& before)
     : Blocks(blocks)
     , Work(work)
+    , Before(before)
     , Owners(work.size(), 0)
   {
   }
 
-  /** @param ofColours of each colour the blocks that ranks from the first one on share */
-  void Cut(std::vector<std::vector<int>> ofColours, int firstRank, int ranks)
+  std::vector<int> Take(const Colours& all, int ranks)
+  {
+    this->Cut(all, 0, ranks);
+    return std::move(this->Owners);
+  }
+
+private:
+  /** Ranks from the first one on share these blocks. */
+  void Cut(const Colours& ofColours, int firstRank, int ranks)
   {
     if (ranks == 1)
     {
@@ -132,45 +144,47 @@ public:
       }
       return;
     }
-    const int axis = this->LongestAxis(ofColours);
     const int lower = ranks / 2;
-    std::vector<std::vector<int>> rest;
-    for (std::vector<int>& blocks : ofColours)
+    std::array<Colours, 2> best;
+    std::int64_t most = -1;
+    for (const int axis : { 2, 1, 0 }) // Slabs of the image, where nothing speaks for others.
+    {
+      std::array<Colours, 2> halves = this->Halves(ofColours, axis, lower, ranks);
+      const std::int64_t staying = this->CountOf(halves[0], firstRank, lower) +
+        this->CountOf(halves[1], firstRank + lower, ranks - lower);
+      if (staying > most)
+      {
+        most = staying;
+        best = std::move(halves);
+      }
+    }
+    this->Cut(best[0], firstRank, lower);
+    this->Cut(best[1], firstRank + lower, ranks - lower);
+  }
+
+  std::array<Colours, 2> Halves(const Colours& ofColours, int axis, int lower, int ranks) const
+  {
+    std::array<Colours, 2> halves;
+    for (std::vector<int> blocks : ofColours)
     {
       this->SortAlong(axis, blocks);
       const auto half = blocks.begin() + this->CountOfShare(blocks, lower, ranks);
-      rest.emplace_back(half, blocks.end());
-      blocks.erase(half, blocks.end());
+      halves[0].emplace_back(blocks.begin(), half);
+      halves[1].emplace_back(half, blocks.end());
     }
-    this->Cut(std::move(ofColours), firstRank, lower);
-    this->Cut(std::move(rest), firstRank + lower, ranks - lower);
+    return halves;
   }
 
-  std::vector<int> Take() { return std::move(this->Owners); }
-
-private:
-  int LongestAxis(const std::vector<std::vector<int>>& ofColours) const
+  /** How many of the blocks belong to these ranks. */
+  std::int64_t CountOf(const Colours& ofColours, int firstRank, int ranks) const
   {
-    std::array<int, 3> low = this->Blocks.GetFrame().Size;
-    std::array<int, 3> high = { -1, -1, -1 };
+    std::int64_t count = 0;
     for (const std::vector<int>& blocks : ofColours)
     {
-      for (const int block : blocks)
-      {
-        const std::array<int, 3> place = this->Blocks.PlaceOf(block);
-        for (int axis = 0; axis < 3; ++axis)
-        {
-          low[axis] = std::min(low[axis], place[axis]);
-          high[axis] = std::max(high[axis], place[axis]);
-        }
-      }
+      count += std::count_if(blocks.begin(), blocks.end(), [&](int block)
+        { return this->Before[block] >= firstRank && this->Before[block] < firstRank + ranks; });
     }
-    int longest = 2; // Slabs of the image, where it may be so.
-    for (const int axis : { 1, 0 })
-    {
-      longest = high[axis] - low[axis] > high[longest] - low[longest] ? axis : longest;
-    }
-    return longest;
+    return count;
   }
 
   void SortAlong(int axis, std::vector<int>& blocks) const
@@ -204,6 +218,7 @@ private:
 
   const SurfaceBlocks& Blocks;
   const std::vector<std::int64_t>& Work; ///< By block.
+  const std::vector<int>& Before;
   std::vector<int> Owners;
 };
 }
@@ -217,11 +232,11 @@ std::vector<int> RankBlocks::ChooseOwners(
 }
 
 std::vector<int> RankBlocks::BalancedOwners(
-  const SurfaceBlocks& blocks, const std::vector<std::int64_t>& work, int ranks)
+  const SurfaceBlocks& blocks, const std::vector<std::int64_t>& work,
+  const std::vector<int>& before, int ranks)
 {
-  BalancedChoice choice(blocks, work);
-  choice.Cut({ blocks.ByColour().begin(), blocks.ByColour().end() }, 0, ranks);
-  return choice.Take();
+  BalancedChoice choice(blocks, work, before);
+  return choice.Take({ blocks.ByColour().begin(), blocks.ByColour().end() }, ranks);
 }
 
 std::int64_t RankBlocks::WorkOfSweep(const SurfaceBlocks& blocks, const std::vector<std::int64_t>& work,

@@ -15,21 +15,26 @@ namespace volumic
 {
 namespace
 {
-/** What has to be saved of a sweep, as a share of it, and in vertices: moving has its price. */
-constexpr double LeastGain = 0.1;
-constexpr std::int64_t LeastGainInVertices = 500;
+/** What has to be saved of a sweep, in looks at a vertex: about a millisecond, */
+constexpr std::int64_t LeastGain = 3000;
+/** and as many for each vertex that moves: to write, send and read all that is known of it. */
+constexpr std::int64_t LooksToMove = 4;
 }
 
-std::vector<std::int64_t> RankBlocks::WorkOfBlocks(bool onlyActive, Executor& executor) const
+std::vector<RankBlocks::Load> RankBlocks::LoadsOfBlocks(bool onlyActive, Executor& executor) const
 {
-  std::vector<std::int64_t> work(this->Owners.size(), 0);
-  ForSpans(executor, work.size(), 1,
+  std::vector<Load> loads(this->Owners.size(), Load());
+  ForSpans(executor, loads.size(), 1,
     [&](std::size_t b, std::size_t, std::size_t)
     {
       const int block = static_cast<int>(b);
-      work[b] = this->IsOwn(block) ? this->Blocks.WorkOf(block, onlyActive) : 0;
+      if (this->IsOwn(block))
+      {
+        loads[b] = { this->Blocks.WorkOf(block, onlyActive),
+          static_cast<std::int64_t>(this->Blocks.ListOf(block).size()) };
+      }
     });
-  return this->InOrder(GatherEachOnAll(this->Ranks, this->OfOwn(work)));
+  return this->InOrder(GatherEachOnAll(this->Ranks, this->OfOwn(loads)));
 }
 
 bool RankBlocks::Balance(bool onlyActive, Executor& executor)
@@ -39,11 +44,22 @@ bool RankBlocks::Balance(bool onlyActive, Executor& executor)
   {
     return false;
   }
-  const std::vector<std::int64_t> work = this->WorkOfBlocks(onlyActive, executor);
-  std::vector<int> owners = BalancedOwners(this->Blocks, work, ranks);
-  const std::int64_t now = WorkOfSweep(this->Blocks, work, this->Owners, ranks);
-  const std::int64_t gain = now - WorkOfSweep(this->Blocks, work, owners, ranks);
-  if (gain < LeastGainInVertices || static_cast<double>(gain) < LeastGain * now)
+  const std::vector<Load> loads = this->LoadsOfBlocks(onlyActive, executor);
+  std::vector<std::int64_t> work;
+  for (const Load& load : loads)
+  {
+    work.push_back(load.Work);
+  }
+  std::vector<int> owners = BalancedOwners(this->Blocks, work, this->Owners, ranks);
+  const std::int64_t gain = WorkOfSweep(this->Blocks, work, this->Owners, ranks) -
+    WorkOfSweep(this->Blocks, work, owners, ranks);
+  std::int64_t least = LeastGain;
+  for (std::size_t block = 0; block < owners.size(); ++block)
+  {
+    // Ranks send at the same time.
+    least += owners[block] != this->Owners[block] ? LooksToMove * loads[block].Vertices / ranks : 0;
+  }
+  if (gain < least)
   {
     return false;
   }

@@ -49,11 +49,12 @@ public:
 
   /**
    * Others, so that all ranks have as much to do with the blocks of each colour: those of a colour
-   * are cut along the longest axis, again and again, into halves.
+   * are cut along an axis, again and again, into halves, so that many owners stay what they are.
    * @param work of each block, see SurfaceBlocks::WorkOf() @return the rank of each block
    */
   static std::vector<int> BalancedOwners(
-    const SurfaceBlocks& blocks, const std::vector<std::int64_t>& work, int ranks);
+    const SurfaceBlocks& blocks, const std::vector<std::int64_t>& work,
+    const std::vector<int>& before, int ranks);
   /** What ranks that wait for each other after each colour have to do in a sweep, one of them. */
   static std::int64_t WorkOfSweep(const SurfaceBlocks& blocks, const std::vector<std::int64_t>& work,
     const std::vector<int>& owners, int ranks);
@@ -126,7 +127,13 @@ private:
   Message SendPieces(const SurfaceMesh& mesh,
     const std::function<void(MessageWriter&, const std::vector<int>&)>& write);
   void BeginPieces(const Sizes& sizes, const Vector& low, const Vector& high);
-  std::vector<std::int64_t> WorkOfBlocks(bool onlyActive, Executor& executor) const;
+  /** What there is to do with a block, in looks at a vertex, and to move with it. */
+  struct Load
+  {
+    std::int64_t Work;
+    std::int64_t Vertices;
+  };
+  std::vector<Load> LoadsOfBlocks(bool onlyActive, Executor& executor) const;
   void MoveBlocks(std::vector<int> owners);
   Message LeaveBlocks(int rank, const std::vector<int>& before, const std::vector<int>& vertices);
   void TakeBlocks(const Message& message);

@@ -31,7 +31,8 @@ constexpr int PlacesPerTaken = 4;
 constexpr int LooksAtMerge = 200;
 constexpr int LooksAtFlip = 45;
 constexpr int LooksAtSplit = 18;
-constexpr int LooksAtFar = 8;
+constexpr int LooksAtVertex = 7; // In the iterations of a visit.
+constexpr int LooksAtFar = 60;
 
 std::int64_t WorkOfEdits(const EditCounts& counts)
 {
@@ -495,7 +496,7 @@ std::int64_t SurfaceBlocks::WorkOf(int block, bool onlyActive) const
   }
   return onlyActive && own.Work >= 0
     ? own.Work
-    : static_cast<std::int64_t>(own.Vertices.size()) + LooksAtFar * own.Far;
+    : static_cast<std::int64_t>(LooksAtVertex) * own.Vertices.size() + LooksAtFar * own.Far;
 }
 
 void SurfaceBlocks::ForgetWork()
