@@ -78,9 +78,14 @@ void RankLevel::Need(const VoxelBox& box)
   lacking.resize(most);
   for (const VoxelBox& part : lacking)
   {
-    this->Pieces.FetchInto(this->Ranks, this->Held, this->Level.Values.BytesPerVoxel(), part,
-      VoxelBox::Of(this->Level.Size), this->Room);
+    this->Fetch(part);
   }
+}
+
+void RankLevel::Fetch(const VoxelBox& box)
+{
+  this->Pieces.FetchInto(this->Ranks, this->Held, this->Level.Values.BytesPerVoxel(), box,
+    VoxelBox::Of(this->Level.Size), this->Room);
 }
 
 void RankLevel::NeedMeasures()
@@ -89,7 +94,7 @@ void RankLevel::NeedMeasures()
   {
     for (const VoxelBox& box : Field::MeasuredVoxels(this->Level.Size))
     {
-      this->Need(this->Ranks.Rank() == 0 ? box : VoxelBox());
+      this->Fetch(this->Ranks.Rank() == 0 ? box : VoxelBox());
     }
   }
 }

@@ -42,12 +42,14 @@ public:
   void NeedMeasures();
 
 private:
+  void Fetch(const VoxelBox& box);
+
   Communicator& Ranks;
   LevelImage Level;
   const bool StaysInPieces;
   VoxelPieces Pieces;
   const void* Held = nullptr; ///< this rank's piece
-  std::vector<VoxelBox> Fetched; ///< what it has asked for so far
+  std::vector<VoxelBox> Fetched; ///< by Need()
   LargeVector<char> Voxels;   ///< of the whole level; written where they are needed
   char* Room = nullptr;       ///< these, or those of rank 0
 };
