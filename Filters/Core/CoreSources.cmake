@@ -72,6 +72,7 @@ set(volumic_core_sources
   Interfaces/MakeInterfaces.cxx
   Interfaces/VertexTargets.cxx
   Surface/BlockOwners.cxx
+  Surface/BlockWork.cxx
   Surface/RankBalance.cxx
   Surface/ComponentNesting.cxx
   Surface/ComponentWatch.cxx

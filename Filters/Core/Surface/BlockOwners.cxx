@@ -114,17 +114,24 @@ public:
   using Colours = std::vector<std::vector<int>>; ///< Blocks, by colour.
 
   /** @param before the owners so far, of whom as many as possible shall stay it */
-  BalancedChoice(const SurfaceBlocks& blocks, const std::vector<std::int64_t>& work,
+  BalancedChoice(const SurfaceBlocks& blocks, const std::vector<RankBlocks::Load>& loads,
     const std::vector<int>& before)
     : Blocks(blocks)
-    , Work(work)
+    , Loads(loads)
     , Before(before)
-    , Owners(work.size(), 0)
+    , Owners(before)
   {
   }
 
-  std::vector<int> Take(const Colours& all, int ranks)
+  std::vector<int> Among(int ranks)
   {
+    Colours all;
+    for (std::vector<int> blocks : this->Blocks.ByColour())
+    {
+      const auto isEmpty = [this](int block) { return this->Loads[block].Vertices == 0; };
+      blocks.erase(std::remove_if(blocks.begin(), blocks.end(), isEmpty), blocks.end());
+      all.push_back(std::move(blocks));
+    }
     this->Cut(all, 0, ranks);
     return std::move(this->Owners);
   }
@@ -200,24 +207,30 @@ private:
       });
   }
 
+  /** Where there is nothing to do, vertices count. */
+  std::int64_t WeightOf(int block) const
+  {
+    return 16 * this->Loads[block].Work + this->Loads[block].Vertices;
+  }
+
   /** How many of the blocks, from the first on, have about this share of their work. */
   std::ptrdiff_t CountOfShare(const std::vector<int>& blocks, int lower, int ranks) const
   {
     const std::int64_t all = std::accumulate(blocks.begin(), blocks.end(), std::int64_t(0),
-      [this](std::int64_t sum, int block) { return sum + this->Work[block]; });
+      [this](std::int64_t sum, int block) { return sum + this->WeightOf(block); });
     std::int64_t sum = 0;
     std::ptrdiff_t count = 0;
     // A block goes to those that have more of it.
     while (count < static_cast<std::ptrdiff_t>(blocks.size()) &&
-      (2 * sum + this->Work[blocks[count]]) * ranks < 2 * all * lower)
+      (2 * sum + this->WeightOf(blocks[count])) * ranks < 2 * all * lower)
     {
-      sum += this->Work[blocks[count++]];
+      sum += this->WeightOf(blocks[count++]);
     }
     return count;
   }
 
   const SurfaceBlocks& Blocks;
-  const std::vector<std::int64_t>& Work; ///< By block.
+  const std::vector<RankBlocks::Load>& Loads; ///< By block.
   const std::vector<int>& Before;
   std::vector<int> Owners;
 };
@@ -231,15 +244,13 @@ std::vector<int> RankBlocks::ChooseOwners(
   return choice.Owners(vertices.size());
 }
 
-std::vector<int> RankBlocks::BalancedOwners(
-  const SurfaceBlocks& blocks, const std::vector<std::int64_t>& work,
-  const std::vector<int>& before, int ranks)
+std::vector<int> RankBlocks::BalancedOwners(const SurfaceBlocks& blocks,
+  const std::vector<Load>& loads, const std::vector<int>& before, int ranks)
 {
-  BalancedChoice choice(blocks, work, before);
-  return choice.Take({ blocks.ByColour().begin(), blocks.ByColour().end() }, ranks);
+  return BalancedChoice(blocks, loads, before).Among(ranks);
 }
 
-std::int64_t RankBlocks::WorkOfSweep(const SurfaceBlocks& blocks, const std::vector<std::int64_t>& work,
+std::int64_t RankBlocks::WorkOfSweep(const SurfaceBlocks& blocks, const std::vector<Load>& loads,
   const std::vector<int>& owners, int ranks)
 {
   std::int64_t all = 0;
@@ -248,7 +259,7 @@ std::int64_t RankBlocks::WorkOfSweep(const SurfaceBlocks& blocks, const std::vec
     std::vector<std::int64_t> ofRanks(static_cast<std::size_t>(ranks), 0);
     for (const int block : ofColour)
     {
-      ofRanks[owners[block]] += work[block];
+      ofRanks[owners[block]] += loads[block].Work;
     }
     all += *std::max_element(ofRanks.begin(), ofRanks.end());
   }

@@ -45,14 +45,9 @@ bool RankBlocks::Balance(bool onlyActive, Executor& executor)
     return false;
   }
   const std::vector<Load> loads = this->LoadsOfBlocks(onlyActive, executor);
-  std::vector<std::int64_t> work;
-  for (const Load& load : loads)
-  {
-    work.push_back(load.Work);
-  }
-  std::vector<int> owners = BalancedOwners(this->Blocks, work, this->Owners, ranks);
-  const std::int64_t gain = WorkOfSweep(this->Blocks, work, this->Owners, ranks) -
-    WorkOfSweep(this->Blocks, work, owners, ranks);
+  std::vector<int> owners = BalancedOwners(this->Blocks, loads, this->Owners, ranks);
+  const std::int64_t gain = WorkOfSweep(this->Blocks, loads, this->Owners, ranks) -
+    WorkOfSweep(this->Blocks, loads, owners, ranks);
   std::int64_t least = LeastGain;
   for (std::size_t block = 0; block < owners.size(); ++block)
   {

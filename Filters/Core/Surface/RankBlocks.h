@@ -47,16 +47,22 @@ public:
   static std::vector<int> ChooseOwners(
     const SurfaceBlocks::Frame& frame, const std::vector<int>& vertices, int ranks);
 
+  /** What there is to do with a block, see SurfaceBlocks::WorkOf(), and to move with it. */
+  struct Load
+  {
+    std::int64_t Work = 0;
+    std::int64_t Vertices = 0;
+  };
   /**
    * Others, so that all ranks have as much to do with the blocks of each colour: those of a colour
    * are cut along an axis, again and again, into halves, so that many owners stay what they are.
-   * @param work of each block, see SurfaceBlocks::WorkOf() @return the rank of each block
+   * Blocks without vertices keep theirs.
+   * @param loads of each block @return the rank of each block
    */
-  static std::vector<int> BalancedOwners(
-    const SurfaceBlocks& blocks, const std::vector<std::int64_t>& work,
-    const std::vector<int>& before, int ranks);
-  /** What ranks that wait for each other after each colour have to do in a sweep, one of them. */
-  static std::int64_t WorkOfSweep(const SurfaceBlocks& blocks, const std::vector<std::int64_t>& work,
+  static std::vector<int> BalancedOwners(const SurfaceBlocks& blocks,
+    const std::vector<Load>& loads, const std::vector<int>& before, int ranks);
+  /** What there is to do in a sweep while others wait, as all do after each colour. */
+  static std::int64_t WorkOfSweep(const SurfaceBlocks& blocks, const std::vector<Load>& loads,
     const std::vector<int>& owners, int ranks);
 
   /** By all ranks: chooses owners for a mesh that is whole on rank 0. */
@@ -127,12 +133,6 @@ private:
   Message SendPieces(const SurfaceMesh& mesh,
     const std::function<void(MessageWriter&, const std::vector<int>&)>& write);
   void BeginPieces(const Sizes& sizes, const Vector& low, const Vector& high);
-  /** What there is to do with a block, in looks at a vertex, and to move with it. */
-  struct Load
-  {
-    std::int64_t Work;
-    std::int64_t Vertices;
-  };
   std::vector<Load> LoadsOfBlocks(bool onlyActive, Executor& executor) const;
   void MoveBlocks(std::vector<int> owners);
   Message LeaveBlocks(int rank, const std::vector<int>& before, const std::vector<int>& vertices);

@@ -24,23 +24,6 @@ constexpr int FewPlaces = 128;
 constexpr int VerticesPerPlace = 4;
 constexpr int PlacesPerTaken = 4;
 
-/**
- * What takes about as long as looks at a vertex: as measured, with a part of each that one thread
- * finds in no other way. A vertex that encloses a lost part has some way to go.
- */
-constexpr int LooksAtMerge = 200;
-constexpr int LooksAtFlip = 45;
-constexpr int LooksAtSplit = 18;
-constexpr int LooksAtVertex = 7; // In the iterations of a visit.
-constexpr int LooksAtFar = 60;
-
-std::int64_t WorkOfEdits(const EditCounts& counts)
-{
-  return static_cast<std::int64_t>(LooksAtMerge) * (counts.Merges + counts.Cuts) +
-    static_cast<std::int64_t>(LooksAtFlip) * counts.Flips +
-    static_cast<std::int64_t>(LooksAtSplit) * (counts.Splits + counts.Collapses);
-}
-
 // See SurfaceBlocks; in delta. An edge, of which both ends may move by half a delta at once:
 constexpr float LongestEdge = HugeEdge * SizingField::LongestEdgeInDelta + 1.f;
 static_assert(LongestBridgeEdge * SizingField::LongestEdgeInDelta <= LongestEdge &&
@@ -374,11 +357,7 @@ void SurfaceBlocks::Close(BlockVisit&& visit)
   own.Unused = visit.Share.Unused;
   const int places = static_cast<int>(own.Places.Free.size()) + own.Unused.Count();
   own.Taken = std::max(0, visit.PlacesBefore - places);
-  if (visit.Looks > 0)
-  {
-    own.Far = 0;
-    own.Work = visit.Looks + WorkOfEdits(visit.Share.Counts);
-  }
+  this->NoteWork(visit);
   const std::lock_guard<std::mutex> lock(this->Closing);
   own.Vertices.insert(own.Vertices.end(), stay.begin(), stay.end());
   for (const int v : gone)
@@ -412,14 +391,6 @@ void SurfaceBlocks::Take(const std::vector<int>& vertices)
   this->AddOthers(vertices);
 }
 
-void SurfaceBlocks::ExpectMoves(const std::vector<int>& vertices)
-{
-  for (const int v : vertices)
-  {
-    ++this->All[this->State.Block[v]].Far;
-  }
-}
-
 void SurfaceBlocks::AddOthers(const std::vector<int>& vertices)
 {
   for (const int v : vertices)
@@ -433,26 +404,6 @@ std::vector<int> SurfaceBlocks::VerticesOf(int block) const
   std::vector<int> vertices = this->All[block].Vertices;
   this->Clean(block, vertices);
   return vertices;
-}
-
-void SurfaceBlocks::Write(MessageWriter& message, int block) const
-{
-  const OfBlock& own = this->All[block];
-  message.AddArray(own.Places.Free);
-  message.Add(own.Unused);
-  message.Add(own.Taken);
-  message.Add(own.Far);
-  message.Add(own.Work);
-}
-
-void SurfaceBlocks::Read(MessageReader& message, int block)
-{
-  OfBlock& own = this->All[block];
-  message.TakeArray(own.Places.Free);
-  own.Unused = message.Take<UnusedPlaces>();
-  own.Taken = message.Take<int>();
-  own.Far = message.Take<int>();
-  own.Work = message.Take<std::int64_t>();
 }
 
 SurfaceBlocks::~SurfaceBlocks()
@@ -485,25 +436,5 @@ bool SurfaceBlocks::HasActive(int block) const
   const std::vector<int>& vertices = this->All[block].Vertices;
   return std::any_of(vertices.begin(), vertices.end(),
     [&](int v) { return this->State.Block[v] == block && this->State.Active[v] != 0; });
-}
-
-std::int64_t SurfaceBlocks::WorkOf(int block, bool onlyActive) const
-{
-  const OfBlock& own = this->All[block];
-  if (onlyActive && !this->HasActive(block))
-  {
-    return 0;
-  }
-  return onlyActive && own.Work >= 0
-    ? own.Work
-    : static_cast<std::int64_t>(LooksAtVertex) * own.Vertices.size() + LooksAtFar * own.Far;
-}
-
-void SurfaceBlocks::ForgetWork()
-{
-  for (OfBlock& block : this->All)
-  {
-    block.Work = -1;
-  }
 }
 }

@@ -196,6 +196,7 @@ private:
   int BlockOf(const std::array<int, 3>& place) const;
   /** Leaves of a list those that are the block's, each once, in order. */
   void Clean(int block, std::vector<int>& vertices) const;
+  void NoteWork(const BlockVisit& visit);
   void Collect(Executor& executor);
   void FindOrder();
 

@@ -1,0 +1,270 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Blocks that go from rank to rank, until all have as much to do.
+#include "Core/Common/RankLists.h"
+#include "Core/Surface/RankBlocks.h"
+#include "CoreTestTools.h"
+#include "ThreadRanks.h"
+
+using namespace volumic;
+
+namespace
+{
+constexpr float Side = 24.f;
+constexpr float Delta = 1.f;
+
+/** Spheres in a row along z, and as many beside them. */
+SurfaceMesh Row()
+{
+  SurfaceMesh mesh;
+  for (int i = 0; i < 6; ++i)
+  {
+    for (const double x : { 20., 75. })
+    {
+      mesh.Append(MakeSphere({ x, 20., 20. + 36. * i }, 15., 1.7).ToIndexed());
+    }
+  }
+  return mesh;
+}
+
+SurfaceBlocks::Frame FrameOfRow()
+{
+  return SurfaceBlocks::FrameOf({ 96., 40., 220. }, Side);
+}
+
+/** The spheres in pieces, of which one has active vertices in the upper half only. */
+class Pieces
+{
+public:
+  explicit Pieces(Communicator& ranks)
+  {
+    this->State.Sizing = SizingField(Delta);
+    if (ranks.Rank() == 0)
+    {
+      this->State.Mesh = Row();
+    }
+    this->State.Reset(this->Low, this->High);
+    this->Blocks = std::make_unique<SurfaceBlocks>(this->State, FrameOfRow(), OnThisThread());
+    this->Owned = std::make_unique<RankBlocks>(this->State, *this->Blocks, ranks);
+    this->Owned->ChooseOwners(this->State.Mesh);
+    const SurfaceMesh mesh = std::exchange(this->State.Mesh, SurfaceMesh());
+    this->Owned->ScatterMesh(mesh, this->Low, this->High);
+    std::vector<int> inner; // Of the others a rank does not know the shape.
+    for (int v = 0; v < this->State.Mesh.Size(); ++v)
+    {
+      const Ring& ring = this->State.Mesh.Rings[v];
+      const auto isHere = [this](int w) { return this->State.Mesh.IsAlive(w); };
+      if (isHere(v))
+      {
+        this->State.Active[v] = this->State.Mesh.Position[v].Z > 110.f;
+        if (std::all_of(ring.Item, ring.Item + ring.Count, isHere))
+        {
+          inner.push_back(v);
+        }
+      }
+    }
+    this->State.UpdateShape(inner, OnThisThread());
+    this->Owned->AddPlaces(OnThisThread());
+  }
+
+  std::int64_t OwnWork() const
+  {
+    std::int64_t work = 0;
+    for (int block = 0; block < this->Blocks->NumberOfBlocks(); ++block)
+    {
+      work += this->Owned->IsOwn(block) ? this->Blocks->WorkOf(block, true) : 0;
+    }
+    return work;
+  }
+
+  Vector Low{ -10.f, -10.f, -10.f };
+  Vector High{ 110.f, 60.f, 230.f };
+  SurfaceState State;
+  std::unique_ptr<SurfaceBlocks> Blocks;
+  std::unique_ptr<RankBlocks> Owned;
+};
+
+/** What one rank would have, by place. */
+SurfaceState& Whole()
+{
+  static SurfaceState whole;
+  if (whole.Mesh.Size() == 0)
+  {
+    whole.Sizing = SizingField(Delta);
+    whole.Mesh = Row();
+    whole.Reset(Vector(-10.f, -10.f, -10.f), Vector(110.f, 60.f, 230.f));
+    std::vector<int> all(static_cast<std::size_t>(whole.Mesh.Size()));
+    std::iota(all.begin(), all.end(), 0);
+    whole.UpdateShape(all, OnThisThread());
+  }
+  return whole;
+}
+
+std::vector<RankBlocks::Load> UnevenLoads(const SurfaceBlocks& blocks)
+{
+  std::vector<RankBlocks::Load> loads(static_cast<std::size_t>(blocks.NumberOfBlocks()));
+  for (std::size_t b = 0; b < loads.size(); ++b)
+  {
+    const std::int64_t work = b % 7 == 3 ? 0 : 10 + 90 * static_cast<std::int64_t>(b) / 100;
+    loads[b] = { work, 100 };
+  }
+  return loads;
+}
+}
+
+TEST(RankBalance, SharesTheWorkOfEachColour)
+{
+  SurfaceState state;
+  state.Reset(Vector(), Vector(500.f, 300.f, 400.f));
+  const SurfaceBlocks blocks(state, SurfaceBlocks::FrameOf({ 500., 300., 400. }, Side), OnThisThread());
+  const std::vector<RankBlocks::Load> loads = UnevenLoads(blocks);
+  std::int64_t most = 0;
+  std::int64_t all = 0;
+  for (const RankBlocks::Load& load : loads)
+  {
+    most = std::max(most, load.Work);
+    all += load.Work;
+  }
+  const std::vector<int> nobodys(loads.size(), 0);
+  for (const int ranks : { 1, 2, 3, 8, 13 })
+  {
+    SCOPED_TRACE(ranks);
+    const std::vector<int> owners = RankBlocks::BalancedOwners(blocks, loads, nobodys, ranks);
+    // A cut is at most half a block off, in each colour, and there are as many as halvings.
+    const int halvings = static_cast<int>(std::ceil(std::log2(ranks)));
+    EXPECT_LE(RankBlocks::WorkOfSweep(blocks, loads, owners, ranks),
+      all / ranks + 8 * halvings * most);
+    EXPECT_EQ(*std::max_element(owners.begin(), owners.end()), ranks - 1);
+    // Who has his share keeps his blocks.
+    EXPECT_EQ(RankBlocks::BalancedOwners(blocks, loads, owners, ranks), owners);
+  }
+}
+
+TEST(RankBalance, LeavesBlocksWithoutVerticesWhereTheyAre)
+{
+  SurfaceState state;
+  state.Reset(Vector(), Vector(300.f, 300.f, 300.f));
+  const SurfaceBlocks blocks(state, SurfaceBlocks::FrameOf({ 300., 300., 300. }, Side), OnThisThread());
+  std::vector<RankBlocks::Load> loads = UnevenLoads(blocks);
+  std::vector<int> before(loads.size(), 0);
+  for (std::size_t b = 0; b < loads.size(); ++b)
+  {
+    before[b] = static_cast<int>(b % 2);
+    if (b % 3 == 0)
+    {
+      loads[b] = RankBlocks::Load();
+    }
+  }
+  const std::vector<int> owners = RankBlocks::BalancedOwners(blocks, loads, before, 2);
+  EXPECT_NE(owners, before);
+  for (std::size_t b = 0; b < loads.size(); b += 3)
+  {
+    EXPECT_EQ(owners[b], before[b]);
+  }
+}
+
+TEST(RankBalance, MovesBlocksToRanksThatHaveLessToDo)
+{
+  for (const int count : { 2, 3, 5 })
+  {
+    SCOPED_TRACE(count);
+    ThreadRanks::Run(count,
+      [&](Communicator& ranks)
+      {
+        Pieces pieces(ranks);
+        const std::int64_t before = pieces.OwnWork();
+        EXPECT_TRUE(pieces.Owned->Balance(true, OnThisThread()));
+        const auto most = [&ranks](std::int64_t work)
+        {
+          const std::vector<std::int64_t> all = GatherValues(ranks, work);
+          return *std::max_element(all.begin(), all.end());
+        };
+        EXPECT_LT(most(pieces.OwnWork()), most(before));
+        EXPECT_FALSE(pieces.Owned->Balance(true, OnThisThread()));
+      });
+  }
+}
+
+TEST(RankBalance, BringsAllThatIsKnownOfBlocksAndTheirNeighbourhood)
+{
+  const SurfaceState& whole = Whole();
+  ThreadRanks::Run(3,
+    [&](Communicator& ranks)
+    {
+      Pieces pieces(ranks);
+      ASSERT_TRUE(pieces.Owned->Balance(true, OnThisThread()));
+      const SurfaceState& s = pieces.State;
+      const float halo = SurfaceBlocks::HaloInDelta * Delta;
+      int own = 0;
+      for (int v = 0; v < whole.Mesh.Size(); ++v)
+      {
+        const Vector& position = whole.Mesh.Position[v];
+        bool isNear = false;
+        pieces.Blocks->VisitNear(
+          position, halo, [&](int block) { isNear = isNear || pieces.Owned->IsOwn(block); });
+        ASSERT_EQ(s.Mesh.IsAlive(v), isNear) << v;
+        if (!isNear)
+        {
+          continue;
+        }
+        EXPECT_EQ(SquaredDistance(s.Mesh.Position[v], position), 0.f);
+        EXPECT_EQ(s.Mesh.Rings[v].Count, whole.Mesh.Rings[v].Count);
+        EXPECT_EQ(s.Active[v] != 0, position.Z > 110.f);
+        if (pieces.Owned->IsOwnVertex(v))
+        {
+          EXPECT_EQ(s.Normal[v].X, whole.Normal[v].X);
+          EXPECT_EQ(s.EdgeLengthSum[v], whole.EdgeLengthSum[v]);
+        }
+        bool isInGrid = false;
+        s.Grid.Visit(position, 0.1f, [&](int w) { isInGrid = isInGrid || w == v; });
+        EXPECT_TRUE(isInGrid);
+        own += pieces.Owned->IsOwnVertex(v);
+      }
+      int all = 0;
+      for (const int ofRank : GatherValues(ranks, own))
+      {
+        all += ofRank;
+      }
+      EXPECT_EQ(all, whole.Mesh.Size());
+      // Their places have come along: none is missing any, and each is one rank's.
+      std::vector<int> places;
+      for (int block = 0; block < pieces.Blocks->NumberOfBlocks(); ++block)
+      {
+        if (pieces.Owned->IsOwn(block))
+        {
+          EXPECT_EQ(pieces.Blocks->MissingPlaces(block), 0);
+          const BlockVisit visit = pieces.Blocks->Open(block);
+          for (int v = visit.Share.Unused.Next; v < visit.Share.Unused.End; ++v)
+          {
+            places.push_back(v);
+          }
+        }
+      }
+      places = GatherListsOnAll(ranks, places);
+      std::sort(places.begin(), places.end());
+      EXPECT_GT(places.size(), 0u);
+      EXPECT_EQ(std::adjacent_find(places.begin(), places.end()), places.end());
+    });
+}
+
+TEST(RankBalance, GathersWhatWasThereBefore)
+{
+  const SurfaceState& whole = Whole();
+  ThreadRanks::Run(4,
+    [&](Communicator& ranks)
+    {
+      Pieces pieces(ranks);
+      ASSERT_TRUE(pieces.Owned->Balance(true, OnThisThread()));
+      pieces.Owned->Gather();
+      if (ranks.Rank() == 0)
+      {
+        EXPECT_EQ(pieces.State.Mesh.NumberOfVertices(), whole.Mesh.NumberOfVertices());
+        for (int v = 0; v < whole.Mesh.Size(); ++v)
+        {
+          ASSERT_TRUE(pieces.State.Mesh.IsAlive(v));
+          EXPECT_EQ(SquaredDistance(pieces.State.Mesh.Position[v], whole.Mesh.Position[v]), 0.f);
+        }
+      }
+    });
+}
