@@ -13,6 +13,7 @@ namespace
 {
 constexpr float Side = 24.f;
 constexpr float Delta = 1.f;
+constexpr int PlaceOnlyOwnersKnow = 1000000;
 
 /** Spheres in a row along z, and as many beside them. */
 SurfaceMesh Row()
@@ -22,7 +23,7 @@ SurfaceMesh Row()
   {
     for (const double x : { 20., 75. })
     {
-      mesh.Append(MakeSphere({ x, 20., 20. + 36. * i }, 15., 1.7).ToIndexed());
+      mesh.Append(MakeSphere({ x, 20., 28. + 36. * i }, 15., 1.7).ToIndexed());
     }
   }
   return mesh;
@@ -57,7 +58,7 @@ public:
       const auto isHere = [this](int w) { return this->State.Mesh.IsAlive(w); };
       if (isHere(v))
       {
-        this->State.Active[v] = this->State.Mesh.Position[v].Z > 110.f;
+        this->State.Active[v] = this->State.Mesh.Position[v].Z > 118.f;
         if (std::all_of(ring.Item, ring.Item + ring.Count, isHere))
         {
           inner.push_back(v);
@@ -66,6 +67,13 @@ public:
     }
     this->State.UpdateShape(inner, OnThisThread());
     this->Owned->AddPlaces(OnThisThread());
+    for (int block = 0; block < this->Blocks->NumberOfBlocks(); ++block)
+    {
+      if (this->Owned->IsOwn(block))
+      {
+        this->Blocks->GiveBack(block, PlaceOnlyOwnersKnow + block);
+      }
+    }
   }
 
   std::int64_t OwnWork() const
@@ -79,7 +87,7 @@ public:
   }
 
   Vector Low{ -10.f, -10.f, -10.f };
-  Vector High{ 110.f, 60.f, 230.f };
+  Vector High{ 110.f, 60.f, 240.f };
   SurfaceState State;
   std::unique_ptr<SurfaceBlocks> Blocks;
   std::unique_ptr<RankBlocks> Owned;
@@ -93,7 +101,7 @@ SurfaceState& Whole()
   {
     whole.Sizing = SizingField(Delta);
     whole.Mesh = Row();
-    whole.Reset(Vector(-10.f, -10.f, -10.f), Vector(110.f, 60.f, 230.f));
+    whole.Reset(Vector(-10.f, -10.f, -10.f), Vector(110.f, 60.f, 240.f));
     std::vector<int> all(static_cast<std::size_t>(whole.Mesh.Size()));
     std::iota(all.begin(), all.end(), 0);
     whole.UpdateShape(all, OnThisThread());
@@ -166,7 +174,7 @@ TEST(RankBalance, LeavesBlocksWithoutVerticesWhereTheyAre)
 
 TEST(RankBalance, MovesBlocksToRanksThatHaveLessToDo)
 {
-  for (const int count : { 2, 3, 5 })
+  for (const int count : { 2, 4 })
   {
     SCOPED_TRACE(count);
     ThreadRanks::Run(count,
@@ -189,11 +197,11 @@ TEST(RankBalance, MovesBlocksToRanksThatHaveLessToDo)
 TEST(RankBalance, BringsAllThatIsKnownOfBlocksAndTheirNeighbourhood)
 {
   const SurfaceState& whole = Whole();
-  ThreadRanks::Run(3,
+  ThreadRanks::Run(2,
     [&](Communicator& ranks)
     {
       Pieces pieces(ranks);
-      ASSERT_TRUE(pieces.Owned->Balance(true, OnThisThread()));
+      EXPECT_TRUE(pieces.Owned->Balance(true, OnThisThread()));
       const SurfaceState& s = pieces.State;
       const float halo = SurfaceBlocks::HaloInDelta * Delta;
       int own = 0;
@@ -203,14 +211,14 @@ TEST(RankBalance, BringsAllThatIsKnownOfBlocksAndTheirNeighbourhood)
         bool isNear = false;
         pieces.Blocks->VisitNear(
           position, halo, [&](int block) { isNear = isNear || pieces.Owned->IsOwn(block); });
-        ASSERT_EQ(s.Mesh.IsAlive(v), isNear) << v;
-        if (!isNear)
+        EXPECT_EQ(s.Mesh.IsAlive(v), isNear) << v;
+        if (!isNear || !s.Mesh.IsAlive(v)) // No ASSERT: the others would wait.
         {
           continue;
         }
         EXPECT_EQ(SquaredDistance(s.Mesh.Position[v], position), 0.f);
         EXPECT_EQ(s.Mesh.Rings[v].Count, whole.Mesh.Rings[v].Count);
-        EXPECT_EQ(s.Active[v] != 0, position.Z > 110.f);
+        EXPECT_EQ(s.Active[v] != 0, position.Z > 118.f);
         if (pieces.Owned->IsOwnVertex(v))
         {
           EXPECT_EQ(s.Normal[v].X, whole.Normal[v].X);
@@ -235,6 +243,8 @@ TEST(RankBalance, BringsAllThatIsKnownOfBlocksAndTheirNeighbourhood)
         {
           EXPECT_EQ(pieces.Blocks->MissingPlaces(block), 0);
           const BlockVisit visit = pieces.Blocks->Open(block);
+          EXPECT_EQ(
+            visit.Share.Places.Free, std::vector<int>(1, PlaceOnlyOwnersKnow + block));
           for (int v = visit.Share.Unused.Next; v < visit.Share.Unused.End; ++v)
           {
             places.push_back(v);
@@ -255,14 +265,14 @@ TEST(RankBalance, GathersWhatWasThereBefore)
     [&](Communicator& ranks)
     {
       Pieces pieces(ranks);
-      ASSERT_TRUE(pieces.Owned->Balance(true, OnThisThread()));
+      EXPECT_TRUE(pieces.Owned->Balance(true, OnThisThread()));
       pieces.Owned->Gather();
       if (ranks.Rank() == 0)
       {
         EXPECT_EQ(pieces.State.Mesh.NumberOfVertices(), whole.Mesh.NumberOfVertices());
         for (int v = 0; v < whole.Mesh.Size(); ++v)
         {
-          ASSERT_TRUE(pieces.State.Mesh.IsAlive(v));
+          EXPECT_TRUE(pieces.State.Mesh.IsAlive(v));
           EXPECT_EQ(SquaredDistance(pieces.State.Mesh.Position[v], whole.Mesh.Position[v]), 0.f);
         }
       }

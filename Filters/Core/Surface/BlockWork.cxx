@@ -74,8 +74,8 @@ void SurfaceBlocks::Write(MessageWriter& message, int block) const
 void SurfaceBlocks::Read(MessageReader& message, int block)
 {
   OfBlock& own = this->All[block];
-  std::vector<int> f; message.TakeArray(f);
-  message.Take<UnusedPlaces>();
+  message.TakeArray(own.Places.Free);
+  own.Unused = message.Take<UnusedPlaces>();
   own.Taken = message.Take<int>();
   own.Far = message.Take<int>();
   own.Work = message.Take<std::int64_t>();
