@@ -65,13 +65,14 @@ void RankBlocks::SetOwners(std::vector<int> owners)
     std::unique(this->Partners.begin(), this->Partners.end()), this->Partners.end());
 }
 
-void RankBlocks::CollectNear(const Vector& position, int v)
+void RankBlocks::CollectNear(const Vector& position, int v, int exceptFor)
 {
   this->Blocks.VisitNear(position, this->Halo(),
     [&](int block)
     {
-      std::vector<int>& touched = this->Touched[this->OwnerOf(block)];
-      if (touched.empty() || touched.back() != v)
+      const int owner = this->OwnerOf(block);
+      std::vector<int>& touched = this->Touched[owner];
+      if (owner != exceptFor && (touched.empty() || touched.back() != v))
       {
         touched.push_back(v);
       }
@@ -96,7 +97,7 @@ void RankBlocks::CollectZone(int block)
       const Vector& position = this->State.Mesh.Position[v];
       if (zone.Contains(position))
       {
-        this->CollectNear(position, v);
+        this->CollectNear(position, v, this->Ranks.Rank());
       }
     });
 }
@@ -177,7 +178,7 @@ Message RankBlocks::SendPieces(const SurfaceMesh& mesh,
   {
     if (mesh.IsAlive(v))
     {
-      this->CollectNear(mesh.Position[v], v);
+      this->CollectNear(mesh.Position[v], v, -1);
     }
   }
   Message own;

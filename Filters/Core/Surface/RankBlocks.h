@@ -139,7 +139,8 @@ private:
   void TakeBlocks(const Message& message);
   /** Whether a block, or one that touches it, has another owner than before. */
   bool IsNearMoved(int block, const std::vector<int>& before) const;
-  void CollectNear(const Vector& position, int v);
+  /** Ranks with blocks near a vertex must be told of it. @param exceptFor this one, or -1 */
+  void CollectNear(const Vector& position, int v, int exceptFor);
   void CollectZone(int block);
   bool IsNearOwn(const Vector& position) const;
   float Halo() const { return SurfaceBlocks::HaloInDelta * this->State.Sizing.Largest(); }
