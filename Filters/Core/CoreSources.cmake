@@ -108,6 +108,7 @@ set(volumic_core_sources
   Evolution/LostBoundary.cxx
   Evolution/LostParts.cxx
   Evolution/LostVoxels.cxx
+  Evolution/RankNumbers.cxx
   Evolution/RankResult.cxx
   Evolution/SlabSearch.cxx
   Evolution/SurfaceEvolution.cxx
@@ -131,6 +132,7 @@ set(volumic_core_headers
   Common/LatticeKey.h
   Common/MeasuredExecutor.h
   Common/Monitor.h
+  Common/PieceOfSurface.h
   Common/RankLists.h
   Common/Refuse.h
   Common/ScratchFile.h
@@ -241,6 +243,7 @@ set(volumic_core_headers
   Evolution/LostBoundary.h
   Evolution/LostParts.h
   Evolution/LostVoxels.h
+  Evolution/RankNumbers.h
   Evolution/RankRows.h
   Evolution/RestCriterion.h
   Evolution/SlabSearch.h
