@@ -69,6 +69,22 @@ void SelectArrays(vtkDataSetAttributes* from, vtkIdList* ids, vtkDataSetAttribut
   }
 }
 
+/** The arrays but for global ids, in the order in which others have those of the same names. */
+void AddInOrder(vtkDataSetAttributes* from, vtkDataSetAttributes* like, vtkDataSetAttributes* to)
+{
+  for (int i = 0; i < like->GetNumberOfArrays(); ++i)
+  {
+    if (like->GetAbstractArray(i) != like->GetGlobalIds())
+    {
+      to->AddArray(from->GetAbstractArray(like->GetArrayName(i)));
+    }
+  }
+  if (vtkDataArray* normals = like->GetNormals())
+  {
+    to->SetActiveNormals(normals->GetName());
+  }
+}
+
 /** Points of another surface, with their arrays. */
 void SetPoints(vtkPolyData* surface, vtkPolyData* from, const std::vector<vtkIdType>& ids)
 {
@@ -269,9 +285,11 @@ vtkSmartPointer<vtkPolyData> JoinPieces(const std::vector<Message>& pieces)
   }
   auto whole = vtkSmartPointer<vtkPolyData>::New();
   whole->SetPolys(TrianglesAt(corners));
-  SetPoints(whole, joined, places);
-  whole->GetPointData()->RemoveArray(told->GetName());
-  whole->GetCellData()->ShallowCopy(joined->GetCellData());
+  vtkNew<vtkPolyData> ordered;
+  ordered->SetPoints(joined->GetPoints());
+  AddInOrder(joined->GetPointData(), first->GetPointData(), ordered->GetPointData());
+  SetPoints(whole, ordered, places);
+  AddInOrder(joined->GetCellData(), first->GetCellData(), whole->GetCellData());
   whole->SetFieldData(first->GetFieldData());
   return whole;
 }
