@@ -23,6 +23,9 @@ namespace volumic
 {
 namespace
 {
+/** Points that a rank tells another one of at a time. */
+constexpr std::size_t PointsAtOnce = 8192;
+
 /** What a piece is told of one of its points. */
 struct PointRecord
 {
@@ -190,6 +193,21 @@ public:
     result.Piece.FirstTriangle = firstFace;
   }
 
+  /** What PieceSender has written. */
+  void Take(const Message& message)
+  {
+    MessageReader reader(message);
+    for (const PointRecord& point : reader.TakeVector<PointRecord>())
+    {
+      this->Take(point);
+    }
+    for (const TriangleRecord& triangle : reader.TakeVector<TriangleRecord>())
+    {
+      this->Take(triangle);
+    }
+  }
+
+private:
   void Take(const PointRecord& point)
   {
     const int p = this->Places.At(point.Id);
@@ -209,10 +227,62 @@ public:
       this->Places.At(t[0]), this->Places.At(t[1]), this->Places.At(t[2]) };
   }
 
-private:
   SurfaceResult& Result;
   PlacesOf Places;
 };
+
+/** Tells other ranks of their pieces. */
+struct PieceSender
+{
+  const SurfaceState& State;
+  const volumic::Field& Field;
+  const float Sign; ///< Of the residuals.
+  const RemainingContacts& Contacts;
+  const VertexNumbers& Numbers;
+  const Dealing& Dealt;
+
+  Message Write(int piece, const std::vector<Told>& told, std::size_t begin, std::size_t end) const;
+
+private:
+  PointRecord RecordOf(const Told& point) const;
+};
+
+PointRecord PieceSender::RecordOf(const Told& point) const
+{
+  const int v = point.Vertex;
+  const Vector& place = this->State.Mesh.Position[v];
+  const NormalCone& normal = this->State.Normal[v];
+  return { this->Numbers.Of[v].Point, { place.X, place.Y, place.Z },
+    { normal.X, normal.Y, normal.Z }, this->Sign * this->Field.ValueAt(place),
+    !this->State.Active[v], this->Contacts.Held[v], point.Role };
+}
+
+Message PieceSender::Write(
+  int piece, const std::vector<Told>& told, std::size_t begin, std::size_t end) const
+{
+  std::vector<PointRecord> points;
+  std::vector<TriangleRecord> triangles;
+  for (std::size_t i = begin; i < std::min(end, told.size()); ++i)
+  {
+    points.push_back(this->RecordOf(told[i]));
+    const auto v = static_cast<std::size_t>(told[i].Vertex);
+    int face = this->Numbers.Of[v].Face;
+    this->State.Mesh.VisitFaces(v, v + 1,
+      [&](int a, int b, int c)
+      {
+        if (this->Dealt.PieceOf(face) == piece)
+        {
+          triangles.push_back({ face,
+            { this->Numbers.Of[a].Point, this->Numbers.Of[b].Point, this->Numbers.Of[c].Point } });
+        }
+        ++face;
+      });
+  }
+  MessageWriter writer;
+  writer.AddArray(points);
+  writer.AddArray(triangles);
+  return writer.Take();
+}
 
 /** Vertices whose numbers are wanted beside those of the own ones. */
 std::vector<int> OthersOf(const SurfaceMesh& mesh, const std::vector<int>& own,
@@ -277,65 +347,41 @@ SurfaceResult SurfaceEvolution::Implementation::ResultOnRanks(int pieces) const
   const int rank = ranks.Rank();
   const RemainingContacts contacts = FindRemainingContacts(
     s, *this->TheField, this->Threads, [this](int v) { return this->Piece->IsOwnVertex(v); });
-  const std::vector<int> own = this->OwnVertices();
+  std::vector<int> own = this->OwnVertices();
   const VertexNumbers numbers =
     NumberOnRanks(ranks, s.Mesh, own, OthersOf(s.Mesh, own, contacts, *this->Piece));
   const Dealing dealing(pieces, numbers.All.Face);
-
   std::vector<std::vector<Told>> told = dealing.Deal(s.Mesh, numbers, own);
   told.resize(static_cast<std::size_t>(count)); // Other ranks get nothing.
+  std::vector<int>().swap(own);
+
   SurfaceResult result;
   result.Delta = s.Sizing.OfLevel();
+  result.Contacts = GatherPairs(ranks, contacts, numbers);
   const int first = rank < pieces ? dealing.FirstOf(rank) : numbers.All.Face;
   const int end = rank < pieces ? dealing.FirstOf(rank + 1) : numbers.All.Face;
   PieceResult piece(result, ExchangeLists(ranks, IdsOf(told, numbers)), numbers.All.Point, first,
     end - first);
-
-  const float sign = this->Options.ObjectIsBright ? 1.f : -1.f;
-  const auto recordOf = [&](const Told& point)
+  const PieceSender sender{ s, *this->TheField, this->Options.ObjectIsBright ? 1.f : -1.f,
+    contacts, numbers, dealing };
+  // Little by little, to one rank at a time: all messages together are as much as the surface.
+  std::size_t most = 0;
+  for (const std::vector<Told>& toRank : told)
   {
-    const int v = point.Vertex;
-    const Vector& place = s.Mesh.Position[v];
-    const NormalCone& normal = s.Normal[v];
-    return PointRecord{ numbers.Of[v].Point, { place.X, place.Y, place.Z },
-      { normal.X, normal.Y, normal.Z }, sign * this->TheField->ValueAt(place), !s.Active[v],
-      contacts.Held[v], point.Role };
-  };
-  // In turns, to one rank each time: all messages together are as much as the surface.
-  for (int turn = 0; turn < count; ++turn)
-  {
-    const int to = (rank + turn) % count;
-    const int from = (rank + count - turn) % count;
-    std::vector<PointRecord> points;
-    std::vector<TriangleRecord> triangles;
-    for (const Told& point : std::exchange(told[to], {}))
-    {
-      points.push_back(recordOf(point));
-      const auto v = static_cast<std::size_t>(point.Vertex);
-      int face = numbers.Of[v].Face;
-      s.Mesh.VisitFaces(v, v + 1,
-        [&](int a, int b, int c)
-        {
-          if (dealing.PieceOf(face) == to)
-          {
-            triangles.push_back(
-              { face, { numbers.Of[a].Point, numbers.Of[b].Point, numbers.Of[c].Point } });
-          }
-          ++face;
-        });
-    }
-    MessageWriter writer;
-    writer.AddArray(std::exchange(points, {}));
-    writer.AddArray(std::exchange(triangles, {}));
-    const Message message = Trade(ranks, to, from, writer.Take());
-    MessageReader reader(message);
-    reader.TakeArray(points);
-    std::for_each(points.begin(), points.end(), [&piece](const auto& p) { piece.Take(p); });
-    reader.TakeArray(triangles);
-    std::for_each(triangles.begin(), triangles.end(), [&piece](const auto& t) { piece.Take(t); });
+    most = std::max(most, toRank.size());
   }
-
-  result.Contacts = GatherPairs(ranks, contacts, numbers);
+  const std::vector<std::size_t> ofRanks = GatherValues(ranks, most);
+  most = *std::max_element(ofRanks.begin(), ofRanks.end());
+  for (std::size_t begin = 0; begin < most; begin += PointsAtOnce)
+  {
+    for (int turn = 0; turn < count; ++turn)
+    {
+      const int to = (rank + turn) % count;
+      const int from = (rank + count - turn) % count;
+      piece.Take(
+        Trade(ranks, to, from, sender.Write(to, told[to], begin, begin + PointsAtOnce)));
+    }
+  }
   if (pieces > 1)
   {
     result.Piece.Ranks = &ranks;
