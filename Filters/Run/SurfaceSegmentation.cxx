@@ -363,8 +363,9 @@ bool SurfaceSegmentation::EvolveOn(
   if (this->MayBeShared(level))
   {
     bool isDivided = false;
-    // From level 0 only the run to level -1 goes on.
-    const bool isLast = level == 0 && this->Choice.Last == 0;
+    // From level 0 only the run to level -1 goes on, or one from a checkpoint that stays.
+    const bool isLast = level == 0 && this->Choice.Last == 0 &&
+      !(this->Request.Checkpoints.AreLeft && this->Request.Checkpoints.Stay);
     const SharedLevel shared{ SharedLevel::Work::Evolves, this->Settings.Options, level,
       this->Settings.End.NumberOfThreads, isLast, isLast && !this->NeedsWholeResult() };
     this->Request.OnAllRanks(

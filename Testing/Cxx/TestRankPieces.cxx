@@ -3,6 +3,7 @@
 
 // A finest level that all ranks share: no rank ever has its whole surface, and each makes its piece.
 #include "RankOutputTestTools.h"
+#include "TemporaryFolder.h"
 #include "vtkImagePyramid.h"
 
 #include <vtkErrorCode.h>
@@ -205,6 +206,31 @@ TEST(RankPieces, OfARunThatIsStopped)
       EXPECT_NE(StopReasonOf(filter), "time limit");
     });
   ExpectAs(one, ranks);
+}
+
+TEST(RankPieces, AreNoneWhereACheckpointStays)
+{
+  // From it another run may go on, which needs all.
+  const TemporaryFolder folder;
+  const auto make = [&folder](vtkMultiProcessController* controller)
+  {
+    const Filter filter = BallsFilter(controller);
+    filter->SetScratchDirectory(folder.Path().c_str());
+    filter->LeaveCheckpoints();
+    return filter;
+  };
+  RunRanks(2, make, Update);
+  EXPECT_EQ(folder.Names().size(), 1u);
+  const auto goOn = [](vtkDeformableSurface* filter) { filter->SetFinestLevel(-1); };
+  const Ranks ranks = RunRanks(2, make,
+    [&](vtkDeformableSurface* filter, vtkMultiProcessController* controller)
+    {
+      goOn(filter);
+      filter->ResumeOn();
+      Update(filter, controller);
+    });
+  EXPECT_EQ(ranks.front()->GetResumedLevel(), 0);
+  ExpectAs(OneRank(goOn), ranks);
 }
 
 TEST(RankPieces, OfNothing)
