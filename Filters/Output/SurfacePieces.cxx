@@ -267,7 +267,8 @@ vtkSmartPointer<vtkPolyData> JoinPieces(const std::vector<Message>& pieces)
     return first; // It has all arrays.
   }
   vtkDataArray* told = joined->GetPointData()->GetGlobalIds();
-  const auto idOf = [told](vtkIdType p) { return static_cast<vtkIdType>(told->GetComponent(p, 0)); };
+  const auto idOf = [told](vtkIdType p)
+  { return static_cast<vtkIdType>(told->GetComponent(p, 0)); };
   std::vector<vtkIdType> places; // By id, one of those at which the point is.
   for (vtkIdType p = 0; p < joined->GetNumberOfPoints(); ++p)
   {

@@ -59,9 +59,9 @@ struct SharedLevel
 {
   enum class Work
   {
-    Evolves,    ///< All evolve the surface.
+    Evolves,     ///< All evolve the surface.
     GivesVoxels, ///< Rank 0 wants all voxels, and does the rest alone.
-    MakesOutput ///< All make outputs of their pieces.
+    MakesOutput  ///< All make outputs of their pieces.
   };
   Work Is = Work::Evolves;
   SurfaceOptions Options;

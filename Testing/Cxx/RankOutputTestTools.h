@@ -125,7 +125,8 @@ inline void ExpectPiecesOf(vtkPolyData* whole, const std::vector<vtkPolyData*>& 
   EXPECT_EQ(found.size(), triangles.size());
 }
 
-inline void ExpectBlocksOf(vtkMultiBlockDataSet* whole, const std::vector<vtkMultiBlockDataSet*>& ranks)
+inline void ExpectBlocksOf(
+  vtkMultiBlockDataSet* whole, const std::vector<vtkMultiBlockDataSet*>& ranks)
 {
   ASSERT_GT(whole->GetNumberOfBlocks(), 0u);
   for (unsigned int block = 0; block < whole->GetNumberOfBlocks(); ++block)

@@ -47,7 +47,8 @@ std::vector<std::vector<VertexNumber>> NumberStretch(Communicator& ranks,
   {
     number = addUp(number);
   }
-  const std::vector<VertexNumber> ofRanks = GatherValues(ranks, std::exchange(next, VertexNumber()));
+  const std::vector<VertexNumber> ofRanks =
+    GatherValues(ranks, std::exchange(next, VertexNumber()));
   VertexNumber before;
   for (std::size_t rank = 0; rank < ofRanks.size(); ++rank)
   {

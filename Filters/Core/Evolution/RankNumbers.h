@@ -11,7 +11,10 @@
 
 namespace volumic
 {
-/** How many points of the whole come before a vertex, and triangles before those it is smallest of. */
+/**
+ * How many points of the whole come before a vertex, and how many triangles before those that it is
+ * the smallest of.
+ */
 struct VertexNumber
 {
   int Point = 0;
