@@ -149,6 +149,7 @@ void vtkDeformableSurface::GoOn()
 void vtkDeformableSurface::ForgetRun()
 {
   this->Internals->Cache.Drop();
+  this->Internals->Piece = volumic::HelpersPiece();
 }
 
 //------------------------------------------------------------------------------
@@ -272,7 +273,7 @@ int vtkDeformableSurface::RequestData(
     [&]
     {
       this->Internals->RunOrGoOn(inputVector, outputVector);
-      volumic::ScatterOutputs(ranks, request, outputVector);
+      volumic::ScatterOutputs(ranks, request, outputVector, this->Internals->Piece.Output);
       ranks.IsAny(false); // Who is through with it here hears of no failure any more.
     });
   if (error.Code != vtkErrorCode::NoError)
@@ -280,6 +281,10 @@ int vtkDeformableSurface::RequestData(
     this->ForgetRun();
     this->SetErrorCode(error.Code);
     vtkErrorMacro(<< error.Text);
+  }
+  if (!volumic::SegmentationCache::MayKeep(this))
+  {
+    this->Internals->Piece = volumic::HelpersPiece();
   }
   this->TellWarnings();
   this->Internals->InitialSurface = nullptr;

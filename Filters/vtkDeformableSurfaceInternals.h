@@ -7,6 +7,7 @@
 #include "Host/Deadline.h"
 #include "Host/FirstRankWork.h"
 #include "Host/LimitedMemory.h"
+#include "Run/RankLevel.h"
 #include "Run/SegmentationCache.h"
 #include "Run/SegmentationCheckpoint.h"
 #include "Settings/SegmentationSettings.h"
@@ -40,7 +41,8 @@ public:
   /**
    * On all ranks at once, once Ranks and Alone are set: shows what is kept, or goes on with the
    * last run, or makes another one, until it is over or told to stop. Afterwards rank 0 has filled
-   * the outputs, of which the other ranks are to get their pieces, and keeps the run.
+   * the outputs, of which the other ranks are to get their pieces, where they have none, and keeps
+   * the run.
    */
   void RunOrGoOn(vtkInformationVector** input, vtkInformationVector* output);
 
@@ -55,6 +57,7 @@ public:
   volumic::LevelsInPieces InPieces; ///< what this rank has of levels that no rank has whole
   vtkSmartPointer<vtkPolyData> InitialSurface;   ///< of the run, of all ranks
   vtkSmartPointer<vtkPolyData> AttractingPoints; ///< likewise
+  volumic::HelpersPiece Piece; ///< at all ranks but the first, of the last run
   std::vector<std::string> Warnings; ///< to be told at the end
   bool LeavesCheckpoints = false; ///< also of runs that have come to their end
   bool HasToldOfWhole = false; ///< that the image does not come in slabs

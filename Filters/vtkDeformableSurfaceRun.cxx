@@ -343,6 +343,7 @@ void vtkDeformableSurface::vtkInternals::RunOrGoOn(
   this->Checkpoint.reset();
   if (course == Course::BeginsAnew)
   {
+    this->Piece = volumic::HelpersPiece();
     run = this->NewRun(request, vtkDataObject::GetData(input[0]));
   }
   if (!volumic::BroadcastValue(ranks, run != nullptr))
@@ -354,7 +355,7 @@ void vtkDeformableSurface::vtkInternals::RunOrGoOn(
   alone.Run([&] { run->Run(); },
     [&]
     {
-      volumic::HelpWithLevel(ranks, this->InPieces,
+      volumic::HelpWithLevel(ranks, this->InPieces, this->Piece,
         [this] { return !volumic::IsAbortRequested(&this->Filter); });
     });
   if (run)

@@ -110,6 +110,7 @@ set(volumic_core_sources
   Evolution/LostBoundary.cxx
   Evolution/LostParts.cxx
   Evolution/LostVoxels.cxx
+  Evolution/RankNumbers.cxx
   Evolution/RankResult.cxx
   Evolution/SlabSearch.cxx
   Evolution/SurfaceEvolution.cxx
@@ -133,6 +134,7 @@ set(volumic_core_headers
   Common/LatticeKey.h
   Common/MeasuredExecutor.h
   Common/Monitor.h
+  Common/PieceOfSurface.h
   Common/RankLists.h
   Common/Refuse.h
   Common/ScratchFile.h
@@ -243,6 +245,7 @@ set(volumic_core_headers
   Evolution/LostBoundary.h
   Evolution/LostParts.h
   Evolution/LostVoxels.h
+  Evolution/RankNumbers.h
   Evolution/RankRows.h
   Evolution/RestCriterion.h
   Evolution/SlabSearch.h

@@ -9,9 +9,13 @@
 #include <vtkCompositeDataSet.h>
 #include <vtkDataObject.h>
 #include <vtkExecutive.h>
+#include <vtkFieldData.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
 #include <vtkMultiBlockDataSet.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
@@ -20,20 +24,59 @@
 #include <algorithm>
 #include <cstddef>
 #include <string>
+#include <utility>
 
 namespace volumic
 {
 namespace
 {
-/** @param whole at rank 0 @return the piece of this rank */
-vtkSmartPointer<vtkPolyData> ScatterSurface(
-  Communicator& ranks, vtkPolyData* whole, int ghostLevels)
+/** What scattering needs to know. */
+struct Scattering
 {
-  if (ranks.Rank() != 0)
+  Communicator& Ranks;
+  int GhostLevels;
+  vtkPolyData* Piece; ///< see ScatterOutputs()
+};
+
+/** The piece that each rank has, with the field data of rank 0's. */
+vtkSmartPointer<vtkPolyData> WithFacts(Communicator& ranks, vtkPolyData* piece)
+{
+  vtkNew<vtkPolyData> facts;
+  facts->SetPoints(vtkNew<vtkPoints>());
+  Message message;
+  if (ranks.Rank() == 0)
+  {
+    facts->SetFieldData(piece->GetFieldData());
+    message = MessageOf(facts);
+  }
+  auto own = vtkSmartPointer<vtkPolyData>::New();
+  own->ShallowCopy(piece);
+  own->SetFieldData(SurfaceFrom(ranks.Broadcast(std::move(message)))->GetFieldData());
+  return own;
+}
+
+/** @param surface at rank 0 all of it, or its piece @return the piece of this rank */
+vtkSmartPointer<vtkPolyData> ScatterSurface(const Scattering& about, vtkPolyData* surface)
+{
+  Communicator& ranks = about.Ranks;
+  const bool isFirst = ranks.Rank() == 0;
+  const bool isPiece =
+    BroadcastValue(ranks, isFirst && surface->GetPointData()->GetGlobalIds() != nullptr);
+  vtkSmartPointer<vtkPolyData> whole = surface;
+  if (isPiece)
+  {
+    const auto own = WithFacts(ranks, isFirst ? surface : about.Piece);
+    if (about.GhostLevels <= 0)
+    {
+      return own;
+    }
+    whole = JoinPieces(ranks.Gather(MessageOf(own)));
+  }
+  if (!isFirst)
   {
     return SurfaceFrom(ranks.Pass(0, ranks.Rank()));
   }
-  const SurfacePieces pieces(whole, ranks.NumberOfRanks(), ghostLevels);
+  const SurfacePieces pieces(whole, ranks.NumberOfRanks(), about.GhostLevels);
   for (int rank = 1; rank < ranks.NumberOfRanks(); ++rank)
   {
     ranks.Pass(0, rank, MessageOf(pieces.Piece(rank)));
@@ -59,8 +102,9 @@ std::string Describe(vtkMultiBlockDataSet* blocks)
   return text;
 }
 
-void ScatterBlocks(Communicator& ranks, vtkMultiBlockDataSet* blocks, int ghostLevels)
+void ScatterBlocks(const Scattering& about, vtkMultiBlockDataSet* blocks)
 {
+  Communicator& ranks = about.Ranks;
   const std::string own = ranks.Rank() == 0 ? Describe(blocks) : "";
   const Message all = ranks.Broadcast(Message(own.begin(), own.end()));
   const std::string text(all.begin(), all.end());
@@ -72,8 +116,7 @@ void ScatterBlocks(Communicator& ranks, vtkMultiBlockDataSet* blocks, int ghostL
     vtkSmartPointer<vtkPolyData> piece;
     if (isThere)
     {
-      vtkPolyData* whole = ranks.Rank() == 0 ? SurfaceOf(blocks, block) : nullptr;
-      piece = ScatterSurface(ranks, whole, ghostLevels);
+      piece = ScatterSurface(about, ranks.Rank() == 0 ? SurfaceOf(blocks, block) : nullptr);
     }
     blocks->SetBlock(block, piece);
     blocks->GetMetaData(block)->Set(
@@ -105,7 +148,8 @@ void ScatterColumns(Communicator& ranks, vtkTable* table)
 }
 }
 
-void ScatterOutputs(Communicator& ranks, vtkInformation* request, vtkInformationVector* outputs)
+void ScatterOutputs(Communicator& ranks, vtkInformation* request, vtkInformationVector* outputs,
+  vtkPolyData* piece)
 {
   if (ranks.NumberOfRanks() == 1)
   {
@@ -115,14 +159,15 @@ void ScatterOutputs(Communicator& ranks, vtkInformation* request, vtkInformation
   const int ghostLevels = BroadcastValue(ranks,
     outputs->GetInformationObject(port)->Get(
       vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS()));
+  const Scattering about{ ranks, ghostLevels, piece };
   vtkPolyData* surface = vtkPolyData::GetData(outputs, 0);
   const bool isThere = BroadcastValue(ranks, surface->GetPoints() != nullptr);
   if (isThere)
   {
-    surface->ShallowCopy(ScatterSurface(ranks, surface, ghostLevels));
+    surface->ShallowCopy(ScatterSurface(about, surface));
   }
-  ScatterBlocks(ranks, vtkMultiBlockDataSet::GetData(outputs, 1), ghostLevels);
+  ScatterBlocks(about, vtkMultiBlockDataSet::GetData(outputs, 1));
   ScatterColumns(ranks, vtkTable::GetData(outputs, 2));
-  ScatterBlocks(ranks, vtkMultiBlockDataSet::GetData(outputs, 3), ghostLevels);
+  ScatterBlocks(about, vtkMultiBlockDataSet::GetData(outputs, 3));
 }
 }

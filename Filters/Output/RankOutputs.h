@@ -5,9 +5,9 @@
 
 #include "Core/Common/Communicator.h"
 
-
 class vtkInformation;
 class vtkInformationVector;
+class vtkPolyData;
 
 namespace volumic
 {
@@ -17,8 +17,11 @@ namespace volumic
  * the same names; of the history the columns, whose rows stay at rank 0. With one rank nothing
  * changes. All ranks call it.
  * @param request, outputs as RequestData has them: how many ghost levels are asked for
+ * @param piece what another rank has of the one surface of which rank 0 has but a piece, too
+ *        (`GlobalIds`): its field data come from rank 0
  */
-void ScatterOutputs(Communicator& ranks, vtkInformation* request, vtkInformationVector* outputs);
+void ScatterOutputs(Communicator& ranks, vtkInformation* request, vtkInformationVector* outputs,
+  vtkPolyData* piece);
 }
 
 #endif

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Output/SurfaceOutput.h"
 
+#include "Core/Common/RankLists.h"
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "Core/Surface/SizingField.h"
 #include "Host/LargeArray.h"
@@ -25,6 +26,10 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <functional>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -96,21 +101,59 @@ void AddComponentOfCells(vtkPolyData* polyData, const char* name, const SurfaceF
   polyData->GetCellData()->AddArray(array);
 }
 
-/** The size that 98 % of the residuals don't exceed; 0 for none. */
-double ResidualQuantile(LargeVector<float> residuals)
+/** Sizes are in the order of their bits. */
+std::uint32_t BitsOfSize(float value)
 {
-  if (residuals.empty())
+  value = std::abs(value);
+  std::uint32_t bits;
+  std::memcpy(&bits, &value, sizeof(bits));
+  return bits;
+}
+
+/** The size that 98 % of the residuals of the whole don't exceed; 0 for none. */
+double ResidualQuantile(const LargeVector<float>& residuals, const PieceOfSurface& piece)
+{
+  // Byte by byte, the first one first: how many have each, of those that have what is found so far.
+  constexpr int bytes = 4;
+  using Counts = std::array<std::int64_t, 256>;
+  std::uint32_t found = 0;
+  std::int64_t place = 0; // Among these, in order.
+  for (int byte = bytes - 1; byte >= 0; --byte)
   {
-    return 0.0;
+    Counts own{};
+    for (std::size_t p = 0; p < residuals.size(); ++p)
+    {
+      const std::uint64_t bits = BitsOfSize(residuals[p]) >> (8 * byte);
+      if (bits >> 8 == found && piece.Counts(p))
+      {
+        ++own[bits & 255];
+      }
+    }
+    Counts counts{};
+    for (const Counts& ofRank : GatherValues(*piece.Ranks, own))
+    {
+      std::transform(
+        counts.begin(), counts.end(), ofRank.begin(), counts.begin(), std::plus<std::int64_t>());
+    }
+    if (byte == bytes - 1)
+    {
+      const std::int64_t all = std::accumulate(counts.begin(), counts.end(), std::int64_t(0));
+      if (all == 0)
+      {
+        return 0.0;
+      }
+      place = static_cast<std::int64_t>(0.98 * static_cast<double>(all - 1));
+    }
+    std::uint32_t next = 0;
+    while (place >= counts[next])
+    {
+      place -= counts[next++];
+    }
+    found = found << 8 | next;
   }
-  for (float& residual : residuals)
-  {
-    residual = std::abs(residual);
-  }
-  const auto last = static_cast<double>(residuals.size() - 1);
-  const auto place = residuals.begin() + static_cast<std::ptrdiff_t>(0.98 * last);
-  std::nth_element(residuals.begin(), place, residuals.end());
-  return *place;
+  float size;
+  std::memcpy(&size, &found, sizeof(size));
+  return size;
 }
 
 void TakePoints(vtkPolyData* polyData, LargeVector<Point>& places, Executor& executor)
@@ -155,6 +198,30 @@ void TakeTriangles(vtkPolyData* polyData, LargeVector<Triangle>& corners, Execut
   polyData->SetPolys(triangles);
 }
 
+/** The point of a piece that has this number in the whole; -1: none. */
+int PointOf(const PieceOfSurface& piece, int id)
+{
+  if (piece.IsWhole())
+  {
+    return id;
+  }
+  const auto found = std::lower_bound(piece.Ids.begin(), piece.Ids.end(), id);
+  return found == piece.Ids.end() || *found != id ? -1
+                                                  : static_cast<int>(found - piece.Ids.begin());
+}
+
+int CountContacts(vtkPolyData* polyData, const PieceOfSurface& piece)
+{
+  auto* contact =
+    vtkUnsignedCharArray::SafeDownCast(polyData->GetPointData()->GetArray("Contact"));
+  int count = 0;
+  for (vtkIdType p = 0; p < contact->GetNumberOfValues(); ++p)
+  {
+    count += contact->GetValue(p) == 1 && piece.Counts(static_cast<std::size_t>(p));
+  }
+  return SumOfRanks(*piece.Ranks, count);
+}
+
 /** Takes what the surface knows of its points, but for the residuals. */
 void TakePointArrays(
   vtkPolyData* polyData, SurfaceResult& surface, const Workspace& space, Executor& executor)
@@ -187,8 +254,13 @@ void TakePointArrays(
   std::copy(surface.Held.begin(), surface.Held.end(), contact->GetPointer(0));
   for (const std::array<int, 2>& pair : surface.Contacts)
   {
-    contact->SetValue(pair[0], 1);
-    contact->SetValue(pair[1], 1);
+    for (const int id : pair)
+    {
+      if (const int p = PointOf(surface.Piece, id); p >= 0)
+      {
+        contact->SetValue(p, 1);
+      }
+    }
   }
   polyData->GetPointData()->AddArray(contact);
   const auto addLengths = [&](const char* name, const LargeVector<float>& lengths, double factor)
@@ -204,6 +276,13 @@ void TakePointArrays(
   };
   addLengths("EdgeSize", surface.Size, SizingField::RestLengthInDelta * space.WorldUnit());
   addLengths("Thickness", surface.Thickness, space.WorldUnit());
+  if (!surface.Piece.IsWhole())
+  {
+    const auto ids = NewLargeArray<vtkIdTypeArray>(n);
+    ids->SetName("GlobalIds");
+    std::copy(surface.Piece.Ids.begin(), surface.Piece.Ids.end(), ids->GetPointer(0));
+    polyData->GetPointData()->SetGlobalIds(ids);
+  }
 }
 
 void SetFeatures(vtkPolyData* polyData, const SurfaceFeatures& features, Executor& executor)
@@ -244,8 +323,7 @@ vtkSmartPointer<vtkPolyData> MakePolyData(SurfaceResult surface,
   auto polyData = vtkSmartPointer<vtkPolyData>::New();
   IndexedSurface& shape = surface;
   shape = ToWorld(std::move(shape), space, executor);
-  const SurfaceFeatures features = ComputeFeatures(shape, executor);
-  const auto numberOfPoints = static_cast<std::ptrdiff_t>(shape.Points.size());
+  const SurfaceFeatures features = ComputeFeatures(shape, executor, surface.Piece);
   TakePoints(polyData, shape.Points, executor);
   TakeTriangles(polyData, shape.Triangles, executor);
   TakePointArrays(polyData, surface, space, executor);
@@ -255,13 +333,10 @@ vtkSmartPointer<vtkPolyData> MakePolyData(SurfaceResult surface,
   AddField<vtkIntArray>(polyData, "Iterations", description.Iterations);
   AddField<vtkIntArray>(
     polyData, "RemainingContacts", static_cast<int>(surface.Contacts.size()));
-  auto* contact =
-    vtkUnsignedCharArray::SafeDownCast(polyData->GetPointData()->GetArray("Contact"));
-  const unsigned char* contacts = contact->GetPointer(0);
-  AddField<vtkIntArray>(polyData, "ContactVertices",
-    static_cast<int>(std::count(contacts, contacts + numberOfPoints, 1)));
+  AddField<vtkIntArray>(polyData, "ContactVertices", CountContacts(polyData, surface.Piece));
   AddField<vtkDoubleArray>(
-    polyData, "ResidualQuantile", ResidualQuantile(std::move(surface.Residual)));
+    polyData, "ResidualQuantile", ResidualQuantile(surface.Residual, surface.Piece));
+  Free(surface.Residual);
   if (surface.FitToTolerance)
   {
     AddField<vtkDoubleArray>(

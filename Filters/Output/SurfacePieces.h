@@ -3,6 +3,8 @@
 #ifndef volumicSurfacePieces_h
 #define volumicSurfacePieces_h
 
+#include "Core/Common/Communicator.h"
+
 #include <vtkSmartPointer.h>
 #include <vtkType.h>
 
@@ -45,6 +47,12 @@ private:
   std::vector<vtkIdType> FirstOfPoint;
   std::vector<vtkIdType> TrianglesOfPoints;
 };
+
+/**
+ * The whole that all pieces without ghosts are of, with the field data of the first; null of none.
+ * @param pieces by number, as MessageOf()
+ */
+vtkSmartPointer<vtkPolyData> JoinPieces(const std::vector<Message>& pieces);
 }
 
 #endif

@@ -6,9 +6,11 @@
 #include "Core/Common/Monitor.h"
 #include "Core/Image/Field.h"
 #include "Host/HostThreads.h"
+#include "Output/SurfaceOutput.h"
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 namespace volumic
 {
@@ -106,7 +108,7 @@ std::unique_ptr<RankLevel> ShareLevel(Communicator& ranks, const SharedLevel& sh
   const auto found = pieces.find(shared.Level);
   auto level = std::make_unique<RankLevel>(
     ranks, image, found != pieces.end() ? &found->second : nullptr);
-  if (shared.GivesVoxels)
+  if (shared.Is == SharedLevel::Work::GivesVoxels)
   {
     level->Need(VoxelBox::Of(image.Size));
   }
@@ -122,7 +124,7 @@ bool EvolveOnRanks(Communicator& ranks, const SharedLevel& shared, RankLevel& le
   if (isDivided)
   {
     reason = evolution.Run();
-    surface = evolution.Result();
+    surface = shared.InPieces ? evolution.PieceOfResult() : evolution.Result();
     if (!shared.IsLast)
     {
       evolution.Unite();
@@ -132,34 +134,46 @@ bool EvolveOnRanks(Communicator& ranks, const SharedLevel& shared, RankLevel& le
   return isDivided;
 }
 
-void HelpWithLevel(
-  Communicator& ranks, const LevelsInPieces& pieces, const std::function<bool()>& goOn)
+void ShareOutput(Communicator& ranks, const Workspace& space, int numberOfThreads)
+{
+  SharedLevel shared;
+  shared.Is = SharedLevel::Work::MakesOutput;
+  shared.NumberOfThreads = numberOfThreads;
+  BroadcastValue(ranks, shared);
+  BroadcastValue(ranks, space);
+}
+
+void HelpWithLevel(Communicator& ranks, const LevelsInPieces& pieces, HelpersPiece& piece,
+  const std::function<bool()>& goOn)
 {
   const SharedLevel shared = BroadcastValue(ranks, SharedLevel());
+  HostThreads threads(shared.NumberOfThreads);
+  if (shared.Is == SharedLevel::Work::MakesOutput)
+  {
+    const auto space = BroadcastValue(ranks, Workspace());
+    threads.Run(
+      [&]
+      {
+        SurfaceResult result = std::exchange(piece.Result, SurfaceResult());
+        piece.Output = MakePolyData(std::move(result), SurfaceDescription(), space, threads);
+      });
+    return;
+  }
   const auto found = pieces.find(shared.Level);
   RankLevel level(ranks, LevelImage(), found != pieces.end() ? &found->second : nullptr);
-  if (shared.GivesVoxels)
+  if (shared.Is == SharedLevel::Work::GivesVoxels)
   {
     level.Need(VoxelBox());
     return;
   }
-  level.NeedMeasures();
-  HostThreads threads(shared.NumberOfThreads);
+  piece = HelpersPiece(); // Rank 0 has forgotten that level, too.
   HelpersMonitor monitor(goOn);
   threads.Run(
     [&]
     {
       SurfaceEvolution evolution(shared.Options, threads, monitor);
-      evolution.SetRanks(&ranks, [&level](const VoxelBox& box) { level.Need(box); });
-      if (evolution.Divide(level.Image(), shared.Level))
-      {
-        evolution.Run();
-        evolution.Result();
-        if (!shared.IsLast)
-        {
-          evolution.Unite();
-        }
-      }
+      StopReason reason = StopReason::Cancelled;
+      EvolveOnRanks(ranks, shared, level, evolution, reason, piece.Result);
     });
   GiveBackFreeMemory();
 }

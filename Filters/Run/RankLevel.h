@@ -11,7 +11,11 @@
 #include "Core/Image/LevelImage.h"
 #include "Core/Image/VoxelBox.h"
 #include "Core/Image/VoxelPieces.h"
+#include "Input/Workspace.h"
 #include "Settings/SegmentationVolume.h"
+
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
 
 #include <functional>
 #include <memory>
@@ -57,17 +61,31 @@ private:
 /** What rank 0 of a run shares with those that help it. */
 struct SharedLevel
 {
-  bool GivesVoxels = false; ///< Rank 0 wants all voxels, and does the rest alone.
+  enum class Work
+  {
+    Evolves,     ///< All evolve the surface.
+    GivesVoxels, ///< Rank 0 wants all voxels, and does the rest alone.
+    MakesOutput  ///< All make outputs of their pieces.
+  };
+  Work Is = Work::Evolves;
   SurfaceOptions Options;
   int Level = 0;
   int NumberOfThreads = 0;
-  bool IsLast = false; ///< The surface is not to go on from there, so need not be whole.
+  bool IsLast = false;   ///< The surface is not to go on from there, so need not be whole.
+  bool InPieces = false; ///< Nor is its output: each rank makes its own piece.
+};
+
+/** What a rank that helps keeps of a surface of which each has a piece, rank 0, too. */
+struct HelpersPiece
+{
+  SurfaceResult Result;                ///< until the output is made of it
+  vtkSmartPointer<vtkPolyData> Output; ///< but for field data; null: there is none
 };
 
 /**
  * At rank 0, while the other ranks are in HelpWithLevel(): divides the surface to a level that all
- * ranks share, and evolves it there. Afterwards rank 0 has the result, and the whole surface where
- * the run goes on from there. @return false as SurfaceEvolution::Divide()
+ * ranks share, and evolves it there. Afterwards rank 0 has the result, or its piece of it, and the
+ * whole surface where the run goes on from there. @return false as SurfaceEvolution::Divide()
  */
 bool EvolveOnRanks(Communicator& ranks, const SharedLevel& shared, RankLevel& level,
   SurfaceEvolution& evolution, StopReason& reason, SurfaceResult& surface);
@@ -78,11 +96,16 @@ bool EvolveOnRanks(Communicator& ranks, const SharedLevel& shared, RankLevel& le
 std::unique_ptr<RankLevel> ShareLevel(Communicator& ranks, const SharedLevel& shared,
   const LevelImage& image, const LevelsInPieces& pieces);
 
+/** At rank 0, likewise: tells the others to make outputs of their pieces, as it is about to do. */
+void ShareOutput(Communicator& ranks, const Workspace& space, int numberOfThreads);
+
 /**
- * At the others, until rank 0 is done. @param goOn asked now and then; false ends the run of all
+ * At the others, until rank 0 is done.
+ * @param piece what this rank keeps of the surface
+ * @param goOn  asked now and then; false ends the run of all
  */
-void HelpWithLevel(
-  Communicator& ranks, const LevelsInPieces& pieces, const std::function<bool()>& goOn);
+void HelpWithLevel(Communicator& ranks, const LevelsInPieces& pieces, HelpersPiece& piece,
+  const std::function<bool()>& goOn);
 }
 
 #endif

@@ -338,10 +338,16 @@ bool SurfaceSegmentation::MayBeShared(int level) const
     !this->Levels.HasPoints() && !this->Levels.HasEdges();
 }
 
+bool SurfaceSegmentation::NeedsWholeResult() const
+{
+  return this->Request.KeepsWhole || this->Request.Checkpoints.AreLeft ||
+    this->Settings.End.KeepComponents != KeepComponentsType::AllComponents;
+}
+
 void SurfaceSegmentation::GatherVoxels(int level)
 {
   SharedLevel shared;
-  shared.GivesVoxels = true;
+  shared.Is = SharedLevel::Work::GivesVoxels;
   shared.Level = std::max(level, 0);
   const LevelImage image =
     this->Levels.Load(shared.Level, this->Settings.Options, *this->Threads);
@@ -357,10 +363,11 @@ bool SurfaceSegmentation::EvolveOn(
   if (this->MayBeShared(level))
   {
     bool isDivided = false;
-    // From level 0 only the run to level -1 goes on.
-    const bool isLast = level == 0 && this->Choice.Last == 0;
-    const SharedLevel shared{ false, this->Settings.Options, level,
-      this->Settings.End.NumberOfThreads, isLast };
+    // From level 0 only the run to level -1 goes on, or one from a checkpoint that stays.
+    const bool isLast = level == 0 && this->Choice.Last == 0 &&
+      !(this->Request.Checkpoints.AreLeft && this->Request.Checkpoints.Stay);
+    const SharedLevel shared{ SharedLevel::Work::Evolves, this->Settings.Options, level,
+      this->Settings.End.NumberOfThreads, isLast, isLast && !this->NeedsWholeResult() };
     this->Request.OnAllRanks(
       [&]
       {
@@ -428,7 +435,7 @@ bool SurfaceSegmentation::KeepLevel(int level, StopReason reason, SurfaceResult 
   {
     result.Whole = std::make_shared<const SurfaceResult>(surface);
   }
-  this->Found.MakeSurface(result, std::move(surface), *this->Threads);
+  this->MakeOutput(result, std::move(surface));
   this->Found.SetLevel(level, result);
   this->Evolution->EndLevel();
   this->Threads->EndPhase("Output");
@@ -436,6 +443,24 @@ bool SurfaceSegmentation::KeepLevel(int level, StopReason reason, SurfaceResult 
   return reason == StopReason::Converged || reason == StopReason::LimitCycle ||
     reason == StopReason::IterationLimit ||
     (reason == StopReason::Vanished && this->Settings.Options.RecoverLostParts);
+}
+
+void SurfaceSegmentation::MakeOutput(SegmentationResults::Level& result, SurfaceResult surface)
+{
+  const auto make = [&]
+  { this->Found.MakeSurface(result, std::move(surface), *this->Threads); };
+  if (surface.Piece.IsWhole())
+  {
+    make();
+    return;
+  }
+  this->Request.OnAllRanks(
+    [&]
+    {
+      ShareOutput(*this->Request.Ranks, this->Levels.GetWorkspace(),
+        this->Settings.End.NumberOfThreads);
+      make();
+    });
 }
 
 std::string SurfaceSegmentation::DescribeStop() const

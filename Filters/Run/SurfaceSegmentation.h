@@ -103,6 +103,8 @@ private:
   bool PreviewMissesParts(int level) const;
   /** Whether all ranks may work on a level. */
   bool MayBeShared(int level) const;
+  /** Whether rank 0 is to have all of the surface that a run on all ranks ends with. */
+  bool NeedsWholeResult() const;
   /** On all ranks: brings rank 0 the voxels of a level that is in pieces. */
   void GatherVoxels(int level);
   /**
@@ -114,6 +116,8 @@ private:
     const LevelImage& image, int level, StopReason& reason, SurfaceResult& surface);
   /** Puts the surface of a level into Found. @return whether it is fit for a finer level */
   bool KeepLevel(int level, StopReason reason, SurfaceResult surface);
+  /** Of a whole surface, or, on all ranks, of the piece of each. */
+  void MakeOutput(SegmentationResults::Level& result, SurfaceResult surface);
   /** Once a Run(), before RunLevels(): finds out of which run a checkpoint would be. */
   void PrepareCheckpoint();
   /** Once a run, before its first level: goes on from a checkpoint, where that is asked for. */

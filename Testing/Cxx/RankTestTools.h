@@ -3,10 +3,13 @@
 #ifndef volumicRankTestTools_h
 #define volumicRankTestTools_h
 
+#include "Core/Common/PieceOfSurface.h"
 #include "Core/Surface/RankPiece.h"
 #include "Core/Surface/SurfaceComponents.h"
 #include "Core/Surface/SurfaceState.h"
 #include "TestPrelude.h"
+
+#include <map>
 
 namespace volumic
 {
@@ -88,6 +91,47 @@ inline void TakePart(SurfaceState& part, const SurfaceState& whole, const OwnerO
       part.EdgeLengthSum[v] = whole.EdgeLengthSum[v];
     }
   }
+}
+
+/** The piece that a rank is to have of a whole surface. */
+inline PieceOfSurface Cut(
+  const IndexedSurface& whole, int rank, int ranks, IndexedSurface& surface)
+{
+  const auto first = [&](int piece)
+  { return static_cast<int>(static_cast<long long>(whole.Triangles.size()) * piece / ranks); };
+  std::vector<std::vector<int>> piecesOf(whole.Points.size());
+  for (int piece = 0; piece < ranks; ++piece)
+  {
+    for (int t = first(piece); t < first(piece + 1); ++t)
+    {
+      for (const int corner : whole.Triangles[t])
+      {
+        piecesOf[corner].push_back(piece);
+      }
+    }
+  }
+  PieceOfSurface cut;
+  cut.FirstTriangle = first(rank);
+  std::map<int, int> placeOf;
+  for (std::size_t p = 0; p < piecesOf.size(); ++p)
+  {
+    const std::vector<int>& of = piecesOf[p];
+    if (std::count(of.begin(), of.end(), rank) > 0)
+    {
+      placeOf[static_cast<int>(p)] = static_cast<int>(cut.Ids.size());
+      cut.Ids.push_back(static_cast<int>(p));
+      cut.Roles.push_back((of.front() == rank ? PieceOfSurface::IsCounted : 0) |
+        (of.front() != of.back() ? PieceOfSurface::IsShared : 0));
+      surface.Points.push_back(whole.Points[p]);
+    }
+  }
+  for (int t = first(rank); t < first(rank + 1); ++t)
+  {
+    const Triangle& corners = whole.Triangles[t];
+    surface.Triangles.push_back(
+      { placeOf.at(corners[0]), placeOf.at(corners[1]), placeOf.at(corners[2]) });
+  }
+  return cut;
 }
 
 inline RankPiece PartOf(Communicator& ranks, const OwnerOf& ownerOf)

@@ -5,6 +5,7 @@
 #include "BarTestScene.h"
 #include "Core/Common/StandardThreads.h"
 #include "EvolutionTestTools.h"
+#include "RankTestTools.h"
 #include "ThreadRanks.h"
 
 using namespace volumic;
@@ -28,11 +29,13 @@ struct Coarse
   };
   Start Begins = Enclosing;
   double Factor = std::sqrt(3.);
+  bool Vanishes = false; ///< The fine level shows nothing.
 };
 
 struct RunOnRanks
 {
   SurfaceResult Surface;
+  std::vector<SurfaceResult> Pieces; ///< Of each rank.
   std::vector<HistoryRow> Rows;
   int Missing = 0;
   double MissingBoundary = 0.;
@@ -40,8 +43,13 @@ struct RunOnRanks
 
   RunOnRanks(int count, SurfaceOptions options, const Coarse& above = Coarse())
   {
+    this->Pieces.resize(static_cast<std::size_t>(count));
     const TestVolume coarse = Plate(above.Factor);
-    const TestVolume fine = Plate(1.);
+    TestVolume fine = Plate(1.);
+    if (above.Vanishes)
+    {
+      std::fill(fine.Values.begin(), fine.Values.end(), 0.f);
+    }
     options.MostVoxelsOfRank =
       static_cast<std::int64_t>(coarse.Image.Size[0]) * coarse.Image.Size[1] * coarse.Image.Size[2];
     ThreadRanks::Run(count,
@@ -56,6 +64,7 @@ struct RunOnRanks
           evolution.Divide(fine.Image, 0);
           evolution.Run();
           EXPECT_TRUE(evolution.Result().Points.empty());
+          this->Pieces[ranks.Rank()] = evolution.PieceOfResult();
           evolution.Unite();
           return;
         }
@@ -76,6 +85,7 @@ struct RunOnRanks
         evolution.Divide(fine.Image, 0);
         evolution.Run();
         this->Surface = evolution.Result();
+        this->Pieces[0] = evolution.PieceOfResult();
         this->Rows = evolution.History();
         this->Missing = evolution.Lost().Missing;
         this->MissingBoundary = evolution.Lost().MissingBoundary;
@@ -89,6 +99,37 @@ struct RunOnRanks
   }
 };
 
+/** Each rank has the piece that is to be cut out of the whole for it. */
+void ExpectPiecesOf(const SurfaceResult& whole, const std::vector<SurfaceResult>& pieces)
+{
+  const int count = static_cast<int>(pieces.size());
+  for (int rank = 0; rank < count; ++rank)
+  {
+    SCOPED_TRACE(rank);
+    const SurfaceResult& piece = pieces[rank];
+    IndexedSurface surface;
+    const PieceOfSurface cut = Cut(whole, rank, count, surface);
+    EXPECT_EQ(piece.Points, surface.Points);
+    EXPECT_EQ(piece.Triangles, surface.Triangles);
+    EXPECT_EQ(piece.Contacts, whole.Contacts);
+    EXPECT_EQ(piece.Delta, pieces[0].Delta);
+    if (count > 1)
+    {
+      EXPECT_EQ(piece.Piece.FirstTriangle, cut.FirstTriangle);
+      ASSERT_EQ(piece.Piece.Ids, cut.Ids);
+      EXPECT_EQ(piece.Piece.Roles, cut.Roles);
+    }
+    for (std::size_t p = 0; p < cut.Ids.size(); ++p)
+    {
+      const int id = cut.Ids[p];
+      ASSERT_EQ(piece.Normals[p], whole.Normals[id]);
+      ASSERT_EQ(piece.Residual[p], whole.Residual[id]);
+      ASSERT_EQ(piece.Motionless[p], whole.Motionless[id]);
+      ASSERT_EQ(piece.Held[p], whole.Held[id]);
+    }
+  }
+}
+
 void ExpectSame(const RunOnRanks& run, const RunOnRanks& expected)
 {
   EXPECT_EQ(run.Surface.Points, expected.Surface.Points);
@@ -98,6 +139,7 @@ void ExpectSame(const RunOnRanks& run, const RunOnRanks& expected)
   EXPECT_EQ(run.Surface.Held, expected.Surface.Held);
   EXPECT_EQ(run.Surface.Residual, expected.Surface.Residual);
   EXPECT_EQ(run.Surface.Contacts, expected.Surface.Contacts);
+  ExpectPiecesOf(expected.Surface, run.Pieces);
   EXPECT_EQ(run.Missing, expected.Missing);
   EXPECT_EQ(run.MissingBoundary, expected.MissingBoundary);
   EXPECT_EQ(run.Lost.Found, expected.Lost.Found);
@@ -137,7 +179,18 @@ TEST(RankSweeps, MakeTheSurfaceOfOneRank)
   SurfaceMesh mesh;
   mesh.Append(one.Surface);
   EXPECT_EQ(DescribeBrokenInvariant(mesh), "");
-  ExpectOnRanks(one, { 2, 3, 4 }, ForPlate());
+  ExpectOnRanks(one, { 2, 3, 5 }, ForPlate());
+}
+
+TEST(RankSweeps, LeavePiecesOfNothing)
+{
+  SurfaceOptions options = ForPlate();
+  options.MaximumNumberOfIterations = 200;
+  Coarse above;
+  above.Vanishes = true;
+  const RunOnRanks one(1, options, above);
+  EXPECT_TRUE(one.Surface.Points.empty());
+  ExpectOnRanks(one, { 3 }, options, above);
 }
 
 TEST(RankSweeps, RecoverWhatOneRankRecovers)

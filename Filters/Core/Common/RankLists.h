@@ -6,6 +6,7 @@
 #include "Core/Common/Communicator.h"
 
 #include <cstddef>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -97,6 +98,53 @@ std::vector<std::vector<T>> ExchangeLists(
     messages.push_back(detail::MessageOf(list));
   }
   return detail::ListsIn<T>(ranks.Exchange(std::move(messages)));
+}
+
+/**
+ * What ranks do to a list one after the other, rank 0 first, each to what the one before has left.
+ * @return what the last has left, on all ranks
+ */
+template <typename T, typename Work>
+std::vector<T> InOrderOfRanks(Communicator& ranks, std::vector<T> list, Work&& work)
+{
+  const int own = ranks.Rank();
+  const int last = ranks.NumberOfRanks() - 1;
+  if (own > 0)
+  {
+    list = detail::ListIn<T>(ranks.Pass(own - 1, own));
+  }
+  work(list);
+  if (own < last)
+  {
+    ranks.Pass(own, own + 1, detail::MessageOf(list));
+  }
+  Message left;
+  if (own == 0 || own == last)
+  {
+    left = ranks.Pass(last, 0, own == last ? detail::MessageOf(list) : Message());
+  }
+  return detail::ListIn<T>(ranks.Broadcast(std::move(left)));
+}
+
+/** @return the sum of the values of all ranks, on all ranks. */
+template <typename T>
+T SumOfRanks(Communicator& ranks, const T& value)
+{
+  const std::vector<T> values = GatherValues(ranks, value);
+  return std::accumulate(values.begin(), values.end(), T());
+}
+
+/** Sends a message to one rank and gets one from another, all ranks in a ring of the same step. */
+inline Message Trade(Communicator& ranks, int to, int from, Message message)
+{
+  std::vector<Message> messages(static_cast<std::size_t>(ranks.NumberOfRanks()));
+  messages[static_cast<std::size_t>(to)] = std::move(message);
+  std::vector<int> partners = { to };
+  if (from != to)
+  {
+    partners.push_back(from);
+  }
+  return std::move(ranks.Exchange(std::move(messages), partners)[static_cast<std::size_t>(from)]);
 }
 
 /** From rank 0 to each: a message by rank, of which only rank 0's matter. */

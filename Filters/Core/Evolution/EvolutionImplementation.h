@@ -29,7 +29,7 @@ namespace volumic
  * What SurfaceEvolution hides. EvolutionStart.cxx brings the surface to a level (start, division,
  * recovery; the divisions are in EvolutionDivision.cxx), GivenSurface.cxx makes a given one ready,
  * EvolutionRun.cxx iterates until it rests and regularises it, EvolutionVisits.cxx makes the visits
- * for both, EvolutionRanks.cxx on several ranks, RankResult.cxx puts together what these have,
+ * for both, EvolutionRanks.cxx on several ranks, RankResult.cxx hands out what these have,
  * EvolutionGrading.cxx divides it here and there, and gives it longer edges where it is flat,
  * EvolutionVerification.cxx has a last look at it, EvolutionHistory.cxx tells of it.
  *
@@ -213,7 +213,8 @@ struct SurfaceEvolution::Implementation
   std::vector<std::uint8_t> AreNear(std::vector<std::int64_t> voxels);
   /** By all ranks: the surface is whole on rank 0 afterwards. */
   void Unite();
-  SurfaceResult ResultOnRanks() const;
+  /** By all ranks: the result in so many pieces, of the first ranks. */
+  SurfaceResult ResultOnRanks(int pieces) const;
   void CountComponents();
   void LabelComponents();
   void BeginRow(HistoryRow& row);

@@ -239,7 +239,7 @@ SurfaceResult SurfaceEvolution::Result() const
 {
   if (this->Self->IsInPieces())
   {
-    return this->Self->ResultOnRanks();
+    return this->Self->ResultOnRanks(1);
   }
   const SurfaceState& s = this->Self->State;
   const Field& field = *this->Self->TheField;
@@ -309,6 +309,13 @@ SurfaceResult SurfaceEvolution::Result() const
     pair = { index[pair[0]], index[pair[1]] };
   }
   return result;
+}
+
+SurfaceResult SurfaceEvolution::PieceOfResult() const
+{
+  return this->Self->IsInPieces()
+    ? this->Self->ResultOnRanks(this->Self->Ranks->NumberOfRanks())
+    : this->Result();
 }
 
 const std::vector<HistoryRow>& SurfaceEvolution::History() const

@@ -9,6 +9,7 @@
 #include "Core/Common/Grading.h"
 #include "Core/Common/IndexedSurface.h"
 #include "Core/Common/Monitor.h"
+#include "Core/Common/PieceOfSurface.h"
 #include "Core/Evolution/SurfaceOptions.h"
 #include "Core/Image/LevelImage.h"
 #include "Core/Image/VoxelBox.h"
@@ -108,14 +109,16 @@ struct HistoryRow
   std::array<PhaseTime, static_cast<int>(Phase::Count)> Phases{};
 };
 
-/** The surface as handed out: compact, workspace coordinates. */
+/** The surface, or a piece of it, as handed out: compact, workspace coordinates. */
 struct SurfaceResult : IndexedSurface
 {
+  PieceOfSurface Piece;
   LargeVector<std::array<float, 3>> Normals;  ///< Unit, outward, per point.
   LargeVector<float> Residual;                ///< Field minus iso-value, per point.
   LargeVector<unsigned char> Motionless;      ///< 1 where frozen, per point.
   LargeVector<unsigned char> Held;            ///< Per point, see RemainingContacts.
-  LargeVector<std::array<int, 2>> Contacts;   ///< Pairs of points, see RemainingContacts.
+  /** Pairs of points, see RemainingContacts; of a piece those of the whole, by its numbers. */
+  LargeVector<std::array<int, 2>> Contacts;
   double Delta = 0.;                          ///< delta_h, workspace.
   LargeVector<float> Size;      ///< Of a graded surface delta per point, workspace; else empty.
   LargeVector<float> Thickness; ///< With thin parts, per point, workspace; else empty.
@@ -192,9 +195,10 @@ public:
 
   /**
    * From now on it is one of those on several ranks, which evolve one surface: all of them call
-   * Divide() to a level that they share (AreShared), Run() and Result() there, at the same time,
-   * and Unite() where it is to go on from there. Rank 0 alone has a surface before, a result, and the surface when
-   * they have united. It is the same bits as on one rank. Null: alone again.
+   * Divide() to a level that they share (AreShared), Run() and Result() or PieceOfResult() there, at
+   * the same time, and Unite() where it is to go on from there. Rank 0 alone has a surface before, a
+   * Result(), and the surface when they have united. It is the same bits as on one rank. Null: alone
+   * again.
    * @param needVoxels called on all of them at the same time: the level's voxels that this rank
    *        needs from now on. Before that, and elsewhere, they may be anything.
    */
@@ -238,8 +242,10 @@ public:
    */
   void Load(CheckedReader& file);
 
-  /** The surface as it is. */
+  /** The surface as it is. Of several ranks, all of which call it, rank 0 gets it. */
   SurfaceResult Result() const;
+  /** The same for each rank its piece, of about as many triangles. One alone gets the whole. */
+  SurfaceResult PieceOfResult() const;
 
   /** A row per iteration since the object was made. */
   const std::vector<HistoryRow>& History() const;

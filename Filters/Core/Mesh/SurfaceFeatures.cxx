@@ -3,6 +3,8 @@
 #include "Core/Mesh/SurfaceFeatures.h"
 
 #include "Core/Common/DisjointSets.h"
+#include "Core/Common/JoinLabels.h"
+#include "Core/Common/RankLists.h"
 #include "Core/Common/Select.h"
 
 #include <algorithm>
@@ -126,27 +128,52 @@ ComponentFeatures Finish(const Sums& sums)
   return result;
 }
 
-/** The components of a surface, numbered in the order of their first triangles. */
+/**
+ * The components of a surface, numbered in the order of their first triangles. Of a piece they are
+ * found first as far as it has them, then joined over the points that it shares with others.
+ */
 class Components
 {
 public:
-  Components(const IndexedSurface& surface, Executor& executor);
+  Components(const IndexedSurface& surface, Executor& executor, const PieceOfSurface& piece);
 
-  LargeVector<int> OfTriangle;
-  std::vector<int> FirstTriangle; ///< Of each component.
-  std::vector<int> Vertices;      ///< Their number.
+  int Of(std::size_t triangle) const { return this->Label[this->OfTriangle[triangle]]; }
+
+  LargeVector<int> OfTriangle; ///< Of the piece.
+  std::vector<int> Label;      ///< Of those of the piece, which of the whole they are.
+  std::vector<Sums> Begun;     ///< By component of the whole, all that comes before its triangles.
 
 private:
+  /** A component of a piece. */
+  struct Local
+  {
+    int FirstTriangle = 0; ///< Its number in the whole,
+    Point Reference;       ///< and its first corner.
+    int Vertices = 0;      ///< That are counted.
+  };
+  /** A point that other pieces have, too. */
+  struct SharedPoint
+  {
+    int Id;
+    int Component;
+  };
   void FindRoots(const IndexedSurface& surface, Executor& executor);
-  void Number(const IndexedSurface& surface, Executor& executor);
+  void Number(
+    const IndexedSurface& surface, Executor& executor, const PieceOfSurface& piece);
+  void Join(const PieceOfSurface& piece);
 
   LargeVector<int> Root; ///< Of a point's component, the smallest point in it.
+  std::vector<Local> Locals;
+  std::vector<SharedPoint> Shared;
 };
 
-Components::Components(const IndexedSurface& surface, Executor& executor)
+Components::Components(
+  const IndexedSurface& surface, Executor& executor, const PieceOfSurface& piece)
 {
   this->FindRoots(surface, executor);
-  this->Number(surface, executor);
+  this->Number(surface, executor, piece);
+  LargeVector<int>().swap(this->Root);
+  this->Join(piece);
 }
 
 void Components::FindRoots(const IndexedSurface& surface, Executor& executor)
@@ -173,7 +200,8 @@ void Components::FindRoots(const IndexedSurface& surface, Executor& executor)
     });
 }
 
-void Components::Number(const IndexedSurface& surface, Executor& executor)
+void Components::Number(
+  const IndexedSurface& surface, Executor& executor, const PieceOfSurface& piece)
 {
   // By the place of a root its first triangle, then its number, counted from 1; 0 where it has none.
   LargeVector<std::atomic<int>> number(this->Root.size());
@@ -191,16 +219,18 @@ void Components::Number(const IndexedSurface& surface, Executor& executor)
         }
       }
     });
-  this->FirstTriangle = SelectIndices(
+  std::vector<int> firsts = SelectIndices(
     executor, number.size(), [&](std::size_t root) { return number[root].load() != 0; });
-  for (int& root : this->FirstTriangle)
+  for (int& root : firsts)
   {
     root = number[root] - 1;
   }
-  std::sort(this->FirstTriangle.begin(), this->FirstTriangle.end());
-  for (std::size_t c = 0; c < this->FirstTriangle.size(); ++c)
+  std::sort(firsts.begin(), firsts.end());
+  for (const int first : firsts)
   {
-    number[this->Root[surface.Triangles[this->FirstTriangle[c]][0]]] = static_cast<int>(c) + 1;
+    const int corner = surface.Triangles[first][0];
+    this->Locals.push_back({ piece.FirstTriangle + first, surface.Points[corner] });
+    number[this->Root[corner]] = static_cast<int>(this->Locals.size());
   }
   MakeZeroed(this->OfTriangle, surface.Triangles.size());
   ForSpans(executor, this->OfTriangle.size(), SpanSize,
@@ -212,26 +242,69 @@ void Components::Number(const IndexedSurface& surface, Executor& executor)
           number[this->Root[surface.Triangles[i][0]]].load(std::memory_order_relaxed) - 1;
       }
     });
-  this->Vertices.assign(this->FirstTriangle.size(), 0);
-  for (const int root : this->Root)
+  for (std::size_t p = 0; p < this->Root.size(); ++p)
   {
-    const int own = number[root].load(std::memory_order_relaxed);
-    if (own > 0)
+    const int own = number[this->Root[p]].load(std::memory_order_relaxed) - 1;
+    if (own >= 0 && piece.Counts(p))
     {
-      ++this->Vertices[own - 1];
+      ++this->Locals[own].Vertices;
+    }
+    if (own >= 0 && !piece.Roles.empty() && (piece.Roles[p] & PieceOfSurface::IsShared))
+    {
+      this->Shared.push_back({ piece.Ids[p], own });
     }
   }
 }
 
-std::vector<Sums> SumsOf(
-  const IndexedSurface& surface, const Components& components, Executor& executor)
+void Components::Join(const PieceOfSurface& piece)
 {
-  std::vector<Sums> sums(components.FirstTriangle.size());
-  for (std::size_t c = 0; c < sums.size(); ++c)
+  const std::vector<std::vector<Local>> locals = GatherEachOnAll(*piece.Ranks, this->Locals);
+  const std::vector<std::vector<SharedPoint>> shared =
+    GatherEachOnAll(*piece.Ranks, this->Shared);
+  std::vector<SetPiece> sets; // Of all ranks, one after the other.
+  std::vector<Point> references;
+  std::vector<std::pair<int, int>> points; // Their ids, and the sets that they are in.
+  std::size_t own = 0;
+  for (std::size_t rank = 0; rank < locals.size(); ++rank)
   {
-    sums[c].Reference = surface.Points[surface.Triangles[components.FirstTriangle[c]][0]];
-    sums[c].Vertices = components.Vertices[c];
+    own = rank == static_cast<std::size_t>(piece.Ranks->Rank()) ? sets.size() : own;
+    for (const SharedPoint& point : shared[rank])
+    {
+      points.emplace_back(point.Id, static_cast<int>(sets.size()) + point.Component);
+    }
+    for (const Local& local : locals[rank])
+    {
+      sets.push_back({ local.FirstTriangle, local.Vertices });
+      references.push_back(local.Reference);
+    }
   }
+  std::sort(points.begin(), points.end());
+  std::vector<std::pair<int, int>> joins;
+  for (std::size_t i = 1; i < points.size(); ++i)
+  {
+    if (points[i].first == points[i - 1].first)
+    {
+      joins.emplace_back(points[i - 1].second, points[i].second);
+    }
+  }
+  const JoinedSets joined = JoinLabels(sets, joins);
+  this->Begun.resize(joined.Labels.size());
+  for (std::size_t set = 0; set < sets.size(); ++set)
+  {
+    const int label = joined.LabelOf[set];
+    if (sets[set].First == joined.Labels[label].First)
+    {
+      this->Begun[label].Reference = references[set];
+      this->Begun[label].Vertices = static_cast<int>(joined.Labels[label].Size);
+    }
+  }
+  const auto begin = joined.LabelOf.begin() + static_cast<std::ptrdiff_t>(own);
+  this->Label.assign(begin, begin + static_cast<std::ptrdiff_t>(this->Locals.size()));
+}
+
+void AddUp(const IndexedSurface& surface, const Components& components, Executor& executor,
+  std::vector<Sums>& sums)
+{
   LargeVector<Terms> terms;
   MakeZeroed(terms, std::min(surface.Triangles.size(), BatchSize));
   for (std::size_t first = 0; first < surface.Triangles.size(); first += BatchSize)
@@ -243,23 +316,24 @@ std::vector<Sums> SumsOf(
         for (std::size_t i = begin; i < end; ++i)
         {
           const Triangle& t = surface.Triangles[first + i];
-          terms[i] = TermsOf(sums[components.OfTriangle[first + i]].Reference,
+          terms[i] = TermsOf(sums[components.Of(first + i)].Reference,
             surface.Points[t[0]], surface.Points[t[1]], surface.Points[t[2]]);
         }
       });
     for (std::size_t i = 0; i < count; ++i)
     {
-      sums[components.OfTriangle[first + i]].Add(terms[i]);
+      sums[components.Of(first + i)].Add(terms[i]);
     }
   }
-  return sums;
 }
 }
 
-SurfaceFeatures ComputeFeatures(const IndexedSurface& surface, Executor& executor)
+SurfaceFeatures ComputeFeatures(
+  const IndexedSurface& surface, Executor& executor, const PieceOfSurface& piece)
 {
-  Components components(surface, executor);
-  const std::vector<Sums> sums = SumsOf(surface, components, executor);
+  Components components(surface, executor, piece);
+  const std::vector<Sums> sums = InOrderOfRanks(*piece.Ranks, std::move(components.Begun),
+    [&](std::vector<Sums>& begun) { AddUp(surface, components, executor, begun); });
   std::vector<int> order(sums.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(
@@ -282,7 +356,7 @@ SurfaceFeatures ComputeFeatures(const IndexedSurface& surface, Executor& executo
     {
       for (std::size_t i = begin; i < end; ++i)
       {
-        result.ComponentOfTriangle[i] = rank[result.ComponentOfTriangle[i]];
+        result.ComponentOfTriangle[i] = rank[components.Label[result.ComponentOfTriangle[i]]];
       }
     });
   return result;

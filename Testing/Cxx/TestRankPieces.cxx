@@ -1,0 +1,259 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// A finest level that all ranks share: no rank ever has its whole surface, and each makes its piece.
+#include "RankOutputTestTools.h"
+#include "TemporaryFolder.h"
+#include "vtkImagePyramid.h"
+
+#include <vtkErrorCode.h>
+
+using namespace volumic;
+
+namespace
+{
+/** Voxels along each axis of the least level that is shared. */
+constexpr int Size = 162;
+
+/** A ball with a cavity, and a smaller one. */
+vtkSmartPointer<vtkImageData> TwoBalls()
+{
+  auto image = vtkSmartPointer<vtkImageData>::New();
+  image->SetDimensions(Size, Size, Size);
+  image->AllocateScalars(VTK_UNSIGNED_CHAR, 1);
+  image->GetPointData()->GetScalars()->SetName("Voxels");
+  auto* voxels = static_cast<unsigned char*>(image->GetScalarPointer());
+  std::fill_n(voxels, static_cast<std::size_t>(Size) * Size * Size, 0);
+  const auto ramp = [](double inside) { return std::clamp(0.5 + 0.4 * inside, 0.0, 1.0); };
+  for (int k = 40; k < 130; ++k)
+  {
+    for (int j = 40; j < 130; ++j)
+    {
+      for (int i = 40; i < 130; ++i)
+      {
+        const double large = std::hypot(i - 70, j - 70, k - 70);
+        const double small = std::hypot(i - 108, j - 106, k - 104);
+        const double value = std::max(std::min(ramp(20 - large), ramp(large - 9)), ramp(10 - small));
+        voxels[(static_cast<std::size_t>(k) * Size + j) * Size + i] =
+          static_cast<unsigned char>(std::lround(100.0 * value));
+      }
+    }
+  }
+  return image;
+}
+
+Filter FilterOf(vtkDataObject* input, vtkMultiProcessController* controller)
+{
+  auto filter = Filter::New();
+  filter->SetController(controller);
+  filter->SetInputDataObject(input);
+  filter->SetIsoValue(50.0);
+  filter->SetRecovery(vtkDeformableSurface::RecoverObjectsAndCavities);
+  filter->SetNumberOfThreads(1);
+  return filter;
+}
+
+Filter BallsFilter(vtkMultiProcessController* controller)
+{
+  return FilterOf(TwoBalls(), controller);
+}
+
+Filter OneRank(const std::function<void(vtkDeformableSurface*)>& set = {})
+{
+  Filter filter = BallsFilter(nullptr);
+  if (set)
+  {
+    set(filter);
+  }
+  filter->Update();
+  return filter;
+}
+
+/** All ranks show what one does. */
+void ExpectAs(vtkDeformableSurface* one, const Ranks& ranks)
+{
+  std::vector<vtkMultiBlockDataSet*> levels;
+  for (const Filter& filter : ranks)
+  {
+    EXPECT_EQ(filter->GetErrorCode(), vtkErrorCode::NoError);
+    levels.push_back(filter->GetLevels());
+  }
+  ExpectPiecesOf(one->GetOutput(), SurfacesOf(ranks));
+  ExpectBlocksOf(one->GetLevels(), levels);
+}
+
+void Update(vtkDeformableSurface* filter, vtkMultiProcessController* controller)
+{
+  ThreadControllers::Update(filter, controller);
+}
+
+double FactOf(vtkDeformableSurface* filter, const char* name)
+{
+  return filter->GetOutput()->GetFieldData()->GetArray(name)->GetTuple1(0);
+}
+}
+
+TEST(RankPieces, AreOfTheSurfaceOfOneRank)
+{
+  const Filter one = OneRank();
+  EXPECT_EQ(FactOf(one, "NumberOfComponents"), 3.0);
+  for (const int count : { 1, 2, 3, 5 })
+  {
+    SCOPED_TRACE(count);
+    const Ranks ranks = RunRanks(count, BallsFilter, Update);
+    if (count == 1)
+    {
+      ExpectSameOutputs(one, ranks.front());
+      continue;
+    }
+    ExpectAs(one, ranks);
+    for (const Filter& filter : ranks)
+    {
+      EXPECT_NEAR(filter->GetOutput()->GetNumberOfCells(),
+        one->GetOutput()->GetNumberOfCells() / count, 1);
+    }
+  }
+}
+
+TEST(RankPieces, AreShownAgain)
+{
+  const auto update = [](vtkDeformableSurface* filter, vtkMultiProcessController* controller,
+                        int ghosts, bool isKept)
+  {
+    const ProgressListener progress(filter);
+    ThreadControllers::Update(filter, controller, ghosts);
+    EXPECT_EQ(std::none_of(progress.Shares.begin(), progress.Shares.end(),
+                [](double share) { return share > 0.0 && share < 1.0; }),
+      isKept);
+  };
+  const Filter one = OneRank();
+  const Ranks ranks = RunRanks(3, BallsFilter,
+    [&](vtkDeformableSurface* filter, vtkMultiProcessController* controller)
+    {
+      update(filter, controller, 0, false);
+      filter->SetFinestLevel(1);
+      update(filter, controller, 0, true);
+      EXPECT_EQ(FactOf(filter, "Level"), 1.0);
+      filter->SetFinestLevel(0);
+      update(filter, controller, 0, true);
+      EXPECT_EQ(FactOf(filter, "Level"), 0.0);
+      const vtkIdType own = filter->GetOutput()->GetNumberOfCells();
+      // With ghosts, which nobody has.
+      update(filter, controller, 1, true);
+      EXPECT_GT(filter->GetOutput()->GetNumberOfCells(), own);
+    });
+  ExpectAs(one, ranks);
+  for (const Filter& filter : ranks)
+  {
+    EXPECT_TRUE(filter->GetOutput()->GetCellData()->HasArray("vtkGhostType"));
+  }
+}
+
+TEST(RankPieces, GiveWayToOtherRuns)
+{
+  const auto largest = [](vtkDeformableSurface* filter)
+  { filter->SetKeepComponents(vtkDeformableSurface::LargestComponent); };
+  const Filter one = OneRank();
+  const Filter oneOfLargest = OneRank(largest);
+  EXPECT_LT(FactOf(oneOfLargest, "NumberOfComponents"), FactOf(one, "NumberOfComponents"));
+  Ranks ranks = RunRanks(2, BallsFilter,
+    [&](vtkDeformableSurface* filter, vtkMultiProcessController* controller)
+    {
+      // A level that is whole, then pieces, then a choice of what they have not.
+      filter->SetFinestLevel(1);
+      ThreadControllers::Update(filter, controller);
+      filter->SetFinestLevel(0);
+      ThreadControllers::Update(filter, controller);
+      largest(filter);
+      ThreadControllers::Update(filter, controller);
+    });
+  ExpectAs(oneOfLargest, ranks);
+  ranks = RunRanks(2, BallsFilter,
+    [&](vtkDeformableSurface* filter, vtkMultiProcessController* controller)
+    {
+      ThreadControllers::Update(filter, controller);
+      filter->ForgetRun();
+      filter->SetReleaseDataFlag(1); // Nothing is kept.
+      filter->Modified();
+      ThreadControllers::Update(filter, controller);
+    });
+  ExpectAs(one, ranks);
+}
+
+TEST(RankPieces, OfARunThatIsStopped)
+{
+  const Filter one = OneRank();
+  const Ranks ranks = RunRanks(3, BallsFilter,
+    [](vtkDeformableSurface* filter, vtkMultiProcessController* controller)
+    {
+      {
+        ProgressListener stops(filter);
+        stops.StopAt = controller->GetLocalProcessId() == 0 ? 0.8 : 2.0;
+        ThreadControllers::Update(filter, controller);
+      }
+      EXPECT_EQ(StopReasonOf(filter), "cancelled");
+      EXPECT_EQ(FactOf(filter, "Level"), 0.0);
+      EXPECT_TRUE(filter->GetOutput()->GetPointData()->GetGlobalIds());
+      EXPECT_GT(filter->GetOutput()->GetNumberOfCells(), 0);
+      // It is stopped once more, before it is there, then goes on.
+      filter->SetTimeLimit(1e-9);
+      filter->Modified();
+      ThreadControllers::Update(filter, controller);
+      EXPECT_EQ(StopReasonOf(filter), "time limit");
+      EXPECT_EQ(filter->GetErrorCode(), vtkErrorCode::NoError);
+      filter->SetTimeLimit(0.0);
+      ThreadControllers::Update(filter, controller);
+      EXPECT_NE(StopReasonOf(filter), "time limit");
+    });
+  ExpectAs(one, ranks);
+}
+
+TEST(RankPieces, AreNoneWhereACheckpointStays)
+{
+  // From it another run may go on, which needs all.
+  const TemporaryFolder folder;
+  const auto make = [&folder](vtkMultiProcessController* controller)
+  {
+    const Filter filter = BallsFilter(controller);
+    filter->SetScratchDirectory(folder.Path().c_str());
+    filter->LeaveCheckpoints();
+    return filter;
+  };
+  RunRanks(2, make, Update);
+  EXPECT_EQ(folder.Names().size(), 1u);
+  const auto goOn = [](vtkDeformableSurface* filter) { filter->SetFinestLevel(-1); };
+  const Ranks ranks = RunRanks(2, make,
+    [&](vtkDeformableSurface* filter, vtkMultiProcessController* controller)
+    {
+      goOn(filter);
+      filter->ResumeOn();
+      Update(filter, controller);
+    });
+  EXPECT_EQ(ranks.front()->GetResumedLevel(), 0);
+  ExpectAs(OneRank(goOn), ranks);
+}
+
+TEST(RankPieces, OfNothing)
+{
+  // Coarser levels show what the finest does not.
+  const auto make = [](vtkMultiProcessController* controller)
+  {
+    vtkNew<vtkImagePyramid> pyramid;
+    pyramid->SetInputData(TwoBalls());
+    pyramid->Update();
+    auto levels = vtkSmartPointer<vtkMultiBlockDataSet>::New();
+    levels->ShallowCopy(pyramid->GetOutput());
+    auto* finest = vtkImageData::SafeDownCast(levels->GetBlock(0));
+    finest->GetPointData()->GetScalars()->Fill(0.0);
+    finest->SetScalarComponentFromDouble(9, 9, 9, 0, 100.0); // Where no surface comes.
+    const Filter filter = FilterOf(levels, controller);
+    filter->SetRecovery(vtkDeformableSurface::NoRecovery);
+    return filter;
+  };
+  const Filter one = make(nullptr);
+  one->Update();
+  EXPECT_EQ(StopReasonOf(one), "vanished");
+  const Ranks ranks = RunRanks(3, make, Update);
+  ExpectAs(one, ranks);
+  EXPECT_EQ(ranks.back()->GetOutput()->GetNumberOfPoints(), 0);
+}
