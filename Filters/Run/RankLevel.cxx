@@ -8,6 +8,7 @@
 #include "Host/HostThreads.h"
 
 #include <cstddef>
+#include <vector>
 
 namespace volumic
 {
@@ -61,17 +62,20 @@ void RankLevel::Need(const VoxelBox& box)
 {
   const bool hasAll = this->Ranks.Rank() == 0 && !this->StaysInPieces;
   this->Pieces.FetchInto(this->Ranks, this->Held, this->Level.Values.BytesPerVoxel(),
-    hasAll ? VoxelBox() : box, VoxelBox::Of(this->Level.Size), this->Room);
+    { hasAll ? VoxelBox() : box }, VoxelBox::Of(this->Level.Size), this->Room);
 }
 
 void RankLevel::NeedMeasures()
 {
   if (this->StaysInPieces)
   {
-    for (const VoxelBox& box : Field::MeasuredVoxels(this->Level.Size))
+    std::vector<VoxelBox> measured;
+    if (this->Ranks.Rank() == 0)
     {
-      this->Need(this->Ranks.Rank() == 0 ? box : VoxelBox());
+      measured = Field::MeasuredVoxels(this->Level.Size);
     }
+    this->Pieces.FetchInto(this->Ranks, this->Held, this->Level.Values.BytesPerVoxel(), measured,
+      VoxelBox::Of(this->Level.Size), this->Room);
   }
 }
 
