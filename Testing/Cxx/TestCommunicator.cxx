@@ -103,7 +103,8 @@ TEST(Communicator, CountsWhatARankSendsAndSendsItToFew)
       EXPECT_LE(sentIn([&] { ranks.Broadcast(Message(10, 'x')); }).Messages, 4u);
       EXPECT_EQ(sentIn([&] { ranks.Gather(Message(10, 'x')); }).Messages, isFirst ? 0u : 1u);
       EXPECT_LE(sentIn([&] { ranks.GatherOnAll(Message(10, 'x')); }).Messages, 5u);
-      EXPECT_LE(sentIn([&] { ranks.Scatter(std::vector<Message>(isFirst ? 16 : 0)); }).Messages, 4u);
+      const std::vector<Message> all(isFirst ? 16 : 0);
+      EXPECT_LE(sentIn([&] { ranks.Scatter(all); }).Messages, 4u);
       const unsigned long long header = sentIn([&] { ranks.Pass(1, 0); }).Bytes;
       const unsigned long long one = sentIn([&] { ranks.Pass(1, 0, Message(1000000, 'x')); }).Bytes;
       EXPECT_EQ(one - header, ranks.Rank() == 1 ? 1000000u : 0u);

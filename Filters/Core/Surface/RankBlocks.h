@@ -62,6 +62,8 @@ public:
   void ScatterMesh(const SurfaceMesh& mesh, const Vector& low, const Vector& high);
   /** By all ranks, back again: rank 0 has all vertices afterwards, the others none. */
   void Gather();
+  /** The same of the mesh alone, of which nothing else is known afterwards. */
+  void GatherMesh();
 
   /**
    * By all ranks, with the same surface: adds this closed surface to that of all ranks, each of
@@ -80,8 +82,8 @@ public:
   void ShareCounts();
   /** By all ranks, between sweeps: gives blocks the places that their owners want for them. */
   void AddPlaces(Executor& executor);
-  /** By all ranks: adds up what the owners say of their blocks, in the order of the blocks. */
-  double AddUp(const std::vector<double>& ofBlocks);
+  /** By all ranks: adds up what the owners say of their blocks, each list in the blocks' order. */
+  std::vector<double> AddUp(const std::vector<std::vector<double>>& lists);
 
 private:
   /** A vertex that a visit has removed, and the block that its place belongs to. */
@@ -96,13 +98,10 @@ private:
     int Vertices;
     int Characteristic;
   };
-  /** Picks the values of own blocks; InOrder() brings those of all ranks back to their order. */
-  template <typename T>
-  std::vector<T> OfOwn(const std::vector<T>& ofBlocks) const;
-  template <typename T>
-  std::vector<T> InOrder(const std::vector<std::vector<T>>& ofRanks) const;
   Message SendPieces(const SurfaceMesh& mesh,
     const std::function<void(MessageWriter&, const std::vector<int>&)>& write);
+  void TakePieces(const std::function<void(MessageWriter&, const std::vector<int>&)>& write,
+    const std::function<std::vector<int>(MessageReader&)>& read);
   void BeginPieces(const Sizes& sizes, const Vector& low, const Vector& high);
   void CollectNear(const Vector& position, int v);
   void CollectZone(int block);
