@@ -563,7 +563,7 @@ public:
   void ForgetRun();
 
   ///@{
-  /** More columns in the history, which tell where the time goes. Default: off. */
+  /** More columns in the history, which tell where the time goes, and what processes send. Default: off. */
   virtual void SetProfile(bool value);
   virtual bool GetProfile();
   vtkBooleanMacro(Profile, bool);

@@ -117,6 +117,9 @@ vtkSmartPointer<vtkTable> MakeHistory(
   {
     AddPhases(table, rows, "Seconds", &PhaseTime::Seconds);
     AddPhases(table, rows, "SerialSeconds", &PhaseTime::Serial);
+    AddColumn<vtkDoubleArray>(table, "SentBytes", rows, [](const Row& r) { return r.Sent.Bytes; });
+    AddColumn<vtkDoubleArray>(
+      table, "SentMessages", rows, [](const Row& r) { return r.Sent.Messages; });
   }
   return table;
 }

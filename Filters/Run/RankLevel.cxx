@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <utility>
+#include <vector>
 
 namespace volumic
 {
@@ -72,21 +73,7 @@ void RankLevel::Need(const VoxelBox& box)
     }
     this->Fetched.push_back(box);
   }
-  std::size_t most = 0;
-  for (const std::size_t count : GatherValues(this->Ranks, lacking.size()))
-  {
-    most = std::max(most, count);
-  }
-  lacking.resize(most);
-  for (const VoxelBox& part : lacking)
-  {
-    this->Fetch(part);
-  }
-}
-
-void RankLevel::Fetch(const VoxelBox& box)
-{
-  this->Pieces.FetchInto(this->Ranks, this->Held, this->Level.Values.BytesPerVoxel(), box,
+  this->Pieces.FetchInto(this->Ranks, this->Held, this->Level.Values.BytesPerVoxel(), lacking,
     VoxelBox::Of(this->Level.Size), this->Room);
 }
 
@@ -94,10 +81,13 @@ void RankLevel::NeedMeasures()
 {
   if (this->StaysInPieces)
   {
-    for (const VoxelBox& box : Field::MeasuredVoxels(this->Level.Size))
+    std::vector<VoxelBox> measured;
+    if (this->Ranks.Rank() == 0)
     {
-      this->Fetch(this->Ranks.Rank() == 0 ? box : VoxelBox());
+      measured = Field::MeasuredVoxels(this->Level.Size);
     }
+    this->Pieces.FetchInto(this->Ranks, this->Held, this->Level.Values.BytesPerVoxel(), measured,
+      VoxelBox::Of(this->Level.Size), this->Room);
   }
 }
 

@@ -46,8 +46,6 @@ public:
   void NeedMeasures();
 
 private:
-  void Fetch(const VoxelBox& box);
-
   Communicator& Ranks;
   LevelImage Level;
   const bool StaysInPieces;

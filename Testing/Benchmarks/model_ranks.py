@@ -8,7 +8,8 @@
 The object of the scan stands for one of the same shape in an image of that size: where its boundary
 is tells how many vertices each block of a level has. Blocks go to ranks as RankBlocks does it, and
 the visits of a sweep are scheduled: colour by colour, or each as soon as those that it touches are
-done. What a vertex costs was measured, on one thread (see Constants).
+done. What a vertex costs was measured, on one thread, and so were the bytes that ranks send and what
+rank 0 does alone (see Constants).
 
 Left out: reading and reducing the image (each rank does its part), writing, differences between the
 work of vertices, and that ranks of one machine share its memory.
@@ -24,6 +25,7 @@ from vtkmodules.vtkIOXML import vtkXMLImageDataReader
 
 REDUCTION = 3.0 ** 0.5
 COLOURS = 8
+EXCHANGES = 4  # a sweep: after two colours
 
 
 @dataclasses.dataclass
@@ -41,7 +43,19 @@ class Constants:
     bytes_of_voxel: float = 2.0  # of the image
     bytes_of_coarse_voxel: float = 2.0
     bytes_of_vertex: float = 350.0  # in memory, with room to grow
-    bytes_sent: float = 150.0  # assumed: of a vertex near a border, after each colour of its block
+    # `mpirun -n 4 volumic skull512.vti --iso 226.5 --metric voxels --profile`, SentBytes: 19.9 MB in
+    # a sweep that visits all, of 36,011 vertices that sent_bytes() counts there.
+    bytes_sent: float = 550.0  # a sweep, of a vertex near a border, for each rank beyond
+    voxels_sent: float = 0.75  # the same, the first row: of those of a piece, at each shared level
+    other_sweeps: int = 5  # of a level: three regularise, one polishes, one splits edges
+    collectives: int = 7  # a sweep: to rank 0 and back, along a tree; 10 where some are inside out
+    bytes_of_block: float = 60.0  # a sweep, to rank 0: seven sums and a number
+    bytes_of_rows: float = 360.0  # a sweep, of a rank to all: its five rows
+    # Of rank 0 alone, s a vertex of the level, `mpirun -n 2`: divides and spreads; puts the result
+    # together, and but for the last level the mesh of the next division.
+    dividing: float = 0.70e-6
+    uniting: float = 0.40e-6
+    uniting_mesh: float = 0.34e-6
     latency: float = 20e-6  # assumed: s a message
     bandwidth: float = 1e9  # assumed: bytes a second of a rank
 
@@ -154,7 +168,8 @@ def sweep(vertices, owners, seconds, by_dependency):
 def model(places, size, ranks, constants, shared=1.0, by_dependency=False):
     """Seconds by kind of work. `shared`: the part of what is done before and after a level's
     iterations that the ranks share."""
-    seconds = {"sweeps": 0.0, "messages": 0.0, "around": 0.0, "first rank": 0.0}
+    seconds = {"sweeps": 0.0, "messages": 0.0, "collectives": 0.0, "around": 0.0,
+               "first rank": 0.0}
     bytes_of_level = []
     side, count, level = float(size), constants.vertices * size ** 2, 0
     while side >= 10 and count >= 50:
@@ -170,9 +185,22 @@ def model(places, size, ranks, constants, shared=1.0, by_dependency=False):
                 vertices, owners, iterating / visits, by_dependency)
             if ranks > 1:
                 sent, partners = sent_bytes(vertices, owners, constants, constants.block_side)
-                seconds["messages"] += visits * float(np.max(
-                    COLOURS * partners * constants.latency + sent / constants.bandwidth))
+                sweeps = visits + constants.other_sweeps
+                seconds["messages"] += sweeps * float(np.max(
+                    EXCHANGES * partners * constants.latency + sent / constants.bandwidth))
+                seconds["messages"] += (side ** 3 * constants.voxels_sent / ranks
+                                        * constants.bytes_of_coarse_voxel / constants.bandwidth)
                 bytes_of_level.append(float(sent.max()))
+                steps = np.ceil(np.log2(ranks))
+                gathered = (np.count_nonzero(vertices) * constants.bytes_of_block
+                            + ranks * constants.bytes_of_rows * steps)
+                seconds["collectives"] += sweeps * float(
+                    2 * steps * constants.collectives * constants.latency
+                    + gathered / constants.bandwidth)
+                alone = constants.dividing + constants.uniting
+                alone += constants.uniting_mesh if level > 0 else 0.0
+                seconds["first rank"] += count * alone
+                around -= constants.dividing
             of_rank = max(vertices[owners == rank].sum() for rank in range(owners.max() + 1))
             seconds["around"] += around * (shared * of_rank + (1 - shared) * count)
         side, count, level = side / REDUCTION, count / 3, level + 1
@@ -205,9 +233,9 @@ def main():
     options = parser.parse_args()
     constants = Constants(sweeps_from=options.sweeps_from, block_side=options.block_side)
     places = boundary(options.volume, options.iso)
-    print("| image | ranks | seconds | of these on the first rank | messages | speed-up"
-          " | efficiency | most memory of a rank | largest message sum of a sweep |")
-    print("|---|---|---|---|---|---|---|---|---|")
+    print("| image | ranks | seconds | of these on the first rank | exchanges | collectives | speed-up"
+          " | efficiency | most memory of a rank | a rank sends in a sweep |")
+    print("|---|---|---|---|---|---|---|---|---|---|")
     for size in options.size:
         one = None
         for ranks in options.ranks:
@@ -217,7 +245,7 @@ def main():
             one = one or total
             first = ranks if ranks == options.ranks[0] else ranks / options.ranks[0]
             print(f"| {size}^3 | {ranks} | {total:.0f} | {seconds['first rank']:.1f} |"
-                  f" {seconds['messages']:.1f} | {one / total:.1f} | {one / total / first:.0%} |"
+                  f" {seconds['messages']:.1f} | {seconds['collectives']:.1f} | {one / total:.1f} | {one / total / first:.0%} |"
                   f" {memory(places, size, ranks, constants) / 2 ** 30:.1f} GiB |"
                   f" {max(sent, default=0) / 1e6:.1f} MB |")
 

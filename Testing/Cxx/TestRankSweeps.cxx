@@ -3,10 +3,13 @@
 
 // A level whose blocks belong to several ranks: the same bits as on one.
 #include "BarTestScene.h"
+#include "Core/Common/Box.h"
 #include "Core/Common/StandardThreads.h"
 #include "EvolutionTestTools.h"
 #include "RankTestTools.h"
 #include "ThreadRanks.h"
+
+#include <atomic>
 
 using namespace volumic;
 
@@ -17,6 +20,33 @@ SurfaceOptions ForPlate()
   SurfaceOptions options = IsoHalf();
   options.MaximumNumberOfIterations = 40;
   return options;
+}
+
+/** Two boxes in the place of the plate, which the coarse level joins by a neck: it will be cut. */
+TestVolume Boxes(double unit, bool hasNeck)
+{
+  TestVolume volume = Plate(unit);
+  const auto& size = volume.Image.Size;
+  const auto box = [](double x, double y, double z, const Box& of)
+  {
+    return std::max({ of.Low.X - x, x - of.High.X, of.Low.Y - y, y - of.High.Y, of.Low.Z - z,
+      z - of.High.Z });
+  };
+  for (std::size_t i = 0; i < volume.Values.size(); ++i)
+  {
+    const int n = static_cast<int>(i);
+    const double x = unit * (n % size[0]);
+    const double y = unit * (n / size[0] % size[1]);
+    const double z = unit * (n / size[0] / size[1]);
+    double outside = std::min(box(x, y, z, { Vector(8, 8, 8), Vector(36, 104, 50) }),
+      box(x, y, z, { Vector(8, 8, 62), Vector(36, 104, 104) }));
+    if (hasNeck)
+    {
+      outside = std::min(outside, box(x, y, z, { Vector(15, 80, 40), Vector(29, 94, 70) }));
+    }
+    volume.Values[i] = static_cast<float>(Soft(outside / unit));
+  }
+  return volume;
 }
 
 /** What the coarse level has: its factor, and its surface. */
@@ -30,6 +60,7 @@ struct Coarse
   Start Begins = Enclosing;
   double Factor = std::sqrt(3.);
   bool Vanishes = false; ///< The fine level shows nothing.
+  bool HasNeck = false;
 };
 
 struct RunOnRanks
@@ -40,12 +71,17 @@ struct RunOnRanks
   int Missing = 0;
   double MissingBoundary = 0.;
   SurfaceEvolution::LostParts Lost;
+  static constexpr std::size_t OfOthers = 1 << 22;
+  std::atomic<unsigned long long> Uniting{ 0 }; ///< Bytes to rank 0.
+  SentMessages SentAtLast;                      ///< As the last row has it after that.
+  std::vector<HistoryRow> RowsOfLast;           ///< Of the last rank, of the fine level.
 
   RunOnRanks(int count, SurfaceOptions options, const Coarse& above = Coarse())
   {
     this->Pieces.resize(static_cast<std::size_t>(count));
-    const TestVolume coarse = Plate(above.Factor);
-    TestVolume fine = Plate(1.);
+    const TestVolume coarse =
+      above.HasNeck ? Boxes(above.Factor, true) : Plate(above.Factor);
+    TestVolume fine = above.HasNeck ? Boxes(1., false) : Plate(1.);
     if (above.Vanishes)
     {
       std::fill(fine.Values.begin(), fine.Values.end(), 0.f);
@@ -58,6 +94,7 @@ struct RunOnRanks
         StandardThreads executor(1);
         Monitor monitor;
         SurfaceEvolution evolution(options, executor, monitor);
+        ranks.Broadcast(Message(OfOthers)); // No row has it.
         if (ranks.Rank() > 0)
         {
           evolution.SetRanks(&ranks);
@@ -65,7 +102,13 @@ struct RunOnRanks
           evolution.Run();
           EXPECT_TRUE(evolution.Result().Points.empty());
           this->Pieces[ranks.Rank()] = evolution.PieceOfResult();
+          const unsigned long long sent = ranks.Sent().Bytes;
+          if (ranks.Rank() + 1 == count)
+          {
+            this->RowsOfLast = evolution.History();
+          }
           evolution.Unite();
+          this->Uniting += ranks.Sent().Bytes - sent;
           return;
         }
         switch (above.Begins)
@@ -93,7 +136,7 @@ struct RunOnRanks
         evolution.SetRanks(nullptr);
         EXPECT_EQ(evolution.Result().Points, this->Surface.Points);
         EXPECT_EQ(evolution.Result().Triangles, this->Surface.Triangles);
-        EXPECT_EQ(evolution.Result().Held, this->Surface.Held);
+        this->SentAtLast = evolution.History().back().Sent;
         this->Lost = evolution.Lost();
       });
   }
@@ -193,6 +236,44 @@ TEST(RankSweeps, LeavePiecesOfNothing)
   ExpectOnRanks(one, { 3 }, options, above);
 }
 
+TEST(RankSweeps, TellHowMuchTheySend)
+{
+  const RunOnRanks one(1, ForPlate());
+  const RunOnRanks two(2, ForPlate());
+  double least = 1e9; // Of messages in a sweep.
+  double sweep = 0.;
+  for (const HistoryRow& row : two.Rows)
+  {
+    EXPECT_EQ(row.Sent.Bytes > 0., row.Level == 0);
+    const bool endsSweep = row.Iteration % 5 == 0; // All of them have five.
+    sweep += row.Sent.Messages;
+    least = endsSweep && row.Level == 0 ? std::min(least, sweep) : least;
+    sweep = endsSweep ? 0. : sweep;
+  }
+  // To the other one: 8 exchanges, and 7 sums and lists.
+  EXPECT_NEAR(least, 15., 1e-9);
+  const auto begin = std::find_if(
+    two.Rows.begin(), two.Rows.end(), [](const HistoryRow& row) { return row.Level == 0; });
+  ASSERT_LT(begin, two.Rows.end() - 10);
+  EXPECT_GT(begin->Sent.Bytes, 2. * begin[1].Sent.Bytes) << "the division";
+  EXPECT_LT(begin->Sent.Bytes, 1. * RunOnRanks::OfOthers);
+  ASSERT_EQ(two.RowsOfLast.size(), static_cast<std::size_t>(two.Rows.end() - begin));
+  for (std::size_t i = 0; i < two.RowsOfLast.size(); ++i)
+  {
+    EXPECT_EQ(two.RowsOfLast[i].Sent.Bytes, begin[static_cast<std::ptrdiff_t>(i)].Sent.Bytes)
+      << "the most of all, " << i;
+  }
+  EXPECT_EQ(begin[1].Sent.Bytes, begin[4].Sent.Bytes) << "in equal parts";
+  // The regularisation, then half of a mesh without all that its vertices know.
+  EXPECT_GT(two.Rows.back().Sent.Bytes, two.Rows[two.Rows.size() - 2].Sent.Bytes);
+  EXPECT_LT(two.Uniting, 60 * two.Surface.Points.size() / 2);
+  EXPECT_GE(two.SentAtLast.Bytes, two.Rows.back().Sent.Bytes + static_cast<double>(two.Uniting));
+  for (const HistoryRow& row : one.Rows)
+  {
+    EXPECT_EQ(row.Sent.Messages, 0.);
+  }
+}
+
 TEST(RankSweeps, RecoverWhatOneRankRecovers)
 {
   // The coarse level has hardly begun: most of the plate is lost, in the rows of all ranks.
@@ -204,6 +285,22 @@ TEST(RankSweeps, RecoverWhatOneRankRecovers)
   EXPECT_GT(one.Lost.Enclosed, 0);
   EXPECT_GT(one.Surface.Points.size(), 10000u);
   ExpectOnRanks(one, { 2, 4 }, options, hardlyBegun);
+}
+
+TEST(RankSweeps, CutOnOneRankAlone)
+{
+  // All of them must look then for what is inside out.
+  SurfaceOptions options = ForPlate();
+  options.MaximumNumberOfIterations = 60;
+  Coarse withNeck;
+  withNeck.HasNeck = true;
+  const RunOnRanks one(1, options, withNeck);
+  const auto cut = std::find_if(one.Rows.begin(), one.Rows.end(),
+    [](const HistoryRow& row) { return row.Level == 0 && row.Cuts > 0; });
+  ASSERT_NE(cut, one.Rows.end());
+  EXPECT_GT(cut[0].Iteration - one.Rows.front().Iteration, 10) << "not looked for anyhow";
+  EXPECT_EQ(one.Rows.back().Components, 2);
+  ExpectOnRanks(one, { 3 }, options, withNeck);
 }
 
 TEST(RankSweeps, DivideAsOftenAsTheFactorAsks)

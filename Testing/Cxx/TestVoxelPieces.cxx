@@ -100,6 +100,44 @@ TEST(VoxelPieces, BringEachRankTheVoxelsThatItWants)
   }
 }
 
+TEST(VoxelPieces, BringManyBoxesTogetherAndNothingThatIsHere)
+{
+  constexpr int count = 3;
+  ThreadRanks::Run(count,
+    [](Communicator& ranks)
+    {
+      const VoxelBox all = VoxelBox::Of({ 20, 20, 20 });
+      const VoxelBox held = SlabOf(ranks.Rank(), count);
+      const std::vector<int> voxels = CodesOf(held);
+      const std::vector<int> codes = CodesOf(all);
+      VoxelPieces pieces(ranks, held);
+      std::vector<int> fetched(codes.size(), -1);
+      const auto fetch = [&](const std::vector<VoxelBox>& wanted)
+      {
+        const Communicator::Traffic before = ranks.Sent();
+        pieces.FetchInto(ranks, voxels.data(), sizeof(int), wanted, all, fetched.data());
+        return Communicator::Traffic{ ranks.Sent().Bytes - before.Bytes,
+          ranks.Sent().Messages - before.Messages };
+      };
+      std::vector<VoxelBox> rows; // Every other one, of rank 0.
+      for (int row = 0; ranks.Rank() == 0 && row < 400; row += 2)
+      {
+        rows.push_back({ { 0, row % 20, row / 20 }, { 20, row % 20 + 1, row / 20 + 1 } });
+      }
+      EXPECT_LE(fetch(rows).Messages, 4u) << "the list of boxes, then what they hold";
+      for (std::size_t i = 0; i < fetched.size(); ++i)
+      {
+        const bool isWanted = ranks.Rank() == 0 && i / 20 % 2 == 0;
+        ASSERT_EQ(fetched[i], isWanted ? codes[i] : -1);
+      }
+      pieces.BytesAtATime = 3000; // Of 80 in a row.
+      const std::vector<int> once = std::exchange(fetched, std::vector<int>(fetched.size(), -1));
+      fetch(rows);
+      EXPECT_EQ(fetched, once);
+      EXPECT_LT(fetch({ held }).Bytes, 500u);
+    });
+}
+
 TEST(VoxelPieces, LeaveVoxelsThatNobodyHolds)
 {
   ThreadRanks::Run(2,

@@ -12,6 +12,34 @@ namespace
 {
 /** Bytes that go at once: MPI counts them in an int, and who drops them needs a place for them. */
 constexpr std::size_t MostBytes = std::size_t(1) << 18;
+
+/** In the tree: see the class. */
+int RankAbove(int rank)
+{
+  return rank & (rank - 1);
+}
+
+std::vector<Message> Unpacked(const Message& packed)
+{
+  std::vector<Message> messages;
+  for (MessageReader reader(packed); !reader.IsAtEnd();)
+  {
+    messages.push_back(reader.TakeVector<char>());
+  }
+  return messages;
+}
+}
+
+std::vector<int> Communicator::RanksBelow() const
+{
+  // Below each of them are those up to the next, so that messages follow each other by rank.
+  std::vector<int> below;
+  const int own = this->Rank();
+  for (int bit = 1; (own & bit) == 0 && own + bit < this->NumberOfRanks(); bit *= 2)
+  {
+    below.push_back(own + bit);
+  }
+  return below;
 }
 
 void Communicator::SendHeader(int to, Kind kind, std::size_t bytes)
@@ -21,6 +49,8 @@ void Communicator::SendHeader(int to, Kind kind, std::size_t bytes)
   header.Is = kind;
   header.From = this->Rank();
   this->Send(to, &header, sizeof(header));
+  this->SentSoFar.Bytes += sizeof(header) + bytes;
+  ++this->SentSoFar.Messages;
 }
 
 void Communicator::SendMessage(int to, const Message& message)
@@ -103,20 +133,28 @@ std::vector<Message> Communicator::Exchange(
   return received;
 }
 
-std::vector<Message> Communicator::Gather(Message message)
+Message Communicator::GatherPacked(Message message)
 {
-  std::vector<Message> messages;
+  MessageWriter own;
+  own.AddArray(message);
+  message = own.Take();
+  for (const int rank : this->RanksBelow())
+  {
+    const Message ofRank = this->ReceiveMessage(rank);
+    message.insert(message.end(), ofRank.begin(), ofRank.end());
+  }
   if (this->Rank() != 0)
   {
-    this->SendMessage(0, message);
-    return messages;
+    this->SendMessage(RankAbove(this->Rank()), message);
+    return {};
   }
-  messages.push_back(std::move(message));
-  for (int rank = 1; rank < this->NumberOfRanks(); ++rank)
-  {
-    messages.push_back(this->ReceiveMessage(rank));
-  }
-  return messages;
+  return message;
+}
+
+std::vector<Message> Communicator::Gather(Message message)
+{
+  const Message all = this->GatherPacked(std::move(message));
+  return this->Rank() == 0 ? Unpacked(all) : std::vector<Message>();
 }
 
 Message Communicator::Pass(int from, int to, Message message)
@@ -136,31 +174,35 @@ Message Communicator::Broadcast(Message message)
 {
   if (this->Rank() != 0)
   {
-    return this->ReceiveMessage(0);
+    message = this->ReceiveMessage(RankAbove(this->Rank()));
   }
-  for (int rank = 1; rank < this->NumberOfRanks(); ++rank)
-  {
-    this->SendMessage(rank, message);
-  }
+  const std::vector<int> below = this->RanksBelow();
+  std::for_each(below.rbegin(), below.rend(), // The longest way first.
+    [&](int rank) { this->SendMessage(rank, message); });
   return message;
 }
 
 std::vector<Message> Communicator::GatherOnAll(Message message)
 {
-  const std::vector<Message> gathered = this->Gather(std::move(message));
-  MessageWriter all;
-  for (const Message& of : gathered)
+  return Unpacked(this->Broadcast(this->GatherPacked(std::move(message))));
+}
+
+Message Communicator::Scatter(std::vector<Message> messages)
+{
+  if (this->Rank() != 0)
   {
-    all.AddArray(of);
+    messages = Unpacked(this->ReceiveMessage(RankAbove(this->Rank())));
   }
-  const Message content = this->Broadcast(all.Take());
-  MessageReader reader(content);
-  std::vector<Message> messages(static_cast<std::size_t>(this->NumberOfRanks()));
-  for (Message& of : messages)
+  const std::vector<int> below = this->RanksBelow();
+  for (auto rank = below.rbegin(); rank != below.rend(); ++rank)
   {
-    reader.TakeArray(of);
+    MessageWriter ofRank;
+    const auto first = messages.begin() + (*rank - this->Rank());
+    std::for_each(first, messages.end(), [&](const Message& one) { ofRank.AddArray(one); });
+    messages.erase(first, messages.end());
+    this->SendMessage(*rank, ofRank.Take());
   }
-  return messages;
+  return std::move(messages.front());
 }
 
 bool Communicator::IsAny(bool isHere)

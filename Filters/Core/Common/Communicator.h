@@ -30,6 +30,11 @@ struct OtherRankFailed : std::runtime_error
  * of the calls to come: all the others, whatever call they are in, then throw OtherRankFailed there,
  * and must call Fail() in turn. Fail() returns when all have: nothing is under way any more, and a
  * next run may begin. So no failure of one leaves others waiting.
+ *
+ * What is gathered, broadcast and scattered goes along a binomial tree of the ranks, so that none
+ * sends more than log2 of their number: of the ranks below a rank those that it talks to have one
+ * more bit, lower than all of its own. Who waits in the tree waits for a rank that gets on, or fails
+ * and then tells all others.
  */
 class Communicator
 {
@@ -53,8 +58,18 @@ public:
   Message Broadcast(Message message);
   /** @return the messages of all ranks, by rank, on all ranks. */
   std::vector<Message> GatherOnAll(Message message);
+  /** From rank 0 to each: a message by rank, of which only rank 0's matter. */
+  Message Scatter(std::vector<Message> messages);
   /** @return whether it is so on any rank. */
   bool IsAny(bool isHere);
+
+  /** What this rank has sent to others, headers included. */
+  struct Traffic
+  {
+    unsigned long long Bytes = 0;
+    unsigned long long Messages = 0;
+  };
+  const Traffic& Sent() const { return this->SentSoFar; }
 
   /** See above. Does not throw. @param reason what the others shall throw */
   void Fail(const std::string& reason) noexcept;
@@ -88,6 +103,10 @@ private:
   Message ReceiveMessage(int from);
   void Drop(int from, unsigned long long count);
   void EndRun(const Message& reason);
+  Message GatherPacked(Message message);
+  std::vector<int> RanksBelow() const;
+
+  Traffic SentSoFar;
 
   std::vector<char> HasFailed; ///< By rank: its failure has arrived.
   std::vector<char> Dropped;   ///< What nobody wants any more is read to here.

@@ -146,18 +146,6 @@ inline Message Trade(Communicator& ranks, int to, int from, Message message)
   }
   return std::move(ranks.Exchange(std::move(messages), partners)[static_cast<std::size_t>(from)]);
 }
-
-/** From rank 0 to each: a message by rank, of which only rank 0's matter. */
-inline Message Scatter(Communicator& ranks, std::vector<Message> messages)
-{
-  messages.resize(static_cast<std::size_t>(ranks.NumberOfRanks()));
-  std::vector<int> partners; // Of rank 0 all.
-  if (ranks.Rank() != 0)
-  {
-    partners.push_back(0);
-  }
-  return std::move(ranks.Exchange(std::move(messages), partners).front());
-}
 }
 
 #endif

@@ -71,6 +71,7 @@ struct SurfaceEvolution::Implementation
   bool IsMending = false;   ///< Faces that intersect are being mended: nobody is asked meanwhile.
   bool IsShared = false;    ///< The level is worked on by all ranks.
   Communicator* Ranks = &OnThisRank();
+  Communicator::Traffic LastSent; ///< What of it is in the history, or was before that began.
   // There are these while a surface lies on a level (MakeBlocks), else null:
   std::unique_ptr<SurfaceBlocks> Blocks;
   std::unique_ptr<RankBlocks> Piece; ///< Of this rank; one alone has the whole surface.
@@ -84,6 +85,7 @@ struct SurfaceEvolution::Implementation
     int Block = 0;  ///< How many visits of this sweep are done, and
     int Blocks = 0; ///< how many there are at most.
     double Iterations = 0.; ///< How many of the sweep's iterations are done, as an estimate.
+    double Volume = 0.;     ///< Of the surface after the last sweep.
   } Visit;
   EditCounts SinceEvolved; ///< Edits after the last iteration of a level, on this rank.
 
@@ -184,10 +186,12 @@ struct SurfaceEvolution::Implementation
   void KeepActiveIfMoving(const SurfaceIteration& iteration);
   void RunPasses(const Dynamics& dynamics);
   void Polish(const std::function<bool(int v)>& isWanted);
-  double SumOfBlocksOf(const std::function<double(int v)>& ofVertex) const;
+  /** Of each block of this rank, to be added up by RankBlocks::AddUp. */
+  std::vector<double> SumsOfBlocks(const std::function<double(int v)>& ofVertex) const;
+  std::vector<double> EdgeSums() const;   ///< Of the lengths of edges, each twice.
+  std::vector<double> VolumeSums() const; ///< What the faces add to the volume.
   double KineticEnergy(const SurfaceIteration& iteration) const;
-  double Area();
-  double Volume();
+  double Area() const;
 
   // On several ranks: EvolutionRanks.cxx.
   /** The ranks that have pieces of the surface as it is now: this one alone while it is whole. */
@@ -213,13 +217,19 @@ struct SurfaceEvolution::Implementation
   std::vector<std::uint8_t> AreNear(std::vector<std::int64_t> voxels);
   /** By all ranks: the surface is whole on rank 0 afterwards. */
   void Unite();
+  void UniteMesh(); ///< The same, but its vertices know nothing: see SurfaceState::ReadMesh.
   /** By all ranks: the result in so many pieces, of the first ranks. */
   SurfaceResult ResultOnRanks(int pieces) const;
-  void CountComponents();
+  void CountComponents(); ///< After some may have been deleted.
   void LabelComponents();
+  /** What this rank has sent since this was last called. */
+  SentMessages TakeSent();
+  /** By all ranks: adds the most of it to the last row. */
+  void KeepSent(Communicator& ranks);
   void BeginRow(HistoryRow& row);
   void KeepRow(const HistoryRow& row);
-  double MeanEdgeLength();
+  double MeanEdgeLength() const;
+  double MeanEdgeLength(double sumOfEdgeLengths) const;
   void FillCounts(HistoryRow& row) const;
   void FitMeanEdge(const Dynamics& dynamics);
   // EvolutionGrading.cxx:

@@ -8,10 +8,12 @@
 #include "Core/Evolution/EvolutionImplementation.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <iterator>
 #include <memory>
+#include <utility>
 
 namespace volumic
 {
@@ -119,8 +121,7 @@ void SurfaceEvolution::Implementation::VisitBlocksOnRanks(
     this->Piece->Exchange();
     goOn(visited);
   }
-  this->AgreeOnStop();
-  this->Piece->ShareCounts();
+  this->Stopped = this->Piece->ShareCounts(this->Stopped);
 }
 
 bool SurfaceEvolution::Implementation::IsOnAnyRank(bool isHere)
@@ -137,42 +138,43 @@ void SurfaceEvolution::Implementation::AddUpRows(std::vector<SweptRow>& rows)
 {
   struct Sums
   {
-    int Counts[8];
+    int Counts[10];
+    int Unchecked;
     double TimeStep;
+    SentMessages Sent;
   };
-  for (SweptRow& swept : rows)
+  const auto countsOf = [](SweptRow& swept)
   {
     HistoryRow& row = swept.Row;
-    int* const counts[8] = { &row.ActiveVertices, &row.Merges, &row.Cuts, &row.Splits,
-      &row.Collapses, &row.Flips, &row.Deletions, &row.DeletedGenus };
-    Sums own;
-    for (int i = 0; i < 8; ++i)
+    return std::array<int*, 10>{ &row.ActiveVertices, &row.Merges, &row.Cuts, &row.Splits,
+      &row.Collapses, &row.Flips, &row.Deletions, &row.DeletedGenus, &swept.Vertices,
+      &swept.EulerCharacteristic };
+  };
+  std::vector<Sums> own;
+  for (SweptRow& swept : rows)
+  {
+    own.push_back({ {}, this->Unchecked, swept.Row.TimeStep, swept.Row.Sent });
+    int* count = own.back().Counts;
+    for (int* const ofRow : countsOf(swept))
     {
-      own.Counts[i] = *counts[i];
-      *counts[i] = 0;
+      *count++ = std::exchange(*ofRow, 0);
     }
-    own.TimeStep = row.TimeStep;
-    for (const Sums& ofRank : GatherValues(this->Sharers(), own))
+  }
+  for (const std::vector<Sums>& ofRank : GatherEachOnAll(this->Sharers(), own))
+  {
+    for (std::size_t i = 0; i < rows.size(); ++i)
     {
-      for (int i = 0; i < 8; ++i)
+      const int* count = ofRank[i].Counts;
+      for (int* const ofRow : countsOf(rows[i]))
       {
-        *counts[i] += ofRank.Counts[i];
+        *ofRow += *count++;
       }
-      row.TimeStep = std::max(row.TimeStep, ofRank.TimeStep);
+      HistoryRow& row = rows[i].Row;
+      row.TimeStep = std::max(row.TimeStep, ofRank[i].TimeStep);
+      row.Sent.Bytes = std::max(row.Sent.Bytes, ofRank[i].Sent.Bytes);
+      row.Sent.Messages = std::max(row.Sent.Messages, ofRank[i].Sent.Messages);
+      this->Unchecked = std::max(this->Unchecked, ofRank[i].Unchecked);
     }
-    struct Changes
-    {
-      int Vertices;
-      int EulerCharacteristic;
-    };
-    const Changes here{ swept.Vertices, swept.EulerCharacteristic };
-    swept.Vertices = swept.EulerCharacteristic = 0;
-    for (const Changes& ofRank : GatherValues(this->Sharers(), here))
-    {
-      swept.Vertices += ofRank.Vertices;
-      swept.EulerCharacteristic += ofRank.EulerCharacteristic;
-    }
-    row.KineticEnergy = this->Piece->AddUp(swept.KineticEnergy);
   }
 }
 
@@ -195,7 +197,7 @@ void SurfaceEvolution::Implementation::CountComponents()
 void SurfaceEvolution::Implementation::LabelComponents()
 {
   this->Components->Label(this->State, this->Threads);
-  this->CountComponents();
+  this->NumberOfComponents = this->Components->NumberOfComponents();
 }
 
 void SurfaceEvolution::Implementation::DeleteDegenerate()
@@ -235,6 +237,15 @@ void SurfaceEvolution::Implementation::Unite()
   if (this->IsInPieces())
   {
     this->Piece->Gather();
+    this->MakeBlocks();
+  }
+}
+
+void SurfaceEvolution::Implementation::UniteMesh()
+{
+  if (this->IsInPieces())
+  {
+    this->Piece->GatherMesh();
     this->MakeBlocks();
   }
 }

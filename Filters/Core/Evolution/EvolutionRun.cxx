@@ -124,7 +124,7 @@ StopReason SurfaceEvolution::Implementation::Evolve()
     }
     if (this->LastIterations % RestCriterion::Interval == 0 && s.Mesh.NumberOfVertices() > 0)
     {
-      const double volume = this->Volume();
+      const double volume = this->Visit.Volume;
       const double limit =
         std::max(cube, this->Options.ConvergenceTolerance * std::abs(volume));
       this->Rest.Add(volume);

@@ -41,7 +41,7 @@ void SurfaceEvolution::Implementation::Verify()
   {
     return;
   }
-  this->Unite();
+  this->UniteMesh();
   if (!this->IsFirstRank() || this->State.Mesh.NumberOfVertices() == 0)
   {
     return;

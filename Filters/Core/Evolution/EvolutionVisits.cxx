@@ -186,24 +186,31 @@ void SurfaceEvolution::Implementation::VisitToEvolve(BlockVisit& visit,
   }
 }
 
-double SurfaceEvolution::Implementation::SumOfBlocksOf(
+std::vector<double> SurfaceEvolution::Implementation::SumsOfBlocks(
   const std::function<double(int v)>& ofVertex) const
 {
   const auto isOwn = [this](int block) { return this->Piece->IsOwn(block); };
-  return this->Piece->AddUp(this->Blocks->Sums(isOwn, ofVertex, this->Threads));
+  return this->Blocks->Sums(isOwn, ofVertex, this->Threads);
 }
 
-double SurfaceEvolution::Implementation::Area()
+std::vector<double> SurfaceEvolution::Implementation::EdgeSums() const
+{
+  return this->SumsOfBlocks([this](int v) { return this->State.EdgeLengthSum[v]; });
+}
+
+double SurfaceEvolution::Implementation::Area() const
 {
   const SurfaceMesh& mesh = this->State.Mesh;
-  return this->SumOfBlocksOf([&mesh](int v) { return AreaShare(mesh, v); });
+  return this->Piece
+    ->AddUp({ this->SumsOfBlocks([&mesh](int v) { return AreaShare(mesh, v); }) })
+    .front();
 }
 
-double SurfaceEvolution::Implementation::Volume()
+std::vector<double> SurfaceEvolution::Implementation::VolumeSums() const
 {
   const SurfaceMesh& mesh = this->State.Mesh;
   const Vector origin = this->Blocks->GetFrame().Low;
-  return this->SumOfBlocksOf(
+  return this->SumsOfBlocks(
     [&mesh, origin](int v)
     {
       SignedVolume share(origin);
@@ -233,18 +240,25 @@ void SurfaceEvolution::Implementation::RunSweep(const Dynamics& dynamics)
   { this->VisitToEvolve(visit, iteration, dynamics, rows); };
   this->BalanceRanks(visits.OnlyActive);
   this->VisitBlocks(visits);
+  const SentMessages sent = this->TakeSent();
+  for (SweptRow& swept : rows)
+  {
+    swept.Row.Sent.Bytes += sent.Bytes / iterations;
+    swept.Row.Sent.Messages += sent.Messages / iterations;
+  }
   this->AddUpRows(rows);
 
-  const bool hasChanged =
-    s.Counts.Merges + s.Counts.Cuts + s.Counts.Removed > 0 || this->Visit.Sweep == 1;
+  const bool hasChanged = this->Visit.Sweep == 1 ||
+    std::any_of(rows.begin(), rows.end(), [](const SweptRow& swept)
+      { return swept.Row.Merges + swept.Row.Cuts + swept.Row.Deletions > 0; });
   s.Counts = EditCounts();
   const int before = s.Mesh.NumberOfVertices();
   const int characteristicBefore = s.EulerCharacteristic;
-  if (this->Visit.Sweep % InsideOutSweeps == 0 && this->IsOnAnyRank(this->Unchecked > 0))
+  if (this->Visit.Sweep % InsideOutSweeps == 0 && this->Unchecked > 0)
   {
     this->DeleteThoseInsideOut(); // Labels them, too.
   }
-  else if (this->IsOnAnyRank(hasChanged))
+  else if (hasChanged)
   {
     this->LabelComponents();
   }
@@ -260,7 +274,14 @@ void SurfaceEvolution::Implementation::KeepSweptRows(
 {
   // As if all blocks had been in the same iteration: what has changed in each, added up. The
   // seconds are shared out as the threads that make the visits have spent them.
-  const double meanEdge = this->MeanEdgeLength();
+  std::vector<std::vector<double>> ofBlocks = { this->EdgeSums(), this->VolumeSums() };
+  for (SweptRow& swept : rows)
+  {
+    ofBlocks.push_back(std::move(swept.KineticEnergy));
+  }
+  const std::vector<double> sums = this->Piece->AddUp(ofBlocks);
+  const double meanEdge = this->MeanEdgeLength(sums[0]);
+  this->Visit.Volume = sums[1];
   const double seconds = this->Lap();
   const double serial = seconds > 0. ? std::max(1. - inside / seconds, 0.) : 0.;
   double spent = 0.;
@@ -273,18 +294,18 @@ void SurfaceEvolution::Implementation::KeepSweptRows(
     }
   }
   const double equal = seconds / static_cast<double>(rows.size());
-  for (SweptRow& swept : rows)
+  for (std::size_t i = 0; i < rows.size(); ++i)
   {
-    HistoryRow& row = swept.Row;
-    vertices += swept.Vertices;
-    eulerCharacteristic += swept.EulerCharacteristic;
+    HistoryRow& row = rows[i].Row;
+    vertices += rows[i].Vertices;
+    eulerCharacteristic += rows[i].EulerCharacteristic;
     row.Iteration = static_cast<int>(this->Rows.size()) + 1;
     row.Level = this->Level;
     row.Vertices = row.IterationVertices = vertices;
     row.EulerCharacteristic = row.IterationEulerCharacteristic = eulerCharacteristic;
     row.Components = row.IterationComponents = this->NumberOfComponents;
     row.MeanEdgeLength = row.IterationMeanEdgeLength = meanEdge;
-    row.KineticEnergy /= std::max(vertices, 1);
+    row.KineticEnergy = sums[2 + i] / std::max(vertices, 1);
     row.Seconds = spent > 0. ? 0. : equal;
     for (PhaseTime& phase : row.Phases)
     {

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Evolution/LostVoxels.h"
 
+#include "Core/Common/Communicator.h"
 #include "Core/Common/DisjointSets.h"
 #include "Core/Common/JoinLabels.h"
-#include "Core/Common/RankLists.h"
 #include "Core/Common/Spans.h"
 #include "Core/Evolution/SlabSearch.h"
 #include "Core/Evolution/VerticesOfSlabs.h"
@@ -188,7 +188,7 @@ void LostVoxels::JoinParts(PartsOfSlabs& parts, std::int64_t minimumSize,
   writer.AddArray(Joined(executor, parts));
   writer.AddArray(border);
   const std::vector<Message> ofRanks = own.Ranks.Gather(writer.Take());
-  const Message answer = Scatter(own.Ranks, this->JoinRanks(ofRanks, minimumSize));
+  const Message answer = own.Ranks.Scatter(this->JoinRanks(ofRanks, minimumSize));
   MessageReader reader(answer);
   this->Parts = reader.Take<int>();
   const std::vector<int> number = reader.TakeVector<int>();

@@ -163,12 +163,14 @@ void SurfaceEvolution::SetRanks(
   Communicator* ranks, std::function<void(const VoxelBox&)> needVoxels)
 {
   this->Self->Ranks = ranks ? ranks : &OnThisRank();
+  this->Self->LastSent = this->Self->Ranks->Sent();
   this->Self->NeedVoxels = std::move(needVoxels);
 }
 
 void SurfaceEvolution::Unite()
 {
-  this->Self->Unite();
+  this->Self->UniteMesh();
+  this->Self->KeepSent(*this->Self->Ranks);
 }
 
 bool SurfaceEvolution::AreShared(const SurfaceOptions& options, const std::array<int, 3>& size)

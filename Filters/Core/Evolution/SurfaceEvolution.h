@@ -58,6 +58,13 @@ struct PhaseTime
   double Serial = 0.; ///< Of these outside Executor::For(); all where that is not measured.
 };
 
+/** By a rank to others: shares of whole numbers. */
+struct SentMessages
+{
+  double Bytes = 0.;
+  double Messages = 0.;
+};
+
 /**
  * One iteration, and what comes before the first and after the last one of a level. Lengths are
  * those of the workspace.
@@ -107,6 +114,12 @@ struct HistoryRow
   double SecondsBefore = 0.; ///< Between the row before, or the start of the clock, and this one.
   double SecondsAfter = 0.;  ///< After the last iteration of a level, until EndLevel().
   std::array<PhaseTime, static_cast<int>(Phase::Count)> Phases{};
+  /**
+   * The most that a rank has sent to others since the row before; what was sent in the visits of a
+   * sweep in equal parts. In the last row of a level also after it, but for what makes up Result()
+   * of the last one.
+   */
+  SentMessages Sent;
 };
 
 /** The surface, or a piece of it, as handed out: compact, workspace coordinates. */
@@ -203,7 +216,7 @@ public:
    *        needs from now on. Before that, and elsewhere, they may be anything.
    */
   void SetRanks(Communicator* ranks, std::function<void(const VoxelBox&)> needVoxels = {});
-  /** Brings the surface of several ranks to rank 0. */
+  /** Brings the mesh of several ranks to rank 0: what Divide() and Save() need of the surface. */
   void Unite();
   /** Whether all ranks work on a level of so many voxels, where there are several. */
   static bool AreShared(const SurfaceOptions& options, const std::array<int, 3>& size);

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Image/VoxelPieces.h"
 
+#include "Core/Common/RankLists.h"
+
 #include <algorithm>
 #include <cstring>
 #include <utility>
@@ -10,31 +12,31 @@ namespace volumic
 {
 namespace
 {
-/** How many slices of a box along z come at a time. */
-int SlicesAtATime(const VoxelBox& box, std::size_t bytes, std::size_t most)
+/** What comes at a time of some boxes: of about so many bytes, or a slice along z. */
+std::vector<std::vector<VoxelBox>> RoundsOf(
+  const std::vector<VoxelBox>& boxes, std::size_t bytes, std::size_t most)
 {
-  const double slice = static_cast<double>(bytes) * box.Length(0) * box.Length(1);
-  return static_cast<int>(std::clamp(static_cast<double>(most) / slice, 1.0, 1e6));
-}
-
-/** The n-th of such rounds; nothing past the last. */
-VoxelBox SlicesOfRound(const VoxelBox& box, std::size_t bytes, std::size_t most, int n)
-{
-  if (box.IsEmpty())
+  std::vector<std::vector<VoxelBox>> rounds;
+  double room = 0.; // That the last round has left.
+  for (const VoxelBox& box : boxes)
   {
-    return box;
+    const double slice = static_cast<double>(bytes) * box.Length(0) * box.Length(1);
+    for (int k = box.First[2]; !box.IsEmpty() && k < box.End[2];)
+    {
+      if (rounds.empty() || room < slice)
+      {
+        rounds.emplace_back();
+        room = std::max(static_cast<double>(most), slice);
+      }
+      VoxelBox slices = box;
+      slices.First[2] = k;
+      k += static_cast<int>(std::min(room / slice, static_cast<double>(box.End[2] - k)));
+      slices.End[2] = k;
+      room -= slice * slices.Length(2);
+      rounds.back().push_back(slices);
+    }
   }
-  const int slices = SlicesAtATime(box, bytes, most);
-  VoxelBox round = box;
-  round.First[2] = std::min(box.First[2] + n * slices, box.End[2]);
-  round.End[2] = std::min(round.First[2] + slices, box.End[2]);
-  return round;
-}
-
-int NumberOfRounds(const VoxelBox& box, std::size_t bytes, std::size_t most)
-{
-  const int slices = box.IsEmpty() ? 1 : SlicesAtATime(box, bytes, most);
-  return box.IsEmpty() ? 0 : (box.Length(2) + slices - 1) / slices;
+  return rounds;
 }
 }
 
@@ -75,10 +77,10 @@ std::vector<VoxelBox> VoxelPieces::OwnOf(int rank) const
 }
 
 std::vector<VoxelPieces::Delivery> VoxelPieces::DeliveriesFor(
-  int rank, const VoxelBox& wanted) const
+  int rank, const std::vector<VoxelBox>& wanted) const
 {
   std::vector<Delivery> deliveries;
-  std::vector<VoxelBox> rest = { wanted };
+  std::vector<VoxelBox> rest = wanted;
   const auto take = [&](int from)
   {
     const VoxelBox& held = this->HeldBy(from);
@@ -103,24 +105,26 @@ std::vector<VoxelPieces::Delivery> VoxelPieces::DeliveriesFor(
 void VoxelPieces::Fetch(Communicator& ranks, const void* voxels, std::size_t bytes,
   const VoxelBox& wanted, void* fetched) const
 {
-  this->FetchInto(ranks, voxels, bytes, wanted, wanted, fetched);
+  this->FetchInto(ranks, voxels, bytes, { wanted }, wanted, fetched);
 }
 
 void VoxelPieces::FetchInto(Communicator& ranks, const void* voxels, std::size_t bytes,
-  const VoxelBox& wanted, const VoxelBox& place, void* fetched) const
+  const std::vector<VoxelBox>& wanted, const VoxelBox& place, void* fetched) const
 {
-  const std::vector<VoxelBox> all = GatherValues(ranks, wanted);
-  int count = 0;
-  for (const VoxelBox& box : all)
+  std::vector<std::vector<std::vector<VoxelBox>>> rounds; // By rank.
+  std::size_t count = 0;
+  for (const std::vector<VoxelBox>& boxes : GatherEachOnAll(ranks, wanted))
   {
-    count = std::max(count, NumberOfRounds(box, bytes, this->BytesAtATime));
+    rounds.push_back(RoundsOf(boxes, bytes, this->BytesAtATime));
+    count = std::max(count, rounds.back().size());
   }
-  for (int n = 0; n < count; ++n)
+  for (std::size_t n = 0; n < count; ++n)
   {
-    std::vector<VoxelBox> round;
-    for (const VoxelBox& box : all)
+    std::vector<std::vector<VoxelBox>> round;
+    for (std::vector<std::vector<VoxelBox>>& ofRank : rounds)
     {
-      round.push_back(SlicesOfRound(box, bytes, this->BytesAtATime, n));
+      ofRank.resize(count); // Nothing past its last.
+      round.push_back(std::move(ofRank[n]));
     }
     this->FetchOnce(ranks, static_cast<const char*>(voxels), bytes, round, place,
       static_cast<char*>(fetched));
@@ -128,7 +132,7 @@ void VoxelPieces::FetchInto(Communicator& ranks, const void* voxels, std::size_t
 }
 
 void VoxelPieces::FetchOnce(Communicator& ranks, const char* voxels, std::size_t bytes,
-  const std::vector<VoxelBox>& wanted, const VoxelBox& place, char* fetched) const
+  const std::vector<std::vector<VoxelBox>>& wanted, const VoxelBox& place, char* fetched) const
 {
   const int own = ranks.Rank();
   const VoxelBox& held = this->HeldBy(own);
@@ -148,7 +152,6 @@ void VoxelPieces::FetchOnce(Communicator& ranks, const char* voxels, std::size_t
         continue;
       }
       partners.push_back(to);
-      message.reserve(message.size() + static_cast<std::size_t>(delivery.Box.Count()) * bytes);
       ForRowsOf(delivery.Box, held,
         [&](std::int64_t first, std::int64_t count)
         {

@@ -49,9 +49,12 @@ public:
   void Fetch(Communicator& ranks, const void* voxels, std::size_t bytes, const VoxelBox& wanted,
     void* fetched) const;
 
-  /** The same where `fetched` has room for a larger box, of which other voxels stay as they are. */
+  /**
+   * The same for some boxes, which go together, where `fetched` has room for a larger one, of which
+   * other voxels stay as they are.
+   */
   void FetchInto(Communicator& ranks, const void* voxels, std::size_t bytes,
-    const VoxelBox& wanted, const VoxelBox& place, void* fetched) const;
+    const std::vector<VoxelBox>& wanted, const VoxelBox& place, void* fetched) const;
 
   template <typename T>
   void Fetch(Communicator& ranks, const T* voxels, const VoxelBox& wanted, T* fetched) const
@@ -72,9 +75,10 @@ private:
     int From;
     VoxelBox Box;
   };
-  std::vector<Delivery> DeliveriesFor(int rank, const VoxelBox& wanted) const;
+  std::vector<Delivery> DeliveriesFor(int rank, const std::vector<VoxelBox>& wanted) const;
+  /** @param wanted by rank */
   void FetchOnce(Communicator& ranks, const char* voxels, std::size_t bytes,
-    const std::vector<VoxelBox>& wanted, const VoxelBox& place, char* fetched) const;
+    const std::vector<std::vector<VoxelBox>>& wanted, const VoxelBox& place, char* fetched) const;
 
   std::vector<VoxelBox> Held; ///< by rank
 };

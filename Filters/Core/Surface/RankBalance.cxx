@@ -34,7 +34,24 @@ std::vector<RankBlocks::Load> RankBlocks::LoadsOfBlocks(bool onlyActive, Executo
           static_cast<std::int64_t>(this->Blocks.ListOf(block).size()) };
       }
     });
-  return this->InOrder(GatherEachOnAll(this->Ranks, this->OfOwn(loads)));
+  struct LoadOfBlock
+  {
+    int Block;
+    Load Is;
+  };
+  std::vector<LoadOfBlock> own; // Most have no vertices.
+  for (std::size_t block = 0; block < loads.size(); ++block)
+  {
+    if (loads[block].Vertices > 0)
+    {
+      own.push_back({ static_cast<int>(block), loads[block] });
+    }
+  }
+  for (const LoadOfBlock& load : GatherListsOnAll(this->Ranks, own))
+  {
+    loads[load.Block] = load.Is;
+  }
+  return loads;
 }
 
 bool RankBlocks::Balance(bool onlyActive, Executor& executor)

@@ -234,6 +234,23 @@ void RankBlocks::ScatterMesh(const SurfaceMesh& mesh, const Vector& low, const V
 void RankBlocks::Gather()
 {
   SurfaceState& s = this->State;
+  this->TakePieces([&s](MessageWriter& writer, const std::vector<int>& own) { s.Write(writer, own); },
+    [&s](MessageReader& reader) { return s.Read(reader); });
+}
+
+void RankBlocks::GatherMesh()
+{
+  SurfaceState& s = this->State;
+  this->TakePieces([&s](MessageWriter& writer, const std::vector<int>& own)
+    { SurfaceState::WriteMesh(s.Mesh, writer, own); },
+    [&s](MessageReader& reader) { return s.ReadMesh(reader); });
+}
+
+void RankBlocks::TakePieces(
+  const std::function<void(MessageWriter&, const std::vector<int>&)>& write,
+  const std::function<std::vector<int>(MessageReader&)>& read)
+{
+  SurfaceState& s = this->State;
   std::vector<int> own;
   for (int v = 0; v < s.Mesh.Size(); ++v)
   {
@@ -243,7 +260,7 @@ void RankBlocks::Gather()
     }
   }
   MessageWriter writer;
-  s.Write(writer, own);
+  write(writer, own);
   Message message = writer.Take();
   const std::size_t places = s.Mesh.Rings.size();
   const int vertices = s.Mesh.NumberOfVertices();
@@ -256,7 +273,7 @@ void RankBlocks::Gather()
     {
       const Message piece = this->Ranks.Pass(rank, 0, rank == 0 ? std::move(message) : Message());
       MessageReader reader(piece);
-      this->Blocks.AddOthers(s.Read(reader));
+      read(reader); // New blocks take them.
     }
     else if (rank == this->Ranks.Rank())
     {
@@ -329,24 +346,28 @@ VoxelBox RankBlocks::RowsOf(const LevelImage& image) const
   return rows;
 }
 
-void RankBlocks::ShareCounts()
+bool RankBlocks::ShareCounts(bool isHere)
 {
   struct Changes
   {
     int Vertices;
     int Characteristic;
+    bool IsThere;
   };
+  bool isAnywhere = false;
   SurfaceState& s = this->State;
   const std::vector<Changes> all = GatherValues(this->Ranks,
     Changes{ s.Mesh.NumberOfVertices() - this->KnownVertices,
-      s.EulerCharacteristic - this->KnownCharacteristic });
+      s.EulerCharacteristic - this->KnownCharacteristic, isHere });
   for (const Changes& changes : all)
   {
+    isAnywhere = isAnywhere || changes.IsThere;
     this->KnownVertices += changes.Vertices;
     this->KnownCharacteristic += changes.Characteristic;
   }
   s.Mesh.CountOthers(this->KnownVertices - s.Mesh.NumberOfVertices());
   s.EulerCharacteristic = this->KnownCharacteristic;
+  return isAnywhere;
 }
 
 void RankBlocks::AddPlaces(Executor& executor)
@@ -358,19 +379,67 @@ void RankBlocks::AddPlaces(Executor& executor)
       const int block = static_cast<int>(b);
       counts[b] = this->IsOwn(block) ? this->Blocks.MissingPlaces(block) : 0;
     });
-  this->Blocks.AddPlaces(
-    this->InOrder(GatherEachOnAll(this->Ranks, this->OfOwn(counts))), executor);
+  struct Places
+  {
+    int Block;
+    int Count;
+  };
+  std::vector<Places> missing; // Of few blocks.
+  for (int block = 0; block < this->Blocks.NumberOfBlocks(); ++block)
+  {
+    if (counts[block] > 0)
+    {
+      missing.push_back({ block, counts[block] });
+    }
+  }
+  for (const Places& ofBlock : GatherListsOnAll(this->Ranks, missing))
+  {
+    counts[ofBlock.Block] = ofBlock.Count;
+  }
+  this->Blocks.AddPlaces(counts, executor);
 }
 
-double RankBlocks::AddUp(const std::vector<double>& ofBlocks)
+std::vector<double> RankBlocks::AddUp(const std::vector<std::vector<double>>& lists)
 {
-  const std::vector<std::vector<double>> lists = GatherEach(this->Ranks, this->OfOwn(ofBlocks));
-  double sum = 0.;
-  if (!lists.empty())
+  // Most blocks have no vertices, and nothing to add.
+  std::vector<int> own;
+  for (int block = 0; block < this->Blocks.NumberOfBlocks(); ++block)
   {
-    const std::vector<double> all = this->InOrder(lists);
-    sum = std::accumulate(all.begin(), all.end(), 0.);
+    if (this->IsOwn(block) &&
+      std::any_of(lists.begin(), lists.end(), [block](auto& list) { return list[block] != 0.; }))
+    {
+      own.push_back(block);
+    }
   }
-  return BroadcastValue(this->Ranks, sum);
+  MessageWriter writer;
+  writer.AddArray(own);
+  for (const std::vector<double>& list : lists)
+  {
+    for (const int block : own)
+    {
+      writer.Add(list[block]);
+    }
+  }
+  const std::vector<Message> messages = this->Ranks.Gather(writer.Take());
+  std::vector<MessageReader> readers(messages.begin(), messages.end());
+  std::vector<std::vector<int>> blocks;
+  for (MessageReader& reader : readers)
+  {
+    blocks.push_back(reader.TakeVector<int>());
+  }
+  std::vector<double> all(this->Owners.size(), 0.); // Of a list.
+  std::vector<double> sums;
+  for (std::size_t list = 0; list < lists.size(); ++list)
+  {
+    for (std::size_t rank = 0; rank < readers.size(); ++rank)
+    {
+      for (const int block : blocks[rank])
+      {
+        all[block] = readers[rank].Take<double>();
+      }
+    }
+    sums.push_back(std::accumulate(all.begin(), all.end(), 0.));
+  }
+  return BroadcastList(this->Ranks, sums);
 }
 }

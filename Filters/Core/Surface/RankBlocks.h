@@ -82,6 +82,8 @@ public:
   void ScatterMesh(const SurfaceMesh& mesh, const Vector& low, const Vector& high);
   /** By all ranks, back again: rank 0 has all vertices afterwards, the others none. */
   void Gather();
+  /** The same of the mesh alone, of which nothing else is known afterwards. */
+  void GatherMesh();
 
   /**
    * By all ranks, with the same surface: adds this closed surface to that of all ranks, each of
@@ -105,12 +107,15 @@ public:
    * @return whether any has gone, on all ranks: then the ranks need other voxels
    */
   bool Balance(bool onlyActive, Executor& executor);
-  /** By all ranks, between sweeps: agrees on the number of vertices and chi of the surface. */
-  void ShareCounts();
+  /**
+   * By all ranks, between sweeps: agrees on the number of vertices and chi of the surface.
+   * @return whether it is so on any rank
+   */
+  bool ShareCounts(bool isHere = false);
   /** By all ranks, between sweeps: gives blocks the places that their owners want for them. */
   void AddPlaces(Executor& executor);
-  /** By all ranks: adds up what the owners say of their blocks, in the order of the blocks. */
-  double AddUp(const std::vector<double>& ofBlocks);
+  /** By all ranks: adds up what the owners say of their blocks, each list in the blocks' order. */
+  std::vector<double> AddUp(const std::vector<std::vector<double>>& lists);
 
 private:
   /** A vertex that a visit has removed, and the block that its place belongs to. */
@@ -125,13 +130,10 @@ private:
     int Vertices;
     int Characteristic;
   };
-  /** Picks the values of own blocks; InOrder() brings those of all ranks back to their order. */
-  template <typename T>
-  std::vector<T> OfOwn(const std::vector<T>& ofBlocks) const;
-  template <typename T>
-  std::vector<T> InOrder(const std::vector<std::vector<T>>& ofRanks) const;
   Message SendPieces(const SurfaceMesh& mesh,
     const std::function<void(MessageWriter&, const std::vector<int>&)>& write);
+  void TakePieces(const std::function<void(MessageWriter&, const std::vector<int>&)>& write,
+    const std::function<std::vector<int>(MessageReader&)>& read);
   void BeginPieces(const Sizes& sizes, const Vector& low, const Vector& high);
   std::vector<Load> LoadsOfBlocks(bool onlyActive, Executor& executor) const;
   void MoveBlocks(std::vector<int> owners);
@@ -156,33 +158,6 @@ private:
   int KnownVertices = 0;                 ///< What the ranks last agreed on.
   int KnownCharacteristic = 0;
 };
-
-template <typename T>
-std::vector<T> RankBlocks::OfOwn(const std::vector<T>& ofBlocks) const
-{
-  std::vector<T> own;
-  for (std::size_t block = 0; block < ofBlocks.size(); ++block)
-  {
-    if (this->IsOwn(static_cast<int>(block)))
-    {
-      own.push_back(ofBlocks[block]);
-    }
-  }
-  return own;
-}
-
-template <typename T>
-std::vector<T> RankBlocks::InOrder(const std::vector<std::vector<T>>& ofRanks) const
-{
-  std::vector<std::size_t> next(ofRanks.size(), 0);
-  std::vector<T> all;
-  all.reserve(this->Owners.size());
-  for (const int owner : this->Owners)
-  {
-    all.push_back(ofRanks[owner][next[owner]++]);
-  }
-  return all;
-}
 }
 
 #endif

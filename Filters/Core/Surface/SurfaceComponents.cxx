@@ -236,7 +236,7 @@ void SurfaceComponents::FindWholes(const std::vector<Name>& names)
   writer.AddArray(this->Sets);
   writer.AddArray(names);
   const std::vector<Message> ofRanks = ranks.Gather(writer.Take());
-  const Message answer = Scatter(ranks, this->JoinSets(ofRanks));
+  const Message answer = ranks.Scatter(this->JoinSets(ofRanks));
   MessageReader reader(answer);
   this->Components = reader.Take<int>();
   reader.TakeArray(this->Wholes);
