@@ -38,7 +38,7 @@ class Constants:
     around: tuple = (8.7e-6, 11.2e-6, 11.1e-6, 11.1e-6, 12.6e-6, 23.4e-6)  # s, before and after
     visits: tuple = (5, 10, 7, 13, 14, 21)  # of a block, of 5 iterations each
     block_side: float = 24 * 0.85  # voxels
-    sweeps_from: float = 161.3  # voxels, the side of the smallest level that ranks share
+    sweeps_from: float = 64.0  # voxels, the side of the smallest level that ranks share
     halo: float = 14.2 * 0.85  # voxels
     bytes_of_voxel: float = 2.0  # of the image
     bytes_of_coarse_voxel: float = 2.0

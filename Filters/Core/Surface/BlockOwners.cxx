@@ -107,12 +107,10 @@ private:
   std::vector<int> OwnerOfRow;
 };
 
-/** Cuts sets of blocks into halves of as much work as their ranks, those of each colour apart. */
+/** Cuts sets of blocks into halves of as much work as their ranks. */
 class BalancedChoice
 {
 public:
-  using Colours = std::vector<std::vector<int>>; ///< Blocks, by colour.
-
   /** @param before the owners so far, of whom as many as possible shall stay it */
   BalancedChoice(const SurfaceBlocks& blocks, const std::vector<RankBlocks::Load>& loads,
     const std::vector<int>& before)
@@ -125,73 +123,58 @@ public:
 
   std::vector<int> Among(int ranks)
   {
-    Colours all;
-    for (std::vector<int> blocks : this->Blocks.ByColour())
+    std::vector<int> all;
+    for (int block = 0; block < this->Blocks.NumberOfBlocks(); ++block)
     {
-      const auto isEmpty = [this](int block) { return this->Loads[block].Vertices == 0; };
-      blocks.erase(std::remove_if(blocks.begin(), blocks.end(), isEmpty), blocks.end());
-      all.push_back(std::move(blocks));
+      if (this->Loads[block].Vertices > 0)
+      {
+        all.push_back(block);
+      }
     }
-    this->Cut(all, 0, ranks);
+    this->Cut(std::move(all), 0, ranks);
     return std::move(this->Owners);
   }
 
 private:
   /** Ranks from the first one on share these blocks. */
-  void Cut(const Colours& ofColours, int firstRank, int ranks)
+  void Cut(std::vector<int> blocks, int firstRank, int ranks)
   {
     if (ranks == 1)
     {
-      for (const std::vector<int>& blocks : ofColours)
+      for (const int block : blocks)
       {
-        for (const int block : blocks)
-        {
-          this->Owners[block] = firstRank;
-        }
+        this->Owners[block] = firstRank;
       }
       return;
     }
     const int lower = ranks / 2;
-    std::array<Colours, 2> best;
+    std::vector<int> best;
+    std::ptrdiff_t half = 0;
     std::int64_t most = -1;
     for (const int axis : { 2, 1, 0 }) // Slabs of the image, where nothing speaks for others.
     {
-      std::array<Colours, 2> halves = this->Halves(ofColours, axis, lower, ranks);
-      const std::int64_t staying = this->CountOf(halves[0], firstRank, lower) +
-        this->CountOf(halves[1], firstRank + lower, ranks - lower);
+      this->SortAlong(axis, blocks);
+      const std::ptrdiff_t count = this->CountOfShare(blocks, lower, ranks);
+      const auto at = blocks.begin() + count;
+      const std::int64_t staying = this->CountOf(blocks.begin(), at, firstRank, lower) +
+        this->CountOf(at, blocks.end(), firstRank + lower, ranks - lower);
       if (staying > most)
       {
         most = staying;
-        best = std::move(halves);
+        half = count;
+        best = blocks;
       }
     }
-    this->Cut(best[0], firstRank, lower);
-    this->Cut(best[1], firstRank + lower, ranks - lower);
-  }
-
-  std::array<Colours, 2> Halves(const Colours& ofColours, int axis, int lower, int ranks) const
-  {
-    std::array<Colours, 2> halves;
-    for (std::vector<int> blocks : ofColours)
-    {
-      this->SortAlong(axis, blocks);
-      const auto half = blocks.begin() + this->CountOfShare(blocks, lower, ranks);
-      halves[0].emplace_back(blocks.begin(), half);
-      halves[1].emplace_back(half, blocks.end());
-    }
-    return halves;
+    this->Cut({ best.begin(), best.begin() + half }, firstRank, lower);
+    this->Cut({ best.begin() + half, best.end() }, firstRank + lower, ranks - lower);
   }
 
   /** How many of the blocks belong to these ranks. */
-  std::int64_t CountOf(const Colours& ofColours, int firstRank, int ranks) const
+  template <typename Iterator>
+  std::int64_t CountOf(Iterator begin, Iterator end, int firstRank, int ranks) const
   {
-    std::int64_t count = 0;
-    for (const std::vector<int>& blocks : ofColours)
-    {
-      count += std::count_if(blocks.begin(), blocks.end(), [&](int block)
-        { return this->Before[block] >= firstRank && this->Before[block] < firstRank + ranks; });
-    }
-    return count;
+    return std::count_if(begin, end, [&](int block)
+      { return this->Before[block] >= firstRank && this->Before[block] < firstRank + ranks; });
   }
 
   void SortAlong(int axis, std::vector<int>& blocks) const

@@ -12,7 +12,7 @@ namespace
 /** Of the iterations of a visit, for each vertex, */
 constexpr int LooksAtVertex = 7;
 /** and for one that has a way to go. */
-constexpr int LooksAtFar = 60;
+constexpr int LooksAtFar = 30;
 // Edits take as long as so many looks, each, as measured on the skull at 512^3:
 constexpr int LooksAtMerge = 200;
 constexpr int LooksAtFlip = 45;

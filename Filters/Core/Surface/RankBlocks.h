@@ -25,9 +25,9 @@ namespace volumic
  *
  * The ranks visit their blocks of a colour, then tell each other what has become of the vertices
  * near the borders (Exchange), then go on with the next one. Blocks of a colour do not touch: each
- * visit sees what it would see on one rank. Messages grow with the border of the ranks. As they wait
- * for each other after each colour, blocks go from rank to rank (Balance) until all have as much to
- * do with each colour; who owns what has no influence on what becomes of the surface.
+ * visit sees what it would see on one rank. Messages grow with the border of the ranks. Blocks go
+ * from rank to rank (Balance) so that all have as much to do in a sweep; who owns what has no
+ * influence on what becomes of the surface.
  */
 class RankBlocks
 {
@@ -54,9 +54,10 @@ public:
     std::int64_t Vertices = 0;
   };
   /**
-   * Others, so that all ranks have as much to do with the blocks of each colour: those of a colour
-   * are cut along an axis, again and again, into halves, so that many owners stay what they are.
-   * Blocks without vertices keep theirs.
+   * Others, so that all ranks have as much to do: blocks in order along an axis are cut into halves,
+   * again and again, along axes for which many owners stay what they are. Blocks without vertices
+   * keep theirs. (Halves of each colour would be better balanced, as ranks wait for each other after
+   * each, but their border is longer, and costs more than that saves.)
    * @param loads of each block @return the rank of each block
    */
   static std::vector<int> BalancedOwners(const SurfaceBlocks& blocks,
