@@ -148,7 +148,7 @@ TEST(RankBalance, SharesTheWork)
     const int halvings = static_cast<int>(std::ceil(std::log2(ranks)));
     for (const std::int64_t ofRank : ofRanks)
     {
-      EXPECT_NEAR(ofRank, all / ranks, halvings * most);
+      EXPECT_NEAR(ofRank, all / ranks, halvings * most + 0.01 * all / ranks);
     }
     EXPECT_GE(RankBlocks::WorkOfSweep(blocks, loads, owners, ranks), all / ranks);
     // Who has his share keeps his blocks.
