@@ -19,7 +19,7 @@ struct Numbered
   int Faces;
 };
 
-/** VertexNumbers a stretch of the vertices, of all ranks. @return what each rank has asked for */
+/** Numbers a stretch of the vertices, of all ranks. @return what each rank has asked for */
 std::vector<std::vector<VertexNumber>> NumberStretch(Communicator& ranks,
   const std::vector<std::vector<Numbered>>& vertices, std::size_t first, std::size_t count,
   VertexNumber& all)
