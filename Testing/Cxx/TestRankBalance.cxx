@@ -50,7 +50,7 @@ public:
     this->Owned = std::make_unique<RankBlocks>(this->State, *this->Blocks, ranks);
     this->Owned->ChooseOwners(this->State.Mesh);
     const SurfaceMesh mesh = std::exchange(this->State.Mesh, SurfaceMesh());
-    this->Owned->ScatterMesh(mesh, this->Low, this->High);
+    this->Owned->Scatter(mesh, this->Low, this->High);
     std::vector<int> inner; // Of the others a rank does not know the shape.
     for (int v = 0; v < this->State.Mesh.Size(); ++v)
     {

@@ -273,7 +273,7 @@ void SurfaceEvolution::Implementation::SpreadMesh()
   {
     this->ShareBlocks(whole);
   }
-  this->Piece->ScatterMesh(whole, this->GridLow, this->GridHigh);
+  this->Piece->Scatter(whole, this->GridLow, this->GridHigh);
 }
 
 void SurfaceEvolution::Implementation::DivideInPieces()

@@ -197,8 +197,6 @@ struct SurfaceEvolution::Implementation
   /** The ranks that have pieces of the surface as it is now: this one alone while it is whole. */
   Communicator& Sharers() const { return this->Piece ? this->Piece->Sharers() : OnThisRank(); }
   bool IsInPieces() const { return this->Piece && this->Piece->AreShared(); }
-  /** Spreads the surface of a shared level over the ranks, where it is still whole. */
-  void BeginVisits();
   /** Forgets the blocks of a surface that is whole; pieces stay with their ranks. */
   void EndVisits();
   bool IsFirstRank() const { return this->Ranks->Rank() == 0; }
@@ -215,9 +213,8 @@ struct SurfaceEvolution::Implementation
   void AddUpRows(std::vector<SweptRow>& rows);
   void AddUpSinceEvolved();
   std::vector<std::uint8_t> AreNear(std::vector<std::int64_t> voxels);
-  /** By all ranks: the surface is whole on rank 0 afterwards. */
+  /** By all ranks: the mesh is whole on rank 0 afterwards, and nothing else is known of it. */
   void Unite();
-  void UniteMesh(); ///< The same, but its vertices know nothing: see SurfaceState::ReadMesh.
   /** By all ranks: the result in so many pieces, of the first ranks. */
   SurfaceResult ResultOnRanks(int pieces) const;
   void CountComponents(); ///< After some may have been deleted.

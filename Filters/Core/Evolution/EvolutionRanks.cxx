@@ -72,18 +72,6 @@ VoxelBox SurfaceEvolution::Implementation::OwnVoxels() const
   return voxels;
 }
 
-void SurfaceEvolution::Implementation::BeginVisits()
-{
-  if (!this->IsShared || this->IsInPieces())
-  {
-    return; // It has come here in blocks.
-  }
-  this->State.Sizing = SizingField(BroadcastValue(*this->Ranks, this->State.Sizing.OfLevel()));
-  this->ShareBlocks(this->State.Mesh);
-  this->AgreeOnGridBox();
-  this->Piece->Scatter(this->GridLow, this->GridHigh);
-}
-
 void SurfaceEvolution::Implementation::EndVisits()
 {
   if (!this->IsInPieces()) // Else it stays so until it is wanted as a whole.
@@ -237,15 +225,6 @@ void SurfaceEvolution::Implementation::Unite()
   if (this->IsInPieces())
   {
     this->Piece->Gather();
-    this->MakeBlocks();
-  }
-}
-
-void SurfaceEvolution::Implementation::UniteMesh()
-{
-  if (this->IsInPieces())
-  {
-    this->Piece->GatherMesh();
     this->MakeBlocks();
   }
 }

@@ -350,7 +350,6 @@ void SurfaceEvolution::Implementation::Revise(const LevelImage& image)
 
 StopReason SurfaceEvolution::Implementation::Run()
 {
-  this->BeginVisits();
   const StopReason reason = this->Evolve();
   this->DeleteInsideOut();
   if (reason == StopReason::Cancelled || reason == StopReason::Vanished)
@@ -367,11 +366,7 @@ StopReason SurfaceEvolution::Implementation::Run()
   Dynamics dynamics(*this->TheField, this->Options, this->Threads);
   if (this->WantedMeanEdge > 0.)
   {
-    this->AddUpSinceEvolved();
-    this->Unite(); // Its steps make the blocks anew.
     this->FitMeanEdge(dynamics);
-    this->BeginVisits();
-    this->AgreeOnStop();
   }
   const bool isGraded = this->WantedGrading.HasTolerance() && !this->Stopped &&
     this->State.Mesh.NumberOfVertices() > 0;

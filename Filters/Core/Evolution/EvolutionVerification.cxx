@@ -41,7 +41,7 @@ void SurfaceEvolution::Implementation::Verify()
   {
     return;
   }
-  this->UniteMesh();
+  this->Unite();
   if (!this->IsFirstRank() || this->State.Mesh.NumberOfVertices() == 0)
   {
     return;

@@ -169,7 +169,7 @@ void SurfaceEvolution::SetRanks(
 
 void SurfaceEvolution::Unite()
 {
-  this->Self->UniteMesh();
+  this->Self->Unite();
   this->Self->KeepSent(*this->Self->Ranks);
 }
 

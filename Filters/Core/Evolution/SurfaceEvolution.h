@@ -224,7 +224,7 @@ public:
   /**
    * For the levels to come: before its final regularisation, delta is changed by small steps, as
    * far as eq. (7) allows, until the mean of the edges is this long (workspace; 0, the default: no
-   * change). Within 3 % where eq. (7) does not end it.
+   * change). Within 3 % where eq. (7) does not end it. Not on several ranks.
    */
   void SetMeanEdgeLength(double length);
 

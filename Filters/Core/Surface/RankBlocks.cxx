@@ -167,8 +167,7 @@ void RankBlocks::Exchange()
   }
 }
 
-Message RankBlocks::SendPieces(const SurfaceMesh& mesh,
-  const std::function<void(MessageWriter&, const std::vector<int>&)>& write)
+Message RankBlocks::SendPieces(const SurfaceMesh& mesh)
 {
   if (this->Ranks.Rank() != 0)
   {
@@ -186,7 +185,7 @@ Message RankBlocks::SendPieces(const SurfaceMesh& mesh,
   {
     // One after the other: all together are as much as the surface.
     MessageWriter writer;
-    write(writer, std::exchange(this->Touched[rank], {}));
+    SurfaceState::WriteMesh(mesh, writer, std::exchange(this->Touched[rank], {}));
     Message kept = this->Ranks.Pass(0, rank, writer.Take());
     if (rank == 0)
     {
@@ -196,59 +195,29 @@ Message RankBlocks::SendPieces(const SurfaceMesh& mesh,
   return own;
 }
 
-void RankBlocks::BeginPieces(const Sizes& sizes, const Vector& low, const Vector& high)
+void RankBlocks::Scatter(const SurfaceMesh& mesh, const Vector& low, const Vector& high)
 {
+  struct Sizes
+  {
+    std::size_t Places;
+    int Vertices;
+    int Characteristic;
+  };
+  const Sizes sizes = BroadcastValue(this->Ranks,
+    Sizes{
+      mesh.Rings.size(), mesh.NumberOfVertices(), mesh.CountEulerCharacteristic() });
+  const Message own = this->SendPieces(mesh);
   this->Low = low;
   this->High = high;
   this->Blocks.ForgetVertices();
   this->State.Remake(sizes.Places, sizes.Vertices, low, high);
   this->State.EulerCharacteristic = this->KnownCharacteristic = sizes.Characteristic;
   this->KnownVertices = sizes.Vertices;
-}
-
-void RankBlocks::Scatter(const Vector& low, const Vector& high)
-{
-  SurfaceState& s = this->State;
-  const Sizes sizes = BroadcastValue(this->Ranks,
-    Sizes{ s.Mesh.Rings.size(), s.Mesh.NumberOfVertices(), s.EulerCharacteristic });
-  const Message own = this->SendPieces(s.Mesh,
-    [&s](MessageWriter& writer, const std::vector<int>& vertices) { s.Write(writer, vertices); });
-  this->BeginPieces(sizes, low, high);
-  MessageReader reader(own);
-  this->Blocks.AddOthers(s.Read(reader));
-}
-
-void RankBlocks::ScatterMesh(const SurfaceMesh& mesh, const Vector& low, const Vector& high)
-{
-  const Sizes sizes = BroadcastValue(this->Ranks,
-    Sizes{
-      mesh.Rings.size(), mesh.NumberOfVertices(), mesh.CountEulerCharacteristic() });
-  const Message own = this->SendPieces(mesh,
-    [&mesh](MessageWriter& writer, const std::vector<int>& vertices)
-    { SurfaceState::WriteMesh(mesh, writer, vertices); });
-  this->BeginPieces(sizes, low, high);
   MessageReader reader(own);
   this->Blocks.Take(this->State.ReadMesh(reader));
 }
 
 void RankBlocks::Gather()
-{
-  SurfaceState& s = this->State;
-  this->TakePieces([&s](MessageWriter& writer, const std::vector<int>& own) { s.Write(writer, own); },
-    [&s](MessageReader& reader) { return s.Read(reader); });
-}
-
-void RankBlocks::GatherMesh()
-{
-  SurfaceState& s = this->State;
-  this->TakePieces([&s](MessageWriter& writer, const std::vector<int>& own)
-    { SurfaceState::WriteMesh(s.Mesh, writer, own); },
-    [&s](MessageReader& reader) { return s.ReadMesh(reader); });
-}
-
-void RankBlocks::TakePieces(
-  const std::function<void(MessageWriter&, const std::vector<int>&)>& write,
-  const std::function<std::vector<int>(MessageReader&)>& read)
 {
   SurfaceState& s = this->State;
   std::vector<int> own;
@@ -260,7 +229,7 @@ void RankBlocks::TakePieces(
     }
   }
   MessageWriter writer;
-  write(writer, own);
+  SurfaceState::WriteMesh(s.Mesh, writer, own);
   Message message = writer.Take();
   const std::size_t places = s.Mesh.Rings.size();
   const int vertices = s.Mesh.NumberOfVertices();
@@ -273,7 +242,7 @@ void RankBlocks::TakePieces(
     {
       const Message piece = this->Ranks.Pass(rank, 0, rank == 0 ? std::move(message) : Message());
       MessageReader reader(piece);
-      read(reader); // New blocks take them.
+      s.ReadMesh(reader); // New blocks take them.
     }
     else if (rank == this->Ranks.Rank())
     {

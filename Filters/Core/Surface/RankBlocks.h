@@ -75,16 +75,13 @@ public:
   bool IsOwnVertex(int v) const { return this->IsOwn(this->State.Block[v]); }
 
   /**
-   * By all ranks: the surface is whole on rank 0 before, and each rank has its piece of it
-   * afterwards, with the halo. `low`, `high`: the box of the grid, the same on all ranks.
+   * By all ranks: each has its piece afterwards, with the halo, of a mesh that is whole on rank 0.
+   * Its vertices know nothing else: they are as after a reset. `low`, `high`: the box of the grid,
+   * the same on all ranks.
    */
-  void Scatter(const Vector& low, const Vector& high);
-  /** The same for a mesh whose vertices know nothing else: they are as after a reset. */
-  void ScatterMesh(const SurfaceMesh& mesh, const Vector& low, const Vector& high);
-  /** By all ranks, back again: rank 0 has all vertices afterwards, the others none. */
+  void Scatter(const SurfaceMesh& mesh, const Vector& low, const Vector& high);
+  /** By all ranks, back again: rank 0 has the mesh afterwards, and nothing else, the others none. */
   void Gather();
-  /** The same of the mesh alone, of which nothing else is known afterwards. */
-  void GatherMesh();
 
   /**
    * By all ranks, with the same surface: adds this closed surface to that of all ranks, each of
@@ -125,17 +122,7 @@ private:
     int Vertex;
     int Block;
   };
-  struct Sizes
-  {
-    std::size_t Places;
-    int Vertices;
-    int Characteristic;
-  };
-  Message SendPieces(const SurfaceMesh& mesh,
-    const std::function<void(MessageWriter&, const std::vector<int>&)>& write);
-  void TakePieces(const std::function<void(MessageWriter&, const std::vector<int>&)>& write,
-    const std::function<std::vector<int>(MessageReader&)>& read);
-  void BeginPieces(const Sizes& sizes, const Vector& low, const Vector& high);
+  Message SendPieces(const SurfaceMesh& mesh);
   std::vector<Load> LoadsOfBlocks(bool onlyActive, Executor& executor) const;
   void MoveBlocks(std::vector<int> owners);
   Message LeaveBlocks(int rank, const std::vector<int>& before, const std::vector<int>& vertices);
