@@ -8,7 +8,6 @@
 #include "Host/HostThreads.h"
 #include "Output/SurfaceOutput.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <utility>
 #include <vector>

@@ -179,6 +179,24 @@ TEST(RankBalance, LeavesBlocksWithoutVerticesWhereTheyAre)
   }
 }
 
+TEST(RankBalance, CutsAlongTheAxisThatMovesFewBlocks)
+{
+  SurfaceState state;
+  state.Reset(Vector(), Vector(168.f, 168.f, 168.f));
+  const SurfaceBlocks blocks(state, SurfaceBlocks::FrameOf({ 168., 168., 168. }, Side), OnThisThread());
+  const std::vector<RankBlocks::Load> loads(
+    static_cast<std::size_t>(blocks.NumberOfBlocks()), { 10, 100 });
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    std::vector<int> before(loads.size());
+    for (int block = 0; block < blocks.NumberOfBlocks(); ++block)
+    {
+      before[block] = blocks.PlaceOf(block)[axis] >= 4;
+    }
+    EXPECT_EQ(RankBlocks::BalancedOwners(blocks, loads, before, 2), before) << axis;
+  }
+}
+
 TEST(RankBalance, MovesBlocksToRanksThatHaveLessToDo)
 {
   for (const int count : { 2, 4 })

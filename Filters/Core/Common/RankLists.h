@@ -52,13 +52,6 @@ std::vector<T> JoinedLists(const std::vector<Message>& messages)
 }
 }
 
-/** @return the list of each rank, by rank, at rank 0; nothing elsewhere. */
-template <typename T>
-std::vector<std::vector<T>> GatherEach(Communicator& ranks, const std::vector<T>& list)
-{
-  return detail::ListsIn<T>(ranks.Gather(detail::MessageOf(list)));
-}
-
 /** @return the list of each rank, by rank, on all ranks. */
 template <typename T>
 std::vector<std::vector<T>> GatherEachOnAll(Communicator& ranks, const std::vector<T>& list)

@@ -7,7 +7,6 @@
 #include "Core/Common/Spans.h"
 
 #include <algorithm>
-#include <iterator>
 #include <numeric>
 #include <utility>
 

@@ -13,7 +13,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 namespace volumic
@@ -107,7 +106,7 @@ public:
   bool Balance(bool onlyActive, Executor& executor);
   /**
    * By all ranks, between sweeps: agrees on the number of vertices and chi of the surface.
-   * @return whether it is so on any rank
+   * @return whether something else is so on any rank, as `isHere` tells of this one
    */
   bool ShareCounts(bool isHere = false);
   /** By all ranks, between sweeps: gives blocks the places that their owners want for them. */
