@@ -110,6 +110,8 @@ set(volumic_core_sources
   Evolution/LostBoundary.cxx
   Evolution/LostParts.cxx
   Evolution/LostVoxels.cxx
+  Evolution/EdgesToKeep.cxx
+  Evolution/MeshPiece.cxx
   Evolution/RankNumbers.cxx
   Evolution/RankResult.cxx
   Evolution/SlabSearch.cxx
@@ -245,6 +247,8 @@ set(volumic_core_headers
   Evolution/LostBoundary.h
   Evolution/LostParts.h
   Evolution/LostVoxels.h
+  Evolution/EdgesToKeep.h
+  Evolution/MeshPiece.h
   Evolution/RankNumbers.h
   Evolution/RankRows.h
   Evolution/RestCriterion.h

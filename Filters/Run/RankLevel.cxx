@@ -20,14 +20,27 @@ namespace
 class HelpersMonitor final : public Monitor
 {
 public:
-  explicit HelpersMonitor(const std::function<bool()>& goOn) : Goes(goOn) {}
+  explicit HelpersMonitor(std::function<bool()> goOn) : Goes(std::move(goOn)) {}
   bool Continue(const Status&) override { return this->Goes(); }
   bool GoOn(const Status&) override { return this->Goes(); }
 
 private:
-  const std::function<bool()>& Goes;
+  std::function<bool()> Goes;
 };
 }
+
+/** What a rank that helps evolves its piece with. */
+struct HelpersRun
+{
+  HelpersRun(const SharedLevel& shared, const std::function<bool()>& goOn)
+    : Threads(shared.NumberOfThreads), Asked(goOn), Evolution(shared.Options, Threads, Asked)
+  {
+  }
+  HostThreads Threads;
+  HelpersMonitor Asked;
+  std::unique_ptr<RankLevel> Level; ///< The last one, to which the evolution refers.
+  SurfaceEvolution Evolution;
+};
 
 RankLevel::RankLevel(
   Communicator& ranks, const LevelImage& image, const LevelInPieces* pieces)
@@ -114,7 +127,7 @@ bool EvolveOnRanks(Communicator& ranks, const SharedLevel& shared, RankLevel& le
   {
     reason = evolution.Run();
     surface = shared.InPieces ? evolution.PieceOfResult() : evolution.Result();
-    if (!shared.IsLast)
+    if (shared.Then == SharedLevel::Next::IsWhole)
     {
       evolution.Unite();
     }
@@ -136,10 +149,10 @@ void HelpWithLevel(Communicator& ranks, const LevelsInPieces& pieces, HelpersPie
   const std::function<bool()>& goOn)
 {
   const SharedLevel shared = BroadcastValue(ranks, SharedLevel());
-  HostThreads threads(shared.NumberOfThreads);
   if (shared.Is == SharedLevel::Work::MakesOutput)
   {
     const auto space = BroadcastValue(ranks, Workspace());
+    HostThreads threads(shared.NumberOfThreads);
     threads.Run(
       [&]
       {
@@ -149,21 +162,28 @@ void HelpWithLevel(Communicator& ranks, const LevelsInPieces& pieces, HelpersPie
     return;
   }
   const auto found = pieces.find(shared.Level);
-  RankLevel level(ranks, LevelImage(), found != pieces.end() ? &found->second : nullptr);
+  auto level = std::make_unique<RankLevel>(
+    ranks, LevelImage(), found != pieces.end() ? &found->second : nullptr);
   if (shared.Is == SharedLevel::Work::GivesVoxels)
   {
-    level.Need(VoxelBox());
+    level->Need(VoxelBox());
     return;
   }
+  std::shared_ptr<HelpersRun> run = std::move(piece.Run);
   piece = HelpersPiece(); // Rank 0 has forgotten that level, too.
-  HelpersMonitor monitor(goOn);
-  threads.Run(
-    [&]
-    {
-      SurfaceEvolution evolution(shared.Options, threads, monitor);
-      StopReason reason = StopReason::Cancelled;
-      EvolveOnRanks(ranks, shared, level, evolution, reason, piece.Result);
-    });
+  if (!run)
+  {
+    run = std::make_shared<HelpersRun>(shared, goOn);
+  }
+  StopReason reason = StopReason::Cancelled;
+  run->Threads.Run(
+    [&] { EvolveOnRanks(ranks, shared, *level, run->Evolution, reason, piece.Result); });
+  if (shared.Then == SharedLevel::Next::StaysInPieces && reason != StopReason::Cancelled)
+  {
+    run->Level = std::move(level);
+    piece.Run = std::move(run);
+  }
+  run.reset();
   GiveBackFreeMemory();
 }
 }

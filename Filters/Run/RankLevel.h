@@ -69,21 +69,32 @@ struct SharedLevel
   SurfaceOptions Options;
   int Level = 0;
   int NumberOfThreads = 0;
-  bool IsLast = false;   ///< The surface is not to go on from there, so need not be whole.
-  bool InPieces = false; ///< Nor is its output: each rank makes its own piece.
+  /** What becomes of the surface that has evolved there. */
+  enum class Next
+  {
+    Ends,         ///< Nothing.
+    StaysInPieces, ///< It goes on to another level that all share.
+    IsWhole       ///< Rank 0 gets it.
+  };
+  Next Then = Next::IsWhole;
+  bool InPieces = false; ///< Its output is not whole: each rank makes its own piece.
 };
+
+struct HelpersRun;
 
 /** What a rank that helps keeps of a surface of which each has a piece, rank 0, too. */
 struct HelpersPiece
 {
   SurfaceResult Result;                ///< until the output is made of it
   vtkSmartPointer<vtkPolyData> Output; ///< but for field data; null: there is none
+  /** What evolves it, while it stays in pieces between levels; else null. */
+  std::shared_ptr<HelpersRun> Run;
 };
 
 /**
  * At rank 0, while the other ranks are in HelpWithLevel(): divides the surface to a level that all
- * ranks share, and evolves it there. Afterwards rank 0 has the result, or its piece of it, and the
- * whole surface where the run goes on from there. @return false as SurfaceEvolution::Divide()
+ * ranks share, and evolves it there. Afterwards rank 0 has the result, or its piece of it, and what
+ * shared.Then tells. @return false as SurfaceEvolution::Divide()
  */
 bool EvolveOnRanks(Communicator& ranks, const SharedLevel& shared, RankLevel& level,
   SurfaceEvolution& evolution, StopReason& reason, SurfaceResult& surface);

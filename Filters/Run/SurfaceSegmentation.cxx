@@ -338,6 +338,20 @@ bool SurfaceSegmentation::MayBeShared(int level) const
     !this->Levels.HasPoints() && !this->Levels.HasEdges();
 }
 
+SharedLevel::Next SurfaceSegmentation::AfterShared(int level) const
+{
+  const CheckpointRequest& checkpoints = this->Request.Checkpoints;
+  // From level 0 only the run to level -1 goes on, or one from a checkpoint that stays.
+  if (level == 0 && this->Choice.Last == 0 && !(checkpoints.AreLeft && checkpoints.Stay))
+  {
+    return SharedLevel::Next::Ends;
+  }
+  // What is saved is the whole surface.
+  const bool staysInPieces = level > this->Choice.Last && this->MayBeShared(level - 1) &&
+    !checkpoints.AreLeft && !this->Request.MayGoOn;
+  return staysInPieces ? SharedLevel::Next::StaysInPieces : SharedLevel::Next::IsWhole;
+}
+
 bool SurfaceSegmentation::NeedsWholeResult() const
 {
   return this->Request.KeepsWhole || this->Request.Checkpoints.AreLeft ||
@@ -363,11 +377,10 @@ bool SurfaceSegmentation::EvolveOn(
   if (this->MayBeShared(level))
   {
     bool isDivided = false;
-    // From level 0 only the run to level -1 goes on, or one from a checkpoint that stays.
-    const bool isLast = level == 0 && this->Choice.Last == 0 &&
-      !(this->Request.Checkpoints.AreLeft && this->Request.Checkpoints.Stay);
+    const SharedLevel::Next next = this->AfterShared(level);
     const SharedLevel shared{ SharedLevel::Work::Evolves, this->Settings.Options, level,
-      this->Settings.End.NumberOfThreads, isLast, isLast && !this->NeedsWholeResult() };
+      this->Settings.End.NumberOfThreads, next,
+      next == SharedLevel::Next::Ends && !this->NeedsWholeResult() };
     this->Request.OnAllRanks(
       [&]
       {

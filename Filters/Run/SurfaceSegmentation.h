@@ -13,6 +13,7 @@
 #include "Output/SegmentationResults.h"
 #include "Output/SurfaceSnapshots.h"
 #include "Run/LevelChoice.h"
+#include "Run/RankLevel.h"
 #include "Run/SegmentationCheckpoint.h"
 #include "Run/SegmentationLevels.h"
 #include "Settings/SegmentationRequest.h"
@@ -26,8 +27,6 @@
 
 namespace volumic
 {
-class RankLevel;
-
 /**
  * The run from the coarsest level to the finest: starts, evolves, divides, and keeps what the
  * outputs of vtkDeformableSurface hold. One that has ended at a level can go on from there, as if
@@ -103,6 +102,8 @@ private:
   bool PreviewMissesParts(int level) const;
   /** Whether all ranks may work on a level. */
   bool MayBeShared(int level) const;
+  /** What becomes of the surface after a level on which all ranks have worked. */
+  SharedLevel::Next AfterShared(int level) const;
   /** Whether rank 0 is to have all of the surface that a run on all ranks ends with. */
   bool NeedsWholeResult() const;
   /** On all ranks: brings rank 0 the voxels of a level that is in pieces. */

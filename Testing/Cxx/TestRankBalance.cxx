@@ -48,9 +48,11 @@ public:
     this->State.Reset(this->Low, this->High);
     this->Blocks = std::make_unique<SurfaceBlocks>(this->State, FrameOfRow(), OnThisThread());
     this->Owned = std::make_unique<RankBlocks>(this->State, *this->Blocks, ranks);
-    this->Owned->ChooseOwners(this->State.Mesh);
     const SurfaceMesh mesh = std::exchange(this->State.Mesh, SurfaceMesh());
-    this->Owned->Scatter(mesh, this->Low, this->High);
+    std::vector<int> all(mesh.Rings.size());
+    std::iota(all.begin(), all.end(), 0);
+    this->Owned->ChooseOwners(mesh, all);
+    this->Owned->Scatter(mesh, all, this->Low, this->High);
     std::vector<int> inner; // Of the others a rank does not know the shape.
     for (int v = 0; v < this->State.Mesh.Size(); ++v)
     {

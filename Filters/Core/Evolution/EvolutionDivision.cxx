@@ -6,13 +6,15 @@
 #include "Core/Common/RankLists.h"
 #include "Core/Common/Select.h"
 #include "Core/Common/Spans.h"
+#include "Core/Evolution/EdgesToKeep.h"
 #include "Core/Evolution/EvolutionImplementation.h"
-#include "Core/Mesh/Division.h"
+#include "Core/Evolution/MeshPiece.h"
+#include "Core/Evolution/RankNumbers.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -23,8 +25,6 @@ namespace
 {
 /** Vertices that one thread looks at at a time. */
 constexpr std::size_t VertexSpan = 8192;
-/** Rounds in which more and more edges are kept, until none is flipped in the last. */
-constexpr int KeepingRounds = 6;
 
 /**
  * Calls visit(v, w, squared length) for each edge whose smaller end is in a span; spans may be
@@ -59,50 +59,6 @@ bool HasEdgeOver(const SurfaceState& state, float share, Executor& executor)
                { count += std::sqrt(squared) > state.Sizing.LongestEdge(v, w, share); });
              return count;
            }) > 0;
-}
-
-/** Keeps the edges whose flips made the face; from the second round on others about it, too. */
-void KeepAbout(const std::array<int, 3>& face, const LargeVector<Triangle>& faces,
-  const SurfaceMesh& old, int round, KeptEdges& kept)
-{
-  const int olds = old.Size();
-  const int centres = olds + static_cast<int>(faces.size());
-  const auto isCentre = [=](int v) { return v >= olds && v < centres; };
-  std::vector<int> about;
-  for (int k = 0; k < 3; ++k)
-  {
-    if (!isCentre(face[k]))
-    {
-      continue;
-    }
-    const std::array<int, 3>& own = faces[face[k] - olds];
-    about.insert(about.end(), own.begin(), own.end());
-    const int next = face[(k + 1) % 3];
-    if (isCentre(next))
-    {
-      const std::array<int, 3>& other = faces[next - olds];
-      for (int i = 0; i < 3; ++i)
-      {
-        const auto has = [&other](int v)
-        { return std::find(other.begin(), other.end(), v) != other.end(); };
-        if (has(own[i]) && has(own[(i + 1) % 3]))
-        {
-          kept.Keep(own[i], own[(i + 1) % 3]);
-        }
-      }
-    }
-  }
-  for (int ring = 0; ring < round; ++ring)
-  {
-    std::sort(about.begin(), about.end());
-    about.erase(std::unique(about.begin(), about.end()), about.end());
-    for (std::size_t i = 0, n = about.size(); i < n; ++i)
-    {
-      kept.KeepAllAt(about[i]);
-      const Ring& neighbours = old.Rings[about[i]];
-      about.insert(about.end(), neighbours.Item, neighbours.Item + neighbours.Count);
-    }
-  }
 }
 }
 
@@ -141,48 +97,60 @@ std::vector<Proximity::FacePair> SurfaceEvolution::Implementation::FindIntersect
   return found;
 }
 
-void SurfaceEvolution::Implementation::KeepEdgesAbout(
-  const std::vector<Proximity::FacePair>& pairs, const LargeVector<Triangle>& faces,
-  const SurfaceMesh& old, int round, KeptEdges& kept)
+MeshPiece SurfaceEvolution::Implementation::TakePiece(Communicator& ranks)
 {
-  for (const Proximity::FacePair& pair : pairs)
+  const double cell = this->State.Sizing.Smallest();
+  MeshPiece piece;
+  if (ranks.NumberOfRanks() == 1)
   {
-    KeepAbout(pair.First, faces, old, round, kept);
-    KeepAbout(pair.Second, faces, old, round, kept);
+    this->ForgetBlocks();
+    piece = RenumberWhole(std::exchange(this->State.Mesh, SurfaceMesh()), cell, this->Threads);
   }
-  if (round == KeepingRounds - 1)
+  else
   {
-    kept.KeepAll();
+    piece = RenumberOnRanks(
+      ranks, this->State.Mesh, this->OwnVertices(), cell, this->Threads);
+    this->ForgetBlocks();
+    this->State.Mesh = SurfaceMesh();
   }
-  kept.MakeRoom();
+  this->Threads.EndPhase("Order");
+  return piece;
 }
 
-void SurfaceEvolution::Implementation::DivideOnce()
+void SurfaceEvolution::Implementation::DivideOnce(Communicator& ranks)
 {
-  SurfaceState& s = this->State;
-  this->ForgetBlocks();
-  s.Mesh.Reorder(
-    SpaceFillingOrder(s.Mesh, s.Sizing.Smallest(), this->Threads), this->Threads);
-  const int olds = s.Mesh.Size();
-  this->Threads.EndPhase("Order");
-  const LargeVector<Triangle> faces = volumic::Divide(s.Mesh, nullptr, this->Threads);
-  this->Threads.EndPhase("Division");
-  std::vector<Proximity::FacePair> intersections = this->FindIntersections();
-  if (intersections.empty())
-  {
-    return;
-  }
   // The division flips edges of the old surface; in narrow places these may pass through each
   // other. Such edges are kept, then more and more about them, and all of them at last, which
   // leaves the old surface, with more vertices.
-  const SurfaceMesh old = Undivided(s.Mesh, olds, this->Threads);
-  KeptEdges kept(old);
-  for (int round = 0; round < KeepingRounds && !intersections.empty(); ++round)
+  const bool isWhole = ranks.NumberOfRanks() == 1;
+  const MeshPiece piece = this->TakePiece(ranks);
+  std::unique_ptr<KeptEdges> kept;
+  for (int round = 0; round <= EdgesToKeep::Rounds; ++round)
   {
-    this->KeepEdgesAbout(intersections, faces, old, round, kept);
-    s.Mesh = old;
-    volumic::Divide(s.Mesh, &kept, this->Threads);
-    intersections = this->FindIntersections();
+    const DivisionNumbers numbers =
+      NumberForDivision(ranks, piece, kept.get(), this->Threads);
+    SurfaceMesh divided =
+      volumic::Divide(piece.Mesh, piece.Own, numbers, kept.get(), this->Threads);
+    this->Threads.EndPhase("Division");
+    if (isWhole)
+    {
+      this->State.Mesh = std::move(divided);
+    }
+    else
+    {
+      this->SpreadMesh(std::move(divided), DividedOf(piece, numbers, kept.get()));
+    }
+    const std::vector<Proximity::FacePair> found =
+      isWhole ? this->FindIntersections() : this->FindIntersectionsInPieces();
+    if (found.empty() || round == EdgesToKeep::Rounds)
+    {
+      return;
+    }
+    if (!kept)
+    {
+      kept = std::make_unique<KeptEdges>(piece.Mesh);
+    }
+    EdgesToKeep(ranks, piece, numbers, *kept).KeepAbout(found, round);
   }
 }
 
@@ -191,7 +159,7 @@ bool SurfaceEvolution::Implementation::DivideWhole(int divisions)
   bool goesOn = true;
   for (int i = 0; i < divisions && goesOn; ++i)
   {
-    this->DivideOnce();
+    this->DivideOnce(OnThisRank());
     goesOn = this->GoOn(Monitor::Activity::Dividing, (i + 1.) / divisions);
   }
   if (divisions > 0)
@@ -262,92 +230,42 @@ std::vector<Proximity::FacePair> SurfaceEvolution::Implementation::FindIntersect
   return GatherListsOnAll(this->Sharers(), found);
 }
 
-void SurfaceEvolution::Implementation::SpreadMesh()
+void SurfaceEvolution::Implementation::SpreadMesh(
+  SurfaceMesh mesh, const std::vector<int>& own)
 {
-  // One that is whole on rank 0, and of which nothing is known but the mesh.
-  SurfaceState& s = this->State;
-  const SurfaceMesh whole = std::exchange(s.Mesh, SurfaceMesh());
-  this->FindGridBox(whole);
-  this->AgreeOnGridBox();
+  this->FindGridBox(mesh, own);
   if (!this->IsInPieces())
   {
-    this->ShareBlocks(whole);
+    this->ShareBlocks(mesh, own);
   }
-  this->Piece->Scatter(whole, this->GridLow, this->GridHigh);
-}
-
-void SurfaceEvolution::Implementation::DivideInPieces()
-{
-  SurfaceState& s = this->State;
-  this->ForgetBlocks();
-  SurfaceMesh old;
-  std::unique_ptr<KeptEdges> kept;
-  for (int round = 0; round <= KeepingRounds; ++round)
-  {
-    LargeVector<Triangle> faces;
-    if (this->IsFirstRank())
-    {
-      if (round == 0)
-      {
-        s.Mesh.Reorder(
-          SpaceFillingOrder(s.Mesh, s.Sizing.Smallest(), this->Threads), this->Threads);
-        old = s.Mesh;
-      }
-      else
-      {
-        s.Mesh = old;
-      }
-      faces = volumic::Divide(s.Mesh, round > 0 ? kept.get() : nullptr, this->Threads);
-    }
-    this->SpreadMesh();
-    const std::vector<Proximity::FacePair> found = this->FindIntersectionsInPieces();
-    if (found.empty())
-    {
-      return;
-    }
-    if (this->IsFirstRank())
-    {
-      if (!kept)
-      {
-        kept = std::make_unique<KeptEdges>(old);
-      }
-      this->KeepEdgesAbout(found, faces, old, round, *kept);
-    }
-  }
-}
-
-void SurfaceEvolution::Implementation::SpreadWhole()
-{
-  this->ForgetBlocks();
-  if (this->IsFirstRank())
-  {
-    this->State.Mesh.Reorder(
-      SpaceFillingOrder(this->State.Mesh, this->State.Sizing.Smallest(), this->Threads),
-      this->Threads);
-  }
-  this->SpreadMesh();
-  this->LayGridOfPiece();
+  this->Piece->Scatter(mesh, own, this->GridLow, this->GridHigh);
 }
 
 bool SurfaceEvolution::Implementation::LayOutInPieces(int divisions)
 {
-  // All but the last division are rank 0's, which has the whole.
+  // All but the last division are rank 0's, which has the whole: edges may reach beyond a halo.
+  if (divisions > 1)
+  {
+    this->Unite();
+  }
   bool goesOn = true;
   for (int i = 0; i < divisions - 1 && goesOn; ++i)
   {
     if (this->IsFirstRank())
     {
-      this->DivideOnce();
+      this->DivideOnce(OnThisRank());
     }
     goesOn = !this->Ranks->IsAny(!this->GoOn(Monitor::Activity::Dividing, (i + 1.) / divisions));
   }
   if (goesOn && divisions > 0)
   {
-    this->DivideInPieces();
+    this->DivideOnce(*this->Ranks);
   }
   else
   {
-    this->SpreadWhole();
+    const MeshPiece piece = this->TakePiece(*this->Ranks);
+    this->SpreadMesh(piece.Mesh, piece.Own);
+    this->LayGridOfPiece();
   }
   this->Threads.EndPhase("Division");
   this->SplitLongEdges();

@@ -10,7 +10,7 @@
 #include "Core/Evolution/SurfaceEvolution.h"
 #include "Core/Evolution/SurfaceIteration.h"
 #include "Core/Image/Field.h"
-#include "Core/Mesh/Division.h"
+#include "Core/Evolution/MeshPiece.h"
 #include "Core/Surface/RankBlocks.h"
 #include "Core/Surface/SurfaceBlocks.h"
 #include "Core/Surface/SurfaceComponents.h"
@@ -134,6 +134,8 @@ struct SurfaceEvolution::Implementation
   void LayOut();
   void Recover();
   void FindGridBox(const SurfaceMesh& mesh);
+  /** By all ranks: that of the vertices of each. */
+  void FindGridBox(const SurfaceMesh& mesh, const std::vector<int>& own);
   void LayGrid();
   bool HasEdgeTooLong() const;
   int CountIntersecting();
@@ -144,20 +146,20 @@ struct SurfaceEvolution::Implementation
   void SplitLongEdges(BlockVisits visits);
   float LongestEdge(); ///< That of the surface on all ranks.
   std::vector<Proximity::FacePair> FindIntersections();
-  void DivideOnce();
+  /** By all ranks: divides the surface that these have, one alone the whole. */
+  void DivideOnce(Communicator& ranks);
+  /** By all ranks: the mesh, which is not in the state any more. */
+  MeshPiece TakePiece(Communicator& ranks);
   bool DivideWhole(int divisions); ///< @return whether nothing asked to stop
-  void KeepEdgesAbout(const std::vector<Proximity::FacePair>& pairs,
-    const LargeVector<Triangle>& faces, const SurfaceMesh& old, int round, KeptEdges& kept);
   SurfaceBlocks::Frame FrameOfLevel() const;
   /** Makes the blocks of the mesh as it is. @param sharers the ranks that will own them */
   void MakeBlocks(Communicator& sharers = OnThisRank());
   void ForgetBlocks(); ///< Any new vertex may have their places again.
   std::vector<int> OwnVertices() const;
-  /** Divides a surface that is whole on rank 0 so many times, and spreads it over the ranks. */
+  /** By all ranks: divides a surface so many times, and shares it out anew. */
   bool LayOutInPieces(int divisions);
-  void DivideInPieces();
-  void SpreadWhole();
-  void SpreadMesh();
+  /** By all ranks, each of which has some vertices: shares a mesh out, of which nothing is known. */
+  void SpreadMesh(SurfaceMesh mesh, const std::vector<int>& own);
   void LayGridOfPiece();
   std::vector<Proximity::FacePair> FindIntersectionsInPieces();
   /** @param isSound it has been made well: its edges need not be legal already */
@@ -200,8 +202,8 @@ struct SurfaceEvolution::Implementation
   /** Forgets the blocks of a surface that is whole; pieces stay with their ranks. */
   void EndVisits();
   bool IsFirstRank() const { return this->Ranks->Rank() == 0; }
-  void ShareBlocks(const SurfaceMesh& mesh);
-  void AgreeOnGridBox();
+  /** By all ranks: makes blocks, and chooses their owners. @param own what a rank has of it */
+  void ShareBlocks(const SurfaceMesh& mesh, const std::vector<int>& own);
   VoxelBox OwnVoxels() const;
   /** By all ranks, before a sweep of this kind: has them share its work. */
   void BalanceRanks(bool onlyActive);

@@ -17,21 +17,35 @@
 
 namespace volumic
 {
-void SurfaceEvolution::Implementation::ShareBlocks(const SurfaceMesh& mesh)
+void SurfaceEvolution::Implementation::ShareBlocks(
+  const SurfaceMesh& mesh, const std::vector<int>& own)
 {
   this->MakeBlocks(*this->Ranks);
-  this->Piece->ChooseOwners(mesh);
+  this->Piece->ChooseOwners(mesh, own);
   if (this->NeedVoxels)
   {
     this->NeedVoxels(this->OwnVoxels());
   }
 }
 
-void SurfaceEvolution::Implementation::AgreeOnGridBox()
+void SurfaceEvolution::Implementation::FindGridBox(
+  const SurfaceMesh& mesh, const std::vector<int>& own)
 {
+  this->FindGridBox(SurfaceMesh()); // At least that of the image.
+  Box box = { this->GridLow, this->GridHigh };
+  const float delta = this->State.Sizing.Largest();
+  const Vector margin(2 * delta, 2 * delta, 2 * delta);
+  for (const int v : own)
+  {
+    box = box.With({ mesh.Position[v] - margin, mesh.Position[v] + margin });
+  }
   // Other cells would have their vertices looked at in another order.
-  this->GridLow = BroadcastValue(*this->Ranks, this->GridLow);
-  this->GridHigh = BroadcastValue(*this->Ranks, this->GridHigh);
+  for (const Box& ofRank : GatherValues(*this->Ranks, box))
+  {
+    box = box.With(ofRank);
+  }
+  this->GridLow = box.Low;
+  this->GridHigh = box.High;
 }
 
 void SurfaceEvolution::Implementation::BalanceRanks(bool onlyActive)

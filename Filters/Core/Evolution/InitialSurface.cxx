@@ -58,7 +58,7 @@ SurfaceMesh DividedSphere(double meanEdge)
   double edge = EdgeOfIcosahedron;
   for (int i = 0; i < MaximumNumberOfDivisions && edge > meanEdge; ++i)
   {
-    Divide(mesh);
+    mesh = Divide(mesh);
     for (Vector& p : mesh.Position)
     {
       p = Normalized(p);

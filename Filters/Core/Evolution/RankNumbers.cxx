@@ -70,16 +70,16 @@ std::vector<std::vector<VertexNumber>> NumberStretch(Communicator& ranks,
 }
 }
 
-VertexNumbers NumberOnRanks(Communicator& ranks, const SurfaceMesh& mesh,
-  const std::vector<int>& own, const std::vector<int>& others)
+VertexNumbers NumberOnRanks(Communicator& ranks, std::size_t places,
+  const std::function<int(int v)>& facesOf, const std::vector<int>& own,
+  const std::vector<int>& others)
 {
   const auto count = static_cast<std::size_t>(ranks.NumberOfRanks());
-  const std::size_t stretch = mesh.Rings.size() / count + 1;
+  const std::size_t stretch = places / count + 1;
   std::vector<std::vector<Numbered>> wanted(count);
   for (const int v : own)
   {
-    const auto i = static_cast<std::size_t>(v);
-    wanted[i / stretch].push_back({ v, static_cast<int>(mesh.CountFaces(i, i + 1)) });
+    wanted[static_cast<std::size_t>(v) / stretch].push_back({ v, facesOf(v) });
   }
   for (const int v : others)
   {
@@ -89,7 +89,7 @@ VertexNumbers NumberOnRanks(Communicator& ranks, const SurfaceMesh& mesh,
   const std::size_t first = stretch * static_cast<std::size_t>(ranks.Rank());
   const std::vector<std::vector<VertexNumber>> answers = ExchangeLists(ranks,
     NumberStretch(ranks, ExchangeLists(ranks, wanted), first, stretch, numbers.All));
-  MakeZeroed(numbers.Of, mesh.Rings.size());
+  MakeZeroed(numbers.Of, places);
   for (std::size_t rank = 0; rank < count; ++rank)
   {
     for (std::size_t i = 0; i < wanted[rank].size(); ++i)

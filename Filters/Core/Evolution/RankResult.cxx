@@ -349,7 +349,7 @@ SurfaceResult SurfaceEvolution::Implementation::ResultOnRanks(int pieces) const
     s, *this->TheField, this->Threads, [this](int v) { return this->Piece->IsOwnVertex(v); });
   std::vector<int> own = this->OwnVertices();
   const VertexNumbers numbers =
-    NumberOnRanks(ranks, s.Mesh, own, OthersOf(s.Mesh, own, contacts, *this->Piece));
+    NumberOnRanks(ranks, s.Mesh.Rings.size(), FacesOf(s.Mesh), own, OthersOf(s.Mesh, own, contacts, *this->Piece));
   const Dealing dealing(pieces, numbers.All.Face);
   std::vector<std::vector<Told>> told = dealing.Deal(s.Mesh, numbers, own);
   told.resize(static_cast<std::size_t>(count)); // Other ranks get nothing.

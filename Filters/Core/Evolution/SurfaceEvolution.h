@@ -209,9 +209,9 @@ public:
   /**
    * From now on it is one of those on several ranks, which evolve one surface: all of them call
    * Divide() to a level that they share (AreShared), Run() and Result() or PieceOfResult() there, at
-   * the same time, and Unite() where it is to go on from there. Rank 0 alone has a surface before, a
-   * Result(), and the surface when they have united. It is the same bits as on one rank. Null: alone
-   * again.
+   * the same time, and then Divide() to another one, or Unite(). Before that, or where it has
+   * been united, rank 0 alone has a surface; rank 0 has a Result(). It is the same bits as on one
+   * rank. Null: alone again, until it is set again where the surface is in pieces.
    * @param needVoxels called on all of them at the same time: the level's voxels that this rank
    *        needs from now on. Before that, and elsewhere, they may be anything.
    */

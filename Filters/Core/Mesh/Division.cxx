@@ -4,48 +4,47 @@
 
 #include "Core/Common/Spans.h"
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <numeric>
 #include <utility>
 
 namespace volumic
 {
 namespace
 {
-/** Vertices, faces or edges that one thread looks at at a time. */
+/** Vertices that one thread looks at at a time. */
 constexpr std::size_t SpanSize = 8192;
-}
 
-EdgeSlots::EdgeSlots(const SurfaceMesh& mesh, Executor& executor)
+/** Calls visit(i) for each of [0, n), side by side. */
+template <typename Visit>
+void ForEach(Executor& executor, std::size_t n, const Visit& visit)
 {
-  MakeZeroed(this->First, mesh.Rings.size() + 1);
-  const auto sumOf = [&mesh](std::size_t begin, std::size_t end)
-  {
-    std::size_t sum = 0;
-    for (std::size_t v = begin; v < end; ++v)
-    {
-      sum += static_cast<std::size_t>(mesh.Rings[v].Count);
-    }
-    return sum;
-  };
-  const std::size_t n = mesh.Rings.size();
-  const std::vector<std::size_t> before = FirstOfSpans(executor, n, SpanSize, sumOf);
   ForSpans(executor, n, SpanSize,
-    [&](std::size_t span, std::size_t begin, std::size_t end)
+    [&](std::size_t, std::size_t begin, std::size_t end)
     {
-      std::size_t next = before[span];
-      for (std::size_t v = begin; v < end; ++v)
+      for (std::size_t i = begin; i < end; ++i)
       {
-        next += static_cast<std::size_t>(mesh.Rings[v].Count);
-        this->First[v + 1] = next;
+        visit(i);
       }
     });
 }
+}
 
-KeptEdges::KeptEdges(const SurfaceMesh& mesh) : Mesh(mesh), Slots(mesh), Flags(Slots.Count(), 0) {}
+void KeptEdges::KeepAt(int v, int neighbour)
+{
+  const int i = this->Mesh.Rings[v].Find(neighbour);
+  if (i >= 0) // Else it is not there.
+  {
+    this->Flags[v] |= static_cast<RingFlags>(1u << i);
+  }
+}
 
 void KeptEdges::Keep(int u, int v)
 {
-  this->Flags[this->Slots.At(u, this->Mesh.Rings[u].Find(v))] = 1;
-  this->Flags[this->Slots.At(v, this->Mesh.Rings[v].Find(u))] = 1;
+  this->KeepAt(u, v);
+  this->KeepAt(v, u);
 }
 
 void KeptEdges::KeepAllAt(int v)
@@ -56,31 +55,94 @@ void KeptEdges::KeepAllAt(int v)
   }
 }
 
-void KeptEdges::MakeRoom()
+void KeptEdges::KeepAll()
 {
-  // Each run of kept edges adds a neighbour; with all of them kept there are as many as before.
-  for (bool changed = true; changed;)
+  for (int v = 0; v < this->Mesh.Size(); ++v)
   {
-    changed = false;
-    for (int v = 0; v < this->Mesh.Size(); ++v)
+    if (this->Mesh.IsAlive(v))
     {
-      const int count = this->Mesh.Rings[v].Count;
-      if (count + count / 2 <= Ring::Capacity)
-      {
-        continue; // Runs have edges between them that are not kept.
-      }
-      int runs = 0;
-      for (int i = 0; i < count; ++i)
-      {
-        runs += this->Has(v, i) && !this->HasAfter(v, i);
-      }
-      if (count + runs > Ring::Capacity)
-      {
-        this->KeepAllAt(v);
-        changed = true;
-      }
+      this->Flags[v] = static_cast<RingFlags>((1u << this->Mesh.Rings[v].Count) - 1u);
     }
   }
+}
+
+std::vector<int> KeptEdges::FindOverfull(const std::vector<int>& vertices) const
+{
+  // Each run of kept edges adds a neighbour; with all of them kept there are as many as before.
+  std::vector<int> found;
+  for (const int v : vertices)
+  {
+    const int count = this->Mesh.Rings[v].Count;
+    int runs = 0;
+    for (int i = 0; i < count; ++i)
+    {
+      runs += this->Has(v, i) && !this->HasAfter(v, i);
+    }
+    if (count + runs > Ring::Capacity)
+    {
+      found.push_back(v);
+    }
+  }
+  return found;
+}
+
+int KeptEdges::CountFrom(int v) const
+{
+  const Ring& ring = this->Mesh.Rings[v];
+  int count = 0;
+  for (int i = 0; i < ring.Count; ++i)
+  {
+    count += v < ring.Item[i] && this->Has(v, i);
+  }
+  return count;
+}
+
+namespace
+{
+/** The sums of countOf(v) of all vertices before each, and of all. */
+template <typename CountOf>
+int AddUp(LargeVector<int>& first, std::size_t n, Executor& executor, const CountOf& countOf)
+{
+  MakeZeroed(first, n);
+  const std::vector<std::size_t> before = FirstOfSpans(executor, n, SpanSize,
+    [&](std::size_t begin, std::size_t end)
+    {
+      int sum = 0;
+      for (std::size_t v = begin; v < end; ++v)
+      {
+        first[v] = countOf(v);
+        sum += first[v];
+      }
+      return sum;
+    });
+  ForSpans(executor, n, SpanSize,
+    [&](std::size_t span, std::size_t begin, std::size_t end)
+    {
+      int next = static_cast<int>(before[span]);
+      for (std::size_t v = begin; v < end; ++v)
+      {
+        const int count = first[v];
+        first[v] = next;
+        next += count;
+      }
+    });
+  return static_cast<int>(before.back());
+}
+}
+
+DivisionNumbers NumberForDivision(
+  const SurfaceMesh& mesh, const KeptEdges* kept, Executor& executor)
+{
+  DivisionNumbers numbers;
+  const std::size_t n = mesh.Rings.size();
+  numbers.Faces = AddUp(numbers.FirstFace, n, executor,
+    [&mesh](std::size_t v) { return static_cast<int>(mesh.CountFaces(v, v + 1)); });
+  if (kept)
+  {
+    numbers.Middles = AddUp(numbers.FirstMiddle, n, executor,
+      [kept](std::size_t v) { return kept->CountFrom(static_cast<int>(v)); });
+  }
+  return numbers;
 }
 
 namespace
@@ -95,215 +157,165 @@ void Append(Ring& ring, int vertex)
   }
 }
 
-/** A division at work. Rings of old vertices are those before it until they are replaced. */
+/** A division at work. */
 class SqrtThreeDivision
 {
 public:
-  SqrtThreeDivision(SurfaceMesh& mesh, const KeptEdges* kept, Executor& executor)
-    : Mesh(mesh), Kept(kept), Threads(executor), Olds(mesh.Rings.size()), Slots(mesh, executor),
-      Middle(kept ? Slots.Count() : 0, None)
+  SqrtThreeDivision(
+    const SurfaceMesh& mesh, const DivisionNumbers& numbers, const KeptEdges* kept)
+    : Mesh(mesh), Numbers(numbers), Kept(kept)
   {
-    MakeZeroed(this->Centre, this->Slots.Count()); // All of them get one.
+    const auto n = static_cast<std::size_t>(this->FirstMiddle() + numbers.Middles);
+    this->Divided.Remake(n, static_cast<int>(n));
   }
 
-  LargeVector<Triangle> Run()
-  {
-    this->AddCentres();
-    this->AddMiddles();
-    LengthenZeroed(this->Mesh.Rings, this->Mesh.Position.size());
-    const auto forAll = [this](std::size_t n, void (SqrtThreeDivision::*join)(std::size_t))
-    {
-      ForSpans(this->Threads, n, SpanSize,
-        [&](std::size_t, std::size_t begin, std::size_t end)
-        {
-          for (std::size_t i = begin; i < end; ++i)
-          {
-            (this->*join)(i);
-          }
-        });
-    };
-    forAll(this->Faces.size(), &SqrtThreeDivision::JoinCentre);
-    forAll(this->HalvedEdges.size(), &SqrtThreeDivision::JoinMiddle);
-    forAll(this->Olds, &SqrtThreeDivision::JoinOld);
-    return std::move(this->Faces);
-  }
+  /** Makes an old vertex, and the new ones that come of what it is the smallest of; on any thread. */
+  void DivideAt(int v);
+  SurfaceMesh Take() { return std::move(this->Divided); }
 
 private:
-  std::size_t Slot(int v, int neighbour) const
+  int FirstCentre() const { return this->Mesh.Size(); }
+  int FirstMiddle() const { return this->Mesh.Size() + this->Numbers.Faces; }
+  /** The new vertex of the face between a neighbour of `a` and the next one. */
+  int CentreOf(int a, int b, int c) const;
+  /** The same of the face on the left of an edge. */
+  int CentreLeftOf(int a, int b) const
   {
-    return this->Slots.At(v, this->Mesh.Rings[v].Find(neighbour));
+    return this->CentreOf(a, b, this->Mesh.Rings[a].After(b));
   }
-  int MiddleAt(std::size_t slot) const { return this->Kept ? this->Middle[slot] : None; }
-  /** Calls visit(v, place in its ring) for the kept edges whose smaller end is in a range. */
-  template <typename Visit>
-  void VisitKept(std::size_t begin, std::size_t end, Visit&& visit) const;
+  /** The new vertex of the edge from v to its neighbour i; None: it is flipped. */
+  int MiddleAt(int v, int i) const;
+  int MiddleOf(int u, int v) const
+  {
+    return this->Kept ? this->MiddleAt(u, this->Mesh.Rings[u].Find(v)) : None;
+  }
+  void MakeCentre(int centre, const std::array<int, 3>& face);
+  void MakeMiddle(int middle, int u, int v);
+  Ring RingOfOld(int v) const;
 
-  void AddCentres();
-  void AddMiddles();
-  void JoinCentre(std::size_t face);
-  void JoinMiddle(std::size_t edge);
-  void JoinOld(std::size_t vertex);
-
-  SurfaceMesh& Mesh;
+  const SurfaceMesh& Mesh;
+  const DivisionNumbers& Numbers;
   const KeptEdges* Kept;
-  Executor& Threads;
-  const std::size_t Olds;
-  EdgeSlots Slots;
-  LargeVector<int> Centre; ///< New vertex of the face (v, ring[i], ring[i + 1]).
-  LargeVector<int> Middle; ///< New vertex of the edge; None: it is flipped. Empty: all are.
-  LargeVector<Triangle> Faces;
-  LargeVector<std::array<int, 2>> HalvedEdges;
+  SurfaceMesh Divided;
 };
 
-void SqrtThreeDivision::AddCentres()
+void SqrtThreeDivision::DivideAt(int v)
 {
-  const std::vector<std::size_t> first = FirstOfSpans(this->Threads, this->Olds, SpanSize,
-    [this](std::size_t begin, std::size_t end) { return this->Mesh.CountFaces(begin, end); });
-  MakeZeroed(this->Faces, first.back());
-  LargeVector<Vector>& position = this->Mesh.Position;
-  LengthenZeroed(position, this->Olds + this->Faces.size());
-  ForSpans(this->Threads, this->Olds, SpanSize,
-    [&](std::size_t span, std::size_t begin, std::size_t end)
-    {
-      std::size_t next = first[span];
-      this->Mesh.VisitFaces(begin, end,
-        [&](int a, int b, int c)
-        {
-          const std::size_t number = this->Olds + next;
-          this->Faces[next++] = { a, b, c };
-          for (const std::size_t slot : { this->Slot(a, b), this->Slot(b, c), this->Slot(c, a) })
-          {
-            this->Centre[slot] = static_cast<int>(number);
-          }
-          position[number] = (position[a] + position[b] + position[c]) * (1.f / 3.f);
-        });
-    });
-}
-
-template <typename Visit>
-void SqrtThreeDivision::VisitKept(std::size_t begin, std::size_t end, Visit&& visit) const
-{
-  for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
+  const auto i = static_cast<std::size_t>(v);
+  this->Divided.Position[i] = this->Mesh.Position[i];
+  this->Divided.Rings[i] = this->RingOfOld(v);
+  int centre = this->FirstCentre() + this->Numbers.FirstFace[i];
+  this->Mesh.VisitFaces(i, i + 1,
+    [&](int a, int b, int c) { this->MakeCentre(centre++, { a, b, c }); });
+  if (this->Kept)
   {
-    for (int i = 0; i < this->Mesh.Rings[v].Count; ++i)
+    int middle = this->FirstMiddle() + this->Numbers.FirstMiddle[i];
+    const Ring& ring = this->Mesh.Rings[i];
+    for (int k = 0; k < ring.Count; ++k)
     {
-      if (v < this->Mesh.Rings[v].Item[i] && this->Kept->Has(v, i))
+      if (v < ring.Item[k] && this->Kept->Has(v, k))
       {
-        visit(v, i);
+        this->MakeMiddle(middle++, v, ring.Item[k]);
       }
     }
   }
 }
 
-void SqrtThreeDivision::AddMiddles()
+int SqrtThreeDivision::CentreOf(int a, int b, int c) const
 {
-  if (!this->Kept)
+  const int smallest = std::min({ a, b, c });
+  const int next = smallest == a ? b : smallest == b ? c : a;
+  const Ring& ring = this->Mesh.Rings[smallest];
+  int before = 0;
+  for (int i = 0; ring.Item[i] != next; ++i)
   {
-    return;
+    before += smallest < ring.Item[i] && smallest < ring.Next(i);
   }
-  const std::vector<std::size_t> first = FirstOfSpans(this->Threads, this->Olds, SpanSize,
-    [this](std::size_t begin, std::size_t end)
-    {
-      std::size_t count = 0;
-      this->VisitKept(begin, end, [&count](int, int) { ++count; });
-      return count;
-    });
-  this->HalvedEdges.resize(first.back());
-  LargeVector<Vector>& position = this->Mesh.Position;
-  const std::size_t before = position.size();
-  position.resize(before + this->HalvedEdges.size());
-  ForSpans(this->Threads, this->Olds, SpanSize,
-    [&](std::size_t span, std::size_t begin, std::size_t end)
-    {
-      std::size_t next = first[span];
-      this->VisitKept(begin, end,
-        [&](int v, int i)
-        {
-          const int w = this->Mesh.Rings[v].Item[i];
-          const std::size_t number = before + next;
-          this->HalvedEdges[next++] = { v, w };
-          position[number] = (position[v] + position[w]) * 0.5f;
-          this->Middle[this->Slots.At(v, i)] = static_cast<int>(number);
-          this->Middle[this->Slot(w, v)] = static_cast<int>(number);
-        });
-    });
+  return this->FirstCentre() + this->Numbers.FirstFace[smallest] + before;
 }
 
-void SqrtThreeDivision::JoinCentre(std::size_t face)
+int SqrtThreeDivision::MiddleAt(int v, int i) const
 {
+  if (!this->Kept || !this->Kept->Has(v, i))
+  {
+    return None;
+  }
+  const int w = this->Mesh.Rings[v].Item[i];
+  const int smaller = std::min(v, w);
+  const int larger = std::max(v, w);
+  const Ring& ring = this->Mesh.Rings[smaller];
+  int before = 0;
+  for (int k = 0; ring.Item[k] != larger; ++k)
+  {
+    before += smaller < ring.Item[k] && this->Kept->Has(smaller, k);
+  }
+  return this->FirstMiddle() + this->Numbers.FirstMiddle[smaller] + before;
+}
+
+void SqrtThreeDivision::MakeCentre(int centre, const std::array<int, 3>& face)
+{
+  const LargeVector<Vector>& position = this->Mesh.Position;
+  this->Divided.Position[centre] =
+    (position[face[0]] + position[face[1]] + position[face[2]]) * (1.f / 3.f);
   // Corner, then what lies across the edge to the next corner.
-  Ring& ring = this->Mesh.Rings[this->Olds + face];
+  Ring& ring = this->Divided.Rings[centre];
   for (int k = 0; k < 3; ++k)
   {
-    const int a = this->Faces[face][k];
-    const int b = this->Faces[face][(k + 1) % 3];
-    const int c = this->Faces[face][(k + 2) % 3];
-    const int middle = this->MiddleAt(this->Slot(a, b));
-    const bool isCutOff = middle != None && this->MiddleAt(this->Slot(a, c)) != None;
+    const int a = face[k];
+    const int b = face[(k + 1) % 3];
+    const int c = face[(k + 2) % 3];
+    const int middle = this->MiddleOf(a, b);
+    const bool isCutOff = middle != None && this->MiddleOf(a, c) != None;
     Append(ring, isCutOff ? None : a);
-    Append(ring, middle != None ? middle : this->Centre[this->Slot(b, a)]);
+    Append(ring, middle != None ? middle : this->CentreLeftOf(b, a));
   }
 }
 
-void SqrtThreeDivision::JoinMiddle(std::size_t edge)
+void SqrtThreeDivision::MakeMiddle(int middle, int u, int v)
 {
-  const int u = this->HalvedEdges[edge][0];
-  const int v = this->HalvedEdges[edge][1];
+  const LargeVector<Vector>& position = this->Mesh.Position;
+  this->Divided.Position[middle] = (position[u] + position[v]) * 0.5f;
   const int left = this->Mesh.Rings[u].After(v);
   const int right = this->Mesh.Rings[u].Before(v);
-  Ring& ring = this->Mesh.Rings[this->Olds + this->Faces.size() + edge];
+  Ring& ring = this->Divided.Rings[middle];
   Append(ring, u);
-  Append(ring, this->Middle[this->Slot(u, right)]);
-  Append(ring, this->Centre[this->Slot(v, u)]);
-  Append(ring, this->Middle[this->Slot(v, right)]);
+  Append(ring, this->MiddleOf(u, right));
+  Append(ring, this->CentreLeftOf(v, u));
+  Append(ring, this->MiddleOf(v, right));
   Append(ring, v);
-  Append(ring, this->Middle[this->Slot(v, left)]);
-  Append(ring, this->Centre[this->Slot(u, v)]);
-  Append(ring, this->Middle[this->Slot(u, left)]);
+  Append(ring, this->MiddleOf(v, left));
+  Append(ring, this->CentreLeftOf(u, v));
+  Append(ring, this->MiddleOf(u, left));
 }
 
-void SqrtThreeDivision::JoinOld(std::size_t vertex)
+Ring SqrtThreeDivision::RingOfOld(int v) const
 {
-  const int v = static_cast<int>(vertex);
   Ring ring;
-  const int count = this->Mesh.Rings[v].Count;
-  for (int i = 0; i < count; ++i)
+  const Ring& old = this->Mesh.Rings[v];
+  for (int i = 0; i < old.Count; ++i)
   {
-    const int middle = this->MiddleAt(this->Slots.At(v, i));
+    const int middle = this->MiddleAt(v, i);
     const bool isCutOff =
-      middle != None && this->MiddleAt(this->Slots.At(v, i + 1 < count ? i + 1 : 0)) != None;
+      middle != None && this->MiddleAt(v, i + 1 < old.Count ? i + 1 : 0) != None;
     Append(ring, middle);
-    Append(ring, isCutOff ? None : this->Centre[this->Slots.At(v, i)]);
+    Append(ring, isCutOff ? None : this->CentreOf(v, old.Item[i], old.Next(i)));
   }
-  this->Mesh.Rings[v] = ring;
+  return ring;
 }
 }
 
-LargeVector<Triangle> Divide(SurfaceMesh& mesh, const KeptEdges* kept, Executor& executor)
+SurfaceMesh Divide(const SurfaceMesh& mesh, const std::vector<int>& own,
+  const DivisionNumbers& numbers, const KeptEdges* kept, Executor& executor)
 {
-  return SqrtThreeDivision(mesh, kept, executor).Run();
+  SqrtThreeDivision division(mesh, numbers, kept);
+  ForEach(executor, own.size(), [&](std::size_t i) { division.DivideAt(own[i]); });
+  return division.Take();
 }
 
-SurfaceMesh Undivided(const SurfaceMesh& mesh, int numberOfVertices, Executor& executor)
+SurfaceMesh Divide(const SurfaceMesh& mesh, const KeptEdges* kept, Executor& executor)
 {
-  SurfaceMesh old;
-  old.Position.assign(mesh.Position.begin(), mesh.Position.begin() + numberOfVertices);
-  old.Rings.resize(numberOfVertices);
-  ForSpans(executor, old.Rings.size(), SpanSize,
-    [&](std::size_t, std::size_t begin, std::size_t end)
-    {
-      for (std::size_t v = begin; v < end; ++v)
-      {
-        // The edge between the centres of two faces at v was flipped from v and the other vertex
-        // there.
-        const Ring& ring = mesh.Rings[v];
-        old.Rings[v].Count = ring.Count;
-        for (int i = 0; i < ring.Count; ++i)
-        {
-          old.Rings[v].Item[i] = mesh.Rings[ring.Item[i]].After(ring.Previous(i));
-        }
-      }
-    });
-  return old;
+  std::vector<int> all(mesh.Rings.size());
+  std::iota(all.begin(), all.end(), 0);
+  return Divide(mesh, all, NumberForDivision(mesh, kept, executor), kept, executor);
 }
 }

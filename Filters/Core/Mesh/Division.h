@@ -6,54 +6,62 @@
 #include "Core/Common/Executor.h"
 #include "Core/Mesh/SurfaceMesh.h"
 
-#include <array>
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace volumic
 {
-/** Numbers for the ends of the edges of a mesh, which must stay as it is: vertex by vertex. */
-class EdgeSlots
-{
-public:
-  explicit EdgeSlots(const SurfaceMesh& mesh, Executor& executor = OnThisThread());
-
-  /** Of the edge from v to its neighbour i, and of the face between that neighbour and the next. */
-  std::size_t At(int v, int i) const
-  {
-    return this->First[static_cast<std::size_t>(v)] + static_cast<std::size_t>(i);
-  }
-  std::size_t Count() const { return this->First.back(); }
-
-private:
-  LargeVector<std::size_t> First; ///< Six for each vertex are more than an int counts.
-};
-
 /** Edges of a mesh that a division is to leave where they are. The mesh must stay as it is. */
 class KeptEdges
 {
 public:
-  explicit KeptEdges(const SurfaceMesh& mesh);
+  explicit KeptEdges(const SurfaceMesh& mesh) : Mesh(mesh)
+  {
+    MakeZeroed(this->Flags, mesh.Rings.size());
+  }
 
+  /** Of a mesh in pieces each rank keeps it at those of its ends that are there. */
   void Keep(int u, int v);
   void KeepAllAt(int v);
-  void KeepAll() { this->Flags.assign(this->Flags.size(), 1); }
-  /** Keeps more of them, all those of some vertices, so that no ring overflows by the division. */
-  void MakeRoom();
+  void KeepAll();
+  /**
+   * Those of some vertices whose rings would overflow by the division. All edges at these are to be
+   * kept, then at those that overflow then, and so on.
+   */
+  std::vector<int> FindOverfull(const std::vector<int>& vertices) const;
 
   /** Of the edge from v to its neighbour i. */
-  bool Has(int v, int i) const { return this->Flags[this->Slots.At(v, i)] != 0; }
+  bool Has(int v, int i) const { return (this->Flags[v] >> i & 1u) != 0; }
   bool HasAfter(int v, int i) const
   {
     return this->Has(v, i + 1 < this->Mesh.Rings[v].Count ? i + 1 : 0);
   }
+  /** How many of those of v whose other end has a greater index. */
+  int CountFrom(int v) const;
 
 private:
+  void KeepAt(int v, int neighbour);
+
+  using RingFlags = std::uint16_t; ///< A bit for each neighbour.
+  static_assert(Ring::Capacity <= 16, "each has a bit");
   const SurfaceMesh& Mesh;
-  EdgeSlots Slots;
-  LargeVector<std::uint8_t> Flags; ///< Both ends of an edge have one.
+  LargeVector<RingFlags> Flags; ///< Both ends of an edge have one.
 };
+
+/** What new vertices of a division come of is numbered in the order of the smallest old one. */
+struct DivisionNumbers
+{
+  /** By vertex: how many faces come before those that it is the smallest of. */
+  LargeVector<int> FirstFace;
+  int Faces = 0; ///< All of them.
+  /** By vertex: how many kept edges before those that it is the smaller end of. Empty: none. */
+  LargeVector<int> FirstMiddle;
+  int Middles = 0;
+};
+
+/** Those of a mesh that is whole. */
+DivisionNumbers NumberForDivision(
+  const SurfaceMesh& mesh, const KeptEdges* kept = nullptr, Executor& executor = OnThisThread());
 
 /**
  * Global division with factor sqrt 3 (the paper's section 5.1; L. Kobbelt has published the same
@@ -68,15 +76,22 @@ private:
  * these is cut off along the face that it is a part of. So the surface stays where it was along
  * them, and is the old one if all are kept.
  *
- * @return the old faces: the centre of face i is the vertex with i plus the number of old ones.
- * The middles of edges come last. `mesh` must have no free places, `kept` be of a copy of it.
+ * The centre of face i is the vertex with i plus the number of old ones. The middles of edges come
+ * last. `mesh` must have no free places, `kept` be of it.
+ *
+ * Of a mesh in pieces each rank divides what is its own, see RankPiece: it makes its old vertices,
+ * and the centres of faces and the middles of edges whose smallest vertex is its own. It needs the
+ * numbers of these, and of two rings of vertices about them, with their neighbours' indices.
+ *
+ * @param own the old vertices that are divided @return what comes of them; all other places are empty
  */
-LargeVector<Triangle> Divide(SurfaceMesh& mesh, const KeptEdges* kept = nullptr,
+[[nodiscard]] SurfaceMesh Divide(const SurfaceMesh& mesh, const std::vector<int>& own,
+  const DivisionNumbers& numbers, const KeptEdges* kept = nullptr,
   Executor& executor = OnThisThread());
 
-/** What Divide(mesh) has made the mesh from; that had so many vertices. */
-SurfaceMesh Undivided(
-  const SurfaceMesh& mesh, int numberOfVertices, Executor& executor = OnThisThread());
+/** All of a mesh. */
+[[nodiscard]] SurfaceMesh Divide(const SurfaceMesh& mesh, const KeptEdges* kept = nullptr,
+  Executor& executor = OnThisThread());
 }
 
 #endif

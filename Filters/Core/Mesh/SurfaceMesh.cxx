@@ -397,6 +397,13 @@ std::uint64_t SpreadBits(std::uint64_t x)
 }
 }
 
+std::uint64_t MortonCode(const Vector& position, const Vector& low, double cell)
+{
+  const auto bits = [cell](float x, float from)
+  { return SpreadBits(static_cast<std::uint64_t>((x - from) / cell)); };
+  return bits(position.X, low.X) | bits(position.Y, low.Y) << 1 | bits(position.Z, low.Z) << 2;
+}
+
 std::vector<int> SpaceFillingOrder(const SurfaceMesh& mesh, double cell, Executor& executor)
 {
   const std::size_t n = mesh.Rings.size();
@@ -418,8 +425,6 @@ std::vector<int> SpaceFillingOrder(const SurfaceMesh& mesh, double cell, Executo
   {
     low = Minimum(low, ofSpan);
   }
-  const auto bits = [cell](float x, float from)
-  { return SpreadBits(static_cast<std::uint64_t>((x - from) / cell)); };
   const std::vector<std::size_t> first = FirstAlive(mesh, executor);
   LargeVector<std::pair<std::uint64_t, int>> keys;
   MakeZeroed(keys, first.back());
@@ -431,9 +436,7 @@ std::vector<int> SpaceFillingOrder(const SurfaceMesh& mesh, double cell, Executo
       {
         if (mesh.IsAlive(static_cast<int>(v)))
         {
-          const Vector& p = mesh.Position[v];
-          keys[next++] = { bits(p.X, low.X) | bits(p.Y, low.Y) << 1 | bits(p.Z, low.Z) << 2,
-            static_cast<int>(v) };
+          keys[next++] = { MortonCode(mesh.Position[v], low, cell), static_cast<int>(v) };
         }
       }
     });

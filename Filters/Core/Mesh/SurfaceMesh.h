@@ -203,7 +203,10 @@ private:
   std::int64_t Aside = 0; ///< Places that are neither free nor a vertex's.
 };
 
-/** The alive vertices along a Z-order (Morton) curve with cells of side `cell`. */
+/** Of a position on a Z-order (Morton) curve with cells of side `cell`, the first of which is at `low`. */
+std::uint64_t MortonCode(const Vector& position, const Vector& low, double cell);
+
+/** The alive vertices along such a curve, those of a cell by index. */
 std::vector<int> SpaceFillingOrder(
   const SurfaceMesh& mesh, double cell, Executor& executor = OnThisThread());
 }

@@ -23,20 +23,32 @@ RankBlocks::RankBlocks(SurfaceState& state, SurfaceBlocks& blocks, Communicator&
 {
 }
 
-void RankBlocks::ChooseOwners(const SurfaceMesh& mesh)
+void RankBlocks::ChooseOwners(const SurfaceMesh& mesh, const std::vector<int>& own)
 {
   std::vector<int> counts(static_cast<std::size_t>(this->Blocks.NumberOfBlocks()), 0);
-  for (int v = 0; v < mesh.Size(); ++v)
+  for (const int v : own)
   {
-    if (mesh.IsAlive(v))
+    ++counts[this->Blocks.BlockAt(mesh.Position[v])];
+  }
+  struct BlockCount
+  {
+    int Block;
+    int Vertices;
+  };
+  std::vector<BlockCount> some; // Most blocks have no vertices.
+  for (int block = 0; block < this->Blocks.NumberOfBlocks(); ++block)
+  {
+    if (counts[block] > 0)
     {
-      ++counts[this->Blocks.BlockAt(mesh.Position[v])];
+      some.push_back({ block, std::exchange(counts[block], 0) });
     }
   }
-  MessageWriter writer;
-  writer.AddArray(ChooseOwners(this->Blocks.GetFrame(), counts, this->Ranks.NumberOfRanks()));
-  const Message owners = this->Ranks.Broadcast(writer.Take());
-  this->SetOwners(MessageReader(owners).TakeVector<int>());
+  for (const BlockCount& count : GatherListsOnAll(this->Ranks, some))
+  {
+    counts[count.Block] += count.Vertices;
+  }
+  this->SetOwners(
+    ChooseOwners(this->Blocks.GetFrame(), counts, this->Ranks.NumberOfRanks()));
 }
 
 void RankBlocks::SetOwners(std::vector<int> owners)
@@ -166,54 +178,42 @@ void RankBlocks::Exchange()
   }
 }
 
-Message RankBlocks::SendPieces(const SurfaceMesh& mesh)
+void RankBlocks::Scatter(const SurfaceMesh& mesh, const std::vector<int>& own,
+  const Vector& low, const Vector& high)
 {
-  if (this->Ranks.Rank() != 0)
+  std::size_t ends = 0; // Of edges.
+  for (const int v : own)
   {
-    return this->Ranks.Pass(0, this->Ranks.Rank());
+    ends += static_cast<std::size_t>(mesh.Rings[v].Count);
+    this->CollectNear(mesh.Position[v], v, -1);
   }
-  for (int v = 0; v < mesh.Size(); ++v)
-  {
-    if (mesh.IsAlive(v))
-    {
-      this->CollectNear(mesh.Position[v], v, -1);
-    }
-  }
-  Message own;
-  for (int rank = 0; rank < this->Ranks.NumberOfRanks(); ++rank)
-  {
-    // One after the other: all together are as much as the surface.
-    MessageWriter writer;
-    SurfaceState::WriteMesh(mesh, writer, std::exchange(this->Touched[rank], {}));
-    Message kept = this->Ranks.Pass(0, rank, writer.Take());
-    if (rank == 0)
-    {
-      own = std::move(kept);
-    }
-  }
-  return own;
-}
-
-void RankBlocks::Scatter(const SurfaceMesh& mesh, const Vector& low, const Vector& high)
-{
-  struct Sizes
-  {
-    std::size_t Places;
-    int Vertices;
-    int Characteristic;
-  };
-  const Sizes sizes = BroadcastValue(this->Ranks,
-    Sizes{
-      mesh.Rings.size(), mesh.NumberOfVertices(), mesh.CountEulerCharacteristic() });
-  const Message own = this->SendPieces(mesh);
   this->Low = low;
   this->High = high;
+  this->KnownVertices = static_cast<int>(SumOfRanks(this->Ranks, own.size()));
+  this->KnownCharacteristic =
+    this->KnownVertices - static_cast<int>(SumOfRanks(this->Ranks, ends) / 6);
+  const std::size_t places = SumOfRanks(
+    this->Ranks, this->Ranks.Rank() == 0 ? mesh.Rings.size() : std::size_t(0));
   this->Blocks.ForgetVertices();
-  this->State.Remake(sizes.Places, sizes.Vertices, low, high);
-  this->State.EulerCharacteristic = this->KnownCharacteristic = sizes.Characteristic;
-  this->KnownVertices = sizes.Vertices;
-  MessageReader reader(own);
-  this->Blocks.Take(this->State.ReadMesh(reader));
+  this->State.Remake(places, this->KnownVertices, low, high);
+  this->State.EulerCharacteristic = this->KnownCharacteristic;
+  std::vector<int> here;
+  const int rank = this->Ranks.Rank();
+  const int count = this->Ranks.NumberOfRanks();
+  for (int turn = 0; turn < count; ++turn)
+  {
+    // To one rank at a time: all messages together are as much as the piece.
+    const int to = (rank + turn) % count;
+    MessageWriter writer;
+    SurfaceState::WriteMesh(mesh, writer, std::exchange(this->Touched[to], {}));
+    const Message message =
+      Trade(this->Ranks, to, (rank + count - turn) % count, writer.Take());
+    MessageReader reader(message);
+    const std::vector<int> come = this->State.ReadMesh(reader);
+    here.insert(here.end(), come.begin(), come.end());
+  }
+  std::sort(here.begin(), here.end());
+  this->Blocks.Take(here);
 }
 
 void RankBlocks::Gather()

@@ -65,8 +65,8 @@ public:
   static std::int64_t WorkOfSweep(const SurfaceBlocks& blocks, const std::vector<Load>& loads,
     const std::vector<int>& owners, int ranks);
 
-  /** By all ranks: chooses owners for a mesh that is whole on rank 0. */
-  void ChooseOwners(const SurfaceMesh& mesh);
+  /** By all ranks: chooses owners for a mesh of which each has some vertices, its own ones. */
+  void ChooseOwners(const SurfaceMesh& mesh, const std::vector<int>& own);
   void SetOwners(std::vector<int> owners);
   int OwnerOf(int block) const { return this->Owners[block]; }
   bool IsOwn(int block) const { return this->Owners[block] == this->Ranks.Rank(); }
@@ -74,11 +74,12 @@ public:
   bool IsOwnVertex(int v) const { return this->IsOwn(this->State.Block[v]); }
 
   /**
-   * By all ranks: each has its piece afterwards, with the halo, of a mesh that is whole on rank 0.
-   * Its vertices know nothing else: they are as after a reset. `low`, `high`: the box of the grid,
-   * the same on all ranks.
+   * By all ranks: each has its piece afterwards, with the halo, of a mesh of which each has some
+   * vertices, its own ones; it may be whole on one of them. Its vertices know nothing else: they are
+   * as after a reset. `low`, `high`: the box of the grid, the same on all ranks.
    */
-  void Scatter(const SurfaceMesh& mesh, const Vector& low, const Vector& high);
+  void Scatter(const SurfaceMesh& mesh, const std::vector<int>& own, const Vector& low,
+    const Vector& high);
   /** By all ranks, back again: rank 0 has the mesh afterwards, and nothing else, the others none. */
   void Gather();
 
@@ -121,7 +122,6 @@ private:
     int Vertex;
     int Block;
   };
-  Message SendPieces(const SurfaceMesh& mesh);
   std::vector<Load> LoadsOfBlocks(bool onlyActive, Executor& executor) const;
   void MoveBlocks(std::vector<int> owners);
   Message LeaveBlocks(int rank, const std::vector<int>& before, const std::vector<int>& vertices);
