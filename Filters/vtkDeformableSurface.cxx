@@ -273,7 +273,7 @@ int vtkDeformableSurface::RequestData(
     [&]
     {
       this->Internals->RunOrGoOn(inputVector, outputVector);
-      volumic::ScatterOutputs(ranks, request, outputVector, this->Internals->Piece.Output);
+      volumic::ScatterOutputs(ranks, request, outputVector, this->Internals->Piece.Outputs);
       ranks.IsAny(false); // Who is through with it here hears of no failure any more.
     });
   if (error.Code != vtkErrorCode::NoError)

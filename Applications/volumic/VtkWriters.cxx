@@ -197,6 +197,7 @@ void WriteVtp(vtkPolyData* surface, const std::string& path, ProgressLine& line)
   {
     written = AsTriangles(surface);
   }
+  writer->SetCompressorTypeToLZ4(); // nine times as fast as zlib, at 1.6 times the size
   WriteInline(writer.Get(), written, path, line);
 }
 

@@ -7,6 +7,7 @@
 
 #include <vtkAbstractArray.h>
 #include <vtkCompositeDataSet.h>
+#include <vtkDataArray.h>
 #include <vtkDataObject.h>
 #include <vtkExecutive.h>
 #include <vtkFieldData.h>
@@ -35,23 +36,27 @@ struct Scattering
 {
   Communicator& Ranks;
   int GhostLevels;
-  vtkPolyData* Piece; ///< see ScatterOutputs()
+  const PiecesOfLevels& Pieces; ///< see ScatterOutputs()
 };
 
-/** The piece that each rank has, with the field data of rank 0's. */
-vtkSmartPointer<vtkPolyData> WithFacts(Communicator& ranks, vtkPolyData* piece)
+/** The piece that each rank has of a level, with the field data of rank 0's. */
+vtkSmartPointer<vtkPolyData> WithFacts(const Scattering& about, vtkPolyData* surface)
 {
+  const bool isFirst = about.Ranks.Rank() == 0;
   vtkNew<vtkPolyData> facts;
   facts->SetPoints(vtkNew<vtkPoints>());
   Message message;
-  if (ranks.Rank() == 0)
+  if (isFirst)
   {
-    facts->SetFieldData(piece->GetFieldData());
+    facts->SetFieldData(surface->GetFieldData());
     message = MessageOf(facts);
   }
+  facts->SetFieldData(SurfaceFrom(about.Ranks.Broadcast(std::move(message)))->GetFieldData());
+  const int level =
+    static_cast<int>(facts->GetFieldData()->GetArray("Level")->GetComponent(0, 0));
   auto own = vtkSmartPointer<vtkPolyData>::New();
-  own->ShallowCopy(piece);
-  own->SetFieldData(SurfaceFrom(ranks.Broadcast(std::move(message)))->GetFieldData());
+  own->ShallowCopy(isFirst ? surface : about.Pieces.at(level).Get());
+  own->SetFieldData(facts->GetFieldData());
   return own;
 }
 
@@ -65,7 +70,7 @@ vtkSmartPointer<vtkPolyData> ScatterSurface(const Scattering& about, vtkPolyData
   vtkSmartPointer<vtkPolyData> whole = surface;
   if (isPiece)
   {
-    const auto own = WithFacts(ranks, isFirst ? surface : about.Piece);
+    const auto own = WithFacts(about, surface);
     if (about.GhostLevels <= 0)
     {
       return own;
@@ -149,7 +154,7 @@ void ScatterColumns(Communicator& ranks, vtkTable* table)
 }
 
 void ScatterOutputs(Communicator& ranks, vtkInformation* request, vtkInformationVector* outputs,
-  vtkPolyData* piece)
+  const PiecesOfLevels& pieces)
 {
   if (ranks.NumberOfRanks() == 1)
   {
@@ -159,7 +164,7 @@ void ScatterOutputs(Communicator& ranks, vtkInformation* request, vtkInformation
   const int ghostLevels = BroadcastValue(ranks,
     outputs->GetInformationObject(port)->Get(
       vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS()));
-  const Scattering about{ ranks, ghostLevels, piece };
+  const Scattering about{ ranks, ghostLevels, pieces };
   vtkPolyData* surface = vtkPolyData::GetData(outputs, 0);
   const bool isThere = BroadcastValue(ranks, surface->GetPoints() != nullptr);
   if (isThere)

@@ -136,9 +136,10 @@ bool EvolveOnRanks(Communicator& ranks, const SharedLevel& shared, RankLevel& le
   return isDivided;
 }
 
-void ShareOutput(Communicator& ranks, const Workspace& space, int numberOfThreads)
+void ShareOutput(Communicator& ranks, int level, const Workspace& space, int numberOfThreads)
 {
   SharedLevel shared;
+  shared.Level = level;
   shared.Is = SharedLevel::Work::MakesOutput;
   shared.NumberOfThreads = numberOfThreads;
   BroadcastValue(ranks, shared);
@@ -157,7 +158,8 @@ void HelpWithLevel(Communicator& ranks, const LevelsInPieces& pieces, HelpersPie
       [&]
       {
         SurfaceResult result = std::exchange(piece.Result, SurfaceResult());
-        piece.Output = MakePolyData(std::move(result), SurfaceDescription(), space, threads);
+        piece.Outputs[shared.Level] =
+          MakePolyData(std::move(result), SurfaceDescription(), space, threads);
       });
     return;
   }
@@ -170,7 +172,8 @@ void HelpWithLevel(Communicator& ranks, const LevelsInPieces& pieces, HelpersPie
     return;
   }
   std::shared_ptr<HelpersRun> run = std::move(piece.Run);
-  piece = HelpersPiece(); // Rank 0 has forgotten that level, too.
+  piece.Result = SurfaceResult();
+  piece.Outputs.erase(shared.Level); // Rank 0 has forgotten it, too.
   if (!run)
   {
     run = std::make_shared<HelpersRun>(shared, goOn);

@@ -12,10 +12,8 @@
 #include "Core/Image/VoxelBox.h"
 #include "Core/Image/VoxelPieces.h"
 #include "Input/Workspace.h"
+#include "Output/RankOutputs.h"
 #include "Settings/SegmentationVolume.h"
-
-#include <vtkPolyData.h>
-#include <vtkSmartPointer.h>
 
 #include <functional>
 #include <memory>
@@ -82,11 +80,11 @@ struct SharedLevel
 
 struct HelpersRun;
 
-/** What a rank that helps keeps of a surface of which each has a piece, rank 0, too. */
+/** What a rank that helps keeps of surfaces of which each has a piece, rank 0, too. */
 struct HelpersPiece
 {
-  SurfaceResult Result;                ///< until the output is made of it
-  vtkSmartPointer<vtkPolyData> Output; ///< but for field data; null: there is none
+  SurfaceResult Result; ///< until the output is made of it
+  PiecesOfLevels Outputs;
   /** What evolves it, while it stays in pieces between levels; else null. */
   std::shared_ptr<HelpersRun> Run;
 };
@@ -106,7 +104,7 @@ std::unique_ptr<RankLevel> ShareLevel(Communicator& ranks, const SharedLevel& sh
   const LevelImage& image, const LevelsInPieces& pieces);
 
 /** At rank 0, likewise: tells the others to make outputs of their pieces, as it is about to do. */
-void ShareOutput(Communicator& ranks, const Workspace& space, int numberOfThreads);
+void ShareOutput(Communicator& ranks, int level, const Workspace& space, int numberOfThreads);
 
 /**
  * At the others, until rank 0 is done.

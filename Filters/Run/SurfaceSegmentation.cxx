@@ -380,7 +380,7 @@ bool SurfaceSegmentation::EvolveOn(
     const SharedLevel::Next next = this->AfterShared(level);
     const SharedLevel shared{ SharedLevel::Work::Evolves, this->Settings.Options, level,
       this->Settings.End.NumberOfThreads, next,
-      next == SharedLevel::Next::Ends && !this->NeedsWholeResult() };
+      next != SharedLevel::Next::IsWhole && !this->NeedsWholeResult() };
     this->Request.OnAllRanks(
       [&]
       {
@@ -470,7 +470,7 @@ void SurfaceSegmentation::MakeOutput(SegmentationResults::Level& result, Surface
   this->Request.OnAllRanks(
     [&]
     {
-      ShareOutput(*this->Request.Ranks, this->Levels.GetWorkspace(),
+      ShareOutput(*this->Request.Ranks, result.Description.Level, this->Levels.GetWorkspace(),
         this->Settings.End.NumberOfThreads);
       make();
     });

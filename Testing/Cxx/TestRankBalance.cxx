@@ -152,7 +152,8 @@ TEST(RankBalance, SharesTheWork)
     {
       EXPECT_NEAR(ofRank, all / ranks, halvings * most + 0.01 * all / ranks);
     }
-    EXPECT_GE(RankBlocks::WorkOfSweep(blocks, loads, owners, ranks), all / ranks);
+    EXPECT_EQ(RankBlocks::WorkOfSweep(loads, owners, ranks),
+      *std::max_element(ofRanks.begin(), ofRanks.end()));
     // Who has his share keeps his blocks.
     EXPECT_EQ(RankBlocks::BalancedOwners(blocks, loads, owners, ranks), owners);
   }
@@ -304,4 +305,59 @@ TEST(RankBalance, GathersWhatWasThereBefore)
         }
       }
     });
+}
+
+TEST(RankBalance, VisitsFirstWhatOthersWaitFor)
+{
+  SurfaceState state;
+  state.Reset(Vector(), Vector(240.f, 240.f, 240.f));
+  SurfaceBlocks blocks(state, SurfaceBlocks::FrameOf({ 240., 240., 240. }, Side), OnThisThread());
+  std::vector<int> colours(static_cast<std::size_t>(blocks.NumberOfBlocks()));
+  for (int colour = 0; colour < SurfaceBlocks::Colours; ++colour)
+  {
+    for (const int block : blocks.ByColour()[colour])
+    {
+      colours[block] = colour;
+    }
+  }
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    SCOPED_TRACE(axis);
+    ThreadRanks::Run(2,
+      [&](Communicator& ranks)
+      {
+        SurfaceState own;
+        RankBlocks owned(own, blocks, ranks);
+        std::vector<int> owners(colours.size());
+        for (int block = 0; block < blocks.NumberOfBlocks(); ++block)
+        {
+          owners[block] = blocks.PlaceOf(block)[axis] >= 5;
+        }
+        owned.SetOwners(owners);
+        int awaited = 0;
+        int all = 0;
+        for (int block = 0; block < blocks.NumberOfBlocks(); ++block)
+        {
+          if (!owned.IsOwn(block))
+          {
+            EXPECT_FALSE(owned.IsAwaited(block));
+            continue;
+          }
+          ++all;
+          awaited += owned.IsAwaited(block);
+          for (const int other : blocks.NeighboursOf(block))
+          {
+            const bool isAtBorder = !owned.IsOwn(other);
+            const bool comesBefore =
+              owned.IsOwn(other) && owned.IsAwaited(other) && colours[block] < colours[other];
+            if (isAtBorder || comesBefore)
+            {
+              EXPECT_TRUE(owned.IsAwaited(block)) << block << " before " << other;
+            }
+          }
+        }
+        EXPECT_GE(awaited, all / 5);
+        EXPECT_LT(awaited, all) << "some come when nobody waits any more";
+      });
+  }
 }

@@ -115,6 +115,66 @@ TEST(RankPieces, AreOfTheSurfaceOfOneRank)
   }
 }
 
+TEST(RankPieces, OfAllLevelsThatRanksShare)
+{
+  // Where nothing is kept to go on from no rank ever has the whole of one.
+  const auto make = [](vtkMultiProcessController* controller)
+  {
+    Filter filter = BallsFilter(controller);
+    filter->SetReleaseDataFlag(1);
+    return filter;
+  };
+  const Filter one = OneRank();
+  for (const int count : { 2, 3, 5 })
+  {
+    SCOPED_TRACE(count);
+    ExpectAs(one, RunRanks(count, make, Update));
+  }
+}
+
+TEST(RankPieces, OfTheLevelThatAStopHasLeft)
+{
+  const auto make = [](vtkMultiProcessController* controller)
+  {
+    Filter filter = BallsFilter(controller);
+    filter->SetReleaseDataFlag(1);
+    return filter;
+  };
+  std::set<double> levels;
+  for (const double share : { 0.3, 0.45, 0.6, 0.7, 0.8, 0.9 })
+  {
+    SCOPED_TRACE(share);
+    const Ranks ranks = RunRanks(3, make,
+      [share](vtkDeformableSurface* filter, vtkMultiProcessController* controller)
+      {
+        ProgressListener stops(filter);
+        stops.StopAt = controller->GetLocalProcessId() == 0 ? share : 2.0;
+        ThreadControllers::Update(filter, controller);
+        EXPECT_EQ(filter->GetErrorCode(), vtkErrorCode::NoError);
+      });
+    vtkIdType cells = 0;
+    std::set<vtkIdType> points;
+    for (const Filter& filter : ranks)
+    {
+      EXPECT_EQ(StopReasonOf(filter), "cancelled");
+      EXPECT_EQ(FactOf(filter, "Level"), FactOf(ranks.front(), "Level"));
+      vtkPolyData* piece = filter->GetOutput();
+      cells += piece->GetNumberOfCells();
+      for (vtkIdType p = 0; p < piece->GetNumberOfPoints(); ++p)
+      {
+        points.insert(IdOf(piece, p));
+      }
+    }
+    levels.insert(FactOf(ranks.front(), "Level"));
+    // Closed: F = 2 (V - chi).
+    const auto features = FactOf(ranks.front(), "Genus");
+    EXPECT_EQ(cells,
+      2 * (static_cast<double>(points.size()) -
+            2 * FactOf(ranks.front(), "NumberOfComponents") + 2 * features));
+  }
+  EXPECT_GT(levels.size(), 1u);
+}
+
 TEST(RankPieces, AreShownAgain)
 {
   const auto update = [](vtkDeformableSurface* filter, vtkMultiProcessController* controller,

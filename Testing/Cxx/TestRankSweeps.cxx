@@ -61,6 +61,7 @@ struct Coarse
   double Factor = std::sqrt(3.);
   bool Vanishes = false; ///< The fine level shows nothing.
   bool HasNeck = false;
+  bool HasOneBetween = false; ///< A level between the two, which the ranks share as well.
 };
 
 struct RunOnRanks
@@ -79,8 +80,9 @@ struct RunOnRanks
   RunOnRanks(int count, SurfaceOptions options, const Coarse& above = Coarse())
   {
     this->Pieces.resize(static_cast<std::size_t>(count));
-    const TestVolume coarse =
-      above.HasNeck ? Boxes(above.Factor, true) : Plate(above.Factor);
+    const double factor = above.HasOneBetween ? above.Factor * above.Factor : above.Factor;
+    const TestVolume coarse = above.HasNeck ? Boxes(factor, true) : Plate(factor);
+    const TestVolume between = Plate(above.Factor);
     TestVolume fine = above.HasNeck ? Boxes(1., false) : Plate(1.);
     if (above.Vanishes)
     {
@@ -88,6 +90,16 @@ struct RunOnRanks
     }
     options.MostVoxelsOfRank =
       static_cast<std::int64_t>(coarse.Image.Size[0]) * coarse.Image.Size[1] * coarse.Image.Size[2];
+    const auto evolve = [&](SurfaceEvolution& evolution)
+    {
+      if (above.HasOneBetween)
+      {
+        evolution.Divide(between.Image, 1);
+        evolution.Run();
+      }
+      evolution.Divide(fine.Image, 0);
+      evolution.Run();
+    };
     ThreadRanks::Run(count,
       [&](Communicator& ranks)
       {
@@ -98,8 +110,7 @@ struct RunOnRanks
         if (ranks.Rank() > 0)
         {
           evolution.SetRanks(&ranks);
-          evolution.Divide(fine.Image, 0);
-          evolution.Run();
+          evolve(evolution);
           EXPECT_TRUE(evolution.Result().Points.empty());
           this->Pieces[ranks.Rank()] = evolution.PieceOfResult();
           const unsigned long long sent = ranks.Sent().Bytes;
@@ -114,19 +125,18 @@ struct RunOnRanks
         switch (above.Begins)
         {
           case Coarse::Seed:
-            evolution.StartSeeds(coarse.Image, 1, { { 31., 17., 17. } });
+            evolution.StartSeeds(coarse.Image, 2, { { 31., 17., 17. } });
             evolution.Run();
             break;
           case Coarse::Enclosing:
-            evolution.StartEnclosing(coarse.Image, 1);
+            evolution.StartEnclosing(coarse.Image, 2);
             evolution.Run();
         }
         if (count > 1)
         {
           evolution.SetRanks(&ranks);
         }
-        evolution.Divide(fine.Image, 0);
-        evolution.Run();
+        evolve(evolution);
         this->Surface = evolution.Result();
         this->Pieces[0] = evolution.PieceOfResult();
         this->Rows = evolution.History();
@@ -223,6 +233,16 @@ TEST(RankSweeps, MakeTheSurfaceOfOneRank)
   mesh.Append(one.Surface);
   EXPECT_EQ(DescribeBrokenInvariant(mesh), "");
   ExpectOnRanks(one, { 2, 3, 5 }, ForPlate());
+}
+
+TEST(RankSweeps, DivideWhatTheyHaveInPieces)
+{
+  // Nobody has the whole after the first of two levels that they share.
+  Coarse above;
+  above.HasOneBetween = true;
+  const RunOnRanks one(1, ForPlate(), above);
+  EXPECT_GT(one.Surface.Points.size(), 20000u);
+  ExpectOnRanks(one, { 2, 3, 5 }, ForPlate(), above);
 }
 
 TEST(RankSweeps, LeavePiecesOfNothing)

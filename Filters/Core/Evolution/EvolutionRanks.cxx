@@ -98,15 +98,17 @@ void SurfaceEvolution::Implementation::VisitBlocksOnRanks(
   const BlockVisits& visits, const std::function<bool(std::size_t done)>& goOn)
 {
   std::size_t visited = 0;
-  for (int colour = 0; colour < SurfaceBlocks::Colours; ++colour)
+  // Those that others wait for come first, then the others of all colours.
+  for (int turn = 0; turn < 2 * SurfaceBlocks::Colours; ++turn)
   {
-    const std::vector<int>& ofColour = this->Blocks->ByColour()[colour];
+    const bool areAwaited = turn < SurfaceBlocks::Colours;
+    const std::vector<int>& ofColour = this->Blocks->ByColour()[turn % SurfaceBlocks::Colours];
     std::vector<int> own;
     std::copy_if(ofColour.begin(), ofColour.end(), std::back_inserter(own),
       [&](int block)
       {
-        return this->Piece->IsOwn(block) && !this->Stopped &&
-          !(visits.OnlyActive && !this->Blocks->HasActive(block));
+        return this->Piece->IsOwn(block) && this->Piece->IsAwaited(block) == areAwaited &&
+          !this->Stopped && !(visits.OnlyActive && !this->Blocks->HasActive(block));
       });
     for (const int block : own)
     {
@@ -119,8 +121,11 @@ void SurfaceEvolution::Implementation::VisitBlocksOnRanks(
     {
       this->Piece->EndVisit(block);
     }
-    visited += ofColour.size();
-    this->Piece->Exchange();
+    if (areAwaited)
+    {
+      this->Piece->Exchange();
+    }
+    visited += areAwaited ? 0 : ofColour.size();
     goOn(visited);
   }
   this->Stopped = this->Piece->ShareCounts(this->Stopped);

@@ -233,19 +233,14 @@ std::vector<int> RankBlocks::BalancedOwners(const SurfaceBlocks& blocks,
   return BalancedChoice(blocks, loads, before).Among(ranks);
 }
 
-std::int64_t RankBlocks::WorkOfSweep(const SurfaceBlocks& blocks, const std::vector<Load>& loads,
-  const std::vector<int>& owners, int ranks)
+std::int64_t RankBlocks::WorkOfSweep(
+  const std::vector<Load>& loads, const std::vector<int>& owners, int ranks)
 {
-  std::int64_t all = 0;
-  for (const std::vector<int>& ofColour : blocks.ByColour())
+  std::vector<std::int64_t> ofRanks(static_cast<std::size_t>(ranks), 0);
+  for (std::size_t block = 0; block < loads.size(); ++block)
   {
-    std::vector<std::int64_t> ofRanks(static_cast<std::size_t>(ranks), 0);
-    for (const int block : ofColour)
-    {
-      ofRanks[owners[block]] += loads[block].Work;
-    }
-    all += *std::max_element(ofRanks.begin(), ofRanks.end());
+    ofRanks[owners[block]] += loads[block].Work;
   }
-  return all;
+  return *std::max_element(ofRanks.begin(), ofRanks.end());
 }
 }

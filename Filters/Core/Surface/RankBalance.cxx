@@ -63,8 +63,8 @@ bool RankBlocks::Balance(bool onlyActive, Executor& executor)
   }
   const std::vector<Load> loads = this->LoadsOfBlocks(onlyActive, executor);
   std::vector<int> owners = BalancedOwners(this->Blocks, loads, this->Owners, ranks);
-  const std::int64_t gain = WorkOfSweep(this->Blocks, loads, this->Owners, ranks) -
-    WorkOfSweep(this->Blocks, loads, owners, ranks);
+  const std::int64_t gain = WorkOfSweep(loads, this->Owners, ranks) -
+    WorkOfSweep(loads, owners, ranks);
   std::int64_t least = LeastGain;
   for (std::size_t block = 0; block < owners.size(); ++block)
   {

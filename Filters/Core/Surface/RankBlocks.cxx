@@ -18,6 +18,7 @@ RankBlocks::RankBlocks(SurfaceState& state, SurfaceBlocks& blocks, Communicator&
   , Ranks(ranks)
   , Owners(static_cast<std::size_t>(blocks.NumberOfBlocks()), 0)
   , IsAtBorder(this->Owners.size(), 0)
+  , Awaited(this->Owners.size(), 0)
   , Partners(1, ranks.Rank())
   , Touched(static_cast<std::size_t>(ranks.NumberOfRanks()))
 {
@@ -74,6 +75,31 @@ void RankBlocks::SetOwners(std::vector<int> owners)
   std::sort(this->Partners.begin(), this->Partners.end());
   this->Partners.erase(
     std::unique(this->Partners.begin(), this->Partners.end()), this->Partners.end());
+  this->FindAwaited();
+}
+
+void RankBlocks::FindAwaited()
+{
+  this->Awaited = this->IsAtBorder;
+  std::vector<char> isLater(this->Owners.size(), 0); // Or of the same colour.
+  for (int colour = SurfaceBlocks::Colours - 1; colour > 0; --colour)
+  {
+    const std::vector<int>& ofColour = this->Blocks.ByColour()[colour];
+    for (const int block : ofColour)
+    {
+      isLater[block] = 1;
+    }
+    for (const int block : ofColour)
+    {
+      if (this->Awaited[block])
+      {
+        for (const int other : this->Blocks.NeighboursOf(block))
+        {
+          this->Awaited[other] |= this->IsOwn(other) && !isLater[other];
+        }
+      }
+    }
+  }
 }
 
 void RankBlocks::CollectNear(const Vector& position, int v, int exceptFor)

@@ -22,9 +22,11 @@ namespace volumic
  * visits it. A rank has the vertices of its own blocks and, as a halo, those near them, with the indices
  * that they have everywhere; the places of all others are there, but take no memory.
  *
- * The ranks visit their blocks of a colour, then tell each other what has become of the vertices
- * near the borders (Exchange), then go on with the next one. Blocks of a colour do not touch: each
- * visit sees what it would see on one rank. Messages grow with the border of the ranks. Blocks go
+ * The ranks visit those of their blocks of a colour that others wait for (IsAwaited), then tell each
+ * other what has become of the vertices near the borders (Exchange), then go on with the next one;
+ * all other blocks come after that, when ranks wait for each other no more. Blocks that touch are
+ * visited in the order of their colours: each visit sees what it would see on one rank. Messages grow
+ * with the border of the ranks. Blocks go
  * from rank to rank (Balance) so that all have as much to do in a sweep; who owns what has no
  * influence on what becomes of the surface.
  */
@@ -55,21 +57,25 @@ public:
   /**
    * Others, so that all ranks have as much to do: blocks in order along an axis are cut into halves,
    * again and again, along axes for which many owners stay what they are. Blocks without vertices
-   * keep theirs. (Halves of each colour would be better balanced, as ranks wait for each other after
-   * each, but their border is longer, and costs more than that saves.)
+   * keep theirs.
    * @param loads of each block @return the rank of each block
    */
   static std::vector<int> BalancedOwners(const SurfaceBlocks& blocks,
     const std::vector<Load>& loads, const std::vector<int>& before, int ranks);
-  /** What there is to do in a sweep while others wait, as all do after each colour. */
-  static std::int64_t WorkOfSweep(const SurfaceBlocks& blocks, const std::vector<Load>& loads,
-    const std::vector<int>& owners, int ranks);
+  /** What the rank with the most has to do in a sweep. */
+  static std::int64_t WorkOfSweep(
+    const std::vector<Load>& loads, const std::vector<int>& owners, int ranks);
 
   /** By all ranks: chooses owners for a mesh of which each has some vertices, its own ones. */
   void ChooseOwners(const SurfaceMesh& mesh, const std::vector<int>& own);
   void SetOwners(std::vector<int> owners);
   int OwnerOf(int block) const { return this->Owners[block]; }
   bool IsOwn(int block) const { return this->Owners[block] == this->Ranks.Rank(); }
+  /**
+   * Whether blocks of other ranks cannot be visited before this own one: it is at the border, or
+   * touches one that is and comes before it, or one that touches such a one, and so on.
+   */
+  bool IsAwaited(int block) const { return this->Awaited[block]; }
   /** Whether a vertex that is here belongs to a block of this rank. On any thread. */
   bool IsOwnVertex(int v) const { return this->IsOwn(this->State.Block[v]); }
 
@@ -124,6 +130,7 @@ private:
   };
   std::vector<Load> LoadsOfBlocks(bool onlyActive, Executor& executor) const;
   void MoveBlocks(std::vector<int> owners);
+  void FindAwaited();
   Message LeaveBlocks(int rank, const std::vector<int>& before, const std::vector<int>& vertices);
   void TakeBlocks(const Message& message);
   /** Whether a block, or one that touches it, has another owner than before. */
@@ -139,6 +146,7 @@ private:
   Communicator& Ranks;
   std::vector<int> Owners;               ///< By block.
   std::vector<char> IsAtBorder;          ///< By block: whether it is own and a neighbour is not.
+  std::vector<char> Awaited;             ///< By block: see IsAwaited().
   std::vector<int> Partners;             ///< This rank, and those with blocks beside own ones.
   std::vector<std::vector<int>> Touched; ///< By rank: the vertices that it must be told of.
   Vector Low, High;                      ///< Of the grid.
