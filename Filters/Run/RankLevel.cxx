@@ -117,15 +117,19 @@ std::unique_ptr<RankLevel> ShareLevel(Communicator& ranks, const SharedLevel& sh
   return level;
 }
 
-bool EvolveOnRanks(Communicator& ranks, const SharedLevel& shared, RankLevel& level,
+bool EvolveOnRanks(Communicator& ranks, const SharedLevel& shared,
+  std::unique_ptr<RankLevel> level, std::unique_ptr<RankLevel>& last,
   SurfaceEvolution& evolution, StopReason& reason, SurfaceResult& surface)
 {
-  level.NeedMeasures();
-  evolution.SetRanks(&ranks, [&level](const VoxelBox& box) { level.Need(box); });
-  const bool isDivided = evolution.Divide(level.Image(), shared.Level);
+  RankLevel* const present = level.get();
+  present->NeedMeasures();
+  evolution.SetRanks(&ranks, [present](const VoxelBox& box) { present->Need(box); });
+  const bool isDivided = evolution.Divide(present->Image(), shared.Level);
   if (isDivided)
   {
+    last = std::move(level);
     reason = evolution.Run();
+    evolution.ForgetMotion();
     surface = shared.InPieces ? evolution.PieceOfResult() : evolution.Result();
     if (shared.Then == SharedLevel::Next::IsWhole)
     {
@@ -180,10 +184,13 @@ void HelpWithLevel(Communicator& ranks, const LevelsInPieces& pieces, HelpersPie
   }
   StopReason reason = StopReason::Cancelled;
   run->Threads.Run(
-    [&] { EvolveOnRanks(ranks, shared, *level, run->Evolution, reason, piece.Result); });
+    [&]
+    {
+      EvolveOnRanks(ranks, shared, std::move(level), run->Level, run->Evolution, reason,
+        piece.Result);
+    });
   if (shared.Then == SharedLevel::Next::StaysInPieces && reason != StopReason::Cancelled)
   {
-    run->Level = std::move(level);
     piece.Run = std::move(run);
   }
   run.reset();

@@ -92,9 +92,12 @@ struct HelpersPiece
 /**
  * At rank 0, while the other ranks are in HelpWithLevel(): divides the surface to a level that all
  * ranks share, and evolves it there. Afterwards rank 0 has the result, or its piece of it, and what
- * shared.Then tells. @return false as SurfaceEvolution::Divide()
+ * shared.Then tells.
+ * @param last the level that the evolution refers to: it is let go when the surface has left it
+ * @return false as SurfaceEvolution::Divide()
  */
-bool EvolveOnRanks(Communicator& ranks, const SharedLevel& shared, RankLevel& level,
+bool EvolveOnRanks(Communicator& ranks, const SharedLevel& shared,
+  std::unique_ptr<RankLevel> level, std::unique_ptr<RankLevel>& last,
   SurfaceEvolution& evolution, StopReason& reason, SurfaceResult& surface);
 
 /**

@@ -386,8 +386,8 @@ bool SurfaceSegmentation::EvolveOn(
       {
         Communicator& ranks = *this->Request.Ranks;
         auto onRanks = ShareLevel(ranks, shared, image, this->Levels.InPieces());
-        isDivided = EvolveOnRanks(ranks, shared, *onRanks, evolution, reason, surface);
-        this->Shared = std::move(onRanks); // After the one before, which the division has left.
+        isDivided = EvolveOnRanks(
+          ranks, shared, std::move(onRanks), this->Shared, evolution, reason, surface);
       });
     return isDivided;
   }
@@ -403,12 +403,16 @@ bool SurfaceSegmentation::EvolveOn(
   this->Snapshots.TakeIfDue(
     evolution, level, this->Levels.UnitInWorld(level), 0, this->Found, *this->Threads);
   reason = evolution.Run();
-  GiveBackFreeMemory();
-  surface = evolution.Result();
   const bool mayBeRevised = this->Request.Revise && level == this->Choice.Last && level <= 0 &&
     reason != StopReason::Cancelled &&
     !(this->Request.OnAllRanks &&
       SurfaceEvolution::AreShared(this->Settings.Options, image.Size));
+  if (!mayBeRevised)
+  {
+    evolution.ForgetMotion();
+  }
+  GiveBackFreeMemory();
+  surface = evolution.Result();
   while (mayBeRevised && !evolution.IsStopped() && !surface.Points.empty() &&
     this->Request.Revise(surface))
   {

@@ -159,6 +159,11 @@ void SurfaceEvolution::Revise(const LevelImage& image)
   this->Self->Revise(image);
 }
 
+void SurfaceEvolution::ForgetMotion()
+{
+  this->Self->State.ForgetMotion();
+}
+
 void SurfaceEvolution::SetRanks(
   Communicator* ranks, std::function<void(const VoxelBox&)> needVoxels)
 {

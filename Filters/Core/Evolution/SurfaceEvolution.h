@@ -207,6 +207,11 @@ public:
   void Revise(const LevelImage& image);
 
   /**
+   * After Run(), before Result(), so that there is room for this: lets go of what Revise() would need.
+   */
+  void ForgetMotion();
+
+  /**
    * From now on it is one of those on several ranks, which evolve one surface: all of them call
    * Divide() to a level that they share (AreShared), Run() and Result() or PieceOfResult() there, at
    * the same time, and then Divide() to another one, or Unite(). Before that, or where it has

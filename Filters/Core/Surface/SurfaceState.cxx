@@ -41,6 +41,20 @@ void SurfaceState::Reset(const Vector& low, const Vector& high, Executor& execut
   this->EulerCharacteristic = this->Mesh.CountEulerCharacteristic(executor);
 }
 
+void SurfaceState::ForgetMotion()
+{
+  for (VertexProperty<Vector>* property : { &this->Velocity, &this->PreviousPosition,
+         &this->Anchor, &this->Laplacian, &this->SpringPull })
+  {
+    property->Remake(0);
+  }
+  for (VertexProperty<float>* property :
+    { &this->FieldValue, &this->Displacement, &this->Drift, &this->Slack })
+  {
+    property->Remake(0);
+  }
+}
+
 void SurfaceState::Prefetch(int first, int last) const
 {
   const auto count = static_cast<std::size_t>(last - first);

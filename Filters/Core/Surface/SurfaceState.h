@@ -157,6 +157,8 @@ public:
 
   static constexpr float NotExamined = 1e6f; ///< More than any slack.
 
+  /** Lets go of all that only iterations need: a reset, or Remake(), must come before others. */
+  void ForgetMotion();
   /** Resets all properties to those of a mesh that is new, lays the grid over the box. */
   void Reset(const Vector& low, const Vector& high, Executor& executor);
   void Reset(const Vector& low, const Vector& high);
