@@ -7,9 +7,9 @@
 
 The object of the scan stands for one of the same shape in an image of that size: where its boundary
 is tells how many vertices each block of a level has. Blocks go to ranks as RankBlocks does it, and
-the visits of a sweep are scheduled: colour by colour, or each as soon as those that it touches are
-done. What a vertex costs was measured, on one thread, and so were the bytes that ranks send and what
-rank 0 does alone (see Constants).
+the visits of a sweep are scheduled as there: those that others wait for first, colour by colour. What
+a vertex costs was measured, on one thread, and so were the bytes that ranks send and what is done on
+ranks only (see Constants).
 
 Left out: reading and reducing the image (each rank does its part), writing, differences between the
 work of vertices, and that ranks of one machine share its memory.
@@ -51,12 +51,11 @@ class Constants:
     collectives: int = 7  # a sweep: to rank 0 and back, along a tree; 10 where some are inside out
     bytes_of_block: float = 60.0  # a sweep, to rank 0: seven sums and a number
     bytes_of_rows: float = 360.0  # a sweep, of a rank to all: its five rows
-    # Of rank 0 alone, s a vertex of the level, `mpirun -n 2`: divides and spreads; but for the last
-    # level puts the result together, and the mesh of the next division. Of the last level all ranks
-    # deal out pieces of the result: assumed to take as much, shared.
-    dividing: float = 0.70e-6
-    uniting: float = 0.40e-6
-    uniting_mesh: float = 0.34e-6
+    # On ranks only, s a vertex that a rank has, `mpirun -n 2`: numbers, messages and lists of a
+    # division, blocks that move; and of a result that is dealt out.
+    dividing: float = 0.8e-6
+    balancing: float = 0.7e-6
+    dealing: float = 0.8e-6
     latency: float = 20e-6  # assumed: s a message
     bandwidth: float = 1e9  # assumed: bytes a second of a rank
 
@@ -121,52 +120,117 @@ def choose_owners(vertices, ranks):
     return owners
 
 
-def colour_of(block):
-    return sum((place % 2) << axis for axis, place in enumerate(block))
+def balance(vertices, owners, ranks):
+    """As RankBlocks::BalancedOwners: halves along the axis that keeps most owners. [z, y, x]; -1
+    where there is nothing."""
+    blocks = np.argwhere(vertices > 0)  # z, y, x
+    weight = vertices[tuple(blocks.T)]
+    before = owners[blocks[:, 0], blocks[:, 1]]
+    balanced = np.full(vertices.shape, -1)
+
+    def cut(which, first, count):
+        if count == 1:
+            balanced[tuple(blocks[which].T)] = first
+            return
+        lower = count // 2
+        best = None
+        for axis in (0, 1, 2):
+            others = [a for a in (2, 1, 0) if a != axis]
+            order = which[np.lexsort([blocks[which, a] for a in others] + [blocks[which, axis]])]
+            at = int(np.searchsorted(np.cumsum(weight[order]), weight[order].sum() * lower / count))
+            own = before[order]
+            stays = (np.count_nonzero((own[:at] >= first) & (own[:at] < first + lower))
+                     + np.count_nonzero((own[at:] >= first + lower) & (own[at:] < first + count)))
+            if best is None or stays > best[0]:
+                best = (stays, order, at)
+        _, order, at = best
+        cut(order[:at], first, lower)
+        cut(order[at:], first + lower, count - lower)
+
+    cut(np.arange(len(blocks)), 0, ranks)
+    return balanced
 
 
-def neighbours(block, shape):
-    for step in itertools.product((-1, 0, 1), repeat=3):
-        other = tuple(b + s for b, s in zip(block, step))
-        if other != block and all(0 <= o < n for o, n in zip(other, shape)):
-            yield other
+def shifted(array, step, outside):
+    """What lies a step further, of each block."""
+    result = np.full(array.shape, outside, array.dtype)
+    to = tuple(slice(max(0, -s), n - max(0, s)) for s, n in zip(step, array.shape))
+    source = tuple(slice(max(0, s), n - max(0, -s)) for s, n in zip(step, array.shape))
+    result[to] = array[source]
+    return result
 
 
-def sent_bytes(vertices, owners, constants, block_voxels):
+STEPS = [step for step in itertools.product((-1, 0, 1), repeat=3) if step != (0, 0, 0)]
+
+
+def colours(shape):
+    z, y, x = np.indices(shape) % 2
+    return (z * 2 + y) * 2 + x
+
+
+def awaited(owners):
+    """Blocks that others wait for, as RankBlocks::IsAwaited."""
+    found = np.zeros(owners.shape, bool)
+    for step in STEPS:
+        other = shifted(owners, step, -1)
+        found |= (owners >= 0) & (other >= 0) & (other != owners)
+    colour = colours(owners.shape)
+    for c in range(COLOURS - 1, 0, -1):
+        for step in STEPS:
+            later = shifted(found & (colour == c), step, False)
+            found |= later & (colour < c) & (shifted(owners, step, -1) == owners) & (owners >= 0)
+    return found
+
+
+def partners_of(owners):
+    pairs = set()
+    for step in STEPS:
+        other = shifted(owners, step, -1)
+        at = (owners >= 0) & (other >= 0) & (other != owners)
+        pairs |= set(zip(owners[at].tolist(), other[at].tolist()))
+    return pairs
+
+
+def sent_bytes(vertices, owners, ranks, constants, block_voxels):
     """By rank: what it tells others in a sweep. A face takes a share of a block's vertices."""
     share = min(1.0, constants.halo / block_voxels)
-    sent = np.zeros(owners.max() + 1)
-    partners = [set() for _ in sent]
-    for block in np.argwhere(vertices > 0):
-        block = tuple(block)
-        own = owners[block[:2]]
-        others = {owners[other[:2]] for other in neighbours(block, vertices.shape)} - {own}
-        sent[own] += min(1.0, share * len(others)) * vertices[block] * constants.bytes_sent
-        partners[own] |= others
-    return sent, np.array([len(each) for each in partners])
+    sent = np.zeros(ranks)
+    own = owners >= 0
+    near = np.zeros(owners.shape)  # Other ranks about a block.
+    seen = []
+    for step in STEPS:
+        other = shifted(owners, step, -1)
+        new = own & (other >= 0) & (other != owners)
+        for earlier in seen:
+            new &= earlier != other
+        near += new
+        seen.append(other)
+    told = np.minimum(1.0, share * near) * vertices * constants.bytes_sent
+    np.add.at(sent, owners[own], told[own])
+    return sent
 
 
-def sweep(vertices, owners, seconds, by_dependency):
+def sweep(vertices, owners, first, pairs, ranks, seconds):
     """Seconds of the visits of a sweep, of `seconds` for a vertex."""
-    ready = np.zeros(vertices.shape)
-    free = np.zeros(owners.max() + 1)
-    for colour in range(COLOURS):
-        for block in np.argwhere(vertices > 0):
-            block = tuple(block)
-            if colour_of(block) != colour:
-                continue
-            rank = owners[block[:2]]
-            start = free[rank]
-            if by_dependency:
-                start = max([start] + [ready[other] for other in neighbours(block, vertices.shape)
-                                       if colour_of(other) < colour])
-            free[rank] = ready[block] = start + vertices[block] * seconds
-        if not by_dependency:
-            free[:] = free.max()
-    return free.max()
+    work = vertices * seconds
+    colour = colours(owners.shape)
+    done = np.zeros(ranks)
+
+    def visit(which):
+        ofRanks = np.zeros(ranks)
+        np.add.at(ofRanks, owners[which], work[which])
+        return ofRanks
+
+    for c in range(COLOURS):
+        done += visit(first & (colour == c))
+        told = done.copy()
+        for rank, other in pairs:
+            done[rank] = max(done[rank], told[other])
+    done += visit(~first & (owners >= 0))
+    return done.max()
 
 
-def model(places, size, ranks, constants, shared=1.0, by_dependency=False):
+def model(places, size, ranks, constants, shared=1.0):
     """Seconds by kind of work. `shared`: the part of what is done before and after a level's
     iterations that the ranks share."""
     seconds = {"sweeps": 0.0, "messages": 0.0, "collectives": 0.0, "around": 0.0,
@@ -180,12 +244,15 @@ def model(places, size, ranks, constants, shared=1.0, by_dependency=False):
             seconds["first rank"] += count * (iterating + around)
         else:
             vertices = vertices_of_blocks(places, side, count, constants)
-            owners = choose_owners(vertices, min(ranks, vertices[:, :, 0].size))
+            used = min(ranks, vertices[:, :, 0].size)
+            owners = balance(vertices, choose_owners(vertices, used), used)
             visits = constants.visits[at]
+            pairs = partners_of(owners)
             seconds["sweeps"] += visits * sweep(
-                vertices, owners, iterating / visits, by_dependency)
+                vertices, owners, awaited(owners), pairs, used, iterating / visits)
             if ranks > 1:
-                sent, partners = sent_bytes(vertices, owners, constants, constants.block_side)
+                sent = sent_bytes(vertices, owners, used, constants, constants.block_side)
+                partners = np.bincount([rank for rank, _ in pairs], minlength=used)
                 sweeps = visits + constants.other_sweeps
                 seconds["messages"] += sweeps * float(np.max(
                     EXCHANGES * partners * constants.latency + sent / constants.bandwidth))
@@ -198,14 +265,8 @@ def model(places, size, ranks, constants, shared=1.0, by_dependency=False):
                 seconds["collectives"] += sweeps * float(
                     2 * steps * constants.collectives * constants.latency
                     + gathered / constants.bandwidth)
-                alone = constants.dividing
-                if level > 0:
-                    alone += constants.uniting + constants.uniting_mesh
-                else:
-                    around += constants.uniting  # Each its piece of it, as a .pvtp has it.
-                seconds["first rank"] += count * alone
-                around -= constants.dividing
-            of_rank = max(vertices[owners == rank].sum() for rank in range(owners.max() + 1))
+                around += constants.dividing + constants.balancing + constants.dealing
+            of_rank = np.bincount(owners[owners >= 0], vertices[owners >= 0]).max()
             seconds["around"] += around * (shared * of_rank + (1 - shared) * count)
         side, count, level = side / REDUCTION, count / 3, level + 1
     return seconds, bytes_of_level
@@ -214,8 +275,9 @@ def model(places, size, ranks, constants, shared=1.0, by_dependency=False):
 def memory(places, size, ranks, constants):
     """Bytes of the rank that has the most: image, coarser levels, its vertices."""
     vertices = vertices_of_blocks(places, size, constants.vertices * size ** 2, constants)
-    owners = choose_owners(vertices, min(ranks, vertices[:, :, 0].size))
-    largest = max(vertices[owners == rank].sum() for rank in range(owners.max() + 1))
+    used = min(ranks, vertices[:, :, 0].size)
+    owners = balance(vertices, choose_owners(vertices, used), used)
+    largest = np.bincount(owners[owners >= 0], vertices[owners >= 0]).max()
     voxels = size ** 3 * (constants.bytes_of_voxel + constants.bytes_of_coarse_voxel / 4.2)
     return voxels / ranks + largest * constants.bytes_of_vertex
 
@@ -232,8 +294,6 @@ def main():
                         help="side of the smallest level whose blocks the ranks share, voxels")
     parser.add_argument("--block-side", type=float, default=Constants.block_side,
                         help="of a block, voxels")
-    parser.add_argument("--by-dependency", action="store_true",
-                        help="a visit waits for those it touches, not for all of a colour")
     options = parser.parse_args()
     constants = Constants(sweeps_from=options.sweeps_from, block_side=options.block_side)
     places = boundary(options.volume, options.iso)
@@ -243,8 +303,7 @@ def main():
     for size in options.size:
         one = None
         for ranks in options.ranks:
-            seconds, sent = model(places, size, ranks, constants, options.shared,
-                                  options.by_dependency)
+            seconds, sent = model(places, size, ranks, constants, options.shared)
             total = sum(seconds.values())
             one = one or total
             first = ranks if ranks == options.ranks[0] else ranks / options.ranks[0]

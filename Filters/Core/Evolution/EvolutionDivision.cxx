@@ -9,12 +9,10 @@
 #include "Core/Evolution/EdgesToKeep.h"
 #include "Core/Evolution/EvolutionImplementation.h"
 #include "Core/Evolution/MeshPiece.h"
-#include "Core/Evolution/RankNumbers.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <functional>
 #include <memory>
 #include <utility>
 #include <vector>
