@@ -95,6 +95,7 @@ set(volumic_core_sources
   Surface/TopologyEdits.cxx
   Evolution/Dynamics.cxx
   Evolution/EdgeLengthPlan.cxx
+  Evolution/EdgesToKeep.cxx
   Evolution/EvolutionCheckpoint.cxx
   Evolution/EvolutionDivision.cxx
   Evolution/EvolutionGrading.cxx
@@ -110,7 +111,6 @@ set(volumic_core_sources
   Evolution/LostBoundary.cxx
   Evolution/LostParts.cxx
   Evolution/LostVoxels.cxx
-  Evolution/EdgesToKeep.cxx
   Evolution/MeshPiece.cxx
   Evolution/RankNumbers.cxx
   Evolution/RankResult.cxx
@@ -241,13 +241,13 @@ set(volumic_core_headers
   Evolution/CycleCriterion.h
   Evolution/Dynamics.h
   Evolution/EdgeLengthPlan.h
+  Evolution/EdgesToKeep.h
   Evolution/EvolutionImplementation.h
   Evolution/GradedSizes.h
   Evolution/InitialSurface.h
   Evolution/LostBoundary.h
   Evolution/LostParts.h
   Evolution/LostVoxels.h
-  Evolution/EdgesToKeep.h
   Evolution/MeshPiece.h
   Evolution/RankNumbers.h
   Evolution/RankRows.h

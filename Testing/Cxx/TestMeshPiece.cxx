@@ -289,14 +289,17 @@ TEST(MeshPiece, NeedsThreeRingsOfOthers)
   SurfaceState whole;
   Take(whole, mesh);
   const OwnerOf ownerOf = ByCubes(whole, 9.f);
-  EXPECT_THROW(ThreadRanks::Run(2,
-                 [&](Communicator& ranks)
-                 {
-                   SurfaceState part;
-                   TakePart(part, whole, ownerOf, ranks, 2.f, Vector(-2, -2, -2),
-                     Vector(50, 50, 30));
-                   RenumberOnRanks(
-                     ranks, part.Mesh, OwnOf(part, ownerOf, ranks), Cell, OnThisThread());
-                 }),
-    std::logic_error);
+  for (const float halo : { 2.f, 4.f }) // Nearly one, more than two.
+  {
+    EXPECT_THROW(ThreadRanks::Run(2,
+                   [&](Communicator& ranks)
+                   {
+                     SurfaceState part;
+                     TakePart(part, whole, ownerOf, ranks, halo, Vector(-2, -2, -2),
+                       Vector(50, 50, 30));
+                     RenumberOnRanks(
+                       ranks, part.Mesh, OwnOf(part, ownerOf, ranks), Cell, OnThisThread());
+                   }),
+      std::logic_error);
+  }
 }

@@ -293,6 +293,35 @@ TEST(RankPieces, AreNoneWhereACheckpointStays)
   ExpectAs(OneRank(goOn), ranks);
 }
 
+TEST(RankPieces, AreWholeInTheCheckpointOfACoarserLevel)
+{
+  const TemporaryFolder folder;
+  const auto make = [&folder](vtkMultiProcessController* controller)
+  {
+    const Filter filter = BallsFilter(controller);
+    filter->SetReleaseDataFlag(1);
+    filter->SetScratchDirectory(folder.Path().c_str());
+    filter->LeaveCheckpoints();
+    return filter;
+  };
+  RunRanks(2, make,
+    [](vtkDeformableSurface* filter, vtkMultiProcessController* controller)
+    {
+      ProgressListener stops(filter);
+      stops.StopAt = controller->GetLocalProcessId() == 0 ? 0.8 : 2.0;
+      Update(filter, controller);
+      EXPECT_EQ(FactOf(filter, "Level"), 0.0);
+    });
+  const Ranks ranks = RunRanks(2, make,
+    [](vtkDeformableSurface* filter, vtkMultiProcessController* controller)
+    {
+      filter->ResumeOn();
+      Update(filter, controller);
+    });
+  EXPECT_EQ(ranks.front()->GetResumedLevel(), 1);
+  ExpectAs(OneRank(), ranks);
+}
+
 TEST(RankPieces, OfNothing)
 {
   // Coarser levels show what the finest does not.

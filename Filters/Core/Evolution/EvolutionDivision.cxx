@@ -261,8 +261,8 @@ bool SurfaceEvolution::Implementation::LayOutInPieces(int divisions)
   }
   else
   {
-    const MeshPiece piece = this->TakePiece(*this->Ranks);
-    this->SpreadMesh(piece.Mesh, piece.Own);
+    MeshPiece piece = this->TakePiece(*this->Ranks);
+    this->SpreadMesh(std::move(piece.Mesh), piece.Own);
     this->LayGridOfPiece();
   }
   this->Threads.EndPhase("Division");

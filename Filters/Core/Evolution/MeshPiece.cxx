@@ -122,10 +122,6 @@ public:
       for (const CurvePlace& place : ofRank)
       {
         const auto at = std::lower_bound(this->Share.begin(), this->Share.end(), place);
-        if (at == this->Share.end() || place < *at)
-        {
-          throw std::logic_error("A vertex that a rank knows of is none of another's.");
-        }
         answers.back().push_back(
           static_cast<int>(this->Before) + static_cast<int>(at - this->Share.begin()));
       }
@@ -169,15 +165,16 @@ public:
     for (const int v : this->Last)
     {
       const Ring& ring = this->Mesh.Rings[v];
-      if (ring.Count == 0)
-      {
-        throw std::logic_error("A vertex near those of a rank is not there.");
-      }
       for (int i = 0; i < ring.Count; ++i)
       {
-        if (!std::exchange(this->IsKnown[ring.Item[i]], 1))
+        const int w = ring.Item[i];
+        if (!this->Mesh.IsAlive(w))
         {
-          next.push_back(ring.Item[i]);
+          throw std::logic_error("A vertex near those of a rank is not there.");
+        }
+        if (!std::exchange(this->IsKnown[w], 1))
+        {
+          next.push_back(w);
         }
       }
     }
