@@ -45,54 +45,30 @@ std::vector<vtkIdType> CornersOf(vtkPolyData* surface, vtkIdType begin, vtkIdTyp
   return corners;
 }
 
-/** The points of some triangles: each once, in their order. */
-class PointsOfPiece
+/** Each point once, in their order. */
+vtkSmartPointer<vtkIdTypeArray> PointsOf(const std::vector<vtkIdType>& corners)
 {
-public:
-  explicit PointsOfPiece(const std::vector<vtkIdType>& corners)
-  {
-    const auto ends = std::minmax_element(corners.begin(), corners.end());
-    this->First = *ends.first;
-    this->Places.resize(static_cast<std::size_t>(*ends.second - this->First + 1), 0);
-    for (const vtkIdType corner : corners)
-    {
-      this->Places[corner - this->First] = 1;
-    }
-    for (vtkIdType& place : this->Places)
-    {
-      const bool isOfPiece = place != 0;
-      place = this->Count;
-      this->Count += isOfPiece ? 1 : 0;
-    }
-  }
-
-  vtkIdType PlaceOf(vtkIdType corner) const { return this->Places[corner - this->First]; }
-  vtkSmartPointer<vtkIdTypeArray> Ids(const std::vector<vtkIdType>& corners) const
-  {
-    auto ids = vtkSmartPointer<vtkIdTypeArray>::New();
-    ids->SetName("GlobalIds");
-    ids->SetNumberOfTuples(this->Count);
-    for (const vtkIdType corner : corners)
-    {
-      ids->SetValue(this->PlaceOf(corner), corner);
-    }
-    return ids;
-  }
-
-private:
-  vtkIdType First = 0;
-  std::vector<vtkIdType> Places; ///< From the first point on.
-  vtkIdType Count = 0;
-};
+  std::vector<vtkIdType> points = corners;
+  std::sort(points.begin(), points.end());
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  auto ids = vtkSmartPointer<vtkIdTypeArray>::New();
+  ids->SetName("GlobalIds");
+  ids->SetNumberOfTuples(static_cast<vtkIdType>(points.size()));
+  std::copy(points.begin(), points.end(), ids->GetPointer(0));
+  return ids;
+}
 
 void SetTriangles(
-  vtkPolyData* piece, const std::vector<vtkIdType>& corners, const PointsOfPiece& points)
+  vtkPolyData* piece, const std::vector<vtkIdType>& corners, vtkIdTypeArray* pointsOfPiece)
 {
+  const auto size = static_cast<vtkIdType>(corners.size());
+  const vtkIdType* points = pointsOfPiece->GetPointer(0);
+  const vtkIdType* pointsEnd = points + pointsOfPiece->GetNumberOfTuples();
   vtkNew<vtkIdTypeArray> connectivity;
-  connectivity->SetNumberOfTuples(static_cast<vtkIdType>(corners.size()));
-  for (std::size_t i = 0; i < corners.size(); ++i)
+  connectivity->SetNumberOfTuples(size);
+  for (vtkIdType i = 0; i < size; ++i)
   {
-    connectivity->SetValue(static_cast<vtkIdType>(i), points.PlaceOf(corners[i]));
+    connectivity->SetValue(i, std::lower_bound(points, pointsEnd, corners[i]) - points);
   }
   vtkNew<vtkCellArray> triangles;
   triangles->SetData(3, connectivity);
@@ -115,9 +91,8 @@ vtkSmartPointer<vtkPolyData> MakePiece(vtkPolyData* surface, vtkIdType begin, vt
 {
   auto piece = vtkSmartPointer<vtkPolyData>::New();
   const std::vector<vtkIdType> corners = CornersOf(surface, begin, end);
-  const PointsOfPiece pointsOfPiece(corners);
-  const vtkSmartPointer<vtkIdTypeArray> ids = pointsOfPiece.Ids(corners);
-  SetTriangles(piece, corners, pointsOfPiece);
+  const vtkSmartPointer<vtkIdTypeArray> ids = PointsOf(corners);
+  SetTriangles(piece, corners, ids);
 
   const vtkIdType size = ids->GetNumberOfTuples();
   vtkNew<vtkIdList> from;

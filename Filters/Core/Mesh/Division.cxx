@@ -16,20 +16,6 @@ namespace
 {
 /** Vertices that one thread looks at at a time. */
 constexpr std::size_t SpanSize = 8192;
-
-/** Calls visit(i) for each of [0, n), side by side. */
-template <typename Visit>
-void ForEach(Executor& executor, std::size_t n, const Visit& visit)
-{
-  ForSpans(executor, n, SpanSize,
-    [&](std::size_t, std::size_t begin, std::size_t end)
-    {
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        visit(i);
-      }
-    });
-}
 }
 
 void KeptEdges::KeepAt(int v, int neighbour)
@@ -308,7 +294,14 @@ SurfaceMesh Divide(const SurfaceMesh& mesh, const std::vector<int>& own,
   const DivisionNumbers& numbers, const KeptEdges* kept, Executor& executor)
 {
   SqrtThreeDivision division(mesh, numbers, kept);
-  ForEach(executor, own.size(), [&](std::size_t i) { division.DivideAt(own[i]); });
+  ForSpans(executor, own.size(), SpanSize,
+    [&](std::size_t, std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        division.DivideAt(own[i]);
+      }
+    });
   return division.Take();
 }
 

@@ -7,6 +7,7 @@
 #include "Core/Common/Spans.h"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <utility>
 
@@ -215,11 +216,17 @@ void RankBlocks::Scatter(const SurfaceMesh& mesh, const std::vector<int>& own,
   }
   this->Low = low;
   this->High = high;
-  this->KnownVertices = static_cast<int>(SumOfRanks(this->Ranks, own.size()));
-  this->KnownCharacteristic =
-    this->KnownVertices - static_cast<int>(SumOfRanks(this->Ranks, ends) / 6);
-  const std::size_t places = SumOfRanks(
-    this->Ranks, this->Ranks.Rank() == 0 ? mesh.Rings.size() : std::size_t(0));
+  using Sizes = std::array<std::size_t, 3>; // Vertices and ends of each rank, places of rank 0.
+  const std::vector<Sizes> all =
+    GatherValues(this->Ranks, Sizes{ own.size(), ends, mesh.Rings.size() });
+  const auto sumOf = [&all](std::size_t which)
+  {
+    return std::accumulate(all.begin(), all.end(), std::size_t(0),
+      [which](std::size_t sum, const Sizes& sizes) { return sum + sizes[which]; });
+  };
+  const std::size_t places = all.front()[2];
+  this->KnownVertices = static_cast<int>(sumOf(0));
+  this->KnownCharacteristic = this->KnownVertices - static_cast<int>(sumOf(1) / 6);
   this->Blocks.ForgetVertices();
   this->State.Remake(places, this->KnownVertices, low, high);
   this->State.EulerCharacteristic = this->KnownCharacteristic;
