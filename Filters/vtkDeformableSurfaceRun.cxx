@@ -190,8 +190,7 @@ volumic::SegmentationRequest vtkDeformableSurface::vtkInternals::RequestAsSet(
   request.InitialSurface = this->InitialSurface;
   request.AttractingPoints = this->AttractingPoints;
   request.EdgeSelection = this->Filter.GetInputArrayInformation(1);
-  request.Checkpoints.AreLeft =
-    request.End.MemoryLimit > 0 || !request.End.ScratchDirectory.empty() || request.End.Resume;
+  request.Checkpoints.AreLeft = request.End.LeavesCheckpoints();
   request.MayGoOn = volumic::SegmentationCache::MayKeep(&this->Filter);
   // Whoever watches may choose others; else, and where memory is short, it would be held in vain.
   request.KeepsWhole = this->IsWatched && !request.Checkpoints.AreLeft;
@@ -274,11 +273,7 @@ std::unique_ptr<volumic::SurfaceSegmentation> vtkDeformableSurface::vtkInternals
   {
     return nullptr;
   }
-  const std::string aboutWhole = volumic::GatherLevels(ranks, volume, request.EdgeSelection);
-  if (!aboutWhole.empty() && ranks.Rank() == 0)
-  {
-    request.Warn(aboutWhole);
-  }
+  volumic::GatherLevels(ranks, volume, request.EdgeSelection);
   this->InPieces = volume.InPieces;
   std::unique_ptr<volumic::SurfaceSegmentation> run;
   this->Alone->Run(

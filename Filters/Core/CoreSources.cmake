@@ -26,6 +26,7 @@ set(volumic_core_sources
   Image/PyramidGeometry.cxx
   Image/RowKernels.cxx
   Image/ValidReduction.cxx
+  Image/VoxelHash.cxx
   Image/VoxelPieces.cxx
   Labels/BoundaryGaussian.cxx
   Labels/BoundaryRows.cxx
@@ -161,6 +162,7 @@ set(volumic_core_headers
   Image/ThickPart.h
   Image/ValidReduction.h
   Image/VoxelBox.h
+  Image/VoxelHash.h
   Image/VoxelNumbers.h
   Image/VoxelParts.h
   Image/VoxelPieces.h

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Pyramid/PyramidLevels.h"
 
-#include "Core/Common/ContentHash.h"
 #include "Core/Common/Refuse.h"
 #include "Core/Image/VoxelNumbers.h"
 #include "Host/PrefixErrors.h"
 #include "Input/ImageVoxels.h"
 #include "Input/LevelPlaces.h"
+#include "Pyramid/FieldVoxels.h"
 
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
@@ -54,24 +54,6 @@ double UnitInWorkspace(vtkImageData* level0, vtkImageData* image)
     ratio = axis == 0 ? step : std::min(ratio, step);
   }
   return ratio;
-}
-
-/** A copy in which voxels that are not valid have a value. */
-LargeVector<float> Fill(const VoxelValues& voxels, const LargeVector<std::uint8_t>& valid,
-  float value, Executor& executor)
-{
-  LargeVector<float> filled(valid.size());
-  executor.For(filled.size(), 1 << 16,
-    [&](std::size_t begin, std::size_t end)
-    {
-      voxels.Copy(static_cast<std::ptrdiff_t>(begin), static_cast<std::ptrdiff_t>(end - begin),
-        filled.data() + begin);
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        filled[i] = valid[i] != 0 ? filled[i] : value;
-      }
-    });
-  return filled;
 }
 }
 
@@ -193,6 +175,11 @@ std::array<double, 2> PyramidLevels::Range(int level) const
 
 std::string PyramidLevels::DescribeNaNsOfLevel0() const
 {
+  const auto pieces = this->Pieces.find(0);
+  if (pieces != this->Pieces.end())
+  {
+    return pieces->second.AboutNaNs;
+  }
   SequentialExecutor thread;
   const ValidVoxels valid = this->ValidAt(0, thread);
   return valid.NaNs > 0 ? DescribeNaNs(this->Voxels[0], this->Images[0], valid) : std::string();
@@ -200,12 +187,27 @@ std::string PyramidLevels::DescribeNaNsOfLevel0() const
 
 std::uint64_t PyramidLevels::HashOfVoxels(int level, Executor& executor) const
 {
+  const auto found = this->Pieces.find(level);
+  if (found != this->Pieces.end())
+  {
+    return found->second.Hash;
+  }
   const vtkSmartPointer<vtkDataArray> voxels = ContiguousVoxels(this->Voxels[level]);
-  const std::string kind = volumic::SizeOf(this->Images[level]) + voxels->GetDataTypeAsString();
-  const std::size_t bytes = static_cast<std::size_t>(voxels->GetNumberOfValues()) *
-    static_cast<std::size_t>(voxels->GetDataTypeSize());
-  return CombineHashes(ContentHash(kind.data(), kind.size()),
-    ContentHash(voxels->GetVoidPointer(0), bytes, executor));
+  const VoxelPieces whole(OnThisRank(), VoxelBox::Of(this->Sizes[level]));
+  return volumic::HashOfVoxels(OnThisRank(), whole, voxels, executor);
+}
+
+void PyramidLevels::SetInPieces(const LevelsInPieces& pieces)
+{
+  this->Pieces = pieces;
+  for (const auto& [level, of] : pieces)
+  {
+    this->Ranges[level] = of.Range;
+    if (of.Base)
+    {
+      this->Bases[level] = *of.Base;
+    }
+  }
 }
 
 LevelImage PyramidLevels::Load(int wanted, double base, double background, Executor& executor)
@@ -215,7 +217,9 @@ LevelImage PyramidLevels::Load(int wanted, double base, double background, Execu
   const std::string name = "level " + std::to_string(level);
   CheckSize(image, name, "Set Coarsest Level to a finer level.");
   const vtkSmartPointer<vtkDataArray> voxels = ContiguousVoxels(this->Voxels[level]);
-  const ValidVoxels valid = this->ValidAt(level, executor);
+  const auto pieces = this->Pieces.find(level);
+  const bool isHere = pieces == this->Pieces.end();
+  const ValidVoxels valid = isHere ? this->ValidAt(level, executor) : ValidVoxels();
   // Sums and differences of voxels must not overflow either.
   constexpr double largest = 1e37;
   const std::array<double, 2> range = this->Range(level);
@@ -228,29 +232,17 @@ LevelImage PyramidLevels::Load(int wanted, double base, double background, Execu
 
   this->Loaded = voxels;
   this->Filled = LargeVector<float>();
+  const auto filled = this->Bases.find(level);
+  const FieldVoxels read = filled != this->Bases.end()
+    ? FieldVoxels{ static_cast<const float*>(voxels->GetVoidPointer(0)), filled->second }
+    : PrefixErrors(name + ": ", [&] { return FieldVoxelsOf(voxels, range, base); });
   LevelImage loaded;
-  const bool isFine = voxels->GetDataType() == VTK_FLOAT && voxels == this->Voxels[level] &&
-    FloatHolds(range[0], range[1]);
-  loaded.Base = isFine ? 0.0 : base;
-  if (isFine)
-  {
-    loaded.Values = static_cast<const float*>(voxels->GetVoidPointer(0));
-  }
-  else
-  {
-    switch (voxels->GetDataType())
-    {
-      vtkTemplateMacro(loaded.Values =
-          VoxelValues(static_cast<const VTK_TT*>(voxels->GetVoidPointer(0)), loaded.Base));
-      default:
-        Refuse(name, ": ", NameOf(voxels), " has voxels of type ", voxels->GetDataTypeAsString(),
-          ", which is not supported.");
-    }
-  }
+  loaded.Values = read.Values;
+  loaded.Base = read.Base;
   if (!valid.Marks.empty())
   {
-    this->Filled = Fill(
-      loaded.Values, valid.Marks, static_cast<float>(background - loaded.Base), executor);
+    this->Filled.resize(valid.Marks.size());
+    FillInvalid(read, valid.Marks, background, this->Filled.data(), executor);
     loaded.Values = this->Filled.data();
   }
   for (int axis = 0; axis < 3; ++axis)
@@ -260,6 +252,13 @@ LevelImage PyramidLevels::Load(int wanted, double base, double background, Execu
       static_cast<double>(this->Sizes[0][axis]) / loaded.Size[axis];
   }
   loaded.Unit = this->UnitOf(wanted);
+  if (!isHere)
+  {
+    const auto less = [&loaded](double value) { return static_cast<float>(value - loaded.Base); };
+    loaded.Extremes = pieces->second.Base
+      ? pieces->second.Extremes
+      : std::array<float, 2>{ less(range[0]), less(range[1]) };
+  }
   return loaded;
 }
 

@@ -8,6 +8,7 @@
 #include "Core/Common/ScratchMemory.h"
 #include "Core/Image/LevelImage.h"
 #include "Core/Image/ThickPart.h"
+#include "Input/LevelInPieces.h"
 #include "Input/ValidVoxels.h"
 #include "Input/Workspace.h"
 
@@ -82,15 +83,19 @@ public:
   std::array<double, 2> Range(int level) const;
 
   /**
-   * For a level whose voxels are not here (LevelInPieces): all of them are valid, and these are the
-   * smallest and the largest.
+   * The levels whose voxels are not here but with ranks: Load() then gives room for them, and what
+   * else is asked is known.
    */
-  void SetRange(int level, const std::array<double, 2>& range) { this->Ranges[level] = range; }
+  void SetInPieces(const LevelsInPieces& pieces);
+  const LevelsInPieces& InPieces() const { return this->Pieces; }
+  bool IsInPieces(int level) const { return this->Pieces.count(std::max(level, 0)) > 0; }
+  /** To be called when the voxels of a level have come into that room. */
+  void TakeWhole(int level) { this->Pieces.erase(std::max(level, 0)); }
 
   /** What DescribeNaNs() says of level 0; nothing if there are none. */
   std::string DescribeNaNsOfLevel0() const;
 
-  /** Of size, type and values of the level's voxels; see ContentHash.h. */
+  /** Of the values of the level's voxels as they came, also of those that are not valid. */
   std::uint64_t HashOfVoxels(int level, Executor& executor) const;
 
   /**
@@ -123,6 +128,8 @@ private:
   std::vector<vtkSmartPointer<vtkDataArray>> Voxels;
   std::vector<Size> Sizes;
   std::vector<double> Units; ///< workspace
+  LevelsInPieces Pieces;
+  std::map<int, double> Bases; ///< by level: of those that are in pieces, or were
   double FactorBelowLevel0 = 1.7320508075688772;
   Workspace Space;
   vtkSmartPointer<vtkDataArray> Loaded; ///< what the result of the last Load() refers to

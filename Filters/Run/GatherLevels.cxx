@@ -6,17 +6,20 @@
 #include "Core/Common/Refuse.h"
 #include "Core/Common/ScratchMemory.h"
 #include "Core/Evolution/SurfaceEvolution.h"
+#include "Host/HostThreads.h"
 #include "Host/LargeArray.h"
 #include "Host/PrefixErrors.h"
 #include "Input/ImagePieces.h"
 #include "Input/ImageVoxels.h"
 #include "Input/ValidVoxels.h"
+#include "Pyramid/FieldVoxels.h"
 
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkDataObject.h>
 #include <vtkDataSetAttributes.h>
 #include <vtkFieldData.h>
+#include <vtkFloatArray.h>
 #include <vtkImageData.h>
 #include <vtkInformation.h>
 #include <vtkMultiBlockDataSet.h>
@@ -25,6 +28,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -99,68 +103,93 @@ vtkSmartPointer<vtkImageData> GatherLevel(Communicator& ranks, vtkImageData* pie
   return WithVoxels(image, chosen);
 }
 
-/** Whether points or cells of the image are hidden, on any rank. */
-bool HasGhosts(Communicator& ranks, vtkImageData* piece)
+/** Takes a copy in which voxels that are not valid are background. */
+void Fill(Communicator& ranks, const ValidVoxels& valid, const SurfaceOptions& options,
+  Executor& threads, LevelInPieces& level)
 {
-  const char* ghosts = vtkDataSetAttributes::GhostArrayName();
-  return ranks.IsAny(piece &&
-    (piece->GetPointData()->GetArray(ghosts) || piece->GetCellData()->GetArray(ghosts)));
+  const FieldVoxels read = FieldVoxelsOf(level.Values, level.Range, options.IsoValue);
+  const auto filled = NewLargeArray<vtkFloatArray>(valid.Marks.size());
+  filled->SetName(level.Values->GetName());
+  float* values = filled->GetPointer(0);
+  FillInvalid(read, valid.Marks, BackgroundOf(level.Range, options), values, threads);
+  level.Values = filled;
+  level.Base = read.Base;
+  level.Extremes = { std::numeric_limits<float>::max(), std::numeric_limits<float>::lowest() };
+  for (std::size_t i = 0; i < valid.Marks.size(); ++i)
+  {
+    level.Extremes = { std::min(level.Extremes[0], values[i]),
+      std::max(level.Extremes[1], values[i]) };
+  }
+  for (const std::array<float, 2>& other : GatherValues(ranks, level.Extremes))
+  {
+    level.Extremes = { std::min(level.Extremes[0], other[0]),
+      std::max(level.Extremes[1], other[1]) };
+  }
 }
 
-/** Why a level that all ranks work on is at rank 0 as a whole all the same; empty: it is not. */
-std::string WhyWhole(Communicator& ranks, const SegmentationVolume& volume, vtkImageData* piece,
-  const std::string& edges)
+/** What this rank has of the level, and what all know of it. */
+LevelInPieces PiecesOfLevel(Communicator& ranks, const ImagePieces& pieces, vtkImageData* piece,
+  int h, const SegmentationVolume& volume)
 {
   const SegmentationSettings& settings = volume.Settings;
-  vtkDataArray* nans = volume.Levels->GetFieldData()->GetArray("NaNVoxels");
-  const std::pair<bool, const char*> reasons[] = {
-    { !edges.empty(), "a map of edges is given" },
-    { !nans, "the levels do not tell how many voxels are NaN, as those of Image Pyramid do" },
-    { nans && nans->GetTuple1(0) != 0.0, "voxels are NaN" },
-    { HasGhosts(ranks, piece), "points or cells are hidden" },
-    { settings.EdgeLength != 0.0, "Edge Length is set" },
-    { settings.SnapshotInterval != 0, "Snapshot Interval is set" },
-    { settings.Grading.ThinParts && settings.End.FinestLevel < 0, "Thin Parts is on" },
-    { settings.End.FinestLevel < 0, "Finest Level is -1" },
-    { settings.End.MemoryLimit != 0, "Memory Limit is set" },
-    { !settings.End.ScratchDirectory.empty(), "Scratch Directory is set" },
-    { settings.End.Resume, "Resume is set" } };
-  const auto* reason = std::find_if(std::begin(reasons), std::end(reasons),
-    [](const std::pair<bool, const char*>& each) { return each.first; });
-  return reason == std::end(reasons) ? "" : reason->second;
+  LevelInPieces level;
+  level.Pieces = pieces.Voxels();
+  // Of no voxels where this rank has none: then it is like another one's.
+  const vtkSmartPointer<vtkDataArray> voxels =
+    AgreeOnArray(ranks, piece ? ChooseVoxels(volume.Selection, piece) : nullptr);
+  level.Values = ContiguousVoxels(voxels);
+  HostThreads threads(settings.End.NumberOfThreads);
+  threads.Run(
+    [&]
+    {
+      const ValidVoxels valid = FindValidVoxels(ranks, pieces, voxels, level.Values, piece,
+        settings.NaNIsBackground, threads);
+      if (h == 0)
+      {
+        CheckAnyIsValid(voxels, valid, ranks);
+      }
+      if (valid.NaNs > 0)
+      {
+        level.AboutNaNs = DescribeNaNs(voxels, pieces.Frame(), valid);
+      }
+      level.Range = RangeOf(ranks, level.Values, valid);
+      if (settings.End.LeavesCheckpoints())
+      {
+        level.Hash = HashOfVoxels(ranks, level.Pieces, level.Values, threads);
+      }
+      if (!valid.AreAll)
+      {
+        Fill(ranks, valid, settings.Options, threads, level);
+      }
+    });
+  return level;
 }
 
 /** The level at rank 0, with room for its voxels; what ranks have of them goes to the volume. */
-vtkSmartPointer<vtkImageData> LeaveInPieces(
-  Communicator& ranks, const ImagePieces& pieces, vtkImageData* piece, int h,
-  SegmentationVolume& volume)
+vtkSmartPointer<vtkImageData> LeaveInPieces(Communicator& ranks, const ImagePieces& pieces,
+  vtkImageData* piece, int h, SegmentationVolume& volume)
 {
-  LevelInPieces level;
-  level.Pieces = pieces.Voxels();
-  vtkDataArray* own = piece ? ChooseVoxels(volume.Selection, piece) : nullptr;
-  const vtkSmartPointer<vtkDataArray> like = AgreeOnArray(ranks, own);
-  level.Values = own ? ContiguousVoxels(own) : nullptr;
-  level.Range = RangeOf(ranks, level.Values, ValidVoxels());
-  volume.InPieces[h] = level;
+  const LevelInPieces& level = volume.InPieces[h] = PiecesOfLevel(ranks, pieces, piece, h, volume);
   if (ranks.Rank() != 0)
   {
     return nullptr;
   }
-  const auto image = pieces.PartOfFrame(VoxelBox::Of(pieces.Size()));
+  const VoxelBox all = VoxelBox::Of(pieces.Size());
+  const auto image = pieces.PartOfFrame(all);
   image->SetFieldData(pieces.Frame()->GetFieldData());
   const ZeroedAllocations zeroed;
-  return WithVoxels(image,
-    NewLargeArrayLike(
-      like, static_cast<vtkIdType>(VoxelBox::Of(pieces.Size()).Count())));
+  return WithVoxels(
+    image, NewLargeArrayLike(level.Values, static_cast<vtkIdType>(all.Count())));
 }
 }
 
-std::string GatherLevels(Communicator& ranks, SegmentationVolume& volume, vtkInformation* edges)
+void GatherLevels(Communicator& ranks, SegmentationVolume& volume, vtkInformation* edges)
 {
-  std::string told;
+  const SurfaceOptions& options = volume.Settings.Options;
+  const std::string map = options.EdgeAttractionWeight > 0.0 ? ChosenName(edges) : "";
   if (ranks.NumberOfRanks() == 1)
   {
-    return told;
+    return;
   }
   PrefixErrors("Input port 0: ",
     [&]
@@ -181,23 +210,12 @@ std::string GatherLevels(Communicator& ranks, SegmentationVolume& volume, vtkInf
           {
             vtkImageData* piece = PieceIn(volume.Levels, h);
             const ImagePieces pieces(ranks, piece);
-            if (h + 1 < count && !pieces.IsEmpty() &&
-              SurfaceEvolution::AreShared(volume.Settings.Options, pieces.Size()))
+            if (h + 1 < count && !pieces.IsEmpty() && map.empty() &&
+              SurfaceEvolution::AreShared(options, pieces.Size()))
             {
-              const std::string why = WhyWhole(ranks, volume, piece, ChosenName(edges));
-              if (why.empty())
-              {
-                return LeaveInPieces(ranks, pieces, piece, static_cast<int>(h), volume);
-              }
-              if (told.empty())
-              {
-                told = Join("Level ", h, ", of ", VoxelBox::Of(pieces.Size()).Count(),
-                  " voxels, is held by the first process as a whole, as ", why,
-                  "; else each process would hold a part of it.");
-              }
+              return LeaveInPieces(ranks, pieces, piece, static_cast<int>(h), volume);
             }
-            return GatherLevel(
-              ranks, piece, volume.Selection, ChosenName(edges));
+            return GatherLevel(ranks, piece, volume.Selection, map);
           });
         whole->SetBlock(h, level);
       }
@@ -208,6 +226,5 @@ std::string GatherLevels(Communicator& ranks, SegmentationVolume& volume, vtkInf
   volume.Selection->Set(
     vtkDataObject::FIELD_ASSOCIATION(), vtkDataObject::FIELD_ASSOCIATION_POINTS);
   volume.Selection->Set(vtkDataObject::FIELD_ATTRIBUTE_TYPE(), vtkDataSetAttributes::SCALARS);
-  return told;
 }
 }

@@ -6,22 +6,20 @@
 #include "Core/Common/Communicator.h"
 #include "Settings/SegmentationVolume.h"
 
-#include <string>
-
 class vtkInformation;
 
 namespace volumic
 {
 /**
  * By all ranks together: the levels that they hold in pieces, whole at rank 0; of those that are
- * large enough for all ranks to work on only where something asks for it. Each has the voxels
- * as its active scalars, the map of edges, and what is blanked; the others keep their pieces. One
- * rank keeps what it has.
+ * large enough for all ranks to work on only where a map of edges is wanted. Each has the voxels
+ * as its active scalars, the map, and what is blanked; the others keep their pieces. One rank keeps
+ * what it has.
  * @param edges selection of the map, as GetInputArrayInformation()
- * @return of the finest large one that is whole, why; empty: there is none
- * @throws std::invalid_argument where the blocks are not the levels of a pyramid.
+ * @throws std::invalid_argument where the blocks are not the levels of a pyramid, or a level that
+ *         stays in pieces has voxels that are infinite, or NaN where these are refused.
  */
-std::string GatherLevels(Communicator& ranks, SegmentationVolume& volume, vtkInformation* edges);
+void GatherLevels(Communicator& ranks, SegmentationVolume& volume, vtkInformation* edges);
 }
 
 #endif

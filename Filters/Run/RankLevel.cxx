@@ -182,6 +182,7 @@ void HelpWithLevel(Communicator& ranks, const LevelsInPieces& pieces, HelpersPie
   {
     run = std::make_shared<HelpersRun>(shared, goOn);
   }
+  run->Evolution.SetMeanEdgeLength(shared.MeanEdgeLength);
   StopReason reason = StopReason::Cancelled;
   run->Threads.Run(
     [&]

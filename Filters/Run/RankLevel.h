@@ -66,6 +66,7 @@ struct SharedLevel
   Work Is = Work::Evolves;
   SurfaceOptions Options;
   int Level = 0;
+  double MeanEdgeLength = 0.; ///< SurfaceEvolution::SetMeanEdgeLength()
   int NumberOfThreads = 0;
   /** What becomes of the surface that has evolved there. */
   enum class Next

@@ -6,6 +6,7 @@
 #include "Core/Image/ThickPart.h"
 #include "Host/PrefixErrors.h"
 #include "Input/InputPoints.h"
+#include "Pyramid/FieldVoxels.h"
 #include "Settings/CheckEnumeration.h"
 
 #include <vtkDataArray.h>
@@ -43,12 +44,8 @@ PyramidLevels ReadVoxels(const SegmentationVolume& volume)
 
 SegmentationLevels::SegmentationLevels(const SegmentationVolume& volume)
   : MayHaveUnreportedNaNs(MayHaveNaNsToReport(volume)), Voxels(ReadVoxels(volume))
-  , Pieces(volume.InPieces)
 {
-  for (const auto& [level, pieces] : this->Pieces)
-  {
-    this->Voxels.SetRange(level, pieces.Range);
-  }
+  this->Voxels.SetInPieces(volume.InPieces);
 }
 
 SegmentationLevels::~SegmentationLevels() = default;
@@ -129,17 +126,11 @@ std::string SegmentationLevels::DescribeUnreportedNaNs() const
 
 LevelImage SegmentationLevels::Load(int level, const SurfaceOptions& options, Executor& threads)
 {
-  const double iso = options.IsoValue;
-  const std::array<double, 2> range = this->Range(std::max(level, 0));
-  // As outside the image (Field.h): as far from the iso-value as any voxel is.
-  const double away = std::max(range[1] - iso, iso - range[0]);
-  const double background = options.ObjectIsBright ? iso - away : iso + away;
-  LevelImage image =
-    PrefixErrors(Port0, [&] { return this->Voxels.Load(level, iso, background, threads); });
+  const double background = BackgroundOf(this->Range(std::max(level, 0)), options);
+  LevelImage image = PrefixErrors(Port0,
+    [&] { return this->Voxels.Load(level, options.IsoValue, background, threads); });
   if (this->IsInPieces(level))
   {
-    const auto less = [&image](double value) { return static_cast<float>(value - image.Base); };
-    image.Extremes = { less(range[0]), less(range[1]) };
     return image; // Nothing can be made of voxels that are not here.
   }
   if (this->Edges)

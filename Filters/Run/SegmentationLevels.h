@@ -83,10 +83,10 @@ public:
   /**
    * The levels whose voxels lie with the ranks (SegmentationVolume): Load() gives these without.
    */
-  const LevelsInPieces& InPieces() const { return this->Pieces; }
-  bool IsInPieces(int level) const { return this->Pieces.count(std::max(level, 0)) > 0; }
+  const LevelsInPieces& InPieces() const { return this->Voxels.InPieces(); }
+  bool IsInPieces(int level) const { return this->Voxels.IsInPieces(level); }
   /** To be called when the voxels of a level have come here: Load() gives them from now on. */
-  void TakeWhole(int level) { this->Pieces.erase(std::max(level, 0)); }
+  void TakeWhole(int level) { this->Voxels.TakeWhole(level); }
 
   /** PyramidLevels::HashOfVoxels() of the map of edges, all levels; 0: there is none. */
   std::uint64_t HashOfEdges(Executor& threads) const;
@@ -97,7 +97,6 @@ private:
   std::unique_ptr<PointAttraction> Points; ///< null: none
   std::unique_ptr<EdgeLevels> Edges;       ///< null: none
   std::vector<float> Bent;                 ///< the level's voxels as the points bend them
-  LevelsInPieces Pieces;
   mutable std::map<int, bool> Holds;       ///< what HoldsObject() has found
 };
 }

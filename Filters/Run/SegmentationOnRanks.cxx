@@ -5,22 +5,42 @@
 
 #include "Run/SurfaceSegmentation.h"
 
+#include "Core/Common/Join.h"
 #include "Run/RankLevel.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace volumic
 {
+const char* SurfaceSegmentation::WhyAlone(int level) const
+{
+  const Grading& grading = this->Settings.Grading;
+  const bool isGraded = grading.IsWanted() && level == this->Settings.End.FinestLevel;
+  const std::pair<bool, const char*> reasons[] = {
+    { level >= this->Choice.Coarsest, "the surface starts there" },
+    { isGraded && grading.HasTolerance(), "Tolerance is set" },
+    { isGraded, "Thin Parts is on" },
+    { level < 0, "Finest Level is -1" },
+    { this->Settings.SnapshotInterval != 0, "Snapshot Interval is set" },
+    { this->Levels.HasPoints(), "points attract" },
+    { this->Levels.HasEdges(), "a map of edges attracts" } };
+  const auto* reason = std::find_if(std::begin(reasons), std::end(reasons),
+    [](const std::pair<bool, const char*>& each) { return each.first; });
+  return reason == std::end(reasons) ? nullptr : reason->second;
+}
+
 bool SurfaceSegmentation::MayBeShared(int level) const
 {
-  // Snapshots, mean or graded edges, and what attracts are for the whole surface, on one rank.
-  return this->Request.OnAllRanks && level < this->Choice.Coarsest && level >= 0 &&
+  return this->IsForAllRanks(level) && !this->WhyAlone(level);
+}
+
+bool SurfaceSegmentation::IsForAllRanks(int level) const
+{
+  return this->Request.OnAllRanks &&
     SurfaceEvolution::AreShared(
-      this->Settings.Options, this->Levels.Pyramid().SizeOf(level)) &&
-    this->Settings.SnapshotInterval == 0 && this->Settings.EdgeLength == 0.0 &&
-    !(this->Settings.Grading.IsWanted() && level == this->Settings.End.FinestLevel) &&
-    !this->Levels.HasPoints() && !this->Levels.HasEdges();
+      this->Settings.Options, this->Levels.Pyramid().SizeOf(std::max(level, 0)));
 }
 
 SharedLevel::Next SurfaceSegmentation::AfterShared(int level) const
@@ -43,8 +63,22 @@ bool SurfaceSegmentation::NeedsWholeResult() const
     this->Settings.End.KeepComponents != KeepComponentsType::AllComponents;
 }
 
-void SurfaceSegmentation::GatherVoxels(int level)
+void SurfaceSegmentation::TakeAlone(int level)
 {
+  const char* why = this->IsForAllRanks(level) ? this->WhyAlone(level) : nullptr;
+  if (!why)
+  {
+    return;
+  }
+  if (!std::exchange(this->HasToldOfAlone, true))
+  {
+    this->Request.Warn(Join("From level ", level, " on the first process holds all voxels, and "
+      "finds the surface alone, as ", why, "."));
+  }
+  if (!this->Levels.IsInPieces(level))
+  {
+    return;
+  }
   SharedLevel shared;
   shared.Is = SharedLevel::Work::GivesVoxels;
   shared.Level = std::max(level, 0);

@@ -264,22 +264,12 @@ void SurfaceSegmentation::RunLevels()
     this->KeepRest();
     this->Found.Forget(level); // Of a run that was stopped there.
     this->Levels.ReleaseCoarserThan(level);
-    if (this->Levels.IsInPieces(level) && !this->MayBeShared(level))
-    {
-      if (this->Settings.Grading.IsWanted())
-      {
-        this->Request.Warn(Join("Level ", level,
-          " is held, and its surface found, by the first process alone, as ",
-          this->Settings.Grading.HasTolerance() ? "Tolerance is set." : "Thin Parts is on."));
-      }
-      this->GatherVoxels(level);
-    }
+    this->TakeAlone(level);
     const LevelImage image = this->Levels.Load(level, this->Settings.Options, *this->Threads);
     this->Threads->EndPhase("Voxels");
     if (level == this->Settings.End.FinestLevel)
     {
-      this->Evolution->SetMeanEdgeLength(
-        this->Settings.EdgeLength / this->Levels.GetWorkspace().WorldUnit());
+      this->Evolution->SetMeanEdgeLength(this->WantedMeanEdge(level));
       Grading grading = this->Settings.Grading;
       grading.ThinParts = grading.ThinParts && level < 0;
       grading.Tolerance /= this->Levels.GetWorkspace().WorldUnit();
@@ -327,6 +317,13 @@ bool SurfaceSegmentation::PreviewMissesParts(int level) const
       SegmentationResults::NotableShare;
 }
 
+double SurfaceSegmentation::WantedMeanEdge(int level) const
+{
+  return level == this->Settings.End.FinestLevel
+    ? this->Settings.EdgeLength / this->Levels.GetWorkspace().WorldUnit()
+    : 0.0;
+}
+
 bool SurfaceSegmentation::EvolveOn(
   const LevelImage& image, int level, StopReason& reason, SurfaceResult& surface)
 {
@@ -336,7 +333,7 @@ bool SurfaceSegmentation::EvolveOn(
     bool isDivided = false;
     const SharedLevel::Next next = this->AfterShared(level);
     const SharedLevel shared{ SharedLevel::Work::Evolves, this->Settings.Options, level,
-      this->Settings.End.NumberOfThreads, next,
+      this->WantedMeanEdge(level), this->Settings.End.NumberOfThreads, next,
       next != SharedLevel::Next::IsWhole && !this->NeedsWholeResult() };
     this->Request.OnAllRanks(
       [&]

@@ -100,14 +100,23 @@ private:
   void ReturnToRest();
   /** Whether a preview that has come to this level must go on, as too much is missing. */
   bool PreviewMissesParts(int level) const;
-  /** Whether all ranks may work on a level. */
+  /** Whether a level is large enough for all ranks, of which there are several. */
+  bool IsForAllRanks(int level) const;
+  /** Why rank 0 is alone on such a level; null: it is not. */
+  const char* WhyAlone(int level) const;
+  /** Whether all ranks work on a level. */
   bool MayBeShared(int level) const;
   /** What becomes of the surface after a level on which all ranks have worked. */
   SharedLevel::Next AfterShared(int level) const;
   /** Whether rank 0 is to have all of the surface that a run on all ranks ends with. */
   bool NeedsWholeResult() const;
-  /** On all ranks: brings rank 0 the voxels of a level that is in pieces. */
-  void GatherVoxels(int level);
+  /**
+   * Of a level that is large enough for all ranks, but for rank 0 alone: says so, once a run, and
+   * brings it the voxels, by all ranks, where these are in pieces.
+   */
+  void TakeAlone(int level);
+  /** In the workspace; 0: as it comes. */
+  double WantedMeanEdge(int level) const;
   /**
    * Brings the surface to a level, by a start or a division, and evolves it there, on all ranks
    * where MayBeShared(). @return false where it was stopped before it had come there: then it still
@@ -144,6 +153,7 @@ private:
   int Reached = 0;     ///< the level at which it rests
   bool GoesOn = false; ///< It does, and is fit for a finer one.
   FileInMemory Rest; ///< The evolution as it rested there, while it is at a finer one.
+  bool HasToldOfAlone = false; ///< See TakeAlone().
   bool HasChosen = true; ///< The components of what is there are those that are wanted.
   std::shared_ptr<SegmentationCheckpoint> Left; ///< null: none is left
   std::unique_ptr<RankLevel> Shared; ///< what the evolution refers to, after a level on all ranks

@@ -59,6 +59,12 @@ struct SegmentationEnd
   int MemoryLimit = 0;     ///< of the process, MiB; 0: none
   std::string ScratchDirectory; ///< for what memory does not hold; empty: the system's
   bool Resume = false; ///< Go on from a checkpoint, where there is one.
+
+  /** A limit of memory, or a folder, says that the run is long. */
+  bool LeavesCheckpoints() const
+  {
+    return this->MemoryLimit > 0 || !this->ScratchDirectory.empty() || this->Resume;
+  }
 };
 
 /**

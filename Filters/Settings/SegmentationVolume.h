@@ -3,28 +3,15 @@
 #ifndef volumicSegmentationVolume_h
 #define volumicSegmentationVolume_h
 
-#include "Core/Image/VoxelPieces.h"
+#include "Input/LevelInPieces.h"
 #include "Settings/SegmentationSettings.h"
 
-#include <vtkDataArray.h>
 #include <vtkInformation.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkSmartPointer.h>
 
-#include <array>
-#include <map>
-
 namespace volumic
 {
-/** The voxels of a level that stay with the ranks, each of which has a piece. */
-struct LevelInPieces
-{
-  VoxelPieces Pieces;
-  vtkSmartPointer<vtkDataArray> Values; ///< of this rank's, contiguous in memory; null: none
-  std::array<double, 2> Range = { 0.0, 0.0 }; ///< of all
-};
-using LevelsInPieces = std::map<int, LevelInPieces>;
-
 /** The levels that a surface is searched in, and how. */
 struct SegmentationVolume
 {

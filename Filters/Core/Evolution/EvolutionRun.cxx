@@ -154,10 +154,14 @@ void SurfaceEvolution::Implementation::FitMeanEdge(const Dynamics& dynamics)
   const float least = static_cast<float>(SizingField::LeastSamplingRatio * unit);
   const float most = static_cast<float>(unit);
   double first = 0.;
-  for (int step = 0; step < steps && s.Mesh.NumberOfVertices() > 0 &&
-       this->GoOn(Monitor::Activity::Regularising, 0.);
-       ++step)
+  for (int step = 0; step < steps && s.Mesh.NumberOfVertices() > 0; ++step)
   {
+    this->GoOn(Monitor::Activity::Regularising, 0.);
+    this->AgreeOnStop();
+    if (this->Stopped)
+    {
+      break;
+    }
     const double missing = this->WantedMeanEdge / this->MeanEdgeLength() - 1.;
     first = step == 0 ? missing : first;
     const double change = std::min(std::max(share * missing, -longestStep), longestStep);

@@ -51,6 +51,12 @@ void SurfaceEvolution::Implementation::Clear()
 void SurfaceEvolution::Implementation::Reset()
 {
   SurfaceState& s = this->State;
+  if (this->IsInPieces())
+  {
+    this->LayOutInPieces(0);
+    this->LabelComponents();
+    return;
+  }
   this->ForgetBlocks();
   s.Mesh.Reorder(
     SpaceFillingOrder(s.Mesh, s.Sizing.Smallest(), this->Threads), this->Threads);

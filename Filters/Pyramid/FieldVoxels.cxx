@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Pyramid/FieldVoxels.h"
+
+#include "Core/Common/ContentHash.h"
+#include "Core/Common/Refuse.h"
+#include "Core/Image/VoxelHash.h"
+#include "Input/ImageVoxels.h"
+
+#include <vtkDataArray.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+#include <vector>
+
+namespace volumic
+{
+FieldVoxels FieldVoxelsOf(vtkDataArray* voxels, const std::array<double, 2>& range, double base)
+{
+  FieldVoxels read;
+  if (voxels->GetDataType() == VTK_FLOAT && FloatHolds(range[0], range[1]))
+  {
+    read.Values = static_cast<const float*>(voxels->GetVoidPointer(0));
+    return read;
+  }
+  read.Base = base;
+  switch (voxels->GetDataType())
+  {
+    vtkTemplateMacro(
+      read.Values = VoxelValues(static_cast<const VTK_TT*>(voxels->GetVoidPointer(0)), base));
+    default:
+      Refuse(NameOf(voxels), " has voxels of type ", voxels->GetDataTypeAsString(),
+        ", which is not supported.");
+  }
+  return read;
+}
+
+double BackgroundOf(const std::array<double, 2>& range, const SurfaceOptions& options)
+{
+  const double iso = options.IsoValue;
+  const double away = std::max(range[1] - iso, iso - range[0]);
+  return options.ObjectIsBright ? iso - away : iso + away;
+}
+
+std::uint64_t HashOfVoxels(Communicator& ranks, const VoxelPieces& pieces, vtkDataArray* voxels,
+  Executor& executor)
+{
+  std::uint64_t own = 0;
+  for (const VoxelBox& part : pieces.OwnOf(ranks.Rank()))
+  {
+    own += HashOfVoxels(voxels->GetVoidPointer(0),
+      static_cast<std::size_t>(voxels->GetDataTypeSize()), pieces.HeldBy(ranks.Rank()), part,
+      pieces.Bounds(), executor);
+  }
+  const std::vector<std::uint64_t> sums = GatherValues(ranks, own);
+  return CombineHashes(static_cast<std::uint64_t>(voxels->GetDataType()),
+    std::accumulate(sums.begin(), sums.end(), std::uint64_t(0)));
+}
+
+void FillInvalid(const FieldVoxels& voxels, const LargeVector<std::uint8_t>& marks,
+  double background, float* filled, Executor& executor)
+{
+  const auto value = static_cast<float>(background - voxels.Base);
+  executor.For(marks.size(), 1 << 16,
+    [&](std::size_t begin, std::size_t end)
+    {
+      voxels.Values.Copy(static_cast<std::ptrdiff_t>(begin),
+        static_cast<std::ptrdiff_t>(end - begin), filled + begin);
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        filled[i] = marks[i] != 0 ? filled[i] : value;
+      }
+    });
+}
+}

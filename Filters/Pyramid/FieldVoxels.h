@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicFieldVoxels_h
+#define volumicFieldVoxels_h
+
+#include "Core/Common/Communicator.h"
+#include "Core/Common/Executor.h"
+#include "Core/Common/ScratchMemory.h"
+#include "Core/Evolution/SurfaceOptions.h"
+#include "Core/Image/VoxelPieces.h"
+#include "Core/Image/VoxelValues.h"
+
+#include <array>
+#include <cstdint>
+
+class vtkDataArray;
+
+namespace volumic
+{
+/** The voxels of a level as the surface reads them: Values and Base of LevelImage. */
+struct FieldVoxels
+{
+  VoxelValues Values;
+  double Base = 0.0;
+};
+
+/**
+ * Floats are taken as they are, unless their differences are small beside their size; of all others
+ * `base` is subtracted.
+ * @param voxels contiguous in memory; they are shared
+ * @param range  smallest and largest of all voxels of the level that are valid
+ * @throws std::invalid_argument if their type is not supported.
+ */
+FieldVoxels FieldVoxelsOf(
+  vtkDataArray* voxels, const std::array<double, 2>& range, double base);
+
+/** What voxels get that are not valid: as far from the iso-value as any voxel is (Field.h). */
+double BackgroundOf(const std::array<double, 2>& range, const SurfaceOptions& options);
+
+/**
+ * By all ranks together, of all pieces: 64 bits that tell voxels apart (VoxelHash.h), as they came
+ * and by their type; the same however they are cut.
+ * @param voxels this rank's, contiguous in memory; of no voxels where it has none
+ */
+std::uint64_t HashOfVoxels(Communicator& ranks, const VoxelPieces& pieces, vtkDataArray* voxels,
+  Executor& executor);
+
+/** Copies the values to `filled`, with the background for those that are not marked as valid. */
+void FillInvalid(const FieldVoxels& voxels, const LargeVector<std::uint8_t>& marks,
+  double background, float* filled, Executor& executor);
+}
+
+#endif
