@@ -8,6 +8,7 @@
 #include "Host/HostThreads.h"
 #include "Output/SurfaceOutput.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -107,7 +108,7 @@ std::unique_ptr<RankLevel> ShareLevel(Communicator& ranks, const SharedLevel& sh
   const LevelImage& image, const LevelsInPieces& pieces)
 {
   BroadcastValue(ranks, shared);
-  const auto found = pieces.find(shared.Level);
+  const auto found = pieces.find(std::max(shared.Level, 0));
   auto level = std::make_unique<RankLevel>(
     ranks, image, found != pieces.end() ? &found->second : nullptr);
   if (shared.Is == SharedLevel::Work::GivesVoxels)
@@ -167,7 +168,7 @@ void HelpWithLevel(Communicator& ranks, const LevelsInPieces& pieces, HelpersPie
       });
     return;
   }
-  const auto found = pieces.find(shared.Level);
+  const auto found = pieces.find(std::max(shared.Level, 0));
   auto level = std::make_unique<RankLevel>(
     ranks, LevelImage(), found != pieces.end() ? &found->second : nullptr);
   if (shared.Is == SharedLevel::Work::GivesVoxels)

@@ -22,7 +22,6 @@ const char* SurfaceSegmentation::WhyAlone(int level) const
     { level >= this->Choice.Coarsest, "the surface starts there" },
     { isGraded && grading.HasTolerance(), "Tolerance is set" },
     { isGraded, "Thin Parts is on" },
-    { level < 0, "Finest Level is -1" },
     { this->Settings.SnapshotInterval != 0, "Snapshot Interval is set" },
     { this->Levels.HasPoints(), "points attract" },
     { this->Levels.HasEdges(), "a map of edges attracts" } };
