@@ -274,7 +274,10 @@ std::unique_ptr<volumic::SurfaceSegmentation> vtkDeformableSurface::vtkInternals
     return nullptr;
   }
   volumic::GatherLevels(ranks, volume, request.EdgeSelection);
-  this->InPieces = volume.InPieces;
+  if (ranks.Rank() != 0)
+  {
+    this->InPieces = std::move(volume.InPieces); // Rank 0's are its run's.
+  }
   std::unique_ptr<volumic::SurfaceSegmentation> run;
   this->Alone->Run(
     [&] { run = std::make_unique<volumic::SurfaceSegmentation>(volume, request); });

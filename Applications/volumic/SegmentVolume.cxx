@@ -113,13 +113,18 @@ FilterRun GiveLevels(const Job& job)
   }
   ShareWithPyramid(filter, pyramid);
   SetInput(job, pyramid);
+  // The surface lets go of each level as it leaves it, and of its part of the volume.
+  pyramid->ReleaseDataFlagOn();
+  if (job.Volume.Part)
+  {
+    job.Volume.Part->ReleaseDataFlagOn();
+  }
   const FilterRun run = RunOnVolume(job, pyramid, "Building the pyramid", job.Says.Style);
   if (run.IsInterrupted)
   {
     job.All.ThrowOnAll("interrupted before there was a surface; nothing is written");
   }
   filter->SetInputConnection(pyramid->GetOutputPort());
-  pyramid->ReleaseDataFlagOn(); // The surface lets go of each level as it leaves it.
   return run;
 }
 

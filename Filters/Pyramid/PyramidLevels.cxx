@@ -270,6 +270,10 @@ void PyramidLevels::ReleaseCoarserThan(int level)
   {
     this->Images[h] = nullptr;
     this->Voxels[h] = nullptr;
+    if (this->IsInPieces(h))
+    {
+      this->Pieces[h].Values = nullptr;
+    }
   }
 }
 }

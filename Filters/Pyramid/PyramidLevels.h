@@ -87,7 +87,7 @@ public:
    * else is asked is known.
    */
   void SetInPieces(const LevelsInPieces& pieces);
-  const LevelsInPieces& InPieces() const { return this->Pieces; }
+  LevelsInPieces& InPieces() { return this->Pieces; }
   bool IsInPieces(int level) const { return this->Pieces.count(std::max(level, 0)) > 0; }
   /** To be called when the voxels of a level have come into that room. */
   void TakeWhole(int level) { this->Pieces.erase(std::max(level, 0)); }

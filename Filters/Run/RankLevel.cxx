@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstring>
 #include <utility>
 #include <vector>
 
@@ -28,6 +29,13 @@ public:
 private:
   std::function<bool()> Goes;
 };
+
+/** Null where all voxels of the level are at rank 0. */
+LevelInPieces* PiecesOf(LevelsInPieces& pieces, int level)
+{
+  const auto found = pieces.find(std::max(level, 0));
+  return found != pieces.end() ? &found->second : nullptr;
+}
 }
 
 /** What a rank that helps evolves its piece with. */
@@ -44,7 +52,7 @@ struct HelpersRun
 };
 
 RankLevel::RankLevel(
-  Communicator& ranks, const LevelImage& image, const LevelInPieces* pieces)
+  Communicator& ranks, const LevelImage& image, LevelInPieces* pieces, bool takes)
   : Ranks(ranks)
   , Level(BroadcastValue(ranks, image))
   , StaysInPieces(BroadcastValue(ranks, pieces != nullptr))
@@ -66,12 +74,46 @@ RankLevel::RankLevel(
   {
     this->Pieces = pieces->Pieces;
     this->Held = pieces->Values ? pieces->Values->GetVoidPointer(0) : nullptr;
+    this->Layout = this->Pieces.HeldBy(ranks.Rank());
+    if (takes && pieces->Values && pieces->Values->GetReferenceCount() == 1)
+    {
+      this->TakePiece(*pieces);
+    }
   }
   else
   {
     this->Pieces = VoxelPieces(ranks, ranks.Rank() == 0 ? all : VoxelBox());
     this->Held = this->Room;
+    this->Layout = this->Pieces.HeldBy(ranks.Rank());
   }
+}
+
+void RankLevel::TakePiece(LevelInPieces& pieces)
+{
+  const VoxelBox all = VoxelBox::Of(this->Level.Size);
+  const std::size_t bytes = this->Level.Values.BytesPerVoxel();
+  const VoxelBox& own = this->Layout;
+  const char* row = static_cast<const char*>(this->Held);
+  const std::size_t length = static_cast<std::size_t>(own.Length(0)) * bytes;
+  for (int k = own.First[2]; k < own.End[2]; ++k)
+  {
+    for (int j = own.First[1]; j < own.End[1]; ++j, row += length)
+    {
+      std::memcpy(
+        this->Room + static_cast<std::size_t>(all.NumberOf(own.First[0], j, k)) * bytes, row,
+        length);
+    }
+  }
+  pieces.Values = nullptr;
+  this->Fetched.push_back(own);
+  this->Held = this->Room;
+  this->Layout = all;
+}
+
+void RankLevel::Fetch(const std::vector<VoxelBox>& boxes)
+{
+  this->Pieces.FetchInto(this->Ranks, this->Held, this->Layout,
+    this->Level.Values.BytesPerVoxel(), boxes, VoxelBox::Of(this->Level.Size), this->Room);
 }
 
 void RankLevel::Need(const VoxelBox& box)
@@ -86,8 +128,7 @@ void RankLevel::Need(const VoxelBox& box)
     }
     this->Fetched.push_back(box);
   }
-  this->Pieces.FetchInto(this->Ranks, this->Held, this->Level.Values.BytesPerVoxel(), lacking,
-    VoxelBox::Of(this->Level.Size), this->Room);
+  this->Fetch(lacking);
 }
 
 void RankLevel::NeedMeasures()
@@ -99,18 +140,16 @@ void RankLevel::NeedMeasures()
     {
       measured = Field::MeasuredVoxels(this->Level.Size);
     }
-    this->Pieces.FetchInto(this->Ranks, this->Held, this->Level.Values.BytesPerVoxel(), measured,
-      VoxelBox::Of(this->Level.Size), this->Room);
+    this->Fetch(measured);
   }
 }
 
 std::unique_ptr<RankLevel> ShareLevel(Communicator& ranks, const SharedLevel& shared,
-  const LevelImage& image, const LevelsInPieces& pieces)
+  const LevelImage& image, LevelsInPieces& pieces)
 {
   BroadcastValue(ranks, shared);
-  const auto found = pieces.find(std::max(shared.Level, 0));
   auto level = std::make_unique<RankLevel>(
-    ranks, image, found != pieces.end() ? &found->second : nullptr);
+    ranks, image, PiecesOf(pieces, shared.Level), shared.TakesVoxels);
   if (shared.Is == SharedLevel::Work::GivesVoxels)
   {
     level->Need(VoxelBox::Of(image.Size));
@@ -151,7 +190,7 @@ void ShareOutput(Communicator& ranks, int level, const Workspace& space, int num
   BroadcastValue(ranks, space);
 }
 
-void HelpWithLevel(Communicator& ranks, const LevelsInPieces& pieces, HelpersPiece& piece,
+void HelpWithLevel(Communicator& ranks, LevelsInPieces& pieces, HelpersPiece& piece,
   const std::function<bool()>& goOn)
 {
   const SharedLevel shared = BroadcastValue(ranks, SharedLevel());
@@ -168,13 +207,17 @@ void HelpWithLevel(Communicator& ranks, const LevelsInPieces& pieces, HelpersPie
       });
     return;
   }
-  const auto found = pieces.find(std::max(shared.Level, 0));
   auto level = std::make_unique<RankLevel>(
-    ranks, LevelImage(), found != pieces.end() ? &found->second : nullptr);
+    ranks, LevelImage(), PiecesOf(pieces, shared.Level), shared.TakesVoxels);
   if (shared.Is == SharedLevel::Work::GivesVoxels)
   {
     level->Need(VoxelBox());
     return;
+  }
+  for (auto coarser = pieces.upper_bound(std::max(shared.Level, 0)); coarser != pieces.end();
+       ++coarser)
+  {
+    coarser->second.Values = nullptr; // As rank 0 has let go of them.
   }
   std::shared_ptr<HelpersRun> run = std::move(piece.Run);
   piece.Result = SurfaceResult();

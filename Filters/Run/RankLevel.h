@@ -30,8 +30,11 @@ public:
    * @param image at rank 0 the level, with all its voxels or room for them; the others learn of it
    *        here
    * @param pieces the voxels that are not there, but with the ranks; null: rank 0 has all
+   * @param takes  whether they are wanted here for the last time: a piece that nobody else has is
+   *               taken, lest its voxels be twice in memory
    */
-  RankLevel(Communicator& ranks, const LevelImage& image, const LevelInPieces* pieces);
+  RankLevel(
+    Communicator& ranks, const LevelImage& image, LevelInPieces* pieces, bool takes);
 
   /**
    * At rank 0 its voxels are where they were; elsewhere there is room for them, empty until Need().
@@ -44,11 +47,15 @@ public:
   void NeedMeasures();
 
 private:
+  void TakePiece(LevelInPieces& pieces);
+  void Fetch(const std::vector<VoxelBox>& boxes);
+
   Communicator& Ranks;
   LevelImage Level;
   const bool StaysInPieces;
   VoxelPieces Pieces;
-  const void* Held = nullptr; ///< this rank's piece
+  const void* Held = nullptr; ///< this rank's piece,
+  VoxelBox Layout;            ///< in the rows of this box
   std::vector<VoxelBox> Fetched; ///< by Need()
   LargeVector<char> Voxels;   ///< of the whole level; written where they are needed
   char* Room = nullptr;       ///< these, or those of rank 0
@@ -76,6 +83,7 @@ struct SharedLevel
     IsWhole       ///< Rank 0 gets it.
   };
   Next Then = Next::IsWhole;
+  bool TakesVoxels = false; ///< See RankLevel.
   bool InPieces = false; ///< Its output is not whole: each rank makes its own piece.
 };
 
@@ -105,17 +113,18 @@ bool EvolveOnRanks(Communicator& ranks, const SharedLevel& shared,
  * At rank 0, likewise: tells the others of a level whose voxels it wants, or on which all evolve.
  */
 std::unique_ptr<RankLevel> ShareLevel(Communicator& ranks, const SharedLevel& shared,
-  const LevelImage& image, const LevelsInPieces& pieces);
+  const LevelImage& image, LevelsInPieces& pieces);
 
 /** At rank 0, likewise: tells the others to make outputs of their pieces, as it is about to do. */
 void ShareOutput(Communicator& ranks, int level, const Workspace& space, int numberOfThreads);
 
 /**
  * At the others, until rank 0 is done.
- * @param piece what this rank keeps of the surface
- * @param goOn  asked now and then; false ends the run of all
+ * @param pieces of the voxels; those of levels that the surface has left are let go of
+ * @param piece  what this rank keeps of the surface
+ * @param goOn   asked now and then; false ends the run of all
  */
-void HelpWithLevel(Communicator& ranks, const LevelsInPieces& pieces, HelpersPiece& piece,
+void HelpWithLevel(Communicator& ranks, LevelsInPieces& pieces, HelpersPiece& piece,
   const std::function<bool()>& goOn);
 }
 

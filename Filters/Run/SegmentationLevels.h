@@ -83,7 +83,7 @@ public:
   /**
    * The levels whose voxels lie with the ranks (SegmentationVolume): Load() gives these without.
    */
-  const LevelsInPieces& InPieces() const { return this->Voxels.InPieces(); }
+  LevelsInPieces& InPieces() { return this->Voxels.InPieces(); }
   bool IsInPieces(int level) const { return this->Voxels.IsInPieces(level); }
   /** To be called when the voxels of a level have come here: Load() gives them from now on. */
   void TakeWhole(int level) { this->Voxels.TakeWhole(level); }

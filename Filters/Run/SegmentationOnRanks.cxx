@@ -69,10 +69,12 @@ void SurfaceSegmentation::TakeAlone(int level)
   {
     return;
   }
-  if (!std::exchange(this->HasToldOfAlone, true))
+  if (this->ToldOfAlone.insert(why).second)
   {
-    this->Request.Warn(Join("From level ", level, " on the first process holds all voxels, and "
-      "finds the surface alone, as ", why, "."));
+    const bool isForOthers = level > this->Choice.Last && this->WhyAlone(level - 1) == why;
+    this->Request.Warn(Join(isForOthers ? "From level " : "On level ", level,
+      isForOthers ? " on" : "", " the first process holds all voxels, and finds the surface alone, "
+      "as ", why, "."));
   }
   if (!this->Levels.IsInPieces(level))
   {

@@ -334,6 +334,8 @@ bool SurfaceSegmentation::EvolveOn(
     const SharedLevel::Next next = this->AfterShared(level);
     const SharedLevel shared{ SharedLevel::Work::Evolves, this->Settings.Options, level,
       this->WantedMeanEdge(level), this->Settings.End.NumberOfThreads, next,
+      // Level -1 has those of level 0.
+      !this->Request.MayGoOn && !(level == 0 && this->Choice.Last < 0),
       next != SharedLevel::Next::IsWhole && !this->NeedsWholeResult() };
     this->Request.OnAllRanks(
       [&]

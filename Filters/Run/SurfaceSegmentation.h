@@ -22,6 +22,7 @@
 
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -111,8 +112,8 @@ private:
   /** Whether rank 0 is to have all of the surface that a run on all ranks ends with. */
   bool NeedsWholeResult() const;
   /**
-   * Of a level that is large enough for all ranks, but for rank 0 alone: says so, once a run, and
-   * brings it the voxels, by all ranks, where these are in pieces.
+   * Of a level that is large enough for all ranks, but for rank 0 alone: says so, of each
+   * reason once a run, and brings it the voxels, by all ranks, where these are in pieces.
    */
   void TakeAlone(int level);
   /** In the workspace; 0: as it comes. */
@@ -153,7 +154,7 @@ private:
   int Reached = 0;     ///< the level at which it rests
   bool GoesOn = false; ///< It does, and is fit for a finer one.
   FileInMemory Rest; ///< The evolution as it rested there, while it is at a finer one.
-  bool HasToldOfAlone = false; ///< See TakeAlone().
+  std::set<std::string> ToldOfAlone; ///< why; see TakeAlone()
   bool HasChosen = true; ///< The components of what is there are those that are wanted.
   std::shared_ptr<SegmentationCheckpoint> Left; ///< null: none is left
   std::unique_ptr<RankLevel> Shared; ///< what the evolution refers to, after a level on all ranks

@@ -155,12 +155,21 @@ class SameFilesTest(RanksTestCase):
         for volume, *options in ((parts, "--reduction-factor", 1.25), (whole,)):
             with self.subTest(volume):
                 self.check_same(2, volume, "--iso", 60.5, "--levels", 3, *options)
-        # What the checkpoints of --scratch ask for is told once.
+        # Voxels and surfaces stay with the ranks for checkpoints, limits and edges of a length.
+        for options in (["--scratch", self.folder], ["--memory", "900M"], ["--edge-length", 1.4],
+                        ["--finest", -1]):
+            with self.subTest(options[0]):
+                self.check_same(2, parts, "--iso", 60.5, "--levels", 3, *options)
+                process = self.run_ranks(2, parts, self.path("many.vtp"), "--iso", 60.5, *options)
+                self.assertNotIn("warning", process.stderr)
+        # What brings them to the first one is told once.
         process = self.run_ranks(2, parts, self.path("many.vtp"), "--iso", 60.5, "--levels", 3,
-                                 "--reduction-factor", 1.25, "--scratch", self.folder)
-        self.assertEqual(process.stderr.count("warning"), 1, process.stderr)
-        self.assertIn(f"Level 0, of {size ** 3} voxels, is held by the first process as a whole, "
-                      "as --scratch is set", process.stderr)
+                                 "--reduction-factor", 1.25, "--snapshot-interval", 20)
+        self.assertEqual(process.stderr.count("warning"), 2, process.stderr)
+        for where, why in (("On level 2", "the surface starts there"),
+                           ("From level 1 on", "--snapshot-interval is set")):
+            self.assertIn(f"{where} the first process holds all voxels, and finds the surface "
+                          f"alone, as {why}.", process.stderr)
 
     def test_what_is_given_beside_the_volume(self):
         volume = self.ball_file()

@@ -15,6 +15,36 @@ namespace volumic
 {
 using Filter = vtkSmartPointer<vtkDeformableSurface>;
 
+/** Voxels along each axis of the least level that is shared. */
+constexpr int SharedSize = 162;
+
+/** A ball with a cavity, and a smaller one. */
+inline vtkSmartPointer<vtkImageData> TwoBalls()
+{
+  auto image = vtkSmartPointer<vtkImageData>::New();
+  image->SetDimensions(SharedSize, SharedSize, SharedSize);
+  image->AllocateScalars(VTK_UNSIGNED_CHAR, 1);
+  image->GetPointData()->GetScalars()->SetName("Voxels");
+  auto* voxels = static_cast<unsigned char*>(image->GetScalarPointer());
+  std::fill_n(voxels, static_cast<std::size_t>(SharedSize) * SharedSize * SharedSize, 0);
+  const auto ramp = [](double inside) { return std::clamp(0.5 + 0.4 * inside, 0.0, 1.0); };
+  for (int k = 40; k < 130; ++k)
+  {
+    for (int j = 40; j < 130; ++j)
+    {
+      for (int i = 40; i < 130; ++i)
+      {
+        const double large = std::hypot(i - 70, j - 70, k - 70);
+        const double small = std::hypot(i - 108, j - 106, k - 104);
+        const double value = std::max(std::min(ramp(20 - large), ramp(large - 9)), ramp(10 - small));
+        voxels[(static_cast<std::size_t>(k) * SharedSize + j) * SharedSize + i] =
+          static_cast<unsigned char>(std::lround(100.0 * value));
+      }
+    }
+  }
+  return image;
+}
+
 /** The filters of all ranks, when they are through. */
 using Ranks = std::vector<Filter>;
 

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Common/CheckedFile.h"
 #include "Core/Common/ContentHash.h"
-#include "Core/Common/StandardThreads.h"
 #include "TemporaryFolder.h"
 
 #include <fstream>
@@ -290,18 +289,6 @@ TEST(ContentHash, IsAnotherOneForAnyOtherContent)
     expectNew(37);
     bytes[place] = 0;
   }
-}
-
-TEST(ContentHash, IsTheSameForAnyExecutor)
-{
-  std::vector<unsigned char> bytes((3 << 20) + 17);
-  for (std::size_t i = 0; i < bytes.size(); ++i)
-  {
-    bytes[i] = static_cast<unsigned char>(i * i >> 3);
-  }
-  StandardThreads threads(3);
-  EXPECT_EQ(
-    ContentHash(bytes.data(), bytes.size()), ContentHash(bytes.data(), bytes.size(), threads));
 }
 
 TEST(ContentHash, IsWrittenInHexadecimalDigits)

@@ -12,36 +12,6 @@ using namespace volumic;
 
 namespace
 {
-/** Voxels along each axis of the least level that is shared. */
-constexpr int Size = 162;
-
-/** A ball with a cavity, and a smaller one. */
-vtkSmartPointer<vtkImageData> TwoBalls()
-{
-  auto image = vtkSmartPointer<vtkImageData>::New();
-  image->SetDimensions(Size, Size, Size);
-  image->AllocateScalars(VTK_UNSIGNED_CHAR, 1);
-  image->GetPointData()->GetScalars()->SetName("Voxels");
-  auto* voxels = static_cast<unsigned char*>(image->GetScalarPointer());
-  std::fill_n(voxels, static_cast<std::size_t>(Size) * Size * Size, 0);
-  const auto ramp = [](double inside) { return std::clamp(0.5 + 0.4 * inside, 0.0, 1.0); };
-  for (int k = 40; k < 130; ++k)
-  {
-    for (int j = 40; j < 130; ++j)
-    {
-      for (int i = 40; i < 130; ++i)
-      {
-        const double large = std::hypot(i - 70, j - 70, k - 70);
-        const double small = std::hypot(i - 108, j - 106, k - 104);
-        const double value = std::max(std::min(ramp(20 - large), ramp(large - 9)), ramp(10 - small));
-        voxels[(static_cast<std::size_t>(k) * Size + j) * Size + i] =
-          static_cast<unsigned char>(std::lround(100.0 * value));
-      }
-    }
-  }
-  return image;
-}
-
 Filter FilterOf(vtkDataObject* input, vtkMultiProcessController* controller)
 {
   auto filter = Filter::New();
@@ -282,7 +252,7 @@ TEST(RankPieces, AreNoneWhereACheckpointStays)
   RunRanks(2, make, Update);
   EXPECT_EQ(folder.Names().size(), 1u);
   const auto goOn = [](vtkDeformableSurface* filter) { filter->SetFinestLevel(-1); };
-  const Ranks ranks = RunRanks(2, make,
+  const Ranks ranks = RunRanks(3, make, // others than before
     [&](vtkDeformableSurface* filter, vtkMultiProcessController* controller)
     {
       goOn(filter);

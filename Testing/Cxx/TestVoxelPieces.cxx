@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Common/StandardThreads.h"
+#include "Core/Image/VoxelHash.h"
 #include "Core/Image/VoxelPieces.h"
 #include "ThreadRanks.h"
 
@@ -115,7 +117,8 @@ TEST(VoxelPieces, BringManyBoxesTogetherAndNothingThatIsHere)
       const auto fetch = [&](const std::vector<VoxelBox>& wanted)
       {
         const Communicator::Traffic before = ranks.Sent();
-        pieces.FetchInto(ranks, voxels.data(), sizeof(int), wanted, all, fetched.data());
+        pieces.FetchInto(
+          ranks, voxels.data(), held, sizeof(int), wanted, all, fetched.data());
         return Communicator::Traffic{ ranks.Sent().Bytes - before.Bytes,
           ranks.Sent().Messages - before.Messages };
       };
@@ -136,6 +139,70 @@ TEST(VoxelPieces, BringManyBoxesTogetherAndNothingThatIsHere)
       EXPECT_EQ(fetched, once);
       EXPECT_LT(fetch({ held }).Bytes, 500u);
     });
+}
+
+TEST(VoxelPieces, MayLieWhereTheWholeHasRoom)
+{
+  ThreadRanks::Run(3,
+    [](Communicator& ranks)
+    {
+      const VoxelBox all = VoxelBox::Of({ 20, 20, 20 });
+      const VoxelBox held = SlabOf(ranks.Rank(), 3);
+      const VoxelPieces pieces(ranks, held);
+      const std::vector<int> codes = CodesOf(all);
+      std::vector<int> voxels(codes.size(), -1);
+      const auto fill = [&](const VoxelBox& box)
+      {
+        for (int k = box.First[2]; k < box.End[2]; ++k)
+        {
+          const auto first = static_cast<std::ptrdiff_t>(400) * k;
+          std::copy_n(codes.begin() + first, 400, voxels.begin() + first);
+        }
+      };
+      fill(held);
+      const VoxelBox wanted = { { 3, 4, 7 }, { 18, 11, 19 } };
+      pieces.FetchInto(
+        ranks, voxels.data(), all, sizeof(int), { wanted }, all, voxels.data());
+      for (std::size_t i = 0; i < voxels.size(); ++i)
+      {
+        const int n = static_cast<int>(i);
+        const std::array<int, 3> place = { n % 20, n / 20 % 20, n / 400 };
+        ASSERT_EQ(voxels[i], wanted.Contains(place) || held.Contains(place) ? codes[i] : -1);
+      }
+    });
+}
+
+TEST(VoxelHash, OfAllPartsIsThatOfTheWhole)
+{
+  const VoxelBox all = VoxelBox::Of({ 17, 9, 11 });
+  std::mt19937 generator(8);
+  StandardThreads threads(3);
+  for (const std::size_t bytes : { 1, 2, 4, 8 })
+  {
+    SCOPED_TRACE(bytes);
+    std::vector<unsigned char> voxels(static_cast<std::size_t>(all.Count()) * bytes);
+    std::generate(
+      voxels.begin(), voxels.end(), [&] { return static_cast<unsigned char>(generator()); });
+    const auto hashOf = [&](const VoxelBox& part, Executor& executor)
+    { return HashOfVoxels(voxels.data(), bytes, all, part, all, executor); };
+    const std::uint64_t whole = hashOf(all, threads);
+    EXPECT_EQ(hashOf(all, OnThisThread()), whole);
+    EXPECT_EQ(hashOf({ { 0, 0, 0 }, { 5, 9, 11 } }, threads) +
+        hashOf({ { 5, 0, 0 }, { 17, 4, 11 } }, threads) +
+        hashOf({ { 5, 4, 0 }, { 17, 9, 11 } }, threads) + hashOf(VoxelBox(), threads),
+      whole);
+    // A part that is held alone.
+    const VoxelBox slab = { { 0, 0, 4 }, { 17, 9, 7 } };
+    EXPECT_EQ(HashOfVoxels(voxels.data() + static_cast<std::size_t>(all.NumberOf(0, 0, 4)) * bytes,
+                bytes, slab, slab, all),
+      hashOf(slab, threads));
+    // Any other voxel, and any other place, makes it another.
+    voxels[100 * bytes] ^= 1;
+    EXPECT_NE(hashOf(all, threads), whole);
+    voxels[100 * bytes] ^= 1;
+    std::rotate(voxels.begin(), voxels.begin() + static_cast<std::ptrdiff_t>(bytes), voxels.end());
+    EXPECT_NE(hashOf(all, threads), whole);
+  }
 }
 
 TEST(VoxelPieces, LeaveVoxelsThatNobodyHolds)

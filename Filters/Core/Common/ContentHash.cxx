@@ -5,13 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <vector>
 
 namespace volumic
 {
 namespace
 {
-/** Bytes that one thread takes at a time. */
+/** Bytes that have a hash of their own. */
 constexpr std::size_t SpanSize = 1 << 20;
 /** Words that are worked on side by side: a product waits for the one before it. */
 constexpr std::size_t Strands = 4;
@@ -63,17 +62,13 @@ std::uint64_t CombineHashes(std::uint64_t first, std::uint64_t second)
   return Mix(Mix(first) + second);
 }
 
-std::uint64_t ContentHash(const void* bytes, std::size_t count, Executor& executor)
+std::uint64_t ContentHash(const void* bytes, std::size_t count)
 {
   const auto* first = static_cast<const unsigned char*>(bytes);
-  std::vector<std::uint64_t> hashes((count + SpanSize - 1) / SpanSize);
-  ForSpans(executor, count, SpanSize,
-    [&](std::size_t span, std::size_t begin, std::size_t end)
-    { hashes[span] = HashOfSpan(first + begin, end - begin); });
   std::uint64_t all = 0;
-  for (const std::uint64_t hash : hashes)
+  for (std::size_t begin = 0; begin < count; begin += SpanSize)
   {
-    all = CombineHashes(all, hash);
+    all = CombineHashes(all, HashOfSpan(first + begin, std::min(SpanSize, count - begin)));
   }
   return all;
 }

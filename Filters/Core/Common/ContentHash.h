@@ -3,8 +3,6 @@
 #ifndef volumicContentHash_h
 #define volumicContentHash_h
 
-#include "Core/Common/Executor.h"
-
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -13,10 +11,9 @@ namespace volumic
 {
 /**
  * 64 bits that tell contents apart: not against forgery, but against what is another by chance or
- * by damage. The same for any executor; another one where the processor's order of bytes is.
+ * by damage. Another one where the processor's order of bytes is.
  */
-std::uint64_t ContentHash(
-  const void* bytes, std::size_t count, Executor& executor = OnThisThread());
+std::uint64_t ContentHash(const void* bytes, std::size_t count);
 
 /** The hash of two contents, one after the other, of their hashes. */
 std::uint64_t CombineHashes(std::uint64_t first, std::uint64_t second);

@@ -105,11 +105,13 @@ std::vector<VoxelPieces::Delivery> VoxelPieces::DeliveriesFor(
 void VoxelPieces::Fetch(Communicator& ranks, const void* voxels, std::size_t bytes,
   const VoxelBox& wanted, void* fetched) const
 {
-  this->FetchInto(ranks, voxels, bytes, { wanted }, wanted, fetched);
+  this->FetchInto(
+    ranks, voxels, this->HeldBy(ranks.Rank()), bytes, { wanted }, wanted, fetched);
 }
 
-void VoxelPieces::FetchInto(Communicator& ranks, const void* voxels, std::size_t bytes,
-  const std::vector<VoxelBox>& wanted, const VoxelBox& place, void* fetched) const
+void VoxelPieces::FetchInto(Communicator& ranks, const void* voxels, const VoxelBox& layout,
+  std::size_t bytes, const std::vector<VoxelBox>& wanted, const VoxelBox& place,
+  void* fetched) const
 {
   std::vector<std::vector<std::vector<VoxelBox>>> rounds; // By rank.
   std::size_t count = 0;
@@ -126,16 +128,16 @@ void VoxelPieces::FetchInto(Communicator& ranks, const void* voxels, std::size_t
       ofRank.resize(count); // Nothing past its last.
       round.push_back(std::move(ofRank[n]));
     }
-    this->FetchOnce(ranks, static_cast<const char*>(voxels), bytes, round, place,
+    this->FetchOnce(ranks, static_cast<const char*>(voxels), layout, bytes, round, place,
       static_cast<char*>(fetched));
   }
 }
 
-void VoxelPieces::FetchOnce(Communicator& ranks, const char* voxels, std::size_t bytes,
-  const std::vector<std::vector<VoxelBox>>& wanted, const VoxelBox& place, char* fetched) const
+void VoxelPieces::FetchOnce(Communicator& ranks, const char* voxels, const VoxelBox& layout,
+  std::size_t bytes, const std::vector<std::vector<VoxelBox>>& wanted, const VoxelBox& place,
+  char* fetched) const
 {
   const int own = ranks.Rank();
-  const VoxelBox& held = this->HeldBy(own);
   std::vector<Message> messages(this->Held.size());
   std::vector<int> partners = { own };
   for (int to = 0; to < ranks.NumberOfRanks(); ++to)
@@ -152,7 +154,7 @@ void VoxelPieces::FetchOnce(Communicator& ranks, const char* voxels, std::size_t
         continue;
       }
       partners.push_back(to);
-      ForRowsOf(delivery.Box, held,
+      ForRowsOf(delivery.Box, layout,
         [&](std::int64_t first, std::int64_t count)
         {
           const char* row = voxels + static_cast<std::size_t>(first) * bytes;
@@ -177,7 +179,7 @@ void VoxelPieces::FetchOnce(Communicator& ranks, const char* voxels, std::size_t
         ++row;
         const auto size = static_cast<std::size_t>(count) * bytes;
         const char* source = delivery.From == own
-          ? voxels + static_cast<std::size_t>(held.NumberOf(delivery.Box.First[0], j, k)) * bytes
+          ? voxels + static_cast<std::size_t>(layout.NumberOf(delivery.Box.First[0], j, k)) * bytes
           : messages[from].data() + read[from];
         read[from] += size;
         std::memcpy(fetched + static_cast<std::size_t>(first) * bytes, source, size);

@@ -52,9 +52,11 @@ public:
   /**
    * The same for some boxes, which go together, where `fetched` has room for a larger one, of which
    * other voxels stay as they are.
+   * @param layout the box that `voxels` has room for: what this rank holds, or more
    */
-  void FetchInto(Communicator& ranks, const void* voxels, std::size_t bytes,
-    const std::vector<VoxelBox>& wanted, const VoxelBox& place, void* fetched) const;
+  void FetchInto(Communicator& ranks, const void* voxels, const VoxelBox& layout,
+    std::size_t bytes, const std::vector<VoxelBox>& wanted, const VoxelBox& place,
+    void* fetched) const;
 
   template <typename T>
   void Fetch(Communicator& ranks, const T* voxels, const VoxelBox& wanted, T* fetched) const
@@ -77,8 +79,9 @@ private:
   };
   std::vector<Delivery> DeliveriesFor(int rank, const std::vector<VoxelBox>& wanted) const;
   /** @param wanted by rank */
-  void FetchOnce(Communicator& ranks, const char* voxels, std::size_t bytes,
-    const std::vector<std::vector<VoxelBox>>& wanted, const VoxelBox& place, char* fetched) const;
+  void FetchOnce(Communicator& ranks, const char* voxels, const VoxelBox& layout,
+    std::size_t bytes, const std::vector<std::vector<VoxelBox>>& wanted, const VoxelBox& place,
+    char* fetched) const;
 
   std::vector<VoxelBox> Held; ///< by rank
 };

@@ -1,0 +1,218 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The same surfaces whatever the number of ranks and threads and the limit of memory, for all
+// settings that change what ranks share, and all kinds of voxels.
+#include "PieceSource.h"
+#include "RankOutputTestTools.h"
+#include "TemporaryFolder.h"
+#include "vtkImagePyramid.h"
+
+#include <vtkErrorCode.h>
+#include <vtkFloatArray.h>
+
+using namespace volumic;
+
+namespace
+{
+vtkSmartPointer<vtkImageData> ByteVoxels()
+{
+  return TwoBalls();
+}
+
+/** NaN outside a cylinder, as of a scanner, and here and there in and about the object. */
+vtkSmartPointer<vtkImageData> VoxelsWithNaNs()
+{
+  const auto image = TwoBalls();
+  vtkNew<vtkFloatArray> voxels;
+  voxels->DeepCopy(image->GetPointData()->GetScalars());
+  std::mt19937 generator(3);
+  for (vtkIdType v = 0; v < voxels->GetNumberOfTuples(); ++v)
+  {
+    const double x = static_cast<double>(v % SharedSize) - 70.0;
+    const double y = static_cast<double>(v / SharedSize % SharedSize) - 70.0;
+    if (std::hypot(x, y) > 65.0 || generator() % 500 == 0)
+    {
+      voxels->SetValue(v, std::numeric_limits<float>::quiet_NaN());
+    }
+  }
+  image->GetPointData()->SetScalars(voxels);
+  return image;
+}
+
+vtkSmartPointer<vtkUnsignedCharArray> Ghosts(vtkIdType count)
+{
+  auto ghosts = vtkSmartPointer<vtkUnsignedCharArray>::New();
+  ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
+  ghosts->SetNumberOfTuples(count);
+  ghosts->Fill(0.0);
+  return ghosts;
+}
+
+/** A part of the large ball is hidden: its background is less than any byte. */
+vtkSmartPointer<vtkImageData> HiddenPoints()
+{
+  const auto image = TwoBalls();
+  const auto ghosts = Ghosts(image->GetNumberOfPoints());
+  for (vtkIdType v = 0; v < ghosts->GetNumberOfTuples(); ++v)
+  {
+    ghosts->SetValue(v, v % SharedSize > 78 ? vtkDataSetAttributes::HIDDENPOINT : 0);
+  }
+  image->GetPointData()->AddArray(ghosts);
+  return image;
+}
+
+vtkSmartPointer<vtkImageData> HiddenCells()
+{
+  const auto image = TwoBalls();
+  const auto ghosts = Ghosts(image->GetNumberOfCells());
+  const vtkIdType slice = (SharedSize - 1) * (SharedSize - 1);
+  for (vtkIdType c = 0; c < ghosts->GetNumberOfTuples(); ++c)
+  {
+    // About the border of two pieces: what a cell hides depends on those of other ranks.
+    ghosts->SetValue(c, c / slice >= 76 && c / slice < 84 && c % 160 < 70
+        ? vtkDataSetAttributes::HIDDENCELL
+        : 0);
+  }
+  image->GetCellData()->AddArray(ghosts);
+  return image;
+}
+
+struct Case
+{
+  const char* Name;
+  Choice Set;
+  vtkSmartPointer<vtkImageData> (*Make)() = ByteVoxels;
+  const char* Told = ""; ///< why the first process is alone
+  bool HasCheckpoints = false;
+};
+
+std::ostream& operator<<(std::ostream& out, const Case& c)
+{
+  return out << c.Name;
+}
+
+const std::vector<Case> Cases = {
+  { "AsTheyAre", [](vtkDeformableSurface*) {} },
+  { "EdgeLength", [](vtkDeformableSurface* f) { f->SetEdgeLength(1.6); } },
+  { "ShortEdgeLength", [](vtkDeformableSurface* f) { f->SetEdgeLength(0.9); } },
+  { "FinestLevelBelowTheImage", [](vtkDeformableSurface* f) { f->SetFinestLevel(-1); } },
+  { "FinestLevelAboveIt", [](vtkDeformableSurface* f) { f->SetFinestLevel(1); } },
+  { "Tolerance", [](vtkDeformableSurface* f) { f->SetTolerance(0.3); }, ByteVoxels,
+    "Tolerance is set" },
+  { "ThinParts", [](vtkDeformableSurface* f) { f->ThinPartsOn(); }, ByteVoxels,
+    "Thin Parts is on" },
+  { "Snapshots", [](vtkDeformableSurface* f) { f->SetSnapshotInterval(10); }, ByteVoxels,
+    "Snapshot Interval is set" },
+  { "AttractingPositions", [](vtkDeformableSurface* f) { f->AddAttractingPosition(100, 70, 70); },
+    ByteVoxels, "points attract" },
+  { "StartAtTheFinest",
+    [](vtkDeformableSurface* f)
+    {
+      f->SetCoarsestLevel(0);
+      f->SetInitializationToIsoSurface();
+    },
+    ByteVoxels, "the surface starts there" },
+  { "Checkpoints", [](vtkDeformableSurface*) {}, ByteVoxels, "", true },
+  { "MemoryLimit", [](vtkDeformableSurface* f) { f->SetMemoryLimit(4000); }, ByteVoxels, "", true },
+  { "NaNs", [](vtkDeformableSurface*) {}, VoxelsWithNaNs },
+  { "NaNsOfADarkObject",
+    [](vtkDeformableSurface* f)
+    {
+      f->ObjectIsBrightOff();
+      f->SetIsoValue(70.0);
+    },
+    VoxelsWithNaNs },
+  { "NaNsAndCheckpoints", [](vtkDeformableSurface*) {}, VoxelsWithNaNs, "", true },
+  { "HiddenPoints", [](vtkDeformableSurface*) {}, HiddenPoints },
+  { "HiddenCells", [](vtkDeformableSurface*) {}, HiddenCells },
+};
+
+class RankSettings : public testing::TestWithParam<Case>
+{
+public:
+  struct Run
+  {
+    Ranks Filters;
+    std::string Warnings; ///< of the first rank
+  };
+
+  /** Each rank has its piece of the image, which nobody else keeps. */
+  Run RunOn(int count, int threads) const
+  {
+    const Case& is = GetParam();
+    Run run;
+    run.Filters.resize(static_cast<std::size_t>(count));
+    ThreadControllers::Run(count,
+      [&](vtkMultiProcessController* controller)
+      {
+        vtkNew<PieceSource> source;
+        source->Whole = is.Make();
+        source->ReleaseDataFlagOn();
+        vtkNew<vtkImagePyramid> pyramid;
+        pyramid->SetController(controller);
+        pyramid->SetInputConnection(source->GetOutputPort());
+        pyramid->ReleaseDataFlagOn();
+        auto filter = Filter::New();
+        filter->SetController(controller);
+        filter->SetInputConnection(pyramid->GetOutputPort());
+        filter->SetIsoValue(50.0);
+        filter->SetRecovery(vtkDeformableSurface::RecoverObjectsAndCavities);
+        filter->SetNumberOfThreads(threads);
+        is.Set(filter);
+        if (is.HasCheckpoints)
+        {
+          filter->SetScratchDirectory(this->Folder.Path().c_str());
+        }
+        const MessagesOf warnings(filter, vtkCommand::WarningEvent);
+        ThreadControllers::Update(filter, controller);
+        EXPECT_EQ(filter->GetErrorCode(), vtkErrorCode::NoError);
+        filter->SetController(nullptr);
+        pyramid->SetController(nullptr);
+        if (controller->GetLocalProcessId() == 0)
+        {
+          run.Warnings = warnings.Get();
+        }
+        else
+        {
+          EXPECT_EQ(warnings.Get(), "");
+        }
+        run.Filters[static_cast<std::size_t>(controller->GetLocalProcessId())] = filter;
+      });
+    return run;
+  }
+
+private:
+  const TemporaryFolder Folder; ///< As long as limits of memory refer to it.
+};
+}
+
+TEST_P(RankSettings, AreTheSameOnAllRanks)
+{
+  const Run one = this->RunOn(1, 1);
+  EXPECT_EQ(one.Warnings, "");
+  EXPECT_GT(one.Filters.front()->GetOutput()->GetNumberOfCells(), 1000);
+  for (const auto& [count, threads] : { std::pair(2, 1), std::pair(3, 2) })
+  {
+    SCOPED_TRACE(count);
+    const Run many = this->RunOn(count, threads);
+    std::vector<vtkMultiBlockDataSet*> levels;
+    for (const Filter& filter : many.Filters)
+    {
+      levels.push_back(filter->GetLevels());
+    }
+    ExpectPiecesOf(one.Filters.front()->GetOutput(), SurfacesOf(many.Filters));
+    ExpectBlocksOf(one.Filters.front()->GetLevels(), levels);
+    const std::string told = GetParam().Told;
+    EXPECT_EQ(many.Warnings.empty(), told.empty()) << many.Warnings;
+    EXPECT_NE(many.Warnings.find(told), std::string::npos) << many.Warnings;
+    const std::string alone = "finds the surface alone";
+    const std::size_t first = many.Warnings.find(alone);
+    EXPECT_EQ(first == std::string::npos, told.empty());
+    EXPECT_TRUE(
+      told.empty() || many.Warnings.find(alone, first + 1) == std::string::npos); // Once.
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, RankSettings, testing::ValuesIn(Cases),
+  [](const testing::TestParamInfo<Case>& info) { return std::string(info.param.Name); });
