@@ -3,7 +3,9 @@
 #include "Output/KeepComponents.h"
 
 #include "Core/Common/Refuse.h"
+#include "Core/Common/RankLists.h"
 #include "Core/Common/Spans.h"
+#include "Core/Evolution/RankNumbers.h"
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "Core/Surface/SizingField.h"
 #include "Input/InputPoints.h"
@@ -13,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <numeric>
 #include <utility>
 
@@ -88,12 +91,16 @@ bool Pierces(const Point& p, const Point& a, const Point& b, const Point& c)
  * not count.
  */
 std::vector<int> InnermostAbout(const std::vector<Point>& places, const std::vector<int>& own,
-  const IndexedSurface& surface, const SurfaceFeatures& features, Executor& executor)
+  const SurfaceResult& surface, const SurfaceFeatures& features, Executor& executor)
 {
   const SortedPlaces sorted(places);
   const std::size_t n = surface.Triangles.size();
-  // Places and components, by spans of triangles.
-  std::vector<std::vector<std::pair<std::size_t, int>>> spans((n + SpanSize - 1) / SpanSize);
+  struct Piercing
+  {
+    std::size_t Place;
+    int Component;
+  };
+  std::vector<std::vector<Piercing>> spans((n + SpanSize - 1) / SpanSize);
   ForSpans(executor, n, SpanSize,
     [&](std::size_t span, std::size_t begin, std::size_t end)
     {
@@ -110,18 +117,16 @@ std::vector<int> InnermostAbout(const std::vector<Point>& places, const std::vec
           {
             if ((own.empty() || own[i] != component) && Pierces(places[i], a, b, c))
             {
-              spans[span].emplace_back(i, component);
+              spans[span].push_back({ i, component });
             }
           });
       }
     });
   std::vector<std::vector<int>> pierced(places.size());
-  for (const auto& span : spans)
+  for (const Piercing& found :
+    GatherListsOnAll(*surface.Piece.Ranks, Joined(executor, spans)))
   {
-    for (const auto& found : span)
-    {
-      pierced[found.first].push_back(found.second);
-    }
+    pierced[found.Place].push_back(found.Component);
   }
   std::vector<int> innermost(places.size(), -1);
   for (std::size_t i = 0; i < places.size(); ++i)
@@ -145,23 +150,38 @@ std::vector<int> InnermostAbout(const std::vector<Point>& places, const std::vec
 
 /** The component that each belongs to: itself, or, for a cavity, the one about it (-1: none). */
 std::vector<int> HostsOf(
-  const IndexedSurface& surface, const SurfaceFeatures& features, Executor& executor)
+  const SurfaceResult& surface, const SurfaceFeatures& features, Executor& executor)
 {
   const int n = static_cast<int>(features.Components.size());
   std::vector<int> hosts(static_cast<std::size_t>(n));
   std::iota(hosts.begin(), hosts.end(), 0);
-  std::vector<Point> places;
-  std::vector<int> cavities;
+  struct Cavity
+  {
+    int Component;
+    Point Place; ///< a corner of its first triangle
+  };
+  std::vector<Cavity> own;
   std::vector<bool> isDone(static_cast<std::size_t>(n), false);
   for (std::size_t t = 0; t < surface.Triangles.size(); ++t)
   {
     const int component = features.ComponentOfTriangle[t];
     if (!isDone[component] && features.Components[component].Volume < 0)
     {
-      places.push_back(surface.Points[surface.Triangles[t][0]]);
-      cavities.push_back(component);
+      own.push_back({ component, surface.Points[surface.Triangles[t][0]] });
     }
     isDone[component] = true;
+  }
+  std::vector<Point> places;
+  std::vector<int> cavities;
+  isDone.assign(static_cast<std::size_t>(n), false);
+  for (const Cavity& cavity : GatherListsOnAll(*surface.Piece.Ranks, own))
+  {
+    if (!isDone[cavity.Component])
+    {
+      places.push_back(cavity.Place);
+      cavities.push_back(cavity.Component);
+    }
+    isDone[cavity.Component] = true;
   }
   const std::vector<int> about = InnermostAbout(places, cavities, surface, features, executor);
   for (std::size_t i = 0; i < cavities.size(); ++i)
@@ -210,10 +230,64 @@ void MarkTouching(const SurfaceResult& surface, const SurfaceFeatures& features,
         }
       }
     });
-  for (const int host : Joined(executor, touching))
+  for (const int host : GatherListsOnAll(*surface.Piece.Ranks, Joined(executor, touching)))
   {
     isKept[host] = true;
   }
+}
+
+/**
+ * By all ranks: which piece of the kept part a part of a piece is. @param index of its points in
+ * the part, by their index in the piece; -1: they are not kept
+ */
+void NumberKept(
+  const SurfaceResult& surface, const LargeVector<int>& index, SurfaceResult& part)
+{
+  const PieceOfSurface& whole = surface.Piece;
+  Communicator& ranks = *whole.Ranks;
+  std::vector<int> counted;
+  std::vector<int> others;
+  std::size_t all = 0;
+  for (std::size_t p = 0; p < index.size(); ++p)
+  {
+    all += whole.Counts(p);
+    if (index[p] >= 0)
+    {
+      (whole.Counts(p) ? counted : others).push_back(whole.Ids[p]);
+      part.Piece.Roles.push_back(whole.Roles[p]);
+    }
+  }
+  // Of points in contact all ranks know the numbers in the whole.
+  std::vector<int> ends;
+  for (const std::array<int, 2>& pair : surface.Contacts)
+  {
+    std::copy_if(pair.begin(), pair.end(), std::back_inserter(ends),
+      [&counted](int id) { return std::binary_search(counted.begin(), counted.end(), id); });
+  }
+  ends = GatherListsOnAll(ranks, ends);
+  std::sort(ends.begin(), ends.end());
+  others.insert(others.end(), ends.begin(), ends.end());
+  const VertexNumbers numbers =
+    NumberOnRanks(ranks, SumOfRanks(ranks, all), [](int) { return 0; }, counted, others);
+  for (std::size_t p = 0; p < index.size(); ++p)
+  {
+    if (index[p] >= 0)
+    {
+      part.Piece.Ids.push_back(numbers.Of[whole.Ids[p]].Point);
+    }
+  }
+  for (const std::array<int, 2>& pair : surface.Contacts)
+  {
+    if (std::all_of(pair.begin(), pair.end(),
+          [&ends](int id) { return std::binary_search(ends.begin(), ends.end(), id); }))
+    {
+      part.Contacts.push_back({ numbers.Of[pair[0]].Point, numbers.Of[pair[1]].Point });
+    }
+  }
+  part.Piece.Ranks = whole.Ranks;
+  const std::vector<std::size_t> triangles = GatherValues(ranks, part.Triangles.size());
+  part.Piece.FirstTriangle = static_cast<int>(
+    std::accumulate(triangles.begin(), triangles.begin() + ranks.Rank(), std::size_t(0)));
 }
 
 SurfaceResult PartOf(const SurfaceResult& surface, const SurfaceFeatures& features,
@@ -254,11 +328,18 @@ SurfaceResult PartOf(const SurfaceResult& surface, const SurfaceFeatures& featur
       }
     }
   }
-  for (const std::array<int, 2>& pair : surface.Contacts)
+  if (!surface.Piece.IsWhole())
   {
-    if (index[pair[0]] >= 0 && index[pair[1]] >= 0)
+    NumberKept(surface, index, part);
+  }
+  else
+  {
+    for (const std::array<int, 2>& pair : surface.Contacts)
     {
-      part.Contacts.push_back({ index[pair[0]], index[pair[1]] });
+      if (index[pair[0]] >= 0 && index[pair[1]] >= 0)
+      {
+        part.Contacts.push_back({ index[pair[0]], index[pair[1]] });
+      }
     }
   }
   for (Triangle& triangle : part.Triangles)
@@ -321,7 +402,7 @@ SurfaceResult KeepChosen(SurfaceResult surface, const ComponentChoice& choice,
   }
   // Components are numbered by their areas, which differ in the world where voxels are no cubes.
   const SurfaceFeatures features =
-    ComputeFeatures(ToWorld(surface, space, executor), executor);
+    ComputeFeatures(ToWorld(surface, space, executor), executor, surface.Piece);
   const std::size_t n = features.Components.size();
   const std::vector<int> hosts = HostsOf(surface, features, executor);
   std::vector<bool> isKept(n, false);

@@ -71,21 +71,22 @@ bool SegmentationResults::Choose(
     {
       for (auto& level : this->ByLevel)
       {
-        this->MakeSurface(level.second, *level.second.Whole, threads);
+        MakeSurface(level.second, *level.second.Whole, this->Choice, this->Space, threads);
       }
     });
   return true;
 }
 
-void SegmentationResults::MakeSurface(
-  Level& result, SurfaceResult surface, Executor& threads) const
+void SegmentationResults::MakeSurface(Level& result, SurfaceResult surface,
+  const ComponentChoice& choice, const Workspace& space, Executor& threads)
 {
-  const bool isEmpty = surface.Points.empty();
+  Communicator& ranks = *surface.Piece.Ranks;
+  const bool isAny = ranks.IsAny(!surface.Points.empty());
   // Each step uses up what the one before has made.
-  SurfaceResult kept = KeepChosen(std::move(surface), this->Choice, this->Space, threads);
-  result.KeepsNone = kept.Points.empty() && !isEmpty;
+  SurfaceResult kept = KeepChosen(std::move(surface), choice, space, threads);
+  result.KeepsNone = isAny && !ranks.IsAny(!kept.Points.empty());
   threads.EndPhase("Components kept");
-  result.Surface = MakePolyData(std::move(kept), result.Description, this->Space, threads);
+  result.Surface = MakePolyData(std::move(kept), result.Description, space, threads);
 }
 
 void SegmentationResults::Forget(int level)

@@ -68,8 +68,13 @@ public:
    * @throws as ChoiceOf()
    */
   bool Choose(const SegmentationSettings& settings, const SegmentationRequest& request);
-  /** Of a level, by its description: the part of it that is chosen, and whether that is none. */
-  void MakeSurface(Level& result, SurfaceResult surface, Executor& threads) const;
+  const ComponentChoice& Chosen() const { return this->Choice; }
+  /**
+   * Of a level, by its description: the part of it that is chosen, and whether that is none. Of a
+   * piece by all ranks.
+   */
+  static void MakeSurface(Level& result, SurfaceResult surface, const ComponentChoice& choice,
+    const Workspace& space, Executor& threads);
 
   void SetLevel(int level, const Level& result) { this->ByLevel[level] = result; }
   /** What there is of a level, its snapshots included. */

@@ -4,9 +4,10 @@
 
 #include "Core/Common/FreeMemory.h"
 #include "Core/Common/Monitor.h"
+#include "Core/Common/RankLists.h"
 #include "Core/Image/Field.h"
 #include "Host/HostThreads.h"
-#include "Output/SurfaceOutput.h"
+#include "Output/SegmentationResults.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -29,6 +30,15 @@ public:
 private:
   std::function<bool()> Goes;
 };
+
+/** @return that of rank 0 */
+ComponentChoice BroadcastChoice(Communicator& ranks, ComponentChoice choice)
+{
+  choice.Mode = BroadcastValue(ranks, choice.Mode);
+  choice.MinimumVolume = BroadcastValue(ranks, choice.MinimumVolume);
+  choice.Places = BroadcastList(ranks, choice.Places);
+  return choice;
+}
 
 /** Null where all voxels of the level are at rank 0. */
 LevelInPieces* PiecesOf(LevelsInPieces& pieces, int level)
@@ -180,7 +190,8 @@ bool EvolveOnRanks(Communicator& ranks, const SharedLevel& shared,
   return isDivided;
 }
 
-void ShareOutput(Communicator& ranks, int level, const Workspace& space, int numberOfThreads)
+void ShareOutput(Communicator& ranks, int level, const Workspace& space,
+  const ComponentChoice& choice, int numberOfThreads)
 {
   SharedLevel shared;
   shared.Level = level;
@@ -188,6 +199,7 @@ void ShareOutput(Communicator& ranks, int level, const Workspace& space, int num
   shared.NumberOfThreads = numberOfThreads;
   BroadcastValue(ranks, shared);
   BroadcastValue(ranks, space);
+  BroadcastChoice(ranks, choice);
 }
 
 void HelpWithLevel(Communicator& ranks, LevelsInPieces& pieces, HelpersPiece& piece,
@@ -197,13 +209,15 @@ void HelpWithLevel(Communicator& ranks, LevelsInPieces& pieces, HelpersPiece& pi
   if (shared.Is == SharedLevel::Work::MakesOutput)
   {
     const auto space = BroadcastValue(ranks, Workspace());
+    const ComponentChoice choice = BroadcastChoice(ranks, ComponentChoice());
     HostThreads threads(shared.NumberOfThreads);
     threads.Run(
       [&]
       {
-        SurfaceResult result = std::exchange(piece.Result, SurfaceResult());
-        piece.Outputs[shared.Level] =
-          MakePolyData(std::move(result), SurfaceDescription(), space, threads);
+        SegmentationResults::Level made;
+        SegmentationResults::MakeSurface(
+          made, std::exchange(piece.Result, SurfaceResult()), choice, space, threads);
+        piece.Outputs[shared.Level] = made.Surface;
       });
     return;
   }

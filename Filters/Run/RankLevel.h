@@ -12,6 +12,7 @@
 #include "Core/Image/VoxelBox.h"
 #include "Core/Image/VoxelPieces.h"
 #include "Input/Workspace.h"
+#include "Output/KeepComponents.h"
 #include "Output/RankOutputs.h"
 #include "Settings/SegmentationVolume.h"
 
@@ -116,7 +117,8 @@ std::unique_ptr<RankLevel> ShareLevel(Communicator& ranks, const SharedLevel& sh
   const LevelImage& image, LevelsInPieces& pieces);
 
 /** At rank 0, likewise: tells the others to make outputs of their pieces, as it is about to do. */
-void ShareOutput(Communicator& ranks, int level, const Workspace& space, int numberOfThreads);
+void ShareOutput(Communicator& ranks, int level, const Workspace& space,
+  const ComponentChoice& choice, int numberOfThreads);
 
 /**
  * At the others, until rank 0 is done.

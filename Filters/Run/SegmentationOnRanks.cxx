@@ -58,8 +58,7 @@ SharedLevel::Next SurfaceSegmentation::AfterShared(int level) const
 
 bool SurfaceSegmentation::NeedsWholeResult() const
 {
-  return this->Request.KeepsWhole || this->Request.Checkpoints.AreLeft ||
-    this->Settings.End.KeepComponents != KeepComponentsType::AllComponents;
+  return this->Request.KeepsWhole || this->Request.Checkpoints.AreLeft;
 }
 
 void SurfaceSegmentation::TakeAlone(int level)
@@ -93,7 +92,10 @@ void SurfaceSegmentation::TakeAlone(int level)
 void SurfaceSegmentation::MakeOutput(SegmentationResults::Level& result, SurfaceResult surface)
 {
   const auto make = [&]
-  { this->Found.MakeSurface(result, std::move(surface), *this->Threads); };
+  {
+    SegmentationResults::MakeSurface(result, std::move(surface), this->Found.Chosen(),
+      this->Levels.GetWorkspace(), *this->Threads);
+  };
   if (surface.Piece.IsWhole())
   {
     make();
@@ -103,7 +105,7 @@ void SurfaceSegmentation::MakeOutput(SegmentationResults::Level& result, Surface
     [&]
     {
       ShareOutput(*this->Request.Ranks, result.Description.Level, this->Levels.GetWorkspace(),
-        this->Settings.End.NumberOfThreads);
+        this->Found.Chosen(), this->Settings.End.NumberOfThreads);
       make();
     });
 }

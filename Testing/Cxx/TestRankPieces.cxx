@@ -316,3 +316,24 @@ TEST(RankPieces, OfNothing)
   ExpectAs(one, ranks);
   EXPECT_EQ(ranks.back()->GetOutput()->GetNumberOfPoints(), 0);
 }
+
+TEST(RankPieces, OfNoneOfTheComponents)
+{
+  const auto choose = [](vtkDeformableSurface* filter)
+  {
+    filter->SetKeepComponents(vtkDeformableSurface::LargeComponents);
+    filter->SetMinimumComponentVolume(1e6);
+  };
+  const Filter one = OneRank(choose);
+  EXPECT_EQ(one->GetOutput()->GetNumberOfPoints(), 0);
+  const Ranks ranks = RunRanks(3, BallsFilter,
+    [&](vtkDeformableSurface* filter, vtkMultiProcessController* controller)
+    {
+      choose(filter);
+      const MessagesOf warnings(filter, vtkCommand::WarningEvent);
+      Update(filter, controller);
+      EXPECT_EQ(warnings.Get().find("leaves none of the components") != std::string::npos,
+        controller->GetLocalProcessId() == 0);
+    });
+  ExpectAs(one, ranks);
+}

@@ -113,6 +113,45 @@ const std::vector<Case> Cases = {
       f->SetInitializationToIsoSurface();
     },
     ByteVoxels, "the surface starts there" },
+  { "LargestComponent",
+    [](vtkDeformableSurface* f)
+    { f->SetKeepComponents(vtkDeformableSurface::LargestComponent); } },
+  { "LargeComponents",
+    [](vtkDeformableSurface* f)
+    {
+      f->SetKeepComponents(vtkDeformableSurface::LargeComponents);
+      f->SetMinimumComponentVolume(5000.0); // not the smaller ball
+    } },
+  { "SmallComponentAtPoints",
+    [](vtkDeformableSurface* f)
+    {
+      f->SetKeepComponents(vtkDeformableSurface::ComponentsAtPoints);
+      f->AddSeedPosition(108.0, 106.0, 104.0);
+    } },
+  { "ComponentTouchedByPoints", // from outside, on the last rank only
+    [](vtkDeformableSurface* f)
+    {
+      f->SetKeepComponents(vtkDeformableSurface::ComponentsAtPoints);
+      f->AddSeedPosition(70.0, 70.0, 91.5);
+    } },
+  { "ComponentsNotAtSeeds",
+    [](vtkDeformableSurface* f)
+    {
+      f->SetKeepComponents(vtkDeformableSurface::ComponentsNotAtSeeds);
+      f->AddSeedPosition(108.0, 106.0, 104.0);
+    } },
+  { "ContactsOfLargeComponents", // of two that grow in one ball; that in the other one goes
+    [](vtkDeformableSurface* f)
+    {
+      f->TopologyChangesOff();
+      f->SetInitializationToSeeds();
+      f->AddSeedPosition(108.0, 106.0, 104.0);
+      f->AddSeedPosition(55.0, 70.0, 70.0);
+      f->AddSeedPosition(85.0, 70.0, 70.0);
+      f->SetRecovery(vtkDeformableSurface::NoRecovery);
+      f->SetKeepComponents(vtkDeformableSurface::LargeComponents);
+      f->SetMinimumComponentVolume(5000.0);
+    } },
   { "Checkpoints", [](vtkDeformableSurface*) {}, ByteVoxels, "", true },
   { "MemoryLimit", [](vtkDeformableSurface* f) { f->SetMemoryLimit(4000); }, ByteVoxels, "", true },
   { "NaNs", [](vtkDeformableSurface*) {}, VoxelsWithNaNs },
