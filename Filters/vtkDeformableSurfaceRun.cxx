@@ -193,7 +193,7 @@ volumic::SegmentationRequest vtkDeformableSurface::vtkInternals::RequestAsSet(
   request.Checkpoints.AreLeft = request.End.LeavesCheckpoints();
   request.MayGoOn = volumic::SegmentationCache::MayKeep(&this->Filter);
   // Whoever watches may choose others; else, and where memory is short, it would be held in vain.
-  request.KeepsWhole = this->IsWatched && !request.Checkpoints.AreLeft;
+  request.KeepsAll = this->IsWatched && !request.Checkpoints.AreLeft;
   request.Checkpoints.Directory = request.End.ScratchDirectory;
   request.Checkpoints.Resumes = request.End.Resume;
   request.Checkpoints.Stay = this->LeavesCheckpoints;
@@ -331,7 +331,12 @@ void vtkDeformableSurface::vtkInternals::RunOrGoOn(
   this->IsOnTheWay = false;
   std::unique_ptr<volumic::SurfaceSegmentation> run; // At rank 0; the others never have one.
   auto course = Course::IsShown;
-  alone.Run([&] { course = this->ChooseCourse(isKept, request, run, output); });
+  const auto help = [&]
+  {
+    volumic::HelpWithLevel(ranks, this->InPieces, this->Piece,
+      [this] { return !volumic::IsAbortRequested(&this->Filter); });
+  };
+  alone.Run([&] { course = this->ChooseCourse(isKept, request, run, output); }, help);
   course = volumic::BroadcastValue(ranks, course);
   if (course == Course::IsShown)
   {
@@ -350,12 +355,7 @@ void vtkDeformableSurface::vtkInternals::RunOrGoOn(
     FillByNothing(output, isAborted, settings.Profile);
     return;
   }
-  alone.Run([&] { run->Run(); },
-    [&]
-    {
-      volumic::HelpWithLevel(ranks, this->InPieces, this->Piece,
-        [this] { return !volumic::IsAbortRequested(&this->Filter); });
-    });
+  alone.Run([&] { run->Run(); }, help);
   if (run)
   {
     this->ShowRun(*run, request, output);

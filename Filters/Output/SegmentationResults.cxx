@@ -3,7 +3,6 @@
 #include "Output/SegmentationResults.h"
 
 #include "Core/Common/Join.h"
-#include "Host/HostThreads.h"
 #include "Output/HistoryTable.h"
 
 #include <vtkCompositeDataSet.h>
@@ -51,8 +50,8 @@ SegmentationResults::~SegmentationResults() = default;
 SegmentationResults::SegmentationResults(const SegmentationResults&) = default;
 SegmentationResults& SegmentationResults::operator=(const SegmentationResults&) = default;
 
-bool SegmentationResults::Choose(
-  const SegmentationSettings& settings, const SegmentationRequest& request)
+bool SegmentationResults::Choose(const SegmentationSettings& settings,
+  const SegmentationRequest& request, const std::function<void(Level& level)>& remake)
 {
   const ComponentChoice choice = ChoiceOf(settings, request, this->Space, this->Size);
   if (choice == this->Choice)
@@ -60,20 +59,15 @@ bool SegmentationResults::Choose(
     return true;
   }
   if (std::any_of(this->ByLevel.begin(), this->ByLevel.end(),
-        [](const auto& level) { return !level.second.Whole; }))
+        [](const auto& level) { return !level.second.All; }))
   {
     return false;
   }
   this->Choice = choice;
-  HostThreads threads(settings.End.NumberOfThreads);
-  threads.Run(
-    [&]
-    {
-      for (auto& level : this->ByLevel)
-      {
-        MakeSurface(level.second, *level.second.Whole, this->Choice, this->Space, threads);
-      }
-    });
+  for (auto& level : this->ByLevel)
+  {
+    remake(level.second);
+  }
   return true;
 }
 

@@ -7,7 +7,6 @@
 #include "Core/Common/RankLists.h"
 #include "Core/Image/Field.h"
 #include "Host/HostThreads.h"
-#include "Output/SegmentationResults.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -38,6 +37,34 @@ ComponentChoice BroadcastChoice(Communicator& ranks, ComponentChoice choice)
   choice.MinimumVolume = BroadcastValue(ranks, choice.MinimumVolume);
   choice.Places = BroadcastList(ranks, choice.Places);
   return choice;
+}
+
+void HelpWithOutput(Communicator& ranks, const SharedLevel& shared, HelpersPiece& piece)
+{
+  const auto space = BroadcastValue(ranks, Workspace());
+  const ComponentChoice choice = BroadcastChoice(ranks, ComponentChoice());
+  SurfaceResult surface;
+  if (shared.Is == SharedLevel::Work::MakesOutputAgain)
+  {
+    surface = *piece.Kept.at(shared.Level);
+  }
+  else
+  {
+    surface = std::exchange(piece.Result, SurfaceResult());
+    if (shared.KeepsPieces)
+    {
+      piece.Kept[shared.Level] = std::make_shared<const SurfaceResult>(surface);
+    }
+  }
+  surface.Piece.Ranks = &ranks;
+  HostThreads threads(shared.NumberOfThreads);
+  threads.Run(
+    [&]
+    {
+      SegmentationResults::Level made;
+      SegmentationResults::MakeSurface(made, std::move(surface), choice, space, threads);
+      piece.Outputs[shared.Level] = made.Surface;
+    });
 }
 
 /** Null where all voxels of the level are at rank 0. */
@@ -190,35 +217,26 @@ bool EvolveOnRanks(Communicator& ranks, const SharedLevel& shared,
   return isDivided;
 }
 
-void ShareOutput(Communicator& ranks, int level, const Workspace& space,
-  const ComponentChoice& choice, int numberOfThreads)
+void MakeOutputOnRanks(Communicator& ranks, SharedLevel shared,
+  SegmentationResults::Level& result, SurfaceResult surface, const ComponentChoice& choice,
+  const Workspace& space, Executor& threads)
 {
-  SharedLevel shared;
-  shared.Level = level;
-  shared.Is = SharedLevel::Work::MakesOutput;
-  shared.NumberOfThreads = numberOfThreads;
+  shared.Level = result.Description.Level;
   BroadcastValue(ranks, shared);
   BroadcastValue(ranks, space);
   BroadcastChoice(ranks, choice);
+  surface.Piece.Ranks = &ranks;
+  SegmentationResults::MakeSurface(result, std::move(surface), choice, space, threads);
 }
 
 void HelpWithLevel(Communicator& ranks, LevelsInPieces& pieces, HelpersPiece& piece,
   const std::function<bool()>& goOn)
 {
   const SharedLevel shared = BroadcastValue(ranks, SharedLevel());
-  if (shared.Is == SharedLevel::Work::MakesOutput)
+  if (shared.Is == SharedLevel::Work::MakesOutput ||
+    shared.Is == SharedLevel::Work::MakesOutputAgain)
   {
-    const auto space = BroadcastValue(ranks, Workspace());
-    const ComponentChoice choice = BroadcastChoice(ranks, ComponentChoice());
-    HostThreads threads(shared.NumberOfThreads);
-    threads.Run(
-      [&]
-      {
-        SegmentationResults::Level made;
-        SegmentationResults::MakeSurface(
-          made, std::exchange(piece.Result, SurfaceResult()), choice, space, threads);
-        piece.Outputs[shared.Level] = made.Surface;
-      });
+    HelpWithOutput(ranks, shared, piece);
     return;
   }
   auto level = std::make_unique<RankLevel>(
@@ -236,6 +254,7 @@ void HelpWithLevel(Communicator& ranks, LevelsInPieces& pieces, HelpersPiece& pi
   std::shared_ptr<HelpersRun> run = std::move(piece.Run);
   piece.Result = SurfaceResult();
   piece.Outputs.erase(shared.Level); // Rank 0 has forgotten it, too.
+  piece.Kept.erase(shared.Level);
   if (!run)
   {
     run = std::make_shared<HelpersRun>(shared, goOn);

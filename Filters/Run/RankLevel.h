@@ -12,11 +12,12 @@
 #include "Core/Image/VoxelBox.h"
 #include "Core/Image/VoxelPieces.h"
 #include "Input/Workspace.h"
-#include "Output/KeepComponents.h"
 #include "Output/RankOutputs.h"
+#include "Output/SegmentationResults.h"
 #include "Settings/SegmentationVolume.h"
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -69,7 +70,8 @@ struct SharedLevel
   {
     Evolves,     ///< All evolve the surface.
     GivesVoxels, ///< Rank 0 wants all voxels, and does the rest alone.
-    MakesOutput  ///< All make outputs of their pieces.
+    MakesOutput, ///< All make outputs of their pieces,
+    MakesOutputAgain ///< of those that they have kept.
   };
   Work Is = Work::Evolves;
   SurfaceOptions Options;
@@ -85,6 +87,7 @@ struct SharedLevel
   };
   Next Then = Next::IsWhole;
   bool TakesVoxels = false; ///< See RankLevel.
+  bool KeepsPieces = false; ///< Outputs may be wanted of other components.
   bool InPieces = false; ///< Its output is not whole: each rank makes its own piece.
 };
 
@@ -95,6 +98,8 @@ struct HelpersPiece
 {
   SurfaceResult Result; ///< until the output is made of it
   PiecesOfLevels Outputs;
+  /** With all components, where others may be wanted: by level. */
+  std::map<int, std::shared_ptr<const SurfaceResult>> Kept;
   /** What evolves it, while it stays in pieces between levels; else null. */
   std::shared_ptr<HelpersRun> Run;
 };
@@ -116,9 +121,13 @@ bool EvolveOnRanks(Communicator& ranks, const SharedLevel& shared,
 std::unique_ptr<RankLevel> ShareLevel(Communicator& ranks, const SharedLevel& shared,
   const LevelImage& image, LevelsInPieces& pieces);
 
-/** At rank 0, likewise: tells the others to make outputs of their pieces, as it is about to do. */
-void ShareOutput(Communicator& ranks, int level, const Workspace& space,
-  const ComponentChoice& choice, int numberOfThreads);
+/**
+ * At rank 0, likewise: all make outputs of their pieces. @param result rank 0's, with its description
+ * @param shared what is made, KeepsPieces, and threads
+ */
+void MakeOutputOnRanks(Communicator& ranks, SharedLevel shared,
+  SegmentationResults::Level& result, SurfaceResult surface, const ComponentChoice& choice,
+  const Workspace& space, Executor& threads);
 
 /**
  * At the others, until rank 0 is done.

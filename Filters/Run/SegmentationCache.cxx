@@ -138,7 +138,7 @@ const SegmentationResults* SegmentationCache::ResultsFor(
 {
   SegmentationResults& results = this->Run ? this->Run->Results() : *this->Results;
   const bool isThere = results.HasAtRest(this->EndOf(request.End));
-  if (!isThere || !results.Choose(settings, request))
+  if (!isThere || !SurfaceSegmentation::Choose(results, settings, request))
   {
     return nullptr;
   }

@@ -58,7 +58,7 @@ SharedLevel::Next SurfaceSegmentation::AfterShared(int level) const
 
 bool SurfaceSegmentation::NeedsWholeResult() const
 {
-  return this->Request.KeepsWhole || this->Request.Checkpoints.AreLeft;
+  return this->Request.Checkpoints.AreLeft;
 }
 
 void SurfaceSegmentation::TakeAlone(int level)
@@ -89,24 +89,40 @@ void SurfaceSegmentation::TakeAlone(int level)
   this->Levels.TakeWhole(level);
 }
 
-void SurfaceSegmentation::MakeOutput(SegmentationResults::Level& result, SurfaceResult surface)
+void SurfaceSegmentation::MakeOutput(const SegmentationRequest& request,
+  SharedLevel::Work work, SegmentationResults::Level& result, SurfaceResult surface,
+  const ComponentChoice& choice, const Workspace& space, Executor& threads)
 {
-  const auto make = [&]
+  if (!result.IsPiece)
   {
-    SegmentationResults::MakeSurface(result, std::move(surface), this->Found.Chosen(),
-      this->Levels.GetWorkspace(), *this->Threads);
-  };
-  if (surface.Piece.IsWhole())
-  {
-    make();
+    SegmentationResults::MakeSurface(result, std::move(surface), choice, space, threads);
     return;
   }
-  this->Request.OnAllRanks(
+  SharedLevel shared;
+  shared.Is = work;
+  shared.KeepsPieces = request.KeepsAll;
+  shared.NumberOfThreads = request.End.NumberOfThreads;
+  request.OnAllRanks(
     [&]
     {
-      ShareOutput(*this->Request.Ranks, result.Description.Level, this->Levels.GetWorkspace(),
-        this->Found.Chosen(), this->Settings.End.NumberOfThreads);
-      make();
+      MakeOutputOnRanks(
+        *request.Ranks, shared, result, std::move(surface), choice, space, threads);
+    });
+}
+
+bool SurfaceSegmentation::Choose(SegmentationResults& results,
+  const SegmentationSettings& settings, const SegmentationRequest& request)
+{
+  return results.Choose(settings, request,
+    [&](SegmentationResults::Level& level)
+    {
+      HostThreads threads(request.End.NumberOfThreads);
+      threads.Run(
+        [&]
+        {
+          MakeOutput(request, SharedLevel::Work::MakesOutputAgain, level, *level.All,
+            results.Chosen(), results.GetWorkspace(), threads);
+        });
     });
 }
 }

@@ -156,7 +156,7 @@ void SurfaceSegmentation::Renew(const SegmentationRequest& request)
   {
     this->Settings.End.FinestLevel = planned;
   }
-  this->HasChosen = !this->Evolution || this->Found.Choose(this->Settings, request);
+  this->HasChosen = !this->Evolution || Choose(this->Found, this->Settings, request);
 }
 
 void SurfaceSegmentation::Run()
@@ -238,7 +238,7 @@ void SurfaceSegmentation::Begin()
   this->GoesOn = false;
   this->Found = SegmentationResults(this->Levels.Pyramid().NumberOfLevels(), this->Choice.Coarsest,
     this->Levels.GetWorkspace(), this->Levels.Pyramid().SizeOfLevel0(), this->Settings.Profile);
-  this->Found.Choose(this->Settings, this->Request);
+  Choose(this->Found, this->Settings, this->Request);
   this->Found.SetPreviewLevel(this->Choice.Preview);
 }
 
@@ -404,11 +404,13 @@ bool SurfaceSegmentation::KeepLevel(int level, StopReason reason, SurfaceResult 
     description.RecoveredCavities = lost.EnclosedCavities;
   }
   this->Threads->EndPhase("Surface handed out");
-  if (this->Request.KeepsWhole)
+  if (this->Request.KeepsAll)
   {
-    result.Whole = std::make_shared<const SurfaceResult>(surface);
+    result.All = std::make_shared<const SurfaceResult>(surface);
   }
-  this->MakeOutput(result, std::move(surface));
+  result.IsPiece = !surface.Piece.IsWhole();
+  MakeOutput(this->Request, SharedLevel::Work::MakesOutput, result, std::move(surface),
+    this->Found.Chosen(), this->Levels.GetWorkspace(), *this->Threads);
   this->Found.SetLevel(level, result);
   this->Evolution->EndLevel();
   this->Threads->EndPhase("Output");

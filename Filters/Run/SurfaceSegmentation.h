@@ -51,6 +51,12 @@ public:
   void Renew(const SegmentationRequest& request);
 
   /**
+   * SegmentationResults::Choose() of what a run has found, by all ranks where it is in pieces.
+   */
+  static bool Choose(SegmentationResults& results, const SegmentationSettings& settings,
+    const SegmentationRequest& request);
+
+  /**
    * After Renew(): whether what is wanted can be reached from here. Levels that the surface has left
    * are let go; a run that would begin at one of them must be made anew.
    * @throws as Run().
@@ -128,7 +134,9 @@ private:
   /** Puts the surface of a level into Found. @return whether it is fit for a finer level */
   bool KeepLevel(int level, StopReason reason, SurfaceResult surface);
   /** Of a whole surface, or, on all ranks, of the piece of each. */
-  void MakeOutput(SegmentationResults::Level& result, SurfaceResult surface);
+  static void MakeOutput(const SegmentationRequest& request, SharedLevel::Work work,
+    SegmentationResults::Level& result, SurfaceResult surface, const ComponentChoice& choice,
+    const Workspace& space, Executor& threads);
   /** Once a Run(), before RunLevels(): finds out of which run a checkpoint would be. */
   void PrepareCheckpoint();
   /** Once a run, before its first level: goes on from a checkpoint, where that is asked for. */

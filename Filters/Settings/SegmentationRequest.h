@@ -40,7 +40,7 @@ struct SegmentationRequest
   SegmentationEnd End;  ///< As set, or for a step on the way. With EdgeLength the level is planned.
   bool IsStep = false;  ///< Another run goes on from it: what is wrong with the surface may change.
   bool MayGoOn = false; ///< After a stop, too: what rests stays while a finer level is under way.
-  bool KeepsWhole = false; ///< All components stay, for who may choose others.
+  bool KeepsAll = false; ///< All components stay, for who may choose others.
   vtkPolyData* InitialSurface = nullptr;   ///< input port 1, may be missing
   vtkPolyData* AttractingPoints = nullptr; ///< input port 2, may be missing
   vtkInformation* EdgeSelection = nullptr; ///< of the map of edges; without effect at weight 0

@@ -337,3 +337,44 @@ TEST(RankPieces, OfNoneOfTheComponents)
     });
   ExpectAs(one, ranks);
 }
+
+TEST(RankPieces, ShowOtherComponentsWithoutAnotherRun)
+{
+  const auto largest = [](vtkDeformableSurface* filter)
+  { filter->SetKeepComponents(vtkDeformableSurface::LargestComponent); };
+  const auto show = [](vtkDeformableSurface* filter, vtkMultiProcessController* controller)
+  {
+    const ProgressListener progress(filter);
+    Update(filter, controller);
+    EXPECT_TRUE(std::none_of(progress.Shares.begin(), progress.Shares.end(),
+      [](double share) { return share > 0.0 && share < 1.0; }));
+  };
+  const auto begin = [](vtkDeformableSurface* filter, vtkMultiProcessController* controller)
+  {
+    if (controller->GetLocalProcessId() == 0)
+    {
+      filter->GetNeedsUpdate(); // As a window asks, of the first rank only.
+    }
+    Update(filter, controller);
+  };
+  const Filter one = OneRank();
+  Ranks ranks = RunRanks(3, BallsFilter,
+    [&](vtkDeformableSurface* filter, vtkMultiProcessController* controller)
+    {
+      begin(filter, controller);
+      EXPECT_NEAR(filter->GetOutput()->GetNumberOfCells(),
+        one->GetOutput()->GetNumberOfCells() / 3, 1); // It is in pieces.
+      largest(filter);
+      show(filter, controller);
+    });
+  ExpectAs(OneRank(largest), ranks);
+  ranks = RunRanks(3, BallsFilter,
+    [&](vtkDeformableSurface* filter, vtkMultiProcessController* controller)
+    {
+      largest(filter);
+      begin(filter, controller);
+      filter->SetKeepComponents(vtkDeformableSurface::AllComponents);
+      show(filter, controller);
+    });
+  ExpectAs(one, ranks);
+}
