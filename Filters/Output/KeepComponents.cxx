@@ -158,7 +158,7 @@ std::vector<int> HostsOf(
   struct Cavity
   {
     int Component;
-    Point Place; ///< a corner of its first triangle
+    Point Place; ///< a corner of its first triangle here
   };
   std::vector<Cavity> own;
   std::vector<bool> isDone(static_cast<std::size_t>(n), false);
@@ -173,15 +173,11 @@ std::vector<int> HostsOf(
   }
   std::vector<Point> places;
   std::vector<int> cavities;
-  isDone.assign(static_cast<std::size_t>(n), false);
+  // Of one that several ranks have a part of each tells a place, which all lie in the same.
   for (const Cavity& cavity : GatherListsOnAll(*surface.Piece.Ranks, own))
   {
-    if (!isDone[cavity.Component])
-    {
-      places.push_back(cavity.Place);
-      cavities.push_back(cavity.Component);
-    }
-    isDone[cavity.Component] = true;
+    places.push_back(cavity.Place);
+    cavities.push_back(cavity.Component);
   }
   const std::vector<int> about = InnermostAbout(places, cavities, surface, features, executor);
   for (std::size_t i = 0; i < cavities.size(); ++i)

@@ -56,11 +56,6 @@ SharedLevel::Next SurfaceSegmentation::AfterShared(int level) const
   return staysInPieces ? SharedLevel::Next::StaysInPieces : SharedLevel::Next::IsWhole;
 }
 
-bool SurfaceSegmentation::NeedsWholeResult() const
-{
-  return this->Request.Checkpoints.AreLeft;
-}
-
 void SurfaceSegmentation::TakeAlone(int level)
 {
   const char* why = this->IsForAllRanks(level) ? this->WhyAlone(level) : nullptr;

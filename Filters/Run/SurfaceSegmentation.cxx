@@ -331,12 +331,16 @@ bool SurfaceSegmentation::EvolveOn(
   if (this->MayBeShared(level))
   {
     bool isDivided = false;
-    const SharedLevel::Next next = this->AfterShared(level);
-    const SharedLevel shared{ SharedLevel::Work::Evolves, this->Settings.Options, level,
-      this->WantedMeanEdge(level), this->Settings.End.NumberOfThreads, next,
-      // Level -1 has those of level 0.
-      !this->Request.MayGoOn && !(level == 0 && this->Choice.Last < 0),
-      next != SharedLevel::Next::IsWhole && !this->NeedsWholeResult() };
+    SharedLevel shared;
+    shared.Options = this->Settings.Options;
+    shared.Level = level;
+    shared.MeanEdgeLength = this->WantedMeanEdge(level);
+    shared.NumberOfThreads = this->Settings.End.NumberOfThreads;
+    shared.Then = this->AfterShared(level);
+    // Level -1 has the voxels of level 0.
+    shared.TakesVoxels = !this->Request.MayGoOn && !(level == 0 && this->Choice.Last < 0);
+    shared.InPieces =
+      shared.Then != SharedLevel::Next::IsWhole && !this->Request.Checkpoints.AreLeft;
     this->Request.OnAllRanks(
       [&]
       {

@@ -115,8 +115,6 @@ private:
   bool MayBeShared(int level) const;
   /** What becomes of the surface after a level on which all ranks have worked. */
   SharedLevel::Next AfterShared(int level) const;
-  /** Whether rank 0 is to have all of the surface that a run on all ranks ends with. */
-  bool NeedsWholeResult() const;
   /**
    * Of a level that is large enough for all ranks, but for rank 0 alone: says so, of each
    * reason once a run, and brings it the voxels, by all ranks, where these are in pieces.

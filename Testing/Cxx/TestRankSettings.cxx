@@ -85,6 +85,7 @@ struct Case
   vtkSmartPointer<vtkImageData> (*Make)() = ByteVoxels;
   const char* Told = ""; ///< why the first process is alone
   bool HasCheckpoints = false;
+  bool IsChosenInPieces = false;
 };
 
 std::ostream& operator<<(std::ostream& out, const Case& c)
@@ -115,31 +116,36 @@ const std::vector<Case> Cases = {
     ByteVoxels, "the surface starts there" },
   { "LargestComponent",
     [](vtkDeformableSurface* f)
-    { f->SetKeepComponents(vtkDeformableSurface::LargestComponent); } },
+    { f->SetKeepComponents(vtkDeformableSurface::LargestComponent); },
+    ByteVoxels, "", false, true },
   { "LargeComponents",
     [](vtkDeformableSurface* f)
     {
       f->SetKeepComponents(vtkDeformableSurface::LargeComponents);
       f->SetMinimumComponentVolume(5000.0); // not the smaller ball
-    } },
+    },
+    ByteVoxels, "", false, true },
   { "SmallComponentAtPoints",
     [](vtkDeformableSurface* f)
     {
       f->SetKeepComponents(vtkDeformableSurface::ComponentsAtPoints);
       f->AddSeedPosition(108.0, 106.0, 104.0);
-    } },
+    },
+    ByteVoxels, "", false, true },
   { "ComponentTouchedByPoints", // from outside, on the last rank only
     [](vtkDeformableSurface* f)
     {
       f->SetKeepComponents(vtkDeformableSurface::ComponentsAtPoints);
       f->AddSeedPosition(70.0, 70.0, 91.5);
-    } },
+    },
+    ByteVoxels, "", false, true },
   { "ComponentsNotAtSeeds",
     [](vtkDeformableSurface* f)
     {
       f->SetKeepComponents(vtkDeformableSurface::ComponentsNotAtSeeds);
       f->AddSeedPosition(108.0, 106.0, 104.0);
-    } },
+    },
+    ByteVoxels, "", false, true },
   { "ContactsOfLargeComponents", // of two that grow in one ball; that in the other one goes
     [](vtkDeformableSurface* f)
     {
@@ -151,7 +157,8 @@ const std::vector<Case> Cases = {
       f->SetRecovery(vtkDeformableSurface::NoRecovery);
       f->SetKeepComponents(vtkDeformableSurface::LargeComponents);
       f->SetMinimumComponentVolume(5000.0);
-    } },
+    },
+    ByteVoxels, "", false, true },
   { "Checkpoints", [](vtkDeformableSurface*) {}, ByteVoxels, "", true },
   { "MemoryLimit", [](vtkDeformableSurface* f) { f->SetMemoryLimit(4000); }, ByteVoxels, "", true },
   { "NaNs", [](vtkDeformableSurface*) {}, VoxelsWithNaNs },
@@ -242,6 +249,10 @@ TEST_P(RankSettings, AreTheSameOnAllRanks)
     }
     ExpectPiecesOf(one.Filters.front()->GetOutput(), SurfacesOf(many.Filters));
     ExpectBlocksOf(one.Filters.front()->GetLevels(), levels);
+    // A whole would be cut evenly; each rank has what is chosen of its piece.
+    const vtkIdType share = one.Filters.front()->GetOutput()->GetNumberOfCells() / count;
+    const vtkIdType ofFirst = many.Filters.front()->GetOutput()->GetNumberOfCells();
+    EXPECT_EQ(std::abs(ofFirst - share) > 1, GetParam().IsChosenInPieces) << ofFirst;
     const std::string told = GetParam().Told;
     EXPECT_EQ(many.Warnings.empty(), told.empty()) << many.Warnings;
     EXPECT_NE(many.Warnings.find(told), std::string::npos) << many.Warnings;
