@@ -20,7 +20,7 @@ namespace volumic
 struct LevelInPieces
 {
   VoxelPieces Pieces;
-  vtkSmartPointer<vtkDataArray> Values; ///< of this rank's, contiguous in memory; null: none
+  vtkSmartPointer<vtkDataArray> Values; ///< of this rank's, contiguous; null: they were let go
   std::array<double, 2> Range = { 0.0, 0.0 }; ///< of all that are valid (ValidVoxels.h)
   /**
    * Where some are not valid, Values are a copy, floats in which these are background, and which
@@ -31,6 +31,7 @@ struct LevelInPieces
   /** PyramidLevels::HashOfVoxels(); 0 where the run is to leave no checkpoints. */
   std::uint64_t Hash = 0;
   std::string AboutNaNs; ///< DescribeNaNs()
+  bool HoldsPart = true; ///< of PartThatHolds (ThickPart.h), as far as it matters
 };
 
 using LevelsInPieces = std::map<int, LevelInPieces>;

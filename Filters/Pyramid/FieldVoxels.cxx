@@ -5,9 +5,11 @@
 #include "Core/Common/ContentHash.h"
 #include "Core/Common/Refuse.h"
 #include "Core/Image/VoxelHash.h"
+#include "Input/ImagePieces.h"
 #include "Input/ImageVoxels.h"
 
 #include <vtkDataArray.h>
+#include <vtkImageData.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -56,6 +58,45 @@ std::uint64_t HashOfVoxels(Communicator& ranks, const VoxelPieces& pieces, vtkDa
   const std::vector<std::uint64_t> sums = GatherValues(ranks, own);
   return CombineHashes(static_cast<std::uint64_t>(voxels->GetDataType()),
     std::accumulate(sums.begin(), sums.end(), std::uint64_t(0)));
+}
+
+bool HavePart(vtkDataArray* voxels, const std::array<int, 3>& size, const ValidVoxels& valid,
+  const PartSize& least, double isoValue, bool objectIsBright)
+{
+  const auto have = [&](const auto* values)
+  {
+    return HasThickPart(
+      [&](std::int64_t voxel)
+      {
+        const auto number = static_cast<double>(values[voxel]);
+        return (objectIsBright ? number > isoValue : number < isoValue) && valid.Has(voxel);
+      },
+      size, least);
+  };
+  switch (voxels->GetDataType())
+  {
+    vtkTemplateMacro(return have(static_cast<const VTK_TT*>(voxels->GetVoidPointer(0))));
+    default:
+      return true;
+  }
+}
+
+bool HavePart(Communicator& ranks, const LevelInPieces& level, const SurfaceOptions& options)
+{
+  // Of a large part so many voxels that hang together are not further from any of them.
+  constexpr int margin = PartThatHolds.Voxels + PartThatHolds.Thickness;
+  VoxelBox around = level.Pieces.HeldBy(ranks.Rank());
+  for (int axis = 0; axis < 3 && !around.IsEmpty(); ++axis)
+  {
+    around.First[axis] -= margin;
+    around.End[axis] += margin;
+  }
+  around = around.CommonWith(level.Pieces.Bounds());
+  const vtkSmartPointer<vtkDataArray> voxels =
+    FetchVoxels(ranks, level.Pieces, level.Values, around);
+  return ranks.IsAny(!around.IsEmpty() &&
+    HavePart(voxels, around.Size(), ValidVoxels(), PartThatHolds,
+      options.IsoValue - level.Base.value_or(0.0), options.ObjectIsBright));
 }
 
 void FillInvalid(const FieldVoxels& voxels, const LargeVector<std::uint8_t>& marks,

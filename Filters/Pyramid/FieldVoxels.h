@@ -7,8 +7,11 @@
 #include "Core/Common/Executor.h"
 #include "Core/Common/ScratchMemory.h"
 #include "Core/Evolution/SurfaceOptions.h"
+#include "Core/Image/ThickPart.h"
 #include "Core/Image/VoxelPieces.h"
 #include "Core/Image/VoxelValues.h"
+#include "Input/LevelInPieces.h"
+#include "Input/ValidVoxels.h"
 
 #include <array>
 #include <cstdint>
@@ -44,6 +47,17 @@ double BackgroundOf(const std::array<double, 2>& range, const SurfaceOptions& op
  */
 std::uint64_t HashOfVoxels(Communicator& ranks, const VoxelPieces& pieces, vtkDataArray* voxels,
   Executor& executor);
+
+/**
+ * Whether a part of the object, which is above the value (bright) or below, is at least that large
+ * (ThickPart.h); also where their type is not supported.
+ * @param size how many voxels there are along each axis
+ */
+bool HavePart(vtkDataArray* voxels, const std::array<int, 3>& size, const ValidVoxels& valid,
+  const PartSize& least, double isoValue, bool objectIsBright);
+
+/** By all ranks together: whether one of PartThatHolds is in a level that they have in pieces. */
+bool HavePart(Communicator& ranks, const LevelInPieces& level, const SurfaceOptions& options);
 
 /** Copies the values to `filled`, with the background for those that are not marked as valid. */
 void FillInvalid(const FieldVoxels& voxels, const LargeVector<std::uint8_t>& marks,

@@ -136,25 +136,14 @@ double PyramidLevels::UnitOf(int level) const
 bool PyramidLevels::HoldsPart(
   int level, const PartSize& least, double isoValue, bool objectIsBright) const
 {
-  const vtkSmartPointer<vtkDataArray> voxels = ContiguousVoxels(this->Voxels[level]);
-  SequentialExecutor thread;
-  const ValidVoxels valid = this->ValidAt(level, thread);
-  const auto holds = [&](const auto* values)
+  const auto pieces = this->Pieces.find(level);
+  if (pieces != this->Pieces.end())
   {
-    return HasThickPart(
-      [&](std::int64_t voxel)
-      {
-        const auto number = static_cast<double>(values[voxel]);
-        return (objectIsBright ? number > isoValue : number < isoValue) && valid.Has(voxel);
-      },
-      this->Sizes[level], least);
-  };
-  switch (voxels->GetDataType())
-  {
-    vtkTemplateMacro(return holds(static_cast<const VTK_TT*>(voxels->GetVoidPointer(0))));
-    default:
-      return true; // Load() will say what is wrong.
+    return pieces->second.HoldsPart;
   }
+  SequentialExecutor thread;
+  return HavePart(ContiguousVoxels(this->Voxels[level]), this->Sizes[level],
+    this->ValidAt(level, thread), least, isoValue, objectIsBright);
 }
 
 std::array<double, 2> PyramidLevels::Range(int level) const

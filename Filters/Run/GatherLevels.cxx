@@ -165,6 +165,22 @@ LevelInPieces PiecesOfLevel(Communicator& ranks, const ImagePieces& pieces, vtkI
   return level;
 }
 
+/** By all ranks, where nothing is recovered: at which levels a surface may start. */
+void LookForParts(Communicator& ranks, SegmentationVolume& volume)
+{
+  if (volume.Settings.Recovery != RecoveryType::NoRecovery)
+  {
+    return;
+  }
+  // It starts at the first that has one.
+  bool isFound = false;
+  for (auto level = volume.InPieces.rbegin(); level != volume.InPieces.rend() && !isFound; ++level)
+  {
+    isFound = level->second.HoldsPart =
+      HavePart(ranks, level->second, volume.Settings.Options);
+  }
+}
+
 /** The level at rank 0, with room for its voxels; what ranks have of them goes to the volume. */
 vtkSmartPointer<vtkImageData> LeaveInPieces(Communicator& ranks, const ImagePieces& pieces,
   vtkImageData* piece, int h, SegmentationVolume& volume)
@@ -220,6 +236,7 @@ void GatherLevels(Communicator& ranks, SegmentationVolume& volume, vtkInformatio
         whole->SetBlock(h, level);
       }
       volume.Levels = whole;
+      LookForParts(ranks, volume);
     });
   // Which array it is may have been chosen by its name on other ranks, where this one has none.
   volume.Selection = vtkSmartPointer<vtkInformation>::New();

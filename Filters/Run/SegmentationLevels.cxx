@@ -102,7 +102,7 @@ bool SegmentationLevels::HoldsObject(int level, const SurfaceOptions& options) c
 {
   // What the coarser levels show is too thin for them; a large one is the last resort.
   const bool isLarge = SurfaceEvolution::AreShared(options, this->Voxels.SizeOf(level));
-  if (this->IsInPieces(level) || (options.RecoverLostParts && isLarge))
+  if (options.RecoverLostParts && isLarge)
   {
     return true;
   }

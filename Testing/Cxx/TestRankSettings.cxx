@@ -78,6 +78,24 @@ vtkSmartPointer<vtkImageData> HiddenCells()
   return image;
 }
 
+/** A plate of two voxels, as only the image shows it, between two pieces. */
+vtkSmartPointer<vtkImageData> Plate()
+{
+  const auto image = TwoBalls();
+  image->GetPointData()->GetScalars()->Fill(0.0);
+  for (int k = 80; k < 82; ++k)
+  {
+    for (int j = 40; j < 120; ++j)
+    {
+      for (int i = 40; i < 120; ++i)
+      {
+        image->SetScalarComponentFromDouble(i, j, k, 0, 100.0);
+      }
+    }
+  }
+  return image;
+}
+
 struct Case
 {
   const char* Name;
@@ -114,6 +132,13 @@ const std::vector<Case> Cases = {
       f->SetInitializationToIsoSurface();
     },
     ByteVoxels, "the surface starts there" },
+  { "StartWhereAPlateHolds",
+    [](vtkDeformableSurface* f)
+    {
+      f->SetRecovery(vtkDeformableSurface::NoRecovery);
+      f->SetInitializationToIsoSurface();
+    },
+    Plate, "the surface starts there" },
   { "LargestComponent",
     [](vtkDeformableSurface* f)
     { f->SetKeepComponents(vtkDeformableSurface::LargestComponent); },

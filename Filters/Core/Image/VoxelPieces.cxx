@@ -182,7 +182,11 @@ void VoxelPieces::FetchOnce(Communicator& ranks, const char* voxels, const Voxel
           ? voxels + static_cast<std::size_t>(layout.NumberOf(delivery.Box.First[0], j, k)) * bytes
           : messages[from].data() + read[from];
         read[from] += size;
-        std::memcpy(fetched + static_cast<std::size_t>(first) * bytes, source, size);
+        char* const target = fetched + static_cast<std::size_t>(first) * bytes;
+        if (source != target) // Where what is held lies in the same room.
+        {
+          std::memcpy(target, source, size);
+        }
       });
   }
 }
