@@ -151,7 +151,7 @@ TEST(ThinParts, AreTheSameOnAnyThreadsAndWithLittleMemory)
 {
   const auto one = Made(true, [](vtkVolumeToSurface* f) { f->SetNumberOfThreads(1); });
   const auto three = Made(true, [](vtkVolumeToSurface* f) { f->SetNumberOfThreads(3); });
-  const auto limited = Made(true, [](vtkVolumeToSurface* f) { f->SetMemoryLimit(200); });
+  const auto limited = Made(true, [](vtkVolumeToSurface* f) { f->SetMemoryLimit(LittleMemory); });
   ExpectSameSurfaces(one->GetOutput(), three->GetOutput());
   EXPECT_TRUE(AreSameSurfaces(one->GetOutput(), limited->GetOutput()));
 }

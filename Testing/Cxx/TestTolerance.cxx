@@ -134,7 +134,7 @@ TEST(Tolerance, IsTheSameOnAnyThreadsAndWithLittleMemory)
 {
   const auto one = Graded(0.2, [](vtkDeformableSurface* f) { f->SetNumberOfThreads(1); });
   const auto three = Graded(0.2, [](vtkDeformableSurface* f) { f->SetNumberOfThreads(3); });
-  const auto limited = Graded(0.2, [](vtkDeformableSurface* f) { f->SetMemoryLimit(200); });
+  const auto limited = Graded(0.2, [](vtkDeformableSurface* f) { f->SetMemoryLimit(LittleMemory); });
   one->Update();
   three->Update();
   limited->Update();
