@@ -14,7 +14,6 @@
 #include "Settings/SegmentationSettings.h"
 #include "Settings/SegmentationVolume.h"
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <map>

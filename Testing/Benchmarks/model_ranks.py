@@ -99,13 +99,11 @@ def choose_owners(vertices, ranks):
         lower = count // 2
         wanted = rows[box].sum() * lower / count
         best = None
-        lengths = [side.stop - side.start for side in box]
         for axis in (0, 1):
             along = rows[box].sum(axis=1 - axis)
-            unlike = 0 if axis == (0 if lengths[0] >= lengths[1] else 1) else .1 * wanted
             for at, summed in enumerate(np.cumsum(along)[:-1], 1):
-                if best is None or unlike + abs(summed - wanted) < best[0]:
-                    best = (unlike + abs(summed - wanted), axis, at)
+                if best is None or abs(summed - wanted) < best[0]:
+                    best = (abs(summed - wanted), axis, at)
         if best is None:
             owners[box] = first  # a row alone
             return

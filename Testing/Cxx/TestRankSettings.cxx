@@ -111,6 +111,21 @@ std::ostream& operator<<(std::ostream& out, const Case& c)
   return out << c.Name;
 }
 
+/** @param place by default in the smaller ball, which has not the volume of a large component */
+Case OfComponents(const char* name, vtkDeformableSurface::KeepComponentsType kind,
+  const std::array<double, 3>& place = { 108.0, 106.0, 104.0 })
+{
+  Case of = { name };
+  of.Set = [kind, place](vtkDeformableSurface* f)
+  {
+    f->SetKeepComponents(kind);
+    f->SetMinimumComponentVolume(5000.0);
+    f->AddSeedPosition(place[0], place[1], place[2]);
+  };
+  of.IsChosenInPieces = true;
+  return of;
+}
+
 const std::vector<Case> Cases = {
   { "AsTheyAre", [](vtkDeformableSurface*) {} },
   { "EdgeLength", [](vtkDeformableSurface* f) { f->SetEdgeLength(1.6); } },
@@ -139,38 +154,13 @@ const std::vector<Case> Cases = {
       f->SetInitializationToIsoSurface();
     },
     Plate, "the surface starts there" },
-  { "LargestComponent",
-    [](vtkDeformableSurface* f)
-    { f->SetKeepComponents(vtkDeformableSurface::LargestComponent); },
-    ByteVoxels, "", false, true },
-  { "LargeComponents",
-    [](vtkDeformableSurface* f)
-    {
-      f->SetKeepComponents(vtkDeformableSurface::LargeComponents);
-      f->SetMinimumComponentVolume(5000.0); // not the smaller ball
-    },
-    ByteVoxels, "", false, true },
-  { "SmallComponentAtPoints",
-    [](vtkDeformableSurface* f)
-    {
-      f->SetKeepComponents(vtkDeformableSurface::ComponentsAtPoints);
-      f->AddSeedPosition(108.0, 106.0, 104.0);
-    },
-    ByteVoxels, "", false, true },
-  { "ComponentTouchedByPoints", // from outside, on the last rank only
-    [](vtkDeformableSurface* f)
-    {
-      f->SetKeepComponents(vtkDeformableSurface::ComponentsAtPoints);
-      f->AddSeedPosition(70.0, 70.0, 91.5);
-    },
-    ByteVoxels, "", false, true },
-  { "ComponentsNotAtSeeds",
-    [](vtkDeformableSurface* f)
-    {
-      f->SetKeepComponents(vtkDeformableSurface::ComponentsNotAtSeeds);
-      f->AddSeedPosition(108.0, 106.0, 104.0);
-    },
-    ByteVoxels, "", false, true },
+  OfComponents("LargestComponent", vtkDeformableSurface::LargestComponent),
+  OfComponents("LargeComponents", vtkDeformableSurface::LargeComponents),
+  OfComponents("SmallComponentAtPoints", vtkDeformableSurface::ComponentsAtPoints),
+  // From outside, on the last rank only.
+  OfComponents(
+    "ComponentTouchedByPoints", vtkDeformableSurface::ComponentsAtPoints, { 70.0, 70.0, 91.5 }),
+  OfComponents("ComponentsNotAtSeeds", vtkDeformableSurface::ComponentsNotAtSeeds),
   { "ContactsOfLargeComponents", // of two that grow in one ball; that in the other one goes
     [](vtkDeformableSurface* f)
     {

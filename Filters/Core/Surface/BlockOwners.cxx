@@ -24,9 +24,6 @@ struct RowsOfBlocks
   int End[2];
 };
 
-/** Share of its vertices that a part may have too few, before it is cut along the shorter axis. */
-constexpr double ShareUnlikeImages = 0.1;
-
 /** Cuts boxes of rows of blocks into halves of as many vertices as their ranks. */
 class OwnerChoice
 {
@@ -55,16 +52,13 @@ public:
     best.End[1] = best.Begin[1]; // Nothing, where there is nothing to cut.
     int bestAxis = 1;
     double least = -1.;
-    const int longest = rows.End[1] - rows.Begin[1] >= rows.End[0] - rows.Begin[0] ? 1 : 0;
     for (const int axis : { 1, 0 })
     {
-      // As images are cut: so ranks need few voxels of others.
-      const double unlike = axis == longest ? 0. : ShareUnlikeImages * wanted;
       for (int at = rows.Begin[axis] + 1; at < rows.End[axis]; ++at)
       {
         RowsOfBlocks part = rows;
         part.End[axis] = at;
-        const double off = unlike + std::abs(static_cast<double>(this->Count(part)) - wanted);
+        const double off = std::abs(static_cast<double>(this->Count(part)) - wanted);
         if (least < 0. || off < least)
         {
           least = off;
