@@ -11,6 +11,9 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
+#include <new>
+#include <optional>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -67,6 +70,13 @@ void HelpWithOutput(Communicator& ranks, const SharedLevel& shared, HelpersPiece
     });
 }
 
+void Unite(Communicator& ranks, SurfaceEvolution& evolution)
+{
+  evolution.SetRanks(&ranks);
+  evolution.Unite();
+  evolution.SetRanks(nullptr);
+}
+
 /** Null where all voxels of the level are at rank 0. */
 LevelInPieces* PiecesOf(LevelsInPieces& pieces, int level)
 {
@@ -79,12 +89,11 @@ LevelInPieces* PiecesOf(LevelsInPieces& pieces, int level)
 struct HelpersRun
 {
   HelpersRun(const SharedLevel& shared, const std::function<bool()>& goOn)
-    : Threads(shared.NumberOfThreads), Asked(goOn), Evolution(shared.Options, Threads, Asked)
+    : Threads(shared.NumberOfThreads), Asked(goOn), Evolution(shared.Options, *Threads, Asked)
   {
   }
-  HostThreads Threads;
+  std::optional<HostThreads> Threads; ///< Another run may want others, in the same place.
   HelpersMonitor Asked;
-  std::unique_ptr<RankLevel> Level; ///< The last one, to which the evolution refers.
   SurfaceEvolution Evolution;
 };
 
@@ -195,26 +204,73 @@ std::unique_ptr<RankLevel> ShareLevel(Communicator& ranks, const SharedLevel& sh
 }
 
 bool EvolveOnRanks(Communicator& ranks, const SharedLevel& shared,
-  std::unique_ptr<RankLevel> level, std::unique_ptr<RankLevel>& last,
-  SurfaceEvolution& evolution, StopReason& reason, SurfaceResult& surface)
+  std::unique_ptr<RankLevel> level, SurfaceEvolution& evolution, EvolutionAtRest& rest,
+  StopReason& reason, SurfaceResult& surface)
 {
-  RankLevel* const present = level.get();
-  present->NeedMeasures();
-  evolution.SetRanks(&ranks, [present](const VoxelBox& box) { present->Need(box); });
-  const bool isDivided = evolution.Divide(present->Image(), shared.Level);
+  rest.Drop();
+  if (shared.KeepsRest && ranks.IsAny(!rest.Keep(evolution)))
+  {
+    rest.Drop(); // A piece of it would be of no use.
+  }
+  level->NeedMeasures();
+  evolution.SetRanks(&ranks, [&level](const VoxelBox& box) { level->Need(box); });
+  const bool isDivided = evolution.Divide(level->Image(), shared.Level);
   if (isDivided)
   {
-    last = std::move(level);
     reason = evolution.Run();
     evolution.ForgetMotion();
-    surface = shared.InPieces ? evolution.PieceOfResult() : evolution.Result();
-    if (shared.Then == SharedLevel::Next::IsWhole)
-    {
-      evolution.Unite();
-    }
+    surface = shared.MakesPieces ? evolution.PieceOfResult() : evolution.Result();
+    evolution.LeaveLevel();
   }
   evolution.SetRanks(nullptr);
   return isDivided;
+}
+
+void UniteOnRanks(Communicator& ranks, const SharedLevel& shared, SurfaceEvolution& evolution)
+{
+  BroadcastValue(ranks, shared);
+  Unite(ranks, evolution);
+}
+
+namespace
+{
+void HelpToEvolve(Communicator& ranks, const SharedLevel& shared,
+  std::unique_ptr<RankLevel> level, HelpersPiece& piece, const std::function<bool()>& goOn)
+{
+  std::shared_ptr<HelpersRun> run = std::move(piece.Run);
+  if (!shared.IsInPieces)
+  {
+    run = std::make_shared<HelpersRun>(shared, goOn);
+  }
+  if (!run)
+  {
+    throw std::logic_error("A rank has not kept its piece of the surface.");
+  }
+  run->Threads.emplace(shared.NumberOfThreads);
+  run->Evolution.SetMeanEdgeLength(shared.MeanEdgeLength);
+  EvolutionAtRest rest;
+  StopReason reason = StopReason::Cancelled;
+  run->Threads->Run(
+    [&]
+    {
+      EvolveOnRanks(
+        ranks, shared, std::move(level), run->Evolution, rest, reason, piece.Result);
+    });
+  if (reason != StopReason::Cancelled)
+  {
+    piece.Run = shared.GoesOn ? std::move(run) : nullptr;
+    return;
+  }
+  run.reset(); // As SurfaceSegmentation::ReturnToRest().
+  if (rest.IsKept())
+  {
+    piece.Run = std::make_shared<HelpersRun>(shared, goOn);
+    if (!rest.GiveTo(piece.Run->Evolution))
+    {
+      throw std::bad_alloc();
+    }
+  }
+}
 }
 
 void MakeOutputOnRanks(Communicator& ranks, SharedLevel shared,
@@ -233,6 +289,11 @@ void HelpWithLevel(Communicator& ranks, LevelsInPieces& pieces, HelpersPiece& pi
   const std::function<bool()>& goOn)
 {
   const SharedLevel shared = BroadcastValue(ranks, SharedLevel());
+  if (shared.Is == SharedLevel::Work::Unites)
+  {
+    Unite(ranks, std::exchange(piece.Run, nullptr)->Evolution);
+    return;
+  }
   if (shared.Is == SharedLevel::Work::MakesOutput ||
     shared.Is == SharedLevel::Work::MakesOutputAgain)
   {
@@ -251,27 +312,10 @@ void HelpWithLevel(Communicator& ranks, LevelsInPieces& pieces, HelpersPiece& pi
   {
     coarser->second.Values = nullptr; // As rank 0 has let go of them.
   }
-  std::shared_ptr<HelpersRun> run = std::move(piece.Run);
   piece.Result = SurfaceResult();
   piece.Outputs.erase(shared.Level); // Rank 0 has forgotten it, too.
   piece.Kept.erase(shared.Level);
-  if (!run)
-  {
-    run = std::make_shared<HelpersRun>(shared, goOn);
-  }
-  run->Evolution.SetMeanEdgeLength(shared.MeanEdgeLength);
-  StopReason reason = StopReason::Cancelled;
-  run->Threads.Run(
-    [&]
-    {
-      EvolveOnRanks(ranks, shared, std::move(level), run->Level, run->Evolution, reason,
-        piece.Result);
-    });
-  if (shared.Then == SharedLevel::Next::StaysInPieces && reason != StopReason::Cancelled)
-  {
-    piece.Run = std::move(run);
-  }
-  run.reset();
+  HelpToEvolve(ranks, shared, std::move(level), piece, goOn);
   GiveBackFreeMemory();
 }
 }

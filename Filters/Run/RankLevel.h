@@ -14,6 +14,7 @@
 #include "Input/Workspace.h"
 #include "Output/RankOutputs.h"
 #include "Output/SegmentationResults.h"
+#include "Run/EvolutionAtRest.h"
 #include "Settings/SegmentationVolume.h"
 
 #include <functional>
@@ -69,6 +70,7 @@ struct SharedLevel
   enum class Work
   {
     Evolves,     ///< All evolve the surface.
+    Unites,      ///< Rank 0 wants the mesh that is in pieces.
     GivesVoxels, ///< Rank 0 wants all voxels, and does the rest alone.
     MakesOutput, ///< All make outputs of their pieces,
     MakesOutputAgain ///< of those that they have kept.
@@ -78,17 +80,12 @@ struct SharedLevel
   int Level = 0;
   double MeanEdgeLength = 0.; ///< SurfaceEvolution::SetMeanEdgeLength()
   int NumberOfThreads = 0;
-  /** What becomes of the surface that has evolved there. */
-  enum class Next
-  {
-    Ends,         ///< Nothing.
-    StaysInPieces, ///< It goes on to another level that all share.
-    IsWhole       ///< Rank 0 gets it.
-  };
-  Next Then = Next::IsWhole;
+  bool IsInPieces = false; ///< The mesh that is to evolve there; else rank 0 has it.
+  bool KeepsRest = false;  ///< A stop leads back to it.
+  bool GoesOn = false;     ///< Something may come after that level.
   bool TakesVoxels = false; ///< See RankLevel.
   bool KeepsPieces = false; ///< Outputs may be wanted of other components.
-  bool InPieces = false; ///< Its output is not whole: each rank makes its own piece.
+  bool MakesPieces = false; ///< Its output is not whole: each rank makes its own piece.
 };
 
 struct HelpersRun;
@@ -100,20 +97,23 @@ struct HelpersPiece
   PiecesOfLevels Outputs;
   /** With all components, where others may be wanted: by level. */
   std::map<int, std::shared_ptr<const SurfaceResult>> Kept;
-  /** What evolves it, while it stays in pieces between levels; else null. */
-  std::shared_ptr<HelpersRun> Run;
+  std::shared_ptr<HelpersRun> Run; ///< What evolves it, between levels; else null.
 };
 
 /**
  * At rank 0, while the other ranks are in HelpWithLevel(): divides the surface to a level that all
- * ranks share, and evolves it there. Afterwards rank 0 has the result, or its piece of it, and what
- * shared.Then tells.
- * @param last the level that the evolution refers to: it is let go when the surface has left it
+ * ranks share, and evolves it there. Afterwards rank 0 has the result, or its piece of it, and the
+ * evolution has left the level, in pieces.
+ * @param rest of all ranks what rests before it is divided, where that is to be kept, and all have
+ *        had room for it
  * @return false as SurfaceEvolution::Divide()
  */
 bool EvolveOnRanks(Communicator& ranks, const SharedLevel& shared,
-  std::unique_ptr<RankLevel> level, std::unique_ptr<RankLevel>& last,
-  SurfaceEvolution& evolution, StopReason& reason, SurfaceResult& surface);
+  std::unique_ptr<RankLevel> level, SurfaceEvolution& evolution, EvolutionAtRest& rest,
+  StopReason& reason, SurfaceResult& surface);
+
+/** At rank 0, likewise: SurfaceEvolution::Unite(). */
+void UniteOnRanks(Communicator& ranks, const SharedLevel& shared, SurfaceEvolution& evolution);
 
 /**
  * At rank 0, likewise: tells the others of a level whose voxels it wants, or on which all evolve.

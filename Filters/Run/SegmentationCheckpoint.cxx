@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* Prefix = "volumic-";
 /** Begins each state; to be changed with the format, or with the bits of what a run makes of it. */
-constexpr const char* Format = "Volumic checkpoint 3";
+constexpr const char* Format = "Volumic checkpoint 4";
 
 std::string StateIn(const fs::path& folder)
 {

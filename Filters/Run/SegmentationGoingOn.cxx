@@ -6,36 +6,11 @@
 
 #include "Run/SurfaceSegmentation.h"
 
-#include "Core/Common/ScratchMemory.h"
-
 #include <memory>
-#include <new>
 #include <string>
 
 namespace volumic
 {
-namespace
-{
-/** Does what a run can do without. @return whether the memory has sufficed for it. */
-template <typename Work>
-bool HasRoomFor(const Work& work)
-{
-  try
-  {
-    work();
-    return true;
-  }
-  catch (const std::bad_alloc&)
-  {
-    return false;
-  }
-  catch (const ScratchFull&)
-  {
-    return false;
-  }
-}
-}
-
 void SurfaceSegmentation::PrepareCheckpoint()
 {
   const CheckpointRequest& wanted = this->Request.Checkpoints;
@@ -88,6 +63,7 @@ void SurfaceSegmentation::LeaveCheckpoint(int level)
   {
     return;
   }
+  this->Unite(); // What is saved is the whole.
   const std::string warning =
     this->Left->Save(this->Found, *this->Evolution, { level, this->GoesOn });
   if (!warning.empty())
@@ -96,37 +72,13 @@ void SurfaceSegmentation::LeaveCheckpoint(int level)
   }
 }
 
-void SurfaceSegmentation::KeepRest()
-{
-  FileInMemory().swap(this->Rest);
-  if (this->Request.MayGoOn && this->Reached <= this->Choice.Coarsest)
-  {
-    const bool isKept = HasRoomFor(
-      [this]
-      {
-        CheckedWriter file(this->Rest);
-        this->Evolution->Save(file);
-        file.Commit();
-      });
-    if (!isKept)
-    {
-      FileInMemory().swap(this->Rest);
-    }
-  }
-}
-
 void SurfaceSegmentation::ReturnToRest()
 {
-  if (this->Evolution->IsStopped() && !this->Rest.empty())
+  if (this->Evolution->IsStopped() && this->Rest.IsKept())
   {
     this->Evolution.reset(); // Not both at a time.
-    this->GoesOn = HasRoomFor(
-      [this]
-      {
-        this->MakeEvolution();
-        CheckedReader file(this->Rest);
-        this->Evolution->Load(file);
-      });
+    this->MakeEvolution();
+    this->GoesOn = this->Rest.GiveTo(*this->Evolution);
     if (this->GoesOn)
     {
       this->Reached += this->Found.HasAtRest(this->Reached) ? 0 : 1;
@@ -136,6 +88,6 @@ void SurfaceSegmentation::ReturnToRest()
       this->Evolution.reset(); // The surface as it was stopped stays.
     }
   }
-  FileInMemory().swap(this->Rest);
+  this->Rest.Drop();
 }
 }

@@ -42,22 +42,32 @@ bool SurfaceSegmentation::IsForAllRanks(int level) const
       this->Settings.Options, this->Levels.Pyramid().SizeOf(std::max(level, 0)));
 }
 
-SharedLevel::Next SurfaceSegmentation::AfterShared(int level) const
+bool SurfaceSegmentation::EndsAt(int level) const
 {
-  const CheckpointRequest& checkpoints = this->Request.Checkpoints;
   // From level 0 only the run to level -1 goes on, or one from a checkpoint that stays.
-  if (level == 0 && this->Choice.Last == 0 && !(checkpoints.AreLeft && checkpoints.Stay))
+  const CheckpointRequest& checkpoints = this->Request.Checkpoints;
+  return level <= std::min(this->Choice.Last, 0) && !(checkpoints.AreLeft && checkpoints.Stay);
+}
+
+void SurfaceSegmentation::Unite()
+{
+  if (!this->Evolution->IsInPieces())
   {
-    return SharedLevel::Next::Ends;
+    return;
   }
-  // What is saved is the whole surface.
-  const bool staysInPieces = level > this->Choice.Last && this->MayBeShared(level - 1) &&
-    !checkpoints.AreLeft && !this->Request.MayGoOn;
-  return staysInPieces ? SharedLevel::Next::StaysInPieces : SharedLevel::Next::IsWhole;
+  SharedLevel shared;
+  shared.Is = SharedLevel::Work::Unites;
+  this->Request.OnAllRanks(
+    [&] { UniteOnRanks(*this->Request.Ranks, shared, *this->Evolution); });
 }
 
 void SurfaceSegmentation::TakeAlone(int level)
 {
+  if (this->MayBeShared(level))
+  {
+    return;
+  }
+  this->Unite();
   const char* why = this->IsForAllRanks(level) ? this->WhyAlone(level) : nullptr;
   if (!why)
   {

@@ -260,8 +260,6 @@ void SurfaceSegmentation::RunLevels()
       this->KeepStoppedSurface(level);
       break;
     }
-    // The surface leaves the level that it is on.
-    this->KeepRest();
     this->Found.Forget(level); // Of a run that was stopped there.
     this->Levels.ReleaseCoarserThan(level);
     this->TakeAlone(level);
@@ -328,6 +326,7 @@ bool SurfaceSegmentation::EvolveOn(
   const LevelImage& image, int level, StopReason& reason, SurfaceResult& surface)
 {
   SurfaceEvolution& evolution = *this->Evolution;
+  const bool keepsRest = this->Request.MayGoOn && level < this->Choice.Coarsest;
   if (this->MayBeShared(level))
   {
     bool isDivided = false;
@@ -336,20 +335,25 @@ bool SurfaceSegmentation::EvolveOn(
     shared.Level = level;
     shared.MeanEdgeLength = this->WantedMeanEdge(level);
     shared.NumberOfThreads = this->Settings.End.NumberOfThreads;
-    shared.Then = this->AfterShared(level);
+    shared.IsInPieces = evolution.IsInPieces();
+    shared.KeepsRest = keepsRest;
+    shared.GoesOn = !this->EndsAt(level);
     // Level -1 has the voxels of level 0.
     shared.TakesVoxels = !this->Request.MayGoOn && !(level == 0 && this->Choice.Last < 0);
-    shared.InPieces =
-      shared.Then != SharedLevel::Next::IsWhole && !this->Request.Checkpoints.AreLeft;
+    shared.MakesPieces = !this->Request.Checkpoints.AreLeft; // What is saved is whole.
     this->Request.OnAllRanks(
       [&]
       {
         Communicator& ranks = *this->Request.Ranks;
-        auto onRanks = ShareLevel(ranks, shared, image, this->Levels.InPieces());
-        isDivided = EvolveOnRanks(
-          ranks, shared, std::move(onRanks), this->Shared, evolution, reason, surface);
+        isDivided = EvolveOnRanks(ranks, shared,
+          ShareLevel(ranks, shared, image, this->Levels.InPieces()), evolution, this->Rest,
+          reason, surface);
       });
     return isDivided;
+  }
+  if (keepsRest)
+  {
+    this->Rest.Keep(evolution);
   }
   if (level == this->Choice.Coarsest)
   {
@@ -380,6 +384,7 @@ bool SurfaceSegmentation::EvolveOn(
     surface = evolution.Result();
   }
   reason = evolution.IsStopped() ? StopReason::Cancelled : reason;
+  evolution.LeaveLevel();
   return true;
 }
 

@@ -3,7 +3,6 @@
 #ifndef volumicSurfaceSegmentation_h
 #define volumicSurfaceSegmentation_h
 
-#include "Core/Common/CheckedFile.h"
 #include "Core/Common/IndexedSurface.h"
 #include "Core/Common/MeasuredExecutor.h"
 #include "Core/Evolution/SurfaceEvolution.h"
@@ -12,6 +11,7 @@
 #include "Host/ProgressMonitor.h"
 #include "Output/SegmentationResults.h"
 #include "Output/SurfaceSnapshots.h"
+#include "Run/EvolutionAtRest.h"
 #include "Run/LevelChoice.h"
 #include "Run/RankLevel.h"
 #include "Run/SegmentationCheckpoint.h"
@@ -101,8 +101,6 @@ private:
    */
   void RunLevels();
   void MakeEvolution();
-  /** Before the surface leaves Reached: saves the evolution in Rest, where a stop may need it. */
-  void KeepRest();
   /** After a stop: makes the evolution again of Rest. Empties Rest in any case. */
   void ReturnToRest();
   /** Whether a preview that has come to this level must go on, as too much is missing. */
@@ -113,11 +111,13 @@ private:
   const char* WhyAlone(int level) const;
   /** Whether all ranks work on a level. */
   bool MayBeShared(int level) const;
-  /** What becomes of the surface after a level on which all ranks have worked. */
-  SharedLevel::Next AfterShared(int level) const;
+  /** Whether nothing comes after a level. */
+  bool EndsAt(int level) const;
+  /** Brings the mesh that is in pieces to rank 0. */
+  void Unite();
   /**
-   * Of a level that is large enough for all ranks, but for rank 0 alone: says so, of each
-   * reason once a run, and brings it the voxels, by all ranks, where these are in pieces.
+   * Of a level that is for rank 0 alone: brings it the mesh and the voxels, by all ranks, where
+   * these are in pieces. Where it is large enough for all ranks, says so, of each reason once a run.
    */
   void TakeAlone(int level);
   /** In the workspace; 0: as it comes. */
@@ -159,11 +159,10 @@ private:
   std::unique_ptr<SurfaceEvolution> Evolution; ///< of the last two; null before the first run
   int Reached = 0;     ///< the level at which it rests
   bool GoesOn = false; ///< It does, and is fit for a finer one.
-  FileInMemory Rest; ///< The evolution as it rested there, while it is at a finer one.
+  EvolutionAtRest Rest; ///< The evolution as it rested there, while it is at a finer one.
   std::set<std::string> ToldOfAlone; ///< why; see TakeAlone()
   bool HasChosen = true; ///< The components of what is there are those that are wanted.
   std::shared_ptr<SegmentationCheckpoint> Left; ///< null: none is left
-  std::unique_ptr<RankLevel> Shared; ///< what the evolution refers to, after a level on all ranks
 };
 }
 

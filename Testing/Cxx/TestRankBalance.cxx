@@ -3,6 +3,7 @@
 
 // Blocks that go from rank to rank, until all have as much to do.
 #include "Core/Common/RankLists.h"
+#include "Core/Evolution/MeshPiece.h"
 #include "Core/Surface/RankBlocks.h"
 #include "CoreTestTools.h"
 #include "ThreadRanks.h"
@@ -286,7 +287,7 @@ TEST(RankBalance, BringsAllThatIsKnownOfBlocksAndTheirNeighbourhood)
     });
 }
 
-TEST(RankBalance, GathersWhatWasThereBefore)
+TEST(RankBalance, KeepsAllVerticesWhenBlocksMove)
 {
   const SurfaceState& whole = Whole();
   ThreadRanks::Run(4,
@@ -294,15 +295,26 @@ TEST(RankBalance, GathersWhatWasThereBefore)
     {
       Pieces pieces(ranks);
       EXPECT_TRUE(pieces.Owned->Balance(true, OnThisThread()));
-      pieces.Owned->Gather();
-      if (ranks.Rank() == 0)
+      std::vector<int> own;
+      for (int v = 0; v < whole.Mesh.Size(); ++v)
       {
-        EXPECT_EQ(pieces.State.Mesh.NumberOfVertices(), whole.Mesh.NumberOfVertices());
-        for (int v = 0; v < whole.Mesh.Size(); ++v)
+        if (pieces.State.Mesh.IsAlive(v) && pieces.Owned->IsOwnVertex(v))
         {
-          EXPECT_TRUE(pieces.State.Mesh.IsAlive(v));
-          EXPECT_EQ(SquaredDistance(pieces.State.Mesh.Position[v], whole.Mesh.Position[v]), 0.f);
+          own.push_back(v);
         }
+      }
+      const SurfaceMesh united = GatherMesh(ranks, pieces.State.Mesh, own);
+      // It has the places, too, that blocks keep for new vertices.
+      const int all = ranks.Rank() == 0 ? whole.Mesh.Size() : 0;
+      EXPECT_EQ(united.NumberOfVertices(), all);
+      EXPECT_EQ(united.Size() == 0, all == 0);
+      for (int v = 0; v < all; ++v)
+      {
+        EXPECT_EQ(SquaredDistance(united.Position[v], whole.Mesh.Position[v]), 0.f);
+        const Ring& ring = united.Rings[v];
+        EXPECT_EQ(std::vector<int>(ring.Item, ring.Item + ring.Count),
+          std::vector<int>(whole.Mesh.Rings[v].Item,
+            whole.Mesh.Rings[v].Item + whole.Mesh.Rings[v].Count));
       }
     });
 }

@@ -238,6 +238,67 @@ TEST(RankPieces, OfARunThatIsStopped)
   ExpectAs(one, ranks);
 }
 
+TEST(RankPieces, OfARunThatGoesOnAfterAStopAnywhere)
+{
+  const Filter one = OneRank();
+  for (const double share : { 0.2, 0.35, 0.5, 0.65, 0.9 })
+  {
+    SCOPED_TRACE(share);
+    const Ranks ranks = RunRanks(2, BallsFilter,
+      [share](vtkDeformableSurface* filter, vtkMultiProcessController* controller)
+      {
+        {
+          ProgressListener stops(filter);
+          stops.StopAt = controller->GetLocalProcessId() == 0 ? share : 2.0;
+          Update(filter, controller);
+        }
+        EXPECT_EQ(StopReasonOf(filter), "cancelled");
+        // What rests is where the ranks have it.
+        filter->SetNumberOfThreads(2);
+        Update(filter, controller);
+      });
+    ExpectAs(one, ranks);
+  }
+}
+
+TEST(RankPieces, AreNotUnitedWhereARunIsKeptToGoOnFrom)
+{
+  const auto make = [](vtkMultiProcessController* controller)
+  {
+    Filter filter = BallsFilter(controller);
+    filter->ProfileOn();
+    return filter;
+  };
+  const auto sent = [](const Ranks& ranks)
+  {
+    vtkDataArray* bytes = vtkDataArray::SafeDownCast(
+      ranks.front()->GetHistory()->GetColumnByName("SentBytes"));
+    double sum = 0.0;
+    for (vtkIdType row = 0; row < bytes->GetNumberOfTuples(); ++row)
+    {
+      sum += bytes->GetTuple1(row);
+    }
+    return sum;
+  };
+  const Ranks gone = RunRanks(2, make,
+    [](vtkDeformableSurface* filter, vtkMultiProcessController* controller)
+    {
+      filter->SetReleaseDataFlag(1);
+      Update(filter, controller);
+    });
+  const Ranks kept = RunRanks(2, make,
+    [](vtkDeformableSurface* filter, vtkMultiProcessController* controller)
+    {
+      filter->SetFinestLevel(1);
+      Update(filter, controller);
+      filter->SetFinestLevel(0);
+      Update(filter, controller);
+    });
+  EXPECT_GT(sent(gone), 0.0);
+  EXPECT_EQ(sent(kept), sent(gone));
+  ExpectAs(OneRank(), kept);
+}
+
 TEST(RankPieces, AreNoneWhereACheckpointStays)
 {
   // From it another run may go on, which needs all.

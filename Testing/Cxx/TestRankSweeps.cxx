@@ -4,6 +4,7 @@
 // A level whose blocks belong to several ranks: the same bits as on one.
 #include "BarTestScene.h"
 #include "Core/Common/Box.h"
+#include "Core/Common/CheckedFile.h"
 #include "Core/Common/StandardThreads.h"
 #include "EvolutionTestTools.h"
 #include "RankTestTools.h"
@@ -62,7 +63,22 @@ struct Coarse
   bool Vanishes = false; ///< The fine level shows nothing.
   bool HasNeck = false;
   bool HasOneBetween = false; ///< A level between the two, which the ranks share as well.
+  bool IsSaved = false;       ///< After which others go on.
 };
+
+/** Another evolution, to which the memory of the rank has brought what rests. */
+std::unique_ptr<SurfaceEvolution> Moved(std::unique_ptr<SurfaceEvolution> evolution,
+  const std::function<std::unique_ptr<SurfaceEvolution>()>& make)
+{
+  FileInMemory memory;
+  CheckedWriter writer(memory);
+  evolution->Save(writer);
+  writer.Commit();
+  evolution = make();
+  CheckedReader reader(memory);
+  evolution->Load(reader);
+  return evolution;
+}
 
 struct RunOnRanks
 {
@@ -90,27 +106,38 @@ struct RunOnRanks
     }
     options.MostVoxelsOfRank =
       static_cast<std::int64_t>(coarse.Image.Size[0]) * coarse.Image.Size[1] * coarse.Image.Size[2];
-    const auto evolve = [&](SurfaceEvolution& evolution)
+    const auto evolve = [&](std::unique_ptr<SurfaceEvolution>& evolution, Communicator& ranks,
+                          const std::function<std::unique_ptr<SurfaceEvolution>()>& make)
     {
       if (above.HasOneBetween)
       {
-        evolution.Divide(between.Image, 1);
-        evolution.Run();
+        evolution->Divide(between.Image, 1);
+        evolution->Run();
+        evolution->LeaveLevel();
+        EXPECT_EQ(evolution->IsInPieces(), count > 1);
       }
-      evolution.Divide(fine.Image, 0);
-      evolution.Run();
+      if (above.IsSaved)
+      {
+        evolution = Moved(std::move(evolution), make);
+        evolution->SetRanks(count > 1 ? &ranks : nullptr);
+      }
+      evolution->Divide(fine.Image, 0);
+      evolution->Run();
     };
     ThreadRanks::Run(count,
       [&](Communicator& ranks)
       {
         StandardThreads executor(1);
         Monitor monitor;
-        SurfaceEvolution evolution(options, executor, monitor);
+        const auto make = [&]
+        { return std::make_unique<SurfaceEvolution>(options, executor, monitor); };
+        std::unique_ptr<SurfaceEvolution> own = make();
         ranks.Broadcast(Message(OfOthers)); // No row has it.
         if (ranks.Rank() > 0)
         {
-          evolution.SetRanks(&ranks);
-          evolve(evolution);
+          own->SetRanks(&ranks);
+          evolve(own, ranks, make);
+          SurfaceEvolution& evolution = *own;
           EXPECT_TRUE(evolution.Result().Points.empty());
           this->Pieces[ranks.Rank()] = evolution.PieceOfResult();
           const unsigned long long sent = ranks.Sent().Bytes;
@@ -125,18 +152,19 @@ struct RunOnRanks
         switch (above.Begins)
         {
           case Coarse::Seed:
-            evolution.StartSeeds(coarse.Image, 2, { { 31., 17., 17. } });
-            evolution.Run();
+            own->StartSeeds(coarse.Image, 2, { { 31., 17., 17. } });
+            own->Run();
             break;
           case Coarse::Enclosing:
-            evolution.StartEnclosing(coarse.Image, 2);
-            evolution.Run();
+            own->StartEnclosing(coarse.Image, 2);
+            own->Run();
         }
         if (count > 1)
         {
-          evolution.SetRanks(&ranks);
+          own->SetRanks(&ranks);
         }
-        evolve(evolution);
+        evolve(own, ranks, make);
+        SurfaceEvolution& evolution = *own;
         this->Surface = evolution.Result();
         this->Pieces[0] = evolution.PieceOfResult();
         this->Rows = evolution.History();
@@ -144,6 +172,7 @@ struct RunOnRanks
         this->MissingBoundary = evolution.Lost().MissingBoundary;
         evolution.Unite();
         evolution.SetRanks(nullptr);
+        EXPECT_FALSE(evolution.IsInPieces());
         EXPECT_EQ(evolution.Result().Points, this->Surface.Points);
         EXPECT_EQ(evolution.Result().Triangles, this->Surface.Triangles);
         this->SentAtLast = evolution.History().back().Sent;
@@ -243,6 +272,8 @@ TEST(RankSweeps, DivideWhatTheyHaveInPieces)
   const RunOnRanks one(1, ForPlate(), above);
   EXPECT_GT(one.Surface.Points.size(), 20000u);
   ExpectOnRanks(one, { 2, 3, 5 }, ForPlate(), above);
+  above.IsSaved = true;
+  ExpectOnRanks(one, { 1, 3 }, ForPlate(), above);
 }
 
 TEST(RankSweeps, LeavePiecesOfNothing)
@@ -323,10 +354,21 @@ TEST(RankSweeps, CutOnOneRankAlone)
   ExpectOnRanks(one, { 3 }, options, withNeck);
 }
 
+TEST(RankSweeps, DivideWhatTheyHaveInPiecesTwice)
+{
+  SurfaceOptions options = ForPlate();
+  options.MaximumNumberOfIterations = 15;
+  Coarse above{ Coarse::Enclosing, 3. };
+  above.HasOneBetween = true;
+  const RunOnRanks one(1, options, above);
+  EXPECT_GT(one.Surface.Points.size(), 10000u);
+  ExpectOnRanks(one, { 2, 4 }, options, above);
+}
+
 TEST(RankSweeps, DivideAsOftenAsTheFactorAsks)
 {
-  // By less than the mesh's factor not at all, by its square twice.
-  for (const double factor : { 1.25, 3. })
+  // By less than the mesh's factor not at all, by its square twice, and so on.
+  for (const double factor : { 1.25, 3., 5.2 })
   {
     SCOPED_TRACE(factor);
     const Coarse above{ Coarse::Enclosing, factor };

@@ -12,51 +12,71 @@ namespace volumic
 {
 // A division lays grid, order, shapes and pairs anew: where a surface rests, what is to come
 // depends on the places of its vertices, on their rings, from the first neighbour on, and on the
-// numbers that new ones will get, which decide where positions tie.
+// numbers that new ones will get, which decide where positions tie. Of a piece the vertices near it
+// belong to that.
 
 namespace
 {
-/** Rings that are packed at a time. */
+/** Vertices that are packed at a time. */
 constexpr std::size_t PackedSpan = 1 << 16;
 
-/** Only the neighbours that there are: half of what the rings take. */
-void SaveRings(CheckedWriter& file, const decltype(SurfaceMesh::Rings)& rings)
+/** Of rings only the neighbours that there are: half of what they take. */
+void SaveVertices(CheckedWriter& file, const SurfaceMesh& mesh, const std::vector<int>& vertices)
 {
-  file.Put<std::uint64_t>(rings.size());
+  std::vector<Vector> positions;
   std::vector<std::uint8_t> counts;
   std::vector<int> items;
-  for (std::size_t v = 0; v < rings.size();)
+  for (std::size_t i = 0; i < vertices.size();)
   {
+    positions.clear();
     counts.clear();
     items.clear();
-    for (; v < rings.size() && counts.size() < PackedSpan; ++v)
+    for (; i < vertices.size() && counts.size() < PackedSpan; ++i)
     {
-      counts.push_back(static_cast<std::uint8_t>(rings[v].Count));
-      items.insert(items.end(), rings[v].Item, rings[v].Item + rings[v].Count);
+      const Ring& ring = mesh.Rings[vertices[i]];
+      positions.push_back(mesh.Position[vertices[i]]);
+      counts.push_back(static_cast<std::uint8_t>(ring.Count));
+      items.insert(items.end(), ring.Item, ring.Item + ring.Count);
     }
+    file.PutList(positions);
     file.PutList(counts);
     file.PutList(items);
   }
 }
 
-void LoadRings(CheckedReader& file, decltype(SurfaceMesh::Rings)& rings)
+void LoadVertices(CheckedReader& file, SurfaceMesh& mesh, const std::vector<int>& vertices)
 {
-  rings.resize(file.Get<std::uint64_t>());
+  std::vector<Vector> positions;
   std::vector<std::uint8_t> counts;
   std::vector<int> items;
-  for (std::size_t v = 0; v < rings.size();)
+  for (std::size_t i = 0; i < vertices.size();)
   {
+    file.GetList(positions);
     file.GetList(counts);
     file.GetList(items);
     const int* next = items.data();
-    for (const std::uint8_t count : counts)
+    for (std::size_t k = 0; k < counts.size(); ++k, ++i)
     {
-      Ring& ring = rings[v++];
-      ring.Count = count;
-      std::copy(next, next + count, ring.Item);
-      next += count;
+      mesh.Position[vertices[i]] = positions[k];
+      Ring& ring = mesh.Rings[vertices[i]];
+      ring.Count = counts[k];
+      std::copy(next, next + ring.Count, ring.Item);
+      next += ring.Count;
     }
   }
+}
+
+std::vector<int> AliveOf(const SurfaceMesh& mesh)
+{
+  std::vector<int> alive;
+  for (int v = 0; v < mesh.Size(); ++v)
+  {
+    if (mesh.IsAlive(v))
+    {
+      alive.push_back(v);
+    }
+  }
+  return alive;
 }
 }
 
@@ -73,9 +93,14 @@ void SurfaceEvolution::Save(CheckedWriter& file) const
   file.Put(self.SinceEvolved);
   file.Put(self.Unchecked);
   file.Put(s.Sizing.OfLevel());
-  file.PutList(s.Mesh.Position);
-  SaveRings(file, s.Mesh.Rings);
+  const std::vector<int> alive = AliveOf(s.Mesh);
+  file.Put<std::uint64_t>(s.Mesh.Position.size());
+  file.Put<int>(s.Mesh.NumberOfVertices());
+  file.PutList(alive);
+  SaveVertices(file, s.Mesh, alive);
   file.PutList(s.Mesh.FreePlaces());
+  file.Put(this->IsInPieces());
+  file.PutList(self.OwnAtRest.value_or(std::vector<int>()));
 }
 
 void SurfaceEvolution::Load(CheckedReader& file)
@@ -94,10 +119,24 @@ void SurfaceEvolution::Load(CheckedReader& file)
   self.SinceEvolved = file.Get<EditCounts>();
   self.Unchecked = file.Get<int>();
   s.Sizing = SizingField(file.Get<float>());
-  file.GetList(s.Mesh.Position);
-  LoadRings(file, s.Mesh.Rings);
-  std::vector<int> places;
-  file.GetList(places);
-  s.Mesh.SetFreePlaces(std::move(places));
+  const auto places = file.Get<std::uint64_t>();
+  const int vertices = file.Get<int>();
+  std::vector<int> alive;
+  file.GetList(alive);
+  SurfaceMesh mesh;
+  mesh.Remake(places, vertices);
+  LoadVertices(file, mesh, alive);
+  std::vector<int> free;
+  file.GetList(free);
+  mesh.CountOthers(static_cast<int>(free.size()));
+  mesh.SetFreePlaces(std::move(free));
+  s.Mesh = std::move(mesh);
+  const bool isInPieces = file.Get<bool>();
+  std::vector<int> own;
+  file.GetList(own);
+  if (isInPieces)
+  {
+    self.OwnAtRest = std::move(own);
+  }
 }
 }

@@ -109,13 +109,14 @@ MeshPiece SurfaceEvolution::Implementation::TakePiece(Communicator& ranks)
     piece = RenumberOnRanks(
       ranks, this->State.Mesh, this->OwnVertices(), cell, this->Threads);
     this->ForgetBlocks();
+    this->OwnAtRest.reset();
     this->State.Mesh = SurfaceMesh();
   }
   this->Threads.EndPhase("Order");
   return piece;
 }
 
-void SurfaceEvolution::Implementation::DivideOnce(Communicator& ranks)
+void SurfaceEvolution::Implementation::DivideOnce(Communicator& ranks, int divisionsToCome)
 {
   // The division flips edges of the old surface; in narrow places these may pass through each
   // other. Such edges are kept, then more and more about them, and all of them at last, which
@@ -136,7 +137,8 @@ void SurfaceEvolution::Implementation::DivideOnce(Communicator& ranks)
     }
     else
     {
-      this->SpreadMesh(std::move(divided), DividedOf(piece, numbers, kept.get()));
+      this->SpreadMesh(
+        std::move(divided), DividedOf(piece, numbers, kept.get()), divisionsToCome);
     }
     const std::vector<Proximity::FacePair> found =
       isWhole ? this->FindIntersections() : this->FindIntersectionsInPieces();
@@ -157,7 +159,7 @@ bool SurfaceEvolution::Implementation::DivideWhole(int divisions)
   bool goesOn = true;
   for (int i = 0; i < divisions && goesOn; ++i)
   {
-    this->DivideOnce(OnThisRank());
+    this->DivideOnce(OnThisRank(), divisions - 1 - i);
     goesOn = this->GoOn(Monitor::Activity::Dividing, (i + 1.) / divisions);
   }
   if (divisions > 0)
@@ -200,6 +202,10 @@ void SurfaceEvolution::Implementation::LayGridOfPiece()
 
 std::vector<int> SurfaceEvolution::Implementation::OwnVertices() const
 {
+  if (this->OwnAtRest)
+  {
+    return *this->OwnAtRest;
+  }
   return SelectIndices(this->Threads, this->State.Mesh.Rings.size(),
     [this](std::size_t i)
     {
@@ -229,40 +235,40 @@ std::vector<Proximity::FacePair> SurfaceEvolution::Implementation::FindIntersect
 }
 
 void SurfaceEvolution::Implementation::SpreadMesh(
-  SurfaceMesh mesh, const std::vector<int>& own)
+  SurfaceMesh mesh, const std::vector<int>& own, int divisionsToCome)
 {
   this->FindGridBox(mesh, own);
+  // Blocks and halos are those of the edges as they are now.
+  SurfaceState& s = this->State;
+  const SizingField sizing = s.Sizing;
+  s.Sizing = SizingField(static_cast<float>(
+    sizing.OfLevel() * std::pow(SizingField::DivisionFactor, divisionsToCome)));
   if (!this->IsInPieces())
   {
-    this->ShareBlocks(mesh, own);
+    this->MakeBlocks(*this->Ranks);
+    this->Piece->ChooseOwners(mesh, own);
+    if (this->NeedVoxels && divisionsToCome == 0)
+    {
+      this->NeedVoxels(this->OwnVoxels());
+    }
   }
   this->Piece->Scatter(mesh, own, this->GridLow, this->GridHigh);
+  s.Sizing = sizing;
 }
 
 bool SurfaceEvolution::Implementation::LayOutInPieces(int divisions)
 {
-  // All but the last division are rank 0's, which has the whole: edges may reach beyond a halo.
-  if (divisions > 1)
-  {
-    this->Unite();
-  }
   bool goesOn = true;
-  for (int i = 0; i < divisions - 1 && goesOn; ++i)
+  for (int i = 0; i < divisions && goesOn; ++i)
   {
-    if (this->IsFirstRank())
-    {
-      this->DivideOnce(OnThisRank());
-    }
-    goesOn = !this->Ranks->IsAny(!this->GoOn(Monitor::Activity::Dividing, (i + 1.) / divisions));
+    this->DivideOnce(*this->Ranks, divisions - 1 - i);
+    goesOn = i + 1 == divisions ||
+      !this->Ranks->IsAny(!this->GoOn(Monitor::Activity::Dividing, (i + 1.) / divisions));
   }
-  if (goesOn && divisions > 0)
-  {
-    this->DivideOnce(*this->Ranks);
-  }
-  else
+  if (!goesOn || divisions == 0)
   {
     MeshPiece piece = this->TakePiece(*this->Ranks);
-    this->SpreadMesh(std::move(piece.Mesh), piece.Own);
+    this->SpreadMesh(std::move(piece.Mesh), piece.Own, 0);
     this->LayGridOfPiece();
   }
   this->Threads.EndPhase("Division");

@@ -21,6 +21,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <vector>
 
 namespace volumic
@@ -76,6 +77,8 @@ struct SurfaceEvolution::Implementation
   std::unique_ptr<SurfaceBlocks> Blocks;
   std::unique_ptr<RankBlocks> Piece; ///< Of this rank; one alone has the whole surface.
   std::unique_ptr<SurfaceComponents> Components; ///< Of all pieces.
+  /** This rank's vertices of a surface that rests in pieces between levels; else none. */
+  std::optional<std::vector<int>> OwnAtRest;
   std::function<void(const VoxelBox&)> NeedVoxels; ///< See SetRanks.
   Vector GridLow, GridHigh;              ///< The box over which the grid was laid last.
   struct
@@ -147,7 +150,7 @@ struct SurfaceEvolution::Implementation
   float LongestEdge(); ///< That of the surface on all ranks.
   std::vector<Proximity::FacePair> FindIntersections();
   /** By all ranks: divides the surface that these have, one alone the whole. */
-  void DivideOnce(Communicator& ranks);
+  void DivideOnce(Communicator& ranks, int divisionsToCome);
   /** By all ranks: the mesh, which is not in the state any more. */
   MeshPiece TakePiece(Communicator& ranks);
   bool DivideWhole(int divisions); ///< @return whether nothing asked to stop
@@ -159,7 +162,7 @@ struct SurfaceEvolution::Implementation
   /** By all ranks: divides a surface so many times, and shares it out anew. */
   bool LayOutInPieces(int divisions);
   /** By all ranks, each of which has some vertices: shares a mesh out, of which nothing is known. */
-  void SpreadMesh(SurfaceMesh mesh, const std::vector<int>& own);
+  void SpreadMesh(SurfaceMesh mesh, const std::vector<int>& own, int divisionsToCome);
   void LayGridOfPiece();
   std::vector<Proximity::FacePair> FindIntersectionsInPieces();
   /** @param isSound it has been made well: its edges need not be legal already */
@@ -202,8 +205,6 @@ struct SurfaceEvolution::Implementation
   /** Forgets the blocks of a surface that is whole; pieces stay with their ranks. */
   void EndVisits();
   bool IsFirstRank() const { return this->Ranks->Rank() == 0; }
-  /** By all ranks: makes blocks, and chooses their owners. @param own what a rank has of it */
-  void ShareBlocks(const SurfaceMesh& mesh, const std::vector<int>& own);
   VoxelBox OwnVoxels() const;
   /** By all ranks, before a sweep of this kind: has them share its work. */
   void BalanceRanks(bool onlyActive);
@@ -215,6 +216,8 @@ struct SurfaceEvolution::Implementation
   void AddUpRows(std::vector<SweptRow>& rows);
   void AddUpSinceEvolved();
   std::vector<std::uint8_t> AreNear(std::vector<std::int64_t> voxels);
+  /** Forgets the blocks; of a surface in pieces OwnAtRest tells from then on. */
+  void LeaveBlocks();
   /** By all ranks: the mesh is whole on rank 0 afterwards, and nothing else is known of it. */
   void Unite();
   /** By all ranks: the result in so many pieces, of the first ranks. */

@@ -17,17 +17,6 @@
 
 namespace volumic
 {
-void SurfaceEvolution::Implementation::ShareBlocks(
-  const SurfaceMesh& mesh, const std::vector<int>& own)
-{
-  this->MakeBlocks(*this->Ranks);
-  this->Piece->ChooseOwners(mesh, own);
-  if (this->NeedVoxels)
-  {
-    this->NeedVoxels(this->OwnVoxels());
-  }
-}
-
 void SurfaceEvolution::Implementation::FindGridBox(
   const SurfaceMesh& mesh, const std::vector<int>& own)
 {
@@ -239,12 +228,23 @@ std::vector<std::uint8_t> SurfaceEvolution::Implementation::AreNear(
   return areNear;
 }
 
-void SurfaceEvolution::Implementation::Unite()
+void SurfaceEvolution::Implementation::LeaveBlocks()
 {
   if (this->IsInPieces())
   {
-    this->Piece->Gather();
-    this->MakeBlocks();
+    this->OwnAtRest = this->OwnVertices();
+  }
+  this->ForgetBlocks();
+}
+
+void SurfaceEvolution::Implementation::Unite()
+{
+  this->LeaveBlocks();
+  if (this->OwnAtRest)
+  {
+    this->State.Mesh =
+      GatherMesh(*this->Ranks, std::move(this->State.Mesh), *this->OwnAtRest);
+    this->OwnAtRest.reset();
   }
 }
 }

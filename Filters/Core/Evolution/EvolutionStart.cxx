@@ -45,6 +45,7 @@ void SurfaceEvolution::Implementation::Enter(const LevelImage& image, int level)
 void SurfaceEvolution::Implementation::Clear()
 {
   this->ForgetBlocks();
+  this->OwnAtRest.reset();
   this->State.Mesh.Clear();
 }
 

@@ -42,6 +42,7 @@ void SurfaceEvolution::Implementation::Verify()
     return;
   }
   this->Unite();
+  this->MakeBlocks();
   if (!this->IsFirstRank() || this->State.Mesh.NumberOfVertices() == 0)
   {
     return;

@@ -7,6 +7,7 @@
 #include "Core/Common/Select.h"
 #include "Core/Common/Spans.h"
 #include "Core/Evolution/RankNumbers.h"
+#include "Core/Surface/SurfaceState.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -251,6 +252,34 @@ MeshPiece RenumberOnRanks(Communicator& ranks, const SurfaceMesh& mesh,
   take(own, piece.Own);
   take(others, piece.Others);
   return piece;
+}
+
+SurfaceMesh GatherMesh(Communicator& ranks, SurfaceMesh mesh, const std::vector<int>& own)
+{
+  MessageWriter writer;
+  SurfaceState::WriteMesh(mesh, writer, own);
+  Message message = writer.Take();
+  const bool isFirst = ranks.Rank() == 0;
+  SurfaceMesh whole;
+  if (isFirst)
+  {
+    whole.Remake(mesh.Rings.size(), mesh.NumberOfVertices());
+  }
+  mesh = SurfaceMesh();
+  for (int rank = 0; rank < ranks.NumberOfRanks(); ++rank)
+  {
+    if (isFirst)
+    {
+      const Message piece = ranks.Pass(rank, 0, rank == 0 ? std::move(message) : Message());
+      MessageReader reader(piece);
+      SurfaceState::ReadMesh(reader, whole);
+    }
+    else if (rank == ranks.Rank())
+    {
+      ranks.Pass(rank, 0, std::move(message));
+    }
+  }
+  return whole;
 }
 
 DivisionNumbers NumberForDivision(Communicator& ranks, const MeshPiece& piece,

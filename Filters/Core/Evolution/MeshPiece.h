@@ -33,6 +33,12 @@ MeshPiece RenumberWhole(SurfaceMesh mesh, double cell, Executor& executor);
 MeshPiece RenumberOnRanks(Communicator& ranks, const SurfaceMesh& mesh,
   const std::vector<int>& own, double cell, Executor& executor);
 
+/**
+ * By all ranks, with the mesh as each of them has it: rank 0 gets the whole, the others none. Its
+ * vertices keep their places. @param own vertices of this rank, in order
+ */
+SurfaceMesh GatherMesh(Communicator& ranks, SurfaceMesh mesh, const std::vector<int>& own);
+
 /** By all ranks: the numbers that this one's part of a division asks for. */
 DivisionNumbers NumberForDivision(Communicator& ranks, const MeshPiece& piece,
   const KeptEdges* kept, Executor& executor);

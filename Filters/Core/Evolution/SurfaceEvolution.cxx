@@ -164,6 +164,19 @@ void SurfaceEvolution::ForgetMotion()
   this->Self->State.ForgetMotion();
 }
 
+void SurfaceEvolution::LeaveLevel()
+{
+  Implementation& self = *this->Self;
+  self.LeaveBlocks();
+  self.State.ForgetAllButMesh();
+  self.TheField.reset();
+}
+
+bool SurfaceEvolution::IsInPieces() const
+{
+  return this->Self->OwnAtRest || this->Self->IsInPieces();
+}
+
 void SurfaceEvolution::SetRanks(
   Communicator* ranks, std::function<void(const VoxelBox&)> needVoxels)
 {

@@ -212,17 +212,26 @@ public:
   void ForgetMotion();
 
   /**
+   * After Result(): lets go of all but the mesh, which Divide() and Save() need, of the values of
+   * the level, and of the ranks. What it has of History(), Lost() and the like stays.
+   */
+  void LeaveLevel();
+
+  /**
    * From now on it is one of those on several ranks, which evolve one surface: all of them call
    * Divide() to a level that they share (AreShared), Run() and Result() or PieceOfResult() there, at
    * the same time, and then Divide() to another one, or Unite(). Before that, or where it has
    * been united, rank 0 alone has a surface; rank 0 has a Result(). It is the same bits as on one
-   * rank. Null: alone again, until it is set again where the surface is in pieces.
+   * rank. Null, after LeaveLevel(): alone again, until it is set, to ranks as many, where the
+   * surface IsInPieces().
    * @param needVoxels called on all of them at the same time: the level's voxels that this rank
    *        needs from now on. Before that, and elsewhere, they may be anything.
    */
   void SetRanks(Communicator* ranks, std::function<void(const VoxelBox&)> needVoxels = {});
-  /** Brings the mesh of several ranks to rank 0: what Divide() and Save() need of the surface. */
+  /** Brings the mesh of several ranks to rank 0, as after LeaveLevel() on one. */
   void Unite();
+  /** Whether each of several ranks has a piece of the surface. */
+  bool IsInPieces() const;
   /** Whether all ranks work on a level of so many voxels, where there are several. */
   static bool AreShared(const SurfaceOptions& options, const std::array<int, 3>& size);
 
@@ -248,8 +257,9 @@ public:
   bool Divide(const LevelImage& image, int level);
 
   /**
-   * Between Run() and Divide(): writes what the levels to come depend on, so that another object,
-   * in another process too, can go on as this one would. @throws FileError.
+   * After LeaveLevel(): writes what the levels to come depend on, so that another object, in another
+   * process too, can go on as this one would; where it is in pieces, on each rank one of its piece.
+   * @throws FileError.
    */
   void Save(CheckedWriter& file) const;
 

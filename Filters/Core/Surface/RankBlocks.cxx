@@ -214,8 +214,6 @@ void RankBlocks::Scatter(const SurfaceMesh& mesh, const std::vector<int>& own,
     ends += static_cast<std::size_t>(mesh.Rings[v].Count);
     this->CollectNear(mesh.Position[v], v, -1);
   }
-  this->Low = low;
-  this->High = high;
   using Sizes = std::array<std::size_t, 3>; // Vertices and ends of each rank, places of rank 0.
   const std::vector<Sizes> all =
     GatherValues(this->Ranks, Sizes{ own.size(), ends, mesh.Rings.size() });
@@ -247,40 +245,6 @@ void RankBlocks::Scatter(const SurfaceMesh& mesh, const std::vector<int>& own,
   }
   std::sort(here.begin(), here.end());
   this->Blocks.Take(here);
-}
-
-void RankBlocks::Gather()
-{
-  SurfaceState& s = this->State;
-  std::vector<int> own;
-  for (int v = 0; v < s.Mesh.Size(); ++v)
-  {
-    if (s.Mesh.IsAlive(v) && this->IsOwnVertex(v))
-    {
-      own.push_back(v);
-    }
-  }
-  MessageWriter writer;
-  SurfaceState::WriteMesh(s.Mesh, writer, own);
-  Message message = writer.Take();
-  const std::size_t places = s.Mesh.Rings.size();
-  const int vertices = s.Mesh.NumberOfVertices();
-  const bool isFirst = this->Ranks.Rank() == 0;
-  this->Blocks.ForgetVertices();
-  s.Remake(isFirst ? places : 0, isFirst ? vertices : 0, this->Low, this->High);
-  for (int rank = 0; rank < this->Ranks.NumberOfRanks(); ++rank)
-  {
-    if (isFirst)
-    {
-      const Message piece = this->Ranks.Pass(rank, 0, rank == 0 ? std::move(message) : Message());
-      MessageReader reader(piece);
-      s.ReadMesh(reader); // New blocks take them.
-    }
-    else if (rank == this->Ranks.Rank())
-    {
-      this->Ranks.Pass(rank, 0, std::move(message));
-    }
-  }
 }
 
 void RankBlocks::Append(const IndexedSurface& surface, Executor& executor)

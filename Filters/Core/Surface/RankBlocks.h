@@ -86,8 +86,6 @@ public:
    */
   void Scatter(const SurfaceMesh& mesh, const std::vector<int>& own, const Vector& low,
     const Vector& high);
-  /** By all ranks, back again: rank 0 has the mesh afterwards, and nothing else, the others none. */
-  void Gather();
 
   /**
    * By all ranks, with the same surface: adds this closed surface to that of all ranks, each of
@@ -149,7 +147,6 @@ private:
   std::vector<char> Awaited;             ///< By block: see IsAwaited().
   std::vector<int> Partners;             ///< This rank, and those with blocks beside own ones.
   std::vector<std::vector<int>> Touched; ///< By rank: the vertices that it must be told of.
-  Vector Low, High;                      ///< Of the grid.
   int KnownVertices = 0;                 ///< What the ranks last agreed on.
   int KnownCharacteristic = 0;
 };

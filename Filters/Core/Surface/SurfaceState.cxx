@@ -14,6 +14,27 @@ namespace
 /** Vertices that one thread looks at at a time: 20 microseconds. */
 constexpr std::size_t ShapeGrain = 128;
 constexpr std::size_t AliveGrain = 1 << 14;
+
+/** @param take called for each vertex, with its position, before the mesh has it */
+template <typename Take>
+std::vector<int> ReadVertices(MessageReader& message, SurfaceMesh& mesh, const Take& take)
+{
+  const std::vector<int> vertices = message.TakeVector<int>();
+  const std::vector<Vector> positions = message.TakeVector<Vector>();
+  const std::vector<int> rings = message.TakeVector<int>();
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < vertices.size(); ++i)
+  {
+    const int v = vertices[i];
+    take(v, positions[i]);
+    Ring& ring = mesh.Rings[v];
+    ring.Count = rings[next++];
+    std::copy_n(rings.begin() + static_cast<std::ptrdiff_t>(next), ring.Count, ring.Item);
+    next += static_cast<std::size_t>(ring.Count);
+    mesh.Position[v] = positions[i];
+  }
+  return vertices;
+}
 }
 
 void SurfaceState::Reset(const Vector& low, const Vector& high)
@@ -53,6 +74,12 @@ void SurfaceState::ForgetMotion()
   {
     property->Remake(0);
   }
+}
+
+void SurfaceState::ForgetAllButMesh()
+{
+  this->Properties.Remake(0);
+  this->Grid.Reset(Vector(), Vector(), 1.f);
 }
 
 void SurfaceState::Prefetch(int first, int last) const
@@ -95,6 +122,11 @@ void SurfaceState::WriteMesh(
   }
   message.AddArray(positions);
   message.AddArray(rings);
+}
+
+void SurfaceState::ReadMesh(MessageReader& message, SurfaceMesh& mesh)
+{
+  ReadVertices(message, mesh, [](int, const Vector&) {});
 }
 
 void SurfaceState::Write(MessageWriter& message, const std::vector<int>& vertices) const
@@ -151,29 +183,18 @@ std::vector<int> SurfaceState::AddPiece(
 
 std::vector<int> SurfaceState::ReadConnectivity(MessageReader& message)
 {
-  const std::vector<int> vertices = message.TakeVector<int>();
-  const std::vector<Vector> positions = message.TakeVector<Vector>();
-  const std::vector<int> rings = message.TakeVector<int>();
-  std::size_t next = 0;
-  for (std::size_t i = 0; i < vertices.size(); ++i)
-  {
-    const int v = vertices[i];
-    Ring& ring = this->Mesh.Rings[v];
-    const bool wasThere = ring.Count > 0;
-    ring.Count = rings[next++];
-    std::copy_n(rings.begin() + static_cast<std::ptrdiff_t>(next), ring.Count, ring.Item);
-    next += static_cast<std::size_t>(ring.Count);
-    this->Mesh.Position[v] = positions[i];
-    if (wasThere)
+  return ReadVertices(message, this->Mesh,
+    [this](int v, const Vector& position)
     {
-      this->Grid.Move(v, positions[i]);
-    }
-    else
-    {
-      this->Grid.Insert(v, positions[i]);
-    }
-  }
-  return vertices;
+      if (this->Mesh.IsAlive(v))
+      {
+        this->Grid.Move(v, position);
+      }
+      else
+      {
+        this->Grid.Insert(v, position);
+      }
+    });
 }
 
 void SurfaceState::Forget(int v)

@@ -159,6 +159,8 @@ public:
 
   /** Lets go of all that only iterations need: a reset, or Remake(), must come before others. */
   void ForgetMotion();
+  /** The same of all but the mesh. */
+  void ForgetAllButMesh();
   /** Resets all properties to those of a mesh that is new, lays the grid over the box. */
   void Reset(const Vector& low, const Vector& high, Executor& executor);
   void Reset(const Vector& low, const Vector& high);
@@ -180,6 +182,8 @@ public:
   static void WriteMesh(
     const SurfaceMesh& mesh, MessageWriter& message, const std::vector<int>& vertices);
   std::vector<int> ReadMesh(MessageReader& message);
+  /** Into a mesh that has the places. */
+  static void ReadMesh(MessageReader& message, SurfaceMesh& mesh);
   /**
    * Takes some vertices of a whole mesh that all ranks put behind theirs, from the place `first`
    * on. @return the places of these vertices here
