@@ -154,6 +154,7 @@ void RankLevel::TakePiece(LevelInPieces& pieces)
   this->Fetched.push_back(own);
   this->Held = this->Room;
   this->Layout = all;
+  this->IsTaken = true;
 }
 
 void RankLevel::Fetch(const std::vector<VoxelBox>& boxes)
@@ -162,19 +163,51 @@ void RankLevel::Fetch(const std::vector<VoxelBox>& boxes)
     this->Level.Values.BytesPerVoxel(), boxes, VoxelBox::Of(this->Level.Size), this->Room);
 }
 
-void RankLevel::Need(const VoxelBox& box)
+void RankLevel::Need(const std::vector<VoxelBox>& boxes, const VoxelBox& share)
 {
   std::vector<VoxelBox> lacking;
-  if (this->Ranks.Rank() != 0 || this->StaysInPieces)
+  for (std::size_t i = 0; i < boxes.size() && (this->Ranks.Rank() != 0 || this->StaysInPieces); ++i)
   {
-    lacking.push_back(box);
+    std::vector<VoxelBox> parts = { boxes[i] };
     for (const VoxelBox& had : this->Fetched)
     {
-      lacking = Without(lacking, had);
+      parts = Without(parts, had);
     }
-    this->Fetched.push_back(box);
+    lacking.insert(lacking.end(), parts.begin(), parts.end());
+    this->Fetched.insert(this->Fetched.end(), parts.begin(), parts.end());
   }
   this->Fetch(lacking);
+  const bool isSharedOut = this->StaysInPieces && this->Ranks.IsAny(!share.IsEmpty());
+  if (isSharedOut && !this->Ranks.IsAny(!this->IsTaken))
+  {
+    std::vector<VoxelBox> left = { this->Pieces.HeldBy(this->Ranks.Rank()) };
+    for (const VoxelBox& box : boxes)
+    {
+      left = Without(left, box);
+    }
+    for (const VoxelBox& box : left)
+    {
+      this->LetGo(box);
+    }
+    this->Pieces = VoxelPieces(this->Ranks, share);
+    this->Fetched = boxes;
+  }
+}
+
+void RankLevel::LetGo(const VoxelBox& box)
+{
+  const VoxelBox all = VoxelBox::Of(this->Level.Size);
+  if (box.Length(0) < all.Length(0))
+  {
+    return; // Parts of rows have few pages of their own.
+  }
+  const std::size_t bytes = this->Level.Values.BytesPerVoxel();
+  const std::size_t rows = static_cast<std::size_t>(box.Length(1)) * box.Length(0) * bytes;
+  for (int k = box.First[2]; k < box.End[2]; ++k)
+  {
+    const auto first = static_cast<std::size_t>(all.NumberOf(0, box.First[1], k));
+    GiveBackPages(this->Room + first * bytes, rows);
+  }
 }
 
 void RankLevel::NeedMeasures()
@@ -198,7 +231,7 @@ std::unique_ptr<RankLevel> ShareLevel(Communicator& ranks, const SharedLevel& sh
     ranks, image, PiecesOf(pieces, shared.Level), shared.TakesVoxels);
   if (shared.Is == SharedLevel::Work::GivesVoxels)
   {
-    level->Need(VoxelBox::Of(image.Size));
+    level->Need({ VoxelBox::Of(image.Size) });
   }
   return level;
 }
@@ -213,7 +246,9 @@ bool EvolveOnRanks(Communicator& ranks, const SharedLevel& shared,
     rest.Drop(); // A piece of it would be of no use.
   }
   level->NeedMeasures();
-  evolution.SetRanks(&ranks, [&level](const VoxelBox& box) { level->Need(box); });
+  evolution.SetRanks(
+    &ranks, [&level](const std::vector<VoxelBox>& boxes, const VoxelBox& share)
+    { level->Need(boxes, share); });
   const bool isDivided = evolution.Divide(level->Image(), shared.Level);
   if (isDivided)
   {
@@ -304,7 +339,7 @@ void HelpWithLevel(Communicator& ranks, LevelsInPieces& pieces, HelpersPiece& pi
     ranks, LevelImage(), PiecesOf(pieces, shared.Level), shared.TakesVoxels);
   if (shared.Is == SharedLevel::Work::GivesVoxels)
   {
-    level->Need(VoxelBox());
+    level->Need({});
     return;
   }
   for (auto coarser = pieces.upper_bound(std::max(shared.Level, 0)); coarser != pieces.end();

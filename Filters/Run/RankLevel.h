@@ -44,13 +44,18 @@ public:
    */
   const LevelImage& Image() const { return this->Level; }
 
-  /** By all ranks together: brings this rank the voxels of a box that it has not. */
-  void Need(const VoxelBox& box);
+  /**
+   * By all ranks together: brings this rank the voxels of some boxes that it has not.
+   * @param share see SurfaceEvolution::NeedVoxels: it has them for others from then on; of a piece
+   *        that it has taken the rest is let go
+   */
+  void Need(const std::vector<VoxelBox>& boxes, const VoxelBox& share = VoxelBox());
   /** By all ranks together: brings rank 0 what Field asks of a whole image. */
   void NeedMeasures();
 
 private:
   void TakePiece(LevelInPieces& pieces);
+  void LetGo(const VoxelBox& box);
   void Fetch(const std::vector<VoxelBox>& boxes);
 
   Communicator& Ranks;
@@ -59,7 +64,8 @@ private:
   VoxelPieces Pieces;
   const void* Held = nullptr; ///< this rank's piece,
   VoxelBox Layout;            ///< in the rows of this box
-  std::vector<VoxelBox> Fetched; ///< by Need()
+  bool IsTaken = false;       ///< It is in the room for the level.
+  std::vector<VoxelBox> Fetched; ///< by Need(), or taken
   LargeVector<char> Voxels;   ///< of the whole level; written where they are needed
   char* Room = nullptr;       ///< these, or those of rank 0
 };

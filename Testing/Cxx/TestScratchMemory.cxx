@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ScratchTestTools.h"
 
+#include "Core/Common/FreeMemory.h"
 #include "Core/Common/ScratchStore.h"
 #include "Core/Mesh/SurfaceMesh.h"
 
@@ -340,6 +341,57 @@ TEST_F(ScratchMemoryTest, ManyThreadsTakeAndGiveWhileItDrops)
   }
   EXPECT_EQ(wrong, std::vector<std::size_t>(8, 0));
   EXPECT_EQ(scratch.Statistics().Mapped, 0u);
+}
+
+TEST_F(ScratchMemoryTest, LengthensWhatIsFilledHereAndThere)
+{
+  // A value in every fourth page; values lie across pages.
+  constexpr std::size_t page = 4096;
+  constexpr std::size_t pages = 8192;
+  LargeVector<Vector> values;
+  MakeZeroed(values, pages * page / sizeof(Vector));
+  const auto placeIn = [](std::size_t p) { return (p * page + page / 2) / sizeof(Vector); };
+  for (std::size_t p = 0; p + 1 < pages; p += 4)
+  {
+    values[placeIn(p)] = Vector(static_cast<float>(p), 1.f, 2.f);
+  }
+  values.back() = Vector(3.f, 4.f, 5.f);
+  const std::size_t n = values.size();
+  const ResidentMemoryMeter meter;
+  const std::size_t before = meter.Read().All;
+  LengthenZeroed(values, n + 100 * MiB);
+  EXPECT_LT(meter.Read().All, before + pages * page / 4) << "the first array is gone";
+  ASSERT_EQ(values.size(), n + 100 * MiB);
+  for (std::size_t p = 0; p + 1 < pages; ++p)
+  {
+    ASSERT_EQ(values[placeIn(p)].X, p % 4 == 0 ? static_cast<float>(p) : 0.f) << p;
+  }
+  EXPECT_EQ(values[n - 1].Z, 5.f);
+  EXPECT_EQ(values[n + 100 * MiB - 1].X, 0.f);
+}
+
+TEST_F(ScratchMemoryTest, GivesBackWholePagesOfARangeOnly)
+{
+  if (IsWatched)
+  {
+    GTEST_SKIP() << "what ThreadSanitizer notes of each array is memory, too";
+  }
+  constexpr std::size_t bytes = 64 * MiB;
+  LargeVector<unsigned char> values;
+  MakeZeroed(values, bytes);
+  std::fill(values.begin(), values.end(), 7);
+  const ResidentMemoryMeter meter;
+  const std::size_t before = meter.Read().All;
+  GiveBackPages(values.data() + 1001, bytes / 2);
+  EXPECT_LT(meter.Read().All, before - bytes / 2 + MiB);
+  const auto isKept = [](unsigned char value) { return value == 7; };
+  EXPECT_TRUE(std::all_of(values.begin(), values.begin() + 1001, isKept));
+  EXPECT_TRUE(std::all_of(values.begin() + 1001 + bytes / 2, values.end(), isKept));
+  const std::size_t after = meter.Read().All;
+  GiveBackPages(values.data() + bytes - 100, 50);
+  GiveBackPages(values.data(), 0);
+  EXPECT_EQ(meter.Read().All / MiB, after / MiB) << "no page lies in these";
+  EXPECT_TRUE(std::all_of(values.end() - 100, values.end(), isKept));
 }
 
 TEST(MemoryHeadroom, GrowsWithWhatIsFilledBetweenTwoLooks)

@@ -109,10 +109,20 @@ void* AllocateZeroed(std::size_t bytes, std::size_t alignment)
 }
 }
 
-bool IsAllZero(const void* begin, std::size_t bytes)
+void CopyPagesInUse(const void* from, std::size_t bytes, void* to)
 {
-  const char* first = static_cast<const char*>(begin);
-  return bytes == 0 || (*first == 0 && std::memcmp(first, first + 1, bytes - 1) == 0);
+  constexpr std::size_t page = 4096;
+  const auto* source = static_cast<const char*>(from);
+  auto* target = static_cast<char*>(to);
+  for (std::size_t count = 0; bytes > 0; source += count, target += count, bytes -= count)
+  {
+    count = std::min(bytes, page - reinterpret_cast<std::uintptr_t>(target) % page);
+    const bool isZero = *source == 0 && std::memcmp(source, source + 1, count - 1) == 0;
+    if (!isZero)
+    {
+      std::memcpy(target, source, count);
+    }
+  }
 }
 
 ScratchMemory::ScratchMemory(const ScratchOptions& options)

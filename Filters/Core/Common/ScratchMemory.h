@@ -9,6 +9,7 @@
 #include <new>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -99,8 +100,8 @@ void FreeLarge(void* memory) noexcept;
  */
 void PrefetchLarge(const void* begin, std::size_t bytes);
 
-/** Whether so many bytes are all zero. */
-bool IsAllZero(const void* begin, std::size_t bytes);
+/** To memory that is all zero; pages of zeros are not written, as they may take no memory yet. */
+void CopyPagesInUse(const void* from, std::size_t bytes, void* to);
 
 /** Whether a limit is set, by anyone. */
 bool HasMemoryLimit();
@@ -190,6 +191,7 @@ void MakeZeroed(LargeVector<T>& values, std::size_t n, std::size_t room = 0)
 template <typename T>
 void LengthenZeroed(LargeVector<T>& values, std::size_t n)
 {
+  static_assert(std::is_trivially_copyable_v<T>);
   if (n <= values.size())
   {
     return;
@@ -202,16 +204,7 @@ void LengthenZeroed(LargeVector<T>& values, std::size_t n)
   // With room for more of it, so that little by little does not copy all each time.
   LargeVector<T> longer;
   MakeZeroed(longer, n, n + n / 4);
-  // Whole runs of zeros are not written: they may lie in memory that there is not.
-  constexpr std::size_t run = 4096 / sizeof(T) > 0 ? 4096 / sizeof(T) : 1;
-  for (std::size_t begin = 0; begin < values.size(); begin += run)
-  {
-    const std::size_t count = std::min(run, values.size() - begin);
-    if (!IsAllZero(values.data() + begin, count * sizeof(T)))
-    {
-      std::copy_n(values.data() + begin, count, longer.data() + begin);
-    }
-  }
+  CopyPagesInUse(values.data(), values.size() * sizeof(T), longer.data());
   values.swap(longer);
 }
 }

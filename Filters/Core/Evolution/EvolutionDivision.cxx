@@ -247,9 +247,16 @@ void SurfaceEvolution::Implementation::SpreadMesh(
   {
     this->MakeBlocks(*this->Ranks);
     this->Piece->ChooseOwners(mesh, own);
-    if (this->NeedVoxels && divisionsToCome == 0)
+    if (this->Voxels && divisionsToCome == 0)
     {
-      this->NeedVoxels(this->OwnVoxels());
+      // Blocks that have been chosen first fill a box.
+      const VoxelBox share = this->Piece->RowsOf(this->TheField->Image());
+      VoxelBox needed = share;
+      for (const VoxelBox& row : this->OwnVoxels())
+      {
+        needed = needed.With(row);
+      }
+      this->Voxels({ needed }, share);
     }
   }
   this->Piece->Scatter(mesh, own, this->GridLow, this->GridHigh);

@@ -79,7 +79,7 @@ struct SurfaceEvolution::Implementation
   std::unique_ptr<SurfaceComponents> Components; ///< Of all pieces.
   /** This rank's vertices of a surface that rests in pieces between levels; else none. */
   std::optional<std::vector<int>> OwnAtRest;
-  std::function<void(const VoxelBox&)> NeedVoxels; ///< See SetRanks.
+  NeedVoxels Voxels; ///< See SetRanks.
   Vector GridLow, GridHigh;              ///< The box over which the grid was laid last.
   struct
   {
@@ -205,7 +205,8 @@ struct SurfaceEvolution::Implementation
   /** Forgets the blocks of a surface that is whole; pieces stay with their ranks. */
   void EndVisits();
   bool IsFirstRank() const { return this->Ranks->Rank() == 0; }
-  VoxelBox OwnVoxels() const;
+  /** In a box for each row of own blocks. */
+  std::vector<VoxelBox> OwnVoxels() const;
   /** By all ranks, before a sweep of this kind: has them share its work. */
   void BalanceRanks(bool onlyActive);
   void VisitBlocksOnRanks(

@@ -39,24 +39,19 @@ void SurfaceEvolution::Implementation::FindGridBox(
 
 void SurfaceEvolution::Implementation::BalanceRanks(bool onlyActive)
 {
-  if (this->Piece->Balance(onlyActive, this->Threads) && this->NeedVoxels)
+  if (this->Piece->Balance(onlyActive, this->Threads) && this->Voxels)
   {
-    this->NeedVoxels(this->OwnVoxels());
+    this->Voxels(this->OwnVoxels(), VoxelBox());
   }
 }
 
-VoxelBox SurfaceEvolution::Implementation::OwnVoxels() const
+std::vector<VoxelBox> SurfaceEvolution::Implementation::OwnVoxels() const
 {
   // Those of the blocks, and of the halo, which is further than any vertex gets.
   const LevelImage& image = this->TheField->Image();
   const float halo = SurfaceBlocks::HaloInDelta * this->State.Sizing.Largest();
-  VoxelBox voxels;
-  for (int block = 0; block < this->Blocks->NumberOfBlocks(); ++block)
+  const auto voxelsOf = [&](int block)
   {
-    if (!this->Piece->IsOwn(block))
-    {
-      continue;
-    }
     const Box box = this->Blocks->BoxOf(block).Grown(halo);
     const float low[3] = { box.Low.X, box.Low.Y, box.Low.Z };
     const float high[3] = { box.High.X, box.High.Y, box.High.Z };
@@ -70,9 +65,23 @@ VoxelBox SurfaceEvolution::Implementation::OwnVoxels() const
       ofBlock.End[axis] =
         static_cast<int>(std::clamp(std::ceil(high[axis] / step) + 1., 0., size));
     }
-    voxels = voxels.With(ofBlock);
+    return ofBlock;
+  };
+  std::vector<VoxelBox> rows;
+  const int along = this->Blocks->GetFrame().Size[0];
+  for (int first = 0; first < this->Blocks->NumberOfBlocks(); first += along)
+  {
+    VoxelBox row;
+    for (int block = first; block < first + along; ++block)
+    {
+      row = this->Piece->IsOwn(block) ? row.With(voxelsOf(block)) : row;
+    }
+    if (!row.IsEmpty())
+    {
+      rows.push_back(row);
+    }
   }
-  return voxels;
+  return rows;
 }
 
 void SurfaceEvolution::Implementation::EndVisits()

@@ -178,11 +178,11 @@ bool SurfaceEvolution::IsInPieces() const
 }
 
 void SurfaceEvolution::SetRanks(
-  Communicator* ranks, std::function<void(const VoxelBox&)> needVoxels)
+  Communicator* ranks, NeedVoxels needVoxels)
 {
   this->Self->Ranks = ranks ? ranks : &OnThisRank();
   this->Self->LastSent = this->Self->Ranks->Sent();
-  this->Self->NeedVoxels = std::move(needVoxels);
+  this->Self->Voxels = std::move(needVoxels);
 }
 
 void SurfaceEvolution::Unite()

@@ -155,6 +155,14 @@ struct SurfaceResult : IndexedSurface
 class SurfaceEvolution
 {
 public:
+  /**
+   * Of a rank: voxels of the level that it needs from now on; before that, and elsewhere, they may be
+   * anything. Of these, `share` is what it alone looks after, of all ranks the whole image; none
+   * where that has been told before.
+   */
+  using NeedVoxels =
+    std::function<void(const std::vector<VoxelBox>& needed, const VoxelBox& share)>;
+
   /** @throws std::invalid_argument for options outside their range. */
   SurfaceEvolution(const SurfaceOptions& options, Executor& executor, Monitor& monitor);
   ~SurfaceEvolution();
@@ -224,10 +232,9 @@ public:
    * been united, rank 0 alone has a surface; rank 0 has a Result(). It is the same bits as on one
    * rank. Null, after LeaveLevel(): alone again, until it is set, to ranks as many, where the
    * surface IsInPieces().
-   * @param needVoxels called on all of them at the same time: the level's voxels that this rank
-   *        needs from now on. Before that, and elsewhere, they may be anything.
+   * @param needVoxels called on all of them at the same time
    */
-  void SetRanks(Communicator* ranks, std::function<void(const VoxelBox&)> needVoxels = {});
+  void SetRanks(Communicator* ranks, NeedVoxels needVoxels = {});
   /** Brings the mesh of several ranks to rank 0, as after LeaveLevel() on one. */
   void Unite();
   /** Whether each of several ranks has a piece of the surface. */

@@ -3,12 +3,13 @@
 
 // Blocks that go from rank to rank, so that all have as much to do: RankBlocks::Balance.
 
+#include "Core/Common/FreeMemory.h"
 #include "Core/Common/RankLists.h"
 #include "Core/Common/Spans.h"
 #include "Core/Surface/RankBlocks.h"
 
 #include <algorithm>
-#include <iterator>
+#include <cstddef>
 #include <utility>
 
 namespace volumic
@@ -19,6 +20,8 @@ namespace
 constexpr std::int64_t LeastGain = 3000;
 /** and as many for each vertex that moves: to write, send and read all that is known of it. */
 constexpr std::int64_t LooksToMove = 4;
+/** Of those that move: what is on the way takes memory beside them. */
+constexpr std::size_t VerticesAtATime = std::size_t(1) << 15;
 }
 
 std::vector<RankBlocks::Load> RankBlocks::LoadsOfBlocks(bool onlyActive, Executor& executor) const
@@ -105,68 +108,87 @@ void RankBlocks::MoveBlocks(std::vector<int> owners)
       }
     }
   }
+  this->SendBlocks(before);
+  this->SendVertices(own);
+  known.erase(std::remove_if(known.begin(), known.end(),
+                [this](int v) { return this->IsNearOwn(this->State.Mesh.Position[v]); }),
+    known.end());
+  for (const int v : known)
+  {
+    this->State.Forget(v);
+  }
+  this->State.GiveBack(std::move(known));
+  GiveBackFreeMemory(); // Of the messages.
+}
+
+void RankBlocks::SendBlocks(const std::vector<int>& before)
+{
   std::vector<Message> messages(static_cast<std::size_t>(this->Ranks.NumberOfRanks()));
   for (int rank = 0; rank < this->Ranks.NumberOfRanks(); ++rank)
   {
-    if (rank != this->Ranks.Rank())
+    MessageWriter writer;
+    for (int block = 0; block < this->Blocks.NumberOfBlocks(); ++block)
     {
-      messages[rank] = this->LeaveBlocks(rank, before, own);
+      if (rank != this->Ranks.Rank() && before[block] == this->Ranks.Rank() &&
+        this->OwnerOf(block) == rank)
+      {
+        writer.Add(block);
+        this->Blocks.Write(writer, block);
+      }
     }
-  }
-  for (const int v : known)
-  {
-    if (!this->IsNearOwn(this->State.Mesh.Position[v]))
-    {
-      this->State.Forget(v);
-    }
+    messages[rank] = writer.Take();
   }
   for (const Message& message : this->Ranks.Exchange(std::move(messages)))
   {
-    if (!message.empty())
+    for (MessageReader reader(message); !reader.IsAtEnd();)
     {
-      this->TakeBlocks(message);
+      const int block = reader.Take<int>();
+      this->Blocks.Read(reader, block);
     }
   }
 }
 
-Message RankBlocks::LeaveBlocks(
-  int rank, const std::vector<int>& before, const std::vector<int>& vertices)
+void RankBlocks::SendVertices(const std::vector<int>& vertices)
 {
-  std::vector<int> blocks;
-  for (int block = 0; block < this->Blocks.NumberOfBlocks(); ++block)
+  // Also those that a rank has: of the outermost ones it does not know the shape.
+  for (const int v : vertices)
   {
-    if (before[block] == this->Ranks.Rank() && this->Owners[block] == rank)
+    this->CollectNear(this->State.Mesh.Position[v], v, this->Ranks.Rank());
+  }
+  std::size_t most = 0;
+  for (const std::vector<int>& touched : this->Touched)
+  {
+    most = std::max(most, touched.size());
+  }
+  const std::vector<std::size_t> ofRanks = GatherValues(this->Ranks, most);
+  most = *std::max_element(ofRanks.begin(), ofRanks.end());
+  for (std::size_t begin = 0; begin < most; begin += VerticesAtATime)
+  {
+    std::vector<Message> messages(this->Touched.size());
+    for (std::size_t rank = 0; rank < messages.size(); ++rank)
     {
-      blocks.push_back(block);
+      const std::vector<int>& touched = this->Touched[rank];
+      if (begin < touched.size())
+      {
+        const auto first = touched.begin() + static_cast<std::ptrdiff_t>(begin);
+        const std::size_t count = std::min(touched.size() - begin, VerticesAtATime);
+        MessageWriter writer;
+        this->State.Write(writer, { first, first + static_cast<std::ptrdiff_t>(count) });
+        messages[rank] = writer.Take();
+      }
+    }
+    for (const Message& message : this->Ranks.Exchange(std::move(messages)))
+    {
+      if (!message.empty())
+      {
+        MessageReader reader(message);
+        this->Blocks.AddOthers(this->State.Read(reader));
+      }
     }
   }
-  MessageWriter writer;
-  writer.AddArray(blocks);
-  for (const int block : blocks)
+  for (std::vector<int>& touched : this->Touched)
   {
-    this->Blocks.Write(writer, block);
+    touched = std::vector<int>();
   }
-  // Also those that it has: of the outermost ones it does not know the shape.
-  std::vector<int> near;
-  std::copy_if(vertices.begin(), vertices.end(), std::back_inserter(near),
-    [&](int v)
-    {
-      bool isNear = false;
-      this->Blocks.VisitNear(this->State.Mesh.Position[v], this->Halo(),
-        [&](int block) { isNear = isNear || this->Owners[block] == rank; });
-      return isNear;
-    });
-  this->State.Write(writer, near);
-  return writer.Take();
-}
-
-void RankBlocks::TakeBlocks(const Message& message)
-{
-  MessageReader reader(message);
-  for (const int block : reader.TakeVector<int>())
-  {
-    this->Blocks.Read(reader, block);
-  }
-  this->Blocks.AddOthers(this->State.Read(reader));
 }
 }

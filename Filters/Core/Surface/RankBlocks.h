@@ -129,8 +129,10 @@ private:
   std::vector<Load> LoadsOfBlocks(bool onlyActive, Executor& executor) const;
   void MoveBlocks(std::vector<int> owners);
   void FindAwaited();
-  Message LeaveBlocks(int rank, const std::vector<int>& before, const std::vector<int>& vertices);
-  void TakeBlocks(const Message& message);
+  /** By all ranks: what is known of blocks goes to new owners. @param before who owned them */
+  void SendBlocks(const std::vector<int>& before);
+  /** By all ranks: what is known of own vertices goes to all others that have blocks near them. */
+  void SendVertices(const std::vector<int>& vertices);
   /** Whether a block, or one that touches it, has another owner than before. */
   bool IsNearMoved(int block, const std::vector<int>& before) const;
   /** Ranks with blocks near a vertex must be told of it. @param exceptFor this one, or -1 */

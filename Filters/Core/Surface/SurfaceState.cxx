@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Surface/SurfaceState.h"
 
+#include "Core/Common/FreeMemory.h"
 #include "Core/Common/ScratchMemory.h"
 #include "Core/Surface/StarShape.h"
 
@@ -14,6 +15,8 @@ namespace
 /** Vertices that one thread looks at at a time: 20 microseconds. */
 constexpr std::size_t ShapeGrain = 128;
 constexpr std::size_t AliveGrain = 1 << 14;
+/** So many free places behind a forgotten vertex may be given back with its own. */
+constexpr int FreeRun = 256;
 
 /** @param take called for each vertex, with its position, before the mesh has it */
 template <typename Take>
@@ -203,6 +206,30 @@ void SurfaceState::Forget(int v)
   {
     this->RemoveVertex(v);
     this->Mesh.Rings[v].Count = 0; // Its place is another rank's.
+  }
+}
+
+void SurfaceState::GiveBack(std::vector<int> forgotten)
+{
+  std::sort(forgotten.begin(), forgotten.end());
+  for (auto next = forgotten.begin(); next != forgotten.end();)
+  {
+    const int first = *next;
+    int end = first; // On to what is alive, or to where nothing was.
+    for (int last = first; end < std::min(this->Mesh.Size(), last + FreeRun) &&
+         !this->Mesh.IsAlive(end);
+         ++end)
+    {
+      if (next != forgotten.end() && *next == end)
+      {
+        last = end;
+        ++next;
+      }
+    }
+    const auto count = static_cast<std::size_t>(end - first);
+    GiveBackPages(this->Mesh.Position.data() + first, count * sizeof(Vector));
+    GiveBackPages(this->Mesh.Rings.data() + first, count * sizeof(Ring));
+    this->Properties.Forget(static_cast<std::size_t>(first), static_cast<std::size_t>(end));
   }
 }
 

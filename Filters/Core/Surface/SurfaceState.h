@@ -192,6 +192,8 @@ public:
     const std::vector<int>& vertices, Executor& executor);
   /** Forgets a vertex that another rank has removed. */
   void Forget(int v);
+  /** The places of vertices that were forgotten take no memory, as far as none lies beside them. */
+  void GiveBack(std::vector<int> forgotten);
 
   /** After v has been added to the mesh, next to, or as a copy of, its parent. */
   void AddVertex(int v, int parent);

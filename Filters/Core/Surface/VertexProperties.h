@@ -5,6 +5,7 @@
 
 #include "Core/Common/Communicator.h"
 #include "Core/Common/Executor.h"
+#include "Core/Common/FreeMemory.h"
 #include "Core/Common/Grow.h"
 #include "Core/Common/ScratchMemory.h"
 
@@ -32,6 +33,8 @@ public:
   /** The values of some vertices, in their order, and what they are on another rank. */
   virtual void Write(MessageWriter& message, const std::vector<int>& vertices) const = 0;
   virtual void Read(MessageReader& message, const std::vector<int>& vertices) = 0;
+  /** Nobody needs the values of [first, last), whose places take no memory until they have others. */
+  virtual void Forget(std::size_t first, std::size_t last) = 0;
   /** A value for a new vertex, `v`, which comes of another one. */
   virtual void Add(std::size_t v, std::size_t parent) = 0;
   /** The values of [first, last), which there are, will be read soon: see PrefetchLarge. */
@@ -98,6 +101,13 @@ public:
     for (VertexPropertyBase* property : this->All)
     {
       property->Read(message, vertices);
+    }
+  }
+  void Forget(std::size_t first, std::size_t last)
+  {
+    for (VertexPropertyBase* property : this->All)
+    {
+      property->Forget(first, last);
     }
   }
   void Prefetch(std::size_t first, std::size_t last) const
@@ -184,6 +194,10 @@ public:
     {
       this->Values[vertices[i]] = values[i];
     }
+  }
+  void Forget(std::size_t first, std::size_t last) override
+  {
+    GiveBackPages(this->Values.data() + first, (last - first) * sizeof(T));
   }
   void Prefetch(std::size_t first, std::size_t last) const override
   {
