@@ -361,6 +361,10 @@ void vtkDeformableSurface::vtkInternals::RunOrGoOn(
     this->ShowRun(*run, request, output);
   }
   cache.Keep(std::move(run), &this->Filter, ranks.NumberOfRanks());
+  if (!volumic::BroadcastValue(ranks, cache.CanGoOn()))
+  {
+    this->Piece.Run.reset();
+  }
   volumic::GiveBackFreeMemory();
 }
 
