@@ -261,8 +261,10 @@ bool EvolveOnRanks(Communicator& ranks, const SharedLevel& shared,
   return isDivided;
 }
 
-void UniteOnRanks(Communicator& ranks, const SharedLevel& shared, SurfaceEvolution& evolution)
+void UniteOnRanks(Communicator& ranks, SurfaceEvolution& evolution)
 {
+  SharedLevel shared;
+  shared.Is = SharedLevel::Work::Unites;
   BroadcastValue(ranks, shared);
   Unite(ranks, evolution);
 }

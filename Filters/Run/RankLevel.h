@@ -119,7 +119,7 @@ bool EvolveOnRanks(Communicator& ranks, const SharedLevel& shared,
   StopReason& reason, SurfaceResult& surface);
 
 /** At rank 0, likewise: SurfaceEvolution::Unite(). */
-void UniteOnRanks(Communicator& ranks, const SharedLevel& shared, SurfaceEvolution& evolution);
+void UniteOnRanks(Communicator& ranks, SurfaceEvolution& evolution);
 
 /**
  * At rank 0, likewise: tells the others of a level whose voxels it wants, or on which all evolve.

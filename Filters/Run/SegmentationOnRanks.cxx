@@ -51,14 +51,10 @@ bool SurfaceSegmentation::EndsAt(int level) const
 
 void SurfaceSegmentation::Unite()
 {
-  if (!this->Evolution->IsInPieces())
+  if (this->Evolution->IsInPieces())
   {
-    return;
+    this->Request.OnAllRanks([&] { UniteOnRanks(*this->Request.Ranks, *this->Evolution); });
   }
-  SharedLevel shared;
-  shared.Is = SharedLevel::Work::Unites;
-  this->Request.OnAllRanks(
-    [&] { UniteOnRanks(*this->Request.Ranks, shared, *this->Evolution); });
 }
 
 void SurfaceSegmentation::TakeAlone(int level)

@@ -329,7 +329,10 @@ void DropPages(void*, std::size_t) noexcept
 {
 }
 
-void DropWholePages(void*, std::size_t) noexcept {}
+void DropWholePages(void*, std::size_t) noexcept
+{
+}
+
 void ReadPagesAhead(void*, std::size_t) noexcept
 {
 }

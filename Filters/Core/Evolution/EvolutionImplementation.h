@@ -149,7 +149,10 @@ struct SurfaceEvolution::Implementation
   void SplitLongEdges(BlockVisits visits);
   float LongestEdge(); ///< That of the surface on all ranks.
   std::vector<Proximity::FacePair> FindIntersections();
-  /** By all ranks: divides the surface that these have, one alone the whole. */
+  /**
+   * By all ranks: divides the surface that these have, one alone the whole.
+   * @param divisionsToCome on the way to the level's edge lengths, after this one
+   */
   void DivideOnce(Communicator& ranks, int divisionsToCome);
   /** By all ranks: the mesh, which is not in the state any more. */
   MeshPiece TakePiece(Communicator& ranks);
@@ -161,7 +164,10 @@ struct SurfaceEvolution::Implementation
   std::vector<int> OwnVertices() const;
   /** By all ranks: divides a surface so many times, and shares it out anew. */
   bool LayOutInPieces(int divisions);
-  /** By all ranks, each of which has some vertices: shares a mesh out, of which nothing is known. */
+  /**
+   * By all ranks, each of which has some vertices: shares a mesh out, of which nothing is known.
+   * @param divisionsToCome so many times are its edges still to become shorter
+   */
   void SpreadMesh(SurfaceMesh mesh, const std::vector<int>& own, int divisionsToCome);
   void LayGridOfPiece();
   std::vector<Proximity::FacePair> FindIntersectionsInPieces();
