@@ -41,6 +41,11 @@ struct Box
   {
     return { Minimum(this->Low, other.Low), Maximum(this->High, other.High) };
   }
+  /** What lies in both: a box with Low beyond High where they are apart. */
+  Box Within(const Box& other) const
+  {
+    return { Maximum(this->Low, other.Low), Minimum(this->High, other.High) };
+  }
 
   bool Contains(const Vector& p) const
   {

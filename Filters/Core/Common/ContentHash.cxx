@@ -23,13 +23,6 @@ std::uint64_t Mix(std::uint64_t x)
   return x ^ x >> 33;
 }
 
-/** A step of one strand. */
-std::uint64_t Add(std::uint64_t hash, std::uint64_t word)
-{
-  hash = (hash ^ word) * 0xff51afd7ed558ccdu;
-  return hash ^ hash >> 32;
-}
-
 std::uint64_t HashOfSpan(const unsigned char* bytes, std::size_t count)
 {
   std::array<std::uint64_t, Strands> hash = { 1, 2, 3, 4 };
@@ -40,7 +33,7 @@ std::uint64_t HashOfSpan(const unsigned char* bytes, std::size_t count)
     std::memcpy(words.data(), bytes + done, sizeof(words));
     for (std::size_t k = 0; k < Strands; ++k)
     {
-      hash[k] = Add(hash[k], words[k]);
+      hash[k] = AddWord(hash[k], words[k]);
     }
   }
   words = {};
@@ -51,7 +44,7 @@ std::uint64_t HashOfSpan(const unsigned char* bytes, std::size_t count)
   std::uint64_t all = count; // The zeros at the end are none of its own.
   for (std::size_t k = 0; k < Strands; ++k)
   {
-    all = CombineHashes(all, Add(hash[k], words[k]));
+    all = CombineHashes(all, AddWord(hash[k], words[k]));
   }
   return all;
 }

@@ -15,6 +15,13 @@ namespace volumic
  */
 std::uint64_t ContentHash(const void* bytes, std::size_t count);
 
+/** Goes on with a hash by another word: that of few words, which is faster so. */
+inline std::uint64_t AddWord(std::uint64_t hash, std::uint64_t word)
+{
+  hash = (hash ^ word) * 0xff51afd7ed558ccdu; // See Mix() in ContentHash.cxx.
+  return hash ^ hash >> 32;
+}
+
 /** The hash of two contents, one after the other, of their hashes. */
 std::uint64_t CombineHashes(std::uint64_t first, std::uint64_t second);
 

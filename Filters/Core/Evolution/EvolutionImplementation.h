@@ -215,6 +215,19 @@ struct SurfaceEvolution::Implementation
   std::vector<VoxelBox> OwnVoxels() const;
   /** By all ranks, before a sweep of this kind: has them share its work. */
   void BalanceRanks(bool onlyActive);
+  /** Blocks of a colour, from this place in their list on. */
+  struct BlocksToCome
+  {
+    int Colour = 0;
+    std::size_t Place = 0;
+  };
+  /**
+   * The next own blocks to visit, awaited or not, until their work is as much as is left of `work`.
+   * When it is their turn: whether some are active, what is before them decides.
+   */
+  std::vector<int> TakeOwnBlocks(
+    BlocksToCome& toCome, bool areAwaited, std::int64_t& work, bool onlyActive) const;
+  void VisitOwnBlocks(const std::vector<int>& own, const BlockVisits& visits);
   void VisitBlocksOnRanks(
     const BlockVisits& visits, const std::function<bool(std::size_t done)>& goOn);
   /** By all ranks, between sweeps: where one was told to stop, all are. */

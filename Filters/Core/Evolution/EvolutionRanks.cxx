@@ -11,7 +11,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
+#include <cstdint>
+#include <limits>
 #include <memory>
 #include <utility>
 
@@ -92,38 +93,73 @@ void SurfaceEvolution::Implementation::EndVisits()
   }
 }
 
+std::vector<int> SurfaceEvolution::Implementation::TakeOwnBlocks(
+  BlocksToCome& toCome, bool areAwaited, std::int64_t& work, bool onlyActive) const
+{
+  const std::vector<int>& ofColour = this->Blocks->ByColour()[toCome.Colour];
+  std::vector<int> own;
+  for (; toCome.Place < ofColour.size() && work > 0; ++toCome.Place)
+  {
+    const int block = ofColour[toCome.Place];
+    if (this->Piece->IsOwn(block) && this->Piece->IsAwaited(block) == areAwaited &&
+      !this->Stopped && !(onlyActive && !this->Blocks->HasActive(block)))
+    {
+      const std::int64_t ofBlock = this->Blocks->WorkOf(block, onlyActive);
+      if (ofBlock / 2 >= work) // Less would be left over.
+      {
+        work = 0;
+        break;
+      }
+      own.push_back(block);
+      work -= ofBlock;
+    }
+  }
+  return own;
+}
+
+void SurfaceEvolution::Implementation::VisitOwnBlocks(
+  const std::vector<int>& own, const BlockVisits& visits)
+{
+  this->Piece->BeginVisits(own);
+  ForSpans(this->Threads, own.size(), 1,
+    [&](std::size_t i, std::size_t, std::size_t)
+    { this->VisitBlock(own[i], visits, OnThisThread()); });
+  this->Piece->EndVisits(own);
+}
+
 void SurfaceEvolution::Implementation::VisitBlocksOnRanks(
   const BlockVisits& visits, const std::function<bool(std::size_t done)>& goOn)
 {
+  constexpr std::int64_t all = std::numeric_limits<std::int64_t>::max();
+  const RankBlocks::WorkByColour waits = this->Piece->WaitsOfSweep(visits.OnlyActive);
+  BlocksToCome others;
   std::size_t visited = 0;
-  // Those that others wait for come first, then the others of all colours.
-  for (int turn = 0; turn < 2 * SurfaceBlocks::Colours; ++turn)
+  const auto visitOthers = [&](int lastColour, std::int64_t work)
   {
-    const bool areAwaited = turn < SurfaceBlocks::Colours;
-    const std::vector<int>& ofColour = this->Blocks->ByColour()[turn % SurfaceBlocks::Colours];
-    std::vector<int> own;
-    std::copy_if(ofColour.begin(), ofColour.end(), std::back_inserter(own),
-      [&](int block)
+    while (others.Colour <= lastColour && work > 0)
+    {
+      this->VisitOwnBlocks(this->TakeOwnBlocks(others, false, work, visits.OnlyActive), visits);
+      const std::size_t ofColour = this->Blocks->ByColour()[others.Colour].size();
+      if (others.Place == ofColour)
       {
-        return this->Piece->IsOwn(block) && this->Piece->IsAwaited(block) == areAwaited &&
-          !this->Stopped && !(visits.OnlyActive && !this->Blocks->HasActive(block));
-      });
-    for (const int block : own)
-    {
-      this->Piece->BeginVisit(block);
+        visited += ofColour;
+        others = { others.Colour + 1, 0 };
+      }
     }
-    ForSpans(this->Threads, own.size(), 1,
-      [&](std::size_t i, std::size_t, std::size_t)
-      { this->VisitBlock(own[i], visits, OnThisThread()); });
-    for (const int block : own)
-    {
-      this->Piece->EndVisit(block);
-    }
-    if (areAwaited)
-    {
-      this->Piece->Exchange();
-    }
-    visited += areAwaited ? 0 : ofColour.size();
+  };
+  // Those that others wait for come first; the time in which this rank would wait is for the others.
+  for (int colour = 0; colour < SurfaceBlocks::Colours; ++colour)
+  {
+    BlocksToCome awaited{ colour, 0 };
+    std::int64_t work = all;
+    this->VisitOwnBlocks(this->TakeOwnBlocks(awaited, true, work, visits.OnlyActive), visits);
+    visitOthers(colour, waits[static_cast<std::size_t>(colour)]);
+    this->Piece->Exchange();
+    goOn(visited);
+  }
+  for (int colour = 0; colour < SurfaceBlocks::Colours; ++colour)
+  {
+    visitOthers(colour, all);
     goOn(visited);
   }
   this->Stopped = this->Piece->ShareCounts(this->Stopped);

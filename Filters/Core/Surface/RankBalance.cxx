@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Blocks that go from rank to rank, so that all have as much to do: RankBlocks::Balance.
+// Blocks that go from rank to rank, so that all have as much to do, RankBlocks::Balance, and what a
+// rank does while it would wait for others: RankBlocks::WaitsOfSweep.
 
 #include "Core/Common/FreeMemory.h"
 #include "Core/Common/RankLists.h"
@@ -80,6 +81,53 @@ bool RankBlocks::Balance(bool onlyActive, Executor& executor)
   }
   this->MoveBlocks(std::move(owners));
   return true;
+}
+
+RankBlocks::WorkByColour RankBlocks::WaitsOf(int rank, const std::vector<Turns>& ofRanks)
+{
+  WorkByColour waits{};
+  std::vector<std::int64_t> now(ofRanks.size(), 0);
+  for (std::size_t colour = 0; colour < waits.size(); ++colour)
+  {
+    for (std::size_t r = 0; r < ofRanks.size(); ++r)
+    {
+      now[r] += ofRanks[r].Awaited[colour];
+    }
+    const std::vector<std::int64_t> there = now;
+    for (std::size_t r = 0; r < ofRanks.size(); ++r)
+    {
+      for (const int partner : ofRanks[r].Partners)
+      {
+        now[r] = std::max(now[r], there[partner]);
+      }
+    }
+    waits[colour] = now[rank] - there[rank];
+  }
+  return waits;
+}
+
+RankBlocks::WorkByColour RankBlocks::WaitsOfSweep(bool onlyActive) const
+{
+  WorkByColour awaited{};
+  for (int colour = 0; colour < SurfaceBlocks::Colours; ++colour)
+  {
+    for (const int block : this->Blocks.ByColour()[colour])
+    {
+      awaited[colour] += this->IsAwaited(block) ? this->Blocks.WorkOf(block, onlyActive) : 0;
+    }
+  }
+  MessageWriter writer;
+  writer.Add(awaited);
+  writer.AddArray(this->Partners);
+  std::vector<Turns> ofRanks;
+  for (const Message& message : this->Ranks.GatherOnAll(writer.Take()))
+  {
+    MessageReader reader(message);
+    ofRanks.emplace_back();
+    ofRanks.back().Awaited = reader.Take<WorkByColour>();
+    reader.TakeArray(ofRanks.back().Partners);
+  }
+  return WaitsOf(this->Ranks.Rank(), ofRanks);
 }
 
 bool RankBlocks::IsNearMoved(int block, const std::vector<int>& before) const

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 namespace volumic
@@ -125,34 +126,83 @@ bool RankBlocks::IsNearOwn(const Vector& position) const
   return isNear;
 }
 
-void RankBlocks::CollectZone(int block)
+std::vector<int> RankBlocks::BorderOf(int block) const
 {
-  const Box zone = this->Blocks.BoxOf(block).Grown(
-    SurfaceBlocks::WrittenInDelta * this->State.Sizing.Largest());
-  this->State.Grid.VisitBox(zone.Low, zone.High,
-    [&](int v)
+  // Only blocks beside this one are so near what its visit writes.
+  std::optional<Box> ofOthers;
+  for (const int other : this->Blocks.NeighboursOf(block))
+  {
+    if (!this->IsOwn(other))
     {
-      const Vector& position = this->State.Mesh.Position[v];
-      if (zone.Contains(position))
+      const Box box = this->Blocks.BoxOf(other).Grown(this->Halo());
+      ofOthers = ofOthers ? ofOthers->With(box) : box;
+    }
+  }
+  std::vector<int> vertices;
+  if (ofOthers)
+  {
+    const Box written = this->Blocks.BoxOf(block).Grown(
+      SurfaceBlocks::WrittenInDelta * this->State.Sizing.Largest());
+    const Box border = written.Within(*ofOthers);
+    this->State.Grid.VisitBox(border.Low, border.High,
+      [&](int v)
       {
-        this->CollectNear(position, v, this->Ranks.Rank());
-      }
-    });
+        if (border.Contains(this->State.Mesh.Position[v]))
+        {
+          vertices.push_back(v);
+        }
+      });
+  }
+  return vertices;
 }
 
-void RankBlocks::BeginVisit(int block)
+void RankBlocks::BeginVisits(const std::vector<int>& blocks)
 {
-  if (this->IsAtBorder[block])
+  SurfaceState& s = this->State;
+  this->Known = {};
+  for (const int block : blocks)
   {
-    this->CollectZone(block);
+    for (const int v : this->BorderOf(block))
+    {
+      this->Known.Vertices.push_back(v);
+      this->Known.Positions.push_back(s.Mesh.Position[v]);
+    }
+  }
+  this->Known.Hashes = s.HashesOf(this->Known.Vertices);
+  for (const int v : this->Known.Vertices)
+  {
+    s.Marks[v] |= IsKnown;
   }
 }
 
-void RankBlocks::EndVisit(int block)
+void RankBlocks::EndVisits(const std::vector<int>& blocks)
 {
-  if (this->IsAtBorder[block])
+  SurfaceState& s = this->State;
+  const int own = this->Ranks.Rank();
+  for (const int block : blocks)
   {
-    this->CollectZone(block); // What has come; what was there before has been removed, or moved.
+    for (const int v : this->BorderOf(block))
+    {
+      if (!(s.Marks[v] & IsKnown))
+      {
+        this->CollectNear(s.Mesh.Position[v], v, own); // New here, or edited.
+      }
+    }
+  }
+  const std::vector<int>& known = this->Known.Vertices;
+  for (const int v : known)
+  {
+    s.Marks[v] &= static_cast<std::uint8_t>(~IsKnown);
+  }
+  const std::vector<std::uint64_t> hashes = s.HashesOf(known);
+  for (std::size_t i = 0; i < known.size(); ++i)
+  {
+    const int v = known[i];
+    if (!s.Mesh.IsAlive(v) || hashes[i] != this->Known.Hashes[i])
+    {
+      this->CollectNear(this->Known.Positions[i], v, own); // Who had it must be told, too.
+      this->CollectNear(s.Mesh.Position[v], v, own);
+    }
   }
 }
 
@@ -173,7 +223,7 @@ void RankBlocks::Exchange()
         [&](int v) { removed.push_back({ v, this->State.Block[v] }); });
       MessageWriter writer;
       writer.AddArray(removed);
-      this->State.Write(writer, std::vector<int>(alive, touched.end()));
+      this->State.Write(writer, { alive, touched.end() });
       messages[rank] = writer.Take();
     }
     touched.clear();
@@ -223,11 +273,11 @@ void RankBlocks::Scatter(const SurfaceMesh& mesh, const std::vector<int>& own,
       [which](std::size_t sum, const Sizes& sizes) { return sum + sizes[which]; });
   };
   const std::size_t places = all.front()[2];
-  this->KnownVertices = static_cast<int>(sumOf(0));
-  this->KnownCharacteristic = this->KnownVertices - static_cast<int>(sumOf(1) / 6);
+  this->NumberOfVertices = static_cast<int>(sumOf(0));
+  this->EulerCharacteristic = this->NumberOfVertices - static_cast<int>(sumOf(1) / 6);
   this->Blocks.ForgetVertices();
-  this->State.Remake(places, this->KnownVertices, low, high);
-  this->State.EulerCharacteristic = this->KnownCharacteristic;
+  this->State.Remake(places, this->NumberOfVertices, low, high);
+  this->State.EulerCharacteristic = this->EulerCharacteristic;
   std::vector<int> here;
   const int rank = this->Ranks.Rank();
   const int count = this->Ranks.NumberOfRanks();
@@ -272,8 +322,8 @@ void RankBlocks::Append(const IndexedSurface& surface, Executor& executor)
   s.UpdateShape(inside, executor);
   s.Mesh.CountOthers(added.Size());
   s.EulerCharacteristic += added.CountEulerCharacteristic(executor);
-  this->KnownVertices = s.Mesh.NumberOfVertices();
-  this->KnownCharacteristic = s.EulerCharacteristic;
+  this->NumberOfVertices = s.Mesh.NumberOfVertices();
+  this->EulerCharacteristic = s.EulerCharacteristic;
 }
 
 VoxelBox RankBlocks::RowsOf(const LevelImage& image) const
@@ -322,16 +372,16 @@ bool RankBlocks::ShareCounts(bool isHere)
   bool isAnywhere = false;
   SurfaceState& s = this->State;
   const std::vector<Changes> all = GatherValues(this->Ranks,
-    Changes{ s.Mesh.NumberOfVertices() - this->KnownVertices,
-      s.EulerCharacteristic - this->KnownCharacteristic, isHere });
+    Changes{ s.Mesh.NumberOfVertices() - this->NumberOfVertices,
+      s.EulerCharacteristic - this->EulerCharacteristic, isHere });
   for (const Changes& changes : all)
   {
     isAnywhere = isAnywhere || changes.IsThere;
-    this->KnownVertices += changes.Vertices;
-    this->KnownCharacteristic += changes.Characteristic;
+    this->NumberOfVertices += changes.Vertices;
+    this->EulerCharacteristic += changes.Characteristic;
   }
-  s.Mesh.CountOthers(this->KnownVertices - s.Mesh.NumberOfVertices());
-  s.EulerCharacteristic = this->KnownCharacteristic;
+  s.Mesh.CountOthers(this->NumberOfVertices - s.Mesh.NumberOfVertices());
+  s.EulerCharacteristic = this->EulerCharacteristic;
   return isAnywhere;
 }
 

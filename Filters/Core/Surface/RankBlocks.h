@@ -11,6 +11,7 @@
 #include "Core/Image/VoxelBox.h"
 #include "Core/Surface/SurfaceBlocks.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -23,12 +24,12 @@ namespace volumic
  * that they have everywhere; the places of all others are there, but take no memory.
  *
  * The ranks visit those of their blocks of a colour that others wait for (IsAwaited), then tell each
- * other what has become of the vertices near the borders (Exchange), then go on with the next one;
- * all other blocks come after that, when ranks wait for each other no more. Blocks that touch are
- * visited in the order of their colours: each visit sees what it would see on one rank. Messages grow
- * with the border of the ranks. Blocks go
- * from rank to rank (Balance) so that all have as much to do in a sweep; who owns what has no
- * influence on what becomes of the surface.
+ * other what has become of the vertices near the borders (Exchange), then go on with the next one.
+ * All other blocks are for the time that a rank would wait for others (WaitsOfSweep), and for when
+ * nobody waits any more. Blocks that touch are visited in the order of their colours: each visit sees
+ * what it would see on one rank. Messages grow with the border of the ranks. Blocks go from rank to
+ * rank (Balance) so that all have as much to do in a sweep; who owns what, and what is done while
+ * others are waited for, has no influence on what becomes of the surface.
  */
 class RankBlocks
 {
@@ -66,6 +67,17 @@ public:
   static std::int64_t WorkOfSweep(
     const std::vector<Load>& loads, const std::vector<int>& owners, int ranks);
 
+  /** By colour, in looks at a vertex. */
+  using WorkByColour = std::array<std::int64_t, SurfaceBlocks::Colours>;
+  /** What a rank has to do in a sweep before others can go on. */
+  struct Turns
+  {
+    WorkByColour Awaited{};    ///< With blocks that others wait for.
+    std::vector<int> Partners; ///< Ranks that it tells of its visits, and that tell it of theirs.
+  };
+  /** How long a rank waits for its partners after its awaited blocks of each colour. */
+  static WorkByColour WaitsOf(int rank, const std::vector<Turns>& ofRanks);
+
   /** By all ranks: chooses owners for a mesh of which each has some vertices, its own ones. */
   void ChooseOwners(const SurfaceMesh& mesh, const std::vector<int>& own);
   void SetOwners(std::vector<int> owners);
@@ -98,9 +110,9 @@ public:
    */
   VoxelBox RowsOf(const LevelImage& image) const;
 
-  /** To be called before, and after, the visit of an own block, not while blocks are visited. */
-  void BeginVisit(int block);
-  void EndVisit(int block);
+  /** To be called before, and after, visits of own blocks of a colour. */
+  void BeginVisits(const std::vector<int>& blocks);
+  void EndVisits(const std::vector<int>& blocks);
   /** By all ranks, after visits of a colour: tells what has become of vertices at borders. */
   void Exchange();
   /**
@@ -109,6 +121,8 @@ public:
    * @return whether any has gone, on all ranks: then the ranks need other voxels
    */
   bool Balance(bool onlyActive, Executor& executor);
+  /** By all ranks, before a sweep: how long this one will wait in it, by WorkOf() of its blocks. */
+  WorkByColour WaitsOfSweep(bool onlyActive) const;
   /**
    * By all ranks, between sweeps: agrees on the number of vertices and chi of the surface.
    * @return whether something else is so on any rank, as `isHere` tells of this one
@@ -137,7 +151,8 @@ private:
   bool IsNearMoved(int block, const std::vector<int>& before) const;
   /** Ranks with blocks near a vertex must be told of it. @param exceptFor this one, or -1 */
   void CollectNear(const Vector& position, int v, int exceptFor);
-  void CollectZone(int block);
+  /** Vertices that the visit of an own block may write, and others may have in their halo. */
+  std::vector<int> BorderOf(int block) const;
   bool IsNearOwn(const Vector& position) const;
   float Halo() const { return SurfaceBlocks::HaloInDelta * this->State.Sizing.Largest(); }
 
@@ -149,8 +164,15 @@ private:
   std::vector<char> Awaited;             ///< By block: see IsAwaited().
   std::vector<int> Partners;             ///< This rank, and those with blocks beside own ones.
   std::vector<std::vector<int>> Touched; ///< By rank: the vertices that it must be told of.
-  int KnownVertices = 0;                 ///< What the ranks last agreed on.
-  int KnownCharacteristic = 0;
+  /** What they may know so far: what was there before the visits. */
+  struct KnownVertices
+  {
+    std::vector<int> Vertices;
+    std::vector<Vector> Positions;
+    std::vector<std::uint64_t> Hashes;
+  } Known;
+  int NumberOfVertices = 0;              ///< What the ranks last agreed on.
+  int EulerCharacteristic = 0;
 };
 }
 

@@ -6,7 +6,6 @@
 #include "Core/Surface/Proximity.h"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <utility>
 
@@ -92,8 +91,8 @@ std::array<int, 3> SurfaceBlocks::PlaceOf(const Vector& position) const
   std::array<int, 3> places;
   for (int axis = 0; axis < 3; ++axis)
   {
-    const float place = std::floor(along[axis] / this->TheFrame.Side[axis]);
-    places[axis] = static_cast<int>(
+    const float place = along[axis] / this->TheFrame.Side[axis];
+    places[axis] = static_cast<int>( // Which rounds down what is not negative.
       std::clamp(place, 0.f, static_cast<float>(this->TheFrame.Size[axis] - 1)));
   }
   return places;

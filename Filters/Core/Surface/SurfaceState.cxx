@@ -7,6 +7,7 @@
 #include "Core/Surface/StarShape.h"
 
 #include <algorithm>
+#include <cstring>
 
 namespace volumic
 {
@@ -136,6 +137,31 @@ void SurfaceState::Write(MessageWriter& message, const std::vector<int>& vertice
 {
   WriteMesh(this->Mesh, message, vertices);
   this->Properties.Write(message, vertices);
+}
+
+std::vector<std::uint64_t> SurfaceState::HashesOf(const std::vector<int>& vertices) const
+{
+  std::vector<std::uint64_t> hashes;
+  hashes.reserve(vertices.size());
+  for (const int v : vertices)
+  {
+    const Ring& ring = this->Mesh.Rings[v];
+    const Vector& position = this->Mesh.Position[v];
+    std::uint64_t hash = 0;
+    for (const float along : { position.X, position.Y, position.Z })
+    {
+      std::uint32_t bits;
+      std::memcpy(&bits, &along, sizeof(bits));
+      hash = AddWord(hash, bits);
+    }
+    for (int k = 0; k < ring.Count; ++k)
+    {
+      hash = AddWord(hash, static_cast<std::uint64_t>(ring.Item[k]));
+    }
+    hashes.push_back(AddWord(hash, static_cast<std::uint64_t>(ring.Count)));
+  }
+  this->Properties.AddTo(hashes, vertices);
+  return hashes;
 }
 
 std::vector<int> SurfaceState::Read(MessageReader& message)

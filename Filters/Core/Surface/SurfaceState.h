@@ -88,6 +88,7 @@ enum VertexMark : std::uint8_t
   HasMoved = 4,   ///< Dynamics: it has moved visibly.
   IsMoving = 32,  ///< Dynamics: it is about to move.
   IsSeen = 8,     ///< ComponentWatch: it has been looked at.
+  IsKnown = 64,   ///< RankBlocks: other ranks may have it in their halo.
   IsOfLarge = 16  ///< ComponentWatch: it was looked at, and its component is not small.
 };
 
@@ -178,6 +179,8 @@ public:
   void Write(MessageWriter& message, const std::vector<int>& vertices) const;
   /** Takes in what another rank has written, instead of what was known. @return the vertices */
   std::vector<int> Read(MessageReader& message);
+  /** Of what Write() writes of each of these. @return the same only where nothing has changed */
+  std::vector<std::uint64_t> HashesOf(const std::vector<int>& vertices) const;
   /** The same for a mesh whose vertices know nothing else: they are as after Reset(). */
   static void WriteMesh(
     const SurfaceMesh& mesh, MessageWriter& message, const std::vector<int>& vertices);

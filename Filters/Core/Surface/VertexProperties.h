@@ -4,13 +4,17 @@
 #define volumicVertexProperties_h
 
 #include "Core/Common/Communicator.h"
+#include "Core/Common/ContentHash.h"
 #include "Core/Common/Executor.h"
 #include "Core/Common/FreeMemory.h"
 #include "Core/Common/Grow.h"
 #include "Core/Common/ScratchMemory.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <vector>
 
 namespace volumic
@@ -33,6 +37,8 @@ public:
   /** The values of some vertices, in their order, and what they are on another rank. */
   virtual void Write(MessageWriter& message, const std::vector<int>& vertices) const = 0;
   virtual void Read(MessageReader& message, const std::vector<int>& vertices) = 0;
+  /** Goes on with a hash of each of these vertices, by its value. */
+  virtual void AddTo(std::vector<std::uint64_t>& hashes, const std::vector<int>& vertices) const = 0;
   /** Nobody needs the values of [first, last), whose places take no memory until they have others. */
   virtual void Forget(std::size_t first, std::size_t last) = 0;
   /** A value for a new vertex, `v`, which comes of another one. */
@@ -101,6 +107,13 @@ public:
     for (VertexPropertyBase* property : this->All)
     {
       property->Read(message, vertices);
+    }
+  }
+  void AddTo(std::vector<std::uint64_t>& hashes, const std::vector<int>& vertices) const
+  {
+    for (const VertexPropertyBase* property : this->All)
+    {
+      property->AddTo(hashes, vertices);
     }
   }
   void Forget(std::size_t first, std::size_t last)
@@ -193,6 +206,19 @@ public:
     for (std::size_t i = 0; i < vertices.size(); ++i)
     {
       this->Values[vertices[i]] = values[i];
+    }
+  }
+  void AddTo(
+    std::vector<std::uint64_t>& hashes, const std::vector<int>& vertices) const override
+  {
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+    {
+      std::array<std::uint64_t, (sizeof(T) + 7) / 8> words{};
+      std::memcpy(words.data(), &this->Values[vertices[i]], sizeof(T));
+      for (const std::uint64_t word : words)
+      {
+        hashes[i] = AddWord(hashes[i], word);
+      }
     }
   }
   void Forget(std::size_t first, std::size_t last) override
