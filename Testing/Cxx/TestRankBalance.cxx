@@ -413,6 +413,24 @@ TEST(RankBalance, WaitsOfASweepAreThoseOfItsAwaitedBlocks)
     });
 }
 
+TEST(RankBalance, HashesTellOfConnectivityAndPlaceToo)
+{
+  SurfaceState s;
+  s.Mesh = MakeSphere({ 20., 20., 20. }, 5., 1.7);
+  s.Reset(Vector(), Vector(40.f, 40.f, 40.f));
+  const std::vector<std::uint64_t> before = s.HashesOf({ 0, 1, 2 });
+  EXPECT_NE(before[0], before[1]);
+  EXPECT_EQ(s.HashesOf({ 2, 1 }), (std::vector<std::uint64_t>{ before[2], before[1] }));
+  s.Mesh.Position[0].Z += 0.5f;
+  std::swap(s.Mesh.Rings[1].Item[0], s.Mesh.Rings[1].Item[1]);
+  --s.Mesh.Rings[2].Count;
+  const std::vector<std::uint64_t> after = s.HashesOf({ 0, 1, 2 });
+  for (std::size_t v = 0; v < 3; ++v)
+  {
+    EXPECT_NE(after[v], before[v]) << v;
+  }
+}
+
 TEST(RankBalance, RanksTellOfWhatHasChangedOnly)
 {
   ThreadRanks::Run(2,

@@ -67,3 +67,27 @@ TEST(VertexProperties, AreFilled)
   p.Own.Assign({ 5.f, 6.f });
   EXPECT_EQ(p.Own[1], 6.f);
 }
+
+TEST(VertexProperties, HashesTellWhoseValueIsAnother)
+{
+  TwoProperties p;
+  p.All.Reset(3, p.Thread);
+  const std::vector<int> vertices = { 2, 0 };
+  const auto hashes = [&]
+  {
+    std::vector<std::uint64_t> found(vertices.size(), 5);
+    p.All.AddTo(found, vertices);
+    return found;
+  };
+  const std::vector<std::uint64_t> before = hashes();
+  EXPECT_EQ(before[0], before[1]) << "the same values";
+  EXPECT_EQ(hashes(), before);
+  p.Inherited[1] = 7;
+  EXPECT_EQ(hashes(), before) << "not asked for";
+  p.Inherited[0] = 7;
+  EXPECT_EQ(hashes()[0], before[0]);
+  EXPECT_NE(hashes()[1], before[1]);
+  p.Own[2] = -2.f;
+  EXPECT_NE(hashes()[0], before[0]);
+  EXPECT_NE(hashes()[0], hashes()[1]);
+}
