@@ -81,6 +81,7 @@ set(volumic_core_sources
   Surface/NewFaces.cxx
   Surface/Proximity.cxx
   Surface/RankBlocks.cxx
+  Surface/RankExchange.cxx
   Surface/RemainingContacts.cxx
   Surface/Remesher.cxx
   Surface/RemesherMerges.cxx
