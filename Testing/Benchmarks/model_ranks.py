@@ -8,8 +8,8 @@
 The object of the scan stands for one of the same shape in an image of that size: where its boundary
 is tells how many vertices each block of a level has. Blocks go to ranks as RankBlocks does it, and
 the visits of a sweep are scheduled as there: those that others wait for first, colour by colour, and
-others while a rank waits. What a vertex costs was measured, on one thread, and so were the bytes that ranks send and what is done on
-ranks only (see Constants).
+others while a rank waits. What a vertex costs was measured, on one thread, and so were the bytes that
+ranks send and what is done on ranks only (see Constants).
 
 Left out: reading and reducing the image (each rank does its part), writing, differences between the
 work of vertices, and that ranks of one machine share its memory.
