@@ -102,7 +102,7 @@ std::vector<int> SurfaceEvolution::Implementation::TakeOwnBlocks(
   {
     const int block = ofColour[toCome.Place];
     if (this->Piece->IsOwn(block) && this->Piece->IsAwaited(block) == areAwaited &&
-      !this->Stopped && !(onlyActive && !this->Blocks->HasActive(block)))
+      !this->Stopped)
     {
       const std::int64_t ofBlock = this->Blocks->WorkOf(block, onlyActive);
       if (ofBlock / 2 >= work) // Less would be left over.
@@ -110,8 +110,11 @@ std::vector<int> SurfaceEvolution::Implementation::TakeOwnBlocks(
         work = 0;
         break;
       }
-      own.push_back(block);
       work -= ofBlock;
+      if (ofBlock > 0)
+      {
+        own.push_back(block);
+      }
     }
   }
   return own;

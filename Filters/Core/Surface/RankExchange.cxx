@@ -38,6 +38,11 @@ bool RankBlocks::IsNearOwn(const Vector& position) const
 
 std::vector<int> RankBlocks::BorderOf(int block) const
 {
+  std::vector<int> vertices;
+  if (!this->IsAtBorder[block])
+  {
+    return vertices;
+  }
   // Only blocks beside this one are so near what its visit writes.
   std::optional<Box> ofOthers;
   for (const int other : this->Blocks.NeighboursOf(block))
@@ -48,21 +53,17 @@ std::vector<int> RankBlocks::BorderOf(int block) const
       ofOthers = ofOthers ? ofOthers->With(box) : box;
     }
   }
-  std::vector<int> vertices;
-  if (ofOthers)
-  {
-    const Box written = this->Blocks.BoxOf(block).Grown(
-      SurfaceBlocks::WrittenInDelta * this->State.Sizing.Largest());
-    const Box border = written.Within(*ofOthers);
-    this->State.Grid.VisitBox(border.Low, border.High,
-      [&](int v)
+  const Box written = this->Blocks.BoxOf(block).Grown(
+    SurfaceBlocks::WrittenInDelta * this->State.Sizing.Largest());
+  const Box border = written.Within(*ofOthers);
+  this->State.Grid.VisitBox(border.Low, border.High,
+    [&](int v)
+    {
+      if (border.Contains(this->State.Mesh.Position[v]))
       {
-        if (border.Contains(this->State.Mesh.Position[v]))
-        {
-          vertices.push_back(v);
-        }
-      });
-  }
+        vertices.push_back(v);
+      }
+    });
   return vertices;
 }
 

@@ -7,7 +7,6 @@
 #include "Core/Surface/StarShape.h"
 
 #include <algorithm>
-#include <cstring>
 
 namespace volumic
 {
@@ -146,19 +145,12 @@ std::vector<std::uint64_t> SurfaceState::HashesOf(const std::vector<int>& vertic
   for (const int v : vertices)
   {
     const Ring& ring = this->Mesh.Rings[v];
-    const Vector& position = this->Mesh.Position[v];
-    std::uint64_t hash = 0;
-    for (const float along : { position.X, position.Y, position.Z })
-    {
-      std::uint32_t bits;
-      std::memcpy(&bits, &along, sizeof(bits));
-      hash = AddWord(hash, bits);
-    }
+    std::uint64_t hash = AddValue(0, this->Mesh.Position[v]);
     for (int k = 0; k < ring.Count; ++k)
     {
-      hash = AddWord(hash, static_cast<std::uint64_t>(ring.Item[k]));
+      hash = AddValue(hash, ring.Item[k]);
     }
-    hashes.push_back(AddWord(hash, static_cast<std::uint64_t>(ring.Count)));
+    hashes.push_back(AddValue(hash, ring.Count));
   }
   this->Properties.AddTo(hashes, vertices);
   return hashes;

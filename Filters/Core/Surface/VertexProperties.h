@@ -11,10 +11,8 @@
 #include "Core/Common/ScratchMemory.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <vector>
 
 namespace volumic
@@ -213,12 +211,7 @@ public:
   {
     for (std::size_t i = 0; i < vertices.size(); ++i)
     {
-      std::array<std::uint64_t, (sizeof(T) + 7) / 8> words{};
-      std::memcpy(words.data(), &this->Values[vertices[i]], sizeof(T));
-      for (const std::uint64_t word : words)
-      {
-        hashes[i] = AddWord(hashes[i], word);
-      }
+      hashes[i] = AddValue(hashes[i], this->Values[vertices[i]]);
     }
   }
   void Forget(std::size_t first, std::size_t last) override
