@@ -62,6 +62,9 @@ case $release in
   14) release=forky ;;
   *[!a-z]*) fail "$release: is no release of Debian" ;;
 esac
+case ${1-} in
+  -*) fail "$1: options come before the release" ;;
+esac
 if [ $# -gt 0 ]; then
   command=("$@")
 else

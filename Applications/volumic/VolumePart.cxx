@@ -17,6 +17,7 @@
 #include <vtkObjectFactory.h>
 #include <vtkPointData.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
+#include <vtkXMLReader.h>
 
 #include <algorithm>
 #include <cstring>
@@ -30,6 +31,8 @@ namespace
 {
 using Pipeline = vtkStreamingDemandDrivenPipeline;
 constexpr int Points = vtkDataObject::FIELD_ASSOCIATION_POINTS;
+/** Bytes up to which a .vti is read whole. */
+constexpr double SmallVolume = 32 << 20;
 
 bool IsEmpty(const int* extent)
 {
@@ -179,12 +182,24 @@ int VolumePart::RequestData(
   return 1;
 }
 
+bool VolumePart::IsReadWhole() const
+{
+  if (!vtkXMLReader::SafeDownCast(this->Reader))
+  {
+    return false;
+  }
+  const std::array<int, 3> size = this->Known.Size();
+  return static_cast<double>(size[0]) * size[1] * size[2] * this->Known.Components *
+    vtkDataArray::GetDataTypeSize(this->Known.Type) <= SmallVolume;
+}
+
 void VolumePart::Read(const int* extent, vtkImageData* image)
 {
   VtkMessages messages;
-  messages.UpdateReader(this->Reader, this->Name, true, extent);
+  messages.UpdateReader(this->Reader, this->Name, true, this->IsReadWhole() ? nullptr : extent);
   image->ShallowCopy(this->Reader->GetOutputDataObject(0));
   this->Reader->GetOutputDataObject(0)->ReleaseData();
+  image->Crop(extent);
   Named(this->Name, [&] { ChooseScalars(image, this->Array); });
   if (this->HasSpacing)
   {

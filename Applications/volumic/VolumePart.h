@@ -94,6 +94,11 @@ protected:
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector* output) override;
 
 private:
+  /**
+   * Whether to read it whole and cut the part out, as a small `.vti`: VTK's reader reads parts slice by
+   * slice, and unpacks the block that a slice is in each time anew.
+   */
+  bool IsReadWhole() const;
   void Read(const int* extent, vtkImageData* image);
   void MakeEmpty(vtkImageData* image) const;
 

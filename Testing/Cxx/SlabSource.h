@@ -22,7 +22,7 @@ inline constexpr double Spacing[3] = { 0.5, 0.5, 0.75 };
 inline constexpr double Origin[3] = { 10.0, -5.0, 2.0 };
 inline constexpr double Direction[9] = { 0, 1, 0, -1, 0, 0, 0, 0, 1 };
 /** MiB: slabs have a sixty-fourth of it. */
-inline constexpr int Limit = 640;
+inline constexpr int Limit = 720;
 /** Floats of a voxel: so many that there are several slabs. */
 inline constexpr int Components = 4;
 

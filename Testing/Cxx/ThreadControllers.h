@@ -10,6 +10,7 @@
 #include <vtkDummyController.h>
 #include <vtkMultiProcessController.h>
 #include <vtkNew.h>
+#include <vtkObjectFactory.h>
 #include <vtkSmartPointer.h>
 
 #include <thread>
@@ -23,7 +24,7 @@ public:
   /** Calls work on each of so many threads; it must not throw. Each makes filters of its own. */
   static void Run(int count, const std::function<void(vtkMultiProcessController*)>& work)
   {
-    const vtkNew<vtkDummyController> first; // VTK's factories are made once, not by many at a time.
+    vtkObjectFactory::GetRegisteredFactories(); // Made once, not by many at a time.
     const auto queues = std::make_shared<MessageQueues>(count);
     std::vector<std::thread> threads;
     for (int rank = 0; rank < count; ++rank)
