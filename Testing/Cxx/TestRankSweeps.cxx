@@ -249,8 +249,10 @@ TEST(RankSweeps, SumUpContactsInTheOrderOfOneRank)
   // in the order in which these are found.
   SurfaceOptions options = ForPlate();
   options.TopologyChanges = false;
+  options.MaximumNumberOfIterations = 20;
   const RunOnRanks one(1, options);
   EXPECT_GT(one.Surface.Points.size(), 20000u);
+  EXPECT_GT(one.Surface.Contacts.size(), 200u);
   ExpectOnRanks(one, { 2, 4 }, options);
 }
 
