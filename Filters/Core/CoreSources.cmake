@@ -7,11 +7,9 @@
 
 set(volumic_core_sources
   Common/CheckedFile.cxx
-  Common/Communicator.cxx
   Common/ContentHash.cxx
   Common/FreeMemory.cxx
   Common/JoinLabels.cxx
-  Common/MeasuredExecutor.cxx
   Common/ScratchFile.cxx
   Common/ScratchMemory.cxx
   Common/ScratchStore.cxx
@@ -21,13 +19,11 @@ set(volumic_core_sources
   Image/EdgeAttraction.cxx
   Image/Field.cxx
   Image/LevelReduction.cxx
-  Image/PieceReduction.cxx
   Image/PointAttraction.cxx
   Image/PyramidGeometry.cxx
   Image/RowKernels.cxx
   Image/ValidReduction.cxx
   Image/VoxelHash.cxx
-  Image/VoxelPieces.cxx
   Labels/BoundaryGaussian.cxx
   Labels/BoundaryRows.cxx
   Labels/DrawBack.cxx
@@ -72,16 +68,11 @@ set(volumic_core_sources
   Interfaces/LatticeCutter.cxx
   Interfaces/MakeInterfaces.cxx
   Interfaces/VertexTargets.cxx
-  Surface/BlockOwners.cxx
-  Surface/BlockWork.cxx
-  Surface/RankBalance.cxx
   Surface/ComponentNesting.cxx
   Surface/ComponentWatch.cxx
   Surface/ConnectedVertices.cxx
   Surface/NewFaces.cxx
   Surface/Proximity.cxx
-  Surface/RankBlocks.cxx
-  Surface/RankExchange.cxx
   Surface/RemainingContacts.cxx
   Surface/Remesher.cxx
   Surface/RemesherMerges.cxx
@@ -99,10 +90,10 @@ set(volumic_core_sources
   Evolution/EdgeLengthPlan.cxx
   Evolution/EdgesToKeep.cxx
   Evolution/EvolutionCheckpoint.cxx
+  Evolution/EvolutionComponents.cxx
   Evolution/EvolutionDivision.cxx
   Evolution/EvolutionGrading.cxx
   Evolution/EvolutionHistory.cxx
-  Evolution/EvolutionRanks.cxx
   Evolution/EvolutionRun.cxx
   Evolution/EvolutionStart.cxx
   Evolution/EvolutionVerification.cxx
@@ -113,9 +104,6 @@ set(volumic_core_sources
   Evolution/LostBoundary.cxx
   Evolution/LostParts.cxx
   Evolution/LostVoxels.cxx
-  Evolution/MeshPiece.cxx
-  Evolution/RankNumbers.cxx
-  Evolution/RankResult.cxx
   Evolution/SlabSearch.cxx
   Evolution/SurfaceEvolution.cxx
   Evolution/SurfaceIteration.cxx
@@ -123,7 +111,6 @@ set(volumic_core_sources
 set(volumic_core_headers
   Common/Box.h
   Common/CheckedFile.h
-  Common/Communicator.h
   Common/ContentHash.h
   Common/DisjointSets.h
   Common/ExactSum.h
@@ -136,10 +123,7 @@ set(volumic_core_headers
   Common/JoinLabels.h
   Common/Lanes.h
   Common/LatticeKey.h
-  Common/MeasuredExecutor.h
   Common/Monitor.h
-  Common/PieceOfSurface.h
-  Common/RankLists.h
   Common/Refuse.h
   Common/ScratchFile.h
   Common/ScratchMemory.h
@@ -156,7 +140,6 @@ set(volumic_core_headers
   Image/ImageMargin.h
   Image/LevelImage.h
   Image/LevelReduction.h
-  Image/PieceReduction.h
   Image/PointAttraction.h
   Image/PyramidGeometry.h
   Image/RowKernels.h
@@ -166,7 +149,6 @@ set(volumic_core_headers
   Image/VoxelHash.h
   Image/VoxelNumbers.h
   Image/VoxelParts.h
-  Image/VoxelPieces.h
   Image/VoxelRows.h
   Image/VoxelValues.h
   Image/WayToZero.h
@@ -225,8 +207,6 @@ set(volumic_core_headers
   Surface/NewFaces.h
   Surface/NormalCone.h
   Surface/Proximity.h
-  Surface/RankBlocks.h
-  Surface/RankPiece.h
   Surface/ReachOfStar.h
   Surface/RemainingContacts.h
   Surface/Remesher.h
@@ -251,9 +231,6 @@ set(volumic_core_headers
   Evolution/LostBoundary.h
   Evolution/LostParts.h
   Evolution/LostVoxels.h
-  Evolution/MeshPiece.h
-  Evolution/RankNumbers.h
-  Evolution/RankRows.h
   Evolution/RestCriterion.h
   Evolution/SlabSearch.h
   Evolution/Stopwatch.h

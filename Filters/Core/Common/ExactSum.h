@@ -10,8 +10,8 @@ namespace volumic
 {
 /**
  * A sum of doubles that does not depend on their order: each is rounded to a multiple of 2^-40, and
- * these are added as integers. So what threads and ranks have summed up, each its own part, adds up
- * to the same bits however the parts are cut. For terms whose absolute values add up to less than
+ * these are added as integers. So what threads have summed up, each its own part, adds up to
+ * the same bits however the parts are cut. For terms whose absolute values add up to less than
  * 2^54, and fewer than 2^31 of them.
  */
 class ExactSum

@@ -45,16 +45,6 @@ public:
     static_cast<void>(visit);
     return false;
   }
-
-  /** Seconds of the clock within For() so far, where they are measured (MeasuredExecutor); else 0.
-   */
-  virtual double SecondsInside() const { return 0.; }
-
-  /**
-   * Says that all that was done since the last call, on the calling thread and within For(), was
-   * the named phase of the work: for executors that keep books. The name must outlive them.
-   */
-  virtual void EndPhase(const char* name) { static_cast<void>(name); }
 };
 
 /** The default: everything on the calling thread, in order. */

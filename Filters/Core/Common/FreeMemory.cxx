@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Common/FreeMemory.h"
 
-#include "Core/Common/ScratchFile.h"
-
 #include <cstdlib> // Tells of which C library this is.
 
 #ifdef __GLIBC__
@@ -17,13 +15,5 @@ void GiveBackFreeMemory()
 #ifdef __GLIBC__
   malloc_trim(0);
 #endif
-}
-
-void GiveBackPages(void* begin, std::size_t bytes) noexcept
-{
-  if constexpr (ScratchIsPossible)
-  {
-    DropWholePages(begin, bytes);
-  }
 }
 }

@@ -3,8 +3,6 @@
 #ifndef volumicFreeMemory_h
 #define volumicFreeMemory_h
 
-#include <cstddef>
-
 namespace volumic
 {
 /**
@@ -13,12 +11,6 @@ namespace volumic
  * for the end of a phase after which other arrays are needed. Other C libraries are left alone.
  */
 void GiveBackFreeMemory();
-
-/**
- * The values of a range of a large array are not needed any more: whole pages of it take no memory
- * until they are written again. Then what was there may be there still, or zeros.
- */
-void GiveBackPages(void* begin, std::size_t bytes) noexcept;
 }
 
 #endif

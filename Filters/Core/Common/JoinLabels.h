@@ -9,7 +9,7 @@
 
 namespace volumic
 {
-/** What a span, or a rank, has of a connected set: its smallest element, and how many. */
+/** What a span has of a connected set: its smallest element, and how many. */
 struct SetPiece
 {
   std::int64_t First;
@@ -26,7 +26,7 @@ struct JoinedSets
 };
 
 /**
- * Sets that were found span by span, or rank by rank: pieces that touch over a border become one.
+ * Sets that were found span by span: pieces that touch over a border become one.
  * They are labelled from 0 in the order of their smallest elements, however they were cut.
  * @param joins places of pieces that are of one set
  * @param least sets of fewer elements are left out

@@ -12,8 +12,7 @@ namespace volumic
 {
 // A division lays grid, order, shapes and pairs anew: where a surface rests, what is to come
 // depends on the places of its vertices, on their rings, from the first neighbour on, and on the
-// numbers that new ones will get, which decide where positions tie. Of a piece the vertices near it
-// belong to that.
+// numbers that new ones will get, which decide where positions tie.
 
 namespace
 {
@@ -99,8 +98,6 @@ void SurfaceEvolution::Save(CheckedWriter& file) const
   file.PutList(alive);
   SaveVertices(file, s.Mesh, alive);
   file.PutList(s.Mesh.FreePlaces());
-  file.Put(this->IsInPieces());
-  file.PutList(self.OwnAtRest.value_or(std::vector<int>()));
 }
 
 void SurfaceEvolution::Load(CheckedReader& file)
@@ -131,12 +128,5 @@ void SurfaceEvolution::Load(CheckedReader& file)
   mesh.CountOthers(static_cast<int>(free.size()));
   mesh.SetFreePlaces(std::move(free));
   s.Mesh = std::move(mesh);
-  const bool isInPieces = file.Get<bool>();
-  std::vector<int> own;
-  file.GetList(own);
-  if (isInPieces)
-  {
-    self.OwnAtRest = std::move(own);
-  }
 }
 }

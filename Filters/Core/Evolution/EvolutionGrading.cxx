@@ -69,7 +69,7 @@ bool SurfaceEvolution::Implementation::DivideWhereWanted(double delta)
   s.Sizing = fine;
   GradedSizes sizes(s, *this->TheField, this->WantedGrading, this->Threads);
   sizes.Begin(static_cast<float>(delta));
-  s.UpdateShape(this->OwnVertices(), this->Threads);
+  s.UpdateShape(this->AliveVertices(), this->Threads);
   const std::vector<int> divided = sizes.Refine();
   if (this->WantedGrading.HasTolerance() &&
     static_cast<double>(divided.size()) > MostDivided * s.Mesh.NumberOfVertices())
@@ -118,7 +118,7 @@ void SurfaceEvolution::Implementation::Grade(const Dynamics& dynamics)
   sizes.Widen();
   this->MakeBlocks(); // Wider ones: their bounds are in the largest delta.
   this->LabelComponents();
-  for (const int v : this->OwnVertices())
+  for (const int v : this->AliveVertices())
   {
     s.WasActive[v] = s.Active[v];
     s.Velocity[v] = Vector();
@@ -136,7 +136,7 @@ void SurfaceEvolution::Implementation::Grade(const Dynamics& dynamics)
     this->VisitAll(SurfaceIteration::Mode::Regularise, dynamics, Passes, visits.Doing,
       visits.From, visits.To);
   }
-  for (const int v : this->OwnVertices())
+  for (const int v : this->AliveVertices())
   {
     s.Active[v] = s.WasActive[v];
   }

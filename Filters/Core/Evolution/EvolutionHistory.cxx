@@ -35,7 +35,6 @@ void SurfaceEvolution::Implementation::FillCounts(HistoryRow& row) const
 void SurfaceEvolution::Implementation::BeginRow(HistoryRow& row)
 {
   row.SecondsBefore = this->Lap();
-  row.Sent = this->TakeSent();
   row.AddedEulerCharacteristic = this->State.EulerCharacteristic -
     (this->Rows.empty() ? 0 : this->Rows.back().EulerCharacteristic);
 }
@@ -49,7 +48,8 @@ void SurfaceEvolution::Implementation::KeepRow(const HistoryRow& row)
     first.Recovered = this->LastLost.Enclosed + this->LastLost.EnclosedCavities;
     for (const Phase phase : { Phase::Division, Phase::Recovery })
     {
-      first.Phases[static_cast<int>(phase)] = this->Preparing.Phases[static_cast<int>(phase)];
+      first.PhaseSeconds[static_cast<int>(phase)] =
+        this->Preparing.PhaseSeconds[static_cast<int>(phase)];
     }
     this->Preparing = HistoryRow();
   }
@@ -57,39 +57,14 @@ void SurfaceEvolution::Implementation::KeepRow(const HistoryRow& row)
   ++this->LastIterations;
 }
 
-SentMessages SurfaceEvolution::Implementation::TakeSent()
-{
-  const Communicator::Traffic before = std::exchange(this->LastSent, this->Ranks->Sent());
-  return { static_cast<double>(this->LastSent.Bytes - before.Bytes),
-    static_cast<double>(this->LastSent.Messages - before.Messages) };
-}
-
-void SurfaceEvolution::Implementation::KeepSent(Communicator& ranks)
-{
-  SentMessages most;
-  for (const SentMessages& ofRank : GatherValues(ranks, this->TakeSent()))
-  {
-    most.Bytes = std::max(most.Bytes, ofRank.Bytes);
-    most.Messages = std::max(most.Messages, ofRank.Messages);
-  }
-  if (this->HasIteration())
-  {
-    this->Rows.back().Sent.Bytes += most.Bytes;
-    this->Rows.back().Sent.Messages += most.Messages;
-  }
-}
-
 double SurfaceEvolution::Implementation::MeanEdgeLength() const
 {
-  return this->MeanEdgeLength(this->Piece->AddUp({ this->EdgeSums() }).front());
-}
-
-double SurfaceEvolution::Implementation::MeanEdgeLength(double sumOfEdgeLengths) const
-{
+  const double sum =
+    this->Blocks->SumUp([this](int v) { return this->State.EdgeLengthSum[v]; }, this->Threads);
   // Each edge is in two sums.
   const std::int64_t edges =
     NumberOfEdges(this->State.Mesh.NumberOfVertices(), this->State.EulerCharacteristic);
-  return edges > 0 ? sumOfEdgeLengths / (2. * static_cast<double>(edges)) : 0.;
+  return edges > 0 ? sum / (2. * static_cast<double>(edges)) : 0.;
 }
 
 void SurfaceEvolution::Implementation::FinishRow()
@@ -103,6 +78,5 @@ void SurfaceEvolution::Implementation::FinishRow()
   last.MeanEdgeLength = this->MeanEdgeLength();
   last.RegularisationCuts = this->SinceEvolved.Cuts;
   last.RegularisationDeletions = this->SinceEvolved.Removed;
-  this->KeepSent(this->Sharers());
 }
 }

@@ -3,15 +3,12 @@
 #ifndef volumicEvolutionImplementation_h
 #define volumicEvolutionImplementation_h
 
-#include "Core/Common/Communicator.h"
 #include "Core/Evolution/CycleCriterion.h"
 #include "Core/Evolution/LostBoundary.h"
 #include "Core/Evolution/RestCriterion.h"
 #include "Core/Evolution/SurfaceEvolution.h"
 #include "Core/Evolution/SurfaceIteration.h"
 #include "Core/Image/Field.h"
-#include "Core/Evolution/MeshPiece.h"
-#include "Core/Surface/RankBlocks.h"
 #include "Core/Surface/SurfaceBlocks.h"
 #include "Core/Surface/SurfaceComponents.h"
 #include "Core/Surface/SurfaceState.h"
@@ -21,7 +18,6 @@
 #include <functional>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <vector>
 
 namespace volumic
@@ -30,15 +26,13 @@ namespace volumic
  * What SurfaceEvolution hides. EvolutionStart.cxx brings the surface to a level (start, division,
  * recovery; the divisions are in EvolutionDivision.cxx), GivenSurface.cxx makes a given one ready,
  * EvolutionRun.cxx iterates until it rests and regularises it, EvolutionVisits.cxx makes the visits
- * for both, EvolutionRanks.cxx on several ranks, RankResult.cxx hands out what these have,
- * EvolutionGrading.cxx divides it here and there, and gives it longer edges where it is flat,
- * EvolutionVerification.cxx has a last look at it, EvolutionHistory.cxx tells of it.
+ * for both, EvolutionComponents.cxx labels its components between these, EvolutionGrading.cxx divides
+ * it here and there, and gives it longer edges where it is flat, EvolutionVerification.cxx has a last
+ * look at it, EvolutionHistory.cxx tells of it.
  *
  * All is called on the thread that calls SurfaceEvolution, but for what a visit calls (VisitBlock,
  * VisitToEvolve, TakeIteration), which is called on any thread. The listener is asked on the
- * calling thread only. Where the level is shared (IsShared) all ranks call the same functions in
- * the same order, and a stop is agreed on between sweeps (AgreeOnStop), so that none waits for
- * another.
+ * calling thread only.
  */
 struct SurfaceEvolution::Implementation
 {
@@ -70,16 +64,9 @@ struct SurfaceEvolution::Implementation
   bool Stopped = false;     ///< The monitor has said stop; it is not asked again.
   Verdict LastVerdict;
   bool IsMending = false;   ///< Faces that intersect are being mended: nobody is asked meanwhile.
-  bool IsShared = false;    ///< The level is worked on by all ranks.
-  Communicator* Ranks = &OnThisRank();
-  Communicator::Traffic LastSent; ///< What of it is in the history, or was before that began.
   // There are these while a surface lies on a level (MakeBlocks), else null:
   std::unique_ptr<SurfaceBlocks> Blocks;
-  std::unique_ptr<RankBlocks> Piece; ///< Of this rank; one alone has the whole surface.
-  std::unique_ptr<SurfaceComponents> Components; ///< Of all pieces.
-  /** This rank's vertices of a surface that rests in pieces between levels; else none. */
-  std::optional<std::vector<int>> OwnAtRest;
-  NeedVoxels Voxels; ///< See SetRanks.
+  std::unique_ptr<SurfaceComponents> Components;
   Vector GridLow, GridHigh;              ///< The box over which the grid was laid last.
   struct
   {
@@ -90,7 +77,7 @@ struct SurfaceEvolution::Implementation
     double Iterations = 0.; ///< How many of the sweep's iterations are done, as an estimate.
     double Volume = 0.;     ///< Of the surface after the last sweep.
   } Visit;
-  EditCounts SinceEvolved; ///< Edits after the last iteration of a level, on this rank.
+  EditCounts SinceEvolved; ///< Edits after the last iteration of a level.
 
   /** A sweep over blocks: what is done in each. */
   struct BlockVisits
@@ -113,7 +100,7 @@ struct SurfaceEvolution::Implementation
     EditCounts Counts;
     int Vertices = 0; ///< By how many there are more.
     int EulerCharacteristic = 0;
-    std::vector<double> KineticEnergy; ///< Of each block.
+    std::vector<double> KineticEnergy; ///< Of each block, summed up over its vertices.
   };
 
   Implementation(const SurfaceOptions& options, Executor& executor, Monitor& monitor)
@@ -137,8 +124,6 @@ struct SurfaceEvolution::Implementation
   void LayOut();
   void Recover();
   void FindGridBox(const SurfaceMesh& mesh);
-  /** By all ranks: that of the vertices of each. */
-  void FindGridBox(const SurfaceMesh& mesh, const std::vector<int>& own);
   void LayGrid();
   bool HasEdgeTooLong() const;
   int CountIntersecting();
@@ -147,30 +132,14 @@ struct SurfaceEvolution::Implementation
   void SplitLongEdges();
   /** @param visits tell whom to ask whether to go on; after a stop some long edges are left */
   void SplitLongEdges(BlockVisits visits);
-  float LongestEdge(); ///< That of the surface on all ranks.
+  float LongestEdge() const;
   std::vector<Proximity::FacePair> FindIntersections();
-  /**
-   * By all ranks: divides the surface that these have, one alone the whole.
-   * @param divisionsToCome on the way to the level's edge lengths, after this one
-   */
-  void DivideOnce(Communicator& ranks, int divisionsToCome);
-  /** By all ranks: the mesh, which is not in the state any more. */
-  MeshPiece TakePiece(Communicator& ranks);
-  bool DivideWhole(int divisions); ///< @return whether nothing asked to stop
+  void DivideOnce();
+  bool DivideAll(int divisions); ///< @return whether nothing asked to stop
   SurfaceBlocks::Frame FrameOfLevel() const;
-  /** Makes the blocks of the mesh as it is. @param sharers the ranks that will own them */
-  void MakeBlocks(Communicator& sharers = OnThisRank());
+  void MakeBlocks(); ///< Those of the mesh as it is.
   void ForgetBlocks(); ///< Any new vertex may have their places again.
-  std::vector<int> OwnVertices() const;
-  /** By all ranks: divides a surface so many times, and shares it out anew. */
-  bool LayOutInPieces(int divisions);
-  /**
-   * By all ranks, each of which has some vertices: shares a mesh out, of which nothing is known.
-   * @param divisionsToCome so many times are its edges still to become shorter
-   */
-  void SpreadMesh(SurfaceMesh mesh, const std::vector<int>& own, int divisionsToCome);
-  void LayGridOfPiece();
-  std::vector<Proximity::FacePair> FindIntersectionsInPieces();
+  std::vector<int> AliveVertices() const;
   /** @param isSound it has been made well: its edges need not be legal already */
   void Take(const IndexedSurface& surface, bool isSound);
   void TakeRemeshed(const IndexedSurface& surface);
@@ -188,70 +157,21 @@ struct SurfaceEvolution::Implementation
   void RunSweep(const Dynamics& dynamics);
   void VisitToEvolve(BlockVisit& visit, SurfaceIteration& iteration, const Dynamics& dynamics,
     std::vector<SweptRow>& rows);
-  /** @param inside seconds of the sweep that were spent within For() of a MeasuredExecutor */
-  void KeepSweptRows(
-    std::vector<SweptRow>& rows, int vertices, int eulerCharacteristic, double inside);
+  void KeepSweptRows(std::vector<SweptRow>& rows, int vertices, int eulerCharacteristic);
   /** A sweep that makes some iterations in each block with active vertices; no rows are kept. */
   void VisitAll(SurfaceIteration::Mode mode, const Dynamics& dynamics, int iterations,
     Monitor::Activity doing, double from, double to);
   void KeepActiveIfMoving(const SurfaceIteration& iteration);
   void RunPasses(const Dynamics& dynamics);
   void Polish(const std::function<bool(int v)>& isWanted);
-  /** Of each block of this rank, to be added up by RankBlocks::AddUp. */
-  std::vector<double> SumsOfBlocks(const std::function<double(int v)>& ofVertex) const;
-  std::vector<double> EdgeSums() const;   ///< Of the lengths of edges, each twice.
-  std::vector<double> VolumeSums() const; ///< What the faces add to the volume.
   double KineticEnergy(const SurfaceIteration& iteration) const;
+  double Volume() const;
   double Area() const;
 
-  // On several ranks: EvolutionRanks.cxx.
-  /** The ranks that have pieces of the surface as it is now: this one alone while it is whole. */
-  Communicator& Sharers() const { return this->Piece ? this->Piece->Sharers() : OnThisRank(); }
-  bool IsInPieces() const { return this->Piece && this->Piece->AreShared(); }
-  /** Forgets the blocks of a surface that is whole; pieces stay with their ranks. */
-  void EndVisits();
-  bool IsFirstRank() const { return this->Ranks->Rank() == 0; }
-  /** In a box for each row of own blocks. */
-  std::vector<VoxelBox> OwnVoxels() const;
-  /** By all ranks, before a sweep of this kind: has them share its work. */
-  void BalanceRanks(bool onlyActive);
-  /** Blocks of a colour, from this place in their list on. */
-  struct BlocksToCome
-  {
-    int Colour = 0;
-    std::size_t Place = 0;
-  };
-  /**
-   * The next own blocks to visit, awaited or not, until their work is as much as is left of `work`.
-   * When it is their turn: whether some are active, what is before them decides.
-   */
-  std::vector<int> TakeOwnBlocks(
-    BlocksToCome& toCome, bool areAwaited, std::int64_t& work, bool onlyActive) const;
-  void VisitOwnBlocks(const std::vector<int>& own, const BlockVisits& visits);
-  void VisitBlocksOnRanks(
-    const BlockVisits& visits, const std::function<bool(std::size_t done)>& goOn);
-  /** By all ranks, between sweeps: where one was told to stop, all are. */
-  void AgreeOnStop();
-  bool IsOnAnyRank(bool isHere);
-  void AddUpRows(std::vector<SweptRow>& rows);
-  void AddUpSinceEvolved();
-  std::vector<std::uint8_t> AreNear(std::vector<std::int64_t> voxels);
-  /** Forgets the blocks; of a surface in pieces OwnAtRest tells from then on. */
-  void LeaveBlocks();
-  /** By all ranks: the mesh is whole on rank 0 afterwards, and nothing else is known of it. */
-  void Unite();
-  /** By all ranks: the result in so many pieces, of the first ranks. */
-  SurfaceResult ResultOnRanks(int pieces) const;
-  void CountComponents(); ///< After some may have been deleted.
   void LabelComponents();
-  /** What this rank has sent since this was last called. */
-  SentMessages TakeSent();
-  /** By all ranks: adds the most of it to the last row. */
-  void KeepSent(Communicator& ranks);
   void BeginRow(HistoryRow& row);
   void KeepRow(const HistoryRow& row);
   double MeanEdgeLength() const;
-  double MeanEdgeLength(double sumOfEdgeLengths) const;
   void FillCounts(HistoryRow& row) const;
   void FitMeanEdge(const Dynamics& dynamics);
   // EvolutionGrading.cxx:

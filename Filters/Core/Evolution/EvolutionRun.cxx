@@ -98,7 +98,6 @@ StopReason SurfaceEvolution::Implementation::Evolve()
   const double cube = std::pow(static_cast<double>(s.Sizing.OfLevel()), 3);
   while (true)
   {
-    this->Threads.EndPhase("Rest criterion");
     if (this->Stopped)
     {
       return StopReason::Cancelled;
@@ -113,7 +112,6 @@ StopReason SurfaceEvolution::Implementation::Evolve()
     }
     this->RunSweep(dynamics);
     this->Ask(&Monitor::Continue, Monitor::Activity::Iterating, 1.);
-    this->AgreeOnStop();
     if (this->Stopped)
     {
       return StopReason::Cancelled;
@@ -157,7 +155,6 @@ void SurfaceEvolution::Implementation::FitMeanEdge(const Dynamics& dynamics)
   for (int step = 0; step < steps && s.Mesh.NumberOfVertices() > 0; ++step)
   {
     this->GoOn(Monitor::Activity::Regularising, 0.);
-    this->AgreeOnStop();
     if (this->Stopped)
     {
       break;
@@ -205,7 +202,6 @@ void SurfaceEvolution::Implementation::KeepActiveIfMoving(const SurfaceIteration
 
 void SurfaceEvolution::Implementation::RunPasses(const Dynamics& dynamics)
 {
-  this->Blocks->ForgetWork();
   for (int sweep = 0; sweep < RegularisingSweeps && !this->Stopped; ++sweep)
   {
     this->VisitAll(SurfaceIteration::Mode::Regularise, dynamics, SweptPasses,
@@ -237,16 +233,15 @@ void SurfaceEvolution::Implementation::Polish(const std::function<bool(int v)>& 
     this->Blocks->AddNew(visit, changed);
     SurfaceIteration::UpdateChanged(s, std::move(changed));
   };
-  this->BalanceRanks(visits.OnlyActive);
   this->VisitBlocks(visits);
-  const bool hasCut = this->IsOnAnyRank(s.Counts.Cuts > 0);
+  const bool hasCut = s.Counts.Cuts > 0;
   this->SinceEvolved.Cuts += s.Counts.Cuts;
   s.Counts = EditCounts();
   if (hasCut)
   {
     this->LabelComponents();
     this->DeleteDegenerate();
-    this->SinceEvolved.Removed += this->IsFirstRank() ? s.Counts.Removed : 0;
+    this->SinceEvolved.Removed += s.Counts.Removed;
   }
 }
 
@@ -288,17 +283,17 @@ void SurfaceEvolution::Implementation::Regularise(const Dynamics& dynamics)
 void SurfaceEvolution::Implementation::DeleteInsideOut()
 {
   this->State.Counts = EditCounts();
-  if (this->IsOnAnyRank(this->Unchecked > 0))
+  if (this->Unchecked > 0)
   {
     this->DeleteThoseInsideOut();
   }
-  this->SinceEvolved.Removed += this->IsFirstRank() ? this->State.Counts.Removed : 0;
+  this->SinceEvolved.Removed += this->State.Counts.Removed;
 }
 
 void SurfaceEvolution::Implementation::FindMissing()
 {
   const LostBoundary::Missing missing =
-    this->Lost.MissedBy(this->AreNear(this->Lost.Voxels()), this->Area());
+    this->Lost.MissedBy(this->State, this->Area(), *this->TheField, this->Threads);
   this->LastLost.Missing = missing.Parts;
   this->LastLost.MissingBoundary = missing.Share;
 }
@@ -349,7 +344,7 @@ void SurfaceEvolution::Implementation::Revise(const LevelImage& image)
   this->Polish([&s](int v) { return s.WasActive[v] != 0; });
   this->DeleteInsideOut();
   this->Verify();
-  this->EndVisits();
+  this->ForgetBlocks();
 }
 
 StopReason SurfaceEvolution::Implementation::Run()
@@ -358,15 +353,14 @@ StopReason SurfaceEvolution::Implementation::Run()
   this->DeleteInsideOut();
   if (reason == StopReason::Cancelled || reason == StopReason::Vanished)
   {
-    this->AddUpSinceEvolved();
-    this->Verify();
+      this->Verify();
     this->FinishRow();
     this->FindMissing();
-    this->EndVisits();
+    this->ForgetBlocks();
     return reason;
   }
   HistoryRow none;
-  Stopwatch watch(this->HasIteration() ? this->Rows.back() : none, this->Threads);
+  Stopwatch watch(this->HasIteration() ? this->Rows.back() : none);
   Dynamics dynamics(*this->TheField, this->Options, this->Threads);
   if (this->WantedMeanEdge > 0.)
   {
@@ -381,7 +375,6 @@ StopReason SurfaceEvolution::Implementation::Run()
   }
   this->Regularise(dynamics);
   this->DeleteInsideOut(); // The polish may have cut.
-  this->AddUpSinceEvolved();
   this->Verify();
   this->FinishRow();
   watch.Lap(Phase::Regularisation);
@@ -389,7 +382,7 @@ StopReason SurfaceEvolution::Implementation::Run()
   {
     this->FindMissing();
   }
-  this->EndVisits();
+  this->ForgetBlocks();
   watch.Lap(Phase::Recovery);
   if (this->Stopped)
   {

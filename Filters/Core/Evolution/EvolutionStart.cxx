@@ -24,44 +24,26 @@ constexpr std::size_t VertexSpan = 8192;
 
 void SurfaceEvolution::Implementation::Enter(const LevelImage& image, int level)
 {
-  if (this->IsFirstRank())
-  {
-    this->TheField = std::make_unique<Field>(image, this->Options, this->Threads);
-  }
-  if (this->Ranks->NumberOfRanks() > 1)
-  {
-    const Field::Measures measured = BroadcastValue(
-      *this->Ranks, this->TheField ? this->TheField->Measured() : Field::Measures());
-    this->TheField = std::make_unique<Field>(image, this->Options, measured);
-  }
+  this->TheField = std::make_unique<Field>(image, this->Options, this->Threads);
   this->State.Margin = this->TheField->Margin();
   this->Level = level;
   this->LastIterations = 0;
   this->Visit = {};
-  this->IsShared = this->Ranks->NumberOfRanks() > 1 && AreShared(this->Options, image.Size);
   this->State.Sizing = SizingField(static_cast<float>(this->Options.SamplingRatio * image.Unit));
 }
 
 void SurfaceEvolution::Implementation::Clear()
 {
   this->ForgetBlocks();
-  this->OwnAtRest.reset();
   this->State.Mesh.Clear();
 }
 
 void SurfaceEvolution::Implementation::Reset()
 {
   SurfaceState& s = this->State;
-  if (this->IsInPieces())
-  {
-    this->LayOutInPieces(0);
-    this->LabelComponents();
-    return;
-  }
   this->ForgetBlocks();
   s.Mesh.Reorder(
     SpaceFillingOrder(s.Mesh, s.Sizing.Smallest(), this->Threads), this->Threads);
-  this->Threads.EndPhase("Order");
   this->LayOut();
 }
 
@@ -70,10 +52,8 @@ void SurfaceEvolution::Implementation::LayOut()
   this->ForgetBlocks();
   this->LayGrid();
   this->MakeBlocks();
-  this->Threads.EndPhase("Grid");
   this->SplitLongEdges();
   this->LabelComponents();
-  this->Threads.EndPhase("Labels");
 }
 
 void SurfaceEvolution::Implementation::FindGridBox(const SurfaceMesh& mesh)
@@ -111,7 +91,7 @@ void SurfaceEvolution::Implementation::LayGrid()
   SurfaceState& s = this->State;
   this->FindGridBox(s.Mesh);
   s.Reset(this->GridLow, this->GridHigh, this->Threads);
-  s.UpdateShape(this->OwnVertices(), this->Threads);
+  s.UpdateShape(this->AliveVertices(), this->Threads);
 }
 
 void SurfaceEvolution::Implementation::ActivateAll()
@@ -141,18 +121,12 @@ void SurfaceEvolution::Implementation::Recover()
   }
   const bool recovers = this->Options.RecoverLostParts;
   const double objectShare = recovers && this->Options.RecoverCavities ? 0.5 : 1.;
-  std::unique_ptr<RankRows> rows;
-  if (this->IsInPieces())
-  {
-    rows = std::make_unique<RankRows>(
-      RankRows{ *this->Ranks, this->Piece->RowsOf(this->TheField->Image()) });
-  }
   const auto find = [&](PartKind kind, double from, double to)
   {
     const auto look = [&]
     {
       return FindLostParts(this->State, *this->TheField, kind, this->Options.MinimumPartSize,
-        this->Threads, this->QuestionOf(Monitor::Activity::Recovering, from, to), rows.get());
+        this->Threads, this->QuestionOf(Monitor::Activity::Recovering, from, to));
     };
     LostPartCover cover = look();
     if (cover.Found > 0 && recovers && this->State.Sizing.IsGraded())
@@ -160,11 +134,9 @@ void SurfaceEvolution::Implementation::Recover()
       this->DivideNear(cover.Boundary); // Else nothing that is near would be clear of it.
       cover = look();
     }
-    this->AgreeOnStop();
     return cover;
   };
   const LostPartCover objects = find(PartKind::Object, 0., objectShare);
-  this->Threads.EndPhase("Lost parts");
   this->LastLost.Found = objects.Found;
   this->LastLost.Enclosed = recovers ? objects.Covered : 0;
   this->Lost = objects.Boundary;
@@ -184,12 +156,12 @@ void SurfaceEvolution::Implementation::Recover()
   }
   if (this->LastLost.Enclosed > 0)
   {
-    this->Piece->Append(objects.Surface, this->Threads);
+    this->Blocks->Append(objects.Surface, this->Threads);
     ++this->Unchecked;
   }
   if (this->LastLost.EnclosedCavities > 0)
   {
-    this->Piece->Append(cavities.Surface, this->Threads);
+    this->Blocks->Append(cavities.Surface, this->Threads);
     ++this->Unchecked;
   }
 }

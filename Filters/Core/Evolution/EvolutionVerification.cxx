@@ -7,7 +7,6 @@
 #include "Core/Evolution/EvolutionImplementation.h"
 #include "Core/Surface/NewFaces.h"
 
-#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -25,12 +24,7 @@ std::string SurfaceEvolution::Verdict::Describe(int level) const
 
 int SurfaceEvolution::Implementation::CountIntersecting()
 {
-  const int count = static_cast<int>(volumic::CountIntersecting(
-    this->State, [this](int v) { return this->Piece->IsOwnVertex(v); },
-    this->IsInPieces() ? this->LongestEdge() : 0.f, this->Threads));
-  this->Threads.EndPhase("Last look");
-  const std::vector<int> counts = GatherValues(this->Sharers(), count);
-  return std::accumulate(counts.begin(), counts.end(), 0);
+  return static_cast<int>(volumic::CountIntersecting(this->State, this->Threads));
 }
 
 void SurfaceEvolution::Implementation::Verify()
@@ -38,12 +32,6 @@ void SurfaceEvolution::Implementation::Verify()
   this->LastVerdict.Found = this->CountIntersecting();
   this->LastVerdict.Left = 0;
   if (this->LastVerdict.Found == 0)
-  {
-    return;
-  }
-  this->Unite();
-  this->MakeBlocks();
-  if (!this->IsFirstRank() || this->State.Mesh.NumberOfVertices() == 0)
   {
     return;
   }

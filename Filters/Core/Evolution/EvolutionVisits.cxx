@@ -10,9 +10,9 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
 #include <memory>
 #include <mutex>
+#include <numeric>
 #include <utility>
 
 namespace volumic
@@ -28,9 +28,9 @@ void Add(HistoryRow& to, const HistoryRow& row)
 {
   to.ActiveVertices += row.ActiveVertices;
   to.TimeStep = std::max(to.TimeStep, row.TimeStep);
-  for (std::size_t i = 0; i < to.Phases.size(); ++i)
+  for (std::size_t i = 0; i < to.PhaseSeconds.size(); ++i)
   {
-    to.Phases[i].Seconds += row.Phases[i].Seconds;
+    to.PhaseSeconds[i] += row.PhaseSeconds[i];
   }
 }
 
@@ -59,20 +59,17 @@ SurfaceBlocks::Frame SurfaceEvolution::Implementation::FrameOfLevel() const
   return SurfaceBlocks::FrameOf(extent, side * this->State.Sizing.Largest());
 }
 
-void SurfaceEvolution::Implementation::MakeBlocks(Communicator& sharers)
+void SurfaceEvolution::Implementation::MakeBlocks()
 {
   this->ForgetBlocks();
   this->Blocks =
     std::make_unique<SurfaceBlocks>(this->State, this->FrameOfLevel(), this->Threads);
-  this->Piece = std::make_unique<RankBlocks>(this->State, *this->Blocks, sharers);
-  this->Components = std::make_unique<SurfaceComponents>(
-    RankPiece{ sharers, [this](int v) { return this->Piece->IsOwnVertex(v); } });
+  this->Components = std::make_unique<SurfaceComponents>();
 }
 
 void SurfaceEvolution::Implementation::ForgetBlocks()
 {
   this->Components.reset();
-  this->Piece.reset();
   this->Blocks.reset();
 }
 
@@ -116,7 +113,7 @@ void SurfaceEvolution::Implementation::VisitBlock(
 void SurfaceEvolution::Implementation::VisitBlocks(const BlockVisits& visits)
 {
   this->State.Counts = EditCounts();
-  this->Piece->AddPlaces(this->Threads);
+  this->Blocks->AddPlaces(this->Threads);
   const auto count = static_cast<std::size_t>(this->Blocks->NumberOfBlocks());
   this->Visit.Blocks = static_cast<int>(count);
   const auto goOn = [&](std::size_t done)
@@ -127,20 +124,11 @@ void SurfaceEvolution::Implementation::VisitBlocks(const BlockVisits& visits)
     return !visits.IsAsked ||
       this->GoOn(visits.Doing, visits.From + share * (visits.To - visits.From));
   };
-  if (this->IsInPieces())
-  {
-    this->VisitBlocksOnRanks(visits, goOn);
-  }
-  else
-  {
-    this->Blocks->Schedule().Run(
-      this->Threads,
-      [&](int block, std::size_t, Executor& idle) { this->VisitBlock(block, visits, idle); },
-      goOn);
-  }
+  this->Blocks->Schedule().Run(
+    this->Threads,
+    [&](int block, std::size_t, Executor& idle) { this->VisitBlock(block, visits, idle); }, goOn);
   this->Visit.Block = 0;
   this->Visit.Iterations = 0.;
-  this->Threads.EndPhase("Visits");
 }
 
 double SurfaceEvolution::Implementation::KineticEnergy(const SurfaceIteration& iteration) const
@@ -169,7 +157,6 @@ void SurfaceEvolution::Implementation::VisitToEvolve(BlockVisit& visit,
     const EditCounts counts = visit.Share.Counts;
     iteration.Run(own[i].Row, dynamics, remesher, SurfaceIteration::Mode::Evolve);
     this->Blocks->AddNew(visit, iteration.WorkingVertices());
-    visit.Looks += static_cast<std::int64_t>(iteration.WorkingVertices().size());
     rows[i].KineticEnergy[static_cast<std::size_t>(visit.Block)] = this->KineticEnergy(iteration);
     own[i].Counts = visit.Share.Counts - counts;
     own[i].Vertices = places - visit.Share.NumberOfPlaces();
@@ -186,37 +173,24 @@ void SurfaceEvolution::Implementation::VisitToEvolve(BlockVisit& visit,
   }
 }
 
-std::vector<double> SurfaceEvolution::Implementation::SumsOfBlocks(
-  const std::function<double(int v)>& ofVertex) const
-{
-  const auto isOwn = [this](int block) { return this->Piece->IsOwn(block); };
-  return this->Blocks->Sums(isOwn, ofVertex, this->Threads);
-}
-
-std::vector<double> SurfaceEvolution::Implementation::EdgeSums() const
-{
-  return this->SumsOfBlocks([this](int v) { return this->State.EdgeLengthSum[v]; });
-}
-
 double SurfaceEvolution::Implementation::Area() const
 {
   const SurfaceMesh& mesh = this->State.Mesh;
-  return this->Piece
-    ->AddUp({ this->SumsOfBlocks([&mesh](int v) { return AreaShare(mesh, v); }) })
-    .front();
+  return this->Blocks->SumUp([&mesh](int v) { return AreaShare(mesh, v); }, this->Threads);
 }
 
-std::vector<double> SurfaceEvolution::Implementation::VolumeSums() const
+double SurfaceEvolution::Implementation::Volume() const
 {
   const SurfaceMesh& mesh = this->State.Mesh;
   const Vector origin = this->Blocks->GetFrame().Low;
-  return this->SumsOfBlocks(
+  return this->Blocks->SumUp(
     [&mesh, origin](int v)
     {
       SignedVolume share(origin);
       share.Add(mesh, v);
       return share.Value();
-    });
+    },
+    this->Threads);
 }
 
 void SurfaceEvolution::Implementation::RunSweep(const Dynamics& dynamics)
@@ -230,7 +204,6 @@ void SurfaceEvolution::Implementation::RunSweep(const Dynamics& dynamics)
     row.KineticEnergy.assign(static_cast<std::size_t>(this->Blocks->NumberOfBlocks()), 0.);
   }
   this->BeginRow(rows.front().Row);
-  const double inside = this->Threads.SecondsInside();
   const int vertices = s.Mesh.NumberOfVertices();
   const int characteristic = s.EulerCharacteristic;
   ++this->Visit.Sweep;
@@ -238,15 +211,7 @@ void SurfaceEvolution::Implementation::RunSweep(const Dynamics& dynamics)
   visits.Iterations = iterations;
   visits.Visit = [&](BlockVisit& visit, SurfaceIteration& iteration)
   { this->VisitToEvolve(visit, iteration, dynamics, rows); };
-  this->BalanceRanks(visits.OnlyActive);
   this->VisitBlocks(visits);
-  const SentMessages sent = this->TakeSent();
-  for (SweptRow& swept : rows)
-  {
-    swept.Row.Sent.Bytes += sent.Bytes / iterations;
-    swept.Row.Sent.Messages += sent.Messages / iterations;
-  }
-  this->AddUpRows(rows);
 
   const bool hasChanged = this->Visit.Sweep == 1 ||
     std::any_of(rows.begin(), rows.end(), [](const SweptRow& swept)
@@ -265,32 +230,24 @@ void SurfaceEvolution::Implementation::RunSweep(const Dynamics& dynamics)
   Add(rows.back().Row, s.Counts);
   rows.back().Vertices += s.Mesh.NumberOfVertices() - before;
   rows.back().EulerCharacteristic += s.EulerCharacteristic - characteristicBefore;
-  this->Threads.EndPhase("Components");
-  this->KeepSweptRows(rows, vertices, characteristic, this->Threads.SecondsInside() - inside);
+  this->KeepSweptRows(rows, vertices, characteristic);
 }
 
 void SurfaceEvolution::Implementation::KeepSweptRows(
-  std::vector<SweptRow>& rows, int vertices, int eulerCharacteristic, double inside)
+  std::vector<SweptRow>& rows, int vertices, int eulerCharacteristic)
 {
   // As if all blocks had been in the same iteration: what has changed in each, added up. The
   // seconds are shared out as the threads that make the visits have spent them.
-  std::vector<std::vector<double>> ofBlocks = { this->EdgeSums(), this->VolumeSums() };
-  for (SweptRow& swept : rows)
-  {
-    ofBlocks.push_back(std::move(swept.KineticEnergy));
-  }
-  const std::vector<double> sums = this->Piece->AddUp(ofBlocks);
-  const double meanEdge = this->MeanEdgeLength(sums[0]);
-  this->Visit.Volume = sums[1];
+  const double meanEdge = this->MeanEdgeLength();
+  this->Visit.Volume = this->Volume();
   const double seconds = this->Lap();
-  const double serial = seconds > 0. ? std::max(1. - inside / seconds, 0.) : 0.;
   double spent = 0.;
   this->Visit.Active = rows.back().Row.ActiveVertices;
   for (const SweptRow& swept : rows)
   {
-    for (const PhaseTime& phase : swept.Row.Phases)
+    for (const double ofPhase : swept.Row.PhaseSeconds)
     {
-      spent += phase.Seconds;
+      spent += ofPhase;
     }
   }
   const double equal = seconds / static_cast<double>(rows.size());
@@ -305,13 +262,14 @@ void SurfaceEvolution::Implementation::KeepSweptRows(
     row.EulerCharacteristic = row.IterationEulerCharacteristic = eulerCharacteristic;
     row.Components = row.IterationComponents = this->NumberOfComponents;
     row.MeanEdgeLength = row.IterationMeanEdgeLength = meanEdge;
-    row.KineticEnergy = sums[2 + i] / std::max(vertices, 1);
+    const std::vector<double>& energy = rows[i].KineticEnergy;
+    row.KineticEnergy =
+      std::accumulate(energy.begin(), energy.end(), 0.) / std::max(vertices, 1);
     row.Seconds = spent > 0. ? 0. : equal;
-    for (PhaseTime& phase : row.Phases)
+    for (double& ofPhase : row.PhaseSeconds)
     {
-      phase.Seconds *= spent > 0. ? seconds / spent : 0.;
-      phase.Serial = serial * phase.Seconds;
-      row.Seconds += phase.Seconds;
+      ofPhase *= spent > 0. ? seconds / spent : 0.;
+      row.Seconds += ofPhase;
     }
     this->KeepRow(row);
   }
@@ -339,7 +297,6 @@ void SurfaceEvolution::Implementation::VisitAll(SurfaceIteration::Mode mode,
       HistoryRow row;
       iteration.Run(row, dynamics, remesher, mode);
       this->Blocks->AddNew(visit, iteration.WorkingVertices());
-      visit.Looks += static_cast<std::int64_t>(iteration.WorkingVertices().size());
       if (mode == SurfaceIteration::Mode::Regularise)
       {
         this->KeepActiveIfMoving(iteration); // Also beyond the block, for the visits to come.
@@ -351,7 +308,6 @@ void SurfaceEvolution::Implementation::VisitAll(SurfaceIteration::Mode mode,
     }
     iteration.EndVisit();
   };
-  this->BalanceRanks(visits.OnlyActive);
   this->VisitBlocks(visits);
   this->SinceEvolved.Cuts += this->State.Counts.Cuts;
   this->SinceEvolved.Removed += this->State.Counts.Removed;
@@ -382,7 +338,6 @@ void SurfaceEvolution::Implementation::SplitLongEdges(BlockVisits visits)
   {
     this->VisitBlocks(visits);
   } while (!(visits.IsAsked && this->Stopped) &&
-    this->IsOnAnyRank(this->State.Counts.Splits > 0) &&
-    this->IsOnAnyRank(this->HasEdgeTooLong()));
+    this->State.Counts.Splits > 0 && this->HasEdgeTooLong());
 }
 }

@@ -207,7 +207,7 @@ void SurfaceEvolution::Implementation::Take(const IndexedSurface& given, bool is
              : FitsRings(surface) && !IsTooDense(surface, s.Sizing.OfLevel())))
   {
     this->Begin(surface);
-    if (Proximity::FindIntersections(this->State, this->OwnVertices(), this->Threads).empty())
+    if (Proximity::FindIntersections(this->State, this->AliveVertices(), this->Threads).empty())
     {
       if (lengths.Shortest < s.Sizing.OfLevel())
       {

@@ -2,10 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Evolution/LostBoundary.h"
 
-#include "Core/Common/RankLists.h"
 #include "Core/Common/Spans.h"
 #include "Core/Image/VoxelNumbers.h"
-#include "Core/Mesh/SurfaceMeasures.h"
 
 #include <array>
 #include <cstddef>
@@ -83,12 +81,6 @@ void LostBoundary::Add(const LostBoundary& other)
   this->Parts += other.Parts;
 }
 
-void LostBoundary::Gather(Communicator& ranks)
-{
-  // In another order than on one rank: sums of so many floats of like size are exact in doubles.
-  this->Patches = GatherLists(ranks, this->Patches);
-}
-
 std::vector<std::int64_t> LostBoundary::Voxels() const
 {
   std::vector<std::int64_t> voxels;
@@ -99,19 +91,19 @@ std::vector<std::int64_t> LostBoundary::Voxels() const
   return voxels;
 }
 
-std::vector<std::uint8_t> LostBoundary::AreNear(const std::vector<std::int64_t>& voxels,
-  const SurfaceState& state, const Field& field, Executor& executor)
+std::vector<std::uint8_t> LostBoundary::AreNear(
+  const SurfaceState& state, const Field& field, Executor& executor) const
 {
   const LevelImage& image = field.Image();
   const VoxelNumbers numbers(image.Size);
   const float reach = static_cast<float>(NearUnits * image.Unit);
-  std::vector<std::uint8_t> areNear(voxels.size(), 0);
-  ForSpans(executor, voxels.size(), PatchSpan,
+  std::vector<std::uint8_t> areNear(this->Patches.size(), 0);
+  ForSpans(executor, areNear.size(), PatchSpan,
     [&](std::size_t, std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end; ++i)
       {
-        const std::array<int, 3> index = numbers.PlaceOf(voxels[i]);
+        const std::array<int, 3> index = numbers.PlaceOf(this->Patches[i].Voxel);
         const Vector place(static_cast<float>(index[0] * image.Step[0]),
           static_cast<float>(index[1] * image.Step[1]),
           static_cast<float>(index[2] * image.Step[2]));
@@ -121,9 +113,10 @@ std::vector<std::uint8_t> LostBoundary::AreNear(const std::vector<std::int64_t>&
   return areNear;
 }
 
-LostBoundary::Missing LostBoundary::MissedBy(
-  const std::vector<std::uint8_t>& areNear, double surfaceArea) const
+LostBoundary::Missing LostBoundary::MissedBy(const SurfaceState& state, double surfaceArea,
+  const Field& field, Executor& executor) const
 {
+  const std::vector<std::uint8_t> areNear = this->AreNear(state, field, executor);
   std::vector<double> missed(static_cast<std::size_t>(this->Parts), 0.);
   std::vector<double> whole(static_cast<std::size_t>(this->Parts), 0.);
   for (std::size_t i = 0; i < this->Patches.size(); ++i)

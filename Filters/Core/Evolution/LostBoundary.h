@@ -3,11 +3,9 @@
 #ifndef volumicLostBoundary_h
 #define volumicLostBoundary_h
 
-#include "Core/Common/Communicator.h"
 #include "Core/Common/Executor.h"
 #include "Core/Evolution/LostVoxels.h"
 #include "Core/Image/Field.h"
-#include "Core/Mesh/SurfaceMeasures.h"
 #include "Core/Surface/SurfaceState.h"
 
 #include <cstdint>
@@ -25,28 +23,17 @@ public:
   /** Takes the boundary of lost parts: the faces of their voxels towards the other side. */
   void Add(const LostVoxels& lost, const Field& field, PartKind kind, Executor& executor);
   void Add(const LostBoundary& other);
-  /** By all ranks: what each has found of one kind of parts, in its own rows, goes to rank 0. */
-  void Gather(Communicator& ranks);
 
   struct Missing
   {
     int Parts = 0; ///< Those of which the surface misses more than half of the boundary.
     double Share = 0.; ///< Area of all the boundary that is missed, over that and the surface's.
   };
-  /** Finds what has no vertex of the surface within NearUnits. Areas: workspace. */
-  Missing MissedBy(const SurfaceState& state, const Field& field, Executor& executor) const
-  {
-    return this->MissedBy(AreNear(this->Voxels(), state, field, executor),
-      SurfaceArea(state.Mesh, executor));
-  }
-
-  /** The same where ranks have pieces of the surface: rank 0 asks each about its own. */
+  /** Finds what has no vertex of the surface, of this area, within NearUnits. Areas: workspace. */
+  Missing MissedBy(const SurfaceState& state, double surfaceArea, const Field& field,
+    Executor& executor) const;
+  /** Those that have faces of the boundary. */
   std::vector<std::int64_t> Voxels() const;
-  /** Whether each of some voxels has a vertex near. */
-  static std::vector<std::uint8_t> AreNear(const std::vector<std::int64_t>& voxels,
-    const SurfaceState& state, const Field& field, Executor& executor);
-  /** @param areNear of Voxels(), on any rank @param surfaceArea of all */
-  Missing MissedBy(const std::vector<std::uint8_t>& areNear, double surfaceArea) const;
 
 private:
   struct Patch
@@ -55,6 +42,10 @@ private:
     float Area;
     int Part;
   };
+  /** Whether each of the patches has a vertex near. */
+  std::vector<std::uint8_t> AreNear(
+    const SurfaceState& state, const Field& field, Executor& executor) const;
+
   std::vector<Patch> Patches;
   int Parts = 0;
 };

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Evolution/LostParts.h"
 
-#include "Core/Common/RankLists.h"
 #include "Core/Common/Spans.h"
 #include "Core/Evolution/LostVoxels.h"
 #include "Core/Image/VoxelNumbers.h"
@@ -182,8 +181,7 @@ void LeaveClear(
 }
 
 /**
- * The cells that hold lost voxels, of the rows that have been looked through, and are clear of the
- * surface. Asked to stop it returns none.
+ * The cells that hold lost voxels and are clear of the surface. Asked to stop it returns none.
  */
 std::vector<PartCell> FindPartCells(const SurfaceState& state, const Field& field,
   const LostVoxels& lost, const CellLattice& lattice, Executor& executor,
@@ -232,40 +230,15 @@ std::vector<CellLattice::Cell> CellsOfParts(
   return all;
 }
 
-/** The surface of the cells of all ranks, on all of them. */
-void Cover(std::vector<PartCell> cells, const CellLattice& lattice, int numberOfParts,
-  Executor& executor, Communicator& ranks, LostPartCover& result)
-{
-  cells = GatherLists(ranks, cells);
-  SortInSpans(executor, cells);
-  MessageWriter writer;
-  if (ranks.Rank() == 0)
-  {
-    int covered = 0;
-    const IndexedSurface surface =
-      lattice.Boundary(CellsOfParts(cells, numberOfParts, covered), executor);
-    writer.Add(covered);
-    writer.AddArray(surface.Points);
-    writer.AddArray(surface.Triangles);
-  }
-  const Message message = ranks.Broadcast(writer.Take());
-  MessageReader reader(message);
-  result.Covered = reader.Take<int>();
-  reader.TakeArray(result.Surface.Points);
-  reader.TakeArray(result.Surface.Triangles);
-}
 }
 
 LostPartCover FindLostParts(const SurfaceState& state, const Field& field, PartKind kind,
-  int minimumSize, Executor& executor, const ProgressQuestion& goOn, const RankRows* rows)
+  int minimumSize, Executor& executor, const ProgressQuestion& goOn)
 {
   LostPartCover stopped;
   stopped.IsStopped = true;
-  Communicator& ranks = rows ? rows->Ranks : OnThisRank();
-  const auto agreeOn = [&ranks](bool goesOn) // A rank may be asked to stop, or one of the others.
-  { return !ranks.IsAny(!goesOn); };
   const LostVoxels lost(state, field, kind, minimumSize, executor,
-    [&goOn](double share) { return goOn(AfterLost * share); }, rows);
+    [&goOn](double share) { return goOn(AfterLost * share); });
   if (lost.IsStopped())
   {
     return stopped;
@@ -275,18 +248,17 @@ LostPartCover FindLostParts(const SurfaceState& state, const Field& field, PartK
   result.Boundary.Add(lost, field, kind, executor);
   const CellLattice lattice(CellEdge * state.Sizing.OfLevel());
   bool goesOn = true;
-  std::vector<PartCell> cells = FindPartCells(state, field, lost, lattice, executor,
+  const std::vector<PartCell> cells = FindPartCells(state, field, lost, lattice, executor,
     [&](double share)
     {
       goesOn = goOn(AfterLost + (AfterCells - AfterLost) * share);
       return goesOn;
     });
-  if (!agreeOn(goesOn))
+  if (!goesOn)
   {
     return stopped;
   }
-  result.Boundary.Gather(ranks);
-  Cover(std::move(cells), lattice, result.Found, executor, ranks, result);
+  result.Surface = lattice.Boundary(CellsOfParts(cells, result.Found, result.Covered), executor);
   if (kind == PartKind::Cavity)
   {
     for (Triangle& triangle : result.Surface.Triangles)
@@ -294,6 +266,6 @@ LostPartCover FindLostParts(const SurfaceState& state, const Field& field, PartK
       std::swap(triangle[1], triangle[2]);
     }
   }
-  return agreeOn(goOn(1.)) ? result : stopped;
+  return goOn(1.) ? result : stopped;
 }
 }

@@ -33,14 +33,9 @@ struct LostPartCover
  *
  * Inside is found by parity along rows of voxels, so the cost is O(voxels + triangles). The grid
  * of the state must be up to date, and no edge longer than 2.5 delta.
- *
- * Where each rank looks through its own rows of the image, all of them get the same result, but for
- * the boundary, which rank 0 has alone. Messages grow with what is lost along the borders of the
- * rows, with the cover and with the boundary.
  */
 LostPartCover FindLostParts(const SurfaceState& state, const Field& field, PartKind kind,
-  int minimumSize, Executor& executor, const ProgressQuestion& goOn = NeverStop,
-  const RankRows* rows = nullptr);
+  int minimumSize, Executor& executor, const ProgressQuestion& goOn = NeverStop);
 }
 
 #endif

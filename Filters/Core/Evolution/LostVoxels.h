@@ -6,7 +6,6 @@
 #include "Core/Common/Executor.h"
 #include "Core/Common/JoinLabels.h"
 #include "Core/Common/Monitor.h"
-#include "Core/Evolution/RankRows.h"
 #include "Core/Evolution/SlabSearch.h"
 #include "Core/Image/Field.h"
 #include "Core/Surface/SurfaceState.h"
@@ -32,11 +31,9 @@ public:
    * The state's edges must not be longer than its sizing allows.
    * @param minimumSize voxels; what has fewer is left out
    * @param goOn        told the share that is done now and then; once it says no nothing is found
-   * @param rows        of this rank: it finds the voxels of these rows, as they belong to parts of
-   *                    the whole image; null: all rows
    */
   LostVoxels(const SurfaceState& state, const Field& field, PartKind kind, int minimumSize,
-    Executor& executor, const ProgressQuestion& goOn, const RankRows* rows = nullptr);
+    Executor& executor, const ProgressQuestion& goOn);
 
   /** Whether it was told to stop: then nothing is found. */
   bool IsStopped() const { return this->Stopped; }
@@ -49,14 +46,9 @@ private:
   using PartsOfSlabs = std::vector<std::vector<SetPiece>>;
 
   PartsOfSlabs Search(const SurfaceState& state, const Field& field, PartKind kind,
-    std::int64_t minimumSize, Executor& executor, const ProgressQuestion& goOn,
-    const RankRows& own);
-  /** Joins what the slabs of all ranks have found, each for itself, to parts of the whole image. */
-  void JoinParts(PartsOfSlabs& parts, std::int64_t minimumSize, const RankRows& own,
-    Executor& executor);
-  /** By rank 0. @return to each rank: how many parts there are, and the number of each of its own */
-  std::vector<Message> JoinRanks(
-    const std::vector<Message>& ofRanks, std::int64_t minimumSize) const;
+    std::int64_t minimumSize, Executor& executor, const ProgressQuestion& goOn);
+  /** Joins what the slabs have found, each for itself, to parts of the image. */
+  void JoinParts(PartsOfSlabs& parts, std::int64_t minimumSize, Executor& executor);
 
   std::array<int, 3> Size = { 0, 0, 0 }; ///< Of the image.
   std::vector<std::vector<VoxelRun>> Runs;

@@ -23,14 +23,14 @@ constexpr int BitsOfWord = 64;
 }
 
 SlabSearch::SlabSearch(
-  const SurfaceState& state, const Field& field, PartKind kind, const VoxelBox& rows)
+  const SurfaceState& state, const Field& field, PartKind kind, int begin, int end)
   : State(state)
   , TheField(field)
   , Kind(kind)
   , Size(field.Image().Size)
-  , Rows(rows)
+  , Rows{ { 0, 0, begin }, { Size[0], Size[1], end } }
   , Words((Size[0] + BitsOfWord - 1) / BitsOfWord)
-  , Open(static_cast<std::size_t>(rows.Length(2)) * rows.Length(1) * Words,
+  , Open(static_cast<std::size_t>(end - begin) * Size[1] * Words,
       kind == PartKind::Object ? ~std::uint64_t(0) : 0)
 {
   for (int k = 0; k < 3; ++k)
@@ -91,14 +91,7 @@ void SlabSearch::LeaveSide(const int* vertices, std::size_t count)
   {
     const auto v = static_cast<std::size_t>(vertices[i]);
     const SurfaceMesh& mesh = this->State.Mesh;
-    mesh.VisitFaces(v, v + 1,
-      [&](int a, int b, int c)
-      {
-        if (mesh.IsAlive(b) && mesh.IsAlive(c)) // Else at the rim of what is here of it.
-        {
-          this->FindCrossings(a, b, c);
-        }
-      });
+    mesh.VisitFaces(v, v + 1, [this](int a, int b, int c) { this->FindCrossings(a, b, c); });
   }
   std::vector<Crossing>& crossings = this->Crossings;
   std::sort(crossings.begin(), crossings.end());

@@ -26,15 +26,15 @@ enum class PartKind
 };
 
 /**
- * The search of one slab, a range of layers of an image or of rows in these, for the voxels that a
- * surface has lost: see LostVoxels.
+ * The search of one slab, a range of layers of an image, for the voxels that a surface has lost: see
+ * LostVoxels.
  */
 class SlabSearch
 {
 public:
-  /** Searches these rows, which are whole. What is given must outlive it. */
+  /** Searches the layers [begin, end). What is given must outlive it. */
   SlabSearch(
-    const SurfaceState& state, const Field& field, PartKind kind, const VoxelBox& rows);
+    const SurfaceState& state, const Field& field, PartKind kind, int begin, int end);
 
   /**
    * Leaves the voxels open that lie outside the surface (for cavities: inside). `vertices`: all of

@@ -77,7 +77,7 @@ SurfaceEvolution::~SurfaceEvolution() = default;
 void SurfaceEvolution::StartEnclosing(const LevelImage& image, int level)
 {
   Implementation& self = *this->Self;
-  Stopwatch watch(self.Preparing, self.Threads);
+  Stopwatch watch(self.Preparing);
   self.Enter(image, level);
   self.Clear();
   self.State.Mesh.Append(EnclosingSurface(image, self.State.Sizing.OfLevel()));
@@ -89,7 +89,7 @@ void SurfaceEvolution::StartEnclosing(const LevelImage& image, int level)
 void SurfaceEvolution::StartEnclosingParts(const LevelImage& image, int level)
 {
   Implementation& self = *this->Self;
-  Stopwatch watch(self.Preparing, self.Threads);
+  Stopwatch watch(self.Preparing);
   self.Enter(image, level);
   self.Clear();
   self.Reset();
@@ -105,7 +105,7 @@ int SurfaceEvolution::StartSeeds(
   const LevelImage& image, int level, const std::vector<Point>& centres)
 {
   Implementation& self = *this->Self;
-  Stopwatch watch(self.Preparing, self.Threads);
+  Stopwatch watch(self.Preparing);
   self.Enter(image, level);
   const double delta = self.State.Sizing.OfLevel();
   const double radius = std::max(
@@ -128,7 +128,7 @@ void SurfaceEvolution::StartSurface(
   CheckInitialSurface(surface);
   CheckOverlapsImage(surface, image);
   Implementation& self = *this->Self;
-  Stopwatch watch(self.Preparing, self.Threads);
+  Stopwatch watch(self.Preparing);
   self.Enter(image, level);
   self.Take(surface, false);
   watch.Lap(Phase::Division);
@@ -143,7 +143,7 @@ void SurfaceEvolution::StartIsoSurface(
     return;
   }
   Implementation& self = *this->Self;
-  Stopwatch watch(self.Preparing, self.Threads);
+  Stopwatch watch(self.Preparing);
   self.Enter(image, level);
   self.Take(surface, true);
   watch.Lap(Phase::Division);
@@ -167,34 +167,9 @@ void SurfaceEvolution::ForgetMotion()
 void SurfaceEvolution::LeaveLevel()
 {
   Implementation& self = *this->Self;
-  self.LeaveBlocks();
+  self.ForgetBlocks();
   self.State.ForgetAllButMesh();
   self.TheField.reset();
-}
-
-bool SurfaceEvolution::IsInPieces() const
-{
-  return this->Self->OwnAtRest || this->Self->IsInPieces();
-}
-
-void SurfaceEvolution::SetRanks(
-  Communicator* ranks, NeedVoxels needVoxels)
-{
-  this->Self->Ranks = ranks ? ranks : &OnThisRank();
-  this->Self->LastSent = this->Self->Ranks->Sent();
-  this->Self->Voxels = std::move(needVoxels);
-}
-
-void SurfaceEvolution::Unite()
-{
-  this->Self->Unite();
-  this->Self->KeepSent(*this->Self->Ranks);
-}
-
-bool SurfaceEvolution::AreShared(const SurfaceOptions& options, const std::array<int, 3>& size)
-{
-  const std::int64_t voxels = static_cast<std::int64_t>(size[0]) * size[1] * size[2];
-  return voxels > options.MostVoxelsOfRank;
 }
 
 void SurfaceEvolution::SetMeanEdgeLength(double length)
@@ -210,9 +185,8 @@ void SurfaceEvolution::SetGrading(const Grading& grading)
 bool SurfaceEvolution::Divide(const LevelImage& image, int level)
 {
   Implementation& self = *this->Self;
-  Stopwatch watch(self.Preparing, self.Threads);
+  Stopwatch watch(self.Preparing);
   self.GoOn(Monitor::Activity::Regularising, 1.);
-  self.Stopped = self.Ranks->IsAny(self.Stopped);
   if (self.Stopped)
   {
     return false;
@@ -223,44 +197,28 @@ bool SurfaceEvolution::Divide(const LevelImage& image, int level)
   self.Enter(image, level);
   // As many divisions as bring delta nearest to the new one: one where the pyramid's factor is
   // the mesh's, sqrt 3.
-  int divisions = static_cast<int>(
+  const int divisions = static_cast<int>(
     std::lround(std::log(coarse / self.State.Sizing.OfLevel()) /
       std::log(SizingField::DivisionFactor)));
-  divisions = BroadcastValue(*self.Ranks, divisions);
-  if (!self.IsShared && !self.IsFirstRank())
-  {
-    self.Clear();
-    return true;
-  }
   // After each of these steps the surface is one to hand over.
   bool goesOn = true;
-  if (self.IsShared)
+  if (!self.WantedGrading.IsWanted() || divisions == 0 || !self.DivideWhereWanted(coarse))
   {
-    goesOn = self.LayOutInPieces(divisions);
-  }
-  else if (!self.WantedGrading.IsWanted() || divisions == 0 || !self.DivideWhereWanted(coarse))
-  {
-    goesOn = self.DivideWhole(divisions);
+    goesOn = self.DivideAll(divisions);
   }
   watch.Lap(Phase::Division);
   goesOn = self.GoOn(Monitor::Activity::Dividing, 1.) && goesOn;
-  self.AgreeOnStop();
-  if (goesOn && !self.Stopped)
+  if (goesOn)
   {
     self.Recover();
   }
   watch.Lap(Phase::Recovery);
   self.GoOn(Monitor::Activity::Recovering, 1.);
-  self.AgreeOnStop();
   return true;
 }
 
 SurfaceResult SurfaceEvolution::Result() const
 {
-  if (this->Self->IsInPieces())
-  {
-    return this->Self->ResultOnRanks(1);
-  }
   const SurfaceState& s = this->Self->State;
   const Field& field = *this->Self->TheField;
   Executor& threads = this->Self->Threads;
@@ -329,13 +287,6 @@ SurfaceResult SurfaceEvolution::Result() const
     pair = { index[pair[0]], index[pair[1]] };
   }
   return result;
-}
-
-SurfaceResult SurfaceEvolution::PieceOfResult() const
-{
-  return this->Self->IsInPieces()
-    ? this->Self->ResultOnRanks(this->Self->Ranks->NumberOfRanks())
-    : this->Result();
 }
 
 const std::vector<HistoryRow>& SurfaceEvolution::History() const

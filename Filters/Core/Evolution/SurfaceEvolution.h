@@ -4,15 +4,12 @@
 #define volumicSurfaceEvolution_h
 
 #include "Core/Common/CheckedFile.h"
-#include "Core/Common/Communicator.h"
 #include "Core/Common/Executor.h"
 #include "Core/Common/Grading.h"
 #include "Core/Common/IndexedSurface.h"
 #include "Core/Common/Monitor.h"
-#include "Core/Common/PieceOfSurface.h"
 #include "Core/Evolution/SurfaceOptions.h"
 #include "Core/Image/LevelImage.h"
-#include "Core/Image/VoxelBox.h"
 
 #include <array>
 #include <chrono>
@@ -36,7 +33,7 @@ enum class StopReason
 /** As in the output's field data: converged, limit cycle, iteration limit, cancelled, vanished. */
 const char* Describe(StopReason reason);
 
-/** Parts of an iteration, and of what lies between two, in the order of HistoryRow::Phases. */
+/** Parts of an iteration, and of what lies between two, in the order of HistoryRow::PhaseSeconds. */
 enum class Phase
 {
   Forces,
@@ -49,20 +46,6 @@ enum class Phase
   Recovery, ///< Of lost parts.
   Regularisation, ///< The final one.
   Count
-};
-
-/** Seconds of the clock. */
-struct PhaseTime
-{
-  double Seconds = 0.;
-  double Serial = 0.; ///< Of these outside Executor::For(); all where that is not measured.
-};
-
-/** By a rank to others: shares of whole numbers. */
-struct SentMessages
-{
-  double Bytes = 0.;
-  double Messages = 0.;
 };
 
 /**
@@ -113,25 +96,17 @@ struct HistoryRow
   int RegularisationDeletions = 0;
   double SecondsBefore = 0.; ///< Between the row before, or the start of the clock, and this one.
   double SecondsAfter = 0.;  ///< After the last iteration of a level, until EndLevel().
-  std::array<PhaseTime, static_cast<int>(Phase::Count)> Phases{};
-  /**
-   * The most that a rank has sent to others since the row before; what was sent in the visits of a
-   * sweep in equal parts. In the last row of a level also after it, but for what makes up Result()
-   * of the last one.
-   */
-  SentMessages Sent;
+  std::array<double, static_cast<int>(Phase::Count)> PhaseSeconds{};
 };
 
-/** The surface, or a piece of it, as handed out: compact, workspace coordinates. */
+/** The surface as handed out: compact, workspace coordinates. */
 struct SurfaceResult : IndexedSurface
 {
-  PieceOfSurface Piece;
   LargeVector<std::array<float, 3>> Normals;  ///< Unit, outward, per point.
   LargeVector<float> Residual;                ///< Field minus iso-value, per point.
   LargeVector<unsigned char> Motionless;      ///< 1 where frozen, per point.
   LargeVector<unsigned char> Held;            ///< Per point, see RemainingContacts.
-  /** Pairs of points, see RemainingContacts; of a piece those of the whole, by its numbers. */
-  LargeVector<std::array<int, 2>> Contacts;
+  LargeVector<std::array<int, 2>> Contacts;   ///< Pairs of points, see RemainingContacts.
   double Delta = 0.;                          ///< delta_h, workspace.
   LargeVector<float> Size;      ///< Of a graded surface delta per point, workspace; else empty.
   LargeVector<float> Thickness; ///< With thin parts, per point, workspace; else empty.
@@ -155,14 +130,6 @@ struct SurfaceResult : IndexedSurface
 class SurfaceEvolution
 {
 public:
-  /**
-   * Of a rank: voxels of the level that it needs from now on; before that, and elsewhere, they may be
-   * anything. Of these, `share` is what it alone looks after, of all ranks the whole image; none
-   * where that has been told before.
-   */
-  using NeedVoxels =
-    std::function<void(const std::vector<VoxelBox>& needed, const VoxelBox& share)>;
-
   /** @throws std::invalid_argument for options outside their range. */
   SurfaceEvolution(const SurfaceOptions& options, Executor& executor, Monitor& monitor);
   ~SurfaceEvolution();
@@ -221,37 +188,19 @@ public:
 
   /**
    * After Result(): lets go of all but the mesh, which Divide() and Save() need, of the values of
-   * the level, and of the ranks. What it has of History(), Lost() and the like stays.
+   * the level. What it has of History(), Lost() and the like stays.
    */
   void LeaveLevel();
 
   /**
-   * From now on it is one of those on several ranks, which evolve one surface: all of them call
-   * Divide() to a level that they share (AreShared), Run() and Result() or PieceOfResult() there, at
-   * the same time, and then Divide() to another one, or Unite(). Before that, or where it has
-   * been united, rank 0 alone has a surface; rank 0 has a Result(). It is the same bits as on one
-   * rank. Null, after LeaveLevel(): alone again, until it is set, to ranks as many, where the
-   * surface IsInPieces().
-   * @param needVoxels called on all of them at the same time
-   */
-  void SetRanks(Communicator* ranks, NeedVoxels needVoxels = {});
-  /** Brings the mesh of several ranks to rank 0, as after LeaveLevel() on one. */
-  void Unite();
-  /** Whether each of several ranks has a piece of the surface. */
-  bool IsInPieces() const;
-  /** Whether all ranks work on a level of so many voxels, where there are several. */
-  static bool AreShared(const SurfaceOptions& options, const std::array<int, 3>& size);
-
-  /**
    * For the levels to come: before its final regularisation, delta is changed by small steps, as
    * far as eq. (7) allows, until the mean of the edges is this long (workspace; 0, the default: no
-   * change). Within 3 % where eq. (7) does not end it. Not on several ranks.
+   * change). Within 3 % where eq. (7) does not end it.
    */
   void SetMeanEdgeLength(double length);
 
   /**
-   * For the next level, which must be the last one, and of one rank: it is divided only where what
-   * is seen there asks for it, and with a tolerance edges become longer where it rests, as far as
+   * For the next level, which must be the last one: it is divided only where what is seen there asks for it, and with a tolerance edges become longer where it rests, as far as
    * it stays within that of the isopotential. Lengths: workspace.
    */
   void SetGrading(const Grading& grading);
@@ -265,7 +214,7 @@ public:
 
   /**
    * After LeaveLevel(): writes what the levels to come depend on, so that another object, in another
-   * process too, can go on as this one would; where it is in pieces, on each rank one of its piece.
+   * process too, can go on as this one would.
    * @throws FileError.
    */
   void Save(CheckedWriter& file) const;
@@ -277,10 +226,8 @@ public:
    */
   void Load(CheckedReader& file);
 
-  /** The surface as it is. Of several ranks, all of which call it, rank 0 gets it. */
+  /** The surface as it is. */
   SurfaceResult Result() const;
-  /** The same for each rank its piece, of about as many triangles. One alone gets the whole. */
-  SurfaceResult PieceOfResult() const;
 
   /** A row per iteration since the object was made. */
   const std::vector<HistoryRow>& History() const;

@@ -288,7 +288,7 @@ void SurfaceIteration::Run(
   SurfaceState& s = this->State;
   Executor& idle = *this->Visit->Idle;
   const bool evolves = mode == Mode::Evolve;
-  Stopwatch watch(row, OnThisThread());
+  Stopwatch watch(row);
   this->CollectActive();
   row.ActiveVertices = static_cast<int>(this->Active.size());
   if (evolves)

@@ -56,8 +56,6 @@ struct SurfaceOptions : FieldOptions
   int MinimumPartSize = 20; ///< Voxels of the level that a lost part must have to be recovered.
 
   double MaximumStep = 0.5; ///< Largest displacement of an iteration, in delta; at most 0.5.
-  /** Of a level that one rank works on alone, where there are several: 64^3. No property. */
-  std::int64_t MostVoxelsOfRank = std::int64_t(1) << 18;
   /**
    * Side of the blocks that are visited, in delta; 0 = SurfaceBlocks::SideInDelta, the least that
    * may be visited at the same time. No property: tests make others.

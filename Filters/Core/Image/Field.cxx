@@ -30,18 +30,10 @@ constexpr float Beyond = 3.f;
 }
 
 Field::Field(const LevelImage& image, const FieldOptions& options, Executor& executor)
-  : Field(image, options, Measures())
-{
-  this->MeasureRange(image.Extremes ? *image.Extremes : this->FindExtremes(executor));
-  this->MeasureSlope(executor);
-}
-
-Field::Field(const LevelImage& image, const FieldOptions& options, const Measures& measured)
   : Level(image)
   , Around(image)
   , Iso(static_cast<float>(options.IsoValue - image.Base))
   , Sign(options.ObjectIsBright ? 1.f : -1.f)
-  , Of(measured)
   , Replicate(options.BorderValue == Border::Replicate)
 {
   if (!image.Values || image.Size[0] < 1 || image.Size[1] < 1 || image.Size[2] < 1)
@@ -52,6 +44,8 @@ Field::Field(const LevelImage& image, const FieldOptions& options, const Measure
   {
     this->Inverse[k] = static_cast<float>(1. / image.Step[k]);
   }
+  this->MeasureRange(this->FindExtremes(executor));
+  this->MeasureSlope(executor);
 }
 
 std::array<float, 2> Field::FindExtremes(Executor& executor) const
@@ -92,10 +86,10 @@ void Field::MeasureRange(const std::array<float, 2>& extremes)
 {
   const float low = extremes[0];
   const float high = extremes[1];
-  this->Of.HighestValue = std::max(this->Sign * (low - this->Iso), this->Sign * (high - this->Iso));
-  this->Of.LowestValue = std::min(this->Sign * (low - this->Iso), this->Sign * (high - this->Iso));
-  const float away = std::min(this->Of.LowestValue, -this->Of.HighestValue);
-  this->Of.Outside = this->Iso + this->Sign * away;
+  this->HighestValue = std::max(this->Sign * (low - this->Iso), this->Sign * (high - this->Iso));
+  this->LowestValue = std::min(this->Sign * (low - this->Iso), this->Sign * (high - this->Iso));
+  const float away = std::min(this->LowestValue, -this->HighestValue);
+  this->Outside = this->Iso + this->Sign * away;
 }
 
 namespace
@@ -107,24 +101,7 @@ std::int64_t SlopeStride(const std::array<int, 3>& size)
   const std::int64_t rows = static_cast<std::int64_t>(size[1]) * size[2];
   return std::max<std::int64_t>(1, rows / SlopeRows) | 1;
 }
-}
 
-std::vector<VoxelBox> Field::MeasuredVoxels(const std::array<int, 3>& size)
-{
-  std::vector<VoxelBox> boxes;
-  const std::int64_t rows = static_cast<std::int64_t>(size[1]) * size[2];
-  for (std::int64_t row = 0; row < rows; row += SlopeStride(size))
-  {
-    const int j = static_cast<int>(row % size[1]);
-    const int k = static_cast<int>(row / size[1]);
-    boxes.push_back(
-      { { 0, j, k }, { size[0], std::min(j + 2, size[1]), std::min(k + 2, size[2]) } });
-  }
-  return boxes;
-}
-
-namespace
-{
 /** Edges between voxels that the iso-value lies on. */
 struct Crossings
 {
@@ -178,12 +155,12 @@ void Field::MeasureSlope(Executor& executor)
     all.Slopes += ofSpan.Slopes;
     all.Count += ofSpan.Count;
   }
-  const double range = static_cast<double>(this->Of.HighestValue) - this->Of.LowestValue;
-  this->Of.Slope = static_cast<float>(
+  const double range = static_cast<double>(this->HighestValue) - this->LowestValue;
+  this->Slope = static_cast<float>(
     all.Count > 0 ? all.Slopes / static_cast<double>(all.Count) : range * this->Inverse[0]);
-  if (!(this->Of.Slope > 0))
+  if (!(this->Slope > 0))
   {
-    this->Of.Slope = 1;
+    this->Slope = 1;
   }
 }
 
@@ -216,7 +193,7 @@ float Field::Fetch(const Voxels& voxels, int i, int j, int k) const
   }
   if (!this->Replicate)
   {
-    return this->Of.Outside;
+    return this->Outside;
   }
   i = std::min(std::max(i, 0), size[0] - 1);
   j = std::min(std::max(j, 0), size[1] - 1);
@@ -248,7 +225,7 @@ Field::Sample Field::Faded(const Vector& position, const Sample& sample) const
   {
     return sample;
   }
-  const float fall = this->Sign * (this->Of.Outside - this->Iso) - sample.Value;
+  const float fall = this->Sign * (this->Outside - this->Iso) - sample.Value;
   return { sample.Value + depth.Share * fall,
     sample.Gradient * (1 - depth.Share) + depth.Slope * fall };
 }
@@ -369,14 +346,14 @@ constexpr float LeastAlignment = 0.5f;
 
 float Field::SlopeOf(const Sample& sample) const
 {
-  return std::max(Length(sample.Gradient), GradientFloor * this->Of.Slope);
+  return std::max(Length(sample.Gradient), GradientFloor * this->Slope);
 }
 
 float Field::StepToIso(const Sample& sample, const Vector& normal, float longest) const
 {
   // Value grows against the normal: towards the inside.
   const float slope = -Dot(sample.Gradient, normal);
-  if (slope <= GradientFloor * this->Of.Slope || slope < LeastAlignment * Length(sample.Gradient))
+  if (slope <= GradientFloor * this->Slope || slope < LeastAlignment * Length(sample.Gradient))
   {
     return 0.f;
   }

@@ -36,35 +36,21 @@ public:
     Vector Gradient; ///< Of Value, per unit of length of the workspace.
   };
 
-  /** What is found out once, of all voxels of the image. */
-  struct Measures
-  {
-    float Outside = 0; ///< Of the background, as the voxels.
-    float HighestValue = 0;
-    float LowestValue = 0;
-    float Slope = 1;
-  };
-
   /** @throws std::invalid_argument for an image without voxels. */
   Field(const LevelImage& image, const FieldOptions& options, Executor& executor);
-  /** Of an image of which only some voxels are here; the measures come from where it is whole. */
-  Field(const LevelImage& image, const FieldOptions& options, const Measures& measured);
-  const Measures& Measured() const { return this->Of; }
-  /** The voxels, beside LevelImage::Extremes, that the measures need of an image of this size. */
-  static std::vector<VoxelBox> MeasuredVoxels(const std::array<int, 3>& size);
 
   float ValueAt(const Vector& position) const;
   Sample At(const Vector& position) const;
 
   /** Extremes of Value in the image; where the highest is not positive there is no object. */
-  float Highest() const { return this->Of.HighestValue; }
-  float Lowest() const { return this->Of.LowestValue; }
+  float Highest() const { return this->HighestValue; }
+  float Lowest() const { return this->LowestValue; }
 
   /**
    * Mean absolute slope of the pairs of neighbouring voxels between which the iso-value lies: the
    * steepness that a typical piece of the searched surface has. Value per workspace length.
    */
-  float TypicalSlope() const { return this->Of.Slope; }
+  float TypicalSlope() const { return this->Slope; }
 
   /** Length of the gradient, but at least 0.15 TypicalSlope(): safe to divide by on plateaus. */
   float SlopeOf(const Sample& sample) const;
@@ -77,7 +63,7 @@ public:
   float StepToIso(const Sample& sample, const Vector& normal, float longest) const;
 
   /** What the image counts as outside its voxels, with Border::Background. */
-  float Background() const { return this->Of.Outside; }
+  float Background() const { return this->Outside; }
 
   const LevelImage& Image() const { return this->Level; }
   const ImageMargin& Margin() const { return this->Around; }
@@ -118,7 +104,10 @@ private:
   float Iso = 0; ///< The iso-value less the image's Base, as Level.Values are.
   float Sign = 1;
   float Inverse[3] = { 1, 1, 1 };
-  Measures Of;
+  float Outside = 0; ///< Of the background, as the voxels.
+  float HighestValue = 0;
+  float LowestValue = 0;
+  float Slope = 1;
   bool Replicate = false;
 };
 }

@@ -6,7 +6,6 @@
 #include "Core/Image/VoxelValues.h"
 
 #include <array>
-#include <optional>
 
 namespace volumic
 {
@@ -34,11 +33,6 @@ struct LevelImage
   std::array<int, 3> Size = { 0, 0, 0 };       ///< Number of voxels along each axis.
   std::array<double, 3> Step = { 1., 1., 1. }; ///< Distance of neighbouring voxels, workspace.
   double Unit = 1.;                            ///< U_h = T^h, workspace (U_0 = 1).
-  /**
-   * Smallest and largest value; none: to be looked for. Told where not all voxels are here
-   * (SurfaceEvolution::SetRanks).
-   */
-  std::optional<std::array<float, 2>> Extremes;
   VoxelValues Edges; ///< There may be none: a map of edges at the same voxels.
 };
 }

@@ -36,26 +36,25 @@ AxisOperator OperatorOf(const LevelGeometry& input, const LevelGeometry& output,
   return AxisOperator(input.Size[axis], output.Size[axis], offset);
 }
 
-/** An axis operator of pieces, with its weights in the type of the computation. */
+/** An axis operator with its weights in the type of the computation. */
 template <typename Real>
 struct Axis
 {
-  std::vector<std::int64_t> First; ///< in the input piece, by the voxel in the output piece
+  std::vector<std::int64_t> First; ///< input voxel, by the output voxel
   std::vector<Real> Weights;
   int Taps;
 
-  Axis(const LevelPiece& input, const LevelPiece& output, int axis)
+  Axis(const LevelGeometry& input, const LevelGeometry& output, int axis)
   {
-    const AxisOperator axisOperator = OperatorOf(input.Level, output.Level, axis);
-    const int size = output.Box.Length(axis);
+    const AxisOperator axisOperator = OperatorOf(input, output, axis);
+    const int size = static_cast<int>(output.Size[axis]);
     this->Taps = axisOperator.NumberOfTaps();
     this->First.resize(size);
     this->Weights.resize(static_cast<std::size_t>(size) * this->Taps);
     for (int i = 0; i < size; ++i)
     {
-      const int voxel = output.Box.First[axis] + i;
-      this->First[i] = axisOperator.First(voxel) - input.Box.First[axis];
-      const double* weights = axisOperator.Weights(voxel);
+      this->First[i] = axisOperator.First(i);
+      const double* weights = axisOperator.Weights(i);
       std::transform(weights, weights + this->Taps,
         this->Weights.begin() + static_cast<std::ptrdiff_t>(i) * this->Taps,
         [](double w) { return static_cast<Real>(w); });
@@ -71,11 +70,11 @@ class Reduction
 public:
   using Real = typename RealOf<T>::Type;
 
-  /** Of pieces that are not empty. */
-  Reduction(
-    const T* input, const LevelPiece& inputPiece, Real* output, const LevelPiece& outputPiece)
-    : Input(input), Output(output), InputSize(SizeOf(inputPiece)), OutputSize(SizeOf(outputPiece)),
-      X(inputPiece, outputPiece, 0), Y(inputPiece, outputPiece, 1), Z(inputPiece, outputPiece, 2),
+  Reduction(const T* input, const LevelGeometry& inputGeometry, Real* output,
+    const LevelGeometry& outputGeometry)
+    : Input(input), Output(output), InputSize(inputGeometry.Size),
+      OutputSize(outputGeometry.Size), X(inputGeometry, outputGeometry, 0),
+      Y(inputGeometry, outputGeometry, 1), Z(inputGeometry, outputGeometry, 2),
       Stride((InputSize[0] + RowsAtOnce - 1) / RowsAtOnce * RowsAtOnce)
   {
     const std::int64_t rowBytes = InputSize[0] * Z.Taps * static_cast<std::int64_t>(sizeof(T));
@@ -107,11 +106,6 @@ public:
   }
 
 private:
-  static LevelSize SizeOf(const LevelPiece& piece)
-  {
-    return { piece.Box.Length(0), piece.Box.Length(1), piece.Box.Length(2) };
-  }
-
   /** Rows in work, of one thread. */
   struct WorkSpace
   {
@@ -203,36 +197,12 @@ private:
 };
 }
 
-VoxelBox LevelPiece::VoxelsOf(const LevelGeometry& level)
-{
-  return VoxelBox::Of({ static_cast<int>(level.Size[0]), static_cast<int>(level.Size[1]),
-    static_cast<int>(level.Size[2]) });
-}
-
-VoxelBox SourceOf(
-  const VoxelBox& box, const LevelGeometry& inputGeometry, const LevelGeometry& outputGeometry)
-{
-  VoxelBox source;
-  for (int axis = 0; axis < 3 && !box.IsEmpty(); ++axis)
-  {
-    const AxisOperator axisOperator = OperatorOf(inputGeometry, outputGeometry, axis);
-    source.First[axis] = static_cast<int>(axisOperator.First(box.First[axis]));
-    source.End[axis] =
-      static_cast<int>(axisOperator.First(box.End[axis] - 1)) + axisOperator.NumberOfTaps();
-  }
-  return source;
-}
-
 template <typename T>
-bool ReduceLevel(const T* input, const LevelPiece& inputPiece, typename RealOf<T>::Type* output,
-  const LevelPiece& outputPiece, Executor& executor, const LevelProgress& progress)
+bool ReduceLevel(const T* input, const LevelGeometry& inputGeometry,
+  typename RealOf<T>::Type* output, const LevelGeometry& outputGeometry, Executor& executor,
+  const LevelProgress& progress)
 {
-  if (outputPiece.Box.IsEmpty())
-  {
-    return true;
-  }
-  const Reduction<T> reduction(input, inputPiece, output, outputPiece);
-  return reduction.Run(executor, progress);
+  return Reduction<T>(input, inputGeometry, output, outputGeometry).Run(executor, progress);
 }
 
 template <typename T>
@@ -274,8 +244,8 @@ NotFiniteVoxels FindNotFiniteVoxels(const T* values, std::int64_t n, Executor& e
 }
 
 #define VOLUMIC_INSTANTIATE(T)                                                   \
-  template bool ReduceLevel<T>(const T*, const LevelPiece&, RealOf<T>::Type*,     \
-    const LevelPiece&, Executor&, const LevelProgress&);                          \
+  template bool ReduceLevel<T>(const T*, const LevelGeometry&, RealOf<T>::Type*,  \
+    const LevelGeometry&, Executor&, const LevelProgress&);                       \
   template NotFiniteVoxels FindNotFiniteVoxels<T>(const T*, std::int64_t, Executor&);
 VOLUMIC_FOR_EACH_SCALAR(VOLUMIC_INSTANTIATE)
 #undef VOLUMIC_INSTANTIATE

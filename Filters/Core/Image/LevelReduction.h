@@ -6,7 +6,6 @@
 #include "Core/Common/Executor.h"
 #include "Core/Image/PyramidGeometry.h"
 #include "Core/Image/RowKernels.h"
-#include "Core/Image/VoxelBox.h"
 
 #include <cstdint>
 #include <functional>
@@ -19,23 +18,6 @@ namespace volumic
  */
 using LevelProgress = std::function<bool(double share)>;
 
-/** Some voxels of a level that lie in an array of their own; all of them where no box is named. */
-struct LevelPiece
-{
-  /** Not explicit: most levels are whole, and are given as they are. */
-  LevelPiece(const LevelGeometry& level) : Level(level), Box(VoxelsOf(level)) {}
-  LevelPiece(const LevelGeometry& level, const VoxelBox& box) : Level(level), Box(box) {}
-
-  static VoxelBox VoxelsOf(const LevelGeometry& level);
-
-  const LevelGeometry& Level;
-  VoxelBox Box;
-};
-
-/** The voxels of level h that those of a box of level h+1 are made of. */
-VoxelBox SourceOf(
-  const VoxelBox& box, const LevelGeometry& inputGeometry, const LevelGeometry& outputGeometry);
-
 /**
  * Level h+1 from level h: eq. 5, one banded operator per axis (AxisOperator).
  *
@@ -44,16 +26,16 @@ VoxelBox SourceOf(
  * x fastest. An output voxel is always made by the same operations in the same order, so that the
  * result does not depend on the executor.
  *
- * @param input       voxels of level h
- * @param inputPiece  which those are; the Unit of the level, U_h, is the offset of the kernel
- * @param output      room for the voxels of level h+1 that are wanted
- * @param outputPiece which those are: the same bits as if the whole level were made. Their
- *                    SourceOf() must lie in inputPiece.
+ * @param input          voxels of level h
+ * @param inputGeometry  of it; the Unit of the level, U_h, is the offset of the kernel
+ * @param output         room for the voxels of level h+1
+ * @param outputGeometry of that
  * @return false if `progress` asked to stop before the end; the output is unfinished then.
  */
 template <typename T>
-bool ReduceLevel(const T* input, const LevelPiece& inputPiece, typename RealOf<T>::Type* output,
-  const LevelPiece& outputPiece, Executor& executor, const LevelProgress& progress);
+bool ReduceLevel(const T* input, const LevelGeometry& inputGeometry,
+  typename RealOf<T>::Type* output, const LevelGeometry& outputGeometry, Executor& executor,
+  const LevelProgress& progress);
 
 /** Voxels that are NaN or infinite. */
 struct NotFiniteVoxels

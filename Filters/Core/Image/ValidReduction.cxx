@@ -18,8 +18,8 @@ constexpr double LeastWeight = 0.5;
 
 template <typename T>
 bool ReduceValidVoxels(const T* input, const LargeVector<std::uint8_t>& valid,
-  const LevelPiece& inputPiece, typename RealOf<T>::Type* output, const LevelPiece& outputPiece,
-  Executor& executor, const LevelProgress& progress)
+  const LevelGeometry& inputGeometry, typename RealOf<T>::Type* output,
+  const LevelGeometry& outputGeometry, Executor& executor, const LevelProgress& progress)
 {
   using Real = typename RealOf<T>::Type;
   LargeVector<T> values(valid.size());
@@ -27,7 +27,7 @@ bool ReduceValidVoxels(const T* input, const LargeVector<std::uint8_t>& valid,
     [](std::uint8_t mark, T value) { return mark != 0 ? value : T(0); });
   const auto firstHalf = [&](double share) { return progress(0.5 * share); };
   const auto secondHalf = [&](double share) { return progress(0.5 + 0.5 * share); };
-  if (!ReduceLevel(values.data(), inputPiece, output, outputPiece, executor, firstHalf))
+  if (!ReduceLevel(values.data(), inputGeometry, output, outputGeometry, executor, firstHalf))
   {
     return false;
   }
@@ -35,8 +35,8 @@ bool ReduceValidVoxels(const T* input, const LargeVector<std::uint8_t>& valid,
   // The weights are as precise as the voxels: as bytes they would give single precision.
   using Mark = std::conditional_t<std::is_same_v<Real, double>, double, std::uint8_t>;
   const LargeVector<Mark> marks(valid.begin(), valid.end());
-  LargeVector<Real> weights(static_cast<std::size_t>(outputPiece.Box.Count()));
-  if (!ReduceLevel(marks.data(), inputPiece, weights.data(), outputPiece, executor, secondHalf))
+  LargeVector<Real> weights(static_cast<std::size_t>(outputGeometry.NumberOfVoxels()));
+  if (!ReduceLevel(marks.data(), inputGeometry, weights.data(), outputGeometry, executor, secondHalf))
   {
     return false;
   }
@@ -58,7 +58,8 @@ LargeVector<std::uint8_t> MarkNumbers(const Real* values, std::int64_t n)
 
 #define VOLUMIC_INSTANTIATE(T)                                                                  \
   template bool ReduceValidVoxels<T>(const T*, const LargeVector<std::uint8_t>&,               \
-    const LevelPiece&, RealOf<T>::Type*, const LevelPiece&, Executor&, const LevelProgress&);
+    const LevelGeometry&, RealOf<T>::Type*, const LevelGeometry&, Executor&,                   \
+    const LevelProgress&);
 VOLUMIC_FOR_EACH_SCALAR(VOLUMIC_INSTANTIATE)
 #undef VOLUMIC_INSTANTIATE
 template LargeVector<std::uint8_t> MarkNumbers<float>(const float*, std::int64_t);

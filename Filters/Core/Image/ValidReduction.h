@@ -18,8 +18,8 @@ namespace volumic
  */
 template <typename T>
 bool ReduceValidVoxels(const T* input, const LargeVector<std::uint8_t>& valid,
-  const LevelPiece& inputPiece, typename RealOf<T>::Type* output, const LevelPiece& outputPiece,
-  Executor& executor, const LevelProgress& progress);
+  const LevelGeometry& inputGeometry, typename RealOf<T>::Type* output,
+  const LevelGeometry& outputGeometry, Executor& executor, const LevelProgress& progress);
 
 /** 1 for numbers, 0 for NaN. */
 template <typename Real>

@@ -87,41 +87,18 @@ void LabelClaims::Add(int object, const LabelField& field)
     });
 }
 
-void LabelClaims::Claims::Add(const Claims& others)
+void LabelClaims::Join(const std::vector<Claims>& others)
 {
-  if (others.Claimant == this->Claimant)
+  for (std::size_t i = 0; i < others.size(); ++i)
   {
-    this->Second = std::max(this->Second, others.Second);
-  }
-  else if (others.Most > this->Most)
-  {
-    *this = { others.Most, std::max(this->Most, others.Second), others.Claimant };
-  }
-  else
-  {
-    this->Second = std::max(this->Second, others.Most);
-  }
-}
-
-void LabelClaims::Share(Communicator& ranks)
-{
-  const int count = ranks.NumberOfRanks();
-  // A step, and each rank knows what twice as many know: itself and those before it.
-  for (int step = 1; step < count; step *= 2)
-  {
-    const int to = (ranks.Rank() + step) % count;
-    const int from = (ranks.Rank() + count - step) % count;
-    MessageWriter own;
-    own.AddArray(this->All);
-    std::vector<Message> messages(static_cast<std::size_t>(count));
-    messages[static_cast<std::size_t>(to)] = own.Take();
-    messages = ranks.Exchange(std::move(messages),
-      from == to ? std::vector<int>{ to } : std::vector<int>{ from, to });
-    MessageReader reader(messages[static_cast<std::size_t>(from)]);
-    const std::vector<Claims> others = reader.TakeVector<Claims>();
-    for (std::size_t i = 0; i < others.size(); ++i)
+    Claims& claims = this->All[i];
+    if (others[i].Most > claims.Most)
     {
-      this->All[i].Add(others[i]);
+      claims = { others[i].Most, std::max(claims.Most, others[i].Second), others[i].Claimant };
+    }
+    else
+    {
+      claims.Second = std::max(claims.Second, others[i].Most);
     }
   }
 }

@@ -3,7 +3,6 @@
 #ifndef volumicLabelClaims_h
 #define volumicLabelClaims_h
 
-#include "Core/Common/Communicator.h"
 #include "Core/Labels/LabelBricks.h"
 #include "Core/Labels/LabelField.h"
 
@@ -25,8 +24,17 @@ public:
   /** Once for each object but 0, in any order, on any thread. */
   void Add(int object, const LabelField& field);
 
-  /** By all ranks: afterwards each knows what any has added. */
-  void Share(Communicator& ranks);
+  /** What is claimed of a voxel. */
+  struct Claims
+  {
+    float Most = -LabelField::Far;
+    float Second = -LabelField::Far;
+    LabelMap::Number Claimant = 0; ///< the object that claims most
+  };
+  /** All that have been added, for another process that has the same map; */
+  const std::vector<Claims>& Claimed() const { return this->All; }
+  /** and those that another one has added, for other objects. In any order. */
+  void Join(const std::vector<Claims>& others);
 
   /**
    * Once all have been added: where another object's field is d', the field d becomes the smaller
@@ -36,15 +44,6 @@ public:
   void Settle(int object, LabelField& field) const;
 
 private:
-  struct Claims
-  {
-    float Most = -LabelField::Far;
-    float Second = -LabelField::Far;
-    LabelMap::Number Claimant = 0; ///< the object that claims most
-
-    /** Those of other objects, or of the same. */
-    void Add(const Claims& others);
-  };
   template <typename Visitor>
   void ForVoxels(const LabelField& field, Visitor&& visit) const;
 

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <numeric>
 #include <utility>
 
 namespace volumic
@@ -20,11 +19,7 @@ constexpr std::size_t SpanSize = 8192;
 
 void KeptEdges::KeepAt(int v, int neighbour)
 {
-  const int i = this->Mesh.Rings[v].Find(neighbour);
-  if (i >= 0) // Else it is not there.
-  {
-    this->Flags[v] |= static_cast<RingFlags>(1u << i);
-  }
+  this->Flags[v] |= static_cast<RingFlags>(1u << this->Mesh.Rings[v].Find(neighbour));
 }
 
 void KeptEdges::Keep(int u, int v)
@@ -45,18 +40,15 @@ void KeptEdges::KeepAll()
 {
   for (int v = 0; v < this->Mesh.Size(); ++v)
   {
-    if (this->Mesh.IsAlive(v))
-    {
-      this->Flags[v] = static_cast<RingFlags>((1u << this->Mesh.Rings[v].Count) - 1u);
-    }
+    this->Flags[v] = static_cast<RingFlags>((1u << this->Mesh.Rings[v].Count) - 1u);
   }
 }
 
-std::vector<int> KeptEdges::FindOverfull(const std::vector<int>& vertices) const
+std::vector<int> KeptEdges::FindOverfull() const
 {
   // Each run of kept edges adds a neighbour; with all of them kept there are as many as before.
   std::vector<int> found;
-  for (const int v : vertices)
+  for (int v = 0; v < this->Mesh.Size(); ++v)
   {
     const int count = this->Mesh.Rings[v].Count;
     int runs = 0;
@@ -290,16 +282,16 @@ Ring SqrtThreeDivision::RingOfOld(int v) const
 }
 }
 
-SurfaceMesh Divide(const SurfaceMesh& mesh, const std::vector<int>& own,
-  const DivisionNumbers& numbers, const KeptEdges* kept, Executor& executor)
+SurfaceMesh Divide(const SurfaceMesh& mesh, const DivisionNumbers& numbers,
+  const KeptEdges* kept, Executor& executor)
 {
   SqrtThreeDivision division(mesh, numbers, kept);
-  ForSpans(executor, own.size(), SpanSize,
+  ForSpans(executor, mesh.Rings.size(), SpanSize,
     [&](std::size_t, std::size_t begin, std::size_t end)
     {
-      for (std::size_t i = begin; i < end; ++i)
+      for (std::size_t v = begin; v < end; ++v)
       {
-        division.DivideAt(own[i]);
+        division.DivideAt(static_cast<int>(v));
       }
     });
   return division.Take();
@@ -307,8 +299,6 @@ SurfaceMesh Divide(const SurfaceMesh& mesh, const std::vector<int>& own,
 
 SurfaceMesh Divide(const SurfaceMesh& mesh, const KeptEdges* kept, Executor& executor)
 {
-  std::vector<int> all(mesh.Rings.size());
-  std::iota(all.begin(), all.end(), 0);
-  return Divide(mesh, all, NumberForDivision(mesh, kept, executor), kept, executor);
+  return Divide(mesh, NumberForDivision(mesh, kept, executor), kept, executor);
 }
 }

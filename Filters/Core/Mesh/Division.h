@@ -20,15 +20,14 @@ public:
     MakeZeroed(this->Flags, mesh.Rings.size());
   }
 
-  /** Of a mesh in pieces each rank keeps it at those of its ends that are there. */
   void Keep(int u, int v);
   void KeepAllAt(int v);
   void KeepAll();
   /**
-   * Those of some vertices whose rings would overflow by the division. All edges at these are to be
-   * kept, then at those that overflow then, and so on.
+   * Vertices whose rings would overflow by the division. All edges at these are to be kept, then at
+   * those that overflow then, and so on.
    */
-  std::vector<int> FindOverfull(const std::vector<int>& vertices) const;
+  std::vector<int> FindOverfull() const;
 
   /** Of the edge from v to its neighbour i. */
   bool Has(int v, int i) const { return (this->Flags[v] >> i & 1u) != 0; }
@@ -59,7 +58,6 @@ struct DivisionNumbers
   int Middles = 0;
 };
 
-/** Those of a mesh that is whole. */
 DivisionNumbers NumberForDivision(
   const SurfaceMesh& mesh, const KeptEdges* kept = nullptr, Executor& executor = OnThisThread());
 
@@ -78,18 +76,11 @@ DivisionNumbers NumberForDivision(
  *
  * The centre of face i is the vertex with i plus the number of old ones. The middles of edges come
  * last. `mesh` must have no free places, `kept` be of it.
- *
- * Of a mesh in pieces each rank divides what is its own, see RankPiece: it makes its old vertices,
- * and the centres of faces and the middles of edges whose smallest vertex is its own. It needs the
- * numbers of these, and of two rings of vertices about them, with their neighbours' indices.
- *
- * @param own the old vertices that are divided @return what comes of them; all other places are empty
  */
-[[nodiscard]] SurfaceMesh Divide(const SurfaceMesh& mesh, const std::vector<int>& own,
-  const DivisionNumbers& numbers, const KeptEdges* kept = nullptr,
-  Executor& executor = OnThisThread());
+[[nodiscard]] SurfaceMesh Divide(const SurfaceMesh& mesh, const DivisionNumbers& numbers,
+  const KeptEdges* kept = nullptr, Executor& executor = OnThisThread());
 
-/** All of a mesh. */
+/** The same, which numbers it. */
 [[nodiscard]] SurfaceMesh Divide(const SurfaceMesh& mesh, const KeptEdges* kept = nullptr,
   Executor& executor = OnThisThread());
 }

@@ -3,8 +3,6 @@
 #include "Core/Mesh/SurfaceFeatures.h"
 
 #include "Core/Common/DisjointSets.h"
-#include "Core/Common/JoinLabels.h"
-#include "Core/Common/RankLists.h"
 #include "Core/Common/Select.h"
 
 #include <algorithm>
@@ -128,52 +126,27 @@ ComponentFeatures Finish(const Sums& sums)
   return result;
 }
 
-/**
- * The components of a surface, numbered in the order of their first triangles. Of a piece they are
- * found first as far as it has them, then joined over the points that it shares with others.
- */
+/** The components of a surface, numbered in the order of their first triangles. */
 class Components
 {
 public:
-  Components(const IndexedSurface& surface, Executor& executor, const PieceOfSurface& piece);
+  Components(const IndexedSurface& surface, Executor& executor);
 
-  int Of(std::size_t triangle) const { return this->Label[this->OfTriangle[triangle]]; }
-
-  LargeVector<int> OfTriangle; ///< Of the piece.
-  std::vector<int> Label;      ///< Of those of the piece, which of the whole they are.
-  std::vector<Sums> Begun;     ///< By component of the whole, all that comes before its triangles.
+  LargeVector<int> OfTriangle;
+  std::vector<Sums> Begun; ///< By component, all that comes before its triangles.
 
 private:
-  /** A component of a piece. */
-  struct Local
-  {
-    int FirstTriangle = 0; ///< Its number in the whole,
-    Point Reference;       ///< and its first corner.
-    int Vertices = 0;      ///< That are counted.
-  };
-  /** A point that other pieces have, too. */
-  struct SharedPoint
-  {
-    int Id;
-    int Component;
-  };
   void FindRoots(const IndexedSurface& surface, Executor& executor);
-  void Number(
-    const IndexedSurface& surface, Executor& executor, const PieceOfSurface& piece);
-  void Join(const PieceOfSurface& piece);
+  void Number(const IndexedSurface& surface, Executor& executor);
 
   LargeVector<int> Root; ///< Of a point's component, the smallest point in it.
-  std::vector<Local> Locals;
-  std::vector<SharedPoint> Shared;
 };
 
-Components::Components(
-  const IndexedSurface& surface, Executor& executor, const PieceOfSurface& piece)
+Components::Components(const IndexedSurface& surface, Executor& executor)
 {
   this->FindRoots(surface, executor);
-  this->Number(surface, executor, piece);
+  this->Number(surface, executor);
   LargeVector<int>().swap(this->Root);
-  this->Join(piece);
 }
 
 void Components::FindRoots(const IndexedSurface& surface, Executor& executor)
@@ -200,8 +173,7 @@ void Components::FindRoots(const IndexedSurface& surface, Executor& executor)
     });
 }
 
-void Components::Number(
-  const IndexedSurface& surface, Executor& executor, const PieceOfSurface& piece)
+void Components::Number(const IndexedSurface& surface, Executor& executor)
 {
   // By the place of a root its first triangle, then its number, counted from 1; 0 where it has none.
   LargeVector<std::atomic<int>> number(this->Root.size());
@@ -229,8 +201,9 @@ void Components::Number(
   for (const int first : firsts)
   {
     const int corner = surface.Triangles[first][0];
-    this->Locals.push_back({ piece.FirstTriangle + first, surface.Points[corner] });
-    number[this->Root[corner]] = static_cast<int>(this->Locals.size());
+    this->Begun.emplace_back();
+    this->Begun.back().Reference = surface.Points[corner];
+    number[this->Root[corner]] = static_cast<int>(this->Begun.size());
   }
   MakeZeroed(this->OfTriangle, surface.Triangles.size());
   ForSpans(executor, this->OfTriangle.size(), SpanSize,
@@ -245,64 +218,15 @@ void Components::Number(
   for (std::size_t p = 0; p < this->Root.size(); ++p)
   {
     const int own = number[this->Root[p]].load(std::memory_order_relaxed) - 1;
-    if (own >= 0 && piece.Counts(p))
+    if (own >= 0)
     {
-      ++this->Locals[own].Vertices;
-    }
-    if (own >= 0 && !piece.Roles.empty() && (piece.Roles[p] & PieceOfSurface::IsShared))
-    {
-      this->Shared.push_back({ piece.Ids[p], own });
+      ++this->Begun[own].Vertices;
     }
   }
 }
 
-void Components::Join(const PieceOfSurface& piece)
-{
-  const std::vector<std::vector<Local>> locals = GatherEachOnAll(*piece.Ranks, this->Locals);
-  const std::vector<std::vector<SharedPoint>> shared =
-    GatherEachOnAll(*piece.Ranks, this->Shared);
-  std::vector<SetPiece> sets; // Of all ranks, one after the other.
-  std::vector<Point> references;
-  std::vector<std::pair<int, int>> points; // Their ids, and the sets that they are in.
-  std::size_t own = 0;
-  for (std::size_t rank = 0; rank < locals.size(); ++rank)
-  {
-    own = rank == static_cast<std::size_t>(piece.Ranks->Rank()) ? sets.size() : own;
-    for (const SharedPoint& point : shared[rank])
-    {
-      points.emplace_back(point.Id, static_cast<int>(sets.size()) + point.Component);
-    }
-    for (const Local& local : locals[rank])
-    {
-      sets.push_back({ local.FirstTriangle, local.Vertices });
-      references.push_back(local.Reference);
-    }
-  }
-  std::sort(points.begin(), points.end());
-  std::vector<std::pair<int, int>> joins;
-  for (std::size_t i = 1; i < points.size(); ++i)
-  {
-    if (points[i].first == points[i - 1].first)
-    {
-      joins.emplace_back(points[i - 1].second, points[i].second);
-    }
-  }
-  const JoinedSets joined = JoinLabels(sets, joins);
-  this->Begun.resize(joined.Labels.size());
-  for (std::size_t set = 0; set < sets.size(); ++set)
-  {
-    const int label = joined.LabelOf[set];
-    if (sets[set].First == joined.Labels[label].First)
-    {
-      this->Begun[label].Reference = references[set];
-      this->Begun[label].Vertices = static_cast<int>(joined.Labels[label].Size);
-    }
-  }
-  const auto begin = joined.LabelOf.begin() + static_cast<std::ptrdiff_t>(own);
-  this->Label.assign(begin, begin + static_cast<std::ptrdiff_t>(this->Locals.size()));
-}
-
-void AddUp(const IndexedSurface& surface, const Components& components, Executor& executor,
+/** @param of the component of each triangle */
+void AddUp(const IndexedSurface& surface, const LargeVector<int>& of, Executor& executor,
   std::vector<Sums>& sums)
 {
   LargeVector<Terms> terms;
@@ -316,24 +240,23 @@ void AddUp(const IndexedSurface& surface, const Components& components, Executor
         for (std::size_t i = begin; i < end; ++i)
         {
           const Triangle& t = surface.Triangles[first + i];
-          terms[i] = TermsOf(sums[components.Of(first + i)].Reference,
+          terms[i] = TermsOf(sums[of[first + i]].Reference,
             surface.Points[t[0]], surface.Points[t[1]], surface.Points[t[2]]);
         }
       });
     for (std::size_t i = 0; i < count; ++i)
     {
-      sums[components.Of(first + i)].Add(terms[i]);
+      sums[of[first + i]].Add(terms[i]);
     }
   }
 }
 }
 
-SurfaceFeatures ComputeFeatures(
-  const IndexedSurface& surface, Executor& executor, const PieceOfSurface& piece)
+SurfaceFeatures ComputeFeatures(const IndexedSurface& surface, Executor& executor)
 {
-  Components components(surface, executor, piece);
-  const std::vector<Sums> sums = InOrderOfRanks(*piece.Ranks, std::move(components.Begun),
-    [&](std::vector<Sums>& begun) { AddUp(surface, components, executor, begun); });
+  Components components(surface, executor);
+  std::vector<Sums> sums = std::move(components.Begun);
+  AddUp(surface, components.OfTriangle, executor, sums);
   std::vector<int> order(sums.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(
@@ -356,7 +279,7 @@ SurfaceFeatures ComputeFeatures(
     {
       for (std::size_t i = begin; i < end; ++i)
       {
-        result.ComponentOfTriangle[i] = rank[components.Label[result.ComponentOfTriangle[i]]];
+        result.ComponentOfTriangle[i] = rank[result.ComponentOfTriangle[i]];
       }
     });
   return result;

@@ -5,7 +5,6 @@
 
 #include "Core/Common/Executor.h"
 #include "Core/Common/IndexedSurface.h"
-#include "Core/Common/PieceOfSurface.h"
 
 #include <array>
 #include <vector>
@@ -27,7 +26,7 @@ struct ComponentFeatures
 struct SurfaceFeatures
 {
   std::vector<ComponentFeatures> Components; ///< 0 = largest area.
-  LargeVector<int> ComponentOfTriangle; ///< Of a piece, of its own.
+  LargeVector<int> ComponentOfTriangle;
   double Area = 0.;
   double Volume = 0.;
   int EulerCharacteristic = 0;
@@ -40,12 +39,11 @@ struct SurfaceFeatures
  * Inertia is the tensor of the enclosed solid of density 1 about its centroid: the diagonal holds
  * the moments of inertia (xx = integral of y^2 + z^2), the rest the products with the sign of the
  * tensor (xy = - integral of x y). For a cavity it carries the sign of the volume.
- * Sums run over triangles in order, so results depend neither on threads, which find out what is
- * added up, nor on ranks, which add up one after the other.
- * @param piece of which surface it is; all ranks get the same features of the whole
+ * Sums run over triangles in order, so results do not depend on threads, which find out what is
+ * added up.
  */
-SurfaceFeatures ComputeFeatures(const IndexedSurface& surface,
-  Executor& executor = OnThisThread(), const PieceOfSurface& piece = PieceOfSurface());
+SurfaceFeatures ComputeFeatures(
+  const IndexedSurface& surface, Executor& executor = OnThisThread());
 }
 
 #endif

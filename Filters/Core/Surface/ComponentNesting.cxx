@@ -29,8 +29,7 @@ using PartialVolume = std::pair<int, ExactSum>;
 
 /** Of the faces whose smallest vertex is in a range, by label. */
 std::vector<PartialVolume> VolumesOf(const SurfaceMesh& mesh, const LargeVector<int>& labels,
-  const MarkedVertices& piece, const std::vector<Vector>& origins, std::size_t begin,
-  std::size_t end)
+  const std::vector<Vector>& origins, std::size_t begin, std::size_t end)
 {
   std::vector<PartialVolume> volumes;
   std::unordered_map<int, std::size_t> places;
@@ -38,10 +37,6 @@ std::vector<PartialVolume> VolumesOf(const SurfaceMesh& mesh, const LargeVector<
   mesh.VisitFaces(begin, end,
     [&](int a, int b, int c)
     {
-      if (!piece.Has(a))
-      {
-        return;
-      }
       const int label = labels[a];
       if (volumes.empty() || volumes[place].first != label)
       {
@@ -56,6 +51,25 @@ std::vector<PartialVolume> VolumesOf(const SurfaceMesh& mesh, const LargeVector<
         SignedVolume::OfFace(mesh, VectorD(origins[label]), a, b, c));
     });
   return volumes;
+}
+
+/** Leaves those that there are an odd number of, sorted, each once. */
+void KeepOdd(std::vector<RayCrossing>& crossings)
+{
+  std::sort(crossings.begin(), crossings.end());
+  std::size_t count = 0; // Of those that no equal one has met yet.
+  for (const RayCrossing& crossing : crossings)
+  {
+    if (count > 0 && !(crossings[count - 1] < crossing))
+    {
+      --count;
+    }
+    else
+    {
+      crossings[count++] = crossing;
+    }
+  }
+  crossings.resize(count);
 }
 
 /** Finds the crossings with the faces that have v as their smallest vertex. */
@@ -95,15 +109,15 @@ void AddCrossings(const SurfaceMesh& mesh, int v, int component,
 }
 
 std::vector<ExactSum> VolumesOfFaces(const SurfaceMesh& mesh, const LargeVector<int>& labels,
-  const MarkedVertices& piece, const std::vector<Vector>& origins, Executor& executor)
+  const std::vector<Vector>& origins, Executor& executor)
 {
   const std::size_t n = mesh.Rings.size();
-  std::vector<std::vector<PartialVolume>> pieces((n + CrossedSpan - 1) / CrossedSpan);
+  std::vector<std::vector<PartialVolume>> spans((n + CrossedSpan - 1) / CrossedSpan);
   ForSpans(executor, n, CrossedSpan,
     [&](std::size_t b, std::size_t begin, std::size_t end)
-    { pieces[b] = VolumesOf(mesh, labels, piece, origins, begin, end); });
+    { spans[b] = VolumesOf(mesh, labels, origins, begin, end); });
   std::vector<ExactSum> volumes(origins.size());
-  for (const std::vector<PartialVolume>& ofSpan : pieces)
+  for (const std::vector<PartialVolume>& ofSpan : spans)
   {
     for (const PartialVolume& volume : ofSpan)
     {
@@ -129,7 +143,7 @@ std::vector<ComponentRay> CastRays(const std::vector<int>& roots,
 }
 
 std::vector<RayCrossing> FindCrossings(const SurfaceMesh& mesh, const LargeVector<int>& labels,
-  const MarkedVertices& piece, const std::vector<ComponentRay>& rays, Executor& executor)
+  const std::vector<ComponentRay>& rays, Executor& executor)
 {
   const std::size_t n = mesh.Rings.size();
   std::vector<std::vector<RayCrossing>> spans((n + CrossedSpan - 1) / CrossedSpan);
@@ -138,34 +152,13 @@ std::vector<RayCrossing> FindCrossings(const SurfaceMesh& mesh, const LargeVecto
     {
       for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
       {
-        if (piece.Has(v))
-        {
-          AddCrossings(mesh, v, labels[v], rays, spans[b]);
-        }
+        AddCrossings(mesh, v, labels[v], rays, spans[b]);
       }
       KeepOdd(spans[b]);
     });
   std::vector<RayCrossing> crossings = Joined(executor, spans);
   KeepOdd(crossings);
   return crossings;
-}
-
-void KeepOdd(std::vector<RayCrossing>& crossings)
-{
-  std::sort(crossings.begin(), crossings.end());
-  std::size_t count = 0; // Of those that no equal one has met yet.
-  for (const RayCrossing& crossing : crossings)
-  {
-    if (count > 0 && !(crossings[count - 1] < crossing))
-    {
-      --count;
-    }
-    else
-    {
-      crossings[count++] = crossing;
-    }
-  }
-  crossings.resize(count);
 }
 
 std::vector<int> JudgeFromOutsideIn(

@@ -22,7 +22,7 @@ constexpr int MarkOfRoot(int label)
 }
 
 /** Gives the vertices of a range, but not the roots, their root's label, and counts them. */
-void LabelOthers(const MarkedVertices& piece, LargeVector<int>& labels, int begin, int end,
+void LabelOthers(const SurfaceMesh& mesh, LargeVector<int>& labels, int begin, int end,
   std::vector<std::atomic<int>>& sizes)
 {
   // Mostly neighbours follow each other: they are added up before the others are told.
@@ -38,7 +38,7 @@ void LabelOthers(const MarkedVertices& piece, LargeVector<int>& labels, int begi
   for (int v = begin; v < end; ++v)
   {
     const int root = labels[v];
-    if (root < 0 || !piece.Has(v))
+    if (root < 0 || !mesh.IsAlive(v))
     {
       continue;
     }
@@ -60,16 +60,15 @@ enum class Side
 {
   Later, ///< It sees to the edge between them itself.
   SameSpan,
-  SpanBefore,
-  Nowhere ///< It takes no part.
+  SpanBefore
 };
 }
 
-void ConnectedVertices::Label(const SurfaceMesh& mesh, const MarkedVertices& piece,
-  LargeVector<int>& labels, Executor& executor)
+void ConnectedVertices::Label(
+  const SurfaceMesh& mesh, LargeVector<int>& labels, Executor& executor)
 {
   const std::size_t n = mesh.Rings.size();
-  this->JoinVertices(mesh, piece, executor);
+  this->JoinVertices(mesh, executor);
   // Roots first: they are the smallest of their set, and numbered in their order.
   const std::vector<std::size_t> first = FirstOfSpans(executor, n, JoinedSpan,
     [&](std::size_t begin, std::size_t end)
@@ -77,7 +76,7 @@ void ConnectedVertices::Label(const SurfaceMesh& mesh, const MarkedVertices& pie
       std::size_t roots = 0;
       for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
       {
-        if (piece.Has(v))
+        if (mesh.IsAlive(v))
         {
           labels[v] = this->Joined.FindRoot(v);
           roots += labels[v] == v;
@@ -92,27 +91,27 @@ void ConnectedVertices::Label(const SurfaceMesh& mesh, const MarkedVertices& pie
       std::size_t label = first[b];
       for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
       {
-        if (labels[v] == v && piece.Has(v))
+        if (labels[v] == v && mesh.IsAlive(v))
         {
           labels[v] = MarkOfRoot(static_cast<int>(label));
           this->SmallestOnes[label++] = v;
         }
       }
     });
-  this->CountAndLabel(piece, labels, n, executor);
+  this->CountAndLabel(mesh, labels, executor);
 }
 
 void ConnectedVertices::CountAndLabel(
-  const MarkedVertices& piece, LargeVector<int>& labels, std::size_t n, Executor& executor)
+  const SurfaceMesh& mesh, LargeVector<int>& labels, Executor& executor)
 {
   std::vector<std::atomic<int>> sizes(this->SmallestOnes.size());
   for (std::atomic<int>& size : sizes)
   {
     size.store(1, std::memory_order_relaxed); // The root.
   }
-  ForSpans(executor, n, JoinedSpan,
+  ForSpans(executor, mesh.Rings.size(), JoinedSpan,
     [&](std::size_t, std::size_t begin, std::size_t end)
-    { LabelOthers(piece, labels, static_cast<int>(begin), static_cast<int>(end), sizes); });
+    { LabelOthers(mesh, labels, static_cast<int>(begin), static_cast<int>(end), sizes); });
   for (std::size_t label = 0; label < this->SmallestOnes.size(); ++label)
   {
     labels[this->SmallestOnes[label]] = static_cast<int>(label);
@@ -121,7 +120,7 @@ void ConnectedVertices::CountAndLabel(
 }
 
 void ConnectedVertices::JoinVertices(
-  const SurfaceMesh& mesh, const MarkedVertices& piece, Executor& executor)
+  const SurfaceMesh& mesh, Executor& executor)
 {
   // First within spans, side by side, then across their borders.
   const std::size_t n = mesh.Rings.size();
@@ -133,7 +132,7 @@ void ConnectedVertices::JoinVertices(
       this->Borders[b].clear();
       for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
       {
-        if (!piece.Has(v))
+        if (!mesh.IsAlive(v))
         {
           continue;
         }
@@ -146,7 +145,6 @@ void ConnectedVertices::JoinVertices(
           // Neighbours next to each other are neighbours themselves: on one side one is enough.
           const int w = ring.Item[i];
           const Side side = w >= v         ? Side::Later
-            : !piece.Has(w)                ? Side::Nowhere
             : w >= static_cast<int>(begin) ? Side::SameSpan
                                            : Side::SpanBefore;
           if (side == Side::SpanBefore && side != before)

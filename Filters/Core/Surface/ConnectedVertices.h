@@ -8,38 +8,20 @@
 #include "Core/Common/ScratchMemory.h"
 #include "Core/Mesh/SurfaceMesh.h"
 
-#include <cstddef>
-#include <cstdint>
 #include <utility>
 #include <vector>
 
 namespace volumic
 {
 /**
- * The vertices that have a mark. Nothing is written for others, so that the zeroed memory of places
- * that no vertex has (MakeZeroed) stays untouched and takes no room.
- */
-struct MarkedVertices
-{
-  const LargeVector<std::uint8_t>& Marks; ///< By vertex; 0 where there is none.
-  std::uint8_t Mark;
-  bool Has(int v) const { return this->Marks[v] == this->Mark; }
-};
-
-/**
- * The sets of vertices that edges join: the components of a surface, or, of a piece of it, what of
- * them the piece has. The same for any executor; O(vertices).
+ * The sets of vertices that edges join: the components of a surface. The same for any executor;
+ * O(vertices).
  */
 class ConnectedVertices
 {
 public:
-  /**
-   * Labels, from 0, in the order of their smallest vertices, the sets of some alive vertices and the
-   * edges between them.
-   * @param labels by vertex; those of others stay
-   */
-  void Label(const SurfaceMesh& mesh, const MarkedVertices& piece, LargeVector<int>& labels,
-    Executor& executor);
+  /** Labels alive vertices, by set, from 0, in the order of their smallest ones. */
+  void Label(const SurfaceMesh& mesh, LargeVector<int>& labels, Executor& executor);
 
   /** By label: its smallest vertex. */
   const std::vector<int>& Roots() const { return this->SmallestOnes; }
@@ -47,9 +29,8 @@ public:
   const std::vector<int>& Sizes() const { return this->Numbers; }
 
 private:
-  void JoinVertices(const SurfaceMesh& mesh, const MarkedVertices& piece, Executor& executor);
-  void CountAndLabel(
-    const MarkedVertices& piece, LargeVector<int>& labels, std::size_t n, Executor& executor);
+  void JoinVertices(const SurfaceMesh& mesh, Executor& executor);
+  void CountAndLabel(const SurfaceMesh& mesh, LargeVector<int>& labels, Executor& executor);
 
   DisjointSets Joined;
   std::vector<std::vector<std::pair<int, int>>> Borders; ///< Edges from each span to those before.

@@ -191,11 +191,9 @@ namespace
 class FacesOfMesh
 {
 public:
-  /** @param longest of all vertices: the longest edge about them, or more */
-  FacesOfMesh(const SurfaceState& state, const std::function<bool(int v)>& isOwn,
-    const LargeVector<float>& longest)
+  /** @param longest of all vertices: the longest edge about them */
+  FacesOfMesh(const SurfaceState& state, const LargeVector<float>& longest)
     : State(state)
-    , IsOwn(isOwn)
     , Longest(longest)
   {
   }
@@ -231,7 +229,7 @@ public:
       [&](int w)
       {
         if (!intersect && w != v && visited.Contains(this->State.Mesh.Position[w]) &&
-          (this->IsBefore(w, v) || !this->IsOwn(w)))
+          this->IsBefore(w, v))
         {
           this->VisitFaces(w,
             [&](int a, int b) { intersect = intersect || this->IntersectFaceOf(w, a, b, all); });
@@ -294,44 +292,39 @@ private:
   }
 
   const SurfaceState& State;
-  const std::function<bool(int v)>& IsOwn;
   const LargeVector<float>& Longest;
   std::vector<MeshTriangle> Faces;
   std::vector<NewFace> News;
 };
 }
 
-std::size_t CountIntersecting(const SurfaceState& state, const std::function<bool(int v)>& isOwn,
-  float longestEdge, Executor& executor)
+std::size_t CountIntersecting(const SurfaceState& state, Executor& executor)
 {
   const SurfaceMesh& mesh = state.Mesh;
-  LargeVector<float> longest(mesh.Rings.size(), longestEdge);
-  if (longestEdge == 0.f)
-  {
-    executor.For(longest.size(), TestedSpan,
-      [&](std::size_t begin, std::size_t end)
+  LargeVector<float> longest(mesh.Rings.size(), 0.f);
+  executor.For(longest.size(), TestedSpan,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
       {
-        for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
+        const Ring& ring = mesh.Rings[v];
+        float squared = 0.f;
+        for (int i = 0; i < ring.Count; ++i)
         {
-          const Ring& ring = mesh.Rings[v];
-          float squared = 0.f;
-          for (int i = 0; mesh.IsAlive(v) && i < ring.Count; ++i)
-          {
-            squared = std::max(
-              squared, SquaredDistance(mesh.Position[v], mesh.Position[ring.Item[i]]));
-          }
-          longest[v] = std::sqrt(squared) * AboveRounding;
+          squared = std::max(
+            squared, SquaredDistance(mesh.Position[v], mesh.Position[ring.Item[i]]));
         }
-      });
-  }
+        longest[v] = std::sqrt(squared) * AboveRounding;
+      }
+    });
   return CountInSpans(executor, state.Mesh.Rings.size(), TestedSpan,
     [&](std::size_t begin, std::size_t end)
     {
-      FacesOfMesh faces(state, isOwn, longest);
+      FacesOfMesh faces(state, longest);
       std::size_t count = 0;
       for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
       {
-        count += state.Mesh.IsAlive(v) && isOwn(v) && faces.Intersect(v);
+        count += state.Mesh.IsAlive(v) && faces.Intersect(v);
       }
       return count;
     });

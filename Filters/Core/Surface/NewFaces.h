@@ -9,7 +9,6 @@
 
 #include <array>
 #include <cstddef>
-#include <functional>
 #include <vector>
 
 namespace volumic
@@ -44,11 +43,8 @@ bool NewFacesIntersect(
  * The same for the faces of the mesh as it is, whatever their normals are. @return the number of
  * vertices that are the first, by index, of a face that intersects another one: 0 if and only if
  * nothing intersects.
- * @param isOwn of the vertices those are looked at of which it says so
- * @param longestEdge of the mesh, at least; 0, where all of it is here: as it is about each vertex
  */
-std::size_t CountIntersecting(const SurfaceState& state, const std::function<bool(int v)>& isOwn,
-  float longestEdge, Executor& executor);
+std::size_t CountIntersecting(const SurfaceState& state, Executor& executor);
 }
 
 #endif

@@ -26,8 +26,8 @@ double BoundOf(const SizingField& sizing, int v)
 }
 }
 
-RemainingContacts FindRemainingContacts(const SurfaceState& state, const Field& field,
-  Executor& executor, const std::function<bool(int v)>& isOwn)
+RemainingContacts FindRemainingContacts(
+  const SurfaceState& state, const Field& field, Executor& executor)
 {
   const SurfaceMesh& mesh = state.Mesh;
   constexpr std::size_t size = 2048;
@@ -41,7 +41,7 @@ RemainingContacts FindRemainingContacts(const SurfaceState& state, const Field& 
       for (std::size_t i = begin; i < end; ++i)
       {
         const int v = static_cast<int>(i);
-        if (!mesh.IsAlive(v) || (isOwn && !isOwn(v)))
+        if (!mesh.IsAlive(v))
         {
           continue;
         }

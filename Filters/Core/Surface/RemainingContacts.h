@@ -9,7 +9,6 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 namespace volumic
@@ -36,12 +35,9 @@ struct RemainingContacts
 
 /**
  * The grid of the state must be up to date. The same for any executor. Cost: O(vertices).
- *
- * @param isOwn where ranks have pieces of the surface (RankPiece): of the pairs those whose smaller
- *              vertex is own are told, and which of the own vertices are held. Empty: all
  */
-RemainingContacts FindRemainingContacts(const SurfaceState& state, const Field& field,
-  Executor& executor, const std::function<bool(int v)>& isOwn = {});
+RemainingContacts FindRemainingContacts(
+  const SurfaceState& state, const Field& field, Executor& executor);
 }
 
 #endif

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <numeric>
 #include <utility>
 
 namespace volumic
@@ -201,12 +202,6 @@ void SurfaceBlocks::FindOrder()
   // Slab by slab, which touches memory less often than a colour after the other.
   this->Visits = std::make_unique<VisitSchedule>(
     std::move(order), [this](int block) { return this->NeighboursOf(block); });
-  for (int block = 0; block < this->NumberOfBlocks(); ++block)
-  {
-    // Along z first, as in the order of visits.
-    const std::array<int, 3> place = this->PlaceOf(block);
-    this->OfColour[(place[2] % 2 * 2 + place[1] % 2) * 2 + place[0] % 2].push_back(block);
-  }
 }
 
 int SurfaceBlocks::MissingPlaces(int block) const
@@ -227,13 +222,13 @@ int SurfaceBlocks::MissingPlaces(int block) const
   return has < wanted / 2 ? wanted : 0;
 }
 
-void SurfaceBlocks::AddPlaces(const std::vector<int>& counts, Executor& executor)
+void SurfaceBlocks::AddPlaces(Executor& executor)
 {
-  int total = 0;
-  for (const int count : counts)
-  {
-    total += count;
-  }
+  std::vector<int> counts(this->All.size());
+  ForSpans(executor, counts.size(), 1,
+    [&](std::size_t b, std::size_t, std::size_t)
+    { counts[b] = this->MissingPlaces(static_cast<int>(b)); });
+  const int total = std::accumulate(counts.begin(), counts.end(), 0);
   if (total == 0)
   {
     return;
@@ -251,6 +246,15 @@ void SurfaceBlocks::AddPlaces(const std::vector<int>& counts, Executor& executor
       own.Unused = { next, next + counts[block] };
       next += counts[block];
     }
+  }
+}
+
+void SurfaceBlocks::Append(const IndexedSurface& surface, Executor& executor)
+{
+  for (const int v : this->State.Append(surface, executor))
+  {
+    this->State.Block[v] = this->BlockAt(this->State.Mesh.Position[v]);
+    this->All[this->State.Block[v]].Vertices.push_back(v);
   }
 }
 
@@ -294,23 +298,19 @@ BlockVisit SurfaceBlocks::Open(int block)
   return visit;
 }
 
-std::vector<double> SurfaceBlocks::Sums(const std::function<bool(int block)>& isWanted,
+double SurfaceBlocks::SumUp(
   const std::function<double(int v)>& ofVertex, Executor& executor) const
 {
-  std::vector<double> sums(this->All.size(), 0.);
-  ForSpans(executor, this->All.size(), 1,
-    [&](std::size_t b, std::size_t, std::size_t)
+  return SumOfSpans(executor, this->All.size(), 1,
+    [&](std::size_t block, std::size_t)
     {
-      const int block = static_cast<int>(b);
-      if (isWanted(block))
+      double sum = 0.;
+      for (const int v : this->VerticesOf(static_cast<int>(block)))
       {
-        for (const int v : this->VerticesOf(block))
-        {
-          sums[b] += ofVertex(v);
-        }
+        sum += ofVertex(v);
       }
+      return sum;
     });
-  return sums;
 }
 
 void SurfaceBlocks::AddNew(BlockVisit& visit, const std::vector<int>& vertices) const
@@ -356,7 +356,6 @@ void SurfaceBlocks::Close(BlockVisit&& visit)
   own.Unused = visit.Share.Unused;
   const int places = static_cast<int>(own.Places.Free.size()) + own.Unused.Count();
   own.Taken = std::max(0, visit.PlacesBefore - places);
-  this->NoteWork(visit);
   const std::lock_guard<std::mutex> lock(this->Closing);
   own.Vertices.insert(own.Vertices.end(), stay.begin(), stay.end());
   for (const int v : gone)
@@ -365,37 +364,11 @@ void SurfaceBlocks::Close(BlockVisit&& visit)
   }
   for (const int v : visit.Share.Others)
   {
-    this->GiveBack(s.Block[v], v);
+    this->All[s.Block[v]].Places.Free.push_back(v);
   }
   s.Mesh.CountOthers(
     visit.PlacesBefore - places - static_cast<int>(visit.Share.Others.size()));
   s.EulerCharacteristic += visit.Share.EulerCharacteristic;
-}
-
-void SurfaceBlocks::ForgetVertices()
-{
-  for (OfBlock& block : this->All)
-  {
-    block.Vertices = std::vector<int>();
-    block.Far = 0;
-  }
-}
-
-void SurfaceBlocks::Take(const std::vector<int>& vertices)
-{
-  for (const int v : vertices)
-  {
-    this->State.Block[v] = this->BlockAt(this->State.Mesh.Position[v]);
-  }
-  this->AddOthers(vertices);
-}
-
-void SurfaceBlocks::AddOthers(const std::vector<int>& vertices)
-{
-  for (const int v : vertices)
-  {
-    this->All[this->State.Block[v]].Vertices.push_back(v);
-  }
 }
 
 std::vector<int> SurfaceBlocks::VerticesOf(int block) const

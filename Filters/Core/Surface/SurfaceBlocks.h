@@ -31,8 +31,6 @@ struct BlockVisit
   EditShare Share;
   /** Threads that may share in loops that write to their own vertex only, and read nothing such. */
   Executor* Idle = &OnThisThread();
-
-  std::int64_t Looks = 0; ///< At working vertices, in all iterations: what takes the time.
   std::ptrdiff_t OldOnes = 0; ///< So many of the vertices were there when the visit was opened.
   int PlacesBefore = 0;       ///< The share had so many places then.
 };
@@ -41,7 +39,7 @@ struct BlockVisit
  * The vertices of a surface by cubes of space, the blocks, so that it can be worked on block by
  * block. The vertices of a block follow each other in memory (SurfaceMesh::Reorder along a curve
  * through the same cubes), and each block has places of its own for new ones: what is far away is
- * not touched, and may be out of memory (ScratchMemory) or on another rank (RankBlocks).
+ * not touched, and may be out of memory (ScratchMemory).
  *
  * What a visit does depends on the vertices in the block and about it only, as they are then, and
  * not on what is done elsewhere meanwhile. So blocks that do not touch may be visited in any order,
@@ -82,7 +80,6 @@ public:
   static constexpr float WrittenInDelta = 7.5f;
   static constexpr float HaloInDelta = 14.2f;
   static constexpr float SideInDelta = 24.f;
-  static constexpr int Colours = 8;
 
   SurfaceBlocks(SurfaceState& state, const Frame& frame, Executor& executor);
   ~SurfaceBlocks();
@@ -91,8 +88,6 @@ public:
 
   /** The order of their visits, and what waits for what; some have no vertices. */
   const VisitSchedule& Schedule() const { return *this->Visits; }
-  /** The same blocks by colour, those of a colour in order of their number. */
-  const std::array<std::vector<int>, Colours>& ByColour() const { return this->OfColour; }
   int NumberOfBlocks() const { return static_cast<int>(this->All.size()); }
   /** Those of the surface; what open visits add or remove counts when these end. On any thread. */
   int NumberOfVertices() const
@@ -119,18 +114,13 @@ public:
 
   /** Whether a vertex of the block may move. */
   bool HasActive(int block) const;
+  /** Gives blocks the places for new vertices that they want. Between sweeps, while none is open. */
+  void AddPlaces(Executor& executor);
   /**
-   * How long the next visit of a block will take, as an estimate, in looks at a vertex; 0: there
-   * will be none. As long as the last one, or what its vertices make likely.
+   * Adds a closed surface, whose vertices follow all others, and gives them to their blocks. Between
+   * sweeps, while none is open.
    */
-  std::int64_t WorkOf(int block, bool onlyActive) const;
-  /** What is to come has nothing to do with what the last visits did. */
-  void ForgetWork();
-
-  /** How many places a block would like to have for new vertices, beyond those that it has. */
-  int MissingPlaces(int block) const;
-  /** Gives each block so many more. Between sweeps, while no visit is open. */
-  void AddPlaces(const std::vector<int>& counts, Executor& executor);
+  void Append(const IndexedSurface& surface, Executor& executor);
 
   int BlockAt(const Vector& position) const;
   /** The box that a block fills; at the border of the frame it goes on without end. */
@@ -139,48 +129,12 @@ public:
   std::array<int, 3> PlaceOf(int block) const;
   /** Those that touch it, in order of their number. */
   std::vector<int> NeighboursOf(int block) const;
-  /** Calls visit(block) for those within a distance, less than a side, of a position. */
-  template <typename Visitor>
-  void VisitNear(const Vector& position, float distance, Visitor&& visit) const
-  {
-    const std::array<int, 3> low = this->PlaceOf(position - Vector(distance, distance, distance));
-    const std::array<int, 3> high = this->PlaceOf(position + Vector(distance, distance, distance));
-    for (int z = low[2]; z <= high[2]; ++z)
-    {
-      for (int y = low[1]; y <= high[1]; ++y)
-      {
-        for (int x = low[0]; x <= high[0]; ++x)
-        {
-          visit(this->BlockOf({ x, y, z }));
-        }
-      }
-    }
-  }
-  /** The vertices of a block; the list may name some twice, and some that are no longer its own. */
-  const std::vector<int>& ListOf(int block) const { return this->All[block].Vertices; }
-  /** Empties all blocks of their vertices; they keep their places. */
-  void ForgetVertices();
-  /** Gives vertices that are new, but not made by a visit, to their blocks. */
-  void Take(const std::vector<int>& vertices);
-  /** These are far from where they will rest: the first visits of their blocks take longer. */
-  void ExpectMoves(const std::vector<int>& vertices);
-  /** Gives a block its place back of a vertex that the visit of another block has removed. */
-  void GiveBack(int block, int place) { this->All[block].Places.Free.push_back(place); }
-  /** Puts vertices that have come from another rank, and know their block, on its list. */
-  void AddOthers(const std::vector<int>& vertices);
   /** The vertices that are the block's now, each once, in order. */
   std::vector<int> VerticesOf(int block) const;
-  /** What is known of a block but its vertices, for the rank that visits it from now on. */
-  void Write(MessageWriter& message, int block) const;
-  void Read(MessageReader& message, int block);
   const Frame& GetFrame() const { return this->TheFrame; }
 
-  /**
-   * Adds up ofVertex(v) of the vertices that a block has now, in order of index. @return the sum of
-   * each block that is wanted, 0 for the others
-   */
-  std::vector<double> Sums(const std::function<bool(int block)>& isWanted,
-    const std::function<double(int v)>& ofVertex, Executor& executor) const;
+  /** The sum of ofVertex(v) over the vertices of a block, in order of index, then over the blocks. */
+  double SumUp(const std::function<double(int v)>& ofVertex, Executor& executor) const;
 
 private:
   struct OfBlock
@@ -189,14 +143,13 @@ private:
     VertexPlaces Places;       ///< For new vertices.
     UnusedPlaces Unused;
     int Taken = 0; ///< Its last visit has taken so many of the places.
-    int Far = 0;   ///< So many of the vertices have a way to go, and have not begun.
-    std::int64_t Work = -1; ///< How long its last visit took, in looks at a vertex; -1: not known.
   };
   std::array<int, 3> PlaceOf(const Vector& position) const;
   int BlockOf(const std::array<int, 3>& place) const;
   /** Leaves of a list those that are the block's, each once, in order. */
   void Clean(int block, std::vector<int>& vertices) const;
-  void NoteWork(const BlockVisit& visit);
+  /** How many places a block would like to have for new vertices, beyond those that it has. */
+  int MissingPlaces(int block) const;
   void Collect(Executor& executor);
   void FindOrder();
 
@@ -205,7 +158,6 @@ private:
   std::vector<OfBlock> All;
   VertexPlaces Others; ///< Places that were free before there were blocks: no block takes them.
   std::unique_ptr<VisitSchedule> Visits;
-  std::array<std::vector<int>, Colours> OfColour;
   mutable std::mutex Closing; ///< Held while a visit changes what all visits share.
 };
 }

@@ -15,29 +15,6 @@ namespace
 /** Vertices that one thread looks at at a time: 20 microseconds. */
 constexpr std::size_t ShapeGrain = 128;
 constexpr std::size_t AliveGrain = 1 << 14;
-/** So many free places behind a forgotten vertex may be given back with its own. */
-constexpr int FreeRun = 256;
-
-/** @param take called for each vertex, with its position, before the mesh has it */
-template <typename Take>
-std::vector<int> ReadVertices(MessageReader& message, SurfaceMesh& mesh, const Take& take)
-{
-  const std::vector<int> vertices = message.TakeVector<int>();
-  const std::vector<Vector> positions = message.TakeVector<Vector>();
-  const std::vector<int> rings = message.TakeVector<int>();
-  std::size_t next = 0;
-  for (std::size_t i = 0; i < vertices.size(); ++i)
-  {
-    const int v = vertices[i];
-    take(v, positions[i]);
-    Ring& ring = mesh.Rings[v];
-    ring.Count = rings[next++];
-    std::copy_n(rings.begin() + static_cast<std::ptrdiff_t>(next), ring.Count, ring.Item);
-    next += static_cast<std::size_t>(ring.Count);
-    mesh.Position[v] = positions[i];
-  }
-  return vertices;
-}
 }
 
 void SurfaceState::Reset(const Vector& low, const Vector& high)
@@ -101,154 +78,36 @@ UnusedPlaces SurfaceState::AddUnusedPlaces(int n, Executor& executor)
   return places;
 }
 
-void SurfaceState::Remake(std::size_t n, int vertices, const Vector& low, const Vector& high)
+std::vector<int> SurfaceState::Append(const IndexedSurface& surface, Executor& executor)
 {
-  this->Mesh.Remake(n, vertices);
-  this->Properties.Remake(n);
-  this->Grid.Reset(low, high, this->Sizing.SmallestReach());
-  this->Grid.Lengthen(n);
-}
-
-void SurfaceState::WriteMesh(
-  const SurfaceMesh& mesh, MessageWriter& message, const std::vector<int>& vertices)
-{
-  message.AddArray(vertices);
-  std::vector<Vector> positions;
-  std::vector<int> rings; // The number of neighbours, then these, one after the other.
-  positions.reserve(vertices.size());
-  for (const int v : vertices)
-  {
-    positions.push_back(mesh.Position[v]);
-    const Ring& ring = mesh.Rings[v];
-    rings.push_back(ring.Count);
-    rings.insert(rings.end(), ring.Item, ring.Item + ring.Count);
-  }
-  message.AddArray(positions);
-  message.AddArray(rings);
-}
-
-void SurfaceState::ReadMesh(MessageReader& message, SurfaceMesh& mesh)
-{
-  ReadVertices(message, mesh, [](int, const Vector&) {});
-}
-
-void SurfaceState::Write(MessageWriter& message, const std::vector<int>& vertices) const
-{
-  WriteMesh(this->Mesh, message, vertices);
-  this->Properties.Write(message, vertices);
-}
-
-std::vector<std::uint64_t> SurfaceState::HashesOf(const std::vector<int>& vertices) const
-{
-  std::vector<std::uint64_t> hashes;
-  hashes.reserve(vertices.size());
-  for (const int v : vertices)
-  {
-    const Ring& ring = this->Mesh.Rings[v];
-    std::uint64_t hash = AddValue(0, this->Mesh.Position[v]);
-    for (int k = 0; k < ring.Count; ++k)
-    {
-      hash = AddValue(hash, ring.Item[k]);
-    }
-    hashes.push_back(AddValue(hash, ring.Count));
-  }
-  this->Properties.AddTo(hashes, vertices);
-  return hashes;
-}
-
-std::vector<int> SurfaceState::Read(MessageReader& message)
-{
-  std::vector<int> vertices = this->ReadConnectivity(message);
-  this->Properties.Read(message, vertices);
-  return vertices;
-}
-
-std::vector<int> SurfaceState::ReadMesh(MessageReader& message)
-{
-  std::vector<int> vertices = this->ReadConnectivity(message);
-  this->Properties.Initialise(vertices, OnThisThread());
-  for (const int v : vertices)
-  {
-    this->PreviousPosition[v] = this->Anchor[v] = this->Mesh.Position[v];
-  }
-  return vertices;
-}
-
-std::vector<int> SurfaceState::AddPiece(
-  const SurfaceMesh& mesh, int first, const std::vector<int>& vertices, Executor& executor)
-{
-  std::vector<int> added(vertices.size());
+  SurfaceMesh added;
+  added.Append(surface, executor);
+  const int first = this->AddUnusedPlaces(added.Size(), executor).Next;
+  std::vector<int> vertices(added.Rings.size());
   ForSpans(executor, vertices.size(), AliveGrain,
     [&](std::size_t, std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end; ++i)
       {
-        const int v = vertices[i];
-        added[i] = first + v;
-        Ring& ring = this->Mesh.Rings[added[i]];
-        ring = mesh.Rings[v];
+        const int v = vertices[i] = first + static_cast<int>(i);
+        Ring& ring = this->Mesh.Rings[v];
+        ring = added.Rings[i];
         std::for_each(ring.Item, ring.Item + ring.Count, [first](int& w) { w += first; });
-        this->Mesh.Position[added[i]] = mesh.Position[v];
+        this->Mesh.Position[v] = added.Position[i];
       }
     });
   this->Grid.InsertAll(
     this->Mesh.Position, static_cast<std::size_t>(first),
     [this](int v) { return this->Mesh.IsAlive(v); }, executor);
-  this->Properties.Initialise(added, executor);
-  for (const int v : added)
+  this->Properties.Initialise(vertices, executor);
+  for (const int v : vertices)
   {
     this->PreviousPosition[v] = this->Anchor[v] = this->Mesh.Position[v];
   }
-  return added;
-}
-
-std::vector<int> SurfaceState::ReadConnectivity(MessageReader& message)
-{
-  return ReadVertices(message, this->Mesh,
-    [this](int v, const Vector& position)
-    {
-      if (this->Mesh.IsAlive(v))
-      {
-        this->Grid.Move(v, position);
-      }
-      else
-      {
-        this->Grid.Insert(v, position);
-      }
-    });
-}
-
-void SurfaceState::Forget(int v)
-{
-  if (this->Mesh.IsAlive(v))
-  {
-    this->RemoveVertex(v);
-    this->Mesh.Rings[v].Count = 0; // Its place is another rank's.
-  }
-}
-
-void SurfaceState::GiveBack(std::vector<int> forgotten)
-{
-  std::sort(forgotten.begin(), forgotten.end());
-  for (auto next = forgotten.begin(); next != forgotten.end();)
-  {
-    const int first = *next;
-    int end = first; // On to what is alive, or to where nothing was.
-    for (int last = first; end < std::min(this->Mesh.Size(), last + FreeRun) &&
-         !this->Mesh.IsAlive(end);
-         ++end)
-    {
-      if (next != forgotten.end() && *next == end)
-      {
-        last = end;
-        ++next;
-      }
-    }
-    const auto count = static_cast<std::size_t>(end - first);
-    GiveBackPages(this->Mesh.Position.data() + first, count * sizeof(Vector));
-    GiveBackPages(this->Mesh.Rings.data() + first, count * sizeof(Ring));
-    this->Properties.Forget(static_cast<std::size_t>(first), static_cast<std::size_t>(end));
-  }
+  this->UpdateShape(vertices, executor);
+  this->Mesh.CountOthers(added.Size());
+  this->EulerCharacteristic += added.CountEulerCharacteristic(executor);
+  return vertices;
 }
 
 void SurfaceState::AddVertex(int v, int parent)

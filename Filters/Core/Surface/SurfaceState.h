@@ -88,7 +88,6 @@ enum VertexMark : std::uint8_t
   HasMoved = 4,   ///< Dynamics: it has moved visibly.
   IsMoving = 32,  ///< Dynamics: it is about to move.
   IsSeen = 8,     ///< ComponentWatch: it has been looked at.
-  IsKnown = 64,   ///< RankBlocks: other ranks may have it in their halo.
   IsOfLarge = 16  ///< ComponentWatch: it was looked at, and its component is not small.
 };
 
@@ -158,7 +157,7 @@ public:
 
   static constexpr float NotExamined = 1e6f; ///< More than any slack.
 
-  /** Lets go of all that only iterations need: a reset, or Remake(), must come before others. */
+  /** Lets go of all that only iterations need: a reset must come before others. */
   void ForgetMotion();
   /** The same of all but the mesh. */
   void ForgetAllButMesh();
@@ -171,32 +170,10 @@ public:
   /** SurfaceMesh::AddUnusedPlaces, with room for what their vertices will know. */
   UnusedPlaces AddUnusedPlaces(int n, Executor& executor);
   /**
-   * Forgets all vertices and lays the grid. There are n places then, which take no memory yet; the
-   * mesh counts so many vertices, some of which are on other ranks.
+   * Adds a closed surface in places that follow the last ones and are aside. Its vertices are as
+   * after Reset(), with their shapes. @return these, in order
    */
-  void Remake(std::size_t n, int vertices, const Vector& low, const Vector& high);
-  /** Writes all that is known of some alive vertices, for another rank. */
-  void Write(MessageWriter& message, const std::vector<int>& vertices) const;
-  /** Takes in what another rank has written, instead of what was known. @return the vertices */
-  std::vector<int> Read(MessageReader& message);
-  /** Of what Write() writes of each of these. @return the same only where nothing has changed */
-  std::vector<std::uint64_t> HashesOf(const std::vector<int>& vertices) const;
-  /** The same for a mesh whose vertices know nothing else: they are as after Reset(). */
-  static void WriteMesh(
-    const SurfaceMesh& mesh, MessageWriter& message, const std::vector<int>& vertices);
-  std::vector<int> ReadMesh(MessageReader& message);
-  /** Into a mesh that has the places. */
-  static void ReadMesh(MessageReader& message, SurfaceMesh& mesh);
-  /**
-   * Takes some vertices of a whole mesh that all ranks put behind theirs, from the place `first`
-   * on. @return the places of these vertices here
-   */
-  std::vector<int> AddPiece(const SurfaceMesh& mesh, int first,
-    const std::vector<int>& vertices, Executor& executor);
-  /** Forgets a vertex that another rank has removed. */
-  void Forget(int v);
-  /** The places of vertices that were forgotten take no memory, as far as none lies beside them. */
-  void GiveBack(std::vector<int> forgotten);
+  std::vector<int> Append(const IndexedSurface& surface, Executor& executor);
 
   /** After v has been added to the mesh, next to, or as a copy of, its parent. */
   void AddVertex(int v, int parent);
@@ -241,9 +218,6 @@ public:
   {
     return volumic::AreOpposed(this->Normal[v], this->Normal[w]);
   }
-
-private:
-  std::vector<int> ReadConnectivity(MessageReader& message);
 };
 }
 

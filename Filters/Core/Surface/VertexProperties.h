@@ -3,10 +3,7 @@
 #ifndef volumicVertexProperties_h
 #define volumicVertexProperties_h
 
-#include "Core/Common/Communicator.h"
-#include "Core/Common/ContentHash.h"
 #include "Core/Common/Executor.h"
-#include "Core/Common/FreeMemory.h"
 #include "Core/Common/Grow.h"
 #include "Core/Common/ScratchMemory.h"
 
@@ -32,13 +29,6 @@ public:
   virtual void Remake(std::size_t n) = 0;
   /** Some vertices have the initial value. */
   virtual void Initialise(const std::vector<int>& vertices) = 0;
-  /** The values of some vertices, in their order, and what they are on another rank. */
-  virtual void Write(MessageWriter& message, const std::vector<int>& vertices) const = 0;
-  virtual void Read(MessageReader& message, const std::vector<int>& vertices) = 0;
-  /** Goes on with a hash of each of these vertices, by its value. */
-  virtual void AddTo(std::vector<std::uint64_t>& hashes, const std::vector<int>& vertices) const = 0;
-  /** Nobody needs the values of [first, last), whose places take no memory until they have others. */
-  virtual void Forget(std::size_t first, std::size_t last) = 0;
   /** A value for a new vertex, `v`, which comes of another one. */
   virtual void Add(std::size_t v, std::size_t parent) = 0;
   /** The values of [first, last), which there are, will be read soon: see PrefetchLarge. */
@@ -92,34 +82,6 @@ public:
   {
     ForSpans(executor, this->All.size(), 1,
       [&](std::size_t i, std::size_t, std::size_t) { this->All[i]->Initialise(vertices); });
-  }
-  void Write(MessageWriter& message, const std::vector<int>& vertices) const
-  {
-    for (const VertexPropertyBase* property : this->All)
-    {
-      property->Write(message, vertices);
-    }
-  }
-  void Read(MessageReader& message, const std::vector<int>& vertices)
-  {
-    for (VertexPropertyBase* property : this->All)
-    {
-      property->Read(message, vertices);
-    }
-  }
-  void AddTo(std::vector<std::uint64_t>& hashes, const std::vector<int>& vertices) const
-  {
-    for (const VertexPropertyBase* property : this->All)
-    {
-      property->AddTo(hashes, vertices);
-    }
-  }
-  void Forget(std::size_t first, std::size_t last)
-  {
-    for (VertexPropertyBase* property : this->All)
-    {
-      property->Forget(first, last);
-    }
   }
   void Prefetch(std::size_t first, std::size_t last) const
   {
@@ -186,37 +148,6 @@ public:
     {
       this->Values[v] = this->Initial;
     }
-  }
-  void Write(MessageWriter& message, const std::vector<int>& vertices) const override
-  {
-    std::vector<T> values;
-    values.reserve(vertices.size());
-    for (const int v : vertices)
-    {
-      values.push_back(this->Values[v]);
-    }
-    message.AddArray(values);
-  }
-  void Read(MessageReader& message, const std::vector<int>& vertices) override
-  {
-    std::vector<T> values;
-    message.TakeArray(values);
-    for (std::size_t i = 0; i < vertices.size(); ++i)
-    {
-      this->Values[vertices[i]] = values[i];
-    }
-  }
-  void AddTo(
-    std::vector<std::uint64_t>& hashes, const std::vector<int>& vertices) const override
-  {
-    for (std::size_t i = 0; i < vertices.size(); ++i)
-    {
-      hashes[i] = AddValue(hashes[i], this->Values[vertices[i]]);
-    }
-  }
-  void Forget(std::size_t first, std::size_t last) override
-  {
-    GiveBackPages(this->Values.data() + first, (last - first) * sizeof(T));
   }
   void Prefetch(std::size_t first, std::size_t last) const override
   {
