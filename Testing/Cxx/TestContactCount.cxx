@@ -2,11 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Which pairs count as contacts that remain, and which vertices as held by them.
-#include "Core/Common/RankLists.h"
 #include "Core/Surface/RemainingContacts.h"
-#include "RankTestTools.h"
 #include "RemeshTestTools.h"
-#include "ThreadRanks.h"
 
 using namespace volumic;
 
@@ -99,39 +96,4 @@ TEST(ContactCount, AVertexIsHeldWhereItHasNotArrivedAndFacesAnother)
   const RemainingContacts found = bench.Find(-0.5);
   EXPECT_FALSE(found.Pairs.empty());
   EXPECT_EQ(std::count(found.Held.begin(), found.Held.end(), 1), 0);
-}
-
-TEST(ContactCount, OfRanksIsThatOfOne)
-{
-  TwoBalls balls(1.3);
-  const SurfaceState& whole = balls.State;
-  const TestVolume volume =
-    MakeVolume(33, [](double x, double, double) { return x < 3 ? 1. : -.5; });
-  const Field field(volume.Image, SurfaceOptions(), balls.Threads);
-  const RemainingContacts expected = FindRemainingContacts(whole, field, balls.Threads);
-  ASSERT_FALSE(expected.Pairs.empty());
-  for (const OwnerOf& ownerOf : { ByCubes(whole, 2.f), ByTurns() })
-  {
-    for (const int count : { 1, 2, 3, 4 })
-    {
-      ThreadRanks::Run(count,
-        [&](Communicator& ranks)
-        {
-          SurfaceState state;
-          TakePart(state, whole, ownerOf, ranks, 12.f, Vector(-20, -20, -20), Vector(40, 40, 40));
-          const RankPiece part = PartOf(ranks, ownerOf);
-          const RemainingContacts own =
-            FindRemainingContacts(state, field, OnThisThread(), part.IsOwn);
-          std::vector<std::array<int, 2>> pairs(own.Pairs.begin(), own.Pairs.end());
-          pairs = GatherListsOnAll(ranks, pairs);
-          std::sort(pairs.begin(), pairs.end());
-          EXPECT_TRUE(std::equal(
-            pairs.begin(), pairs.end(), expected.Pairs.begin(), expected.Pairs.end()));
-          for (int v = 0; v < whole.Mesh.Size(); ++v)
-          {
-            EXPECT_EQ(own.Held[v], part.IsOwn(v) ? expected.Held[v] : 0) << v;
-          }
-        });
-    }
-  }
 }

@@ -25,17 +25,9 @@ double MeanEdge(const SurfaceMesh& mesh)
   return sum / static_cast<double>(count);
 }
 
-std::vector<int> AllOf(const SurfaceMesh& mesh)
+void MakeRoom(KeptEdges& kept)
 {
-  std::vector<int> all(mesh.Rings.size());
-  std::iota(all.begin(), all.end(), 0);
-  return all;
-}
-
-void MakeRoom(KeptEdges& kept, const SurfaceMesh& mesh)
-{
-  for (auto full = kept.FindOverfull(AllOf(mesh)); !full.empty();
-       full = kept.FindOverfull(AllOf(mesh)))
+  for (auto full = kept.FindOverfull(); !full.empty(); full = kept.FindOverfull())
   {
     for (const int v : full)
     {
@@ -137,7 +129,7 @@ TEST(Division, LeavesTheOldSurfaceWhereEdgesAreKept)
   EXPECT_GT(std::abs(ComputeFeatures(flipped.ToIndexed()).Volume - old.Volume), 1.);
   KeptEdges kept(mesh);
   kept.KeepAll();
-  EXPECT_TRUE(kept.FindOverfull(AllOf(mesh)).empty());
+  EXPECT_TRUE(kept.FindOverfull().empty());
   mesh = Divide(mesh, &kept);
   EXPECT_EQ(DescribeBrokenInvariant(mesh), "");
   const SurfaceFeatures divided = ComputeFeatures(mesh.ToIndexed());
@@ -167,7 +159,7 @@ TEST(Division, IsSoundWhicheverEdgesAreKept)
         }
       }
     }
-    MakeRoom(kept, copy);
+    MakeRoom(kept);
     mesh = Divide(copy, &kept);
     EXPECT_EQ(DescribeBrokenInvariant(mesh), "");
     EXPECT_EQ(mesh.CountEulerCharacteristic(), 2);
@@ -201,8 +193,8 @@ TEST(Division, FindsRoomForKeptEdgesInFullRings)
   {
     kept.Keep(0, 2 + i);
   }
-  EXPECT_EQ(kept.FindOverfull(AllOf(copy)), std::vector<int>({ 0 }));
-  MakeRoom(kept, copy);
+  EXPECT_EQ(kept.FindOverfull(), std::vector<int>({ 0 }));
+  MakeRoom(kept);
   mesh = Divide(copy, &kept);
   EXPECT_EQ(DescribeBrokenInvariant(mesh), "");
   EXPECT_EQ(mesh.Rings[0].Count, sides);

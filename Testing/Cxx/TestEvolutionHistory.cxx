@@ -211,7 +211,7 @@ TEST(EvolutionHistory, PhasesFitIntoTheSecondsOfTheirRow)
   {
     SCOPED_TRACE("row " + std::to_string(r));
     const auto seconds = [&row = rows[r]](Phase phase)
-    { return row.Phases[static_cast<int>(phase)].Seconds; };
+    { return row.PhaseSeconds[static_cast<int>(phase)]; };
     double inside = 0.;
     for (int p = 0; p < static_cast<int>(Phase::Division); ++p)
     {

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Evolution/LostParts.h"
+#include "Core/Mesh/SurfaceMeasures.h"
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "EvolutionTestTools.h"
 
@@ -40,6 +41,12 @@ struct KnownBall
     : Volume(std::move(volume)), Image(this->Volume.Image, IsoHalf(), Threads)
   {
     Fill(this->State);
+  }
+
+  LostBoundary::Missing MissedBy(const LostBoundary& boundary) const
+  {
+    return boundary.MissedBy(
+      this->State, SurfaceArea(this->State.Mesh, Threads), this->Image, Threads);
   }
 
   LostPartCover Find(PartKind kind, int minimumSize) const
@@ -168,14 +175,14 @@ TEST(LostParts, BoundaryIsMissedWhereNoVertexIsNear)
 {
   KnownBall known;
   const LostPartCover cover = known.Find(PartKind::Object, 20);
-  const LostBoundary::Missing before = cover.Boundary.MissedBy(known.State, known.Image, Threads);
+  const LostBoundary::Missing before = known.MissedBy(cover.Boundary);
   EXPECT_EQ(before.Parts, 1);
   // Spheres of radius 4 and 13.
   EXPECT_NEAR(before.Share, 16. / (16. + 169.), 0.01);
 
   known.State.Mesh.Append(DividedIcosahedron({ 40, 24, 24 }, 4., 1.4 * Delta));
   known.State.Reset(Vector(-2, -2, -2), Vector(50, 50, 50));
-  const LostBoundary::Missing after = cover.Boundary.MissedBy(known.State, known.Image, Threads);
+  const LostBoundary::Missing after = known.MissedBy(cover.Boundary);
   EXPECT_EQ(after.Parts, 0);
   EXPECT_EQ(after.Share, 0.);
 }

@@ -4,7 +4,7 @@
 #include "Core/Common/StandardThreads.h"
 #include "Core/Mesh/SurfaceMeasures.h"
 #include "Core/Surface/ComponentWatch.h"
-#include "RankTestTools.h"
+#include "Core/Surface/SurfaceComponents.h"
 #include "RemeshTestTools.h"
 
 using namespace volumic;
@@ -37,7 +37,7 @@ TEST(SurfaceComponents, KeepsCavitiesInsideAndIslandsInThem)
   Fill(state,
     { Ball({ 0, 0, 0 }, 15), Ball({ 0, 0, 0 }, 10, true), Ball({ 1, 0, 0 }, 4),
       Ball({ 30, 0, 0 }, 5) });
-  SurfaceComponents components = OfAll();
+  SurfaceComponents components;
   EXPECT_FALSE(components.DeleteInsideOut(state, OnThisThread()));
   EXPECT_EQ(components.NumberOfComponents(), 4);
 }
@@ -63,7 +63,7 @@ TEST(SurfaceComponents, LabelsComponentsByTheirFirstVerticesInAnySpans)
   state.Reset(Vector(-40, -40, -40), Vector(60, 40, 40));
   state.FieldValue.Fill(-1.f);
   StandardThreads threads(3);
-  SurfaceComponents components = OfAll();
+  SurfaceComponents components;
   components.Label(state, threads);
   EXPECT_EQ(components.NumberOfComponents(), 4);
   for (int v = 0; v < state.Mesh.Size(); ++v)
@@ -81,7 +81,7 @@ TEST(SurfaceComponents, WatchesSmallComponentsInAllSpans)
   ASSERT_GT(state.Mesh.Size(), 2 * 16384);
   state.FieldValue.Fill(-1.f);
   StandardThreads threads(3);
-  SurfaceComponents components = OfAll();
+  SurfaceComponents components;
   components.Label(state, threads);
   EXPECT_TRUE(components.DeleteDegenerate(state)) << "both are on the wrong side";
   EXPECT_EQ(components.NumberOfComponents(), 1);
@@ -109,7 +109,7 @@ TEST(SurfaceComponents, KnowsACavityByItsWholeVolume)
     state.Mesh.Reorder(order);
     state.Reset(Vector(-40, -40, -40), Vector(60, 40, 40));
     StandardThreads threads(3);
-    SurfaceComponents components = OfAll();
+    SurfaceComponents components;
     EXPECT_EQ(components.DeleteInsideOut(state, threads), isCavity);
   }
 }
@@ -119,7 +119,7 @@ TEST(SurfaceComponents, DeletesACavityInTheOpen)
   SurfaceState state;
   const IndexedSurface ball = Ball({ 0, 0, 0 }, 10);
   Fill(state, { ball, Ball({ 20, 0, 0 }, 3, true), Ball({ -20, 3, 1 }, 3, true) });
-  SurfaceComponents components = OfAll();
+  SurfaceComponents components;
   EXPECT_TRUE(components.DeleteInsideOut(state, OnThisThread()));
   EXPECT_EQ(components.NumberOfComponents(), 1);
   EXPECT_EQ(state.Mesh.NumberOfVertices(), static_cast<int>(ball.Points.size()));
@@ -130,7 +130,7 @@ TEST(SurfaceComponents, DeletesAnIslandWithinTheObject)
 {
   SurfaceState state;
   Fill(state, { Ball({ 0, 0, 0 }, 15), Ball({ 2, 1, 3 }, 4) });
-  SurfaceComponents components = OfAll();
+  SurfaceComponents components;
   EXPECT_TRUE(components.DeleteInsideOut(state, OnThisThread()));
   EXPECT_EQ(components.NumberOfComponents(), 1);
 }
@@ -142,7 +142,7 @@ TEST(SurfaceComponents, KeepsTheGoodThatLieInTheInverted)
   const IndexedSurface good = Ball({ 1, 0, 0 }, 9);
   const IndexedSurface cavity = Ball({ 1, 1, 0 }, 4, true);
   Fill(state, { Ball({ 0, 0, 0 }, 15, true), good, cavity });
-  SurfaceComponents components = OfAll();
+  SurfaceComponents components;
   EXPECT_TRUE(components.DeleteInsideOut(state, OnThisThread()));
   EXPECT_EQ(components.NumberOfComponents(), 2);
   EXPECT_EQ(state.Mesh.NumberOfVertices(),
@@ -156,7 +156,7 @@ TEST(SurfaceComponents, JudgesAfreshWhatLosesItsIsland)
   SurfaceState state;
   Fill(state, { Ball({ 0, 0, 0 }, 15), Ball({ 0, 0, 0 }, 10), Ball({ 0, 1, 0 }, 5, true),
                 Ball({ 0, 1, 0 }, 2, true) });
-  SurfaceComponents components = OfAll();
+  SurfaceComponents components;
   EXPECT_TRUE(components.DeleteInsideOut(state, OnThisThread()));
   EXPECT_EQ(components.NumberOfComponents(), 2) << "the outermost and the larger cavity";
   EXPECT_FALSE(components.DeleteInsideOut(state, OnThisThread()));
@@ -166,7 +166,7 @@ TEST(SurfaceComponents, DeletesTheOnlyComponentIfItIsInsideOut)
 {
   SurfaceState state;
   Fill(state, { Ball({ 0, 0, 0 }, 8, true) });
-  SurfaceComponents components = OfAll();
+  SurfaceComponents components;
   EXPECT_TRUE(components.DeleteInsideOut(state, OnThisThread()));
   EXPECT_EQ(state.Mesh.NumberOfVertices(), 0);
 }
@@ -188,7 +188,7 @@ TEST(SurfaceComponents, LooksThroughEdgesAndCorners)
     }
     SurfaceState state;
     Fill(state, { octahedron, cavity });
-    SurfaceComponents components = OfAll();
+    SurfaceComponents components;
     EXPECT_FALSE(components.DeleteInsideOut(state, OnThisThread())) << shift;
     EXPECT_EQ(components.NumberOfComponents(), 2);
   }
@@ -198,7 +198,7 @@ TEST(SurfaceComponents, DeletesSmallOnesAndKeepsCount)
 {
   SurfaceState state;
   Fill(state, { Ball({ 0, 0, 0 }, 10), Ball({ 30, 0, 0 }, 1) });
-  SurfaceComponents components = OfAll();
+  SurfaceComponents components;
   components.Label(state, OnThisThread());
   ASSERT_EQ(components.NumberOfComponents(), 2);
   EXPECT_FALSE(components.DeleteDegenerate(state)) << "no reason yet";
@@ -223,7 +223,7 @@ bool IsDeleted(double edge, double value, bool isCavity)
   SurfaceState state;
   const IndexedSurface ball = DividedIcosahedron({ 30, 0, 0 }, 2, edge);
   Fill(state, { Ball({ 0, 0, 0 }, 10), isCavity ? InsideOut(ball) : ball });
-  SurfaceComponents components = OfAll();
+  SurfaceComponents components;
   components.Label(state, OnThisThread());
   for (int v = 0; v < state.Mesh.Size(); ++v)
   {
@@ -256,7 +256,7 @@ TEST(SurfaceComponents, DeletesWhatHasHardlyAnyVertices)
   tetrahedron.Points = { { 30, 0, 0 }, { 32, 0, 0 }, { 30, 2, 0 }, { 30, 0, 2 } };
   tetrahedron.Triangles = { { 0, 2, 1 }, { 0, 1, 3 }, { 1, 2, 3 }, { 2, 0, 3 } };
   Fill(state, { Ball({ 0, 0, 0 }, 10), tetrahedron });
-  SurfaceComponents components = OfAll();
+  SurfaceComponents components;
   components.Label(state, OnThisThread());
   EXPECT_TRUE(components.DeleteDegenerate(state));
   EXPECT_EQ(components.NumberOfComponents(), 1);
@@ -271,7 +271,7 @@ TEST(SurfaceComponents, LabelsComponentsOfManySpans)
   ASSERT_GT(state.Mesh.Size(), 40000);
   state.Sizing = SizingField(1);
   state.Reset(Vector(-40, -40, -40), Vector(60, 40, 40));
-  SurfaceComponents components = OfAll();
+  SurfaceComponents components;
   components.Label(state, OnThisThread());
   EXPECT_EQ(components.NumberOfComponents(), 2);
   for (int v = 0; v < state.Mesh.Size(); ++v)

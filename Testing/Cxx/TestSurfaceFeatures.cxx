@@ -3,8 +3,6 @@
 #include "Core/Common/StandardThreads.h"
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "CoreTestTools.h"
-#include "RankTestTools.h"
-#include "ThreadRanks.h"
 #include "VisitTestTools.h"
 
 using namespace volumic;
@@ -109,55 +107,6 @@ TEST(SurfaceFeatures, AreTheSameOnThreads)
       ASSERT_EQ(other.Components[c].Vertices, 8);
       ASSERT_EQ(other.Components[c].Triangles, 12);
       ASSERT_EQ(one.Components[c].Centroid, other.Components[c].Centroid);
-    }
-  }
-}
-
-TEST(SurfaceFeatures, OfPiecesAreThoseOfTheWhole)
-{
-  // Two tori whose triangles take turns, so that all pieces have some of both, and small boxes.
-  const IndexedSurface torus = MakeTorus({ 1, 2, 3 }, 5, 2, 60, 40);
-  IndexedSurface surface = torus;
-  AddSurface(surface, MakeTorus({ 1, 2, 33 }, 5.1, 2, 60, 40));
-  for (std::size_t t = 1; t < torus.Triangles.size(); t += 2)
-  {
-    std::swap(surface.Triangles[t], surface.Triangles[t + torus.Triangles.size()]);
-  }
-  for (int b = 0; b < 7; ++b)
-  {
-    AddSurface(surface, Box(0.1 + b, 1, 1, { 0, 0, 10. * b }));
-  }
-  for (const IndexedSurface& whole : { surface, Box(1, 2, 3, { 4, 5, 6 }), IndexedSurface() })
-  {
-    const SurfaceFeatures one = ComputeFeatures(whole);
-    for (const int count : { 1, 2, 3, 5, 16 }) // Of the box some have nothing.
-    {
-      SCOPED_TRACE(count);
-      ThreadRanks::Run(count,
-        [&](Communicator& ranks)
-        {
-          IndexedSurface own;
-          PieceOfSurface piece = Cut(whole, ranks.Rank(), count, own);
-          piece.Ranks = &ranks;
-          const SurfaceFeatures features = ComputeFeatures(own, OnThisThread(), piece);
-          ASSERT_EQ(features.Components.size(), one.Components.size());
-          EXPECT_EQ(features.Area, one.Area);
-          EXPECT_EQ(features.Volume, one.Volume);
-          EXPECT_EQ(features.Genus, one.Genus);
-          EXPECT_EQ(features.EulerCharacteristic, one.EulerCharacteristic);
-          for (std::size_t c = 0; c < one.Components.size(); ++c)
-          {
-            EXPECT_EQ(features.Components[c].Vertices, one.Components[c].Vertices);
-            EXPECT_EQ(features.Components[c].Triangles, one.Components[c].Triangles);
-            EXPECT_EQ(features.Components[c].Area, one.Components[c].Area);
-            EXPECT_EQ(features.Components[c].Centroid, one.Components[c].Centroid);
-            EXPECT_EQ(features.Components[c].Inertia, one.Components[c].Inertia);
-          }
-          const auto first = one.ComponentOfTriangle.begin() + piece.FirstTriangle;
-          EXPECT_TRUE(std::equal(features.ComponentOfTriangle.begin(),
-            features.ComponentOfTriangle.end(), first));
-          EXPECT_EQ(features.ComponentOfTriangle.size(), own.Triangles.size());
-        });
     }
   }
 }

@@ -23,6 +23,13 @@ std::uint64_t Mix(std::uint64_t x)
   return x ^ x >> 33;
 }
 
+/** Goes on with a hash by another word. */
+std::uint64_t AddWord(std::uint64_t hash, std::uint64_t word)
+{
+  hash = (hash ^ word) * 0xff51afd7ed558ccdu; // See Mix().
+  return hash ^ hash >> 32;
+}
+
 std::uint64_t HashOfSpan(const unsigned char* bytes, std::size_t count)
 {
   std::array<std::uint64_t, Strands> hash = { 1, 2, 3, 4 };

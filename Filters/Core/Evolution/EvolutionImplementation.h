@@ -67,7 +67,6 @@ struct SurfaceEvolution::Implementation
   // There are these while a surface lies on a level (MakeBlocks), else null:
   std::unique_ptr<SurfaceBlocks> Blocks;
   std::unique_ptr<SurfaceComponents> Components;
-  Vector GridLow, GridHigh;              ///< The box over which the grid was laid last.
   struct
   {
     int Sweep = 0;  ///< Of the level, from 1.
@@ -123,7 +122,7 @@ struct SurfaceEvolution::Implementation
   /** Makes grid, blocks and labels of a mesh of which nothing else is known; splits long edges. */
   void LayOut();
   void Recover();
-  void FindGridBox(const SurfaceMesh& mesh);
+  Box BoxOfGrid() const;
   void LayGrid();
   bool HasEdgeTooLong() const;
   int CountIntersecting();

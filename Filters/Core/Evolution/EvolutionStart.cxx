@@ -56,41 +56,32 @@ void SurfaceEvolution::Implementation::LayOut()
   this->LabelComponents();
 }
 
-void SurfaceEvolution::Implementation::FindGridBox(const SurfaceMesh& mesh)
+Box SurfaceEvolution::Implementation::BoxOfGrid() const
 {
+  const SurfaceMesh& mesh = this->State.Mesh;
   const LevelImage& image = this->TheField->Image();
-  Vector low(0, 0, 0);
-  Vector high(static_cast<float>(image.Size[0] * image.Step[0]),
+  const Box ofImage = { Vector(0, 0, 0), Vector(static_cast<float>(image.Size[0] * image.Step[0]),
     static_cast<float>(image.Size[1] * image.Step[1]),
-    static_cast<float>(image.Size[2] * image.Step[2]));
-  const std::size_t spans = (mesh.Position.size() + VertexSpan - 1) / VertexSpan;
-  std::vector<Vector> lows(spans, low);
-  std::vector<Vector> highs(spans, high);
+    static_cast<float>(image.Size[2] * image.Step[2])) };
+  std::vector<Box> boxes((mesh.Position.size() + VertexSpan - 1) / VertexSpan, ofImage);
   ForSpans(this->Threads, mesh.Position.size(), VertexSpan,
     [&](std::size_t span, std::size_t begin, std::size_t end)
     {
       for (std::size_t v = begin; v < end; ++v)
       {
-        lows[span] = Minimum(lows[span], mesh.Position[v]);
-        highs[span] = Maximum(highs[span], mesh.Position[v]);
+        boxes[span] = boxes[span].With({ mesh.Position[v], mesh.Position[v] });
       }
     });
-  for (std::size_t span = 0; span < spans; ++span)
-  {
-    low = Minimum(low, lows[span]);
-    high = Maximum(high, highs[span]);
-  }
-  const float delta = this->State.Sizing.Largest();
-  const Vector margin(2 * delta, 2 * delta, 2 * delta);
-  this->GridLow = low - margin;
-  this->GridHigh = high + margin;
+  const Box all = std::accumulate(boxes.begin(), boxes.end(), ofImage,
+    [](const Box& a, const Box& b) { return a.With(b); });
+  return all.Grown(2 * this->State.Sizing.Largest());
 }
 
 void SurfaceEvolution::Implementation::LayGrid()
 {
   SurfaceState& s = this->State;
-  this->FindGridBox(s.Mesh);
-  s.Reset(this->GridLow, this->GridHigh, this->Threads);
+  const Box box = this->BoxOfGrid();
+  s.Reset(box.Low, box.High, this->Threads);
   s.UpdateShape(this->AliveVertices(), this->Threads);
 }
 

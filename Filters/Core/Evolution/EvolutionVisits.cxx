@@ -113,7 +113,7 @@ void SurfaceEvolution::Implementation::VisitBlock(
 void SurfaceEvolution::Implementation::VisitBlocks(const BlockVisits& visits)
 {
   this->State.Counts = EditCounts();
-  this->Blocks->AddPlaces(this->Threads);
+  this->Blocks->AddPlaces(this->Blocks->MissingPlaces(this->Threads), this->Threads);
   const auto count = static_cast<std::size_t>(this->Blocks->NumberOfBlocks());
   this->Visit.Blocks = static_cast<int>(count);
   const auto goOn = [&](std::size_t done)

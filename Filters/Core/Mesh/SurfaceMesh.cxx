@@ -395,13 +395,14 @@ std::uint64_t SpreadBits(std::uint64_t x)
   x = (x | x << 2) & 0x1249249249249249;
   return x;
 }
-}
 
+/** Of a position on a Z-order (Morton) curve with cells of side `cell`, the first of which is at `low`. */
 std::uint64_t MortonCode(const Vector& position, const Vector& low, double cell)
 {
   const auto bits = [cell](float x, float from)
   { return SpreadBits(static_cast<std::uint64_t>((x - from) / cell)); };
   return bits(position.X, low.X) | bits(position.Y, low.Y) << 1 | bits(position.Z, low.Z) << 2;
+}
 }
 
 std::vector<int> SpaceFillingOrder(const SurfaceMesh& mesh, double cell, Executor& executor)

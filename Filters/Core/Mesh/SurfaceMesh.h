@@ -137,7 +137,7 @@ public:
   void PutAside(VertexPlaces& places);
   /** Takes these places back from their keeper: any new vertex may have them. */
   void FreeFromAside(VertexPlaces& places, const UnusedPlaces& unused);
-  /** Counts vertices that came from, or went to, places aside, or are on other ranks. */
+  /** Counts vertices that came from, or went to, places aside. */
   void CountOthers(int more) { this->Aside -= more; }
 
   /** Calls visit(a, b, c) once for each face, counter-clockwise, a the smallest index. */
@@ -203,10 +203,7 @@ private:
   std::int64_t Aside = 0; ///< Places that are neither free nor a vertex's.
 };
 
-/** Of a position on a Z-order (Morton) curve with cells of side `cell`, the first of which is at `low`. */
-std::uint64_t MortonCode(const Vector& position, const Vector& low, double cell);
-
-/** The alive vertices along such a curve, those of a cell by index. */
+/** The alive vertices along a Z-order (Morton) curve with cells of side `cell`, those of one by index. */
 std::vector<int> SpaceFillingOrder(
   const SurfaceMesh& mesh, double cell, Executor& executor = OnThisThread());
 }

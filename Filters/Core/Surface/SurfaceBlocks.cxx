@@ -204,7 +204,7 @@ void SurfaceBlocks::FindOrder()
     std::move(order), [this](int block) { return this->NeighboursOf(block); });
 }
 
-int SurfaceBlocks::MissingPlaces(int block) const
+int SurfaceBlocks::MissingPlacesOf(int block) const
 {
   const OfBlock& own = this->All[block];
   const int has = own.Unused.Count() + static_cast<int>(own.Places.Free.size());
@@ -222,12 +222,17 @@ int SurfaceBlocks::MissingPlaces(int block) const
   return has < wanted / 2 ? wanted : 0;
 }
 
-void SurfaceBlocks::AddPlaces(Executor& executor)
+std::vector<int> SurfaceBlocks::MissingPlaces(Executor& executor) const
 {
   std::vector<int> counts(this->All.size());
   ForSpans(executor, counts.size(), 1,
     [&](std::size_t b, std::size_t, std::size_t)
-    { counts[b] = this->MissingPlaces(static_cast<int>(b)); });
+    { counts[b] = this->MissingPlacesOf(static_cast<int>(b)); });
+  return counts;
+}
+
+void SurfaceBlocks::AddPlaces(const std::vector<int>& counts, Executor& executor)
+{
   const int total = std::accumulate(counts.begin(), counts.end(), 0);
   if (total == 0)
   {

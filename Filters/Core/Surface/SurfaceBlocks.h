@@ -114,8 +114,10 @@ public:
 
   /** Whether a vertex of the block may move. */
   bool HasActive(int block) const;
-  /** Gives blocks the places for new vertices that they want. Between sweeps, while none is open. */
-  void AddPlaces(Executor& executor);
+  /** How many places each block would like to have for new vertices, beyond those that it has. */
+  std::vector<int> MissingPlaces(Executor& executor) const;
+  /** Gives each block so many more. Between sweeps, while no visit is open. */
+  void AddPlaces(const std::vector<int>& counts, Executor& executor);
   /**
    * Adds a closed surface, whose vertices follow all others, and gives them to their blocks. Between
    * sweeps, while none is open.
@@ -148,8 +150,7 @@ private:
   int BlockOf(const std::array<int, 3>& place) const;
   /** Leaves of a list those that are the block's, each once, in order. */
   void Clean(int block, std::vector<int>& vertices) const;
-  /** How many places a block would like to have for new vertices, beyond those that it has. */
-  int MissingPlaces(int block) const;
+  int MissingPlacesOf(int block) const;
   void Collect(Executor& executor);
   void FindOrder();
 
