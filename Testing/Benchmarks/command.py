@@ -2,9 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The command `volumic` on one volume, with each size, number of threads and limit of memory: how
 cost grows, what threads gain, what a limit costs. Reading and writing are included; surfaces must be
-the same files for any threads and limit. Options that are not known here are volumic's.
-
-Of more numbers of threads than there are cores only `taskset` gives true figures."""
+the same files for any threads and limit. Options that are not known here are volumic's."""
 
 import csv
 import hashlib
@@ -20,7 +18,7 @@ from tables import Figures, finish, print_figures, print_targets, ratio, say, ti
 
 COLUMNS = {
     "Seconds": "seconds", "ProcessorSeconds": "processor s", "PeakMegabytes": "MB at the peak",
-    "Vertices": "vertices", "Microseconds": "us a vertex", "Visits": "visits, level 0",
+    "Vertices": "vertices", "MillionSeconds": "s a million", "Visits": "visits, level 0",
     "Edits": "edits, level 0", "Gain": "gain", "Same": "same file"}
 
 
@@ -73,15 +71,14 @@ def run(options, folder, volume, threads, memory):
         return sum(float(row[column]) for row in rows for column in columns) / vertices
     return Figures(
         Seconds=seconds, ProcessorSeconds=processor, PeakMegabytes=peak, Vertices=vertices,
-        Microseconds=1e6 * processor / vertices, Visits=of_vertex("ActiveVertices"),
+        MillionSeconds=1e6 * processor / vertices, Visits=of_vertex("ActiveVertices"),
         Edits=of_vertex("Splits", "Collapses", "Flips"), Surface=digest)
 
 
 def measure_size(options, folder, size):
     """{(threads, memory): figures}"""
-    volume = options.volume
-    if int(size):
-        volume = os.path.join(folder, "volume.vti")
+    volume = options.volume if size == "0" else os.path.join(folder, "volume.vti")
+    if size != "0":
         resample(options.volume, int(size), volume)
     asked = [(threads, memory) for memory in options.memory.split(",")
              for threads in options.threads.split(",")]
@@ -96,7 +93,7 @@ def measure_size(options, folder, size):
     medians = {}
     for key, repetitions in runs.items():
         medians[key] = Figures(repetitions[-1])
-        for column in ("Seconds", "ProcessorSeconds", "PeakMegabytes", "Microseconds"):
+        for column in ("Seconds", "ProcessorSeconds", "PeakMegabytes", "MillionSeconds"):
             medians[key][column] = statistics.median(each[column] for each in repetitions)
     first = medians[asked[0]]
     for figures in medians.values():

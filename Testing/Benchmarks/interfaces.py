@@ -77,7 +77,7 @@ def polycrystal(size, grains):
 
 def tooth(size, step=1):
     """Pulp (1) in dentin (2), and enamel (3) on the crown; cut open along an oblique plane, so that
-    all three meet the background there. Of every so manieth slice."""
+    all three meet the background there. Of every so many slices one."""
     z, y, x = np.mgrid[:size, :size, :size] / (size - 1) * 2 - 1
     # Slimmer towards the root, which is down.
     around = np.hypot(x + .03, y - .02) / (.62 + .3 * z)
