@@ -221,8 +221,6 @@ void SetEfforts(vtkTable* history, Figures& figures)
       { std::string(), "level." + std::to_string(static_cast<int>(value("Level"))) + "." })
     {
       sums[prefix + "Iterations"] += 1.0;
-      sums[prefix + "IterationSeconds"] += value("Seconds");
-      sums[prefix + "VertexIterations"] += value("Vertices");
       sums[prefix + "Visits"] += value("ActiveVertices");
       sums[prefix + "Edits"] += value("Splits") + value("Collapses") + value("Flips");
       sums[prefix + "Joins"] += value("Merges") + value("Cuts");

@@ -39,9 +39,8 @@ COLUMNS = {
            "DistanceAtCentroids": "distance at centroids"}.items()},
     "Reach": "share reached"}
 EFFORTS = {
-    "Iterations": "iterations", "IterationSeconds": "seconds of iterations",
-    "VisitsOfVertex": "visits of a vertex", "EditsOfVertex": "edits of a vertex",
-    "Joins": "merges and cuts"}
+    "Iterations": "iterations", "VisitsOfVertex": "visits of a vertex",
+    "EditsOfVertex": "edits of a vertex", "Joins": "merges and cuts"}
 
 
 def add_options(parser):

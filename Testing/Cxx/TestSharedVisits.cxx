@@ -3,6 +3,7 @@
 
 // Visits in which threads share that find no visit to make.
 #include "Core/Common/StandardThreads.h"
+#include "Core/Common/VisitSchedule.h"
 #include "TestPrelude.h"
 
 #include <atomic>
