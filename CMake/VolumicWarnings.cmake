@@ -46,6 +46,5 @@ volumic_add_warnings(
   TARGETS TestCore VolumicTestSupport TestSupport
   WARNINGS ${volumic_warnings})
 volumic_add_warnings(
-  TARGETS TestFilters TestRealScans TestScenes
-    BenchmarkImagePyramid BenchmarkSurface MakeVolume VolumicBenchmarkItk VolumicBenchmarkLevelSet
+  TARGETS TestFilters TestRealScans TestScenes Benchmark VolumicBenchmarkItk
   WARNINGS ${volumic_vtk_warnings})

@@ -77,8 +77,6 @@ prepare_skull
 
 for flavour in "${flavours[@]}"; do
   options=(-DVOLUMIC_BUILD_TESTING=ON -DVOLUMIC_BUILD_EXAMPLES=ON -DVOLUMIC_CRANIUM="$(cranium)")
-  # The benchmarks have a test too, for which VTK's flavour is enough.
-  [ "$flavour" = vtk ] && options+=(-DVOLUMIC_BUILD_BENCHMARKS=ON)
   "build_${flavour}_flavour" "${options[@]}"
 done
 test_logs=()

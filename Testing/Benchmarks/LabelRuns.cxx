@@ -1,331 +1,330 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "LabelRuns.h"
+// vtkLabelsToSurfaces and its peers, on digitised shapes, whose surfaces are known, or on a label
+// map:
+//
+//     runs=LIST of us, tolerant (VoxelTolerance .5), windowed, remeshed
+//     map=FILE mask=1 least=VOXELS | shapes=LIST size=N stretch=S; threads=N (of us) repetitions=N
+//
+// Figures of each label follow "@row MAP<tab>LABEL<tab>RUN". Ours are made of the whole map, each
+// with its share of the seconds; peers get each label cut out, which makes them faster than they
+// are on the whole map.
 
+#include "Benchmark.h"
+
+#include "ForVoxels.h"
 #include "LabelJudge.h"
-#include "LabelMaps.h"
-#include "LabelPeers.h"
-#include "PeakMemory.h"
 #include "SupportVtkConversions.h"
-#include "SurfaceJudge.h"
-#include "vtkLabelsToSurfaces.h"
 
-#include <vtkDataArray.h>
+#include <vtkDiscreteFlyingEdges3D.h>
 #include <vtkErrorCode.h>
-#include <vtkFieldData.h>
+#include <vtkLabelsToSurfaces.h>
 #include <vtkMultiBlockDataSet.h>
+#include <vtkSMPTools.h>
+#include <vtkWindowedSincPolyDataFilter.h>
 
-#include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <ctime>
-#include <limits>
-#include <stdexcept>
-#include <tuple>
-#include <utility>
+#include <iostream>
 
 namespace volumic::bench
 {
 namespace
 {
 
-/** So many voxels about a label decide how its surface is: neighbours, and the Gaussian's reach. */
-constexpr int MarginOfOurs = 8;
-constexpr int MarginOfPeers = 4; ///< ITK's layers; for VTK's one would do, and costs as much
+using support::LabelMap;
+using support::LabelShape;
 
-void Measure(const std::function<void()>& work, int repetitions, RunFigures& figures)
+/** A map, its labels to be measured, and their shapes where these are known. */
+struct Subject
 {
-  double seconds = std::numeric_limits<double>::infinity();
-  double processor = seconds;
-  for (int i = 0; i < repetitions; ++i)
+  std::string Name;
+  LabelMap Map;
+  std::vector<int> Labels;
+  std::map<int, LabelShape> Shapes;
+};
+
+struct LabelSurface
+{
+  int Label;
+  double Delta = 0.0;               ///< world; 0: there are no bounds to hold
+  support::TriangleSurface Surface; ///< world
+};
+
+LabelMap ReadLabelMap(const std::string& file, bool isMask)
+{
+  const vtkSmartPointer<vtkImageData> image = ReadImage(file);
+  LabelMap map;
+  image->GetDimensions(map.Size.data());
+  image->GetSpacing(map.Spacing.data());
+  vtkDataArray* values = image->GetPointData()->GetScalars();
+  for (vtkIdType v = 0; v < values->GetNumberOfTuples(); ++v)
   {
-    const auto begin = std::chrono::steady_clock::now();
-    const std::clock_t processorBegin = std::clock();
-    work();
-    processor = std::min(
-      processor, static_cast<double>(std::clock() - processorBegin) / CLOCKS_PER_SEC);
-    seconds = std::min(seconds,
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+    const double value = values->GetComponent(v, 0);
+    map.Values.push_back(static_cast<std::int16_t>(isMask ? value > 0 : value));
   }
-  figures.Set("Seconds", seconds);
-  figures.Set("ProcessorSeconds", processor);
+  return map;
 }
 
-double FieldOf(vtkPolyData* surface, const char* name)
+/** The label with so many voxels about it. */
+LabelMap CropToLabel(const LabelMap& map, int label, int margin)
 {
-  vtkDataArray* array = surface->GetFieldData()->GetArray(name);
-  return array && array->GetNumberOfTuples() > 0 ? array->GetComponent(0, 0) : 0.0;
+  std::array<int, 3> from = map.Size, to = { -1, -1, -1 };
+  std::size_t voxel = 0;
+  ForVoxels(map.Size,
+    [&](int i, int j, int k)
+    {
+      if (map.Values[voxel++] == label)
+      {
+        from = { std::min(from[0], i), std::min(from[1], j), std::min(from[2], k) };
+        to = { std::max(to[0], i), std::max(to[1], j), std::max(to[2], k) };
+      }
+    });
+  LabelMap crop;
+  crop.Spacing = map.Spacing;
+  for (int a = 0; a < 3; ++a)
+  {
+    from[a] -= margin;
+    crop.Size[a] = to[a] + margin - from[a] + 1;
+    crop.Origin[a] = map.Origin[a] + from[a] * map.Spacing[a];
+  }
+  const auto isIn = [&map](int a, int i) { return i >= 0 && i < map.Size[a]; };
+  ForVoxels(crop.Size,
+    [&](int x, int y, int z)
+    {
+      const int i = from[0] + x, j = from[1] + y, k = from[2] + z;
+      crop.Values.push_back(isIn(0, i) && isIn(1, j) && isIn(2, k)
+          ? map.Values[(static_cast<std::size_t>(k) * map.Size[1] + j) * map.Size[0] + i]
+          : std::int16_t(0));
+    });
+  return crop;
 }
 
-vtkSmartPointer<vtkLabelsToSurfaces> MakeFilter(
-  const support::LabelMap& map, const std::vector<int>& labels, const LabelSettings& settings)
+//------------------------------------------------------------------------------
+std::vector<LabelSurface> OurSurfaces(
+  const std::string& run, const Subject& subject, const Options& options, Figures& figures)
 {
-  auto filter = vtkSmartPointer<vtkLabelsToSurfaces>::New();
-  filter->SetInputDataObject(support::ToImage(map));
-  for (const int label : labels)
+  vtkNew<vtkLabelsToSurfaces> filter;
+  filter->SetInputDataObject(support::ToImage(subject.Map));
+  for (const int label : subject.Labels)
   {
     filter->AddLabel(label);
   }
-  if (settings.Smoothing >= 0.0)
-  {
-    filter->SetSmoothing(settings.Smoothing);
-  }
-  if (settings.VoxelTolerance >= 0.0)
-  {
-    filter->SetVoxelTolerance(settings.VoxelTolerance);
-  }
-  filter->SetGap(settings.Gap * map.ShortestSpacing());
-  filter->SetFinestLevel(settings.FinestLevel);
-  filter->SetNumberOfThreads(settings.Threads);
-  return filter;
-}
-
-void Update(vtkLabelsToSurfaces* filter)
-{
-  filter->Modified();
-  filter->Update();
+  filter->SetVoxelTolerance(run == "tolerant" ? 0.5 : filter->GetVoxelTolerance());
+  filter->SetNumberOfThreads(options.Integer("threads", 1));
+  Measure(
+    [&]()
+    {
+      filter->Modified();
+      filter->Update();
+    },
+    options.Integer("repetitions", 1), figures, subject.Labels.size());
   if (filter->GetErrorCode() != vtkErrorCode::NoError)
   {
     throw std::runtime_error("vtkLabelsToSurfaces failed, see above");
   }
-}
-
-std::vector<LabelSurface> SurfacesOf(vtkMultiBlockDataSet* blocks)
-{
   std::vector<LabelSurface> surfaces;
+  auto* blocks = vtkMultiBlockDataSet::SafeDownCast(filter->GetOutputDataObject(0));
   for (unsigned int b = 0; b < blocks->GetNumberOfBlocks(); ++b)
   {
     auto* block = vtkPolyData::SafeDownCast(blocks->GetBlock(b));
-    if (!block)
-    {
-      throw std::runtime_error("a block is no poly data");
-    }
-    LabelSurface surface;
-    surface.Label = static_cast<int>(FieldOf(block, "Label"));
-    surface.Delta = FieldOf(block, "Delta");
-    surface.ReportedWrong = FieldOf(block, "WrongVoxels");
-    surface.Surface = support::ToTriangleSurface(block);
-    surfaces.push_back(std::move(surface));
+    surfaces.push_back({ static_cast<int>(Field(block, "Label")), Field(block, "Delta"),
+      support::ToTriangleSurface(block) });
   }
   return surfaces;
 }
 
-SurfaceJob PeerJob(const std::string& run, vtkImageData* image, int label, double edgeLength)
+vtkSmartPointer<vtkPolyData> Windowed(vtkImageData* image, int label)
 {
+  vtkNew<vtkDiscreteFlyingEdges3D> marching;
+  marching->SetInputData(image);
+  marching->SetValue(0, label);
+  marching->ComputeNormalsOff();
+  marching->ComputeScalarsOff();
+  vtkNew<vtkWindowedSincPolyDataFilter> smooth;
+  smooth->SetInputConnection(marching->GetOutputPort());
+  smooth->BoundarySmoothingOff();
+  smooth->FeatureEdgeSmoothingOff();
+  smooth->NonManifoldSmoothingOn();
+  smooth->NormalizeCoordinatesOn();
+  smooth->Update();
+  return smooth->GetOutput();
+}
+
+Job PeerJob(const std::string& run, vtkImageData* image, int label, double edgeLength)
+{
+  const auto windowed = [=]() { return Windowed(image, label); };
   if (run == "windowed")
   {
-    return WindowedLabelJob(image, label, 20, 0.1);
-  }
-  if (run == "windowed-more")
-  {
-    return WindowedLabelJob(image, label, 15, 0.001);
+    return PolyDataJob(windowed);
   }
   if (run == "remeshed")
   {
-    return RemeshedLabelJob(image, label, edgeLength);
+    return RemeshingJob(windowed, edgeLength);
   }
-#if defined(VOLUMIC_BENCHMARK_SURFACE_NETS)
-  if (run == "nets")
-  {
-    return NetsLabelJob(image, label);
-  }
-#endif
-#if defined(VOLUMIC_BENCHMARK_ITK)
-  if (run == "antialiased")
-  {
-    return AntiAliasedLabelJob(image, label);
-  }
-#endif
-  throw std::logic_error("no run " + run);
+  throw std::invalid_argument("no run " + run + " in this build");
 }
 
-double SignedVolume(const support::TriangleSurface& surface)
+LabelSurface PeerSurface(const std::string& run, const Subject& subject, int label,
+  double edgeLength, const Options& options, Figures& figures)
 {
-  double volume = 0.0;
-  for (const auto& t : surface.Triangles)
+  constexpr int margin = 4; // ITK's layers; for VTK's one would do, and costs as much
+  const auto image = support::ToImage(CropToLabel(subject.Map, label, margin));
+  const Job job = PeerJob(run, image, label, edgeLength);
+  Measure(job.Work, options.Integer("repetitions", 1), figures);
+  LabelSurface made = { label, 0.0, job.Result() };
+  // Which way peers turn their triangles is nothing that they are judged by.
+  if (support::JudgeTopology(made.Surface).Volume < 0.0)
   {
-    const auto& [a, b, c] = std::tie(surface.Points[t[0]], surface.Points[t[1]],
-      surface.Points[t[2]]);
-    volume += (a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
-                a[2] * (b[0] * c[1] - b[1] * c[0])) /
-      6.0;
-  }
-  return volume;
-}
-
-/** Which way peers turn their triangles is nothing that they are judged by. */
-void TurnOutward(support::TriangleSurface& surface)
-{
-  if (SignedVolume(surface) < 0.0)
-  {
-    for (auto& triangle : surface.Triangles)
+    for (auto& triangle : made.Surface.Triangles)
     {
       std::swap(triangle[1], triangle[2]);
     }
   }
+  return made;
 }
 
-std::array<double, 6> BoxOf(const support::TriangleSurface& surface)
+//------------------------------------------------------------------------------
+/** Returns the mean edge, world. */
+double SetLabelVerdict(const LabelSurface& of, const Subject& subject, Figures& figures)
 {
-  const double far = std::numeric_limits<double>::infinity();
-  std::array<double, 6> box = { far, far, far, -far, -far, -far };
-  for (const auto& point : surface.Points)
+  const double unit = subject.Map.ShortestSpacing();
+  const auto set = [&figures](const char* name, auto value)
+  { figures.Set(name, static_cast<double>(value)); };
+  const support::SurfaceVerdict verdict = SetVerdict(of.Surface, of.Delta, "", figures);
+  set("RatioLeast", verdict.Shapes.Least);
+  set("Ratio01", verdict.Shapes.Quantile01);
+  set("RatioMean", verdict.Shapes.Mean);
+  set("Dihedral95", support::JudgeDihedrals(of.Surface).Quantile95);
+  const support::WrongVoxelVerdict voxels =
+    support::JudgeVoxels(of.Surface, CropToLabel(subject.Map, of.Label, 4), of.Label);
+  set("LabelVoxels", voxels.Label);
+  set("Wrong", voxels.Wrong());
+  const std::array<double, 3>& spacing = subject.Map.Spacing;
+  set("VolumeByVoxels",
+    verdict.Topology.Volume /
+        (static_cast<double>(voxels.Label) * spacing[0] * spacing[1] * spacing[2]) -
+      1.0);
+  const auto shape = subject.Shapes.find(of.Label);
+  if (shape != subject.Shapes.end() && shape->second.Distance)
   {
-    for (int a = 0; a < 3; ++a)
+    const support::TruthVerdict truth = support::JudgeTruth(of.Surface, shape->second);
+    set("DistanceAtVertices", truth.MeanAtVertices / unit);
+    set("DistanceAtCentroids", truth.MeanAtCentroids / unit);
+    set("NormalAngle", truth.MeanAngle);
+    set("VolumeError", truth.VolumeError);
+  }
+  return verdict.Lengths.Mean;
+}
+
+//------------------------------------------------------------------------------
+/** Failures are rows, too. */
+void Tell(const Subject& subject, int label, const std::string& run,
+  const std::function<void(Figures&)>& work)
+{
+  Figures figures;
+  try
+  {
+    work(figures);
+  }
+  catch (const std::exception& error)
+  {
+    figures.SetText("Failure", error.what());
+  }
+  std::cout << "@row " << subject.Name << '\t' << label << '\t' << run << '\n';
+  figures.Write();
+}
+
+void MeasureRun(const std::string& run, const Subject& subject, const Options& options,
+  std::map<int, double>& edgeLengths)
+{
+  std::cerr << subject.Name << ' ' << run << std::endl;
+  if (run == "us" || run == "tolerant")
+  {
+    Figures costs;
+    for (const LabelSurface& surface : OurSurfaces(run, subject, options, costs))
     {
-      box[a] = std::min(box[a], point[a]);
-      box[a + 3] = std::max(box[a + 3], point[a]);
+      Tell(subject, surface.Label, run,
+        [&](Figures& figures)
+        {
+          figures = costs;
+          edgeLengths[surface.Label] = SetLabelVerdict(surface, subject, figures);
+        });
+    }
+    return;
+  }
+  for (const int label : subject.Labels)
+  {
+    Tell(subject, label, run,
+      [&](Figures& figures)
+      {
+        const double edge = edgeLengths[label];
+        SetLabelVerdict(PeerSurface(run, subject, label,
+                          edge > 0.0 ? edge : subject.Map.ShortestSpacing(), options, figures),
+          subject, figures);
+      });
+  }
+}
+
+std::vector<Subject> Shapes(const Options& options)
+{
+  std::vector<Subject> subjects;
+  for (const auto kind : support::AllLabelShapeKinds())
+  {
+    const std::string name = support::LabelShapeName(kind);
+    const std::vector<std::string> asked = options.List("shapes", name);
+    if (std::count(asked.begin(), asked.end(), name) > 0)
+    {
+      const int size = options.Integer("size", 128);
+      support::DigitisedShapes shapes =
+        support::Digitise(kind, size, options.Number("stretch", 1.0));
+      Subject subject = { name + options.Text("stretch"), std::move(shapes.Map), {}, {} };
+      for (const LabelShape& shape : shapes.Shapes)
+      {
+        subject.Labels.push_back(shape.Label);
+        subject.Shapes[shape.Label] = shape;
+      }
+      subjects.push_back(std::move(subject));
     }
   }
-  return box;
+  return subjects;
 }
 
-bool Overlap(const std::array<double, 6>& a, const std::array<double, 6>& b)
+Subject MapToMeasure(const Options& options)
 {
-  return a[0] <= b[3] && b[0] <= a[3] && a[1] <= b[4] && b[1] <= a[4] && a[2] <= b[5] &&
-    b[2] <= a[5];
+  const std::string file = options.Text("map");
+  Subject subject = { file.substr(file.rfind('/') + 1),
+    ReadLabelMap(file, options.Integer("mask", 0) == 1), {}, {} };
+  std::map<int, int> counts;
+  for (const std::int16_t value : subject.Map.Values)
+  {
+    ++counts[value];
+  }
+  for (const auto& [label, voxels] : counts)
+  {
+    if (label != 0 && voxels >= options.Integer("least", 1))
+    {
+      subject.Labels.push_back(label);
+    }
+  }
+  return subject;
 }
 
 } // namespace
 
-//------------------------------------------------------------------------------
-std::vector<std::string> LabelRunNames()
+void RunLabels(const Options& options)
 {
-  return { "us", "us-gap", "us-alone", "windowed", "windowed-more",
-#if defined(VOLUMIC_BENCHMARK_SURFACE_NETS)
-    "nets",
-#endif
-#if defined(VOLUMIC_BENCHMARK_ITK)
-    "antialiased",
-#endif
-    "remeshed" };
-}
-
-std::vector<LabelSurface> OurSurfaces(const support::LabelMap& map, const std::vector<int>& labels,
-  const LabelSettings& settings, RunFigures& figures)
-{
-  const auto filter = MakeFilter(map, labels, settings);
-  const MemoryUse memory = MeasureMemory(
-    [&]() { Measure([&]() { Update(filter); }, settings.Repetitions, figures); });
-  if (memory.Peak >= 0)
+  vtkSMPTools::Initialize(1);
+  const std::vector<Subject> subjects =
+    options.Text("map").empty() ? Shapes(options) : std::vector<Subject>(1, MapToMeasure(options));
+  for (const Subject& subject : subjects)
   {
-    figures.Set("PeakMegabytes", 1e-6 * memory.Peak);
-  }
-  return SurfacesOf(vtkMultiBlockDataSet::SafeDownCast(filter->GetOutputDataObject(0)));
-}
-
-LabelSurface SurfaceAlone(const std::string& run, const support::LabelMap& map, int label,
-  double edgeLength, const LabelSettings& settings, RunFigures& figures)
-{
-  LabelSurface surface;
-  if (run == "us-alone")
-  {
-    const auto filter = MakeFilter(CropToLabel(map, label, MarginOfOurs), { label }, settings);
-    Measure([&]() { Update(filter); }, settings.Repetitions, figures);
-    surface =
-      SurfacesOf(vtkMultiBlockDataSet::SafeDownCast(filter->GetOutputDataObject(0))).at(0);
-  }
-  else
-  {
-    const auto image = support::ToImage(CropToLabel(map, label, MarginOfPeers));
-    SurfaceJob job;
-    Measure(
-      [&]()
-      {
-        job = PeerJob(run, image, label, edgeLength);
-        job.Work();
-      },
-      settings.Repetitions, figures);
-    surface.Label = label;
-    surface.Surface = job.Result();
-    TurnOutward(surface.Surface);
-  }
-  return surface;
-}
-
-//------------------------------------------------------------------------------
-void SetLabelVerdict(const LabelSurface& surface, const support::LabelMap& map,
-  const support::LabelShape* shape, RunFigures& figures)
-{
-  const double unit = map.ShortestSpacing();
-  const auto set = [&figures](const char* name, double value) { figures.Set(name, value); };
-  const auto count = [&figures](const char* name, std::size_t value)
-  { figures.Set(name, static_cast<double>(value)); };
-  const double delta = surface.Delta > 0.0 ? surface.Delta : 0.85 * unit;
-  const support::SurfaceVerdict verdict = support::JudgeSurface(surface.Surface, delta);
-  const support::TopologyVerdict& topology = verdict.Topology;
-  count("Vertices", surface.Surface.Points.size() - topology.UnusedPoints);
-  count("Triangles", surface.Surface.Triangles.size());
-  count("Components", topology.Components.size());
-  count("OpenEdges", topology.OpenEdges);
-  count("NonManifold",
-    topology.NonManifoldEdges + topology.NonManifoldVertices + topology.DegenerateTriangles);
-  count("MisorientedEdges", topology.MisorientedEdges);
-  count("SelfIntersections", verdict.Intersections.Pairs + verdict.Intersections.FlatTriangles);
-  set("EdgeMean", verdict.Lengths.Mean / unit);
-  if (surface.Delta > 0.0)
-  {
-    set("EdgesOutside", verdict.Lengths.ShareOutside);
-    count("NearPairs", verdict.Lengths.NearPairs);
-    set("ReportedWrong", surface.ReportedWrong);
-  }
-  set("RatioLeast", verdict.Shapes.Least);
-  set("RatioQuantile01", verdict.Shapes.Quantile01);
-  set("RatioMean", verdict.Shapes.Mean);
-
-  const support::DihedralVerdict dihedrals = support::JudgeDihedrals(surface.Surface);
-  set("DihedralMedian", dihedrals.Median);
-  set("Dihedral95", dihedrals.Quantile95);
-  set("DihedralLargest", dihedrals.Largest);
-  const support::WrongVoxelVerdict voxels =
-    support::JudgeVoxels(surface.Surface, map, surface.Label);
-  count("LabelVoxels", voxels.Label);
-  count("VoxelsOutside", voxels.Outside);
-  count("VoxelsInside", voxels.Inside);
-  const double voxel = map.Spacing[0] * map.Spacing[1] * map.Spacing[2];
-  set("VolumeByVoxels", topology.Volume / (static_cast<double>(voxels.Label) * voxel) - 1.0);
-  if (shape && shape->Distance)
-  {
-    const support::TruthVerdict truth = support::JudgeTruth(surface.Surface, *shape);
-    set("DistanceAtVertices", truth.MeanAtVertices / unit);
-    set("DistanceAtCentroids", truth.MeanAtCentroids / unit);
-    set("DistanceLargest", truth.Largest / unit);
-    set("NormalAngle", truth.MeanAngle);
-    set("VolumeError", truth.VolumeError);
-  }
-}
-
-void SetOverlap(const std::vector<LabelSurface>& surfaces, double unit, RunFigures& figures)
-{
-  std::vector<std::array<double, 6>> boxes;
-  for (const LabelSurface& surface : surfaces)
-  {
-    boxes.push_back(BoxOf(surface.Surface));
-  }
-  double pairs = 0.0, vertices = 0.0, sum = 0.0, largest = 0.0, intersections = 0.0;
-  for (std::size_t a = 0; a < surfaces.size(); ++a)
-  {
-    for (std::size_t b = a + 1; b < surfaces.size(); ++b)
+    std::map<int, double> edgeLengths; // of us; what the remeshed peer is told
+    for (const std::string& run : options.List("runs", "us,tolerant,windowed,remeshed"))
     {
-      if (Overlap(boxes[a], boxes[b]))
-      {
-        const support::OverlapVerdict verdict =
-          support::JudgeOverlap(surfaces[a].Surface, surfaces[b].Surface);
-        const auto inside = static_cast<double>(verdict.VerticesInside);
-        ++pairs;
-        vertices += inside;
-        sum += inside * verdict.MeanDepth;
-        largest = std::max(largest, verdict.LargestDepth);
-        intersections += static_cast<double>(verdict.IntersectingPairs);
-      }
+      MeasureRun(run, subject, options, edgeLengths);
     }
   }
-  figures.Set("OverlapPairs", pairs);
-  figures.Set("OverlapVertices", vertices);
-  figures.Set("OverlapMean", vertices > 0.0 ? sum / vertices / unit : 0.0);
-  figures.Set("OverlapLargest", largest / unit);
-  figures.Set("OverlapIntersections", intersections);
 }
 
 } // namespace volumic::bench

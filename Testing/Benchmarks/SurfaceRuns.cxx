@@ -1,285 +1,330 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "SurfaceRuns.h"
+// One run of vtkDeformableSurface or of a peer on a volume, measured and judged:
+//
+//     run=us | flat | flying | smoothed | decimated | remeshed | mesher | openvdb | levelset
+//     volume=FILE.vti iso=VALUE metric=0|1 threads=N repetitions=N
+//     edge=LENGTH vertices=N radius=R    what peers are told of ours
+//
+// Peers get the volume with a voxel of air around it. The object is bright. Lengths are those of
+// the metric (of level 0, where a level is spoken of) with the smallest distance of two voxels as
+// 1; fits and radius ratios are told in both metrics.
 
-#include "PeakMemory.h"
-#include "SurfacePeers.h"
+#include "Benchmark.h"
 
+#include "SupportVtkConversions.h"
+
+#include <vtkDeformableSurface.h>
 #include <vtkImageCast.h>
-#include <vtkNew.h>
+#include <vtkImageConstantPad.h>
+#include <vtkImagePyramid.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkPolyDataConnectivityFilter.h>
+#include <vtkQuadricDecimation.h>
 #include <vtkSMPTools.h>
+#include <vtkTable.h>
+#include <vtkVariant.h>
+#include <vtkWindowedSincPolyDataFilter.h>
 
-#include <algorithm>
-#include <array>
-#include <chrono>
-#include <cstdint>
-#include <cstdio>
-#include <cstring>
-#include <ctime>
 #include <limits>
-#include <stdexcept>
 
 namespace volumic::bench
 {
 namespace
 {
 
-double RadiusOf(const SurfaceBenchmarkOptions& options)
+using Steps = std::array<double, 3>;
+using support::TriangleSurface;
+
+struct Volume
 {
-  return options.Radius > 0.0 ? options.Radius : MesherRadius(options.EdgeLength);
+  vtkSmartPointer<vtkImageData> Image;
+  double IsoValue;
+  bool IsWorld; ///< the metric
+};
+
+/** Distances of voxels, the smallest one 1; all 1 unless those of the world are asked for. */
+Steps StepsOf(vtkImageData* image, bool isWorld)
+{
+  Steps steps;
+  image->GetSpacing(steps.data());
+  const double least = std::min({ steps[0], steps[1], steps[2] });
+  for (double& step : steps)
+  {
+    step = isWorld ? step / least : 1.0;
+  }
+  return steps;
 }
 
-SurfaceJob MakePeerJob(const std::string& name, vtkImageData* image,
-  const BenchmarkedVolume& volume, const SurfaceBenchmarkOptions& options)
+TriangleSurface Stretched(TriangleSurface surface, const Steps& factors, bool isBack = false)
 {
-  if (name == "flying")
+  for (auto& point : surface.Points)
   {
-    return FlyingEdgesJob(image, volume.IsoValue);
-  }
-  if (name == "smoothed")
-  {
-    return SmoothedJob(image, volume.IsoValue);
-  }
-  if (name == "decimated")
-  {
-    return DecimatedJob(image, volume.IsoValue, options.Vertices);
-  }
-  if (name == "remeshed")
-  {
-    return RemeshedJob(image, volume.IsoValue, options.EdgeLength);
-  }
-  if (name == "mesher")
-  {
-    return MesherJob(image, volume.IsoValue, volume.ObjectIsBright, RadiusOf(options));
-  }
-#if defined(VOLUMIC_BENCHMARK_ITK)
-  if (name == "levelset")
-  {
-    return LevelSetJob(image, volume.IsoValue, volume.ObjectIsBright);
-  }
-#endif
-  throw std::invalid_argument("no run " + name + " in this build");
-}
-
-/** What follows the values of the volume upward points outward where the object is bright. */
-bool FollowsGradient(const std::string& name)
-{
-  return name != "mesher" && name != "levelset";
-}
-
-/** What vtkPolyDataConnectivityFilter leaves behind must not count as reached. */
-void DropUnusedPoints(support::TriangleSurface& surface)
-{
-  std::vector<int> places(surface.Points.size(), -1);
-  std::vector<std::array<double, 3>> points;
-  for (auto& triangle : surface.Triangles)
-  {
-    for (int& corner : triangle)
+    for (int a = 0; a < 3; ++a)
     {
-      int& place = places[static_cast<std::size_t>(corner)];
-      if (place < 0)
-      {
-        place = static_cast<int>(points.size());
-        points.push_back(surface.Points[static_cast<std::size_t>(corner)]);
-      }
-      corner = place;
+      point[a] *= isBack ? 1.0 / factors[a] : factors[a];
     }
   }
-  surface.Points.swap(points);
+  return surface;
 }
 
-std::size_t UsedPoints(const support::TriangleSurface& surface, const support::TopologyVerdict& t)
+vtkSmartPointer<vtkImageData> InAir(vtkImageData* image)
 {
-  return surface.Points.size() - t.UnusedPoints;
+  const int* extent = image->GetExtent();
+  vtkNew<vtkImageConstantPad> pad;
+  pad->SetInputData(image);
+  pad->SetConstant(image->GetScalarRange()[0]);
+  pad->SetOutputWholeExtent(
+    extent[0] - 1, extent[1] + 1, extent[2] - 1, extent[3] + 1, extent[4] - 1, extent[5] + 1);
+  pad->Update();
+  return pad->GetOutput();
+}
+
+/** The voxels from index 0, place 0 on, in the steps. */
+vtkSmartPointer<vtkImageData> InSteps(vtkImageData* image, const Steps& steps)
+{
+  auto result = vtkSmartPointer<vtkImageData>::New();
+  result->SetDimensions(image->GetDimensions());
+  result->SetSpacing(steps.data());
+  result->GetPointData()->SetScalars(image->GetPointData()->GetScalars());
+  return result;
+}
+
+//------------------------------------------------------------------------------
+/** How it fits the image in air, in whose index coordinates it is, in both metrics. */
+void SetFit(const TriangleSurface& surface, vtkImageData* inAir, double isoValue,
+  const std::string& prefix, Figures& figures)
+{
+  vtkNew<vtkImageCast> cast;
+  cast->SetInputData(inAir);
+  cast->SetOutputScalarTypeToFloat();
+  cast->Update();
+  support::JudgedVolume volume;
+  volume.Values = static_cast<const float*>(cast->GetOutput()->GetScalarPointer());
+  inAir->GetDimensions(volume.Size.data());
+  volume.IsoValue = isoValue;
+  figures.Set(prefix + "Reach", support::JudgeReach(surface, volume).Share);
+  for (const bool isWorld : { false, true })
+  {
+    const std::string metric = prefix + (isWorld ? "World" : "Voxels");
+    volume.Spacing = StepsOf(inAir, isWorld);
+    const support::IsoDistanceVerdict distance = support::JudgeIsoDistance(surface, volume);
+    figures.Set(metric + "DistanceAtVertices", distance.MeanAtVertices);
+    figures.Set(metric + "DistanceAtCentroids", distance.MeanAtCentroids);
+    const support::ShapeVerdict shapes = support::JudgeShapes(Stretched(surface, volume.Spacing));
+    figures.Set(metric + "RatioLeast", shapes.Least);
+    figures.Set(metric + "Ratio01", shapes.Quantile01);
+    figures.Set(metric + "RatioMean", shapes.Mean);
+  }
+}
+
+//------------------------------------------------------------------------------
+vtkSmartPointer<vtkPolyData> LargestComponent(vtkImageData* image, double isoValue)
+{
+  vtkNew<vtkPolyDataConnectivityFilter> largest;
+  largest->SetInputData(FlyingEdges(image, isoValue));
+  largest->SetExtractionModeToLargestRegion();
+  largest->Update();
+  return largest->GetOutput();
+}
+
+vtkSmartPointer<vtkPolyData> Smoothed(vtkImageData* image, double isoValue)
+{
+  vtkNew<vtkWindowedSincPolyDataFilter> smooth;
+  smooth->SetInputData(LargestComponent(image, isoValue));
+  smooth->NormalizeCoordinatesOn();
+  smooth->Update();
+  return smooth->GetOutput();
+}
+
+vtkSmartPointer<vtkPolyData> Decimated(vtkImageData* image, double isoValue, double vertices)
+{
+  const vtkSmartPointer<vtkPolyData> smoothed = Smoothed(image, isoValue);
+  // Two triangles per vertex. (Points are no measure: those of the other components are there.)
+  const double share = 2.0 * vertices / static_cast<double>(smoothed->GetNumberOfPolys());
+  vtkNew<vtkQuadricDecimation> decimate;
+  decimate->SetInputData(smoothed);
+  decimate->SetTargetReduction(std::max(0.0, 1.0 - share));
+  decimate->Update();
+  return decimate->GetOutput();
+}
+
+Job PeerJob(const Options& options, vtkImageData* image, double iso)
+{
+  const double edge = options.Number("edge", 1.35), vertices = options.Number("vertices", 1e5);
+  const double radius = options.Number("radius", 0.8 * edge);
+  const std::map<std::string, std::function<Job()>> jobs = {
+    { "flying", [=]() { return PolyDataJob([=]() { return FlyingEdges(image, iso); }); } },
+    { "smoothed", [=]() { return PolyDataJob([=]() { return Smoothed(image, iso); }); } },
+    { "decimated",
+      [=]() { return PolyDataJob([=]() { return Decimated(image, iso, vertices); }); } },
+    { "remeshed", [=]() { return RemeshingJob([=]() { return Smoothed(image, iso); }, edge); } },
+    { "mesher", [=]() { return MesherJob(image, LargestComponent(image, iso), iso, radius); } },
+#if defined(VOLUMIC_BENCHMARK_OPENVDB)
+    { "openvdb", [=]() { return OpenVdbJob(image, iso); } },
+#endif
+#if defined(VOLUMIC_BENCHMARK_ITK)
+    { "levelset", [=]() { return LevelSetJob(image, iso); } },
+#endif
+  };
+  const auto found = jobs.find(options.Text("run"));
+  if (found == jobs.end())
+  {
+    throw std::invalid_argument("no run " + options.Text("run") + " in this build");
+  }
+  return found->second();
+}
+
+void MeasurePeer(const Volume& volume, const Options& options, Figures& figures)
+{
+  vtkSMPTools::Initialize(1);
+  const Steps steps = StepsOf(volume.Image, volume.IsWorld);
+  const vtkSmartPointer<vtkImageData> inAir = InAir(volume.Image);
+  const vtkSmartPointer<vtkImageData> image = InSteps(inAir, steps);
+  const Job job = PeerJob(options, image, volume.IsoValue);
+  Measure(job.Work, options.Integer("repetitions", 1), figures);
+  const TriangleSurface surface = job.Result();
+  if (surface.Triangles.empty())
+  {
+    throw std::runtime_error("no surface");
+  }
+  SetVerdict(surface, 0.0, "", figures);
+  SetFit(Stretched(surface, steps, true), inAir, volume.IsoValue, "", figures);
+}
+
+//------------------------------------------------------------------------------
+/** The coarsest level where there is still something of the object: the filter refuses to start
+    from one where all of it has vanished, as thin things do. */
+int CoarsestLevelWithObject(const Volume& volume)
+{
+  vtkNew<vtkImagePyramid> pyramid;
+  pyramid->SetInputData(volume.Image);
+  pyramid->Update();
+  unsigned int level = pyramid->GetOutput()->GetNumberOfBlocks() - 1;
+  while (level > 0 && !(LevelOf(pyramid, level)->GetScalarRange()[1] > volume.IsoValue))
+  {
+    --level;
+  }
+  return static_cast<int>(level);
+}
+
+/** What does not depend on the machine: sums over the rows of the history. */
+void SetEfforts(vtkTable* history, Figures& figures)
+{
+  std::map<std::string, double> sums;
+  for (vtkIdType row = 0; row < history->GetNumberOfRows(); ++row)
+  {
+    const auto value = [&](const char* name)
+    { return history->GetValueByName(row, name).ToDouble(); };
+    for (const std::string& prefix :
+      { std::string(), "level." + std::to_string(static_cast<int>(value("Level"))) + "." })
+    {
+      sums[prefix + "Iterations"] += 1.0;
+      sums[prefix + "Visits"] += value("ActiveVertices");
+      sums[prefix + "Edits"] += value("Splits") + value("Collapses") + value("Flips");
+      sums[prefix + "Joins"] += value("Merges") + value("Cuts");
+    }
+  }
+  for (const auto& [name, sum] : sums)
+  {
+    figures.Set(name, sum);
+  }
+}
+
+void JudgeLevel(vtkPolyData* surface, vtkImageData* level, const Volume& volume,
+  const std::string& prefix, Figures& figures)
+{
+  double spacing[3];
+  volume.Image->GetSpacing(spacing);
+  const double unit = std::min({ spacing[0], spacing[1], spacing[2] });
+  SetVerdict(Stretched(support::ToTriangleSurface(surface, volume.Image),
+               StepsOf(volume.Image, volume.IsWorld)),
+    Field(surface, "Delta") / unit, prefix, figures);
+  const vtkSmartPointer<vtkImageData> inAir = InAir(level);
+  SetFit(support::ToTriangleSurface(surface, inAir), inAir, volume.IsoValue, prefix, figures);
+}
+
+void MeasureOurs(const Volume& volume, const Options& options, Figures& figures)
+{
+  const int threads = options.Integer("threads", 1);
+  const bool isFlat = options.Text("run") == "flat";
+  vtkSMPTools::Initialize(threads);
+  vtkNew<vtkImagePyramid> pyramid;
+  pyramid->SetInputData(volume.Image);
+  pyramid->SetNumberOfThreads(threads);
+  pyramid->SetNumberOfLevels(isFlat ? 1 : 0);
+  vtkNew<vtkDeformableSurface> deformable;
+  deformable->SetInputConnection(pyramid->GetOutputPort());
+  deformable->SetIsoValue(volume.IsoValue);
+  deformable->SetMetric(volume.IsWorld);
+  deformable->SetNumberOfThreads(threads);
+  deformable->SetCoarsestLevel(isFlat ? 0 : CoarsestLevelWithObject(volume));
+  Measure(
+    [&]()
+    {
+      pyramid->Modified();
+      deformable->Update();
+    },
+    options.Integer("repetitions", 1), figures);
+  if (deformable->GetOutput()->GetNumberOfPoints() == 0)
+  {
+    throw std::runtime_error("no surface, see the filter's message");
+  }
+  SetEfforts(deformable->GetHistory(), figures);
+  vtkMultiBlockDataSet* levels = deformable->GetLevels();
+  figures.Set("Levels", levels->GetNumberOfBlocks());
+  for (unsigned int h = 0; h < levels->GetNumberOfBlocks(); ++h)
+  {
+    auto* surface = vtkPolyData::SafeDownCast(levels->GetBlock(h));
+    if (surface && surface->GetNumberOfPoints() > 0)
+    {
+      JudgeLevel(surface, LevelOf(pyramid, h), volume, "level." + std::to_string(h) + ".", figures);
+    }
+  }
 }
 
 } // namespace
 
-//------------------------------------------------------------------------------
-void MeasureCost(const std::function<void()>& work, RunFigures& figures)
+support::SurfaceVerdict SetVerdict(
+  const TriangleSurface& surface, double delta, const std::string& prefix, Figures& figures)
 {
-  double wall = 0.0, processor = 0.0;
-  const MemoryUse memory = MeasureMemory(
-    [&]()
-    {
-      const auto begin = std::chrono::steady_clock::now();
-      const std::clock_t processorBegin = std::clock();
-      work();
-      processor = static_cast<double>(std::clock() - processorBegin) / CLOCKS_PER_SEC;
-      wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    });
-  figures.Set("WallSeconds", wall);
-  figures.Set("ProcessorSeconds", processor);
-  if (memory.Before >= 0 && memory.Peak >= 0)
-  {
-    figures.Set("BaseMegabytes", 1e-6 * memory.Before);
-    figures.Set("PeakMegabytes", 1e-6 * memory.Peak);
-  }
-}
-
-void SetVerdict(const support::TriangleSurface& surface, double delta, const std::string& prefix,
-  RunFigures& figures)
-{
-  const auto set = [&](const char* name, double value) { figures.Set(prefix + name, value); };
-  // Without bounds to hold, any will do.
+  const auto set = [&](const char* name, auto value)
+  { figures.Set(prefix + name, static_cast<double>(value)); };
   const support::SurfaceVerdict verdict =
     support::JudgeSurface(surface, delta > 0.0 ? delta : 0.85);
   const support::TopologyVerdict& topology = verdict.Topology;
-  set("Vertices", static_cast<double>(UsedPoints(surface, topology)));
-  set("Triangles", static_cast<double>(surface.Triangles.size()));
-  set("Components", static_cast<double>(topology.Components.size()));
-  // -1 means that there is none.
-  const double nothing = std::numeric_limits<double>::quiet_NaN();
-  set("Genus", topology.Genus < 0 ? nothing : topology.Genus);
-  const int largest = topology.Components.empty() ? -1 : topology.Components.front().Genus;
-  set("GenusOfLargest", largest < 0 ? nothing : largest);
-  set("Volume", topology.Volume);
-  set("OpenEdges", static_cast<double>(topology.OpenEdges));
-  set("NonManifold",
-    static_cast<double>(
-      topology.NonManifoldEdges + topology.NonManifoldVertices + topology.DegenerateTriangles));
-  set("MisorientedEdges", static_cast<double>(topology.MisorientedEdges));
-  set("Outward", topology.Outward);
-  set("SelfIntersections", static_cast<double>(verdict.Intersections.Pairs));
-  set("FlatTriangles", static_cast<double>(verdict.Intersections.FlatTriangles));
+  set("Vertices", surface.Points.size() - topology.UnusedPoints);
+  set("Triangles", surface.Triangles.size());
+  set("Components", topology.Components.size());
+  if (topology.Genus >= 0)
+  {
+    set("Genus", topology.Genus);
+  }
+  set("Faults",
+    topology.OpenEdges + topology.NonManifoldEdges + topology.NonManifoldVertices +
+      topology.DegenerateTriangles + topology.MisorientedEdges);
+  set("SelfIntersections", verdict.Intersections.Pairs);
   set("EdgeShortest", verdict.Lengths.Shortest);
   set("EdgeMean", verdict.Lengths.Mean);
   set("EdgeLongest", verdict.Lengths.Longest);
   if (delta > 0.0)
   {
-    set("Delta", delta);
-    set("EdgesTooShort", static_cast<double>(verdict.Lengths.EdgesTooShort));
-    set("EdgesTooLong", static_cast<double>(verdict.Lengths.EdgesTooLong));
-    set("NearPairs", static_cast<double>(verdict.Lengths.NearPairs));
+    set("EdgesOutside", verdict.Lengths.EdgesTooShort + verdict.Lengths.EdgesTooLong);
+    set("NearPairs", verdict.Lengths.NearPairs);
   }
+  return verdict;
 }
 
-void SetFit(const support::TriangleSurface& surface, support::JudgedVolume volume,
-  LengthMetric metric, const std::array<double, 3>& world, const std::string& prefix,
-  RunFigures& figures)
+void RunSurface(const Options& options)
 {
-  figures.Set(prefix + "Reach", support::JudgeReach(surface, volume).Share);
-  const auto set = [&](const char* name, LengthMetric of, double value)
-  {
-    figures.Set(prefix + (of == LengthMetric::World ? "World" : "Voxels") + name, value);
-    if (of == metric)
-    {
-      figures.Set(prefix + name, value);
-    }
-  };
-  for (const LengthMetric of : { LengthMetric::Voxels, LengthMetric::World })
-  {
-    if (of == LengthMetric::World)
-    {
-      volume.Spacing = world;
-    }
-    const support::IsoDistanceVerdict distance = support::JudgeIsoDistance(surface, volume);
-    set("DistanceAtVertices", of, distance.MeanAtVertices);
-    set("DistanceAtCentroids", of, distance.MeanAtCentroids);
-    const support::ShapeVerdict shapes = support::JudgeShapes(Stretched(surface, volume.Spacing));
-    set("RatioLeast", of, shapes.Least);
-    set("RatioQuantile01", of, shapes.Quantile01);
-    set("RatioMean", of, shapes.Mean);
-  }
-}
-
-std::string Fingerprint(const support::TriangleSurface& surface)
-{
-  std::uint64_t hash = 14695981039346656037u; // FNV-1a, eight bytes at a time
-  const auto add = [&hash](const void* place)
-  {
-    std::uint64_t word = 0;
-    std::memcpy(&word, place, sizeof word);
-    hash = (hash ^ word) * 1099511628211u;
-    hash ^= hash >> 29;
-  };
-  for (const auto& point : surface.Points)
-  {
-    for (const double& coordinate : point)
-    {
-      add(&coordinate);
-    }
-  }
-  for (const auto& triangle : surface.Triangles)
-  {
-    for (const int corner : triangle)
-    {
-      const std::uint64_t wide = static_cast<std::uint64_t>(corner);
-      add(&wide);
-    }
-  }
-  char text[32];
-  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
-  return text;
-}
-
-vtkSmartPointer<vtkImageData> AsFloat(vtkImageData* image)
-{
-  vtkNew<vtkImageCast> cast;
-  cast->SetInputData(image);
-  cast->SetOutputScalarTypeToFloat();
-  cast->Update();
-  return cast->GetOutput();
-}
-
-support::JudgedVolume ToJudgedVolume(vtkImageData* inAir, const BenchmarkedVolume& volume)
-{
-  support::JudgedVolume judged;
-  judged.Values = static_cast<const float*>(inAir->GetScalarPointer());
-  inAir->GetDimensions(judged.Size.data());
-  judged.IsoValue = volume.IsoValue;
-  judged.ObjectIsBright = volume.ObjectIsBright;
-  return judged;
-}
-
-//------------------------------------------------------------------------------
-RunFigures MeasureSurfaceRun(const SurfaceBenchmarkOptions& options)
-{
-  BenchmarkedVolume volume = LoadVolume(options);
-  const auto voxels = static_cast<double>(volume.Image->GetNumberOfPoints());
-  if (options.Run.compare(0, 3, "us-") == 0)
-  {
-    RunFigures figures = MeasureOurs(volume, options);
-    figures.Set("Voxels", voxels);
-    return figures;
-  }
-  vtkSMPTools::Initialize(1);
-  const std::array<double, 3> steps = StepsOf(volume.Image, options.Metric);
-  const std::array<double, 3> world = StepsOf(volume.Image, LengthMetric::World);
-  volume.Image = InSteps(InAir(volume.Image, volume.ObjectIsBright), steps);
-  const SurfaceJob job = MakePeerJob(options.Run, volume.Image, volume, options);
-  RunFigures figures;
-  figures.Set("Voxels", voxels);
-  MeasureCost(job.Work, figures);
-  if (job.Iterations)
-  {
-    figures.Set("Iterations", job.Iterations());
-  }
-  support::TriangleSurface surface = job.Result();
-  if (surface.Triangles.empty())
-  {
-    throw std::runtime_error("no surface");
-  }
-  DropUnusedPoints(surface);
-  if (!volume.ObjectIsBright && FollowsGradient(options.Run))
-  {
-    for (auto& triangle : surface.Triangles)
-    {
-      std::swap(triangle[1], triangle[2]);
-    }
-  }
-  if (options.Judge)
-  {
-    const vtkSmartPointer<vtkImageData> values = AsFloat(volume.Image);
-    SetVerdict(surface, 0.0, "", figures);
-    const std::array<double, 3> back = { 1.0 / steps[0], 1.0 / steps[1], 1.0 / steps[2] };
-    const support::TriangleSurface inVoxels = Stretched(surface, back);
-    SetFit(inVoxels, ToJudgedVolume(values, volume), options.Metric, world, "", figures);
-  }
-  figures.Set("Radius", options.Run == "mesher" ? RadiusOf(options) : 0.0);
-  figures.SetText("Fingerprint", Fingerprint(surface));
-  return figures;
+  const Volume volume = { ReadImage(options.Text("volume")),
+    options.Number("iso", std::numeric_limits<double>::quiet_NaN()),
+    options.Integer("metric", 1) == 1 };
+  Figures figures;
+  const std::string run = options.Text("run");
+  (run == "us" || run == "flat" ? MeasureOurs : MeasurePeer)(volume, options, figures);
+  figures.Write();
 }
 
 } // namespace volumic::bench

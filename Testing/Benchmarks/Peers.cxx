@@ -1,0 +1,282 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// What VTK, CGAL and OpenVDB make surfaces with.
+
+#include "Benchmark.h"
+
+#include "SupportVtkConversions.h"
+
+#include <vtkCleanPolyData.h>
+#include <vtkFlyingEdges3D.h>
+#include <vtkStaticPointLocator.h>
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/IO/facets_in_complex_2_to_triangle_mesh.h>
+#include <CGAL/Implicit_surface_3.h>
+#include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
+#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
+#include <CGAL/Polygon_mesh_processing/remesh.h>
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/Surface_mesh_default_triangulation_3.h>
+#include <CGAL/make_surface_mesh.h>
+
+#if defined(VOLUMIC_BENCHMARK_OPENVDB)
+#include <openvdb/openvdb.h>
+#include <openvdb/tools/Dense.h>
+#include <openvdb/tools/VolumeToMesh.h>
+#endif
+
+#include <cmath>
+#include <memory>
+
+namespace volumic::bench
+{
+namespace
+{
+
+namespace processing = CGAL::Polygon_mesh_processing;
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
+using Triangulation = CGAL::Surface_mesh_default_triangulation_3;
+using Traits = Triangulation::Geom_traits;
+using Point = Traits::Point_3;
+
+/** The mesh must have no garbage. */
+support::TriangleSurface ToSurface(const Mesh& mesh)
+{
+  support::TriangleSurface surface;
+  for (const auto v : mesh.vertices())
+  {
+    const Kernel::Point_3& p = mesh.point(v);
+    surface.Points.push_back({ p.x(), p.y(), p.z() });
+  }
+  for (const auto f : mesh.faces())
+  {
+    std::array<int, 3> corners;
+    int c = 0;
+    for (const auto v : mesh.vertices_around_face(mesh.halfedge(f)))
+    {
+      corners[c++] = static_cast<int>(v.idx());
+    }
+    surface.Triangles.push_back(corners);
+  }
+  return surface;
+}
+
+/** As it is where it is manifold; else cut where it is not. */
+void Fill(const support::TriangleSurface& surface, Mesh& mesh)
+{
+  std::vector<Kernel::Point_3> points;
+  std::vector<std::vector<std::size_t>> triangles;
+  for (const auto& p : surface.Points)
+  {
+    points.emplace_back(p[0], p[1], p[2]);
+  }
+  for (const auto& t : surface.Triangles)
+  {
+    triangles.emplace_back(t.begin(), t.end());
+  }
+  if (!processing::is_polygon_soup_a_polygon_mesh(triangles))
+  {
+    processing::orient_polygon_soup(points, triangles);
+  }
+  processing::polygon_soup_to_polygon_mesh(points, triangles, mesh);
+}
+
+//------------------------------------------------------------------------------
+/** The trilinear field of the image, less the iso-value, negative in the object. Outside the image
+    is air. Float voxels, or the mesher would be compiled for each type. */
+class ImplicitField
+{
+public:
+  ImplicitField(vtkImageData* image, double isoValue)
+    : Values(std::make_shared<std::vector<float>>()), IsoValue(isoValue)
+  {
+    image->GetDimensions(this->Size);
+    image->GetSpacing(this->Step);
+    vtkDataArray* voxels = image->GetPointData()->GetScalars();
+    for (vtkIdType v = 0; v < voxels->GetNumberOfTuples(); ++v)
+    {
+      this->Values->push_back(static_cast<float>(voxels->GetComponent(v, 0)));
+    }
+  }
+
+  double operator()(const Point& p) const
+  {
+    const double place[3] = { p.x() / this->Step[0], p.y() / this->Step[1], p.z() / this->Step[2] };
+    int corner[3];
+    double share[3];
+    for (int a = 0; a < 3; ++a)
+    {
+      if (!(place[a] >= 0.0 && place[a] <= this->Size[a] - 1))
+      {
+        return 1.0;
+      }
+      corner[a] = std::min(static_cast<int>(place[a]), this->Size[a] - 2);
+      share[a] = place[a] - corner[a];
+    }
+    const std::ptrdiff_t row = this->Size[0], plane = row * this->Size[1];
+    const float* v = this->Values->data() + corner[2] * plane + corner[1] * row + corner[0];
+    const auto along = [&share](int a, double x, double y) { return x + share[a] * (y - x); };
+    const auto inPlane = [&](const float* w)
+    { return along(1, along(0, w[0], w[1]), along(0, w[row], w[row + 1])); };
+    return this->IsoValue - along(2, inPlane(v), inPlane(v + plane));
+  }
+
+  /** A voxel of the object at a place where the trilinear field crosses the iso-value. */
+  Point VoxelBeside(const double place[3]) const
+  {
+    Point voxel(0, 0, 0);
+    for (const bool isUp : { false, true })
+    {
+      double corner[3];
+      for (int a = 0; a < 3; ++a)
+      {
+        const double at = place[a] / this->Step[a], near = std::round(at);
+        // On an edge of the grid two of the three are whole numbers, but for their rounding.
+        corner[a] = this->Step[a] * (std::abs(at - near) < 1e-3 ? near : std::floor(at) + isUp);
+      }
+      const Point end(corner[0], corner[1], corner[2]);
+      voxel = (*this)(end) <= (*this)(voxel) ? end : voxel;
+    }
+    return voxel;
+  }
+
+  /** Of a sphere around any point in the image that encloses all of it. */
+  double EnclosingRadius() const
+  {
+    return 1.1 *
+      std::hypot(this->Size[0] * this->Step[0], this->Size[1] * this->Step[1],
+        this->Size[2] * this->Step[2]);
+  }
+
+private:
+  std::shared_ptr<std::vector<float>> Values;
+  int Size[3];
+  double Step[3];
+  double IsoValue;
+};
+
+} // namespace
+
+//------------------------------------------------------------------------------
+support::TriangleSurface TrianglesOf(vtkPolyData* surface)
+{
+  vtkNew<vtkCleanPolyData> clean;
+  clean->SetInputData(surface);
+  clean->PointMergingOff();
+  clean->Update();
+  return support::ToTriangleSurface(clean->GetOutput());
+}
+
+double Field(vtkPolyData* surface, const char* name)
+{
+  vtkDataArray* array = surface->GetFieldData()->GetArray(name);
+  return array && array->GetNumberOfTuples() > 0 ? array->GetComponent(0, 0) : 0.0;
+}
+
+Job PolyDataJob(const std::function<vtkSmartPointer<vtkPolyData>()>& make)
+{
+  const auto made = std::make_shared<vtkSmartPointer<vtkPolyData>>();
+  return { [made, make]() { *made = make(); }, [made]() { return TrianglesOf(*made); } };
+}
+
+vtkSmartPointer<vtkPolyData> FlyingEdges(vtkImageData* image, double isoValue)
+{
+  vtkNew<vtkFlyingEdges3D> marching;
+  marching->SetInputData(image);
+  marching->SetValue(0, isoValue);
+  marching->ComputeNormalsOff();
+  marching->ComputeScalarsOff();
+  marching->Update();
+  return marching->GetOutput();
+}
+
+Job RemeshingJob(const std::function<vtkSmartPointer<vtkPolyData>()>& make, double edgeLength)
+{
+  const auto mesh = std::make_shared<Mesh>();
+  const auto work = [=]()
+  {
+    mesh->clear();
+    Fill(TrianglesOf(make()), *mesh);
+    processing::isotropic_remeshing(
+      faces(*mesh), edgeLength, *mesh, CGAL::parameters::number_of_iterations(3));
+    mesh->collect_garbage();
+  };
+  return { work, [mesh]() { return ToSurface(*mesh); } };
+}
+
+Job MesherJob(vtkImageData* image, vtkPolyData* largest, double isoValue, double radius)
+{
+  // With CGAL's default precision, a share of the enclosing sphere, vertices would be off by tenths
+  // of a voxel.
+  constexpr double precision = 0.03;
+  const auto mesh = std::make_shared<Mesh>();
+  // Where the object is, which the user of this mesher has to know, is found before.
+  const ImplicitField field(image, isoValue);
+  vtkNew<vtkStaticPointLocator> points;
+  points->SetDataSet(largest);
+  const Point inside =
+    field.VoxelBeside(largest->GetPoint(points->FindClosestPoint(largest->GetCenter())));
+  const auto work = [=]()
+  {
+    const double enclosing = field.EnclosingRadius();
+    const CGAL::Implicit_surface_3<Traits, ImplicitField> surface(
+      field, Traits::Sphere_3(inside, enclosing * enclosing), precision / enclosing);
+    const CGAL::Surface_mesh_default_criteria_3<Triangulation> criteria(30.0, radius, 0.5 * radius);
+    Triangulation triangulation;
+    CGAL::Complex_2_in_triangulation_3<Triangulation> complex(triangulation);
+    CGAL::make_surface_mesh(complex, surface, criteria, CGAL::Manifold_tag());
+    mesh->clear();
+    CGAL::facets_in_complex_2_to_triangle_mesh(complex, *mesh);
+  };
+  return { work, [mesh]() { return ToSurface(*mesh); } };
+}
+
+#if defined(VOLUMIC_BENCHMARK_OPENVDB)
+Job OpenVdbJob(vtkImageData* image, double isoValue)
+{
+  openvdb::initialize();
+  const auto made = std::make_shared<support::TriangleSurface>();
+  const auto work = [=]()
+  {
+    const int* size = image->GetDimensions();
+    const auto grid = openvdb::FloatGrid::create(static_cast<float>(image->GetScalarRange()[0]));
+    // OpenVDB's own layout has z fastest.
+    openvdb::tools::Dense<float, openvdb::tools::LayoutXYZ> dense(
+      openvdb::CoordBBox(0, 0, 0, size[0] - 1, size[1] - 1, size[2] - 1));
+    vtkDataArray* voxels = image->GetPointData()->GetScalars();
+    for (vtkIdType v = 0; v < voxels->GetNumberOfTuples(); ++v)
+    {
+      dense.data()[v] = static_cast<float>(voxels->GetComponent(v, 0));
+    }
+    openvdb::tools::copyFromDense(dense, *grid, 0.0f);
+    std::vector<openvdb::Vec3s> points;
+    std::vector<openvdb::Vec3I> triangles;
+    std::vector<openvdb::Vec4I> quads;
+    openvdb::tools::volumeToMesh(*grid, points, triangles, quads, isoValue);
+    *made = support::TriangleSurface();
+    const double* step = image->GetSpacing();
+    for (const openvdb::Vec3s& p : points)
+    {
+      made->Points.push_back({ p[0] * step[0], p[1] * step[1], p[2] * step[2] });
+    }
+    const auto add = [&](auto a, auto b, auto c) {
+      made->Triangles.push_back({ static_cast<int>(a), static_cast<int>(b), static_cast<int>(c) });
+    };
+    for (const openvdb::Vec3I& t : triangles)
+    {
+      add(t[0], t[1], t[2]);
+    }
+    for (const openvdb::Vec4I& q : quads)
+    {
+      add(q[0], q[1], q[2]);
+      add(q[0], q[2], q[3]);
+    }
+  };
+  return { work, [made]() { return *made; } };
+}
+#endif
+
+} // namespace volumic::bench

@@ -1,0 +1,129 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The command `volumic` on one volume, with each size, number of threads and limit of memory: how
+cost grows, what threads gain, what a limit costs. Reading and writing are included; surfaces must be
+the same files for any threads and limit. Options that are not known here are volumic's."""
+
+import csv
+import hashlib
+import json
+import os
+import statistics
+import tempfile
+
+from vtkmodules.vtkImagingCore import vtkImageResize
+from vtkmodules.vtkIOXML import vtkXMLImageDataReader, vtkXMLImageDataWriter
+
+from tables import Figures, finish, print_figures, print_targets, ratio, say, timed
+
+COLUMNS = {
+    "Seconds": "seconds", "ProcessorSeconds": "processor s", "PeakMegabytes": "MB at the peak",
+    "Vertices": "vertices", "MillionSeconds": "s a million", "Visits": "visits, level 0",
+    "Edits": "edits, level 0", "Gain": "gain", "Same": "same file"}
+
+
+def add_options(parser):
+    parser.add_argument("volume", help="what volumic reads; .vti where --sizes resample it")
+    parser.add_argument("--volumic", default="volumic", metavar="PROGRAM")
+    parser.add_argument("--sizes", default="0", metavar="LIST",
+                        help="as many voxels as N^3 has; 0: as it is (0)")
+    parser.add_argument("--threads", default="1,2", metavar="LIST", help="(1,2)")
+    parser.add_argument("--memory", default="none", metavar="LIST", help="none,1500M: limits (none)")
+    parser.add_argument("--repetitions", type=int, default=1, help="by turns; medians")
+    parser.add_argument("--suffix", default=".vtp", help="of the surfaces (.vtp)")
+
+
+def resample(volume, size, output):
+    """Linearly, the voxels at the border where they were; uncompressed."""
+    reader, resize, writer = vtkXMLImageDataReader(), vtkImageResize(), vtkXMLImageDataWriter()
+    reader.SetFileName(volume)
+    reader.Update()
+    dimensions = reader.GetOutput().GetDimensions()
+    factor = size / (dimensions[0] * dimensions[1] * dimensions[2]) ** (1 / 3)
+    resize.SetInputConnection(reader.GetOutputPort())
+    resize.SetResizeMethodToOutputDimensions()
+    resize.SetOutputDimensions(*(max(8, round(factor * n)) for n in dimensions))
+    writer.SetInputConnection(resize.GetOutputPort())
+    writer.SetFileName(output)
+    writer.SetDataModeToAppended()
+    writer.EncodeAppendedDataOff()
+    writer.SetCompressorTypeToNone()
+    writer.SetHeaderTypeToUInt64()
+    if not writer.Write():
+        raise RuntimeError(f"{output} can't be written")
+
+
+def run(options, folder, volume, threads, memory):
+    surface, history, report = (os.path.join(folder, name) for name in (
+        "surface" + options.suffix, "history.csv", "report.json"))
+    limit = [] if memory == "none" else ["--memory", memory]
+    seconds, processor, peak = timed(
+        options.volumic, volume, surface, "--quiet", "--threads", threads, *limit, "--report",
+        report, "--history", history, *options.rest)
+    with open(report, encoding="utf-8") as file:
+        vertices = json.load(file)["vertices"]
+    with open(history, encoding="utf-8") as file:
+        rows = [row for row in csv.DictReader(file) if row["Level"] == "0"]
+    with open(surface, "rb") as file:
+        digest = hashlib.sha256(file.read()).hexdigest()[:16]
+
+    def of_vertex(*columns):
+        return sum(float(row[column]) for row in rows for column in columns) / vertices
+    return Figures(
+        Seconds=seconds, ProcessorSeconds=processor, PeakMegabytes=peak, Vertices=vertices,
+        MillionSeconds=1e6 * processor / vertices, Visits=of_vertex("ActiveVertices"),
+        Edits=of_vertex("Splits", "Collapses", "Flips"), Surface=digest)
+
+
+def measure_size(options, folder, size):
+    """{(threads, memory): figures}"""
+    volume = options.volume if size == "0" else os.path.join(folder, "volume.vti")
+    if size != "0":
+        resample(options.volume, int(size), volume)
+    asked = [(threads, memory) for memory in options.memory.split(",")
+             for threads in options.threads.split(",")]
+    runs = {key: [] for key in asked}
+    for _ in range(options.repetitions):
+        for key in asked:
+            say(f"size {size}, {key[0]} thread(s), memory {key[1]}")
+            try:
+                runs[key].append(run(options, folder, volume, *key))
+            except RuntimeError as error:
+                runs[key].append(Figures(Failure=str(error)))
+    medians = {}
+    for key, repetitions in runs.items():
+        medians[key] = Figures(repetitions[-1])
+        for column in ("Seconds", "ProcessorSeconds", "PeakMegabytes", "MillionSeconds"):
+            medians[key][column] = statistics.median(each[column] for each in repetitions)
+    first = medians[asked[0]]
+    for figures in medians.values():
+        figures["Gain"] = ratio(first["Seconds"], figures["Seconds"])
+        figures["Same"] = "yes" if figures["Surface"] == first["Surface"] else "no"
+    return medians
+
+
+def target_rows(size, medians):
+    rows = [("Q5", f"{size}: surfaces that differ",
+             len({f["Surface"] for f in medians.values() if "Surface" in f}), "<=", 1)]
+    for (threads, memory), figures in medians.items():
+        wanted = {"2": 1.85, "16": 10 if int(size) >= 512 else 7}.get(threads)
+        if wanted and memory == "none" and ("1", "none") in medians:
+            rows.append(("S6", f"{size}: gain of {threads} threads", figures["Gain"], ">=", wanted))
+        if memory == "none" and size in ("512", "1024"):
+            rows.append(("M1", f"{size}^3: MB, {threads} thread(s)", figures["PeakMegabytes"], "<=",
+                         800 if size == "512" else 4200))
+    return rows
+
+
+def measure(options):
+    runs, targets = [], []
+    for size in options.sizes.split(","):
+        with tempfile.TemporaryDirectory(dir="/var/tmp", prefix="volumic-") as folder:
+            medians = measure_size(options, folder, size)
+        runs += [(f"{size}^3, " * bool(int(size)) + f"{threads} thread(s), memory {memory}", figures)
+                 for (threads, memory), figures in medians.items()]
+        targets += target_rows(size, medians)
+    print(f"{options.volume}: gain is the first one's seconds over the run's\n")
+    print_figures(COLUMNS, runs)
+    print_targets(targets)
+    return finish(options.csv, runs)

@@ -1,0 +1,263 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Surfaces of labels that touch: those of vtkLabelsToSurfaces that share their interfaces beside
+those that do not (separate), vtkSurfaceNets3D (VTK 9.3) and vtkDiscreteFlyingEdges3D with
+vtkWindowedSincPolyDataFilter, all labels of a map together. `graded` are shared ones with a Tolerance
+of a fifth of a voxel. Wants Volumic's Python package.
+
+`s` is processor seconds, of one thread, the median; `time` that over the separate surfaces'.
+`crossing` are pairs of triangles that meet elsewhere than in corners and edges that they share.
+`open` are edges where the boundary of a label is not closed, oriented and manifold.
+`vol %` is the largest error of a label's volume, of labels of over 1000 voxels. `angle` is the least
+one, degrees, of triangles without a vertex on a junction line, and of all; `rough` that between two
+segments of a junction line, 95 % of them; `wrong` are voxels with their centres on the wrong side."""
+
+import math
+import os
+import statistics
+import time
+
+import numpy as np
+from vtkmodules import vtkFiltersCore
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import vtkImageData
+from vtkmodules.vtkFiltersGeneral import vtkDiscreteFlyingEdges3D
+from vtkmodules.vtkIOImage import vtkNIFTIImageReader
+from vtkmodules.vtkIOXML import vtkXMLImageDataReader
+from volumic import vtkLabelsToSurfaces
+
+from complexes import (
+    BACKGROUND, Complex, LabelVoxels, arrays_of, complex_of_output, complex_of_surfaces,
+    complex_of_twins, figures_of, volume_of)
+from tables import Figures, finish, print_figures, print_targets, ratio, say
+
+COLUMNS = {
+    "Seconds": "s", "Time": "time", "Vertices": "vertices", "PerSecond": "triangles / s",
+    "Intersections": "crossing", "WrongEdges": "open",
+    "LostLabels": "lost", "VolumeLargest": "vol %", "RatioMean": "q", "AngleInner": "angle",
+    "AngleLeast": "of all", "Roughness": "rough", "WrongVoxels": "wrong"}
+TEMPLATES = "/usr/share/mricron/templates"
+
+
+def add_options(parser):
+    parser.add_argument("--judge", default="JudgeFiles", help="the program JudgeFiles")
+    parser.add_argument("--maps", default="polycrystal,tooth,slices,aal,JHU", metavar="LIST",
+                        help="of polycrystal, tooth, slices, aal, JHU (Debian's mricron-data), small")
+    parser.add_argument("--runs", default=",".join(runs_here()), metavar="LIST", help="(%(default)s)")
+    parser.add_argument("--threads", type=int, default=1, help="of ours; then `s` is the clock's")
+    parser.add_argument("--repetitions", type=int, default=1)
+
+
+# ---- Maps ----------------------------------------------------------------------------------------
+
+def read(path):
+    """A .vti, or a NIfTI file; voxels as they are told, but the first one at 0."""
+    reader = vtkXMLImageDataReader() if path.endswith(".vti") else vtkNIFTIImageReader()
+    reader.SetFileName(path)
+    reader.Update()
+    image = reader.GetOutput()
+    values = vtk_to_numpy(image.GetPointData().GetScalars())
+    return LabelVoxels(values.reshape(image.GetDimensions()[::-1]).astype(np.int16),
+                       image.GetSpacing())
+
+
+def polycrystal(size, grains):
+    """Voronoi cells of random places; there is no background."""
+    places = np.random.default_rng(34).random((grains, 3)) * (size - 1)
+    at = np.arange(size, dtype=float)
+    nearest = np.full((size, ) * 3, np.inf)
+    values = np.zeros(nearest.shape, np.int16)
+    for grain, (x, y, z) in enumerate(places, 1):
+        squared = (((at - z) ** 2)[:, None, None] + ((at - y) ** 2)[None, :, None]
+                   + ((at - x) ** 2)[None, None, :])
+        values[squared < nearest] = grain
+        np.minimum(nearest, squared, out=nearest)
+    return LabelVoxels(values)
+
+
+def tooth(size, step=1):
+    """Pulp (1) in dentin (2), and enamel (3) on the crown; cut open along an oblique plane, so that
+    all three meet the background there. Of every so many slices one."""
+    z, y, x = np.mgrid[:size, :size, :size] / (size - 1) * 2 - 1
+    # Slimmer towards the root, which is down.
+    around = np.hypot(x + .03, y - .02) / (.62 + .3 * z)
+
+    def within(half_width, root, crown):
+        middle, half_height = (crown + root) / 2, (crown - root) / 2
+        return (around / half_width) ** 2 + ((z - middle) / half_height) ** 2 < 1
+    values = np.zeros(x.shape, np.int16)
+    values[within(.93, -.4, .85) & (z > .02 + .1 * x)] = 3
+    values[within(.75, -.88, .7)] = 2
+    values[within(.33, -.75, .35)] = 1
+    values[y + .1 * x + .07 * z > .06] = 0
+    return LabelVoxels(values[::step], (1, 1, step))
+
+
+def template(name):
+    """Of Debian's mricron-data; None where that is not installed."""
+    path = os.path.join(TEMPLATES, f"{name}.nii.gz")
+    return read(path) if os.path.exists(path) else None
+
+
+def named_maps():
+    """{name: what makes it}"""
+    return {
+        "polycrystal": lambda: polycrystal(128, 60),
+        "tooth": lambda: tooth(128),
+        "slices": lambda: tooth(128, 2),
+        "aal": lambda: template("aal"),
+        "JHU": lambda: template("JHU-WhiteMatter-labels-1mm"),
+        "small": lambda: polycrystal(32, 6)}
+
+
+# ---- Runs ----------------------------------------------------------------------------------------
+
+def image_of(voxels, margin=0):
+    """`margin`: so many layers of background about it."""
+    values = np.pad(voxels.values, margin, constant_values=BACKGROUND)
+    image = vtkImageData()
+    image.SetDimensions(*values.shape[::-1])
+    image.SetSpacing(*voxels.spacing)
+    image.SetOrigin(*(-margin * voxels.spacing))
+    image.GetPointData().SetScalars(numpy_to_vtk(values.ravel(), deep=True))
+    return image
+
+
+def run(image, *filters, threads=1):
+    """One after the other; seconds: of one thread the processor's, else the clock's."""
+    filters[0].SetInputDataObject(image)
+    for first, second in zip(filters, filters[1:]):
+        second.SetInputConnection(first.GetOutputPort())
+    clock = time.process_time if threads == 1 else time.perf_counter
+    start = clock()
+    filters[-1].Update()
+    return clock() - start
+
+
+def ours(voxels, is_shared, threads, tolerance=0.):
+    """tolerance: in smallest distances of voxels"""
+    surfaces = vtkLabelsToSurfaces()
+    surfaces.SetTolerance(tolerance * min(voxels.spacing))
+    surfaces.SetNumberOfThreads(threads)
+    surfaces.SetSharedInterfaces(is_shared)
+    seconds = run(image_of(voxels), surfaces, threads=threads)
+    if surfaces.GetErrorCode():
+        raise RuntimeError("vtkLabelsToSurfaces failed, see above")
+    if is_shared:
+        return seconds, complex_of_output(surfaces.GetOutputDataObject(1))
+    output = surfaces.GetOutputDataObject(0)
+    blocks = [output.GetBlock(number) for number in range(output.GetNumberOfBlocks())]
+    return seconds, complex_of_surfaces(
+        [(int(block.GetFieldData().GetArray("Label").GetTuple1(0)), *arrays_of(block))
+         for block in blocks if block.GetNumberOfPolys()])
+
+
+def windowed(voxels):
+    """vtkDiscreteFlyingEdges3D of all labels, their points merged, and
+    vtkWindowedSincPolyDataFilter with its defaults and what keeps labels together."""
+    edges, merge = vtkDiscreteFlyingEdges3D(), vtkFiltersCore.vtkCleanPolyData()
+    smooth = vtkFiltersCore.vtkWindowedSincPolyDataFilter()
+    for number, label in enumerate(voxels.counts):
+        edges.SetValue(number, label)
+    edges.ComputeNormalsOff()
+    smooth.BoundarySmoothingOff()
+    smooth.FeatureEdgeSmoothingOff()
+    smooth.NonManifoldSmoothingOn()
+    smooth.NormalizeCoordinatesOn()
+    seconds = run(image_of(voxels, 1), edges, merge, smooth)
+    points, triangles = arrays_of(smooth.GetOutput())
+    label_of_point = vtk_to_numpy(edges.GetOutput().GetPointData().GetScalars())
+    labels = label_of_point[arrays_of(edges.GetOutput())[1][:, 0]].astype(int)
+    if volume_of(points, triangles) < 0:
+        triangles = triangles[:, ::-1]
+    return seconds, complex_of_twins(points, triangles, labels)
+
+
+def sides_by_voxels(surface, voxels):
+    """The labels behind and in front of triangles that are half a side of a voxel each."""
+    points, triangles = arrays_of(surface)
+    corners = points[triangles] / voxels.spacing
+    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    across = .5 * normal / np.linalg.norm(normal, axis=1, keepdims=True)
+    values = np.pad(voxels.values, 1, constant_values=BACKGROUND)
+    both = corners.mean(axis=1)[:, None] + np.stack([-across, across], axis=1)
+    x, y, z = np.moveaxis(np.rint(both).astype(int) + 1, 2, 0)
+    return values[z, y, x]
+
+
+def nets(voxels):
+    """vtkSurfaceNets3D of all labels, with its smoothing. It does not tell which of a triangle's
+    labels is behind it: the same triangles, not smoothed, are between the two voxels."""
+    surfaces = vtkFiltersCore.vtkSurfaceNets3D()
+    for number, label in enumerate(voxels.counts):
+        surfaces.SetValue(number, label)
+    surfaces.SetOutputMeshTypeToTriangles()
+    seconds = run(image_of(voxels, 1), surfaces)
+    points, triangles = arrays_of(surfaces.GetOutput())
+    surfaces.SmoothingOff()
+    surfaces.Update()
+    return seconds, Complex(points, triangles, sides_by_voxels(surfaces.GetOutput(), voxels))
+
+
+def runs_here(threads=1):
+    """{name: function}; those that this VTK has."""
+    return {"separate": lambda voxels: ours(voxels, False, threads),
+            "shared": lambda voxels: ours(voxels, True, threads),
+            "graded": lambda voxels: ours(voxels, True, threads, .2),
+            **({"nets": nets} if hasattr(vtkFiltersCore, "vtkSurfaceNets3D") else {}),
+            "windowed": windowed}
+
+
+def measure_map(options, name, voxels):
+    """{run: figures}, the repetitions by turns."""
+    runs = {run: runs_here(options.threads)[run] for run in options.runs.split(",")}
+    made = {run: [] for run in runs}
+    for _ in range(options.repetitions):
+        for run_name, function in runs.items():
+            say(f"{name}: {run_name}")
+            try:
+                made[run_name].append(function(voxels))
+            except RuntimeError as error:
+                made[run_name] = None
+                say(str(error))
+    measured = {}
+    for run_name, repetitions in made.items():
+        measured[run_name] = Figures(Failure="see above")
+        if repetitions:
+            seconds = statistics.median(each[0] for each in repetitions)
+            figures = Figures(figures_of(repetitions[-1][1], voxels, options.judge), Seconds=seconds)
+            figures["PerSecond"] = figures["Triangles"] / seconds
+            measured[run_name] = figures
+    for figures in measured.values():
+        figures["Time"] = ratio(figures["Seconds"], measured.get("separate", Figures())["Seconds"])
+    return measured
+
+
+def target_rows(name, measured):
+    shared, separate, nets = (measured.get(run, Figures()) for run in ("shared", "separate", "nets"))
+    return [(name, COLUMNS.get(figure, figure), shared[figure], relation, limit)
+            for figure, relation, limit in (
+                ("Intersections", "<=", 0), ("Flat", "<=", 0), ("WrongEdges", "<=", 0),
+                ("LostLabels", "<=", 0), ("VolumeLargest", "<=", .2), ("RatioMean", ">=", .94), ("AngleInner", ">=", 25),
+                ("AngleLeast", ">=", 20), ("WrongVoxels", "<=", separate["WrongVoxels"]),
+                ("Time", "<=", 2), ("PerSecond", ">=", 60000), ("Roughness", "<=", nets["Roughness"]))
+            if not math.isnan(limit)]
+
+
+def measure(options):
+    if "nets" not in runs_here():
+        print("vtkSurfaceNets3D is left out: it comes with VTK 9.3 (Debian 13).")
+    all_runs, targets = [], []
+    for name in options.maps.split(","):
+        voxels = named_maps()[name]()
+        if voxels is None:
+            print(f"{name} is left out: mricron-data is not installed.")
+            continue
+        measured = measure_map(options, name, voxels)
+        print(f"\n{name}: {' x '.join(map(str, voxels.values.shape[::-1]))} voxels, "
+              f"{len(voxels.counts)} labels:\n")
+        print_figures(COLUMNS, list(measured.items()))
+        all_runs += [(f"{name}, {run_name}", figures) for run_name, figures in measured.items()]
+        targets += target_rows(name, measured)
+    print_targets(targets)
+    return finish(options.csv, all_runs)
