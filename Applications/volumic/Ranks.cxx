@@ -2,38 +2,36 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Ranks.h"
 
-#include "ToolErrors.h"
-
 #include <vtkAlgorithm.h>
-#include <vtkDataObject.h>
 #include <vtkMultiProcessController.h>
 #ifdef VOLUMIC_HAS_MPI
 #include <vtkMPIController.h>
-#include <vtk_mpi.h>
 #endif
 
 #include <cstdlib>
-#include <exception>
 #include <initializer_list>
-#include <new>
-#include <sstream>
+#include <thread>
 #include <utility>
 
 namespace tool
 {
 namespace
 {
-constexpr int DataTag = 22101;
+constexpr int Tag = 22101;
 
-/** What was thrown. */
-enum Kind : int
+/** What the first one tells the others; what is not negative is an exit code, the last word. */
+enum Word : int
 {
-  Nothing,
-  OfUsage,
-  OfMemory,
-  Other
+  Ask = -1,
+  Help = -2
 };
 
+constexpr std::chrono::milliseconds Interval(100);
+
+/** MPI waits with all the power of a processor; whoever has answered sleeps for a while. */
+constexpr std::chrono::milliseconds Nap(80);
+
+#ifdef VOLUMIC_HAS_MPI
 /** The value of the first of these in the environment; null: there is none. */
 const char* FirstOf(std::initializer_list<const char*> names)
 {
@@ -47,20 +45,6 @@ const char* FirstOf(std::initializer_list<const char*> names)
   return nullptr;
 }
 
-[[noreturn]] void Throw(int kind, const std::string& words)
-{
-  switch (kind)
-  {
-    case OfUsage:
-      throw UsageError(words);
-    case OfMemory:
-      throw std::bad_alloc();
-    default:
-      throw Failure(words);
-  }
-}
-
-#ifdef VOLUMIC_HAS_MPI
 /** Whether mpirun, or what a cluster has in its place, has started this process and others. */
 bool AreMany()
 {
@@ -97,222 +81,88 @@ Ranks::~Ranks()
   }
 }
 
-int Ranks::Rank() const
-{
-  return this->Controller ? this->Controller->GetLocalProcessId() : 0;
-}
-
 int Ranks::Count() const
 {
   return this->Controller ? this->Controller->GetNumberOfProcesses() : 1;
 }
 
-void Ranks::Together(const std::function<void()>& work)
+bool Ranks::IsFirst() const
 {
-  if (this->IsOne())
-  {
-    work();
-    return;
-  }
-  this->IsAgreed = false;
-  int kind = Nothing;
-  std::string words;
-  try
-  {
-    work();
-  }
-  catch (const UsageError& error)
-  {
-    kind = OfUsage;
-    words = error.what();
-  }
-  catch (const std::bad_alloc&)
-  {
-    kind = OfMemory;
-  }
-  catch (const std::exception& error)
-  {
-    kind = Other;
-    words = error.what();
-  }
-  this->Agree(kind, std::move(words));
+  return !this->Controller || this->Controller->GetLocalProcessId() == 0;
 }
 
-void Ranks::Agree(int kind, std::string words)
+int Ranks::Wait(
+  const std::function<bool()>& isInterrupted, const std::function<void()>& help)
 {
-  if (!this->IsAny(kind != Nothing))
+  for (;;)
   {
-    return;
-  }
-  const std::vector<std::string> all =
-    this->GatherOnAll(std::string(1, static_cast<char>(kind)) + words);
-  for (int rank = 0; rank < this->Count(); ++rank)
-  {
-    const std::string& told = all[static_cast<std::size_t>(rank)];
-    if (told[0] != Nothing)
+    int word = 0;
+    this->Controller->Receive(&word, 1, 0, Tag);
+    if (word >= 0)
     {
-      this->IsAgreed = true;
-      const std::string who = rank == 0 ? "" : "rank " + std::to_string(rank) + ": ";
-      Throw(told[0], who + told.substr(1));
+      return word;
     }
+    if (word == Help)
+    {
+      help();
+      continue;
+    }
+    const int answer = isInterrupted() ? 1 : 0;
+    this->Controller->Send(&answer, 1, 0, Tag);
+    std::this_thread::sleep_for(Nap);
   }
 }
 
-void Ranks::ThrowAny(const std::string& failure)
+void Ranks::Hear()
 {
-  this->Together(
-    [&failure]
-    {
-      FailIf(!failure.empty(), failure);
-    });
-}
-
-void Ranks::ThrowOnAll(const std::string& words)
-{
-  this->IsAgreed = true;
-  throw Failure(words);
-}
-
-void Ranks::OnFirst(const std::function<void()>& work)
-{
-  this->Together(
-    [&]
-    {
-      if (this->IsFirst())
-      {
-        work();
-      }
-    });
-}
-
-void Ranks::Abort(int code)
-{
-#ifdef VOLUMIC_HAS_MPI
-  if (this->Controller)
+  for (int rank = 1; this->IsAsked && rank < this->Count(); ++rank)
   {
-    MPI_Abort(MPI_COMM_WORLD, code);
+    int answer = 0;
+    this->Controller->Receive(&answer, 1, rank, Tag);
+    this->IsInterrupted = this->IsInterrupted || answer != 0;
   }
-#else
-  (void)code;
-#endif
+  this->IsAsked = false;
 }
 
-void Ranks::Update(vtkAlgorithm* filter) const
+void Ranks::Tell(int word)
 {
-  if (this->IsOne())
+  this->Hear();
+  for (int rank = 1; rank < this->Count(); ++rank)
+  {
+    this->Controller->Send(&word, 1, rank, Tag);
+  }
+}
+
+bool Ranks::AreInterrupted()
+{
+  const auto now = std::chrono::steady_clock::now();
+  if (this->Controller && this->IsFirst() && !this->IsUpdating && now - this->Told > Interval)
+  {
+    this->Tell(Ask);
+    this->IsAsked = true;
+    this->Told = now;
+  }
+  return this->IsInterrupted;
+}
+
+void Ranks::End(int code)
+{
+  this->Tell(code);
+}
+
+void Ranks::Update(vtkAlgorithm* filter)
+{
+  if (!this->Controller)
   {
     filter->Update();
+    return;
   }
-  else
+  if (this->IsFirst())
   {
-    filter->UpdatePiece(this->Rank(), this->Count(), 0);
+    this->Tell(Help);
   }
-}
-
-bool Ranks::IsAny(bool isHere) const
-{
-  if (this->IsOne())
-  {
-    return isHere;
-  }
-  const int here = isHere ? 1 : 0;
-  int any = here;
-  this->Controller->AllReduce(&here, &any, 1, vtkCommunicator::MAX_OP);
-  return any != 0;
-}
-
-std::string Ranks::Broadcast(std::string bytes) const
-{
-  if (!this->IsOne())
-  {
-    auto size = static_cast<vtkIdType>(bytes.size());
-    this->Controller->Broadcast(&size, 1, 0);
-    bytes.resize(static_cast<std::size_t>(size));
-    this->Controller->Broadcast(bytes.data(), size, 0);
-  }
-  return bytes;
-}
-
-double Ranks::Broadcast(double value) const
-{
-  if (!this->IsOne())
-  {
-    this->Controller->Broadcast(&value, 1, 0);
-  }
-  return value;
-}
-
-void Ranks::NeedSame(const std::vector<std::string>& here,
-  const std::function<void(const std::string& here, const std::string& first)>& refuse)
-{
-  std::string joined;
-  for (const std::string& item : here)
-  {
-    joined += item + '\0';
-  }
-  std::istringstream first(this->Broadcast(joined));
-  this->Together(
-    [&]
-    {
-      std::string ofFirst;
-      for (const std::string& item : here)
-      {
-        const bool isThere = static_cast<bool>(std::getline(first, ofFirst, '\0'));
-        if (!isThere || item != ofFirst)
-        {
-          refuse(item, isThere ? ofFirst : "");
-        }
-      }
-      if (std::getline(first, ofFirst, '\0'))
-      {
-        refuse("", ofFirst);
-      }
-    });
-}
-
-std::vector<std::string> Ranks::GatherOnAll(const std::string& bytes) const
-{
-  if (this->IsOne())
-  {
-    return { bytes };
-  }
-  const auto count = static_cast<std::size_t>(this->Count());
-  const auto size = static_cast<vtkIdType>(bytes.size());
-  std::vector<vtkIdType> sizes(count);
-  this->Controller->AllGather(&size, sizes.data(), 1);
-  std::vector<vtkIdType> begins(count + 1, 0);
-  for (std::size_t rank = 0; rank < count; ++rank)
-  {
-    begins[rank + 1] = begins[rank] + sizes[rank];
-  }
-  std::string joined(static_cast<std::size_t>(begins[count]), '\0');
-  this->Controller->AllGatherV(bytes.data(), joined.data(), size, sizes.data(), begins.data());
-  std::vector<std::string> all;
-  for (std::size_t rank = 0; rank < count; ++rank)
-  {
-    all.push_back(joined.substr(
-      static_cast<std::size_t>(begins[rank]), static_cast<std::size_t>(sizes[rank])));
-  }
-  return all;
-}
-
-std::vector<double> Ranks::GatherOnAll(double number) const
-{
-  std::vector<double> all(static_cast<std::size_t>(this->Count()), number);
-  if (!this->IsOne())
-  {
-    this->Controller->AllGather(&number, all.data(), 1);
-  }
-  return all;
-}
-
-void Ranks::SendToFirst(vtkDataObject* data) const
-{
-  this->Controller->Send(data, 0, DataTag);
-}
-
-void Ranks::Receive(vtkDataObject* data, int from) const
-{
-  this->Controller->Receive(data, from, DataTag);
+  this->IsUpdating = true;
+  filter->UpdatePiece(this->Controller->GetLocalProcessId(), this->Count(), 0);
+  this->IsUpdating = false;
 }
 }

@@ -35,8 +35,8 @@ class LabelCourse
 public:
   LabelCourse(const std::vector<double>& sizes, const std::vector<std::string>& names)
     : Sizes(sizes), Names(names), Shares(sizes.size())
+    , Whole(std::accumulate(sizes.begin(), sizes.end(), 0.0))
   {
-    this->Whole = std::accumulate(sizes.begin(), sizes.end(), 0.0);
   }
 
   /** Some of the items are to be done, for the first time or anew, and some of these here. */

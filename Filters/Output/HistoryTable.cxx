@@ -48,18 +48,17 @@ void AddColumn(
   table->AddColumn(column);
 }
 
-void AddPhases(vtkTable* table, const std::vector<HistoryRow>& rows, const char* ending,
-  double PhaseTime::*seconds)
+void AddPhases(vtkTable* table, const std::vector<HistoryRow>& rows)
 {
   for (const PhaseColumn& column : PhaseColumns)
   {
-    AddColumn<vtkDoubleArray>(table, (std::string(column.Name) + ending).c_str(), rows,
+    AddColumn<vtkDoubleArray>(table, (std::string(column.Name) + "Seconds").c_str(), rows,
       [&](const HistoryRow& row)
       {
         double sum = 0.0;
         for (const Phase phase : column.Phases)
         {
-          sum += row.Phases[static_cast<std::size_t>(phase)].*seconds;
+          sum += row.Phases[static_cast<std::size_t>(phase)].Seconds;
         }
         return sum;
       });
@@ -115,11 +114,7 @@ vtkSmartPointer<vtkTable> MakeHistory(
     table, "SecondsAfter", rows, [](const Row& r) { return r.SecondsAfter; });
   if (withPhases)
   {
-    AddPhases(table, rows, "Seconds", &PhaseTime::Seconds);
-    AddPhases(table, rows, "SerialSeconds", &PhaseTime::Serial);
-    AddColumn<vtkDoubleArray>(table, "SentBytes", rows, [](const Row& r) { return r.Sent.Bytes; });
-    AddColumn<vtkDoubleArray>(
-      table, "SentMessages", rows, [](const Row& r) { return r.Sent.Messages; });
+    AddPhases(table, rows);
   }
   return table;
 }

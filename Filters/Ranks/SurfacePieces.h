@@ -3,8 +3,6 @@
 #ifndef volumicSurfacePieces_h
 #define volumicSurfacePieces_h
 
-#include "Core/Common/Communicator.h"
-
 #include <vtkSmartPointer.h>
 #include <vtkType.h>
 
@@ -23,7 +21,7 @@ class SurfacePieces
 {
 public:
   /**
-   * @param whole       triangles with any arrays; must outlive the object
+   * @param whole       triangles with any arrays; must outlive the object; null: there is none
    * @param ghostLevels layers of the triangles of other pieces, by common points, that a piece has
    *                    as well, after its own
    */
@@ -47,12 +45,6 @@ private:
   std::vector<vtkIdType> FirstOfPoint;
   std::vector<vtkIdType> TrianglesOfPoints;
 };
-
-/**
- * The whole that all pieces without ghosts are of, with the field data of the first; null of none.
- * @param pieces by number, as MessageOf()
- */
-vtkSmartPointer<vtkPolyData> JoinPieces(const std::vector<Message>& pieces);
 }
 
 #endif

@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Input/RankInputs.h"
-
-#include "Input/SurfaceFile.h"
+#include "Ranks/JoinSurfaces.h"
 
 #include <vtkAppendPolyData.h>
 #include <vtkCellArray.h>
@@ -20,6 +18,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstring>
 #include <utility>
 #include <vector>
 
@@ -65,36 +64,6 @@ vtkSmartPointer<vtkPolyData> OwnPointsOf(vtkPolyData* piece)
     }
   }
   return own;
-}
-
-/** Points, cells and the arrays in use of what is this rank's own. */
-vtkSmartPointer<vtkPolyData> OwnPartOf(vtkPolyData* piece)
-{
-  if (piece->GetNumberOfCells() == 0)
-  {
-    return OwnPointsOf(piece);
-  }
-  auto own = vtkSmartPointer<vtkPolyData>::New();
-  own->ShallowCopy(piece);
-  if (own->GetCellGhostArray())
-  {
-    own->RemoveGhostCells();
-  }
-  auto light = vtkSmartPointer<vtkPolyData>::New();
-  light->CopyStructure(own);
-  for (const char* name : ArraysInUse)
-  {
-    if (vtkDataArray* numbers = own->GetPointData()->GetArray(name))
-    {
-      light->GetPointData()->AddArray(numbers);
-    }
-  }
-  vtkDataArray* ids = own->GetPointData()->GetGlobalIds();
-  if (ids && ids->GetNumberOfComponents() == 1)
-  {
-    light->GetPointData()->SetGlobalIds(ids);
-  }
-  return light;
 }
 
 /** Whether all have global ids of their points. */
@@ -160,16 +129,77 @@ vtkSmartPointer<vtkPolyData> MergeByPlace(vtkPolyData* joined)
   return clean->GetOutput();
 }
 
-vtkSmartPointer<vtkPolyData> Join(const std::vector<vtkSmartPointer<vtkPolyData>>& pieces)
+/** Whether two have the same points, bit by bit. */
+bool AreTheSame(vtkPolyData* a, vtkPolyData* b)
 {
+  const std::size_t bytes = static_cast<std::size_t>(a->GetNumberOfPoints()) * 3 *
+    static_cast<std::size_t>(a->GetPoints()->GetData()->GetDataTypeSize());
+  return a->GetNumberOfPoints() == b->GetNumberOfPoints() &&
+    a->GetPoints()->GetDataType() == b->GetPoints()->GetDataType() &&
+    a->GetNumberOfCells() == b->GetNumberOfCells() &&
+    std::memcmp(a->GetPoints()->GetVoidPointer(0), b->GetPoints()->GetVoidPointer(0), bytes) == 0;
+}
+}
+
+/** Points, cells and the arrays in use of what is this rank's own. */
+vtkSmartPointer<vtkPolyData> OwnPartOf(vtkPolyData* piece)
+{
+  if (piece->GetNumberOfCells() == 0)
+  {
+    return OwnPointsOf(piece);
+  }
+  auto own = vtkSmartPointer<vtkPolyData>::New();
+  own->ShallowCopy(piece);
+  if (own->GetCellGhostArray())
+  {
+    own->RemoveGhostCells();
+  }
+  auto light = vtkSmartPointer<vtkPolyData>::New();
+  light->CopyStructure(own);
+  for (const char* name : ArraysInUse)
+  {
+    if (vtkDataArray* numbers = own->GetPointData()->GetArray(name))
+    {
+      light->GetPointData()->AddArray(numbers);
+    }
+  }
+  vtkDataArray* ids = own->GetPointData()->GetGlobalIds();
+  if (ids && ids->GetNumberOfComponents() == 1)
+  {
+    light->GetPointData()->SetGlobalIds(ids);
+  }
+  return light;
+}
+
+vtkSmartPointer<vtkPolyData> JoinSurfaces(
+  const std::vector<vtkSmartPointer<vtkPolyData>>& given)
+{
+  std::vector<vtkSmartPointer<vtkPolyData>> pieces;
+  vtkNew<vtkAppendPolyData> append;
+  for (vtkPolyData* of : given)
+  {
+    if (!of || of->GetNumberOfPoints() == 0)
+    {
+      continue;
+    }
+    const vtkSmartPointer<vtkPolyData> piece = OwnPartOf(of);
+    if (piece->GetNumberOfPoints() > 0 &&
+      std::none_of(pieces.begin(), pieces.end(),
+          [&piece](vtkPolyData* other) { return AreTheSame(piece, other); }))
+    {
+      pieces.push_back(piece);
+      append->AddInputData(piece);
+    }
+  }
+  const bool isFirst =
+    given.front() && given.front()->GetNumberOfPoints() > 0 && pieces.size() == 1;
+  if (pieces.empty() || isFirst)
+  {
+    return given.front() ? given.front() : vtkSmartPointer<vtkPolyData>::New();
+  }
   if (pieces.size() == 1)
   {
     return pieces.front();
-  }
-  vtkNew<vtkAppendPolyData> append;
-  for (vtkPolyData* piece : pieces)
-  {
-    append->AddInputData(piece);
   }
   append->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
   append->Update();
@@ -179,34 +209,5 @@ vtkSmartPointer<vtkPolyData> Join(const std::vector<vtkSmartPointer<vtkPolyData>
     return joined;
   }
   return HaveIds(pieces) ? MergeById(joined) : MergeByPlace(joined);
-}
-}
-
-vtkSmartPointer<vtkPolyData> JoinPieces(Communicator& ranks, vtkPolyData* piece)
-{
-  if (ranks.NumberOfRanks() == 1)
-  {
-    return piece;
-  }
-  const bool hasPoints = piece && piece->GetNumberOfPoints() > 0;
-  std::vector<Message> messages =
-    ranks.Gather(hasPoints ? MessageOf(OwnPartOf(piece)) : Message());
-  const bool isGiven = ranks.IsAny(piece != nullptr);
-  if (ranks.Rank() != 0 || !isGiven)
-  {
-    return nullptr;
-  }
-  std::vector<vtkSmartPointer<vtkPolyData>> pieces;
-  bool hasOthers = false;
-  for (std::size_t rank = 0; rank < messages.size(); ++rank)
-  {
-    const auto same = std::find(messages.begin(), messages.end(), messages[rank]);
-    if (!messages[rank].empty() && same == messages.begin() + static_cast<std::ptrdiff_t>(rank))
-    {
-      pieces.push_back(SurfaceFrom(messages[rank]));
-      hasOthers = hasOthers || rank > 0;
-    }
-  }
-  return hasOthers ? Join(pieces) : vtkSmartPointer<vtkPolyData>(piece);
 }
 }

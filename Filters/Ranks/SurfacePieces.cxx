@@ -1,11 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Output/SurfacePieces.h"
-
-#include "Input/SurfaceFile.h"
+#include "Ranks/SurfacePieces.h"
 
 #include <vtkAbstractArray.h>
-#include <vtkAppendPolyData.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
@@ -69,22 +66,6 @@ void SelectArrays(vtkDataSetAttributes* from, vtkIdList* ids, vtkDataSetAttribut
   }
 }
 
-/** The arrays but for global ids, in the order in which others have those of the same names. */
-void AddInOrder(vtkDataSetAttributes* from, vtkDataSetAttributes* like, vtkDataSetAttributes* to)
-{
-  for (int i = 0; i < like->GetNumberOfArrays(); ++i)
-  {
-    if (like->GetAbstractArray(i) != like->GetGlobalIds())
-    {
-      to->AddArray(from->GetAbstractArray(like->GetArrayName(i)));
-    }
-  }
-  if (vtkDataArray* normals = like->GetNormals())
-  {
-    to->SetActiveNormals(normals->GetName());
-  }
-}
-
 /** Points of another surface, with their arrays. */
 void SetPoints(vtkPolyData* surface, vtkPolyData* from, const std::vector<vtkIdType>& ids)
 {
@@ -133,7 +114,7 @@ void AddGhostTypes(vtkDataSetAttributes* attributes, std::size_t count, unsigned
 SurfacePieces::SurfacePieces(vtkPolyData* whole, int numberOfPieces, int ghostLevels)
   : Whole(whole), NumberOfPieces(numberOfPieces), GhostLevels(ghostLevels)
 {
-  if (ghostLevels <= 0)
+  if (ghostLevels <= 0 || !whole)
   {
     return;
   }
@@ -246,52 +227,5 @@ vtkSmartPointer<vtkPolyData> SurfacePieces::Piece(int number) const
       [numberOfOwn](std::size_t t) { return static_cast<vtkIdType>(t) >= numberOfOwn; });
   }
   return piece;
-}
-
-vtkSmartPointer<vtkPolyData> JoinPieces(const std::vector<Message>& pieces)
-{
-  if (pieces.empty())
-  {
-    return nullptr;
-  }
-  vtkNew<vtkAppendPolyData> append;
-  for (const Message& piece : pieces)
-  {
-    append->AddInputData(SurfaceFrom(piece));
-  }
-  append->Update();
-  vtkPolyData* joined = append->GetOutput();
-  vtkPolyData* first = vtkPolyData::SafeDownCast(append->GetInputDataObject(0, 0));
-  if (joined->GetNumberOfPoints() == 0)
-  {
-    return first; // It has all arrays.
-  }
-  vtkDataArray* told = joined->GetPointData()->GetGlobalIds();
-  const auto idOf = [told](vtkIdType p)
-  { return static_cast<vtkIdType>(told->GetComponent(p, 0)); };
-  std::vector<vtkIdType> places; // By id, one of those at which the point is.
-  for (vtkIdType p = 0; p < joined->GetNumberOfPoints(); ++p)
-  {
-    const auto id = static_cast<std::size_t>(idOf(p));
-    places.resize(std::max(places.size(), id + 1));
-    places[id] = p;
-  }
-  std::vector<vtkIdType> corners;
-  for (vtkIdType t = 0; t < joined->GetNumberOfPolys(); ++t)
-  {
-    for (const vtkIdType corner : CornersOf(joined, t))
-    {
-      corners.push_back(idOf(corner));
-    }
-  }
-  auto whole = vtkSmartPointer<vtkPolyData>::New();
-  whole->SetPolys(TrianglesAt(corners));
-  vtkNew<vtkPolyData> ordered;
-  ordered->SetPoints(joined->GetPoints());
-  AddInOrder(joined->GetPointData(), first->GetPointData(), ordered->GetPointData());
-  SetPoints(whole, ordered, places);
-  AddInOrder(joined->GetCellData(), first->GetCellData(), whole->GetCellData());
-  whole->SetFieldData(first->GetFieldData());
-  return whole;
 }
 }
