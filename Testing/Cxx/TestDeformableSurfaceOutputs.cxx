@@ -199,15 +199,6 @@ TEST(DeformableSurfaceOutputs, SecondsOfRowsAndLevelsAddUpToThoseOfTheRun)
   EXPECT_GT(history->GetValueByName(0, "SecondsBefore").ToDouble(), 0.0) << "the inner pyramid";
 }
 
-namespace
-{
-/** The column that tells how much of a phase one thread does alone. */
-std::string SerialOf(const std::string& phase)
-{
-  return phase.substr(0, phase.size() - 7) + "SerialSeconds";
-}
-}
-
 TEST(DeformableSurfaceOutputs, TellsWhereTheTimeGoesIfAsked)
 {
   const auto filter = SurfaceOf(BallImage(40, 40, 40));
@@ -218,15 +209,11 @@ TEST(DeformableSurfaceOutputs, TellsWhereTheTimeGoesIfAsked)
   const char* phases[] = { "ForcesSeconds", "ContactSeconds", "ProximitySeconds",
     "VerificationSeconds", "RemeshingSeconds", "TopologySeconds", "DivisionSeconds",
     "RecoverySeconds", "RegularisationSeconds" };
-  ASSERT_EQ(history->GetNumberOfColumns(), 47);
+  ASSERT_EQ(history->GetNumberOfColumns(), 36);
   for (int i = 0; i < 9; ++i)
   {
     EXPECT_STREQ(history->GetColumnName(27 + i), phases[i]);
-    EXPECT_EQ(history->GetColumnName(36 + i), SerialOf(phases[i]));
   }
-  EXPECT_STREQ(history->GetColumnName(45), "SentBytes");
-  EXPECT_STREQ(history->GetColumnName(46), "SentMessages");
-  EXPECT_EQ(history->GetValueByName(0, "SentBytes").ToDouble(), 0.0) << "there is nobody else";
   ASSERT_GT(history->GetNumberOfRows(), 10);
   double all = 0.0;
   double explained = 0.0;
@@ -249,44 +236,6 @@ TEST(DeformableSurfaceOutputs, TellsWhereTheTimeGoesIfAsked)
   const vtkIdType last = history->GetNumberOfRows() - 1;
   EXPECT_GT(history->GetValueByName(last, "DivisionSeconds").ToDouble(), 0.0)
     << "what follows the last iteration of a level";
-}
-
-TEST(DeformableSurfaceOutputs, TellsHowMuchOfEachPhaseOneThreadDoesAlone)
-{
-  const auto filter = SurfaceOf(BallImage(40, 40, 40),
-    [](vtkDeformableSurface* f) { f->ProfileOn(); });
-  vtkTable* history = filter->GetHistory();
-  const auto value = [history](vtkIdType row, const std::string& name)
-  { return history->GetValueByName(row, name.c_str()).ToDouble(); };
-  const double rounding = 1e-9;
-  for (const char* phase : { "ForcesSeconds", "ContactSeconds", "ProximitySeconds",
-         "VerificationSeconds", "RemeshingSeconds", "TopologySeconds", "DivisionSeconds",
-         "RecoverySeconds", "RegularisationSeconds" })
-  {
-    SCOPED_TRACE(phase);
-    double serial = 0.0;
-    double all = 0.0;
-    for (vtkIdType r = 0; r < history->GetNumberOfRows(); ++r)
-    {
-      EXPECT_GE(value(r, SerialOf(phase)), -rounding);
-      EXPECT_LE(value(r, SerialOf(phase)), value(r, phase) + rounding);
-      serial += value(r, SerialOf(phase));
-      all += value(r, phase);
-    }
-    EXPECT_GT(serial, 0.0);
-    EXPECT_LT(serial, all) << "each phase does something in parallel";
-  }
-  double parts = 0.0;
-  double division = 0.0;
-  for (vtkIdType r = 0; r < history->GetNumberOfRows(); ++r)
-  {
-    const double sum = value(r, "RecoverySeconds") + value(r, "RegularisationSeconds");
-    EXPECT_LE(sum, value(r, "DivisionSeconds") + rounding);
-    parts += sum;
-    division += value(r, "DivisionSeconds");
-  }
-  EXPECT_GT(value(history->GetNumberOfRows() - 1, "RegularisationSeconds"), 0.0);
-  EXPECT_LT(parts, division) << "start and division are no part of these";
 }
 
 TEST(DeformableSurfaceOutputs, HasNoSnapshotsUnlessAsked)
