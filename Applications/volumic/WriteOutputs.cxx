@@ -325,7 +325,7 @@ void WriteLabelSurfaces(const ToolOptions& options, std::vector<LabelSurface>& s
     {
       // All are made at once, and so as finished as the first.
       const SurfaceWriting writing = { "volumic " VOLUMIC_VERSION +
-          UnfinishedRemark(surfaces.front()), PieceSizeOf(options, surface.Surface), style };
+          UnfinishedRemark(surfaces.front()), PieceSizeOf(options, interfaces), style };
       failures.Try([&] { WriteSurface(interfaces, name, writing); });
       continue;
     }

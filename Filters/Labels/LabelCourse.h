@@ -63,12 +63,10 @@ public:
     const std::lock_guard<std::mutex> lock(this->Mutex);
     this->UnderWay.push_back(item);
   }
-  /** @return whether to go on. */
-  bool Tell(std::size_t item, double share)
+  void Tell(std::size_t item, double share)
   {
     // A revision of the surface sets back what its run tells.
     this->Shares[item] = std::max(this->Shares[item].load(), static_cast<float>(share));
-    return !this->IsStopped;
   }
   void End(std::size_t item)
   {

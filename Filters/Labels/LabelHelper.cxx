@@ -61,6 +61,10 @@ void LabelHelper::Wait()
 void LabelHelper::Begin(Ranks& ranks, const LabelMap& map, vtkImageData* frame,
   const std::vector<std::string>& names)
 {
+  if (!ranks.AreMany())
+  {
+    return;
+  }
   RankMessage message;
   message.Words << static_cast<int>(Step::Begin) << map.NumberOfObjects;
   for (int axis = 0; axis < 3; ++axis)
@@ -255,7 +259,7 @@ void LabelHelper::StartWork(RankMessage& message)
     {
       try
       {
-        this->Work->Do(kind, isDue, own, false, [] {});
+        this->Work->Do(kind, "", isDue, own, false, [] {});
       }
       catch (...)
       {
@@ -284,9 +288,9 @@ RankMessage LabelHelper::TellOfWork(RankMessage& message)
   return answer;
 }
 
-RankMessage LabelHelper::Give(RankMessage& message) const
+RankMessage LabelHelper::Give(RankMessage& message)
 {
-  const LabelSurface& made = this->Work->Surfaces[TakeCount(message)];
+  const LabelSurface made = std::exchange(this->Work->Surfaces[TakeCount(message)], {});
   RankMessage answer;
   answer.Words << static_cast<vtkTypeInt64>(made.WrongVoxels)
                << static_cast<vtkTypeInt64>(made.MissedVoxels) << made.IsFinished << made.Seconds;

@@ -73,7 +73,7 @@ private:
   void TakeSlice(RankMessage& message);
   void StartWork(RankMessage& message);
   RankMessage TellOfWork(RankMessage& message);
-  RankMessage Give(RankMessage& message) const;
+  RankMessage Give(RankMessage& message);
   void Wait();
 
   const LabelSettings& Settings;

@@ -44,8 +44,9 @@ private:
   /** How far all are, and whether any is to stop. @return whether others have work left */
   bool Tell();
   /** Work on the items that are due. @param own those of each rank */
-  void Do(LabelWork::Kind kind, const std::vector<std::vector<std::size_t>>& own);
-  void MakeDue();
+  void Do(LabelWork::Kind kind, const std::string& title,
+    const std::vector<std::vector<std::size_t>>& own);
+  void MakeDue(const std::string& title);
 
   Ranks& All;
   LabelSurfaceMaker& Maker;
@@ -97,12 +98,14 @@ bool Making::Tell()
   return !told.AreThrough;
 }
 
-void Making::Do(LabelWork::Kind kind, const std::vector<std::vector<std::size_t>>& own)
+void Making::Do(LabelWork::Kind kind, const std::string& title,
+  const std::vector<std::vector<std::size_t>>& own)
 {
   this->Others = LabelProgress();
   LabelHelper::Do(this->All, kind, this->IsDue, own);
-  this->Work.Do(kind, this->IsDue, own.front(), this->All.AreMany(), [this] { this->Tell(); });
-  while (this->Tell())
+  this->Work.Do(
+    kind, title, this->IsDue, own.front(), this->All.AreMany(), [this] { this->Tell(); });
+  while (this->All.AreMany() && this->Tell())
   {
     std::this_thread::sleep_for(StandardThreads::Pause);
   }
@@ -115,16 +118,16 @@ void Making::AddClaims()
   // Each rank finds those of all: what they are made of is told more slowly.
   std::vector<std::size_t> all(this->IsDue.size());
   std::iota(all.begin(), all.end(), std::size_t(0));
-  this->Do(LabelWork::Kind::Claim,
+  this->Do(LabelWork::Kind::Claim, "fields: ",
     std::vector<std::vector<std::size_t>>(static_cast<std::size_t>(this->All.Count()), all));
   this->Before = claimShare;
   this->Whole = 1.0 - claimShare;
 }
 
-void Making::MakeDue()
+void Making::MakeDue(const std::string& title)
 {
   const std::vector<std::vector<std::size_t>> own = this->ShareOut();
-  this->Do(LabelWork::Kind::Surface, own);
+  this->Do(LabelWork::Kind::Surface, title, own);
   for (int rank = 1; rank < this->All.Count(); ++rank)
   {
     for (const std::size_t item : own[static_cast<std::size_t>(rank)])
@@ -152,7 +155,7 @@ void Making::MakeSurfaces(std::vector<LabelSurface> finished)
   }
   const double afterwards = this->Maker.KeepsApart() ? 0.3 * this->Whole : 0.0;
   this->Whole -= afterwards;
-  this->MakeDue();
+  this->MakeDue("");
   for (int round = 0; this->Maker.KeepsApart() && !this->Work.State.IsStopped; ++round)
   {
     this->Before += this->Whole;
@@ -167,7 +170,7 @@ void Making::MakeSurfaces(std::vector<LabelSurface> finished)
     }
     this->Maker.Lower(touching);
     LabelHelper::Lower(this->All, touching);
-    this->MakeDue();
+    this->MakeDue("apart: ");
   }
 }
 }

@@ -67,8 +67,9 @@ void LabelWork::DoItem(Kind kind, std::size_t item, int numberOfThreads, HostThr
   LabelSurface made = this->Maker.Make(this->Objects[item], numberOfThreads, threads,
     [&](double share, const std::string&)
     {
+      this->State.Tell(item, share);
       tell();
-      return this->State.Tell(item, share);
+      return !this->State.IsStopped;
     });
   LabelSurface& surface = this->Surfaces[item];
   const double seconds = surface.Seconds +
@@ -82,10 +83,10 @@ void LabelWork::DoItem(Kind kind, std::size_t item, int numberOfThreads, HostThr
   this->State.End(item);
 }
 
-void LabelWork::Do(Kind kind, const std::vector<std::uint8_t>& isDue,
+void LabelWork::Do(Kind kind, const std::string& title, const std::vector<std::uint8_t>& isDue,
   const std::vector<std::size_t>& own, bool isBeside, const std::function<void()>& tell)
 {
-  this->State.Expect(kind == Kind::Claim ? "fields: " : "", isDue, own);
+  this->State.Expect(title, isDue, own);
   const auto tellHere = [this, &tell]
   {
     try

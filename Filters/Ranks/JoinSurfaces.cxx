@@ -4,12 +4,10 @@
 
 #include <vtkAppendPolyData.h>
 #include <vtkCellArray.h>
-#include <vtkCellData.h>
 #include <vtkCleanPolyData.h>
 #include <vtkDataArray.h>
 #include <vtkDataSetAttributes.h>
 #include <vtkIdList.h>
-#include <vtkIdTypeArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -26,44 +24,9 @@ namespace volumic
 {
 namespace
 {
-/** Arrays of points that a run looks at; see InputPoints. */
-constexpr const char* ArraysInUse[] = { "Weight", "Radius" };
-
 bool HasPolygons(vtkPolyData* data)
 {
   return data->GetNumberOfPolys() + data->GetNumberOfStrips() > 0;
-}
-
-/** Where points are all that there is, those that are not another rank's. */
-vtkSmartPointer<vtkPolyData> OwnPointsOf(vtkPolyData* piece)
-{
-  vtkNew<vtkIdList> ids;
-  vtkUnsignedCharArray* types = piece->GetPointGhostArray();
-  for (vtkIdType p = 0; p < piece->GetNumberOfPoints(); ++p)
-  {
-    if (!types || !(types->GetValue(p) & vtkDataSetAttributes::DUPLICATEPOINT))
-    {
-      ids->InsertNextId(p);
-    }
-  }
-  auto own = vtkSmartPointer<vtkPolyData>::New();
-  vtkNew<vtkPoints> points;
-  points->SetDataType(piece->GetPoints()->GetDataType());
-  piece->GetPoints()->GetPoints(ids, points);
-  own->SetPoints(points);
-  for (const char* name : ArraysInUse)
-  {
-    if (vtkDataArray* numbers = piece->GetPointData()->GetArray(name))
-    {
-      auto selected = vtkSmartPointer<vtkDataArray>::Take(numbers->NewInstance());
-      selected->SetName(name);
-      selected->SetNumberOfComponents(numbers->GetNumberOfComponents());
-      selected->SetNumberOfTuples(ids->GetNumberOfIds());
-      numbers->GetTuples(ids, selected);
-      own->GetPointData()->AddArray(selected);
-    }
-  }
-  return own;
 }
 
 /** Whether all have global ids of their points. */
@@ -141,34 +104,33 @@ bool AreTheSame(vtkPolyData* a, vtkPolyData* b)
 }
 }
 
-/** Points, cells and the arrays in use of what is this rank's own. */
 vtkSmartPointer<vtkPolyData> OwnPartOf(vtkPolyData* piece)
 {
-  if (piece->GetNumberOfCells() == 0)
-  {
-    return OwnPointsOf(piece);
-  }
   auto own = vtkSmartPointer<vtkPolyData>::New();
   own->ShallowCopy(piece);
-  if (own->GetCellGhostArray())
+  if (piece->GetNumberOfCells() > 0)
   {
-    own->RemoveGhostCells();
-  }
-  auto light = vtkSmartPointer<vtkPolyData>::New();
-  light->CopyStructure(own);
-  for (const char* name : ArraysInUse)
-  {
-    if (vtkDataArray* numbers = own->GetPointData()->GetArray(name))
+    if (own->GetCellGhostArray())
     {
-      light->GetPointData()->AddArray(numbers);
+      own->RemoveGhostCells();
+    }
+    return own;
+  }
+  vtkUnsignedCharArray* types = piece->GetPointGhostArray();
+  vtkNew<vtkPoints> points;
+  points->SetDataType(piece->GetPoints()->GetDataType());
+  own->Initialize();
+  own->GetPointData()->CopyAllocate(piece->GetPointData(), piece->GetNumberOfPoints());
+  for (vtkIdType p = 0; p < piece->GetNumberOfPoints(); ++p)
+  {
+    if (!types || !(types->GetValue(p) & vtkDataSetAttributes::DUPLICATEPOINT))
+    {
+      own->GetPointData()->CopyData(
+        piece->GetPointData(), p, points->InsertNextPoint(piece->GetPoint(p)));
     }
   }
-  vtkDataArray* ids = own->GetPointData()->GetGlobalIds();
-  if (ids && ids->GetNumberOfComponents() == 1)
-  {
-    light->GetPointData()->SetGlobalIds(ids);
-  }
-  return light;
+  own->SetPoints(points);
+  return own;
 }
 
 vtkSmartPointer<vtkPolyData> JoinSurfaces(

@@ -11,7 +11,7 @@ class vtkPolyData;
 
 namespace volumic
 {
-/** Points, cells and the arrays that a run looks at of what is no ghost in a piece. */
+/** What is no ghost in a piece. */
 vtkSmartPointer<vtkPolyData> OwnPartOf(vtkPolyData* piece);
 
 /**

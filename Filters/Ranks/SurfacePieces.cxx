@@ -2,10 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Ranks/SurfacePieces.h"
 
-#include <vtkAbstractArray.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
-#include <vtkDataArray.h>
 #include <vtkDataSetAttributes.h>
 #include <vtkFieldData.h>
 #include <vtkIdList.h>
@@ -34,47 +32,21 @@ std::array<vtkIdType, 3> CornersOf(vtkPolyData* surface, vtkIdType triangle)
   return { ids[0], ids[1], ids[2] };
 }
 
-vtkSmartPointer<vtkIdList> ListOf(const std::vector<vtkIdType>& ids)
+/** Some tuples of all arrays, which keep their types, names and roles. */
+void CopyTuples(
+  vtkDataSetAttributes* from, const std::vector<vtkIdType>& ids, vtkDataSetAttributes* to)
 {
-  auto list = vtkSmartPointer<vtkIdList>::New();
-  list->SetNumberOfIds(static_cast<vtkIdType>(ids.size()));
-  std::copy(ids.begin(), ids.end(), list->GetPointer(0));
-  return list;
-}
-
-/** The tuples of an array, in an array of the same type and name. */
-vtkSmartPointer<vtkAbstractArray> Select(vtkAbstractArray* array, vtkIdList* ids)
-{
-  auto selected = vtkSmartPointer<vtkAbstractArray>::Take(
-    vtkAbstractArray::CreateArray(array->GetDataType()));
-  selected->SetName(array->GetName());
-  selected->SetNumberOfComponents(array->GetNumberOfComponents());
-  selected->SetNumberOfTuples(ids->GetNumberOfIds());
-  array->GetTuples(ids, selected);
-  return selected;
-}
-
-void SelectArrays(vtkDataSetAttributes* from, vtkIdList* ids, vtkDataSetAttributes* to)
-{
-  for (int i = 0; i < from->GetNumberOfArrays(); ++i)
+  vtkNew<vtkIdList> of;
+  vtkNew<vtkIdList> at;
+  for (std::size_t i = 0; i < ids.size(); ++i)
   {
-    to->AddArray(Select(from->GetAbstractArray(i), ids));
+    of->InsertNextId(ids[i]);
+    at->InsertNextId(static_cast<vtkIdType>(i));
   }
-  if (vtkDataArray* normals = from->GetNormals())
-  {
-    to->SetActiveNormals(normals->GetName());
-  }
-}
-
-/** Points of another surface, with their arrays. */
-void SetPoints(vtkPolyData* surface, vtkPolyData* from, const std::vector<vtkIdType>& ids)
-{
-  const vtkSmartPointer<vtkIdList> list = ListOf(ids);
-  vtkNew<vtkPoints> coordinates;
-  coordinates->SetData(
-    vtkDataArray::SafeDownCast(Select(from->GetPoints()->GetData(), list)));
-  surface->SetPoints(coordinates);
-  SelectArrays(from->GetPointData(), list, surface->GetPointData());
+  to->CopyAllOn();
+  to->CopyAllocate(from, of->GetNumberOfIds());
+  to->SetNumberOfTuples(of->GetNumberOfIds());
+  to->CopyData(from, of, at);
 }
 
 /** @param corners three of each triangle */
@@ -205,8 +177,15 @@ vtkSmartPointer<vtkPolyData> SurfacePieces::Piece(int number) const
   }
 
   piece->SetPolys(TrianglesAt(corners));
-  SetPoints(piece, this->Whole, points);
-  SelectArrays(this->Whole->GetCellData(), ListOf(triangles), piece->GetCellData());
+  vtkNew<vtkPoints> places;
+  places->SetDataType(this->Whole->GetPoints()->GetDataType());
+  for (const vtkIdType point : points)
+  {
+    places->InsertNextPoint(this->Whole->GetPoint(point));
+  }
+  piece->SetPoints(places);
+  CopyTuples(this->Whole->GetPointData(), points, piece->GetPointData());
+  CopyTuples(this->Whole->GetCellData(), triangles, piece->GetCellData());
   piece->GetFieldData()->ShallowCopy(this->Whole->GetFieldData());
 
   vtkNew<vtkIdTypeArray> ids;

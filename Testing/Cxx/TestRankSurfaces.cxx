@@ -5,6 +5,7 @@
 // gets a piece of what one process would make.
 
 #include "RankFilterTools.h"
+#include "TemporaryFolder.h"
 #include "TestPrelude.h"
 #include "vtkImagePyramid.h"
 #include "vtkVolumeToSurface.h"
@@ -262,7 +263,7 @@ TEST(RankSurfaces, EndOnAllRanksWithTheErrorOfOneAndWorkAgain)
     [](Filter* filter, vtkMultiProcessController* controller)
     {
       const int rank = controller->GetLocalProcessId();
-      vtkSmartPointer<vtkAlgorithmOutput> source = filter->GetInputConnection(0, 0);
+      vtkAlgorithmOutput* source = filter->GetInputConnection(0, 0);
       vtkNew<vtkSphereSource> sphere;
       vtkNew<PieceSource> elsewhere;
       elsewhere->Whole = Ball();
