@@ -8,28 +8,24 @@
 #include <vtkMPIController.h>
 #endif
 
+#include <chrono>
 #include <cstdlib>
 #include <initializer_list>
 #include <thread>
-#include <utility>
 
 namespace tool
 {
 namespace
 {
-constexpr int Tag = 22101;
+/** Of what the first one tells the others: an exit code, the last word, or that they are to help. */
+constexpr int WordTag = 22101;
+constexpr int Help = -1;
 
-/** What the first one tells the others; what is not negative is an exit code, the last word. */
-enum Word : int
-{
-  Ask = -1,
-  Help = -2
-};
+/** Of what an interrupted one tells the first. */
+constexpr int StopTag = 22102;
 
-constexpr std::chrono::milliseconds Interval(100);
-
-/** MPI waits with all the power of a processor; whoever has answered sleeps for a while. */
-constexpr std::chrono::milliseconds Nap(80);
+/** MPI waits with all the power of a processor: so it is only looked at now and then. */
+constexpr std::chrono::milliseconds Nap(50);
 
 #ifdef VOLUMIC_HAS_MPI
 /** The value of the first of these in the environment; null: there is none. */
@@ -91,62 +87,70 @@ bool Ranks::IsFirst() const
   return !this->Controller || this->Controller->GetLocalProcessId() == 0;
 }
 
+bool Ranks::HasWord(int tag) const
+{
+  int isThere = 0;
+#ifdef VOLUMIC_HAS_MPI
+  int from = 0;
+  vtkMPIController::SafeDownCast(this->Controller)
+    ->Iprobe(vtkMultiProcessController::ANY_SOURCE, tag, &isThere, &from);
+#else
+  (void)tag;
+#endif
+  return isThere != 0;
+}
+
 int Ranks::Wait(
   const std::function<bool()>& isInterrupted, const std::function<void()>& help)
 {
   for (;;)
   {
+    if (!this->IsInterrupted && isInterrupted())
+    {
+      this->IsInterrupted = true;
+      const int word = 1;
+      this->Controller->Send(&word, 1, 0, StopTag);
+    }
+    if (!this->HasWord(WordTag))
+    {
+      std::this_thread::sleep_for(Nap);
+      continue;
+    }
     int word = 0;
-    this->Controller->Receive(&word, 1, 0, Tag);
-    if (word >= 0)
+    this->Controller->Receive(&word, 1, 0, WordTag);
+    if (word != Help)
     {
       return word;
     }
-    if (word == Help)
-    {
-      help();
-      continue;
-    }
-    const int answer = isInterrupted() ? 1 : 0;
-    this->Controller->Send(&answer, 1, 0, Tag);
-    std::this_thread::sleep_for(Nap);
-  }
-}
-
-void Ranks::Hear()
-{
-  for (int rank = 1; this->IsAsked && rank < this->Count(); ++rank)
-  {
-    int answer = 0;
-    this->Controller->Receive(&answer, 1, rank, Tag);
-    this->IsInterrupted = this->IsInterrupted || answer != 0;
-  }
-  this->IsAsked = false;
-}
-
-void Ranks::Tell(int word)
-{
-  this->Hear();
-  for (int rank = 1; rank < this->Count(); ++rank)
-  {
-    this->Controller->Send(&word, 1, rank, Tag);
+    help();
   }
 }
 
 bool Ranks::AreInterrupted()
 {
-  const auto now = std::chrono::steady_clock::now();
-  if (this->Controller && this->IsFirst() && !this->IsUpdating && now - this->Told > Interval)
+  if (!this->IsInterrupted && this->Controller && this->IsFirst() && this->HasWord(StopTag))
   {
-    this->Tell(Ask);
-    this->IsAsked = true;
-    this->Told = now;
+    this->IsInterrupted = true;
   }
   return this->IsInterrupted;
 }
 
+void Ranks::Tell(int word)
+{
+  for (int rank = 1; rank < this->Count(); ++rank)
+  {
+    this->Controller->Send(&word, 1, rank, WordTag);
+  }
+}
+
 void Ranks::End(int code)
 {
+  int word = 0;
+  while (this->Controller && this->HasWord(StopTag))
+  {
+    this->Controller->Receive(
+      &word, 1, vtkMultiProcessController::ANY_SOURCE, StopTag);
+  }
   this->Tell(code);
 }
 
@@ -161,8 +165,6 @@ void Ranks::Update(vtkAlgorithm* filter)
   {
     this->Tell(Help);
   }
-  this->IsUpdating = true;
   filter->UpdatePiece(this->Controller->GetLocalProcessId(), this->Count(), 0);
-  this->IsUpdating = false;
 }
 }

@@ -5,9 +5,7 @@
 
 #include <vtkSmartPointer.h>
 
-#include <chrono>
 #include <functional>
-#include <vector>
 
 class vtkAlgorithm;
 class vtkMultiProcessController;
@@ -36,7 +34,7 @@ public:
 
   /**
    * At the others, until the first one is through.
-   * @param isInterrupted asked now and then
+   * @param isInterrupted asked now and then; once it is, the first one is told
    * @param help          updates what the first one updates
    * @return the exit code of the first one
    */
@@ -45,7 +43,7 @@ public:
 
   // At the first one:
 
-  /** Whether another rank was interrupted, as far as is known; they are asked now and then. */
+  /** Whether another rank was interrupted, which it tells. */
   bool AreInterrupted();
 
   /** Lets the others go. */
@@ -57,14 +55,11 @@ public:
   void Update(vtkAlgorithm* filter);
 
 private:
-  void Hear();
+  bool HasWord(int tag) const;
   void Tell(int word);
 
   vtkSmartPointer<vtkMultiProcessController> Controller; ///< null: alone
-  bool IsAsked = false;
   bool IsInterrupted = false;
-  bool IsUpdating = false; ///< The others are in their filter, and hear nothing.
-  std::chrono::steady_clock::time_point Told;
 };
 }
 

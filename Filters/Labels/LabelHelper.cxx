@@ -149,7 +149,7 @@ LabelSurface LabelHelper::Take(Ranks& ranks, int rank, std::size_t item)
   answer.Words >> wrong >> missed >> made.IsFinished >> made.Seconds;
   made.WrongVoxels = wrong;
   made.MissedVoxels = missed;
-  made.Surface = answer.TakeSurface();
+  made.Surface = vtkPolyData::SafeDownCast(answer.TakeData());
   return made;
 }
 

@@ -155,7 +155,7 @@ vtkSmartPointer<vtkImageData> TakeImage(
       RankMessage wanted;
       wanted.Words << port << block << first;
       RankMessage part = ranks.Ask(rank, RankQuestion::Part, wanted);
-      const vtkSmartPointer<vtkImageData> slab = part.TakeImage();
+      const vtkSmartPointer<vtkImageData> slab = vtkImageData::SafeDownCast(part.TakeData());
       whole.Take(slab);
       first = slab->GetExtent()[5] + 1;
     }
@@ -294,7 +294,7 @@ vtkSmartPointer<vtkPolyData> TakePoints(Ranks& ranks, const FilterCall& call, in
     bool isThere = false;
     answer->Words >> isThere;
     isGiven = isGiven || isThere;
-    pieces.push_back(answer->TakeSurface());
+    pieces.emplace_back(vtkPolyData::SafeDownCast(answer->TakeData()));
   }
   return isGiven ? JoinSurfaces(pieces) : nullptr;
 }

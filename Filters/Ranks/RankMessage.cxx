@@ -6,17 +6,21 @@
 
 #include <vtkAbstractArray.h>
 #include <vtkCellArray.h>
-#include <vtkCellData.h>
+#include <vtkCompositeDataSet.h>
+#include <vtkDataObject.h>
+#include <vtkDataObjectTypes.h>
 #include <vtkDataSetAttributes.h>
 #include <vtkFieldData.h>
 #include <vtkImageData.h>
+#include <vtkInformation.h>
 #include <vtkMatrix3x3.h>
+#include <vtkMultiBlockDataSet.h>
 #include <vtkMultiProcessController.h>
 #include <vtkNew.h>
-#include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkStringArray.h>
+#include <vtkTable.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -27,6 +31,9 @@ namespace volumic
 {
 namespace
 {
+/** What has arrays beside the field data. */
+constexpr int Associations[] = { vtkDataObject::POINT, vtkDataObject::CELL, vtkDataObject::ROW };
+
 void Check(bool isThrough)
 {
   if (!isThrough)
@@ -80,7 +87,7 @@ vtkSmartPointer<vtkDataArray> RankMessage::TakeArray()
   return this->Arrays.at(this->Taken++);
 }
 
-void RankMessage::Put(vtkFieldData* arrays)
+void RankMessage::PutArrays(vtkFieldData* arrays)
 {
   auto* attributes = vtkDataSetAttributes::SafeDownCast(arrays);
   this->Words << arrays->GetNumberOfArrays();
@@ -125,38 +132,104 @@ void RankMessage::TakeInto(vtkFieldData* arrays)
   }
 }
 
-void RankMessage::Put(vtkPolyData* surface)
+void RankMessage::Put(vtkDataObject* data)
 {
-  this->Words << (surface != nullptr);
-  if (!surface)
+  auto* surface = vtkPolyData::SafeDownCast(data);
+  auto* image = vtkImageData::SafeDownCast(data);
+  auto* blocks = vtkMultiBlockDataSet::SafeDownCast(data);
+  const bool isKnown = surface || image || blocks || vtkTable::SafeDownCast(data);
+  this->Words << (isKnown ? data->GetDataObjectType() : -1);
+  if (!isKnown)
   {
     return;
   }
-  this->Words << (surface->GetPoints() != nullptr);
-  if (surface->GetPoints())
+  this->PutArrays(data->GetFieldData());
+  for (const int type : Associations)
   {
-    this->Put(surface->GetPoints()->GetData());
+    if (vtkDataSetAttributes* attributes = data->GetAttributes(type))
+    {
+      this->PutArrays(attributes);
+    }
   }
-  for (vtkCellArray* cells :
-    { surface->GetVerts(), surface->GetLines(), surface->GetPolys(), surface->GetStrips() })
+  if (surface)
   {
-    this->Put(cells->GetOffsetsArray());
-    this->Put(cells->GetConnectivityArray());
+    this->Words << (surface->GetPoints() != nullptr);
+    if (surface->GetPoints())
+    {
+      this->Put(surface->GetPoints()->GetData());
+    }
+    for (vtkCellArray* cells :
+      { surface->GetVerts(), surface->GetLines(), surface->GetPolys(), surface->GetStrips() })
+    {
+      this->Put(cells->GetOffsetsArray());
+      this->Put(cells->GetConnectivityArray());
+    }
   }
-  this->Put(surface->GetPointData());
-  this->Put(surface->GetCellData());
-  this->Put(surface->GetFieldData());
+  else if (image)
+  {
+    PutPlace(*this, PlaceOf(image));
+  }
+  else if (blocks)
+  {
+    this->Words << static_cast<int>(blocks->GetNumberOfBlocks());
+    for (unsigned int b = 0; b < blocks->GetNumberOfBlocks(); ++b)
+    {
+      const char* name = blocks->HasMetaData(b)
+        ? blocks->GetMetaData(b)->Get(vtkCompositeDataSet::NAME())
+        : nullptr;
+      this->Words << std::string(name ? name : "");
+      this->Put(blocks->GetBlock(b));
+    }
+  }
 }
 
-vtkSmartPointer<vtkPolyData> RankMessage::TakeSurface()
+vtkSmartPointer<vtkDataObject> RankMessage::TakeData()
 {
-  bool isThere = false;
-  this->Words >> isThere;
-  if (!isThere)
+  int type = -1;
+  this->Words >> type;
+  if (type < 0)
   {
     return nullptr;
   }
-  auto surface = vtkSmartPointer<vtkPolyData>::New();
+  const auto data =
+    vtkSmartPointer<vtkDataObject>::Take(vtkDataObjectTypes::NewDataObject(type));
+  this->TakeInto(data->GetFieldData());
+  for (const int association : Associations)
+  {
+    if (vtkDataSetAttributes* attributes = data->GetAttributes(association))
+    {
+      this->TakeInto(attributes);
+    }
+  }
+  if (auto* surface = vtkPolyData::SafeDownCast(data))
+  {
+    this->TakeShape(surface);
+  }
+  else if (auto* image = vtkImageData::SafeDownCast(data))
+  {
+    Place place = TakePlace(*this);
+    image->SetExtent(place.Extent.data());
+    image->SetOrigin(place.Origin.data());
+    image->SetSpacing(place.Spacing.data());
+    image->SetDirectionMatrix(place.Direction.data());
+  }
+  else if (auto* blocks = vtkMultiBlockDataSet::SafeDownCast(data))
+  {
+    int count = 0;
+    this->Words >> count;
+    for (unsigned int b = 0; b < static_cast<unsigned int>(count); ++b)
+    {
+      std::string name;
+      this->Words >> name;
+      blocks->SetBlock(b, this->TakeData());
+      blocks->GetMetaData(b)->Set(vtkCompositeDataSet::NAME(), name.c_str());
+    }
+  }
+  return data;
+}
+
+void RankMessage::TakeShape(vtkPolyData* surface)
+{
   bool hasPoints = false;
   this->Words >> hasPoints;
   if (hasPoints)
@@ -176,42 +249,6 @@ vtkSmartPointer<vtkPolyData> RankMessage::TakeSurface()
   surface->SetLines(take());
   surface->SetPolys(take());
   surface->SetStrips(take());
-  this->TakeInto(surface->GetPointData());
-  this->TakeInto(surface->GetCellData());
-  this->TakeInto(surface->GetFieldData());
-  return surface;
-}
-
-void RankMessage::Put(vtkImageData* image)
-{
-  this->Words << (image != nullptr);
-  if (image)
-  {
-    PutPlace(*this, PlaceOf(image));
-    this->Put(image->GetPointData());
-    this->Put(image->GetCellData());
-    this->Put(image->GetFieldData());
-  }
-}
-
-vtkSmartPointer<vtkImageData> RankMessage::TakeImage()
-{
-  bool isThere = false;
-  this->Words >> isThere;
-  if (!isThere)
-  {
-    return nullptr;
-  }
-  Place place = TakePlace(*this);
-  auto image = vtkSmartPointer<vtkImageData>::New();
-  image->SetExtent(place.Extent.data());
-  image->SetOrigin(place.Origin.data());
-  image->SetSpacing(place.Spacing.data());
-  image->SetDirectionMatrix(place.Direction.data());
-  this->TakeInto(image->GetPointData());
-  this->TakeInto(image->GetCellData());
-  this->TakeInto(image->GetFieldData());
-  return image;
 }
 
 void RankMessage::Send(vtkMultiProcessController* controller, int to, int tag) const

@@ -10,6 +10,7 @@
 #include <array>
 #include <vector>
 
+class vtkDataObject;
 class vtkFieldData;
 class vtkImageData;
 class vtkMultiProcessController;
@@ -30,21 +31,19 @@ public:
   void Put(vtkDataArray* array);
   vtkSmartPointer<vtkDataArray> TakeArray();
 
-  /** All arrays of numbers or texts, and which of them are attributes. */
-  void Put(vtkFieldData* arrays);
-  void TakeInto(vtkFieldData* arrays);
-
-  /** Null stays null. */
-  void Put(vtkPolyData* surface);
-  vtkSmartPointer<vtkPolyData> TakeSurface();
-  void Put(vtkImageData* image);
-  vtkSmartPointer<vtkImageData> TakeImage();
+  /** Surfaces, images, tables, and blocks of them; null stays null, and so does anything else. */
+  void Put(vtkDataObject* data);
+  vtkSmartPointer<vtkDataObject> TakeData();
 
   /** @throws std::runtime_error where the controller fails. */
   void Send(vtkMultiProcessController* controller, int to, int tag) const;
   void Receive(vtkMultiProcessController* controller, int from, int tag);
 
 private:
+  /** All arrays of numbers or texts, and which of them are attributes. */
+  void PutArrays(vtkFieldData* arrays);
+  void TakeInto(vtkFieldData* arrays);
+  void TakeShape(vtkPolyData* surface);
   std::vector<vtkSmartPointer<vtkDataArray>> Arrays;
   std::size_t Taken = 0; ///< of these
 };

@@ -27,10 +27,8 @@ struct RankWork
 };
 
 /**
- * RequestData of a filter, by all ranks: the first one works, then each gets its part of the
- * outputs: of each surface a piece (SurfacePieces.h), of each image a part of its extent, as VTK cuts
- * images, with the ghosts that are asked for and all field data; of a table the columns, whose rows
- * stay with the first rank. One rank alone works and keeps all.
+ * RequestData of a filter, by all ranks: the first one works, then each gets its piece of the
+ * outputs (CutData.h), with the ghosts that are asked for. One rank alone works and keeps all.
  * @param aboutMemory see RunAlgorithm
  * @return what to report, the same on all ranks
  */
