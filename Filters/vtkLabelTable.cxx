@@ -61,8 +61,7 @@ int vtkLabelTable::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   this->SetErrorCode(vtkErrorCode::NoError);
-  volumic::Ranks ranks(
-    vtkMultiProcessController::GetGlobalController(), request, outputVector);
+  volumic::Ranks ranks(vtkMultiProcessController::GetGlobalController(), request, outputVector);
   if (!ranks.AreMany() && !volumic::IsFirstProcess(request, outputVector))
   {
     return 1;
@@ -82,28 +81,28 @@ int vtkLabelTable::RequestData(
   const volumic::FilterCall call{ this, request, inputVector, outputVector };
   volumic::RankWork work;
   work.OfFirst = [&]
+  {
+    const vtkSmartPointer<vtkDataObject> input = volumic::TakeImages(ranks, call, 0);
+    volumic::HostThreads threads(0);
+    std::optional<volumic::LabelImage> image;
+    threads.Run([&] { image.emplace(input, this->GetInputArrayInformation(0), threads); });
+    const auto known = volumic::LabelNames::Of(volumic::ImageOf(input));
+    image->CheckNumberOfLabels();
+    for (const auto& entry : image->Labels())
     {
-      const vtkSmartPointer<vtkDataObject> input = volumic::TakeImages(ranks, call, 0);
-      volumic::HostThreads threads(0);
-      std::optional<volumic::LabelImage> image;
-      threads.Run([&] { image.emplace(input, this->GetInputArrayInformation(0), threads); });
-      const auto known = volumic::LabelNames::Of(volumic::ImageOf(input));
-      image->CheckNumberOfLabels();
-      for (const auto& entry : image->Labels())
-      {
-        labels->InsertNextValue(entry.first);
-        names->InsertNextValue(known.NameOf(entry.first));
-        voxels->InsertNextValue(entry.second.Count);
-        extents->InsertNextTypedTuple(entry.second.Extent.data());
-        colors->InsertNextTuple(known.ColorOf(entry.first).data());
-      }
-      vtkTable* table = vtkTable::GetData(outputVector);
-      table->AddColumn(labels);
-      table->AddColumn(names);
-      table->AddColumn(voxels);
-      table->AddColumn(extents);
-      table->AddColumn(colors);
-    };
+      labels->InsertNextValue(entry.first);
+      names->InsertNextValue(known.NameOf(entry.first));
+      voxels->InsertNextValue(entry.second.Count);
+      extents->InsertNextTypedTuple(entry.second.Extent.data());
+      colors->InsertNextTuple(known.ColorOf(entry.first).data());
+    }
+    vtkTable* table = vtkTable::GetData(outputVector);
+    table->AddColumn(labels);
+    table->AddColumn(names);
+    table->AddColumn(voxels);
+    table->AddColumn(extents);
+    table->AddColumn(colors);
+  };
   const volumic::AlgorithmError error = volumic::RunOnRanks(
     ranks, call, [] { return "the memory does not suffice for the labels."; }, work);
   if (error.Code != vtkErrorCode::NoError)

@@ -17,7 +17,8 @@ namespace tool
 {
 namespace
 {
-/** Of what the first one tells the others: an exit code, the last word, or that they are to help. */
+/** Of what the first one tells the others: an exit code, the last word, or that they are to help.
+ */
 constexpr int WordTag = 22101;
 constexpr int Help = -1;
 
@@ -100,8 +101,7 @@ bool Ranks::HasWord(int tag) const
   return isThere != 0;
 }
 
-int Ranks::Wait(
-  const std::function<bool()>& isInterrupted, const std::function<void()>& help)
+int Ranks::Wait(const std::function<bool()>& isInterrupted, const std::function<void()>& help)
 {
   for (;;)
   {
@@ -148,8 +148,7 @@ void Ranks::End(int code)
   int word = 0;
   while (this->Controller && this->HasWord(StopTag))
   {
-    this->Controller->Receive(
-      &word, 1, vtkMultiProcessController::ANY_SOURCE, StopTag);
+    this->Controller->Receive(&word, 1, vtkMultiProcessController::ANY_SOURCE, StopTag);
   }
   this->Tell(code);
 }

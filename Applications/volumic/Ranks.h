@@ -38,8 +38,7 @@ public:
    * @param help          updates what the first one updates
    * @return the exit code of the first one
    */
-  int Wait(
-    const std::function<bool()>& isInterrupted, const std::function<void()>& help);
+  int Wait(const std::function<bool()>& isInterrupted, const std::function<void()>& help);
 
   // At the first one:
 

@@ -58,8 +58,8 @@ void LabelHelper::Wait()
 
 // ---- The first rank asks ------------------------------------------------------------------------
 
-void LabelHelper::Begin(Ranks& ranks, const LabelMap& map, vtkImageData* frame,
-  const std::vector<std::string>& names)
+void LabelHelper::Begin(
+  Ranks& ranks, const LabelMap& map, vtkImageData* frame, const std::vector<std::string>& names)
 {
   if (!ranks.AreMany())
   {
@@ -153,8 +153,7 @@ LabelSurface LabelHelper::Take(Ranks& ranks, int rank, std::size_t item)
   return made;
 }
 
-void LabelHelper::Lower(
-  Ranks& ranks, const std::vector<std::vector<std::array<int, 3>>>& voxels)
+void LabelHelper::Lower(Ranks& ranks, const std::vector<std::vector<std::array<int, 3>>>& voxels)
 {
   RankMessage message;
   message.Words << static_cast<int>(Step::Lower);

@@ -26,7 +26,8 @@
 
 namespace volumic
 {
-/** A rank that makes surfaces of labels for the first one, on a thread beside that which answers. */
+/** A rank that makes surfaces of labels for the first one, on a thread beside that which answers.
+ */
 class LabelHelper
 {
 public:
@@ -42,8 +43,8 @@ public:
   // At the first rank: what it has the others do.
 
   /** Gives them the map, slice by slice: it may be larger than the room for a copy of it. */
-  static void Begin(Ranks& ranks, const LabelMap& map, vtkImageData* frame,
-    const std::vector<std::string>& names);
+  static void Begin(
+    Ranks& ranks, const LabelMap& map, vtkImageData* frame, const std::vector<std::string>& names);
   /** @param own the items of each rank, large ones first; returns at once */
   static void Do(Ranks& ranks, LabelWork::Kind kind, const std::vector<std::uint8_t>& isDue,
     const std::vector<std::vector<std::size_t>>& own);

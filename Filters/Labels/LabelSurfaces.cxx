@@ -29,8 +29,8 @@ public:
   Making(Ranks& ranks, LabelSurfaceMaker& maker, const LabelBricks& bricks,
     const std::vector<std::string>& names, int numberOfThreads, HostThreads& threads,
     const LabelSurfaceMaker::Progress& progress)
-    : All(ranks), Maker(maker), Threads(threads), Progress(progress)
-    , Work(maker, bricks, names, numberOfThreads), IsDue(Work.Sizes().size(), 1)
+    : All(ranks), Maker(maker), Threads(threads), Progress(progress),
+      Work(maker, bricks, names, numberOfThreads), IsDue(Work.Sizes().size(), 1)
   {
   }
 
@@ -64,8 +64,8 @@ std::vector<std::vector<std::size_t>> Making::ShareOut() const
   const std::vector<double>& sizes = this->Work.Sizes();
   std::vector<std::size_t> order(sizes.size());
   std::iota(order.begin(), order.end(), std::size_t(0));
-  std::stable_sort(order.begin(), order.end(),
-    [&](std::size_t a, std::size_t b) { return sizes[a] > sizes[b]; });
+  std::stable_sort(
+    order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return sizes[a] > sizes[b]; });
   std::vector<double> loads(static_cast<std::size_t>(this->All.Count()), 0.0);
   std::vector<std::vector<std::size_t>> own(loads.size());
   for (const std::size_t item : order)
@@ -98,8 +98,8 @@ bool Making::Tell()
   return !told.AreThrough;
 }
 
-void Making::Do(LabelWork::Kind kind, const std::string& title,
-  const std::vector<std::vector<std::size_t>>& own)
+void Making::Do(
+  LabelWork::Kind kind, const std::string& title, const std::vector<std::vector<std::size_t>>& own)
 {
   this->Others = LabelProgress();
   LabelHelper::Do(this->All, kind, this->IsDue, own);
@@ -144,8 +144,8 @@ void Making::MakeDue(const std::string& title)
 void Making::MakeSurfaces(std::vector<LabelSurface> finished)
 {
   std::vector<LabelSurface>& surfaces = this->Work.Surfaces;
-  std::fill(this->IsDue.begin() + static_cast<std::ptrdiff_t>(surfaces.size()),
-    this->IsDue.end(), std::uint8_t(0));
+  std::fill(this->IsDue.begin() + static_cast<std::ptrdiff_t>(surfaces.size()), this->IsDue.end(),
+    std::uint8_t(0));
   // With a gap those that are drawn apart later count as well.
   if (finished.size() == surfaces.size() && !this->Maker.KeepsApart())
   {

@@ -43,9 +43,9 @@ std::vector<double> SizesOf(const LabelBricks& bricks, const std::vector<int>& o
 
 LabelWork::LabelWork(LabelSurfaceMaker& maker, const LabelBricks& bricks,
   const std::vector<std::string>& names, int numberOfThreads)
-  : Maker(maker), NumberOfThreads(numberOfThreads), Threads(numberOfThreads)
-  , Objects(ObjectsOf(maker, bricks, static_cast<int>(names.size())))
-  , SizeOf(SizesOf(bricks, Objects)), State(SizeOf, names), Surfaces(names.size())
+  : Maker(maker), NumberOfThreads(numberOfThreads), Threads(numberOfThreads),
+    Objects(ObjectsOf(maker, bricks, static_cast<int>(names.size()))),
+    SizeOf(SizesOf(bricks, Objects)), State(SizeOf, names), Surfaces(names.size())
 {
 }
 

@@ -20,11 +20,11 @@ struct Cut
 
 /**
  * A piece of an output, as VTK's filters expect them of a parallel run, with all field data:
- * - of a surface of triangles that follow each other in the whole, all pieces having nearly as many;
- *   points at the border of pieces are in each of them. Its points, in the order of the whole, have
- *   `GlobalIds` (vtkIdType, the attribute): the index in the whole. With ghosts, which come after
- *   its own triangles, points and cells have `vtkGhostType`: duplicates are the triangles of others,
- *   and points of none of its own triangles;
+ * - of a surface of triangles that follow each other in the whole, all pieces having nearly as
+ * many; points at the border of pieces are in each of them. Its points, in the order of the whole,
+ * have `GlobalIds` (vtkIdType, the attribute): the index in the whole. With ghosts, which come
+ * after its own triangles, points and cells have `vtkGhostType`: duplicates are the triangles of
+ * others, and points of none of its own triangles;
  * - of an image a part of its extent, as VTK cuts images; null where there are more pieces than
  *   voxels for them;
  * - of a table all rows for the first, and for others its columns;

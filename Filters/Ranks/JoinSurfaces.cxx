@@ -133,8 +133,7 @@ vtkSmartPointer<vtkPolyData> OwnPartOf(vtkPolyData* piece)
   return own;
 }
 
-vtkSmartPointer<vtkPolyData> JoinSurfaces(
-  const std::vector<vtkSmartPointer<vtkPolyData>>& given)
+vtkSmartPointer<vtkPolyData> JoinSurfaces(const std::vector<vtkSmartPointer<vtkPolyData>>& given)
 {
   std::vector<vtkSmartPointer<vtkPolyData>> pieces;
   vtkNew<vtkAppendPolyData> append;
@@ -147,7 +146,7 @@ vtkSmartPointer<vtkPolyData> JoinSurfaces(
     const vtkSmartPointer<vtkPolyData> piece = OwnPartOf(of);
     if (piece->GetNumberOfPoints() > 0 &&
       std::none_of(pieces.begin(), pieces.end(),
-          [&piece](vtkPolyData* other) { return AreTheSame(piece, other); }))
+        [&piece](vtkPolyData* other) { return AreTheSame(piece, other); }))
     {
       pieces.push_back(piece);
       append->AddInputData(piece);

@@ -21,8 +21,7 @@ vtkSmartPointer<vtkPolyData> OwnPartOf(vtkPolyData* piece);
  * first rank has all, it is as given.
  * @param given by rank; those that are null are none
  */
-vtkSmartPointer<vtkPolyData> JoinSurfaces(
-  const std::vector<vtkSmartPointer<vtkPolyData>>& given);
+vtkSmartPointer<vtkPolyData> JoinSurfaces(const std::vector<vtkSmartPointer<vtkPolyData>>& given);
 }
 
 #endif

@@ -81,8 +81,7 @@ VoxelBox BoxOf(const Place& place)
 }
 
 template <std::size_t N>
-bool AreClose(
-  const std::array<double, N>& a, const std::array<double, N>& b, double tolerance)
+bool AreClose(const std::array<double, N>& a, const std::array<double, N>& b, double tolerance)
 {
   return std::equal(a.begin(), a.end(), b.begin(),
     [tolerance](double x, double y) { return std::abs(x - y) <= tolerance; });
@@ -102,7 +101,8 @@ void CheckSamePlace(const Place& first, const Place& other, int rank)
     !AreClose(first.Direction, other.Direction, share))
   {
     Refuse("the pieces of the image that the processes hold are not of one image: origin, spacing "
-           "or direction differ at process ", rank, ".");
+           "or direction differ at process ",
+      rank, ".");
   }
 }
 
@@ -143,8 +143,8 @@ vtkSmartPointer<vtkImageData> TakeImage(
   {
     return own;
   }
-  SlabImage whole({ box.First[0], box.End[0] - 1, box.First[1], box.End[1] - 1, box.First[2],
-                    box.End[2] - 1 },
+  SlabImage whole(
+    { box.First[0], box.End[0] - 1, box.First[1], box.End[1] - 1, box.First[2], box.End[2] - 1 },
     true);
   // Of what several have the first one's stays.
   for (int rank = ranks.Count() - 1; rank > 0; --rank)
@@ -197,8 +197,8 @@ RankMessage GivePart(RankMessage& message, const FilterCall& call)
   vtkDataObject* input = vtkDataObject::GetData(call.Inputs[port]);
   const Images images = ImagesIn(input);
   vtkImageData* image = images[static_cast<std::size_t>(block)];
-  const double bytes = static_cast<double>(image->GetActualMemorySize()) * 1024.0 /
-    image->GetDimensions()[2];
+  const double bytes =
+    static_cast<double>(image->GetActualMemorySize()) * 1024.0 / image->GetDimensions()[2];
   // Two at least, as cells lie between two.
   const int slices = static_cast<int>(std::clamp(PartBytes / std::max(bytes, 1.0), 2.0, 1e6));
   int extent[6];
@@ -247,8 +247,9 @@ vtkSmartPointer<vtkDataObject> TakeImages(Ranks& ranks, const FilterCall& call, 
   {
     others.push_back(TakePlaces(answers[rank]));
     count = std::max(count, others.back().size());
-    hasOthers = hasOthers || std::any_of(others.back().begin(), others.back().end(),
-      [](const Place& place) { return !BoxOf(place).IsEmpty(); });
+    hasOthers = hasOthers ||
+      std::any_of(others.back().begin(), others.back().end(),
+        [](const Place& place) { return !BoxOf(place).IsEmpty(); });
   }
   if (!hasOthers)
   {

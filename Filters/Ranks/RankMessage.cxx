@@ -123,8 +123,8 @@ void RankMessage::TakeInto(vtkFieldData* arrays)
     {
       continue;
     }
-    const int place = areNumbers ? arrays->AddArray(this->TakeArray())
-                                 : arrays->AddArray(TakeTexts(*this));
+    const int place =
+      areNumbers ? arrays->AddArray(this->TakeArray()) : arrays->AddArray(TakeTexts(*this));
     if (attributes && attribute >= 0)
     {
       attributes->SetActiveAttribute(place, attribute);
@@ -174,9 +174,8 @@ void RankMessage::Put(vtkDataObject* data)
     this->Words << static_cast<int>(blocks->GetNumberOfBlocks());
     for (unsigned int b = 0; b < blocks->GetNumberOfBlocks(); ++b)
     {
-      const char* name = blocks->HasMetaData(b)
-        ? blocks->GetMetaData(b)->Get(vtkCompositeDataSet::NAME())
-        : nullptr;
+      const char* name =
+        blocks->HasMetaData(b) ? blocks->GetMetaData(b)->Get(vtkCompositeDataSet::NAME()) : nullptr;
       this->Words << std::string(name ? name : "");
       this->Put(blocks->GetBlock(b));
     }
@@ -191,8 +190,7 @@ vtkSmartPointer<vtkDataObject> RankMessage::TakeData()
   {
     return nullptr;
   }
-  const auto data =
-    vtkSmartPointer<vtkDataObject>::Take(vtkDataObjectTypes::NewDataObject(type));
+  const auto data = vtkSmartPointer<vtkDataObject>::Take(vtkDataObjectTypes::NewDataObject(type));
   this->TakeInto(data->GetFieldData());
   for (const int association : Associations)
   {

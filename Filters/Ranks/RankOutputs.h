@@ -14,7 +14,7 @@ namespace volumic
 /** What becomes of the outputs that the first rank has made. */
 enum class Dealing
 {
-  InPieces, ///< Each rank gets its piece.
+  InPieces,   ///< Each rank gets its piece.
   FirstHasAll ///< The others get surfaces without points, and blocks of the same names.
 };
 

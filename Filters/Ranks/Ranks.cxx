@@ -60,10 +60,9 @@ AlgorithmError ErrorOf(RankMessage& message)
 
 Ranks::Ranks(vtkMultiProcessController* controller, vtkInformation* request,
   vtkInformationVector* output, Show show)
-  : Controller(WorkTogether(controller, request, output) ? controller : nullptr)
-  , ShowHere(std::move(show))
-  , IsAsked(static_cast<std::size_t>(this->Count()), false)
-  , Told(Clock::now())
+  : Controller(WorkTogether(controller, request, output) ? controller : nullptr),
+    ShowHere(std::move(show)), IsAsked(static_cast<std::size_t>(this->Count()), false),
+    Told(Clock::now())
 {
 }
 

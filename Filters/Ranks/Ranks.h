@@ -28,8 +28,8 @@ enum class RankQuestion : int
   Places,   ///< Of which images are there parts? (RankInputs.h)
   Part,
   Points,
-  Output, ///< Take this. (RankOutputs.h)
-  Own,    ///< What the filter has made up itself.
+  Output,     ///< Take this. (RankOutputs.h)
+  Own,        ///< What the filter has made up itself.
   OwnProgress ///< Likewise, while the others work. As after Progress, they sleep for a while.
 };
 

@@ -60,9 +60,8 @@ inline std::vector<double> ValuesOf(vtkDataSetAttributes* attributes, vtkIdType 
   {
     vtkDataArray* array = attributes->GetArray(i);
     const std::string name = array->GetName();
-    for (int c = 0; name != "GlobalIds" && name != "vtkGhostType" &&
-         c < array->GetNumberOfComponents();
-         ++c)
+    for (int c = 0;
+         name != "GlobalIds" && name != "vtkGhostType" && c < array->GetNumberOfComponents(); ++c)
     {
       values.push_back(array->GetComponent(tuple, c));
     }

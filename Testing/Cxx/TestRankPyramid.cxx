@@ -175,7 +175,8 @@ TEST(RankPyramid, OtsuFindsTheThresholdOfTheWhole)
       otsu->SetInputConnection(source->GetOutputPort());
       ThreadControllers::Update(otsu, controller);
       EXPECT_EQ(otsu->GetThreshold(), one->GetThreshold());
-      EXPECT_EQ(otsu->GetHistogram()->GetNumberOfTuples(), one->GetHistogram()->GetNumberOfTuples());
+      EXPECT_EQ(
+        otsu->GetHistogram()->GetNumberOfTuples(), one->GetHistogram()->GetNumberOfTuples());
       EXPECT_EQ(otsu->GetOutput()->GetNumberOfColumns(), 1);
       EXPECT_EQ(otsu->GetOutput()->GetNumberOfRows(), controller->GetLocalProcessId() == 0 ? 1 : 0);
       otsu->SetController(nullptr);

@@ -277,10 +277,11 @@ TEST(RankSurfaces, EndOnAllRanksWithTheErrorOfOneAndWorkAgain)
         vtkAlgorithmOutput* Input;
         const char* Words;
       };
-      for (const Case& is : { Case{ 0, sphere->GetOutputPort(), "it is a vtkPolyData; an image" },
-             Case{ 2, sphere->GetOutputPort(), "it is a vtkPolyData; an image" },
-             Case{ 1, elsewhere->GetOutputPort(), "direction differ at process 1" },
-             Case{ 1, nothing->GetOutputPort(), "only a part of the voxels of the image, 32 x 32" } })
+      for (const Case& is :
+        { Case{ 0, sphere->GetOutputPort(), "it is a vtkPolyData; an image" },
+          Case{ 2, sphere->GetOutputPort(), "it is a vtkPolyData; an image" },
+          Case{ 1, elsewhere->GetOutputPort(), "direction differ at process 1" },
+          Case{ 1, nothing->GetOutputPort(), "only a part of the voxels of the image, 32 x 32" } })
       {
         SCOPED_TRACE(is.Words);
         filter->SetInputConnection(rank == is.Bad ? is.Input : source);
@@ -331,7 +332,8 @@ TEST(RankSurfaces, StopWhereAnyRankIsAskedToAndGoOn)
         ProgressListener cancels(filter);
         cancels.StopAt = controller->GetLocalProcessId() == canceller ? 0.03 : 2.0;
         // Long enough for the others to hear of it.
-        const ProgressHook wait(filter, [](vtkAlgorithm*, const std::string&, double)
+        const ProgressHook wait(filter,
+          [](vtkAlgorithm*, const std::string&, double)
           { std::this_thread::sleep_for(std::chrono::milliseconds(10)); });
         Update(filter, controller);
         EXPECT_EQ(StopReasonOf(filter), "cancelled");
@@ -361,8 +363,8 @@ TEST(RankSurfaces, AreMadeAnewWhereOneRankHasChanged)
       filter->SetFinestLevel(1);
       Update(filter, controller);
     });
-  ExpectPiecesOf(OneRank(Ball, [](vtkDeformableSurface* filter)
-                   { filter->SetFinestLevel(1); })->GetOutput(),
+  ExpectPiecesOf(
+    OneRank(Ball, [](vtkDeformableSurface* filter) { filter->SetFinestLevel(1); })->GetOutput(),
     SurfacesOf(ranks));
 }
 
