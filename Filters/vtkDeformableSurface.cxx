@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDeformableSurface.h"
 
-#include "Host/AlgorithmErrors.h"
-#include "Host/ControllerRanks.h"
 #include "Host/VersionCompatibility.h"
 #include "Host/WholeInput.h"
 #include "Input/SlabInput.h"
-#include "Output/RankOutputs.h"
+#include "Ranks/RankInputs.h"
+#include "Ranks/RankOutputs.h"
+#include "Ranks/Ranks.h"
 #include "vtkDeformableSurfaceInternals.h"
 
 #include <vtkDataObject.h>
@@ -136,7 +136,7 @@ void vtkDeformableSurface::SetAbortExecute(vtkTypeBool abort)
 {
   // Who presses twice may be heard after the run has ended: that neither makes the filter run again
   // nor others stop.
-  this->AbortExecute = abort && this->Internals->Alone;
+  this->AbortExecute = abort && this->Internals->All;
 }
 
 void vtkDeformableSurface::GoOn()
@@ -149,7 +149,6 @@ void vtkDeformableSurface::GoOn()
 void vtkDeformableSurface::ForgetRun()
 {
   this->Internals->Cache.Drop();
-  this->Internals->Piece = volumic::HelpersPiece();
 }
 
 //------------------------------------------------------------------------------
@@ -202,18 +201,14 @@ int vtkDeformableSurface::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
 {
   const vtkInternals& internals = *this->Internals;
-  const auto ranks = volumic::RanksOf(internals.Controller, request, output);
-  if (ranks->NumberOfRanks() > 1)
-  {
-    volumic::AskForPieces(request, input, 3, output, 0);
-    return 1;
-  }
-  volumic::AskForWholeInputs(request, input, 3, output);
-  if (internals.Settings.End.MemoryLimit > 0 && volumic::IsFirstProcess(request, output))
+  const bool areMany =
+    volumic::AskForInputs(internals.Controller, { this, request, input, output });
+  if (!areMany && internals.Settings.End.MemoryLimit > 0 &&
+    volumic::IsFirstProcess(request, output))
   {
     volumic::SlabInput(this).Ask(
       volumic::LimitedMemory::BytesOf(internals.Settings.End.MemoryLimit),
-      !internals.Cache.IsValidFor(this, ranks->NumberOfRanks()));
+      !internals.Cache.IsValidFor(this, 1));
   }
   return 1;
 }
@@ -249,47 +244,59 @@ void vtkDeformableSurface::TellWarnings()
 int vtkDeformableSurface::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  this->Internals->Ranks =
-    volumic::RanksOf(this->Internals->Controller, request, outputVector);
-  volumic::Communicator& ranks = *this->Internals->Ranks;
-  if (ranks.NumberOfRanks() == 1 && !volumic::IsFirstProcess(request, outputVector))
-  {
-    this->SetErrorCode(vtkErrorCode::NoError);
-    return 1;
-  }
+  vtkInternals& internals = *this->Internals;
   const auto show = [this](double share, const std::string& text)
   {
     this->SetProgressText(text.c_str());
     this->UpdateProgress(share);
     return !volumic::IsAbortRequested(this);
   };
-  this->Internals->Alone = std::make_unique<volumic::FirstRankWork>(ranks, show);
-  const volumic::AlgorithmError error = volumic::RunAlgorithm(ranks, outputVector,
+  internals.All =
+    std::make_unique<volumic::Ranks>(internals.Controller, request, outputVector, show);
+  volumic::Ranks& ranks = *internals.All;
+  this->SetErrorCode(vtkErrorCode::NoError);
+  if (!ranks.AreMany() && !volumic::IsFirstProcess(request, outputVector))
+  {
+    internals.All.reset();
+    return 1;
+  }
+  // ParaView leaves the flag of an earlier run as it is.
+  volumic::ForgetAbort(this);
+  const volumic::FilterCall call{ this, request, inputVector, outputVector };
+  volumic::RankWork work;
+  work.OfFirst = [&]
+  {
+    internals.Memory.Set(
+      internals.Settings.End.MemoryLimit, internals.Settings.End.ScratchDirectory);
+    internals.RunOrGoOn(call);
+  };
+  work.OfOthers = [&](volumic::RankQuestion, volumic::RankMessage&)
+  {
+    volumic::RankMessage answer;
+    answer.Words << internals.Cache.IsValidFor(this, ranks.Count());
+    return answer;
+  };
+  const volumic::AlgorithmError error = volumic::RunOnRanks(ranks, call,
     []
     {
       return "Input port 0: the memory does not suffice for the surface. Set Finest Level to a "
              "coarser level, or crop the image.";
     },
-    [&]
-    {
-      this->Internals->RunOrGoOn(inputVector, outputVector);
-      volumic::ScatterOutputs(ranks, request, outputVector, this->Internals->Piece.Outputs);
-      ranks.IsAny(false); // Who is through with it here hears of no failure any more.
-    });
+    work);
+  if (error.Code == vtkErrorCode::NoError && !ranks.IsFirst())
+  {
+    internals.Cache.Keep(nullptr, this, ranks.Count());
+  }
   if (error.Code != vtkErrorCode::NoError)
   {
     this->ForgetRun();
     this->SetErrorCode(error.Code);
     vtkErrorMacro(<< error.Text);
   }
-  if (!volumic::SegmentationCache::MayKeep(this))
-  {
-    this->Internals->Piece = volumic::HelpersPiece();
-  }
   this->TellWarnings();
-  this->Internals->InitialSurface = nullptr;
-  this->Internals->AttractingPoints = nullptr;
+  internals.InitialSurface = nullptr;
+  internals.AttractingPoints = nullptr;
   volumic::ForgetAbort(this);
-  this->Internals->Alone.reset();
+  internals.All.reset();
   return 1;
 }

@@ -128,11 +128,11 @@
  *
  * @par Processes:
  * Where the controller has several processes, and each asks for the piece of its own number of as
- * many pieces, as ParaView's do, they make one surface together, the same bits, and each gets a
- * piece of it, of Levels and of Snapshots, with `GlobalIds` (vtkIdType) of the points, and ghosts
- * where these are asked for. Field data is whole in every process; the first one has the rows of
- * History. An error of one is reported by all; AbortExecute of any stops all. Who asks for other
- * pieces works alone.
+ * many pieces, as ParaView's do, the first one takes the pieces of the inputs together and makes the
+ * surface, the same bits as one process; each gets a piece of it, of Levels and of Snapshots, with
+ * `GlobalIds` (vtkIdType) of the points, and ghosts where these are asked for. Field data is whole in
+ * every process; the first one has the rows of History. An error of one is reported by all;
+ * AbortExecute of any stops all. Who asks for other pieces works alone.
  *
  * @par Thanks:
  * J.-O. Lachaud and A. Montanvert, "Volumic Segmentation using Hierarchical Representation and
@@ -162,7 +162,6 @@ class vtkMultiProcessController;
 class vtkTable;
 namespace volumic
 {
-class Communicator;
 struct PyramidOptions;
 struct SegmentationVolume;
 }
@@ -563,7 +562,7 @@ public:
   void ForgetRun();
 
   ///@{
-  /** More columns in the history, which tell where the time goes, and what processes send. Default: off. */
+  /** More columns in the history, which tell where the time goes. Default: off. */
   virtual void SetProfile(bool value);
   virtual bool GetProfile();
   vtkBooleanMacro(Profile, bool);
@@ -620,8 +619,6 @@ protected:
   /// What the surface is searched in, of the data of input port 0; its levels are null where
   /// ShowPyramidProgress() said stop. Errors are thrown as std::invalid_argument.
   virtual volumic::SegmentationVolume PrepareVolume(vtkDataObject* input);
-  /// Those that work on the run that is under way.
-  volumic::Communicator& Ranks();
   /// The data of input port 0, which come in slabs where the memory is limited and the source can;
   /// then what `volume` tells of the voxels is changed to fit. Null after a stop.
   vtkSmartPointer<vtkDataObject> ReadInput(

@@ -3,11 +3,10 @@
 #ifndef vtkDeformableSurfaceInternals_h
 #define vtkDeformableSurfaceInternals_h
 
-#include "Core/Common/Communicator.h"
 #include "Host/Deadline.h"
-#include "Host/FirstRankWork.h"
 #include "Host/LimitedMemory.h"
-#include "Run/RankLevel.h"
+#include "Ranks/RankInputs.h"
+#include "Ranks/Ranks.h"
 #include "Run/SegmentationCache.h"
 #include "Run/SegmentationCheckpoint.h"
 #include "Settings/SegmentationSettings.h"
@@ -39,12 +38,11 @@ public:
   explicit vtkInternals(vtkDeformableSurface& filter) : Filter(filter) {}
 
   /**
-   * On all ranks at once, once Ranks and Alone are set: shows what is kept, or goes on with the
-   * last run, or makes another one, until it is over or told to stop. Afterwards rank 0 has filled
-   * the outputs, of which the other ranks are to get their pieces, where they have none, and keeps
-   * the run.
+   * At the first rank, once All is set: shows what is kept, or goes on with the last run, or makes
+   * another one, until it is over or told to stop. Afterwards the outputs are filled, and the run
+   * is kept.
    */
-  void RunOrGoOn(vtkInformationVector** input, vtkInformationVector* output);
+  void RunOrGoOn(const volumic::FilterCall& call);
 
   volumic::SegmentationSettings Settings; ///< the properties
   volumic::LimitedMemory Memory;          ///< as the last run had it; outlives what is kept
@@ -52,12 +50,9 @@ public:
   volumic::Deadline Limit;                ///< of the run
   std::shared_ptr<volumic::SegmentationCheckpoint> Checkpoint; ///< of the last run; null: none
   vtkSmartPointer<vtkMultiProcessController> Controller;
-  std::unique_ptr<volumic::Communicator> Ranks;   ///< of the run that is under way
-  std::unique_ptr<volumic::FirstRankWork> Alone;  ///< what rank 0 does of it without the others
-  volumic::LevelsInPieces InPieces; ///< what this rank has of levels that no rank has whole
+  std::unique_ptr<volumic::Ranks> All; ///< of the run that is under way; else null
   vtkSmartPointer<vtkPolyData> InitialSurface;   ///< of the run, of all ranks
   vtkSmartPointer<vtkPolyData> AttractingPoints; ///< likewise
-  volumic::HelpersPiece Piece; ///< at all ranks but the first, of the last run
   std::vector<std::string> Warnings; ///< to be told at the end
   bool LeavesCheckpoints = false; ///< also of runs that have come to their end
   bool HasToldOfWhole = false; ///< that the image does not come in slabs
@@ -74,24 +69,20 @@ private:
     BeginsAnew ///< It is gone; another one is to be made.
   };
   /**
-   * What a run is asked for by the properties and the inputs. By all ranks, as a surface, and
-   * points, that they hold in pieces come to rank 0. From now on the run's time counts.
+   * What a run is asked for by the properties and the inputs. From now on the run's time counts.
    */
-  volumic::SegmentationRequest RequestAsSet(vtkInformationVector** input);
+  volumic::SegmentationRequest RequestAsSet(const volumic::FilterCall& call);
   /** With ShowLevels: makes it a request for the next level to be shown, if it is not the last. */
   void ChooseStep(volumic::SegmentationRequest& request, bool isKept);
-  /** At rank 0: fills the outputs with what is kept. @return whether it is all that is wanted */
+  /** Fills the outputs with what is kept. @return whether it is all that is wanted */
   bool ShowKept(const volumic::SegmentationRequest& request, vtkInformationVector* output);
-  /**
-   * By all ranks: makes the levels, and of them, at rank 0, a run that has not begun. Null on the
-   * other ranks, and on all where the making of the levels was stopped.
-   */
+  /** Makes the levels, and of them a run that has not begun. Null where that was stopped. */
   std::unique_ptr<volumic::SurfaceSegmentation> NewRun(
-    const volumic::SegmentationRequest& request, vtkDataObject* input);
-  /** At rank 0: afterwards only what is shown is kept. @param run gets the one that goes on */
+    const volumic::SegmentationRequest& request, const volumic::FilterCall& call);
+  /** Afterwards only what is shown is kept. @param run gets the one that goes on */
   Course ChooseCourse(bool isKept, volumic::SegmentationRequest& request,
     std::unique_ptr<volumic::SurfaceSegmentation>& run, vtkInformationVector* output);
-  /** At rank 0: fills the outputs with what a run has, that is over or was stopped. */
+  /** Fills the outputs with what a run has, that is over or was stopped. */
   void ShowRun(const volumic::SurfaceSegmentation& run,
     const volumic::SegmentationRequest& request, vtkInformationVector* output);
   /** Whether this rank or another one was asked to stop. */

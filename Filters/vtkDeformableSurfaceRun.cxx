@@ -12,16 +12,13 @@
 #include "Host/PrefixErrors.h"
 #include "Host/VersionCompatibility.h"
 #include "Host/WholeInput.h"
-#include "Input/ImagePieces.h"
 #include "Input/InputImage.h"
-#include "Input/RankInputs.h"
 #include "Input/SlabInput.h"
 #include "Input/Workspace.h"
 #include "Output/SegmentationResults.h"
 #include "Output/SurfaceOutput.h"
 #include "Pyramid/BuildPyramid.h"
-#include "Run/GatherLevels.h"
-#include "Run/RankLevel.h"
+#include "Ranks/RankInputs.h"
 #include "Run/SegmentationCache.h"
 #include "Run/SurfaceSegmentation.h"
 #include "Settings/SegmentationSettings.h"
@@ -68,8 +65,8 @@ void FillByNothing(vtkInformationVector* output, bool isAborted, bool withPhases
 vtkSmartPointer<vtkDataObject> vtkDeformableSurface::ReadInput(
   vtkDataObject* input, bool takesCells, volumic::SegmentationVolume& volume)
 {
-  // Of several ranks each has its piece, which is in its memory anyway.
-  if (this->Internals->Memory.Limit() == 0 || this->Internals->Ranks->NumberOfRanks() > 1)
+  // What ranks had in pieces is in scratch memory already.
+  if (this->Internals->Memory.Limit() == 0 || this->Internals->All->AreMany())
   {
     return input;
   }
@@ -97,12 +94,6 @@ vtkSmartPointer<vtkDataObject> vtkDeformableSurface::ReadInput(
 }
 
 //------------------------------------------------------------------------------
-volumic::Communicator& vtkDeformableSurface::Ranks()
-{
-  return *this->Internals->Ranks;
-}
-
-//------------------------------------------------------------------------------
 volumic::SegmentationVolume vtkDeformableSurface::VolumeAsSet()
 {
   volumic::SegmentationVolume volume;
@@ -123,20 +114,18 @@ void vtkDeformableSurface::MakeLevels(const volumic::PyramidOptions& pyramid, vt
   request.NumberOfThreads = settings.End.NumberOfThreads;
   request.Progress = [this](double share, const std::string&)
   { return this->ShowPyramidProgress(share); };
-  volumic::Communicator& ranks = *this->Internals->Ranks;
   if (settings.EdgeLength != 0.0)
   {
-    const volumic::ImagePieces pieces(ranks, image);
     const volumic::EdgeLengthPlan plan = volumic::PlanEdgeLength(
-      settings.EdgeLength, settings.Options.SamplingRatio, pieces.Frame(), request.Levels);
+      settings.EdgeLength, settings.Options.SamplingRatio, image, request.Levels);
     settings.End.FinestLevel = plan.FinestLevel;
     settings.Options.SamplingRatio = plan.SamplingRatio;
     volume.FactorBelowLevel0 = plan.ReductionFactor;
     volume.EdgeLengthIsPlanned = true;
   }
   volume.LevelsAreOwn = true;
-  volume.Levels = volumic::BuildPyramid(
-    ranks, image, volume.Selection, settings.SelectedComponent, request);
+  volume.Levels =
+    volumic::BuildPyramid(image, volume.Selection, settings.SelectedComponent, request);
 }
 
 //------------------------------------------------------------------------------
@@ -147,10 +136,10 @@ volumic::SegmentationVolume vtkDeformableSurface::PrepareVolume(vtkDataObject* i
   if (BuildsPyramid(input))
   {
     const vtkSmartPointer<vtkDataObject> read = this->ReadInput(input, false, volume);
-    if (read || this->Internals->Ranks->NumberOfRanks() > 1)
+    if (read)
     {
-      vtkImageData* image = volumic::PrefixErrors(
-        "Input port 0: ", [&] { return volumic::PieceOfImage(*this->Internals->Ranks, read); });
+      vtkImageData* image =
+        volumic::PrefixErrors("Input port 0: ", [&] { return volumic::ImageOf(read); });
       this->MakeLevels({}, image, volume);
     }
   }
@@ -160,19 +149,19 @@ volumic::SegmentationVolume vtkDeformableSurface::PrepareVolume(vtkDataObject* i
 //------------------------------------------------------------------------------
 bool vtkDeformableSurface::ShowPyramidProgress(double share, const char* text)
 {
-  return this->Internals->Alone->GoOn(PyramidShare * share, text) &&
+  return this->Internals->All->GoOn(PyramidShare * share, text) &&
     !this->Internals->Limit.IsOver();
 }
 
 //------------------------------------------------------------------------------
 bool vtkDeformableSurface::vtkInternals::IsStopped()
 {
-  return volumic::IsAbortRequested(&this->Filter) || this->Alone->IsStoppedByOthers();
+  return volumic::IsAbortRequested(&this->Filter) || this->All->IsStoppedByOthers();
 }
 
 //------------------------------------------------------------------------------
 volumic::SegmentationRequest vtkDeformableSurface::vtkInternals::RequestAsSet(
-  vtkInformationVector** input)
+  const volumic::FilterCall& call)
 {
   volumic::SegmentationRequest request;
   request.Started = volumic::Deadline::Clock::now();
@@ -185,8 +174,8 @@ volumic::SegmentationRequest vtkDeformableSurface::vtkInternals::RequestAsSet(
   }
   request.Limit = volumic::Deadline(request.Started, limit);
   this->Limit = request.Limit;
-  this->InitialSurface = volumic::JoinPieces(*this->Ranks, vtkPolyData::GetData(input[1]));
-  this->AttractingPoints = volumic::JoinPieces(*this->Ranks, vtkPolyData::GetData(input[2]));
+  this->InitialSurface = volumic::TakePoints(*this->All, call, 1);
+  this->AttractingPoints = volumic::TakePoints(*this->All, call, 2);
   request.InitialSurface = this->InitialSurface;
   request.AttractingPoints = this->AttractingPoints;
   request.EdgeSelection = this->Filter.GetInputArrayInformation(1);
@@ -199,16 +188,10 @@ volumic::SegmentationRequest vtkDeformableSurface::vtkInternals::RequestAsSet(
   request.Checkpoints.Stay = this->LeavesCheckpoints;
   request.Checkpoints.Prepared = [this](const auto& checkpoint)
   { this->Checkpoint = checkpoint; };
-  const double before = BuildsPyramid(vtkDataObject::GetData(input[0])) ? PyramidShare : 0.0;
+  const double before = BuildsPyramid(vtkDataObject::GetData(call.Inputs[0])) ? PyramidShare : 0.0;
   request.Progress = [this, before](double share, const std::string& text)
-  { return this->Alone->GoOn(before + (1.0 - before) * share, text); };
+  { return this->All->GoOn(before + (1.0 - before) * share, text); };
   request.Warn = [this](const std::string& text) { this->Filter.Warn(text); };
-  if (this->Ranks->NumberOfRanks() > 1)
-  {
-    request.Ranks = this->Ranks.get();
-    request.OnAllRanks = [this](const std::function<void()>& work)
-    { this->Alone->OnAllRanks(work); };
-  }
   return request;
 }
 
@@ -220,7 +203,7 @@ void vtkDeformableSurface::vtkInternals::ChooseStep(
   // Whoever asks whether a finer level is still to come asks one rank only: the others would not
   // run again.
   const bool isWatched =
-    settings.End.ShowLevels && this->IsWatched && this->Ranks->NumberOfRanks() == 1;
+    settings.End.ShowLevels && this->IsWatched && !this->All->AreMany();
   if (!isWatched || std::exchange(this->GoesToTheEnd, false))
   {
     return;
@@ -260,27 +243,20 @@ bool vtkDeformableSurface::vtkInternals::ShowKept(
 
 //------------------------------------------------------------------------------
 std::unique_ptr<volumic::SurfaceSegmentation> vtkDeformableSurface::vtkInternals::NewRun(
-  const volumic::SegmentationRequest& request, vtkDataObject* input)
+  const volumic::SegmentationRequest& request, const volumic::FilterCall& call)
 {
+  const vtkSmartPointer<vtkDataObject> input = volumic::PrefixErrors(
+    "Input port 0: ", [&] { return volumic::TakeImages(*this->All, call, 0); });
   if (BuildsPyramid(input))
   {
     this->Filter.ShowPyramidProgress(0.0); // Whether to stop is asked when there is more to do.
   }
-  volumic::Communicator& ranks = *this->Ranks;
-  volumic::SegmentationVolume volume = this->Filter.PrepareVolume(input);
-  const bool hasLevels = volume.Levels != nullptr;
-  if (ranks.IsAny(!hasLevels))
+  const volumic::SegmentationVolume volume = this->Filter.PrepareVolume(input);
+  if (!volume.Levels)
   {
     return nullptr;
   }
-  volumic::GatherLevels(ranks, volume, request.EdgeSelection);
-  if (ranks.Rank() != 0)
-  {
-    this->InPieces = std::move(volume.InPieces); // Rank 0's are its run's.
-  }
-  std::unique_ptr<volumic::SurfaceSegmentation> run;
-  this->Alone->Run(
-    [&] { run = std::make_unique<volumic::SurfaceSegmentation>(volume, request); });
+  auto run = std::make_unique<volumic::SurfaceSegmentation>(volume, request);
   if (!volume.LevelsAreOwn && volumic::AreReleased(&this->Filter, 0))
   {
     input->ReleaseData(); // Now: the run lets go of each level when it has left it.
@@ -314,30 +290,25 @@ auto vtkDeformableSurface::vtkInternals::ChooseCourse(bool isKept,
 }
 
 //------------------------------------------------------------------------------
-void vtkDeformableSurface::vtkInternals::RunOrGoOn(
-  vtkInformationVector** input, vtkInformationVector* output)
+void vtkDeformableSurface::vtkInternals::RunOrGoOn(const volumic::FilterCall& call)
 {
   const volumic::SegmentationSettings& settings = this->Settings;
   volumic::SegmentationCache& cache = this->Cache;
-  volumic::Communicator& ranks = *this->Ranks;
-  volumic::FirstRankWork& alone = *this->Alone;
+  bool isKept = cache.IsValidFor(&this->Filter, this->All->Count());
   // What has changed on one rank has changed for all.
-  const bool isKept = !ranks.IsAny(!cache.IsValidFor(&this->Filter, ranks.NumberOfRanks()));
-  // ParaView leaves the flag of an earlier run as it is.
-  volumic::ForgetAbort(&this->Filter);
-  this->Filter.SetErrorCode(vtkErrorCode::NoError);
-  this->Memory.Set(settings.End.MemoryLimit, settings.End.ScratchDirectory);
-  volumic::SegmentationRequest request = this->RequestAsSet(input);
-  this->IsOnTheWay = false;
-  std::unique_ptr<volumic::SurfaceSegmentation> run; // At rank 0; the others never have one.
-  auto course = Course::IsShown;
-  const auto help = [&]
+  for (volumic::RankMessage& other : this->All->AskAll(volumic::RankQuestion::Own))
   {
-    volumic::HelpWithLevel(ranks, this->InPieces, this->Piece,
-      [this] { return !volumic::IsAbortRequested(&this->Filter); });
-  };
-  alone.Run([&] { course = this->ChooseCourse(isKept, request, run, output); }, help);
-  course = volumic::BroadcastValue(ranks, course);
+    bool isKeptThere = true;
+    if (!other.Words.Empty())
+    {
+      other.Words >> isKeptThere;
+    }
+    isKept = isKept && isKeptThere;
+  }
+  volumic::SegmentationRequest request = this->RequestAsSet(call);
+  this->IsOnTheWay = false;
+  std::unique_ptr<volumic::SurfaceSegmentation> run;
+  const Course course = this->ChooseCourse(isKept, request, run, call.Outputs);
   if (course == Course::IsShown)
   {
     return;
@@ -346,25 +317,17 @@ void vtkDeformableSurface::vtkInternals::RunOrGoOn(
   this->Checkpoint.reset();
   if (course == Course::BeginsAnew)
   {
-    this->Piece = volumic::HelpersPiece();
-    run = this->NewRun(request, vtkDataObject::GetData(input[0]));
+    run = this->NewRun(request, call);
   }
-  if (!volumic::BroadcastValue(ranks, run != nullptr))
+  if (!run)
   {
     const bool isAborted = this->IsStopped() || !request.Limit.IsOver();
-    FillByNothing(output, isAborted, settings.Profile);
+    FillByNothing(call.Outputs, isAborted, settings.Profile);
     return;
   }
-  alone.Run([&] { run->Run(); }, help);
-  if (run)
-  {
-    this->ShowRun(*run, request, output);
-  }
-  cache.Keep(std::move(run), &this->Filter, ranks.NumberOfRanks());
-  if (!volumic::BroadcastValue(ranks, cache.CanGoOn()))
-  {
-    this->Piece.Run.reset();
-  }
+  run->Run();
+  this->ShowRun(*run, request, call.Outputs);
+  cache.Keep(std::move(run), &this->Filter, this->All->Count());
   volumic::GiveBackFreeMemory();
 }
 

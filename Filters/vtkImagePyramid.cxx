@@ -5,7 +5,6 @@
 #include "Core/Common/Join.h"
 #include "Core/Image/PyramidGeometry.h"
 #include "Host/AlgorithmErrors.h"
-#include "Host/ControllerRanks.h"
 #include "Host/LimitedMemory.h"
 #include "Host/VersionCompatibility.h"
 #include "Host/WholeInput.h"
@@ -13,6 +12,9 @@
 #include "Input/InputImage.h"
 #include "Input/SlabInput.h"
 #include "Pyramid/PyramidBlocks.h"
+#include "Ranks/RankInputs.h"
+#include "Ranks/RankOutputs.h"
+#include "Ranks/Ranks.h"
 
 #include <vtkDataArray.h>
 #include <vtkDataObject.h>
@@ -72,20 +74,25 @@ public:
   int RanksOfKept = 0;
   int GhostLevelsOfKept = 0;
 
-  void Keep(vtkImagePyramid* filter, const volumic::Communicator& ranks, int ghostLevels,
+  void Keep(vtkImagePyramid* filter, const volumic::Ranks& ranks, int ghostLevels,
     vtkMultiBlockDataSet* pyramid)
   {
     const bool isReleased = vtkDataObject::GetGlobalReleaseDataFlag() != 0 ||
       filter->GetExecutive()->GetOutputInformation(0)->Get(vtkDemandDrivenPipeline::RELEASE_DATA());
-    this->Kept = ranks.NumberOfRanks() > 1 && !isReleased ? pyramid : nullptr;
+    this->Kept = nullptr;
+    if (ranks.AreMany() && !isReleased)
+    {
+      this->Kept = vtkSmartPointer<vtkMultiBlockDataSet>::New();
+      this->Kept->ShallowCopy(pyramid);
+    }
     this->TimeOfKept = TimeOf(filter);
-    this->RanksOfKept = ranks.NumberOfRanks();
+    this->RanksOfKept = ranks.Count();
     this->GhostLevelsOfKept = ghostLevels;
   }
-  bool Has(vtkImagePyramid* filter, const volumic::Communicator& ranks, int ghostLevels) const
+  bool Has(vtkImagePyramid* filter, const volumic::Ranks& ranks, int ghostLevels) const
   {
     return this->Kept && this->TimeOfKept == TimeOf(filter) &&
-      this->RanksOfKept == ranks.NumberOfRanks() && this->GhostLevelsOfKept >= ghostLevels;
+      this->RanksOfKept == ranks.Count() && this->GhostLevelsOfKept >= ghostLevels;
   }
 
 private:
@@ -221,15 +228,9 @@ int vtkImagePyramid::RequestInformation(
 int vtkImagePyramid::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
 {
-  const auto ranks = volumic::RanksOf(this->Internals->Controller, request, output);
-  if (ranks->NumberOfRanks() > 1)
-  {
-    volumic::AskForPieces(
-      request, input, 1, output, volumic::GhostLevelsAskedOf(request, output));
-    return 1;
-  }
-  volumic::AskForWholeInputs(request, input, 1, output);
-  if (this->MemoryLimit > 0 && volumic::IsFirstProcess(request, output))
+  const bool areMany =
+    volumic::AskForInputs(this->Internals->Controller, { this, request, input, output });
+  if (!areMany && this->MemoryLimit > 0 && volumic::IsFirstProcess(request, output))
   {
     volumic::SlabInput(this).Ask(volumic::LimitedMemory::BytesOf(this->MemoryLimit), true);
   }
@@ -237,19 +238,21 @@ int vtkImagePyramid::RequestUpdateExtent(
 }
 
 //------------------------------------------------------------------------------
-vtkSmartPointer<vtkImageData> vtkImagePyramid::ReadInput(vtkDataObject* input, int& component)
+vtkSmartPointer<vtkImageData> vtkImagePyramid::ReadInput(
+  volumic::Ranks& ranks, const volumic::FilterCall& call, int& component)
 {
   volumic::LimitedMemory& memory = this->Internals->Memory;
   memory.Set(this->MemoryLimit, this->Internals->ScratchDirectory);
   component = this->SelectedComponent;
+  const vtkSmartPointer<vtkDataObject> input = volumic::TakeImages(ranks, call, 0);
   volumic::SlabInput::Result slabs;
-  if (memory.Limit() > 0)
+  if (memory.Limit() > 0 && !ranks.AreMany())
   {
     volumic::SlabInput::Request request;
     request.Limit = memory.Limit();
     request.Selection = this->GetInputArrayInformation(0);
     request.SelectedComponent = component;
-    request.GoOn = [this](double share) { return this->ShowProgress(share, "Reading the image"); };
+    request.GoOn = [&ranks](double share) { return ranks.GoOn(share, "Reading the image"); };
     slabs = volumic::SlabInput(this).Read(request);
     const std::string whole = volumic::SlabInput(this).DescribeWhole();
     if (!whole.empty() && !std::exchange(this->Internals->HasToldOfWhole, true))
@@ -266,39 +269,25 @@ vtkSmartPointer<vtkImageData> vtkImagePyramid::ReadInput(vtkDataObject* input, i
 }
 
 //------------------------------------------------------------------------------
-bool vtkImagePyramid::ShowProgress(double share, const std::string& text)
-{
-  this->SetProgressText(text.c_str());
-  this->UpdateProgress(share);
-  return !volumic::IsAbortRequested(this);
-}
-
-//------------------------------------------------------------------------------
-volumic::PyramidBlocks vtkImagePyramid::MakeBlocks(volumic::Communicator& ranks,
-  vtkDataObject* input, int ghostLevels, vtkSmartPointer<vtkImageData>& image)
+volumic::PyramidBlocks vtkImagePyramid::MakeBlocks(
+  volumic::Ranks& ranks, const volumic::FilterCall& call, vtkSmartPointer<vtkImageData>& image)
 {
   int component = this->SelectedComponent;
-  const bool isAlone = ranks.NumberOfRanks() == 1;
-  if (!isAlone)
-  {
-    image = volumic::PieceOfImage(ranks, input);
-  }
-  else if (!(image = this->ReadInput(input, component)))
+  image = this->ReadInput(ranks, call, component);
+  if (!image)
   {
     return volumic::StoppedPyramidBlocks();
   }
-  const volumic::PyramidImage level0(
-    ranks, image, this->GetInputArrayInformation(0), component);
-  image = level0.Pieces.Frame();
+  const vtkSmartPointer<vtkDataArray> voxels = volumic::SelectComponent(
+    volumic::ChooseArray(this->GetInputArrayInformation(0), image), component);
   volumic::PyramidRequest request;
   request.Levels =
     OptionsOf(this->ReductionFactor, this->NumberOfLevels, this->MinimumLevelSize);
   request.NaNIsBackground = this->NaNIsBackground;
   request.NumberOfThreads = this->NumberOfThreads;
-  request.GhostLevels = ghostLevels;
-  request.Progress = [this](double share, const std::string& text)
-  { return this->ShowProgress(share, text); };
-  return volumic::MakePyramidBlocks(ranks, level0, request);
+  request.Progress = [&ranks](double share, const std::string& text)
+  { return ranks.GoOn(share, text); };
+  return volumic::MakePyramidBlocks(image, voxels, request);
 }
 
 //------------------------------------------------------------------------------
@@ -306,16 +295,22 @@ int vtkImagePyramid::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   this->SetErrorCode(vtkErrorCode::NoError);
-  const auto ranks = volumic::RanksOf(this->Internals->Controller, request, outputVector);
+  const auto show = [this](double share, const std::string& text)
+  {
+    this->SetProgressText(text.c_str());
+    this->UpdateProgress(share);
+    return !volumic::IsAbortRequested(this);
+  };
+  vtkInternals& internals = *this->Internals;
+  volumic::Ranks ranks(internals.Controller, request, outputVector, show);
   // Of processes that don't work together the first one holds the pyramid; the others would only
   // repeat it.
-  if (ranks->NumberOfRanks() == 1 && !volumic::IsFirstProcess(request, outputVector))
+  if (!ranks.AreMany() && !volumic::IsFirstProcess(request, outputVector))
   {
     return 1;
   }
-  vtkInternals& internals = *this->Internals;
   const int ghostLevels = volumic::GhostLevelsAskedOf(request, outputVector);
-  if (ranks->NumberOfRanks() > 1 && internals.Has(this, *ranks, ghostLevels))
+  if (ranks.AreMany() && internals.Has(this, ranks, ghostLevels))
   {
     vtkMultiBlockDataSet::GetData(outputVector)->ShallowCopy(internals.Kept);
     return 1;
@@ -323,29 +318,33 @@ int vtkImagePyramid::RequestData(
   internals.Kept = nullptr;
   // ParaView leaves the flag of an earlier run as it is.
   volumic::ForgetAbort(this);
+  const volumic::FilterCall call{ this, request, inputVector, outputVector };
   vtkSmartPointer<vtkImageData> image;
-  const volumic::AlgorithmError error = volumic::RunAlgorithm(*ranks, outputVector,
+  volumic::RankWork work;
+  work.OfFirst = [&]
+  {
+    const volumic::PyramidBlocks pyramid = this->MakeBlocks(ranks, call, image);
+    vtkMultiBlockDataSet::GetData(outputVector)->ShallowCopy(pyramid.Blocks);
+    if (!pyramid.AboutNaNs.empty())
+    {
+      vtkWarningMacro("Input port 0: " << pyramid.AboutNaNs);
+    }
+    for (const std::string& warning : internals.Memory.TakeWarnings())
+    {
+      vtkWarningMacro(<< warning);
+    }
+  };
+  const volumic::AlgorithmError error = volumic::RunOnRanks(ranks, call,
     [&]
     {
       return volumic::Join("the memory does not suffice for the pyramid of an image of ",
         image ? volumic::SizeOf(image) : "?", " voxels.");
     },
-    [&]
-    {
-      const volumic::PyramidBlocks pyramid =
-        this->MakeBlocks(*ranks, vtkDataObject::GetData(inputVector[0]), ghostLevels, image);
-      ranks->IsAny(false); // Whoever has failed tells it here at last.
-      vtkMultiBlockDataSet::GetData(outputVector)->ShallowCopy(pyramid.Blocks);
-      internals.Keep(this, *ranks, ghostLevels, pyramid.Blocks);
-      if (!pyramid.AboutNaNs.empty() && ranks->Rank() == 0)
-      {
-        vtkWarningMacro("Input port 0: " << pyramid.AboutNaNs);
-      }
-      for (const std::string& warning : internals.Memory.TakeWarnings())
-      {
-        vtkWarningMacro(<< warning);
-      }
-    });
+    work);
+  if (error.Code == vtkErrorCode::NoError)
+  {
+    internals.Keep(this, ranks, ghostLevels, vtkMultiBlockDataSet::GetData(outputVector));
+  }
   if (error.Code != vtkErrorCode::NoError)
   {
     this->SetErrorCode(error.Code);

@@ -53,12 +53,11 @@
  *
  * @par Processes:
  * Where each process of an MPI run asks for the piece of its own number, as in pvserver and
- * pvbatch, each reads and reduces its piece of the image, and has its piece of each level: the
- * same bits as on one process. Pieces of neighbours share a layer of voxels, and have further ones
- * in their ghost arrays where ghost levels are asked for, as VTK cuts all images. A source that
- * gives the first process all of the image is served as well. A block is null on processes for
- * which its level has too few voxels. The field data of the whole are the same on all; an error of
- * one process is reported by all.
+ * pvbatch, the first one takes the image together, makes the levels, the same bits as one process,
+ * and gives each its piece of each level. Pieces of neighbours share a layer of voxels, and have
+ * further ones in their ghost arrays where ghost levels are asked for, as VTK cuts all images. A
+ * block is null on processes for which its level has too few voxels. The field data of the whole are
+ * the same on all; an error of one process is reported by all.
  *
  * @par Errors:
  * A message names the port, the array or the value, and the output is empty, when: the input is no
@@ -99,7 +98,8 @@ class vtkMultiBlockDataSet;
 class vtkMultiProcessController;
 namespace volumic
 {
-class Communicator;
+class Ranks;
+struct FilterCall;
 struct PyramidBlocks;
 }
 
@@ -240,12 +240,11 @@ private:
 
   /// The image, whole or put together of slabs, and the component of it that is meant; null after a
   /// stop.
-  vtkSmartPointer<vtkImageData> ReadInput(vtkDataObject* input, int& component);
-  /// By all ranks together. @param image gets the extent of the whole, once that is known
-  volumic::PyramidBlocks MakeBlocks(volumic::Communicator& ranks, vtkDataObject* input,
-    int ghostLevels, vtkSmartPointer<vtkImageData>& image);
-  /// False asks to stop.
-  bool ShowProgress(double share, const std::string& text);
+  vtkSmartPointer<vtkImageData> ReadInput(
+    volumic::Ranks& ranks, const volumic::FilterCall& call, int& component);
+  /// @param image gets the image, once it is there
+  volumic::PyramidBlocks MakeBlocks(volumic::Ranks& ranks, const volumic::FilterCall& call,
+    vtkSmartPointer<vtkImageData>& image);
 
   class vtkInternals;
   std::unique_ptr<vtkInternals> Internals;

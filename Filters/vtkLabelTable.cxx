@@ -8,6 +8,9 @@
 #include "Input/InputImage.h"
 #include "Labels/LabelImage.h"
 #include "Labels/LabelNames.h"
+#include "Ranks/RankInputs.h"
+#include "Ranks/RankOutputs.h"
+#include "Ranks/Ranks.h"
 
 #include <vtkDataObject.h>
 #include <vtkDataSetAttributes.h>
@@ -17,6 +20,7 @@
 #include <vtkImageData.h>
 #include <vtkInformation.h>
 #include <vtkIntArray.h>
+#include <vtkMultiProcessController.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkStringArray.h>
@@ -47,7 +51,8 @@ int vtkLabelTable::FillInputPortInformation(int, vtkInformation* info)
 int vtkLabelTable::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
 {
-  volumic::AskForWholeInputs(request, input, 1, output);
+  volumic::AskForInputs(
+    vtkMultiProcessController::GetGlobalController(), { this, request, input, output });
   return 1;
 }
 
@@ -56,7 +61,8 @@ int vtkLabelTable::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   this->SetErrorCode(vtkErrorCode::NoError);
-  if (!volumic::IsFirstProcess(request, outputVector))
+  volumic::Ranks ranks(vtkMultiProcessController::GetGlobalController(), request, outputVector);
+  if (!ranks.AreMany() && !volumic::IsFirstProcess(request, outputVector))
   {
     return 1;
   }
@@ -72,31 +78,33 @@ int vtkLabelTable::RequestData(
   vtkNew<vtkDoubleArray> colors;
   colors->SetName("Color");
   colors->SetNumberOfComponents(3);
-  const volumic::AlgorithmError error = volumic::RunAlgorithm(volumic::OnThisRank(), outputVector,
-    [] { return "the memory does not suffice for the labels."; },
-    [&]
+  const volumic::FilterCall call{ this, request, inputVector, outputVector };
+  volumic::RankWork work;
+  work.OfFirst = [&]
+  {
+    const vtkSmartPointer<vtkDataObject> input = volumic::TakeImages(ranks, call, 0);
+    volumic::HostThreads threads(0);
+    std::optional<volumic::LabelImage> image;
+    threads.Run([&] { image.emplace(input, this->GetInputArrayInformation(0), threads); });
+    const auto known = volumic::LabelNames::Of(volumic::ImageOf(input));
+    image->CheckNumberOfLabels();
+    for (const auto& entry : image->Labels())
     {
-      vtkDataObject* input = vtkDataObject::GetData(inputVector[0]);
-      volumic::HostThreads threads(0);
-      std::optional<volumic::LabelImage> image;
-      threads.Run([&] { image.emplace(input, this->GetInputArrayInformation(0), threads); });
-      const auto known = volumic::LabelNames::Of(volumic::ImageOf(input));
-      image->CheckNumberOfLabels();
-      for (const auto& entry : image->Labels())
-      {
-        labels->InsertNextValue(entry.first);
-        names->InsertNextValue(known.NameOf(entry.first));
-        voxels->InsertNextValue(entry.second.Count);
-        extents->InsertNextTypedTuple(entry.second.Extent.data());
-        colors->InsertNextTuple(known.ColorOf(entry.first).data());
-      }
-      vtkTable* table = vtkTable::GetData(outputVector);
-      table->AddColumn(labels);
-      table->AddColumn(names);
-      table->AddColumn(voxels);
-      table->AddColumn(extents);
-      table->AddColumn(colors);
-    });
+      labels->InsertNextValue(entry.first);
+      names->InsertNextValue(known.NameOf(entry.first));
+      voxels->InsertNextValue(entry.second.Count);
+      extents->InsertNextTypedTuple(entry.second.Extent.data());
+      colors->InsertNextTuple(known.ColorOf(entry.first).data());
+    }
+    vtkTable* table = vtkTable::GetData(outputVector);
+    table->AddColumn(labels);
+    table->AddColumn(names);
+    table->AddColumn(voxels);
+    table->AddColumn(extents);
+    table->AddColumn(colors);
+  };
+  const volumic::AlgorithmError error = volumic::RunOnRanks(
+    ranks, call, [] { return "the memory does not suffice for the labels."; }, work);
   if (error.Code != vtkErrorCode::NoError)
   {
     this->SetErrorCode(error.Code);

@@ -4,7 +4,6 @@
 
 #include "Core/Common/FreeMemory.h"
 #include "Host/AlgorithmErrors.h"
-#include "Host/ControllerRanks.h"
 #include "Host/HostThreads.h"
 #include "Host/LimitedMemory.h"
 #include "Host/PrefixErrors.h"
@@ -13,12 +12,15 @@
 #include "Input/InputImage.h"
 #include "Input/Workspace.h"
 #include "Labels/LabelBlocks.h"
+#include "Labels/LabelHelper.h"
 #include "Labels/LabelImage.h"
 #include "Labels/LabelInterfaces.h"
 #include "Labels/LabelNames.h"
 #include "Labels/LabelSurface.h"
 #include "Labels/LabelSurfaces.h"
-#include "Labels/SharedLabels.h"
+#include "Ranks/RankInputs.h"
+#include "Ranks/RankOutputs.h"
+#include "Ranks/Ranks.h"
 #include "Run/SegmentationCache.h"
 #include "Settings/PropertyValues.h"
 
@@ -66,9 +68,9 @@ public:
   vtkMTimeType StoppedTime = 0;
   volumic::SegmentationCache::Inputs StoppedInputs;
 
-  /** At rank 0. Errors are thrown. */
-  void Read(vtkDataObject* input, vtkInformation* selection, volumic::LabelChoice& choice,
-    std::optional<volumic::LabelImage>& image, volumic::SharedLabels& labels) const;
+  /** Errors are thrown. */
+  volumic::LabelMap Read(vtkDataObject* input, vtkInformation* selection,
+    volumic::LabelChoice& choice, std::optional<volumic::LabelImage>& image) const;
 };
 
 //------------------------------------------------------------------------------
@@ -250,14 +252,14 @@ vtkPolyData* vtkLabelsToSurfaces::GetInterfaces()
 int vtkLabelsToSurfaces::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
 {
-  volumic::AskForWholeInputs(request, input, 1, output);
+  volumic::AskForInputs(this->Internals->Controller, { this, request, input, output });
   return 1;
 }
 
 //------------------------------------------------------------------------------
-void vtkLabelsToSurfaces::vtkInternals::Read(vtkDataObject* input, vtkInformation* selection,
-  volumic::LabelChoice& choice, std::optional<volumic::LabelImage>& image,
-  volumic::SharedLabels& labels) const
+volumic::LabelMap vtkLabelsToSurfaces::vtkInternals::Read(vtkDataObject* input,
+  vtkInformation* selection, volumic::LabelChoice& choice,
+  std::optional<volumic::LabelImage>& image) const
 {
   volumic::HostThreads threads(this->NumberOfThreads);
   volumic::PrefixErrors("Input port 0: ",
@@ -273,55 +275,55 @@ void vtkLabelsToSurfaces::vtkInternals::Read(vtkDataObject* input, vtkInformatio
     });
   this->Settings.Check(
     volumic::Workspace(image->Image(), volumic::Metric::World).WorldUnit());
+  volumic::LabelMap map;
   threads.Run(
-    [&]
-    {
-      labels.Map =
-        image->MakeMap(choice.Labels, this->Merge, this->BackgroundLabel, threads);
-    });
-  labels.Frame = image->Image();
-  labels.Names = choice.SurfaceNames();
+    [&] { map = image->MakeMap(choice.Labels, this->Merge, this->BackgroundLabel, threads); });
+  return map;
 }
 
 //------------------------------------------------------------------------------
-void vtkLabelsToSurfaces::MakeSurfaces(
-  volumic::Communicator& ranks, vtkDataObject* input, vtkMultiBlockDataSet* output,
-  vtkPolyData* interfaces)
+bool vtkLabelsToSurfaces::ShowProgress(double share, const std::string& text)
 {
+  this->SetProgressText(text.c_str());
+  this->UpdateProgress(share);
+  return !volumic::IsAbortRequested(this);
+}
+
+//------------------------------------------------------------------------------
+void vtkLabelsToSurfaces::MakeSurfaces(volumic::Ranks& ranks, const volumic::FilterCall& call)
+{
+  auto* output = vtkMultiBlockDataSet::GetData(call.Outputs, 0);
+  auto* interfaces = vtkPolyData::GetData(call.Outputs, 1);
   const vtkInternals& internals = *this->Internals;
   this->Internals->Memory.Set(internals.MemoryLimit, internals.ScratchDirectory);
   const auto show = [this](double share, const std::string& text)
-  {
-    this->SetProgressText(text.c_str());
-    this->UpdateProgress(share);
-    return !volumic::IsAbortRequested(this);
-  };
+  { return this->ShowProgress(share, text); };
   show(0.0, "Reading the labels");
   volumic::LabelChoice choice;
   std::optional<volumic::LabelImage> image;
-  volumic::SharedLabels labels;
-  if (ranks.Rank() == 0)
-  {
-    internals.Read(input, this->GetInputArrayInformation(0), choice, image, labels);
-  }
-  labels.Share(ranks);
+  const vtkSmartPointer<vtkDataObject> input = volumic::PrefixErrors(
+    "Input port 0: ", [&] { return volumic::TakeImages(ranks, call, 0); });
+  const volumic::LabelMap map =
+    internals.Read(input, this->GetInputArrayInformation(0), choice, image);
+  const std::vector<std::string> names = choice.SurfaceNames();
   volumic::HostThreads threads(internals.NumberOfThreads);
   std::vector<volumic::LabelSurface> surfaces;
   bool mayKeep = false;
   if (!internals.Settings.SharedInterfaces)
   {
     std::optional<volumic::LabelBricks> bricks;
-    threads.Run([&] { bricks.emplace(labels.Map, threads); });
-    volumic::LabelSurfaceMaker maker(*bricks, labels.Frame, internals.Settings);
-    surfaces = volumic::MakeLabelSurfaces(ranks, maker, *bricks, labels.Names,
+    threads.Run([&] { bricks.emplace(map, threads); });
+    volumic::LabelSurfaceMaker maker(*bricks, image->Image(), internals.Settings);
+    surfaces = volumic::MakeLabelSurfaces(ranks, maker, *bricks, image->Image(), names,
       internals.NumberOfThreads, threads, show, std::move(this->Internals->Stopped));
     mayKeep = !maker.KeepsApart();
   }
-  else if (ranks.Rank() == 0)
+  else
   {
-    volumic::LabelInterfaceMaker maker(labels.Map, static_cast<int>(labels.Names.size()),
-      labels.Frame, internals.Settings, threads);
-    maker.Make(threads, show);
+    volumic::LabelInterfaceMaker maker(
+      map, static_cast<int>(names.size()), image->Image(), internals.Settings, threads);
+    maker.Make(threads,
+      [&ranks](double share, const std::string& text) { return ranks.GoOn(share, text); });
     surfaces = maker.Surfaces(threads);
     interfaces->ShallowCopy(maker.Interfaces(choice.FirstLabels(), internals.BackgroundLabel));
     volumic::AddLabelFields(choice, *image, interfaces);
@@ -332,11 +334,6 @@ void vtkLabelsToSurfaces::MakeSurfaces(
       image->FindNearest(interfaces, choice.Labels, nearest);
       interfaces->GetCellData()->GetArray("BoundaryLabels")->CopyComponent(0, nearest, 0);
     }
-  }
-  if (ranks.Rank() != 0)
-  {
-    volumic::FillEmptyBlocks(labels.Names, output);
-    return;
   }
   for (const volumic::LabelSurface& surface : surfaces)
   {
@@ -366,9 +363,10 @@ int vtkLabelsToSurfaces::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   this->SetErrorCode(vtkErrorCode::NoError);
-  const auto ranks =
-    volumic::RanksOf(this->Internals->Controller, request, outputVector);
-  if (ranks->NumberOfRanks() == 1 && !volumic::IsFirstProcess(request, outputVector))
+  const auto show = [this](double share, const std::string& text)
+  { return this->ShowProgress(share, text); };
+  volumic::Ranks ranks(this->Internals->Controller, request, outputVector, show);
+  if (!ranks.AreMany() && !volumic::IsFirstProcess(request, outputVector))
   {
     return 1;
   }
@@ -381,22 +379,33 @@ int vtkLabelsToSurfaces::RequestData(
   }
   // ParaView leaves the flag of an earlier run as it is.
   volumic::ForgetAbort(this);
-  const volumic::AlgorithmError error = volumic::RunAlgorithm(*ranks, outputVector,
+  const volumic::FilterCall call{ this, request, inputVector, outputVector };
+  std::optional<volumic::LabelHelper> helper;
+  volumic::RankWork work;
+  work.Deals = volumic::Dealing::FirstHasAll;
+  work.OfFirst = [&]
+  {
+    this->MakeSurfaces(ranks, call);
+    for (const std::string& warning : this->Internals->Memory.TakeWarnings())
+    {
+      vtkWarningMacro(<< warning);
+    }
+  };
+  work.OfOthers = [&](volumic::RankQuestion, volumic::RankMessage& message)
+  {
+    if (!helper)
+    {
+      helper.emplace(this->Internals->Settings, this->Internals->NumberOfThreads, show);
+    }
+    return helper->Answer(message);
+  };
+  const volumic::AlgorithmError error = volumic::RunOnRanks(ranks, call,
     []
     {
       return "Input port 0: the memory does not suffice for the surfaces. Set Finest Level to a "
              "coarser level, or choose fewer Labels.";
     },
-    [&]
-    {
-      this->MakeSurfaces(*ranks, vtkDataObject::GetData(inputVector[0]),
-        vtkMultiBlockDataSet::GetData(outputVector), vtkPolyData::GetData(outputVector, 1));
-      for (const std::string& warning : this->Internals->Memory.TakeWarnings())
-      {
-        vtkWarningMacro(<< warning);
-      }
-      ranks->IsAny(false); // Who is through with it here hears of no failure any more.
-    });
+    work);
   if (error.Code != vtkErrorCode::NoError)
   {
     this->SetErrorCode(error.Code);

@@ -84,8 +84,8 @@
  * @par Processes:
  * Where the controller has several processes, and each asks for the piece of its own number of as
  * many pieces, as ParaView's do, each makes the surfaces of some labels, the largest going first to
- * the process that has least to do. The first one reads the image, gives the others the labels of
- * its voxels, and gets all surfaces, the same bits; the others have the same blocks, empty. An error
+ * the process that has least to do. The first one takes the image together, gives the others the
+ * labels of its voxels, and gets all surfaces, the same bits; the others have the same blocks, empty. An error
  * of one process is reported by all; AbortExecute of any stops all. Whoever asks for other pieces
  * works alone.
  *
@@ -106,7 +106,8 @@ class vtkMultiProcessController;
 class vtkPolyData;
 namespace volumic
 {
-class Communicator;
+class Ranks;
+struct FilterCall;
 }
 
 class VTKFILTERSVOLUMIC_EXPORT vtkLabelsToSurfaces : public vtkMultiBlockDataSetAlgorithm
@@ -194,7 +195,7 @@ public:
    * labels is there once, at output port 1, and each block of port 0 is a closed surface of the same
    * points. What nobody has chosen is outside. Volumes are those of the voxels. KeepComponents leaves
    * parts out by their voxels, and gives these to the neighbour that has most of their faces. The
-   * first process makes them, and listens to its own AbortExecute alone. A run that was stopped hands
+   * first process makes them. A run that was stopped hands
    * over all surfaces as they are by then, or, before there are any, empty blocks; afterwards all is
    * made anew. Not with Gap or ThinParts. Default: off.
    */
@@ -339,9 +340,9 @@ protected:
 
 private:
   class vtkInternals;
-  /** By all ranks together. Errors are thrown. */
-  void MakeSurfaces(volumic::Communicator& ranks, vtkDataObject* input,
-    vtkMultiBlockDataSet* output, vtkPolyData* interfaces);
+  bool ShowProgress(double share, const std::string& text);
+  /** Errors are thrown. */
+  void MakeSurfaces(volumic::Ranks& ranks, const volumic::FilterCall& call);
   std::unique_ptr<vtkInternals> Internals; ///< the properties
 
   vtkLabelsToSurfaces(const vtkLabelsToSurfaces&) = delete;

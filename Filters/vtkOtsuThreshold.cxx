@@ -3,11 +3,13 @@
 #include "vtkOtsuThreshold.h"
 
 #include "Host/AlgorithmErrors.h"
-#include "Host/ControllerRanks.h"
 #include "Host/WholeInput.h"
 #include "Input/CellVoxels.h"
 #include "Input/InputImage.h"
 #include "Input/OtsuThreshold.h"
+#include "Ranks/RankInputs.h"
+#include "Ranks/RankOutputs.h"
+#include "Ranks/Ranks.h"
 
 #include <vtkDataObject.h>
 #include <vtkDataSetAttributes.h>
@@ -68,13 +70,7 @@ int vtkOtsuThreshold::FillInputPortInformation(int, vtkInformation* info)
 int vtkOtsuThreshold::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
 {
-  const auto ranks = volumic::RanksOf(this->Controller, request, output);
-  if (ranks->NumberOfRanks() > 1)
-  {
-    volumic::AskForPieces(request, input, 1, output, 0);
-    return 1;
-  }
-  volumic::AskForWholeInputs(request, input, 1, output);
+  volumic::AskForInputs(this->Controller, { this, request, input, output });
   return 1;
 }
 
@@ -85,35 +81,44 @@ int vtkOtsuThreshold::RequestData(
   this->Threshold = vtkMath::Nan();
   this->Histogram->SetNumberOfTuples(0);
   this->SetErrorCode(vtkErrorCode::NoError);
-  const auto ranks = volumic::RanksOf(this->Controller, request, output);
-  if (ranks->NumberOfRanks() == 1 && !volumic::IsFirstProcess(request, output))
+  volumic::Ranks ranks(this->Controller, request, output);
+  if (!ranks.AreMany() && !volumic::IsFirstProcess(request, output))
   {
     return 1;
   }
-  const volumic::AlgorithmError error = volumic::RunAlgorithm(*ranks, output,
-    [] { return "the memory does not suffice for the threshold."; },
-    [&]
+  const volumic::FilterCall call{ this, request, input, output };
+  volumic::RankWork work;
+  work.OfFirst = [&]
+  {
+    const vtkSmartPointer<vtkDataObject> data = volumic::TakeImages(ranks, call, 0);
+    const volumic::PointVoxels voxels =
+      volumic::TakeCellsAsPoints(volumic::ImageOf(data), this->GetInputArrayInformation(0));
+    const volumic::VoxelHistogram found =
+      volumic::FindOtsuThreshold(voxels.Image, voxels.Selection, this->SelectedComponent);
+    vtkNew<vtkDoubleArray> column;
+    column->SetName("Threshold");
+    column->InsertNextValue(found.Threshold);
+    vtkTable::GetData(output)->AddColumn(column);
+    this->Threshold = found.Threshold;
+    this->Histogram->InsertNextValue(found.Range[0]);
+    this->Histogram->InsertNextValue(found.Range[1]);
+    for (const vtkIdType count : found.Counts)
     {
-      const volumic::PointVoxels voxels = volumic::TakeCellsAsPoints(
-        volumic::PieceOfImage(*ranks, vtkDataObject::GetData(input[0])),
-        this->GetInputArrayInformation(0));
-      const volumic::VoxelHistogram found = volumic::FindOtsuThreshold(
-        *ranks, voxels.Image, voxels.Selection, this->SelectedComponent);
-      ranks->IsAny(false); // Whoever has failed tells it here at last.
-      vtkNew<vtkDoubleArray> column;
-      column->SetName("Threshold");
-      // One row of them all.
-      column->SetNumberOfTuples(ranks->Rank() == 0 ? 1 : 0);
-      column->FillValue(found.Threshold);
-      vtkTable::GetData(output)->AddColumn(column);
-      this->Threshold = found.Threshold;
-      this->Histogram->InsertNextValue(found.Range[0]);
-      this->Histogram->InsertNextValue(found.Range[1]);
-      for (const vtkIdType count : found.Counts)
-      {
-        this->Histogram->InsertNextValue(static_cast<double>(count));
-      }
-    });
+      this->Histogram->InsertNextValue(static_cast<double>(count));
+    }
+    volumic::RankMessage message;
+    message.Words << this->Threshold;
+    message.Put(this->Histogram);
+    ranks.AskAll(volumic::RankQuestion::Own, message);
+  };
+  work.OfOthers = [this](volumic::RankQuestion, volumic::RankMessage& message)
+  {
+    message.Words >> this->Threshold;
+    this->Histogram->DeepCopy(message.TakeArray());
+    return volumic::RankMessage();
+  };
+  const volumic::AlgorithmError error = volumic::RunOnRanks(
+    ranks, call, [] { return "the memory does not suffice for the threshold."; }, work);
   if (error.Code != vtkErrorCode::NoError)
   {
     this->SetErrorCode(error.Code);

@@ -24,8 +24,8 @@
  * filter, and ParaView none of VTK's histograms.)
  *
  * @par Processes:
- * Where each process of an MPI run asks for the piece of its own number, each looks at its piece of
- * the image, and all get the threshold of the whole; the row of the table is on the first.
+ * Where each process of an MPI run asks for the piece of its own number, the first one takes the
+ * pieces of the image together, and all get its threshold; the row of the table is on the first.
  *
  * @par Errors:
  * Voxels that are all equal, all NaN, or infinite, inputs that are no image, and images without

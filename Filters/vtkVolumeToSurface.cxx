@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkVolumeToSurface.h"
 
-#include "Core/Common/Communicator.h"
 #include "Core/Image/PyramidGeometry.h"
 #include "Host/PrefixErrors.h"
 #include "Input/CellVoxels.h"
@@ -39,14 +38,13 @@ vtkVolumeToSurface::~vtkVolumeToSurface() = default;
 volumic::SegmentationVolume vtkVolumeToSurface::PrepareVolume(vtkDataObject* input)
 {
   volumic::SegmentationVolume volume = this->VolumeAsSet();
-  volumic::Communicator& ranks = this->Ranks();
   const vtkSmartPointer<vtkDataObject> read = this->ReadInput(input, true, volume);
-  if (!read && ranks.NumberOfRanks() == 1)
+  if (!read)
   {
     return volume;
   }
   const volumic::PointVoxels voxels = volumic::TakeCellsAsPoints(
-    volumic::PrefixErrors("Input port 0: ", [&] { return volumic::PieceOfImage(ranks, read); }),
+    volumic::PrefixErrors("Input port 0: ", [&] { return volumic::ImageOf(read); }),
     volume.Selection);
   volume.Selection = voxels.Selection;
   if (std::isnan(volume.Settings.Options.IsoValue))
@@ -56,13 +54,10 @@ volumic::SegmentationVolume vtkVolumeToSurface::PrepareVolume(vtkDataObject* inp
         [&]
         {
           return volumic::FindOtsuThreshold(
-            ranks, voxels.Image, voxels.Selection, volume.Settings.SelectedComponent).Threshold;
+            voxels.Image, voxels.Selection, volume.Settings.SelectedComponent).Threshold;
         });
   }
-  if (ranks.NumberOfRanks() == 1)
-  {
-    this->TellOfLabels(voxels.Image, voxels.Selection);
-  }
+  this->TellOfLabels(voxels.Image, voxels.Selection);
   volumic::PyramidOptions pyramid;
   pyramid.NumberOfLevels = this->NumberOfLevels;
   pyramid.MinimumLevelSize = this->MinimumLevelSize;

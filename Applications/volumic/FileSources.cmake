@@ -35,7 +35,6 @@ list(TRANSFORM volumic_reader_sources PREPEND "${CMAKE_CURRENT_LIST_DIR}/")
 set(volumic_writer_sources
   GltfScene.cxx
   OutputFiles.cxx
-  Ranks.cxx
   SolidRegions.cxx
   SolidShells.cxx
   SolverFiles.cxx

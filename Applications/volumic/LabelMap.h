@@ -4,7 +4,7 @@
 #define volumicToolLabelMap_h
 
 #include "LabelNames.h"
-#include "VolumePart.h"
+#include "VolumeFacts.h"
 
 #include <vtkSmartPointer.h>
 #include <vtkType.h>

@@ -5,7 +5,6 @@
 #include "BinaryFile.h"
 #include "LabelNames.h"
 #include "Messages.h"
-#include "Ranks.h"
 #include "ReadStart.h"
 #include "ReadVolume.h"
 #include "RunFilter.h"
@@ -30,8 +29,6 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
-#include <system_error>
 
 namespace tool
 {
@@ -126,16 +123,16 @@ void Announce(const ToolOptions& options, const VolumeFacts& facts, int componen
     ? ""
     : ", " + (component < 0 ? "magnitude" : "component " + NumberText(component)) + " of " +
       NumberText(components) + " components (--component)";
-  const std::string range = facts.Range[0] > facts.Range[1]
-    ? ""
-    : ", " + NumberText(facts.Range[0]) + " to " + NumberText(facts.Range[1]);
+  const std::string range =
+    ", " + NumberText(facts.Range[0]) + " to " + NumberText(facts.Range[1]);
   announcer.Say(options.Volume + ": " + times(size[0], size[1], size[2]) + " voxels of " +
     times(facts.Spacing[0], facts.Spacing[1], facts.Spacing[2]) + ", " +
     vtkImageScalarTypeNameMacro(facts.Type) + taken + range);
 }
 
-/** By this rank. */
-LoadedVolume LoadWhole(const ToolOptions& options, vtkDeformableSurface* filter,
+}
+
+LoadedVolume LoadVolume(const ToolOptions& options, vtkDeformableSurface* filter,
   vtkImagePyramid* holder, const Announcer& announcer)
 {
   const LoadedVoxels loaded =
@@ -153,72 +150,10 @@ LoadedVolume LoadWhole(const ToolOptions& options, vtkDeformableSurface* filter,
   return volume;
 }
 
-/** Whether each rank will read its part. @param part given what to read, if so */
-bool ReadsParts(const ToolOptions& options, vtkDeformableSurface* filter, VolumePart* part,
-  Ranks& ranks)
-{
-  if (!options.Edges.empty() || !options.WrittenVolume.empty())
-  {
-    return false;
-  }
-  bool isOpen = false;
-  ranks.Together(
-    [&]
-    {
-      const vtkSmartPointer<vtkAlgorithm> reader =
-        OpenParts(options.Volume, options.Array, filter->GetScratchDirectory());
-      isOpen = reader &&
-        part->SetReader(reader, options.Volume, options.Array,
-          options.Spacing ? options.Spacing->data() : nullptr);
-    });
-  return !ranks.IsAny(!isOpen);
-}
-}
-
-LoadedVolume LoadVolume(const ToolOptions& options, vtkDeformableSurface* filter,
-  vtkImagePyramid* holder, const Announcer& announcer, Ranks& ranks)
-{
-  if (ranks.IsOne())
-  {
-    return LoadWhole(options, filter, holder, announcer);
-  }
-  LoadedVolume volume;
-  const auto part = vtkSmartPointer<VolumePart>::New();
-  part->SetComponent(filter->GetSelectedComponent());
-  if (ReadsParts(options, filter, part, ranks))
-  {
-    volume.Facts = part->Facts();
-    Announce(options, volume.Facts, volume.Facts.Components, filter->GetSelectedComponent(),
-      announcer);
-  }
-  else
-  {
-    ranks.OnFirst([&] { volume = LoadWhole(options, filter, holder, announcer); });
-    part->SetWhole(ranks, volume.Image);
-    volume.Facts = part->Facts();
-  }
-  volume.Part = part;
-  return volume;
-}
-
 // ---- What else a surface is made of -------------------------------------------------------------
 
 namespace
 {
-/** What the file holds, on the first rank; pieces without points on the others. */
-template <class Read>
-vtkSmartPointer<vtkPolyData> ReadOnFirst(Ranks& ranks, const Read& read, const std::string& name)
-{
-  auto data = vtkSmartPointer<vtkPolyData>::New();
-  ranks.OnFirst(
-    [&]
-    {
-      NeedFile(name);
-      data = read(name);
-    });
-  return data;
-}
-
 /** @return the name of the array of the volume that is the map. */
 std::string AddEdges(const ToolOptions& options, vtkImageData* volume,
   vtkDeformableSurface* filter, vtkImagePyramid* holder, const Announcer& announcer)
@@ -256,35 +191,7 @@ std::vector<std::string> InputsOf(const ToolOptions& options)
   return inputs;
 }
 
-void CheckInputsOnAll(const ToolOptions& options, Ranks& ranks)
-{
-  if (ranks.IsOne())
-  {
-    return;
-  }
-  std::vector<std::string> files = InputsOf(options);
-  if (files.empty() || files.front() != options.Volume)
-  {
-    files.insert(files.begin(), options.Volume);
-  }
-  for (std::string& file : files)
-  {
-    std::error_code failed;
-    const bool isThere = std::filesystem::exists(file, failed);
-    const auto size = std::filesystem::file_size(file, failed);
-    file += !isThere ? ": no such file or folder"
-                     : failed ? "" : ": a file of " + std::to_string(size) + " bytes";
-  }
-  ranks.NeedSame(files,
-    [](const std::string& here, const std::string& first)
-    {
-      throw Failure((here.empty() ? "finds fewer files" : here) + ", where the first rank finds " +
-        (first.empty() ? "fewer files" : first) +
-        "; all ranks need the same files, from a disk that they share");
-    });
-}
-
-void SetStart(const ToolOptions& options, vtkDeformableSurface* filter, Ranks& ranks)
+void SetStart(const ToolOptions& options, vtkDeformableSurface* filter)
 {
   const bool isChosen = options.HasProperty("Initialization");
   for (const auto& place : options.SeedPositions)
@@ -297,7 +204,8 @@ void SetStart(const ToolOptions& options, vtkDeformableSurface* filter, Ranks& r
   }
   if (!options.Seeds.empty())
   {
-    filter->SetInitialSurfaceData(ReadOnFirst(ranks, ReadSeeds, options.Seeds));
+    NeedFile(options.Seeds);
+    filter->SetInitialSurfaceData(ReadSeeds(options.Seeds));
   }
   if (!options.Seeds.empty() || !options.SeedPositions.empty())
   {
@@ -308,7 +216,8 @@ void SetStart(const ToolOptions& options, vtkDeformableSurface* filter, Ranks& r
   }
   else if (!options.InitialSurface.empty())
   {
-    filter->SetInitialSurfaceData(ReadOnFirst(ranks, ReadSurface, options.InitialSurface));
+    NeedFile(options.InitialSurface);
+    filter->SetInitialSurfaceData(ReadSurface(options.InitialSurface));
     if (!isChosen)
     {
       filter->SetInitializationToInputSurface();
@@ -316,21 +225,19 @@ void SetStart(const ToolOptions& options, vtkDeformableSurface* filter, Ranks& r
   }
   if (!options.AttractingPoints.empty())
   {
-    filter->SetAttractingPointsData(
-      ReadOnFirst(ranks, ReadAttractingPoints, options.AttractingPoints));
+    NeedFile(options.AttractingPoints);
+    filter->SetAttractingPointsData(ReadAttractingPoints(options.AttractingPoints));
   }
 }
 
 void SetEdges(const ToolOptions& options, vtkImageData* volume, vtkDeformableSurface* filter,
-  vtkImagePyramid* holder, const Announcer& announcer, Ranks& ranks)
+  vtkImagePyramid* holder, const Announcer& announcer)
 {
   if (options.Edges.empty())
   {
     return;
   }
-  std::string name;
-  ranks.OnFirst([&] { name = AddEdges(options, volume, filter, holder, announcer); });
-  name = ranks.Broadcast(std::move(name));
+  const std::string name = AddEdges(options, volume, filter, holder, announcer);
   filter->SetInputArrayToProcess(1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, name.c_str());
   if (!options.HasProperty("EdgeAttractionWeight"))
   {

@@ -3,7 +3,7 @@
 #ifndef volumicLoadInputs_h
 #define volumicLoadInputs_h
 
-#include "VolumePart.h"
+#include "VolumeFacts.h"
 
 #include <vtkSmartPointer.h>
 
@@ -17,30 +17,25 @@ class vtkImagePyramid;
 namespace tool
 {
 class Announcer;
-class Ranks;
 struct ToolOptions;
 
 /** The volume of the command line. */
 struct LoadedVolume
 {
-  vtkSmartPointer<vtkImageData> Image; ///< All of it; null where each rank reads a part.
-  vtkSmartPointer<VolumePart> Part;    ///< What gives each rank its part; null on one rank.
-  VolumeFacts Facts;                   ///< Without the range where each rank reads a part.
+  vtkSmartPointer<vtkImageData> Image;
+  VolumeFacts Facts;
 };
 
 /**
  * Read the volume of the command line, choose its array, set its spacing, and tell what it is.
  * Where the memory is limited it is read slab by slab into scratch memory; the voxels are those of
  * the selected component then.
- *
- * With many ranks each reads its part when its filter asks for it, or else the first reads it all:
- * what is of no kind to be read in parts, what is to be written again, and with a map of edges.
  * @param filter of which the component and the memory limit are taken; a map of edges becomes its
  * @param holder a pyramid for this purpose: the scratch memory lasts as long as it does
  * @throws Failure if it cannot be read or lacks the array.
  */
 LoadedVolume LoadVolume(const ToolOptions& options, vtkDeformableSurface* filter,
-  vtkImagePyramid* holder, const Announcer& announcer, Ranks& ranks);
+  vtkImagePyramid* holder, const Announcer& announcer);
 
 /** A volume whose active scalars are the array that is wanted. */
 struct LoadedVoxels
@@ -49,38 +44,30 @@ struct LoadedVoxels
   int Components = 1; ///< that the file has; with a limit the image has the selected one
 };
 
-/** The part that reads: any volume, by this rank. */
+/** The part that reads: any volume. */
 LoadedVoxels LoadVoxels(const std::string& name, const std::string& array,
   vtkDeformableSurface* filter, vtkImagePyramid* holder, const Announcer& announcer);
 
 // ---- What else a surface is made of -------------------------------------------------------------
 
 class Announcer;
-class Ranks;
 struct ToolOptions;
 
 /** All files that a run reads. */
 std::vector<std::string> InputsOf(const ToolOptions& options);
 
 /**
- * All ranks find the same files: by their names and sizes, also where the first alone reads them.
- * @throws Failure on all ranks, which names the rank and the file.
- */
-void CheckInputsOnAll(const ToolOptions& options, Ranks& ranks);
-
-/**
  * Give the filter the start and the attracting points of the command line: positions, which are
- * properties, and what is in files, of which one rank reads and has all.
+ * properties, and what is in files.
  */
-void SetStart(const ToolOptions& options, vtkDeformableSurface* filter, Ranks& ranks);
+void SetStart(const ToolOptions& options, vtkDeformableSurface* filter);
 
 /**
  * Hand the map of edges to the filter, as a second array of the volume.
- * @param volume the whole; with many ranks it is there on the first, and null elsewhere
  * @param holder as LoadVolume has one
  */
 void SetEdges(const ToolOptions& options, vtkImageData* volume, vtkDeformableSurface* filter,
-  vtkImagePyramid* holder, const Announcer& announcer, Ranks& ranks);
+  vtkImagePyramid* holder, const Announcer& announcer);
 }
 
 #endif

@@ -31,12 +31,11 @@ public:
   void ListenTo(vtkAlgorithm* algorithm);
 
   /**
-   * Update the reader of the file, or, with an extent, that part.
+   * Update the reader of the file.
    * @throws Failure "NAME: cannot be read (reasons)" if it, or an
    * object within it, reports an error; or warns, unless its warnings are not `trusted`.
    */
-  void UpdateReader(vtkAlgorithm* reader, const std::string& name, bool trusted = true,
-    const int* extent = nullptr);
+  void UpdateReader(vtkAlgorithm* reader, const std::string& name, bool trusted = true);
 
   /** Have the reader look at what the file is about. @throws Failure as above if it complains. */
   void AskReader(vtkAlgorithm* reader, const std::string& name);

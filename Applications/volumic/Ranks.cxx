@@ -2,38 +2,33 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Ranks.h"
 
-#include "ToolErrors.h"
-
 #include <vtkAlgorithm.h>
-#include <vtkDataObject.h>
 #include <vtkMultiProcessController.h>
 #ifdef VOLUMIC_HAS_MPI
 #include <vtkMPIController.h>
-#include <vtk_mpi.h>
 #endif
 
+#include <chrono>
 #include <cstdlib>
-#include <exception>
 #include <initializer_list>
-#include <new>
-#include <sstream>
-#include <utility>
+#include <thread>
 
 namespace tool
 {
 namespace
 {
-constexpr int DataTag = 22101;
+/** Of what the first one tells the others: an exit code, the last word, or that they are to help.
+ */
+constexpr int WordTag = 22101;
+constexpr int Help = -1;
 
-/** What was thrown. */
-enum Kind : int
-{
-  Nothing,
-  OfUsage,
-  OfMemory,
-  Other
-};
+/** Of what an interrupted one tells the first. */
+constexpr int StopTag = 22102;
 
+/** MPI waits with all the power of a processor: so it is only looked at now and then. */
+constexpr std::chrono::milliseconds Nap(50);
+
+#ifdef VOLUMIC_HAS_MPI
 /** The value of the first of these in the environment; null: there is none. */
 const char* FirstOf(std::initializer_list<const char*> names)
 {
@@ -47,20 +42,6 @@ const char* FirstOf(std::initializer_list<const char*> names)
   return nullptr;
 }
 
-[[noreturn]] void Throw(int kind, const std::string& words)
-{
-  switch (kind)
-  {
-    case OfUsage:
-      throw UsageError(words);
-    case OfMemory:
-      throw std::bad_alloc();
-    default:
-      throw Failure(words);
-  }
-}
-
-#ifdef VOLUMIC_HAS_MPI
 /** Whether mpirun, or what a cluster has in its place, has started this process and others. */
 bool AreMany()
 {
@@ -97,222 +78,92 @@ Ranks::~Ranks()
   }
 }
 
-int Ranks::Rank() const
-{
-  return this->Controller ? this->Controller->GetLocalProcessId() : 0;
-}
-
 int Ranks::Count() const
 {
   return this->Controller ? this->Controller->GetNumberOfProcesses() : 1;
 }
 
-void Ranks::Together(const std::function<void()>& work)
+bool Ranks::IsFirst() const
 {
-  if (this->IsOne())
-  {
-    work();
-    return;
-  }
-  this->IsAgreed = false;
-  int kind = Nothing;
-  std::string words;
-  try
-  {
-    work();
-  }
-  catch (const UsageError& error)
-  {
-    kind = OfUsage;
-    words = error.what();
-  }
-  catch (const std::bad_alloc&)
-  {
-    kind = OfMemory;
-  }
-  catch (const std::exception& error)
-  {
-    kind = Other;
-    words = error.what();
-  }
-  this->Agree(kind, std::move(words));
+  return !this->Controller || this->Controller->GetLocalProcessId() == 0;
 }
 
-void Ranks::Agree(int kind, std::string words)
+bool Ranks::HasWord(int tag) const
 {
-  if (!this->IsAny(kind != Nothing))
-  {
-    return;
-  }
-  const std::vector<std::string> all =
-    this->GatherOnAll(std::string(1, static_cast<char>(kind)) + words);
-  for (int rank = 0; rank < this->Count(); ++rank)
-  {
-    const std::string& told = all[static_cast<std::size_t>(rank)];
-    if (told[0] != Nothing)
-    {
-      this->IsAgreed = true;
-      const std::string who = rank == 0 ? "" : "rank " + std::to_string(rank) + ": ";
-      Throw(told[0], who + told.substr(1));
-    }
-  }
-}
-
-void Ranks::ThrowAny(const std::string& failure)
-{
-  this->Together(
-    [&failure]
-    {
-      FailIf(!failure.empty(), failure);
-    });
-}
-
-void Ranks::ThrowOnAll(const std::string& words)
-{
-  this->IsAgreed = true;
-  throw Failure(words);
-}
-
-void Ranks::OnFirst(const std::function<void()>& work)
-{
-  this->Together(
-    [&]
-    {
-      if (this->IsFirst())
-      {
-        work();
-      }
-    });
-}
-
-void Ranks::Abort(int code)
-{
+  int isThere = 0;
 #ifdef VOLUMIC_HAS_MPI
-  if (this->Controller)
-  {
-    MPI_Abort(MPI_COMM_WORLD, code);
-  }
+  int from = 0;
+  vtkMPIController::SafeDownCast(this->Controller)
+    ->Iprobe(vtkMultiProcessController::ANY_SOURCE, tag, &isThere, &from);
 #else
-  (void)code;
+  (void)tag;
 #endif
+  return isThere != 0;
 }
 
-void Ranks::Update(vtkAlgorithm* filter) const
+int Ranks::Wait(const std::function<bool()>& isInterrupted, const std::function<void()>& help)
 {
-  if (this->IsOne())
+  for (;;)
+  {
+    if (!this->IsInterrupted && isInterrupted())
+    {
+      this->IsInterrupted = true;
+      const int word = 1;
+      this->Controller->Send(&word, 1, 0, StopTag);
+    }
+    if (!this->HasWord(WordTag))
+    {
+      std::this_thread::sleep_for(Nap);
+      continue;
+    }
+    int word = 0;
+    this->Controller->Receive(&word, 1, 0, WordTag);
+    if (word != Help)
+    {
+      return word;
+    }
+    help();
+  }
+}
+
+bool Ranks::AreInterrupted()
+{
+  if (!this->IsInterrupted && this->Controller && this->IsFirst() && this->HasWord(StopTag))
+  {
+    this->IsInterrupted = true;
+  }
+  return this->IsInterrupted;
+}
+
+void Ranks::Tell(int word)
+{
+  for (int rank = 1; rank < this->Count(); ++rank)
+  {
+    this->Controller->Send(&word, 1, rank, WordTag);
+  }
+}
+
+void Ranks::End(int code)
+{
+  int word = 0;
+  while (this->Controller && this->HasWord(StopTag))
+  {
+    this->Controller->Receive(&word, 1, vtkMultiProcessController::ANY_SOURCE, StopTag);
+  }
+  this->Tell(code);
+}
+
+void Ranks::Update(vtkAlgorithm* filter)
+{
+  if (!this->Controller)
   {
     filter->Update();
+    return;
   }
-  else
+  if (this->IsFirst())
   {
-    filter->UpdatePiece(this->Rank(), this->Count(), 0);
+    this->Tell(Help);
   }
-}
-
-bool Ranks::IsAny(bool isHere) const
-{
-  if (this->IsOne())
-  {
-    return isHere;
-  }
-  const int here = isHere ? 1 : 0;
-  int any = here;
-  this->Controller->AllReduce(&here, &any, 1, vtkCommunicator::MAX_OP);
-  return any != 0;
-}
-
-std::string Ranks::Broadcast(std::string bytes) const
-{
-  if (!this->IsOne())
-  {
-    auto size = static_cast<vtkIdType>(bytes.size());
-    this->Controller->Broadcast(&size, 1, 0);
-    bytes.resize(static_cast<std::size_t>(size));
-    this->Controller->Broadcast(bytes.data(), size, 0);
-  }
-  return bytes;
-}
-
-double Ranks::Broadcast(double value) const
-{
-  if (!this->IsOne())
-  {
-    this->Controller->Broadcast(&value, 1, 0);
-  }
-  return value;
-}
-
-void Ranks::NeedSame(const std::vector<std::string>& here,
-  const std::function<void(const std::string& here, const std::string& first)>& refuse)
-{
-  std::string joined;
-  for (const std::string& item : here)
-  {
-    joined += item + '\0';
-  }
-  std::istringstream first(this->Broadcast(joined));
-  this->Together(
-    [&]
-    {
-      std::string ofFirst;
-      for (const std::string& item : here)
-      {
-        const bool isThere = static_cast<bool>(std::getline(first, ofFirst, '\0'));
-        if (!isThere || item != ofFirst)
-        {
-          refuse(item, isThere ? ofFirst : "");
-        }
-      }
-      if (std::getline(first, ofFirst, '\0'))
-      {
-        refuse("", ofFirst);
-      }
-    });
-}
-
-std::vector<std::string> Ranks::GatherOnAll(const std::string& bytes) const
-{
-  if (this->IsOne())
-  {
-    return { bytes };
-  }
-  const auto count = static_cast<std::size_t>(this->Count());
-  const auto size = static_cast<vtkIdType>(bytes.size());
-  std::vector<vtkIdType> sizes(count);
-  this->Controller->AllGather(&size, sizes.data(), 1);
-  std::vector<vtkIdType> begins(count + 1, 0);
-  for (std::size_t rank = 0; rank < count; ++rank)
-  {
-    begins[rank + 1] = begins[rank] + sizes[rank];
-  }
-  std::string joined(static_cast<std::size_t>(begins[count]), '\0');
-  this->Controller->AllGatherV(bytes.data(), joined.data(), size, sizes.data(), begins.data());
-  std::vector<std::string> all;
-  for (std::size_t rank = 0; rank < count; ++rank)
-  {
-    all.push_back(joined.substr(
-      static_cast<std::size_t>(begins[rank]), static_cast<std::size_t>(sizes[rank])));
-  }
-  return all;
-}
-
-std::vector<double> Ranks::GatherOnAll(double number) const
-{
-  std::vector<double> all(static_cast<std::size_t>(this->Count()), number);
-  if (!this->IsOne())
-  {
-    this->Controller->AllGather(&number, all.data(), 1);
-  }
-  return all;
-}
-
-void Ranks::SendToFirst(vtkDataObject* data) const
-{
-  this->Controller->Send(data, 0, DataTag);
-}
-
-void Ranks::Receive(vtkDataObject* data, int from) const
-{
-  this->Controller->Receive(data, from, DataTag);
+  filter->UpdatePiece(this->Controller->GetLocalProcessId(), this->Count(), 0);
 }
 }

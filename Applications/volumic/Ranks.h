@@ -1,26 +1,21 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef volumicRanks_h
-#define volumicRanks_h
+#ifndef volumicToolRanks_h
+#define volumicToolRanks_h
 
 #include <vtkSmartPointer.h>
 
 #include <functional>
-#include <string>
-#include <vector>
 
 class vtkAlgorithm;
-class vtkDataObject;
 class vtkMultiProcessController;
 
 namespace tool
 {
 /**
- * The processes that mpirun has started to work on one surface; where it has not, or the program
- * was built without MPI, this process alone, for which all of these do nothing.
- *
- * All ranks make the same calls in the same order. What may fail on one of them is done within
- * Together(), and nothing that waits for other ranks beside a filter's update.
+ * The processes that mpirun has started; where it has not, or the program was built without MPI,
+ * this process alone. The first one does all work, as without mpirun; the others wait, and help
+ * with labels.
  */
 class Ranks
 {
@@ -34,62 +29,36 @@ public:
   Ranks(const Ranks&) = delete;
   Ranks& operator=(const Ranks&) = delete;
 
-  int Rank() const;
   int Count() const;
-  bool IsFirst() const { return this->Rank() == 0; }
-  bool IsOne() const { return this->Count() == 1; }
+  bool IsFirst() const;
 
   /**
-   * Do the work on each rank.
-   * @throws what it throws on one rank, of the same words, on all ranks: UsageError,
-   * std::bad_alloc, else a Failure. If several fail, the lowest tells why; not the first rank, it is named.
+   * At the others, until the first one is through.
+   * @param isInterrupted asked now and then; once it is, the first one is told
+   * @param help          updates what the first one updates
+   * @return the exit code of the first one
    */
-  void Together(const std::function<void()>& work);
+  int Wait(const std::function<bool()>& isInterrupted, const std::function<void()>& help);
 
-  /** Likewise, on the first rank only. */
-  void OnFirst(const std::function<void()>& work);
+  // At the first one:
 
-  /** Throw what has failed on any rank, as Together() does. @param failure empty: nothing here */
-  void ThrowAny(const std::string& failure);
+  /** Whether another rank was interrupted, which it tells. */
+  bool AreInterrupted();
 
-  /** Throw a failure that all ranks have found. */
-  [[noreturn]] void ThrowOnAll(const std::string& words);
+  /** Lets the others go. */
+  void End(int code);
 
-  /** Whether the exception that is under way has been thrown on all ranks. */
-  bool HaveAgreed() const { return this->IsAgreed; }
+  // At all:
 
-  /** End the program on all ranks: one has met what the others don't know of. */
-  void Abort(int code);
-
-  /** Update a filter: all of it, or the piece of this rank. */
-  void Update(vtkAlgorithm* filter) const;
-
-  bool IsAny(bool isHere) const;
-
-  /** What the first rank has. */
-  std::string Broadcast(std::string bytes) const;
-  double Broadcast(double value) const;
-
-  /**
-   * Lists that all ranks should have alike: where one differs from that of the first rank, `refuse`
-   * is called there, to throw, with the items that differ. Empty: there is nothing more.
-   */
-  void NeedSame(const std::vector<std::string>& here,
-    const std::function<void(const std::string& here, const std::string& first)>& refuse);
-
-  /** What each rank has, on all ranks. */
-  std::vector<std::string> GatherOnAll(const std::string& bytes) const;
-  std::vector<double> GatherOnAll(double number) const;
-
-  /** To the first rank, which calls Receive() meanwhile. */
-  void SendToFirst(vtkDataObject* data) const;
-  void Receive(vtkDataObject* data, int from) const;
+  /** Updates a filter together with the others, which Wait() at first. */
+  void Update(vtkAlgorithm* filter);
 
 private:
-  void Agree(int kind, std::string words);
+  bool HasWord(int tag) const;
+  void Tell(int word);
 
   vtkSmartPointer<vtkMultiProcessController> Controller; ///< null: alone
-  bool IsAgreed = false;
+  bool IsInterrupted = false;
 };
 }
 

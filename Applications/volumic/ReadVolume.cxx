@@ -245,12 +245,6 @@ vtkSmartPointer<vtkImageData> ReadVolume(const std::string& name)
   return NameFailures(name, [&name] { return ReadAll(FindVolume(name, { "", "", true })); });
 }
 
-vtkSmartPointer<vtkAlgorithm> OpenParts(
-  const std::string& name, const std::string& array, const std::string& scratch)
-{
-  return NameFailures(name, [&] { return FindVolume(name, { array, scratch }).Parts; });
-}
-
 OpenedVolume OpenVolume(
   const std::string& name, const std::string& array, const std::string& scratch)
 {

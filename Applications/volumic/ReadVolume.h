@@ -38,10 +38,6 @@ struct OpenedVolume
 OpenedVolume OpenVolume(
   const std::string& name, const std::string& array, const std::string& scratch);
 
-/** The source alone; null where the volume can only be read as a whole, which is not done. */
-vtkSmartPointer<vtkAlgorithm> OpenParts(
-  const std::string& name, const std::string& array, const std::string& scratch);
-
 /**
  * Make the array (empty: the active scalars, or the only one) the active scalars.
  * @throws Failure if there is none.

@@ -3,7 +3,6 @@
 #include "Report.h"
 
 #include "Json.h"
-#include "Ranks.h"
 
 #include <vtkDataArray.h>
 #include <vtkDeformableSurface.h>
@@ -26,11 +25,6 @@
 
 namespace tool
 {
-std::vector<double> PeaksByRank(const Ranks& ranks)
-{
-  return ranks.IsOne() ? std::vector<double>() : ranks.GatherOnAll(PeakMemory());
-}
-
 double PeakMemory()
 {
   rusage usage{};
@@ -112,14 +106,9 @@ Json PropertyValues(const FilterTrio& filters, bool (*isMeant)(const PropertyOpt
 }
 
 /** The member `memory`. @param reader PeakMemory() when the volume had been read */
-Json MemoryFacts(double reader, const std::vector<double>& byRank)
+Json MemoryFacts(double reader)
 {
-  Json memory = { { "reader", reader }, { "peak", PeakMemory() } };
-  if (!byRank.empty())
-  {
-    memory["peak_by_rank"] = byRank;
-  }
-  return memory;
+  return { { "reader", reader }, { "peak", PeakMemory() } };
 }
 
 /** The report with the members `warnings` and `versions` at its end, as text. */
@@ -211,7 +200,7 @@ std::string ReportText(const ReportInput& input)
   json["component_features"] = ComponentFeatures(surface);
   json["levels"] = LevelFacts(input);
   json["seconds"] = SecondsOf(input);
-  json["memory"] = MemoryFacts(input.ReaderMemory, input.PeaksByRank);
+  json["memory"] = MemoryFacts(input.ReaderMemory);
   json["properties"] = PropertyValues(input.Filters,
     [](const PropertyOption& property) { return !IsOfLabelsOnly(property); });
   return EndedReport(json, input.Warnings);
@@ -272,7 +261,7 @@ std::string ReportText(const LabelReport& report)
     facts["component_features"] = ComponentFeatures(surface);
   }
   json["seconds"] = { { "surface", report.Seconds } };
-  json["memory"] = MemoryFacts(report.ReaderMemory, report.PeaksByRank);
+  json["memory"] = MemoryFacts(report.ReaderMemory);
   json["properties"] = PropertyValues(report.Filters, IsOfLabels);
   return EndedReport(json, report.Warnings);
 }

@@ -6,7 +6,7 @@
 #include "LabelMap.h"
 #include "SurfaceFacts.h"
 #include "SurfaceProperties.h"
-#include "VolumePart.h"
+#include "VolumeFacts.h"
 #include "WriteOutputs.h"
 
 #include <iosfwd>
@@ -17,8 +17,6 @@ class vtkPolyData;
 
 namespace tool
 {
-class Ranks;
-
 /**
  * All that a report tells; the names in it are those of the quickstart's report.json, and besides
  * `finished` (false: interrupted, at the time or the iteration limit) and `properties`.
@@ -34,9 +32,8 @@ struct ReportInput
   double SurfaceSeconds = 0.0;
   double ReaderMemory = 0.0; ///< PeakMemory() when the volume had been read
   std::vector<std::string> Warnings;
-  SurfaceSize Size;                    ///< of the surface, of all ranks
+  SurfaceSize Size;                    ///< of the surface
   std::vector<SurfaceSize> LevelSizes; ///< by block of the levels
-  std::vector<double> PeaksByRank;     ///< as the function gives them
 };
 
 /** The report as JSON. Lengths, areas and volumes are in world units. */
@@ -44,9 +41,6 @@ std::string ReportText(const ReportInput& input);
 
 /** The most memory that was resident so far, MiB. */
 double PeakMemory();
-
-/** That of each rank, by all of them; nothing where there is one only. */
-std::vector<double> PeaksByRank(const Ranks& ranks);
 
 // ---- Labels -------------------------------------------------------------------------------------
 
@@ -61,7 +55,6 @@ struct LabelReport
   double Seconds = 0.0;      ///< of the surfaces
   double ReaderMemory = 0.0; ///< PeakMemory() when the volume had been read
   std::vector<std::string> Warnings = {};
-  std::vector<double> PeaksByRank = {};
 };
 
 /** The report as JSON, `labels` with an object for each surface. */

@@ -21,6 +21,8 @@ namespace
 {
 volatile std::sig_atomic_t interrupted = 0;
 
+Ranks* all = nullptr; ///< null: nobody else is listened to
+
 void Interrupt(int signal)
 {
   interrupted = 1;
@@ -31,7 +33,7 @@ void Interrupt(int signal)
 void FollowProgress(vtkObject* caller, unsigned long, void* line, void*)
 {
   auto* filter = static_cast<vtkAlgorithm*>(caller);
-  if (interrupted)
+  if (WasInterrupted())
   {
     filter->SetAbortExecute(1);
   }
@@ -41,7 +43,7 @@ void FollowProgress(vtkObject* caller, unsigned long, void* line, void*)
 }
 
 FilterRun RunFilter(
-  vtkAlgorithm* filter, const std::string& title, ProgressStyle style, const Ranks* ranks)
+  vtkAlgorithm* filter, const std::string& title, ProgressStyle style, Ranks* ranks)
 {
   VtkMessages messages;
   messages.ListenTo(filter);
@@ -68,11 +70,16 @@ FilterRun RunFilter(
   return run;
 }
 
-void CatchInterrupts(const Ranks& ranks)
+void ListenTo(Ranks& ranks)
+{
+  all = &ranks;
+}
+
+void CatchInterrupts()
 {
   std::signal(SIGINT, Interrupt);
   std::signal(SIGTERM, Interrupt);
-  if (!ranks.IsOne())
+  if (all && all->Count() > 1)
   {
     std::signal(SIGUSR1, Interrupt);
   }
@@ -80,7 +87,7 @@ void CatchInterrupts(const Ranks& ranks)
 
 bool WasInterrupted()
 {
-  return interrupted != 0;
+  return interrupted != 0 || (all && all->AreInterrupted());
 }
 
 // ---- Full disks ---------------------------------------------------------------------------------

@@ -26,17 +26,20 @@ struct FilterRun
  * hands over what it has; the second one ends the program at once, as usual. With many ranks
  * SIGUSR1 does so too: mpirun hands it on, and does not kill the ranks a second later.
  */
-void CatchInterrupts(const Ranks& ranks);
+void CatchInterrupts();
+
+/** Has signals to these ranks count, too; they must live as long as the program. */
+void ListenTo(Ranks& ranks);
 
 /** Whether there was such a signal. */
 bool WasInterrupted();
 
 /**
- * Update the filter, showing its progress; with ranks by all of them together, of which each gets
- * its piece. @throws Failure with the errors that it reports, on this rank.
+ * Update the filter, showing its progress; with ranks by all of them together.
+ * @throws Failure with the errors that it reports, on this rank.
  */
 FilterRun RunFilter(vtkAlgorithm* filter, const std::string& title, ProgressStyle style,
-  const Ranks* ranks = nullptr);
+  Ranks* ranks = nullptr);
 
 // ---- Full disks ---------------------------------------------------------------------------------
 

@@ -16,21 +16,23 @@ struct ToolOptions;
  * the options ask for.
  * @param filters with their properties set; that of the surface is a vtkVolumeToSurface where the
  * length of the edges decides on the pyramid.
- * @param ranks all of which call this; the first one reads and writes what has no parts.
- * @return Success or Unfinished, the same on all ranks.
+ * @return Success or Unfinished
  * @throws Failure where a file cannot be read or written, or the surface vanished.
  */
-ExitCode SegmentVolume(const ToolOptions& options, const FilterTrio& filters, Ranks& ranks);
+ExitCode SegmentVolume(const ToolOptions& options, const FilterTrio& filters);
 
 /**
  * Read a label map, find a surface about each of the labels that are asked for, and write what the
- * options ask for. By all ranks, which share the labels; the first one reads and writes.
+ * options ask for. By the first rank; the others share the labels.
  * @param filters with their properties set
  * @return Success or Unfinished
  * @throws Failure where a file cannot be read or written, a label is not there, or no label has a
  * surface.
  */
 ExitCode SegmentLabels(const ToolOptions& options, const FilterTrio& filters, Ranks& ranks);
+
+/** At the other ranks, until the first one is through. @return its exit code */
+int HelpWithLabels(const ToolOptions& options, const FilterTrio& filters, Ranks& ranks);
 }
 
 #endif

@@ -119,8 +119,8 @@ std::vector<LabelSurface> PlanSurfaces(
 }
 
 /**
- * Have the filter work on the labels of a layer, on all ranks; at the first one its blocks take the
- * place of what is planned.
+ * Have the filter work on the labels of a layer, on all ranks; its blocks take the place of what is
+ * planned.
  */
 FilterRun RunOnLayer(const ToolOptions& options, const LabelMap& map, int layer,
   vtkLabelsToSurfaces* filter, std::vector<LabelSurface>& surfaces, ProgressStyle style,
@@ -139,23 +139,13 @@ FilterRun RunOnLayer(const ToolOptions& options, const LabelMap& map, int layer,
       }
     }
   }
-  if (!ranks.IsAny(!own.empty()) || ranks.IsAny(WasInterrupted()))
+  if (own.empty() || WasInterrupted())
   {
     return FilterRun();
   }
-  ranks.IsFirst() ? SetInput(filter, map, layer)
-                  : filter->SetInputDataObject(0, vtkNew<vtkImageData>());
-  FilterRun run;
-  std::string failure; // One rank may not leave while others are in the filter yet.
-  try
-  {
-    run = RunFilter(filter, "Making surfaces", style, &ranks);
-  }
-  catch (const Failure& error)
-  {
-    failure = options.Volume + ": " + error.what();
-  }
-  ranks.ThrowAny(failure);
+  SetInput(filter, map, layer);
+  FilterRun run = Named(
+    options.Volume, [&] { return RunFilter(filter, "Making surfaces", style, &ranks); });
   auto* blocks = vtkMultiBlockDataSet::SafeDownCast(filter->GetOutputDataObject(0));
   auto* lost = vtkStringArray::SafeDownCast(blocks->GetFieldData()->GetAbstractArray("LostLabels"));
   const std::string told = lost ? InWordsOfOptions(lost->GetValue(0)) : std::string();
@@ -180,8 +170,7 @@ void MakeSurfaces(const ToolOptions& options, const LabelMap& map, vtkLabelsToSu
   std::vector<LabelSurface>& surfaces, const Announcer& announcer, LabelReport& report,
   Ranks& ranks)
 {
-  const double layers = ranks.Broadcast(static_cast<double>(map.Layers.size()));
-  for (int layer = 0; layer < layers; ++layer)
+  for (int layer = 0; layer < static_cast<int>(map.Layers.size()); ++layer)
   {
     const FilterRun run =
       RunOnLayer(options, map, layer, filter, surfaces, announcer.Style, ranks);
@@ -194,7 +183,6 @@ void MakeSurfaces(const ToolOptions& options, const LabelMap& map, vtkLabelsToSu
   }
   report.IsFinished = std::none_of(surfaces.begin(), surfaces.end(),
     [](const LabelSurface& surface) { return surface.IsUnfinished(); });
-  report.PeaksByRank = PeaksByRank(ranks);
 }
 
 void CheckThatAnyIsThere(const ToolOptions& options, const LabelReport& report)
@@ -331,21 +319,36 @@ ExitCode SegmentLabels(const ToolOptions& options, const FilterTrio& filters, Ra
   std::vector<LabelSurface> surfaces;
   LabelReport report{ std::filesystem::path(options.Volume).filename().string(), {}, filters,
     surfaces };
-  ranks.OnFirst(
-    [&] { surfaces = Prepare(options, filters, holder, announcer, map, folders, report); });
-  if (!ranks.IsAny(!surfaces.empty()))
+  surfaces = Prepare(options, filters, holder, announcer, map, folders, report);
+  if (surfaces.empty())
   {
     return Success;
   }
-  CatchInterrupts(ranks);
+  CatchInterrupts();
   MakeSurfaces(options, map, filters.Labels, surfaces, announcer, report, ranks);
-  ranks.OnFirst(
+  CheckThatAnyIsThere(options, report);
+  WriteAll(options, surfaces, report, announcer.Style);
+  TellEnd(surfaces, announcer);
+  return report.IsFinished ? Success : Unfinished;
+}
+
+int HelpWithLabels(const ToolOptions& options, const FilterTrio& filters, Ranks& ranks)
+{
+  ShareProperties(filters);
+  filters.Labels->SetSharedInterfaces(SharesInterfaces(options));
+  filters.Labels->SetInputDataObject(0, vtkNew<vtkImageData>());
+  return ranks.Wait(WasInterrupted,
     [&]
     {
-      CheckThatAnyIsThere(options, report);
-      WriteAll(options, surfaces, report, announcer.Style);
-      TellEnd(surfaces, announcer);
+      filters.Labels->Modified();
+      try
+      {
+        RunFilter(filters.Labels, "", ProgressStyle::None, &ranks);
+      }
+      catch (const Failure&)
+      {
+        // The first rank has it as well, and tells it.
+      }
     });
-  return ranks.IsAny(!report.IsFinished) ? Unfinished : Success;
 }
 }

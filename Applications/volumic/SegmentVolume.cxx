@@ -4,7 +4,6 @@
 
 #include "LabelMap.h"
 #include "LoadInputs.h"
-#include "Ranks.h"
 #include "Report.h"
 #include "RunFilter.h"
 #include "SurfaceFacts.h"
@@ -41,7 +40,6 @@ struct Job
   const ToolOptions& Options;
   vtkImagePyramid* Pyramid;
   vtkDeformableSurface* Filter;
-  Ranks& All;
   const Announcer Says;
   LoadedVolume Volume;
 };
@@ -55,44 +53,21 @@ std::string NamedReason(const ToolOptions& options, const std::string& text)
       "a coarser level (--finest 1), or the volume cropped or resampled, needs less";
 }
 
-/** Run a filter on all ranks; what fails is told on all of them. */
 FilterRun RunOnVolume(
   const Job& job, vtkAlgorithm* filter, const std::string& title, ProgressStyle style)
 {
-  FilterRun run;
-  std::string failure;
   try
   {
-    run = RunFilter(filter, title, style, &job.All);
+    return RunFilter(filter, title, style);
   }
   catch (const std::bad_alloc&)
   {
-    if (!job.All.IsOne())
-    {
-      throw; // The other ranks are in the filter yet.
-    }
-    failure = NamedReason(job.Options, "memory");
+    throw Failure(NamedReason(job.Options, "memory"));
   }
   catch (const Failure& error)
   {
-    failure = NamedReason(job.Options, error.what());
+    throw Failure(NamedReason(job.Options, error.what()));
   }
-  if (job.Volume.Part)
-  {
-    // Why voxels are missing, before what follows from it.
-    job.All.ThrowAny(job.Volume.Part->FailureOfReading());
-  }
-  job.All.ThrowAny(failure);
-  run.IsInterrupted = job.All.IsAny(run.IsInterrupted);
-  return run;
-}
-
-/** Both kinds of filters have the methods, but not by what they have in common. */
-template <class Filter>
-void SetInput(const Job& job, Filter* filter)
-{
-  job.Volume.Part ? filter->SetInputConnection(job.Volume.Part->GetOutputPort())
-                  : filter->SetInputData(job.Volume.Image);
 }
 
 /**
@@ -108,22 +83,15 @@ FilterRun GiveLevels(const Job& job)
     whole->SetNumberOfLevels(pyramid->GetNumberOfLevels());
     whole->SetMinimumLevelSize(pyramid->GetMinimumLevelSize());
     whole->SetReductionFactor(pyramid->GetReductionFactor());
-    SetInput(job, whole);
+    whole->SetInputData(job.Volume.Image);
     return FilterRun();
   }
   ShareWithPyramid(filter, pyramid);
-  SetInput(job, pyramid);
-  // The surface lets go of each level as it leaves it, and of its part of the volume.
+  pyramid->SetInputData(job.Volume.Image);
+  // The surface lets go of each level as it leaves it.
   pyramid->ReleaseDataFlagOn();
-  if (job.Volume.Part)
-  {
-    job.Volume.Part->ReleaseDataFlagOn();
-  }
   const FilterRun run = RunOnVolume(job, pyramid, "Building the pyramid", job.Says.Style);
-  if (run.IsInterrupted)
-  {
-    job.All.ThrowOnAll("interrupted before there was a surface; nothing is written");
-  }
+  FailIf(run.IsInterrupted, "interrupted before there was a surface; nothing is written");
   filter->SetInputConnection(pyramid->GetOutputPort());
   return run;
 }
@@ -169,7 +137,7 @@ private:
 /** One that was stopped on its way may go on. */
 void RemoveCheckpointOfEnded(const Job& job, const std::string& reason)
 {
-  if (reason != "cancelled" && reason != "time limit" && job.All.IsFirst())
+  if (reason != "cancelled" && reason != "time limit")
   {
     job.Filter->RemoveCheckpoint();
   }
@@ -179,10 +147,10 @@ void RemoveCheckpointOfEnded(const Job& job, const std::string& reason)
 void TakeOtsuThreshold(const Job& job)
 {
   vtkNew<vtkOtsuThreshold> otsu;
-  SetInput(job, otsu.Get());
+  otsu->SetInputData(job.Volume.Image);
   otsu->SetSelectedComponent(job.Filter->GetSelectedComponent());
   RunOnVolume(job, otsu, "Otsu's threshold", ProgressStyle::None);
-  job.Filter->SetIsoValue(job.All.Broadcast(otsu->GetThreshold()));
+  job.Filter->SetIsoValue(otsu->GetThreshold());
   job.Says.Say("iso-value " + NumberText(job.Filter->GetIsoValue()) +
     " by Otsu's threshold; choose another one with --iso");
 }
@@ -202,7 +170,7 @@ void TellOfLabels(const Job& job)
 /** Run the filters. @param results given their times and warnings */
 void FindSurface(const Job& job, ReportInput& results)
 {
-  CatchInterrupts(job.All);
+  CatchInterrupts();
   job.Filter->LeaveCheckpoints(); // Until all is written.
   const FilterRun pyramidRun = GiveLevels(job);
   ResumeTeller teller(job);
@@ -216,11 +184,11 @@ void FindSurface(const Job& job, ReportInput& results)
       job.Says.Say("warning: " + warning);
     }
   }
-  results.StopReason = job.All.Broadcast(StopReason(job.Filter->GetOutput()));
+  results.StopReason = StopReason(job.Filter->GetOutput());
   results.PyramidSeconds = pyramidRun.Seconds;
   results.SurfaceSeconds = run.Seconds;
   results.Warnings = run.Warnings;
-  results.Size = SizeOf(job.All, job.Filter->GetOutput());
+  results.Size = SizeOf(job.Filter->GetOutput());
   results.IsFinished = results.StopReason == "converged" || results.StopReason == "limit cycle";
   if (results.Size.Triangles > 0)
   {
@@ -228,7 +196,7 @@ void FindSurface(const Job& job, ReportInput& results)
   }
   RemoveCheckpointOfEnded(job, results.StopReason);
   const bool isLate = results.StopReason == "time limit";
-  job.All.ThrowOnAll(isLate
+  throw Failure(isLate
       ? "the time limit came before there was a surface; nothing is written"
       : run.IsInterrupted
       ? "interrupted before there was a surface; nothing is written"
@@ -238,38 +206,33 @@ void FindSurface(const Job& job, ReportInput& results)
 }
 }
 
-ExitCode SegmentVolume(const ToolOptions& options, const FilterTrio& filters, Ranks& ranks)
+ExitCode SegmentVolume(const ToolOptions& options, const FilterTrio& filters)
 {
   vtkDeformableSurface* filter = filters.Surface;
-  Job job = { options, filters.Pyramid, filter, ranks, Announcer(options), LoadedVolume() };
-  CheckInputsOnAll(options, ranks);
-  ranks.OnFirst([&] { CheckFiles(options); });
+  Job job = { options, filters.Pyramid, filter, Announcer(options), LoadedVolume() };
+  CheckFiles(options);
   const vtkNew<vtkImagePyramid> holder; // of the scratch memory of the volume
-  job.Volume = LoadVolume(options, filter, holder, job.Says, ranks);
+  job.Volume = LoadVolume(options, filter, holder, job.Says);
   ReportInput results;
   results.ReaderMemory = PeakMemory();
   const int component = filter->GetSelectedComponent();
-  if (filter->GetMemoryLimit() > 0 && !(job.Volume.Part && job.Volume.Part->IsInParts()))
+  if (filter->GetMemoryLimit() > 0)
   {
     filter->SetSelectedComponent(-1); // The volume has no other.
   }
   if (!options.WrittenVolume.empty())
   {
-    ranks.OnFirst(
-      [&]
-      {
-        NameLabels(options, job.Volume.Image, job.Says);
-        WriteVolume(job.Volume.Image, options.WrittenVolume, job.Says.Style);
-      });
+    NameLabels(options, job.Volume.Image, job.Says);
+    WriteVolume(job.Volume.Image, options.WrittenVolume, job.Says.Style);
   }
   if (!options.WantsSurface())
   {
     return Success;
   }
   TellOfLabels(job);
-  SetStart(options, filter, ranks);
+  SetStart(options, filter);
   const vtkNew<vtkImagePyramid> edgesHolder;
-  SetEdges(options, job.Volume.Image, filter, edgesHolder, job.Says, ranks);
+  SetEdges(options, job.Volume.Image, filter, edgesHolder, job.Says);
   if (!options.HasProperty("IsoValue"))
   {
     TakeOtsuThreshold(job);
@@ -281,15 +244,15 @@ ExitCode SegmentVolume(const ToolOptions& options, const FilterTrio& filters, Ra
   FindSurface(job, results);
   filter->SetSelectedComponent(component); // as it was chosen
   results.VolumeName = std::filesystem::path(options.Volume).filename().string();
-  results.Volume = job.Volume.Part ? job.Volume.Part->FactsOfAll(ranks) : job.Volume.Facts;
+  results.Volume = job.Volume.Facts;
   results.Filters = filters;
-  WriteOutputs(options, results, job.Says.Style, ranks);
+  WriteOutputs(options, results, job.Says.Style);
   RemoveCheckpointOfEnded(job, results.StopReason);
 
   job.Says.Say(std::to_string(results.Size.Vertices) + " vertices after " +
     std::to_string(filter->GetHistory()->GetNumberOfRows()) +
     " iterations: " + results.StopReason);
-  if (!results.IsFinished && ranks.IsFirst())
+  if (!results.IsFinished)
   {
     const bool canGoOn = !filter->GetCheckpointFolder().empty();
     std::cerr << "volumic: unfinished (" << results.StopReason

@@ -51,6 +51,7 @@ struct ToolOptions
   std::string Report;                           ///< .json
   std::string WrittenVolume;                    ///< .vti
   int PieceSize = 1 << 20;                      ///< triangles of a piece of a .pvtp
+  int Ranks = 1;                                ///< that mpirun has started
   bool Quiet = false;
   bool Progress = false; ///< also where stderr is no terminal
 

@@ -5,7 +5,6 @@
 #include "GltfScene.h"
 #include "LoadInputs.h"
 #include "OutputFiles.h"
-#include "Ranks.h"
 #include "Report.h"
 #include "SurfaceFacts.h"
 #include "Texts.h"
@@ -24,8 +23,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <functional>
-#include <utility>
 
 namespace tool
 {
@@ -108,83 +105,51 @@ int LevelOf(vtkPolyData* surface)
   return static_cast<int>(surface->GetFieldData()->GetArray("Level")->GetComponent(0, 0));
 }
 
-/** What is written, and how. */
-struct Outputs
+/** @return the triangles of a piece, of which there is to be one for each rank at least */
+int PieceSizeOf(const ToolOptions& options, vtkPolyData* surface)
 {
-  const ToolOptions& Options;
-  const SurfaceWriting& Writing;
-  Ranks& All;
-  Failures& Failed; ///< The same on all ranks.
-
-  /** By the first rank. */
-  void Attempt(const std::function<void()>& write) const
-  {
-    this->Failed.Try([&] { this->All.OnFirst(write); });
-  }
-};
-
-/** @param part of the surface, that this rank has */
-void WriteSurfaces(const Outputs& to, vtkPolyData* part)
-{
-  vtkSmartPointer<vtkPolyData> whole;
-  bool isGathered = false;
-  for (const std::string& name : to.Options.Surfaces)
-  {
-    if (HasPieces(name) && !to.All.IsOne())
-    {
-      to.Failed.Try([&] { WriteSurfaceOfRanks(part, name, to.Writing, to.All); });
-      continue;
-    }
-    if (!std::exchange(isGathered, true))
-    {
-      whole = GatherSurface(to.All, part);
-    }
-    to.Attempt([&] { WriteSurface(whole, name, to.Writing); });
-  }
+  const vtkIdType share = (surface->GetNumberOfPolys() + options.Ranks - 1) / options.Ranks;
+  return static_cast<int>(std::clamp<vtkIdType>(share, 1, options.PieceSize));
 }
 
-/** @param blocks of which this rank has parts */
-void WriteSeveral(const Outputs& to, vtkMultiBlockDataSet* blocks, const std::string& name,
-  const std::string& prefix, int (*numbers)(vtkPolyData*))
+void WriteSeveral(vtkMultiBlockDataSet* blocks, const std::string& name, const std::string& prefix,
+  ProgressStyle style, int (*numbers)(vtkPolyData*), Failures& failures)
 {
-  if (name.empty())
+  if (!name.empty())
   {
-    return;
+    failures.Try(
+      [&]
+      {
+        IsBlocks(name) ? WriteBlocks(blocks, name, style)
+                       : WriteFolder(blocks, name, prefix, style, numbers);
+      });
   }
-  const vtkSmartPointer<vtkMultiBlockDataSet> whole = GatherBlocks(to.All, blocks);
-  to.Attempt(
-    [&]
-    {
-      IsBlocks(name) ? WriteBlocks(whole, name, to.Writing.Style)
-                     : WriteFolder(whole, name, prefix, to.Writing.Style, numbers);
-    });
 }
 }
 
-void WriteOutputs(
-  const ToolOptions& options, ReportInput& results, ProgressStyle style, Ranks& ranks)
+void WriteOutputs(const ToolOptions& options, ReportInput& results, ProgressStyle style)
 {
   vtkDeformableSurface* filter = results.Filters.Surface;
   const SurfaceWriting writing = { std::string("volumic " VOLUMIC_VERSION) +
       (results.IsFinished ? "" : ", UNFINISHED: " + results.StopReason),
-    options.PieceSize, style };
+    PieceSizeOf(options, filter->GetOutput()), style };
   Failures failures;
-  const Outputs to{ options, writing, ranks, failures };
-  WriteSurfaces(to, filter->GetOutput());
-  WriteSeveral(to, filter->GetLevels(), options.Levels, "level", LevelOf);
-  WriteSeveral(to, filter->GetSnapshots(), options.Snapshots, "snapshot", nullptr);
+  for (const std::string& name : options.Surfaces)
+  {
+    failures.Try([&] { WriteSurface(filter->GetOutput(), name, writing); });
+  }
+  WriteSeveral(filter->GetLevels(), options.Levels, "level", style, LevelOf, failures);
+  WriteSeveral(filter->GetSnapshots(), options.Snapshots, "snapshot", style, nullptr, failures);
   if (!options.History.empty())
   {
-    to.Attempt([&] { WriteTable(filter->GetHistory(), options.History); });
+    failures.Try([&] { WriteTable(filter->GetHistory(), options.History); });
   }
   if (!options.Report.empty())
   {
-    results.Size = SizeOf(ranks, filter->GetOutput());
-    results.LevelSizes = SizesOf(ranks, filter->GetLevels());
-    results.PeaksByRank = PeaksByRank(ranks);
-    to.Attempt([&] { WriteText(ReportText(results), options.Report); });
+    results.LevelSizes = SizesOf(filter->GetLevels());
+    failures.Try([&] { WriteText(ReportText(results), options.Report); });
   }
-  ranks.Together([&] { failures.Throw(); });
+  failures.Throw();
 }
 
 // ---- Labels -------------------------------------------------------------------------------------
@@ -200,7 +165,7 @@ SurfaceWriting WritingOf(
   const ToolOptions& options, const LabelSurface& surface, ProgressStyle style)
 {
   return { "volumic " VOLUMIC_VERSION ", " + surface.Name + UnfinishedRemark(surface),
-    options.PieceSize, style };
+    PieceSizeOf(options, surface.Surface), style };
 }
 
 /** All in one file. */
@@ -360,7 +325,7 @@ void WriteLabelSurfaces(const ToolOptions& options, std::vector<LabelSurface>& s
     {
       // All are made at once, and so as finished as the first.
       const SurfaceWriting writing = { "volumic " VOLUMIC_VERSION +
-          UnfinishedRemark(surfaces.front()), options.PieceSize, style };
+          UnfinishedRemark(surfaces.front()), PieceSizeOf(options, interfaces), style };
       failures.Try([&] { WriteSurface(interfaces, name, writing); });
       continue;
     }

@@ -15,7 +15,6 @@
 namespace tool
 {
 class Failures;
-class Ranks;
 struct ReportInput;
 struct ToolOptions;
 
@@ -27,12 +26,10 @@ struct ToolOptions;
 void CheckFiles(const ToolOptions& options);
 
 /**
- * Write all that the options ask for, but the volume. With many ranks all of them call this: the
- * first writes, what is in pieces each rank. @param results their sizes are set here
+ * Write all that the options ask for, but the volume. @param results sizes of levels are set here
  * @throws Failure if not all could be written, with a line for each file.
  */
-void WriteOutputs(
-  const ToolOptions& options, ReportInput& results, ProgressStyle style, Ranks& ranks);
+void WriteOutputs(const ToolOptions& options, ReportInput& results, ProgressStyle style);
 
 // ---- Labels -------------------------------------------------------------------------------------
 

@@ -4,7 +4,6 @@
 
 #include "GltfScene.h"
 #include "OutputFiles.h"
-#include "Ranks.h"
 #include "SurfaceFormats.h"
 #include "Texts.h"
 #include "ToolErrors.h"
@@ -20,10 +19,7 @@
 #include <cstdint>
 #include <exception>
 #include <filesystem>
-#include <functional>
 #include <iostream>
-#include <memory>
-#include <numeric>
 
 namespace tool
 {
@@ -114,51 +110,6 @@ void WriteSurface(vtkPolyData* surface, const std::string& name, const SurfaceWr
       if (format->Check)
       {
         format->Check(file);
-      }
-    });
-}
-
-void WriteSurfaceOfRanks(
-  vtkPolyData* part, const std::string& name, const SurfaceWriting& writing, Ranks& ranks)
-{
-  std::unique_ptr<OutputFile> file; // of the first rank
-  std::string path;
-  const auto together = [&](const std::function<void()>& work)
-  { ranks.Together([&] { WorkOn(name, path, work); }); };
-  together(
-    [&]
-    {
-      if (ranks.IsFirst())
-      {
-        file = std::make_unique<OutputFile>(name);
-        path = file->Path();
-        fs::create_directory(fs::path(path).replace_extension());
-      }
-    });
-  path = ranks.Broadcast(std::move(path));
-  const std::vector<double> pieces =
-    ranks.GatherOnAll(static_cast<double>(NumberOfPieces(part, writing.PieceSize)));
-  const auto before = [&pieces](int rank)
-  { return static_cast<int>(std::accumulate(pieces.begin(), pieces.begin() + rank, 0.0)); };
-  std::string arrays;
-  together(
-    [&]
-    {
-      ProgressLine line(TitleOf(name), writing.Style);
-      arrays = WritePieceFiles({ part, path, writing.Remark, writing.PieceSize, line }, before(ranks.Rank()));
-    });
-  for (const std::string& told : ranks.GatherOnAll(arrays))
-  {
-    arrays = arrays.empty() ? told : arrays;
-  }
-  together(
-    [&]
-    {
-      if (file)
-      {
-        WritePieceList(path, arrays, before(ranks.Count()));
-        CheckXml(path);
-        file->Publish();
       }
     });
 }

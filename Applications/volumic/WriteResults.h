@@ -15,7 +15,6 @@ class vtkTable;
 
 namespace tool
 {
-class Ranks;
 struct SceneObject;
 
 // All write beside the file, which takes its place when it is whole (see OutputFiles.h), and throw
@@ -47,13 +46,6 @@ struct SurfaceWriting
  * be what is written, as .vtp, .vtk and where IsOfSolids().
  */
 void WriteSurface(vtkPolyData* surface, const std::string& name, const SurfaceWriting& writing);
-
-/**
- * Write a surface that HasPieces, of which each rank has a part: each writes its own pieces, into a
- * folder that all ranks see. All ranks call this.
- */
-void WriteSurfaceOfRanks(
-  vtkPolyData* part, const std::string& name, const SurfaceWriting& writing, Ranks& ranks);
 
 /** @throws UsageError if the name of a volume to write does not end in .vti. */
 void CheckVolumeName(const std::string& name);

@@ -21,7 +21,6 @@
 #include <vtkVersion.h>
 #include <vtkVolumeToSurface.h>
 
-#include <algorithm>
 #include <exception>
 #include <iostream>
 #include <new>
@@ -30,27 +29,8 @@ namespace
 {
 using namespace tool;
 
-/** All ranks have the same words to go by. */
-void CheckThatWordsAgree(int argc, char* argv[], Ranks& ranks)
-{
-  std::vector<std::string> words = { "volumic " VOLUMIC_VERSION };
-  words.insert(words.end(), argv + std::min(argc, 1), argv + argc);
-  ranks.NeedSame(words,
-    [](const std::string& here, const std::string& first)
-    {
-      const auto named = [](const std::string& word)
-      { return word.empty() ? "nothing more" : "'" + word + "'"; };
-      throw UsageError("has " + named(here) + " where the first rank has " + named(first) +
-        "; start all with the same command line");
-    });
-}
-
 ExitCode Run(const ToolOptions& options, Ranks& ranks)
 {
-  if (options.Task != ToolOptions::Task::Segment && !ranks.IsFirst())
-  {
-    return Success;
-  }
   vtkNew<vtkImagePyramid> pyramid;
   vtkSmartPointer<vtkDeformableSurface> filter = vtkSmartPointer<vtkDeformableSurface>::New();
   if (options.HasProperty("EdgeLength"))
@@ -79,14 +59,14 @@ ExitCode Run(const ToolOptions& options, Ranks& ranks)
     case ToolOptions::Task::Segment:
       break;
   }
-  ranks.Together([&] { ApplyProperties(options, filters); });
+  ApplyProperties(options, filters);
   if (filter->GetMemoryLimit() > 0)
   {
     TellOfFullDisk(filter->GetScratchDirectory());
   }
   try
   {
-    return options.Labels.empty() ? SegmentVolume(options, filters, ranks)
+    return options.Labels.empty() ? SegmentVolume(options, filters)
                                   : SegmentLabels(options, filters, ranks);
   }
   catch (const std::bad_alloc&)
@@ -106,23 +86,17 @@ ExitCode Run(const ToolOptions& options, Ranks& ranks)
   }
 }
 
-/** What the command line asks for, by all ranks; only the first one says something. */
+/** What the command line asks for. */
 int RunAndTell(int argc, char* argv[], Ranks& ranks)
 {
   ExitCode code = RuntimeFailure;
   std::string words;
   try
   {
-    ToolOptions options;
-    ranks.Together([&] { options = ParseOptions(argc, argv); });
-    CheckThatWordsAgree(argc, argv, ranks);
-    options.Quiet = options.Quiet || !ranks.IsFirst();
+    ToolOptions options = ParseOptions(argc, argv);
+    options.Ranks = ranks.Count();
     const ExitCode ended = Run(options, ranks);
-    ranks.OnFirst(
-      []
-      {
-        FailIf(!std::cout.flush(), "the standard output cannot be written; is its disk full?");
-      });
+    FailIf(!std::cout.flush(), "the standard output cannot be written; is its disk full?");
     return ended;
   }
   catch (const UsageError& error)
@@ -139,16 +113,29 @@ int RunAndTell(int argc, char* argv[], Ranks& ranks)
     // It may tell of what a damaged file holds, be that a megabyte.
     words = PlainName(Shortened(error.what(), 1500));
   }
-  const bool isOfAll = ranks.HaveAgreed();
-  if (ranks.IsFirst() || !isOfAll)
-  {
-    std::cerr << "volumic: " << words << "\n";
-  }
-  if (!isOfAll)
-  {
-    ranks.Abort(code);
-  }
+  std::cerr << "volumic: " << words << "\n";
   return code;
+}
+
+/** At the other ranks. */
+int WaitForFirst(int argc, char* argv[], Ranks& ranks)
+{
+  vtkNew<vtkImagePyramid> pyramid;
+  vtkNew<vtkDeformableSurface> filter;
+  vtkNew<vtkLabelsToSurfaces> labels;
+  const FilterTrio filters{ pyramid, filter, labels };
+  ToolOptions options;
+  try
+  {
+    options = ParseOptions(argc, argv);
+    ApplyProperties(options, filters);
+  }
+  catch (const std::exception&)
+  {
+    // The first rank has the same words, and tells what is wrong with them.
+  }
+  CatchInterrupts();
+  return HelpWithLabels(options, filters, ranks);
 }
 }
 
@@ -161,5 +148,12 @@ int main(int argc, char* argv[])
     vtkSMPTools::SetBackend("Sequential");
   }
   Ranks ranks(argc, argv);
-  return RunAndTell(argc, argv, ranks);
+  ListenTo(ranks);
+  if (!ranks.IsFirst())
+  {
+    return WaitForFirst(argc, argv, ranks);
+  }
+  const int code = RunAndTell(argc, argv, ranks);
+  ranks.End(code);
+  return code;
 }

@@ -41,50 +41,37 @@ std::string CollectErrors(vtkAlgorithm* algorithm, const std::function<void()>& 
   return errors;
 }
 
-namespace
-{
-/** What Communicator::Fail() tells the other ranks, so that they report the same error. */
-std::string ReasonOf(const AlgorithmError& error)
-{
-  return (error.Code == vtkErrorCode::UserError ? 'U' : 'O') + error.Text;
-}
-
-/** What that was made of. */
-AlgorithmError ErrorOf(const OtherRankFailed& failure)
-{
-  const std::string reason = failure.what();
-  return { reason.front() == 'U' ? vtkErrorCode::UserError : vtkErrorCode::UnknownError,
-    reason.substr(1) };
-}
-}
-
-AlgorithmError RunAlgorithm(Communicator& ranks, vtkInformationVector* outputs,
+AlgorithmError CatchError(
   const std::function<std::string()>& aboutMemory, const std::function<void()>& work)
 {
-  AlgorithmError error{ vtkErrorCode::UnknownError, {} };
   try
   {
     work();
-    return { vtkErrorCode::NoError, {} };
+    return {};
   }
-  catch (const OtherRankFailed& failure)
+  catch (const ToldError& told)
   {
-    error = ErrorOf(failure);
+    return told.Error;
   }
   catch (const std::bad_alloc&)
   {
-    error.Text = aboutMemory();
+    return { vtkErrorCode::UnknownError, aboutMemory() };
   }
   catch (const std::invalid_argument& refused)
   {
-    error = { vtkErrorCode::UserError, refused.what() };
+    return { vtkErrorCode::UserError, refused.what() };
   }
   catch (const std::exception& other)
   {
-    error.Text = other.what();
+    return { vtkErrorCode::UnknownError, other.what() };
   }
-  ranks.Fail(ReasonOf(error));
-  for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
+}
+
+AlgorithmError RunAlgorithm(vtkInformationVector* outputs,
+  const std::function<std::string()>& aboutMemory, const std::function<void()>& work)
+{
+  const AlgorithmError error = CatchError(aboutMemory, work);
+  for (int port = 0; error.Code != 0 && port < outputs->GetNumberOfInformationObjects(); ++port)
   {
     if (vtkDataObject* output = vtkDataObject::GetData(outputs, port))
     {

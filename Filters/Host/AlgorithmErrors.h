@@ -3,9 +3,8 @@
 #ifndef volumicAlgorithmErrors_h
 #define volumicAlgorithmErrors_h
 
-#include "Core/Common/Communicator.h"
-
 #include <functional>
+#include <stdexcept>
 #include <string>
 
 class vtkAlgorithm;
@@ -22,20 +21,33 @@ std::string CollectErrors(vtkAlgorithm* algorithm, const std::function<void()>& 
 /** An error as SetErrorCode and vtkErrorMacro get it. */
 struct AlgorithmError
 {
-  unsigned long Code; ///< 0: there is none
+  unsigned long Code = 0; ///< 0: there is none
   std::string Text;
 };
 
+/** One that was found elsewhere, and is told as it is. */
+struct ToldError : std::runtime_error
+{
+  explicit ToldError(const AlgorithmError& error) : std::runtime_error(error.Text), Error(error) {}
+  AlgorithmError Error;
+};
+
 /**
- * Does the work of RequestData. Where it throws, the other ranks are told, and all outputs are left
- * initialised: no data half made, and none of the field data that the pipeline has passed from the
- * input. RequestData then returns 1 all the same: after 0 the pipeline would print a second error,
- * and ParaView's clients would keep what they had before.
+ * Does some work.
  * @param aboutMemory what to say where the memory does not suffice
- * @return what to report: vtkErrorCode::UserError for std::invalid_argument (what was given is
- *         wrong), else vtkErrorCode::UnknownError (memory); the same on all ranks.
+ * @return what it throws: vtkErrorCode::UserError for std::invalid_argument (what was given is
+ *         wrong), else vtkErrorCode::UnknownError (memory); a ToldError as it was told.
  */
-AlgorithmError RunAlgorithm(Communicator& ranks, vtkInformationVector* outputs,
+AlgorithmError CatchError(
+  const std::function<std::string()>& aboutMemory, const std::function<void()>& work);
+
+/**
+ * Does the work of RequestData, likewise. Where it throws, all outputs are left initialised: no
+ * data half made, and none of the field data that the pipeline has passed from the input.
+ * RequestData then returns 1 all the same: after 0 the pipeline would print a second error, and
+ * ParaView's clients would keep what they had before.
+ */
+AlgorithmError RunAlgorithm(vtkInformationVector* outputs,
   const std::function<std::string()>& aboutMemory, const std::function<void()>& work);
 }
 

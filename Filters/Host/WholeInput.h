@@ -77,10 +77,9 @@ inline int GhostLevelsAskedOf(vtkInformation* request, vtkInformationVector* out
 /**
  * RequestUpdateExtent of a filter whose processes work together: each asks for its piece. Sources
  * that cannot give pieces give the first process all.
- * @param ghosts layers of voxels or cells beyond it
  */
-inline void AskForPieces(vtkInformation* request, vtkInformationVector** input, int ports,
-  vtkInformationVector* output, int ghosts)
+inline void AskForPieces(
+  vtkInformation* request, vtkInformationVector** input, int ports, vtkInformationVector* output)
 {
   using Pipeline = vtkStreamingDemandDrivenPipeline;
   const int outputPort = std::max(0, request->Get(vtkExecutive::FROM_OUTPUT_PORT()));
@@ -98,7 +97,7 @@ inline void AskForPieces(vtkInformation* request, vtkInformationVector** input, 
       }
       info->CopyEntry(asked, Pipeline::UPDATE_PIECE_NUMBER());
       info->CopyEntry(asked, Pipeline::UPDATE_NUMBER_OF_PIECES());
-      info->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), ghosts);
+      info->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
     }
   }
 }

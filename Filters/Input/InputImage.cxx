@@ -3,7 +3,6 @@
 #include "Input/InputImage.h"
 
 #include "Core/Common/Refuse.h"
-#include "Input/ImagePieces.h"
 #include "Input/LevelPlaces.h"
 
 #include <vtkCompositeDataIterator.h>
@@ -15,7 +14,6 @@
 #include <vtkSmartPointer.h>
 
 #include <initializer_list>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -76,71 +74,6 @@ vtkImageData* OnlyImageIn(vtkDataObjectTree* composite)
   }
   RefuseType(leaves.size() == 1 ? leaves[0] : composite);
 }
-
-/** How many blocks there are, if each is an image or none; else 0. */
-int CountImageBlocks(vtkDataObject* input)
-{
-  auto* blocks = vtkMultiBlockDataSet::SafeDownCast(input);
-  const unsigned int count = blocks ? blocks->GetNumberOfBlocks() : 0;
-  for (unsigned int h = 0; h < count; ++h)
-  {
-    if (blocks->GetBlock(h) && !vtkImageData::SafeDownCast(blocks->GetBlock(h)))
-    {
-      return 0;
-    }
-  }
-  return static_cast<int>(count);
-}
-
-/** Whether there is nothing in it. */
-bool IsNothing(vtkDataObject* input)
-{
-  if (auto* image = vtkImageData::SafeDownCast(input))
-  {
-    return image->GetNumberOfPoints() == 0;
-  }
-  auto* composite = vtkDataObjectTree::SafeDownCast(input);
-  return !input || (composite && composite->GetNumberOfPoints() == 0);
-}
-}
-
-bool ArePiecesOfLevels(Communicator& ranks, vtkDataObject* input)
-{
-  const int count = CountImageBlocks(input);
-  const std::vector<int> counts = GatherValues(ranks, count);
-  if (count < 2 || counts != std::vector<int>(counts.size(), count))
-  {
-    return false;
-  }
-  auto* blocks = vtkMultiBlockDataSet::SafeDownCast(input);
-  std::vector<vtkSmartPointer<vtkImageData>> frames;
-  try
-  {
-    for (int h = 0; h < count; ++h)
-    {
-      const ImagePieces pieces(
-        ranks, vtkImageData::SafeDownCast(blocks->GetBlock(static_cast<unsigned int>(h))));
-      if (pieces.IsEmpty())
-      {
-        return false;
-      }
-      frames.emplace_back(pieces.Frame());
-    }
-  }
-  catch (const std::invalid_argument&)
-  {
-    return false; // All ranks are of the same opinion.
-  }
-  return AreLevels({ frames.begin(), frames.end() });
-}
-
-vtkImageData* PieceOfImage(Communicator& ranks, vtkDataObject* input)
-{
-  if (ArePiecesOfLevels(ranks, input))
-  {
-    return vtkImageData::SafeDownCast(vtkMultiBlockDataSet::SafeDownCast(input)->GetBlock(0));
-  }
-  return ranks.NumberOfRanks() > 1 && IsNothing(input) ? nullptr : ImageOf(input);
 }
 
 vtkImageData* ImageOf(vtkDataObject* input)

@@ -8,8 +8,6 @@ class vtkImageData;
 
 namespace volumic
 {
-class Communicator;
-
 /**
  * The image that the input of a filter means: itself; the only image in a composite dataset; block
  * 0 of a pyramid.
@@ -17,18 +15,6 @@ class Communicator;
  *         several.
  */
 vtkImageData* ImageOf(vtkDataObject* input);
-
-/**
- * By all ranks together: this rank's piece of it; null: none.
- * @throws as ImageOf(), where this rank has something.
- */
-vtkImageData* PieceOfImage(Communicator& ranks, vtkDataObject* input);
-
-/**
- * By all ranks together: whether the input is the levels of a pyramid, of which each rank holds
- * pieces, as blocks that may be null.
- */
-bool ArePiecesOfLevels(Communicator& ranks, vtkDataObject* input);
 }
 
 #endif

@@ -4,7 +4,6 @@
 
 #include "Core/Common/Refuse.h"
 #include "Host/HostThreads.h"
-#include "Input/ImagePieces.h"
 #include "Input/ImageVoxels.h"
 #include "Input/ValidVoxels.h"
 
@@ -31,50 +30,30 @@ constexpr int Bins = 1024;
 
 using Counts = std::vector<vtkIdType>;
 
-/** How many voxels of a box each bin between the smallest and the largest voxel has. */
+/** How many voxels each bin between the smallest and the largest voxel has. */
 template <typename T>
-void CountVoxels(const T* voxels, const VoxelBox& held, const VoxelBox& box,
-  const ValidVoxels& valid, const std::array<double, 2>& range, Executor& threads, Counts& all)
+Counts CountVoxels(const T* voxels, vtkIdType count, const ValidVoxels& valid,
+  const std::array<double, 2>& range, Executor& threads)
 {
   const double scale = Bins / (range[1] - range[0]);
-  const auto rows = static_cast<std::size_t>(box.Length(1)) *
-    static_cast<std::size_t>(box.Length(2));
+  Counts all(Bins, 0);
   std::mutex mutex;
-  threads.For(rows, static_cast<std::size_t>((1 << 18) / box.Length(0) + 1),
+  threads.For(static_cast<std::size_t>(count), 1 << 18,
     [&](std::size_t begin, std::size_t end)
     {
       Counts counts(Bins, 0);
-      for (std::size_t row = begin; row < end; ++row)
+      for (std::size_t i = begin; i < end; ++i)
       {
-        const int j = box.First[1] + static_cast<int>(row) % box.Length(1);
-        const int k = box.First[2] + static_cast<int>(row) / box.Length(1);
-        const std::int64_t first = held.NumberOf(box.First[0], j, k);
-        for (std::int64_t i = first; i < first + box.Length(0); ++i)
+        if (valid.Has(static_cast<std::int64_t>(i)))
         {
-          if (valid.Has(i))
-          {
-            const double place = (static_cast<double>(voxels[i]) - range[0]) * scale;
-            ++counts[std::min(Bins - 1, static_cast<int>(place))];
-          }
+          const double place = (static_cast<double>(voxels[i]) - range[0]) * scale;
+          ++counts[std::min(Bins - 1, static_cast<int>(place))];
         }
       }
       const std::lock_guard<std::mutex> lock(mutex);
       std::transform(all.begin(), all.end(), counts.begin(), all.begin(), std::plus<>());
     });
-}
-
-/** The sums of all ranks. */
-Counts AddUp(Communicator& ranks, const Counts& own)
-{
-  Counts sum(Bins, 0);
-  MessageWriter writer;
-  writer.AddArray(own);
-  for (const Message& message : ranks.GatherOnAll(writer.Take()))
-  {
-    const Counts counts = MessageReader(message).TakeVector<vtkIdType>();
-    std::transform(sum.begin(), sum.end(), counts.begin(), sum.begin(), std::plus<>());
-  }
-  return sum;
+  return all;
 }
 
 /** The bins below the split with the largest variance between the classes. */
@@ -138,24 +117,15 @@ std::array<double, 2> FindNeighbours(
 }
 
 VoxelHistogram FindOtsuThreshold(
-  Communicator& ranks, vtkImageData* image, vtkInformation* selection, int component)
+  vtkImageData* image, vtkInformation* selection, int component)
 {
-  vtkSmartPointer<vtkDataArray> chosen;
-  if (image)
-  {
-    chosen = SelectComponent(ChooseArray(selection, image), component);
-  }
-  const ImagePieces pieces(ranks, image);
-  chosen = AgreeOnArray(ranks, chosen);
-  if (!chosen)
-  {
-    Refuse("the image is empty: no process holds any of its voxels.");
-  }
+  const vtkSmartPointer<vtkDataArray> chosen =
+    SelectComponent(ChooseArray(selection, image), component);
   const vtkSmartPointer<vtkDataArray> voxels = ContiguousVoxels(chosen);
   HostThreads threads(0);
-  const ValidVoxels valid = FindValidVoxels(ranks, pieces, chosen, voxels, image, true, threads);
-  CheckAnyIsValid(chosen, valid, ranks);
-  const std::array<double, 2> range = RangeOf(ranks, voxels, valid);
+  const ValidVoxels valid = FindValidVoxels(chosen, voxels, image, true, threads);
+  CheckAnyIsValid(chosen, valid);
+  const std::array<double, 2> range = RangeOf(voxels, valid);
   const double size = range[1] - range[0];
   if (!(size > 0.0) || !std::isfinite(size))
   {
@@ -169,23 +139,21 @@ VoxelHistogram FindOtsuThreshold(
       vtkTemplateMacro(work(static_cast<const VTK_TT*>(voxels->GetVoidPointer(0))));
     }
   };
-  Counts counts(Bins, 0);
-  const VoxelBox held = pieces.Voxels().HeldBy(ranks.Rank());
-  for (const VoxelBox& box : pieces.Voxels().OwnOf(ranks.Rank()))
-  {
-    visit(
-      [&](const auto* values)
-      { threads.Run([&] { CountVoxels(values, held, box, valid, range, threads, counts); }); });
-  }
-  VoxelHistogram found{ range, AddUp(ranks, counts), 0.0 };
+  VoxelHistogram found{ range, {}, 0.0 };
+  visit(
+    [&](const auto* values)
+    {
+      threads.Run(
+        [&]
+        {
+          found.Counts =
+            CountVoxels(values, voxels->GetNumberOfTuples(), valid, range, threads);
+        });
+    });
   const double value = range[0] + BestSplit(found.Counts) * size / Bins;
   std::array<double, 2> neighbours = range;
   visit([&](const auto* values)
     { neighbours = FindNeighbours(values, voxels->GetNumberOfTuples(), valid, value); });
-  for (const std::array<double, 2>& other : GatherValues(ranks, neighbours))
-  {
-    neighbours = { std::max(neighbours[0], other[0]), std::min(neighbours[1], other[1]) };
-  }
   const double middle = 0.5 * (neighbours[0] + neighbours[1]);
   const bool areReal = voxels->GetDataType() == VTK_FLOAT || voxels->GetDataType() == VTK_DOUBLE;
   found.Threshold = areReal ? middle : std::floor(middle) + 0.5;

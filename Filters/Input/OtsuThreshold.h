@@ -3,8 +3,6 @@
 #ifndef volumicOtsuThreshold_h
 #define volumicOtsuThreshold_h
 
-#include "Core/Common/Communicator.h"
-
 #include <vtkType.h>
 
 #include <array>
@@ -24,13 +22,12 @@ struct VoxelHistogram
 };
 
 /**
- * What vtkOtsuThreshold finds. By all ranks together: the same on all, however many they are.
- * @param image     this rank's piece; null: none
+ * What vtkOtsuThreshold finds.
  * @param selection of the voxels, as GetInputArrayInformation()
  * @throws std::invalid_argument where there is no such value.
  */
 VoxelHistogram FindOtsuThreshold(
-  Communicator& ranks, vtkImageData* image, vtkInformation* selection, int component);
+  vtkImageData* image, vtkInformation* selection, int component);
 }
 
 #endif

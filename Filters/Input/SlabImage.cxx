@@ -3,6 +3,7 @@
 #include "Input/SlabImage.h"
 
 #include "Core/Common/Refuse.h"
+#include "Core/Image/VoxelBox.h"
 #include "Host/LargeArray.h"
 #include "Input/ImageVoxels.h"
 
@@ -17,28 +18,62 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
+#include <string>
 
 namespace volumic
 {
 namespace
 {
-/** Copies all tuples to where they belong. */
-void CopyTuples(vtkDataArray* from, vtkDataArray* to, vtkIdType first)
+using Extent = std::array<int, 6>;
+
+/** A slab of one slice has a cell of no height, which belongs to no two slices. */
+bool IsBetween(const int* slab, const Extent& whole, int axis)
+{
+  return slab[2 * axis + 1] > slab[2 * axis] || whole[2 * axis + 1] == whole[2 * axis];
+}
+
+/** Copies the tuples of a part to where they belong; of points, or of the cells between them. */
+void CopyTuples(vtkDataArray* from, const int* slab, vtkDataArray* to, const Extent& whole, int less)
 {
   const auto bytes = static_cast<std::size_t>(from->GetNumberOfComponents()) *
     static_cast<std::size_t>(from->GetDataTypeSize());
-  std::memcpy(static_cast<char*>(to->GetVoidPointer(0)) + static_cast<std::size_t>(first) * bytes,
-    from->GetVoidPointer(0), static_cast<std::size_t>(from->GetNumberOfTuples()) * bytes);
+  VoxelBox part;
+  VoxelBox all;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    part.First[axis] = slab[2 * axis];
+    part.End[axis] = slab[2 * axis] + std::max(1, slab[2 * axis + 1] - slab[2 * axis] + 1 - less);
+    all.First[axis] = whole[2 * axis];
+    all.End[axis] = whole[2 * axis] + std::max(1, whole[2 * axis + 1] - whole[2 * axis] + 1 - less);
+  }
+  const char* row = static_cast<const char*>(from->GetVoidPointer(0));
+  char* begin = static_cast<char*>(to->GetVoidPointer(0));
+  ForRowsOf(part, all,
+    [&](std::int64_t first, std::int64_t count)
+    {
+      const std::size_t length = static_cast<std::size_t>(count) * bytes;
+      std::memcpy(begin + static_cast<std::size_t>(first) * bytes, row, length);
+      row += length;
+    });
 }
 
-/** The numbers of a point array of a slab, contiguous in memory; null where they are no numbers. */
-vtkSmartPointer<vtkDataArray> NumbersOf(vtkImageData* slab, int number)
+vtkIdType Count(const Extent& whole, int less)
 {
-  vtkDataArray* array = slab->GetPointData()->GetArray(number);
-  return array && array->GetNumberOfTuples() == slab->GetNumberOfPoints()
-    ? ContiguousVoxels(array)
-    : nullptr;
+  vtkIdType count = 1;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    count *= std::max(1, whole[2 * axis + 1] - whole[2 * axis] + 1 - less);
+  }
+  return count;
+}
+
+/** The numbers of an array, contiguous in memory; null where they are none, or not enough. */
+vtkSmartPointer<vtkDataArray> NumbersOf(vtkAbstractArray* array, vtkIdType count)
+{
+  auto* numbers = vtkDataArray::SafeDownCast(array);
+  return numbers && numbers->GetNumberOfTuples() == count ? ContiguousVoxels(numbers) : nullptr;
 }
 
 vtkDataArray* CellGhostsOf(vtkImageData* slab)
@@ -51,27 +86,36 @@ vtkDataArray* CellGhostsOf(vtkImageData* slab)
     : nullptr;
 }
 
+std::string NameIn(vtkAbstractArray* array)
+{
+  return array->GetName() ? array->GetName() : "";
+}
+
 bool AreAlike(vtkDataArray* a, vtkDataArray* b)
 {
   return !a == !b &&
-    (!a || (a->GetDataType() == b->GetDataType() &&
+    (!a || (a->GetDataType() == b->GetDataType() && NameIn(a) == NameIn(b) &&
              a->GetNumberOfComponents() == b->GetNumberOfComponents()));
 }
-
-vtkIdType Points(int first, int last)
-{
-  return last - first + 1;
 }
 
-/** Cells of so many points along an axis. */
-vtkIdType Cells(int first, int last)
+SlabImage::SlabImage(const std::array<int, 6>& whole, bool withCells)
+  : Extent(whole), WithCells(withCells)
 {
-  return std::max(1, last - first);
-}
 }
 
-SlabImage::SlabImage(const std::array<int, 6>& whole) : Extent(whole)
+std::vector<vtkDataArray*> SlabImage::CellArraysOf(vtkImageData* slab) const
 {
+  std::vector<vtkDataArray*> arrays;
+  for (int i = 0; this->WithCells && i < slab->GetCellData()->GetNumberOfArrays(); ++i)
+  {
+    arrays.push_back(slab->GetCellData()->GetArray(i));
+  }
+  if (vtkDataArray* ghosts = this->WithCells ? nullptr : CellGhostsOf(slab))
+  {
+    arrays.push_back(ghosts);
+  }
+  return arrays;
 }
 
 void SlabImage::Begin(vtkImageData* slab)
@@ -83,27 +127,30 @@ void SlabImage::Begin(vtkImageData* slab)
   this->Whole->SetSpacing(slab->GetSpacing());
   this->Whole->SetDirectionMatrix(slab->GetDirectionMatrix());
   this->Whole->GetFieldData()->ShallowCopy(slab->GetFieldData());
-  const vtkIdType points = Points(e[0], e[1]) * Points(e[2], e[3]) * Points(e[4], e[5]);
-  vtkDataArray* scalars = slab->GetPointData()->GetScalars();
-  for (int i = 0; i < slab->GetPointData()->GetNumberOfArrays(); ++i)
+  const auto add = [](vtkAbstractArray* array, vtkIdType ofSlab, vtkIdType ofWhole,
+                     vtkDataArray* scalars, vtkDataSetAttributes* attributes, Arrays& arrays)
   {
-    const vtkSmartPointer<vtkDataArray> numbers = NumbersOf(slab, i);
-    this->Arrays.emplace_back(numbers ? NewLargeArrayLike(numbers, points) : nullptr);
+    const vtkSmartPointer<vtkDataArray> numbers = NumbersOf(array, ofSlab);
+    arrays.emplace_back(numbers ? NewLargeArrayLike(numbers, ofWhole) : nullptr);
     if (numbers)
     {
-      this->Arrays.back()->SetName(slab->GetPointData()->GetArray(i)->GetName());
-      const int place = this->Whole->GetPointData()->AddArray(this->Arrays.back());
-      if (slab->GetPointData()->GetArray(i) == scalars)
+      arrays.back()->SetName(array->GetName());
+      const int place = attributes->AddArray(arrays.back());
+      if (array == scalars)
       {
-        this->Whole->GetPointData()->SetActiveAttribute(place, vtkDataSetAttributes::SCALARS);
+        attributes->SetActiveAttribute(place, vtkDataSetAttributes::SCALARS);
       }
     }
-  }
-  if (vtkDataArray* ghosts = CellGhostsOf(slab))
+  };
+  for (int i = 0; i < slab->GetPointData()->GetNumberOfArrays(); ++i)
   {
-    const vtkIdType cells = Cells(e[0], e[1]) * Cells(e[2], e[3]) * Cells(e[4], e[5]);
-    this->CellGhosts = NewLargeArrayLike(ghosts, cells);
-    this->Whole->GetCellData()->AddArray(this->CellGhosts);
+    add(slab->GetPointData()->GetAbstractArray(i), slab->GetNumberOfPoints(), Count(e, 0),
+      slab->GetPointData()->GetScalars(), this->Whole->GetPointData(), this->Points);
+  }
+  for (vtkDataArray* array : this->CellArraysOf(slab))
+  {
+    add(array, slab->GetNumberOfCells(), Count(e, 1), slab->GetCellData()->GetScalars(),
+      this->Whole->GetCellData(), this->Cells);
   }
 }
 
@@ -113,41 +160,36 @@ void SlabImage::Take(vtkImageData* slab)
   {
     this->Begin(slab);
   }
-  const std::array<int, 6>& whole = this->Extent;
   const int* has = slab->GetExtent();
-  if (!std::equal(has, has + 4, whole.begin()) || has[4] < whole[4] || has[5] > whole[5])
-  {
-    const auto text = [](const int* e)
-    { return Join(e[0], " to ", e[1], ", ", e[2], " to ", e[3], ", ", e[4], " to ", e[5]); };
-    Refuse("the source of the image gave voxels ", text(has), "; it had told of ",
-      text(whole.data()), ".");
-  }
-  const bool fits =
-    slab->GetPointData()->GetNumberOfArrays() == static_cast<int>(this->Arrays.size());
-  for (std::size_t i = 0; fits && i < this->Arrays.size(); ++i)
-  {
-    const vtkSmartPointer<vtkDataArray> numbers = NumbersOf(slab, static_cast<int>(i));
-    if (!AreAlike(numbers, this->Arrays[i]))
-    {
-      Refuse("array ", i, " of the slices ", has[4], " to ", has[5], " is missing, or of another "
-        "type than in the slices before them.");
-    }
-    if (numbers)
-    {
-      CopyTuples(numbers, this->Arrays[i],
-        (has[4] - whole[4]) * Points(whole[0], whole[1]) * Points(whole[2], whole[3]));
-    }
-  }
-  vtkDataArray* ghosts = CellGhostsOf(slab);
-  if (!fits || !ghosts != !this->CellGhosts)
+  const std::vector<vtkDataArray*> cells = this->CellArraysOf(slab);
+  if (slab->GetPointData()->GetNumberOfArrays() != static_cast<int>(this->Points.size()) ||
+    cells.size() != this->Cells.size())
   {
     Refuse("the slices ", has[4], " to ", has[5], " have other arrays than those before them.");
   }
-  // A slab of one slice has a cell of no height, which belongs to no two slices.
-  if (ghosts && (has[5] > has[4] || whole[5] == whole[4]))
+  const auto copy = [&](vtkAbstractArray* array, vtkIdType count, vtkDataArray* to, int less)
   {
-    CopyTuples(ghosts, this->CellGhosts,
-      (has[4] - whole[4]) * Cells(whole[0], whole[1]) * Cells(whole[2], whole[3]));
+    const vtkSmartPointer<vtkDataArray> numbers = NumbersOf(array, count);
+    if (!AreAlike(numbers, to))
+    {
+      Refuse("an array of the slices ", has[4], " to ", has[5], " is missing, or of another name "
+        "or type than in the slices before them.");
+    }
+    if (numbers)
+    {
+      CopyTuples(numbers, has, to, this->Extent, less);
+    }
+  };
+  for (std::size_t i = 0; i < this->Points.size(); ++i)
+  {
+    copy(slab->GetPointData()->GetAbstractArray(static_cast<int>(i)), slab->GetNumberOfPoints(),
+      this->Points[i], 0);
+  }
+  for (std::size_t i = 0; i < cells.size() && IsBetween(has, this->Extent, 0) &&
+       IsBetween(has, this->Extent, 1) && IsBetween(has, this->Extent, 2);
+       ++i)
+  {
+    copy(cells[i], slab->GetNumberOfCells(), this->Cells[i], 1);
   }
 }
 }

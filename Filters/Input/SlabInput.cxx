@@ -152,6 +152,17 @@ Extent PreparedExtent(Extent whole, vtkImageData* slab, vtkImageData* prepared)
   }
   return whole;
 }
+
+void CheckExtent(const int* has, const Extent& whole)
+{
+  if (!std::equal(has, has + 4, whole.begin()) || has[4] < whole[4] || has[5] > whole[5])
+  {
+    const auto text = [](const int* e)
+    { return Join(e[0], " to ", e[1], ", ", e[2], " to ", e[3], ", ", e[4], " to ", e[5]); };
+    Refuse("the source of the image gave voxels ", text(has), "; it had told of ",
+      text(whole.data()), ".");
+  }
+}
 }
 
 vtkInformation* SlabInput::Info() const
@@ -255,6 +266,7 @@ SlabInput::Result SlabInput::Read(const Request& request) const
       image = std::make_unique<SlabImage>(PreparedExtent(whole, slab, prepared));
       slices = std::min(slices, Thickness(SliceBytes(slab), request.Limit));
     }
+    CheckExtent(prepared->GetExtent(), image->GetExtent());
     image->Take(prepared);
     result.IsStopped = !request.GoOn((last - whole[4] + 1) / sliceCount);
     if (result.IsStopped || last == whole[5])

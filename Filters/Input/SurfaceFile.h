@@ -4,7 +4,6 @@
 #define volumicSurfaceFile_h
 
 #include "Core/Common/CheckedFile.h"
-#include "Core/Common/Communicator.h"
 
 #include <vtkSmartPointer.h>
 
@@ -20,15 +19,6 @@ void WriteSurfaceTo(CheckedWriter& file, vtkPolyData* surface);
 
 /** What that wrote. @throws FileError. */
 vtkSmartPointer<vtkPolyData> ReadSurfaceFrom(CheckedReader& file);
-
-/**
- * The same for another rank, with cells of all kinds; global ids of points stay such.
- * @throws std::bad_alloc.
- */
-Message MessageOf(vtkPolyData* surface);
-
-/** What that was made of. @throws std::bad_alloc. */
-vtkSmartPointer<vtkPolyData> SurfaceFrom(const Message& message);
 }
 
 #endif

@@ -5,8 +5,7 @@
 #include "Core/Common/Join.h"
 #include "Core/Common/Refuse.h"
 #include "Core/Image/LevelReduction.h"
-#include "Core/Image/VoxelPieces.h"
-#include "Input/ImagePieces.h"
+#include "Core/Image/VoxelBox.h"
 #include "Input/ImageVoxels.h"
 
 #include <vtkCellData.h>
@@ -80,50 +79,19 @@ VoxelBox CellsOf(const VoxelBox& points)
   return cells;
 }
 
-/** Marks the points of the piece that are corners of a visible cell, of whichever piece. */
-void MarkVisibleCorners(Communicator& ranks, const ImagePieces& pieces,
-  const unsigned char* ghosts, LargeVector<std::uint8_t>& marks)
-{
-  const VoxelBox points = pieces.Voxels().HeldBy(ranks.Rank());
-  const VoxelBox held = CellsOf(points);
-  marks.assign(static_cast<std::size_t>(points.Count()), 0);
-  if (ranks.NumberOfRanks() == 1)
-  {
-    MarkVisibleCorners(ghosts, held, points, marks);
-    return;
-  }
-  const VoxelPieces cells(ranks, held);
-  VoxelBox around = held;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    --around.First[axis];
-    around.End[axis] = points.End[axis];
-  }
-  around = points.IsEmpty() ? points : around.CommonWith(cells.Bounds());
-  const std::vector<unsigned char> none(
-    ghosts ? 0 : static_cast<std::size_t>(held.Count()), std::uint8_t(0));
-  std::vector<unsigned char> found(static_cast<std::size_t>(around.Count()), 0);
-  cells.Fetch(ranks, ghosts ? ghosts : none.data(), around, found.data());
-  MarkVisibleCorners(found.data(), around, points, marks);
-}
-
-/** Empty on all ranks where nothing is blanked. */
-LargeVector<std::uint8_t> NotBlanked(
-  Communicator& ranks, const ImagePieces& pieces, vtkImageData* image)
+LargeVector<std::uint8_t> NotBlanked(vtkImageData* image)
 {
   LargeVector<std::uint8_t> marks;
-  const unsigned char* cells = nullptr;
-  const unsigned char* points = nullptr;
-  if (image)
+  const unsigned char* cells = HidingGhosts(
+    image->GetCellData(), image->GetNumberOfCells(), vtkDataSetAttributes::HIDDENCELL);
+  const unsigned char* points = HidingGhosts(
+    image->GetPointData(), image->GetNumberOfPoints(), vtkDataSetAttributes::HIDDENPOINT);
+  if (cells)
   {
-    cells = HidingGhosts(
-      image->GetCellData(), image->GetNumberOfCells(), vtkDataSetAttributes::HIDDENCELL);
-    points = HidingGhosts(
-      image->GetPointData(), image->GetNumberOfPoints(), vtkDataSetAttributes::HIDDENPOINT);
-  }
-  if (ranks.IsAny(cells != nullptr))
-  {
-    MarkVisibleCorners(ranks, pieces, cells, marks);
+    const int* size = image->GetDimensions();
+    const VoxelBox all = VoxelBox::Of({ size[0], size[1], size[2] });
+    marks.assign(static_cast<std::size_t>(all.Count()), 0);
+    MarkVisibleCorners(cells, CellsOf(all), all, marks);
   }
   if (points)
   {
@@ -135,17 +103,11 @@ LargeVector<std::uint8_t> NotBlanked(
   return marks;
 }
 
-/** Voxels of one kind: how many, and which is the first in the whole image. */
+/** Voxels of one kind: how many, and which is the first. */
 struct CountedVoxels
 {
   std::int64_t Count = 0;
   std::int64_t First = -1;
-
-  void Add(std::int64_t count, std::int64_t first)
-  {
-    this->First = this->First < 0 || (first >= 0 && first < this->First) ? first : this->First;
-    this->Count += count;
-  }
 };
 
 struct NotFinite
@@ -154,31 +116,20 @@ struct NotFinite
   CountedVoxels Infinite;
 };
 
-/** Of those marked as valid, each voxel at the lowest rank that holds it. */
+/** Of those marked as valid. */
 template <typename T>
-NotFinite CountNotFinite(const T* values, const LargeVector<std::uint8_t>& marks,
-  const ImagePieces& pieces, int rank)
+NotFinite CountNotFinite(
+  const T* values, std::int64_t count, const LargeVector<std::uint8_t>& marks)
 {
   NotFinite found;
   if constexpr (std::is_floating_point_v<T>)
   {
-    const VoxelBox held = pieces.Voxels().HeldBy(rank);
-    const VoxelBox all = VoxelBox::Of(pieces.Size());
-    for (const VoxelBox& box : pieces.Voxels().OwnOf(rank))
+    for (std::int64_t n = 0; n < count; ++n)
     {
-      for (int k = box.First[2]; k < box.End[2]; ++k)
+      if (!std::isfinite(values[n]) && (marks.empty() || marks[n] != 0))
       {
-        for (int j = box.First[1]; j < box.End[1]; ++j)
-        {
-          for (int i = box.First[0]; i < box.End[0]; ++i)
-          {
-            const std::int64_t n = held.NumberOf(i, j, k);
-            if (!std::isfinite(values[n]) && (marks.empty() || marks[n] != 0))
-            {
-              (std::isnan(values[n]) ? found.NaNs : found.Infinite).Add(1, all.NumberOf(i, j, k));
-            }
-          }
-        }
+        CountedVoxels& of = std::isnan(values[n]) ? found.NaNs : found.Infinite;
+        of.First = of.Count++ == 0 ? n : of.First;
       }
     }
   }
@@ -226,55 +177,35 @@ std::string Describe(
 ValidVoxels FindValidVoxels(vtkDataArray* original, vtkDataArray* contiguous, vtkImageData* image,
   bool nanIsBackground, Executor& executor)
 {
-  const ImagePieces pieces(OnThisRank(), image);
-  return FindValidVoxels(
-    OnThisRank(), pieces, original, contiguous, image, nanIsBackground, executor);
-}
-
-ValidVoxels FindValidVoxels(Communicator& ranks, const ImagePieces& pieces, vtkDataArray* original,
-  vtkDataArray* contiguous, vtkImageData* image, bool nanIsBackground, Executor& executor)
-{
   ValidVoxels valid;
-  valid.Marks = NotBlanked(ranks, pieces, image);
+  valid.Marks = NotBlanked(image);
   const std::int64_t count = contiguous->GetNumberOfTuples();
-  NotFinite own;
+  NotFinite found;
   switch (contiguous->GetDataType())
   {
     vtkTemplateMacro({
       const auto* values = static_cast<const VTK_TT*>(contiguous->GetVoidPointer(0));
       if (FindNotFiniteVoxels(values, count, executor).Count > 0)
       {
-        own = CountNotFinite(values, valid.Marks, pieces, ranks.Rank());
+        found = CountNotFinite(values, count, valid.Marks);
         ExcludeNaNs(values, count, valid.Marks);
       }
     });
     default:
       break;
   }
-  NotFinite all;
-  for (const NotFinite& found : GatherValues(ranks, own))
-  {
-    all.NaNs.Add(found.NaNs.Count, found.NaNs.First);
-    all.Infinite.Add(found.Infinite.Count, found.Infinite.First);
-  }
-  if (all.Infinite.Count > 0)
+  if (found.Infinite.Count > 0)
   {
     Refuse(NameOf(original), " has ",
-      Describe("infinite", all.Infinite.Count, "", all.Infinite.First, pieces.Frame()),
+      Describe("infinite", found.Infinite.Count, "", found.Infinite.First, image),
       ". Replace them by numbers, for instance by the value of the background.");
   }
-  valid.NaNs = all.NaNs.Count;
-  valid.FirstNaN = all.NaNs.First;
+  valid.NaNs = found.NaNs.Count;
+  valid.FirstNaN = found.NaNs.First;
   if (valid.NaNs > 0 && !nanIsBackground)
   {
-    Refuse(NameOf(original), " has ",
-      Describe("NaN", valid.NaNs, "", valid.FirstNaN, pieces.Frame()),
+    Refuse(NameOf(original), " has ", Describe("NaN", valid.NaNs, "", valid.FirstNaN, image),
       ". Turn NaN Is Background on, or replace them by numbers.");
-  }
-  valid.AreAll = !ranks.IsAny(!valid.Marks.empty());
-  if (!valid.AreAll)
-  {
-    valid.Marks.resize(static_cast<std::size_t>(count), 1);
   }
   return valid;
 }
@@ -283,11 +214,7 @@ std::array<double, 2> RangeOf(vtkDataArray* contiguous, const ValidVoxels& valid
 {
   std::array<double, 2> range = { std::numeric_limits<double>::max(),
     std::numeric_limits<double>::lowest() };
-  if (!contiguous)
-  {
-    return range;
-  }
-  if (valid.Marks.empty() && contiguous->GetNumberOfTuples() > 0)
+  if (valid.Marks.empty())
   {
     contiguous->GetRange(range.data());
     return range;
@@ -302,22 +229,10 @@ std::array<double, 2> RangeOf(vtkDataArray* contiguous, const ValidVoxels& valid
   return range;
 }
 
-std::array<double, 2> RangeOf(
-  Communicator& ranks, vtkDataArray* contiguous, const ValidVoxels& valid)
+void CheckAnyIsValid(vtkDataArray* original, const ValidVoxels& valid)
 {
-  std::array<double, 2> range = RangeOf(contiguous, valid);
-  for (const std::array<double, 2>& other : GatherValues(ranks, range))
-  {
-    range = { std::min(range[0], other[0]), std::max(range[1], other[1]) };
-  }
-  return range;
-}
-
-void CheckAnyIsValid(vtkDataArray* original, const ValidVoxels& valid, Communicator& ranks)
-{
-  const bool isAny = valid.AreAll ||
-    std::find(valid.Marks.begin(), valid.Marks.end(), std::uint8_t(1)) != valid.Marks.end();
-  if (!ranks.IsAny(isAny))
+  if (!valid.Marks.empty() &&
+    std::find(valid.Marks.begin(), valid.Marks.end(), std::uint8_t(1)) == valid.Marks.end())
   {
     Refuse("all voxels of ", NameOf(original), " are NaN or blanked: there is nothing to see.");
   }

@@ -236,14 +236,4 @@ void AddLabelFields(const LabelChoice& choice, const LabelImage& image, vtkPolyD
   AddNames(surface, choice.Labels, choice.Names);
   AddField<vtkIdTypeArray>(surface, "LabelVoxels", voxels);
 }
-
-void FillEmptyBlocks(const std::vector<std::string>& names, vtkMultiBlockDataSet* output)
-{
-  for (std::size_t i = 0; i < names.size(); ++i)
-  {
-    const auto block = static_cast<unsigned int>(i);
-    output->SetBlock(block, vtkNew<vtkPolyData>());
-    output->GetMetaData(block)->Set(vtkCompositeDataSet::NAME(), names[i].c_str());
-  }
-}
 }

@@ -42,12 +42,6 @@ std::string FillBlocks(const LabelChoice& choice, const LabelImage& image,
 
 /** Names, colours and voxels of all labels, for a surface that has them all. */
 void AddLabelFields(const LabelChoice& choice, const LabelImage& image, vtkPolyData* surface);
-
-/**
- * The same blocks, empty, for ranks that have no surfaces: writers and readers of ParaView wait for
- * each other where ranks have different ones.
- */
-void FillEmptyBlocks(const std::vector<std::string>& names, vtkMultiBlockDataSet* output);
 }
 
 #endif

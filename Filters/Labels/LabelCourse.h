@@ -35,8 +35,8 @@ class LabelCourse
 public:
   LabelCourse(const std::vector<double>& sizes, const std::vector<std::string>& names)
     : Sizes(sizes), Names(names), Shares(sizes.size())
+    , Whole(std::accumulate(sizes.begin(), sizes.end(), 0.0))
   {
-    this->Whole = std::accumulate(sizes.begin(), sizes.end(), 0.0);
   }
 
   /** Some of the items are to be done, for the first time or anew, and some of these here. */
@@ -63,12 +63,10 @@ public:
     const std::lock_guard<std::mutex> lock(this->Mutex);
     this->UnderWay.push_back(item);
   }
-  /** @return whether to go on. */
-  bool Tell(std::size_t item, double share)
+  void Tell(std::size_t item, double share)
   {
     // A revision of the surface sets back what its run tells.
     this->Shares[item] = std::max(this->Shares[item].load(), static_cast<float>(share));
-    return !this->IsStopped;
   }
   void End(std::size_t item)
   {

@@ -192,8 +192,7 @@ SegmentationVolume LabelSurfaceMaker::MakeVolume(
     image = PadForLevel(field, pyramid.Levels.ReductionFactor, settings.CoarsestLevel);
   }
   volume.LevelsAreOwn = true;
-  SingleRank alone;
-  volume.Levels = BuildPyramid(alone, image, volume.Selection, -1, pyramid);
+  volume.Levels = BuildPyramid(image, volume.Selection, -1, pyramid);
   return volume;
 }
 

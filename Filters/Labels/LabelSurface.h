@@ -3,7 +3,6 @@
 #ifndef volumicLabelSurface_h
 #define volumicLabelSurface_h
 
-#include "Core/Common/Communicator.h"
 #include "Core/Evolution/EdgeLengthPlan.h"
 #include "Core/Labels/LabelClaims.h"
 #include "Core/Labels/LabelField.h"
@@ -61,8 +60,6 @@ public:
   /** Where objects meet by threes: first of all objects, before any surface is made. */
   bool HasClaims() const { return this->Bricks.HasContested(); }
   void AddClaim(int object, HostThreads& threads);
-  /** By all ranks, each of which has added some claims: all know of all afterwards. */
-  void ShareClaims(Communicator& ranks) { this->Claims.Share(ranks); }
 
   /**
    * On any thread. What a level 0 does not hold is tried with the triangles of level -1.
@@ -73,18 +70,15 @@ public:
 
   /** With Gap: whether surfaces of neighbours must stay apart. */
   bool KeepsApart() const { return this->Settings.Gap > 0.0; }
-  /**
-   * By all ranks: has the next surfaces stay further inside where those of rank 0 touch each other,
-   * whose TouchingFaces it sets.
-   * @return the objects, from 1 on, for which that is so
-   */
-  std::vector<int> DrawApart(
-    Communicator& ranks, std::vector<LabelSurface>& surfaces, HostThreads& threads);
+  /** Voxels of each object, from 1 on. */
+  using VoxelsOfObjects = std::vector<std::vector<std::array<int, 3>>>;
+  /** Where surfaces touch each other, whose TouchingFaces it sets. */
+  VoxelsOfObjects FindTouchingVoxels(
+    std::vector<LabelSurface>& surfaces, HostThreads& threads) const;
+  /** Has the next surfaces stay further inside there. */
+  void Lower(const VoxelsOfObjects& voxels);
 
 private:
-  /** The places where the next surface of each object stays further inside. */
-  std::vector<std::vector<std::array<int, 3>>> FindTouchingVoxels(
-    std::vector<LabelSurface>& surfaces, HostThreads& threads) const;
   /** A field and the image that shows its values. */
   struct FieldImage
   {

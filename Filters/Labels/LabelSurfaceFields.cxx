@@ -184,7 +184,7 @@ bool LabelSurfaceMaker::ReviseField(int object, int round, const IndexedSurface&
     DrawBackWithin(original, surface, static_cast<float>(halfGap), field);
 }
 
-std::vector<std::vector<std::array<int, 3>>> LabelSurfaceMaker::FindTouchingVoxels(
+LabelSurfaceMaker::VoxelsOfObjects LabelSurfaceMaker::FindTouchingVoxels(
   std::vector<LabelSurface>& surfaces, HostThreads& threads) const
 {
   std::vector<IndexedSurface> inVoxels(surfaces.size());
@@ -212,30 +212,12 @@ std::vector<std::vector<std::array<int, 3>>> LabelSurfaceMaker::FindTouchingVoxe
   return voxels;
 }
 
-std::vector<int> LabelSurfaceMaker::DrawApart(
-  Communicator& ranks, std::vector<LabelSurface>& surfaces, HostThreads& threads)
+void LabelSurfaceMaker::Lower(const VoxelsOfObjects& voxels)
 {
-  MessageWriter found;
-  if (ranks.Rank() == 0)
+  for (std::size_t i = 0; i < voxels.size(); ++i)
   {
-    for (const auto& voxels : this->FindTouchingVoxels(surfaces, threads))
-    {
-      found.AddArray(voxels);
-    }
+    std::vector<std::array<int, 3>>& lowered = this->Lowered[i + 1];
+    lowered.insert(lowered.end(), voxels[i].begin(), voxels[i].end());
   }
-  const Message message = ranks.Broadcast(found.Take());
-  MessageReader reader(message);
-  std::vector<int> objects;
-  for (int object = 1; !reader.IsAtEnd(); ++object)
-  {
-    const auto more = reader.TakeVector<std::array<int, 3>>();
-    std::vector<std::array<int, 3>>& lowered = this->Lowered[static_cast<std::size_t>(object)];
-    lowered.insert(lowered.end(), more.begin(), more.end());
-    if (!more.empty())
-    {
-      objects.push_back(object);
-    }
-  }
-  return objects;
 }
 }

@@ -115,9 +115,6 @@ vtkSmartPointer<vtkTable> MakeHistory(
   if (withPhases)
   {
     AddPhases(table, rows);
-    AddColumn<vtkDoubleArray>(table, "SentBytes", rows, [](const Row& r) { return r.Sent.Bytes; });
-    AddColumn<vtkDoubleArray>(
-      table, "SentMessages", rows, [](const Row& r) { return r.Sent.Messages; });
   }
   return table;
 }

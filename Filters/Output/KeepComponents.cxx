@@ -3,7 +3,6 @@
 #include "Output/KeepComponents.h"
 
 #include "Core/Common/Refuse.h"
-#include "Core/Common/RankLists.h"
 #include "Core/Common/Spans.h"
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "Core/Surface/SizingField.h"
@@ -123,7 +122,7 @@ std::vector<int> InnermostAbout(const std::vector<Point>& places, const std::vec
     });
   std::vector<std::vector<int>> pierced(places.size());
   for (const Piercing& found :
-    GatherListsOnAll(*surface.Piece.Ranks, Joined(executor, spans)))
+    Joined(executor, spans))
   {
     pierced[found.Place].push_back(found.Component);
   }
@@ -172,8 +171,7 @@ std::vector<int> HostsOf(
   }
   std::vector<Point> places;
   std::vector<int> cavities;
-  // Of one that several ranks have a part of each tells a place, which all lie in the same.
-  for (const Cavity& cavity : GatherListsOnAll(*surface.Piece.Ranks, own))
+  for (const Cavity& cavity : own)
   {
     places.push_back(cavity.Place);
     cavities.push_back(cavity.Component);
@@ -225,7 +223,7 @@ void MarkTouching(const SurfaceResult& surface, const SurfaceFeatures& features,
         }
       }
     });
-  for (const int host : GatherListsOnAll(*surface.Piece.Ranks, Joined(executor, touching)))
+  for (const int host : Joined(executor, touching))
   {
     isKept[host] = true;
   }
@@ -281,7 +279,7 @@ SurfaceResult KeepChosen(SurfaceResult surface, const ComponentChoice& choice,
   }
   // Components are numbered by their areas, which differ in the world where voxels are no cubes.
   const SurfaceFeatures features =
-    ComputeFeatures(ToWorld(surface, space, executor), executor, surface.Piece);
+    ComputeFeatures(ToWorld(surface, space, executor), executor);
   const std::size_t n = features.Components.size();
   const std::vector<int> hosts = HostsOf(surface, features, executor);
   std::vector<bool> isKept(n, false);

@@ -41,8 +41,7 @@ ComponentChoice ChoiceOf(const SegmentationSettings& settings, const Segmentatio
  * that encloses it most closely, and is kept with it. A component touches a place if it is the
  * innermost that encloses it, and no cavity, or if a vertex of it or of its cavities is not farther
  * than 2.5 delta. Cost: O(n log n) of triangles and places; where all are kept and the surface is
- * given up, none. Of a piece, which all ranks call it with, the part of the piece, which is one of the
- * part of the whole.
+ * given up, none.
  */
 SurfaceResult KeepChosen(SurfaceResult surface, const ComponentChoice& choice,
   const Workspace& space, Executor& executor = OnThisThread());

@@ -12,9 +12,8 @@ namespace volumic
 {
 /**
  * Some components of a surface, with all that it knows of their points and triangles, which keep
- * their order. Of a piece, by all ranks, the part of the piece, which is one of the part of the
- * whole.
- * @param isKept by component, the same on all ranks
+ * their order.
+ * @param isKept by component
  */
 SurfaceResult PartOf(const SurfaceResult& surface, const SurfaceFeatures& features,
   const std::vector<bool>& isKept);

@@ -51,7 +51,7 @@ SegmentationResults::SegmentationResults(const SegmentationResults&) = default;
 SegmentationResults& SegmentationResults::operator=(const SegmentationResults&) = default;
 
 bool SegmentationResults::Choose(const SegmentationSettings& settings,
-  const SegmentationRequest& request, const std::function<void(Level& level)>& remake)
+  const SegmentationRequest& request, Executor& threads)
 {
   const ComponentChoice choice = ChoiceOf(settings, request, this->Space, this->Size);
   if (choice == this->Choice)
@@ -66,21 +66,19 @@ bool SegmentationResults::Choose(const SegmentationSettings& settings,
   this->Choice = choice;
   for (auto& level : this->ByLevel)
   {
-    remake(level.second);
+    this->MakeSurface(level.second, *level.second.All, threads);
   }
   return true;
 }
 
-void SegmentationResults::MakeSurface(Level& result, SurfaceResult surface,
-  const ComponentChoice& choice, const Workspace& space, Executor& threads)
+void SegmentationResults::MakeSurface(
+  Level& result, SurfaceResult surface, Executor& threads) const
 {
-  Communicator& ranks = *surface.Piece.Ranks;
-  const bool isAny = ranks.IsAny(!surface.Points.empty());
+  const bool isAny = !surface.Points.empty();
   // Each step uses up what the one before has made.
-  SurfaceResult kept = KeepChosen(std::move(surface), choice, space, threads);
-  result.KeepsNone = isAny && !ranks.IsAny(!kept.Points.empty());
-  threads.EndPhase("Components kept");
-  result.Surface = MakePolyData(std::move(kept), result.Description, space, threads);
+  SurfaceResult kept = KeepChosen(std::move(surface), this->Choice, this->Space, threads);
+  result.KeepsNone = isAny && kept.Points.empty();
+  result.Surface = MakePolyData(std::move(kept), result.Description, this->Space, threads);
 }
 
 void SegmentationResults::Forget(int level)

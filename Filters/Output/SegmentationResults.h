@@ -38,7 +38,6 @@ public:
   {
     vtkSmartPointer<vtkPolyData> Surface;       ///< the components that are chosen
     std::shared_ptr<const SurfaceResult> All;   ///< with all components; null: not kept
-    bool IsPiece = false; ///< They are a rank's piece; Ranks of All may be of an earlier request.
     SurfaceDescription Description;
     bool KeepsNone = false; ///< KeepComponents has left nothing of a surface that was there.
     bool IsAtRest = false;  ///< It was not cut off while it evolved.
@@ -65,20 +64,13 @@ public:
 
   /**
    * Makes the surfaces those of the components that are wanted from now on.
-   * @param remake makes one of its All, as Chosen()
    * @return false where they cannot be, as those of all components were not kept
    * @throws as ChoiceOf()
    */
   bool Choose(const SegmentationSettings& settings, const SegmentationRequest& request,
-    const std::function<void(Level& level)>& remake);
-  const ComponentChoice& Chosen() const { return this->Choice; }
-  const Workspace& GetWorkspace() const { return this->Space; }
-  /**
-   * Of a level, by its description: the part of it that is chosen, and whether that is none. Of a
-   * piece by all ranks.
-   */
-  static void MakeSurface(Level& result, SurfaceResult surface, const ComponentChoice& choice,
-    const Workspace& space, Executor& threads);
+    Executor& threads);
+  /** Of a level, by its description: the part of it that is chosen, and whether that is none. */
+  void MakeSurface(Level& result, SurfaceResult surface, Executor& threads) const;
 
   void SetLevel(int level, const Level& result) { this->ByLevel[level] = result; }
   /** What there is of a level, its snapshots included. */

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Output/SurfaceOutput.h"
 
-#include "Core/Common/RankLists.h"
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "Core/Surface/SizingField.h"
 #include "Host/LargeArray.h"
@@ -111,7 +110,7 @@ std::uint32_t BitsOfSize(float value)
 }
 
 /** The size that 98 % of the residuals of the whole don't exceed; 0 for none. */
-double ResidualQuantile(const LargeVector<float>& residuals, const PieceOfSurface& piece)
+double ResidualQuantile(const LargeVector<float>& residuals)
 {
   // Byte by byte, the first one first: how many have each, of those that have what is found so far.
   constexpr int bytes = 4;
@@ -120,20 +119,14 @@ double ResidualQuantile(const LargeVector<float>& residuals, const PieceOfSurfac
   std::int64_t place = 0; // Among these, in order.
   for (int byte = bytes - 1; byte >= 0; --byte)
   {
-    Counts own{};
-    for (std::size_t p = 0; p < residuals.size(); ++p)
-    {
-      const std::uint64_t bits = BitsOfSize(residuals[p]) >> (8 * byte);
-      if (bits >> 8 == found && piece.Counts(p))
-      {
-        ++own[bits & 255];
-      }
-    }
     Counts counts{};
-    for (const Counts& ofRank : GatherValues(*piece.Ranks, own))
+    for (const float residual : residuals)
     {
-      std::transform(
-        counts.begin(), counts.end(), ofRank.begin(), counts.begin(), std::plus<std::int64_t>());
+      const std::uint64_t bits = BitsOfSize(residual) >> (8 * byte);
+      if (bits >> 8 == found)
+      {
+        ++counts[bits & 255];
+      }
     }
     if (byte == bytes - 1)
     {
@@ -198,28 +191,12 @@ void TakeTriangles(vtkPolyData* polyData, LargeVector<Triangle>& corners, Execut
   polyData->SetPolys(triangles);
 }
 
-/** The point of a piece that has this number in the whole; -1: none. */
-int PointOf(const PieceOfSurface& piece, int id)
-{
-  if (piece.IsWhole())
-  {
-    return id;
-  }
-  const auto found = std::lower_bound(piece.Ids.begin(), piece.Ids.end(), id);
-  return found == piece.Ids.end() || *found != id ? -1
-                                                  : static_cast<int>(found - piece.Ids.begin());
-}
-
-int CountContacts(vtkPolyData* polyData, const PieceOfSurface& piece)
+int CountContacts(vtkPolyData* polyData)
 {
   auto* contact =
     vtkUnsignedCharArray::SafeDownCast(polyData->GetPointData()->GetArray("Contact"));
-  int count = 0;
-  for (vtkIdType p = 0; p < contact->GetNumberOfValues(); ++p)
-  {
-    count += contact->GetValue(p) == 1 && piece.Counts(static_cast<std::size_t>(p));
-  }
-  return SumOfRanks(*piece.Ranks, count);
+  const unsigned char* values = contact->GetPointer(0);
+  return static_cast<int>(std::count(values, values + contact->GetNumberOfValues(), 1));
 }
 
 /** Takes what the surface knows of its points, but for the residuals. */
@@ -254,12 +231,9 @@ void TakePointArrays(
   std::copy(surface.Held.begin(), surface.Held.end(), contact->GetPointer(0));
   for (const std::array<int, 2>& pair : surface.Contacts)
   {
-    for (const int id : pair)
+    for (const int p : pair)
     {
-      if (const int p = PointOf(surface.Piece, id); p >= 0)
-      {
-        contact->SetValue(p, 1);
-      }
+      contact->SetValue(p, 1);
     }
   }
   polyData->GetPointData()->AddArray(contact);
@@ -276,13 +250,6 @@ void TakePointArrays(
   };
   addLengths("EdgeSize", surface.Size, SizingField::RestLengthInDelta * space.WorldUnit());
   addLengths("Thickness", surface.Thickness, space.WorldUnit());
-  if (!surface.Piece.IsWhole())
-  {
-    const auto ids = NewLargeArray<vtkIdTypeArray>(n);
-    ids->SetName("GlobalIds");
-    std::copy(surface.Piece.Ids.begin(), surface.Piece.Ids.end(), ids->GetPointer(0));
-    polyData->GetPointData()->SetGlobalIds(ids);
-  }
 }
 
 void SetFeatures(vtkPolyData* polyData, const SurfaceFeatures& features, Executor& executor)
@@ -323,7 +290,7 @@ vtkSmartPointer<vtkPolyData> MakePolyData(SurfaceResult surface,
   auto polyData = vtkSmartPointer<vtkPolyData>::New();
   IndexedSurface& shape = surface;
   shape = ToWorld(std::move(shape), space, executor);
-  const SurfaceFeatures features = ComputeFeatures(shape, executor, surface.Piece);
+  const SurfaceFeatures features = ComputeFeatures(shape, executor);
   TakePoints(polyData, shape.Points, executor);
   TakeTriangles(polyData, shape.Triangles, executor);
   TakePointArrays(polyData, surface, space, executor);
@@ -333,9 +300,9 @@ vtkSmartPointer<vtkPolyData> MakePolyData(SurfaceResult surface,
   AddField<vtkIntArray>(polyData, "Iterations", description.Iterations);
   AddField<vtkIntArray>(
     polyData, "RemainingContacts", static_cast<int>(surface.Contacts.size()));
-  AddField<vtkIntArray>(polyData, "ContactVertices", CountContacts(polyData, surface.Piece));
+  AddField<vtkIntArray>(polyData, "ContactVertices", CountContacts(polyData));
   AddField<vtkDoubleArray>(
-    polyData, "ResidualQuantile", ResidualQuantile(surface.Residual, surface.Piece));
+    polyData, "ResidualQuantile", ResidualQuantile(surface.Residual));
   Free(surface.Residual);
   if (surface.FitToTolerance)
   {

@@ -33,8 +33,7 @@ struct SurfaceDescription
 
 /**
  * The surface in world coordinates with all arrays that vtkDeformableSurface documents. Where it is
- * given up, each of its arrays is freed once it is in VTK's. Of a piece, which all ranks make at
- * once, the points have `GlobalIds` (vtkIdType, the attribute), as those of SurfacePieces.
+ * given up, each of its arrays is freed once it is in VTK's.
  */
 vtkSmartPointer<vtkPolyData> MakePolyData(SurfaceResult surface,
   const SurfaceDescription& description, const Workspace& space,

@@ -3,6 +3,7 @@
 #include "Pyramid/BuildPyramid.h"
 
 #include "Host/PrefixErrors.h"
+#include "Input/ImageVoxels.h"
 
 #include <vtkImageData.h>
 #include <vtkInformation.h>
@@ -23,7 +24,7 @@ EdgeLengthPlan PlanEdgeLength(
   return plan;
 }
 
-vtkSmartPointer<vtkMultiBlockDataSet> BuildPyramid(Communicator& ranks, vtkImageData* image,
+vtkSmartPointer<vtkMultiBlockDataSet> BuildPyramid(vtkImageData* image,
   vtkInformation* selection, int component, const PyramidRequest& request)
 {
   return PrefixErrors("Input port 0: ",
@@ -37,8 +38,8 @@ vtkSmartPointer<vtkMultiBlockDataSet> BuildPyramid(Communicator& ranks, vtkImage
         return !isStopped;
       };
       const PyramidBlocks made =
-        MakePyramidBlocks(ranks, PyramidImage(ranks, image, selection, component), watched);
-      return ranks.IsAny(isStopped) ? nullptr : made.Blocks;
+        MakePyramidBlocks(image, SelectComponent(ChooseArray(selection, image), component), watched);
+      return isStopped ? nullptr : made.Blocks;
     });
 }
 }

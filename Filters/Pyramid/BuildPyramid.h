@@ -3,7 +3,6 @@
 #ifndef volumicBuildPyramid_h
 #define volumicBuildPyramid_h
 
-#include "Core/Common/Communicator.h"
 #include "Core/Evolution/EdgeLengthPlan.h"
 #include "Pyramid/PyramidBlocks.h"
 
@@ -24,14 +23,13 @@ EdgeLengthPlan PlanEdgeLength(
   double edgeLength, double samplingRatio, vtkImageData* image, PyramidOptions& pyramid);
 
 /**
- * The levels of an image, as vtkImagePyramid has them. By all ranks together.
- * @param image     this rank's piece; null: none
+ * The levels of an image, as vtkImagePyramid has them.
  * @param selection of the voxels, as GetInputArrayInformation()
  * @param component of them, as SelectComponent() takes it
- * @return null if the request's Progress said stop, on any rank.
+ * @return null if the request's Progress said stop.
  * @throws std::invalid_argument naming input port 0; others as they are.
  */
-vtkSmartPointer<vtkMultiBlockDataSet> BuildPyramid(Communicator& ranks, vtkImageData* image,
+vtkSmartPointer<vtkMultiBlockDataSet> BuildPyramid(vtkImageData* image,
   vtkInformation* selection, int component, const PyramidRequest& request);
 }
 

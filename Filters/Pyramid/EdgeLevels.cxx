@@ -61,7 +61,7 @@ vtkSmartPointer<vtkMultiBlockDataSet> LevelsOfMap(vtkMultiBlockDataSet* blocks,
   request.Levels.ReductionFactor = FactorOf(blocks);
   request.NumberOfThreads = numberOfThreads;
   request.Progress = [&goOn](double share, const std::string&) { return goOn(share); };
-  return BuildPyramid(OnThisRank(), image, selection, -1, request);
+  return BuildPyramid(image, selection, -1, request);
 }
 }
 

@@ -5,7 +5,6 @@
 #include "Core/Common/ContentHash.h"
 #include "Core/Common/Refuse.h"
 #include "Core/Image/VoxelHash.h"
-#include "Input/ImagePieces.h"
 #include "Input/ImageVoxels.h"
 
 #include <vtkDataArray.h>
@@ -13,8 +12,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <numeric>
-#include <vector>
 
 namespace volumic
 {
@@ -45,19 +42,13 @@ double BackgroundOf(const std::array<double, 2>& range, const SurfaceOptions& op
   return options.ObjectIsBright ? iso - away : iso + away;
 }
 
-std::uint64_t HashOfVoxels(Communicator& ranks, const VoxelPieces& pieces, vtkDataArray* voxels,
-  Executor& executor)
+std::uint64_t HashOfVoxels(
+  vtkDataArray* voxels, const std::array<int, 3>& size, Executor& executor)
 {
-  std::uint64_t own = 0;
-  for (const VoxelBox& part : pieces.OwnOf(ranks.Rank()))
-  {
-    own += HashOfVoxels(voxels->GetVoidPointer(0),
-      static_cast<std::size_t>(voxels->GetDataTypeSize()), pieces.HeldBy(ranks.Rank()), part,
-      pieces.Bounds(), executor);
-  }
-  const std::vector<std::uint64_t> sums = GatherValues(ranks, own);
+  const VoxelBox all = VoxelBox::Of(size);
   return CombineHashes(static_cast<std::uint64_t>(voxels->GetDataType()),
-    std::accumulate(sums.begin(), sums.end(), std::uint64_t(0)));
+    HashOfVoxels(voxels->GetVoidPointer(0), static_cast<std::size_t>(voxels->GetDataTypeSize()), all,
+      all, all, executor));
 }
 
 bool HavePart(vtkDataArray* voxels, const std::array<int, 3>& size, const ValidVoxels& valid,
@@ -79,24 +70,6 @@ bool HavePart(vtkDataArray* voxels, const std::array<int, 3>& size, const ValidV
     default:
       return true;
   }
-}
-
-bool HavePart(Communicator& ranks, const LevelInPieces& level, const SurfaceOptions& options)
-{
-  // Of a large part so many voxels that hang together are not further from any of them.
-  constexpr int margin = PartThatHolds.Voxels + PartThatHolds.Thickness;
-  VoxelBox around = level.Pieces.HeldBy(ranks.Rank());
-  for (int axis = 0; axis < 3 && !around.IsEmpty(); ++axis)
-  {
-    around.First[axis] -= margin;
-    around.End[axis] += margin;
-  }
-  around = around.CommonWith(level.Pieces.Bounds());
-  const vtkSmartPointer<vtkDataArray> voxels =
-    FetchVoxels(ranks, level.Pieces, level.Values, around);
-  return ranks.IsAny(!around.IsEmpty() &&
-    HavePart(voxels, around.Size(), ValidVoxels(), PartThatHolds,
-      options.IsoValue - level.Base.value_or(0.0), options.ObjectIsBright));
 }
 
 void FillInvalid(const FieldVoxels& voxels, const LargeVector<std::uint8_t>& marks,

@@ -3,14 +3,11 @@
 #ifndef volumicFieldVoxels_h
 #define volumicFieldVoxels_h
 
-#include "Core/Common/Communicator.h"
 #include "Core/Common/Executor.h"
 #include "Core/Common/ScratchMemory.h"
 #include "Core/Evolution/SurfaceOptions.h"
 #include "Core/Image/ThickPart.h"
-#include "Core/Image/VoxelPieces.h"
 #include "Core/Image/VoxelValues.h"
-#include "Input/LevelInPieces.h"
 #include "Input/ValidVoxels.h"
 
 #include <array>
@@ -41,12 +38,12 @@ FieldVoxels FieldVoxelsOf(
 double BackgroundOf(const std::array<double, 2>& range, const SurfaceOptions& options);
 
 /**
- * By all ranks together, of all pieces: 64 bits that tell voxels apart (VoxelHash.h), as they came
- * and by their type; the same however they are cut.
- * @param voxels this rank's, contiguous in memory; of no voxels where it has none
+ * 64 bits that tell voxels apart (VoxelHash.h), as they came and by their type.
+ * @param voxels contiguous in memory
+ * @param size   how many there are along each axis
  */
-std::uint64_t HashOfVoxels(Communicator& ranks, const VoxelPieces& pieces, vtkDataArray* voxels,
-  Executor& executor);
+std::uint64_t HashOfVoxels(
+  vtkDataArray* voxels, const std::array<int, 3>& size, Executor& executor);
 
 /**
  * Whether a part of the object, which is above the value (bright) or below, is at least that large
@@ -55,9 +52,6 @@ std::uint64_t HashOfVoxels(Communicator& ranks, const VoxelPieces& pieces, vtkDa
  */
 bool HavePart(vtkDataArray* voxels, const std::array<int, 3>& size, const ValidVoxels& valid,
   const PartSize& least, double isoValue, bool objectIsBright);
-
-/** By all ranks together: whether one of PartThatHolds is in a level that they have in pieces. */
-bool HavePart(Communicator& ranks, const LevelInPieces& level, const SurfaceOptions& options);
 
 /** Copies the values to `filled`, with the background for those that are not marked as valid. */
 void FillInvalid(const FieldVoxels& voxels, const LargeVector<std::uint8_t>& marks,

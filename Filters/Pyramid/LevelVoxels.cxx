@@ -5,16 +5,13 @@
 #include "Core/Common/Join.h"
 #include "Core/Common/Refuse.h"
 #include "Core/Image/LevelReduction.h"
-#include "Core/Image/PieceReduction.h"
 #include "Core/Image/ValidReduction.h"
 #include "Host/LargeArray.h"
-#include "Input/ImagePieces.h"
 #include "Input/ImageVoxels.h"
 
 #include <vtkDataArray.h>
 #include <vtkDoubleArray.h>
 #include <vtkFloatArray.h>
-#include <vtkImageData.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -52,14 +49,14 @@ vtkSmartPointer<ArrayOf<Real>> NewArray(std::int64_t n, int level)
  * not keep apart.
  */
 vtkSmartPointer<vtkDataArray> SourceVoxels(
-  Communicator& ranks, vtkDataArray* contiguous, const ValidVoxels& valid, Executor& executor)
+  vtkDataArray* contiguous, const ValidVoxels& valid, Executor& executor)
 {
   const int type = contiguous->GetDataType();
   if (type == VTK_FLOAT || type == VTK_DOUBLE || contiguous->GetDataTypeSize() < 4)
   {
     return contiguous;
   }
-  const std::array<double, 2> range = RangeOf(ranks, contiguous, valid);
+  const std::array<double, 2> range = RangeOf(contiguous, valid);
   if (FloatHolds(range[0], range[1]))
   {
     return contiguous;
@@ -97,17 +94,6 @@ std::vector<double> ShareDoneBefore(const std::vector<LevelGeometry>& levels)
   return share;
 }
 
-/** Level h + 1 from level h on one rank. */
-template <typename T>
-bool ReduceWhole(const T* below, const LargeVector<std::uint8_t>& marks,
-  const LevelGeometry& geometry, typename RealOf<T>::Type* made, const LevelGeometry& above,
-  Executor& executor, const LevelProgress& progress)
-{
-  return marks.empty()
-    ? ReduceLevel(below, geometry, made, above, executor, progress)
-    : ReduceValidVoxels(below, marks, geometry, made, above, executor, progress);
-}
-
 /** Makes the levels above level 0, one after the other. */
 template <typename T>
 class LevelMaker
@@ -115,95 +101,77 @@ class LevelMaker
 public:
   using Real = typename RealOf<T>::Type;
 
-  LevelMaker(Communicator& ranks, const std::vector<LevelGeometry>& levels, bool haveAllValues,
-    Executor& executor, const PyramidProgress& progress)
-    : Ranks(ranks), Levels(levels), HaveAllValues(haveAllValues), Threads(executor),
-      Progress(progress), Before(ShareDoneBefore(levels))
+  LevelMaker(const std::vector<LevelGeometry>& levels, Executor& executor,
+    const PyramidProgress& progress)
+    : Levels(levels), Threads(executor), Progress(progress), Before(ShareDoneBefore(levels))
   {
   }
 
-  std::vector<LevelVoxels> Make(
-    const VoxelPieces& pieces, const T* level0, const LargeVector<std::uint8_t>& valid)
+  std::vector<vtkSmartPointer<vtkDataArray>> Make(
+    const T* level0, const LargeVector<std::uint8_t>& valid)
   {
-    std::vector<LevelVoxels> made;
+    std::vector<vtkSmartPointer<vtkDataArray>> made;
     LargeVector<std::uint8_t> marks;
     for (std::size_t h = 1; h < this->Levels.size(); ++h)
     {
-      LevelVoxels level;
-      const VoxelBox box = this->BoxOf(h);
-      level.Pieces = VoxelPieces(this->Ranks, box);
-      const auto array = NewArray<Real>(box.Count(), static_cast<int>(h));
+      const auto array = NewArray<Real>(
+        static_cast<std::int64_t>(this->Levels[h].NumberOfVoxels()), static_cast<int>(h));
       Real* values = array->GetPointer(0);
-      level.Values = array;
       const bool isFinished = h == 1
-        ? this->Reduce(h, pieces, level0, valid, values)
-        : this->Reduce(h, made.back().Pieces,
-            static_cast<const Real*>(made.back().Values->GetVoidPointer(0)), marks, values);
+        ? this->Reduce(h, level0, valid, values)
+        : this->Reduce(
+            h, static_cast<const Real*>(made.back()->GetVoidPointer(0)), marks, values);
       if (!isFinished)
       {
         break;
       }
-      if (!this->HaveAllValues)
+      if (!valid.empty())
       {
-        marks = MarkNumbers(values, box.Count());
+        marks = MarkNumbers(values, array->GetNumberOfTuples());
       }
-      made.push_back(level);
+      made.emplace_back(array);
     }
     return made;
   }
 
 private:
-  VoxelBox BoxOf(std::size_t h) const
-  {
-    const LevelSize& size = this->Levels[h].Size;
-    return PieceOf({ static_cast<int>(size[0]), static_cast<int>(size[1]),
-                     static_cast<int>(size[2]) },
-      this->Ranks.Rank(), this->Ranks.NumberOfRanks());
-  }
-
   /** Level h from the one below it. */
   template <typename Below>
-  bool Reduce(std::size_t h, const VoxelPieces& pieces, const Below* below,
-    const LargeVector<std::uint8_t>& marks, Real* made)
+  bool Reduce(
+    std::size_t h, const Below* below, const LargeVector<std::uint8_t>& marks, Real* made)
   {
     const std::string text = Join("Level ", h, " of ", this->Levels.size() - 1);
     const double before = this->Before[h - 1];
     const double share = this->Before[h] - before;
     const LevelProgress progress = [&](double done)
     { return this->Progress(before + done * share, text); };
-    if (this->Ranks.IsAny(!progress(0.0)))
+    if (!progress(0.0))
     {
       return false;
     }
-    if (this->Ranks.NumberOfRanks() == 1)
-    {
-      return ReduceWhole(
-        below, marks, this->Levels[h - 1], made, this->Levels[h], this->Threads, progress);
-    }
-    const MarkedVoxels<Below> voxels = { below, marks.data(), this->HaveAllValues };
-    return ReducePieces(this->Ranks, pieces, voxels, this->Levels[h - 1], made,
-      LevelPiece(this->Levels[h], this->BoxOf(h)), this->Threads, progress);
+    const LevelGeometry& geometry = this->Levels[h - 1];
+    return marks.empty()
+      ? ReduceLevel(below, geometry, made, this->Levels[h], this->Threads, progress)
+      : ReduceValidVoxels(
+          below, marks, geometry, made, this->Levels[h], this->Threads, progress);
   }
 
-  Communicator& Ranks;
   const std::vector<LevelGeometry>& Levels;
-  bool HaveAllValues;
   Executor& Threads;
   const PyramidProgress& Progress;
   std::vector<double> Before;
 };
 }
 
-std::vector<LevelVoxels> MakeLevelVoxels(Communicator& ranks, const VoxelPieces& pieces,
-  vtkDataArray* voxels, const ValidVoxels& valid, const std::vector<LevelGeometry>& levels,
-  Executor& executor, const PyramidProgress& progress)
+std::vector<vtkSmartPointer<vtkDataArray>> MakeLevelVoxels(vtkDataArray* voxels,
+  const ValidVoxels& valid, const std::vector<LevelGeometry>& levels, Executor& executor,
+  const PyramidProgress& progress)
 {
-  const vtkSmartPointer<vtkDataArray> source = SourceVoxels(ranks, voxels, valid, executor);
+  const vtkSmartPointer<vtkDataArray> source = SourceVoxels(voxels, valid, executor);
   const auto make = [&](const auto* level0)
   {
     using Voxel = std::remove_cv_t<std::remove_pointer_t<decltype(level0)>>;
-    return LevelMaker<Voxel>(ranks, levels, valid.AreAll, executor, progress)
-      .Make(pieces, level0, valid.Marks);
+    return LevelMaker<Voxel>(levels, executor, progress).Make(level0, valid.Marks);
   };
   switch (source->GetDataType())
   {

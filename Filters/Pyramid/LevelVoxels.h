@@ -3,10 +3,8 @@
 #ifndef volumicLevelVoxels_h
 #define volumicLevelVoxels_h
 
-#include "Core/Common/Communicator.h"
 #include "Core/Common/Executor.h"
 #include "Core/Image/PyramidGeometry.h"
-#include "Core/Image/VoxelPieces.h"
 #include "Input/ValidVoxels.h"
 
 #include <vtkSmartPointer.h>
@@ -22,26 +20,17 @@ namespace volumic
 /** The share of the whole work that is done, in [0, 1], and the text for it; false asks to stop. */
 using PyramidProgress = std::function<bool(double share, const std::string& text)>;
 
-/** The voxels of a level that a rank has made: of its piece (PieceOf in ImagePieces.h). */
-struct LevelVoxels
-{
-  vtkSmartPointer<vtkDataArray> Values;
-  VoxelPieces Pieces; ///< who has which
-};
-
 /**
  * The voxels of the levels above level 0, as far as they were finished before `progress` said stop.
  * Where not all voxels of level 0 are valid, those of the other levels are NaN whose
- * neighbourhood has more voxels without a value than with one. By all ranks together, each of which
- * makes its piece; when one is told to stop, all do. The bits don't depend on how many there are.
- * @param pieces     of level 0
- * @param voxels     of this rank's piece, contiguous in memory (ContiguousVoxels)
+ * neighbourhood has more voxels without a value than with one.
+ * @param voxels of level 0, contiguous in memory (ContiguousVoxels)
  * @throws std::invalid_argument if their type is not supported; std::runtime_error if the memory
  *         does not suffice.
  */
-std::vector<LevelVoxels> MakeLevelVoxels(Communicator& ranks, const VoxelPieces& pieces,
-  vtkDataArray* voxels, const ValidVoxels& valid, const std::vector<LevelGeometry>& levels,
-  Executor& executor, const PyramidProgress& progress);
+std::vector<vtkSmartPointer<vtkDataArray>> MakeLevelVoxels(vtkDataArray* voxels,
+  const ValidVoxels& valid, const std::vector<LevelGeometry>& levels, Executor& executor,
+  const PyramidProgress& progress);
 }
 
 #endif

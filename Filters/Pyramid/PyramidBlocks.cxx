@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Pyramid/PyramidBlocks.h"
 
-#include "Core/Common/Refuse.h"
 #include "Host/HostThreads.h"
 #include "Input/ImageVoxels.h"
 #include "Input/ValidVoxels.h"
@@ -53,13 +52,9 @@ void AddLevelFieldData(vtkImageData* image, int level, double unit)
   image->SetFieldData(fieldData);
 }
 
-/** @param image null where this rank has no piece of the level */
 void AddLevel(vtkMultiBlockDataSet* pyramid, std::size_t level, vtkImageData* image, double unit)
 {
-  if (image)
-  {
-    AddLevelFieldData(image, static_cast<int>(level), unit);
-  }
+  AddLevelFieldData(image, static_cast<int>(level), unit);
   const auto block = static_cast<unsigned int>(level);
   pyramid->SetNumberOfBlocks(block + 1);
   pyramid->SetBlock(block, image);
@@ -67,13 +62,13 @@ void AddLevel(vtkMultiBlockDataSet* pyramid, std::size_t level, vtkImageData* im
     vtkCompositeDataSet::NAME(), ("Level " + std::to_string(level)).c_str());
 }
 
-/** A piece of a level: `voxels` are those of the box. */
-vtkSmartPointer<vtkImageData> MakeImage(vtkImageData* frame, const char* name,
-  vtkDataArray* voxels, const LevelGeometry& geometry, const VoxelBox& box)
+vtkSmartPointer<vtkImageData> MakeImage(
+  vtkImageData* frame, const char* name, vtkDataArray* voxels, const LevelGeometry& geometry)
 {
   auto image = vtkSmartPointer<vtkImageData>::New();
-  image->SetExtent(box.First[0], box.End[0] - 1, box.First[1], box.End[1] - 1, box.First[2],
-    box.End[2] - 1);
+  const LevelSize& size = geometry.Size;
+  image->SetDimensions(
+    static_cast<int>(size[0]), static_cast<int>(size[1]), static_cast<int>(size[2]));
   image->SetSpacing(geometry.Spacing.data());
   image->SetDirectionMatrix(frame->GetDirectionMatrix());
   const int* extent = frame->GetExtent();
@@ -83,39 +78,6 @@ vtkSmartPointer<vtkImageData> MakeImage(vtkImageData* frame, const char* name,
   voxels->SetName(name);
   image->GetPointData()->SetScalars(voxels);
   return image;
-}
-
-/** This rank's piece of a level, with the ghosts that are asked for; null: none. */
-vtkSmartPointer<vtkImageData> PieceOfLevel(Communicator& ranks, const PyramidImage& image,
-  const LevelVoxels& level, const LevelGeometry& geometry, int ghosts)
-{
-  const VoxelBox box = level.Pieces.HeldBy(ranks.Rank());
-  const char* name = image.Voxels->GetName();
-  if (ghosts == 0 || ranks.NumberOfRanks() == 1)
-  {
-    return box.IsEmpty()
-      ? nullptr
-      : MakeImage(image.Pieces.Frame(), name, level.Values, geometry, box);
-  }
-  const std::array<int, 3> size = level.Pieces.Bounds().End;
-  const VoxelBox wanted =
-    box.IsEmpty() ? box : PieceOf(size, ranks.Rank(), ranks.NumberOfRanks(), ghosts);
-  const vtkSmartPointer<vtkDataArray> values =
-    FetchVoxels(ranks, level.Pieces, level.Values, wanted);
-  if (box.IsEmpty())
-  {
-    return nullptr;
-  }
-  const vtkSmartPointer<vtkImageData> piece =
-    MakeImage(image.Pieces.Frame(), name, values, geometry, wanted);
-  int own[6];
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    own[2 * axis] = box.First[axis];
-    own[2 * axis + 1] = box.End[axis] - 1;
-  }
-  piece->GenerateGhostArray(own);
-  return piece;
 }
 
 void AddFacts(vtkMultiBlockDataSet* pyramid, bool isComplete, std::int64_t numberOfNaNs)
@@ -131,57 +93,35 @@ void AddFacts(vtkMultiBlockDataSet* pyramid, bool isComplete, std::int64_t numbe
 }
 }
 
-PyramidImage::PyramidImage(
-  Communicator& ranks, vtkImageData* piece, vtkInformation* selection, int component)
-  : PyramidImage(ranks, piece,
-      piece ? SelectComponent(ChooseArray(selection, piece), component) : nullptr)
-{
-}
-
-PyramidImage::PyramidImage(
-  Communicator& ranks, vtkImageData* piece, const vtkSmartPointer<vtkDataArray>& voxels)
-  : Pieces(ranks, piece), Piece(piece), Voxels(AgreeOnArray(ranks, voxels))
-{
-  if (!this->Voxels)
-  {
-    Refuse("the image is empty: no process holds any of its voxels.");
-  }
-}
-
 PyramidBlocks MakePyramidBlocks(
-  Communicator& ranks, const PyramidImage& image, const PyramidRequest& request)
+  vtkImageData* image, vtkDataArray* voxels, const PyramidRequest& request)
 {
-  vtkImageData* frame = image.Pieces.Frame();
-  const std::vector<LevelGeometry> levels = Plan(frame, request.Levels);
-  std::vector<LevelVoxels> made;
+  const std::vector<LevelGeometry> levels = Plan(image, request.Levels);
+  std::vector<vtkSmartPointer<vtkDataArray>> made;
   ValidVoxels valid;
   HostThreads threads(request.NumberOfThreads);
   threads.Run(
     [&]
     {
-      const vtkSmartPointer<vtkDataArray> contiguous = ContiguousVoxels(image.Voxels);
-      valid = FindValidVoxels(ranks, image.Pieces, image.Voxels, contiguous, image.Piece,
-        request.NaNIsBackground, threads);
-      CheckAnyIsValid(image.Voxels, valid, ranks);
-      made = MakeLevelVoxels(ranks, image.Pieces.Voxels(), contiguous, valid, levels, threads,
-        request.Progress);
+      const vtkSmartPointer<vtkDataArray> contiguous = ContiguousVoxels(voxels);
+      valid = FindValidVoxels(voxels, contiguous, image, request.NaNIsBackground, threads);
+      CheckAnyIsValid(voxels, valid);
+      made = MakeLevelVoxels(contiguous, valid, levels, threads, request.Progress);
     });
 
   PyramidBlocks pyramid;
   pyramid.Blocks = vtkSmartPointer<vtkMultiBlockDataSet>::New();
   // No voxel is copied, but where one component was selected, which takes the place of the array.
-  const vtkSmartPointer<vtkImageData> level0 =
-    image.Piece ? WithVoxels(image.Piece, image.Voxels) : nullptr;
-  AddLevel(pyramid.Blocks, 0, level0, levels[0].Unit);
+  AddLevel(pyramid.Blocks, 0, WithVoxels(image, voxels), levels[0].Unit);
   for (std::size_t h = 1; h <= made.size(); ++h)
   {
-    AddLevel(pyramid.Blocks, h,
-      PieceOfLevel(ranks, image, made[h - 1], levels[h], request.GhostLevels), levels[h].Unit);
+    AddLevel(pyramid.Blocks, h, MakeImage(image, voxels->GetName(), made[h - 1], levels[h]),
+      levels[h].Unit);
   }
   AddFacts(pyramid.Blocks, made.size() + 1 == levels.size(), valid.NaNs);
   if (valid.NaNs > 0)
   {
-    pyramid.AboutNaNs = DescribeNaNs(image.Voxels, frame, valid);
+    pyramid.AboutNaNs = DescribeNaNs(voxels, image, valid);
   }
   return pyramid;
 }

@@ -3,9 +3,7 @@
 #ifndef volumicPyramidBlocks_h
 #define volumicPyramidBlocks_h
 
-#include "Core/Common/Communicator.h"
 #include "Core/Image/PyramidGeometry.h"
-#include "Input/ImagePieces.h"
 #include "Pyramid/LevelVoxels.h"
 
 #include <vtkSmartPointer.h>
@@ -14,7 +12,6 @@
 
 class vtkDataArray;
 class vtkImageData;
-class vtkInformation;
 class vtkMultiBlockDataSet;
 
 namespace volumic
@@ -25,41 +22,23 @@ struct PyramidRequest
   PyramidOptions Levels;
   bool NaNIsBackground = true;
   int NumberOfThreads = 0;
-  int GhostLevels = 0; ///< layers that each rank's pieces have beyond what they share
   PyramidProgress Progress;
-};
-
-/** The level 0 of a pyramid, which ranks hold in pieces. */
-struct PyramidImage
-{
-  /**
-   * By all ranks together.
-   * @param piece     of this rank; null: none
-   * @param selection of its voxels, as GetInputArrayInformation()
-   * @param component of them, as SelectComponent() takes it
-   */
-  PyramidImage(
-    Communicator& ranks, vtkImageData* piece, vtkInformation* selection, int component);
-
-  ImagePieces Pieces;
-  vtkSmartPointer<vtkImageData> Piece;  ///< or null
-  vtkSmartPointer<vtkDataArray> Voxels; ///< without tuples where this rank has no piece
-
-private:
-  PyramidImage(
-    Communicator& ranks, vtkImageData* piece, const vtkSmartPointer<vtkDataArray>& voxels);
 };
 
 /** The blocks of vtkImagePyramid's output, with its field data. */
 struct PyramidBlocks
 {
-  vtkSmartPointer<vtkMultiBlockDataSet> Blocks; ///< Those are null of which this rank has no piece.
+  vtkSmartPointer<vtkMultiBlockDataSet> Blocks;
   std::string AboutNaNs; ///< what to warn of; empty: nothing
 };
 
-/** By all ranks together. @throws as vtkImagePyramid reports. */
+/**
+ * @param image  level 0
+ * @param voxels of it, one component
+ * @throws as vtkImagePyramid reports.
+ */
 PyramidBlocks MakePyramidBlocks(
-  Communicator& ranks, const PyramidImage& image, const PyramidRequest& request);
+  vtkImageData* image, vtkDataArray* voxels, const PyramidRequest& request);
 
 /** Those where the work was stopped before there was an image. */
 PyramidBlocks StoppedPyramidBlocks();

@@ -136,11 +136,6 @@ double PyramidLevels::UnitOf(int level) const
 bool PyramidLevels::HoldsPart(
   int level, const PartSize& least, double isoValue, bool objectIsBright) const
 {
-  const auto pieces = this->Pieces.find(level);
-  if (pieces != this->Pieces.end())
-  {
-    return pieces->second.HoldsPart;
-  }
   SequentialExecutor thread;
   return HavePart(ContiguousVoxels(this->Voxels[level]), this->Sizes[level],
     this->ValidAt(level, thread), least, isoValue, objectIsBright);
@@ -164,11 +159,6 @@ std::array<double, 2> PyramidLevels::Range(int level) const
 
 std::string PyramidLevels::DescribeNaNsOfLevel0() const
 {
-  const auto pieces = this->Pieces.find(0);
-  if (pieces != this->Pieces.end())
-  {
-    return pieces->second.AboutNaNs;
-  }
   SequentialExecutor thread;
   const ValidVoxels valid = this->ValidAt(0, thread);
   return valid.NaNs > 0 ? DescribeNaNs(this->Voxels[0], this->Images[0], valid) : std::string();
@@ -176,27 +166,8 @@ std::string PyramidLevels::DescribeNaNsOfLevel0() const
 
 std::uint64_t PyramidLevels::HashOfVoxels(int level, Executor& executor) const
 {
-  const auto found = this->Pieces.find(level);
-  if (found != this->Pieces.end())
-  {
-    return found->second.Hash;
-  }
-  const vtkSmartPointer<vtkDataArray> voxels = ContiguousVoxels(this->Voxels[level]);
-  const VoxelPieces whole(OnThisRank(), VoxelBox::Of(this->Sizes[level]));
-  return volumic::HashOfVoxels(OnThisRank(), whole, voxels, executor);
-}
-
-void PyramidLevels::SetInPieces(const LevelsInPieces& pieces)
-{
-  this->Pieces = pieces;
-  for (const auto& [level, of] : pieces)
-  {
-    this->Ranges[level] = of.Range;
-    if (of.Base)
-    {
-      this->Bases[level] = *of.Base;
-    }
-  }
+  return volumic::HashOfVoxels(
+    ContiguousVoxels(this->Voxels[level]), this->Sizes[level], executor);
 }
 
 LevelImage PyramidLevels::Load(int wanted, double base, double background, Executor& executor)
@@ -206,9 +177,7 @@ LevelImage PyramidLevels::Load(int wanted, double base, double background, Execu
   const std::string name = "level " + std::to_string(level);
   CheckSize(image, name, "Set Coarsest Level to a finer level.");
   const vtkSmartPointer<vtkDataArray> voxels = ContiguousVoxels(this->Voxels[level]);
-  const auto pieces = this->Pieces.find(level);
-  const bool isHere = pieces == this->Pieces.end();
-  const ValidVoxels valid = isHere ? this->ValidAt(level, executor) : ValidVoxels();
+  const ValidVoxels valid = this->ValidAt(level, executor);
   // Sums and differences of voxels must not overflow either.
   constexpr double largest = 1e37;
   const std::array<double, 2> range = this->Range(level);
@@ -221,10 +190,8 @@ LevelImage PyramidLevels::Load(int wanted, double base, double background, Execu
 
   this->Loaded = voxels;
   this->Filled = LargeVector<float>();
-  const auto filled = this->Bases.find(level);
-  const FieldVoxels read = filled != this->Bases.end()
-    ? FieldVoxels{ static_cast<const float*>(voxels->GetVoidPointer(0)), filled->second }
-    : PrefixErrors(name + ": ", [&] { return FieldVoxelsOf(voxels, range, base); });
+  const FieldVoxels read =
+    PrefixErrors(name + ": ", [&] { return FieldVoxelsOf(voxels, range, base); });
   LevelImage loaded;
   loaded.Values = read.Values;
   loaded.Base = read.Base;
@@ -241,13 +208,6 @@ LevelImage PyramidLevels::Load(int wanted, double base, double background, Execu
       static_cast<double>(this->Sizes[0][axis]) / loaded.Size[axis];
   }
   loaded.Unit = this->UnitOf(wanted);
-  if (!isHere)
-  {
-    const auto less = [&loaded](double value) { return static_cast<float>(value - loaded.Base); };
-    loaded.Extremes = pieces->second.Base
-      ? pieces->second.Extremes
-      : std::array<float, 2>{ less(range[0]), less(range[1]) };
-  }
   return loaded;
 }
 
@@ -259,10 +219,6 @@ void PyramidLevels::ReleaseCoarserThan(int level)
   {
     this->Images[h] = nullptr;
     this->Voxels[h] = nullptr;
-    if (this->IsInPieces(h))
-    {
-      this->Pieces[h].Values = nullptr;
-    }
   }
 }
 }

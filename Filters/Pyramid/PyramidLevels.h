@@ -8,7 +8,6 @@
 #include "Core/Common/ScratchMemory.h"
 #include "Core/Image/LevelImage.h"
 #include "Core/Image/ThickPart.h"
-#include "Input/LevelInPieces.h"
 #include "Input/ValidVoxels.h"
 #include "Input/Workspace.h"
 
@@ -72,7 +71,7 @@ public:
 
   /**
    * Whether a part of the object, which is above the value (bright) or below, is at least that
-   * large at a level (ThickPart.h); of a level in pieces, whether one of PartThatHolds is.
+   * large at a level (ThickPart.h).
    */
   bool HoldsPart(int level, const PartSize& least, double isoValue, bool objectIsBright) const;
 
@@ -81,16 +80,6 @@ public:
    * the larger one if none is.
    */
   std::array<double, 2> Range(int level) const;
-
-  /**
-   * The levels whose voxels are not here but with ranks: Load() then gives room for them, and what
-   * else is asked is known.
-   */
-  void SetInPieces(const LevelsInPieces& pieces);
-  LevelsInPieces& InPieces() { return this->Pieces; }
-  bool IsInPieces(int level) const { return this->Pieces.count(std::max(level, 0)) > 0; }
-  /** To be called when the voxels of a level have come into that room. */
-  void TakeWhole(int level) { this->Pieces.erase(std::max(level, 0)); }
 
   /** What DescribeNaNs() says of level 0; nothing if there are none. */
   std::string DescribeNaNsOfLevel0() const;
@@ -128,8 +117,6 @@ private:
   std::vector<vtkSmartPointer<vtkDataArray>> Voxels;
   std::vector<Size> Sizes;
   std::vector<double> Units; ///< workspace
-  LevelsInPieces Pieces;
-  std::map<int, double> Bases; ///< by level: of those that are in pieces, or were
   double FactorBelowLevel0 = 1.7320508075688772;
   Workspace Space;
   vtkSmartPointer<vtkDataArray> Loaded; ///< what the result of the last Load() refers to

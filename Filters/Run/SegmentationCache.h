@@ -34,8 +34,7 @@ public:
 
   /**
    * It is valid until the filter, or one of its inputs, is modified.
-   * @param run   null on ranks whose results another one has; these ask for IsValidFor() only
-   * @param ranks that have made it
+   * @param run null on ranks whose results another one has; these ask for IsValidFor() only
    */
   void Keep(std::unique_ptr<SurfaceSegmentation> run, vtkAlgorithm* filter, int ranks);
   void Drop();

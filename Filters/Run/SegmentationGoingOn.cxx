@@ -63,7 +63,6 @@ void SurfaceSegmentation::LeaveCheckpoint(int level)
   {
     return;
   }
-  this->Unite(); // What is saved is the whole.
   const std::string warning =
     this->Left->Save(this->Found, *this->Evolution, { level, this->GoesOn });
   if (!warning.empty())

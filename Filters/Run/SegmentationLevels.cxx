@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Run/SegmentationLevels.h"
 
-#include "Core/Evolution/SurfaceEvolution.h"
 #include "Core/Image/ThickPart.h"
 #include "Host/PrefixErrors.h"
 #include "Input/InputPoints.h"
@@ -45,7 +44,6 @@ PyramidLevels ReadVoxels(const SegmentationVolume& volume)
 SegmentationLevels::SegmentationLevels(const SegmentationVolume& volume)
   : MayHaveUnreportedNaNs(MayHaveNaNsToReport(volume)), Voxels(ReadVoxels(volume))
 {
-  this->Voxels.SetInPieces(volume.InPieces);
 }
 
 SegmentationLevels::~SegmentationLevels() = default;
@@ -101,7 +99,8 @@ std::array<double, 2> SegmentationLevels::Range(int level) const
 bool SegmentationLevels::HoldsObject(int level, const SurfaceOptions& options) const
 {
   // What the coarser levels show is too thin for them; a large one is the last resort.
-  const bool isLarge = SurfaceEvolution::AreShared(options, this->Voxels.SizeOf(level));
+  constexpr std::int64_t large = 64 * 64 * 64;
+  const bool isLarge = this->Voxels.NumberOfVoxels(level) > large;
   if (options.RecoverLostParts && isLarge)
   {
     return true;
@@ -129,10 +128,6 @@ LevelImage SegmentationLevels::Load(int level, const SurfaceOptions& options, Ex
   const double background = BackgroundOf(this->Range(std::max(level, 0)), options);
   LevelImage image = PrefixErrors(Port0,
     [&] { return this->Voxels.Load(level, options.IsoValue, background, threads); });
-  if (this->IsInPieces(level))
-  {
-    return image; // Nothing can be made of voxels that are not here.
-  }
   if (this->Edges)
   {
     image.Edges = this->Edges->Load(level, image.Size, threads);

@@ -42,8 +42,6 @@ public:
   /** Once, before Load(): takes the points and the map of edges that the settings give a weight. */
   void ReadAttraction(vtkMultiBlockDataSet* blocks, const SegmentationSettings& settings,
     const SegmentationRequest& request);
-  bool HasPoints() const { return this->Points != nullptr; }
-  bool HasEdges() const { return this->Edges != nullptr; }
 
   const PyramidLevels& Pyramid() const { return this->Voxels; }
   const Workspace& GetWorkspace() const { return this->Voxels.GetWorkspace(); }
@@ -78,14 +76,6 @@ public:
    */
   void ReleaseCoarserThan(int level);
   bool HasVoxels(int level) const { return this->Voxels.HasVoxels(level); }
-
-  /**
-   * The levels whose voxels lie with the ranks (SegmentationVolume): Load() gives these without.
-   */
-  LevelsInPieces& InPieces() { return this->Voxels.InPieces(); }
-  bool IsInPieces(int level) const { return this->Voxels.IsInPieces(level); }
-  /** To be called when the voxels of a level have come here: Load() gives them from now on. */
-  void TakeWhole(int level) { this->Voxels.TakeWhole(level); }
 
   /** PyramidLevels::HashOfVoxels() of the map of edges, all levels; 0: there is none. */
   std::uint64_t HashOfEdges(Executor& threads) const;

@@ -11,7 +11,6 @@
 #include "Input/InputPoints.h"
 #include "Output/SurfaceOutput.h"
 #include "Run/InitialSurfaces.h"
-#include "Run/RankLevel.h"
 #include "Settings/CheckEnumeration.h"
 #include "Settings/CheckGrading.h"
 
@@ -183,8 +182,6 @@ void SurfaceSegmentation::Run()
   {
     // What the evolution refers to stays in its place.
     this->Threads.emplace(this->Settings.End.NumberOfThreads);
-    this->Measured.emplace(*this->Threads);
-    this->Threads->EndPhase("Levels");
     this->Progress.emplace(
       this->Request.Progress, this->Choice.Coarsest, this->Choice.Last, this->Request.Limit);
     this->Progress->AfterSweep = [this](const Monitor::Status& status)
@@ -216,6 +213,15 @@ void SurfaceSegmentation::Run()
   {
     this->Found.WarnOf(this->Choice.Last, this->Settings.WantsAllParts(), this->Request.Warn);
   }
+}
+
+bool SurfaceSegmentation::Choose(SegmentationResults& results,
+  const SegmentationSettings& settings, const SegmentationRequest& request)
+{
+  HostThreads threads(request.End.NumberOfThreads);
+  bool hasChosen = false;
+  threads.Run([&] { hasChosen = results.Choose(settings, request, threads); });
+  return hasChosen;
 }
 
 bool SurfaceSegmentation::CanServe() const
@@ -262,9 +268,7 @@ void SurfaceSegmentation::RunLevels()
     }
     this->Found.Forget(level); // Of a run that was stopped there.
     this->Levels.ReleaseCoarserThan(level);
-    this->TakeAlone(level);
     const LevelImage image = this->Levels.Load(level, this->Settings.Options, *this->Threads);
-    this->Threads->EndPhase("Voxels");
     if (level == this->Settings.End.FinestLevel)
     {
       this->Evolution->SetMeanEdgeLength(this->WantedMeanEdge(level));
@@ -297,13 +301,8 @@ void SurfaceSegmentation::RunLevels()
 
 void SurfaceSegmentation::MakeEvolution()
 {
-  Executor* threads = &*this->Threads;
-  if (this->Settings.Profile)
-  {
-    threads = &*this->Measured;
-  }
   this->Evolution =
-    std::make_unique<SurfaceEvolution>(this->Settings.Options, *threads, *this->Progress);
+    std::make_unique<SurfaceEvolution>(this->Settings.Options, *this->Threads, *this->Progress);
 }
 
 bool SurfaceSegmentation::PreviewMissesParts(int level) const
@@ -327,30 +326,6 @@ bool SurfaceSegmentation::EvolveOn(
 {
   SurfaceEvolution& evolution = *this->Evolution;
   const bool keepsRest = this->Request.MayGoOn && level < this->Choice.Coarsest;
-  if (this->MayBeShared(level))
-  {
-    bool isDivided = false;
-    SharedLevel shared;
-    shared.Options = this->Settings.Options;
-    shared.Level = level;
-    shared.MeanEdgeLength = this->WantedMeanEdge(level);
-    shared.NumberOfThreads = this->Settings.End.NumberOfThreads;
-    shared.IsInPieces = evolution.IsInPieces();
-    shared.KeepsRest = keepsRest;
-    shared.GoesOn = !this->EndsAt(level);
-    // Level -1 has the voxels of level 0.
-    shared.TakesVoxels = !this->Request.MayGoOn && !(level == 0 && this->Choice.Last < 0);
-    shared.MakesPieces = !this->Request.Checkpoints.AreLeft; // What is saved is whole.
-    this->Request.OnAllRanks(
-      [&]
-      {
-        Communicator& ranks = *this->Request.Ranks;
-        isDivided = EvolveOnRanks(ranks, shared,
-          ShareLevel(ranks, shared, image, this->Levels.InPieces()), evolution, this->Rest,
-          reason, surface);
-      });
-    return isDivided;
-  }
   if (keepsRest)
   {
     this->Rest.Keep(evolution);
@@ -368,9 +343,7 @@ bool SurfaceSegmentation::EvolveOn(
     evolution, level, this->Levels.UnitInWorld(level), 0, this->Found, *this->Threads);
   reason = evolution.Run();
   const bool mayBeRevised = this->Request.Revise && level == this->Choice.Last && level <= 0 &&
-    reason != StopReason::Cancelled &&
-    !(this->Request.OnAllRanks &&
-      SurfaceEvolution::AreShared(this->Settings.Options, image.Size));
+    reason != StopReason::Cancelled;
   if (!mayBeRevised)
   {
     evolution.ForgetMotion();
@@ -412,17 +385,13 @@ bool SurfaceSegmentation::KeepLevel(int level, StopReason reason, SurfaceResult 
     description.LostCavities = lost.FoundCavities;
     description.RecoveredCavities = lost.EnclosedCavities;
   }
-  this->Threads->EndPhase("Surface handed out");
   if (this->Request.KeepsAll)
   {
     result.All = std::make_shared<const SurfaceResult>(surface);
   }
-  result.IsPiece = !surface.Piece.IsWhole();
-  MakeOutput(this->Request, SharedLevel::Work::MakesOutput, result, std::move(surface),
-    this->Found.Chosen(), this->Levels.GetWorkspace(), *this->Threads);
+  this->Found.MakeSurface(result, std::move(surface), *this->Threads);
   this->Found.SetLevel(level, result);
   this->Evolution->EndLevel();
-  this->Threads->EndPhase("Output");
   // With recovery a finer level may find again what has vanished.
   return reason == StopReason::Converged || reason == StopReason::LimitCycle ||
     reason == StopReason::IterationLimit ||

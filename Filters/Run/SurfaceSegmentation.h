@@ -4,7 +4,6 @@
 #define volumicSurfaceSegmentation_h
 
 #include "Core/Common/IndexedSurface.h"
-#include "Core/Common/MeasuredExecutor.h"
 #include "Core/Evolution/SurfaceEvolution.h"
 #include "Core/Image/LevelImage.h"
 #include "Host/HostThreads.h"
@@ -13,7 +12,6 @@
 #include "Output/SurfaceSnapshots.h"
 #include "Run/EvolutionAtRest.h"
 #include "Run/LevelChoice.h"
-#include "Run/RankLevel.h"
 #include "Run/SegmentationCheckpoint.h"
 #include "Run/SegmentationLevels.h"
 #include "Settings/SegmentationRequest.h"
@@ -22,9 +20,7 @@
 
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
-#include <vector>
 
 namespace volumic
 {
@@ -34,8 +30,7 @@ namespace volumic
  * it had never ended; one that was stopped, from the last level at which the surface rested.
  *
  * One thread calls all of it, and is the one on which Progress, Warn, Prepared and Revise of the
- * request are called; others work within the loops of HostThreads only. Where several ranks share a
- * run it lives on rank 0, and the others help in OnAllRanks().
+ * request are called; others work within the loops of HostThreads only.
  */
 class SurfaceSegmentation
 {
@@ -50,9 +45,7 @@ public:
    */
   void Renew(const SegmentationRequest& request);
 
-  /**
-   * SegmentationResults::Choose() of what a run has found, by all ranks where it is in pieces.
-   */
+  /** SegmentationResults::Choose() of what a run has found. */
   static bool Choose(SegmentationResults& results, const SegmentationSettings& settings,
     const SegmentationRequest& request);
 
@@ -105,36 +98,17 @@ private:
   void ReturnToRest();
   /** Whether a preview that has come to this level must go on, as too much is missing. */
   bool PreviewMissesParts(int level) const;
-  /** Whether a level is large enough for all ranks, of which there are several. */
-  bool IsForAllRanks(int level) const;
-  /** Why rank 0 is alone on such a level; null: it is not. */
-  const char* WhyAlone(int level) const;
-  /** Whether all ranks work on a level. */
-  bool MayBeShared(int level) const;
-  /** Whether nothing comes after a level. */
-  bool EndsAt(int level) const;
-  /** Brings the mesh that is in pieces to rank 0. */
-  void Unite();
-  /**
-   * Of a level that is for rank 0 alone: brings it the mesh and the voxels, by all ranks, where
-   * these are in pieces. Where it is large enough for all ranks, says so, of each reason once a run.
-   */
-  void TakeAlone(int level);
   /** In the workspace; 0: as it comes. */
   double WantedMeanEdge(int level) const;
   /**
-   * Brings the surface to a level, by a start or a division, and evolves it there, on all ranks
-   * where MayBeShared(). @return false where it was stopped before it had come there: then it still
-   * lies on the level before, and reason and surface say nothing
+   * Brings the surface to a level, by a start or a division, and evolves it there.
+   * @return false where it was stopped before it had come there: then it still lies on the level
+   *         before, and reason and surface say nothing
    */
   bool EvolveOn(
     const LevelImage& image, int level, StopReason& reason, SurfaceResult& surface);
   /** Puts the surface of a level into Found. @return whether it is fit for a finer level */
   bool KeepLevel(int level, StopReason reason, SurfaceResult surface);
-  /** Of a whole surface, or, on all ranks, of the piece of each. */
-  static void MakeOutput(const SegmentationRequest& request, SharedLevel::Work work,
-    SegmentationResults::Level& result, SurfaceResult surface, const ComponentChoice& choice,
-    const Workspace& space, Executor& threads);
   /** Once a Run(), before RunLevels(): finds out of which run a checkpoint would be. */
   void PrepareCheckpoint();
   /** Once a run, before its first level: goes on from a checkpoint, where that is asked for. */
@@ -154,13 +128,11 @@ private:
   SurfaceSnapshots Snapshots;
   SegmentationResults Found;
   std::optional<HostThreads> Threads;
-  std::optional<MeasuredExecutor> Measured; ///< The same, for Profile.
   std::optional<ProgressMonitor> Progress;
   std::unique_ptr<SurfaceEvolution> Evolution; ///< of the last two; null before the first run
   int Reached = 0;     ///< the level at which it rests
   bool GoesOn = false; ///< It does, and is fit for a finer one.
   EvolutionAtRest Rest; ///< The evolution as it rested there, while it is at a finer one.
-  std::set<std::string> ToldOfAlone; ///< why; see TakeAlone()
   bool HasChosen = true; ///< The components of what is there are those that are wanted.
   std::shared_ptr<SegmentationCheckpoint> Left; ///< null: none is left
 };

@@ -16,7 +16,6 @@ class vtkPolyData;
 
 namespace volumic
 {
-class Communicator;
 class SegmentationCheckpoint;
 struct SurfaceResult;
 
@@ -55,9 +54,6 @@ struct SegmentationRequest
    * that the surface must be revised, and it asked again. Empty: they stay.
    */
   std::function<bool(const SurfaceResult& surface)> Revise;
-  /** Does some work on all ranks (FirstRankWork::OnAllRanks); empty: there is one rank. */
-  std::function<void(const std::function<void()>& work)> OnAllRanks;
-  Communicator* Ranks = nullptr; ///< these
 };
 }
 

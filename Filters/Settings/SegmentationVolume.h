@@ -3,7 +3,6 @@
 #ifndef volumicSegmentationVolume_h
 #define volumicSegmentationVolume_h
 
-#include "Input/LevelInPieces.h"
 #include "Settings/SegmentationSettings.h"
 
 #include <vtkInformation.h>
@@ -21,8 +20,6 @@ struct SegmentationVolume
   SegmentationSettings Settings;
   double FactorBelowLevel0 = 1.7320508075688772; ///< U_0 over the unit of level -1
   bool EdgeLengthIsPlanned = false; ///< The levels were made for it, and what follows is set.
-  /** By level: those of Levels have room for all voxels, but none of them (GatherLevels). */
-  LevelsInPieces InPieces;
   bool LevelsAreOwn = false; ///< Made for this run: nobody was told of their NaN voxels.
 };
 }

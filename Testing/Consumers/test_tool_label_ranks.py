@@ -39,14 +39,13 @@ class SameFilesTest(RanksTestCase):
             alone = f"1-{len(options)}"
             one = self.report(volume, self.path(alone), "--labels", "all", *options)
             self.assertGreaterEqual(len(self.files_in(alone)), 4)
-            for ranks in (2, 3, 6):
+            for ranks in (2, 3):
                 with self.subTest(ranks=ranks, options=options):
                     folder = f"{ranks}-{len(options)}"
                     self.run_ranks(ranks, volume, self.path(folder), self.path("all.vtm"),
                                    "--labels", "all", "--report", self.path("r.json"), *options)
                     self.assertEqual(self.files_in(folder), self.files_in(alone))
                     report = json.loads(self.content("r.json"))
-                    self.assertEqual(len(report["memory"]["peak_by_rank"]), ranks)
                     for row, expected in zip(report["labels"], one["labels"]):
                         self.assertGreater(row["seconds"], 0)
                         for name in ("files", "seconds"):

@@ -7,6 +7,7 @@
 
 #include <vtkAlgorithm.h>
 #include <vtkCommunicator.h>
+#include <vtkDataArray.h>
 #include <vtkDummyController.h>
 #include <vtkMultiProcessController.h>
 #include <vtkNew.h>
@@ -72,19 +73,24 @@ private:
       this->LocalProcessId = rank;
     }
 
-    /** Bytes only: more our ranks do not send. */
-    int SendVoidArray(const void* bytes, vtkIdType count, int, int to, int) override
+    int SendVoidArray(const void* values, vtkIdType count, int type, int to, int) override
     {
-      this->All->Send(this->LocalProcessId, to, bytes, static_cast<std::size_t>(count));
+      this->All->Send(this->LocalProcessId, to, values, BytesOf(count, type));
       return 1;
     }
-    int ReceiveVoidArray(void* bytes, vtkIdType count, int, int from, int) override
+    int ReceiveVoidArray(void* values, vtkIdType count, int type, int from, int) override
     {
-      this->All->Receive(from, this->LocalProcessId, bytes, static_cast<std::size_t>(count));
+      this->All->Receive(from, this->LocalProcessId, values, BytesOf(count, type));
       return 1;
     }
 
   private:
+    static std::size_t BytesOf(vtkIdType count, int type)
+    {
+      return static_cast<std::size_t>(count) *
+        static_cast<std::size_t>(vtkDataArray::GetDataTypeSize(type));
+    }
+
     std::shared_ptr<MessageQueues> All;
   };
 };

@@ -77,12 +77,10 @@ void ReadAll(const std::string& name)
     [&]
     {
       // What is wrong with the voxels is an error of the source, which prints it.
-      if (const auto source = tool::OpenParts(name, "", (Folder() / "scratch").string()))
-      {
-        vtkObject::GlobalWarningDisplayOff();
-        source->Update();
-        vtkObject::GlobalWarningDisplayOn();
-      }
+      const auto opened = tool::OpenVolume(name, "", (Folder() / "scratch").string());
+      vtkObject::GlobalWarningDisplayOff();
+      opened.Source->Update();
+      vtkObject::GlobalWarningDisplayOn();
     });
 }
 }

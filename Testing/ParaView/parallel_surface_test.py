@@ -25,7 +25,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 # Not as `testing`: a programmable filter's script runs among the names of this module, and
 # ParaView 5.13 brings those of numpy there before it, `testing` among them.
 import plugin_testing
-from vtkmodules.vtkFiltersCore import vtkMassProperties, vtkPolyDataNormals
+from vtkmodules.vtkFiltersCore import vtkMassProperties
 from vtkmodules.vtkIOGeometry import vtkSTLReader
 from vtkmodules.vtkImagingCore import vtkRTAnalyticSource
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
@@ -254,48 +254,10 @@ class ParallelSurfaceTest(unittest.TestCase):
             inside = numpy.maximum(inside, numpy.clip(0.5 + 0.4 * (radius - far), 0, 1))
         return plugin_testing.make_image(inside)
 
-    def test_connectivity_of_nothing(self):
-        # The field is above it nowhere: no process has a triangle.
-        surface = simple.DeformableSurface(simple.Wavelet(WholeExtent=EXTENT), IsoValue=1e4)
-        with plugin_testing.CapturedMessages():
-            surface.UpdatePipeline()
-            self.assertEqual(surface.GetDataInformation().GetNumberOfCells(), 0)
-            regions = simple.Connectivity(surface)
-            regions.UpdatePipeline()
-        self.assertEqual(regions.GetDataInformation().GetNumberOfCells(), 0)
-
     def test_clean_closes_the_borders(self):
         cleaned = self.fetch(simple.Clean(make_surface()))
         self.assertEqual(cleaned.GetNumberOfPoints(), self.whole.GetNumberOfPoints())
         self.assertEqual(cleaned.GetNumberOfCells(), self.whole.GetNumberOfCells())
-
-    def test_normals_at_borders(self):
-        alone = vtkPolyDataNormals()
-        alone.SetInputData(self.whole)
-        alone.SplittingOff()
-        alone.Update()
-        expected = numbers(alone.GetOutput().GetPointData().GetNormals())
-        normals = self.fetch(simple.GenerateSurfaceNormals(make_surface(), Splitting=0))
-        ids = normals.GetPointData().GetArray("GlobalIds")
-        ids = numbers(ids) if ids else numpy.arange(normals.GetNumberOfPoints())
-        types = normals.GetPointData().GetArray("vtkGhostType")
-        own = numbers(types) == 0 if types else slice(None)
-        self.assertEqual(set(ids[own]), set(range(self.whole.GetNumberOfPoints())))
-        numpy.testing.assert_allclose(numbers(normals.GetPointData().GetNormals())[own],
-                                      expected[ids[own]], atol=1e-5)
-        types = normals.GetCellData().GetArray("vtkGhostType")
-        own = numbers(types) == 0 if types else slice(None)
-        self.assertEqual(len(numbers(normals.GetCellData().GetArray("Component"))[own]),
-                         self.whole.GetNumberOfCells())
-
-    def test_integrals(self):
-        surface = make_surface()
-        for _ in range(2):
-            sums = self.fetch(simple.IntegrateVariables(surface))
-            self.assertAlmostEqual(sums.GetCellData().GetArray("Area").GetTuple1(0),
-                                   plugin_testing.field(self.whole, "Area"), delta=1e-6)
-            # With ghosts there it is the same.
-            simple.GenerateSurfaceNormals(surface).UpdatePipeline()
 
     def test_saved_files(self):
         pieces = plugin_testing.output_path(f"surface-{self.count}-{SERVER}.pvtp")
@@ -312,18 +274,6 @@ class ParallelSurfaceTest(unittest.TestCase):
         self.assertEqual(read.GetNumberOfPoints(), self.whole.GetNumberOfPoints())
         self.assertAlmostEqual(volume_of(read), volume_of(self.whole), delta=0.1)
 
-    def test_threshold_by_component(self):
-        balls = plugin_testing.write_volume(f"balls-{self.count}-{SERVER}.vti", self.balls())
-        volume = simple.XMLImageDataReader(FileName=[balls])
-        surface = simple.DeformableSurface(volume, IsoValue=0.5)
-        components = numbers(self.fetch(surface).GetCellData().GetArray("Component"))
-        for component in range(4):
-            part = simple.Threshold(surface, Scalars=["CELLS", "Component"])
-            part.LowerThreshold = part.UpperThreshold = component
-            part.UpdatePipeline()
-            self.assertEqual(part.GetDataInformation().GetNumberOfCells(),
-                             numpy.count_nonzero(components == component))
-
     def test_an_error_and_then_a_good_run(self):
         surface = make_surface()
         surface.SeedRadius = -1.0
@@ -335,11 +285,6 @@ class ParallelSurfaceTest(unittest.TestCase):
         surface.SeedRadius = 0.0
         self.check_pieces(self.fetch(surface), self.whole)
 
-    def test_another_level_of_the_same_run(self):
-        surface = make_surface(FinestLevel=1)
-        self.check_pieces(self.fetch(surface), self.alone.GetLevels().GetBlock(1))
-        surface.FinestLevel = 0
-        self.check_pieces(self.fetch(surface), self.whole)
 
 
 plugin_testing.main()
