@@ -98,7 +98,7 @@ int vtkOtsuThreshold::RequestData(
         volumic::PieceOfImage(*ranks, vtkDataObject::GetData(input[0])),
         this->GetInputArrayInformation(0));
       const volumic::VoxelHistogram found = volumic::FindOtsuThreshold(
-        *ranks, voxels.Image, voxels.Selection, this->SelectedComponent);
+        *ranks, voxels.Image, voxels.Selection, this->SelectedComponent, 0);
       ranks->IsAny(false); // Whoever has failed tells it here at last.
       vtkNew<vtkDoubleArray> column;
       column->SetName("Threshold");

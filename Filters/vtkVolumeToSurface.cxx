@@ -55,8 +55,8 @@ volumic::SegmentationVolume vtkVolumeToSurface::PrepareVolume(vtkDataObject* inp
       volumic::PrefixErrors("Iso Value is not set, and can't be found: Input port 0: ",
         [&]
         {
-          return volumic::FindOtsuThreshold(
-            ranks, voxels.Image, voxels.Selection, volume.Settings.SelectedComponent).Threshold;
+          return volumic::FindOtsuThreshold(ranks, voxels.Image, voxels.Selection,
+            volume.Settings.SelectedComponent, volume.Settings.End.NumberOfThreads).Threshold;
         });
   }
   if (ranks.NumberOfRanks() == 1)

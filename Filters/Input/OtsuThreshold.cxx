@@ -138,7 +138,8 @@ std::array<double, 2> FindNeighbours(
 }
 
 VoxelHistogram FindOtsuThreshold(
-  Communicator& ranks, vtkImageData* image, vtkInformation* selection, int component)
+  Communicator& ranks, vtkImageData* image, vtkInformation* selection, int component,
+  int numberOfThreads)
 {
   vtkSmartPointer<vtkDataArray> chosen;
   if (image)
@@ -152,7 +153,7 @@ VoxelHistogram FindOtsuThreshold(
     Refuse("the image is empty: no process holds any of its voxels.");
   }
   const vtkSmartPointer<vtkDataArray> voxels = ContiguousVoxels(chosen);
-  HostThreads threads(0);
+  HostThreads threads(numberOfThreads);
   const ValidVoxels valid = FindValidVoxels(ranks, pieces, chosen, voxels, image, true, threads);
   CheckAnyIsValid(chosen, valid, ranks);
   const std::array<double, 2> range = RangeOf(ranks, voxels, valid);

@@ -27,10 +27,12 @@ struct VoxelHistogram
  * What vtkOtsuThreshold finds. By all ranks together: the same on all, however many they are.
  * @param image     this rank's piece; null: none
  * @param selection of the voxels, as GetInputArrayInformation()
+ * @param numberOfThreads as HostThreads
  * @throws std::invalid_argument where there is no such value.
  */
 VoxelHistogram FindOtsuThreshold(
-  Communicator& ranks, vtkImageData* image, vtkInformation* selection, int component);
+  Communicator& ranks, vtkImageData* image, vtkInformation* selection, int component,
+  int numberOfThreads);
 }
 
 #endif

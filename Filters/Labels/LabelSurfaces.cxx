@@ -212,8 +212,7 @@ void Making::Do(const std::string& title, const Work& work)
     this->Seconds[item] +=
       std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   };
-  const int hardware = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  const int most = this->NumberOfThreads > 0 ? std::min(this->NumberOfThreads, hardware) : hardware;
+  const int most = this->Threads.NumberOfThreads();
   double rest = 0.0;
   for (const std::size_t item : own)
   {
