@@ -3,6 +3,7 @@
 #include "Host/HostThreads.h"
 
 #include "Core/Common/ScratchMemory.h"
+#include "Core/Common/StandardThreads.h"
 #include "Host/Processors.h"
 
 #include <vtkSMPTools.h>
@@ -55,18 +56,16 @@ void HostThreads::Run(const std::function<void()>& work)
   struct End
   {
     ~End() { this->Threads.reset(); }
-    std::optional<StandardThreads>& Threads;
+    std::unique_ptr<Executor>& Threads;
   } const end{ this->Threads };
-  this->Threads.emplace(this->Number);
+  this->Threads = std::make_unique<StandardThreads>(this->Number);
   work();
 }
 
 void HostThreads::For(
   std::size_t n, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body)
 {
-  Executor& threads = !this->Threads ? OnThisThread()
-    : theInstead                     ? *theInstead
-                                     : static_cast<Executor&>(*this->Threads);
+  Executor& threads = !this->Threads ? OnThisThread() : theInstead ? *theInstead : *this->Threads;
   if (!HasMemoryLimit())
   {
     threads.For(n, grain, body);

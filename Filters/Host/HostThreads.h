@@ -4,11 +4,10 @@
 #define volumicHostThreads_h
 
 #include "Core/Common/Executor.h"
-#include "Core/Common/StandardThreads.h"
 #include "vtkFiltersVolumicModule.h" // for the export macro
 
 #include <functional>
-#include <optional>
+#include <memory>
 
 namespace volumic
 {
@@ -48,7 +47,7 @@ public:
 
 private:
   int Number;
-  std::optional<StandardThreads> Threads; ///< Within Run().
+  std::unique_ptr<Executor> Threads; ///< Within Run().
 };
 }
 

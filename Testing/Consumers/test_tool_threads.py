@@ -40,13 +40,13 @@ class ThreadsTest(ToolTestCase):
                               env={**os.environ, "LD_PRELOAD": FAKE, **environment}) as process:
             while process.poll() is None:
                 most = max(most, working_threads(process))
-                time.sleep(0.002)
+                time.sleep(0.005)
             self.assertEqual(process.returncode, 0, process.stderr.read())
         return most
 
     def test_a_surface_has_as_many_as_are_asked_for(self):
         """The pyramid and the surface, and Otsu's threshold before them."""
-        z, y, x = np.mgrid[0:100, 0:100, 0:100] - 49.5
+        z, y, x = np.mgrid[0:60, 0:60, 0:60] - 29.5
         waves = np.sin(x / 4) + np.sin(y / 4) + np.sin(z / 4)
         volume = self.write(vtkXMLImageDataWriter(), "waves.vti",
                             make_image(waves.astype("f4"), (1, 1, 1)))
@@ -59,13 +59,14 @@ class ThreadsTest(ToolTestCase):
                                   VTK_SMP_BACKEND_IN_USE=backend), 2, backend)
 
     def test_labels_have_as_many_as_are_asked_for_and_one_that_tells(self):
-        volume = self.many_labels(4)
+        volume = self.many_labels(3)
         for asked in 1, 2, 3:
-            most = self.most_threads(volume, self.path("labels"), "--labels", "all",
-                                     "--threads", asked, "--force")
+            most = self.most_threads(volume, self.path(f"labels{asked}"), "--labels", "all",
+                                     "--threads", asked)
             self.assertIn(most, (asked, asked + 1))
-        self.assertIn(self.most_threads(volume, self.path("labels"), "--labels", "all", "--force",
-                                        VTK_SMP_MAX_THREADS="2"), (2, 3))
+        most = self.most_threads(volume, self.path("labels"), "--labels", "all",
+                                 VTK_SMP_MAX_THREADS="2")
+        self.assertIn(most, (2, 3))
 
 
 if __name__ == "__main__":
