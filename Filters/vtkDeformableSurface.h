@@ -473,7 +473,7 @@ public:
   ///@}
 
   ///@{
-  /** 0, the default, takes all that the host offers. Results do not depend on it. */
+  /** As vtkImagePyramid: 0, the default: all. Results do not depend on it. */
   void SetNumberOfThreads(int number);
   virtual int GetNumberOfThreads();
   ///@}

@@ -168,8 +168,8 @@ public:
 
   ///@{
   /**
-   * Number of threads; 0, the default: all that vtkSMPTools has, and where its backend is sequential
-   * by default, as in Debian's ParaView, one per processor. Results do not depend on it.
+   * Number of threads; 0, the default: as many as the process may have processors, or as the host
+   * says (VTK_SMP_MAX_THREADS, vtkSMPTools::Initialize). Results do not depend on it.
    */
   vtkSetClampMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
   vtkGetMacro(NumberOfThreads, int);

@@ -94,7 +94,7 @@ int vtkOtsuThreshold::RequestData(
     const volumic::PointVoxels voxels =
       volumic::TakeCellsAsPoints(volumic::ImageOf(data), this->GetInputArrayInformation(0));
     const volumic::VoxelHistogram found =
-      volumic::FindOtsuThreshold(voxels.Image, voxels.Selection, this->SelectedComponent);
+      volumic::FindOtsuThreshold(voxels.Image, voxels.Selection, this->SelectedComponent, 0);
     vtkNew<vtkDoubleArray> column;
     column->SetName("Threshold");
     column->InsertNextValue(found.Threshold);

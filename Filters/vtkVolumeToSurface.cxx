@@ -53,8 +53,8 @@ volumic::SegmentationVolume vtkVolumeToSurface::PrepareVolume(vtkDataObject* inp
       volumic::PrefixErrors("Iso Value is not set, and can't be found: Input port 0: ",
         [&]
         {
-          return volumic::FindOtsuThreshold(
-            voxels.Image, voxels.Selection, volume.Settings.SelectedComponent).Threshold;
+          return volumic::FindOtsuThreshold(voxels.Image, voxels.Selection,
+            volume.Settings.SelectedComponent, volume.Settings.End.NumberOfThreads).Threshold;
         });
   }
   this->TellOfLabels(voxels.Image, voxels.Selection);

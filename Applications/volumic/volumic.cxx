@@ -21,6 +21,8 @@
 #include <vtkVersion.h>
 #include <vtkVolumeToSurface.h>
 
+#include <algorithm>
+#include <cstdlib>
 #include <exception>
 #include <iostream>
 #include <new>
@@ -64,6 +66,11 @@ ExitCode Run(const ToolOptions& options, Ranks& ranks)
   {
     TellOfFullDisk(filter->GetScratchDirectory());
   }
+  if (const int most = std::max(filter->GetNumberOfThreads(), labels->GetNumberOfThreads()))
+  {
+    // Also for what has no such property, as vtkOtsuThreshold.
+    setenv("VTK_SMP_MAX_THREADS", std::to_string(most).c_str(), 1);
+  }
   try
   {
     return options.Labels.empty() ? SegmentVolume(options, filters)
@@ -72,17 +79,6 @@ ExitCode Run(const ToolOptions& options, Ranks& ranks)
   catch (const std::bad_alloc&)
   {
     throw Failure(options.Volume + ": not enough memory; crop it, or resample it to fewer voxels");
-  }
-  catch (const std::exception& error)
-  {
-    // By its words only TBB, which VTK's threads may be of, tells that it gets no memory for one.
-    if (std::string(error.what()).find("pthread_create") == std::string::npos)
-    {
-      throw;
-    }
-    throw Failure(options.Volume +
-      ": not enough memory to segment it: no thread can be started; "
-      "crop it, or resample it to fewer voxels");
   }
 }
 
@@ -141,12 +137,9 @@ int WaitForFirst(int argc, char* argv[], Ranks& ranks)
 
 int main(int argc, char* argv[])
 {
-  // Under a limit of memory VTK's own threads of the standard library end the program; Volumic's
-  // don't.
-  if (vtkSMPTools::GetBackend() == std::string("STDThread"))
-  {
-    vtkSMPTools::SetBackend("Sequential");
-  }
+  // The threads are Volumic's own: VTK's would come on top of --threads, and may end the program
+  // where the system denies them memory.
+  vtkSMPTools::SetBackend("Sequential");
   Ranks ranks(argc, argv);
   ListenTo(ranks);
   if (!ranks.IsFirst())

@@ -8,35 +8,34 @@
 
 #include <functional>
 #include <memory>
-#include <string>
 
 namespace volumic
 {
 /**
- * The threads of the host program, through vtkSMPTools, for the core.
- *
- * The host's backend is used as it is (TBB in Debian's VTK). Only where that is sequential by
- * default, as in Debian's ParaView, threads of the standard library are used instead; a user who
- * wants it sequential all the same sets VTK_SMP_BACKEND_IN_USE=Sequential or asks for one thread.
- * Instead of VTK's backend STDThread, which ends the program where the system denies it a thread,
- * our own StandardThreads serve; VTK itself is sequential meanwhile.
+ * The threads of a filter, for the core: its own, as many as the host program and the machine mean
+ * it to have. VTK's (vtkSMPTools) are left alone: those of VTK 9.1 forget how many they should be,
+ * end the program where the system denies them one, or are none, as in Debian's ParaView.
  */
 class VTKFILTERSVOLUMIC_EXPORT HostThreads final : public Executor
 {
 public:
-  /** @param numberOfThreads 0 = all that the host has; never more than there are processors. */
+  /**
+   * @param numberOfThreads at most, no more than there are processors to run on (affinity). 0 = as
+   *        many as these, where none of the following says fewer: VTK_SMP_MAX_THREADS, the number
+   *        that the host has given to vtkSMPTools, the quota of the process's cgroup.
+   */
   explicit HostThreads(int numberOfThreads);
 
+  /** How many work within Run(), the calling one included. */
+  int NumberOfThreads() const { return this->Number; }
+
   /**
-   * For measurements and tests: what is made from now on hands all that Run() does to this executor
-   * instead of the host's threads; null, as at first: to these. Not while a filter runs.
+   * For tests: what For() is to do within Run() goes to this executor; null, as at first: to the
+   * threads. Not while a filter runs.
    */
   static void UseInstead(Executor* executor);
 
-  /**
-   * Runs `work`, within which For() may be called; choosing a backend has its price, which is paid
-   * here once.
-   */
+  /** Runs `work`, within which there are the threads that For() may use. May be within another. */
   void Run(const std::function<void()>& work);
 
   /**
@@ -45,20 +44,10 @@ public:
    */
   void For(std::size_t n, std::size_t grain,
     const std::function<void(std::size_t, std::size_t)>& body) override;
-  bool MakeVisits(const VisitSchedule& schedule, const VisitBody& visit) override;
-  void EndPhase(const char* name) override;
 
 private:
-  void Share(std::size_t n, std::size_t grain,
-    const std::function<void(std::size_t, std::size_t)>& body);
-  void RunWithin(
-    const std::string& backend, int numberOfThreads, const std::function<void()>& work);
-
-  int NumberOfThreads;
-  std::string Backend;
-  std::unique_ptr<Executor> Own; ///< instead of the backend, within Run()
-  Executor* Instead; ///< null: none
-  bool Running = false;
+  int Number;
+  std::unique_ptr<Executor> Threads; ///< Within Run().
 };
 }
 

@@ -117,12 +117,12 @@ std::array<double, 2> FindNeighbours(
 }
 
 VoxelHistogram FindOtsuThreshold(
-  vtkImageData* image, vtkInformation* selection, int component)
+  vtkImageData* image, vtkInformation* selection, int component, int numberOfThreads)
 {
   const vtkSmartPointer<vtkDataArray> chosen =
     SelectComponent(ChooseArray(selection, image), component);
   const vtkSmartPointer<vtkDataArray> voxels = ContiguousVoxels(chosen);
-  HostThreads threads(0);
+  HostThreads threads(numberOfThreads);
   const ValidVoxels valid = FindValidVoxels(chosen, voxels, image, true, threads);
   CheckAnyIsValid(chosen, valid);
   const std::array<double, 2> range = RangeOf(voxels, valid);

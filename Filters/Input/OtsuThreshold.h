@@ -24,10 +24,11 @@ struct VoxelHistogram
 /**
  * What vtkOtsuThreshold finds.
  * @param selection of the voxels, as GetInputArrayInformation()
+ * @param numberOfThreads as HostThreads
  * @throws std::invalid_argument where there is no such value.
  */
 VoxelHistogram FindOtsuThreshold(
-  vtkImageData* image, vtkInformation* selection, int component);
+  vtkImageData* image, vtkInformation* selection, int component, int numberOfThreads);
 }
 
 #endif

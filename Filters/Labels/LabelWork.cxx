@@ -100,8 +100,7 @@ void LabelWork::Do(Kind kind, const std::string& title, const std::vector<std::u
     }
   };
   tellHere();
-  const int hardware = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  const int most = this->NumberOfThreads > 0 ? std::min(this->NumberOfThreads, hardware) : hardware;
+  const int most = this->Threads.NumberOfThreads();
   double rest = 0.0;
   for (const std::size_t item : own)
   {

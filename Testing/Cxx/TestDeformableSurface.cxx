@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfaceTestTools.h"
 
-#include <vtkSMPTools.h>
-
 #include <sstream>
 #include <vector>
 
@@ -110,36 +108,6 @@ TEST(DeformableSurface, IsTheSameBitsForAnyNumberOfThreadsAndAnyRun)
     ASSERT_GT(other->GetOutput()->GetNumberOfPoints(), 0);
     EXPECT_TRUE(AreSameSurfaces(other->GetOutput(), one->GetOutput())) << threads << " threads";
   }
-}
-
-TEST(DeformableSurface, IsTheSameBitsOnEveryBackend)
-{
-  const auto image = BallImage(48, 48, 48);
-  const auto one = SurfaceOf(image);
-  const std::string host = vtkSMPTools::GetBackend();
-  int tried = 0;
-#ifdef __SANITIZE_THREAD__ // It cannot follow the others, which are not compiled with it.
-  const std::vector<const char*> backends = { "Sequential", "STDThread" };
-#else
-  const std::vector<const char*> backends = { "Sequential", "STDThread", "TBB", "OpenMP" };
-#endif
-  for (const char* backend : backends)
-  {
-    if (!vtkSMPTools::SetBackend(backend) || std::string(vtkSMPTools::GetBackend()) != backend)
-    {
-      continue; // Not in this build of VTK.
-    }
-    ++tried;
-    for (const int threads : { 0, 2 })
-    {
-      const auto other = SurfaceOf(image,
-        [&](vtkDeformableSurface* f) { f->SetNumberOfThreads(threads); });
-      EXPECT_TRUE(AreSameSurfaces(other->GetOutput(), one->GetOutput())) << backend;
-      EXPECT_EQ(std::string(vtkSMPTools::GetBackend()), backend) << "the host's choice is restored";
-    }
-  }
-  vtkSMPTools::SetBackend(host.c_str());
-  EXPECT_GE(tried, 2); // The first two are in every build.
 }
 
 TEST(DeformableSurface, StopsAtTheIterationLimit)

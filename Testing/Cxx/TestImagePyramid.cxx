@@ -9,7 +9,6 @@
 #include <vtkInformation.h>
 #include <vtkMatrix3x3.h>
 #include <vtkRTAnalyticSource.h>
-#include <vtkSMPTools.h>
 #include <vtkSOADataArrayTemplate.h>
 #include <vtkStringArray.h>
 
@@ -119,21 +118,6 @@ TEST(ImagePyramid, IsTheSameBitsForAnyNumberOfThreads)
         << threads << " threads, level " << h;
     }
   }
-}
-
-TEST(ImagePyramid, IsTheSameBitsOnEveryBackend)
-{
-  const auto image = RandomImage(150, 60, 60);
-  const auto filter = PyramidOf(image);
-  const std::string host = vtkSMPTools::GetBackend();
-  for (const char* backend : { "Sequential", "STDThread" })
-  {
-    ASSERT_TRUE(vtkSMPTools::SetBackend(backend));
-    const auto other = PyramidOf(image);
-    EXPECT_TRUE(AreSameVoxels(Level(other->GetOutput(), 1), Level(filter->GetOutput(), 1)));
-    EXPECT_EQ(std::string(vtkSMPTools::GetBackend()), backend) << "the host's choice is restored";
-  }
-  vtkSMPTools::SetBackend(host.c_str());
 }
 
 TEST(ImagePyramid, TakesTheChosenArray)

@@ -103,6 +103,42 @@ TEST(StandardThreads, HandOnWhatIsThrown)
   EXPECT_EQ(done, 100) << "they go on after an exception";
 }
 
+TEST(StandardThreads, AreTheSameFewAfterEachException)
+{
+  StandardThreads threads(3);
+  std::mutex mutex;
+  std::set<std::thread::id> seen;
+  int thrown = 0;
+  for (std::size_t call = 0; call < 3000; ++call)
+  {
+    std::atomic<std::size_t> done{ 0 };
+    const std::size_t bad = call % 60; // Every other call has such an item.
+    const auto body = [&](std::size_t begin, std::size_t end)
+    {
+      {
+        const std::lock_guard<std::mutex> lock(mutex);
+        seen.insert(std::this_thread::get_id());
+      }
+      if (begin <= bad && bad < end)
+      {
+        throw std::runtime_error("bad");
+      }
+      done += end - begin;
+    };
+    try
+    {
+      threads.For(30, 1, body);
+      ASSERT_EQ(done, 30u);
+    }
+    catch (const std::runtime_error&)
+    {
+      ++thrown;
+    }
+  }
+  EXPECT_EQ(thrown, 1500);
+  EXPECT_LE(seen.size(), 3u);
+}
+
 TEST(StandardThreads, DoWhatIsWithinABodyOnItsThread)
 {
   StandardThreads threads(3);

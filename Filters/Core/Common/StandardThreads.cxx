@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <new>
 #include <system_error>
+#include <utility>
 
 namespace volumic
 {
@@ -12,6 +13,19 @@ namespace
 {
 /** More than one per thread, as some take longer than others. */
 constexpr std::size_t ChunksPerThread = 8;
+
+/** How often a thread looks whether there is work, or it is done, before it sleeps. */
+constexpr int Looks = 100;
+
+/** Sleep and its end cost more than most calls of For(). Others get the processor all the same. */
+template <typename Condition>
+void LookOutFor(const Condition& hasCome)
+{
+  for (int look = 0; look < Looks && !hasCome(); ++look)
+  {
+    std::this_thread::yield();
+  }
+}
 
 /** Whether this thread is within a body. */
 thread_local bool isInBody = false;
@@ -52,17 +66,23 @@ StandardThreads::~StandardThreads()
 
 void StandardThreads::Wait()
 {
-  std::unique_lock<std::mutex> lock(this->Mutex);
+  unsigned jobs = 0;
   for (;;)
   {
-    this->HasWork.wait(
-      lock, [this] { return this->IsEnding || this->Present.Next < this->Present.End; });
+    LookOutFor([&] { return this->Jobs != jobs; });
+    std::unique_lock<std::mutex> lock(this->Mutex);
+    ++this->Asleep;
+    this->HasWork.wait(lock, [this] { return this->IsEnding || this->Next < this->End; });
+    --this->Asleep;
     if (this->IsEnding)
     {
       return;
     }
+    jobs = this->Jobs;
     ++this->Helpers;
-    this->Help(lock);
+    lock.unlock();
+    this->Help();
+    lock.lock();
     if (--this->Helpers == 0)
     {
       this->IsIdle.notify_one();
@@ -70,33 +90,46 @@ void StandardThreads::Wait()
   }
 }
 
-void StandardThreads::Help(std::unique_lock<std::mutex>& lock)
+void StandardThreads::BeginJob(std::size_t n, std::size_t chunk, bool isOfItems,
+  const std::function<void(std::size_t, std::size_t)>& body)
 {
-  Job& job = this->Present;
-  while (job.Next < job.End)
+  const std::lock_guard<std::mutex> lock(this->Mutex);
+  this->Body = &body;
+  this->End = n;
+  this->Chunk = chunk;
+  this->IsOfItems = isOfItems;
+  this->Next = 0;
+  ++this->Jobs;
+  // No more than find something to do beside the calling thread.
+  const std::size_t wanted = (n + chunk - 1) / chunk - (isOfItems ? 0 : 1);
+  for (std::size_t i = 0; i < std::min(wanted, static_cast<std::size_t>(this->Asleep)); ++i)
   {
-    const std::size_t begin = job.Next;
-    const std::size_t end = begin + std::min(job.Chunk, job.End - begin);
-    job.Next = end;
-    lock.unlock();
-    std::exception_ptr exception;
-    isInBody = !job.IsOfItems;
+    this->HasWork.notify_one();
+  }
+}
+
+void StandardThreads::Help()
+{
+  for (std::size_t begin; (begin = this->Next.fetch_add(this->Chunk)) < this->End;)
+  {
+    isInBody = !this->IsOfItems;
     try
     {
-      (*job.Body)(begin, end);
+      (*this->Body)(begin, std::min(begin + this->Chunk, this->End));
     }
     catch (...)
     {
-      exception = std::current_exception();
+      this->Fail(std::current_exception());
     }
     isInBody = false;
-    lock.lock();
-    if (exception)
-    {
-      job.Next = job.End; // What is left is not worth doing.
-      job.Exception = job.Exception ? job.Exception : exception;
-    }
   }
+}
+
+void StandardThreads::Fail(std::exception_ptr exception)
+{
+  const std::lock_guard<std::mutex> lock(this->Mutex);
+  this->Next = this->End;
+  this->Exception = this->Exception ? this->Exception : exception;
 }
 
 void StandardThreads::For(
@@ -111,13 +144,11 @@ void StandardThreads::For(
     body(0, n);
     return;
   }
-  std::unique_lock<std::mutex> lock(this->Mutex);
   const std::size_t chunks = ChunksPerThread * (this->Threads.size() + 1);
-  this->Present = { &body, 0, n, std::max({ grain, n / chunks, std::size_t(1) }), nullptr, false };
-  this->HasWork.notify_all();
-  this->Help(lock);
-  this->IsIdle.wait(lock, [this] { return this->Helpers == 0; });
-  this->EndJob(lock);
+  this->BeginJob(n, std::max({ grain, n / chunks, std::size_t(1) }), false, body);
+  this->Help();
+  LookOutFor([this] { return this->Helpers == 0; });
+  this->EndJob();
 }
 
 void StandardThreads::ForEach(std::size_t n, const std::function<void(std::size_t item)>& work,
@@ -125,42 +156,38 @@ void StandardThreads::ForEach(std::size_t n, const std::function<void(std::size_
 {
   const std::function<void(std::size_t, std::size_t)> body = [&work](std::size_t item, std::size_t)
   { work(item); };
-  std::unique_lock<std::mutex> lock(this->Mutex);
-  this->Present = { &body, 0, n, 1, nullptr, true };
-  this->HasWork.notify_all();
+  this->BeginJob(n, 1, true, body);
   if (this->Threads.empty())
   {
-    this->Help(lock);
+    this->Help();
   }
-  const auto isDone = [this]
-  { return this->Present.Next == this->Present.End && this->Helpers == 0; };
-  while (!this->IsIdle.wait_for(lock, Pause, isDone))
+  std::unique_lock<std::mutex> lock(this->Mutex);
+  while (!this->IsIdle.wait_for(lock, Pause, [this] { return this->IsDone(); }))
   {
     lock.unlock();
-    std::exception_ptr exception;
     try
     {
       tell();
     }
     catch (...)
     {
-      exception = std::current_exception();
+      this->Fail(std::current_exception());
+      break;
     }
     lock.lock();
-    if (exception)
-    {
-      this->Present.Next = this->Present.End;
-      this->Present.Exception = exception;
-      this->IsIdle.wait(lock, isDone);
-    }
   }
-  this->EndJob(lock);
+  if (lock)
+  {
+    lock.unlock();
+  }
+  this->EndJob();
 }
 
-void StandardThreads::EndJob(std::unique_lock<std::mutex>& lock)
+void StandardThreads::EndJob()
 {
-  const std::exception_ptr exception = this->Present.Exception;
-  this->Present = Job();
+  std::unique_lock<std::mutex> lock(this->Mutex);
+  this->IsIdle.wait(lock, [this] { return this->IsDone(); });
+  const std::exception_ptr exception = std::exchange(this->Exception, nullptr);
   lock.unlock();
   if (exception)
   {

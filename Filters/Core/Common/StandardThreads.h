@@ -5,6 +5,7 @@
 
 #include "Core/Common/Executor.h"
 
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <cstddef>
@@ -17,12 +18,12 @@
 namespace volumic
 {
 /**
- * Threads of the standard library, for hosts that have no threads of their own to offer.
+ * The threads of all work: those of the standard library, whatever threads the host has.
  *
- * The threads live as long as the object and sleep between two calls of For(). Where the system
- * gives fewer than wanted, as under a limit of memory, those do the work, at worst the calling
- * thread alone. Nothing that fails in a thread ends the program: the first exception of a body is
- * thrown again by For().
+ * They live as long as the object; between two calls of For() they look out for the next one for
+ * some microseconds, then sleep. Where the system gives fewer than wanted, as under a limit of
+ * memory, those do the work, at worst the calling thread alone. Nothing that fails in a thread ends
+ * the program: the first exception of a body is thrown again by For().
  */
 class StandardThreads final : public Executor
 {
@@ -45,35 +46,36 @@ public:
 
   /**
    * Calls work(item) for 0 to n - 1, in this order, each item on one of the threads beside the
-   * calling one, which calls tell() every Pause meanwhile; where there are no others it does all the
-   * work, and tells nothing. An item may use other executors, but not this one. After an exception
-   * of either no further item is begun; it is thrown again when those under way are done.
+   * calling one, which calls tell() every Pause meanwhile; where there are no others it does all
+   * the work, and tells nothing. An item may use other executors, but not this one. After an
+   * exception of either no further item is begun; it is thrown again when those under way are done.
    */
   void ForEach(std::size_t n, const std::function<void(std::size_t item)>& work,
     const std::function<void()>& tell);
 
 private:
-  /** What the present call of For() is about. */
-  struct Job
-  {
-    const std::function<void(std::size_t, std::size_t)>* Body = nullptr;
-    std::size_t Next = 0; ///< The first item that nobody has taken.
-    std::size_t End = 0;
-    std::size_t Chunk = 1;
-    std::exception_ptr Exception;
-    bool IsOfItems = false; ///< ForEach(): a body may have threads of its own.
-  };
-
+  void BeginJob(std::size_t n, std::size_t chunk, bool isOfItems,
+    const std::function<void(std::size_t, std::size_t)>& body);
   void Wait();
-  void Help(std::unique_lock<std::mutex>& lock);
-  /** Forgets the job, which is done. What it has thrown is thrown again. */
-  void EndJob(std::unique_lock<std::mutex>& lock);
+  void Help();
+  /** What goes wrong outside of bodies, or in them: nothing more is begun. */
+  void Fail(std::exception_ptr exception);
+  bool IsDone() const { return this->Next >= this->End && this->Helpers == 0; }
+  /** Waits until the job is done. What it has thrown is thrown again. */
+  void EndJob();
 
-  std::mutex Mutex; ///< Of all that follows but Threads.
+  std::mutex Mutex; ///< Of all that follows but Threads; what is atomic is read without it, too.
   std::condition_variable HasWork;
   std::condition_variable IsIdle;
-  Job Present;
-  int Helpers = 0; ///< Threads beside the calling one that are in a body.
+  std::atomic<unsigned> Jobs{ 0 };    ///< so far
+  std::atomic<int> Helpers{ 0 };      ///< Threads beside the calling one that are in the job.
+  std::atomic<std::size_t> Next{ 0 }; ///< The first item of the job that nobody has taken.
+  std::size_t End = 0;                ///< Of the job: as the next ones, written while none helps.
+  std::size_t Chunk = 1;
+  const std::function<void(std::size_t, std::size_t)>* Body = nullptr;
+  bool IsOfItems = false; ///< ForEach(): a body may have threads of its own.
+  std::exception_ptr Exception;
+  int Asleep = 0;
   bool IsEnding = false;
   std::vector<std::thread> Threads;
 };

@@ -1,0 +1,73 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""How many threads of the installed program work, on a machine with 16 processors.
+
+VOLUMIC_FAKE_PROCESSORS names the library that makes the program believe in them.
+"""
+
+import glob
+import os
+import subprocess
+import time
+import unittest
+
+import numpy as np
+from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
+from tool_test_case import PROGRAM, ToolTestCase, make_image
+
+FAKE = os.environ["VOLUMIC_FAKE_PROCESSORS"]
+
+
+def working_threads(process):
+    """How many of its threads that are there have had time of a processor."""
+    working = 0
+    for file in glob.glob(f"/proc/{process.pid}/task/*/stat"):
+        try:
+            with open(file, encoding="utf-8") as stat:
+                fields = stat.read().rpartition(")")[2].split()
+        except OSError:
+            continue  # It has ended.
+        working += int(fields[11]) + int(fields[12]) > 0  # user and system time
+    return working
+
+
+class ThreadsTest(ToolTestCase):
+    def most_threads(self, *arguments, **environment):
+        """At a time, during a run that must succeed."""
+        command = [PROGRAM, *map(str, arguments)]
+        most = 0
+        with subprocess.Popen(command, stderr=subprocess.PIPE, text=True,
+                              env={**os.environ, "LD_PRELOAD": FAKE, **environment}) as process:
+            while process.poll() is None:
+                most = max(most, working_threads(process))
+                time.sleep(0.005)
+            self.assertEqual(process.returncode, 0, process.stderr.read())
+        return most
+
+    def test_a_surface_has_as_many_as_are_asked_for(self):
+        """The pyramid and the surface, and Otsu's threshold before them."""
+        z, y, x = np.mgrid[0:60, 0:60, 0:60] - 29.5
+        waves = np.sin(x / 4) + np.sin(y / 4) + np.sin(z / 4)
+        volume = self.write(vtkXMLImageDataWriter(), "waves.vti",
+                            make_image(waves.astype("f4"), (1, 1, 1)))
+        for asked in 1, 2, 3:
+            self.assertEqual(
+                self.most_threads(volume, self.path("a.stl"), "--threads", asked), asked)
+        for backend in "TBB", "STDThread", "Sequential":  # of VTK
+            self.assertEqual(
+                self.most_threads(volume, self.path("a.stl"), VTK_SMP_MAX_THREADS="2",
+                                  VTK_SMP_BACKEND_IN_USE=backend), 2, backend)
+
+    def test_labels_have_as_many_as_are_asked_for_and_one_that_tells(self):
+        volume = self.many_labels(3)
+        for asked in 1, 2, 3:
+            most = self.most_threads(volume, self.path(f"labels{asked}"), "--labels", "all",
+                                     "--threads", asked)
+            self.assertIn(most, (asked, asked + 1))
+        most = self.most_threads(volume, self.path("labels"), "--labels", "all",
+                                 VTK_SMP_MAX_THREADS="2")
+        self.assertIn(most, (2, 3))
+
+
+if __name__ == "__main__":
+    unittest.main()
