@@ -15,8 +15,9 @@ tool_packages=(g++ cmake ninja-build python3 libpython3-dev python3-numpy libarc
   nlohmann-json3-dev)
 # Without doxygen, which brings 200 MB of LLVM: its test is disabled where it is missing.
 # mpi-default-bin: mpirun, without which the tests of several ranks are skipped.
-test_packages=(dpkg-dev file locales libgtest-dev libcgal-dev xvfb xauth libgl1-mesa-dri libxtst6
-  mpi-default-bin)
+# ccache: what is compiled for both flavours is compiled once.
+test_packages=(ccache dpkg-dev file locales libgtest-dev libcgal-dev xvfb xauth libgl1-mesa-dri
+  libxtst6 mpi-default-bin)
 # What more tests use where the release has it; they are skipped elsewhere. (So is that of gmsh, which
 # brings half a gigabyte.)
 optional_test_packages=(python3-scikit-build-core python3-venv python3-pip mypy tetgen)

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 
 # Puts the project RemoteModule, which stands in for VTK, into FOLDER and the sources of Volumic into
-# its folder Remote, as if fetched there; builds it and runs its program.
+# its folder Remote, as if fetched there; configures it and compiles a file of each kind.
 
 function (run)
   execute_process(COMMAND ${ARGV} RESULT_VARIABLE status)
@@ -19,8 +19,15 @@ foreach (entry IN LISTS entries)
   file(COPY "${VOLUMIC_SOURCE_DIR}/${entry}" DESTINATION "${FOLDER}/Remote/Volumic")
 endforeach ()
 
-run("${CMAKE_COMMAND}" -S "${FOLDER}" -B "${FOLDER}/build" -G "${GENERATOR}" "-DVTK_DIR=${VTK_DIR}"
-  -DCMAKE_BUILD_TYPE=Release)
-run("${CMAKE_COMMAND}" --build "${FOLDER}/build")
-run("${FOLDER}/build/UseRemoteModule")
-message("Volumic works as a remote module.")
+# No precompiled headers, which hide that a file does not include what it uses.
+run("${CMAKE_COMMAND}" -S "${FOLDER}" -B "${FOLDER}/build" -G Ninja "-DVTK_DIR=${VTK_DIR}"
+  -DCMAKE_BUILD_TYPE=None -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON)
+set(objects "")
+foreach (source IN ITEMS
+    VolumicCore.dir/Core/Mesh/SurfaceMesh.cxx
+    FiltersVolumic.dir/Run/RunFingerprint.cxx
+    FiltersVolumic.dir/vtkVolumeToSurface.cxx)
+  list(APPEND objects "Remote/Volumic/Filters/CMakeFiles/${source}.o")
+endforeach ()
+run("${CMAKE_COMMAND}" --build "${FOLDER}/build" --target ${objects})
+message("Volumic can be taken in as a remote module.")

@@ -9,28 +9,6 @@
 
 using namespace volumic;
 
-namespace
-{
-/** Makes the visits itself, from the last to the first. */
-class OwnWay final : public ToldExecutor
-{
-public:
-  OwnWay()
-    : ToldExecutor([](std::size_t n, const Body& body) { body(0, n); })
-  {
-  }
-  bool MakeVisits(const VisitSchedule& schedule, const VisitBody& visit) override
-  {
-    const std::vector<int>& order = schedule.Order();
-    for (std::size_t place = order.size(); place > 0; --place)
-    {
-      visit(order[place - 1], place - 1, *this);
-    }
-    return true;
-  }
-};
-}
-
 TEST(VisitSchedule, AsksWhereOthersHaveMadeAllTheVisits)
 {
   // The calling thread comes when all is done.
@@ -152,26 +130,4 @@ TEST(VisitSchedule, AsksOnTheCallingThreadAlone)
     EXPECT_LE(most, static_cast<std::size_t>(n));
   }
   EXPECT_GT(other.Calls, 2) << "rounds, between which it is asked";
-}
-
-TEST(VisitSchedule, LeavesTheVisitsToAnExecutorThatMakesThem)
-{
-  const VisitSchedule schedule = Apart(6);
-  for (const bool goesOn : { true, false })
-  {
-    OwnWay executor;
-    std::vector<int> visited;
-    std::vector<std::size_t> asked;
-    EXPECT_EQ(schedule.Run(executor,
-                [&visited](int item, std::size_t, Executor&) { visited.push_back(item); },
-                [&](std::size_t done)
-                {
-                  asked.push_back(done);
-                  return goesOn;
-                }),
-      goesOn);
-    EXPECT_EQ(visited, (std::vector<int>{ 5, 4, 3, 2, 1, 0 }));
-    EXPECT_EQ(asked, std::vector<std::size_t>{ 6 });
-    EXPECT_EQ(executor.Calls, 0);
-  }
 }

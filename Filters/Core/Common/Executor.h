@@ -11,12 +11,6 @@
 
 namespace volumic
 {
-class Executor;
-class VisitSchedule;
-
-/** Makes the visit of an item, at its place in the order of a schedule: see VisitSchedule::Run. */
-using VisitBody = std::function<void(int item, std::size_t place, Executor& idle)>;
-
 /**
  * A parallel for, so that the core needs no threading library of its own.
  *
@@ -34,17 +28,6 @@ public:
   /** @param grain the number of items under which a chunk is not worth a thread */
   virtual void For(std::size_t n, std::size_t grain,
     const std::function<void(std::size_t begin, std::size_t end)>& body) = 0;
-
-  /**
-   * Makes all visits of a schedule in its own way, for executors that keep books. @return whether
-   * it has; else they are made by For().
-   */
-  virtual bool MakeVisits(const VisitSchedule& schedule, const VisitBody& visit)
-  {
-    static_cast<void>(schedule);
-    static_cast<void>(visit);
-    return false;
-  }
 };
 
 /** The default: everything on the calling thread, in order. */

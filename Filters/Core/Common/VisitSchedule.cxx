@@ -290,10 +290,6 @@ VisitSchedule::VisitSchedule(
 bool VisitSchedule::Run(Executor& executor, const VisitBody& visit,
   const std::function<bool(std::size_t done)>& goOn) const
 {
-  if (executor.MakeVisits(*this, visit))
-  {
-    return goOn(this->Items.size());
-  }
   Progress progress(*this, goOn);
   while (!progress.IsAllDone() && !progress.IsStopped())
   {

@@ -11,6 +11,9 @@
 
 namespace volumic
 {
+/** Makes the visit of an item, at its place in the order of a schedule: see VisitSchedule::Run. */
+using VisitBody = std::function<void(int item, std::size_t place, Executor& idle)>;
+
 /**
  * Items that are visited once each, where some touch: those that do are visited one after the other,
  * in a fixed order, all others at the same time. What comes of it is what one thread alone would
