@@ -9,7 +9,6 @@ import subprocess
 import sys
 import unittest
 
-import numpy as np
 
 from examples_path import EXAMPLES
 from folder_test_case import FolderTestCase
@@ -131,16 +130,6 @@ class ScriptsTest(OutputFilesTest):
             "read_volume.py", self.ring, volume, preexec_fn=largest_file(len(before) // 2)))
         self.assertEqual(self.content("a.vti"), before)
 
-    def test_arrays(self):
-        voxels, mesh = self.path("v.npy"), self.write_bytes("m.npz", OLD)
-        np.save(voxels, ring_voxels()[::2, ::2, ::2])
-        arguments = ("numpy_arrays.py", voxels, mesh, "--iso", str(RING_ISO))
-        self.refused("m.npz cannot be written", run_script(
-            *arguments, preexec_fn=largest_file(3000)))
-        self.assertEqual(self.content("m.npz"), OLD)
-        self.refused("no such folder", run_script(
-            "numpy_arrays.py", voxels, self.path("none/m.npz")))
-
     def batch(self, **settings):
         os.makedirs(self.path("scans"), exist_ok=True)
         write_volume(self.path("scans/ring.mha"), ring_voxels()[::2, ::2, ::2], RING_SPACING)
@@ -157,18 +146,6 @@ class ScriptsTest(OutputFilesTest):
         self.write_bytes("out/results.csv", table)
         self.refused("results.csv cannot be written", self.batch(preexec_fn=largest_file(50)))
         self.assertEqual(self.content("out/results.csv"), table)
-
-    def test_a_table_is_whole_when_killed(self):
-        self.assertEqual(self.batch().returncode, 0)
-        script = os.path.join(EXAMPLES, "batch.py")
-        with subprocess.Popen([sys.executable, script, self.path("scans"), "--output",
-                               self.path("out"), "--iso", str(RING_ISO)],
-                              stdout=subprocess.PIPE) as process:
-            process.stdout.read(8)  # it has begun with the first volume
-            process.kill()
-        # The old one, or the new one if that was quicker.
-        self.assertEqual(self.content("out/results.csv").count(b"\n"), 2)
-        self.assertIn(b"ring.mha,ok", self.content("out/results.csv"))
 
 
 if __name__ == "__main__":

@@ -62,14 +62,8 @@ class OutputsTest(LabelsTest):
         voxels = (label_voxels() == 1).sum() * np.prod(SPACING)
         self.assertAlmostEqual(fields.GetArray("Volume").GetValue(0) / voxels, 1, delta=0.05)
 
-    def test_formats(self):
-        for suffix in ("stl", "ply", "obj"):
-            self.segment(suffix, "--labels", "1,5", "--format", suffix)
-            self.assertEqual(sorted(os.listdir(self.path(suffix))),
-                             [f"label-1.{suffix}", f"label-5.{suffix}"])
-
     def test_blocks(self):
-        self.segment("all.vtm", "--labels", "all")
+        self.segment("all.vtm", "--labels", "all", "--set", "FinestLevel=0")
         self.assertEqual(read(self.path("all.vtm")).GetNumberOfBlocks(), 3)
 
     def test_merged_and_single(self):
@@ -77,14 +71,6 @@ class OutputsTest(LabelsTest):
         x = read(self.path("two.stl")).GetBounds()[:2]
         self.segment("one.stl", "--labels", "1")
         self.assertAlmostEqual(x[1] - read(self.path("one.stl")).GetBounds()[1], 14, 0)
-
-    def test_properties(self):
-        volumes = []
-        for gap in ("0", "1"):
-            self.segment("a.vtp", "--labels", "1", "--set", f"Gap={gap}", "--set", "FinestLevel=0")
-            fields = read(self.path("a.vtp")).GetFieldData()
-            volumes.append(fields.GetArray("Volume").GetValue(0))
-        self.assertLess(volumes[1], 0.85 * volumes[0])
 
     def test_cells(self):
         voxels = label_voxels()
@@ -165,14 +151,14 @@ class ErrorsTest(LabelsTest):
 
 class InterruptTest(LabelsTest):
     def test_control_c_keeps_what_is_finished(self):
-        volume = write_volume(self.path("many.mha"), label_voxels(50))
+        volume = write_volume(self.path("many.mha"), label_voxels(12))
         shown, code = run_on_terminal(
             [sys.executable, os.path.join(EXAMPLES, "segment.py"), volume, self.path("o/"),
              "--labels", "all", "--set", "FinestLevel=-1", "--set", "NumberOfThreads=1"],
             r" [2-9]\d % ")
         self.assertEqual(code, 3, shown)
         self.assertIn("(not finished)", shown)
-        self.assertTrue(0 < len(os.listdir(self.path("o"))) < 150)
+        self.assertTrue(0 < len(os.listdir(self.path("o"))) < 36)
 
 
 if __name__ == "__main__":
