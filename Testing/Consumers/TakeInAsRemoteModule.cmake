@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 
 # Puts the project RemoteModule, which stands in for VTK, into FOLDER and the sources of Volumic into
-# its folder Remote, as if fetched there; builds it and runs its program.
+# its folder Remote, as if fetched there; configures it, and compiles one filter and its program.
 
 function (run)
   execute_process(COMMAND ${ARGV} RESULT_VARIABLE status)
@@ -21,6 +21,8 @@ endforeach ()
 
 run("${CMAKE_COMMAND}" -S "${FOLDER}" -B "${FOLDER}/build" -G "${GENERATOR}" "-DVTK_DIR=${VTK_DIR}"
   -DCMAKE_BUILD_TYPE=Release)
-run("${CMAKE_COMMAND}" --build "${FOLDER}/build")
-run("${FOLDER}/build/UseRemoteModule")
-message("Volumic works as a remote module.")
+if (GENERATOR MATCHES "Ninja") # which compiles a single file, by the name of what comes of it
+  run("${CMAKE_COMMAND}" --build "${FOLDER}/build" --target
+    Remote/Volumic/Filters/CMakeFiles/FiltersVolumic.dir/vtkImagePyramid.cxx.o
+    CMakeFiles/UseRemoteModule.dir/UseRemoteModule.cxx.o)
+endif ()

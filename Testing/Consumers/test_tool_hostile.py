@@ -23,8 +23,7 @@ import zlib
 import numpy as np
 from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 
-from tool_test_case import (
-    ISO, META, PROGRAM, SIZE, SPACING, ToolTestCase, ball, dicom_slice, make_image)
+from tool_test_case import ISO, META, PROGRAM, SIZE, SPACING, ToolTestCase, ball, make_image
 
 import medical_files
 from test_tool_label_names import labelled_nifti
@@ -251,14 +250,6 @@ class NestingTest(HostileTest):
         for content in (twice, bz2.compress(bz2.compress(bytes(range(64))))):
             self.refused_bytes("a.nrrd", head + content, "more than the 64 bytes", modes=((),))
 
-    def test_what_is_not_deep_is_read(self):
-        self.write(vtkXMLImageDataWriter(), "a.vti", make_image(ball()))
-        content = self.content("a.vti")
-        place = content.index(b"<ImageData")
-        for comment in (b"<!-- > -->", b"<!--" + b"<a>" * 200 + b"-->"):
-            self.write_bytes("b.vti", content[:place] + comment + content[place:])
-            self.run_tool(self.path("b.vti"), self.path("x.stl"), "--iso", ISO)
-
     def test_long_names_of_pieces(self):
         self.refused_bytes("a.pvti", b'<VTKFile type="PImageData"><PImageData WholeExtent="0 1 0 1'
                            b' 0 1"><Piece Extent="0 1 0 1 0 1" Source="' + b"a" * 900000 + b'"/>'
@@ -355,9 +346,6 @@ class VtkTest(HostileTest):
         text = "solid k\u00f6rper\n" + 4 * (text + "endfacet\n") + "endsolid\n"
         process = self.mesh("b.stl", text.encode(), "--seeds")
         self.assertIn("Seed 0 lies outside the image", process.stderr)  # It has been read.
-
-    def test_series_without_a_name(self):
-        self.refused_bytes("a.dcm", dicom_slice(0, series=""), "cannot be read")
 
     def test_corners(self):
         """Of points, textures and normals that are not there."""

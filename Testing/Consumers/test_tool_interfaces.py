@@ -126,13 +126,6 @@ class OneMeshTest(InterfacesTest):
         sides = vtk_to_numpy(mesh.GetCellData().GetArray("BoundaryLabels"))
         self.assertEqual(set(map(tuple, sides.tolist())), {(1, 0), (2, 0), (4, 0), (9, 0)})
 
-    def test_what_is_not_chosen_is_outside(self):
-        self.run_tool(self.map_of(sectors()), self.path("a.vtp"), "--labels", "1,9",
-                      "--shared-interfaces")
-        sides = vtk_to_numpy(read(self.path("a.vtp")).GetCellData().GetArray("BoundaryLabels"))
-        self.assertEqual(set(map(tuple, np.sort(sides, axis=1).tolist())),
-                         {(0, 0), (0, 1), (0, 9), (1, 9)})
-
     def test_without_it_surfaces_are_as_ever(self):
         volume = self.map_of(sectors())
         self.refused(r"a.stl: 4 labels .* --merge, or one mesh of all with --shared-interfaces "
@@ -151,13 +144,6 @@ class OneMeshTest(InterfacesTest):
         report = self.report(volume, self.path("o/"), "--labels", "1,2", "--format", "msh")
         self.assertEqual(report["properties"]["SharedInterfaces"], "off")
         self.assertEqual(sorted(os.listdir(self.path("o"))), ["label-1.msh", "label-2.msh"])
-
-    def test_a_limit_of_memory_changes_nothing(self):
-        volume = self.map_of(sectors())
-        self.run_tool(volume, self.path("a.vtp"), "--labels", "all", "--shared-interfaces")
-        self.run_tool(volume, self.path("b.vtp"), "--labels", "all", "--shared-interfaces",
-                      "--memory", "500M", "--scratch", self.folder, "--threads", "1")
-        self.assertEqual(self.content("a.vtp"), self.content("b.vtp"))
 
     def test_a_tolerance_makes_fewer_triangles(self):
         volume = self.map_of(sectors())
@@ -185,13 +171,6 @@ class OneMeshTest(InterfacesTest):
         self.refused("--shared-interfaces: the labels lie in several layers .* --component", file,
                      self.path("a.msh"), "--labels", "all")
         self.run_tool(file, self.path("a.msh"), "--labels", "s1")
-
-    def test_a_full_disk(self):
-        if os.path.exists("/dev/full"):
-            for name in ("full.msh", "full.smesh"):
-                os.symlink("/dev/full", self.path(name))
-                self.refused(f"{name}: cannot be written .No space left", self.map_of(sectors()),
-                             self.path(name), "--labels", "all")
 
 
 class Msh:
@@ -288,13 +267,6 @@ class GmshTest(InterfacesTest):
         self.assertEqual(len(set(faces)), 4)
         self.assertEqual(sorted(map(len, faces)), [1, 1, 2, 3])
 
-    def test_numbers_are_those_of_the_interfaces(self):
-        self.make(sectors(), "a.msh", "a.vtp")
-        mesh, msh = read(self.path("a.vtp")), Msh(self.path("a.msh"))
-        self.assertEqual({tuple(point) for point in points_of(mesh).tolist()},
-                         {tuple(point) for point in msh.points.tolist()})
-        self.assertEqual(sum(map(len, msh.triangles.values())), mesh.GetNumberOfPolys())
-
     def test_one_surface(self):
         self.run_tool(self.ball_file(), self.path("a.msh"), self.path("a.vtp"), "--iso", ISO)
         msh, surface = Msh(self.path("a.msh")), read(self.path("a.vtp"))
@@ -361,13 +333,6 @@ class TetgenTest(InterfacesTest):
         for pair, mark in zip(sides.tolist(), marks):
             told = names[f"facets {mark}"].split("_to_")
             self.assertEqual({known[name] for name in told}, set(pair))
-
-    def test_both_formats_tell_the_same(self):
-        self.make(sectors(), "a.smesh", "a.poly")
-        first, second = self.parts("a.smesh"), self.parts("a.poly")
-        self.assertEqual(first[0], second[0])
-        for a, b in zip(first[1:], second[1:]):
-            np.testing.assert_array_equal(a, b)
 
     def test_a_hollow_surface(self):
         z, y, x = np.indices((30, 30, 30)) - 14.5

@@ -44,15 +44,6 @@ class ListTest(LabelsTest):
             self.assertEqual(line[3:6], [f"{box[i]}..{box[i + 1]}" for i in (0, 2, 4)])
             self.assertEqual(" ".join(line[6:]), name)
 
-    def test_columns_are_straight_whatever_the_names(self):
-        names = self.write_bytes("n.json", json.dumps(
-            {1: "h\u00e9patique", 2: "a\nb\tc", 7: "\u809d\u81d3"}).encode())
-        lines = self.run_tool("--list-labels", self.map_file(), "--label-names",
-                              names).stdout.splitlines()
-        self.assertEqual(len(lines), 5)
-        names = ["name", "Label -3", "h\u00e9patique", "a b c", "\u809d\u81d3"]
-        self.assertEqual([line[lines[0].index("name"):] for line in lines], names)
-
     def test_as_json(self):
         voxels = label_voxels()
         rows = self.listed(self.map_file(), "--label-names", self.names_file())
@@ -68,13 +59,6 @@ class ListTest(LabelsTest):
             for name in ("voxels", "color", "layer"):
                 self.assertEqual(row[name], surfaces[row["label"]][name])
 
-    def test_both(self):
-        lines = self.table(self.map_file(), "--report", self.path("r.json"), "-q")
-        report = json.loads(self.content("r.json"))
-        self.assertEqual(len(lines), len(report["labels"]))
-        self.assertEqual(report["input"]["dimensions"], [28, 28, 18])
-        self.assertEqual(report["warnings"], [])
-
     def test_choice(self):
         volume, names = self.map_file(), self.names_file()
         for options, labels in ((["--labels", "l*"], [1, 2]), (["--labels", "0,7"], [0, 7]),
@@ -83,10 +67,6 @@ class ListTest(LabelsTest):
             self.assertEqual([row["label"] for row in rows], labels)
         self.refused("map.vti: there is no label 'kidney'", volume, "--list-labels", "--labels",
                      "kidney")
-
-    def test_no_labels(self):
-        volume = self.map_file("none.vti", label_image(np.zeros((9, 9, 9), "u1")))
-        self.assertEqual(self.table(volume), [])
 
     def test_layers(self):
         voxels = label_voxels()

@@ -104,6 +104,7 @@ class OptionTableTest(ToolTestCase):
     def test_wrong_usage(self):
         for reason, line in (
                 ("no volume", ""), ("no file to write", "a.vti"),
+                ("suffix.*known are", "a b.xyz"),
                 ("unknown option --isoo", "--isoo 3"), ("unknown option -z", "-z"),
                 ("--iso needs", "a b.stl --iso"),
                 ("--iso: 'x' is not a number", "a b.stl --iso x"),
@@ -186,15 +187,6 @@ class RunTest(ToolTestCase):
                       "--levels", "2")
         self.assertEqual(sorted(os.listdir(self.path("levels"))), ["level-0.vtp", "level-1.vtp"])
 
-    def test_level_finer_than_the_image(self):
-        report = self.report(self.ball_file(), "--iso", ISO, "--levels", "2", "--finest", "-1",
-                             "--levels-output", self.path("levels"))
-        self.assertEqual([level["level"] for level in report["levels"]], [1, 0, -1])
-        self.assertGreater(report["vertices"], 2 * report["levels"][1]["vertices"])
-        self.assertTrue(all(level["seconds"] > 0 for level in report["levels"]))
-        self.assertEqual(sorted(os.listdir(self.path("levels"))),
-                         ["level--1.vtp", "level-0.vtp", "level-1.vtp"])
-
     def test_advice_names_options(self):
         """Where much stays lost: sheets of one voxel beside a ball."""
         z, y, x = np.mgrid[0:64, 0:64, 0:64]
@@ -222,10 +214,6 @@ class RunTest(ToolTestCase):
         self.assertTrue(100 < float(told.group(1)) < 900)
         self.assertEqual(self.run_tool(self.ball_file(), self.path("a.vtp"), "-q").stderr, "")
 
-    def test_progress_in_lines(self):
-        process = self.run_tool(self.ball_file(), self.path("a.vtp"), "--progress")
-        self.assertRegex(process.stderr, r"(?m)^Evolving the surface: +\d+ %  Level 0, iteration")
-
     def test_seeds_and_initial_surface(self):
         centre = ORIGIN + SPACING * CENTRE
         self.write_bytes("seeds.csv", b"x,y,z\n" + ",".join(map(str, centre)).encode() + b"\n")
@@ -241,31 +229,13 @@ class RunTest(ToolTestCase):
         self.refused("bad.txt, line 3: not three numbers", self.ball_file(), self.path("a.stl"),
                      "--seeds", self.path("bad.txt"))
 
-    def test_positions_are_as_those_of_files(self):
-        centre, beside = ORIGIN + SPACING * CENTRE, ORIGIN + SPACING * [20, 5, 13]
-        texts = [",".join(map(str, place)) for place in (centre, beside)]
-        self.write_bytes("seeds.csv", texts[0].encode())
-        self.write_bytes("points.csv", texts[1].encode())
-        options = (self.ball_file(), "--iso", ISO, "--levels", "1")
-        by_files = self.report(*options, "--seeds", self.path("seeds.csv"), "--attracting-points",
-                               self.path("points.csv"))
-        by_places = self.report(*options, "--seed-position", texts[0], "--attracting-position",
-                                texts[1])
-        self.assertEqual(by_places["properties"]["Initialization"], "seeds")
-        # Points of files are in single precision.
-        self.assertEqual(by_places["components"], by_files["components"])
-        self.assertAlmostEqual(by_places["volume"], by_files["volume"], delta=1e-3)
-        # As often as they are given; one outside is named as the panel does.
-        self.refused("Seed Positions: point 1", self.ball_file(), self.path("a.stl"), "--iso", ISO,
-                     "--seed-position", texts[0], "--seed-position", "1e9,0,0")
-
     def test_a_limit_of_memory_is_answered_in_words(self):
         """Also with VTK's backend STDThread, which ends the program where it gets no thread."""
         volume = self.ball_file()
         environment = {**os.environ, "VTK_SMP_BACKEND_IN_USE": "STDThread",
                        "VTK_SMP_MAX_THREADS": "4"}
         ended = []
-        for megabytes in range(100, 340, 8):  # newer versions of VTK are larger
+        for megabytes in range(100, 340, 24):  # newer versions of VTK are larger
             limit = (megabytes << 20, megabytes << 20)
             options = {"capture_output": True, "text": True, "timeout": 120, "env": environment,
                        "preexec_fn": lambda limit=limit: resource.setrlimit(
@@ -329,17 +299,6 @@ class RunTest(ToolTestCase):
                      "--iso", "0", "--time-limit", "1e-9")
         self.assertFalse(os.path.exists(self.path("none.stl")))
 
-    def test_iteration_limit_is_marked(self):
-        report = self.report(self.ball_file(), self.path("a.vtp"), self.path("a.stl"),
-                             "--iso", ISO, "--iterations", "3", status=3)
-        self.assertFalse(report["finished"])
-        self.assertEqual(report["stop_reason"], "iteration limit")
-        self.assertIn(b"UNFINISHED: iteration limit", self.content("a.stl")[:80])
-
-    def test_nothing_is_left(self):
-        self.refused("volumic: .*", self.ball_file(), self.path("a.vtp"), "--iso", "2000")
-        self.assertFalse(os.path.exists(self.path("a.vtp")))
-
     def waves_file(self):
         """A large noisy volume, so that there is time."""
         noise = np.random.default_rng(2).normal(0, 120, (100, 100, 100))
@@ -351,7 +310,7 @@ class RunTest(ToolTestCase):
     def test_interrupt_writes_what_there_is(self):
         rest = self.interrupted(
             "Evolving.*iteration", self.waves_file(), self.path("a.vtp"), "--iso", "0",
-            "--convergence", "0", "--report", self.path("r.json"), pause=0.2)
+            "--convergence", "0", "--report", self.path("r.json"))
         self.assertIn("unfinished (cancelled)", rest)
         report = json.loads(self.content("r.json"))
         self.assertEqual((report["finished"], report["stop_reason"]), (False, "cancelled"))
