@@ -45,7 +45,7 @@ class DamageTest(ToolTestCase):
     def flipped(self, name, content, reason, start):
         """With one bit of the data turned over it is refused, wherever that is."""
         generator = np.random.default_rng(6)
-        for _ in range(times):
+        for _ in range(8):
             damaged = bytearray(content)
             place = int(generator.integers(start, len(content)))
             damaged[place] ^= 1 << int(generator.integers(8))

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """`volumic` looks at the structure of a file before VTK's readers, which may crash, do."""
 
+import itertools
 import os
 import struct
 import unittest
@@ -19,7 +20,7 @@ ENTRY = struct.Struct("<HHII")
 
 
 class StructureTest(ToolTestCase):
-    ways = ((), ("--memory", "200M"))  # read as a whole, and in parts
+    ways = itertools.cycle(((), ("--memory", "200M")))  # read as a whole, and in parts
 
 
 def tiff(pages, changes):
@@ -300,16 +301,13 @@ class DicomFolderTest(StructureTest):
 
     def test_slices_that_were_cut_to_nothing(self):
         """At an end of the series none is missing between others."""
-        for name in ("IM{:02}".format, "s{:02}.dcm".format, "{:08X}".format):
+        for name, k in (("IM{:02}".format, 0), ("s{:02}.dcm".format, 17), ("{:08X}".format, 17)):
             self.series(name)
             self.accepted("a")
-            for k in (0, 17):
-                content = self.content("a/" + name(k))
-                for damaged in (*(content[:count] for count in (0, 1, 100, 131)),
-                                content[:130] + b"?" + content[131:]):
-                    with self.subTest(name(k), bytes=len(damaged)):
-                        self.refused_file("a/" + name(k), damaged, f"{name(k)}: no DICOM file")
-                self.write_bytes("a/" + name(k), content)
+            content = self.content("a/" + name(k))
+            for damaged in (content[:0], content[:131], content[:130] + b"?" + content[131:]):
+                with self.subTest(name(k), bytes=len(damaged)):
+                    self.refused_file("a/" + name(k), damaged, f"{name(k)}: no DICOM file")
             for file in os.listdir(self.path("a")):
                 os.remove(self.path("a/" + file))
 

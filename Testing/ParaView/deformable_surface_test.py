@@ -2,14 +2,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The Deformable Surface filter of the installed plugin, in scripts of pvbatch and pvpython."""
 
-import os
-import sys
 
 import numpy
 from paraview import simple
 from paraview.vtk.util.numpy_support import vtk_to_numpy
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import plugin_testing as testing
 from plugin_testing import points, triangles
 
@@ -239,6 +236,3 @@ class DeformableSurfaceTest(testing.PluginTestCase):
         algorithm.Modified()
         self.check_ball(testing.fetch(filter_), 0.2)
         self.assertEqual(len(executions), 2)
-
-
-testing.main()

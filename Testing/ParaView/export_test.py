@@ -18,7 +18,6 @@ from vtkmodules.vtkIOGeometry import vtkOBJReader, vtkSTLReader
 from vtkmodules.vtkIOPLY import vtkPLYReader
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../Examples/Python"))
 import label_maps
 import plugin_testing as testing
@@ -224,7 +223,3 @@ class ExportTest(testing.PluginTestCase):
         with testing.CapturedMessages() as messages:
             self.export("none/organs.stl", self.labels())
         self.assertIn("none/organs", messages.text)
-
-
-if __name__ == "__main__":
-    testing.main()

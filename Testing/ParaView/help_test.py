@@ -7,11 +7,9 @@ inherited ones too. VOLUMIC_HELP is the database of Qt's help system that the pl
 import os
 import re
 import sqlite3
-import sys
 import unittest
 import zlib
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import plugin_testing as testing
 from paraview import servermanager
 
@@ -50,6 +48,3 @@ class HelpTest(unittest.TestCase):
                 iterator.Next()
             self.assertEqual(set(described), labels, name)
             self.assertGreater(len(labels), 5)
-
-
-testing.main()

@@ -2,13 +2,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The Image Pyramid filter of the installed plugin, as a script of pvbatch or pvpython uses it."""
 
-import os
-import sys
 
 import numpy
 from paraview import simple
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import plugin_testing as testing
 from plugin_testing import SQRT3
 
@@ -97,5 +94,3 @@ class ImagePyramidTest(testing.PluginTestCase):
     def test_error_for_an_array_that_is_not_there(self):
         self.check_error(["absent"], simple.Wavelet(),
                          Voxels=["POINTS", "absent"])
-
-testing.main()

@@ -3,8 +3,6 @@
 """What the filters of the plugin take and what they don't, in scripts of pvbatch and pvpython:
 sources that were never updated, types that are no image, components, NaN."""
 
-import os
-import sys
 
 import numpy
 from paraview import servermanager
@@ -13,7 +11,6 @@ from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonDataModel import (vtkMultiBlockDataSet, vtkPartitionedDataSet,
                                            vtkPartitionedDataSetCollection, vtkRectilinearGrid)
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import plugin_testing as testing
 
 SIZE, RADIUS = 32, 10.0
@@ -283,6 +280,3 @@ class InputsTest(testing.PluginTestCase):
                 with testing.CapturedMessages() as messages:
                     self.assertEqual(testing.fetch(filter_).GetNumberOfPoints(), 0)
                 self.assertIn("Turn NaN Is Background on", messages.text)
-
-
-testing.main()

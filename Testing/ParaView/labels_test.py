@@ -3,8 +3,6 @@
 """The Labels to Surfaces filter of the installed plugin, in scripts of pvbatch and pvpython."""
 
 import math
-import os
-import sys
 
 import numpy
 from paraview import servermanager
@@ -12,7 +10,6 @@ from paraview import simple
 from paraview.vtk.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkMultiBlockDataSet
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import label_maps
 import plugin_testing as testing
 from label_maps import BALLS, COLORS, NAMES
@@ -294,6 +291,3 @@ class LabelListTest(LabelsTestCase):
         with testing.CapturedMessages() as messages:
             simple.LabelstoSurfaces(source)
         self.assertEqual(messages.text, "")
-
-
-testing.main()

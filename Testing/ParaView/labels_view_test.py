@@ -2,13 +2,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """How the surfaces of labels look in views: colours of labels, that follow the data."""
 
-import os
-import sys
 
 import numpy
 from paraview import simple
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import label_maps
 import plugin_testing as testing
 import view_testing as views
@@ -38,11 +35,6 @@ def legend(display):
 
 
 class LabelsViewTest(testing.PluginTestCase):
-    @classmethod
-    def setUpClass(cls):
-        views.open_screen()
-        super().setUpClass()
-
     def show(self, source=None, **properties):
         source = source or testing.produce(label_maps.add_names(label_maps.image()))
         self.filter = simple.LabelstoSurfaces(source, FinestLevel=1, **properties)
@@ -204,6 +196,3 @@ class LabelsViewTest(testing.PluginTestCase):
                 self.display = simple.GetRepresentation(self.filter, self.view)
                 self.check_same(self.picture("after-the-state"), before)
                 self.check_legend([3, 7, 12], colors=colors)
-
-
-testing.main()

@@ -8,13 +8,11 @@ together.
 
 import glob
 import os
-import sys
 import unittest
 import xml.etree.ElementTree as ElementTree
 
 from paraview import servermanager
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import plugin_testing as testing
 
 PLUGIN_SOURCES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../Plugin/*.xml")
@@ -237,6 +235,3 @@ class ProxyDefaultsTest(unittest.TestCase):
                     entry = element.find("Hints/ShowInMenu")
                     self.assertEqual(entry.get("category"), "Volumic")
                     self.assertTrue(entry.get("icon").startswith(":/volumic/"))
-
-
-testing.main()

@@ -2,10 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The plugin on both sides of a connection: a pvserver of our own, and this script as its client."""
 
-import os
 import socket
 import subprocess
-import sys
 import time
 import unittest
 
@@ -13,7 +11,6 @@ from paraview import servermanager
 from paraview import simple
 from paraview.vtk.util.numpy_support import vtk_to_numpy
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import label_maps
 import plugin_testing as testing
 
@@ -192,6 +189,3 @@ class RemoteServerTest(unittest.TestCase):
         chart = simple.CreateView("VolumicHistoryView")
         display = simple.Show(simple.OutputPort(filter_, 2), chart)
         self.assertEqual(len(display.SeriesVisibility), 4)
-
-
-testing.main()

@@ -2,15 +2,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """How the outputs look in views: the chart of the history, colours, the blocks that are shown."""
 
-import os
-import sys
 
 import numpy
 from paraview import servermanager
 from paraview import simple
 from paraview.vtk.util.numpy_support import vtk_to_numpy
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import plugin_testing as testing
 import view_testing as views
 
@@ -336,7 +333,3 @@ class TurnedImageTest(testing.PluginTestCase):
             right.UpdatePipeline()
             numpy.testing.assert_allclose(self.bounds(simple.Contour(right, **iso)), surface,
                                           atol=0.5)
-
-
-views.open_screen()
-testing.main()

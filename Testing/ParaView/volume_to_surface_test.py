@@ -2,14 +2,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The Volume to Surface filter of the installed plugin, in scripts of pvbatch and pvpython."""
 
-import os
-import sys
 
 import numpy
 from paraview import simple
 from paraview import smtrace
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import plugin_testing as testing
 from plugin_testing import points
 
@@ -262,6 +259,3 @@ class VolumeToSurfaceTest(testing.PluginTestCase):
     def test_abort_by_the_button_of_newer_paraviews(self):
         self.check_abort_and_the_next_apply(
             lambda algorithm: algorithm.SetAbortExecuteAndUpdateTime())
-
-
-testing.main()
