@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """An error leaves nothing old behind, in no view: good runs before and after each kind of error."""
 
-
 import numpy
 from paraview import simple
 
@@ -139,21 +138,6 @@ class ErrorsInViewTest(testing.PluginTestCase):
                         self.set_number(name, good)
                         self.check_run(True, wanted)
             simple.Delete(self.filter)
-
-    def test_bad_good(self):
-        bad = {"ImagePyramid": ("ReductionFactor", 3.0, 1.7),
-               "DeformableSurface": ("IsoValue", 1000.0, 50.0),
-               "VolumetoSurface": ("IsoValue", 1000.0, 50.0)}
-        for kind, (name, value, good) in bad.items():
-            with self.subTest(filter=kind):
-                with testing.CapturedMessages():
-                    self.show(kind)
-                    self.set_number(name, value)
-                    # The first run that this filter has is the bad one.
-                self.check_run(False)
-                self.set_number(name, good)
-                self.check_run(True, first=True)
-                simple.Delete(self.filter)
 
     def test_array_that_is_not_there(self):
         # For the surfaces, one that is there is chosen.

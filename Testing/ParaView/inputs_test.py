@@ -3,7 +3,6 @@
 """What the filters of the plugin take and what they don't, in scripts of pvbatch and pvpython:
 sources that were never updated, types that are no image, components, NaN."""
 
-
 import numpy
 from paraview import servermanager
 from paraview import simple
@@ -164,16 +163,6 @@ class InputsTest(testing.PluginTestCase):
                     self.assertEqual(testing.fetch(filter_).GetNumberOfPoints(), 0)
                 self.assertIn("'absent'", messages.text)
 
-    def test_preset_of_a_pyramid_is_that_of_its_level_0(self):
-        source = testing.produce(image(density=ball()))
-        of_image = simple.DeformableSurface(source)
-        of_pyramid = simple.DeformableSurface(simple.ImagePyramid(source))
-        self.assertEqual(of_image.IsoValue, of_pyramid.IsoValue)
-        self.assertNotAlmostEqual(of_image.IsoValue, 120.0, places=3)
-        of_pyramid.IsoValue = 77.0
-        testing.reset_iso_value(of_pyramid)
-        self.assertEqual(of_image.IsoValue, of_pyramid.IsoValue)
-
     def test_what_is_offered(self):
         volume = image(density=ball())
         nested, partitions = vtkMultiBlockDataSet(), vtkPartitionedDataSet()
@@ -209,13 +198,6 @@ class InputsTest(testing.PluginTestCase):
                 self.assertEqual(messages.text.count("ERROR: "), 1, messages.text)
                 self.assertIn("Apply Resample To Image", messages.text)
 
-    def test_the_only_image_of_a_composite_dataset(self):
-        nested = vtkMultiBlockDataSet()
-        nested.SetBlock(1, image(density=ball()))
-        filter_ = simple.VolumetoSurface(testing.produce(nested))
-        self.assertEqual(list(filter_.Voxels), ["POINTS", "density"])
-        self.check_ball(filter_)
-
     def test_components(self):
         for name in SURFACES:
             with self.subTest(filter=name):
@@ -236,29 +218,6 @@ class InputsTest(testing.PluginTestCase):
                 filter_.SelectedComponent = "Magnitude"
                 self.assertEqual(filter_.IsoValue, magnitude)
                 self.assertGreater(domain.GetMaximum(0), 220.0)
-
-    def test_component_in_a_state(self):
-        for name in ("components.pvsm", "components-state.py"):
-            with self.subTest(name=name):
-                source = simple.Wavelet(registrationName="Waves")
-                vector = simple.Calculator(source, registrationName="Vector")
-                vector.ResultArrayName = "v"
-                vector.Function = "RTData*iHat + 2*RTData*jHat"
-                vector.UpdatePipeline()
-                filter_ = simple.VolumetoSurface(vector, registrationName="Saved")
-                filter_.Voxels = ["POINTS", "v"]
-                filter_.SelectedComponent = "Y"
-                iso = filter_.IsoValue
-                wanted = testing.fetch(filter_).GetNumberOfPoints()
-                path = testing.output_path(name)
-                simple.SaveState(path)
-                self.tearDown()
-                simple.LoadState(path)
-                again = simple.FindSource("Saved")
-                self.assertEqual(again.IsoValue, iso)
-                self.assertEqual(testing.fetch(again).GetNumberOfPoints(), wanted)
-                self.assertEqual(again.SelectedComponent, "Y")
-                self.tearDown()
 
     def test_nan_voxels(self):
         values = ball()

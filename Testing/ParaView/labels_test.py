@@ -86,20 +86,6 @@ class LabelsTest(LabelsTestCase):
         for label, surface in zip(BALLS, self.blocks(filter_).values()):
             self.check_ball(surface, label)
 
-    def test_source_that_was_never_updated(self):
-        path = testing.write_volume("labels.vti", label_maps.image())
-        filter_ = simple.LabelstoSurfaces(simple.XMLImageDataReader(FileName=path), Labels=[7])
-        self.check_ball(self.blocks(filter_)["Label 7"], 7)
-
-    def test_second_array(self):
-        image = label_maps.image()
-        testing.add_array(image, numpy.random.default_rng(1).random(label_maps.SIZE**3), "noise")
-        image.GetPointData().SetActiveScalars("noise")
-        filter_ = simple.LabelstoSurfaces(testing.produce(image))
-        self.assertEqual(list(filter_.Voxels), ["POINTS", "noise"])
-        filter_.Voxels = ["POINTS", "labels"]
-        self.assertEqual(len(self.blocks(filter_)), 3)
-
     def test_names_and_colors(self):
         source = testing.produce(label_maps.add_names(label_maps.image()))
         filter_ = simple.LabelstoSurfaces(source)
@@ -169,25 +155,6 @@ class LabelsTest(LabelsTestCase):
         filter_.Smoothing = 1.9
         for label, surface in zip(BALLS, self.blocks(filter_).values()):
             self.check_ball(surface, label)
-
-    def test_states(self):
-        path = testing.write_volume("labels-state.vti", label_maps.image())
-        for name in ("labels.pvsm", "labels-state.py"):
-            with self.subTest(name=name):
-                reader = simple.XMLImageDataReader(registrationName="Map", FileName=path)
-                reader.UpdatePipeline()
-                filter_ = simple.LabelstoSurfaces(reader, registrationName="Saved")
-                filter_.Labels = [7, 12]
-                filter_.LabelNames = ["7", "kidney"]
-                filter_.Gap = 0.5
-                self.assertEqual(list(self.blocks(filter_)), ["kidney", "Label 12"])
-                simple.SaveState(testing.output_path(name))
-                self.tearDown()
-                simple.LoadState(testing.output_path(name))
-                again = simple.FindSource("Saved")
-                self.assertEqual((list(again.Labels), again.Gap), ([7, 12], 0.5))
-                self.assertEqual(list(self.blocks(again)), ["kidney", "Label 12"])
-                self.tearDown()
 
 
 class LabelErrorsTest(LabelsTestCase):
@@ -285,9 +252,3 @@ class LabelListTest(LabelsTestCase):
         with testing.CapturedMessages() as messages:
             listed, problem = list_of(testing.produce(label_maps.image(numpy.float64)))
         self.assertEqual((list(listed), problem, messages.text), ([0, *BALLS], "", ""))
-
-    def test_making_a_filter_says_nothing(self):
-        source = testing.produce(testing.make_image(numpy.random.default_rng(1).random((9, 9, 9))))
-        with testing.CapturedMessages() as messages:
-            simple.LabelstoSurfaces(source)
-        self.assertEqual(messages.text, "")

@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """How the surfaces of labels look in views: colours of labels, that follow the data."""
 
-
 import numpy
 from paraview import simple
 
@@ -87,13 +86,6 @@ class LabelsViewTest(testing.PluginTestCase):
         self.picture("many")
         self.assertFalse(self.legend_is_shown())
 
-    def test_merged_surface(self):
-        self.show(Labels=[3, 7], Merge=1)
-        self.assertEqual(hues(self.picture("merged")), {"red", "green"})
-        self.check_legend([3, 7])
-        self.filter.Merge = 0
-        self.assertEqual(hues(self.picture("no-longer-merged")), {"red", "green"})
-
     def test_merged_later(self):
         self.show(Labels=[3, 7])
         self.assertEqual(hues(self.picture("not-yet-merged")), {"red", "green"})
@@ -148,16 +140,6 @@ class LabelsViewTest(testing.PluginTestCase):
             self.assertEqual(views.drawn(self.picture("bad")), 0)
         self.filter.Labels = []
         self.check_same(self.picture("good-again"), good)
-
-    def test_two_maps_in_a_view(self):
-        first = self.show()
-        self.picture("first-map")
-        other = label_maps.add_names(label_maps.image(), OTHER_NAMES, OTHER_COLORS)
-        second = simple.LabelstoSurfaces(testing.produce(other), FinestLevel=1)
-        display = simple.Show(second, self.view)
-        self.picture("both-maps")
-        self.check_legend([3, 7, 12], display=first)
-        self.check_legend([3, 7, 12], OTHER_NAMES, OTHER_COLORS, display)
 
     def test_what_is_made_of_the_surfaces(self):
         """Has the same colours, by the map that all displays of this array share."""

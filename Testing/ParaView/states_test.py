@@ -152,18 +152,6 @@ class ChangedVolumeTest(testing.PluginTestCase):
         self.assertLess(filter_.IsoValue, shift + 80 * scale)
         self.assertGreater(testing.fetch(filter_).GetNumberOfPoints(), 0)
 
-    def test_after_change_file(self):
-        for kind in ("DeformableSurface", "VolumetoSurface"):
-            filter_ = self.filter_of(kind)
-            self.check(filter_, "density", 1, 0)
-            for path, name, scale, shift in ((self.same_name, "density", 10, -7),
-                                             (self.other_name, "voxels", 100, 1000),
-                                             (self.first, "density", 1, 0)):
-                with self.subTest(filter=kind, file=path):
-                    simple.ReplaceReaderFileName(filter_.Input, [path], "FileName")
-                    self.check(filter_, name, scale, shift)
-            self.tearDown()
-
     def test_after_loading_a_state(self):
         for kind in ("DeformableSurface", "VolumetoSurface"):
             with self.subTest(filter=kind):

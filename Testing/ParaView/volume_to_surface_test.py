@@ -2,10 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The Volume to Surface filter of the installed plugin, in scripts of pvbatch and pvpython."""
 
-
 import numpy
 from paraview import simple
-from paraview import smtrace
 
 import plugin_testing as testing
 from plugin_testing import points
@@ -93,38 +91,6 @@ class VolumeToSurfaceTest(testing.PluginTestCase):
         self.assertIn("Iso Value is 4, outside the range", messages.text)
         self.assertEqual(surface.GetNumberOfPoints(), 0)
 
-    def test_preview_goes_on_where_much_is_missing(self):
-        # More than a million voxels: a ball, and rods that level 1 shows but cannot hold.
-        z, y, x = numpy.mgrid[0:112, 0:112, 0:112].astype(numpy.float32)
-        distance = numpy.sqrt((x - 20)**2 + (y - 56)**2 + (z - 56)**2) - 12
-        levels = []
-        for rods in (0, 5):
-            for i in range(rods):
-                rod = numpy.sqrt((y - 20 - 18 * i)**2 + (z - 56)**2) - 1.5
-                distance = numpy.minimum(distance, numpy.maximum(rod, numpy.abs(x - 60) - 40))
-            image = testing.make_image(numpy.clip(50 - 50 * distance, 0, 100), name="density")
-            surface = testing.fetch(simple.VolumetoSurface(testing.produce(image), IsoValue=50.0,
-                                                           Preview=1))
-            levels.append(testing.field(surface, "Level"))
-            self.assertLessEqual(testing.field(surface, "MissingBoundary"), 0.05)
-        self.assertEqual(levels, [1, 0])
-
-    def test_a_box_of_a_turned_volume(self):
-        image = testing.make_image(ball_values(), spacing=(1, 2, 3), origin=(5, 6, 7),
-                                   name="density")
-        image.SetDirectionMatrix(0, -1, 0, 1, 0, 0, 0, 0, 1)
-        source = testing.produce(image)
-        whole = testing.fetch(simple.VolumetoSurface(source, IsoValue=120.0))
-        box = simple.ExtractSubset(source, VOI=[3, 28, 3, 28, 3, 28])
-        numpy.testing.assert_allclose(
-            testing.fetch(simple.VolumetoSurface(box, IsoValue=120.0)).GetBounds(),
-            whole.GetBounds(), atol=0.3)
-
-    def test_pyramid_inside(self):
-        filter_ = simple.VolumetoSurface(self.ball, NumberOfLevels=2, FinestLevel=1)
-        self.assertEqual(testing.field(testing.fetch(filter_), "Level"), 1)
-        self.assertEqual(testing.fetch(filter_, LEVELS).GetNumberOfBlocks(), 2)
-
     def test_goes_on_from_the_last_level(self):
         """By ParaView's own way of setting properties and updating."""
         filter_ = simple.VolumetoSurface(self.ball, FinestLevel=2)
@@ -204,43 +170,6 @@ class VolumeToSurfaceTest(testing.PluginTestCase):
         filter_.UpdatePipeline()
         self.assertEqual(set(display.SeriesVisibility), FOUR_CURVES)
 
-    def test_trace(self):
-        source = simple.Wavelet(registrationName="TracedWavelet")
-        source.UpdatePipeline()
-        config = smtrace.start_trace()
-        config.SetFullyTraceSupplementalProxies(False)
-        filter_ = simple.VolumetoSurface(registrationName="Traced", Input=source, FinestLevel=1)
-        filter_.UpdatePipeline()
-        iso, wanted = filter_.IsoValue, points(testing.fetch(filter_)).tobytes()
-        text = smtrace.stop_trace()
-        self.assertIn("VolumetoSurface(", text)
-        self.assertRegex(text, "FinestLevel ?= ?1")
-        self.assertIn("IsoValue", text)
-        simple.Delete(filter_)
-        played = {}
-        exec(compile(text, "trace", "exec"), played)
-        again = simple.FindSource("Traced")
-        self.assertIsNotNone(again, text)
-        self.assertAlmostEqual(again.IsoValue, iso, places=9)
-        self.assertEqual(points(testing.fetch(again)).tobytes(), wanted)
-
-    def test_state(self):
-        source = simple.Wavelet(registrationName="SavedWavelet")
-        source.UpdatePipeline()
-        filter_ = simple.VolumetoSurface(
-            source, registrationName="Saved", IsoValue=140.0, SnapshotInterval=25)
-        wanted = points(testing.fetch(filter_)).tobytes()
-        # Python states: see states_test.py.
-        path = testing.output_path("volume-to-surface.pvsm")
-        simple.SaveState(path)
-        simple.Delete(simple.FindSource("Saved"))
-        simple.Delete(simple.FindSource("SavedWavelet"))
-        simple.LoadState(path)
-        again = simple.FindSource("Saved")
-        self.assertEqual(again.IsoValue, 140.0)
-        self.assertEqual(again.SnapshotInterval, 25)
-        self.assertEqual(points(testing.fetch(again)).tobytes(), wanted)
-
     def check_abort_and_the_next_apply(self, abort):
         filter_ = simple.VolumetoSurface(self.ball)
         algorithm = filter_.GetClientSideObject()
@@ -252,9 +181,6 @@ class VolumeToSurfaceTest(testing.PluginTestCase):
         # Nobody takes the request back; any change and Apply will do.
         filter_.Friction = 2.9
         self.check_ball(testing.fetch(filter_))
-
-    def test_abort_and_the_next_apply(self):
-        self.check_abort_and_the_next_apply(lambda algorithm: algorithm.SetAbortExecute(1))
 
     def test_abort_by_the_button_of_newer_paraviews(self):
         self.check_abort_and_the_next_apply(
