@@ -187,10 +187,6 @@ class FilesTest(DamageTest):
         content = self.bytes_of(vtkMINCImageWriter(), "a.mnc")
         self.cut("a.mnc", content, "cut off: it has [0-9]+ bytes of voxels|cut off", (0.5, -10, 90))
 
-    def test_pages_of_a_picture(self):
-        content = self.bytes_of(vtkTIFFWriter(), "a.tif", make_image(noisy_ball("u2")))
-        self.cut("a.tif", content, "cut off", rests=(0.3, 0.5, 0.9, -200))
-
     def test_pages_in_a_ring(self):
         content = bytearray(self.bytes_of(vtkTIFFWriter(), "a.tif",
                                          make_image(noisy_ball("u2")[:1])))

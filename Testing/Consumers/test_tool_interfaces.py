@@ -107,16 +107,6 @@ class OneMeshTest(InterfacesTest):
                                    1, places=5)
             self.assertGreater(enclosed(points_of(mesh), own), 0)
 
-    def test_names_and_colours(self):
-        self.make(sectors(), "a.vtp", options=["--shared-interfaces"])
-        fields = read(self.path("a.vtp")).GetFieldData()
-        self.assertEqual(list(vtk_to_numpy(fields.GetArray("Label"))), [1, 2, 4, 9])
-        names = fields.GetAbstractArray("LabelName")
-        self.assertEqual([names.GetValue(i) for i in range(4)], list(NAMES.values()))
-        self.assertEqual(vtk_to_numpy(fields.GetArray("LabelColor")).shape, (4, 3))
-        voxels = vtk_to_numpy(fields.GetArray("LabelVoxels"))
-        self.assertEqual(list(voxels), [(sectors() == label).sum() for label in NAMES])
-
     def test_merged(self):
         for options in ((), ("--shared-interfaces",)):
             self.make(sectors(), "a.vtp", "a.smesh", options=["--merge", *options])
@@ -144,16 +134,6 @@ class OneMeshTest(InterfacesTest):
         report = self.report(volume, self.path("o/"), "--labels", "1,2", "--format", "msh")
         self.assertEqual(report["properties"]["SharedInterfaces"], "off")
         self.assertEqual(sorted(os.listdir(self.path("o"))), ["label-1.msh", "label-2.msh"])
-
-    def test_a_tolerance_makes_fewer_triangles(self):
-        volume = self.map_of(sectors())
-        self.run_tool(volume, self.path("a.vtp"), "--labels", "all", "--shared-interfaces")
-        self.run_tool(volume, self.path("b.vtp"), "--labels", "all", "--shared-interfaces",
-                      "--tolerance", "0.3")
-        even, graded = read(self.path("a.vtp")), read(self.path("b.vtp"))
-        self.assertLess(graded.GetNumberOfPolys(), .8 * even.GetNumberOfPolys())
-        self.assertFalse(even.GetPointData().HasArray("EdgeSize"))
-        self.assertTrue(graded.GetPointData().HasArray("EdgeSize"))
 
     def test_what_does_not_go_with_it(self):
         for options in (("--gap", "1"), ("--thin-parts",)):
@@ -319,20 +299,6 @@ class TetgenTest(InterfacesTest):
                     self.assertAlmostEqual(angle, 0, places=3)
             self.assertEqual(len(holes), 1)
             self.assertEqual(set(marks), set(range(1, 1 + sum("facets" in n for n in names))))
-
-    def test_marks_tell_both_labels(self):
-        self.make(sectors(), "a.smesh", "a.vtp")
-        names, points, triangles, marks, _, _ = self.parts("a.smesh")
-        mesh = read(self.path("a.vtp"))
-        np.testing.assert_array_equal(points, points_of(mesh))
-        sides = vtk_to_numpy(mesh.GetCellData().GetArray("BoundaryLabels"))
-        sides = sides[mesh.GetNumberOfLines():]
-        np.testing.assert_array_equal(np.sort(triangles), np.sort(triangles_of(mesh)))
-        known = {**{name.strip(): label for label, name in NAMES.items()}, "outside": 0,
-                 "a 'b'": 4, "x" * 25 + " ... " + "x" * 25: 9}
-        for pair, mark in zip(sides.tolist(), marks):
-            told = names[f"facets {mark}"].split("_to_")
-            self.assertEqual({known[name] for name in told}, set(pair))
 
     def test_a_hollow_surface(self):
         z, y, x = np.indices((30, 30, 30)) - 14.5

@@ -209,22 +209,6 @@ class DamageTest(NamesTest):
                 self.refused(reason, self.map_file(), self.path("o/"), "--labels", "1",
                              "--label-names", self.path(name))
 
-    def test_every_cut_of_a_file_is_answered(self):
-        text = json.dumps({"labels": [{"label": 1, "name": "a\u00e9\\", "color": [1, 0, 0]}]})
-        volume = self.map_file()
-        for end in range(len(text)):
-            file = self.write_bytes("n.json", text[:end].encode())
-            process = self.run_tool(volume, "--write-volume", self.path("o.vti"), "--label-names",
-                                    file, status=1)
-            self.assertRegex(process.stderr, "n.json: names of labels cannot be read: ")
-        bytes_of = np.random.default_rng(4)
-        for _ in range(40):
-            damaged = bytearray(text.encode())
-            damaged[bytes_of.integers(len(damaged))] = bytes_of.integers(1, 256)
-            process = self.run_tool(volume, "--write-volume", self.path("o.vti"), "--label-names",
-                                    self.write_bytes("n.json", bytes(damaged)), status=None)
-            self.assertIn(process.returncode, (0, 1), damaged)
-
 
 class BesideTest(NamesTest):
     def test_usual_names(self):
@@ -262,12 +246,6 @@ class BesideTest(NamesTest):
         self.run_tool(self.map_file(), self.path("o/"), "--labels", "liver")
         process = self.run_tool(self.map_file(), "--write-volume", self.path("v.vti"))
         self.assertNotIn("map.json", process.stderr)
-
-    def test_not_for_volumes_that_are_no_labels(self):
-        self.write_bytes("map.txt", b"3 liver\n")
-        image = make_image(label_voxels().astype("f4"))
-        volume = self.write(vtkXMLImageDataWriter(), "map.vti", image)
-        self.assertEqual(self.names_of(volume), ({}, {}))
 
 
 def labelled_nifti(table):
@@ -319,11 +297,6 @@ class SegmentsTest(NamesTest):
         names, colors = self.names_of(self.nrrd(label_voxels(), *SEGMENTS), "--label-names", mine)
         self.assertEqual(names, {3: "mine", 1: "Left lung", 4: "more"})
         self.assertEqual(colors, {})
-
-    def test_those_beside_are_not_asked(self):
-        self.write_bytes("map.seg.txt", b"3 beside\n")
-        self.assertEqual(self.names_of(self.nrrd(label_voxels(), *SEGMENTS))[0][3], "liver")
-        self.assertEqual(self.names_of(self.nrrd(label_voxels()))[0], {3: "beside"})
 
     def layers(self):
         first = label_voxels()
@@ -379,12 +352,6 @@ class SegmentsTest(NamesTest):
         self.assertEqual([(row["name"], row["layer"], row["label"]) for row in report["labels"]],
                          [("one", 0, 1), ("two", 1, 1)])
         self.assertEqual(sorted(os.listdir(self.path("o"))), ["one.vtp", "two.vtp"])
-
-    def test_layers_with_a_limit_of_memory(self):
-        self.run_tool(self.layer_file(), self.path("a/"), "--labels", "all")
-        self.run_tool(self.layer_file(), self.path("b/"), "--labels", "all", "--memory", "900M")
-        for name in os.listdir(self.path("a")):
-            self.assertEqual(self.content("a/" + name), self.content("b/" + name))
 
     def test_layers_without_names(self):
         self.refused("2 components; choose the one that is a label with --component",

@@ -125,19 +125,6 @@ class GlbTest(ScenesTest):
             # z upwards is y of glTF, and y is -z.
             np.testing.assert_allclose((x0, x1, -z1, -z0, y0, y1), self.bounds_of(label), atol=.75)
 
-    def test_merged(self):
-        self.run_tool(self.map_file(), self.path("a.glb"), self.path("a.vtp"), "--labels", "1,2",
-                      "--merge", "--label-names", self.colored_names())
-        scene = self.scene("a.glb")
-        (name, (node, mesh)), = scene.nodes().items()
-        self.assertEqual((name, node["extras"]["labels"]), ("Labels 1, 2", [1, 2]))
-        surface = read(self.path("a.vtp"))
-        labels = vtk_to_numpy(surface.GetCellData().GetArray("Label"))
-        for (points, _, triangles, material), label in zip(scene.parts(mesh), (1, 2), strict=True):
-            self.assertEqual(material["name"], NAMES[label])
-            np.testing.assert_allclose(points, points_of(surface), atol=2e-6)
-            np.testing.assert_array_equal(triangles, triangles_of(surface)[labels == label])
-
     def test_names(self):
         names = {1: "same", 2: "same", 7: 'a/"b"\\\u00e9\u809d', -3: ""}
         file = self.write_bytes("n.json", json.dumps(names).encode())
@@ -176,19 +163,6 @@ class PlyTest(ScenesTest):
             same = read(self.path(f"p/{file}.vtp"))
             np.testing.assert_array_equal(points_of(surface), points_of(same).astype("f4"))
             np.testing.assert_array_equal(triangles_of(surface), triangles_of(same))
-
-    def test_merged(self):
-        self.run_tool(self.map_file(), self.path("a.ply"), self.path("a.vtp"), "--labels", "1,2",
-                      "--merge", "--label-names", self.colored_names())
-        surface = read(self.path("a.ply"))
-        colors = vtk_to_numpy(surface.GetPointData().GetArray("RGB"))
-        same = read(self.path("a.vtp"))
-        labels = vtk_to_numpy(same.GetCellData().GetArray("Label"))
-        triangles = triangles_of(same)
-        for point, color in enumerate(colors):
-            about = labels[(triangles == point).any(1)]
-            self.assertEqual(tuple(color), COLORS[about[0]])
-        self.assertEqual(len(np.unique(colors, axis=0)), 2)
 
 
 if __name__ == "__main__":

@@ -144,12 +144,6 @@ class OutputsTest(LabelsTest):
                      "1")
         self.no_surfaces("there is no label '9'", self.map_file(), "--labels", "9")
 
-    def test_one_file_that_fails_does_not_take_the_others(self):
-        os.makedirs(self.path("out/label-2.vtp/in"))
-        process = self.run_tool(self.map_file(), self.path("out/"), "--labels", "1,2", status=1)
-        self.assertIn("label-2.vtp: cannot be written: it is a folder", process.stderr)
-        self.assertFalse(os.path.exists(self.path("out/label-1.vtp")), "told before the work")
-
 
 class ChoiceTest(LabelsTest):
     def chosen(self, *arguments, volume=None):
@@ -246,15 +240,6 @@ class WhatIsReadTest(LabelsTest):
             bounds = read(self.path(f"{path}/label-7.vtp")).GetBounds()
             expected = np.ravel(list(zip(world.min(0), world.max(0)))) + np.repeat(ORIGIN, 2)
             np.testing.assert_allclose(bounds, expected, atol=1.5)
-
-    def test_a_limit_of_memory_changes_nothing(self):
-        volume = self.map_file()
-        self.run_tool(volume, self.path("a/"), "--labels", "all")
-        self.run_tool(volume, self.path("b/"), "--labels", "all", "--memory", "500M", "--scratch",
-                      self.folder, "--threads", "1")
-        for label in BLOBS:
-            self.assertEqual(self.content(f"a/label-{label}.vtp"),
-                             self.content(f"b/label-{label}.vtp"))
 
 
 class OptionsTest(LabelsTest):
@@ -373,14 +358,6 @@ class RunTest(LabelsTest):
         self.assertNotIn("looks like", process.stderr)
         process = self.run_tool(self.ball_file(), self.path("a.stl"), "--iso", ISO)
         self.assertNotIn("looks like", process.stderr)
-
-    def test_progress_and_quiet(self):
-        volume = self.map_file()
-        process = self.run_tool(volume, self.path("o/"), "--labels", "all", "--progress")
-        self.assertRegex(process.stderr, r"(?m)^Making surfaces: +\d+ % .*\d of 4")
-        self.assertRegex(process.stderr, "map.vti: 28 x 28 x 18 voxels, short, 4 labels\n")
-        self.assertRegex(process.stderr, r"volumic: 4 surfaces, \d+ vertices")
-        self.assertEqual(self.run_tool(volume, self.path("o/"), "--labels", "all", "-q").stderr, "")
 
     def test_interrupt_keeps_what_is_finished(self):
         # Some of 64; fields were the first 10 %.

@@ -9,7 +9,6 @@ import random
 import shutil
 import stat
 import subprocess
-import tempfile
 import time
 import unittest
 from xml.etree import ElementTree
@@ -74,13 +73,6 @@ class FullDiskTest(OutputsTest):
             for limit in (whole - 100, whole // 2) if not name.endswith("vtm") else (1000,):
                 with self.subTest(name, limit=limit):
                     self.old_survives_limit(name, limit, option, self.path(name))
-
-    def test_other_outputs_are_written_all_the_same(self):
-        process = self.segment(self.path("a.obj"), "--history", self.path("h.csv"), "--report",
-                               self.path("r.json"), status=1, preexec_fn=largest_file(20000))
-        self.assertRegex(process.stderr, r"^volumic: \S*a.obj: cannot be written[^\n]*\n$")
-        self.assertFalse(os.path.exists(self.path("a.obj")))
-        self.without_rests("h.csv", "r.json")
 
     @unittest.skipUnless(os.path.exists("/dev/full"), "no /dev/full")
     def test_devices(self):
@@ -399,20 +391,6 @@ class WrittenTest(OutputsTest):
         if os.geteuid() == 0:
             facts = os.stat(self.path("old.stl"))
             self.assertEqual((facts.st_uid, facts.st_gid), (1234, 4321))
-
-    def test_names_with_blanks_relative_ones_and_other_disks(self):
-        with tempfile.TemporaryDirectory(dir="/dev/shm" if os.path.isdir("/dev/shm") else None) \
-                as other:
-            self.segment("my surface.stl", "sub folder/../b.stl", os.path.join(other, "c.stl"),
-                         "--levels-output", "the levels.vtm", cwd=self.make("sub folder"))
-            self.assertEqual(os.listdir(other), ["c.stl"])
-        self.without_rests("my surface.stl", "b.stl", "the levels.vtm")
-        self.assertIn(b"the levels/the levels_0", self.content("the levels.vtm"))
-        self.assertEqual(len(os.listdir(self.path("the levels"))), 2)
-
-    def make(self, name):
-        os.mkdir(self.path(name))
-        return self.folder
 
     def test_a_pipe_gets_the_whole_file(self):
         os.mkfifo(self.path("pipe.stl"))

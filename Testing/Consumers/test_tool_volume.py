@@ -11,7 +11,7 @@ from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 
 from limited_files import largest_file
 from tool_test_case import (
-    ISO, ORIGIN, SIZE, SPACING, TURNED, ToolTestCase, ball, dicom_slice, make_image, nrrd_header)
+    ORIGIN, SIZE, SPACING, TURNED, ToolTestCase, ball, dicom_slice, make_image, nrrd_header)
 
 from vtk_files import read
 
@@ -52,13 +52,6 @@ class WrittenVolumeTest(ToolTestCase):
         self.assertEqual(written.GetPointData().GetScalars().GetName(), "other")
         self.assertTrue(written.GetPointData().HasArray("density"))
         self.assertEqual(written.GetSpacing(), (1, 2, 3))
-
-    def test_with_a_surface_too(self):
-        surfaces = [self.path("a.ply"), self.path("b.ply")]
-        self.run_tool(self.nrrd(), surfaces[0], "--iso", ISO,
-                      "--write-volume", self.path("written.vti"))
-        self.run_tool(self.path("written.vti"), surfaces[1], "--iso", ISO)
-        self.assertEqual(self.content("a.ply"), self.content("b.ply"))
 
     def test_what_cannot_be_written(self):
         volume = self.ball_file()

@@ -138,32 +138,6 @@ class RemoteServerTest(unittest.TestCase):
         self.assertEqual(tuple(values[:2]), source.PointData["RTData"].GetRange())
         self.assertEqual(sum(values[2:]), 21 ** 3)
 
-    def test_goes_on_after_a_stop(self):
-        def seconds_of_rows():
-            history = testing.fetch(filter_, 2)
-            return [(history.GetValueByName(row, "Level").ToInt(),
-                     history.GetValueByName(row, "Seconds").ToDouble())
-                    for row in range(history.GetNumberOfRows())]
-        # Until a level rests and the next one is under way, however fast the machine is. What a
-        # run that came to its end has found would stay, so each one has a filter of its own.
-        limit = 1e-9
-        before, reason = [], ""
-        while len(set(level for level, _ in before)) < 2 or reason != "time limit":
-            filter_ = wavelet_to_surface()
-            filter_.TimeLimit = limit
-            before = seconds_of_rows()
-            reason = testing.field(testing.fetch(filter_), "StopReason")
-            limit = 1.2 * max(limit, 1e-3) if reason == "time limit" else limit / 3
-        level = min(before)[0]
-        filter_.SMProxy.InvokeCommand("GoOn")
-        after = seconds_of_rows()
-        at_rest = [row for row in before if row[0] > level]
-        self.assertGreater(len(at_rest), 0)
-        self.assertEqual(after[:len(at_rest)], at_rest, "these levels were not made again")
-        self.assertNotEqual(after, before, "this one was")
-        filter_.TimeLimit = 0
-        self.assertEqual(points(testing.fetch(filter_)), points(self.local_outputs[0]))
-
     def test_same_labels_as_without_a_server(self):
         filter_ = labels_to_surfaces(self.label_map)
         self.assertIsNone(filter_.GetClientSideObject(), "the filter runs on the server")

@@ -3,9 +3,7 @@
 """The scripts keep an older file until the new one is whole, and never replace what they read."""
 
 import os
-import signal
 import stat
-import subprocess
 import sys
 import unittest
 
@@ -38,18 +36,6 @@ class BesideTest(OutputFilesTest):
                 raise KeyError
         self.assertEqual(self.content("a.stl"), OLD)
         self.without_rests()
-
-    def test_so_does_a_kill(self):
-        path = self.write_bytes("a.stl", OLD)
-        code = (f"import sys, time; sys.path.insert(0, {EXAMPLES!r});"
-                "from output_files import beside\n"
-                f"with beside({path!r}) as written, open(written, 'wb', buffering=0) as file:\n"
-                "    file.write(b'half'); print('half', flush=True); time.sleep(60)")
-        with subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE) as process:
-            process.stdout.readline()
-            self.assertEqual(self.content("a.stl"), OLD)
-            process.send_signal(signal.SIGKILL)
-        self.assertEqual(self.content("a.stl"), OLD)
 
     def test_links_and_permissions(self):
         os.mkdir(self.path("there"))

@@ -7,9 +7,6 @@ import sys
 import unittest
 
 import numpy as np
-from vtkmodules.util.numpy_support import numpy_to_vtk
-from vtkmodules.vtkCommonDataModel import vtkImageData
-from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 
 from examples_path import EXAMPLES
 from folder_test_case import FolderTestCase, run_on_terminal
@@ -72,17 +69,6 @@ class OutputsTest(LabelsTest):
         self.segment("one.stl", "--labels", "1")
         self.assertAlmostEqual(x[1] - read(self.path("one.stl")).GetBounds()[1], 14, 0)
 
-    def test_cells(self):
-        voxels = label_voxels()
-        image = vtkImageData()
-        image.SetDimensions(np.array(voxels.shape[::-1]) + 1)
-        array = numpy_to_vtk(voxels.ravel(), deep=True)
-        array.SetName("segments")
-        image.GetCellData().SetScalars(array)
-        file = self.write(vtkXMLImageDataWriter(), "cells.vti", image)
-        self.segment("c/", "--labels", "2", volume=file)
-        self.assertEqual(os.listdir(self.path("c")), ["label-2.vtp"])
-
     def test_names_as_the_command_reads_them(self):
         fields = read_labels(self.map, self.names).GetFieldData()
         self.assertEqual(fields.GetAbstractArray("LabelNames").GetValue(1), "Left lung")
@@ -103,11 +89,6 @@ class ChoiceTest(unittest.TestCase):
             with self.subTest(text):
                 self.assertEqual(choose_labels(text, self.names), labels)
         self.assertEqual(choose_labels("all", self.names, background=1), [-3, 0, 2, 7])
-
-    def test_what_is_not_there(self):
-        for text in ("9", "kidney", "10-20", "1,kidney", "", "k*"):
-            with self.assertRaisesRegex(ValueError, "there is no label '[^,]*'; there are -3 Label"):
-                choose_labels(text, self.names)
 
     def test_names_of_files(self):
         names = {1: "../Up", 2: "up", 3: "..", 4: "C:\\con?* \u00e9", 5: "x" * 300}
