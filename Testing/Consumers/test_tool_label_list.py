@@ -2,15 +2,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """`volumic --list-labels`: the labels of a volume as a table and as JSON, and no surfaces."""
 
-import json
-import os
-import subprocess
 import unittest
 
 import numpy as np
 
 from test_tool_labels import BLOBS, NAMES, SPACING, LabelsTest, label_image, label_voxels
-from tool_test_case import PROGRAM, make_image
+from tool_test_case import make_image
 
 
 def box_of(voxels, label):
@@ -112,20 +109,6 @@ class ListTest(LabelsTest):
             with self.subTest(reason):
                 self.refused(reason, "a.vti", "--list-labels", *arguments, status=2)
         self.refused("no volume is given", "--list-labels", status=2)
-
-    def test_reports_that_cannot_be_written(self):
-        volume = self.map_file()
-        self.refused("there is no folder .*none", volume, "--list-labels", "--report",
-                     self.path("none/r.json"))
-        self.refused("it is the input", volume, "--list-labels", "--report", volume)
-        if os.path.exists("/dev/full"):
-            self.refused("/dev/full: cannot be written", volume, "--list-labels", "--report",
-                         "/dev/full")
-            with open("/dev/full", "w", encoding="utf-8") as full:
-                process = subprocess.run([PROGRAM, volume, "--list-labels"], stdout=full,
-                                         stderr=subprocess.PIPE, text=True, check=False)
-            self.assertEqual(process.returncode, 1)
-            self.assertIn("the standard output cannot be written", process.stderr)
 
 
 if __name__ == "__main__":

@@ -7,7 +7,6 @@ import csv
 import json
 import os
 import re
-import resource
 import shutil
 import subprocess
 import unittest
@@ -17,8 +16,7 @@ from vtkmodules.vtkCommonExecutionModel import (
     vtkImageAlgorithm, vtkMultiBlockDataSetAlgorithm, vtkPolyDataAlgorithm)
 from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 
-from tool_test_case import (
-    CENTRE, ISO, MANUAL, ORIGIN, PROGRAM, SPACING, ToolTestCase, ball, make_image)
+from tool_test_case import CENTRE, ISO, MANUAL, ORIGIN, SPACING, ToolTestCase, ball, make_image
 from volumic import vtkDeformableSurface, vtkImagePyramid, vtkLabelsToSurfaces
 from vtk_files import read
 
@@ -220,26 +218,6 @@ class RunTest(ToolTestCase):
         self.write_bytes("bad.txt", b"x y z\n1 2 3\n1 2\n")
         self.refused("bad.txt, line 3: not three numbers", self.ball_file(), self.path("a.stl"),
                      "--seeds", self.path("bad.txt"))
-
-    def test_a_limit_of_memory_is_answered_in_words(self):
-        """Also with VTK's backend STDThread, which ends the program where it gets no thread."""
-        volume = self.ball_file()
-        environment = {**os.environ, "VTK_SMP_BACKEND_IN_USE": "STDThread",
-                       "VTK_SMP_MAX_THREADS": "4"}
-        ended = []
-        for megabytes in range(100, 340, 24):  # newer versions of VTK are larger
-            limit = (megabytes << 20, megabytes << 20)
-            options = {"capture_output": True, "text": True, "timeout": 120, "env": environment,
-                       "preexec_fn": lambda limit=limit: resource.setrlimit(
-                           resource.RLIMIT_AS, limit)}
-            if subprocess.run([PROGRAM, "--version"], check=False, **options).returncode != 0:
-                continue  # VTK's libraries alone are too large
-            process = subprocess.run(
-                [PROGRAM, volume, "--iso", str(ISO), "--threads", "4", self.path("limit.stl")],
-                check=False, **options)
-            self.assertGreaterEqual(process.returncode, 0, f"{megabytes} MB: {process.stderr}")
-            ended.append(process.returncode)
-        self.assertTrue(set(ended) & {0, 1}, "the program never ran: other limits are needed")
 
     def test_attracting_points(self):
         """A point of weight 1 makes a ball of its radius part of the object."""

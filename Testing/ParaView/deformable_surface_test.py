@@ -82,16 +82,6 @@ class DeformableSurfaceTest(testing.PluginTestCase):
         self.assertTrue((numpy.diff(column["Level"]) <= 0).all(), "from coarse to fine")
         self.assertEqual(column["Vertices"][-1], surface.GetNumberOfPoints())
 
-    def test_after_image_pyramid(self):
-        pyramid = simple.ImagePyramid(self.ball)
-        filter_ = surface_of(pyramid, IsoValue=0.0)
-        self.assertEqual(filter_.Voxels[1], "v")
-        self.check_ball(testing.fetch(filter_), 0.2)
-        # The filter builds the same pyramid for an image.
-        numpy.testing.assert_array_equal(
-            points(testing.fetch(filter_)),
-            points(testing.fetch(surface_of(self.ball, IsoValue=0.0))))
-
     def test_initial_surface(self):
         sphere = simple.Sphere(Center=CENTRE, Radius=15.0, ThetaResolution=16, PhiResolution=16)
         surface = testing.fetch(surface_of(self.ball, IsoValue=0.0, InitialSurface=sphere,

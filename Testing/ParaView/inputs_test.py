@@ -115,17 +115,6 @@ class InputsTest(testing.PluginTestCase):
         self.assertEqual(filter_.SMProxy.GetProperty("Input").GetNumberOfProxies(), 1)
         self.assertGreater(len(heard), 0)
 
-    def test_input_that_comes_later(self):
-        source = simple.Wavelet()
-        for name in SURFACES:
-            with self.subTest(filter=name):
-                simple.SetActiveSource(None)
-                with testing.CapturedMessages():  # There is no input yet.
-                    filter_ = getattr(simple, name)()
-                filter_.Input = source
-                self.assertEqual(list(filter_.Voxels), ["POINTS", "RTData"])
-                self.assertGreater(testing.fetch(filter_).GetNumberOfPoints(), 500)
-
     def test_iso_value_follows_until_it_is_given(self):
         first = testing.produce(image(density=ball()))
         second = testing.produce(image(other=ball(1000, 2000), density=ball(0, 10)))

@@ -13,7 +13,6 @@ import gui_session as gui
 import plugin_testing as testing
 import window_testing as window
 import x_input
-from paraview import simple
 from window_testing import (
     APPLY, PROPERTIES, SHOW_ADVANCED, choose, edit, filter_of_the_menu, opened)
 
@@ -187,28 +186,3 @@ class PointsWindowTest(window.WindowTestCase):
         self.assertEqual(list(filter_.AttractingPositions), [30.0, 20.0, 20.0])
         # A ball of its own about the point between the two.
         self.assertEqual(testing.field(surface, "NumberOfComponents"), 3)
-
-
-class PointsInScriptsTest(unittest.TestCase):
-    def test_python_sets_them_and_states_keep_them(self):
-        testing.load_plugin()
-        volume = simple.XMLImageDataReader(FileName=[two_balls()])
-        filter_ = simple.VolumetoSurface(registrationName="points", Input=volume, IsoValue=50,
-                                         Recovery="Off", Initialization="Seeds",
-                                         SeedPositions=[14, 20, 20])
-        self.assertLess(testing.fetch(filter_).GetBounds()[1], 30.0)
-        filter_.SeedPositions = [46, 20, 20, 14, 20, 20]
-        self.assertGreater(testing.fetch(filter_).GetBounds()[1], 30.0)
-        # None again; and a ball of its own about a point between the two.
-        filter_.SeedPositions = []
-        filter_.Initialization = "Enclosing Icosahedron"
-        filter_.Recovery = "Objects"
-        filter_.AttractingPositions = [30, 20, 20]
-        self.assertEqual(testing.field(testing.fetch(filter_), "NumberOfComponents"), 3)
-        self.assertEqual(list(filter_.SeedPositions), [])
-        filter_.SeedPositions = [46, 20, 20, 0.1, 20, 20]
-        path = testing.output_path("points-script.pvsm")
-        simple.SaveState(path)
-        again = window.open_state(path, "points")
-        self.assertEqual(list(again.SeedPositions), [46, 20, 20, 0.1, 20, 20])
-        self.assertEqual(list(again.AttractingPositions), [30, 20, 20])

@@ -192,13 +192,3 @@ class ProxyDefaultsTest(unittest.TestCase):
             proxy.UpdateVTKObjects()
             found = [object_.GetLabelName(label) or "" for label in (3, -1)]
             self.assertEqual(found, given[1::2] or ["", ""])
-
-    def test_every_property_is_documented(self):
-        for group, element in self.elements:
-            for name, property_ in properties_of(self.new_proxy(group, element.get("name"))):
-                if property_.GetCommand():
-                    with self.subTest(proxy=element.get("name"), property=name):
-                        text = property_.GetDocumentation().GetDescription().strip()
-                        self.assertGreater(len(text), 10)
-                        self.assertTrue(text.endswith("."))
-                        self.assertTrue(property_.GetXMLLabel())

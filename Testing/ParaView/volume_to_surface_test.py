@@ -28,17 +28,6 @@ def ball_of_cells():
     return image
 
 
-def levels_told_by(algorithm):
-    """The levels that iterate from now on, and the observer that tells of them."""
-    levels = set()
-
-    def progress(caller, _):
-        words = (caller.GetProgressText() or "").split()
-        if "iteration" in words:
-            levels.add(int(words[1].strip(",")))
-    return levels, algorithm.AddObserver("ProgressEvent", progress)
-
-
 class VolumeToSurfaceTest(testing.PluginTestCase):
     @classmethod
     def setUpClass(cls):
@@ -59,20 +48,6 @@ class VolumeToSurfaceTest(testing.PluginTestCase):
         self.assertNotAlmostEqual(filter_.IsoValue, (low + high) / 2, places=3)
         self.check_ball(testing.fetch(filter_))
 
-    def test_iso_value_is_reset_to_the_data(self):
-        values = ball_values()
-        image = testing.make_image(values, name="density")
-        testing.add_array(image, values * 10 - 7, "other")
-        filter_ = simple.VolumetoSurface(testing.produce(image))
-        self.assertEqual(filter_.Voxels[1], "density")
-        preset = filter_.IsoValue
-        filter_.IsoValue = 99.0
-        filter_.Voxels = ["POINTS", "other"]
-        self.assertEqual(filter_.IsoValue, 99.0)
-        testing.reset_iso_value(filter_)
-        self.assertAlmostEqual(filter_.IsoValue, preset * 10 - 7, delta=0.01)
-        self.check_ball(testing.fetch(filter_))
-
     def test_voxels_in_cells(self):
         of_cells = simple.VolumetoSurface(testing.produce(ball_of_cells()))
         self.assertEqual(list(of_cells.Voxels), ["CELLS", "density"])
@@ -90,53 +65,6 @@ class VolumeToSurfaceTest(testing.PluginTestCase):
         self.assertIn("ranges from 4 to 4", messages.text)
         self.assertIn("Iso Value is 4, outside the range", messages.text)
         self.assertEqual(surface.GetNumberOfPoints(), 0)
-
-    def test_goes_on_from_the_last_level(self):
-        """By ParaView's own way of setting properties and updating."""
-        filter_ = simple.VolumetoSurface(self.ball, FinestLevel=2)
-        algorithm = filter_.GetClientSideObject()
-        self.assertEqual(testing.field(testing.fetch(filter_), "Level"), 2)
-        levels, _ = levels_told_by(algorithm)
-        filter_.FinestLevel = 0
-        finest = testing.fetch(filter_)
-        self.assertEqual(testing.field(finest, "Level"), 0)
-        self.assertEqual(levels, {0, 1}, "not anew")
-        fresh = testing.fetch(simple.VolumetoSurface(self.ball))
-        self.assertEqual(points(finest).tobytes(), points(fresh).tobytes())
-        levels.clear()
-        algorithm.SetProgressText("")
-        filter_.FinestLevel = 1
-        self.assertEqual(testing.field(testing.fetch(filter_), "Level"), 1)
-        self.assertEqual(levels, set(), "at once")
-        filter_.IsoValue = filter_.IsoValue * 0.9
-        testing.fetch(filter_)
-        self.assertEqual(levels, {1, 2}, "anew")
-
-    def test_goes_on_after_a_stop(self):
-        """By the command behind Apply: from the last level at which the surface rested."""
-        filter_ = simple.VolumetoSurface(self.ball)
-        algorithm = filter_.GetClientSideObject()
-
-        def stop(caller, _):
-            caller.SetAbortExecute(int("Level 0, iteration" in (caller.GetProgressText() or "")))
-        whole = testing.fetch(simple.VolumetoSurface(self.ball))
-        for goes_on in (True, False):
-            tag = algorithm.AddObserver("ProgressEvent", stop)
-            stopped = testing.fetch(filter_)
-            self.assertEqual(testing.field(stopped, "StopReason"), "cancelled")
-            self.assertEqual(testing.field(stopped, "Level"), 0)
-            algorithm.RemoveObserver(tag)
-            filter_.SMProxy.InvokeCommand("GoOn")
-            if not goes_on:
-                filter_.Friction = 2.9
-            levels, tag = levels_told_by(algorithm)
-            surface = testing.fetch(filter_)
-            algorithm.RemoveObserver(tag)
-            self.assertEqual(levels, {0} if goes_on else {0, 1, 2})
-            self.assertEqual(testing.field(surface, "StopReason"), "converged")
-            if goes_on:
-                self.assertEqual(points(surface).tobytes(), points(whole).tobytes())
-            filter_.Friction = 3.1
 
     def test_displays_where_people_write_a_comma(self):
         """The numbers of the plugin's XML have points in every country."""

@@ -87,14 +87,6 @@ class OutputsTest(SurfaceTest):
         outward = (points - (SIZE - 1) / 2) / radii[:, None]
         self.assertGreater((normals * outward).sum(axis=1).min(), 0.8)
 
-    def test_progress_tells_level_and_iteration(self):
-        shares = [share for share, _ in self.progress]
-        self.assertEqual(shares, sorted(shares))
-        self.assertEqual(shares[-1], 1.0)
-        texts = " ".join(text or "" for _, text in self.progress).lower()
-        for words in ("level 2", "level 0", "iteration 5"):
-            self.assertTrue(words in texts, words)
-
 
 class UseTest(SurfaceTest):
     def test_help_explains_every_property(self):
@@ -128,17 +120,6 @@ class UseTest(SurfaceTest):
         self.surface.AddSeedPosition(-50, 0, 0)
         self.surface.Update()
         self.assertIn("Seed Positions: point 1 (-50, 0, 0) lies outside", self.errors[0])
-
-    def test_cancelling_hands_over_a_surface(self):
-        def stop(filter_, _event):
-            if "level 1" in (filter_.GetProgressText() or "").lower():
-                filter_.SetAbortExecute(1)
-
-        self.surface.AddObserver("ProgressEvent", stop)
-        output = self.run_on(ball())
-        self.assertEqual(stop_reason(output), "cancelled")
-        self.assertGreater(output.GetNumberOfPolys(), 0)
-        self.assertEqual(field(output, "Level"), 1)
 
     def test_the_error_code_is_that_of_the_last_run(self):
         image = ball()
