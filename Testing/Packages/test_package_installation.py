@@ -137,7 +137,7 @@ class InstallationTest(unittest.TestCase):
         # The files that Python would write are the packages' business.
         clean.pop("PYTHONDONTWRITEBYTECODE", None)
         process = subprocess.run([str(w) for w in command], cwd=self.folder.name, check=False,
-                                 capture_output=True, text=True, timeout=120,
+                                 capture_output=True, text=True, timeout=1200,
                                  env={**clean, **environment})
         self.assertEqual(process.returncode, 0, process.stdout + process.stderr)
         return process.stdout

@@ -21,17 +21,20 @@ def free_port():
         return probe.getsockname()[1]
 
 
-def start_server(port):
-    """A pvserver that waits for a client on that port."""
-    server = subprocess.Popen(
-        [testing.program("pvserver"), f"--server-port={port}", "--force-offscreen-rendering"],
-        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, text=True,
-        preexec_fn=testing.end_with_parent)
+def start_server():
+    """A pvserver that waits for a client, and its port, unless another program was quicker there."""
     said = []
-    for line in server.stdout:
-        said.append(line)
-        if "Accepting connection" in line:
-            return server
+    for _ in range(20):
+        port = free_port()
+        server = subprocess.Popen(
+            [testing.program("pvserver"), f"--server-port={port}", "--force-offscreen-rendering"],
+            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, text=True,
+            preexec_fn=testing.end_with_parent)
+        for line in server.stdout:
+            said.append(line)
+            if "Accepting connection" in line:
+                return server, port
+        server.wait()
     raise RuntimeError("pvserver ended: " + "".join(said))
 
 
@@ -73,9 +76,8 @@ class RemoteServerTest(unittest.TestCase):
         cls.local_outputs = outputs_of(filter_)
         cls.label_map = testing.write_volume("labels-remote.vti", label_maps.image())
         cls.local_labels = testing.fetch(labels_to_surfaces(cls.label_map))
-        port = free_port()
-        cls.server = start_server(port)
-        deadline = time.monotonic() + 30
+        cls.server, port = start_server()
+        deadline = time.monotonic() + 600
         while not simple.Connect("localhost", port):
             if time.monotonic() > deadline:
                 raise RuntimeError("no connection to pvserver")

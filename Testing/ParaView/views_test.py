@@ -262,7 +262,7 @@ class UnfinishedTest(testing.PluginTestCase):
         return int(((corner[..., 0] > 110) & (corner[..., 1:].max(axis=2) < 70)).sum())
 
     def test_text(self):
-        filter_ = simple.VolumetoSurface(simple.Wavelet(WholeExtent=[-40, 40] * 3), IsoValue=150.0)
+        filter_ = simple.VolumetoSurface(simple.Wavelet(WholeExtent=[-20, 20] * 3), IsoValue=150.0)
         self.view = views.new_view("RenderView", (600, 400))
         algorithm = filter_.GetClientSideObject()
         stop = algorithm.AddObserver("ProgressEvent", lambda caller, event: caller.SetAbortExecute(

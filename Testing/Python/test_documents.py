@@ -77,7 +77,7 @@ class CodeTest(FolderTestCase):
 
     def run_here(self, *command, **options):
         run = subprocess.run(command, cwd=self.folder, capture_output=True, text=True, check=False,
-                             timeout=250, **options)
+                             timeout=1200, **options)
         self.assertEqual(run.returncode, 0, f"{shlex.join(command)}\n{run.stdout}\n{run.stderr}")
         return run
 

@@ -35,10 +35,6 @@ def field(surface, name):
     return surface.GetFieldData().GetArray(name).GetValue(0)
 
 
-def stop_reason(surface):
-    return surface.GetFieldData().GetAbstractArray("StopReason").GetValue(0)
-
-
 class SurfaceTest(unittest.TestCase):
     def setUp(self):
         self.surface = vtkDeformableSurface()
@@ -67,9 +63,6 @@ class OutputsTest(SurfaceTest):
         pyramid.SetInputData(ball())
         cls.run_once.SetInputConnection(pyramid.GetOutputPort())
         cls.run_once.SetIsoValue(ISO)
-        cls.progress = []
-        cls.run_once.AddObserver("ProgressEvent", lambda filter_, _: cls.progress.append(
-            (filter_.GetProgress(), filter_.GetProgressText())))
         cls.run_once.Update()
 
     def test_types_of_the_three_outputs(self):
