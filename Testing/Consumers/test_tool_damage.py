@@ -218,7 +218,7 @@ class FilesTest(DamageTest):
             stream.seek(len(META) + 3 + (1 << 24))
             stream.write(b"\xe8\x03" * (1 << 22))
         told = set()
-        for megabytes in (330, 280, 230):
+        for megabytes in (280, 230):
             limit = megabytes << 20
             process = self.run_tool(
                 file, self.path("a.stl"), "--iso", "500.5", "--threads", "1", "-q",

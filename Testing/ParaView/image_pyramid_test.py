@@ -52,17 +52,6 @@ class ImagePyramidTest(testing.PluginTestCase):
         sizes = [image.GetDimensions() for image in testing.levels(pyramid)]
         self.assertEqual(sizes, [(21,) * 3, (14,) * 3, (9,) * 3, (6,) * 3])
 
-    def test_array_selection(self):
-        image = testing.make_image(numpy.full((12, 12, 12), 1, numpy.int16), name="first")
-        testing.add_array(image, numpy.full((12, 12, 12), 2, numpy.uint8), "second")
-        source = testing.produce(image)
-        for name, value in (("first", 1), ("second", 2)):
-            pyramid = pyramid_of(source, Voxels=["POINTS", name], NumberOfLevels=2)
-            level = pyramid.GetBlock(1)
-            numpy.testing.assert_array_equal(testing.voxels(level, name), value)
-            self.assertEqual(level.GetPointData().GetNumberOfArrays(), 1)
-            self.assertEqual(level.GetPointData().GetScalars().GetName(), name)
-
     def check_error(self, expected, source, **properties):
         """The message that a bad input gives, and that there is no output afterwards."""
         with testing.CapturedMessages() as messages:

@@ -4,7 +4,6 @@
 sources that were never updated, types that are no image, components, NaN."""
 
 import numpy
-from paraview import servermanager
 from paraview import simple
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonDataModel import (vtkMultiBlockDataSet, vtkPartitionedDataSet,
@@ -72,30 +71,6 @@ class InputsTest(testing.PluginTestCase):
                     self.assertEqual(list(filter_.Voxels), ["POINTS", "RTData"])
                     self.assertGreater(testing.fetch(filter_).GetNumberOfPoints(), 500)
         self.assertTrue(100.0 < wanted < 200.0, wanted)
-
-    def test_output_that_is_not_there(self):
-        """Of data that could not be made ParaView has no information at all, and nobody crashes."""
-        source = simple.Wavelet()
-        source.UpdatePipeline()
-        manager = servermanager.ProxyManager().SMProxyManager
-        for name in ("LabelsToSurfaces", "VolumeToSurface", "DeformableSurface", "ImagePyramid"):
-            with self.subTest(filter=name), testing.CapturedMessages():
-                proxy = manager.NewProxy("filters", name)
-                proxy.GetProperty("Input").AddInputConnection(source.SMProxy, 7)
-                for property_ in ("Labels", "IsoValue"):
-                    if proxy.GetProperty(property_):
-                        proxy.GetProperty(property_).ResetToDomainDefaults()
-                proxy.UpdateVTKObjects()
-                if proxy.GetProperty("IsoValue"):
-                    proxy.GetProperty("Input").SetInputConnection(0, source.SMProxy, 0)
-                    proxy.GetProperty("SetInputArrayToProcess").ResetToDomainDefaults()
-                    proxy.GetProperty("IsoValue").ResetToDomainDefaults()
-                    value = servermanager.vtkSMPropertyHelper(proxy, "IsoValue").GetAsDouble()
-                    self.assertTrue(100.0 < value < 200.0, value)
-                elif proxy.GetProperty("Labels"):
-                    self.assertEqual(proxy.GetProperty("Labels").GetNumberOfElements(), 0)
-                else:
-                    self.assertEqual(proxy.GetObjectsCreated(), 1)
 
     def test_data_that_become_others(self):
         """Who shows the histogram hears of them, though their range is the same."""

@@ -5,7 +5,6 @@
 import math
 
 import numpy
-from paraview import servermanager
 from paraview import simple
 from paraview.vtk.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkMultiBlockDataSet
@@ -18,23 +17,6 @@ from label_maps import BALLS, COLORS, NAMES
 def labels_of(surface):
     """Those of the triangles."""
     return set(vtk_to_numpy(surface.GetCellData().GetArray("Label")).tolist())
-
-
-def list_of(source, array=None):
-    """What the panel lists: {label: (name, voxels, colour)}, and what is wrong."""
-    manager = servermanager.ProxyManager().SMProxyManager
-    helper = servermanager._getPyProxy(manager.NewProxy("internal_filters", "LabelList"))
-    helper.Input = source
-    if array:
-        helper.Voxels = ["", "", "", *array]
-    helper.SMProxy.UpdateVTKObjects()
-    helper.UpdatePipeline()
-    helper.SMProxy.UpdatePropertyInformation()
-    labels, names, voxels, colors = (
-        list(helper.GetProperty(name)) for name in ("Labels", "Names", "NumberOfVoxels", "Colors"))
-    listed = {label: (names[i], voxels[i], tuple(colors[3 * i:3 * i + 3]))
-              for i, label in enumerate(labels)}
-    return listed, helper.SMProxy.GetProperty("Problem").GetElement(0)
 
 
 class LabelsTestCase(testing.PluginTestCase):
@@ -223,32 +205,3 @@ class LabelErrorsTest(LabelsTestCase):
         self.check_error(filter_, "4096")
         nothing = simple.LabelstoSurfaces(testing.produce(label_maps.image(balls={0: ((9,) * 3, 1)})))
         self.check_error(nothing, "0")
-
-
-class LabelListTest(LabelsTestCase):
-    def test_list(self):
-        source = testing.produce(label_maps.add_names(label_maps.image()))
-        listed, problem = list_of(source)
-        self.assertEqual(problem, "")
-        self.assertEqual(list(listed), [0, *BALLS])
-        values = label_maps.values()
-        for label, (name, voxels, color) in listed.items():
-            self.assertEqual(voxels, int((values == label).sum()))
-            self.assertEqual(name, NAMES.get(label, "Label 0"))
-            if label:
-                numpy.testing.assert_allclose(color, COLORS[label], atol=1e-6)
-
-    def test_list_of_an_array_of_cells(self):
-        listed, problem = list_of(testing.produce(label_maps.cells()), ["1", "labels"])
-        self.assertEqual((list(listed), problem), ([0, *BALLS], ""))
-
-    def test_what_is_wrong_is_no_error(self):
-        values = numpy.random.default_rng(1).random((8, 8, 8))
-        with testing.CapturedMessages() as messages:
-            listed, problem = list_of(testing.produce(testing.make_image(values)))
-        self.assertEqual((listed, messages.text), ({}, ""))
-        self.assertRegex(problem, r"^Input port 0: .*[a-z.]$")
-        # And floats that are integers are a warning of the filter only.
-        with testing.CapturedMessages() as messages:
-            listed, problem = list_of(testing.produce(label_maps.image(numpy.float64)))
-        self.assertEqual((list(listed), problem, messages.text), ([0, *BALLS], "", ""))

@@ -114,15 +114,6 @@ class LabelsViewTest(testing.PluginTestCase):
         self.picture("edited-more")
         self.check_legend([3, 7, 12], colors={**COLORS, 3: (0.1, 0.1, 1.0)})
 
-    def test_another_array_stays(self):
-        self.show()
-        self.picture("label")
-        simple.ColorBy(self.display, ("CELLS", "Component"), separate=True)
-        self.picture("component")
-        self.filter.Labels = [3]
-        self.picture("component-of-one")
-        self.assertEqual(self.display.ColorArrayName[1], "Component")
-
     def test_error_first_and_then_a_good_run(self):
         source = testing.produce(label_maps.add_names(label_maps.image()))
         with testing.CapturedMessages() as messages:

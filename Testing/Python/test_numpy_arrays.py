@@ -52,12 +52,6 @@ class ArraysTest(unittest.TestCase):
         np.testing.assert_allclose((low + high) / 2, middle, atol=0.5)
         self.assertLess(high[2] - low[2], 0.6 * (high[0] - low[0]))  # the ring lies across z
 
-    def test_arrays_outlive_the_surface(self):
-        arrays = numpy_arrays.arrays_of_surface(
-            quietly(numpy_arrays.surface_of_array, ring_voxels(), 125.5, RING_SPACING))
-        np.testing.assert_allclose(arrays["points"] + (10, 20, 30), self.arrays["points"],
-                                   atol=1e-6)
-
 
 class ScriptTest(FolderTestCase):
     def test_two_linked_rings(self):

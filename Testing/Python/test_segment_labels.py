@@ -9,7 +9,7 @@ import unittest
 import numpy as np
 
 from examples_path import EXAMPLES
-from folder_test_case import FolderTestCase, run_on_terminal
+from folder_test_case import FolderTestCase
 from sample_volumes import run_script, write_volume
 from vtk_files import read
 
@@ -128,18 +128,6 @@ class ErrorsTest(LabelsTest):
         run = run_script("segment.py", self.path("label-1.mha"), self.folder, "--labels", "1")
         self.assertEqual(run.returncode, 1)
         self.assertIn("it would replace the input", run.stderr)
-
-
-class InterruptTest(LabelsTest):
-    def test_control_c_keeps_what_is_finished(self):
-        volume = write_volume(self.path("many.mha"), label_voxels(12))
-        shown, code = run_on_terminal(
-            [sys.executable, os.path.join(EXAMPLES, "segment.py"), volume, self.path("o/"),
-             "--labels", "all", "--set", "FinestLevel=-1", "--set", "NumberOfThreads=1"],
-            r" [2-9]\d % ")
-        self.assertEqual(code, 3, shown)
-        self.assertIn("(not finished)", shown)
-        self.assertTrue(0 < len(os.listdir(self.path("o"))) < 36)
 
 
 if __name__ == "__main__":
