@@ -70,9 +70,11 @@ class Session:
 
     One window plays scripts after each other, and leaves nothing of one for the next: starting it
     takes long. It waits at the end of each till there is another one.
+
+    plain: for pictures; a window for each script, whose toolbars have no macros, thus without add_code.
     """
 
-    def __init__(self, paraview, plugin, xvfb, size=(1400, 1000)):
+    def __init__(self, paraview, plugin, xvfb, size=(1400, 1000), plain=False):
         self._paraview = paraview
         self._plugin = plugin
         self._folder = tempfile.TemporaryDirectory(prefix="volumic-window-")
@@ -84,12 +86,13 @@ class Session:
                                  VOLUMIC_WINDOW=self._folder.name)
         self._window = None
         self._script = 0
-        self._is_live = False
+        self._is_spent = False
         self._codes = []
         self.output = ""
+        self._plain = plain
         calls = {name: f"{name}()" for name in ("begin", "wait")}
         calls.update((f"code{i}", f"run('code{i}')") for i in range(CODES))
-        for name, call in calls.items():
+        for name, call in calls.items() if not plain else ():
             self._write(f".config/ParaView/Macros/{name}.py",
                         f"import sys\nsys.path.insert(0, {HERE!r})\n"
                         f"import in_the_window\nin_the_window.{call}\n")
@@ -129,29 +132,33 @@ class Session:
         python: code that runs first; what it prints is in `output`.
         live: in a window of its own, which takes real mouse and keys afterwards.
         """
-        if live or self._is_live:
+        live = live or self._plain
+        if live or self._is_spent:
             self.close_window()
         script, following = f"{self._script}.xml", self._script + 1
-        played = [self._macro("begin"),
-                  event(f"{PANEL}/SearchBox/AdvancedButton", "set_boolean", "false"),
-                  *([self.add_code(python)] if python else []), *events,
-                  *([] if live else [self._macro("wait")])]
+        played = events if self._plain else [
+            self._macro("begin"), event(f"{PANEL}/SearchBox/AdvancedButton", "set_boolean", "false"),
+            *([self.add_code(python)] if python else []), *events,
+            *([] if live else [self._macro("wait")])]
         self._write(script, "<?xml version=\"1.0\" ?>\n<pqevents>\n" + "\n".join(played)
                     + "\n</pqevents>\n")
         if not self._window:
             scripts = [f"--test-script={self._folder.name}/{number}.xml" for number in
                        range(self._script, following if live else self._script + SCRIPTS)]
+            if python and self._plain:
+                scripts.append(f"--script={self._write('before.py', python)}")
             self._environment["VOLUMIC_SCRIPT"] = str(self._script)
             self._start(*scripts)
-        self._script, self._is_live = following, live
+        self._script = following
         # It says no more than the last when an event failed.
         self.output = self._listen((b"Success = " if live else b"All is played.",
                                     b"critical: In event"), timeout)
         # What is said between two scripts is of none.
         self.output = self.output.rpartition(f"/{script}\n")[2] or self.output
         succeeded = ("Success =  true" if live else "All is played.") in self.output
-        if not succeeded:
-            self._is_live = True  # It plays no more.
+        # After a failure it plays no more, and a box with messages stays open.
+        self._is_spent = live or not succeeded or any(
+            word in self.output for word in ("ERR|", "WARN|", "critical:", "warning:"))
         return succeeded
 
     def _start(self, *options):

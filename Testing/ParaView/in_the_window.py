@@ -13,6 +13,7 @@ FOLDER = os.environ.get("VOLUMIC_WINDOW", "")
 told = []
 kept = []  # Names that observers look up when they are called.
 script = int(os.environ.get("VOLUMIC_SCRIPT", "0"))  # the next one
+playing = None  # an object for each script
 
 
 def tell(*words, flush=True):  # pylint: disable=unused-argument
@@ -36,24 +37,27 @@ def until(is_so):
 
 
 def lasting(function):
-    """An observer that hears of nothing once other events are played."""
-    begun = script
-    return lambda *arguments: function(*arguments) if script == begun else None
+    """An observer that hears of nothing once these events are played."""
+    own = playing
+    return lambda *arguments: function(*arguments) if playing is own else None
 
 
 def begin():
     from paraview import simple  # pylint: disable=import-outside-toplevel
-    global script
+    global script, playing
     script += 1
+    playing = object()
     told.clear()
     simple.GetSettingsProxy("GeneralSettings").AutoApply = 0
 
 
 def wait():
     """For the next script."""
+    global playing
     tell("All is played.")
     while not os.path.exists(os.path.join(FOLDER, f"{script}.xml")):
         time.sleep(0.02)
+    playing = None
 
 
 def run(name):

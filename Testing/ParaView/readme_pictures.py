@@ -24,8 +24,6 @@ from window_testing import (
     open_menu_of_volumic, opened, set_iso_value)
 
 CAMERA = f"{gui.WINDOW}/cameraToolbar"
-# Where a menu is open, and where real keys come.
-LIVE = ("paraview-menu.png", "paraview-seeds.png")
 KEY_DOWN = "6,16777237,0,,0,1"
 MACRO = os.path.abspath(os.path.join(os.path.dirname(os.path.abspath(__file__)),
                                      "../../Examples/ParaView/compare_levels.py"))
@@ -53,7 +51,7 @@ def pick(session, places):
 
 def main(volume, iso_value, label_map, folder, *seeds):
     session = gui.Session(testing.program("paraview"), testing.plugin_path(),
-                          os.environ["VOLUMIC_XVFB"], size=(1180, 800))
+                          os.environ["VOLUMIC_XVFB"], size=(1180, 800), plain=True)
     start = opened(volume)
     macro = f"""
 from paraview import simple
@@ -83,11 +81,10 @@ exec(compile(open({MACRO!r}).read(), "macro", "exec"), {{"__name__": "__main__"}
         "paraview-levels.png": (macro, [gui.pause(1000), *FROM_THE_FRONT]),
     }
     for name, (python, events) in pictures.items():
-        succeeded = session.play(events, python=python, live=name in LIVE)
+        succeeded = session.play(events, python=python)
         if "seeds" in name:
             pick(session, seeds)
         session.screenshot(os.path.join(folder, name))
-        session.forget_codes()
         if not succeeded:
             sys.exit(session.output)
         print(f"Written: {os.path.join(folder, name)}")
