@@ -261,8 +261,11 @@ class RunTest(ToolTestCase):
 
     def test_time_limit_is_marked(self):
         volume = self.waves_file()
-        run = self.run_tool(volume, self.path("limited.stl"), "--iso", "0", "--convergence", "0",
-                            "--time-limit", "0.6", status=3)
+        for limit in (0.6, 3, 15, 75, 375):  # A busy machine has no surface so soon.
+            run = self.run_tool(volume, self.path("limited.stl"), "--iso", "0", "--convergence",
+                                "0", "--time-limit", limit, status=None)
+            if run.returncode == 3:
+                break
         self.assertIn("unfinished (time limit); the surface as it is was written", run.stderr)
         self.assertIn(b"UNFINISHED: time limit", self.content("limited.stl")[:80])
         self.refused("time limit came before there was a surface", volume, self.path("none.stl"),

@@ -218,7 +218,7 @@ class AbortWindowTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.session = LiveSession(testing.program("paraview"), testing.plugin_path(),
-                                  os.environ["VOLUMIC_XVFB"])
+                                  os.environ["VOLUMIC_XVFB"], plain=True)
         cls.hand = Hand(cls.session.display)
         cls.whole = whole_run()
 
