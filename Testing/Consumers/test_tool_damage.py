@@ -42,10 +42,10 @@ class DamageTest(ToolTestCase):
                 count = int(len(content) * rest) if 0 < rest < 1 else rest
                 self.refused_bytes(name, content[:count], reason)
 
-    def flipped(self, name, content, reason, start, times=25):
+    def flipped(self, name, content, reason, start):
         """With one bit of the data turned over it is refused, wherever that is."""
         generator = np.random.default_rng(6)
-        for _ in range(times):
+        for _ in range(8):
             damaged = bytearray(content)
             place = int(generator.integers(start, len(content)))
             damaged[place] ^= 1 << int(generator.integers(8))
@@ -66,7 +66,7 @@ class FilesTest(DamageTest):
         content = self.bytes_of(vtkMetaImageWriter(), "a.mha")
         self.assertIn(b"CompressedData = True", content)
         self.cut("a.mha", content, "packed data are cut off", rests=(0.5, -10, -1))
-        self.flipped("a.mha", content, "packed data", content.index(b"LOCAL") + 10, times=25)
+        self.flipped("a.mha", content, "packed data", content.index(b"LOCAL") + 10)
 
     def test_meta_image_in_two_files(self):
         data = noisy_ball().tobytes()
@@ -118,7 +118,7 @@ class FilesTest(DamageTest):
             header = nrrd_header(encoding)
             content = header + b"\n" + pack(data)
             self.cut("a.nrrd", content, "packed data are cut off", rests=(0.5, -10, -1))
-            self.flipped("a.nrrd", content, "packed data", len(header) + start, times=25)
+            self.flipped("a.nrrd", content, "packed data", len(header) + start)
             self.refused_bytes("a.nrrd", header + b"\n" + pack(data + b"more"),
                                "give more than the 20592 bytes")
             self.accepted_bytes("b.nrrd", header + b"\n" + pack(data[:99]) + pack(data[99:]))
@@ -140,19 +140,6 @@ class FilesTest(DamageTest):
                 struct.pack_into(order + "h", header, 70, kind)
                 self.refused_bytes("b.nii", bytes(header), f"the data type {kind} is none of")
                 self.refused_bytes("b.nii.gz", gzip.compress(header), f"the data type {kind} is")
-
-    def test_nifti_in_two_files(self):
-        content = bytearray(medical_files.nifti(noisy_ball(), SPACING))
-        content[344:348] = b"ni1\0"
-        struct.pack_into("<f", content, 108, 0)
-        data = gzip.compress(content[352:])
-        self.write_bytes("a.img.gz", data)
-        self.write_bytes("a.hdr", content[:348])
-        self.accepted_bytes("a.img.gz", data)
-        self.refused_bytes("a.img.gz", data[:-1], "packed data are cut off")
-        struct.pack_into("<h", content, 70, 999)
-        self.write_bytes("a.hdr", content[:348])
-        self.refused_bytes("a.img.gz", data, "the data type 999 is none of")
 
     def test_mrc(self):
         self.cut("a.mrc", medical_files.mrc(noisy_ball(), SPACING), "it has [0-9]+ bytes of voxels")
@@ -200,10 +187,6 @@ class FilesTest(DamageTest):
         content = self.bytes_of(vtkMINCImageWriter(), "a.mnc")
         self.cut("a.mnc", content, "cut off: it has [0-9]+ bytes of voxels|cut off", (0.5, -10, 90))
 
-    def test_pages_of_a_picture(self):
-        content = self.bytes_of(vtkTIFFWriter(), "a.tif", make_image(noisy_ball("u2")))
-        self.cut("a.tif", content, "cut off", rests=(0.3, 0.5, 0.9, -200))
-
     def test_pages_in_a_ring(self):
         content = bytearray(self.bytes_of(vtkTIFFWriter(), "a.tif",
                                          make_image(noisy_ball("u2")[:1])))
@@ -227,14 +210,6 @@ class FilesTest(DamageTest):
                                         status=1)
                 self.assertRegex(process.stderr, rf"17\.{suffix}")
 
-    def test_too_little_memory(self):
-        file = self.write_bytes("large.mha", META.replace(b"26 22 18", b"1024 1024 1024"))
-        os.truncate(file, len(META) + 6 + (2 << 30))
-        process = self.run_tool(file, self.path("a.stl"), status=1, preexec_fn=lambda:
-                                resource.setrlimit(resource.RLIMIT_AS, (1 << 30, 1 << 30)))
-        self.assertRegex(process.stderr,
-                         "^volumic: .*large.mha: not enough memory to read it; crop it")
-
     def test_too_little_memory_later(self):
         """Each limit ends with a surface or with the name of the volume and what helps."""
         file = self.write_bytes("large.mha", META.replace(b"26 22 18", b"256 256 256"))
@@ -243,7 +218,7 @@ class FilesTest(DamageTest):
             stream.seek(len(META) + 3 + (1 << 24))
             stream.write(b"\xe8\x03" * (1 << 22))
         told = set()
-        for megabytes in (330, 280, 230):
+        for megabytes in (280, 230):
             limit = megabytes << 20
             process = self.run_tool(
                 file, self.path("a.stl"), "--iso", "500.5", "--threads", "1", "-q",
@@ -279,17 +254,12 @@ class MeshesTest(DamageTest):
                                  content[:int(len(content) * rest) if rest > 0 else rest])
                 self.refused_mesh(f"b.{suffix}", "cannot be read|the file is cut off")
 
-    def test_damaged_polygon_file(self):
-        content = self.content("a.ply")
-        self.write_bytes("b.ply", content[:-1] + b"\x7f")
-        self.refused_mesh("b.ply", "is damaged: a polygon has point 21[0-9]{8}, there are")
-        self.write_bytes("b.ply", content.replace(b"element vertex", b"element vertix"))
-        self.refused_mesh("b.ply", "has no points, or its header is damaged")
-
     def test_polygon_file_as_text(self):
         head = ("ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
                 "property float z\nelement face 4\nproperty list uchar int vertex_indices\n"
                 "end_header\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n")
+        self.write_bytes("c.ply", head.replace("element vertex", "element vertix").encode())
+        self.refused_mesh("c.ply", "has no points, or its header is damaged")
         self.write_bytes("c.ply", head.encode())
         self.refused_mesh("c.ply", "the file is cut off: it ends in element 4 of 4")
         self.write_bytes("c.ply", head.encode() + b"3 0 3 9\n")
@@ -319,13 +289,6 @@ class SeriesTest(DamageTest):
             for rest in (-1, -500, -1144, -1150, 300, 200, 140):
                 with self.subTest(syntax, rest=rest):
                     self.refused_slice(7, content[:rest], ".*(cut off|header|no pixels)")
-
-    def test_the_last_slice_ends_between_two_elements(self):
-        """Without it the series would be shorter, but even."""
-        self.series()
-        content = self.slice(17)
-        end = content.index(struct.pack("<HH", 0x28, 0x10))
-        self.refused_slice(17, content[:end], "has no pixels: it is cut off, or no slice")
 
     def test_pixels_that_are_fewer_than_the_rows(self):
         self.series()

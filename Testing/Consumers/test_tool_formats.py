@@ -129,29 +129,12 @@ class VolumesTest(ToolTestCase):
         self.check(self.path("*.jpg"), *options, origin=np.zeros(3), iso=ISO / 5)
         self.check(self.path("*.bmp"), "--component", "0", *options, origin=np.zeros(3), iso=ISO / 5)
 
-    def test_xml_has_its_data_inline(self):
-        """What is appended ParaView 5.11 refuses, see WriteVtp."""
-        volume = self.write(vtkXMLImageDataWriter(), "a.vti", make_image(ball()))
-        self.run_tool(volume, "--iso", ISO, "-q", self.path("a.vtp"))
-        self.assertNotIn(b"AppendedData", self.content("a.vtp"))
-        self.assertIn(b'format="binary"', self.content("a.vtp"))
-
     def test_a_picture_with_pages(self):
         # VTK writes the slices of a volume from the last to the first page.
         file = self.write(vtkTIFFWriter(), "a.tif", make_image(ball("u2")))
         report = self.report(file, "--iso", ISO, "--quiet")
         self.assertEqual(report["input"]["dimensions"], SIZE.tolist())
         self.assertEqual((report["components"], report["genus"]), (1, 0))
-
-    def test_a_chosen_array_and_component(self):
-        image = make_image(np.zeros_like(ball()))
-        both = make_image(np.stack([np.zeros_like(ball()), ball()], axis=-1)[..., 1])
-        array = both.GetPointData().GetScalars()
-        array.SetName("other")
-        image.GetPointData().AddArray(array)
-        self.check(self.write(vtkXMLImageDataWriter(), "a.vti", image), "--array", "other")
-        self.refused("point arrays: density, other", self.path("a.vti"), self.path("a.stl"),
-                     "--array", "missing")
 
     def test_a_component_or_the_magnitude(self):
         image = make_image(ball())
@@ -162,6 +145,7 @@ class VolumesTest(ToolTestCase):
         report = self.check(file, "--component", "1")
         self.assertEqual(report["input"]["range"], [ball().min(), ball().max()])
         self.check(file)
+        self.refused("no point array none; point arrays: vectors", file, self.path("a.stl"), "--array", "none")
         told = self.run_tool(file, self.path("a.stl"), "--iso", ISO).stderr
         self.assertIn("magnitude of 2 components (--component)", told)
         told = self.run_tool(file, self.path("b.stl"), "--component", "2", "--iso", ISO, status=1)
@@ -227,12 +211,6 @@ class SurfacesTest(ToolTestCase):
                 np.testing.assert_allclose(centre, ORIGIN + SPACING * CENTRE, atol=0.1)
         for suffix in others:
             self.assertGreater(os.path.getsize(self.path(f"a.{suffix}")), 1000, suffix)
-
-    def test_files_that_cannot_be_written(self):
-        self.refused("no folder", self.ball_file(), self.path("missing/a.stl"))
-        self.refused("suffix.*known are", self.ball_file(), self.path("a.xyz"), status=2)
-        os.mkdir(self.path("b.vtp"))
-        self.refused("cannot be written", self.ball_file(), self.path("b.vtp"))
 
 
 if __name__ == "__main__":

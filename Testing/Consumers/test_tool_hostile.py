@@ -10,6 +10,7 @@ import bz2
 import gzip
 import importlib.util
 import io
+import itertools
 import plistlib
 import re
 import resource
@@ -23,8 +24,7 @@ import zlib
 import numpy as np
 from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 
-from tool_test_case import (
-    ISO, META, PROGRAM, SIZE, SPACING, ToolTestCase, ball, dicom_slice, make_image)
+from tool_test_case import ISO, META, PROGRAM, SIZE, SPACING, ToolTestCase, ball, make_image
 
 import medical_files
 from test_tool_label_names import labelled_nifti
@@ -56,15 +56,17 @@ class HostileTest(ToolTestCase):
                          f"{command} takes too long")
         return process
 
-    def refused(self, name, reason, *options, modes=((), ("--memory", "300M"))):
-        """By its name, for this reason, whether read as a whole or in parts."""
-        for memory in modes:
-            with self.subTest(name, reason=reason, memory=memory):
-                process = self.run_limited(self.path(name), self.path("x.stl"), "--iso", ISO,
-                                           "--scratch", self.folder, *memory, *options)
-                self.assertEqual(process.returncode, 1, process.stderr[-500:])
-                self.assertRegex(process.stderr, f"volumic: .*{re.escape(name)}.*({reason})")
-                self.assertLess(len(process.stderr), 2000)
+    ways = itertools.cycle(((), ("--memory", "300M")))
+
+    def refused(self, name, reason, *options):
+        """By its name, for this reason, read as a whole or, every other time, in parts."""
+        memory = next(self.ways)
+        with self.subTest(name, reason=reason, memory=memory):
+            process = self.run_limited(self.path(name), self.path("x.stl"), "--iso", ISO,
+                                       "--scratch", self.folder, *memory, *options)
+            self.assertEqual(process.returncode, 1, process.stderr[-500:])
+            self.assertRegex(process.stderr, f"volumic: .*{re.escape(name)}.*({reason})")
+            self.assertLess(len(process.stderr), 2000)
 
     def refused_bytes(self, name, content, reason, **options):
         self.write_bytes(name, content)
@@ -87,9 +89,9 @@ class HeaderTest(HostileTest):
 
     def test_bytes_before_packed_voxels(self):
         """They are a part of what the disk would have to hold."""
-        bomb = gzip.compress(bytes(200 << 20), 9)
-        self.refused_bytes("a.nrrd", self.nrrd("8 8 8", "gzip", "byte skip: 209714176\n") + bomb,
-                           "begin at byte 209714176")
+        bomb = gzip.compress(bytes(100 << 20), 9)
+        self.refused_bytes("a.nrrd", self.nrrd("8 8 8", "gzip", "byte skip: 104856576\n") + bomb,
+                           "begin at byte 104856576")
         self.refused_bytes("a.nrrd", self.nrrd("8 8 8", "gzip") + bomb, "more than the 1024 bytes")
 
     def test_lines_before_voxels(self):
@@ -99,15 +101,15 @@ class HeaderTest(HostileTest):
     def test_nifti_bombs(self):
         """A few MB that declare 8 x 8 x 8 voxels, and unpack to more than the disk has."""
         head = bytearray(medical_files.nifti(np.zeros((8, 8, 8), "i2"), SPACING))
-        bomb = gzip.compress(bytes(500 << 20), 9)
+        bomb = gzip.compress(bytes(100 << 20), 9)
         self.refused_bytes("a.nii.gz", gzip.compress(head) + bomb, "more than the 1376 bytes")
-        struct.pack_into("<f", head, 108, 500e6)
-        self.refused_bytes("a.nii.gz", gzip.compress(head) + bomb, "begin at byte 500000000")
-        self.refused_bytes("a.nii", gzip.compress(head) + bomb, "begin at byte 500000000")
+        struct.pack_into("<f", head, 108, 100e6)
+        self.refused_bytes("a.nii.gz", gzip.compress(head) + bomb, "begin at byte 100000000")
+        self.refused_bytes("a.nii", gzip.compress(head) + bomb, "begin at byte 100000000")
 
     def test_meta_image_without_voxels(self):
         head = META.replace(b"CompressedData = False", b"CompressedData = True")
-        bomb = zlib.compress(bytes(200 << 20), 9)
+        bomb = zlib.compress(bytes(100 << 20), 9)
         self.refused_bytes("a.mha", head + bomb, "more than the 20592 bytes")
         for sizes in (b"0 0 0", b"26 22 0", b"26 22 18446744073709551615",
                       b"65536 65536 4294967296"):
@@ -157,7 +159,7 @@ class HeaderTest(HostileTest):
     def test_pages_that_share_their_values(self):
         """Each would have them read, or unpacked, once more."""
         page = zlib.compress(bytes(2 * SIZE[0] * SIZE[1]), 9)
-        bomb = zlib.compress(bytes(200 << 20), 9)
+        bomb = zlib.compress(bytes(100 << 20), 9)
         self.refused_bytes("a.tif", bytes(tiff([page, bomb], {259: 8})),
                            "page 2: the packed data give more than the 1144 bytes")
         content = bytearray(tiff([page], {259: 8}))
@@ -188,7 +190,7 @@ class NestingTest(HostileTest):
         for elements in self.hidden():
             plist = (b"<plist>" + elements)[:1 << 20]
             self.refused_bytes("a.inv3", medical_files.archive_of([("main.plist", plist)]),
-                               "elements within elements|cannot be parsed", modes=((),))
+                               "elements within elements|cannot be parsed")
         image = b'<VTKFile type="ImageData"><ImageData WholeExtent="0 1 0 1 0 1">'
         for elements in self.hidden():
             if b"Appended" not in elements:
@@ -219,7 +221,7 @@ class NestingTest(HostileTest):
                 # Not by addfile(), which wants all that the head tells of.
                 content.write(member.tobuf(tarfile.PAX_FORMAT) + data)
             with self.subTest(reason):
-                self.refused_bytes("a.inv3", content.getvalue(), reason, modes=((),))
+                self.refused_bytes("a.inv3", content.getvalue(), reason)
 
     def test_a_hole_beyond_the_end_of_an_archive_s_member(self):
         # libarchive forgets of such a hole, and gives zeros.
@@ -230,7 +232,7 @@ class NestingTest(HostileTest):
                    + plist.ljust(-len(plist) % 512 + len(plist), b"\0")
                    + self.old_head("matrix.dat", 512, b"S", hole=(real + 100, 512, real))
                    + b"A" * 512 + bytes(1024))
-        self.refused_bytes("a.inv3", content, "holes", modes=((),))
+        self.refused_bytes("a.inv3", content, "holes")
 
     @staticmethod
     def old_head(name, size, kind, hole=None):
@@ -249,15 +251,7 @@ class NestingTest(HostileTest):
         twice = bz2.compress(bz2.compress(empty * 200000) * 20000)
         head = b"NRRD0004\ntype: uchar\ndimension: 3\nsizes: 4 4 4\nencoding: bzip2\n\n"
         for content in (twice, bz2.compress(bz2.compress(bytes(range(64))))):
-            self.refused_bytes("a.nrrd", head + content, "more than the 64 bytes", modes=((),))
-
-    def test_what_is_not_deep_is_read(self):
-        self.write(vtkXMLImageDataWriter(), "a.vti", make_image(ball()))
-        content = self.content("a.vti")
-        place = content.index(b"<ImageData")
-        for comment in (b"<!-- > -->", b"<!--" + b"<a>" * 200 + b"-->"):
-            self.write_bytes("b.vti", content[:place] + comment + content[place:])
-            self.run_tool(self.path("b.vti"), self.path("x.stl"), "--iso", ISO)
+            self.refused_bytes("a.nrrd", head + content, "more than the 64 bytes")
 
     def test_long_names_of_pieces(self):
         self.refused_bytes("a.pvti", b'<VTKFile type="PImageData"><PImageData WholeExtent="0 1 0 1'
@@ -356,9 +350,6 @@ class VtkTest(HostileTest):
         process = self.mesh("b.stl", text.encode(), "--seeds")
         self.assertIn("Seed 0 lies outside the image", process.stderr)  # It has been read.
 
-    def test_series_without_a_name(self):
-        self.refused_bytes("a.dcm", dicom_slice(0, series=""), "cannot be read")
-
     def test_corners(self):
         """Of points, textures and normals that are not there."""
         start = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\n"
@@ -400,7 +391,7 @@ class NamesTest(HostileTest):
                                 self.path(name))
 
     def test_tables(self):
-        most = 15 << 20
+        most = 4 << 20
         for content in (b"\r\n" * (most // 2), b"1 " + b"a" * most, b"a,b\n" + b" " * most,
                         b'1,"' + b" " * most + b'"\n', b"1 a\r\n" * (most // 5),
                         b"\n".join(b"%d a" % k for k in range(most // 10)), b"[" * most,
@@ -410,11 +401,11 @@ class NamesTest(HostileTest):
 
     def test_members_and_names_of_json(self):
         """Each member is looked for among all others; the names that were found, copied for each."""
-        members = b"{" + b",".join(b'"%d":1' % k for k in range(1200000)) + b"}"
+        members = b"{" + b",".join(b'"%d":1' % k for k in range(300000)) + b"}"
         process = self.names("names.json", members)
         self.assertRegex(process.stderr, "volumic: .*names.json: .*more than 30000 members")
         names = b",".join([b'{"label":1,"name":"a"}'] * 10000)
-        process = self.names("names.json", b"[[" + names + b"]" + b",0" * (7 << 20) + b"]")
+        process = self.names("names.json", b"[[" + names + b"]" + b",0" * (2 << 20) + b"]")
         self.assertIn(process.returncode, (0, 1))
 
     def test_many_names_twice(self):
@@ -428,7 +419,7 @@ class NamesTest(HostileTest):
         self.assertEqual(process.returncode, 0, process.stderr[-500:])
 
     def test_extensions_of_nifti(self):
-        most = 15 << 20
+        most = 4 << 20
         for content in (b"<Label " * (most // 7) + b"></Label>",
                         b'<Label Key="1">' + b"&lt;" * (most // 4) + b"</Label>",
                         b'<Label Key="1">' + b"<![CDATA[" * (most // 9) + b"</Label>",

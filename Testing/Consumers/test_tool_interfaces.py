@@ -107,16 +107,6 @@ class OneMeshTest(InterfacesTest):
                                    1, places=5)
             self.assertGreater(enclosed(points_of(mesh), own), 0)
 
-    def test_names_and_colours(self):
-        self.make(sectors(), "a.vtp", options=["--shared-interfaces"])
-        fields = read(self.path("a.vtp")).GetFieldData()
-        self.assertEqual(list(vtk_to_numpy(fields.GetArray("Label"))), [1, 2, 4, 9])
-        names = fields.GetAbstractArray("LabelName")
-        self.assertEqual([names.GetValue(i) for i in range(4)], list(NAMES.values()))
-        self.assertEqual(vtk_to_numpy(fields.GetArray("LabelColor")).shape, (4, 3))
-        voxels = vtk_to_numpy(fields.GetArray("LabelVoxels"))
-        self.assertEqual(list(voxels), [(sectors() == label).sum() for label in NAMES])
-
     def test_merged(self):
         for options in ((), ("--shared-interfaces",)):
             self.make(sectors(), "a.vtp", "a.smesh", options=["--merge", *options])
@@ -125,13 +115,6 @@ class OneMeshTest(InterfacesTest):
         self.assertEqual(mesh.GetNumberOfLines(), 0)
         sides = vtk_to_numpy(mesh.GetCellData().GetArray("BoundaryLabels"))
         self.assertEqual(set(map(tuple, sides.tolist())), {(1, 0), (2, 0), (4, 0), (9, 0)})
-
-    def test_what_is_not_chosen_is_outside(self):
-        self.run_tool(self.map_of(sectors()), self.path("a.vtp"), "--labels", "1,9",
-                      "--shared-interfaces")
-        sides = vtk_to_numpy(read(self.path("a.vtp")).GetCellData().GetArray("BoundaryLabels"))
-        self.assertEqual(set(map(tuple, np.sort(sides, axis=1).tolist())),
-                         {(0, 0), (0, 1), (0, 9), (1, 9)})
 
     def test_without_it_surfaces_are_as_ever(self):
         volume = self.map_of(sectors())
@@ -152,23 +135,6 @@ class OneMeshTest(InterfacesTest):
         self.assertEqual(report["properties"]["SharedInterfaces"], "off")
         self.assertEqual(sorted(os.listdir(self.path("o"))), ["label-1.msh", "label-2.msh"])
 
-    def test_a_limit_of_memory_changes_nothing(self):
-        volume = self.map_of(sectors())
-        self.run_tool(volume, self.path("a.vtp"), "--labels", "all", "--shared-interfaces")
-        self.run_tool(volume, self.path("b.vtp"), "--labels", "all", "--shared-interfaces",
-                      "--memory", "500M", "--scratch", self.folder, "--threads", "1")
-        self.assertEqual(self.content("a.vtp"), self.content("b.vtp"))
-
-    def test_a_tolerance_makes_fewer_triangles(self):
-        volume = self.map_of(sectors())
-        self.run_tool(volume, self.path("a.vtp"), "--labels", "all", "--shared-interfaces")
-        self.run_tool(volume, self.path("b.vtp"), "--labels", "all", "--shared-interfaces",
-                      "--tolerance", "0.3")
-        even, graded = read(self.path("a.vtp")), read(self.path("b.vtp"))
-        self.assertLess(graded.GetNumberOfPolys(), .8 * even.GetNumberOfPolys())
-        self.assertFalse(even.GetPointData().HasArray("EdgeSize"))
-        self.assertTrue(graded.GetPointData().HasArray("EdgeSize"))
-
     def test_what_does_not_go_with_it(self):
         for options in (("--gap", "1"), ("--thin-parts",)):
             with self.subTest(options):
@@ -185,13 +151,6 @@ class OneMeshTest(InterfacesTest):
         self.refused("--shared-interfaces: the labels lie in several layers .* --component", file,
                      self.path("a.msh"), "--labels", "all")
         self.run_tool(file, self.path("a.msh"), "--labels", "s1")
-
-    def test_a_full_disk(self):
-        if os.path.exists("/dev/full"):
-            for name in ("full.msh", "full.smesh"):
-                os.symlink("/dev/full", self.path(name))
-                self.refused(f"{name}: cannot be written .No space left", self.map_of(sectors()),
-                             self.path(name), "--labels", "all")
 
 
 class Msh:
@@ -288,13 +247,6 @@ class GmshTest(InterfacesTest):
         self.assertEqual(len(set(faces)), 4)
         self.assertEqual(sorted(map(len, faces)), [1, 1, 2, 3])
 
-    def test_numbers_are_those_of_the_interfaces(self):
-        self.make(sectors(), "a.msh", "a.vtp")
-        mesh, msh = read(self.path("a.vtp")), Msh(self.path("a.msh"))
-        self.assertEqual({tuple(point) for point in points_of(mesh).tolist()},
-                         {tuple(point) for point in msh.points.tolist()})
-        self.assertEqual(sum(map(len, msh.triangles.values())), mesh.GetNumberOfPolys())
-
     def test_one_surface(self):
         self.run_tool(self.ball_file(), self.path("a.msh"), self.path("a.vtp"), "--iso", ISO)
         msh, surface = Msh(self.path("a.msh")), read(self.path("a.vtp"))
@@ -347,27 +299,6 @@ class TetgenTest(InterfacesTest):
                     self.assertAlmostEqual(angle, 0, places=3)
             self.assertEqual(len(holes), 1)
             self.assertEqual(set(marks), set(range(1, 1 + sum("facets" in n for n in names))))
-
-    def test_marks_tell_both_labels(self):
-        self.make(sectors(), "a.smesh", "a.vtp")
-        names, points, triangles, marks, _, _ = self.parts("a.smesh")
-        mesh = read(self.path("a.vtp"))
-        np.testing.assert_array_equal(points, points_of(mesh))
-        sides = vtk_to_numpy(mesh.GetCellData().GetArray("BoundaryLabels"))
-        sides = sides[mesh.GetNumberOfLines():]
-        np.testing.assert_array_equal(np.sort(triangles), np.sort(triangles_of(mesh)))
-        known = {**{name.strip(): label for label, name in NAMES.items()}, "outside": 0,
-                 "a 'b'": 4, "x" * 25 + " ... " + "x" * 25: 9}
-        for pair, mark in zip(sides.tolist(), marks):
-            told = names[f"facets {mark}"].split("_to_")
-            self.assertEqual({known[name] for name in told}, set(pair))
-
-    def test_both_formats_tell_the_same(self):
-        self.make(sectors(), "a.smesh", "a.poly")
-        first, second = self.parts("a.smesh"), self.parts("a.poly")
-        self.assertEqual(first[0], second[0])
-        for a, b in zip(first[1:], second[1:]):
-            np.testing.assert_array_equal(a, b)
 
     def test_a_hollow_surface(self):
         z, y, x = np.indices((30, 30, 30)) - 14.5

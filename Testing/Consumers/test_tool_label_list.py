@@ -2,15 +2,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """`volumic --list-labels`: the labels of a volume as a table and as JSON, and no surfaces."""
 
-import json
-import os
-import subprocess
 import unittest
 
 import numpy as np
 
 from test_tool_labels import BLOBS, NAMES, SPACING, LabelsTest, label_image, label_voxels
-from tool_test_case import PROGRAM, make_image
+from tool_test_case import make_image
 
 
 def box_of(voxels, label):
@@ -44,15 +41,6 @@ class ListTest(LabelsTest):
             self.assertEqual(line[3:6], [f"{box[i]}..{box[i + 1]}" for i in (0, 2, 4)])
             self.assertEqual(" ".join(line[6:]), name)
 
-    def test_columns_are_straight_whatever_the_names(self):
-        names = self.write_bytes("n.json", json.dumps(
-            {1: "h\u00e9patique", 2: "a\nb\tc", 7: "\u809d\u81d3"}).encode())
-        lines = self.run_tool("--list-labels", self.map_file(), "--label-names",
-                              names).stdout.splitlines()
-        self.assertEqual(len(lines), 5)
-        names = ["name", "Label -3", "h\u00e9patique", "a b c", "\u809d\u81d3"]
-        self.assertEqual([line[lines[0].index("name"):] for line in lines], names)
-
     def test_as_json(self):
         voxels = label_voxels()
         rows = self.listed(self.map_file(), "--label-names", self.names_file())
@@ -68,13 +56,6 @@ class ListTest(LabelsTest):
             for name in ("voxels", "color", "layer"):
                 self.assertEqual(row[name], surfaces[row["label"]][name])
 
-    def test_both(self):
-        lines = self.table(self.map_file(), "--report", self.path("r.json"), "-q")
-        report = json.loads(self.content("r.json"))
-        self.assertEqual(len(lines), len(report["labels"]))
-        self.assertEqual(report["input"]["dimensions"], [28, 28, 18])
-        self.assertEqual(report["warnings"], [])
-
     def test_choice(self):
         volume, names = self.map_file(), self.names_file()
         for options, labels in ((["--labels", "l*"], [1, 2]), (["--labels", "0,7"], [0, 7]),
@@ -83,10 +64,6 @@ class ListTest(LabelsTest):
             self.assertEqual([row["label"] for row in rows], labels)
         self.refused("map.vti: there is no label 'kidney'", volume, "--list-labels", "--labels",
                      "kidney")
-
-    def test_no_labels(self):
-        volume = self.map_file("none.vti", label_image(np.zeros((9, 9, 9), "u1")))
-        self.assertEqual(self.table(volume), [])
 
     def test_layers(self):
         voxels = label_voxels()
@@ -132,20 +109,6 @@ class ListTest(LabelsTest):
             with self.subTest(reason):
                 self.refused(reason, "a.vti", "--list-labels", *arguments, status=2)
         self.refused("no volume is given", "--list-labels", status=2)
-
-    def test_reports_that_cannot_be_written(self):
-        volume = self.map_file()
-        self.refused("there is no folder .*none", volume, "--list-labels", "--report",
-                     self.path("none/r.json"))
-        self.refused("it is the input", volume, "--list-labels", "--report", volume)
-        if os.path.exists("/dev/full"):
-            self.refused("/dev/full: cannot be written", volume, "--list-labels", "--report",
-                         "/dev/full")
-            with open("/dev/full", "w", encoding="utf-8") as full:
-                process = subprocess.run([PROGRAM, volume, "--list-labels"], stdout=full,
-                                         stderr=subprocess.PIPE, text=True, check=False)
-            self.assertEqual(process.returncode, 1)
-            self.assertIn("the standard output cannot be written", process.stderr)
 
 
 if __name__ == "__main__":

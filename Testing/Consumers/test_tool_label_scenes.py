@@ -11,8 +11,8 @@ import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOGeometry import vtkGLTFReader
 
-from test_tool_labels import NAMES, LabelsTest, label_image, label_voxels
-from tool_test_case import ISO, make_image
+from test_tool_labels import NAMES, LabelsTest
+from tool_test_case import ISO
 from vtk_files import points_of, read, triangles_of
 
 COLORS = {1: (200, 30, 0), 2: (0, 255, 120), 7: (10, 20, 30), -3: (255, 255, 255)}
@@ -125,41 +125,12 @@ class GlbTest(ScenesTest):
             # z upwards is y of glTF, and y is -z.
             np.testing.assert_allclose((x0, x1, -z1, -z0, y0, y1), self.bounds_of(label), atol=.75)
 
-    def test_far_from_zero(self):
-        far = make_image(label_voxels(), (1e-3, 1e-3, 1e-3), (1e4, -2e4, 3e4))
-        self.run_tool(self.map_file("far.vti", far), self.path("a.glb"), self.path("a/"),
-                      "--labels", "1,2")
-        for (_, mesh), label in zip(self.scene("a.glb").nodes().values(), (1, 2)):
-            (points, _, _, _), = self.scene("a.glb").parts(mesh)
-            surface = read(self.path(f"a/label-{label}.vtp"))
-            np.testing.assert_allclose(points, points_of(surface), rtol=0, atol=1e-8)
-
-    def test_merged(self):
-        self.run_tool(self.map_file(), self.path("a.glb"), self.path("a.vtp"), "--labels", "1,2",
-                      "--merge", "--label-names", self.colored_names())
-        scene = self.scene("a.glb")
-        (name, (node, mesh)), = scene.nodes().items()
-        self.assertEqual((name, node["extras"]["labels"]), ("Labels 1, 2", [1, 2]))
-        surface = read(self.path("a.vtp"))
-        labels = vtk_to_numpy(surface.GetCellData().GetArray("Label"))
-        for (points, _, triangles, material), label in zip(scene.parts(mesh), (1, 2), strict=True):
-            self.assertEqual(material["name"], NAMES[label])
-            np.testing.assert_allclose(points, points_of(surface), atol=2e-6)
-            np.testing.assert_array_equal(triangles, triangles_of(surface)[labels == label])
-
     def test_names(self):
         names = {1: "same", 2: "same", 7: 'a/"b"\\\u00e9\u809d', -3: ""}
         file = self.write_bytes("n.json", json.dumps(names).encode())
         self.run_tool(self.map_file(), self.path("a.glb"), "--labels", "all", "--label-names", file)
         told = [node.get("name") for node in self.scene("a.glb").text["nodes"]]
         self.assertEqual(told, [None, "Label -3", "same", "same", names[7]])
-
-    def test_labels_without_a_surface_are_left_out(self):
-        voxels = label_voxels()
-        voxels[2, 2, 26] = 9
-        volume = self.map_file("dot.vti", label_image(voxels))
-        self.run_tool(volume, self.path("a.glb"), "--labels", "1,9", "--finest", "1")
-        self.assertEqual(list(self.scene("a.glb").nodes()), ["Label 1"])
 
     def test_one_surface(self):
         self.run_tool(self.map_file(), self.path("o"), "--labels", "1", "--format", "glb",
@@ -177,26 +148,6 @@ class GlbTest(ScenesTest):
         np.testing.assert_allclose(material["pbrMetallicRoughness"]["baseColorFactor"],
                                    [*linear((204, 204, 204)), 1])
 
-    def test_what_cannot_be_written(self):
-        volume = self.map_file()
-        self.refused("there is no folder .*none", volume, self.path("none/a.glb"), "--labels",
-                     "all")
-        os.rename(volume, self.path("map.glb"))
-        self.refused("map.glb: cannot be written: it is the input", self.path("map.glb"),
-                     self.path("map.glb"), "--labels", "all")
-        if os.path.exists("/dev/full"):
-            os.symlink("/dev/full", self.path("full.glb"))
-            self.refused("full.glb: cannot be written .No space left", self.map_file(),
-                         self.path("full.glb"), "--labels", "all")
-
-    def test_interrupt_keeps_what_is_finished(self):
-        self.interrupted(
-            r"Making surfaces: .* (\d{2,}) of 125, Label", self.many_labels(5),
-            self.path("a.glb"), "--labels", "all", "--threads", "1", "--finest", "-1")
-        reasons = [node["extras"]["stop_reason"]
-                   for node, _ in self.scene("a.glb").nodes().values()]
-        self.assertTrue(10 <= reasons.count("converged") < 125, reasons)
-
 
 class PlyTest(ScenesTest):
     def test_vertices_have_the_colour_of_their_label(self):
@@ -212,23 +163,6 @@ class PlyTest(ScenesTest):
             same = read(self.path(f"p/{file}.vtp"))
             np.testing.assert_array_equal(points_of(surface), points_of(same).astype("f4"))
             np.testing.assert_array_equal(triangles_of(surface), triangles_of(same))
-
-    def test_merged(self):
-        self.run_tool(self.map_file(), self.path("a.ply"), self.path("a.vtp"), "--labels", "1,2",
-                      "--merge", "--label-names", self.colored_names())
-        surface = read(self.path("a.ply"))
-        colors = vtk_to_numpy(surface.GetPointData().GetArray("RGB"))
-        same = read(self.path("a.vtp"))
-        labels = vtk_to_numpy(same.GetCellData().GetArray("Label"))
-        triangles = triangles_of(same)
-        for point, color in enumerate(colors):
-            about = labels[(triangles == point).any(1)]
-            self.assertEqual(tuple(color), COLORS[about[0]])
-        self.assertEqual(len(np.unique(colors, axis=0)), 2)
-
-    def test_other_surfaces_have_none(self):
-        self.run_tool(self.ball_file(), self.path("b.ply"), "--iso", ISO)
-        self.assertNotIn(b"red", self.content("b.ply")[:500])
 
 
 if __name__ == "__main__":

@@ -20,14 +20,14 @@ from tool_test_case import ORIGIN, SPACING, TURNED, ToolTestCase, make_image
 import medical_files
 
 # Slabs are a 64th of it, so that the volumes below come in several.
-LIMIT = "768M"
-SIZE = (200, 260, 300)  # slices, rows, columns
+LIMIT = "200M"
+SIZE = (100, 130, 170)  # slices, rows, columns
 
 
 def large_ball(dtype="i2"):
     z, y, x = np.ogrid[0:SIZE[0], 0:SIZE[1], 0:SIZE[2]]
-    distance = np.sqrt((z - 90.0) ** 2 + (y - 120) ** 2 + (x - 160) ** 2)
-    return (1000 - 8 * distance + (3 * x + 5 * y + 7 * z) % 11).astype(dtype)
+    distance = np.sqrt((z - 45.0) ** 2 + (y - 61) ** 2 + (x - 91) ** 2)
+    return (1000 - 15 * distance + (3 * x + 5 * y + 7 * z) % 11).astype(dtype)
 
 
 @unittest.skipUnless(os.path.exists("/proc/self/fd"), "memory is limited on Linux only")

@@ -7,7 +7,6 @@ import csv
 import json
 import os
 import re
-import resource
 import shutil
 import subprocess
 import unittest
@@ -17,10 +16,9 @@ from vtkmodules.vtkCommonExecutionModel import (
     vtkImageAlgorithm, vtkMultiBlockDataSetAlgorithm, vtkPolyDataAlgorithm)
 from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 
-from tool_test_case import (
-    CENTRE, ISO, MANUAL, ORIGIN, PROGRAM, SPACING, ToolTestCase, ball, make_image)
+from tool_test_case import CENTRE, ISO, MANUAL, ORIGIN, SPACING, ToolTestCase, ball, make_image
 from volumic import vtkDeformableSurface, vtkImagePyramid, vtkLabelsToSurfaces
-from vtk_files import points_of, read, triangles_of
+from vtk_files import read
 
 # What is set in another way: inputs, and what of the pyramid is the surface's.
 NOT_OPTIONS = {"vtkDeformableSurface": {"InitialSurfaceConnection", "InitialSurfaceData",
@@ -104,6 +102,7 @@ class OptionTableTest(ToolTestCase):
     def test_wrong_usage(self):
         for reason, line in (
                 ("no volume", ""), ("no file to write", "a.vti"),
+                ("suffix.*known are", "a b.xyz"),
                 ("unknown option --isoo", "--isoo 3"), ("unknown option -z", "-z"),
                 ("--iso needs", "a b.stl --iso"),
                 ("--iso: 'x' is not a number", "a b.stl --iso x"),
@@ -126,8 +125,11 @@ class OptionTableTest(ToolTestCase):
                 self.refused(reason, *line.split(), status=2)
 
     def test_values_that_the_filter_refuses(self):
-        self.refused("Friction", self.ball_file(), self.path("a.stl"), "--iso", ISO,
-                     "--friction", "-1")
+        for reason, *options in (
+                ("Friction", "--friction", "-1"),
+                ("--edge-length is 0.01, but edges of this image can have mean lengths of",
+                 "--edge-length", "0.01")):
+            self.refused(reason, self.ball_file(), self.path("a.stl"), "--iso", ISO, *options)
 
 
 class ManualTest(ToolTestCase):
@@ -186,15 +188,6 @@ class RunTest(ToolTestCase):
                       "--levels", "2")
         self.assertEqual(sorted(os.listdir(self.path("levels"))), ["level-0.vtp", "level-1.vtp"])
 
-    def test_level_finer_than_the_image(self):
-        report = self.report(self.ball_file(), "--iso", ISO, "--levels", "2", "--finest", "-1",
-                             "--levels-output", self.path("levels"))
-        self.assertEqual([level["level"] for level in report["levels"]], [1, 0, -1])
-        self.assertGreater(report["vertices"], 2 * report["levels"][1]["vertices"])
-        self.assertTrue(all(level["seconds"] > 0 for level in report["levels"]))
-        self.assertEqual(sorted(os.listdir(self.path("levels"))),
-                         ["level--1.vtp", "level-0.vtp", "level-1.vtp"])
-
     def test_advice_names_options(self):
         """Where much stays lost: sheets of one voxel beside a ball."""
         z, y, x = np.mgrid[0:64, 0:64, 0:64]
@@ -205,26 +198,11 @@ class RunTest(ToolTestCase):
         process = self.run_tool(volume, self.path("a.vtp"), "--iso", ISO)
         self.assertRegex(process.stderr, "warning: .*of the object's boundary.* Set --finest to -1")
 
-    def test_edge_length_makes_the_pyramid_for_it(self):
-        file = self.path("even.vtp")
-        report = self.report(self.ball_file(), file, "--iso", ISO, "--edge-length", "1.1",
-                             "--reduction-factor", "1.6")
-        self.assertTrue(all(level["seconds"] > 0 for level in report["levels"]))
-        points, corners = points_of(read(file)), triangles_of(read(file))
-        edges = np.linalg.norm(points[corners] - points[np.roll(corners, 1, axis=1)], axis=2)
-        self.assertAlmostEqual(edges.mean() / 1.1, 1, delta=0.15)
-        self.refused("--edge-length is 0.01, but edges of this image can have mean lengths of",
-                     self.ball_file(), file, "--iso", ISO, "--edge-length", "0.01")
-
     def test_iso_value_by_otsu_is_told(self):
         process = self.run_tool(self.ball_file(), self.path("a.vtp"))
         told = re.search(r"iso-value ([0-9.]+) by Otsu", process.stderr)
         self.assertTrue(100 < float(told.group(1)) < 900)
         self.assertEqual(self.run_tool(self.ball_file(), self.path("a.vtp"), "-q").stderr, "")
-
-    def test_progress_in_lines(self):
-        process = self.run_tool(self.ball_file(), self.path("a.vtp"), "--progress")
-        self.assertRegex(process.stderr, r"(?m)^Evolving the surface: +\d+ %  Level 0, iteration")
 
     def test_seeds_and_initial_surface(self):
         centre = ORIGIN + SPACING * CENTRE
@@ -240,41 +218,6 @@ class RunTest(ToolTestCase):
         self.write_bytes("bad.txt", b"x y z\n1 2 3\n1 2\n")
         self.refused("bad.txt, line 3: not three numbers", self.ball_file(), self.path("a.stl"),
                      "--seeds", self.path("bad.txt"))
-
-    def test_positions_are_as_those_of_files(self):
-        centre, beside = ORIGIN + SPACING * CENTRE, ORIGIN + SPACING * [20, 5, 13]
-        texts = [",".join(map(str, place)) for place in (centre, beside)]
-        self.write_bytes("seeds.csv", texts[0].encode())
-        self.write_bytes("points.csv", texts[1].encode())
-        options = (self.ball_file(), "--iso", ISO, "--levels", "1")
-        by_files = self.report(*options, "--seeds", self.path("seeds.csv"), "--attracting-points",
-                               self.path("points.csv"))
-        by_places = self.report(*options, "--seed-position", texts[0], "--attracting-position",
-                                texts[1])
-        self.assertEqual(by_places["properties"]["Initialization"], "seeds")
-        # Points of files are in single precision.
-        self.assertEqual(by_places["components"], by_files["components"])
-        self.assertAlmostEqual(by_places["volume"], by_files["volume"], delta=1e-3)
-        # As often as they are given; one outside is named as the panel does.
-        self.refused("Seed Positions: point 1", self.ball_file(), self.path("a.stl"), "--iso", ISO,
-                     "--seed-position", texts[0], "--seed-position", "1e9,0,0")
-
-    def test_a_limit_of_memory_is_answered_in_words(self):
-        volume = self.ball_file()
-        ended = []
-        for megabytes in range(100, 340, 8):  # newer versions of VTK are larger
-            limit = (megabytes << 20, megabytes << 20)
-            options = {"capture_output": True, "text": True, "timeout": 120,
-                       "preexec_fn": lambda limit=limit: resource.setrlimit(
-                           resource.RLIMIT_AS, limit)}
-            if subprocess.run([PROGRAM, "--version"], check=False, **options).returncode != 0:
-                continue  # VTK's libraries alone are too large
-            process = subprocess.run(
-                [PROGRAM, volume, "--iso", str(ISO), "--threads", "4", self.path("limit.stl")],
-                check=False, **options)
-            self.assertGreaterEqual(process.returncode, 0, f"{megabytes} MB: {process.stderr}")
-            ended.append(process.returncode)
-        self.assertTrue(set(ended) & {0, 1}, "the program never ran: other limits are needed")
 
     def test_attracting_points(self):
         """A point of weight 1 makes a ball of its radius part of the object."""
@@ -318,24 +261,16 @@ class RunTest(ToolTestCase):
 
     def test_time_limit_is_marked(self):
         volume = self.waves_file()
-        run = self.run_tool(volume, self.path("limited.stl"), "--iso", "0", "--convergence", "0",
-                            "--time-limit", "0.6", status=3)
+        for limit in (0.6, 3, 15, 75, 375):  # A busy machine has no surface so soon.
+            run = self.run_tool(volume, self.path("limited.stl"), "--iso", "0", "--convergence",
+                                "0", "--time-limit", limit, status=None)
+            if run.returncode == 3:
+                break
         self.assertIn("unfinished (time limit); the surface as it is was written", run.stderr)
         self.assertIn(b"UNFINISHED: time limit", self.content("limited.stl")[:80])
         self.refused("time limit came before there was a surface", volume, self.path("none.stl"),
                      "--iso", "0", "--time-limit", "1e-9")
         self.assertFalse(os.path.exists(self.path("none.stl")))
-
-    def test_iteration_limit_is_marked(self):
-        report = self.report(self.ball_file(), self.path("a.vtp"), self.path("a.stl"),
-                             "--iso", ISO, "--iterations", "3", status=3)
-        self.assertFalse(report["finished"])
-        self.assertEqual(report["stop_reason"], "iteration limit")
-        self.assertIn(b"UNFINISHED: iteration limit", self.content("a.stl")[:80])
-
-    def test_nothing_is_left(self):
-        self.refused("volumic: .*", self.ball_file(), self.path("a.vtp"), "--iso", "2000")
-        self.assertFalse(os.path.exists(self.path("a.vtp")))
 
     def waves_file(self):
         """A large noisy volume, so that there is time."""
@@ -348,7 +283,7 @@ class RunTest(ToolTestCase):
     def test_interrupt_writes_what_there_is(self):
         rest = self.interrupted(
             "Evolving.*iteration", self.waves_file(), self.path("a.vtp"), "--iso", "0",
-            "--convergence", "0", "--report", self.path("r.json"), pause=0.2)
+            "--convergence", "0", "--report", self.path("r.json"))
         self.assertIn("unfinished (cancelled)", rest)
         report = json.loads(self.content("r.json"))
         self.assertEqual((report["finished"], report["stop_reason"]), (False, "cancelled"))

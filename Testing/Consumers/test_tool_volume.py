@@ -11,7 +11,7 @@ from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 
 from limited_files import largest_file
 from tool_test_case import (
-    ISO, ORIGIN, SIZE, SPACING, TURNED, ToolTestCase, ball, dicom_slice, make_image, nrrd_header)
+    ORIGIN, SIZE, SPACING, TURNED, ToolTestCase, ball, dicom_slice, make_image, nrrd_header)
 
 from vtk_files import read
 
@@ -42,11 +42,6 @@ class WrittenVolumeTest(ToolTestCase):
             [[matrix.GetElement(r, c) for c in range(3)] for r in range(3)], TURNED)
         self.assertEqual(image.GetFieldData().GetAbstractArray("Axes").GetValue(0), "LPS")
 
-    def test_data_are_inline(self):
-        """See test_tool_outputs: what is appended, ParaView 5.11 takes for damaged."""
-        self.written(self.nrrd())
-        self.assertNotIn(b"AppendedData", self.content("written.vti"))
-
     def test_all_arrays_are_kept_and_the_chosen_one_is_active(self):
         image = make_image(ball())
         other = numpy_to_vtk(ball("f4").ravel(), deep=True)
@@ -57,13 +52,6 @@ class WrittenVolumeTest(ToolTestCase):
         self.assertEqual(written.GetPointData().GetScalars().GetName(), "other")
         self.assertTrue(written.GetPointData().HasArray("density"))
         self.assertEqual(written.GetSpacing(), (1, 2, 3))
-
-    def test_with_a_surface_too(self):
-        surfaces = [self.path("a.ply"), self.path("b.ply")]
-        self.run_tool(self.nrrd(), surfaces[0], "--iso", ISO,
-                      "--write-volume", self.path("written.vti"))
-        self.run_tool(self.path("written.vti"), surfaces[1], "--iso", ISO)
-        self.assertEqual(self.content("a.ply"), self.content("b.ply"))
 
     def test_what_cannot_be_written(self):
         volume = self.ball_file()
@@ -92,9 +80,6 @@ class ListFilesTest(ToolTestCase):
             self.write_bytes(f"IM{k}", dicom_slice(k))
         self.write_bytes("notes.txt", b"no slice")
         self.assertEqual(self.files(self.folder), {"IM0", "IM1", "IM2"})
-
-    def test_no_volume(self):
-        self.refused("no volume is given", "--list-files", status=2)
 
 
 if __name__ == "__main__":

@@ -18,7 +18,7 @@ import time
 import unittest
 from pathlib import Path
 
-from debian_packages import FLAVOUR, SKIPPED, SOURCE, made_packages, output_of
+from debian_packages import FLAVOUR, SKIPPED, made_packages, output_of
 
 ALL_NAMES = ["volumic", "volumic-dev", "python3-volumic", "paraview-volumic"]
 PVBATCH = os.environ["VOLUMIC_PVBATCH"]
@@ -47,12 +47,6 @@ reader = XMLImageDataReader(FileName=["ball.vti"])
 surface = DeformableSurface(Input=reader, IsoValue=0.0)
 surface.UpdatePipeline()
 print(surface.GetDataInformation().GetNumberOfCells())
-"""
-CONSUMER = """cmake_minimum_required(VERSION 3.18)
-project(Consumer LANGUAGES C CXX)
-find_package(Volumic REQUIRED)
-add_executable(consumer "{source}")
-target_link_libraries(consumer PRIVATE Volumic::FiltersVolumic VTK::IOXML)
 """
 
 
@@ -143,7 +137,7 @@ class InstallationTest(unittest.TestCase):
         # The files that Python would write are the packages' business.
         clean.pop("PYTHONDONTWRITEBYTECODE", None)
         process = subprocess.run([str(w) for w in command], cwd=self.folder.name, check=False,
-                                 capture_output=True, text=True, timeout=120,
+                                 capture_output=True, text=True, timeout=1200,
                                  env={**clean, **environment})
         self.assertEqual(process.returncode, 0, process.stdout + process.stderr)
         return process.stdout
@@ -163,20 +157,6 @@ class InstallationTest(unittest.TestCase):
         self.assertIn("find the surface", self.run_in_folder(
             "zcat", "/usr/share/man/man1/volumic.1.gz"))
 
-    def test_find_package(self):
-        self.needs("volumic-dev")
-        source = SOURCE / "Examples" / "Cxx" / "BuildPyramid.cxx"
-        consumer = Path(self.folder.name, "consumer")
-        consumer.mkdir()
-        (consumer / "CMakeLists.txt").write_text(CONSUMER.format(source=source), encoding="utf-8")
-        cmake = os.environ["VOLUMIC_CMAKE"]
-        self.run_in_folder(cmake, "-S", "consumer", "-B", "built", "-DCMAKE_BUILD_TYPE=Debug")
-        found = Path(self.folder.name, "built", "CMakeCache.txt").read_text(encoding="utf-8")
-        self.assertRegex(found, "Volumic_DIR:PATH=/usr/lib/[^/]*/cmake/Volumic\n")
-        self.run_in_folder(cmake, "--build", "built")
-        self.assertIn("Level 1", self.run_in_folder(
-            "built/consumer", "ball.vti", "pyramid.vtm", "2"))
-
     def test_python(self):
         self.needs("python3-volumic")
         output = self.run_in_folder("/usr/bin/python3", "-c", VTK_SCRIPT)
@@ -192,19 +172,6 @@ class InstallationTest(unittest.TestCase):
         output = self.run_in_folder(PVBATCH, "--force-offscreen-rendering", "plugin.py",
                                     PV_PLUGIN_PATH=os.path.dirname(plugin))
         self.assertGreater(int(output.split()[-1]), 100)
-
-    def test_python_in_paraview(self):
-        self.needs("paraview-volumic")
-        if not PVBATCH:
-            self.skipTest("no pvbatch that finds ParaView's Python")
-        package = next(os.path.dirname(os.path.dirname(path))
-                       for path in self.packages["paraview-volumic"].paths()
-                       if path.endswith("/volumic/__init__.py"))
-        script = (f"import sys; sys.path.insert(0, {package!r})\nimport volumic\n"
-                  "print(volumic.__file__, volumic.vtkDeformableSurface().GetClassName())\n")
-        Path(self.folder.name, "package.py").write_text(script, encoding="utf-8")
-        output = self.run_in_folder(PVBATCH, "package.py")
-        self.assertIn(f"{package}/volumic/__init__.py vtkDeformableSurface", output)
 
 
 if __name__ == "__main__":

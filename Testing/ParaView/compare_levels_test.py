@@ -3,10 +3,8 @@
 """Examples/ParaView/compare_levels.py, as a macro runs in ParaView's window."""
 
 import os
-import sys
 import xml.etree.ElementTree as ElementTree
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import gui_session as gui
 import window_testing as window
 
@@ -26,7 +24,7 @@ exec(compile(open({path!r}).read(), "macro", "exec"), {{"__name__": "__main__"}}
 class CompareLevelsTest(window.WindowTestCase):
     def test_a_view_per_level(self):
         path, save = self.saved_state("levels.pvsm")
-        self.play([gui.pause(1000), *save, gui.pause(1000)], "levels-side-by-side",
+        self.play([gui.pause(300), *save], "levels-side-by-side",
                   python=APPLIED_AND_MACRO.format(path=os.path.abspath(MACRO)))
         self.assertNotIn("Traceback", self.session.output)
         state = window.proxies_of(path)
@@ -43,6 +41,3 @@ class CompareLevelsTest(window.WindowTestCase):
             self.assertIn(f"/Root/*[@label='Level {level}']", chosen)
         links = {element.get("name") for element in ElementTree.parse(path).iter("CameraLink")}
         self.assertEqual(len(links), 1)
-
-
-window.main()

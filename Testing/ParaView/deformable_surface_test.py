@@ -2,19 +2,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The Deformable Surface filter of the installed plugin, in scripts of pvbatch and pvpython."""
 
-import os
-import sys
-
 import numpy
 from paraview import simple
 from paraview.vtk.util.numpy_support import vtk_to_numpy
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import plugin_testing as testing
 from plugin_testing import points, triangles
 
-POINT_ARRAYS = {"Normals": "vtkFloatArray", "Residual": "vtkFloatArray",
-                "Motionless": "vtkUnsignedCharArray", "Contact": "vtkUnsignedCharArray"}
 SURFACE, LEVELS, HISTORY = range(3)
 
 # The ball of the tests: its image falls by 1 from voxel to voxel, away from the centre.
@@ -40,10 +34,6 @@ def surface_of(source, **properties):
     source.UpdatePipeline()
     # Not Input=source: ParaView would look for the array in the active source first.
     return simple.DeformableSurface(source, **properties)
-
-
-def names(attributes):
-    return {attributes.GetAbstractArray(i).GetName() for i in range(attributes.GetNumberOfArrays())}
 
 
 class DeformableSurfaceTest(testing.PluginTestCase):
@@ -72,37 +62,6 @@ class DeformableSurfaceTest(testing.PluginTestCase):
         distance = numpy.linalg.norm(points(surface) - CENTRE, axis=1)
         self.assertLess(numpy.abs(distance - RADIUS).max(), tolerance)
 
-    def test_ball(self):
-        surface = testing.fetch(surface_of(self.ball, IsoValue=0.0))
-        self.check_ball(surface, 0.2)
-        volume = 4.0 / 3.0 * numpy.pi * RADIUS**3
-        self.assertAlmostEqual(testing.field(surface, "Volume") / volume, 1.0, delta=0.02)
-        area = 4.0 * numpy.pi * RADIUS**2
-        self.assertAlmostEqual(testing.field(surface, "Area") / area, 1.0, delta=0.02)
-        centroid = surface.GetFieldData().GetArray("ComponentCentroid").GetTuple(0)
-        numpy.testing.assert_allclose(centroid, CENTRE, atol=0.05)
-        normals = vtk_to_numpy(surface.GetPointData().GetNormals())
-        away = (points(surface) - CENTRE) / RADIUS
-        self.assertGreater((normals * away).sum(axis=1).min(), 0.9)
-
-    def test_arrays(self):
-        surface = testing.fetch(surface_of(self.ball, IsoValue=0.0))
-        for name, kind in POINT_ARRAYS.items():
-            self.assertEqual(surface.GetPointData().GetArray(name).GetClassName(), kind)
-        self.assertEqual(names(surface.GetCellData()),
-                         {"Component", "ComponentArea", "ComponentVolume", "ComponentGenus"})
-        inertia = surface.GetFieldData().GetArray("ComponentInertia")
-        self.assertEqual(inertia.GetNumberOfComponents(), 6)
-        self.assertEqual(testing.field(surface, "Level"), 0)
-
-    def test_default_iso_value_is_otsus_threshold(self):
-        filter_ = surface_of(simple.Wavelet())
-        self.assertEqual(filter_.IsoValue, simple.VolumetoSurface(filter_.Input).IsoValue)
-        low, high = filter_.Input.PointData["RTData"].GetRange()
-        self.assertNotAlmostEqual(filter_.IsoValue, (low + high) / 2, places=3)
-        self.assertEqual(filter_.Voxels[1], "RTData")
-        self.check_valid(testing.fetch(filter_))
-
     def test_levels_and_history(self):
         filter_ = surface_of(simple.Wavelet())
         surface, blocks, table = (testing.fetch(filter_, port)
@@ -122,35 +81,6 @@ class DeformableSurfaceTest(testing.PluginTestCase):
         numpy.testing.assert_array_equal(column["Iteration"], 1 + numpy.arange(rows))
         self.assertTrue((numpy.diff(column["Level"]) <= 0).all(), "from coarse to fine")
         self.assertEqual(column["Vertices"][-1], surface.GetNumberOfPoints())
-
-    def test_history_is_a_chart(self):
-        filter_ = surface_of(simple.Wavelet())
-        filter_.UpdatePipeline()
-        display = simple.Show(simple.OutputPort(filter_, HISTORY),
-                              simple.CreateView("XYChartView"))
-        display.UseIndexForXAxis = 0
-        display.XArrayName = "Iteration"
-        # Name and label of each curve that can be drawn.
-        columns = names(testing.fetch(filter_, HISTORY).GetRowData())
-        self.assertGreater(len(columns), 20)
-        self.assertLessEqual(columns, set(display.SeriesLabel[::2]))
-
-    def test_scripted_levels(self):
-        filter_ = surface_of(self.ball, IsoValue=0.0, FinestLevel=1)
-        self.assertEqual(testing.field(testing.fetch(filter_), "Level"), 1)
-        blocks = testing.fetch(filter_, LEVELS)
-        self.assertEqual(blocks.GetBlock(0).GetNumberOfPoints() if blocks.GetBlock(0) else 0, 0)
-        self.check_ball(blocks.GetBlock(1), 0.6)
-
-    def test_after_image_pyramid(self):
-        pyramid = simple.ImagePyramid(self.ball)
-        filter_ = surface_of(pyramid, IsoValue=0.0)
-        self.assertEqual(filter_.Voxels[1], "v")
-        self.check_ball(testing.fetch(filter_), 0.2)
-        # The filter builds the same pyramid for an image.
-        numpy.testing.assert_array_equal(
-            points(testing.fetch(filter_)),
-            points(testing.fetch(surface_of(self.ball, IsoValue=0.0))))
 
     def test_initial_surface(self):
         sphere = simple.Sphere(Center=CENTRE, Radius=15.0, ThetaResolution=16, PhiResolution=16)
@@ -184,22 +114,6 @@ class DeformableSurfaceTest(testing.PluginTestCase):
             self.check_valid(surface)
             away = numpy.linalg.norm(points(surface) - CENTRE, axis=1)
             self.assertAlmostEqual(away.mean(), radius, delta=0.3)
-
-    def test_kept_components(self):
-        small, large = 3.0 - distances((-12.0, 0.0, 0.0)), 7.0 - distances((8.0, 0.0, 0.0))
-        source = testing.produce(image_of(numpy.maximum(small, large)))
-        for keep, count in (("All", 2), ("Largest", 1)):
-            surface = testing.fetch(surface_of(source, IsoValue=0.0, FinestLevel=1, CoarsestLevel=1,
-                                        KeepComponents=keep))
-            self.check_valid(surface)
-            self.assertEqual(testing.field(surface, "NumberOfComponents"), count)
-
-    def test_recovery_of_a_cavity(self):
-        source = testing.produce(image_of(numpy.minimum(RADIUS - distances(), distances() - 3.0)))
-        for recovery, characteristic in (("Objects", 2), ("Objects and Cavities", 4)):
-            surface = testing.fetch(surface_of(source, IsoValue=0.0, Recovery=recovery))
-            self.check_valid(surface)
-            self.assertEqual(testing.field(surface, "EulerCharacteristic"), characteristic)
 
     def check_error(self, expected, source, **properties):
         """The message that a bad input gives, and that there is no output afterwards."""
@@ -239,6 +153,3 @@ class DeformableSurfaceTest(testing.PluginTestCase):
         algorithm.Modified()
         self.check_ball(testing.fetch(filter_), 0.2)
         self.assertEqual(len(executions), 2)
-
-
-testing.main()

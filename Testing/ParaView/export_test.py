@@ -6,23 +6,15 @@ import json
 import os
 import shutil
 import struct
-import sys
 
-import numpy
 from paraview import servermanager
 from paraview import simple
-from paraview.vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
-from vtkmodules.vtkCommonCore import vtkPoints, vtkStringArray
-from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from vtkmodules.vtkIOGeometry import vtkOBJReader, vtkSTLReader
 from vtkmodules.vtkIOPLY import vtkPLYReader
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../Examples/Python"))
 import label_maps
 import plugin_testing as testing
-from tetrahedra import blocks_of, sections_of
 
 READERS = {".stl": vtkSTLReader, ".ply": vtkPLYReader, ".obj": vtkOBJReader,
            ".vtp": vtkXMLPolyDataReader}
@@ -33,65 +25,6 @@ def triangles_in(path):
     reader.SetFileName(path)
     reader.Update()
     return reader.GetOutput().GetNumberOfPolys()
-
-
-def named(array, name):
-    array.SetName(name)
-    return array
-
-
-def faces_of_voxels(labels, random):
-    """The faces between voxels of different labels, 0 outside, as interfaces: two triangles each,
-    turned to either side."""
-    labels = numpy.pad(labels, 1)
-    corners, sides = [], []
-    for axis in range(3):
-        along, u, v = numpy.roll(numpy.eye(3, dtype=int), -axis, axis=0)
-        count = labels.shape[axis] - 1
-        low, high = (labels.take(range(i, i + count), axis) for i in (0, 1))
-        for place in numpy.argwhere(low != high):
-            square = place + along + numpy.array([0 * u, u, u + v, v])
-            pair = [low[tuple(place)], high[tuple(place)]]
-            if random.random() < 0.5:
-                pair, square = pair[::-1], square[::-1]
-            corners += [square[[0, 1, 2]], square[[0, 2, 3]]]
-            sides += [pair, pair]
-    points, numbers = numpy.unique(numpy.concatenate(corners), axis=0, return_inverse=True)
-    surface, places, cells, names = vtkPolyData(), vtkPoints(), vtkCellArray(), vtkStringArray()
-    places.SetData(numpy_to_vtk(points.astype(float), deep=True))
-    cells.SetData(3, numpy_to_vtkIdTypeArray(numbers.ravel().astype(numpy.int64), deep=True))
-    surface.SetPoints(places)
-    surface.SetPolys(cells)
-    surface.GetCellData().AddArray(
-        named(numpy_to_vtk(numpy.array(sides, numpy.int32), deep=True), "BoundaryLabels"))
-    known = numpy.unique(labels[labels > 0]).astype(numpy.int32)
-    for label in known:
-        names.InsertNextValue(f"L{label}")
-    for array, name in ((numpy_to_vtk(known, deep=True), "Label"), (names, "LabelName"),
-                        (numpy_to_vtk(numpy.zeros((len(known), 3)), deep=True), "LabelColor")):
-        surface.GetFieldData().AddArray(named(array, name))
-    return surface
-
-
-def parts_of(labels):
-    """[(label, voxels)] of those that are connected by faces, also of nothing, but the outermost."""
-    labels = numpy.pad(labels, 1)
-    free, found = set(map(tuple, numpy.argwhere(labels >= 0))), []
-    while free:
-        front = [min(free)]
-        free.discard(front[0])
-        label, size = labels[front[0]], 0
-        while front:
-            place = front.pop()
-            size += 1
-            for axis in range(3):
-                for step in (-1, 1):
-                    other = tuple(n + step * (i == axis) for i, n in enumerate(place))
-                    if other in free and labels[other] == label:
-                        free.discard(other)
-                        front.append(other)
-        found.append((int(label), size))
-    return sorted(found[1:])
 
 
 class ExportTest(testing.PluginTestCase):
@@ -129,51 +62,6 @@ class ExportTest(testing.PluginTestCase):
             text = file.read()
         self.assertEqual(len([line for line in text.splitlines() if line.startswith("3 ")
                               and len(line.split()) == 5]), interfaces.GetNumberOfPolys())
-
-    def test_regions_of_any_voxels(self):
-        """That touch each other in edges and corners, with cavities and parts in them."""
-        random = numpy.random.default_rng(5)
-        cavities = 0
-        for run in range(12):
-            labels = random.integers(0, 3, (6, 5, 5)) * (random.random((6, 5, 5)) < 0.4 + 0.05 * run)
-            source = testing.produce(faces_of_voxels(labels, random))
-            path = os.path.join(self.folder, "voxels.")
-            for suffix in ("msh", "smesh"):
-                servermanager.writers.ExportSurfaces(
-                    Input=source, FileName=path + suffix).UpdatePipeline()
-            volumes = self.volumes_of(sections_of(path + "msh"))
-            wanted = parts_of(labels)
-            self.assertEqual(sorted(volumes), [part for part in wanted if part[0] > 0])
-            with open(path + "smesh", encoding="utf-8") as file:
-                rows = [line.split() for line in file if not line.startswith("#")]
-            rows = rows[1 + int(rows[0][0]):]
-            rows = rows[1 + int(rows[0][0]):]
-            holes, regions = rows[1:1 + int(rows[0][0])], rows[2 + int(rows[0][0]):]
-            told = [(int(row[4]) if len(row) > 4 else 0, tuple(map(float, row[1:4])))
-                    for row in holes + regions]
-            # Voxels are from their number to the next one, and one further by the margin.
-            for label, place in told:
-                voxel = tuple(int(n) for n in numpy.floor(place))
-                self.assertEqual(numpy.pad(labels, 1)[voxel], label)
-            self.assertEqual(sorted(label for label, _ in told), [label for label, _ in wanted])
-            cavities += len(holes)
-        self.assertGreater(cavities, 3)
-
-    @staticmethod
-    def volumes_of(sections):
-        """[(label, volume)] of the volumes of a .msh, by the surfaces that bound them."""
-        lines, points = sections["Nodes"], []
-        for *_, count, at in blocks_of(lines):
-            points += [line.split() for line in lines[at + count:at + 2 * count]]
-        points = numpy.array(points, float)
-        lines, below = sections["Elements"], {}
-        for _, entity, _, count, at in blocks_of(lines):
-            corners = points[numpy.array([row.split()[1:] for row in lines[at:at + count]], int) - 1]
-            below[entity] = numpy.linalg.det(corners).sum() / 6
-        rows = [line.split() for line in sections["Entities"]]
-        return [(int(row[8]), int(round(sum(numpy.sign(int(face)) * below[abs(int(face))]
-                                            for face in row[10:]))))
-                for row in rows[1 + int(rows[0][2]):]]
 
     def test_a_file_for_each_label(self):
         source = self.labels()
@@ -224,7 +112,3 @@ class ExportTest(testing.PluginTestCase):
         with testing.CapturedMessages() as messages:
             self.export("none/organs.stl", self.labels())
         self.assertIn("none/organs", messages.text)
-
-
-if __name__ == "__main__":
-    testing.main()

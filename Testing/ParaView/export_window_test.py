@@ -4,14 +4,12 @@
 
 import os
 import shutil
-import sys
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import gui_session as gui
 import label_maps
 import plugin_testing as testing
 import window_testing as window
-from window_testing import APPLY, filter_of_the_menu, open_menu, opened
+from window_testing import APPLY, filter_of_the_menu, opened
 
 HIDE = """
 from paraview import simple
@@ -19,6 +17,7 @@ display = simple.GetDisplayProperties(simple.GetActiveSource(), simple.GetActive
 display.BlockSelectors = ["/Root/*[@label='liver']", "/Root/*[@label='spleen']"]
 simple.Render()
 """
+WRITTEN = "import os\nuntil(lambda: len(os.listdir({folder!r})) > 1)"
 ENTRY = f"{gui.WINDOW}/menubar/menu_File"
 
 
@@ -28,14 +27,11 @@ class ExportWindowTest(window.WindowTestCase):
         shutil.rmtree(folder, ignore_errors=True)
         os.mkdir(folder)
         path = testing.write_volume("export.vti", label_maps.add_names(label_maps.image()))
-        hide = self.session.add_macro("hide", HIDE)
+        hide = self.session.add_code(HIDE)
         self.play(opened(path) + [
-            filter_of_the_menu("LabelsToSurfaces"), APPLY, gui.pause(1000), hide,
+            filter_of_the_menu("LabelsToSurfaces"), APPLY, hide,
             gui.event(ENTRY, "activate", "actionExportSurfaces"),
             gui.event(f"{gui.WINDOW}/ExportSurfacesDialog", "filesSelected",
                       os.path.join(folder, "organs.stl")),
-            gui.pause(1000), open_menu("menu_File"), gui.pause(500)], "export-labels")
+            self.session.add_code(WRITTEN.format(folder=folder))], "export-labels")
         self.assertEqual(sorted(os.listdir(folder)), ["organs-liver.stl", "organs-spleen.stl"])
-
-
-window.main()

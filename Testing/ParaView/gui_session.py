@@ -22,6 +22,7 @@ from plugin_testing import end_with_parent
 
 WINDOW = "pqClientMainWindow"
 PANEL = f"{WINDOW}/propertiesDock/propertiesPanel"
+HERE = os.path.dirname(os.path.abspath(__file__))
 
 
 def event(path, command, arguments=""):
@@ -50,7 +51,7 @@ def start_screen(xvfb, size, options=()):
         pass_fds=[write_end], stderr=subprocess.DEVNULL, stdin=subprocess.DEVNULL,
         preexec_fn=end_with_parent)
     os.close(write_end)
-    ready, _, _ = select.select([read_end], [], [], 30)
+    ready, _, _ = select.select([read_end], [], [], PATIENCE)
     with os.fdopen(read_end) as answer:
         number = answer.readline().strip() if ready else ""
     if not number:
@@ -59,10 +60,21 @@ def start_screen(xvfb, size, options=()):
     return server, f":{number}"
 
 
-class Session:
-    """Starts Xvfb and paraview; `play` returns when all events have been played or one failed."""
+CODES = 12  # macros of the menu
+SCRIPTS = 500  # that a window plays at most
+PATIENCE = 900  # seconds: a machine may be busy with other things
 
-    def __init__(self, paraview, plugin, xvfb, size=(1400, 1000)):
+
+class Session:
+    """Starts Xvfb and paraview; `play` returns when all events have been played or one failed.
+
+    One window plays scripts after each other, and leaves nothing of one for the next: starting it
+    takes long. It waits at the end of each till there is another one.
+
+    plain: for pictures; a window for each script, whose toolbars have no macros, thus without add_code.
+    """
+
+    def __init__(self, paraview, plugin, xvfb, size=(1400, 1000), plain=False):
         self._paraview = paraview
         self._plugin = plugin
         self._folder = tempfile.TemporaryDirectory(prefix="volumic-window-")
@@ -70,48 +82,93 @@ class Session:
         # A home of its own: neither the user's settings nor a first start's dialogs play a part.
         self._environment = dict(os.environ, DISPLAY=display, QT_QPA_PLATFORM="xcb",
                                  HOME=self._folder.name, XDG_RUNTIME_DIR=self._folder.name,
-                                 LIBGL_ALWAYS_SOFTWARE="1", PYTHONUNBUFFERED="1")
+                                 LIBGL_ALWAYS_SOFTWARE="1", PYTHONUNBUFFERED="1",
+                                 VOLUMIC_WINDOW=self._folder.name)
         self._window = None
+        self._script = 0
+        self._is_spent = False
+        self._codes = []
         self.output = ""
+        self._plain = plain
+        calls = {name: f"{name}()" for name in ("begin", "wait")}
+        calls.update((f"code{i}", f"run('code{i}')") for i in range(CODES))
+        for name, call in calls.items() if not plain else ():
+            self._write(f".config/ParaView/Macros/{name}.py",
+                        f"import sys\nsys.path.insert(0, {HERE!r})\n"
+                        f"import in_the_window\nin_the_window.{call}\n")
 
-    def add_macro(self, name, code):
-        """For windows from now on: Python code. Returns the event that runs it, in the window."""
-        folder = os.path.join(self._folder.name, ".config/ParaView/Macros")
-        os.makedirs(folder, exist_ok=True)
-        with open(os.path.join(folder, f"{name}.py"), "w", encoding="utf-8") as file:
-            file.write(code)
+    def _write(self, name, text):
+        """A file in the folder, which is there as a whole or not at all."""
+        path = os.path.join(self._folder.name, name)
+        os.makedirs(os.path.dirname(path), exist_ok=True)
+        with open(path + ".part", "w", encoding="utf-8") as file:
+            file.write(text)
+        os.rename(path + ".part", path)
+        return path
+
+    def add_code(self, code):
+        """Python code for the window. Returns the event that runs it there, till forget_codes()."""
+        name = f"code{self._codes.index(code) if code in self._codes else len(self._codes)}"
+        if code not in self._codes:
+            self._codes.append(code)
+            self._write(name, code)
+        return self._macro(name)
+
+    @staticmethod
+    def _macro(name):
         return event(f"{WINDOW}/menubar/menu_Macros", "activate", name)
+
+    def forget_codes(self):
+        self._codes.clear()
 
     @property
     def display(self):
         """Name of the screen, as other programs of X want it."""
         return self._environment["DISPLAY"]
 
-    def play(self, events, timeout=240, python=""):
-        """Play the events in a new window, which stays open. Returns whether all succeeded.
+    def play(self, events, timeout=PATIENCE, python="", live=False):
+        """Play the events in the window as it is after a start. Returns whether all succeeded.
 
-        python: code that the window's own interpreter runs first; what it prints is in `output`.
+        python: code that runs first; what it prints is in `output`.
+        live: in a window of its own, which takes real mouse and keys afterwards.
         """
-        script = os.path.join(self._folder.name, "events.xml")
-        with open(script, "w", encoding="utf-8") as file:
-            file.write("<?xml version=\"1.0\" ?>\n<pqevents>\n" + "\n".join(events) +
-                       "\n</pqevents>\n")
-        options = []
-        if python:
-            path = os.path.join(self._folder.name, "before.py")
-            with open(path, "w", encoding="utf-8") as file:
-                file.write(python)
-            options = [f"--script={path}"]
+        live = live or self._plain
+        if live or self._is_spent:
+            self.close_window()
+        script, following = f"{self._script}.xml", self._script + 1
+        played = events if self._plain else [
+            self._macro("begin"), event(f"{PANEL}/SearchBox/AdvancedButton", "set_boolean", "false"),
+            *([self.add_code(python)] if python else []), *events,
+            *([] if live else [self._macro("wait")])]
+        self._write(script, "<?xml version=\"1.0\" ?>\n<pqevents>\n" + "\n".join(played)
+                    + "\n</pqevents>\n")
+        if not self._window:
+            scripts = [f"--test-script={self._folder.name}/{number}.xml" for number in
+                       range(self._script, following if live else self._script + SCRIPTS)]
+            if python and self._plain:
+                scripts.append(f"--script={self._write('before.py', python)}")
+            self._environment["VOLUMIC_SCRIPT"] = str(self._script)
+            self._start(*scripts)
+        self._script = following
+        # It says no more than the last when an event failed.
+        self.output = self._listen((b"Success = " if live else b"All is played.",
+                                    b"critical: In event"), timeout)
+        # What is said between two scripts is of none.
+        self.output = self.output.rpartition(f"/{script}\n")[2] or self.output
+        succeeded = ("Success =  true" if live else "All is played.") in self.output
+        # After a failure it plays no more, and a box with messages stays open.
+        self._is_spent = live or not succeeded or any(
+            word in self.output for word in ("ERR|", "WARN|", "critical:", "warning:"))
+        return succeeded
+
+    def _start(self, *options):
         self._window = subprocess.Popen(
             [self._paraview, "--dr", f"--plugin-search-paths={os.path.dirname(self._plugin)}",
-             "--plugins=Volumic", *options, f"--test-script={script}"],
+             "--plugins=Volumic", *options],
             env=self._environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT, preexec_fn=end_with_parent)
-        # It says no more than the latter when an event failed.
-        self.output = self._listen((b"Success = ", b"critical: In event"), timeout)
-        return "Success =  true" in self.output
 
-    def wait_for(self, text, timeout=60):
+    def wait_for(self, text, timeout=PATIENCE):
         """After the events: wait till the window has printed the text; all it has said since."""
         return self._listen((text.encode(),), timeout)
 
@@ -143,7 +200,7 @@ class Session:
                             : lit.any(axis=0).nonzero()[0][-1] + 1]
         return pixels
 
-    def wait_for_rest(self, before=None, least=1, timeout=30):
+    def wait_for_rest(self, before=None, least=1, timeout=PATIENCE):
         """Till nothing of the window has changed for a while, some seconds at least, as a window
         that is busy does not change either; if there is a picture of it from before, till it has
         become another one, too."""

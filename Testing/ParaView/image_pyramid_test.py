@@ -2,13 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The Image Pyramid filter of the installed plugin, as a script of pvbatch or pvpython uses it."""
 
-import os
-import sys
-
 import numpy
 from paraview import simple
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import plugin_testing as testing
 from plugin_testing import SQRT3
 
@@ -56,26 +52,6 @@ class ImagePyramidTest(testing.PluginTestCase):
         sizes = [image.GetDimensions() for image in testing.levels(pyramid)]
         self.assertEqual(sizes, [(21,) * 3, (14,) * 3, (9,) * 3, (6,) * 3])
 
-    def test_minimum_level_size(self):
-        pyramid = pyramid_of(simple.Wavelet(), MinimumLevelSize=3)
-        self.assertEqual([i.GetDimensions()[0] for i in testing.levels(pyramid)], [21, 12, 6, 3])
-
-    def test_array_selection(self):
-        image = testing.make_image(numpy.full((12, 12, 12), 1, numpy.int16), name="first")
-        testing.add_array(image, numpy.full((12, 12, 12), 2, numpy.uint8), "second")
-        source = testing.produce(image)
-        for name, value in (("first", 1), ("second", 2)):
-            pyramid = pyramid_of(source, Voxels=["POINTS", name], NumberOfLevels=2)
-            level = pyramid.GetBlock(1)
-            numpy.testing.assert_array_equal(testing.voxels(level, name), value)
-            self.assertEqual(level.GetPointData().GetNumberOfArrays(), 1)
-            self.assertEqual(level.GetPointData().GetScalars().GetName(), name)
-
-    def test_default_array_of_a_source_that_was_not_updated(self):
-        # ParaView does not know its arrays then, and hands an empty name to the filter.
-        pyramid = testing.fetch(simple.ImagePyramid(Input=simple.Wavelet(), NumberOfLevels=2))
-        self.assertIsNotNone(pyramid.GetBlock(1).GetPointData().GetArray("RTData"))
-
     def check_error(self, expected, source, **properties):
         """The message that a bad input gives, and that there is no output afterwards."""
         with testing.CapturedMessages() as messages:
@@ -97,5 +73,3 @@ class ImagePyramidTest(testing.PluginTestCase):
     def test_error_for_an_array_that_is_not_there(self):
         self.check_error(["absent"], simple.Wavelet(),
                          Voxels=["POINTS", "absent"])
-
-testing.main()

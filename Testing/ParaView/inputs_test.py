@@ -3,17 +3,12 @@
 """What the filters of the plugin take and what they don't, in scripts of pvbatch and pvpython:
 sources that were never updated, types that are no image, components, NaN."""
 
-import os
-import sys
-
 import numpy
-from paraview import servermanager
 from paraview import simple
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonDataModel import (vtkMultiBlockDataSet, vtkPartitionedDataSet,
                                            vtkPartitionedDataSetCollection, vtkRectilinearGrid)
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import plugin_testing as testing
 
 SIZE, RADIUS = 32, 10.0
@@ -77,30 +72,6 @@ class InputsTest(testing.PluginTestCase):
                     self.assertGreater(testing.fetch(filter_).GetNumberOfPoints(), 500)
         self.assertTrue(100.0 < wanted < 200.0, wanted)
 
-    def test_output_that_is_not_there(self):
-        """Of data that could not be made ParaView has no information at all, and nobody crashes."""
-        source = simple.Wavelet()
-        source.UpdatePipeline()
-        manager = servermanager.ProxyManager().SMProxyManager
-        for name in ("LabelsToSurfaces", "VolumeToSurface", "DeformableSurface", "ImagePyramid"):
-            with self.subTest(filter=name), testing.CapturedMessages():
-                proxy = manager.NewProxy("filters", name)
-                proxy.GetProperty("Input").AddInputConnection(source.SMProxy, 7)
-                for property_ in ("Labels", "IsoValue"):
-                    if proxy.GetProperty(property_):
-                        proxy.GetProperty(property_).ResetToDomainDefaults()
-                proxy.UpdateVTKObjects()
-                if proxy.GetProperty("IsoValue"):
-                    proxy.GetProperty("Input").SetInputConnection(0, source.SMProxy, 0)
-                    proxy.GetProperty("SetInputArrayToProcess").ResetToDomainDefaults()
-                    proxy.GetProperty("IsoValue").ResetToDomainDefaults()
-                    value = servermanager.vtkSMPropertyHelper(proxy, "IsoValue").GetAsDouble()
-                    self.assertTrue(100.0 < value < 200.0, value)
-                elif proxy.GetProperty("Labels"):
-                    self.assertEqual(proxy.GetProperty("Labels").GetNumberOfElements(), 0)
-                else:
-                    self.assertEqual(proxy.GetObjectsCreated(), 1)
-
     def test_data_that_become_others(self):
         """Who shows the histogram hears of them, though their range is the same."""
         values = numpy.zeros((8, 8, 8))
@@ -118,17 +89,6 @@ class InputsTest(testing.PluginTestCase):
         source.UpdatePipeline()
         self.assertEqual(filter_.SMProxy.GetProperty("Input").GetNumberOfProxies(), 1)
         self.assertGreater(len(heard), 0)
-
-    def test_input_that_comes_later(self):
-        source = simple.Wavelet()
-        for name in SURFACES:
-            with self.subTest(filter=name):
-                simple.SetActiveSource(None)
-                with testing.CapturedMessages():  # There is no input yet.
-                    filter_ = getattr(simple, name)()
-                filter_.Input = source
-                self.assertEqual(list(filter_.Voxels), ["POINTS", "RTData"])
-                self.assertGreater(testing.fetch(filter_).GetNumberOfPoints(), 500)
 
     def test_iso_value_follows_until_it_is_given(self):
         first = testing.produce(image(density=ball()))
@@ -167,16 +127,6 @@ class InputsTest(testing.PluginTestCase):
                     self.assertEqual(testing.fetch(filter_).GetNumberOfPoints(), 0)
                 self.assertIn("'absent'", messages.text)
 
-    def test_preset_of_a_pyramid_is_that_of_its_level_0(self):
-        source = testing.produce(image(density=ball()))
-        of_image = simple.DeformableSurface(source)
-        of_pyramid = simple.DeformableSurface(simple.ImagePyramid(source))
-        self.assertEqual(of_image.IsoValue, of_pyramid.IsoValue)
-        self.assertNotAlmostEqual(of_image.IsoValue, 120.0, places=3)
-        of_pyramid.IsoValue = 77.0
-        testing.reset_iso_value(of_pyramid)
-        self.assertEqual(of_image.IsoValue, of_pyramid.IsoValue)
-
     def test_what_is_offered(self):
         volume = image(density=ball())
         nested, partitions = vtkMultiBlockDataSet(), vtkPartitionedDataSet()
@@ -212,13 +162,6 @@ class InputsTest(testing.PluginTestCase):
                 self.assertEqual(messages.text.count("ERROR: "), 1, messages.text)
                 self.assertIn("Apply Resample To Image", messages.text)
 
-    def test_the_only_image_of_a_composite_dataset(self):
-        nested = vtkMultiBlockDataSet()
-        nested.SetBlock(1, image(density=ball()))
-        filter_ = simple.VolumetoSurface(testing.produce(nested))
-        self.assertEqual(list(filter_.Voxels), ["POINTS", "density"])
-        self.check_ball(filter_)
-
     def test_components(self):
         for name in SURFACES:
             with self.subTest(filter=name):
@@ -240,29 +183,6 @@ class InputsTest(testing.PluginTestCase):
                 self.assertEqual(filter_.IsoValue, magnitude)
                 self.assertGreater(domain.GetMaximum(0), 220.0)
 
-    def test_component_in_a_state(self):
-        for name in ("components.pvsm", "components-state.py"):
-            with self.subTest(name=name):
-                source = simple.Wavelet(registrationName="Waves")
-                vector = simple.Calculator(source, registrationName="Vector")
-                vector.ResultArrayName = "v"
-                vector.Function = "RTData*iHat + 2*RTData*jHat"
-                vector.UpdatePipeline()
-                filter_ = simple.VolumetoSurface(vector, registrationName="Saved")
-                filter_.Voxels = ["POINTS", "v"]
-                filter_.SelectedComponent = "Y"
-                iso = filter_.IsoValue
-                wanted = testing.fetch(filter_).GetNumberOfPoints()
-                path = testing.output_path(name)
-                simple.SaveState(path)
-                self.tearDown()
-                simple.LoadState(path)
-                again = simple.FindSource("Saved")
-                self.assertEqual(again.IsoValue, iso)
-                self.assertEqual(testing.fetch(again).GetNumberOfPoints(), wanted)
-                self.assertEqual(again.SelectedComponent, "Y")
-                self.tearDown()
-
     def test_nan_voxels(self):
         values = ball()
         x = numpy.arange(SIZE) - (SIZE - 1) / 2
@@ -283,6 +203,3 @@ class InputsTest(testing.PluginTestCase):
                 with testing.CapturedMessages() as messages:
                     self.assertEqual(testing.fetch(filter_).GetNumberOfPoints(), 0)
                 self.assertIn("Turn NaN Is Background on", messages.text)
-
-
-testing.main()

@@ -3,16 +3,12 @@
 """The Labels to Surfaces filter of the installed plugin, in scripts of pvbatch and pvpython."""
 
 import math
-import os
-import sys
 
 import numpy
-from paraview import servermanager
 from paraview import simple
 from paraview.vtk.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkMultiBlockDataSet
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import label_maps
 import plugin_testing as testing
 from label_maps import BALLS, COLORS, NAMES
@@ -21,23 +17,6 @@ from label_maps import BALLS, COLORS, NAMES
 def labels_of(surface):
     """Those of the triangles."""
     return set(vtk_to_numpy(surface.GetCellData().GetArray("Label")).tolist())
-
-
-def list_of(source, array=None):
-    """What the panel lists: {label: (name, voxels, colour)}, and what is wrong."""
-    manager = servermanager.ProxyManager().SMProxyManager
-    helper = servermanager._getPyProxy(manager.NewProxy("internal_filters", "LabelList"))
-    helper.Input = source
-    if array:
-        helper.Voxels = ["", "", "", *array]
-    helper.SMProxy.UpdateVTKObjects()
-    helper.UpdatePipeline()
-    helper.SMProxy.UpdatePropertyInformation()
-    labels, names, voxels, colors = (
-        list(helper.GetProperty(name)) for name in ("Labels", "Names", "NumberOfVoxels", "Colors"))
-    listed = {label: (names[i], voxels[i], tuple(colors[3 * i:3 * i + 3]))
-              for i, label in enumerate(labels)}
-    return listed, helper.SMProxy.GetProperty("Problem").GetElement(0)
 
 
 class LabelsTestCase(testing.PluginTestCase):
@@ -88,20 +67,6 @@ class LabelsTest(LabelsTestCase):
         self.assertEqual(list(filter_.Voxels), ["CELLS", "labels"])
         for label, surface in zip(BALLS, self.blocks(filter_).values()):
             self.check_ball(surface, label)
-
-    def test_source_that_was_never_updated(self):
-        path = testing.write_volume("labels.vti", label_maps.image())
-        filter_ = simple.LabelstoSurfaces(simple.XMLImageDataReader(FileName=path), Labels=[7])
-        self.check_ball(self.blocks(filter_)["Label 7"], 7)
-
-    def test_second_array(self):
-        image = label_maps.image()
-        testing.add_array(image, numpy.random.default_rng(1).random(label_maps.SIZE**3), "noise")
-        image.GetPointData().SetActiveScalars("noise")
-        filter_ = simple.LabelstoSurfaces(testing.produce(image))
-        self.assertEqual(list(filter_.Voxels), ["POINTS", "noise"])
-        filter_.Voxels = ["POINTS", "labels"]
-        self.assertEqual(len(self.blocks(filter_)), 3)
 
     def test_names_and_colors(self):
         source = testing.produce(label_maps.add_names(label_maps.image()))
@@ -173,25 +138,6 @@ class LabelsTest(LabelsTestCase):
         for label, surface in zip(BALLS, self.blocks(filter_).values()):
             self.check_ball(surface, label)
 
-    def test_states(self):
-        path = testing.write_volume("labels-state.vti", label_maps.image())
-        for name in ("labels.pvsm", "labels-state.py"):
-            with self.subTest(name=name):
-                reader = simple.XMLImageDataReader(registrationName="Map", FileName=path)
-                reader.UpdatePipeline()
-                filter_ = simple.LabelstoSurfaces(reader, registrationName="Saved")
-                filter_.Labels = [7, 12]
-                filter_.LabelNames = ["7", "kidney"]
-                filter_.Gap = 0.5
-                self.assertEqual(list(self.blocks(filter_)), ["kidney", "Label 12"])
-                simple.SaveState(testing.output_path(name))
-                self.tearDown()
-                simple.LoadState(testing.output_path(name))
-                again = simple.FindSource("Saved")
-                self.assertEqual((list(again.Labels), again.Gap), ([7, 12], 0.5))
-                self.assertEqual(list(self.blocks(again)), ["kidney", "Label 12"])
-                self.tearDown()
-
 
 class LabelErrorsTest(LabelsTestCase):
     def check_error(self, filter_, *words):
@@ -259,41 +205,3 @@ class LabelErrorsTest(LabelsTestCase):
         self.check_error(filter_, "4096")
         nothing = simple.LabelstoSurfaces(testing.produce(label_maps.image(balls={0: ((9,) * 3, 1)})))
         self.check_error(nothing, "0")
-
-
-class LabelListTest(LabelsTestCase):
-    def test_list(self):
-        source = testing.produce(label_maps.add_names(label_maps.image()))
-        listed, problem = list_of(source)
-        self.assertEqual(problem, "")
-        self.assertEqual(list(listed), [0, *BALLS])
-        values = label_maps.values()
-        for label, (name, voxels, color) in listed.items():
-            self.assertEqual(voxels, int((values == label).sum()))
-            self.assertEqual(name, NAMES.get(label, "Label 0"))
-            if label:
-                numpy.testing.assert_allclose(color, COLORS[label], atol=1e-6)
-
-    def test_list_of_an_array_of_cells(self):
-        listed, problem = list_of(testing.produce(label_maps.cells()), ["1", "labels"])
-        self.assertEqual((list(listed), problem), ([0, *BALLS], ""))
-
-    def test_what_is_wrong_is_no_error(self):
-        values = numpy.random.default_rng(1).random((8, 8, 8))
-        with testing.CapturedMessages() as messages:
-            listed, problem = list_of(testing.produce(testing.make_image(values)))
-        self.assertEqual((listed, messages.text), ({}, ""))
-        self.assertRegex(problem, r"^Input port 0: .*[a-z.]$")
-        # And floats that are integers are a warning of the filter only.
-        with testing.CapturedMessages() as messages:
-            listed, problem = list_of(testing.produce(label_maps.image(numpy.float64)))
-        self.assertEqual((list(listed), problem, messages.text), ([0, *BALLS], "", ""))
-
-    def test_making_a_filter_says_nothing(self):
-        source = testing.produce(testing.make_image(numpy.random.default_rng(1).random((9, 9, 9))))
-        with testing.CapturedMessages() as messages:
-            simple.LabelstoSurfaces(source)
-        self.assertEqual(messages.text, "")
-
-
-testing.main()

@@ -2,13 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """How the surfaces of labels look in views: colours of labels, that follow the data."""
 
-import os
-import sys
-
 import numpy
 from paraview import simple
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import label_maps
 import plugin_testing as testing
 import view_testing as views
@@ -38,11 +34,6 @@ def legend(display):
 
 
 class LabelsViewTest(testing.PluginTestCase):
-    @classmethod
-    def setUpClass(cls):
-        views.open_screen()
-        super().setUpClass()
-
     def show(self, source=None, **properties):
         source = source or testing.produce(label_maps.add_names(label_maps.image()))
         self.filter = simple.LabelstoSurfaces(source, FinestLevel=1, **properties)
@@ -95,13 +86,6 @@ class LabelsViewTest(testing.PluginTestCase):
         self.picture("many")
         self.assertFalse(self.legend_is_shown())
 
-    def test_merged_surface(self):
-        self.show(Labels=[3, 7], Merge=1)
-        self.assertEqual(hues(self.picture("merged")), {"red", "green"})
-        self.check_legend([3, 7])
-        self.filter.Merge = 0
-        self.assertEqual(hues(self.picture("no-longer-merged")), {"red", "green"})
-
     def test_merged_later(self):
         self.show(Labels=[3, 7])
         self.assertEqual(hues(self.picture("not-yet-merged")), {"red", "green"})
@@ -130,15 +114,6 @@ class LabelsViewTest(testing.PluginTestCase):
         self.picture("edited-more")
         self.check_legend([3, 7, 12], colors={**COLORS, 3: (0.1, 0.1, 1.0)})
 
-    def test_another_array_stays(self):
-        self.show()
-        self.picture("label")
-        simple.ColorBy(self.display, ("CELLS", "Component"), separate=True)
-        self.picture("component")
-        self.filter.Labels = [3]
-        self.picture("component-of-one")
-        self.assertEqual(self.display.ColorArrayName[1], "Component")
-
     def test_error_first_and_then_a_good_run(self):
         source = testing.produce(label_maps.add_names(label_maps.image()))
         with testing.CapturedMessages() as messages:
@@ -156,16 +131,6 @@ class LabelsViewTest(testing.PluginTestCase):
             self.assertEqual(views.drawn(self.picture("bad")), 0)
         self.filter.Labels = []
         self.check_same(self.picture("good-again"), good)
-
-    def test_two_maps_in_a_view(self):
-        first = self.show()
-        self.picture("first-map")
-        other = label_maps.add_names(label_maps.image(), OTHER_NAMES, OTHER_COLORS)
-        second = simple.LabelstoSurfaces(testing.produce(other), FinestLevel=1)
-        display = simple.Show(second, self.view)
-        self.picture("both-maps")
-        self.check_legend([3, 7, 12], display=first)
-        self.check_legend([3, 7, 12], OTHER_NAMES, OTHER_COLORS, display)
 
     def test_what_is_made_of_the_surfaces(self):
         """Has the same colours, by the map that all displays of this array share."""
@@ -204,6 +169,3 @@ class LabelsViewTest(testing.PluginTestCase):
                 self.display = simple.GetRepresentation(self.filter, self.view)
                 self.check_same(self.picture("after-the-state"), before)
                 self.check_legend([3, 7, 12], colors=colors)
-
-
-testing.main()

@@ -2,13 +2,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Labels to Surfaces in ParaView's window: the table of labels, Apply, errors, another input."""
 
-import os
 import re
-import sys
 
 import numpy
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import gui_session as gui
 import label_maps
 import plugin_testing as testing
@@ -34,7 +31,7 @@ blocks = servermanager.Fetch(filter_)
 legend = simple.GetRepresentation(filter_, simple.GetActiveView()).LookupTable.Annotations
 print("Told:", list(filter_.Labels), [blocks.GetMetaData(b).Get(blocks.NAME())
                                       for b in range(blocks.GetNumberOfBlocks())],
-      list(legend)[1::2], flush=True)
+      list(legend)[1::2])
 """
 
 
@@ -76,11 +73,15 @@ class LabelsWindowTest(window.WindowTestCase):
     def test_panel_and_apply(self):
         path, save = self.saved_state("labels-applied.pvsm")
         pixels = self.play(opened(self.path) + [
-            FILTER, gui.pause(500), rows(4), note("3 of 4 labels"),
+            FILTER, gui.pause(300), rows(4), note("3 of 4 labels"),
             *[window.shown(name, True) for name in BASIC],
             *[window.shown(name, False) for name in ADVANCED], window.as_wide_as_the_panel(),
-            APPLY, gui.pause(1000), *save, gui.pause(1000), window.as_wide_as_the_panel()],
-            "labels-applied")
+            SHOW_ADVANCED, gui.pause(300),
+            *[window.shown(name, True) for name in BASIC + ADVANCED],
+            window.shown("MinimumComponentVolume", False),
+            choose("KeepComponents", "Large Ones"), gui.pause(300),
+            window.shown("MinimumComponentVolume", True), choose("KeepComponents", "All"),
+            APPLY, gui.pause(300), *save, window.as_wide_as_the_panel()], "labels-applied")
         self.assertEqual(self.blocks_of(path), ([], list(NAMES.values())))
         self.assertEqual(window.proxies_of(path).count("VolumicLabelsRepresentation"), 1)
         # All three in their colours.
@@ -89,37 +90,21 @@ class LabelsWindowTest(window.WindowTestCase):
             others = numpy.delete(bright, channel, axis=2).max(axis=2)
             self.assertGreater(int((bright[..., channel] > 2 * others + 20).sum()), 300)
 
-    def test_advanced_panel(self):
-        self.play(opened(self.path) + [
-            FILTER, SHOW_ADVANCED, gui.pause(1000),
-            *[window.shown(name, True) for name in BASIC + ADVANCED],
-            window.shown("MinimumComponentVolume", False),
-            choose("KeepComponents", "Large Ones"), gui.pause(300),
-            window.shown("MinimumComponentVolume", True),
-            window.as_wide_as_the_panel()], "labels-advanced")
-
     def test_choice(self):
-        path, save = self.saved_state("labels-chosen.pvsm")
+        chosen, save_chosen = self.saved_state("labels-chosen.pvsm")
+        found, save_found = self.saved_state("labels-found.pvsm")
+        all_, save_all = self.saved_state("labels-all.pvsm")
         self.play(opened(self.path) + [
-            FILTER, gui.pause(500), set_box(1, UNCHECKED), note("2 of 4 labels"),
-            APPLY, gui.pause(500), *save, gui.pause(500)], "labels-chosen")
-        self.assertEqual(self.blocks_of(path), ([7, 12], [NAMES[7], NAMES[12]]))
-        self.session.close_window()
-        path, save = self.saved_state("labels-found.pvsm")
-        self.play(opened(self.path) + [
-            FILTER, gui.pause(500), press("None"),
+            FILTER, gui.pause(300), set_box(1, UNCHECKED), note("2 of 4 labels"),
+            APPLY, *save_chosen, press("None"),
             note("<b>Note:</b> Where none is checked, all but the background get a surface."),
-            search("KID"), press("All"), search(""), note("1 of 4 labels"),
-            APPLY, gui.pause(500), *save, gui.pause(500)], "labels-found")
-        self.assertEqual(self.blocks_of(path), ([7], [NAMES[7]]))
-
-    def test_all_again_is_the_default(self):
-        path, save = self.saved_state("labels-all.pvsm")
-        self.play(opened(self.path) + [
-            FILTER, gui.pause(500), press("None"), set_box(2, CHECKED), APPLY, gui.pause(500),
-            press("All"), note("3 of 4 labels"), APPLY, gui.pause(500), *save, gui.pause(500)],
-            "labels-all")
-        self.assertEqual(self.blocks_of(path), ([], list(NAMES.values())))
+            search("KID"), press("All"), search(""), note("1 of 4 labels"), APPLY, *save_found,
+            press("None"), set_box(2, CHECKED), APPLY, press("All"), note("3 of 4 labels"), APPLY,
+            *save_all], "labels-chosen")
+        self.assertEqual(self.blocks_of(chosen), ([7, 12], [NAMES[7], NAMES[12]]))
+        self.assertEqual(self.blocks_of(found), ([7], [NAMES[7]]))
+        # All again is the default.
+        self.assertEqual(self.blocks_of(all_), ([], list(NAMES.values())))
 
     def test_undo(self):
         path, save = self.saved_state("labels-undone.pvsm")
@@ -127,7 +112,7 @@ class LabelsWindowTest(window.WindowTestCase):
         self.play(opened(self.path) + [
             FILTER, APPLY, gui.pause(500), set_box(2, UNCHECKED), APPLY, gui.pause(500),
             # The window's editor of colour maps makes a step of its own of what follows the data.
-            note("2 of 4 labels"), undo, undo, gui.pause(1000), note("3 of 4 labels"),
+            note("2 of 4 labels"), undo, undo, gui.pause(500), note("3 of 4 labels"),
             *save, gui.pause(500)], "labels-undone")
         self.assertEqual(self.blocks_of(path), ([], list(NAMES.values())))
 
@@ -139,7 +124,7 @@ class LabelsWindowTest(window.WindowTestCase):
         self.play(opened(path) + [
             FILTER, gui.pause(500), window.shown("Tolerance/Summary", False),
             gui.event(f"{PROPERTIES}/FinestLevel/IntRangeWidget/LineEdit", "set_string", "2"),
-            APPLY, gui.pause(1000), window.shown("Tolerance/Summary", True),
+            APPLY, gui.pause(500), window.shown("Tolerance/Summary", True),
             gui.check(summary, "text",
                       f"<b>Surfaces</b>: {self.vertices_of(path)} vertices<br>"
                       "no self-intersections<br>No surface is left of Label 9: too small, "
@@ -159,7 +144,7 @@ class LabelsWindowTest(window.WindowTestCase):
             note("3 of 4 labels"), gui.event(background, "set_string", "5"), gui.pause(300),
             note("4 of 4 labels"), gui.event(background, "set_string", "3"), gui.pause(300),
             set_box(0, UNCHECKED), note("2 of 4 labels"),
-            APPLY, gui.pause(500), *save, gui.pause(500)], "labels-background")
+            APPLY, gui.pause(300), *save], "labels-background")
         self.assertEqual(self.blocks_of(path), ([7, 12], [NAMES[7], NAMES[12]]))
 
     def test_no_label_map(self):
@@ -176,7 +161,7 @@ class LabelsWindowTest(window.WindowTestCase):
             numpy.random.default_rng(1).random((12, 12, 12)), name="labels"))
         changed = self.changes_of_file("LabelstoSurfaces1", {
             "others": others, "no_map": no_map, "back": self.path})
-        told = self.session.add_macro("labels_tell", TELL)
+        told = self.session.add_code(TELL)
         # Errors open a box, so not self.play().
         succeeded = self.session.play(opened(self.path) + [
             FILTER, gui.pause(500), set_box(2, UNCHECKED), APPLY, gui.pause(500), told,
@@ -195,6 +180,3 @@ class LabelsWindowTest(window.WindowTestCase):
             ("[3]", "[]"), ("[3]", "['liver']"), ("[]", "['liver', 'left kidney', 'spleen']")])
         self.assertEqual([run[2] for run in runs if run[1] != "[]"],
                          [run[1] for run in runs if run[1] != "[]"])
-
-
-window.main()

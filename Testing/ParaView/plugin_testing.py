@@ -187,6 +187,11 @@ class PluginTestCase(unittest.TestCase):
     def setUpClass(cls):
         load_plugin()
 
+    @classmethod
+    def tearDownClass(cls):
+        delete_views()
+        delete_sources()
+
     def tearDown(self):
         delete_views()
         delete_sources(but=self.kept)
@@ -218,9 +223,11 @@ def comma_locale():
             del os.environ["LOCPATH"]
 
 
-def main():
-    """Run the script's tests; the exit code says whether they passed."""
-    result = unittest.main(argv=["test"], exit=False, verbosity=2).result
+def main(*names):
+    """Run the tests of these modules, by default the script's; the exit code says whether all passed.
+    """
+    result = unittest.main(module=None if names else "__main__", argv=["test", *names], exit=False,
+                           verbosity=2).result
     # Success is the script's plain end: with sys.exit(0), mpirun takes pvbatch's end for a crash.
     if not result.wasSuccessful() or result.testsRun == 0:
         sys.exit(1)

@@ -8,13 +8,11 @@ together.
 
 import glob
 import os
-import sys
 import unittest
 import xml.etree.ElementTree as ElementTree
 
 from paraview import servermanager
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import plugin_testing as testing
 
 PLUGIN_SOURCES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../Plugin/*.xml")
@@ -65,12 +63,6 @@ class ProxyDefaultsTest(unittest.TestCase):
         self.assertIsNotNone(proxy, f"{group}/{name} is not in the plugin")
         proxy.UpdateVTKObjects()
         return proxy
-
-    def test_there_are_proxies(self):
-        names = {element.get("name") for _, element in self.elements}
-        self.assertEqual(
-            names, {"DeformableSurface", "ImagePyramid", "LabelLegend", "LabelList",
-                    "LabelsToSurfaces", "OtsuThreshold", "VolumeToSurface"})
 
     def test_values_agree(self):
         compared = set()
@@ -200,43 +192,3 @@ class ProxyDefaultsTest(unittest.TestCase):
             proxy.UpdateVTKObjects()
             found = [object_.GetLabelName(label) or "" for label in (3, -1)]
             self.assertEqual(found, given[1::2] or ["", ""])
-
-    def test_groups_of_the_panel(self):
-        """Each group holds what its label says; no property is in two."""
-        for name in ("DeformableSurface", "VolumeToSurface"):
-            proxy = self.new_proxy("filters", name)
-            groups = {}
-            for i in range(proxy.GetNumberOfPropertyGroups()):
-                group = proxy.GetPropertyGroup(i)
-                groups[group.GetXMLLabel()] = [
-                    proxy.GetPropertyName(group.GetProperty(j))
-                    for j in range(group.GetNumberOfProperties())]
-            members = [member for group in groups.values() for member in group]
-            self.assertEqual(len(members), len(set(members)))
-            forces = {m for m in members if m.endswith("Weight")} - {"PointAttractionWeight"}
-            self.assertEqual(set(groups["Forces"]), forces | {"EdgeMap", "Friction"})
-            self.assertIn("BorderValue", groups["Outside the Volume"])
-            self.assertEqual(groups["Levels"], ["Preview", "ShowLevels", "FinestLevel",
-                                                "CoarsestLevel"])
-            self.assertEqual(groups["Start"], ["Initialization", "SeedPositions", "SeedRadius"])
-
-    def test_every_property_is_documented(self):
-        for group, element in self.elements:
-            for name, property_ in properties_of(self.new_proxy(group, element.get("name"))):
-                if property_.GetCommand():
-                    with self.subTest(proxy=element.get("name"), property=name):
-                        text = property_.GetDocumentation().GetDescription().strip()
-                        self.assertGreater(len(text), 10)
-                        self.assertTrue(text.endswith("."))
-                        self.assertTrue(property_.GetXMLLabel())
-
-    def test_filters_are_in_their_menu(self):
-        for group, element in self.elements:
-            if group == "filters":
-                with self.subTest(proxy=element.get("name")):
-                    entry = element.find("Hints/ShowInMenu")
-                    self.assertEqual(entry.get("category"), "Volumic")
-                    self.assertTrue(entry.get("icon").startswith(":/volumic/"))
-
-
-testing.main()

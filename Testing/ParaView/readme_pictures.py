@@ -3,10 +3,12 @@
 """The documents' pictures of ParaView's window, by playing the README's four steps on a volume.
 
     VOLUMIC_PLUGIN=.../Volumic.so VOLUMIC_PARAVIEW_BIN=.../bin VOLUMIC_XVFB=/usr/bin/Xvfb \\
-      pvpython readme_pictures.py VOLUME ISO_VALUE FOLDER [X,Y ...]
+      pvpython readme_pictures.py VOLUME ISO_VALUE LABEL_MAP FOLDER [X,Y ...]
 
-VOLUME is a file that ParaView opens, such as the skull.vti that the quickstart leaves. X,Y are places
-of the screen where seeds are picked on its middle slice, such as 733,598 645,480 for the skull.
+VOLUME is a file that ParaView opens, such as the skull.vti that the quickstart leaves, LABEL_MAP
+another, with names, such as Debian's atlas of the brain written anew:
+`volumic /usr/share/mricron/templates/aal.nii.gz --write-volume aal.vti`. X,Y are places of the
+screen where seeds are picked on the volume's middle slice, such as 733,598 645,480 for the skull.
 """
 
 import os
@@ -21,6 +23,7 @@ from window_testing import (
     APPLY, FILTERS, FROM_THE_FRONT, SHOW_ADVANCED, choose, eye_of, filter_of_the_menu,
     open_menu_of_volumic, opened, set_iso_value)
 
+CAMERA = f"{gui.WINDOW}/cameraToolbar"
 KEY_DOWN = "6,16777237,0,,0,1"
 MACRO = os.path.abspath(os.path.join(os.path.dirname(os.path.abspath(__file__)),
                                      "../../Examples/ParaView/compare_levels.py"))
@@ -46,9 +49,9 @@ def pick(session, places):
         time.sleep(1)
 
 
-def main(volume, iso_value, folder, *seeds):
+def main(volume, iso_value, label_map, folder, *seeds):
     session = gui.Session(testing.program("paraview"), testing.plugin_path(),
-                          os.environ["VOLUMIC_XVFB"], size=(1180, 800))
+                          os.environ["VOLUMIC_XVFB"], size=(1180, 800), plain=True)
     start = opened(volume)
     macro = f"""
 from paraview import simple
@@ -70,15 +73,18 @@ exec(compile(open({MACRO!r}).read(), "macro", "exec"), {{"__name__": "__main__"}
             filter_of_the_menu("VolumeToSurface"), set_iso_value(iso_value), APPLY,
             gui.pause(1000), *FROM_THE_FRONT, *eye_of(0, 0, 2)]),
         "paraview-seeds.png": ("", on_a_slice(volume, iso_value)),
+        "paraview-labels.png": ("", opened(label_map) + [
+            filter_of_the_menu("LabelsToSurfaces"), gui.pause(500), APPLY, gui.pause(1000),
+            gui.event(f"{CAMERA}/actionNegativeX", "activate"), gui.pause(1000),
+            gui.event(f"{CAMERA}/actionZoomToData", "activate"), gui.pause(1500)]),
         # The macro.
         "paraview-levels.png": (macro, [gui.pause(1000), *FROM_THE_FRONT]),
     }
     for name, (python, events) in pictures.items():
-        succeeded = session.play(events, timeout=600, python=python)
+        succeeded = session.play(events, python=python)
         if "seeds" in name:
             pick(session, seeds)
         session.screenshot(os.path.join(folder, name))
-        session.close_window()
         if not succeeded:
             sys.exit(session.output)
         print(f"Written: {os.path.join(folder, name)}")

@@ -2,20 +2,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Deformable Surface in ParaView's window, by its menu and its panel as a user does."""
 
-import os
 import re
-import sys
 
-import numpy
-
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import gui_session as gui
+import numpy
 import plugin_testing as testing
 import window_testing as window
+from paraview import simple
 from window_testing import (
     APPLY, ISO_VALUE, PROPERTIES, SHOW_ADVANCED, choose, filter_of_the_menu, iso_of_the_wavelet,
     range_of_the_wavelet, set_iso_value, source)
-from paraview import simple
 
 VOLUME = source("RTAnalyticSource")
 SURFACE = filter_of_the_menu("DeformableSurface")
@@ -33,7 +29,7 @@ ADVANCED = ("Initialization", "CoarsestLevel", "FinestLevel", "MinimumPartSize",
 COLOURS_OF_CURVES = ((0.1, 0.35, 0.7), (0.15, 0.6, 0.3), (0.85, 0.45, 0.05), (0.75, 0.1, 0.25))
 TELL_THE_ACTIVE_VIEW = """
 from paraview import simple
-print("Active:", simple.GetActiveView().GetXMLName(), flush=True)
+print("Active:", simple.GetActiveView().GetXMLName())
 """
 ACTIVATE_THE_3D_VIEW = """
 from paraview import simple
@@ -42,7 +38,7 @@ simple.SetActiveView(next(v for v in simple.GetViews() if v.GetXMLName() == "Ren
 TELL_THE_COLOUR = """
 from paraview import simple
 display = simple.GetDisplayProperties(simple.GetActiveSource(), simple.GetActiveView())
-print("Colour:", [round(float(c), 3) for c in display.DiffuseColor], flush=True)
+print("Colour:", [round(float(c), 3) for c in display.DiffuseColor])
 """
 
 
@@ -50,14 +46,18 @@ class SurfaceWindowTest(window.WindowTestCase):
     def test_menu_panel_and_apply(self):
         path, save = self.saved_state("surface.pvsm")
         self.play(VOLUME + [
-            SURFACE, gui.pause(500),
+            SURFACE, gui.pause(300),
             gui.check(f"{PROPERTIES}/SetInputArrayToProcess/ComboBox", "currentText", "RTData"),
             gui.check(ISO_VALUE, "text", iso_of_the_wavelet()),
             gui.check(f"{PROPERTIES}/ObjectIsBright/CheckBox", "checked", "true"),
             *[window.shown(name, True) for name in BASIC],
             *[window.shown(name, False) for name in ADVANCED],
             window.as_wide_as_the_panel(), window.value_range(*range_of_the_wavelet()),
-            set_iso_value(150), APPLY, *save, gui.pause(1500)], "surface-applied")
+            # The button that finds the value again.
+            set_iso_value(111), gui.pause(300),
+            gui.event(f"{PROPERTIES}/IsoValue/Reset", "activate"), gui.pause(300),
+            gui.check(ISO_VALUE, "text", iso_of_the_wavelet()),
+            set_iso_value(150), APPLY, *save], "surface-applied")
         state = window.proxies_of(path)
         self.assertIn("DeformableSurface", state)
         # The surface has the window for itself: no chart, no levels, no table.
@@ -73,19 +73,17 @@ class SurfaceWindowTest(window.WindowTestCase):
 
     def test_the_history_is_one_click_away(self):
         path, save = self.saved_state("surface-history.pvsm")
-        again, save_again = self.saved_state("surface-history-again.pvsm")
-        told = self.session.add_macro("tell", TELL_THE_ACTIVE_VIEW)
-        to_3d = self.session.add_macro("to_3d", ACTIVATE_THE_3D_VIEW)
+        told = self.session.add_code(TELL_THE_ACTIVE_VIEW)
+        to_3d = self.session.add_code(ACTIVATE_THE_3D_VIEW)
         # Its entry in the pipeline browser: wavelet, filter, port.
         history = window.eye_of(0, 0, 2)
         pixels = self.play(VOLUME + [
-            SURFACE, APPLY, told, *history, told, *save,
+            SURFACE, APPLY, told, *history, told,
             # The eye brings back the chart that there is.
-            to_3d, told, *history, told, *save_again, gui.pause(1500)], "surface-history")
-        for state in (window.proxies_of(path), window.proxies_of(again)):
-            self.assertEqual(state.count("VolumicHistoryView"), 1)
-            self.assertEqual(state.count("VolumicHistoryRepresentation"), 1)
-            self.assertEqual(state.count("RenderView"), 1)
+            to_3d, told, *history, told, *save], "surface-history")
+        state = window.proxies_of(path)
+        for name in ("VolumicHistoryView", "VolumicHistoryRepresentation", "RenderView"):
+            self.assertEqual(state.count(name), 1, name)
         self.assertEqual(re.findall(r"Active: (\w+)", self.session.output),
                          ["RenderView", "VolumicHistoryView"] * 2)
         # In the panel's presence, too, each curve has its own colour.
@@ -93,17 +91,22 @@ class SurfaceWindowTest(window.WindowTestCase):
             near = numpy.abs(pixels.astype(int) - numpy.rint(255 * numpy.array(colour)))
             self.assertGreater((near.max(axis=2) < 16).sum(), 100, colour)
 
-    def test_advanced_panel(self):
+    def test_advanced_panel_after_image_pyramid(self):
+        path, save = self.saved_state("pyramid-and-surface.pvsm")
         self.play(VOLUME + [
-            SURFACE, SHOW_ADVANCED, gui.pause(1000),
+            filter_of_the_menu("ImagePyramid"),
+            gui.event(f"{PROPERTIES}/NumberOfLevels/IntRangeWidget/LineEdit", "set_string", "4"),
+            APPLY, SURFACE, SHOW_ADVANCED, gui.pause(500),
             *[window.shown(name, True) for name in BASIC + ADVANCED],
             gui.check(f"{PROPERTIES}/Initialization/ComboBox", "currentText",
                       "Enclosing Icosahedron"),
             window.as_wide_as_the_panel(),
-            window.last_level("FinestLevel", 1), window.last_level("CoarsestLevel", 1),
+            window.last_level("FinestLevel", 3), window.last_level("CoarsestLevel", 3),
+            window.value_range(*range_of_the_wavelet()),
+            gui.check(ISO_VALUE, "text", iso_of_the_wavelet()), APPLY, *save,
             # Only of use for seeds.
             window.shown("SeedRadius", False),
-            choose("Initialization", "Seeds"),
+            choose("Initialization", "Seeds"), gui.pause(300),
             window.shown("SeedRadius", True),
             # Only of use if edges attract.
             window.shown("EdgeMap", False),
@@ -111,7 +114,6 @@ class SurfaceWindowTest(window.WindowTestCase):
                       "set_string", "2"), gui.pause(300),
             window.shown("EdgeMap", True),
             gui.check(f"{PROPERTIES}/Recovery/ComboBox", "currentText", "Objects"),
-            choose("Recovery", "Objects and Cavities"),
             # Only of use for parts that are looked for, for components of that volume.
             window.shown("MinimumPartSize", True),
             choose("Recovery", "Off"), gui.pause(300),
@@ -119,41 +121,17 @@ class SurfaceWindowTest(window.WindowTestCase):
             window.shown("MinimumComponentVolume", False),
             choose("KeepComponents", "Large Ones"), gui.pause(300),
             window.shown("MinimumComponentVolume", True)], "surface-advanced")
-
-    def test_what_is_made_of_it_keeps_its_colour(self):
-        tell = self.session.add_macro("tell_colour", TELL_THE_COLOUR)
-
-        def made(filter_):
-            return [filter_of_the_menu(filter_, "Alphabetical"), APPLY, gui.pause(500), tell]
-        self.play(VOLUME + [
-            SURFACE, APPLY, gui.pause(500),
-            *made("Clip"), *made("Clip"), window.in_the_pipeline(0, 0), *made("Threshold"),
-            window.in_the_pipeline(0), *made("Contour"), gui.pause(500)], "surface-clipped")
-        self.assertEqual(re.findall(r"Colour: (\[.*\])", self.session.output),
-                         ["[0.89, 0.85, 0.76]"] * 3 + ["[1.0, 1.0, 1.0]"])
-
-    def test_button_that_finds_the_iso_value_again(self):
-        for before in ([], [filter_of_the_menu("ImagePyramid"), APPLY]):
-            with self.subTest(pyramid=bool(before)):
-                self.play(VOLUME + before + [
-                    SURFACE, set_iso_value(111), gui.pause(500),
-                    gui.event(f"{PROPERTIES}/IsoValue/Reset", "activate"), gui.pause(500),
-                    gui.check(ISO_VALUE, "text", iso_of_the_wavelet())], "surface-reset")
-                self.session.close_window()
-
-    def test_after_image_pyramid(self):
-        path, save = self.saved_state("pyramid-and-surface.pvsm")
-        self.play(VOLUME + [
-            filter_of_the_menu("ImagePyramid"),
-            gui.event(f"{PROPERTIES}/NumberOfLevels/IntRangeWidget/LineEdit", "set_string", "4"),
-            APPLY, SURFACE, SHOW_ADVANCED, gui.pause(1000),
-            window.last_level("FinestLevel", 3), window.last_level("CoarsestLevel", 3),
-            window.value_range(*range_of_the_wavelet()),
-            gui.check(ISO_VALUE, "text", iso_of_the_wavelet()), APPLY, *save],
-            "surface-of-pyramid")
         filter_ = window.open_state(path, "DeformableSurface1")
         self.assertEqual(filter_.Input.GetXMLName(), "ImagePyramid")
         self.assertGreater(testing.fetch(filter_).GetNumberOfCells(), 0)
 
+    def test_what_is_made_of_it_keeps_its_colour(self):
+        tell = self.session.add_code(TELL_THE_COLOUR)
 
-window.main()
+        def made(filter_):
+            return [filter_of_the_menu(filter_, "Alphabetical"), APPLY, gui.pause(300), tell]
+        self.play(VOLUME + [
+            SURFACE, APPLY, *made("Clip"), window.in_the_pipeline(0, 0), *made("Threshold"),
+            window.in_the_pipeline(0), *made("Contour")], "surface-clipped")
+        self.assertEqual(re.findall(r"Colour: (\[.*\])", self.session.output),
+                         ["[0.89, 0.85, 0.76]"] * 2 + ["[1.0, 1.0, 1.0]"])

@@ -136,7 +136,3 @@ class VolumeReaderTest(testing.PluginTestCase):
             simple.VolumicVolume(FileNames=[path]).UpdatePipeline()
         self.assertIn(path, messages.text)
         self.assertEqual(messages.text.count("ERROR"), 1, messages.text)
-
-
-if __name__ == "__main__":
-    testing.main()

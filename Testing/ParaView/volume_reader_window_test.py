@@ -2,11 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """File > Open of volumes in ParaView's window, by the reader Volumic Volume."""
 
-import os
 import re
-import sys
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import gui_session as gui
 import volume_reader_test as files
 import window_testing as window
@@ -15,7 +12,7 @@ from window_testing import APPLY, PROPERTIES, filter_of_the_menu, opened
 TELL = """
 from paraview import simple
 readers = [proxy.GetXMLName() for proxy in simple.GetSources().values()]
-print("Readers:", sorted(readers), flush=True)
+print("Readers:", sorted(readers))
 """
 
 
@@ -31,19 +28,15 @@ class VolumeReaderWindowTest(window.WindowTestCase):
         return re.findall(r"Readers: (\[.*\])", self.session.output)
 
     def test_a_packed_nifti(self):
-        told = self.session.add_macro("tell", TELL)
+        told = self.session.add_code(TELL)
         # Values that are no labels.
         self.play([*opened(files.nifti("ramp.nii.gz", files.ramp())), told,
-                   filter_of_the_menu("VolumeToSurface"), APPLY, gui.pause(1500)], "reader-nifti")
+                   filter_of_the_menu("VolumeToSurface"), APPLY], "reader-nifti")
         self.assertEqual(self.readers(), ["['VolumicVolume']"])
 
     def test_segments_have_their_names(self):
-        told = self.session.add_macro("tell", TELL)
+        told = self.session.add_code(TELL)
         self.play([*opened(files.segmentation(), CHOOSE_VOLUMIC), told,
                    filter_of_the_menu("LabelsToSurfaces"),
-                   gui.check(f"{PROPERTIES}/Labels/Note", "text", "3 of 4 labels"), APPLY,
-                   gui.pause(1500)], "reader-segments")
+                   gui.check(f"{PROPERTIES}/Labels/Note", "text", "3 of 4 labels"), APPLY], "reader-segments")
         self.assertEqual(self.readers(), ["['VolumicVolume']"])
-
-
-window.main()

@@ -5,8 +5,9 @@
 Pictures of the window at each stage go to VOLUMIC_TEST_OUTPUT, to be looked at.
 """
 
+import atexit
+import functools
 import os
-import sys
 import unittest
 import xml.etree.ElementTree as ElementTree
 
@@ -39,7 +40,7 @@ def watch(manager, event):
             watched.append(algorithm)
             attend(proxy, algorithm)
 
-servermanager.ProxyManager().SMProxyManager.AddObserver("RegisterEvent", watch)
+servermanager.ProxyManager().SMProxyManager.AddObserver("RegisterEvent", lasting(watch))
 """
 
 # Runs in the window: what its File > Change File calls, for the input of a filter.
@@ -165,21 +166,25 @@ def proxies_of(state):
     return [proxy.get("type") for proxy in ElementTree.parse(state).iter("Proxy")]
 
 
+@functools.cache
+def the_session():
+    """That of all tests of the process."""
+    session = gui.Session(testing.program("paraview"), testing.plugin_path(),
+                          os.environ["VOLUMIC_XVFB"])
+    atexit.register(session.close)
+    return session
+
+
 class WindowTestCase(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.session = gui.Session(testing.program("paraview"), testing.plugin_path(),
-                                  os.environ["VOLUMIC_XVFB"])
+        cls.session = the_session()
 
-    @classmethod
-    def tearDownClass(cls):
-        cls.session.close()
-
-    def tearDown(self):
-        self.session.close_window()
+    def setUp(self):
+        self.session.forget_codes()
 
     def play(self, events, picture, **options):
-        """Play the events in a new window, and take its picture, also if an event failed.
+        """Play the events in the window, and take its picture, also if an event failed.
 
         options: of Session.play
         """
@@ -196,10 +201,13 @@ class WindowTestCase(unittest.TestCase):
         name, which is the only one, and both are applied."""
         return {name: [
             # Change File is in a menu that the recorder doesn't reach.
-            self.session.add_macro(f"change_to_{name}",
-                                   CHANGE_FILE.format(name=filter_, path=path)),
+            self.session.add_code(CHANGE_FILE.format(name=filter_, path=path)),
             gui.pause(500), in_the_pipeline(0), gui.pause(300), APPLY, in_the_pipeline(0, 0),
             gui.pause(500)] for name, path in files.items()}
+
+    def until_told(self, start, times):
+        """An event that lets the window go on till so many lines have begun like that."""
+        return self.session.add_code(f"until(lambda: times_told({start!r}) >= {times})")
 
     def saved_state(self, name):
         """Path of a state, and the events that save it from the window."""
@@ -209,11 +217,3 @@ class WindowTestCase(unittest.TestCase):
         return path, [
             gui.event(f"{gui.WINDOW}/menubar/menu_File", "activate", "actionFileSaveServerState"),
             gui.event(f"{gui.WINDOW}/FileSaveServerStateDialog", "filesSelected", path)]
-
-
-def main():
-    """Run the script's tests, or skip them where there is no screen."""
-    if not os.environ["VOLUMIC_XVFB"]:
-        print("Skipped: Xvfb was not found")
-        sys.exit(77)
-    testing.main()

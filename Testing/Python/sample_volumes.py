@@ -39,4 +39,4 @@ def write_volume(path, voxels, spacing=(1, 1, 1)):
 def run_script(name, *arguments, **options):
     """Run a script of Examples/Python to its end."""
     return subprocess.run([sys.executable, os.path.join(EXAMPLES, name), *arguments],
-                          capture_output=True, text=True, check=False, timeout=240, **options)
+                          capture_output=True, text=True, check=False, timeout=1200, **options)

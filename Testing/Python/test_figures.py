@@ -1,121 +1,138 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Examples/Python/figures.py on a small volume: every picture that it promises."""
+"""The scripts of Examples/Python that make the documents' pictures and tables, and a video of an
+evolution, on a small volume. Needs a display."""
 
-import contextlib
-import io
+import json
 import os
 import sys
-import tempfile
 import unittest
 
 import numpy as np
-from vtkmodules.vtkChartsCore import vtkAxis
-from vtkmodules.vtkCommonDataModel import vtkVector2i
 
 from examples_path import EXAMPLES
 from folder_test_case import SharedFolderTestCase
 from sample_volumes import RING_ISO, RING_SPACING, ring_voxels, run_script, write_volume
-from vtk_files import read_pixels
+from vtk_files import read, read_pixels
 
 sys.path.insert(0, EXAMPLES)
 # pylint: disable=wrong-import-position
-from figures import ROW_WIDTH, SKULL_PICTURES, stages_by_level
-from history_chart import CURVES, chart_matrix
-from scan_runs import Scan
+from figures import ROW_WIDTH, SKULL_PICTURES
+from paper_tables import TABLES
 
 
-class FiguresTest(SharedFolderTestCase):
+def cells_of(markdown):
+    return [[cell.strip() for cell in line.strip("|").split("|")]
+            for line in markdown.strip().splitlines()]
+
+
+class ScriptTest(SharedFolderTestCase):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
-        cls.output = cls.path("pictures")
-        large = np.kron(ring_voxels(), np.ones((2, 2, 2), "u1"))
-        cls.ring = write_volume(cls.path("r.mha"), large, RING_SPACING)
-        cls.small = write_volume(cls.path("s.mha"), ring_voxels(), RING_SPACING)
+        cls.ring = write_volume(cls.path("s.mha"), ring_voxels(), RING_SPACING)
+        cls.scan = (cls.ring, str(RING_ISO))
 
-    def figures(self, *arguments):
-        return run_script("figures.py", "--output", self.output, "--skull", self.ring,
-                          str(RING_ISO), *arguments)
-
-    def test_every_picture(self):
-        run = self.figures("--vessels", self.small, str(RING_ISO),
-                           "--vessels", self.small, str(RING_ISO),
-                           "--graded", self.small, str(RING_ISO), "0.2")
-        self.assertEqual((run.returncode, run.stderr), (0, ""))
-        names = sorted([draw.__name__ + ".png" for draw in SKULL_PICTURES]
-                       + ["vessels.png", "vessels-s.png", "graded-s.png", "interfaces.png"])
-        self.assertEqual(sorted(os.listdir(self.output)), names)
-        for name in names:
-            pixels = read_pixels(os.path.join(self.output, name))
-            self.assertGreater(pixels.shape[1], 0.75 * ROW_WIDTH, name)
-            self.assertGreater(pixels.std(), 8, name)
-        # One run serves all pictures of the same properties: default and without the pyramid.
-        self.assertEqual(run.stdout.count("default properties"), 2)  # of two scans
-        self.assertEqual(run.stdout.count("SnapshotInterval"), 1)
-        self.assertEqual(run.stdout.count("Recovery 0, Metric 0, CoarsestLevel 3\n"), 1)
-        self.assertEqual(run.stdout.count("Recovery 0, Metric 0, CoarsestLevel 2\n"), 2)  # both vessels
-
-    def test_one_picture_alone(self):
-        run = self.figures("--only", "pyramid", "--output", self.path("alone"))
-        self.assertEqual(run.returncode, 0, run.stderr)
-        self.assertEqual(os.listdir(self.path("alone")), ["pyramid.png"])
-        self.assertNotIn("Evolving", run.stdout)
-        self.assertNotIn("No --graded", run.stdout)
-
-    def test_tells_which_pictures_stay(self):
-        run = self.figures("--only", "graded", "vessels", "--output", self.path("some"))
-        self.assertEqual(run.returncode, 0, run.stderr)
-        self.assertEqual(os.listdir(self.path("some")), ["graded.png"])
-        self.assertIn("No --vessels", run.stdout)
-        self.assertIn("No --graded", run.stdout)
-
-    def test_refused(self):
-        for arguments, code, reason in (
-                (("--only", "nothing"), 2, "invalid choice"),
-                (("--only", "vessels", "--vessels", "none.vti", "3"), 1, "no such file"),
-                (("--only", "levels", "--skull", self.ring, "9999"), 1, "9999")):
+    def refused(self, script, *cases):
+        """Each case: the exit code, the reason, arguments."""
+        for code, reason, *arguments in cases:
             with self.subTest(reason):
-                run = self.figures(*arguments)
-                self.assertEqual(run.returncode, code)
+                run = run_script(script, *arguments)
+                self.assertEqual(run.returncode, code, run.stderr)
                 self.assertIn(reason, run.stderr)
                 self.assertNotIn("Traceback", run.stderr)
 
 
-class EvolutionTest(unittest.TestCase):
-    def test_stages_are_the_start_and_each_level_at_rest(self):
-        with tempfile.TemporaryDirectory() as folder, contextlib.redirect_stdout(io.StringIO()):
-            path = write_volume(os.path.join(folder, "r.mha"), ring_voxels(), RING_SPACING)
-            surface = Scan(path, RING_ISO).run()
-        rows = surface.GetHistory().GetNumberOfRows()
-        names = [name for name, _ in stages_by_level(surface)]
-        self.assertEqual(len(names), 4)
-        self.assertEqual(names[0], "Level 2, iteration 0")
-        self.assertEqual(names[-1], f"Level 0, iteration {rows}")
-        sizes = [stage.GetNumberOfPoints() for _, stage in stages_by_level(surface)]
-        self.assertLess(sizes[1], sizes[0])  # the start encloses the image
-        self.assertLess(sizes[1], sizes[2])
+class FiguresTest(ScriptTest):
+    def test_every_picture(self):
+        output = self.path("pictures")
+        # The others are like those that quickstart.py draws.
+        of_skull = [draw.__name__ for draw in SKULL_PICTURES
+                    if draw.__name__ not in ("pyramid", "levels", "views")]
+        run = run_script("figures.py", "--output", output, "--skull", *self.scan,
+                         "--vessels", *self.scan, "--graded", *self.scan, "0.2", "--only",
+                         *of_skull, "vessels", "interfaces")
+        self.assertEqual((run.returncode, run.stderr), (0, ""))
+        names = sorted([*(f"{name}.png" for name in of_skull), "graded-s.png", "interfaces.png",
+                        "vessels.png"])
+        self.assertEqual(sorted(os.listdir(output)), names)
+        for name in names:
+            pixels = read_pixels(os.path.join(output, name))
+            self.assertGreater(pixels.shape[1], 0.75 * ROW_WIDTH, name)
+            self.assertGreater(pixels.std(), 8, name)
+
+    def test_refused(self):
+        output = ("--output", self.path("none"), "--only")
+        self.refused("figures.py", (2, "invalid choice", *output, "nothing"),
+                     (1, "no such file", *output, "vessels", "--vessels", "none.vti", "3"),
+                     (1, "9999", *output, "levels", "--skull", self.ring, "9999"))
 
 
-class ChartTest(unittest.TestCase):
-    def test_two_evolutions_have_the_same_scale(self):
-        rows = np.arange(1.0, 41)
-        small = {"Level": 1 + rows * 0, **{curve[0]: rows for curve in CURVES}}
-        large = {name: np.tile(column, 2) * 3 for name, column in small.items()}
-        cells = [(column, row, curve, columns) for column, columns in enumerate((small, large))
-                 for row, curve in enumerate(CURVES)]
-        matrix = chart_matrix(cells, small, 1)
-        for row, (name, _, factor, logarithmic) in enumerate(CURVES):
-            for place in (vtkAxis.BOTTOM, vtkAxis.LEFT):
-                ends = []
-                for column in range(2):
-                    chart = matrix.GetChart(vtkVector2i(column, len(CURVES) - 1 - row))
-                    axis = chart.GetAxis(place)
-                    ends.append((axis.GetUnscaledMinimum(), axis.GetUnscaledMaximum()))
-                self.assertEqual(ends[0], ends[1], name)
-                least = 80 if place == vtkAxis.BOTTOM else 120 * factor
-                self.assertGreaterEqual(ends[0][1], least, name)
-            self.assertEqual(axis.GetLogScale(), logarithmic, name)
+class TablesTest(ScriptTest):
+    def test_every_table(self):
+        run = run_script("paper_tables.py", "--skull", *self.scan, "--scan", *self.scan)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        tables = [cells_of(text) for text in run.stdout.split("\n\n") if text]
+        self.assertEqual(len(tables), len(TABLES))
+        for lines in tables:
+            self.assertEqual({len(line) for line in lines}, {len(lines[0])})
+        levels, vessels, recovery, start, rest, sampling = (lines[2:] for lines in tables)
+        for row in levels[1:3]:  # as in the paper, and defaults
+            self.assertTrue(all(int(cell) > 0 for cell in row[1:4]), row)
+            self.assertEqual(row[-1], "1, 1")
+        for cell in vessels[0][1:]:
+            count, share = cell.split(", ")
+            self.assertGreater(int(count), 0)
+            self.assertGreater(float(share.removesuffix(" %")), 95)
+        self.assertTrue(recovery[0][-1].endswith(" %, from level 2"), recovery)
+        first, outside, iso = map(int, start[0][1:4])
+        self.assertEqual(first, 2)
+        self.assertLess(iso, outside)
+        self.assertGreaterEqual(int(rest[0][2]), 20)
+        counts = [int(row[1].replace(",", "")) for row in sampling]
+        self.assertEqual(counts, sorted(counts, reverse=True))
+
+    def test_refused(self):
+        self.refused("paper_tables.py", (2, "invalid choice", "--only", "nothing"),
+                     (1, "no such file", "--skull", "none.vti", "3"))
+
+
+class SnapshotsTest(ScriptTest):
+    def snapshots(self, output, *options):
+        return run_script("evolution_snapshots.py", self.ring, self.path(output), "--iso",
+                          str(RING_ISO), "--width", "200", "--finest-level", "1", *options)
+
+    def test_pictures_and_a_video(self):
+        for output in ("frames", "ring.ogv"):
+            run = self.snapshots(output, "--every", "20")
+            self.assertEqual(run.returncode, 0, run.stderr)
+        names = sorted(os.listdir(self.path("frames")))
+        self.assertEqual(names[:2], ["frame0000.png", "frame0001.png"])
+        first, last = (read_pixels(self.path(f"frames/{names[i]}")) for i in (0, -1))
+        self.assertEqual(first.shape, last.shape, "one size for all")
+        # Not black, and a body at first that is larger than the ring at last.
+        light = [np.count_nonzero(picture.mean(axis=2) > 60) for picture in (first, last)]
+        self.assertGreater(light[1], 1000)
+        self.assertGreater(light[0], 1.5 * light[1])
+        start = self.content("ring.ogv")[:64]
+        self.assertTrue(start.startswith(b"OggS"))
+        self.assertIn(b"theora", start)
+
+    def test_surfaces_in_time(self):
+        run = self.snapshots("ring.vtp.series", "--every", "20")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        files = json.loads(self.content("ring.vtp.series"))["files"]
+        self.assertEqual([file["time"] for file in files], list(range(len(files))))
+        levels = [int(read(self.path(file["name"])).GetFieldData().GetArray("Level").GetTuple1(0))
+                  for file in files]
+        self.assertEqual(levels, sorted(levels, reverse=True))
+        self.assertEqual((levels[0], levels[-1]), (2, 1))
+
+    def test_refused(self):
+        self.refused("evolution_snapshots.py", *(
+            (code, reason, self.ring, self.path("a.ogv"), *options) for code, reason, *options in (
+                (2, "--every", "--every", "0"), (1, "Iso Value", "--iso", "1e6"))))
+        self.assertFalse(os.path.exists(self.path("a.ogv")))
 
 
 if __name__ == "__main__":

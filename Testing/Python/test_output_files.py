@@ -3,13 +3,10 @@
 """The scripts keep an older file until the new one is whole, and never replace what they read."""
 
 import os
-import signal
 import stat
-import subprocess
 import sys
 import unittest
 
-import numpy as np
 
 from examples_path import EXAMPLES
 from folder_test_case import FolderTestCase
@@ -39,18 +36,6 @@ class BesideTest(OutputFilesTest):
                 raise KeyError
         self.assertEqual(self.content("a.stl"), OLD)
         self.without_rests()
-
-    def test_so_does_a_kill(self):
-        path = self.write_bytes("a.stl", OLD)
-        code = (f"import sys, time; sys.path.insert(0, {EXAMPLES!r});"
-                "from output_files import beside\n"
-                f"with beside({path!r}) as written, open(written, 'wb', buffering=0) as file:\n"
-                "    file.write(b'half'); print('half', flush=True); time.sleep(60)")
-        with subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE) as process:
-            process.stdout.readline()
-            self.assertEqual(self.content("a.stl"), OLD)
-            process.send_signal(signal.SIGKILL)
-        self.assertEqual(self.content("a.stl"), OLD)
 
     def test_links_and_permissions(self):
         os.mkdir(self.path("there"))
@@ -131,16 +116,6 @@ class ScriptsTest(OutputFilesTest):
             "read_volume.py", self.ring, volume, preexec_fn=largest_file(len(before) // 2)))
         self.assertEqual(self.content("a.vti"), before)
 
-    def test_arrays(self):
-        voxels, mesh = self.path("v.npy"), self.write_bytes("m.npz", OLD)
-        np.save(voxels, ring_voxels()[::2, ::2, ::2])
-        arguments = ("numpy_arrays.py", voxels, mesh, "--iso", str(RING_ISO))
-        self.refused("m.npz cannot be written", run_script(
-            *arguments, preexec_fn=largest_file(3000)))
-        self.assertEqual(self.content("m.npz"), OLD)
-        self.refused("no such folder", run_script(
-            "numpy_arrays.py", voxels, self.path("none/m.npz")))
-
     def batch(self, **settings):
         os.makedirs(self.path("scans"), exist_ok=True)
         write_volume(self.path("scans/ring.mha"), ring_voxels()[::2, ::2, ::2], RING_SPACING)
@@ -157,18 +132,6 @@ class ScriptsTest(OutputFilesTest):
         self.write_bytes("out/results.csv", table)
         self.refused("results.csv cannot be written", self.batch(preexec_fn=largest_file(50)))
         self.assertEqual(self.content("out/results.csv"), table)
-
-    def test_a_table_is_whole_when_killed(self):
-        self.assertEqual(self.batch().returncode, 0)
-        script = os.path.join(EXAMPLES, "batch.py")
-        with subprocess.Popen([sys.executable, script, self.path("scans"), "--output",
-                               self.path("out"), "--iso", str(RING_ISO)],
-                              stdout=subprocess.PIPE) as process:
-            process.stdout.read(8)  # it has begun with the first volume
-            process.kill()
-        # The old one, or the new one if that was quicker.
-        self.assertEqual(self.content("out/results.csv").count(b"\n"), 2)
-        self.assertIn(b"ring.mha,ok", self.content("out/results.csv"))
 
 
 if __name__ == "__main__":

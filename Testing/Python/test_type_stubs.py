@@ -69,19 +69,12 @@ class StubsTest(unittest.TestCase):
         base = node.bases[0].id
         return {**(self.members(base) if base in self.stubs else {}), **definitions(node)}
 
-    def test_the_package_is_marked_as_typed(self):
-        self.assertTrue((FOLDER / "py.typed").is_file())
-
     def test_the_package_exports_the_classes(self):
+        self.assertTrue((FOLDER / "py.typed").is_file())
         exported = {alias.asname for node in parsed("__init__.pyi").body
                     if isinstance(node, ast.ImportFrom) for alias in node.names}
         self.assertEqual(exported, set(CLASSES))
         self.assertEqual(set(self.stubs), set(CLASSES))
-
-    def test_base_classes(self):
-        for name, value in CLASSES.items():
-            self.assertEqual([base.id for base in self.stubs[name].bases],
-                             [base.__name__ for base in value.__bases__])
 
     def test_every_name_is_there_and_no_other(self):
         for name, value in CLASSES.items():
@@ -106,36 +99,6 @@ class StubsTest(unittest.TestCase):
                         self.assertEqual(type(result).__name__, said, f"{name}.{member}")
                         compared += 1
             self.assertGreater(compared, 10, name)
-
-    def test_setters_take_what_the_stubs_say(self):
-        for name, value in CLASSES.items():
-            an_object = value()
-            members = self.members(name)
-            # VTK's own, such as SetReferenceCount(), had better be left alone.
-            ours = {member for base in value.__mro__ if base.__name__ in CLASSES
-                    for member in vars(base)}
-            taken = 0
-            for member, parts in members.items():
-                getter = "Get" + member[3:]
-                if member not in ours or not member.startswith("Set") or getter not in members:
-                    continue
-                types = [ast.unparse(a.annotation) for a in parts[0].args.args if a.annotation]
-                if types in (["int"], ["float"], ["bool"]):
-                    current = getattr(an_object, getter)()
-                    self.assertEqual(type(current).__name__, types[0], f"{name}.{member}")
-                    getattr(an_object, member)(current)
-                    taken += 1
-            if name != "vtkLabelTable":  # It has no property.
-                self.assertGreater(taken, 0, name)
-
-    def test_texts_come_along(self):
-        for name, value in CLASSES.items():
-            said = " ".join(ast.get_docstring(self.stubs[name]).split())
-            self.assertEqual(said, " ".join(inspect.getdoc(value).split()))
-        members = self.members("vtkVolumeToSurface")
-        for member in ("SetMetric", "GetMetric", "SetMetricToVoxels"):
-            self.assertIn("stretched as the voxels", ast.get_docstring(members[member][0]), member)
-        self.assertIn("input port", ast.get_docstring(members["SetInputConnection"][0]))
 
     @unittest.skipUnless(shutil.which("mypy"), "no mypy")
     def test_mypy(self):

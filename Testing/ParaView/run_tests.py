@@ -1,0 +1,26 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs the tests of several scripts in one process, as starting ParaView takes long:
+
+    pvpython run_tests.py [--screen] SCRIPT[.CLASS[.TEST]] ...
+
+Scripts are named without .py. With --screen, they want an X server, and are skipped where there is
+none. What fails is told by its name.
+"""
+
+import os
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import plugin_testing as testing
+
+
+def main(*names):
+    if names[0] == "--screen":
+        import view_testing  # pylint: disable=import-outside-toplevel
+        view_testing.open_screen()
+        names = names[1:]
+    testing.main(*names)
+
+
+main(*sys.argv[1:])
