@@ -99,7 +99,7 @@ TEST(HostThreads, AreAsManyAsWorkWhateverVtkHas)
     GTEST_SKIP() << "one processor, or a setting";
   }
   const std::string host = vtkSMPTools::GetBackend();
-  for (const char* backend : { "Sequential", "STDThread", "TBB", "OpenMP" })
+  for (const char* backend : { "Sequential", "STDThread", "TBB" })
   {
     if (!vtkSMPTools::SetBackend(backend))
     {
