@@ -145,7 +145,8 @@ class VolumesTest(ToolTestCase):
         report = self.check(file, "--component", "1")
         self.assertEqual(report["input"]["range"], [ball().min(), ball().max()])
         self.check(file)
-        self.refused("no point array none; point arrays: vectors", file, self.path("a.stl"), "--array", "none")
+        self.refused("no point array none; point arrays: vectors", file, self.path("a.stl"),
+                     "--array", "none")
         told = self.run_tool(file, self.path("a.stl"), "--iso", ISO).stderr
         self.assertIn("magnitude of 2 components (--component)", told)
         told = self.run_tool(file, self.path("b.stl"), "--component", "2", "--iso", ISO, status=1)

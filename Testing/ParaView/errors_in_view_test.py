@@ -21,7 +21,7 @@ OF_SURFACE = {"IsoValue": (-5.0, 1000.0, float("inf"), float("nan")), "CoarsestL
               "Recovery": (-1, 3), "Metric": (2,), "KeepComponents": (9,),
               "MaximumNumberOfIterations": (0,), "SnapshotInterval": (-1,), "TimeLimit": (-1.0,)}
 FILTERS = {"ImagePyramid": OF_PYRAMID, "DeformableSurface": OF_SURFACE,
-           # Its other properties are those of the other two. Not a number: an iso-value found by itself.
+           # Its other properties are those of the other two.
            "VolumetoSurface": {**OF_PYRAMID, "IsoValue": (-5.0, 1000.0)}}
 
 

@@ -71,7 +71,7 @@ class Session:
     One window plays scripts after each other, and leaves nothing of one for the next: starting it
     takes long. It waits at the end of each till there is another one.
 
-    plain: for pictures; a window for each script, whose toolbars have no macros, thus without add_code.
+    plain: for pictures; a window for each script, whose toolbars have no macros: no add_code().
     """
 
     def __init__(self, paraview, plugin, xvfb, size=(1400, 1000), plain=False):

@@ -128,12 +128,6 @@ def stop_after_the_tenth(algorithm, abort=lambda algorithm: algorithm.SetAbortEx
     return algorithm.AddObserver("ProgressEvent", progress)
 
 
-def reset_iso_value(filter_):
-    """What the button beside the value does."""
-    filter_.SMProxy.GetProperty("IsoValue").ResetToDomainDefaults()
-    filter_.SMProxy.UpdateVTKObjects()
-
-
 def delete_sources(but=None):
     """All of the pipeline, the last ones first: what comes last has nothing after it."""
     for source in reversed(list(simple.GetSources().values())):

@@ -38,5 +38,6 @@ class VolumeReaderWindowTest(window.WindowTestCase):
         told = self.session.add_code(TELL)
         self.play([*opened(files.segmentation(), CHOOSE_VOLUMIC), told,
                    filter_of_the_menu("LabelsToSurfaces"),
-                   gui.check(f"{PROPERTIES}/Labels/Note", "text", "3 of 4 labels"), APPLY], "reader-segments")
+                   gui.check(f"{PROPERTIES}/Labels/Note", "text", "3 of 4 labels"), APPLY],
+                  "reader-segments")
         self.assertEqual(self.readers(), ["['VolumicVolume']"])

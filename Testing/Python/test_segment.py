@@ -12,7 +12,7 @@ import numpy as np
 from vtkmodules.vtkFiltersCore import vtkCleanPolyData, vtkFeatureEdges, vtkMassProperties
 
 from examples_path import EXAMPLES
-from folder_test_case import SharedFolderTestCase, run_on_terminal
+from folder_test_case import SharedFolderTestCase, interrupted_on_terminal, run_on_terminal
 from sample_volumes import (
     RING_ISO, RING_SPACING, RING_VOLUME, ring_voxels, run_script, write_volume)
 from vtk_files import points_of, read
@@ -137,22 +137,19 @@ class RefusedTest(SegmentTest):
 
 
 class TerminalTest(SegmentTest):
-    def segment_on_terminal(self, output, *options, interrupt_at=None):
-        return run_on_terminal(
-            [sys.executable, os.path.join(EXAMPLES, "segment.py"), self.ring, self.path(output),
-             "--iso", str(RING_ISO), *options], interrupt_at)
+    def command(self, volume, output):
+        return [sys.executable, os.path.join(EXAMPLES, "segment.py"), volume, self.path(output),
+                "--iso", str(RING_ISO)]
 
     def test_a_bar_grows_and_is_replaced_by_the_time(self):
-        shown, code = self.segment_on_terminal("a.stl")
+        shown, code = run_on_terminal(self.command(self.ring, "a.stl"))
         self.assertEqual(code, 0, shown)
         self.assertRegex(shown, r"\rEvolving the surface \[#*\.*\] +\d+ % .*")
         self.assertRegex(shown, r"\rEvolving the surface: \d+\.\d\d s")
 
     def test_control_c_hands_over_a_closed_surface(self):
-        # It would never be at rest, so that there is time to stop it.
-        shown, code = self.segment_on_terminal(
-            "b.vtp", "--set", "ConvergenceTolerance=0", "--set", "MaximumNumberOfIterations=1000000",
-            interrupt_at=r"Level \d, iteration")
+        large = write_volume(self.path("l.mha"), np.kron(ring_voxels(), np.ones((4, 4, 4), "u1")))
+        shown, code = interrupted_on_terminal(self.command(large, "b.vtp"), r"Level \d, iteration")
         self.assertEqual(code, 3, shown)
         self.assertIn("interrupted", shown)
         self.assertIn("(not finished)", shown)
