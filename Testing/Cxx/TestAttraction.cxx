@@ -60,21 +60,6 @@ double RadiusOf(const TestVolume& volume, const SurfaceOptions& options,
 }
 }
 
-TEST(PointAttraction, MakesABallOfItsRadiusHoweverDarkItIs)
-{
-  const TestVolume volume = Half();
-  const Point place = { 20, 16, 16 };
-  for (double iso : { 20., 50., 90. })
-  {
-    for (double radius : { 3., 5. })
-    {
-      EXPECT_NEAR(RadiusOf(volume, HalfOptions(iso), { { place, 1., radius } }, 1., place), radius,
-        0.35 * radius)
-        << iso;
-    }
-  }
-}
-
 TEST(PointAttraction, TurnsHalfOfTheFieldRoundAtItsRadius)
 {
   // 50 below the iso-value, with boundaries of 50 per voxel: V + e (2 |V| + 50 / 4), e = 1/2.
@@ -108,18 +93,6 @@ TEST(PointAttraction, HasARadiusThatTheLevelCanHold)
   volume.Image.Unit = 2.;
   const Point place = { 20, 16, 16 };
   EXPECT_NEAR(RadiusOf(volume, HalfOptions(50), { { place, 1., 0. } }, 1., place), 4., 0.8);
-}
-
-TEST(PointAttraction, BringsABoundaryOutToThePoint)
-{
-  const TestVolume volume = Half();
-  const SurfaceOptions options = HalfOptions(50);
-  const std::vector<AttractingPoint> points = { { { 8, 16, 16 }, 1., 0. } };
-  const double before = RadiusOf(volume, options, {}, 1., { 1, 16, 16 }) + 1;
-  const double after = RadiusOf(volume, options, points, 1., { 1, 16, 16 }) + 1;
-  EXPECT_NEAR(before, 6., 0.05);
-  EXPECT_GT(after, 9.);
-  EXPECT_LT(after, 10.5);
 }
 
 TEST(PointAttraction, ServesDarkObjectsToo)
@@ -195,26 +168,6 @@ TEST(EdgeAttraction, IsFullAtHalfTheTypicalSlopeOfTheEdges)
     EXPECT_FLOAT_EQ(at(1), 1) << "bounded";
     EXPECT_FLOAT_EQ(at(-1), -1);
     EXPECT_NEAR(at(0.25f), 0.5, 0.08);
-  }
-}
-
-TEST(EdgeAttraction, MeasuresSlopesInTheWorkspace)
-{
-  // The same edges, in voxels of any length.
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    TestVolume volume = MakeVolume(17, [axis](double x, double y, double z)
-      {
-        const double t = axis == 0 ? x : (axis == 1 ? y : z);
-        return std::min(std::max(t - 5, 0.), 6.);
-      });
-    volume.Image.Edges = volume.Values.data();
-    volume.Image.Step[axis] = 4;
-    const EdgeAttraction edges(volume.Image, Threads);
-    Vector place(8, 8, 8);
-    (axis == 0 ? place.X : (axis == 1 ? place.Y : place.Z)) = 32;
-    Vector normal(axis == 0 ? 0.25f : 0.f, axis == 1 ? 0.25f : 0.f, axis == 2 ? 0.25f : 0.f);
-    EXPECT_NEAR(edges.Along(place, normal), 0.5, 0.06) << "along axis " << axis;
   }
 }
 

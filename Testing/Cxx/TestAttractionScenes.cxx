@@ -21,8 +21,6 @@ namespace
 constexpr double Pi = 3.14159265358979;
 /** Of SceneKind::ShellWithOpening, at 64 voxels. */
 constexpr double OuterRadius = 26.0;
-constexpr double InnerRadius = 17.5;
-
 double BallVolume(double radius)
 {
   return 4.0 / 3.0 * Pi * radius * radius * radius;
@@ -142,43 +140,6 @@ TEST(PointAttractionScene, AFewPointsCloseTheGapThroughWhichTheSurfaceLeaks)
   closed->SetPointAttractionWeight(0.0);
   closed->Update();
   EXPECT_EQ(VolumeOf(closed), VolumeOf(leaking));
-}
-
-TEST(PointAttractionScene, PointsCloseTheGapOfASurfaceThatHasLeaked)
-{
-  // Only a merge can: the opening's rims must meet where the image says background.
-  const Scene scene = MakeScene(SceneKind::ShellWithOpening);
-  const auto image = ToImage(scene);
-  const auto leaked = FilterOf(image, scene.IsoValue);
-  leaked->Update();
-  const auto closed = FilterOf(image, scene.IsoValue);
-  closed->SetInitialSurfaceData(leaked->GetOutput());
-  closed->SetInitializationToInputSurface();
-  closed->SetCoarsestLevel(0);
-  closed->SetAttractingPointsData(PointsInTheOpening(scene));
-  const SurfaceVerdict verdict = JudgeOutput(closed);
-  EXPECT_EQ(verdict.Topology.Components.size(), 2u);
-  EXPECT_NEAR(VolumeOf(closed) / (BallVolume(OuterRadius) - BallVolume(InnerRadius)), 1.0, 0.04);
-}
-
-TEST(PointAttractionScene, ThreadsChangeNothing)
-{
-  const Scene scene = MakeScene(SceneKind::ShellWithOpening);
-  std::vector<vtkSmartPointer<vtkPolyData>> surfaces;
-  for (int threads : { 1, 2 })
-  {
-    const auto image = WithEdges(scene);
-    const auto filter = FilterOf(image, scene.IsoValue);
-    filter->SetAttractingPointsData(PointsInTheOpening(scene));
-    filter->SetEdgeAttractionWeight(0.5);
-    filter->SetInputArrayToProcess(1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Edges");
-    filter->SetNumberOfThreads(threads);
-    filter->Update();
-    surfaces.emplace_back(filter->GetOutput());
-  }
-  EXPECT_GT(surfaces[0]->GetNumberOfPoints(), 1000);
-  EXPECT_EQ(
-    ToTriangleSurface(surfaces[0]).Points, ToTriangleSurface(surfaces[1]).Points);
 }
 
 TEST(EdgeAttractionScene, FindsABoundaryThatNoIsoValueGives)

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfaceTestTools.h"
-#include "vtkOtsuThreshold.h"
 #include "vtkVolumeToSurface.h"
 
 #include <vtkCellData.h>
@@ -133,18 +132,6 @@ TEST(NaNVoxels, CutTheObject)
   EXPECT_GT(bounds[1], 19.0);
 }
 
-TEST(NaNVoxels, OfADarkObject)
-{
-  const auto image = BallWith(NaN, OutsideView);
-  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
-  {
-    Voxels(image)->SetComponent(i, 0, 100.0 - Voxels(image)->GetComponent(i, 0));
-  }
-  QuietSurface surface;
-  surface.Filter->ObjectIsBrightOff();
-  ExpectSphere(surface.Of(image), BallCentre, BallRadius, 0.5);
-}
-
 TEST(NaNVoxels, AreToldOnceWithTheirNumber)
 {
   const auto image = BallWith(NaN, Right);
@@ -180,15 +167,6 @@ TEST(NaNVoxels, AreToldOnceWithTheirNumber)
   }
 }
 
-TEST(NaNVoxels, ThresholdAndSurfaceWithoutAnIsoValue)
-{
-  vtkNew<vtkVolumeToSurface> filter;
-  const MessagesOf warnings(filter, vtkCommand::WarningEvent);
-  filter->SetInputData(BallWith(NaN, OutsideView));
-  filter->Update();
-  ExpectSphere(filter->GetOutput(), BallCentre, BallRadius, 0.5);
-}
-
 TEST(NaNVoxels, CoarserLevelsAreMeansOfTheOthers)
 {
   const auto image = BallWith(NaN, Right);
@@ -222,16 +200,6 @@ TEST(NaNVoxels, CoarserLevelsAreMeansOfTheOthers)
       }
     }
   }
-}
-
-TEST(NaNVoxels, GiveTheSameBitsForAnyNumberOfThreads)
-{
-  const auto image = BallWith(NaN, Right);
-  QuietSurface one;
-  one.Filter->SetNumberOfThreads(1);
-  QuietSurface two;
-  two.Filter->SetNumberOfThreads(2);
-  ExpectSamePoints(one.Of(image), two.Of(image));
 }
 
 TEST(BlankedVoxels, AreAsNaNWithoutAWord)

@@ -22,27 +22,6 @@ TEST_F(GoingOn, HoldsNoOtherComponentsWhereNobodyWatchesOrMemoryIsShort)
   }
 }
 
-TEST_F(GoingOn, BeginsAnewAfterAStopWhereTheSurfaceIsToBeAnother)
-{
-  {
-    const StopAtText stop(this->Filter, "Level 0, iteration", 2);
-    this->Filter->Update();
-  }
-  this->Filter->GoOn();
-  this->Filter->SetIsoValue(45.0);
-  EXPECT_TRUE(Reruns(this->Filter, 0));
-}
-
-TEST_F(GoingOn, BeginsAnewWithOtherSeedsToStartFrom)
-{
-  this->Filter->GetNeedsUpdate();
-  this->Filter->SetInitializationToSeeds();
-  this->Filter->AddSeedPosition(32, 32, 32);
-  this->Filter->Update();
-  this->Filter->AddSeedPosition(6, 6, 30);
-  EXPECT_TRUE(Reruns(this->Filter, 1));
-}
-
 TEST_F(GoingOn, BeginsAnewAfterAnyOtherChange)
 {
   const std::function<void()> changes[] = { [&] { this->Filter->SetIsoValue(45.0); },
@@ -109,22 +88,6 @@ TEST_F(GoingOn, KeepsNothingWhereDataAreReleased)
   this->Filter->Update();
   this->Filter->SetFinestLevel(1);
   EXPECT_TRUE(Reruns(this->Filter, 1));
-}
-
-TEST_F(GoingOn, BeginsWhereARunFromTheStartBegins)
-{
-  // The rod alone, thin: without recovery the level to begin at depends on the one to end at.
-  FillBox(this->Image, { 11, 0, 0 }, { 64, 64, 64 }, 0.0);
-  const Choice choose = [](vtkDeformableSurface* filter)
-  { filter->SetRecovery(vtkDeformableSurface::NoRecovery); };
-  const MessagesOf warnings(this->Filter, vtkCommand::WarningEvent);
-  vtkSmartPointer<vtkDeformableSurface> filter = FromTheStart(this->Image, 1, choose);
-  filter->SetFinestLevel(0);
-  filter->Update();
-  ExpectSameOutputs(filter, FromTheStart(this->Image, 0, choose));
-  filter->SetFinestLevel(1);
-  filter->Update();
-  ExpectSameOutputs(filter, FromTheStart(this->Image, 1, choose));
 }
 
 TEST_F(GoingOn, BeginsAtALevelThatWasLetGo)

@@ -1,9 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Evolution/LostParts.h"
 #include "Core/Evolution/SurfaceEvolution.h"
 #include "Core/Evolution/SurfaceOptions.h"
-#include "Core/Mesh/SurfaceFeatures.h"
 #include "CoreTestTools.h"
 
 using namespace volumic;
@@ -99,6 +97,8 @@ void ExpectValid(const SurfaceEvolution& evolution)
   mesh.Append(surface);
   EXPECT_EQ(DescribeBrokenInvariant(mesh), "");
   EXPECT_EQ(CountSelfIntersections(surface), 0);
+  const std::vector<HistoryRow>& rows = evolution.History();
+  EXPECT_TRUE(rows.empty() || rows.back().EulerCharacteristic == mesh.CountEulerCharacteristic());
 }
 }
 
@@ -144,43 +144,5 @@ TEST(Cancelling, IsLookedAtInEveryPartOfALevel)
       EXPECT_EQ(monitor.QuestionsAfter, 0);
       ExpectValid(stopped);
     }
-  }
-}
-
-TEST(Cancelling, LeavesTheHistoryExplained)
-{
-  const Scene scene;
-  StopAt monitor(0, Activity::Regularising, 4);
-  SurfaceEvolution evolution(Options(), Threads, monitor);
-  ASSERT_EQ(scene.Run(evolution), StopReason::Cancelled);
-  const HistoryRow& last = evolution.History().back();
-  const SurfaceFeatures features = ComputeFeatures(evolution.Result());
-  EXPECT_EQ(last.Vertices, static_cast<int>(evolution.Result().Points.size()));
-  EXPECT_EQ(last.EulerCharacteristic, features.EulerCharacteristic);
-}
-
-TEST(Cancelling, EndsTheSearchForLostParts)
-{
-  const Scene scene;
-  const Field field(scene.Fine.Image, Options(), Threads);
-  SurfaceState state;
-  state.Mesh = MakeSphere({ 13, 18, 18 }, 10., 1.2);
-  state.Sizing = SizingField(0.85f);
-  state.Reset(Vector(-2, -2, -2), Vector(38, 38, 38));
-  int questions = 0;
-  const auto count = [&questions](double) { return ++questions > 0; };
-  const LostPartCover all = FindLostParts(state, field, PartKind::Object, 20, Threads, count);
-  EXPECT_EQ(all.Found, 1);
-  EXPECT_FALSE(all.IsStopped);
-  ASSERT_GE(questions, 3);
-  for (int last = 1; last <= questions; ++last)
-  {
-    int asked = 0;
-    const auto stop = [&](double) { return ++asked < last; };
-    const LostPartCover none = FindLostParts(state, field, PartKind::Object, 20, Threads, stop);
-    EXPECT_TRUE(none.IsStopped);
-    EXPECT_EQ(none.Found, 0);
-    EXPECT_TRUE(none.Surface.Points.empty());
-    EXPECT_EQ(asked, last) << "not asked again";
   }
 }

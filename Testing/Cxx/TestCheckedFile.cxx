@@ -101,19 +101,6 @@ TEST(CheckedFile, MayBeInMemory)
   EXPECT_THROW(ReadSome(cut); cut.Get<int>(), FileError);
 }
 
-TEST(CheckedFile, ReadsNoMoreThanWasWritten)
-{
-  const TemporaryFolder folder;
-  WriteSome(folder.File("some"));
-  CheckedReader file(folder.File("some"));
-  file.Get<double>();
-  std::vector<int> list;
-  file.GetText();
-  file.GetList(list);
-  file.GetText();
-  EXPECT_THROW(file.Get<int>(), FileError);
-}
-
 TEST(CheckedFile, IsThereWhenItIsCommittedAndTheOldOneUntilThen)
 {
   const TemporaryFolder folder;
@@ -289,10 +276,4 @@ TEST(ContentHash, IsAnotherOneForAnyOtherContent)
     expectNew(37);
     bytes[place] = 0;
   }
-}
-
-TEST(ContentHash, IsWrittenInHexadecimalDigits)
-{
-  EXPECT_EQ(HashText(0x0123456789abcdefu), "0123456789abcdef");
-  EXPECT_EQ(HashText(10), "000000000000000a");
 }

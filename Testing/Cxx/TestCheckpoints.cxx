@@ -2,26 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CheckpointTestTools.h"
 
-#include <vtkTable.h>
-#include <vtkVariant.h>
-
 using namespace volumic;
-
-TEST_F(Checkpoints, AreGoneWhenTheRunIsOver)
-{
-  const auto filter = this->NewFilter();
-  filter->Update();
-  EXPECT_EQ(this->Folder.Names(), std::set<std::string>());
-  EXPECT_EQ(filter->GetCheckpointFolder(), "");
-  ExpectSameOutputs(filter, this->Uninterrupted());
-}
-
-TEST_F(Checkpoints, ArePartOfNoRunWithoutAScratchDirectory)
-{
-  const auto filter = SurfaceOf<vtkVolumeToSurface>(this->Image,
-    [](vtkVolumeToSurface* f) { f->LeaveCheckpoints(); });
-  EXPECT_EQ(filter->GetCheckpointFolder(), "");
-}
 
 TEST_F(Checkpoints, GiveTheBitsOfARunThatWasNeverStopped)
 {
@@ -192,29 +173,4 @@ TEST_F(Checkpoints, AreLeftByPreviewsAndLevelsThatAreShown)
   const auto resumed = this->Resume(finer);
   EXPECT_EQ(resumed->GetResumedLevel(), 0);
   ExpectSameOutputs(resumed, this->Uninterrupted(finer));
-}
-
-TEST_F(Checkpoints, KeepTheSecondsOfTheLevelsThatWereTakenOver)
-{
-  std::vector<double> before;
-  {
-    const auto filter = this->NewFilter();
-    const StopAtText stop(filter, "Level 0, iteration 5", 1);
-    filter->Update();
-    vtkTable* history = filter->GetHistory();
-    for (vtkIdType r = 0; r < history->GetNumberOfRows(); ++r)
-    {
-      if (history->GetValueByName(r, "Level").ToDouble() > 0)
-      {
-        before.push_back(history->GetValueByName(r, "Seconds").ToDouble());
-      }
-    }
-  }
-  const auto filter = this->Resume();
-  ASSERT_GT(filter->GetHistory()->GetNumberOfRows(), static_cast<vtkIdType>(before.size()));
-  for (std::size_t r = 0; r < before.size(); ++r)
-  {
-    const auto row = static_cast<vtkIdType>(r);
-    EXPECT_EQ(filter->GetHistory()->GetValueByName(row, "Seconds").ToDouble(), before[r]);
-  }
 }

@@ -110,19 +110,6 @@ TEST_F(DeformableSurfaceAttraction, VerticesCountWhereThereAreSome)
   EXPECT_GT(bounds[5], 15.5 + 9.6 + 1.4);
 }
 
-TEST_F(DeformableSurfaceAttraction, APointOfTwoVerticesCountsOnce)
-{
-  this->Points->GetPoints()->InsertNextPoint(26.5, 15.5, 15.5);
-  this->SetArray<vtkDoubleArray>("Weight", { 0.4 });
-  this->Points->SetVerts(vtkNew<vtkCellArray>());
-  const vtkIdType id = 0;
-  this->Points->GetVerts()->InsertNextCell(1, &id);
-  const double once = this->Bump();
-  this->Points->GetVerts()->InsertNextCell(1, &id);
-  this->Points->Modified();
-  EXPECT_EQ(this->Bump(), once);
-}
-
 TEST_F(DeformableSurfaceAttraction, LinesWithoutVerticesAreRefused)
 {
   this->Points->GetPoints()->InsertNextPoint(26.5, 15.5, 15.5);

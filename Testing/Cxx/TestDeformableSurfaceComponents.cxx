@@ -132,26 +132,6 @@ protected:
 };
 }
 
-TEST_F(DeformableSurfaceComponents, AllAreThereByDefault)
-{
-  ExpectVolumes(
-    this->Volumes(), { this->Outside, this->Cavity, this->Beside, this->Inner });
-}
-
-TEST_F(DeformableSurfaceComponents, SeedsFindCavitiesToo)
-{
-  // As the documents say: not only Recovery does.
-  this->Filter->SetInitializationToSeeds();
-  this->Filter->SetRecovery(vtkDeformableSurface::NoRecovery);
-  this->SetSeed(6, 16, 16);
-  ExpectVolumes(this->Volumes(), { this->Outside, this->Cavity });
-  this->Filter->SetInitializationToEnclosingIcosahedron();
-  for (const double volume : this->Volumes())
-  {
-    EXPECT_GT(volume, 0) << "from outside no cavity is found";
-  }
-}
-
 TEST_F(DeformableSurfaceComponents, TheLargestComesWithItsCavity)
 {
   this->Filter->SetKeepComponentsToLargestComponent();
@@ -202,21 +182,6 @@ TEST_F(DeformableSurfaceComponents, PointsKnownToBelongToTheObjectChooseToo)
   this->Filter->SetKeepComponentsToComponentsAtPoints();
   this->Filter->SetAttractingPointsData(PointsAt({ { 38, 16, 16 }, { 16, 16, 17 } }));
   ExpectVolumes(this->Volumes(), { this->Beside, this->Inner });
-}
-
-TEST_F(DeformableSurfaceComponents, OfPointsWithVerticesOnlyThoseChoose)
-{
-  const auto known = PointsAt({ { 38, 16, 16 }, { 16, 16, 17 } });
-  known->SetVerts(vtkNew<vtkCellArray>());
-  const vtkIdType id = 1;
-  known->GetVerts()->InsertNextCell(1, &id);
-  this->Filter->SetKeepComponentsToComponentsAtPoints();
-  this->Filter->SetPointAttractionWeight(0.0);
-  this->Filter->SetAttractingPointsData(known);
-  ExpectVolumes(this->Volumes(), { this->Inner });
-  this->Filter->SetAttractingPointsData(nullptr);
-  this->Filter->SetInitialSurfaceData(known);
-  ExpectVolumes(this->Volumes(), { this->Inner });
 }
 
 TEST_F(DeformableSurfaceComponents, LinesAreNoSeeds)

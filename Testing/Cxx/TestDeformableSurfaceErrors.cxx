@@ -243,38 +243,6 @@ TEST_F(DeformableSurfaceErrors, LevelsThatThereAreNot)
   this->ExpectError({ "Finest Level is -2", "or be -1 for a last division" });
 }
 
-TEST_F(DeformableSurfaceErrors, NumbersOutsideTheirRange)
-{
-  struct Number
-  {
-    const char* Name;
-    void (vtkDeformableSurface::*Set)(double);
-    double Bad;
-    double Good;
-  };
-  using Surface = vtkDeformableSurface;
-  const std::vector<Number> numbers = {
-    { "Sampling Ratio", &Surface::SetSamplingRatio, 0.5, 0.85 },
-    { "Sampling Ratio", &Surface::SetSamplingRatio, 1.1, 0.85 },
-    { "Sampling Ratio", &Surface::SetSamplingRatio, std::nan(""), 0.85 },
-    { "Tension Weight", &Surface::SetTensionWeight, -1, 0.2 },
-    { "Elasticity Weight", &Surface::SetElasticityWeight, -0.1, 0.1 },
-    { "Isopotential Weight", &Surface::SetIsopotentialWeight, -1, 1 },
-    { "Gradient Weight", &Surface::SetGradientWeight, std::nan(""), 0 },
-    { "Friction", &Surface::SetFriction, 0, 3 },
-    { "Friction", &Surface::SetFriction, -1, 3 },
-    { "Convergence Tolerance", &Surface::SetConvergenceTolerance, -1, 1e-4 },
-    { "Seed Radius", &Surface::SetSeedRadius, -2, 0 },
-    { "Seed Radius", &Surface::SetSeedRadius, std::nan(""), 0 },
-  };
-  for (const Number& number : numbers)
-  {
-    (this->Filter->*number.Set)(number.Bad);
-    this->ExpectError({ number.Name });
-    (this->Filter->*number.Set)(number.Good);
-  }
-}
-
 TEST_F(DeformableSurfaceErrors, IntegersOutsideTheirRange)
 {
   this->Filter->SetInitialization(4);
@@ -297,51 +265,12 @@ TEST_F(DeformableSurfaceErrors, NoInitialSurface)
   this->ExpectSurfaceError(vtkNew<vtkPolyData>(), { "Input port 1", "no polygons" });
 }
 
-TEST_F(DeformableSurfaceErrors, OpenInitialSurface)
-{
-  this->ExpectSurfaceError(
-    WithoutCell(Ball(16, 10), 7), { "Input port 1", "initial surface", "open" });
-}
-
-TEST_F(DeformableSurfaceErrors, NonManifoldInitialSurface)
-{
-  // Two tetrahedra that share an edge: closed, but four triangles meet there.
-  const auto glued = PointsAt({ { 16, 16, 10 }, { 16, 16, 22 }, { 8, 10, 16 }, { 8, 22, 16 },
-    { 24, 22, 16 }, { 24, 10, 16 } });
-  const vtkIdType triangles[8][3] = { { 0, 1, 2 }, { 0, 3, 1 }, { 0, 2, 3 }, { 1, 3, 2 },
-    { 0, 1, 4 }, { 0, 5, 1 }, { 0, 4, 5 }, { 1, 5, 4 } };
-  vtkNew<vtkCellArray> cells;
-  for (const auto& triangle : triangles)
-  {
-    cells->InsertNextCell(3, triangle);
-  }
-  glued->SetPolys(cells);
-  this->ExpectSurfaceError(glued, { "Input port 1", "manifold" });
-}
-
 TEST_F(DeformableSurfaceErrors, InsideOutInitialSurface)
 {
   vtkNew<vtkReverseSense> reverse;
   reverse->SetInputData(Ball(16, 10));
   reverse->Update();
   this->ExpectSurfaceError(reverse->GetOutput(), { "Input port 1", "inside out" });
-}
-
-TEST_F(DeformableSurfaceErrors, SelfIntersectingInitialSurface)
-{
-  this->ExpectSurfaceError(Together(Ball(12, 7), Ball(20, 7)), { "Input port 1", "intersect" });
-}
-
-TEST_F(DeformableSurfaceErrors, InitialSurfaceOutsideTheImage)
-{
-  this->ExpectSurfaceError(Ball(100, 10), { "Input port 1", "outside the image" });
-}
-
-TEST_F(DeformableSurfaceErrors, SeedsOutsideTheImage)
-{
-  this->Filter->SetInitializationToSeeds();
-  this->Filter->SetInitialSurfaceData(PointsAt({ { 16, 16, 16 }, { 16, 16, 99 } }));
-  this->ExpectError({ "Input port 1", "Seed 1", "outside the image" });
 }
 
 TEST_F(DeformableSurfaceErrors, SeedsThatAreASurface)

@@ -8,8 +8,6 @@
 #include <vtkInformation.h>
 #include <vtkTable.h>
 
-#include <chrono>
-
 using namespace volumic;
 
 TEST(DeformableSurfaceOutputs, CarriesTheArraysOfTheInterface)
@@ -48,21 +46,6 @@ TEST(DeformableSurfaceOutputs, CarriesTheArraysOfTheInterface)
   EXPECT_NEAR(FieldOf(surface, "Unit"), 1.0, 1e-12);
   EXPECT_NEAR(FieldOf(surface, "Delta"), filter->GetSamplingRatio(), 1e-6);
   EXPECT_NEAR(FieldOf(surface, "Volume"), EnclosedVolume(surface), 1e-6 * EnclosedVolume(surface));
-}
-
-TEST(DeformableSurfaceOutputs, FeaturesAreThoseOfABall)
-{
-  const auto filter = SurfaceOf(BallImage(40, 40, 40));
-  vtkPolyData* surface = filter->GetOutput();
-  const double volume = FieldOf(surface, "ComponentVolume");
-  const double r2 = BallRadius * BallRadius;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    EXPECT_NEAR(FieldOf(surface, "ComponentCentroid", axis), 19.5, 0.05);
-    EXPECT_NEAR(FieldOf(surface, "ComponentInertia", axis) / volume, 0.4 * r2, 0.02 * r2);
-    EXPECT_NEAR(FieldOf(surface, "ComponentInertia", 3 + axis) / volume, 0.0, 0.01 * r2);
-  }
-  EXPECT_NEAR(FieldOf(surface, "ComponentArea"), 4 * vtkMath::Pi() * r2, 0.1 * r2);
 }
 
 TEST(DeformableSurfaceOutputs, KeepsTheSurfaceOfEveryLevel)
@@ -140,65 +123,6 @@ TEST(DeformableSurfaceOutputs, WritesARowOfHistoryPerIteration)
   EXPECT_EQ(history->GetValueByName(iterations - 1, "Level").ToInt(), 0);
 }
 
-TEST(DeformableSurfaceOutputs, LastRowOfALevelAlsoTellsOfItsSurface)
-{
-  const auto filter = SurfaceOf(BallImage(40, 40, 40),
-    [](vtkDeformableSurface* f) { f->SetSnapshotInterval(1); });
-  vtkTable* history = filter->GetHistory();
-  vtkMultiBlockDataSet* snapshots = filter->GetSnapshots();
-  int levels = 0;
-  // Snapshots show what a sweep of five iterations left.
-  for (vtkIdType r = 4; r < history->GetNumberOfRows(); r += 5)
-  {
-    const auto value = [&](const char* name) { return history->GetValueByName(r, name); };
-    const int level = value("Level").ToInt();
-    const bool isLast = r + 1 == history->GetNumberOfRows() ||
-      history->GetValueByName(r + 1, "Level").ToInt() != level;
-    // Each level has one more, before its first iteration.
-    auto* left = vtkPolyData::SafeDownCast(
-      snapshots->GetBlock(static_cast<unsigned int>(r / 5 + 3 - level)));
-    ASSERT_EQ(FieldOf(left, "Iteration"), r + 1);
-    auto* block = SurfaceAt(filter, level);
-    EXPECT_EQ(value("IterationVertices").ToInt(), left->GetNumberOfPoints());
-    EXPECT_EQ(value("IterationEulerCharacteristic").ToInt(), FieldOf(left, "EulerCharacteristic"));
-    EXPECT_EQ(value("IterationComponents").ToInt(), FieldOf(left, "NumberOfComponents"));
-    vtkPolyData* handedOn = isLast ? block : left;
-    EXPECT_EQ(value("Vertices").ToInt(), handedOn->GetNumberOfPoints());
-    EXPECT_EQ(value("EulerCharacteristic").ToInt(), FieldOf(handedOn, "EulerCharacteristic"));
-    EXPECT_EQ(value("Components").ToInt(), FieldOf(handedOn, "NumberOfComponents"));
-    const bool isRegularised =
-      value("MeanEdgeLength").ToDouble() != value("IterationMeanEdgeLength").ToDouble();
-    EXPECT_EQ(isRegularised, isLast);
-    levels += isLast;
-  }
-  EXPECT_EQ(levels, 3);
-}
-
-TEST(DeformableSurfaceOutputs, SecondsOfRowsAndLevelsAddUpToThoseOfTheRun)
-{
-  const auto filter = FilterOf(BallImage(40, 40, 40));
-  const auto start = std::chrono::steady_clock::now();
-  filter->Update();
-  const double run =
-    std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  vtkTable* history = filter->GetHistory();
-  std::vector<double> seconds(3, 0.0);
-  for (vtkIdType r = 0; r < history->GetNumberOfRows(); ++r)
-  {
-    for (const char* name : { "SecondsBefore", "Seconds", "SecondsAfter" })
-    {
-      seconds[history->GetValueByName(r, "Level").ToInt()] +=
-        history->GetValueByName(r, name).ToDouble();
-    }
-  }
-  const double levels = seconds[0] + seconds[1] + seconds[2];
-  EXPECT_GT(std::min({ seconds[0], seconds[1], seconds[2] }), 0.0);
-  EXPECT_LE(levels, run);
-  EXPECT_TRUE(std::isnan(FieldOf(filter->GetOutput(), "Seconds")))
-    << "equal surfaces must be equal files";
-  EXPECT_GT(history->GetValueByName(0, "SecondsBefore").ToDouble(), 0.0) << "the inner pyramid";
-}
-
 namespace
 {
 /** The column that tells how much of a phase one thread does alone. */
@@ -249,50 +173,6 @@ TEST(DeformableSurfaceOutputs, TellsWhereTheTimeGoesIfAsked)
   const vtkIdType last = history->GetNumberOfRows() - 1;
   EXPECT_GT(history->GetValueByName(last, "DivisionSeconds").ToDouble(), 0.0)
     << "what follows the last iteration of a level";
-}
-
-TEST(DeformableSurfaceOutputs, TellsHowMuchOfEachPhaseOneThreadDoesAlone)
-{
-  const auto filter = SurfaceOf(BallImage(40, 40, 40),
-    [](vtkDeformableSurface* f) { f->ProfileOn(); });
-  vtkTable* history = filter->GetHistory();
-  const auto value = [history](vtkIdType row, const std::string& name)
-  { return history->GetValueByName(row, name.c_str()).ToDouble(); };
-  const double rounding = 1e-9;
-  for (const char* phase : { "ForcesSeconds", "ContactSeconds", "ProximitySeconds",
-         "VerificationSeconds", "RemeshingSeconds", "TopologySeconds", "DivisionSeconds",
-         "RecoverySeconds", "RegularisationSeconds" })
-  {
-    SCOPED_TRACE(phase);
-    double serial = 0.0;
-    double all = 0.0;
-    for (vtkIdType r = 0; r < history->GetNumberOfRows(); ++r)
-    {
-      EXPECT_GE(value(r, SerialOf(phase)), -rounding);
-      EXPECT_LE(value(r, SerialOf(phase)), value(r, phase) + rounding);
-      serial += value(r, SerialOf(phase));
-      all += value(r, phase);
-    }
-    EXPECT_GT(serial, 0.0);
-    EXPECT_LT(serial, all) << "each phase does something in parallel";
-  }
-  double parts = 0.0;
-  double division = 0.0;
-  for (vtkIdType r = 0; r < history->GetNumberOfRows(); ++r)
-  {
-    const double sum = value(r, "RecoverySeconds") + value(r, "RegularisationSeconds");
-    EXPECT_LE(sum, value(r, "DivisionSeconds") + rounding);
-    parts += sum;
-    division += value(r, "DivisionSeconds");
-  }
-  EXPECT_GT(value(history->GetNumberOfRows() - 1, "RegularisationSeconds"), 0.0);
-  EXPECT_LT(parts, division) << "start and division are no part of these";
-}
-
-TEST(DeformableSurfaceOutputs, HasNoSnapshotsUnlessAsked)
-{
-  const auto filter = SurfaceOf(BallImage(40, 40, 40));
-  EXPECT_EQ(filter->GetSnapshots()->GetNumberOfBlocks(), 0u);
 }
 
 TEST(DeformableSurfaceOutputs, KeepsTheSurfaceOnItsWay)

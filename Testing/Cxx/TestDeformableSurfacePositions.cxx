@@ -94,13 +94,6 @@ TEST_F(DeformableSurfacePositions, SeedsAreThoseOfThePortAndOfTheList)
   EXPECT_TRUE(AreSameSurfaces(this->Filter->GetOutput(), this->Other->GetOutput()));
 }
 
-TEST_F(DeformableSurfacePositions, SeedsCountOnlyWhereItStartsFromSeeds)
-{
-  const double far = 1e6;
-  this->Filter->AddSeedPosition(far, far, far);
-  EXPECT_EQ(this->Components(), 2);
-}
-
 TEST_F(DeformableSurfacePositions, PointsAttractAsThoseOfThePortDo)
 {
   const std::array<double, 3> beside = { 112.5, 21.5, 12.5 };

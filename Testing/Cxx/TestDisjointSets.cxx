@@ -21,20 +21,6 @@ TEST(DisjointSets, RootIsTheSmallestMember)
   EXPECT_EQ(sets.Join(9, 3), 3) << "joined already";
 }
 
-TEST(DisjointSets, AreMadeAfresh)
-{
-  DisjointSets sets(3);
-  sets.Join(0, 1);
-  sets.Join(1, 2);
-  sets.MakeRoom(4);
-  for (int i = 0; i < 4; ++i)
-  {
-    sets.MakeSet(i);
-  }
-  EXPECT_EQ(sets.Find(2), 2);
-  EXPECT_EQ(sets.Find(3), 3);
-}
-
 TEST(DisjointSets, AreTheSameWhoeverJoinsThemAtOnce)
 {
   constexpr int n = 3000;

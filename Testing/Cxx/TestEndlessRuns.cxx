@@ -90,18 +90,6 @@ TEST(EndlessRuns, NoiseThatMergesAndCutsInTurnIsALimitCycle)
   EXPECT_GE(shortest, surface.Delta * (1 - 1e-5));
 }
 
-TEST(EndlessRuns, AShellAtAReplicatedBorderCostsLittle)
-{
-  const TestVolume volume = MakeVolume(24, [](double x, double y, double z)
-    { return Soft(std::abs(Distance(x, y, z, 8, 10, 13) - 14.) - 2.); });
-  SurfaceOptions options = IsoHalf();
-  options.BorderValue = Border::Replicate;
-  SurfaceEvolution evolution(options, Threads, Silent);
-  evolution.StartEnclosing(volume.Image, 0);
-  EXPECT_EQ(evolution.Run(), StopReason::Converged);
-  EXPECT_LT(Work(evolution), 1e6);
-}
-
 TEST(EndlessRuns, ACheckerboardAtAReplicatedBorderCostsLittle)
 {
   const TestVolume volume = MakeVolume(20, [](double x, double y, double z)

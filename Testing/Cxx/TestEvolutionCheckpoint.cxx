@@ -117,11 +117,6 @@ void ExpectSameByWayOfFiles(const SurfaceOptions& options, const Scene& scene)
 }
 }
 
-TEST(EvolutionCheckpoint, GoesOnAsIfNothingHadHappened)
-{
-  ExpectSameByWayOfFiles(Options(), Scene());
-}
-
 TEST(EvolutionCheckpoint, GoesOnInSweepsAlike)
 {
   ExpectSameByWayOfFiles(InSmallBlocks(), Scene());

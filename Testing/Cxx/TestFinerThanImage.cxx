@@ -75,25 +75,6 @@ TEST_F(FinerThanImage, DividesOnceMoreAndKeepsTheConstraints)
   EXPECT_LT(verdict.IsoDistance.MeanAtCentroids, 0.6 * before.IsoDistance.MeanAtCentroids);
 }
 
-TEST_F(FinerThanImage, IsCalledLevelMinusOneEverywhere)
-{
-  this->Run(SceneKind::Sphere);
-  vtkMultiBlockDataSet* levels = this->Filter->GetLevels();
-  const unsigned int last = levels->GetNumberOfBlocks() - 1;
-  EXPECT_EQ(std::string(levels->GetMetaData(last)->Get(vtkCompositeDataSet::NAME())), "Level -1");
-  EXPECT_EQ(std::string(levels->GetMetaData(0u)->Get(vtkCompositeDataSet::NAME())), "Level 0");
-  EXPECT_EQ(FieldOf(this->Block(last), "Level"), -1);
-  EXPECT_EQ(this->Block(last)->GetNumberOfPoints(), this->Filter->GetOutput()->GetNumberOfPoints());
-  auto* column = vtkDataArray::SafeDownCast(this->Filter->GetHistory()->GetColumnByName("Level"));
-  const vtkIdType rows = column->GetNumberOfTuples();
-  EXPECT_EQ(column->GetComponent(rows - 1, 0), -1);
-  EXPECT_EQ(column->GetRange()[0], -1);
-
-  this->Filter->SetFinestLevel(0);
-  this->Filter->Update();
-  EXPECT_EQ(this->Filter->GetLevels()->GetNumberOfBlocks(), last);
-}
-
 TEST_F(FinerThanImage, HoldsAWallThatIsTooThinForLevel0)
 {
   // A hollow ball of radius 18 with a wall of two voxels and sharp edges, open on one side.

@@ -148,17 +148,6 @@ TEST(GivenSurface, IsTakenAsItIsWhereItIsLegal)
   EXPECT_NEAR(ComputeFeatures(again).Volume, ComputeFeatures(rested).Volume, 1e-6);
 }
 
-TEST(GivenSurface, IsLegalForAnyOrderOfTriangles)
-{
-  const TestVolume volume = Ball();
-  IndexedSurface given = Cylinder(13, 25.5, 40);
-  std::reverse(given.Triangles.begin(), given.Triangles.end());
-  SurfaceEvolution evolution(IsoHalf(), Threads, Silent);
-  evolution.StartSurface(volume.Image, 0, given);
-  const SurfaceResult start = evolution.Result();
-  ExpectLegal(start, start.Delta);
-}
-
 namespace
 {
 class CancelAt final : public Monitor

@@ -2,10 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GoingOnTestTools.h"
 
-#include <vtkTable.h>
-
-#include <chrono>
-
 using namespace volumic;
 
 TEST_F(GoingOn, GivesTheSameBitsAsARunFromTheStart)
@@ -34,15 +30,6 @@ TEST_F(GoingOn, GivesTheSameBitsAsARunFromTheStart)
       ExpectSameOutputs(filter, FromTheStart(this->Image, finest, choose));
     }
   }
-}
-
-TEST_F(GoingOn, GoesBeyondTheImage)
-{
-  this->Filter->SetFinestLevel(1);
-  this->Filter->Update();
-  this->Filter->SetFinestLevel(-1);
-  EXPECT_FALSE(Reruns(this->Filter, 0));
-  ExpectSameOutputs(this->Filter, FromTheStart(this->Image, -1));
 }
 
 TEST_F(GoingOn, ServesAPyramidAndAnyNumberOfThreads)
@@ -173,40 +160,6 @@ TEST_F(GoingOn, IsNotMadeToByALateRequestToStop)
   EXPECT_EQ(StopReason(this->Filter->GetOutput()), "cancelled");
 }
 
-TEST_F(GoingOn, ShowsCoarserLevelsAfterAStop)
-{
-  const StopAtText stop(this->Filter, "Level 1 is done", 1);
-  this->Filter->Update();
-  this->Filter->SetFinestLevel(1);
-  EXPECT_TRUE(ShowsAtOnce(this->Filter));
-  ExpectSameOutputs(this->Filter, FromTheStart(this->Image, 1));
-}
-
-TEST_F(GoingOn, AddsUpTheSecondsOfBothRuns)
-{
-  this->Filter->SetFinestLevel(2);
-  this->Filter->Update();
-  vtkNew<vtkTable> before;
-  before->DeepCopy(this->Filter->GetHistory());
-  const auto waiting = std::chrono::steady_clock::now() + std::chrono::milliseconds(600);
-  while (std::chrono::steady_clock::now() < waiting)
-  {
-  }
-  const auto started = std::chrono::steady_clock::now();
-  this->Filter->SetFinestLevel(1);
-  this->Filter->Update();
-  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - started;
-  vtkTable* after = this->Filter->GetHistory();
-  ASSERT_GT(after->GetNumberOfRows(), before->GetNumberOfRows());
-  for (vtkIdType r = 0; r < before->GetNumberOfRows(); ++r)
-  {
-    EXPECT_EQ(after->GetValueByName(r, "Seconds"), before->GetValueByName(r, "Seconds"));
-  }
-  EXPECT_LT(
-    after->GetValueByName(before->GetNumberOfRows(), "SecondsBefore").ToDouble(), taken.count())
-    << "the time between the runs is nobody's";
-}
-
 TEST_F(GoingOn, PreviewEndsAtALevelOfFewVoxels)
 {
   const auto large = BallImage(180, 160, 128);
@@ -222,31 +175,4 @@ TEST_F(GoingOn, PreviewEndsAtALevelOfFewVoxels)
   filter->SetFinestLevel(2);
   EXPECT_TRUE(ShowsAtOnce(filter));
   EXPECT_EQ(FieldOf(filter->GetOutput(), "Level"), 2) << "not finer than asked for";
-}
-
-TEST_F(GoingOn, PreviewOfASmallVolumeIsTheVolume)
-{
-  this->Filter->PreviewOn();
-  this->Filter->Update();
-  EXPECT_EQ(FieldOf(this->Filter->GetOutput(), "Level"), 0);
-}
-
-TEST_F(GoingOn, PreviewKeepsToTheEdgeLength)
-{
-  const auto large = BallImage(128, 110, 110);
-  const auto run = [&](bool preview)
-  {
-    auto filter = vtkSmartPointer<vtkVolumeToSurface>::New();
-    filter->SetInputData(large);
-    filter->SetIsoValue(50.0);
-    filter->SetEdgeLength(1.7);
-    filter->SetPreview(preview);
-    filter->Update();
-    return filter;
-  };
-  const auto filter = run(true);
-  ASSERT_EQ(FieldOf(filter->GetOutput(), "Level"), 1);
-  filter->PreviewOff();
-  EXPECT_FALSE(Reruns(filter, 0));
-  ExpectSameOutputs(filter, run(false));
 }

@@ -28,34 +28,6 @@ Outside OutsidePlate(double thickness)
 }
 }
 
-namespace
-{
-double AreaOf(const IndexedSurface& surface, const Triangle& t)
-{
-  const auto corner = [&](int k)
-  {
-    const Point& p = surface.Points[t[k]];
-    return Vector(static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2]));
-  };
-  return 0.5 * Length(Cross(corner(1) - corner(0), corner(2) - corner(0)));
-}
-
-/** The first two barycentric coordinates of points that are spread evenly over a triangle. */
-std::vector<std::array<double, 2>> PointsOfATriangle()
-{
-  constexpr int n = 6;
-  std::vector<std::array<double, 2>> points;
-  for (int i = 0; i < n; ++i)
-  {
-    for (int j = 0; i + j < n; ++j)
-    {
-      points.push_back({ (i + 1. / 3.) / n, (j + 1. / 3.) / n });
-    }
-  }
-  return points;
-}
-}
-
 TEST(GradedSizing, HasALengthForEachVertexWithinBounds)
 {
   const LargeVector<float> sizes = { 0.5f, 1.f, 2.f, 9.f };
@@ -106,25 +78,6 @@ TEST(GradedSurface, HasFewerTrianglesWhereItIsFlatAndKeepsTheTolerance)
   ExpectLegal(graded);
   EXPECT_LT(1.8 * graded.Points.size(), even.Points.size());
   EXPECT_GT(graded.FitToTolerance->WithinTolerance, 0.99);
-  // The same by what the scene is made of, which knows nothing of voxels: of points all over it.
-  double within = 0.;
-  double all = 0.;
-  for (const Triangle& t : graded.Triangles)
-  {
-    const double area = AreaOf(graded, t);
-    for (const auto& [a, b] : PointsOfATriangle())
-    {
-      Point place;
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        place[axis] = a * graded.Points[t[0]][axis] + b * graded.Points[t[1]][axis] +
-          (1. - a - b) * graded.Points[t[2]][axis];
-      }
-      all += area;
-      within += std::abs(OutsideBoxAndBall(place[0], place[1], place[2])) <= Tolerance ? area : 0.;
-    }
-  }
-  EXPECT_GT(within, 0.99 * all);
   const SurfaceFeatures before = ComputeFeatures(even);
   const SurfaceFeatures after = ComputeFeatures(graded);
   EXPECT_EQ(after.Components.size(), before.Components.size());
@@ -151,17 +104,6 @@ TEST(GradedSurface, GrowsBySmallStepsUpToTheLongestEdge)
   // Vertices have moved a little since the sizes were chosen.
   EXPECT_LT(steepest, 1.5 * grading.Gradation);
   EXPECT_FLOAT_EQ(*std::max_element(surface.Size.begin(), surface.Size.end()), 2.f);
-}
-
-TEST(GradedSurface, IsThatWithoutWhereTheToleranceIsTooSmall)
-{
-  const SurfaceResult even = SurfaceOf(OutsideBoxAndBall, Grading(), Alone);
-  const SurfaceResult graded = SurfaceOf(OutsideBoxAndBall, Within(1e-6), Alone);
-  ExpectLegal(graded);
-  EXPECT_NEAR(static_cast<double>(graded.Points.size()), even.Points.size(),
-    0.03 * even.Points.size());
-  EXPECT_LT(graded.FitToTolerance->WithinTolerance, 0.5);
-  EXPECT_GT(graded.FitToTolerance->LargestDistance, 0.05);
 }
 
 TEST(GradedSurface, KeepsThinWallsWithoutHoles)
@@ -263,37 +205,5 @@ TEST(GradedSizes, HaveBoundsWhateverLengthIsAskedFor)
     sizes.Begin(state.Sizing.OfLevel());
     sizes.Widen();
     EXPECT_FLOAT_EQ(state.Sizing.Largest(), static_cast<float>(most));
-  }
-}
-
-TEST(GradedSurface, IsValidWhereItIsStopped)
-{
-  class StopInRegularisation final : public Monitor
-  {
-  public:
-    explicit StopInRegularisation(int after) : Left(after) {}
-    bool Continue(const Status&) override { return true; }
-    bool GoOn(const Status& status) override
-    {
-      return status.Doing != Activity::Regularising || --this->Left > 0;
-    }
-
-  private:
-    int Left;
-  };
-  const TestVolume volume = MakeVolume(48, [](double x, double y, double z)
-    { return std::clamp(0.5 - 0.25 * OutsideBoxAndBall(x, y, z), 0., 1.); });
-  for (const int after : { 1, 3, 7 })
-  {
-    SCOPED_TRACE(after);
-    StopInRegularisation monitor(after);
-    SurfaceEvolution evolution(IsoHalf(), Alone, monitor);
-    evolution.StartEnclosing(volume.Image, 0);
-    evolution.SetGrading(Within(Tolerance));
-    EXPECT_EQ(evolution.Run(), StopReason::Cancelled);
-    const SurfaceResult surface = evolution.Result();
-    EXPECT_EQ(CountSelfIntersections(surface), 0);
-    EXPECT_NO_THROW(CheckInitialSurface(surface));
-    EXPECT_GT(surface.Points.size(), 100u);
   }
 }

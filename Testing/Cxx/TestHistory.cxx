@@ -115,19 +115,6 @@ TEST(History, VerticesBecomeMotionlessAsTheyArriveIfAllowedTo)
   }
 }
 
-TEST(History, NoVertexIsMotionlessOnTheWay)
-{
-  const TestVolume volume = BallVolume(32, 10);
-  SurfaceOptions options = IsoHalf();
-  options.MaximumNumberOfIterations = 12;
-  SurfaceEvolution evolution(options, Threads, Silent);
-  evolution.StartEnclosing(volume.Image, 0);
-  EXPECT_EQ(evolution.Run(), StopReason::IterationLimit);
-  const SurfaceResult surface = evolution.Result();
-  EXPECT_LT(std::accumulate(surface.Motionless.begin(), surface.Motionless.end(), 0),
-    static_cast<int>(surface.Points.size()) / 50);
-}
-
 TEST(History, CountsOfMergesAndCutsExplainTheTopology)
 {
   // Two seeds grow around a ring.

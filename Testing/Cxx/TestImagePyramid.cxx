@@ -8,7 +8,6 @@
 #include <vtkFloatArray.h>
 #include <vtkInformation.h>
 #include <vtkMatrix3x3.h>
-#include <vtkRTAnalyticSource.h>
 #include <vtkSMPTools.h>
 #include <vtkSOADataArrayTemplate.h>
 #include <vtkStringArray.h>
@@ -184,32 +183,6 @@ TEST(ImagePyramid, TakesArraysOfOtherMemoryLayouts)
     Level(PyramidOf(mask, 2)->GetOutput(), 1), Level(PyramidOf(image, 2)->GetOutput(), 1)));
 }
 
-TEST(ImagePyramid, AsksASourceForItsWholeExtent)
-{
-  vtkNew<vtkRTAnalyticSource> source;
-  source->SetWholeExtent(-20, 20, -15, 15, 2, 30);
-  vtkNew<vtkImagePyramid> filter;
-  filter->SetInputConnection(source->GetOutputPort());
-  filter->Update();
-  EXPECT_EQ(Level(filter->GetOutput(), 0)->GetNumberOfPoints(), 41 * 31 * 29);
-  EXPECT_EQ(Level(filter->GetOutput(), 1)->GetDimensions()[0], 23);
-}
-
-TEST(ImagePyramid, ExecutesAgainWhenAPropertyChanges)
-{
-  const auto image = RandomImage(40, 40, 40);
-  const auto filter = PyramidOf(image, 2);
-  filter->SetNumberOfLevels(3);
-  filter->SetReductionFactor(1.5);
-  filter->Update();
-  ASSERT_EQ(filter->GetOutput()->GetNumberOfBlocks(), 3u);
-  EXPECT_EQ(Level(filter->GetOutput(), 1)->GetDimensions()[0], 26);
-  filter->SetNumberOfLevels(0);
-  filter->SetMinimumLevelSize(26);
-  filter->Update();
-  EXPECT_EQ(filter->GetOutput()->GetNumberOfBlocks(), 2u);
-}
-
 TEST(ImagePyramid, CountsTheLevelsThatItWillMake)
 {
   for (const std::array<int, 3> size :
@@ -231,16 +204,4 @@ TEST(ImagePyramid, CountsTheLevelsThatItWillMake)
   EXPECT_EQ(filter->CountLevels(64, 50, 40), 0) << "more than there can be";
   filter->SetNumberOfLevels(0);
   EXPECT_EQ(filter->CountLevels(0, 0, 0), 0) << "no image";
-}
-
-TEST(ImagePyramid, PrintsItsProperties)
-{
-  vtkNew<vtkImagePyramid> filter;
-  std::ostringstream text;
-  filter->Print(text);
-  for (const char* property : { "ReductionFactor: 1.73205", "NumberOfLevels: 0",
-         "MinimumLevelSize: 10", "NumberOfThreads: 0", "MemoryLimit: 0", "ScratchDirectory: " })
-  {
-    EXPECT_TRUE(Has(text.str(), property)) << property;
-  }
 }

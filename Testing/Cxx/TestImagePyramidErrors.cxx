@@ -167,46 +167,11 @@ TEST_F(ImagePyramidErrors, NothingButNaN)
   this->ExpectError(image, { "all voxels of array 'Voxels' are NaN or blanked" });
 }
 
-TEST_F(ImagePyramidErrors, ReductionFactorOutsideItsRange)
-{
-  for (const double factor : { 1.0, 2.0, -3.0 })
-  {
-    this->Filter->SetReductionFactor(factor);
-    this->ExpectError(RandomImage(20, 20, 20), { "Reduction Factor", "between 1 and 2" });
-  }
-}
-
 TEST_F(ImagePyramidErrors, MoreLevelsThanTheImageGives)
 {
   this->Filter->SetNumberOfLevels(12);
   this->ExpectError(
     RandomImage(20, 20, 20), { "Number Of Levels is 12", "20 x 20 x 20", "at most 5 levels" });
-}
-
-TEST_F(ImagePyramidErrors, NegativeOptions)
-{
-  this->Filter->SetNumberOfLevels(-2);
-  this->ExpectError(RandomImage(20, 20, 20), { "Number Of Levels is -2" });
-  this->Filter->SetNumberOfLevels(0);
-  this->Filter->SetMinimumLevelSize(-1);
-  this->ExpectError(RandomImage(20, 20, 20), { "Minimum Level Size is -1" });
-}
-
-TEST_F(ImagePyramidErrors, ZeroSpacing)
-{
-  const auto image = RandomImage(20, 20, 20);
-  image->SetSpacing(1, 1, 0);
-  this->ExpectError(image, { "spacing along axis z is 0" });
-}
-
-TEST_F(ImagePyramidErrors, WorksAgainAfterAnError)
-{
-  this->Filter->SetNumberOfLevels(12);
-  this->ErrorOf(RandomImage(20, 20, 20));
-  this->Filter->SetNumberOfLevels(2);
-  this->Filter->Update();
-  EXPECT_EQ(this->Filter->GetOutput()->GetNumberOfBlocks(), 2u);
-  EXPECT_EQ(this->Filter->GetErrorCode(), vtkErrorCode::NoError);
 }
 
 TEST_F(ImagePyramidErrors, AnErrorLeavesNoOldOutputAndNoFieldDataOfTheInput)

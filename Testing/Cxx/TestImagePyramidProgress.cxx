@@ -69,15 +69,3 @@ TEST_F(ImagePyramidProgress, CancellingBetweenLevelsKeepsTheFinishedOnes)
   EXPECT_NEAR(range[0], 1.0, 1e-6) << "what is handed over is finished";
   EXPECT_NEAR(range[1], 1.0, 1e-6);
 }
-
-TEST_F(ImagePyramidProgress, RunsToTheEndAfterACancelledRun)
-{
-  this->Run(0.0);
-  ASSERT_EQ(this->Filter->GetOutput()->GetNumberOfBlocks(), 1u);
-  this->Listener.StopAt = 2.0;
-  this->Filter->SetAbortExecute(0);
-  this->Filter->Modified();
-  this->Filter->Update();
-  EXPECT_EQ(this->Filter->GetOutput()->GetNumberOfBlocks(), 3u);
-  EXPECT_EQ(StopReason(this->Filter->GetOutput()), "complete");
-}

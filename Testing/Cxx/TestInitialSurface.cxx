@@ -31,22 +31,6 @@ VectorD CornerOf(const IndexedSurface& surface, int i)
 }
 }
 
-TEST(InitialSurface, DividedIcosahedraLieOnTheirSphere)
-{
-  for (const double edge : { 3., 1., 0.4 })
-  {
-    const IndexedSurface sphere = DividedIcosahedron({ 1, 2, 3 }, 2.5, edge);
-    for (const Point& p : sphere.Points)
-    {
-      EXPECT_NEAR(Distance(p[0], p[1], p[2], 1, 2, 3), 2.5, 1e-5);
-    }
-    EXPECT_NO_THROW(CheckInitialSurface(sphere));
-    const double perVertex =
-      ComputeFeatures(sphere).Area / static_cast<double>(sphere.Points.size());
-    EXPECT_LT(perVertex, std::sqrt(0.75) * edge * edge * 1.1) << "edges of " << edge;
-  }
-}
-
 TEST(InitialSurface, EnclosingSurfaceHasLegalEdgesWhateverTheBox)
 {
   // Voxels of 1 : 20, sheets, rods, a single cell: a sphere mapped to these had edges of .1 delta.

@@ -5,7 +5,6 @@
 #include "vtkVolumeToSurface.h"
 
 #include <vtkAMRBox.h>
-#include <vtkDoubleArray.h>
 #include <vtkErrorCode.h>
 #include <vtkExecutive.h>
 #include <vtkFloatArray.h>
@@ -163,20 +162,6 @@ TEST(InputImage, TheOnlyImageOfACompositeDatasetIsTaken)
   }
 }
 
-TEST(InputImage, APyramidServesAsItsLevel0)
-{
-  const auto image = BallImage(40, 40, 40);
-  const auto pyramid = PyramidOf(image);
-  vtkNew<vtkOtsuThreshold> otsu;
-  otsu->SetInputDataObject(pyramid->GetOutput());
-  otsu->Update();
-  const double threshold = otsu->GetThreshold();
-  otsu->SetInputData(image);
-  otsu->Update();
-  EXPECT_EQ(threshold, otsu->GetThreshold());
-  EXPECT_GT(threshold, 20.0);
-}
-
 TEST(InputImage, SeveralImagesAreRefused)
 {
   vtkNew<vtkMultiBlockDataSet> blocks;
@@ -190,51 +175,6 @@ TEST(InputImage, SeveralImagesAreRefused)
       filter->IsA("vtkDeformableSurface") && !filter->IsA("vtkVolumeToSurface");
     EXPECT_TRUE(Has(error, wantsLevels ? "is not a level of a pyramid" : "has 2 images"));
   }
-}
-
-TEST(SelectedComponent, OneComponentOrTheMagnitude)
-{
-  const auto ball = BallImage(24, 24, 24);
-  const auto vectors = VectorImage(ball);
-  vtkNew<vtkImagePyramid> pyramid;
-  pyramid->SetInputData(vectors);
-  pyramid->SetSelectedComponent(1);
-  pyramid->Update();
-  vtkDataArray* level0 = Voxels(Level(pyramid->GetOutput(), 0));
-  ASSERT_STREQ(level0->GetName(), "Field");
-  ASSERT_EQ(level0->GetNumberOfComponents(), 1);
-  EXPECT_EQ(level0->GetDataType(), VTK_FLOAT);
-  EXPECT_STREQ(Voxels(Level(pyramid->GetOutput(), 1))->GetName(), "Field");
-  for (vtkIdType i = 0; i < level0->GetNumberOfTuples(); ++i)
-  {
-    ASSERT_EQ(level0->GetComponent(i, 0), Voxels(ball)->GetComponent(i, 0));
-  }
-  EXPECT_EQ(Voxels(vectors)->GetNumberOfComponents(), 3) << "the input has changed";
-  pyramid->SetSelectedComponent(-1);
-  pyramid->Update();
-  level0 = Voxels(Level(pyramid->GetOutput(), 0));
-  for (vtkIdType i = 0; i < level0->GetNumberOfTuples(); ++i)
-  {
-    const double value = Voxels(ball)->GetComponent(i, 0);
-    ASSERT_NEAR(level0->GetComponent(i, 0), std::sqrt(value * value + 25.0), 1e-4);
-  }
-}
-
-TEST(SelectedComponent, GivesTheSurfaceOfTheComponent)
-{
-  const auto ball = BallImage(40, 40, 40);
-  vtkNew<vtkVolumeToSurface> wanted;
-  wanted->SetInputData(ball);
-  wanted->Update();
-  vtkNew<vtkVolumeToSurface> filter;
-  filter->SetInputData(VectorImage(ball));
-  filter->SetSelectedComponent(1);
-  filter->Update();
-  ExpectSamePoints(filter->GetOutput(), wanted->GetOutput());
-  // Of the magnitude the default.
-  filter->SetSelectedComponent(-1);
-  filter->Update();
-  ExpectSphere(filter->GetOutput(), BallCentre, BallRadius, 0.5);
 }
 
 TEST(SelectedComponent, OfAllTypes)

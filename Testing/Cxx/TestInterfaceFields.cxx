@@ -7,16 +7,8 @@ using namespace volumic;
 TEST(InterfaceFields, AreLargestWhereTheMapSaysSo)
 {
   const InterfaceScene scene(ManyCells(28, 6, 5));
-  for (int k = 0; k < 28; ++k)
-  {
-    for (int j = 0; j < 28; ++j)
-    {
-      for (int i = 0; i < 28; ++i)
-      {
-        ASSERT_EQ(scene.Fields->LargestAt(i, j, k), scene.Map.At(i, j, k)) << i << j << k;
-      }
-    }
-  }
+  ForVoxels({ 28, 28, 28 }, [&](int i, int j, int k)
+    { ASSERT_EQ(scene.Fields->LargestAt(i, j, k), scene.Map.At(i, j, k)) << i << j << k; });
 }
 
 TEST(InterfaceFields, AreInterpolatedWithTheirGradient)
@@ -49,17 +41,8 @@ TEST(InterfaceFields, OfTheOutsideAreOppositeToThoseOfTheOneObjectInIt)
     const InterfaceScene scene(MakeLabelMap({ side, side, side }, 1,
       [=](int i, int j, int k)
       { return std::min({ i, j, k }) >= 4 && std::max({ i, j, k }) < side - 4 ? 1 : 0; }));
-    for (int k = 2; k < side - 2; ++k)
-    {
-      for (int j = 2; j < side - 2; ++j)
-      {
-        for (int i = 2; i < side - 2; ++i)
-        {
-          ASSERT_NEAR(scene.Fields->At(0, i, j, k), -scene.Fields->At(1, i, j, k), 0.1)
-            << side << ": " << i << ' ' << j << ' ' << k;
-        }
-      }
-    }
+    ForBox({ 2, 2, 2 }, { side - 2, side - 2, side - 2 }, [&](int i, int j, int k)
+      { ASSERT_NEAR(scene.Fields->At(0, i, j, k), -scene.Fields->At(1, i, j, k), 0.1) << side; });
   }
 }
 
@@ -88,14 +71,4 @@ TEST(InterfaceFields, ShiftALittleAtMost)
   EXPECT_NEAR(scene.Fields->ValueAt(1, place), before + 0.05f, 1e-5);
   scene.Fields->Shift(1, 9.f);
   EXPECT_LT(scene.Fields->ValueAt(1, place), before + 0.3f);
-}
-
-TEST(InterfaceFields, EndWhereTheyAreToldTo)
-{
-  const LabelMap map = FourBlocks(5);
-  const LabelBricks bricks(map, OnThisThread());
-  // After the first one, that of the outside.
-  const InterfaceFields fields(bricks, LabelFieldOptions(), map.Spacing, OnThisThread(),
-    [](double) { return false; });
-  EXPECT_EQ(fields.At(1, 6, 6, 6), 0.f);
 }

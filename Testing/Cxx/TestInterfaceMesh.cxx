@@ -76,25 +76,6 @@ TEST(InterfaceMesh, HasLinesWhereThreeFacesMeet)
   ExpectSound(mesh);
 }
 
-TEST(InterfaceMesh, GivesEachObjectAClosedSurface)
-{
-  const InterfaceMesh mesh = TwoTetrahedra();
-  EXPECT_NEAR(VolumeOf(mesh, 1), 1. / 6., 1e-6);
-  EXPECT_NEAR(VolumeOf(mesh, 2), 1. / 6., 1e-6);
-}
-
-TEST(InterfaceMesh, KnowsTheMeanLengthOfEdges)
-{
-  InterfaceMesh mesh;
-  mesh.AddVertex(Vector(0.f, 0.f, 0.f), Stratum::Interface);
-  mesh.AddVertex(Vector(3.f, 0.f, 0.f), Stratum::Interface);
-  mesh.AddVertex(Vector(0.f, 4.f, 0.f), Stratum::Interface);
-  mesh.AddVertex(Vector(90.f, 0.f, 0.f), Stratum::Interface);
-  mesh.AddFace({ { 0, 1, 2 }, 1, 2 });
-  mesh.RemoveFace(mesh.AddFace({ { 0, 3, 2 }, 1, 2 }));
-  EXPECT_NEAR(mesh.MeanEdge(), 4., 1e-6);
-}
-
 TEST(InterfaceMesh, CompactsWhatIsRemoved)
 {
   InterfaceMesh mesh = TwoTetrahedra();

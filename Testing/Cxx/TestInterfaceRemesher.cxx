@@ -88,14 +88,6 @@ TEST_P(Edits, BringEdgesToTheWantedLength)
   this->ExpectSoundAndAlike();
 }
 
-TEST_P(Edits, EndWhereTheyAreToldTo)
-{
-  InterfaceRemesher remesher(this->Mesh, 1.1, 1.8, Tolerance, [] { return false; });
-  EXPECT_EQ(remesher.CollapseShortEdges(), 0);
-  EXPECT_EQ(remesher.FlipEdges(), 0);
-  this->ExpectSoundAndAlike();
-}
-
 TEST_P(Edits, FarTooLargeKeepWhatMeetsWhere)
 {
   // Collapses until nothing more may go.

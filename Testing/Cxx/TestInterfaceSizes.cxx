@@ -106,21 +106,6 @@ TEST(InterfaceSizes, HaveLinesAsNearAsTheTolerance)
   EXPECT_LT(off[off.size() / 2], 0.06f); // Some are held by what is thin.
 }
 
-TEST(InterfaceSizes, KeepVolumesWithALargeTolerance)
-{
-  InterfaceScene scene(ManyCells(40, 9, 2));
-  const InterfaceMesh mesh = Make(scene, 0.5);
-  ExpectSound(mesh);
-  for (int object = 1; object <= 9; ++object)
-  {
-    const auto voxels = static_cast<double>(scene.Bricks->ExtentOf(object).Voxels);
-    if (voxels > 1000.)
-    {
-      EXPECT_NEAR(VolumeOf(mesh, object) / voxels, 1., 2e-3) << object;
-    }
-  }
-}
-
 TEST(InterfaceSizes, GrowWhereInterfacesAreFlatAndKeepTheGradation)
 {
   InterfaceScene scene(FourBlocks(10));
@@ -226,4 +211,4 @@ TEST_P(GradedInterfaces, AreSoundWhereTheyAreStopped)
   ExpectSound(mesh);
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, GradedInterfaces, testing::Range(1, 7));
+INSTANTIATE_TEST_SUITE_P(Seeds, GradedInterfaces, testing::Range(1, 4));

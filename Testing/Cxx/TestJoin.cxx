@@ -18,13 +18,6 @@ TEST(Join, WritesNumbersAsEveryoneReadsThem)
     "level 1000, 1234567 voxels of 0.5");
 }
 
-TEST(Join, LeavesNoValueOutAndWritesNoneAtLength)
-{
-  EXPECT_EQ(Join(0.1 + 0.2, " ", 1. / 3.), "0.3 0.333333");
-  EXPECT_EQ(Join(1000000025.5), "1000000025.5");
-  EXPECT_EQ(Join(-1e300, " ", 1e-300), "-1e+300 1e-300");
-}
-
 TEST(Join, IsWhatARefusalSays)
 {
   const CommaLocale locale;

@@ -5,8 +5,6 @@
 // no code with it.
 #include "JudgedLabels.h"
 
-#include <vtkCellData.h>
-
 #include <ostream>
 
 using namespace volumic::support;
@@ -84,42 +82,6 @@ INSTANTIATE_TEST_SUITE_P(Of, LabelPromises,
   });
 
 //------------------------------------------------------------------------------
-TEST(LabelGeometry, DoesNotMatter)
-{
-  const DigitisedShapes shapes = Digitise(LabelShapeKind::Torus, 48);
-  const vtkSmartPointer<vtkImageData> plain = ToImage(shapes.Map);
-  const Filter first = FilterOf(plain);
-  const TriangleSurface expected = ToTriangleSurface(BlockOf(first), plain);
-
-  const vtkSmartPointer<vtkImageData> turned = ToImage(shapes.Map);
-  turned->SetSpacing(0.01, 0.01, 0.01);
-  turned->SetOrigin(12.0, -7.0, 30.0);
-  turned->SetDirectionMatrix(0, -1, 0, 0.6, 0, 0.8, -0.8, 0, 0.6);
-  const Filter second = FilterOf(turned);
-  const TriangleSurface found = ToTriangleSurface(BlockOf(second), turned);
-
-  ASSERT_EQ(found.Points.size(), expected.Points.size());
-  EXPECT_EQ(found.Triangles, expected.Triangles);
-  double largest = 0.0;
-  for (std::size_t p = 0; p < found.Points.size(); ++p)
-  {
-    for (int a = 0; a < 3; ++a)
-    {
-      largest = std::max(largest, std::abs(found.Points[p][a] - expected.Points[p][a]));
-    }
-  }
-  EXPECT_LT(largest, 1e-3); // points are float, and 3000 voxels from the origin
-  EXPECT_EQ(FieldOf(BlockOf(second), "WrongVoxels"), FieldOf(BlockOf(first), "WrongVoxels"));
-}
-
-TEST(LabelGeometry, MirroredImagesHaveOutwardSurfaces)
-{
-  const DigitisedShapes shapes = Digitise(LabelShapeKind::Torus, 48);
-  const vtkSmartPointer<vtkImageData> mirrored = ToImage(shapes.Map);
-  mirrored->SetDirectionMatrix(-1, 0, 0, 0, 1, 0, 0, 0, 1);
-  ExpectGoodTriangles(BlockOf(FilterOf(mirrored)));
-}
-
 TEST(LabelGeometry, LabelsMayTouchTheBorder)
 {
   // The lower half of a ball: the border cuts it.
@@ -138,77 +100,4 @@ TEST(LabelGeometry, LabelsMayTouchTheBorder)
 }
 
 //------------------------------------------------------------------------------
-TEST(LabelInputs, TypesAndValuesDoNotMatter)
-{
-  const DigitisedShapes shapes = Digitise(LabelShapeKind::TouchingBalls, 40);
-  const vtkSmartPointer<vtkImageData> plain = ToImage(shapes.Map);
-  const TriangleSurface expected = ToTriangleSurface(BlockOf(FilterOf(plain)));
-  ASSERT_GT(expected.Triangles.size(), 100u);
-  for (const int type : { VTK_UNSIGNED_CHAR, VTK_INT, VTK_LONG_LONG, VTK_FLOAT, VTK_DOUBLE })
-  {
-    vtkNew<vtkImageData> image;
-    image->SetDimensions(plain->GetDimensions());
-    const auto values = vtk::TakeSmartPointer(vtkDataArray::CreateDataArray(type));
-    values->DeepCopy(plain->GetPointData()->GetScalars());
-    image->GetPointData()->SetScalars(values);
-    const TriangleSurface found = ToTriangleSurface(BlockOf(FilterOf(image)));
-    EXPECT_EQ(found.Points, expected.Points) << values->GetDataTypeAsString();
-    EXPECT_EQ(found.Triangles, expected.Triangles) << values->GetDataTypeAsString();
-  }
-}
-
-TEST(LabelInputs, LabelsMayBeNegative)
-{
-  DigitisedShapes shapes = Digitise(LabelShapeKind::TouchingBalls, 40);
-  const TriangleSurface expected = ToTriangleSurface(BlockOf(FilterOf(ToImage(shapes.Map)), 1));
-  for (std::int16_t& value : shapes.Map.Values)
-  {
-    value = static_cast<std::int16_t>(value == 2 ? -700 : value);
-  }
-  const Filter filter = FilterOf(ToImage(shapes.Map));
-  vtkPolyData* block = BlockOf(filter, 0); // in the order of their values
-  EXPECT_EQ(FieldOf(block, "Label"), -700.0);
-  EXPECT_EQ(ToTriangleSurface(block).Points, expected.Points);
-}
-
-TEST(LabelInputs, CellsAreVoxels)
-{
-  const DigitisedShapes shapes = Digitise(LabelShapeKind::Sphere, 40);
-  const vtkSmartPointer<vtkImageData> points = ToImage(shapes.Map);
-  const TriangleSurface expected = ToTriangleSurface(BlockOf(FilterOf(points)));
-  vtkNew<vtkImageData> cells;
-  cells->SetDimensions(41, 41, 41);
-  cells->SetOrigin(-0.5, -0.5, -0.5);
-  cells->GetCellData()->SetScalars(points->GetPointData()->GetScalars());
-  const Filter filter = FilterOf(cells);
-  filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "Labels");
-  const TriangleSurface found = ToTriangleSurface(BlockOf(filter));
-  EXPECT_EQ(found.Points, expected.Points);
-  EXPECT_EQ(found.Triangles, expected.Triangles);
-}
-
 //------------------------------------------------------------------------------
-TEST(LabelsThatAreThin, AreThereWithFinerTriangles)
-{
-  const DigitisedShapes shapes = Digitise(LabelShapeKind::ThinShell, 48);
-  const Filter filter = FilterOf(ToImage(shapes.Map));
-  filter->SetFinestLevel(-1);
-  vtkPolyData* block = BlockOf(filter);
-  ExpectGoodTriangles(block);
-  const WrongVoxelVerdict voxels = JudgeVoxels(ToTriangleSurface(block), shapes.Map, 1);
-  EXPECT_LE(voxels.Wrong(), 2e-3 * voxels.Label);
-  EXPECT_EQ(JudgeTopology(ToTriangleSurface(block)).Components.size(), 2u); // both sides
-}
-
-TEST(LabelsThatAreThin, OneVoxelIsTold)
-{
-  LabelMap map = Digitise(LabelShapeKind::Sphere, 40).Map;
-  map.Values[40 * 40 * 3 + 40 * 3 + 3] = 2;
-  const Filter filter = FilterOf(ToImage(map));
-  vtkPolyData* block = BlockOf(filter, 1);
-  EXPECT_EQ(FieldOf(block, "Label"), 2.0);
-  EXPECT_EQ(FieldOf(block, "LabelVoxels"), 1.0);
-  const WrongVoxelVerdict voxels = JudgeVoxels(ToTriangleSurface(block), map, 2);
-  EXPECT_EQ(FieldOf(block, "WrongVoxels"), voxels.Wrong());
-  ExpectGoodTriangles(BlockOf(filter, 0)); // nothing happens to the others
-}

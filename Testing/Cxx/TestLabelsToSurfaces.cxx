@@ -12,17 +12,6 @@ using namespace volumic;
 namespace
 {
 using Names = std::vector<std::string>;
-
-/** How many points of one surface are inside a ball. */
-int PointsInBall(vtkPolyData* surface, const double* centre, double radius)
-{
-  int count = 0;
-  for (vtkIdType i = 0; i < surface->GetNumberOfPoints(); ++i)
-  {
-    count += std::sqrt(vtkMath::Distance2BetweenPoints(surface->GetPoint(i), centre)) < radius;
-  }
-  return count;
-}
 }
 
 TEST(LabelsToSurfaces, GivesEachLabelAClosedSmoothSurface)
@@ -197,26 +186,6 @@ TEST(LabelsToSurfaces, LabelsOfMergedCellsAreOfTheNearestVoxels)
   EXPECT_GT(std::min(counts[0], counts[1]), 100);
 }
 
-TEST(LabelsToSurfaces, DrawsNeighboursBackByAGap)
-{
-  const auto image = BallsImage();
-  image->SetSpacing(0.8, 0.8, 0.8);
-  const auto together = LabelSurfacesOf(image);
-  const auto apart = LabelSurfacesOf(image, [](vtkLabelsToSurfaces* f) { f->SetGap(0.4); });
-  for (const unsigned int block : { 0u, 1u })
-  {
-    const double radius = block == 0 ? 6.4 : 5.6;
-    const double thinner =
-      4. / 3. * vtkMath::Pi() * (std::pow(radius, 3) - std::pow(radius - 0.2, 3));
-    EXPECT_NEAR(EnclosedVolume(BlockOf(together, block)) - EnclosedVolume(BlockOf(apart, block)),
-      thinner, 0.15 * thinner);
-    EXPECT_EQ(OpenOrNonManifoldEdges(BlockOf(apart, block)), 0);
-  }
-  const double second[3] = { 20., 11.2, 11.2 };
-  EXPECT_GT(PointsInBall(BlockOf(together, 0), second, 5.3), 0) << "it reaches into the other one";
-  EXPECT_EQ(PointsInBall(BlockOf(apart, 0), second, 5.3), 0);
-}
-
 TEST(LabelsToSurfaces, HasNamesAndColoursOfTheImageAndItsOwn)
 {
   const auto image = BallsImage();
@@ -333,28 +302,4 @@ TEST(LabelsToSurfaces, KeepComponentsThatAreLarge)
   filter->SetMinimumComponentVolume(100.);
   filter->Update();
   EXPECT_EQ(FieldOf(BlockOf(filter, 0), "NumberOfComponents"), 2.);
-}
-
-TEST(LabelsToSurfaces, SmoothingRemovesStairsButNoVoxels)
-{
-  const auto image = BallsImage();
-  const auto roughness = [&](double smoothing)
-  {
-    const auto filter = LabelSurfacesOf(image,
-      [&](vtkLabelsToSurfaces* f) { f->SetSmoothing(smoothing); });
-    vtkPolyData* surface = BlockOf(filter, 0);
-    const double centre[3] = { 11., 14., 14. };
-    double sum = 0.;
-    for (vtkIdType i = 0; i < surface->GetNumberOfPoints(); ++i)
-    {
-      double* p = surface->GetPoint(i);
-      double outward[3];
-      vtkMath::Subtract(p, centre, outward);
-      vtkMath::Normalize(outward);
-      sum += 1. - vtkMath::Dot(outward, surface->GetPointData()->GetNormals()->GetTuple(i));
-    }
-    EXPECT_LE(FieldOf(surface, "WrongVoxels"), smoothing > 0. ? 3. : 40.);
-    return sum / static_cast<double>(surface->GetNumberOfPoints());
-  };
-  EXPECT_LT(roughness(2.), 0.25 * roughness(0.));
 }

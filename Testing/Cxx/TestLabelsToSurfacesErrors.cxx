@@ -6,7 +6,6 @@
 #include <vtkDoubleArray.h>
 #include <vtkErrorCode.h>
 #include <vtkIntArray.h>
-#include <vtkUnstructuredGrid.h>
 
 #include <new>
 
@@ -113,13 +112,6 @@ TEST_F(LabelsToSurfacesErrors, SeveralComponents)
   image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
   this->Filter->SetInputData(image);
   this->ExpectError({ "Input port 0", "components" });
-}
-
-TEST_F(LabelsToSurfacesErrors, DataThatAreNoImage)
-{
-  vtkNew<vtkUnstructuredGrid> grid;
-  this->Filter->SetInputDataObject(grid);
-  this->ExpectError({ "Input port 0", "vtkUnstructuredGrid", "Resample To Image" });
 }
 
 TEST_F(LabelsToSurfacesErrors, AnArrayThatIsNotThere)

@@ -110,15 +110,6 @@ TEST(Lanes, GatherVectorsAndNormaliseThem)
   }
 }
 
-TEST(Lanes, FindNumbersAndBits)
-{
-  const int four[4] = { 7, -1, 7, 9 };
-  EXPECT_EQ(EqualBits(four, 7), 5u);
-  EXPECT_EQ(EqualBits(four, 8), 0u);
-  EXPECT_EQ(LowestBit(8), 3);
-  EXPECT_EQ(LowestBit(5), 0);
-}
-
 TEST(Lanes, TellOpposedConesAsOneByOne)
 {
   Numbers numbers;

@@ -349,24 +349,6 @@ TEST(LevelReduction, StopsWhenAsked)
   EXPECT_EQ(out.back(), -1.f) << "the rest is not computed after a stop";
 }
 
-TEST(LevelReduction, ReportsGrowingShares)
-{
-  const auto levels = TwoLevels({ 256, 256, 200 });
-  const std::vector<unsigned char> voxels(levels[0].NumberOfVoxels(), 1);
-  std::vector<float> out(levels[1].NumberOfVoxels());
-  SequentialExecutor executor;
-  std::vector<double> shares;
-  ReduceLevel(voxels.data(), levels[0], out.data(), levels[1], executor,
-    [&](double share)
-    {
-      shares.push_back(share);
-      return true;
-    });
-  EXPECT_GE(shares.size(), 2u);
-  EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
-  EXPECT_EQ(shares.back(), 1.0);
-}
-
 TEST(FindNotFiniteVoxels, CountsAndFindsTheFirst)
 {
   std::vector<float> voxels(300000, 1.f);
@@ -383,13 +365,6 @@ TEST(FindNotFiniteVoxels, CountsAndFindsTheFirst)
     EXPECT_EQ(found.Count, 3);
     EXPECT_EQ(found.First, 70001);
   }
-}
-
-TEST(FindNotFiniteVoxels, FindsNoneInIntegers)
-{
-  const std::vector<int> voxels(10, std::numeric_limits<int>::max());
-  SequentialExecutor executor;
-  EXPECT_EQ(FindNotFiniteVoxels(voxels.data(), 10, executor).Count, 0);
 }
 
 TEST(ValidReduction, IsTheMeanOfTheVoxelsWithAValue)

@@ -26,13 +26,6 @@ TEST(Select, KeepsTheOrderWhateverTheThreads)
   EXPECT_EQ(found, expected);
 }
 
-TEST(Select, FindsNothingInNothing)
-{
-  SequentialExecutor thread;
-  EXPECT_TRUE(SelectIndices(thread, 0, [](std::size_t) { return true; }).empty());
-  EXPECT_TRUE(SelectIndices(thread, 9999, [](std::size_t) { return false; }).empty());
-}
-
 TEST(Grow, LengthensByLittle)
 {
   std::vector<int> values(8000, 1);

@@ -51,12 +51,3 @@ TEST(HalveLongEdges, LeavesTheSurfaceWhereItIs)
   EXPECT_DOUBLE_EQ(after.Area, 134.);
   EXPECT_EQ(CountSelfIntersections(box), 0);
 }
-
-TEST(HalveLongEdges, LeavesAloneWhatIsShort)
-{
-  IndexedSurface box = Box(1., 1., 1.);
-  const LargeVector<Triangle> before = box.Triangles;
-  HalveLongEdges(box, 2.);
-  EXPECT_EQ(box.Triangles, before);
-  EXPECT_EQ(box.Points.size(), 8u);
-}

@@ -103,20 +103,6 @@ TEST(LostParts, EnclosesBackgroundInsideTheSurface)
   EXPECT_GE(NearestVertex(known.State, cover.Surface), SizingField::LambdaInDelta * Delta);
 }
 
-TEST(LostParts, KeepsClearOfTheSurface)
-{
-  // The lost ball begins two and a half voxels from the known one.
-  const KnownBall known(MakeVolume(48,
-    [](double x, double y, double z)
-    {
-      const double ball = Distance(x, y, z, 18, 24, 24) - 13.;
-      return Soft(std::min(ball, Distance(x, y, z, 39, 24, 24) - 5.5));
-    }));
-  const LostPartCover cover = known.Find(PartKind::Object, 20);
-  ASSERT_EQ(cover.Covered, 1);
-  EXPECT_GE(NearestVertex(known.State, cover.Surface), SizingField::LambdaInDelta * Delta);
-}
-
 TEST(LostParts, LeavesPartsUnderTheMinimumSize)
 {
   const KnownBall known;
@@ -141,14 +127,6 @@ TEST(LostParts, WhatLiesAtTheSurfaceIsNotLost)
     EXPECT_EQ(known.Find(PartKind::Object, 1).Found, 0);
     EXPECT_EQ(known.Find(PartKind::Cavity, 1).Found, 0);
   }
-}
-
-TEST(LostParts, FindsNothingWhereTheSurfaceHasAll)
-{
-  const KnownBall known(MakeVolume(
-    48, [](double x, double y, double z) { return Soft(Distance(x, y, z, 18, 24, 24) - 13.); }));
-  EXPECT_EQ(known.Find(PartKind::Object, 1).Found, 0);
-  EXPECT_EQ(known.Find(PartKind::Cavity, 1).Found, 0);
 }
 
 TEST(LostParts, FindsAllWithoutAnySurface)

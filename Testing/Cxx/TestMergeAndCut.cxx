@@ -43,19 +43,6 @@ TEST(StarMerge, JoinsTwoSpheres)
   EXPECT_EQ(CountSelfIntersections(mesh.ToIndexed()), 0);
 }
 
-TEST(StarMerge, GivesASphereAHandle)
-{
-  SurfaceMesh mesh = MakeSphere({ 0, 0, 0 }, 3, 1);
-  StarMerge merge;
-  merge.U = Nearest(mesh, Vector(3, 0, 0), 0, mesh.Size());
-  merge.V = Nearest(mesh, Vector(-3, 0, 0), 0, mesh.Size());
-  ASSERT_TRUE(merge.Plan(mesh));
-  merge.Apply(mesh);
-  EXPECT_EQ(DescribeBrokenInvariant(mesh), "");
-  EXPECT_EQ(mesh.CountEulerCharacteristic(), 0);
-  EXPECT_EQ(ComputeFeatures(mesh.ToIndexed()).Genus, 1);
-}
-
 TEST(StarMerge, RefusesRimsThatTouch)
 {
   const SurfaceMesh mesh = MakeSphere({ 0, 0, 0 }, 3, 1);
@@ -194,20 +181,6 @@ TEST(CycleCut, SplitsADoublePyramid)
   const SurfaceFeatures features = ComputeFeatures(mesh.ToIndexed());
   EXPECT_EQ(features.Components.size(), 2u);
   EXPECT_NEAR(features.Components[0].Volume, features.Components[1].Volume, 1e-6);
-}
-
-TEST(CycleCut, TakesTheHandleOfATorus)
-{
-  // A torus with a tube of three vertices: each ring of the tube is a 3-cycle.
-  SurfaceMesh mesh;
-  mesh.Append(MakeTorus({ 0, 0, 0 }, 5, 1, 16, 3));
-  ASSERT_EQ(mesh.CountEulerCharacteristic(), 0);
-  const CycleCut cut{ 0, 1, 2 };
-  ASSERT_TRUE(cut.IsLegal(mesh));
-  cut.Apply(mesh);
-  EXPECT_EQ(DescribeBrokenInvariant(mesh), "");
-  EXPECT_EQ(mesh.CountEulerCharacteristic(), 2);
-  EXPECT_EQ(ComputeFeatures(mesh.ToIndexed()).Components.size(), 1u);
 }
 
 TEST(CycleCut, RefusesAFace)

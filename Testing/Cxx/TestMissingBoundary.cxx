@@ -88,21 +88,6 @@ TEST(MissingBoundary, IsNotWarnedOfWhereNoRecoveryIsAskedFor)
   EXPECT_GT(FieldOf(filter->GetOutput(), "MissingBoundary"), 0.01) << "told all the same";
 }
 
-TEST(MissingBoundary, IsNotWarnedOfWhereItIsSmall)
-{
-  // A rod beside a large ball.
-  const auto image = BallImage(64, 64, 64, 0.3);
-  for (int k = 10; k < 54; ++k)
-  {
-    Voxels(image)->SetComponent((k * 64 + 5) * 64 + 5, 0, 62.0);
-    Voxels(image)->SetComponent((k * 64 + 5) * 64 + 6, 0, 62.0);
-  }
-  vtkNew<vtkDeformableSurface> filter;
-  EXPECT_EQ(WarningsOf(filter, image), "");
-  EXPECT_GT(FieldOf(filter->GetOutput(), "MissingBoundary"), 0.01) << "told all the same";
-  EXPECT_LT(FieldOf(filter->GetOutput(), "MissingBoundary"), 0.05);
-}
-
 TEST(MissingBoundary, IsNotWarnedOfWhereComponentsAreLeftOut)
 {
   vtkNew<vtkDeformableSurface> filter;
@@ -128,18 +113,4 @@ TEST(MissingBoundary, DoesNotCountPartsUnderTheMinimumSize)
   EXPECT_EQ(WarningsOf(filter, BallAndSheets(2)), "");
   EXPECT_EQ(FieldOf(filter->GetOutput(), "LostParts"), 0.0);
   EXPECT_EQ(FieldOf(filter->GetOutput(), "MissingBoundary"), 0.0);
-}
-
-TEST(MissingBoundary, DoesNotDependOnThreads)
-{
-  vtkNew<vtkDeformableSurface> one;
-  one->SetNumberOfThreads(1);
-  WarningsOf(one, BallAndSheets(2));
-  vtkNew<vtkDeformableSurface> all;
-  WarningsOf(all, BallAndSheets(2));
-  for (unsigned int h = 0; h + 1 < one->GetLevels()->GetNumberOfBlocks(); ++h)
-  {
-    EXPECT_EQ(FieldOf(SurfaceAt(one, h), "MissingBoundary"),
-      FieldOf(SurfaceAt(all, h), "MissingBoundary"));
-  }
 }

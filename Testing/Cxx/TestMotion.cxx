@@ -22,18 +22,6 @@ struct Flying : Stage
 };
 }
 
-TEST(Motion, FrictionSlowsDown)
-{
-  for (const double friction : { 0.5, 3., 8. })
-  {
-    Flying stage(0.1f);
-    stage.Options.Friction = friction;
-    const double step = stage.Push();
-    ASSERT_GT(step, 0);
-    EXPECT_NEAR(stage.MeanSpeedOutward(), 0.1 / (1 + friction * step), 1e-5);
-  }
-}
-
 TEST(Motion, ForceAndFrictionBalanceAtTheFinalSpeed)
 {
   for (const double friction : { 1.5, 3., 8. })

@@ -7,17 +7,6 @@
 
 using namespace volumic;
 
-TEST(Proximity, FindsNothingOnASmoothSphere)
-{
-  LiveSurface state(DividedIcosahedron({ 5, 5, 5 }, 8, 1.6));
-  Proximity proximity;
-  proximity.Examine(state, state.All(), OnThisThread());
-  EXPECT_TRUE(proximity.Pairs().empty());
-  EXPECT_TRUE(proximity.Intersections().empty());
-  EXPECT_EQ(
-    std::count(state.NearOthers.AsVector().begin(), state.NearOthers.AsVector().end(), 1), 0);
-}
-
 TEST(Proximity, FindsThePairsOfTwoSpheresAsBruteForceDoes)
 {
   IndexedSurface surface = DividedIcosahedron({ 0, 0, 0 }, 6, 1.6);

@@ -63,14 +63,6 @@ TEST(Remesher, SplitsUntilNoEdgeIsLongerThanTwoAndAHalfDelta)
   }
 }
 
-TEST(Remesher, DoesNotSplitLegalEdges)
-{
-  Bench bench(Octahedron(2.49));
-  std::vector<int> all = bench.All();
-  Remesher(bench.State, nullptr, true).Split(all);
-  EXPECT_EQ(bench.State.Counts.Splits, 0);
-}
-
 TEST(Remesher, DoesNotSplitIntoNeedles)
 {
   // A tetrahedron with one edge that is too long; a corner opposite to it is near to its middle.

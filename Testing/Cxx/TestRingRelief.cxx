@@ -60,14 +60,6 @@ TEST(RelieveRings, TakesNeighboursFromThoseThatHaveTooMany)
   EXPECT_EQ(CountSelfIntersections(surface), 0);
 }
 
-TEST(RelieveRings, LeavesAloneWhatFits)
-{
-  IndexedSurface surface = Lens(Ring::Capacity, 0.2);
-  const LargeVector<Triangle> before = surface.Triangles;
-  EXPECT_TRUE(RelieveRings(surface));
-  EXPECT_EQ(surface.Triangles, before);
-}
-
 TEST(RelieveRings, TellsWhereItCannot)
 {
   // Needles: any other edge would fold them.

@@ -5,34 +5,11 @@
 
 #include "LabelImages.h"
 #include "SameOutputs.h"
-#include "SurfaceTestTools.h"
-#include "vtkLabelsToSurfaces.h"
 
-#include <vtkCallbackCommand.h>
 #include <vtkCell.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
-#include <vtkCommand.h>
-#include <vtkDataArray.h>
-#include <vtkErrorCode.h>
-#include <vtkFieldData.h>
-#include <vtkImageData.h>
-#include <vtkIntArray.h>
 #include <vtkMatrix3x3.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPolyData.h>
-#include <vtkSmartPointer.h>
-#include <vtkStringArray.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <set>
-#include <string>
-#include <vector>
 
 using namespace volumic;
 
@@ -395,4 +372,4 @@ TEST_P(StoppedSharedInterfaces, AreMarkedAndMadeAnewThen)
   ExpectSameSurfaces(filter->GetInterfaces(), other->GetInterfaces());
 }
 
-INSTANTIATE_TEST_SUITE_P(At, StoppedSharedInterfaces, testing::Values(0.01, 0.2, 0.5, 0.8));
+INSTANTIATE_TEST_SUITE_P(At, StoppedSharedInterfaces, testing::Values(0.01, 0.5));

@@ -4,7 +4,6 @@
 // Visits in which threads share that find no visit to make.
 #include "Core/Common/StandardThreads.h"
 #include "TestPrelude.h"
-#include "WorkModel.h"
 
 #include <atomic>
 #include <chrono>
@@ -12,9 +11,6 @@
 #include <thread>
 
 using namespace volumic;
-using bench::ScheduledSeconds;
-using bench::ThreadOverhead;
-using bench::VisitStep;
 
 namespace
 {
@@ -40,8 +36,6 @@ VisitSchedule ChainsOf(int n, int rows = 1)
       return touched;
     });
 }
-
-using Visits = std::vector<std::vector<VisitStep>>;
 }
 
 TEST(SharedVisits, ThreadsWithoutAVisitTakePartsOfOthers)
@@ -159,25 +153,4 @@ TEST(SharedVisits, WhatAPartThrowsLeavesTheVisit)
       std::runtime_error);
     EXPECT_EQ(caught, 1) << count << " threads";
   }
-}
-
-TEST(SharedVisits, AreModelledWithTheThreadsThatAreFree)
-{
-  const VisitSchedule one = ChainsOf(1);
-  const Visits shared = { { { 1., { 2., 2., 2., 2. } }, { 3., {} } } };
-  EXPECT_DOUBLE_EQ(ScheduledSeconds(one, shared, 1), 12.);
-  EXPECT_DOUBLE_EQ(ScheduledSeconds(one, shared, 2), 8.);
-  EXPECT_DOUBLE_EQ(ScheduledSeconds(one, shared, 3), 8.) << "four parts for three";
-  EXPECT_DOUBLE_EQ(ScheduledSeconds(one, shared, 64), 6.);
-  // Two of a chain never share with each other.
-  const VisitSchedule two = ChainsOf(2);
-  EXPECT_DOUBLE_EQ(ScheduledSeconds(two, { shared[0], shared[0] }, 2), 16.);
-  // Where all threads have visits nobody is free to share.
-  const VisitSchedule apart({ 0, 1 }, [](int) { return std::vector<int>(); });
-  EXPECT_DOUBLE_EQ(ScheduledSeconds(apart, { shared[0], shared[0] }, 2), 12.);
-  // A call is told to others at a price, a part costs something everywhere.
-  ThreadOverhead overhead;
-  overhead.SecondsOfCall = 0.25;
-  overhead.SecondsOfChunk = 0.5;
-  EXPECT_DOUBLE_EQ(ScheduledSeconds(one, { { { 1., { 2., 2. } } } }, 2, overhead), 1.5 + 2.75);
 }

@@ -79,13 +79,6 @@ TEST(SmallParts, GoToNothingThatGoes)
   EXPECT_EQ(VoxelsOf(map, 2), 729);
 }
 
-TEST(SmallParts, AreNotLookedForBeyondTheObjects)
-{
-  LabelMap map = Parts();
-  GiveAwaySmallParts(map, 2, 3, false);
-  EXPECT_EQ(VoxelsOf(map, 3), 1);
-}
-
 TEST(SmallParts, JoinedByACornerAreOne)
 {
   // Along either diagonal: the first voxel is at one of the ends, or beyond others.

@@ -351,14 +351,3 @@ TEST(SurfaceEditor, RecordsNameAllThatHasChanged)
     }
   }
 }
-
-TEST(SurfaceEditor, RecordsOfRefusedEditsAreEmpty)
-{
-  Workbench bench(Fine);
-  const Vector spike = bench.At(bench.V) + bench.Outward(bench.V) * 5.f;
-  const Edit edit = bench.Editor.Move(bench.V, spike, EditTolerance::Smooth);
-  EXPECT_FALSE(edit);
-  EXPECT_EQ(edit.Changed.begin(), edit.Changed.end());
-  EXPECT_EQ(edit.Vertex, -1);
-  EXPECT_TRUE(bench.Editor.TakeChanged().empty());
-}

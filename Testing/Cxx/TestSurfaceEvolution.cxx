@@ -7,35 +7,6 @@ using namespace volumic;
 
 namespace
 {
-/** Hands out ranges of odd sizes, last first: what threads may do, made repeatable. */
-class ShuffledExecutor final : public Executor
-{
-public:
-  void For(std::size_t n, std::size_t,
-    const std::function<void(std::size_t, std::size_t)>& body) override
-  {
-    for (std::size_t end = n; end > 0;)
-    {
-      const std::size_t begin = end > 7 ? end - 7 : 0;
-      body(begin, end);
-      end = begin;
-    }
-  }
-};
-
-class CancelAfter final : public Monitor
-{
-public:
-  explicit CancelAfter(int sweeps)
-    : Left(sweeps)
-  {
-  }
-  bool Continue(const Status&) override { return --this->Left > 0; }
-
-private:
-  int Left;
-};
-
 /** Counts states that are not what they must be between two iterations. */
 class Inspector final : public Monitor
 {
@@ -164,22 +135,6 @@ TEST(SurfaceEvolution, IsSoundAfterEverySweep)
   EXPECT_EQ(features.Components[0].Genus, 1);
 }
 
-TEST(SurfaceEvolution, GivesTheSameBitsForAnyExecutor)
-{
-  const TestVolume volume = NoisyTorus(36);
-  ShuffledExecutor shuffled;
-  SurfaceEvolution first(IsoHalf(), Threads, Silent);
-  SurfaceEvolution second(IsoHalf(), shuffled, Silent);
-  for (SurfaceEvolution* evolution : { &first, &second })
-  {
-    evolution->StartEnclosing(volume.Image, 0);
-    evolution->Run();
-  }
-  EXPECT_EQ(first.Result().Points, second.Result().Points);
-  EXPECT_EQ(first.Result().Triangles, second.Result().Triangles);
-  EXPECT_EQ(first.History().size(), second.History().size());
-}
-
 TEST(SurfaceEvolution, DividesToAFinerLevel)
 {
   const TestVolume fine = BallVolume(32, 10);
@@ -227,41 +182,6 @@ TEST(SurfaceEvolution, FindsAgainWhatTheCoarseLevelLost)
   }
 }
 
-TEST(SurfaceEvolution, RemeshesAGivenSurface)
-{
-  const TestVolume volume = BallVolume(32, 10);
-  IndexedSurface sphere = DividedIcosahedron({ 16, 16, 16 }, 11, 0.3); // Much too fine.
-  SurfaceEvolution evolution(IsoHalf(), Threads, Silent);
-  evolution.StartSurface(volume.Image, 0, sphere);
-  const std::size_t adapted = evolution.Result().Points.size();
-  EXPECT_LT(adapted, sphere.Points.size() / 4);
-  EXPECT_EQ(CountSelfIntersections(evolution.Result()), 0);
-  EXPECT_EQ(evolution.Run(), StopReason::Converged);
-  ExpectSound(evolution);
-}
-
-TEST(SurfaceEvolution, TakesSurfacesWithCrowdedPoles)
-{
-  const TestVolume volume = BallVolume(32, 9);
-  SurfaceEvolution evolution(IsoHalf(), Threads, Silent);
-  // 40 neighbours at each tip.
-  evolution.StartSurface(volume.Image, 0, MakeDoubleCone({ 16, 16, 16 }, 12, 12, 40));
-  EXPECT_EQ(evolution.Run(), StopReason::Converged);
-  ExpectSound(evolution);
-  EXPECT_EQ(ComputeFeatures(evolution.Result()).EulerCharacteristic, 2);
-}
-
-TEST(SurfaceEvolution, HandsOverASoundSurfaceWhenCancelled)
-{
-  const TestVolume volume = BallVolume(32, 10);
-  CancelAfter monitor(2);
-  SurfaceEvolution evolution(IsoHalf(), Threads, monitor);
-  evolution.StartEnclosing(volume.Image, 0);
-  EXPECT_EQ(evolution.Run(), StopReason::Cancelled);
-  EXPECT_EQ(evolution.Iterations(), 10) << "sweeps of five";
-  EXPECT_EQ(CountSelfIntersections(evolution.Result()), 0);
-}
-
 TEST(SurfaceEvolution, SaysWhenNothingIsLeft)
 {
   const TestVolume volume = MakeVolume(24, [](double, double, double) { return 0.; });
@@ -289,17 +209,6 @@ TEST(SurfaceEvolution, KeepsItsTopologyOnRequest)
   EXPECT_EQ(CountSelfIntersections(evolution.Result()), 0);
 }
 
-TEST(SurfaceEvolution, StopsAtTheIterationLimit)
-{
-  const TestVolume volume = BallVolume(32, 10);
-  SurfaceOptions options = IsoHalf();
-  options.MaximumNumberOfIterations = 3;
-  SurfaceEvolution evolution(options, Threads, Silent);
-  evolution.StartEnclosing(volume.Image, 0);
-  EXPECT_EQ(evolution.Run(), StopReason::IterationLimit);
-  EXPECT_EQ(evolution.History().size(), 3u);
-}
-
 TEST(SurfaceEvolutionInvalid, RefusesSeedsItCannotUse)
 {
   const TestVolume volume = BallVolume(32, 10);
@@ -307,33 +216,4 @@ TEST(SurfaceEvolutionInvalid, RefusesSeedsItCannotUse)
   EXPECT_THROW(
     evolution.StartSeeds(volume.Image, 0, { { 16, 16, 50 } }), std::invalid_argument);
   EXPECT_THROW(evolution.StartSeeds(volume.Image, 0, { { 1, 1, 1 } }), std::invalid_argument);
-}
-
-TEST(SurfaceEvolutionInvalid, RefusesSurfacesItCannotUse)
-{
-  const TestVolume volume = BallVolume(32, 10);
-  SurfaceEvolution evolution(IsoHalf(), Threads, Silent);
-  const IndexedSurface good = Icosahedron({ 16, 16, 16 }, 8);
-  const auto refuses = [&](const IndexedSurface& surface, const char* word)
-  {
-    EXPECT_TRUE(Has(RefusalOf([&] { evolution.StartSurface(volume.Image, 0, surface); }), word));
-  };
-  refuses(IndexedSurface(), "empty");
-  IndexedSurface open = good;
-  open.Triangles.pop_back();
-  refuses(open, "open");
-  refuses(InsideOut(good), "inside out");
-  IndexedSurface twisted = good;
-  std::swap(twisted.Triangles[0][0], twisted.Triangles[0][1]);
-  refuses(twisted, "not oriented");
-  IndexedSurface crowded = good;
-  crowded.Triangles.push_back(good.Triangles[0]);
-  refuses(crowded, "not manifold");
-  IndexedSurface crossing = good;
-  AddSurface(crossing, Icosahedron({ 20, 16, 16 }, 8));
-  refuses(crossing, "intersects itself");
-  refuses(Icosahedron({ 100, 16, 16 }, 8), "outside");
-  IndexedSurface endless = good;
-  endless.Points[0][0] = std::nan("");
-  refuses(endless, "not finite");
 }

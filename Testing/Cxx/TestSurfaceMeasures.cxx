@@ -29,15 +29,6 @@ TEST(SurfaceMeasures, AreThoseOfTheTriangles)
   EXPECT_NEAR(SurfaceArea(mesh, sequential), features.Area, 1e-6 * features.Area);
 }
 
-TEST(SurfaceMeasures, AreTheSameBitsForAnyExecutor)
-{
-  const SurfaceMesh mesh = HollowBall();
-  SequentialExecutor sequential;
-  StandardThreads threads(3);
-  EXPECT_EQ(EnclosedVolume(mesh, sequential), EnclosedVolume(mesh, threads));
-  EXPECT_EQ(SurfaceArea(mesh, sequential), SurfaceArea(mesh, threads));
-}
-
 TEST(SurfaceMeasures, VolumeOfACavityIsNegative)
 {
   SurfaceMesh mesh;

@@ -197,15 +197,3 @@ TEST(SurfacePolish, FlipsWhereThatIsAllThatIsNeeded)
     EXPECT_EQ(Length(state.Mesh.Position[w] - mesh.Position[w]), 0);
   }
 }
-
-TEST(SurfacePolish, LeavesAWellShapedMeshAsItIs)
-{
-  LiveSurface state(MakeSphere({ 0, 0, 0 }, 8, 1.7));
-  ASSERT_EQ(ShapeOf(state).EdgesOutside, 0);
-  ASSERT_GT(ShapeOf(state).WorstRatio, 0.82);
-  const LargeVector<Vector> before = state.Mesh.Position;
-  SequentialExecutor executor;
-  SurfacePolish polish(state, nullptr, true);
-  polish.Run(AliveOnes(state));
-  EXPECT_TRUE(polish.TakeChanged().empty());
-}

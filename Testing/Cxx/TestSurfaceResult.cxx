@@ -124,40 +124,6 @@ TEST(SurfaceResult, HasEvenTriangles)
   EXPECT_GT(mean, 0.96); // Of one level; divisions make them more even.
 }
 
-TEST(SurfaceStart, EnclosesTheWholeImage)
-{
-  TestVolume volume = BallVolume(20, 6);
-  volume.Image.Size = { 40, 20, 10 }; // As many voxels.
-  volume.Image.Step = { 1, 1, 1.5 };
-  SurfaceEvolution evolution(IsoHalf(), Threads, Silent);
-  evolution.StartEnclosing(volume.Image, 0);
-  const SurfaceResult surface = evolution.Result();
-  const std::vector<double> lengths = EdgeLengths(surface);
-  EXPECT_LE(*std::max_element(lengths.begin(), lengths.end()), 2.5 * surface.Delta);
-  EXPECT_EQ(CountSelfIntersections(surface), 0);
-  const SurfaceFeatures features = ComputeFeatures(surface);
-  EXPECT_EQ(features.EulerCharacteristic, 2);
-  // Every corner of the image is inside: seen from it, the surface is a whole sphere.
-  for (int i = 0; i < 8; ++i)
-  {
-    const Point corner = { i & 1 ? 39. : 0., i & 2 ? 19. : 0., i & 4 ? 13.5 : 0. };
-    double angle = 0;
-    for (const Triangle& t : surface.Triangles)
-    {
-      VectorD p[3];
-      for (int k = 0; k < 3; ++k)
-      {
-        const Point& q = surface.Points[t[k]];
-        p[k] = Normalized(VectorD(q[0] - corner[0], q[1] - corner[1], q[2] - corner[2]));
-      }
-      angle += 2 *
-        std::atan2(
-          Dot(p[0], Cross(p[1], p[2])), 1 + Dot(p[0], p[1]) + Dot(p[1], p[2]) + Dot(p[2], p[0]));
-    }
-    EXPECT_NEAR(angle, 4 * 3.14159265, 1e-3) << "corner " << i;
-  }
-}
-
 TEST(SurfaceStart, DivisionMakesThreeTimesTheTriangles)
 {
   const TestVolume fine = BallVolume(32, 10);

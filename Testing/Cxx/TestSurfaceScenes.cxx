@@ -163,38 +163,6 @@ TEST_P(SurfaceOfScene, AnisotropicVoxelsInTheMetricOfVoxels)
 INSTANTIATE_TEST_SUITE_P(
   Scenes, SurfaceOfScene, ::testing::ValuesIn(SceneKindsReachableFromOutside()), NameOfKind);
 
-TEST(SurfaceScenes, RotatedImagesGiveTheSameSurfaceRotated)
-{
-  const Scene scene = MakeScene(SceneKind::Torus);
-  const auto straight = ToImage(scene);
-  const auto rotated = ToImage(scene);
-  const double c = std::cos(0.7);
-  const double s = std::sin(0.7);
-  const double direction[9] = { c, 0, s, 0, 1, 0, -s, 0, c };
-  rotated->SetDirectionMatrix(direction);
-  rotated->SetOrigin(-100, 200, 50);
-  const auto a = Segment(straight, scene);
-  const auto b = Segment(rotated, scene);
-  a->Update();
-  b->Update();
-  ExpectTopology(b, scene);
-  ExpectInvariantsAtEveryLevel(b, rotated);
-  ASSERT_EQ(a->GetOutput()->GetNumberOfPoints(), b->GetOutput()->GetNumberOfPoints());
-  for (vtkIdType i = 0; i < a->GetOutput()->GetNumberOfPoints(); ++i)
-  {
-    double p[3];
-    double q[3];
-    double expected[3];
-    a->GetOutput()->GetPoint(i, p);
-    b->GetOutput()->GetPoint(i, q);
-    rotated->TransformContinuousIndexToPhysicalPoint(p, expected);
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      ASSERT_NEAR(q[axis], expected[axis], 1e-9) << "point " << i;
-    }
-  }
-}
-
 TEST(SurfaceScenes, SeedsMergeToOneSurface)
 {
   for (const SceneKind kind : { SceneKind::FourBubbles, SceneKind::TorusOfTwoBubbles })
@@ -218,17 +186,4 @@ TEST(SurfaceScenes, SeedsMergeToOneSurface)
     ExpectTopology(filter, scene);
     ExpectInvariantsAtEveryLevel(filter, image);
   }
-}
-
-TEST(SurfaceScenes, WithoutTopologyChangesTheTopologyStays)
-{
-  const Scene scene = MakeScene(SceneKind::Torus);
-  const auto image = ToImage(scene);
-  const auto filter = Segment(image, scene);
-  filter->TopologyChangesOff();
-  filter->Update();
-  ASSERT_GT(filter->GetOutput()->GetNumberOfPoints(), 0);
-  EXPECT_EQ(FieldOf(filter->GetOutput(), "Genus"), 0) << "a sphere stays one";
-  EXPECT_EQ(FieldOf(filter->GetOutput(), "NumberOfComponents"), 1);
-  ExpectInvariantsAtEveryLevel(filter, image);
 }

@@ -97,14 +97,6 @@ TEST(ThinParts, AreThoseOfFinestLevelMinusOneToo)
   ExpectSameSurfaces(one->GetOutput(), other->GetOutput());
 }
 
-TEST(ThinParts, DoNothingWhereTheRunEndsBefore)
-{
-  const auto coarse = [](vtkVolumeToSurface* f) { f->SetFinestLevel(1); };
-  const auto thin = Made(true, coarse);
-  EXPECT_EQ(FieldOf(thin->GetOutput(), "Level"), 1);
-  ExpectSameSurfaces(thin->GetOutput(), Made(false, coarse)->GetOutput());
-}
-
 TEST(ThinParts, GiveWhatARunFromTheStartGivesInWhateverOrder)
 {
   const auto filter = Filter(false);
@@ -127,14 +119,6 @@ TEST(ThinParts, GiveWhatARunFromTheStartGivesInWhateverOrder)
   }
 }
 
-TEST(ThinParts, AreNoMoreThanThatWhateverTheLongestEdgeIs)
-{
-  // That is for a tolerance.
-  const auto thin = Made(true);
-  const auto other = Made(true, [](vtkVolumeToSurface* f) { f->SetMaximumEdgeLength(0.1); });
-  ExpectSameSurfaces(thin->GetOutput(), other->GetOutput());
-}
-
 TEST(ThinParts, GoWithATolerance)
 {
   // What is flat has longer edges than those of the level, what is thin has shorter ones.
@@ -154,16 +138,6 @@ TEST(ThinParts, AreTheSameOnAnyThreadsAndWithLittleMemory)
   const auto limited = Made(true, [](vtkVolumeToSurface* f) { f->SetMemoryLimit(LittleMemory); });
   ExpectSameSurfaces(one->GetOutput(), three->GetOutput());
   EXPECT_TRUE(AreSameSurfaces(one->GetOutput(), limited->GetOutput()));
-}
-
-TEST(ThinParts, StayWithTheComponentsThatAreKept)
-{
-  const auto filter =
-    Made(true, [](vtkVolumeToSurface* f) { f->SetKeepComponentsToLargestComponent(); });
-  vtkPolyData* surface = filter->GetOutput();
-  ASSERT_TRUE(HasThickness(surface));
-  EXPECT_EQ(surface->GetPointData()->GetArray("Thickness")->GetNumberOfTuples(),
-    surface->GetNumberOfPoints());
 }
 
 TEST(ThinParts, WhatIsWrongIsToldAndAGoodRunFollows)

@@ -142,36 +142,6 @@ TEST(Tolerance, IsTheSameOnAnyThreadsAndWithLittleMemory)
   EXPECT_TRUE(AreSameSurfaces(one->GetOutput(), limited->GetOutput()));
 }
 
-TEST(Tolerance, TakesNoPartForMissingAsItsTrianglesAreLarge)
-{
-  // A block beside the ball, which a start from a seed in the ball does not know: it is enclosed as
-  // a lost part at level 0.
-  const auto image = BallImage(72, 72, 72, 0.2);
-  FillBox(image, { 4, 6, 6 }, { 14, 66, 66 });
-  const auto run = [&image](double tolerance)
-  {
-    const auto filter = Graded(tolerance,
-      [&image](vtkDeformableSurface* f)
-      {
-        f->SetInputData(image);
-        f->SetGradation(0.3);
-        f->SetInitializationToSeeds();
-        f->AddSeedPosition(35.5, 35.5, 35.5);
-        f->SetCoarsestLevel(1);
-      });
-    filter->Update();
-    return filter;
-  };
-  const auto even = run(0.0);
-  const auto graded = run(2.0);
-  EXPECT_LT(2 * graded->GetOutput()->GetNumberOfPoints(), even->GetOutput()->GetNumberOfPoints());
-  for (const char* name : { "LostParts", "MissingParts", "MissingBoundary", "NumberOfComponents" })
-  {
-    EXPECT_EQ(FieldOf(graded->GetOutput(), name), FieldOf(even->GetOutput(), name)) << name;
-  }
-  EXPECT_GT(FieldOf(even->GetOutput(), "LostParts"), 0) << "or there was nothing to miss";
-}
-
 TEST(Tolerance, LosesNothingThatIsThinBesideASurfaceThatKeepsItsTriangles)
 {
   // A sheet of a voxel, two voxels beside a ball; no coarser level shows it.

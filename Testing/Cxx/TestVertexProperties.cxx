@@ -58,16 +58,6 @@ TEST(VertexProperties, TakeNewVerticesInPlacesOfRemovedOnes)
   EXPECT_EQ(p.Own[2], 3.f);
 }
 
-TEST(VertexProperties, AreFilled)
-{
-  TwoProperties p;
-  p.All.Reset(2, p.Thread);
-  p.Own.Fill(4.f);
-  EXPECT_EQ(p.Own.AsVector(), (LargeVector<float>{ 4.f, 4.f }));
-  p.Own.Assign({ 5.f, 6.f });
-  EXPECT_EQ(p.Own[1], 6.f);
-}
-
 TEST(VertexProperties, HashesTellWhoseValueIsAnother)
 {
   TwoProperties p;

@@ -279,31 +279,6 @@ TEST(Visits, DependOnNothingFarAway)
   }
 }
 
-TEST(Visits, FillARowForEachIteration)
-{
-  SequentialExecutor thread;
-  Monitor monitor;
-  const SweptRun run(InBlocksOf(12.), thread, monitor);
-  int merges = 0;
-  for (std::size_t i = 0; i < run.Rows.size(); ++i)
-  {
-    const HistoryRow& row = run.Rows[i];
-    const int before = i > 0 ? run.Rows[i - 1].EulerCharacteristic : 0;
-    EXPECT_EQ(row.Iteration, static_cast<int>(i) + 1);
-    EXPECT_EQ(row.IterationEulerCharacteristic,
-      before + row.AddedEulerCharacteristic +
-        2 * (row.Cuts - row.Merges - row.Deletions + row.DeletedGenus))
-      << "row " << i;
-    EXPECT_GT(row.Vertices, 0);
-    EXPECT_GT(row.TimeStep, 0.);
-    EXPECT_GE(row.Seconds, 0.);
-    EXPECT_LE(row.ActiveVertices, 2 * row.Vertices);
-    merges += row.Merges;
-  }
-  EXPECT_GT(merges, 3);
-  EXPECT_GT(run.Rows.front().KineticEnergy, run.Rows.back().KineticEnergy);
-}
-
 TEST(Visits, TellSweepAndBlock)
 {
   SequentialExecutor thread;
@@ -360,25 +335,4 @@ TEST(Visits, FollowASurfaceThatMovesFar)
   EXPECT_EQ(mesh.CountEulerCharacteristic(), 2);
   const double volume = 4. / 3. * std::acos(-1.) * 16. * 16. * 16.;
   EXPECT_NEAR(EnclosedVolume(mesh, thread), volume, 0.02 * volume);
-}
-
-TEST(Visits, DeleteWhatVanishesWithinABlock)
-{
-  // Without an object everything shrinks to nothing.
-  const TestVolume empty = MakeVolume(20,
-    [](double x, double y, double z) { return Soft(Distance(x, y, z, 10, 10, 10) - 0.3); });
-  SequentialExecutor thread;
-  Monitor monitor;
-  SurfaceOptions options = InBlocksOf(12.);
-  options.MaximumNumberOfIterations = 400;
-  SurfaceEvolution evolution(options, thread, monitor);
-  evolution.StartEnclosing(empty.Image, 0);
-  EXPECT_EQ(evolution.Run(), StopReason::Vanished);
-  EXPECT_TRUE(evolution.Result().Points.empty());
-  int deletions = 0;
-  for (const HistoryRow& row : evolution.History())
-  {
-    deletions += row.Deletions;
-  }
-  EXPECT_GE(deletions, 1);
 }
