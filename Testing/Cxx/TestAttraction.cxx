@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Common/Executor.h"
+#include "Core/Common/StandardThreads.h"
 #include "Core/Evolution/SurfaceOptions.h"
 #include "Core/Image/EdgeAttraction.h"
 #include "Core/Image/Field.h"
@@ -12,20 +12,6 @@ using namespace volumic;
 namespace
 {
 SequentialExecutor Threads;
-
-/** The last first, one index at a time. */
-class BackwardExecutor final : public Executor
-{
-public:
-  void For(std::size_t n, std::size_t, const std::function<void(std::size_t, std::size_t)>& body)
-    override
-  {
-    for (std::size_t i = n; i > 0; --i)
-    {
-      body(i - 1, i);
-    }
-  }
-};
 
 /** 100 below the plane x = 6, 0 above, falling over two voxels; the points act far from it. */
 TestVolume Half()
@@ -116,22 +102,18 @@ TEST(PointAttraction, LeavesWhatIsFarAsItIsAndDoesNotDependOnTheExecutor)
   const PointAttraction attraction({ { { 20, 16, 16 }, 1., 3. }, { { 22, 17, 15 }, 2., 4. } }, 1.);
   const SurfaceOptions options = HalfOptions(50);
   const std::vector<float> bent = attraction.Bend(volume.Image, options, Threads);
-  BackwardExecutor backward;
-  EXPECT_EQ(bent, attraction.Bend(volume.Image, options, backward));
+  StandardThreads threads(3);
+  EXPECT_EQ(bent, attraction.Bend(volume.Image, options, threads));
   int changed = 0;
-  for (int k = 0, i = 0; k < 33; ++k)
-  {
-    for (int y = 0; y < 33; ++y)
+  std::size_t i = 0;
+  ForVoxels({ 33, 33, 33 },
+    [&](int x, int y, int z)
     {
-      for (int x = 0; x < 33; ++x, ++i)
-      {
-        const bool near =
-          Distance(x, y, k, 20, 16, 16) < 4.5 || Distance(x, y, k, 22, 17, 15) < 6.;
-        ASSERT_EQ(bent[i] != volume.Values[i], near) << x << ' ' << y << ' ' << k;
-        changed += near;
-      }
-    }
-  }
+      const bool near = Distance(x, y, z, 20, 16, 16) < 4.5 || Distance(x, y, z, 22, 17, 15) < 6.;
+      ASSERT_EQ(bent[i] != volume.Values[i], near) << x << ' ' << y << ' ' << z;
+      changed += near;
+      ++i;
+    });
   EXPECT_GT(changed, 900);
 }
 

@@ -65,17 +65,24 @@ void SetBytes(const std::string& name, const std::string& bytes)
   std::ofstream(name, std::ios::binary) << bytes;
 }
 
-void ExpectDamaged(const std::string& name)
+/** What work says of a file as it fails; nothing where it does not. */
+template <typename Work>
+std::string FailureOf(const Work& work)
 {
   try
   {
-    ExpectSome(name);
-    ADD_FAILURE() << "it was believed";
+    work();
+    return "";
   }
   catch (const FileError& error)
   {
-    EXPECT_EQ(std::string(error.what()), name + " is damaged");
+    return error.what();
   }
+}
+
+void ExpectDamaged(const std::string& name)
+{
+  EXPECT_EQ(FailureOf([&] { ExpectSome(name); }), name + " is damaged");
 }
 }
 
@@ -155,19 +162,10 @@ TEST(CheckedFile, TakesNoMemoryForMoreThanItHas)
     file.Put(count);
     file.Put(1.0);
     file.Commit();
-    const std::string expected = name + " is damaged";
     const auto expectRefused = [&](const auto& read)
     {
-      try
-      {
-        CheckedReader reader(name);
-        read(reader);
-        ADD_FAILURE() << count << " was believed";
-      }
-      catch (const FileError& error)
-      {
-        EXPECT_EQ(std::string(error.what()), expected) << count;
-      }
+      CheckedReader reader(name);
+      EXPECT_EQ(FailureOf([&] { read(reader); }), name + " is damaged") << count;
     };
     expectRefused([](CheckedReader& reader) { reader.GetText(); });
     expectRefused([](CheckedReader& reader) { reader.GetCount(8); });
@@ -194,15 +192,8 @@ TEST(CheckedFile, IsNoneOfAnotherUserNorALinkNorAPipe)
     GTEST_SKIP() << "only root can give a file to another user";
   }
   ASSERT_EQ(chown(folder.File("some").c_str(), 12345, 12345), 0);
-  try
-  {
-    CheckedReader file(folder.File("some"));
-    ADD_FAILURE();
-  }
-  catch (const FileError& error)
-  {
-    EXPECT_EQ(std::string(error.what()), folder.File("some") + " is no file of yours");
-  }
+  EXPECT_EQ(FailureOf([&] { CheckedReader file(folder.File("some")); }),
+    folder.File("some") + " is no file of yours");
 }
 #endif
 
@@ -210,40 +201,18 @@ TEST(CheckedFile, TellsWhichFileAndWhy)
 {
   const TemporaryFolder folder;
   const std::string missing = folder.File("none/some");
-  try
-  {
-    CheckedWriter file(missing);
-    ADD_FAILURE();
-  }
-  catch (const FileError& error)
-  {
-    EXPECT_EQ(
-      std::string(error.what()), missing + " cannot be written (No such file or directory)");
-  }
-  try
-  {
-    CheckedReader file(missing);
-    ADD_FAILURE();
-  }
-  catch (const FileError& error)
-  {
-    EXPECT_EQ(std::string(error.what()), missing + " cannot be read (No such file or directory)");
-  }
+  EXPECT_EQ(FailureOf([&] { CheckedWriter file(missing); }),
+    missing + " cannot be written (No such file or directory)");
+  EXPECT_EQ(FailureOf([&] { CheckedReader file(missing); }),
+    missing + " cannot be read (No such file or directory)");
 }
 
 TEST(CheckedFile, LeavesNothingOnAFullDisk)
 {
   const TemporaryFolder folder;
   const LimitedFileSize limit(1500000);
-  try
-  {
-    WriteSome(folder.File("some"));
-    ADD_FAILURE() << "there was room";
-  }
-  catch (const FileError& error)
-  {
-    EXPECT_TRUE(Has(error.what(), "cannot be written (File too large)"));
-  }
+  EXPECT_TRUE(Has(
+    FailureOf([&] { WriteSome(folder.File("some")); }), "cannot be written (File too large)"));
   EXPECT_EQ(folder.Names(), std::set<std::string>());
 }
 

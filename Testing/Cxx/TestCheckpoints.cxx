@@ -50,16 +50,6 @@ TEST_F(Checkpoints, AreLeftByARunThatHasGoneOn)
   EXPECT_EQ(this->Folder.Names(), std::set<std::string>());
   EXPECT_EQ(again->GetResumedLevel(), 1);
   ExpectSameOutputs(again, this->Uninterrupted(snapshots));
-  this->StopARun(snapshots, "Level 1, iteration 5");
-  {
-    const auto third = this->NewFilter(snapshots);
-    third->ResumeOn();
-    const StopAtText stop(third, "Level 0, division", 1);
-    third->Update();
-  }
-  const auto last = this->Resume(snapshots);
-  EXPECT_EQ(last->GetResumedLevel(), 1);
-  ExpectSameOutputs(last, this->Uninterrupted(snapshots));
 }
 
 TEST_F(Checkpoints, ServeOtherEndsThreadsAndProfiles)

@@ -4,8 +4,6 @@
 
 #include <vtkSMPTools.h>
 
-#include <vector>
-
 using namespace volumic;
 
 TEST(DeformableSurface, FindsABallInAnImage)

@@ -105,18 +105,11 @@ TEST(DeformableSurfaceOutputs, WritesARowOfHistoryPerIteration)
   for (vtkIdType r = 0; r < iterations; ++r)
   {
     EXPECT_EQ(history->GetValueByName(r, "Iteration").ToInt(), r + 1);
-    EXPECT_GT(history->GetValueByName(r, "Vertices").ToInt(), 0);
-    EXPECT_GE(history->GetValueByName(r, "TimeStep").ToDouble(), 0.0);
     const int level = history->GetValueByName(r, "Level").ToInt();
     auto* surface = SurfaceAt(filter, level);
     const double delta = FieldOf(surface, "Delta");
     EXPECT_GT(history->GetValueByName(r, "MeanEdgeLength").ToDouble(), delta);
     EXPECT_LT(history->GetValueByName(r, "MeanEdgeLength").ToDouble(), 2.5 * delta);
-    EXPECT_GE(history->GetValueByName(r, "KineticEnergy").ToDouble(), 0.0);
-    EXPECT_GE(history->GetValueByName(r, "Seconds").ToDouble(), 0.0);
-    EXPECT_EQ(history->GetValueByName(r, "EulerCharacteristic").ToInt(), 2);
-    EXPECT_EQ(history->GetValueByName(r, "Components").ToInt(), 1);
-    EXPECT_EQ(history->GetValueByName(r, "RecoveredParts").ToInt(), 0);
   }
   EXPECT_GT(history->GetValueByName(0, "KineticEnergy").ToDouble(), 0.0);
   EXPECT_EQ(history->GetValueByName(0, "Level").ToInt(), 2);

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfaceTestTools.h"
 
-#include <vtkDataObject.h>
-#include <vtkFloatArray.h>
 #include <vtkTable.h>
 
 using namespace volumic;
@@ -95,28 +93,4 @@ TEST(DeformableSurfaceProgress, CancellingBeforeThereIsASurfaceHandsOverAnEmptyO
     EXPECT_EQ(filter->GetHistory()->GetNumberOfRows(), 0);
     EXPECT_EQ(filter->GetHistory()->GetNumberOfColumns(), 27);
   }
-}
-
-TEST(DeformableSurfaceProgress, CancellingEndsThePyramidOfTheMapOfEdges)
-{
-  auto image = BallImage(40, 40, 40);
-  vtkNew<vtkFloatArray> edges;
-  edges->SetName("Edges");
-  edges->DeepCopy(image->GetPointData()->GetScalars());
-  edges->SetName("Edges");
-  image->GetPointData()->AddArray(edges);
-  const auto pyramid = PyramidOf(image);
-  vtkNew<vtkDeformableSurface> filter;
-  filter->SetInputConnection(pyramid->GetOutputPort());
-  filter->SetIsoValue(50.0);
-  filter->SetEdgeAttractionWeight(1.0);
-  filter->SetInputArrayToProcess(1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Edges");
-  const StopAtText stop(filter, "Pyramid of the map of edges", 1);
-  const MessagesOf errors(filter);
-  filter->Update();
-  EXPECT_LE(stop.Left, 0);
-  EXPECT_EQ(errors.Get(), "");
-  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
-  EXPECT_EQ(StopReason(filter->GetOutput()), "cancelled");
-  filter->RemoveAllObservers();
 }

@@ -13,18 +13,6 @@ double SpeedUnder(double force, const SurfaceOptions& options, double step)
 {
   return force * step / (1 + options.Friction * step);
 }
-
-/** Edges that are all `edge` long. */
-IndexedSurface Octahedron(double edge)
-{
-  const double r = edge / std::sqrt(2.);
-  IndexedSurface surface;
-  surface.Points = { { 16 + r, 16, 16 }, { 16 - r, 16, 16 }, { 16, 16 + r, 16 },
-    { 16, 16 - r, 16 }, { 16, 16, 16 + r }, { 16, 16, 16 - r } };
-  surface.Triangles = { { 0, 2, 4 }, { 2, 1, 4 }, { 1, 3, 4 }, { 3, 0, 4 }, { 2, 0, 5 },
-    { 1, 2, 5 }, { 3, 1, 5 }, { 0, 3, 5 } };
-  return surface;
-}
 }
 
 TEST(Forces, IsopotentialGrowsToItsBoundOverThreeQuartersOfDelta)
@@ -88,7 +76,7 @@ TEST(Forces, InternalForcesAddUpToNothing)
 
 TEST(Forces, TensionIsThePullToTheBarycentreLessItsReaction)
 {
-  Stage stage(Octahedron(1.6), 1);
+  Stage stage(EvenOctahedron({ 16, 16, 16 }, 1.6), 1);
   stage.Options.TensionWeight = 0.2;
   stage.State.Mesh.Position[0] += Vector(0.5f, 0, 0);
   stage.UpdateShape();
@@ -106,7 +94,7 @@ TEST(Forces, ElasticityIsSpringsThatRestAtOnePointSixDelta)
   {
     for (const double length : { 1.2, 1.6, 2.2 })
     {
-      Stage stage(Octahedron(length * delta), delta);
+      Stage stage(EvenOctahedron({ 16, 16, 16 }, length * delta), delta);
       stage.Options.ElasticityWeight = 0.1;
       const double step = stage.Push();
       // Four springs at 45 degrees to the way to the centre.

@@ -5,7 +5,6 @@
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "Core/Surface/SizingField.h"
 #include "GradedTestTools.h"
-#include "ThreadTestTools.h"
 
 using namespace volumic;
 
@@ -120,28 +119,6 @@ TEST(GradedSurface, KeepsThinWallsWithoutHoles)
     const auto large = std::count_if(plate.Size.begin(), plate.Size.end(),
       [thickness](float delta) { return delta > std::max(1., 0.5 * thickness); });
     EXPECT_LT(large, 0.15 * plate.Size.size()) << "all but those at the rim";
-  }
-}
-
-TEST(GradedSurface, IsTheSameOnAnyThreads)
-{
-  constexpr int size = 60;
-  Grading grading = Within(0.5);
-  grading.MaximumEdgeLength = 3.;
-  EXPECT_TRUE(HasSeveralBlocks(size, grading.MaximumEdgeLength / 2.5));
-  for (const double gradation : { 0.2, Grading::MostGradation })
-  {
-    SCOPED_TRACE(gradation);
-    grading.Gradation = gradation;
-    const auto run = [&grading](Executor& executor)
-    { return SurfaceOf(OutsideBoxAndBall, grading, executor, size); };
-    const SurfaceResult one = run(Alone);
-    ExpectLegal(one);
-    DelayedThreads three(3, 5, 40, 7);
-    const SurfaceResult other = run(three);
-    ExpectSame(one, other);
-    EXPECT_EQ(one.FitToTolerance->LargestDistance, other.FitToTolerance->LargestDistance);
-    EXPECT_EQ(one.FitToTolerance->WithinTolerance, other.FitToTolerance->WithinTolerance);
   }
 }
 

@@ -131,6 +131,7 @@ TEST(History, CountsOfMergesAndCutsExplainTheTopology)
   const std::vector<HistoryRow>& rows = evolution.History();
   EXPECT_EQ(4 + 2 * (Sum(rows, &HistoryRow::Cuts) - Sum(rows, &HistoryRow::Merges)), 0);
   EXPECT_GE(Sum(rows, &HistoryRow::Merges), 2);
+  EXPECT_EQ(ComputeFeatures(evolution.Result()).Genus, 1);
   // A merge takes two vertices.
   const long explained = static_cast<long>(start) + Sum(rows, &HistoryRow::Splits) -
     Sum(rows, &HistoryRow::Collapses) - 2 * Sum(rows, &HistoryRow::Merges) +

@@ -4,8 +4,6 @@
 // The levels hold what equation 5 says: the kernel's sum over places of the interpolated image.
 #include "FilterTestTools.h"
 
-#include <vtkDoubleArray.h>
-
 using namespace volumic;
 
 namespace
@@ -110,14 +108,6 @@ TEST_P(ImagePyramidAccuracy, EqualsTheDirectSumOver125Places)
 INSTANTIATE_TEST_SUITE_P(FactorsAndSpacings, ImagePyramidAccuracy,
   ::testing::Values(FactorAndSpacing{ std::sqrt(3.0), { 1, 1, 1 } },
     FactorAndSpacing{ 1.2, { 0.7, 0.9, 2.1 } }, FactorAndSpacing{ 1.9, { 3.0, 1.0, 1.1 } }));
-
-TEST(ImagePyramid, DoublesAreComputedAsDoubles)
-{
-  const auto image = RandomImage(14, 11, 12, VTK_DOUBLE);
-  const auto filter = PyramidOf(image, 3);
-  ASSERT_TRUE(vtkDoubleArray::SafeDownCast(Voxels(Level(filter->GetOutput(), 1))));
-  ExpectDirectSums(filter->GetOutput(), 1e-11);
-}
 
 TEST(ImagePyramid, Images2DWork)
 {

@@ -5,7 +5,6 @@
 #include "vtkVolumeToSurface.h"
 
 #include <vtkAMRBox.h>
-#include <vtkErrorCode.h>
 #include <vtkExecutive.h>
 #include <vtkFloatArray.h>
 #include <vtkOverlappingAMR.h>

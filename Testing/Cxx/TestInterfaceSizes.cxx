@@ -8,8 +8,6 @@
 #include "Core/Interfaces/TriangleShape.h"
 #include "InterfaceTestTools.h"
 
-#include <numeric>
-
 using namespace volumic;
 
 namespace

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What vtkLabelsToSurfaces promises, on shapes that are known by formula, by the judge that shares
-// no code with it.
+// What vtkLabelsToSurfaces promises, on shapes that are known by formula, of neighbours and of what is
+// a voxel thin, by the judge that shares no code with it.
 #include "JudgedLabels.h"
 
 #include <ostream>
@@ -34,7 +34,6 @@ class LabelPromises : public testing::TestWithParam<Promise>
 };
 } // namespace
 
-//------------------------------------------------------------------------------
 TEST_P(LabelPromises, AreKept)
 {
   const Promise& promise = GetParam();
@@ -81,23 +80,207 @@ INSTANTIATE_TEST_SUITE_P(Of, LabelPromises,
       (info.param.Stretch > 1.0 ? "Stretched" : "");
   });
 
-//------------------------------------------------------------------------------
-TEST(LabelGeometry, LabelsMayTouchTheBorder)
+TEST(LabelNeighbours, HardlyOverlap)
 {
-  // The lower half of a ball: the border cuts it.
-  DigitisedShapes shapes = Digitise(LabelShapeKind::Sphere, 48);
-  LabelMap& map = shapes.Map;
-  map.Size[2] = 24;
-  map.Values.resize(48 * 48 * 24);
-  const Filter filter = FilterOf(ToImage(map));
-  vtkPolyData* block = BlockOf(filter);
-  ExpectGoodTriangles(block);
-  const TriangleSurface surface = ToTriangleSurface(block);
-  const WrongVoxelVerdict voxels = JudgeVoxels(surface, map, 1);
-  EXPECT_EQ(FieldOf(block, "WrongVoxels"), voxels.Wrong());
-  EXPECT_LE(voxels.Wrong(), 0.005 * voxels.Label);
-  EXPECT_NEAR(JudgeTopology(surface).Volume / static_cast<double>(voxels.Label), 1.0, 0.02);
+  const DigitisedShapes shapes = Digitise(LabelShapeKind::CutBall, 64);
+  const Filter filter = FilterOf(ToImage(shapes.Map));
+  double sum = 0.0, count = 0.0;
+  for (unsigned int a = 0; a < 4; ++a)
+  {
+    for (unsigned int b = a + 1; b < 4; ++b)
+    {
+      const OverlapVerdict verdict = JudgeOverlap(
+        ToTriangleSurface(BlockOf(filter, a)), ToTriangleSurface(BlockOf(filter, b)));
+      sum += verdict.MeanDepth * static_cast<double>(verdict.VerticesInside);
+      count += static_cast<double>(verdict.VerticesInside);
+    }
+  }
+  ASSERT_GT(count, 100.0); // they are in contact
+  EXPECT_LT(sum / count, 0.05);
 }
 
-//------------------------------------------------------------------------------
-//------------------------------------------------------------------------------
+TEST(LabelNeighbours, AreApartWithAGap)
+{
+  DigitisedShapes shapes = Digitise(LabelShapeKind::CutBall, 64);
+  shapes.Map.Spacing = { 0.4, 0.4, 0.4 }; // Gap is one of world units
+  const Filter filter = FilterOf(ToImage(shapes.Map));
+  filter->SetGap(0.3 * 0.4);
+  for (unsigned int a = 0; a < 4; ++a)
+  {
+    ExpectGoodTriangles(BlockOf(filter, a));
+    for (unsigned int b = a + 1; b < 4; ++b)
+    {
+      const OverlapVerdict verdict = JudgeOverlap(
+        ToTriangleSurface(BlockOf(filter, a)), ToTriangleSurface(BlockOf(filter, b)));
+      EXPECT_EQ(verdict.VerticesInside, 0u) << a << " and " << b;
+      EXPECT_EQ(verdict.IntersectingPairs, 0u) << a << " and " << b;
+    }
+  }
+}
+
+TEST(LabelNeighbours, AreDrawnBackByHalfTheGap)
+{
+  DigitisedShapes shapes = Digitise(LabelShapeKind::Sphere, 64);
+  shapes.Map.Spacing = { 0.4, 0.4, 0.4 };
+  const Filter filter = FilterOf(ToImage(shapes.Map));
+  const double before = FieldOf(BlockOf(filter), "Volume");
+  filter->SetGap(0.4);
+  EXPECT_NEAR(FieldOf(BlockOf(filter), "Volume") / before, std::pow(19.5 / 20.0, 3.0), 0.004);
+}
+
+namespace
+{
+/** Some blobs of labels in each other, by chance, but always the same. */
+LabelMap RandomBlobs(int size, int labels, unsigned seed)
+{
+  const auto next = [&seed](double high)
+  {
+    seed = seed * 1664525u + 1013904223u;
+    return (seed >> 8) / 16777216.0 * high;
+  };
+  LabelMap map;
+  map.Size = { size, size, size };
+  map.Values.assign(static_cast<std::size_t>(size) * size * size, 0);
+  for (int blob = 0; blob < 3 * labels; ++blob)
+  {
+    const double centre[3] = { next(size), next(size), next(size) };
+    const double radius[3] = { 2.0 + next(6.0), 2.0 + next(6.0), 2.0 + next(6.0) };
+    for (std::size_t v = 0; v < map.Values.size(); ++v)
+    {
+      const int n = static_cast<int>(v);
+      const int place[3] = { n % size, n / size % size, n / size / size };
+      double square = 0.0;
+      for (int a = 0; a < 3; ++a)
+      {
+        square += std::pow((place[a] - centre[a]) / radius[a], 2.0);
+      }
+      if (square < 1.0)
+      {
+        map.Values[v] = static_cast<std::int16_t>(1 + blob % labels);
+      }
+    }
+  }
+  return map;
+}
+} // namespace
+
+class LabelGaps : public testing::TestWithParam<double>
+{
+};
+
+// Triangles cut corners that fields do not have in common: an exact test between neighbours tells.
+TEST_P(LabelGaps, OfAnySizeKeepNeighboursApart)
+{
+  for (const int level : { 0, 1 })
+  {
+    for (unsigned seed = 1; seed <= 4; ++seed)
+    {
+      const Filter filter = FilterOf(ToImage(RandomBlobs(28, 5, seed)));
+      filter->SetGap(GetParam());
+      filter->SetFinestLevel(level);
+      filter->Update();
+      for (unsigned int a = 0; a < 5; ++a)
+      {
+        for (unsigned int b = a + 1; b < 5; ++b)
+        {
+          EXPECT_EQ(JudgeOverlap(ToTriangleSurface(BlockOf(filter, a)),
+                      ToTriangleSurface(BlockOf(filter, b))).IntersectingPairs,
+            0u)
+            << "level " << level << ", seed " << seed << ", blocks " << a << ", " << b;
+        }
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, LabelGaps, testing::Values(0.05, 0.5),
+  [](const testing::TestParamInfo<double>& info)
+  { return std::to_string(static_cast<int>(std::round(100.0 * info.param))) + "Percent"; });
+
+namespace
+{
+/** A label map of one label. */
+LabelMap MapOf(int size, const std::function<bool(int, int, int)>& isLabel)
+{
+  LabelMap map;
+  map.Size = { size, size, size };
+  for (int v = 0; v < size * size * size; ++v)
+  {
+    map.Values.push_back(isLabel(v % size, v / size % size, v / size / size) ? 1 : 0);
+  }
+  return map;
+}
+
+/** Thin labels of 32^3 voxels, by name. */
+std::vector<std::pair<std::string, LabelMap>> ThinLabels()
+{
+  const auto along = [](int i) { return i >= 6 && i < 26; };
+  const auto isRow = [&](int i, int j, int k) { return along(i) && j == 16 && k == 16; };
+  const auto isPairs = [&](int i, int j, int k)
+  { return along(i) && j == 16 && (k == 16 || k == 17); };
+  const auto isDiagonal = [&](int i, int j, int k) { return along(i) && i == j && i == k; };
+  const auto isStair = [&](int i, int j, int k)
+  { return along(i) && ((i == j && (i == k || i + 1 == k)) || (i + 1 == j && i + 1 == k)); };
+  const auto isPlate = [&](int i, int j, int k) { return along(i) && along(j) && k == 16; };
+  const auto isTwo = [](int i, int j, int k) { return (i == 16 || i == 17) && j == 16 && k == 16; };
+  return { { "row", MapOf(32, isRow) }, { "row of pairs", MapOf(32, isPairs) },
+    { "diagonal of voxels", MapOf(32, isDiagonal) }, { "stair", MapOf(32, isStair) },
+    { "plate", MapOf(32, isPlate) }, { "two voxels", MapOf(32, isTwo) } };
+}
+} // namespace
+
+TEST(ThinLabels, HaveSurfacesByDefault)
+{
+  for (const auto& [name, map] : ThinLabels())
+  {
+    SCOPED_TRACE(name);
+    const Filter filter = FilterOf(ToImage(map));
+    vtkPolyData* block = BlockOf(filter);
+    ASSERT_GT(block->GetNumberOfCells(), 0);
+    EXPECT_LT(FieldOf(block, "WrongVoxels"), 0.25 * FieldOf(block, "LabelVoxels"));
+  }
+}
+
+TEST(ThinLabels, LoseNoVoxelWithTheFinestTriangles)
+{
+  for (const auto& [name, map] : ThinLabels())
+  {
+    SCOPED_TRACE(name);
+    const Filter filter = FilterOf(ToImage(map));
+    filter->SetFinestLevel(-1);
+    vtkPolyData* block = BlockOf(filter);
+    const SurfaceVerdict verdict =
+      JudgeSurface(ToTriangleSurface(block), FieldOf(block, "Delta"));
+    EXPECT_TRUE(verdict.Topology.Closed && verdict.Topology.Outward);
+    EXPECT_EQ(verdict.Intersections.Pairs, 0u);
+    const WrongVoxelVerdict voxels = JudgeVoxels(ToTriangleSurface(block), map, 1);
+    EXPECT_EQ(voxels.Wrong(), 0) << voxels.Outside << " outside, " << voxels.Inside << " inside";
+  }
+}
+
+TEST(ThinLabels, StayWithAToleranceToo)
+{
+  for (const auto& [name, map] : ThinLabels())
+  {
+    SCOPED_TRACE(name);
+    const Filter filter = FilterOf(ToImage(map));
+    filter->SetVoxelTolerance(0.5);
+    vtkPolyData* block = BlockOf(filter);
+    ASSERT_GT(block->GetNumberOfCells(), 0);
+    EXPECT_LE(FieldOf(block, "MissedVoxels"), 0.15 * FieldOf(block, "LabelVoxels"));
+  }
+}
+
+// One that is lost on its way makes the triangles of its label smaller, not those of others.
+TEST(ThinLabels, LeaveOtherLabelsAsTheyAre)
+{
+  const auto isBall = [](int i, int j, int k)
+  { return std::hypot(i - 16.0, j - 8.0, k - 16.0) < 6.0; };
+  const auto isTip = [](int i, int j, int k) { return i == 16 && j > 12 && j < 26 && k == 16; };
+  const Filter ball = FilterOf(ToImage(MapOf(32, isBall)));
+  const Filter both = FilterOf(ToImage(
+    MapOf(32, [&](int i, int j, int k) { return isBall(i, j, k) || isTip(i, j, k); })));
+  EXPECT_EQ(FieldOf(BlockOf(ball), "Level"), 0);
+  EXPECT_EQ(FieldOf(BlockOf(both), "Level"), -1);
+  EXPECT_LE(FieldOf(BlockOf(both), "WrongVoxels"), 2);
+}

@@ -97,19 +97,6 @@ TEST(Lanes, ComputeWhatOneFloatDoes)
   }
 }
 
-TEST(Lanes, GatherVectorsAndNormaliseThem)
-{
-  Numbers numbers;
-  const Vector v[4] = { numbers.NextVector(), Vector(), numbers.NextVector(),
-    numbers.NextVector() };
-  const VectorLanes lanes = Gather(v[0], v[1], v[2], v[3]);
-  for (int i = 0; i < 4; ++i)
-  {
-    ExpectSame(LaneOf(lanes, i), v[i]);
-    ExpectSame(LaneOf(Normalized(lanes), i), Normalized(v[i])); // Zero stays zero.
-  }
-}
-
 TEST(Lanes, TellOpposedConesAsOneByOne)
 {
   Numbers numbers;
@@ -185,13 +172,6 @@ TEST(StarShape, IsWhatItsEdgesAndFacesAre)
   EXPECT_EQ(valences, 6); // 5 and 6.
   EXPECT_GT(delaunay, 20);
   EXPECT_LT(delaunay, mesh.Size() - 20);
-}
-
-TEST(StarShape, OfAFaceWithoutAreaHasTheWidestCone)
-{
-  SurfaceMesh mesh = ShakenSphere(0);
-  mesh.Position[mesh.Rings[0].Item[1]] = mesh.Position[mesh.Rings[0].Item[0]];
-  EXPECT_EQ(StarShape(mesh, 0).Cone().Cosine, -1.f);
 }
 
 TEST(StarFaces, KnowWhichVerticesAreShared)

@@ -29,7 +29,7 @@ double VoxelsOf(const InterfaceScene& scene, int object)
 }
 }
 
-TEST(MakeInterfaces, KeepsVolumes)
+TEST(MakeInterfaces, KeepsVolumesAndVoxelsWithGoodTriangles)
 {
   InterfaceScene scene(ManyCells(40, 9, 2));
   const InterfaceMesh mesh = Make(scene);
@@ -44,32 +44,18 @@ TEST(MakeInterfaces, KeepsVolumes)
     }
   }
   EXPECT_GT(large, 3);
-}
-
-TEST(MakeInterfaces, HasFewVoxelsOnTheWrongSide)
-{
-  InterfaceScene scene(ManyCells(40, 9, 2));
-  const InterfaceMesh mesh = Make(scene);
-  EXPECT_LT(static_cast<double>(PushWrongVoxels(mesh, *scene.Fields, 0., OnThisThread())),
-    0.03 * static_cast<double>(mesh.Position.size()));
-}
-
-TEST(MakeInterfaces, HasGoodTriangles)
-{
-  InterfaceScene scene(ManyCells(40, 9, 2));
-  const InterfaceMesh mesh = Make(scene);
   double sum = 0.;
   double least = 1.;
   for (const InterfaceMesh::Face& face : mesh.Faces)
   {
-    const auto at = [&](int k)
-    { return VectorD(mesh.Position[static_cast<std::size_t>(face.Vertex[k])]); };
-    const double ratio = RadiusRatio(at(0), at(1), at(2));
+    const double ratio = RadiusRatio(TriangleOf(mesh, face.Vertex));
     sum += ratio;
     least = IsOffLines(mesh, face) ? std::min(least, ratio) : least;
   }
   EXPECT_GT(sum / static_cast<double>(mesh.Faces.size()), 0.94);
   EXPECT_GT(least, 0.5);
+  EXPECT_LT(static_cast<double>(PushWrongVoxels(mesh, *scene.Fields, 0., OnThisThread())),
+    0.03 * static_cast<double>(mesh.Position.size()));
 }
 
 TEST(MakeInterfaces, HasNoSliversAboutNecks)

@@ -134,37 +134,6 @@ TEST(SurfaceMesh, IsOrderedAlongTheCurveAsAWhole)
   }
 }
 
-TEST(SurfaceMesh, TellsTheFirstFaultWhicheverThreadFindsOne)
-{
-  // Two vertices of different spans, a triangle of each left out.
-  IndexedSurface surface = DividedIcosahedron({ 0, 0, 0 }, 20, 0.4);
-  const auto uses = [](int v)
-  { return [v](const Triangle& t) { return std::find(t.begin(), t.end(), v) != t.end(); }; };
-  const int last = static_cast<int>(surface.Points.size()) - 1;
-  for (const int v : { last, 4 })
-  {
-    surface.Triangles.erase(
-      std::find_if(surface.Triangles.begin(), surface.Triangles.end(), uses(v)));
-  }
-  StandardThreads threads(3);
-  std::string alone;
-  for (Executor* executor : { &OnThisThread(), static_cast<Executor*>(&threads) })
-  {
-    SurfaceMesh mesh;
-    try
-    {
-      mesh.Append(surface, *executor);
-      FAIL() << "the surface has holes";
-    }
-    catch (const std::invalid_argument& error)
-    {
-      alone = alone.empty() ? error.what() : alone;
-      EXPECT_EQ(error.what(), alone);
-    }
-    EXPECT_EQ(mesh.Size(), 0);
-  }
-}
-
 TEST(SurfaceMesh, KnowsWhoIsFarAlongTheSurface)
 {
   SurfaceMesh mesh = MakeSphere({ 0, 0, 0 }, 6, 1.5);

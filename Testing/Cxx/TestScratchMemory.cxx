@@ -52,18 +52,7 @@ std::string MessageOf(const ScratchOptions& options)
   return RefusalOf([&] { const ScratchMemory scratch(options); });
 }
 
-class ScratchMemoryTest : public testing::Test
-{
-protected:
-  void SetUp() override
-  {
-    if (!ScratchIsPossible)
-    {
-      GTEST_SKIP() << "no scratch memory on this system";
-    }
-  }
-  OwnDirectory Directory;
-};
+using ScratchMemoryTest = ScratchTest;
 }
 
 TEST_F(ScratchMemoryTest, HoldsMoreThanTheLimit)

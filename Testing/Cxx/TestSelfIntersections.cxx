@@ -12,23 +12,14 @@ namespace
 /** A cube of 12 triangles, turned so that no face is along an axis. */
 IndexedSurface TurnedCube(const Point& centre, double half)
 {
-  IndexedSurface cube;
+  IndexedSurface cube = Cuboid({ -half, -half, -half }, { half, half, half });
   const double c = 0.6;
   const double s = 0.8;
-  for (int i = 0; i < 8; ++i)
+  for (Point& p : cube.Points)
   {
-    const double x = i & 1 ? half : -half;
-    const double y = i & 2 ? half : -half;
-    const double z = i & 4 ? half : -half;
-    const double u = c * x - s * y;
-    const double v = s * x + c * y;
-    cube.Points.push_back({ centre[0] + u, centre[1] + c * v - s * z, centre[2] + s * v + c * z });
-  }
-  for (const auto& q : { std::array<int, 4>{ 0, 2, 3, 1 }, { 4, 5, 7, 6 }, { 0, 1, 5, 4 },
-         { 2, 6, 7, 3 }, { 0, 4, 6, 2 }, { 1, 3, 7, 5 } })
-  {
-    cube.Triangles.push_back({ q[0], q[1], q[2] });
-    cube.Triangles.push_back({ q[2], q[3], q[0] });
+    const double u = c * p[0] - s * p[1];
+    const double v = s * p[0] + c * p[1];
+    p = { centre[0] + u, centre[1] + c * v - s * p[2], centre[2] + s * v + c * p[2] };
   }
   return cube;
 }

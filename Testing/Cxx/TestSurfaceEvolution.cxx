@@ -97,30 +97,6 @@ TEST(SurfaceEvolution, StartsFromALongBoxWithoutIntersections)
   ExpectSound(evolution);
 }
 
-TEST(SurfaceEvolution, GrowsSeedsUntilTheyMergeIntoATorus)
-{
-  const int n = 40;
-  const TestVolume volume = MakeVolume(n,
-    [](double x, double y, double z)
-    {
-      const double q = std::sqrt((x - 20) * (x - 20) + (y - 20) * (y - 20)) - 11;
-      return Soft(std::sqrt(q * q + (z - 20) * (z - 20)) - 5);
-    });
-  SurfaceEvolution evolution(IsoHalf(), Threads, Silent);
-  EXPECT_EQ(evolution.StartSeeds(volume.Image, 0, { { 9, 20, 20 }, { 31, 20, 20 } }), 2);
-  EXPECT_EQ(evolution.Run(), StopReason::Converged);
-  ExpectSound(evolution);
-  const SurfaceFeatures features = ComputeFeatures(evolution.Result());
-  EXPECT_EQ(features.Components.size(), 1u);
-  EXPECT_EQ(features.Genus, 1);
-  int merges = 0;
-  for (const HistoryRow& row : evolution.History())
-  {
-    merges += row.Merges;
-  }
-  EXPECT_GE(merges, 2);
-}
-
 TEST(SurfaceEvolution, IsSoundAfterEverySweep)
 {
   const TestVolume volume = NoisyTorus(36);
@@ -133,25 +109,6 @@ TEST(SurfaceEvolution, IsSoundAfterEverySweep)
   EXPECT_EQ(inspector.Broken, 0);
   const SurfaceFeatures features = ComputeFeatures(evolution.Result());
   EXPECT_EQ(features.Components[0].Genus, 1);
-}
-
-TEST(SurfaceEvolution, DividesToAFinerLevel)
-{
-  const TestVolume fine = BallVolume(32, 10);
-  const int n = 18;
-  TestVolume coarse = BallVolume(n, 10. * n / 32.);
-  coarse.Image.Step = { 32. / n, 32. / n, 32. / n };
-  coarse.Image.Unit = std::sqrt(3.);
-  SurfaceEvolution evolution(IsoHalf(), Threads, Silent);
-  evolution.StartEnclosing(coarse.Image, 1);
-  evolution.Run();
-  const std::size_t before = evolution.Result().Points.size();
-  evolution.Divide(fine.Image, 0);
-  EXPECT_GT(evolution.Result().Points.size(), 2 * before);
-  EXPECT_EQ(evolution.Run(), StopReason::Converged);
-  ExpectSound(evolution);
-  EXPECT_EQ(evolution.History().front().Level, 1);
-  EXPECT_EQ(evolution.History().back().Level, 0);
 }
 
 TEST(SurfaceEvolution, FindsAgainWhatTheCoarseLevelLost)

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // What an evolution hands over, and what it starts from.
+#include "Core/Interfaces/TriangleShape.h"
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "EvolutionTestTools.h"
 
@@ -108,15 +109,9 @@ TEST(SurfaceResult, HasEvenTriangles)
   double mean = 0;
   for (const Triangle& t : surface.Triangles)
   {
-    double edge[3];
-    for (int k = 0; k < 3; ++k)
-    {
-      const Point& a = surface.Points[t[k]];
-      const Point& b = surface.Points[t[(k + 1) % 3]];
-      edge[k] = Distance(a[0], a[1], a[2], b[0], b[1], b[2]);
-    }
-    const double ratio = (edge[0] + edge[1] - edge[2]) * (edge[1] + edge[2] - edge[0]) *
-      (edge[2] + edge[0] - edge[1]) / (edge[0] * edge[1] * edge[2]);
+    const auto at = [&](int k)
+    { return VectorD(surface.Points[t[k]][0], surface.Points[t[k]][1], surface.Points[t[k]][2]); };
+    const double ratio = RadiusRatio(at(0), at(1), at(2));
     worst = std::min(worst, ratio);
     mean += ratio / static_cast<double>(surface.Triangles.size());
   }
@@ -169,20 +164,6 @@ TEST(SurfaceStart, SeedsAreOfTheirRadiusButNeverTooSmallForTheEdges)
     const double expected =
       radius == 0 ? 1.2 * surface.Delta : std::max(radius, 0.96 * surface.Delta);
     EXPECT_NEAR(Distance(p[0], p[1], p[2], 20, 20, 20), expected, 1e-4);
-  }
-}
-
-TEST(SurfaceStart, WithoutPlacesSeedsFillTheObject)
-{
-  const TestVolume volume = BallVolume(40, 12);
-  SurfaceEvolution evolution(IsoHalf(), Threads, Silent);
-  const int seeds = evolution.StartSeeds(volume.Image, 0, {});
-  EXPECT_GT(seeds, 100);
-  const SurfaceResult surface = evolution.Result();
-  EXPECT_EQ(static_cast<int>(ComputeFeatures(surface).Components.size()), seeds);
-  for (const Point& p : surface.Points)
-  {
-    EXPECT_LT(Distance(p[0], p[1], p[2], 20, 20, 20), 12 + 1.3 * surface.Delta);
   }
 }
 

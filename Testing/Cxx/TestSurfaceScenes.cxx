@@ -187,3 +187,52 @@ TEST(SurfaceScenes, SeedsMergeToOneSurface)
     ExpectInvariantsAtEveryLevel(filter, image);
   }
 }
+
+TEST(SurfaceScenes, NoStateOnTheWayIntersectsItself)
+{
+  for (const SceneKind kind :
+    { SceneKind::Torus, SceneKind::NestedBalls, SceneKind::ThinShellWithEightHoles })
+  {
+    for (const bool isNoisy : { false, true })
+    {
+      SceneOptions options;
+      options.NoiseShare = isNoisy ? 0.2 : 0.0;
+      options.NoiseSeed = 3;
+      const Scene scene = MakeScene(kind, options);
+      const auto filter = Segment(ToImage(scene), scene);
+      filter->SetCoarsestLevel(isNoisy ? 0 : scene.CoarsestFaithfulLevel);
+      filter->SetSnapshotInterval(10);
+      filter->Update();
+      vtkMultiBlockDataSet* snapshots = filter->GetSnapshots();
+      ASSERT_GT(snapshots->GetNumberOfBlocks(), 4u);
+      for (unsigned int b = 0; b < snapshots->GetNumberOfBlocks(); ++b)
+      {
+        SCOPED_TRACE(SceneName(kind) + ", snapshot " + std::to_string(b));
+        auto* surface = vtkPolyData::SafeDownCast(snapshots->GetBlock(b));
+        const TriangleSurface judged = ToTriangleSurface(surface);
+        const TopologyVerdict topology = JudgeTopology(judged);
+        EXPECT_TRUE(topology.Closed && topology.Manifold && topology.Oriented);
+        EXPECT_EQ(JudgeIntersections(judged).Pairs, 0u);
+        // Eq. (1), but for edges whose split would make a needle: these get no longer (HugeEdge).
+        const double delta = FieldOf(surface, "Delta");
+        const LengthVerdict lengths = JudgeLengths(judged, delta);
+        EXPECT_LE(lengths.Longest, 1.4 * 2.5 * delta);
+        EXPECT_LE(lengths.EdgesTooLong, 3u);
+      }
+    }
+  }
+}
+
+TEST(SurfaceScenes, TheJudgeSeesHolesAndIntersections)
+{
+  TriangleSurface surface;
+  surface.Points = { { 0, 0, 0 }, { 2, 0, 0 }, { 0, 2, 0 }, { 0, 0, 2 } };
+  surface.Triangles = { { 0, 2, 1 }, { 0, 1, 3 }, { 1, 2, 3 }, { 2, 0, 3 } };
+  EXPECT_TRUE(JudgeTopology(surface).Outward);
+  EXPECT_EQ(JudgeIntersections(surface).Pairs, 0u);
+  surface.Points.insert(
+    surface.Points.end(), { { 0.4, 0.4, -1 }, { 0.5, 0.4, 1 }, { 0.4, 0.5, 1 } });
+  surface.Triangles.push_back({ 4, 5, 6 });
+  EXPECT_EQ(JudgeIntersections(surface).Pairs, 1u) << "it pierces the bottom";
+  EXPECT_FALSE(JudgeTopology(surface).Closed);
+}

@@ -4,8 +4,6 @@
 #include "vtkLabelsToSurfaces.h"
 #include "vtkVolumeToSurface.h"
 
-#include <vtkErrorCode.h>
-
 using namespace volumic;
 
 namespace
@@ -82,22 +80,6 @@ TEST(Tolerance, GivesWhatARunFromTheStartGivesWhereverTheOneBeforeHasEnded)
     EXPECT_TRUE(IsGraded(filter->GetOutput()));
     ExpectSameSurfaces(filter->GetOutput(), other->GetOutput());
   }
-}
-
-TEST(Tolerance, PreviewIsNotGraded)
-{
-  auto filter = vtkSmartPointer<vtkVolumeToSurface>::New();
-  filter->SetInputData(BallImage(128, 110, 110));
-  filter->SetIsoValue(50.0);
-  filter->SetTolerance(0.3);
-  filter->PreviewOn();
-  filter->Update();
-  EXPECT_EQ(FieldOf(filter->GetOutput(), "Level"), 1);
-  EXPECT_FALSE(IsGraded(filter->GetOutput()));
-  filter->PreviewOff();
-  filter->Update();
-  EXPECT_EQ(FieldOf(filter->GetOutput(), "Level"), 0);
-  EXPECT_TRUE(IsGraded(filter->GetOutput()));
 }
 
 TEST(Tolerance, IsInWorldUnits)
@@ -216,6 +198,15 @@ TEST(Tolerance, WhatIsWrongIsToldAndAGoodRunFollows)
       { "Tolerance is 0.2, but Snap To Iso Value is off" } },
     { [](vtkDeformableSurface* f) { f->SetIsopotentialWeight(0.); },
       { "Tolerance is 0.2, but Isopotential Weight is not more than" } },
+    { [](vtkDeformableSurface* f) { f->SetTolerance(0.), f->ThinPartsOn(), f->SetEdgeLength(1.5); },
+      { "Thin Parts is on and Edge Length is 1.5", "Set Edge Length to 0" } },
+    { [](vtkDeformableSurface* f) { f->ThinPartsOn(), f->SetEdgeLength(1.5); },
+      { "Tolerance is 0.2 and Edge Length is 1.5", "switch Tolerance and Thin Parts off" } },
+    { [](vtkDeformableSurface* f) { f->SetTolerance(0.), f->ThinPartsOn(), f->SnapToIsoValueOff(); },
+      { "Thin Parts is on, but Snap To Iso Value is off", "Switch it off" } },
+    { [](vtkDeformableSurface* f)
+      { f->SetTolerance(0.), f->ThinPartsOn(), f->SetIsopotentialWeight(0.); },
+      { "Thin Parts is on, but Isopotential Weight is not more than" } },
   };
   for (const Case& test : cases)
   {
@@ -233,6 +224,7 @@ TEST(Tolerance, WhatIsWrongIsToldAndAGoodRunFollows)
     EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
     EXPECT_EQ(filter->GetErrorCode(), vtkErrorCode::UserError);
     filter->SetTolerance(0.2);
+    filter->ThinPartsOff();
     filter->SetMaximumEdgeLength(0.);
     filter->SetGradation(0.2);
     filter->SetEdgeLength(0.);

@@ -13,7 +13,7 @@ using namespace volumic;
 
 namespace
 {
-/** Both levels of the bars in blocks of so many delta. */
+/** Both levels of the bars in blocks of so many delta; 0: as usual. */
 SurfaceOptions InBlocksOf(double side)
 {
   SurfaceOptions options = IsoHalf();
@@ -105,6 +105,37 @@ TEST(Visits, MakeTheSurfaceOfOneBlock)
       ASSERT_GE(edge, 0.999 * run.Surface.Delta);
       ASSERT_LE(edge, 2.501 * run.Surface.Delta);
     }
+  }
+}
+
+TEST(Visits, MakeTheSameRunOnThreadsThatAreHeldUp)
+{
+  // It does all that there is to do: merges, cuts, splits, collapses, lost parts and cavities.
+  const auto made = [](Executor& executor)
+  {
+    Monitor monitor;
+    const SweptRun run(InBlocksOf(0.), executor, monitor);
+    std::uint64_t hash = HashOf(run.Surface.Triangles, HashOf(run.Surface.Points));
+    EditCounts edits;
+    for (const HistoryRow& row : run.Rows)
+    {
+      edits.Merges += row.Merges;
+      edits.Cuts += row.Cuts;
+      edits.Splits += row.Splits;
+      hash = HashOf(std::vector<double>{ row.KineticEnergy, row.MeanEdgeLength, row.TimeStep,
+                      double(row.Vertices), double(row.Collapses), double(row.Flips) },
+        hash);
+    }
+    EXPECT_GT(std::min({ edits.Merges, edits.Cuts, edits.Splits / 30 }), 3);
+    EXPECT_GT(run.Enclosed, 0);
+    return hash;
+  };
+  SequentialExecutor thread;
+  const std::uint64_t alone = made(thread);
+  for (const int threads : { 2, 3, 7 })
+  {
+    DelayedThreads executor(threads, static_cast<unsigned>(threads) * 77, 60, 16);
+    EXPECT_EQ(made(executor), alone) << threads << " threads";
   }
 }
 
@@ -317,22 +348,4 @@ TEST(Visits, StopBetweenAnyTwoBlocks)
     EXPECT_EQ(DescribeBrokenInvariant(mesh), "");
     EXPECT_EQ(CountSelfIntersections(run.Surface), 0);
   }
-}
-
-TEST(Visits, FollowASurfaceThatMovesFar)
-{
-  // From a seed to the whole ball: it goes through many blocks.
-  const TestVolume ball = BallVolume(40, 16.);
-  SequentialExecutor thread;
-  Monitor monitor;
-  SurfaceOptions options = InBlocksOf(9.);
-  options.MaximumNumberOfIterations = 400;
-  SurfaceEvolution evolution(options, thread, monitor);
-  evolution.StartSeeds(ball.Image, 0, { { 20., 20., 20. } });
-  EXPECT_EQ(evolution.Run(), StopReason::Converged);
-  SurfaceMesh mesh;
-  mesh.Append(evolution.Result());
-  EXPECT_EQ(mesh.CountEulerCharacteristic(), 2);
-  const double volume = 4. / 3. * std::acos(-1.) * 16. * 16. * 16.;
-  EXPECT_NEAR(EnclosedVolume(mesh, thread), volume, 0.02 * volume);
 }

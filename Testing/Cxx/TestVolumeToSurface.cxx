@@ -6,7 +6,6 @@
 
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
-#include <vtkErrorCode.h>
 #include <vtkIntArray.h>
 #include <vtkTable.h>
 

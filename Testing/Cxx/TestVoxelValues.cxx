@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Evolution/SurfaceOptions.h"
 #include "Core/Image/Field.h"
-#include "Core/Image/VoxelRows.h"
 #include "Core/Image/VoxelValues.h"
 #include "TestPrelude.h"
 
@@ -93,29 +92,6 @@ TYPED_TEST(VoxelValuesOfType, AreTheBitsOfAConversion)
       ASSERT_EQ(Bits(values[static_cast<std::ptrdiff_t>(i)]), expected)
         << "base " << base << " voxel " << +voxels[i];
       ASSERT_EQ(Bits(copied[i - 1]), expected) << "base " << base << " voxel " << +voxels[i];
-    }
-  }
-}
-
-TYPED_TEST(VoxelValuesOfType, AreReadFourRowsAtATime)
-{
-  using T = TypeParam;
-  const std::vector<T> voxels = AnyVoxels<T>(Count);
-  for (const double base : Bases)
-  {
-    const VoxelValues values(voxels.data(), base);
-    const std::ptrdiff_t first[4] = { 0, 13, Count - 4, 101 };
-    const VoxelRows rows =
-      values.Visit([&first](const auto& typed) { return ReadRows(typed, first); });
-    for (int c = 0; c < 4; ++c)
-    {
-      float column[Lanes::Count];
-      rows.Column[c].Store(column);
-      for (int r = 0; r < 4; ++r)
-      {
-        EXPECT_EQ(Bits(column[r]), Bits(Converted(voxels[first[r] + c], base)))
-          << "base " << base << " row " << r << " column " << c;
-      }
     }
   }
 }
