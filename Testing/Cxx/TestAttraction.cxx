@@ -151,12 +151,7 @@ TEST(EdgeAttraction, IsFullAtHalfTheTypicalSlopeOfTheEdges)
     EXPECT_FLOAT_EQ(at(-1), -1);
     EXPECT_NEAR(at(0.25f), 0.5, 0.08);
   }
-}
-
-TEST(EdgeAttraction, IsNothingWhereTheMapIsFlat)
-{
-  TestVolume volume = MakeVolume(17, [](double, double, double) { return 7.; });
-  volume.Image.Edges = volume.Values.data();
-  const EdgeAttraction edges(volume.Image, Threads);
-  EXPECT_EQ(edges.Along(Vector(8, 8, 8), Vector(1, 0, 0)), 0.f);
+  TestVolume flat = MakeVolume(17, [](double, double, double) { return 7.; });
+  flat.Image.Edges = flat.Values.data();
+  EXPECT_EQ(EdgeAttraction(flat.Image, Threads).Along(Vector(8, 8, 8), Vector(1, 0, 0)), 0.f);
 }

@@ -1,15 +1,11 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Evolution/SurfaceEvolution.h"
-#include "Core/Evolution/SurfaceOptions.h"
-#include "CoreTestTools.h"
+#include "EvolutionTestTools.h"
 
 using namespace volumic;
 
 namespace
 {
-SequentialExecutor Threads;
-
 using Activity = Monitor::Activity;
 
 /** Says stop at the n-th question of an activity, and keeps what it has heard. */
@@ -47,47 +43,35 @@ private:
 
 SurfaceOptions Options()
 {
-  SurfaceOptions options;
-  options.IsoValue = 0.5;
+  SurfaceOptions options = IsoHalf();
   options.RecoverCavities = true;
   return options;
 }
 
 /** A ball; the fine level shows another one and a bubble that the coarse one does not. */
-struct Scene
+LevelPair Scene()
 {
-  TestVolume Coarse;
-  TestVolume Fine;
-
-  Scene()
+  const auto known = [](double x, double y, double z)
+  { return Distance(x, y, z, 13, 18, 18) - 10.; };
+  const auto fine = [&](double x, double y, double z)
   {
-    const auto known = [](double x, double y, double z)
-    { return Distance(x, y, z, 13, 18, 18) - 10.; };
-    this->Fine = MakeVolume(36,
-      [&](double x, double y, double z)
-      {
-        const double bubble = 4. - Distance(x, y, z, 13, 18, 18);
-        return Soft(
-          std::min(std::max(known(x, y, z), bubble), Distance(x, y, z, 30, 18, 18) - 2.6));
-      });
-    this->Coarse = MakeVolume(
-      20, [&](double x, double y, double z) { return Soft(known(1.8 * x, 1.8 * y, 1.8 * z)); });
-    this->Coarse.Image.Step = { 1.8, 1.8, 1.8 };
-    this->Coarse.Image.Unit = std::sqrt(3.);
-  }
+    return std::min(std::max(known(x, y, z), 4. - Distance(x, y, z, 13, 18, 18)),
+      Distance(x, y, z, 30, 18, 18) - 2.6);
+  };
+  return LevelPair(36, fine, known);
+}
 
-  /** As vtkDeformableSurface does it. @return how the last level ended. */
-  StopReason Run(SurfaceEvolution& evolution) const
+/** As vtkDeformableSurface does it. @return how the last level ended. */
+StopReason RunIn(const LevelPair& scene, SurfaceEvolution& evolution)
+{
+  evolution.StartEnclosing(scene.Coarse.Image, 1);
+  const StopReason reason = evolution.Run();
+  if (reason == StopReason::Cancelled || !evolution.Divide(scene.Fine.Image, 0))
   {
-    evolution.StartEnclosing(this->Coarse.Image, 1);
-    const StopReason reason = evolution.Run();
-    if (reason == StopReason::Cancelled || !evolution.Divide(this->Fine.Image, 0))
-    {
-      return reason;
-    }
-    return evolution.Run();
+    return reason;
   }
-};
+  return evolution.Run();
+}
 
 void ExpectValid(const SurfaceEvolution& evolution)
 {
@@ -104,10 +88,10 @@ void ExpectValid(const SurfaceEvolution& evolution)
 
 TEST(Cancelling, IsLookedAtInEveryPartOfALevel)
 {
-  const Scene scene;
+  const LevelPair scene = Scene();
   StopAt silent;
   SurfaceEvolution evolution(Options(), Threads, silent);
-  ASSERT_EQ(scene.Run(evolution), StopReason::Converged);
+  ASSERT_EQ(RunIn(scene, evolution), StopReason::Converged);
   ASSERT_EQ(evolution.Lost().Enclosed, 1);
   ASSERT_EQ(evolution.Lost().EnclosedCavities, 1);
   EXPECT_TRUE(std::is_sorted(silent.Fractions.begin(), silent.Fractions.end()))
@@ -134,7 +118,7 @@ TEST(Cancelling, IsLookedAtInEveryPartOfALevel)
         std::to_string(static_cast<int>(where.second)) + ", question " + std::to_string(question));
       StopAt monitor(where.first, where.second, question);
       SurfaceEvolution stopped(Options(), Threads, monitor);
-      const StopReason reason = scene.Run(stopped);
+      const StopReason reason = RunIn(scene, stopped);
       ASSERT_TRUE(monitor.HasStopped);
       EXPECT_TRUE(stopped.IsStopped());
       // Before anything of the fine level is done, the coarse one is at rest.

@@ -4,8 +4,6 @@
 #include "Core/Common/ContentHash.h"
 #include "TemporaryFolder.h"
 
-#include <fstream>
-
 #ifndef _WIN32
 #include <sys/stat.h>
 #include <unistd.h>
@@ -52,12 +50,6 @@ void ExpectSome(const std::string& name)
 {
   CheckedReader file(name);
   ReadSome(file);
-}
-
-std::string BytesOf(const std::string& name)
-{
-  std::ifstream file(name, std::ios::binary);
-  return { std::istreambuf_iterator<char>(file), {} };
 }
 
 void SetBytes(const std::string& name, const std::string& bytes)

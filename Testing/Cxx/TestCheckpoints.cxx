@@ -6,19 +6,10 @@ using namespace volumic;
 
 TEST_F(Checkpoints, GiveTheBitsOfARunThatWasNeverStopped)
 {
-  const Choice choices[] = { [](vtkDeformableSurface*) {},
-    [](vtkDeformableSurface* filter)
-    {
-      filter->SetSnapshotInterval(7);
-      filter->SetProfile(true);
-    },
-    [](vtkDeformableSurface* filter) { filter->SetRecovery(vtkDeformableSurface::NoRecovery); },
-    [](vtkDeformableSurface* filter) { filter->SetInitializationToSeeds(); },
-    [](vtkDeformableSurface* filter) { filter->SetKeepComponentsToLargestComponent(); },
-    [](vtkDeformableSurface* filter) { filter->SetMaximumNumberOfIterations(12); },
-    [](vtkDeformableSurface* filter) { filter->SetMetricToVoxels(); },
-    [](vtkDeformableSurface* filter) { filter->SetEdgeLength(1.6); },
-    [](vtkDeformableSurface* filter) { filter->SetTolerance(0.2); } };
+  std::vector<Choice> choices = ChoicesOfRuns();
+  choices.emplace_back([](vtkDeformableSurface* filter) { filter->SetMetricToVoxels(); });
+  choices.emplace_back([](vtkDeformableSurface* filter) { filter->SetEdgeLength(1.6); });
+  choices.emplace_back([](vtkDeformableSurface* filter) { filter->SetTolerance(0.2); });
   int number = 0;
   for (const Choice& choose : choices)
   {

@@ -65,12 +65,6 @@ TEST(DeformableSurfaceOutputs, KeepsTheSurfaceOfEveryLevel)
   }
   EXPECT_GT(levels->GetBlock(0)->GetNumberOfElements(vtkDataObject::POINT),
     2 * levels->GetBlock(1)->GetNumberOfElements(vtkDataObject::POINT));
-}
-
-TEST(DeformableSurfaceOutputs, VisitsTheChosenLevelsOnly)
-{
-  const auto image = BallImage(40, 40, 40);
-  const auto filter = SurfaceOf(image);
   filter->SetCoarsestLevel(1);
   filter->SetFinestLevel(1);
   filter->Update();

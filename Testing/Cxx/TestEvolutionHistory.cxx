@@ -10,28 +10,6 @@ using namespace volumic;
 
 namespace
 {
-/** A scene as two levels, both sampled. */
-struct TwoLevels
-{
-  static constexpr int FineSize = 40;
-  static constexpr int CoarseSize = 23;
-  TestVolume Fine;
-  TestVolume Coarse;
-
-  template <typename Fine, typename Coarse>
-  TwoLevels(const Fine& fine, const Coarse& coarse)
-  {
-    this->Fine =
-      MakeVolume(FineSize, [&](double x, double y, double z) { return Soft(fine(x, y, z)); });
-    const double step = static_cast<double>(FineSize) / CoarseSize;
-    this->Coarse = MakeVolume(CoarseSize,
-      [&](double x, double y, double z)
-      { return Soft(coarse(x * step, y * step, z * step) / step); });
-    this->Coarse.Image.Step = { step, step, step };
-    this->Coarse.Image.Unit = std::sqrt(3.);
-  }
-};
-
 double Known(double x, double y, double z)
 {
   // Two balls, so that there is a cut, and a ring whose hole opens.
@@ -41,14 +19,14 @@ double Known(double x, double y, double z)
   return std::min({ first, second, std::sqrt(q * q + (z - 20) * (z - 20)) - 2.6 });
 }
 
-TwoLevels SceneWithLostBalls()
+LevelPair SceneWithLostBalls()
 {
   const auto fine = [](double x, double y, double z)
   {
     return std::min({ Known(x, y, z), Distance(x, y, z, 20, 20, 5.5) - 2.6,
       Distance(x, y, z, 20, 20, 34) - 2.6 });
   };
-  return TwoLevels(fine, Known);
+  return LevelPair(40, fine, Known);
 }
 
 /** Every row is explained by its columns. */
@@ -77,7 +55,7 @@ void ExpectExplained(const std::vector<HistoryRow>& rows)
 
 TEST(EvolutionHistory, ExplainsTheEulerCharacteristicRowByRow)
 {
-  const TwoLevels scene = SceneWithLostBalls();
+  const LevelPair scene = SceneWithLostBalls();
   SurfaceEvolution evolution(IsoHalf(), Threads, Silent);
   evolution.StartEnclosing(scene.Coarse.Image, 1);
   evolution.Run();
@@ -145,7 +123,7 @@ TEST(EvolutionHistory, CountsTheHandlesOfADeletedComponent)
 
 TEST(EvolutionHistory, LastRowTellsWhatTheIterationsLeftAndWhatTheRegularisationMadeOfIt)
 {
-  const TwoLevels scene = SceneWithLostBalls();
+  const LevelPair scene = SceneWithLostBalls();
   const SurfaceEvolution* watched = nullptr;
   std::size_t last = 0; // Vertices after the last iteration.
   Observer observer([&](const Monitor::Status&) { last = watched->Result().Points.size(); });
@@ -166,7 +144,7 @@ TEST(EvolutionHistory, LastRowTellsWhatTheIterationsLeftAndWhatTheRegularisation
 
 TEST(EvolutionHistory, SecondsOfTheRowsAddUpToThoseOfTheLevels)
 {
-  const TwoLevels scene = SceneWithLostBalls();
+  const LevelPair scene = SceneWithLostBalls();
   SurfaceEvolution evolution(IsoHalf(), Threads, Silent);
   using std::chrono::steady_clock;
   const auto start = steady_clock::now() - std::chrono::seconds(1000);

@@ -70,18 +70,9 @@ protected:
 
 TEST_F(GoingOn, GivesTheSameBitsAsARunFromTheStart)
 {
-  const Choice choices[] = { [](vtkDeformableSurface*) {},
-    [](vtkDeformableSurface* filter)
-    {
-      filter->SetSnapshotInterval(7);
-      filter->SetProfile(true);
-    },
-    [](vtkDeformableSurface* filter) { filter->SetRecovery(vtkDeformableSurface::NoRecovery); },
-    [](vtkDeformableSurface* filter)
-    { filter->SetRecovery(vtkDeformableSurface::RecoverObjectsAndCavities); },
-    [](vtkDeformableSurface* filter) { filter->SetInitializationToSeeds(); },
-    [](vtkDeformableSurface* filter) { filter->SetKeepComponentsToLargestComponent(); },
-    [](vtkDeformableSurface* filter) { filter->SetMaximumNumberOfIterations(12); } };
+  std::vector<Choice> choices = ChoicesOfRuns();
+  choices.push_back([](vtkDeformableSurface* filter)
+    { filter->SetRecovery(vtkDeformableSurface::RecoverObjectsAndCavities); });
   int number = 0;
   for (const Choice& choose : choices)
   {

@@ -118,24 +118,6 @@ namespace
 {
 constexpr double Tolerance = 1e-3;
 
-/** Shares of edges that are shorter, and longer, than wanted. */
-std::array<double, 2> SharesOutside(const InterfaceMesh& mesh, double shortest, double longest)
-{
-  const auto edges = FacesAtEdges(mesh);
-  double below = 0.;
-  double above = 0.;
-  for (const auto& edge : edges)
-  {
-    const float squared =
-      SquaredDistance(mesh.Position[static_cast<std::size_t>(edge.first[0])],
-        mesh.Position[static_cast<std::size_t>(edge.first[1])]);
-    below += squared < shortest * shortest ? 1. : 0.;
-    above += squared > longest * longest * 1.0001 ? 1. : 0.;
-  }
-  const auto all = static_cast<double>(edges.size());
-  return { below / all, above / all };
-}
-
 class Edits : public testing::TestWithParam<int>
 {
 protected:
@@ -178,22 +160,6 @@ TEST_P(Edits, OfEachKindKeepInterfacesSound)
   this->ExpectSoundAndAlike();
 }
 
-TEST_P(Edits, BringEdgesToTheWantedLength)
-{
-  EXPECT_GT(SharesOutside(this->Mesh, 1.1, 1.8)[0], 0.7);
-  for (int round = 0; round < 4; ++round)
-  {
-    InterfaceRemesher remesher = this->RemesherOf(1.1, 1.8);
-    remesher.SplitLongEdges();
-    remesher.CollapseShortEdges();
-    remesher.FlipEdges();
-  }
-  const std::array<double, 2> shares = SharesOutside(this->Mesh, 1.1, 1.8);
-  EXPECT_LT(shares[0], 0.3);
-  EXPECT_LT(shares[1], 0.02);
-  this->ExpectSoundAndAlike();
-}
-
 TEST_P(Edits, FarTooLargeKeepWhatMeetsWhere)
 {
   // Collapses until nothing more may go.
@@ -206,13 +172,3 @@ TEST_P(Edits, FarTooLargeKeepWhatMeetsWhere)
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, Edits, testing::Range(1, 4));
-
-TEST(RadiusRatio, IsThatOfTheCircles)
-{
-  const VectorD a(0., 0., 0.);
-  const VectorD b(1., 0., 0.);
-  EXPECT_NEAR(RadiusRatio(a, b, VectorD(0.5, std::sqrt(0.75), 0.)), 1., 1e-12);
-  EXPECT_NEAR(RadiusRatio(a, b, VectorD(0., 1., 0.)), 2. * (std::sqrt(2.) - 1.), 1e-12);
-  EXPECT_EQ(RadiusRatio(a, b, VectorD(3., 0., 0.)), 0.);
-  EXPECT_EQ(RadiusRatio(a, a, a), 0.);
-}

@@ -157,20 +157,12 @@ TEST(SmallParts, GoToWhatIsAboutThem)
   EXPECT_EQ(map.At(9, 4, 4), 2);
   EXPECT_EQ(map.At(11, 2, 2), 0); // More faces of it are at the outside than at 2.
   EXPECT_EQ(VoxelsOf(map, 1), 64);
-}
-
-TEST(SmallParts, OfTheLargestSizeStay)
-{
-  LabelMap map = Parts();
+  map = Parts();
   GiveAwaySmallParts(map, 3, 2, false);
-  EXPECT_EQ(map.At(8, 4, 4), 1);
+  EXPECT_EQ(map.At(8, 4, 4), 1) << "of the largest size";
   EXPECT_EQ(VoxelsOf(map, 3), 0);
-}
-
-TEST(SmallParts, AreAllButTheLargest)
-{
-  LabelMap map = Parts();
-  GiveAwaySmallParts(map, 3, 0, true);
+  map = Parts();
+  GiveAwaySmallParts(map, 3, 0, true); // All but the largest.
   EXPECT_EQ(VoxelsOf(map, 1), 64);
   EXPECT_EQ(VoxelsOf(map, 3), 1); // It is the largest of its object.
 }

@@ -49,22 +49,6 @@ TEST(LabelTable, ListsTheLabelsOfAnImage)
   EXPECT_NE(colors->GetComponent(1, 0), colors->GetComponent(2, 0)) << "a palette";
 }
 
-TEST(LabelTable, GivesTheOnlyObjectAColorThatShowsItsRelief)
-{
-  vtkNew<vtkLabelTable> table;
-  table->SetInputData(LabelImageOf(
-    34, 28, 28, [](int i, int, int) { return i < 10 ? 0 : (i < 20 ? 1 : 255); }));
-  table->Update();
-  auto* colors = vtkDoubleArray::SafeDownCast(table->GetOutput()->GetColumnByName("Color"));
-  for (const int row : { 1, 2 })
-  {
-    EXPECT_GT(0.21 * colors->GetComponent(row, 0) + 0.72 * colors->GetComponent(row, 1) +
-        0.07 * colors->GetComponent(row, 2),
-      0.4)
-      << row;
-  }
-}
-
 TEST(LabelTable, TellsWhereLabelsAre)
 {
   // A run of voxels over the end of rows and of slices, on both sides of what a thread takes.

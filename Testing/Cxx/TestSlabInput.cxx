@@ -3,38 +3,18 @@
 
 // With a limit of memory a filter asks for its image slab by slab; what it makes of it is the same
 // bits.
+#include "SameOutputs.h"
 #include "SlabSource.h"
-#include "SurfaceTestTools.h"
 #include "vtkVolumeToSurface.h"
 
 #include <vtkImageFlip.h>
 #include <vtkImageShiftScale.h>
 #include <vtkMatrix3x3.h>
 
-#include <cstring>
-
 using namespace volumic;
 
 namespace
 {
-void ExpectSameArrays(vtkDataSetAttributes* a, vtkDataSetAttributes* b)
-{
-  ASSERT_EQ(a->GetNumberOfArrays(), b->GetNumberOfArrays());
-  for (int n = 0; n < a->GetNumberOfArrays(); ++n)
-  {
-    vtkDataArray* one = a->GetArray(n);
-    vtkDataArray* two = one->GetName() ? b->GetArray(one->GetName()) : b->GetArray(n);
-    ASSERT_TRUE(two);
-    ASSERT_EQ(one->GetDataType(), two->GetDataType());
-    ASSERT_EQ(one->GetNumberOfComponents(), two->GetNumberOfComponents());
-    ASSERT_EQ(one->GetNumberOfTuples(), two->GetNumberOfTuples());
-    const auto bytes = static_cast<std::size_t>(one->GetNumberOfValues()) *
-      static_cast<std::size_t>(one->GetDataTypeSize());
-    EXPECT_EQ(std::memcmp(one->GetVoidPointer(0), two->GetVoidPointer(0), bytes), 0)
-      << (one->GetName() ? one->GetName() : "unnamed");
-  }
-}
-
 void ExpectSamePyramids(vtkMultiBlockDataSet* a, vtkMultiBlockDataSet* b)
 {
   ASSERT_EQ(a->GetNumberOfBlocks(), b->GetNumberOfBlocks());

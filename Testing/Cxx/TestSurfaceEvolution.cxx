@@ -53,29 +53,6 @@ void ExpectSound(const SurfaceEvolution& evolution)
 }
 }
 
-TEST(SurfaceEvolution, ShrinksAnEnclosingSurfaceOntoABall)
-{
-  const TestVolume volume = BallVolume(32, 10);
-  SurfaceEvolution evolution(IsoHalf(), Threads, Silent);
-  evolution.StartEnclosing(volume.Image, 0);
-  EXPECT_EQ(evolution.Run(), StopReason::Converged);
-  ExpectSound(evolution);
-  const SurfaceResult surface = evolution.Result();
-  const SurfaceFeatures features = ComputeFeatures(surface);
-  ASSERT_EQ(features.Components.size(), 1u);
-  EXPECT_EQ(features.Genus, 0);
-  const double volumeOfBall = 4. / 3. * 3.14159265 * 1000.;
-  EXPECT_NEAR(features.Volume, volumeOfBall, 0.02 * volumeOfBall);
-  double residual = 0;
-  for (std::size_t i = 0; i < surface.Points.size(); ++i)
-  {
-    residual += std::abs(surface.Residual[i]);
-    const Point& p = surface.Points[i];
-    EXPECT_NEAR(Distance(p[0], p[1], p[2], 16, 16, 16), 10, 0.2);
-  }
-  EXPECT_LT(residual / static_cast<double>(surface.Points.size()), 0.02);
-}
-
 TEST(SurfaceEvolution, StartsFromALongBoxWithoutIntersections)
 {
   // Voxels of 1 : 7.5 and noise. The icosahedron that was pressed onto this box intersected itself
@@ -116,21 +93,17 @@ TEST(SurfaceEvolution, FindsAgainWhatTheCoarseLevelLost)
   // Two balls, of which the coarse image holds only one.
   const auto large = [](double x, double y, double z)
   { return Distance(x, y, z, 12, 16, 16) - 8.; };
-  const TestVolume fine = MakeVolume(32, [&](double x, double y, double z)
-    { return Soft(std::min(large(x, y, z), Distance(x, y, z, 26, 16, 16) - 3.)); });
-  TestVolume coarse = MakeVolume(18, [&](double x, double y, double z)
-    { return Soft(large(x * 32 / 18, y * 32 / 18, z * 32 / 18)); });
-  coarse.Image.Step = { 32. / 18, 32. / 18, 32. / 18 };
-  coarse.Image.Unit = std::sqrt(3.);
+  const LevelPair scene(32, [&](double x, double y, double z)
+    { return std::min(large(x, y, z), Distance(x, y, z, 26, 16, 16) - 3.); }, large);
   for (const bool recover : { true, false })
   {
     SurfaceOptions options = IsoHalf();
     options.RecoverLostParts = recover;
     SurfaceEvolution evolution(options, Threads, Silent);
-    evolution.StartEnclosing(coarse.Image, 1);
+    evolution.StartEnclosing(scene.Coarse.Image, 1);
     evolution.Run();
     EXPECT_EQ(ComputeFeatures(evolution.Result()).Components.size(), 1u);
-    evolution.Divide(fine.Image, 0);
+    evolution.Divide(scene.Fine.Image, 0);
     EXPECT_EQ(evolution.Lost().Found, 1) << "told also where it is not recovered";
     EXPECT_EQ(evolution.Lost().Enclosed, recover ? 1 : 0);
     evolution.Run();

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // What an evolution hands over, and what it starts from.
-#include "Core/Interfaces/TriangleShape.h"
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "EvolutionTestTools.h"
 
@@ -66,8 +65,12 @@ TEST(SurfaceResult, LiesOnTheIsopotentialMoreExactlyWhereItIsSnapped)
     SurfaceEvolution evolution(options, Threads, Silent);
     evolution.StartEnclosing(volume.Image, 0);
     EXPECT_EQ(evolution.Run(), StopReason::Converged);
-    residual[snap] = MeanResidual(evolution.Result());
-    ExpectLegalEdges(evolution.Result());
+    const SurfaceResult surface = evolution.Result();
+    residual[snap] = MeanResidual(surface);
+    ExpectLegalEdges(surface);
+    EXPECT_EQ(CountSelfIntersections(surface), 0);
+    const double volumeOfBall = 4. / 3. * 3.14159265 * 512.;
+    EXPECT_NEAR(ComputeFeatures(surface).Volume, volumeOfBall, 0.02 * volumeOfBall);
   }
   EXPECT_LT(residual[true], 0.003);
   EXPECT_GT(residual[false], 2 * residual[true]);
@@ -98,38 +101,16 @@ TEST(SurfaceResult, LiesOnTheEdgesWhereTheyAreGiven)
   EXPECT_NEAR(radius, 7, 0.08);
 }
 
-TEST(SurfaceResult, HasEvenTriangles)
-{
-  const TestVolume volume = BallVolume(28, 8);
-  SurfaceEvolution evolution(IsoHalf(), Threads, Silent);
-  evolution.StartEnclosing(volume.Image, 0);
-  evolution.Run();
-  const SurfaceResult surface = evolution.Result();
-  double worst = 1;
-  double mean = 0;
-  for (const Triangle& t : surface.Triangles)
-  {
-    const auto at = [&](int k)
-    { return VectorD(surface.Points[t[k]][0], surface.Points[t[k]][1], surface.Points[t[k]][2]); };
-    const double ratio = RadiusRatio(at(0), at(1), at(2));
-    worst = std::min(worst, ratio);
-    mean += ratio / static_cast<double>(surface.Triangles.size());
-  }
-  EXPECT_GT(worst, 0.7);
-  EXPECT_GT(mean, 0.96); // Of one level; divisions make them more even.
-}
-
 TEST(SurfaceStart, DivisionMakesThreeTimesTheTriangles)
 {
-  const TestVolume fine = BallVolume(32, 10);
-  TestVolume coarse = BallVolume(18, 10. * 18 / 32);
-  coarse.Image.Step = { 32. / 18, 32. / 18, 32. / 18 };
-  coarse.Image.Unit = std::sqrt(3.);
+  const auto ball = [](double x, double y, double z)
+  { return Distance(x, y, z, 16, 16, 16) - 10.; };
+  const LevelPair scene(32, ball, ball);
   SurfaceEvolution evolution(IsoHalf(), Threads, Silent);
-  evolution.StartEnclosing(coarse.Image, 1);
+  evolution.StartEnclosing(scene.Coarse.Image, 1);
   evolution.Run();
   const SurfaceResult before = evolution.Result();
-  evolution.Divide(fine.Image, 0);
+  evolution.Divide(scene.Fine.Image, 0);
   const SurfaceResult after = evolution.Result();
   // Hardly an edge has to be split besides.
   const double share =

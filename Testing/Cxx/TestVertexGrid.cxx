@@ -145,52 +145,18 @@ TEST(VertexProperties, AreResetTogether)
   }
 }
 
-TEST(VertexProperties, GrowTogether)
+TEST(VertexProperties, GrowTogetherOrTakeThePlacesOfRemovedVertices)
 {
   TwoProperties p;
   p.All.Reset(3, p.Thread);
   p.Inherited[1] = 7;
   p.Own[1] = 7.f;
-  p.All.Add(3, 1);
-  ASSERT_EQ(p.Inherited.Size(), 4u);
-  ASSERT_EQ(p.Own.Size(), 4u);
-  EXPECT_EQ(p.Inherited[3], 7) << "its parent's";
-  EXPECT_EQ(p.Own[3], 3.f) << "that of new vertices";
-}
-
-TEST(VertexProperties, TakeNewVerticesInPlacesOfRemovedOnes)
-{
-  TwoProperties p;
-  p.All.Reset(3, p.Thread);
-  p.Inherited[0] = 5;
-  p.Inherited[2] = 7;
-  p.Own[2] = 7.f;
-  p.All.Add(2, 0);
-  EXPECT_EQ(p.Inherited.Size(), 3u);
-  EXPECT_EQ(p.Inherited[2], 5);
-  EXPECT_EQ(p.Own[2], 3.f);
-}
-
-TEST(VertexProperties, HashesTellWhoseValueIsAnother)
-{
-  TwoProperties p;
-  p.All.Reset(3, p.Thread);
-  const std::vector<int> vertices = { 2, 0 };
-  const auto hashes = [&]
+  for (const int place : { 3, 1 })
   {
-    std::vector<std::uint64_t> found(vertices.size(), 5);
-    p.All.AddTo(found, vertices);
-    return found;
-  };
-  const std::vector<std::uint64_t> before = hashes();
-  EXPECT_EQ(before[0], before[1]) << "the same values";
-  EXPECT_EQ(hashes(), before);
-  p.Inherited[1] = 7;
-  EXPECT_EQ(hashes(), before) << "not asked for";
-  p.Inherited[0] = 7;
-  EXPECT_EQ(hashes()[0], before[0]);
-  EXPECT_NE(hashes()[1], before[1]);
-  p.Own[2] = -2.f;
-  EXPECT_NE(hashes()[0], before[0]);
-  EXPECT_NE(hashes()[0], hashes()[1]);
+    p.All.Add(place, place == 3 ? 1 : 0);
+    ASSERT_EQ(p.Inherited.Size(), 4u);
+    ASSERT_EQ(p.Own.Size(), 4u);
+    EXPECT_EQ(p.Inherited[place], place == 3 ? 7 : 1) << "its parent's";
+    EXPECT_EQ(p.Own[place], 3.f) << "that of new vertices";
+  }
 }

@@ -139,37 +139,6 @@ TEST(Visits, MakeTheSameRunOnThreadsThatAreHeldUp)
   }
 }
 
-TEST(Visits, MakeTheSameBitsOnAnyThreads)
-{
-  const TestVolume plate = Plate(1.);
-  const auto hashOf = [&plate](Executor& executor)
-  {
-    Monitor monitor;
-    SurfaceOptions options = IsoHalf();
-    options.MaximumNumberOfIterations = 30;
-    SurfaceEvolution evolution(options, executor, monitor);
-    evolution.StartEnclosing(plate.Image, 0);
-    evolution.Run();
-    const SurfaceResult surface = evolution.Result();
-    std::uint64_t hash = HashOf(surface.Triangles, HashOf(surface.Points));
-    for (const HistoryRow& row : evolution.History())
-    {
-      hash = HashOf(std::vector<double>{ row.KineticEnergy, row.MeanEdgeLength, row.TimeStep,
-                      static_cast<double>(row.Vertices), static_cast<double>(row.Flips) },
-        hash);
-    }
-    EXPECT_GT(surface.Points.size(), 10000u);
-    return hash;
-  };
-  SequentialExecutor thread;
-  const std::uint64_t alone = hashOf(thread);
-  for (const int threads : { 2, 3, 7 })
-  {
-    DelayedThreads executor(threads, static_cast<unsigned>(threads) * 91, 60, 16);
-    EXPECT_EQ(hashOf(executor), alone) << threads << " threads";
-  }
-}
-
 namespace
 {
 /** A wild surface, many delta wide, that is visited in the middle of its blocks. */
