@@ -203,15 +203,6 @@ TEST_F(DeformableSurfaceComponents, LinesAreNoSeeds)
   }
 }
 
-TEST_F(DeformableSurfaceComponents, ASurfaceToStartFromHasNoSeeds)
-{
-  this->Filter->SetInitialSurfaceData(SphereAt({ 16, 16, 16 }, 5));
-  this->Filter->SetKeepComponentsToComponentsAtPoints();
-  MessagesOf errors(this->Filter);
-  this->Filter->Update();
-  EXPECT_TRUE(errors.Has("Keep Components is \"At Points\", but there are none")) << errors.Get();
-}
-
 TEST_F(DeformableSurfaceComponents, NothingAtThePointIsWarnedOf)
 {
   this->Filter->SetKeepComponentsToComponentsAtPoints();
@@ -250,6 +241,8 @@ TEST_F(DeformableSurfaceComponents, WrongChoicesAreRefused)
   refused("Keep Components is 5");
   this->Filter->SetKeepComponentsToComponentsAtPoints();
   refused("input port 1");
+  this->Filter->SetInitialSurfaceData(SphereAt({ 16, 16, 16 }, 5));
+  refused("Keep Components is \"At Points\", but there are none");
   this->Filter->SetKeepComponentsToLargeComponents();
   this->Filter->SetMinimumComponentVolume(-1.0);
   refused("Minimum Component Volume is -1");
