@@ -39,11 +39,6 @@ float LaneOf(const Lanes& lanes, int i)
   return four[i];
 }
 
-Vector LaneOf(const VectorLanes& lanes, int i)
-{
-  return Vector(LaneOf(lanes.X, i), LaneOf(lanes.Y, i), LaneOf(lanes.Z, i));
-}
-
 void ExpectSame(const Vector& a, const Vector& b)
 {
   EXPECT_EQ(a.X, b.X);
