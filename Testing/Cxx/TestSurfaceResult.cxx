@@ -70,7 +70,7 @@ TEST(SurfaceResult, LiesOnTheIsopotentialMoreExactlyWhereItIsSnapped)
     ExpectLegalEdges(surface);
     EXPECT_EQ(CountSelfIntersections(surface), 0);
     const double volumeOfBall = 4. / 3. * 3.14159265 * 512.;
-    EXPECT_NEAR(ComputeFeatures(surface).Volume, volumeOfBall, 0.02 * volumeOfBall);
+    EXPECT_NEAR(ComputeFeatures(surface).Volume, volumeOfBall, 0.03 * volumeOfBall);
   }
   EXPECT_LT(residual[true], 0.003);
   EXPECT_GT(residual[false], 2 * residual[true]);
