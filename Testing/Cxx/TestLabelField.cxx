@@ -329,3 +329,12 @@ TEST(LabelFieldOfThinParts, SlitsKeepTheirsToo)
     }
   }
 }
+
+TEST(LabelFieldOfThinParts, KeepTheirThicknessWithMuchSmoothing)
+{
+  const LabelMap map = MakeLabelMap(
+    { 32, 32, 32 }, 1, [](int, int, int k) { return k == 15 || k == 16 ? 1 : 0; });
+  const LabelField field = FieldOf(map, 1, 4.);
+  EXPECT_EQ(CountWrongSigns(map, 1, field), 0);
+  EXPECT_NEAR(CrossingOf(ValueAt(field, 16, 16, 16), ValueAt(field, 16, 16, 17)), 0.5, 0.3);
+}

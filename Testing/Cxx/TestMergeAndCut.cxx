@@ -386,3 +386,12 @@ TEST(Merging, AnEvolutionAsksTheImage)
   EXPECT_EQ(evolution.Run(), StopReason::Converged);
   EXPECT_EQ(ComputeFeatures(evolution.Result()).Components.size(), 2u);
 }
+
+TEST(CycleCut, RefusesAFace)
+{
+  const SurfaceMesh mesh = MakeSphere({ 0, 0, 0 }, 3, 1);
+  const int b = mesh.Rings[5].Item[0];
+  const int c = mesh.Rings[5].Item[1];
+  EXPECT_FALSE((CycleCut{ 5, b, c }).IsLegal(mesh));
+  EXPECT_FALSE((CycleCut{ 5, c, b }).IsLegal(mesh));
+}
