@@ -43,7 +43,7 @@ volumic_add_warnings(
   TARGETS FiltersVolumic volumic BuildPyramid ServerManagerVolumic Volumic
   WARNINGS ${volumic_vtk_warnings} ${volumic_conversion_warnings})
 volumic_add_warnings(
-  TARGETS TestCore VolumicTestSupport TestSupport
+  TARGETS TestCore VolumicTestSupport
   WARNINGS ${volumic_warnings})
 volumic_add_warnings(
   TARGETS TestFilters TestRealScans TestScenes Benchmark VolumicBenchmarkItk

@@ -58,7 +58,7 @@ void AddPhases(vtkTable* table, const std::vector<HistoryRow>& rows)
         double sum = 0.0;
         for (const Phase phase : column.Phases)
         {
-          sum += row.Phases[static_cast<std::size_t>(phase)].Seconds;
+          sum += row.PhaseSeconds[static_cast<std::size_t>(phase)];
         }
         return sum;
       });

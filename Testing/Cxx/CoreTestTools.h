@@ -69,6 +69,41 @@ inline IndexedSurface InsideOut(IndexedSurface surface)
   return surface;
 }
 
+/** Corners so far from the centre along each axis: at +x, -x, +y, -y, +z and -z. */
+inline IndexedSurface Octahedron(const Point& centre, double x, double y, double z)
+{
+  const auto& [a, b, c] = centre;
+  return { { { a + x, b, c }, { a - x, b, c }, { a, b + y, c }, { a, b - y, c }, { a, b, c + z },
+             { a, b, c - z } },
+    { { 0, 2, 4 }, { 2, 1, 4 }, { 1, 3, 4 }, { 3, 0, 4 }, { 2, 0, 5 }, { 1, 2, 5 }, { 3, 1, 5 },
+      { 0, 3, 5 } } };
+}
+
+/** All its edges are as long as is said. */
+inline IndexedSurface EvenOctahedron(const Point& centre, double edge)
+{
+  const double r = edge / std::sqrt(2.);
+  return Octahedron(centre, r, r, r);
+}
+
+/** A box of twelve triangles. */
+inline IndexedSurface Cuboid(const Point& low, const Point& high)
+{
+  IndexedSurface box;
+  for (int i = 0; i < 8; ++i)
+  {
+    box.Points.push_back(
+      { i & 1 ? high[0] : low[0], i & 2 ? high[1] : low[1], i & 4 ? high[2] : low[2] });
+  }
+  for (const auto& q : { std::array<int, 4>{ 0, 2, 3, 1 }, { 4, 5, 7, 6 }, { 0, 1, 5, 4 },
+         { 2, 6, 7, 3 }, { 0, 4, 6, 2 }, { 1, 3, 7, 5 } })
+  {
+    box.Triangles.push_back({ q[0], q[1], q[2] });
+    box.Triangles.push_back({ q[2], q[3], q[0] });
+  }
+  return box;
+}
+
 /** A double cone along z, with so many neighbours at either tip, 0 and 1; the rest in order. */
 inline IndexedSurface MakeDoubleCone(const Point& centre, double radius, double height, int sides)
 {

@@ -17,6 +17,28 @@ inline TestVolume BallVolume(int n, double radius)
     { return Soft(Distance(x, y, z, 0.5 * n, 0.5 * n, 0.5 * n) - radius); });
 }
 
+/** A scene as two levels, both sampled; lengths are voxels of the finer one. */
+struct LevelPair
+{
+  TestVolume Fine;
+  TestVolume Coarse;
+
+  /** @param shownFine, shownCoarse outside distances, of what each level shows */
+  template <typename ShownFine, typename ShownCoarse>
+  LevelPair(int n, const ShownFine& shownFine, const ShownCoarse& shownCoarse)
+    : Fine(MakeVolume(
+        n, [&](double x, double y, double z) { return Soft(shownFine(x, y, z)); }))
+  {
+    const int coarse = static_cast<int>(std::lround(n / std::sqrt(3.)));
+    const double step = static_cast<double>(n) / coarse;
+    this->Coarse = MakeVolume(coarse,
+      [&](double x, double y, double z)
+      { return Soft(shownCoarse(x * step, y * step, z * step) / step); });
+    this->Coarse.Image.Step = { step, step, step };
+    this->Coarse.Image.Unit = std::sqrt(3.);
+  }
+};
+
 inline SurfaceOptions IsoHalf()
 {
   SurfaceOptions options;

@@ -13,10 +13,14 @@ namespace volumic
 struct LiveSurface : SurfaceState
 {
   explicit LiveSurface(const IndexedSurface& surface, float delta = 1)
+    : LiveSurface(MeshOf(surface), delta)
   {
-    this->Mesh.Append(surface);
+  }
+  explicit LiveSurface(const SurfaceMesh& mesh, float delta = 1)
+  {
+    this->Mesh = mesh;
     this->Sizing = SizingField(delta);
-    this->Reset(Vector(-20, -20, -20), Vector(40, 40, 40));
+    this->Reset(Vector(-30, -30, -30), Vector(70, 40, 40));
     this->UpdateShape(this->All(), OnThisThread());
   }
 
@@ -25,6 +29,14 @@ struct LiveSurface : SurfaceState
     std::vector<int> all(this->Mesh.Size());
     std::iota(all.begin(), all.end(), 0);
     return all;
+  }
+
+private:
+  static SurfaceMesh MeshOf(const IndexedSurface& surface)
+  {
+    SurfaceMesh mesh;
+    mesh.Append(surface);
+    return mesh;
   }
 };
 

@@ -34,6 +34,20 @@ public:
   std::string Path;
 };
 
+/** A test of scratch memory, with a directory for it. */
+class ScratchTest : public testing::Test
+{
+protected:
+  void SetUp() override
+  {
+    if (!ScratchIsPossible)
+    {
+      GTEST_SKIP() << "no scratch memory on this system";
+    }
+  }
+  OwnDirectory Directory;
+};
+
 /** So much beyond what the process has. */
 inline ScratchOptions Allowing(std::size_t bytes, const std::string& directory)
 {

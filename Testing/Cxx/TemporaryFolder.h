@@ -7,6 +7,7 @@
 
 #include <csignal>
 #include <filesystem>
+#include <fstream>
 #include <stdlib.h>
 #include <sys/resource.h>
 
@@ -46,6 +47,12 @@ public:
 private:
   std::string Name;
 };
+
+inline std::string BytesOf(const std::string& name)
+{
+  std::ifstream file(name, std::ios::binary);
+  return { std::istreambuf_iterator<char>(file), {} };
+}
 
 /** While it lives no file of the process grows beyond so many bytes: as if the disk were full. */
 class LimitedFileSize

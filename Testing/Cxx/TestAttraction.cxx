@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Common/Executor.h"
+#include "Core/Common/StandardThreads.h"
 #include "Core/Evolution/SurfaceOptions.h"
 #include "Core/Image/EdgeAttraction.h"
 #include "Core/Image/Field.h"
@@ -12,20 +12,6 @@ using namespace volumic;
 namespace
 {
 SequentialExecutor Threads;
-
-/** The last first, one index at a time. */
-class BackwardExecutor final : public Executor
-{
-public:
-  void For(std::size_t n, std::size_t, const std::function<void(std::size_t, std::size_t)>& body)
-    override
-  {
-    for (std::size_t i = n; i > 0; --i)
-    {
-      body(i - 1, i);
-    }
-  }
-};
 
 /** 100 below the plane x = 6, 0 above, falling over two voxels; the points act far from it. */
 TestVolume Half()
@@ -58,21 +44,6 @@ double RadiusOf(const TestVolume& volume, const SurfaceOptions& options,
   }
   return radius;
 }
-}
-
-TEST(PointAttraction, MakesABallOfItsRadiusHoweverDarkItIs)
-{
-  const TestVolume volume = Half();
-  const Point place = { 20, 16, 16 };
-  for (double iso : { 20., 50., 90. })
-  {
-    for (double radius : { 3., 5. })
-    {
-      EXPECT_NEAR(RadiusOf(volume, HalfOptions(iso), { { place, 1., radius } }, 1., place), radius,
-        0.35 * radius)
-        << iso;
-    }
-  }
 }
 
 TEST(PointAttraction, TurnsHalfOfTheFieldRoundAtItsRadius)
@@ -110,18 +81,6 @@ TEST(PointAttraction, HasARadiusThatTheLevelCanHold)
   EXPECT_NEAR(RadiusOf(volume, HalfOptions(50), { { place, 1., 0. } }, 1., place), 4., 0.8);
 }
 
-TEST(PointAttraction, BringsABoundaryOutToThePoint)
-{
-  const TestVolume volume = Half();
-  const SurfaceOptions options = HalfOptions(50);
-  const std::vector<AttractingPoint> points = { { { 8, 16, 16 }, 1., 0. } };
-  const double before = RadiusOf(volume, options, {}, 1., { 1, 16, 16 }) + 1;
-  const double after = RadiusOf(volume, options, points, 1., { 1, 16, 16 }) + 1;
-  EXPECT_NEAR(before, 6., 0.05);
-  EXPECT_GT(after, 9.);
-  EXPECT_LT(after, 10.5);
-}
-
 TEST(PointAttraction, ServesDarkObjectsToo)
 {
   TestVolume volume = Half();
@@ -143,22 +102,18 @@ TEST(PointAttraction, LeavesWhatIsFarAsItIsAndDoesNotDependOnTheExecutor)
   const PointAttraction attraction({ { { 20, 16, 16 }, 1., 3. }, { { 22, 17, 15 }, 2., 4. } }, 1.);
   const SurfaceOptions options = HalfOptions(50);
   const std::vector<float> bent = attraction.Bend(volume.Image, options, Threads);
-  BackwardExecutor backward;
-  EXPECT_EQ(bent, attraction.Bend(volume.Image, options, backward));
+  StandardThreads threads(3);
+  EXPECT_EQ(bent, attraction.Bend(volume.Image, options, threads));
   int changed = 0;
-  for (int k = 0, i = 0; k < 33; ++k)
-  {
-    for (int y = 0; y < 33; ++y)
+  std::size_t i = 0;
+  ForVoxels({ 33, 33, 33 },
+    [&](int x, int y, int z)
     {
-      for (int x = 0; x < 33; ++x, ++i)
-      {
-        const bool near =
-          Distance(x, y, k, 20, 16, 16) < 4.5 || Distance(x, y, k, 22, 17, 15) < 6.;
-        ASSERT_EQ(bent[i] != volume.Values[i], near) << x << ' ' << y << ' ' << k;
-        changed += near;
-      }
-    }
-  }
+      const bool near = Distance(x, y, z, 20, 16, 16) < 4.5 || Distance(x, y, z, 22, 17, 15) < 6.;
+      ASSERT_EQ(bent[i] != volume.Values[i], near) << x << ' ' << y << ' ' << z;
+      changed += near;
+      ++i;
+    });
   EXPECT_GT(changed, 900);
 }
 
@@ -196,32 +151,7 @@ TEST(EdgeAttraction, IsFullAtHalfTheTypicalSlopeOfTheEdges)
     EXPECT_FLOAT_EQ(at(-1), -1);
     EXPECT_NEAR(at(0.25f), 0.5, 0.08);
   }
-}
-
-TEST(EdgeAttraction, MeasuresSlopesInTheWorkspace)
-{
-  // The same edges, in voxels of any length.
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    TestVolume volume = MakeVolume(17, [axis](double x, double y, double z)
-      {
-        const double t = axis == 0 ? x : (axis == 1 ? y : z);
-        return std::min(std::max(t - 5, 0.), 6.);
-      });
-    volume.Image.Edges = volume.Values.data();
-    volume.Image.Step[axis] = 4;
-    const EdgeAttraction edges(volume.Image, Threads);
-    Vector place(8, 8, 8);
-    (axis == 0 ? place.X : (axis == 1 ? place.Y : place.Z)) = 32;
-    Vector normal(axis == 0 ? 0.25f : 0.f, axis == 1 ? 0.25f : 0.f, axis == 2 ? 0.25f : 0.f);
-    EXPECT_NEAR(edges.Along(place, normal), 0.5, 0.06) << "along axis " << axis;
-  }
-}
-
-TEST(EdgeAttraction, IsNothingWhereTheMapIsFlat)
-{
-  TestVolume volume = MakeVolume(17, [](double, double, double) { return 7.; });
-  volume.Image.Edges = volume.Values.data();
-  const EdgeAttraction edges(volume.Image, Threads);
-  EXPECT_EQ(edges.Along(Vector(8, 8, 8), Vector(1, 0, 0)), 0.f);
+  TestVolume flat = MakeVolume(17, [](double, double, double) { return 7.; });
+  flat.Image.Edges = flat.Values.data();
+  EXPECT_EQ(EdgeAttraction(flat.Image, Threads).Along(Vector(8, 8, 8), Vector(1, 0, 0)), 0.f);
 }

@@ -21,8 +21,6 @@ namespace
 constexpr double Pi = 3.14159265358979;
 /** Of SceneKind::ShellWithOpening, at 64 voxels. */
 constexpr double OuterRadius = 26.0;
-constexpr double InnerRadius = 17.5;
-
 double BallVolume(double radius)
 {
   return 4.0 / 3.0 * Pi * radius * radius * radius;
@@ -95,16 +93,22 @@ double VolumeOf(vtkDeformableSurface* filter)
   return filter->GetOutput()->GetFieldData()->GetArray("Volume")->GetComponent(0, 0);
 }
 
-/** The scene with its gradient magnitude as a second array, `Edges`. */
-vtkSmartPointer<vtkImageData> WithEdges(const Scene& scene)
+vtkSmartPointer<vtkImageData> GradientMagnitude(vtkImageData* image)
 {
-  const auto image = ToImage(scene);
   vtkNew<vtkImageGradientMagnitude> gradient;
   gradient->SetInputData(image);
   gradient->SetDimensionality(3);
   gradient->HandleBoundariesOn();
   gradient->Update();
-  vtkDataArray* edges = gradient->GetOutput()->GetPointData()->GetScalars();
+  return gradient->GetOutput();
+}
+
+/** The scene with its gradient magnitude as a second array, `Edges`. */
+vtkSmartPointer<vtkImageData> WithEdges(const Scene& scene)
+{
+  const auto image = ToImage(scene);
+  const auto gradient = GradientMagnitude(image);
+  vtkDataArray* edges = gradient->GetPointData()->GetScalars();
   edges->SetName("Edges");
   image->GetPointData()->AddArray(edges);
   return image;
@@ -144,78 +148,50 @@ TEST(PointAttractionScene, AFewPointsCloseTheGapThroughWhichTheSurfaceLeaks)
   EXPECT_EQ(VolumeOf(closed), VolumeOf(leaking));
 }
 
-TEST(PointAttractionScene, PointsCloseTheGapOfASurfaceThatHasLeaked)
-{
-  // Only a merge can: the opening's rims must meet where the image says background.
-  const Scene scene = MakeScene(SceneKind::ShellWithOpening);
-  const auto image = ToImage(scene);
-  const auto leaked = FilterOf(image, scene.IsoValue);
-  leaked->Update();
-  const auto closed = FilterOf(image, scene.IsoValue);
-  closed->SetInitialSurfaceData(leaked->GetOutput());
-  closed->SetInitializationToInputSurface();
-  closed->SetCoarsestLevel(0);
-  closed->SetAttractingPointsData(PointsInTheOpening(scene));
-  const SurfaceVerdict verdict = JudgeOutput(closed);
-  EXPECT_EQ(verdict.Topology.Components.size(), 2u);
-  EXPECT_NEAR(VolumeOf(closed) / (BallVolume(OuterRadius) - BallVolume(InnerRadius)), 1.0, 0.04);
-}
-
-TEST(PointAttractionScene, ThreadsChangeNothing)
-{
-  const Scene scene = MakeScene(SceneKind::ShellWithOpening);
-  std::vector<vtkSmartPointer<vtkPolyData>> surfaces;
-  for (int threads : { 1, 2 })
-  {
-    const auto image = WithEdges(scene);
-    const auto filter = FilterOf(image, scene.IsoValue);
-    filter->SetAttractingPointsData(PointsInTheOpening(scene));
-    filter->SetEdgeAttractionWeight(0.5);
-    filter->SetInputArrayToProcess(1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Edges");
-    filter->SetNumberOfThreads(threads);
-    filter->Update();
-    surfaces.emplace_back(filter->GetOutput());
-  }
-  EXPECT_GT(surfaces[0]->GetNumberOfPoints(), 1000);
-  EXPECT_EQ(
-    ToTriangleSurface(surfaces[0]).Points, ToTriangleSurface(surfaces[1]).Points);
-}
-
 TEST(EdgeAttractionScene, FindsABoundaryThatNoIsoValueGives)
 {
   const Scene scene = MakeScene(SceneKind::ShadedEllipsoid);
   ASSERT_FALSE(scene.OneIsoValueFits);
   const auto image = WithEdges(scene);
-  double byIsoValue = 1e9;
-  for (double share : { -0.25, 0.0, 0.25, 0.5, 0.75 })
-  {
-    const double brightest = *std::max_element(scene.Values.begin(), scene.Values.end());
-    const auto filter =
-      FilterOf(image, scene.IsoValue + share * (brightest - scene.IsoValue));
-    filter->SetCoarsestLevel(0);
-    filter->Update();
-    byIsoValue = std::min(
-      byIsoValue, ShareOfWrongVoxels(ToTriangleSurface(filter->GetOutput()), scene));
-  }
-
-  const auto filter = EdgeFilterOf(image, scene);
-  const SurfaceVerdict verdict = JudgeOutput(filter);
-  EXPECT_EQ(verdict.Topology.Components.size(), 1u);
-  EXPECT_EQ(verdict.Topology.Genus, 0);
-  const double byEdges = ShareOfWrongVoxels(ToTriangleSurface(filter->GetOutput()), scene);
-  EXPECT_LT(byEdges, 0.02);
-  EXPECT_GT(byIsoValue, 5 * byEdges) << "the scene must be one that needs it";
-}
-
-TEST(EdgeAttractionScene, MakesThePyramidOfTheEdgesWhereTheInputsLacksIt)
-{
-  const Scene scene = MakeScene(SceneKind::ShadedEllipsoid);
-  const auto image = WithEdges(scene);
-  vtkNew<vtkImagePyramid> pyramid;
+  vtkNew<vtkImagePyramid> pyramid; // Of the voxels: that of the edges is made.
   pyramid->SetInputData(image);
   pyramid->SetReductionFactor(1.5);
   pyramid->Update();
-  const auto filter = EdgeFilterOf(pyramid->GetOutput(), scene);
-  JudgeOutput(filter);
-  EXPECT_LT(ShareOfWrongVoxels(ToTriangleSurface(filter->GetOutput()), scene), 0.03);
+  for (vtkDataObject* input : { static_cast<vtkDataObject*>(image), pyramid->GetOutputDataObject(0) })
+  {
+    const auto filter = EdgeFilterOf(input, scene);
+    const SurfaceVerdict verdict = JudgeOutput(filter);
+    EXPECT_EQ(verdict.Topology.Components.size(), 1u);
+    EXPECT_EQ(verdict.Topology.Genus, 0);
+    EXPECT_LT(ShareOfWrongVoxels(ToTriangleSurface(filter->GetOutput()), scene), 0.03);
+  }
+}
+
+TEST(GradientForce, SegmentsWhatNoIsoValueDoes)
+{
+  // Descent along the gradient of the negative gradient magnitude, whose valleys are the boundaries.
+  const Scene scene = MakeScene(SceneKind::ShadedEllipsoid);
+  const auto potential = GradientMagnitude(ToImage(scene));
+  vtkDataArray* values = potential->GetPointData()->GetScalars();
+  for (vtkIdType i = 0; i < values->GetNumberOfTuples(); ++i)
+  {
+    values->SetComponent(i, 0, -values->GetComponent(i, 0));
+  }
+  values->Modified();
+  // The isopotential brings the surface to the edge's foot, from where the gradient takes it down.
+  const auto filter = FilterOf(potential, 0.3 * potential->GetScalarRange()[0]);
+  filter->ObjectIsBrightOff();
+  filter->SetIsopotentialWeight(0.3);
+  filter->SetGradientWeight(2.0);
+  filter->SnapToIsoValueOff();
+  filter->SetRecovery(vtkDeformableSurface::NoRecovery);
+  filter->SetCoarsestLevel(1);
+  filter->Update();
+  const TriangleSurface surface = ToTriangleSurface(filter->GetOutput(), potential);
+  const TopologyVerdict topology = JudgeTopology(surface);
+  EXPECT_TRUE(topology.Outward);
+  EXPECT_EQ(topology.Components.size(), 1u);
+  EXPECT_EQ(topology.Genus, 0);
+  EXPECT_EQ(JudgeIntersections(surface).Pairs, 0u);
+  EXPECT_LT(ShareOfWrongVoxels(surface, scene), 0.02);
 }

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfaceTestTools.h"
-#include "vtkOtsuThreshold.h"
 #include "vtkVolumeToSurface.h"
 
 #include <vtkCellData.h>
@@ -133,18 +132,6 @@ TEST(NaNVoxels, CutTheObject)
   EXPECT_GT(bounds[1], 19.0);
 }
 
-TEST(NaNVoxels, OfADarkObject)
-{
-  const auto image = BallWith(NaN, OutsideView);
-  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
-  {
-    Voxels(image)->SetComponent(i, 0, 100.0 - Voxels(image)->GetComponent(i, 0));
-  }
-  QuietSurface surface;
-  surface.Filter->ObjectIsBrightOff();
-  ExpectSphere(surface.Of(image), BallCentre, BallRadius, 0.5);
-}
-
 TEST(NaNVoxels, AreToldOnceWithTheirNumber)
 {
   const auto image = BallWith(NaN, Right);
@@ -180,68 +167,33 @@ TEST(NaNVoxels, AreToldOnceWithTheirNumber)
   }
 }
 
-TEST(NaNVoxels, ThresholdAndSurfaceWithoutAnIsoValue)
-{
-  vtkNew<vtkVolumeToSurface> filter;
-  const MessagesOf warnings(filter, vtkCommand::WarningEvent);
-  filter->SetInputData(BallWith(NaN, OutsideView));
-  filter->Update();
-  ExpectSphere(filter->GetOutput(), BallCentre, BallRadius, 0.5);
-}
-
-TEST(NaNVoxels, CoarserLevelsAreMeansOfTheOthers)
-{
-  const auto image = BallWith(NaN, Right);
-  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
-  {
-    const double value = Voxels(image)->GetComponent(i, 0);
-    // Also here and there in the other half.
-    Voxels(image)->SetComponent(i, 0, std::isnan(value) || i % 7 == 0 ? NaN : 1000.0);
-  }
-  vtkNew<vtkImagePyramid> pyramid;
-  const MessagesOf warnings(pyramid, vtkCommand::WarningEvent);
-  pyramid->SetInputData(image);
-  pyramid->SetNumberOfLevels(3);
-  pyramid->Update();
-  EXPECT_EQ(Voxels(Level(pyramid->GetOutput(), 0)), Voxels(image)) << "level 0 is not shared";
-  for (unsigned int h = 1; h < 3; ++h)
-  {
-    vtkImageData* level = Level(pyramid->GetOutput(), h);
-    const int* size = level->GetDimensions();
-    for (int i = 0; i < size[0]; ++i)
-    {
-      const double value = level->GetScalarComponentAsDouble(i, size[1] / 2, size[2] / 2, 0);
-      const double x = i * level->GetSpacing()[0];
-      if (x < 20.0 - level->GetSpacing()[0])
-      {
-        EXPECT_NEAR(value, 1000.0, 1e-3) << h << " " << i;
-      }
-      else if (x > 20.0)
-      {
-        EXPECT_TRUE(std::isnan(value)) << h << " " << i;
-      }
-    }
-  }
-}
-
-TEST(NaNVoxels, GiveTheSameBitsForAnyNumberOfThreads)
-{
-  const auto image = BallWith(NaN, Right);
-  QuietSurface one;
-  one.Filter->SetNumberOfThreads(1);
-  QuietSurface two;
-  two.Filter->SetNumberOfThreads(2);
-  ExpectSamePoints(one.Of(image), two.Of(image));
-}
-
 TEST(BlankedVoxels, AreAsNaNWithoutAWord)
 {
+  // Points, points all of whose cells are hidden, and cells that are the voxels.
+  const auto amongCells = BallImage(Size, Size, Size);
+  vtkUnsignedCharArray* hidden = AddGhosts(amongCells->GetCellData(), amongCells->GetNumberOfCells());
+  for (vtkIdType cell = 0; cell < amongCells->GetNumberOfCells(); ++cell)
+  {
+    // The points at 20 are corners of the cells at 19, which are seen.
+    hidden->SetValue(cell, cell % (Size - 1) >= 19 ? vtkDataSetAttributes::HIDDENCELL : 0);
+  }
+  const auto cells = vtkSmartPointer<vtkImageData>::New();
+  cells->SetDimensions(Size + 1, Size + 1, Size + 1);
+  cells->SetOrigin(-0.5, -0.5, -0.5);
+  cells->GetCellData()->SetScalars(Voxels(BallImage(Size, Size, Size)));
+  vtkUnsignedCharArray* ghosts = AddGhosts(cells->GetCellData(), cells->GetNumberOfCells());
+  ForEach(Right,
+    [&](vtkIdType voxel) { ghosts->SetValue(voxel, vtkDataSetAttributes::HIDDENCELL); });
   QuietSurface wanted;
   wanted.Of(BallWith(NaN, Right));
-  QuietSurface surface;
-  ExpectSamePoints(
-    surface.Of(BallBlanked(Right, vtkDataSetAttributes::HIDDENPOINT)), wanted.Filter->GetOutput());
-  EXPECT_EQ(surface.Warnings.Get(), "");
+  for (const auto& image :
+    { BallBlanked(Right, vtkDataSetAttributes::HIDDENPOINT), amongCells, cells })
+  {
+    QuietSurface surface;
+    surface.Filter->SetNumberOfThreads(2);
+    ExpectSamePoints(surface.Of(image), wanted.Filter->GetOutput());
+    EXPECT_EQ(surface.Warnings.Get(), "");
+  }
 }
 
 TEST(BlankedVoxels, OfIntegers)
@@ -269,34 +221,4 @@ TEST(BlankedVoxels, DuplicatesAreNone)
   QuietSurface surface;
   ExpectSamePoints(surface.Of(BallBlanked(Right, vtkDataSetAttributes::DUPLICATEPOINT)),
     wanted.Filter->GetOutput());
-}
-
-TEST(BlankedVoxels, PointsAllOfWhoseCellsAreHidden)
-{
-  const auto image = BallImage(Size, Size, Size);
-  vtkUnsignedCharArray* ghosts = AddGhosts(image->GetCellData(), image->GetNumberOfCells());
-  for (vtkIdType cell = 0; cell < image->GetNumberOfCells(); ++cell)
-  {
-    // The points at 20 are corners of the cells at 19, which are seen.
-    ghosts->SetValue(cell, cell % (Size - 1) >= 19 ? vtkDataSetAttributes::HIDDENCELL : 0);
-  }
-  QuietSurface wanted;
-  wanted.Of(BallWith(NaN, Right));
-  QuietSurface surface;
-  ExpectSamePoints(surface.Of(image), wanted.Filter->GetOutput());
-}
-
-TEST(BlankedVoxels, HiddenCellsThatAreTheVoxels)
-{
-  vtkNew<vtkImageData> cells;
-  cells->SetDimensions(Size + 1, Size + 1, Size + 1);
-  cells->SetOrigin(-0.5, -0.5, -0.5);
-  cells->GetCellData()->SetScalars(Voxels(BallImage(Size, Size, Size)));
-  vtkUnsignedCharArray* ghosts = AddGhosts(cells->GetCellData(), cells->GetNumberOfCells());
-  ForEach(Right,
-    [&](vtkIdType voxel) { ghosts->SetValue(voxel, vtkDataSetAttributes::HIDDENCELL); });
-  QuietSurface wanted;
-  wanted.Of(BallWith(NaN, Right));
-  QuietSurface surface;
-  ExpectSamePoints(surface.Of(cells), wanted.Filter->GetOutput());
 }

@@ -1,17 +1,11 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Evolution/LostParts.h"
-#include "Core/Evolution/SurfaceEvolution.h"
-#include "Core/Evolution/SurfaceOptions.h"
-#include "Core/Mesh/SurfaceFeatures.h"
-#include "CoreTestTools.h"
+#include "EvolutionTestTools.h"
 
 using namespace volumic;
 
 namespace
 {
-SequentialExecutor Threads;
-
 using Activity = Monitor::Activity;
 
 /** Says stop at the n-th question of an activity, and keeps what it has heard. */
@@ -49,49 +43,38 @@ private:
 
 SurfaceOptions Options()
 {
-  SurfaceOptions options;
-  options.IsoValue = 0.5;
+  SurfaceOptions options = IsoHalf();
   options.RecoverCavities = true;
   return options;
 }
 
 /** A ball; the fine level shows another one and a bubble that the coarse one does not. */
-struct Scene
+LevelPair Scene()
 {
-  TestVolume Coarse;
-  TestVolume Fine;
-
-  Scene()
+  const auto known = [](double x, double y, double z)
+  { return Distance(x, y, z, 13, 18, 18) - 10.; };
+  const auto fine = [&](double x, double y, double z)
   {
-    const auto known = [](double x, double y, double z)
-    { return Distance(x, y, z, 13, 18, 18) - 10.; };
-    this->Fine = MakeVolume(36,
-      [&](double x, double y, double z)
-      {
-        const double bubble = 4. - Distance(x, y, z, 13, 18, 18);
-        return Soft(
-          std::min(std::max(known(x, y, z), bubble), Distance(x, y, z, 30, 18, 18) - 2.6));
-      });
-    this->Coarse = MakeVolume(
-      20, [&](double x, double y, double z) { return Soft(known(1.8 * x, 1.8 * y, 1.8 * z)); });
-    this->Coarse.Image.Step = { 1.8, 1.8, 1.8 };
-    this->Coarse.Image.Unit = std::sqrt(3.);
-  }
+    return std::min(std::max(known(x, y, z), 4. - Distance(x, y, z, 13, 18, 18)),
+      Distance(x, y, z, 30, 18, 18) - 2.6);
+  };
+  return LevelPair(36, fine, known);
+}
 
-  /** As vtkDeformableSurface does it. @return how the last level ended. */
-  StopReason Run(SurfaceEvolution& evolution) const
+/** As vtkDeformableSurface does it. @return how the last level ended. */
+StopReason RunIn(const LevelPair& scene, SurfaceEvolution& evolution)
+{
+  evolution.StartEnclosing(scene.Coarse.Image, 1);
+  const StopReason reason = evolution.Run();
+  if (reason == StopReason::Cancelled || !evolution.Divide(scene.Fine.Image, 0))
   {
-    evolution.StartEnclosing(this->Coarse.Image, 1);
-    const StopReason reason = evolution.Run();
-    if (reason == StopReason::Cancelled || !evolution.Divide(this->Fine.Image, 0))
-    {
-      return reason;
-    }
-    return evolution.Run();
+    return reason;
   }
-};
+  return evolution.Run();
+}
 
-void ExpectValid(const SurfaceEvolution& evolution)
+/** @param isTold that the last row tells of it */
+void ExpectValid(const SurfaceEvolution& evolution, bool isTold)
 {
   const SurfaceResult surface = evolution.Result();
   EXPECT_FALSE(surface.Points.empty());
@@ -99,15 +82,17 @@ void ExpectValid(const SurfaceEvolution& evolution)
   mesh.Append(surface);
   EXPECT_EQ(DescribeBrokenInvariant(mesh), "");
   EXPECT_EQ(CountSelfIntersections(surface), 0);
+  const std::vector<HistoryRow>& rows = evolution.History();
+  EXPECT_TRUE(!isTold || rows.back().EulerCharacteristic == mesh.CountEulerCharacteristic());
 }
 }
 
 TEST(Cancelling, IsLookedAtInEveryPartOfALevel)
 {
-  const Scene scene;
+  const LevelPair scene = Scene();
   StopAt silent;
   SurfaceEvolution evolution(Options(), Threads, silent);
-  ASSERT_EQ(scene.Run(evolution), StopReason::Converged);
+  ASSERT_EQ(RunIn(scene, evolution), StopReason::Converged);
   ASSERT_EQ(evolution.Lost().Enclosed, 1);
   ASSERT_EQ(evolution.Lost().EnclosedCavities, 1);
   EXPECT_TRUE(std::is_sorted(silent.Fractions.begin(), silent.Fractions.end()))
@@ -134,7 +119,7 @@ TEST(Cancelling, IsLookedAtInEveryPartOfALevel)
         std::to_string(static_cast<int>(where.second)) + ", question " + std::to_string(question));
       StopAt monitor(where.first, where.second, question);
       SurfaceEvolution stopped(Options(), Threads, monitor);
-      const StopReason reason = scene.Run(stopped);
+      const StopReason reason = RunIn(scene, stopped);
       ASSERT_TRUE(monitor.HasStopped);
       EXPECT_TRUE(stopped.IsStopped());
       // Before anything of the fine level is done, the coarse one is at rest.
@@ -142,45 +127,7 @@ TEST(Cancelling, IsLookedAtInEveryPartOfALevel)
         where.first == 1 && where.second == Activity::Regularising && question == count;
       EXPECT_EQ(reason, isBetween ? StopReason::Converged : StopReason::Cancelled);
       EXPECT_EQ(monitor.QuestionsAfter, 0);
-      ExpectValid(stopped);
+      ExpectValid(stopped, isIterating);
     }
-  }
-}
-
-TEST(Cancelling, LeavesTheHistoryExplained)
-{
-  const Scene scene;
-  StopAt monitor(0, Activity::Regularising, 4);
-  SurfaceEvolution evolution(Options(), Threads, monitor);
-  ASSERT_EQ(scene.Run(evolution), StopReason::Cancelled);
-  const HistoryRow& last = evolution.History().back();
-  const SurfaceFeatures features = ComputeFeatures(evolution.Result());
-  EXPECT_EQ(last.Vertices, static_cast<int>(evolution.Result().Points.size()));
-  EXPECT_EQ(last.EulerCharacteristic, features.EulerCharacteristic);
-}
-
-TEST(Cancelling, EndsTheSearchForLostParts)
-{
-  const Scene scene;
-  const Field field(scene.Fine.Image, Options(), Threads);
-  SurfaceState state;
-  state.Mesh = MakeSphere({ 13, 18, 18 }, 10., 1.2);
-  state.Sizing = SizingField(0.85f);
-  state.Reset(Vector(-2, -2, -2), Vector(38, 38, 38));
-  int questions = 0;
-  const auto count = [&questions](double) { return ++questions > 0; };
-  const LostPartCover all = FindLostParts(state, field, PartKind::Object, 20, Threads, count);
-  EXPECT_EQ(all.Found, 1);
-  EXPECT_FALSE(all.IsStopped);
-  ASSERT_GE(questions, 3);
-  for (int last = 1; last <= questions; ++last)
-  {
-    int asked = 0;
-    const auto stop = [&](double) { return ++asked < last; };
-    const LostPartCover none = FindLostParts(state, field, PartKind::Object, 20, Threads, stop);
-    EXPECT_TRUE(none.IsStopped);
-    EXPECT_EQ(none.Found, 0);
-    EXPECT_TRUE(none.Surface.Points.empty());
-    EXPECT_EQ(asked, last) << "not asked again";
   }
 }

@@ -42,15 +42,6 @@ double Volume(const IndexedSurface& surface)
 }
 }
 
-TEST(CellSurface, OneCellIsATruncatedOctahedron)
-{
-  constexpr double edge = 1.7;
-  const IndexedSurface surface = CellLattice(edge).Boundary({ { 0, 0, 0 } });
-  EXPECT_EQ(surface.Points.size(), 24u + 8u) << "corners, and centres of the hexagons";
-  EXPECT_EQ(surface.Triangles.size(), 6u * 2u + 8u * 6u);
-  EXPECT_NEAR(Volume(surface), 8. * std::sqrt(2.) * edge * edge * edge, 1e-9);
-}
-
 TEST(CellSurface, PointsLieInTheCellWhoseCentreIsNearest)
 {
   const CellLattice lattice(0.9);
@@ -68,24 +59,6 @@ TEST(CellSurface, PointsLieInTheCellWhoseCentreIsNearest)
       EXPECT_LE(own, Distance(p, lattice.Centre(other)) + 1e-12);
     }
   }
-}
-
-TEST(CellSurface, CornersAreThoseOfTheBoundary)
-{
-  const CellLattice lattice(1.3);
-  const CellLattice::Cell cell = { 3, -1, 5 };
-  const IndexedSurface surface = lattice.Boundary({ cell });
-  std::set<Point> corners;
-  for (int i = 0; i < CellLattice::NumberOfCorners; ++i)
-  {
-    const Point corner = lattice.Corner(cell, i);
-    corners.insert(corner);
-    EXPECT_NE(std::find(surface.Points.begin(), surface.Points.end(), corner),
-      surface.Points.end());
-    EXPECT_NEAR(
-      Distance(corner, lattice.Centre(cell)), 1.3 * CellLattice::Circumradius, 1e-9);
-  }
-  EXPECT_EQ(corners.size(), 24u);
 }
 
 TEST(CellSurface, AnySetOfCellsHasAClosedManifoldBoundaryWithoutIntersections)
@@ -130,9 +103,4 @@ TEST(CellSurface, EdgesAndDistancesRespectTheConstraints)
       }
     }
   }
-}
-
-TEST(CellSurface, NoCellsHaveNoSurface)
-{
-  EXPECT_TRUE(CellLattice(1.).Boundary({}).Triangles.empty());
 }

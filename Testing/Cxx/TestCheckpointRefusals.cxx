@@ -4,7 +4,6 @@
 // Checkpoints that are not believed, and those that could not be left.
 #include "CheckpointTestTools.h"
 
-#include <filesystem>
 #include <fstream>
 
 using namespace volumic;
@@ -75,30 +74,6 @@ TEST_F(Checkpoints, OfAnotherVolumeAreRefused)
   EXPECT_TRUE(Has(this->ErrorOfResuming(), "not the same size of the volume"));
   this->Image = CheckpointScene();
   EXPECT_EQ(this->Resume()->GetResumedLevel(), 1);
-}
-
-TEST_F(Checkpoints, OfAnotherPyramidAreRefused)
-{
-  const auto run = [this](vtkDataObject* pyramid, bool stops)
-  {
-    auto filter = vtkSmartPointer<vtkDeformableSurface>::New();
-    filter->SetInputDataObject(pyramid);
-    filter->SetIsoValue(50.0);
-    filter->SetScratchDirectory(this->Folder.Path().c_str());
-    filter->SetResume(!stops);
-    const StopAtText stop(filter, stops ? "Level 0, iteration 5" : "never", 1);
-    const MessagesOf errors(filter);
-    filter->Update();
-    return errors.Get();
-  };
-  const auto pyramid = PyramidOf(this->Image);
-  run(pyramid->GetOutput(), true);
-  vtkNew<vtkMultiBlockDataSet> other;
-  other->DeepCopy(pyramid->GetOutput());
-  Voxels(Level(other, 2))->SetComponent(99, 0, 7.0);
-  const std::string error = run(other, false);
-  EXPECT_TRUE(Has(error, "not the same levels of the pyramid"));
-  EXPECT_EQ(run(pyramid->GetOutput(), false), "");
 }
 
 TEST_F(Checkpoints, AreRefusedWhereTheyAreDamaged)

@@ -2,42 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CheckpointTestTools.h"
 
-#include <vtkTable.h>
-#include <vtkVariant.h>
-
 using namespace volumic;
-
-TEST_F(Checkpoints, AreGoneWhenTheRunIsOver)
-{
-  const auto filter = this->NewFilter();
-  filter->Update();
-  EXPECT_EQ(this->Folder.Names(), std::set<std::string>());
-  EXPECT_EQ(filter->GetCheckpointFolder(), "");
-  ExpectSameOutputs(filter, this->Uninterrupted());
-}
-
-TEST_F(Checkpoints, ArePartOfNoRunWithoutAScratchDirectory)
-{
-  const auto filter = SurfaceOf<vtkVolumeToSurface>(this->Image,
-    [](vtkVolumeToSurface* f) { f->LeaveCheckpoints(); });
-  EXPECT_EQ(filter->GetCheckpointFolder(), "");
-}
 
 TEST_F(Checkpoints, GiveTheBitsOfARunThatWasNeverStopped)
 {
-  const Choice choices[] = { [](vtkDeformableSurface*) {},
-    [](vtkDeformableSurface* filter)
-    {
-      filter->SetSnapshotInterval(7);
-      filter->SetProfile(true);
-    },
-    [](vtkDeformableSurface* filter) { filter->SetRecovery(vtkDeformableSurface::NoRecovery); },
-    [](vtkDeformableSurface* filter) { filter->SetInitializationToSeeds(); },
-    [](vtkDeformableSurface* filter) { filter->SetKeepComponentsToLargestComponent(); },
-    [](vtkDeformableSurface* filter) { filter->SetMaximumNumberOfIterations(12); },
-    [](vtkDeformableSurface* filter) { filter->SetMetricToVoxels(); },
-    [](vtkDeformableSurface* filter) { filter->SetEdgeLength(1.6); },
-    [](vtkDeformableSurface* filter) { filter->SetTolerance(0.2); } };
+  std::vector<Choice> choices = ChoicesOfRuns();
+  choices.emplace_back([](vtkDeformableSurface* filter) { filter->SetMetricToVoxels(); });
+  choices.emplace_back([](vtkDeformableSurface* filter) { filter->SetEdgeLength(1.6); });
+  choices.emplace_back([](vtkDeformableSurface* filter) { filter->SetTolerance(0.2); });
   int number = 0;
   for (const Choice& choose : choices)
   {
@@ -69,16 +41,6 @@ TEST_F(Checkpoints, AreLeftByARunThatHasGoneOn)
   EXPECT_EQ(this->Folder.Names(), std::set<std::string>());
   EXPECT_EQ(again->GetResumedLevel(), 1);
   ExpectSameOutputs(again, this->Uninterrupted(snapshots));
-  this->StopARun(snapshots, "Level 1, iteration 5");
-  {
-    const auto third = this->NewFilter(snapshots);
-    third->ResumeOn();
-    const StopAtText stop(third, "Level 0, division", 1);
-    third->Update();
-  }
-  const auto last = this->Resume(snapshots);
-  EXPECT_EQ(last->GetResumedLevel(), 1);
-  ExpectSameOutputs(last, this->Uninterrupted(snapshots));
 }
 
 TEST_F(Checkpoints, ServeOtherEndsThreadsAndProfiles)
@@ -192,29 +154,4 @@ TEST_F(Checkpoints, AreLeftByPreviewsAndLevelsThatAreShown)
   const auto resumed = this->Resume(finer);
   EXPECT_EQ(resumed->GetResumedLevel(), 0);
   ExpectSameOutputs(resumed, this->Uninterrupted(finer));
-}
-
-TEST_F(Checkpoints, KeepTheSecondsOfTheLevelsThatWereTakenOver)
-{
-  std::vector<double> before;
-  {
-    const auto filter = this->NewFilter();
-    const StopAtText stop(filter, "Level 0, iteration 5", 1);
-    filter->Update();
-    vtkTable* history = filter->GetHistory();
-    for (vtkIdType r = 0; r < history->GetNumberOfRows(); ++r)
-    {
-      if (history->GetValueByName(r, "Level").ToDouble() > 0)
-      {
-        before.push_back(history->GetValueByName(r, "Seconds").ToDouble());
-      }
-    }
-  }
-  const auto filter = this->Resume();
-  ASSERT_GT(filter->GetHistory()->GetNumberOfRows(), static_cast<vtkIdType>(before.size()));
-  for (std::size_t r = 0; r < before.size(); ++r)
-  {
-    const auto row = static_cast<vtkIdType>(r);
-    EXPECT_EQ(filter->GetHistory()->GetValueByName(row, "Seconds").ToDouble(), before[r]);
-  }
 }

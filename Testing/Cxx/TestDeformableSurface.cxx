@@ -2,9 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfaceTestTools.h"
 
-#include <sstream>
-#include <vector>
-
 using namespace volumic;
 
 TEST(DeformableSurface, FindsABallInAnImage)
@@ -16,16 +13,6 @@ TEST(DeformableSurface, FindsABallInAnImage)
   EXPECT_EQ(FieldOf(filter->GetOutput(), "NumberOfComponents"), 1);
   EXPECT_EQ(FieldOf(filter->GetOutput(), "Genus"), 0);
   EXPECT_EQ(FieldOf(filter->GetOutput(), "EulerCharacteristic"), 2);
-}
-
-TEST(DeformableSurface, AnImageGivesWhatItsPyramidGives)
-{
-  const auto image = BallImage(40, 40, 40);
-  const auto pyramid = PyramidOf(image);
-  const auto fromPyramid = SurfaceOf(pyramid->GetOutput());
-  const auto fromImage = SurfaceOf(image);
-  ASSERT_GT(fromImage->GetOutput()->GetNumberOfPoints(), 0);
-  EXPECT_TRUE(AreSameSurfaces(fromPyramid->GetOutput(), fromImage->GetOutput()));
 }
 
 TEST(DeformableSurface, ComesBackToWorldCoordinates)
@@ -44,42 +31,6 @@ TEST(DeformableSurface, ComesBackToWorldCoordinates)
   image->TransformContinuousIndexToPhysicalPoint(index, centre);
   ExpectSphere(filter->GetOutput(), centre, 0.3 * 36 * 0.5, 0.1);
   EXPECT_NEAR(FieldOf(filter->GetOutput(), "Unit"), 0.5, 1e-12);
-}
-
-TEST(DeformableSurface, IsOutwardInAMirroredImageToo)
-{
-  const auto image = BallImage(40, 40, 40);
-  const double mirror[9] = { -1, 0, 0, 0, 1, 0, 0, 0, 1 };
-  image->SetDirectionMatrix(mirror);
-  const double centre[3] = { -19.5, 19.5, 19.5 };
-  ExpectSphere(SurfaceOf(image)->GetOutput(), centre, BallRadius, 0.2);
-}
-
-TEST(DeformableSurface, FollowsAnisotropicVoxels)
-{
-  const auto image = BallImage(40, 40, 40);
-  image->SetSpacing(1, 1, 2.5);
-  const auto filter = SurfaceOf(image);
-  vtkPolyData* surface = filter->GetOutput();
-  ASSERT_GT(surface->GetNumberOfPoints(), 100);
-  double bounds[6];
-  surface->GetBounds(bounds);
-  EXPECT_NEAR(bounds[1] - bounds[0], 2 * BallRadius, 0.6);
-  EXPECT_NEAR(bounds[5] - bounds[4], 2.5 * 2 * BallRadius, 1.5);
-  EXPECT_EQ(OpenOrNonManifoldEdges(surface), 0);
-  EXPECT_EQ(FieldOf(surface, "Genus"), 0);
-}
-
-TEST(DeformableSurface, FindsDarkObjects)
-{
-  const auto image = BallImage(40, 40, 40);
-  vtkDataArray* voxels = image->GetPointData()->GetScalars();
-  for (vtkIdType i = 0; i < voxels->GetNumberOfTuples(); ++i)
-  {
-    voxels->SetComponent(i, 0, 100.0 - voxels->GetComponent(i, 0));
-  }
-  const auto filter = SurfaceOf(image, [](vtkDeformableSurface* f) { f->ObjectIsBrightOff(); });
-  ExpectSphere(filter->GetOutput(), BallCentre, BallRadius, 0.2);
 }
 
 TEST(DeformableSurface, ClosesAtTheBorderOfTheImage)
@@ -107,28 +58,5 @@ TEST(DeformableSurface, IsTheSameBitsForAnyNumberOfThreadsAndAnyRun)
       [&](vtkDeformableSurface* f) { f->SetNumberOfThreads(threads); });
     ASSERT_GT(other->GetOutput()->GetNumberOfPoints(), 0);
     EXPECT_TRUE(AreSameSurfaces(other->GetOutput(), one->GetOutput())) << threads << " threads";
-  }
-}
-
-TEST(DeformableSurface, StopsAtTheIterationLimit)
-{
-  const auto filter = SurfaceOf(BallImage(40, 40, 40),
-    [](vtkDeformableSurface* f) { f->SetMaximumNumberOfIterations(3); });
-  EXPECT_EQ(StopReason(filter->GetOutput()), "iteration limit");
-  EXPECT_EQ(FieldOf(filter->GetOutput(), "Iterations"), 3);
-  EXPECT_EQ(OpenOrNonManifoldEdges(filter->GetOutput()), 0);
-}
-
-TEST(DeformableSurface, PrintsItsProperties)
-{
-  vtkNew<vtkDeformableSurface> filter;
-  std::ostringstream text;
-  filter->Print(text);
-  for (const char* property :
-    { "IsoValue: nan", "ObjectIsBright: 1", "Initialization: 0", "CoarsestLevel: -1",
-      "FinestLevel: 0", "GradientWeight: 0", "BorderValue: 0", "TopologyChanges: 1",
-      "MaximumNumberOfIterations: 1000", "SnapToIsoValue: 1", "NumberOfThreads: 0" })
-  {
-    EXPECT_TRUE(Has(text.str(), property)) << property;
   }
 }

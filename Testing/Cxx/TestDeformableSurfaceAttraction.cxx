@@ -5,7 +5,6 @@
 #include <vtkCellArray.h>
 #include <vtkDoubleArray.h>
 #include <vtkIntArray.h>
-#include <vtkPoints.h>
 
 using namespace volumic;
 
@@ -82,21 +81,6 @@ TEST_F(DeformableSurfaceAttraction, RadiusAndWeightCount)
   EXPECT_NEAR(this->Bump(), 0.0, 0.3);
 }
 
-TEST_F(DeformableSurfaceAttraction, RadiusIsInWorldUnits)
-{
-  this->Points->GetPoints()->InsertNextPoint(26.5, 15.5, 15.5);
-  this->SetArray<vtkDoubleArray>("Radius", { 4.0 });
-  const double bump = this->Bump();
-  this->Image->SetSpacing(0.5, 0.5, 0.5);
-  this->Points->GetPoints()->SetPoint(0, 13.25, 7.75, 7.75);
-  this->SetArray<vtkDoubleArray>("Radius", { 2.0 });
-  this->Points->Modified();
-  this->Filter->Update();
-  double bounds[6];
-  this->Filter->GetOutput()->GetBounds(bounds);
-  EXPECT_NEAR(2.0 * bounds[1] - (15.5 + 9.6), bump, 1e-3);
-}
-
 TEST_F(DeformableSurfaceAttraction, VerticesCountWhereThereAreSome)
 {
   this->Points->GetPoints()->InsertNextPoint(26.5, 15.5, 15.5);
@@ -108,19 +92,6 @@ TEST_F(DeformableSurfaceAttraction, VerticesCountWhereThereAreSome)
   double bounds[6];
   this->Filter->GetOutput()->GetBounds(bounds);
   EXPECT_GT(bounds[5], 15.5 + 9.6 + 1.4);
-}
-
-TEST_F(DeformableSurfaceAttraction, APointOfTwoVerticesCountsOnce)
-{
-  this->Points->GetPoints()->InsertNextPoint(26.5, 15.5, 15.5);
-  this->SetArray<vtkDoubleArray>("Weight", { 0.4 });
-  this->Points->SetVerts(vtkNew<vtkCellArray>());
-  const vtkIdType id = 0;
-  this->Points->GetVerts()->InsertNextCell(1, &id);
-  const double once = this->Bump();
-  this->Points->GetVerts()->InsertNextCell(1, &id);
-  this->Points->Modified();
-  EXPECT_EQ(this->Bump(), once);
 }
 
 TEST_F(DeformableSurfaceAttraction, LinesWithoutVerticesAreRefused)

@@ -132,26 +132,6 @@ protected:
 };
 }
 
-TEST_F(DeformableSurfaceComponents, AllAreThereByDefault)
-{
-  ExpectVolumes(
-    this->Volumes(), { this->Outside, this->Cavity, this->Beside, this->Inner });
-}
-
-TEST_F(DeformableSurfaceComponents, SeedsFindCavitiesToo)
-{
-  // As the documents say: not only Recovery does.
-  this->Filter->SetInitializationToSeeds();
-  this->Filter->SetRecovery(vtkDeformableSurface::NoRecovery);
-  this->SetSeed(6, 16, 16);
-  ExpectVolumes(this->Volumes(), { this->Outside, this->Cavity });
-  this->Filter->SetInitializationToEnclosingIcosahedron();
-  for (const double volume : this->Volumes())
-  {
-    EXPECT_GT(volume, 0) << "from outside no cavity is found";
-  }
-}
-
 TEST_F(DeformableSurfaceComponents, TheLargestComesWithItsCavity)
 {
   this->Filter->SetKeepComponentsToLargestComponent();
@@ -204,21 +184,6 @@ TEST_F(DeformableSurfaceComponents, PointsKnownToBelongToTheObjectChooseToo)
   ExpectVolumes(this->Volumes(), { this->Beside, this->Inner });
 }
 
-TEST_F(DeformableSurfaceComponents, OfPointsWithVerticesOnlyThoseChoose)
-{
-  const auto known = PointsAt({ { 38, 16, 16 }, { 16, 16, 17 } });
-  known->SetVerts(vtkNew<vtkCellArray>());
-  const vtkIdType id = 1;
-  known->GetVerts()->InsertNextCell(1, &id);
-  this->Filter->SetKeepComponentsToComponentsAtPoints();
-  this->Filter->SetPointAttractionWeight(0.0);
-  this->Filter->SetAttractingPointsData(known);
-  ExpectVolumes(this->Volumes(), { this->Inner });
-  this->Filter->SetAttractingPointsData(nullptr);
-  this->Filter->SetInitialSurfaceData(known);
-  ExpectVolumes(this->Volumes(), { this->Inner });
-}
-
 TEST_F(DeformableSurfaceComponents, LinesAreNoSeeds)
 {
   const auto line = PointsAt({ { 38, 16, 16 }, { 16, 16, 17 } });
@@ -236,15 +201,6 @@ TEST_F(DeformableSurfaceComponents, LinesAreNoSeeds)
     EXPECT_TRUE(errors.Has("Input port 1 (Initial Surface): ")) << errors.Get();
     EXPECT_TRUE(errors.Has("no vertices")) << errors.Get();
   }
-}
-
-TEST_F(DeformableSurfaceComponents, ASurfaceToStartFromHasNoSeeds)
-{
-  this->Filter->SetInitialSurfaceData(SphereAt({ 16, 16, 16 }, 5));
-  this->Filter->SetKeepComponentsToComponentsAtPoints();
-  MessagesOf errors(this->Filter);
-  this->Filter->Update();
-  EXPECT_TRUE(errors.Has("Keep Components is \"At Points\", but there are none")) << errors.Get();
 }
 
 TEST_F(DeformableSurfaceComponents, NothingAtThePointIsWarnedOf)
@@ -285,6 +241,8 @@ TEST_F(DeformableSurfaceComponents, WrongChoicesAreRefused)
   refused("Keep Components is 5");
   this->Filter->SetKeepComponentsToComponentsAtPoints();
   refused("input port 1");
+  this->Filter->SetInitialSurfaceData(SphereAt({ 16, 16, 16 }, 5));
+  refused("Keep Components is \"At Points\", but there are none");
   this->Filter->SetKeepComponentsToLargeComponents();
   this->Filter->SetMinimumComponentVolume(-1.0);
   refused("Minimum Component Volume is -1");

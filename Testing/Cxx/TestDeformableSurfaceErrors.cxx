@@ -1,21 +1,11 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfaceTestTools.h"
-#include "vtkDeformableSurface.h"
 
-#include <vtkAppendPolyData.h>
-#include <vtkCellArray.h>
-#include <vtkCleanPolyData.h>
-#include <vtkCubeSource.h>
-#include <vtkErrorCode.h>
 #include <vtkExecutive.h>
 #include <vtkImageCast.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
 #include <vtkReverseSense.h>
-#include <vtkSphereSource.h>
 #include <vtkTable.h>
-#include <vtkTriangleFilter.h>
 
 using namespace volumic;
 
@@ -39,38 +29,6 @@ protected:
     EXPECT_EQ(this->Filter->GetHistory()->GetNumberOfRows(), 0);
   }
 
-  void ExpectSurfaceError(vtkPolyData* surface, const std::vector<std::string>& parts)
-  {
-    this->Filter->SetInitializationToInputSurface();
-    this->Filter->SetInitialSurfaceData(surface);
-    this->ExpectError(parts);
-  }
-
-  static vtkSmartPointer<vtkPolyData> Ball(double x, double radius)
-  {
-    return SphereAt({ x, 16, 16 }, radius);
-  }
-
-  static vtkSmartPointer<vtkPolyData> Together(vtkPolyData* a, vtkPolyData* b)
-  {
-    vtkNew<vtkAppendPolyData> append;
-    append->AddInputData(a);
-    append->AddInputData(b);
-    append->Update();
-    vtkSmartPointer<vtkPolyData> both = append->GetOutput();
-    return both;
-  }
-
-  static vtkSmartPointer<vtkPolyData> WithoutCell(vtkPolyData* surface, vtkIdType cell)
-  {
-    auto copy = vtkSmartPointer<vtkPolyData>::New();
-    copy->DeepCopy(surface);
-    copy->BuildLinks();
-    copy->DeleteCell(cell);
-    copy->RemoveDeletedCells();
-    return copy;
-  }
-
   vtkSmartPointer<vtkMultiBlockDataSet> Pyramid()
   {
     const auto pyramid = PyramidOf(BallImage(32, 32, 32));
@@ -91,18 +49,66 @@ TEST_F(DeformableSurfaceErrors, NoInput)
   EXPECT_TRUE(errors.Has("Input port 0")) << errors.Get();
 }
 
-TEST_F(DeformableSurfaceErrors, IsoValueNotSetTellsTheRange)
+TEST_F(DeformableSurfaceErrors, WhatIsSetWrongIsNamedWithTheWayOut)
 {
-  this->Filter->SetIsoValue(std::nan(""));
-  this->ExpectError({ "Iso Value is not set", "range from 0 to 100" });
-}
-
-TEST_F(DeformableSurfaceErrors, IsoValueOutsideTheRangeTellsTheRange)
-{
-  for (const double iso : { -5.0, 100.0, 101.0, std::numeric_limits<double>::infinity() })
+  struct Case
   {
-    this->Filter->SetIsoValue(iso);
-    this->ExpectError({ "Iso Value is", "outside the range", "0 to 100" });
+    Choice Spoil;
+    std::vector<std::string> Parts;
+  };
+  const double infinite = std::numeric_limits<double>::infinity();
+  std::vector<Case> cases = {
+    { [](vtkDeformableSurface* f) { f->SetIsoValue(std::nan("")); },
+      { "Iso Value is not set", "range from 0 to 100" } },
+    { [](vtkDeformableSurface* f) { f->SetInputDataObject(RandomImage(64, 64, 1)); },
+      { "Input port 0", "2D", "64 x 64 x 1" } },
+    { [](vtkDeformableSurface* f) { f->SetInputDataObject(RandomImage(64, 7, 64)); },
+      { "Input port 0", "64 x 7 x 64", "at least 8" } },
+    { [](vtkDeformableSurface* f)
+      {
+        f->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Density");
+      },
+      { "no point array 'Density'", "'Voxels'" } },
+    { [](vtkDeformableSurface* f) { f->SetCoarsestLevel(5); },
+      { "Coarsest Level is 5", "levels 0 to 2" } },
+    { [](vtkDeformableSurface* f) { f->SetCoarsestLevel(1), f->SetFinestLevel(2); },
+      { "Finest Level is 2", "between 0 and the coarsest level, 1" } },
+    { [](vtkDeformableSurface* f) { f->SetFinestLevel(-2); },
+      { "Finest Level is -2", "or be -1 for a last division" } },
+    { [](vtkDeformableSurface* f) { f->SetInitialization(4); }, { "Initialization is 4", "0 to 3" } },
+    { [](vtkDeformableSurface* f) { f->SetBorderValue(2); }, { "Border Value is 2", "0 to 1" } },
+    { [](vtkDeformableSurface* f) { f->SetRecovery(-1); }, { "Recovery is -1" } },
+    { [](vtkDeformableSurface* f) { f->SetMaximumNumberOfIterations(0); },
+      { "Maximum Number Of Iterations" } },
+    { [](vtkDeformableSurface* f) { f->SetInitializationToInputSurface(); },
+      { "Input port 1", "no polygons" } },
+    { [](vtkDeformableSurface* f)
+      {
+        vtkNew<vtkReverseSense> reverse;
+        reverse->SetInputData(SphereAt({ 16, 16, 16 }, 10));
+        reverse->Update();
+        f->SetInitializationToInputSurface();
+        f->SetInitialSurfaceData(reverse->GetOutput());
+      },
+      { "Input port 1", "initial surface", "inside out" } },
+    { [](vtkDeformableSurface* f)
+      {
+        f->SetInitializationToSeeds();
+        f->SetInitialSurfaceData(SphereAt({ 16, 16, 16 }, 10));
+      },
+      { "Input port 1", "vertices" } },
+  };
+  for (const double iso : { -5.0, 100.0, 101.0, infinite })
+  {
+    cases.push_back({ [iso](vtkDeformableSurface* f) { f->SetIsoValue(iso); },
+      { "Iso Value is", "outside the range", "0 to 100" } });
+  }
+  for (const Case& test : cases)
+  {
+    SCOPED_TRACE(test.Parts.front());
+    const auto filter = FilterOf(BallImage(32, 32, 32), test.Spoil);
+    ExpectErrorOf(filter, test.Parts);
+    EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
   }
 }
 
@@ -131,18 +137,6 @@ TEST_F(DeformableSurfaceErrors, WhatVanishesGetsAWayOutThatThereIs)
   EXPECT_TRUE(warnings.Has("Nothing is left of the surface at level 0")) << warnings.Get();
   EXPECT_TRUE(warnings.Has("No level is finer: check Iso Value")) << warnings.Get();
   EXPECT_FALSE(warnings.Has("Set CoarsestLevel")) << warnings.Get();
-}
-
-TEST_F(DeformableSurfaceErrors, Image2D)
-{
-  this->Filter->SetInputDataObject(RandomImage(64, 64, 1));
-  this->ExpectError({ "Input port 0", "2D", "64 x 64 x 1" });
-}
-
-TEST_F(DeformableSurfaceErrors, ImageUnderEightVoxels)
-{
-  this->Filter->SetInputDataObject(RandomImage(64, 7, 64));
-  this->ExpectError({ "Input port 0", "64 x 7 x 64", "at least 8" });
 }
 
 TEST_F(DeformableSurfaceErrors, WhatThePyramidRefusesIsToldOnce)
@@ -186,12 +180,6 @@ TEST_F(DeformableSurfaceErrors, VoxelsTooLargeForSinglePrecision)
   }
 }
 
-TEST_F(DeformableSurfaceErrors, NamedArrayMissing)
-{
-  this->Filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Density");
-  this->ExpectError({ "no point array 'Density'", "'Voxels'" });
-}
-
 TEST_F(DeformableSurfaceErrors, BlocksThatAreNoPyramid)
 {
   struct Spoil
@@ -230,125 +218,6 @@ TEST_F(DeformableSurfaceErrors, BlocksThatAreNoPyramid)
     this->Filter->SetInputDataObject(blocks);
     this->ExpectError(spoil.Parts);
   }
-}
-
-TEST_F(DeformableSurfaceErrors, LevelsThatThereAreNot)
-{
-  this->Filter->SetCoarsestLevel(5);
-  this->ExpectError({ "Coarsest Level is 5", "levels 0 to 2" });
-  this->Filter->SetCoarsestLevel(1);
-  this->Filter->SetFinestLevel(2);
-  this->ExpectError({ "Finest Level is 2", "between 0 and the coarsest level, 1" });
-  this->Filter->SetFinestLevel(-2);
-  this->ExpectError({ "Finest Level is -2", "or be -1 for a last division" });
-}
-
-TEST_F(DeformableSurfaceErrors, NumbersOutsideTheirRange)
-{
-  struct Number
-  {
-    const char* Name;
-    void (vtkDeformableSurface::*Set)(double);
-    double Bad;
-    double Good;
-  };
-  using Surface = vtkDeformableSurface;
-  const std::vector<Number> numbers = {
-    { "Sampling Ratio", &Surface::SetSamplingRatio, 0.5, 0.85 },
-    { "Sampling Ratio", &Surface::SetSamplingRatio, 1.1, 0.85 },
-    { "Sampling Ratio", &Surface::SetSamplingRatio, std::nan(""), 0.85 },
-    { "Tension Weight", &Surface::SetTensionWeight, -1, 0.2 },
-    { "Elasticity Weight", &Surface::SetElasticityWeight, -0.1, 0.1 },
-    { "Isopotential Weight", &Surface::SetIsopotentialWeight, -1, 1 },
-    { "Gradient Weight", &Surface::SetGradientWeight, std::nan(""), 0 },
-    { "Friction", &Surface::SetFriction, 0, 3 },
-    { "Friction", &Surface::SetFriction, -1, 3 },
-    { "Convergence Tolerance", &Surface::SetConvergenceTolerance, -1, 1e-4 },
-    { "Seed Radius", &Surface::SetSeedRadius, -2, 0 },
-    { "Seed Radius", &Surface::SetSeedRadius, std::nan(""), 0 },
-  };
-  for (const Number& number : numbers)
-  {
-    (this->Filter->*number.Set)(number.Bad);
-    this->ExpectError({ number.Name });
-    (this->Filter->*number.Set)(number.Good);
-  }
-}
-
-TEST_F(DeformableSurfaceErrors, IntegersOutsideTheirRange)
-{
-  this->Filter->SetInitialization(4);
-  this->ExpectError({ "Initialization is 4", "0 to 3" });
-  this->Filter->SetInitialization(0);
-  this->Filter->SetBorderValue(2);
-  this->ExpectError({ "Border Value is 2", "0 to 1" });
-  this->Filter->SetBorderValue(0);
-  this->Filter->SetRecovery(-1);
-  this->ExpectError({ "Recovery is -1" });
-  this->Filter->SetRecovery(0);
-  this->Filter->SetMaximumNumberOfIterations(0);
-  this->ExpectError({ "Maximum Number Of Iterations" });
-}
-
-TEST_F(DeformableSurfaceErrors, NoInitialSurface)
-{
-  this->Filter->SetInitializationToInputSurface();
-  this->ExpectError({ "Input port 1", "no polygons" });
-  this->ExpectSurfaceError(vtkNew<vtkPolyData>(), { "Input port 1", "no polygons" });
-}
-
-TEST_F(DeformableSurfaceErrors, OpenInitialSurface)
-{
-  this->ExpectSurfaceError(
-    WithoutCell(Ball(16, 10), 7), { "Input port 1", "initial surface", "open" });
-}
-
-TEST_F(DeformableSurfaceErrors, NonManifoldInitialSurface)
-{
-  // Two tetrahedra that share an edge: closed, but four triangles meet there.
-  const auto glued = PointsAt({ { 16, 16, 10 }, { 16, 16, 22 }, { 8, 10, 16 }, { 8, 22, 16 },
-    { 24, 22, 16 }, { 24, 10, 16 } });
-  const vtkIdType triangles[8][3] = { { 0, 1, 2 }, { 0, 3, 1 }, { 0, 2, 3 }, { 1, 3, 2 },
-    { 0, 1, 4 }, { 0, 5, 1 }, { 0, 4, 5 }, { 1, 5, 4 } };
-  vtkNew<vtkCellArray> cells;
-  for (const auto& triangle : triangles)
-  {
-    cells->InsertNextCell(3, triangle);
-  }
-  glued->SetPolys(cells);
-  this->ExpectSurfaceError(glued, { "Input port 1", "manifold" });
-}
-
-TEST_F(DeformableSurfaceErrors, InsideOutInitialSurface)
-{
-  vtkNew<vtkReverseSense> reverse;
-  reverse->SetInputData(Ball(16, 10));
-  reverse->Update();
-  this->ExpectSurfaceError(reverse->GetOutput(), { "Input port 1", "inside out" });
-}
-
-TEST_F(DeformableSurfaceErrors, SelfIntersectingInitialSurface)
-{
-  this->ExpectSurfaceError(Together(Ball(12, 7), Ball(20, 7)), { "Input port 1", "intersect" });
-}
-
-TEST_F(DeformableSurfaceErrors, InitialSurfaceOutsideTheImage)
-{
-  this->ExpectSurfaceError(Ball(100, 10), { "Input port 1", "outside the image" });
-}
-
-TEST_F(DeformableSurfaceErrors, SeedsOutsideTheImage)
-{
-  this->Filter->SetInitializationToSeeds();
-  this->Filter->SetInitialSurfaceData(PointsAt({ { 16, 16, 16 }, { 16, 16, 99 } }));
-  this->ExpectError({ "Input port 1", "Seed 1", "outside the image" });
-}
-
-TEST_F(DeformableSurfaceErrors, SeedsThatAreASurface)
-{
-  this->Filter->SetInitializationToSeeds();
-  this->Filter->SetInitialSurfaceData(Ball(16, 10));
-  this->ExpectError({ "Input port 1", "vertices" });
 }
 
 TEST_F(DeformableSurfaceErrors, GoodThenBadThenGoodAgain)

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfaceTestTools.h"
 
-#include <vtkPoints.h>
-
 using namespace volumic;
 
 namespace
@@ -92,13 +90,6 @@ TEST_F(DeformableSurfacePositions, SeedsAreThoseOfThePortAndOfTheList)
   this->Other->SetInitialSurfaceData(PointsAt({ InLeft, InRight }));
   this->Other->Update();
   EXPECT_TRUE(AreSameSurfaces(this->Filter->GetOutput(), this->Other->GetOutput()));
-}
-
-TEST_F(DeformableSurfacePositions, SeedsCountOnlyWhereItStartsFromSeeds)
-{
-  const double far = 1e6;
-  this->Filter->AddSeedPosition(far, far, far);
-  EXPECT_EQ(this->Components(), 2);
 }
 
 TEST_F(DeformableSurfacePositions, PointsAttractAsThoseOfThePortDo)

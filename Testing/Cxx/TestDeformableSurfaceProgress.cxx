@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfaceTestTools.h"
 
-#include <vtkDataObject.h>
-#include <vtkFloatArray.h>
 #include <vtkTable.h>
 
 using namespace volumic;
@@ -24,24 +22,6 @@ TEST(DeformableSurfaceProgress, GrowsAndNamesLevelAndIteration)
   };
   EXPECT_TRUE(has("Level 2, iteration 5, "));
   EXPECT_TRUE(has("Level 0, iteration "));
-}
-
-TEST(DeformableSurfaceProgress, CancellingHandsOverAValidSurface)
-{
-  const auto filter = FilterOf(BallImage(40, 40, 40));
-  ProgressListener listener(filter);
-  listener.StopAt = 0.1;
-  filter->Update();
-  vtkPolyData* surface = filter->GetOutput();
-  ASSERT_GT(surface->GetNumberOfPoints(), 0);
-  EXPECT_EQ(StopReason(surface), "cancelled");
-  vtkNew<vtkFeatureEdges> edges;
-  edges->SetInputData(surface);
-  edges->FeatureEdgesOff();
-  edges->NonManifoldEdgesOn();
-  edges->Update();
-  EXPECT_EQ(edges->GetOutput()->GetNumberOfCells(), 0);
-  EXPECT_FALSE(filter->GetLevels()->GetBlock(0)) << "levels that were not reached are empty";
 }
 
 namespace
@@ -113,66 +93,4 @@ TEST(DeformableSurfaceProgress, CancellingBeforeThereIsASurfaceHandsOverAnEmptyO
     EXPECT_EQ(filter->GetHistory()->GetNumberOfRows(), 0);
     EXPECT_EQ(filter->GetHistory()->GetNumberOfColumns(), 27);
   }
-}
-
-TEST(DeformableSurfaceProgress, CancellingEndsTheInnerPyramidWithinALevel)
-{
-  auto image = vtkSmartPointer<vtkImageData>::New();
-  image->SetDimensions(256, 256, 128);
-  image->AllocateScalars(VTK_UNSIGNED_CHAR, 1);
-  image->GetPointData()->GetScalars()->FillComponent(0, 1);
-  vtkNew<vtkDeformableSurface> filter;
-  filter->SetInputData(image);
-  filter->SetIsoValue(0.5);
-  ProgressListener listener(filter);
-  listener.StopAt = 1e-3;
-  const MessagesOf errors(filter);
-  filter->Update();
-  EXPECT_EQ(errors.Get(), "");
-  EXPECT_EQ(StopReason(filter->GetOutput()), "cancelled");
-  for (const double share : listener.Shares)
-  {
-    EXPECT_TRUE(share < 0.02 || share == 1.0) << share << ", beyond the pyramid's share";
-  }
-}
-
-TEST(DeformableSurfaceProgress, CancellingEndsThePyramidOfTheMapOfEdges)
-{
-  auto image = BallImage(40, 40, 40);
-  vtkNew<vtkFloatArray> edges;
-  edges->SetName("Edges");
-  edges->DeepCopy(image->GetPointData()->GetScalars());
-  edges->SetName("Edges");
-  image->GetPointData()->AddArray(edges);
-  const auto pyramid = PyramidOf(image);
-  vtkNew<vtkDeformableSurface> filter;
-  filter->SetInputConnection(pyramid->GetOutputPort());
-  filter->SetIsoValue(50.0);
-  filter->SetEdgeAttractionWeight(1.0);
-  filter->SetInputArrayToProcess(1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Edges");
-  const StopAtText stop(filter, "Pyramid of the map of edges", 1);
-  const MessagesOf errors(filter);
-  filter->Update();
-  EXPECT_LE(stop.Left, 0);
-  EXPECT_EQ(errors.Get(), "");
-  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
-  EXPECT_EQ(StopReason(filter->GetOutput()), "cancelled");
-  filter->RemoveAllObservers();
-}
-
-TEST(DeformableSurfaceProgress, RunsToTheEndAfterACancelledRun)
-{
-  const auto filter = FilterOf(BallImage(40, 40, 40));
-  ProgressListener listener(filter);
-  listener.StopAt = 0.05;
-  filter->Update();
-  ASSERT_EQ(StopReason(filter->GetOutput()), "cancelled");
-  EXPECT_EQ(filter->GetErrorCode(), 0u);
-  listener.StopAt = 2.0;
-  filter->Update();
-  ASSERT_EQ(StopReason(filter->GetOutput()), "cancelled") << "what follows can show or write it";
-  // Nobody takes the request back, as in ParaView.
-  filter->Modified();
-  filter->Update();
-  EXPECT_EQ(StopReason(filter->GetOutput()), "converged");
 }

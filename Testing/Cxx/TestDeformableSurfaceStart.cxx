@@ -2,59 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfaceTestTools.h"
 
-#include <vtkCleanPolyData.h>
-#include <vtkCylinderSource.h>
-#include <vtkPoints.h>
-#include <vtkSphereSource.h>
 #include <vtkTable.h>
 
 using namespace volumic;
-
-TEST(DeformableSurfaceStart, StartsFromTheIsoSurface)
-{
-  const auto filter = SurfaceOf(BallImage(40, 40, 40),
-    [](vtkDeformableSurface* f) { f->SetInitializationToIsoSurface(); });
-  ExpectSphere(filter->GetOutput(), BallCentre, BallRadius, 0.2);
-  const auto enclosing = SurfaceOf(BallImage(40, 40, 40));
-  EXPECT_LT(FieldOf(SurfaceAt(filter, 2), "Iterations"),
-    FieldOf(SurfaceAt(enclosing, 2), "Iterations"));
-}
-
-TEST(DeformableSurfaceStart, StartsFromSeeds)
-{
-  const auto filter = SurfaceOf(BallImage(40, 40, 40),
-    [](vtkDeformableSurface* f) { f->SetInitializationToSeeds(); });
-  ExpectSphere(filter->GetOutput(), BallCentre, BallRadius, 0.2);
-  filter->SetInitialSurfaceData(PointsAt({ { 21, 18, 20 } }));
-  filter->Update();
-  ExpectSphere(filter->GetOutput(), BallCentre, BallRadius, 0.2);
-}
-
-TEST(DeformableSurfaceStart, SeedsHaveTheRadiusThatTheHeaderSays)
-{
-  const auto filter = FilterOf(BallImage(40, 40, 40));
-  filter->SetCoarsestLevel(0);
-  filter->SetInitializationToSeeds();
-  filter->SetInitialSurfaceData(PointsAt({ { 20, 20, 20 } }));
-  filter->SetMaximumNumberOfIterations(1);
-  filter->SetSnapshotInterval(2); // that of the start only
-  const double delta = 0.85;
-  const double radii[3][2] = { { 0, 1.2 * delta }, { 0.1, 0.96 * delta }, { 3, 3 } };
-  for (const auto& [radius, expected] : radii)
-  {
-    filter->SetSeedRadius(radius);
-    filter->Update();
-    ASSERT_EQ(filter->GetSnapshots()->GetNumberOfBlocks(), 1u);
-    auto* start = vtkPolyData::SafeDownCast(filter->GetSnapshots()->GetBlock(0));
-    for (vtkIdType i = 0; i < start->GetNumberOfPoints(); ++i)
-    {
-      const double centre[3] = { 20, 20, 20 };
-      const double distance =
-        std::sqrt(vtkMath::Distance2BetweenPoints(start->GetPoint(i), centre));
-      ASSERT_NEAR(distance, expected, 0.05 * expected);
-    }
-  }
-}
 
 TEST(DeformableSurfaceStart, StartsFromAGivenSurface)
 {
@@ -68,25 +18,6 @@ TEST(DeformableSurfaceStart, StartsFromAGivenSurface)
   filter->SetInitialSurfaceConnection(sphere->GetOutputPort());
   filter->Update();
   ExpectSphere(filter->GetOutput(), BallCentre, BallRadius, 0.2);
-}
-
-TEST(DeformableSurfaceStart, StartsFromAnIsoSurfaceThroughVoxels)
-{
-  // All voxels within a shell have the iso-value itself.
-  const auto image = BallImage(40, 40, 40);
-  vtkDataArray* voxels = image->GetPointData()->GetScalars();
-  for (vtkIdType voxel = 0; voxel < voxels->GetNumberOfTuples(); ++voxel)
-  {
-    const double value = voxels->GetComponent(voxel, 0);
-    voxels->SetComponent(voxel, 0, value < 25.0 ? 0.0 : (value > 75.0 ? 100.0 : 50.0));
-  }
-  const auto filter = FilterOf(image);
-  filter->SetInitializationToIsoSurface();
-  filter->SetCoarsestLevel(0);
-  filter->Update();
-  EXPECT_EQ(FieldOf(filter->GetOutput(), "NumberOfComponents"), 1);
-  EXPECT_EQ(FieldOf(filter->GetOutput(), "Genus"), 0);
-  ExpectSphere(filter->GetOutput(), BallCentre, BallRadius, 0.6);
 }
 
 namespace
@@ -127,16 +58,7 @@ TEST(DeformableSurfaceStart, FindsCavitiesOnRequest)
 {
   // A bubble in the ball, which no surface from outside comes into.
   const auto image = BallImage(64, 64, 64, 0.4);
-  vtkDataArray* voxels = image->GetPointData()->GetScalars();
-  ForVoxels({ 64, 64, 64 },
-    [&](int i, int j, int k)
-    {
-      const double distance = std::hypot(i - 30.0, j - 32.0, k - 33.0);
-      const vtkIdType voxel = (k * 64 + j) * 64 + i;
-      voxels->SetComponent(voxel, 0,
-        std::min(voxels->GetComponent(voxel, 0),
-          std::clamp(50.0 + 25.0 * (distance - 9.0), 0.0, 100.0)));
-    });
+  FillBox(image, { 24, 25, 26 }, { 39, 40, 41 }, 0.0);
   for (int recovery :
     { vtkDeformableSurface::RecoverObjects, vtkDeformableSurface::RecoverObjectsAndCavities })
   {
@@ -157,8 +79,7 @@ TEST(DeformableSurfaceStart, FindsCavitiesOnRequest)
       }
       EXPECT_EQ(cavities, 1);
       vtkDataArray* volumes = surface->GetFieldData()->GetArray("ComponentVolume");
-      const double bubble = -4.0 / 3.0 * vtkMath::Pi() * std::pow(9.0, 3);
-      EXPECT_NEAR(volumes->GetComponent(1, 0) / bubble, 1.0, 0.05);
+      EXPECT_NEAR(volumes->GetComponent(1, 0) / std::pow(-15.0, 3), 1.0, 0.08);
     }
   }
 }
@@ -309,77 +230,19 @@ TEST(DeformableSurfaceStart, StartsFromTheIsoSurfaceWhereAllVoxelsAreObject)
 TEST(DeformableSurfaceStart, TakesAllThatThePyramidMakes)
 {
   // The third axis is down to one voxel, and stays so, while the others still shrink.
-  auto image = vtkSmartPointer<vtkImageData>::New();
-  image->DeepCopy(BallImage(70, 60, 12, 0.4));
-  for (const bool byNumber : { true, false })
-  {
-    vtkNew<vtkImagePyramid> pyramid;
-    pyramid->SetInputData(image);
-    pyramid->SetNumberOfLevels(byNumber ? 8 : 0);
-    pyramid->SetMinimumLevelSize(1);
-    pyramid->Update();
-    ASSERT_GE(pyramid->GetOutput()->GetNumberOfBlocks(), 8u);
-    const int* size = Level(pyramid->GetOutput(), 6)->GetDimensions();
-    ASSERT_EQ(size[2], 1);
-    ASSERT_EQ(Level(pyramid->GetOutput(), 5)->GetDimensions()[2], 1);
-    ASSERT_GT(size[0], 1);
-    vtkNew<vtkDeformableSurface> filter;
-    filter->SetInputConnection(pyramid->GetOutputPort());
-    filter->SetIsoValue(50.0);
-    const MessagesOf errors(filter);
-    filter->Update();
-    EXPECT_EQ(errors.Get(), "");
-    EXPECT_GT(filter->GetOutput()->GetNumberOfPoints(), 50);
-    EXPECT_FALSE(filter->GetLevels()->GetBlock(1)) << "too small for a surface: 6 voxels";
-  }
-}
-
-TEST(DeformableSurfaceStart, TellsWhatStaysLostWithoutRecovery)
-{
-  const auto filter = FilterOf(BallAndRod());
-  filter->SetRecovery(vtkDeformableSurface::NoRecovery);
-  const MessagesOf warnings(filter, vtkCommand::WarningEvent);
+  const auto image = BallImage(70, 60, 12, 0.4);
+  vtkNew<vtkImagePyramid> pyramid;
+  pyramid->SetInputData(image);
+  pyramid->SetMinimumLevelSize(1);
+  pyramid->Update();
+  ASSERT_GE(pyramid->GetOutput()->GetNumberOfBlocks(), 8u);
+  const int* size = Level(pyramid->GetOutput(), 6)->GetDimensions();
+  ASSERT_EQ(size[2], 1);
+  ASSERT_GT(size[0], 1);
+  const auto filter = FilterOf(pyramid->GetOutput());
+  const MessagesOf errors(filter);
   filter->Update();
-  EXPECT_EQ(FieldOf(filter->GetOutput(), "NumberOfComponents"), 1);
-  EXPECT_EQ(FieldOf(filter->GetOutput(), "MissingParts"), 1);
-  EXPECT_GT(FieldOf(filter->GetOutput(), "MissingBoundary"), 0.05);
-  EXPECT_EQ(warnings.Get(), "") << "it was asked for";
-}
-
-TEST(DeformableSurfaceStart, StartsFromTheCoarseFacetsOfACylinder)
-{
-  // The one whose long facets and slivers once left 69 intersections and a "converged".
-  for (double radius : { 13.0, 17.0 })
-  {
-    SCOPED_TRACE(radius);
-    vtkNew<vtkCylinderSource> cylinder;
-    cylinder->SetCenter(19.5, 19.5, 19.5);
-    cylinder->SetRadius(radius);
-    cylinder->SetHeight(25.5);
-    cylinder->SetResolution(12);
-    vtkNew<vtkCleanPolyData> shared; // Caps and side have points of their own.
-    shared->SetInputConnection(cylinder->GetOutputPort());
-    const auto filter = FilterOf(BallImage(40, 40, 40));
-    filter->SetInitializationToInputSurface();
-    filter->SetInitialSurfaceConnection(shared->GetOutputPort());
-    filter->SetCoarsestLevel(0);
-    filter->SetSnapshotInterval(1000);
-    filter->Update();
-    ExpectSphere(filter->GetOutput(), BallCentre, BallRadius, 0.2);
-    EXPECT_EQ(StopReason(filter->GetOutput()), "converged");
-    EXPECT_GT(filter->GetOutput()->GetNumberOfPoints(), 900);
-    ASSERT_EQ(filter->GetSnapshots()->GetNumberOfBlocks(), 1u) << "none from within the start";
-    auto* start = vtkPolyData::SafeDownCast(filter->GetSnapshots()->GetBlock(0));
-    EXPECT_EQ(OpenOrNonManifoldEdges(start), 0);
-    const double volume = 0.5 * 12 * std::sin(vtkMath::Pi() / 6.0) * radius * radius * 25.5;
-    EXPECT_NEAR(EnclosedVolume(start) / volume, 1.0, 0.03);
-    const double delta = FieldOf(start, "Delta");
-    VisitEdges(start,
-      [delta](const auto& p, const auto& q)
-      {
-        const double length = std::sqrt(vtkMath::Distance2BetweenPoints(p.data(), q.data()));
-        EXPECT_GE(length, 0.99 * delta);
-        EXPECT_LE(length, 2.51 * delta);
-      });
-  }
+  EXPECT_EQ(errors.Get(), "");
+  EXPECT_GT(filter->GetOutput()->GetNumberOfPoints(), 50);
+  EXPECT_FALSE(filter->GetLevels()->GetBlock(1)) << "too small for a surface: 6 voxels";
 }

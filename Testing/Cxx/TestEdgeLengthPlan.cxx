@@ -45,14 +45,6 @@ TEST(EdgeLengthPlan, LeavesNoGapBetweenTheLevels)
   }
 }
 
-TEST(EdgeLengthPlan, ChangesTheFactorLittleWhereThereAreManyLevels)
-{
-  const double between = MeanEdgeInDelta * 0.85 * Unit * std::pow(3., 1.2);
-  const EdgeLengthPlan plan = PlanEdgeLength(between, Size, Spacing, EdgeLengthPreferences());
-  EXPECT_NEAR(plan.ReductionFactor, std::sqrt(3.), 0.2);
-  EXPECT_NEAR(plan.SamplingRatio, 0.85, 0.02);
-}
-
 TEST(EdgeLengthPlan, NamesTheLengthsThatArePossible)
 {
   EXPECT_TRUE(Has(ErrorOf(0.2),

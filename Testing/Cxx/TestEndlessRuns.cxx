@@ -1,12 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-
-/**
- * Scenes and settings that never came to rest, found by random runs. What they cost is told in
- * vertices times iterations, which is the same on every machine.
- */
-
 #include "Core/Evolution/CycleCriterion.h"
+#include "Core/Evolution/RestCriterion.h"
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "EvolutionTestTools.h"
 
@@ -80,26 +75,8 @@ TEST(EndlessRuns, NoiseThatMergesAndCutsInTurnIsALimitCycle)
   const SurfaceResult surface = evolution.Result();
   EXPECT_EQ(CountSelfIntersections(surface, 1), 0);
   // It is finished like a level that rests: within the constraints.
-  double shortest = 1e9;
-  for (const Triangle& t : surface.Triangles)
-  {
-    const Point& a = surface.Points[t[0]];
-    const Point& b = surface.Points[t[1]];
-    shortest = std::min(shortest, Distance(a[0], a[1], a[2], b[0], b[1], b[2]));
-  }
-  EXPECT_GE(shortest, surface.Delta * (1 - 1e-5));
-}
-
-TEST(EndlessRuns, AShellAtAReplicatedBorderCostsLittle)
-{
-  const TestVolume volume = MakeVolume(24, [](double x, double y, double z)
-    { return Soft(std::abs(Distance(x, y, z, 8, 10, 13) - 14.) - 2.); });
-  SurfaceOptions options = IsoHalf();
-  options.BorderValue = Border::Replicate;
-  SurfaceEvolution evolution(options, Threads, Silent);
-  evolution.StartEnclosing(volume.Image, 0);
-  EXPECT_EQ(evolution.Run(), StopReason::Converged);
-  EXPECT_LT(Work(evolution), 1e6);
+  const std::vector<double> lengths = EdgeLengths(surface);
+  EXPECT_GE(*std::min_element(lengths.begin(), lengths.end()), surface.Delta * (1 - 1e-5));
 }
 
 TEST(EndlessRuns, ACheckerboardAtAReplicatedBorderCostsLittle)
@@ -117,23 +94,6 @@ TEST(EndlessRuns, ACheckerboardAtAReplicatedBorderCostsLittle)
   evolution.StartEnclosing(volume.Image, 0);
   evolution.Run();
   EXPECT_LT(Work(evolution), 2e6);
-}
-
-TEST(EndlessRuns, AStrongMapOfEdgesInNoiseCostsLittle)
-{
-  TestVolume volume = Noise(14, 3);
-  const TestVolume edges = Noise(14, 4);
-  volume.Image.Edges = edges.Values.data();
-  for (const double weight : { 30., 1000. })
-  {
-    SurfaceOptions options = IsoHalf();
-    options.EdgeAttractionWeight = weight;
-    SurfaceEvolution evolution(options, Threads, Silent);
-    evolution.StartEnclosing(volume.Image, 0);
-    evolution.Run();
-    EXPECT_LT(Work(evolution), 1e6) << weight;
-    EXPECT_EQ(CountSelfIntersections(evolution.Result(), 1), 0);
-  }
 }
 
 TEST(EndlessRuns, StrongInnerForcesComeToRest)
@@ -154,4 +114,49 @@ TEST(EndlessRuns, StrongInnerForcesComeToRest)
     EXPECT_NEAR(ComputeFeatures(evolution.Result()).Volume, volumeOfBall, 0.1 * volumeOfBall)
       << weights.first;
   }
+}
+
+namespace
+{
+/** Whether a surface rests that has had these volumes, one every fifth iteration. */
+bool Rests(const std::vector<double>& volumes, double limit)
+{
+  RestCriterion rest;
+  for (double volume : volumes)
+  {
+    rest.Add(volume);
+  }
+  return rest.IsMet(limit);
+}
+}
+
+TEST(RestCriterion, NeedsTwentyIterations)
+{
+  EXPECT_FALSE(Rests({}, 1.));
+  EXPECT_FALSE(Rests({ 10, 10, 10, 10 }, 1.)) << "15 iterations after the first look";
+  EXPECT_TRUE(Rests({ 10, 10, 10, 10, 10 }, 1.));
+}
+
+TEST(RestCriterion, LooksAtTheLastTenAndTheLastTwentyIterations)
+{
+  EXPECT_TRUE(Rests({ 10.5, 90, 10.5, 90, 10 }, 1.)) << "nothing but these is looked at";
+  EXPECT_FALSE(Rests({ 12, 10, 10, 10, 10 }, 1.)) << "it has shrunk before";
+  EXPECT_FALSE(Rests({ 8, 10, 10, 10, 10 }, 1.)) << "or grown";
+  EXPECT_FALSE(Rests({ 10, 10, 12, 10, 10 }, 1.)) << "it goes to and fro";
+  EXPECT_FALSE(Rests({ 10, 10, 8, 10, 10 }, 1.));
+  EXPECT_FALSE(Rests({ 0, 0, 0, 12, 10, 10, 10, 11 }, 1.)) << "less than the limit is asked for";
+}
+
+TEST(RestCriterion, ForgetsTheLevelBefore)
+{
+  RestCriterion rest;
+  for (int i = 0; i < 5; ++i)
+  {
+    rest.Add(10);
+  }
+  ASSERT_TRUE(rest.IsMet(1.));
+  rest.Reset();
+  EXPECT_FALSE(rest.IsMet(1.));
+  rest.Add(10);
+  EXPECT_FALSE(rest.IsMet(1.));
 }

@@ -4,8 +4,6 @@
 #include "EvolutionTestTools.h"
 #include "TemporaryFolder.h"
 
-#include <fstream>
-
 using namespace volumic;
 
 namespace
@@ -51,12 +49,6 @@ SurfaceOptions InSmallBlocks()
   SurfaceOptions options = Options();
   options.BlockSide = 12.;
   return options;
-}
-
-std::string BytesOf(const std::string& name)
-{
-  std::ifstream file(name, std::ios::binary);
-  return { std::istreambuf_iterator<char>(file), {} };
 }
 
 void ExpectSameSurface(const SurfaceEvolution& a, const SurfaceEvolution& b)
@@ -115,11 +107,6 @@ void ExpectSameByWayOfFiles(const SurfaceOptions& options, const Scene& scene)
     EXPECT_TRUE(BytesOf(name) == BytesOf(folder.File("again")));
   }
 }
-}
-
-TEST(EvolutionCheckpoint, GoesOnAsIfNothingHadHappened)
-{
-  ExpectSameByWayOfFiles(Options(), Scene());
 }
 
 TEST(EvolutionCheckpoint, GoesOnInSweepsAlike)

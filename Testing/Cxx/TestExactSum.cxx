@@ -56,15 +56,3 @@ TEST(ExactSum, IsExactForWhatItResolves)
   EXPECT_EQ(sum.Value(), 2. * least - 1.25);
   EXPECT_EQ(ExactSum().Value(), 0.);
 }
-
-TEST(ExactSum, RoundsUpAndDownAlike)
-{
-  // What is left of terms that cancel each other is nothing.
-  ExactSum sum;
-  for (int i = 0; i < 1000; ++i)
-  {
-    sum.Add(i / 3.);
-    sum.Add(-i / 3.);
-  }
-  EXPECT_EQ(sum.Value(), 0.);
-}

@@ -4,9 +4,6 @@
 // Voxels that lie far from zero beside what they differ by, such as times, counters and addresses:
 // single precision has steps of 64 at 10^9.
 #include "SurfaceTestTools.h"
-#include "vtkVolumeToSurface.h"
-
-#include <vtkPoints.h>
 
 using namespace volumic;
 
@@ -14,7 +11,7 @@ namespace
 {
 constexpr double Far = 1e9;
 
-/** BallImage(40, 40, 40) in whole steps from `base` to `base` + 50, and as an edge map. */
+/** BallImage(40, 40, 40) in whole steps from `base` to `base` + 50. */
 vtkSmartPointer<vtkImageData> BallAt(double base, int scalarType)
 {
   const auto ball = BallImage(40, 40, 40);
@@ -26,16 +23,6 @@ vtkSmartPointer<vtkImageData> BallAt(double base, int scalarType)
   {
     Voxels(image)->SetComponent(i, 0, base + std::round(0.5 * Voxels(ball)->GetComponent(i, 0)));
   }
-  vtkSmartPointer<vtkDataArray> edges;
-  edges.TakeReference(vtkDataArray::CreateDataArray(scalarType));
-  edges->SetName("Edges");
-  edges->SetNumberOfTuples(image->GetNumberOfPoints());
-  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
-  {
-    const double inside = Voxels(ball)->GetComponent(i, 0);
-    edges->SetComponent(i, 0, base + std::min(inside, 100.0 - inside));
-  }
-  image->GetPointData()->AddArray(edges);
   return image;
 }
 
@@ -104,57 +91,6 @@ TEST_P(FarFromZero, OneLevelGivesTheSameBits)
 TEST_P(FarFromZero, ThroughThePyramid)
 {
   ExpectSame(1e-3, [](vtkDeformableSurface*) {});
-}
-
-TEST_P(FarFromZero, FromTheIsoSurface)
-{
-  ExpectSame(0.0,
-    [](vtkDeformableSurface* filter)
-    {
-      OnOneLevel(filter);
-      filter->SetIsoValue(filter->GetIsoValue() + 0.5); // that of some voxels
-      filter->SetInitializationToIsoSurface();
-    });
-}
-
-TEST_P(FarFromZero, FromSeeds)
-{
-  ExpectSame(0.0,
-    [](vtkDeformableSurface* filter)
-    {
-      OnOneLevel(filter);
-      filter->SetInitializationToSeeds();
-    });
-}
-
-TEST_P(FarFromZero, WithAnAttractingPoint)
-{
-  const auto point = PointsAt({ { 19.5, 19.5, 33 } });
-  ExpectSame(0.0,
-    [&](vtkDeformableSurface* filter)
-    {
-      OnOneLevel(filter);
-      filter->SetAttractingPointsData(point);
-    });
-}
-
-TEST_P(FarFromZero, WithAMapOfEdges)
-{
-  ExpectSame(1e-3,
-    [](vtkDeformableSurface* filter)
-    {
-      OnOneLevel(filter);
-      filter->SetInputArrayToProcess(1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Edges");
-      filter->SetEdgeAttractionWeight(2.0);
-    });
-}
-
-TEST_P(FarFromZero, WithOtsusThreshold)
-{
-  vtkNew<vtkVolumeToSurface> filter;
-  filter->SetInputData(BallAt(Far, GetParam()));
-  filter->Update();
-  ExpectSphere(filter->GetOutput(), BallCentre, BallRadius, 0.5);
 }
 
 INSTANTIATE_TEST_SUITE_P(Types, FarFromZero,

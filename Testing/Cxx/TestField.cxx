@@ -18,15 +18,6 @@ SurfaceOptions WithIso(double iso)
 }
 }
 
-TEST(Field, IsTheImageLessTheIsoValueAtVoxels)
-{
-  const TestVolume volume = MakeVolume(8, [](double x, double y, double z)
-    { return x * 3 + y * y - z; });
-  const Field field(volume.Image, WithIso(5.), Threads);
-  EXPECT_FLOAT_EQ(field.ValueAt(Vector(3, 4, 5)), 9 + 16 - 5 - 5);
-  EXPECT_FLOAT_EQ(field.At(Vector(3, 4, 5)).Value, 9 + 16 - 5 - 5);
-}
-
 TEST(Field, IsTrilinearBetweenVoxels)
 {
   const TestVolume volume = MakeVolume(8, [](double x, double y, double z)
@@ -91,17 +82,6 @@ TEST(Field, FallsToTheBackgroundWithinAVoxelOfTheBorder)
   }
 }
 
-TEST(Field, ReplicatesTheBorderOnRequest)
-{
-  const TestVolume volume = MakeVolume(8, [](double x, double, double) { return x; });
-  SurfaceOptions options = WithIso(4.);
-  options.BorderValue = Border::Replicate;
-  const Field field(volume.Image, options, Threads);
-  EXPECT_FLOAT_EQ(field.ValueAt(Vector(9, 4, 4)), 3);
-  EXPECT_FLOAT_EQ(field.ValueAt(Vector(-2, 4, 4)), -4);
-  EXPECT_FLOAT_EQ(field.At(Vector(9, -2, 4)).Value, 3);
-}
-
 TEST(Field, ReplicatesWithinAMarginOfTwoUnitsOnly)
 {
   // Along z a voxel is longer than the margin.
@@ -164,14 +144,6 @@ TEST(Field, IsAtLeastAsMuchBackgroundOutsideAsAnywhereInside)
     EXPECT_FLOAT_EQ(field.ValueAt(Vector(-1, 4, 4)), expected);
     EXPECT_FLOAT_EQ(field.At(Vector(4, -20, 4)).Value, expected);
   }
-}
-
-TEST(Field, KnowsHowSteepTheSurfaceIs)
-{
-  const TestVolume volume = MakeVolume(16, [](double x, double, double) { return 3 * x; });
-  const Field field(volume.Image, WithIso(20.), Threads);
-  EXPECT_NEAR(field.TypicalSlope(), 3, 1e-4);
-  EXPECT_FLOAT_EQ(field.Highest(), 25);
 }
 
 TEST(Field, KnowsHowSteepTheSurfaceIsAlongEveryAxis)

@@ -13,45 +13,6 @@ double SpeedUnder(double force, const SurfaceOptions& options, double step)
 {
   return force * step / (1 + options.Friction * step);
 }
-
-/** Edges that are all `edge` long. */
-IndexedSurface Octahedron(double edge)
-{
-  const double r = edge / std::sqrt(2.);
-  IndexedSurface surface;
-  surface.Points = { { 16 + r, 16, 16 }, { 16 - r, 16, 16 }, { 16, 16 + r, 16 },
-    { 16, 16 - r, 16 }, { 16, 16, 16 + r }, { 16, 16, 16 - r } };
-  surface.Triangles = { { 0, 2, 4 }, { 2, 1, 4 }, { 1, 3, 4 }, { 3, 0, 4 }, { 2, 0, 5 },
-    { 1, 2, 5 }, { 3, 1, 5 }, { 0, 3, 5 } };
-  return surface;
-}
-}
-
-TEST(Forces, IsopotentialPushesInFromOutsideAndOutFromInside)
-{
-  Stage outside(12);
-  outside.Push();
-  EXPECT_LT(outside.MeanSpeedOutward(), -0.1);
-  Stage inside(5);
-  inside.Push();
-  EXPECT_GT(inside.MeanSpeedOutward(), 0.1);
-}
-
-TEST(Forces, IsopotentialTurnsRoundForDarkObjects)
-{
-  Stage stage(12);
-  stage.Options.ObjectIsBright = false;
-  stage.Push();
-  EXPECT_GT(stage.MeanSpeedOutward(), 0.1);
-}
-
-TEST(Forces, IsopotentialVanishesOnTheIsopotential)
-{
-  Stage stage(8);
-  stage.Options.TensionWeight = 0;
-  stage.Options.ElasticityWeight = 0;
-  stage.Push();
-  EXPECT_NEAR(stage.MeanSpeedOutward(), 0, 0.03);
 }
 
 TEST(Forces, IsopotentialGrowsToItsBoundOverThreeQuartersOfDelta)
@@ -113,21 +74,9 @@ TEST(Forces, InternalForcesAddUpToNothing)
   EXPECT_LT(Length(sum), 1e-4 * size);
 }
 
-TEST(Forces, TensionPullsAnOutlierBack)
-{
-  Stage stage(8);
-  stage.Options.IsopotentialWeight = 0;
-  stage.Options.ElasticityWeight = 0;
-  const Vector outward = stage.OutwardAt(0);
-  stage.State.Mesh.Position[0] += outward;
-  stage.UpdateShape();
-  stage.Push();
-  EXPECT_LT(Dot(stage.State.Velocity[0], outward), 0);
-}
-
 TEST(Forces, TensionIsThePullToTheBarycentreLessItsReaction)
 {
-  Stage stage(Octahedron(1.6), 1);
+  Stage stage(EvenOctahedron({ 16, 16, 16 }, 1.6), 1);
   stage.Options.TensionWeight = 0.2;
   stage.State.Mesh.Position[0] += Vector(0.5f, 0, 0);
   stage.UpdateShape();
@@ -145,7 +94,7 @@ TEST(Forces, ElasticityIsSpringsThatRestAtOnePointSixDelta)
   {
     for (const double length : { 1.2, 1.6, 2.2 })
     {
-      Stage stage(Octahedron(length * delta), delta);
+      Stage stage(EvenOctahedron({ 16, 16, 16 }, length * delta), delta);
       stage.Options.ElasticityWeight = 0.1;
       const double step = stage.Push();
       // Four springs at 45 degrees to the way to the centre.
@@ -180,29 +129,6 @@ TEST(Forces, AreTheSameAtEveryScale)
   for (int v : fine.All)
   {
     EXPECT_LT(Length(fine.State.Velocity[v] * 2.f - coarse.State.Velocity[v]), 1e-4);
-  }
-}
-
-TEST(Forces, GradientForceDescendsThePotential)
-{
-  // The image is a potential with its valley at radius 8.
-  for (const double radius : { 7.2, 8.8 })
-  {
-    Stage stage(radius);
-    stage.Volume = MakeVolume(33, [](double x, double y, double z)
-      { return std::abs(Distance(x, y, z, 16, 16, 16) - 8.); });
-    stage.Options.IsoValue = 1;
-    stage.Options.IsopotentialWeight = 0;
-    stage.Options.GradientWeight = 1;
-    stage.Push();
-    if (radius < 8)
-    {
-      EXPECT_GT(stage.MeanSpeedOutward(), 0.05);
-    }
-    else
-    {
-      EXPECT_LT(stage.MeanSpeedOutward(), -0.05);
-    }
   }
 }
 

@@ -1,27 +1,78 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "GoingOnTestTools.h"
-
-#include <vtkTable.h>
-
-#include <chrono>
+#include "SameOutputs.h"
+#include "vtkVolumeToSurface.h"
 
 using namespace volumic;
 
+namespace
+{
+/** A ball, a thin rod and a bubble: something is lost, found again and merged. */
+vtkSmartPointer<vtkImageData> GoingOnScene(int size = 64)
+{
+  const auto image = BallImage(size, size, size, 0.3);
+  FillBox(image, { 5, 5, 6 }, { 8, 8, size - 6 });
+  return image;
+}
+
+/** What a run from the start gives. */
+vtkSmartPointer<vtkDeformableSurface> FromTheStart(
+  vtkDataObject* input, int finest, const Choice& choose = {})
+{
+  const auto filter = FilterOf(input, choose);
+  filter->SetFinestLevel(finest);
+  filter->Update();
+  return filter;
+}
+
+/** Updates; @return whether levels coarser than `level` have iterated, or the pyramid was built. */
+bool Reruns(vtkAlgorithm* filter, int level)
+{
+  ProgressListener listener(filter);
+  filter->Update();
+  filter->RemoveAllObservers();
+  return std::any_of(listener.Texts.begin(), listener.Texts.end(),
+    [level](const std::string& text)
+    {
+      bool isRerun = bool(Has(text, "Building the pyramid"));
+      for (int coarse = level + 1; coarse < 9; ++coarse)
+      {
+        isRerun = isRerun || Has(text, "Level " + std::to_string(coarse) + ", iteration");
+      }
+      return isRerun;
+    });
+}
+
+/**
+ * Updates; @return whether nothing at all is worked on. (The last text of the run before stays.)
+ */
+bool ShowsAtOnce(vtkAlgorithm* filter)
+{
+  ProgressListener listener(filter);
+  filter->Update();
+  filter->RemoveAllObservers();
+  return listener.Texts.size() <= 1;
+}
+
+class GoingOn : public ::testing::Test
+{
+protected:
+  void SetUp() override
+  {
+    this->Filter->SetInputData(this->Image);
+    this->Filter->SetIsoValue(50.0);
+  }
+
+  vtkSmartPointer<vtkImageData> Image = GoingOnScene();
+  vtkNew<vtkDeformableSurface> Filter;
+};
+}
+
 TEST_F(GoingOn, GivesTheSameBitsAsARunFromTheStart)
 {
-  const Choice choices[] = { [](vtkDeformableSurface*) {},
-    [](vtkDeformableSurface* filter)
-    {
-      filter->SetSnapshotInterval(7);
-      filter->SetProfile(true);
-    },
-    [](vtkDeformableSurface* filter) { filter->SetRecovery(vtkDeformableSurface::NoRecovery); },
-    [](vtkDeformableSurface* filter)
-    { filter->SetRecovery(vtkDeformableSurface::RecoverObjectsAndCavities); },
-    [](vtkDeformableSurface* filter) { filter->SetInitializationToSeeds(); },
-    [](vtkDeformableSurface* filter) { filter->SetKeepComponentsToLargestComponent(); },
-    [](vtkDeformableSurface* filter) { filter->SetMaximumNumberOfIterations(12); } };
+  std::vector<Choice> choices = ChoicesOfRuns();
+  choices.push_back([](vtkDeformableSurface* filter)
+    { filter->SetRecovery(vtkDeformableSurface::RecoverObjectsAndCavities); });
   int number = 0;
   for (const Choice& choose : choices)
   {
@@ -34,26 +85,6 @@ TEST_F(GoingOn, GivesTheSameBitsAsARunFromTheStart)
       ExpectSameOutputs(filter, FromTheStart(this->Image, finest, choose));
     }
   }
-}
-
-TEST_F(GoingOn, GoesBeyondTheImage)
-{
-  this->Filter->SetFinestLevel(1);
-  this->Filter->Update();
-  this->Filter->SetFinestLevel(-1);
-  EXPECT_FALSE(Reruns(this->Filter, 0));
-  ExpectSameOutputs(this->Filter, FromTheStart(this->Image, -1));
-}
-
-TEST_F(GoingOn, ServesAPyramidAndAnyNumberOfThreads)
-{
-  const auto pyramid = PyramidOf(this->Image);
-  const auto filter = FromTheStart(
-    pyramid->GetOutput(), 2, [](vtkDeformableSurface* f) { f->SetNumberOfThreads(1); });
-  filter->SetFinestLevel(0);
-  filter->SetNumberOfThreads(2);
-  EXPECT_FALSE(Reruns(filter, 1));
-  ExpectSameOutputs(filter, FromTheStart(pyramid->GetOutput(), 0));
 }
 
 TEST_F(GoingOn, ShowsLevelsAtRestAtOnce)
@@ -111,19 +142,6 @@ TEST_F(GoingOn, ChoosesComponentsOfWhatIsThereWhereSomeoneWatches)
   ExpectSameOutputs(this->Filter, FromTheStart(this->Image, 1, choices[0]));
 }
 
-TEST_F(GoingOn, GoesOnWithOtherComponents)
-{
-  this->Filter->GetNeedsUpdate();
-  this->Filter->SetFinestLevel(2);
-  this->Filter->Update();
-  this->Filter->SetKeepComponentsToLargestComponent();
-  this->Filter->SetFinestLevel(0);
-  EXPECT_FALSE(Reruns(this->Filter, 1));
-  ExpectSameOutputs(this->Filter,
-    FromTheStart(
-      this->Image, 0, [](vtkDeformableSurface* f) { f->SetKeepComponentsToLargestComponent(); }));
-}
-
 TEST_F(GoingOn, GoesOnFromTheLastLevelAtRestAfterAStop)
 {
   const Choice choose = [](vtkDeformableSurface* filter)
@@ -173,40 +191,6 @@ TEST_F(GoingOn, IsNotMadeToByALateRequestToStop)
   EXPECT_EQ(StopReason(this->Filter->GetOutput()), "cancelled");
 }
 
-TEST_F(GoingOn, ShowsCoarserLevelsAfterAStop)
-{
-  const StopAtText stop(this->Filter, "Level 1 is done", 1);
-  this->Filter->Update();
-  this->Filter->SetFinestLevel(1);
-  EXPECT_TRUE(ShowsAtOnce(this->Filter));
-  ExpectSameOutputs(this->Filter, FromTheStart(this->Image, 1));
-}
-
-TEST_F(GoingOn, AddsUpTheSecondsOfBothRuns)
-{
-  this->Filter->SetFinestLevel(2);
-  this->Filter->Update();
-  vtkNew<vtkTable> before;
-  before->DeepCopy(this->Filter->GetHistory());
-  const auto waiting = std::chrono::steady_clock::now() + std::chrono::milliseconds(600);
-  while (std::chrono::steady_clock::now() < waiting)
-  {
-  }
-  const auto started = std::chrono::steady_clock::now();
-  this->Filter->SetFinestLevel(1);
-  this->Filter->Update();
-  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - started;
-  vtkTable* after = this->Filter->GetHistory();
-  ASSERT_GT(after->GetNumberOfRows(), before->GetNumberOfRows());
-  for (vtkIdType r = 0; r < before->GetNumberOfRows(); ++r)
-  {
-    EXPECT_EQ(after->GetValueByName(r, "Seconds"), before->GetValueByName(r, "Seconds"));
-  }
-  EXPECT_LT(
-    after->GetValueByName(before->GetNumberOfRows(), "SecondsBefore").ToDouble(), taken.count())
-    << "the time between the runs is nobody's";
-}
-
 TEST_F(GoingOn, PreviewEndsAtALevelOfFewVoxels)
 {
   const auto large = BallImage(180, 160, 128);
@@ -224,29 +208,118 @@ TEST_F(GoingOn, PreviewEndsAtALevelOfFewVoxels)
   EXPECT_EQ(FieldOf(filter->GetOutput(), "Level"), 2) << "not finer than asked for";
 }
 
-TEST_F(GoingOn, PreviewOfASmallVolumeIsTheVolume)
+TEST_F(GoingOn, HoldsNoOtherComponentsWhereNobodyWatchesOrMemoryIsShort)
 {
-  this->Filter->PreviewOn();
-  this->Filter->Update();
-  EXPECT_EQ(FieldOf(this->Filter->GetOutput(), "Level"), 0);
+  for (const int limit : { 0, 1000 })
+  {
+    this->Filter->SetMemoryLimit(limit);
+    this->Filter->SetKeepComponentsToAllComponents();
+    this->Filter->Modified();
+    this->Filter->Update();
+    this->Filter->SetKeepComponentsToLargestComponent();
+    EXPECT_TRUE(Reruns(this->Filter, 1));
+    this->Filter->GetNeedsUpdate();
+  }
 }
 
-TEST_F(GoingOn, PreviewKeepsToTheEdgeLength)
+TEST_F(GoingOn, BeginsAnewAfterAnyOtherChange)
 {
-  const auto large = BallImage(128, 110, 110);
-  const auto run = [&](bool preview)
+  const std::function<void()> changes[] = { [&] { this->Filter->SetIsoValue(45.0); },
+    [&] { this->Filter->SetSnapshotInterval(5); },
+    [&] { this->Filter->Modified(); },
+    [&] { this->Filter->SetMetricToVoxels(); },
+    [&] { this->Filter->ForgetRun(); },
+    [&]
+    {
+      this->Image->GetPointData()->GetScalars()->SetComponent(5, 0, 20.0);
+      this->Image->GetPointData()->GetScalars()->Modified();
+    },
+    [&]
+    {
+      Voxels(this->Image)->SetComponent(6, 0, 20.0);
+      this->Image->Modified();
+    },
+    [&] { this->Filter->SetInputData(GoingOnScene(56)); } };
+  for (const auto& change : changes)
   {
-    auto filter = vtkSmartPointer<vtkVolumeToSurface>::New();
-    filter->SetInputData(large);
-    filter->SetIsoValue(50.0);
-    filter->SetEdgeLength(1.7);
-    filter->SetPreview(preview);
+    this->Filter->SetFinestLevel(2);
+    this->Filter->Update();
+    change();
+    this->Filter->SetFinestLevel(1);
+    EXPECT_TRUE(Reruns(this->Filter, 1));
+  }
+}
+
+TEST_F(GoingOn, BeginsAnewWhereABlockOfThePyramidHasChanged)
+{
+  const auto pyramid = PyramidOf(this->Image);
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  blocks->ShallowCopy(pyramid->GetOutput());
+  this->Filter->SetInputDataObject(blocks);
+  this->Filter->SetFinestLevel(2);
+  this->Filter->Update();
+  vtkDataArray* voxels = Voxels(Level(blocks, 1));
+  voxels->SetComponent(voxels->GetNumberOfTuples() / 2, 0, 1.0);
+  voxels->Modified();
+  this->Filter->SetFinestLevel(1);
+  EXPECT_TRUE(Reruns(this->Filter, 1));
+}
+
+TEST_F(GoingOn, KeepsNothingAfterAnError)
+{
+  this->Filter->SetFinestLevel(2);
+  this->Filter->Update();
+  {
+    const MessagesOf errors(this->Filter);
+    this->Filter->SetFinestLevel(77);
+    this->Filter->Update();
+    ASSERT_TRUE(errors.Has("Finest Level is 77")) << errors.Get();
+    EXPECT_EQ(this->Filter->GetOutput()->GetNumberOfPoints(), 0);
+  }
+  this->Filter->SetFinestLevel(1);
+  EXPECT_TRUE(Reruns(this->Filter, 1));
+  ExpectSameOutputs(this->Filter, FromTheStart(this->Image, 1));
+}
+
+TEST_F(GoingOn, KeepsNothingWhereDataAreReleased)
+{
+  this->Filter->ReleaseDataFlagOn();
+  this->Filter->SetFinestLevel(2);
+  this->Filter->Update();
+  this->Filter->SetFinestLevel(1);
+  EXPECT_TRUE(Reruns(this->Filter, 1));
+}
+
+TEST_F(GoingOn, BeginsAtALevelThatWasLetGo)
+{
+  // A thicker rod: one that is to end at level 2 begins there, others at level 1.
+  FillBox(this->Image, { 0, 0, 0 }, { 64, 64, 64 }, 0.0);
+  FillBox(this->Image, { 5, 5, 6 }, { 10, 10, 58 });
+  const Choice choose = [](vtkDeformableSurface* filter)
+  { filter->SetRecovery(vtkDeformableSurface::NoRecovery); };
+  const auto filter = FromTheStart(this->Image, 1, choose);
+  ASSERT_EQ(filter->GetHistory()->GetValueByName(0, "Level").ToInt(), 1);
+  for (const int finest : { 2, 1 })
+  {
+    filter->SetFinestLevel(finest);
     filter->Update();
-    return filter;
-  };
-  const auto filter = run(true);
-  ASSERT_EQ(FieldOf(filter->GetOutput(), "Level"), 1);
-  filter->PreviewOff();
-  EXPECT_FALSE(Reruns(filter, 0));
-  ExpectSameOutputs(filter, run(false));
+    EXPECT_EQ(filter->GetErrorCode(), 0u);
+    EXPECT_EQ(filter->GetHistory()->GetValueByName(0, "Level").ToInt(), finest);
+    ExpectSameOutputs(filter, FromTheStart(this->Image, finest, choose));
+  }
+}
+
+TEST_F(GoingOn, BeginsAnewAfterACancelledRun)
+{
+  ProgressListener listener(this->Filter);
+  listener.StopAt = 0.7;
+  this->Filter->Update();
+  ASSERT_EQ(StopReason(this->Filter->GetOutput()), "cancelled");
+  this->Filter->RemoveAllObservers();
+  for (const int finest : { 1, 0 })
+  {
+    this->Filter->SetFinestLevel(finest);
+    this->Filter->Update();
+    ExpectSameOutputs(this->Filter, FromTheStart(this->Image, finest));
+  }
 }

@@ -5,7 +5,6 @@
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "Core/Surface/SizingField.h"
 #include "GradedTestTools.h"
-#include "ThreadTestTools.h"
 
 using namespace volumic;
 
@@ -25,34 +24,6 @@ Outside OutsidePlate(double thickness)
     return OutsideBox(0.96 * u - 0.28 * (z - 24.), v, w, { 16., 15., 0.5 * thickness },
       std::min(1., 0.5 * thickness));
   };
-}
-}
-
-namespace
-{
-double AreaOf(const IndexedSurface& surface, const Triangle& t)
-{
-  const auto corner = [&](int k)
-  {
-    const Point& p = surface.Points[t[k]];
-    return Vector(static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2]));
-  };
-  return 0.5 * Length(Cross(corner(1) - corner(0), corner(2) - corner(0)));
-}
-
-/** The first two barycentric coordinates of points that are spread evenly over a triangle. */
-std::vector<std::array<double, 2>> PointsOfATriangle()
-{
-  constexpr int n = 6;
-  std::vector<std::array<double, 2>> points;
-  for (int i = 0; i < n; ++i)
-  {
-    for (int j = 0; i + j < n; ++j)
-    {
-      points.push_back({ (i + 1. / 3.) / n, (j + 1. / 3.) / n });
-    }
-  }
-  return points;
 }
 }
 
@@ -106,25 +77,6 @@ TEST(GradedSurface, HasFewerTrianglesWhereItIsFlatAndKeepsTheTolerance)
   ExpectLegal(graded);
   EXPECT_LT(1.8 * graded.Points.size(), even.Points.size());
   EXPECT_GT(graded.FitToTolerance->WithinTolerance, 0.99);
-  // The same by what the scene is made of, which knows nothing of voxels: of points all over it.
-  double within = 0.;
-  double all = 0.;
-  for (const Triangle& t : graded.Triangles)
-  {
-    const double area = AreaOf(graded, t);
-    for (const auto& [a, b] : PointsOfATriangle())
-    {
-      Point place;
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        place[axis] = a * graded.Points[t[0]][axis] + b * graded.Points[t[1]][axis] +
-          (1. - a - b) * graded.Points[t[2]][axis];
-      }
-      all += area;
-      within += std::abs(OutsideBoxAndBall(place[0], place[1], place[2])) <= Tolerance ? area : 0.;
-    }
-  }
-  EXPECT_GT(within, 0.99 * all);
   const SurfaceFeatures before = ComputeFeatures(even);
   const SurfaceFeatures after = ComputeFeatures(graded);
   EXPECT_EQ(after.Components.size(), before.Components.size());
@@ -153,17 +105,6 @@ TEST(GradedSurface, GrowsBySmallStepsUpToTheLongestEdge)
   EXPECT_FLOAT_EQ(*std::max_element(surface.Size.begin(), surface.Size.end()), 2.f);
 }
 
-TEST(GradedSurface, IsThatWithoutWhereTheToleranceIsTooSmall)
-{
-  const SurfaceResult even = SurfaceOf(OutsideBoxAndBall, Grading(), Alone);
-  const SurfaceResult graded = SurfaceOf(OutsideBoxAndBall, Within(1e-6), Alone);
-  ExpectLegal(graded);
-  EXPECT_NEAR(static_cast<double>(graded.Points.size()), even.Points.size(),
-    0.03 * even.Points.size());
-  EXPECT_LT(graded.FitToTolerance->WithinTolerance, 0.5);
-  EXPECT_GT(graded.FitToTolerance->LargestDistance, 0.05);
-}
-
 TEST(GradedSurface, KeepsThinWallsWithoutHoles)
 {
   for (const double thickness : { 1.5, 2.5, 4. })
@@ -178,28 +119,6 @@ TEST(GradedSurface, KeepsThinWallsWithoutHoles)
     const auto large = std::count_if(plate.Size.begin(), plate.Size.end(),
       [thickness](float delta) { return delta > std::max(1., 0.5 * thickness); });
     EXPECT_LT(large, 0.15 * plate.Size.size()) << "all but those at the rim";
-  }
-}
-
-TEST(GradedSurface, IsTheSameOnAnyThreads)
-{
-  constexpr int size = 60;
-  Grading grading = Within(0.5);
-  grading.MaximumEdgeLength = 3.;
-  EXPECT_TRUE(HasSeveralBlocks(size, grading.MaximumEdgeLength / 2.5));
-  for (const double gradation : { 0.2, Grading::MostGradation })
-  {
-    SCOPED_TRACE(gradation);
-    grading.Gradation = gradation;
-    const auto run = [&grading](Executor& executor)
-    { return SurfaceOf(OutsideBoxAndBall, grading, executor, size); };
-    const SurfaceResult one = run(Alone);
-    ExpectLegal(one);
-    DelayedThreads three(3, 5, 40, 7);
-    const SurfaceResult other = run(three);
-    ExpectSame(one, other);
-    EXPECT_EQ(one.FitToTolerance->LargestDistance, other.FitToTolerance->LargestDistance);
-    EXPECT_EQ(one.FitToTolerance->WithinTolerance, other.FitToTolerance->WithinTolerance);
   }
 }
 
@@ -263,37 +182,5 @@ TEST(GradedSizes, HaveBoundsWhateverLengthIsAskedFor)
     sizes.Begin(state.Sizing.OfLevel());
     sizes.Widen();
     EXPECT_FLOAT_EQ(state.Sizing.Largest(), static_cast<float>(most));
-  }
-}
-
-TEST(GradedSurface, IsValidWhereItIsStopped)
-{
-  class StopInRegularisation final : public Monitor
-  {
-  public:
-    explicit StopInRegularisation(int after) : Left(after) {}
-    bool Continue(const Status&) override { return true; }
-    bool GoOn(const Status& status) override
-    {
-      return status.Doing != Activity::Regularising || --this->Left > 0;
-    }
-
-  private:
-    int Left;
-  };
-  const TestVolume volume = MakeVolume(48, [](double x, double y, double z)
-    { return std::clamp(0.5 - 0.25 * OutsideBoxAndBall(x, y, z), 0., 1.); });
-  for (const int after : { 1, 3, 7 })
-  {
-    SCOPED_TRACE(after);
-    StopInRegularisation monitor(after);
-    SurfaceEvolution evolution(IsoHalf(), Alone, monitor);
-    evolution.StartEnclosing(volume.Image, 0);
-    evolution.SetGrading(Within(Tolerance));
-    EXPECT_EQ(evolution.Run(), StopReason::Cancelled);
-    const SurfaceResult surface = evolution.Result();
-    EXPECT_EQ(CountSelfIntersections(surface), 0);
-    EXPECT_NO_THROW(CheckInitialSurface(surface));
-    EXPECT_GT(surface.Points.size(), 100u);
   }
 }

@@ -85,39 +85,6 @@ TEST(ImageMargin, AReplicatedObjectClosesAtTheMargin)
   }
 }
 
-TEST(ImageMargin, EdgesAndGradientsDoNotLeadOut)
-{
-  TestVolume volume = Rod();
-  // The map's ridge is the rod's middle: on the outside it draws inward, along the rod nowhere.
-  const TestVolume edges = MakeVolume(16, [](double x, double y, double z)
-    { return 0.3 * x + std::exp(-0.02 * ((y - 8) * (y - 8) + (z - 8) * (z - 8))); });
-  volume.Image.Edges = edges.Values.data();
-  for (const double weight : { 3., 1000. })
-  {
-    for (const bool byEdges : { true, false })
-    {
-      for (const Border border : { Border::Replicate, Border::Background })
-      {
-        SurfaceOptions options = Replicating();
-        options.BorderValue = border;
-        options.MaximumNumberOfIterations = 60;
-        (byEdges ? options.EdgeAttractionWeight : options.GradientWeight) = weight;
-        options.ObjectIsBright = byEdges;
-        Watcher watcher;
-        SurfaceEvolution evolution(options, Threads, watcher);
-        watcher.Evolution = &evolution;
-        watcher.Image = &volume.Image;
-        evolution.StartSurface(
-          volume.Image, 0, DividedIcosahedron({ 8, 8, 8 }, 7, 1.5));
-        evolution.Run();
-        EXPECT_LT(watcher.Furthest, Most(volume.Image, 0.85))
-          << weight << " edges " << byEdges << " background " << (border == Border::Background);
-        EXPECT_LT(Beyond(evolution.Result(), volume.Image), 2.9) << "closed within the ramp";
-      }
-    }
-  }
-}
-
 TEST(ImageMargin, NoSettingLeadsFurtherOut)
 {
   std::mt19937 engine(7);

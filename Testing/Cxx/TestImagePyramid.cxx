@@ -8,7 +8,6 @@
 #include <vtkFloatArray.h>
 #include <vtkInformation.h>
 #include <vtkMatrix3x3.h>
-#include <vtkRTAnalyticSource.h>
 #include <vtkSOADataArrayTemplate.h>
 #include <vtkStringArray.h>
 
@@ -168,32 +167,6 @@ TEST(ImagePyramid, TakesArraysOfOtherMemoryLayouts)
     Level(PyramidOf(mask, 2)->GetOutput(), 1), Level(PyramidOf(image, 2)->GetOutput(), 1)));
 }
 
-TEST(ImagePyramid, AsksASourceForItsWholeExtent)
-{
-  vtkNew<vtkRTAnalyticSource> source;
-  source->SetWholeExtent(-20, 20, -15, 15, 2, 30);
-  vtkNew<vtkImagePyramid> filter;
-  filter->SetInputConnection(source->GetOutputPort());
-  filter->Update();
-  EXPECT_EQ(Level(filter->GetOutput(), 0)->GetNumberOfPoints(), 41 * 31 * 29);
-  EXPECT_EQ(Level(filter->GetOutput(), 1)->GetDimensions()[0], 23);
-}
-
-TEST(ImagePyramid, ExecutesAgainWhenAPropertyChanges)
-{
-  const auto image = RandomImage(40, 40, 40);
-  const auto filter = PyramidOf(image, 2);
-  filter->SetNumberOfLevels(3);
-  filter->SetReductionFactor(1.5);
-  filter->Update();
-  ASSERT_EQ(filter->GetOutput()->GetNumberOfBlocks(), 3u);
-  EXPECT_EQ(Level(filter->GetOutput(), 1)->GetDimensions()[0], 26);
-  filter->SetNumberOfLevels(0);
-  filter->SetMinimumLevelSize(26);
-  filter->Update();
-  EXPECT_EQ(filter->GetOutput()->GetNumberOfBlocks(), 2u);
-}
-
 TEST(ImagePyramid, CountsTheLevelsThatItWillMake)
 {
   for (const std::array<int, 3> size :
@@ -217,14 +190,66 @@ TEST(ImagePyramid, CountsTheLevelsThatItWillMake)
   EXPECT_EQ(filter->CountLevels(0, 0, 0), 0) << "no image";
 }
 
-TEST(ImagePyramid, PrintsItsProperties)
+namespace
 {
-  vtkNew<vtkImagePyramid> filter;
-  std::ostringstream text;
-  filter->Print(text);
-  for (const char* property : { "ReductionFactor: 1.73205", "NumberOfLevels: 0",
-         "MinimumLevelSize: 10", "NumberOfThreads: 0", "MemoryLimit: 0", "ScratchDirectory: " })
+std::string StopReason(vtkMultiBlockDataSet* pyramid)
+{
+  auto* reason =
+    vtkStringArray::SafeDownCast(pyramid->GetFieldData()->GetAbstractArray("StopReason"));
+  return reason ? reason->GetValue(0) : "";
+}
+
+vtkSmartPointer<vtkImageData> LargeImage()
+{
+  auto image = vtkSmartPointer<vtkImageData>::New();
+  image->SetDimensions(256, 256, 256);
+  image->AllocateScalars(VTK_UNSIGNED_CHAR, 1);
+  image->GetPointData()->GetScalars()->FillComponent(0, 1);
+  return image;
+}
+
+class ImagePyramidProgress : public ::testing::Test
+{
+protected:
+  /** Stops a run at a share of the work, if it is less than 1. */
+  void Run(double stopAt)
   {
-    EXPECT_TRUE(Has(text.str(), property)) << property;
+    this->Listener.StopAt = stopAt;
+    this->Filter->SetInputData(LargeImage());
+    this->Filter->SetNumberOfLevels(3);
+    this->Filter->Update();
   }
+
+  vtkNew<vtkImagePyramid> Filter;
+  ProgressListener Listener{ this->Filter };
+};
+}
+
+TEST_F(ImagePyramidProgress, GrowsWithinALevelAndNamesIt)
+{
+  this->Run(2.0);
+  EXPECT_TRUE(std::is_sorted(this->Listener.Shares.begin(), this->Listener.Shares.end()));
+  const auto inside = [](double share) { return share > 0.01 && share < 0.5; };
+  EXPECT_TRUE(std::any_of(this->Listener.Shares.begin(), this->Listener.Shares.end(), inside));
+  EXPECT_EQ(this->Listener.Shares.back(), 1.0);
+  EXPECT_TRUE(this->Listener.Texts.count("Level 1 of 2"));
+  EXPECT_TRUE(this->Listener.Texts.count("Level 2 of 2"));
+}
+
+TEST_F(ImagePyramidProgress, CancellingWithinALevelHandsOverTheLevelsBefore)
+{
+  this->Run(0.2); // within level 1
+  ASSERT_EQ(this->Filter->GetOutput()->GetNumberOfBlocks(), 1u);
+  EXPECT_EQ(StopReason(this->Filter->GetOutput()), "cancelled");
+}
+
+TEST_F(ImagePyramidProgress, CancellingBetweenLevelsKeepsTheFinishedOnes)
+{
+  this->Run(0.83); // level 1 is 0.84 of the work
+  ASSERT_EQ(this->Filter->GetOutput()->GetNumberOfBlocks(), 2u);
+  EXPECT_EQ(StopReason(this->Filter->GetOutput()), "cancelled");
+  auto* level1 = vtkImageData::SafeDownCast(this->Filter->GetOutput()->GetBlock(1));
+  const double* range = level1->GetPointData()->GetScalars()->GetRange();
+  EXPECT_NEAR(range[0], 1.0, 1e-6) << "what is handed over is finished";
+  EXPECT_NEAR(range[1], 1.0, 1e-6);
 }

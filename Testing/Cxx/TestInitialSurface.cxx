@@ -31,22 +31,6 @@ VectorD CornerOf(const IndexedSurface& surface, int i)
 }
 }
 
-TEST(InitialSurface, DividedIcosahedraLieOnTheirSphere)
-{
-  for (const double edge : { 3., 1., 0.4 })
-  {
-    const IndexedSurface sphere = DividedIcosahedron({ 1, 2, 3 }, 2.5, edge);
-    for (const Point& p : sphere.Points)
-    {
-      EXPECT_NEAR(Distance(p[0], p[1], p[2], 1, 2, 3), 2.5, 1e-5);
-    }
-    EXPECT_NO_THROW(CheckInitialSurface(sphere));
-    const double perVertex =
-      ComputeFeatures(sphere).Area / static_cast<double>(sphere.Points.size());
-    EXPECT_LT(perVertex, std::sqrt(0.75) * edge * edge * 1.1) << "edges of " << edge;
-  }
-}
-
 TEST(InitialSurface, EnclosingSurfaceHasLegalEdgesWhateverTheBox)
 {
   // Voxels of 1 : 20, sheets, rods, a single cell: a sphere mapped to these had edges of .1 delta.
@@ -79,15 +63,8 @@ TEST(InitialSurface, RefusesToEncloseVoxelsOfAnyLength)
   EXPECT_NO_THROW(EnclosingSurface(ImageOf({ 20, 20, 20 }, { 1, 1, 1000 }), 1.));
   for (const double step : { 1e6, 1e20, 1e300 })
   {
-    try
-    {
-      EnclosingSurface(ImageOf({ 20, 20, 20 }, { 1, 1, step }), 1.);
-      ADD_FAILURE() << step;
-    }
-    catch (const std::invalid_argument& error)
-    {
-      EXPECT_TRUE(Has(error.what(), "times as long as wide. Check the Spacing"));
-    }
+    EXPECT_TRUE(Has(RefusalOf([&] { EnclosingSurface(ImageOf({ 20, 20, 20 }, { 1, 1, step }), 1.); }),
+      "times as long as wide. Check the Spacing"));
   }
 }
 

@@ -28,22 +28,6 @@ InterfaceMesh TwoTetrahedra()
 }
 }
 
-TEST(InterfaceMesh, KnowsWhatMeetsAtAVertex)
-{
-  const InterfaceMesh mesh = TwoTetrahedra();
-  std::vector<int> found;
-  mesh.FindFaces(0, 1, found);
-  EXPECT_EQ(found.size(), 3u);
-  mesh.FindNeighbours(3, found);
-  EXPECT_EQ(found, (std::vector<int>{ 0, 0, 1, 1, 2, 2 }));
-  mesh.FindObjects(0, found);
-  EXPECT_EQ(found, (std::vector<int>{ 0, 1, 2 }));
-  mesh.FindObjects(4, found);
-  EXPECT_EQ(found, (std::vector<int>{ 0, 2 }));
-  EXPECT_TRUE(mesh.HasEdge(0, 4));
-  EXPECT_FALSE(mesh.HasEdge(3, 4));
-}
-
 TEST(InterfaceMesh, LiesInFilesWhereMemoryIsLimited)
 {
   ScratchOptions options;
@@ -76,25 +60,6 @@ TEST(InterfaceMesh, HasLinesWhereThreeFacesMeet)
   ExpectSound(mesh);
 }
 
-TEST(InterfaceMesh, GivesEachObjectAClosedSurface)
-{
-  const InterfaceMesh mesh = TwoTetrahedra();
-  EXPECT_NEAR(VolumeOf(mesh, 1), 1. / 6., 1e-6);
-  EXPECT_NEAR(VolumeOf(mesh, 2), 1. / 6., 1e-6);
-}
-
-TEST(InterfaceMesh, KnowsTheMeanLengthOfEdges)
-{
-  InterfaceMesh mesh;
-  mesh.AddVertex(Vector(0.f, 0.f, 0.f), Stratum::Interface);
-  mesh.AddVertex(Vector(3.f, 0.f, 0.f), Stratum::Interface);
-  mesh.AddVertex(Vector(0.f, 4.f, 0.f), Stratum::Interface);
-  mesh.AddVertex(Vector(90.f, 0.f, 0.f), Stratum::Interface);
-  mesh.AddFace({ { 0, 1, 2 }, 1, 2 });
-  mesh.RemoveFace(mesh.AddFace({ { 0, 3, 2 }, 1, 2 }));
-  EXPECT_NEAR(mesh.MeanEdge(), 4., 1e-6);
-}
-
 TEST(InterfaceMesh, CompactsWhatIsRemoved)
 {
   InterfaceMesh mesh = TwoTetrahedra();
@@ -114,4 +79,106 @@ TEST(InterfaceMesh, CompactsWhatIsRemoved)
   mesh.RemoveFace(0);
   mesh.Compact();
   EXPECT_EQ(mesh.Faces.size(), 6u);
+}
+
+namespace
+{
+/** Four faces about an edge along z, at angles of degrees, between objects 1, 2, 3 and 4. */
+InterfaceMesh FacesAt(const std::array<double, 4>& angles)
+{
+  InterfaceMesh mesh;
+  mesh.AddVertex(Vector(0.f, 0.f, 0.f), Stratum::Line);
+  mesh.AddVertex(Vector(0.f, 0.f, 1.f), Stratum::Line);
+  for (int n = 0; n < 4; ++n)
+  {
+    const double angle = angles[static_cast<std::size_t>(n)] * std::acos(-1.) / 180.;
+    const int outer = mesh.AddVertex(Vector(static_cast<float>(std::cos(angle)),
+                                       static_cast<float>(std::sin(angle)), 0.5f),
+      Stratum::Interface);
+    // Object n + 1 is at smaller angles, the next one at larger ones.
+    const auto before = static_cast<LabelMap::Number>(n + 1);
+    const auto after = static_cast<LabelMap::Number>((n + 1) % 4 + 1);
+    mesh.AddFace(before < after ? InterfaceMesh::Face{ { outer, 0, 1 }, before, after }
+                                : InterfaceMesh::Face{ { outer, 1, 0 }, after, before });
+  }
+  return mesh;
+}
+
+bool AreInOrderAbout(const InterfaceMesh& mesh, int u, int v)
+{
+  std::vector<PlacedFace> faces;
+  for (const InterfaceMesh::Face& face : mesh.Faces)
+  {
+    faces.push_back(PlacedFaceOf(mesh, face));
+  }
+  return AreInOrder(u, v, faces);
+}
+}
+
+TEST(InterfaceClearance, KnowsFacesThatAreTurnedPastOthers)
+{
+  EXPECT_TRUE(AreInOrderAbout(FacesAt({ 0., 90., 180., 270. }), 0, 1));
+  EXPECT_TRUE(AreInOrderAbout(FacesAt({ 0., 90., 180., 270. }), 1, 0));
+  EXPECT_TRUE(AreInOrderAbout(FacesAt({ 300., 20., 30., 299. }), 0, 1));
+  EXPECT_FALSE(AreInOrderAbout(FacesAt({ 0., 181., 180., 270. }), 0, 1));
+  EXPECT_FALSE(AreInOrderAbout(FacesAt({ 0., 90., 180., 10. }), 1, 0));
+}
+
+TEST(InterfaceClearance, LetsNoFaceBeTurnedPastAnother)
+{
+  const InterfaceMesh mesh = FacesAt({ 0., 90., 180., 270. });
+  InterfaceClearance clearance(mesh, 1e-3);
+  clearance.Reset();
+  std::vector<int> near;
+  std::vector<PlacedFace> made = { PlacedFaceOf(mesh, mesh.Faces[1]) };
+  EXPECT_TRUE(clearance.AreClear(made, { 1 }, near));
+  made.front().Corner[0] = VectorD(-0.9, 0.3, 0.5); // Before that of 180 degrees.
+  EXPECT_TRUE(clearance.AreClear(made, { 1 }, near));
+  made.front().Corner[0] = VectorD(-0.9, -0.3, 0.5); // Beyond it, without any crossing.
+  EXPECT_FALSE(clearance.AreClear(made, { 1 }, near));
+}
+
+TEST(InterfaceClearance, LetsNoFaceIntersectThoseThatStay)
+{
+  InterfaceMesh mesh = FacesAt({ 0., 90., 180., 270. });
+  const int first = mesh.AddVertex(Vector(0.4f, 0.1f, 0.5f), Stratum::Interface);
+  mesh.AddVertex(Vector(0.4f, 0.2f, 0.5f), Stratum::Interface);
+  mesh.AddVertex(Vector(0.6f, 0.2f, 0.5f), Stratum::Interface);
+  const int beside = mesh.AddFace({ { first, first + 1, first + 2 }, 1, 2 });
+  InterfaceClearance clearance(mesh, 1e-3);
+  clearance.Reset();
+  std::vector<int> near;
+  std::vector<PlacedFace> made = { PlacedFaceOf(mesh, mesh.Faces[beside]) };
+  EXPECT_TRUE(clearance.AreClear(made, { beside }, near));
+  made.front().Corner[0] = VectorD(0.4, -0.2, 0.5); // Through the face at 0 degrees.
+  EXPECT_FALSE(clearance.AreClear(made, { beside }, near));
+  EXPECT_TRUE(clearance.AreClear(made, { 0, beside }, near)) << "that one goes, too";
+}
+
+TEST(InterfaceClearance, FollowsFacesThatChange)
+{
+  // Two small faces far from each other, and a third one that is stretched between them.
+  InterfaceMesh mesh;
+  for (int n = 0; n < 3; ++n)
+  {
+    const float x = 20.f * static_cast<float>(n);
+    const int first = mesh.AddVertex(Vector(x, 0.f, 0.f), Stratum::Interface);
+    mesh.AddVertex(Vector(x + 1.f, 0.f, 0.f), Stratum::Interface);
+    mesh.AddVertex(Vector(x, 1.f, 0.f), Stratum::Interface);
+    mesh.AddFace({ { first, first + 1, first + 2 }, 1, 2 });
+  }
+  InterfaceClearance clearance(mesh, 1e-3);
+  clearance.Reset();
+  std::vector<int> near;
+  EXPECT_EQ(clearance.FindIntersecting(0, 0, near), -1);
+  mesh.Position[6] = Vector(0.2f, 0.2f, -1.f);
+  mesh.Position[7] = Vector(0.2f, 0.2f, 1.f);
+  mesh.Position[8] = Vector(40.f, -9.f, 0.f);
+  clearance.Change(2);
+  EXPECT_EQ(clearance.FindIntersecting(0, 0, near), 2) << "longer than any face before";
+  EXPECT_EQ(clearance.FindIntersecting(2, 0, near), 0);
+  EXPECT_EQ(clearance.FindIntersecting(1, 0, near), -1);
+  mesh.RemoveFace(2);
+  clearance.Change(2);
+  EXPECT_EQ(clearance.FindIntersecting(0, 0, near), -1) << "it is no more";
 }

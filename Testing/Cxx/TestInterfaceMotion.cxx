@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Interfaces/InterfaceMotion.h"
-
 #include "Core/Interfaces/InterfaceLattice.h"
+#include "Core/Interfaces/InterfaceMotion.h"
 #include "Core/Interfaces/InterfaceRemesher.h"
 #include "Core/Interfaces/TriangleShape.h"
 #include "Core/Interfaces/VertexTargets.h"
@@ -114,3 +113,62 @@ TEST(VertexTargets, GoNoFurtherThanHalfOfAnEdge)
     EXPECT_LE(Length(targets.Of(v) - place), 0.5f * shortest * 1.001f);
   }
 }
+
+namespace
+{
+constexpr double Tolerance = 1e-3;
+
+class Edits : public testing::TestWithParam<int>
+{
+protected:
+  void SetUp() override
+  {
+    this->Scene.emplace(ManyCells(22, 2 + 3 * GetParam(), static_cast<unsigned>(GetParam())));
+    this->Mesh = InterfaceLattice(*this->Scene->Fields, 1., OnThisThread()).Start(OnThisThread());
+    ExpectSound(this->Mesh);
+    this->Euler = EulerCharacteristicOf(this->Mesh);
+  }
+
+  void ExpectSoundAndAlike()
+  {
+    ExpectSound(this->Mesh);
+    EXPECT_EQ(EulerCharacteristicOf(this->Mesh), this->Euler);
+  }
+
+  InterfaceRemesher RemesherOf(double shortest, double longest)
+  {
+    return InterfaceRemesher(this->Mesh, shortest, longest, Tolerance, [] { return true; });
+  }
+
+  std::optional<InterfaceScene> Scene;
+  InterfaceMesh Mesh;
+  int Euler = 0;
+};
+}
+
+TEST_P(Edits, OfEachKindKeepInterfacesSound)
+{
+  EXPECT_GT(this->RemesherOf(1., 0.8).SplitLongEdges(), 0);
+  this->ExpectSoundAndAlike();
+  EXPECT_GT(this->RemesherOf(1.1, 1.8).CollapseShortEdges(), 0);
+  this->ExpectSoundAndAlike();
+  EXPECT_GT(this->RemesherOf(1.1, 1.8).FlipEdges(), 0);
+  this->ExpectSoundAndAlike();
+  this->RemesherOf(1.1, 1.8).RemoveSlivers();
+  this->ExpectSoundAndAlike();
+  this->Mesh.Compact();
+  this->ExpectSoundAndAlike();
+}
+
+TEST_P(Edits, FarTooLargeKeepWhatMeetsWhere)
+{
+  // Collapses until nothing more may go.
+  for (int round = 0; round < 6; ++round)
+  {
+    this->RemesherOf(8., 30.).CollapseShortEdges();
+  }
+  this->ExpectSoundAndAlike();
+  EXPECT_FALSE(this->Mesh.FindLines().empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, Edits, testing::Range(1, 4));

@@ -8,8 +8,6 @@
 #include "Core/Interfaces/TriangleShape.h"
 #include "InterfaceTestTools.h"
 
-#include <numeric>
-
 using namespace volumic;
 
 namespace
@@ -106,43 +104,23 @@ TEST(InterfaceSizes, HaveLinesAsNearAsTheTolerance)
   EXPECT_LT(off[off.size() / 2], 0.06f); // Some are held by what is thin.
 }
 
-TEST(InterfaceSizes, KeepVolumesWithALargeTolerance)
-{
-  InterfaceScene scene(ManyCells(40, 9, 2));
-  const InterfaceMesh mesh = Make(scene, 0.5);
-  ExpectSound(mesh);
-  for (int object = 1; object <= 9; ++object)
-  {
-    const auto voxels = static_cast<double>(scene.Bricks->ExtentOf(object).Voxels);
-    if (voxels > 1000.)
-    {
-      EXPECT_NEAR(VolumeOf(mesh, object) / voxels, 1., 2e-3) << object;
-    }
-  }
-}
-
 TEST(InterfaceSizes, GrowWhereInterfacesAreFlatAndKeepTheGradation)
 {
   InterfaceScene scene(FourBlocks(10));
   InterfaceMesh mesh = Make(scene, 0.);
   EXPECT_EQ(LargestSize(mesh), 1.f);
   const SizeBounds bounds = { 0.1, 2.5, 1.8, 0.2 };
+  InterfaceMesh off = mesh;
+  for (Vector& p : off.Position)
+  {
+    p += Vector(0.2f, 0.2f, 0.2f); // on purpose, as junction lines are, to be straight
+  }
+  AdjustSizes(off, *scene.Fields, bounds, OnThisThread());
+  EXPECT_EQ(LargestSize(off), 1.8f);
   AdjustSizes(mesh, *scene.Fields, bounds, OnThisThread());
   EXPECT_LT(SteepestSize(mesh), 1.001 * bounds.Gradation);
   EXPECT_EQ(LargestSize(mesh), 1.8f);
   EXPECT_EQ(*std::min_element(mesh.Size.begin(), mesh.Size.end()), 1.f); // at edges of the cube
-}
-
-TEST(InterfaceSizes, GrowWhereVerticesAreOffOnPurpose)
-{
-  InterfaceScene scene(FourBlocks(10));
-  InterfaceMesh mesh = Make(scene, 0.);
-  for (Vector& p : mesh.Position)
-  {
-    p += Vector(0.2f, 0.2f, 0.2f); // as junction lines are, to be straight
-  }
-  AdjustSizes(mesh, *scene.Fields, { 0.1, 2.5, 1.8, 0.2 }, OnThisThread());
-  EXPECT_EQ(LargestSize(mesh), 1.8f);
 }
 
 TEST(InterfaceSizes, ShrinkWhereTheToleranceIsNotKept)
@@ -226,4 +204,4 @@ TEST_P(GradedInterfaces, AreSoundWhereTheyAreStopped)
   ExpectSound(mesh);
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, GradedInterfaces, testing::Range(1, 7));
+INSTANTIATE_TEST_SUITE_P(Seeds, GradedInterfaces, testing::Range(1, 4));

@@ -139,20 +139,6 @@ TEST(LabelField, IsInLengthsOfTheWorldWhereVoxelsAreLong)
   EXPECT_EQ(CountWrongSigns(map, 1, field), 0);
 }
 
-TEST(LabelField, OfTwoObjectsThatMeetIsTheSameButForTheSign)
-{
-  const auto wave = [](int i, int j, int k)
-  { return i < 20. + 3. * std::sin(0.3 * j) + 2. * std::cos(0.25 * k) ? 1 : 2; };
-  const LabelMap map = MakeLabelMap({ 40, 40, 40 }, 2, wave);
-  const LabelField one = FieldOf(map, 1);
-  const LabelField other = FieldOf(map, 2);
-  ForBox({ 14, 14, 14 }, { 26, 26, 26 },
-    [&](int i, int j, int k)
-    {
-      ASSERT_NEAR(ValueAt(one, i, j, k), -ValueAt(other, i, j, k), 0.02);
-    });
-}
-
 TEST(LabelField, ReachesBeyondTheMapWhereTheObjectDoes)
 {
   const LabelMap map = MakeLabelMap({ 28, 28, 28 }, 1, [](int, int, int) { return 1; });
@@ -163,13 +149,6 @@ TEST(LabelField, ReachesBeyondTheMapWhereTheObjectDoes)
   EXPECT_LT(ValueAt(field, -1, 14, 14), 0.f);
   // The boundary is where voxels end.
   EXPECT_NEAR(ValueAt(field, 0, 14, 14), -ValueAt(field, -1, 14, 14), 0.05);
-}
-
-TEST(LabelField, WithoutSmoothingIsTheMembership)
-{
-  const LabelMap map = BallMap(20, 6.);
-  ForVoxelsOf(FieldOf(map, 1, 0.), [&](int i, int j, int k, float value)
-    { ASSERT_EQ(value, map.At(i, j, k) == 1 ? 0.5f : -0.5f); });
 }
 
 TEST(LabelField, IsTheSameBitsOnAnyThreads)
@@ -245,21 +224,18 @@ TEST(LabelClaims, SettledFieldsAreNeverPositiveTogether)
   const auto mostTogether = [&]
   {
     double most = -8.;
-    for (int k = 0; k < 20; ++k)
-    {
-      for (int v = 0; v < 34 * 34; ++v)
+    ForVoxels({ 34, 34, 20 },
+      [&](int i, int j, int k)
       {
         std::vector<float> values;
         for (const LabelField& field : fields)
         {
-          const std::array<int, 3> at = { v % 34, v / 34, k };
-          values.push_back(
-            field.Box.Contains(at) ? ValueAt(field, at[0], at[1], at[2]) : -LabelField::Far);
+          const bool isIn = field.Box.Contains({ i, j, k });
+          values.push_back(isIn ? ValueAt(field, i, j, k) : -LabelField::Far);
         }
         std::sort(values.begin(), values.end());
         most = std::max<double>(most, values[2] + values[3]);
-      }
-    }
+      });
     return most;
   };
   before = mostTogether();
@@ -335,15 +311,6 @@ TEST(LabelFieldWithTolerance, DoesNotThickenPlates)
   EXPECT_NEAR(CrossingOf(ValueAt(field, 16, 16, 16), ValueAt(field, 16, 16, 17)), 0.5, 0.15);
 }
 
-TEST(LabelFieldOfThinParts, KeepTheirThicknessWithMuchSmoothing)
-{
-  const LabelMap map = MakeLabelMap(
-    { 32, 32, 32 }, 1, [](int, int, int k) { return k == 15 || k == 16 ? 1 : 0; });
-  const LabelField field = FieldOf(map, 1, 4.);
-  EXPECT_EQ(CountWrongSigns(map, 1, field), 0);
-  EXPECT_NEAR(CrossingOf(ValueAt(field, 16, 16, 16), ValueAt(field, 16, 16, 17)), 0.5, 0.3);
-}
-
 TEST(LabelFieldOfThinParts, SlitsKeepTheirsToo)
 {
   const auto isRod = [](int i, int j, int k)
@@ -361,4 +328,13 @@ TEST(LabelFieldOfThinParts, SlitsKeepTheirsToo)
       EXPECT_NEAR(ValueAt(rod, 16, j, k), -ValueAt(others, 16, j, k), 0.05) << j << ", " << k;
     }
   }
+}
+
+TEST(LabelFieldOfThinParts, KeepTheirThicknessWithMuchSmoothing)
+{
+  const LabelMap map = MakeLabelMap(
+    { 32, 32, 32 }, 1, [](int, int, int k) { return k == 15 || k == 16 ? 1 : 0; });
+  const LabelField field = FieldOf(map, 1, 4.);
+  EXPECT_EQ(CountWrongSigns(map, 1, field), 0);
+  EXPECT_NEAR(CrossingOf(ValueAt(field, 16, 16, 16), ValueAt(field, 16, 16, 17)), 0.5, 0.3);
 }

@@ -1,11 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What vtkLabelsToSurfaces promises, on shapes that are known by formula, by the judge that shares
-// no code with it.
+// What vtkLabelsToSurfaces promises, on shapes that are known by formula, of neighbours and of what is
+// a voxel thin, by the judge that shares no code with it.
 #include "JudgedLabels.h"
-
-#include <vtkCellData.h>
 
 #include <ostream>
 
@@ -36,7 +34,6 @@ class LabelPromises : public testing::TestWithParam<Promise>
 };
 } // namespace
 
-//------------------------------------------------------------------------------
 TEST_P(LabelPromises, AreKept)
 {
   const Promise& promise = GetParam();
@@ -83,132 +80,207 @@ INSTANTIATE_TEST_SUITE_P(Of, LabelPromises,
       (info.param.Stretch > 1.0 ? "Stretched" : "");
   });
 
-//------------------------------------------------------------------------------
-TEST(LabelGeometry, DoesNotMatter)
+TEST(LabelNeighbours, HardlyOverlap)
 {
-  const DigitisedShapes shapes = Digitise(LabelShapeKind::Torus, 48);
-  const vtkSmartPointer<vtkImageData> plain = ToImage(shapes.Map);
-  const Filter first = FilterOf(plain);
-  const TriangleSurface expected = ToTriangleSurface(BlockOf(first), plain);
-
-  const vtkSmartPointer<vtkImageData> turned = ToImage(shapes.Map);
-  turned->SetSpacing(0.01, 0.01, 0.01);
-  turned->SetOrigin(12.0, -7.0, 30.0);
-  turned->SetDirectionMatrix(0, -1, 0, 0.6, 0, 0.8, -0.8, 0, 0.6);
-  const Filter second = FilterOf(turned);
-  const TriangleSurface found = ToTriangleSurface(BlockOf(second), turned);
-
-  ASSERT_EQ(found.Points.size(), expected.Points.size());
-  EXPECT_EQ(found.Triangles, expected.Triangles);
-  double largest = 0.0;
-  for (std::size_t p = 0; p < found.Points.size(); ++p)
+  const DigitisedShapes shapes = Digitise(LabelShapeKind::CutBall, 64);
+  const Filter filter = FilterOf(ToImage(shapes.Map));
+  double sum = 0.0, count = 0.0;
+  for (unsigned int a = 0; a < 4; ++a)
   {
-    for (int a = 0; a < 3; ++a)
+    for (unsigned int b = a + 1; b < 4; ++b)
     {
-      largest = std::max(largest, std::abs(found.Points[p][a] - expected.Points[p][a]));
+      const OverlapVerdict verdict = JudgeOverlap(
+        ToTriangleSurface(BlockOf(filter, a)), ToTriangleSurface(BlockOf(filter, b)));
+      sum += verdict.MeanDepth * static_cast<double>(verdict.VerticesInside);
+      count += static_cast<double>(verdict.VerticesInside);
     }
   }
-  EXPECT_LT(largest, 1e-3); // points are float, and 3000 voxels from the origin
-  EXPECT_EQ(FieldOf(BlockOf(second), "WrongVoxels"), FieldOf(BlockOf(first), "WrongVoxels"));
+  ASSERT_GT(count, 100.0); // they are in contact
+  EXPECT_LT(sum / count, 0.05);
 }
 
-TEST(LabelGeometry, MirroredImagesHaveOutwardSurfaces)
+TEST(LabelNeighbours, AreApartWithAGap)
 {
-  const DigitisedShapes shapes = Digitise(LabelShapeKind::Torus, 48);
-  const vtkSmartPointer<vtkImageData> mirrored = ToImage(shapes.Map);
-  mirrored->SetDirectionMatrix(-1, 0, 0, 0, 1, 0, 0, 0, 1);
-  ExpectGoodTriangles(BlockOf(FilterOf(mirrored)));
-}
-
-TEST(LabelGeometry, LabelsMayTouchTheBorder)
-{
-  // The lower half of a ball: the border cuts it.
-  DigitisedShapes shapes = Digitise(LabelShapeKind::Sphere, 48);
-  LabelMap& map = shapes.Map;
-  map.Size[2] = 24;
-  map.Values.resize(48 * 48 * 24);
-  const Filter filter = FilterOf(ToImage(map));
-  vtkPolyData* block = BlockOf(filter);
-  ExpectGoodTriangles(block);
-  const TriangleSurface surface = ToTriangleSurface(block);
-  const WrongVoxelVerdict voxels = JudgeVoxels(surface, map, 1);
-  EXPECT_EQ(FieldOf(block, "WrongVoxels"), voxels.Wrong());
-  EXPECT_LE(voxels.Wrong(), 0.005 * voxels.Label);
-  EXPECT_NEAR(JudgeTopology(surface).Volume / static_cast<double>(voxels.Label), 1.0, 0.02);
-}
-
-//------------------------------------------------------------------------------
-TEST(LabelInputs, TypesAndValuesDoNotMatter)
-{
-  const DigitisedShapes shapes = Digitise(LabelShapeKind::TouchingBalls, 40);
-  const vtkSmartPointer<vtkImageData> plain = ToImage(shapes.Map);
-  const TriangleSurface expected = ToTriangleSurface(BlockOf(FilterOf(plain)));
-  ASSERT_GT(expected.Triangles.size(), 100u);
-  for (const int type : { VTK_UNSIGNED_CHAR, VTK_INT, VTK_LONG_LONG, VTK_FLOAT, VTK_DOUBLE })
+  DigitisedShapes shapes = Digitise(LabelShapeKind::CutBall, 64);
+  shapes.Map.Spacing = { 0.4, 0.4, 0.4 }; // Gap is one of world units
+  const Filter filter = FilterOf(ToImage(shapes.Map));
+  filter->SetGap(0.3 * 0.4);
+  for (unsigned int a = 0; a < 4; ++a)
   {
-    vtkNew<vtkImageData> image;
-    image->SetDimensions(plain->GetDimensions());
-    const auto values = vtk::TakeSmartPointer(vtkDataArray::CreateDataArray(type));
-    values->DeepCopy(plain->GetPointData()->GetScalars());
-    image->GetPointData()->SetScalars(values);
-    const TriangleSurface found = ToTriangleSurface(BlockOf(FilterOf(image)));
-    EXPECT_EQ(found.Points, expected.Points) << values->GetDataTypeAsString();
-    EXPECT_EQ(found.Triangles, expected.Triangles) << values->GetDataTypeAsString();
+    ExpectGoodTriangles(BlockOf(filter, a));
+    for (unsigned int b = a + 1; b < 4; ++b)
+    {
+      const OverlapVerdict verdict = JudgeOverlap(
+        ToTriangleSurface(BlockOf(filter, a)), ToTriangleSurface(BlockOf(filter, b)));
+      EXPECT_EQ(verdict.VerticesInside, 0u) << a << " and " << b;
+      EXPECT_EQ(verdict.IntersectingPairs, 0u) << a << " and " << b;
+    }
   }
 }
 
-TEST(LabelInputs, LabelsMayBeNegative)
+TEST(LabelNeighbours, AreDrawnBackByHalfTheGap)
 {
-  DigitisedShapes shapes = Digitise(LabelShapeKind::TouchingBalls, 40);
-  const TriangleSurface expected = ToTriangleSurface(BlockOf(FilterOf(ToImage(shapes.Map)), 1));
-  for (std::int16_t& value : shapes.Map.Values)
+  DigitisedShapes shapes = Digitise(LabelShapeKind::Sphere, 64);
+  shapes.Map.Spacing = { 0.4, 0.4, 0.4 };
+  const Filter filter = FilterOf(ToImage(shapes.Map));
+  const double before = FieldOf(BlockOf(filter), "Volume");
+  filter->SetGap(0.4);
+  EXPECT_NEAR(FieldOf(BlockOf(filter), "Volume") / before, std::pow(19.5 / 20.0, 3.0), 0.004);
+}
+
+namespace
+{
+/** Some blobs of labels in each other, by chance, but always the same. */
+LabelMap RandomBlobs(int size, int labels, unsigned seed)
+{
+  const auto next = [&seed](double high)
   {
-    value = static_cast<std::int16_t>(value == 2 ? -700 : value);
+    seed = seed * 1664525u + 1013904223u;
+    return (seed >> 8) / 16777216.0 * high;
+  };
+  LabelMap map;
+  map.Size = { size, size, size };
+  map.Values.assign(static_cast<std::size_t>(size) * size * size, 0);
+  for (int blob = 0; blob < 3 * labels; ++blob)
+  {
+    const double centre[3] = { next(size), next(size), next(size) };
+    const double radius[3] = { 2.0 + next(6.0), 2.0 + next(6.0), 2.0 + next(6.0) };
+    for (std::size_t v = 0; v < map.Values.size(); ++v)
+    {
+      const int n = static_cast<int>(v);
+      const int place[3] = { n % size, n / size % size, n / size / size };
+      double square = 0.0;
+      for (int a = 0; a < 3; ++a)
+      {
+        square += std::pow((place[a] - centre[a]) / radius[a], 2.0);
+      }
+      if (square < 1.0)
+      {
+        map.Values[v] = static_cast<std::int16_t>(1 + blob % labels);
+      }
+    }
   }
-  const Filter filter = FilterOf(ToImage(shapes.Map));
-  vtkPolyData* block = BlockOf(filter, 0); // in the order of their values
-  EXPECT_EQ(FieldOf(block, "Label"), -700.0);
-  EXPECT_EQ(ToTriangleSurface(block).Points, expected.Points);
+  return map;
+}
+} // namespace
+
+class LabelGaps : public testing::TestWithParam<double>
+{
+};
+
+// Triangles cut corners that fields do not have in common: an exact test between neighbours tells.
+TEST_P(LabelGaps, OfAnySizeKeepNeighboursApart)
+{
+  for (const int level : { 0, 1 })
+  {
+    for (unsigned seed = 1; seed <= 4; ++seed)
+    {
+      const Filter filter = FilterOf(ToImage(RandomBlobs(28, 5, seed)));
+      filter->SetGap(GetParam());
+      filter->SetFinestLevel(level);
+      filter->Update();
+      for (unsigned int a = 0; a < 5; ++a)
+      {
+        for (unsigned int b = a + 1; b < 5; ++b)
+        {
+          EXPECT_EQ(JudgeOverlap(ToTriangleSurface(BlockOf(filter, a)),
+                      ToTriangleSurface(BlockOf(filter, b))).IntersectingPairs,
+            0u)
+            << "level " << level << ", seed " << seed << ", blocks " << a << ", " << b;
+        }
+      }
+    }
+  }
 }
 
-TEST(LabelInputs, CellsAreVoxels)
+INSTANTIATE_TEST_SUITE_P(Of, LabelGaps, testing::Values(0.05, 0.5),
+  [](const testing::TestParamInfo<double>& info)
+  { return std::to_string(static_cast<int>(std::round(100.0 * info.param))) + "Percent"; });
+
+namespace
 {
-  const DigitisedShapes shapes = Digitise(LabelShapeKind::Sphere, 40);
-  const vtkSmartPointer<vtkImageData> points = ToImage(shapes.Map);
-  const TriangleSurface expected = ToTriangleSurface(BlockOf(FilterOf(points)));
-  vtkNew<vtkImageData> cells;
-  cells->SetDimensions(41, 41, 41);
-  cells->SetOrigin(-0.5, -0.5, -0.5);
-  cells->GetCellData()->SetScalars(points->GetPointData()->GetScalars());
-  const Filter filter = FilterOf(cells);
-  filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_CELLS, "Labels");
-  const TriangleSurface found = ToTriangleSurface(BlockOf(filter));
-  EXPECT_EQ(found.Points, expected.Points);
-  EXPECT_EQ(found.Triangles, expected.Triangles);
+/** A label map of one label. */
+LabelMap MapOf(int size, const std::function<bool(int, int, int)>& isLabel)
+{
+  LabelMap map;
+  map.Size = { size, size, size };
+  for (int v = 0; v < size * size * size; ++v)
+  {
+    map.Values.push_back(isLabel(v % size, v / size % size, v / size / size) ? 1 : 0);
+  }
+  return map;
 }
 
-//------------------------------------------------------------------------------
-TEST(LabelsThatAreThin, AreThereWithFinerTriangles)
+/** Thin labels of 32^3 voxels, by name. */
+std::vector<std::pair<std::string, LabelMap>> ThinLabels()
 {
-  const DigitisedShapes shapes = Digitise(LabelShapeKind::ThinShell, 48);
-  const Filter filter = FilterOf(ToImage(shapes.Map));
-  filter->SetFinestLevel(-1);
-  vtkPolyData* block = BlockOf(filter);
-  ExpectGoodTriangles(block);
-  const WrongVoxelVerdict voxels = JudgeVoxels(ToTriangleSurface(block), shapes.Map, 1);
-  EXPECT_LE(voxels.Wrong(), 2e-3 * voxels.Label);
-  EXPECT_EQ(JudgeTopology(ToTriangleSurface(block)).Components.size(), 2u); // both sides
+  const auto along = [](int i) { return i >= 6 && i < 26; };
+  const auto isRow = [&](int i, int j, int k) { return along(i) && j == 16 && k == 16; };
+  const auto isPairs = [&](int i, int j, int k)
+  { return along(i) && j == 16 && (k == 16 || k == 17); };
+  const auto isDiagonal = [&](int i, int j, int k) { return along(i) && i == j && i == k; };
+  const auto isStair = [&](int i, int j, int k)
+  { return along(i) && ((i == j && (i == k || i + 1 == k)) || (i + 1 == j && i + 1 == k)); };
+  const auto isPlate = [&](int i, int j, int k) { return along(i) && along(j) && k == 16; };
+  const auto isTwo = [](int i, int j, int k) { return (i == 16 || i == 17) && j == 16 && k == 16; };
+  return { { "row", MapOf(32, isRow) }, { "row of pairs", MapOf(32, isPairs) },
+    { "diagonal of voxels", MapOf(32, isDiagonal) }, { "stair", MapOf(32, isStair) },
+    { "plate", MapOf(32, isPlate) }, { "two voxels", MapOf(32, isTwo) } };
+}
+} // namespace
+
+TEST(ThinLabels, HaveSurfacesByDefault)
+{
+  for (const auto& [name, map] : ThinLabels())
+  {
+    SCOPED_TRACE(name);
+    const Filter filter = FilterOf(ToImage(map));
+    vtkPolyData* block = BlockOf(filter);
+    ASSERT_GT(block->GetNumberOfCells(), 0);
+    EXPECT_LT(FieldOf(block, "WrongVoxels"), 0.25 * FieldOf(block, "LabelVoxels"));
+  }
 }
 
-TEST(LabelsThatAreThin, OneVoxelIsTold)
+TEST(ThinLabels, LoseNoVoxelWithTheFinestTriangles)
 {
-  LabelMap map = Digitise(LabelShapeKind::Sphere, 40).Map;
-  map.Values[40 * 40 * 3 + 40 * 3 + 3] = 2;
-  const Filter filter = FilterOf(ToImage(map));
-  vtkPolyData* block = BlockOf(filter, 1);
-  EXPECT_EQ(FieldOf(block, "Label"), 2.0);
-  EXPECT_EQ(FieldOf(block, "LabelVoxels"), 1.0);
-  const WrongVoxelVerdict voxels = JudgeVoxels(ToTriangleSurface(block), map, 2);
-  EXPECT_EQ(FieldOf(block, "WrongVoxels"), voxels.Wrong());
-  ExpectGoodTriangles(BlockOf(filter, 0)); // nothing happens to the others
+  for (const auto& [name, map] : ThinLabels())
+  {
+    SCOPED_TRACE(name);
+    const Filter filter = FilterOf(ToImage(map));
+    filter->SetFinestLevel(-1);
+    vtkPolyData* block = BlockOf(filter);
+    const SurfaceVerdict verdict =
+      JudgeSurface(ToTriangleSurface(block), FieldOf(block, "Delta"));
+    EXPECT_TRUE(verdict.Topology.Closed && verdict.Topology.Outward);
+    EXPECT_EQ(verdict.Intersections.Pairs, 0u);
+    const WrongVoxelVerdict voxels = JudgeVoxels(ToTriangleSurface(block), map, 1);
+    EXPECT_EQ(voxels.Wrong(), 0) << voxels.Outside << " outside, " << voxels.Inside << " inside";
+  }
+}
+
+TEST(ThinLabels, StayWithAToleranceToo)
+{
+  for (const auto& [name, map] : ThinLabels())
+  {
+    SCOPED_TRACE(name);
+    const Filter filter = FilterOf(ToImage(map));
+    filter->SetVoxelTolerance(0.5);
+    vtkPolyData* block = BlockOf(filter);
+    ASSERT_GT(block->GetNumberOfCells(), 0);
+    EXPECT_LE(FieldOf(block, "MissedVoxels"), 0.15 * FieldOf(block, "LabelVoxels"));
+  }
+}
+
+// One that is lost on its way makes the triangles of its label smaller, not those of others.
+TEST(ThinLabels, LeaveOtherLabelsAsTheyAre)
+{
+  const auto isBall = [](int i, int j, int k)
+  { return std::hypot(i - 16.0, j - 8.0, k - 16.0) < 6.0; };
+  const auto isTip = [](int i, int j, int k) { return i == 16 && j > 12 && j < 26 && k == 16; };
+  const Filter ball = FilterOf(ToImage(MapOf(32, isBall)));
+  const Filter both = FilterOf(ToImage(
+    MapOf(32, [&](int i, int j, int k) { return isBall(i, j, k) || isTip(i, j, k); })));
+  EXPECT_EQ(FieldOf(BlockOf(ball), "Level"), 0);
+  EXPECT_EQ(FieldOf(BlockOf(both), "Level"), -1);
+  EXPECT_LE(FieldOf(BlockOf(both), "WrongVoxels"), 2);
 }

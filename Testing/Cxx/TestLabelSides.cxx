@@ -1,19 +1,10 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Evolution/InitialSurface.h"
 #include "Core/Labels/DrawBack.h"
 #include "Core/Labels/TouchingSurfaces.h"
 #include "Core/Labels/WrongVoxels.h"
+#include "CoreTestTools.h"
 #include "LabelTestTools.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdint>
-#include <functional>
-#include <vector>
 
 using namespace volumic;
 
@@ -38,14 +29,7 @@ TEST(FindWrongVoxels, FindsThoseOutsideAndThoseInside)
 {
   LabelMap map = MakeLabelMap({ 32, 32, 32 }, 1, [](int i, int j, int k)
     { return std::min({ i, j, k }) >= 8 && std::max({ i, j, k }) <= 20 ? 1 : 0; });
-  IndexedSurface cube;
-  for (int corner = 0; corner < 8; ++corner)
-  {
-    const auto at = [corner](int axis) { return (corner >> axis & 1) != 0 ? 20.5 : 7.5; };
-    cube.Points.push_back({ at(0), at(1), at(2) });
-  }
-  cube.Triangles = { { 0, 2, 3 }, { 0, 3, 1 }, { 4, 5, 7 }, { 4, 7, 6 }, { 0, 1, 5 }, { 0, 5, 4 },
-    { 2, 6, 7 }, { 2, 7, 3 }, { 0, 4, 6 }, { 0, 6, 2 }, { 1, 3, 7 }, { 1, 7, 5 } };
+  const IndexedSurface cube = Cuboid({ 7.5, 7.5, 7.5 }, { 20.5, 20.5, 20.5 });
   EXPECT_TRUE(FindWrongVoxels(LabelBricks(map, OnThisThread()), 1, cube).empty());
   const auto place = [&](int i, int j, int k)
   { return static_cast<std::size_t>(VoxelBox::Of(map.Size).NumberOf(i, j, k)); };
@@ -59,43 +43,6 @@ TEST(FindWrongVoxels, FindsThoseOutsideAndThoseInside)
   EXPECT_EQ(static_cast<std::int64_t>(all.size()),
     LabelBricks(map, OnThisThread()).ExtentOf(1).Voxels)
     << "without a surface all are outside";
-}
-
-TEST(FindWrongVoxels, RowsThroughCornersAndEdgesAreNoTrouble)
-{
-  // A surface whose corners are at the places of voxels.
-  const LabelMap map = BallMap(24, 6.);
-  IndexedSurface octahedron;
-  octahedron.Points = { { 4, 12, 12 }, { 20, 12, 12 }, { 12, 4, 12 }, { 12, 20, 12 },
-    { 12, 12, 4 }, { 12, 12, 20 } };
-  octahedron.Triangles = { { 1, 3, 5 }, { 3, 0, 5 }, { 0, 2, 5 }, { 2, 1, 5 }, { 3, 1, 4 },
-    { 0, 3, 4 }, { 2, 0, 4 }, { 1, 2, 4 } };
-  const std::vector<std::int64_t> wrong =
-    FindWrongVoxels(LabelBricks(map, OnThisThread()), 1, octahedron);
-  std::vector<std::int64_t> wanted;
-  std::vector<std::int64_t> found;
-  for (int v = 0; v < 24 * 24 * 24; ++v)
-  {
-    const int i = v % 24;
-    const int j = v / 24 % 24;
-    const int k = v / 576;
-    const int way = std::abs(i - 12) + std::abs(j - 12) + std::abs(k - 12);
-    if (way != 8 && (way < 8) != (map.At(i, j, k) == 1)) // On it they may be on either side.
-    {
-      wanted.push_back(v);
-    }
-  }
-  for (const std::int64_t v : wrong)
-  {
-    const int way = static_cast<int>(std::abs(v % 24 - 12) + std::abs(v / 24 % 24 - 12) +
-      std::abs(v / 576 - 12));
-    if (way != 8)
-    {
-      found.push_back(v);
-    }
-  }
-  EXPECT_EQ(found, wanted);
-  EXPECT_GT(wanted.size(), 50u);
 }
 
 TEST(DrawBackWithin, LowersTheFieldWhereTheSurfaceLeavesItsInside)
@@ -129,29 +76,6 @@ TEST(DrawBackWithin, LooksAtTrianglesBetweenTheirCorners)
   triangle.Points = { { 8.5, 8., 9. }, { 8.5, 11., 9. }, { 30.5, 9.6, 9. } };
   triangle.Triangles = { { 0, 1, 2 } };
   EXPECT_TRUE(DrawBackWithin(original, triangle, 0.3f, field)) << "it crosses the space between";
-}
-
-TEST(CorrectBends, LetsBentBoundariesGoOut)
-{
-  const LabelMap map = BallMap(32, 9.);
-  const LabelBricks bricks(map, OnThisThread());
-  const LabelField before =
-    MakeLabelField(bricks, 1, LabelFieldOptions(), OnThisThread());
-  LabelField after = before;
-  CorrectBends(after, bricks, 1, 0.8, OnThisThread());
-  double sum = 0.;
-  int count = 0;
-  ForVoxelsOf(before,
-    [&](int i, int j, int k, float value)
-    {
-      if (std::abs(value) < 0.7f)
-      {
-        sum += ValueAt(after, i, j, k) - value;
-        ++count;
-      }
-    });
-  // The Laplacian of the distance to a sphere is 2 over its radius.
-  EXPECT_NEAR(sum / count, 0.8 * 2. / 9., 0.05);
 }
 
 TEST(SizeOfLargestLostPart, CountsVoxelsThatShareFacesButNotThoseBesideWhatIsKept)
@@ -223,18 +147,4 @@ TEST(FindTouching, TouchingInAPointCountsAndANestedOneDoesNot)
   EXPECT_FALSE(meet(OctahedronAt(5., 3.), OctahedronAt(11.01, 3.)));
   EXPECT_FALSE(meet(OctahedronAt(5., 3.), OctahedronAt(5., 1.))) << "inside, but not in contact";
   EXPECT_FALSE(meet(OctahedronAt(5., 3.), IndexedSurface()));
-}
-
-TEST(VoxelsAbout, AreThoseAboutTheTriangles)
-{
-  const IndexedSurface octahedron = OctahedronAt(5.5, 3.);
-  EXPECT_TRUE(VoxelsAbout(octahedron, {}).empty());
-  const std::vector<std::array<int, 3>> voxels = VoxelsAbout(octahedron, { 0 });
-  EXPECT_TRUE(std::is_sorted(voxels.begin(), voxels.end()));
-  EXPECT_EQ(std::adjacent_find(voxels.begin(), voxels.end()), voxels.end());
-  const auto has = [&](int i, int j, int k)
-  { return std::count(voxels.begin(), voxels.end(), std::array<int, 3>{ i, j, k }) == 1; };
-  EXPECT_TRUE(has(8, 10, 10) && has(9, 10, 10)) << "about its corner (8.5, 10, 10)";
-  EXPECT_TRUE(has(5, 13, 10) && has(5, 10, 13));
-  EXPECT_FALSE(has(3, 10, 10));
 }

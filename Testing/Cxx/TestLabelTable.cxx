@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "LabelImages.h"
 #include "vtkLabelTable.h"
+#include "vtkVolumeToSurface.h"
 
 #include <vtkDoubleArray.h>
 #include <vtkTable.h>
@@ -48,22 +49,6 @@ TEST(LabelTable, ListsTheLabelsOfAnImage)
   EXPECT_NE(colors->GetComponent(1, 0), colors->GetComponent(2, 0)) << "a palette";
 }
 
-TEST(LabelTable, GivesTheOnlyObjectAColorThatShowsItsRelief)
-{
-  vtkNew<vtkLabelTable> table;
-  table->SetInputData(LabelImageOf(
-    34, 28, 28, [](int i, int, int) { return i < 10 ? 0 : (i < 20 ? 1 : 255); }));
-  table->Update();
-  auto* colors = vtkDoubleArray::SafeDownCast(table->GetOutput()->GetColumnByName("Color"));
-  for (const int row : { 1, 2 })
-  {
-    EXPECT_GT(0.21 * colors->GetComponent(row, 0) + 0.72 * colors->GetComponent(row, 1) +
-        0.07 * colors->GetComponent(row, 2),
-      0.4)
-      << row;
-  }
-}
-
 TEST(LabelTable, TellsWhereLabelsAre)
 {
   // A run of voxels over the end of rows and of slices, on both sides of what a thread takes.
@@ -100,4 +85,59 @@ TEST(LabelTable, RefusesWhatIsNoLabelMap)
   table->SetInputData(BallsImage());
   table->Update();
   EXPECT_EQ(table->GetOutput()->GetNumberOfRows(), 3);
+}
+
+namespace
+{
+/** What vtkVolumeToSurface warns of. */
+std::string WarningsOf(vtkVolumeToSurface* filter, vtkImageData* image)
+{
+  filter->SetInputData(image);
+  const MessagesOf warnings(filter, vtkCommand::WarningEvent);
+  filter->Update();
+  EXPECT_GT(filter->GetOutput()->GetNumberOfCells(), 0) << "it is made all the same";
+  return warnings.Get();
+}
+}
+
+TEST(LabelHint, WhoGivesALabelMapToVolumeToSurfaceIsToldOnce)
+{
+  for (const int type : { VTK_UNSIGNED_CHAR, VTK_SHORT, VTK_FLOAT })
+  {
+    vtkNew<vtkVolumeToSurface> filter;
+    filter->SetIsoValue(0.5);
+    const std::string warnings =
+      WarningsOf(filter, LabelImageOf(34, 28, 28, TwoBalls, type));
+    EXPECT_TRUE(Has(warnings, "array 'Labels' looks like a label map: 3 different integers"));
+    EXPECT_TRUE(Has(warnings, "Labels to Surfaces"));
+    EXPECT_EQ(WarningsOf(filter, LabelImageOf(34, 28, 28, TwoBalls, type)), "") << "once";
+  }
+}
+
+TEST(LabelHint, IsToldAtTheEndOfTheRun)
+{
+  vtkNew<vtkVolumeToSurface> filter;
+  filter->SetInputData(LabelImageOf(34, 28, 28, TwoBalls, VTK_SHORT));
+  filter->SetIsoValue(0.5);
+  const MessagesOf warnings(filter, vtkCommand::WarningEvent);
+  std::string early;
+  const ProgressHook hook(filter,
+    [&](vtkAlgorithm*, const std::string&, double share)
+    { early += share < 1.0 ? warnings.Get() : ""; }); // At 1 the filter is done.
+  filter->Update();
+  EXPECT_EQ(early, "");
+  EXPECT_TRUE(warnings.Has("looks like a label map"));
+}
+
+TEST(LabelHint, ScansAreNoLabelMaps)
+{
+  vtkNew<vtkVolumeToSurface> filter;
+  filter->SetIsoValue(50.);
+  EXPECT_EQ(WarningsOf(filter, BallImage(30, 30, 30)), "");
+  // Of noise something may be lost, which is told.
+  EXPECT_FALSE(Has(WarningsOf(filter, RandomImage(20, 20, 20, VTK_UNSIGNED_CHAR)), "label map"));
+  // Integers of 8 bits that change from voxel to voxel.
+  const auto soft = [](int i, int j, int k)
+  { return std::floor(100. - 5. * std::hypot(i - 14., j - 14., k - 14.)); };
+  EXPECT_EQ(WarningsOf(filter, LabelImageOf(28, 28, 28, soft, VTK_SIGNED_CHAR)), "");
 }

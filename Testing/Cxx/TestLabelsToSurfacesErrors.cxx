@@ -4,9 +4,6 @@
 #include "SurfaceTestTools.h"
 
 #include <vtkDoubleArray.h>
-#include <vtkErrorCode.h>
-#include <vtkIntArray.h>
-#include <vtkUnstructuredGrid.h>
 
 #include <new>
 
@@ -65,28 +62,30 @@ TEST_F(LabelsToSurfacesErrors, LabelsThatAreNotThereAreNamedWithThoseThatAre)
   this->ExpectError({ "Labels", "'Labels'", "no label 4", "0, 3, 7" });
 }
 
-TEST_F(LabelsToSurfacesErrors, AnImageOfBackgroundAlone)
+TEST_F(LabelsToSurfacesErrors, ImagesThatAreNoLabelMaps)
 {
-  this->Filter->SetInputData(LabelImageOf(9, 9, 9, [](int, int, int) { return 0; }));
-  this->ExpectError({ "Input port 0", "no label but Background Label, 0" });
-}
-
-TEST_F(LabelsToSurfacesErrors, ValuesThatAreNoIntegers)
-{
-  const auto image = LabelImageOf(9, 9, 9, [](int i, int, int) { return 0.5 * i; }, VTK_DOUBLE);
-  this->Filter->SetInputData(image);
-  this->ExpectError({ "Input port 0", "'Labels' has the value 0.5", "integers",
-    "Volume to Surface" });
-  image->GetPointData()->GetScalars()->SetComponent(0, 0, std::nan(""));
-  image->Modified();
-  this->ExpectError({ "'Labels' has the value nan" });
-}
-
-TEST_F(LabelsToSurfacesErrors, IntegersThatAreTooLarge)
-{
-  this->Filter->SetInputData(LabelImageOf(
-    9, 9, 9, [](int i, int, int) { return i > 4 ? 5e9 : 0.; }, VTK_LONG_LONG));
-  this->ExpectError({ "'Labels' has the value 5000000000", "32 bits" });
+  const auto map = [](int slices, const std::function<double(int)>& at, int type = VTK_SHORT)
+  { return LabelImageOf(9, 9, slices, [&](int i, int, int) { return at(i); }, type); };
+  vtkNew<vtkImageData> colours;
+  colours->SetDimensions(9, 9, 9);
+  colours->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
+  const std::vector<std::pair<vtkSmartPointer<vtkImageData>, std::vector<std::string>>> cases = {
+    { map(9, [](int) { return 0.; }), { "Input port 0", "no label but Background Label, 0" } },
+    { map(9, [](int i) { return 0.5 * i; }, VTK_DOUBLE),
+      { "Input port 0", "'Labels' has the value 0.5", "integers", "Volume to Surface" } },
+    { map(9, [](int i) { return i > 4 ? std::nan("") : 0.; }, VTK_DOUBLE),
+      { "'Labels' has the value nan" } },
+    { map(9, [](int i) { return i > 4 ? 5e9 : 0.; }, VTK_LONG_LONG),
+      { "'Labels' has the value 5000000000", "32 bits" } },
+    { map(1, [](int i) { return std::floor(i / 4.); }),
+      { "Input port 0", "9 x 9 x 1", "at least 2" } },
+    { colours.Get(), { "Input port 0", "components" } },
+  };
+  for (const auto& [image, parts] : cases)
+  {
+    this->Filter->SetInputData(image);
+    this->ExpectError(parts);
+  }
 }
 
 TEST_F(LabelsToSurfacesErrors, MoreLabelsThanALabelMapHas)
@@ -98,28 +97,6 @@ TEST_F(LabelsToSurfacesErrors, MoreLabelsThanALabelMapHas)
   this->Filter->AddLabel(100);
   this->Filter->Update();
   EXPECT_EQ(this->Filter->GetErrorCode(), vtkErrorCode::NoError);
-}
-
-TEST_F(LabelsToSurfacesErrors, AnImageOfOneSlice)
-{
-  this->Filter->SetInputData(LabelImageOf(9, 9, 1, [](int i, int, int) { return i / 4; }));
-  this->ExpectError({ "Input port 0", "9 x 9 x 1", "at least 2" });
-}
-
-TEST_F(LabelsToSurfacesErrors, SeveralComponents)
-{
-  vtkNew<vtkImageData> image;
-  image->SetDimensions(9, 9, 9);
-  image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
-  this->Filter->SetInputData(image);
-  this->ExpectError({ "Input port 0", "components" });
-}
-
-TEST_F(LabelsToSurfacesErrors, DataThatAreNoImage)
-{
-  vtkNew<vtkUnstructuredGrid> grid;
-  this->Filter->SetInputDataObject(grid);
-  this->ExpectError({ "Input port 0", "vtkUnstructuredGrid", "Resample To Image" });
 }
 
 TEST_F(LabelsToSurfacesErrors, AnArrayThatIsNotThere)

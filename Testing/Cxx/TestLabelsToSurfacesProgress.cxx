@@ -7,8 +7,6 @@
 
 #include <vtkCellData.h>
 
-#include <sstream>
-
 using namespace volumic;
 
 TEST(LabelsToSurfaces, TellsWhichIsUnderWay)
@@ -101,21 +99,4 @@ TEST(LabelsToSurfaces, TellsProgressAndCanBeStopped)
   filter->Modified();
   filter->Update();
   EXPECT_EQ(BlockOf(filter, 0)->GetNumberOfCells(), all) << "works again";
-}
-
-TEST(LabelsToSurfaces, PrintsAllThatIsSet)
-{
-  vtkNew<vtkLabelsToSurfaces> filter;
-  filter->AddLabel(4);
-  filter->SetGap(0.25);
-  filter->SetNumberOfThreads(-3);
-  filter->SetScratchDirectory("/scratch");
-  std::ostringstream text;
-  filter->Print(text);
-  // That all are told, with their values, Python's test_reference.py knows.
-  for (const char* part : { "Labels: 4\n", "Merge: 0", "Smoothing: 2", "Gap: 0.25",
-         "NumberOfThreads: 0", "ScratchDirectory: /scratch" })
-  {
-    EXPECT_TRUE(Has(text.str(), part)) << part;
-  }
 }

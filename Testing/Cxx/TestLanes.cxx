@@ -39,11 +39,6 @@ float LaneOf(const Lanes& lanes, int i)
   return four[i];
 }
 
-Vector LaneOf(const VectorLanes& lanes, int i)
-{
-  return Vector(LaneOf(lanes.X, i), LaneOf(lanes.Y, i), LaneOf(lanes.Z, i));
-}
-
 void ExpectSame(const Vector& a, const Vector& b)
 {
   EXPECT_EQ(a.X, b.X);
@@ -95,28 +90,6 @@ TEST(Lanes, ComputeWhatOneFloatDoes)
     EXPECT_EQ(LeastOf(x), *std::min_element(a, a + 4));
     EXPECT_EQ(GreatestOf(x), *std::max_element(a, a + 4));
   }
-}
-
-TEST(Lanes, GatherVectorsAndNormaliseThem)
-{
-  Numbers numbers;
-  const Vector v[4] = { numbers.NextVector(), Vector(), numbers.NextVector(),
-    numbers.NextVector() };
-  const VectorLanes lanes = Gather(v[0], v[1], v[2], v[3]);
-  for (int i = 0; i < 4; ++i)
-  {
-    ExpectSame(LaneOf(lanes, i), v[i]);
-    ExpectSame(LaneOf(Normalized(lanes), i), Normalized(v[i])); // Zero stays zero.
-  }
-}
-
-TEST(Lanes, FindNumbersAndBits)
-{
-  const int four[4] = { 7, -1, 7, 9 };
-  EXPECT_EQ(EqualBits(four, 7), 5u);
-  EXPECT_EQ(EqualBits(four, 8), 0u);
-  EXPECT_EQ(LowestBit(8), 3);
-  EXPECT_EQ(LowestBit(5), 0);
 }
 
 TEST(Lanes, TellOpposedConesAsOneByOne)
@@ -194,13 +167,6 @@ TEST(StarShape, IsWhatItsEdgesAndFacesAre)
   EXPECT_EQ(valences, 6); // 5 and 6.
   EXPECT_GT(delaunay, 20);
   EXPECT_LT(delaunay, mesh.Size() - 20);
-}
-
-TEST(StarShape, OfAFaceWithoutAreaHasTheWidestCone)
-{
-  SurfaceMesh mesh = ShakenSphere(0);
-  mesh.Position[mesh.Rings[0].Item[1]] = mesh.Position[mesh.Rings[0].Item[0]];
-  EXPECT_EQ(StarShape(mesh, 0).Cone().Cosine, -1.f);
 }
 
 TEST(StarFaces, KnowWhichVerticesAreShared)

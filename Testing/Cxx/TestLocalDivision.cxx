@@ -150,18 +150,6 @@ TEST(LocalDivision, HoldsAnObliquePlateWithoutHoles)
   EXPECT_EQ(levels.Lost.MissingBoundary, 0.);
 }
 
-TEST(LocalDivision, HoldsWhatIsLeftOfAPlateThinnerThanAVoxel)
-{
-  // Between the voxels its values do not reach the isopotential everywhere: there are beads.
-  const auto plate = OutsideBlurredPlate(0.8);
-  const double ofEven = ComputeFeatures(SurfaceOf(plate, Grading(), Alone)).Volume;
-  const TwoLevels levels = SurfaceOfTwoLevels(plate, ThinParts(), 1. / std::sqrt(3.));
-  ExpectLegal(levels.AtRest);
-  EXPECT_GT(ComputeFeatures(levels.AtRest).Volume, 20. * ofEven)
-    << "triangles of level 0 alone lose nearly all";
-  EXPECT_LT(levels.Lost.MissingBoundary, 0.01);
-}
-
 TEST(LocalDivision, IsLeftWhereItIsStopped)
 {
   class StopInDivision final : public Monitor

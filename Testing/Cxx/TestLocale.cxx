@@ -6,9 +6,7 @@
 #include "SurfaceTestTools.h"
 #include "vtkOtsuThreshold.h"
 
-#include <vtkPoints.h>
 #include <vtkReverseSense.h>
-#include <vtkSphereSource.h>
 
 #include <clocale>
 #include <cstdio>

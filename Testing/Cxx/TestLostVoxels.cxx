@@ -141,17 +141,3 @@ TEST(LostVoxels, FormPartsThroughOtherSlabs)
   ASSERT_EQ(lost.NumberOfParts(), 1);
   EXPECT_EQ(PartsOf(lost)[0].size(), 17u * (Size - 1) + 68u);
 }
-
-TEST(LostVoxels, AreNotToldWhenAskedToStop)
-{
-  const TestVolume volume = Noise(34);
-  SequentialExecutor executor;
-  const Field field(volume.Image, IsoHalf(), executor);
-  SurfaceState state;
-  Fill(state);
-  const LostVoxels lost(
-    state, field, PartKind::Object, 1, executor, [](double) { return false; });
-  EXPECT_TRUE(lost.IsStopped());
-  EXPECT_EQ(lost.NumberOfParts(), 0);
-  EXPECT_TRUE(lost.Slabs().empty());
-}

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Interfaces/MakeInterfaces.h"
 
-#include "Core/Common/StandardThreads.h"
 #include "Core/Interfaces/InterfaceFit.h"
 #include "Core/Interfaces/TriangleShape.h"
 #include "InterfaceTestTools.h"
@@ -30,7 +29,7 @@ double VoxelsOf(const InterfaceScene& scene, int object)
 }
 }
 
-TEST(MakeInterfaces, KeepsVolumes)
+TEST(MakeInterfaces, KeepsVolumesAndVoxelsWithGoodTriangles)
 {
   InterfaceScene scene(ManyCells(40, 9, 2));
   const InterfaceMesh mesh = Make(scene);
@@ -45,32 +44,18 @@ TEST(MakeInterfaces, KeepsVolumes)
     }
   }
   EXPECT_GT(large, 3);
-}
-
-TEST(MakeInterfaces, HasFewVoxelsOnTheWrongSide)
-{
-  InterfaceScene scene(ManyCells(40, 9, 2));
-  const InterfaceMesh mesh = Make(scene);
-  EXPECT_LT(static_cast<double>(PushWrongVoxels(mesh, *scene.Fields, 0., OnThisThread())),
-    0.03 * static_cast<double>(mesh.Position.size()));
-}
-
-TEST(MakeInterfaces, HasGoodTriangles)
-{
-  InterfaceScene scene(ManyCells(40, 9, 2));
-  const InterfaceMesh mesh = Make(scene);
   double sum = 0.;
   double least = 1.;
   for (const InterfaceMesh::Face& face : mesh.Faces)
   {
-    const auto at = [&](int k)
-    { return VectorD(mesh.Position[static_cast<std::size_t>(face.Vertex[k])]); };
-    const double ratio = RadiusRatio(at(0), at(1), at(2));
+    const double ratio = RadiusRatio(TriangleOf(mesh, face.Vertex));
     sum += ratio;
     least = IsOffLines(mesh, face) ? std::min(least, ratio) : least;
   }
   EXPECT_GT(sum / static_cast<double>(mesh.Faces.size()), 0.94);
   EXPECT_GT(least, 0.5);
+  EXPECT_LT(static_cast<double>(PushWrongVoxels(mesh, *scene.Fields, 0., OnThisThread())),
+    0.03 * static_cast<double>(mesh.Position.size()));
 }
 
 TEST(MakeInterfaces, HasNoSliversAboutNecks)
@@ -96,25 +81,6 @@ TEST(MakeInterfaces, HasNoSliversAboutNecks)
   EXPECT_GT(least, 25.);
 }
 
-TEST(MakeInterfaces, GivesTheSameBitsWithThreads)
-{
-  InterfaceScene one(ManyCells(32, 8, 6));
-  InterfaceScene other(ManyCells(32, 8, 6));
-  const InterfaceMesh mesh = Make(one);
-  StandardThreads threads(3);
-  const InterfaceMesh same = Make(other, threads);
-  ASSERT_EQ(same.Position.size(), mesh.Position.size());
-  ASSERT_EQ(same.Faces.size(), mesh.Faces.size());
-  for (std::size_t v = 0; v < mesh.Position.size(); ++v)
-  {
-    ASSERT_EQ(SquaredDistance(same.Position[v], mesh.Position[v]), 0.f);
-  }
-  for (std::size_t f = 0; f < mesh.Faces.size(); ++f)
-  {
-    ASSERT_EQ(same.Faces[f].Vertex, mesh.Faces[f].Vertex);
-  }
-}
-
 class StoppedInterfaces : public testing::TestWithParam<int>
 {
 };
@@ -129,21 +95,7 @@ TEST_P(StoppedInterfaces, AreSound)
   EXPECT_FALSE(mesh.Faces.empty());
 }
 
-INSTANTIATE_TEST_SUITE_P(AfterQuestions, StoppedInterfaces, testing::Values(1, 2, 4, 7, 12, 20));
-
-TEST(MakeInterfaces, ToldSharesGrow)
-{
-  InterfaceScene scene(ManyCells(24, 4, 4));
-  double last = 0.;
-  Make(scene, OnThisThread(),
-    [&](double share)
-    {
-      EXPECT_GE(share, last);
-      last = share;
-      return true;
-    });
-  EXPECT_EQ(last, 1.);
-}
+INSTANTIATE_TEST_SUITE_P(AfterQuestions, StoppedInterfaces, testing::Values(1, 4, 12));
 
 TEST(CorrectVolumes, ShiftsInterfacesToWhatIsMissing)
 {

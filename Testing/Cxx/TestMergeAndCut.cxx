@@ -1,9 +1,13 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
+
+// What has come near is merged where the image wants it, nearest first; what is thin is cut.
+#include "Core/Evolution/SurfaceEvolution.h"
 #include "Core/Mesh/CycleCut.h"
 #include "Core/Mesh/StarMerge.h"
 #include "Core/Mesh/SurfaceFeatures.h"
-#include "CoreTestTools.h"
+#include "Core/Surface/Remesher.h"
+#include "RemeshTestTools.h"
 
 using namespace volumic;
 
@@ -21,39 +25,6 @@ int Nearest(const SurfaceMesh& mesh, const Vector& place, int from, int to)
   }
   return best;
 }
-}
-
-TEST(StarMerge, JoinsTwoSpheres)
-{
-  SurfaceMesh mesh = MakeSphere({ 0, 0, 0 }, 3, 1);
-  const int second = mesh.Append(DividedIcosahedron({ 7, 0, 0 }, 3, 1));
-  ASSERT_EQ(mesh.CountEulerCharacteristic(), 4);
-  StarMerge merge;
-  merge.U = Nearest(mesh, Vector(3, 0, 0), 0, second);
-  merge.V = Nearest(mesh, Vector(4, 0, 0), second, mesh.Size());
-  ASSERT_TRUE(merge.Plan(mesh));
-  const std::size_t rims = mesh.Rings[merge.U].Count + mesh.Rings[merge.V].Count;
-  EXPECT_EQ(merge.Strip().size(), rims);
-  merge.Apply(mesh);
-  EXPECT_EQ(DescribeBrokenInvariant(mesh), "");
-  EXPECT_EQ(mesh.CountEulerCharacteristic(), 2);
-  const SurfaceFeatures features = ComputeFeatures(mesh.ToIndexed());
-  EXPECT_EQ(features.Components.size(), 1u);
-  EXPECT_EQ(features.Genus, 0);
-  EXPECT_EQ(CountSelfIntersections(mesh.ToIndexed()), 0);
-}
-
-TEST(StarMerge, GivesASphereAHandle)
-{
-  SurfaceMesh mesh = MakeSphere({ 0, 0, 0 }, 3, 1);
-  StarMerge merge;
-  merge.U = Nearest(mesh, Vector(3, 0, 0), 0, mesh.Size());
-  merge.V = Nearest(mesh, Vector(-3, 0, 0), 0, mesh.Size());
-  ASSERT_TRUE(merge.Plan(mesh));
-  merge.Apply(mesh);
-  EXPECT_EQ(DescribeBrokenInvariant(mesh), "");
-  EXPECT_EQ(mesh.CountEulerCharacteristic(), 0);
-  EXPECT_EQ(ComputeFeatures(mesh.ToIndexed()).Genus, 1);
 }
 
 TEST(StarMerge, RefusesRimsThatTouch)
@@ -181,33 +152,239 @@ TEST(StarMerge, RefusesABandThatWouldOverfillARing)
   }
 }
 
-TEST(CycleCut, SplitsADoublePyramid)
+namespace
 {
-  SurfaceMesh mesh;
-  mesh.Append({ { { 1, 0, 0 }, { -1, 1, 0 }, { -1, -1, 0 }, { 0, 0, 1 }, { 0, 0, -1 } },
-    { { 0, 1, 3 }, { 1, 2, 3 }, { 2, 0, 3 }, { 1, 0, 4 }, { 2, 1, 4 }, { 0, 2, 4 } } });
-  const CycleCut cut{ 0, 1, 2 };
-  ASSERT_TRUE(cut.IsLegal(mesh));
-  cut.Apply(mesh);
-  EXPECT_EQ(DescribeBrokenInvariant(mesh), "");
-  EXPECT_EQ(mesh.CountEulerCharacteristic(), 4);
-  const SurfaceFeatures features = ComputeFeatures(mesh.ToIndexed());
-  EXPECT_EQ(features.Components.size(), 2u);
-  EXPECT_NEAR(features.Components[0].Volume, features.Components[1].Volume, 1e-6);
+using Image = std::function<double(double, double, double)>;
+
+/** A surface with what is near what, and an image whose iso-value is 0. */
+struct Scene : Bench
+{
+  TestVolume Volume;
+  std::unique_ptr<Field> TheField;
+  Proximity Near;
+
+  explicit Scene(const IndexedSurface& surface, const Image& image = nullptr) : Bench(surface)
+  {
+    if (image)
+    {
+      this->Volume = MakeVolume(33, image);
+      this->TheField = std::make_unique<Field>(this->Volume.Image, SurfaceOptions(), this->Threads);
+    }
+    this->Near.Examine(this->State, this->All(), OnThisThread());
+  }
+
+  int Merges(bool topologyChanges = true)
+  {
+    return this->Merges(this->Near.Pairs(), topologyChanges);
+  }
+  int Merges(const std::vector<Proximity::ClosePair>& pairs, bool topologyChanges = true)
+  {
+    Remesher(this->State, this->TheField.get(), topologyChanges).Merge(pairs);
+    EXPECT_TRUE(this->IsSound());
+    EXPECT_EQ(this->State.Counts.Merges * 2 + this->State.EulerCharacteristic, this->Chi);
+    return this->State.Counts.Merges;
+  }
+
+  /** Both sides of the nearest pair. */
+  std::vector<Proximity::ClosePair> NearestPair() const
+  {
+    Proximity::ClosePair nearest{ -1, -1, 1e9f };
+    for (const Proximity::ClosePair& pair : this->Near.Pairs())
+    {
+      nearest = pair.Squared < nearest.Squared ? pair : nearest;
+    }
+    return { nearest, { nearest.W, nearest.V, nearest.Squared } };
+  }
+
+  int Chi = this->State.EulerCharacteristic;
+};
+
+/** A ball with a vertex at either end along x. */
+IndexedSurface Ball(double x, double radius, double edge)
+{
+  IndexedSurface ball = DividedIcosahedron({ 0, 0, 0 }, radius, edge);
+  const Point tip = Icosahedron({ 0, 0, 0 }, 1).Points[9];
+  for (Point& p : ball.Points)
+  {
+    p = { x + tip[0] * p[0] + tip[2] * p[2], 16 + p[1], 16 + tip[0] * p[2] - tip[2] * p[0] };
+  }
+  return ball;
 }
 
-TEST(CycleCut, TakesTheHandleOfATorus)
+/** Two balls whose tips face each other about (16, 16, 16), along x. */
+IndexedSurface TwoBalls(double gap = 1.2, double radius = 4, double edge = 1.6)
 {
-  // A torus with a tube of three vertices: each ring of the tube is a 3-cycle.
-  SurfaceMesh mesh;
-  mesh.Append(MakeTorus({ 0, 0, 0 }, 5, 1, 16, 3));
-  ASSERT_EQ(mesh.CountEulerCharacteristic(), 0);
-  const CycleCut cut{ 0, 1, 2 };
-  ASSERT_TRUE(cut.IsLegal(mesh));
-  cut.Apply(mesh);
-  EXPECT_EQ(DescribeBrokenInvariant(mesh), "");
-  EXPECT_EQ(mesh.CountEulerCharacteristic(), 2);
-  EXPECT_EQ(ComputeFeatures(mesh.ToIndexed()).Components.size(), 1u);
+  IndexedSurface surface = Ball(16 - gap / 2 - radius, radius, edge);
+  AddSurface(surface, Ball(16 + gap / 2 + radius, radius, edge));
+  return surface;
+}
+
+/** A wall of a thickness of 1.2 between two spheres. */
+IndexedSurface Shell()
+{
+  IndexedSurface surface = DividedIcosahedron({ 16, 16, 16 }, 7.2, 1.6);
+  AddSurface(surface, InsideOut(DividedIcosahedron({ 16, 16, 16 }, 6, 1.6)));
+  return surface;
+}
+
+Image Everywhere(double value)
+{
+  return [value](double, double, double) { return value; };
+}
+
+/** `middle` at x = 16, `ends` half a gap away and beyond. */
+Image Between(double middle, double ends)
+{
+  return [middle, ends](double x, double, double)
+  { return ends + (middle - ends) * std::max(0., 1 - 2 * std::abs(x - 16)); };
+}
+}
+
+TEST(Merging, JoinsTwoBallsWhereTheImageIsObjectBetweenThem)
+{
+  Scene wanted(TwoBalls(), Everywhere(1));
+  ASSERT_FALSE(wanted.Near.Pairs().empty());
+  EXPECT_EQ(wanted.Merges(), 1);
+  EXPECT_EQ(ComputeFeatures(wanted.State.Mesh.ToIndexed()).Components.size(), 1u);
+  EXPECT_EQ(Scene(TwoBalls(), Everywhere(-1)).Merges(), 0) << "background";
+  EXPECT_EQ(Scene(TwoBalls(), Everywhere(1)).Merges(false), 0) << "the topology must stay";
+}
+
+TEST(Merging, AsksForTheMiddleAndForBothEnds)
+{
+  // At a distance of .6 from the middle the linear image has all but reached its value there.
+  EXPECT_GT(Scene(TwoBalls(), Between(0.5, 1)).Merges(), 0);
+  EXPECT_EQ(Scene(TwoBalls(), Between(-0.5, 1)).Merges(), 0) << "a gap in the object";
+  EXPECT_EQ(Scene(TwoBalls(), Between(0.5, -1)).Merges(), 0) << "the surface is still far off";
+}
+
+TEST(Merging, BreaksThroughAWallWhereTheImageIsBackground)
+{
+  EXPECT_GT(Scene(Shell(), Everywhere(-1)).Merges(), 0);
+  EXPECT_EQ(Scene(Shell(), Everywhere(1)).Merges(), 0);
+}
+
+TEST(Merging, NeedsNormalsThatFaceEachOther)
+{
+  const auto with = [](const Vector& normal, const Vector& other, double value)
+  {
+    Scene scene(TwoBalls(), Everywhere(value));
+    const auto pair = scene.NearestPair();
+    const bool first = scene.State.Mesh.Position[pair[0].V].X < 16;
+    scene.State.Normal[first ? pair[0].V : pair[0].W] = NormalCone(normal, 0);
+    scene.State.Normal[first ? pair[0].W : pair[0].V] = NormalCone(other, 0);
+    return scene.Merges(pair);
+  };
+  const Vector right(1, 0, 0);
+  const Vector left(-1, 0, 0);
+  const Vector up(0, 1, 0);
+  EXPECT_EQ(with(right, left, 1), 1);
+  EXPECT_EQ(with(right, right, 1), 0) << "one behind the other";
+  EXPECT_EQ(with(right, right, -1), 0);
+  EXPECT_EQ(with(up, -up, 1), 0) << "passing by";
+  EXPECT_EQ(with(up, -up, -1), 0);
+  EXPECT_EQ(with(Normalized(up + right * 0.5f), Normalized(up - right * 0.5f), 1), 0)
+    << "two sides of a groove";
+}
+
+TEST(Merging, WithoutAnImageJoinsWhatApproaches)
+{
+  for (const float speed : { 0.1f, -0.1f })
+  {
+    Scene scene(TwoBalls());
+    for (int v : scene.All())
+    {
+      scene.State.Velocity[v].X = scene.State.Mesh.Position[v].X < 16 ? speed : -speed;
+    }
+    EXPECT_EQ(scene.Merges(), speed > 0 ? 1 : 0);
+  }
+}
+
+TEST(Merging, TakesTheNearestPairFirst)
+{
+  Scene scene(TwoBalls(0.9, 5.9, 1.3), Everywhere(1));
+  const Proximity::ClosePair nearest = scene.NearestPair().front();
+  ASSERT_GT(scene.Near.Pairs().size(), 2u);
+  scene.Merges();
+  EXPECT_FALSE(scene.State.Mesh.IsAlive(nearest.V));
+  EXPECT_FALSE(scene.State.Mesh.IsAlive(nearest.W));
+}
+
+TEST(Merging, LeavesWhatIsFartherThanLambdaDelta)
+{
+  // Examinations list pairs a little farther away as well.
+  for (const double gap : { 1.4, 1.5 })
+  {
+    Scene scene(TwoBalls(gap), Everywhere(1));
+    const int half = scene.State.Mesh.Size() / 2;
+    const int v = scene.Nearest(Vector(16, 16, 16), 0, half);
+    const int w = scene.Nearest(Vector(16, 16, 16), half, 2 * half);
+    const float squared =
+      SquaredDistance(scene.State.Mesh.Position[v], scene.State.Mesh.Position[w]);
+    ASSERT_EQ(squared < 1.443f * 1.443f, gap < 1.45) << squared;
+    EXPECT_EQ(scene.Merges({ { v, w, squared } }), gap < 1.45 ? 1 : 0);
+  }
+}
+
+TEST(Merging, LeavesNoEdgeThatIsTooLong)
+{
+  // Rims far behind the tips: bridge edges of over 2.5 delta.
+  Scene scene(TwoBalls(1.4, 3.4, 2.1), Everywhere(1));
+  ASSERT_LE(scene.Longest(), 2.5f);
+  EXPECT_EQ(scene.Merges(), 1);
+  EXPECT_GT(scene.State.Counts.Splits, 0);
+  EXPECT_LE(scene.Longest(), 2.5f);
+}
+
+namespace
+{
+/** Across an edge of a sphere two vertices are raised, and lean over to each other. */
+int FlipsOfAFold(double value, bool raised)
+{
+  Scene scene(DividedIcosahedron({ 16, 16, 16 }, 8, 1.6), Everywhere(value));
+  const SurfaceMesh& mesh = scene.State.Mesh;
+  const int a = 40;
+  const int b = mesh.Rings[a].Item[0];
+  const int u = mesh.Rings[a].Next(0);
+  const int v = mesh.Rings[a].Previous(0);
+  const Vector out = Normalized(mesh.Position[a] - Vector(16, 16, 16)) * (raised ? 0.7f : -0.7f);
+  const Vector across = Normalized(mesh.Position[v] - mesh.Position[u]);
+  const float lean = 0.5f * (Length(mesh.Position[v] - mesh.Position[u]) - 1.3f);
+  scene.MoveTo(u, mesh.Position[u] + across * lean + out);
+  scene.MoveTo(v, mesh.Position[v] - across * lean + out);
+  const float squared = SquaredDistance(mesh.Position[u], mesh.Position[v]);
+  scene.Merges({ { u, v, squared } });
+  EXPECT_EQ(scene.State.Counts.Flips > 0, mesh.AreNeighbours(u, v));
+  EXPECT_EQ(scene.State.Counts.Flips > 0, !mesh.AreNeighbours(a, b));
+  return scene.State.Counts.Flips;
+}
+}
+
+TEST(Merging, ClosesAFoldByAFlipWhereTheImageWantsIt)
+{
+  EXPECT_EQ(FlipsOfAFold(1, true), 1) << "a groove in the object is filled";
+  EXPECT_EQ(FlipsOfAFold(-1, true), 0) << "not one in the background";
+  EXPECT_EQ(FlipsOfAFold(-1, false), 1) << "a ridge in the background is cut off";
+  EXPECT_EQ(FlipsOfAFold(1, false), 0);
+}
+
+TEST(Merging, AnEvolutionAsksTheImage)
+{
+  // Seeds grow in two balls whose surfaces come nearer to each other than lambda delta.
+  const TestVolume volume = MakeVolume(34,
+    [](double x, double y, double z)
+    {
+      return Soft(
+        std::min(Distance(x, y, z, 8.5, 16, 16) - 7, Distance(x, y, z, 23.6, 16, 16) - 7));
+    });
+  SequentialExecutor threads;
+  Monitor silent;
+  SurfaceOptions options;
+  options.IsoValue = 0.5;
+  SurfaceEvolution evolution(options, threads, silent);
+  evolution.StartSeeds(volume.Image, 0, { { 8.5, 16, 16 }, { 23.6, 16, 16 } });
+  EXPECT_EQ(evolution.Run(), StopReason::Converged);
+  EXPECT_EQ(ComputeFeatures(evolution.Result()).Components.size(), 2u);
 }
 
 TEST(CycleCut, RefusesAFace)

@@ -5,22 +5,12 @@
 #include "Core/Mesh/EdgeCollapse.h"
 #include "Core/Mesh/EdgeFlip.h"
 #include "Core/Mesh/EdgeSplit.h"
-#include "Core/Mesh/SurfaceFeatures.h"
-#include "Core/Mesh/VertexRemoval.h"
 #include "CoreTestTools.h"
 
 using namespace volumic;
 
 namespace
 {
-SurfaceMesh Tetrahedron()
-{
-  SurfaceMesh mesh;
-  mesh.Append({ { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } },
-    { { 0, 2, 1 }, { 0, 1, 3 }, { 1, 2, 3 }, { 2, 0, 3 } } });
-  return mesh;
-}
-
 #define EXPECT_SOUND(mesh, chi)                                                                    \
   EXPECT_EQ(DescribeBrokenInvariant(mesh), "");                                                    \
   EXPECT_EQ((mesh).CountEulerCharacteristic(), chi)
@@ -144,58 +134,6 @@ TEST(SurfaceMesh, IsOrderedAlongTheCurveAsAWhole)
   }
 }
 
-TEST(SurfaceMesh, TellsTheFirstFaultWhicheverThreadFindsOne)
-{
-  // Two vertices of different spans, a triangle of each left out.
-  IndexedSurface surface = DividedIcosahedron({ 0, 0, 0 }, 20, 0.4);
-  const auto uses = [](int v)
-  { return [v](const Triangle& t) { return std::find(t.begin(), t.end(), v) != t.end(); }; };
-  const int last = static_cast<int>(surface.Points.size()) - 1;
-  for (const int v : { last, 4 })
-  {
-    surface.Triangles.erase(
-      std::find_if(surface.Triangles.begin(), surface.Triangles.end(), uses(v)));
-  }
-  StandardThreads threads(3);
-  std::string alone;
-  for (Executor* executor : { &OnThisThread(), static_cast<Executor*>(&threads) })
-  {
-    SurfaceMesh mesh;
-    try
-    {
-      mesh.Append(surface, *executor);
-      FAIL() << "the surface has holes";
-    }
-    catch (const std::invalid_argument& error)
-    {
-      alone = alone.empty() ? error.what() : alone;
-      EXPECT_EQ(error.what(), alone);
-    }
-    EXPECT_EQ(mesh.Size(), 0);
-  }
-}
-
-TEST(SurfaceMesh, KeepsTheTrianglesItWasMadeOf)
-{
-  const IndexedSurface torus = MakeTorus({ 0, 0, 0 }, 5, 2, 20, 10);
-  SurfaceMesh mesh;
-  mesh.Append(torus);
-  EXPECT_SOUND(mesh, 0);
-  const IndexedSurface back = mesh.ToIndexed();
-  EXPECT_EQ(back.Points.size(), torus.Points.size());
-  EXPECT_EQ(back.Triangles.size(), torus.Triangles.size());
-  EXPECT_NEAR(ComputeFeatures(back).Volume, ComputeFeatures(torus).Volume, 1e-3);
-}
-
-TEST(SurfaceMesh, KeepsItsShapeWhenRenumbered)
-{
-  SurfaceMesh mesh = MakeSphere({ 5, 5, 5 }, 4, 0.8);
-  const double volume = ComputeFeatures(mesh.ToIndexed()).Volume;
-  mesh.Reorder(SpaceFillingOrder(mesh, 1.));
-  EXPECT_SOUND(mesh, 2);
-  EXPECT_NEAR(ComputeFeatures(mesh.ToIndexed()).Volume, volume, 1e-3);
-}
-
 TEST(SurfaceMesh, KnowsWhoIsFarAlongTheSurface)
 {
   SurfaceMesh mesh = MakeSphere({ 0, 0, 0 }, 6, 1.5);
@@ -295,37 +233,6 @@ TEST(SurfaceMeshInvalid, RefusesWhatIsNoSurface)
   }
 }
 
-TEST(EdgeFlip, JoinsTheOppositeVertices)
-{
-  SurfaceMesh mesh = MakeSphere({ 0, 0, 0 }, 2, 0.5);
-  const int u = 20;
-  const int v = mesh.Rings[u].Item[2];
-  const EdgeFlip flip = EdgeFlip::Of(mesh, u, v);
-  ASSERT_TRUE(flip.IsLegal(mesh));
-  flip.Apply(mesh);
-  EXPECT_FALSE(mesh.AreNeighbours(u, v));
-  EXPECT_TRUE(mesh.AreNeighbours(flip.A, flip.B));
-  EXPECT_SOUND(mesh, 2);
-}
-
-TEST(EdgeFlip, FlippedTwiceIsTheSameMesh)
-{
-  SurfaceMesh mesh = MakeSphere({ 0, 0, 0 }, 2, 0.5);
-  const int u = 7;
-  const int v = mesh.Rings[u].Item[0];
-  const EdgeFlip flip = EdgeFlip::Of(mesh, u, v);
-  flip.Apply(mesh);
-  EdgeFlip::Of(mesh, flip.A, flip.B).Apply(mesh);
-  EXPECT_TRUE(mesh.AreNeighbours(u, v));
-  EXPECT_SOUND(mesh, 2);
-}
-
-TEST(EdgeFlip, IsIllegalOnATetrahedron)
-{
-  const SurfaceMesh mesh = Tetrahedron();
-  EXPECT_FALSE(EdgeFlip::Of(mesh, 0, 1).IsLegal(mesh));
-}
-
 namespace
 {
 /** With `sides` neighbours at either tip, 0 and 1; the rest in order about them. */
@@ -359,44 +266,6 @@ TEST(EdgeSplit, IsIllegalWhereARingIsFull)
   mesh.Rings[1].Count = 14;
   EXPECT_FALSE((EdgeSplit{ 4, 5 }).IsLegal(mesh));
   EXPECT_FALSE((EdgeSplit{ 5, 4 }).IsLegal(mesh));
-}
-
-TEST(EdgeSplit, AddsAVertexOfValenceFourAndKeepsTheSurface)
-{
-  SurfaceMesh mesh = MakeSphere({ 0, 0, 0 }, 2, 0.5);
-  const double volume = ComputeFeatures(mesh.ToIndexed()).Volume;
-  const int v = mesh.Rings[3].Item[1];
-  const EdgeSplit split{ 3, v };
-  ASSERT_TRUE(split.IsLegal(mesh));
-  const int m = split.Apply(mesh, (mesh.Position[3] + mesh.Position[v]) * 0.5f);
-  EXPECT_EQ(mesh.Rings[m].Count, 4);
-  EXPECT_SOUND(mesh, 2);
-  EXPECT_NEAR(ComputeFeatures(mesh.ToIndexed()).Volume, volume, 1e-4);
-}
-
-TEST(EdgeCollapse, TakesAVertexAndTwoFaces)
-{
-  SurfaceMesh mesh = MakeSphere({ 0, 0, 0 }, 2, 0.5);
-  const int vertices = mesh.NumberOfVertices();
-  const int faces = mesh.NumberOfFaces();
-  const EdgeCollapse collapse{ 30, mesh.Rings[30].Item[0] };
-  ASSERT_TRUE(collapse.IsLegal(mesh));
-  collapse.Apply(mesh);
-  EXPECT_EQ(mesh.NumberOfVertices(), vertices - 1);
-  EXPECT_EQ(mesh.NumberOfFaces(), faces - 2);
-  EXPECT_SOUND(mesh, 2);
-}
-
-TEST(EdgeCollapse, UndoesASplit)
-{
-  SurfaceMesh mesh = MakeSphere({ 0, 0, 0 }, 2, 0.5);
-  const int v = mesh.Rings[3].Item[1];
-  const int m = EdgeSplit{ 3, v }.Apply(mesh, Vector(0, 0, 0));
-  const EdgeCollapse collapse{ 3, m };
-  ASSERT_TRUE(collapse.IsLegal(mesh));
-  collapse.Apply(mesh);
-  EXPECT_TRUE(mesh.AreNeighbours(3, v));
-  EXPECT_SOUND(mesh, 2);
 }
 
 TEST(EdgeCollapse, IsBlockedByAThirdCommonNeighbour)
@@ -448,27 +317,4 @@ TEST(EdgeCollapse, NeverLeavesTwoNeighboursToAVertex)
     EXPECT_FALSE((EdgeCollapse{ ring.Item[i], ring.Next(i) }).IsLegal(mesh));
     EXPECT_FALSE((EdgeCollapse{ ring.Next(i), ring.Item[i] }).IsLegal(mesh));
   }
-}
-
-TEST(VertexRemoval, TakesWhatWasSetIntoAFace)
-{
-  // A split beside a vertex of valence 3 in the making: collapse until one has three neighbours.
-  SurfaceMesh mesh = MakeSphere({ 0, 0, 0 }, 2, 0.5);
-  const int u = 3;
-  const int v = mesh.Rings[u].Item[1];
-  const int m = EdgeSplit{ u, v }.Apply(mesh, Vector(0, 0, 0));
-  // Flipping one of the four edges of m leaves three.
-  const EdgeFlip flip = EdgeFlip::Of(mesh, m, u);
-  ASSERT_TRUE(flip.IsLegal(mesh));
-  flip.Apply(mesh);
-  ASSERT_EQ(mesh.Rings[m].Count, 3);
-  const VertexRemoval removal{ m };
-  ASSERT_TRUE(removal.IsLegal(mesh));
-  removal.Apply(mesh);
-  EXPECT_SOUND(mesh, 2);
-}
-
-TEST(VertexRemoval, IsIllegalOnATetrahedron)
-{
-  EXPECT_FALSE(VertexRemoval{ 0 }.IsLegal(Tetrahedron()));
 }

@@ -63,16 +63,6 @@ std::string ErrorOf(vtkDeformableSurface* filter)
 }
 }
 
-TEST(Metric, IsOfTheWorldByDefault)
-{
-  vtkNew<vtkDeformableSurface> filter;
-  EXPECT_EQ(filter->GetMetric(), vtkDeformableSurface::World);
-  filter->SetMetricToVoxels();
-  EXPECT_EQ(filter->GetMetric(), 0);
-  filter->SetMetricToWorld();
-  EXPECT_EQ(filter->GetMetric(), 1);
-}
-
 TEST(Metric, WorldEdgesKeepTheConstraintsInTheWorld)
 {
   const auto image = FlatBall(2.);
@@ -101,17 +91,6 @@ TEST(Metric, MakesNoDifferenceWhereVoxelsAreCubes)
   image->SetSpacing(0.3, 0.3, 0.3);
   EXPECT_TRUE(AreSameSurfaces(SurfaceIn(vtkDeformableSurface::World, image),
     SurfaceIn(vtkDeformableSurface::Voxels, image)));
-}
-
-TEST(Metric, DoesNotDependOnTheUnitOfTheSpacing)
-{
-  const auto millimetres = FlatBall(2.);
-  const auto metres = FlatBall(2.);
-  metres->SetSpacing(0.0009765625, 0.0009765625, 0.001953125); // by a power of 2: the same rounding
-  const auto one = SurfaceIn(vtkDeformableSurface::World, millimetres);
-  const auto other = SurfaceIn(vtkDeformableSurface::World, metres);
-  ASSERT_EQ(one->GetNumberOfPoints(), other->GetNumberOfPoints());
-  EXPECT_NEAR(FieldOf(other, "Area"), FieldOf(one, "Area") / 1048576., 1e-9);
 }
 
 TEST(Metric, HoldsForTurnedAndMirroredImages)
@@ -156,7 +135,7 @@ TEST(EdgeLength, IsMetFromFinerThanTheImageToSeveralLevelsUp)
 {
   const auto image = BallImage(64, 64, 64);
   image->SetSpacing(0.5, 0.5, 0.5);
-  for (const double length : { 0.4, 0.6, 0.75, 0.9, 1.2, 1.6, 2.3, 3.2 })
+  for (const double length : { 0.4, 0.75, 1.2, 2.3, 3.2 })
   {
     const auto filter = FilterOf<vtkVolumeToSurface>(image);
     filter->SetEdgeLength(length);
@@ -169,14 +148,6 @@ TEST(EdgeLength, IsMetFromFinerThanTheImageToSeveralLevelsUp)
     EXPECT_GE(ratio, std::sqrt(3.) / 2.5 - 1e-6) << "eq. (7)";
     EXPECT_LE(ratio, 1. + 1e-6);
   }
-}
-
-TEST(EdgeLength, IsInTheUnitOfTheWorld)
-{
-  const auto image = BallImage(64, 64, 64);
-  image->SetSpacing(25., 25., 25.); // micrometres
-  const auto filter = SurfaceOf(image, [](vtkDeformableSurface* f) { f->SetEdgeLength(60.); });
-  EXPECT_NEAR(EdgesOf(filter->GetOutput()).Mean, 60., 9.);
 }
 
 TEST(EdgeLength, ChoosesOfThePyramidThatIsGiven)

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Newton's law with friction, the time step, and how far a vertex may go.
+// Newton's law with friction, the time step, how far a vertex may go; and the displacements at the
+// end of a level.
 #include "DynamicsTestTools.h"
 
 using namespace volumic;
@@ -20,18 +21,6 @@ struct Flying : Stage
     }
   }
 };
-}
-
-TEST(Motion, FrictionSlowsDown)
-{
-  for (const double friction : { 0.5, 3., 8. })
-  {
-    Flying stage(0.1f);
-    stage.Options.Friction = friction;
-    const double step = stage.Push();
-    ASSERT_GT(step, 0);
-    EXPECT_NEAR(stage.MeanSpeedOutward(), 0.1 / (1 + friction * step), 1e-5);
-  }
 }
 
 TEST(Motion, ForceAndFrictionBalanceAtTheFinalSpeed)
@@ -114,6 +103,118 @@ TEST(Motion, NoVertexGoesFurtherThanTheLargestStep)
       EXPECT_GT(Dot(way, stage.State.Velocity[v]), 0);
       EXPECT_NEAR(stage.State.Displacement[v], Length(way), 1e-5);
       EXPECT_EQ(Length(stage.State.PreviousPosition[v] - before[v]), 0) << "to go back to";
+    }
+  }
+}
+
+namespace
+{
+/** A sphere of radius 8 whose vertices have been moved along it. */
+struct Shaken : Stage
+{
+  Shaken()
+    : Stage(8.)
+  {
+    for (int v : this->All)
+    {
+      const Vector way(0.1f * (v % 3 - 1), 0.07f * (v % 5 - 2), 0.05f * (v % 4 - 1));
+      const Vector n = this->OutwardAt(v);
+      this->State.Mesh.Position[v] += way - n * Dot(way, n);
+    }
+    this->UpdateShape();
+  }
+};
+}
+
+TEST(Smoothing, GoesAlongTheSurfaceToTheBarycentre)
+{
+  Shaken stage;
+  stage.Relax(false);
+  double along = 0;
+  for (int v : stage.All)
+  {
+    const Vector& move = stage.State.Velocity[v];
+    const Vector n = stage.State.Normal[v].Axis();
+    EXPECT_NEAR(Dot(move, n), 0, 1e-5) << "it would shrink";
+    along += Dot(move, stage.State.Laplacian[v]);
+    EXPECT_LE(Length(move), 0.15 + 1e-5) << "little enough to stay free of intersections";
+  }
+  EXPECT_GT(along / static_cast<double>(stage.All.size()), 0.002);
+}
+
+TEST(Smoothing, IsBounded)
+{
+  Stage stage(8.);
+  stage.State.Mesh.Position[0] += Vector(0, 0, 2.5f);
+  stage.State.Mesh.Position[5] += Vector(2.5f, 0, 0);
+  stage.UpdateShape();
+  stage.Relax(true);
+  EXPECT_NEAR(stage.FastestSpeed(), 0.15, 1e-5);
+}
+
+TEST(Smoothing, LeadsOntoTheIsopotentialOnRequest)
+{
+  for (const double way : { -0.1, 0.1, 1. })
+  {
+    Stage stage(8 + way);
+    stage.Relax(true);
+    const double step = -std::min(way, 0.15);
+    EXPECT_NEAR(stage.MeanSpeedOutward(), step, 0.02);
+    stage.Relax(false);
+    EXPECT_NEAR(stage.MeanSpeedOutward(), 0, 0.005);
+  }
+}
+
+TEST(Smoothing, LeavesVerticesWhoseNormalIsNotThatOfTheImage)
+{
+  // The field falls along x: for most of the sphere a step along the normal leads far astray.
+  Stage stage(8.);
+  stage.Volume = MakeVolume(33, [](double x, double, double) { return 20 - x; });
+  stage.Relax(true);
+  for (int v : stage.All)
+  {
+    const double cosine = stage.OutwardAt(v).X;
+    if (std::abs(cosine - 0.5) > 0.05)
+    {
+      const bool led = std::abs(Dot(stage.State.Velocity[v], stage.OutwardAt(v))) > 0.05;
+      EXPECT_EQ(led, cosine > 0.5) << cosine;
+    }
+  }
+}
+
+TEST(Smoothing, LeavesVerticesWhereTheImageIsFlat)
+{
+  // A twentieth of the slope that boundaries have.
+  Stage stage(8.);
+  stage.Volume = MakeVolume(33,
+    [](double x, double y, double z)
+    {
+      const double r = Distance(x, y, z, 16, 16, 16);
+      return r < 12 ? 20. - 0.05 * r : 0.;
+    });
+  stage.Options.IsoValue = 10;
+  stage.Relax(true);
+  EXPECT_NEAR(stage.MeanSpeedOutward(), 0, 0.005);
+}
+
+TEST(Smoothing, LeadsOntoTheEdgesOnRequest)
+{
+  const TestVolume map = MakeVolume(33,
+    [](double x, double y, double z)
+    {
+      const double way = Distance(x, y, z, 16, 16, 16) - 8;
+      return std::exp(-0.5 * way * way);
+    });
+  for (const double radius : { 7.2, 8.8 })
+  {
+    for (const bool snap : { true, false })
+    {
+      Stage stage(radius);
+      stage.Volume.Image.Edges = map.Values.data();
+      stage.Options.EdgeAttractionWeight = 1;
+      stage.Options.SnapToEdges = snap;
+      stage.Relax(false);
+      EXPECT_NEAR(stage.MeanSpeedOutward(), snap ? (radius < 8 ? 0.14 : -0.14) : 0, 0.03);
     }
   }
 }

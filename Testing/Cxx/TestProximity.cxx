@@ -1,22 +1,10 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Common/Executor.h"
-#include "Core/Common/StandardThreads.h"
 #include "Core/Surface/Proximity.h"
 #include "LiveSurface.h"
 
 using namespace volumic;
-
-TEST(Proximity, FindsNothingOnASmoothSphere)
-{
-  LiveSurface state(DividedIcosahedron({ 5, 5, 5 }, 8, 1.6));
-  Proximity proximity;
-  proximity.Examine(state, state.All(), OnThisThread());
-  EXPECT_TRUE(proximity.Pairs().empty());
-  EXPECT_TRUE(proximity.Intersections().empty());
-  EXPECT_EQ(
-    std::count(state.NearOthers.AsVector().begin(), state.NearOthers.AsVector().end(), 1), 0);
-}
 
 TEST(Proximity, FindsThePairsOfTwoSpheresAsBruteForceDoes)
 {
@@ -56,51 +44,6 @@ TEST(Proximity, FindsThePairsOfTwoSpheresAsBruteForceDoes)
   proximity.Clear();
   proximity.AddPairs(state, state.All());
   EXPECT_EQ(found(), expected);
-}
-
-TEST(Proximity, FindsTheSameOnThreads)
-{
-  IndexedSurface surface = DividedIcosahedron({ 0, 0, 0 }, 6, 1.6);
-  AddSurface(surface, DividedIcosahedron({ 11., 0.3, 0.2 }, 5.5, 1.7));
-  struct Found
-  {
-    std::vector<std::array<int, 2>> Pairs;
-    std::vector<std::array<int, 3>> Faces;
-    std::vector<float> Slack;
-    std::vector<int> NearOthers;
-  };
-  const auto foundBy = [&surface](Executor& executor)
-  {
-    LiveSurface state(surface);
-    state.UpdateShape(state.All(), executor);
-    Proximity proximity;
-    proximity.Examine(state, state.All(), executor);
-    Found found;
-    for (const Proximity::ClosePair& pair : proximity.Pairs())
-    {
-      found.Pairs.push_back({ pair.V, pair.W });
-    }
-    for (const Proximity::FacePair& pair : proximity.Intersections())
-    {
-      found.Faces.insert(found.Faces.end(), { pair.First, pair.Second });
-    }
-    found.Slack.assign(state.Slack.AsVector().begin(), state.Slack.AsVector().end());
-    found.NearOthers.assign(
-      state.NearOthers.AsVector().begin(), state.NearOthers.AsVector().end());
-    return found;
-  };
-  const Found expected = foundBy(OnThisThread());
-  ASSERT_FALSE(expected.Pairs.empty());
-  ASSERT_FALSE(expected.Faces.empty());
-  for (const int threads : { 2, 7 })
-  {
-    StandardThreads executor(threads);
-    const Found found = foundBy(executor);
-    EXPECT_EQ(found.Pairs, expected.Pairs) << "in their order";
-    EXPECT_EQ(found.Faces, expected.Faces);
-    EXPECT_EQ(found.Slack, expected.Slack);
-    EXPECT_EQ(found.NearOthers, expected.NearOthers);
-  }
 }
 
 TEST(Proximity, FindsWhetherTwoBodiesIntersectAtEveryDistance)
@@ -217,13 +160,7 @@ TEST(Proximity, KeepsPairsOfVerticesThatWereNotExaminedAnew)
 TEST(Proximity, NeighboursAcrossACreaseAreNoPair)
 {
   // Edges under lambda delta whose ends look in very different directions.
-  IndexedSurface octahedron;
-  const double r = 1.2 / std::sqrt(2.);
-  octahedron.Points = { { r, 0, 0 }, { -r, 0, 0 }, { 0, r, 0 }, { 0, -r, 0 }, { 0, 0, r },
-    { 0, 0, -r } };
-  octahedron.Triangles = { { 0, 2, 4 }, { 2, 1, 4 }, { 1, 3, 4 }, { 3, 0, 4 }, { 2, 0, 5 },
-    { 1, 2, 5 }, { 3, 1, 5 }, { 0, 3, 5 } };
-  LiveSurface state(octahedron);
+  LiveSurface state(EvenOctahedron({ 0, 0, 0 }, 1.2));
   ASSERT_TRUE(state.AreOpposed(0, 2));
   Proximity proximity;
   proximity.Examine(state, state.All(), OnThisThread());

@@ -66,11 +66,6 @@ TEST(PyramidGeometry, AutomaticStopsBeforeALevelUnderTheMinimumSize)
   EXPECT_EQ(PlanPyramid({ 256, 256, 68 }, { 1, 1, 1 }, options).size(), 2u);
 }
 
-TEST(PyramidGeometry, AutomaticKeepsLevel0HoweverSmall)
-{
-  EXPECT_EQ(PlanPyramid({ 5, 5, 5 }, { 1, 1, 1 }, {}).size(), 1u);
-}
-
 TEST(PyramidGeometry, AxesOfOneVoxelStayAndDoNotCount)
 {
   const auto levels = PlanPyramid({ 100, 80, 1 }, { 1, 1, 0.001 }, {});
@@ -78,15 +73,6 @@ TEST(PyramidGeometry, AxesOfOneVoxelStayAndDoNotCount)
   EXPECT_EQ(levels[3].Size, (LevelSize{ 18, 15, 1 }));
   EXPECT_DOUBLE_EQ(levels[0].Unit, 1.0) << "no two voxels have a distance along z";
   EXPECT_DOUBLE_EQ(levels[3].Spacing[2], 0.001);
-}
-
-TEST(PyramidGeometry, AnAskedNumberOfLevelsIsGivenToTheLastVoxel)
-{
-  PyramidOptions options;
-  options.NumberOfLevels = MaximumNumberOfLevels({ 9, 4, 1 }, Sqrt3);
-  EXPECT_EQ(options.NumberOfLevels, 4) << "9 -> 5 -> 2 -> 1";
-  const auto levels = PlanPyramid({ 9, 4, 1 }, { 1, 1, 1 }, options);
-  EXPECT_EQ(levels.back().Size, (LevelSize{ 1, 1, 1 }));
 }
 
 TEST(PyramidGeometry, SizesBeyond32BitsWorkAsNumbersDo)

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Walls that are too thin are told of: the filter's counts against the judge's.
+// Walls that are too thin are told of, and held by FinestLevel -1: by the filter's counts and the
+// judge's.
 #include "SupportVtkConversions.h"
 #include "TestPrelude.h"
 #include "vtkDeformableSurface.h"
@@ -89,6 +90,35 @@ TEST_F(RemainingContacts, TellOfAWallThatIsTooThinAndGoAwayAtAFinerLevel)
   surface = this->Filter->GetOutput();
   this->ExpectCountsOfTheJudge(surface);
   EXPECT_LT(FieldOf(surface, "ContactVertices") / surface->GetNumberOfPoints(), 0.2 * share);
+}
+
+TEST(FinerThanImage, DividesOnceMoreAndKeepsTheConstraints)
+{
+  const Scene scene = MakeScene(SceneKind::Torus);
+  vtkNew<vtkDeformableSurface> filter;
+  filter->SetInputData(ToImage(scene));
+  filter->SetIsoValue(scene.IsoValue);
+  filter->SetCoarsestLevel(scene.CoarsestFaithfulLevel);
+  filter->SetFinestLevel(-1);
+  filter->Update();
+  vtkPolyData* surface = filter->GetOutput();
+  auto* level0 = vtkPolyData::SafeDownCast(filter->GetLevels()->GetBlock(0));
+  EXPECT_EQ(FieldOf(surface, "Level"), -1);
+  EXPECT_NEAR(FieldOf(surface, "Delta") / FieldOf(level0, "Delta"), 1 / std::sqrt(3.), 1e-6);
+  EXPECT_NEAR(
+    static_cast<double>(surface->GetNumberOfPoints()) / level0->GetNumberOfPoints(), 3.0, 0.3);
+  const JudgedVolume volume = ToJudgedVolume(scene);
+  const SurfaceVerdict verdict =
+    JudgeSurface(ToTriangleSurface(surface), FieldOf(surface, "Delta"), &volume);
+  EXPECT_TRUE(verdict.Topology.Outward);
+  EXPECT_EQ(verdict.Topology.Components.size(), 1u);
+  EXPECT_EQ(verdict.Topology.Genus, 1);
+  EXPECT_EQ(verdict.Intersections.Pairs, 0u);
+  EXPECT_EQ(verdict.Lengths.EdgesTooShort + verdict.Lengths.EdgesTooLong, 0u);
+  EXPECT_EQ(verdict.Lengths.NearPairs, 0u);
+  const SurfaceVerdict before =
+    JudgeSurface(ToTriangleSurface(level0), FieldOf(level0, "Delta"), &volume);
+  EXPECT_LT(verdict.IsoDistance.MeanAtCentroids, 0.6 * before.IsoDistance.MeanAtCentroids);
 }
 
 TEST_F(RemainingContacts, AreCountedOnTheWayToo)

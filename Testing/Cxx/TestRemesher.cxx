@@ -14,18 +14,6 @@ namespace
 {
 SequentialExecutor Threads;
 
-/** Three pairs of opposite corners; all edges are `edge` long. */
-IndexedSurface Octahedron(double edge)
-{
-  const double r = edge / std::sqrt(2.);
-  IndexedSurface surface;
-  surface.Points = { { r, 0, 0 }, { -r, 0, 0 }, { 0, r, 0 }, { 0, -r, 0 }, { 0, 0, r },
-    { 0, 0, -r } };
-  surface.Triangles = { { 0, 2, 4 }, { 2, 1, 4 }, { 1, 3, 4 }, { 3, 0, 4 }, { 2, 0, 5 },
-    { 1, 2, 5 }, { 3, 1, 5 }, { 0, 3, 5 } };
-  return surface;
-}
-
 /** A sphere with edges of 1.1 to 1.25. */
 IndexedSurface FineSphere()
 {
@@ -51,7 +39,7 @@ TEST(Remesher, SplitsUntilNoEdgeIsLongerThanTwoAndAHalfDelta)
 {
   for (const double edge : { 2.6, 12. })
   {
-    Bench bench(Octahedron(edge));
+    Bench bench(EvenOctahedron({ 0, 0, 0 }, edge));
     std::vector<int> all = bench.All();
     Remesher(bench.State, nullptr, true).Split(all);
     EXPECT_LE(bench.Longest(), 2.5f) << "from edges of " << edge;
@@ -61,14 +49,6 @@ TEST(Remesher, SplitsUntilNoEdgeIsLongerThanTwoAndAHalfDelta)
     const double volume = edge * edge * edge * std::sqrt(2.) / 3;
     EXPECT_NEAR(ComputeFeatures(bench.State.Mesh.ToIndexed()).Volume, volume, 1e-4 * volume);
   }
-}
-
-TEST(Remesher, DoesNotSplitLegalEdges)
-{
-  Bench bench(Octahedron(2.49));
-  std::vector<int> all = bench.All();
-  Remesher(bench.State, nullptr, true).Split(all);
-  EXPECT_EQ(bench.State.Counts.Splits, 0);
 }
 
 TEST(Remesher, DoesNotSplitIntoNeedles)

@@ -91,18 +91,6 @@ TEST_F(Revise, NothingMovesWhereNothingHasChanged)
   EXPECT_EQ(this->Evolution.Result().Triangles, this->Before.Triangles);
 }
 
-TEST_F(Revise, CanBeDoneAgain)
-{
-  MakeBump(this->Volume);
-  this->Evolution.Revise(this->Volume.Image);
-  this->Volume = DistanceToBall(9.2);
-  this->Evolution.Revise(this->Volume.Image);
-  for (const Point& p : this->Evolution.Result().Points)
-  {
-    ASSERT_NEAR(RadiusOf(p), 9.2, 0.1) << "back again";
-  }
-}
-
 TEST(StartIsoSurface, IsTheStartFromAGivenSurfaceWithoutItsTests)
 {
   const TestVolume volume = DistanceToBall(9.2);

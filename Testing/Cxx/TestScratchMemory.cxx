@@ -52,18 +52,7 @@ std::string MessageOf(const ScratchOptions& options)
   return RefusalOf([&] { const ScratchMemory scratch(options); });
 }
 
-class ScratchMemoryTest : public testing::Test
-{
-protected:
-  void SetUp() override
-  {
-    if (!ScratchIsPossible)
-    {
-      GTEST_SKIP() << "no scratch memory on this system";
-    }
-  }
-  OwnDirectory Directory;
-};
+using ScratchMemoryTest = ScratchTest;
 }
 
 TEST_F(ScratchMemoryTest, HoldsMoreThanTheLimit)
@@ -140,19 +129,6 @@ TEST_F(ScratchMemoryTest, KeepsSmallArraysOnTheHeap)
   EXPECT_EQ(scratch.Statistics().Mapped, 0u);
 }
 
-TEST_F(ScratchMemoryTest, DoesNothingWithoutALimit)
-{
-  ScratchOptions options;
-  options.Directory = "/nowhere";
-  const ScratchMemory scratch(options);
-  void* memory = AllocateLarge(4 * MiB);
-  EXPECT_FALSE(IsInFile(memory));
-  PrefetchLarge(memory, 4 * MiB);
-  FreeLarge(memory);
-  EXPECT_EQ(scratch.Statistics().MostResident, 0u);
-  EXPECT_TRUE(scratch.Warnings().empty());
-}
-
 TEST_F(ScratchMemoryTest, ArraysOutliveIt)
 {
   constexpr std::size_t n = 4 * MiB / sizeof(std::uint64_t);
@@ -174,18 +150,6 @@ TEST_F(ScratchMemoryTest, ArraysOutliveIt)
   LargeVector<std::uint64_t>().swap(inFile);
   EXPECT_EQ(again.Statistics().Mapped, 0u);
   EXPECT_EQ(onHeap.back(), 5u);
-}
-
-TEST_F(ScratchMemoryTest, VectorsAreAlignedAsTheirValuesNeed)
-{
-  for (std::size_t n : { 1, 3, 100, 100000 })
-  {
-    const LargeVector<Ring> rings(n);
-    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(rings.data()) % alignof(Ring), 0u);
-    void* memory = AllocateLarge(n);
-    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(memory) % 64, 0u);
-    FreeLarge(memory);
-  }
 }
 
 TEST_F(ScratchMemoryTest, OfTwoTheSmallerLimitCountsAndTheLastDirectory)
@@ -298,20 +262,6 @@ TEST_F(ScratchMemoryTest, TellsThatADirectoryIsMemory)
   const ScratchMemory scratch(Allowing(144 * MiB, "/dev/shm"));
   ASSERT_EQ(scratch.Warnings().size(), 1u);
   EXPECT_TRUE(Has(scratch.Warnings()[0], "/dev/shm is memory itself"));
-}
-
-TEST_F(ScratchMemoryTest, PrefetchesAnyRange)
-{
-  const ScratchMemory scratch(Allowing(144 * MiB, this->Directory.Path));
-  LargeVector<char> values(3 * MiB + 5, 'x');
-  std::vector<char> other(100);
-  PrefetchLarge(values.data() + 12345, values.size());
-  PrefetchLarge(values.data() + values.size() - 1, 1);
-  PrefetchLarge(values.data(), 0);
-  PrefetchLarge(other.data(), other.size());
-  PrefetchLarge(nullptr, 100);
-  EXPECT_EQ(std::count(values.begin(), values.end(), 'x'),
-    static_cast<std::ptrdiff_t>(values.size()));
 }
 
 TEST_F(ScratchMemoryTest, ManyThreadsTakeAndGiveWhileItDrops)

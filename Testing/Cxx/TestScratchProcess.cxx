@@ -16,18 +16,7 @@ using namespace volumic::test;
 
 namespace
 {
-class ScratchProcess : public testing::Test
-{
-protected:
-  void SetUp() override
-  {
-    if (!ScratchIsPossible)
-    {
-      GTEST_SKIP() << "no scratch memory on this system";
-    }
-  }
-  OwnDirectory Directory;
-};
+using ScratchProcess = ScratchTest;
 
 std::string WhyItIsFull(std::size_t bytes)
 {

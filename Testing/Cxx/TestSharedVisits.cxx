@@ -3,13 +3,10 @@
 
 // Visits in which threads share that find no visit to make.
 #include "Core/Common/StandardThreads.h"
-#include "Core/Common/VisitSchedule.h"
-#include "TestPrelude.h"
+#include "VisitTestTools.h"
 
 #include <atomic>
-#include <chrono>
 #include <mutex>
-#include <thread>
 
 using namespace volumic;
 
@@ -17,17 +14,10 @@ namespace
 {
 constexpr std::chrono::seconds Patience(20);
 
-bool Always(std::size_t)
-{
-  return true;
-}
-
 /** Items in rows, each of which touches the one before it: so many threads visit at a time. */
 VisitSchedule ChainsOf(int n, int rows = 1)
 {
-  std::vector<int> order(static_cast<std::size_t>(n));
-  std::iota(order.begin(), order.end(), 0);
-  return VisitSchedule(order,
+  return VisitSchedule(InOrder(n),
     [=](int item)
     {
       std::vector<int> touched = { item - rows, item + rows };

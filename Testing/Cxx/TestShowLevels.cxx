@@ -75,22 +75,6 @@ TEST(ShowLevels, HasNoEffectWhereNobodyAsks)
   EXPECT_FALSE(filter->GetNeedsUpdate());
 }
 
-TEST(ShowLevels, EndsWherePreviewDoes)
-{
-  const auto filter = ShowingFilterOf(LargeBall());
-  filter->PreviewOn();
-  EXPECT_EQ(LevelsShown(filter), std::vector<int>{ 1 });
-  filter->PreviewOff();
-  EXPECT_EQ(LevelsShown(filter), std::vector<int>{ 0 });
-}
-
-TEST(ShowLevels, ReachesALevelFinerThanTheImage)
-{
-  const auto filter = ShowingFilterOf(BallImage(30, 30, 30));
-  filter->SetFinestLevel(-1);
-  EXPECT_EQ(LevelsShown(filter), (std::vector<int>{ 0, -1 }));
-}
-
 TEST(ShowLevels, KeepsToTheEdgeLength)
 {
   const auto image = BallImage(128, 110, 110);
@@ -102,18 +86,6 @@ TEST(ShowLevels, KeepsToTheEdgeLength)
   atOnce->SetEdgeLength(1.7);
   atOnce->Update();
   EXPECT_TRUE(AreSameSurfaces(filter->GetOutput(), atOnce->GetOutput()));
-}
-
-TEST(ShowLevels, ReachesTheEndWhereNothingIsKept)
-{
-  const auto filter = ShowingFilterOf(LargeBall());
-  filter->ReleaseDataFlagOn();
-  filter->GetNeedsUpdate();
-  filter->Update();
-  EXPECT_TRUE(filter->GetNeedsUpdate());
-  filter->Update();
-  EXPECT_EQ(FieldOf(filter->GetOutput(), "Level"), 0);
-  EXPECT_FALSE(filter->GetNeedsUpdate());
 }
 
 TEST(ShowLevels, WarnsAtTheEndOnly)
@@ -131,16 +103,6 @@ TEST(ShowLevels, WarnsAtTheEndOnly)
   filter->Update();
   EXPECT_TRUE(warnings.Has("Level 0: Keep Components leaves none"));
   EXPECT_TRUE(warnings.Has("has 1 NaN voxel")) << warnings.Get();
-}
-
-TEST(ShowLevels, WarnsWhereTheFirstLevelShownIsTheLast)
-{
-  const auto filter = ShowingFilterOf(BallImage(30, 30, 30));
-  filter->SetKeepComponents(vtkDeformableSurface::LargeComponents);
-  filter->SetMinimumComponentVolume(1e9);
-  const MessagesOf warnings(filter, vtkCommand::WarningEvent);
-  EXPECT_EQ(LevelsShown(filter), std::vector<int>{ 0 });
-  EXPECT_TRUE(warnings.Has("Level 0: Keep Components leaves none"));
 }
 
 TEST(ShowLevels, IsOverAfterAnErrorAndAtTheTimeLimit)

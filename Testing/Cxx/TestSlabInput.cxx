@@ -3,39 +3,18 @@
 
 // With a limit of memory a filter asks for its image slab by slab; what it makes of it is the same
 // bits.
+#include "SameOutputs.h"
 #include "SlabSource.h"
-#include "SurfaceTestTools.h"
 #include "vtkVolumeToSurface.h"
 
-#include <vtkErrorCode.h>
 #include <vtkImageFlip.h>
 #include <vtkImageShiftScale.h>
 #include <vtkMatrix3x3.h>
-
-#include <cstring>
 
 using namespace volumic;
 
 namespace
 {
-void ExpectSameArrays(vtkDataSetAttributes* a, vtkDataSetAttributes* b)
-{
-  ASSERT_EQ(a->GetNumberOfArrays(), b->GetNumberOfArrays());
-  for (int n = 0; n < a->GetNumberOfArrays(); ++n)
-  {
-    vtkDataArray* one = a->GetArray(n);
-    vtkDataArray* two = one->GetName() ? b->GetArray(one->GetName()) : b->GetArray(n);
-    ASSERT_TRUE(two);
-    ASSERT_EQ(one->GetDataType(), two->GetDataType());
-    ASSERT_EQ(one->GetNumberOfComponents(), two->GetNumberOfComponents());
-    ASSERT_EQ(one->GetNumberOfTuples(), two->GetNumberOfTuples());
-    const auto bytes = static_cast<std::size_t>(one->GetNumberOfValues()) *
-      static_cast<std::size_t>(one->GetDataTypeSize());
-    EXPECT_EQ(std::memcmp(one->GetVoidPointer(0), two->GetVoidPointer(0), bytes), 0)
-      << (one->GetName() ? one->GetName() : "unnamed");
-  }
-}
-
 void ExpectSamePyramids(vtkMultiBlockDataSet* a, vtkMultiBlockDataSet* b)
 {
   ASSERT_EQ(a->GetNumberOfBlocks(), b->GetNumberOfBlocks());
@@ -102,30 +81,18 @@ void ExpectSamePyramids(const SlabScene& scene, int component,
 }
 }
 
-TEST(SlabInput, GivesTheSamePyramid)
+TEST(SlabInput, GivesTheSamePyramidWhateverTheImageHas)
 {
-  ExpectSamePyramids(SlabScene(), 2);
-}
-
-TEST(SlabInput, KnowsNaNsAndMagnitudes)
-{
-  SlabScene scene;
-  scene.HasNaNs = true;
-  ExpectSamePyramids(scene, -1);
-}
-
-TEST(SlabInput, KnowsWhatIsHiddenAlsoBetweenSlabs)
-{
-  SlabScene scene;
-  scene.HasGhosts = true;
-  ExpectSamePyramids(scene, 2);
-}
-
-TEST(SlabInput, TakesAnArrayWithoutAName)
-{
-  SlabScene scene;
-  scene.IsNamed = false;
-  ExpectSamePyramids(scene, 3);
+  SlabScene scenes[4];
+  scenes[1].HasNaNs = true;
+  scenes[2].HasGhosts = true; // Also between slabs.
+  scenes[3].IsNamed = false;
+  const int components[4] = { 2, -1, 2, 3 };
+  for (int i = 0; i < 4; ++i)
+  {
+    SCOPED_TRACE(i);
+    ExpectSamePyramids(scenes[i], components[i]);
+  }
 }
 
 TEST(SlabInput, ComesThroughFiltersThatStream)
@@ -233,25 +200,6 @@ TEST(SlabInput, TellsOfAFailureAndWorksAgain)
   }
 }
 
-TEST(SlabInput, CanBeCancelled)
-{
-  const auto source = SourceOf(SlabScene());
-  vtkNew<vtkImagePyramid> pyramid;
-  pyramid->SetInputConnection(source->GetOutputPort());
-  pyramid->SetMemoryLimit(Limit);
-  ProgressListener listener(pyramid);
-  listener.StopAt = 0.3;
-  pyramid->Update();
-  EXPECT_EQ(listener.Texts.count("Reading the image"), 1u);
-  EXPECT_EQ(pyramid->GetErrorCode(), vtkErrorCode::NoError);
-  EXPECT_EQ(pyramid->GetOutput()->GetNumberOfBlocks(), 0u);
-  EXPECT_LT(source->Slices.back()[1], Whole[5]);
-  listener.StopAt = 2.0;
-  pyramid->Modified();
-  pyramid->Update();
-  EXPECT_GT(pyramid->GetOutput()->GetNumberOfBlocks(), 2u);
-}
-
 TEST(SlabInput, IsRefusedWithALimitThatIsNone)
 {
   const auto source = SourceOf(SlabScene());
@@ -313,25 +261,4 @@ TEST(SlabInput, GivesTheSameSurfaces)
     AreSameSurfaces(SurfaceFrom<vtkDeformableSurface>(SourceOf(SlabScene()), 50.0, 0)->GetOutput(),
       SurfaceFrom<vtkDeformableSurface>(slabs, 50.0, Limit)->GetOutput()));
   EXPECT_GT(slabs->Slices.size(), 3u);
-}
-
-TEST(SlabInput, IsNotAskedForWhereARunGoesOn)
-{
-  const auto whole = SourceOf(SlabScene());
-  const auto slabs = SourceOf(SlabScene());
-  const auto usual = SurfaceFrom<vtkVolumeToSurface>(whole, 50.0, 0);
-  const auto limited = SurfaceFrom<vtkVolumeToSurface>(slabs, 50.0, Limit);
-  const std::size_t asked = slabs->Slices.size();
-  for (const int level : { 3, 1 })
-  {
-    usual->SetFinestLevel(level);
-    usual->Update();
-    limited->SetFinestLevel(level);
-    limited->Update();
-    EXPECT_TRUE(AreSameSurfaces(usual->GetOutput(), limited->GetOutput())) << level;
-    EXPECT_EQ(slabs->Slices.size(), asked) << level;
-  }
-  limited->SetFriction(3.5);
-  limited->Update();
-  EXPECT_EQ(slabs->Slices.size(), 2 * asked) << "each slab once more";
 }

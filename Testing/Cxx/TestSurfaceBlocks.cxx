@@ -3,6 +3,7 @@
 #include "Core/Mesh/SurfaceMeasures.h"
 #include "Core/Surface/SurfaceBlocks.h"
 #include "Core/Surface/SurfaceEditor.h"
+#include "LiveSurface.h"
 #include "RemeshTestTools.h"
 
 using namespace volumic;
@@ -10,20 +11,6 @@ using namespace volumic;
 namespace
 {
 SequentialExecutor Thread;
-
-/** Delta is 1. */
-struct LiveSurface : SurfaceState
-{
-  explicit LiveSurface(const SurfaceMesh& mesh)
-  {
-    this->Mesh = mesh;
-    this->Sizing = SizingField(1);
-    this->Reset(Vector(-30, -30, -30), Vector(70, 30, 30));
-    std::vector<int> all(this->Mesh.Size());
-    std::iota(all.begin(), all.end(), 0);
-    this->UpdateShape(all, Thread);
-  }
-};
 
 /** A row of balls along x, 10 apart: one in each block of side 10. */
 SurfaceMesh Balls(int n)

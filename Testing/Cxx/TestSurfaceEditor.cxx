@@ -13,21 +13,6 @@ using namespace volumic;
 namespace
 {
 
-/** Six corners, so far from the centre along each axis. */
-IndexedSurface Octahedron(const Point& centre, double x, double y, double z)
-{
-  IndexedSurface surface;
-  surface.Points = { { x, 0, 0 }, { -x, 0, 0 }, { 0, y, 0 }, { 0, -y, 0 }, { 0, 0, z },
-    { 0, 0, -z } };
-  for (Point& p : surface.Points)
-  {
-    p = { p[0] + centre[0], p[1] + centre[1], p[2] + centre[2] };
-  }
-  surface.Triangles = { { 0, 2, 4 }, { 2, 1, 4 }, { 1, 3, 4 }, { 3, 0, 4 }, { 2, 0, 5 },
-    { 1, 2, 5 }, { 3, 1, 5 }, { 0, 3, 5 } };
-  return surface;
-}
-
 /** A sphere, and something small near a place of it, perhaps. */
 struct Workbench : Bench
 {
@@ -350,15 +335,4 @@ TEST(SurfaceEditor, RecordsNameAllThatHasChanged)
       EXPECT_EQ(bench.State.Disturbed[v], operation.first != std::string("smooth flip")) << v;
     }
   }
-}
-
-TEST(SurfaceEditor, RecordsOfRefusedEditsAreEmpty)
-{
-  Workbench bench(Fine);
-  const Vector spike = bench.At(bench.V) + bench.Outward(bench.V) * 5.f;
-  const Edit edit = bench.Editor.Move(bench.V, spike, EditTolerance::Smooth);
-  EXPECT_FALSE(edit);
-  EXPECT_EQ(edit.Changed.begin(), edit.Changed.end());
-  EXPECT_EQ(edit.Vertex, -1);
-  EXPECT_TRUE(bench.Editor.TakeChanged().empty());
 }

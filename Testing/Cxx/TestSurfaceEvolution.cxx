@@ -7,35 +7,6 @@ using namespace volumic;
 
 namespace
 {
-/** Hands out ranges of odd sizes, last first: what threads may do, made repeatable. */
-class ShuffledExecutor final : public Executor
-{
-public:
-  void For(std::size_t n, std::size_t,
-    const std::function<void(std::size_t, std::size_t)>& body) override
-  {
-    for (std::size_t end = n; end > 0;)
-    {
-      const std::size_t begin = end > 7 ? end - 7 : 0;
-      body(begin, end);
-      end = begin;
-    }
-  }
-};
-
-class CancelAfter final : public Monitor
-{
-public:
-  explicit CancelAfter(int sweeps)
-    : Left(sweeps)
-  {
-  }
-  bool Continue(const Status&) override { return --this->Left > 0; }
-
-private:
-  int Left;
-};
-
 /** Counts states that are not what they must be between two iterations. */
 class Inspector final : public Monitor
 {
@@ -82,29 +53,6 @@ void ExpectSound(const SurfaceEvolution& evolution)
 }
 }
 
-TEST(SurfaceEvolution, ShrinksAnEnclosingSurfaceOntoABall)
-{
-  const TestVolume volume = BallVolume(32, 10);
-  SurfaceEvolution evolution(IsoHalf(), Threads, Silent);
-  evolution.StartEnclosing(volume.Image, 0);
-  EXPECT_EQ(evolution.Run(), StopReason::Converged);
-  ExpectSound(evolution);
-  const SurfaceResult surface = evolution.Result();
-  const SurfaceFeatures features = ComputeFeatures(surface);
-  ASSERT_EQ(features.Components.size(), 1u);
-  EXPECT_EQ(features.Genus, 0);
-  const double volumeOfBall = 4. / 3. * 3.14159265 * 1000.;
-  EXPECT_NEAR(features.Volume, volumeOfBall, 0.02 * volumeOfBall);
-  double residual = 0;
-  for (std::size_t i = 0; i < surface.Points.size(); ++i)
-  {
-    residual += std::abs(surface.Residual[i]);
-    const Point& p = surface.Points[i];
-    EXPECT_NEAR(Distance(p[0], p[1], p[2], 16, 16, 16), 10, 0.2);
-  }
-  EXPECT_LT(residual / static_cast<double>(surface.Points.size()), 0.02);
-}
-
 TEST(SurfaceEvolution, StartsFromALongBoxWithoutIntersections)
 {
   // Voxels of 1 : 7.5 and noise. The icosahedron that was pressed onto this box intersected itself
@@ -126,30 +74,6 @@ TEST(SurfaceEvolution, StartsFromALongBoxWithoutIntersections)
   ExpectSound(evolution);
 }
 
-TEST(SurfaceEvolution, GrowsSeedsUntilTheyMergeIntoATorus)
-{
-  const int n = 40;
-  const TestVolume volume = MakeVolume(n,
-    [](double x, double y, double z)
-    {
-      const double q = std::sqrt((x - 20) * (x - 20) + (y - 20) * (y - 20)) - 11;
-      return Soft(std::sqrt(q * q + (z - 20) * (z - 20)) - 5);
-    });
-  SurfaceEvolution evolution(IsoHalf(), Threads, Silent);
-  EXPECT_EQ(evolution.StartSeeds(volume.Image, 0, { { 9, 20, 20 }, { 31, 20, 20 } }), 2);
-  EXPECT_EQ(evolution.Run(), StopReason::Converged);
-  ExpectSound(evolution);
-  const SurfaceFeatures features = ComputeFeatures(evolution.Result());
-  EXPECT_EQ(features.Components.size(), 1u);
-  EXPECT_EQ(features.Genus, 1);
-  int merges = 0;
-  for (const HistoryRow& row : evolution.History())
-  {
-    merges += row.Merges;
-  }
-  EXPECT_GE(merges, 2);
-}
-
 TEST(SurfaceEvolution, IsSoundAfterEverySweep)
 {
   const TestVolume volume = NoisyTorus(36);
@@ -164,102 +88,28 @@ TEST(SurfaceEvolution, IsSoundAfterEverySweep)
   EXPECT_EQ(features.Components[0].Genus, 1);
 }
 
-TEST(SurfaceEvolution, GivesTheSameBitsForAnyExecutor)
-{
-  const TestVolume volume = NoisyTorus(36);
-  ShuffledExecutor shuffled;
-  SurfaceEvolution first(IsoHalf(), Threads, Silent);
-  SurfaceEvolution second(IsoHalf(), shuffled, Silent);
-  for (SurfaceEvolution* evolution : { &first, &second })
-  {
-    evolution->StartEnclosing(volume.Image, 0);
-    evolution->Run();
-  }
-  EXPECT_EQ(first.Result().Points, second.Result().Points);
-  EXPECT_EQ(first.Result().Triangles, second.Result().Triangles);
-  EXPECT_EQ(first.History().size(), second.History().size());
-}
-
-TEST(SurfaceEvolution, DividesToAFinerLevel)
-{
-  const TestVolume fine = BallVolume(32, 10);
-  const int n = 18;
-  TestVolume coarse = BallVolume(n, 10. * n / 32.);
-  coarse.Image.Step = { 32. / n, 32. / n, 32. / n };
-  coarse.Image.Unit = std::sqrt(3.);
-  SurfaceEvolution evolution(IsoHalf(), Threads, Silent);
-  evolution.StartEnclosing(coarse.Image, 1);
-  evolution.Run();
-  const std::size_t before = evolution.Result().Points.size();
-  evolution.Divide(fine.Image, 0);
-  EXPECT_GT(evolution.Result().Points.size(), 2 * before);
-  EXPECT_EQ(evolution.Run(), StopReason::Converged);
-  ExpectSound(evolution);
-  EXPECT_EQ(evolution.History().front().Level, 1);
-  EXPECT_EQ(evolution.History().back().Level, 0);
-}
-
 TEST(SurfaceEvolution, FindsAgainWhatTheCoarseLevelLost)
 {
   // Two balls, of which the coarse image holds only one.
   const auto large = [](double x, double y, double z)
   { return Distance(x, y, z, 12, 16, 16) - 8.; };
-  const TestVolume fine = MakeVolume(32, [&](double x, double y, double z)
-    { return Soft(std::min(large(x, y, z), Distance(x, y, z, 26, 16, 16) - 3.)); });
-  TestVolume coarse = MakeVolume(18, [&](double x, double y, double z)
-    { return Soft(large(x * 32 / 18, y * 32 / 18, z * 32 / 18)); });
-  coarse.Image.Step = { 32. / 18, 32. / 18, 32. / 18 };
-  coarse.Image.Unit = std::sqrt(3.);
+  const LevelPair scene(32, [&](double x, double y, double z)
+    { return std::min(large(x, y, z), Distance(x, y, z, 26, 16, 16) - 3.); }, large);
   for (const bool recover : { true, false })
   {
     SurfaceOptions options = IsoHalf();
     options.RecoverLostParts = recover;
     SurfaceEvolution evolution(options, Threads, Silent);
-    evolution.StartEnclosing(coarse.Image, 1);
+    evolution.StartEnclosing(scene.Coarse.Image, 1);
     evolution.Run();
     EXPECT_EQ(ComputeFeatures(evolution.Result()).Components.size(), 1u);
-    evolution.Divide(fine.Image, 0);
+    evolution.Divide(scene.Fine.Image, 0);
     EXPECT_EQ(evolution.Lost().Found, 1) << "told also where it is not recovered";
     EXPECT_EQ(evolution.Lost().Enclosed, recover ? 1 : 0);
     evolution.Run();
     ExpectSound(evolution);
     EXPECT_EQ(ComputeFeatures(evolution.Result()).Components.size(), recover ? 2u : 1u);
   }
-}
-
-TEST(SurfaceEvolution, RemeshesAGivenSurface)
-{
-  const TestVolume volume = BallVolume(32, 10);
-  IndexedSurface sphere = DividedIcosahedron({ 16, 16, 16 }, 11, 0.3); // Much too fine.
-  SurfaceEvolution evolution(IsoHalf(), Threads, Silent);
-  evolution.StartSurface(volume.Image, 0, sphere);
-  const std::size_t adapted = evolution.Result().Points.size();
-  EXPECT_LT(adapted, sphere.Points.size() / 4);
-  EXPECT_EQ(CountSelfIntersections(evolution.Result()), 0);
-  EXPECT_EQ(evolution.Run(), StopReason::Converged);
-  ExpectSound(evolution);
-}
-
-TEST(SurfaceEvolution, TakesSurfacesWithCrowdedPoles)
-{
-  const TestVolume volume = BallVolume(32, 9);
-  SurfaceEvolution evolution(IsoHalf(), Threads, Silent);
-  // 40 neighbours at each tip.
-  evolution.StartSurface(volume.Image, 0, MakeDoubleCone({ 16, 16, 16 }, 12, 12, 40));
-  EXPECT_EQ(evolution.Run(), StopReason::Converged);
-  ExpectSound(evolution);
-  EXPECT_EQ(ComputeFeatures(evolution.Result()).EulerCharacteristic, 2);
-}
-
-TEST(SurfaceEvolution, HandsOverASoundSurfaceWhenCancelled)
-{
-  const TestVolume volume = BallVolume(32, 10);
-  CancelAfter monitor(2);
-  SurfaceEvolution evolution(IsoHalf(), Threads, monitor);
-  evolution.StartEnclosing(volume.Image, 0);
-  EXPECT_EQ(evolution.Run(), StopReason::Cancelled);
-  EXPECT_EQ(evolution.Iterations(), 10) << "sweeps of five";
-  EXPECT_EQ(CountSelfIntersections(evolution.Result()), 0);
 }
 
 TEST(SurfaceEvolution, SaysWhenNothingIsLeft)
@@ -289,17 +139,6 @@ TEST(SurfaceEvolution, KeepsItsTopologyOnRequest)
   EXPECT_EQ(CountSelfIntersections(evolution.Result()), 0);
 }
 
-TEST(SurfaceEvolution, StopsAtTheIterationLimit)
-{
-  const TestVolume volume = BallVolume(32, 10);
-  SurfaceOptions options = IsoHalf();
-  options.MaximumNumberOfIterations = 3;
-  SurfaceEvolution evolution(options, Threads, Silent);
-  evolution.StartEnclosing(volume.Image, 0);
-  EXPECT_EQ(evolution.Run(), StopReason::IterationLimit);
-  EXPECT_EQ(evolution.History().size(), 3u);
-}
-
 TEST(SurfaceEvolutionInvalid, RefusesSeedsItCannotUse)
 {
   const TestVolume volume = BallVolume(32, 10);
@@ -307,33 +146,4 @@ TEST(SurfaceEvolutionInvalid, RefusesSeedsItCannotUse)
   EXPECT_THROW(
     evolution.StartSeeds(volume.Image, 0, { { 16, 16, 50 } }), std::invalid_argument);
   EXPECT_THROW(evolution.StartSeeds(volume.Image, 0, { { 1, 1, 1 } }), std::invalid_argument);
-}
-
-TEST(SurfaceEvolutionInvalid, RefusesSurfacesItCannotUse)
-{
-  const TestVolume volume = BallVolume(32, 10);
-  SurfaceEvolution evolution(IsoHalf(), Threads, Silent);
-  const IndexedSurface good = Icosahedron({ 16, 16, 16 }, 8);
-  const auto refuses = [&](const IndexedSurface& surface, const char* word)
-  {
-    EXPECT_TRUE(Has(RefusalOf([&] { evolution.StartSurface(volume.Image, 0, surface); }), word));
-  };
-  refuses(IndexedSurface(), "empty");
-  IndexedSurface open = good;
-  open.Triangles.pop_back();
-  refuses(open, "open");
-  refuses(InsideOut(good), "inside out");
-  IndexedSurface twisted = good;
-  std::swap(twisted.Triangles[0][0], twisted.Triangles[0][1]);
-  refuses(twisted, "not oriented");
-  IndexedSurface crowded = good;
-  crowded.Triangles.push_back(good.Triangles[0]);
-  refuses(crowded, "not manifold");
-  IndexedSurface crossing = good;
-  AddSurface(crossing, Icosahedron({ 20, 16, 16 }, 8));
-  refuses(crossing, "intersects itself");
-  refuses(Icosahedron({ 100, 16, 16 }, 8), "outside");
-  IndexedSurface endless = good;
-  endless.Points[0][0] = std::nan("");
-  refuses(endless, "not finite");
 }

@@ -23,26 +23,6 @@ IndexedSurface Box(double a, double b, double c, const Point& at)
 }
 }
 
-TEST(SurfaceFeatures, OfABox)
-{
-  const SurfaceFeatures features = ComputeFeatures(Box(2, 3, 4, { 10, 20, 30 }));
-  ASSERT_EQ(features.Components.size(), 1u);
-  const ComponentFeatures& box = features.Components[0];
-  EXPECT_NEAR(box.Area, 2 * (6 + 8 + 12), 1e-9);
-  EXPECT_NEAR(box.Volume, 24, 1e-9);
-  EXPECT_EQ(box.Genus, 0);
-  EXPECT_NEAR(box.Centroid[0], 11, 1e-9);
-  EXPECT_NEAR(box.Centroid[1], 21.5, 1e-9);
-  EXPECT_NEAR(box.Centroid[2], 32, 1e-9);
-  EXPECT_NEAR(box.Inertia[0], 24. / 12 * (9 + 16), 1e-8);
-  EXPECT_NEAR(box.Inertia[1], 24. / 12 * (4 + 16), 1e-8);
-  EXPECT_NEAR(box.Inertia[2], 24. / 12 * (4 + 9), 1e-8);
-  for (int k = 3; k < 6; ++k)
-  {
-    EXPECT_NEAR(box.Inertia[k], 0, 1e-8);
-  }
-}
-
 TEST(SurfaceFeatures, SortsComponentsByAreaAndSignsCavities)
 {
   IndexedSurface surface = Box(2, 2, 2, { 4, 4, 4 });

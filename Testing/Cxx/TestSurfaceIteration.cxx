@@ -40,6 +40,35 @@ struct BallsInBlocks
   }
 };
 
+/** Balls in an image of one, in one block; delta is 1. */
+struct BallsInOneBlock
+{
+  TestVolume Volume = BallVolume(40, 16.);
+  SurfaceOptions Options = IsoHalf();
+  SequentialExecutor Thread;
+  Field TheField{ this->Volume.Image, this->Options, this->Thread };
+  Dynamics Motion{ this->TheField, this->Options, this->Thread };
+  SurfaceState State;
+  std::unique_ptr<SurfaceBlocks> Blocks;
+
+  explicit BallsInOneBlock(const std::vector<IndexedSurface>& balls)
+  {
+    for (const IndexedSurface& ball : balls)
+    {
+      this->State.Mesh.Append(ball);
+    }
+    this->State.Sizing = SizingField(1);
+    this->State.Margin = this->TheField.Margin();
+    this->State.Reset(Vector(-2, -2, -2), Vector(42, 42, 42));
+    for (int v = 0; v < this->State.Mesh.Size(); ++v)
+    {
+      this->State.UpdateShape(v);
+    }
+    this->Blocks = std::make_unique<SurfaceBlocks>(this->State,
+      SurfaceBlocks::FrameOf({ 40., 40., 40. }, SurfaceBlocks::SideInDelta), this->Thread);
+  }
+};
+
 /** Those that the visit of a block would move. */
 std::vector<int> ActiveOnes(SurfaceState& state, SurfaceBlocks& blocks, int block)
 {
@@ -56,21 +85,6 @@ bool Has(const std::vector<int>& vertices, int v)
 {
   return std::find(vertices.begin(), vertices.end(), v) != vertices.end();
 }
-}
-
-TEST(SurfaceIteration, MovesTheActiveVerticesOfTheBlock)
-{
-  BallsInBlocks balls;
-  SurfaceBlocks blocks(balls.State, BallsInBlocks::Frame(), balls.Thread);
-  const int ofBall = balls.State.Mesh.Size() / 3;
-  balls.State.Active[ofBall + 5] = 0;
-  const std::vector<int> active = ActiveOnes(balls.State, blocks, 1);
-  EXPECT_EQ(static_cast<int>(active.size()), ofBall - 1);
-  EXPECT_FALSE(Has(active, ofBall + 5));
-  for (const int v : active)
-  {
-    EXPECT_EQ(balls.State.Block[v], 1);
-  }
 }
 
 TEST(SurfaceIteration, MovesNothingFarFromTheBlock)
@@ -126,30 +140,18 @@ TEST(SurfaceIteration, KeepsTheEndsOfHugeEdgesStill)
 TEST(SurfaceIteration, MakesWhatCannotBeSplitNoLonger)
 {
   // A ball that grows, where no vertex can be added.
-  const TestVolume volume = BallVolume(40, 16.);
-  const SurfaceOptions options = IsoHalf();
-  SequentialExecutor thread;
-  const Field field(volume.Image, options, thread);
-  const Dynamics dynamics(field, options, thread);
-  SurfaceState s;
-  s.Mesh.Append(DividedIcosahedron({ 20, 20, 20 }, 6., 1.5));
-  s.Sizing = SizingField(1);
-  s.Margin = field.Margin();
-  s.Reset(Vector(-2, -2, -2), Vector(42, 42, 42));
-  for (int v = 0; v < s.Mesh.Size(); ++v)
-  {
-    s.UpdateShape(v);
-  }
-  SurfaceBlocks blocks(s, SurfaceBlocks::FrameOf({ 40., 40., 40. }, SurfaceBlocks::SideInDelta), thread);
+  BallsInOneBlock balls({ DividedIcosahedron({ 20, 20, 20 }, 6., 1.5) });
+  SurfaceState& s = balls.State;
+  SurfaceBlocks& blocks = *balls.Blocks;
   BlockVisit visit = blocks.Open(0);
-  Remesher remesher(s, &field, true, &visit.Share);
+  Remesher remesher(s, &balls.TheField, true, &visit.Share);
   SurfaceIteration iteration(s);
   iteration.BeginVisit(visit);
   double longest = 0.;
   for (int i = 0; i < 40; ++i)
   {
     HistoryRow row;
-    iteration.Run(row, dynamics, remesher, SurfaceIteration::Mode::Evolve);
+    iteration.Run(row, balls.Motion, remesher, SurfaceIteration::Mode::Evolve);
     for (const double edge : EdgeLengths(s.Mesh.ToIndexed()))
     {
       longest = std::max(longest, edge);
@@ -166,32 +168,19 @@ TEST(SurfaceIteration, MakesWhatCannotBeSplitNoLonger)
 TEST(SurfaceIteration, KnowsTheContactsThatAVisitBeforeHasFound)
 {
   // Two balls that grow towards each other, in visits of an iteration. Nobody merges them.
-  const TestVolume volume = BallVolume(40, 16.);
-  SurfaceOptions options = IsoHalf();
-  options.TopologyChanges = false;
-  SequentialExecutor thread;
-  const Field field(volume.Image, options, thread);
-  const Dynamics dynamics(field, options, thread);
-  SurfaceState s;
-  s.Mesh.Append(DividedIcosahedron({ 15, 20, 20 }, 4., 1.5));
-  const int ofBall = s.Mesh.Size();
-  s.Mesh.Append(DividedIcosahedron({ 25, 20, 20 }, 4., 1.5));
-  s.Sizing = SizingField(1);
-  s.Margin = field.Margin();
-  s.Reset(Vector(-2, -2, -2), Vector(42, 42, 42));
-  for (int v = 0; v < s.Mesh.Size(); ++v)
-  {
-    s.UpdateShape(v);
-  }
-  SurfaceBlocks blocks(s, SurfaceBlocks::FrameOf({ 40., 40., 40. }, SurfaceBlocks::SideInDelta), thread);
+  BallsInOneBlock balls(
+    { DividedIcosahedron({ 15, 20, 20 }, 4., 1.5), DividedIcosahedron({ 25, 20, 20 }, 4., 1.5) });
+  SurfaceState& s = balls.State;
+  SurfaceBlocks& blocks = *balls.Blocks;
+  const int ofBall = s.Mesh.Size() / 2;
   for (int i = 0; i < 12; ++i)
   {
     BlockVisit visit = blocks.Open(0);
-    Remesher remesher(s, &field, false, &visit.Share);
+    Remesher remesher(s, &balls.TheField, false, &visit.Share);
     SurfaceIteration iteration(s);
     iteration.BeginVisit(visit);
     HistoryRow row;
-    iteration.Run(row, dynamics, remesher, SurfaceIteration::Mode::Evolve);
+    iteration.Run(row, balls.Motion, remesher, SurfaceIteration::Mode::Evolve);
     iteration.EndVisit();
     blocks.Close(std::move(visit));
   }

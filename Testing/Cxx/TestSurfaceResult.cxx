@@ -65,8 +65,12 @@ TEST(SurfaceResult, LiesOnTheIsopotentialMoreExactlyWhereItIsSnapped)
     SurfaceEvolution evolution(options, Threads, Silent);
     evolution.StartEnclosing(volume.Image, 0);
     EXPECT_EQ(evolution.Run(), StopReason::Converged);
-    residual[snap] = MeanResidual(evolution.Result());
-    ExpectLegalEdges(evolution.Result());
+    const SurfaceResult surface = evolution.Result();
+    residual[snap] = MeanResidual(surface);
+    ExpectLegalEdges(surface);
+    EXPECT_EQ(CountSelfIntersections(surface), 0);
+    const double volumeOfBall = 4. / 3. * 3.14159265 * 512.;
+    EXPECT_NEAR(ComputeFeatures(surface).Volume, volumeOfBall, 0.03 * volumeOfBall);
   }
   EXPECT_LT(residual[true], 0.003);
   EXPECT_GT(residual[false], 2 * residual[true]);
@@ -97,78 +101,16 @@ TEST(SurfaceResult, LiesOnTheEdgesWhereTheyAreGiven)
   EXPECT_NEAR(radius, 7, 0.08);
 }
 
-TEST(SurfaceResult, HasEvenTriangles)
-{
-  const TestVolume volume = BallVolume(28, 8);
-  SurfaceEvolution evolution(IsoHalf(), Threads, Silent);
-  evolution.StartEnclosing(volume.Image, 0);
-  evolution.Run();
-  const SurfaceResult surface = evolution.Result();
-  double worst = 1;
-  double mean = 0;
-  for (const Triangle& t : surface.Triangles)
-  {
-    double edge[3];
-    for (int k = 0; k < 3; ++k)
-    {
-      const Point& a = surface.Points[t[k]];
-      const Point& b = surface.Points[t[(k + 1) % 3]];
-      edge[k] = Distance(a[0], a[1], a[2], b[0], b[1], b[2]);
-    }
-    const double ratio = (edge[0] + edge[1] - edge[2]) * (edge[1] + edge[2] - edge[0]) *
-      (edge[2] + edge[0] - edge[1]) / (edge[0] * edge[1] * edge[2]);
-    worst = std::min(worst, ratio);
-    mean += ratio / static_cast<double>(surface.Triangles.size());
-  }
-  EXPECT_GT(worst, 0.7);
-  EXPECT_GT(mean, 0.96); // Of one level; divisions make them more even.
-}
-
-TEST(SurfaceStart, EnclosesTheWholeImage)
-{
-  TestVolume volume = BallVolume(20, 6);
-  volume.Image.Size = { 40, 20, 10 }; // As many voxels.
-  volume.Image.Step = { 1, 1, 1.5 };
-  SurfaceEvolution evolution(IsoHalf(), Threads, Silent);
-  evolution.StartEnclosing(volume.Image, 0);
-  const SurfaceResult surface = evolution.Result();
-  const std::vector<double> lengths = EdgeLengths(surface);
-  EXPECT_LE(*std::max_element(lengths.begin(), lengths.end()), 2.5 * surface.Delta);
-  EXPECT_EQ(CountSelfIntersections(surface), 0);
-  const SurfaceFeatures features = ComputeFeatures(surface);
-  EXPECT_EQ(features.EulerCharacteristic, 2);
-  // Every corner of the image is inside: seen from it, the surface is a whole sphere.
-  for (int i = 0; i < 8; ++i)
-  {
-    const Point corner = { i & 1 ? 39. : 0., i & 2 ? 19. : 0., i & 4 ? 13.5 : 0. };
-    double angle = 0;
-    for (const Triangle& t : surface.Triangles)
-    {
-      VectorD p[3];
-      for (int k = 0; k < 3; ++k)
-      {
-        const Point& q = surface.Points[t[k]];
-        p[k] = Normalized(VectorD(q[0] - corner[0], q[1] - corner[1], q[2] - corner[2]));
-      }
-      angle += 2 *
-        std::atan2(
-          Dot(p[0], Cross(p[1], p[2])), 1 + Dot(p[0], p[1]) + Dot(p[1], p[2]) + Dot(p[2], p[0]));
-    }
-    EXPECT_NEAR(angle, 4 * 3.14159265, 1e-3) << "corner " << i;
-  }
-}
-
 TEST(SurfaceStart, DivisionMakesThreeTimesTheTriangles)
 {
-  const TestVolume fine = BallVolume(32, 10);
-  TestVolume coarse = BallVolume(18, 10. * 18 / 32);
-  coarse.Image.Step = { 32. / 18, 32. / 18, 32. / 18 };
-  coarse.Image.Unit = std::sqrt(3.);
+  const auto ball = [](double x, double y, double z)
+  { return Distance(x, y, z, 16, 16, 16) - 10.; };
+  const LevelPair scene(32, ball, ball);
   SurfaceEvolution evolution(IsoHalf(), Threads, Silent);
-  evolution.StartEnclosing(coarse.Image, 1);
+  evolution.StartEnclosing(scene.Coarse.Image, 1);
   evolution.Run();
   const SurfaceResult before = evolution.Result();
-  evolution.Divide(fine.Image, 0);
+  evolution.Divide(scene.Fine.Image, 0);
   const SurfaceResult after = evolution.Result();
   // Hardly an edge has to be split besides.
   const double share =
@@ -203,20 +145,6 @@ TEST(SurfaceStart, SeedsAreOfTheirRadiusButNeverTooSmallForTheEdges)
     const double expected =
       radius == 0 ? 1.2 * surface.Delta : std::max(radius, 0.96 * surface.Delta);
     EXPECT_NEAR(Distance(p[0], p[1], p[2], 20, 20, 20), expected, 1e-4);
-  }
-}
-
-TEST(SurfaceStart, WithoutPlacesSeedsFillTheObject)
-{
-  const TestVolume volume = BallVolume(40, 12);
-  SurfaceEvolution evolution(IsoHalf(), Threads, Silent);
-  const int seeds = evolution.StartSeeds(volume.Image, 0, {});
-  EXPECT_GT(seeds, 100);
-  const SurfaceResult surface = evolution.Result();
-  EXPECT_EQ(static_cast<int>(ComputeFeatures(surface).Components.size()), seeds);
-  for (const Point& p : surface.Points)
-  {
-    EXPECT_LT(Distance(p[0], p[1], p[2], 20, 20, 20), 12 + 1.3 * surface.Delta);
   }
 }
 

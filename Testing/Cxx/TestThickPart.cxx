@@ -1,10 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Evolution/SurfaceEvolution.h"
-#include "Core/Evolution/SurfaceOptions.h"
 #include "Core/Image/ThickPart.h"
 #include "Core/Image/VoxelNumbers.h"
-#include "CoreTestTools.h"
+#include "TestPrelude.h"
 
 using namespace volumic;
 
@@ -98,38 +96,4 @@ TEST(ThickPart, EndsAtTheBorderOfTheImage)
     { return (i >= 10 && j <= 1 && k <= 1) || (i <= 1 && IsIn(j, 1, 2) && k <= 1); });
   EXPECT_TRUE(HasThick(ends, 8));
   EXPECT_FALSE(HasThick(ends, 9));
-}
-
-TEST(ThickPart, OfEnoughVoxelsHoldsASurfaceThatShrinksOntoIt)
-{
-  SequentialExecutor threads;
-  Monitor silent;
-  int held = 0;
-  for (int n = 0; n < 12; ++n)
-  {
-    // The least balls that do, at other places between the voxels each time.
-    const double x = 8 + 0.31 * n - std::floor(0.31 * n);
-    const double y = 8 + 0.57 * n - std::floor(0.57 * n);
-    for (double radius = 1.2; radius < 3.0; radius += 0.05)
-    {
-      const TestVolume volume = MakeVolume(17,
-        [=](double a, double b, double c) { return Soft(Distance(a, b, c, x, y, 8.2) - radius); });
-      std::vector<std::uint8_t> marks;
-      for (float value : volume.Values)
-      {
-        marks.push_back(value > 0.5f);
-      }
-      if (HasThick(marks, PartThatHolds.Voxels, volume.Image.Size))
-      {
-        SurfaceOptions options;
-        options.IsoValue = 0.5;
-        SurfaceEvolution evolution(options, threads, silent);
-        evolution.StartEnclosing(volume.Image, 0);
-        EXPECT_NE(evolution.Run(), StopReason::Vanished) << "radius " << radius;
-        ++held;
-        break;
-      }
-    }
-  }
-  EXPECT_EQ(held, 12);
 }

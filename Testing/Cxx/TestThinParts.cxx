@@ -4,8 +4,6 @@
 #include "vtkLabelsToSurfaces.h"
 #include "vtkVolumeToSurface.h"
 
-#include <vtkErrorCode.h>
-
 using namespace volumic;
 
 namespace
@@ -97,14 +95,6 @@ TEST(ThinParts, AreThoseOfFinestLevelMinusOneToo)
   ExpectSameSurfaces(one->GetOutput(), other->GetOutput());
 }
 
-TEST(ThinParts, DoNothingWhereTheRunEndsBefore)
-{
-  const auto coarse = [](vtkVolumeToSurface* f) { f->SetFinestLevel(1); };
-  const auto thin = Made(true, coarse);
-  EXPECT_EQ(FieldOf(thin->GetOutput(), "Level"), 1);
-  ExpectSameSurfaces(thin->GetOutput(), Made(false, coarse)->GetOutput());
-}
-
 TEST(ThinParts, GiveWhatARunFromTheStartGivesInWhateverOrder)
 {
   const auto filter = Filter(false);
@@ -127,14 +117,6 @@ TEST(ThinParts, GiveWhatARunFromTheStartGivesInWhateverOrder)
   }
 }
 
-TEST(ThinParts, AreNoMoreThanThatWhateverTheLongestEdgeIs)
-{
-  // That is for a tolerance.
-  const auto thin = Made(true);
-  const auto other = Made(true, [](vtkVolumeToSurface* f) { f->SetMaximumEdgeLength(0.1); });
-  ExpectSameSurfaces(thin->GetOutput(), other->GetOutput());
-}
-
 TEST(ThinParts, GoWithATolerance)
 {
   // What is flat has longer edges than those of the level, what is thin has shorter ones.
@@ -154,57 +136,6 @@ TEST(ThinParts, AreTheSameOnAnyThreadsAndWithLittleMemory)
   const auto limited = Made(true, [](vtkVolumeToSurface* f) { f->SetMemoryLimit(LittleMemory); });
   ExpectSameSurfaces(one->GetOutput(), three->GetOutput());
   EXPECT_TRUE(AreSameSurfaces(one->GetOutput(), limited->GetOutput()));
-}
-
-TEST(ThinParts, StayWithTheComponentsThatAreKept)
-{
-  const auto filter =
-    Made(true, [](vtkVolumeToSurface* f) { f->SetKeepComponentsToLargestComponent(); });
-  vtkPolyData* surface = filter->GetOutput();
-  ASSERT_TRUE(HasThickness(surface));
-  EXPECT_EQ(surface->GetPointData()->GetArray("Thickness")->GetNumberOfTuples(),
-    surface->GetNumberOfPoints());
-}
-
-TEST(ThinParts, WhatIsWrongIsToldAndAGoodRunFollows)
-{
-  struct Case
-  {
-    ThinChoice Break;
-    std::vector<std::string> Parts;
-  };
-  const std::vector<Case> cases = {
-    { [](vtkVolumeToSurface* f) { f->SetEdgeLength(1.5); },
-      { "Thin Parts is on and Edge Length is 1.5", "Set Edge Length to 0" } },
-    { [](vtkVolumeToSurface* f) { f->SetEdgeLength(1.5); f->SetTolerance(0.2); },
-      { "Tolerance is 0.2 and Edge Length is 1.5", "switch Tolerance and Thin Parts off" } },
-    { [](vtkVolumeToSurface* f) { f->SnapToIsoValueOff(); },
-      { "Thin Parts is on, but Snap To Iso Value is off", "Switch it off" } },
-    { [](vtkVolumeToSurface* f) { f->SetIsopotentialWeight(0.); },
-      { "Thin Parts is on, but Isopotential Weight is not more than" } },
-  };
-  for (const Case& test : cases)
-  {
-    SCOPED_TRACE(test.Parts.front());
-    const auto filter = Filter(true, test.Break);
-    {
-      const MessagesOf errors(filter);
-      filter->Update();
-      for (const std::string& part : test.Parts)
-      {
-        EXPECT_TRUE(errors.Has(part)) << errors.Get();
-      }
-    }
-    EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
-    EXPECT_EQ(filter->GetErrorCode(), vtkErrorCode::UserError);
-    filter->SetEdgeLength(0.);
-    filter->SetTolerance(0.);
-    filter->SnapToIsoValueOn();
-    filter->SetIsopotentialWeight(1.);
-    filter->Update();
-    EXPECT_EQ(filter->GetErrorCode(), vtkErrorCode::NoError);
-    EXPECT_TRUE(HasThickness(filter->GetOutput()));
-  }
 }
 
 TEST(ThinParts, AreOfLabelsToo)

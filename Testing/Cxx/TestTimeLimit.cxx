@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfaceTestTools.h"
 
-#include <vtkErrorCode.h>
 #include <vtkTable.h>
 
 #include <chrono>
@@ -12,28 +11,45 @@ using namespace volumic;
 
 namespace
 {
-constexpr double Limit = 60.0; ///< More than a run takes.
-
-/** Lets the time pass, all of it, when the n-th progress text with a part is heard. */
-struct Sleeper
+/** Waits until the time of a run is over, when the n-th progress text with a part is heard. */
+struct Waiter
 {
   int Left;
 
-  Sleeper(vtkAlgorithm* algorithm, const std::string& part, int left, double seconds)
+  Waiter(vtkAlgorithm* algorithm, const std::string& part, int left, double seconds)
     : Left(left)
     , Hook(algorithm,
         [this, part, seconds](vtkAlgorithm*, const std::string& text, double)
         {
           if (text.find(part) != std::string::npos && --this->Left == 0)
           {
-            std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+            std::this_thread::sleep_until(this->Start + std::chrono::duration<double>(seconds));
           }
         })
   {
   }
 
+  std::chrono::steady_clock::time_point Start = std::chrono::steady_clock::now();
   ProgressHook Hook;
 };
+
+/** A run whose time is over at that text; it gets more time where the machine is slow. */
+void RunOutOfTime(vtkDeformableSurface* filter, const std::string& part, int number)
+{
+  for (double limit = 0.4; limit < 100.0; limit *= 2)
+  {
+    filter->ForgetRun();
+    filter->SetTimeLimit(limit);
+    const Waiter waiter(filter, part, number, limit + 0.01);
+    filter->Update();
+    filter->RemoveAllObservers();
+    if (waiter.Left <= 0)
+    {
+      return;
+    }
+  }
+  ADD_FAILURE() << "heard nothing of " << part;
+}
 
 class TimeLimit : public ::testing::Test
 {
@@ -64,13 +80,7 @@ TEST_F(TimeLimit, HandsOverAValidSurface)
   {
     SCOPED_TRACE(test.Part);
     const auto filter = FilterOf(this->Image);
-    filter->SetTimeLimit(1.5);
-    const Sleeper sleeper(filter, test.Part, test.Number, 1.6);
-    const MessagesOf errors(filter);
-    const MessagesOf warnings(filter, vtkCommand::WarningEvent);
-    filter->Update();
-    filter->RemoveAllObservers();
-    EXPECT_EQ(errors.Get() + warnings.Get(), "");
+    RunOutOfTime(filter, test.Part, test.Number);
     EXPECT_EQ(filter->GetErrorCode(), vtkErrorCode::NoError);
     vtkPolyData* surface = filter->GetOutput();
     EXPECT_EQ(StopReason(surface), "time limit");
@@ -98,13 +108,8 @@ TEST_F(TimeLimit, GivesAnEmptySurfaceWhereThereIsNoneYet)
   for (const char* part : { "Building the pyramid", "Level 2, voxels" })
   {
     SCOPED_TRACE(part);
-    this->Filter->Modified();
-    this->Filter->SetTimeLimit(0.3);
-    const Sleeper sleeper(this->Filter, part, 1, 0.4);
-    const MessagesOf errors(this->Filter);
-    this->Filter->Update();
-    this->Filter->RemoveAllObservers();
-    EXPECT_EQ(errors.Get(), "");
+    RunOutOfTime(this->Filter, part, 1);
+    EXPECT_EQ(this->Filter->GetErrorCode(), vtkErrorCode::NoError);
     EXPECT_EQ(this->Filter->GetOutput()->GetNumberOfPoints(), 0);
     EXPECT_EQ(StopReason(this->Filter->GetOutput()), "time limit");
     EXPECT_EQ(this->Filter->GetHistory()->GetNumberOfRows(), 0);
@@ -114,7 +119,7 @@ TEST_F(TimeLimit, GivesAnEmptySurfaceWhereThereIsNoneYet)
 
 TEST_F(TimeLimit, ChangesNothingWhereItIsNotReached)
 {
-  this->Filter->SetTimeLimit(Limit);
+  this->Filter->SetTimeLimit(1e4);
   this->Filter->Update();
   EXPECT_TRUE(AreSameSurfaces(this->Filter->GetOutput(), SurfaceOf(this->Image)->GetOutput()));
   EXPECT_EQ(StopReason(this->Filter->GetOutput()), "converged");
@@ -122,12 +127,7 @@ TEST_F(TimeLimit, ChangesNothingWhereItIsNotReached)
 
 TEST_F(TimeLimit, IsNotTakenAsFinished)
 {
-  this->Filter->SetTimeLimit(1.5);
-  {
-    const Sleeper sleeper(this->Filter, "Level 0, iteration", 3, 1.6);
-    this->Filter->Update();
-    this->Filter->RemoveAllObservers();
-  }
+  RunOutOfTime(this->Filter, "Level 0, iteration", 3);
   ASSERT_EQ(StopReason(this->Filter->GetOutput()), "time limit");
   this->Filter->SetFinestLevel(1);
   this->Filter->Update();

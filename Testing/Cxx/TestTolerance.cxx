@@ -4,8 +4,6 @@
 #include "vtkLabelsToSurfaces.h"
 #include "vtkVolumeToSurface.h"
 
-#include <vtkErrorCode.h>
-
 using namespace volumic;
 
 namespace
@@ -84,22 +82,6 @@ TEST(Tolerance, GivesWhatARunFromTheStartGivesWhereverTheOneBeforeHasEnded)
   }
 }
 
-TEST(Tolerance, PreviewIsNotGraded)
-{
-  auto filter = vtkSmartPointer<vtkVolumeToSurface>::New();
-  filter->SetInputData(BallImage(128, 110, 110));
-  filter->SetIsoValue(50.0);
-  filter->SetTolerance(0.3);
-  filter->PreviewOn();
-  filter->Update();
-  EXPECT_EQ(FieldOf(filter->GetOutput(), "Level"), 1);
-  EXPECT_FALSE(IsGraded(filter->GetOutput()));
-  filter->PreviewOff();
-  filter->Update();
-  EXPECT_EQ(FieldOf(filter->GetOutput(), "Level"), 0);
-  EXPECT_TRUE(IsGraded(filter->GetOutput()));
-}
-
 TEST(Tolerance, IsInWorldUnits)
 {
   // The same image in micrometres.
@@ -140,36 +122,6 @@ TEST(Tolerance, IsTheSameOnAnyThreadsAndWithLittleMemory)
   limited->Update();
   ExpectSameSurfaces(one->GetOutput(), three->GetOutput());
   EXPECT_TRUE(AreSameSurfaces(one->GetOutput(), limited->GetOutput()));
-}
-
-TEST(Tolerance, TakesNoPartForMissingAsItsTrianglesAreLarge)
-{
-  // A block beside the ball, which a start from a seed in the ball does not know: it is enclosed as
-  // a lost part at level 0.
-  const auto image = BallImage(72, 72, 72, 0.2);
-  FillBox(image, { 4, 6, 6 }, { 14, 66, 66 });
-  const auto run = [&image](double tolerance)
-  {
-    const auto filter = Graded(tolerance,
-      [&image](vtkDeformableSurface* f)
-      {
-        f->SetInputData(image);
-        f->SetGradation(0.3);
-        f->SetInitializationToSeeds();
-        f->AddSeedPosition(35.5, 35.5, 35.5);
-        f->SetCoarsestLevel(1);
-      });
-    filter->Update();
-    return filter;
-  };
-  const auto even = run(0.0);
-  const auto graded = run(2.0);
-  EXPECT_LT(2 * graded->GetOutput()->GetNumberOfPoints(), even->GetOutput()->GetNumberOfPoints());
-  for (const char* name : { "LostParts", "MissingParts", "MissingBoundary", "NumberOfComponents" })
-  {
-    EXPECT_EQ(FieldOf(graded->GetOutput(), name), FieldOf(even->GetOutput(), name)) << name;
-  }
-  EXPECT_GT(FieldOf(even->GetOutput(), "LostParts"), 0) << "or there was nothing to miss";
 }
 
 TEST(Tolerance, LosesNothingThatIsThinBesideASurfaceThatKeepsItsTriangles)
@@ -246,6 +198,15 @@ TEST(Tolerance, WhatIsWrongIsToldAndAGoodRunFollows)
       { "Tolerance is 0.2, but Snap To Iso Value is off" } },
     { [](vtkDeformableSurface* f) { f->SetIsopotentialWeight(0.); },
       { "Tolerance is 0.2, but Isopotential Weight is not more than" } },
+    { [](vtkDeformableSurface* f) { f->SetTolerance(0.), f->ThinPartsOn(), f->SetEdgeLength(1.5); },
+      { "Thin Parts is on and Edge Length is 1.5", "Set Edge Length to 0" } },
+    { [](vtkDeformableSurface* f) { f->ThinPartsOn(), f->SetEdgeLength(1.5); },
+      { "Tolerance is 0.2 and Edge Length is 1.5", "switch Tolerance and Thin Parts off" } },
+    { [](vtkDeformableSurface* f) { f->SetTolerance(0.), f->ThinPartsOn(), f->SnapToIsoValueOff(); },
+      { "Thin Parts is on, but Snap To Iso Value is off", "Switch it off" } },
+    { [](vtkDeformableSurface* f)
+      { f->SetTolerance(0.), f->ThinPartsOn(), f->SetIsopotentialWeight(0.); },
+      { "Thin Parts is on, but Isopotential Weight is not more than" } },
   };
   for (const Case& test : cases)
   {
@@ -263,6 +224,7 @@ TEST(Tolerance, WhatIsWrongIsToldAndAGoodRunFollows)
     EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
     EXPECT_EQ(filter->GetErrorCode(), vtkErrorCode::UserError);
     filter->SetTolerance(0.2);
+    filter->ThinPartsOff();
     filter->SetMaximumEdgeLength(0.);
     filter->SetGradation(0.2);
     filter->SetEdgeLength(0.);

@@ -83,11 +83,6 @@ SurfaceOptions TwentyIterations()
 }
 }
 
-TEST(Verification, FindsNothingWhereNothingIntersects)
-{
-  EXPECT_EQ(CountIn(Bench(DividedIcosahedron({ 0, 0, 0 }, 10, 1.6))), 0u);
-}
-
 TEST(Verification, FindsSheetsThatFaceTheSameWay)
 {
   // The second ball is moved by less than an edge: nowhere are normals opposed that are near.
@@ -135,24 +130,6 @@ TEST(Verification, AgreesWithTheTreeOfTriangles)
   }
   EXPECT_GT(intersecting, 10);
   EXPECT_LT(intersecting, 50);
-}
-
-TEST(Verification, EachPairIsFoundByWhoeverOwnsACorner)
-{
-  // On ranks: what two of them share is found by at least one.
-  Bench bench(DividedIcosahedron({ 0, 0, 0 }, 10, 1.6));
-  bench.MoveTo(7, bench.State.Mesh.Position[7] * -1.5f);
-  SequentialExecutor threads;
-  for (int modulus = 2; modulus < 5; ++modulus)
-  {
-    std::size_t found = 0;
-    for (int rank = 0; rank < modulus; ++rank)
-    {
-      found += CountIntersecting(
-        bench.State, [=](int v) { return v % modulus == rank; }, 30.f, threads);
-    }
-    EXPECT_GT(found, 0u);
-  }
 }
 
 TEST(Verification, TheEndOfALevelIsMended)

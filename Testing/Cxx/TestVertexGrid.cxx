@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Common/StandardThreads.h"
 #include "Core/Mesh/VertexGrid.h"
+#include "Core/Surface/VertexProperties.h"
 #include "CoreTestTools.h"
 
 using namespace volumic;
@@ -73,47 +74,6 @@ TEST(VertexGrid, TakesMemoryOnlyWhereVerticesAre)
   EXPECT_LT(grid.NumberOfBricks(), 6000u);
 }
 
-TEST(VertexGrid, IsTheSameWhenFilledAtOnce)
-{
-  const SurfaceMesh mesh = MakeSphere({ 20, 20, 20 }, 15, 0.7);
-  const auto isThere = [](int v) { return v % 5 != 2; };
-  VertexGrid one;
-  one.Reset(Vector(3, 3, 3), Vector(40, 40, 33), 1.3f);
-  for (int v = 0; v < mesh.Size(); ++v)
-  {
-    if (isThere(v))
-    {
-      one.Insert(v, mesh.Position[v]);
-    }
-  }
-  VertexGrid other;
-  other.Reset(Vector(3, 3, 3), Vector(40, 40, 33), 1.3f);
-  StandardThreads threads(3);
-  other.InsertAll(mesh.Position, 0, isThere, threads);
-  // In the same order, too: what is found first may be decided by it.
-  const auto visited = [](const VertexGrid& grid)
-  {
-    std::vector<int> found;
-    grid.VisitBox(Vector(-9, -9, -9), Vector(50, 50, 50), [&](int w) { found.push_back(w); });
-    return found;
-  };
-  EXPECT_GT(visited(one).size(), 1000u);
-  EXPECT_EQ(visited(one), visited(other));
-  // And where it is not empty: what comes behind those that are there.
-  VertexGrid third;
-  third.Reset(Vector(3, 3, 3), Vector(40, 40, 33), 1.3f);
-  const int first = mesh.Size() / 3;
-  for (int v = first - 1; v >= 0; --v)
-  {
-    if (isThere(v))
-    {
-      third.Insert(v, mesh.Position[v]);
-    }
-  }
-  third.InsertAll(mesh.Position, static_cast<std::size_t>(first), isThere, threads);
-  EXPECT_EQ(visited(one), visited(third));
-}
-
 TEST(VertexGrid, VisitsInTheSameOrderHoweverTheVerticesHaveCome)
 {
   SurfaceMesh mesh = MakeSphere({ 20, 20, 20 }, 15, 0.7);
@@ -126,23 +86,77 @@ TEST(VertexGrid, VisitsInTheSameOrderHoweverTheVerticesHaveCome)
   VertexGrid all;
   all.Reset(Vector(0, 0, 0), Vector(40, 40, 40), 1.3f);
   StandardThreads threads(3);
-  all.InsertAll(mesh.Position, 0, [](int) { return true; }, threads);
+  // Some are not there; the last third comes to a grid that is not empty.
+  const auto isThere = [](int v) { return v % 5 != 2; };
+  const int third = mesh.Size() / 3;
+  for (int v = third - 1; v >= 0; --v)
+  {
+    if (isThere(v))
+    {
+      all.Insert(v, mesh.Position[v]);
+    }
+  }
+  all.InsertAll(mesh.Position, static_cast<std::size_t>(third), isThere, threads);
   // From the last to the first, each by way of somewhere else.
   VertexGrid one;
   one.Reset(Vector(0, 0, 0), Vector(40, 40, 40), 1.3f);
   for (int v = mesh.Size() - 1; v >= 0; --v)
   {
-    one.Insert(v, mesh.Position[v] * 0.9f);
+    if (isThere(v))
+    {
+      one.Insert(v, mesh.Position[v] * 0.9f);
+    }
   }
   for (int v = 0; v < mesh.Size(); ++v)
   {
-    const int w = (v * 7) % mesh.Size() == 0 ? v : mesh.Size() - 1 - v;
-    one.Move(w, mesh.Position[w]);
+    if (isThere(v))
+    {
+      one.Move(v, mesh.Position[v]);
+    }
   }
-  for (int v = 0; v < mesh.Size(); ++v)
-  {
-    one.Move(v, mesh.Position[v]);
-  }
-  EXPECT_EQ(visited(one).size(), static_cast<std::size_t>(mesh.Size()));
+  EXPECT_GT(visited(one).size(), 1000u);
   EXPECT_EQ(visited(one), visited(all));
+}
+
+namespace
+{
+struct TwoProperties
+{
+  SequentialExecutor Thread;
+  VertexProperties All;
+  VertexProperty<int> Inherited{ this->All, 1 };
+  VertexProperty<float> Own{ this->All, 2.f, 3.f };
+};
+}
+
+TEST(VertexProperties, AreResetTogether)
+{
+  TwoProperties p;
+  p.All.Reset(3, p.Thread);
+  p.Inherited[1] = 7;
+  p.Own[2] = 7.f;
+  p.All.Reset(4, p.Thread);
+  ASSERT_EQ(p.Inherited.Size(), 4u);
+  ASSERT_EQ(p.Own.Size(), 4u);
+  for (int v = 0; v < 4; ++v)
+  {
+    EXPECT_EQ(p.Inherited[v], 1);
+    EXPECT_EQ(p.Own[v], 2.f);
+  }
+}
+
+TEST(VertexProperties, GrowTogetherOrTakeThePlacesOfRemovedVertices)
+{
+  TwoProperties p;
+  p.All.Reset(3, p.Thread);
+  p.Inherited[1] = 7;
+  p.Own[1] = 7.f;
+  for (const int place : { 3, 1 })
+  {
+    p.All.Add(place, place == 3 ? 1 : 0);
+    ASSERT_EQ(p.Inherited.Size(), 4u);
+    ASSERT_EQ(p.Own.Size(), 4u);
+    EXPECT_EQ(p.Inherited[place], place == 3 ? 7 : 1) << "its parent's";
+    EXPECT_EQ(p.Own[place], 3.f) << "that of new vertices";
+  }
 }

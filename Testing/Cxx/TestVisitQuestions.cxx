@@ -78,7 +78,7 @@ TEST(VisitSchedule, EndsWhereItIsTold)
 
 TEST(VisitSchedule, EndsSoonWhereItIsToldOnThreads)
 {
-  constexpr int n = 2000;
+  constexpr int n = 50000; // More than can be made before it is told, on a machine however slow.
   const VisitSchedule schedule = Apart(n);
   StandardThreads standard(4);
   ToldExecutor other(OnAnotherThread);
@@ -99,7 +99,7 @@ TEST(VisitSchedule, EndsSoonWhereItIsToldOnThreads)
     EXPECT_EQ(asked, 3) << "not asked again";
     EXPECT_EQ(underWay, 0);
     EXPECT_GE(visits, 3);
-    EXPECT_LT(visits, n / 2);
+    EXPECT_LT(visits, n);
   }
 }
 

@@ -6,11 +6,8 @@
 
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
-#include <vtkErrorCode.h>
 #include <vtkIntArray.h>
 #include <vtkTable.h>
-
-#include <sstream>
 
 using namespace volumic;
 
@@ -69,32 +66,6 @@ TEST(OtsuThreshold, LiesBetweenTheClassesAndOnNoVoxel)
   EXPECT_EQ(ThresholdOf(RowOf<vtkIntArray>(std::vector<int>{ -5, -4 })), -4.5);
   // Of three groups the nearest two are one class.
   EXPECT_EQ(ThresholdOf(RowOf<vtkDoubleArray>(std::vector<double>{ 0, 0, 10, 10, 60, 60 })), 35.0);
-}
-
-TEST(OtsuThreshold, IsTheSplitOfTheLargestVariance)
-{
-  const auto image = RandomImage(8, 9, 10);
-  const double threshold = ThresholdOf(image);
-  vtkDataArray* voxels = Voxels(image);
-  const auto variance = [&](double value)
-  {
-    double count[2] = { 0, 0 };
-    double sum[2] = { 0, 0 };
-    for (vtkIdType i = 0; i < voxels->GetNumberOfTuples(); ++i)
-    {
-      const double voxel = voxels->GetComponent(i, 0);
-      count[voxel > value] += 1;
-      sum[voxel > value] += voxel;
-    }
-    const double difference = sum[0] / count[0] - sum[1] / count[1];
-    return count[0] * count[1] * difference * difference;
-  };
-  double best = 0;
-  for (int percent = 1; percent < 100; ++percent)
-  {
-    best = std::max(best, variance(percent));
-  }
-  EXPECT_GT(variance(threshold), 0.999 * best);
 }
 
 TEST(OtsuThreshold, HasTheHistogramThatItIsFoundBy)
@@ -217,16 +188,4 @@ TEST(VolumeToSurface, SaysWhyThereIsNoIsoValue)
   filter->Update();
   EXPECT_EQ(filter->GetErrorCode(), vtkErrorCode::NoError);
   EXPECT_GT(filter->GetOutput()->GetNumberOfPoints(), 0);
-}
-
-TEST(VolumeToSurface, PrintsItsProperties)
-{
-  vtkNew<vtkVolumeToSurface> filter;
-  std::ostringstream text;
-  filter->Print(text);
-  for (const char* property :
-    { "IsoValue: nan", "NumberOfLevels: 0", "MinimumLevelSize: 10", "ReductionFactor: 1.73205" })
-  {
-    EXPECT_TRUE(Has(text.str(), property)) << property;
-  }
 }

@@ -1,9 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Evolution/SurfaceOptions.h"
-#include "Core/Image/EdgeAttraction.h"
 #include "Core/Image/Field.h"
-#include "Core/Image/VoxelRows.h"
 #include "Core/Image/VoxelValues.h"
 #include "TestPrelude.h"
 
@@ -98,29 +96,6 @@ TYPED_TEST(VoxelValuesOfType, AreTheBitsOfAConversion)
   }
 }
 
-TYPED_TEST(VoxelValuesOfType, AreReadFourRowsAtATime)
-{
-  using T = TypeParam;
-  const std::vector<T> voxels = AnyVoxels<T>(Count);
-  for (const double base : Bases)
-  {
-    const VoxelValues values(voxels.data(), base);
-    const std::ptrdiff_t first[4] = { 0, 13, Count - 4, 101 };
-    const VoxelRows rows =
-      values.Visit([&first](const auto& typed) { return ReadRows(typed, first); });
-    for (int c = 0; c < 4; ++c)
-    {
-      float column[Lanes::Count];
-      rows.Column[c].Store(column);
-      for (int r = 0; r < 4; ++r)
-      {
-        EXPECT_EQ(Bits(column[r]), Bits(Converted(voxels[first[r] + c], base)))
-          << "base " << base << " row " << r << " column " << c;
-      }
-    }
-  }
-}
-
 TYPED_TEST(VoxelValuesOfType, MakeTheSameField)
 {
   using T = TypeParam;
@@ -166,40 +141,5 @@ TYPED_TEST(VoxelValuesOfType, MakeTheSameField)
         EXPECT_EQ(Bits(row[i]), Bits(typed.Voxel(2 + i, 3, 4)));
       }
     }
-  }
-}
-
-TYPED_TEST(VoxelValuesOfType, MakeTheSameMapOfEdges)
-{
-  using T = TypeParam;
-  const std::vector<T> voxels = AnyVoxels<T>(Count);
-  std::vector<float> converted;
-  for (const T voxel : voxels)
-  {
-    converted.push_back(Converted(voxel, 0.1));
-  }
-  LevelImage typed = ImageOf(converted.data(), 0.);
-  LevelImage plain = typed;
-  typed.Edges = VoxelValues(voxels.data(), 0.1);
-  plain.Edges = converted.data();
-  const EdgeAttraction a(typed, Threads);
-  const EdgeAttraction b(plain, Threads);
-  for (const float x : { 0.5f, 3.25f, 5.75f })
-  {
-    const Vector place(x, x + 0.5f, x);
-    EXPECT_EQ(Bits(a.Along(place, Vector(0.6f, 0.f, 0.8f))),
-      Bits(b.Along(place, Vector(0.6f, 0.f, 0.8f))));
-  }
-}
-
-TEST(VoxelValues, OfFloatsAreTakenAsTheyAre)
-{
-  const std::vector<float> voxels = { 1.5f, -0.f, 3e38f };
-  const VoxelValues values = voxels.data();
-  EXPECT_TRUE(values);
-  EXPECT_FALSE(VoxelValues());
-  for (int i = 0; i < 3; ++i)
-  {
-    EXPECT_EQ(Bits(values[i]), Bits(voxels[i]));
   }
 }

@@ -1,14 +1,52 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What the editor and the polish take for well-shaped: faces, edges, stars.
-
+// Lengths, cones of normals, and what the editor and the polish take for well-shaped.
 #include "Core/Common/Box.h"
 #include "Core/Surface/FaceShape.h"
+#include "Core/Surface/NormalCone.h"
+#include "Core/Surface/SizingField.h"
 #include "Core/Surface/StarScore.h"
-#include "RemeshTestTools.h"
+#include "TestPrelude.h"
 
 using namespace volumic;
+
+TEST(SizingField, LooksAsFarAsTrianglesReach)
+{
+  const SizingField sizing(1.f);
+  // Two that intersect may have their nearest corners no further apart than this: an edge of one
+  // through the middle of the other, both as large as they may be.
+  EXPECT_GE(sizing.Reach(0), sizing.Clearance(0, 1));
+  EXPECT_GE(sizing.SmallestReach(), sizing.Reach(0));
+  EXPECT_LT(sizing.Reach(0), sizing.LongestEdge(0, 1));
+  EXPECT_LT(sizing.Contact(0), 1e-3 * sizing.ShortestEdge(0, 1));
+}
+
+TEST(SizingField, GrowsForLongEdgesOnly)
+{
+  const SizingField sizing(1.f);
+  EXPECT_EQ(sizing.ForEdgesOf(2.f).OfLevel(), 1.f);
+  EXPECT_EQ(sizing.ForEdgesOf(5.f).OfLevel(), 2.f);
+  EXPECT_GE(sizing.ForEdgesOf(3.3f).LongestEdge(0, 1), 3.3f * (1 - 1e-6f));
+}
+
+TEST(NormalCone, IsOpposedToOneThatFacesIt)
+{
+  const NormalCone up(Vector(0, 0, 1), 1);
+  const NormalCone down(Vector(0, 0, -1), 1);
+  EXPECT_TRUE(AreOpposed(up, down));
+  EXPECT_FALSE(AreOpposed(up, up));
+}
+
+TEST(NormalCone, IsOpposedWhereItIsWide)
+{
+  // Axes at 120 degrees: both cones together must have more than 30.
+  const NormalCone up(Vector(0, 0, 1), std::cos(0.25f));
+  const Vector aside(std::sin(2.0943951f), 0, std::cos(2.0943951f));
+  EXPECT_FALSE(AreOpposed(up, NormalCone(aside, std::cos(0.25f))));
+  EXPECT_TRUE(AreOpposed(up, NormalCone(aside, std::cos(0.30f))));
+  EXPECT_TRUE(AreOpposed(up, NormalCone(Vector(0, 0, 1), -0.1f))) << "wider than a half space";
+}
 
 namespace
 {
@@ -19,38 +57,11 @@ MeshTriangle FaceWithTip(double x, double y, double z)
 }
 }
 
-TEST(FaceShape, AspectIsHeightOverLongestEdge)
-{
-  EXPECT_NEAR(AspectOf(FaceWithTip(0.5, std::sqrt(0.75), 0)), std::sqrt(0.75), 1e-12);
-  EXPECT_NEAR(AspectOf(FaceWithTip(0.5, 0.01, 0)), 0.01, 1e-12);
-  EXPECT_EQ(AspectOf(FaceWithTip(0.5, 0, 0)), 0.);
-  EXPECT_TRUE(IsWellShaped(FaceWithTip(0.5, 0.1, 0)));
-  EXPECT_FALSE(IsWellShaped(FaceWithTip(0.5, 0.05, 0)));
-}
-
 TEST(FaceShape, SliversMayOnlyGetBetter)
 {
   EXPECT_TRUE(KeepsShape(FaceWithTip(0.5, 0.01, 0), FaceWithTip(0.5, 0.02, 0)));
   EXPECT_FALSE(KeepsShape(FaceWithTip(0.5, 0.02, 0), FaceWithTip(0.5, 0.01, 0)));
   EXPECT_FALSE(KeepsShape(FaceWithTip(0.5, 0.8, 0), FaceWithTip(0.5, 0.01, 0)));
-}
-
-TEST(FaceShape, OnlyFacesWithANormalCanTurnTooMuch)
-{
-  const MeshTriangle flat = FaceWithTip(0.5, 0.8, 0);
-  EXPECT_TRUE(TurnsLittle(flat, FaceWithTip(0.5, 0.8, 0.3), 0.7));
-  EXPECT_FALSE(TurnsLittle(flat, FaceWithTip(0.5, 0.1, 0.8), 0.7));
-  EXPECT_FALSE(TurnsLittle(flat, FaceWithTip(0.5, -0.8, 0), 0.)) << "its orientation is flipped";
-  EXPECT_TRUE(TurnsLittle(FaceWithTip(0.5, 0.01, 0), FaceWithTip(0.5, 0, 0.8), 0.7)) << "a sliver";
-}
-
-TEST(StarScore, OfAFaceIsItsRadiusRatio)
-{
-  const float height = std::sqrt(0.75f);
-  EXPECT_NEAR(FaceScore(Vector(0, 0, 0), Vector(1, 0, 0), Vector(0.5f, height, 0)), 1, 1e-5);
-  // Right-angled with sides 3, 4, 5: circles of radius 1 and 2.5.
-  EXPECT_NEAR(FaceScore(Vector(0, 0, 0), Vector(3, 0, 0), Vector(0, 4, 0)), 0.8, 1e-5);
-  EXPECT_EQ(FaceScore(Vector(0, 0, 0), Vector(0, 0, 0), Vector(1, 0, 0)), -1);
 }
 
 TEST(StarScore, OfAnEdgeIsNegativeWhereItsLengthIsIllegal)
@@ -60,18 +71,6 @@ TEST(StarScore, OfAnEdgeIsNegativeWhereItsLengthIsIllegal)
   EXPECT_LT(EdgeScore(sizing, 0, 1, 1.9f * 1.9f), 0);
   EXPECT_LT(EdgeScore(sizing, 0, 1, 5.1f * 5.1f), 0);
   EXPECT_LT(EdgeScore(sizing, 0, 1, 6 * 6), EdgeScore(sizing, 0, 1, 5.1f * 5.1f));
-}
-
-TEST(StarScore, IsThatOfTheWorst)
-{
-  const Bench bench(DividedIcosahedron({ 0, 0, 0 }, 10, 1.6));
-  const int v = bench.State.Mesh.Rings[0].Item[0];
-  const Vector p = bench.State.Mesh.Position[v];
-  const float before = StarScore(bench.State, v, p);
-  EXPECT_GT(before, 0.7f);
-  const Vector end = bench.State.Mesh.Position[bench.State.Mesh.Rings[v].Item[0]];
-  EXPECT_LT(StarScore(bench.State, v, p + (end - p) * 0.3f), before);
-  EXPECT_LT(StarScore(bench.State, v, p + (end - p) * 0.9f), 0) << "an edge is too short";
 }
 
 TEST(Box, TellsWhatIsApart)

@@ -1,0 +1,134 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Small tools of the core that know no surface.
+#include "Core/Common/DisjointSets.h"
+#include "Core/Common/FreeMemory.h"
+#include "Core/Common/Refuse.h"
+#include "Core/Common/StandardThreads.h"
+#include "Core/Image/VoxelNumbers.h"
+#include "CommaLocale.h"
+#include "TestPrelude.h"
+
+#include <fstream>
+#include <sstream>
+#include <unistd.h>
+
+using namespace volumic;
+
+TEST(DisjointSets, RootIsTheSmallestMember)
+{
+  DisjointSets sets(10);
+  EXPECT_EQ(sets.Join(7, 3), 3);
+  EXPECT_EQ(sets.Join(9, 8), 8);
+  EXPECT_EQ(sets.Join(8, 7), 3);
+  for (int i = 0; i < 10; ++i)
+  {
+    const int root = i == 7 || i == 8 || i == 9 ? 3 : i;
+    EXPECT_EQ(sets.FindRoot(i), root);
+    EXPECT_EQ(sets.Find(i), root);
+  }
+  EXPECT_EQ(sets.Join(9, 3), 3) << "joined already";
+}
+
+TEST(DisjointSets, AreTheSameWhoeverJoinsThemAtOnce)
+{
+  constexpr int n = 3000;
+  std::mt19937 random(7);
+  StandardThreads threads(4);
+  for (int round = 0; round < 20; ++round)
+  {
+    std::vector<std::pair<int, int>> pairs;
+    for (int i = 0; i < n * (1 + round % 3) / 3; ++i)
+    {
+      pairs.emplace_back(static_cast<int>(random() % n), static_cast<int>(random() % n));
+    }
+    DisjointSets alone(n);
+    for (const auto& pair : pairs)
+    {
+      alone.Join(pair.first, pair.second);
+    }
+    SharedDisjointSets shared(n);
+    threads.For(pairs.size(), 1,
+      [&](std::size_t begin, std::size_t end)
+      {
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          shared.Join(pairs[i].first, pairs[i].second);
+        }
+      });
+    for (int i = 0; i < n; ++i)
+    {
+      ASSERT_EQ(shared.Find(i), alone.Find(i));
+    }
+  }
+}
+
+TEST(Join, WritesNumbersAsEveryoneReadsThem)
+{
+  const CommaLocale locale;
+  std::ostringstream local;
+  local << 1234.5;
+  ASSERT_EQ(local.str(), "1.234,5") << "the locale is not what it should be";
+  EXPECT_EQ(Join("level ", 1000, ", ", std::int64_t(1234567), " voxels of ", 0.5f),
+    "level 1000, 1234567 voxels of 0.5");
+  EXPECT_EQ(RefusalOf([] { Refuse("it is ", 1234.5, "."); }), "it is 1234.5.");
+}
+
+TEST(VoxelNumbers, CountMoreThanAnIntDoes)
+{
+  EXPECT_EQ(VoxelNumbers({ 1300, 1300, 1300 }).Count(), 2197000000);
+  EXPECT_EQ(VoxelNumbers({ 2048, 2048, 2048 }).Count(), std::int64_t(1) << 33);
+  // A slice alone.
+  EXPECT_EQ(VoxelNumbers({ 65536, 65536, 2 }).Count(), std::int64_t(1) << 33);
+}
+
+TEST(VoxelNumbers, ComeBackToTheirPlaces)
+{
+  for (const std::array<int, 3>& size : { std::array<int, 3>{ 1300, 1300, 1300 },
+         { 2048, 2048, 2048 }, { 3, 5, 7 }, { 65536, 65536, 2 }, { 1, 1, 70000 } })
+  {
+    const VoxelNumbers numbers(size);
+    EXPECT_EQ(numbers.Of(0, 0, 0), 0);
+    const std::array<int, 3> last = { size[0] - 1, size[1] - 1, size[2] - 1 };
+    EXPECT_EQ(numbers.Of(last[0], last[1], last[2]), numbers.Count() - 1);
+    const std::array<int, 3> middle = { size[0] / 2, size[1] / 3, last[2] };
+    for (const std::array<int, 3>& place : { last, middle })
+    {
+      EXPECT_EQ(numbers.PlaceOf(numbers.Of(place[0], place[1], place[2])), place);
+    }
+  }
+}
+
+namespace
+{
+/** Memory that this process takes, in MB; 0 where it cannot be told. */
+double ResidentMegabytes()
+{
+  long all = 0;
+  long resident = 0;
+  std::ifstream("/proc/self/statm") >> all >> resident;
+  return static_cast<double>(resident) * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e6;
+}
+}
+
+TEST(FreeMemory, IsGivenBackThoughABlockBehindItIsInUse)
+{
+#if !defined(__GLIBC__) || defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "another allocator";
+#endif
+  // 64 MB in blocks that are too small to be given back one by one.
+  constexpr std::size_t size = 16 * 1024;
+  std::vector<std::vector<char>> blocks(4096);
+  for (std::vector<char>& block : blocks)
+  {
+    block.assign(size, 'x');
+  }
+  const std::vector<char> last(size, 'x');
+  const double before = ResidentMegabytes();
+  ASSERT_GT(before, 64.) << "cannot be told here";
+  blocks.clear();
+  GiveBackFreeMemory();
+  EXPECT_LT(ResidentMegabytes(), before - 50.);
+  EXPECT_EQ(last.back(), 'x');
+}
