@@ -134,14 +134,18 @@ void VtkMessages::ListenTo(vtkAlgorithm* algorithm)
 }
 
 void VtkMessages::UpdateReader(
-  vtkAlgorithm* reader, const std::string& name, bool trusted)
+  vtkAlgorithm* reader, const std::string& name, bool trusted, const int* extent)
 {
   this->ListenTo(reader);
   const auto update = [&]
   {
     // After an error in the header some of VTK's readers go on, and crash.
     reader->UpdateInformation();
-    if (this->Errors.empty())
+    if (this->Errors.empty() && extent)
+    {
+      reader->UpdateExtent(extent);
+    }
+    else if (this->Errors.empty())
     {
       reader->Update();
     }

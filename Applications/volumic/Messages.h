@@ -31,11 +31,12 @@ public:
   void ListenTo(vtkAlgorithm* algorithm);
 
   /**
-   * Update the reader of the file.
+   * Update the reader of the file, or, with an extent, that part.
    * @throws Failure "NAME: cannot be read (reasons)" if it, or an
    * object within it, reports an error; or warns, unless its warnings are not `trusted`.
    */
-  void UpdateReader(vtkAlgorithm* reader, const std::string& name, bool trusted = true);
+  void UpdateReader(vtkAlgorithm* reader, const std::string& name, bool trusted = true,
+    const int* extent = nullptr);
 
   /** Have the reader look at what the file is about. @throws Failure as above if it complains. */
   void AskReader(vtkAlgorithm* reader, const std::string& name);

@@ -37,6 +37,7 @@ VolumeFacts FactsOf(vtkImageData* image, vtkDataArray* scalars, int component)
   image->GetSpacing(facts.Spacing.data());
   image->GetOrigin(facts.Origin.data());
   facts.Type = scalars->GetDataType();
+  facts.Components = scalars->GetNumberOfComponents();
   facts.Range = RangeOf(scalars, component);
   return facts;
 }

@@ -22,6 +22,7 @@ struct VolumeFacts
   Vector3 Spacing = { 1.0, 1.0, 1.0 };
   Vector3 Origin = { 0.0, 0.0, 0.0 };
   int Type = 0; ///< of the voxels, as VTK numbers types
+  int Components = 1;
   /** Of the selected component: the smallest and the largest. */
   std::array<double, 2> Range = { std::numeric_limits<double>::infinity(),
     -std::numeric_limits<double>::infinity() };

@@ -54,6 +54,7 @@ private:
   const LabelSurfaceMaker::Progress& Progress;
   LabelWork Work;
   LabelProgress Others; ///< what they had done when they told last
+  bool IsShared = true; ///< Each rank does some; else all do all.
   std::vector<std::uint8_t> IsDue;
   double Before = 0.0; ///< share of all work that is done
   double Whole = 1.0;  ///< share of what the items' shares are of
@@ -84,7 +85,10 @@ bool Making::Tell()
 {
   LabelCourse& state = this->Work.State;
   LabelProgress all = state.Here();
-  all.Add(this->Others);
+  if (this->IsShared)
+  {
+    all.Add(this->Others);
+  }
   const double share = this->Before + this->Whole * state.Share(all);
   const std::string text = state.Text(all);
   state.IsStopped = !this->Progress(share, text) || state.IsStopped;
@@ -116,10 +120,12 @@ void Making::AddClaims()
   constexpr double claimShare = 0.1;
   this->Whole = claimShare;
   // Each rank finds those of all: what they are made of is told more slowly.
+  this->IsShared = false;
   std::vector<std::size_t> all(this->IsDue.size());
   std::iota(all.begin(), all.end(), std::size_t(0));
   this->Do(LabelWork::Kind::Claim, "fields: ",
     std::vector<std::vector<std::size_t>>(static_cast<std::size_t>(this->All.Count()), all));
+  this->IsShared = true;
   this->Before = claimShare;
   this->Whole = 1.0 - claimShare;
 }

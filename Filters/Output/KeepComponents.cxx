@@ -121,8 +121,7 @@ std::vector<int> InnermostAbout(const std::vector<Point>& places, const std::vec
       }
     });
   std::vector<std::vector<int>> pierced(places.size());
-  for (const Piercing& found :
-    Joined(executor, spans))
+  for (const Piercing& found : Joined(executor, spans))
   {
     pierced[found.Place].push_back(found.Component);
   }

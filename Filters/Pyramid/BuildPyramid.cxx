@@ -5,6 +5,7 @@
 #include "Host/PrefixErrors.h"
 #include "Input/ImageVoxels.h"
 
+#include <vtkDataArray.h>
 #include <vtkImageData.h>
 #include <vtkInformation.h>
 #include <vtkMultiBlockDataSet.h>

@@ -109,8 +109,12 @@ Ids TrianglesOf(vtkPolyData* whole, const Cut& cut, std::size_t& numberOfOwn)
 vtkSmartPointer<vtkPolyData> CutSurface(vtkPolyData* whole, const Cut& cut)
 {
   auto piece = vtkSmartPointer<vtkPolyData>::New();
+  if (cut.IsEmpty)
+  {
+    return piece;
+  }
   piece->GetFieldData()->ShallowCopy(whole->GetFieldData());
-  if (!whole->GetPoints() || cut.IsEmpty)
+  if (!whole->GetPoints())
   {
     return piece;
   }

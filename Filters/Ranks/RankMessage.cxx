@@ -257,8 +257,8 @@ void RankMessage::Send(vtkMultiProcessController* controller, int to, int tag) c
   {
     head << array->GetDataType();
   }
-  head << this->Words;
   Check(controller->Send(head, to, tag) != 0);
+  Check(controller->Send(this->Words, to, tag) != 0);
   for (vtkDataArray* array : this->Arrays)
   {
     Check(controller->Send(array, to, tag) != 0);
@@ -278,7 +278,7 @@ void RankMessage::Receive(vtkMultiProcessController* controller, int from, int t
     this->Arrays.push_back(
       vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(type)));
   }
-  head >> this->Words;
+  Check(controller->Receive(this->Words, from, tag) != 0);
   for (vtkDataArray* array : this->Arrays)
   {
     Check(controller->Receive(array, from, tag) != 0);

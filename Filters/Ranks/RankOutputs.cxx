@@ -29,9 +29,14 @@ void Deal(Ranks& ranks, const FilterCall& call, Dealing deals)
       ranks.Ask(cut.Number, RankQuestion::Output, part);
     }
     cut.Number = 0;
+    vtkSmartPointer<vtkDataObject> own = output;
     if (!isWhole)
     {
-      output->ShallowCopy(CutData(output, cut));
+      own = CutData(output, cut);
+    }
+    if (own != output)
+    {
+      output->ShallowCopy(own);
     }
   }
 }

@@ -42,6 +42,8 @@ public:
   /** Once, before Load(): takes the points and the map of edges that the settings give a weight. */
   void ReadAttraction(vtkMultiBlockDataSet* blocks, const SegmentationSettings& settings,
     const SegmentationRequest& request);
+  bool HasPoints() const { return this->Points != nullptr; }
+  bool HasEdges() const { return this->Edges != nullptr; }
 
   const PyramidLevels& Pyramid() const { return this->Voxels; }
   const Workspace& GetWorkspace() const { return this->Voxels.GetWorkspace(); }
