@@ -168,7 +168,8 @@ class StoppedTest(RanksTestCase):
                 os.kill(ranks[rank], signal.SIGKILL)
                 self.finish(process)
                 self.assertNotEqual(process.returncode, 0)
-                self.assertFalse(os.path.exists(self.path("a.stl")))
+                # mpirun asks the first one to end, which may write what there is.
+                self.assertTrue(rank == 1 or not os.path.exists(self.path("a.stl")))
                 for number in ranks:
                     self.wait_for_end(number)
 
