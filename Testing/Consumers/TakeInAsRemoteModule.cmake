@@ -26,7 +26,7 @@ set(objects "")
 foreach (source IN ITEMS
     VolumicCore.dir/Core/Mesh/SurfaceMesh.cxx
     FiltersVolumic.dir/Run/RunFingerprint.cxx
-    FiltersVolumic.dir/vtkVolumeToSurface.cxx)
+    FiltersVolumic.dir/Unity/unity_0_cxx.cxx)
   list(APPEND objects "Remote/Volumic/Filters/CMakeFiles/${source}.o")
 endforeach ()
 run("${CMAKE_COMMAND}" --build "${FOLDER}/build" --target ${objects})
