@@ -10,12 +10,12 @@ namespace volumic
 namespace
 {
 /** Points and triangles that one thread transforms at a time. */
-constexpr std::size_t SpanSize = 16384;
+constexpr std::size_t PointSpan = 16384;
 
 template <typename Map>
 void Transform(IndexedSurface& surface, bool isMirror, const Map& map, Executor& executor)
 {
-  ForSpans(executor, surface.Points.size(), SpanSize,
+  ForSpans(executor, surface.Points.size(), PointSpan,
     [&](std::size_t, std::size_t begin, std::size_t end)
     {
       for (std::size_t p = begin; p < end; ++p)
@@ -32,7 +32,7 @@ void Transform(IndexedSurface& surface, bool isMirror, const Map& map, Executor&
 
 void FlipOrientation(IndexedSurface& surface, Executor& executor)
 {
-  ForSpans(executor, surface.Triangles.size(), SpanSize,
+  ForSpans(executor, surface.Triangles.size(), PointSpan,
     [&](std::size_t, std::size_t begin, std::size_t end)
     {
       for (std::size_t t = begin; t < end; ++t)

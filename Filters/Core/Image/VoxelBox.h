@@ -82,12 +82,50 @@ struct VoxelBox
     return both;
   }
 
+  /** What the other one has not, in boxes apart from each other: at most two along each axis. */
+  std::vector<VoxelBox> Without(const VoxelBox& other) const
+  {
+    const VoxelBox common = this->CommonWith(other);
+    if (common.IsEmpty())
+    {
+      return this->IsEmpty() ? std::vector<VoxelBox>() : std::vector<VoxelBox>{ *this };
+    }
+    std::vector<VoxelBox> parts;
+    VoxelBox rest = *this;
+    for (int axis = 2; axis >= 0; --axis)
+    {
+      VoxelBox part = rest;
+      part.End[axis] = common.First[axis];
+      parts.push_back(part);
+      part.First[axis] = common.End[axis];
+      part.End[axis] = rest.End[axis];
+      parts.push_back(part);
+      rest.First[axis] = common.First[axis];
+      rest.End[axis] = common.End[axis];
+    }
+    const auto isEmpty = [](const VoxelBox& part) { return part.IsEmpty(); };
+    parts.erase(std::remove_if(parts.begin(), parts.end(), isEmpty), parts.end());
+    return parts;
+  }
+
   bool operator==(const VoxelBox& other) const
   {
     return (this->IsEmpty() && other.IsEmpty()) ||
       (this->First == other.First && this->End == other.End);
   }
 };
+
+/** What is in one of the boxes and not in the other one. */
+inline std::vector<VoxelBox> Without(const std::vector<VoxelBox>& boxes, const VoxelBox& other)
+{
+  std::vector<VoxelBox> rest;
+  for (const VoxelBox& box : boxes)
+  {
+    const std::vector<VoxelBox> parts = box.Without(other);
+    rest.insert(rest.end(), parts.begin(), parts.end());
+  }
+  return rest;
+}
 
 /** Calls visit(first, count) for each row along x of `part`: places in arrays of the voxels of
  * `box`, which contains it. */
