@@ -6,6 +6,7 @@
 #include "ForVoxels.h"
 #include "TestPrelude.h"
 
+#include <cstring>
 #include <type_traits>
 
 using namespace volumic;

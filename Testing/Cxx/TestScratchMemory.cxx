@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ScratchTestTools.h"
 
-#include "Core/Common/FreeMemory.h"
 #include "Core/Common/ScratchStore.h"
 #include "Core/Mesh/SurfaceMesh.h"
 
@@ -318,30 +317,6 @@ TEST_F(ScratchMemoryTest, LengthensWhatIsFilledHereAndThere)
   }
   EXPECT_EQ(values[n - 1].Z, 5.f);
   EXPECT_EQ(values[n + 100 * MiB - 1].X, 0.f);
-}
-
-TEST_F(ScratchMemoryTest, GivesBackWholePagesOfARangeOnly)
-{
-  if (IsWatched)
-  {
-    GTEST_SKIP() << "what ThreadSanitizer notes of each array is memory, too";
-  }
-  constexpr std::size_t bytes = 64 * MiB;
-  LargeVector<unsigned char> values;
-  MakeZeroed(values, bytes);
-  std::fill(values.begin(), values.end(), 7);
-  const ResidentMemoryMeter meter;
-  const std::size_t before = meter.Read().All;
-  GiveBackPages(values.data() + 1001, bytes / 2);
-  EXPECT_LT(meter.Read().All, before - bytes / 2 + MiB);
-  const auto isKept = [](unsigned char value) { return value == 7; };
-  EXPECT_TRUE(std::all_of(values.begin(), values.begin() + 1001, isKept));
-  EXPECT_TRUE(std::all_of(values.begin() + 1001 + bytes / 2, values.end(), isKept));
-  const std::size_t after = meter.Read().All;
-  GiveBackPages(values.data() + bytes - 100, 50);
-  GiveBackPages(values.data(), 0);
-  EXPECT_EQ(meter.Read().All / MiB, after / MiB) << "no page lies in these";
-  EXPECT_TRUE(std::all_of(values.end() - 100, values.end(), isKept));
 }
 
 TEST(MemoryHeadroom, GrowsWithWhatIsFilledBetweenTwoLooks)

@@ -210,17 +210,6 @@ void DropPages(void* memory, std::size_t bytes) noexcept
   madvise(memory, bytes, MADV_DONTNEED);
 }
 
-void DropWholePages(void* memory, std::size_t bytes) noexcept
-{
-  const auto begin = reinterpret_cast<std::uintptr_t>(memory);
-  const std::uintptr_t first = WholePages(begin);
-  const std::uintptr_t last = (begin + bytes) / PageSize() * PageSize();
-  if (first < last)
-  {
-    DropPages(reinterpret_cast<void*>(first), last - first);
-  }
-}
-
 void ReadPagesAhead(void* memory, std::size_t bytes) noexcept
 {
   const auto begin = reinterpret_cast<std::uintptr_t>(memory);
@@ -326,10 +315,6 @@ void* MapZeroed(std::size_t)
 }
 
 void DropPages(void*, std::size_t) noexcept
-{
-}
-
-void DropWholePages(void*, std::size_t) noexcept
 {
 }
 

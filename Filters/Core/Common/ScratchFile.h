@@ -61,8 +61,6 @@ void* MapZeroed(std::size_t bytes);
 
 /** Takes pages of a mapping out of the process; they come back when they are touched. */
 void DropPages(void* memory, std::size_t bytes) noexcept;
-/** Only those that lie in the range as a whole; of other memory they come back as zeros. */
-void DropWholePages(void* memory, std::size_t bytes) noexcept;
 /** Has pages of a mapping read from the disk, without waiting. */
 void ReadPagesAhead(void* memory, std::size_t bytes) noexcept;
 /** Lets a mapping only be read from now on. */
