@@ -22,23 +22,10 @@ struct Opened
 };
 template struct Opened<&SurfaceEvolution::Self>;
 
-bool All(int)
-{
-  return true;
-}
-
 std::size_t CountIn(const Bench& bench)
 {
-  float longest = 0.f;
-  for (const float edge : bench.Edges())
-  {
-    longest = std::max(longest, edge);
-  }
   SequentialExecutor threads;
-  const std::size_t found = CountIntersecting(bench.State, All, longest, threads);
-  // Each vertex looks as far as its own edges are long: the same, perhaps from the other side.
-  EXPECT_EQ(CountIntersecting(bench.State, All, 0.f, threads) > 0, found > 0);
-  return found;
+  return CountIntersecting(bench.State, threads);
 }
 
 /** Pulls a vertex through the other side. */
