@@ -252,13 +252,14 @@ void LabelHelper::StartWork(RankMessage& message)
   }
   std::vector<std::size_t> own(TakeCount(message));
   std::generate(own.begin(), own.end(), [&] { return TakeCount(message); });
+  this->Work->State.Expect("", isDue, own); // Now: the first one may ask how far it is at once.
   this->IsThrough = false;
   this->Worker = std::thread(
-    [this, kind, isDue, own]
+    [this, kind, own]
     {
       try
       {
-        this->Work->Do(kind, "", isDue, own, false, [] {});
+        this->Work->Do(kind, own, false, [] {});
       }
       catch (...)
       {

@@ -107,8 +107,8 @@ void Making::Do(
 {
   this->Others = LabelProgress();
   LabelHelper::Do(this->All, kind, this->IsDue, own);
-  this->Work.Do(
-    kind, title, this->IsDue, own.front(), this->All.AreMany(), [this] { this->Tell(); });
+  this->Work.State.Expect(title, this->IsDue, own.front());
+  this->Work.Do(kind, own.front(), this->All.AreMany(), [this] { this->Tell(); });
   while (this->All.AreMany() && this->Tell())
   {
     std::this_thread::sleep_for(StandardThreads::Pause);

@@ -83,10 +83,9 @@ void LabelWork::DoItem(Kind kind, std::size_t item, int numberOfThreads, HostThr
   this->State.End(item);
 }
 
-void LabelWork::Do(Kind kind, const std::string& title, const std::vector<std::uint8_t>& isDue,
-  const std::vector<std::size_t>& own, bool isBeside, const std::function<void()>& tell)
+void LabelWork::Do(Kind kind, const std::vector<std::size_t>& own, bool isBeside,
+  const std::function<void()>& tell)
 {
-  this->State.Expect(title, isDue, own);
   const auto tellHere = [this, &tell]
   {
     try

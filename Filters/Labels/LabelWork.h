@@ -40,14 +40,14 @@ public:
   const std::vector<double>& Sizes() const { return this->SizeOf; }
 
   /**
-   * Some of the items that are due, in this order, which large ones come first in.
-   * @param title    before what tells how far it is
+   * Some of the items that are due, in this order, which large ones come first in. State must expect
+   * them (LabelCourse::Expect).
    * @param isBeside whether the calling thread must only tell; else it works, too
    * @param tell     called on the calling thread: several times a second, or after each iteration
    *                 of what that thread does
    */
-  void Do(Kind kind, const std::string& title, const std::vector<std::uint8_t>& isDue,
-    const std::vector<std::size_t>& own, bool isBeside, const std::function<void()>& tell);
+  void Do(Kind kind, const std::vector<std::size_t>& own, bool isBeside,
+    const std::function<void()>& tell);
 
 private:
   void DoItem(Kind kind, std::size_t item, int numberOfThreads, HostThreads& threads,

@@ -187,7 +187,7 @@ TEST(SlabInput, TellsOfAFailureAndWorksAgain)
       const MessagesOf executive(source->GetExecutive());
       pyramid->Update();
       EXPECT_EQ(pyramid->GetErrorCode(), vtkErrorCode::UserError);
-      EXPECT_TRUE(errors.Has(isWrong ? "or of another type than in the slices before them"
+      EXPECT_TRUE(errors.Has(isWrong ? "or of another name or type than in the slices before them"
                                      : "BallSource failed: the disk has gone."))
         << errors.Get();
       EXPECT_EQ(pyramid->GetOutput()->GetNumberOfBlocks(), 0u);
