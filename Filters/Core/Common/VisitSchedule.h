@@ -34,10 +34,6 @@ public:
 
   /** The items in their order. */
   const std::vector<int>& Order() const { return this->Items; }
-  /** Of an item: how many of those that it touches come before it, and those that come after. */
-  int NumberOfEarlier(int item) const { return this->Earlier[item]; }
-  const std::vector<int>& LaterThan(int item) const { return this->Later[item]; }
-
   /**
    * Calls visit(item, place in the order, idle) for all, on the threads of an executor, and returns
    * when all are done. By `idle` a visit shares out what it has to do with the threads that find no

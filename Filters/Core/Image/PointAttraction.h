@@ -49,8 +49,6 @@ public:
   /** `weight` is w; 0, or no point, switches it off. */
   PointAttraction(std::vector<AttractingPoint> points, double weight);
 
-  bool IsOn() const { return this->Weight > 0. && !this->Points.empty(); }
-
   /**
    * LevelImage::Values of a level with the field bent, for the same Base. Sums over the points are
    * in their order, slice by slice: the same for any executor. Cost: O(voxels + those near points).

@@ -130,34 +130,6 @@ public:
       });
   }
 
-  /** The first voxel, of BytesPerVoxel(). */
-  const void* Data() const { return this->Voxels; }
-  std::size_t BytesPerVoxel() const
-  {
-    switch (this->Held)
-    {
-      case Type::SignedChar:
-      case Type::UnsignedChar:
-        return 1;
-      case Type::Short:
-      case Type::UnsignedShort:
-        return 2;
-      case Type::Int:
-      case Type::UnsignedInt:
-      case Type::Float:
-        return 4;
-      default:
-        return 8;
-    }
-  }
-  /** Other voxels of the same kind. */
-  VoxelValues At(const void* voxels) const
-  {
-    VoxelValues other = *this;
-    other.Voxels = voxels;
-    return other;
-  }
-
 private:
   /** By size and sign: char, long and long long are what they are on the platform. */
   enum class Type : std::uint8_t

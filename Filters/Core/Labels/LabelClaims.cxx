@@ -87,22 +87,6 @@ void LabelClaims::Add(int object, const LabelField& field)
     });
 }
 
-void LabelClaims::Join(const std::vector<Claims>& others)
-{
-  for (std::size_t i = 0; i < others.size(); ++i)
-  {
-    Claims& claims = this->All[i];
-    if (others[i].Most > claims.Most)
-    {
-      claims = { others[i].Most, std::max(claims.Most, others[i].Second), others[i].Claimant };
-    }
-    else
-    {
-      claims.Second = std::max(claims.Second, others[i].Most);
-    }
-  }
-}
-
 void LabelClaims::Settle(int object, LabelField& field) const
 {
   this->ForVoxels(field,

@@ -24,18 +24,6 @@ public:
   /** Once for each object but 0, in any order, on any thread. */
   void Add(int object, const LabelField& field);
 
-  /** What is claimed of a voxel. */
-  struct Claims
-  {
-    float Most = -LabelField::Far;
-    float Second = -LabelField::Far;
-    LabelMap::Number Claimant = 0; ///< the object that claims most
-  };
-  /** All that have been added, for another process that has the same map; */
-  const std::vector<Claims>& Claimed() const { return this->All; }
-  /** and those that another one has added, for other objects. In any order. */
-  void Join(const std::vector<Claims>& others);
-
   /**
    * Once all have been added: where another object's field is d', the field d becomes the smaller
    * one of d and (d - d')/2. Then fields of two objects add up to 0 at most everywhere, so that
@@ -44,6 +32,12 @@ public:
   void Settle(int object, LabelField& field) const;
 
 private:
+  struct Claims
+  {
+    float Most = -LabelField::Far;
+    float Second = -LabelField::Far;
+    LabelMap::Number Claimant = 0; ///< the object that claims most
+  };
   template <typename Visitor>
   void ForVoxels(const LabelField& field, Visitor&& visit) const;
 
