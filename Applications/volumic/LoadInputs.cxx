@@ -123,8 +123,9 @@ void Announce(const ToolOptions& options, const VolumeFacts& facts, int componen
     ? ""
     : ", " + (component < 0 ? "magnitude" : "component " + NumberText(component)) + " of " +
       NumberText(components) + " components (--component)";
-  const std::string range =
-    ", " + NumberText(facts.Range[0]) + " to " + NumberText(facts.Range[1]);
+  const std::string range = facts.Range[0] > facts.Range[1] // There is no such component.
+    ? ""
+    : ", " + NumberText(facts.Range[0]) + " to " + NumberText(facts.Range[1]);
   announcer.Say(options.Volume + ": " + times(size[0], size[1], size[2]) + " voxels of " +
     times(facts.Spacing[0], facts.Spacing[1], facts.Spacing[2]) + ", " +
     vtkImageScalarTypeNameMacro(facts.Type) + taken + range);

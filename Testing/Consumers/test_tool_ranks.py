@@ -69,6 +69,8 @@ class RanksTestCase(ToolTestCase):
                 for line in process.stderr:
                     if re.match(begin, line):
                         break
+                else:
+                    self.fail(f"no line begins like {begin}")
                 numbers = []
                 for rank in range(ranks):
                     numbers.append(int(self.content(f"pid-{rank}")))
@@ -78,15 +80,12 @@ class RanksTestCase(ToolTestCase):
                     process.kill()
 
     def finish(self, process):
-        started = time.monotonic()
-        text = process.communicate(timeout=60)[1]
-        self.assertLess(time.monotonic() - started, 55)
-        return text
+        return process.communicate(timeout=600)[1]
 
     def wait_for_end(self, number):
         started = time.monotonic()
         while os.path.exists(f"/proc/{number}"):
-            self.assertLess(time.monotonic() - started, 30, "a rank waits for one that is gone")
+            self.assertLess(time.monotonic() - started, 300, "a rank waits for one that is gone")
             time.sleep(0.1)
 
 
