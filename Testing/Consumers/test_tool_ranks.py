@@ -46,7 +46,7 @@ class RanksTestCase(ToolTestCase):
     def run_ranks(self, ranks, *arguments, status=0):
         """The finished process; a test failure if it does not end, or with another status."""
         process = subprocess.run(self.command(ranks, *arguments), capture_output=True,
-                                 text=True, timeout=100, check=False)
+                                 text=True, timeout=900, check=False)
         self.assertEqual(process.returncode, status, process.stdout + process.stderr)
         return process
 
