@@ -63,6 +63,21 @@ def stop_the_first_run(where):
     return STOP_THE_FIRST_RUN.replace("WHERE", repr(where))
 
 
+class ThinPartsTest(window.WindowTestCase):
+    """The first one of this window, whose panel has the width that it begins with."""
+
+    def test_thin_parts_after_a_run_without(self):
+        path, save = self.saved_state("thin.pvsm")
+        self.play(VOLUME + [
+            FILTER, set_iso_value(230), APPLY, gui.pause(300),
+            window.set_box("ThinParts", True), APPLY, gui.pause(300),
+            window.as_wide_as_the_panel(), *save], "volume-thin-parts")
+        surface = testing.fetch(window.open_state(path, "VolumetoSurface1"))
+        self.assertEqual(testing.field(surface, "Level"), -1)
+        for name in ("EdgeSize", "Thickness"):
+            self.assertTrue(surface.GetPointData().HasArray(name), name)
+
+
 class VolumeWindowTest(window.WindowTestCase):
     def test_menu_panel_and_apply(self):
         path, save = self.saved_state("volume.pvsm")
@@ -104,17 +119,6 @@ class VolumeWindowTest(window.WindowTestCase):
         self.assertNotIn("VolumicHistoryView", state)
         surface = testing.fetch(window.open_state(path, "VolumetoSurface1"))
         self.assertEqual(testing.field(surface, "StopReason"), "converged")
-
-    def test_thin_parts_after_a_run_without(self):
-        path, save = self.saved_state("thin.pvsm")
-        self.play(VOLUME + [
-            FILTER, set_iso_value(230), APPLY, gui.pause(300),
-            window.set_box("ThinParts", True), APPLY, gui.pause(300),
-            window.as_wide_as_the_panel(), *save], "volume-thin-parts")
-        surface = testing.fetch(window.open_state(path, "VolumetoSurface1"))
-        self.assertEqual(testing.field(surface, "Level"), -1)
-        for name in ("EdgeSize", "Thickness"):
-            self.assertTrue(surface.GetPointData().HasArray(name), name)
 
     def test_values_of_a_ct_are_offered_and_the_slider_has_room(self):
         z, y, x = numpy.mgrid[0:40, 0:40, 0:40]
