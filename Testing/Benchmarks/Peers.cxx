@@ -237,7 +237,6 @@ Job MesherJob(vtkImageData* image, vtkPolyData* largest, double isoValue, double
 #if defined(VOLUMIC_BENCHMARK_OPENVDB)
 Job OpenVdbJob(vtkImageData* image, double isoValue)
 {
-  openvdb::initialize();
   const auto made = std::make_shared<support::TriangleSurface>();
   const auto work = [=]()
   {
