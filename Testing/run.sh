@@ -44,8 +44,7 @@ run_tests()
   step_number=$((step_number + 1))
   say "[$step_number/$step_total] Testing ($flavour)"
   set +e
-  # One more than there are processors: windows and servers wait a good part of their time.
-  (cd "$build/$flavour" && ctest --output-on-failure -j "$(($(job_count) + 1))" "${selection[@]}") \
+  (cd "$build/$flavour" && ctest --output-on-failure -j "$(job_count)" "${selection[@]}") \
     2>&1 < /dev/null | tee "$log"
   status=${PIPESTATUS[0]}
   set -e

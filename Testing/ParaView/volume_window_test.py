@@ -70,7 +70,7 @@ class ThinPartsTest(window.WindowTestCase):
         path, save = self.saved_state("thin.pvsm")
         self.play(VOLUME + [
             FILTER, set_iso_value(230), APPLY, gui.pause(300),
-            window.set_box("ThinParts", True), APPLY, gui.pause(300),
+            window.set_box("ThinParts", True), APPLY, gui.pause(2000),
             window.as_wide_as_the_panel(), *save], "volume-thin-parts")
         surface = testing.fetch(window.open_state(path, "VolumetoSurface1"))
         self.assertEqual(testing.field(surface, "Level"), -1)
