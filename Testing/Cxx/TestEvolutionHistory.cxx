@@ -171,3 +171,36 @@ TEST(EvolutionHistory, SecondsOfTheRowsAddUpToThoseOfTheLevels)
   EXPECT_EQ(evolution.History()[1].SecondsAfter, 0.) << "only after the last of a level";
   EXPECT_GT(evolution.History().back().SecondsAfter, 0.);
 }
+
+TEST(EvolutionHistory, PhasesFitIntoTheSecondsOfTheirRow)
+{
+  const LevelPair scene = SceneWithLostBalls();
+  SurfaceEvolution evolution(IsoHalf(), Threads, Silent);
+  evolution.StartEnclosing(scene.Coarse.Image, 1);
+  evolution.Run();
+  evolution.EndLevel();
+  evolution.Divide(scene.Fine.Image, 0);
+  evolution.Run();
+  evolution.EndLevel();
+  const std::vector<HistoryRow>& rows = evolution.History();
+  for (std::size_t r = 0; r < rows.size(); ++r)
+  {
+    SCOPED_TRACE("row " + std::to_string(r));
+    const auto seconds = [&row = rows[r]](Phase phase)
+    { return row.PhaseSeconds[static_cast<int>(phase)]; };
+    double inside = 0.;
+    for (int p = 0; p < static_cast<int>(Phase::Division); ++p)
+    {
+      inside += seconds(static_cast<Phase>(p));
+    }
+    EXPECT_LE(inside, rows[r].Seconds);
+    const bool isFirst = r == 0 || rows[r - 1].Level != rows[r].Level;
+    const bool isLast = r + 1 == rows.size() || rows[r + 1].Level != rows[r].Level;
+    EXPECT_EQ(seconds(Phase::Division) > 0., isFirst);
+    EXPECT_EQ(seconds(Phase::Recovery) > 0., (isFirst && r > 0) || isLast);
+    EXPECT_EQ(seconds(Phase::Regularisation) > 0., isLast);
+    EXPECT_LE(
+      seconds(Phase::Division) + seconds(Phase::Recovery) + seconds(Phase::Regularisation),
+      rows[r].SecondsBefore + rows[r].SecondsAfter + 1e-9);
+  }
+}
