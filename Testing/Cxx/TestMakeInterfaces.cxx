@@ -81,6 +81,24 @@ TEST(MakeInterfaces, HasNoSliversAboutNecks)
   EXPECT_GT(least, 25.);
 }
 
+TEST(MakeInterfaces, TurnsNoPartInsideOut)
+{
+  for (unsigned seed = 0; seed < 40; ++seed)
+  {
+    SCOPED_TRACE(seed);
+    const int objects = 1 + static_cast<int>(seed) % 3;
+    InterfaceScene scene(ScatteredVoxels(9, objects, seed));
+    const InterfaceMesh mesh = Make(scene);
+    ExpectSound(mesh);
+    const std::vector<std::vector<int>> faces = mesh.FindFacesOfObjects();
+    for (std::size_t object = 1; object < faces.size(); ++object)
+    {
+      std::vector<int> vertices;
+      ExpectTheRightSidesOut(mesh.SurfaceOf(static_cast<int>(object), faces[object], vertices));
+    }
+  }
+}
+
 class StoppedInterfaces : public testing::TestWithParam<int>
 {
 };

@@ -26,10 +26,44 @@ Vector MiddleOf(const TriangleBox& box)
   return (box.Low + box.High) * 0.5f;
 }
 
-bool Has(const PlacedFace& face, int v)
+bool Has(const MeshTriangle& face, int v)
 {
   return face.Vertex[0] == v || face.Vertex[1] == v || face.Vertex[2] == v;
 }
+
+const VectorD& CornerAt(const MeshTriangle& face, int v)
+{
+  return face.Corner[std::find(face.Vertex, face.Vertex + 3, v) - face.Vertex];
+}
+
+/** From the edge (u, v) to the third corner, across it. */
+VectorD AcrossEdge(const MeshTriangle& face, int u, int v)
+{
+  const int at = static_cast<int>(std::find_if(face.Vertex, face.Vertex + 3,
+    [&](int w) { return w != u && w != v; }) - face.Vertex);
+  const VectorD& from = CornerAt(face, u);
+  const VectorD axis = CornerAt(face, v) - from;
+  const VectorD way = face.Corner[at] - from;
+  return way * SquaredLength(axis) - axis * Dot(axis, way);
+}
+
+/** From one face to the other one about the edge, -pi to pi. */
+double AngleAt(int u, int v, const std::array<MeshTriangle, 2>& faces)
+{
+  const VectorD first = AcrossEdge(faces[0], u, v);
+  const VectorD second = AcrossEdge(faces[1], u, v);
+  const VectorD axis = Normalized(CornerAt(faces[0], v) - CornerAt(faces[0], u));
+  return std::atan2(Dot(axis, Cross(first, second)), Dot(first, second));
+}
+}
+
+bool HavePassed(int u, int v, const std::array<MeshTriangle, 2>& before,
+  const std::array<MeshTriangle, 2>& after)
+{
+  constexpr double flat = 3.14159265358979;
+  const double from = AngleAt(u, v, before);
+  const double to = AngleAt(u, v, after);
+  return (from < 0.) != (to < 0.) && std::abs(from) + std::abs(to) < flat;
 }
 
 TriangleBox::TriangleBox(const Vector& a, const Vector& b, const Vector& c)
@@ -258,7 +292,55 @@ bool InterfaceClearance::AreClear(const std::vector<PlacedFace>& faces,
       }
     }
   }
-  return !isAtLine || this->AreInOrderAtLines(faces, others);
+  return (!isAtLine || this->AreInOrderAtLines(faces, others)) && !this->PassAny(faces, replaced);
+}
+
+bool InterfaceClearance::PassAny(
+  const std::vector<PlacedFace>& faces, const std::vector<int>& replaced) const
+{
+  std::vector<int> about;
+  const auto stays = [this](const PlacedFace& face, int k)
+  {
+    const Vector& place = this->Mesh.Position[static_cast<std::size_t>(face.Vertex[k])];
+    return SquaredDistance(face.Corner[k], VectorD(place)) == 0.;
+  };
+  for (const PlacedFace& face : faces)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      const int u = face.Vertex[k];
+      const int v = face.Vertex[(k + 1) % 3];
+      if (!stays(face, k) || !stays(face, (k + 1) % 3))
+      {
+        continue;
+      }
+      this->Mesh.FindFaces(u, v, about);
+      const auto isReplaced = [&](int f)
+      { return std::find(replaced.begin(), replaced.end(), f) != replaced.end(); };
+      const auto isIt = [&](int f)
+      {
+        const InterfaceMesh::Face& old = this->Mesh.Faces[static_cast<std::size_t>(f)];
+        return isReplaced(f) && old.Behind == face.Behind && old.Front == face.Front;
+      };
+      const auto old = std::find_if(about.begin(), about.end(), isIt);
+      if (old == about.end())
+      {
+        continue; // It is new.
+      }
+      const MeshTriangle before =
+        TriangleOf(this->Mesh, this->Mesh.Faces[static_cast<std::size_t>(*old)].Vertex);
+      for (const int f : about)
+      {
+        const MeshTriangle other =
+          TriangleOf(this->Mesh, this->Mesh.Faces[static_cast<std::size_t>(f)].Vertex);
+        if (!isReplaced(f) && HavePassed(u, v, { before, other }, { face, other }))
+        {
+          return true;
+        }
+      }
+    }
+  }
+  return false;
 }
 
 bool InterfaceClearance::IsAtLine(const PlacedFace& face) const

@@ -46,6 +46,15 @@ PlacedFace PlacedFaceOf(const InterfaceMesh& mesh, const InterfaceMesh::Face& fa
  */
 bool AreInOrder(int u, int v, const std::vector<PlacedFace>& faces);
 
+/**
+ * Whether two faces at an edge have been turned past each other: a flat part passes through itself
+ * so, and is inside out, though nothing intersects before nor afterwards.
+ * @param u, v the edge
+ * @param before, after the faces' corners; each of them turns by less than a right angle
+ */
+bool HavePassed(int u, int v, const std::array<MeshTriangle, 2>& before,
+  const std::array<MeshTriangle, 2>& after);
+
 /** Which triangles of interfaces are near others, and whether they intersect them. */
 class InterfaceClearance
 {
@@ -66,8 +75,8 @@ public:
   /** A face that this one intersects, of those from `first` on; -1: none. @param near room for it */
   int FindIntersecting(int face, int first, std::vector<int>& near) const;
   /**
-   * Whether faces may take the place of some: they intersect nothing else, nor each other, and are
-   * in order at junction lines. @param near room for it
+   * Whether faces may take the place of some: they intersect nothing else, nor each other, are in
+   * order at junction lines, and pass nothing that they share an edge with. @param near room for it
    */
   bool AreClear(const std::vector<PlacedFace>& faces, const std::vector<int>& replaced,
     std::vector<int>& near) const;
@@ -78,6 +87,9 @@ private:
   /** @param others faces that stay, among them all that share an edge with these */
   bool AreInOrderAtLines(
     const std::vector<PlacedFace>& faces, const std::vector<int>& others) const;
+
+  /** Whether one of these comes past a face that stays, about an edge that stays where it is. */
+  bool PassAny(const std::vector<PlacedFace>& faces, const std::vector<int>& replaced) const;
 
   const InterfaceMesh& Mesh;
   double Tolerance;

@@ -25,7 +25,7 @@ public:
   Verification(InterfaceMesh& mesh, const LargeVector<Vector>& before, double tolerance,
     double leastAngle, Executor& executor)
     : Mesh(mesh), Before(before), Clearance(mesh, tolerance), LeastAngle(leastAngle),
-      Threads(executor), Lines(mesh.FindLines()), IsBack(mesh.Position.size(), 0)
+      Threads(executor), IsBack(mesh.Position.size(), 0)
   {
   }
 
@@ -105,15 +105,15 @@ private:
         std::vector<int> near;
         for (std::size_t n = begin; n < end; ++n)
         {
-          const int other =
-            this->Clearance.FindIntersecting(faces[n], isFirst ? faces[n] : 0, near);
+          const int first = isFirst ? faces[n] : 0;
+          int other = this->Clearance.FindIntersecting(faces[n], first, near);
+          other = other >= 0 ? other : this->FindPassed(faces[n], first, near);
           if (other >= 0)
           {
             ofSpans[span].push_back({ faces[n], other });
           }
         }
       });
-    this->TakeBackOutOfOrder(back);
     for (const std::array<int, 2>& pair : Joined(this->Threads, ofSpans))
     {
       for (const int f : pair)
@@ -127,31 +127,39 @@ private:
     this->Follow(back);
   }
 
-  /** Vertices of faces that have been turned past others about an edge that they share. */
-  void TakeBackOutOfOrder(std::vector<int>& back)
+  /** One of those from `first` on with an edge of this face that it has been turned past; -1: none. */
+  int FindPassed(int face, int first, std::vector<int>& about) const
   {
-    std::vector<int> faces;
-    std::vector<PlacedFace> placed;
-    for (const std::array<int, 2>& edge : this->Lines)
+    const std::array<int, 3>& corners = this->Mesh.Faces[static_cast<std::size_t>(face)].Vertex;
+    for (int k = 0; k < 3; ++k)
     {
-      this->Mesh.FindFaces(edge[0], edge[1], faces);
-      placed.clear();
-      for (const int f : faces)
+      const int u = corners[k];
+      const int v = corners[(k + 1) % 3];
+      this->Mesh.FindFaces(u, v, about);
+      for (const int other : about)
       {
-        placed.push_back(PlacedFaceOf(this->Mesh, this->Mesh.Faces[static_cast<std::size_t>(f)]));
-      }
-      if (AreInOrder(edge[0], edge[1], placed))
-      {
-        continue;
-      }
-      for (const PlacedFace& face : placed)
-      {
-        for (const int v : face.Vertex)
+        if (other != face && other >= first &&
+          HavePassed(u, v, { this->FaceBefore(face), this->FaceBefore(other) },
+            { TriangleOf(this->Mesh, corners),
+              TriangleOf(this->Mesh, this->Mesh.Faces[static_cast<std::size_t>(other)].Vertex) }))
         {
-          this->TakeBack(v, back);
+          return other;
         }
       }
     }
+    return -1;
+  }
+
+  MeshTriangle FaceBefore(int face) const
+  {
+    MeshTriangle triangle;
+    for (int k = 0; k < 3; ++k)
+    {
+      const int v = this->Mesh.Faces[static_cast<std::size_t>(face)].Vertex[k];
+      triangle.Vertex[k] = v;
+      triangle.Corner[k] = VectorD(this->Before[static_cast<std::size_t>(v)]);
+    }
+    return triangle;
   }
 
   /** What has been taken back is where it is found from now on. */
@@ -179,7 +187,6 @@ private:
   InterfaceClearance Clearance;
   double LeastAngle;
   Executor& Threads;
-  std::vector<std::array<int, 2>> Lines;
   std::vector<unsigned char> IsBack;
 };
 }
