@@ -35,10 +35,13 @@
  * - `WrongVoxels` (vtkIdType): those of the label that have their centres outside, and those of
  *   others that have them inside; with Gap, those that it puts there count, too
  * - `MissedVoxels` (vtkIdType): those of them that are further from the surface than VoxelTolerance
+ *   and Tolerance together
+ * - `VolumeError` (double): by which share of the voxels' volume the enclosed volume is more
  *
  * Field data of the whole, only where there is anything to tell:
- * - `LostLabels` (string): which labels are lost, and of which more voxels than half are on the
- *   wrong side; a warning, too, where these are more than 5 % of the labels' voxels
+ * - `LostLabels` (string): which labels are lost, of which more voxels than half are on the wrong
+ *   side, and of which, of 100 voxels or more, the volume is further than .03 from theirs; a
+ *   warning, too, where these are more than 5 % of the labels' voxels
  *
  * Port 1, `Interfaces`: a vtkPolyData, empty but with SharedInterfaces. Its points are those of the
  * blocks, whose point data `GlobalIds` (vtkIdType) then say which. Its cells are the segments of

@@ -256,6 +256,10 @@ std::string ReportText(const LabelReport& report)
     Json& facts = json["labels"].emplace_back(NameFacts(each));
     facts["seconds"] = each.Seconds;
     facts["wrong_voxels"] = WrongVoxels(surface);
+    if (vtkDataArray* error = surface->GetFieldData()->GetArray("VolumeError"))
+    {
+      facts["volume_error"] = error->GetComponent(0, 0);
+    }
     facts["missed_voxels"] = WrongVoxels(surface, "MissedVoxels");
     AddSurfaceFacts(facts, surface, { surface->GetNumberOfPoints(), surface->GetNumberOfPolys() });
     facts["component_features"] = ComponentFeatures(surface);

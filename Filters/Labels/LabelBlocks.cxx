@@ -18,6 +18,7 @@
 #include <vtkStringArray.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace volumic
 {
@@ -93,6 +94,22 @@ std::string ReasonsOfLoss(const LabelSettings& settings)
   return reasons;
 }
 
+/** Whether it is further off than a label of so many voxels should be, and nobody asked for that. */
+bool HasWrongVolume(const LabelSurface& surface, vtkIdType voxels, const LabelSettings& settings)
+{
+  constexpr vtkIdType least = 100;
+  constexpr double most = 0.03;
+  const bool hasLargeTriangles = settings.FinestLevel > 0 || settings.EdgeLength > 0.0;
+  return voxels >= least && !hasLargeTriangles && std::abs(surface.VolumeError) > most && settings.Gap == 0.0 &&
+    settings.KeepComponents == 0;
+}
+
+std::string ToPercent(double share)
+{
+  const int percent = static_cast<int>(std::lround(100.0 * share));
+  return (percent > 0 ? "+" : "") + std::to_string(percent) + " %";
+}
+
 std::string JoinedBy(const char* separator, const std::vector<std::string>& texts)
 {
   std::string all;
@@ -151,6 +168,7 @@ std::string FillBlocks(const LabelChoice& choice, const LabelImage& image,
   std::vector<std::string> empty;
   std::vector<std::string> lost;
   std::vector<std::string> touching;
+  std::vector<std::string> wrongVolumes;
   double sought = 0.0;  // voxels of all labels
   double missing = 0.0; // those without a surface that nobody has chosen to be without
   output->SetNumberOfBlocks(static_cast<unsigned int>(surfaces.size()));
@@ -175,6 +193,8 @@ std::string FillBlocks(const LabelChoice& choice, const LabelImage& image,
       surface, "WrongVoxels", std::vector<vtkIdType>{ surfaces[i].WrongVoxels });
     AddField<vtkIdTypeArray>(
       surface, "MissedVoxels", std::vector<vtkIdType>{ surfaces[i].MissedVoxels });
+    AddField<vtkDoubleArray>(
+      surface, "VolumeError", std::vector<double>{ surfaces[i].VolumeError });
     const auto block = static_cast<unsigned int>(i);
     output->SetBlock(block, surface);
     output->GetMetaData(block)->Set(vtkCompositeDataSet::NAME(), name.c_str());
@@ -190,6 +210,11 @@ std::string FillBlocks(const LabelChoice& choice, const LabelImage& image,
       lost.push_back(name);
       missing += settings.KeepComponents == 0 ? static_cast<double>(surfaces[i].WrongVoxels) : 0.0;
     }
+    else if (surfaces[i].IsFinished && HasWrongVolume(surfaces[i], voxels, settings))
+    {
+      wrongVolumes.push_back(name + " (" + ToPercent(surfaces[i].VolumeError) + ")");
+      missing += std::abs(surfaces[i].VolumeError) * static_cast<double>(voxels);
+    }
     if (surfaces[i].TouchingFaces > 0)
     {
       touching.push_back(name + " (" + std::to_string(surfaces[i].TouchingFaces) + ")");
@@ -204,6 +229,11 @@ std::string FillBlocks(const LabelChoice& choice, const LabelImage& image,
   {
     losses.push_back("More voxels than half are on the wrong side of the surface of " +
       Listed(lost) + ReasonsOfLoss(settings));
+  }
+  if (!wrongVolumes.empty())
+  {
+    losses.push_back("The volume is not that of the voxels of " + Listed(wrongVolumes) +
+      ReasonsOfLoss(settings));
   }
   std::vector<std::string> warnings;
   if (!losses.empty())

@@ -146,7 +146,7 @@ LabelSurface LabelHelper::Take(Ranks& ranks, int rank, std::size_t item)
   LabelSurface made;
   vtkTypeInt64 wrong = 0;
   vtkTypeInt64 missed = 0;
-  answer.Words >> wrong >> missed >> made.IsFinished >> made.Seconds;
+  answer.Words >> wrong >> missed >> made.VolumeError >> made.IsFinished >> made.Seconds;
   made.WrongVoxels = wrong;
   made.MissedVoxels = missed;
   made.Surface = vtkPolyData::SafeDownCast(answer.TakeData());
@@ -293,7 +293,8 @@ RankMessage LabelHelper::Give(RankMessage& message)
   const LabelSurface made = std::exchange(this->Work->Surfaces[TakeCount(message)], {});
   RankMessage answer;
   answer.Words << static_cast<vtkTypeInt64>(made.WrongVoxels)
-               << static_cast<vtkTypeInt64>(made.MissedVoxels) << made.IsFinished << made.Seconds;
+               << static_cast<vtkTypeInt64>(made.MissedVoxels) << made.VolumeError
+               << made.IsFinished << made.Seconds;
   answer.Put(made.Surface.Get());
   return answer;
 }

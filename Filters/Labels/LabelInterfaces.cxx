@@ -119,6 +119,10 @@ LabelInterfaceMaker::LabelInterfaceMaker(LabelMap map, int objects, vtkImageData
   : Settings(settings), Space(image, static_cast<Metric>(settings.Metric))
 {
   LabelSurfaceMaker::PlanOf(settings, image); // Lengths have the same limits.
+  const VoxelBox box = BoxOf(map, objects);
+  const int margin = MarginFor(LabelSurfaceMaker::FieldOptions(settings, map).Sigma);
+  std::transform(box.First.begin(), box.First.end(), this->First.begin(),
+    [margin](int first) { return first - margin; });
   const auto keep = static_cast<KeepComponentsType>(settings.KeepComponents);
   if (keep != KeepComponentsType::AllComponents)
   {
@@ -126,14 +130,17 @@ LabelInterfaceMaker::LabelInterfaceMaker(LabelMap map, int objects, vtkImageData
       map.Spacing[0] * map.Spacing[1] * map.Spacing[2] * std::pow(this->Space.WorldUnit(), 3.0);
     const double least = std::min(std::ceil(settings.MinimumComponentVolume / ofVoxel),
       static_cast<double>(map.Voxels.size()) + 1.0);
+    this->WholeMap = Padded(map, objects, box, margin);
+    threads.Run([&] { this->WholeBricks.emplace(this->WholeMap, threads); });
     GiveAwaySmallParts(map, objects, static_cast<std::int64_t>(least),
       keep == KeepComponentsType::LargestComponent);
   }
-  const VoxelBox box = BoxOf(map, objects);
-  const int margin = MarginFor(LabelSurfaceMaker::FieldOptions(settings, map).Sigma);
-  std::transform(box.First.begin(), box.First.end(), this->First.begin(),
-    [margin](int first) { return first - margin; });
   this->Map = Padded(map, objects, box, margin);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    this->InImage.First[axis] = std::max(-this->First[axis], 0);
+    this->InImage.End[axis] = std::min(map.Size[axis] - this->First[axis], this->Map.Size[axis]);
+  }
   threads.Run([&] { this->Bricks.emplace(this->Map, threads); });
 }
 
@@ -191,7 +198,7 @@ LabelSurface LabelInterfaceMaker::SurfaceOf(int object, const std::vector<int>& 
 {
   LabelSurface made;
   made.IsFinished = this->IsFinished;
-  made.WrongVoxels = made.MissedVoxels = this->Bricks->ExtentOf(object).Voxels;
+  made.WrongVoxels = made.MissedVoxels = this->Counted().ExtentOf(object).Voxels;
   if (faces.empty())
   {
     if (this->IsFinished)
@@ -254,10 +261,11 @@ LabelSurface LabelInterfaceMaker::SurfaceOf(int object, const std::vector<int>& 
   description.Unit = this->Space.WorldUnit() * std::pow(std::sqrt(3.0), this->Settings.FinestLevel);
   description.StopReason = Describe(
     this->IsFinished ? StopReason::Converged : StopReason::Cancelled);
-  const std::vector<std::int64_t> wrong = FindWrongVoxels(*this->Bricks, object, inVoxels);
+  const std::vector<std::int64_t> wrong = FindWrongVoxels(this->Counted(), object, inVoxels, this->InImage);
   made.WrongVoxels = static_cast<vtkIdType>(wrong.size());
   made.MissedVoxels = static_cast<vtkIdType>(
-    FindMissedVoxels(this->Map, wrong, inVoxels, this->Settings.VoxelTolerance).size());
+    FindMissedVoxels(this->Map, wrong, inVoxels, this->Settings.VoxelTolerance + tolerance).size());
+  made.VolumeError = VolumeErrorOf(inVoxels, this->Counted().ExtentOf(object).Voxels);
   made.Surface = MakePolyData(std::move(surface), description, this->Space);
   made.Surface->GetPointData()->SetGlobalIds(ids);
   return made;

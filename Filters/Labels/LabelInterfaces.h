@@ -59,14 +59,22 @@ private:
   static LabelMap Padded(
     const LabelMap& map, int objects, const VoxelBox& box, int margin);
   InterfaceOptions Options() const; ///< as the settings ask for
+  /** What voxels are counted in. */
+  const LabelBricks& Counted() const
+  {
+    return this->WholeBricks ? *this->WholeBricks : *this->Bricks;
+  }
   LabelSurface SurfaceOf(int object, const std::vector<int>& faces) const;
   Point InWorkspace(const Vector& place) const;
 
   const LabelSettings& Settings;
   std::array<int, 3> First = { 0, 0, 0 }; ///< voxel of the image that is that of Map
   LabelMap Map; ///< of the box, with its margin
+  LabelMap WholeMap; ///< the same with the parts that Keep Components leaves out, if it does
+  VoxelBox InImage; ///< of Map what is in the image
   Workspace Space;
   std::optional<LabelBricks> Bricks;
+  std::optional<LabelBricks> WholeBricks; ///< of WholeMap
   std::optional<InterfaceFields> Fields;
   InterfaceMesh Mesh;
   bool IsFinished = false;

@@ -3,6 +3,7 @@
 #include "Labels/LabelSurface.h"
 
 #include "Core/Labels/WrongVoxels.h"
+#include "Core/Mesh/SurfaceFeatures.h"
 #include "Input/Workspace.h"
 #include "Output/SurfaceOutput.h"
 #include "Pyramid/BuildPyramid.h"
@@ -36,6 +37,15 @@ constexpr double FieldShare = 0.2;
  * stairs are as high as voxels are long; but with all of it bulges what is thin along other axes.
  */
 constexpr double ShareOfLongest = 0.625;
+
+/** Labels of so many voxels are made with less smoothing where their volumes are further off, */
+constexpr std::int64_t LeastMeasured = 100;
+constexpr double MostVolumeError = 0.03;
+/** and this is left of it, in smallest distances of voxels. */
+constexpr double LeastSmoothing = 1.0;
+
+/** More than so many times the smoothing a share of the longest is enough: thick slices are few. */
+constexpr double MostBeyondVoxel = 2.5;
 
 /** A part of so many voxels that level 0 has lost is worth three times the triangles, */
 constexpr std::int64_t LostPartSize = 8;
@@ -115,12 +125,18 @@ void ScaleResidual(vtkPolyData* surface, double unit)
 }
 }
 
+double VolumeErrorOf(const IndexedSurface& inVoxels, std::int64_t voxels)
+{
+  return ComputeFeatures(inVoxels).Volume / static_cast<double>(voxels) - 1.0;
+}
+
 LabelFieldOptions LabelSurfaceMaker::FieldOptions(
   const LabelSettings& settings, const LabelMap& map)
 {
   const double longest = *std::max_element(map.Spacing.begin(), map.Spacing.end());
   LabelFieldOptions options;
-  options.Sigma = settings.Smoothing * std::max(1.0, ShareOfLongest * longest);
+  options.Sigma = std::min(settings.Smoothing * std::max(1.0, ShareOfLongest * longest),
+    std::max(settings.Smoothing * MostBeyondVoxel, ShareOfLongest * longest));
   options.Tolerance = settings.VoxelTolerance;
   return options;
 }
@@ -234,13 +250,13 @@ LabelSurface LabelSurfaceMaker::Make(
   }
   if (!mayGoFiner)
   {
-    return this->MakeAt(place, object, numberOfThreads, threads, progress);
+    return this->MakeWithVolume(place, object, numberOfThreads, threads, progress);
   }
-  LabelSurface made = this->MakeAt(place, object, numberOfThreads, threads,
+  LabelSurface made = this->MakeWithVolume(place, object, numberOfThreads, threads,
     [&](double share, const std::string& text) { return progress(ShareOfLevel0 * share, text); });
   if (made.Surface && this->LosesParts(object, made))
   {
-    const LabelSurface finer = this->MakeAt({ -1 }, object, numberOfThreads, threads,
+    const LabelSurface finer = this->MakeWithVolume({ -1 }, object, numberOfThreads, threads,
       [&](double share, const std::string& text)
       { return progress(ShareOfLevel0 + (1.0 - ShareOfLevel0) * share, text); });
     // Null: it was stopped; what level 0 has is finished.
@@ -253,13 +269,37 @@ LabelSurface LabelSurfaceMaker::Make(
   return made;
 }
 
+LabelSurface LabelSurfaceMaker::MakeWithVolume(const Place& place, int object,
+  int numberOfThreads, HostThreads& threads, const Progress& progress) const
+{
+  LabelSurface made = this->MakeAt(place, object, numberOfThreads, threads, progress);
+  const bool mayBeOff = place.Level > 0 || this->Settings.Gap > 0.0 || this->Settings.KeepComponents != 0 ||
+    this->Bricks.ExtentOf(object).Voxels < LeastMeasured;
+  for (Place less = place; made.Surface && made.Surface->GetNumberOfCells() > 0 && !mayBeOff &&
+       std::abs(made.VolumeError) > MostVolumeError &&
+       less.Smoothing * this->Options.Sigma > LeastSmoothing;)
+  {
+    less.Smoothing *= 0.5;
+    const LabelSurface other = this->MakeAt(less, object, numberOfThreads, threads, progress);
+    if (!other.Surface)
+    {
+      break; // It was stopped; what there is is finished.
+    }
+    if (std::abs(other.VolumeError) < std::abs(made.VolumeError))
+    {
+      made = other;
+    }
+  }
+  return made;
+}
+
 LabelSurface LabelSurfaceMaker::MakeAt(const Place& place, int object, int numberOfThreads,
   HostThreads& threads, const Progress& progress) const
 {
   const int level = place.Level;
   LabelSurface made;
   made.Surface = MakeStopped(level, "vanished");
-  FieldImage field = this->MakeField(level, object, threads);
+  FieldImage field = this->MakeField(place, object, threads);
   if (!progress(FieldShare, "Field of the label"))
   {
     made.Surface = nullptr;
@@ -285,7 +325,7 @@ LabelSurface LabelSurfaceMaker::MakeAt(const Place& place, int object, int numbe
     const Point step = Workspace(this->Image, volume.Settings.Metric).Step();
     Point first;
     std::copy(field.Field.Box.First.begin(), field.Field.Box.First.end(), first.begin());
-    int round = 0;
+    Revision revision;
     request.Revise = [&](const SurfaceResult& surface)
     {
       IndexedSurface inVoxels = surface;
@@ -296,7 +336,7 @@ LabelSurface LabelSurfaceMaker::MakeAt(const Place& place, int object, int numbe
           p[axis] = first[axis] + p[axis] / step[axis];
         }
       }
-      return this->ReviseField(object, round++, inVoxels, original, field.Field);
+      return this->ReviseField(object, revision, inVoxels, original, field.Field);
     };
     SurfaceSegmentation run(volume, request);
     run.Run();
@@ -311,6 +351,7 @@ LabelSurface LabelSurfaceMaker::MakeAt(const Place& place, int object, int numbe
     const IndexedSurface inVoxels = this->InVoxels(surface);
     const std::vector<std::int64_t> wrong = FindWrongVoxels(this->Bricks, object, inVoxels);
     made.WrongVoxels = static_cast<vtkIdType>(wrong.size());
+    made.VolumeError = VolumeErrorOf(inVoxels, extent.Voxels);
     made.MissedVoxels = static_cast<vtkIdType>(
       FindMissedVoxels(this->Bricks.Map(), wrong, inVoxels, this->AllowedDistance()).size());
   }

@@ -3,6 +3,7 @@
 #ifndef volumicLabelSurface_h
 #define volumicLabelSurface_h
 
+#include "Core/Common/IndexedSurface.h"
 #include "Core/Evolution/EdgeLengthPlan.h"
 #include "Core/Labels/LabelClaims.h"
 #include "Core/Labels/LabelField.h"
@@ -30,9 +31,13 @@ struct LabelSurface
   double Seconds = 0.0;                 ///< that the work on it took, from its begin to its end
   vtkIdType WrongVoxels = 0;
   vtkIdType MissedVoxels = 0;  ///< those of them further from the surface than VoxelTolerance and Tolerance
+  double VolumeError = 0.0;    ///< by how much its volume is more than that of the voxels, in that
   vtkIdType TouchingFaces = 0; ///< with Gap: those that touch surfaces of neighbours all the same
   bool IsFinished = false;     ///< It was not stopped on its way.
 };
+
+/** LabelSurface::VolumeError, of a surface in coordinates of voxels. */
+double VolumeErrorOf(const IndexedSurface& inVoxels, std::int64_t voxels);
 
 /** Makes surfaces of objects of a label map; of several at a time, each on a thread of its own. */
 class LabelSurfaceMaker
@@ -97,17 +102,21 @@ private:
   }
   /** Half of the gap, in smallest distances of voxels. */
   double HalfGap() const;
-  /** A level, and whether it is for thin parts alone, level 0 for all else. */
+  /** A level, whether it is for thin parts alone, level 0 for all else, and a share of Sigma. */
   struct Place
   {
     int Level = 0;
     bool IsForThinParts = false;
+    double Smoothing = 1.0;
   };
+  /** MakeAt(), and with less smoothing as long as the volume is not that of the voxels. */
+  LabelSurface MakeWithVolume(const Place& place, int object, int numberOfThreads,
+    HostThreads& threads, const Progress& progress) const;
   LabelSurface MakeAt(const Place& place, int object, int numberOfThreads, HostThreads& threads,
     const Progress& progress) const;
   /** Whether a level finer than the image may hold what this surface leaves out. */
   bool LosesParts(int object, const LabelSurface& made) const;
-  FieldImage MakeField(int level, int object, HostThreads& threads) const;
+  FieldImage MakeField(const Place& place, int object, HostThreads& threads) const;
   SegmentationVolume MakeVolume(
     const Place& place, vtkImageData* field, const Progress& progress) const;
   /** Smallest distances of voxels from a surface within which a wrong centre is no fault of it. */
@@ -116,14 +125,24 @@ private:
   std::vector<std::int64_t> FindMissed(int object, const IndexedSurface& surface) const;
   /** In coordinates in which voxel (i, j, k) of the map is at (i, j, k). */
   IndexedSurface InVoxels(vtkPolyData* surface) const;
+  /** How often a field has been changed, and the last time for its volume, by what. */
+  struct Revision
+  {
+    int Round = 0;
+    int Shifts = 0;
+    double LastShift = 0.0; ///< smallest distances of voxels
+    double LastError = 0.0; ///< voxels
+  };
   /**
-   * Changes the field where the surface that follows it should be elsewhere.
+   * Changes the field where the surface that follows it should be elsewhere: where voxels are cut
+   * off, then where its volume is not that of the voxels.
    * @param surface in coordinates of the voxels of the map
-   * @param round   how often that was done before
    * @return whether it has
    */
-  bool ReviseField(int object, int round, const IndexedSurface& surface,
+  bool ReviseField(int object, Revision& revision, const IndexedSurface& surface,
     const LabelField& original, LabelField& field) const;
+  bool CorrectVolume(
+    int object, Revision& revision, const IndexedSurface& surface, LabelField& field) const;
 
   const LabelBricks& Bricks;
   vtkImageData* Image;

@@ -10,6 +10,7 @@
 #include "Core/Labels/DrawBack.h"
 #include "Core/Labels/TouchingSurfaces.h"
 #include "Core/Labels/WrongVoxels.h"
+#include "Core/Mesh/SurfaceFeatures.h"
 #include "Input/Workspace.h"
 
 #include <vtkCellArray.h>
@@ -49,6 +50,17 @@ constexpr double BendPerLevel = 0.4;
  */
 constexpr double LeastLowering = 0.2;
 
+/** Of a surface's volume more or less than its voxels' nothing is changed for. */
+constexpr double MostVolumeError = 0.01;
+/** Times which a field is shifted at most for the volume, */
+constexpr int MostShifts = 6;
+/** the last but the first two only while each leaves at most this share of the error, */
+constexpr double LeastGain = 0.9;
+/** by how much at most each, in smallest distances of voxels, */
+constexpr double MostShift = 2.0;
+/** if the volume changes at least by this share of the area times that. */
+constexpr double LeastRate = 0.15;
+
 /** For a gap, times which triangles that leave their own field's inside are drawn back. */
 constexpr int RoundsOfGap = 6;
 }
@@ -66,10 +78,13 @@ double LabelSurfaceMaker::HalfGap() const
 }
 
 LabelSurfaceMaker::FieldImage LabelSurfaceMaker::MakeField(
-  int level, int object, HostThreads& threads) const
+  const Place& place, int object, HostThreads& threads) const
 {
+  const int level = place.Level;
+  LabelFieldOptions options = this->Options;
+  options.Sigma *= place.Smoothing;
   FieldImage made;
-  threads.Run([&] { made.Field = MakeLabelField(this->Bricks, object, this->Options, threads); });
+  threads.Run([&] { made.Field = MakeLabelField(this->Bricks, object, options, threads); });
   this->Claims.Settle(object, made.Field);
   if (level > 0)
   {
@@ -143,9 +158,48 @@ std::vector<std::int64_t> LabelSurfaceMaker::FindMissed(
     surface, this->AllowedDistance());
 }
 
-bool LabelSurfaceMaker::ReviseField(int object, int round, const IndexedSurface& surface,
+bool LabelSurfaceMaker::CorrectVolume(
+  int object, Revision& revision, const IndexedSurface& surface, LabelField& field) const
+{
+  const LabelMap& map = this->Bricks.Map();
+  const std::vector<std::int64_t> wrong = FindWrongVoxels(this->Bricks, object, surface);
+  const auto lost = [&](bool isObject)
+  { return static_cast<double>(FindLostVoxels(map, object, wrong, isObject).size()); };
+  // What is lost, or closed, is not made up for elsewhere.
+  const double wanted =
+    static_cast<double>(this->Bricks.ExtentOf(object).Voxels) - lost(true) + lost(false);
+  IndexedSurface scaled = surface;
+  for (Point& p : scaled.Points)
+  {
+    std::transform(
+      p.begin(), p.end(), map.Spacing.begin(), p.begin(), [](double x, double h) { return x * h; });
+  }
+  const SurfaceFeatures features = ComputeFeatures(scaled);
+  const double voxel = map.Spacing[0] * map.Spacing[1] * map.Spacing[2];
+  const double error = features.Volume / voxel - wanted;
+  const bool isBetter = revision.Shifts < 2 || std::abs(error) < LeastGain * std::abs(revision.LastError);
+  if (revision.Shifts == MostShifts || std::abs(error) <= MostVolumeError * wanted || !isBetter)
+  {
+    return false;
+  }
+  double rate = features.Area / voxel; // voxels for a shift by 1
+  if (revision.Shifts > 0)
+  {
+    // Voxels that are held take part no more.
+    const double before = (revision.LastError - error) / revision.LastShift;
+    rate = std::clamp(before, LeastRate * rate, rate);
+  }
+  ++revision.Shifts;
+  revision.LastError = error;
+  revision.LastShift = std::clamp(error / rate, -MostShift, MostShift);
+  ShiftField(field, this->Bricks, object, this->Options, revision.LastShift, OnThisThread());
+  return true;
+}
+
+bool LabelSurfaceMaker::ReviseField(int object, Revision& revision, const IndexedSurface& surface,
   const LabelField& original, LabelField& field) const
 {
+  const int round = revision.Round++;
   const double halfGap = this->HalfGap();
   const int holds = static_cast<int>(FurtherMargins.size());
   // What is lowered for a neighbour is not raised again.
@@ -180,7 +234,11 @@ bool LabelSurfaceMaker::ReviseField(int object, int round, const IndexedSurface&
       return true;
     }
   }
-  return halfGap > 0.0 && round < holds + RoundsOfGap &&
+  if (halfGap == 0.0)
+  {
+    return this->CorrectVolume(object, revision, surface, field);
+  }
+  return round < holds + RoundsOfGap &&
     DrawBackWithin(original, surface, static_cast<float>(halfGap), field);
 }
 

@@ -89,7 +89,7 @@ public:
   LabelMap::Number LargestAt(int i, int j, int k) const;
 
 private:
-  static constexpr float MostShift = 0.2f; ///< smallest distances of voxels
+  static constexpr float MostShift = 3.f; ///< smallest distances of voxels
   static constexpr int Side = LabelBricks::Side;
   static constexpr std::size_t VoxelsOfBrick = static_cast<std::size_t>(Side) * Side * Side;
 

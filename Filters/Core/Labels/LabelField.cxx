@@ -24,6 +24,8 @@ constexpr float MostWrong = 1.5f;
 constexpr float MostCurvature = 0.35f;
 /** What the field has at a voxel at least, where not all constraints can be met. */
 constexpr float LeastSize = 0.05f;
+/** No shift brings the field nearer to 0 at a voxel. */
+constexpr float LeastShifted = 0.2f;
 /** Times which it is looked for what a tolerance would lose. */
 constexpr int MostRescues = 4;
 /** Where the field is flatter it is a ridge, and has no bend. */
@@ -72,6 +74,24 @@ public:
   {
     this->Field = std::move(field);
     this->Hold(held);
+    field = std::move(this->Field);
+  }
+
+  void Shift(LabelField& field, float by)
+  {
+    this->Field = std::move(field);
+    this->Rows.For(this->Threads,
+      [&](int i, int j, int k, int count)
+      {
+        float* values = this->RowAt(i, j, k);
+        for (int x = 0; x < count; ++x)
+        {
+          const float side = this->Sides.Of(i + x, j, k);
+          const float least = this->IsStrict(i + x, j, k) ? LeastShifted : this->LeastAt(i + x, j, k);
+          values[x] = side *
+            std::clamp(side * (values[x] - by), std::min(least, side * values[x]), LabelField::Far);
+        }
+      });
     field = std::move(this->Field);
   }
 
@@ -332,6 +352,12 @@ void CorrectBends(LabelField& field, const LabelBricks& bricks, int object, doub
   Executor& executor)
 {
   FieldMaker(bricks, object, LabelFieldOptions(), executor).CorrectBendsOf(field, amount);
+}
+
+void ShiftField(LabelField& field, const LabelBricks& bricks, int object,
+  const LabelFieldOptions& options, double by, Executor& executor)
+{
+  FieldMaker(bricks, object, options, executor).Shift(field, static_cast<float>(by));
 }
 
 void HoldFurther(LabelField& field, const LabelBricks& bricks, int object,

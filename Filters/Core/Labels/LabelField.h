@@ -101,6 +101,13 @@ void CorrectBends(LabelField& field, const LabelBricks& bricks, int object, doub
   Executor& executor);
 
 /**
+ * Takes a number off the field, so that the object gets smaller; but no voxel's centre comes to the
+ * other side, or further there than with a Tolerance it may.
+ */
+void ShiftField(LabelField& field, const LabelBricks& bricks, int object,
+  const LabelFieldOptions& options, double by, Executor& executor);
+
+/**
  * Step 4 again, from the field as it is, with larger margins for some voxels.
  * @param held sorted by Voxel
  */

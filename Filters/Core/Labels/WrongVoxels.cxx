@@ -64,7 +64,7 @@ std::vector<Crossing> FindCrossings(const std::array<int, 3>& size, const Indexe
 }
 
 std::vector<std::int64_t> FindWrongVoxels(
-  const LabelBricks& bricks, int object, const IndexedSurface& surface)
+  const LabelBricks& bricks, int object, const IndexedSurface& surface, const VoxelBox& within)
 {
   const LabelMap& map = bricks.Map();
   const std::vector<Crossing> crossings = FindCrossings(map.Size, surface);
@@ -72,8 +72,8 @@ std::vector<std::int64_t> FindWrongVoxels(
   for (int axis = 0; axis < 3; ++axis)
   {
     // A surface stays within the field's box, which is larger by a brick.
-    box.First[axis] = std::max(0, (box.First[axis] - 1) * LabelBricks::Side);
-    box.End[axis] = std::min(map.Size[axis], (box.End[axis] + 1) * LabelBricks::Side);
+    box.First[axis] = std::max(within.First[axis], (box.First[axis] - 1) * LabelBricks::Side);
+    box.End[axis] = std::min(within.End[axis], (box.End[axis] + 1) * LabelBricks::Side);
   }
   std::vector<std::int64_t> wrong;
   const VoxelBox all = VoxelBox::Of(map.Size);
@@ -138,26 +138,37 @@ std::vector<std::int64_t> FindMissedVoxels(const LabelMap& map,
   return missed;
 }
 
-std::int64_t SizeOfLargestLostPart(
-  const LabelMap& map, int object, const std::vector<std::int64_t>& wrong)
+std::vector<std::int64_t> FindLostVoxels(
+  const LabelMap& map, int object, const std::vector<std::int64_t>& wrong, bool isObject)
 {
   const VoxelBox all = VoxelBox::Of(map.Size);
   const auto isWrong = [&](std::int64_t voxel)
   { return std::binary_search(wrong.begin(), wrong.end(), voxel); };
+  const auto isOfSide = [&](int i, int j, int k) { return (map.At(i, j, k) == object) == isObject; };
   const auto isKept = [&](int i, int j, int k)
-  { return map.At(i, j, k) == object && !isWrong(all.NumberOf(i, j, k)); };
+  {
+    return isOfSide(i, j, k) && !(all.Contains({ i, j, k }) && isWrong(all.NumberOf(i, j, k)));
+  };
   const VoxelNumbers numbers(map.Size);
   std::vector<std::int64_t> lost;
   for (const std::int64_t voxel : wrong)
   {
     const auto [i, j, k] = numbers.PlaceOf(voxel);
-    if (map.At(i, j, k) == object && !isKept(i - 1, j, k) && !isKept(i + 1, j, k) &&
+    if (isOfSide(i, j, k) && !isKept(i - 1, j, k) && !isKept(i + 1, j, k) &&
       !isKept(i, j - 1, k) && !isKept(i, j + 1, k) && !isKept(i, j, k - 1) &&
       !isKept(i, j, k + 1))
     {
       lost.push_back(voxel);
     }
   }
+  return lost;
+}
+
+std::int64_t SizeOfLargestLostPart(
+  const LabelMap& map, int object, const std::vector<std::int64_t>& wrong)
+{
+  const std::vector<std::int64_t> lost = FindLostVoxels(map, object, wrong, true);
+  const VoxelNumbers numbers(map.Size);
   DisjointSets parts(lost.size());
   for (std::size_t n = 0; n < lost.size(); ++n)
   {

@@ -15,9 +15,15 @@ namespace volumic
  * The voxels of the map, sorted, whose centres a closed surface about an object has on the wrong
  * side: its own outside, others inside.
  * @param surface in coordinates in which voxel (i, j, k) of the map is at (i, j, k)
+ * @param within  voxels elsewhere are nobody's
  */
-std::vector<std::int64_t> FindWrongVoxels(
-  const LabelBricks& bricks, int object, const IndexedSurface& surface);
+std::vector<std::int64_t> FindWrongVoxels(const LabelBricks& bricks, int object,
+  const IndexedSurface& surface, const VoxelBox& within);
+inline std::vector<std::int64_t> FindWrongVoxels(
+  const LabelBricks& bricks, int object, const IndexedSurface& surface)
+{
+  return FindWrongVoxels(bricks, object, surface, VoxelBox::Of(bricks.Map().Size));
+}
 
 /**
  * Those of the wrong voxels that are further than a tolerance from the surface, in smallest distances
@@ -27,10 +33,16 @@ std::vector<std::int64_t> FindMissedVoxels(const LabelMap& map,
   const std::vector<std::int64_t>& wrong, const IndexedSurface& surface, double tolerance);
 
 /**
- * Voxels of the largest part of an object, joined by faces, that its surface has left out. Those
- * beside a voxel that it has inside don't count: what is cut off along a ridge is no part.
+ * The wrong voxels of a part of an object that its surface has left out, or of a gap that it has
+ * closed. Those beside a voxel of the same side that is right don't count: what is cut off along a
+ * ridge is no part.
  * @param wrong what FindWrongVoxels() has found
+ * @param isObject of the object, else of what is about it
  */
+std::vector<std::int64_t> FindLostVoxels(
+  const LabelMap& map, int object, const std::vector<std::int64_t>& wrong, bool isObject);
+
+/** The number of FindLostVoxels() in the largest part of the object, joined by faces. */
 std::int64_t SizeOfLargestLostPart(
   const LabelMap& map, int object, const std::vector<std::int64_t>& wrong);
 }

@@ -1,0 +1,153 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The volume that surfaces of labels enclose is that of their voxels, however far apart slices are,
+// however thin the label, and whatever the smoothing; by the judge that shares no code with it.
+#include "JudgedLabels.h"
+
+#include <cmath>
+#include <functional>
+#include <ostream>
+#include <string>
+
+using namespace volumic::support;
+
+namespace
+{
+/** What is inside, by world coordinates about the middle. */
+using Inside = std::function<bool(double x, double y, double z)>;
+
+struct VolumeScene
+{
+  std::string Name;
+  std::array<double, 3> Spacing;
+  std::array<double, 3> HalfSize; ///< world units
+  Inside IsInside;
+};
+
+void PrintTo(const VolumeScene& scene, std::ostream* stream)
+{
+  *stream << scene.Name;
+}
+
+LabelMap MapOf(const VolumeScene& scene)
+{
+  constexpr int margin = 4;
+  // The middle is at no voxel and between no two.
+  constexpr std::array<double, 3> off = { 0.13, 0.27, 0.31 };
+  LabelMap map;
+  map.Spacing = scene.Spacing;
+  std::array<int, 3> half;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    half[axis] = static_cast<int>(std::ceil(scene.HalfSize[axis] / scene.Spacing[axis])) + margin;
+    map.Size[axis] = 2 * half[axis] + 1;
+  }
+  for (int k = -half[2]; k <= half[2]; ++k)
+  {
+    for (int j = -half[1]; j <= half[1]; ++j)
+    {
+      for (int i = -half[0]; i <= half[0]; ++i)
+      {
+        const bool isInside = scene.IsInside((i + off[0]) * map.Spacing[0],
+          (j + off[1]) * map.Spacing[1], (k + off[2]) * map.Spacing[2]);
+        map.Values.push_back(isInside ? 1 : 0);
+      }
+    }
+  }
+  return map;
+}
+
+Inside Ball(double radius)
+{
+  return [=](double x, double y, double z) { return std::hypot(x, y, z) < radius; };
+}
+
+Inside Skin(double radius, double thickness)
+{
+  return [=](double x, double y, double z)
+  { return std::abs(std::hypot(x, y, z) - radius + thickness / 2.0) < thickness / 2.0; };
+}
+
+Inside Wall(double radius, double thickness, double halfLength)
+{
+  return [=](double x, double y, double z)
+  {
+    return std::abs(z) < halfLength &&
+      std::abs(std::hypot(x, y) - radius + thickness / 2.0) < thickness / 2.0;
+  };
+}
+
+/** An arc of 6 units' thickness that rises along x. */
+bool IsInRib(double x, double y, double z)
+{
+  return y > 0.0 && std::abs(std::hypot(x, y) - 32.0) < 3.0 && std::abs(z - 0.3 * x) < 5.0;
+}
+
+class LabelVolumes : public testing::TestWithParam<VolumeScene>
+{
+protected:
+  /** Of the default, and of what the test has set. */
+  void ExpectVolume(const std::function<void(vtkLabelsToSurfaces*)>& set)
+  {
+    const LabelMap map = MapOf(this->GetParam());
+    const Filter filter = FilterOf(ToImage(map));
+    set(filter);
+    vtkPolyData* block = BlockOf(filter);
+    const SurfaceVerdict verdict = JudgeSurface(ToTriangleSurface(block), FieldOf(block, "Delta"));
+    EXPECT_EQ(verdict.Intersections.Pairs, 0u);
+    const double voxels = FieldOf(block, "LabelVoxels") * map.Spacing[0] * map.Spacing[1] *
+      map.Spacing[2];
+    const double error = verdict.Topology.Volume / voxels - 1.0;
+    EXPECT_NEAR(error, 0.0, 0.03);
+    EXPECT_NEAR(FieldOf(block, "VolumeError"), error, 1e-3);
+  }
+};
+} // namespace
+
+TEST_P(LabelVolumes, AreThoseOfTheVoxels)
+{
+  this->ExpectVolume([](vtkLabelsToSurfaces*) {});
+}
+
+TEST_P(LabelVolumes, AreSoWithLittleSmoothing)
+{
+  this->ExpectVolume([](vtkLabelsToSurfaces* filter) { filter->SetSmoothing(1.0); });
+}
+
+TEST_P(LabelVolumes, AreSoWithMuchSmoothing)
+{
+  this->ExpectVolume([](vtkLabelsToSurfaces* filter) { filter->SetSmoothing(8.0); });
+}
+
+TEST_P(LabelVolumes, AreSoWithAVoxelTolerance)
+{
+  this->ExpectVolume([](vtkLabelsToSurfaces* filter) { filter->SetVoxelTolerance(0.5); });
+}
+
+TEST_P(LabelVolumes, AreSoWithSharedInterfaces)
+{
+  this->ExpectVolume([](vtkLabelsToSurfaces* filter) { filter->SharedInterfacesOn(); });
+}
+
+TEST_P(LabelVolumes, AreSoWithSharedInterfacesAndAVoxelTolerance)
+{
+  this->ExpectVolume(
+    [](vtkLabelsToSurfaces* filter)
+    {
+      filter->SharedInterfacesOn();
+      filter->SetVoxelTolerance(0.5);
+    });
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, LabelVolumes,
+  testing::Values(VolumeScene{ "Ball1To4", { 1.0, 1.0, 4.0 }, { 12.0, 12.0, 12.0 }, Ball(12.0) },
+    VolumeScene{ "Ball1To8", { 1.0, 1.0, 8.0 }, { 19.0, 19.0, 19.0 }, Ball(19.0) },
+    VolumeScene{ "Ball1To10", { 0.5, 0.5, 5.0 }, { 12.0, 12.0, 12.0 }, Ball(12.0) },
+    VolumeScene{ "BallOfTwoSlices", { 1.0, 1.0, 12.0 }, { 12.0, 12.0, 12.0 }, Ball(12.0) },
+    VolumeScene{ "Ball1To20", { 1.0, 1.0, 20.0 }, { 30.0, 30.0, 30.0 }, Ball(30.0) },
+    VolumeScene{ "Skin", { 1.5, 1.5, 3.0 }, { 25.0, 25.0, 25.0 }, Skin(25.0, 4.0) },
+    VolumeScene{ "SkinOfTwoVoxels", { 1.0, 1.0, 1.0 }, { 14.0, 14.0, 14.0 }, Skin(14.0, 2.0) },
+    VolumeScene{ "WallOfTwoVoxels", { 1.0, 1.0, 1.0 }, { 9.0, 9.0, 12.0 }, Wall(9.0, 2.0, 12.0) },
+    VolumeScene{ "Rib", { 1.5, 1.5, 5.0 }, { 36.0, 36.0, 15.0 }, IsInRib }),
+  [](const testing::TestParamInfo<VolumeScene>& info) { return info.param.Name; });
