@@ -40,16 +40,17 @@ std::vector<int> OwnersOf(const IndexedSurface& surface, const SurfaceFeatures& 
 /**
  * As the settings have it, and the inputs, in the workspace of an image.
  * @param size voxels of level 0 along each axis
- * @throws std::invalid_argument if the settings are out of range, or points to choose by are missing
+ * @throws std::invalid_argument if the settings are out of range, or points to choose by are
+ * missing
  */
 ComponentChoice ChoiceOf(const SegmentationSettings& settings, const SegmentationRequest& request,
   const Workspace& space, const std::array<int, 3>& size);
 
 /**
- * The part of a closed surface that is chosen. A cavity is kept with its owner. A component touches a place if it is the
- * innermost that encloses it, and no cavity, or if a vertex of it or of its cavities is not farther
- * than 2.5 delta. Cost: O(n log n) of triangles and places; where all are kept and the surface is
- * given up, none.
+ * The part of a closed surface that is chosen. A cavity is kept with its owner. A component touches
+ * a place if it is the innermost that encloses it, and no cavity, or if a vertex of it or of its
+ * cavities is not farther than 2.5 delta. Cost: O(n log n) of triangles and places; where all are
+ * kept and the surface is given up, none.
  */
 SurfaceResult KeepChosen(SurfaceResult surface, const ComponentChoice& choice,
   const Workspace& space, Executor& executor = OnThisThread());
