@@ -85,11 +85,15 @@ else ()
   set(volumic_stubs "${volumic_python_build_directory}/volumic/vtkFiltersVolumic.pyi"
     "${volumic_python_build_directory}/volumic/__init__.pyi"
     "${volumic_python_build_directory}/volumic/py.typed")
+  set(volumic_wrapper vtkFiltersVolumicPython)
+  if (TARGET "Py${volumic_wrapper}") # from VTK 9.7 on
+    string(PREPEND volumic_wrapper "Py")
+  endif ()
   set(volumic_stubs_script "${CMAKE_CURRENT_LIST_DIR}/volumic/write_stubs.py")
   add_custom_command(OUTPUT ${volumic_stubs}
     COMMAND ${volumic_stubs_command} "${volumic_stubs_script}"
       "${volumic_python_build_directory}/volumic"
-    DEPENDS "${volumic_stubs_script}" vtkFiltersVolumicPython
+    DEPENDS "${volumic_stubs_script}" "${volumic_wrapper}"
       "${CMAKE_CURRENT_LIST_DIR}/volumic/__init__.py.in"
     COMMENT "Writing the type stubs of the Python package"
     VERBATIM)

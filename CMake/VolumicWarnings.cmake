@@ -30,6 +30,10 @@ function (volumic_add_warnings)
   cmake_parse_arguments(arg "" "" "TARGETS;WARNINGS" ${ARGN})
   foreach (target IN LISTS arg_TARGETS)
     if (TARGET "${target}")
+      get_target_property(module "${target}" ALIASED_TARGET) # of VTK, which names it
+      if (module)
+        set(target "${module}")
+      endif ()
       target_compile_options("${target}" PRIVATE
         "$<$<COMPILE_LANGUAGE:CXX>:${arg_WARNINGS}>")
     endif ()
@@ -40,7 +44,7 @@ volumic_add_warnings(
   TARGETS VolumicCore
   WARNINGS ${volumic_warnings} ${volumic_conversion_warnings})
 volumic_add_warnings(
-  TARGETS FiltersVolumic volumic BuildPyramid ServerManagerVolumic Volumic
+  TARGETS Volumic::FiltersVolumic Volumic::ServerManagerVolumic volumic BuildPyramid Volumic
   WARNINGS ${volumic_vtk_warnings} ${volumic_conversion_warnings})
 volumic_add_warnings(
   TARGETS TestCore VolumicTestSupport

@@ -68,6 +68,7 @@
  * - `LostParts`, `RecoveredParts`, `LostCavities`, `RecoveredCavities` (int): see Recovery
  * - `MissingParts` (int), `MissingBoundary` (double, 0 to 1): what Recovery found and is not there
  * - `ComponentArea`, `ComponentVolume` (double), `ComponentGenus` (int): an entry per component
+ * - `ComponentOwner` (int): the component itself; of a cavity the one that it is in, -1: none
  * - `ComponentCentroid` (3), `ComponentInertia` (6, double): of the solid that a component encloses
  * - `Iteration` (int): of a snapshot, in the place of `StopReason`: the history's last row by then
  *

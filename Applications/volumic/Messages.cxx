@@ -46,7 +46,7 @@ void KeepError(const std::string& text, std::vector<std::string>& errors)
   const bool isEcho = text.find("returned failure for request") != std::string::npos;
   if (!isEcho || errors.empty())
   {
-    errors.push_back(isEcho ? "it failed" : text);
+    errors.push_back(isEcho ? VtkMessages::Untold : text);
   }
 }
 

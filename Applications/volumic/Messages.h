@@ -24,6 +24,9 @@ public:
   VtkMessages(const VtkMessages&) = delete;
   VtkMessages& operator=(const VtkMessages&) = delete;
 
+  /** An error of an algorithm that does not say why. */
+  static constexpr const char* Untold = "it failed";
+
   std::vector<std::string> Errors;
   std::vector<std::string> Warnings;
 

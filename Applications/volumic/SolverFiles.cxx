@@ -62,7 +62,9 @@ public:
 
   /** The number of a label: as it is, or one that no label has where that is not positive. */
   int NumberOf(int label) const { return this->Numbers[static_cast<std::size_t>(label)]; }
-  std::string NameOf(int label) const;
+  /** No two things have the same, nor that of the outside, whatever labels are called. */
+  const std::string& NameOf(int label) const { return this->Names.at(label); }
+  const std::string& NameOf(const Pair& labels) const { return this->PairNames.at(labels); }
   int MarkOf(const SolidRegions::Triangle& triangle) const
   {
     return this->Marks.at(this->LabelsBeside({ triangle.Behind, triangle.InFront }));
@@ -75,7 +77,11 @@ public:
   std::map<Pair, int> Marks; ///< of pairs of labels
 
 private:
+  void MakeNames();
+
   std::vector<int> Numbers;
+  std::map<int, std::string> Names;
+  std::map<Pair, std::string> PairNames;
 };
 
 SolverModel::SolverModel(vtkPolyData* surface)
@@ -99,6 +105,7 @@ SolverModel::SolverModel(vtkPolyData* surface)
   {
     entry.second = ++mark;
   }
+  this->MakeNames();
 }
 
 Pair SolverModel::LabelsBeside(const Pair& regions) const
@@ -108,16 +115,29 @@ Pair SolverModel::LabelsBeside(const Pair& regions) const
   return { label(regions.first), label(regions.second) };
 }
 
-std::string SolverModel::NameOf(int label) const
+void SolverModel::MakeNames()
 {
-  return label < 0 ? "outside"
-                   : PlainWord(this->Solids.Labels[static_cast<std::size_t>(label)].Name);
-}
-
-/** Of the triangles between two labels. */
-std::string NameOf(const SolverModel& model, const Pair& labels)
-{
-  return model.NameOf(labels.first) + "_to_" + model.NameOf(labels.second);
+  std::set<std::string> taken;
+  const auto take = [&](const std::string& name)
+  {
+    std::string free = name;
+    for (int more = 2; !taken.insert(free).second; ++more)
+    {
+      free = name + " " + std::to_string(more);
+    }
+    return free;
+  };
+  int number = 0;
+  for (const SurfaceLabel& label : this->Solids.Labels)
+  {
+    this->Names[number++] = take(PlainWord(label.Name));
+  }
+  this->Names[-1] = take("outside");
+  for (const auto& entry : this->Marks)
+  {
+    const auto& [behind, inFront] = entry.first;
+    this->PairNames[entry.first] = take(this->Names[behind] + "_to_" + this->Names[inFront]);
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -178,7 +198,7 @@ void WriteNames(std::ostream& out, const SolverModel& model, const std::set<int>
   out << "$PhysicalNames\n" << model.Marks.size() + labels.size() << "\n";
   for (const auto& [pair, mark] : model.Marks)
   {
-    out << "2 " << mark << " \"" << NameOf(model, pair) << "\"\n";
+    out << "2 " << mark << " \"" << model.NameOf(pair) << "\"\n";
   }
   for (const int label : labels)
   {
@@ -317,7 +337,7 @@ void WriteTetgen(const SurfaceFile& to, bool isPoly)
   }
   for (const auto& [pair, mark] : model.Marks)
   {
-    out << "# facets " << mark << ": " << NameOf(model, pair) << "\n";
+    out << "# facets " << mark << ": " << model.NameOf(pair) << "\n";
   }
   out << model.Points->GetNumberOfPoints() << " 3 0 0\n";
   for (vtkIdType point = 0; point < model.Points->GetNumberOfPoints(); ++point)

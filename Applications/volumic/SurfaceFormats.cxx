@@ -187,11 +187,6 @@ void WriteScene(const SurfaceFile& file)
   WriteGlb({ { name, file.Surface } }, file.Path, file.Line);
 }
 
-void CheckXmlFile(const SurfaceFile& file)
-{
-  CheckXml(file.Path);
-}
-
 void CheckObjFile(const SurfaceFile& file)
 {
   const bool hasNormals = file.Surface->GetPointData()->GetNormals() != nullptr;
@@ -211,8 +206,8 @@ const SurfaceFormat* FindSurfaceFormat(const std::string& name)
 {
   using File = const SurfaceFile&;
   static const std::map<std::string, SurfaceFormat> formats = {
-    { ".vtp", { [](File file) { WriteVtp(file.Surface, file.Path, file.Line); }, CheckXmlFile } },
-    { ".pvtp", { WritePieces, CheckXmlFile } },
+    { ".vtp", { [](File file) { WriteVtp(file.Surface, file.Path, file.Line); }, nullptr } },
+    { ".pvtp", { WritePieces, nullptr } },
     { ".vtk", { [](File file) { WriteLegacy(file.Surface, file.Path, file.Line); }, nullptr } },
     { ".stl", { WriteStl, nullptr } },
     { ".ply", { WritePly, nullptr } },

@@ -7,6 +7,7 @@
 
 #include <string>
 
+class vtkMultiBlockDataSet;
 class vtkPolyData;
 
 namespace tool
@@ -42,7 +43,13 @@ const SurfaceFormat* FindSurfaceFormat(const std::string& name);
  */
 void WritePieces(const SurfaceFile& file);
 
-// The parts of that, for surfaces of which each rank has some triangles, and GlobalIds of its own.
+/**
+ * Write surfaces as .vtm, which names their files, STEM/STEM_0.vtp, ... beside it. Those that are
+ * null have none.
+ */
+void WriteVtm(vtkMultiBlockDataSet* blocks, const std::string& path, ProgressLine& line);
+
+// The parts of .pvtp, for surfaces of which each rank has some triangles, and GlobalIds of its own.
 
 /** How many pieces there will be. */
 int NumberOfPieces(vtkPolyData* surface, int size);

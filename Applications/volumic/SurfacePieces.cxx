@@ -11,6 +11,8 @@
 #include <vtkFieldData.h>
 #include <vtkIdList.h>
 #include <vtkIdTypeArray.h>
+#include <vtkInformation.h>
+#include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -202,7 +204,6 @@ std::string WritePieceFiles(const SurfaceFile& file, int first)
     const std::string place = (folder / PieceName(folder.filename().string(), first)).string();
     ProgressLine noLine("", ProgressStyle::None);
     WriteVtp(piece, place, noLine);
-    CheckXml(place);
     arrays = DescribeArrays(piece);
   }
   return arrays;
@@ -228,5 +229,35 @@ void WritePieces(const SurfaceFile& file)
   const std::string arrays = WritePieceFiles(file, 0);
   WritePieceList(file.Path, arrays.empty() ? DescribeArrays(file.Surface) : arrays,
     NumberOfPieces(file.Surface, file.PieceSize));
+}
+
+void WriteVtm(vtkMultiBlockDataSet* blocks, const std::string& path, ProgressLine& line)
+{
+  const fs::path folder = FolderOf(path);
+  const std::string stem = folder.filename().string();
+  const unsigned int count = blocks->GetNumberOfBlocks();
+  fs::create_directory(folder);
+  std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"vtkMultiBlockDataSet\" "
+                     "version=\"1.0\">\n  <vtkMultiBlockDataSet>\n";
+  for (unsigned int i = 0; i < count; ++i)
+  {
+    line.Show(static_cast<double>(i) / count, "");
+    const bool hasName =
+      blocks->HasMetaData(i) != 0 && blocks->GetMetaData(i)->Has(vtkCompositeDataSet::NAME()) != 0;
+    text += "    <DataSet index=\"" + std::to_string(i) + "\"";
+    text += hasName
+      ? " name=\"" + Escaped(blocks->GetMetaData(i)->Get(vtkCompositeDataSet::NAME())) + "\""
+      : "";
+    if (auto* surface = vtkPolyData::SafeDownCast(blocks->GetBlock(i)))
+    {
+      const std::string file = PieceName(stem, static_cast<int>(i));
+      ProgressLine noLine("", ProgressStyle::None);
+      WriteVtp(surface, (folder / file).string(), noLine);
+      text += " file=\"" + Escaped(stem + "/" + file) + "\"";
+    }
+    text += "/>\n";
+  }
+  text += "  </vtkMultiBlockDataSet>\n</VTKFile>\n";
+  WriteBytes(path, text.data(), text.size());
 }
 }

@@ -58,7 +58,8 @@ int FindName(const std::vector<std::string>& names, const std::string& name)
     OPTION, "", CLASS, #PROPERTY, HELP,                                                           \
       [](const FilterTrio& filters)                                                               \
     { return std::string(filters.FILTER->Get##PROPERTY() ? "on" : "off"); },                      \
-      [](const FilterTrio& filters, const std::string&) { filters.FILTER->Set##PROPERTY(VALUE); } \
+      [](const FilterTrio& filters, const std::string&) { filters.FILTER->Set##PROPERTY(VALUE); }, \
+      VALUE                                                                                       \
   }
 #define SURFACE_SWITCH(PROPERTY, VALUE, OPTION, HELP) \
   VOLUMIC_SWITCH(Surface, "vtkDeformableSurface", PROPERTY, VALUE, OPTION, HELP)
@@ -80,17 +81,6 @@ PropertyOption Menu(const char* property, const char* option, const char* help,
     #PROPERTY, OPTION, HELP, { __VA_ARGS__ },                               \
     [](vtkDeformableSurface* surface) { return surface->Get##PROPERTY(); }, \
     [](vtkDeformableSurface* surface, int value) { surface->Set##PROPERTY(value); })
-
-/** What ParaView's panel calls its property. */
-std::string LabelOf(const PropertyOption& option)
-{
-  std::string label;
-  for (const char c : option.Property)
-  {
-    label += (c >= 'A' && c <= 'Z' && !label.empty() ? " " : "") + std::string(1, c);
-  }
-  return label;
-}
 
 std::vector<PropertyOption> MakeProperties()
 {
@@ -226,32 +216,6 @@ const std::vector<PropertyOption>& SurfaceProperties()
 {
   static const std::vector<PropertyOption> properties = MakeProperties();
   return properties;
-}
-
-std::string InWordsOfOptions(const std::string& message)
-{
-  std::string told;
-  for (std::size_t at = 0; at < message.size();)
-  {
-    std::string longest;
-    const PropertyOption* named = nullptr;
-    for (const PropertyOption& option : SurfaceProperties())
-    {
-      const std::string label = LabelOf(option);
-      if (label.size() > longest.size() && message.compare(at, label.size(), label) == 0)
-      {
-        longest = label;
-        named = &option;
-      }
-    }
-    // A single word may be meant as one; what a switch is called may be the contrary.
-    const bool isPlain =
-      named && longest.find(' ') != std::string::npos && !named->Argument.empty();
-    const std::size_t length = std::max<std::size_t>(longest.size(), 1);
-    told += isPlain ? "--" + named->Option : message.substr(at, length);
-    at += length;
-  }
-  return told;
 }
 
 bool IsOfLabelsOnly(const PropertyOption& option)

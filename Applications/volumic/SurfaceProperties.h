@@ -33,14 +33,16 @@ struct PropertyOption
   std::function<std::string(const FilterTrio&)> Get;
   /** @throws UsageError if the text (empty for an option without argument) is no value for it. */
   std::function<void(const FilterTrio&, const std::string& text)> Set;
+  bool Given = true; ///< what an option without argument makes of the property
 };
 
 /** All of them, in the order of the help. A test holds the list to the filters' Set methods. */
 const std::vector<PropertyOption>& SurfaceProperties();
 
 /**
- * A message of a filter, which names properties as ParaView's panel does, with the options in their
- * place that are given the same value: "Finest Level" becomes "--finest".
+ * A message of a filter, which names properties and inputs as ParaView's panel does, with the
+ * options in their place: "Finest Level" becomes "--finest", and "Object Is Bright was on and is
+ * off" that --dark "was not given and is".
  */
 std::string InWordsOfOptions(const std::string& message);
 

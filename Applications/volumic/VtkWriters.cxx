@@ -39,7 +39,8 @@ void RunWriter(vtkAlgorithm* writer, const std::function<void()>& write, Progres
   if (!messages.Errors.empty() || writer->GetErrorCode() != 0)
   {
     const std::string reason = messages.JoinedErrors();
-    throw Failure("cannot be written (" + (reason.empty() ? "is the disk full?" : reason) + ")");
+    const bool isTold = !reason.empty() && reason != VtkMessages::Untold;
+    throw Failure("cannot be written (" + (isTold ? reason : "is the disk full?") + ")");
   }
 }
 
@@ -80,29 +81,6 @@ void CheckLines(const std::string& path, std::uint64_t lines)
   }
 }
 
-void CheckXml(const std::string& path)
-{
-  if (fs::is_directory(path))
-  {
-    for (const auto& entry : fs::directory_iterator(path))
-    {
-      CheckXml(entry.path().string());
-    }
-    return;
-  }
-  const std::string end = "</VTKFile>";
-  const std::uint64_t size = SizeOf(path);
-  const std::uint64_t tail = std::min<std::uint64_t>(size, end.size() + 2);
-  std::string found(tail, ' ');
-  std::ifstream file(path, std::ios::binary);
-  file.seekg(static_cast<std::streamoff>(size - tail));
-  file.read(found.data(), static_cast<std::streamsize>(tail));
-  if (found.find(end) == std::string::npos)
-  {
-    Refuse("only " + std::to_string(size) + " bytes of it were");
-  }
-}
-
 // ---- VTK's own formats --------------------------------------------------------------------------
 
 namespace
@@ -115,6 +93,10 @@ Object* NewObject()
   return object;
 }
 
+/**
+ * A surface that knows that its cells are triangles: VTK's writers make a table of the types of the
+ * cells of others, eight bytes each.
+ */
 class TriangleData : public vtkPolyData
 {
 public:
@@ -182,20 +164,14 @@ void WriteInline(
 }
 }
 
-vtkSmartPointer<vtkPolyData> AsTriangles(vtkPolyData* surface)
-{
-  auto triangles = vtkSmartPointer<TriangleData>::New();
-  triangles->ShallowCopy(surface);
-  return triangles;
-}
-
 void WriteVtp(vtkPolyData* surface, const std::string& path, ProgressLine& line)
 {
   vtkNew<XmlStreamWriter<vtkXMLPolyDataWriter>> writer;
   vtkSmartPointer<vtkPolyData> written = surface;
   if (surface->GetNumberOfLines() == 0)
   {
-    written = AsTriangles(surface);
+    written = vtkSmartPointer<TriangleData>::New();
+    written->ShallowCopy(surface);
   }
   writer->SetCompressorTypeToLZ4(); // nine times as fast as zlib, at 1.6 times the size
   WriteInline(writer.Get(), written, path, line);

@@ -42,9 +42,6 @@ void RunWriter(Writer* writer, ProgressLine& line)
 /** The file ends with a complete line, and has no fewer than this many. */
 void CheckLines(const std::string& path, std::uint64_t lines);
 
-/** The file, or each one of a folder, ends as VTK's XML files do. */
-void CheckXml(const std::string& path);
-
 // ---- VTK's own formats --------------------------------------------------------------------------
 
 // The writers of VTK's own formats, with a full disk told (see FileBuffer) and no memory but some
@@ -58,12 +55,6 @@ void WriteLegacy(vtkPolyData* surface, const std::string& path, ProgressLine& li
 
 /** The volume as .vti. */
 void WriteVti(vtkImageData* volume, const std::string& path, ProgressLine& line);
-
-/**
- * The surface again, its arrays shared, which knows that its cells are triangles: VTK's writers make
- * a table of the types of the cells of others, eight bytes each.
- */
-vtkSmartPointer<vtkPolyData> AsTriangles(vtkPolyData* surface);
 
 /**
  * A new file for the stream of a writer of VTK. On a full disk such writers end the program, or

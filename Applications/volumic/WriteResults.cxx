@@ -14,7 +14,6 @@
 #include <vtkNew.h>
 #include <vtkPolyData.h>
 #include <vtkTable.h>
-#include <vtkXMLMultiBlockDataWriter.h>
 
 #include <cstdint>
 #include <exception>
@@ -122,11 +121,7 @@ void CheckVolumeName(const std::string& name)
 void WriteVolume(vtkImageData* volume, const std::string& name, ProgressStyle style)
 {
   WriteBeside(name, style,
-    [&](const std::string& path, ProgressLine& line)
-    {
-      WriteVti(volume, path, line);
-      CheckXml(path);
-    });
+    [&](const std::string& path, ProgressLine& line) { WriteVti(volume, path, line); });
 }
 
 void WriteScene(
@@ -138,25 +133,8 @@ void WriteScene(
 
 void WriteBlocks(vtkMultiBlockDataSet* blocks, const std::string& name, ProgressStyle style)
 {
-  vtkNew<vtkMultiBlockDataSet> triangles;
-  triangles->ShallowCopy(blocks);
-  for (unsigned int i = 0; i < blocks->GetNumberOfBlocks(); ++i)
-  {
-    if (auto* surface = vtkPolyData::SafeDownCast(blocks->GetBlock(i)))
-    {
-      triangles->SetBlock(i, AsTriangles(surface));
-    }
-  }
   WriteBeside(name, style,
-    [&](const std::string& path, ProgressLine& line)
-    {
-      vtkNew<vtkXMLMultiBlockDataWriter> writer;
-      writer->SetInputData(triangles);
-      writer->SetFileName(path.c_str());
-      RunWriter(writer.Get(), line);
-      CheckXml(path);
-      CheckXml(fs::path(path).replace_extension().string());
-    });
+    [&](const std::string& path, ProgressLine& line) { WriteVtm(blocks, path, line); });
 }
 
 void WriteFolder(vtkMultiBlockDataSet* blocks, const std::string& name, const std::string& prefix,
@@ -177,7 +155,6 @@ void WriteFolder(vtkMultiBlockDataSet* blocks, const std::string& name, const st
         const std::string path = files.Folder() + "/" + file;
         ProgressLine line(TitleOf(file), style);
         WriteVtp(surface, path, line);
-        CheckXml(path);
       }
     }
     files.Publish();

@@ -24,6 +24,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <exception>
+#include <filesystem>
 #include <iostream>
 #include <new>
 
@@ -103,6 +104,10 @@ int RunAndTell(int argc, char* argv[], Ranks& ranks)
   catch (const std::bad_alloc&)
   {
     words = "not enough memory";
+  }
+  catch (const std::filesystem::filesystem_error& error)
+  {
+    words = PlainName(error.path1().string()) + ": " + error.code().message();
   }
   catch (const std::exception& error)
   {

@@ -71,13 +71,14 @@ def sections_of(path):
     return sections
 
 
-def blocks_of(lines):
-    """(dimension, entity, third number of its head, lines) of each, for those that follow a head."""
+def blocks_of(lines, each):
+    """(dimension, entity, third number of its head, how many things of so many lines each, the first
+    line of these) of each block."""
     at, count = 1, int(lines[0].split()[0])
     for _ in range(count):
         dimension, entity, third, number = map(int, lines[at].split())
         yield dimension, entity, third, number, at + 1
-        at += 1 + number * (2 if len(lines[at + 1].split()) == 1 else 1)
+        at += 1 + number * each
 
 
 def read_msh(path):
@@ -96,14 +97,14 @@ def read_msh(path):
         label_of[int(words[0])] = int(words[8]) if int(words[7]) > 0 else 0
     lines = sections["Nodes"]
     numbers, points = [], []
-    for _, _, _, count, at in blocks_of(lines):
+    for _, _, _, count, at in blocks_of(lines, 2):
         numbers += [int(line) for line in lines[at:at + count]]
         points += [line.split()[:3] for line in lines[at + count:at + 2 * count]]
     index = np.zeros(max(numbers) + 1, int)
     index[numbers] = np.arange(len(numbers))
     lines = sections["Elements"]
     corners, labels = [], []
-    for dimension, entity, kind, count, at in blocks_of(lines):
+    for dimension, entity, kind, count, at in blocks_of(lines, 1):
         if (dimension, kind) == (3, 4):
             corners += [line.split()[1:] for line in lines[at:at + count]]
             labels += [label_of[entity]] * count

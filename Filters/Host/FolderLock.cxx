@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Host/FolderLock.h"
 
-#include "Core/Common/CheckedFile.h"
 #include "Core/Common/Join.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <filesystem>
@@ -57,8 +57,41 @@ void MakeFolder(const std::string& folder)
   if (lstat(folder.c_str(), &facts) != 0 || !S_ISDIR(facts.st_mode) ||
     facts.st_uid != geteuid())
   {
-    throw FileError(Join(folder, " is no folder of yours"));
+    throw ForeignFolder(Join(folder, " is no folder of yours"));
   }
+}
+
+/** -1 where it has been removed since. */
+int OpenLock(const std::string& folder)
+{
+  const std::string name = LockFileIn(folder);
+  const int options = O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC;
+  int file = open(name.c_str(), options);
+  if (file < 0 && errno == ENOENT)
+  {
+    const std::vector<std::string> names = NamesIn(folder);
+    if (!names.empty() && std::find(names.begin(), names.end(), LockName) == names.end())
+    {
+      throw ForeignFolder(Join(folder, " holds what Volumic has not made (", names.front(), ")"));
+    }
+    file = open(name.c_str(), options | O_CREAT, 0600);
+  }
+  if (file < 0 && errno == ENOENT)
+  {
+    return -1;
+  }
+  struct stat facts
+  {
+  };
+  if (file < 0 || fstat(file, &facts) != 0 || !S_ISREG(facts.st_mode) || facts.st_size != 0 ||
+    facts.st_uid != geteuid())
+  {
+    const std::string reason =
+      file < 0 ? Join(" cannot be made (", ReasonOf(errno), ")") : " is no file of Volumic";
+    close(file);
+    throw ForeignFolder(name + reason);
+  }
+  return file;
 }
 
 /** Whether the name still leads to the file: who had it before may have removed it. */
@@ -106,15 +139,10 @@ std::unique_ptr<FolderLock> FolderLock::Take(const std::string& folder)
   while (true)
   {
     MakeFolder(folder);
-    const std::string name = LockFileIn(folder);
-    const int file = open(name.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0600);
-    if (file < 0 && errno == ENOENT)
-    {
-      continue; // Removed since.
-    }
+    const int file = OpenLock(folder);
     if (file < 0)
     {
-      throw FileError(Join(name, " cannot be made (", ReasonOf(errno), ")"));
+      continue;
     }
     std::unique_ptr<FolderLock> lock(new FolderLock(folder, file));
     for (int left = Tries; IsLockedByAnother(file); --left)
@@ -125,7 +153,7 @@ std::unique_ptr<FolderLock> FolderLock::Take(const std::string& folder)
       }
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
-    if (IsThere(name, file))
+    if (IsThere(LockFileIn(folder), file))
     {
       return lock;
     }
@@ -134,7 +162,7 @@ std::unique_ptr<FolderLock> FolderLock::Take(const std::string& folder)
 
 bool FolderLock::IsHeld(const std::string& folder)
 {
-  const int file = open(LockFileIn(folder).c_str(), O_RDWR | O_NOFOLLOW | O_CLOEXEC);
+  const int file = open(LockFileIn(folder).c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
   if (file < 0)
   {
     return errno != ENOENT;
@@ -173,14 +201,19 @@ void FolderLock::RemoveFolder()
 {
   // The lock goes last: who takes it from then on finds the folder empty, or makes a new one.
   std::error_code ignored;
-  for (const fs::directory_entry& entry : fs::directory_iterator(this->Folder, ignored))
-  {
-    if (entry.path().filename() != LockName)
-    {
-      fs::remove_all(entry.path(), ignored);
-    }
-  }
   fs::remove(fs::path(this->Folder) / LockName, ignored);
   fs::remove(this->Folder, ignored);
+}
+
+std::vector<std::string> NamesIn(const std::string& directory)
+{
+  std::vector<std::string> names;
+  std::error_code failed;
+  fs::directory_iterator entry(directory, failed);
+  for (; !failed && entry != fs::directory_iterator(); entry.increment(failed))
+  {
+    names.push_back(entry->path().filename().string());
+  }
+  return names;
 }
 }

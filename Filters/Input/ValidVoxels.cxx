@@ -246,6 +246,6 @@ std::string DescribeNaNs(vtkDataArray* original, vtkImageData* image, const Vali
     share < 0.1 ? std::string() : Join(" (", std::round(share * 10.0) / 10.0, " %)");
   return Join(NameOf(original), " has ",
     Describe("NaN", valid.NaNs, percent, valid.FirstNaN, image),
-    ". They count as background; turn NaN Is Background off to refuse them.");
+    ". They count as background; switch NaN Is Background off to refuse them.");
 }
 }

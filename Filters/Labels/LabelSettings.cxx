@@ -50,13 +50,13 @@ void LabelSettings::Check(double unit) const
   if (this->SharedInterfaces && this->Gap > 0.0)
   {
     Refuse("Shared Interfaces are asked for and a Gap of ", this->Gap,
-      ": neighbours have the same triangles, or space between them. Set Gap to 0, or Shared "
-      "Interfaces off (files for meshers of solids, .msh, .smesh and .poly, need them).");
+      ": neighbours have the same triangles, or space between them. Set Gap to 0, or switch "
+      "Shared Interfaces off (files for meshers of solids, .msh, .smesh and .poly, need them).");
   }
   if (this->SharedInterfaces && this->Grading.ThinParts)
   {
     Refuse("Thin Parts are asked for and Shared Interfaces, which have no smaller triangles where "
-      "labels are thin. Set Thin Parts off, or Shared Interfaces off (files for meshers of solids, "
+      "labels are thin. Switch Thin Parts off, or Shared Interfaces (files for meshers of solids, "
       ".msh, .smesh and .poly, need them); a shorter Edge Length makes all triangles smaller.");
   }
   CheckNumber("Edge Length", this->EdgeLength);

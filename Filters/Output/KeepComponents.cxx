@@ -89,7 +89,7 @@ bool Pierces(const Point& p, const Point& a, const Point& b, const Point& c)
  * not count.
  */
 std::vector<int> InnermostAbout(const std::vector<Point>& places, const std::vector<int>& own,
-  const SurfaceResult& surface, const SurfaceFeatures& features, Executor& executor)
+  const IndexedSurface& surface, const SurfaceFeatures& features, Executor& executor)
 {
   const SortedPlaces sorted(places);
   const std::size_t n = surface.Triangles.size();
@@ -145,13 +145,62 @@ std::vector<int> InnermostAbout(const std::vector<Point>& places, const std::vec
   return innermost;
 }
 
-/** The component that each belongs to: itself, or, for a cavity, the one about it (-1: none). */
-std::vector<int> HostsOf(
-  const SurfaceResult& surface, const SurfaceFeatures& features, Executor& executor)
+void MarkTouching(const SurfaceResult& surface, const SurfaceFeatures& features,
+  const std::vector<Point>& places, const std::vector<int>& owners, std::vector<bool>& isKept,
+  Executor& executor)
+{
+  for (const int component : InnermostAbout(places, {}, surface, features, executor))
+  {
+    if (component >= 0 && features.Components[component].Volume > 0)
+    {
+      isKept[component] = true;
+    }
+  }
+  const SortedPlaces sorted(places);
+  const double reach = SizingField::LongestEdgeInDelta * surface.Delta;
+  const std::size_t n = surface.Triangles.size();
+  std::vector<std::vector<int>> touching((n + SpanSize - 1) / SpanSize);
+  ForSpans(executor, n, SpanSize,
+    [&](std::size_t span, std::size_t begin, std::size_t end)
+    {
+      for (std::size_t t = begin; t < end; ++t)
+      {
+        const int owner = owners[features.ComponentOfTriangle[t]];
+        for (const int corner : surface.Triangles[t])
+        {
+          const Point& p = surface.Points[corner];
+          sorted.Visit(p[1] - reach, p[1] + reach,
+            [&](std::size_t i)
+            {
+              const double x = p[0] - places[i][0];
+              const double y = p[1] - places[i][1];
+              const double z = p[2] - places[i][2];
+              if (owner >= 0 && x * x + y * y + z * z <= reach * reach)
+              {
+                touching[span].push_back(owner);
+              }
+            });
+        }
+      }
+    });
+  for (const int owner : Joined(executor, touching))
+  {
+    isKept[owner] = true;
+  }
+}
+}
+
+std::vector<int> OwnersOf(
+  const IndexedSurface& surface, const SurfaceFeatures& features, Executor& executor)
 {
   const int n = static_cast<int>(features.Components.size());
-  std::vector<int> hosts(static_cast<std::size_t>(n));
-  std::iota(hosts.begin(), hosts.end(), 0);
+  std::vector<int> owners(static_cast<std::size_t>(n));
+  std::iota(owners.begin(), owners.end(), 0);
+  if (std::none_of(features.Components.begin(), features.Components.end(),
+        [](const ComponentFeatures& component) { return component.Volume < 0; }))
+  {
+    return owners;
+  }
   struct Cavity
   {
     int Component;
@@ -179,54 +228,9 @@ std::vector<int> HostsOf(
   for (std::size_t i = 0; i < cavities.size(); ++i)
   {
     const bool isSolid = about[i] >= 0 && features.Components[about[i]].Volume > 0;
-    hosts[cavities[i]] = isSolid ? about[i] : -1;
+    owners[cavities[i]] = isSolid ? about[i] : -1;
   }
-  return hosts;
-}
-
-void MarkTouching(const SurfaceResult& surface, const SurfaceFeatures& features,
-  const std::vector<Point>& places, const std::vector<int>& hosts, std::vector<bool>& isKept,
-  Executor& executor)
-{
-  for (const int component : InnermostAbout(places, {}, surface, features, executor))
-  {
-    if (component >= 0 && features.Components[component].Volume > 0)
-    {
-      isKept[component] = true;
-    }
-  }
-  const SortedPlaces sorted(places);
-  const double reach = SizingField::LongestEdgeInDelta * surface.Delta;
-  const std::size_t n = surface.Triangles.size();
-  std::vector<std::vector<int>> touching((n + SpanSize - 1) / SpanSize);
-  ForSpans(executor, n, SpanSize,
-    [&](std::size_t span, std::size_t begin, std::size_t end)
-    {
-      for (std::size_t t = begin; t < end; ++t)
-      {
-        const int host = hosts[features.ComponentOfTriangle[t]];
-        for (const int corner : surface.Triangles[t])
-        {
-          const Point& p = surface.Points[corner];
-          sorted.Visit(p[1] - reach, p[1] + reach,
-            [&](std::size_t i)
-            {
-              const double x = p[0] - places[i][0];
-              const double y = p[1] - places[i][1];
-              const double z = p[2] - places[i][2];
-              if (host >= 0 && x * x + y * y + z * z <= reach * reach)
-              {
-                touching[span].push_back(host);
-              }
-            });
-        }
-      }
-    });
-  for (const int host : Joined(executor, touching))
-  {
-    isKept[host] = true;
-  }
-}
+  return owners;
 }
 
 ComponentChoice ChoiceOf(const SegmentationSettings& settings, const SegmentationRequest& request,
@@ -280,7 +284,7 @@ SurfaceResult KeepChosen(SurfaceResult surface, const ComponentChoice& choice,
   const SurfaceFeatures features =
     ComputeFeatures(ToWorld(surface, space, executor), executor);
   const std::size_t n = features.Components.size();
-  const std::vector<int> hosts = HostsOf(surface, features, executor);
+  const std::vector<int> owners = OwnersOf(surface, features, executor);
   std::vector<bool> isKept(n, false);
   bool hasLargest = false;
   for (std::size_t c = 0; c < n; ++c)
@@ -296,7 +300,7 @@ SurfaceResult KeepChosen(SurfaceResult surface, const ComponentChoice& choice,
   const bool dropsMarked = choice.Mode == KeepComponentsType::ComponentsNotAtSeeds;
   if (dropsMarked || choice.Mode == KeepComponentsType::ComponentsAtPoints)
   {
-    MarkTouching(surface, features, choice.Places, hosts, isKept, executor);
+    MarkTouching(surface, features, choice.Places, owners, isKept, executor);
   }
   if (dropsMarked)
   {
@@ -304,7 +308,7 @@ SurfaceResult KeepChosen(SurfaceResult surface, const ComponentChoice& choice,
   }
   for (std::size_t c = 0; c < n; ++c)
   {
-    isKept[c] = hosts[c] >= 0 && isKept[hosts[c]];
+    isKept[c] = owners[c] >= 0 && isKept[owners[c]];
   }
   return PartOf(surface, features, isKept);
 }

@@ -4,7 +4,9 @@
 #define volumicKeepComponents_h
 
 #include "Core/Common/Executor.h"
+#include "Core/Common/IndexedSurface.h"
 #include "Core/Evolution/SurfaceEvolution.h"
+#include "Core/Mesh/SurfaceFeatures.h"
 #include "Input/Workspace.h"
 #include "Settings/SegmentationRequest.h"
 #include "Settings/SegmentationSettings.h"
@@ -29,19 +31,26 @@ struct ComponentChoice
 };
 
 /**
+ * The component that each one belongs to: itself or, for a cavity (negative volume), the solid one
+ * that encloses it most closely; -1: none does. Where there are no cavities, at no cost.
+ */
+std::vector<int> OwnersOf(const IndexedSurface& surface, const SurfaceFeatures& features,
+  Executor& executor = OnThisThread());
+
+/**
  * As the settings have it, and the inputs, in the workspace of an image.
  * @param size voxels of level 0 along each axis
- * @throws std::invalid_argument if the settings are out of range, or points to choose by are missing
+ * @throws std::invalid_argument if the settings are out of range, or points to choose by are
+ * missing
  */
 ComponentChoice ChoiceOf(const SegmentationSettings& settings, const SegmentationRequest& request,
   const Workspace& space, const std::array<int, 3>& size);
 
 /**
- * The part of a closed surface that is chosen. A cavity (negative volume) belongs to the component
- * that encloses it most closely, and is kept with it. A component touches a place if it is the
- * innermost that encloses it, and no cavity, or if a vertex of it or of its cavities is not farther
- * than 2.5 delta. Cost: O(n log n) of triangles and places; where all are kept and the surface is
- * given up, none.
+ * The part of a closed surface that is chosen. A cavity is kept with its owner. A component touches
+ * a place if it is the innermost that encloses it, and no cavity, or if a vertex of it or of its
+ * cavities is not farther than 2.5 delta. Cost: O(n log n) of triangles and places; where all are
+ * kept and the surface is given up, none.
  */
 SurfaceResult KeepChosen(SurfaceResult surface, const ComponentChoice& choice,
   const Workspace& space, Executor& executor = OnThisThread());

@@ -5,6 +5,7 @@
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "Core/Surface/SizingField.h"
 #include "Host/LargeArray.h"
+#include "Output/KeepComponents.h"
 #include "Output/SurfaceTransform.h"
 
 #include <vtkCellArray.h>
@@ -252,7 +253,8 @@ void TakePointArrays(
   addLengths("Thickness", surface.Thickness, space.WorldUnit());
 }
 
-void SetFeatures(vtkPolyData* polyData, const SurfaceFeatures& features, Executor& executor)
+void SetFeatures(vtkPolyData* polyData, const SurfaceFeatures& features,
+  const std::vector<int>& owners, Executor& executor)
 {
   using Component = ComponentFeatures;
   AddComponentOfCells<vtkIntArray>(
@@ -276,6 +278,13 @@ void SetFeatures(vtkPolyData* polyData, const SurfaceFeatures& features, Executo
     polyData, "ComponentVolume", features, [](const Component& c, int) { return c.Volume; });
   AddComponentField<vtkIntArray, 1>(
     polyData, "ComponentGenus", features, [](const Component& c, int) { return c.Genus; });
+  vtkNew<vtkIntArray> owner;
+  owner->SetName("ComponentOwner");
+  for (const int component : owners)
+  {
+    owner->InsertNextValue(component);
+  }
+  polyData->GetFieldData()->AddArray(owner);
   AddComponentField<vtkDoubleArray, 3>(polyData, "ComponentCentroid", features,
     [](const Component& c, int i) { return c.Centroid[i]; });
   AddComponentField<vtkDoubleArray, 6>(
@@ -291,6 +300,7 @@ vtkSmartPointer<vtkPolyData> MakePolyData(SurfaceResult surface,
   IndexedSurface& shape = surface;
   shape = ToWorld(std::move(shape), space, executor);
   const SurfaceFeatures features = ComputeFeatures(shape, executor);
+  const std::vector<int> owners = OwnersOf(shape, features, executor);
   TakePoints(polyData, shape.Points, executor);
   TakeTriangles(polyData, shape.Triangles, executor);
   TakePointArrays(polyData, surface, space, executor);
@@ -325,7 +335,7 @@ vtkSmartPointer<vtkPolyData> MakePolyData(SurfaceResult surface,
   {
     AddField<vtkStringArray>(polyData, "StopReason", description.StopReason.c_str());
   }
-  SetFeatures(polyData, features, executor);
+  SetFeatures(polyData, features, owners, executor);
   return polyData;
 }
 

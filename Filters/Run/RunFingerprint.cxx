@@ -13,6 +13,7 @@
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cstddef>
 #include <limits>
@@ -195,40 +196,50 @@ std::uint64_t RunFingerprint::Hash() const
   return hash;
 }
 
-bool RunFingerprint::IsSameVolume(const RunFingerprint& other) const
+const std::string* RunFingerprint::ValueOf(const std::string& name) const
 {
-  for (std::size_t i = 0; i < this->Entries.size(); ++i)
+  for (const Entry& entry : this->Entries)
   {
-    if (this->Entries[i].Is == Kind::Volume &&
-      (i >= other.Entries.size() || this->Entries[i].Value != other.Entries[i].Value))
+    if (entry.Name == name)
     {
-      return false;
+      return &entry.Value;
     }
   }
-  return true;
+  return nullptr;
+}
+
+std::vector<RunFingerprint::Difference> RunFingerprint::DifferencesOf(
+  const RunFingerprint& before) const
+{
+  std::vector<Difference> differences;
+  for (const Entry& entry : this->Entries)
+  {
+    const std::string* was = before.ValueOf(entry.Name);
+    if (was && *was != entry.Value)
+    {
+      differences.push_back({ entry, *was });
+    }
+  }
+  return differences;
+}
+
+bool RunFingerprint::IsSameVolume(const RunFingerprint& other) const
+{
+  const std::vector<Difference> differences = this->DifferencesOf(other);
+  return std::none_of(differences.begin(), differences.end(),
+    [](const Difference& difference) { return difference.Is.Is == Kind::Volume; });
 }
 
 int RunFingerprint::NumberOfDifferences(const RunFingerprint& other) const
 {
-  int number = 0;
-  for (std::size_t i = 0; i < this->Entries.size(); ++i)
-  {
-    number += i >= other.Entries.size() || this->Entries[i].Value != other.Entries[i].Value;
-  }
-  return number;
+  return static_cast<int>(this->DifferencesOf(other).size());
 }
 
 std::string RunFingerprint::DifferencesFrom(const RunFingerprint& before) const
 {
   std::string text;
-  for (std::size_t i = 0; i < this->Entries.size(); ++i)
+  for (const auto& [is, was] : this->DifferencesOf(before))
   {
-    const Entry& is = this->Entries[i];
-    const std::string was = i < before.Entries.size() ? before.Entries[i].Value : "";
-    if (was == is.Value)
-    {
-      continue;
-    }
     text += text.empty() ? "" : "; ";
     text += is.Is == Kind::Told ? Join(is.Name, " was ", was, " and is ", is.Value)
                                  : Join("not the same ", is.Name);
@@ -241,6 +252,7 @@ void RunFingerprint::Write(CheckedWriter& file) const
   file.Put<std::uint64_t>(this->Entries.size());
   for (const Entry& entry : this->Entries)
   {
+    file.PutText(entry.Name);
     file.PutText(entry.Value);
   }
 }
@@ -248,9 +260,10 @@ void RunFingerprint::Write(CheckedWriter& file) const
 RunFingerprint RunFingerprint::Read(CheckedReader& file)
 {
   RunFingerprint fingerprint;
-  fingerprint.Entries.resize(file.GetCount(sizeof(std::uint64_t))); // Each text has its length.
+  fingerprint.Entries.resize(file.GetCount(2 * sizeof(std::uint64_t))); // Each text has its length.
   for (Entry& entry : fingerprint.Entries)
   {
+    entry.Name = file.GetText();
     entry.Value = file.GetText();
   }
   return fingerprint;

@@ -63,7 +63,16 @@ private:
     const SegmentationRequest& request, const SegmentationLevels& levels, Executor& threads);
   void Add(const std::string& name, const std::string& value, Kind kind = Kind::Hidden);
 
-  std::vector<Entry> Entries; ///< All runs of a version have the same names, in the same order.
+  struct Difference
+  {
+    Entry Is;
+    std::string Was;
+  };
+  const std::string* ValueOf(const std::string& name) const;
+  /** Of the entries of both: what only some runs have comes with a setting that differs. */
+  std::vector<Difference> DifferencesOf(const RunFingerprint& before) const;
+
+  std::vector<Entry> Entries;
 };
 }
 

@@ -25,16 +25,38 @@ namespace fs = std::filesystem;
 
 constexpr const char* Prefix = "volumic-";
 /** Begins each state; to be changed with the format, or with the bits of what a run makes of it. */
-constexpr const char* Format = "Volumic checkpoint 4";
+constexpr const char* Format = "Volumic checkpoint 5";
 
 std::string StateIn(const fs::path& folder)
 {
   return (folder / "state").string();
 }
 
+constexpr const char* LevelPrefix = "level-";
+
 std::string LevelFileIn(const fs::path& folder, int level)
 {
-  return (folder / Join("level-", level)).string();
+  return (folder / Join(LevelPrefix, level)).string();
+}
+
+bool HasState(const std::string& folder)
+{
+  std::error_code ignored;
+  return fs::exists(StateIn(folder), ignored);
+}
+
+/** Removes the files of a checkpoint, the state first: from then on there is none. */
+void RemoveFilesIn(const std::string& folder)
+{
+  std::error_code ignored;
+  fs::remove(StateIn(folder), ignored);
+  for (const std::string& name : NamesIn(folder))
+  {
+    if (name.rfind(LevelPrefix, 0) == 0 || name.rfind("state", 0) == 0)
+    {
+      fs::remove(fs::path(folder) / name, ignored);
+    }
+  }
 }
 
 /** Those of a level, in their order. */
@@ -172,9 +194,9 @@ SegmentationCheckpoint::~SegmentationCheckpoint()
 
 void SegmentationCheckpoint::RemoveIfEmpty()
 {
-  std::error_code ignored;
-  if (this->Locked && !fs::exists(StateIn(this->Folder), ignored))
+  if (this->Locked && !HasState(this->Folder))
   {
+    RemoveFilesIn(this->Folder);
     this->Locked->RemoveFolder();
     this->Locked.reset();
   }
@@ -182,7 +204,7 @@ void SegmentationCheckpoint::RemoveIfEmpty()
 
 std::optional<SegmentationCheckpoint::Place> SegmentationCheckpoint::PlaceOfState() const
 {
-  if (!fs::exists(StateIn(this->Folder)))
+  if (!HasState(this->Folder))
   {
     return std::nullopt;
   }
@@ -197,11 +219,11 @@ void SegmentationCheckpoint::CheckOthers() const
   RunFingerprint before;
   int fewest = 0;
   std::error_code ignored;
-  for (const fs::directory_entry& entry : fs::directory_iterator(this->Directory, ignored))
+  for (const std::string& name : NamesIn(this->Directory))
   {
-    const std::string folder = entry.path().string();
-    if (entry.path().filename().string().rfind(Prefix, 0) != 0 ||
-      !fs::exists(StateIn(folder), ignored) || FolderLock::IsHeld(folder))
+    const std::string folder = (fs::path(this->Directory) / name).string();
+    if (name.rfind(Prefix, 0) != 0 || fs::is_symlink(folder, ignored) || !HasState(folder) ||
+      FolderLock::IsHeld(folder))
     {
       continue;
     }
@@ -226,6 +248,11 @@ void SegmentationCheckpoint::CheckOthers() const
       // Of another version, damaged, or another user's.
     }
   }
+  if (!nearest.empty() && fewest == 0)
+  {
+    Refuse("Resume: the checkpoint ", nearest, " is of this volume and these settings, but has "
+      "not their name. Rename it to ", this->Folder, ", or, to begin anew, remove it.");
+  }
   if (!nearest.empty())
   {
     Refuse("Resume: the checkpoint ", nearest, " is of ",
@@ -239,7 +266,7 @@ void SegmentationCheckpoint::CheckOthers() const
 std::optional<SegmentationCheckpoint::Place> SegmentationCheckpoint::Load(
   SegmentationResults& results, SurfaceEvolution& evolution)
 {
-  if (!fs::exists(StateIn(this->Folder)))
+  if (!HasState(this->Folder))
   {
     this->CheckOthers();
     return std::nullopt;
@@ -264,6 +291,10 @@ std::optional<SegmentationCheckpoint::Place> SegmentationCheckpoint::Load(
     this->Existing = head.Place;
     this->Resumed = head.Place.Level;
     return head.Place;
+  }
+  catch (const ForeignFolder&)
+  {
+    return std::nullopt; // Anybody may have put it there. Save() tells of it.
   }
   catch (const FileError& error)
   {
@@ -312,6 +343,12 @@ std::string SegmentationCheckpoint::Save(
     }
     return "";
   }
+  catch (const ForeignFolder& error)
+  {
+    this->HasFailed = true;
+    return Join("No checkpoint is left, and none was read: ", error.what(),
+      ". Remove it, if it is nobody's, or choose another Scratch Directory.");
+  }
   catch (const std::exception& error)
   {
     this->HasFailed = true;
@@ -343,7 +380,8 @@ void SegmentationCheckpoint::Write(
       if (this->WrittenLevels.count(*level) == 0)
       {
         const std::string name = LevelFileIn(this->Folder, *level);
-        (fs::exists(name) ? replaced : added).push_back(*level);
+        std::error_code ignored;
+        (fs::exists(name, ignored) ? replaced : added).push_back(*level);
         WriteLevel(name, results, *level);
       }
     }
@@ -372,12 +410,19 @@ void SegmentationCheckpoint::Write(
 
 void SegmentationCheckpoint::Remove()
 {
-  std::error_code ignored;
-  if (!this->Locked && (!fs::exists(this->Folder, ignored) || !this->TakeFolder()))
+  try
   {
-    return;
+    std::error_code ignored;
+    if (!this->Locked && (!fs::exists(this->Folder, ignored) || !this->TakeFolder()))
+    {
+      return;
+    }
   }
-  fs::remove(StateIn(this->Folder), ignored); // First: from then on there is none.
+  catch (const FileError&)
+  {
+    return; // Nothing of it is ours.
+  }
+  RemoveFilesIn(this->Folder);
   this->Locked->RemoveFolder();
   this->Locked.reset();
   this->WrittenLevels.clear();

@@ -23,8 +23,9 @@ class FolderLock;
  * snapshots, `state` the rest; that is written last, and replaced at once.
  *
  * A folder in use is locked, for as long as this object or the process lives. It is made with the
- * first checkpoint. Errors that end a run are std::invalid_argument; they name the directory, and
- * properties as the panel does.
+ * first checkpoint. What others have put under its name is neither read nor touched: then a run
+ * begins anew and leaves none. Errors that end a run are std::invalid_argument; they name the
+ * directory, and properties as the panel does.
  */
 class SegmentationCheckpoint
 {
@@ -61,7 +62,7 @@ public:
   std::string Save(
     const SegmentationResults& results, const SurfaceEvolution& evolution, const Place& place);
 
-  /** Removes all of it, once the run is over; nothing where another process is at it. */
+  /** Removes its files, once the run is over; nothing where another process is at it. */
   void Remove();
 
   /** The folder, if it holds what a run can go on from; else empty. */

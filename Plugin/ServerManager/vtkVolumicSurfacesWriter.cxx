@@ -12,6 +12,8 @@
 #include <vtkCompositeDataIterator.h>
 #include <vtkCompositeDataSet.h>
 #include <vtkDataArray.h>
+#include <vtkDataSetSurfaceFilter.h>
+#include <vtkFieldData.h>
 #include <vtkIdList.h>
 #include <vtkInformation.h>
 #include <vtkMultiProcessController.h>
@@ -20,8 +22,9 @@
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
+#include <vtkTriangleFilter.h>
 
-#include <algorithm>
+#include <cstddef>
 #include <exception>
 #include <filesystem>
 #include <set>
@@ -39,8 +42,9 @@ struct NamedSurface
   vtkSmartPointer<vtkPolyData> Surface;
 };
 
-/** The triangles of a component, with its points alone. */
-vtkSmartPointer<vtkPolyData> ComponentOf(vtkPolyData* surface, vtkDataArray* components, int wanted)
+/** A component of a surface, with its cavities: its triangles, with their points alone. */
+vtkSmartPointer<vtkPolyData> PartOf(
+  vtkPolyData* surface, const std::vector<int>& owners, int wanted)
 {
   vtkNew<vtkPolyData> part;
   part->SetPoints(surface->GetPoints());
@@ -50,7 +54,7 @@ vtkSmartPointer<vtkPolyData> ComponentOf(vtkPolyData* surface, vtkDataArray* com
   vtkNew<vtkIdList> corners;
   for (vtkIdType cell = 0; cell < surface->GetNumberOfCells(); ++cell)
   {
-    if (static_cast<int>(components->GetTuple1(cell)) == wanted)
+    if (owners[static_cast<std::size_t>(cell)] == wanted)
     {
       surface->GetCellPoints(cell, corners);
       const vtkIdType id = triangles->InsertNextCell(corners);
@@ -66,50 +70,83 @@ vtkSmartPointer<vtkPolyData> ComponentOf(vtkPolyData* surface, vtkDataArray* com
   return clean->GetOutput();
 }
 
+/** The component that each cell belongs to: of a cavity the one that it is in. */
+std::vector<int> OwnersOf(vtkPolyData* surface)
+{
+  vtkDataArray* components = surface->GetCellData()->GetArray("Component");
+  vtkDataArray* owners = surface->GetFieldData()->GetArray("ComponentOwner");
+  std::vector<int> found;
+  for (vtkIdType cell = 0; components && cell < components->GetNumberOfTuples(); ++cell)
+  {
+    const auto component = static_cast<vtkIdType>(components->GetTuple1(cell));
+    const bool isOwned = owners && component >= 0 && component < owners->GetNumberOfTuples() &&
+      owners->GetTuple1(component) >= 0;
+    found.push_back(
+      static_cast<int>(isOwned ? owners->GetTuple1(component) : components->GetTuple1(cell)));
+  }
+  return found;
+}
+
 /** What is written of one surface: all of it, or component by component. */
 void AddComponents(vtkPolyData* surface, std::vector<NamedSurface>& all)
 {
-  vtkDataArray* components = surface->GetCellData()->GetArray("Component");
-  const int last = components ? static_cast<int>(components->GetRange()[1]) : 0;
-  if (last == 0)
+  const std::vector<int> owners = OwnersOf(surface);
+  const std::set<int> found(owners.begin(), owners.end());
+  if (found.size() < 2)
   {
     all.push_back({ "", surface });
     return;
   }
-  for (int i = 0; i <= last; ++i)
+  for (const int component : found)
   {
-    const vtkSmartPointer<vtkPolyData> part = ComponentOf(surface, components, i);
-    if (part->GetNumberOfCells() > 0)
-    {
-      all.push_back({ "component-" + std::to_string(i), part });
-    }
+    all.push_back({ "component-" + std::to_string(component), PartOf(surface, owners, component) });
   }
+}
+
+/** The surface of what a filter has made of one, such as Clip or Threshold; null: it has none. */
+vtkSmartPointer<vtkPolyData> TrianglesOf(vtkDataObject* data)
+{
+  vtkSmartPointer<vtkPolyData> surface = vtkPolyData::SafeDownCast(data);
+  if (!surface && vtkDataSet::SafeDownCast(data))
+  {
+    vtkNew<vtkDataSetSurfaceFilter> extract;
+    extract->SetInputData(data);
+    extract->Update();
+    surface = extract->GetOutput();
+  }
+  if (surface && (surface->GetNumberOfStrips() > 0 || surface->GetPolys()->GetMaxCellSize() > 3))
+  {
+    vtkNew<vtkTriangleFilter> cut;
+    cut->PassLinesOff();
+    cut->PassVertsOff();
+    cut->SetInputData(surface);
+    cut->Update();
+    surface = cut->GetOutput();
+  }
+  return surface && surface->GetNumberOfPolys() > 0 ? surface : nullptr;
 }
 
 std::vector<NamedSurface> SurfacesOf(vtkDataObject* input)
 {
   std::vector<NamedSurface> all;
-  auto* blocks = vtkCompositeDataSet::SafeDownCast(input);
-  auto* one = vtkPolyData::SafeDownCast(input);
-  if (one && one->GetNumberOfCells() > 0)
-  {
-    AddComponents(one, all);
-  }
-  else if (blocks)
+  if (auto* blocks = vtkCompositeDataSet::SafeDownCast(input))
   {
     auto leaf = vtkSmartPointer<vtkCompositeDataIterator>::Take(blocks->NewIterator());
     for (leaf->InitTraversal(); !leaf->IsDoneWithTraversal(); leaf->GoToNextItem())
     {
-      auto* surface = vtkPolyData::SafeDownCast(leaf->GetCurrentDataObject());
       const bool isNamed = leaf->HasCurrentMetaData() &&
         leaf->GetCurrentMetaData()->Has(vtkCompositeDataSet::NAME());
-      if (surface && surface->GetNumberOfCells() > 0)
+      if (const auto surface = TrianglesOf(leaf->GetCurrentDataObject()))
       {
         all.push_back({ isNamed ? leaf->GetCurrentMetaData()->Get(vtkCompositeDataSet::NAME())
                                 : std::to_string(leaf->GetCurrentFlatIndex()),
           surface });
       }
     }
+  }
+  else if (const auto surface = TrianglesOf(input))
+  {
+    AddComponents(surface, all);
   }
   return all;
 }
@@ -157,13 +194,17 @@ void vtkVolumicSurfacesWriter::WriteData()
   vtkDataObject* input = this->GetInput();
   try
   {
-    if (ranks && ranks->GetNumberOfProcesses() > 1 && input->IsA("vtkPolyData"))
+    if (ranks && ranks->GetNumberOfProcesses() > 1 && !input->IsA("vtkCompositeDataSet"))
     {
       throw std::runtime_error(
         this->FileName + ": each process has a piece of the surface: use File > Save Data");
     }
     tool::CheckSurfaceName(this->FileName);
     const std::vector<NamedSurface> surfaces = SurfacesOf(input);
+    if (surfaces.empty())
+    {
+      throw std::runtime_error(this->FileName + ": not written, as there are no triangles in it");
+    }
     if (tool::IsScene(this->FileName))
     {
       std::vector<tool::SceneObject> objects;

@@ -12,6 +12,7 @@
 #include <pqPipelineSource.h>
 #include <pqServer.h>
 
+#include <vtkPVDataInformation.h>
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMProxy.h>
 #include <vtkSMSessionProxyManager.h>
@@ -50,6 +51,13 @@ std::vector<std::string> ShownBlocks(pqOutputPort* port)
   }
   const bool areAll = blocks.size() == 1 && (blocks[0] == "/" || blocks[0] == "/Root");
   return areAll ? std::vector<std::string>() : blocks;
+}
+
+/** Not so tables, and what has not been made yet. */
+bool HasCells(vtkPVDataInformation* data)
+{
+  return data && data->GetNumberOfCells() > 0 &&
+    (data->IsCompositeDataSet() || data->DataSetTypeIsA("vtkDataSet"));
 }
 
 void Export(pqOutputPort* port, const std::string& file)
@@ -126,7 +134,8 @@ void pqExportSurfacesBehavior::enable()
   pqOutputPort* port = pqActiveObjects::instance().activePort();
   if (this->Action)
   {
-    this->Action->setEnabled(port && volumic::IsOfSurface(port->getSource()));
+    this->Action->setEnabled(
+      port && volumic::IsOfSurface(port->getSource()) && HasCells(port->getDataInformation()));
   }
 }
 

@@ -10,7 +10,7 @@ class QAction;
 
 /**
  * The entry Export Surfaces... below Save Data... in the menu File: a file for each label, level or
- * component of what is selected, if it comes from a filter of Volumic; without blocks that are
+ * component of what is selected, if it comes from a filter of Volumic and has cells; without blocks that are
  * hidden in the active view. vtkVolumicSurfacesWriter writes them.
  */
 class pqExportSurfacesBehavior : public QObject

@@ -23,10 +23,15 @@ endforeach ()
 run("${CMAKE_COMMAND}" -S "${FOLDER}" -B "${FOLDER}/build" -G Ninja "-DVTK_DIR=${VTK_DIR}"
   -DCMAKE_BUILD_TYPE=None -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON)
 set(objects "")
+set(module FiltersVolumic)
+file(STRINGS "${FOLDER}/build/build.ninja" newer REGEX "/vtkFiltersVolumic\\.dir/" LIMIT_COUNT 1)
+if (newer) # VTK 9.7
+  set(module vtkFiltersVolumic)
+endif ()
 foreach (source IN ITEMS
     VolumicCore.dir/Core/Mesh/SurfaceMesh.cxx
-    FiltersVolumic.dir/Run/RunFingerprint.cxx
-    FiltersVolumic.dir/Unity/unity_0_cxx.cxx)
+    ${module}.dir/Run/RunFingerprint.cxx
+    ${module}.dir/Unity/unity_0_cxx.cxx)
   list(APPEND objects "Remote/Volumic/Filters/CMakeFiles/${source}.o")
 endforeach ()
 run("${CMAKE_COMMAND}" --build "${FOLDER}/build" --target ${objects})

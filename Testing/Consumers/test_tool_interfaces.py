@@ -138,8 +138,8 @@ class OneMeshTest(InterfacesTest):
     def test_what_does_not_go_with_it(self):
         for options in (("--gap", "1"), ("--thin-parts",)):
             with self.subTest(options):
-                self.refused("map.vti: .*Shared", self.map_of(sectors()), self.path("a.msh"),
-                             "--labels", "all", *options)
+                self.refused("map.vti: .*--shared-interfaces", self.map_of(sectors()),
+                             self.path("a.msh"), "--labels", "all", *options)
         layers = "".join(f"Segment{i}_{key}:={value}\n" for i in range(2) for key, value in (
             ("LabelValue", 1), ("Layer", i), ("Name", f"s{i}")))
         head = ("NRRD0004\ntype: uint8\ndimension: 4\nsizes: 2 9 9 9\nkinds: list domain domain "
@@ -177,14 +177,14 @@ class Msh:
     def read_triangles(self, sections):
         places, numbers, self.triangles = [], [], {}
         lines = sections["Nodes"]
-        for dimension, entity, parametric, count, at in blocks_of(lines):
+        for dimension, entity, parametric, count, at in blocks_of(lines, 2):
             assert (dimension, parametric) == (2, 0) and entity in self.mark_of
             numbers += [int(line) for line in lines[at:at + count]]
             places += [line.split() for line in lines[at + count:at + 2 * count]]
         assert numbers == list(range(1, len(numbers) + 1))
         self.points = np.array(places, float)
         lines = sections["Elements"]
-        for dimension, entity, kind, count, at in blocks_of(lines):
+        for dimension, entity, kind, count, at in blocks_of(lines, 1):
             assert (dimension, kind) == (2, 2)
             self.triangles[entity] = np.array([line.split()[1:] for line in lines[at:at + count]],
                                               int) - 1
@@ -235,6 +235,24 @@ class GmshTest(InterfacesTest):
             corners = msh.points[triangles.ravel()]
             np.testing.assert_allclose(msh.boxes[entity],
                                        np.concatenate([corners.min(0), corners.max(0)]))
+
+    def test_no_two_things_have_one_name(self):
+        """Whatever labels are called, and however much of it the file can tell."""
+        names = {"0": "Background", "1": "outside", "2": "x" * 25 + "1" * 9 + "x" * 25,
+                 "4": "x" * 25 + "2" * 9 + "x" * 25, "9": "outside_to_outside 2"}
+        self.run_tool(self.map_of(sectors()), self.path("a.msh"), self.path("a.smesh"), "--labels",
+                      "all", "--label-names",
+                      self.write_bytes("same.json", json.dumps(names).encode()))
+        found = list(Msh(self.path("a.msh")).names.values())
+        self.assertEqual(len(found), 4 + 10)
+        self.assertEqual(len(set(found)), len(found), found)
+        for name in ("outside", "x" * 25 + " ... " + "x" * 25 + " 2", "outside_to_outside 2",
+                     "outside_to_outside 2 2"):
+            self.assertIn(f'"{name}"', found)
+        lines = self.content("a.smesh").decode().splitlines()
+        told = [line.split(": ", 1)[1] for line in lines
+                if line.startswith(("# region", "# facets"))]
+        self.assertEqual(sorted(f'"{name}"' for name in told), sorted(found))
 
     def test_parts_within_parts(self):
         """What gmsh knows a region by are the surfaces about it: those of no two may be the same."""

@@ -322,7 +322,7 @@ class OptionsTest(LabelsTest):
 
     def test_what_the_filter_refuses(self):
         for reason, *options in (
-                ("map.vti: .*Gap", "--gap", "-1"), ("Smoothing", "--smoothing", "-1"),
+                ("map.vti: --gap is -1", "--gap", "-1"), ("--smoothing is -1", "--smoothing", "-1"),
                 ("--voxel-tolerance is 2 voxels; it must be at most 1", "--voxel-tolerance", "2")):
             with self.subTest(reason):
                 self.no_surfaces(reason, self.map_file(), "--labels", "1", *options)

@@ -126,9 +126,13 @@ class OptionTableTest(ToolTestCase):
 
     def test_values_that_the_filter_refuses(self):
         for reason, *options in (
-                ("Friction", "--friction", "-1"),
+                ("--friction is -1, it must lie in", "--friction", "-1"),
                 ("--edge-length is 0.01, but edges of this image can have mean lengths of",
-                 "--edge-length", "0.01")):
+                 "--edge-length", "0.01"),
+                ("--tolerance is 1, but --no-snap is given: the surface", "--tolerance", "1",
+                 "--no-snap"),
+                ("--thin-parts is given and --edge-length is 1: .* Set --edge-length to 0",
+                 "--thin-parts", "--edge-length", "1")):
             self.refused(reason, self.ball_file(), self.path("a.stl"), "--iso", ISO, *options)
 
 

@@ -7,6 +7,7 @@ import json
 import os
 import random
 import re
+import shutil
 import signal
 import subprocess
 import time
@@ -173,19 +174,26 @@ class RefusalTest(ResumeTestCase):
         self.assertFalse(os.path.exists(self.path("b.vtp")))
 
     def test_what_is_another_is_named(self):
-        """As the panel names it, or by its option. Testing/Python/test_resume_settings.py has all."""
+        """By its option. Testing/Python/test_resume_settings.py has all, in the panel's words."""
         volume = self.waves_file()
         self.kill_at_level(1, self.resume(volume, "killed"))
         for option, *value, name in (
-                ("iso", "101", "--iso"), ("friction", "2.5", "Friction"),
-                ("reduction-factor", "1.5", "levels of the pyramid"),
-                ("recovery", "none", "Recovery"), ("edge-length", "1.7", "--edge-length"),
-                ("refuse-nan", "NaN Is Background"),
-                ("edge-attraction", "0.3", "--edges", volume, "--edge-attraction")):
+                ("iso", "101", "--iso was 100 and is 101"),
+                ("friction", "2.5", "--friction was 3 and is 2.5"),
+                ("reduction-factor", "1.5", "not the same levels of the pyramid"),
+                ("recovery", "none", "not the same --recovery"),
+                ("edge-length", "1.7", "--edge-length was 0 and is 1.7"),
+                ("tolerance", "0.4", "--tolerance was 0 and is 0.4"),
+                ("refuse-nan", "--refuse-nan was not given and is"),
+                ("seed-position", "20,20,20",
+                 "not the same --initialization; not the same --seed-position"),
+                ("edge-attraction", "0.3", "--edges", volume,
+                 "--edge-attraction was 0 and is 0.3; not the same --edges")):
             with self.subTest(option):
                 run = self.run_tool(*self.resume(volume, "other"), f"--{option}", *value, status=1)
-                self.assertIn("Resume: the checkpoint", run.stderr)
-                self.assertRegex(run.stderr, f"{name} was|not the same {name}")
+                self.assertRegex(run.stderr, f"--resume: the checkpoint .* is of other settings: "
+                                 f"{name}(; --\\S+ was \\S+ and is \\S+)?. Set it as it was, or, to "
+                                 "begin anew, leave --resume away or choose another --scratch")
         self.run_tool(*self.resume(volume, "killed", "--threads", 1))
 
     def test_another_volume_is_told(self):
@@ -196,18 +204,75 @@ class RefusalTest(ResumeTestCase):
         other = self.write(vtkXMLImageDataWriter(), "other.vti", image)
         self.refused("is of another volume: not the same voxels", *self.resume(other, "a"))
 
-    @unittest.skipUnless(os.geteuid() == 0, "only root can give files to others")
-    def test_what_others_have_left_is_not_read(self):
+    def test_a_copy_of_a_checkpoint_is_told(self):
+        volume = self.waves_file()
+        self.kill_at_level(1, self.resume(volume, "killed"))
+        folder = os.path.join(self.scratch, os.listdir(self.scratch)[0])
+        os.rename(folder, folder + ".bak")
+        self.refused(f"has not their name. Rename it to {folder}, or", *self.resume(volume, "a"))
+
+    def test_what_others_have_planted_is_not_touched(self):
         """The scratch directory may be one that all may write to."""
         volume = self.waves_file()
         self.kill_at_level(1, self.resume(volume, "killed"))
         folder = os.path.join(self.scratch, os.listdir(self.scratch)[0])
-        for path, reason in ((os.path.join(folder, "state"), "state is no file of yours"),
-                             (folder, "is no folder of yours")):
-            os.chown(path, 12345, 12345)
-            self.refused(f"Resume: .*{reason}. Begin anew", *self.resume(volume, "killed"))
-            os.chown(path, 0, 0)
+        shutil.rmtree(folder)
+        aside = self.path("aside")
+        os.mkdir(aside)
+
+        def with_files(*names):
+            os.mkdir(folder)
+            for name in names:
+                with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
+                    file.write("precious")
+
+        def looped():
+            os.mkdir(folder)
+            os.symlink("state", os.path.join(folder, "state"))
+
+        for name, plant in (("link", lambda: os.symlink(aside, folder)),
+                            ("loop", lambda: os.symlink(folder, folder)),
+                            ("pipe", lambda: os.mkfifo(folder)),
+                            ("file", lambda: open(folder, "wb").close()),
+                            ("files", lambda: with_files("notes", "level-1")),
+                            ("state", lambda: with_files("state")),
+                            ("lock", lambda: with_files("lock", "notes")), ("looped", looped)):
+            plant()
+            before = sorted(os.listdir(folder)) if os.path.isdir(folder) else []
+            for more in ((), ("--resume",)):
+                with self.subTest(name, more=more):
+                    run = self.run_tool(*self.arguments(volume, "a", "--scratch", self.scratch,
+                                                        *more))
+                    self.assertRegex(run.stderr, f"warning: No checkpoint is left, .*{folder}")
+                    self.assertEqual("begins anew" in run.stderr, bool(more))
+                    self.assertEqual(before, sorted(os.listdir(folder))
+                                     if os.path.isdir(folder) else [])
+                    self.assertEqual(os.listdir(aside), [])
+            os.rename(folder, self.path("planted-" + name))
+        self.run_tool(*self.arguments(volume, "a", "--scratch", self.scratch))
+        self.assertEqual(os.listdir(self.scratch), [])
+
+    def test_what_is_put_into_a_checkpoint_stays(self):
+        volume = self.waves_file()
+        self.kill_at_level(1, self.resume(volume, "killed"))
+        folder = os.path.join(self.scratch, os.listdir(self.scratch)[0])
+        os.makedirs(os.path.join(folder, "precious", "files"))
+        self.run_tool(*self.resume(volume, "killed"))
+        self.assertEqual(os.listdir(folder), ["precious"])
+        self.assertTrue(os.path.isdir(os.path.join(folder, "precious", "files")))
+
+    @unittest.skipUnless(os.geteuid() == 0, "only root can give files to others")
+    def test_what_others_have_left_is_not_read(self):
+        volume = self.waves_file()
+        self.kill_at_level(1, self.resume(volume, "killed"))
+        folder = os.path.join(self.scratch, os.listdir(self.scratch)[0])
         os.chown(os.path.join(folder, "state"), 12345, 12345)
+        self.refused("--resume: .*state is no file of yours. Begin anew",
+                     *self.resume(volume, "killed"))
+        os.chown(folder, 12345, 12345)
+        run = self.run_tool(*self.resume(volume, "killed"))
+        self.assertIn("there is no checkpoint to resume from: the run begins anew", run.stderr)
+        self.assertIn("is no folder of yours. Remove it", run.stderr)
         os.mkdir(os.path.join(self.scratch, "volumic-" + 16 * "a"))
         os.mkfifo(os.path.join(self.scratch, "volumic-" + 16 * "a", "state"))
         run = self.run_tool(self.ball_file(), self.path("a.vtp"), "--iso", ISO, "--resume",

@@ -28,6 +28,8 @@ TEST_F(Checkpoints, OfOtherSettingsAreRefusedByName)
         f->SetAttractingPointsData(points);
         f->SetPointAttractionWeight(0.0);
       } },
+    { "other settings: Tolerance was 0 and is 0.4. Set",
+      [](vtkDeformableSurface* f) { f->SetTolerance(0.4); } },
     { "Snapshot Interval was 0 and is 9",
       [](vtkDeformableSurface* f) { f->SetSnapshotInterval(9); } },
     { "Coarsest Level was 2 and is 1", [](vtkDeformableSurface* f) { f->SetCoarsestLevel(1); } },

@@ -138,6 +138,26 @@ TEST_F(DeformableSurfaceComponents, TheLargestComesWithItsCavity)
   ExpectVolumes(this->Volumes(), { this->Outside, this->Cavity });
 }
 
+TEST_F(DeformableSurfaceComponents, ACavityTellsWhoseItIs)
+{
+  ExpectVolumes(this->Volumes(), { this->Outside, this->Cavity, this->Beside, this->Inner });
+  const auto owners = [this]
+  {
+    vtkDataArray* array = this->Filter->GetOutput()->GetFieldData()->GetArray("ComponentOwner");
+    std::vector<double> found;
+    for (vtkIdType c = 0; array && c < array->GetNumberOfTuples(); ++c)
+    {
+      found.push_back(array->GetComponent(c, 0));
+    }
+    return found;
+  };
+  EXPECT_EQ(owners(), (std::vector<double>{ 0, 0, 2, 3 }));
+  this->Filter->SetKeepComponentsToComponentsAtPoints();
+  this->SetSeed(16, 16, 16);
+  ExpectVolumes(this->Volumes(), { this->Inner });
+  EXPECT_EQ(owners(), std::vector<double>{ 0 });
+}
+
 TEST_F(DeformableSurfaceComponents, LargeOnesCountByVolume)
 {
   this->Filter->SetKeepComponentsToLargeComponents();

@@ -39,7 +39,7 @@ TEST(DeformableSurfaceOutputs, CarriesTheArraysOfTheInterface)
     surface->GetNumberOfCells());
   for (const char* name : { "Level", "Delta", "Unit", "NumberOfComponents", "EulerCharacteristic",
          "Genus", "Area", "Volume", "Iterations", "ComponentArea", "ComponentVolume",
-         "ComponentGenus", "ComponentCentroid", "ComponentInertia" })
+         "ComponentGenus", "ComponentOwner", "ComponentCentroid", "ComponentInertia" })
   {
     EXPECT_TRUE(surface->GetFieldData()->GetArray(name)) << name;
   }

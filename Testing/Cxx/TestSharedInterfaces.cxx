@@ -275,8 +275,8 @@ TEST(SharedInterfaces, NameTheWayOutOfWhatTheyCannotDo)
     filter->SetGap(hasGap ? 0.5 : 0.);
     filter->SetThinParts(!hasGap);
     const std::string error = ErrorOf(filter);
-    EXPECT_TRUE(Has(error, hasGap ? "Set Gap to 0" : "Set Thin Parts off"));
-    EXPECT_TRUE(Has(error, "Shared Interfaces off"));
+    EXPECT_TRUE(Has(error, hasGap ? "Set Gap to 0" : "Switch Thin Parts off"));
+    EXPECT_TRUE(Has(error, "Shared Interfaces"));
     EXPECT_EQ(filter->GetOutput()->GetNumberOfBlocks(), 0u);
     EXPECT_EQ(filter->GetInterfaces()->GetNumberOfCells(), 0);
   }

@@ -7,6 +7,7 @@ import os
 import shutil
 import struct
 
+import numpy
 from paraview import servermanager
 from paraview import simple
 from vtkmodules.vtkIOGeometry import vtkOBJReader, vtkSTLReader
@@ -92,6 +93,55 @@ class ExportTest(testing.PluginTestCase):
         self.assertGreater(max(found), 0)
         self.assertEqual(self.export("w.stl", source), {
             f"w-component-{i}.stl": found.count(i) for i in set(found)})
+
+    def test_a_component_has_its_cavities(self):
+        """A file is a solid: of a hollow ball, one in its cavity, and one beside, three of them."""
+        z, y, x = numpy.mgrid[0:32, 0:32, 0:32]
+        far = numpy.sqrt((x - 12.0)**2 + (y - 15.0)**2 + (z - 15.0)**2)
+        beside = numpy.sqrt((x - 27.0)**2 + (y - 15.0)**2 + (z - 15.0)**2)
+        field = numpy.maximum.reduce([numpy.minimum(10 - far, far - 7), 4 - far, 3 - beside])
+        source = simple.VolumetoSurface(testing.produce(testing.make_image(field)), IsoValue=0.0,
+                                        Recovery=2, MinimumPartSize=2)
+        surface = testing.fetch(source)
+        array = surface.GetCellData().GetArray("Component")
+        found = [int(array.GetValue(i)) for i in range(array.GetNumberOfTuples())]
+        self.assertEqual(set(found), {0, 1, 2, 3})
+        volumes, owners = (surface.GetFieldData().GetArray(name)
+                           for name in ("ComponentVolume", "ComponentOwner"))
+        self.assertLess(volumes.GetValue(1), 0)
+        self.assertEqual([owners.GetValue(i) for i in range(4)], [0, 0, 2, 3])
+        wanted = {"w-component-0.stl": found.count(0) + found.count(1),
+                  "w-component-2.stl": found.count(2), "w-component-3.stl": found.count(3)}
+        self.assertEqual(self.export("w.stl", source), wanted)
+        # Half of it, too.
+        self.setUp()
+        clip = simple.Clip(source, ClipType="Plane", Scalars=["POINTS", ""])
+        clip.ClipType.Origin, clip.ClipType.Normal = (12, 15, 15), (0, 0, 1)
+        self.assertEqual(list(self.export("w.stl", clip)), list(wanted))
+
+    def test_what_clip_and_threshold_leave(self):
+        source = self.labels()
+        clip = simple.Clip(source, ClipType="Plane", Scalars=["POINTS", ""])
+        clip.ClipType.Origin, clip.ClipType.Normal = (14, 16, 16), (1, 0, 0)
+        whole = self.export("w.stl", source)
+        self.setUp()
+        found = self.export("w.stl", clip)
+        self.assertEqual(list(found), ["w-liver.stl", "w-spleen.stl"])
+        self.assertLess(found["w-spleen.stl"], whole["w-spleen.stl"])
+        surface = simple.VolumetoSurface(testing.produce(label_maps.image()), IsoValue=1.5)
+        threshold = simple.Threshold(surface, Scalars=["CELLS", "Component"], LowerThreshold=1,
+                                     UpperThreshold=1)
+        count = testing.fetch(threshold).GetNumberOfCells()
+        self.setUp()
+        self.assertEqual(self.export("one.ply", threshold), {"one.ply": count})
+        self.assertGreater(count, 0)
+
+    def test_nothing_is_an_error(self):
+        threshold = simple.Threshold(self.labels(), Scalars=["POINTS", "Residual"],
+                                     LowerThreshold=1e9, UpperThreshold=2e9)
+        with testing.CapturedMessages() as messages:
+            self.assertEqual(self.export("w.stl", threshold), {})
+        self.assertIn("w.stl: not written, as there are no triangles in it", messages.text)
 
     def test_one_surface_is_one_file(self):
         source = simple.VolumetoSurface(simple.Wavelet(), IsoValue=150.0)

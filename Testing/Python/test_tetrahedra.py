@@ -7,17 +7,20 @@ import os
 import re
 import shutil
 import subprocess
+import tempfile
 import unittest
 
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
+from examples_path import EXAMPLES
 from folder_test_case import SharedFolderTestCase
 from sample_volumes import run_script, write_volume
 from vtk_files import read
 
 PROGRAM = os.path.join(os.environ["VOLUMIC_TEST_INSTALL_PREFIX"], "bin", "volumic")
+VOLUMES = os.path.join(EXAMPLES, "..", "volumes.geo")
 LABELS = {1: "Label 1", 2: "Label 2", 4: "Label 4"}
 
 
@@ -67,6 +70,20 @@ class TetrahedraTest(SharedFolderTestCase):
     @unittest.skipUnless(shutil.which("gmsh"), "gmsh is not installed")
     def test_gmsh(self):
         self.check("a.msh")
+
+    @unittest.skipUnless(shutil.which("gmsh"), "gmsh is not installed")
+    def test_a_volume_without_a_node_of_its_own(self):
+        """Its tetrahedra have the corners that its triangles have."""
+        volume = write_volume(self.path("small.mha"), np.pad(np.ones((2, 2, 2), "u1"), 2))
+        subprocess.run([PROGRAM, "--quiet", "--labels", "all", volume, self.path("small.msh"),
+                        "--edge-length", "2"], check=True)
+        with tempfile.TemporaryDirectory() as folder:
+            model = os.path.join(folder, "model.msh")
+            subprocess.run(["gmsh", "-3", self.path("small.msh"), VOLUMES, "-o", model, "-format",
+                            "msh41"], check=True, capture_output=True)
+            with open(model, encoding="utf-8") as file:
+                self.assertRegex(file.read(), r"\n3 1 0 0\n\$EndNodes\n")
+        self.assertEqual(list(self.table(run_script("tetrahedra.py", self.path("small.msh")))), [1])
 
     @unittest.skipUnless(shutil.which("tetgen"), "tetgen is not installed")
     def test_tetgen(self):
