@@ -3,6 +3,7 @@
 #ifndef volumicCheckInputs_h
 #define volumicCheckInputs_h
 
+#include <cstdint>
 #include <iosfwd>
 #include <string>
 
@@ -18,14 +19,19 @@ namespace tool
 void CheckNetcdf(const std::string& name);
 
 /**
- * XML, up to appended data: elements within elements, which VTK's reader takes by recursion, and the
- * blocks that arrays are packed in, for whose sizes it takes memory. Of a name all parts, as .pvti has.
+ * VTK's XML, whatever the encoding: elements within elements, which its reader takes by recursion;
+ * the blocks that arrays are packed in, for whose sizes it takes memory; and the values of each array,
+ * of which it makes zeros where they are missing. Of a name all parts, as .pvti has.
+ * @return how many points the cells of a surface have, which is to be compared with what was read
  */
-void CheckXmlInput(std::istream& file);
-void CheckXmlInput(const std::string& name);
+std::uint64_t CheckXmlInput(std::istream& file);
+std::uint64_t CheckXmlInput(const std::string& name);
 
 /** Wavefront's .obj: the corners of faces are among the points, and so what comes with them. */
 void CheckObj(const std::string& name);
+
+/** A surface in VTK's legacy format: its cells have as many points as they tell of. */
+void CheckLegacy(const std::string& name);
 
 /** A polygon file (.ply): all elements that its head tells of are there. */
 void CheckPly(const std::string& name);

@@ -74,6 +74,30 @@ vtkSmartPointer<vtkImageData> GatherSlabs(
 }
 }
 
+namespace
+{
+/** Does what opens a volume, and tells what its readers tell besides. */
+template <class Work>
+void Telling(const std::string& name, const Announcer& announcer, const Work& work)
+{
+  VtkMessages told;
+  told.Catch(work);
+  for (const std::string& text : told.Warnings)
+  {
+    announcer.Say("warning: " + name + ": " + text);
+  }
+}
+}
+
+vtkSmartPointer<vtkImageData> LoadWhole(
+  const std::string& name, const std::string& array, const Announcer& announcer)
+{
+  vtkSmartPointer<vtkImageData> image;
+  Telling(name, announcer, [&] { image = ReadVolume(name); });
+  Named(name, [&] { ChooseScalars(image, array); });
+  return image;
+}
+
 LoadedVoxels LoadVoxels(const std::string& name, const std::string& array,
   vtkDeformableSurface* filter, vtkImagePyramid* holder, const Announcer& announcer)
 {
@@ -81,11 +105,13 @@ LoadedVoxels LoadVoxels(const std::string& name, const std::string& array,
   vtkSmartPointer<vtkImageData>& image = loaded.Image;
   if (filter->GetMemoryLimit() == 0)
   {
-    image = ReadVolume(name);
+    image = LoadWhole(name, array, announcer);
   }
   else
   {
-    const OpenedVolume opened = OpenVolume(name, array, filter->GetScratchDirectory());
+    OpenedVolume opened;
+    Telling(name, announcer,
+      [&] { opened = OpenVolume(name, array, filter->GetScratchDirectory()); });
     if (!opened.Whole.empty())
     {
       announcer.Say("warning: " + name + ": volumes of this kind (" + opened.Whole +
@@ -103,8 +129,8 @@ LoadedVoxels LoadVoxels(const std::string& name, const std::string& array,
     image = GatherSlabs(name, opened.Source, holder, announcer.Style);
     loaded.Components = ComponentsIn(VoxelsIn(opened.Source->GetOutputInformation(0), array));
     holder->RemoveAllInputs();
+    Named(name, [&] { ChooseScalars(image, array); });
   }
-  Named(name, [&] { ChooseScalars(image, array); });
   loaded.Components = std::max(
     loaded.Components, image->GetPointData()->GetScalars()->GetNumberOfComponents());
   return loaded;

@@ -41,10 +41,8 @@ namespace
 void SetInput(vtkAlgorithm* filter, const LabelMap& map, int layer)
 {
   filter->SetInputDataObject(0, map.Layers[static_cast<std::size_t>(layer)]);
-  filter->SetInputArrayToProcess(0, 0, 0,
-    map.IsOfCells ? vtkDataObject::FIELD_ASSOCIATION_CELLS
-                  : vtkDataObject::FIELD_ASSOCIATION_POINTS,
-    vtkDataSetAttributes::SCALARS);
+  filter->SetInputArrayToProcess(
+    0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS);
 }
 
 /** @param warnings those of the filter, which are told, go here */
