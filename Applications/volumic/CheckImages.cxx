@@ -144,12 +144,12 @@ void CheckChosen(vtkObject* reader, const std::string& name)
     "pictures of this kind are not read; PNG, TIFF, JPEG, BMP, PGM and PPM are");
 }
 
-int CheckPicture(const std::string& name)
+int CheckPicture(const std::string& name, TiffFacts* facts)
 {
   CheckPng(name);
   CheckBmp(name);
   CheckPnm(name);
-  return std::max(CheckTiff(name), 1);
+  return std::max(CheckTiff(name, facts), 1);
 }
 
 // ---- netCDF -------------------------------------------------------------------------------------

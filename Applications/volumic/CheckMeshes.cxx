@@ -185,7 +185,7 @@ public:
   {
     std::string more;
     FailIf(!this->File || this->IsShort, "the file is cut off: it ends in element " + which);
-    FailIf(!this->Line || this->Line >> more,
+    FailIf(this->IsText && (!this->Line || this->Line >> more),
       "is damaged: element " + which + " is not in one line of its own");
   }
 

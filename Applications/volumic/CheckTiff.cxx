@@ -6,6 +6,7 @@
 // the first one, and gives other bytes than those of the file for some kinds of pixels.
 #include "BinaryFile.h"
 #include "CheckInputs.h"
+#include "Texts.h"
 #include "ToolErrors.h"
 
 #include <algorithm>
@@ -29,9 +30,12 @@ enum Tag : std::uint64_t
   Bits = 258,
   Packing = 259,
   Colours = 262,
+  Description = 270,
   Offsets = 273,
   Orientation = 274,
   Samples = 277,
+  ResolutionX = 282,
+  ResolutionY = 283,
   RowsPerStrip = 278,
   Sizes = 279,
   Planes = 284,
@@ -60,6 +64,7 @@ struct Part
 struct Page
 {
   std::map<std::uint64_t, Numbers> Values; ///< of each tag; empty for others than whole numbers
+  std::string Words;       ///< of the description
   std::vector<Part> Parts; ///< of the file: itself, the values elsewhere
   std::uint64_t Next = 0;
 
@@ -139,7 +144,16 @@ private:
     {
       page.Parts.push_back({ start, start + size });
     }
-    if (type == 3 || type == 4 || type == 13 || type == 16 || type == 18)
+    if (tag == Description && type == 2)
+    {
+      this->Take(size);
+      page.Words = this->File.Text(start, size);
+    }
+    else if ((tag == ResolutionX || tag == ResolutionY) && size == 8)
+    {
+      page.Values[tag] = { this->File.Number(start, 4), this->File.Number(start + 4, 4) };
+    }
+    else if (type == 3 || type == 4 || type == 13 || type == 16 || type == 18)
     {
       this->Take(size);
       const std::string text = this->File.Text(start, size);
@@ -304,7 +318,59 @@ void CheckParts(TiffFile& tiff, std::vector<Part> parts, std::uint64_t page)
 }
 }
 
-int CheckTiff(const std::string& name)
+namespace
+{
+/** The text behind a mark, up to one of the ends; empty if there is none. */
+std::string Behind(const std::string& text, const std::string& mark, const char* ends)
+{
+  const std::size_t at = text.find(mark);
+  return at == std::string::npos
+    ? ""
+    : text.substr(at + mark.size(), text.find_first_of(ends, at + mark.size()) - at - mark.size());
+}
+
+/**
+ * What the description tells that ImageJ, or a program that writes OME-TIFF, has put there.
+ * @throws Failure for what makes the pages others than the slices of one volume
+ */
+TiffFacts FactsOf(const Page& first)
+{
+  TiffFacts facts;
+  const std::string& text = first.Words;
+  const bool isOme = text.find("<OME") != std::string::npos;
+  if (!isOme && text.compare(0, 7, "ImageJ=") != 0)
+  {
+    return facts;
+  }
+  const auto number = [&](const std::string& ofImageJ, const std::string& ofOme)
+  {
+    const std::string found = isOme ? Behind(text, " " + ofOme + "=\"", "\"")
+                                    : Behind(text, "\n" + ofImageJ + "=", "\r\n");
+    const double value = AsNumber<double>(found).value_or(1.0);
+    return value > 0.0 ? value : 1.0;
+  };
+  const double channels = number("channels", "SizeC");
+  const double times = number("frames", "SizeT");
+  FailIf(channels * times > 1.0,
+    "its pages are of " + NumberText(channels) + " channels and " + NumberText(times) +
+      " times; save those of one, for example by ImageJ (Image > Duplicate)");
+  FailIf(!isOme && first.Next == 0 && number("images", "") > 1.0,
+    "ImageJ has put " + NumberText(number("images", "")) +
+      " images into one page, which is not read; save it there as NRRD, or as an image sequence");
+  const auto distance = [&](Tag tag)
+  {
+    const Numbers resolution = first.List(tag);
+    return resolution.size() == 2 && resolution[0] > 0 && resolution[1] > 0
+      ? static_cast<double>(resolution[1]) / static_cast<double>(resolution[0])
+      : 1.0;
+  };
+  facts.Spacing = { isOme ? number("", "PhysicalSizeX") : distance(ResolutionX),
+    isOme ? number("", "PhysicalSizeY") : distance(ResolutionY), number("spacing", "PhysicalSizeZ") };
+  return facts;
+}
+}
+
+int CheckTiff(const std::string& name, TiffFacts* facts)
 {
   TiffFile tiff{ BinaryFile(name) };
   const std::string mark = tiff.File.Size() < 8 ? "" : tiff.File.Text(0, 2);
@@ -320,6 +386,7 @@ int CheckTiff(const std::string& name)
   std::uint64_t place = tiff.IsWide ? tiff.File.Number(8, 8) : tiff.File.Number(4, 4);
   std::set<std::uint64_t> places;
   Page first;
+  TiffFacts found;
   std::uint64_t largest = 0;
   while (place != 0)
   {
@@ -331,7 +398,11 @@ int CheckTiff(const std::string& name)
     {
       Page page = tiff.ReadPage(place);
       CheckKind(page);
-      first = places.size() == 1 ? page : first;
+      if (places.size() == 1)
+      {
+        first = page;
+        found = FactsOf(first);
+      }
       CheckLikeFirst(page, first);
       const std::size_t directory = page.Parts.size();
       CheckStrips(tiff, page);
@@ -358,6 +429,10 @@ int CheckTiff(const std::string& name)
     }
   }
   CheckParts(tiff, std::move(parts), largest);
+  if (facts)
+  {
+    *facts = found;
+  }
   return static_cast<int>(places.size());
 }
 }

@@ -257,7 +257,7 @@ Told ReadToldBytes(std::istream& file, std::int64_t place, const XmlMeter& meter
   }
   if (first[0] == 0)
   {
-    return { 0, 0 }; // Some programs write no more.
+    return {}; // Some programs write no more.
   }
   file.clear();
   file.seekg(0, std::ios::end);
@@ -384,7 +384,7 @@ std::uint64_t CheckArrays(std::istream& file, const XmlMeter& meter)
       const Told told = isEmpty ? Told() : ReadToldBytes(file, place, meter, isRaw);
       there = told.Bytes / bytes;
       FailIf(told.Bytes % bytes != 0, "it is damaged: " + NameOf(array) + " ends within a number");
-      if (!isRaw)
+      if (!isRaw && told.Length > 0)
       {
         CheckSigns(file, place, told.Length, array);
       }

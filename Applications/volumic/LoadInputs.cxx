@@ -74,26 +74,11 @@ vtkSmartPointer<vtkImageData> GatherSlabs(
 }
 }
 
-namespace
-{
-/** Does what opens a volume, and tells what its readers tell besides. */
-template <class Work>
-void Telling(const std::string& name, const Announcer& announcer, const Work& work)
-{
-  VtkMessages told;
-  told.Catch(work);
-  for (const std::string& text : told.Warnings)
-  {
-    announcer.Say("warning: " + name + ": " + text);
-  }
-}
-}
-
 vtkSmartPointer<vtkImageData> LoadWhole(
   const std::string& name, const std::string& array, const Announcer& announcer)
 {
   vtkSmartPointer<vtkImageData> image;
-  Telling(name, announcer, [&] { image = ReadVolume(name); });
+  announcer.Follow(name, [&] { image = ReadVolume(name); });
   Named(name, [&] { ChooseScalars(image, array); });
   return image;
 }
@@ -110,7 +95,7 @@ LoadedVoxels LoadVoxels(const std::string& name, const std::string& array,
   else
   {
     OpenedVolume opened;
-    Telling(name, announcer,
+    announcer.Follow(name,
       [&] { opened = OpenVolume(name, array, filter->GetScratchDirectory()); });
     if (!opened.Whole.empty())
     {

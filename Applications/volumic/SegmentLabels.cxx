@@ -325,7 +325,7 @@ ExitCode SegmentLabels(const ToolOptions& options, const FilterTrio& filters, Ra
   CatchInterrupts();
   MakeSurfaces(options, map, filters.Labels, surfaces, announcer, report, ranks);
   CheckThatAnyIsThere(options, report);
-  WriteAll(options, surfaces, report, announcer.Style);
+  announcer.Follow("", [&] { WriteAll(options, surfaces, report, announcer.Style); });
   TellEnd(surfaces, announcer);
   return report.IsFinished ? Success : Unfinished;
 }

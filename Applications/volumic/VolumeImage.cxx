@@ -65,8 +65,7 @@ void PlaceImage(vtkImageData* image, const VolumePlacement& placement)
     {
       const double product = Dot(placement.Axes[a], placement.Axes[b]);
       FailIf(!(std::abs(product - (a == b ? 1.0 : 0.0)) < tolerance),
-        "the voxel axes are not at right angles: such a sheared or tilted volume "
-        "must be resampled first");
+        std::string("the voxel axes are not at right angles: ") + MustBeResampled);
       matrix[3 * b + a] = placement.Axes[a][b];
     }
   }

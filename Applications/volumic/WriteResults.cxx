@@ -3,6 +3,7 @@
 #include "WriteResults.h"
 
 #include "GltfScene.h"
+#include "Messages.h"
 #include "OutputFiles.h"
 #include "SurfaceFormats.h"
 #include "Texts.h"
@@ -10,16 +11,22 @@
 #include "VtkWriters.h"
 
 #include <vtkDelimitedTextWriter.h>
+#include <vtkMath.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
 #include <vtkPolyData.h>
 #include <vtkTable.h>
 #include <vtkXMLMultiBlockDataWriter.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdint>
 #include <exception>
 #include <filesystem>
 #include <iostream>
+#include <limits>
+#include <set>
 
 namespace tool
 {
@@ -75,6 +82,37 @@ void WriteBeside(const std::string& name, ProgressStyle style, const Write& writ
 }
 }
 
+namespace
+{
+/** Tells where a format, whose coordinates are float, rounds them too much for the triangles. */
+void TellOfRounding(vtkPolyData* surface, const std::string& name)
+{
+  static const std::set<std::string> exact = { ".vtp", ".pvtp", ".vtk", ".msh", ".smesh", ".poly" };
+  if (exact.count(SuffixOf(name)) > 0 || surface->GetNumberOfPolys() == 0)
+  {
+    return;
+  }
+  double bounds[6];
+  surface->GetBounds(bounds);
+  const double size = vtkMath::Distance2BetweenPoints(
+    std::array<double, 3>{ bounds[0], bounds[2], bounds[4] }.data(),
+    std::array<double, 3>{ bounds[1], bounds[3], bounds[5] }.data());
+  // About the edges of as many triangles on the faces of the surface's box.
+  const double edge = std::sqrt(4.0 * size / static_cast<double>(surface->GetNumberOfPolys()));
+  double largest = 0.0;
+  std::for_each(bounds, bounds + 6,
+    [&largest](double bound) { largest = std::max(largest, std::abs(bound)); });
+  const double step = largest * std::numeric_limits<float>::epsilon();
+  if (step > 0.01 * edge)
+  {
+    TellOfFile(name + ": coordinates up to " + NumberText(std::round(largest)) +
+      " are rounded there by steps of " + NumberText(std::round(1e4 * step) / 1e4) +
+      ", edges are about " + NumberText(std::round(1e4 * edge) / 1e4) +
+      " long; .vtp, .vtk and .msh keep them");
+  }
+}
+}
+
 void CheckSurfaceName(const std::string& name)
 {
   FailIf<UsageError>(!FindSurfaceFormat(name),
@@ -102,6 +140,7 @@ bool HasPieces(const std::string& name)
 void WriteSurface(vtkPolyData* surface, const std::string& name, const SurfaceWriting& writing)
 {
   const SurfaceFormat* format = FindSurfaceFormat(name);
+  TellOfRounding(surface, name);
   WriteBeside(name, writing.Style,
     [&](const std::string& path, ProgressLine& line)
     {
@@ -132,6 +171,10 @@ void WriteVolume(vtkImageData* volume, const std::string& name, ProgressStyle st
 void WriteScene(
   const std::vector<SceneObject>& objects, const std::string& name, ProgressStyle style)
 {
+  for (const SceneObject& object : objects)
+  {
+    TellOfRounding(object.Surface, name);
+  }
   WriteBeside(name, style,
     [&](const std::string& path, ProgressLine& line) { WriteGlb(objects, path, line); });
 }
