@@ -255,10 +255,6 @@ Told ReadToldBytes(std::istream& file, std::int64_t place, const XmlMeter& meter
     FailIf(first[0] > most, "it is damaged: an array of " + std::to_string(first[0]) + " bytes");
     return { first[0], length(meter.WordBytes + first[0]) };
   }
-  if (first[0] == 0)
-  {
-    return {}; // Some programs write no more.
-  }
   file.clear();
   file.seekg(0, std::ios::end);
   const auto all = static_cast<std::uint64_t>(file.tellg());
@@ -266,9 +262,13 @@ Told ReadToldBytes(std::istream& file, std::int64_t place, const XmlMeter& meter
   const std::uint64_t blocks = first[0];
   const std::uint64_t size = three.empty() ? 0 : three[1];
   const std::uint64_t last = three.empty() ? 0 : three[2]; // 0: as large as the others
-  FailIf(blocks > all / meter.WordBytes || last > size || size == 0,
+  FailIf(blocks > all / meter.WordBytes || last > size || (blocks > 0 ? size == 0 : last > 0),
     "it is damaged: an array is packed in " + std::to_string(blocks) + " blocks of " +
       std::to_string(size) + " bytes, the last one of " + std::to_string(last));
+  if (blocks == 0)
+  {
+    return {};
+  }
   const std::size_t words = 3 + static_cast<std::size_t>(blocks);
   const std::vector<std::uint64_t> sizes = WordsAt(file, place, meter, isRaw, words);
   std::uint64_t packed = 0;
@@ -412,9 +412,9 @@ std::uint64_t CheckXmlInput(std::istream& file)
   const auto meter = vtkSmartPointer<XmlMeter>::New();
   meter->SetStream(&file);
   meter->SetIgnoreCharacterData(1);
-  const bool isXml = meter->Parse() != 0;
+  meter->Parse(); // VTK's reader tells of what is no XML.
   FailIf(meter->IsTooDeep, "it is damaged: elements within elements without end");
-  return isXml || meter->Appended >= 0 ? CheckArrays(file, *meter) : 0;
+  return CheckArrays(file, *meter);
 }
 
 std::uint64_t CheckXmlInput(const std::string& name)
