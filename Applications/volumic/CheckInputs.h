@@ -44,6 +44,13 @@ struct TiffFacts
 };
 
 /**
+ * What the description of a first page tells, if ImageJ or OME-TIFF is its writer.
+ * @param distances of the pixels, as the page's tags tell
+ * @throws Failure for what makes the pages others than the slices of one volume
+ */
+TiffFacts FactsOf(const std::string& text, bool isOnlyPage, std::array<double, 3> distances);
+
+/**
  * TIFF: all pages are of one kind that VTK reads, their data lie within the file without overlap,
  * and no page is left out. @return how many there are; 0 for other formats.
  */

@@ -357,34 +357,27 @@ void CheckLegacy(const std::string& name)
   std::string line;
   std::getline(file, line);
   const bool isNew = std::atoi(line.substr(line.find_last_of(' ') + 1).c_str()) >= 5;
-  std::getline(file, line);
-  std::getline(file, line);
+  std::getline(std::getline(file, line), line);
   const bool isText = Lower(Trimmed(line)) == "ascii";
   const auto next = [&]
   {
-    std::int32_t number = -1;
+    std::int64_t number = -1;
     std::string bytes(4, '\0');
-    if (isText)
+    if (isText ? !(file >> number) : !file.read(bytes.data(), 4))
     {
-      file >> number;
+      return std::int64_t(-1);
     }
-    else if (file.read(bytes.data(), 4))
-    {
-      number = static_cast<std::int32_t>(NumberOf(bytes, true));
-    }
-    return file ? std::int64_t(number) : -1;
+    return isText ? number : std::int64_t(static_cast<std::int32_t>(NumberOf(bytes, true)));
   };
   for (std::string word; !isNew && file >> std::setw(32) >> word;)
   {
-    word = Lower(word);
-    if (word == "point_data" || word == "cell_data")
-    {
-      return;
-    }
     std::int64_t cells = 0;
     std::int64_t left = 0;
-    if (kinds.count(word) == 0 || !std::getline(file, line) ||
-      !(std::istringstream(line) >> cells >> left))
+    std::string more;
+    // An array may have such a name; behind its numbers is a type.
+    if (kinds.count(Lower(word)) == 0 || !std::getline(file, line) ||
+      !(std::istringstream(line) >> cells >> left) ||
+      std::istringstream(line) >> left >> left >> more)
     {
       continue;
     }

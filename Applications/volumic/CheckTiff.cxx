@@ -6,7 +6,6 @@
 // the first one, and gives other bytes than those of the file for some kinds of pixels.
 #include "BinaryFile.h"
 #include "CheckInputs.h"
-#include "Texts.h"
 #include "ToolErrors.h"
 
 #include <algorithm>
@@ -84,6 +83,15 @@ struct Page
       throw Failure("its tag " + std::to_string(tag) + " is no number");
     }
     return values[0];
+  }
+
+  /** What lies between pixels of a resolution. */
+  double Distance(Tag tag) const
+  {
+    const Numbers values = this->List(tag);
+    return values.size() == 2 && values[0] > 0 && values[1] > 0
+      ? static_cast<double>(values[1]) / static_cast<double>(values[0])
+      : 1.0;
   }
 
   Numbers List(Tag tag) const { return EntryOr(this->Values, tag, {}); }
@@ -318,58 +326,6 @@ void CheckParts(TiffFile& tiff, std::vector<Part> parts, std::uint64_t page)
 }
 }
 
-namespace
-{
-/** The text behind a mark, up to one of the ends; empty if there is none. */
-std::string Behind(const std::string& text, const std::string& mark, const char* ends)
-{
-  const std::size_t at = text.find(mark);
-  return at == std::string::npos
-    ? ""
-    : text.substr(at + mark.size(), text.find_first_of(ends, at + mark.size()) - at - mark.size());
-}
-
-/**
- * What the description tells that ImageJ, or a program that writes OME-TIFF, has put there.
- * @throws Failure for what makes the pages others than the slices of one volume
- */
-TiffFacts FactsOf(const Page& first)
-{
-  TiffFacts facts;
-  const std::string& text = first.Words;
-  const bool isOme = text.find("<OME") != std::string::npos;
-  if (!isOme && text.compare(0, 7, "ImageJ=") != 0)
-  {
-    return facts;
-  }
-  const auto number = [&](const std::string& ofImageJ, const std::string& ofOme)
-  {
-    const std::string found = isOme ? Behind(text, " " + ofOme + "=\"", "\"")
-                                    : Behind(text, "\n" + ofImageJ + "=", "\r\n");
-    const double value = AsNumber<double>(found).value_or(1.0);
-    return value > 0.0 ? value : 1.0;
-  };
-  const double channels = number("channels", "SizeC");
-  const double times = number("frames", "SizeT");
-  FailIf(channels * times > 1.0,
-    "its pages are of " + NumberText(channels) + " channels and " + NumberText(times) +
-      " times; save those of one, for example by ImageJ (Image > Duplicate)");
-  FailIf(!isOme && first.Next == 0 && number("images", "") > 1.0,
-    "ImageJ has put " + NumberText(number("images", "")) +
-      " images into one page, which is not read; save it there as NRRD, or as an image sequence");
-  const auto distance = [&](Tag tag)
-  {
-    const Numbers resolution = first.List(tag);
-    return resolution.size() == 2 && resolution[0] > 0 && resolution[1] > 0
-      ? static_cast<double>(resolution[1]) / static_cast<double>(resolution[0])
-      : 1.0;
-  };
-  facts.Spacing = { isOme ? number("", "PhysicalSizeX") : distance(ResolutionX),
-    isOme ? number("", "PhysicalSizeY") : distance(ResolutionY), number("spacing", "PhysicalSizeZ") };
-  return facts;
-}
-}
-
 int CheckTiff(const std::string& name, TiffFacts* facts)
 {
   TiffFile tiff{ BinaryFile(name) };
@@ -401,7 +357,8 @@ int CheckTiff(const std::string& name, TiffFacts* facts)
       if (places.size() == 1)
       {
         first = page;
-        found = FactsOf(first);
+        found = FactsOf(first.Words, first.Next == 0,
+          { first.Distance(ResolutionX), first.Distance(ResolutionY), 1.0 });
       }
       CheckLikeFirst(page, first);
       const std::size_t directory = page.Parts.size();

@@ -300,12 +300,13 @@ Series ReadSeries(const std::vector<std::string>& files, bool keepsImages)
     numbers.imbue(std::locale::classic());
     Vector3& spacing = slices[0].Spacing;
     char sign = 0;
-    const bool isTold = numbers >> spacing[1] >> sign >> spacing[0] && spacing[0] > 0.0 && spacing[1] > 0.0;
+    const bool isTold = numbers >> spacing[1] >> sign >> spacing[0] &&
+      std::min(spacing[0], spacing[1]) > 0.0;
     spacing[0] = isTold ? spacing[0] : 1.0;
     spacing[1] = isTold ? spacing[1] : 1.0;
     TellOfFile("it has no Pixel Spacing; " +
-      (isTold ? "the Imager Pixel Spacing, " + NumberText(spacing[1]) + " x " + NumberText(spacing[0]) +
-            ", that of the detector, is taken"
+      (isTold ? "the Imager Pixel Spacing, " + NumberText(spacing[1]) + " x " +
+            NumberText(spacing[0]) + ", that of the detector, is taken"
               : std::string("1 x 1 is taken")) + "; choose another one with --spacing");
   }
   const double distance = SliceDistance(slices, normal);

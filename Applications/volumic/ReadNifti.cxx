@@ -75,8 +75,8 @@ public:
   /** What world units are, where these are not millimetres; empty: they are, or it is not told. */
   std::string Unit() const
   {
-    const std::uint64_t unit = this->Mark()[0] != 'n' ? 0 : this->Number(this->IsWide ? 500 : 123, this->IsWide ? 4 : 1) % 8;
-    return unit == 1 ? "metres" : unit == 3 ? "micrometres" : "";
+    const std::uint64_t unit = this->Number(this->IsWide ? 500 : 123, this->IsWide ? 4 : 1) % 8;
+    return this->Mark()[0] != 'n' ? "" : unit == 1 ? "metres" : unit == 3 ? "micrometres" : "";
   }
 
   /** Bytes of a header before the voxels, with what tells of more of it. */
@@ -200,37 +200,6 @@ std::pair<double, double> RescalingOf(vtkNIFTIImageReader* reader)
     : std::pair<double, double>(slope, shift);
 }
 
-std::string TextOf(const VolumePlacement& placement)
-{
-  const auto three = [](const Vector3& numbers)
-  {
-    const auto text = [](double number) { return NumberText(std::round(1e4 * number) / 1e4); };
-    return text(numbers[0]) + ", " + text(numbers[1]) + ", " + text(numbers[2]);
-  };
-  std::string axes;
-  for (const Vector3& axis : placement.Axes)
-  {
-    axes += " (" + three(axis) + ")";
-  }
-  return "voxels of " + three(placement.Spacing) + " along" + axes + " from " +
-    three(placement.Origin);
-}
-
-/** Whether a voxel of one is within a hundredth of its size of where the other has it. */
-bool AreAlike(const VolumePlacement& a, const VolumePlacement& b)
-{
-  double difference = 0.0;
-  for (std::size_t c = 0; c < 3; ++c)
-  {
-    difference = std::max(difference, std::abs(a.Origin[c] - b.Origin[c]));
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      difference = std::max(difference, std::abs(a.Axes[axis][c] * a.Spacing[axis] - b.Axes[axis][c] * b.Spacing[axis]));
-    }
-  }
-  return difference < 0.01 * *std::min_element(a.Spacing.begin(), a.Spacing.end());
-}
-
 /**
  * The sform, or the qform where that fails; tells where they are not the same.
  * @return whether there is one.
@@ -250,8 +219,9 @@ bool Place(vtkNIFTIImageReader* reader, VolumePlacement& placement)
   std::string failure;
   std::optional<VolumePlacement> found;
   // VTK has divided the sform by the spacing; a qform is a mere rotation.
-  for (const auto& [matrix, spacing] : { std::pair<vtkMatrix4x4*, Vector3>(reader->GetSFormMatrix(), told),
-         { reader->GetQFormMatrix(), placement.Spacing } })
+  using Form = std::pair<vtkMatrix4x4*, Vector3>;
+  for (const auto& [matrix, spacing] :
+    { Form(reader->GetSFormMatrix(), told), Form(reader->GetQFormMatrix(), placement.Spacing) })
   {
     if (!matrix)
     {
@@ -261,10 +231,10 @@ bool Place(vtkNIFTIImageReader* reader, VolumePlacement& placement)
     {
       const VolumePlacement next = PlacementOf(matrix, spacing.data());
       PlaceImage(vtkNew<vtkImageData>(), next);
-      if (found && !AreAlike(*found, next))
+      if (found && !found->IsLike(next))
       {
-        TellOfFile("its sform, which is taken, and its qform differ: " + TextOf(*found) + "; " +
-          TextOf(next));
+        TellOfFile("its sform, which is taken, and its qform differ: " + found->Text() + "; " +
+          next.Text());
       }
       found = found ? found : next;
     }
@@ -276,7 +246,8 @@ bool Place(vtkNIFTIImageReader* reader, VolumePlacement& placement)
   FailIf(!found && !failure.empty(), failure);
   if (found && !failure.empty() && reader->GetSFormMatrix() && reader->GetQFormMatrix())
   {
-    TellOfFile("one of its sform and qform is not at right angles; the other is taken: " + TextOf(*found));
+    TellOfFile(
+      "one of its sform and qform is not at right angles; the other is taken: " + found->Text());
   }
   placement = found.value_or(placement);
   return found.has_value();

@@ -329,7 +329,8 @@ std::unique_ptr<SlabReader> OpenNrrd(const std::string& name, const Opening& ope
   slabs->AreLast = isRaw && skip < 0;
   (isRaw ? slabs->Start : slabs->Before) += static_cast<std::uint64_t>(std::max(skip, 0));
   const std::string kind = FirstKind(header.All);
-  const bool isOfParts = kind == "list" || kind == "time" || kind == "rgba-color" || kind == "4-color";
+  const bool isOfParts =
+    kind == "list" || kind == "time" || kind == "rgba-color" || kind == "4-color";
   if (slabs->Components > 1 && isOfParts &&
     NamesOfSegments(header.Pairs, slabs->Components).empty())
   {

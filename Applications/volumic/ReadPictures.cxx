@@ -256,7 +256,8 @@ static void TellOfAlpha(const SlabReader& slabs)
 {
   if (slabs.Components == 2 || slabs.Components == 4)
   {
-    TellOfMagnitude(slabs.Components, slabs.Components == 2 ? "grey and alpha" : "colour and alpha");
+    TellOfMagnitude(
+      slabs.Components, slabs.Components == 2 ? "grey and alpha" : "colour and alpha");
   }
 }
 

@@ -252,12 +252,14 @@ std::unique_ptr<SlabReader> OpenMrc(const std::string& name, const Opening& open
   slabs->ArrayName = "ImageScalars";
   FailIf(mode == 12 || mode == 101,
     "voxels of mode " + std::to_string(mode) +
-      ", of half a float or half a byte, are not read; write them as mode 2 (IMOD: newstack -mode 2)");
+      ", of half a float or half a byte, are not read; write them as mode 2 (IMOD: newstack "
+      "-mode 2)");
   std::tie(slabs->Type, slabs->Components) = EntryOf(modes, mode,
     "its header is damaged: the mode " + std::to_string(mode) + " is no type of voxels");
   // IMOD tells where its bytes have no sign.
   const bool isOfImod = file.Number(152, 4) == 1146047817;
-  slabs->Type = mode == 0 && isOfImod && file.Number(156, 4) % 2 == 0 ? VTK_UNSIGNED_CHAR : slabs->Type;
+  const bool isUnsigned = mode == 0 && isOfImod && file.Number(156, 4) % 2 == 0;
+  slabs->Type = isUnsigned ? VTK_UNSIGNED_CHAR : slabs->Type;
   for (const std::uint64_t place : { 52, 56, 60 })
   {
     const double angle = FloatAt(file, place);

@@ -9,7 +9,6 @@
 #include "ToolErrors.h"
 
 #include <vtkCellArray.h>
-#include <vtkCellArrayIterator.h>
 #include <vtkCleanPolyData.h>
 #include <vtkDoubleArray.h>
 #include <vtkNew.h>
@@ -115,20 +114,14 @@ vtkSmartPointer<vtkPolyData> ReadMesh(const std::string& name)
   for (vtkCellArray* cells : CellsOf(mesh))
   {
     FailIf(!cells->IsValid(), name + ": is damaged: its cells overlap in the file");
-    const auto each = vtk::TakeSmartPointer(cells->NewIterator());
-    for (each->GoToFirstCell(); !each->IsDoneWithTraversal(); each->GoToNextCell())
+    double range[2] = { 0.0, -1.0 };
+    if (cells->GetNumberOfConnectivityIds() > 0)
     {
-      vtkIdType count = 0;
-      const vtkIdType* corners = nullptr;
-      each->GetCurrentCell(count, corners);
-      const auto wrong = std::find_if(
-        corners, corners + count, [points](vtkIdType c) { return c < 0 || c >= points; });
-      if (wrong != corners + count)
-      {
-        throw Failure(name + ": is damaged: a polygon has point " + std::to_string(*wrong) +
-          ", there are " + std::to_string(points));
-      }
+      cells->GetConnectivityArray()->GetRange(range, 0);
     }
+    FailIf(range[0] < 0.0 || range[1] >= static_cast<double>(points),
+      name + ": is damaged: a polygon has point " +
+        NumberText(range[0] < 0.0 ? range[0] : range[1]) + ", there are " + std::to_string(points));
   }
   return mesh;
 }

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ReadVolume.h"
 
-#include "BinaryFile.h"
 #include "CheckInputs.h"
 #include "Messages.h"
 #include "SlabReader.h"
@@ -168,35 +167,12 @@ const char* OtherDataOf(const std::string& suffix)
   return EntryOr(kinds, suffix.substr(0, 2) == ".p" ? "." + suffix.substr(2) : suffix, nullptr);
 }
 
-[[noreturn]] void RefuseOtherData(const std::string& kind)
-{
-  throw Failure("holds " + kind + ", and no image: resample it to one (ParaView's Resample To Image "
-    "writes a .vti)");
-}
-
-/** A legacy file of VTK, which tells in a line of its what it holds. */
-Image ReadLegacy(const std::string& name)
-{
-  BinaryFile file(name);
-  const std::string head = Lower(file.Text(0, std::min<std::uint64_t>(file.Size(), 4096)));
-  const std::string mark = "dataset ";
-  const std::size_t at = head.find(mark);
-  const std::string kind = at == std::string::npos
-    ? ""
-    : head.substr(at + mark.size(), head.find_first_of(" \r\n", at + mark.size()) - at - mark.size());
-  if (kind == "polydata" || kind.find("_grid") != std::string::npos)
-  {
-    RefuseOtherData(kind);
-  }
-  return ReadWith<vtkStructuredPointsReader>(name);
-}
-
 Opener OpenerOf(const std::string& name)
 {
   static const std::vector<std::pair<std::string, Opener>> openers = {
     { ".vti", OpenXml<vtkXMLImageDataReader> },
     { ".pvti", OpenXml<vtkXMLPImageDataReader> },
-    { ".vtk", By(ReadLegacy) },
+    { ".vtk", By(ReadWith<vtkStructuredPointsReader>) },
 #ifdef VOLUMIC_HAS_HDF
     { ".vtkhdf", By(ReadIfItsFormat<vtkHDFReader>) },
     { ".hdf", By(ReadIfItsFormat<vtkHDFReader>) },
@@ -222,7 +198,8 @@ Opener OpenerOf(const std::string& name)
   };
   if (const char* kind = OtherDataOf(SuffixOf(name)))
   {
-    RefuseOtherData(kind);
+    throw Failure(std::string("holds ") + kind +
+      ", and no image: resample it to one (ParaView's Resample To Image writes a .vti)");
   }
   const std::string lower = Lower(name);
   const auto found = std::find_if(openers.begin(), openers.end(),

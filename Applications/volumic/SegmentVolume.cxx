@@ -153,7 +153,8 @@ void TakeOtsuThreshold(const Job& job)
   job.Filter->SetIsoValue(otsu->GetThreshold());
   const double least = job.Volume.Facts.Range[0];
   const bool hasPadding = least < -1024.0 && otsu->GetHistogram()->GetValue(0) > least;
-  job.Says.Say("iso-value " + NumberText(job.Filter->GetIsoValue()) + ", a guess by Otsu's threshold" +
+  job.Says.Say("iso-value " + NumberText(job.Filter->GetIsoValue()) +
+    ", a guess by Otsu's threshold" +
     (hasPadding ? ", for which voxels of " + NumberText(least) + " are padding" : "") +
     "; choose another one with --iso");
 }

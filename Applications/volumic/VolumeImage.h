@@ -24,6 +24,13 @@ struct VolumePlacement
   /** The unit vectors of the index axes x, y, z in the world. */
   std::array<Vector3, 3> Axes = { { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } } };
 
+  /** The steps from voxel to voxel, and the place of the first one. */
+  std::array<double, 12> Numbers() const;
+  std::string Text() const; ///< of these
+
+  /** Whether they are the same to a hundredth of a voxel. */
+  bool IsLike(const VolumePlacement& other) const;
+
   /** Have an index axis point the other way, the first voxel staying where it is, if it is so. */
   void Turn(std::size_t axis, bool isSo)
   {

@@ -10,8 +10,8 @@
 #include "ToolErrors.h"
 #include "VtkWriters.h"
 
+#include <vtkBoundingBox.h>
 #include <vtkDelimitedTextWriter.h>
-#include <vtkMath.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
 #include <vtkPolyData.h>
@@ -19,7 +19,6 @@
 #include <vtkXMLMultiBlockDataWriter.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <exception>
@@ -92,16 +91,13 @@ void TellOfRounding(vtkPolyData* surface, const std::string& name)
   {
     return;
   }
-  double bounds[6];
-  surface->GetBounds(bounds);
-  const double size = vtkMath::Distance2BetweenPoints(
-    std::array<double, 3>{ bounds[0], bounds[2], bounds[4] }.data(),
-    std::array<double, 3>{ bounds[1], bounds[3], bounds[5] }.data());
+  const vtkBoundingBox box(surface->GetBounds());
   // About the edges of as many triangles on the faces of the surface's box.
-  const double edge = std::sqrt(4.0 * size / static_cast<double>(surface->GetNumberOfPolys()));
-  double largest = 0.0;
-  std::for_each(bounds, bounds + 6,
-    [&largest](double bound) { largest = std::max(largest, std::abs(bound)); });
+  const double edge =
+    2.0 * box.GetDiagonalLength() / std::sqrt(static_cast<double>(surface->GetNumberOfPolys()));
+  const double* bounds = surface->GetBounds();
+  const double largest = std::max(std::abs(*std::min_element(bounds, bounds + 6)),
+    std::abs(*std::max_element(bounds, bounds + 6)));
   const double step = largest * std::numeric_limits<float>::epsilon();
   if (step > 0.01 * edge)
   {

@@ -5,12 +5,9 @@
 #include "Core/Common/Refuse.h"
 
 #include <vtkCellArray.h>
-#include <vtkCellArrayIterator.h>
+#include <vtkDataArray.h>
 #include <vtkPolyData.h>
-#include <vtkSmartPointer.h>
 #include <vtkType.h>
-
-#include <algorithm>
 
 namespace volumic
 {
@@ -20,22 +17,19 @@ std::string FaultOfCells(vtkPolyData* data)
   for (vtkCellArray* cells :
     { data->GetVerts(), data->GetLines(), data->GetPolys(), data->GetStrips() })
   {
-    if (cells->GetNumberOfCells() > 0 && !cells->IsValid())
+    if (!cells->IsValid())
     {
       return "is damaged: its cells overlap.";
     }
-    auto each = vtk::TakeSmartPointer(cells->NewIterator());
-    for (each->GoToFirstCell(); !each->IsDoneWithTraversal(); each->GoToNextCell())
+    double range[2] = { 0.0, -1.0 };
+    if (cells->GetNumberOfConnectivityIds() > 0)
     {
-      vtkIdType size;
-      const vtkIdType* ids;
-      each->GetCurrentCell(size, ids);
-      const auto wrong =
-        std::find_if(ids, ids + size, [points](vtkIdType id) { return id < 0 || id >= points; });
-      if (wrong != ids + size)
-      {
-        return Join("is damaged: a cell has point ", *wrong, ", there are ", points, ".");
-      }
+      cells->GetConnectivityArray()->GetRange(range, 0);
+    }
+    if (range[0] < 0.0 || range[1] >= static_cast<double>(points))
+    {
+      return Join("is damaged: a cell has point ", range[0] < 0.0 ? range[0] : range[1],
+        ", there are ", points, ".");
     }
   }
   return "";

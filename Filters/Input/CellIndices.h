@@ -11,7 +11,8 @@ namespace volumic
 {
 /**
  * What is wrong with the cells of data that come from elsewhere, as words behind a name: their
- * points are others than those that are there. VTK's filters end the program at such. Empty: nothing.
+ * points are others than those that are there, at which VTK's filters end the program. Empty:
+ * nothing.
  */
 std::string FaultOfCells(vtkPolyData* data);
 }

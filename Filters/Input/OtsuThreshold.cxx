@@ -133,33 +133,25 @@ bool LeaveOutPadding(
   {
     return false;
   }
-  vtkIdType padding = 0;
   std::set<T> others;
-  for (vtkIdType i = 0; i < count; ++i)
-  {
-    const bool isPadding = static_cast<double>(voxels[i]) == range[0];
-    padding += isPadding;
-    if (!isPadding && valid.Has(i) && others.size() < leastValues)
-    {
-      others.insert(voxels[i]);
-    }
-  }
-  if (padding < count / 100 || others.size() < leastValues)
-  {
-    return false;
-  }
-  if (valid.Marks.empty())
-  {
-    valid.Marks.assign(static_cast<std::size_t>(count), 1);
-  }
+  ValidVoxels without = valid;
+  without.Marks.resize(static_cast<std::size_t>(count), 1);
+  vtkIdType padding = 0;
   for (vtkIdType i = 0; i < count; ++i)
   {
     if (static_cast<double>(voxels[i]) == range[0])
     {
-      valid.Marks[static_cast<std::size_t>(i)] = 0;
+      without.Marks[static_cast<std::size_t>(i)] = 0;
+      ++padding;
+    }
+    else if (valid.Has(i) && others.size() < leastValues)
+    {
+      others.insert(voxels[i]);
     }
   }
-  return true;
+  const bool isPadding = padding >= count / 100 && others.size() == leastValues;
+  valid = isPadding ? without : valid;
+  return isPadding;
 }
 }
 

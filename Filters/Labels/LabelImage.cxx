@@ -64,7 +64,7 @@ template <typename T>
     "Surface (vtkVolumeToSurface).");
 }
 
-/** Labels but for what resampling, or a scale, leaves, as such; @param told is given what was done. */
+/** What are labels but for what resampling or a scale leaves. @param told given what was done */
 vtkSmartPointer<vtkDataArray> Rounded(vtkDataArray* voxels, int background, std::string& told)
 {
   constexpr double most = 0.01;
@@ -98,11 +98,14 @@ vtkSmartPointer<vtkDataArray> Rounded(vtkDataArray* voxels, int background, std:
     {
       std::transform(values, values + count, rounded->GetPointer(0),
         [background](auto value)
-        { return std::isnan(static_cast<double>(value)) ? background : std::round(static_cast<double>(value)); });
+        {
+          const auto real = static_cast<double>(value);
+          return std::isnan(real) ? background : std::round(real);
+        });
     });
   told = Join(NameOf(voxels), " is of type ", voxels->GetDataTypeAsString(),
-    "; its values are within ", farthest, " of integers, and are rounded to labels; ", missing,
-    " voxels are NaN, and are background.");
+    "; its values are within ", farthest, " of integers, and are rounded to labels",
+    missing > 0 ? Join("; ", missing, " voxels that are NaN are background.") : std::string("."));
   return rounded;
 }
 

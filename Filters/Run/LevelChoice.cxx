@@ -63,7 +63,8 @@ void CheckIsoValue(double iso, const std::array<double, 2>& range)
   if (!(range[0] < range[1]))
   {
     Refuse("all voxels are ", range[0],
-      ": no value parts an object from the background. Is it the right volume, array and component?");
+      ": no value parts an object from the background. Is it the right volume, array and "
+      "component?");
   }
   if (std::isnan(iso))
   {

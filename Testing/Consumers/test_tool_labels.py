@@ -220,7 +220,7 @@ class WhatIsReadTest(LabelsTest):
         voxels[0, 0, 0] = np.nan
         process = self.run_tool(self.map_file("b.vti", label_image(voxels)), self.path("b"),
                                 "--labels", "all")
-        self.assertRegex(process.stderr, "warning: .*within 0.01.* of integers, .* 1 voxels are NaN")
+        self.assertRegex(process.stderr, "warning: .*within 0.01.* of integers, .* 1 voxels that are NaN")
         self.assertEqual(self.content("a/label-7.vtp"), self.content("b/label-7.vtp"))
 
     def test_values_that_are_no_labels(self):

@@ -111,7 +111,7 @@ TEST_F(DeformableSurfaceErrors, WhatIsSetWrongIsNamedWithTheWayOut)
   for (const double iso : { -5.0, 100.0, 101.0, infinite })
   {
     cases.push_back({ [iso](vtkDeformableSurface* f) { f->SetIsoValue(iso); },
-      { "Iso Value is", iso == 100.0 ? "at an end of the range" : "outside the range", "0 to 100" } });
+      { "Iso Value is", iso == 100.0 ? "at an end of" : "outside", "the range", "0 to 100" } });
   }
   for (const Case& test : cases)
   {

@@ -161,7 +161,8 @@ void SurfaceEvolution::Load(CheckedReader& file)
   file.GetList(alive);
   // Places that no vertex has are listed as well.
   file.Need(places - std::min<std::uint64_t>(places, alive.size()), sizeof(int));
-  const auto isNoPlace = [places](int v) { return v < 0 || static_cast<std::uint64_t>(v) >= places; };
+  const auto isNoPlace = [places](int v)
+  { return v < 0 || static_cast<std::uint64_t>(v) >= places; };
   NeedThat(vertices == static_cast<int>(alive.size()) &&
       std::adjacent_find(alive.begin(), alive.end(), std::greater_equal<>()) == alive.end() &&
       std::none_of(alive.begin(), alive.end(), isNoPlace),
@@ -172,8 +173,8 @@ void SurfaceEvolution::Load(CheckedReader& file)
   std::vector<int> free;
   file.GetList(free);
   NeedThat(free.size() + alive.size() == places &&
-      std::none_of(free.begin(), free.end(),
-        [&](int v) { return isNoPlace(v) || mesh.IsAlive(v); }),
+      std::none_of(
+        free.begin(), free.end(), [&](int v) { return isNoPlace(v) || mesh.IsAlive(v); }),
     file);
   mesh.CountOthers(static_cast<int>(free.size()));
   mesh.SetFreePlaces(std::move(free));
