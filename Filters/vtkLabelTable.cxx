@@ -85,7 +85,7 @@ int vtkLabelTable::RequestData(
     const vtkSmartPointer<vtkDataObject> input = volumic::TakeImages(ranks, call, 0);
     volumic::HostThreads threads(0);
     std::optional<volumic::LabelImage> image;
-    threads.Run([&] { image.emplace(input, this->GetInputArrayInformation(0), threads); });
+    threads.Run([&] { image.emplace(input, this->GetInputArrayInformation(0), 0, threads); });
     const auto known = volumic::LabelNames::Of(volumic::ImageOf(input));
     image->CheckNumberOfLabels();
     for (const auto& entry : image->Labels())

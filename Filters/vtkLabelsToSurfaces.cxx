@@ -266,7 +266,7 @@ volumic::LabelMap vtkLabelsToSurfaces::vtkInternals::Read(vtkDataObject* input,
     [&]
     {
       threads.Run([&]
-        { image.emplace(input, selection, threads); });
+        { image.emplace(input, selection, this->BackgroundLabel, threads); });
       choice.Labels = image->Choose(this->Labels, this->BackgroundLabel);
       choice.Names = this->Names;
       choice.Names.Complete(volumic::LabelNames::Of(volumic::ImageOf(input)));

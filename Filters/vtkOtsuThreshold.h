@@ -11,7 +11,8 @@
  * A vtkImageData, or a composite dataset with one image in it, or a pyramid, whose level 0 is
  * taken; the array chosen by SetInputArrayToProcess(), by default the active point scalars, or the
  * active cell scalars where points have none: numbers. NaN and blanked voxels (see vtkImagePyramid)
- * are left out.
+ * are left out, and so is the padding of a CT: voxels of a smallest value below -1024, if they are a
+ * hundredth of all or more and no other is within 400 of it.
  *
  * @par Output:
  * A vtkTable with one row and the column `Threshold` (double), in the units of the voxels. No voxel

@@ -3,6 +3,8 @@
 #ifndef volumicCheckInputs_h
 #define volumicCheckInputs_h
 
+#include <array>
+#include <cstdint>
 #include <iosfwd>
 #include <string>
 
@@ -18,29 +20,47 @@ namespace tool
 void CheckNetcdf(const std::string& name);
 
 /**
- * XML, up to appended data: elements within elements, which VTK's reader takes by recursion, and the
- * blocks that arrays are packed in, for whose sizes it takes memory. Of a name all parts, as .pvti has.
+ * VTK's XML, whatever the encoding: elements within elements, which its reader takes by recursion;
+ * the blocks that arrays are packed in, for whose sizes it takes memory; and the values of each array,
+ * of which it makes zeros where they are missing. Of a name all parts, as .pvti has.
+ * @return how many points the cells of a surface have, which is to be compared with what was read
  */
-void CheckXmlInput(std::istream& file);
-void CheckXmlInput(const std::string& name);
+std::uint64_t CheckXmlInput(std::istream& file);
+std::uint64_t CheckXmlInput(const std::string& name);
 
 /** Wavefront's .obj: the corners of faces are among the points, and so what comes with them. */
 void CheckObj(const std::string& name);
 
+/** A surface in VTK's legacy format: its cells have as many points as they tell of. */
+void CheckLegacy(const std::string& name);
+
 /** A polygon file (.ply): all elements that its head tells of are there. */
 void CheckPly(const std::string& name);
+
+/** What programs that write volumes as TIFF tell beside the pixels. */
+struct TiffFacts
+{
+  std::array<double, 3> Spacing = { 1.0, 1.0, 1.0 };
+};
+
+/**
+ * What the description of a first page tells, if ImageJ or OME-TIFF is its writer.
+ * @param distances of the pixels, as the page's tags tell
+ * @throws Failure for what makes the pages others than the slices of one volume
+ */
+TiffFacts FactsOf(const std::string& text, bool isOnlyPage, std::array<double, 3> distances);
 
 /**
  * TIFF: all pages are of one kind that VTK reads, their data lie within the file without overlap,
  * and no page is left out. @return how many there are; 0 for other formats.
  */
-int CheckTiff(const std::string& name);
+int CheckTiff(const std::string& name, TiffFacts* facts = nullptr);
 
 /**
  * TIFF as above; PNG: the checksums; BMP, PGM, PPM: the size of the data. Others are passed over.
  * @return pages of a TIFF, else 1
  */
-int CheckPicture(const std::string& name);
+int CheckPicture(const std::string& name, TiffFacts* facts = nullptr);
 
 /**
  * What VTK has chosen a reader for, by a few bytes that any file may have: of TGA all pixels must be

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <iomanip>
 #include <limits>
 #include <map>
 #include <set>
@@ -113,7 +114,7 @@ Head ReadHead(std::istream& file)
   throw Failure("the file is cut off, or no polygon file: its header does not end");
 }
 
-/** The elements behind the head, one number after the other. */
+/** The elements behind the head, one number after the other; in a text each has a line. */
 class Body
 {
 public:
@@ -122,12 +123,24 @@ public:
   {
   }
 
+  void BeginElement()
+  {
+    std::string line;
+    if (this->IsText)
+    {
+      std::getline(this->File, line);
+      // VTK's reader ends the program where the last line does not end.
+      this->IsShort = !this->File || this->File.eof();
+      this->Line = std::istringstream(line);
+    }
+  }
+
   std::uint64_t Count(int bytes)
   {
     if (this->IsText)
     {
       std::string word;
-      this->File >> word;
+      this->Line >> word;
       return std::strtoull(word.c_str(), nullptr, 10);
     }
     std::string number(static_cast<std::size_t>(bytes), '\0');
@@ -138,10 +151,10 @@ public:
   /** Go behind the corners of a polygon, which must be among the points. */
   void CheckCorners(std::uint64_t count, const NumberType& type, std::uint64_t points)
   {
-    for (std::uint64_t i = 0; this->File && i < count; ++i)
+    for (std::uint64_t i = 0; this->IsComplete() && i < count; ++i)
     {
       const std::uint64_t corner = this->Count(type.Bytes);
-      if ((corner >= points || corner > type.Largest) && this->File)
+      if ((corner >= points || corner > type.Largest) && this->IsComplete())
       {
         throw Failure("is damaged: a polygon has point " + std::to_string(corner) + ", there are " +
           std::to_string(points));
@@ -152,9 +165,9 @@ public:
   void Skip(std::uint64_t count, int bytes)
   {
     std::string word;
-    for (std::uint64_t i = 0; this->IsText && this->File && i < count; ++i)
+    for (std::uint64_t i = 0; this->IsText && this->Line && i < count; ++i)
     {
-      this->File >> word;
+      this->Line >> word;
     }
     if (!this->IsText)
     {
@@ -164,14 +177,21 @@ public:
     }
   }
 
-  /** So far. VTK's reader ends the program where the last line of a text does not end. */
-  bool IsComplete() const
+  /** So far. */
+  bool IsComplete() const { return this->File && this->Line && !this->IsShort; }
+
+  /** @throws Failure unless the element has ended, where VTK's reader takes it to end. */
+  void EndElement(const std::string& which)
   {
-    return this->File && !this->IsShort && !(this->IsText && this->File.eof());
+    std::string more;
+    FailIf(!this->File || this->IsShort, "the file is cut off: it ends in element " + which);
+    FailIf(this->IsText && (!this->Line || this->Line >> more),
+      "is damaged: element " + which + " is not in one line of its own");
   }
 
 private:
   std::istream& File;
+  std::istringstream Line; ///< that of a text
   bool IsText;
   bool IsBig;
   bool IsShort = false;
@@ -225,6 +245,7 @@ void CheckPly(const std::string& name)
   {
     for (std::uint64_t i = 0; !part.Properties.empty() && i < part.Count; ++i)
     {
+      body.BeginElement();
       for (const Property& property : part.Properties)
       {
         const bool isList = property.Count.Bytes > 0;
@@ -242,11 +263,7 @@ void CheckPly(const std::string& name)
           body.Skip(count, property.Value.Bytes);
         }
       }
-      if (!body.IsComplete())
-      {
-        throw Failure("the file is cut off: it ends in element " + std::to_string(i + 1) + " of " +
-          std::to_string(part.Count));
-      }
+      body.EndElement(std::to_string(i + 1) + " of " + std::to_string(part.Count));
     }
   }
 }
@@ -326,6 +343,57 @@ void CheckObj(const std::string& name)
           std::to_string(forms.size()) + " kinds");
       }
     }
+  }
+}
+
+// ---- .vtk ---------------------------------------------------------------------------------------
+
+// Legacy files. Up to version 4 cells are a list of numbers of points, each with the points behind
+// it, by which VTK's reader walks; newer ones have offsets, which it looks at.
+void CheckLegacy(const std::string& name)
+{
+  static const std::set<std::string> kinds = { "vertices", "lines", "polygons", "triangle_strips" };
+  std::ifstream file(name, std::ios::binary);
+  std::string line;
+  std::getline(file, line);
+  const bool isNew = std::atoi(line.substr(line.find_last_of(' ') + 1).c_str()) >= 5;
+  std::getline(std::getline(file, line), line);
+  const bool isText = Lower(Trimmed(line)) == "ascii";
+  const auto next = [&]
+  {
+    std::int64_t number = -1;
+    std::string bytes(4, '\0');
+    if (isText ? !(file >> number) : !file.read(bytes.data(), 4))
+    {
+      return std::int64_t(-1);
+    }
+    return isText ? number : std::int64_t(static_cast<std::int32_t>(NumberOf(bytes, true)));
+  };
+  for (std::string word; !isNew && file >> std::setw(32) >> word;)
+  {
+    std::int64_t cells = 0;
+    std::int64_t left = 0;
+    std::string more;
+    // An array may have such a name; behind its numbers is a type.
+    if (kinds.count(Lower(word)) == 0 || !std::getline(file, line) ||
+      !(std::istringstream(line) >> cells >> left) ||
+      std::istringstream(line) >> left >> left >> more)
+    {
+      continue;
+    }
+    for (std::int64_t i = 0; i < cells; ++i)
+    {
+      const std::int64_t points = next();
+      left -= 1 + points;
+      FailIf(points < 0 || left < cells - 1 - i,
+        "is cut off or damaged: cell " + std::to_string(i + 1) + " of " + std::to_string(cells) +
+          " has " + std::to_string(points) + " points, which are not all there");
+      for (std::int64_t k = 0; k < points; ++k)
+      {
+        next();
+      }
+    }
+    FailIf(left != 0, "is damaged: its " + word + " are more numbers than its cells have");
   }
 }
 }

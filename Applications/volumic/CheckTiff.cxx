@@ -29,9 +29,12 @@ enum Tag : std::uint64_t
   Bits = 258,
   Packing = 259,
   Colours = 262,
+  Description = 270,
   Offsets = 273,
   Orientation = 274,
   Samples = 277,
+  ResolutionX = 282,
+  ResolutionY = 283,
   RowsPerStrip = 278,
   Sizes = 279,
   Planes = 284,
@@ -60,6 +63,7 @@ struct Part
 struct Page
 {
   std::map<std::uint64_t, Numbers> Values; ///< of each tag; empty for others than whole numbers
+  std::string Words;       ///< of the description
   std::vector<Part> Parts; ///< of the file: itself, the values elsewhere
   std::uint64_t Next = 0;
 
@@ -79,6 +83,15 @@ struct Page
       throw Failure("its tag " + std::to_string(tag) + " is no number");
     }
     return values[0];
+  }
+
+  /** What lies between pixels of a resolution. */
+  double Distance(Tag tag) const
+  {
+    const Numbers values = this->List(tag);
+    return values.size() == 2 && values[0] > 0 && values[1] > 0
+      ? static_cast<double>(values[1]) / static_cast<double>(values[0])
+      : 1.0;
   }
 
   Numbers List(Tag tag) const { return EntryOr(this->Values, tag, {}); }
@@ -139,7 +152,16 @@ private:
     {
       page.Parts.push_back({ start, start + size });
     }
-    if (type == 3 || type == 4 || type == 13 || type == 16 || type == 18)
+    if (tag == Description && type == 2)
+    {
+      this->Take(size);
+      page.Words = this->File.Text(start, size);
+    }
+    else if ((tag == ResolutionX || tag == ResolutionY) && size == 8)
+    {
+      page.Values[tag] = { this->File.Number(start, 4), this->File.Number(start + 4, 4) };
+    }
+    else if (type == 3 || type == 4 || type == 13 || type == 16 || type == 18)
     {
       this->Take(size);
       const std::string text = this->File.Text(start, size);
@@ -304,7 +326,7 @@ void CheckParts(TiffFile& tiff, std::vector<Part> parts, std::uint64_t page)
 }
 }
 
-int CheckTiff(const std::string& name)
+int CheckTiff(const std::string& name, TiffFacts* facts)
 {
   TiffFile tiff{ BinaryFile(name) };
   const std::string mark = tiff.File.Size() < 8 ? "" : tiff.File.Text(0, 2);
@@ -320,6 +342,7 @@ int CheckTiff(const std::string& name)
   std::uint64_t place = tiff.IsWide ? tiff.File.Number(8, 8) : tiff.File.Number(4, 4);
   std::set<std::uint64_t> places;
   Page first;
+  TiffFacts found;
   std::uint64_t largest = 0;
   while (place != 0)
   {
@@ -331,7 +354,12 @@ int CheckTiff(const std::string& name)
     {
       Page page = tiff.ReadPage(place);
       CheckKind(page);
-      first = places.size() == 1 ? page : first;
+      if (places.size() == 1)
+      {
+        first = page;
+        found = FactsOf(first.Words, first.Next == 0,
+          { first.Distance(ResolutionX), first.Distance(ResolutionY), 1.0 });
+      }
       CheckLikeFirst(page, first);
       const std::size_t directory = page.Parts.size();
       CheckStrips(tiff, page);
@@ -358,6 +386,10 @@ int CheckTiff(const std::string& name)
     }
   }
   CheckParts(tiff, std::move(parts), largest);
+  if (facts)
+  {
+    *facts = found;
+  }
   return static_cast<int>(places.size());
 }
 }

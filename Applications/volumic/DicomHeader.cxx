@@ -141,6 +141,7 @@ const char* NameOfDecimal(const Element& element)
   return element.Tag == Tag(0x0020, 0x0032) ? "position"
     : element.Tag == Tag(0x0020, 0x0037)    ? "orientation"
     : element.Tag == Tag(0x0028, 0x0030)    ? "spacing"
+    : element.Tag == Tag(0x0018, 0x1164)    ? "imager spacing"
     : element.Tag == Tag(0x0028, 0x1052)    ? "intercept"
     : element.Tag == Tag(0x0028, 0x1053)    ? "slope"
                                             : nullptr;
@@ -192,6 +193,8 @@ void Take(const Element& element, ElementStream& stream, DicomHeader& header)
     const std::string numbers = Text(stream.Bytes(element.Length));
     CheckDecimal(numbers, name);
     const bool isGiven = !numbers.empty();
+    header.HasSpacing = header.HasSpacing || (isGiven && element.Tag == Tag(0x0028, 0x0030));
+    header.ImagerSpacing = element.Tag == Tag(0x0018, 0x1164) ? numbers : header.ImagerSpacing;
     header.HasPosition = header.HasPosition || (isGiven && element.Tag == Tag(0x0020, 0x0032));
     header.HasOrientation =
       header.HasOrientation || (isGiven && element.Tag == Tag(0x0020, 0x0037));

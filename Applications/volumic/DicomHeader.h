@@ -20,6 +20,8 @@ struct DicomHeader
   int Rows = 0;
   int Columns = 0;
   int Bits = 0; ///< allocated for each sample
+  bool HasSpacing = false;
+  std::string ImagerSpacing; ///< of the detector, between rows and between columns
   bool HasPosition = false;    ///< of its first pixel
   bool HasOrientation = false; ///< of its rows and columns
   bool HasPixels = false;

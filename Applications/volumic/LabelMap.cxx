@@ -8,7 +8,6 @@
 #include "ToolErrors.h"
 #include "ToolOptions.h"
 
-#include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkDeformableSurface.h>
 #include <vtkImageData.h>
@@ -28,53 +27,11 @@ namespace tool
 {
 namespace
 {
-/**
- * Make an array of cells the active one, if the option or the lack of others means it; else one of
- * points. @return whether it is one of cells
- */
-bool ChooseLabels(vtkImageData* image, const std::string& array)
-{
-  vtkPointData* points = image->GetPointData();
-  vtkCellData* cells = image->GetCellData();
-  const bool isMeant = array.empty()
-    ? points->GetNumberOfArrays() == 0 && (cells->GetScalars() || cells->GetNumberOfArrays() == 1)
-    : !points->HasArray(array.c_str()) && cells->HasArray(array.c_str());
-  if (!isMeant)
-  {
-    ChooseScalars(image, array);
-    return false;
-  }
-  vtkDataArray* labels = !array.empty() ? cells->GetArray(array.c_str())
-    : cells->GetScalars()               ? cells->GetScalars()
-                                        : cells->GetArray(0);
-  FailIf(!labels, "the cell array " + array + " holds no numbers");
-  if (!labels->GetName())
-  {
-    labels->SetName("Intensity");
-  }
-  cells->SetActiveScalars(labels->GetName());
-  return true;
-}
-
-/** The volume as it is, without a limit of memory. */
-vtkSmartPointer<vtkImageData> ReadWhole(const ToolOptions& options, bool& isOfCells)
-{
-  const vtkSmartPointer<vtkImageData> image = ReadVolume(options.Volume);
-  Named(options.Volume, [&] { isOfCells = ChooseLabels(image, options.Array); });
-  return image;
-}
-
-vtkDataSetAttributes* AttributesOf(vtkImageData* image, bool isOfCells)
-{
-  return isOfCells ? static_cast<vtkDataSetAttributes*>(image->GetCellData())
-                   : image->GetPointData();
-}
-
 /** An image of one component, with the names of that layer. */
 vtkSmartPointer<vtkImageData> LayerOf(
-  vtkImageData* image, bool isOfCells, int component, const LabelNames& names)
+  vtkImageData* image, int component, const LabelNames& names)
 {
-  vtkDataArray* all = AttributesOf(image, isOfCells)->GetScalars();
+  vtkDataArray* all = image->GetPointData()->GetScalars();
   const auto one = vtkSmartPointer<vtkDataArray>::Take(all->NewInstance());
   one->SetName(all->GetName());
   one->SetNumberOfComponents(1);
@@ -82,7 +39,7 @@ vtkSmartPointer<vtkImageData> LayerOf(
   one->CopyComponent(0, all, component);
   auto layer = vtkSmartPointer<vtkImageData>::New();
   layer->CopyStructure(image);
-  AttributesOf(layer, isOfCells)->SetScalars(one);
+  layer->GetPointData()->SetScalars(one);
   LabelNames own;
   for (LabelName name : names)
   {
@@ -141,17 +98,13 @@ LabelMap LoadLabelMap(const ToolOptions& options, vtkDeformableSurface* settings
       LoadVoxels(options.Volume, options.Array, settings, holder, announcer);
     map.Image = loaded.Components == 1 || component >= 0 ? loaded.Image : nullptr;
   }
-  map.Image = map.Image ? map.Image : ReadWhole(options, map.IsOfCells);
+  map.Image = map.Image ? map.Image : LoadWhole(options.Volume, options.Array, announcer);
   if (options.Spacing)
   {
     map.Image->SetSpacing(options.Spacing->data());
   }
   const LabelNames own = OwnNames(options, map.Image);
-  map.Facts = FactsOf(map.Image, AttributesOf(map.Image, map.IsOfCells)->GetScalars(), -1);
-  for (const std::size_t last : { 1, 3, 5 })
-  {
-    map.Facts.Extent[last] -= map.IsOfCells ? 1 : 0;
-  }
+  map.Facts = FactsOf(map.Image, map.Image->GetPointData()->GetScalars(), -1);
   const bool isTaken = settings->GetMemoryLimit() > 0 && component >= 0; // out of the others
   const std::vector<int> components =
     ComponentsOf(options, map.Facts.Components, isTaken ? -1 : component, own);
@@ -164,7 +117,7 @@ LabelMap LoadLabelMap(const ToolOptions& options, vtkDeformableSurface* settings
   const LabelNames names = GetLabelNames(map.Image);
   for (const int each : components)
   {
-    map.Layers.push_back(LayerOf(map.Image, map.IsOfCells, each, names));
+    map.Layers.push_back(LayerOf(map.Image, each, names));
   }
   return map;
 }

@@ -65,9 +65,8 @@ struct ToolOptions;
 struct LabelMap
 {
   vtkSmartPointer<vtkImageData> Image; ///< as it was read, with the names of its labels
-  /** One label per voxel, active scalars of points or cells: the image, or its components. */
+  /** One label per voxel, active scalars of the points: the image, or its components. */
   std::vector<vtkSmartPointer<vtkImageData>> Layers;
-  bool IsOfCells = false; ///< where the labels are
   VolumeFacts Facts;
 };
 

@@ -74,6 +74,15 @@ vtkSmartPointer<vtkImageData> GatherSlabs(
 }
 }
 
+vtkSmartPointer<vtkImageData> LoadWhole(
+  const std::string& name, const std::string& array, const Announcer& announcer)
+{
+  vtkSmartPointer<vtkImageData> image;
+  announcer.Follow(name, [&] { image = ReadVolume(name); });
+  Named(name, [&] { ChooseScalars(image, array); });
+  return image;
+}
+
 LoadedVoxels LoadVoxels(const std::string& name, const std::string& array,
   vtkDeformableSurface* filter, vtkImagePyramid* holder, const Announcer& announcer)
 {
@@ -81,11 +90,13 @@ LoadedVoxels LoadVoxels(const std::string& name, const std::string& array,
   vtkSmartPointer<vtkImageData>& image = loaded.Image;
   if (filter->GetMemoryLimit() == 0)
   {
-    image = ReadVolume(name);
+    image = LoadWhole(name, array, announcer);
   }
   else
   {
-    const OpenedVolume opened = OpenVolume(name, array, filter->GetScratchDirectory());
+    OpenedVolume opened;
+    announcer.Follow(name,
+      [&] { opened = OpenVolume(name, array, filter->GetScratchDirectory()); });
     if (!opened.Whole.empty())
     {
       announcer.Say("warning: " + name + ": volumes of this kind (" + opened.Whole +
@@ -103,8 +114,8 @@ LoadedVoxels LoadVoxels(const std::string& name, const std::string& array,
     image = GatherSlabs(name, opened.Source, holder, announcer.Style);
     loaded.Components = ComponentsIn(VoxelsIn(opened.Source->GetOutputInformation(0), array));
     holder->RemoveAllInputs();
+    Named(name, [&] { ChooseScalars(image, array); });
   }
-  Named(name, [&] { ChooseScalars(image, array); });
   loaded.Components = std::max(
     loaded.Components, image->GetPointData()->GetScalars()->GetNumberOfComponents());
   return loaded;

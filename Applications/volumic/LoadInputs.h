@@ -44,7 +44,11 @@ struct LoadedVoxels
   int Components = 1; ///< that the file has; with a limit the image has the selected one
 };
 
-/** The part that reads: any volume. */
+/** Any volume as a whole, with warnings of what its file says and is not followed. */
+vtkSmartPointer<vtkImageData> LoadWhole(
+  const std::string& name, const std::string& array, const Announcer& announcer);
+
+/** The same, or slab by slab. */
 LoadedVoxels LoadVoxels(const std::string& name, const std::string& array,
   vtkDeformableSurface* filter, vtkImagePyramid* holder, const Announcer& announcer);
 

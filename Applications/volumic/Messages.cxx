@@ -199,6 +199,11 @@ std::string VtkMessages::JoinedErrors() const
   return joined;
 }
 
+void TellOfFile(const std::string& text)
+{
+  vtkGenericWarningMacro(<< text);
+}
+
 // ---- Progress -----------------------------------------------------------------------------------
 
 namespace

@@ -59,6 +59,12 @@ private:
   std::vector<vtkSmartPointer<vtkCallbackCommand>> Observers;
 };
 
+/**
+ * Tell of a file that is opened what is not followed, or had to be guessed, in one line with both
+ * values: a warning of VTK's, which ParaView shows, and the program with the file's name.
+ */
+void TellOfFile(const std::string& text);
+
 // ---- Progress -----------------------------------------------------------------------------------
 
 /** How the progress is shown on stderr. */

@@ -28,8 +28,10 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <locale>
 #include <map>
 #include <memory>
+#include <sstream>
 #include <utility>
 
 namespace tool
@@ -210,7 +212,7 @@ double SliceDistance(const std::vector<Slice>& slices, const Vector3& normal)
       aside[c] = slices[i].Position[c] - slices[i - 1].Position[c] - step * normal[c];
     }
     FailIf(std::sqrt(Dot(aside, aside)) > UnevenDistance * mean,
-      "the gantry was tilted; the volume must be resampled first");
+      "the gantry was tilted; the volume must be resampled first (dcm2niix does so)");
   }
   return mean;
 }
@@ -291,6 +293,22 @@ Series ReadSeries(const std::vector<std::string>& files, bool keepsImages)
   std::stable_sort(slices.begin(), slices.end(),
     [&](const Slice& a, const Slice& b)
     { return Dot(a.Position, normal) < Dot(b.Position, normal); });
+  const DicomHeader& header = headers.front();
+  if (!header.HasSpacing)
+  {
+    std::istringstream numbers(header.ImagerSpacing);
+    numbers.imbue(std::locale::classic());
+    Vector3& spacing = slices[0].Spacing;
+    char sign = 0;
+    const bool isTold = numbers >> spacing[1] >> sign >> spacing[0] &&
+      std::min(spacing[0], spacing[1]) > 0.0;
+    spacing[0] = isTold ? spacing[0] : 1.0;
+    spacing[1] = isTold ? spacing[1] : 1.0;
+    TellOfFile("it has no Pixel Spacing; " +
+      (isTold ? "the Imager Pixel Spacing, " + NumberText(spacing[1]) + " x " +
+            NumberText(spacing[0]) + ", that of the detector, is taken"
+              : std::string("1 x 1 is taken")) + "; choose another one with --spacing");
+  }
   const double distance = SliceDistance(slices, normal);
   series.Placement.Spacing = { slices[0].Spacing[0], slices[0].Spacing[1], distance };
   series.Placement.Origin = slices[0].Position;

@@ -16,6 +16,7 @@
 #include <iterator>
 #include <limits>
 #include <map>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -69,6 +70,13 @@ public:
     FailIf(!(start >= 0.0f && start < 1e9f) || start != std::floor(start),
       "its header is damaged: the voxels begin at byte " + std::to_string(start));
     return static_cast<std::uint64_t>(start);
+  }
+
+  /** What world units are, where these are not millimetres; empty: they are, or it is not told. */
+  std::string Unit() const
+  {
+    const std::uint64_t unit = this->Number(this->IsWide ? 500 : 123, this->IsWide ? 4 : 1) % 8;
+    return this->Mark()[0] != 'n' ? "" : unit == 1 ? "metres" : unit == 3 ? "micrometres" : "";
   }
 
   /** Bytes of a header before the voxels, with what tells of more of it. */
@@ -157,6 +165,11 @@ std::uint64_t CheckNifti(const std::string& name)
   const std::string mark = header.Mark();
   FailIf(isOne && mark != "n+1" && mark != "n+2",
     "not a NIfTI file, or its header is damaged: its mark is not n+1 or n+2");
+  if (!header.Unit().empty())
+  {
+    TellOfFile("its unit, and so that of surfaces and lengths, is " + header.Unit() +
+      ", not millimetres");
+  }
   const std::uint64_t needed = BytesOf(header);
   const std::uint64_t start = header.Start();
   FailIf(isOne && start < header.Length(),
@@ -179,15 +192,36 @@ std::pair<double, double> RescalingOf(vtkNIFTIImageReader* reader)
 {
   FailIf(reader->GetTimeDimension() > 1,
     NumberText(reader->GetTimeDimension()) + " time points; one volume is needed");
-  const double slope = reader->GetRescaleSlope() == 0.0 ? 1.0 : reader->GetRescaleSlope();
-  return { slope, reader->GetRescaleIntercept() };
+  // What are no numbers scale nothing, as 0 does not: masks have such.
+  const double slope = reader->GetRescaleSlope();
+  const double shift = reader->GetRescaleIntercept();
+  return slope == 0.0 || !std::isfinite(slope) || !std::isfinite(shift)
+    ? std::pair<double, double>(1.0, 0.0)
+    : std::pair<double, double>(slope, shift);
 }
 
-/** The sform, or the qform where that fails. @return whether there is one. */
-bool Place(vtkNIFTIImageReader* reader, const double* spacing, VolumePlacement& placement)
+/**
+ * The sform, or the qform where that fails; tells where they are not the same.
+ * @return whether there is one.
+ */
+bool Place(vtkNIFTIImageReader* reader, VolumePlacement& placement)
 {
+  const Vector3 told = placement.Spacing;
+  for (double& spacing : placement.Spacing)
+  {
+    spacing = std::abs(spacing);
+  }
+  if (told != placement.Spacing)
+  {
+    TellOfFile("the distance of its voxels is told as " + NumberText(told[0]) + ", " +
+      NumberText(told[1]) + ", " + NumberText(told[2]) + "; it is taken without signs");
+  }
   std::string failure;
-  for (vtkMatrix4x4* matrix : { reader->GetSFormMatrix(), reader->GetQFormMatrix() })
+  std::optional<VolumePlacement> found;
+  // VTK has divided the sform by the spacing; a qform is a mere rotation.
+  using Form = std::pair<vtkMatrix4x4*, Vector3>;
+  for (const auto& [matrix, spacing] :
+    { Form(reader->GetSFormMatrix(), told), Form(reader->GetQFormMatrix(), placement.Spacing) })
   {
     if (!matrix)
     {
@@ -195,17 +229,28 @@ bool Place(vtkNIFTIImageReader* reader, const double* spacing, VolumePlacement& 
     }
     try
     {
-      placement = PlacementOf(matrix, spacing);
-      PlaceImage(vtkNew<vtkImageData>(), placement);
-      return true;
+      const VolumePlacement next = PlacementOf(matrix, spacing.data());
+      PlaceImage(vtkNew<vtkImageData>(), next);
+      if (found && !found->IsLike(next))
+      {
+        TellOfFile("its sform, which is taken, and its qform differ: " + found->Text() + "; " +
+          next.Text());
+      }
+      found = found ? found : next;
     }
     catch (const Failure& error)
     {
       failure = failure.empty() ? error.what() : failure;
     }
   }
-  FailIf(!failure.empty(), failure);
-  return false;
+  FailIf(!found && !failure.empty(), failure);
+  if (found && !failure.empty() && reader->GetSFormMatrix() && reader->GetQFormMatrix())
+  {
+    TellOfFile(
+      "one of its sform and qform is not at right angles; the other is taken: " + found->Text());
+  }
+  placement = found.value_or(placement);
+  return found.has_value();
 }
 }
 
@@ -245,8 +290,7 @@ std::unique_ptr<SlabReader> OpenNifti(const std::string& name, const Opening& op
   {
     slabs->Type = VTK_FLOAT;
   }
-  const Vector3 spacing = slabs->Placement.Spacing;
-  slabs->WorldAxes = Place(reader, spacing.data(), slabs->Placement) ? "RAS" : "";
+  slabs->WorldAxes = Place(reader, slabs->Placement) ? "RAS" : "";
   return slabs;
 }
 

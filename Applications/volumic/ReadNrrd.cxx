@@ -193,15 +193,22 @@ std::uint64_t BehindLines(const std::string& file, std::uint64_t start, int line
   return data.good() ? static_cast<std::uint64_t>(data.tellg()) : std::filesystem::file_size(file);
 }
 
-/** Whether each voxel has several numbers, one behind the other, as the layers of segmentations. */
-bool FirstAxisIsComponents(const Fields& fields)
+/** What the numbers along the first axis are. */
+std::string FirstKind(const Fields& fields)
 {
-  static const std::vector<std::string> kinds = { "list", "vector", "covariant-vector" };
   std::istringstream stream(Lower(EntryOr(fields, "kinds", "")));
   std::string kind;
   stream >> kind;
+  return kind;
+}
+
+/** Whether each voxel has several numbers, one behind the other, as the layers of segmentations. */
+bool FirstAxisIsComponents(const Fields& fields)
+{
+  static const std::vector<std::string> ofSpace = { "", "domain", "space", "none", "???" };
+  const std::string kind = FirstKind(fields);
   return EntryOr(fields, "dimension", "") == "4" &&
-    std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
+    std::find(ofSpace.begin(), ofSpace.end(), kind) == ofSpace.end();
 }
 
 Header ReadHeader(const std::string& name)
@@ -321,6 +328,14 @@ std::unique_ptr<SlabReader> OpenNrrd(const std::string& name, const Opening& ope
   const bool isRaw = slabs->Code == RawSlabs::Packing::None;
   slabs->AreLast = isRaw && skip < 0;
   (isRaw ? slabs->Start : slabs->Before) += static_cast<std::uint64_t>(std::max(skip, 0));
+  const std::string kind = FirstKind(header.All);
+  const bool isOfParts =
+    kind == "list" || kind == "time" || kind == "rgba-color" || kind == "4-color";
+  if (slabs->Components > 1 && isOfParts &&
+    NamesOfSegments(header.Pairs, slabs->Components).empty())
+  {
+    TellOfMagnitude(slabs->Components, kind);
+  }
   slabs->Prepare(opening);
   return std::move(slabs);
 }

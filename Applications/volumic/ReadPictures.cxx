@@ -110,9 +110,11 @@ bool Matches(const std::string& name, const std::string& pattern)
   return reached.back();
 }
 
-vtkSmartPointer<vtkImageData> ReadPicture(const std::string& file)
+/** @param isTiff given whether VTK's reader leaves the rows as they are, and does not turn them */
+vtkSmartPointer<vtkImageData> ReadPicture(const std::string& file, bool& isTiff)
 {
   const vtkSmartPointer<vtkImageReader2> reader = ReaderOf(file);
+  isTiff = reader->IsA("vtkTIFFReader") != 0;
   reader->SetDataSpacing(1.0, 1.0, 1.0);
   VtkMessages messages;
   messages.UpdateReader(reader, file);
@@ -127,6 +129,12 @@ void CheckPictures(const std::vector<std::string>& files)
   for (const std::string& file : files)
   {
     suffixes.insert(std::filesystem::path(file).extension().string());
+  }
+  for (const char* suffix : { ".gz", ".nii", ".nrrd", ".nhdr", ".mha", ".mhd", ".vti", ".mgz" })
+  {
+    FailIf(suffixes.count(suffix) > 0,
+      "no folder of pictures or of DICOM slices, but of volumes (" + files.front() +
+        "); give one of them by its name");
   }
   if (suffixes.size() > 1)
   {
@@ -158,13 +166,14 @@ void CheckPictures(const std::vector<std::string>& files)
   }
 }
 
-/** A slice per picture. */
+/** A slice per picture, whose rows follow each other downwards, as in TIFF of several pages. */
 class PictureSlabs : public SlabReader
 {
 public:
   explicit PictureSlabs(const std::vector<std::string>& files) : Files(files)
   {
-    const vtkSmartPointer<vtkImageData> first = ReadPicture(files.front());
+    bool isTiff = false;
+    const vtkSmartPointer<vtkImageData> first = ReadPicture(files.front(), isTiff);
     vtkDataArray* values = ValuesOf(first, files.front());
     this->Size = { first->GetDimensions()[0], first->GetDimensions()[1],
       static_cast<int>(files.size()) };
@@ -184,12 +193,18 @@ public:
     for (int i = 0; i < count; ++i)
     {
       const std::string& file = this->Files[static_cast<std::size_t>(first + i)];
-      const vtkSmartPointer<vtkImageData> picture = ReadPicture(file);
+      bool isTiff = false;
+      const vtkSmartPointer<vtkImageData> picture = ReadPicture(file, isTiff);
       vtkDataArray* values = ValuesOf(picture, file);
       FailIf(
         values->GetDataType() != this->Type || values->GetNumberOfComponents() != this->Components,
         file + ": its values are of another type than the first picture's");
-      stack->InsertTuples(area * i, area, 0, values);
+      for (int row = 0; row < this->Size[1]; ++row)
+      {
+        const vtkIdType width = this->Size[0];
+        stack->InsertTuples(area * i + row * width, width,
+          (isTiff ? row : this->Size[1] - 1 - row) * width, values);
+      }
     }
     return stack;
   }
@@ -236,15 +251,28 @@ std::vector<std::string> MatchFiles(const std::string& pattern)
   return files;
 }
 
+/** Colours or grey values with how much they cover. */
+static void TellOfAlpha(const SlabReader& slabs)
+{
+  if (slabs.Components == 2 || slabs.Components == 4)
+  {
+    TellOfMagnitude(
+      slabs.Components, slabs.Components == 2 ? "grey and alpha" : "colour and alpha");
+  }
+}
+
 std::unique_ptr<SlabReader> OpenPictures(const std::vector<std::string>& files)
 {
   CheckPictures(files);
-  return std::make_unique<PictureSlabs>(files);
+  auto slabs = std::make_unique<PictureSlabs>(files);
+  TellOfAlpha(*slabs);
+  return slabs;
 }
 
 std::unique_ptr<SlabReader> OpenByContent(const std::string& name, const Opening& opening)
 {
-  CheckPicture(name); // before any reader of VTK looks at it
+  TiffFacts facts;
+  CheckPicture(name, &facts); // before any reader of VTK looks at it
   const vtkSmartPointer<vtkImageReader2> reader = ReaderOf(name);
   CheckChosen(reader, name);
   if (reader->IsA("vtkNIFTIImageReader"))
@@ -253,6 +281,11 @@ std::unique_ptr<SlabReader> OpenByContent(const std::string& name, const Opening
   }
   auto slabs = std::make_unique<ReaderSlabs>(name, [name] { return ReaderOf(name); });
   slabs->HasParts = reader->IsA("vtkTIFFReader");
+  if (slabs->HasParts)
+  {
+    slabs->Placement.Spacing = facts.Spacing;
+    TellOfAlpha(*slabs);
+  }
   return slabs;
 }
 }

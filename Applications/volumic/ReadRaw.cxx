@@ -11,6 +11,7 @@
 #include <vtkType.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -200,6 +201,13 @@ std::unique_ptr<SlabReader> OpenMeta(const std::string& name, const Opening& ope
       break;
     }
   }
+  // VTK's reader drops the signs of what is against an axis.
+  std::istringstream spacings(HeaderValue(name, "ElementSpacing"));
+  double spacing = 0.0;
+  for (std::size_t a = 0; a < 3 && spacings >> spacing; ++a)
+  {
+    slabs->Placement.Turn(a, spacing < 0.0);
+  }
   slabs->Start = Lower(told) == "local" ? BehindHeader(name) : 0;
   if (slabs->Code == RawSlabs::Packing::None)
   {
@@ -235,15 +243,29 @@ std::unique_ptr<SlabReader> OpenMrc(const std::string& name, const Opening& open
   file.IsBig = stamp == 0x11;
   // Types and numbers of components of the modes.
   static const std::map<std::uint64_t, std::pair<int, int>> modes = {
-    { 0, { VTK_UNSIGNED_CHAR, 1 } }, { 1, { VTK_SHORT, 1 } }, { 2, { VTK_FLOAT, 1 } },
+    { 0, { VTK_SIGNED_CHAR, 1 } }, { 1, { VTK_SHORT, 1 } }, { 2, { VTK_FLOAT, 1 } },
     { 3, { VTK_SHORT, 2 } },
     { 4, { VTK_FLOAT, 2 } }, { 6, { VTK_UNSIGNED_SHORT, 1 } }, { 16, { VTK_UNSIGNED_CHAR, 3 } } };
   const std::uint64_t mode = file.Number(12, 4);
   auto slabs = std::make_unique<RawSlabs>();
   slabs->Files = { name };
   slabs->ArrayName = "ImageScalars";
+  FailIf(mode == 12 || mode == 101,
+    "voxels of mode " + std::to_string(mode) +
+      ", of half a float or half a byte, are not read; write them as mode 2 (IMOD: newstack "
+      "-mode 2)");
   std::tie(slabs->Type, slabs->Components) = EntryOf(modes, mode,
     "its header is damaged: the mode " + std::to_string(mode) + " is no type of voxels");
+  // IMOD tells where its bytes have no sign.
+  const bool isOfImod = file.Number(152, 4) == 1146047817;
+  const bool isUnsigned = mode == 0 && isOfImod && file.Number(156, 4) % 2 == 0;
+  slabs->Type = isUnsigned ? VTK_UNSIGNED_CHAR : slabs->Type;
+  for (const std::uint64_t place : { 52, 56, 60 })
+  {
+    const double angle = FloatAt(file, place);
+    FailIf(angle != 0.0 && !(std::abs(angle - 90.0) < 0.01),
+      "its cells have an angle of " + NumberText(angle) + " degrees: " + MustBeResampled);
+  }
   slabs->IsBig = file.IsBig;
   slabs->Start = 1024 + file.Number(92, 4);
   VolumePlacement& placement = slabs->Placement;

@@ -5,7 +5,6 @@
 #include "BinaryFile.h"
 #include "CheckInputs.h"
 #include "Messages.h"
-#include "SurfaceFacts.h"
 #include "Texts.h"
 #include "ToolErrors.h"
 
@@ -23,6 +22,7 @@
 #include <vtkXMLPolyDataReader.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <filesystem>
 #include <fstream>
@@ -33,6 +33,11 @@ namespace tool
 {
 namespace
 {
+std::array<vtkCellArray*, 4> CellsOf(vtkPolyData* mesh)
+{
+  return { mesh->GetVerts(), mesh->GetLines(), mesh->GetPolys(), mesh->GetStrips() };
+}
+
 template <class Reader>
 vtkSmartPointer<vtkPolyData> ReadWith(const std::string& name)
 {
@@ -72,12 +77,28 @@ vtkSmartPointer<vtkPolyData> ReadChecked(const std::string& name)
   return ReadWith<Reader>(name);
 }
 
+/** .vtp; of too few points of its polygons VTK's reader makes zeros. */
+vtkSmartPointer<vtkPolyData> ReadXml(const std::string& name)
+{
+  const std::uint64_t told = Named(name, [&] { return CheckXmlInput(name); });
+  const vtkSmartPointer<vtkPolyData> mesh = ReadWith<vtkXMLPolyDataReader>(name);
+  vtkIdType there = 0;
+  for (vtkCellArray* cells : CellsOf(mesh))
+  {
+    there += cells->GetNumberOfConnectivityIds();
+  }
+  FailIf(static_cast<std::uint64_t>(there) != told,
+    name + ": the file is cut off or damaged: its cells have " + std::to_string(there) +
+      " points, it holds " + std::to_string(told));
+  return mesh;
+}
+
 vtkSmartPointer<vtkPolyData> ReadMeshFile(const std::string& name)
 {
   using Read = vtkSmartPointer<vtkPolyData> (*)(const std::string&);
   static const std::map<std::string, Read> readers = {
-    { ".vtp", ReadChecked<vtkXMLPolyDataReader, CheckXmlInput> },
-    { ".vtk", ReadWith<vtkPolyDataReader> }, { ".stl", ReadStl },
+    { ".vtp", ReadXml }, { ".vtk", ReadChecked<vtkPolyDataReader, CheckLegacy> },
+    { ".stl", ReadStl },
     { ".ply", ReadChecked<vtkPLYReader, CheckPly> }, { ".obj", ReadChecked<vtkOBJReader, CheckObj> }
   };
   FailIf(!std::filesystem::exists(name), name + ": no such file");
@@ -85,23 +106,23 @@ vtkSmartPointer<vtkPolyData> ReadMeshFile(const std::string& name)
     readers, SuffixOf(name), name + ": .vtp, .vtk, .stl, .ply and .obj are read")(name);
 }
 
-/** The mesh, whose polygons have points that are there. */
+/** The mesh, whose cells have points that are there. */
 vtkSmartPointer<vtkPolyData> ReadMesh(const std::string& name)
 {
   vtkSmartPointer<vtkPolyData> mesh = ReadMeshFile(name);
   const vtkIdType points = mesh->GetNumberOfPoints();
-  FailIf(!mesh->GetPolys()->IsValid(), name + ": is damaged: its polygons overlap in the file");
-  ForEachPolygon(mesh,
-    [&](vtkIdType, const vtkIdType* corners, vtkIdType count)
+  for (vtkCellArray* cells : CellsOf(mesh))
+  {
+    FailIf(!cells->IsValid(), name + ": is damaged: its cells overlap in the file");
+    double range[2] = { 0.0, -1.0 };
+    if (cells->GetNumberOfConnectivityIds() > 0)
     {
-      const auto wrong = std::find_if(
-        corners, corners + count, [points](vtkIdType c) { return c < 0 || c >= points; });
-      if (wrong != corners + count)
-      {
-        throw Failure(name + ": is damaged: a polygon has point " + std::to_string(*wrong) +
-          ", there are " + std::to_string(points));
-      }
-    });
+      cells->GetConnectivityArray()->GetRange(range, 0);
+    }
+    FailIf(range[0] < 0.0 || range[1] >= static_cast<double>(points),
+      name + ": is damaged: a polygon has point " +
+        NumberText(range[0] < 0.0 ? range[0] : range[1]) + ", there are " + std::to_string(points));
+  }
   return mesh;
 }
 

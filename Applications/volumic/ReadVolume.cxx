@@ -9,14 +9,17 @@
 #include "ToolErrors.h"
 #include "VolumeImage.h"
 
+#include <vtkCellData.h>
 #include <vtkDataArray.h>
-#include <vtkGenericDataObjectReader.h>
+#include <vtkFieldData.h>
 #include <vtkImageData.h>
 #include <vtkMatrix4x4.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkSLCReader.h>
+#include <vtkStructuredPointsReader.h>
 #include <vtkTrivialProducer.h>
+#include <vtkUnsignedCharArray.h>
 #include <vtkXMLImageDataReader.h>
 #include <vtkXMLPImageDataReader.h>
 #ifdef VOLUMIC_HAS_HDF
@@ -29,6 +32,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <new>
 #include <stdexcept>
@@ -124,7 +128,10 @@ FoundVolume OpenDicomFile(const std::string& name, const Opening& opening)
   return OpenSlices(SlicesOf(folder.empty() ? "." : folder), opening);
 }
 
-/** Readers of VTK that give parts; without the arrays that nobody asks for. */
+/**
+ * Readers of VTK that give parts; without the arrays that nobody asks for. Of values of cells all is
+ * read, to become points.
+ */
 template <class Reader>
 FoundVolume OpenXml(const std::string& name, const Opening& opening)
 {
@@ -133,7 +140,7 @@ FoundVolume OpenXml(const std::string& name, const Opening& opening)
   const vtkSmartPointer<Reader> reader = NewReader<Reader>(name);
   VtkMessages().AskReader(reader, name);
   std::string names;
-  bool isThere = array.empty();
+  bool isThere = array.empty() && reader->GetNumberOfPointArrays() > 0;
   for (int i = 0; !array.empty() && i < reader->GetNumberOfPointArrays(); ++i)
   {
     const std::string each = reader->GetPointArrayName(i);
@@ -141,8 +148,23 @@ FoundVolume OpenXml(const std::string& name, const Opening& opening)
     isThere = isThere || array == each;
     reader->SetPointArrayStatus(each.c_str(), array == each ? 1 : 0);
   }
-  FailIf(!isThere, "no point array " + array + (names.empty() ? "; there are none" : names));
-  return { reader, [reader, name] { return ImageOf(reader, name); } };
+  bool isOfCells = false;
+  for (int i = 0; !isThere && i < reader->GetNumberOfCellArrays(); ++i)
+  {
+    isOfCells = isOfCells || array.empty() || array == reader->GetCellArrayName(i);
+  }
+  FailIf(!isThere && !isOfCells && !array.empty(),
+    "no point array " + array + (names.empty() ? "; there are none" : names));
+  return { isOfCells ? nullptr : reader, [reader, name] { return ImageOf(reader, name); } };
+}
+
+/** What other data of VTK are called, by their suffix; null: none of them. */
+const char* OtherDataOf(const std::string& suffix)
+{
+  static const std::map<std::string, const char*> kinds = { { ".vtr", "a rectilinear grid" },
+    { ".vts", "a curvilinear grid" }, { ".vtu", "an unstructured grid" }, { ".vtp", "a surface" } };
+  // Of parts: .pvtu and so on.
+  return EntryOr(kinds, suffix.substr(0, 2) == ".p" ? "." + suffix.substr(2) : suffix, nullptr);
 }
 
 Opener OpenerOf(const std::string& name)
@@ -150,7 +172,7 @@ Opener OpenerOf(const std::string& name)
   static const std::vector<std::pair<std::string, Opener>> openers = {
     { ".vti", OpenXml<vtkXMLImageDataReader> },
     { ".pvti", OpenXml<vtkXMLPImageDataReader> },
-    { ".vtk", By(ReadWith<vtkGenericDataObjectReader>) },
+    { ".vtk", By(ReadWith<vtkStructuredPointsReader>) },
 #ifdef VOLUMIC_HAS_HDF
     { ".vtkhdf", By(ReadIfItsFormat<vtkHDFReader>) },
     { ".hdf", By(ReadIfItsFormat<vtkHDFReader>) },
@@ -174,6 +196,11 @@ Opener OpenerOf(const std::string& name)
     { ".dicom", OpenDicomFile },
     { ".ima", OpenDicomFile },
   };
+  if (const char* kind = OtherDataOf(SuffixOf(name)))
+  {
+    throw Failure(std::string("holds ") + kind +
+      ", and no image: resample it to one (ParaView's Resample To Image writes a .vti)");
+  }
   const std::string lower = Lower(name);
   const auto found = std::find_if(openers.begin(), openers.end(),
     [&lower](const auto& each)
@@ -257,22 +284,64 @@ OpenedVolume OpenVolume(
         return OpenedVolume{ volume.Parts, "" };
       }
       const Image image = ReadAll(volume);
-      ChooseScalars(image, array);
+      const bool areOfCells = ChooseScalars(image, array);
       auto holder = vtkSmartPointer<vtkTrivialProducer>::New();
       holder->SetOutput(image);
-      return OpenedVolume{ holder, SuffixOf(name) };
+      return OpenedVolume{ holder, areOfCells ? "values of cells" : SuffixOf(name) };
     });
 }
 
-void ChooseScalars(vtkImageData* image, const std::string& name)
+namespace
 {
-  vtkPointData* points = image->GetPointData();
-  vtkDataArray* array = name.empty() ? points->GetScalars() : points->GetArray(name.c_str());
-  if (!array && name.empty() && points->GetNumberOfArrays() == 1)
+/** Makes the image one of the centres of its cells, which have the values of the array. */
+void TakeCells(vtkImageData* image, vtkDataArray* values)
+{
+  vtkNew<vtkImageData> centres;
+  int extent[6];
+  double first[3];
+  double origin[3];
+  image->GetExtent(extent);
+  for (int axis = 0; axis < 3; ++axis)
   {
-    array = points->GetArray(0);
+    // An axis with one point has one cell.
+    first[axis] = extent[2 * axis + 1] > extent[2 * axis] ? 0.5 : 0.0;
+    extent[2 * axis + 1] = std::max(extent[2 * axis], extent[2 * axis + 1] - 1);
   }
-  if (!array)
+  image->TransformContinuousIndexToPhysicalPoint(first, origin);
+  centres->SetExtent(extent);
+  centres->SetOrigin(origin);
+  centres->SetSpacing(image->GetSpacing());
+  centres->SetDirectionMatrix(image->GetDirectionMatrix());
+  centres->GetPointData()->SetScalars(values);
+  if (vtkUnsignedCharArray* ghosts = image->GetCellGhostArray())
+  {
+    vtkNew<vtkUnsignedCharArray> hidden;
+    hidden->SetName(ghosts->GetName());
+    for (vtkIdType i = 0; i < ghosts->GetNumberOfTuples(); ++i)
+    {
+      const bool isHidden = (ghosts->GetValue(i) & vtkDataSetAttributes::HIDDENCELL) != 0;
+      hidden->InsertNextValue(isHidden ? vtkDataSetAttributes::HIDDENPOINT : 0);
+    }
+    centres->GetPointData()->AddArray(hidden);
+  }
+  centres->GetFieldData()->ShallowCopy(image->GetFieldData());
+  image->ShallowCopy(centres);
+}
+}
+
+bool ChooseScalars(vtkImageData* image, const std::string& name)
+{
+  const auto arrayOf = [&name](vtkDataSetAttributes* all)
+  {
+    vtkDataArray* array = name.empty() ? all->GetScalars() : all->GetArray(name.c_str());
+    return !array && name.empty() && all->GetNumberOfArrays() == 1 ? all->GetArray(0) : array;
+  };
+  vtkPointData* points = image->GetPointData();
+  vtkDataArray* array = arrayOf(points);
+  vtkDataArray* ofCells = !array && (!name.empty() || points->GetNumberOfArrays() == 0)
+    ? arrayOf(image->GetCellData())
+    : nullptr;
+  if (!array && !ofCells)
   {
     std::string names;
     for (int i = 0; i < points->GetNumberOfArrays(); ++i)
@@ -282,10 +351,17 @@ void ChooseScalars(vtkImageData* image, const std::string& name)
     throw Failure((name.empty() ? "the volume has no active scalars" : "no point array " + name) +
       (names.empty() ? "; there are no point arrays" : "; point arrays: " + names));
   }
-  if (!array->GetName())
+  const vtkSmartPointer<vtkDataArray> chosen = array ? array : ofCells;
+  if (!chosen->GetName())
   {
-    array->SetName("Intensity");
+    chosen->SetName("Intensity");
   }
-  points->SetActiveScalars(array->GetName()); // SetScalars would drop the one that was active
+  if (ofCells)
+  {
+    TakeCells(image, chosen);
+  }
+  // SetScalars would drop the one that was active.
+  image->GetPointData()->SetActiveScalars(chosen->GetName());
+  return ofCells != nullptr;
 }
 }

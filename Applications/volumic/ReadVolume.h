@@ -25,7 +25,7 @@ vtkSmartPointer<vtkImageData> ReadVolume(const std::string& name);
 struct OpenedVolume
 {
   vtkSmartPointer<vtkAlgorithm> Source; ///< Its output is the image.
-  std::string Whole; ///< Why it has been read as a whole, if so: the format.
+  std::string Whole; ///< Why it has been read as a whole, if so: the format, or what it holds.
 };
 
 /**
@@ -39,10 +39,12 @@ OpenedVolume OpenVolume(
   const std::string& name, const std::string& array, const std::string& scratch);
 
 /**
- * Make the array (empty: the active scalars, or the only one) the active scalars.
+ * Make the array (empty: the active scalars, or the only one) the active scalars. Where it is one of
+ * cells, the image becomes that of their centres.
+ * @return whether it is one of cells
  * @throws Failure if there is none.
  */
-void ChooseScalars(vtkImageData* image, const std::string& array);
+bool ChooseScalars(vtkImageData* image, const std::string& array);
 
 bool IsDicom(const std::string& file);
 

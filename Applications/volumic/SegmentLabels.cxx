@@ -41,10 +41,8 @@ namespace
 void SetInput(vtkAlgorithm* filter, const LabelMap& map, int layer)
 {
   filter->SetInputDataObject(0, map.Layers[static_cast<std::size_t>(layer)]);
-  filter->SetInputArrayToProcess(0, 0, 0,
-    map.IsOfCells ? vtkDataObject::FIELD_ASSOCIATION_CELLS
-                  : vtkDataObject::FIELD_ASSOCIATION_POINTS,
-    vtkDataSetAttributes::SCALARS);
+  filter->SetInputArrayToProcess(
+    0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS);
 }
 
 /** @param warnings those of the filter, which are told, go here */
@@ -327,7 +325,7 @@ ExitCode SegmentLabels(const ToolOptions& options, const FilterTrio& filters, Ra
   CatchInterrupts();
   MakeSurfaces(options, map, filters.Labels, surfaces, announcer, report, ranks);
   CheckThatAnyIsThere(options, report);
-  WriteAll(options, surfaces, report, announcer.Style);
+  announcer.Follow("", [&] { WriteAll(options, surfaces, report, announcer.Style); });
   TellEnd(surfaces, announcer);
   return report.IsFinished ? Success : Unfinished;
 }

@@ -151,8 +151,12 @@ void TakeOtsuThreshold(const Job& job)
   otsu->SetSelectedComponent(job.Filter->GetSelectedComponent());
   RunOnVolume(job, otsu, "Otsu's threshold", ProgressStyle::None);
   job.Filter->SetIsoValue(otsu->GetThreshold());
+  const double least = job.Volume.Facts.Range[0];
+  const bool hasPadding = least < -1024.0 && otsu->GetHistogram()->GetValue(0) > least;
   job.Says.Say("iso-value " + NumberText(job.Filter->GetIsoValue()) +
-    " by Otsu's threshold; choose another one with --iso");
+    ", a guess by Otsu's threshold" +
+    (hasPadding ? ", for which voxels of " + NumberText(least) + " are padding" : "") +
+    "; choose another one with --iso");
 }
 
 /** To whoever searches an isopotential in a label map. vtkVolumeToSurface says so itself. */
@@ -246,7 +250,7 @@ ExitCode SegmentVolume(const ToolOptions& options, const FilterTrio& filters)
   results.VolumeName = std::filesystem::path(options.Volume).filename().string();
   results.Volume = job.Volume.Facts;
   results.Filters = filters;
-  WriteOutputs(options, results, job.Says.Style);
+  job.Says.Follow("", [&] { WriteOutputs(options, results, job.Says.Style); });
   RemoveCheckpointOfEnded(job, results.StopReason);
 
   job.Says.Say(std::to_string(results.Size.Vertices) + " vertices after " +

@@ -171,6 +171,12 @@ vtkSmartPointer<vtkImageData> ReadAllSlabs(SlabReader& reader)
   return image;
 }
 
+void TellOfMagnitude(int components, const std::string& kind)
+{
+  TellOfFile("the " + std::to_string(components) + " numbers of each voxel are no vector (" + kind +
+    "); without --component their magnitude is taken");
+}
+
 // ---- Readers of VTK -----------------------------------------------------------------------------
 
 vtkSmartPointer<vtkImageData> ImageOf(vtkAlgorithm* reader, const std::string& name)

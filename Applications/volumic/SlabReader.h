@@ -73,7 +73,7 @@ std::unique_ptr<SlabReader> OpenMrc(const std::string& name, const Opening& open
 /** NRRD (.nrrd, .nhdr; encodings raw, gzip, bzip2, text), in the file's `space`. */
 std::unique_ptr<SlabReader> OpenNrrd(const std::string& name, const Opening& opening);
 
-/** NIfTI in its own world coordinates (RAS, mm): the sform, or the qform where that fails. */
+/** NIfTI in its own world coordinates (RAS): the sform, or the qform where that fails. */
 std::unique_ptr<SlabReader> OpenNifti(const std::string& name, const Opening& opening);
 
 /**
@@ -91,6 +91,9 @@ std::unique_ptr<SlabReader> OpenPictures(const std::vector<std::string>& files);
 
 /** A picture, the pages of a TIFF, or what else a reader of VTK takes for its own. */
 std::unique_ptr<SlabReader> OpenByContent(const std::string& name, const Opening& opening);
+
+/** Tells that several numbers of a voxel are no vector, whose magnitude is taken if nobody chooses. */
+void TellOfMagnitude(int components, const std::string& kind);
 
 // ---- Readers of VTK -----------------------------------------------------------------------------
 

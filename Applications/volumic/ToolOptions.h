@@ -100,6 +100,19 @@ public:
     }
   }
 
+  /** Does the work, and says what TellOfFile() tells meanwhile, of that file if it has a name. */
+  template <class Work>
+  void Follow(const std::string& name, const Work& work) const
+  {
+    VtkMessages told;
+    told.Catch(work);
+    for (const std::string& text : told.Warnings)
+    {
+      this->Say("warning: " + (name.empty() ? "" : name + ": ") + text);
+    }
+    told.ThrowErrors(name);
+  }
+
   ProgressStyle Style;
 
 private:

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "VolumeImage.h"
 
+#include "Texts.h"
 #include "ToolErrors.h"
 
 #include <vtkByteSwap.h>
@@ -13,6 +14,7 @@
 #include <vtkPointData.h>
 #include <vtkStringArray.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -52,6 +54,35 @@ void VolumePlacement::SetSteps(const std::array<Vector3, 3>& steps)
   }
 }
 
+std::array<double, 12> VolumePlacement::Numbers() const
+{
+  std::array<double, 12> numbers;
+  for (std::size_t i = 0; i < 12; ++i)
+  {
+    const std::size_t axis = i / 3;
+    numbers[i] = axis < 3 ? this->Axes[axis][i % 3] * this->Spacing[axis] : this->Origin[i % 3];
+  }
+  return numbers;
+}
+
+std::string VolumePlacement::Text() const
+{
+  std::string text = "steps and origin";
+  for (const double number : this->Numbers())
+  {
+    text += " " + NumberText(std::round(1e4 * number) / 1e4);
+  }
+  return text;
+}
+
+bool VolumePlacement::IsLike(const VolumePlacement& other) const
+{
+  const std::array<double, 12> numbers = this->Numbers();
+  const double most = 0.01 * *std::min_element(this->Spacing.begin(), this->Spacing.end());
+  return std::equal(numbers.begin(), numbers.end(), other.Numbers().begin(),
+    [most](double x, double y) { return std::abs(x - y) < most; });
+}
+
 void PlaceImage(vtkImageData* image, const VolumePlacement& placement)
 {
   // Headers round their direction cosines to some digits.
@@ -65,8 +96,7 @@ void PlaceImage(vtkImageData* image, const VolumePlacement& placement)
     {
       const double product = Dot(placement.Axes[a], placement.Axes[b]);
       FailIf(!(std::abs(product - (a == b ? 1.0 : 0.0)) < tolerance),
-        "the voxel axes are not at right angles: such a sheared or tilted volume "
-        "must be resampled first");
+        std::string("the voxel axes are not at right angles: ") + MustBeResampled);
       matrix[3 * b + a] = placement.Axes[a][b];
     }
   }

@@ -6,6 +6,7 @@
 #include <vtkSmartPointer.h>
 
 #include <array>
+#include <cstddef>
 #include <string>
 
 class vtkDataArray;
@@ -23,9 +24,30 @@ struct VolumePlacement
   /** The unit vectors of the index axes x, y, z in the world. */
   std::array<Vector3, 3> Axes = { { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } } };
 
+  /** The steps from voxel to voxel, and the place of the first one. */
+  std::array<double, 12> Numbers() const;
+  std::string Text() const; ///< of these
+
+  /** Whether they are the same to a hundredth of a voxel. */
+  bool IsLike(const VolumePlacement& other) const;
+
+  /** Have an index axis point the other way, the first voxel staying where it is, if it is so. */
+  void Turn(std::size_t axis, bool isSo)
+  {
+    for (double& along : this->Axes[axis])
+    {
+      along *= isSo ? -1.0 : 1.0;
+    }
+  }
+
   /** Split vectors from voxel to voxel into Spacing and Axes. */
   void SetSteps(const std::array<Vector3, 3>& steps);
 };
+
+/** What is said of images whose axes are not at right angles. */
+constexpr const char* MustBeResampled =
+  "such a sheared or tilted volume must be resampled first (3D Slicer: Resample Scalar/Vector/DWI "
+  "Volume)";
 
 /**
  * Give the image its place.

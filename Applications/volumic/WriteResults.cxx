@@ -3,22 +3,28 @@
 #include "WriteResults.h"
 
 #include "GltfScene.h"
+#include "Messages.h"
 #include "OutputFiles.h"
 #include "SurfaceFormats.h"
 #include "Texts.h"
 #include "ToolErrors.h"
 #include "VtkWriters.h"
 
+#include <vtkBoundingBox.h>
 #include <vtkDelimitedTextWriter.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
 #include <vtkPolyData.h>
 #include <vtkTable.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <exception>
 #include <filesystem>
 #include <iostream>
+#include <limits>
+#include <set>
 
 namespace tool
 {
@@ -74,6 +80,34 @@ void WriteBeside(const std::string& name, ProgressStyle style, const Write& writ
 }
 }
 
+namespace
+{
+/** Tells where a format, whose coordinates are float, rounds them too much for the triangles. */
+void TellOfRounding(vtkPolyData* surface, const std::string& name)
+{
+  static const std::set<std::string> exact = { ".vtp", ".pvtp", ".vtk", ".msh", ".smesh", ".poly" };
+  if (exact.count(SuffixOf(name)) > 0 || surface->GetNumberOfPolys() == 0)
+  {
+    return;
+  }
+  const vtkBoundingBox box(surface->GetBounds());
+  // About the edges of as many triangles on the faces of the surface's box.
+  const double edge =
+    2.0 * box.GetDiagonalLength() / std::sqrt(static_cast<double>(surface->GetNumberOfPolys()));
+  const double* bounds = surface->GetBounds();
+  const double largest = std::max(std::abs(*std::min_element(bounds, bounds + 6)),
+    std::abs(*std::max_element(bounds, bounds + 6)));
+  const double step = largest * std::numeric_limits<float>::epsilon();
+  if (step > 0.01 * edge)
+  {
+    TellOfFile(name + ": coordinates up to " + NumberText(std::round(largest)) +
+      " are rounded there by steps of " + NumberText(std::round(1e4 * step) / 1e4) +
+      ", edges are about " + NumberText(std::round(1e4 * edge) / 1e4) +
+      " long; .vtp, .vtk and .msh keep them");
+  }
+}
+}
+
 void CheckSurfaceName(const std::string& name)
 {
   FailIf<UsageError>(!FindSurfaceFormat(name),
@@ -101,6 +135,7 @@ bool HasPieces(const std::string& name)
 void WriteSurface(vtkPolyData* surface, const std::string& name, const SurfaceWriting& writing)
 {
   const SurfaceFormat* format = FindSurfaceFormat(name);
+  TellOfRounding(surface, name);
   WriteBeside(name, writing.Style,
     [&](const std::string& path, ProgressLine& line)
     {
@@ -127,6 +162,10 @@ void WriteVolume(vtkImageData* volume, const std::string& name, ProgressStyle st
 void WriteScene(
   const std::vector<SceneObject>& objects, const std::string& name, ProgressStyle style)
 {
+  for (const SceneObject& object : objects)
+  {
+    TellOfRounding(object.Surface, name);
+  }
   WriteBeside(name, style,
     [&](const std::string& path, ProgressLine& line) { WriteGlb(objects, path, line); });
 }

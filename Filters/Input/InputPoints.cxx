@@ -4,6 +4,7 @@
 
 #include "Core/Common/Refuse.h"
 #include "Host/PrefixErrors.h"
+#include "Input/CellIndices.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellArrayIterator.h>
@@ -17,6 +18,7 @@
 #include <cstddef>
 #include <iterator>
 #include <numeric>
+#include <string>
 
 namespace volumic
 {
@@ -37,6 +39,10 @@ std::vector<vtkIdType> IdsMeantBy(vtkPolyData* polyData)
     Refuse("Points are wanted, but the data has lines or polygons and no vertices. Mark the points "
            "by vertices (vtkVertexGlyphFilter, in ParaView Convert To Point Cloud), or give them "
            "without any cells.");
+  }
+  if (const std::string fault = FaultOfCells(polyData); !fault.empty())
+  {
+    Refuse("The data ", fault);
   }
   std::vector<bool> isTaken(numberOfPoints, false);
   auto cells = vtk::TakeSmartPointer(polyData->GetVerts()->NewIterator());

@@ -20,6 +20,7 @@
 #include <functional>
 #include <limits>
 #include <mutex>
+#include <set>
 #include <vector>
 
 namespace volumic
@@ -114,6 +115,44 @@ std::array<double, 2> FindNeighbours(
   }
   return { static_cast<double>(below), static_cast<double>(above) };
 }
+
+/**
+ * Has no value what lies outside the circle that a CT is reconstructed in, such as -2000 or -3024:
+ * less than any matter has, a hundredth of the voxels or more, and none is near. @return whether
+ * there is such padding.
+ */
+template <typename T>
+bool LeaveOutPadding(
+  const T* voxels, vtkIdType count, const std::array<double, 2>& range, ValidVoxels& valid)
+{
+  constexpr double air = -1024.0;
+  constexpr double gap = 400.0;
+  constexpr std::size_t leastValues = 16; // Fewer are a drawing, not a scan.
+  const double next = range[0] < air ? FindNeighbours(voxels, count, valid, range[0])[1] : range[0];
+  if (next - range[0] < gap || !(next < range[1]))
+  {
+    return false;
+  }
+  std::set<T> others;
+  ValidVoxels without = valid;
+  without.Marks.resize(static_cast<std::size_t>(count), 1);
+  vtkIdType padding = 0;
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    if (static_cast<double>(voxels[i]) == range[0])
+    {
+      without.Marks[static_cast<std::size_t>(i)] = 0;
+      ++padding;
+    }
+    else if (valid.Has(i) && others.size() < leastValues)
+    {
+      others.insert(voxels[i]);
+    }
+  }
+  const bool isPadding = padding >= count / 100 && others.size() == leastValues;
+  valid = isPadding ? without : valid;
+  return isPadding;
+}
 }
 
 VoxelHistogram FindOtsuThreshold(
@@ -123,15 +162,8 @@ VoxelHistogram FindOtsuThreshold(
     SelectComponent(ChooseArray(selection, image), component);
   const vtkSmartPointer<vtkDataArray> voxels = ContiguousVoxels(chosen);
   HostThreads threads(numberOfThreads);
-  const ValidVoxels valid = FindValidVoxels(chosen, voxels, image, true, threads);
+  ValidVoxels valid = FindValidVoxels(chosen, voxels, image, true, threads);
   CheckAnyIsValid(chosen, valid);
-  const std::array<double, 2> range = RangeOf(voxels, valid);
-  const double size = range[1] - range[0];
-  if (!(size > 0.0) || !std::isfinite(size))
-  {
-    Refuse(NameOf(chosen), " ranges from ", range[0], " to ", range[1],
-      ": no value separates its voxels.");
-  }
   const auto visit = [&](const auto& work)
   {
     switch (voxels->GetDataType())
@@ -139,6 +171,21 @@ VoxelHistogram FindOtsuThreshold(
       vtkTemplateMacro(work(static_cast<const VTK_TT*>(voxels->GetVoidPointer(0))));
     }
   };
+  std::array<double, 2> range = RangeOf(voxels, valid);
+  visit(
+    [&](const auto* values)
+    {
+      if (LeaveOutPadding(values, voxels->GetNumberOfTuples(), range, valid))
+      {
+        range = RangeOf(voxels, valid);
+      }
+    });
+  const double size = range[1] - range[0];
+  if (!(size > 0.0) || !std::isfinite(size))
+  {
+    Refuse(NameOf(chosen), " ranges from ", range[0], " to ", range[1],
+      ": no value separates its voxels.");
+  }
   VoxelHistogram found{ range, {}, 0.0 };
   visit(
     [&](const auto* values)

@@ -16,7 +16,7 @@ namespace volumic
 /** The values of an image's voxels, and what parts them best. */
 struct VoxelHistogram
 {
-  std::array<double, 2> Range = { 0.0, 0.0 }; ///< of the voxels
+  std::array<double, 2> Range = { 0.0, 0.0 }; ///< of the voxels, but for the padding of CT
   std::vector<vtkIdType> Counts;              ///< voxels of each bin of it
   double Threshold = 0.0;
 };

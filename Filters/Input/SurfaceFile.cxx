@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Input/SurfaceFile.h"
 
+#include "Input/CellIndices.h"
+
 #include <vtkAbstractArray.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -53,12 +55,18 @@ vtkSmartPointer<vtkAbstractArray> ReadArray(CheckedReader& file)
 {
   const std::string name = file.GetText();
   const auto type = file.Get<std::int32_t>();
+  if (type == VTK_BIT || (type != VTK_STRING && vtkDataArray::GetDataTypeSize(type) == 0))
+  {
+    file.Refuse("is damaged");
+  }
   auto array = vtkSmartPointer<vtkAbstractArray>::Take(vtkAbstractArray::CreateArray(type));
   if (!name.empty())
   {
     array->SetName(name.c_str());
   }
-  array->SetNumberOfComponents(file.Get<std::int32_t>());
+  const auto components = file.Get<std::int32_t>();
+  file.Need(static_cast<std::uint32_t>(components), 1);
+  array->SetNumberOfComponents(std::max(components, 1));
   const auto tuples = file.Get<std::int64_t>();
   // Each text has its length.
   const std::size_t least = array->IsNumeric() ? static_cast<std::size_t>(array->GetDataTypeSize())
@@ -98,9 +106,14 @@ void ReadArrays(CheckedReader& file, vtkFieldData* arrays)
   }
 }
 
-vtkSmartPointer<vtkDataArray> ReadNumbers(CheckedReader& file)
+vtkSmartPointer<vtkDataArray> ReadNumbers(CheckedReader& file, int components)
 {
-  return vtkDataArray::SafeDownCast(ReadArray(file));
+  const vtkSmartPointer<vtkDataArray> numbers = vtkDataArray::SafeDownCast(ReadArray(file));
+  if (!numbers || numbers->GetNumberOfComponents() != components)
+  {
+    file.Refuse("is damaged");
+  }
+  return numbers;
 }
 }
 
@@ -120,16 +133,33 @@ vtkSmartPointer<vtkPolyData> ReadSurfaceFrom(CheckedReader& file)
 {
   auto surface = vtkSmartPointer<vtkPolyData>::New();
   vtkNew<vtkPoints> points;
-  points->SetData(ReadNumbers(file));
+  points->SetData(ReadNumbers(file, 3));
   surface->SetPoints(points);
-  const vtkSmartPointer<vtkDataArray> offsets = ReadNumbers(file);
-  const vtkSmartPointer<vtkDataArray> connectivity = ReadNumbers(file);
+  const vtkSmartPointer<vtkDataArray> offsets = ReadNumbers(file, 1);
+  const vtkSmartPointer<vtkDataArray> connectivity = ReadNumbers(file, 1);
   vtkNew<vtkCellArray> triangles;
-  triangles->SetData(offsets, connectivity);
+  const bool areCells = triangles->SetData(offsets, connectivity);
   surface->SetPolys(triangles);
   ReadArrays(file, surface->GetPointData());
   ReadArrays(file, surface->GetCellData());
   ReadArrays(file, surface->GetFieldData());
+  // The signature of a file shows no damage, but whoever made it can sign anything.
+  const auto areAsMany = [](vtkFieldData* arrays, vtkIdType count)
+  {
+    bool areSo = true;
+    for (int i = 0; i < arrays->GetNumberOfArrays(); ++i)
+    {
+      areSo = areSo && arrays->GetAbstractArray(i)->GetNumberOfTuples() == count;
+    }
+    return areSo;
+  };
+  const vtkIdType corners = areCells ? triangles->IsHomogeneous() : -1;
+  if ((corners != 0 && corners != 3) || !FaultOfCells(surface).empty() ||
+    !areAsMany(surface->GetPointData(), points->GetNumberOfPoints()) ||
+    !areAsMany(surface->GetCellData(), triangles->GetNumberOfCells()))
+  {
+    file.Refuse("is damaged: what it holds is no surface");
+  }
   surface->GetPointData()->SetActiveNormals(file.GetText().c_str());
   return surface;
 }

@@ -12,6 +12,7 @@
 #include <vtkCellArray.h>
 #include <vtkCellArrayIterator.h>
 #include <vtkDataArray.h>
+#include <vtkDoubleArray.h>
 #include <vtkImageData.h>
 #include <vtkInformation.h>
 #include <vtkIntArray.h>
@@ -61,6 +62,51 @@ template <typename T>
   Refuse(NameOf(voxels), " has the value ", static_cast<double>(value),
     "; labels must be integers. For the surface of a volume that is no label map apply Volume to "
     "Surface (vtkVolumeToSurface).");
+}
+
+/** What are labels but for what resampling or a scale leaves. @param told given what was done */
+vtkSmartPointer<vtkDataArray> Rounded(vtkDataArray* voxels, int background, std::string& told)
+{
+  constexpr double most = 0.01;
+  const vtkIdType count = voxels->GetNumberOfTuples();
+  vtkIdType missing = 0;
+  double farthest = 0.0;
+  VisitVoxels(voxels,
+    [&](const auto* values)
+    {
+      for (vtkIdType i = 0; i < count; ++i)
+      {
+        const auto value = static_cast<double>(values[i]);
+        const double off = std::abs(value - std::round(value));
+        if (off > most || std::isinf(value))
+        {
+          RefuseValue(voxels, values[i]);
+        }
+        missing += std::isnan(value);
+        farthest = std::max(farthest, std::isnan(value) ? 0.0 : off);
+      }
+    });
+  if (missing == 0 && farthest == 0.0)
+  {
+    return voxels;
+  }
+  auto rounded = vtkSmartPointer<vtkDoubleArray>::New();
+  rounded->SetName(voxels->GetName());
+  rounded->SetNumberOfTuples(count);
+  VisitVoxels(voxels,
+    [&](const auto* values)
+    {
+      std::transform(values, values + count, rounded->GetPointer(0),
+        [background](auto value)
+        {
+          const auto real = static_cast<double>(value);
+          return std::isnan(real) ? background : std::round(real);
+        });
+    });
+  told = Join(NameOf(voxels), " is of type ", voxels->GetDataTypeAsString(),
+    "; its values are within ", farthest, " of integers, and are rounded to labels",
+    missing > 0 ? Join("; ", missing, " voxels that are NaN are background.") : std::string("."));
+  return rounded;
 }
 
 /** Voxels that follow each other along rows, and from row to row; `last` is one of them. */
@@ -118,7 +164,8 @@ void LabelVoxels::Add(const LabelVoxels& others)
   this->Count += others.Count;
 }
 
-LabelImage::LabelImage(vtkDataObject* input, vtkInformation* selection, Executor& executor)
+LabelImage::LabelImage(
+  vtkDataObject* input, vtkInformation* selection, int background, Executor& executor)
 {
   const PointVoxels points = TakeCellsAsPoints(ImageOf(input), selection);
   this->Voxels = ContiguousVoxels(ChooseVoxels(points.Selection, points.Image));
@@ -135,6 +182,7 @@ LabelImage::LabelImage(vtkDataObject* input, vtkInformation* selection, Executor
   {
     this->Told = NameOf(this->Voxels) + " is of type " + this->Voxels->GetDataTypeAsString() +
       "; its values are integers and are taken as labels.";
+    this->Voxels = Rounded(this->Voxels, background, this->Told);
   }
   this->CountLabels(executor);
 }

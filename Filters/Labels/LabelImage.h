@@ -42,9 +42,11 @@ public:
 
   /**
    * @param selection as GetInputArrayInformation()
+   * Real numbers that are whole but for a hundredth, as resampling leaves them, are rounded, and
+   * NaN is the background, which Warning() tells.
    * @throws where there is no image of three axes, or no array of integers of one component.
    */
-  LabelImage(vtkDataObject* input, vtkInformation* selection, Executor& executor);
+  LabelImage(vtkDataObject* input, vtkInformation* selection, int background, Executor& executor);
 
   /** Voxels are its points; without arrays that matter. */
   vtkImageData* Image() const { return this->Geometry; }

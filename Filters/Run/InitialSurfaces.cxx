@@ -6,6 +6,7 @@
 #include "Core/Common/Refuse.h"
 #include "Core/Evolution/SurfaceOptions.h"
 #include "Core/Image/Field.h"
+#include "Input/CellIndices.h"
 #include "Output/SurfaceTransform.h"
 
 #include <vtkCellArray.h>
@@ -23,6 +24,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <string>
 
 namespace volumic
 {
@@ -96,6 +98,10 @@ IndexedSurface SurfaceOf(vtkPolyData* polyData, const Workspace& space)
   {
     Refuse("The initial surface has no polygons. Give a closed surface, or choose another "
            "Initialization.");
+  }
+  if (const std::string fault = FaultOfCells(polyData); !fault.empty())
+  {
+    Refuse("The initial surface ", fault);
   }
   vtkNew<vtkTriangleFilter> triangulate;
   triangulate->SetInputData(polyData);

@@ -60,6 +60,12 @@ LevelChoice LevelsAsSet(const PyramidLevels& pyramid, const SegmentationSettings
 
 void CheckIsoValue(double iso, const std::array<double, 2>& range)
 {
+  if (!(range[0] < range[1]))
+  {
+    Refuse("all voxels are ", range[0],
+      ": no value parts an object from the background. Is it the right volume, array and "
+      "component?");
+  }
   if (std::isnan(iso))
   {
     Refuse(
@@ -69,8 +75,9 @@ void CheckIsoValue(double iso, const std::array<double, 2>& range)
   }
   if (iso <= range[0] || iso >= range[1])
   {
-    Refuse("Iso Value is ", iso, ", outside the range of the voxels, ", range[0], " to ", range[1],
-      "; set it between them.");
+    const char* where = iso < range[0] || iso > range[1] ? "outside" : "at an end of";
+    Refuse("Iso Value is ", iso, ", ", where, " the range of the voxels, ", range[0], " to ",
+      range[1], "; set it between them.");
   }
 }
 

@@ -5,6 +5,7 @@
 import bz2
 import gzip
 import importlib.util
+import itertools
 import os
 import plistlib
 import resource
@@ -15,7 +16,8 @@ import numpy as np
 from vtkmodules.vtkIOImage import (
     vtkBMPWriter, vtkJPEGWriter, vtkMetaImageWriter, vtkPNGWriter, vtkPNMWriter, vtkTIFFWriter)
 from vtkmodules.vtkIOLegacy import vtkStructuredPointsWriter
-from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
+from vtkmodules.vtkIOXML import (
+    vtkXMLImageDataWriter, vtkXMLPolyDataReader, vtkXMLPolyDataWriter)
 
 from tool_test_case import (
     ISO, META, SIZE, SPACING, ToolTestCase, ball, dicom_slice, make_image, nrrd_header)
@@ -110,7 +112,21 @@ class FilesTest(DamageTest):
 
     def test_vtk_xml(self):
         content = self.bytes_of(vtkXMLImageDataWriter(), "a.vti")
-        self.cut("a.vti", content, "cannot be read", rests=(0.5, -100))
+        self.cut("a.vti", content, "cannot be read|cut off", rests=(0.5, -100))
+        # In each encoding: cut off, and with a piece of the data missing or too much.
+        for mode, compressor, encodes in itertools.product((0, 1, 2), (0, 2), (0, 1)):
+            writer = vtkXMLImageDataWriter()
+            writer.SetDataMode(mode)
+            writer.SetCompressorType(compressor)
+            writer.SetEncodeAppendedData(encodes)
+            content = self.bytes_of(writer, "a.vti")
+            with self.subTest(mode, compressor=compressor, encodes=encodes):
+                self.cut("a.vti", content, "cannot be read|damaged|cut off", rests=(0.7, 0.9))
+                at = len(content) * 2 // 3
+                piece = 200 if mode == 0 else 12  # of a text parts of numbers may be missing
+                for rest in (at + piece, at - piece):
+                    self.refused_bytes("a.vti", content[:at] + content[rest:],
+                                       "cannot be read|damaged|cut off")
 
     def test_nrrd(self):
         data = noisy_ball().tobytes()
@@ -254,6 +270,11 @@ class MeshesTest(DamageTest):
                                  content[:int(len(content) * rest) if rest > 0 else rest])
                 self.refused_mesh(f"b.{suffix}", "cannot be read|the file is cut off")
 
+    def test_whole_ones_are_read(self):
+        for suffix in ("vtp", "vtk", "stl", "ply", "obj"):
+            self.run_tool(self.path("ball.vti"), self.path("x.vtp"), "--iso", ISO,
+                          "--initial-surface", self.path("a." + suffix))
+
     def test_polygon_file_as_text(self):
         head = ("ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
                 "property float z\nelement face 4\nproperty list uchar int vertex_indices\n"
@@ -262,11 +283,47 @@ class MeshesTest(DamageTest):
         self.refused_mesh("c.ply", "has no points, or its header is damaged")
         self.write_bytes("c.ply", head.encode())
         self.refused_mesh("c.ply", "the file is cut off: it ends in element 4 of 4")
+        # VTK's reader takes each line for one of them.
+        self.write_bytes("c.ply", head.replace("1 0 0\n0", "1 0\n0 0").encode() + b"3 0 3 1\n")
+        self.refused_mesh("c.ply", "element 2 of 4 is not in one line of its own")
         self.write_bytes("c.ply", head.encode() + b"3 0 3 9\n")
         self.refused_mesh("c.ply", "is damaged: a polygon has point 9, there are 4")
-        # At a last line that does not end VTK's reader ends the program.
+        # There, too.
         self.write_bytes("c.ply", head.encode() + b"3 0 3 1")
         self.refused_mesh("c.ply", "the file is cut off: it ends in element 4 of 4")
+
+
+    def test_legacy_cells_of_more_points_than_there_are(self):
+        for binary in (False, True):
+            numbers = [3, 0, 2, 1, 3, 0, 1, 3, 3, 1, 2, 3, 3, 0, 3, 2]
+            for place, value in ((4, 1000000), (4, -1), (4, 4), (12, 2), (1, 7)):
+                changed = list(numbers)
+                changed[place] = value
+                points = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], ">f4")
+                data = [points.tobytes(), np.array(changed, ">i4").tobytes()] if binary else [
+                    " ".join(map(str, points.ravel())).encode(), " ".join(map(str, changed)).encode()]
+                self.write_bytes("c.vtk", b"# vtk DataFile Version 3.0\na\n%s\nDATASET POLYDATA\n"
+                                 b"POINTS 4 float\n%s\nPOLYGONS 4 16\n%s\n"
+                                 % (b"BINARY" if binary else b"ASCII", *data))
+                with self.subTest(binary=binary, place=place, value=value):
+                    self.refused_mesh("c.vtk", "damaged")
+
+    def test_xml_in_each_encoding(self):
+        reader = vtkXMLPolyDataReader()
+        reader.SetFileName(self.path("a.vtp"))
+        reader.Update()
+        for mode, compressor, encodes in itertools.product((0, 1, 2), (0, 2), (0, 1)):
+            writer = vtkXMLPolyDataWriter()
+            writer.SetDataMode(mode)
+            writer.SetCompressorType(compressor)
+            writer.SetEncodeAppendedData(encodes)
+            content = super().bytes_of(writer, "b.vtp", reader.GetOutput())
+            with self.subTest(mode=mode, compressor=compressor, encodes=encodes):
+                self.run_tool(self.path("ball.vti"), self.path("x.vtp"), "--iso", ISO,
+                              "--initial-surface", self.path("b.vtp"))
+                at = len(content) * 3 // 4
+                self.write_bytes("b.vtp", content[:at] + content[at + (200 if mode == 0 else 12):])
+                self.refused_mesh("b.vtp", "cannot be read|damaged|cut off")
 
 
 class SeriesTest(DamageTest):

@@ -298,7 +298,7 @@ class VtkTest(HostileTest):
         cut = (b'<AppendedData encoding="base64">_' + base64.b64encode(b"\xf0\xff\xff\xff")
                + b"A" * 99)
         self.refused_bytes("a.vti", head % (b"appended", b' offset="0"/>') + cut,
-                           "packed in 4294967280 blocks of 1 bytes")
+                           "packed in 4294967280 blocks")
 
     def mesh(self, name, content, option="--initial-surface"):
         """The run that is given this mesh."""

@@ -211,6 +211,18 @@ class WhatIsReadTest(LabelsTest):
             self.assertEqual(bool(told), dtype[0] == "f", process.stderr)
         self.assertEqual(len(set(surfaces.values())), 1)
 
+    def test_labels_that_were_resampled(self):
+        """Whole but for a little, and one is NaN: they are those of before, and that is told."""
+        voxels = label_voxels("f4")
+        self.run_tool(self.map_file("a.vti", label_image(voxels)), self.path("a"), "--labels", "all")
+        self.assertEqual(voxels[0, 0, 0], 0)
+        voxels[voxels == 7] = 6.995
+        voxels[0, 0, 0] = np.nan
+        process = self.run_tool(self.map_file("b.vti", label_image(voxels)), self.path("b"),
+                                "--labels", "all")
+        self.assertRegex(process.stderr, r"warning: .*within 0.00\d+ of integers, .* 1 voxels that are NaN")
+        self.assertEqual(self.content("a/label-7.vtp"), self.content("b/label-7.vtp"))
+
     def test_values_that_are_no_labels(self):
         voxels = label_voxels("f4")
         voxels[3, 3, 3] = 0.5

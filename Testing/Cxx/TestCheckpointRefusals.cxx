@@ -4,6 +4,9 @@
 // Checkpoints that are not believed, and those that could not be left.
 #include "CheckpointTestTools.h"
 
+#include "Core/Common/CheckedFile.h"
+
+#include <cstdint>
 #include <fstream>
 
 using namespace volumic;
@@ -97,6 +100,52 @@ TEST_F(Checkpoints, AreRefusedWhereTheyAreDamaged)
     anew->Update(); // Replaces it.
     ExpectSameOutputs(anew, this->Uninterrupted());
     EXPECT_EQ(this->Folder.Names(), std::set<std::string>());
+  }
+}
+
+/** Changes a byte, and signs the file anew, as only who means harm does. */
+static void ChangeSigned(const std::string& name, std::size_t seed)
+{
+  struct
+  {
+    std::uint64_t Count;
+    std::uint64_t Hash;
+  } head{};
+  std::string content;
+  {
+    std::ifstream file(name, std::ios::binary);
+    while (file.read(reinterpret_cast<char*>(&head), sizeof(head)) && head.Count > 0)
+    {
+      const std::size_t before = content.size();
+      content.resize(before + head.Count);
+      file.read(&content[before], static_cast<std::streamsize>(head.Count));
+    }
+  }
+  // Every other one among the first numbers, which say how many others there are.
+  const std::size_t span = seed % 2 == 0 ? content.size() : content.size() / 20;
+  content[seed * 2654435761U % span] ^= static_cast<char>(seed % 3 == 0 ? 0x80 : 1 << seed % 7);
+  CheckedWriter file(name);
+  file.Write(content.data(), content.size());
+  file.Commit();
+}
+
+TEST_F(Checkpoints, EndNoProgramWhereTheyAreSignedAnew)
+{
+  this->StopARun();
+  const std::string folder = this->CheckpointFolder();
+  const TemporaryFolder aside;
+  std::filesystem::copy(folder, aside.File("whole"));
+  for (std::size_t seed = 1; seed <= 60; ++seed)
+  {
+    SCOPED_TRACE(seed);
+    std::filesystem::remove_all(folder);
+    std::filesystem::copy(aside.File("whole"), folder);
+    ChangeSigned(folder + (seed % 3 == 0 ? "/level-1" : "/state"), seed);
+    const auto filter = this->NewFilter();
+    const MessagesOf errors(filter);
+    filter->SetTimeLimit(0.2);
+    filter->ResumeOn();
+    filter->Update(); // is refused, or goes on: whoever may sign may say where a vertex is
   }
 }
 

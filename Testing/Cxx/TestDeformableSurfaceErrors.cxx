@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfaceTestTools.h"
 
+#include <vtkCellArray.h>
 #include <vtkExecutive.h>
 #include <vtkImageCast.h>
 #include <vtkReverseSense.h>
@@ -93,6 +94,15 @@ TEST_F(DeformableSurfaceErrors, WhatIsSetWrongIsNamedWithTheWayOut)
       { "Input port 1", "initial surface", "inside out" } },
     { [](vtkDeformableSurface* f)
       {
+        vtkNew<vtkPolyData> broken;
+        broken->DeepCopy(SphereAt({ 16, 16, 16 }, 10));
+        broken->GetPolys()->ReplaceCellAtId(0, { 0, 1, 1000000 });
+        f->SetInitializationToInputSurface();
+        f->SetInitialSurfaceData(broken);
+      },
+      { "Input port 1", "initial surface is damaged: a cell has point 1000000" } },
+    { [](vtkDeformableSurface* f)
+      {
         f->SetInitializationToSeeds();
         f->SetInitialSurfaceData(SphereAt({ 16, 16, 16 }, 10));
       },
@@ -101,7 +111,7 @@ TEST_F(DeformableSurfaceErrors, WhatIsSetWrongIsNamedWithTheWayOut)
   for (const double iso : { -5.0, 100.0, 101.0, infinite })
   {
     cases.push_back({ [iso](vtkDeformableSurface* f) { f->SetIsoValue(iso); },
-      { "Iso Value is", "outside the range", "0 to 100" } });
+      { "Iso Value is", iso == 100.0 ? "at an end of" : "outside", "the range", "0 to 100" } });
   }
   for (const Case& test : cases)
   {

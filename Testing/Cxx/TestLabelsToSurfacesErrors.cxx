@@ -74,7 +74,7 @@ TEST_F(LabelsToSurfacesErrors, ImagesThatAreNoLabelMaps)
     { map(9, [](int i) { return 0.5 * i; }, VTK_DOUBLE),
       { "Input port 0", "'Labels' has the value 0.5", "integers", "Volume to Surface" } },
     { map(9, [](int i) { return i > 4 ? std::nan("") : 0.; }, VTK_DOUBLE),
-      { "'Labels' has the value nan" } },
+      { "no label but Background Label, 0" } },
     { map(9, [](int i) { return i > 4 ? 5e9 : 0.; }, VTK_LONG_LONG),
       { "'Labels' has the value 5000000000", "32 bits" } },
     { map(1, [](int i) { return std::floor(i / 4.); }),

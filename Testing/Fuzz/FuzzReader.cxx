@@ -66,9 +66,15 @@ void ReadAll(const std::string& name)
     Try([&] { tool::ReadLabelNames(name); });
     return;
   }
-  if (Is(".ply") || Is(".stl") || Is(".vtp") || Is(".obj"))
+  const bool isMesh = Is(".ply") || Is(".stl") || Is(".vtp") || Is(".obj") || Is(".csv");
+  if (isMesh || Is(".vtk"))
   {
     Try([&] { tool::ReadSurface(name); });
+    Try([&] { tool::ReadSeeds(name); });
+    Try([&] { tool::ReadAttractingPoints(name); });
+  }
+  if (isMesh)
+  {
     return;
   }
   tool::ReadNamesWithin(name);

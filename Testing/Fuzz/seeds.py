@@ -4,6 +4,7 @@
 
 import bz2
 import gzip
+import itertools
 import os
 import struct
 import sys
@@ -16,7 +17,7 @@ from vtkmodules.vtkFiltersSources import vtkSphereSource
 from vtkmodules.vtkIOGeometry import vtkOBJWriter, vtkSTLWriter
 from vtkmodules.vtkIOImage import (
     vtkBMPWriter, vtkMetaImageWriter, vtkPNGWriter, vtkPNMWriter, vtkTIFFWriter)
-from vtkmodules.vtkIOLegacy import vtkStructuredPointsWriter
+from vtkmodules.vtkIOLegacy import vtkPolyDataWriter, vtkStructuredPointsWriter
 from vtkmodules.vtkIOPLY import vtkPLYWriter
 from vtkmodules.vtkIOXML import vtkXMLImageDataWriter, vtkXMLPolyDataWriter
 
@@ -79,6 +80,7 @@ def contents():
     yield "mnc", b"CDF\1" + struct.pack(
         ">10i", 0, 10, 1, 1, 0x78000000, 4, 0, 0, 11, 1) + struct.pack(
         ">10i", 5, 0x696d6167, 0x65000000, 1, 0, 0, 0, 3, 8, 88) + bytes(8)
+    yield "csv", b"x,y,z,Weight,Radius\n1,2,3,1,0\n4 5 6\n"
     yield from (("json", text) for text in (
         b'{"labels": {"background": 0, "liver": 1, "both": [1, 2]}}',
         b'[{"labelValue": 1, "name": "a\\u00e9\\n", "color": [1, 2.5e1, 255]}, {"id": 2, "name":""}]',
@@ -86,6 +88,25 @@ def contents():
     yield from (("txt", text) for text in (
         b"# c\n1 red 255 0 0 255\n2 liver left 1 2 3 4\r\n", b'label,name,r,g,b\n1,"a ""b""",1,0,0\n',
         b'1 255 0 0 1 1 1 "a b"\n', b"index\tname\tcolor\n1\tx\t#ff8000\n", b"1 a\n2 b\n"))
+
+
+def surface_writers(surface):
+    """Each format of surfaces in each way that it can be written."""
+    for suffix, made in (("ply", vtkPLYWriter), ("stl", vtkSTLWriter), ("vtk", vtkPolyDataWriter)):
+        for file_type in (1, 2):  # text, binary
+            writer = made()
+            writer.SetFileType(file_type)
+            yield suffix, writer, surface
+    old = vtkPolyDataWriter()
+    old.SetFileVersion(42)
+    yield "vtk", old, surface
+    yield "obj", vtkOBJWriter(), surface
+    for mode, compressor, encodes in itertools.product((0, 1, 2), (0, 2), (0, 1)):
+        writer = vtkXMLPolyDataWriter()
+        writer.SetDataMode(mode)
+        writer.SetCompressorType(compressor)
+        writer.SetEncodeAppendedData(encodes)
+        yield "vtp", writer, surface
 
 
 def written(folder):
@@ -106,10 +127,7 @@ def written(folder):
             ("pgm", vtkPNMWriter(), image(bytes_of[:1])), ("vti", text, image(VOXELS)),
             ("vti", vtkXMLImageDataWriter(), image(VOXELS)), ("vtk", legacy, image(VOXELS)),
             ("vtk", vtkStructuredPointsWriter(), image(VOXELS)),
-            ("mha", vtkMetaImageWriter(), image(VOXELS)),
-            ("ply", vtkPLYWriter(), sphere.GetOutput()), ("stl", vtkSTLWriter(), sphere.GetOutput()),
-            ("obj", vtkOBJWriter(), sphere.GetOutput()),
-            ("vtp", vtkXMLPolyDataWriter(), sphere.GetOutput()))):
+            ("mha", vtkMetaImageWriter(), image(VOXELS)), *surface_writers(sphere.GetOutput()))):
         os.makedirs(os.path.join(folder, suffix), exist_ok=True)
         writer.SetFileName(os.path.join(folder, suffix, f"written{k}.{suffix}"))
         writer.SetInputData(data)

@@ -3,8 +3,11 @@
 #include "Core/Evolution/EvolutionImplementation.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -43,6 +46,32 @@ void SaveVertices(CheckedWriter& file, const SurfaceMesh& mesh, const std::vecto
   }
 }
 
+/** The signature of a file shows no damage, but whoever made it can sign anything. */
+void NeedThat(bool isSo, const CheckedReader& file)
+{
+  if (!isSo)
+  {
+    file.Refuse("is damaged: what it holds is no surface");
+  }
+}
+
+/** Refuses rings that lead elsewhere than to vertices, or do not lead back. */
+void CheckRings(const CheckedReader& file, const SurfaceMesh& mesh, const std::vector<int>& alive)
+{
+  for (const int v : alive)
+  {
+    const Ring& ring = mesh.Rings[v];
+    NeedThat(ring.Count >= 3, file);
+    for (int i = 0; i < ring.Count; ++i)
+    {
+      const int w = ring.Item[i];
+      NeedThat(w >= 0 && w < mesh.Size() && w != v && ring.Find(w) == i, file);
+      const int back = mesh.Rings[w].Find(v);
+      NeedThat(back >= 0 && mesh.Rings[w].Previous(back) == ring.Next(i), file);
+    }
+  }
+}
+
 void LoadVertices(CheckedReader& file, SurfaceMesh& mesh, const std::vector<int>& vertices)
 {
   std::vector<Vector> positions;
@@ -53,16 +82,24 @@ void LoadVertices(CheckedReader& file, SurfaceMesh& mesh, const std::vector<int>
     file.GetList(positions);
     file.GetList(counts);
     file.GetList(items);
+    const auto wanted = std::accumulate(counts.begin(), counts.end(), std::size_t(0));
+    NeedThat(!counts.empty() && counts.size() <= vertices.size() - i &&
+        positions.size() == counts.size() && items.size() == wanted &&
+        *std::max_element(counts.begin(), counts.end()) <= Ring::Capacity,
+      file);
     const int* next = items.data();
     for (std::size_t k = 0; k < counts.size(); ++k, ++i)
     {
-      mesh.Position[vertices[i]] = positions[k];
+      const Vector& p = positions[k];
+      NeedThat(std::isfinite(p.X) && std::isfinite(p.Y) && std::isfinite(p.Z), file);
+      mesh.Position[vertices[i]] = p;
       Ring& ring = mesh.Rings[vertices[i]];
       ring.Count = counts[k];
       std::copy(next, next + ring.Count, ring.Item);
       next += ring.Count;
     }
   }
+  CheckRings(file, mesh, vertices);
 }
 
 std::vector<int> AliveOf(const SurfaceMesh& mesh)
@@ -115,16 +152,30 @@ void SurfaceEvolution::Load(CheckedReader& file)
   self.Preparing = file.Get<HistoryRow>();
   self.SinceEvolved = file.Get<EditCounts>();
   self.Unchecked = file.Get<int>();
-  s.Sizing = SizingField(file.Get<float>());
+  const auto length = file.Get<float>();
+  NeedThat(length > 0.f && std::isfinite(length), file);
+  s.Sizing = SizingField(length);
   const auto places = file.Get<std::uint64_t>();
   const int vertices = file.Get<int>();
   std::vector<int> alive;
   file.GetList(alive);
+  // Places that no vertex has are listed as well.
+  file.Need(places - std::min<std::uint64_t>(places, alive.size()), sizeof(int));
+  const auto isNoPlace = [places](int v)
+  { return v < 0 || static_cast<std::uint64_t>(v) >= places; };
+  NeedThat(vertices == static_cast<int>(alive.size()) &&
+      std::adjacent_find(alive.begin(), alive.end(), std::greater_equal<>()) == alive.end() &&
+      std::none_of(alive.begin(), alive.end(), isNoPlace),
+    file);
   SurfaceMesh mesh;
   mesh.Remake(places, vertices);
   LoadVertices(file, mesh, alive);
   std::vector<int> free;
   file.GetList(free);
+  NeedThat(free.size() + alive.size() == places &&
+      std::none_of(
+        free.begin(), free.end(), [&](int v) { return isNoPlace(v) || mesh.IsAlive(v); }),
+    file);
   mesh.CountOthers(static_cast<int>(free.size()));
   mesh.SetFreePlaces(std::move(free));
   s.Mesh = std::move(mesh);
