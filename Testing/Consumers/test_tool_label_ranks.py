@@ -65,7 +65,7 @@ class SameFilesTest(RanksTestCase):
                 ("there is no label '7'", 1, [self.path("p/"), "--labels", "7"]),
                 ("none of the labels has a surface", 1,
                  [self.path("p/"), "--labels", "9", "--finest", 2]),
-                ("Gap is 100", 1, [self.path("p/"), "--labels", "1", "--gap", 100]),
+                ("--gap is 100", 1, [self.path("p/"), "--labels", "1", "--gap", 100]),
                 ("5 labels have as many surfaces", 1, [self.path("p.stl"), "--labels", "all"])):
             with self.subTest(reason):
                 self.refused_by_ranks(3, reason, volume, *arguments, status=status)

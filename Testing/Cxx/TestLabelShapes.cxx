@@ -164,6 +164,26 @@ LabelMap RandomBlobs(int size, int labels, unsigned seed)
 }
 } // namespace
 
+// Of the image alone, and with the parts that KeepComponents leaves out.
+TEST(LabelCounts, AreThoseOfTheMapWithSharedInterfaces)
+{
+  const LabelMap map = RandomBlobs(24, 4, 3);
+  const Filter filter = FilterOf(ToImage(map));
+  filter->SharedInterfacesOn();
+  for (const int keep : { 0, 1 }) // all, the largest
+  {
+    filter->SetKeepComponents(keep);
+    for (unsigned int block = 0; block < 4; ++block)
+    {
+      vtkPolyData* surface = BlockOf(filter, block);
+      const int label = static_cast<int>(FieldOf(surface, "Label"));
+      const WrongVoxelVerdict verdict = JudgeVoxels(ToTriangleSurface(surface), map, label);
+      EXPECT_EQ(FieldOf(surface, "WrongVoxels"), verdict.Wrong()) << label << ", keep " << keep;
+      EXPECT_LE(FieldOf(surface, "MissedVoxels"), verdict.Wrong());
+    }
+  }
+}
+
 class LabelGaps : public testing::TestWithParam<double>
 {
 };
