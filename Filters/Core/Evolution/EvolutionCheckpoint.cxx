@@ -72,6 +72,31 @@ void CheckRings(const CheckedReader& file, const SurfaceMesh& mesh, const std::v
   }
 }
 
+/** Refuses edges so long that cutting them up would never end. @param length the level's */
+void CheckLengths(const CheckedReader& file, const SurfaceMesh& mesh,
+  const std::vector<int>& alive, double length)
+{
+  // More than any grading makes them.
+  constexpr double longest = 1000.;
+  constexpr double mean = 64.;
+  double sum = 0.;
+  double count = 0.;
+  for (const int v : alive)
+  {
+    const Ring& ring = mesh.Rings[v];
+    for (int i = 0; i < ring.Count; ++i)
+    {
+      const int w = ring.Item[i];
+      const double square = SquaredDistance(VectorD(mesh.Position[v]), VectorD(mesh.Position[w])) /
+        (length * length);
+      NeedThat(square <= longest * longest, file);
+      sum += square;
+      count += 1.;
+    }
+  }
+  NeedThat(sum <= mean * mean * count, file);
+}
+
 void LoadVertices(CheckedReader& file, SurfaceMesh& mesh, const std::vector<int>& vertices)
 {
   std::vector<Vector> positions;
@@ -170,6 +195,7 @@ void SurfaceEvolution::Load(CheckedReader& file)
   SurfaceMesh mesh;
   mesh.Remake(places, vertices);
   LoadVertices(file, mesh, alive);
+  CheckLengths(file, mesh, alive, length);
   std::vector<int> free;
   file.GetList(free);
   NeedThat(free.size() + alive.size() == places &&
