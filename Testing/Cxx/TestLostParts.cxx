@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Evolution/LostParts.h"
-#include "Core/Mesh/SurfaceMeasures.h"
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "EvolutionTestTools.h"
 
@@ -45,8 +44,8 @@ struct KnownBall
 
   LostBoundary::Missing MissedBy(const LostBoundary& boundary) const
   {
-    return boundary.MissedBy(
-      this->State, SurfaceArea(this->State.Mesh, Threads), this->Image, Threads);
+    const double area = ComputeFeatures(this->State.Mesh.ToIndexed()).Area;
+    return boundary.MissedBy(this->State, area, this->Image, Threads);
   }
 
   LostPartCover Find(PartKind kind, int minimumSize) const

@@ -58,10 +58,7 @@ Box BoundsOf(const SurfaceMesh& mesh, Executor& executor)
   return mesh.NumberOfVertices() > 0 ? box : Box();
 }
 
-namespace
-{
-/** Six times the share of a vertex. */
-double CrossesAt(const SurfaceMesh& mesh, std::size_t v)
+double AreaShare(const SurfaceMesh& mesh, int v)
 {
   const Ring& ring = mesh.Rings[v];
   const Vector& p = mesh.Position[v];
@@ -70,33 +67,6 @@ double CrossesAt(const SurfaceMesh& mesh, std::size_t v)
   {
     sum += Length(Cross(mesh.Position[ring.Item[i]] - p, mesh.Position[ring.Next(i)] - p));
   }
-  return sum;
-}
-}
-
-double AreaShare(const SurfaceMesh& mesh, int v)
-{
-  return CrossesAt(mesh, static_cast<std::size_t>(v)) / 6.;
-}
-
-double SurfaceArea(const SurfaceMesh& mesh, Executor& executor)
-{
-  const double sum = SumOfSpans(executor, mesh.Rings.size(), SpanSize,
-    [&](std::size_t begin, std::size_t end)
-    {
-      double span = 0.;
-      for (std::size_t v = begin; v < end; ++v)
-      {
-        const Ring& ring = mesh.Rings[v];
-        const Vector& p = mesh.Position[v];
-        for (int i = 0; i < ring.Count; ++i)
-        {
-          span += Length(Cross(mesh.Position[ring.Item[i]] - p, mesh.Position[ring.Next(i)] - p));
-        }
-      }
-      return span;
-    });
-  // Twice the area of each face, which is seen from its three corners.
   return sum / 6.;
 }
 }

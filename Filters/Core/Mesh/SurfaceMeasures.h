@@ -62,9 +62,6 @@ Box BoundsOf(const SurfaceMesh& mesh, Executor& executor);
 
 /** A third of the area of the faces about an alive vertex. */
 double AreaShare(const SurfaceMesh& mesh, int v);
-
-/** The area of all faces, workspace. The same bits for any executor. */
-double SurfaceArea(const SurfaceMesh& mesh, Executor& executor);
 }
 
 #endif
