@@ -63,7 +63,7 @@ class VolumeToSurfaceTest(testing.PluginTestCase):
             self.assertEqual(filter_.IsoValue, 4.0)
             surface = testing.fetch(filter_)
         self.assertIn("ranges from 4 to 4", messages.text)
-        self.assertIn("Iso Value is 4, outside the range", messages.text)
+        self.assertIn("all voxels are 4: no value parts an object", messages.text)
         self.assertEqual(surface.GetNumberOfPoints(), 0)
 
     def test_displays_where_people_write_a_comma(self):
