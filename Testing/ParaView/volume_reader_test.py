@@ -119,15 +119,19 @@ class VolumeReaderTest(testing.PluginTestCase):
             self.assertEqual(image.GetArrayInformation(0).GetComponentRange(0),
                              (time, 12 + time))
 
-    def test_a_matrix_that_mirrors_is_no_warning(self):
-        """Of the two matrices of the file, VTK's reader wants both to mirror, or none."""
+    def test_a_matrix_that_mirrors_is_followed(self):
+        """
+        Of the two matrices of the file, VTK's reader wants both to mirror, or none; that they differ
+        is all that is told.
+        """
         sform = numpy.column_stack([numpy.diag([-1.0, 1.0, 1.0]) * SPACING, ORIGIN])
         for name in ("mirrored.nii", "mirrored.nii.gz"):
             content = medical_files.nifti(voxels(), SPACING, sform)
             path = write(name, gzip.compress(content) if name.endswith("gz") else content)
             with testing.CapturedMessages() as messages:
                 simple.VolumicVolume(FileNames=[path]).UpdatePipeline()
-            self.assertEqual(messages.text, "")
+            self.assertIn("its sform, which is taken, and its qform differ", messages.text)
+            self.assertNotIn("vtkNIFTI", messages.text)
 
     def test_damage_is_an_error_that_names_the_file(self):
         with open(nifti(), "rb") as file:
