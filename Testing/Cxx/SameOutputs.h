@@ -34,7 +34,8 @@ inline void ExpectSameArrays(vtkFieldData* a, vtkFieldData* b)
     if (vtkDataArray::SafeDownCast(one))
     {
       const auto bytes = static_cast<std::size_t>(n * one->GetDataTypeSize());
-      ASSERT_EQ(std::memcmp(one->GetVoidPointer(0), other->GetVoidPointer(0), bytes), 0);
+      ASSERT_TRUE(bytes == 0 || // nothing may be nowhere
+        std::memcmp(one->GetVoidPointer(0), other->GetVoidPointer(0), bytes) == 0);
       continue;
     }
     for (vtkIdType v = 0; v < n; ++v)
