@@ -94,13 +94,11 @@ std::string ReasonsOfLoss(const LabelSettings& settings)
   return reasons;
 }
 
-/** Whether it is further off than a label of so many voxels should be, and nobody asked for that. */
+/** Whether its volume is not that of the voxels, and nobody asked for what brings that about. */
 bool HasWrongVolume(const LabelSurface& surface, vtkIdType voxels, const LabelSettings& settings)
 {
-  constexpr vtkIdType least = 100;
-  constexpr double most = 0.03;
   const bool hasLargeTriangles = settings.FinestLevel > 0 || settings.EdgeLength > 0.0;
-  return voxels >= least && !hasLargeTriangles && std::abs(surface.VolumeError) > most && settings.Gap == 0.0 &&
+  return surface.IsVolumeOff(voxels) && !hasLargeTriangles && settings.Gap == 0.0 &&
     settings.KeepComponents == 0;
 }
 

@@ -261,10 +261,12 @@ LabelSurface LabelInterfaceMaker::SurfaceOf(int object, const std::vector<int>& 
   description.Unit = this->Space.WorldUnit() * std::pow(std::sqrt(3.0), this->Settings.FinestLevel);
   description.StopReason = Describe(
     this->IsFinished ? StopReason::Converged : StopReason::Cancelled);
-  const std::vector<std::int64_t> wrong = FindWrongVoxels(this->Counted(), object, inVoxels, this->InImage);
+  const std::vector<std::int64_t> wrong =
+    FindWrongVoxels(this->Counted(), object, inVoxels, this->InImage);
   made.WrongVoxels = static_cast<vtkIdType>(wrong.size());
-  made.MissedVoxels = static_cast<vtkIdType>(
-    FindMissedVoxels(this->Map, wrong, inVoxels, this->Settings.VoxelTolerance + tolerance).size());
+  const double allowed = this->Settings.VoxelTolerance + tolerance;
+  made.MissedVoxels =
+    static_cast<vtkIdType>(FindMissedVoxels(this->Map, wrong, inVoxels, allowed).size());
   made.VolumeError = VolumeErrorOf(inVoxels, this->Counted().ExtentOf(object).Voxels);
   made.Surface = MakePolyData(std::move(surface), description, this->Space);
   made.Surface->GetPointData()->SetGlobalIds(ids);

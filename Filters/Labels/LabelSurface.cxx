@@ -38,10 +38,7 @@ constexpr double FieldShare = 0.2;
  */
 constexpr double ShareOfLongest = 0.625;
 
-/** Labels of so many voxels are made with less smoothing where their volumes are further off, */
-constexpr std::int64_t LeastMeasured = 100;
-constexpr double MostVolumeError = 0.03;
-/** and this is left of it, in smallest distances of voxels. */
+/** Labels whose volumes are off are made with half the smoothing down to this, in the same. */
 constexpr double LeastSmoothing = 1.0;
 
 /** More than so many times the smoothing a share of the longest is enough: thick slices are few. */
@@ -273,14 +270,15 @@ LabelSurface LabelSurfaceMaker::MakeWithVolume(const Place& place, int object,
   int numberOfThreads, HostThreads& threads, const Progress& progress) const
 {
   LabelSurface made = this->MakeAt(place, object, numberOfThreads, threads, progress);
-  const bool mayBeOff = place.Level > 0 || this->Settings.Gap > 0.0 || this->Settings.KeepComponents != 0 ||
-    this->Bricks.ExtentOf(object).Voxels < LeastMeasured;
+  const std::int64_t voxels = this->Bricks.ExtentOf(object).Voxels;
+  const bool mayBeOff =
+    place.Level > 0 || this->Settings.Gap > 0.0 || this->Settings.KeepComponents != 0;
+  const auto stayAtEnd = [&](double, const std::string& text) { return progress(1.0, text); };
   for (Place less = place; made.Surface && made.Surface->GetNumberOfCells() > 0 && !mayBeOff &&
-       std::abs(made.VolumeError) > MostVolumeError &&
-       less.Smoothing * this->Options.Sigma > LeastSmoothing;)
+       made.IsVolumeOff(voxels) && less.Smoothing * this->Options.Sigma > LeastSmoothing;)
   {
     less.Smoothing *= 0.5;
-    const LabelSurface other = this->MakeAt(less, object, numberOfThreads, threads, progress);
+    const LabelSurface other = this->MakeAt(less, object, numberOfThreads, threads, stayAtEnd);
     if (!other.Surface)
     {
       break; // It was stopped; what there is is finished.

@@ -34,6 +34,12 @@ struct LabelSurface
   double VolumeError = 0.0;    ///< by how much its volume is more than that of the voxels, in that
   vtkIdType TouchingFaces = 0; ///< with Gap: those that touch surfaces of neighbours all the same
   bool IsFinished = false;     ///< It was not stopped on its way.
+
+  /** Whether VolumeError is more than a label of so many voxels should have. */
+  bool IsVolumeOff(vtkIdType voxels) const
+  {
+    return voxels >= 100 && std::abs(this->VolumeError) > 0.03;
+  }
 };
 
 /** LabelSurface::VolumeError, of a surface in coordinates of voxels. */

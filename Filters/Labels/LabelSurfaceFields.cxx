@@ -51,7 +51,7 @@ constexpr double BendPerLevel = 0.4;
 constexpr double LeastLowering = 0.2;
 
 /** Of a surface's volume more or less than its voxels' nothing is changed for. */
-constexpr double MostVolumeError = 0.01;
+constexpr double HarmlessVolumeError = 0.01;
 /** Times which a field is shifted at most for the volume, */
 constexpr int MostShifts = 6;
 /** the last but the first two only while each leaves at most this share of the error, */
@@ -178,7 +178,7 @@ bool LabelSurfaceMaker::CorrectVolume(
   const double voxel = map.Spacing[0] * map.Spacing[1] * map.Spacing[2];
   const double error = features.Volume / voxel - wanted;
   const bool isBetter = revision.Shifts < 2 || std::abs(error) < LeastGain * std::abs(revision.LastError);
-  if (revision.Shifts == MostShifts || std::abs(error) <= MostVolumeError * wanted || !isBetter)
+  if (revision.Shifts == MostShifts || std::abs(error) <= HarmlessVolumeError * wanted || !isBetter)
   {
     return false;
   }

@@ -7,7 +7,8 @@
  * The writers of the program `volumic`, for ParaView: of `organs.stl` and blocks named liver and
  * spleen `organs-liver.stl` and `organs-spleen.stl`, of one surface with several components
  * `organs-component-0.stl` and so on, each with its cavities. Of other cells, as Clip and Threshold
- * give, the outer surface is written, as triangles; it is an error if there are none. A scene, .glb, holds all in one file. Surfaces that are empty
+ * give, the outer surface is written, as triangles; it is an error if there are none. A scene, .glb,
+ * holds all in one file. Surfaces that are empty
  * are left out.
  */
 #ifndef vtkVolumicSurfacesWriter_h
