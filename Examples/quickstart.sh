@@ -60,7 +60,7 @@ fi
 build_vtk_flavour -DVOLUMIC_BUILD_TESTING=OFF -DVOLUMIC_BUILD_EXAMPLES=OFF
 
 # Python's modules of the installed package, wherever this Python's version puts them.
-site=$(find "$build/install-vtk" -type d -name volumic -path '*-packages/volumic' | head -n 1)
+site=$(find "$build/install-vtk" -type d -name volumic -path '*-packages/volumic' -print -quit)
 [ -n "$site" ] || fail "No Python package in $build/install-vtk. See $logs/build-vtk.log"
 
 say ""

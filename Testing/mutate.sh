@@ -115,7 +115,7 @@ run_tests()
 killer()
 {
   { sed -n 's/^\[  FAILED  \] \([^ ,]*\).* ms).*/\1/p' "$copy/log"
-    sed -n 's/^\[ RUN      \] //p' "$copy/log" | tail -n 1; } | head -n 1
+    sed -n 's/^\[ RUN      \] //p' "$copy/log" | tail -n 1; } | sed -n 1p
 }
 
 # try_mutation INDEX: one line of the report.

@@ -111,7 +111,7 @@ apart()
 configured_mirror()
 {
   apt-get indextargets --format '$(REPO_URI)' 'Origin: Debian' 'Label: Debian' \
-    'Created-By: Packages' | head -n 1
+    'Created-By: Packages' | sed -n 1p
 }
 
 # make_system DIR: a minimal Debian.

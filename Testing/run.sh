@@ -63,14 +63,15 @@ summarize()
     "${broken:-0}" "$skipped" "$seconds" "$log"
 }
 
-# slowest: the ten tests that took longest, of all flavours.
+# slowest: the ten tests that took longest, of all flavours. The last command of the pipe reads all:
+# one that closes it early would end `sort`, and with it the script.
 slowest()
 {
   local flavour
   for flavour in "${flavours[@]}"; do
     sed -nE "s/^ *[0-9]+\/[0-9]+ Test +#[0-9]+: ([^ ]+) .* ([0-9.]+) sec.*/\2 s  $flavour \1/p" \
       "$logs/test-$flavour.log"
-  done | sort -rn | head -n 10 | sed 's/^/  /'
+  done | sort -rn | sed -n '1,10s/^/  /p'
 }
 
 # use_ccache: much is compiled alike for both flavours, and more of it again the next time. In the

@@ -54,7 +54,7 @@ measure()
 {
   local table=$1 package
   shift
-  package=$(find "$build/install-vtk" -type d -path '*-packages/volumic' | head -n 1)
+  package=$(find "$build/install-vtk" -type d -path '*-packages/volumic' -print -quit)
   say "" "$table" "$@"
   PATH="$build/vtk/bin:$build/install-vtk/bin:$PATH" \
     PYTHONPATH=$(dirname "$package")${PYTHONPATH:+:$PYTHONPATH} \
