@@ -98,13 +98,6 @@ std::array<double, 2> SegmentationLevels::Range(int level) const
 
 bool SegmentationLevels::HoldsObject(int level, const SurfaceOptions& options) const
 {
-  // What the coarser levels show is too thin for them; a large one is the last resort.
-  constexpr std::int64_t large = 64 * 64 * 64;
-  const bool isLarge = this->Voxels.NumberOfVoxels(level) > large;
-  if (options.RecoverLostParts && isLarge)
-  {
-    return true;
-  }
   const auto found = this->Holds.find(level);
   if (found != this->Holds.end())
   {

@@ -14,15 +14,13 @@ namespace
 constexpr float ForceRange = 0.75f;
 /** A vertex has moved visibly when it is this far from its anchor along its normal, in delta. */
 constexpr float VisibleAlongNormal = 0.03f;
+/** The same where what is missing then is left to the regularisation. */
+constexpr float VisibleIfLeft = 0.07f;
 /** The same in any direction: sliding along the surface changes nothing, and is left to the end. */
 constexpr float Visible = 0.3f;
 /** Iterations without visible motion after which a vertex is motionless. */
 constexpr int RestingIterations = 3;
 
-/** Longest way of a vertex in a pass of the regularisation, in delta. */
-constexpr float LongestRelaxation = 0.15f;
-/** Share of the way to the barycentre of the neighbours, along the surface, that it goes in it. */
-constexpr float SmoothingShare = 0.7f;
 /** Gradient of the image over TypicalSlope at which the gradient force is as strong as it gets. */
 constexpr float FullGradient = 0.5f;
 /** Sweeps over the contacts, each of which sees the velocities that the one before has left. */
@@ -160,7 +158,8 @@ void Dynamics::Accelerate(SurfaceState& state, const std::vector<int>& active,
 }
 
 void Dynamics::Relax(SurfaceState& state, const std::vector<int>& vertices,
-  const std::vector<Proximity::ClosePair>& pairs, bool snap, Step& step, Executor& executor) const
+  const std::vector<Proximity::ClosePair>& pairs, const Relaxation& relaxation, Step& step,
+  Executor& executor) const
 {
   step.Time = 1;
   executor.For(vertices.size(), VertexGrain,
@@ -168,21 +167,22 @@ void Dynamics::Relax(SurfaceState& state, const std::vector<int>& vertices,
     {
       for (std::size_t i = begin; i < end; ++i)
       {
-        state.Velocity[vertices[i]] = this->RelaxationOf(state, vertices[i], snap);
+        state.Velocity[vertices[i]] = this->RelaxationOf(state, vertices[i], relaxation);
       }
     });
   // Contacts: nothing may come nearer than it is.
   this->ApplyContacts(state, vertices, pairs, step);
 }
 
-Vector Dynamics::RelaxationOf(const SurfaceState& state, int v, bool snap) const
+Vector Dynamics::RelaxationOf(
+  const SurfaceState& state, int v, const Relaxation& relaxation) const
 {
-  const float longest = LongestRelaxation * state.Sizing.At(v);
+  const float longest = relaxation.Longest * state.Sizing.At(v);
   const Vector n = state.Normal[v].Axis();
   Vector pull = state.Laplacian[v];
   pull.Padding = 0;
-  Vector move = (pull - n * Dot(pull, n)) * SmoothingShare;
-  if (snap && this->Options.SnapToIsoValue)
+  Vector move = (pull - n * Dot(pull, n)) * relaxation.Smoothing;
+  if (relaxation.Snap && this->Options.SnapToIsoValue)
   {
     const Field::Sample sample = this->TheField.At(state.Mesh.Position[v]);
     move += n * this->TheField.StepToIso(sample, n, longest);
@@ -318,16 +318,30 @@ void Dynamics::Displace(
   }
 }
 
+bool Dynamics::LeavesToRegularisation(const SurfaceState& state) const
+{
+  return this->Options.FollowsFieldAlone() && !state.Sizing.IsGraded();
+}
+
+bool Dynamics::IsOff(const SurfaceState& state, int v) const
+{
+  const Field::Sample sample = this->TheField.At(state.Mesh.Position[v]);
+  return std::abs(sample.Value) >
+    LeftOff * state.Sizing.At(v) * this->TheField.SlopeOf(sample);
+}
+
 void Dynamics::Freeze(
   SurfaceState& state, const std::vector<int>& active, const std::vector<int>& working) const
 {
+  const bool leaves = this->LeavesToRegularisation(state);
   for (const int v : active)
   {
     if (!state.Mesh.IsAlive(v))
     {
       continue;
     }
-    const float alongNormal = VisibleAlongNormal * state.Sizing.At(v);
+    const float alongNormal =
+      (leaves ? VisibleIfLeft : VisibleAlongNormal) * state.Sizing.At(v);
     const float anywhere = Visible * state.Sizing.At(v);
     const Vector moved = state.Mesh.Position[v] - state.Anchor[v];
     if (std::abs(Dot(moved, state.Normal[v].Axis())) > alongNormal ||
@@ -343,7 +357,7 @@ void Dynamics::Freeze(
     const bool moved = (state.Marks[v] & HasMoved) ||
       std::any_of(ring.Item, ring.Item + ring.Count,
         [&state](int w) { return (state.Marks[w] & HasMoved) != 0; });
-    if (moved)
+    if (moved && (state.Active[v] || !leaves || this->IsOff(state, v)))
     {
       state.Activate(v);
     }

@@ -73,20 +73,31 @@ public:
   void Accelerate(SurfaceState& state, const std::vector<int>& active,
     const std::vector<Proximity::ClosePair>& pairs, Step& step, Executor& executor) const;
 
+  /** Ways in a pass of Relax. */
+  struct Relaxation
+  {
+    float Longest;   ///< Of a vertex, in delta.
+    float Smoothing; ///< Share of the way to the barycentre of the neighbours, along the surface.
+    bool Snap;       ///< Also onto the isopotential, or up to the ridge of the map of edges.
+  };
+
   /**
-   * Instead of Accelerate, at the end of a level: velocities that even the mesh out tangentially
-   * and, on request, lead onto the isopotential (Newton's step along the normal), or, by
-   * SurfaceOptions::SnapToEdges, up to the ridge of the map of edges, never towards a contact.
+   * Instead of Accelerate: velocities that even the mesh out tangentially and, on request, lead onto
+   * the isopotential (Newton's step along the normal), or, by SurfaceOptions::SnapToEdges, up to
+   * the ridge of the map of edges, never towards a contact.
    */
   void Relax(SurfaceState& state, const std::vector<int>& vertices,
-    const std::vector<Proximity::ClosePair>& pairs, bool snap, Step& step,
+    const std::vector<Proximity::ClosePair>& pairs, const Relaxation& relaxation, Step& step,
     Executor& executor) const;
 
   /** Displaces them; the place before is kept in SurfaceState::PreviousPosition. */
   void Displace(SurfaceState& state, const std::vector<int>& active, const Step& step) const;
 
+  /** How far off the isopotential, in delta, a vertex may be that is left to the regularisation. */
+  static constexpr float LeftOff = 0.5f;
   /**
-   * After roll back: vertices at rest become motionless, the neighbours of moved ones active.
+   * After roll back: vertices at rest become motionless, the neighbours of moved ones active, but
+   * for those that are left to the regularisation.
    * `working` holds the active vertices and all their neighbours.
    */
   void Freeze(
@@ -94,9 +105,16 @@ public:
 
 private:
   void SetPace();
+  /**
+   * Whether the way of the last LeftOff is left to the regularisation, whose passes lead there at
+   * once: where nothing but the field drives a surface that is not graded.
+   */
+  bool LeavesToRegularisation(const SurfaceState& state) const;
+  /** Whether a vertex is further off the isopotential than LeftOff. */
+  bool IsOff(const SurfaceState& state, int v) const;
   Vector ForceAt(const SurfaceState& state, int v, float& value) const;
   /** The way of a vertex in a pass of Relax. */
-  Vector RelaxationOf(const SurfaceState& state, int v, bool snap) const;
+  Vector RelaxationOf(const SurfaceState& state, int v, const Relaxation& relaxation) const;
   /**
    * Whether two vertices with a common neighbour lie across a hole, or a waist, that the image
    * wants closed: contact between them would keep it open for ever, short of the 3-cycle that a

@@ -22,6 +22,10 @@ namespace
 {
 /** Vertices that one thread looks at at a time. */
 constexpr std::size_t VertexSpan = 8192;
+/** Passes of a descent; more make no difference to what comes after. */
+constexpr int DescendingPasses = 4;
+/** Of what is told of a division. */
+constexpr double DescendingShare = 0.3;
 
 /**
  * Calls visit(v, w, squared length) for each edge whose smaller end is in a span; spans may be
@@ -84,6 +88,19 @@ std::vector<Proximity::FacePair> SurfaceEvolution::Implementation::FindIntersect
     Proximity::FindIntersections(s, this->AliveVertices(), this->Threads);
   s.Sizing = sizing;
   return found;
+}
+
+void SurfaceEvolution::Implementation::DescendField(double delta)
+{
+  const SizingField sizing = this->State.Sizing;
+  this->State.Sizing = SizingField(static_cast<float>(delta));
+  this->Reset(); // In an order that does not depend on what has been done before.
+  this->ActivateAll();
+  const Dynamics dynamics(*this->TheField, this->Options, this->Threads);
+  this->VisitAll(SurfaceIteration::Mode::Descend, dynamics, DescendingPasses,
+    Monitor::Activity::Dividing, 0., DescendingShare);
+  this->ForgetBlocks();
+  this->State.Sizing = sizing;
 }
 
 void SurfaceEvolution::Implementation::DivideOnce()

@@ -191,6 +191,16 @@ struct SurfaceEvolution::Implementation
   void FinishRow();
   void FindMissing();
   void Regularise(const Dynamics& dynamics);
+  /**
+   * Before a division: from the isopotential of the level before onto that of this one, as far as
+   * verified passes lead, while there are a third as many vertices. @param delta of the level before
+   */
+  void DescendField(double delta);
+  /**
+   * Makes those active that are further than this (in delta) off the isopotential, and those beside
+   * them; all others rest. @return whether there are any
+   */
+  bool ActivateWhereOff(float least);
   void Revise(const LevelImage& image);
   /**
    * Sweeps until the level rests, goes in circles, has had its iterations, vanishes or is stopped.

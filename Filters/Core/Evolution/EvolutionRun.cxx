@@ -298,41 +298,58 @@ void SurfaceEvolution::Implementation::FindMissing()
   this->LastLost.MissingBoundary = missing.Share;
 }
 
+bool SurfaceEvolution::Implementation::ActivateWhereOff(float least)
+{
+  SurfaceState& s = this->State;
+  const auto n = static_cast<std::size_t>(s.Mesh.Size());
+  std::vector<std::uint8_t> isOff(n, 0);
+  ForSpans(this->Threads, n, VertexGrain,
+    [&](std::size_t, std::size_t begin, std::size_t end)
+    {
+      for (std::size_t v = begin; v < end; ++v)
+      {
+        if (s.Mesh.IsAlive(static_cast<int>(v)))
+        {
+          const Field::Sample sample = this->TheField->At(s.Mesh.Position[v]);
+          s.FieldValue[v] = sample.Value;
+          isOff[v] = std::abs(sample.Value) >
+            least * s.Sizing.At(static_cast<int>(v)) * this->TheField->SlopeOf(sample);
+        }
+      }
+    });
+  return CountInSpans(this->Threads, n, VertexGrain,
+           [&](std::size_t begin, std::size_t end)
+           {
+             std::size_t count = 0;
+             for (std::size_t v = begin; v < end; ++v)
+             {
+               if (s.Mesh.IsAlive(static_cast<int>(v)))
+               {
+                 const Ring& ring = s.Mesh.Rings[v];
+                 s.Active[v] = isOff[v] ||
+                   std::any_of(ring.Item, ring.Item + ring.Count,
+                     [&](int w) { return isOff[static_cast<std::size_t>(w)] != 0; });
+                 count += s.Active[v];
+               }
+             }
+             return count;
+           }) > 0;
+}
+
 void SurfaceEvolution::Implementation::Revise(const LevelImage& image)
 {
   /** Residual, in delta, over which a vertex is off the isopotential. */
   constexpr float leastOff = 0.03f;
   SurfaceState& s = this->State;
   this->TheField = std::make_unique<Field>(image, this->Options, this->Threads);
-  std::vector<std::uint8_t> isOff(static_cast<std::size_t>(s.Mesh.Size()), 0);
-  this->Threads.For(isOff.size(), VertexGrain,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        const int v = static_cast<int>(i);
-        if (s.Mesh.IsAlive(v))
-        {
-          const Field::Sample sample = this->TheField->At(s.Mesh.Position[v]);
-          isOff[i] = std::abs(sample.Value) >
-            leastOff * s.Sizing.At(v) * this->TheField->SlopeOf(sample);
-        }
-      }
-    });
-  bool isAny = false;
+  const bool isAny = this->ActivateWhereOff(leastOff);
   for (int v = 0; v < s.Mesh.Size(); ++v)
   {
-    s.Active[v] = s.WasActive[v] = 0;
     if (s.Mesh.IsAlive(v))
     {
-      const Ring& ring = s.Mesh.Rings[v];
       s.Velocity[v] = Vector();
-      s.Active[v] = isOff[static_cast<std::size_t>(v)] ||
-        std::any_of(ring.Item, ring.Item + ring.Count,
-          [&](int w) { return isOff[static_cast<std::size_t>(w)] != 0; });
     }
     s.WasActive[v] = s.Active[v];
-    isAny = isAny || s.Active[v];
   }
   if (!isAny)
   {

@@ -297,7 +297,7 @@ void SurfaceEvolution::Implementation::VisitAll(SurfaceIteration::Mode mode,
       HistoryRow row;
       iteration.Run(row, dynamics, remesher, mode);
       this->Blocks->AddNew(visit, iteration.WorkingVertices());
-      if (mode == SurfaceIteration::Mode::Regularise)
+      if (mode != SurfaceIteration::Mode::Adapt)
       {
         this->KeepActiveIfMoving(iteration); // Also beyond the block, for the visits to come.
       }

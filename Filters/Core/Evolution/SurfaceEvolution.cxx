@@ -201,8 +201,14 @@ bool SurfaceEvolution::Divide(const LevelImage& image, int level)
     std::lround(std::log(coarse / self.State.Sizing.OfLevel()) /
       std::log(SizingField::DivisionFactor)));
   // After each of these steps the surface is one to hand over.
+  const bool isGraded = self.WantedGrading.IsWanted();
+  const bool descends = self.Options.FollowsFieldAlone() && !isGraded && divisions > 0;
+  if (descends)
+  {
+    self.DescendField(coarse);
+  }
   bool goesOn = true;
-  if (!self.WantedGrading.IsWanted() || divisions == 0 || !self.DivideWhereWanted(coarse))
+  if (!isGraded || divisions == 0 || !self.DivideWhereWanted(coarse))
   {
     goesOn = self.DivideAll(divisions);
   }
@@ -211,6 +217,10 @@ bool SurfaceEvolution::Divide(const LevelImage& image, int level)
   if (goesOn)
   {
     self.Recover();
+  }
+  if (descends)
+  {
+    self.ActivateWhereOff(Dynamics::LeftOff);
   }
   watch.Lap(Phase::Recovery);
   self.GoOn(Monitor::Activity::Recovering, 1.);

@@ -20,6 +20,13 @@ namespace
 constexpr float SlowDisplacement = 0.08f;
 /** Collapses after which a component may have become a small one. */
 constexpr int SuspiciousCollapses = 40;
+
+Dynamics::Relaxation RelaxationOf(SurfaceIteration::Mode mode)
+{
+  return mode == SurfaceIteration::Mode::Descend
+    ? Dynamics::Relaxation{ 0.5f, 0.5f, true }
+    : Dynamics::Relaxation{ 0.15f, 0.7f, mode == SurfaceIteration::Mode::Regularise };
+}
 }
 
 void SurfaceIteration::BeginVisit(BlockVisit& visit)
@@ -298,7 +305,7 @@ void SurfaceIteration::Run(
   else
   {
     dynamics.Relax(
-      s, this->Active, this->Near.Pairs(), mode == Mode::Regularise, this->Step, idle);
+      s, this->Active, this->Near.Pairs(), RelaxationOf(mode), this->Step, idle);
   }
   row.TimeStep = this->Step.Time;
   watch.Lap(Phase::Forces);

@@ -45,10 +45,11 @@ namespace volumic
 class SurfaceIteration
 {
 public:
-  /** What drives it: forces; shape and residual; shape alone. */
+  /** What drives it: forces; residual and shape, by long ways or by short ones; shape alone. */
   enum class Mode
   {
     Evolve,
+    Descend,
     Regularise,
     Adapt
   };

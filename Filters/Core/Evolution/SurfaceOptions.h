@@ -61,6 +61,17 @@ struct SurfaceOptions : FieldOptions
    * may be visited at the same time. No property: tests make others.
    */
   double BlockSide = 0.;
+
+  /**
+   * Whether nothing but the field drives the surface, so that where it is to lie is known before a
+   * level begins.
+   */
+  bool FollowsFieldAlone() const
+  {
+    return this->IsopotentialWeight > 0. && !(this->GradientWeight > 0.) &&
+      !(this->EdgeAttractionWeight > 0.) && this->SnapToIsoValue &&
+      this->FreezeMotionlessVertices;
+  }
 };
 }
 
