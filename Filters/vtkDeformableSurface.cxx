@@ -273,7 +273,7 @@ int vtkDeformableSurface::RequestData(
   work.OfOthers = [&](volumic::RankQuestion, volumic::RankMessage&)
   {
     volumic::RankMessage answer;
-    answer.Words << internals.Cache.IsValidFor(this, ranks.Count());
+    answer << internals.Cache.IsValidFor(this, ranks.Count());
     return answer;
   };
   const volumic::AlgorithmError error = volumic::RunOnRanks(ranks, call,

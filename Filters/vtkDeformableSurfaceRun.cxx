@@ -299,9 +299,9 @@ void vtkDeformableSurface::vtkInternals::RunOrGoOn(const volumic::FilterCall& ca
   for (volumic::RankMessage& other : this->All->AskAll(volumic::RankQuestion::Own))
   {
     bool isKeptThere = true;
-    if (!other.Words.Empty())
+    if (!other.IsEmpty())
     {
-      other.Words >> isKeptThere;
+      other >> isKeptThere;
     }
     isKept = isKept && isKeptThere;
   }

@@ -23,7 +23,7 @@
 #include <vtkSmartPointer.h>
 #include <vtkTable.h>
 
-#include <exception>
+#include <vector>
 
 vtkStandardNewMacro(vtkOtsuThreshold);
 
@@ -87,6 +87,14 @@ int vtkOtsuThreshold::RequestData(
     return 1;
   }
   const volumic::FilterCall call{ this, request, input, output };
+  const auto keep = [this](double threshold, const std::vector<double>& histogram)
+  {
+    this->Threshold = threshold;
+    for (const double value : histogram)
+    {
+      this->Histogram->InsertNextValue(value);
+    }
+  };
   volumic::RankWork work;
   work.OfFirst = [&]
   {
@@ -99,22 +107,19 @@ int vtkOtsuThreshold::RequestData(
     column->SetName("Threshold");
     column->InsertNextValue(found.Threshold);
     vtkTable::GetData(output)->AddColumn(column);
-    this->Threshold = found.Threshold;
-    this->Histogram->InsertNextValue(found.Range[0]);
-    this->Histogram->InsertNextValue(found.Range[1]);
-    for (const vtkIdType count : found.Counts)
-    {
-      this->Histogram->InsertNextValue(static_cast<double>(count));
-    }
+    std::vector<double> histogram = { found.Range[0], found.Range[1] };
+    histogram.insert(histogram.end(), found.Counts.begin(), found.Counts.end());
+    keep(found.Threshold, histogram);
     volumic::RankMessage message;
-    message.Words << this->Threshold;
-    message.Put(this->Histogram);
+    message << found.Threshold << histogram;
     ranks.AskAll(volumic::RankQuestion::Own, message);
   };
-  work.OfOthers = [this](volumic::RankQuestion, volumic::RankMessage& message)
+  work.OfOthers = [&keep](volumic::RankQuestion, volumic::RankMessage& message)
   {
-    message.Words >> this->Threshold;
-    this->Histogram->DeepCopy(message.TakeArray());
+    double threshold = 0.0;
+    std::vector<double> histogram;
+    message >> threshold >> histogram;
+    keep(threshold, histogram);
     return volumic::RankMessage();
   };
   const volumic::AlgorithmError error = volumic::RunOnRanks(

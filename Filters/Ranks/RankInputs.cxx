@@ -8,21 +8,22 @@
 #include "Input/ImageVoxels.h"
 #include "Input/InputImage.h"
 #include "Input/SlabImage.h"
-#include "Ranks/JoinSurfaces.h"
+#include "Ranks/Pieces.h"
 
 #include <vtkCompositeDataSet.h>
 #include <vtkDataObject.h>
 #include <vtkImageData.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
+#include <vtkMatrix4x4.h>
 #include <vtkMultiBlockDataSet.h>
+#include <vtkNew.h>
 #include <vtkPolyData.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
+#include <utility>
 #include <vector>
 
 namespace volumic
@@ -32,73 +33,49 @@ namespace
 /** Bytes that go at once. */
 constexpr double PartBytes = 16 << 20;
 
-/** The images that an input means: its blocks, or one; null where there is nothing. */
+/** The images that an input means: its blocks, or one; null where there are no voxels. */
 using Images = std::vector<vtkSmartPointer<vtkImageData>>;
-
-bool HasVoxels(vtkImageData* image)
-{
-  return image && image->GetNumberOfPoints() > 0;
-}
 
 Images ImagesIn(vtkDataObject* input)
 {
-  if (!input)
-  {
-    return { nullptr };
-  }
-  if (auto* image = vtkImageData::SafeDownCast(input))
-  {
-    return { HasVoxels(image) ? image : nullptr };
-  }
   auto* blocks = vtkMultiBlockDataSet::SafeDownCast(input);
+  bool areImages = blocks && blocks->GetNumberOfBlocks() > 1;
   Images images;
-  for (unsigned int h = 0; blocks && h < blocks->GetNumberOfBlocks(); ++h)
+  for (unsigned int b = 0; areImages && b < blocks->GetNumberOfBlocks(); ++b)
   {
-    auto* image = vtkImageData::SafeDownCast(blocks->GetBlock(h));
-    if (blocks->GetBlock(h) && !image)
-    {
-      return { ImageOf(input) };
-    }
-    images.emplace_back(HasVoxels(image) ? image : nullptr);
+    auto* image = vtkImageData::SafeDownCast(blocks->GetBlock(b));
+    areImages = image || !blocks->GetBlock(b);
+    images.emplace_back(image && image->GetNumberOfPoints() > 0 ? image : nullptr);
   }
-  const auto* composite = vtkCompositeDataSet::SafeDownCast(input);
-  if (images.size() > 1 || (composite && input->GetNumberOfElements(vtkDataObject::POINT) == 0))
+  if (areImages)
   {
-    return images.empty() ? Images{ nullptr } : images;
+    return images;
   }
-  return { ImageOf(input) };
+  const bool mayBeEmpty =
+    vtkImageData::SafeDownCast(input) || vtkCompositeDataSet::SafeDownCast(input);
+  const bool isEmpty =
+    !input || (mayBeEmpty && input->GetNumberOfElements(vtkDataObject::POINT) == 0);
+  return { isEmpty ? nullptr : ImageOf(input) };
 }
 
-VoxelBox BoxOf(const Place& place)
+VoxelBox BoxOf(vtkImageData* image)
 {
   VoxelBox box;
-  for (int axis = 0; axis < 3; ++axis)
+  for (int axis = 0; image && axis < 3; ++axis)
   {
-    box.First[axis] = place.Extent[2 * axis];
-    box.End[axis] = place.Extent[2 * axis + 1] + 1;
+    box.First[axis] = image->GetExtent()[2 * axis];
+    box.End[axis] = image->GetExtent()[2 * axis + 1] + 1;
   }
-  return box.IsEmpty() ? VoxelBox() : box;
+  return box;
 }
 
-template <std::size_t N>
-bool AreClose(const std::array<double, N>& a, const std::array<double, N>& b, double tolerance)
+void CheckSamePlace(vtkImageData* first, vtkImageData* other, std::size_t rank)
 {
-  return std::equal(a.begin(), a.end(), b.begin(),
-    [tolerance](double x, double y) { return std::abs(x - y) <= tolerance; });
-}
-
-void CheckSamePlace(const Place& first, const Place& other, int rank)
-{
-  double size = 0.0;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const int last = std::max(std::abs(first.Extent[2 * axis + 1]), 1);
-    size = std::max(size, std::abs(first.Spacing[axis]) * last);
-  }
-  constexpr double share = 1e-6;
-  if (!AreClose(first.Spacing, other.Spacing, share * size) ||
-    !AreClose(first.Origin, other.Origin, share * size) ||
-    !AreClose(first.Direction, other.Direction, share))
+  const double tolerance = 1e-6 * first->GetLength();
+  const double* here = first->GetIndexToPhysicalMatrix()->GetData();
+  const double* there = other->GetIndexToPhysicalMatrix()->GetData();
+  if (!std::equal(here, here + 16, there,
+        [tolerance](double a, double b) { return std::abs(a - b) <= tolerance; }))
   {
     Refuse("the pieces of the image that the processes hold are not of one image: origin, spacing "
            "or direction differ at process ",
@@ -107,24 +84,23 @@ void CheckSamePlace(const Place& first, const Place& other, int rank)
 }
 
 /** What all ranks have of one image, of which nobody may lack a voxel. */
-VoxelBox CheckPlaces(const std::vector<Place>& places)
+VoxelBox CheckPieces(const Images& pieces)
 {
-  const Place* first = nullptr;
+  vtkImageData* first = nullptr;
   VoxelBox whole;
-  for (std::size_t rank = 0; rank < places.size(); ++rank)
+  for (std::size_t rank = 0; rank < pieces.size(); ++rank)
   {
-    const VoxelBox box = BoxOf(places[rank]);
-    first = first || box.IsEmpty() ? first : &places[rank];
-    if (!box.IsEmpty())
+    first = first ? first : pieces[rank].Get();
+    if (pieces[rank])
     {
-      CheckSamePlace(*first, places[rank], static_cast<int>(rank));
-      whole = whole.With(box);
+      CheckSamePlace(first, pieces[rank], rank);
+      whole = whole.With(BoxOf(pieces[rank]));
     }
   }
   std::vector<VoxelBox> missing = { whole };
-  for (const Place& place : places)
+  for (vtkImageData* piece : pieces)
   {
-    missing = Without(missing, BoxOf(place));
+    missing = Without(missing, BoxOf(piece));
   }
   if (!missing.empty() && !whole.IsEmpty())
   {
@@ -134,14 +110,13 @@ VoxelBox CheckPlaces(const std::vector<Place>& places)
   return whole;
 }
 
-/** The whole of one image. @param places of all ranks */
-vtkSmartPointer<vtkImageData> TakeImage(
-  Ranks& ranks, vtkImageData* own, const std::vector<Place>& places, int port, int block)
+/** The whole of one image. @param pieces by rank; of the others without voxels */
+vtkSmartPointer<vtkImageData> TakeImage(Ranks& ranks, const Images& pieces, int port, int block)
 {
-  const VoxelBox box = CheckPlaces(places);
-  if (box.IsEmpty() || BoxOf(places[0]) == box)
+  const VoxelBox box = CheckPieces(pieces);
+  if (box.IsEmpty() || BoxOf(pieces[0]) == box)
   {
-    return own;
+    return pieces[0];
   }
   SlabImage whole(
     { box.First[0], box.End[0] - 1, box.First[1], box.End[1] - 1, box.First[2], box.End[2] - 1 },
@@ -149,42 +124,51 @@ vtkSmartPointer<vtkImageData> TakeImage(
   // Of what several have the first one's stays.
   for (int rank = ranks.Count() - 1; rank > 0; --rank)
   {
-    const std::array<int, 6>& extent = places[static_cast<std::size_t>(rank)].Extent;
-    for (int first = extent[4]; first <= extent[5];)
+    const VoxelBox piece = BoxOf(pieces[static_cast<std::size_t>(rank)]);
+    for (int first = piece.First[2]; first < piece.End[2];)
     {
       RankMessage wanted;
-      wanted.Words << port << block << first;
+      wanted << port << block << first;
       RankMessage part = ranks.Ask(rank, RankQuestion::Part, wanted);
       const vtkSmartPointer<vtkImageData> slab = vtkImageData::SafeDownCast(part.TakeData());
       whole.Take(slab);
       first = slab->GetExtent()[5] + 1;
     }
   }
-  if (own)
+  if (pieces[0])
   {
-    whole.Take(own);
+    whole.Take(pieces[0]);
   }
   return whole.Image();
 }
 
-RankMessage GivePlaces(const Images& images)
+/** Where the images are, without voxels. */
+RankMessage GiveFrames(const Images& images)
 {
   RankMessage message;
-  message.Words << static_cast<int>(images.size());
+  message << images.size();
   for (vtkImageData* image : images)
   {
-    PutPlace(message, PlaceOf(image));
+    vtkNew<vtkImageData> frame;
+    if (image)
+    {
+      frame->CopyStructure(image);
+    }
+    message.Put(image ? frame.Get() : nullptr);
   }
   return message;
 }
 
-std::vector<Place> TakePlaces(RankMessage& message)
+Images TakeFrames(RankMessage& message)
 {
-  int count = 0;
-  message.Words >> count;
-  std::vector<Place> places;
-  std::generate_n(std::back_inserter(places), count, [&] { return TakePlace(message); });
-  return places;
+  std::size_t count = 0;
+  message >> count;
+  Images frames;
+  while (frames.size() < count)
+  {
+    frames.emplace_back(vtkImageData::SafeDownCast(message.TakeData()));
+  }
+  return frames;
 }
 
 /** Some slices of an image. The last ones let go of it, where the data of its port are released. */
@@ -193,7 +177,7 @@ RankMessage GivePart(RankMessage& message, const FilterCall& call)
   int port = 0;
   int block = 0;
   int first = 0;
-  message.Words >> port >> block >> first;
+  message >> port >> block >> first;
   vtkDataObject* input = vtkDataObject::GetData(call.Inputs[port]);
   const Images images = ImagesIn(input);
   vtkImageData* image = images[static_cast<std::size_t>(block)];
@@ -238,37 +222,36 @@ vtkSmartPointer<vtkDataObject> TakeImages(Ranks& ranks, const FilterCall& call, 
     return input;
   }
   RankMessage wanted;
-  wanted.Words << port;
-  std::vector<RankMessage> answers = ranks.AskAll(RankQuestion::Places, wanted);
-  std::vector<std::vector<Place>> others;
+  wanted << port;
+  std::vector<RankMessage> answers = ranks.AskAll(RankQuestion::Frames, wanted);
+  std::vector<Images> all(answers.size());
   std::size_t count = 1;
   bool hasOthers = false;
   for (std::size_t rank = 1; rank < answers.size(); ++rank)
   {
-    others.push_back(TakePlaces(answers[rank]));
-    count = std::max(count, others.back().size());
+    all[rank] = TakeFrames(answers[rank]);
+    count = std::max(count, all[rank].size());
     hasOthers = hasOthers ||
-      std::any_of(others.back().begin(), others.back().end(),
-        [](const Place& place) { return !BoxOf(place).IsEmpty(); });
+      std::any_of(all[rank].begin(), all[rank].end(),
+        [](vtkImageData* image) { return image != nullptr; });
   }
   if (!hasOthers)
   {
     return input;
   }
-  Images own = ImagesIn(input);
-  count = std::max(count, own.size());
-  own.resize(count);
+  all[0] = ImagesIn(input);
+  count = std::max(count, all[0].size());
   const auto whole = vtkSmartPointer<vtkMultiBlockDataSet>::New();
   for (std::size_t block = 0; block < count; ++block)
   {
-    std::vector<Place> places = { PlaceOf(own[block]) };
-    for (const std::vector<Place>& of : others)
+    Images pieces;
+    for (Images& of : all)
     {
-      places.push_back(block < of.size() ? of[block] : Place());
+      of.resize(count);
+      pieces.push_back(std::exchange(of[block], nullptr));
     }
     whole->SetBlock(static_cast<unsigned int>(block),
-      TakeImage(ranks, own[block], places, port, static_cast<int>(block)));
-    own[block] = nullptr;
+      TakeImage(ranks, pieces, port, static_cast<int>(block)));
   }
   if (count == 1)
   {
@@ -286,17 +269,15 @@ vtkSmartPointer<vtkPolyData> TakePoints(Ranks& ranks, const FilterCall& call, in
     return own;
   }
   RankMessage wanted;
-  wanted.Words << port;
-  std::vector<RankMessage> answers = ranks.AskAll(RankQuestion::Points, wanted);
-  std::vector<vtkSmartPointer<vtkPolyData>> pieces = { own };
-  bool isGiven = own != nullptr;
-  for (auto answer = answers.begin() + 1; answer != answers.end(); ++answer)
+  wanted << port;
+  std::vector<vtkSmartPointer<vtkPolyData>> pieces;
+  for (RankMessage& answer : ranks.AskAll(RankQuestion::Points, wanted))
   {
-    bool isThere = false;
-    answer->Words >> isThere;
-    isGiven = isGiven || isThere;
-    pieces.emplace_back(vtkPolyData::SafeDownCast(answer->TakeData()));
+    pieces.emplace_back(pieces.empty() ? OwnPartOf(own).Get()
+                                       : vtkPolyData::SafeDownCast(answer.TakeData()));
   }
+  const bool isGiven = std::any_of(
+    pieces.begin(), pieces.end(), [](vtkPolyData* piece) { return piece != nullptr; });
   return isGiven ? JoinSurfaces(pieces) : nullptr;
 }
 
@@ -306,16 +287,15 @@ RankMessage AnswerForInputs(RankQuestion question, RankMessage& message, const F
   {
     return GivePart(message, call);
   }
-  RankMessage answer;
   int port = 0;
-  message.Words >> port;
-  if (question == RankQuestion::Places)
+  message >> port;
+  vtkInformationVector* input = call.Inputs[port];
+  if (question == RankQuestion::Frames)
   {
-    return GivePlaces(ImagesIn(vtkDataObject::GetData(call.Inputs[port])));
+    return GiveFrames(ImagesIn(vtkDataObject::GetData(input)));
   }
-  auto* points = vtkPolyData::GetData(call.Inputs[port]);
-  answer.Words << (points != nullptr);
-  answer.Put(points && points->GetNumberOfPoints() > 0 ? OwnPartOf(points).Get() : nullptr);
+  RankMessage answer;
+  answer.Put(OwnPartOf(vtkPolyData::GetData(input)));
   return answer;
 }
 }

@@ -39,7 +39,7 @@ bool AskForInputs(vtkMultiProcessController* controller, const FilterCall& call)
  */
 vtkSmartPointer<vtkDataObject> TakeImages(Ranks& ranks, const FilterCall& call, int port);
 
-/** Likewise, of a surface, or of points (JoinSurfaces.h). Null where nobody has any. */
+/** Likewise, of a surface, or of points (Pieces.h). Null where nobody has any. */
 vtkSmartPointer<vtkPolyData> TakePoints(Ranks& ranks, const FilterCall& call, int port);
 
 /** At the others: gives what these ask for. */

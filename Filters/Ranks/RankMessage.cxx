@@ -7,6 +7,7 @@
 #include <vtkAbstractArray.h>
 #include <vtkCellArray.h>
 #include <vtkCompositeDataSet.h>
+#include <vtkDataArray.h>
 #include <vtkDataObject.h>
 #include <vtkDataObjectTypes.h>
 #include <vtkDataSetAttributes.h>
@@ -22,8 +23,8 @@
 #include <vtkStringArray.h>
 #include <vtkTable.h>
 
-#include <algorithm>
-#include <cstddef>
+#include <array>
+#include <cstring>
 #include <stdexcept>
 #include <string>
 
@@ -31,6 +32,9 @@ namespace volumic
 {
 namespace
 {
+/** No tag of VTK or ParaView: they count from 1, and from 100, 8000 and 99990. */
+constexpr int Tag = 22095;
+
 /** What has arrays beside the field data. */
 constexpr int Associations[] = { vtkDataObject::POINT, vtkDataObject::CELL, vtkDataObject::ROW };
 
@@ -42,205 +46,122 @@ void Check(bool isThrough)
   }
 }
 
-std::string NameIn(vtkAbstractArray* array)
+std::string TextOf(const char* text)
 {
-  return array->GetName() ? array->GetName() : "";
+  return text ? text : "";
 }
 
-void PutTexts(RankMessage& message, vtkStringArray* texts)
+std::size_t BytesOf(vtkDataArray* array)
 {
-  message.Words << NameIn(texts) << texts->GetNumberOfComponents()
-                << static_cast<vtkTypeInt64>(texts->GetNumberOfTuples());
-  for (vtkIdType i = 0; i < texts->GetNumberOfValues(); ++i)
+  return static_cast<std::size_t>(array->GetNumberOfValues()) *
+    static_cast<std::size_t>(array->GetDataTypeSize());
+}
+
+/** Of numbers or texts; others stay behind. */
+void PutArray(RankMessage& message, vtkAbstractArray* array)
+{
+  auto* texts = vtkStringArray::SafeDownCast(array);
+  vtkSmartPointer<vtkDataArray> numbers = vtkDataArray::SafeDownCast(array);
+  numbers = numbers ? ContiguousVoxels(numbers) : nullptr;
+  message << (numbers ? numbers->GetDataType() : texts ? VTK_STRING : VTK_VOID)
+          << TextOf(array->GetName()) << array->GetNumberOfComponents()
+          << array->GetNumberOfTuples();
+  if (numbers)
   {
-    message.Words << texts->GetValue(i);
+    message.PutBytes(numbers->GetVoidPointer(0), BytesOf(numbers));
+  }
+  for (vtkIdType i = 0; texts && i < texts->GetNumberOfValues(); ++i)
+  {
+    message << static_cast<const std::string&>(texts->GetValue(i));
   }
 }
 
-vtkSmartPointer<vtkStringArray> TakeTexts(RankMessage& message)
+vtkSmartPointer<vtkAbstractArray> TakeArray(RankMessage& message)
 {
+  int type = VTK_VOID;
   std::string name;
   int components = 1;
-  vtkTypeInt64 tuples = 0;
-  message.Words >> name >> components >> tuples;
-  auto texts = vtkSmartPointer<vtkStringArray>::New();
-  texts->SetName(name.c_str());
-  texts->SetNumberOfComponents(components);
-  texts->SetNumberOfTuples(tuples);
+  vtkIdType tuples = 0;
+  message >> type >> name >> components >> tuples;
+  if (type == VTK_VOID)
+  {
+    return nullptr;
+  }
+  const auto array = vtkSmartPointer<vtkAbstractArray>::Take(vtkAbstractArray::CreateArray(type));
+  array->SetName(name.empty() ? nullptr : name.c_str());
+  array->SetNumberOfComponents(components);
+  array->SetNumberOfTuples(tuples);
+  if (auto* numbers = vtkDataArray::SafeDownCast(array))
+  {
+    message.TakeBytes(numbers->GetVoidPointer(0), BytesOf(numbers));
+    return array;
+  }
+  auto* texts = vtkStringArray::SafeDownCast(array);
   for (vtkIdType i = 0; i < texts->GetNumberOfValues(); ++i)
   {
     std::string text;
-    message.Words >> text;
+    message >> text;
     texts->SetValue(i, text);
   }
-  return texts;
-}
+  return array;
 }
 
-void RankMessage::Put(vtkDataArray* array)
+vtkSmartPointer<vtkDataArray> TakeNumbers(RankMessage& message)
 {
-  this->Arrays.emplace_back(ContiguousVoxels(array));
+  return vtkDataArray::SafeDownCast(TakeArray(message));
 }
 
-vtkSmartPointer<vtkDataArray> RankMessage::TakeArray()
-{
-  return this->Arrays.at(this->Taken++);
-}
-
-void RankMessage::PutArrays(vtkFieldData* arrays)
+void PutArrays(RankMessage& message, vtkFieldData* arrays)
 {
   auto* attributes = vtkDataSetAttributes::SafeDownCast(arrays);
-  this->Words << arrays->GetNumberOfArrays();
+  message << arrays->GetNumberOfArrays();
   for (int i = 0; i < arrays->GetNumberOfArrays(); ++i)
   {
-    auto* numbers = vtkDataArray::SafeDownCast(arrays->GetAbstractArray(i));
-    auto* texts = vtkStringArray::SafeDownCast(arrays->GetAbstractArray(i));
-    this->Words << (numbers != nullptr) << (texts != nullptr)
-                << (attributes ? attributes->IsArrayAnAttribute(i) : -1);
-    if (numbers)
-    {
-      this->Put(numbers);
-    }
-    else if (texts)
-    {
-      PutTexts(*this, texts);
-    }
+    PutArray(message, arrays->GetAbstractArray(i));
+    message << (attributes ? attributes->IsArrayAnAttribute(i) : -1);
   }
 }
 
-void RankMessage::TakeInto(vtkFieldData* arrays)
+void TakeArrays(RankMessage& message, vtkFieldData* arrays)
 {
   auto* attributes = vtkDataSetAttributes::SafeDownCast(arrays);
   int count = 0;
-  this->Words >> count;
+  message >> count;
   for (int i = 0; i < count; ++i)
   {
-    bool areNumbers = false;
-    bool areTexts = false;
+    const vtkSmartPointer<vtkAbstractArray> array = TakeArray(message);
     int attribute = -1;
-    this->Words >> areNumbers >> areTexts >> attribute;
-    if (!areNumbers && !areTexts)
-    {
-      continue;
-    }
-    const int place =
-      areNumbers ? arrays->AddArray(this->TakeArray()) : arrays->AddArray(TakeTexts(*this));
-    if (attributes && attribute >= 0)
+    message >> attribute;
+    const int place = array ? arrays->AddArray(array) : -1;
+    if (attributes && place >= 0 && attribute >= 0)
     {
       attributes->SetActiveAttribute(place, attribute);
     }
   }
 }
 
-void RankMessage::Put(vtkDataObject* data)
+void PutShape(RankMessage& message, vtkPolyData* surface)
 {
-  auto* surface = vtkPolyData::SafeDownCast(data);
-  auto* image = vtkImageData::SafeDownCast(data);
-  auto* blocks = vtkMultiBlockDataSet::SafeDownCast(data);
-  const bool isKnown = surface || image || blocks || vtkTable::SafeDownCast(data);
-  this->Words << (isKnown ? data->GetDataObjectType() : -1);
-  if (!isKnown)
+  vtkNew<vtkPoints> none;
+  PutArray(message, (surface->GetPoints() ? surface->GetPoints() : none.Get())->GetData());
+  for (vtkCellArray* cells :
+    { surface->GetVerts(), surface->GetLines(), surface->GetPolys(), surface->GetStrips() })
   {
-    return;
-  }
-  this->PutArrays(data->GetFieldData());
-  for (const int type : Associations)
-  {
-    if (vtkDataSetAttributes* attributes = data->GetAttributes(type))
-    {
-      this->PutArrays(attributes);
-    }
-  }
-  if (surface)
-  {
-    this->Words << (surface->GetPoints() != nullptr);
-    if (surface->GetPoints())
-    {
-      this->Put(surface->GetPoints()->GetData());
-    }
-    for (vtkCellArray* cells :
-      { surface->GetVerts(), surface->GetLines(), surface->GetPolys(), surface->GetStrips() })
-    {
-      this->Put(cells->GetOffsetsArray());
-      this->Put(cells->GetConnectivityArray());
-    }
-  }
-  else if (image)
-  {
-    PutPlace(*this, PlaceOf(image));
-  }
-  else if (blocks)
-  {
-    this->Words << static_cast<int>(blocks->GetNumberOfBlocks());
-    for (unsigned int b = 0; b < blocks->GetNumberOfBlocks(); ++b)
-    {
-      const char* name =
-        blocks->HasMetaData(b) ? blocks->GetMetaData(b)->Get(vtkCompositeDataSet::NAME()) : nullptr;
-      this->Words << std::string(name ? name : "");
-      this->Put(blocks->GetBlock(b));
-    }
+    PutArray(message, cells->GetOffsetsArray());
+    PutArray(message, cells->GetConnectivityArray());
   }
 }
 
-vtkSmartPointer<vtkDataObject> RankMessage::TakeData()
+void TakeShape(RankMessage& message, vtkPolyData* surface)
 {
-  int type = -1;
-  this->Words >> type;
-  if (type < 0)
+  vtkNew<vtkPoints> points;
+  points->SetData(TakeNumbers(message));
+  surface->SetPoints(points);
+  const auto take = [&message]
   {
-    return nullptr;
-  }
-  const auto data = vtkSmartPointer<vtkDataObject>::Take(vtkDataObjectTypes::NewDataObject(type));
-  this->TakeInto(data->GetFieldData());
-  for (const int association : Associations)
-  {
-    if (vtkDataSetAttributes* attributes = data->GetAttributes(association))
-    {
-      this->TakeInto(attributes);
-    }
-  }
-  if (auto* surface = vtkPolyData::SafeDownCast(data))
-  {
-    this->TakeShape(surface);
-  }
-  else if (auto* image = vtkImageData::SafeDownCast(data))
-  {
-    Place place = TakePlace(*this);
-    image->SetExtent(place.Extent.data());
-    image->SetOrigin(place.Origin.data());
-    image->SetSpacing(place.Spacing.data());
-    image->SetDirectionMatrix(place.Direction.data());
-  }
-  else if (auto* blocks = vtkMultiBlockDataSet::SafeDownCast(data))
-  {
-    int count = 0;
-    this->Words >> count;
-    for (unsigned int b = 0; b < static_cast<unsigned int>(count); ++b)
-    {
-      std::string name;
-      this->Words >> name;
-      blocks->SetBlock(b, this->TakeData());
-      blocks->GetMetaData(b)->Set(vtkCompositeDataSet::NAME(), name.c_str());
-    }
-  }
-  return data;
-}
-
-void RankMessage::TakeShape(vtkPolyData* surface)
-{
-  bool hasPoints = false;
-  this->Words >> hasPoints;
-  if (hasPoints)
-  {
-    vtkNew<vtkPoints> points;
-    points->SetData(this->TakeArray());
-    surface->SetPoints(points);
-  }
-  const auto take = [this]
-  {
-    const vtkSmartPointer<vtkDataArray> offsets = this->TakeArray();
+    const vtkSmartPointer<vtkDataArray> offsets = TakeNumbers(message);
     auto cells = vtkSmartPointer<vtkCellArray>::New();
-    cells->SetData(offsets, this->TakeArray());
+    cells->SetData(offsets, TakeNumbers(message));
     return cells;
   };
   surface->SetVerts(take());
@@ -249,77 +170,134 @@ void RankMessage::TakeShape(vtkPolyData* surface)
   surface->SetStrips(take());
 }
 
-void RankMessage::Send(vtkMultiProcessController* controller, int to, int tag) const
+void PutShape(RankMessage& message, vtkImageData* image)
 {
-  vtkMultiProcessStream head;
-  head << static_cast<int>(this->Arrays.size());
-  for (vtkDataArray* array : this->Arrays)
-  {
-    head << array->GetDataType();
-  }
-  Check(controller->Send(head, to, tag) != 0);
-  Check(controller->Send(this->Words, to, tag) != 0);
-  for (vtkDataArray* array : this->Arrays)
-  {
-    Check(controller->Send(array, to, tag) != 0);
-  }
+  message.PutBytes(image->GetExtent(), 6 * sizeof(int));
+  message.PutBytes(image->GetOrigin(), 3 * sizeof(double));
+  message.PutBytes(image->GetSpacing(), 3 * sizeof(double));
+  message.PutBytes(image->GetDirectionMatrix()->GetData(), 9 * sizeof(double));
 }
 
-void RankMessage::Receive(vtkMultiProcessController* controller, int from, int tag)
+void TakeShape(RankMessage& message, vtkImageData* image)
 {
-  vtkMultiProcessStream head;
-  Check(controller->Receive(head, from, tag) != 0);
-  int count = 0;
-  head >> count;
-  for (int i = 0; i < count; ++i)
+  std::array<int, 6> extent;
+  std::array<double, 15> numbers;
+  message >> extent >> numbers;
+  image->SetExtent(extent.data());
+  image->SetOrigin(numbers.data());
+  image->SetSpacing(numbers.data() + 3);
+  image->SetDirectionMatrix(numbers.data() + 6);
+}
+
+void PutShape(RankMessage& message, vtkMultiBlockDataSet* blocks)
+{
+  message << blocks->GetNumberOfBlocks();
+  for (unsigned int b = 0; b < blocks->GetNumberOfBlocks(); ++b)
   {
-    int type = 0;
-    head >> type;
-    this->Arrays.push_back(
-      vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(type)));
-  }
-  Check(controller->Receive(this->Words, from, tag) != 0);
-  for (vtkDataArray* array : this->Arrays)
-  {
-    Check(controller->Receive(array, from, tag) != 0);
+    message << TextOf(
+      blocks->HasMetaData(b) ? blocks->GetMetaData(b)->Get(vtkCompositeDataSet::NAME()) : nullptr);
+    message.Put(blocks->GetBlock(b));
   }
 }
 
-Place PlaceOf(vtkImageData* image)
+void TakeShape(RankMessage& message, vtkMultiBlockDataSet* blocks)
 {
-  Place place;
-  if (image && image->GetNumberOfPoints() > 0)
+  unsigned int count = 0;
+  message >> count;
+  for (unsigned int b = 0; b < count; ++b)
   {
-    image->GetExtent(place.Extent.data());
-    image->GetOrigin(place.Origin.data());
-    image->GetSpacing(place.Spacing.data());
-    std::copy_n(image->GetDirectionMatrix()->GetData(), 9, place.Direction.begin());
+    std::string name;
+    message >> name;
+    blocks->SetBlock(b, message.TakeData());
+    blocks->GetMetaData(b)->Set(vtkCompositeDataSet::NAME(), name.c_str());
   }
-  return place;
 }
 
-namespace
+/** Does something with the data as what they are. @return whether messages know that */
+template <typename Do>
+bool WithType(vtkDataObject* data, const Do& work)
 {
-/** What there is to do with all numbers of a place. */
-template <typename PlaceType, typename Visit>
-void ForNumbersOf(PlaceType& place, const Visit& visit)
+  auto* surface = vtkPolyData::SafeDownCast(data);
+  auto* image = vtkImageData::SafeDownCast(data);
+  auto* blocks = vtkMultiBlockDataSet::SafeDownCast(data);
+  surface ? work(surface) : image ? work(image) : blocks ? work(blocks) : void();
+  return surface || image || blocks || vtkTable::SafeDownCast(data);
+}
+
+/** Does something with all arrays of the data. */
+template <typename Do>
+void ForArraysOf(vtkDataObject* data, const Do& work)
 {
-  std::for_each(place.Extent.begin(), place.Extent.end(), visit);
-  std::for_each(place.Origin.begin(), place.Origin.end(), visit);
-  std::for_each(place.Spacing.begin(), place.Spacing.end(), visit);
-  std::for_each(place.Direction.begin(), place.Direction.end(), visit);
+  work(data->GetFieldData());
+  for (const int type : Associations)
+  {
+    if (vtkDataSetAttributes* attributes = data->GetAttributes(type))
+    {
+      work(attributes);
+    }
+  }
 }
 }
 
-void PutPlace(RankMessage& message, const Place& place)
+void RankMessage::PutBytes(const void* bytes, std::size_t count)
 {
-  ForNumbersOf(place, [&message](auto number) { message.Words << number; });
+  const std::size_t before = this->Bytes.size();
+  this->Bytes.resize(before + count);
+  if (count > 0)
+  {
+    std::memcpy(this->Bytes.data() + before, bytes, count);
+  }
 }
 
-Place TakePlace(RankMessage& message)
+void RankMessage::TakeBytes(void* bytes, std::size_t count)
 {
-  Place place;
-  ForNumbersOf(place, [&message](auto& number) { message.Words >> number; });
-  return place;
+  Check(count <= this->Bytes.size() - this->Taken);
+  if (count > 0)
+  {
+    std::memcpy(bytes, this->Bytes.data() + this->Taken, count);
+  }
+  this->Taken += count;
+}
+
+void RankMessage::Put(vtkDataObject* data)
+{
+  const bool isKnown = WithType(data, [](auto*) {});
+  *this << (isKnown ? data->GetDataObjectType() : -1);
+  if (isKnown)
+  {
+    ForArraysOf(data, [this](vtkFieldData* arrays) { PutArrays(*this, arrays); });
+    WithType(data, [this](auto* known) { PutShape(*this, known); });
+  }
+}
+
+vtkSmartPointer<vtkDataObject> RankMessage::TakeData()
+{
+  int type = -1;
+  *this >> type;
+  if (type < 0)
+  {
+    return nullptr;
+  }
+  const auto data = vtkSmartPointer<vtkDataObject>::Take(vtkDataObjectTypes::NewDataObject(type));
+  ForArraysOf(data, [this](vtkFieldData* arrays) { TakeArrays(*this, arrays); });
+  WithType(data, [this](auto* known) { TakeShape(*this, known); });
+  return data;
+}
+
+void RankMessage::Send(vtkMultiProcessController* controller, int to, int word) const
+{
+  const auto size = static_cast<vtkIdType>(this->Bytes.size());
+  const vtkIdType head[] = { word, size };
+  Check(controller->Send(head, 2, to, Tag) != 0 &&
+    (size == 0 || controller->Send(this->Bytes.data(), size, to, Tag) != 0));
+}
+
+int RankMessage::Receive(vtkMultiProcessController* controller, int from)
+{
+  vtkIdType head[] = { 0, 0 };
+  Check(controller->Receive(head, 2, from, Tag) != 0);
+  this->Bytes.resize(static_cast<std::size_t>(head[1]));
+  Check(head[1] == 0 || controller->Receive(this->Bytes.data(), head[1], from, Tag) != 0);
+  return static_cast<int>(head[0]);
 }
 }

@@ -3,7 +3,7 @@
 #include "Ranks/RankOutputs.h"
 
 #include "Host/WholeInput.h"
-#include "Ranks/CutData.h"
+#include "Ranks/Pieces.h"
 
 #include <vtkDataObject.h>
 #include <vtkInformationVector.h>
@@ -16,7 +16,7 @@ namespace
 /** Gives the others their parts of the outputs, and leaves the first one its own. */
 void Deal(Ranks& ranks, const FilterCall& call, Dealing deals)
 {
-  const bool isWhole = deals == Dealing::FirstHasAll;
+  const bool isWhole = deals == Dealing::FirstHasAll || !ranks.AreMany();
   Cut cut{ 0, ranks.Count(), GhostLevelsAskedOf(call.Request, call.Outputs), isWhole };
   for (int port = 0; port < call.Outputs->GetNumberOfInformationObjects(); ++port)
   {
@@ -24,19 +24,14 @@ void Deal(Ranks& ranks, const FilterCall& call, Dealing deals)
     for (cut.Number = 1; cut.Number < cut.Count; ++cut.Number)
     {
       RankMessage part;
-      part.Words << port;
-      part.Put(CutData(output, cut).Get());
+      part << port;
+      part.Put(CutData(output, cut));
       ranks.Ask(cut.Number, RankQuestion::Output, part);
     }
     cut.Number = 0;
-    vtkSmartPointer<vtkDataObject> own = output;
     if (!isWhole)
     {
-      own = CutData(output, cut);
-    }
-    if (own != output)
-    {
-      output->ShallowCopy(own);
+      output->ShallowCopy(CutData(output, cut));
     }
   }
 }
@@ -45,7 +40,7 @@ void Deal(Ranks& ranks, const FilterCall& call, Dealing deals)
 RankMessage TakeOutput(RankMessage& message, vtkInformationVector* outputs)
 {
   int port = 0;
-  message.Words >> port;
+  message >> port;
   vtkDataObject::GetData(outputs, port)->ShallowCopy(message.TakeData());
   return {};
 }
@@ -76,15 +71,11 @@ AlgorithmError RunOnRanks(Ranks& ranks, const FilterCall& call,
         return;
       }
       work.OfFirst();
-      if (ranks.AreMany())
-      {
-        Deal(ranks, call, work.Deals);
-        ranks.End();
-      }
+      Deal(ranks, call, work.Deals);
     });
-  if (error.Code != 0)
+  if (ranks.IsFirst())
   {
-    ranks.Fail(error);
+    ranks.End(error);
   }
   return error;
 }

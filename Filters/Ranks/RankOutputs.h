@@ -28,7 +28,7 @@ struct RankWork
 
 /**
  * RequestData of a filter, by all ranks: the first one works, then each gets its piece of the
- * outputs (CutData.h), with the ghosts that are asked for. One rank alone works and keeps all.
+ * outputs (Pieces.h), with the ghosts that are asked for. One rank alone works and keeps all.
  * @param aboutMemory see RunAlgorithm
  * @return what to report, the same on all ranks
  */

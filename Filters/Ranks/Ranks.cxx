@@ -8,6 +8,7 @@
 #include <vtkStreamingDemandDrivenPipeline.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <thread>
 #include <utility>
 
@@ -15,9 +16,6 @@ namespace volumic
 {
 namespace
 {
-/** No tag of VTK or ParaView: they count from 1, and from 100, 8000 and 99990. */
-constexpr int Tag = 22095;
-
 /** Between two words on how far it is. */
 constexpr std::chrono::milliseconds Interval(100);
 
@@ -44,16 +42,14 @@ bool WorkTogether(
 RankMessage MessageOf(const AlgorithmError& error)
 {
   RankMessage message;
-  message.Words << static_cast<vtkTypeUInt64>(error.Code) << error.Text;
+  message << error.Code << error.Text;
   return message;
 }
 
 AlgorithmError ErrorOf(RankMessage& message)
 {
-  vtkTypeUInt64 code = 0;
   AlgorithmError error;
-  message.Words >> code >> error.Text;
-  error.Code = static_cast<unsigned long>(code);
+  message >> error.Code >> error.Text;
   return error;
 }
 }
@@ -76,28 +72,16 @@ int Ranks::Count() const
   return this->Controller ? this->Controller->GetNumberOfProcesses() : 1;
 }
 
-void Ranks::Send(int to, int word, const RankMessage& message)
+void Ranks::Put(int rank, RankQuestion question, const RankMessage& message)
 {
-  RankMessage head;
-  head.Words << word;
-  head.Send(this->Controller, to, Tag);
-  message.Send(this->Controller, to, Tag);
-}
-
-RankMessage Ranks::Receive(int from, int& word)
-{
-  RankMessage head;
-  head.Receive(this->Controller, from, Tag);
-  head.Words >> word;
-  RankMessage message;
-  message.Receive(this->Controller, from, Tag);
-  return message;
+  message.Send(this->Controller, rank, static_cast<int>(question));
+  this->IsAsked[static_cast<std::size_t>(rank)] = question != RankQuestion::End;
 }
 
 RankMessage Ranks::Hear(int rank)
 {
-  int word = 0;
-  RankMessage message = this->Receive(rank, word);
+  RankMessage message;
+  const int word = message.Receive(this->Controller, rank);
   this->IsAsked[static_cast<std::size_t>(rank)] = false;
   if (word == Failed)
   {
@@ -113,7 +97,7 @@ void Ranks::HearOthers()
     if (this->IsAsked[static_cast<std::size_t>(rank)])
     {
       bool stops = false;
-      this->Hear(rank).Words >> stops;
+      this->Hear(rank) >> stops;
       this->IsStopped = this->IsStopped || stops;
     }
   }
@@ -122,8 +106,7 @@ void Ranks::HearOthers()
 RankMessage Ranks::Ask(int rank, RankQuestion question, const RankMessage& message)
 {
   this->HearOthers();
-  this->Send(rank, static_cast<int>(question), message);
-  this->IsAsked[static_cast<std::size_t>(rank)] = true;
+  this->Put(rank, question, message);
   return this->Hear(rank);
 }
 
@@ -132,8 +115,7 @@ std::vector<RankMessage> Ranks::AskAll(RankQuestion question, const RankMessage&
   this->HearOthers();
   for (int rank = 1; rank < this->Count(); ++rank)
   {
-    this->Send(rank, static_cast<int>(question), message);
-    this->IsAsked[static_cast<std::size_t>(rank)] = true;
+    this->Put(rank, question, message);
   }
   std::vector<RankMessage> answers(1);
   for (int rank = 1; rank < this->Count(); ++rank)
@@ -150,41 +132,25 @@ bool Ranks::GoOn(double share, const std::string& text)
   {
     this->HearOthers();
     RankMessage message;
-    message.Words << share << text;
+    message << share << text;
     for (int rank = 1; rank < this->Count(); ++rank)
     {
-      this->Send(rank, static_cast<int>(RankQuestion::Progress), message);
-      this->IsAsked[static_cast<std::size_t>(rank)] = true;
+      this->Put(rank, RankQuestion::Progress, message);
     }
     this->Told = Clock::now();
   }
   return goesOn && !this->IsStopped;
 }
 
-void Ranks::End()
+void Ranks::End(const AlgorithmError& error)
 {
-  this->HearOthers();
-  this->AreWaiting = false;
   for (int rank = 1; rank < this->Count(); ++rank)
   {
-    this->Send(rank, static_cast<int>(RankQuestion::End));
-  }
-}
-
-void Ranks::Fail(const AlgorithmError& error)
-{
-  if (!this->IsFirst() || !std::exchange(this->AreWaiting, false))
-  {
-    return;
-  }
-  for (int rank = 1; rank < this->Count(); ++rank)
-  {
-    int word = 0;
     if (this->IsAsked[static_cast<std::size_t>(rank)])
     {
-      this->Receive(rank, word); // It is not wanted any more.
+      RankMessage().Receive(this->Controller, rank); // It is not wanted any more.
     }
-    this->Send(rank, static_cast<int>(RankQuestion::Fail), MessageOf(error));
+    this->Put(rank, RankQuestion::End, MessageOf(error));
   }
 }
 
@@ -192,16 +158,13 @@ void Ranks::Serve(const Answer& answer, const std::function<std::string()>& abou
 {
   for (;;)
   {
-    int word = 0;
-    RankMessage message = this->Receive(0, word);
+    RankMessage message;
+    const int word = message.Receive(this->Controller, 0);
     const auto question = static_cast<RankQuestion>(word);
     if (question == RankQuestion::End)
     {
-      return;
-    }
-    if (question == RankQuestion::Fail)
-    {
-      throw ToldError(ErrorOf(message));
+      const AlgorithmError error = ErrorOf(message);
+      return error.Code != 0 ? throw ToldError(error) : void();
     }
     RankMessage own;
     const AlgorithmError error = CatchError(aboutMemory,
@@ -214,11 +177,11 @@ void Ranks::Serve(const Answer& answer, const std::function<std::string()>& abou
         }
         double share = 0.0;
         std::string text;
-        message.Words >> share >> text;
-        own.Words << !this->ShowHere(share, text);
+        message >> share >> text;
+        own << !this->ShowHere(share, text);
       });
     const bool hasFailed = error.Code != 0;
-    this->Send(0, hasFailed ? Failed : word, hasFailed ? MessageOf(error) : own);
+    (hasFailed ? MessageOf(error) : own).Send(this->Controller, 0, hasFailed ? Failed : word);
     if (question == RankQuestion::Progress || question == RankQuestion::OwnProgress)
     {
       std::this_thread::sleep_for(Nap);

@@ -22,10 +22,9 @@ namespace volumic
 /** What the first rank asks of the others. */
 enum class RankQuestion : int
 {
-  End,      ///< All is done. No answer.
-  Fail,     ///< What has ended the run. No answer.
+  End,      ///< All is done, or what has ended the run. No answer.
   Progress, ///< How far it is; is it to stop?
-  Places,   ///< Of which images are there parts? (RankInputs.h)
+  Frames,   ///< Of which images are there parts? (RankInputs.h)
   Part,
   Points,
   Output,     ///< Take this. (RankOutputs.h)
@@ -75,10 +74,8 @@ public:
   bool GoOn(double share, const std::string& text);
   /** Whether another rank has asked to stop. */
   bool IsStoppedByOthers() const { return this->IsStopped; }
-  /** Lets the others go. */
-  void End();
-  /** The same, with an error. Nothing if they are gone already. */
-  void Fail(const AlgorithmError& error);
+  /** Lets the others go, with the error that has ended the run, if any. */
+  void End(const AlgorithmError& error);
 
   /**
    * At the others: answers until the first rank says that all is done.
@@ -89,15 +86,13 @@ public:
 
 private:
   using Clock = std::chrono::steady_clock;
-  void Send(int to, int word, const RankMessage& message = {});
-  RankMessage Receive(int from, int& word);
+  void Put(int rank, RankQuestion question, const RankMessage& message);
   RankMessage Hear(int rank);
   void HearOthers();
 
   vtkSmartPointer<vtkMultiProcessController> Controller; ///< null: alone
   Show ShowHere;
   std::vector<bool> IsAsked; ///< by rank: an answer is on its way
-  bool AreWaiting = true;    ///< The others are.
   bool IsStopped = false;
   Clock::time_point Told; ///< When the others heard last.
 };
