@@ -7,8 +7,6 @@
 #include "Input/CellVoxels.h"
 #include "Input/InputImage.h"
 #include "Input/OtsuThreshold.h"
-#include "Ranks/RankInputs.h"
-#include "Ranks/RankOutputs.h"
 #include "Ranks/Ranks.h"
 
 #include <vtkDataObject.h>
@@ -70,7 +68,7 @@ int vtkOtsuThreshold::FillInputPortInformation(int, vtkInformation* info)
 int vtkOtsuThreshold::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
 {
-  volumic::AskForInputs(this->Controller, { this, request, input, output });
+  volumic::Ranks(this->Controller, { this, request, input, output }).AskForInputs();
   return 1;
 }
 
@@ -81,12 +79,11 @@ int vtkOtsuThreshold::RequestData(
   this->Threshold = vtkMath::Nan();
   this->Histogram->SetNumberOfTuples(0);
   this->SetErrorCode(vtkErrorCode::NoError);
-  volumic::Ranks ranks(this->Controller, request, output);
+  volumic::Ranks ranks(this->Controller, { this, request, input, output });
   if (!ranks.AreMany() && !volumic::IsFirstProcess(request, output))
   {
     return 1;
   }
-  const volumic::FilterCall call{ this, request, input, output };
   const auto keep = [this](double threshold, const std::vector<double>& histogram)
   {
     this->Threshold = threshold;
@@ -98,7 +95,7 @@ int vtkOtsuThreshold::RequestData(
   volumic::RankWork work;
   work.OfFirst = [&]
   {
-    const vtkSmartPointer<vtkDataObject> data = volumic::TakeImages(ranks, call, 0);
+    const vtkSmartPointer<vtkDataObject> data = ranks.TakeImages(0);
     const volumic::PointVoxels voxels =
       volumic::TakeCellsAsPoints(volumic::ImageOf(data), this->GetInputArrayInformation(0));
     const volumic::VoxelHistogram found =
@@ -122,8 +119,8 @@ int vtkOtsuThreshold::RequestData(
     keep(threshold, histogram);
     return volumic::RankMessage();
   };
-  const volumic::AlgorithmError error = volumic::RunOnRanks(
-    ranks, call, [] { return "the memory does not suffice for the threshold."; }, work);
+  const volumic::AlgorithmError error = ranks.Run(
+    [] { return "the memory does not suffice for the threshold."; }, work);
   if (error.Code != vtkErrorCode::NoError)
   {
     this->SetErrorCode(error.Code);

@@ -18,15 +18,9 @@ LabelHelper::LabelHelper(const LabelSettings& settings, int numberOfThreads, Ran
 
 LabelHelper::~LabelHelper()
 {
-  this->Wait();
-}
-
-void LabelHelper::Wait()
-{
-  if (this->Worker.joinable())
+  if (this->Work)
   {
-    this->Work->State.IsStopped = this->Work->State.IsStopped || !this->IsThrough;
-    this->Worker.join();
+    this->Work->State.IsStopped = true;
   }
 }
 
@@ -156,26 +150,13 @@ void LabelHelper::TakeSlice(RankMessage& message)
 
 void LabelHelper::StartWork(RankMessage& message)
 {
-  this->Wait(); // It is through.
   LabelWork::Kind kind{};
   std::vector<std::uint8_t> isDue;
   std::vector<std::size_t> own;
   message >> kind >> isDue >> own;
   this->Work->State.Expect("", isDue, own); // Now: the first one may ask how far it is at once.
-  this->IsThrough = false;
-  this->Worker = std::thread(
-    [this, kind, own]
-    {
-      try
-      {
-        this->Work->Do(kind, own, false, [] {});
-      }
-      catch (...)
-      {
-        this->Failure = std::current_exception();
-      }
-      this->IsThrough = true;
-    });
+  this->Done = std::async(
+    std::launch::async, [this, kind, own] { this->Work->Do(kind, own, false, [] {}); });
 }
 
 RankMessage LabelHelper::TellOfWork(RankMessage& message)
@@ -186,10 +167,11 @@ RankMessage LabelHelper::TellOfWork(RankMessage& message)
   message >> share >> text >> isStopped;
   LabelCourse& state = this->Work->State;
   state.IsStopped = state.IsStopped || isStopped;
-  const bool isThrough = this->IsThrough;
-  if (isThrough && this->Failure)
+  const bool isThrough =
+    !this->Done.valid() || this->Done.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+  if (isThrough && this->Done.valid())
   {
-    std::rethrow_exception(this->Failure);
+    this->Done.get(); // It may have failed.
   }
   const bool stops = !this->Show(share, text);
   RankMessage answer;

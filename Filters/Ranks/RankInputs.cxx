@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Ranks/RankInputs.h"
+#include "Ranks/Ranks.h"
 
 #include "Core/Common/Refuse.h"
 #include "Core/Image/VoxelBox.h"
@@ -205,25 +205,23 @@ RankMessage GivePart(RankMessage& message, const FilterCall& call)
 }
 }
 
-bool AskForInputs(vtkMultiProcessController* controller, const FilterCall& call)
+void Ranks::AskForInputs() const
 {
-  const bool areMany = Ranks(controller, call.Request, call.Outputs).AreMany();
-  const int ports = call.Filter->GetNumberOfInputPorts();
-  areMany ? AskForPieces(call.Request, call.Inputs, ports, call.Outputs)
-          : AskForWholeInputs(call.Request, call.Inputs, ports, call.Outputs);
-  return areMany;
+  const int ports = this->Call.Filter->GetNumberOfInputPorts();
+  (this->AreMany() ? AskForPieces : AskForWholeInputs)(
+    this->Call.Request, this->Call.Inputs, ports, this->Call.Outputs);
 }
 
-vtkSmartPointer<vtkDataObject> TakeImages(Ranks& ranks, const FilterCall& call, int port)
+vtkSmartPointer<vtkDataObject> Ranks::TakeImages(int port)
 {
-  vtkDataObject* input = vtkDataObject::GetData(call.Inputs[port]);
-  if (!ranks.AreMany())
+  vtkDataObject* input = vtkDataObject::GetData(this->Call.Inputs[port]);
+  if (!this->AreMany())
   {
     return input;
   }
   RankMessage wanted;
   wanted << port;
-  std::vector<RankMessage> answers = ranks.AskAll(RankQuestion::Frames, wanted);
+  std::vector<RankMessage> answers = this->AskAll(RankQuestion::Frames, wanted);
   std::vector<Images> all(answers.size());
   std::size_t count = 1;
   bool hasOthers = false;
@@ -251,7 +249,7 @@ vtkSmartPointer<vtkDataObject> TakeImages(Ranks& ranks, const FilterCall& call, 
       pieces.push_back(std::exchange(of[block], nullptr));
     }
     whole->SetBlock(static_cast<unsigned int>(block),
-      TakeImage(ranks, pieces, port, static_cast<int>(block)));
+      TakeImage(*this, pieces, port, static_cast<int>(block)));
   }
   if (count == 1)
   {
@@ -261,17 +259,17 @@ vtkSmartPointer<vtkDataObject> TakeImages(Ranks& ranks, const FilterCall& call, 
   return whole;
 }
 
-vtkSmartPointer<vtkPolyData> TakePoints(Ranks& ranks, const FilterCall& call, int port)
+vtkSmartPointer<vtkPolyData> Ranks::TakePoints(int port)
 {
-  auto* own = vtkPolyData::GetData(call.Inputs[port]);
-  if (!ranks.AreMany())
+  auto* own = vtkPolyData::GetData(this->Call.Inputs[port]);
+  if (!this->AreMany())
   {
     return own;
   }
   RankMessage wanted;
   wanted << port;
   std::vector<vtkSmartPointer<vtkPolyData>> pieces;
-  for (RankMessage& answer : ranks.AskAll(RankQuestion::Points, wanted))
+  for (RankMessage& answer : this->AskAll(RankQuestion::Points, wanted))
   {
     pieces.emplace_back(pieces.empty() ? OwnPartOf(own).Get()
                                        : vtkPolyData::SafeDownCast(answer.TakeData()));
@@ -281,15 +279,15 @@ vtkSmartPointer<vtkPolyData> TakePoints(Ranks& ranks, const FilterCall& call, in
   return isGiven ? JoinSurfaces(pieces) : nullptr;
 }
 
-RankMessage AnswerForInputs(RankQuestion question, RankMessage& message, const FilterCall& call)
+RankMessage Ranks::GiveInput(RankQuestion question, RankMessage& message) const
 {
   if (question == RankQuestion::Part)
   {
-    return GivePart(message, call);
+    return GivePart(message, this->Call);
   }
   int port = 0;
   message >> port;
-  vtkInformationVector* input = call.Inputs[port];
+  vtkInformationVector* input = this->Call.Inputs[port];
   if (question == RankQuestion::Frames)
   {
     return GiveFrames(ImagesIn(vtkDataObject::GetData(input)));

@@ -33,16 +33,9 @@ public:
     else
     {
       *this << value.size();
-      if constexpr (IsPlain<typename T::value_type>)
+      for (const auto& each : value)
       {
-        this->PutBytes(value.data(), value.size() * sizeof(value[0]));
-      }
-      else
-      {
-        for (const auto& each : value)
-        {
-          *this << each;
-        }
+        *this << each;
       }
     }
     return *this;
@@ -59,16 +52,9 @@ public:
       std::size_t size = 0;
       *this >> size;
       value.resize(size);
-      if constexpr (IsPlain<typename T::value_type>)
+      for (auto& each : value)
       {
-        this->TakeBytes(value.data(), size * sizeof(value[0]));
-      }
-      else
-      {
-        for (auto& each : value)
-        {
-          *this >> each;
-        }
+        *this >> each;
       }
     }
     return *this;

@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Ranks/Ranks.h"
 
+#include "Host/WholeInput.h"
+#include "Ranks/Pieces.h"
+
+#include <vtkDataObject.h>
 #include <vtkExecutive.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
@@ -28,12 +32,11 @@ constexpr std::chrono::milliseconds Nap(80);
 /** What comes with an answer is an error. */
 constexpr int Failed = -1;
 
-bool WorkTogether(
-  vtkMultiProcessController* controller, vtkInformation* request, vtkInformationVector* output)
+bool WorkTogether(vtkMultiProcessController* controller, const FilterCall& call)
 {
   using Pipeline = vtkStreamingDemandDrivenPipeline;
-  const int port = std::max(0, request->Get(vtkExecutive::FROM_OUTPUT_PORT()));
-  vtkInformation* info = output->GetInformationObject(port);
+  const int port = std::max(0, call.Request->Get(vtkExecutive::FROM_OUTPUT_PORT()));
+  vtkInformation* info = call.Outputs->GetInformationObject(port);
   return controller && controller->GetNumberOfProcesses() > 1 &&
     info->Get(Pipeline::UPDATE_NUMBER_OF_PIECES()) == controller->GetNumberOfProcesses() &&
     info->Get(Pipeline::UPDATE_PIECE_NUMBER()) == controller->GetLocalProcessId();
@@ -54,9 +57,8 @@ AlgorithmError ErrorOf(RankMessage& message)
 }
 }
 
-Ranks::Ranks(vtkMultiProcessController* controller, vtkInformation* request,
-  vtkInformationVector* output, Show show)
-  : Controller(WorkTogether(controller, request, output) ? controller : nullptr),
+Ranks::Ranks(vtkMultiProcessController* controller, const FilterCall& call, Show show)
+  : Call(call), Controller(WorkTogether(controller, call) ? controller : nullptr),
     ShowHere(std::move(show)), IsAsked(static_cast<std::size_t>(this->Count()), false),
     Told(Clock::now())
 {
@@ -142,9 +144,20 @@ bool Ranks::GoOn(double share, const std::string& text)
   return goesOn && !this->IsStopped;
 }
 
-void Ranks::End(const AlgorithmError& error)
+AlgorithmError Ranks::Run(const std::function<std::string()>& aboutMemory, const RankWork& work)
 {
-  for (int rank = 1; rank < this->Count(); ++rank)
+  const AlgorithmError error = RunAlgorithm(this->Call.Outputs, aboutMemory,
+    [&]
+    {
+      if (!this->IsFirst())
+      {
+        this->Serve(aboutMemory, work);
+        return;
+      }
+      work.OfFirst();
+      this->Deal(work.Deals);
+    });
+  for (int rank = 1; this->IsFirst() && rank < this->Count(); ++rank)
   {
     if (this->IsAsked[static_cast<std::size_t>(rank)])
     {
@@ -152,9 +165,34 @@ void Ranks::End(const AlgorithmError& error)
     }
     this->Put(rank, RankQuestion::End, MessageOf(error));
   }
+  return error;
 }
 
-void Ranks::Serve(const Answer& answer, const std::function<std::string()>& aboutMemory)
+/** Gives the others their parts of the outputs, and leaves the first one its own. */
+void Ranks::Deal(Dealing deals)
+{
+  const bool isWhole = deals == Dealing::FirstHasAll || !this->AreMany();
+  Cut cut{ 0, this->Count(), GhostLevelsAskedOf(this->Call.Request, this->Call.Outputs), isWhole };
+  for (int port = 0; port < this->Call.Outputs->GetNumberOfInformationObjects(); ++port)
+  {
+    vtkDataObject* output = vtkDataObject::GetData(this->Call.Outputs, port);
+    for (cut.Number = 1; cut.Number < cut.Count; ++cut.Number)
+    {
+      RankMessage part;
+      part << port;
+      part.Put(CutData(output, cut));
+      this->Ask(cut.Number, RankQuestion::Output, part);
+    }
+    cut.Number = 0;
+    if (!isWhole)
+    {
+      output->ShallowCopy(CutData(output, cut));
+    }
+  }
+}
+
+/** Answers until the first rank says that all is done. */
+void Ranks::Serve(const std::function<std::string()>& aboutMemory, const RankWork& work)
 {
   for (;;)
   {
@@ -167,25 +205,42 @@ void Ranks::Serve(const Answer& answer, const std::function<std::string()>& abou
       return error.Code != 0 ? throw ToldError(error) : void();
     }
     RankMessage own;
-    const AlgorithmError error = CatchError(aboutMemory,
-      [&]
-      {
-        if (question != RankQuestion::Progress)
-        {
-          own = answer(question, message);
-          return;
-        }
-        double share = 0.0;
-        std::string text;
-        message >> share >> text;
-        own << !this->ShowHere(share, text);
-      });
+    const AlgorithmError error =
+      CatchError(aboutMemory, [&] { own = this->Answer(question, message, work); });
     const bool hasFailed = error.Code != 0;
     (hasFailed ? MessageOf(error) : own).Send(this->Controller, 0, hasFailed ? Failed : word);
     if (question == RankQuestion::Progress || question == RankQuestion::OwnProgress)
     {
       std::this_thread::sleep_for(Nap);
     }
+  }
+}
+
+RankMessage Ranks::Answer(RankQuestion question, RankMessage& message, const RankWork& work) const
+{
+  RankMessage answer;
+  switch (question)
+  {
+    case RankQuestion::Own:
+    case RankQuestion::OwnProgress:
+      return work.OfOthers(question, message);
+    case RankQuestion::Output:
+    {
+      int port = 0;
+      message >> port;
+      vtkDataObject::GetData(this->Call.Outputs, port)->ShallowCopy(message.TakeData());
+      return answer;
+    }
+    case RankQuestion::Progress:
+    {
+      double share = 0.0;
+      std::string text;
+      message >> share >> text;
+      answer << !this->ShowHere(share, text);
+      return answer;
+    }
+    default:
+      return this->GiveInput(question, message);
   }
 }
 }
