@@ -7,6 +7,7 @@
 #include <vtkNew.h>
 #include <vtkPolyData.h>
 
+#include <chrono>
 #include <utility>
 
 namespace volumic
@@ -44,7 +45,8 @@ void LabelHelper::Begin(
   {
     RankMessage part;
     part << Step::TakeSlice;
-    part.PutBytes(map.Voxels.data() + first, slice * sizeof(LabelMap::Number));
+    part.Pass(const_cast<LabelMap::Number*>(map.Voxels.data()) + first,
+      slice * sizeof(LabelMap::Number));
     ranks.AskAll(RankQuestion::Own, part);
   }
 }
@@ -137,7 +139,7 @@ void LabelHelper::TakeMap(RankMessage& message)
 void LabelHelper::TakeSlice(RankMessage& message)
 {
   const auto slice = static_cast<std::size_t>(VoxelBox::Of(this->Map.Size).NumberOf(0, 0, 1));
-  message.TakeBytes(this->Map.Voxels.data() + this->Taken, slice * sizeof(LabelMap::Number));
+  message.Pass(this->Map.Voxels.data() + this->Taken, slice * sizeof(LabelMap::Number));
   this->Taken += slice;
   if (this->Taken == this->Map.Voxels.size())
   {

@@ -240,27 +240,10 @@ vtkSmartPointer<vtkPolyData> OwnPartOf(vtkPolyData* piece)
   }
   auto own = vtkSmartPointer<vtkPolyData>::New();
   own->ShallowCopy(piece);
-  vtkUnsignedCharArray* types = piece->GetPointGhostArray();
   if (own->GetCellGhostArray())
   {
     own->RemoveGhostCells();
   }
-  if (piece->GetNumberOfCells() > 0 || !types)
-  {
-    return own;
-  }
-  vtkNew<vtkPoints> points;
-  points->SetDataType(piece->GetPoints()->GetDataType());
-  own->GetPointData()->CopyAllocate(piece->GetPointData());
-  for (vtkIdType p = 0; p < piece->GetNumberOfPoints(); ++p)
-  {
-    if (!(types->GetValue(p) & vtkDataSetAttributes::DUPLICATEPOINT))
-    {
-      own->GetPointData()->CopyData(
-        piece->GetPointData(), p, points->InsertNextPoint(piece->GetPoint(p)));
-    }
-  }
-  own->SetPoints(points);
   return own;
 }
 

@@ -33,30 +33,45 @@ namespace
 /** Bytes that go at once. */
 constexpr double PartBytes = 16 << 20;
 
-/** The images that an input means: its blocks, or one; null where there are no voxels. */
-using Images = std::vector<vtkSmartPointer<vtkImageData>>;
-
-Images ImagesIn(vtkDataObject* input)
+/** The images that an input means: its blocks, or one. Some, or all, may be null or empty. */
+vtkSmartPointer<vtkMultiBlockDataSet> ImagesIn(vtkDataObject* input)
 {
-  auto* blocks = vtkMultiBlockDataSet::SafeDownCast(input);
-  bool areImages = blocks && blocks->GetNumberOfBlocks() > 1;
-  Images images;
-  for (unsigned int b = 0; areImages && b < blocks->GetNumberOfBlocks(); ++b)
+  vtkSmartPointer<vtkMultiBlockDataSet> images = vtkMultiBlockDataSet::SafeDownCast(input);
+  bool areImages = images && images->GetNumberOfBlocks() > 1;
+  for (unsigned int b = 0; areImages && b < images->GetNumberOfBlocks(); ++b)
   {
-    auto* image = vtkImageData::SafeDownCast(blocks->GetBlock(b));
-    areImages = image || !blocks->GetBlock(b);
-    images.emplace_back(image && image->GetNumberOfPoints() > 0 ? image : nullptr);
+    areImages = !images->GetBlock(b) || vtkImageData::SafeDownCast(images->GetBlock(b));
   }
   if (areImages)
   {
     return images;
   }
-  const bool mayBeEmpty =
-    vtkImageData::SafeDownCast(input) || vtkCompositeDataSet::SafeDownCast(input);
-  const bool isEmpty =
-    !input || (mayBeEmpty && input->GetNumberOfElements(vtkDataObject::POINT) == 0);
-  return { isEmpty ? nullptr : ImageOf(input) };
+  images = vtkSmartPointer<vtkMultiBlockDataSet>::New();
+  const bool isEmpty = !input ||
+    (vtkCompositeDataSet::SafeDownCast(input) &&
+      input->GetNumberOfElements(vtkDataObject::POINT) == 0);
+  images->SetBlock(0, isEmpty ? nullptr : ImageOf(input));
+  return images;
 }
+
+/** The same without voxels. */
+vtkSmartPointer<vtkMultiBlockDataSet> FramesOf(vtkMultiBlockDataSet* images)
+{
+  const auto frames = vtkSmartPointer<vtkMultiBlockDataSet>::New();
+  for (unsigned int b = 0; b < images->GetNumberOfBlocks(); ++b)
+  {
+    vtkNew<vtkImageData> frame;
+    if (auto* image = vtkImageData::SafeDownCast(images->GetBlock(b)))
+    {
+      frame->CopyStructure(image);
+    }
+    frames->SetBlock(b, frame);
+  }
+  return frames;
+}
+
+/** One image, by rank; null where there is nothing of it. */
+using Images = std::vector<vtkSmartPointer<vtkImageData>>;
 
 VoxelBox BoxOf(vtkImageData* image)
 {
@@ -111,7 +126,8 @@ VoxelBox CheckPieces(const Images& pieces)
 }
 
 /** The whole of one image. @param pieces by rank; of the others without voxels */
-vtkSmartPointer<vtkImageData> TakeImage(Ranks& ranks, const Images& pieces, int port, int block)
+vtkSmartPointer<vtkImageData> TakeImage(
+  Ranks& ranks, const Images& pieces, int port, unsigned int block)
 {
   const VoxelBox box = CheckPieces(pieces);
   if (box.IsEmpty() || BoxOf(pieces[0]) == box)
@@ -142,45 +158,16 @@ vtkSmartPointer<vtkImageData> TakeImage(Ranks& ranks, const Images& pieces, int 
   return whole.Image();
 }
 
-/** Where the images are, without voxels. */
-RankMessage GiveFrames(const Images& images)
-{
-  RankMessage message;
-  message << images.size();
-  for (vtkImageData* image : images)
-  {
-    vtkNew<vtkImageData> frame;
-    if (image)
-    {
-      frame->CopyStructure(image);
-    }
-    message.Put(image ? frame.Get() : nullptr);
-  }
-  return message;
-}
-
-Images TakeFrames(RankMessage& message)
-{
-  std::size_t count = 0;
-  message >> count;
-  Images frames;
-  while (frames.size() < count)
-  {
-    frames.emplace_back(vtkImageData::SafeDownCast(message.TakeData()));
-  }
-  return frames;
-}
-
 /** Some slices of an image. The last ones let go of it, where the data of its port are released. */
 RankMessage GivePart(RankMessage& message, const FilterCall& call)
 {
   int port = 0;
-  int block = 0;
+  unsigned int block = 0;
   int first = 0;
   message >> port >> block >> first;
   vtkDataObject* input = vtkDataObject::GetData(call.Inputs[port]);
-  const Images images = ImagesIn(input);
-  vtkImageData* image = images[static_cast<std::size_t>(block)];
+  const vtkSmartPointer<vtkMultiBlockDataSet> images = ImagesIn(input);
+  auto* image = vtkImageData::SafeDownCast(images->GetBlock(block));
   const double bytes =
     static_cast<double>(image->GetActualMemorySize()) * 1024.0 / image->GetDimensions()[2];
   // Two at least, as cells lie between two.
@@ -194,7 +181,7 @@ RankMessage GivePart(RankMessage& message, const FilterCall& call)
   const auto part = vtkSmartPointer<vtkImageData>::New();
   part->ShallowCopy(image);
   part->Crop(extent);
-  const bool isAll = extent[5] == last && static_cast<std::size_t>(block) + 1 == images.size();
+  const bool isAll = extent[5] == last && block + 1 == images->GetNumberOfBlocks();
   if (isAll && AreReleased(call.Filter, port))
   {
     input->ReleaseData();
@@ -221,35 +208,36 @@ vtkSmartPointer<vtkDataObject> Ranks::TakeImages(int port)
   }
   RankMessage wanted;
   wanted << port;
-  std::vector<RankMessage> answers = this->AskAll(RankQuestion::Frames, wanted);
-  std::vector<Images> all(answers.size());
-  std::size_t count = 1;
-  bool hasOthers = false;
-  for (std::size_t rank = 1; rank < answers.size(); ++rank)
+  std::vector<vtkSmartPointer<vtkMultiBlockDataSet>> all;
+  vtkIdType voxelsOfOthers = 0;
+  for (RankMessage& answer : this->AskAll(RankQuestion::Frames, wanted))
   {
-    all[rank] = TakeFrames(answers[rank]);
-    count = std::max(count, all[rank].size());
-    hasOthers = hasOthers ||
-      std::any_of(all[rank].begin(), all[rank].end(),
-        [](vtkImageData* image) { return image != nullptr; });
+    all.emplace_back(
+      all.empty() ? nullptr : vtkMultiBlockDataSet::SafeDownCast(answer.TakeData()));
+    voxelsOfOthers += all.back() ? all.back()->GetNumberOfPoints() : 0;
   }
-  if (!hasOthers)
+  if (voxelsOfOthers == 0)
   {
     return input;
   }
-  all[0] = ImagesIn(input);
-  count = std::max(count, all[0].size());
+  all[0] = vtkSmartPointer<vtkMultiBlockDataSet>::New();
+  all[0]->ShallowCopy(ImagesIn(input));
+  unsigned int count = 0;
+  for (vtkMultiBlockDataSet* of : all)
+  {
+    count = std::max(count, of->GetNumberOfBlocks());
+  }
   const auto whole = vtkSmartPointer<vtkMultiBlockDataSet>::New();
-  for (std::size_t block = 0; block < count; ++block)
+  for (unsigned int block = 0; block < count; ++block)
   {
     Images pieces;
-    for (Images& of : all)
+    for (vtkMultiBlockDataSet* of : all)
     {
-      of.resize(count);
-      pieces.push_back(std::exchange(of[block], nullptr));
+      auto* image = vtkImageData::SafeDownCast(of->GetBlock(block));
+      pieces.emplace_back(image && image->GetNumberOfPoints() > 0 ? image : nullptr);
     }
-    whole->SetBlock(static_cast<unsigned int>(block),
-      TakeImage(*this, pieces, port, static_cast<int>(block)));
+    whole->SetBlock(block, TakeImage(*this, pieces, port, block));
+    all[0]->SetBlock(block, nullptr);
   }
   if (count == 1)
   {
@@ -287,13 +275,16 @@ RankMessage Ranks::GiveInput(RankQuestion question, RankMessage& message) const
   }
   int port = 0;
   message >> port;
-  vtkInformationVector* input = this->Call.Inputs[port];
+  vtkDataObject* input = vtkDataObject::GetData(this->Call.Inputs[port]);
+  RankMessage answer;
   if (question == RankQuestion::Frames)
   {
-    return GiveFrames(ImagesIn(vtkDataObject::GetData(input)));
+    answer.Put(FramesOf(ImagesIn(input)));
   }
-  RankMessage answer;
-  answer.Put(OwnPartOf(vtkPolyData::GetData(input)));
+  else
+  {
+    answer.Put(OwnPartOf(vtkPolyData::SafeDownCast(input)));
+  }
   return answer;
 }
 }

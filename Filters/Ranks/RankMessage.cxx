@@ -23,6 +23,7 @@
 #include <vtkStringArray.h>
 #include <vtkTable.h>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <stdexcept>
@@ -34,9 +35,6 @@ namespace
 {
 /** No tag of VTK or ParaView: they count from 1, and from 100, 8000 and 99990. */
 constexpr int Tag = 22095;
-
-/** What has arrays beside the field data. */
-constexpr int Associations[] = { vtkDataObject::POINT, vtkDataObject::CELL, vtkDataObject::ROW };
 
 void Check(bool isThrough)
 {
@@ -51,222 +49,181 @@ std::string TextOf(const char* text)
   return text ? text : "";
 }
 
-std::size_t BytesOf(vtkDataArray* array)
+/** An array of numbers or texts; others stay behind. */
+void PassArray(RankMessage& message, vtkSmartPointer<vtkAbstractArray>& array)
 {
-  return static_cast<std::size_t>(array->GetNumberOfValues()) *
-    static_cast<std::size_t>(array->GetDataTypeSize());
-}
-
-/** Of numbers or texts; others stay behind. */
-void PutArray(RankMessage& message, vtkAbstractArray* array)
-{
-  auto* texts = vtkStringArray::SafeDownCast(array);
   vtkSmartPointer<vtkDataArray> numbers = vtkDataArray::SafeDownCast(array);
   numbers = numbers ? ContiguousVoxels(numbers) : nullptr;
-  message << (numbers ? numbers->GetDataType() : texts ? VTK_STRING : VTK_VOID)
-          << TextOf(array->GetName()) << array->GetNumberOfComponents()
-          << array->GetNumberOfTuples();
+  const bool isKnown = numbers || vtkStringArray::SafeDownCast(array);
+  int type = numbers ? numbers->GetDataType() : isKnown ? VTK_STRING : VTK_VOID;
+  std::string name = TextOf(isKnown ? array->GetName() : nullptr);
+  int components = isKnown ? array->GetNumberOfComponents() : 1;
+  vtkIdType tuples = isKnown ? array->GetNumberOfTuples() : 0;
+  message & type & name & components & tuples;
+  if (message.IsReceived() && type != VTK_VOID)
+  {
+    array = vtkSmartPointer<vtkAbstractArray>::Take(vtkAbstractArray::CreateArray(type));
+    array->SetName(name.empty() ? nullptr : name.c_str());
+    array->SetNumberOfComponents(components);
+    array->SetNumberOfTuples(tuples);
+    numbers = vtkDataArray::SafeDownCast(array);
+  }
   if (numbers)
   {
-    message.PutBytes(numbers->GetVoidPointer(0), BytesOf(numbers));
-  }
-  for (vtkIdType i = 0; texts && i < texts->GetNumberOfValues(); ++i)
-  {
-    message << static_cast<const std::string&>(texts->GetValue(i));
-  }
-}
-
-vtkSmartPointer<vtkAbstractArray> TakeArray(RankMessage& message)
-{
-  int type = VTK_VOID;
-  std::string name;
-  int components = 1;
-  vtkIdType tuples = 0;
-  message >> type >> name >> components >> tuples;
-  if (type == VTK_VOID)
-  {
-    return nullptr;
-  }
-  const auto array = vtkSmartPointer<vtkAbstractArray>::Take(vtkAbstractArray::CreateArray(type));
-  array->SetName(name.empty() ? nullptr : name.c_str());
-  array->SetNumberOfComponents(components);
-  array->SetNumberOfTuples(tuples);
-  if (auto* numbers = vtkDataArray::SafeDownCast(array))
-  {
-    message.TakeBytes(numbers->GetVoidPointer(0), BytesOf(numbers));
-    return array;
+    message.Pass(numbers->GetVoidPointer(0),
+      static_cast<std::size_t>(numbers->GetNumberOfValues() * numbers->GetDataTypeSize()));
   }
   auto* texts = vtkStringArray::SafeDownCast(array);
-  for (vtkIdType i = 0; i < texts->GetNumberOfValues(); ++i)
+  for (vtkIdType i = 0; texts && i < texts->GetNumberOfValues(); ++i)
   {
-    std::string text;
-    message >> text;
-    texts->SetValue(i, text);
-  }
-  return array;
-}
-
-vtkSmartPointer<vtkDataArray> TakeNumbers(RankMessage& message)
-{
-  return vtkDataArray::SafeDownCast(TakeArray(message));
-}
-
-void PutArrays(RankMessage& message, vtkFieldData* arrays)
-{
-  auto* attributes = vtkDataSetAttributes::SafeDownCast(arrays);
-  message << arrays->GetNumberOfArrays();
-  for (int i = 0; i < arrays->GetNumberOfArrays(); ++i)
-  {
-    PutArray(message, arrays->GetAbstractArray(i));
-    message << (attributes ? attributes->IsArrayAnAttribute(i) : -1);
+    message & static_cast<std::string&>(texts->GetValue(i));
   }
 }
 
-void TakeArrays(RankMessage& message, vtkFieldData* arrays)
+/** Likewise; another one in its place. */
+vtkSmartPointer<vtkDataArray> PassNumbers(RankMessage& message, vtkDataArray* given)
+{
+  vtkSmartPointer<vtkAbstractArray> array = given;
+  PassArray(message, array);
+  return vtkDataArray::SafeDownCast(array);
+}
+
+void PassArrays(RankMessage& message, vtkFieldData* arrays)
 {
   auto* attributes = vtkDataSetAttributes::SafeDownCast(arrays);
-  int count = 0;
-  message >> count;
+  int count = arrays->GetNumberOfArrays();
+  message & count;
   for (int i = 0; i < count; ++i)
   {
-    const vtkSmartPointer<vtkAbstractArray> array = TakeArray(message);
-    int attribute = -1;
-    message >> attribute;
-    const int place = array ? arrays->AddArray(array) : -1;
-    if (attributes && place >= 0 && attribute >= 0)
+    vtkSmartPointer<vtkAbstractArray> array = arrays->GetAbstractArray(i);
+    int attribute = attributes && array ? attributes->IsArrayAnAttribute(i) : -1;
+    PassArray(message, array);
+    message & attribute;
+    const int place = message.IsReceived() && array ? arrays->AddArray(array) : -1;
+    if (place >= 0 && attribute >= 0)
     {
       attributes->SetActiveAttribute(place, attribute);
     }
   }
 }
 
-void PutShape(RankMessage& message, vtkPolyData* surface)
-{
-  vtkNew<vtkPoints> none;
-  PutArray(message, (surface->GetPoints() ? surface->GetPoints() : none.Get())->GetData());
-  for (vtkCellArray* cells :
-    { surface->GetVerts(), surface->GetLines(), surface->GetPolys(), surface->GetStrips() })
-  {
-    PutArray(message, cells->GetOffsetsArray());
-    PutArray(message, cells->GetConnectivityArray());
-  }
-}
-
-void TakeShape(RankMessage& message, vtkPolyData* surface)
+void PassShape(RankMessage& message, vtkPolyData* surface)
 {
   vtkNew<vtkPoints> points;
-  points->SetData(TakeNumbers(message));
-  surface->SetPoints(points);
-  const auto take = [&message]
+  vtkPoints* given = surface->GetPoints();
+  points->SetData(PassNumbers(message, (given ? given : points.Get())->GetData()));
+  const auto pass = [&message](vtkCellArray* of)
   {
-    const vtkSmartPointer<vtkDataArray> offsets = TakeNumbers(message);
+    const vtkSmartPointer<vtkDataArray> offsets = PassNumbers(message, of->GetOffsetsArray());
     auto cells = vtkSmartPointer<vtkCellArray>::New();
-    cells->SetData(offsets, TakeNumbers(message));
+    cells->SetData(offsets, PassNumbers(message, of->GetConnectivityArray()));
     return cells;
   };
-  surface->SetVerts(take());
-  surface->SetLines(take());
-  surface->SetPolys(take());
-  surface->SetStrips(take());
+  const auto verts = pass(surface->GetVerts());
+  const auto lines = pass(surface->GetLines());
+  const auto polys = pass(surface->GetPolys());
+  const auto strips = pass(surface->GetStrips());
+  if (message.IsReceived())
+  {
+    surface->SetPoints(points);
+    surface->SetVerts(verts);
+    surface->SetLines(lines);
+    surface->SetPolys(polys);
+    surface->SetStrips(strips);
+  }
 }
 
-void PutShape(RankMessage& message, vtkImageData* image)
-{
-  message.PutBytes(image->GetExtent(), 6 * sizeof(int));
-  message.PutBytes(image->GetOrigin(), 3 * sizeof(double));
-  message.PutBytes(image->GetSpacing(), 3 * sizeof(double));
-  message.PutBytes(image->GetDirectionMatrix()->GetData(), 9 * sizeof(double));
-}
-
-void TakeShape(RankMessage& message, vtkImageData* image)
+void PassShape(RankMessage& message, vtkImageData* image)
 {
   std::array<int, 6> extent;
-  std::array<double, 15> numbers;
-  message >> extent >> numbers;
-  image->SetExtent(extent.data());
-  image->SetOrigin(numbers.data());
-  image->SetSpacing(numbers.data() + 3);
-  image->SetDirectionMatrix(numbers.data() + 6);
-}
-
-void PutShape(RankMessage& message, vtkMultiBlockDataSet* blocks)
-{
-  message << blocks->GetNumberOfBlocks();
-  for (unsigned int b = 0; b < blocks->GetNumberOfBlocks(); ++b)
+  std::array<double, 3> origin;
+  std::array<double, 3> spacing;
+  std::array<double, 9> direction;
+  image->GetExtent(extent.data());
+  image->GetOrigin(origin.data());
+  image->GetSpacing(spacing.data());
+  std::copy_n(image->GetDirectionMatrix()->GetData(), 9, direction.begin());
+  message & extent & origin & spacing & direction;
+  if (message.IsReceived())
   {
-    message << TextOf(
-      blocks->HasMetaData(b) ? blocks->GetMetaData(b)->Get(vtkCompositeDataSet::NAME()) : nullptr);
-    message.Put(blocks->GetBlock(b));
+    image->SetExtent(extent.data());
+    image->SetOrigin(origin.data());
+    image->SetSpacing(spacing.data());
+    image->SetDirectionMatrix(direction.data());
   }
 }
 
-void TakeShape(RankMessage& message, vtkMultiBlockDataSet* blocks)
+void PassShape(RankMessage& message, vtkMultiBlockDataSet* blocks)
 {
-  unsigned int count = 0;
-  message >> count;
+  unsigned int count = blocks->GetNumberOfBlocks();
+  message & count;
   for (unsigned int b = 0; b < count; ++b)
   {
-    std::string name;
-    message >> name;
-    blocks->SetBlock(b, message.TakeData());
-    blocks->GetMetaData(b)->Set(vtkCompositeDataSet::NAME(), name.c_str());
-  }
-}
-
-/** Does something with the data as what they are. @return whether messages know that */
-template <typename Do>
-bool WithType(vtkDataObject* data, const Do& work)
-{
-  auto* surface = vtkPolyData::SafeDownCast(data);
-  auto* image = vtkImageData::SafeDownCast(data);
-  auto* blocks = vtkMultiBlockDataSet::SafeDownCast(data);
-  surface ? work(surface) : image ? work(image) : blocks ? work(blocks) : void();
-  return surface || image || blocks || vtkTable::SafeDownCast(data);
-}
-
-/** Does something with all arrays of the data. */
-template <typename Do>
-void ForArraysOf(vtkDataObject* data, const Do& work)
-{
-  work(data->GetFieldData());
-  for (const int type : Associations)
-  {
-    if (vtkDataSetAttributes* attributes = data->GetAttributes(type))
+    std::string name = TextOf(
+      blocks->HasMetaData(b) ? blocks->GetMetaData(b)->Get(vtkCompositeDataSet::NAME()) : nullptr);
+    message & name;
+    if (message.IsReceived())
     {
-      work(attributes);
+      blocks->SetBlock(b, message.TakeData());
+      blocks->GetMetaData(b)->Set(vtkCompositeDataSet::NAME(), name.c_str());
+    }
+    else
+    {
+      message.Put(blocks->GetBlock(b));
     }
   }
 }
-}
 
-void RankMessage::PutBytes(const void* bytes, std::size_t count)
+/** All that the data have. */
+void PassContents(RankMessage& message, vtkDataObject* data)
 {
-  const std::size_t before = this->Bytes.size();
-  this->Bytes.resize(before + count);
-  if (count > 0)
+  PassArrays(message, data->GetFieldData());
+  for (const int type : { vtkDataObject::POINT, vtkDataObject::CELL, vtkDataObject::ROW })
   {
-    std::memcpy(this->Bytes.data() + before, bytes, count);
+    if (vtkDataSetAttributes* attributes = data->GetAttributes(type))
+    {
+      PassArrays(message, attributes);
+    }
+  }
+  if (auto* surface = vtkPolyData::SafeDownCast(data))
+  {
+    PassShape(message, surface);
+  }
+  else if (auto* image = vtkImageData::SafeDownCast(data))
+  {
+    PassShape(message, image);
+  }
+  else if (auto* blocks = vtkMultiBlockDataSet::SafeDownCast(data))
+  {
+    PassShape(message, blocks);
   }
 }
+}
 
-void RankMessage::TakeBytes(void* bytes, std::size_t count)
+void RankMessage::Pass(void* bytes, std::size_t count)
 {
+  if (!this->WasReceived)
+  {
+    this->Taken = this->Bytes.size();
+    this->Bytes.resize(this->Taken + count);
+  }
   Check(count <= this->Bytes.size() - this->Taken);
   if (count > 0)
   {
-    std::memcpy(bytes, this->Bytes.data() + this->Taken, count);
+    char* here = this->Bytes.data() + this->Taken;
+    this->WasReceived ? std::memcpy(bytes, here, count) : std::memcpy(here, bytes, count);
   }
   this->Taken += count;
 }
 
 void RankMessage::Put(vtkDataObject* data)
 {
-  const bool isKnown = WithType(data, [](auto*) {});
+  const bool isKnown = vtkPolyData::SafeDownCast(data) || vtkImageData::SafeDownCast(data) ||
+    vtkMultiBlockDataSet::SafeDownCast(data) || vtkTable::SafeDownCast(data);
   *this << (isKnown ? data->GetDataObjectType() : -1);
   if (isKnown)
   {
-    ForArraysOf(data, [this](vtkFieldData* arrays) { PutArrays(*this, arrays); });
-    WithType(data, [this](auto* known) { PutShape(*this, known); });
+    PassContents(*this, data);
   }
 }
 
@@ -279,8 +236,7 @@ vtkSmartPointer<vtkDataObject> RankMessage::TakeData()
     return nullptr;
   }
   const auto data = vtkSmartPointer<vtkDataObject>::Take(vtkDataObjectTypes::NewDataObject(type));
-  ForArraysOf(data, [this](vtkFieldData* arrays) { TakeArrays(*this, arrays); });
-  WithType(data, [this](auto* known) { TakeShape(*this, known); });
+  PassContents(*this, data);
   return data;
 }
 
@@ -298,6 +254,7 @@ int RankMessage::Receive(vtkMultiProcessController* controller, int from)
   Check(controller->Receive(head, 2, from, Tag) != 0);
   this->Bytes.resize(static_cast<std::size_t>(head[1]));
   Check(head[1] == 0 || controller->Receive(this->Bytes.data(), head[1], from, Tag) != 0);
+  this->WasReceived = true;
   return static_cast<int>(head[0]);
 }
 }

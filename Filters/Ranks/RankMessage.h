@@ -22,52 +22,46 @@ namespace volumic
 class RankMessage
 {
 public:
-  /** Numbers, structs of numbers, texts, and vectors of all these. */
+  /** Numbers, structs of numbers, texts, and vectors of all these: put, or, once received, taken. */
   template <typename T>
-  RankMessage& operator<<(const T& value)
+  RankMessage& operator&(T& value)
   {
-    if constexpr (IsPlain<T>)
+    static_assert(!std::is_pointer_v<T>);
+    if constexpr (std::is_trivially_copyable_v<T>)
     {
-      this->PutBytes(&value, sizeof(T));
+      this->Pass(&value, sizeof(T));
     }
     else
     {
-      *this << value.size();
-      for (const auto& each : value)
+      std::size_t size = value.size();
+      *this & size;
+      value.resize(size);
+      for (auto& each : value)
       {
-        *this << each;
+        *this & each;
       }
     }
     return *this;
+  }
+  template <typename T>
+  RankMessage& operator<<(T value)
+  {
+    return *this & value;
   }
   template <typename T>
   RankMessage& operator>>(T& value)
   {
-    if constexpr (IsPlain<T>)
-    {
-      this->TakeBytes(&value, sizeof(T));
-    }
-    else
-    {
-      std::size_t size = 0;
-      *this >> size;
-      value.resize(size);
-      for (auto& each : value)
-      {
-        *this >> each;
-      }
-    }
-    return *this;
+    return *this & value;
   }
-  void PutBytes(const void* bytes, std::size_t count);
-  /** @throws std::runtime_error where there are less. */
-  void TakeBytes(void* bytes, std::size_t count);
+  /** @throws std::runtime_error where a message has less. */
+  void Pass(void* bytes, std::size_t count);
 
   /** Surfaces, images, tables, and blocks of them; null stays null, and so does anything else. */
   void Put(vtkDataObject* data);
   vtkSmartPointer<vtkDataObject> TakeData();
 
   bool IsEmpty() const { return this->Bytes.empty(); }
+  bool IsReceived() const { return this->WasReceived; }
 
   /**
    * @param word what sort of message it is
@@ -78,11 +72,9 @@ public:
   int Receive(vtkMultiProcessController* controller, int from);
 
 private:
-  template <typename T>
-  static constexpr bool IsPlain = std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>;
-
   std::vector<char> Bytes;
-  std::size_t Taken = 0; ///< of these
+  bool WasReceived = false;
+  std::size_t Taken = 0; ///< of the bytes
 };
 }
 
