@@ -298,11 +298,8 @@ void vtkDeformableSurface::vtkInternals::RunOrGoOn(const volumic::FilterCall& ca
   // What has changed on one rank has changed for all.
   for (volumic::RankMessage& other : this->All->AskAll(volumic::RankQuestion::Own))
   {
-    bool isKeptThere = true;
-    if (!other.IsEmpty())
-    {
-      other >> isKeptThere;
-    }
+    bool isKeptThere = false;
+    other >> isKeptThere;
     isKept = isKept && isKeptThere;
   }
   volumic::SegmentationRequest request = this->RequestAsSet(call);

@@ -8,9 +8,9 @@
 #include <vtkMPIController.h>
 #endif
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
-#include <initializer_list>
 #include <thread>
 
 namespace tool
@@ -29,26 +29,14 @@ constexpr int StopTag = 22102;
 constexpr std::chrono::milliseconds Nap(50);
 
 #ifdef VOLUMIC_HAS_MPI
-/** The value of the first of these in the environment; null: there is none. */
-const char* FirstOf(std::initializer_list<const char*> names)
+/** Whether mpirun has started this process, or what a cluster has in its place. */
+bool IsStartedByMpi()
 {
-  for (const char* name : names)
-  {
-    if (const char* value = std::getenv(name))
-    {
-      return value;
-    }
-  }
-  return nullptr;
-}
-
-/** Whether mpirun, or what a cluster has in its place, has started this process and others. */
-bool AreMany()
-{
-  // Open MPI, MPICH and its kin, and what starts either by PMIx (srun --mpi=pmix). One process that
-  // was started so has no others to join.
-  const char* count = FirstOf({ "OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "MV2_COMM_WORLD_SIZE" });
-  return count ? std::atoi(count) > 1 : FirstOf({ "PMIX_RANK", "PMI_RANK" }) != nullptr;
+  // Open MPI, MPICH and its kin, and what starts either by PMIx (srun --mpi=pmix).
+  const auto names = { "OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "MV2_COMM_WORLD_SIZE", "PMIX_RANK",
+    "PMI_RANK" };
+  return std::any_of(
+    names.begin(), names.end(), [](const char* name) { return std::getenv(name) != nullptr; });
 }
 #endif
 }
@@ -56,7 +44,7 @@ bool AreMany()
 Ranks::Ranks(int& argc, char**& argv)
 {
 #ifdef VOLUMIC_HAS_MPI
-  if (AreMany())
+  if (IsStartedByMpi())
   {
     auto controller = vtkSmartPointer<vtkMPIController>::New();
     controller->Initialize(&argc, &argv);

@@ -66,12 +66,11 @@ auto LabelHelper::Tell(Ranks& ranks, double share, const std::string& text, bool
 {
   RankMessage message;
   message << Step::Tell << share << text << isStopped;
-  std::vector<RankMessage> answers = ranks.AskAll(RankQuestion::OwnProgress, message);
   Told told;
-  for (auto answer = answers.begin() + 1; answer != answers.end(); ++answer)
+  for (RankMessage& answer : ranks.AskAll(RankQuestion::OwnProgress, message))
   {
     Told of;
-    *answer >> of;
+    answer >> of;
     told.Done.Add(of.Done);
     told.Stop = told.Stop || of.Stop;
     told.AreThrough = told.AreThrough && of.AreThrough;

@@ -208,13 +208,12 @@ vtkSmartPointer<vtkDataObject> Ranks::TakeImages(int port)
   }
   RankMessage wanted;
   wanted << port;
-  std::vector<vtkSmartPointer<vtkMultiBlockDataSet>> all;
+  std::vector<vtkSmartPointer<vtkMultiBlockDataSet>> all(1);
   vtkIdType voxelsOfOthers = 0;
   for (RankMessage& answer : this->AskAll(RankQuestion::Frames, wanted))
   {
-    all.emplace_back(
-      all.empty() ? nullptr : vtkMultiBlockDataSet::SafeDownCast(answer.TakeData()));
-    voxelsOfOthers += all.back() ? all.back()->GetNumberOfPoints() : 0;
+    all.emplace_back(vtkMultiBlockDataSet::SafeDownCast(answer.TakeData()));
+    voxelsOfOthers += all.back()->GetNumberOfPoints();
   }
   if (voxelsOfOthers == 0)
   {
@@ -256,11 +255,10 @@ vtkSmartPointer<vtkPolyData> Ranks::TakePoints(int port)
   }
   RankMessage wanted;
   wanted << port;
-  std::vector<vtkSmartPointer<vtkPolyData>> pieces;
+  std::vector<vtkSmartPointer<vtkPolyData>> pieces = { OwnPartOf(own) };
   for (RankMessage& answer : this->AskAll(RankQuestion::Points, wanted))
   {
-    pieces.emplace_back(pieces.empty() ? OwnPartOf(own).Get()
-                                       : vtkPolyData::SafeDownCast(answer.TakeData()));
+    pieces.emplace_back(vtkPolyData::SafeDownCast(answer.TakeData()));
   }
   const bool isGiven = std::any_of(
     pieces.begin(), pieces.end(), [](vtkPolyData* piece) { return piece != nullptr; });

@@ -60,7 +60,6 @@ public:
   void Put(vtkDataObject* data);
   vtkSmartPointer<vtkDataObject> TakeData();
 
-  bool IsEmpty() const { return this->Bytes.empty(); }
   bool IsReceived() const { return this->WasReceived; }
 
   /**

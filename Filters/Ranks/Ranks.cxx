@@ -24,8 +24,8 @@ namespace
 constexpr std::chrono::milliseconds Interval(100);
 
 /**
- * Those that have heard it sleep for a while: MPI waits with all the power of a processor, which
- * the threads of the first rank can use.
+ * Those that have heard it sleep for a while, but are awake before they are told again: MPI waits
+ * with all the power of a processor, which the threads of the first rank can use.
  */
 constexpr std::chrono::milliseconds Nap(80);
 
@@ -59,8 +59,7 @@ AlgorithmError ErrorOf(RankMessage& message)
 
 Ranks::Ranks(vtkMultiProcessController* controller, const FilterCall& call, Show show)
   : Call(call), Controller(WorkTogether(controller, call) ? controller : nullptr),
-    ShowHere(std::move(show)), IsAsked(static_cast<std::size_t>(this->Count()), false),
-    Told(Clock::now())
+    ShowHere(std::move(show)), Told(Clock::now())
 {
 }
 
@@ -74,57 +73,37 @@ int Ranks::Count() const
   return this->Controller ? this->Controller->GetNumberOfProcesses() : 1;
 }
 
-void Ranks::Put(int rank, RankQuestion question, const RankMessage& message)
+std::vector<RankMessage> Ranks::AskSome(
+  int first, int end, RankQuestion question, const RankMessage& message)
 {
-  message.Send(this->Controller, rank, static_cast<int>(question));
-  this->IsAsked[static_cast<std::size_t>(rank)] = question != RankQuestion::End;
-}
-
-RankMessage Ranks::Hear(int rank)
-{
-  RankMessage message;
-  const int word = message.Receive(this->Controller, rank);
-  this->IsAsked[static_cast<std::size_t>(rank)] = false;
-  if (word == Failed)
+  for (int rank = first; rank < end; ++rank)
   {
-    throw ToldError(ErrorOf(message));
+    message.Send(this->Controller, rank, static_cast<int>(question));
   }
-  return message;
-}
-
-void Ranks::HearOthers()
-{
-  for (int rank = 1; rank < this->Count(); ++rank)
+  std::vector<RankMessage> answers;
+  RankMessage* failure = nullptr;
+  answers.reserve(static_cast<std::size_t>(this->Count()));
+  for (int rank = first; rank < end; ++rank)
   {
-    if (this->IsAsked[static_cast<std::size_t>(rank)])
-    {
-      bool stops = false;
-      this->Hear(rank) >> stops;
-      this->IsStopped = this->IsStopped || stops;
-    }
+    RankMessage& answer = answers.emplace_back();
+    const bool hasFailed = answer.Receive(this->Controller, rank) == Failed;
+    failure = hasFailed && !failure ? &answer : failure;
   }
+  if (failure) // Not before all have answered.
+  {
+    throw ToldError(ErrorOf(*failure));
+  }
+  return answers;
 }
 
 RankMessage Ranks::Ask(int rank, RankQuestion question, const RankMessage& message)
 {
-  this->HearOthers();
-  this->Put(rank, question, message);
-  return this->Hear(rank);
+  return this->AskSome(rank, rank + 1, question, message).front();
 }
 
 std::vector<RankMessage> Ranks::AskAll(RankQuestion question, const RankMessage& message)
 {
-  this->HearOthers();
-  for (int rank = 1; rank < this->Count(); ++rank)
-  {
-    this->Put(rank, question, message);
-  }
-  std::vector<RankMessage> answers(1);
-  for (int rank = 1; rank < this->Count(); ++rank)
-  {
-    answers.push_back(this->Hear(rank));
-  }
-  return answers;
+  return this->AskSome(1, this->Count(), question, message);
 }
 
 bool Ranks::GoOn(double share, const std::string& text)
@@ -132,12 +111,13 @@ bool Ranks::GoOn(double share, const std::string& text)
   const bool goesOn = this->ShowHere(share, text);
   if (this->AreMany() && Clock::now() - this->Told > Interval)
   {
-    this->HearOthers();
     RankMessage message;
     message << share << text;
-    for (int rank = 1; rank < this->Count(); ++rank)
+    for (RankMessage& answer : this->AskAll(RankQuestion::Progress, message))
     {
-      this->Put(rank, RankQuestion::Progress, message);
+      bool stops = false;
+      answer >> stops;
+      this->IsStopped = this->IsStopped || stops;
     }
     this->Told = Clock::now();
   }
@@ -159,11 +139,7 @@ AlgorithmError Ranks::Run(const std::function<std::string()>& aboutMemory, const
     });
   for (int rank = 1; this->IsFirst() && rank < this->Count(); ++rank)
   {
-    if (this->IsAsked[static_cast<std::size_t>(rank)])
-    {
-      RankMessage().Receive(this->Controller, rank); // It is not wanted any more.
-    }
-    this->Put(rank, RankQuestion::End, MessageOf(error));
+    MessageOf(error).Send(this->Controller, rank, static_cast<int>(RankQuestion::End));
   }
   return error;
 }

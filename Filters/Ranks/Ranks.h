@@ -113,11 +113,11 @@ public:
 
   /** Asks one of the others. */
   RankMessage Ask(int rank, RankQuestion question, const RankMessage& message = {});
-  /** Asks all of them at once. @return by rank; that of the first is empty */
+  /** Asks all of them at once. @return from rank 1 on */
   std::vector<RankMessage> AskAll(RankQuestion question, const RankMessage& message = {});
   /**
-   * As often as one likes; several times a second the others hear it, too, who answer when they are
-   * told again. @return false where any rank has asked to stop
+   * As often as one likes; several times a second the others hear it, too.
+   * @return false where any rank has asked to stop
    */
   bool GoOn(double share, const std::string& text);
   /** Whether another rank has asked to stop. */
@@ -125,9 +125,8 @@ public:
 
 private:
   using Clock = std::chrono::steady_clock;
-  void Put(int rank, RankQuestion question, const RankMessage& message);
-  RankMessage Hear(int rank);
-  void HearOthers();
+  std::vector<RankMessage> AskSome(
+    int first, int end, RankQuestion question, const RankMessage& message);
   void Deal(Dealing deals);
   void Serve(const std::function<std::string()>& aboutMemory, const RankWork& work);
   RankMessage Answer(RankQuestion question, RankMessage& message, const RankWork& work) const;
@@ -136,7 +135,6 @@ private:
   FilterCall Call;
   vtkSmartPointer<vtkMultiProcessController> Controller; ///< null: alone
   Show ShowHere;
-  std::vector<bool> IsAsked; ///< by rank: an answer is on its way
   bool IsStopped = false;
   Clock::time_point Told; ///< When the others heard last.
 };
