@@ -41,7 +41,7 @@ bool IsStartedByMpi()
 #endif
 }
 
-Ranks::Ranks(int& argc, char**& argv)
+Ranks::Ranks([[maybe_unused]] int& argc, [[maybe_unused]] char**& argv)
 {
 #ifdef VOLUMIC_HAS_MPI
   if (IsStartedByMpi())
@@ -51,9 +51,6 @@ Ranks::Ranks(int& argc, char**& argv)
     this->Controller = controller;
     vtkMultiProcessController::SetGlobalController(controller);
   }
-#else
-  (void)argc;
-  (void)argv;
 #endif
 }
 
@@ -76,50 +73,48 @@ bool Ranks::IsFirst() const
   return !this->Controller || this->Controller->GetLocalProcessId() == 0;
 }
 
-bool Ranks::HasWord(int tag) const
+bool Ranks::Take([[maybe_unused]] int tag, [[maybe_unused]] int& word)
 {
   int isThere = 0;
 #ifdef VOLUMIC_HAS_MPI
   int from = 0;
-  vtkMPIController::SafeDownCast(this->Controller)
-    ->Iprobe(vtkMultiProcessController::ANY_SOURCE, tag, &isThere, &from);
-#else
-  (void)tag;
+  if (auto* mpi = vtkMPIController::SafeDownCast(this->Controller))
+  {
+    mpi->Iprobe(vtkMultiProcessController::ANY_SOURCE, tag, &isThere, &from);
+    isThere = isThere != 0 && mpi->Receive(&word, 1, from, tag) != 0;
+  }
 #endif
   return isThere != 0;
 }
 
 int Ranks::Wait(const std::function<bool()>& isInterrupted, const std::function<void()>& help)
 {
-  for (;;)
+  for (int word = Help;;)
   {
     if (!this->IsInterrupted && isInterrupted())
     {
       this->IsInterrupted = true;
-      const int word = 1;
       this->Controller->Send(&word, 1, 0, StopTag);
     }
-    if (!this->HasWord(WordTag))
+    if (!this->Take(WordTag, word))
     {
       std::this_thread::sleep_for(Nap);
-      continue;
     }
-    int word = 0;
-    this->Controller->Receive(&word, 1, 0, WordTag);
-    if (word != Help)
+    else if (word != Help)
     {
       return word;
     }
-    help();
+    else
+    {
+      help();
+    }
   }
 }
 
 bool Ranks::AreInterrupted()
 {
-  if (!this->IsInterrupted && this->Controller && this->IsFirst() && this->HasWord(StopTag))
-  {
-    this->IsInterrupted = true;
-  }
+  int word = 0;
+  this->IsInterrupted = this->IsInterrupted || (this->IsFirst() && this->Take(StopTag, word));
   return this->IsInterrupted;
 }
 
@@ -133,10 +128,8 @@ void Ranks::Tell(int word)
 
 void Ranks::End(int code)
 {
-  int word = 0;
-  while (this->Controller && this->HasWord(StopTag))
+  for (int word = 0; this->Take(StopTag, word);)
   {
-    this->Controller->Receive(&word, 1, vtkMultiProcessController::ANY_SOURCE, StopTag);
   }
   this->Tell(code);
 }

@@ -45,8 +45,8 @@ void LabelHelper::Begin(
   {
     RankMessage part;
     part << Step::TakeSlice;
-    part.Pass(const_cast<LabelMap::Number*>(map.Voxels.data()) + first,
-      slice * sizeof(LabelMap::Number));
+    part.Pass(
+      const_cast<LabelMap::Number*>(map.Voxels.data()) + first, slice * sizeof(LabelMap::Number));
     ranks.AskAll(RankQuestion::Own, part);
   }
 }
@@ -156,8 +156,8 @@ void LabelHelper::StartWork(RankMessage& message)
   std::vector<std::size_t> own;
   message >> kind >> isDue >> own;
   this->Work->State.Expect("", isDue, own); // Now: the first one may ask how far it is at once.
-  this->Done = std::async(
-    std::launch::async, [this, kind, own] { this->Work->Do(kind, own, false, [] {}); });
+  this->Done =
+    std::async(std::launch::async, [this, kind, own] { this->Work->Do(kind, own, false, [] {}); });
 }
 
 RankMessage LabelHelper::TellOfWork(RankMessage& message)
@@ -168,8 +168,8 @@ RankMessage LabelHelper::TellOfWork(RankMessage& message)
   message >> share >> text >> isStopped;
   LabelCourse& state = this->Work->State;
   state.IsStopped = state.IsStopped || isStopped;
-  const bool isThrough =
-    !this->Done.valid() || this->Done.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+  const bool isThrough = !this->Done.valid() ||
+    this->Done.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
   if (isThrough && this->Done.valid())
   {
     this->Done.get(); // It may have failed.

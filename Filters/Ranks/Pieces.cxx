@@ -121,8 +121,8 @@ vtkSmartPointer<vtkPolyData> CutSurface(vtkPolyData* whole, const Cut& cut)
     }
     AddGhostTypes(piece->GetPointData(), piece->GetNumberOfPoints(), ownPoints,
       vtkDataSetAttributes::DUPLICATEPOINT);
-    AddGhostTypes(piece->GetCellData(), piece->GetNumberOfPolys(), own,
-      vtkDataSetAttributes::DUPLICATECELL);
+    AddGhostTypes(
+      piece->GetCellData(), piece->GetNumberOfPolys(), own, vtkDataSetAttributes::DUPLICATECELL);
   }
   return piece;
 }

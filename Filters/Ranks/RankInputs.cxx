@@ -260,8 +260,8 @@ vtkSmartPointer<vtkPolyData> Ranks::TakePoints(int port)
   {
     pieces.emplace_back(vtkPolyData::SafeDownCast(answer.TakeData()));
   }
-  const bool isGiven = std::any_of(
-    pieces.begin(), pieces.end(), [](vtkPolyData* piece) { return piece != nullptr; });
+  const bool isGiven =
+    std::any_of(pieces.begin(), pieces.end(), [](vtkPolyData* piece) { return piece != nullptr; });
   return isGiven ? JoinSurfaces(pieces) : nullptr;
 }
 

@@ -59,7 +59,7 @@ void PassArray(RankMessage& message, vtkSmartPointer<vtkAbstractArray>& array)
   std::string name = TextOf(isKnown ? array->GetName() : nullptr);
   int components = isKnown ? array->GetNumberOfComponents() : 1;
   vtkIdType tuples = isKnown ? array->GetNumberOfTuples() : 0;
-  message & type & name & components & tuples;
+  message& type& name& components& tuples;
   if (message.IsReceived() && type != VTK_VOID)
   {
     array = vtkSmartPointer<vtkAbstractArray>::Take(vtkAbstractArray::CreateArray(type));
@@ -76,7 +76,7 @@ void PassArray(RankMessage& message, vtkSmartPointer<vtkAbstractArray>& array)
   auto* texts = vtkStringArray::SafeDownCast(array);
   for (vtkIdType i = 0; texts && i < texts->GetNumberOfValues(); ++i)
   {
-    message & static_cast<std::string&>(texts->GetValue(i));
+    message& static_cast<std::string&>(texts->GetValue(i));
   }
 }
 
@@ -92,13 +92,13 @@ void PassArrays(RankMessage& message, vtkFieldData* arrays)
 {
   auto* attributes = vtkDataSetAttributes::SafeDownCast(arrays);
   int count = arrays->GetNumberOfArrays();
-  message & count;
+  message& count;
   for (int i = 0; i < count; ++i)
   {
     vtkSmartPointer<vtkAbstractArray> array = arrays->GetAbstractArray(i);
     int attribute = attributes && array ? attributes->IsArrayAnAttribute(i) : -1;
     PassArray(message, array);
-    message & attribute;
+    message& attribute;
     const int place = message.IsReceived() && array ? arrays->AddArray(array) : -1;
     if (place >= 0 && attribute >= 0)
     {
@@ -143,7 +143,7 @@ void PassShape(RankMessage& message, vtkImageData* image)
   image->GetOrigin(origin.data());
   image->GetSpacing(spacing.data());
   std::copy_n(image->GetDirectionMatrix()->GetData(), 9, direction.begin());
-  message & extent & origin & spacing & direction;
+  message& extent& origin& spacing& direction;
   if (message.IsReceived())
   {
     image->SetExtent(extent.data());
@@ -156,12 +156,12 @@ void PassShape(RankMessage& message, vtkImageData* image)
 void PassShape(RankMessage& message, vtkMultiBlockDataSet* blocks)
 {
   unsigned int count = blocks->GetNumberOfBlocks();
-  message & count;
+  message& count;
   for (unsigned int b = 0; b < count; ++b)
   {
     std::string name = TextOf(
       blocks->HasMetaData(b) ? blocks->GetMetaData(b)->Get(vtkCompositeDataSet::NAME()) : nullptr);
-    message & name;
+    message& name;
     if (message.IsReceived())
     {
       blocks->SetBlock(b, message.TakeData());

@@ -22,7 +22,8 @@ namespace volumic
 class RankMessage
 {
 public:
-  /** Numbers, structs of numbers, texts, and vectors of all these: put, or, once received, taken. */
+  /** Numbers, structs of numbers, texts, and vectors of all these: put, or, once received, taken.
+   */
   template <typename T>
   RankMessage& operator&(T& value)
   {
@@ -34,11 +35,11 @@ public:
     else
     {
       std::size_t size = value.size();
-      *this & size;
+      *this& size;
       value.resize(size);
       for (auto& each : value)
       {
-        *this & each;
+        *this& each;
       }
     }
     return *this;

@@ -104,8 +104,8 @@ public:
   /**
    * The images at an input port of which ranks have pieces, whole, in memory that may be scratch
    * memory; of a pyramid's levels all. What this rank has all of is as it came.
-   * @throws std::invalid_argument if they don't lie in one image, or leave voxels out; where one has
-   *         something else.
+   * @throws std::invalid_argument if they don't lie in one image, or leave voxels out; where one
+   * has something else.
    */
   vtkSmartPointer<vtkDataObject> TakeImages(int port);
   /** Likewise, of a surface, or of points (JoinSurfaces). Null where nobody has any. */

@@ -22,7 +22,8 @@
 #include <mutex>
 #include <thread>
 
-/** Tests of filters that several ranks update at once: threads of the test, with controllers of VTK. */
+/** Tests of filters that several ranks update at once: threads of the test, with controllers of
+ * VTK. */
 namespace volumic
 {
 using RankController = vtkMultiProcessController;
@@ -62,8 +63,8 @@ public:
     this->All->Arrived.wait(lock, [&queue] { return !queue.empty(); });
     const std::vector<char> message = std::move(queue.front());
     queue.pop_front();
-    EXPECT_EQ(message.size(),
-      static_cast<std::size_t>(count * vtkDataArray::GetDataTypeSize(type)));
+    EXPECT_EQ(
+      message.size(), static_cast<std::size_t>(count * vtkDataArray::GetDataTypeSize(type)));
     std::memcpy(values, message.data(), message.size());
     return 1;
   }

@@ -40,14 +40,11 @@ Image HoledBall()
   {
     voxels->SetTuple1(v, std::numeric_limits<double>::quiet_NaN());
   }
-  vtkNew<vtkUnsignedCharArray> ghosts;
-  ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
-  ghosts->SetNumberOfTuples(image->GetNumberOfCells());
-  for (vtkIdType c = 0; c < ghosts->GetNumberOfTuples(); ++c)
+  vtkUnsignedCharArray* ghosts = image->AllocateCellGhostArray();
+  for (vtkIdType c = 14; c < ghosts->GetNumberOfTuples(); c += 31)
   {
-    ghosts->SetValue(c, c % 31 > 13 && c % 31 < 17 ? vtkDataSetAttributes::HIDDENCELL : 0);
+    ghosts->SetValue(c, vtkDataSetAttributes::HIDDENCELL);
   }
-  image->GetCellData()->AddArray(ghosts);
   return image;
 }
 
@@ -95,10 +92,7 @@ template <typename Get>
 auto OfAll(const std::vector<vtkSmartPointer<Filter>>& ranks, const Get& get)
 {
   std::vector<decltype(get(ranks.front().Get()))> all;
-  for (Filter* filter : ranks)
-  {
-    all.push_back(get(filter));
-  }
+  std::transform(ranks.begin(), ranks.end(), std::back_inserter(all), get);
   return all;
 }
 
@@ -124,14 +118,10 @@ void ExpectAs(Filter* one, const std::vector<vtkSmartPointer<Filter>>& ranks)
   for (Filter* filter : ranks)
   {
     EXPECT_EQ(filter->GetErrorCode(), vtkErrorCode::NoError);
-    vtkTable* history = filter->GetHistory();
-    ASSERT_EQ(history->GetNumberOfColumns(), one->GetHistory()->GetNumberOfColumns());
-    EXPECT_EQ(history->GetNumberOfRows(),
+    EXPECT_EQ(filter->GetHistory()->GetNumberOfColumns(), one->GetHistory()->GetNumberOfColumns());
+    EXPECT_STREQ(filter->GetHistory()->GetColumnName(1), one->GetHistory()->GetColumnName(1));
+    EXPECT_EQ(filter->GetHistory()->GetNumberOfRows(),
       filter == ranks.front() ? one->GetHistory()->GetNumberOfRows() : 0);
-    for (vtkIdType c = 0; c < history->GetNumberOfColumns(); ++c)
-    {
-      EXPECT_STREQ(history->GetColumnName(c), one->GetHistory()->GetColumnName(c));
-    }
   }
 }
 }
@@ -192,9 +182,8 @@ TEST(RankSurfaces, OfAnImageThatIsPutTogetherInTheScratchFile)
       Set(filter);
       set(filter);
       const ProgressHook look(filter,
-        [&, isFirst = controller->GetLocalProcessId() == 0](
-          vtkAlgorithm*, const std::string&, double share)
-        { before = isFirst && share == 0.0 ? bytesInScratch() : before; });
+        [&, isFirst = controller->GetLocalProcessId() == 0](vtkAlgorithm*, const std::string&,
+          double share) { before = isFirst && share == 0.0 ? bytesInScratch() : before; });
       UpdatePiece(filter, controller);
     });
   EXPECT_GE(before, std::size_t(4) * 128 * 64 * 64) << "before any level was made";
@@ -373,7 +362,8 @@ TEST(RankSurfaces, AreMadeAnewWhereOneRankHasChanged)
       }
       const ProgressListener progress(filter);
       UpdatePiece(filter, controller, 1);
-      EXPECT_TRUE(progress.Shares.size() > 2 || controller->GetLocalProcessId() > 0) << "another run";
+      EXPECT_TRUE(progress.Shares.size() > 2 || controller->GetLocalProcessId() > 0)
+        << "another run";
       // Another level of what is kept.
       filter->SetFinestLevel(1);
       UpdatePiece(filter, controller);
@@ -385,12 +375,20 @@ TEST(RankSurfaces, AreMadeAnewWhereOneRankHasChanged)
 
 TEST(RankSurfaces, OfOneRankWhereItAsksForAnotherPiece)
 {
-  // As vtkCleanPolyData asks; nobody waits for anyone.
-  const auto ranks = OnBall(2,
-    [](Filter* filter, RankController* controller)
-    { filter->UpdatePiece(0, controller->GetLocalProcessId() == 0 ? 1 : 0, 0); });
-  ExpectSameOutputs(OneRank(), ranks[0]);
-  EXPECT_EQ(ranks[1]->GetOutput()->GetNumberOfPoints(), 0);
+  const auto one = OneRank();
+  // As vtkCleanPolyData asks, and in another order; nobody waits for anyone.
+  for (const int pieces : { 1, 2 })
+  {
+    const auto ranks = OnBall(2,
+      [pieces](Filter* filter, RankController* controller)
+      {
+        const bool isFirst = controller->GetLocalProcessId() == pieces - 1;
+        filter->UpdatePiece(isFirst ? 0 : pieces - 1, isFirst ? pieces : 2 * pieces - 2, 0);
+      });
+    const auto all = static_cast<std::size_t>(pieces - 1);
+    ExpectSameOutputs(one, ranks[all]);
+    EXPECT_EQ(ranks[1 - all]->GetOutput()->GetNumberOfPoints(), 0);
+  }
 }
 
 TEST(RankSurfaces, StartFromASurfaceInPieces)
