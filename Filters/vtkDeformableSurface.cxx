@@ -5,8 +5,6 @@
 #include "Host/VersionCompatibility.h"
 #include "Host/WholeInput.h"
 #include "Input/SlabInput.h"
-#include "Ranks/RankInputs.h"
-#include "Ranks/RankOutputs.h"
 #include "Ranks/Ranks.h"
 #include "vtkDeformableSurfaceInternals.h"
 
@@ -201,9 +199,9 @@ int vtkDeformableSurface::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
 {
   const vtkInternals& internals = *this->Internals;
-  const bool areMany =
-    volumic::AskForInputs(internals.Controller, { this, request, input, output });
-  if (!areMany && internals.Settings.End.MemoryLimit > 0 &&
+  const volumic::Ranks ranks(internals.Controller, { this, request, input, output });
+  ranks.AskForInputs();
+  if (!ranks.AreMany() && internals.Settings.End.MemoryLimit > 0 &&
     volumic::IsFirstProcess(request, output))
   {
     volumic::SlabInput(this).Ask(
@@ -251,8 +249,8 @@ int vtkDeformableSurface::RequestData(
     this->UpdateProgress(share);
     return !volumic::IsAbortRequested(this);
   };
-  internals.All =
-    std::make_unique<volumic::Ranks>(internals.Controller, request, outputVector, show);
+  const volumic::FilterCall call{ this, request, inputVector, outputVector };
+  internals.All = std::make_unique<volumic::Ranks>(internals.Controller, call, show);
   volumic::Ranks& ranks = *internals.All;
   this->SetErrorCode(vtkErrorCode::NoError);
   if (!ranks.AreMany() && !volumic::IsFirstProcess(request, outputVector))
@@ -262,7 +260,6 @@ int vtkDeformableSurface::RequestData(
   }
   // ParaView leaves the flag of an earlier run as it is.
   volumic::ForgetAbort(this);
-  const volumic::FilterCall call{ this, request, inputVector, outputVector };
   volumic::RankWork work;
   work.OfFirst = [&]
   {
@@ -273,10 +270,10 @@ int vtkDeformableSurface::RequestData(
   work.OfOthers = [&](volumic::RankQuestion, volumic::RankMessage&)
   {
     volumic::RankMessage answer;
-    answer.Words << internals.Cache.IsValidFor(this, ranks.Count());
+    answer << internals.Cache.IsValidFor(this, ranks.Count());
     return answer;
   };
-  const volumic::AlgorithmError error = volumic::RunOnRanks(ranks, call,
+  const volumic::AlgorithmError error = ranks.Run(
     []
     {
       return "Input port 0: the memory does not suffice for the surface. Set Finest Level to a "

@@ -5,7 +5,6 @@
 
 #include "Host/Deadline.h"
 #include "Host/LimitedMemory.h"
-#include "Ranks/RankInputs.h"
 #include "Ranks/Ranks.h"
 #include "Run/SegmentationCache.h"
 #include "Run/SegmentationCheckpoint.h"

@@ -18,7 +18,7 @@
 #include "Output/SegmentationResults.h"
 #include "Output/SurfaceOutput.h"
 #include "Pyramid/BuildPyramid.h"
-#include "Ranks/RankInputs.h"
+#include "Ranks/Ranks.h"
 #include "Run/SegmentationCache.h"
 #include "Run/SurfaceSegmentation.h"
 #include "Settings/SegmentationSettings.h"
@@ -174,8 +174,8 @@ volumic::SegmentationRequest vtkDeformableSurface::vtkInternals::RequestAsSet(
   }
   request.Limit = volumic::Deadline(request.Started, limit);
   this->Limit = request.Limit;
-  this->InitialSurface = volumic::TakePoints(*this->All, call, 1);
-  this->AttractingPoints = volumic::TakePoints(*this->All, call, 2);
+  this->InitialSurface = this->All->TakePoints(1);
+  this->AttractingPoints = this->All->TakePoints(2);
   request.InitialSurface = this->InitialSurface;
   request.AttractingPoints = this->AttractingPoints;
   request.EdgeSelection = this->Filter.GetInputArrayInformation(1);
@@ -246,7 +246,7 @@ std::unique_ptr<volumic::SurfaceSegmentation> vtkDeformableSurface::vtkInternals
   const volumic::SegmentationRequest& request, const volumic::FilterCall& call)
 {
   const vtkSmartPointer<vtkDataObject> input = volumic::PrefixErrors(
-    "Input port 0: ", [&] { return volumic::TakeImages(*this->All, call, 0); });
+    "Input port 0: ", [&] { return this->All->TakeImages(0); });
   if (BuildsPyramid(input))
   {
     this->Filter.ShowPyramidProgress(0.0); // Whether to stop is asked when there is more to do.
@@ -298,11 +298,8 @@ void vtkDeformableSurface::vtkInternals::RunOrGoOn(const volumic::FilterCall& ca
   // What has changed on one rank has changed for all.
   for (volumic::RankMessage& other : this->All->AskAll(volumic::RankQuestion::Own))
   {
-    bool isKeptThere = true;
-    if (!other.Words.Empty())
-    {
-      other.Words >> isKeptThere;
-    }
+    bool isKeptThere = false;
+    other >> isKeptThere;
     isKept = isKept && isKeptThere;
   }
   volumic::SegmentationRequest request = this->RequestAsSet(call);

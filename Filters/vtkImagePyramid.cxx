@@ -12,8 +12,6 @@
 #include "Input/InputImage.h"
 #include "Input/SlabInput.h"
 #include "Pyramid/PyramidBlocks.h"
-#include "Ranks/RankInputs.h"
-#include "Ranks/RankOutputs.h"
 #include "Ranks/Ranks.h"
 
 #include <vtkDataArray.h>
@@ -228,9 +226,9 @@ int vtkImagePyramid::RequestInformation(
 int vtkImagePyramid::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
 {
-  const bool areMany =
-    volumic::AskForInputs(this->Internals->Controller, { this, request, input, output });
-  if (!areMany && this->MemoryLimit > 0 && volumic::IsFirstProcess(request, output))
+  const volumic::Ranks ranks(this->Internals->Controller, { this, request, input, output });
+  ranks.AskForInputs();
+  if (!ranks.AreMany() && this->MemoryLimit > 0 && volumic::IsFirstProcess(request, output))
   {
     volumic::SlabInput(this).Ask(volumic::LimitedMemory::BytesOf(this->MemoryLimit), true);
   }
@@ -239,12 +237,12 @@ int vtkImagePyramid::RequestUpdateExtent(
 
 //------------------------------------------------------------------------------
 vtkSmartPointer<vtkImageData> vtkImagePyramid::ReadInput(
-  volumic::Ranks& ranks, const volumic::FilterCall& call, int& component)
+  volumic::Ranks& ranks, int& component)
 {
   volumic::LimitedMemory& memory = this->Internals->Memory;
   memory.Set(this->MemoryLimit, this->Internals->ScratchDirectory);
   component = this->SelectedComponent;
-  const vtkSmartPointer<vtkDataObject> input = volumic::TakeImages(ranks, call, 0);
+  const vtkSmartPointer<vtkDataObject> input = ranks.TakeImages(0);
   volumic::SlabInput::Result slabs;
   if (memory.Limit() > 0 && !ranks.AreMany())
   {
@@ -270,10 +268,10 @@ vtkSmartPointer<vtkImageData> vtkImagePyramid::ReadInput(
 
 //------------------------------------------------------------------------------
 volumic::PyramidBlocks vtkImagePyramid::MakeBlocks(
-  volumic::Ranks& ranks, const volumic::FilterCall& call, vtkSmartPointer<vtkImageData>& image)
+  volumic::Ranks& ranks, vtkSmartPointer<vtkImageData>& image)
 {
   int component = this->SelectedComponent;
-  image = this->ReadInput(ranks, call, component);
+  image = this->ReadInput(ranks, component);
   if (!image)
   {
     return volumic::StoppedPyramidBlocks();
@@ -302,7 +300,7 @@ int vtkImagePyramid::RequestData(
     return !volumic::IsAbortRequested(this);
   };
   vtkInternals& internals = *this->Internals;
-  volumic::Ranks ranks(internals.Controller, request, outputVector, show);
+  volumic::Ranks ranks(internals.Controller, { this, request, inputVector, outputVector }, show);
   // Of processes that don't work together the first one holds the pyramid; the others would only
   // repeat it.
   if (!ranks.AreMany() && !volumic::IsFirstProcess(request, outputVector))
@@ -318,12 +316,11 @@ int vtkImagePyramid::RequestData(
   internals.Kept = nullptr;
   // ParaView leaves the flag of an earlier run as it is.
   volumic::ForgetAbort(this);
-  const volumic::FilterCall call{ this, request, inputVector, outputVector };
   vtkSmartPointer<vtkImageData> image;
   volumic::RankWork work;
   work.OfFirst = [&]
   {
-    const volumic::PyramidBlocks pyramid = this->MakeBlocks(ranks, call, image);
+    const volumic::PyramidBlocks pyramid = this->MakeBlocks(ranks, image);
     vtkMultiBlockDataSet::GetData(outputVector)->ShallowCopy(pyramid.Blocks);
     if (!pyramid.AboutNaNs.empty())
     {
@@ -334,7 +331,7 @@ int vtkImagePyramid::RequestData(
       vtkWarningMacro(<< warning);
     }
   };
-  const volumic::AlgorithmError error = volumic::RunOnRanks(ranks, call,
+  const volumic::AlgorithmError error = ranks.Run(
     [&]
     {
       return volumic::Join("the memory does not suffice for the pyramid of an image of ",

@@ -99,7 +99,6 @@ class vtkMultiProcessController;
 namespace volumic
 {
 class Ranks;
-struct FilterCall;
 struct PyramidBlocks;
 }
 
@@ -241,9 +240,9 @@ private:
   /// The image, whole or put together of slabs, and the component of it that is meant; null after a
   /// stop.
   vtkSmartPointer<vtkImageData> ReadInput(
-    volumic::Ranks& ranks, const volumic::FilterCall& call, int& component);
+    volumic::Ranks& ranks, int& component);
   /// @param image gets the image, once it is there
-  volumic::PyramidBlocks MakeBlocks(volumic::Ranks& ranks, const volumic::FilterCall& call,
+  volumic::PyramidBlocks MakeBlocks(volumic::Ranks& ranks,
     vtkSmartPointer<vtkImageData>& image);
 
   class vtkInternals;

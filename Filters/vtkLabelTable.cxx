@@ -8,8 +8,6 @@
 #include "Input/InputImage.h"
 #include "Labels/LabelImage.h"
 #include "Labels/LabelNames.h"
-#include "Ranks/RankInputs.h"
-#include "Ranks/RankOutputs.h"
 #include "Ranks/Ranks.h"
 
 #include <vtkDataObject.h>
@@ -51,8 +49,9 @@ int vtkLabelTable::FillInputPortInformation(int, vtkInformation* info)
 int vtkLabelTable::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
 {
-  volumic::AskForInputs(
-    vtkMultiProcessController::GetGlobalController(), { this, request, input, output });
+  volumic::Ranks(
+    vtkMultiProcessController::GetGlobalController(), { this, request, input, output })
+    .AskForInputs();
   return 1;
 }
 
@@ -61,7 +60,8 @@ int vtkLabelTable::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   this->SetErrorCode(vtkErrorCode::NoError);
-  volumic::Ranks ranks(vtkMultiProcessController::GetGlobalController(), request, outputVector);
+  volumic::Ranks ranks(vtkMultiProcessController::GetGlobalController(),
+    { this, request, inputVector, outputVector });
   if (!ranks.AreMany() && !volumic::IsFirstProcess(request, outputVector))
   {
     return 1;
@@ -78,11 +78,10 @@ int vtkLabelTable::RequestData(
   vtkNew<vtkDoubleArray> colors;
   colors->SetName("Color");
   colors->SetNumberOfComponents(3);
-  const volumic::FilterCall call{ this, request, inputVector, outputVector };
   volumic::RankWork work;
   work.OfFirst = [&]
   {
-    const vtkSmartPointer<vtkDataObject> input = volumic::TakeImages(ranks, call, 0);
+    const vtkSmartPointer<vtkDataObject> input = ranks.TakeImages(0);
     volumic::HostThreads threads(0);
     std::optional<volumic::LabelImage> image;
     threads.Run([&] { image.emplace(input, this->GetInputArrayInformation(0), 0, threads); });
@@ -103,8 +102,8 @@ int vtkLabelTable::RequestData(
     table->AddColumn(extents);
     table->AddColumn(colors);
   };
-  const volumic::AlgorithmError error = volumic::RunOnRanks(
-    ranks, call, [] { return "the memory does not suffice for the labels."; }, work);
+  const volumic::AlgorithmError error = ranks.Run(
+    [] { return "the memory does not suffice for the labels."; }, work);
   if (error.Code != vtkErrorCode::NoError)
   {
     this->SetErrorCode(error.Code);

@@ -18,8 +18,6 @@
 #include "Labels/LabelNames.h"
 #include "Labels/LabelSurface.h"
 #include "Labels/LabelSurfaces.h"
-#include "Ranks/RankInputs.h"
-#include "Ranks/RankOutputs.h"
 #include "Ranks/Ranks.h"
 #include "Run/SegmentationCache.h"
 #include "Settings/PropertyValues.h"
@@ -252,7 +250,7 @@ vtkPolyData* vtkLabelsToSurfaces::GetInterfaces()
 int vtkLabelsToSurfaces::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
 {
-  volumic::AskForInputs(this->Internals->Controller, { this, request, input, output });
+  volumic::Ranks(this->Internals->Controller, { this, request, input, output }).AskForInputs();
   return 1;
 }
 
@@ -302,7 +300,7 @@ void vtkLabelsToSurfaces::MakeSurfaces(volumic::Ranks& ranks, const volumic::Fil
   volumic::LabelChoice choice;
   std::optional<volumic::LabelImage> image;
   const vtkSmartPointer<vtkDataObject> input = volumic::PrefixErrors(
-    "Input port 0: ", [&] { return volumic::TakeImages(ranks, call, 0); });
+    "Input port 0: ", [&] { return ranks.TakeImages(0); });
   const volumic::LabelMap map =
     internals.Read(input, this->GetInputArrayInformation(0), choice, image);
   const std::vector<std::string> names = choice.SurfaceNames();
@@ -365,7 +363,8 @@ int vtkLabelsToSurfaces::RequestData(
   this->SetErrorCode(vtkErrorCode::NoError);
   const auto show = [this](double share, const std::string& text)
   { return this->ShowProgress(share, text); };
-  volumic::Ranks ranks(this->Internals->Controller, request, outputVector, show);
+  const volumic::FilterCall call{ this, request, inputVector, outputVector };
+  volumic::Ranks ranks(this->Internals->Controller, call, show);
   if (!ranks.AreMany() && !volumic::IsFirstProcess(request, outputVector))
   {
     return 1;
@@ -379,7 +378,6 @@ int vtkLabelsToSurfaces::RequestData(
   }
   // ParaView leaves the flag of an earlier run as it is.
   volumic::ForgetAbort(this);
-  const volumic::FilterCall call{ this, request, inputVector, outputVector };
   std::optional<volumic::LabelHelper> helper;
   volumic::RankWork work;
   work.Deals = volumic::Dealing::FirstHasAll;
@@ -399,7 +397,7 @@ int vtkLabelsToSurfaces::RequestData(
     }
     return helper->Answer(message);
   };
-  const volumic::AlgorithmError error = volumic::RunOnRanks(ranks, call,
+  const volumic::AlgorithmError error = ranks.Run(
     []
     {
       return "Input port 0: the memory does not suffice for the surfaces. Set Finest Level to a "

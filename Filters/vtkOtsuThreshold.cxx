@@ -7,8 +7,6 @@
 #include "Input/CellVoxels.h"
 #include "Input/InputImage.h"
 #include "Input/OtsuThreshold.h"
-#include "Ranks/RankInputs.h"
-#include "Ranks/RankOutputs.h"
 #include "Ranks/Ranks.h"
 
 #include <vtkDataObject.h>
@@ -23,7 +21,7 @@
 #include <vtkSmartPointer.h>
 #include <vtkTable.h>
 
-#include <exception>
+#include <vector>
 
 vtkStandardNewMacro(vtkOtsuThreshold);
 
@@ -70,7 +68,7 @@ int vtkOtsuThreshold::FillInputPortInformation(int, vtkInformation* info)
 int vtkOtsuThreshold::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
 {
-  volumic::AskForInputs(this->Controller, { this, request, input, output });
+  volumic::Ranks(this->Controller, { this, request, input, output }).AskForInputs();
   return 1;
 }
 
@@ -81,16 +79,23 @@ int vtkOtsuThreshold::RequestData(
   this->Threshold = vtkMath::Nan();
   this->Histogram->SetNumberOfTuples(0);
   this->SetErrorCode(vtkErrorCode::NoError);
-  volumic::Ranks ranks(this->Controller, request, output);
+  volumic::Ranks ranks(this->Controller, { this, request, input, output });
   if (!ranks.AreMany() && !volumic::IsFirstProcess(request, output))
   {
     return 1;
   }
-  const volumic::FilterCall call{ this, request, input, output };
+  const auto keep = [this](double threshold, const std::vector<double>& histogram)
+  {
+    this->Threshold = threshold;
+    for (const double value : histogram)
+    {
+      this->Histogram->InsertNextValue(value);
+    }
+  };
   volumic::RankWork work;
   work.OfFirst = [&]
   {
-    const vtkSmartPointer<vtkDataObject> data = volumic::TakeImages(ranks, call, 0);
+    const vtkSmartPointer<vtkDataObject> data = ranks.TakeImages(0);
     const volumic::PointVoxels voxels =
       volumic::TakeCellsAsPoints(volumic::ImageOf(data), this->GetInputArrayInformation(0));
     const volumic::VoxelHistogram found =
@@ -99,26 +104,23 @@ int vtkOtsuThreshold::RequestData(
     column->SetName("Threshold");
     column->InsertNextValue(found.Threshold);
     vtkTable::GetData(output)->AddColumn(column);
-    this->Threshold = found.Threshold;
-    this->Histogram->InsertNextValue(found.Range[0]);
-    this->Histogram->InsertNextValue(found.Range[1]);
-    for (const vtkIdType count : found.Counts)
-    {
-      this->Histogram->InsertNextValue(static_cast<double>(count));
-    }
+    std::vector<double> histogram = { found.Range[0], found.Range[1] };
+    histogram.insert(histogram.end(), found.Counts.begin(), found.Counts.end());
+    keep(found.Threshold, histogram);
     volumic::RankMessage message;
-    message.Words << this->Threshold;
-    message.Put(this->Histogram);
+    message << found.Threshold << histogram;
     ranks.AskAll(volumic::RankQuestion::Own, message);
   };
-  work.OfOthers = [this](volumic::RankQuestion, volumic::RankMessage& message)
+  work.OfOthers = [&keep](volumic::RankQuestion, volumic::RankMessage& message)
   {
-    message.Words >> this->Threshold;
-    this->Histogram->DeepCopy(message.TakeArray());
+    double threshold = 0.0;
+    std::vector<double> histogram;
+    message >> threshold >> histogram;
+    keep(threshold, histogram);
     return volumic::RankMessage();
   };
-  const volumic::AlgorithmError error = volumic::RunOnRanks(
-    ranks, call, [] { return "the memory does not suffice for the threshold."; }, work);
+  const volumic::AlgorithmError error = ranks.Run(
+    [] { return "the memory does not suffice for the threshold."; }, work);
   if (error.Code != vtkErrorCode::NoError)
   {
     this->SetErrorCode(error.Code);

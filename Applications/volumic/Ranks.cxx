@@ -8,9 +8,9 @@
 #include <vtkMPIController.h>
 #endif
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
-#include <initializer_list>
 #include <thread>
 
 namespace tool
@@ -29,43 +29,28 @@ constexpr int StopTag = 22102;
 constexpr std::chrono::milliseconds Nap(50);
 
 #ifdef VOLUMIC_HAS_MPI
-/** The value of the first of these in the environment; null: there is none. */
-const char* FirstOf(std::initializer_list<const char*> names)
+/** Whether mpirun has started this process, or what a cluster has in its place. */
+bool IsStartedByMpi()
 {
-  for (const char* name : names)
-  {
-    if (const char* value = std::getenv(name))
-    {
-      return value;
-    }
-  }
-  return nullptr;
-}
-
-/** Whether mpirun, or what a cluster has in its place, has started this process and others. */
-bool AreMany()
-{
-  // Open MPI, MPICH and its kin, and what starts either by PMIx (srun --mpi=pmix). One process that
-  // was started so has no others to join.
-  const char* count = FirstOf({ "OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "MV2_COMM_WORLD_SIZE" });
-  return count ? std::atoi(count) > 1 : FirstOf({ "PMIX_RANK", "PMI_RANK" }) != nullptr;
+  // Open MPI, MPICH and its kin, and what starts either by PMIx (srun --mpi=pmix).
+  const auto names = { "OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "MV2_COMM_WORLD_SIZE", "PMIX_RANK",
+    "PMI_RANK" };
+  return std::any_of(
+    names.begin(), names.end(), [](const char* name) { return std::getenv(name) != nullptr; });
 }
 #endif
 }
 
-Ranks::Ranks(int& argc, char**& argv)
+Ranks::Ranks([[maybe_unused]] int& argc, [[maybe_unused]] char**& argv)
 {
 #ifdef VOLUMIC_HAS_MPI
-  if (AreMany())
+  if (IsStartedByMpi())
   {
     auto controller = vtkSmartPointer<vtkMPIController>::New();
     controller->Initialize(&argc, &argv);
     this->Controller = controller;
     vtkMultiProcessController::SetGlobalController(controller);
   }
-#else
-  (void)argc;
-  (void)argv;
 #endif
 }
 
@@ -88,50 +73,48 @@ bool Ranks::IsFirst() const
   return !this->Controller || this->Controller->GetLocalProcessId() == 0;
 }
 
-bool Ranks::HasWord(int tag) const
+bool Ranks::Take([[maybe_unused]] int tag, [[maybe_unused]] int& word)
 {
   int isThere = 0;
 #ifdef VOLUMIC_HAS_MPI
   int from = 0;
-  vtkMPIController::SafeDownCast(this->Controller)
-    ->Iprobe(vtkMultiProcessController::ANY_SOURCE, tag, &isThere, &from);
-#else
-  (void)tag;
+  if (auto* mpi = vtkMPIController::SafeDownCast(this->Controller))
+  {
+    mpi->Iprobe(vtkMultiProcessController::ANY_SOURCE, tag, &isThere, &from);
+    isThere = isThere != 0 && mpi->Receive(&word, 1, from, tag) != 0;
+  }
 #endif
   return isThere != 0;
 }
 
 int Ranks::Wait(const std::function<bool()>& isInterrupted, const std::function<void()>& help)
 {
-  for (;;)
+  for (int word = Help;;)
   {
     if (!this->IsInterrupted && isInterrupted())
     {
       this->IsInterrupted = true;
-      const int word = 1;
       this->Controller->Send(&word, 1, 0, StopTag);
     }
-    if (!this->HasWord(WordTag))
+    if (!this->Take(WordTag, word))
     {
       std::this_thread::sleep_for(Nap);
-      continue;
     }
-    int word = 0;
-    this->Controller->Receive(&word, 1, 0, WordTag);
-    if (word != Help)
+    else if (word != Help)
     {
       return word;
     }
-    help();
+    else
+    {
+      help();
+    }
   }
 }
 
 bool Ranks::AreInterrupted()
 {
-  if (!this->IsInterrupted && this->Controller && this->IsFirst() && this->HasWord(StopTag))
-  {
-    this->IsInterrupted = true;
-  }
+  int word = 0;
+  this->IsInterrupted = this->IsInterrupted || (this->IsFirst() && this->Take(StopTag, word));
   return this->IsInterrupted;
 }
 
@@ -145,10 +128,8 @@ void Ranks::Tell(int word)
 
 void Ranks::End(int code)
 {
-  int word = 0;
-  while (this->Controller && this->HasWord(StopTag))
+  for (int word = 0; this->Take(StopTag, word);)
   {
-    this->Controller->Receive(&word, 1, vtkMultiProcessController::ANY_SOURCE, StopTag);
   }
   this->Tell(code);
 }

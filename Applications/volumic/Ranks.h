@@ -54,7 +54,8 @@ public:
   void Update(vtkAlgorithm* filter);
 
 private:
-  bool HasWord(int tag) const;
+  /** Whether there is a word, which it then takes. */
+  bool Take(int tag, int& word);
   void Tell(int word);
 
   vtkSmartPointer<vtkMultiProcessController> Controller; ///< null: alone

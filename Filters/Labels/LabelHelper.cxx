@@ -6,37 +6,12 @@
 
 #include <vtkNew.h>
 #include <vtkPolyData.h>
-#include <vtkUnsignedShortArray.h>
 
-#include <algorithm>
-#include <type_traits>
+#include <chrono>
 #include <utility>
 
 namespace volumic
 {
-namespace
-{
-static_assert(std::is_same_v<LabelMap::Number, unsigned short>, "sent as such");
-
-template <typename T>
-T TakeWord(RankMessage& message)
-{
-  T word{};
-  message.Words >> word;
-  return word;
-}
-
-std::size_t TakeCount(RankMessage& message)
-{
-  return static_cast<std::size_t>(TakeWord<vtkTypeInt64>(message));
-}
-
-void PutCount(RankMessage& message, std::size_t count)
-{
-  message.Words << static_cast<vtkTypeInt64>(count);
-}
-}
-
 LabelHelper::LabelHelper(const LabelSettings& settings, int numberOfThreads, Ranks::Show show)
   : Settings(settings), NumberOfThreads(numberOfThreads), Show(std::move(show))
 {
@@ -44,15 +19,9 @@ LabelHelper::LabelHelper(const LabelSettings& settings, int numberOfThreads, Ran
 
 LabelHelper::~LabelHelper()
 {
-  this->Wait();
-}
-
-void LabelHelper::Wait()
-{
-  if (this->Worker.joinable())
+  if (this->Work)
   {
-    this->Work->State.IsStopped = this->Work->State.IsStopped || !this->IsThrough;
-    this->Worker.join();
+    this->Work->State.IsStopped = true;
   }
 }
 
@@ -65,29 +34,19 @@ void LabelHelper::Begin(
   {
     return;
   }
+  vtkNew<vtkImageData> place;
+  place->CopyStructure(frame);
   RankMessage message;
-  message.Words << static_cast<int>(Step::Begin) << map.NumberOfObjects;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    message.Words << map.Size[axis] << map.Spacing[axis];
-  }
-  PutPlace(message, PlaceOf(frame));
-  PutCount(message, names.size());
-  for (const std::string& name : names)
-  {
-    message.Words << name;
-  }
+  message << Step::Begin << map.NumberOfObjects << map.Size << map.Spacing << names;
+  message.Put(place);
   ranks.AskAll(RankQuestion::Own, message);
   const auto slice = static_cast<std::size_t>(VoxelBox::Of(map.Size).NumberOf(0, 0, 1));
   for (std::size_t first = 0; first < map.Voxels.size(); first += slice)
   {
     RankMessage part;
-    part.Words << static_cast<int>(Step::TakeSlice);
-    vtkNew<vtkUnsignedShortArray> voxels;
-    constexpr int isOurs = 1;
-    voxels->SetArray(const_cast<LabelMap::Number*>(map.Voxels.data()) + first,
-      static_cast<vtkIdType>(slice), isOurs);
-    part.Put(voxels);
+    part << Step::TakeSlice;
+    part.Pass(
+      const_cast<LabelMap::Number*>(map.Voxels.data()) + first, slice * sizeof(LabelMap::Number));
     ranks.AskAll(RankQuestion::Own, part);
   }
 }
@@ -98,18 +57,7 @@ void LabelHelper::Do(Ranks& ranks, LabelWork::Kind kind, const std::vector<std::
   for (int rank = 1; rank < ranks.Count(); ++rank)
   {
     RankMessage message;
-    message.Words << static_cast<int>(Step::Do) << static_cast<int>(kind);
-    PutCount(message, isDue.size());
-    for (const std::uint8_t due : isDue)
-    {
-      message.Words << due;
-    }
-    const std::vector<std::size_t>& items = own[static_cast<std::size_t>(rank)];
-    PutCount(message, items.size());
-    for (const std::size_t item : items)
-    {
-      PutCount(message, item);
-    }
+    message << Step::Do << kind << isDue << own[static_cast<std::size_t>(rank)];
     ranks.Ask(rank, RankQuestion::Own, message);
   }
 }
@@ -117,22 +65,15 @@ void LabelHelper::Do(Ranks& ranks, LabelWork::Kind kind, const std::vector<std::
 auto LabelHelper::Tell(Ranks& ranks, double share, const std::string& text, bool isStopped) -> Told
 {
   RankMessage message;
-  message.Words << static_cast<int>(Step::Tell) << share << text << isStopped;
-  std::vector<RankMessage> answers = ranks.AskAll(RankQuestion::OwnProgress, message);
+  message << Step::Tell << share << text << isStopped;
   Told told;
-  for (std::size_t rank = 1; rank < answers.size(); ++rank)
+  for (RankMessage& answer : ranks.AskAll(RankQuestion::OwnProgress, message))
   {
-    LabelProgress of;
-    vtkTypeInt64 finished = 0;
-    vtkTypeInt64 underWay = -1;
-    bool stops = false;
-    bool isThrough = false;
-    answers[rank].Words >> of.Done >> finished >> underWay >> stops >> isThrough;
-    of.Finished = finished;
-    of.UnderWay = underWay;
-    told.Done.Add(of);
-    told.Stop = told.Stop || stops;
-    told.AreThrough = told.AreThrough && isThrough;
+    Told of;
+    answer >> of;
+    told.Done.Add(of.Done);
+    told.Stop = told.Stop || of.Stop;
+    told.AreThrough = told.AreThrough && of.AreThrough;
   }
   return told;
 }
@@ -140,15 +81,11 @@ auto LabelHelper::Tell(Ranks& ranks, double share, const std::string& text, bool
 LabelSurface LabelHelper::Take(Ranks& ranks, int rank, std::size_t item)
 {
   RankMessage message;
-  message.Words << static_cast<int>(Step::Give);
-  PutCount(message, item);
+  message << Step::Give << item;
   RankMessage answer = ranks.Ask(rank, RankQuestion::Own, message);
   LabelSurface made;
-  vtkTypeInt64 wrong = 0;
-  vtkTypeInt64 missed = 0;
-  answer.Words >> wrong >> missed >> made.VolumeError >> made.IsFinished >> made.Seconds;
-  made.WrongVoxels = wrong;
-  made.MissedVoxels = missed;
+  answer >> made.WrongVoxels >> made.MissedVoxels >> made.VolumeError >> made.IsFinished >>
+    made.Seconds;
   made.Surface = vtkPolyData::SafeDownCast(answer.TakeData());
   return made;
 }
@@ -156,16 +93,7 @@ LabelSurface LabelHelper::Take(Ranks& ranks, int rank, std::size_t item)
 void LabelHelper::Lower(Ranks& ranks, const std::vector<std::vector<std::array<int, 3>>>& voxels)
 {
   RankMessage message;
-  message.Words << static_cast<int>(Step::Lower);
-  PutCount(message, voxels.size());
-  for (const auto& ofObject : voxels)
-  {
-    PutCount(message, ofObject.size());
-    for (const std::array<int, 3>& voxel : ofObject)
-    {
-      message.Words << voxel[0] << voxel[1] << voxel[2];
-    }
-  }
+  message << Step::Lower << voxels;
   ranks.AskAll(RankQuestion::Own, message);
 }
 
@@ -173,7 +101,9 @@ void LabelHelper::Lower(Ranks& ranks, const std::vector<std::vector<std::array<i
 
 RankMessage LabelHelper::Answer(RankMessage& message)
 {
-  switch (static_cast<Step>(TakeWord<int>(message)))
+  Step step = Step::Begin;
+  message >> step;
+  switch (step)
   {
     case Step::Begin:
       this->TakeMap(message);
@@ -190,15 +120,8 @@ RankMessage LabelHelper::Answer(RankMessage& message)
       return this->Give(message);
     case Step::Lower:
     {
-      std::vector<std::vector<std::array<int, 3>>> voxels(TakeCount(message));
-      for (auto& ofObject : voxels)
-      {
-        ofObject.resize(TakeCount(message));
-        for (std::array<int, 3>& voxel : ofObject)
-        {
-          message.Words >> voxel[0] >> voxel[1] >> voxel[2];
-        }
-      }
+      std::vector<std::vector<std::array<int, 3>>> voxels;
+      message >> voxels;
       this->Maker->Lower(voxels);
     }
   }
@@ -207,31 +130,16 @@ RankMessage LabelHelper::Answer(RankMessage& message)
 
 void LabelHelper::TakeMap(RankMessage& message)
 {
-  message.Words >> this->Map.NumberOfObjects;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    message.Words >> this->Map.Size[axis] >> this->Map.Spacing[axis];
-  }
-  Place place = TakePlace(message);
-  this->Frame = vtkSmartPointer<vtkImageData>::New();
-  this->Frame->SetExtent(place.Extent.data());
-  this->Frame->SetOrigin(place.Origin.data());
-  this->Frame->SetSpacing(place.Spacing.data());
-  this->Frame->SetDirectionMatrix(place.Direction.data());
-  this->Names.resize(TakeCount(message));
-  for (std::string& name : this->Names)
-  {
-    message.Words >> name;
-  }
+  message >> this->Map.NumberOfObjects >> this->Map.Size >> this->Map.Spacing >> this->Names;
+  this->Frame = vtkImageData::SafeDownCast(message.TakeData());
   this->Map.Voxels.resize(static_cast<std::size_t>(VoxelBox::Of(this->Map.Size).Count()));
 }
 
 void LabelHelper::TakeSlice(RankMessage& message)
 {
-  const auto slice = vtkUnsignedShortArray::SafeDownCast(message.TakeArray());
-  const auto count = static_cast<std::size_t>(slice->GetNumberOfTuples());
-  std::copy_n(slice->GetPointer(0), count, this->Map.Voxels.data() + this->Taken);
-  this->Taken += count;
+  const auto slice = static_cast<std::size_t>(VoxelBox::Of(this->Map.Size).NumberOf(0, 0, 1));
+  message.Pass(this->Map.Voxels.data() + this->Taken, slice * sizeof(LabelMap::Number));
+  this->Taken += slice;
   if (this->Taken == this->Map.Voxels.size())
   {
     HostThreads threads(this->NumberOfThreads);
@@ -243,59 +151,44 @@ void LabelHelper::TakeSlice(RankMessage& message)
 
 void LabelHelper::StartWork(RankMessage& message)
 {
-  this->Wait(); // It is through.
-  const auto kind = static_cast<LabelWork::Kind>(TakeWord<int>(message));
-  std::vector<std::uint8_t> isDue(TakeCount(message));
-  for (std::uint8_t& due : isDue)
-  {
-    message.Words >> due;
-  }
-  std::vector<std::size_t> own(TakeCount(message));
-  std::generate(own.begin(), own.end(), [&] { return TakeCount(message); });
+  LabelWork::Kind kind{};
+  std::vector<std::uint8_t> isDue;
+  std::vector<std::size_t> own;
+  message >> kind >> isDue >> own;
   this->Work->State.Expect("", isDue, own); // Now: the first one may ask how far it is at once.
-  this->IsThrough = false;
-  this->Worker = std::thread(
-    [this, kind, own]
-    {
-      try
-      {
-        this->Work->Do(kind, own, false, [] {});
-      }
-      catch (...)
-      {
-        this->Failure = std::current_exception();
-      }
-      this->IsThrough = true;
-    });
+  this->Done =
+    std::async(std::launch::async, [this, kind, own] { this->Work->Do(kind, own, false, [] {}); });
 }
 
 RankMessage LabelHelper::TellOfWork(RankMessage& message)
 {
-  const auto share = TakeWord<double>(message);
-  const auto text = TakeWord<std::string>(message);
+  double share = 0.0;
+  std::string text;
+  bool isStopped = false;
+  message >> share >> text >> isStopped;
   LabelCourse& state = this->Work->State;
-  state.IsStopped = state.IsStopped || TakeWord<bool>(message);
-  const bool isThrough = this->IsThrough;
-  if (isThrough && this->Failure)
+  state.IsStopped = state.IsStopped || isStopped;
+  const bool isThrough = !this->Done.valid() ||
+    this->Done.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+  if (isThrough && this->Done.valid())
   {
-    std::rethrow_exception(this->Failure);
+    this->Done.get(); // It may have failed.
   }
   const bool stops = !this->Show(share, text);
-  const LabelProgress here = state.Here();
   RankMessage answer;
-  answer.Words << here.Done << static_cast<vtkTypeInt64>(here.Finished)
-               << static_cast<vtkTypeInt64>(here.UnderWay) << stops << isThrough;
+  answer << Told{ state.Here(), stops, isThrough };
   return answer;
 }
 
 RankMessage LabelHelper::Give(RankMessage& message)
 {
-  const LabelSurface made = std::exchange(this->Work->Surfaces[TakeCount(message)], {});
+  std::size_t item = 0;
+  message >> item;
+  const LabelSurface made = std::exchange(this->Work->Surfaces[item], {});
   RankMessage answer;
-  answer.Words << static_cast<vtkTypeInt64>(made.WrongVoxels)
-               << static_cast<vtkTypeInt64>(made.MissedVoxels) << made.VolumeError
-               << made.IsFinished << made.Seconds;
-  answer.Put(made.Surface.Get());
+  answer << made.WrongVoxels << made.MissedVoxels << made.VolumeError << made.IsFinished
+         << made.Seconds;
+  answer.Put(made.Surface);
   return answer;
 }
 }

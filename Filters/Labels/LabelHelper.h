@@ -14,14 +14,11 @@
 #include <vtkSmartPointer.h>
 
 #include <array>
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <exception>
-#include <memory>
+#include <future>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
 namespace volumic
@@ -75,7 +72,6 @@ private:
   void StartWork(RankMessage& message);
   RankMessage TellOfWork(RankMessage& message);
   RankMessage Give(RankMessage& message);
-  void Wait();
 
   const LabelSettings& Settings;
   int NumberOfThreads;
@@ -87,9 +83,7 @@ private:
   std::optional<LabelBricks> Bricks;
   std::optional<LabelSurfaceMaker> Maker;
   std::optional<LabelWork> Work;
-  std::thread Worker;
-  std::exception_ptr Failure; ///< of that, once it is through
-  std::atomic<bool> IsThrough{ true };
+  std::future<void> Done; ///< the work that is under way; last, as its end is waited for
 };
 }
 

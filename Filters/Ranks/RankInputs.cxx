@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Ranks/RankInputs.h"
+#include "Ranks/Ranks.h"
 
 #include "Core/Common/Refuse.h"
 #include "Core/Image/VoxelBox.h"
@@ -8,21 +8,22 @@
 #include "Input/ImageVoxels.h"
 #include "Input/InputImage.h"
 #include "Input/SlabImage.h"
-#include "Ranks/JoinSurfaces.h"
+#include "Ranks/Pieces.h"
 
 #include <vtkCompositeDataSet.h>
 #include <vtkDataObject.h>
 #include <vtkImageData.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
+#include <vtkMatrix4x4.h>
 #include <vtkMultiBlockDataSet.h>
+#include <vtkNew.h>
 #include <vtkPolyData.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
+#include <utility>
 #include <vector>
 
 namespace volumic
@@ -32,73 +33,64 @@ namespace
 /** Bytes that go at once. */
 constexpr double PartBytes = 16 << 20;
 
-/** The images that an input means: its blocks, or one; null where there is nothing. */
+/** The images that an input means: its blocks, or one. Some, or all, may be null or empty. */
+vtkSmartPointer<vtkMultiBlockDataSet> ImagesIn(vtkDataObject* input)
+{
+  vtkSmartPointer<vtkMultiBlockDataSet> images = vtkMultiBlockDataSet::SafeDownCast(input);
+  bool areImages = images && images->GetNumberOfBlocks() > 1;
+  for (unsigned int b = 0; areImages && b < images->GetNumberOfBlocks(); ++b)
+  {
+    areImages = !images->GetBlock(b) || vtkImageData::SafeDownCast(images->GetBlock(b));
+  }
+  if (areImages)
+  {
+    return images;
+  }
+  images = vtkSmartPointer<vtkMultiBlockDataSet>::New();
+  const bool isEmpty = !input ||
+    (vtkCompositeDataSet::SafeDownCast(input) &&
+      input->GetNumberOfElements(vtkDataObject::POINT) == 0);
+  images->SetBlock(0, isEmpty ? nullptr : ImageOf(input));
+  return images;
+}
+
+/** The same without voxels. */
+vtkSmartPointer<vtkMultiBlockDataSet> FramesOf(vtkMultiBlockDataSet* images)
+{
+  const auto frames = vtkSmartPointer<vtkMultiBlockDataSet>::New();
+  for (unsigned int b = 0; b < images->GetNumberOfBlocks(); ++b)
+  {
+    vtkNew<vtkImageData> frame;
+    if (auto* image = vtkImageData::SafeDownCast(images->GetBlock(b)))
+    {
+      frame->CopyStructure(image);
+    }
+    frames->SetBlock(b, frame);
+  }
+  return frames;
+}
+
+/** One image, by rank; null where there is nothing of it. */
 using Images = std::vector<vtkSmartPointer<vtkImageData>>;
 
-bool HasVoxels(vtkImageData* image)
-{
-  return image && image->GetNumberOfPoints() > 0;
-}
-
-Images ImagesIn(vtkDataObject* input)
-{
-  if (!input)
-  {
-    return { nullptr };
-  }
-  if (auto* image = vtkImageData::SafeDownCast(input))
-  {
-    return { HasVoxels(image) ? image : nullptr };
-  }
-  auto* blocks = vtkMultiBlockDataSet::SafeDownCast(input);
-  Images images;
-  for (unsigned int h = 0; blocks && h < blocks->GetNumberOfBlocks(); ++h)
-  {
-    auto* image = vtkImageData::SafeDownCast(blocks->GetBlock(h));
-    if (blocks->GetBlock(h) && !image)
-    {
-      return { ImageOf(input) };
-    }
-    images.emplace_back(HasVoxels(image) ? image : nullptr);
-  }
-  const auto* composite = vtkCompositeDataSet::SafeDownCast(input);
-  if (images.size() > 1 || (composite && input->GetNumberOfElements(vtkDataObject::POINT) == 0))
-  {
-    return images.empty() ? Images{ nullptr } : images;
-  }
-  return { ImageOf(input) };
-}
-
-VoxelBox BoxOf(const Place& place)
+VoxelBox BoxOf(vtkImageData* image)
 {
   VoxelBox box;
-  for (int axis = 0; axis < 3; ++axis)
+  for (int axis = 0; image && axis < 3; ++axis)
   {
-    box.First[axis] = place.Extent[2 * axis];
-    box.End[axis] = place.Extent[2 * axis + 1] + 1;
+    box.First[axis] = image->GetExtent()[2 * axis];
+    box.End[axis] = image->GetExtent()[2 * axis + 1] + 1;
   }
-  return box.IsEmpty() ? VoxelBox() : box;
+  return box;
 }
 
-template <std::size_t N>
-bool AreClose(const std::array<double, N>& a, const std::array<double, N>& b, double tolerance)
+void CheckSamePlace(vtkImageData* first, vtkImageData* other, std::size_t rank)
 {
-  return std::equal(a.begin(), a.end(), b.begin(),
-    [tolerance](double x, double y) { return std::abs(x - y) <= tolerance; });
-}
-
-void CheckSamePlace(const Place& first, const Place& other, int rank)
-{
-  double size = 0.0;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const int last = std::max(std::abs(first.Extent[2 * axis + 1]), 1);
-    size = std::max(size, std::abs(first.Spacing[axis]) * last);
-  }
-  constexpr double share = 1e-6;
-  if (!AreClose(first.Spacing, other.Spacing, share * size) ||
-    !AreClose(first.Origin, other.Origin, share * size) ||
-    !AreClose(first.Direction, other.Direction, share))
+  const double tolerance = 1e-6 * first->GetLength();
+  const double* here = first->GetIndexToPhysicalMatrix()->GetData();
+  const double* there = other->GetIndexToPhysicalMatrix()->GetData();
+  if (!std::equal(here, here + 16, there,
+        [tolerance](double a, double b) { return std::abs(a - b) <= tolerance; }))
   {
     Refuse("the pieces of the image that the processes hold are not of one image: origin, spacing "
            "or direction differ at process ",
@@ -107,24 +99,23 @@ void CheckSamePlace(const Place& first, const Place& other, int rank)
 }
 
 /** What all ranks have of one image, of which nobody may lack a voxel. */
-VoxelBox CheckPlaces(const std::vector<Place>& places)
+VoxelBox CheckPieces(const Images& pieces)
 {
-  const Place* first = nullptr;
+  vtkImageData* first = nullptr;
   VoxelBox whole;
-  for (std::size_t rank = 0; rank < places.size(); ++rank)
+  for (std::size_t rank = 0; rank < pieces.size(); ++rank)
   {
-    const VoxelBox box = BoxOf(places[rank]);
-    first = first || box.IsEmpty() ? first : &places[rank];
-    if (!box.IsEmpty())
+    first = first ? first : pieces[rank].Get();
+    if (pieces[rank])
     {
-      CheckSamePlace(*first, places[rank], static_cast<int>(rank));
-      whole = whole.With(box);
+      CheckSamePlace(first, pieces[rank], rank);
+      whole = whole.With(BoxOf(pieces[rank]));
     }
   }
   std::vector<VoxelBox> missing = { whole };
-  for (const Place& place : places)
+  for (vtkImageData* piece : pieces)
   {
-    missing = Without(missing, BoxOf(place));
+    missing = Without(missing, BoxOf(piece));
   }
   if (!missing.empty() && !whole.IsEmpty())
   {
@@ -134,14 +125,14 @@ VoxelBox CheckPlaces(const std::vector<Place>& places)
   return whole;
 }
 
-/** The whole of one image. @param places of all ranks */
+/** The whole of one image. @param pieces by rank; of the others without voxels */
 vtkSmartPointer<vtkImageData> TakeImage(
-  Ranks& ranks, vtkImageData* own, const std::vector<Place>& places, int port, int block)
+  Ranks& ranks, const Images& pieces, int port, unsigned int block)
 {
-  const VoxelBox box = CheckPlaces(places);
-  if (box.IsEmpty() || BoxOf(places[0]) == box)
+  const VoxelBox box = CheckPieces(pieces);
+  if (box.IsEmpty() || BoxOf(pieces[0]) == box)
   {
-    return own;
+    return pieces[0];
   }
   SlabImage whole(
     { box.First[0], box.End[0] - 1, box.First[1], box.End[1] - 1, box.First[2], box.End[2] - 1 },
@@ -149,54 +140,34 @@ vtkSmartPointer<vtkImageData> TakeImage(
   // Of what several have the first one's stays.
   for (int rank = ranks.Count() - 1; rank > 0; --rank)
   {
-    const std::array<int, 6>& extent = places[static_cast<std::size_t>(rank)].Extent;
-    for (int first = extent[4]; first <= extent[5];)
+    const VoxelBox piece = BoxOf(pieces[static_cast<std::size_t>(rank)]);
+    for (int first = piece.First[2]; first < piece.End[2];)
     {
       RankMessage wanted;
-      wanted.Words << port << block << first;
+      wanted << port << block << first;
       RankMessage part = ranks.Ask(rank, RankQuestion::Part, wanted);
       const vtkSmartPointer<vtkImageData> slab = vtkImageData::SafeDownCast(part.TakeData());
       whole.Take(slab);
       first = slab->GetExtent()[5] + 1;
     }
   }
-  if (own)
+  if (pieces[0])
   {
-    whole.Take(own);
+    whole.Take(pieces[0]);
   }
   return whole.Image();
-}
-
-RankMessage GivePlaces(const Images& images)
-{
-  RankMessage message;
-  message.Words << static_cast<int>(images.size());
-  for (vtkImageData* image : images)
-  {
-    PutPlace(message, PlaceOf(image));
-  }
-  return message;
-}
-
-std::vector<Place> TakePlaces(RankMessage& message)
-{
-  int count = 0;
-  message.Words >> count;
-  std::vector<Place> places;
-  std::generate_n(std::back_inserter(places), count, [&] { return TakePlace(message); });
-  return places;
 }
 
 /** Some slices of an image. The last ones let go of it, where the data of its port are released. */
 RankMessage GivePart(RankMessage& message, const FilterCall& call)
 {
   int port = 0;
-  int block = 0;
+  unsigned int block = 0;
   int first = 0;
-  message.Words >> port >> block >> first;
+  message >> port >> block >> first;
   vtkDataObject* input = vtkDataObject::GetData(call.Inputs[port]);
-  const Images images = ImagesIn(input);
-  vtkImageData* image = images[static_cast<std::size_t>(block)];
+  const vtkSmartPointer<vtkMultiBlockDataSet> images = ImagesIn(input);
+  auto* image = vtkImageData::SafeDownCast(images->GetBlock(block));
   const double bytes =
     static_cast<double>(image->GetActualMemorySize()) * 1024.0 / image->GetDimensions()[2];
   // Two at least, as cells lie between two.
@@ -210,7 +181,7 @@ RankMessage GivePart(RankMessage& message, const FilterCall& call)
   const auto part = vtkSmartPointer<vtkImageData>::New();
   part->ShallowCopy(image);
   part->Crop(extent);
-  const bool isAll = extent[5] == last && static_cast<std::size_t>(block) + 1 == images.size();
+  const bool isAll = extent[5] == last && block + 1 == images->GetNumberOfBlocks();
   if (isAll && AreReleased(call.Filter, port))
   {
     input->ReleaseData();
@@ -221,54 +192,51 @@ RankMessage GivePart(RankMessage& message, const FilterCall& call)
 }
 }
 
-bool AskForInputs(vtkMultiProcessController* controller, const FilterCall& call)
+void Ranks::AskForInputs() const
 {
-  const bool areMany = Ranks(controller, call.Request, call.Outputs).AreMany();
-  const int ports = call.Filter->GetNumberOfInputPorts();
-  areMany ? AskForPieces(call.Request, call.Inputs, ports, call.Outputs)
-          : AskForWholeInputs(call.Request, call.Inputs, ports, call.Outputs);
-  return areMany;
+  const int ports = this->Call.Filter->GetNumberOfInputPorts();
+  (this->AreMany() ? AskForPieces : AskForWholeInputs)(
+    this->Call.Request, this->Call.Inputs, ports, this->Call.Outputs);
 }
 
-vtkSmartPointer<vtkDataObject> TakeImages(Ranks& ranks, const FilterCall& call, int port)
+vtkSmartPointer<vtkDataObject> Ranks::TakeImages(int port)
 {
-  vtkDataObject* input = vtkDataObject::GetData(call.Inputs[port]);
-  if (!ranks.AreMany())
+  vtkDataObject* input = vtkDataObject::GetData(this->Call.Inputs[port]);
+  if (!this->AreMany())
   {
     return input;
   }
   RankMessage wanted;
-  wanted.Words << port;
-  std::vector<RankMessage> answers = ranks.AskAll(RankQuestion::Places, wanted);
-  std::vector<std::vector<Place>> others;
-  std::size_t count = 1;
-  bool hasOthers = false;
-  for (std::size_t rank = 1; rank < answers.size(); ++rank)
+  wanted << port;
+  std::vector<vtkSmartPointer<vtkMultiBlockDataSet>> all(1);
+  vtkIdType voxelsOfOthers = 0;
+  for (RankMessage& answer : this->AskAll(RankQuestion::Frames, wanted))
   {
-    others.push_back(TakePlaces(answers[rank]));
-    count = std::max(count, others.back().size());
-    hasOthers = hasOthers ||
-      std::any_of(others.back().begin(), others.back().end(),
-        [](const Place& place) { return !BoxOf(place).IsEmpty(); });
+    all.emplace_back(vtkMultiBlockDataSet::SafeDownCast(answer.TakeData()));
+    voxelsOfOthers += all.back()->GetNumberOfPoints();
   }
-  if (!hasOthers)
+  if (voxelsOfOthers == 0)
   {
     return input;
   }
-  Images own = ImagesIn(input);
-  count = std::max(count, own.size());
-  own.resize(count);
-  const auto whole = vtkSmartPointer<vtkMultiBlockDataSet>::New();
-  for (std::size_t block = 0; block < count; ++block)
+  all[0] = vtkSmartPointer<vtkMultiBlockDataSet>::New();
+  all[0]->ShallowCopy(ImagesIn(input));
+  unsigned int count = 0;
+  for (vtkMultiBlockDataSet* of : all)
   {
-    std::vector<Place> places = { PlaceOf(own[block]) };
-    for (const std::vector<Place>& of : others)
+    count = std::max(count, of->GetNumberOfBlocks());
+  }
+  const auto whole = vtkSmartPointer<vtkMultiBlockDataSet>::New();
+  for (unsigned int block = 0; block < count; ++block)
+  {
+    Images pieces;
+    for (vtkMultiBlockDataSet* of : all)
     {
-      places.push_back(block < of.size() ? of[block] : Place());
+      auto* image = vtkImageData::SafeDownCast(of->GetBlock(block));
+      pieces.emplace_back(image && image->GetNumberOfPoints() > 0 ? image : nullptr);
     }
-    whole->SetBlock(static_cast<unsigned int>(block),
-      TakeImage(ranks, own[block], places, port, static_cast<int>(block)));
-    own[block] = nullptr;
+    whole->SetBlock(block, TakeImage(*this, pieces, port, block));
+    all[0]->SetBlock(block, nullptr);
   }
   if (count == 1)
   {
@@ -278,44 +246,43 @@ vtkSmartPointer<vtkDataObject> TakeImages(Ranks& ranks, const FilterCall& call, 
   return whole;
 }
 
-vtkSmartPointer<vtkPolyData> TakePoints(Ranks& ranks, const FilterCall& call, int port)
+vtkSmartPointer<vtkPolyData> Ranks::TakePoints(int port)
 {
-  auto* own = vtkPolyData::GetData(call.Inputs[port]);
-  if (!ranks.AreMany())
+  auto* own = vtkPolyData::GetData(this->Call.Inputs[port]);
+  if (!this->AreMany())
   {
     return own;
   }
   RankMessage wanted;
-  wanted.Words << port;
-  std::vector<RankMessage> answers = ranks.AskAll(RankQuestion::Points, wanted);
-  std::vector<vtkSmartPointer<vtkPolyData>> pieces = { own };
-  bool isGiven = own != nullptr;
-  for (auto answer = answers.begin() + 1; answer != answers.end(); ++answer)
+  wanted << port;
+  std::vector<vtkSmartPointer<vtkPolyData>> pieces = { OwnPartOf(own) };
+  for (RankMessage& answer : this->AskAll(RankQuestion::Points, wanted))
   {
-    bool isThere = false;
-    answer->Words >> isThere;
-    isGiven = isGiven || isThere;
-    pieces.emplace_back(vtkPolyData::SafeDownCast(answer->TakeData()));
+    pieces.emplace_back(vtkPolyData::SafeDownCast(answer.TakeData()));
   }
+  const bool isGiven =
+    std::any_of(pieces.begin(), pieces.end(), [](vtkPolyData* piece) { return piece != nullptr; });
   return isGiven ? JoinSurfaces(pieces) : nullptr;
 }
 
-RankMessage AnswerForInputs(RankQuestion question, RankMessage& message, const FilterCall& call)
+RankMessage Ranks::GiveInput(RankQuestion question, RankMessage& message) const
 {
   if (question == RankQuestion::Part)
   {
-    return GivePart(message, call);
+    return GivePart(message, this->Call);
   }
-  RankMessage answer;
   int port = 0;
-  message.Words >> port;
-  if (question == RankQuestion::Places)
+  message >> port;
+  vtkDataObject* input = vtkDataObject::GetData(this->Call.Inputs[port]);
+  RankMessage answer;
+  if (question == RankQuestion::Frames)
   {
-    return GivePlaces(ImagesIn(vtkDataObject::GetData(call.Inputs[port])));
+    answer.Put(FramesOf(ImagesIn(input)));
   }
-  auto* points = vtkPolyData::GetData(call.Inputs[port]);
-  answer.Words << (points != nullptr);
-  answer.Put(points && points->GetNumberOfPoints() > 0 ? OwnPartOf(points).Get() : nullptr);
+  else
+  {
+    answer.Put(OwnPartOf(vtkPolyData::SafeDownCast(input)));
+  }
   return answer;
 }
 }

@@ -7,6 +7,7 @@
 #include <vtkAbstractArray.h>
 #include <vtkCellArray.h>
 #include <vtkCompositeDataSet.h>
+#include <vtkDataArray.h>
 #include <vtkDataObject.h>
 #include <vtkDataObjectTypes.h>
 #include <vtkDataSetAttributes.h>
@@ -23,7 +24,8 @@
 #include <vtkTable.h>
 
 #include <algorithm>
-#include <cstddef>
+#include <array>
+#include <cstring>
 #include <stdexcept>
 #include <string>
 
@@ -31,8 +33,8 @@ namespace volumic
 {
 namespace
 {
-/** What has arrays beside the field data. */
-constexpr int Associations[] = { vtkDataObject::POINT, vtkDataObject::CELL, vtkDataObject::ROW };
+/** No tag of VTK or ParaView: they count from 1, and from 100, 8000 and 99990. */
+constexpr int Tag = 22095;
 
 void Check(bool isThrough)
 {
@@ -42,284 +44,217 @@ void Check(bool isThrough)
   }
 }
 
-std::string NameIn(vtkAbstractArray* array)
+std::string TextOf(const char* text)
 {
-  return array->GetName() ? array->GetName() : "";
+  return text ? text : "";
 }
 
-void PutTexts(RankMessage& message, vtkStringArray* texts)
+/** An array of numbers or texts; others stay behind. */
+void PassArray(RankMessage& message, vtkSmartPointer<vtkAbstractArray>& array)
 {
-  message.Words << NameIn(texts) << texts->GetNumberOfComponents()
-                << static_cast<vtkTypeInt64>(texts->GetNumberOfTuples());
-  for (vtkIdType i = 0; i < texts->GetNumberOfValues(); ++i)
+  vtkSmartPointer<vtkDataArray> numbers = vtkDataArray::SafeDownCast(array);
+  numbers = numbers ? ContiguousVoxels(numbers) : nullptr;
+  const bool isKnown = numbers || vtkStringArray::SafeDownCast(array);
+  int type = numbers ? numbers->GetDataType() : isKnown ? VTK_STRING : VTK_VOID;
+  std::string name = TextOf(isKnown ? array->GetName() : nullptr);
+  int components = isKnown ? array->GetNumberOfComponents() : 1;
+  vtkIdType tuples = isKnown ? array->GetNumberOfTuples() : 0;
+  message& type& name& components& tuples;
+  if (message.IsReceived() && type != VTK_VOID)
   {
-    message.Words << texts->GetValue(i);
+    array = vtkSmartPointer<vtkAbstractArray>::Take(vtkAbstractArray::CreateArray(type));
+    array->SetName(name.empty() ? nullptr : name.c_str());
+    array->SetNumberOfComponents(components);
+    array->SetNumberOfTuples(tuples);
+    numbers = vtkDataArray::SafeDownCast(array);
+  }
+  if (numbers)
+  {
+    message.Pass(numbers->GetVoidPointer(0),
+      static_cast<std::size_t>(numbers->GetNumberOfValues() * numbers->GetDataTypeSize()));
+  }
+  auto* texts = vtkStringArray::SafeDownCast(array);
+  for (vtkIdType i = 0; texts && i < texts->GetNumberOfValues(); ++i)
+  {
+    message& static_cast<std::string&>(texts->GetValue(i));
   }
 }
 
-vtkSmartPointer<vtkStringArray> TakeTexts(RankMessage& message)
+/** Likewise; another one in its place. */
+vtkSmartPointer<vtkDataArray> PassNumbers(RankMessage& message, vtkDataArray* given)
 {
-  std::string name;
-  int components = 1;
-  vtkTypeInt64 tuples = 0;
-  message.Words >> name >> components >> tuples;
-  auto texts = vtkSmartPointer<vtkStringArray>::New();
-  texts->SetName(name.c_str());
-  texts->SetNumberOfComponents(components);
-  texts->SetNumberOfTuples(tuples);
-  for (vtkIdType i = 0; i < texts->GetNumberOfValues(); ++i)
-  {
-    std::string text;
-    message.Words >> text;
-    texts->SetValue(i, text);
-  }
-  return texts;
-}
+  vtkSmartPointer<vtkAbstractArray> array = given;
+  PassArray(message, array);
+  return vtkDataArray::SafeDownCast(array);
 }
 
-void RankMessage::Put(vtkDataArray* array)
-{
-  this->Arrays.emplace_back(ContiguousVoxels(array));
-}
-
-vtkSmartPointer<vtkDataArray> RankMessage::TakeArray()
-{
-  return this->Arrays.at(this->Taken++);
-}
-
-void RankMessage::PutArrays(vtkFieldData* arrays)
+void PassArrays(RankMessage& message, vtkFieldData* arrays)
 {
   auto* attributes = vtkDataSetAttributes::SafeDownCast(arrays);
-  this->Words << arrays->GetNumberOfArrays();
-  for (int i = 0; i < arrays->GetNumberOfArrays(); ++i)
-  {
-    auto* numbers = vtkDataArray::SafeDownCast(arrays->GetAbstractArray(i));
-    auto* texts = vtkStringArray::SafeDownCast(arrays->GetAbstractArray(i));
-    this->Words << (numbers != nullptr) << (texts != nullptr)
-                << (attributes ? attributes->IsArrayAnAttribute(i) : -1);
-    if (numbers)
-    {
-      this->Put(numbers);
-    }
-    else if (texts)
-    {
-      PutTexts(*this, texts);
-    }
-  }
-}
-
-void RankMessage::TakeInto(vtkFieldData* arrays)
-{
-  auto* attributes = vtkDataSetAttributes::SafeDownCast(arrays);
-  int count = 0;
-  this->Words >> count;
+  int count = arrays->GetNumberOfArrays();
+  message& count;
   for (int i = 0; i < count; ++i)
   {
-    bool areNumbers = false;
-    bool areTexts = false;
-    int attribute = -1;
-    this->Words >> areNumbers >> areTexts >> attribute;
-    if (!areNumbers && !areTexts)
-    {
-      continue;
-    }
-    const int place =
-      areNumbers ? arrays->AddArray(this->TakeArray()) : arrays->AddArray(TakeTexts(*this));
-    if (attributes && attribute >= 0)
+    vtkSmartPointer<vtkAbstractArray> array = arrays->GetAbstractArray(i);
+    int attribute = attributes && array ? attributes->IsArrayAnAttribute(i) : -1;
+    PassArray(message, array);
+    message& attribute;
+    const int place = message.IsReceived() && array ? arrays->AddArray(array) : -1;
+    if (place >= 0 && attribute >= 0)
     {
       attributes->SetActiveAttribute(place, attribute);
     }
   }
 }
 
-void RankMessage::Put(vtkDataObject* data)
+void PassShape(RankMessage& message, vtkPolyData* surface)
 {
-  auto* surface = vtkPolyData::SafeDownCast(data);
-  auto* image = vtkImageData::SafeDownCast(data);
-  auto* blocks = vtkMultiBlockDataSet::SafeDownCast(data);
-  const bool isKnown = surface || image || blocks || vtkTable::SafeDownCast(data);
-  this->Words << (isKnown ? data->GetDataObjectType() : -1);
-  if (!isKnown)
+  vtkNew<vtkPoints> points;
+  vtkPoints* given = surface->GetPoints();
+  points->SetData(PassNumbers(message, (given ? given : points.Get())->GetData()));
+  const auto pass = [&message](vtkCellArray* of)
   {
-    return;
+    const vtkSmartPointer<vtkDataArray> offsets = PassNumbers(message, of->GetOffsetsArray());
+    auto cells = vtkSmartPointer<vtkCellArray>::New();
+    cells->SetData(offsets, PassNumbers(message, of->GetConnectivityArray()));
+    return cells;
+  };
+  const auto verts = pass(surface->GetVerts());
+  const auto lines = pass(surface->GetLines());
+  const auto polys = pass(surface->GetPolys());
+  const auto strips = pass(surface->GetStrips());
+  if (message.IsReceived())
+  {
+    surface->SetPoints(points);
+    surface->SetVerts(verts);
+    surface->SetLines(lines);
+    surface->SetPolys(polys);
+    surface->SetStrips(strips);
   }
-  this->PutArrays(data->GetFieldData());
-  for (const int type : Associations)
+}
+
+void PassShape(RankMessage& message, vtkImageData* image)
+{
+  std::array<int, 6> extent;
+  std::array<double, 3> origin;
+  std::array<double, 3> spacing;
+  std::array<double, 9> direction;
+  image->GetExtent(extent.data());
+  image->GetOrigin(origin.data());
+  image->GetSpacing(spacing.data());
+  std::copy_n(image->GetDirectionMatrix()->GetData(), 9, direction.begin());
+  message& extent& origin& spacing& direction;
+  if (message.IsReceived())
+  {
+    image->SetExtent(extent.data());
+    image->SetOrigin(origin.data());
+    image->SetSpacing(spacing.data());
+    image->SetDirectionMatrix(direction.data());
+  }
+}
+
+void PassShape(RankMessage& message, vtkMultiBlockDataSet* blocks)
+{
+  unsigned int count = blocks->GetNumberOfBlocks();
+  message& count;
+  for (unsigned int b = 0; b < count; ++b)
+  {
+    std::string name = TextOf(
+      blocks->HasMetaData(b) ? blocks->GetMetaData(b)->Get(vtkCompositeDataSet::NAME()) : nullptr);
+    message& name;
+    if (message.IsReceived())
+    {
+      blocks->SetBlock(b, message.TakeData());
+      blocks->GetMetaData(b)->Set(vtkCompositeDataSet::NAME(), name.c_str());
+    }
+    else
+    {
+      message.Put(blocks->GetBlock(b));
+    }
+  }
+}
+
+/** All that the data have. */
+void PassContents(RankMessage& message, vtkDataObject* data)
+{
+  PassArrays(message, data->GetFieldData());
+  for (const int type : { vtkDataObject::POINT, vtkDataObject::CELL, vtkDataObject::ROW })
   {
     if (vtkDataSetAttributes* attributes = data->GetAttributes(type))
     {
-      this->PutArrays(attributes);
+      PassArrays(message, attributes);
     }
   }
-  if (surface)
+  if (auto* surface = vtkPolyData::SafeDownCast(data))
   {
-    this->Words << (surface->GetPoints() != nullptr);
-    if (surface->GetPoints())
-    {
-      this->Put(surface->GetPoints()->GetData());
-    }
-    for (vtkCellArray* cells :
-      { surface->GetVerts(), surface->GetLines(), surface->GetPolys(), surface->GetStrips() })
-    {
-      this->Put(cells->GetOffsetsArray());
-      this->Put(cells->GetConnectivityArray());
-    }
+    PassShape(message, surface);
   }
-  else if (image)
+  else if (auto* image = vtkImageData::SafeDownCast(data))
   {
-    PutPlace(*this, PlaceOf(image));
+    PassShape(message, image);
   }
-  else if (blocks)
+  else if (auto* blocks = vtkMultiBlockDataSet::SafeDownCast(data))
   {
-    this->Words << static_cast<int>(blocks->GetNumberOfBlocks());
-    for (unsigned int b = 0; b < blocks->GetNumberOfBlocks(); ++b)
-    {
-      const char* name =
-        blocks->HasMetaData(b) ? blocks->GetMetaData(b)->Get(vtkCompositeDataSet::NAME()) : nullptr;
-      this->Words << std::string(name ? name : "");
-      this->Put(blocks->GetBlock(b));
-    }
+    PassShape(message, blocks);
+  }
+}
+}
+
+void RankMessage::Pass(void* bytes, std::size_t count)
+{
+  if (!this->WasReceived)
+  {
+    this->Taken = this->Bytes.size();
+    this->Bytes.resize(this->Taken + count);
+  }
+  Check(count <= this->Bytes.size() - this->Taken);
+  if (count > 0)
+  {
+    char* here = this->Bytes.data() + this->Taken;
+    this->WasReceived ? std::memcpy(bytes, here, count) : std::memcpy(here, bytes, count);
+  }
+  this->Taken += count;
+}
+
+void RankMessage::Put(vtkDataObject* data)
+{
+  const bool isKnown = vtkPolyData::SafeDownCast(data) || vtkImageData::SafeDownCast(data) ||
+    vtkMultiBlockDataSet::SafeDownCast(data) || vtkTable::SafeDownCast(data);
+  *this << (isKnown ? data->GetDataObjectType() : -1);
+  if (isKnown)
+  {
+    PassContents(*this, data);
   }
 }
 
 vtkSmartPointer<vtkDataObject> RankMessage::TakeData()
 {
   int type = -1;
-  this->Words >> type;
+  *this >> type;
   if (type < 0)
   {
     return nullptr;
   }
   const auto data = vtkSmartPointer<vtkDataObject>::Take(vtkDataObjectTypes::NewDataObject(type));
-  this->TakeInto(data->GetFieldData());
-  for (const int association : Associations)
-  {
-    if (vtkDataSetAttributes* attributes = data->GetAttributes(association))
-    {
-      this->TakeInto(attributes);
-    }
-  }
-  if (auto* surface = vtkPolyData::SafeDownCast(data))
-  {
-    this->TakeShape(surface);
-  }
-  else if (auto* image = vtkImageData::SafeDownCast(data))
-  {
-    Place place = TakePlace(*this);
-    image->SetExtent(place.Extent.data());
-    image->SetOrigin(place.Origin.data());
-    image->SetSpacing(place.Spacing.data());
-    image->SetDirectionMatrix(place.Direction.data());
-  }
-  else if (auto* blocks = vtkMultiBlockDataSet::SafeDownCast(data))
-  {
-    int count = 0;
-    this->Words >> count;
-    for (unsigned int b = 0; b < static_cast<unsigned int>(count); ++b)
-    {
-      std::string name;
-      this->Words >> name;
-      blocks->SetBlock(b, this->TakeData());
-      blocks->GetMetaData(b)->Set(vtkCompositeDataSet::NAME(), name.c_str());
-    }
-  }
+  PassContents(*this, data);
   return data;
 }
 
-void RankMessage::TakeShape(vtkPolyData* surface)
+void RankMessage::Send(vtkMultiProcessController* controller, int to, int word) const
 {
-  bool hasPoints = false;
-  this->Words >> hasPoints;
-  if (hasPoints)
-  {
-    vtkNew<vtkPoints> points;
-    points->SetData(this->TakeArray());
-    surface->SetPoints(points);
-  }
-  const auto take = [this]
-  {
-    const vtkSmartPointer<vtkDataArray> offsets = this->TakeArray();
-    auto cells = vtkSmartPointer<vtkCellArray>::New();
-    cells->SetData(offsets, this->TakeArray());
-    return cells;
-  };
-  surface->SetVerts(take());
-  surface->SetLines(take());
-  surface->SetPolys(take());
-  surface->SetStrips(take());
+  const auto size = static_cast<vtkIdType>(this->Bytes.size());
+  const vtkIdType head[] = { word, size };
+  Check(controller->Send(head, 2, to, Tag) != 0 &&
+    (size == 0 || controller->Send(this->Bytes.data(), size, to, Tag) != 0));
 }
 
-void RankMessage::Send(vtkMultiProcessController* controller, int to, int tag) const
+int RankMessage::Receive(vtkMultiProcessController* controller, int from)
 {
-  vtkMultiProcessStream head;
-  head << static_cast<int>(this->Arrays.size());
-  for (vtkDataArray* array : this->Arrays)
-  {
-    head << array->GetDataType();
-  }
-  Check(controller->Send(head, to, tag) != 0);
-  Check(controller->Send(this->Words, to, tag) != 0);
-  for (vtkDataArray* array : this->Arrays)
-  {
-    Check(controller->Send(array, to, tag) != 0);
-  }
-}
-
-void RankMessage::Receive(vtkMultiProcessController* controller, int from, int tag)
-{
-  vtkMultiProcessStream head;
-  Check(controller->Receive(head, from, tag) != 0);
-  int count = 0;
-  head >> count;
-  for (int i = 0; i < count; ++i)
-  {
-    int type = 0;
-    head >> type;
-    this->Arrays.push_back(
-      vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(type)));
-  }
-  Check(controller->Receive(this->Words, from, tag) != 0);
-  for (vtkDataArray* array : this->Arrays)
-  {
-    Check(controller->Receive(array, from, tag) != 0);
-  }
-}
-
-Place PlaceOf(vtkImageData* image)
-{
-  Place place;
-  if (image && image->GetNumberOfPoints() > 0)
-  {
-    image->GetExtent(place.Extent.data());
-    image->GetOrigin(place.Origin.data());
-    image->GetSpacing(place.Spacing.data());
-    std::copy_n(image->GetDirectionMatrix()->GetData(), 9, place.Direction.begin());
-  }
-  return place;
-}
-
-namespace
-{
-/** What there is to do with all numbers of a place. */
-template <typename PlaceType, typename Visit>
-void ForNumbersOf(PlaceType& place, const Visit& visit)
-{
-  std::for_each(place.Extent.begin(), place.Extent.end(), visit);
-  std::for_each(place.Origin.begin(), place.Origin.end(), visit);
-  std::for_each(place.Spacing.begin(), place.Spacing.end(), visit);
-  std::for_each(place.Direction.begin(), place.Direction.end(), visit);
-}
-}
-
-void PutPlace(RankMessage& message, const Place& place)
-{
-  ForNumbersOf(place, [&message](auto number) { message.Words << number; });
-}
-
-Place TakePlace(RankMessage& message)
-{
-  Place place;
-  ForNumbersOf(place, [&message](auto& number) { message.Words >> number; });
-  return place;
+  vtkIdType head[] = { 0, 0 };
+  Check(controller->Receive(head, 2, from, Tag) != 0);
+  this->Bytes.resize(static_cast<std::size_t>(head[1]));
+  Check(head[1] == 0 || controller->Receive(this->Bytes.data(), head[1], from, Tag) != 0);
+  this->WasReceived = true;
+  return static_cast<int>(head[0]);
 }
 }

@@ -3,64 +3,79 @@
 #ifndef volumicRankMessage_h
 #define volumicRankMessage_h
 
-#include <vtkDataArray.h>
-#include <vtkMultiProcessStream.h>
 #include <vtkSmartPointer.h>
 
-#include <array>
+#include <cstddef>
+#include <type_traits>
 #include <vector>
 
 class vtkDataObject;
-class vtkFieldData;
-class vtkImageData;
 class vtkMultiProcessController;
-class vtkPolyData;
 
 namespace volumic
 {
 /**
- * What goes from one rank to another: words and arrays, taken in the order in which they were put.
- * VTK's own way of sending data, by its legacy files, changes types, order and names of arrays.
+ * What goes from one rank to another, taken in the order in which it was put. All ranks are the
+ * same program on the same kind of machine. VTK's own way of sending data, by its legacy files,
+ * changes types, order and names of arrays.
  */
 class RankMessage
 {
 public:
-  /** Numbers and texts. */
-  vtkMultiProcessStream Words;
-
-  void Put(vtkDataArray* array);
-  vtkSmartPointer<vtkDataArray> TakeArray();
+  /** Numbers, structs of numbers, texts, and vectors of all these: put, or, once received, taken.
+   */
+  template <typename T>
+  RankMessage& operator&(T& value)
+  {
+    static_assert(!std::is_pointer_v<T>);
+    if constexpr (std::is_trivially_copyable_v<T>)
+    {
+      this->Pass(&value, sizeof(T));
+    }
+    else
+    {
+      std::size_t size = value.size();
+      *this& size;
+      value.resize(size);
+      for (auto& each : value)
+      {
+        *this& each;
+      }
+    }
+    return *this;
+  }
+  template <typename T>
+  RankMessage& operator<<(T value)
+  {
+    return *this & value;
+  }
+  template <typename T>
+  RankMessage& operator>>(T& value)
+  {
+    return *this & value;
+  }
+  /** @throws std::runtime_error where a message has less. */
+  void Pass(void* bytes, std::size_t count);
 
   /** Surfaces, images, tables, and blocks of them; null stays null, and so does anything else. */
   void Put(vtkDataObject* data);
   vtkSmartPointer<vtkDataObject> TakeData();
 
-  /** @throws std::runtime_error where the controller fails. */
-  void Send(vtkMultiProcessController* controller, int to, int tag) const;
-  void Receive(vtkMultiProcessController* controller, int from, int tag);
+  bool IsReceived() const { return this->WasReceived; }
+
+  /**
+   * @param word what sort of message it is
+   * @throws std::runtime_error where the controller fails.
+   */
+  void Send(vtkMultiProcessController* controller, int to, int word) const;
+  /** @return the word */
+  int Receive(vtkMultiProcessController* controller, int from);
 
 private:
-  /** All arrays of numbers or texts, and which of them are attributes. */
-  void PutArrays(vtkFieldData* arrays);
-  void TakeInto(vtkFieldData* arrays);
-  void TakeShape(vtkPolyData* surface);
-  std::vector<vtkSmartPointer<vtkDataArray>> Arrays;
-  std::size_t Taken = 0; ///< of these
+  std::vector<char> Bytes;
+  bool WasReceived = false;
+  std::size_t Taken = 0; ///< of the bytes
 };
-
-/** Where a piece of an image is. */
-struct Place
-{
-  std::array<int, 6> Extent = { 0, -1, 0, -1, 0, -1 };
-  std::array<double, 3> Origin = { 0, 0, 0 };
-  std::array<double, 3> Spacing = { 1, 1, 1 };
-  std::array<double, 9> Direction = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
-};
-
-/** @param image null, or without points: none */
-Place PlaceOf(vtkImageData* image);
-void PutPlace(RankMessage& message, const Place& place);
-Place TakePlace(RankMessage& message);
 }
 
 #endif

@@ -2,12 +2,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Ranks/Ranks.h"
 
+#include "Host/WholeInput.h"
+#include "Ranks/Pieces.h"
+
+#include <vtkDataObject.h>
 #include <vtkExecutive.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <thread>
 #include <utility>
 
@@ -15,27 +20,23 @@ namespace volumic
 {
 namespace
 {
-/** No tag of VTK or ParaView: they count from 1, and from 100, 8000 and 99990. */
-constexpr int Tag = 22095;
-
 /** Between two words on how far it is. */
 constexpr std::chrono::milliseconds Interval(100);
 
 /**
- * Those that have heard it sleep for a while: MPI waits with all the power of a processor, which
- * the threads of the first rank can use.
+ * Those that have heard it sleep for a while, but are awake before they are told again: MPI waits
+ * with all the power of a processor, which the threads of the first rank can use.
  */
 constexpr std::chrono::milliseconds Nap(80);
 
 /** What comes with an answer is an error. */
 constexpr int Failed = -1;
 
-bool WorkTogether(
-  vtkMultiProcessController* controller, vtkInformation* request, vtkInformationVector* output)
+bool WorkTogether(vtkMultiProcessController* controller, const FilterCall& call)
 {
   using Pipeline = vtkStreamingDemandDrivenPipeline;
-  const int port = std::max(0, request->Get(vtkExecutive::FROM_OUTPUT_PORT()));
-  vtkInformation* info = output->GetInformationObject(port);
+  const int port = std::max(0, call.Request->Get(vtkExecutive::FROM_OUTPUT_PORT()));
+  vtkInformation* info = call.Outputs->GetInformationObject(port);
   return controller && controller->GetNumberOfProcesses() > 1 &&
     info->Get(Pipeline::UPDATE_NUMBER_OF_PIECES()) == controller->GetNumberOfProcesses() &&
     info->Get(Pipeline::UPDATE_PIECE_NUMBER()) == controller->GetLocalProcessId();
@@ -44,25 +45,21 @@ bool WorkTogether(
 RankMessage MessageOf(const AlgorithmError& error)
 {
   RankMessage message;
-  message.Words << static_cast<vtkTypeUInt64>(error.Code) << error.Text;
+  message << error.Code << error.Text;
   return message;
 }
 
 AlgorithmError ErrorOf(RankMessage& message)
 {
-  vtkTypeUInt64 code = 0;
   AlgorithmError error;
-  message.Words >> code >> error.Text;
-  error.Code = static_cast<unsigned long>(code);
+  message >> error.Code >> error.Text;
   return error;
 }
 }
 
-Ranks::Ranks(vtkMultiProcessController* controller, vtkInformation* request,
-  vtkInformationVector* output, Show show)
-  : Controller(WorkTogether(controller, request, output) ? controller : nullptr),
-    ShowHere(std::move(show)), IsAsked(static_cast<std::size_t>(this->Count()), false),
-    Told(Clock::now())
+Ranks::Ranks(vtkMultiProcessController* controller, const FilterCall& call, Show show)
+  : Call(call), Controller(WorkTogether(controller, call) ? controller : nullptr),
+    ShowHere(std::move(show)), Told(Clock::now())
 {
 }
 
@@ -76,71 +73,37 @@ int Ranks::Count() const
   return this->Controller ? this->Controller->GetNumberOfProcesses() : 1;
 }
 
-void Ranks::Send(int to, int word, const RankMessage& message)
+std::vector<RankMessage> Ranks::AskSome(
+  int first, int end, RankQuestion question, const RankMessage& message)
 {
-  RankMessage head;
-  head.Words << word;
-  head.Send(this->Controller, to, Tag);
-  message.Send(this->Controller, to, Tag);
-}
-
-RankMessage Ranks::Receive(int from, int& word)
-{
-  RankMessage head;
-  head.Receive(this->Controller, from, Tag);
-  head.Words >> word;
-  RankMessage message;
-  message.Receive(this->Controller, from, Tag);
-  return message;
-}
-
-RankMessage Ranks::Hear(int rank)
-{
-  int word = 0;
-  RankMessage message = this->Receive(rank, word);
-  this->IsAsked[static_cast<std::size_t>(rank)] = false;
-  if (word == Failed)
+  for (int rank = first; rank < end; ++rank)
   {
-    throw ToldError(ErrorOf(message));
+    message.Send(this->Controller, rank, static_cast<int>(question));
   }
-  return message;
-}
-
-void Ranks::HearOthers()
-{
-  for (int rank = 1; rank < this->Count(); ++rank)
+  std::vector<RankMessage> answers;
+  RankMessage* failure = nullptr;
+  answers.reserve(static_cast<std::size_t>(this->Count()));
+  for (int rank = first; rank < end; ++rank)
   {
-    if (this->IsAsked[static_cast<std::size_t>(rank)])
-    {
-      bool stops = false;
-      this->Hear(rank).Words >> stops;
-      this->IsStopped = this->IsStopped || stops;
-    }
+    RankMessage& answer = answers.emplace_back();
+    const bool hasFailed = answer.Receive(this->Controller, rank) == Failed;
+    failure = hasFailed && !failure ? &answer : failure;
   }
+  if (failure) // Not before all have answered.
+  {
+    throw ToldError(ErrorOf(*failure));
+  }
+  return answers;
 }
 
 RankMessage Ranks::Ask(int rank, RankQuestion question, const RankMessage& message)
 {
-  this->HearOthers();
-  this->Send(rank, static_cast<int>(question), message);
-  this->IsAsked[static_cast<std::size_t>(rank)] = true;
-  return this->Hear(rank);
+  return this->AskSome(rank, rank + 1, question, message).front();
 }
 
 std::vector<RankMessage> Ranks::AskAll(RankQuestion question, const RankMessage& message)
 {
-  this->HearOthers();
-  for (int rank = 1; rank < this->Count(); ++rank)
-  {
-    this->Send(rank, static_cast<int>(question), message);
-    this->IsAsked[static_cast<std::size_t>(rank)] = true;
-  }
-  std::vector<RankMessage> answers(1);
-  for (int rank = 1; rank < this->Count(); ++rank)
-  {
-    answers.push_back(this->Hear(rank));
-  }
-  return answers;
+  return this->AskSome(1, this->Count(), question, message);
 }
 
 bool Ranks::GoOn(double share, const std::string& text)
@@ -148,81 +111,112 @@ bool Ranks::GoOn(double share, const std::string& text)
   const bool goesOn = this->ShowHere(share, text);
   if (this->AreMany() && Clock::now() - this->Told > Interval)
   {
-    this->HearOthers();
     RankMessage message;
-    message.Words << share << text;
-    for (int rank = 1; rank < this->Count(); ++rank)
+    message << share << text;
+    for (RankMessage& answer : this->AskAll(RankQuestion::Progress, message))
     {
-      this->Send(rank, static_cast<int>(RankQuestion::Progress), message);
-      this->IsAsked[static_cast<std::size_t>(rank)] = true;
+      bool stops = false;
+      answer >> stops;
+      this->IsStopped = this->IsStopped || stops;
     }
     this->Told = Clock::now();
   }
   return goesOn && !this->IsStopped;
 }
 
-void Ranks::End()
+AlgorithmError Ranks::Run(const std::function<std::string()>& aboutMemory, const RankWork& work)
 {
-  this->HearOthers();
-  this->AreWaiting = false;
-  for (int rank = 1; rank < this->Count(); ++rank)
-  {
-    this->Send(rank, static_cast<int>(RankQuestion::End));
-  }
-}
-
-void Ranks::Fail(const AlgorithmError& error)
-{
-  if (!this->IsFirst() || !std::exchange(this->AreWaiting, false))
-  {
-    return;
-  }
-  for (int rank = 1; rank < this->Count(); ++rank)
-  {
-    int word = 0;
-    if (this->IsAsked[static_cast<std::size_t>(rank)])
+  const AlgorithmError error = RunAlgorithm(this->Call.Outputs, aboutMemory,
+    [&]
     {
-      this->Receive(rank, word); // It is not wanted any more.
+      if (!this->IsFirst())
+      {
+        this->Serve(aboutMemory, work);
+        return;
+      }
+      work.OfFirst();
+      this->Deal(work.Deals);
+    });
+  for (int rank = 1; this->IsFirst() && rank < this->Count(); ++rank)
+  {
+    MessageOf(error).Send(this->Controller, rank, static_cast<int>(RankQuestion::End));
+  }
+  return error;
+}
+
+/** Gives the others their parts of the outputs, and leaves the first one its own. */
+void Ranks::Deal(Dealing deals)
+{
+  const bool isWhole = deals == Dealing::FirstHasAll || !this->AreMany();
+  Cut cut{ 0, this->Count(), GhostLevelsAskedOf(this->Call.Request, this->Call.Outputs), isWhole };
+  for (int port = 0; port < this->Call.Outputs->GetNumberOfInformationObjects(); ++port)
+  {
+    vtkDataObject* output = vtkDataObject::GetData(this->Call.Outputs, port);
+    for (cut.Number = 1; cut.Number < cut.Count; ++cut.Number)
+    {
+      RankMessage part;
+      part << port;
+      part.Put(CutData(output, cut));
+      this->Ask(cut.Number, RankQuestion::Output, part);
     }
-    this->Send(rank, static_cast<int>(RankQuestion::Fail), MessageOf(error));
+    cut.Number = 0;
+    if (!isWhole)
+    {
+      output->ShallowCopy(CutData(output, cut));
+    }
   }
 }
 
-void Ranks::Serve(const Answer& answer, const std::function<std::string()>& aboutMemory)
+/** Answers until the first rank says that all is done. */
+void Ranks::Serve(const std::function<std::string()>& aboutMemory, const RankWork& work)
 {
   for (;;)
   {
-    int word = 0;
-    RankMessage message = this->Receive(0, word);
+    RankMessage message;
+    const int word = message.Receive(this->Controller, 0);
     const auto question = static_cast<RankQuestion>(word);
     if (question == RankQuestion::End)
     {
-      return;
-    }
-    if (question == RankQuestion::Fail)
-    {
-      throw ToldError(ErrorOf(message));
+      const AlgorithmError error = ErrorOf(message);
+      return error.Code != 0 ? throw ToldError(error) : void();
     }
     RankMessage own;
-    const AlgorithmError error = CatchError(aboutMemory,
-      [&]
-      {
-        if (question != RankQuestion::Progress)
-        {
-          own = answer(question, message);
-          return;
-        }
-        double share = 0.0;
-        std::string text;
-        message.Words >> share >> text;
-        own.Words << !this->ShowHere(share, text);
-      });
+    const AlgorithmError error =
+      CatchError(aboutMemory, [&] { own = this->Answer(question, message, work); });
     const bool hasFailed = error.Code != 0;
-    this->Send(0, hasFailed ? Failed : word, hasFailed ? MessageOf(error) : own);
+    (hasFailed ? MessageOf(error) : own).Send(this->Controller, 0, hasFailed ? Failed : word);
     if (question == RankQuestion::Progress || question == RankQuestion::OwnProgress)
     {
       std::this_thread::sleep_for(Nap);
     }
+  }
+}
+
+RankMessage Ranks::Answer(RankQuestion question, RankMessage& message, const RankWork& work) const
+{
+  RankMessage answer;
+  switch (question)
+  {
+    case RankQuestion::Own:
+    case RankQuestion::OwnProgress:
+      return work.OfOthers(question, message);
+    case RankQuestion::Output:
+    {
+      int port = 0;
+      message >> port;
+      vtkDataObject::GetData(this->Call.Outputs, port)->ShallowCopy(message.TakeData());
+      return answer;
+    }
+    case RankQuestion::Progress:
+    {
+      double share = 0.0;
+      std::string text;
+      message >> share >> text;
+      answer << !this->ShowHere(share, text);
+      return answer;
+    }
+    default:
+      return this->GiveInput(question, message);
   }
 }
 }

@@ -9,6 +9,7 @@ import contextlib
 import json
 import os
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -50,9 +51,9 @@ class RanksTestCase(ToolTestCase):
         self.assertEqual(process.returncode, status, process.stdout + process.stderr)
         return process
 
-    def refused_by_ranks(self, ranks, reason, *arguments, status=1):
+    def refused_by_ranks(self, reason, status, *arguments):
         """All ranks end with this status, and one of them says why, in one line."""
-        process = self.run_ranks(ranks, *arguments, status=status)
+        process = self.run_ranks(3, *arguments, status=status)
         said = [line for line in process.stderr.splitlines()
                 if re.match(f"volumic: .*(?:{reason})", line)]
         self.assertEqual(len(said), 1, process.stderr)
@@ -71,10 +72,7 @@ class RanksTestCase(ToolTestCase):
                         break
                 else:
                     self.fail(f"no line begins like {begin}")
-                numbers = []
-                for rank in range(ranks):
-                    numbers.append(int(self.content(f"pid-{rank}")))
-                yield process, numbers
+                yield process, [int(self.content(f"pid-{rank}")) for rank in range(ranks)]
             finally:
                 if process.poll() is None:
                     process.kill()
@@ -89,7 +87,7 @@ class RanksTestCase(ToolTestCase):
             time.sleep(0.1)
 
 
-class SameFilesTest(RanksTestCase):
+class SurfaceTest(RanksTestCase):
     def read(self, name, reader_class=vtkXMLPolyDataReader):
         reader = reader_class()
         reader.SetFileName(self.path(name))
@@ -98,17 +96,10 @@ class SameFilesTest(RanksTestCase):
 
     def test_the_same_files_and_a_piece_for_each_rank(self):
         volume = self.ball_file()
-        options = ["--iso", ISO, "--levels", 2, "--report", "-"]
-        one = json.loads(self.run_tool(volume, self.path("one.vtp"), *options).stdout)
-        process = self.run_ranks(3, volume, self.path("a.vtp"), self.path("a.pvtp"), *options)
-        many = json.loads(process.stdout)
+        options = ["--iso", ISO, "--levels", 2]
+        self.run_tool(volume, self.path("one.vtp"), *options)
+        self.run_ranks(3, volume, self.path("a.vtp"), self.path("a.pvtp"), *options)
         self.assertEqual(self.content("one.vtp"), self.content("a.vtp"))
-        for report in (one, many):
-            for key in ("memory", "seconds"):
-                report.pop(key)
-            for level in report["levels"]:
-                level.pop("seconds")
-        self.assertEqual(one, many)
         whole = self.read("a.vtp")
         names = os.listdir(self.path("a"))
         self.assertEqual(len(names), 3)
@@ -130,18 +121,14 @@ class SameFilesTest(RanksTestCase):
         self.assertEqual(self.run_ranks(3, "--version").stdout.count("volumic"), 1)
         volume, output = self.ball_file(), self.path("b.stl")
         for reason, status, arguments in (
-                ("no such file", 1, [self.path("none.vti"), output]),
                 ("unknown option", 2, [volume, output, "--nonsense"]),
                 ("outside the range", 1, [volume, output, "--iso", 5000])):
             with self.subTest(reason):
-                self.refused_by_ranks(3, reason, *arguments, status=status)
+                self.refused_by_ranks(reason, status, *arguments)
                 self.assertFalse(os.path.exists(output))
 
-
-class StoppedTest(RanksTestCase):
-    """A run of some seconds that is stopped from outside."""
-
     def running(self, ranks):
+        """Of some seconds."""
         rng = np.random.default_rng(7)
         values = rng.random((64, 64, 64))
         for axis in (0, 1, 2) * 2:
@@ -167,10 +154,68 @@ class StoppedTest(RanksTestCase):
                 os.kill(ranks[rank], signal.SIGKILL)
                 self.finish(process)
                 self.assertNotEqual(process.returncode, 0)
-                # mpirun asks the first one to end, which may write what there is.
-                self.assertTrue(rank == 1 or not os.path.exists(self.path("a.stl")))
                 for number in ranks:
                     self.wait_for_end(number)
+
+
+class LabelsTest(RanksTestCase):
+    def map_file(self):
+        """Of four quarters of a ball that meet, of 1, 2, 4 and 5, and of crumbs of 9."""
+        z, y, x = np.mgrid[0:24, 0:24, 0:24]
+        voxels = np.where((x - 12) ** 2 + (y - 12) ** 2 + (z - 12) ** 2 < 100,
+                          1 + (x > 13) + 3 * (y > 10), 0)
+        voxels[1, 1, 1] = 9
+        return self.write(vtkXMLImageDataWriter(), "map.vti", make_image(voxels.astype("i2")))
+
+    def files_in(self, folder):
+        return {name: self.content(os.path.join(folder, name))
+                for name in sorted(os.listdir(self.path(folder)))}
+
+    def test_the_same_files_and_words_said_once(self):
+        volume = self.map_file()
+        names = self.write_bytes("names.json", b'{"1": "liver", "5": "spleen"}')
+        options = ("--labels", "all", "--finest", 2, "--gap", 0.6, "--label-names", names)
+        one = self.report(volume, self.path("1/"), *options)
+        self.assertGreaterEqual(len(self.files_in("1")), 4)
+        process = self.run_ranks(3, volume, self.path("3/"), self.path("all.vtm"), "--report",
+                                 self.path("r.json"), *options)
+        self.assertEqual(self.files_in("3"), self.files_in("1"))
+        report = json.loads(self.content("r.json"))
+        for row, expected in zip(report["labels"], one["labels"]):
+            self.assertGreater(row["seconds"], 0)
+            row["files"], row["seconds"] = expected["files"], expected["seconds"]
+            self.assertEqual(row, expected)
+        self.assertEqual(report["warnings"], one["warnings"])
+        for said in ("map.vti: 24 x 24 x 24", "warning: No surface is left of Label 9",
+                     " vertices"):
+            self.assertEqual(process.stderr.count(said), 1, process.stderr)
+        listed = self.run_ranks(3, volume, "--list-labels").stdout
+        self.assertEqual(listed, self.run_tool(volume, "--list-labels").stdout)
+        for reason, arguments in (("there is no label '7'", ["--labels", "7"]),
+                                  ("--gap is 100", ["--labels", "1", "--gap", 100])):
+            with self.subTest(reason):
+                self.refused_by_ranks(reason, 1, volume, self.path("p/"), *arguments)
+                self.assertFalse(os.path.exists(self.path("p")))
+
+    def test_cancelled_by_a_signal_to_any_rank(self):
+        # Of 64 cubes.
+        z, y, x = np.mgrid[0:64, 0:64, 0:64]
+        edges = np.minimum(np.minimum(x % 16, y % 16), z % 16)
+        labels = np.where(edges > 2, 1 + x // 16 + 4 * (y // 16) + 16 * (z // 16), 0)
+        volume = self.write(vtkXMLImageDataWriter(), "cubes.vti",
+                            make_image(labels.astype("i2"), (1, 1, 1)))
+        for rank in (0, 2):
+            with self.subTest(rank), self.running_to(
+                    r"Making surfaces: +[3-9]\d %.* of 64, Label", 3, volume,
+                    self.path("cubes/"), "--labels", "all", "--threads", 1) as (process, ranks):
+                os.kill(ranks[rank], signal.SIGUSR1)
+                text = self.finish(process)
+                self.assertEqual(process.returncode, 3, text)
+                self.assertEqual(text.count("volumic: unfinished (cancelled)"), 1)
+                written = os.listdir(self.path("cubes"))
+                self.assertGreater(len(written), 5)
+                self.assertLess(len(written), 64)
+                shutil.rmtree(self.path("cubes"))
 
 
 if __name__ == "__main__":

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Host/HostThreads.h"
 #include "LabelImages.h"
-#include "SameOutputs.h"
-#include "ThreadControllers.h"
+#include "RankTestTools.h"
 
 #include <vtkErrorCode.h>
 
+#include <atomic>
 #include <chrono>
 #include <new>
 
@@ -16,7 +16,7 @@ namespace
 {
 using Filter = vtkSmartPointer<vtkLabelsToSurfaces>;
 using Change = std::function<void(vtkLabelsToSurfaces*)>;
-using Work = std::function<void(vtkLabelsToSurfaces*, vtkMultiProcessController*)>;
+using Work = std::function<void(vtkLabelsToSurfaces*, RankController*)>;
 
 /** Many that meet by threes, and two large ones; of two more there are three voxels each. */
 double CellAt(int i, int j, int k)
@@ -29,17 +29,17 @@ double CellAt(int i, int j, int k)
 }
 
 /** The filters of all ranks, when they are through; of an image that the first one has. */
-std::vector<Filter> RunRanks(int count, const Change& change, const Work& work)
+std::vector<Filter> OnMap(int count, const Change& change, const Work& work)
 {
   std::vector<Filter> filters(static_cast<std::size_t>(count));
-  ThreadControllers::Run(count,
-    [&](vtkMultiProcessController* controller)
+  volumic::RunRanks(count,
+    [&](RankController* controller)
     {
       const int rank = controller->GetLocalProcessId();
       auto filter = Filter::New();
       filter->SetController(controller);
-      filter->SetInputDataObject(rank == 0 ? LabelImageOf(40, 28, 28, CellAt)
-                                           : vtkSmartPointer<vtkImageData>::New());
+      filter->SetInputDataObject(
+        rank == 0 ? LabelImageOf(40, 28, 28, CellAt) : vtkSmartPointer<vtkImageData>::New());
       filter->SetNumberOfThreads(1);
       change(filter);
       work(filter, controller);
@@ -51,8 +51,8 @@ std::vector<Filter> RunRanks(int count, const Change& change, const Work& work)
 
 std::vector<Filter> Update(int count, const Change& change)
 {
-  return RunRanks(count, change, [](vtkLabelsToSurfaces* filter, vtkMultiProcessController* ranks)
-    { ThreadControllers::Update(filter, ranks); });
+  return OnMap(count, change,
+    [](vtkLabelsToSurfaces* filter, RankController* ranks) { UpdatePiece(filter, ranks); });
 }
 
 /** The blocks of one rank alone are those of the first, and the others have them empty. */
@@ -84,7 +84,8 @@ void TakeTwoBalls(vtkLabelsToSurfaces* filter)
   }
 }
 
-/** While it lives, work on a label takes half a second or more: it is told of, and can be stopped. */
+/** While it lives, work on a label takes a third of a second or more: it is told of, and can be
+ * stopped. */
 class Slowness : public Executor
 {
 public:
@@ -93,10 +94,11 @@ public:
   Slowness(const Slowness&) = delete;
   Slowness& operator=(const Slowness&) = delete;
 
-  void For(std::size_t n, std::size_t,
-    const std::function<void(std::size_t, std::size_t)>& body) override
+  void For(
+    std::size_t n, std::size_t, const std::function<void(std::size_t, std::size_t)>& body) override
   {
-    thread_local int left = 50; // Each label is on a thread of its own here.
+    thread_local int left = 30; // Each label is on a thread of its own here.
+    this->Threads += left == 30 ? 1 : 0;
     if (left > 0)
     {
       --left;
@@ -107,6 +109,8 @@ public:
       body(0, n);
     }
   }
+
+  std::atomic<int> Threads{ 0 };
 };
 
 int CountStopped(vtkLabelsToSurfaces* filter)
@@ -123,7 +127,7 @@ int CountStopped(vtkLabelsToSurfaces* filter)
 TEST(RankLabels, AreTheSameBitsOnAnyNumberOfRanks)
 {
   const std::vector<Change> changes = { [](vtkLabelsToSurfaces*) {},
-    [](vtkLabelsToSurfaces* filter) { filter->SetGap(0.5); },
+    [](vtkLabelsToSurfaces* filter) { filter->SetGap(0.05); },
     [](vtkLabelsToSurfaces* filter) { filter->SetMerge(true); },
     [](vtkLabelsToSurfaces* filter)
     {
@@ -133,18 +137,27 @@ TEST(RankLabels, AreTheSameBitsOnAnyNumberOfRanks)
     } };
   for (std::size_t c = 0; c < changes.size(); ++c)
   {
+    SCOPED_TRACE(c);
     const std::vector<Filter> one = Update(1, changes[c]);
     EXPECT_GT(BlockOf(one[0], 0)->GetNumberOfPoints(), 100);
-    for (const int count : { 2, 3, 5 })
-    {
-      SCOPED_TRACE(std::to_string(count) + " ranks, change " + std::to_string(c));
-      const std::vector<Filter> ranks = Update(count, changes[c]);
-      ExpectBlocksOf(one[0], ranks);
-      const auto blocks = static_cast<int>(one[0]->GetOutput()->GetNumberOfBlocks());
-      for (int block = 0; block < blocks; ++block)
+    std::set<std::string> texts;
+    const std::vector<Filter> ranks = OnMap(c % 2 == 0 ? 2 : 5, changes[c],
+      [&texts](vtkLabelsToSurfaces* filter, RankController* controller)
       {
-        EXPECT_GT(ranks[0]->GetSeconds(block), 0.0);
-      }
+        const ProgressListener listener(filter);
+        UpdatePiece(filter, controller);
+        if (controller->GetLocalProcessId() == 0)
+        {
+          texts = listener.Texts;
+        }
+      });
+    ExpectBlocksOf(one[0], ranks);
+    const bool anyApart = std::any_of(texts.begin(), texts.end(),
+      [](const std::string& text) { return text.find("apart: ") == 0; });
+    EXPECT_EQ(anyApart, c == 1) << "surfaces were made again";
+    for (int block = 0; block < static_cast<int>(one[0]->GetOutput()->GetNumberOfBlocks()); ++block)
+    {
+      EXPECT_GT(ranks[0]->GetSeconds(block), 0.0);
     }
   }
 }
@@ -153,23 +166,20 @@ TEST(RankLabels, WorkOnLabelsOfTheirOwnAndTellOfAll)
 {
   const std::vector<Filter> one = Update(1, TakeTwoBalls);
   const Slowness slowness;
-  for (const int threads : { 1, 2 })
-  {
-    std::vector<std::set<std::string>> texts(2);
-    const std::vector<Filter> ranks = RunRanks(2, TakeTwoBalls,
-      [&](vtkLabelsToSurfaces* filter, vtkMultiProcessController* controller)
-      {
-        filter->SetNumberOfThreads(threads);
-        const ProgressListener listener(filter);
-        ThreadControllers::Update(filter, controller);
-        EXPECT_TRUE(std::is_sorted(listener.Shares.begin(), listener.Shares.end()))
-          << ::testing::PrintToString(listener.Shares);
-        texts[static_cast<std::size_t>(controller->GetLocalProcessId())] = listener.Texts;
-      });
-    ExpectBlocksOf(one[0], ranks);
-    EXPECT_EQ(texts[0].count("0 of 2, Label 3"), 1u) << "the largest goes to the first";
-    EXPECT_EQ(texts[1].count("0 of 2, Label 3"), 1u) << "the others hear of it";
-  }
+  std::vector<std::set<std::string>> texts(2);
+  const std::vector<Filter> ranks = OnMap(2, TakeTwoBalls,
+    [&](vtkLabelsToSurfaces* filter, RankController* controller)
+    {
+      const ProgressListener listener(filter);
+      UpdatePiece(filter, controller);
+      EXPECT_TRUE(std::is_sorted(listener.Shares.begin(), listener.Shares.end()))
+        << ::testing::PrintToString(listener.Shares);
+      texts[static_cast<std::size_t>(controller->GetLocalProcessId())] = listener.Texts;
+    });
+  ExpectBlocksOf(one[0], ranks);
+  EXPECT_EQ(slowness.Threads, 6) << "those of the ranks, and some of each for a label";
+  EXPECT_EQ(texts[0].count("0 of 2, Label 3"), 1u) << "the largest goes to the first";
+  EXPECT_EQ(texts[1].count("0 of 2, Label 3"), 1u) << "the others hear of it";
 }
 
 TEST(RankLabels, StopWhereAnyRankIsAskedToAndGoOn)
@@ -178,18 +188,18 @@ TEST(RankLabels, StopWhereAnyRankIsAskedToAndGoOn)
   const Slowness slowness;
   for (const int asked : { 0, 1 })
   {
-    const std::vector<Filter> ranks = RunRanks(2, TakeTwoBalls,
-      [asked](vtkLabelsToSurfaces* filter, vtkMultiProcessController* controller)
+    const std::vector<Filter> ranks = OnMap(2, TakeTwoBalls,
+      [asked](vtkLabelsToSurfaces* filter, RankController* controller)
       {
         const int rank = controller->GetLocalProcessId();
         {
           const StopAtText stop(filter, "0 of 2, ", rank == asked ? 1 : 1000);
-          ThreadControllers::Update(filter, controller);
+          UpdatePiece(filter, controller);
         }
         EXPECT_EQ(filter->GetErrorCode(), vtkErrorCode::NoError);
         EXPECT_EQ(CountStopped(filter), rank == 0 ? 2 : 0) << "labels of both";
         filter->GoOn();
-        ThreadControllers::Update(filter, controller);
+        UpdatePiece(filter, controller);
       });
     ExpectBlocksOf(one[0], ranks);
   }
@@ -197,53 +207,34 @@ TEST(RankLabels, StopWhereAnyRankIsAskedToAndGoOn)
 
 TEST(RankLabels, EndOnAllRanksWithTheErrorOfOneAndWorkAgain)
 {
-  const Change none = [](vtkLabelsToSurfaces*) {};
-  const std::vector<Filter> one = Update(1, none);
+  const std::vector<Filter> one = Update(1, TakeTwoBalls);
   const Slowness slowness;
-  const std::vector<Filter> ranks = RunRanks(3, none,
-    [](vtkLabelsToSurfaces* filter, vtkMultiProcessController* controller)
+  const std::vector<Filter> ranks = OnMap(3, TakeTwoBalls,
+    [](vtkLabelsToSurfaces* filter, RankController* controller)
     {
-      for (const int bad : { 0, 2 })
+      bool isBad = controller->GetLocalProcessId() == 2;
       {
-        SCOPED_TRACE(bad);
-        filter->Modified();
-        bool isBad = controller->GetLocalProcessId() == bad;
         const ProgressHook hook(filter,
-          [&isBad](vtkAlgorithm*, const std::string& text, double share)
+          [&isBad](vtkAlgorithm*, const std::string& text, double)
           {
-            // The pipeline tells of the begin with the text of the run before.
-            if (isBad && share > 0.0 && text.find(" of 11, ") != std::string::npos)
+            if (std::exchange(isBad, isBad && text.find(" of 2, ") == std::string::npos) && !isBad)
             {
-              isBad = false;
               throw std::bad_alloc();
             }
           });
         const MessagesOf errors(filter);
-        ThreadControllers::Update(filter, controller);
+        UpdatePiece(filter, controller);
         EXPECT_TRUE(errors.Has("the memory does not suffice for the surfaces")) << errors.Get();
         EXPECT_EQ(filter->GetErrorCode(), vtkErrorCode::UnknownError);
         EXPECT_EQ(filter->GetOutput()->GetNumberOfBlocks(), 0u);
       }
-      filter->Modified();
       filter->AddLabel(99); // which only the first one looks for
       const MessagesOf errors(filter);
-      ThreadControllers::Update(filter, controller);
-      EXPECT_TRUE(errors.Has("'Labels' has no label 99; it has 0, 1, 2")) << errors.Get();
+      UpdatePiece(filter, controller);
+      EXPECT_TRUE(errors.Has("'Labels' has no label 99; it has 0, 3, 7")) << errors.Get();
       EXPECT_EQ(filter->GetErrorCode(), vtkErrorCode::UserError);
       filter->ClearLabels();
-      ThreadControllers::Update(filter, controller);
-      EXPECT_EQ(filter->GetErrorCode(), vtkErrorCode::NoError);
+      UpdatePiece(filter, controller);
     });
   ExpectBlocksOf(one[0], ranks);
-}
-
-TEST(RankLabels, RanksThatAskForOtherPiecesWorkAlone)
-{
-  const Change none = [](vtkLabelsToSurfaces*) {};
-  const std::vector<Filter> one = Update(1, none);
-  const std::vector<Filter> ranks = RunRanks(2, none,
-    [](vtkLabelsToSurfaces* filter, vtkMultiProcessController* controller)
-    { filter->UpdatePiece(0, controller->GetLocalProcessId() == 0 ? 1 : 0, 0); });
-  ExpectSameBlocks(ranks[0]->GetOutput(), one[0]->GetOutput());
-  EXPECT_EQ(ranks[1]->GetOutput()->GetNumberOfBlocks(), 0u);
 }

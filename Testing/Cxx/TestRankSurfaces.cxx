@@ -1,20 +1,21 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Surfaces that several ranks ask for: the first takes the pieces of the image together, and each
-// gets a piece of what one process would make.
+// Surfaces, pyramids and thresholds that several ranks ask for: the first takes the pieces of the
+// image together, and each gets a piece of what one process would make.
 
-#include "RankFilterTools.h"
+#include "RankTestTools.h"
 #include "TemporaryFolder.h"
 #include "TestPrelude.h"
-#include "vtkImagePyramid.h"
+#include "vtkOtsuThreshold.h"
 #include "vtkVolumeToSurface.h"
 
 #include <vtkErrorCode.h>
-#include <vtkIntArray.h>
 #include <vtkSphereSource.h>
+#include <vtkTrivialProducer.h>
 
 #include <chrono>
+#include <fstream>
 #include <new>
 #include <thread>
 
@@ -23,7 +24,7 @@ using namespace volumic;
 namespace
 {
 using Filter = vtkVolumeToSurface;
-using Work = std::function<void(Filter*, vtkMultiProcessController*)>;
+using Work = std::function<void(Filter*, RankController*)>;
 using Image = vtkSmartPointer<vtkImageData>;
 
 Image Ball()
@@ -40,14 +41,11 @@ Image HoledBall()
   {
     voxels->SetTuple1(v, std::numeric_limits<double>::quiet_NaN());
   }
-  vtkNew<vtkUnsignedCharArray> ghosts;
-  ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
-  ghosts->SetNumberOfTuples(image->GetNumberOfCells());
-  for (vtkIdType c = 0; c < ghosts->GetNumberOfTuples(); ++c)
+  vtkUnsignedCharArray* ghosts = image->AllocateCellGhostArray();
+  for (vtkIdType c = 14; c < ghosts->GetNumberOfTuples(); c += 31)
   {
-    ghosts->SetValue(c, c % 31 > 13 && c % 31 < 17 ? vtkDataSetAttributes::HIDDENCELL : 0);
+    ghosts->SetValue(c, vtkDataSetAttributes::HIDDENCELL);
   }
-  image->GetCellData()->AddArray(ghosts);
   return image;
 }
 
@@ -68,17 +66,12 @@ void Set(Filter* filter)
   filter->SetSnapshotInterval(40);
 }
 
-void Update(Filter* filter, vtkMultiProcessController* controller)
-{
-  ThreadControllers::Update(filter, controller);
-}
-
 /** What one rank alone has. */
 vtkSmartPointer<Filter> OneRank(
   const std::function<Image()>& image = Ball, const Choice& set = [](vtkDeformableSurface*) {})
 {
   return OnRanks<Filter>(1, image,
-    [&](Filter* filter, vtkMultiProcessController*)
+    [&](Filter* filter, RankController*)
     {
       Set(filter);
       set(filter);
@@ -86,10 +79,10 @@ vtkSmartPointer<Filter> OneRank(
     })[0];
 }
 
-std::vector<vtkSmartPointer<Filter>> RunRanks(int count, const Work& work)
+std::vector<vtkSmartPointer<Filter>> OnBall(int count, const Work& work)
 {
   return OnRanks<Filter>(count, Ball,
-    [&work](Filter* filter, vtkMultiProcessController* controller)
+    [&work](Filter* filter, RankController* controller)
     {
       Set(filter);
       work(filter, controller);
@@ -100,10 +93,7 @@ template <typename Get>
 auto OfAll(const std::vector<vtkSmartPointer<Filter>>& ranks, const Get& get)
 {
   std::vector<decltype(get(ranks.front().Get()))> all;
-  for (Filter* filter : ranks)
-  {
-    all.push_back(get(filter));
-  }
+  std::transform(ranks.begin(), ranks.end(), std::back_inserter(all), get);
   return all;
 }
 
@@ -129,14 +119,10 @@ void ExpectAs(Filter* one, const std::vector<vtkSmartPointer<Filter>>& ranks)
   for (Filter* filter : ranks)
   {
     EXPECT_EQ(filter->GetErrorCode(), vtkErrorCode::NoError);
-    vtkTable* history = filter->GetHistory();
-    ASSERT_EQ(history->GetNumberOfColumns(), one->GetHistory()->GetNumberOfColumns());
-    EXPECT_EQ(history->GetNumberOfRows(),
+    EXPECT_EQ(filter->GetHistory()->GetNumberOfColumns(), one->GetHistory()->GetNumberOfColumns());
+    EXPECT_STREQ(filter->GetHistory()->GetColumnName(1), one->GetHistory()->GetColumnName(1));
+    EXPECT_EQ(filter->GetHistory()->GetNumberOfRows(),
       filter == ranks.front() ? one->GetHistory()->GetNumberOfRows() : 0);
-    for (vtkIdType c = 0; c < history->GetNumberOfColumns(); ++c)
-    {
-      EXPECT_STREQ(history->GetColumnName(c), one->GetHistory()->GetColumnName(c));
-    }
   }
 }
 }
@@ -145,40 +131,69 @@ TEST(RankSurfaces, AreOneSurfaceInAPieceForEachRank)
 {
   struct Case
   {
+    int Count;
     Image (*Make)();
     Choice Set = [](vtkDeformableSurface*) {};
   };
-  const TemporaryFolder folder;
-  const std::vector<Case> cases = { { Ball }, { HoledBall }, { CellBall },
-    { HoledBall,
-      [&folder](vtkDeformableSurface* filter)
-      {
-        filter->SetMemoryLimit(4000);
-        filter->SetScratchDirectory(folder.Path().c_str());
-      } },
-    { Ball, [](vtkDeformableSurface* filter) { filter->SetEdgeLength(2.0); } } };
-  for (std::size_t c = 0; c < cases.size(); ++c)
+  for (const Case& is : { Case{ 2, CellBall }, Case{ 3, HoledBall },
+         Case{ 8, Ball, [](vtkDeformableSurface* filter) { filter->SetEdgeLength(2.0); } } })
   {
-    const auto one = OneRank(cases[c].Make, cases[c].Set);
+    SCOPED_TRACE(is.Count);
+    const auto one = OneRank(is.Make, is.Set);
     EXPECT_GT(one->GetOutput()->GetNumberOfCells(), 300);
-    for (const int count : { 2, 3, 8 })
-    {
-      SCOPED_TRACE(std::to_string(count) + " ranks, case " + std::to_string(c));
-      const auto ranks = OnRanks<Filter>(count, cases[c].Make,
-        [&](Filter* filter, vtkMultiProcessController* controller)
+    ExpectAs(one,
+      OnRanks<Filter>(is.Count, is.Make,
+        [&](Filter* filter, RankController* controller)
         {
           Set(filter);
-          cases[c].Set(filter);
-          Update(filter, controller);
-        });
-      ExpectAs(one, ranks);
-    }
+          is.Set(filter);
+          UpdatePiece(filter, controller);
+        }));
   }
+}
+
+TEST(RankSurfaces, OfAnImageThatIsPutTogetherInTheScratchFile)
+{
+  const TemporaryFolder folder;
+  // Memory that lies in files of the folder, which have no name there.
+  const auto bytesInScratch = [&folder]
+  {
+    std::size_t bytes = 0;
+    std::ifstream maps("/proc/self/maps");
+    for (std::string line; std::getline(maps, line);)
+    {
+      std::size_t dash = 0;
+      const std::size_t begin = std::stoull(line, &dash, 16);
+      const std::size_t end = std::stoull(line.substr(dash + 1), nullptr, 16);
+      bytes += line.find(folder.Path()) != std::string::npos ? end - begin : 0;
+    }
+    return bytes;
+  };
+  const auto image = [] { return BallImage(128, 64, 64); };
+  const auto set = [&folder](vtkDeformableSurface* filter)
+  {
+    filter->SetMemoryLimit(4000);
+    filter->SetScratchDirectory(folder.Path().c_str());
+    filter->SetFinestLevel(2);
+  };
+  std::size_t before = 0;
+  const auto ranks = OnRanks<Filter>(2, image,
+    [&](Filter* filter, RankController* controller)
+    {
+      Set(filter);
+      set(filter);
+      const ProgressHook look(filter,
+        [&, isFirst = controller->GetLocalProcessId() == 0](vtkAlgorithm*, const std::string&,
+          double share) { before = isFirst && share == 0.0 ? bytesInScratch() : before; });
+      UpdatePiece(filter, controller);
+    });
+  EXPECT_GE(before, std::size_t(4) * 128 * 64 * 64) << "before any level was made";
+  ExpectPiecesOf(OneRank(image, set)->GetOutput(), SurfacesOf(ranks));
 }
 
 TEST(RankSurfaces, OfAPyramidInPieces)
 {
-  const auto make = [](Filter* filter, vtkMultiProcessController* controller)
+  const auto make = [](Filter* filter, RankController* controller)
   {
     vtkNew<vtkImagePyramid> pyramid;
     pyramid->SetController(controller);
@@ -187,80 +202,69 @@ TEST(RankSurfaces, OfAPyramidInPieces)
     surface->SetController(controller);
     surface->SetInputConnection(pyramid->GetOutputPort());
     surface->SetIsoValue(50.0);
-    ThreadControllers::Update(surface, controller);
+    UpdatePiece(surface, controller);
     EXPECT_EQ(surface->GetErrorCode(), vtkErrorCode::NoError);
     filter->GetOutput()->ShallowCopy(surface->GetOutput());
     surface->SetController(nullptr);
     pyramid->SetController(nullptr);
   };
-  const auto one = RunRanks(1, make);
+  const auto one = OnBall(1, make);
   EXPECT_GT(one[0]->GetOutput()->GetNumberOfCells(), 300);
-  ExpectPiecesOf(one[0]->GetOutput(), SurfacesOf(RunRanks(3, make)));
+  ExpectPiecesOf(one[0]->GetOutput(), SurfacesOf(OnBall(3, make)));
 }
 
 TEST(RankSurfaces, HaveTheGhostsThatAreAskedForWithoutAnotherRun)
 {
   const auto one = OneRank();
   vtkPolyData* whole = one->GetOutput();
-  const auto ranks = RunRanks(3,
-    [](Filter* filter, vtkMultiProcessController* controller)
+  const auto ranks = OnBall(3,
+    [](Filter* filter, RankController* controller)
     {
-      Update(filter, controller);
+      UpdatePiece(filter, controller);
       EXPECT_FALSE(filter->GetOutput()->GetCellData()->HasArray("vtkGhostType"));
       const ProgressListener progress(filter);
-      ThreadControllers::Update(filter, controller, 2);
+      UpdatePiece(filter, controller, 2);
       EXPECT_TRUE(progress.Shares.empty() || progress.Shares.back() == 1.0) << "no other run";
     });
   ExpectPiecesOf(whole, SurfacesOf(ranks));
   for (vtkPolyData* piece : SurfacesOf(ranks))
   {
-    // Points that can be reached over two triangles from the own ones.
     std::set<vtkIdType> points;
-    std::size_t triangles = 0;
-    for (vtkIdType t = 0; t < piece->GetNumberOfCells(); ++t)
+    for (vtkIdType p = 0; p < piece->GetNumberOfPoints(); ++p)
     {
-      vtkNew<vtkIdList> corners;
-      piece->GetCellPoints(t, corners);
-      for (const vtkIdType corner : *corners)
+      if (!IsGhost(piece->GetPointData(), p))
       {
-        if (!IsGhost(piece->GetCellData(), t))
-        {
-          points.insert(IdOf(piece, corner));
-        }
+        points.insert(IdOf(piece, p));
       }
     }
-    const std::set<vtkIdType> own = points;
+    // Those that have a corner among the own points, or among those of such triangles.
+    vtkIdType triangles = 0;
     for (int layer = 0; layer < 2; ++layer)
     {
       std::set<vtkIdType> more = points;
       triangles = 0;
       for (vtkIdType t = 0; t < whole->GetNumberOfCells(); ++t)
       {
-        vtkNew<vtkIdList> corners;
-        whole->GetCellPoints(t, corners);
-        if (std::any_of(corners->begin(), corners->end(),
+        const std::vector<vtkIdType> corners = CornersOf(whole, t);
+        if (std::any_of(corners.begin(), corners.end(),
               [&points](vtkIdType corner) { return points.count(corner) > 0; }))
         {
-          more.insert(corners->begin(), corners->end());
+          more.insert(corners.begin(), corners.end());
           ++triangles;
         }
       }
       points = more;
     }
-    EXPECT_EQ(static_cast<std::size_t>(piece->GetNumberOfCells()), triangles);
+    EXPECT_EQ(piece->GetNumberOfCells(), triangles);
     EXPECT_EQ(static_cast<std::size_t>(piece->GetNumberOfPoints()), points.size());
-    for (vtkIdType p = 0; p < piece->GetNumberOfPoints(); ++p)
-    {
-      EXPECT_EQ(IsGhost(piece->GetPointData(), p), own.count(IdOf(piece, p)) == 0);
-    }
   }
 }
 
 TEST(RankSurfaces, EndOnAllRanksWithTheErrorOfOneAndWorkAgain)
 {
   const auto one = OneRank();
-  const auto ranks = RunRanks(3,
-    [](Filter* filter, vtkMultiProcessController* controller)
+  const auto ranks = OnBall(3,
+    [](Filter* filter, RankController* controller)
     {
       const int rank = controller->GetLocalProcessId();
       vtkAlgorithmOutput* source = filter->GetInputConnection(0, 0);
@@ -287,8 +291,9 @@ TEST(RankSurfaces, EndOnAllRanksWithTheErrorOfOneAndWorkAgain)
         filter->SetInputConnection(rank == is.Bad ? is.Input : source);
         filter->Modified();
         const MessagesOf errors(filter);
-        Update(filter, controller);
+        UpdatePiece(filter, controller);
         EXPECT_TRUE(errors.Has(is.Words)) << errors.Get();
+        EXPECT_EQ(errors.Get().find("ERROR: "), errors.Get().rfind("ERROR: ")) << errors.Get();
         EXPECT_EQ(filter->GetErrorCode(), vtkErrorCode::UserError);
         EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
         EXPECT_EQ(filter->GetLevels()->GetNumberOfBlocks(), 0u);
@@ -310,12 +315,12 @@ TEST(RankSurfaces, EndOnAllRanksWithTheErrorOfOneAndWorkAgain)
           });
         filter->Modified();
         const MessagesOf errors(filter);
-        Update(filter, controller);
+        UpdatePiece(filter, controller);
         EXPECT_TRUE(errors.Has("the memory does not suffice for the surface")) << errors.Get();
         EXPECT_EQ(filter->GetErrorCode(), vtkErrorCode::UnknownError);
       }
       filter->Modified();
-      Update(filter, controller);
+      UpdatePiece(filter, controller);
     });
   ExpectAs(one, ranks);
 }
@@ -326,8 +331,8 @@ TEST(RankSurfaces, StopWhereAnyRankIsAskedToAndGoOn)
   for (const int canceller : { 0, 2 })
   {
     SCOPED_TRACE(canceller);
-    const auto ranks = RunRanks(3,
-      [canceller](Filter* filter, vtkMultiProcessController* controller)
+    const auto ranks = OnBall(3,
+      [canceller](Filter* filter, RankController* controller)
       {
         ProgressListener cancels(filter);
         cancels.StopAt = controller->GetLocalProcessId() == canceller ? 0.03 : 2.0;
@@ -335,11 +340,11 @@ TEST(RankSurfaces, StopWhereAnyRankIsAskedToAndGoOn)
         const ProgressHook wait(filter,
           [](vtkAlgorithm*, const std::string&, double)
           { std::this_thread::sleep_for(std::chrono::milliseconds(10)); });
-        Update(filter, controller);
+        UpdatePiece(filter, controller);
         EXPECT_EQ(StopReasonOf(filter), "cancelled");
         cancels.StopAt = 2.0;
         filter->Modified();
-        Update(filter, controller);
+        UpdatePiece(filter, controller);
         EXPECT_NE(StopReasonOf(filter), "cancelled");
       });
     ExpectPiecesOf(one->GetOutput(), SurfacesOf(ranks));
@@ -348,20 +353,21 @@ TEST(RankSurfaces, StopWhereAnyRankIsAskedToAndGoOn)
 
 TEST(RankSurfaces, AreMadeAnewWhereOneRankHasChanged)
 {
-  const auto ranks = RunRanks(2,
-    [](Filter* filter, vtkMultiProcessController* controller)
+  const auto ranks = OnBall(2,
+    [](Filter* filter, RankController* controller)
     {
-      Update(filter, controller);
+      UpdatePiece(filter, controller);
       if (controller->GetLocalProcessId() == 1)
       {
         filter->Modified();
       }
       const ProgressListener progress(filter);
-      ThreadControllers::Update(filter, controller, 1);
-      EXPECT_TRUE(progress.Shares.size() > 2 || controller->GetLocalProcessId() > 0) << "another run";
+      UpdatePiece(filter, controller, 1);
+      EXPECT_TRUE(progress.Shares.size() > 2 || controller->GetLocalProcessId() > 0)
+        << "another run";
       // Another level of what is kept.
       filter->SetFinestLevel(1);
-      Update(filter, controller);
+      UpdatePiece(filter, controller);
     });
   ExpectPiecesOf(
     OneRank(Ball, [](vtkDeformableSurface* filter) { filter->SetFinestLevel(1); })->GetOutput(),
@@ -370,12 +376,20 @@ TEST(RankSurfaces, AreMadeAnewWhereOneRankHasChanged)
 
 TEST(RankSurfaces, OfOneRankWhereItAsksForAnotherPiece)
 {
-  // As vtkCleanPolyData asks; nobody waits for anyone.
-  const auto ranks = RunRanks(2,
-    [](Filter* filter, vtkMultiProcessController* controller)
-    { filter->UpdatePiece(0, controller->GetLocalProcessId() == 0 ? 1 : 0, 0); });
-  ExpectSameOutputs(OneRank(), ranks[0]);
-  EXPECT_EQ(ranks[1]->GetOutput()->GetNumberOfPoints(), 0);
+  const auto one = OneRank();
+  // As vtkCleanPolyData asks, and in another order; nobody waits for anyone.
+  for (const int pieces : { 1, 2 })
+  {
+    const auto ranks = OnBall(2,
+      [pieces](Filter* filter, RankController* controller)
+      {
+        const bool isFirst = controller->GetLocalProcessId() == pieces - 1;
+        filter->UpdatePiece(isFirst ? 0 : pieces - 1, isFirst ? pieces : 2 * pieces - 2, 0);
+      });
+    const auto all = static_cast<std::size_t>(pieces - 1);
+    ExpectSameOutputs(one, ranks[all]);
+    EXPECT_EQ(ranks[1 - all]->GetOutput()->GetNumberOfPoints(), 0);
+  }
 }
 
 TEST(RankSurfaces, StartFromASurfaceInPieces)
@@ -386,9 +400,10 @@ TEST(RankSurfaces, StartFromASurfaceInPieces)
     filter->SetInitialization(vtkDeformableSurface::InputSurface);
     filter->SetCoarsestLevel(0);
   };
-  for (const bool haveIds : { true, false })
+  // Pieces with ids and ghosts; pieces without; the same surface on all.
+  for (const char kind : { 'i', 'p', 'a' })
   {
-    const auto make = [&](Filter* filter, vtkMultiProcessController* controller)
+    const auto make = [&](Filter* filter, RankController* controller)
     {
       const auto before = vtkSmartPointer<Filter>::New();
       before->SetController(controller);
@@ -397,17 +412,133 @@ TEST(RankSurfaces, StartFromASurfaceInPieces)
       vtkNew<vtkSphereSource> sphere;
       sphere->SetCenter(15.5, 15.5, 15.5);
       sphere->SetRadius(10.0);
-      take(filter, haveIds ? static_cast<vtkAlgorithm*>(before) : sphere);
-      Update(filter, controller);
+      vtkNew<vtkTrivialProducer> alike;
+      sphere->Update();
+      vtkNew<vtkPolyData> whole;
+      whole->DeepCopy(sphere->GetOutput());
+      alike->SetOutput(whole);
+      if (kind == 'i')
+      {
+        UpdatePiece(before, controller, 1);
+      }
+      take(filter,
+        kind == 'i'     ? static_cast<vtkAlgorithm*>(before)
+          : kind == 'p' ? static_cast<vtkAlgorithm*>(sphere)
+                        : alike);
+      UpdatePiece(filter, controller);
       EXPECT_EQ(filter->GetErrorCode(), vtkErrorCode::NoError);
       vtkFieldData* facts = filter->GetOutput()->GetFieldData();
       EXPECT_EQ(facts->GetArray("EulerCharacteristic")->GetTuple1(0), 2.0);
       before->SetController(nullptr);
     };
-    const auto ranks = RunRanks(3, make);
-    if (haveIds)
+    const auto ranks = OnBall(3, make);
+    if (kind != 'p')
     {
-      ExpectPiecesOf(RunRanks(1, make)[0]->GetOutput(), SurfacesOf(ranks));
+      ExpectPiecesOf(OnBall(1, make)[0]->GetOutput(), SurfacesOf(ranks));
     }
   }
+}
+
+namespace
+{
+/** Not at the origin, its extent begins elsewhere; with an array beside its voxels. */
+Image TurnedImage()
+{
+  Image image = RandomImage(31, 26, 29, VTK_SHORT);
+  image->SetExtent(5, 35, -3, 22, 7, 35);
+  image->SetOrigin(1.0, 2.0, 3.0);
+  image->SetSpacing(1.0, 1.25, 0.75);
+  double quarter[9] = { 0, -1, 0, 1, 0, 0, 0, 0, 1 };
+  image->SetDirectionMatrix(quarter);
+  return image;
+}
+
+/** The pieces of a pyramid, after some were asked for nothing in between. */
+std::vector<vtkSmartPointer<vtkImagePyramid>> PyramidsOf(int count)
+{
+  return OnRanks<vtkImagePyramid>(count, TurnedImage,
+    [](vtkImagePyramid* pyramid, RankController* controller)
+    {
+      pyramid->SetNumberOfLevels(3);
+      UpdatePiece(pyramid, controller, 1);
+      if (controller->GetLocalProcessId() > 0)
+      {
+        // As vtkCleanPolyData does it; the first rank is not asked again, and would not answer.
+        pyramid->UpdatePiece(0, 0, 0);
+        EXPECT_EQ(pyramid->GetOutput()->GetNumberOfBlocks(), 0u);
+      }
+      UpdatePiece(pyramid, controller, 1);
+      EXPECT_EQ(pyramid->GetErrorCode(), vtkErrorCode::NoError);
+    });
+}
+}
+
+TEST(RankPyramid, IsInPiecesWithTheBitsOfOneRankAndGhosts)
+{
+  const auto one = PyramidsOf(1);
+  for (const int count : { 2, 12 })
+  {
+    const auto ranks = PyramidsOf(count);
+    for (unsigned int h = 0; h < 3; ++h)
+    {
+      SCOPED_TRACE(h);
+      vtkImageData* whole = Level(one[0]->GetOutput(), h);
+      vtkIdType cells = 0;
+      for (vtkImagePyramid* rank : ranks)
+      {
+        ExpectSameArrays(rank->GetOutput()->GetFieldData(), one[0]->GetOutput()->GetFieldData());
+        vtkImageData* piece = Level(rank->GetOutput(), h);
+        EXPECT_TRUE(piece || count == 12);
+        if (!piece)
+        {
+          continue;
+        }
+        vtkNew<vtkImageData> expected;
+        expected->DeepCopy(whole);
+        expected->Crop(piece->GetExtent());
+        vtkNew<vtkPointData> voxels;
+        voxels->ShallowCopy(piece->GetPointData());
+        voxels->RemoveArray("vtkGhostType");
+        ExpectSameArrays(expected->GetPointData(), voxels);
+        EXPECT_EQ(UnitOf(piece), UnitOf(whole));
+        for (const vtkIdType p : { vtkIdType(0), piece->GetNumberOfPoints() - 1 })
+        {
+          std::array<double, 3> here;
+          std::array<double, 3> there;
+          piece->GetPoint(p, here.data());
+          expected->GetPoint(p, there.data());
+          EXPECT_EQ(here, there);
+        }
+        for (vtkIdType c = 0; c < piece->GetNumberOfCells(); ++c)
+        {
+          cells += IsGhost(piece->GetCellData(), c) ? 0 : 1;
+        }
+        EXPECT_TRUE(piece->GetCellData()->HasArray("vtkGhostType"));
+      }
+      EXPECT_EQ(cells, whole->GetNumberOfCells());
+    }
+  }
+}
+
+TEST(RankPyramid, OtsuFindsTheThresholdOfTheWhole)
+{
+  vtkNew<vtkOtsuThreshold> one;
+  one->SetInputData(TurnedImage());
+  one->Update();
+  volumic::RunRanks(3,
+    [&](RankController* controller)
+    {
+      vtkNew<PieceSource> source;
+      source->Whole = TurnedImage();
+      vtkNew<vtkOtsuThreshold> otsu;
+      otsu->SetController(controller);
+      otsu->SetInputConnection(source->GetOutputPort());
+      UpdatePiece(otsu, controller);
+      EXPECT_EQ(otsu->GetThreshold(), one->GetThreshold());
+      EXPECT_EQ(
+        otsu->GetHistogram()->GetNumberOfTuples(), one->GetHistogram()->GetNumberOfTuples());
+      EXPECT_EQ(otsu->GetOutput()->GetNumberOfColumns(), 1);
+      EXPECT_EQ(otsu->GetOutput()->GetNumberOfRows(), controller->GetLocalProcessId() == 0 ? 1 : 0);
+      otsu->SetController(nullptr);
+    });
 }
