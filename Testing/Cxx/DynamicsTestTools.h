@@ -68,7 +68,8 @@ struct Stage
     const Field field(this->Volume.Image, this->Options, this->Threads);
     const Dynamics dynamics(field, this->Options, this->Threads);
     Dynamics::Step step;
-    dynamics.Relax(this->State, this->All, pairs, snap, step, OnThisThread());
+    dynamics.Relax(this->State, this->All, pairs,
+      snap ? Dynamics::Regularising : Dynamics::Adapting, step, OnThisThread());
   }
 
   Vector OutwardAt(int v) const

@@ -138,7 +138,7 @@ TEST(DeformableSurfaceOutputs, TellsWhereTheTimeGoesIfAsked)
       sum += seconds;
     }
     const double seconds = history->GetValueByName(r, "Seconds").ToDouble();
-    EXPECT_GT(sum, 0.0);
+    EXPECT_TRUE(sum > 0.0 || history->GetValueByName(r, "ActiveVertices").ToInt() == 0);
     EXPECT_LE(sum, seconds * 1.001 + 1e-6);
     explained += sum;
     all += seconds;

@@ -29,6 +29,17 @@ vtkSmartPointer<vtkImageData> BallAndRod()
   FillBox(image, { 6, 6, 8 }, { 9, 9, 56 });
   return image;
 }
+
+/** The coarsest level that has a surface. */
+unsigned int FirstLevelOf(vtkDeformableSurface* filter)
+{
+  unsigned int first = filter->GetLevels()->GetNumberOfBlocks() - 1;
+  while (!filter->GetLevels()->GetBlock(first))
+  {
+    --first;
+  }
+  return first;
+}
 }
 
 TEST(DeformableSurfaceStart, FindsAgainWhatCoarseLevelsLose)
@@ -108,12 +119,8 @@ TEST(DeformableSurfaceStart, BeginsAboutThePartsThatComeInSightFirst)
         std::clamp(100.0 * (1.3 - std::abs(distance - 24.0)), 0.0, 100.0));
     });
   const auto filter = SurfaceOf(image, [](vtkDeformableSurface* f) { f->SetIsoValue(50.5); });
-  unsigned int first = filter->GetLevels()->GetNumberOfBlocks() - 1;
-  ASSERT_FALSE(filter->GetLevels()->GetBlock(first));
-  while (!filter->GetLevels()->GetBlock(first))
-  {
-    --first;
-  }
+  const unsigned int first = FirstLevelOf(filter);
+  ASSERT_LT(first, filter->GetLevels()->GetNumberOfBlocks() - 1);
   vtkPolyData* start = SurfaceAt(filter, first);
   EXPECT_GE(FieldOf(start, "LostParts"), 1) << "as the coarser levels have lost it";
   EXPECT_EQ(FieldOf(start, "RecoveredParts"), FieldOf(start, "LostParts"));
@@ -127,6 +134,20 @@ TEST(DeformableSurfaceStart, BeginsAboutThePartsThatComeInSightFirst)
   EXPECT_GE(FieldOf(SurfaceAt(filter, first), "Iterations"), 2 * iterations);
 }
 
+TEST(DeformableSurfaceStart, LeavesOutLargeLevelsThatShowSpecksOnly)
+{
+  // Level 1 has 73^3 voxels: about its specks nothing could be enclosed, and from a box the way
+  // would be long.
+  const auto image = BallImage(126, 126, 126, 0.4);
+  FillBox(image, { 0, 0, 0 }, { 126, 126, 126 }, 0.0);
+  FillBox(image, { 20, 60, 60 }, { 106, 62, 62 });
+  FillBox(image, { 60, 60, 60 }, { 62, 62, 62 }, 400.0);
+  const auto filter = SurfaceOf(image, [](vtkDeformableSurface* f) { f->SetIsoValue(50.5); });
+  EXPECT_EQ(FirstLevelOf(filter), 0u);
+  EXPECT_EQ(FieldOf(filter->GetOutput(), "RecoveredParts"), 1);
+  EXPECT_EQ(FieldOf(filter->GetOutput(), "NumberOfComponents"), 1);
+}
+
 TEST(DeformableSurfaceStart, LeavesOutLevelsThatShowSpecksOnly)
 {
   // Of a rod the level on which it comes in sight shows the middle only, which is brighter: fewer
@@ -136,12 +157,7 @@ TEST(DeformableSurfaceStart, LeavesOutLevelsThatShowSpecksOnly)
   FillBox(image, { 8, 30, 30 }, { 56, 33, 33 });
   FillBox(image, { 30, 30, 30 }, { 33, 33, 33 }, 400.0);
   const auto filter = SurfaceOf(image, [](vtkDeformableSurface* f) { f->SetIsoValue(50.5); });
-  const unsigned int last = filter->GetLevels()->GetNumberOfBlocks() - 1;
-  unsigned int first = last;
-  while (!filter->GetLevels()->GetBlock(first))
-  {
-    --first;
-  }
+  const unsigned int first = FirstLevelOf(filter);
   EXPECT_GE(FieldOf(SurfaceAt(filter, first), "RecoveredParts"), 1);
   EXPECT_EQ(FieldOf(filter->GetOutput(), "NumberOfComponents"), 1);
   // Where nowhere there are so many it is the first level that has any.

@@ -5,6 +5,8 @@
 #include "EvolutionTestTools.h"
 
 #include <chrono>
+#include <cstddef>
+#include <numeric>
 
 using namespace volumic;
 
@@ -51,6 +53,31 @@ void ExpectExplained(const std::vector<HistoryRow>& rows)
     before = row.EulerCharacteristic;
   }
 }
+}
+
+TEST(EvolutionHistory, NewVerticesOnASmoothObjectHardlyMoveAfterADivision)
+{
+  // The finer field has been descended before it, so that most vertices rest at once, whatever the
+  // coarse image has blurred; where other forces drive, nobody knows where to.
+  const auto ball = [](double r)
+  { return [r](double x, double y, double z) { return Distance(x, y, z, 16, 16, 16) - r; }; };
+  for (const bool alone : { true, false })
+  {
+    const LevelPair scene(32, ball(11.), ball(10.));
+    SurfaceOptions options = IsoHalf();
+    options.SnapToIsoValue = alone;
+    SurfaceEvolution evolution(options, Threads, Silent);
+    evolution.StartEnclosing(scene.Coarse.Image, 1);
+    evolution.Run();
+    const std::size_t coarseRows = evolution.History().size();
+    evolution.Divide(scene.Fine.Image, 0);
+    evolution.Run();
+    const std::vector<HistoryRow>& rows = evolution.History();
+    const double visits = std::accumulate(rows.begin() + static_cast<std::ptrdiff_t>(coarseRows),
+      rows.end(), 0., [](double sum, const HistoryRow& row) { return sum + row.ActiveVertices; });
+    const double ofVertex = visits / rows.back().Vertices;
+    EXPECT_TRUE(alone ? ofVertex < 1. : ofVertex > 4.) << ofVertex;
+  }
 }
 
 TEST(EvolutionHistory, ExplainsTheEulerCharacteristicRowByRow)

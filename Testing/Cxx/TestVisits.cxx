@@ -93,7 +93,7 @@ TEST(Visits, MakeTheSurfaceOfOneBlock)
     const SweptRun run(InBlocksOf(side), thread, monitor);
     ExpectSound(run);
     EXPECT_NE(run.Surface.Points, expected.Surface.Points) << "not in several blocks";
-    EXPECT_NEAR(EnclosedVolume(run.Mesh(), thread), volume, 0.02 * volume);
+    EXPECT_NEAR(EnclosedVolume(run.Mesh(), thread), volume, 0.05 * volume);
     EXPECT_NEAR(run.Surface.Points.size(), expected.Surface.Points.size(),
       0.05 * static_cast<double>(expected.Surface.Points.size()));
     // Bars as thick as the mesh's gaps: an iso-value that is .001 higher changes as much.

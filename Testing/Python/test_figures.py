@@ -88,7 +88,7 @@ class TablesTest(ScriptTest):
         first, outside, iso = map(int, start[0][1:4])
         self.assertEqual(first, 2)
         self.assertLess(iso, outside)
-        self.assertGreaterEqual(int(rest[0][2]), 20)
+        self.assertGreaterEqual(int(rest[0][2]), 5)
         counts = [int(row[1].replace(",", "")) for row in sampling]
         self.assertEqual(counts, sorted(counts, reverse=True))
 

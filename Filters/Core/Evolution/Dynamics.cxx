@@ -318,11 +318,6 @@ void Dynamics::Displace(
   }
 }
 
-bool Dynamics::LeavesToRegularisation(const SurfaceState& state) const
-{
-  return this->Options.FollowsFieldAlone() && !state.Sizing.IsGraded();
-}
-
 bool Dynamics::IsOff(const SurfaceState& state, int v) const
 {
   const Field::Sample sample = this->TheField.At(state.Mesh.Position[v]);
@@ -333,7 +328,6 @@ bool Dynamics::IsOff(const SurfaceState& state, int v) const
 void Dynamics::Freeze(
   SurfaceState& state, const std::vector<int>& active, const std::vector<int>& working) const
 {
-  const bool leaves = this->LeavesToRegularisation(state);
   for (const int v : active)
   {
     if (!state.Mesh.IsAlive(v))
@@ -341,7 +335,7 @@ void Dynamics::Freeze(
       continue;
     }
     const float alongNormal =
-      (leaves ? VisibleIfLeft : VisibleAlongNormal) * state.Sizing.At(v);
+      (this->Leaves ? VisibleIfLeft : VisibleAlongNormal) * state.Sizing.At(v);
     const float anywhere = Visible * state.Sizing.At(v);
     const Vector moved = state.Mesh.Position[v] - state.Anchor[v];
     if (std::abs(Dot(moved, state.Normal[v].Axis())) > alongNormal ||
@@ -357,7 +351,7 @@ void Dynamics::Freeze(
     const bool moved = (state.Marks[v] & HasMoved) ||
       std::any_of(ring.Item, ring.Item + ring.Count,
         [&state](int w) { return (state.Marks[w] & HasMoved) != 0; });
-    if (moved && (state.Active[v] || !leaves || this->IsOff(state, v)))
+    if (moved && (state.Active[v] || !this->Leaves || this->IsOff(state, v)))
     {
       state.Activate(v);
     }

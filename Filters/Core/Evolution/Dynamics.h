@@ -67,6 +67,12 @@ public:
   Dynamics(const Field& field, const SurfaceOptions& options, Executor& executor);
 
   /**
+   * From now on the way of the last LeftOff is left to the regularisation, whose passes lead there at
+   * once: for a level whose field the surface has descended, and that is not graded.
+   */
+  void LeaveToRegularisation() { this->Leaves = true; }
+
+  /**
    * Computes forces and velocities of the active vertices; `pairs` are the contacts known from the
    * last examination.
    */
@@ -80,6 +86,9 @@ public:
     float Smoothing; ///< Share of the way to the barycentre of the neighbours, along the surface.
     bool Snap;       ///< Also onto the isopotential, or up to the ridge of the map of edges.
   };
+  static constexpr Relaxation Descending = { 0.5f, 0.5f, true };
+  static constexpr Relaxation Regularising = { 0.15f, 0.7f, true };
+  static constexpr Relaxation Adapting = { 0.15f, 0.7f, false };
 
   /**
    * Instead of Accelerate: velocities that even the mesh out tangentially and, on request, lead onto
@@ -105,11 +114,6 @@ public:
 
 private:
   void SetPace();
-  /**
-   * Whether the way of the last LeftOff is left to the regularisation, whose passes lead there at
-   * once: where nothing but the field drives a surface that is not graded.
-   */
-  bool LeavesToRegularisation(const SurfaceState& state) const;
   /** Whether a vertex is further off the isopotential than LeftOff. */
   bool IsOff(const SurfaceState& state, int v) const;
   Vector ForceAt(const SurfaceState& state, int v, float& value) const;
@@ -130,6 +134,7 @@ private:
   const Field& TheField;
   const SurfaceOptions& Options;
   std::unique_ptr<EdgeAttraction> Edges; ///< Null where there is none.
+  bool Leaves = false;  ///< See LeaveToRegularisation.
   float Drag = 0;       ///< Friction as it acts.
   float Longest = 0;    ///< Time step, unless shortened.
   float InnerShare = 1; ///< Of the internal forces that the time step can follow.

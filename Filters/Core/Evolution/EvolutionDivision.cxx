@@ -22,8 +22,9 @@ namespace
 {
 /** Vertices that one thread looks at at a time. */
 constexpr std::size_t VertexSpan = 8192;
-/** Passes of a descent; more make no difference to what comes after. */
-constexpr int DescendingPasses = 4;
+/** Sweeps of a descent, and passes in each block; more make no difference to what comes after. */
+constexpr int DescendingSweeps = 2;
+constexpr int DescendingPasses = 2;
 /** Of what is told of a division. */
 constexpr double DescendingShare = 0.3;
 
@@ -97,10 +98,15 @@ void SurfaceEvolution::Implementation::DescendField(double delta)
   this->Reset(); // In an order that does not depend on what has been done before.
   this->ActivateAll();
   const Dynamics dynamics(*this->TheField, this->Options, this->Threads);
-  this->VisitAll(SurfaceIteration::Mode::Descend, dynamics, DescendingPasses,
-    Monitor::Activity::Dividing, 0., DescendingShare);
+  for (int sweep = 0; sweep < DescendingSweeps && !this->Stopped; ++sweep)
+  {
+    this->VisitAll(SurfaceIteration::Mode::Descend, dynamics, DescendingPasses,
+      Monitor::Activity::Dividing, DescendingShare * sweep / DescendingSweeps,
+      DescendingShare * (sweep + 1) / DescendingSweeps);
+  }
   this->ForgetBlocks();
   this->State.Sizing = sizing;
+  this->HasDescended = true;
 }
 
 void SurfaceEvolution::Implementation::DivideOnce()

@@ -46,6 +46,7 @@ struct SurfaceEvolution::Implementation
   std::unique_ptr<Field> TheField;
   int Level = 0;
   std::vector<HistoryRow> Rows;
+  bool HasDescended = false; ///< See DescendField; of this level.
   int LastIterations = 0;
   LostParts LastLost;
   LostBoundary Lost; ///< The boundary of the parts that were lost at the last division.

@@ -95,6 +95,10 @@ StopReason SurfaceEvolution::Implementation::Evolve()
   this->Rest.Reset();
   this->Cycle.Reset();
   Dynamics dynamics(*this->TheField, this->Options, this->Threads);
+  if (this->HasDescended)
+  {
+    dynamics.LeaveToRegularisation();
+  }
   const double cube = std::pow(static_cast<double>(s.Sizing.OfLevel()), 3);
   while (true)
   {

@@ -28,6 +28,7 @@ void SurfaceEvolution::Implementation::Enter(const LevelImage& image, int level)
   this->State.Margin = this->TheField->Margin();
   this->Level = level;
   this->LastIterations = 0;
+  this->HasDescended = false;
   this->Visit = {};
   this->State.Sizing = SizingField(static_cast<float>(this->Options.SamplingRatio * image.Unit));
 }

@@ -202,8 +202,7 @@ bool SurfaceEvolution::Divide(const LevelImage& image, int level)
       std::log(SizingField::DivisionFactor)));
   // After each of these steps the surface is one to hand over.
   const bool isGraded = self.WantedGrading.IsWanted();
-  const bool descends = self.Options.FollowsFieldAlone() && !isGraded && divisions > 0;
-  if (descends)
+  if (self.Options.FollowsFieldAlone() && !isGraded && divisions > 0)
   {
     self.DescendField(coarse);
   }
@@ -218,7 +217,7 @@ bool SurfaceEvolution::Divide(const LevelImage& image, int level)
   {
     self.Recover();
   }
-  if (descends)
+  if (self.HasDescended)
   {
     self.ActivateWhereOff(Dynamics::LeftOff);
   }

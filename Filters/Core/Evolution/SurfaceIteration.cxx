@@ -21,11 +21,17 @@ constexpr float SlowDisplacement = 0.08f;
 /** Collapses after which a component may have become a small one. */
 constexpr int SuspiciousCollapses = 40;
 
-Dynamics::Relaxation RelaxationOf(SurfaceIteration::Mode mode)
+const Dynamics::Relaxation& RelaxationOf(SurfaceIteration::Mode mode)
 {
-  return mode == SurfaceIteration::Mode::Descend
-    ? Dynamics::Relaxation{ 0.5f, 0.5f, true }
-    : Dynamics::Relaxation{ 0.15f, 0.7f, mode == SurfaceIteration::Mode::Regularise };
+  switch (mode)
+  {
+    case SurfaceIteration::Mode::Descend:
+      return Dynamics::Descending;
+    case SurfaceIteration::Mode::Regularise:
+      return Dynamics::Regularising;
+    default:
+      return Dynamics::Adapting;
+  }
 }
 }
 
