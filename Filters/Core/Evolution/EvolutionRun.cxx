@@ -315,7 +315,6 @@ bool SurfaceEvolution::Implementation::ActivateWhereOff(float least)
         if (s.Mesh.IsAlive(static_cast<int>(v)))
         {
           const Field::Sample sample = this->TheField->At(s.Mesh.Position[v]);
-          s.FieldValue[v] = sample.Value;
           isOff[v] = std::abs(sample.Value) >
             least * s.Sizing.At(static_cast<int>(v)) * this->TheField->SlopeOf(sample);
         }

@@ -202,7 +202,10 @@ bool SurfaceEvolution::Divide(const LevelImage& image, int level)
       std::log(SizingField::DivisionFactor)));
   // After each of these steps the surface is one to hand over.
   const bool isGraded = self.WantedGrading.IsWanted();
-  if (self.Options.FollowsFieldAlone() && !isGraded && divisions > 0)
+  // What is too thin for the undivided mesh is lost in a descent, and must be found again. Beyond the
+  // image the field is that of the level before.
+  const bool descends = self.Options.FollowsFieldAlone() && self.Options.RecoverLostParts;
+  if (descends && !isGraded && divisions > 0 && level >= 0)
   {
     self.DescendField(coarse);
   }
