@@ -15,7 +15,7 @@ constexpr float ForceRange = 0.75f;
 /** A vertex has moved visibly when it is this far from its anchor along its normal, in delta. */
 constexpr float VisibleAlongNormal = 0.03f;
 /** The same where what is missing then is left to the regularisation. */
-constexpr float VisibleIfLeft = 0.07f;
+constexpr float VisibleIfLeft = 0.08f;
 /** The same in any direction: sliding along the surface changes nothing, and is left to the end. */
 constexpr float Visible = 0.3f;
 /** Iterations without visible motion after which a vertex is motionless. */
@@ -177,6 +177,10 @@ void Dynamics::Relax(SurfaceState& state, const std::vector<int>& vertices,
 Vector Dynamics::RelaxationOf(
   const SurfaceState& state, int v, const Relaxation& relaxation) const
 {
+  if (relaxation.LeavesThin && state.NearOthers[v])
+  {
+    return Vector();
+  }
   const float longest = relaxation.Longest * state.Sizing.At(v);
   const Vector n = state.Normal[v].Axis();
   Vector pull = state.Laplacian[v];

@@ -85,10 +85,11 @@ public:
     float Longest;   ///< Of a vertex, in delta.
     float Smoothing; ///< Share of the way to the barycentre of the neighbours, along the surface.
     bool Snap;       ///< Also onto the isopotential, or up to the ridge of the map of edges.
+    bool LeavesThin; ///< What is near another part of the surface stays where it is.
   };
-  static constexpr Relaxation Descending = { 0.5f, 0.5f, true };
-  static constexpr Relaxation Regularising = { 0.15f, 0.7f, true };
-  static constexpr Relaxation Adapting = { 0.15f, 0.7f, false };
+  static constexpr Relaxation Descending = { 0.5f, 0.5f, true, true };
+  static constexpr Relaxation Regularising = { 0.15f, 0.7f, true, false };
+  static constexpr Relaxation Adapting = { 0.15f, 0.7f, false, false };
 
   /**
    * Instead of Accelerate: velocities that even the mesh out tangentially and, on request, lead onto
