@@ -30,6 +30,18 @@ vtkSmartPointer<vtkImageData> BallAndRod()
   return image;
 }
 
+/** So many voxels wide, and four times as bright in the middle. */
+vtkSmartPointer<vtkImageData> RodWithBrightMiddle(int size, int width)
+{
+  const auto image = BallImage(size, size, size, 0.4);
+  const int low = size / 2 - 2;
+  const int high = low + width;
+  FillBox(image, { 0, 0, 0 }, { size, size, size }, 0.0);
+  FillBox(image, { 8, low, low }, { size - 8, high, high });
+  FillBox(image, { low, low, low }, { high, high, high }, 400.0);
+  return image;
+}
+
 /** The coarsest level that has a surface. */
 unsigned int FirstLevelOf(vtkDeformableSurface* filter)
 {
@@ -138,11 +150,8 @@ TEST(DeformableSurfaceStart, LeavesOutLargeLevelsThatShowSpecksOnly)
 {
   // Level 1 has 73^3 voxels: about its specks nothing could be enclosed, and from a box the way
   // would be long.
-  const auto image = BallImage(126, 126, 126, 0.4);
-  FillBox(image, { 0, 0, 0 }, { 126, 126, 126 }, 0.0);
-  FillBox(image, { 20, 60, 60 }, { 106, 62, 62 });
-  FillBox(image, { 60, 60, 60 }, { 62, 62, 62 }, 400.0);
-  const auto filter = SurfaceOf(image, [](vtkDeformableSurface* f) { f->SetIsoValue(50.5); });
+  const auto filter = SurfaceOf(RodWithBrightMiddle(126, 2),
+    [](vtkDeformableSurface* f) { f->SetIsoValue(50.5); });
   EXPECT_EQ(FirstLevelOf(filter), 0u);
   EXPECT_EQ(FieldOf(filter->GetOutput(), "RecoveredParts"), 1);
   EXPECT_EQ(FieldOf(filter->GetOutput(), "NumberOfComponents"), 1);
@@ -152,11 +161,8 @@ TEST(DeformableSurfaceStart, LeavesOutLevelsThatShowSpecksOnly)
 {
   // Of a rod the level on which it comes in sight shows the middle only, which is brighter: fewer
   // voxels than MinimumPartSize.
-  const auto image = BallImage(64, 64, 64, 0.4);
-  FillBox(image, { 0, 0, 0 }, { 64, 64, 64 }, 0.0);
-  FillBox(image, { 8, 30, 30 }, { 56, 33, 33 });
-  FillBox(image, { 30, 30, 30 }, { 33, 33, 33 }, 400.0);
-  const auto filter = SurfaceOf(image, [](vtkDeformableSurface* f) { f->SetIsoValue(50.5); });
+  const auto filter = SurfaceOf(RodWithBrightMiddle(64, 3),
+    [](vtkDeformableSurface* f) { f->SetIsoValue(50.5); });
   const unsigned int first = FirstLevelOf(filter);
   EXPECT_GE(FieldOf(SurfaceAt(filter, first), "RecoveredParts"), 1);
   EXPECT_EQ(FieldOf(filter->GetOutput(), "NumberOfComponents"), 1);

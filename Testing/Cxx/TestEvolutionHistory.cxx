@@ -53,6 +53,17 @@ void ExpectExplained(const std::vector<HistoryRow>& rows)
     before = row.EulerCharacteristic;
   }
 }
+
+/** @return the number of rows of the coarse level */
+std::size_t RunBothLevels(SurfaceEvolution& evolution, const LevelPair& scene)
+{
+  evolution.StartEnclosing(scene.Coarse.Image, 1);
+  evolution.Run();
+  const std::size_t coarseRows = evolution.History().size();
+  evolution.Divide(scene.Fine.Image, 0);
+  evolution.Run();
+  return coarseRows;
+}
 }
 
 TEST(EvolutionHistory, NewVerticesOnASmoothObjectHardlyMoveAfterADivision)
@@ -67,11 +78,7 @@ TEST(EvolutionHistory, NewVerticesOnASmoothObjectHardlyMoveAfterADivision)
     SurfaceOptions options = IsoHalf();
     options.SnapToIsoValue = alone;
     SurfaceEvolution evolution(options, Threads, Silent);
-    evolution.StartEnclosing(scene.Coarse.Image, 1);
-    evolution.Run();
-    const std::size_t coarseRows = evolution.History().size();
-    evolution.Divide(scene.Fine.Image, 0);
-    evolution.Run();
+    const std::size_t coarseRows = RunBothLevels(evolution, scene);
     const std::vector<HistoryRow>& rows = evolution.History();
     const double visits = std::accumulate(rows.begin() + static_cast<std::ptrdiff_t>(coarseRows),
       rows.end(), 0., [](double sum, const HistoryRow& row) { return sum + row.ActiveVertices; });
@@ -84,11 +91,7 @@ TEST(EvolutionHistory, ExplainsTheEulerCharacteristicRowByRow)
 {
   const LevelPair scene = SceneWithLostBalls();
   SurfaceEvolution evolution(IsoHalf(), Threads, Silent);
-  evolution.StartEnclosing(scene.Coarse.Image, 1);
-  evolution.Run();
-  const std::size_t coarseRows = evolution.History().size();
-  evolution.Divide(scene.Fine.Image, 0);
-  evolution.Run();
+  const std::size_t coarseRows = RunBothLevels(evolution, scene);
   const std::vector<HistoryRow>& rows = evolution.History();
   ExpectExplained(rows);
   EXPECT_EQ(rows.front().AddedEulerCharacteristic, 2) << "one body about the image";

@@ -322,13 +322,6 @@ void Dynamics::Displace(
   }
 }
 
-bool Dynamics::IsOff(const SurfaceState& state, int v) const
-{
-  const Field::Sample sample = this->TheField.At(state.Mesh.Position[v]);
-  return std::abs(sample.Value) >
-    LeftOff * state.Sizing.At(v) * this->TheField.SlopeOf(sample);
-}
-
 void Dynamics::Freeze(
   SurfaceState& state, const std::vector<int>& active, const std::vector<int>& working) const
 {
@@ -355,7 +348,9 @@ void Dynamics::Freeze(
     const bool moved = (state.Marks[v] & HasMoved) ||
       std::any_of(ring.Item, ring.Item + ring.Count,
         [&state](int w) { return (state.Marks[w] & HasMoved) != 0; });
-    if (moved && (state.Active[v] || !this->Leaves || this->IsOff(state, v)))
+    if (moved &&
+      (state.Active[v] || !this->Leaves ||
+        this->TheField.IsOff(state.Mesh.Position[v], LeftOff * state.Sizing.At(v))))
     {
       state.Activate(v);
     }

@@ -115,8 +115,6 @@ public:
 
 private:
   void SetPace();
-  /** Whether a vertex is further off the isopotential than LeftOff. */
-  bool IsOff(const SurfaceState& state, int v) const;
   Vector ForceAt(const SurfaceState& state, int v, float& value) const;
   /** The way of a vertex in a pass of Relax. */
   Vector RelaxationOf(const SurfaceState& state, int v, const Relaxation& relaxation) const;

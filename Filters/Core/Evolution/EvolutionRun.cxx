@@ -312,12 +312,8 @@ bool SurfaceEvolution::Implementation::ActivateWhereOff(float least)
     {
       for (std::size_t v = begin; v < end; ++v)
       {
-        if (s.Mesh.IsAlive(static_cast<int>(v)))
-        {
-          const Field::Sample sample = this->TheField->At(s.Mesh.Position[v]);
-          isOff[v] = std::abs(sample.Value) >
-            least * s.Sizing.At(static_cast<int>(v)) * this->TheField->SlopeOf(sample);
-        }
+        isOff[v] = s.Mesh.IsAlive(static_cast<int>(v)) &&
+          this->TheField->IsOff(s.Mesh.Position[v], least * s.Sizing.At(static_cast<int>(v)));
       }
     });
   return CountInSpans(this->Threads, n, VertexGrain,

@@ -11,6 +11,7 @@
 #include "Core/Image/VoxelBox.h"
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -61,6 +62,13 @@ public:
    * harm there.
    */
   float StepToIso(const Sample& sample, const Vector& normal, float longest) const;
+
+  /** Whether a place is further off the isopotential than this length, as its slope there tells. */
+  bool IsOff(const Vector& position, float distance) const
+  {
+    const Sample sample = this->At(position);
+    return std::abs(sample.Value) > distance * this->SlopeOf(sample);
+  }
 
   /** What the image counts as outside its voxels, with Border::Background. */
   float Background() const { return this->Outside; }
