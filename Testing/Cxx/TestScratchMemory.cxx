@@ -321,6 +321,34 @@ TEST_F(ScratchMemoryTest, LengthensWhatIsFilledHereAndThere)
   EXPECT_EQ(values[n + 100 * MiB - 1].X, 0.f);
 }
 
+TEST_F(ScratchMemoryTest, LengthensInItsPlaceAndTakesNoMemoryWhereThereIsRoom)
+{
+  constexpr std::size_t n = 4 * MiB;
+  LargeVector<Vector> values;
+  MakeZeroed(values, n, RoomForMore(n));
+  values[n - 1].X = 1.f;
+  const Vector* const place = values.data();
+  const ResidentMemoryMeter meter;
+  const std::size_t before = meter.Read().All;
+  LengthenZeroed(values, 2 * n);
+#ifndef __SANITIZE_ADDRESS__
+  EXPECT_LT(meter.Read().All, before + n) << "an eighth of what those that are new have";
+#endif
+  EXPECT_EQ(values.data(), place);
+  ASSERT_EQ(values.size(), 2 * n);
+  EXPECT_EQ(values[n - 1].X, 1.f);
+  EXPECT_EQ(values[n].X + values[2 * n - 1].X, 0.f);
+}
+
+TEST_F(ScratchMemoryTest, LengthensOnTheHeapByZeros)
+{
+  LargeVector<int> values(100, 7);
+  values.resize(10);
+  LengthenZeroed(values, 100);
+  EXPECT_EQ(values[9], 7);
+  EXPECT_EQ(std::count(values.begin() + 10, values.end(), 0), 90);
+}
+
 TEST(MemoryHeadroom, GrowsWithWhatIsFilledBetweenTwoLooks)
 {
   // As on a busy machine, where nobody had a turn to look for a while.

@@ -68,6 +68,12 @@ public:
     return memory;
   }
 
+  bool Has(const void* memory)
+  {
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    return this->Arrays.count(const_cast<void*>(memory)) > 0;
+  }
+
   /** @return whether it was such memory. */
   bool Free(void* memory) noexcept
   {
@@ -107,6 +113,11 @@ void* AllocateZeroed(std::size_t bytes, std::size_t alignment)
   std::memset(memory, 0, bytes);
   return memory;
 }
+}
+
+bool IsMadeZero(const void* memory)
+{
+  return ZeroedMemory::Instance().Has(memory);
 }
 
 void CopyPagesInUse(const void* from, std::size_t bytes, void* to)

@@ -335,9 +335,9 @@ void SurfaceMesh::Reorder(const std::vector<int>& order, Executor& executor)
   LargeVector<int> place;
   MakeZeroed(place, this->Rings.size());
   LargeVector<Vector> position;
-  MakeZeroed(position, order.size(), WithRoomToGrow(order.size()));
+  MakeZeroed(position, order.size(), RoomForMore(order.size()));
   LargeVector<Ring> rings;
-  MakeZeroed(rings, order.size(), WithRoomToGrow(order.size()));
+  MakeZeroed(rings, order.size(), RoomForMore(order.size()));
   ForSpans(executor, order.size(), VertexSpan,
     [&](std::size_t, std::size_t begin, std::size_t end)
     {
@@ -369,15 +369,15 @@ void SurfaceMesh::Reorder(const std::vector<int>& order, Executor& executor)
 void SurfaceMesh::Remake(std::size_t n, int vertices)
 {
   this->Clear();
-  MakeZeroed(this->Position, n);
-  MakeZeroed(this->Rings, n);
+  MakeZeroed(this->Position, n, RoomForMore(n));
+  MakeZeroed(this->Rings, n, RoomForMore(n));
   this->Aside = static_cast<std::int64_t>(n) - vertices;
 }
 
 void SurfaceMesh::Clear()
 {
-  this->Position.clear();
-  this->Rings.clear();
+  this->Position = {}; // What was written is not zero any more.
+  this->Rings = {};
   this->Free.clear();
   this->Aside = 0;
 }

@@ -57,8 +57,8 @@ void VertexGrid::Reset(const Vector& low, const Vector& high, float cell)
   this->Made.clear();
   this->NumberMade = 0;
   this->Bricks = LargeVector<std::atomic<Brick*>>(places); // All null.
-  this->Next.clear();
-  this->Cell.clear();
+  this->Next = {};
+  this->Cell = {};
 }
 
 void VertexGrid::Resize(std::size_t n)

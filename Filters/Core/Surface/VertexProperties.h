@@ -136,7 +136,7 @@ public:
 
   void Reset(std::size_t n) override
   {
-    this->Values.reserve(WithRoomToGrow(n));
+    MakeZeroed(this->Values, 0, RoomForMore(n));
     this->Values.assign(n, this->Initial);
   }
   void Resize(std::size_t n) override { Grow(this->Values, n, this->Initial); }
