@@ -5,6 +5,7 @@
 #include "Core/Common/ScratchStore.h"
 #include "Core/Mesh/SurfaceMesh.h"
 
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 #include <thread>
