@@ -72,7 +72,7 @@
  * @par Errors:
  * As vtkDeformableSurface: the message names the port, the array or the value, and the way out; the
  * output is empty; ask GetErrorCode() after Update(). With Gap a warning tells of which labels
- * triangles touch those of neighbours all the same.
+ * triangles touch those of neighbours, or lie within them, all the same.
  *
  * @par Progress:
  * GetProgressText() tells how many surfaces are finished and which is under way, of several the one
@@ -183,8 +183,8 @@ public:
   /**
    * Space between the surfaces of neighbouring labels, world units: each is drawn back by half of
    * it, also from the background. At most eight times the smallest distance of voxels. All surfaces
-   * are tested against their neighbours, exactly; those that touch are made again, further inside
-   * there, up to five times. Default: 0: they touch, and may overlap by what their triangles cut off
+   * are tested against their neighbours, exactly; those that touch, or have parts of others
+   * inside, are made again, further inside there, up to five times. Default: 0: they touch, and may overlap by what their triangles cut off
    * differently.
    */
   void SetGap(double gap);
