@@ -57,8 +57,8 @@ constexpr double LeastLowering = 0.2;
 constexpr double FurtherIn = 0.05;
 
 /**
- * What lies within a neighbour stays so many times, while that alone is lowered there: mostly it has
- * closed the room for it, and opens it then.
+ * What lies within a neighbour stays so many times, while that alone is lowered there: mostly it
+ * has closed the room for it, and opens it then.
  */
 constexpr int TimesForRoom = 2;
 
@@ -224,8 +224,8 @@ bool LabelSurfaceMaker::ReviseField(int object, Revision& revision, const Indexe
   const double halfGap = this->HalfGap();
   const int holds = static_cast<int>(FurtherMargins.size());
   // What is lowered for a neighbour is not raised again.
-  const bool mayHold = this->Settings.Smoothing > 0.0 &&
-    this->Lowered[static_cast<std::size_t>(object)].Times == 0;
+  const bool mayHold =
+    this->Settings.Smoothing > 0.0 && this->Lowered[static_cast<std::size_t>(object)].Times == 0;
   if (round < holds && mayHold)
   {
     const float further = FurtherMargins[static_cast<std::size_t>(round)];
@@ -263,12 +263,11 @@ bool LabelSurfaceMaker::ReviseField(int object, Revision& revision, const Indexe
   {
     return false;
   }
-  const std::size_t outside =
-    DrawBackWithin(original, surface, static_cast<float>(halfGap), field);
+  const std::size_t outside = DrawBackWithin(original, surface, static_cast<float>(halfGap), field);
   // What has been lowered where it met others need but stay away from these.
   const bool mayStop = this->Lowered[static_cast<std::size_t>(object)].Times > 0 && round > 0;
-  const bool isBetter = static_cast<double>(outside) <
-    LeastGain * static_cast<double>(revision.LastOutside);
+  const bool isBetter =
+    static_cast<double>(outside) < LeastGain * static_cast<double>(revision.LastOutside);
   revision.LastOutside = outside;
   return outside > 0 && (isBetter || !mayStop);
 }

@@ -224,8 +224,8 @@ TEST(LabelNeighbours, AreApartThoughEachRoundCutsOtherCorners)
   {
     for (unsigned int b = a + 1; b < 8; ++b)
     {
-      const OverlapVerdict verdict = JudgeOverlap(
-        ToTriangleSurface(BlockOf(filter, a)), ToTriangleSurface(BlockOf(filter, b)));
+      const OverlapVerdict verdict =
+        JudgeOverlap(ToTriangleSurface(BlockOf(filter, a)), ToTriangleSurface(BlockOf(filter, b)));
       EXPECT_EQ(verdict.VerticesInside, 0u) << a << " and " << b;
       EXPECT_EQ(verdict.IntersectingPairs, 0u) << a << " and " << b;
     }
@@ -239,8 +239,8 @@ TEST_P(LabelGaps, OfAnySizeKeepALabelOfAVoxelOutOfTheOneAboutIt)
   map.Size = { 17, 17, 17 };
   for (int v = 0; v < 17 * 17 * 17; ++v)
   {
-    const int far = std::max({ std::abs(v % 17 - 8), std::abs(v / 17 % 17 - 8),
-      std::abs(v / 17 / 17 - 8) });
+    const int far =
+      std::max({ std::abs(v % 17 - 8), std::abs(v / 17 % 17 - 8), std::abs(v / 17 / 17 - 8) });
     map.Values.push_back(static_cast<std::int16_t>(far == 0 ? 2 : far < 5 ? 1 : 0));
   }
   const Filter filter = FilterOf(ToImage(map));

@@ -111,8 +111,8 @@ std::size_t DrawBackWithin(
   return outside;
 }
 
-std::vector<std::array<int, 3>> VoxelsAbout(const std::vector<IndexedSurface>& surfaces,
-  const std::vector<SurfaceTriangle>& triangles)
+std::vector<std::array<int, 3>> VoxelsAbout(
+  const std::vector<IndexedSurface>& surfaces, const std::vector<SurfaceTriangle>& triangles)
 {
   std::vector<std::array<int, 3>> voxels;
   for (const SurfaceTriangle& t : triangles)

@@ -28,8 +28,8 @@ std::size_t DrawBackWithin(
   const LabelField& original, const IndexedSurface& surface, float by, LabelField& field);
 
 /** The same for triangles where surfaces meet: the voxels that are to be lowered, sorted. */
-std::vector<std::array<int, 3>> VoxelsAbout(const std::vector<IndexedSurface>& surfaces,
-  const std::vector<SurfaceTriangle>& triangles);
+std::vector<std::array<int, 3>> VoxelsAbout(
+  const std::vector<IndexedSurface>& surfaces, const std::vector<SurfaceTriangle>& triangles);
 }
 
 #endif

@@ -39,8 +39,7 @@ bool Encloses(const IndexedSurface& surface, const TriangleTree& tree, const Poi
     [&](const TriangleTree::Node& node)
     {
       return place[0] <= node.Box.High[0] && node.Box.Low[1] <= place[1] &&
-        place[1] <= node.Box.High[1] && node.Box.Low[2] <= place[2] &&
-        place[2] <= node.Box.High[2];
+        place[1] <= node.Box.High[1] && node.Box.Low[2] <= place[2] && place[2] <= node.Box.High[2];
     },
     [&](int t)
     {
