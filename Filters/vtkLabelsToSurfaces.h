@@ -46,8 +46,8 @@
  * Port 1, `Interfaces`: a vtkPolyData, empty but with SharedInterfaces. Its points are those of the
  * blocks, whose point data `GlobalIds` (vtkIdType) then say which. Its cells are the segments of
  * junction lines, where three labels or more meet (outside is one of them), then triangles.
- * - cell data `BoundaryLabels` (int, 2 components, as vtkSurfaceNets3D has them): the label behind a
- *   triangle, and that which its normal points to, BackgroundLabel where that is outside; of a line
+ * - cell data `BoundaryLabels` (int, 2 components, as vtkSurfaceNets3D has them): the label behind
+ * a triangle, and that which its normal points to, BackgroundLabel where that is outside; of a line
  *   BackgroundLabel twice. With Merge the label behind is that of the nearest voxel.
  * - point data `Junction` (unsigned char): 0 on an interface, 1 on a junction line, 2 where lines
  *   meet or end
@@ -72,7 +72,7 @@
  * @par Errors:
  * As vtkDeformableSurface: the message names the port, the array or the value, and the way out; the
  * output is empty; ask GetErrorCode() after Update(). With Gap a warning tells of which labels
- * triangles touch those of neighbours all the same.
+ * triangles touch those of neighbours, or lie within them, all the same.
  *
  * @par Progress:
  * GetProgressText() tells how many surfaces are finished and which is under way, of several the one
@@ -88,9 +88,9 @@
  * Where the controller has several processes, and each asks for the piece of its own number of as
  * many pieces, as ParaView's do, each makes the surfaces of some labels, the largest going first to
  * the process that has least to do. The first one takes the image together, gives the others the
- * labels of its voxels, and gets all surfaces, the same bits; the others have the same blocks, empty. An error
- * of one process is reported by all; AbortExecute of any stops all. Whoever asks for other pieces
- * works alone.
+ * labels of its voxels, and gets all surfaces, the same bits; the others have the same blocks,
+ * empty. An error of one process is reported by all; AbortExecute of any stops all. Whoever asks
+ * for other pieces works alone.
  *
  * @sa
  * vtkVolumeToSurface vtkLabelTable
@@ -183,9 +183,9 @@ public:
   /**
    * Space between the surfaces of neighbouring labels, world units: each is drawn back by half of
    * it, also from the background. At most eight times the smallest distance of voxels. All surfaces
-   * are tested against their neighbours, exactly; those that touch are made again, further inside
-   * there, up to five times. Default: 0: they touch, and may overlap by what their triangles cut off
-   * differently.
+   * are tested against their neighbours, exactly; those that touch, or have parts of others
+   * inside, are made again, further inside there, up to five times. Default: 0: they touch, and may
+   * overlap by what their triangles cut off differently.
    */
   void SetGap(double gap);
   double GetGap();

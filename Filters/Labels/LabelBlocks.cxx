@@ -247,7 +247,9 @@ std::string FillBlocks(const LabelChoice& choice, const LabelImage& image,
   }
   if (!touching.empty())
   {
-    warnings.push_back("Triangles still touch the surfaces of neighbours, in spite of the Gap: " +
+    warnings.push_back(
+      "Triangles still touch the surfaces of neighbours, or lie within them, in spite "
+      "of the Gap: " +
       Listed(touching) + ". Try a larger Gap.");
   }
   return JoinedBy(" ", warnings);

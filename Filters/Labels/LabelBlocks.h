@@ -34,7 +34,7 @@ struct LabelChoice
 /**
  * Makes a block of each surface, with the arrays of labels.
  * @return what the user should know: labels that have no surface, or lose most of their voxels, or
- *         touch neighbours in spite of a gap, and what may help; empty: nothing
+ *         meet neighbours in spite of a gap, and what may help; empty: nothing
  */
 std::string FillBlocks(const LabelChoice& choice, const LabelImage& image,
   const LabelSettings& settings, const std::vector<LabelSurface>& surfaces,

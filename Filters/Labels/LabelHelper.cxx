@@ -84,16 +84,17 @@ LabelSurface LabelHelper::Take(Ranks& ranks, int rank, std::size_t item)
   message << Step::Give << item;
   RankMessage answer = ranks.Ask(rank, RankQuestion::Own, message);
   LabelSurface made;
-  answer >> made.WrongVoxels >> made.MissedVoxels >> made.VolumeError >> made.IsFinished >>
-    made.Seconds;
+  answer >> made.WrongVoxels >> made.MissedVoxels >> made.VolumeError >> made.IsFiner >>
+    made.IsFinished >> made.Seconds;
   made.Surface = vtkPolyData::SafeDownCast(answer.TakeData());
   return made;
 }
 
-void LabelHelper::Lower(Ranks& ranks, const std::vector<std::vector<std::array<int, 3>>>& voxels)
+void LabelHelper::Lower(Ranks& ranks, const LabelSurfaceMaker::VoxelsOfObjects& voxels,
+  const std::vector<std::uint8_t>& areFiner)
 {
   RankMessage message;
-  message << Step::Lower << voxels;
+  message << Step::Lower << voxels << areFiner;
   ranks.AskAll(RankQuestion::Own, message);
 }
 
@@ -120,9 +121,10 @@ RankMessage LabelHelper::Answer(RankMessage& message)
       return this->Give(message);
     case Step::Lower:
     {
-      std::vector<std::vector<std::array<int, 3>>> voxels;
-      message >> voxels;
-      this->Maker->Lower(voxels);
+      LabelSurfaceMaker::VoxelsOfObjects voxels;
+      std::vector<std::uint8_t> areFiner;
+      message >> voxels >> areFiner;
+      this->Maker->Lower(voxels, areFiner);
     }
   }
   return {};
@@ -186,8 +188,8 @@ RankMessage LabelHelper::Give(RankMessage& message)
   message >> item;
   const LabelSurface made = std::exchange(this->Work->Surfaces[item], {});
   RankMessage answer;
-  answer << made.WrongVoxels << made.MissedVoxels << made.VolumeError << made.IsFinished
-         << made.Seconds;
+  answer << made.WrongVoxels << made.MissedVoxels << made.VolumeError << made.IsFiner
+         << made.IsFinished << made.Seconds;
   answer.Put(made.Surface);
   return answer;
 }

@@ -55,7 +55,8 @@ public:
   /** The surface of an item that a rank has made; none where it was stopped before. */
   static LabelSurface Take(Ranks& ranks, int rank, std::size_t item);
   /** See LabelSurfaceMaker::Lower. */
-  static void Lower(Ranks& ranks, const std::vector<std::vector<std::array<int, 3>>>& voxels);
+  static void Lower(Ranks& ranks, const LabelSurfaceMaker::VoxelsOfObjects& voxels,
+    const std::vector<std::uint8_t>& areFiner);
 
 private:
   enum class Step : int

@@ -249,21 +249,25 @@ LabelSurface LabelSurfaceMaker::Make(
   {
     return this->MakeWithVolume(place, object, numberOfThreads, threads, progress);
   }
-  LabelSurface made = this->MakeWithVolume(place, object, numberOfThreads, threads,
-    [&](double share, const std::string& text) { return progress(ShareOfLevel0 * share, text); });
-  if (made.Surface && this->LosesParts(object, made))
+  LabelSurface made;
+  if (!this->Lowered[static_cast<std::size_t>(object)].IsFiner)
   {
-    const LabelSurface finer = this->MakeWithVolume({ -1 }, object, numberOfThreads, threads,
-      [&](double share, const std::string& text)
-      { return progress(ShareOfLevel0 + (1.0 - ShareOfLevel0) * share, text); });
-    // Null: it was stopped; what level 0 has is finished.
-    if (finer.Surface &&
-      (finer.MissedVoxels < made.MissedVoxels || made.Surface->GetNumberOfCells() == 0))
+    made = this->MakeWithVolume(place, object, numberOfThreads, threads,
+      [&](double share, const std::string& text) { return progress(ShareOfLevel0 * share, text); });
+    if (!made.Surface || !this->LosesParts(object, made))
     {
-      made = finer;
+      return made;
     }
   }
-  return made;
+  LabelSurface finer = this->MakeWithVolume({ -1 }, object, numberOfThreads, threads,
+    [&](double share, const std::string& text)
+    { return progress(ShareOfLevel0 + (1.0 - ShareOfLevel0) * share, text); });
+  finer.IsFiner = true;
+  // Null: it was stopped; what level 0 has is finished.
+  const bool isBetter = finer.Surface &&
+    (!made.Surface || made.Surface->GetNumberOfCells() == 0 ||
+      finer.MissedVoxels < made.MissedVoxels);
+  return isBetter ? finer : made;
 }
 
 LabelSurface LabelSurfaceMaker::MakeWithVolume(const Place& place, int object,

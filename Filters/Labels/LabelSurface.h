@@ -15,6 +15,8 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -32,7 +34,9 @@ struct LabelSurface
   vtkIdType WrongVoxels = 0;
   vtkIdType MissedVoxels = 0;  ///< those of them further from the surface than VoxelTolerance and Tolerance
   double VolumeError = 0.0;    ///< by how much its volume is more than that of the voxels, in that
-  vtkIdType TouchingFaces = 0; ///< with Gap: those that touch surfaces of neighbours all the same
+  vtkIdType TouchingFaces =
+    0;                  ///< with Gap: those where it meets surfaces of neighbours all the same
+  bool IsFiner = false; ///< Level 0 has lost parts: it is one of level -1.
   bool IsFinished = false;     ///< It was not stopped on its way.
 
   /** Whether VolumeError is more than a label of so many voxels should have. */
@@ -83,11 +87,14 @@ public:
   bool KeepsApart() const { return this->Settings.Gap > 0.0; }
   /** Voxels of each object, from 1 on. */
   using VoxelsOfObjects = std::vector<std::vector<std::array<int, 3>>>;
-  /** Where surfaces touch each other, whose TouchingFaces it sets. */
+  /** Where surfaces touch each other, or lie within each other; sets TouchingFaces. */
   VoxelsOfObjects FindTouchingVoxels(
     std::vector<LabelSurface>& surfaces, HostThreads& threads) const;
-  /** Has the next surfaces stay further inside there. */
-  void Lower(const VoxelsOfObjects& voxels);
+  /**
+   * Has the next surfaces stay further inside there, and begin with the triangles of level -1
+   * where these are due.
+   */
+  void Lower(const VoxelsOfObjects& voxels, const std::vector<std::uint8_t>& areFiner);
 
 private:
   /** A field and the image that shows its values. */
@@ -138,6 +145,7 @@ private:
     int Shifts = 0;
     double LastShift = 0.0; ///< smallest distances of voxels
     double LastError = 0.0; ///< voxels
+    std::size_t LastOutside = 0; ///< triangles, the last time that it was drawn back for a gap
   };
   /**
    * Changes the field where the surface that follows it should be elsewhere: where voxels are cut
@@ -156,10 +164,15 @@ private:
   LabelFieldOptions Options;
   EdgeLengthPlan Plan; ///< with EdgeLength
   LabelClaims Claims;
-  /**
-   * By object: the voxels at which its field is lowered, once for each time that they are named.
-   */
-  std::vector<std::vector<std::array<int, 3>>> Lowered;
+  /** How an object is kept apart from others that its surfaces have met. */
+  struct Lowering
+  {
+    int Times = 0; ///< that its surface has met others
+    /** At which its field is lowered, once for each time that they are named. */
+    std::vector<std::array<int, 3>> Voxels;
+    bool IsFiner = false; ///< its last surface
+  };
+  std::vector<Lowering> Lowered; ///< by object
 };
 }
 

@@ -50,12 +50,24 @@ constexpr double BendPerLevel = 0.4;
  */
 constexpr double LeastLowering = 0.2;
 
+/**
+ * By what the whole field of an object is lowered that has met others again, and twice as much each
+ * time after that, in the same: surfaces that are made again cut other corners, anywhere.
+ */
+constexpr double FurtherIn = 0.05;
+
+/**
+ * What lies within a neighbour stays so many times, while that alone is lowered there: mostly it
+ * has closed the room for it, and opens it then.
+ */
+constexpr int TimesForRoom = 2;
+
 /** Of a surface's volume more or less than its voxels' nothing is changed for. */
 constexpr double HarmlessVolumeError = 0.01;
 /** Times which a field is shifted at most for the volume, */
 constexpr int MostShifts = 6;
 /** the last but the first two only while each leaves at most this share of the error, */
-constexpr double LeastGain = 0.9;
+constexpr double LeastGain = 0.9; // of triangles outside a lowered field, too
 /** by how much at most each, in smallest distances of voxels, */
 constexpr double MostShift = 2.0;
 /** if the volume changes at least by this share of the area times that. */
@@ -96,7 +108,16 @@ LabelSurfaceMaker::FieldImage LabelSurfaceMaker::MakeField(
           made.Field, this->Bricks, object, BendPerLevel * (squaredFactor - 1.0), threads);
       });
   }
-  for (const std::array<int, 3>& voxel : this->Lowered[static_cast<std::size_t>(object)])
+  const Lowering& lowered = this->Lowered[static_cast<std::size_t>(object)];
+  if (lowered.Times > 1)
+  {
+    const auto further = static_cast<float>(FurtherIn * std::pow(2.0, lowered.Times - 2));
+    for (float& value : made.Field.Values)
+    {
+      value -= further;
+    }
+  }
+  for (const std::array<int, 3>& voxel : lowered.Voxels)
   {
     if (made.Field.Box.Contains(voxel))
     {
@@ -203,8 +224,8 @@ bool LabelSurfaceMaker::ReviseField(int object, Revision& revision, const Indexe
   const double halfGap = this->HalfGap();
   const int holds = static_cast<int>(FurtherMargins.size());
   // What is lowered for a neighbour is not raised again.
-  const bool mayHold = this->Settings.Smoothing > 0.0 &&
-    this->Lowered[static_cast<std::size_t>(object)].empty();
+  const bool mayHold =
+    this->Settings.Smoothing > 0.0 && this->Lowered[static_cast<std::size_t>(object)].Times == 0;
   if (round < holds && mayHold)
   {
     const float further = FurtherMargins[static_cast<std::size_t>(round)];
@@ -238,15 +259,24 @@ bool LabelSurfaceMaker::ReviseField(int object, Revision& revision, const Indexe
   {
     return this->CorrectVolume(object, revision, surface, field);
   }
-  return round < holds + RoundsOfGap &&
-    DrawBackWithin(original, surface, static_cast<float>(halfGap), field);
+  if (round == holds + RoundsOfGap)
+  {
+    return false;
+  }
+  const std::size_t outside = DrawBackWithin(original, surface, static_cast<float>(halfGap), field);
+  // What has been lowered where it met others need but stay away from these.
+  const bool mayStop = this->Lowered[static_cast<std::size_t>(object)].Times > 0 && round > 0;
+  const bool isBetter =
+    static_cast<double>(outside) < LeastGain * static_cast<double>(revision.LastOutside);
+  revision.LastOutside = outside;
+  return outside > 0 && (isBetter || !mayStop);
 }
 
 LabelSurfaceMaker::VoxelsOfObjects LabelSurfaceMaker::FindTouchingVoxels(
   std::vector<LabelSurface>& surfaces, HostThreads& threads) const
 {
   std::vector<IndexedSurface> inVoxels(surfaces.size());
-  std::vector<std::vector<int>> touching;
+  std::vector<std::vector<SurfaceTriangle>> touching;
   threads.Run(
     [&]
     {
@@ -261,21 +291,37 @@ LabelSurfaceMaker::VoxelsOfObjects LabelSurfaceMaker::FindTouchingVoxels(
         });
       touching = FindTouching(inVoxels, threads);
     });
-  std::vector<std::vector<std::array<int, 3>>> voxels(surfaces.size());
+  std::vector<std::vector<SurfaceTriangle>> lowering = touching;
+  std::vector<std::size_t> within(surfaces.size(), 0);
   for (std::size_t i = 0; i < surfaces.size(); ++i)
   {
-    surfaces[i].TouchingFaces = static_cast<vtkIdType>(touching[i].size());
-    voxels[i] = VoxelsAbout(inVoxels[i], touching[i]);
+    for (const SurfaceTriangle& t : touching[i])
+    {
+      within[t.Surface] += t.Surface != i ? 1 : 0;
+      if (t.Surface != i && this->Lowered[i + 1].Times >= TimesForRoom)
+      {
+        lowering[t.Surface].push_back(t);
+      }
+    }
+  }
+  VoxelsOfObjects voxels(surfaces.size());
+  for (std::size_t i = 0; i < surfaces.size(); ++i)
+  {
+    surfaces[i].TouchingFaces = static_cast<vtkIdType>(touching[i].size() + within[i]);
+    voxels[i] = VoxelsAbout(inVoxels, lowering[i]);
   }
   return voxels;
 }
 
-void LabelSurfaceMaker::Lower(const VoxelsOfObjects& voxels)
+void LabelSurfaceMaker::Lower(
+  const VoxelsOfObjects& voxels, const std::vector<std::uint8_t>& areFiner)
 {
   for (std::size_t i = 0; i < voxels.size(); ++i)
   {
-    std::vector<std::array<int, 3>>& lowered = this->Lowered[i + 1];
-    lowered.insert(lowered.end(), voxels[i].begin(), voxels[i].end());
+    Lowering& lowered = this->Lowered[i + 1];
+    lowered.Times += voxels[i].empty() ? 0 : 1;
+    lowered.Voxels.insert(lowered.Voxels.end(), voxels[i].begin(), voxels[i].end());
+    lowered.IsFiner = areFiner[i] != 0;
   }
 }
 }

@@ -174,8 +174,13 @@ void Making::MakeSurfaces(std::vector<LabelSurface> finished)
     {
       break;
     }
-    this->Maker.Lower(touching);
-    LabelHelper::Lower(this->All, touching);
+    std::vector<std::uint8_t> areFiner;
+    for (const LabelSurface& surface : surfaces)
+    {
+      areFiner.push_back(surface.IsFiner ? 1 : 0);
+    }
+    this->Maker.Lower(touching, areFiner);
+    LabelHelper::Lower(this->All, touching, areFiner);
     this->MakeDue("apart: ");
   }
 }

@@ -164,7 +164,7 @@ def faults_of_label(verdict, told, outcome):
         yield f"WrongVoxels {told['WrongVoxels']}, which is {verdict['wrong']:g}"
     if "--gap" in run.words and (verdict["touching"] or verdict["overlapping"]):
         text = f"{verdict['touching']:g} pairs of triangles touch others' in spite of the gap"
-        if not warned(outcome, "in spite of the Gap:", label):
+        if not warned(outcome, "in spite of the --gap:", label):
             yield text
         outcome.told.append(f"{label}: {text}")
 

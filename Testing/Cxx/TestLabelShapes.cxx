@@ -214,6 +214,43 @@ TEST_P(LabelGaps, OfAnySizeKeepNeighboursApart)
   }
 }
 
+// Labels that are made again cut other corners: five times those of label 2 touched others anew.
+TEST(LabelNeighbours, AreApartThoughEachRoundCutsOtherCorners)
+{
+  const Filter filter = FilterOf(ToImage(RandomBlobs(20, 8, 6)));
+  filter->SetGap(0.02);
+  filter->SetSmoothing(0.0);
+  for (unsigned int a = 0; a < 8; ++a)
+  {
+    for (unsigned int b = a + 1; b < 8; ++b)
+    {
+      const OverlapVerdict verdict =
+        JudgeOverlap(ToTriangleSurface(BlockOf(filter, a)), ToTriangleSurface(BlockOf(filter, b)));
+      EXPECT_EQ(verdict.VerticesInside, 0u) << a << " and " << b;
+      EXPECT_EQ(verdict.IntersectingPairs, 0u) << a << " and " << b;
+    }
+  }
+}
+
+// No triangles touch there: the larger one has closed the room for the other.
+TEST_P(LabelGaps, OfAnySizeKeepALabelOfAVoxelOutOfTheOneAboutIt)
+{
+  LabelMap map;
+  map.Size = { 17, 17, 17 };
+  for (int v = 0; v < 17 * 17 * 17; ++v)
+  {
+    const int far =
+      std::max({ std::abs(v % 17 - 8), std::abs(v / 17 % 17 - 8), std::abs(v / 17 / 17 - 8) });
+    map.Values.push_back(static_cast<std::int16_t>(far == 0 ? 2 : far < 5 ? 1 : 0));
+  }
+  const Filter filter = FilterOf(ToImage(map));
+  filter->SetGap(0.4 * GetParam());
+  const TriangleSurface about = ToTriangleSurface(BlockOf(filter, 0));
+  const TriangleSurface within = ToTriangleSurface(BlockOf(filter, 1));
+  EXPECT_FALSE(within.Triangles.empty());
+  EXPECT_EQ(JudgeOverlap(about, within).VerticesInside, 0u);
+}
+
 INSTANTIATE_TEST_SUITE_P(Of, LabelGaps, testing::Values(0.05, 0.5),
   [](const testing::TestParamInfo<double>& info)
   { return std::to_string(static_cast<int>(std::round(100.0 * info.param))) + "Percent"; });

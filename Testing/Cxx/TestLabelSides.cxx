@@ -127,24 +127,68 @@ IndexedSurface OctahedronAt(double x, double radius)
     { 2, 0, 4 }, { 1, 2, 4 } };
   return made;
 }
+
+IndexedSurface JoinedWith(IndexedSurface first, const IndexedSurface& second)
+{
+  const int count = static_cast<int>(first.Points.size());
+  for (const Point& p : second.Points)
+  {
+    first.Points.push_back(p);
+  }
+  for (const Triangle& t : second.Triangles)
+  {
+    first.Triangles.push_back({ t[0] + count, t[1] + count, t[2] + count });
+  }
+  return first;
+}
+
+using Meetings = std::vector<std::vector<SurfaceTriangle>>;
+
+std::vector<SurfaceTriangle> TrianglesOf(std::size_t surface, const std::vector<int>& triangles)
+{
+  std::vector<SurfaceTriangle> made;
+  for (const int t : triangles)
+  {
+    made.push_back({ surface, t });
+  }
+  return made;
+}
 }
 
 TEST(FindTouching, NamesTheTrianglesOfBothThatMeet)
 {
-  const std::vector<std::vector<int>> touching = FindTouching(
+  const Meetings touching = FindTouching(
     { OctahedronAt(5., 3.), OctahedronAt(10.5, 3.), OctahedronAt(30., 3.) }, OnThisThread());
   ASSERT_EQ(touching.size(), 3u);
-  EXPECT_EQ(touching[0], (std::vector<int>{ 0, 3, 4, 7 })) << "all about the corner at larger x";
-  EXPECT_EQ(touching[1], (std::vector<int>{ 1, 2, 5, 6 }));
+  EXPECT_EQ(touching[0], TrianglesOf(0, { 0, 3, 4, 7 })) << "all about the corner at larger x";
+  EXPECT_EQ(touching[1], TrianglesOf(1, { 1, 2, 5, 6 }));
   EXPECT_TRUE(touching[2].empty());
 }
 
-TEST(FindTouching, TouchingInAPointCountsAndANestedOneDoesNot)
+TEST(FindTouching, TouchingInAPointCounts)
 {
   const auto meet = [](const IndexedSurface& a, const IndexedSurface& b)
   { return !FindTouching({ a, b }, OnThisThread())[0].empty(); };
   EXPECT_TRUE(meet(OctahedronAt(5., 3.), OctahedronAt(11., 3.)));
   EXPECT_FALSE(meet(OctahedronAt(5., 3.), OctahedronAt(11.01, 3.)));
-  EXPECT_FALSE(meet(OctahedronAt(5., 3.), OctahedronAt(5., 1.))) << "inside, but not in contact";
   EXPECT_FALSE(meet(OctahedronAt(5., 3.), IndexedSurface()));
+}
+
+TEST(FindTouching, NamesAllOfAComponentWithinAnotherSurfaceForThatUnlessItIsInACavity)
+{
+  // Of the second surface one component is within the first, the other apart.
+  const IndexedSurface apart = JoinedWith(OctahedronAt(30., 3.), OctahedronAt(5., 1.));
+  const Meetings meetings = FindTouching({ OctahedronAt(5., 3.), apart }, OnThisThread());
+  EXPECT_EQ(meetings[0], TrianglesOf(1, { 8, 9, 10, 11, 12, 13, 14, 15 }));
+  EXPECT_TRUE(meetings[1].empty());
+  IndexedSurface cavity = OctahedronAt(5., 2.);
+  for (Triangle& t : cavity.Triangles)
+  {
+    std::swap(t[1], t[2]);
+  }
+  const IndexedSurface shell = JoinedWith(OctahedronAt(5., 3.), cavity);
+  for (const auto& ofOne : FindTouching({ shell, OctahedronAt(5., 1.) }, OnThisThread()))
+  {
+    EXPECT_TRUE(ofOne.empty());
+  }
 }

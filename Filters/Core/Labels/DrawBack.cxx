@@ -78,44 +78,47 @@ void ForPlacesOn(const IndexedSurface& surface, const Triangle& t, Visit&& visit
 }
 }
 
-bool DrawBackWithin(
+std::size_t DrawBackWithin(
   const LabelField& original, const IndexedSurface& surface, float by, LabelField& field)
 {
   LargeVector<unsigned char> isLowered(field.Values.size(), 0);
+  std::size_t outside = 0;
   for (const Triangle& t : surface.Triangles)
   {
+    bool isOutside = false;
     ForPlacesOn(surface, t,
       [&](const Point& place)
       {
         const Neighbourhood about(original, place);
         if (about.Value < LeastInside)
         {
+          isOutside = true;
           for (const std::int64_t voxel : about.Voxels)
           {
             isLowered[static_cast<std::size_t>(voxel)] = 1;
           }
         }
       });
+    outside += isOutside ? 1 : 0;
   }
-  bool isAny = false;
   for (std::size_t voxel = 0; voxel < isLowered.size(); ++voxel)
   {
     if (isLowered[voxel] != 0)
     {
       field.Values[voxel] -= by;
-      isAny = true;
     }
   }
-  return isAny;
+  return outside;
 }
 
 std::vector<std::array<int, 3>> VoxelsAbout(
-  const IndexedSurface& surface, const std::vector<int>& triangles)
+  const std::vector<IndexedSurface>& surfaces, const std::vector<SurfaceTriangle>& triangles)
 {
   std::vector<std::array<int, 3>> voxels;
-  for (const int t : triangles)
+  for (const SurfaceTriangle& t : triangles)
   {
-    ForPlacesOn(surface, surface.Triangles[static_cast<std::size_t>(t)],
+    const IndexedSurface& surface = surfaces[t.Surface];
+    ForPlacesOn(surface, surface.Triangles[static_cast<std::size_t>(t.Triangle)],
       [&](const Point& place)
       {
         for (int corner = 0; corner < 8; ++corner)

@@ -5,8 +5,10 @@
 
 #include "Core/Common/IndexedSurface.h"
 #include "Core/Labels/LabelField.h"
+#include "Core/Labels/TouchingSurfaces.h"
 
 #include <array>
+#include <cstddef>
 #include <vector>
 
 namespace volumic
@@ -20,14 +22,14 @@ namespace volumic
  * @param original the field as it was settled
  * @param by       how much it is lowered
  * @param field    the one that the surface follows
- * @return whether any of it was
+ * @return the number of these triangles
  */
-bool DrawBackWithin(
+std::size_t DrawBackWithin(
   const LabelField& original, const IndexedSurface& surface, float by, LabelField& field);
 
-/** The same for triangles that touch a neighbour: the voxels that are to be lowered, sorted. */
+/** The same for triangles where surfaces meet: the voxels that are to be lowered, sorted. */
 std::vector<std::array<int, 3>> VoxelsAbout(
-  const IndexedSurface& surface, const std::vector<int>& triangles);
+  const std::vector<IndexedSurface>& surfaces, const std::vector<SurfaceTriangle>& triangles);
 }
 
 #endif

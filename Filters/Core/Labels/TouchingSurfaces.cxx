@@ -3,13 +3,15 @@
 #include "Core/Labels/TouchingSurfaces.h"
 
 #include "Core/Common/Spans.h"
+#include "Core/Mesh/RowCrossing.h"
 #include "Core/Mesh/SelfIntersections.h"
+#include "Core/Mesh/SurfaceFeatures.h"
 #include "Core/Mesh/TriangleTree.h"
 
 #include <algorithm>
 #include <cstddef>
-#include <iterator>
 #include <memory>
+#include <utility>
 
 namespace volumic
 {
@@ -28,9 +30,69 @@ bool Overlap(const Bounds& a, const Bounds& b)
   }
   return overlap;
 }
+
+/** Whether a closed surface that does not touch the place has it inside. */
+bool Encloses(const IndexedSurface& surface, const TriangleTree& tree, const Point& place)
+{
+  int winding = 0;
+  tree.Traverse(
+    [&](const TriangleTree::Node& node)
+    {
+      return place[0] <= node.Box.High[0] && node.Box.Low[1] <= place[1] &&
+        place[1] <= node.Box.High[1] && node.Box.Low[2] <= place[2] && place[2] <= node.Box.High[2];
+    },
+    [&](int t)
+    {
+      const auto corner = [&](int k)
+      { return surface.Points[static_cast<std::size_t>(surface.Triangles[t][k])]; };
+      const RowCrossing crossing =
+        RowCrossing::Of(corner(0), corner(1), corner(2), place[1], place[2]);
+      winding += crossing.X > place[0] ? crossing.Winding : 0;
+      return true;
+    });
+  return winding != 0;
 }
 
-std::vector<std::vector<int>> FindTouching(
+/** The triangles of the components within another surface, none of whose are among `touching`. */
+std::vector<int> FindEnclosed(const IndexedSurface& surface, const SurfaceFeatures& features,
+  const std::vector<int>& touching, const IndexedSurface& other, const TriangleTree& tree)
+{
+  enum class State : char
+  {
+    Unknown,
+    Outside,
+    Inside
+  };
+  std::vector<State> states(features.Components.size(), State::Unknown);
+  for (const int t : touching)
+  {
+    states[features.ComponentOfTriangle[t]] = State::Outside;
+  }
+  std::vector<int> enclosed;
+  for (int t = 0; t < static_cast<int>(surface.Triangles.size()); ++t)
+  {
+    State& state = states[features.ComponentOfTriangle[t]];
+    if (state == State::Unknown)
+    {
+      const Point& place = surface.Points[static_cast<std::size_t>(surface.Triangles[t][0])];
+      state = Encloses(other, tree, place) ? State::Inside : State::Outside;
+    }
+    if (state == State::Inside)
+    {
+      enclosed.push_back(t);
+    }
+  }
+  return enclosed;
+}
+
+void Unite(std::vector<SurfaceTriangle>& triangles)
+{
+  std::sort(triangles.begin(), triangles.end());
+  triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
+}
+}
+
+std::vector<std::vector<SurfaceTriangle>> FindTouching(
   const std::vector<IndexedSurface>& surfaces, Executor& executor)
 {
   const std::size_t count = surfaces.size();
@@ -42,23 +104,39 @@ std::vector<std::vector<int>> FindTouching(
       bounds[i] = Bounds::Of(surfaces[i]);
       trees[i] = std::make_unique<TriangleTree>(surfaces[i]);
     });
-  std::vector<std::vector<int>> touching(count);
+  std::vector<std::vector<SurfaceTriangle>> meeting(count);
+  std::vector<std::vector<std::pair<std::size_t, SurfaceTriangle>>> within(count);
   ForSpans(executor, count, 1,
     [&](std::size_t i, std::size_t, std::size_t)
     {
-      std::vector<int>& found = touching[i];
+      const SurfaceFeatures features = ComputeFeatures(surfaces[i]);
       for (std::size_t other = 0; other < count; ++other)
       {
-        if (other != i && Overlap(bounds[i], bounds[other]))
+        if (other == i || !Overlap(bounds[i], bounds[other]))
         {
-          const std::vector<int> more =
-            FindIntersecting(surfaces[i], surfaces[other], *trees[other], Tolerance);
-          found.insert(found.end(), more.begin(), more.end());
+          continue;
+        }
+        const std::vector<int> touching =
+          FindIntersecting(surfaces[i], surfaces[other], *trees[other], Tolerance);
+        for (const int t : touching)
+        {
+          meeting[i].push_back({ i, t });
+        }
+        for (const int t :
+          FindEnclosed(surfaces[i], features, touching, surfaces[other], *trees[other]))
+        {
+          within[i].push_back({ other, { i, t } });
         }
       }
-      std::sort(found.begin(), found.end());
-      found.erase(std::unique(found.begin(), found.end()), found.end());
     });
-  return touching;
+  for (const auto& ofOne : within)
+  {
+    for (const auto& [other, triangle] : ofOne)
+    {
+      meeting[other].push_back(triangle);
+    }
+  }
+  std::for_each(meeting.begin(), meeting.end(), Unite);
+  return meeting;
 }
 }

@@ -6,16 +6,34 @@
 #include "Core/Common/Executor.h"
 #include "Core/Common/IndexedSurface.h"
 
+#include <cstddef>
 #include <vector>
 
 namespace volumic
 {
+/** A triangle of one of some surfaces. */
+struct SurfaceTriangle
+{
+  std::size_t Surface;
+  int Triangle;
+
+  bool operator<(const SurfaceTriangle& other) const
+  {
+    return this->Surface != other.Surface ? this->Surface < other.Surface
+                                          : this->Triangle < other.Triangle;
+  }
+  bool operator==(const SurfaceTriangle& other) const
+  {
+    return this->Surface == other.Surface && this->Triangle == other.Triangle;
+  }
+};
+
 /**
- * Of each of some closed surfaces the triangles, from first to last, that touch or cross another
- * one, by exact tests.
+ * Where each of some closed surfaces meets others, sorted: its own triangles that touch or cross
+ * another one, by exact tests, and all those of others' components that it has inside without that.
  * @param surfaces in coordinates in which voxel (i, j, k) of the map is at (i, j, k)
  */
-std::vector<std::vector<int>> FindTouching(
+std::vector<std::vector<SurfaceTriangle>> FindTouching(
   const std::vector<IndexedSurface>& surfaces, Executor& executor);
 }
 
