@@ -96,7 +96,8 @@ public:
   }
 
 private:
-  bool HasTolerance() const { return this->Options.Tolerance > 0.; }
+  /** Without smoothing no voxel is on the wrong side of the field. */
+  bool HasTolerance() const { return this->Options.Tolerance > 0. && this->Options.Sigma > 0.; }
   float* RowAt(int i, int j, int k)
   {
     return this->Field.Values.data() + this->Field.Box.NumberOf(i, j, k);
