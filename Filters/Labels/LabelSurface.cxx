@@ -11,6 +11,8 @@
 #include "Settings/SegmentationRequest.h"
 #include "Settings/SegmentationSettings.h"
 
+#include <vtkCellArray.h>
+#include <vtkCellArrayIterator.h>
 #include <vtkDataArray.h>
 #include <vtkDataSetAttributes.h>
 #include <vtkFieldData.h>
@@ -106,6 +108,21 @@ vtkSmartPointer<vtkImageData> PadForLevel(vtkImageData* field, double factor, in
     }
   }
   return padded;
+}
+
+/**
+ * A place in the map, of one in the box of a label. Differences of such places are the same bits
+ * wherever the map begins, so that a label has the same surface in a crop of the map.
+ */
+Point InMap(const Point& inBox, const std::array<int, 3>& first)
+{
+  constexpr double grid = 1 << 24; // Sums of its points and of numbers of voxels are exact.
+  Point place;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    place[axis] = first[axis] + std::round(inBox[axis] * grid) / grid;
+  }
+  return place;
 }
 
 /** Multiplies the residuals, which are in smallest distances of voxels. */
@@ -233,7 +250,43 @@ bool LabelSurfaceMaker::LosesParts(int object, const LabelSurface& made) const
   return SeverelyLost * made.MissedVoxels > voxels ||
     (this->Settings.Gap == 0.0 && made.MissedVoxels >= worth &&
       SizeOfLargestLostPart(this->Bricks.Map(), object,
-        this->FindMissed(object, this->InVoxels(made.Surface))) >= worth);
+        this->FindMissed(object, this->InVoxels(object, made.Surface))) >= worth);
+}
+
+IndexedSurface LabelSurfaceMaker::InVoxels(int object, vtkPolyData* surface) const
+{
+  const VoxelBox& bricks = this->Bricks.ExtentOf(object).Bricks;
+  std::array<int, 3> first; // of the box of its field
+  int box[6];
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    first[axis] = (bricks.First[axis] - 1) * LabelBricks::Side;
+    box[2 * axis] = box[2 * axis + 1] = this->Image->GetExtent()[2 * axis] + first[axis];
+  }
+  vtkNew<vtkImageData> frame;
+  frame->CopyStructure(this->Image);
+  frame->SetExtent(box);
+  const Workspace voxels(frame, Metric::Voxels);
+  IndexedSurface indexed;
+  const vtkIdType count = surface->GetNumberOfPoints();
+  indexed.Points.resize(static_cast<std::size_t>(count));
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    Point world;
+    surface->GetPoint(i, world.data());
+    indexed.Points[static_cast<std::size_t>(i)] = InMap(voxels.ToWorkspace(world), first);
+  }
+  const int second = voxels.IsMirrored() ? 2 : 1;
+  auto cells = vtk::TakeSmartPointer(surface->GetPolys()->NewIterator());
+  for (cells->GoToFirstCell(); !cells->IsDoneWithTraversal(); cells->GoToNextCell())
+  {
+    vtkIdType size = 0;
+    const vtkIdType* corners = nullptr;
+    cells->GetCurrentCell(size, corners);
+    indexed.Triangles.push_back({ static_cast<int>(corners[0]),
+      static_cast<int>(corners[second]), static_cast<int>(corners[3 - second]) });
+  }
+  return indexed;
 }
 
 LabelSurface LabelSurfaceMaker::Make(
@@ -321,18 +374,13 @@ LabelSurface LabelSurfaceMaker::MakeAt(const Place& place, int object, int numbe
     request.End = volume.Settings.End;
     request.End.NumberOfThreads = numberOfThreads;
     const Point step = Workspace(this->Image, volume.Settings.Metric).Step();
-    Point first;
-    std::copy(field.Field.Box.First.begin(), field.Field.Box.First.end(), first.begin());
     Revision revision;
     request.Revise = [&](const SurfaceResult& surface)
     {
       IndexedSurface inVoxels = surface;
       for (Point& p : inVoxels.Points)
       {
-        for (int axis = 0; axis < 3; ++axis)
-        {
-          p[axis] = first[axis] + p[axis] / step[axis];
-        }
+        p = InMap({ p[0] / step[0], p[1] / step[1], p[2] / step[2] }, field.Field.Box.First);
       }
       return this->ReviseField(object, revision, inVoxels, original, field.Field);
     };
@@ -346,7 +394,7 @@ LabelSurface LabelSurfaceMaker::MakeAt(const Place& place, int object, int numbe
     }
     ScaleResidual(surface, Workspace(this->Image, Metric::World).WorldUnit());
     made.Surface = surface;
-    const IndexedSurface inVoxels = this->InVoxels(surface);
+    const IndexedSurface inVoxels = this->InVoxels(object, surface);
     const std::vector<std::int64_t> wrong = FindWrongVoxels(this->Bricks, object, inVoxels);
     made.WrongVoxels = static_cast<vtkIdType>(wrong.size());
     made.VolumeError = VolumeErrorOf(inVoxels, extent.Voxels);

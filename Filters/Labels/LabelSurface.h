@@ -130,7 +130,7 @@ private:
   /** The wrong voxels that are further from the surface than that. */
   std::vector<std::int64_t> FindMissed(int object, const IndexedSurface& surface) const;
   /** In coordinates in which voxel (i, j, k) of the map is at (i, j, k). */
-  IndexedSurface InVoxels(vtkPolyData* surface) const;
+  IndexedSurface InVoxels(int object, vtkPolyData* surface) const;
   /** How often a field has been changed, and the last time for its volume, by what. */
   struct Revision
   {

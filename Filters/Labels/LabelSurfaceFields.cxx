@@ -13,8 +13,6 @@
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "Input/Workspace.h"
 
-#include <vtkCellArray.h>
-#include <vtkCellArrayIterator.h>
 #include <vtkFloatArray.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
@@ -126,31 +124,6 @@ LabelSurfaceMaker::FieldImage LabelSurfaceMaker::MakeField(
   return made;
 }
 
-IndexedSurface LabelSurfaceMaker::InVoxels(vtkPolyData* surface) const
-{
-  const Workspace voxels(this->Image, Metric::Voxels);
-  IndexedSurface indexed;
-  const vtkIdType count = surface->GetNumberOfPoints();
-  indexed.Points.resize(static_cast<std::size_t>(count));
-  for (vtkIdType i = 0; i < count; ++i)
-  {
-    Point world;
-    surface->GetPoint(i, world.data());
-    indexed.Points[static_cast<std::size_t>(i)] = voxels.ToWorkspace(world);
-  }
-  const int second = voxels.IsMirrored() ? 2 : 1;
-  auto cells = vtk::TakeSmartPointer(surface->GetPolys()->NewIterator());
-  for (cells->GoToFirstCell(); !cells->IsDoneWithTraversal(); cells->GoToNextCell())
-  {
-    vtkIdType size = 0;
-    const vtkIdType* corners = nullptr;
-    cells->GetCurrentCell(size, corners);
-    indexed.Triangles.push_back({ static_cast<int>(corners[0]),
-      static_cast<int>(corners[second]), static_cast<int>(corners[3 - second]) });
-  }
-  return indexed;
-}
-
 std::vector<std::int64_t> LabelSurfaceMaker::FindMissed(
   int object, const IndexedSurface& surface) const
 {
@@ -171,8 +144,10 @@ bool LabelSurfaceMaker::CorrectVolume(
   IndexedSurface scaled = surface;
   for (Point& p : scaled.Points)
   {
-    std::transform(
-      p.begin(), p.end(), map.Spacing.begin(), p.begin(), [](double x, double h) { return x * h; });
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      p[axis] = (p[axis] - field.Box.First[axis]) * map.Spacing[axis]; // the same wherever it lies
+    }
   }
   const SurfaceFeatures features = ComputeFeatures(scaled);
   const double voxel = map.Spacing[0] * map.Spacing[1] * map.Spacing[2];
@@ -256,7 +231,8 @@ LabelSurfaceMaker::VoxelsOfObjects LabelSurfaceMaker::FindTouchingVoxels(
           for (std::size_t i = begin; i < end; ++i)
           {
             inVoxels[i] =
-              surfaces[i].Surface ? this->InVoxels(surfaces[i].Surface) : IndexedSurface();
+              surfaces[i].Surface ? this->InVoxels(static_cast<int>(i) + 1, surfaces[i].Surface)
+                                  : IndexedSurface();
           }
         });
       touching = FindTouching(inVoxels, threads);
