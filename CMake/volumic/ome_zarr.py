@@ -134,9 +134,10 @@ def _group(path: str) -> Any:
     except ImportError as error:
         raise ImportError("OME-Zarr is read by zarr, which is missing (Debian: python3-zarr)"
                           ) from error
+    missing: Any = getattr(zarr.errors, "GroupNotFoundError", FileNotFoundError)  # zarr 2's
     try:
         return zarr.open_group(path, mode="r")
-    except (zarr.errors.GroupNotFoundError, FileNotFoundError) as error:
+    except (FileNotFoundError, missing) as error:
         raise ValueError(f"{path}: there is no group of Zarr") from error
 
 

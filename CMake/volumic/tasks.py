@@ -89,12 +89,12 @@ class Job:
             raise ValueError(f"the map must have three axes, z, y and x, not {len(source.shape)}")
         self.source = source
         self.folder = os.path.abspath(folder)
-        self.spacing = [float(s) for s in spacing or getattr(source, "spacing", (1, 1, 1))]
-        self.origin = [float(o) for o in origin or getattr(source, "origin", (0, 0, 0))]
+        self.spacing = _floats(getattr(source, "spacing", (1, 1, 1)) if spacing is None else spacing)
+        self.origin = _floats(getattr(source, "origin", (0, 0, 0)) if origin is None else origin)
         self.direction = None if direction is None else np.asarray(direction, float).tolist()
         self.only = sorted({int(label) for label in only})
         self.formats = list(formats)
-        self.nanometers = float(nanometers or getattr(source, "nanometers", 1.0))
+        self.nanometers = float(getattr(source, "nanometers", 1) if nanometers is None else nanometers)
         self.bundle = bundle
         self.most = most
         self.properties = properties
@@ -320,7 +320,7 @@ class Job:
 
     def _row(self, label: int, surface: Surface) -> dict[str, Any]:
         report = surface.report
-        row = {"Label": label}
+        row: dict[str, Any] = {"Label": label}
         row.update(zip(("Voxels", "FirstX", "LastX", "FirstY", "LastY", "FirstZ", "LastZ"),
                        self.boxes()[label]))
         row.update({"Points": len(surface.points), "Triangles": len(surface.triangles)})
@@ -337,7 +337,7 @@ def precomputed(surface: Surface, nanometers: float = 1.0) -> bytes:
             + surface.triangles.astype("<u4").tobytes())
 
 
-def quality(surface: Surface) -> dict[str, float | None]:
+def quality(surface: Surface) -> dict[str, Any]:
     """Of the triangles: the smallest angle, degrees, and the mean of 4 sqrt(3) area / sum of squared
     sides, which is 1 for an equilateral one."""
     corners = np.asarray(surface.points, float)[surface.triangles]
@@ -350,6 +350,10 @@ def quality(surface: Surface) -> dict[str, float | None]:
     angles = np.degrees(np.arctan2(2 * areas[:, None], cosines))
     return {"SmallestAngle": float(angles.min()),
             "MeanQuality": float((4 * np.sqrt(3) * areas / squares.sum(axis=1)).mean())}
+
+
+def _floats(values: Any) -> list[float]:
+    return [float(value) for value in values]
 
 
 def _count(box: Box) -> int:
