@@ -142,9 +142,9 @@ class Job:
             axes.append(list(zip([0, *ends[:-1]], ends)))
         return [[x, y, z] for z, y, x in itertools.product(*axes[::-1])]
 
-    def blocks(self) -> list[int]:
-        """The tasks for `count` that are not done."""
-        return [number for number in range(len(self._grid()))
+    def blocks(self, part: int = 0, parts: int = 1) -> list[int]:
+        """The tasks for `count` that are not done, or the share of them that one of `parts` does."""
+        return [number for number in range(part, len(self._grid()), parts)
                 if not os.path.exists(self._path("counts", f"{number}.json"))]
 
     def count(self, block: int) -> None:
@@ -186,20 +186,24 @@ class Job:
     def is_done(self, label: int) -> bool:
         return os.path.exists(self._path("rows", f"{label}.json"))
 
-    def bundles(self) -> list[list[int]]:
-        """The tasks for `make` that are not done, those with the largest crops first."""
-        due = [label for label in self.labels() if not self.is_done(label)]
-        for label in due:
-            self._check([label], self._about([label]))
+    def bundles(self, part: int = 0, parts: int = 1) -> list[list[int]]:
+        """The tasks for `make` that are not done, those with the largest crops first; or the share of
+        them that one of `parts` does.
+        """
         bundles: list[tuple[Box, list[int]]] = []
-        for label in sorted(due, key=self._order):
+        for label in sorted(self.labels(), key=self._order):
             box = self._about([label])
             together = _around(box, bundles[-1][0]) if bundles else box
             if bundles and _count(together) <= self.bundle:
                 bundles[-1] = (together, bundles[-1][1] + [label])
             else:
                 bundles.append((box, [label]))
-        return [labels for _, labels in sorted(bundles, key=lambda bundle: -_count(bundle[0]))]
+        bundles.sort(key=lambda bundle: -_count(bundle[0]))
+        due = [[label for label in labels if not self.is_done(label)]
+               for _, labels in bundles[part::parts]]
+        for label in itertools.chain(*due):
+            self._check([label], self._about([label]))
+        return [labels for labels in due if labels]
 
     def make(self, labels: Sequence[int]) -> None:
         """Surfaces of labels, in a crop that has what they depend on."""

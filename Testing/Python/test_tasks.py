@@ -166,6 +166,7 @@ class JobTest(FolderTestCase):
         job.make(job.bundles()[0])
         with self.assertRaisesRegex(ValueError, "2 of 3 labels are not made yet"):
             job.finish()
+        self.assertEqual([len(job.bundles(part, 2)) for part in (0, 1)], [1, 1])
         again = self.job(bundle=1, NumberOfThreads=1)
         self.assertEqual((len(again.blocks()), len(again.bundles())), (0, 2))
         before = os.stat(self.path("meshes/label-3.vtp")).st_mtime_ns
