@@ -40,6 +40,15 @@ def describe(group, names, levels, **more):
             {"path": path, "coordinateTransformations": steps} for path, steps in levels], **more}]
 
 
+def write_labels(path, name, voxels):
+    """An image of labels only."""
+    labels = zarr.open_group(path, mode="w").create_group("labels")
+    labels.attrs["labels"] = [name]
+    group = labels.create_group(name)
+    add_array(group, "0", voxels.astype("u2"))
+    describe(group, "zyx", [("0", [{"type": "scale", "scale": [1, 1, 1]}])])
+
+
 @unittest.skipUnless(zarr, "no zarr (Debian: python3-zarr)")
 class OmeZarrTest(FolderTestCase):
     def setUp(self):
