@@ -16,9 +16,8 @@ import itertools
 import os
 import random
 import resource
-import signal
+import subprocess
 import sys
-import threading
 import time
 
 import dask
@@ -70,22 +69,19 @@ def write_map(path, size, count):
             array[z:z + CHUNK, y:y + CHUNK, x:x + CHUNK] = part
 
 
-def measured(step, folder, task):
-    """Tells the peak of this process, too."""
+def measured(step, folder, kills, task):
+    """Tells the peak of this process, too; the first so many are killed on their way."""
+    for number in range(kills):
+        try:
+            os.mkdir(os.path.join(folder, f"killed-{number}"))
+        except FileExistsError:
+            continue
+        delay = random.uniform(1, 4)
+        subprocess.Popen(["sh", "-c", f"sleep {delay}; kill -KILL {os.getpid()}"])
+        break
     step(task)
     arrays.replace_file(os.path.join(folder, f"peak-{os.getpid()}"),
                         str(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss // 1024).encode())
-
-
-def kill_workers(client, kills, is_over):
-    """One after the other, some seconds apart; returns how many."""
-    done = 0
-    while done < kills and not is_over.wait(random.uniform(3, 8)):
-        pids = list(client.run(os.getpid, on_error="ignore").values())
-        if pids:
-            os.kill(random.choice(pids), signal.SIGKILL)
-            done += 1
-    print(f"  workers killed: {done}")
 
 
 def sum_of(folder):
@@ -107,6 +103,7 @@ def main():
     arguments = parser.parse_args()
     if not os.path.isdir(arguments.map):
         write_map(arguments.map, arguments.size, arguments.labels)
+    kills = arguments.kills
     peaks = arguments.folder.rstrip("/") + "-peaks"
     os.makedirs(peaks, exist_ok=True)
     job = tasks.Job(zarr.open(arguments.map, mode="r"), arguments.folder, NumberOfThreads=1)
@@ -114,25 +111,25 @@ def main():
     with distributed.LocalCluster(arguments.workers, threads_per_worker=1,
                                   dashboard_address=None) as cluster, \
             distributed.Client(cluster) as client:
+        # Dask gives a worker up that is killed while it starts: others take its place.
+        cluster.adapt(minimum=arguments.workers, maximum=arguments.workers)
+
         def gathered(step, these):
             started = time.monotonic()
-            client.gather(client.map(functools.partial(measured, step, peaks), these))
+            client.gather(client.map(
+                functools.partial(measured, step, peaks, kills if step == job.make else 0), these))
             print(f"  {step.__name__}: {len(these)} tasks, {time.monotonic() - started:.1f} s")
             return []
 
-        is_over = threading.Event()
-        killer = threading.Thread(target=kill_workers, args=(client, arguments.kills, is_over))
-        killer.start()
-        try:
-            rows = job.run(gathered)
-        finally:
-            is_over.set()
-            killer.join()
-    most = max(int(open(entry.path, encoding="utf-8").read()) for entry in os.scandir(peaks))
+        rows = job.run(gathered)
+    killed = sum(entry.name.startswith("killed") for entry in os.scandir(peaks))
+    most = max(int(open(entry.path, encoding="utf-8").read()) for entry in os.scandir(peaks)
+               if entry.name.startswith("peak"))
     left = [name for _, _, names in os.walk(arguments.folder) for name in names
             if name.startswith(arrays.HIDDEN)]
     print(f"  {len(rows)} labels, {sum(row['Triangles'] for row in rows):,} triangles, sum"
-          f" {sum_of(arguments.folder)}, peak of a worker {most} MiB, left behind: {left or 'nothing'}")
+          f" {sum_of(arguments.folder)}, peak of a worker {most} MiB, killed {killed},"
+          f" left behind: {left or 'nothing'}")
 
 
 if __name__ == "__main__":

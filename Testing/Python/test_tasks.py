@@ -205,6 +205,19 @@ class JobTest(FolderTestCase):
         with self.assertRaisesRegex(arrays.FilterError, "Smoothing is 99"):
             tasks.Job(balls(1), self.path("other"), Smoothing=99).run()
 
+    def test_claimants_are_in_the_crop_as_a_whole(self):
+        voxels = np.zeros((24, 24, 80), "u2")
+        voxels[8:16, 8:16, 8:16] = 1  # bricks 2 and 3 along x
+        for first, is_near in ((16, True), (20, True), (24, False)):
+            voxels[8:16, 8:16, 16:] = 0
+            voxels[8:16, 8:16, first:70] = 2
+            job = tasks.Job(voxels, self.path(f"meshes{first}"))
+            job.count(0)
+            box = job._about([1])
+            self.assertEqual(box, [(0, 28), (0, 24), (0, 24)])
+            grown = job._with_claimants([1], box, job._read(box))
+            self.assertEqual(grown, [(0, 72), (0, 24), (0, 24)] if is_near else box)
+
     def test_a_claimant_that_is_too_large(self):
         job = tasks.Job(cells(), self.path("cells"), only=[4])
         job.count(0)
