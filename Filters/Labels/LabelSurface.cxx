@@ -11,8 +11,6 @@
 #include "Settings/SegmentationRequest.h"
 #include "Settings/SegmentationSettings.h"
 
-#include <vtkCellArray.h>
-#include <vtkCellArrayIterator.h>
 #include <vtkDataArray.h>
 #include <vtkDataSetAttributes.h>
 #include <vtkFieldData.h>
@@ -108,21 +106,6 @@ vtkSmartPointer<vtkImageData> PadForLevel(vtkImageData* field, double factor, in
     }
   }
   return padded;
-}
-
-/**
- * A place in the map, of one in the box of a label. Differences of such places are the same bits
- * wherever the map begins, so that a label has the same surface in a crop of the map.
- */
-Point InMap(const Point& inBox, const std::array<int, 3>& first)
-{
-  constexpr double grid = 1 << 24; // Sums of its points and of numbers of voxels are exact.
-  Point place;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    place[axis] = first[axis] + std::round(inBox[axis] * grid) / grid;
-  }
-  return place;
 }
 
 /** Multiplies the residuals, which are in smallest distances of voxels. */
@@ -251,42 +234,6 @@ bool LabelSurfaceMaker::LosesParts(int object, const LabelSurface& made) const
     (this->Settings.Gap == 0.0 && made.MissedVoxels >= worth &&
       SizeOfLargestLostPart(this->Bricks.Map(), object,
         this->FindMissed(object, this->InVoxels(object, made.Surface))) >= worth);
-}
-
-IndexedSurface LabelSurfaceMaker::InVoxels(int object, vtkPolyData* surface) const
-{
-  const VoxelBox& bricks = this->Bricks.ExtentOf(object).Bricks;
-  std::array<int, 3> first; // of the box of its field
-  int box[6];
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    first[axis] = (bricks.First[axis] - 1) * LabelBricks::Side;
-    box[2 * axis] = box[2 * axis + 1] = this->Image->GetExtent()[2 * axis] + first[axis];
-  }
-  vtkNew<vtkImageData> frame;
-  frame->CopyStructure(this->Image);
-  frame->SetExtent(box);
-  const Workspace voxels(frame, Metric::Voxels);
-  IndexedSurface indexed;
-  const vtkIdType count = surface->GetNumberOfPoints();
-  indexed.Points.resize(static_cast<std::size_t>(count));
-  for (vtkIdType i = 0; i < count; ++i)
-  {
-    Point world;
-    surface->GetPoint(i, world.data());
-    indexed.Points[static_cast<std::size_t>(i)] = InMap(voxels.ToWorkspace(world), first);
-  }
-  const int second = voxels.IsMirrored() ? 2 : 1;
-  auto cells = vtk::TakeSmartPointer(surface->GetPolys()->NewIterator());
-  for (cells->GoToFirstCell(); !cells->IsDoneWithTraversal(); cells->GoToNextCell())
-  {
-    vtkIdType size = 0;
-    const vtkIdType* corners = nullptr;
-    cells->GetCurrentCell(size, corners);
-    indexed.Triangles.push_back({ static_cast<int>(corners[0]),
-      static_cast<int>(corners[second]), static_cast<int>(corners[3 - second]) });
-  }
-  return indexed;
 }
 
 LabelSurface LabelSurfaceMaker::Make(

@@ -45,6 +45,12 @@ struct LabelSurface
 /** LabelSurface::VolumeError, of a surface in coordinates of voxels. */
 double VolumeErrorOf(const IndexedSurface& inVoxels, std::int64_t voxels);
 
+/**
+ * A place in the map, of one in the box of a label. Differences of such places are the same bits
+ * wherever the map begins, so that a label has the same surface in a crop of the map.
+ */
+Point InMap(const Point& inBox, const std::array<int, 3>& first);
+
 /** Makes surfaces of objects of a label map; of several at a time, each on a thread of its own. */
 class LabelSurfaceMaker
 {

@@ -13,6 +13,8 @@
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "Input/Workspace.h"
 
+#include <vtkCellArray.h>
+#include <vtkCellArrayIterator.h>
 #include <vtkFloatArray.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
@@ -61,6 +63,17 @@ constexpr double LeastRate = 0.15;
 
 /** For a gap, times which triangles that leave their own field's inside are drawn back. */
 constexpr int RoundsOfGap = 6;
+}
+
+Point InMap(const Point& inBox, const std::array<int, 3>& first)
+{
+  constexpr double grid = 1 << 24; // Sums of its points and of numbers of voxels are exact.
+  Point place;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    place[axis] = first[axis] + std::round(inBox[axis] * grid) / grid;
+  }
+  return place;
 }
 
 void LabelSurfaceMaker::AddClaim(int object, HostThreads& threads)
@@ -122,6 +135,42 @@ LabelSurfaceMaker::FieldImage LabelSurfaceMaker::MakeField(
     made.Field.Values.data(), static_cast<vtkIdType>(made.Field.Values.size()), isOurs);
   made.Image->GetPointData()->SetScalars(values);
   return made;
+}
+
+IndexedSurface LabelSurfaceMaker::InVoxels(int object, vtkPolyData* surface) const
+{
+  const VoxelBox& bricks = this->Bricks.ExtentOf(object).Bricks;
+  std::array<int, 3> first; // of the box of its field
+  int box[6];
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    first[axis] = (bricks.First[axis] - 1) * LabelBricks::Side;
+    box[2 * axis] = box[2 * axis + 1] = this->Image->GetExtent()[2 * axis] + first[axis];
+  }
+  vtkNew<vtkImageData> frame;
+  frame->CopyStructure(this->Image);
+  frame->SetExtent(box);
+  const Workspace voxels(frame, Metric::Voxels);
+  IndexedSurface indexed;
+  const vtkIdType count = surface->GetNumberOfPoints();
+  indexed.Points.resize(static_cast<std::size_t>(count));
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    Point world;
+    surface->GetPoint(i, world.data());
+    indexed.Points[static_cast<std::size_t>(i)] = InMap(voxels.ToWorkspace(world), first);
+  }
+  const int second = voxels.IsMirrored() ? 2 : 1;
+  auto cells = vtk::TakeSmartPointer(surface->GetPolys()->NewIterator());
+  for (cells->GoToFirstCell(); !cells->IsDoneWithTraversal(); cells->GoToNextCell())
+  {
+    vtkIdType size = 0;
+    const vtkIdType* corners = nullptr;
+    cells->GetCurrentCell(size, corners);
+    indexed.Triangles.push_back({ static_cast<int>(corners[0]),
+      static_cast<int>(corners[second]), static_cast<int>(corners[3 - second]) });
+  }
+  return indexed;
 }
 
 std::vector<std::int64_t> LabelSurfaceMaker::FindMissed(
