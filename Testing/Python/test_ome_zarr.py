@@ -90,8 +90,6 @@ class OmeZarrTest(FolderTestCase):
         self.assertEqual((row["Label"], row["Voxels"]), (5, np.count_nonzero(ring_voxels() > 125)))
 
     def test_what_fsspec_opens(self):
-        if not zarr.__version__.startswith("2."):
-            self.skipTest("this zarr has a memory:// of its own")
         there = fsspec.filesystem("memory")
         there.put(self.path("scan.zarr"), "/scan.zarr", recursive=True)
         self.addCleanup(there.rm, "/scan.zarr", recursive=True)
