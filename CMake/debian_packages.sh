@@ -20,7 +20,8 @@ test_packages=(ccache dpkg-dev file locales libgtest-dev libcgal-dev xvfb xauth 
   libxtst6 mpi-default-bin)
 # What more tests use where the release has it; they are skipped elsewhere. (So is that of gmsh, which
 # brings half a gigabyte.)
-optional_test_packages=(python3-scikit-build-core python3-venv python3-pip mypy tetgen)
+optional_test_packages=(python3-scikit-build-core python3-venv python3-pip mypy tetgen
+  python3-distributed python3-zarr)
 # The CT of a skull, from which the examples start.
 skull_package=invesalius-examples
 

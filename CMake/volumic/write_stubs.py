@@ -223,6 +223,7 @@ def module_stub():
 def package_stub():
     names = "".join(f"    {cls.__name__} as {cls.__name__},\n" for cls in classes())
     return (f"{quoted(volumic.__doc__.strip())}\n"
+            "from .arrays import labels as labels, surface as surface\n"
             f"from .vtkFiltersVolumic import (\n{names})\n\n__version__: str\n")
 
 

@@ -233,7 +233,7 @@ bool LabelSurfaceMaker::LosesParts(int object, const LabelSurface& made) const
   return SeverelyLost * made.MissedVoxels > voxels ||
     (this->Settings.Gap == 0.0 && made.MissedVoxels >= worth &&
       SizeOfLargestLostPart(this->Bricks.Map(), object,
-        this->FindMissed(object, this->InVoxels(made.Surface))) >= worth);
+        this->FindMissed(object, this->InVoxels(object, made.Surface))) >= worth);
 }
 
 LabelSurface LabelSurfaceMaker::Make(
@@ -325,18 +325,13 @@ LabelSurface LabelSurfaceMaker::MakeAt(const Place& place, int object, int numbe
     request.End = volume.Settings.End;
     request.End.NumberOfThreads = numberOfThreads;
     const Point step = Workspace(this->Image, volume.Settings.Metric).Step();
-    Point first;
-    std::copy(field.Field.Box.First.begin(), field.Field.Box.First.end(), first.begin());
     Revision revision;
     request.Revise = [&](const SurfaceResult& surface)
     {
       IndexedSurface inVoxels = surface;
       for (Point& p : inVoxels.Points)
       {
-        for (int axis = 0; axis < 3; ++axis)
-        {
-          p[axis] = first[axis] + p[axis] / step[axis];
-        }
+        p = InMap({ p[0] / step[0], p[1] / step[1], p[2] / step[2] }, field.Field.Box.First);
       }
       return this->ReviseField(object, revision, inVoxels, original, field.Field);
     };
@@ -350,7 +345,7 @@ LabelSurface LabelSurfaceMaker::MakeAt(const Place& place, int object, int numbe
     }
     ScaleResidual(surface, Workspace(this->Image, Metric::World).WorldUnit());
     made.Surface = surface;
-    const IndexedSurface inVoxels = this->InVoxels(surface);
+    const IndexedSurface inVoxels = this->InVoxels(object, surface);
     const std::vector<std::int64_t> wrong = FindWrongVoxels(this->Bricks, object, inVoxels);
     made.WrongVoxels = static_cast<vtkIdType>(wrong.size());
     made.VolumeError = VolumeErrorOf(inVoxels, extent.Voxels);

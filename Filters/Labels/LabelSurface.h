@@ -49,6 +49,12 @@ struct LabelSurface
 /** LabelSurface::VolumeError, of a surface in coordinates of voxels. */
 double VolumeErrorOf(const IndexedSurface& inVoxels, std::int64_t voxels);
 
+/**
+ * A place in the map, of one in the box of a label. Differences of such places are the same bits
+ * wherever the map begins, so that a label has the same surface in a crop of the map.
+ */
+Point InMap(const Point& inBox, const std::array<int, 3>& first);
+
 /** Makes surfaces of objects of a label map; of several at a time, each on a thread of its own. */
 class LabelSurfaceMaker
 {
@@ -137,7 +143,7 @@ private:
   /** The wrong voxels that are further from the surface than that. */
   std::vector<std::int64_t> FindMissed(int object, const IndexedSurface& surface) const;
   /** In coordinates in which voxel (i, j, k) of the map is at (i, j, k). */
-  IndexedSurface InVoxels(vtkPolyData* surface) const;
+  IndexedSurface InVoxels(int object, vtkPolyData* surface) const;
   /** How often a field has been changed, and the last time for its volume, by what. */
   struct Revision
   {

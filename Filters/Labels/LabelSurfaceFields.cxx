@@ -77,6 +77,17 @@ constexpr double LeastRate = 0.15;
 constexpr int RoundsOfGap = 6;
 }
 
+Point InMap(const Point& inBox, const std::array<int, 3>& first)
+{
+  constexpr double grid = 1 << 24; // Sums of its points and of numbers of voxels are exact.
+  Point place;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    place[axis] = first[axis] + std::round(inBox[axis] * grid) / grid;
+  }
+  return place;
+}
+
 void LabelSurfaceMaker::AddClaim(int object, HostThreads& threads)
 {
   threads.Run(
@@ -147,9 +158,20 @@ LabelSurfaceMaker::FieldImage LabelSurfaceMaker::MakeField(
   return made;
 }
 
-IndexedSurface LabelSurfaceMaker::InVoxels(vtkPolyData* surface) const
+IndexedSurface LabelSurfaceMaker::InVoxels(int object, vtkPolyData* surface) const
 {
-  const Workspace voxels(this->Image, Metric::Voxels);
+  const VoxelBox& bricks = this->Bricks.ExtentOf(object).Bricks;
+  std::array<int, 3> first; // of the box of its field
+  int box[6];
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    first[axis] = (bricks.First[axis] - 1) * LabelBricks::Side;
+    box[2 * axis] = box[2 * axis + 1] = this->Image->GetExtent()[2 * axis] + first[axis];
+  }
+  vtkNew<vtkImageData> frame;
+  frame->CopyStructure(this->Image);
+  frame->SetExtent(box);
+  const Workspace voxels(frame, Metric::Voxels);
   IndexedSurface indexed;
   const vtkIdType count = surface->GetNumberOfPoints();
   indexed.Points.resize(static_cast<std::size_t>(count));
@@ -157,7 +179,7 @@ IndexedSurface LabelSurfaceMaker::InVoxels(vtkPolyData* surface) const
   {
     Point world;
     surface->GetPoint(i, world.data());
-    indexed.Points[static_cast<std::size_t>(i)] = voxels.ToWorkspace(world);
+    indexed.Points[static_cast<std::size_t>(i)] = InMap(voxels.ToWorkspace(world), first);
   }
   const int second = voxels.IsMirrored() ? 2 : 1;
   auto cells = vtk::TakeSmartPointer(surface->GetPolys()->NewIterator());
@@ -192,8 +214,10 @@ bool LabelSurfaceMaker::CorrectVolume(
   IndexedSurface scaled = surface;
   for (Point& p : scaled.Points)
   {
-    std::transform(
-      p.begin(), p.end(), map.Spacing.begin(), p.begin(), [](double x, double h) { return x * h; });
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      p[axis] = (p[axis] - field.Box.First[axis]) * map.Spacing[axis]; // the same wherever it lies
+    }
   }
   const SurfaceFeatures features = ComputeFeatures(scaled);
   const double voxel = map.Spacing[0] * map.Spacing[1] * map.Spacing[2];
@@ -286,7 +310,8 @@ LabelSurfaceMaker::VoxelsOfObjects LabelSurfaceMaker::FindTouchingVoxels(
           for (std::size_t i = begin; i < end; ++i)
           {
             inVoxels[i] =
-              surfaces[i].Surface ? this->InVoxels(surfaces[i].Surface) : IndexedSurface();
+              surfaces[i].Surface ? this->InVoxels(static_cast<int>(i) + 1, surfaces[i].Surface)
+                                  : IndexedSurface();
           }
         });
       touching = FindTouching(inVoxels, threads);

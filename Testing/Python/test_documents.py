@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """README.md and Documentation/: what links lead to is there, and the code in them runs."""
 
+import importlib.util
 import os
 import re
 import shlex
@@ -11,6 +12,7 @@ import sys
 import unittest
 
 import medical_files
+import test_ome_zarr
 import volumic
 from examples_path import EXAMPLES
 from folder_test_case import FolderTestCase
@@ -102,6 +104,31 @@ class CodeTest(FolderTestCase):
                                 + "\nprint(surface.GetOutput().GetNumberOfPolys())")
             self.assertEqual(run.stderr, "")
             self.assertGreater(int(run.stdout), 500)
+
+    def test_arrays_of_the_page_on_python(self):
+        code, = blocks("Documentation/python.md", "python")
+        run = self.run_here(sys.executable, "-c", code)
+        self.assertEqual(run.stderr, "")
+        for name in ("ball.ply", "organ.vtp"):
+            self.assertTrue(os.path.exists(self.path(name)), name)
+
+    @unittest.skipUnless(test_ome_zarr.zarr, "no zarr (Debian: python3-zarr)")
+    def test_tasks_of_the_page_on_clusters(self):
+        test_ome_zarr.write_labels(self.path("scan.ome.zarr"), "cells", ring_voxels() > 125)
+        loop, pool, dask, slurm = blocks("Documentation/cluster.md", "python")[:4]
+        scripts = [loop] + [loop.partition("job = ")[0] + code for code in (pool, dask)]
+        folders = ["meshes", "meshes-of-a-pool", "meshes-of-dask"]
+        if importlib.util.find_spec("distributed") is None:
+            del scripts[2], folders[2]
+        for script, folder in zip(scripts, folders):
+            self.write_text("script.py", script)
+            self.run_here(sys.executable, "script.py")
+            self.assertTrue(os.path.exists(self.path(folder + "/labels.csv")), script)
+        self.write_text("task.py", slurm)
+        for arguments in (("count", "0", "2"), ("count", "1", "2"), ("make", "1", "2"),
+                          ("make", "0", "2"), ("finish", "0", "1")):
+            self.run_here(sys.executable, "task.py", *arguments)
+        self.assertTrue(os.path.exists(self.path("meshes-of-slurm/labels.csv")))
 
     @unittest.skipUnless(shutil.which("cmake") and shutil.which("c++"), "no compiler here")
     def test_cpp_of_the_readme(self):

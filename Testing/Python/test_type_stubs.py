@@ -16,6 +16,7 @@ import volumic
 
 FOLDER = Path(volumic.__file__).parent
 CLASSES = {name: value for name, value in vars(volumic).items() if inspect.isclass(value)}
+FUNCTIONS = {"labels", "surface"}
 
 # A user's script. Comments tell what mypy says of the line: a type, or a kind of error.
 SCRIPT = """
@@ -34,6 +35,10 @@ reveal_type(surface.GetSnapToIsoValue())  # "bool"
 reveal_type(vtkOtsuThreshold().GetThreshold())  # "float"
 reveal_type(vtkImagePyramid().GetReductionFactor())  # "float"
 reveal_type(volumic.__version__)  # "str"
+ball = volumic.surface([[[1]]], iso=0.5, FinestLevel=1)
+reveal_type(ball)  # "volumic.arrays.Surface"
+reveal_type(volumic.labels([[[1]]])[1].report)  # "dict[str, Any]"
+volumic.labels([[[1]]], origin=3)  # [arg-type]
 start: vtkDeformableSurface = surface
 surface.SetIsoValue("high")  # [arg-type]
 surface.SetIsoValue()  # [call-arg]
@@ -73,7 +78,7 @@ class StubsTest(unittest.TestCase):
         self.assertTrue((FOLDER / "py.typed").is_file())
         exported = {alias.asname for node in parsed("__init__.pyi").body
                     if isinstance(node, ast.ImportFrom) for alias in node.names}
-        self.assertEqual(exported, set(CLASSES))
+        self.assertEqual(exported, FUNCTIONS.union(CLASSES))
         self.assertEqual(set(self.stubs), set(CLASSES))
 
     def test_every_name_is_there_and_no_other(self):
@@ -114,8 +119,9 @@ class StubsTest(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             site = Path(folder, "site", "volumic")
             site.mkdir(parents=True)
-            for file in FOLDER.glob("*.pyi"):
-                shutil.copy(file, site)
+            for file in FOLDER.glob("*.py*"):
+                if file.name != "__init__.py":
+                    shutil.copy(file, site)
             self.assertEqual(mypy("-p", "volumic", "--follow-imports=skip"), "")
             Path(folder, "script.py").write_text(SCRIPT, encoding="utf-8")
             output = mypy("script.py").replace("builtins.", "")

@@ -28,15 +28,31 @@ struct Crossing
   }
 };
 
-/** Of all rows of the map. */
+/**
+ * A whole number near the surface, along an axis: what is reckoned from there is the same wherever
+ * the map begins.
+ */
+double NearSurface(const IndexedSurface& surface, int axis)
+{
+  return surface.Points.empty() ? 0. : std::floor(surface.Points.front()[axis]);
+}
+
+/** Of all rows of the map; X from NearSurface() on. */
 std::vector<Crossing> FindCrossings(const std::array<int, 3>& size, const IndexedSurface& surface)
 {
+  const double base = NearSurface(surface, 0);
+  const auto cornerOf = [&](const Triangle& t, int corner)
+  {
+    Point p = surface.Points[static_cast<std::size_t>(t[corner])];
+    p[0] -= base;
+    return p;
+  };
   std::vector<Crossing> crossings;
   for (const Triangle& t : surface.Triangles)
   {
-    const Point& a = surface.Points[static_cast<std::size_t>(t[0])];
-    const Point& b = surface.Points[static_cast<std::size_t>(t[1])];
-    const Point& c = surface.Points[static_cast<std::size_t>(t[2])];
+    const Point a = cornerOf(t, 0);
+    const Point b = cornerOf(t, 1);
+    const Point c = cornerOf(t, 2);
     int first[3];
     int last[3];
     for (int axis = 1; axis < 3; ++axis)
@@ -68,6 +84,7 @@ std::vector<std::int64_t> FindWrongVoxels(
 {
   const LabelMap& map = bricks.Map();
   const std::vector<Crossing> crossings = FindCrossings(map.Size, surface);
+  const double base = NearSurface(surface, 0);
   VoxelBox box = bricks.ExtentOf(object).Bricks;
   for (int axis = 0; axis < 3; ++axis)
   {
@@ -88,7 +105,7 @@ std::vector<std::int64_t> FindWrongVoxels(
       int winding = 0;
       for (int i = box.First[0]; i < box.End[0]; ++i)
       {
-        for (; next != crossings.end() && next->Row == row && next->Where.X < i; ++next)
+        for (; next != crossings.end() && next->Row == row && next->Where.X < i - base; ++next)
         {
           winding += next->Where.Winding;
         }
@@ -110,11 +127,11 @@ std::vector<std::int64_t> FindMissedVoxels(const LabelMap& map,
   {
     return wrong;
   }
-  const auto scaled = [&map](Point place)
+  const auto scaled = [&](Point place)
   {
     for (int axis = 0; axis < 3; ++axis)
     {
-      place[axis] *= map.Spacing[axis];
+      place[axis] = (place[axis] - NearSurface(surface, axis)) * map.Spacing[axis];
     }
     return place;
   };

@@ -1,0 +1,177 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""volumic.surface and volumic.labels: arrays in, surfaces out, errors as exceptions."""
+
+import os
+import subprocess
+import sys
+import unittest
+import unittest.mock
+import warnings
+
+import numpy as np
+import volumic
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOGeometry import vtkSTLReader
+from vtkmodules.vtkIOPLY import vtkPLYReader
+from volumic import arrays
+
+from folder_test_case import FolderTestCase
+from sample_volumes import RING_SPACING, RING_VOLUME, ring_voxels
+from vtk_files import read as read_file
+
+
+def volume_of(surface):
+    """Enclosed volume, by the divergence theorem."""
+    a, b, c = (np.asarray(surface.points, float)[surface.triangles[:, k]] for k in range(3))
+    return (a * np.cross(b, c)).sum() / 6
+
+
+def two_balls():
+    z, y, x = np.indices((20, 24, 40)) - 11.5
+    voxels = np.zeros(x.shape, np.uint16)
+    voxels[x * x + y * y + z * z < 49] = 3
+    voxels[(x - 18) ** 2 + y * y + z * z < 36] = 7
+    return voxels
+
+
+class SurfaceTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.ring = volumic.surface(ring_voxels(), 125.5, spacing=RING_SPACING, origin=(10, 20, 30))
+
+    def test_arrays_and_report(self):
+        ring = self.ring
+        self.assertEqual(len(ring.triangles), 2 * len(ring.points))
+        self.assertEqual(ring.arrays["Normals"].shape, ring.points.shape)
+        self.assertEqual(ring.arrays["Component"].shape, (len(ring.triangles),))
+        self.assertEqual((ring.report["Genus"], ring.report["StopReason"]), (1, "converged"))
+        self.assertAlmostEqual(volume_of(ring), ring.report["Volume"], delta=0.01)
+        self.assertAlmostEqual(volume_of(ring) / RING_VOLUME, 1, delta=0.1)
+
+    def test_axes_are_in_their_order(self):
+        low, high = self.ring.points.min(axis=0), self.ring.points.max(axis=0)
+        middle = np.array((10, 20, 30)) + 19.5 * np.array(RING_SPACING)
+        np.testing.assert_allclose((low + high) / 2, middle, atol=0.5)
+        self.assertLess(high[2] - low[2], 0.6 * (high[0] - low[0]))  # the ring lies across z
+
+    def test_it_is_what_the_filter_makes(self):
+        algorithm = volumic.vtkVolumeToSurface()
+        algorithm.SetInputData(arrays._image(ring_voxels(), RING_SPACING, (10, 20, 30), None,
+                                             (0, 0, 0)))
+        algorithm.SetIsoValue(125.5)
+        algorithm.Update()
+        points = vtk_to_numpy(algorithm.GetOutput().GetPoints().GetData())
+        self.assertEqual(points.tobytes(), self.ring.points.tobytes())
+
+    def test_arrays_outlive_the_filter(self):
+        points = volumic.surface(ring_voxels(), 125.5).points
+        copy = points.copy()
+        volumic.surface(ring_voxels() + 1, 125.5)
+        np.testing.assert_array_equal(points, copy)
+
+    def test_start_direction_and_other_types(self):
+        voxels = ring_voxels()
+        whole = volumic.surface(voxels, 125.5, start=(1, 2, 3))
+        np.testing.assert_allclose(whole.points.mean(axis=0), 19.5 + np.array((1, 2, 3)), atol=0.5)
+        turned = volumic.surface(voxels, 125.5, direction=[[0, -1, 0], [1, 0, 0], [0, 0, 1]])
+        self.assertLess(turned.points[:, 0].max(), 0)
+        big = volumic.surface(voxels.astype(">f4"), 125.5)
+        half = volumic.surface(voxels.astype("f2"), 125.5)
+        self.assertEqual(big.points.tobytes(), half.points.tobytes())
+        with self.assertWarnsRegex(UserWarning, "label map"):
+            mask = volumic.surface(voxels > 125, 0.5)
+        self.assertEqual(mask.report["Genus"], 1)
+
+    def test_without_an_iso_value_it_is_guessed_and_told(self):
+        with self.assertWarnsRegex(UserWarning, "Otsu"):
+            ring = volumic.surface(ring_voxels())
+        self.assertIn("Otsu", ring.report["Warnings"][0])
+        self.assertEqual(ring.report["Genus"], 1)
+
+    def test_refused(self):
+        for error, words, call in (
+                (TypeError, "no property finestLevel; did you mean FinestLevel",
+                 lambda: volumic.surface(ring_voxels(), 125.5, finestLevel=1)),
+                (TypeError, "FinestLevel='x': ",
+                 lambda: volumic.surface(ring_voxels(), 125.5, FinestLevel="x")),
+                (ValueError, "three axes, z, y and x, not 2",
+                 lambda: volumic.surface(np.zeros((4, 4)), 1)),
+                (ValueError, "complex", lambda: volumic.surface(np.zeros((4, 4, 4), complex), 1)),
+                (arrays.FilterError, "^Iso Value is 7777, outside the range",
+                 lambda: volumic.surface(ring_voxels(), 7777))):
+            with self.subTest(words):
+                with self.assertRaisesRegex(error, words):
+                    call()
+
+    def test_nothing_is_printed(self):
+        code = ("import numpy, volumic\n"
+                "try: volumic.surface(numpy.eye(9)[None].repeat(9, 0), 7)\n"
+                "except volumic.arrays.FilterError as error: print(error)")
+        process = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True,
+                                 check=True)
+        self.assertEqual(process.stderr, "")
+        self.assertEqual(process.stdout.count("Iso Value"), 1)
+
+
+class LabelsTest(unittest.TestCase):
+    def test_each_label_has_a_surface(self):
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            balls = volumic.labels(two_balls(), spacing=(1, 1, 1))
+        self.assertEqual(list(balls), [3, 7])
+        self.assertEqual(balls[7].report["LabelVoxels"], np.count_nonzero(two_balls() == 7))
+        self.assertEqual(balls.to_vtk().GetNumberOfBlocks(), 2)
+        one = volumic.labels(two_balls(), [7])
+        self.assertEqual(list(one), [7])
+        self.assertEqual(one[7].points.tobytes(), balls[7].points.tobytes())
+
+    def test_merged_ones_are_one(self):
+        merged = volumic.labels(two_balls(), Merge=True)
+        self.assertEqual(list(merged), [3])
+        self.assertEqual(merged[3].report["Label"], [3, 7])
+
+    def test_refused(self):
+        with self.assertRaisesRegex(arrays.FilterError, "has no label 5; it has 0, 3, 7"):
+            volumic.labels(two_balls(), [5])
+        with self.assertRaisesRegex(TypeError, "mean Smoothing"):
+            volumic.labels(two_balls(), Smooting=1)
+
+
+class FilesTest(FolderTestCase):
+    def setUp(self):
+        super().setUp()
+        self.ball = volumic.labels(two_balls(), [3], spacing=(1, 1, 2))[3]
+
+    def test_formats(self):
+        triangles = len(self.ball.triangles)
+        self.ball.save(self.path("ball.vtp"))
+        self.assertEqual(read_file(self.path("ball.vtp")).GetNumberOfPolys(), triangles)
+        for suffix, reader in ((".ply", vtkPLYReader()), (".stl", vtkSTLReader())):
+            self.ball.save(self.path("ball" + suffix))
+            reader.SetFileName(self.path("ball" + suffix))
+            reader.Update()
+            there = reader.GetOutput()
+            self.assertEqual(there.GetNumberOfPolys(), triangles)
+            np.testing.assert_allclose(there.GetBounds(), self.ball.to_vtk().GetBounds(), atol=1e-5)
+        with self.assertRaisesRegex(ValueError, "'.obj' is no format of surfaces; there are .vtp"):
+            self.ball.save(self.path("ball.obj"))
+
+    def test_the_former_file_stays_where_writing_fails(self):
+        path = self.write_text("ball.vtp", "former")
+        with unittest.mock.patch("os.replace", side_effect=OSError("no")):
+            with self.assertRaises(OSError):
+                self.ball.save(path)
+        self.assertEqual(self.content("ball.vtp"), b"former")
+        self.assertEqual(os.listdir(self.folder), ["ball.vtp"])
+
+    def test_all_of_them(self):
+        balls = volumic.labels(two_balls())
+        balls.save(self.path("balls"))
+        self.assertEqual(sorted(os.listdir(self.path("balls"))), ["label-3.vtp", "label-7.vtp"])
+        balls.save(self.path("balls.vtm"))
+        self.assertTrue(os.path.exists(self.path("balls.vtm")))
+
+
+if __name__ == "__main__":
+    unittest.main()

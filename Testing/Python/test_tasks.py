@@ -1,0 +1,263 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""volumic.tasks: surfaces of labels from crops, by whatever maps, with workers that are killed."""
+
+import concurrent.futures
+import csv
+import functools
+import json
+import multiprocessing
+import os
+import signal
+import struct
+import unittest
+import unittest.mock
+
+import numpy as np
+import volumic
+from volumic import arrays, tasks
+
+from folder_test_case import FolderTestCase, SharedFolderTestCase
+
+try:
+    import distributed
+except ImportError:
+    distributed = None
+
+SPACING, ORIGIN = (0.3, 0.31, 0.4), (10.1, -5.2, 3.3)
+
+
+class Chunked:
+    """A map that says how much of it is read at a time."""
+
+    chunks = (32, 32, 16)
+
+    def __init__(self, voxels):
+        self.voxels, self.shape, self.dtype, self.largest = voxels, voxels.shape, voxels.dtype, 0
+
+    def __getitem__(self, key):
+        part = self.voxels[key]
+        self.largest = max(self.largest, part.size)
+        return part
+
+
+@functools.lru_cache()
+def cells():
+    """Labels that touch, by threes and fours, in a ball; its axes have different lengths."""
+    z, y, x = np.indices((46, 41, 49)).astype("f4")
+    centres = np.random.default_rng(5).uniform(4, 42, (12, 3))
+    squares = np.stack([(x - a) ** 2 + (y - b) ** 2 + (z - c) ** 2 for a, b, c in centres])
+    voxels = (squares.argmin(axis=0) + 1).astype("u4")
+    voxels[squares.min(axis=0) > 150] = 0
+    return voxels
+
+
+def balls(count=8, size=96):
+    """Labels far from each other."""
+    z, y, x = np.indices((size, size, size)).astype("f4")
+    voxels = np.zeros(x.shape, "u2")
+    for label, (a, b, c) in enumerate(np.ndindex(2, 2, 2), 1):
+        if label <= count:
+            place = [24.3 + 48 * p for p in (a, b, c)]
+            distance = np.hypot(np.hypot(x - place[0], y - place[1]), z - place[2])
+            voxels[distance < 6 + label] = label
+    return voxels
+
+
+def job_of(voxels, folder, **settings):
+    return tasks.Job(voxels, folder, **{"spacing": SPACING, "origin": ORIGIN, **settings})
+
+
+def die_once(folder, job, labels):
+    """Makes them, but the first time with label 3 the process ends, with half a file beside."""
+    if 3 in labels:
+        try:
+            os.mkdir(os.path.join(folder, "died"))
+        except FileExistsError:
+            pass
+        else:
+            with open(os.path.join(job.folder, arrays.HIDDEN + "half"), "w", encoding="utf-8"):
+                os.kill(os.getpid(), signal.SIGKILL)
+    with open(os.path.join(folder, "made"), "a", encoding="utf-8") as file:
+        file.write("".join(f"{label}\n" for label in labels if not job.is_done(label)))
+    job.make(labels)
+
+
+class SameBitsTest(SharedFolderTestCase):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.whole = volumic.labels(cells(), spacing=SPACING, origin=ORIGIN)
+
+    def check_files(self, folder, whole=None):
+        for label, surface in (whole or self.whole).items():
+            with open(os.path.join(folder, f"label-{label}.vtp"), "rb") as file:
+                self.assertTrue(file.read() == surface.to_bytes(".vtp"), f"label {label}")
+
+    def test_labels_that_touch(self):
+        for name, bundle in (("small", 1), ("large", 1 << 40)):
+            source = Chunked(cells())
+            rows = job_of(source, self.path(name), bundle=bundle).run()
+            self.check_files(self.path(name))
+            self.assertEqual([row["Label"] for row in rows], list(self.whole))
+
+    def test_a_crop_that_is_cut_off_makes_others(self):
+        """Else the test above would say nothing."""
+        different = 0
+        for label in list(self.whole)[:6]:
+            job = job_of(cells(), self.path(f"cut{label}"), only=[label], bundle=1)
+            job._with_claimants = lambda labels, box, voxels: box
+            job.run()
+            with open(self.path(f"cut{label}/label-{label}.vtp"), "rb") as file:
+                different += file.read() != self.whole[label].to_bytes(".vtp")
+        self.assertGreater(different, 0)
+
+    def test_labels_apart_take_small_crops(self):
+        source = Chunked(balls())
+        job = job_of(source, self.path("balls"), bundle=1, Tolerance=0.05, FinestLevel=0)
+        for block in job.blocks():
+            job.count(block)
+        source.largest = 0
+        job.run()
+        self.assertLess(source.largest, 0.25 * source.voxels.size)
+        self.check_files(self.path("balls"), volumic.labels(
+            source.voxels, spacing=SPACING, origin=ORIGIN, Tolerance=0.05, FinestLevel=0))
+
+    def test_in_processes(self):
+        context = multiprocessing.get_context("spawn")
+        with concurrent.futures.ProcessPoolExecutor(2, context) as executor:
+            job_of(cells(), self.path("pool"), NumberOfThreads=1).run(executor.map)
+        self.check_files(self.path("pool"))
+
+    @unittest.skipUnless(distributed, "no distributed (Debian: python3-distributed)")
+    def test_dask_with_a_killed_worker(self):
+        job = job_of(cells(), self.path("dask"), bundle=1, NumberOfThreads=1)
+        with distributed.LocalCluster(2, threads_per_worker=1, dashboard_address=None,
+                                      host="127.0.0.1") as cluster, \
+                distributed.Client(cluster) as client:
+            client.run(os.chdir, self.folder)
+            client.gather(client.map(job.count, job.blocks()))
+            make = functools.partial(die_once, self.folder, job)
+            client.gather(client.map(make, job.bundles()))
+        self.assertTrue(os.path.isdir(self.path("died")))
+        self.assertTrue(os.path.exists(os.path.join(job.folder, arrays.HIDDEN + "half")))
+        job.finish()
+        self.check_files(self.path("dask"))
+        left = [name for _, _, names in os.walk(job.folder) for name in names
+                if name.startswith(arrays.HIDDEN)]
+        self.assertEqual(left, [])
+        with open(self.path("made"), encoding="utf-8") as file:
+            made = [int(line) for line in file]
+        self.assertEqual(sorted(made), sorted(self.whole))  # none of them twice
+
+
+class JobTest(FolderTestCase):
+    def job(self, **settings):
+        return job_of(Chunked(balls(3)), self.path("meshes"), **settings)
+
+    def test_it_goes_on_where_it_was_stopped(self):
+        job = self.job(bundle=1)
+        for block in job.blocks()[1:]:
+            job.count(block)
+        self.assertEqual(len(job.blocks()), 1)
+        with self.assertRaisesRegex(ValueError, "1 of [0-9]+ blocks are not counted"):
+            job.bundles()
+        job.count(0)
+        job.make(job.bundles()[0])
+        with self.assertRaisesRegex(ValueError, "2 of 3 labels are not made yet"):
+            job.finish()
+        self.assertEqual([len(job.bundles(part, 2)) for part in (0, 1)], [1, 1])
+        again = self.job(bundle=1, NumberOfThreads=1)
+        self.assertEqual((len(again.blocks()), len(again.bundles())), (0, 2))
+        before = os.stat(self.path("meshes/label-3.vtp")).st_mtime_ns
+        again.run()
+        again.make([3])
+        self.assertEqual(os.stat(self.path("meshes/label-3.vtp")).st_mtime_ns, before)
+        self.assertEqual(self.job().bundles(), [])
+
+    def test_boxes_of_blocks_are_those_of_the_whole(self):
+        for shape in ((96, 96, 96), (33, 65, 17)):
+            voxels = balls(8)[:shape[0], :shape[1], :shape[2]]
+            source = Chunked(voxels)
+            job = tasks.Job(source, self.path(f"meshes{shape[0]}"))
+            with unittest.mock.patch.object(tasks, "BLOCK", 32):
+                self.assertGreater(len(job._grid()), 1)
+                for block in job.blocks():
+                    job.count(block)
+                boxes = job.boxes()
+            self.assertEqual(boxes, arrays.label_boxes(voxels))
+
+    def test_refused(self):
+        for words, settings in (
+                ("no property gap; did you mean Gap", {"gap": 1}),
+                ("Gap=0.5 couples labels all over", {"Gap": 0.5}),
+                ("Merge=True couples", {"Merge": True}),
+                ("SharedInterfaces=True couples", {"SharedInterfaces": True}),
+                ("'.obj' is no format; there are .vtp", {"formats": [".obj"]})):
+            with self.subTest(words), self.assertRaisesRegex((TypeError, ValueError), words):
+                self.job(**settings)
+        with self.assertRaisesRegex(ValueError, "the map has no label 9"):
+            self.job(only=[9]).run()
+        with self.assertRaisesRegex(ValueError, "label 1 .* in 40 x 40 x 40 voxels, more than most"):
+            self.job(most=1000).run()
+        with self.assertRaisesRegex(ValueError, "is of a job with properties {}, not .*Smoothing"):
+            self.job(Smoothing=1)
+        with self.assertRaisesRegex(arrays.FilterError, "Smoothing is 99"):
+            tasks.Job(balls(1), self.path("other"), Smoothing=99).run()
+
+    def test_claimants_are_in_the_crop_as_a_whole(self):
+        voxels = np.zeros((24, 24, 80), "u2")
+        voxels[8:16, 8:16, 8:16] = 1  # bricks 2 and 3 along x
+        for first, is_near in ((16, True), (20, True), (24, False)):
+            voxels[8:16, 8:16, 16:] = 0
+            voxels[8:16, 8:16, first:70] = 2
+            job = tasks.Job(voxels, self.path(f"meshes{first}"))
+            job.count(0)
+            box = job._about([1])
+            self.assertEqual(box, [(0, 28), (0, 24), (0, 24)])
+            grown = job._with_claimants([1], box, job._read(box))
+            self.assertEqual(grown, [(0, 72), (0, 24), (0, 24)] if is_near else box)
+
+    def test_a_claimant_that_is_too_large(self):
+        job = tasks.Job(cells(), self.path("cells"), only=[4])
+        job.count(0)
+        job.most = int(np.prod([end - begin for begin, end in job._about([4])]))
+        self.assertEqual(job.bundles(), [[4]])  # Alone it is not.
+        with self.assertRaisesRegex(ValueError, "label 4 and what it depends on are in"):
+            job.run()
+
+    def test_tables_and_meshes_of_viewers(self):
+        job = self.job(formats=["precomputed", ".stl"], nanometers=1000)
+        rows = job.run()
+        with open(self.path("meshes/labels.csv"), encoding="utf-8", newline="") as file:
+            table = list(csv.DictReader(file))
+        self.assertEqual([row["Label"] for row in table], ["1", "2", "3"])
+        self.assertEqual(int(table[1]["Voxels"]), np.count_nonzero(balls(3) == 2))
+        self.assertEqual([int(table[0][name]) for name in ("FirstX", "LastX")], [18, 31])
+        self.assertAlmostEqual(float(table[0]["Volume"]), rows[0]["Volume"])
+        self.assertGreater(float(table[0]["SmallestAngle"]), 15)
+        self.assertGreater(float(table[0]["MeanQuality"]), 0.85)
+        self.assertLess(float(table[0]["MeanQuality"]), 1)
+        with open(self.path("meshes/precomputed/info"), encoding="utf-8") as file:
+            self.assertEqual(json.load(file), {"@type": "neuroglancer_legacy_mesh"})
+        with open(self.path("meshes/precomputed/2:0"), encoding="utf-8") as file:
+            fragment, = json.load(file)["fragments"]
+        content = self.content(f"meshes/precomputed/{fragment}")
+        count, = struct.unpack_from("<I", content)
+        points = np.frombuffer(content, "<f4", 3 * count, 4).reshape(-1, 3)
+        triangles = np.frombuffer(content, "<u4", -1, 4 + 12 * count).reshape(-1, 3)
+        surface = volumic.labels(balls(3), [2], spacing=SPACING, origin=ORIGIN)[2]
+        np.testing.assert_allclose(points, 1000 * surface.points, rtol=1e-6)
+        np.testing.assert_array_equal(triangles, surface.triangles)
+
+    def test_quality_of_an_equilateral_triangle(self):
+        class Triangle:
+            points = np.array([(0, 0, 0), (1, 0, 0), (0.5, 0.75 ** 0.5, 0)])
+            triangles = np.array([(0, 1, 2)])
+        found = tasks.quality(Triangle)
+        self.assertAlmostEqual(found["SmallestAngle"], 60)
+        self.assertAlmostEqual(found["MeanQuality"], 1)
+
+
+if __name__ == "__main__":
+    unittest.main()
