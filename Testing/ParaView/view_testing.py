@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Views that scripts render: a screen for them, and what can be seen on their pictures."""
 
-import atexit
 import os
 import sys
 
@@ -22,9 +21,10 @@ def open_screen():
     if not os.environ["VOLUMIC_XVFB"]:
         print("Skipped: Xvfb was not found")
         sys.exit(77)
-    server, display = gui.start_screen(os.environ["VOLUMIC_XVFB"], (900, 700))
+    # It ends with this process, and not before: where views are open at the end, newer VTKs still
+    # ask it then, and fail without it.
+    _, display = gui.start_screen(os.environ["VOLUMIC_XVFB"], (900, 700))
     os.environ.update(DISPLAY=display, LIBGL_ALWAYS_SOFTWARE="1")
-    atexit.register(server.terminate)
 
 
 def new_view(kind, size=(500, 400)):
