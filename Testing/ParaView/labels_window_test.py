@@ -29,7 +29,8 @@ filter_ = simple.FindSource("LabelstoSurfaces1")
 filter_.UpdatePipeline()
 blocks = servermanager.Fetch(filter_)
 legend = simple.GetRepresentation(filter_, simple.GetActiveView()).LookupTable.Annotations
-print("Told:", list(filter_.Labels), [blocks.GetMetaData(b).Get(blocks.NAME())
+# ParaView 6.1's Fetch puts "Block 0_" before the names.
+print("Told:", list(filter_.Labels), [blocks.GetMetaData(b).Get(blocks.NAME()).split("_")[-1]
                                       for b in range(blocks.GetNumberOfBlocks())],
       list(legend)[1::2])
 """
