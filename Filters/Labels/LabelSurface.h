@@ -34,9 +34,8 @@ struct LabelSurface
   vtkIdType WrongVoxels = 0;
   vtkIdType MissedVoxels = 0;  ///< those of them further from the surface than VoxelTolerance and Tolerance
   double VolumeError = 0.0;    ///< by how much its volume is more than that of the voxels, in that
-  vtkIdType TouchingFaces =
-    0;                  ///< with Gap: those where it meets surfaces of neighbours all the same
-  bool IsFiner = false; ///< Level 0 has lost parts: it is one of level -1.
+  vtkIdType TouchingFaces = 0; ///< with Gap: those where it meets neighbours all the same
+  bool IsFiner = false;        ///< Level 0 has lost parts: it is one of level -1.
   bool IsFinished = false;     ///< It was not stopped on its way.
 
   /** Whether VolumeError is more than a label of so many voxels should have. */
