@@ -32,8 +32,11 @@ CHUNK = 128
 def blobs(size, count):
     """Centre and half axes of each label, x, y, z; every second touches the one before it."""
     numbers = np.random.default_rng(1)
-    pitch = (np.prod(size) / (count / 2)) ** (1 / 3)
-    places = itertools.product(*(np.arange(pitch / 2, length - pitch / 4, pitch) for length in size))
+    pitch, places = max(size), []
+    while len(places) < count / 2:
+        pitch *= 0.99
+        places = list(itertools.product(*(np.arange(pitch / 2, length - pitch / 4, pitch)
+                                          for length in size)))
     made = []
     for place in places:
         axes = numbers.uniform(0.09, 0.2, 3) * pitch
