@@ -121,7 +121,7 @@ else ()
     set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
       "volumic (= ${volumic_debian_version}), python3-vtk9, ${volumic_python_dependency}")
     set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-numpy")
-    set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-distributed, python3-zarr")
+    set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "draco, python3-distributed, python3-zarr")
     volumic_add_control_files(python python3-volumic ${volumic_python_control})
   endif ()
 endif ()

@@ -54,7 +54,7 @@ endif ()
 configure_file("${CMAKE_CURRENT_LIST_DIR}/volumic/__init__.py.in"
   "${volumic_python_build_directory}/volumic/__init__.py" @ONLY)
 set(volumic_python_files "${volumic_python_build_directory}/volumic/__init__.py")
-foreach (file IN ITEMS arrays.py ome_zarr.py tasks.py)
+foreach (file IN ITEMS arrays.py neuroglancer.py ome_zarr.py tasks.py)
   configure_file("${CMAKE_CURRENT_LIST_DIR}/volumic/${file}"
     "${volumic_python_build_directory}/volumic/${file}" COPYONLY)
   list(APPEND volumic_python_files "${volumic_python_build_directory}/volumic/${file}")

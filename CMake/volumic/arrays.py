@@ -203,6 +203,21 @@ def label_boxes(array: Any, start: Sequence[int] = (0, 0, 0)) -> dict[int, list[
     return {number: [count, *extent] for number, count, extent in zip(numbers, voxels, extents)}
 
 
+def quality(surface: Surface) -> dict[str, Any]:
+    """Of the triangles: the smallest angle, degrees, and the mean of 4 sqrt(3) area / sum of squared
+    sides, which is 1 for an equilateral one."""
+    corners = np.asarray(surface.points, float)[surface.triangles]
+    if len(corners) == 0:
+        return {"SmallestAngle": None, "MeanQuality": None}
+    sides = np.roll(corners, -1, axis=1) - corners
+    squares = (sides * sides).sum(axis=2)
+    areas = np.linalg.norm(np.cross(sides[:, 0], sides[:, 1]), axis=1) / 2
+    cosines = (squares.sum(axis=1)[:, None] - 2 * squares) / 2  # times the other two sides
+    angles = np.degrees(np.arctan2(2 * areas[:, None], cosines))
+    return {"SmallestAngle": float(angles.min()),
+            "MeanQuality": float((4 * np.sqrt(3) * areas / squares.sum(axis=1)).mean())}
+
+
 def check_properties(kind: str, properties: dict[str, Any]) -> None:
     """TypeError where a filter of this class has no such property, or not of that type."""
     _set(getattr(filters, kind)(), properties)

@@ -32,13 +32,14 @@ from typing import Any
 
 import numpy as np
 
-from . import arrays
+from . import arrays, neuroglancer
 from .arrays import HIDDEN, Surface, replace_file
 
 BRICK = 4  # voxels, LabelBricks::Side
 MARGIN = 3  # bricks: those beside the label's, and what is within LabelBricks' reach of them
 CLAIMS = 2  # bricks: about those beside the label's that others' fields may be in
 BLOCK = 256  # voxels along each axis that are counted at a time, at most
+DETAILS = (2, 4)  # FinestLevel of the coarser levels of detail: edges 3 and 9 times as long
 Box = list[tuple[int, int]]  # [begin, end) of x, y and z
 
 
@@ -58,9 +59,10 @@ class Job:
     only : sequence of ints, optional
         Labels to make; by default all but BackgroundLabel.
     formats : sequence of str, optional
-        `.vtp`, `.ply`, `.stl`: label-3.vtp; `precomputed`: a folder of this name for Neuroglancer.
+        `.vtp`, `.ply`, `.stl`: label-3.vtp. For Neuroglancer, folders of these names: `precomputed`
+        and, with three levels of detail, compressed, `multilod_draco`.
     nanometers : float, optional
-        Of one world unit, for `precomputed`; by default that of `source`, or 1.
+        Of one world unit, for Neuroglancer; by default that of `source`, or 1.
     bundle : int, optional
         Voxels of a crop up to which labels that lie near each other are one task.
     most : int, optional
@@ -82,9 +84,11 @@ class Job:
                 raise ValueError(f"{name}={properties[name]} couples labels all over the map: there "
                                  "are no tasks of their own. Apply volumic.labels to the whole map.")
         for name in formats:
-            if name not in arrays.WRITERS and name != "precomputed":
-                raise ValueError(f"'{name}' is no format; there are {', '.join(arrays.WRITERS)} and "
-                                 "precomputed")
+            if name not in arrays.WRITERS and name not in neuroglancer.INFO:
+                raise ValueError(f"'{name}' is no format; there are "
+                                 + ", ".join([*arrays.WRITERS, *neuroglancer.INFO]))
+        if "multilod_draco" in formats:
+            neuroglancer.draco_encoder()
         if len(source.shape) != 3:
             raise ValueError(f"the map must have three axes, z, y and x, not {len(source.shape)}")
         self.source = source
@@ -102,10 +106,8 @@ class Job:
 
     def _begin(self) -> None:
         """Makes the folders. Results of other settings are not mixed with these."""
-        for name in ("counts", "rows"):
-            os.makedirs(self._path(name), exist_ok=True)
-        if "precomputed" in self.formats:
-            os.makedirs(os.path.join(self.folder, "precomputed"), exist_ok=True)
+        for folder in (*map(self._path, ("counts", "rows")), *self._viewers()):
+            os.makedirs(folder, exist_ok=True)
         free = ("NumberOfThreads", "MemoryLimit", "ScratchDirectory")  # no bit depends on them
         ours = {"shape": list(self.source.shape), "type": str(self.source.dtype),
                 "spacing": self.spacing, "origin": self.origin, "direction": self.direction,
@@ -221,14 +223,28 @@ class Job:
         if whole != box:
             self._check(due, whole)
             voxels = self._read(whole)
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # Rows and field data have what they tell.
-            made = arrays.labels(voxels, due, spacing=self.spacing, origin=self.origin,
-                                 direction=self.direction, start=_starts(whole), **self.properties)
-        for label, surface in made.items():
-            self._write(label, surface)
+        made = [self._surfaces(voxels, due, whole, **settings) for settings in self._details()]
+        for label, surface in made[0].items():
+            self._write(label, surface, [level[label] for level in made])
             row = self._row(label, surface)
             replace_file(self._path("rows", f"{label}.json"), _json(row))  # Now it is done.
+
+    def _details(self) -> list[dict[str, Any]]:
+        """Properties of each level of detail, the finest first."""
+        if "multilod_draco" not in self.formats:
+            return [{}]
+        finest = max(0, self.properties.get("FinestLevel", 0))
+        length = self.properties.get("EdgeLength", 0)
+        return [{}] + [{"FinestLevel": finest + more, "EdgeLength": length * 3 ** (more / 2)}
+                       for more in DETAILS]
+
+    def _surfaces(self, voxels: np.ndarray, labels: Sequence[int], box: Box,
+                  **settings: Any) -> arrays.Surfaces:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # Rows and field data have what they tell.
+            return arrays.labels(voxels, labels, spacing=self.spacing, origin=self.origin,
+                                 direction=self.direction, start=_starts(box),
+                                 **{**self.properties, **settings})
 
     def finish(self) -> list[dict[str, Any]]:
         """Writes labels.csv, and what viewers want; takes away what killed workers left. All tasks
@@ -246,9 +262,9 @@ class Job:
             writer.writeheader()
             writer.writerows(rows)
         replace_file(os.path.join(self.folder, "labels.csv"), table.getvalue().encode())
-        if "precomputed" in self.formats:
-            replace_file(os.path.join(self.folder, "precomputed", "info"),
-                         _json({"@type": "neuroglancer_legacy_mesh"}))
+        for folder in self._viewers():
+            replace_file(os.path.join(folder, "info"),
+                         _json(neuroglancer.INFO[os.path.basename(folder)]))
         for folder, _, names in os.walk(self.folder):
             for name in names:
                 if name.startswith(HIDDEN):
@@ -313,14 +329,26 @@ class Job:
     def _path(self, *names: str) -> str:
         return os.path.join(self.folder, "job", *names)
 
-    def _write(self, label: int, surface: Surface) -> None:
+    def _viewers(self) -> list[str]:
+        """The folders for Neuroglancer."""
+        return [os.path.join(self.folder, name) for name in self.formats
+                if name in neuroglancer.INFO]
+
+    def _write(self, label: int, surface: Surface, details: Sequence[Surface]) -> None:
         for name in self.formats if len(surface.triangles) else ():
-            if name != "precomputed":
-                replace_file(os.path.join(self.folder, f"label-{label}{name}"), surface.to_bytes(name))
-                continue
             folder = os.path.join(self.folder, name)
-            replace_file(os.path.join(folder, f"{label}.mesh"), precomputed(surface, self.nanometers))
-            replace_file(os.path.join(folder, f"{label}:0"), _json({"fragments": [f"{label}.mesh"]}))
+            if name == "precomputed":
+                replace_file(os.path.join(folder, f"{label}.mesh"),
+                             neuroglancer.precomputed(surface, self.nanometers))
+                replace_file(os.path.join(folder, f"{label}:0"),
+                             _json({"fragments": [f"{label}.mesh"]}))
+            elif name == "multilod_draco":
+                manifest, fragments = neuroglancer.multilod_draco(
+                    [level for level in details if len(level.triangles)], self.nanometers)
+                replace_file(os.path.join(folder, str(label)), fragments)
+                replace_file(os.path.join(folder, f"{label}.index"), manifest)
+            else:
+                replace_file(os.path.join(self.folder, f"label-{label}{name}"), surface.to_bytes(name))
 
     def _row(self, label: int, surface: Surface) -> dict[str, Any]:
         report = surface.report
@@ -331,29 +359,7 @@ class Job:
         row.update({name: report.get(name) for name in (
             "Volume", "Area", "NumberOfComponents", "Genus", "VolumeError", "WrongVoxels",
             "MissedVoxels", "Level", "StopReason")})
-        return row | quality(surface)
-
-
-def precomputed(surface: Surface, nanometers: float = 1.0) -> bytes:
-    """A fragment of Neuroglancer's precomputed meshes, legacy single-resolution."""
-    return (np.array([len(surface.points)], "<u4").tobytes()
-            + (np.asarray(surface.points, float) * nanometers).astype("<f4").tobytes()
-            + surface.triangles.astype("<u4").tobytes())
-
-
-def quality(surface: Surface) -> dict[str, Any]:
-    """Of the triangles: the smallest angle, degrees, and the mean of 4 sqrt(3) area / sum of squared
-    sides, which is 1 for an equilateral one."""
-    corners = np.asarray(surface.points, float)[surface.triangles]
-    if len(corners) == 0:
-        return {"SmallestAngle": None, "MeanQuality": None}
-    sides = np.roll(corners, -1, axis=1) - corners
-    squares = (sides * sides).sum(axis=2)
-    areas = np.linalg.norm(np.cross(sides[:, 0], sides[:, 1]), axis=1) / 2
-    cosines = (squares.sum(axis=1)[:, None] - 2 * squares) / 2  # times the other two sides
-    angles = np.degrees(np.arctan2(2 * areas[:, None], cosines))
-    return {"SmallestAngle": float(angles.min()),
-            "MeanQuality": float((4 * np.sqrt(3) * areas / squares.sum(axis=1)).mean())}
+        return row | arrays.quality(surface)
 
 
 def _floats(values: Any) -> list[float]:

@@ -11,7 +11,7 @@ from debian_packages import BUILD, FLAVOUR, NAMES, SOURCE, made_packages, output
 
 
 # What editors go by, as patterns.
-STUBS = ("arrays.py", "ome_zarr.py", "tasks.py", r"__init__\.pyi", r"vtkFiltersVolumic\.pyi", r"py\.typed")
+STUBS = ("arrays.py", "neuroglancer.py", "ome_zarr.py", "tasks.py", r"__init__\.pyi", r"vtkFiltersVolumic\.pyi", r"py\.typed")
 
 
 class ContentsTest(unittest.TestCase):

@@ -8,8 +8,11 @@ import functools
 import json
 import multiprocessing
 import os
+import shutil
 import signal
 import struct
+import subprocess
+import tempfile
 import unittest
 import unittest.mock
 
@@ -81,6 +84,45 @@ def die_once(folder, job, labels):
     with open(os.path.join(folder, "made"), "a", encoding="utf-8") as file:
         file.write("".join(f"{label}\n" for label in labels if not job.is_done(label)))
     job.make(labels)
+
+
+class Meshes(list):
+    scales = ()
+
+
+def multilod_meshes(folder, label):
+    """Points and triangles of each level of detail, as Neuroglancer's page has them."""
+    with open(os.path.join(folder, f"{label}.index"), "rb") as file:
+        manifest = file.read()
+    with open(os.path.join(folder, str(label)), "rb") as file:
+        fragments = file.read()
+    shape, origin = np.frombuffer(manifest, "<f4", 6).reshape(2, 3)
+    count, = struct.unpack_from("<I", manifest, 24)
+    meshes = Meshes()
+    meshes.scales = np.frombuffer(manifest, "<f4", count, 28)
+    offsets = np.frombuffer(manifest, "<f4", 3 * count, 28 + 4 * count).reshape(-1, 3)
+    numbers = np.frombuffer(manifest, "<u4", -1, 28 + 16 * count)
+    assert (numbers[:count] == 1).all() and len(numbers) == 5 * count
+    first = 0
+    for level, (*node, size) in enumerate(numbers[count:].reshape(-1, 4)):
+        with tempfile.TemporaryDirectory() as scratch:
+            drc, ply = os.path.join(scratch, "a.drc"), os.path.join(scratch, "a.ply")
+            with open(drc, "wb") as file:
+                file.write(fragments[first:first + size])
+            subprocess.run(["draco_decoder", "-i", drc, "-o", ply], check=True,
+                           stdout=subprocess.DEVNULL)
+            with open(ply, "rb") as file:
+                header, content = file.read().split(b"end_header\n", 1)
+        first += size
+        vertices = int(header.split(b"element vertex ")[1].split()[0])
+        assert b"property int x" in header  # integers, and no quantization of Draco's
+        places = np.frombuffer(content, "<i4", 3 * vertices).reshape(-1, 3)
+        assert places.min() >= 0 and places.max() <= (65535 if level == 0 else 32768)
+        faces = np.frombuffer(content, [("n", "u1"), ("corners", "<i4", 3)], -1, 12 * vertices)
+        meshes.append((origin + offsets[level] + shape * 2.0 ** level * (node + places / 65535.0),
+                       faces["corners"]))
+    assert first == len(fragments)
+    return meshes
 
 
 class SameBitsTest(SharedFolderTestCase):
@@ -193,7 +235,7 @@ class JobTest(FolderTestCase):
                 ("Gap=0.5 couples labels all over", {"Gap": 0.5}),
                 ("Merge=True couples", {"Merge": True}),
                 ("SharedInterfaces=True couples", {"SharedInterfaces": True}),
-                ("'.obj' is no format; there are .vtp", {"formats": [".obj"]})):
+                ("'.obj' is no format; there are .vtp.*multilod_draco", {"formats": [".obj"]})):
             with self.subTest(words), self.assertRaisesRegex((TypeError, ValueError), words):
                 self.job(**settings)
         with self.assertRaisesRegex(ValueError, "the map has no label 9"):
@@ -250,11 +292,36 @@ class JobTest(FolderTestCase):
         np.testing.assert_allclose(points, 1000 * surface.points, rtol=1e-6)
         np.testing.assert_array_equal(triangles, surface.triangles)
 
+    @unittest.skipUnless(shutil.which("draco_encoder"), "no draco_encoder (Debian: draco)")
+    def test_levels_of_detail_for_neuroglancer(self):
+        job_of(balls(), self.path("meshes"), only=[1, 8], formats=["multilod_draco"],
+               nanometers=1000).run()
+        with open(self.path("meshes/multilod_draco/info"), encoding="utf-8") as file:
+            self.assertEqual(json.load(file)["@type"], "neuroglancer_multilod_draco")
+        small, meshes = (multilod_meshes(self.path("meshes/multilod_draco"), label) for label in (1, 8))
+        self.assertEqual((len(small), len(meshes)), (2, 3))  # What has shrunk to nothing is left out.
+        for scale, level, (points, triangles) in zip(meshes.scales, (0, 2, 4), meshes):
+            with self.subTest(level=level):
+                surface = volumic.labels(balls(), [8], spacing=SPACING, origin=ORIGIN,
+                                         FinestLevel=level)[8]
+                self.assertEqual(len(triangles), len(surface.triangles))
+                edges = triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)  # closed and oriented:
+                self.assertEqual(len(set(map(tuple, edges))), len(edges))
+                self.assertEqual(set(map(tuple, edges)), set(map(tuple, edges[:, ::-1])))
+                step = 2 * 2 ** (level / 2) * np.ptp(1000 * surface.points, axis=0).max() / 65535
+                for place in points:
+                    nearest = np.abs(1000 * surface.points - place).max(axis=1).min()
+                    self.assertLess(nearest, step)
+                self.assertTrue(300 < scale / 3 ** (level / 2) < 600, scale)  # a voxel: 300 x 310 x 400
+        with unittest.mock.patch.object(shutil, "which", return_value=None), \
+                self.assertRaisesRegex(RuntimeError, "draco_encoder, which is missing"):
+            self.job(formats=["multilod_draco"])
+
     def test_quality_of_an_equilateral_triangle(self):
         class Triangle:
             points = np.array([(0, 0, 0), (1, 0, 0), (0.5, 0.75 ** 0.5, 0)])
             triangles = np.array([(0, 1, 2)])
-        found = tasks.quality(Triangle)
+        found = arrays.quality(Triangle)
         self.assertAlmostEqual(found["SmallestAngle"], 60)
         self.assertAlmostEqual(found["MeanQuality"], 1)
 
