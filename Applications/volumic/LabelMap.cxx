@@ -4,6 +4,7 @@
 
 #include "LoadInputs.h"
 #include "ReadVolume.h"
+#include "ResampleImage.h"
 #include "Texts.h"
 #include "ToolErrors.h"
 #include "ToolOptions.h"
@@ -103,8 +104,10 @@ LabelMap LoadLabelMap(const ToolOptions& options, vtkDeformableSurface* settings
   {
     map.Image->SetSpacing(options.Spacing->data());
   }
+  const std::optional<GridFacts> before = ResampleAsAsked(options, true, map.Image, announcer);
   const LabelNames own = OwnNames(options, map.Image);
   map.Facts = FactsOf(map.Image, map.Image->GetPointData()->GetScalars(), -1);
+  map.Facts.ResampledFrom = before;
   const bool isTaken = settings->GetMemoryLimit() > 0 && component >= 0; // out of the others
   const std::vector<int> components =
     ComponentsOf(options, map.Facts.Components, isTaken ? -1 : component, own);

@@ -7,6 +7,7 @@
 #include "Messages.h"
 #include "ReadStart.h"
 #include "ReadVolume.h"
+#include "ResampleImage.h"
 #include "RunFilter.h"
 #include "SurfaceProperties.h"
 #include "Texts.h"
@@ -29,6 +30,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 namespace tool
 {
@@ -155,9 +157,13 @@ LoadedVolume LoadVolume(const ToolOptions& options, vtkDeformableSurface* filter
   {
     volume.Image->SetSpacing(options.Spacing->data());
   }
+  const std::optional<GridFacts> before = filter->GetMemoryLimit() > 0
+    ? std::nullopt
+    : ResampleAsAsked(options, false, volume.Image, announcer);
   const int component = filter->GetSelectedComponent();
   volume.Facts =
     FactsOf(volume.Image, volume.Image->GetPointData()->GetScalars(), component);
+  volume.Facts.ResampledFrom = before;
   Announce(options, volume.Facts, loaded.Components, component, announcer);
   return volume;
 }

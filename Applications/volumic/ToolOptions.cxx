@@ -57,12 +57,17 @@ ProgramOption Show(const char* option, enum ToolOptions::Task task, const char* 
     [task](ToolOptions& options, const std::string&) { options.Task = task; } };
 }
 
-void SetSpacing(ToolOptions& options, const std::string& text)
+ProgramOption Spacing(const char* option,
+  std::optional<std::array<double, 3>> ToolOptions::*member, const char* help)
 {
-  const std::vector<double> numbers = ParseNumbers(text, 3);
-  FailIf<UsageError>(*std::min_element(numbers.begin(), numbers.end()) <= 0.0,
-    "distances of voxels are more than 0");
-  options.Spacing = { numbers[0], numbers[1], numbers[2] };
+  return { option, "X,Y,Z", help,
+    [member](ToolOptions& options, const std::string& text)
+    {
+      const std::vector<double> numbers = ParseNumbers(text, 3);
+      FailIf<UsageError>(*std::min_element(numbers.begin(), numbers.end()) <= 0.0,
+        "distances of voxels are more than 0");
+      options.*member = { numbers[0], numbers[1], numbers[2] };
+    } };
 }
 
 void SetPieceSize(ToolOptions& options, const std::string& text)
@@ -76,8 +81,12 @@ const std::vector<ProgramOption>& InputOptions()
   static const std::vector<ProgramOption> options = {
     Text("array", "NAME", &ToolOptions::Array,
       "the point array of the volume to use; without this option the active scalars"),
-    { "spacing", "X,Y,Z",
-      "distances of neighbouring voxels along the three axes, instead of the file's", SetSpacing },
+    Spacing("spacing", &ToolOptions::Spacing,
+      "distances of neighbouring voxels along the three axes, instead of the file's"),
+    Spacing("resample", &ToolOptions::ResampledSpacing,
+      "resample the volume to these distances: linearly, a label map to the nearest voxel"),
+    Switch("isotropic", &ToolOptions::IsIsotropic,
+      "resample the volume to the smallest of its three distances of voxels"),
     Text("seeds", "FILE", &ToolOptions::Seeds,
       "start from icosahedra at these points: a mesh file's, or the lines 'x y z' (or 'x,y,z') of "
       "a .txt, .csv or .xyz file; world coordinates"),
@@ -383,6 +392,17 @@ void CheckOptions(const ToolOptions& options)
   else
   {
     CheckWithLabels(options);
+  }
+  const char* const resampling = options.ResampledSpacing ? "--resample"
+    : options.IsIsotropic                                 ? "--isotropic"
+                                                          : "";
+  FailIf<UsageError>(options.ResampledSpacing && options.IsIsotropic,
+    "--resample and --isotropic exclude each other");
+  for (const auto& [option, isGiven] : { std::pair("--edges", !options.Edges.empty()),
+         std::pair("--memory", options.HasProperty("MemoryLimit")) })
+  {
+    FailIf<UsageError>(
+      isGiven && *resampling, std::string(option) + " and " + resampling + " exclude each other");
   }
   FailIf<UsageError>(options.Edges.empty() && options.HasProperty("EdgeAttractionWeight"),
     "--edge-attraction needs --edges");

@@ -35,6 +35,8 @@ struct ToolOptions
   std::vector<std::string> Surfaces; ///< files to write, at least one, unless the rest is asked for
   std::string Array;                 ///< point array of the volume; empty: the active one
   std::optional<std::array<double, 3>> Spacing; ///< instead of the file's, world units
+  std::optional<std::array<double, 3>> ResampledSpacing; ///< world units
+  bool IsIsotropic = false;                     ///< resampled to the smallest spacing
   std::string Seeds;                            ///< file of points
   std::string InitialSurface;                   ///< file of a closed surface
   std::string AttractingPoints;                 ///< file of points

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <limits>
+#include <optional>
 #include <string>
 
 class vtkDataArray;
@@ -15,6 +16,13 @@ class vtkInformation;
 
 namespace tool
 {
+/** The voxels of an image. */
+struct GridFacts
+{
+  std::array<int, 3> Size = { 0, 0, 0 };
+  Vector3 Spacing = { 1.0, 1.0, 1.0 };
+};
+
 /** What a volume is, without its voxels. */
 struct VolumeFacts
 {
@@ -26,6 +34,8 @@ struct VolumeFacts
   /** Of the selected component: the smallest and the largest. */
   std::array<double, 2> Range = { std::numeric_limits<double>::infinity(),
     -std::numeric_limits<double>::infinity() };
+
+  std::optional<GridFacts> ResampledFrom; ///< as it was read, if it was resampled
 
   std::array<int, 3> Size() const;
 };

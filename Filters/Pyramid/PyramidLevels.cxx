@@ -79,7 +79,7 @@ PyramidLevels::PyramidLevels(
       Join("level ", h, ": "), [&] { return ChooseVoxels(selection, image); }));
     if (h == 0)
     {
-      CheckSize(image, "the image", "Resample it more finely.");
+      CheckSize(image, "the image", "Resample it more finely (vtkImageResize; ParaView: Resample To Image).");
       this->Space = Workspace(image, metric);
     }
     else

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """`volumic --write-volume` writes the volume as it was read, `--list-files` tells of its files."""
 
+import json
 import os
 import unittest
 
@@ -63,6 +64,76 @@ class WrittenVolumeTest(ToolTestCase):
         self.refused("old.vti: cannot be written|old.vti cannot be written", volume,
                      "--write-volume", self.path("old.vti"), preexec_fn=largest_file(1000))
         self.assertEqual((self.content("ball.vti"), self.content("old.vti")), (before, b"older"))
+
+
+class ResampledVolumeTest(ToolTestCase):
+    def resampled(self, image, *options):
+        path = self.path("resampled.vti")
+        process = self.run_tool(self.write(vtkXMLImageDataWriter(), "a.vti", image),
+                                "--write-volume", path, *options)
+        self.assertIn("resampled from", process.stderr)
+        return read(path)
+
+    def test_values_are_linear_between_voxels_wherever_these_lie(self):
+        """A linear function of the world stays what it is, but in the outer halves of voxels."""
+        z, y, x = np.indices((7, 12, 9))
+        steps = np.asarray(TURNED) * SPACING
+        world = np.asarray(ORIGIN) + np.stack([x, y, z], axis=-1) @ steps.T
+        slope = (3.0, -2.0, 0.5)
+        image = make_image((world @ slope).astype("f4"), direction=TURNED)
+        written = self.resampled(image, "--resample", "0.31,0.7,0.4")
+        self.assertEqual(written.GetSpacing(), (0.31, 0.7, 0.4))
+        for axis, size in enumerate((9, 12, 7)):
+            length = size * SPACING[axis]
+            left = length - written.GetDimensions()[axis] * written.GetSpacing()[axis]
+            self.assertLessEqual(abs(left), 0.5 * written.GetSpacing()[axis] + 1e-9)
+        np.testing.assert_allclose(written.GetCenter(), image.GetCenter(), atol=1e-6)
+        values = vtk_to_numpy(written.GetPointData().GetScalars())
+        bounds = np.reshape(image.GetBounds(), (3, 2))
+        inside = 0
+        for i in range(0, written.GetNumberOfPoints(), 7):
+            place = np.array(written.GetPoint(i))
+            if np.all(place > bounds[:, 0]) and np.all(place < bounds[:, 1]):
+                self.assertAlmostEqual(values[i], place @ slope, delta=2e-4)
+                inside += 1
+        self.assertGreater(inside, 50)
+
+    def test_labels_are_those_of_the_nearest_voxel(self):
+        labels = np.random.default_rng(3).integers(0, 9, (6, 12, 14)).astype("u2")
+        image = make_image(labels)
+        image.SetSpacing(0.5, 0.5, 1.5)
+        written = self.resampled(image, "--isotropic", "--labels", "all")
+        self.assertEqual(written.GetDimensions(), (14, 12, 18))
+        scalars = vtk_to_numpy(written.GetPointData().GetScalars())
+        self.assertEqual(scalars.dtype, labels.dtype)
+        np.testing.assert_array_equal(scalars.reshape(18, 12, 14), labels.repeat(3, axis=0))
+
+    def test_a_few_slices_have_a_surface(self):
+        z, y, x = np.indices((7, 30, 30))
+        image = make_image((100 - 10 * np.hypot(np.hypot(x - 15, y - 15), 4 * (z - 3))).astype("i2"))
+        image.SetSpacing(1, 1, 4)
+        volume = self.write(vtkXMLImageDataWriter(), "a.vti", image)
+        process = self.run_tool(
+            volume, self.path("a.vtp"), "--iso", "0", "--report", self.path("a.json"))
+        self.assertIn("resampled from 30 x 30 x 7 voxels of 1 x 1 x 4: a surface needs 8 voxels",
+                      process.stderr)
+        report = json.loads(self.content("a.json"))
+        self.assertEqual(report["input"]["resampled_from"],
+                         {"dimensions": [30, 30, 7], "spacing": [1.0, 1.0, 4.0]})
+        self.assertEqual(report["genus"], 0)
+        self.assertAlmostEqual(report["volume"], 4 / 3 * np.pi * 10 ** 3, delta=300)
+
+    def test_what_excludes_it(self):
+        volume = self.ball_file()
+        for reason, *options in (
+                ("--memory and --isotropic exclude", "--memory", "300M", "--isotropic"),
+                ("--edges and --resample exclude", "--edges", "density", "--resample", "1,1,1"),
+                ("--resample and --isotropic exclude", "--resample", "1,1,1", "--isotropic"),
+                ("--resample: distances of voxels are more than 0", "--resample", "1,0,1")):
+            with self.subTest(reason):
+                self.refused(reason, volume, self.path("a.vtp"), *options, status=2)
+        self.refused("resampled it would have .* voxels", volume, self.path("a.vtp"),
+                     "--resample", "1e-6,1e-6,1e-6")
 
 
 class ListFilesTest(ToolTestCase):

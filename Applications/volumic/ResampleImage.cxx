@@ -1,0 +1,157 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ResampleImage.h"
+
+#include "Texts.h"
+#include "ToolErrors.h"
+#include "ToolOptions.h"
+
+#include <vtkDataArray.h>
+#include <vtkFieldData.h>
+#include <vtkImageData.h>
+#include <vtkImageReslice.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace tool
+{
+namespace
+{
+/** Along an axis, for a pyramid to have a level. */
+constexpr int LeastVoxels = 8;
+/** Of a new image; more is an error of the order. */
+constexpr double MostVoxels = 1e11;
+
+GridFacts GridOf(vtkImageData* image)
+{
+  GridFacts grid;
+  image->GetDimensions(grid.Size.data());
+  image->GetSpacing(grid.Spacing.data());
+  return grid;
+}
+
+std::string TextOf(const GridFacts& grid)
+{
+  std::string size;
+  std::string spacing;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const std::string between = axis == 0 ? "" : " x ";
+    size += between + NumberText(grid.Size[axis]);
+    spacing += between + NumberText(std::round(1e6 * grid.Spacing[axis]) / 1e6);
+  }
+  return size + " voxels of " + spacing;
+}
+
+int NewSize(int size, double spacing, double wanted)
+{
+  return std::max(1, static_cast<int>(std::lround(size * spacing / wanted)));
+}
+
+/** @return the spacing that is asked for; the image's own where nothing is. */
+Vector3 WantedSpacing(const ToolOptions& options, const GridFacts& grid, bool areLabels)
+{
+  if (options.ResampledSpacing)
+  {
+    return *options.ResampledSpacing;
+  }
+  const double least = *std::min_element(grid.Spacing.begin(), grid.Spacing.end());
+  Vector3 wanted = grid.Spacing;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const int size = grid.Size[axis];
+    const bool isThin = !areLabels && options.Edges.empty() && size > 1 && size < LeastVoxels;
+    if (options.IsIsotropic)
+    {
+      wanted[axis] = least;
+    }
+    if (isThin && NewSize(size, grid.Spacing[axis], wanted[axis]) < LeastVoxels)
+    {
+      wanted[axis] = size * grid.Spacing[axis] / LeastVoxels;
+    }
+  }
+  return wanted;
+}
+}
+
+vtkSmartPointer<vtkImageData> Resampled(
+  vtkImageData* image, const Vector3& spacing, bool areLabels)
+{
+  // Along the voxels' axes, from the outer face of the first voxel on: the place in the world is
+  // set afterwards.
+  int extent[6];
+  int newExtent[6];
+  double first[3];
+  image->GetExtent(extent);
+  const GridFacts grid = GridOf(image);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const int size = NewSize(grid.Size[axis], grid.Spacing[axis], spacing[axis]);
+    newExtent[2 * axis] = 0;
+    newExtent[2 * axis + 1] = size - 1;
+    first[axis] = 0.5 * ((grid.Size[axis] - 1) * grid.Spacing[axis] - (size - 1) * spacing[axis]);
+  }
+  vtkNew<vtkImageData> plain;
+  plain->SetDimensions(grid.Size.data());
+  plain->SetSpacing(grid.Spacing.data());
+  plain->GetPointData()->SetScalars(image->GetPointData()->GetScalars());
+  vtkNew<vtkImageReslice> reslice;
+  reslice->SetInputData(plain);
+  reslice->SetOutputSpacing(spacing.data());
+  reslice->SetOutputOrigin(first);
+  reslice->SetOutputExtent(newExtent);
+  reslice->BorderOn(); // Out to the faces of the outer voxels their values are taken.
+  if (areLabels)
+  {
+    reslice->SetInterpolationModeToNearestNeighbor();
+  }
+  else
+  {
+    reslice->SetInterpolationModeToLinear();
+    reslice->SetOutputScalarType(
+      image->GetScalarType() == VTK_DOUBLE ? VTK_DOUBLE : VTK_FLOAT);
+  }
+  reslice->Update();
+  auto made = vtkSmartPointer<vtkImageData>::New();
+  made->ShallowCopy(reslice->GetOutput());
+  made->GetPointData()->GetScalars()->SetName(image->GetPointData()->GetScalars()->GetName());
+  double index[3];
+  double origin[3];
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    index[axis] = extent[2 * axis] + first[axis] / grid.Spacing[axis];
+  }
+  image->TransformContinuousIndexToPhysicalPoint(index, origin);
+  made->SetOrigin(origin);
+  made->SetDirectionMatrix(image->GetDirectionMatrix());
+  made->GetFieldData()->ShallowCopy(image->GetFieldData());
+  return made;
+}
+
+std::optional<GridFacts> ResampleAsAsked(const ToolOptions& options, bool areLabels,
+  vtkSmartPointer<vtkImageData>& image, const Announcer& announcer)
+{
+  const GridFacts before = GridOf(image);
+  const Vector3 wanted = WantedSpacing(options, before, areLabels);
+  if (wanted == before.Spacing)
+  {
+    return std::nullopt;
+  }
+  double voxels = 1.0;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    voxels *= std::max(1.0, before.Size[axis] * before.Spacing[axis] / wanted[axis]);
+  }
+  FailIf(!(voxels < MostVoxels),
+    options.Volume + ": resampled it would have " + NumberText(std::round(voxels)) + " voxels");
+  image = Resampled(image, wanted, areLabels);
+  const bool isAsked = options.ResampledSpacing || options.IsIsotropic;
+  announcer.Say(options.Volume + ": resampled from " + TextOf(before) +
+    (isAsked ? "" : ": a surface needs 8 voxels along each axis"));
+  return before;
+}
+}

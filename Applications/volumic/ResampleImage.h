@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicResampleImage_h
+#define volumicResampleImage_h
+
+#include "VolumeFacts.h"
+
+#include <vtkSmartPointer.h>
+
+#include <optional>
+
+class vtkImageData;
+
+namespace tool
+{
+class Announcer;
+struct ToolOptions;
+
+/**
+ * The active scalars on a grid with this spacing (world units) that fills the same box, from outer
+ * face to outer face of the voxels, as nearly as whole voxels do: the rest is shared by both ends.
+ * Labels are those of the nearest voxel; other values are interpolated linearly, as float.
+ */
+vtkSmartPointer<vtkImageData> Resampled(
+  vtkImageData* image, const Vector3& spacing, bool areLabels);
+
+/**
+ * What --resample or --isotropic asks for, and, of values, what an image of fewer than eight voxels
+ * along an axis needs to have a surface; it is told. With neither the image stays.
+ * @param areLabels see Resampled
+ * @return what it was before, if it was resampled
+ */
+std::optional<GridFacts> ResampleAsAsked(const ToolOptions& options, bool areLabels,
+  vtkSmartPointer<vtkImageData>& image, const Announcer& announcer);
+}
+
+#endif
