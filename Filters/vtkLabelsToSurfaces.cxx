@@ -3,7 +3,9 @@
 #include "vtkLabelsToSurfaces.h"
 
 #include "Core/Common/FreeMemory.h"
+#include "Core/Common/Refuse.h"
 #include "Host/AlgorithmErrors.h"
+#include "Host/Deadline.h"
 #include "Host/HostThreads.h"
 #include "Host/LimitedMemory.h"
 #include "Host/PrefixErrors.h"
@@ -18,6 +20,7 @@
 #include "Labels/LabelNames.h"
 #include "Labels/LabelSurface.h"
 #include "Labels/LabelSurfaces.h"
+#include "Output/SurfaceOutput.h"
 #include "Ranks/Ranks.h"
 #include "Run/SegmentationCache.h"
 #include "Settings/PropertyValues.h"
@@ -54,6 +57,8 @@ public:
   int BackgroundLabel = 0;
   bool Merge = false;
   int NumberOfThreads = 0;
+  double TimeLimit = 0.0; ///< seconds; 0: none
+  volumic::Deadline Limit; ///< of the run that is under way
   int MemoryLimit = 0;
   std::string ScratchDirectory;
   volumic::LabelNames Names;
@@ -101,6 +106,7 @@ vtkLabelsToSurfaces::~vtkLabelsToSurfaces() = default;
   MADE(FinestLevel, int, Settings.FinestLevel)                          \
   MADE(KeepComponents, int, Settings.KeepComponents)                    \
   MADE(MinimumComponentVolume, double, Settings.MinimumComponentVolume) \
+  WRITTEN(TimeLimit, double, TimeLimit)                                 \
   WRITTEN(NumberOfThreads, int, NumberOfThreads)                        \
   MADE(MemoryLimit, int, MemoryLimit)                                   \
   MADE(ScratchDirectory, const char*, ScratchDirectory)
@@ -109,6 +115,20 @@ vtkLabelsToSurfaces::~vtkLabelsToSurfaces() = default;
   VOLUMIC_SET_AND_GET(vtkLabelsToSurfaces, name, type, field, this->Modified())
 #define VolumicWritten(name, type, field)
 VOLUMIC_LABEL_PROPERTIES(VolumicSetting, VolumicWritten)
+
+double vtkLabelsToSurfaces::GetTimeLimit()
+{
+  return this->Internals->TimeLimit;
+}
+
+void vtkLabelsToSurfaces::SetTimeLimit(double seconds)
+{
+  if (this->Internals->TimeLimit != seconds)
+  {
+    this->Internals->TimeLimit = seconds;
+    this->GoOn(); // No surface that is finished depends on it.
+  }
+}
 
 int vtkLabelsToSurfaces::GetNumberOfThreads()
 {
@@ -284,7 +304,7 @@ bool vtkLabelsToSurfaces::ShowProgress(double share, const std::string& text)
 {
   this->SetProgressText(text.c_str());
   this->UpdateProgress(share);
-  return !volumic::IsAbortRequested(this);
+  return !volumic::IsAbortRequested(this) && !this->Internals->Limit.IsOver();
 }
 
 //------------------------------------------------------------------------------
@@ -293,6 +313,11 @@ void vtkLabelsToSurfaces::MakeSurfaces(volumic::Ranks& ranks, const volumic::Fil
   auto* output = vtkMultiBlockDataSet::GetData(call.Outputs, 0);
   auto* interfaces = vtkPolyData::GetData(call.Outputs, 1);
   const vtkInternals& internals = *this->Internals;
+  if (!(internals.TimeLimit >= 0.0))
+  {
+    volumic::Refuse("Time Limit is ", internals.TimeLimit, "; it must be 0 (none) or more.");
+  }
+  this->Internals->Limit = volumic::Deadline(volumic::Deadline::Clock::now(), internals.TimeLimit);
   this->Internals->Memory.Set(internals.MemoryLimit, internals.ScratchDirectory);
   const auto show = [this](double share, const std::string& text)
   { return this->ShowProgress(share, text); };
@@ -344,7 +369,9 @@ void vtkLabelsToSurfaces::MakeSurfaces(volumic::Ranks& ranks, const volumic::Fil
     this->Internals->Stopped = surfaces;
   }
   const std::string warning =
-    volumic::FillBlocks(choice, *image, internals.Settings, surfaces, output);
+    volumic::FillBlocks(choice, *image, internals.Settings, surfaces, output,
+      volumic::IsAbortRequested(this) ? Describe(volumic::StopReason::Cancelled)
+                                      : volumic::TimeLimitReason);
   // At the end: ParaView's message box would cover the progress bar.
   if (!image->Warning().empty())
   {
@@ -410,6 +437,7 @@ int vtkLabelsToSurfaces::RequestData(
     vtkErrorMacro(<< error.Text);
   }
   volumic::ForgetAbort(this);
+  this->Internals->Limit = volumic::Deadline();
   this->Internals->IsRunning = false;
   this->Internals->StoppedTime = this->Internals->Stopped.empty() ? 0 : this->GetMTime();
   this->Internals->StoppedInputs = inputs;

@@ -82,7 +82,8 @@
  * AbortExecute is looked at several times a second: surfaces that are finished then are handed
  * over, that under way has `StopReason` `cancelled`, others are empty blocks with that reason.
  * GoOn() has the next Update() make what is missing, and keep the finished ones, where neither the
- * filter nor its input has changed (without Gap; with it all are made again).
+ * filter nor its input has changed (without Gap; with it all are made again). TimeLimit ends a run
+ * in the same way, and another limit has it go on.
  *
  * @par Processes:
  * Where the controller has several processes, and each asks for the piece of its own number of as
@@ -269,6 +270,16 @@ public:
   /** As vtkDeformableSurface, world units cubed. Default: 0. */
   void SetMinimumComponentVolume(double volume);
   double GetMinimumComponentVolume();
+  ///@}
+
+  ///@{
+  /**
+   * Seconds, from the start of RequestData(), after which a run ends as one that is cancelled does,
+   * but with the `StopReason` `time limit`; 0, the default: none. With a new limit the next Update()
+   * goes on.
+   */
+  void SetTimeLimit(double seconds);
+  double GetTimeLimit();
   ///@}
 
   ///@{

@@ -37,6 +37,9 @@ namespace tool
 {
 namespace
 {
+/** What a layer has of the time limit, seconds, where the others have used it up. */
+constexpr double LeastTime = 1e-3;
+
 /** Have a filter work on the labels of a layer. */
 void SetInput(vtkAlgorithm* filter, const LabelMap& map, int layer)
 {
@@ -168,8 +171,13 @@ void MakeSurfaces(const ToolOptions& options, const LabelMap& map, vtkLabelsToSu
   std::vector<LabelSurface>& surfaces, const Announcer& announcer, LabelReport& report,
   Ranks& ranks)
 {
+  const double limit = filter->GetTimeLimit();
   for (int layer = 0; layer < static_cast<int>(map.Layers.size()); ++layer)
   {
+    if (limit > 0.0)
+    {
+      filter->SetTimeLimit(std::max(limit - report.Seconds, LeastTime));
+    }
     const FilterRun run =
       RunOnLayer(options, map, layer, filter, surfaces, announcer.Style, ranks);
     report.Seconds += run.Seconds;
@@ -183,6 +191,15 @@ void MakeSurfaces(const ToolOptions& options, const LabelMap& map, vtkLabelsToSu
     [](const LabelSurface& surface) { return surface.IsUnfinished(); });
 }
 
+/** Of a run that was stopped. */
+std::string NothingBefore(const std::vector<LabelSurface>& surfaces)
+{
+  const bool isLate = std::any_of(surfaces.begin(), surfaces.end(),
+    [](const LabelSurface& surface) { return StopReason(surface.Surface) == "time limit"; });
+  return isLate ? "the time limit came before there was a surface; nothing is written"
+                : "interrupted before there was a surface; nothing is written";
+}
+
 void CheckThatAnyIsThere(const ToolOptions& options, const LabelReport& report)
 {
   const bool isThere = std::any_of(report.Surfaces.begin(), report.Surfaces.end(),
@@ -191,7 +208,7 @@ void CheckThatAnyIsThere(const ToolOptions& options, const LabelReport& report)
     report.IsFinished ? options.Volume +
         ": none of the labels has a surface; smaller triangles may hold them "
         "(--finest, --edge-length)"
-                      : "interrupted before there was a surface; nothing is written");
+                      : NothingBefore(report.Surfaces));
 }
 
 /** Write surfaces and report. @throws Failure if not all could be written. */
@@ -215,6 +232,7 @@ void TellEnd(const std::vector<LabelSurface>& surfaces, const Announcer& announc
   std::size_t count = 0;
   std::string unfinished;
   std::string missing;
+  std::string reason;
   for (const LabelSurface& surface : surfaces)
   {
     const vtkIdType points = surface.Surface->GetNumberOfPoints();
@@ -223,13 +241,14 @@ void TellEnd(const std::vector<LabelSurface>& surfaces, const Announcer& announc
     count += points > 0 ? 1 : 0;
     std::string& list = points > 0 ? unfinished : missing;
     list += surface.IsUnfinished() ? (list.empty() ? "" : ", ") + surface.Name : "";
+    reason = surface.IsUnfinished() ? StopReason(surface.Surface) : reason;
   }
   announcer.Say(std::to_string(count) + (count == 1 ? " surface, " : " surfaces, ") +
     std::to_string(vertices) + " vertices" +
     (wrong > 0 ? "; " + std::to_string(wrong) + " voxel centres are on the wrong side" : ""));
   if (!unfinished.empty() || !missing.empty())
   {
-    std::cerr << "volumic: unfinished (cancelled); what is finished was written"
+    std::cerr << "volumic: unfinished (" << reason << "); what is finished was written"
               << (missing.empty() ? "" : "; there is no surface of " + missing)
               << (unfinished.empty() ? "" : "; as they were then, those of " + unfinished) << "\n";
   }

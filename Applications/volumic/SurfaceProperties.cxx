@@ -173,7 +173,8 @@ std::vector<PropertyOption> MakeProperties()
     SURFACE_NUMBER(MinimumComponentVolume, "minimum-component-volume", "VOLUME",
       "what a component must enclose to be large, in world units cubed"),
     SURFACE_NUMBER(TimeLimit, "time-limit", "SECONDS",
-      "write the surface as it is so long after its evolution began; 0: no limit"),
+      "write the surface as it is so long after its evolution began, with --labels those that are "
+      "finished; 0: no limit"),
     { "memory", "SIZE", "vtkDeformableSurface", "MemoryLimit",
       "memory that the process may have, such as 2G or 1500M; what does not fit waits in files of "
       "--scratch; 0: no limit; the result does not depend on it",
@@ -229,7 +230,7 @@ bool IsOfLabelsOnly(const PropertyOption& option)
 static const std::map<std::string, std::function<void(const FilterTrio&)>> Shared = {
   SHARED(Metric), SHARED(EdgeLength), SHARED(Tolerance), SHARED(MaximumEdgeLength),
   SHARED(Gradation), SHARED(ThinParts), SHARED(FinestLevel), SHARED(KeepComponents),
-  SHARED(MinimumComponentVolume), SHARED(NumberOfThreads), SHARED(MemoryLimit), SHARED(ScratchDirectory)
+  SHARED(MinimumComponentVolume), SHARED(TimeLimit), SHARED(NumberOfThreads), SHARED(MemoryLimit), SHARED(ScratchDirectory)
 };
 
 bool IsOfLabels(const PropertyOption& option)

@@ -83,6 +83,8 @@ class Job:
             if properties.get(name):
                 raise ValueError(f"{name}={properties[name]} couples labels all over the map: there "
                                  "are no tasks of their own. Apply volumic.labels to the whole map.")
+        if properties.get("TimeLimit"):
+            raise ValueError("TimeLimit would leave labels unfinished: end the job, and start it again")
         for name in formats:
             if name not in arrays.WRITERS and name not in neuroglancer.INFO:
                 raise ValueError(f"'{name}' is no format; there are "

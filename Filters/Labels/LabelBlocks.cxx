@@ -161,7 +161,7 @@ std::vector<std::string> LabelChoice::SurfaceNames() const
 
 std::string FillBlocks(const LabelChoice& choice, const LabelImage& image,
   const LabelSettings& settings, const std::vector<LabelSurface>& surfaces,
-  vtkMultiBlockDataSet* output)
+  vtkMultiBlockDataSet* output, const std::string& stopped)
 {
   std::vector<std::string> empty;
   std::vector<std::string> lost;
@@ -181,8 +181,11 @@ std::string FillBlocks(const LabelChoice& choice, const LabelImage& image,
     const std::string name = choice.Names.NameOf(labels);
     vtkNew<vtkPolyData> surface;
     const bool isThere = surfaces[i].Surface != nullptr;
-    surface->ShallowCopy(isThere ? surfaces[i].Surface
-                                 : MakeStopped(0, Describe(StopReason::Cancelled)));
+    surface->ShallowCopy(isThere ? surfaces[i].Surface : MakeStopped(0, stopped));
+    if (!surfaces[i].IsFinished)
+    {
+      SetStopReason(surface, stopped);
+    }
     AddLabels(surface, labels, image);
     AddField<vtkIntArray>(surface, "Label", labels);
     AddNames(surface, labels, choice.Names);

@@ -33,12 +33,13 @@ struct LabelChoice
 
 /**
  * Makes a block of each surface, with the arrays of labels.
+ * @param stopped the `StopReason` of what is not finished
  * @return what the user should know: labels that have no surface, or lose most of their voxels, or
  *         meet neighbours in spite of a gap, and what may help; empty: nothing
  */
 std::string FillBlocks(const LabelChoice& choice, const LabelImage& image,
   const LabelSettings& settings, const std::vector<LabelSurface>& surfaces,
-  vtkMultiBlockDataSet* output);
+  vtkMultiBlockDataSet* output, const std::string& stopped);
 
 /** Names, colours and voxels of all labels, for a surface that has them all. */
 void AddLabelFields(const LabelChoice& choice, const LabelImage& image, vtkPolyData* surface);

@@ -266,6 +266,7 @@ class OptionsTest(LabelsTest):
                   "EdgeLength": ("--edge-length", "1.2"), "FinestLevel": ("--finest", "1"),
                   "KeepComponents": ("--keep", "large"),
                   "MinimumComponentVolume": ("--minimum-component-volume", "2"),
+                  "TimeLimit": ("--time-limit", "600"),
                   "NumberOfThreads": ("--threads", "1"), "MemoryLimit": ("--memory", "3000M"),
                   "ScratchDirectory": ("--scratch", self.folder),
                   "ThinParts": ("--thin-parts",),
@@ -309,7 +310,7 @@ class OptionsTest(LabelsTest):
                 ("--levels-output", "l"), ("--snapshots", "s"), ("--edges", "e"),
                 ("--initial-surface", "a.stl"), ("--seed-position", "1,2,3"),
                 ("--attracting-points", "p"), ("--attracting-position", "1,2,3"),
-                ("--levels", "2"), ("--preview",), ("--resume",), ("--time-limit", "3"),
+                ("--levels", "2"), ("--preview",), ("--resume",),
                 ("--tension", "3"), ("--no-snap",), ("--keep", "at-points"),
                 ("--keep", "not-at-seeds"), ("--profile",), ("--border", "replicate")):
             with self.subTest(option, value=value):
@@ -387,6 +388,20 @@ class RunTest(LabelsTest):
         written = {name for row in report["labels"] for name in row["files"]}
         self.assertEqual({self.path("o/") + name for name in os.listdir(self.path("o"))}, written)
         self.assertLessEqual({row["files"][0] for row in done}, written)
+
+    def test_a_time_limit(self):
+        volume = self.many_labels(4)
+        self.no_surfaces("the time limit came before there was a surface", volume, "--labels", "all",
+                         "--time-limit", "1e-9")
+        seconds, status = 0.1, 1
+        while status == 1:  # until some are finished, long before all are
+            process = self.run_tool(
+                volume, self.path("o/"), "--labels", "all", "--finest", "-1", "--threads", "1",
+                "--time-limit", seconds, status=None)
+            seconds, status = 2 * seconds, process.returncode
+        self.assertEqual(status, 3, process.stderr)
+        self.assertIn("unfinished (time limit); what is finished was written", process.stderr)
+        self.assertTrue(0 < len(os.listdir(self.path("o"))) <= 64)
 
 
 if __name__ == "__main__":

@@ -70,6 +70,51 @@ TEST(LabelsToSurfaces, GoesOnWithWhatIsMissingAfterAStop)
   EXPECT_TRUE(afterChange());
 }
 
+TEST(LabelsToSurfaces, EndsAtItsTimeLimit)
+{
+  vtkNew<vtkLabelsToSurfaces> filter;
+  filter->SetInputData(BallsImage());
+  const auto whole = LabelSurfacesOf(filter->GetInputDataObject(0, 0));
+  for (const bool areShared : { true, false })
+  {
+    filter->SetSharedInterfaces(areShared);
+    filter->SetTimeLimit(1e-9);
+    filter->Update();
+    EXPECT_EQ(filter->GetErrorCode(), 0u);
+    ASSERT_EQ(filter->GetOutput()->GetNumberOfBlocks(), 2u);
+    for (const unsigned int block : { 0u, 1u })
+    {
+      EXPECT_EQ(StopReason(BlockOf(filter, block)), "time limit");
+    }
+  }
+  filter->SetTimeLimit(0.0);
+  filter->Update();
+  for (const unsigned int block : { 0u, 1u })
+  {
+    EXPECT_TRUE(AreSameSurfaces(BlockOf(filter, block), BlockOf(whole, block)));
+  }
+  filter->SetTimeLimit(-1.0);
+  const MessagesOf errors(filter, vtkCommand::ErrorEvent);
+  filter->Update();
+  EXPECT_NE(errors.Get().find("Time Limit is -1"), std::string::npos) << errors.Get();
+}
+
+TEST(LabelsToSurfaces, GoesOnWithAnotherTimeLimit)
+{
+  vtkNew<vtkLabelsToSurfaces> filter;
+  filter->SetInputData(BallsImage());
+  filter->SetNumberOfThreads(2); // As above: one after the other.
+  {
+    const StopAtText stop(filter, "1 of 2, ", 2);
+    filter->Update();
+  }
+  filter->SetTimeLimit(1e6);
+  ProgressListener listener(filter);
+  filter->Update();
+  EXPECT_EQ(listener.Texts.count("0 of 1"), 1u) << "what is finished stays";
+  EXPECT_EQ(StopReason(BlockOf(filter, 1)), "converged");
+}
+
 TEST(LabelsToSurfaces, TellsProgressAndCanBeStopped)
 {
   vtkNew<vtkLabelsToSurfaces> filter;

@@ -19,8 +19,8 @@ FILTER = filter_of_the_menu("LabelsToSurfaces")
 TABLE = f"{PROPERTIES}/Labels"
 BASIC = ("SetInputArrayToProcess", "Labels", "BackgroundLabel", "Merge", "Smoothing",
          "VoxelTolerance", "Gap", "SharedInterfaces", "FinestLevel", "EdgeLength", "Tolerance", "ThinParts")
-ADVANCED = ("MaximumEdgeLength", "Gradation", "KeepComponents", "Metric", "NumberOfThreads",
-            "MemoryLimit", "ScratchDirectory")
+ADVANCED = ("MaximumEdgeLength", "Gradation", "KeepComponents", "Metric", "TimeLimit",
+            "NumberOfThreads", "MemoryLimit", "ScratchDirectory")
 CHECKED, UNCHECKED = 2, 0
 
 TELL = """

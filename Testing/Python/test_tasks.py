@@ -235,6 +235,7 @@ class JobTest(FolderTestCase):
                 ("Gap=0.5 couples labels all over", {"Gap": 0.5}),
                 ("Merge=True couples", {"Merge": True}),
                 ("SharedInterfaces=True couples", {"SharedInterfaces": True}),
+                ("TimeLimit would leave labels unfinished", {"TimeLimit": 3}),
                 ("'.obj' is no format; there are .vtp.*multilod_draco", {"formats": [".obj"]})):
             with self.subTest(words), self.assertRaisesRegex((TypeError, ValueError), words):
                 self.job(**settings)
