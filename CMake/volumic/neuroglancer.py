@@ -36,7 +36,7 @@ def multilod_draco(levels: Sequence[Surface], nanometers: float = 1.0) -> tuple[
 
     Each level is one fragment, so that it stays closed: the format would have it cut along an octree.
     A level's node is twice as large as the one before, of which the mesh then fills the first octant.
-    So coordinates are rounded to 1/65535 of the box, of half of that, and so on.
+    So coordinates are rounded to 1/65535 of the box, in each level after it to twice as much.
     """
     points = [np.asarray(surface.points, float) * nanometers for surface in levels]
     lowest = np.min([each.min(axis=0) for each in points], axis=0)

@@ -39,7 +39,7 @@ BRICK = 4  # voxels, LabelBricks::Side
 MARGIN = 3  # bricks: those beside the label's, and what is within LabelBricks' reach of them
 CLAIMS = 2  # bricks: about those beside the label's that others' fields may be in
 BLOCK = 256  # voxels along each axis that are counted at a time, at most
-DETAILS = (2, 4)  # FinestLevel of the coarser levels of detail: edges 3 and 9 times as long
+DETAILS = (1, 2, 3)  # FinestLevel of the coarser levels of detail: edges sqrt(3) times as long
 Box = list[tuple[int, int]]  # [begin, end) of x, y and z
 
 
@@ -60,7 +60,7 @@ class Job:
         Labels to make; by default all but BackgroundLabel.
     formats : sequence of str, optional
         `.vtp`, `.ply`, `.stl`: label-3.vtp. For Neuroglancer, folders of these names: `precomputed`
-        and, with three levels of detail, compressed, `multilod_draco`.
+        and, with four levels of detail, compressed, `multilod_draco`.
     nanometers : float, optional
         Of one world unit, for Neuroglancer; by default that of `source`, or 1.
     bundle : int, optional
