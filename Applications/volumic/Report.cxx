@@ -195,7 +195,8 @@ std::string ReportText(const ReportInput& input)
   vtkDeformableSurface* filter = input.Filters.Surface;
   vtkPolyData* surface = filter->GetOutput();
   Json json = { { "input", InputFacts(input.VolumeName, input.Volume) },
-    { "iso_value", AsJson(filter->GetIsoValue()) }, { "finished", input.IsFinished } };
+    { "iso_value", AsJson(filter->GetIsoValue()) },
+    { "upper_value", AsJson(filter->GetUpperValue()) }, { "finished", input.IsFinished } };
   AddSurfaceFacts(json, surface, input.Size);
   json["component_features"] = ComponentFeatures(surface);
   json["levels"] = LevelFacts(input);
