@@ -39,6 +39,9 @@ Json InputFacts(const std::string& name, const VolumeFacts& volume)
 {
   return { { "name", name }, { "dimensions", volume.Size() },
     { "spacing", AsJsonArray(volume.Spacing) }, { "origin", AsJsonArray(volume.Origin) },
+    { "space", volume.World.Axes }, { "unit", volume.World.Unit },
+    { "file_space", volume.World.FileAxes }, { "file_unit", volume.World.FileUnit },
+    { "scale", volume.World.Scale },
     { "scalar_type", vtkImageScalarTypeNameMacro(volume.Type) },
     { "range", AsJsonArray(volume.Range) } };
 }

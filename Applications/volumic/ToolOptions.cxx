@@ -62,7 +62,27 @@ void SetSpacing(ToolOptions& options, const std::string& text)
   const std::vector<double> numbers = ParseNumbers(text, 3);
   FailIf<UsageError>(*std::min_element(numbers.begin(), numbers.end()) <= 0.0,
     "distances of voxels are more than 0");
-  options.Spacing = { numbers[0], numbers[1], numbers[2] };
+  options.World.Spacing = { numbers[0], numbers[1], numbers[2] };
+}
+
+void SetScale(ToolOptions& options, const std::string& text)
+{
+  options.World.Scale = ParseNumber<double>(text);
+  FailIf<UsageError>(!(*options.World.Scale > 0.0), "lengths are multiplied by more than 0");
+}
+
+void SetUnit(ToolOptions& options, const std::string& text)
+{
+  options.World.Unit = LengthUnitOf(text);
+  FailIf<UsageError>(options.World.Unit.empty(), "'" + text + "' is none of m, cm, mm, um, nm, A");
+}
+
+void SetSpace(ToolOptions& options, const std::string& text)
+{
+  const bool isAsFile = text == "as-file";
+  FailIf<UsageError>(
+    !isAsFile && text != "LPS" && text != "RAS", "'" + text + "' is none of LPS, RAS, as-file");
+  options.World.Axes = isAsFile ? "" : text;
 }
 
 void SetPieceSize(ToolOptions& options, const std::string& text)
@@ -77,7 +97,19 @@ const std::vector<ProgramOption>& InputOptions()
     Text("array", "NAME", &ToolOptions::Array,
       "the point array of the volume to use; without this option the active scalars"),
     { "spacing", "X,Y,Z",
-      "distances of neighbouring voxels along the three axes, instead of the file's", SetSpacing },
+      "distances of neighbouring voxels along the three axes, instead of the file's, in its unit",
+      SetSpacing },
+    { "scale", "FACTOR",
+      "multiply all lengths and places of the volume by this, and so all that is written",
+      SetScale },
+    { "unit", "m|mm|um",
+      "have all that is written in this unit of length, which is also that of lengths and places in "
+      "options; where the file tells its own",
+      SetUnit },
+    { "space", "LPS|RAS|as-file",
+      "to which sides of the body the axes of what is written point (left, posterior, superior, as "
+      "in DICOM; right, anterior, superior, as in NIfTI); where the file tells its own",
+      SetSpace },
     Text("seeds", "FILE", &ToolOptions::Seeds,
       "start from icosahedra at these points: a mesh file's, or the lines 'x y z' (or 'x,y,z') of "
       "a .txt, .csv or .xyz file; world coordinates"),
@@ -386,6 +418,8 @@ void CheckOptions(const ToolOptions& options)
   }
   FailIf<UsageError>(options.Edges.empty() && options.HasProperty("EdgeAttractionWeight"),
     "--edge-attraction needs --edges");
+  FailIf<UsageError>(options.World.Scale && !options.World.Unit.empty(),
+    "--scale and --unit exclude each other");
   FailIf<UsageError>(!options.Seeds.empty() && !options.InitialSurface.empty(),
     "--seeds and --initial-surface exclude each other");
   FailIf<UsageError>(!options.SeedPositions.empty() && !options.InitialSurface.empty(),
