@@ -164,6 +164,7 @@ class vtkTable;
 namespace volumic
 {
 struct PyramidOptions;
+struct PyramidRequest;
 struct SegmentationVolume;
 }
 
@@ -243,10 +244,28 @@ public:
    */
   virtual void SetIsoValue(double value);
   virtual double GetIsoValue();
-  /** The object is where the field is above IsoValue (off: below). Default: on. */
+  /**
+   * The object is where the field is above IsoValue (off: below), or, with UpperValue, between the
+   * two (off: not between them). Default: on.
+   */
   virtual void SetObjectIsBright(bool value);
   virtual bool GetObjectIsBright();
   vtkBooleanMacro(ObjectIsBright, bool);
+  ///@}
+
+  ///@{
+  /**
+   * The object has values between IsoValue and this one: marrow in bone, one of two materials. All
+   * is as for the image min(image, IsoValue + UpperValue - image): its isopotential IsoValue is that
+   * of min(image - IsoValue, UpperValue - image) at 0. Of a pyramid level 0 is taken, and the others
+   * are made anew. Infinite, the default: none. UseUpperValue off, as for a panel that has a number
+   * always: none either.
+   */
+  virtual void SetUpperValue(double value);
+  virtual double GetUpperValue();
+  virtual void SetUseUpperValue(bool value);
+  virtual bool GetUseUpperValue();
+  vtkBooleanMacro(UseUpperValue, bool);
   ///@}
 
   ///@{
@@ -432,8 +451,8 @@ public:
   ///@{
   /**
    * What is done about parts of the object that lie outside the surface when it comes to a level.
-   * RecoverObjects (default): each gets a component of its own; RecoverObjectsAndCavities: also
-   * background that the object encloses; NoRecovery: nothing, as in the paper. `MissingParts` and
+   * RecoverObjects (default): each gets a component of its own; RecoverObjectsAndCavities, or an
+   * UpperValue: also background that the object encloses; NoRecovery: nothing, as in the paper. `MissingParts` and
    * `MissingBoundary` tell what is missing in the end.
    */
   virtual void SetRecovery(int value);
@@ -614,6 +633,8 @@ protected:
 
   /// Without levels, the rest as the properties have it.
   volumic::SegmentationVolume VolumeAsSet();
+  /// What a pyramid is made by here; its levels are those of the defaults.
+  volumic::PyramidRequest PyramidAsSet();
   /// Makes the pyramid of an image, for EdgeLength if there is one.
   void MakeLevels(const volumic::PyramidOptions& pyramid, vtkImageData* image,
     volumic::SegmentationVolume& volume);

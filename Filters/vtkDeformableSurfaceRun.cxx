@@ -100,7 +100,21 @@ volumic::SegmentationVolume vtkDeformableSurface::VolumeAsSet()
   volume.Selection = this->GetInputArrayInformation(0);
   volume.Settings = this->Internals->Settings;
   volume.Settings.End.FinestLevel = this->Internals->Settings.LastLevel();
+  volume.Settings.Range(); // Refused before anything is read.
   return volume;
+}
+
+//------------------------------------------------------------------------------
+volumic::PyramidRequest vtkDeformableSurface::PyramidAsSet()
+{
+  const volumic::SegmentationSettings& settings = this->Internals->Settings;
+  volumic::PyramidRequest request;
+  request.Range = settings.Range();
+  request.NaNIsBackground = settings.NaNIsBackground;
+  request.NumberOfThreads = settings.End.NumberOfThreads;
+  request.Progress = [this](double share, const std::string&)
+  { return this->ShowPyramidProgress(share); };
+  return request;
 }
 
 //------------------------------------------------------------------------------
@@ -108,12 +122,8 @@ void vtkDeformableSurface::MakeLevels(const volumic::PyramidOptions& pyramid, vt
   volumic::SegmentationVolume& volume)
 {
   volumic::SegmentationSettings& settings = volume.Settings;
-  volumic::PyramidRequest request;
+  volumic::PyramidRequest request = this->PyramidAsSet();
   request.Levels = pyramid;
-  request.NaNIsBackground = settings.NaNIsBackground;
-  request.NumberOfThreads = settings.End.NumberOfThreads;
-  request.Progress = [this](double share, const std::string&)
-  { return this->ShowPyramidProgress(share); };
   if (settings.EdgeLength != 0.0)
   {
     const volumic::EdgeLengthPlan plan = volumic::PlanEdgeLength(
@@ -142,6 +152,17 @@ volumic::SegmentationVolume vtkDeformableSurface::PrepareVolume(vtkDataObject* i
         volumic::PrefixErrors("Input port 0: ", [&] { return volumic::ImageOf(read); });
       this->MakeLevels({}, image, volume);
     }
+    return volume;
+  }
+  volumic::PyramidRequest request = this->PyramidAsSet();
+  vtkImageData* image = volume.Levels->GetNumberOfBlocks() > 0
+    ? vtkImageData::SafeDownCast(volume.Levels->GetBlock(0))
+    : nullptr;
+  // Means of folded voxels are not the folded means. What is no image the run refuses.
+  if (image && request.Range.IsUsed())
+  {
+    request.Levels = volumic::LevelsAs(volume.Levels);
+    volume.Levels = volumic::BuildPyramid(image, volume.Selection, -1, request);
   }
   return volume;
 }

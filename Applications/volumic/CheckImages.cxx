@@ -153,13 +153,17 @@ TiffFacts FactsOf(const std::string& text, bool isOnlyPage, std::array<double, 3
     return {};
   }
   // ImageJ has lines, OME attributes in XML.
-  const auto number = [&](const std::string& ofImageJ, const std::string& ofOme, double otherwise)
+  const auto word = [&](const std::string& ofImageJ, const std::string& ofOme)
   {
     const std::string mark = isOme ? " " + ofOme + "=\"" : "\n" + ofImageJ + "=";
     const std::size_t at = std::min(text.find(mark), text.size());
     const std::size_t begin = std::min(at + mark.size(), text.size());
     const std::size_t end = std::min(text.find_first_of("\"\r\n", begin), text.size());
-    const double value = AsNumber<double>(text.substr(begin, end - begin)).value_or(otherwise);
+    return text.substr(begin, end - begin);
+  };
+  const auto number = [&](const std::string& ofImageJ, const std::string& ofOme, double otherwise)
+  {
+    const double value = AsNumber<double>(word(ofImageJ, ofOme)).value_or(otherwise);
     return value > 0.0 ? value : otherwise;
   };
   const double channels = number("channels", "SizeC", 1.0);
@@ -171,8 +175,11 @@ TiffFacts FactsOf(const std::string& text, bool isOnlyPage, std::array<double, 3
   FailIf(isOnlyPage && images > 1.0,
     "ImageJ has put " + NumberText(images) +
       " images into one page, which is not read; save it there as NRRD, or as an image sequence");
+  const std::string unit = word("unit", "PhysicalSizeXUnit");
+  const bool isUnsaid = isOme && unit.empty() && !word("", "PhysicalSizeX").empty();
   return { { number("", "PhysicalSizeX", distances[0]), number("", "PhysicalSizeY", distances[1]),
-    number("spacing", "PhysicalSizeZ", 1.0) } };
+             number("spacing", "PhysicalSizeZ", 1.0) },
+    isUnsaid ? "um" : unit }; // OME's default
 }
 
 int CheckPicture(const std::string& name, TiffFacts* facts)

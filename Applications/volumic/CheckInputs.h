@@ -41,6 +41,7 @@ void CheckPly(const std::string& name);
 struct TiffFacts
 {
   std::array<double, 3> Spacing = { 1.0, 1.0, 1.0 };
+  std::string Unit; ///< of them, as the file calls it
 };
 
 /**

@@ -25,7 +25,8 @@ set(volumic_reader_sources
   ReadVolume.cxx
   SlabReader.cxx
   Texts.cxx
-  VolumeImage.cxx)
+  VolumeImage.cxx
+  WorldSpace.cxx)
 find_package(nlohmann_json 3.9 REQUIRED) # headers, in Debian's nlohmann-json3-dev
 find_package(LibArchive REQUIRED)        # in Debian's libarchive-dev
 set(volumic_file_libraries nlohmann_json::nlohmann_json LibArchive::LibArchive)

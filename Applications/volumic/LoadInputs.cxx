@@ -141,7 +141,7 @@ void Announce(const ToolOptions& options, const VolumeFacts& facts, int componen
     : ", " + NumberText(facts.Range[0]) + " to " + NumberText(facts.Range[1]);
   announcer.Say(options.Volume + ": " + times(size[0], size[1], size[2]) + " voxels of " +
     times(facts.Spacing[0], facts.Spacing[1], facts.Spacing[2]) + ", " +
-    vtkImageScalarTypeNameMacro(facts.Type) + taken + range);
+    vtkImageScalarTypeNameMacro(facts.Type) + taken + range + facts.World.Text());
 }
 
 }
@@ -153,16 +153,15 @@ LoadedVolume LoadVolume(const ToolOptions& options, vtkDeformableSurface* filter
     LoadVoxels(options.Volume, options.Array, filter, holder, announcer);
   LoadedVolume volume;
   volume.Image = loaded.Image;
-  if (options.Spacing)
-  {
-    volume.Image->SetSpacing(options.Spacing->data());
-  }
+  const WorldSpace world =
+    Named(options.Volume, [&] { return PlaceInWorld(volume.Image, options.World); });
   const std::optional<GridFacts> before = filter->GetMemoryLimit() > 0
     ? std::nullopt
     : ResampleAsAsked(options, false, volume.Image, announcer);
   const int component = filter->GetSelectedComponent();
   volume.Facts =
     FactsOf(volume.Image, volume.Image->GetPointData()->GetScalars(), component);
+  volume.Facts.World = world;
   volume.Facts.ResampledFrom = before;
   Announce(options, volume.Facts, loaded.Components, component, announcer);
   return volume;

@@ -326,6 +326,7 @@ public:
     this->Type = this->Held.Type;
     this->Placement = this->Held.Placement;
     this->WorldAxes = "LPS";
+    this->LengthUnit = "mm";
   }
 
   vtkSmartPointer<vtkDataArray> Read(int first, int count) override

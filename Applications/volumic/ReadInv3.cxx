@@ -112,6 +112,7 @@ void ProjectSlabs::Take(const std::string& plist)
   // The rows of axial slices are stored from back to front: a left-handed frame.
   vtkXMLDataElement* orientation = Find(project, "orientation");
   this->WorldAxes = !orientation || TextOf(orientation) == "1" ? "LAS" : "";
+  this->LengthUnit = "mm";
 }
 
 /** Go to the file of that name. */

@@ -72,11 +72,12 @@ public:
     return static_cast<std::uint64_t>(start);
   }
 
-  /** What world units are, where these are not millimetres; empty: they are, or it is not told. */
+  /** What world units are; empty: it is not told. */
   std::string Unit() const
   {
+    static const char* const units[] = { "", "metres", "millimetres", "micrometres" };
     const std::uint64_t unit = this->Number(this->IsWide ? 500 : 123, this->IsWide ? 4 : 1) % 8;
-    return this->Mark()[0] != 'n' ? "" : unit == 1 ? "metres" : unit == 3 ? "micrometres" : "";
+    return this->Mark()[0] != 'n' || unit > 3 ? "" : units[unit];
   }
 
   /** Bytes of a header before the voxels, with what tells of more of it. */
@@ -165,10 +166,10 @@ std::uint64_t CheckNifti(const std::string& name)
   const std::string mark = header.Mark();
   FailIf(isOne && mark != "n+1" && mark != "n+2",
     "not a NIfTI file, or its header is damaged: its mark is not n+1 or n+2");
-  if (!header.Unit().empty())
+  if (!header.Unit().empty() && header.Unit() != "millimetres")
   {
-    TellOfFile("its unit, and so that of surfaces and lengths, is " + header.Unit() +
-      ", not millimetres");
+    TellOfFile("its unit, and so that of surfaces and lengths unless --unit asks for another, is " +
+      header.Unit() + ", not millimetres");
   }
   const std::uint64_t needed = BytesOf(header);
   const std::uint64_t start = header.Start();
@@ -291,6 +292,7 @@ std::unique_ptr<SlabReader> OpenNifti(const std::string& name, const Opening& op
     slabs->Type = VTK_FLOAT;
   }
   slabs->WorldAxes = Place(reader, slabs->Placement) ? "RAS" : "";
+  slabs->LengthUnit = NiftiHeader(HeadOf(NiftiPart(name, ".hdr"), 540)).Unit();
   return slabs;
 }
 

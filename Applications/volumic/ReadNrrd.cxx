@@ -162,6 +162,15 @@ std::string WorldAxesOf(const std::string& space)
   return EntryOr(axes, Lower(space), "");
 }
 
+/** That of all axes in space: the last word in quotes. */
+std::string UnitOf(const Fields& fields)
+{
+  const std::string units = EntryOr(fields, "space units", EntryOr(fields, "units", ""));
+  const std::size_t end = units.rfind('"');
+  const std::size_t begin = end > 0 && end != std::string::npos ? units.rfind('"', end - 1) : end;
+  return begin == std::string::npos ? "" : units.substr(begin + 1, end - begin - 1);
+}
+
 /** What a header tells. */
 struct Header
 {
@@ -242,6 +251,7 @@ Header ReadHeader(const std::string& name)
   slabs.Start = file.empty() ? start : 0;
   slabs.Placement = PlacementOf(header.All, hasComponents);
   slabs.WorldAxes = WorldAxesOf(EntryOr(header.All, "space", ""));
+  slabs.LengthUnit = UnitOf(header.All);
   return header;
 }
 

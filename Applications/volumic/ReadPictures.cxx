@@ -284,6 +284,7 @@ std::unique_ptr<SlabReader> OpenByContent(const std::string& name, const Opening
   if (slabs->HasParts)
   {
     slabs->Placement.Spacing = facts.Spacing;
+    slabs->LengthUnit = facts.Unit;
     TellOfAlpha(*slabs);
   }
   return slabs;

@@ -193,6 +193,7 @@ std::unique_ptr<SlabReader> OpenMeta(const std::string& name, const Opening& ope
   slabs->Type = type;
   slabs->ArrayName = "MetaImage";
   slabs->WorldAxes = WorldAxesOf(name);
+  slabs->LengthUnit = HeaderValue(name, "DistanceUnits");
   for (const char* key : { "TransformMatrix", "Rotation", "Orientation" })
   {
     if (!HeaderValue(name, key).empty())
@@ -267,6 +268,7 @@ std::unique_ptr<SlabReader> OpenMrc(const std::string& name, const Opening& open
       "its cells have an angle of " + NumberText(angle) + " degrees: " + MustBeResampled);
   }
   slabs->IsBig = file.IsBig;
+  slabs->LengthUnit = "A";
   slabs->Start = 1024 + file.Number(92, 4);
   VolumePlacement& placement = slabs->Placement;
   std::set<std::uint64_t> taken;

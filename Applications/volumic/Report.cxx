@@ -39,6 +39,9 @@ Json InputFacts(const std::string& name, const VolumeFacts& volume)
 {
   Json facts = { { "name", name }, { "dimensions", volume.Size() },
     { "spacing", AsJsonArray(volume.Spacing) }, { "origin", AsJsonArray(volume.Origin) },
+    { "space", volume.World.Axes }, { "unit", volume.World.Unit },
+    { "file_space", volume.World.FileAxes }, { "file_unit", volume.World.FileUnit },
+    { "scale", volume.World.Scale },
     { "scalar_type", vtkImageScalarTypeNameMacro(volume.Type) },
     { "range", AsJsonArray(volume.Range) } };
   if (volume.ResampledFrom)
@@ -201,7 +204,8 @@ std::string ReportText(const ReportInput& input)
   vtkDeformableSurface* filter = input.Filters.Surface;
   vtkPolyData* surface = filter->GetOutput();
   Json json = { { "input", InputFacts(input.VolumeName, input.Volume) },
-    { "iso_value", AsJson(filter->GetIsoValue()) }, { "finished", input.IsFinished } };
+    { "iso_value", AsJson(filter->GetIsoValue()) },
+    { "upper_value", AsJson(filter->GetUpperValue()) }, { "finished", input.IsFinished } };
   AddSurfaceFacts(json, surface, input.Size);
   json["component_features"] = ComponentFeatures(surface);
   json["levels"] = LevelFacts(input);

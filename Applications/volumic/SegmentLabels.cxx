@@ -215,6 +215,11 @@ void CheckThatAnyIsThere(const ToolOptions& options, const LabelReport& report)
 void WriteAll(const ToolOptions& options, std::vector<LabelSurface>& surfaces,
   const LabelReport& report, ProgressStyle style)
 {
+  for (LabelSurface& surface : surfaces)
+  {
+    MarkSpace(surface.Surface, report.Volume.World);
+  }
+  MarkSpace(report.Filters.Labels->GetInterfaces(), report.Volume.World);
   Failures failures;
   WriteLabelSurfaces(
     options, surfaces, report.Filters.Labels->GetInterfaces(), style, failures);
@@ -265,7 +270,7 @@ void Announce(const ToolOptions& options, const LabelMap& map, const std::vector
   announcer.Say(options.Volume + ": " + NumberText(size[0]) + " x " + NumberText(size[1]) + " x " +
     NumberText(size[2]) + " voxels, " + vtkImageScalarTypeNameMacro(map.Facts.Type) + ", " +
     std::to_string(count) + (count == 1 ? " label" : " labels") +
-    (layers > 1 ? " in " + std::to_string(layers) + " layers" : ""));
+    (layers > 1 ? " in " + std::to_string(layers) + " layers" : "") + map.Facts.World.Text());
 }
 
 /** The labels that are chosen, as --list-labels has them. */

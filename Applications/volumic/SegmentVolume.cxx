@@ -72,7 +72,8 @@ FilterRun RunOnVolume(
 
 /**
  * Gives the surface's filter its levels: a pyramid that is run here, or, where the length of the
- * edges decides on the pyramid, the volume. @return the run of the pyramid, if there was one.
+ * edges or a range of values decides on the pyramid, the volume.
+ * @return the run of the pyramid, if there was one.
  */
 FilterRun GiveLevels(const Job& job)
 {
@@ -171,6 +172,17 @@ void TellOfLabels(const Job& job)
   }
 }
 
+/** Where the image is ... */
+std::string PlaceOfObject(const Job& job)
+{
+  const bool isBright = job.Filter->GetObjectIsBright();
+  const std::string iso = NumberText(job.Filter->GetIsoValue());
+  return job.Options.HasProperty("UpperValue")
+    ? (isBright ? "between " : "not between ") + iso + " and " +
+      NumberText(job.Filter->GetUpperValue())
+    : (isBright ? "above " : "below ") + iso;
+}
+
 /** Run the filters. @param results given their times and warnings */
 void FindSurface(const Job& job, ReportInput& results)
 {
@@ -204,9 +216,8 @@ void FindSurface(const Job& job, ReportInput& results)
       ? "the time limit came before there was a surface; nothing is written"
       : run.IsInterrupted
       ? "interrupted before there was a surface; nothing is written"
-      : "the surface vanished: is the object where the image is " +
-        std::string(job.Filter->GetObjectIsBright() ? "above " : "below ") +
-        NumberText(job.Filter->GetIsoValue()) + "? (--iso, --dark)");
+      : "the surface vanished: is the object where the image is " + PlaceOfObject(job) +
+        "? (--iso, --upper, --dark)");
 }
 }
 
@@ -237,7 +248,7 @@ ExitCode SegmentVolume(const ToolOptions& options, const FilterTrio& filters)
   SetStart(options, filter);
   const vtkNew<vtkImagePyramid> edgesHolder;
   SetEdges(options, job.Volume.Image, filter, edgesHolder, job.Says);
-  if (!options.HasProperty("IsoValue"))
+  if (!options.HasProperty("IsoValue") && !options.HasProperty("UpperValue"))
   {
     TakeOtsuThreshold(job);
   }

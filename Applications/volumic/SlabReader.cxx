@@ -3,6 +3,7 @@
 #include "SlabReader.h"
 
 #include "Messages.h"
+#include "WorldSpace.h"
 
 #include <vtkAlgorithm.h>
 #include <vtkDataArray.h>
@@ -101,6 +102,10 @@ void FillImage(SlabReader& reader, const int* extent, vtkImageData* image)
   if (!reader.WorldAxes.empty())
   {
     SetWorldAxes(image, reader.WorldAxes);
+  }
+  if (const std::string unit = LengthUnitOf(reader.LengthUnit); !unit.empty())
+  {
+    SetFact(image, "LengthUnit", unit);
   }
 }
 

@@ -38,6 +38,7 @@ public:
   int Components = 1;
   VolumePlacement Placement;
   std::string WorldAxes; ///< as SetWorldAxes takes them; may be empty
+  std::string LengthUnit; ///< as files call it (LengthUnitOf); may be empty
   std::string ArrayName; ///< of the values; empty: as Read() gives it
   bool HasParts = true;  ///< Else some slices cost as much as all, which Read() is asked for then.
 

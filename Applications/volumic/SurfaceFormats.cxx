@@ -16,7 +16,6 @@
 #include <vtkHoudiniPolyDataWriter.h>
 #include <vtkIVWriter.h>
 #include <vtkNew.h>
-#include <vtkOBJWriter.h>
 #include <vtkPointData.h>
 #include <vtkTriangle.h>
 #include <vtkUnsignedCharArray.h>
@@ -122,6 +121,43 @@ void WritePly(const SurfaceFile& file)
   buffer.Finish();
 }
 
+/** A text: a line for each point, for its normal, and for each polygon. */
+void WriteObj(const SurfaceFile& file)
+{
+  vtkDataArray* normals = file.Surface->GetPointData()->GetNormals();
+  FileBuffer buffer(file.Path);
+  std::ostream out(&buffer);
+  out.imbue(std::locale::classic());
+  out.precision(9); // As many as single precision has.
+  out << "# " << file.Remark << "\n";
+  const auto write = [&out](const char* kind, const double* numbers)
+  { out << kind << " " << numbers[0] << " " << numbers[1] << " " << numbers[2] << "\n"; };
+  for (vtkIdType point = 0; point < file.Surface->GetNumberOfPoints(); ++point)
+  {
+    write("v", file.Surface->GetPoint(point));
+  }
+  for (vtkIdType point = 0; normals && point < normals->GetNumberOfTuples(); ++point)
+  {
+    write("vn", normals->GetTuple(point));
+  }
+  ForEachPolygon(file.Surface,
+    [&](vtkIdType polygon, const vtkIdType* corners, vtkIdType count)
+    {
+      file.Line.Show(static_cast<double>(polygon) / static_cast<double>(TrianglesIn(file)), "");
+      out << "f";
+      for (vtkIdType k = 0; k < count; ++k)
+      {
+        out << " " << corners[k] + 1;
+        if (normals)
+        {
+          out << "//" << corners[k] + 1;
+        }
+      }
+      out << "\n";
+    });
+  buffer.Finish();
+}
+
 /** Places and normals of the corners, the most significant byte of a number first. */
 void WriteTri(const SurfaceFile& file)
 {
@@ -187,12 +223,6 @@ void WriteScene(const SurfaceFile& file)
   WriteGlb({ { name, file.Surface } }, file.Path, file.Line);
 }
 
-void CheckObjFile(const SurfaceFile& file)
-{
-  const bool hasNormals = file.Surface->GetPointData()->GetNormals() != nullptr;
-  CheckLines(file.Path, 1 + (hasNormals ? 2 : 1) * PointsIn(file) + TrianglesIn(file));
-}
-
 /** A text of so many lines, one for so many points, and one for each triangle. */
 template <int More, int PointsOfLine>
 void CheckText(const SurfaceFile& file)
@@ -208,14 +238,14 @@ const SurfaceFormat* FindSurfaceFormat(const std::string& name)
   static const std::map<std::string, SurfaceFormat> formats = {
     { ".vtp", { [](File file) { WriteVtp(file.Surface, file.Path, file.Line); }, nullptr } },
     { ".pvtp", { WritePieces, nullptr } },
-    { ".vtk", { [](File file) { WriteLegacy(file.Surface, file.Path, file.Line); }, nullptr } },
+    { ".vtk", { [](File file) { WriteLegacy(file.Surface, file.Path, file.Remark, file.Line); }, nullptr } },
     { ".stl", { WriteStl, nullptr } },
     { ".ply", { WritePly, nullptr } },
     { ".glb", { WriteScene, nullptr } },
     { ".msh", { WriteMsh, nullptr } },
     { ".smesh", { WriteSmesh, nullptr } },
     { ".poly", { WritePoly, nullptr } },
-    { ".obj", { WriteWith<vtkOBJWriter>, CheckObjFile } },
+    { ".obj", { WriteObj, nullptr } },
     { ".iv",
       { [](File file)
         {

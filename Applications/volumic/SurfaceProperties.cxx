@@ -88,7 +88,10 @@ std::vector<PropertyOption> MakeProperties()
     SURFACE_NUMBER(IsoValue, "iso", "VALUE",
       "the value of the image at the surface that is searched, in the units of the voxels; without "
       "this option Otsu's threshold of the image, which is told"),
-    SURFACE_SWITCH(ObjectIsBright, false, "dark", "the object is where the image is below --iso"),
+    SURFACE_NUMBER(UpperValue, "upper", "VALUE",
+      "the object is where the image is between --iso and this: marrow in bone, one of two materials"),
+    SURFACE_SWITCH(ObjectIsBright, false, "dark",
+      "the object is where the image is below --iso, or, with --upper, not between the two"),
     SURFACE_NUMBER(SelectedComponent, "component", "N",
       "the component to use of voxels that have several, counted from 0; -1: their magnitude"),
     SURFACE_SWITCH(NaNIsBackground, false, "refuse-nan",

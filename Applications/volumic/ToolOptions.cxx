@@ -57,17 +57,32 @@ ProgramOption Show(const char* option, enum ToolOptions::Task task, const char* 
     [task](ToolOptions& options, const std::string&) { options.Task = task; } };
 }
 
-ProgramOption Spacing(const char* option,
-  std::optional<std::array<double, 3>> ToolOptions::*member, const char* help)
+std::array<double, 3> ParseSpacing(const std::string& text)
 {
-  return { option, "X,Y,Z", help,
-    [member](ToolOptions& options, const std::string& text)
-    {
-      const std::vector<double> numbers = ParseNumbers(text, 3);
-      FailIf<UsageError>(*std::min_element(numbers.begin(), numbers.end()) <= 0.0,
-        "distances of voxels are more than 0");
-      options.*member = { numbers[0], numbers[1], numbers[2] };
-    } };
+  const std::vector<double> numbers = ParseNumbers(text, 3);
+  FailIf<UsageError>(*std::min_element(numbers.begin(), numbers.end()) <= 0.0,
+    "distances of voxels are more than 0");
+  return { numbers[0], numbers[1], numbers[2] };
+}
+
+void SetScale(ToolOptions& options, const std::string& text)
+{
+  options.World.Scale = ParseNumber<double>(text);
+  FailIf<UsageError>(!(*options.World.Scale > 0.0), "lengths are multiplied by more than 0");
+}
+
+void SetUnit(ToolOptions& options, const std::string& text)
+{
+  options.World.Unit = LengthUnitOf(text);
+  FailIf<UsageError>(options.World.Unit.empty(), "'" + text + "' is none of m, cm, mm, um, nm, A");
+}
+
+void SetSpace(ToolOptions& options, const std::string& text)
+{
+  const bool isAsFile = text == "as-file";
+  FailIf<UsageError>(
+    !isAsFile && text != "LPS" && text != "RAS", "'" + text + "' is none of LPS, RAS, as-file");
+  options.World.Axes = isAsFile ? "" : text;
 }
 
 void SetPieceSize(ToolOptions& options, const std::string& text)
@@ -81,12 +96,27 @@ const std::vector<ProgramOption>& InputOptions()
   static const std::vector<ProgramOption> options = {
     Text("array", "NAME", &ToolOptions::Array,
       "the point array of the volume to use; without this option the active scalars"),
-    Spacing("spacing", &ToolOptions::Spacing,
-      "distances of neighbouring voxels along the three axes, instead of the file's"),
-    Spacing("resample", &ToolOptions::ResampledSpacing,
-      "resample the volume to these distances: linearly, a label map to the nearest voxel"),
+    { "spacing", "X,Y,Z",
+      "distances of neighbouring voxels along the three axes, instead of the file's, in its unit",
+      [](ToolOptions& chosen, const std::string& text)
+      { chosen.World.Spacing = ParseSpacing(text); } },
+    { "resample", "X,Y,Z",
+      "resample the volume to these distances: linearly, a label map to the nearest voxel",
+      [](ToolOptions& chosen, const std::string& text)
+      { chosen.ResampledSpacing = ParseSpacing(text); } },
     Switch("isotropic", &ToolOptions::IsIsotropic,
       "resample the volume to the smallest of its three distances of voxels"),
+    { "scale", "FACTOR",
+      "multiply all lengths and places of the volume by this, and so all that is written",
+      SetScale },
+    { "unit", "m|mm|um",
+      "have all that is written in this unit of length, which is also that of lengths and places in "
+      "options; where the file tells its own",
+      SetUnit },
+    { "space", "LPS|RAS|as-file",
+      "to which sides of the body the axes of what is written point (left, posterior, superior, as "
+      "in DICOM; right, anterior, superior, as in NIfTI); where the file tells its own",
+      SetSpace },
     Text("seeds", "FILE", &ToolOptions::Seeds,
       "start from icosahedra at these points: a mesh file's, or the lines 'x y z' (or 'x,y,z') of "
       "a .txt, .csv or .xyz file; world coordinates"),
@@ -406,6 +436,8 @@ void CheckOptions(const ToolOptions& options)
   }
   FailIf<UsageError>(options.Edges.empty() && options.HasProperty("EdgeAttractionWeight"),
     "--edge-attraction needs --edges");
+  FailIf<UsageError>(options.World.Scale && !options.World.Unit.empty(),
+    "--scale and --unit exclude each other");
   FailIf<UsageError>(!options.Seeds.empty() && !options.InitialSurface.empty(),
     "--seeds and --initial-surface exclude each other");
   FailIf<UsageError>(!options.SeedPositions.empty() && !options.InitialSurface.empty(),

@@ -5,10 +5,10 @@
 
 #include "Messages.h"
 #include "SurfaceProperties.h"
+#include "WorldSpace.h"
 
 #include <array>
 #include <iostream>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -34,7 +34,7 @@ struct ToolOptions
   std::string Volume;                ///< file, folder or pattern
   std::vector<std::string> Surfaces; ///< files to write, at least one, unless the rest is asked for
   std::string Array;                 ///< point array of the volume; empty: the active one
-  std::optional<std::array<double, 3>> Spacing; ///< instead of the file's, world units
+  WorldChoice World;                 ///< where the volume is to lie
   std::optional<std::array<double, 3>> ResampledSpacing; ///< world units
   bool IsIsotropic = false;                     ///< resampled to the smallest spacing
   std::string Seeds;                            ///< file of points

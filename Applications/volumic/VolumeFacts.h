@@ -4,6 +4,7 @@
 #define volumicVolumeFacts_h
 
 #include "VolumeImage.h"
+#include "WorldSpace.h"
 
 #include <array>
 #include <limits>
@@ -29,6 +30,7 @@ struct VolumeFacts
   std::array<int, 6> Extent = { 0, -1, 0, -1, 0, -1 };
   Vector3 Spacing = { 1.0, 1.0, 1.0 };
   Vector3 Origin = { 0.0, 0.0, 0.0 };
+  WorldSpace World; ///< that Spacing and Origin are in
   int Type = 0; ///< of the voxels, as VTK numbers types
   int Components = 1;
   /** Of the selected component: the smallest and the largest. */

@@ -10,6 +10,7 @@
 #include <string>
 
 class vtkDataArray;
+class vtkDataObject;
 class vtkImageData;
 
 namespace tool
@@ -61,6 +62,10 @@ void PlaceImage(vtkImageData* image, const VolumePlacement& placement);
  * NIfTI "RAS". Images of files that don't tell have none.
  */
 void SetWorldAxes(vtkImageData* image, const std::string& axes);
+
+/** Other field data that are a text, and what there is: "" for nothing. */
+void SetFact(vtkDataObject* data, const std::string& name, const std::string& text);
+std::string GetFact(vtkDataObject* data, const std::string& name);
 
 /** Turn values that are as a file has them, big-endian or not, into those of this machine. */
 void ToNativeOrder(vtkDataArray* values, bool isBig);

@@ -177,12 +177,14 @@ void WriteVtp(vtkPolyData* surface, const std::string& path, ProgressLine& line)
   WriteInline(writer.Get(), written, path, line);
 }
 
-void WriteLegacy(vtkPolyData* surface, const std::string& path, ProgressLine& line)
+void WriteLegacy(
+  vtkPolyData* surface, const std::string& path, const std::string& head, ProgressLine& line)
 {
   FileBuffer file(path);
   vtkNew<LegacyStreamWriter> writer;
   writer->Buffer = &file;
   writer->SetInputData(surface);
+  writer->SetHeader(head.substr(0, 255).c_str()); // All that readers take.
   writer->SetFileTypeToBinary();
   RunWriter(writer.Get(), line);
   file.Finish();

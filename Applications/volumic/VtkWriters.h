@@ -50,8 +50,9 @@ void CheckLines(const std::string& path, std::uint64_t lines);
 /** The surface as .vtp; its cells are triangles, or lines too. */
 void WriteVtp(vtkPolyData* surface, const std::string& path, ProgressLine& line);
 
-/** The surface in VTK's legacy format, binary. */
-void WriteLegacy(vtkPolyData* surface, const std::string& path, ProgressLine& line);
+/** The surface in VTK's legacy format, binary. @param head of which the file has a line */
+void WriteLegacy(
+  vtkPolyData* surface, const std::string& path, const std::string& head, ProgressLine& line);
 
 /** The volume as .vti. */
 void WriteVti(vtkImageData* volume, const std::string& path, ProgressLine& line);

@@ -130,9 +130,12 @@ void WriteSeveral(vtkMultiBlockDataSet* blocks, const std::string& name, const s
 void WriteOutputs(const ToolOptions& options, ReportInput& results, ProgressStyle style)
 {
   vtkDeformableSurface* filter = results.Filters.Surface;
-  const SurfaceWriting writing = { std::string("volumic " VOLUMIC_VERSION) +
-      (results.IsFinished ? "" : ", UNFINISHED: " + results.StopReason),
+  const SurfaceWriting writing = { results.IsFinished ? ""
+                                                      : ", UNFINISHED: " + results.StopReason,
     PieceSizeOf(options, filter->GetOutput()), style };
+  MarkSpace(filter->GetOutput(), results.Volume.World);
+  MarkSpace(filter->GetLevels(), results.Volume.World);
+  MarkSpace(filter->GetSnapshots(), results.Volume.World);
   Failures failures;
   for (const std::string& name : options.Surfaces)
   {
@@ -164,7 +167,7 @@ std::string UnfinishedRemark(const LabelSurface& surface)
 SurfaceWriting WritingOf(
   const ToolOptions& options, const LabelSurface& surface, ProgressStyle style)
 {
-  return { "volumic " VOLUMIC_VERSION ", " + surface.Name + UnfinishedRemark(surface),
+  return { UnfinishedRemark(surface) + ", " + surface.Name,
     PieceSizeOf(options, surface.Surface), style };
 }
 
@@ -324,8 +327,8 @@ void WriteLabelSurfaces(const ToolOptions& options, std::vector<LabelSurface>& s
     if (OutputOf(options, name) == LabelOutput::Interfaces)
     {
       // All are made at once, and so as finished as the first.
-      const SurfaceWriting writing = { "volumic " VOLUMIC_VERSION +
-          UnfinishedRemark(surfaces.front()), PieceSizeOf(options, interfaces), style };
+      const SurfaceWriting writing = { UnfinishedRemark(surfaces.front()),
+        PieceSizeOf(options, interfaces), style };
       failures.Try([&] { WriteSurface(interfaces, name, writing); });
       continue;
     }

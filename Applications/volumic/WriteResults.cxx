@@ -9,6 +9,7 @@
 #include "Texts.h"
 #include "ToolErrors.h"
 #include "VtkWriters.h"
+#include "WorldSpace.h"
 
 #include <vtkBoundingBox.h>
 #include <vtkDelimitedTextWriter.h>
@@ -139,7 +140,9 @@ void WriteSurface(vtkPolyData* surface, const std::string& name, const SurfaceWr
   WriteBeside(name, writing.Style,
     [&](const std::string& path, ProgressLine& line)
     {
-      const SurfaceFile file{ surface, path, writing.Remark, writing.PieceSize, line };
+      const std::string remark =
+        "volumic " VOLUMIC_VERSION + SpaceRemark(surface) + writing.Remark;
+      const SurfaceFile file{ surface, path, remark, writing.PieceSize, line };
       format->Write(file);
       if (format->Check)
       {

@@ -35,7 +35,11 @@ bool IsOfSolids(const std::string& name);
 /** How a surface is written. */
 struct SurfaceWriting
 {
-  std::string Remark; ///< a line for the head of the file where the format has one (.stl, .ply, .msh, .smesh)
+  /**
+   * What the head of the file says beside our name and the space, where the format has a place for
+   * that (.stl, .ply, .obj, .vtk, .msh, .smesh).
+   */
+  std::string Remark;
   int PieceSize = 0;  ///< triangles of a piece, where there are pieces
   ProgressStyle Style = ProgressStyle::None;
 };

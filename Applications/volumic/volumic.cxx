@@ -36,7 +36,8 @@ ExitCode Run(const ToolOptions& options, Ranks& ranks)
 {
   vtkNew<vtkImagePyramid> pyramid;
   vtkSmartPointer<vtkDeformableSurface> filter = vtkSmartPointer<vtkDeformableSurface>::New();
-  if (options.HasProperty("EdgeLength"))
+  // Both decide on the levels of the pyramid.
+  if (options.HasProperty("EdgeLength") || options.HasProperty("UpperValue"))
   {
     filter = vtkSmartPointer<vtkVolumeToSurface>::New();
   }

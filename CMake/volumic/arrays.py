@@ -113,6 +113,7 @@ def surface(array: Any, iso: float | None = None, *, spacing: Sequence[float] = 
         Voxels [z, y, x]. What is contiguous is not copied.
     iso : float, optional
         The value on the surface; by default Otsu's threshold, a guess, which the warnings tell.
+        With `UpperValue=...` the object has the values between the two.
     spacing, origin : sequence of 3 floats, optional
         x, y, z: distances of the voxels, and where voxel 0 is, in the world.
     direction : array_like, 3 x 3, optional
@@ -145,13 +146,14 @@ def surface(array: Any, iso: float | None = None, *, spacing: Sequence[float] = 
     _set(algorithm, properties)
     algorithm.SetInputData(_image(array, spacing, origin, direction, start))
     told = []
-    if iso is None:
+    if iso is None and "UpperValue" not in properties:
         otsu = filters.vtkOtsuThreshold()
         otsu.SetInputDataObject(algorithm.GetInputDataObject(0, 0))
         _run(otsu)
         iso = otsu.GetThreshold()
         told.append(f"The iso-value is {iso:g}, a guess by Otsu's threshold.")
-    algorithm.SetIsoValue(iso)
+    if iso is not None:
+        algorithm.SetIsoValue(iso)
     told += _run(algorithm)
     return Surface(algorithm.GetOutput(), _warn(told))
 

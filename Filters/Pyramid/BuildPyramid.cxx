@@ -6,10 +6,12 @@
 #include "Input/ImageVoxels.h"
 
 #include <vtkDataArray.h>
+#include <vtkFieldData.h>
 #include <vtkImageData.h>
 #include <vtkInformation.h>
 #include <vtkMultiBlockDataSet.h>
 
+#include <cmath>
 #include <string>
 
 namespace volumic
@@ -42,5 +44,20 @@ vtkSmartPointer<vtkMultiBlockDataSet> BuildPyramid(vtkImageData* image,
         MakePyramidBlocks(image, SelectComponent(ChooseArray(selection, image), component), watched);
       return isStopped ? nullptr : made.Blocks;
     });
+}
+
+PyramidOptions LevelsAs(vtkMultiBlockDataSet* blocks)
+{
+  const auto unit = [blocks](unsigned int h)
+  {
+    auto* image = vtkImageData::SafeDownCast(blocks->GetBlock(h));
+    vtkDataArray* array = image ? image->GetFieldData()->GetArray("Unit") : nullptr;
+    return array && array->GetNumberOfTuples() == 1 ? array->GetTuple1(0) : 0.0;
+  };
+  const double factor = blocks->GetNumberOfBlocks() > 1 ? unit(1) / unit(0) : 0.0;
+  PyramidOptions levels;
+  levels.NumberOfLevels = static_cast<int>(blocks->GetNumberOfBlocks());
+  levels.ReductionFactor = factor > 1.0 && factor < 2.0 ? factor : std::sqrt(3.0);
+  return levels;
 }
 }

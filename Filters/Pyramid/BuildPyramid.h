@@ -31,6 +31,9 @@ EdgeLengthPlan PlanEdgeLength(
  */
 vtkSmartPointer<vtkMultiBlockDataSet> BuildPyramid(vtkImageData* image,
   vtkInformation* selection, int component, const PyramidRequest& request);
+
+/** As many levels as the blocks are, by the factor that they tell. */
+PyramidOptions LevelsAs(vtkMultiBlockDataSet* blocks);
 }
 
 #endif

@@ -10,14 +10,12 @@
 
 #include <vtkDataArray.h>
 #include <vtkDataObject.h>
-#include <vtkFieldData.h>
 #include <vtkImageData.h>
 #include <vtkInformation.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkPointData.h>
 #include <vtkSmartPointer.h>
 
-#include <cmath>
 #include <string>
 
 namespace volumic
@@ -25,19 +23,6 @@ namespace volumic
 namespace
 {
 constexpr const char* Place = "Input port 0, the map of edges: ";
-
-/** The reduction factor that the blocks tell. */
-double FactorOf(vtkMultiBlockDataSet* blocks)
-{
-  const auto unit = [blocks](unsigned int h)
-  {
-    auto* image = vtkImageData::SafeDownCast(blocks->GetBlock(h));
-    vtkDataArray* array = image ? image->GetFieldData()->GetArray("Unit") : nullptr;
-    return array && array->GetNumberOfTuples() == 1 ? array->GetTuple1(0) : 0.0;
-  };
-  const double factor = blocks->GetNumberOfBlocks() > 1 ? unit(1) / unit(0) : 0.0;
-  return factor > 1.0 && factor < 2.0 ? factor : std::sqrt(3.0);
-}
 
 /** The blocks where all of them carry the map, else the pyramid of block 0's; null after a stop. */
 vtkSmartPointer<vtkMultiBlockDataSet> LevelsOfMap(vtkMultiBlockDataSet* blocks,
@@ -57,8 +42,7 @@ vtkSmartPointer<vtkMultiBlockDataSet> LevelsOfMap(vtkMultiBlockDataSet* blocks,
     return blocks;
   }
   PyramidRequest request;
-  request.Levels.NumberOfLevels = static_cast<int>(blocks->GetNumberOfBlocks());
-  request.Levels.ReductionFactor = FactorOf(blocks);
+  request.Levels = LevelsAs(blocks);
   request.NumberOfThreads = numberOfThreads;
   request.Progress = [&goOn](double share, const std::string&) { return goOn(share); };
   return BuildPyramid(image, selection, -1, request);

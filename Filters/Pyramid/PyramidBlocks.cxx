@@ -99,11 +99,16 @@ PyramidBlocks MakePyramidBlocks(
   const std::vector<LevelGeometry> levels = Plan(image, request.Levels);
   std::vector<vtkSmartPointer<vtkDataArray>> made;
   ValidVoxels valid;
+  vtkSmartPointer<vtkDataArray> finest = voxels;
   HostThreads threads(request.NumberOfThreads);
   threads.Run(
     [&]
     {
-      const vtkSmartPointer<vtkDataArray> contiguous = ContiguousVoxels(voxels);
+      vtkSmartPointer<vtkDataArray> contiguous = ContiguousVoxels(voxels);
+      if (request.Range.IsUsed())
+      {
+        finest = contiguous = FoldVoxels(contiguous, request.Range, threads);
+      }
       valid = FindValidVoxels(voxels, contiguous, image, request.NaNIsBackground, threads);
       CheckAnyIsValid(voxels, valid);
       made = MakeLevelVoxels(contiguous, valid, levels, threads, request.Progress);
@@ -111,8 +116,9 @@ PyramidBlocks MakePyramidBlocks(
 
   PyramidBlocks pyramid;
   pyramid.Blocks = vtkSmartPointer<vtkMultiBlockDataSet>::New();
-  // No voxel is copied, but where one component was selected, which takes the place of the array.
-  AddLevel(pyramid.Blocks, 0, WithVoxels(image, voxels), levels[0].Unit);
+  // No voxel is copied, but where they were folded, or one component was selected: then the new array
+  // takes the place of theirs.
+  AddLevel(pyramid.Blocks, 0, WithVoxels(image, finest), levels[0].Unit);
   for (std::size_t h = 1; h <= made.size(); ++h)
   {
     AddLevel(pyramid.Blocks, h, MakeImage(image, voxels->GetName(), made[h - 1], levels[h]),

@@ -4,6 +4,7 @@
 #define volumicPyramidBlocks_h
 
 #include "Core/Image/PyramidGeometry.h"
+#include "Input/ValueRange.h"
 #include "Pyramid/LevelVoxels.h"
 
 #include <vtkSmartPointer.h>
@@ -20,6 +21,7 @@ namespace volumic
 struct PyramidRequest
 {
   PyramidOptions Levels;
+  ValueRange Range; ///< Levels, also level 0, are made of voxels folded by it (FoldVoxels).
   bool NaNIsBackground = true;
   int NumberOfThreads = 0;
   PyramidProgress Progress;

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
 #include <utility>
 
 namespace volumic
@@ -56,6 +57,18 @@ LevelChoice LevelsAsSet(const PyramidLevels& pyramid, const SegmentationSettings
     ++choice.Preview;
   }
   return choice;
+}
+
+/** @param folded the range of the voxels as FoldVoxels() has them */
+void CheckFolded(const ValueRange& range, const std::array<double, 2>& folded)
+{
+  const bool hasNone = folded[1] <= range.Lower;
+  if (hasNone || folded[0] >= range.Lower)
+  {
+    Refuse(hasNone ? "no voxel is" : "all voxels are", " between Iso Value, ", range.Lower,
+      ", and Upper Value, ", range.Upper,
+      "; set them to the values that the object has and its surroundings have not.");
+  }
 }
 
 void CheckIsoValue(double iso, const std::array<double, 2>& range)
@@ -128,15 +141,18 @@ void BeginWhereHeld(LevelChoice& choice, int there, const SegmentationLevels& le
 [[noreturn]] void RefuseCoarsest(
   const LevelChoice& choice, const SegmentationSettings& settings, int there)
 {
-  const char* side = settings.Options.ObjectIsBright ? "above" : "below";
+  const ValueRange range = settings.Range();
+  const std::string where = range.IsUsed()
+    ? Join(settings.Options.ObjectIsBright ? "" : "not ", "between Iso Value ", range.Lower,
+        " and Upper Value ", range.Upper)
+    : Join(settings.Options.ObjectIsBright ? "above" : "below", " Iso Value ", range.Lower);
   if (settings.EdgeLength != 0.0 && choice.Coarsest == choice.Last)
   {
     Refuse("Edge Length is ", settings.EdgeLength, ", for which the finest level is ", choice.Last,
-      ", but the object is too thin for it: no voxel is ", side, " Iso Value ",
-      settings.Options.IsoValue, " there. Give a shorter Edge Length.");
+      ", but the object is too thin for it: no voxel is ", where,
+      " there. Give a shorter Edge Length.");
   }
-  Refuse("the object has vanished at level ", choice.Coarsest, ", the coarsest: no voxel is ", side,
-    " Iso Value ", settings.Options.IsoValue,
+  Refuse("the object has vanished at level ", choice.Coarsest, ", the coarsest: no voxel is ", where,
     " there. It is too thin for that level; set Coarsest Level to ", there,
     ", where it is still there, or less.");
 }
@@ -145,6 +161,11 @@ void BeginWhereHeld(LevelChoice& choice, int there, const SegmentationLevels& le
 LevelChoice ChooseLevels(const SegmentationLevels& levels, const SegmentationSettings& settings)
 {
   LevelChoice choice = LevelsAsSet(levels.Pyramid(), settings);
+  const ValueRange range = settings.Range();
+  if (range.IsUsed())
+  {
+    CheckFolded(range, levels.Range(0));
+  }
   CheckIsoValue(settings.Options.IsoValue, levels.Range(0));
   // Every level shows what points mark.
   const int there = levels.HasPoints()

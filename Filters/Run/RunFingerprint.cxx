@@ -127,7 +127,7 @@ RunFingerprint::RunFingerprint(const SegmentationSettings& settings,
   const SegmentationRequest& request, const SegmentationLevels& levels, Executor& threads)
 {
   this->Add("version of Volumic", VOLUMIC_FILTERS_VERSION);
-  this->AddVolume(levels, threads);
+  this->AddVolume(levels, settings.Range(), threads);
   this->AddSettings(settings);
   this->AddInputs(request, levels, threads);
 }
@@ -137,7 +137,8 @@ void RunFingerprint::Add(const std::string& name, const std::string& value, Kind
   this->Entries.push_back({ name, value, kind });
 }
 
-void RunFingerprint::AddVolume(const SegmentationLevels& levels, Executor& threads)
+void RunFingerprint::AddVolume(
+  const SegmentationLevels& levels, const ValueRange& range, Executor& threads)
 {
   const PyramidLevels& pyramid = levels.Pyramid();
   const Workspace& space = levels.GetWorkspace();
@@ -149,15 +150,16 @@ void RunFingerprint::AddVolume(const SegmentationLevels& levels, Executor& threa
     TextOf({ space.Step(), space.ToWorld({ 0, 0, 0 }), space.ToWorld({ 1, 0, 0 }), space.ToWorld({ 0, 1, 0 }),
       space.ToWorld({ 0, 0, 1 }) }),
     Kind::Volume);
-  this->Add(
-    "voxels", HashText(pyramid.HashOfVoxels(0, threads)), Kind::Volume);
+  // Voxels that were folded by another range are others, which says nothing of the image.
+  const std::string of = range.IsUsed() ? Join(" between ", range.Lower, " and ", range.Upper) : "";
+  this->Add("voxels" + of, HashText(pyramid.HashOfVoxels(0, threads)), Kind::Volume);
   std::string coarser = NumberText(levels.UnitInWorld(-1));
   for (int level = 1; level < pyramid.NumberOfLevels(); ++level)
   {
     coarser += " " + NumberText(levels.UnitInWorld(level)) + " " +
       HashText(pyramid.HashOfVoxels(level, threads));
   }
-  this->Add("levels of the pyramid", coarser);
+  this->Add("levels of the pyramid" + of, coarser);
 }
 
 void RunFingerprint::AddSettings(const SegmentationSettings& settings)

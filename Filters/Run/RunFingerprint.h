@@ -57,7 +57,7 @@ private:
     std::string Value;
     Kind Is = Kind::Told;
   };
-  void AddVolume(const SegmentationLevels& levels, Executor& threads);
+  void AddVolume(const SegmentationLevels& levels, const ValueRange& range, Executor& threads);
   void AddSettings(const SegmentationSettings& settings);
   void AddInputs(
     const SegmentationRequest& request, const SegmentationLevels& levels, Executor& threads);

@@ -50,7 +50,10 @@ SurfaceSegmentation::SurfaceSegmentation(
   }
   this->CheckGrading();
   options.RecoverLostParts = this->Settings.Recovery != RecoveryType::NoRecovery;
-  options.RecoverCavities = this->Settings.Recovery == RecoveryType::RecoverObjectsAndCavities;
+  // What is above a range is more often within the object than not.
+  options.RecoverCavities = options.RecoverLostParts &&
+    (this->Settings.Recovery == RecoveryType::RecoverObjectsAndCavities ||
+      this->Settings.Range().IsUsed());
   options.SeedRadius /= this->Levels.GetWorkspace().WorldUnit();
   this->Renew(request);
   this->ChooseEdgeLength(volume);

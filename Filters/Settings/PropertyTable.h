@@ -27,6 +27,8 @@
   MADE(Gradation, double, Grading.Gradation, Run, Told)                              \
   MADE(ThinParts, bool, Grading.ThinParts, Run, Told)                                \
   MADE(IsoValue, double, Options.IsoValue, Run, Told)                                \
+  MADE(UpperValue, double, UpperValue, Run, Told)                                    \
+  MADE(UseUpperValue, bool, UseUpperValue, Run, Told)                                \
   MADE(ObjectIsBright, bool, Options.ObjectIsBright, Run, Told)                      \
   MADE(Initialization, int, Initialization, Run, Hidden)                             \
   WRITTEN(SeedPositions, list, End.SeedPositions, End, Hidden)                       \

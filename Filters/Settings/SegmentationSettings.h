@@ -6,6 +6,7 @@
 #include "Core/Common/Grading.h"
 #include "Core/Common/IndexedSurface.h"
 #include "Core/Evolution/SurfaceOptions.h"
+#include "Input/ValueRange.h"
 #include "Input/Workspace.h"
 
 #include <limits>
@@ -82,6 +83,8 @@ struct SegmentationSettings
 
   int SelectedComponent = -1;
   bool NaNIsBackground = true;
+  double UpperValue = std::numeric_limits<double>::infinity();
+  bool UseUpperValue = true;
   volumic::Metric Metric = volumic::Metric::World;
   volumic::Grading Grading; ///< at the finest level, world units
   double EdgeLength = 0.0; ///< mean at the finest level, world units; 0: as FinestLevel has it
@@ -93,6 +96,15 @@ struct SegmentationSettings
   bool Profile = false;     ///< columns of the seconds of each phase in the history
   int SnapshotInterval = 0; ///< iterations; 0: no snapshots
 
+  /** The values of the object, where they have an upper end, too. @throws as Check() of it */
+  ValueRange Range() const
+  {
+    ValueRange range;
+    range.Lower = this->Options.IsoValue;
+    range.Upper = this->UseUpperValue ? this->UpperValue : range.Upper;
+    range.Check();
+    return range;
+  }
   /** The level that a run ends at: -1 where thin parts are followed beyond level 0. */
   int LastLevel() const
   {

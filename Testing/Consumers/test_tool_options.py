@@ -23,7 +23,7 @@ from vtk_files import read
 # What is set in another way: inputs, and what of the pyramid is the surface's.
 NOT_OPTIONS = {"vtkDeformableSurface": {"InitialSurfaceConnection", "InitialSurfaceData",
                                         "AttractingPointsConnection", "AttractingPointsData",
-                                        "Controller", "ShowLevels"},
+                                        "Controller", "ShowLevels", "UseUpperValue"},
                "vtkLabelsToSurfaces": {"Controller", "LabelColor", "LabelName"},
                "vtkImagePyramid": {"Controller"}}
 
@@ -68,7 +68,7 @@ class OptionTableTest(ToolTestCase):
         """By the report's list of properties."""
         volume = self.write(vtkXMLImageDataWriter(), "small.vti", make_image(ball()))
         values = {
-            "iso": "400", "reduction-factor": "1.5", "sampling-ratio": "0.9", "friction": "2.5",
+            "iso": "400", "upper": "900", "reduction-factor": "1.5", "sampling-ratio": "0.9", "friction": "2.5",
             "tolerance": "0.01", "border": "replicate", "recovery": "none", "levels": "2",
             "initialization": "iso-surface", "coarsest": "0", "finest": "0", "seed-radius": "1.5",
             "minimum-level-size": "12", "iterations": "400", "threads": "1",
@@ -126,6 +126,8 @@ class OptionTableTest(ToolTestCase):
 
     def test_values_that_the_filter_refuses(self):
         for reason, *options in (
+                ("--upper is 300, but --iso is 500.5; it must be more", "--upper", "300"),
+                ("no voxel is between --iso, 500.5, and --upper, 500.6", "--upper", "500.6"),
                 ("--friction is -1, it must lie in", "--friction", "-1"),
                 ("--edge-length is 0.01, but edges of this image can have mean lengths of",
                  "--edge-length", "0.01"),

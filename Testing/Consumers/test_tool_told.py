@@ -63,7 +63,7 @@ class PlacesTest(ToldTest):
         content = bytearray(medical_files.nifti(ball(), SPACING, SFORM, offset=ORIGIN))
         content[123] = 3
         self.write_bytes("a.nii", content)
-        self.assertIn("micrometres, not millimetres", self.warning("a.nii"))
+        self.assertIn("unless --unit asks for another, is micrometres, not", self.warning("a.nii"))
 
     def test_cells_of_mrc(self):
         content = bytearray(medical_files.mrc(ball(), SPACING))

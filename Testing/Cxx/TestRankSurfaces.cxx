@@ -135,6 +135,12 @@ TEST(RankSurfaces, AreOneSurfaceInAPieceForEachRank)
     Choice Set = [](vtkDeformableSurface*) {};
   };
   for (const Case& is : { Case{ 2, CellBall }, Case{ 3, HoledBall },
+         Case{ 3, Ball,
+           [](vtkDeformableSurface* filter)
+           {
+             filter->SetIsoValue(-50.0);
+             filter->SetUpperValue(50.0); // all but the ball
+           } },
          Case{ 8, Ball, [](vtkDeformableSurface* filter) { filter->SetEdgeLength(2.0); } } })
   {
     SCOPED_TRACE(is.Count);

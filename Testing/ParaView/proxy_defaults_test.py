@@ -18,8 +18,9 @@ import plugin_testing as testing
 PLUGIN_SOURCES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../Plugin/*.xml")
 FILTER_GROUPS = ("filters", "internal_filters")
 
-# Properties whose value depends on the data, so that the class has none or another to begin with.
-FROM_DATA = {"IsoValue"}
+# Properties whose value depends on the data, so that the class has none or another to begin with;
+# as the panel has a number, it must say that this is not used.
+FROM_DATA = {"IsoValue", "UpperValue", "UseUpperValue"}
 
 
 def proxy_elements():

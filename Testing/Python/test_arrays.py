@@ -83,6 +83,12 @@ class SurfaceTest(unittest.TestCase):
             mask = volumic.surface(voxels > 125, 0.5)
         self.assertEqual(mask.report["Genus"], 1)
 
+    def test_a_range_of_values(self):
+        """All but the ring: of values less than it has."""
+        around = volumic.surface(ring_voxels(), 2 * ring_voxels().min() - 125.5, UpperValue=125.5)
+        dark = volumic.surface(ring_voxels(), 125.5, ObjectIsBright=False, Recovery=2)
+        self.assertAlmostEqual(around.report["Volume"] / dark.report["Volume"], 1, delta=0.01)
+
     def test_without_an_iso_value_it_is_guessed_and_told(self):
         with self.assertWarnsRegex(UserWarning, "Otsu"):
             ring = volumic.surface(ring_voxels())
@@ -98,6 +104,8 @@ class SurfaceTest(unittest.TestCase):
                 (ValueError, "three axes, z, y and x, not 2",
                  lambda: volumic.surface(np.zeros((4, 4)), 1)),
                 (ValueError, "complex", lambda: volumic.surface(np.zeros((4, 4, 4), complex), 1)),
+                (arrays.FilterError, "^Upper Value is 9, but Iso Value is not set",
+                 lambda: volumic.surface(ring_voxels(), UpperValue=9)),
                 (arrays.FilterError, "^Iso Value is 7777, outside the range",
                  lambda: volumic.surface(ring_voxels(), 7777))):
             with self.subTest(words):

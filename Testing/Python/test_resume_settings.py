@@ -29,7 +29,7 @@ MAY_CHANGE = {
 VALUES = {"SamplingRatio": 0.9, "CoarsestLevel": 1, "EdgeLength": 1.2, "Tolerance": .1,
           "MaximumEdgeLength": 5., "Gradation": .1, "SeedRadius": 3., "NumberOfLevels": 2,
           "ReductionFactor": 1.8, "SelectedComponent": 1, "Metric": 0, "Recovery": 0,
-          "MinimumLevelSize": 12}
+          "MinimumLevelSize": 12, "UpperValue": 90.}
 
 
 def image_of_a_ball():

@@ -1,0 +1,183 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Objects that have the values between IsoValue and UpperValue.
+#include "CheckpointTestTools.h"
+
+#include <vtkImageCast.h>
+
+using namespace volumic;
+
+namespace
+{
+constexpr double Lower = 100.0;
+constexpr double Upper = 400.0;
+constexpr double Outer = 11.0;
+constexpr double Inner = 6.0;
+
+/** One material, 150, about another one, 600, with borders of a voxel. */
+vtkSmartPointer<vtkImageData> TwoMaterials(int type = VTK_SHORT)
+{
+  auto image = vtkSmartPointer<vtkImageData>::New();
+  image->SetDimensions(30, 31, 32);
+  image->AllocateScalars(type, 1);
+  ForVoxels({ 30, 31, 32 },
+    [&](int i, int j, int k)
+    {
+      const double r =
+        std::sqrt((i - 14.5) * (i - 14.5) + (j - 15.0) * (j - 15.0) + (k - 15.5) * (k - 15.5));
+      const double value = 150.0 * std::clamp(Outer - r + 0.5, 0.0, 1.0) +
+        450.0 * std::clamp(Inner - r + 0.5, 0.0, 1.0);
+      image->SetScalarComponentFromDouble(i, j, k, 0, std::floor(value));
+    });
+  Voxels(image)->SetName("Voxels");
+  return image;
+}
+
+/** What a user could make of it by hand. */
+vtkSmartPointer<vtkImageData> Folded(vtkImageData* image)
+{
+  vtkNew<vtkImageCast> cast;
+  cast->SetInputData(image);
+  cast->SetOutputScalarTypeToFloat();
+  cast->Update();
+  vtkDataArray* voxels = Voxels(cast->GetOutput());
+  for (vtkIdType v = 0; v < voxels->GetNumberOfTuples(); ++v)
+  {
+    voxels->SetTuple1(v, std::min(voxels->GetTuple1(v), Lower + Upper - voxels->GetTuple1(v)));
+  }
+  return cast->GetOutput();
+}
+
+void SetRange(vtkDeformableSurface* filter)
+{
+  filter->SetIsoValue(Lower);
+  filter->SetUpperValue(Upper);
+}
+
+vtkSmartPointer<vtkDeformableSurface> InRange(vtkDataObject* image, const Choice& choose = {})
+{
+  return SurfaceOf(image,
+    [&](vtkDeformableSurface* filter)
+    {
+      SetRange(filter);
+      if (choose)
+      {
+        choose(filter);
+      }
+    });
+}
+
+double VolumeOfBall(double radius)
+{
+  return 4.0 / 3.0 * vtkMath::Pi() * radius * radius * radius;
+}
+}
+
+TEST(ValueRange, IsOneOfTwoMaterials)
+{
+  const auto filter = InRange(TwoMaterials());
+  vtkPolyData* surface = filter->GetOutput();
+  EXPECT_EQ(StopReason(surface), "converged");
+  ASSERT_EQ(FieldOf(surface, "NumberOfComponents"), 2);
+  EXPECT_EQ(FieldOf(surface, "Genus"), 0);
+  // 100 lies a sixth of a voxel within the outer border, 400 a twentieth within the inner one.
+  EXPECT_NEAR(FieldOf(surface, "ComponentVolume", 0) / VolumeOfBall(Outer - 1.0 / 6), 1.0, 0.04);
+  EXPECT_NEAR(-FieldOf(surface, "ComponentVolume", 1) / VolumeOfBall(Inner - 0.05), 1.0, 0.06);
+  vtkDataArray* residual = surface->GetPointData()->GetArray("Residual");
+  EXPECT_LT(std::max(-residual->GetRange()[0], residual->GetRange()[1]), 25.0)
+    << "in units of the image";
+}
+
+TEST(ValueRange, IsTheIsopotentialOfTheFoldedImage)
+{
+  for (const int type : { VTK_SHORT, VTK_UNSIGNED_SHORT, VTK_FLOAT })
+  {
+    const auto image = TwoMaterials(type);
+    const auto byHand = SurfaceOf(Folded(image),
+      [](vtkDeformableSurface* filter)
+      {
+        filter->SetIsoValue(Lower);
+        filter->SetRecovery(vtkDeformableSurface::RecoverObjectsAndCavities);
+      });
+    ExpectSameSurfaces(InRange(image)->GetOutput(), byHand->GetOutput());
+  }
+}
+
+TEST(ValueRange, IsTheSameBitsHoweverTheImageComes)
+{
+  const auto image = TwoMaterials(VTK_INT);
+  const auto one = InRange(image);
+  ASSERT_GT(one->GetOutput()->GetNumberOfPoints(), 500);
+  const auto expectSame = [&](vtkDeformableSurface* filter)
+  { ExpectSameSurfaces(one->GetOutput(), filter->GetOutput()); };
+  expectSame(InRange(image, [](vtkDeformableSurface* f) { f->SetNumberOfThreads(3); }));
+  expectSame(InRange(image, [](vtkDeformableSurface* f) { f->SetMemoryLimit(LittleMemory); }));
+  expectSame(InRange(PyramidOf(image)->GetOutput()));
+  expectSame(SurfaceOf<vtkVolumeToSurface>(image, SetRange));
+}
+
+TEST(ValueRange, IsNoneWhereItIsNotUsed)
+{
+  const auto image = TwoMaterials();
+  const auto set = [](vtkDeformableSurface* filter) { filter->SetIsoValue(Lower); };
+  const auto plain = SurfaceOf(image, set);
+  const auto unused = InRange(image, [](vtkDeformableSurface* f) { f->UseUpperValueOff(); });
+  ExpectSameSurfaces(plain->GetOutput(), unused->GetOutput());
+  EXPECT_EQ(FieldOf(plain->GetOutput(), "NumberOfComponents"), 1) << "the ball as a whole";
+}
+
+TEST(ValueRange, MayBeWhatTheObjectIsNot)
+{
+  const auto filter = InRange(TwoMaterials(),
+    [](vtkDeformableSurface* f)
+    {
+      f->ObjectIsBrightOff();
+      f->SetKeepComponentsToComponentsAtPoints();
+      f->AddSeedPosition(14.5, 15.0, 15.5);
+    });
+  EXPECT_EQ(FieldOf(filter->GetOutput(), "NumberOfComponents"), 1);
+  EXPECT_NEAR(FieldOf(filter->GetOutput(), "Volume") / VolumeOfBall(Inner - 0.05), 1.0, 0.06);
+}
+
+TEST(ValueRange, WhatIsSetWrongIsNamedWithTheWayOut)
+{
+  struct Case
+  {
+    double Iso;
+    double Upper;
+    std::vector<std::string> Parts;
+  };
+  const double infinite = std::numeric_limits<double>::infinity();
+  for (const Case& is :
+    { Case{ 300, 200, { "Upper Value is 200, but Iso Value is 300; it must be more" } },
+      Case{ 300, 300, { "Upper Value is 300, but Iso Value is 300" } },
+      Case{ std::nan(""), 200, { "Upper Value is 200, but Iso Value is not set" } },
+      Case{ -infinite, 200, { "Iso Value is -inf", "switch Object Is Bright off" } },
+      Case{ 100, std::nan(""), { "Upper Value is nan; it must be a number above Iso Value" } },
+      Case{ 610, 700, { "no voxel is between Iso Value, 610, and Upper Value, 700" } },
+      Case{ -10, 700, { "all voxels are between Iso Value, -10, and Upper Value, 700" } } })
+  {
+    SCOPED_TRACE(is.Parts.front());
+    for (const auto& filter : { vtkSmartPointer<vtkDeformableSurface>::New(),
+           vtkSmartPointer<vtkDeformableSurface>(vtkSmartPointer<vtkVolumeToSurface>::New()) })
+    {
+      filter->SetInputDataObject(TwoMaterials());
+      filter->SetIsoValue(is.Iso);
+      filter->SetUpperValue(is.Upper);
+      ExpectErrorOf(filter, is.Parts);
+      EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
+    }
+  }
+}
+
+TEST_F(Checkpoints, OfAnotherRangeAreRefusedByName)
+{
+  this->StopARun([](vtkDeformableSurface* f) { f->SetUpperValue(200.0); });
+  EXPECT_TRUE(
+    Has(this->ErrorOfResuming(), "is of other settings: Upper Value was 200 and is inf. Set"));
+  EXPECT_TRUE(Has(this->ErrorOfResuming([](vtkDeformableSurface* f) { f->SetUpperValue(300.0); }),
+    "is of other settings: Upper Value was 200 and is 300. Set"));
+  const auto resumed = this->Resume([](vtkDeformableSurface* f) { f->SetUpperValue(200.0); });
+  EXPECT_EQ(resumed->GetResumedLevel(), 1);
+}
