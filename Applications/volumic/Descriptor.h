@@ -64,13 +64,6 @@ public:
   /** Write on from this byte of the file. */
   bool Seek(off_t place) { return lseek(this->Number, place, SEEK_SET) == place; }
 
-  /** Whether there is room for so many bytes. */
-  bool Reserve(std::size_t count)
-  {
-    errno = posix_fallocate(this->Number, 0, static_cast<off_t>(count));
-    return errno == 0;
-  }
-
   /** Whether the disk has it. Pipes and some network folders know no such request. */
   bool Flush() { return fsync(this->Number) == 0 || errno == EINVAL || errno == ENOTSUP; }
 

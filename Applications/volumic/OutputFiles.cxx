@@ -162,13 +162,6 @@ void WriteBytes(const std::string& path, const char* bytes, std::size_t count)
   NeedWritten(file.IsOpen() && file.Write(bytes, count) && file.Close());
 }
 
-void NeedRoom(const std::string& path, std::size_t count)
-{
-  Descriptor file(path, O_WRONLY | O_CREAT | O_TRUNC);
-  NeedWritten(file.IsOpen() && file.Reserve(count) && file.Close() &&
-    truncate(path.c_str(), 0) == 0);
-}
-
 // ---- Before the work begins ---------------------------------------------------------------------
 
 namespace

@@ -73,12 +73,6 @@ bool IsStreamName(const std::string& name);
 /** Make a file of these bytes. @throws Failure with the system's reason, without the name. */
 void WriteBytes(const std::string& path, const char* bytes, std::size_t count);
 
-/**
- * Look whether the disk has room for a file of so many bytes, which is left empty.
- * @throws Failure with the system's reason, without the name.
- */
-void NeedRoom(const std::string& path, std::size_t count);
-
 // ---- Before the work begins ---------------------------------------------------------------------
 
 /** What is to be written, as the command line names it. */

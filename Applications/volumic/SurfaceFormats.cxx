@@ -9,19 +9,15 @@
 #include "ToolErrors.h"
 #include "VtkWriters.h"
 
-#include <vtkBYUWriter.h>
 #include <vtkByteSwap.h>
 #include <vtkDataArray.h>
-#include <vtkFacetWriter.h>
-#include <vtkHoudiniPolyDataWriter.h>
-#include <vtkIVWriter.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkTriangle.h>
 #include <vtkUnsignedCharArray.h>
 
 #include <cstdint>
-#include <iostream>
+#include <ostream>
 #include <locale>
 #include <map>
 #include <vector>
@@ -38,15 +34,6 @@ std::uint64_t PointsIn(const SurfaceFile& file)
 std::uint64_t TrianglesIn(const SurfaceFile& file)
 {
   return static_cast<std::uint64_t>(file.Surface->GetNumberOfPolys());
-}
-
-template <class Writer>
-void WriteWith(const SurfaceFile& file)
-{
-  vtkNew<Writer> writer;
-  writer->SetInputData(file.Surface);
-  writer->SetFileName(file.Path.c_str());
-  RunWriter(writer.Get(), file.Line);
 }
 
 /** Numbers of files that are binary, the least significant byte first. */
@@ -158,64 +145,6 @@ void WriteObj(const SurfaceFile& file)
   buffer.Finish();
 }
 
-/** Places and normals of the corners, the most significant byte of a number first. */
-void WriteTri(const SurfaceFile& file)
-{
-  vtkDataArray* normals = file.Surface->GetPointData()->GetNormals();
-  FailIf(!normals,
-    "cannot be written (No normals to write!: use vtkPolyDataNormals to generate them)");
-  FileBuffer buffer(file.Path);
-  std::ostream out(&buffer);
-  ForEachPolygon(file.Surface,
-    [&](vtkIdType triangle, const vtkIdType* corners, vtkIdType)
-    {
-      file.Line.Show(static_cast<double>(triangle) / static_cast<double>(TrianglesIn(file)), "");
-      for (int k = 0; k < 3; ++k)
-      {
-        for (const double* numbers :
-          { file.Surface->GetPoint(corners[k]), normals->GetTuple(corners[k]) })
-        {
-          vtkByteSwap::SwapWrite4BERange(AsFloats(numbers).data(), 3, &out);
-        }
-      }
-    });
-  buffer.Finish();
-}
-
-/**
- * On a full disk the writers of .iv and .g of VTK 9.6 destroy memory instead of telling. Texts have
- * numbers of six digits, and each point a colour, at most.
- */
-void NeedRoomForText(const SurfaceFile& file)
-{
-  NeedRoom(file.Path, 1024 + 100 * PointsIn(file) + 64 * TrianglesIn(file));
-}
-
-void WriteByu(const SurfaceFile& file)
-{
-  NeedRoomForText(file);
-  vtkNew<vtkBYUWriter> writer;
-  writer->SetInputData(file.Surface);
-  writer->SetGeometryFileName(file.Path.c_str());
-  RunWriter(writer.Get(), file.Line);
-}
-
-/** VTK's writer counts what it has written on the standard output, where a report may go. */
-void WriteFacet(const SurfaceFile& file)
-{
-  std::streambuf* output = std::cout.rdbuf(nullptr);
-  try
-  {
-    WriteWith<vtkFacetWriter>(file);
-  }
-  catch (...)
-  {
-    std::cout.rdbuf(output);
-    throw;
-  }
-  std::cout.rdbuf(output); // clears the errors too
-}
-
 void WriteScene(const SurfaceFile& file)
 {
   const std::vector<SurfaceLabel> labels = LabelsOf(file.Surface);
@@ -223,42 +152,24 @@ void WriteScene(const SurfaceFile& file)
   WriteGlb({ { name, file.Surface } }, file.Path, file.Line);
 }
 
-/** A text of so many lines, one for so many points, and one for each triangle. */
-template <int More, int PointsOfLine>
-void CheckText(const SurfaceFile& file)
-{
-  CheckLines(
-    file.Path, More + (PointsIn(file) + PointsOfLine - 1) / PointsOfLine + TrianglesIn(file));
-}
 }
 
-const SurfaceFormat* FindSurfaceFormat(const std::string& name)
+SurfaceWriter FindSurfaceWriter(const std::string& name)
 {
   using File = const SurfaceFile&;
-  static const std::map<std::string, SurfaceFormat> formats = {
-    { ".vtp", { [](File file) { WriteVtp(file.Surface, file.Path, file.Line); }, nullptr } },
-    { ".pvtp", { WritePieces, nullptr } },
-    { ".vtk", { [](File file) { WriteLegacy(file.Surface, file.Path, file.Remark, file.Line); }, nullptr } },
-    { ".stl", { WriteStl, nullptr } },
-    { ".ply", { WritePly, nullptr } },
-    { ".glb", { WriteScene, nullptr } },
-    { ".msh", { WriteMsh, nullptr } },
-    { ".smesh", { WriteSmesh, nullptr } },
-    { ".poly", { WritePoly, nullptr } },
-    { ".obj", { WriteObj, nullptr } },
-    { ".iv",
-      { [](File file)
-        {
-          NeedRoomForText(file);
-          WriteWith<vtkIVWriter>(file);
-        },
-        CheckText<14, 2> } },
-    { ".g", { WriteByu, CheckText<2, 2> } },
-    { ".geo", { WriteWith<vtkHoudiniPolyDataWriter>, CheckText<7, 1> } },
-    { ".facet", { WriteFacet, CheckText<8, 1> } },
-    { ".tri", { WriteTri, nullptr } },
+  static const std::map<std::string, SurfaceWriter> writers = {
+    { ".vtp", [](File file) { WriteVtp(file.Surface, file.Path, file.Line); } },
+    { ".pvtp", WritePieces },
+    { ".vtk", [](File file) { WriteLegacy(file.Surface, file.Path, file.Remark, file.Line); } },
+    { ".stl", WriteStl },
+    { ".ply", WritePly },
+    { ".glb", WriteScene },
+    { ".msh", WriteMsh },
+    { ".smesh", WriteSmesh },
+    { ".poly", WritePoly },
+    { ".obj", WriteObj },
   };
-  const auto found = formats.find(SuffixOf(name));
-  return found == formats.end() ? nullptr : &found->second;
+  const auto found = writers.find(SuffixOf(name));
+  return found == writers.end() ? nullptr : found->second;
 }
 }

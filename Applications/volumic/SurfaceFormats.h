@@ -22,15 +22,11 @@ struct SurfaceFile
   ProgressLine& Line;
 };
 
-/** How files with a suffix are written. All that write throw a Failure without the file's name. */
-struct SurfaceFormat
-{
-  void (*Write)(const SurfaceFile&);
-  void (*Check)(const SurfaceFile&); ///< Has the disk taken it? Null where that was seen at once.
-};
+/** Writes a file of a format, and throws a Failure without its name. */
+using SurfaceWriter = void (*)(const SurfaceFile&);
 
-/** Null: no writer has this suffix. */
-const SurfaceFormat* FindSurfaceFormat(const std::string& name);
+/** By the suffix; null: there is none. */
+SurfaceWriter FindSurfaceWriter(const std::string& name);
 
 // ---- Pieces -------------------------------------------------------------------------------------
 

@@ -111,10 +111,10 @@ void TellOfRounding(vtkPolyData* surface, const std::string& name)
 
 void CheckSurfaceName(const std::string& name)
 {
-  FailIf<UsageError>(!FindSurfaceFormat(name),
+  FailIf<UsageError>(!FindSurfaceWriter(name),
     name +
       ": no surface format has this suffix; known are .vtp .pvtp .vtk .stl .ply "
-      ".obj .glb .iv .g .geo .facet .tri .msh .smesh .poly");
+      ".obj .glb .msh .smesh .poly");
 }
 
 bool IsScene(const std::string& name)
@@ -135,19 +135,14 @@ bool HasPieces(const std::string& name)
 
 void WriteSurface(vtkPolyData* surface, const std::string& name, const SurfaceWriting& writing)
 {
-  const SurfaceFormat* format = FindSurfaceFormat(name);
+  const SurfaceWriter write = FindSurfaceWriter(name);
   TellOfRounding(surface, name);
   WriteBeside(name, writing.Style,
     [&](const std::string& path, ProgressLine& line)
     {
       const std::string remark =
         "volumic " VOLUMIC_VERSION + SpaceRemark(surface) + writing.Remark;
-      const SurfaceFile file{ surface, path, remark, writing.PieceSize, line };
-      format->Write(file);
-      if (format->Check)
-      {
-        format->Check(file);
-      }
+      write({ surface, path, remark, writing.PieceSize, line });
     });
 }
 

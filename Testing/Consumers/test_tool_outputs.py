@@ -21,8 +21,7 @@ from limited_files import largest_file
 from tool_test_case import ISO, PROGRAM, ToolTestCase, ball, make_image
 from vtk_files import points_of, read, triangles_of
 
-SURFACES = ("vtp", "pvtp", "vtk", "stl", "ply", "obj", "glb", "iv", "g", "geo", "facet", "tri",
-            "msh", "smesh", "poly")
+SURFACES = ("vtp", "pvtp", "vtk", "stl", "ply", "obj", "glb", "msh", "smesh", "poly")
 OLD = b"an older result"
 
 
@@ -98,7 +97,7 @@ class FullDiskTest(OutputsTest):
 
 class KilledTest(OutputsTest):
     def test_the_old_file_or_the_new_one_is_there(self):
-        names = [f"{i}.{end}" for i in range(3) for end in ("obj", "vtp", "stl", "ply", "tri")]
+        names = [f"{i}.{end}" for i in range(3) for end in ("obj", "vtp", "stl", "ply", "glb")]
         paths = [self.path(name) for name in names]
         self.segment(*paths)
         new = {name: self.content(name) for name in names}
