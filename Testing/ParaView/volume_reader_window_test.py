@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""File > Open of volumes in ParaView's window, by the reader Volumic Volume."""
+"""File > Open of volumes in ParaView's window, by the readers of Volumic."""
 
+import os
 import re
 
 import gui_session as gui
@@ -18,8 +19,9 @@ print("Readers:", sorted(readers))
 
 # ParaView asks which of the readers for the file it is to take.
 DIALOG = f"{gui.WINDOW}/pqSelectReaderDialog"
-CHOOSE_VOLUMIC = [gui.event(f"{DIALOG}/listWidget", "mousePress", "1,1,0,20,9,/1:0"),
-                  gui.event(f"{DIALOG}/listWidget", "mouseRelease", "1,0,0,20,9,/1:0"),
+# Volumic's is the first.
+CHOOSE_VOLUMIC = [gui.event(f"{DIALOG}/listWidget", "mousePress", "1,1,0,20,9,/0:0"),
+                  gui.event(f"{DIALOG}/listWidget", "mouseRelease", "1,0,0,20,9,/0:0"),
                   gui.event(f"{DIALOG}/okButton", "activate"), gui.pause(1000)]
 
 
@@ -32,7 +34,7 @@ class VolumeReaderWindowTest(window.WindowTestCase):
         # Values that are no labels.
         self.play([*opened(files.nifti("ramp.nii.gz", files.ramp())), told,
                    filter_of_the_menu("VolumeToSurface"), APPLY], "reader-nifti")
-        self.assertEqual(self.readers(), ["['VolumicVolume']"])
+        self.assertEqual(self.readers(), ["['AVolumicVolume']"])
 
     def test_segments_have_their_names(self):
         told = self.session.add_code(TELL)
@@ -40,4 +42,16 @@ class VolumeReaderWindowTest(window.WindowTestCase):
                    filter_of_the_menu("LabelsToSurfaces"),
                    gui.check(f"{PROPERTIES}/Labels/Note", "text", "3 of 4 labels"), APPLY],
                   "reader-segments")
-        self.assertEqual(self.readers(), ["['VolumicVolume']"])
+        self.assertEqual(self.readers(), ["['AVolumicVolume']"])
+
+    def test_a_slice_of_dicom_opens_its_series(self):
+        told = self.session.add_code(TELL + """
+image = list(simple.GetSources().values())[0]
+image.UpdatePipeline()
+print("Size:", image.GetDataInformation().GetExtent())
+""")
+        self.play([*opened(os.path.join(files.dicom(), "003.dcm"), CHOOSE_VOLUMIC), told],
+                  "reader-dicom")
+        self.assertEqual(self.readers(), ["['AVolumicDICOM']"])
+        x, y, z = files.voxels().shape[::-1]
+        self.assertIn(f"Size: {(0, x - 1, 0, y - 1, 0, z - 1)}", self.session.output)
