@@ -85,7 +85,8 @@ int vtkLabelTable::RequestData(
     volumic::HostThreads threads(0);
     std::optional<volumic::LabelImage> image;
     threads.Run([&] { image.emplace(input, this->GetInputArrayInformation(0), 0, threads); });
-    const auto known = volumic::LabelNames::Of(volumic::ImageOf(input));
+    auto known = volumic::LabelNames::Of(volumic::ImageOf(input));
+    known.Complete({ image->RenumberedLabels(), {} });
     image->CheckNumberOfLabels();
     for (const auto& entry : image->Labels())
     {

@@ -288,6 +288,7 @@ volumic::LabelMap vtkLabelsToSurfaces::vtkInternals::Read(vtkDataObject* input,
       choice.Labels = image->Choose(this->Labels, this->BackgroundLabel);
       choice.Names = this->Names;
       choice.Names.Complete(volumic::LabelNames::Of(volumic::ImageOf(input)));
+      choice.Names.Complete({ image->RenumberedLabels(), {} });
       choice.IsMerged = this->Merge;
       return 0;
     });

@@ -14,6 +14,7 @@ set(volumic_reader_sources
   LabelJson.cxx
   LabelNames.cxx
   LabelTable.cxx
+  MaskFolder.cxx
   Messages.cxx
   RawSlabs.cxx
   ReadDicom.cxx

@@ -130,12 +130,6 @@ void CheckPictures(const std::vector<std::string>& files)
   {
     suffixes.insert(std::filesystem::path(file).extension().string());
   }
-  for (const char* suffix : { ".gz", ".nii", ".nrrd", ".nhdr", ".mha", ".mhd", ".vti", ".mgz" })
-  {
-    FailIf(suffixes.count(suffix) > 0,
-      "no folder of pictures or of DICOM slices, but of volumes (" + files.front() +
-        "); give one of them by its name");
-  }
   if (suffixes.size() > 1)
   {
     throw Failure("files of several kinds (" + *suffixes.begin() + ", " + *suffixes.rbegin() +

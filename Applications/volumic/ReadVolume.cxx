@@ -3,6 +3,7 @@
 #include "ReadVolume.h"
 
 #include "CheckInputs.h"
+#include "MaskFolder.h"
 #include "Messages.h"
 #include "SlabReader.h"
 #include "Texts.h"
@@ -213,9 +214,13 @@ Opener OpenerOf(const std::string& name)
 FoundVolume FindVolume(const std::string& name, const Opening& opening)
 {
   NeedFilesOfVolume(name);
+  // They are read at once: what is told of them would be lost later.
+  const auto byMasks = [](const std::vector<std::string>& masks)
+  { return FoundVolume{ nullptr, [image = ReadMasks(masks)] { return image; } }; };
   if (std::filesystem::is_directory(name))
   {
-    return OpenSlices(SlicesOf(name), opening);
+    const std::vector<std::string> masks = MasksAmong(FilesOfFolder(name));
+    return masks.empty() ? OpenSlices(SlicesOf(name), opening) : byMasks(masks);
   }
   if (std::filesystem::exists(name))
   {
@@ -223,6 +228,10 @@ FoundVolume FindVolume(const std::string& name, const Opening& opening)
   }
   FailIf(name.find_first_of("%*") == std::string::npos, "no such file or folder");
   const std::vector<std::string> files = MatchFiles(name);
+  if (const std::vector<std::string> masks = MasksAmong(files); !masks.empty())
+  {
+    return byMasks(masks);
+  }
   return OpenSlices({ files, !files.empty() && IsDicom(files.front()) }, opening);
 }
 
@@ -287,7 +296,8 @@ OpenedVolume OpenVolume(
       const bool areOfCells = ChooseScalars(image, array);
       auto holder = vtkSmartPointer<vtkTrivialProducer>::New();
       holder->SetOutput(image);
-      return OpenedVolume{ holder, areOfCells ? "values of cells" : SuffixOf(name) };
+      const std::string suffix = SuffixOf(name);
+      return OpenedVolume{ holder, areOfCells ? "values of cells" : suffix.empty() ? "masks" : suffix };
     });
 }
 

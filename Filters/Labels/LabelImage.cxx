@@ -8,11 +8,11 @@
 #include "Input/ImageVoxels.h"
 #include "Input/InputImage.h"
 #include "Input/Workspace.h"
+#include "Labels/LabelValues.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellArrayIterator.h>
 #include <vtkDataArray.h>
-#include <vtkDoubleArray.h>
 #include <vtkImageData.h>
 #include <vtkInformation.h>
 #include <vtkIntArray.h>
@@ -24,6 +24,7 @@
 #include <mutex>
 #include <type_traits>
 #include <unordered_map>
+#include <utility>
 
 namespace volumic
 {
@@ -31,83 +32,6 @@ namespace
 {
 /** Voxels that a thread takes at a time. */
 constexpr std::size_t Grain = 1 << 18;
-
-template <typename Work>
-void VisitVoxels(vtkDataArray* voxels, const Work& work)
-{
-  switch (voxels->GetDataType())
-  {
-    vtkTemplateMacro(work(static_cast<const VTK_TT*>(voxels->GetVoidPointer(0))));
-  }
-}
-
-/** Whether a value is a whole number that an int holds. */
-template <typename T>
-bool IsLabel(T value)
-{
-  const auto real = static_cast<double>(value);
-  return real >= std::numeric_limits<int>::min() && real <= std::numeric_limits<int>::max() &&
-    real == std::floor(real);
-}
-
-template <typename T>
-[[noreturn]] void RefuseValue(vtkDataArray* voxels, T value)
-{
-  if (std::isfinite(static_cast<double>(value)) &&
-    static_cast<double>(value) == std::floor(static_cast<double>(value)))
-  {
-    Refuse(NameOf(voxels), " has the value ", static_cast<double>(value),
-      "; labels must be integers of 32 bits. Number them anew.");
-  }
-  Refuse(NameOf(voxels), " has the value ", static_cast<double>(value),
-    "; labels must be integers. For the surface of a volume that is no label map apply Volume to "
-    "Surface (vtkVolumeToSurface).");
-}
-
-/** What are labels but for what resampling or a scale leaves. @param told given what was done */
-vtkSmartPointer<vtkDataArray> Rounded(vtkDataArray* voxels, int background, std::string& told)
-{
-  constexpr double most = 0.01;
-  const vtkIdType count = voxels->GetNumberOfTuples();
-  vtkIdType missing = 0;
-  double farthest = 0.0;
-  VisitVoxels(voxels,
-    [&](const auto* values)
-    {
-      for (vtkIdType i = 0; i < count; ++i)
-      {
-        const auto value = static_cast<double>(values[i]);
-        const double off = std::abs(value - std::round(value));
-        if (off > most || std::isinf(value))
-        {
-          RefuseValue(voxels, values[i]);
-        }
-        missing += std::isnan(value);
-        farthest = std::max(farthest, std::isnan(value) ? 0.0 : off);
-      }
-    });
-  if (missing == 0 && farthest == 0.0)
-  {
-    return voxels;
-  }
-  auto rounded = vtkSmartPointer<vtkDoubleArray>::New();
-  rounded->SetName(voxels->GetName());
-  rounded->SetNumberOfTuples(count);
-  VisitVoxels(voxels,
-    [&](const auto* values)
-    {
-      std::transform(values, values + count, rounded->GetPointer(0),
-        [background](auto value)
-        {
-          const auto real = static_cast<double>(value);
-          return std::isnan(real) ? background : std::round(real);
-        });
-    });
-  told = Join(NameOf(voxels), " is of type ", voxels->GetDataTypeAsString(),
-    "; its values are within ", farthest, " of integers, and are rounded to labels",
-    missing > 0 ? Join("; ", missing, " voxels that are NaN are background.") : std::string("."));
-  return rounded;
-}
 
 /** Voxels that follow each other along rows, and from row to row; `last` is one of them. */
 LabelVoxels RunOf(const int* extent, vtkIdType first, vtkIdType last)
@@ -177,13 +101,10 @@ LabelImage::LabelImage(
       " voxels; it must have at least 2 along each axis. A label map of one slice has contours "
       "only: apply Contour (vtkFlyingEdges2D) to it.");
   }
-  const int type = this->Voxels->GetDataType();
-  if (type == VTK_FLOAT || type == VTK_DOUBLE)
-  {
-    this->Told = NameOf(this->Voxels) + " is of type " + this->Voxels->GetDataTypeAsString() +
-      "; its values are integers and are taken as labels.";
-    this->Voxels = Rounded(this->Voxels, background, this->Told);
-  }
+  LabelValues values = LabelValuesOf(this->Voxels, background, MostLabels, executor);
+  this->Voxels = values.Voxels;
+  this->Numbers = std::move(values.Numbers);
+  this->Told = std::move(values.Told);
   this->CountLabels(executor);
 }
 
@@ -196,14 +117,11 @@ void LabelImage::CountLabels(Executor& executor)
     [&](const auto* voxels)
     {
       using Value = std::decay_t<decltype(*voxels)>;
-      bool isWrong = false;
-      std::size_t wrongAt = count;
       ForSpans(executor, count, Grain,
         [&](std::size_t, std::size_t begin, std::size_t end)
         {
           std::unordered_map<int, LabelVoxels> counts;
-          std::size_t i = begin;
-          for (; i < end && IsLabel(voxels[i]);)
+          for (std::size_t i = begin; i < end;)
           {
             const Value value = voxels[i];
             const std::size_t first = i;
@@ -215,20 +133,11 @@ void LabelImage::CountLabels(Executor& executor)
               RunOf(extent, static_cast<vtkIdType>(first), static_cast<vtkIdType>(i) - 1));
           }
           const std::lock_guard<std::mutex> lock(mutex);
-          if (i < end)
-          {
-            isWrong = true;
-            wrongAt = std::min(wrongAt, i);
-          }
           for (const auto& entry : counts)
           {
             this->Counts[entry.first].Add(entry.second);
           }
         });
-      if (isWrong)
-      {
-        RefuseValue(this->Voxels, voxels[wrongAt]);
-      }
     });
 }
 

@@ -42,16 +42,17 @@ public:
 
   /**
    * @param selection as GetInputArrayInformation()
-   * Real numbers that are whole but for a hundredth, as resampling leaves them, are rounded, and
-   * NaN is the background, which Warning() tells.
-   * @throws where there is no image of three axes, or no array of integers of one component.
+   * @throws where there is no image of three axes, or no array of one component whose values are
+   *         labels as LabelValuesOf() has them.
    */
   LabelImage(vtkDataObject* input, vtkInformation* selection, int background, Executor& executor);
 
   /** Voxels are its points; without arrays that matter. */
   vtkImageData* Image() const { return this->Geometry; }
   const std::map<int, LabelVoxels>& Labels() const { return this->Counts; }
-  /** What the user should know: that the array has no integers' type. Empty: nothing. */
+  /** Labels of the image, as texts, that no int holds, by the numbers that they have here. */
+  const std::map<int, std::string>& RenumberedLabels() const { return this->Numbers; }
+  /** What the user should know: what was done to make labels of the values. Empty: nothing. */
   const std::string& Warning() const { return this->Told; }
 
   /** @throws where there are more than MostLabels. */
@@ -79,6 +80,7 @@ private:
   vtkSmartPointer<vtkImageData> Geometry;
   vtkSmartPointer<vtkDataArray> Voxels;
   std::map<int, LabelVoxels> Counts;
+  std::map<int, std::string> Numbers;
   std::string Told;
 };
 }

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """`volumic --labels`: a surface for each label, its files, the choice of labels, errors."""
 
+import gzip
 import json
 import os
 import re
@@ -12,7 +13,8 @@ from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkImageData
 from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 
-from tool_test_case import ISO, ORIGIN, SPACING, TURNED, ToolTestCase, make_image
+from tool_test_case import (
+    ISO, ORIGIN, SPACING, TURNED, ToolTestCase, make_image, medical_files)
 from vtk_files import read, read_blocks
 
 # Centres and half axes in voxels along x, y, z; 1 and 2 touch each other.
@@ -222,6 +224,68 @@ class WhatIsReadTest(LabelsTest):
                                 "--labels", "all")
         self.assertRegex(process.stderr, r"warning: .*within 0.00\d+ of integers, .* 1 voxels that are NaN")
         self.assertEqual(self.content("a/label-7.vtp"), self.content("b/label-7.vtp"))
+
+    def test_labels_that_no_int_holds(self):
+        """They are chosen, and files are named, by the numbers that the volume has."""
+        voxels = label_voxels("i8").astype("u4")
+        voxels[voxels == 7] = 2 ** 32 - 2
+        volume = self.map_file("map.vti", label_image(voxels))
+        process = self.run_tool(volume, self.path("o"), "--labels", "1,4294967294")
+        self.assertEqual(sorted(os.listdir(self.path("o"))), ["4294967294.vtp", "label-1.vtp"])
+        self.assertRegex(process.stderr, "warning: .*numbered anew.*: 4294967293 is 3, 4294967294 is 4")
+        rows = self.report(volume, "--list-labels")["labels"]
+        self.assertEqual([row["name"] for row in rows if row["label"] > 2],
+                         ["4294967293", "4294967294"])
+
+    def masks(self, folder, **masks):
+        os.mkdir(self.path(folder))
+        for name, mask in masks.items():
+            self.write_bytes(f"{folder}/{name}.nii.gz", gzip.compress(
+                medical_files.nifti(mask.astype("i2"), SPACING, offset=ORIGIN)))
+        return self.path(folder)
+
+    def test_a_folder_of_masks(self):
+        """As TotalSegmentator writes them; each has the surface of a map of it alone."""
+        voxels = label_voxels()
+        folder = self.masks("organs", liver=255 * (voxels == 1), lung_left=voxels == 2,
+                            kidney=voxels == 7, absent=voxels == 99)
+        self.write_bytes("organs/statistics.json", b"{}")
+        process = self.run_tool(folder, self.path("o/"), "--labels", "all", "--report",
+                                self.path("r.json"))
+        self.assertEqual(sorted(os.listdir(self.path("o"))),
+                         ["kidney.vtp", "liver.vtp", "lung_left.vtp"])
+        self.assertIn("masks without a voxel: absent", process.stderr)
+        self.assertNotIn("in two masks", process.stderr)
+        rows = {row["name"]: row for row in json.loads(self.content("r.json"))["labels"]}
+        self.assertEqual({name: row["voxels"] for name, row in rows.items()},
+                         {"kidney": (voxels == 7).sum(), "liver": (voxels == 1).sum(),
+                          "lung_left": (voxels == 2).sum()})
+        written = self.path("w.vti")
+        self.run_tool(self.path("organs/*.nii.gz"), "--write-volume", written, "--memory", "3G")
+        listed = self.report(written, "--list-labels")["labels"]
+        self.assertEqual([row["name"] for row in listed if row["label"] > 0],
+                         ["kidney", "liver", "lung_left"])
+
+    def test_masks_that_overlap(self):
+        voxels = label_voxels()
+        part = np.zeros_like(voxels)
+        part[6:9, 6:9, 6:9] = 1
+        folder = self.masks("m", whole=voxels == 1, part=part, zone=(voxels == 1) & (part == 0))
+        process = self.run_tool(folder, "--list-labels", "--report", self.path("r.json"))
+        sizes = {row["name"]: row["voxels"]
+                 for row in json.loads(self.content("r.json"))["labels"]}
+        self.assertEqual((sizes["part"], "whole" in sizes), (27, False))
+        count = (voxels == 1).sum()
+        self.assertRegex(process.stderr, rf"{count} times a voxel is in two masks \(part and whole 27, "
+                                         rf"whole and zone {count - 27}\): .* the smaller one")
+
+    def test_what_is_no_folder_of_masks(self):
+        voxels = label_voxels()
+        for name, volume, reason in (
+                ("a", voxels, "map.nii.gz: has the values .* a mask has 0 and another"),
+                ("b", voxels[1:] == 1, "map.nii.gz: its voxels are not those of .*liver.nii.gz")):
+            folder = self.masks(name, liver=voxels == 1, map=volume)
+            self.no_surfaces(reason, folder, "--labels", "all")
 
     def test_values_that_are_no_labels(self):
         voxels = label_voxels("f4")

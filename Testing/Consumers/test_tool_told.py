@@ -205,10 +205,6 @@ class ValuesTest(ToldTest):
         self.refused("at an end of the range", self.path("mask.vti"), self.path("a.vtp"), "--iso", 1)
 
     def test_what_is_no_picture(self):
-        os.makedirs(self.path("masks"))
-        for name in ("liver", "spleen"):
-            self.write_bytes(f"masks/{name}.nii.gz", b"any")
-        self.refused_volume("masks", "but of volumes .*liver.nii.gz.; give one of them")
         for suffix, kind in (("vtr", "a rectilinear grid"), ("vtu", "an unstructured grid"),
                              ("pvts", "a curvilinear grid")):
             self.refused_bytes("a." + suffix, b"<VTKFile/>", kind + ", and no image: resample it")

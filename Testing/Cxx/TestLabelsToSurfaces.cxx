@@ -73,6 +73,32 @@ TEST(LabelsToSurfaces, TakesRealNumbersThatAreIntegersWithAWarning)
   }
 }
 
+TEST(LabelsToSurfaces, NumbersAnewWhatNoIntHolds)
+{
+  const auto balls = LabelSurfacesOf(BallsImage());
+  const auto names = BlockNames(balls->GetOutput());
+  for (const int type : { VTK_UNSIGNED_INT, VTK_LONG_LONG, VTK_UNSIGNED_LONG_LONG, VTK_DOUBLE })
+  {
+    SCOPED_TRACE(type);
+    const auto image = BallsImage(type);
+    vtkDataArray* voxels = Voxels(image);
+    for (vtkIdType v = 0; v < voxels->GetNumberOfTuples(); ++v)
+    {
+      voxels->SetTuple1(v, voxels->GetTuple1(v) == 3.0 ? 4294967295.0 : voxels->GetTuple1(v));
+    }
+    vtkNew<vtkLabelsToSurfaces> filter;
+    filter->SetInputData(image);
+    const MessagesOf warnings(filter, vtkCommand::WarningEvent);
+    filter->Update();
+    EXPECT_TRUE(warnings.Has("'Labels' has 1 label that 32 bits don't hold"));
+    EXPECT_TRUE(warnings.Has("4294967295 is 8."));
+    ASSERT_EQ(BlockNames(filter->GetOutput()), (Names{ "Label 7", "4294967295" }));
+    EXPECT_EQ(FieldOf(BlockOf(filter, 1), "Label"), 8.0);
+    EXPECT_EQ(FieldOf(BlockOf(filter, 1), "LabelVoxels"), FieldOf(BlockOf(balls, 0), "LabelVoxels"));
+  }
+  EXPECT_EQ(names, (Names{ "Label 3", "Label 7" }));
+}
+
 TEST(LabelsToSurfaces, AreTheSameBitsOnAnyNumberOfThreadsAndAgain)
 {
   // Many that meet by threes, and large ones.

@@ -75,8 +75,6 @@ TEST_F(LabelsToSurfacesErrors, ImagesThatAreNoLabelMaps)
       { "Input port 0", "'Labels' has the value 0.5", "integers", "Volume to Surface" } },
     { map(9, [](int i) { return i > 4 ? std::nan("") : 0.; }, VTK_DOUBLE),
       { "no label but Background Label, 0" } },
-    { map(9, [](int i) { return i > 4 ? 5e9 : 0.; }, VTK_LONG_LONG),
-      { "'Labels' has the value 5000000000", "32 bits" } },
     { map(1, [](int i) { return std::floor(i / 4.); }),
       { "Input port 0", "9 x 9 x 1", "at least 2" } },
     { colours.Get(), { "Input port 0", "components" } },
@@ -93,6 +91,12 @@ TEST_F(LabelsToSurfacesErrors, MoreLabelsThanALabelMapHas)
   this->Filter->SetInputData(
     LabelImageOf(17, 17, 17, [](int i, int j, int k) { return i + 17 * (j + 17 * k); }, VTK_INT));
   this->ExpectError({ "4913 different values", "4096", "no label map", "Volume to Surface" });
+  this->Filter->SetInputData(
+    LabelImageOf(17, 17, 17, [](int i, int j, int k) { return 1e10 + i + 17 * (j + 17 * k); },
+      VTK_LONG_LONG));
+  this->ExpectError({ "more than 4096 different values that 32 bits don't hold", "10000000000" });
+  this->Filter->SetInputData(
+    LabelImageOf(17, 17, 17, [](int i, int j, int k) { return i + 17 * (j + 17 * k); }, VTK_INT));
   // Some of them can be chosen.
   this->Filter->AddLabel(100);
   this->Filter->Update();

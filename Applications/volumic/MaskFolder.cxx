@@ -1,0 +1,219 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "MaskFolder.h"
+
+#include "LabelNames.h"
+#include "Messages.h"
+#include "ReadVolume.h"
+#include "Texts.h"
+#include "ToolErrors.h"
+
+#include <vtkDataArray.h>
+#include <vtkFieldData.h>
+#include <vtkImageData.h>
+#include <vtkPointData.h>
+#include <vtkUnsignedShortArray.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <iterator>
+#include <limits>
+#include <map>
+#include <memory>
+#include <utility>
+
+namespace tool
+{
+namespace
+{
+/** Without its folder and its suffix, which may have two parts. */
+std::string NameOfMask(const std::string& file)
+{
+  const std::string name = std::filesystem::path(file).filename().string();
+  for (const char* suffix : { ".nii.gz", ".nii", ".seg.nrrd", ".nrrd", ".nhdr", ".mha", ".mhd", ".vti", ".mgz" })
+  {
+    if (EndsWith(Lower(name), suffix))
+    {
+      return name.substr(0, name.size() - std::string(suffix).size());
+    }
+  }
+  return "";
+}
+
+/** Whether the corners of both lie at the same places, to a hundredth of a voxel. */
+bool LieAlike(vtkImageData* a, vtkImageData* b)
+{
+  const int* extent = a->GetExtent();
+  if (!std::equal(extent, extent + 6, b->GetExtent()))
+  {
+    return false;
+  }
+  const double* spacing = a->GetSpacing();
+  const double most = 0.01 * *std::min_element(spacing, spacing + 3);
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    double places[2][3];
+    int index[3];
+    for (int k = 0; k < 3; ++k)
+    {
+      index[k] = extent[2 * k + (corner >> k & 1)];
+    }
+    a->TransformIndexToPhysicalPoint(index, places[0]);
+    b->TransformIndexToPhysicalPoint(index, places[1]);
+    for (int k = 0; k < 3; ++k)
+    {
+      if (!(std::abs(places[0][k] - places[1][k]) < most))
+      {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+/** The map as it grows, mask by mask. */
+class GrowingMap
+{
+public:
+  explicit GrowingMap(vtkIdType voxels)
+  {
+    this->Labels->SetName("Labels");
+    this->Labels->SetNumberOfTuples(voxels);
+    this->Labels->FillValue(0);
+  }
+
+  /** @throws Failure if the values are none of a mask. */
+  void Add(vtkDataArray* mask)
+  {
+    FailIf(mask->GetNumberOfComponents() != 1,
+      "voxels of a mask have one number, not " + NumberText(mask->GetNumberOfComponents()));
+    std::uint16_t* labels = this->Labels->GetPointer(0);
+    const vtkIdType count = mask->GetNumberOfTuples();
+    switch (mask->GetDataType())
+    {
+      vtkTemplateMacro(
+        this->AddValues(static_cast<const VTK_TT*>(mask->GetVoidPointer(0)), count, labels));
+      default:
+        throw Failure("holds no numbers");
+    }
+  }
+
+  vtkSmartPointer<vtkUnsignedShortArray> Labels = vtkSmartPointer<vtkUnsignedShortArray>::New();
+  std::vector<vtkIdType> Sizes = { 0 };            ///< by label: of its mask
+  std::map<std::pair<int, int>, vtkIdType> Shared; ///< by label: voxels of two masks
+
+private:
+  template <typename T>
+  void AddValues(const T* values, vtkIdType count, std::uint16_t* labels)
+  {
+    constexpr double most = 0.01; // as labels are rounded
+    double inside = 0.0;
+    vtkIdType size = 0;
+    for (vtkIdType i = 0; i < count; ++i)
+    {
+      const auto value = static_cast<double>(values[i]);
+      if (std::abs(value) > most) // NaN is not.
+      {
+        inside = size++ == 0 ? value : inside;
+        FailIf(!(std::abs(value - inside) <= most),
+          "has the values " + NumberText(inside) + " and " + NumberText(value) +
+            ": a mask has 0 and another one. A folder of volumes is read as masks, a file for each "
+            "label; give a volume, or a label map, by its own name");
+      }
+    }
+    this->Sizes.push_back(size);
+    const auto own = static_cast<std::uint16_t>(this->Sizes.size() - 1);
+    for (vtkIdType i = 0; i < count; ++i)
+    {
+      if (std::abs(static_cast<double>(values[i])) > most)
+      {
+        const std::uint16_t other = labels[i];
+        this->Shared[{ other, own }] += other != 0;
+        labels[i] = other == 0 || size < this->Sizes[other] ? own : other;
+      }
+    }
+  }
+};
+
+void TellOfShared(const GrowingMap& map, const std::vector<std::string>& files)
+{
+  constexpr std::size_t most = 5;
+  vtkIdType all = 0;
+  std::size_t pairs = 0;
+  std::string list;
+  for (const auto& [labels, voxels] : map.Shared)
+  {
+    all += voxels;
+    pairs += voxels > 0;
+    if (voxels > 0 && pairs <= most)
+    {
+      list += (list.empty() ? "" : ", ") +
+        NameOfMask(files[static_cast<std::size_t>(labels.first) - 1]) + " and " +
+        NameOfMask(files[static_cast<std::size_t>(labels.second) - 1]) + " " +
+        std::to_string(voxels);
+    }
+  }
+  if (all > 0)
+  {
+    TellOfFile(std::to_string(all) + " times a voxel is in two masks (" + list +
+      (pairs > most ? ", ..." : "") + "): it is taken for the smaller one's");
+  }
+}
+
+/** Organs that were not found have such. */
+void TellOfEmpty(const GrowingMap& map, const std::vector<std::string>& files)
+{
+  std::string list;
+  for (std::size_t label = 1; label < map.Sizes.size(); ++label)
+  {
+    list += map.Sizes[label] > 0 ? "" : (list.empty() ? "" : ", ") + NameOfMask(files[label - 1]);
+  }
+  if (!list.empty())
+  {
+    TellOfFile("masks without a voxel: " + list);
+  }
+}
+}
+
+std::vector<std::string> MasksAmong(const std::vector<std::string>& files)
+{
+  std::vector<std::string> masks;
+  std::copy_if(files.begin(), files.end(), std::back_inserter(masks),
+    [](const std::string& file) { return !NameOfMask(file).empty(); });
+  std::sort(masks.begin(), masks.end());
+  return masks;
+}
+
+vtkSmartPointer<vtkImageData> ReadMasks(const std::vector<std::string>& files)
+{
+  FailIf(files.size() > std::numeric_limits<std::uint16_t>::max(), "there are too many masks");
+  vtkSmartPointer<vtkImageData> first;
+  std::unique_ptr<GrowingMap> map;
+  LabelNames names;
+  for (const std::string& file : files)
+  {
+    const vtkSmartPointer<vtkImageData> mask = ReadVolume(file);
+    Named(file,
+      [&]
+      {
+        ChooseScalars(mask, "");
+        first = first ? first : mask;
+        map = map ? std::move(map) : std::make_unique<GrowingMap>(mask->GetNumberOfPoints());
+        FailIf(!LieAlike(first, mask),
+          "its voxels are not those of " + files.front() + ", in number or place");
+        map->Add(mask->GetPointData()->GetScalars());
+      });
+    names.push_back({ static_cast<int>(names.size()) + 1, PlainName(NameOfMask(file)) });
+  }
+  TellOfShared(*map, files);
+  TellOfEmpty(*map, files);
+  auto image = vtkSmartPointer<vtkImageData>::New();
+  image->CopyStructure(first);
+  image->GetFieldData()->ShallowCopy(first->GetFieldData());
+  image->GetPointData()->SetScalars(map->Labels);
+  SetLabelNames(image, names);
+  return image;
+}
+}
