@@ -95,10 +95,11 @@ LabelMap LoadLabelMap(const ToolOptions& options, vtkDeformableSurface* settings
   if (settings->GetMemoryLimit() > 0)
   {
     const LoadedVoxels loaded =
-      LoadVoxels(options.Volume, options.Array, settings, holder, announcer);
+      LoadVoxels(options.Volume, options.Array, options.Choice, settings, holder, announcer);
     map.Image = loaded.Components == 1 || component >= 0 ? loaded.Image : nullptr;
   }
-  map.Image = map.Image ? map.Image : LoadWhole(options.Volume, options.Array, announcer);
+  map.Image = map.Image ? map.Image :
+    LoadWhole(options.Volume, options.Array, options.Choice, announcer);
   if (options.Spacing)
   {
     map.Image->SetSpacing(options.Spacing->data());

@@ -37,10 +37,15 @@ namespace
 /** The member `input`: what the volume is. */
 Json InputFacts(const std::string& name, const VolumeFacts& volume)
 {
-  return { { "name", name }, { "dimensions", volume.Size() },
+  Json facts = { { "name", name }, { "dimensions", volume.Size() },
     { "spacing", AsJsonArray(volume.Spacing) }, { "origin", AsJsonArray(volume.Origin) },
     { "scalar_type", vtkImageScalarTypeNameMacro(volume.Type) },
     { "range", AsJsonArray(volume.Range) } };
+  if (!volume.Resampling.empty())
+  {
+    facts["resampling"] = volume.Resampling;
+  }
+  return facts;
 }
 
 /** Members of the size and shape of a surface, from its field data. */

@@ -65,6 +65,11 @@ void SetSpacing(ToolOptions& options, const std::string& text)
   options.Spacing = { numbers[0], numbers[1], numbers[2] };
 }
 
+void SetTime(ToolOptions& options, const std::string& text)
+{
+  options.Choice.Time = ParseNumber<int>(text);
+}
+
 void SetPieceSize(ToolOptions& options, const std::string& text)
 {
   options.PieceSize = ParseNumber<int>(text);
@@ -78,6 +83,23 @@ const std::vector<ProgramOption>& InputOptions()
       "the point array of the volume to use; without this option the active scalars"),
     { "spacing", "X,Y,Z",
       "distances of neighbouring voxels along the three axes, instead of the file's", SetSpacing },
+    { "series", "N|UID",
+      "of DICOM: the series to read where there are several, by its number in --list-series, or by "
+      "its identifier",
+      [](ToolOptions& chosen, const std::string& text) { chosen.Choice.Series = text; } },
+    Show("list-series", ToolOptions::Task::ListSeries,
+      "print the DICOM series of the volume instead of making surfaces: number, description, kind, "
+      "date, slices, identifier"),
+    { "time", "N",
+      "of several volumes in one (times, phases, masks) the one to read, counted from 0", SetTime },
+    { "raw", "X,Y,Z,TYPE[,big]",
+      "the file has no header: sizes and type of its voxels, such as 512,512,400,uint16, x fastest, "
+      "the least significant byte first",
+      [](ToolOptions& chosen, const std::string& text) { chosen.Choice.Raw = text; } },
+    { "no-resampling", "",
+      "refuse slices that are no regular grid (one is missing, the gantry was tilted) instead of "
+      "interpolating them linearly",
+      [](ToolOptions& chosen, const std::string&) { chosen.Choice.Resamples = false; } },
     Text("seeds", "FILE", &ToolOptions::Seeds,
       "start from icosahedra at these points: a mesh file's, or the lines 'x y z' (or 'x,y,z') of "
       "a .txt, .csv or .xyz file; world coordinates"),
@@ -235,6 +257,8 @@ ToolOptions ParseOptions(int argc, const char* const argv[])
   {
     options.Labels = { "all" };
   }
+  options.Choice.NeedsComponent = options.WantsSurface() && options.Labels.empty() &&
+    !options.HasProperty("SelectedComponent");
   CheckOptions(options);
   return options;
 }
@@ -365,12 +389,14 @@ void CheckWithLabels(const ToolOptions& options)
 
 void CheckOptions(const ToolOptions& options)
 {
-  if (options.Task != ToolOptions::Task::Segment && options.Task != ToolOptions::Task::ListFiles)
+  const bool isSegmented = options.Task == ToolOptions::Task::Segment;
+  if (!isSegmented && options.Task != ToolOptions::Task::ListFiles &&
+    options.Task != ToolOptions::Task::ListSeries)
   {
     return;
   }
   FailIf<UsageError>(options.Volume.empty(), "no volume is given");
-  if (options.Task == ToolOptions::Task::ListFiles)
+  if (!isSegmented)
   {
     return;
   }

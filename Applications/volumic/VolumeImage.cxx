@@ -107,10 +107,21 @@ void PlaceImage(vtkImageData* image, const VolumePlacement& placement)
 
 void SetWorldAxes(vtkImageData* image, const std::string& axes)
 {
-  vtkNew<vtkStringArray> label;
-  label->SetName("Axes");
-  label->InsertNextValue(axes);
-  image->GetFieldData()->AddArray(label);
+  SetFact(image, "Axes", axes);
+}
+
+void SetFact(vtkImageData* image, const std::string& name, const std::string& text)
+{
+  vtkNew<vtkStringArray> fact;
+  fact->SetName(name.c_str());
+  fact->InsertNextValue(text);
+  image->GetFieldData()->AddArray(fact);
+}
+
+std::string GetFact(vtkImageData* image, const std::string& name)
+{
+  auto* fact = vtkStringArray::SafeDownCast(image->GetFieldData()->GetAbstractArray(name.c_str()));
+  return fact && fact->GetNumberOfValues() > 0 ? fact->GetValue(0) : "";
 }
 
 void ToNativeOrder(vtkDataArray* values, bool isBig)

@@ -62,6 +62,10 @@ void PlaceImage(vtkImageData* image, const VolumePlacement& placement);
  */
 void SetWorldAxes(vtkImageData* image, const std::string& axes);
 
+/** Other field data that are a text, and what there is: "" for nothing. */
+void SetFact(vtkImageData* image, const std::string& name, const std::string& text);
+std::string GetFact(vtkImageData* image, const std::string& name);
+
 /** Turn values that are as a file has them, big-endian or not, into those of this machine. */
 void ToNativeOrder(vtkDataArray* values, bool isBig);
 
