@@ -9,7 +9,6 @@ set(volumic_reader_sources
   CheckImages.cxx
   CheckTiff.cxx
   CheckXmlInput.cxx
-  DicomHeader.cxx
   InputFiles.cxx
   LabelJson.cxx
   LabelNames.cxx
@@ -17,13 +16,14 @@ set(volumic_reader_sources
   MaskFolder.cxx
   Messages.cxx
   RawSlabs.cxx
-  ReadDicom.cxx
   ReadInv3.cxx
   ReadNifti.cxx
   ReadNrrd.cxx
   ReadPictures.cxx
+  ReadPlain.cxx
   ReadRaw.cxx
   ReadVolume.cxx
+  RegularGrid.cxx
   SlabReader.cxx
   Texts.cxx
   VolumeImage.cxx
@@ -31,6 +31,25 @@ set(volumic_reader_sources
 find_package(nlohmann_json 3.9 REQUIRED) # headers, in Debian's nlohmann-json3-dev
 find_package(LibArchive REQUIRED)        # in Debian's libarchive-dev
 set(volumic_file_libraries nlohmann_json::nlohmann_json LibArchive::LibArchive)
+# ITK reads DICOM (by GDCM, which comes with it) and what VTK has no reader for.
+option(VOLUMIC_USE_ITK "Have ITK read DICOM and other formats, where it is found" ON)
+set(volumic_reader_definitions "")
+set(volumic_reader_includes "")
+if (VOLUMIC_USE_ITK)
+  set(volumic_log_level "${CMAKE_MESSAGE_LOG_LEVEL}")
+  set(CMAKE_MESSAGE_LOG_LEVEL WARNING) # GDCM's package tells of programs that nobody wants.
+  find_package(ITK 5.2 QUIET COMPONENTS ITKIOGDCM ITKIOGIPL ITKIOLSM ITKIOMINC)
+  set(CMAKE_MESSAGE_LOG_LEVEL "${volumic_log_level}")
+  if (ITK_FOUND)
+    message(STATUS "DICOM, GIPL, LSM and MINC by ITK ${ITK_VERSION}")
+    list(APPEND volumic_reader_sources DicomFiles.cxx DicomStructure.cxx ReadDicom.cxx)
+    list(APPEND volumic_file_libraries ${ITK_LIBRARIES} ${ITKGDCM_LIBRARIES})
+    set(volumic_reader_includes ${ITK_INCLUDE_DIRS} ${ITKGDCM_INCLUDE_DIRS})
+    set(volumic_reader_definitions VOLUMIC_HAS_ITK)
+  else ()
+    message(STATUS "No DICOM: ITK is missing (Debian: libinsighttoolkit5-dev)")
+  endif ()
+endif ()
 list(TRANSFORM volumic_reader_sources PREPEND "${CMAKE_CURRENT_LIST_DIR}/")
 
 # Sets volumic_writer_sources: what writes surfaces (WriteResults.h), beside the readers.

@@ -6,6 +6,7 @@
 #include "Texts.h"
 
 #include <algorithm>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -115,9 +116,56 @@ void AddCompanions(const std::string& name, std::vector<std::string>& files)
 std::vector<std::string> FilesOfFolder(const std::string& folder)
 {
   const std::vector<std::string> files = FilesOf(folder);
-  std::vector<std::string> slices;
-  std::copy_if(files.begin(), files.end(), std::back_inserter(slices), IsDicom);
+  const auto slicesAmong = [](const std::vector<std::string>& all)
+  {
+    std::vector<std::string> slices;
+    std::copy_if(all.begin(), all.end(), std::back_inserter(slices), IsDicom);
+    return slices;
+  };
+  // Networks write a folder for each patient, study and series.
+  const bool isNested = files.empty() || !slicesAmong(files).empty();
+  const std::vector<std::string> slices =
+    isNested ? slicesAmong(FilesOf(folder, true)) : std::vector<std::string>();
   return slices.empty() ? files : slices;
+}
+
+bool IsDicom(const std::string& file)
+{
+  // GDCM takes some other files for old DICOM without this mark.
+  std::ifstream stream(file, std::ios::binary);
+  char head[132];
+  return stream.read(head, sizeof(head)) && std::memcmp(head + 128, "DICM", 4) == 0;
+}
+
+bool IsLikeSlice(const std::string& file, const std::vector<std::string>& slices)
+{
+  const auto withoutNumbers = [](const std::string& name)
+  {
+    std::string path = std::filesystem::path(name).filename().string();
+    std::replace_if(
+      path.begin(), path.end(), [](char c) { return c >= '0' && c <= '9'; }, '0');
+    path.erase(std::unique(path.begin(), path.end(),
+                 [](char a, char b) { return a == '0' && b == '0'; }),
+      path.end());
+    return path;
+  };
+  const std::string suffix = SuffixOf(file);
+  if (slices.empty() || suffix == ".dcm" || suffix == ".dicom" || suffix == ".ima")
+  {
+    return !slices.empty();
+  }
+  // A preamble of zeros, most often, and a mark; the length of the first group.
+  BinaryFile bytes(file);
+  const std::string head = bytes.Text(0, std::min<std::uint64_t>(bytes.Size(), 136));
+  const bool isPreamble = head.find_first_not_of('\0') == std::string::npos;
+  const bool isMarked = head.size() == 136 && head.compare(132, 4, "\2\0\0\0", 4) == 0;
+  const std::string like = withoutNumbers(file);
+  return isMarked ||
+    std::any_of(slices.begin(), slices.end(),
+      [&](const std::string& slice)
+      {
+        return withoutNumbers(slice) == like || (isPreamble && SuffixOf(slice) == suffix);
+      });
 }
 
 bool IsOfKey(const std::string& line, const std::string& key)

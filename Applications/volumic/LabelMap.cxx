@@ -96,17 +96,17 @@ LabelMap LoadLabelMap(const ToolOptions& options, vtkDeformableSurface* settings
   if (settings->GetMemoryLimit() > 0)
   {
     const LoadedVoxels loaded =
-      LoadVoxels(options.Volume, options.Array, settings, holder, announcer);
+      LoadVoxels(options.Volume, options.Array, options.Choice, settings, holder, announcer);
     map.Image = loaded.Components == 1 || component >= 0 ? loaded.Image : nullptr;
   }
-  map.Image = map.Image ? map.Image : LoadWhole(options.Volume, options.Array, announcer);
+  map.Image = map.Image ? map.Image :
+    LoadWhole(options.Volume, options.Array, options.Choice, announcer);
   const WorldSpace world =
     Named(options.Volume, [&] { return PlaceInWorld(map.Image, options.World); });
-  const std::optional<GridFacts> before = ResampleAsAsked(options, true, map.Image, announcer);
+  ResampleAsAsked(options, true, map.Image, announcer);
   const LabelNames own = OwnNames(options, map.Image);
   map.Facts = FactsOf(map.Image, map.Image->GetPointData()->GetScalars(), -1);
   map.Facts.World = world;
-  map.Facts.ResampledFrom = before;
   const bool isTaken = settings->GetMemoryLimit() > 0 && component >= 0; // out of the others
   const std::vector<int> components =
     ComponentsOf(options, map.Facts.Components, isTaken ? -1 : component, own);

@@ -30,7 +30,6 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
 
 namespace tool
 {
@@ -76,29 +75,29 @@ vtkSmartPointer<vtkImageData> GatherSlabs(
 }
 }
 
-vtkSmartPointer<vtkImageData> LoadWhole(
-  const std::string& name, const std::string& array, const Announcer& announcer)
+vtkSmartPointer<vtkImageData> LoadWhole(const std::string& name, const std::string& array,
+  const VolumeChoice& choice, const Announcer& announcer)
 {
   vtkSmartPointer<vtkImageData> image;
-  announcer.Follow(name, [&] { image = ReadVolume(name); });
+  announcer.Follow(name, [&] { image = ReadVolume(name, choice); });
   Named(name, [&] { ChooseScalars(image, array); });
   return image;
 }
 
 LoadedVoxels LoadVoxels(const std::string& name, const std::string& array,
-  vtkDeformableSurface* filter, vtkImagePyramid* holder, const Announcer& announcer)
+  const VolumeChoice& choice, vtkDeformableSurface* filter, vtkImagePyramid* holder, const Announcer& announcer)
 {
   LoadedVoxels loaded;
   vtkSmartPointer<vtkImageData>& image = loaded.Image;
   if (filter->GetMemoryLimit() == 0)
   {
-    image = LoadWhole(name, array, announcer);
+    image = LoadWhole(name, array, choice, announcer);
   }
   else
   {
     OpenedVolume opened;
     announcer.Follow(name,
-      [&] { opened = OpenVolume(name, array, filter->GetScratchDirectory()); });
+      [&] { opened = OpenVolume(name, array, filter->GetScratchDirectory(), choice); });
     if (!opened.Whole.empty())
     {
       announcer.Say("warning: " + name + ": volumes of this kind (" + opened.Whole +
@@ -150,19 +149,19 @@ LoadedVolume LoadVolume(const ToolOptions& options, vtkDeformableSurface* filter
   vtkImagePyramid* holder, const Announcer& announcer)
 {
   const LoadedVoxels loaded =
-    LoadVoxels(options.Volume, options.Array, filter, holder, announcer);
+    LoadVoxels(options.Volume, options.Array, options.Choice, filter, holder, announcer);
   LoadedVolume volume;
   volume.Image = loaded.Image;
   const WorldSpace world =
     Named(options.Volume, [&] { return PlaceInWorld(volume.Image, options.World); });
-  const std::optional<GridFacts> before = filter->GetMemoryLimit() > 0
-    ? std::nullopt
-    : ResampleAsAsked(options, false, volume.Image, announcer);
+  if (filter->GetMemoryLimit() == 0)
+  {
+    ResampleAsAsked(options, false, volume.Image, announcer);
+  }
   const int component = filter->GetSelectedComponent();
   volume.Facts =
     FactsOf(volume.Image, volume.Image->GetPointData()->GetScalars(), component);
   volume.Facts.World = world;
-  volume.Facts.ResampledFrom = before;
   Announce(options, volume.Facts, loaded.Components, component, announcer);
   return volume;
 }
@@ -180,7 +179,7 @@ std::string AddEdges(const ToolOptions& options, vtkImageData* volume,
   if (!points->HasArray(name.c_str()))
   {
     const vtkSmartPointer<vtkImageData> edges =
-      LoadVoxels(options.Edges, "", filter, holder, announcer).Image;
+      LoadVoxels(options.Edges, "", {}, filter, holder, announcer).Image;
     FailIf(!std::equal(edges->GetDimensions(), edges->GetDimensions() + 3, volume->GetDimensions()),
       options.Edges + ": its size differs from the volume's");
     name = "Edges";

@@ -3,6 +3,7 @@
 #ifndef volumicLoadInputs_h
 #define volumicLoadInputs_h
 
+#include "ReadVolume.h"
 #include "VolumeFacts.h"
 
 #include <vtkSmartPointer.h>
@@ -45,12 +46,12 @@ struct LoadedVoxels
 };
 
 /** Any volume as a whole, with warnings of what its file says and is not followed. */
-vtkSmartPointer<vtkImageData> LoadWhole(
-  const std::string& name, const std::string& array, const Announcer& announcer);
+vtkSmartPointer<vtkImageData> LoadWhole(const std::string& name, const std::string& array,
+  const VolumeChoice& choice, const Announcer& announcer);
 
 /** The same, or slab by slab. */
 LoadedVoxels LoadVoxels(const std::string& name, const std::string& array,
-  vtkDeformableSurface* filter, vtkImagePyramid* holder, const Announcer& announcer);
+  const VolumeChoice& choice, vtkDeformableSurface* filter, vtkImagePyramid* holder, const Announcer& announcer);
 
 // ---- What else a surface is made of -------------------------------------------------------------
 

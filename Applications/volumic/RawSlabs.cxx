@@ -138,8 +138,21 @@ void RawSlabs::CheckLength(const std::string& file) const
   }
   else
   {
-    NeedJustBytes(there, this->Share());
+    const std::uint64_t needed = this->Share() + this->After;
+    (this->HasMore ? NeedBytes : NeedJustBytes)(there, needed);
   }
+}
+
+void RawSlabs::PickTime(const VolumeChoice& choice, std::uint64_t times)
+{
+  const auto time = static_cast<std::uint64_t>(TimeOf(choice, times));
+  FailIf(times > 1 && (this->Files.size() > 1 || this->AreLast || this->Code == Packing::Text ||
+      this->Code == Packing::Bzip2),
+    "of several volumes in several files, or packed so, none can be chosen");
+  const std::uint64_t before = Times(time, this->Bytes());
+  (this->Code == Packing::None ? this->Start : this->Before) += before;
+  // All of them must be there.
+  this->After = Times(times, this->Bytes()) - before - this->Bytes();
 }
 
 void RawSlabs::Prepare(const Opening& opening)
@@ -161,6 +174,7 @@ void RawSlabs::Prepare(const Opening& opening)
   this->Files = { this->Unpacked->Path() };
   this->Code = Packing::None;
   this->Start = 0;
+  this->After = 0;
 }
 
 void RawSlabs::Unpack(const UnpackedSink& sink) const
@@ -168,9 +182,24 @@ void RawSlabs::Unpack(const UnpackedSink& sink) const
   for (const std::string& file : this->Files)
   {
     std::ifstream packed = OpenData(file, this->Start);
-    const std::uint64_t count = MostUnpacked(this->Share(), this->Before);
-    (this->Code == Packing::Zlib ? InflateJust : BunzipJust)(
-      packed, Without(this->Before, sink), count);
+    std::uint64_t left = this->Share();
+    const UnpackedSink some = [&left, &sink](const char* bytes, std::size_t count)
+    {
+      const auto wanted = static_cast<std::size_t>(std::min<std::uint64_t>(left, count));
+      sink(bytes, wanted);
+      left -= wanted;
+    };
+    const std::uint64_t count = MostUnpacked(this->Share(), this->Before) + this->After;
+    if (this->HasMore)
+    {
+      Inflate(packed, Without(this->Before, some), Times(MostOfZlib, SizeOfData(file)));
+      NeedBytes(this->Share() - left, this->Share());
+    }
+    else
+    {
+      (this->Code == Packing::Zlib ? InflateJust : BunzipJust)(
+        packed, Without(this->Before, some), count);
+    }
   }
 }
 

@@ -1,387 +1,439 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// vtkDICOMImageReader, given a folder, takes the distance of the slices from their thickness, drops
-// their orientation and mixes series. So each slice is read by a reader of its own, and placed here
-// by its position and orientation (DICOM PS3.3, C.7.6.2).
-#include "ReadVolume.h"
-
-#include "BinaryFile.h"
-#include "DicomHeader.h"
+// Which of the slices of a folder are a volume, and where they lie (DICOM PS3.3, C.7.6.2).
+#include "DicomFiles.h"
+#include "LabelNames.h"
 #include "Messages.h"
+#include "ReadVolume.h"
+#include "RegularGrid.h"
 #include "SlabReader.h"
 #include "Texts.h"
 #include "ToolErrors.h"
-#include "VolumeImage.h"
 
-#include <vtkDICOMImageReader.h>
 #include <vtkDataArray.h>
-#include <vtkImageData.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkVersion.h>
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <locale>
+#include <limits>
 #include <map>
-#include <memory>
-#include <sstream>
 #include <utility>
 
 namespace tool
 {
 namespace
 {
-struct Slice
-{
-  std::string File;
-  Vector3 Position;
-  Vector3 Across;
-  Vector3 Down;
-  Vector3 Spacing; ///< between columns, between rows; the thickness
-  std::string Study;
-  vtkSmartPointer<vtkImageData> Image;
-};
+// ---- Which slices -------------------------------------------------------------------------------
 
-/** Tolerated deviation of the distance of two slices from their mean, as a share of it. */
-constexpr double UnevenDistance = 0.05;
-
-/** VTK's reader keeps numbers as float: the decimal number that the file most likely has. */
-double Decimal(double number)
+std::string ListOf(const std::vector<DicomSeries>& all)
 {
-  char buffer[32];
-  const char* end = std::to_chars(buffer, buffer + sizeof(buffer), static_cast<float>(number)).ptr;
-  double value = number;
-  std::from_chars(buffer, end, value);
-  return value;
-}
-
-/** @throws Failure if the file has not what vtkDICOMImageReader takes for granted. */
-void CheckPixels(const DicomHeader& header)
-{
-  FailIf(!header.HasPixels,
-    "has no pixels: it is cut off, or no slice; replace it, or take it out of the folder");
-  FailIf(
-    header.Frames > 1, NumberText(header.Frames) + " frames; files of several frames are not read");
-  FailIf(header.Samples != 1, NumberText(header.Samples) + " components per pixel; one is needed");
-  FailIf(header.Bits != 8 && header.Bits != 16,
-    NumberText(header.Bits) + " bits per pixel; 8 and 16 are read");
-  FailIf(header.NeededBytes() == 0, "lacks its rows or columns: it is damaged, or no slice");
-  // Odd numbers of bytes are made even.
-  if (header.PixelBytes > header.NeededBytes() + header.NeededBytes() % 2)
+  std::string text;
+  for (std::size_t i = 0; i < all.size(); ++i)
   {
-    NeedJustBytes(header.PixelBytes, header.NeededBytes());
+    text += (i == 0 ? "" : "; ") + all[i].Text(i + 1);
   }
-  FailIf(header.PixelBytes < header.NeededBytes(),
-    "the pixels are cut off: " + std::to_string(header.PixelBytes) + " bytes, " +
-      std::to_string(header.NeededBytes()) + " needed; copy the file again");
+  return text;
 }
 
-/** The header of a slice, or of something that is no image at all. */
-DicomHeader ReadHeader(const std::string& file)
+/** The series that is wanted: a number, an identifier, or "" for the only one. */
+DicomSeries Choose(std::vector<DicomSeries> all, const std::string& wanted)
 {
-  return Named(file,
-    [&file]
-    {
-      const DicomHeader header = ReadDicomHeader(file);
-      if (!header.IsOtherThanImage())
-      {
-        CheckPixels(header);
-      }
-      return header;
-    });
-}
-
-/** @throws Failure with a list of the series unless there is one. `files` have these headers. */
-void CheckSingleSeries(
-  const std::vector<std::string>& files, const std::vector<DicomHeader>& headers)
-{
-  std::map<std::string, int> counts; // of the files of each series
-  for (const DicomHeader& header : headers)
+  FailIf(all.empty(), "no DICOM image there");
+  for (std::size_t i = 0; i < all.size(); ++i)
   {
-    ++counts[header.Series];
-  }
-  std::string names; // in the order of their first files
-  for (std::size_t i = 0; i < headers.size(); ++i)
-  {
-    if (const int count = std::exchange(counts[headers[i].Series], 0); count > 0)
+    if (wanted == std::to_string(i + 1) || (!wanted.empty() && wanted == all[i].Identifier))
     {
-      const std::string& description = headers[i].Description;
-      names += (names.empty() ? "" : "; ") + (description.empty() ? "unnamed" : description) +
-        ": " + NumberText(count) + (count == 1 ? " file, " : " files, from ") +
-        std::filesystem::path(files[i]).filename().string();
+      return all[i];
     }
   }
-  FailIf(counts.size() > 1,
-    std::to_string(counts.size()) + " series, one per folder is needed (" + names + ")");
+  FailIf(!wanted.empty(), "no series " + wanted + "; there are " + ListOf(all));
+  FailIf(all.size() > 1,
+    std::to_string(all.size()) + " series, one is needed; choose it with --series N: " +
+      ListOf(all));
+  return all.front();
+}
+
+/** Whether two slices may be of one volume. */
+bool IsLike(const DicomSlice& a, const DicomSlice& b)
+{
+  const auto isNear = [](const auto& one, const auto& other)
+  {
+    return one.has_value() == other.has_value() &&
+      (!one || (std::abs((*one)[0] - (*other)[0]) < 1e-3 && std::abs((*one)[1] - (*other)[1]) < 1e-3));
+  };
+  const bool areParallel = !a.Axes || !b.Axes ||
+    (Dot((*a.Axes)[0], (*b.Axes)[0]) > 0.999 && Dot((*a.Axes)[1], (*b.Axes)[1]) > 0.999);
+  return a.Size == b.Size && areParallel && isNear(a.Spacing, b.Spacing);
+}
+
+/** Those that are like most others: not a localizer, which lies across. */
+std::vector<DicomSlice> MostAlike(const DicomSeries& series)
+{
+  std::vector<std::vector<DicomSlice>> groups;
+  for (const DicomSlice& slice : series.Slices)
+  {
+    const auto found = std::find_if(groups.begin(), groups.end(),
+      [&slice](const auto& group) { return IsLike(slice, group.front()); });
+    (found != groups.end() ? *found : groups.emplace_back()).push_back(slice);
+  }
+  std::stable_sort(groups.begin(), groups.end(),
+    [](const auto& a, const auto& b) { return a.size() > b.size(); });
+  if (groups.size() > 1)
+  {
+    const DicomSlice& other = groups[1].front();
+    const std::string which = other.File + ": its " +
+      (other.Size != groups[0].front().Size ? "size" : "place, orientation or pixel spacing") +
+      " differs from that of " + groups[0].front().File;
+    const std::size_t left = series.Slices.size() - groups[0].size();
+    FailIf(left * 4 > series.Slices.size(), which + "; take those that are no slices of the volume "
+      "out of the folder");
+    TellOfFile(which + "; " + std::to_string(left) + " of " +
+      std::to_string(series.Slices.size()) + " slices are left out (a localizer?)");
+  }
+  return groups[0];
+}
+
+/** Sorted along the normal; of several at each place those of one time. */
+std::vector<DicomSlice> OfOneTime(std::vector<DicomSlice> slices, const VolumeChoice& choice)
+{
+  const Vector3 normal = Cross((*slices[0].Axes)[0], (*slices[0].Axes)[1]);
+  const auto along = [&normal](const DicomSlice& slice) { return Dot(*slice.Position, normal); };
+  std::stable_sort(slices.begin(), slices.end(),
+    [&along](const DicomSlice& a, const DicomSlice& b) { return along(a) < along(b); });
+  std::vector<std::vector<DicomSlice>> places;
+  for (const DicomSlice& slice : slices)
+  {
+    const bool isNew = places.empty() || along(slice) - along(places.back().front()) > 1e-4;
+    (isNew ? places.emplace_back() : places.back()).push_back(slice);
+  }
+  const std::size_t times = places.front().size();
+  for (std::vector<DicomSlice>& place : places)
+  {
+    FailIf(place.size() != times,
+      place.back().File + " lies where " + place.front().File +
+        " does, and others don't come twice; take what is no slice of the volume out of the folder");
+    std::stable_sort(place.begin(), place.end(),
+      [](const DicomSlice& a, const DicomSlice& b) { return a.Time < b.Time; });
+  }
+  const auto chosen = static_cast<std::size_t>(TimeOf(choice, times));
+  std::vector<DicomSlice> found;
+  for (const std::vector<DicomSlice>& place : places)
+  {
+    found.push_back(place[chosen]);
+  }
+  return found;
+}
+
+Vector3 Step(const DicomSlice& a, const DicomSlice& b)
+{
+  return { (*b.Position)[0] - (*a.Position)[0], (*b.Position)[1] - (*a.Position)[1],
+    (*b.Position)[2] - (*a.Position)[2] };
 }
 
 /** @throws Failure naming the first of several slices that can't be placed among the others. */
-void CheckPlaces(const std::vector<std::string>& files, const std::vector<DicomHeader>& headers)
+void NeedPlaces(const std::vector<DicomSlice>& slices)
 {
-  for (std::size_t i = 0; headers.size() > 1 && i < headers.size(); ++i)
+  for (const DicomSlice& slice : slices)
   {
-    FailIf(!headers[i].HasPosition || !headers[i].HasOrientation,
-      files[i] + ": lacks its " + (headers[i].HasPosition ? "orientation" : "position") +
+    FailIf(slices.size() > 1 && (!slice.Position || !slice.Axes),
+      slice.File + ": lacks its " + (slice.Position ? "orientation" : "position") +
         ": not a slice of a volume; take it out of the folder");
   }
 }
 
-Slice ReadSlice(const std::string& file)
+/** Tells of places that were guessed. */
+void TellOfPlaces(const std::vector<DicomSlice>& slices)
 {
-  vtkNew<vtkDICOMImageReader> reader;
-  reader->SetFileName(file.c_str());
-  VtkMessages messages;
-  messages.UpdateReader(reader, file);
-  Slice slice;
-  slice.File = file;
-  const float* position = reader->GetImagePositionPatient();
-  const float* orientation = reader->GetImageOrientationPatient();
-  for (int c = 0; c < 3; ++c)
+  if (slices.front().IsGuessed)
   {
-    slice.Position[c] = Decimal(position[c]);
-    slice.Across[c] = Decimal(orientation[c]);
-    slice.Down[c] = Decimal(orientation[3 + c]);
+    const double distance = slices.size() < 2 ? 1.0
+      : std::sqrt(Dot(Step(slices[0], slices[1]), Step(slices[0], slices[1])));
+    TellOfFile("its " + std::to_string(slices.size()) +
+      " frames tell no places; they are taken for slices, " + NumberText(distance) + " mm apart");
   }
-  const double* spacing = reader->GetPixelSpacing();
-  slice.Spacing = { Decimal(spacing[0]), Decimal(spacing[1]), Decimal(spacing[2]) };
-#if VTK_VERSION_NUMBER < VTK_VERSION_CHECK(9, 6, 0)
-  // The file has the distance of the rows first, and so had VTK's reader.
-  std::swap(slice.Spacing[0], slice.Spacing[1]);
-#endif
-  slice.Study = reader->GetStudyUID() ? reader->GetStudyUID() : "";
-  slice.Image = reader->GetOutput();
-  FailIf(!slice.Image->GetPointData()->GetScalars(), file + ": has no pixels");
-  return slice;
 }
 
-void CheckFits(const Slice& slice, const Slice& first, const std::array<int, 2>& size)
+/** What lies between pixels, told where it is guessed. */
+std::array<double, 2> SpacingOf(const DicomSlice& slice)
 {
-  const bool isSameSeries = slice.Study == first.Study && Dot(slice.Across, first.Across) > 0.999 &&
-    Dot(slice.Down, first.Down) > 0.999;
-  const bool isSameSize = std::equal(size.begin(), size.end(), slice.Image->GetDimensions()) &&
-    std::abs(slice.Spacing[0] - first.Spacing[0]) < 1e-3 &&
-    std::abs(slice.Spacing[1] - first.Spacing[1]) < 1e-3;
-  FailIf(!isSameSeries || !isSameSize,
-    slice.File + ": its " + (isSameSize ? "study or orientation" : "size or pixel spacing") +
-      " differs from that of " + first.File + "; one series per folder is needed");
+  if (slice.Spacing)
+  {
+    return *slice.Spacing;
+  }
+  const std::array<double, 2> found =
+    slice.ImagerSpacing.value_or(std::array<double, 2>{ 1.0, 1.0 });
+  TellOfFile("it has no Pixel Spacing; " +
+    (slice.ImagerSpacing ? "the Imager Pixel Spacing, " + NumberText(found[1]) + " x " +
+          NumberText(found[0]) + ", that of the detector, is taken"
+                         : std::string("1 x 1 is taken")) +
+    "; choose another one with --spacing");
+  return found;
 }
 
-/**
- * Distance of neighbouring slices, which are sorted. @throws Failure for missing, repeated and
- * sheared ones.
- */
-double SliceDistance(const std::vector<Slice>& slices, const Vector3& normal)
+// ---- Their voxels -------------------------------------------------------------------------------
+
+bool IsWhole(double number)
 {
-  if (slices.size() == 1)
+  return number == std::floor(number) && std::abs(number) < 1e9;
+}
+
+/** The smallest type of these that all values between two have. */
+int TypeFor(double least, double most)
+{
+  static const int types[] = { VTK_SHORT, VTK_UNSIGNED_SHORT, VTK_INT };
+  for (const int type : types)
   {
-    return slices[0].Spacing[2] > 0.0 ? slices[0].Spacing[2] : 1.0;
-  }
-  const auto along = [&](std::size_t i) { return Dot(slices[i].Position, normal); };
-  const double mean =
-    (along(slices.size() - 1) - along(0)) / static_cast<double>(slices.size() - 1);
-  double shortest = mean;
-  double longest = mean;
-  for (std::size_t i = 1; i < slices.size(); ++i)
-  {
-    const double step = along(i) - along(i - 1);
-    FailIf(step <= 1e-4,
-      slices[i].File + " lies where " + slices[i - 1].File +
-        " does; one series per folder is needed");
-    shortest = std::min(shortest, step);
-    longest = std::max(longest, step);
-  }
-  if (std::max(longest - mean, mean - shortest) > UnevenDistance * mean)
-  {
-    const auto rounded = [](double length) { return NumberText(std::round(1e3 * length) / 1e3); };
-    throw Failure("slices are " + rounded(shortest) + " to " + rounded(longest) +
-      " mm apart: some are missing, or the volume must be resampled");
-  }
-  for (std::size_t i = 1; i < slices.size(); ++i)
-  {
-    const double step = along(i) - along(i - 1);
-    Vector3 aside;
-    for (int c = 0; c < 3; ++c)
+    if (least >= vtkDataArray::GetDataTypeMin(type) && most <= vtkDataArray::GetDataTypeMax(type))
     {
-      aside[c] = slices[i].Position[c] - slices[i - 1].Position[c] - step * normal[c];
-    }
-    FailIf(std::sqrt(Dot(aside, aside)) > UnevenDistance * mean,
-      "the gantry was tilted; the volume must be resampled first (dcm2niix does so)");
-  }
-  return mean;
-}
-
-/** A series whose slices are sorted. */
-struct Series
-{
-  std::vector<Slice> Slices; ///< with or without their images
-  std::array<int, 2> Size = { 0, 0 };
-  int Type = 0; ///< the widest of the slices
-  VolumePlacement Placement;
-};
-
-/**
- * The voxels of so many slices one after the other; slices without an image are read again. VTK's
- * reader turns the rows upside down.
- */
-vtkSmartPointer<vtkDataArray> StackVoxels(
-  const Series& series, std::size_t first, std::size_t count)
-{
-  const std::array<int, 2>& size = series.Size;
-  const vtkIdType area = static_cast<vtkIdType>(size[0]) * size[1];
-  auto voxels = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(series.Type));
-  voxels->SetNumberOfTuples(area * static_cast<vtkIdType>(count));
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    const Slice& slice = series.Slices[first + i];
-    const vtkSmartPointer<vtkImageData> image =
-      slice.Image ? slice.Image : ReadSlice(slice.File).Image;
-    vtkDataArray* pixels = image->GetPointData()->GetScalars();
-    for (int row = 0; row < size[1]; ++row)
-    {
-      voxels->InsertTuples(static_cast<vtkIdType>(i) * area + static_cast<vtkIdType>(row) * size[0],
-        size[0], static_cast<vtkIdType>(size[1] - 1 - row) * size[0], pixels);
+      return type;
     }
   }
-  return voxels;
+  return VTK_DOUBLE;
 }
 
-/** Reads and sorts all slices; their images are kept, or let go one by one. */
-Series ReadSeries(const std::vector<std::string>& files, bool keepsImages)
-{
-  std::vector<std::string> images;
-  std::vector<DicomHeader> headers;
-  for (const std::string& file : files)
-  {
-    const DicomHeader header = ReadHeader(file);
-    if (!header.IsOtherThanImage())
-    {
-      images.push_back(file);
-      headers.push_back(header);
-    }
-  }
-  CheckSingleSeries(images, headers);
-  CheckPlaces(images, headers);
-
-  Series series;
-  std::vector<Slice>& slices = series.Slices;
-  for (const std::string& file : images)
-  {
-    slices.push_back(ReadSlice(file));
-    const vtkSmartPointer<vtkImageData> image = slices.back().Image;
-    const int* size = image->GetDimensions();
-    series.Size = slices.size() == 1 ? std::array<int, 2>{ size[0], size[1] } : series.Size;
-    CheckFits(slices.back(), slices.front(), series.Size);
-    vtkDataArray* pixels = image->GetPointData()->GetScalars();
-    // Slices may differ in slope and shift, and so in type: the widest holds all.
-    const bool isWider = slices.size() == 1 ||
-      pixels->GetDataTypeSize() > vtkDataArray::GetDataTypeSize(series.Type) ||
-      (pixels->GetDataTypeMin() < 0 &&
-        pixels->GetDataTypeSize() == vtkDataArray::GetDataTypeSize(series.Type));
-    series.Type = isWider ? pixels->GetDataType() : series.Type;
-    slices.back().Image = keepsImages ? image : nullptr;
-  }
-  FailIf(slices.empty(), "no DICOM image there");
-  const Vector3 normal = Cross(slices[0].Across, slices[0].Down);
-  series.Placement.Axes = { slices[0].Across, slices[0].Down, normal };
-  std::stable_sort(slices.begin(), slices.end(),
-    [&](const Slice& a, const Slice& b)
-    { return Dot(a.Position, normal) < Dot(b.Position, normal); });
-  const DicomHeader& header = headers.front();
-  if (!header.HasSpacing)
-  {
-    std::istringstream numbers(header.ImagerSpacing);
-    numbers.imbue(std::locale::classic());
-    Vector3& spacing = slices[0].Spacing;
-    char sign = 0;
-    const bool isTold = numbers >> spacing[1] >> sign >> spacing[0] &&
-      std::min(spacing[0], spacing[1]) > 0.0;
-    spacing[0] = isTold ? spacing[0] : 1.0;
-    spacing[1] = isTold ? spacing[1] : 1.0;
-    TellOfFile("it has no Pixel Spacing; " +
-      (isTold ? "the Imager Pixel Spacing, " + NumberText(spacing[1]) + " x " +
-            NumberText(spacing[0]) + ", that of the detector, is taken"
-              : std::string("1 x 1 is taken")) + "; choose another one with --spacing");
-  }
-  const double distance = SliceDistance(slices, normal);
-  series.Placement.Spacing = { slices[0].Spacing[0], slices[0].Spacing[1], distance };
-  series.Placement.Origin = slices[0].Position;
-  return series;
-}
-
+/** Slices that are sorted, as values of one type. */
 class DicomSlabs : public SlabReader
 {
 public:
-  DicomSlabs(const std::vector<std::string>& files, bool keepsImages)
-    : Held(ReadSeries(files, keepsImages))
+  DicomSlabs(std::vector<DicomSlice> slices, bool isWhole) : Slices(std::move(slices))
   {
-    this->Size = { this->Held.Size[0], this->Held.Size[1],
-      static_cast<int>(this->Held.Slices.size()) };
-    this->Type = this->Held.Type;
-    this->Placement = this->Held.Placement;
+    this->Size = { this->Slices[0].Size[0], this->Slices[0].Size[1],
+      static_cast<int>(this->Slices.size()) };
+    bool areWhole = true;
+    bool areAsStored = true;
+    for (const DicomSlice& slice : this->Slices)
+    {
+      const vtkSmartPointer<vtkDataArray> pixels = this->Pixels.Read(slice);
+      areWhole = areWhole && IsWhole(slice.Slope) && IsWhole(slice.Shift);
+      this->Type = this->Type == 0 ? pixels->GetDataType() : this->Type;
+      areAsStored = areAsStored && slice.Slope == 1.0 && slice.Shift == 0.0 &&
+        pixels->GetDataType() == this->Type;
+      this->TakeRange(slice, pixels);
+      if (isWhole)
+      {
+        this->Kept.push_back(pixels);
+      }
+    }
+    this->Least = std::min(this->Least, this->Most); // where there are no pixels but padding
+    this->Type = areAsStored ? this->Type
+      : areWhole             ? TypeFor(this->Least, this->Most)
+                             : VTK_FLOAT;
     this->WorldAxes = "LPS";
     this->LengthUnit = "mm";
   }
 
+  double Outside() const { return this->Least; } ///< the least value of the pixels
+
   vtkSmartPointer<vtkDataArray> Read(int first, int count) override
   {
-    return StackVoxels(
-      this->Held, static_cast<std::size_t>(first), static_cast<std::size_t>(count));
+    const vtkIdType area = static_cast<vtkIdType>(this->Size[0]) * this->Size[1];
+    auto values = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(this->Type));
+    values->SetNumberOfTuples(area * count);
+    for (int i = 0; i < count; ++i)
+    {
+      const auto number = static_cast<std::size_t>(first + i);
+      const DicomSlice& slice = this->Slices[number];
+      const vtkSmartPointer<vtkDataArray> pixels =
+        this->Kept.empty() ? this->Pixels.Read(slice) : this->Kept[number];
+      if (slice.Slope == 1.0 && slice.Shift == 0.0 && !slice.Padding &&
+        pixels->GetDataType() == this->Type)
+      {
+        values->InsertTuples(area * i, area, 0, pixels);
+        continue;
+      }
+      for (vtkIdType pixel = 0; pixel < area; ++pixel)
+      {
+        const double value = pixels->GetComponent(pixel, 0);
+        values->SetComponent(area * i + pixel, 0,
+          slice.Padding == value ? this->Least : slice.Slope * value + slice.Shift);
+      }
+    }
+    return values;
   }
 
 private:
-  Series Held;
+  /** Of the pixels that are such. */
+  void TakeRange(const DicomSlice& slice, vtkDataArray* pixels)
+  {
+    for (vtkIdType i = 0; i < pixels->GetNumberOfTuples(); ++i)
+    {
+      const double pixel = pixels->GetComponent(i, 0);
+      if (slice.Padding != pixel)
+      {
+        const double value = slice.Slope * pixel + slice.Shift;
+        this->Least = std::min(this->Least, value);
+        this->Most = std::max(this->Most, value);
+      }
+    }
+  }
+
+  std::vector<DicomSlice> Slices;
+  DicomPixels Pixels;
+  std::vector<vtkSmartPointer<vtkDataArray>> Kept;
+  double Least = std::numeric_limits<double>::max();
+  double Most = std::numeric_limits<double>::lowest();
+};
+
+/** The volume that slices of a series are. */
+std::unique_ptr<SlabReader> OpenSeries(const DicomSeries& series, const Opening& opening)
+{
+  std::vector<DicomSlice> slices = MostAlike(series);
+  NeedPlaces(slices);
+  TellOfPlaces(slices);
+  if (slices.size() > 1)
+  {
+    slices = OfOneTime(std::move(slices), opening.Choice);
+  }
+  SlicePlaces places;
+  for (const DicomSlice& slice : slices)
+  {
+    places.Positions.push_back(slice.Position.value_or(Vector3{ 0, 0, 0 }));
+  }
+  const std::array<Vector3, 2> axes = slices[0].Axes.value_or(
+    std::array<Vector3, 2>{ { { 1, 0, 0 }, { 0, 1, 0 } } });
+  places.Across = axes[0];
+  places.Down = axes[1];
+  places.Spacing = SpacingOf(slices[0]);
+  const double thickness = slices[0].Thickness > 0.0 ? slices[0].Thickness : 1.0;
+  auto slabs = std::make_unique<DicomSlabs>(std::move(slices), opening.IsWhole);
+  const std::string uneven = places.Unevenness();
+  if (uneven.empty())
+  {
+    slabs->Placement = places.Placement(thickness);
+    return slabs;
+  }
+  FailIf(!opening.Choice.Resamples, uneven + "; without --no-resampling they are resampled");
+  const double outside = slabs->Outside();
+  const std::array<int, 3> size = slabs->Size;
+  std::unique_ptr<SlabReader> grid =
+    ResampledSlices(std::shared_ptr<SlabReader>(std::move(slabs)), places, outside);
+  grid->Resampling = uneven + "; resampled from " + SizeText(size) + " to " +
+    SizeText(grid->Size) + " voxels of " + NumberText(grid->Placement.Spacing[0]) + " x " +
+    NumberText(grid->Placement.Spacing[1]) + " x " + NumberText(grid->Placement.Spacing[2]);
+  TellOfFile(grid->Resampling);
+  return grid;
+}
+
+// ---- Segmentations ------------------------------------------------------------------------------
+
+/** All frames of a segmentation as one label map. */
+class SegmentSlabs : public SlabReader
+{
+public:
+  explicit SegmentSlabs(const DicomSeries& series) : Segments(series.Segments)
+  {
+    const DicomSlice& first = series.Slices.front();
+    std::vector<DicomSlice> sorted = series.Slices;
+    NeedPlaces(sorted);
+    FailIf(!first.Axes || !first.Position, "its frames tell no places");
+    TellOfPlaces(sorted);
+    const std::array<Vector3, 2> axes = *first.Axes;
+    const Vector3 normal = Cross(axes[0], axes[1]);
+    const auto along = [&normal](const DicomSlice& slice) { return Dot(*slice.Position, normal); };
+    std::stable_sort(sorted.begin(), sorted.end(),
+      [&along](const DicomSlice& a, const DicomSlice& b) { return along(a) < along(b); });
+    SlicePlaces places;
+    places.Across = axes[0];
+    places.Down = axes[1];
+    places.Spacing = SpacingOf(first);
+    // Frames of several segments lie at one place, and empty ones are left out.
+    double distance = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 1; i < sorted.size(); ++i)
+    {
+      const double step = along(sorted[i]) - along(sorted[i - 1]);
+      distance = step > 1e-4 ? std::min(distance, step) : distance;
+    }
+    distance = std::isfinite(distance) ? distance : std::max(first.Thickness, 1e-3);
+    places.Positions = { *sorted.front().Position };
+    this->Placement = places.Placement(distance);
+    const double steps = std::round((along(sorted.back()) - along(sorted.front())) / distance);
+    FailIf(steps > 100000, "its frames lie too far from each other");
+    this->Frames.resize(static_cast<std::size_t>(steps) + 1);
+    for (const DicomSlice& slice : sorted)
+    {
+      const double place = (along(slice) - along(sorted.front())) / distance;
+      FailIf(std::abs(place - std::round(place)) > 0.05, "its frames lie at uneven distances");
+      this->Frames[static_cast<std::size_t>(std::round(place))].push_back(slice);
+    }
+    this->Size = { first.Size[0], first.Size[1], static_cast<int>(this->Frames.size()) };
+    this->Type = VTK_UNSIGNED_SHORT;
+    this->WorldAxes = "LPS";
+    this->LengthUnit = "mm";
+    this->ArrayName = "Labels";
+    for (const DicomSegment& segment : this->Segments)
+    {
+      LabelName name;
+      name.Label = segment.Number;
+      name.Name = segment.Name;
+      name.Color = segment.Color;
+      this->Names.push_back(name);
+    }
+  }
+
+  vtkSmartPointer<vtkDataArray> Read(int first, int count) override
+  {
+    const vtkIdType area = static_cast<vtkIdType>(this->Size[0]) * this->Size[1];
+    auto values = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(this->Type));
+    values->SetNumberOfTuples(area * count);
+    values->Fill(0);
+    vtkIdType overlap = 0;
+    for (int i = 0; i < count; ++i)
+    {
+      for (const DicomSlice& frame : this->Frames[static_cast<std::size_t>(first + i)])
+      {
+        const vtkSmartPointer<vtkDataArray> pixels = this->Pixels.Read(frame);
+        for (vtkIdType pixel = 0; pixel < area; ++pixel)
+        {
+          // Of segments that overlap the last one; a file without segments holds labels.
+          if (const double value = pixels->GetComponent(pixel, 0); value > 0.0)
+          {
+            overlap += values->GetComponent(area * i + pixel, 0) != 0.0 ? 1 : 0;
+            values->SetComponent(
+              area * i + pixel, 0, this->Segments.empty() ? value : frame.Segment);
+          }
+        }
+      }
+    }
+    if (overlap > 0)
+    {
+      TellOfFile("its segments overlap in " + std::to_string(overlap) +
+        " voxels, which get the last one of them");
+    }
+    return values;
+  }
+
+private:
+  std::vector<DicomSegment> Segments;
+  std::vector<std::vector<DicomSlice>> Frames; ///< of each slice
+  DicomPixels Pixels;
 };
 }
 
-bool IsDicom(const std::string& file)
+std::vector<std::string> ListSeries(const std::string& name)
 {
-  // VTK's reader takes some other files for old DICOM without this mark.
-  std::ifstream stream(file, std::ios::binary);
-  char head[132];
-  return stream.read(head, sizeof(head)) && std::memcmp(head + 128, "DICM", 4) == 0;
-}
-
-bool IsLikeSlice(const std::string& file, const std::vector<std::string>& slices)
-{
-  const auto withoutNumbers = [](const std::string& name)
+  const std::vector<DicomSeries> all = DicomSeriesOf(FilesOfVolume(name));
+  FailIf(all.empty(), "no DICOM image there");
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; i < all.size(); ++i)
   {
-    std::string path = std::filesystem::path(name).filename().string();
-    std::replace_if(
-      path.begin(), path.end(), [](char c) { return c >= '0' && c <= '9'; }, '0');
-    path.erase(std::unique(path.begin(), path.end(),
-                 [](char a, char b) { return a == '0' && b == '0'; }),
-      path.end());
-    return path;
-  };
-  const std::string suffix = SuffixOf(file);
-  if (slices.empty() || suffix == ".dcm" || suffix == ".dicom" || suffix == ".ima")
-  {
-    return !slices.empty();
+    texts.push_back(all[i].Text(i + 1) + ", " + all[i].Identifier);
   }
-  // A preamble of zeros, most often, and a mark; the length of the first group.
-  BinaryFile bytes(file);
-  const std::string head = bytes.Text(0, std::min<std::uint64_t>(bytes.Size(), 136));
-  const bool isPreamble = head.find_first_not_of('\0') == std::string::npos;
-  const bool isMarked = head.size() == 136 && head.compare(132, 4, "\2\0\0\0", 4) == 0;
-  const std::string like = withoutNumbers(file);
-  return isMarked ||
-    std::any_of(slices.begin(), slices.end(),
-      [&](const std::string& slice)
-      {
-        return withoutNumbers(slice) == like || (isPreamble && SuffixOf(slice) == suffix);
-      });
+  return texts;
 }
 
 std::unique_ptr<SlabReader> OpenDicom(
-  const std::vector<std::string>& files, const Opening& opening)
+  const std::vector<std::string>& files, const std::string& slice, const Opening& opening)
 {
-  return std::make_unique<DicomSlabs>(files, opening.IsWhole);
+  std::vector<DicomSeries> all = DicomSeriesOf(files);
+  const auto own = slice.empty() ? std::vector<DicomSeries>() : DicomSeriesOf({ slice });
+  const std::string wanted =
+    opening.Choice.Series.empty() && !own.empty() ? own.front().Identifier : opening.Choice.Series;
+  const DicomSeries series = Choose(std::move(all), wanted);
+  if (series.Modality == "SEG")
+  {
+    return std::make_unique<SegmentSlabs>(series);
+  }
+  return OpenSeries(series, opening);
 }
 }

@@ -57,6 +57,12 @@ public:
     return this->IsWide ? this->Number(16 + 8 * axis, 8) : this->Number(40 + 2 * axis, 2);
   }
 
+  /** How many volumes there are, one behind the other. */
+  std::uint64_t Times() const
+  {
+    return this->Size(0) < 4 ? 1 : std::max<std::uint64_t>(1, this->Size(4));
+  }
+
   /** Where the voxels begin in their file. */
   std::uint64_t Start() const
   {
@@ -188,11 +194,9 @@ std::uint64_t CheckNifti(const std::string& name)
 
 // ---- Voxels -------------------------------------------------------------------------------------
 
-/** Slope and shift that the header tells of. @throws Failure for several times. */
+/** Slope and shift that the header tells of. */
 std::pair<double, double> RescalingOf(vtkNIFTIImageReader* reader)
 {
-  FailIf(reader->GetTimeDimension() > 1,
-    NumberText(reader->GetTimeDimension()) + " time points; one volume is needed");
   // What are no numbers scale nothing, as 0 does not: masks have such.
   const double slope = reader->GetRescaleSlope();
   const double shift = reader->GetRescaleIntercept();
@@ -259,11 +263,12 @@ std::unique_ptr<SlabReader> OpenNifti(const std::string& name, const Opening& op
 {
   FailIf(!vtkNew<vtkNIFTIImageReader>()->CanReadFile(name.c_str()), "not a NIfTI or Analyze file");
   const std::uint64_t bytes = CheckNifti(name);
-  const std::string lower = Lower(name);
-  const bool isAlone = !EndsWith(lower, ".img") && !EndsWith(lower, ".img.gz");
+  const bool isAlone = NiftiPart(name, ".img") == NiftiPart(name, ".hdr");
+  const std::uint64_t times = NiftiHeader(HeadOf(NiftiPart(name, ".hdr"), 540)).Times();
+  const int time = TimeOf(opening.Choice, times);
   // Packed, it would be unpacked from its begin for each slab.
   std::shared_ptr<NamelessFile> unpacked;
-  if (isAlone && !opening.IsWhole && IsGzip(name))
+  if (isAlone && (!opening.IsWhole || times > 1) && IsGzip(name))
   {
     unpacked = std::make_shared<NamelessFile>(opening.Scratch);
     std::ifstream packed(name, std::ios::binary);
@@ -271,13 +276,18 @@ std::unique_ptr<SlabReader> OpenNifti(const std::string& name, const Opening& op
       [&](const char* some, std::size_t count) { unpacked->Append(some, count); }, bytes);
   }
   const std::string file = unpacked ? unpacked->Path() : name;
-  const auto make = [file, unpacked]
+  const auto make = [file, unpacked, times]
   {
     auto reader = vtkSmartPointer<vtkNIFTIImageReader>::New();
     reader->SetFileName(file.c_str());
+    reader->SetTimeAsVector(times > 1);
     return reader;
   };
   auto slabs = std::make_unique<ReaderSlabs>(name, make);
+  if (times > 1)
+  {
+    slabs->Pick(time, static_cast<int>(times));
+  }
   const vtkSmartPointer<vtkNIFTIImageReader> reader = make();
   VtkMessages known; // Errors have been told; of sform and qform see above.
   known.ListenTo(reader);

@@ -344,7 +344,7 @@ std::unique_ptr<SlabReader> OpenNrrd(const std::string& name, const Opening& ope
   if (slabs->Components > 1 && isOfParts &&
     NamesOfSegments(header.Pairs, slabs->Components).empty())
   {
-    TellOfMagnitude(slabs->Components, kind);
+    NeedComponent(slabs->Components, kind, opening);
   }
   slabs->Prepare(opening);
   return std::move(slabs);

@@ -215,15 +215,26 @@ private:
 };
 }
 
-std::vector<std::string> FilesOf(const std::string& folder)
+std::vector<std::string> FilesOf(const std::string& folder, bool isNested)
 {
   std::vector<std::string> files;
-  for (const auto& entry : std::filesystem::directory_iterator(folder))
+  const auto add = [&files](const std::filesystem::directory_entry& entry)
   {
     if (entry.is_regular_file() && entry.path().filename().string()[0] != '.')
     {
       files.push_back(entry.path().string());
     }
+  };
+  if (isNested)
+  {
+    const std::filesystem::recursive_directory_iterator all(
+      folder, std::filesystem::directory_options::skip_permission_denied);
+    std::for_each(begin(all), end(all), add);
+  }
+  else
+  {
+    const std::filesystem::directory_iterator all(folder);
+    std::for_each(begin(all), end(all), add);
   }
   std::sort(files.begin(), files.end(), IsBefore);
   return files;
@@ -246,20 +257,21 @@ std::vector<std::string> MatchFiles(const std::string& pattern)
 }
 
 /** Colours or grey values with how much they cover. */
-static void TellOfAlpha(const SlabReader& slabs)
+static void TellOfAlpha(const SlabReader& slabs, const Opening& opening)
 {
   if (slabs.Components == 2 || slabs.Components == 4)
   {
-    TellOfMagnitude(
-      slabs.Components, slabs.Components == 2 ? "grey and alpha" : "colour and alpha");
+    NeedComponent(slabs.Components,
+      slabs.Components == 2 ? "grey and alpha" : "colour and alpha", opening);
   }
 }
 
-std::unique_ptr<SlabReader> OpenPictures(const std::vector<std::string>& files)
+std::unique_ptr<SlabReader> OpenPictures(
+  const std::vector<std::string>& files, const Opening& opening)
 {
   CheckPictures(files);
   auto slabs = std::make_unique<PictureSlabs>(files);
-  TellOfAlpha(*slabs);
+  TellOfAlpha(*slabs, opening);
   return slabs;
 }
 
@@ -279,7 +291,7 @@ std::unique_ptr<SlabReader> OpenByContent(const std::string& name, const Opening
   {
     slabs->Placement.Spacing = facts.Spacing;
     slabs->LengthUnit = facts.Unit;
-    TellOfAlpha(*slabs);
+    TellOfAlpha(*slabs, opening);
   }
   return slabs;
 }

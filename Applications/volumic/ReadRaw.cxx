@@ -7,7 +7,6 @@
 #include "ReadVolume.h"
 #include "Texts.h"
 
-#include <vtkMetaImageReader.h>
 #include <vtkType.h>
 
 #include <algorithm>
@@ -28,8 +27,8 @@ namespace tool
 {
 // ---- MetaImage ----------------------------------------------------------------------------------
 
-// VTK's reader tells what the header says but for the directions of the axes, and where a file has
-// been cut off it gives what memory holds: the voxels are read here.
+// VTK's and ITK's reader give what memory holds where a file has been cut off, and VTK's drops the
+// directions of the axes.
 namespace
 {
 /** The type of the values as they are in the file; VTK has other sizes for some. */
@@ -96,13 +95,24 @@ std::uint64_t BehindHeader(const std::string& name)
   return head.good() ? static_cast<std::uint64_t>(head.tellg()) : file.Size();
 }
 
-/** What VTK's reader tells; what MetaIO prints on std::cerr of a damaged header is dropped. */
-ReaderSlabs ReadHeader(const std::string& name)
+/** Numbers of a key, or of one that means the same; others where it is not there. */
+Vector3 NumbersOf(const std::string& name, const std::vector<const char*>& keys, double otherwise)
 {
-  std::ostringstream dropped;
-  const std::unique_ptr<std::streambuf, void (*)(std::streambuf*)> printed(
-    std::cerr.rdbuf(dropped.rdbuf()), [](std::streambuf* output) { std::cerr.rdbuf(output); });
-  return ReaderSlabs(name, [&name] { return NewReader<vtkMetaImageReader>(name); });
+  Vector3 numbers = { otherwise, otherwise, otherwise };
+  for (const char* key : keys)
+  {
+    std::istringstream words(HeaderValue(name, key));
+    std::string word;
+    for (std::size_t axis = 0; axis < 3 && words >> word; ++axis)
+    {
+      numbers[axis] = ParseNumber<double>(word);
+    }
+    if (!HeaderValue(name, key).empty())
+    {
+      break;
+    }
+  }
+  return numbers;
 }
 
 /**
@@ -180,17 +190,28 @@ std::vector<std::string> DataFiles(const std::string& name, const std::string& t
 
 std::unique_ptr<SlabReader> OpenMeta(const std::string& name, const Opening& opening)
 {
-  SizesOf(name); // without which VTK's reader must not look at the header
+  const std::vector<std::string> sizes = SizesOf(name);
+  FailIf(sizes.size() > 4, std::to_string(sizes.size()) + " axes; a volume has three, or four with "
+    "times");
   auto slabs = std::make_unique<RawSlabs>();
-  const int type = TypeOf(HeaderValue(name, "ElementType"));
+  slabs->Type = TypeOf(HeaderValue(name, "ElementType"));
   const std::string told = HeaderValue(name, "ElementDataFile");
   slabs->Files = DataFiles(name, told);
   slabs->IsBig = IsTrue(name, "BinaryDataByteOrderMSB") || IsTrue(name, "ElementByteOrderMSB");
   slabs->Code = !IsTrue(name, "BinaryData", true) ? RawSlabs::Packing::Text
     : IsTrue(name, "CompressedData")              ? RawSlabs::Packing::Zlib
                                                   : RawSlabs::Packing::None;
-  static_cast<SlabReader&>(*slabs) = ReadHeader(name);
-  slabs->Type = type;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    slabs->Size[axis] = axis < sizes.size() ? ParseNumber<int>(sizes[axis]) : 1;
+    FailIf(slabs->Size[axis] < 1,
+      "its header is damaged: " + sizes[axis] + " voxels along axis " + std::to_string(axis + 1));
+  }
+  const std::string channels = HeaderValue(name, "ElementNumberOfChannels");
+  slabs->Components = channels.empty() ? 1 : ParseNumber<int>(channels);
+  VolumePlacement& placement = slabs->Placement;
+  placement.Spacing = NumbersOf(name, { "ElementSpacing", "ElementSize" }, 1.0);
+  placement.Origin = NumbersOf(name, { "Offset", "Position", "Origin" }, 0.0);
   slabs->ArrayName = "MetaImage";
   slabs->WorldAxes = WorldAxesOf(name);
   slabs->LengthUnit = HeaderValue(name, "DistanceUnits");
@@ -198,16 +219,14 @@ std::unique_ptr<SlabReader> OpenMeta(const std::string& name, const Opening& ope
   {
     if (!HeaderValue(name, key).empty())
     {
-      slabs->Placement.Axes = AxesOf(name, key);
+      placement.Axes = AxesOf(name, key);
       break;
     }
   }
-  // VTK's reader drops the signs of what is against an axis.
-  std::istringstream spacings(HeaderValue(name, "ElementSpacing"));
-  double spacing = 0.0;
-  for (std::size_t a = 0; a < 3 && spacings >> spacing; ++a)
+  for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    slabs->Placement.Turn(a, spacing < 0.0);
+    placement.Turn(axis, placement.Spacing[axis] < 0.0);
+    placement.Spacing[axis] = std::abs(placement.Spacing[axis]);
   }
   slabs->Start = Lower(told) == "local" ? BehindHeader(name) : 0;
   if (slabs->Code == RawSlabs::Packing::None)
@@ -217,6 +236,8 @@ std::unique_ptr<SlabReader> OpenMeta(const std::string& name, const Opening& ope
     slabs->AreLast = skipped < 0;
     slabs->Start += static_cast<std::uint64_t>(std::max(skipped, 0LL));
   }
+  slabs->PickTime(opening.Choice,
+    sizes.size() < 4 ? 1 : static_cast<std::uint64_t>(std::max(1, ParseNumber<int>(sizes[3]))));
   slabs->Prepare(opening);
   return slabs;
 }

@@ -116,17 +116,32 @@ std::pair<std::vector<std::string>, bool> SlicesOf(const std::string& folder)
   return { slices, areDicom };
 }
 
-FoundVolume OpenSlices(
-  const std::pair<std::vector<std::string>, bool>& slices, const Opening& opening)
+#ifndef VOLUMIC_HAS_ITK
+const char* const NeedsItk = "is read by ITK, without which this program was built (Debian: "
+                             "libinsighttoolkit5-dev)";
+#endif
+
+/** @param slice of DICOM, that is wanted; empty: any */
+FoundVolume OpenSlices(const std::pair<std::vector<std::string>, bool>& slices,
+  const Opening& opening, const std::string& slice = "")
 {
-  return InSlabs(
-    slices.second ? OpenDicom(slices.first, opening) : OpenPictures(slices.first));
+  if (!slices.second)
+  {
+    return InSlabs(OpenPictures(slices.first, opening));
+  }
+#ifdef VOLUMIC_HAS_ITK
+  return InSlabs(OpenDicom(slices.first, slice, opening));
+#else
+  throw Failure(std::string("DICOM ") + NeedsItk);
+#endif
 }
 
 FoundVolume OpenDicomFile(const std::string& name, const Opening& opening)
 {
   const std::string folder = std::filesystem::path(name).parent_path().string();
-  return OpenSlices(SlicesOf(folder.empty() ? "." : folder), opening);
+  auto slices = SlicesOf(folder.empty() ? "." : folder);
+  slices.second = true;
+  return OpenSlices(slices, opening, name);
 }
 
 /**
@@ -186,12 +201,19 @@ Opener OpenerOf(const std::string& name)
     { ".nii.gz", By(OpenNifti) },
     { ".img", By(OpenNifti) },
     { ".img.gz", By(OpenNifti) },
+    { ".hdr", By(OpenNifti) },
+    { ".hdr.gz", By(OpenNifti) },
 #ifdef VOLUMIC_HAS_MINC
     { ".mnc", By(ReadMinc) },
 #endif
     { ".inv3", By(OpenInv3) },
     { ".mrc", By(OpenMrc) },
     { ".ccp4", By(OpenMrc) },
+    { ".map", By(OpenMrc) },
+    { ".rec", By(OpenMrc) },
+    { ".npy", By(OpenNumpy) },
+    { ".mgz", By(OpenMgh) },
+    { ".mgh", By(OpenMgh) },
     { ".slc", By(ReadIfItsFormat<vtkSLCReader>) },
     { ".dcm", OpenDicomFile },
     { ".dicom", OpenDicomFile },
@@ -224,6 +246,10 @@ FoundVolume FindVolume(const std::string& name, const Opening& opening)
   }
   if (std::filesystem::exists(name))
   {
+    if (!opening.Choice.Raw.empty())
+    {
+      return InSlabs(OpenRaw(name, opening));
+    }
     return OpenerOf(name)(name, opening);
   }
   FailIf(name.find_first_of("%*") == std::string::npos, "no such file or folder");
@@ -276,18 +302,26 @@ auto NameFailures(const std::string& name, const Work& work) -> decltype(work())
 }
 }
 
-vtkSmartPointer<vtkImageData> ReadVolume(const std::string& name)
+vtkSmartPointer<vtkImageData> ReadVolume(const std::string& name, const VolumeChoice& choice)
 {
-  return NameFailures(name, [&name] { return ReadAll(FindVolume(name, { "", "", true })); });
+  return NameFailures(
+    name, [&] { return ReadAll(FindVolume(name, { "", "", true, choice })); });
 }
 
-OpenedVolume OpenVolume(
-  const std::string& name, const std::string& array, const std::string& scratch)
+#ifndef VOLUMIC_HAS_ITK
+std::vector<std::string> ListSeries(const std::string& name)
+{
+  throw Failure(name + ": DICOM " + NeedsItk);
+}
+#endif
+
+OpenedVolume OpenVolume(const std::string& name, const std::string& array,
+  const std::string& scratch, const VolumeChoice& choice)
 {
   return NameFailures(name,
     [&]
     {
-      const FoundVolume volume = FindVolume(name, { array, scratch });
+      const FoundVolume volume = FindVolume(name, { array, scratch, false, choice });
       if (volume.Parts)
       {
         return OpenedVolume{ volume.Parts, "" };

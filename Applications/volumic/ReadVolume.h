@@ -5,6 +5,7 @@
 
 #include <vtkSmartPointer.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,13 +14,24 @@ class vtkImageData;
 
 namespace tool
 {
+/** What is read of a file that holds several volumes, and how what is ambiguous. */
+struct VolumeChoice
+{
+  std::string Series;      ///< of DICOM: a number from 1, or an identifier; empty: the only one
+  std::optional<int> Time; ///< from 0; none: there is only one
+  std::string Raw;         ///< of a file without a header: --raw
+  bool Resamples = true;   ///< what is no regular grid
+  /** Whether of several numbers that are no vector, such as times, one must have been chosen. */
+  bool NeedsComponent = false;
+};
+
 /**
  * Read a volume: a file of one of the formats of volumic(1), a folder (of the slices of a DICOM
  * series, or of pictures), or a pattern of pictures. World coordinates are those of the file, in
  * its units; rescaled values (NIfTI, DICOM, MINC) are the physical ones.
  * @throws Failure that names the file and the reason.
  */
-vtkSmartPointer<vtkImageData> ReadVolume(const std::string& name);
+vtkSmartPointer<vtkImageData> ReadVolume(const std::string& name, const VolumeChoice& choice = {});
 
 /** A volume that can be read slab by slab, or has been read. */
 struct OpenedVolume
@@ -35,8 +47,14 @@ struct OpenedVolume
  * @param scratch the folder for what is unpacked: the option --scratch
  * @throws Failure as ReadVolume; what is wrong with the voxels is told as they are read.
  */
-OpenedVolume OpenVolume(
-  const std::string& name, const std::string& array, const std::string& scratch);
+OpenedVolume OpenVolume(const std::string& name, const std::string& array,
+  const std::string& scratch, const VolumeChoice& choice = {});
+
+/**
+ * What the DICOM series of a file or folder are, a line for each: number, description, kind, date,
+ * slices, identifier. @throws Failure if there are none
+ */
+std::vector<std::string> ListSeries(const std::string& name);
 
 /**
  * Make the array (empty: the active scalars, or the only one) the active scalars. Where it is one of
@@ -60,8 +78,8 @@ bool IsLikeSlice(const std::string& file, const std::vector<std::string>& slices
  */
 std::vector<std::string> MatchFiles(const std::string& pattern);
 
-/** All regular files of the folder, sorted likewise. */
-std::vector<std::string> FilesOf(const std::string& folder);
+/** All regular files of the folder, and of those within it, sorted likewise. */
+std::vector<std::string> FilesOf(const std::string& folder, bool isNested = false);
 
 // ---- Files of volumes ---------------------------------------------------------------------------
 
@@ -72,7 +90,10 @@ std::vector<std::string> FilesOf(const std::string& folder);
  */
 std::vector<std::string> FilesOfVolume(const std::string& name);
 
-/** The files of a folder: the slices of DICOM alone, or, if there are none, all. */
+/**
+ * The files of a folder: those of DICOM alone, with those of the folders within, or, if there are none,
+ * all.
+ */
 std::vector<std::string> FilesOfFolder(const std::string& folder);
 
 /** @throws Failure that names the one of these files that is a pipe or a device. */

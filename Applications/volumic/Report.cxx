@@ -44,10 +44,9 @@ Json InputFacts(const std::string& name, const VolumeFacts& volume)
     { "scale", volume.World.Scale },
     { "scalar_type", vtkImageScalarTypeNameMacro(volume.Type) },
     { "range", AsJsonArray(volume.Range) } };
-  if (volume.ResampledFrom)
+  if (!volume.Resampling.empty())
   {
-    facts["resampled_from"] = { { "dimensions", volume.ResampledFrom->Size },
-      { "spacing", AsJsonArray(volume.ResampledFrom->Spacing) } };
+    facts["resampling"] = volume.Resampling;
   }
   return facts;
 }

@@ -14,6 +14,7 @@
 #include <vtkPointData.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -25,6 +26,13 @@ namespace
 constexpr int LeastVoxels = 8;
 /** Of a new image; more is an error of the order. */
 constexpr double MostVoxels = 1e11;
+
+/** The voxels of an image. */
+struct GridFacts
+{
+  std::array<int, 3> Size = { 0, 0, 0 };
+  Vector3 Spacing = { 1.0, 1.0, 1.0 };
+};
 
 GridFacts GridOf(vtkImageData* image)
 {
@@ -64,7 +72,8 @@ Vector3 WantedSpacing(const ToolOptions& options, const GridFacts& grid, bool ar
   for (int axis = 0; axis < 3; ++axis)
   {
     const int size = grid.Size[axis];
-    const bool isThin = !areLabels && options.Edges.empty() && size > 1 && size < LeastVoxels;
+    const bool isThin = !areLabels && options.Edges.empty() && options.Choice.Resamples &&
+      size > 1 && size < LeastVoxels;
     if (options.IsIsotropic)
     {
       wanted[axis] = least;
@@ -132,14 +141,14 @@ vtkSmartPointer<vtkImageData> Resampled(
   return made;
 }
 
-std::optional<GridFacts> ResampleAsAsked(const ToolOptions& options, bool areLabels,
+void ResampleAsAsked(const ToolOptions& options, bool areLabels,
   vtkSmartPointer<vtkImageData>& image, const Announcer& announcer)
 {
   const GridFacts before = GridOf(image);
   const Vector3 wanted = WantedSpacing(options, before, areLabels);
   if (wanted == before.Spacing)
   {
-    return std::nullopt;
+    return;
   }
   double voxels = 1.0;
   for (int axis = 0; axis < 3; ++axis)
@@ -150,8 +159,10 @@ std::optional<GridFacts> ResampleAsAsked(const ToolOptions& options, bool areLab
     options.Volume + ": resampled it would have " + NumberText(std::round(voxels)) + " voxels");
   image = Resampled(image, wanted, areLabels);
   const bool isAsked = options.ResampledSpacing || options.IsIsotropic;
-  announcer.Say(options.Volume + ": resampled from " + TextOf(before) +
-    (isAsked ? "" : ": a surface needs 8 voxels along each axis"));
-  return before;
+  const std::string told = "resampled from " + TextOf(before) +
+    (isAsked ? "" : ": a surface needs 8 voxels along each axis");
+  const std::string earlier = GetFact(image, "Resampling");
+  SetFact(image, "Resampling", (earlier.empty() ? "" : earlier + "; ") + told);
+  announcer.Say(options.Volume + ": " + told);
 }
 }

@@ -3,11 +3,9 @@
 #ifndef volumicResampleImage_h
 #define volumicResampleImage_h
 
-#include "VolumeFacts.h"
+#include "VolumeImage.h"
 
 #include <vtkSmartPointer.h>
-
-#include <optional>
 
 class vtkImageData;
 
@@ -26,11 +24,10 @@ vtkSmartPointer<vtkImageData> Resampled(
 
 /**
  * What --resample or --isotropic asks for, and, of values, what an image of fewer than eight voxels
- * along an axis needs to have a surface; it is told. With neither the image stays.
- * @param areLabels see Resampled
- * @return what it was before, if it was resampled
+ * along an axis needs to have a surface; it is told, and is in the fact `Resampling`. With neither
+ * the image stays. @param areLabels see Resampled
  */
-std::optional<GridFacts> ResampleAsAsked(const ToolOptions& options, bool areLabels,
+void ResampleAsAsked(const ToolOptions& options, bool areLabels,
   vtkSmartPointer<vtkImageData>& image, const Announcer& announcer);
 }
 

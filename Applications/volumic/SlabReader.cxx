@@ -3,6 +3,7 @@
 #include "SlabReader.h"
 
 #include "Messages.h"
+#include "Texts.h"
 #include "WorldSpace.h"
 
 #include <vtkAlgorithm.h>
@@ -107,6 +108,14 @@ void FillImage(SlabReader& reader, const int* extent, vtkImageData* image)
   {
     SetFact(image, "LengthUnit", unit);
   }
+  if (!reader.Resampling.empty())
+  {
+    SetFact(image, "Resampling", reader.Resampling);
+  }
+  if (!reader.Names.empty())
+  {
+    SetLabelNames(image, reader.Names);
+  }
 }
 
 class SlabSource : public vtkImageAlgorithm
@@ -176,10 +185,30 @@ vtkSmartPointer<vtkImageData> ReadAllSlabs(SlabReader& reader)
   return image;
 }
 
-void TellOfMagnitude(int components, const std::string& kind)
+void NeedComponent(int components, const std::string& kind, const Opening& opening)
 {
-  TellOfFile("the " + std::to_string(components) + " numbers of each voxel are no vector (" + kind +
-    "); without --component their magnitude is taken");
+  FailIf(opening.Choice.NeedsComponent,
+    "the " + std::to_string(components) + " numbers of each voxel are no vector (" + kind +
+      "); choose one with --component N, 0 to " + std::to_string(components - 1) +
+      " (-1: their magnitude)");
+}
+
+int TimeOf(const VolumeChoice& choice, std::uint64_t times)
+{
+  const auto last = std::to_string(times - 1);
+  FailIf(!choice.Time && times > 1,
+    std::to_string(times) + " volumes, one behind the other; choose one with --time N, 0 to " +
+      last + " (times, phases, or masks)");
+  const int time = choice.Time.value_or(0);
+  FailIf(time < 0 || static_cast<std::uint64_t>(time) >= times,
+    "there is no time " + std::to_string(time) + " (--time)" +
+      (times > 1 ? ", but 0 to " + last : ", but one volume"));
+  return time;
+}
+
+std::string SizeText(const std::array<int, 3>& size)
+{
+  return NumberText(size[0]) + " x " + NumberText(size[1]) + " x " + NumberText(size[2]);
 }
 
 // ---- Readers of VTK -----------------------------------------------------------------------------
@@ -199,7 +228,10 @@ vtkSmartPointer<vtkImageReader2> ReaderOf(const std::string& name)
   VtkMessages ignored; // Some of those that are asked complain of what they don't know.
   ignored.Catch(
     [&] { reader.TakeReference(vtkImageReader2Factory::CreateImageReader2(name.c_str())); });
-  FailIf(!reader, name + ": not a format that VTK's readers know");
+  FailIf(!reader,
+    name + ": not a format that is read (see FORMATS in volumic(1)); of voxels without a header give "
+           "its sizes and type with --raw; others convert to .nii.gz, .nrrd or .mha, for example by 3D "
+           "Slicer or ImageJ");
   reader->SetFileName(name.c_str());
   return reader;
 }
@@ -239,8 +271,29 @@ ReaderSlabs::ReaderSlabs(const std::string& name, const Factory& make) : Name(na
   std::copy_n(reader->GetDataOrigin(), 3, this->Placement.Origin.begin());
 }
 
+void ReaderSlabs::Pick(int time, int times)
+{
+  this->Picked = time;
+  this->Components /= times;
+}
+
 vtkSmartPointer<vtkDataArray> ReaderSlabs::Read(int first, int count)
 {
+  const vtkIdType area = static_cast<vtkIdType>(this->Size[0]) * this->Size[1];
+  if (this->Picked >= 0 && count > 1)
+  {
+    // The numbers of all volumes are in memory, of one slice at a time.
+    auto all = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(this->Type));
+    all->SetNumberOfComponents(this->Components);
+    all->SetNumberOfTuples(area * count);
+    for (int i = 0; i < count; ++i)
+    {
+      const vtkSmartPointer<vtkDataArray> slice = this->Read(first + i, 1);
+      all->SetName(slice->GetName());
+      all->InsertTuples(area * i, area, 0, slice);
+    }
+    return all;
+  }
   const vtkSmartPointer<vtkImageReader2> reader = this->Make();
   const int begin = this->IsReversed ? this->Size[2] - first - count : first;
   const int extent[6] = { 0, this->Size[0] - 1, 0, this->Size[1] - 1, begin, begin + count - 1 };
@@ -248,6 +301,18 @@ vtkSmartPointer<vtkDataArray> ReaderSlabs::Read(int first, int count)
   messages.UpdateReader(reader, this->Name, this->HasTrustedWarnings, extent);
   vtkSmartPointer<vtkDataArray> values = reader->GetOutput()->GetPointData()->GetScalars();
   FailIf(!values, this->Name + ": holds no voxels");
+  if (this->Picked >= 0)
+  {
+    const auto one = vtkSmartPointer<vtkDataArray>::Take(values->NewInstance());
+    one->SetName(values->GetName());
+    one->SetNumberOfComponents(this->Components);
+    one->SetNumberOfTuples(area);
+    for (int c = 0; c < this->Components; ++c)
+    {
+      one->CopyComponent(c, values, this->Picked * this->Components + c);
+    }
+    values = one;
+  }
   return this->Slope == 1.0 && this->Shift == 0.0 ? values
                                                   : Rescaled(values, this->Slope, this->Shift);
 }

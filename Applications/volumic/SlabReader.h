@@ -5,6 +5,8 @@
 
 #include "BinaryFile.h"
 #include "Descriptor.h"
+#include "LabelNames.h"
+#include "ReadVolume.h"
 #include "ToolErrors.h"
 #include "VolumeImage.h"
 
@@ -40,6 +42,8 @@ public:
   std::string WorldAxes; ///< as SetWorldAxes takes them; may be empty
   std::string LengthUnit; ///< as files call it (LengthUnitOf); may be empty
   std::string ArrayName; ///< of the values; empty: as Read() gives it
+  std::string Resampling; ///< how it was made a regular grid; empty: it is one
+  LabelNames Names;       ///< that come with it
   bool HasParts = true;  ///< Else some slices cost as much as all, which Read() is asked for then.
 
   /** The values of so many slices; a new array, or one that is valid until the next call. */
@@ -61,6 +65,7 @@ struct Opening
   std::string Array;    ///< that is wanted; empty: as ChooseScalars has it
   std::string Scratch;  ///< where packed voxels are unpacked to: the option --scratch
   bool IsWhole = false; ///< All slices will be read, at once: what is packed needs no file.
+  VolumeChoice Choice;
 };
 
 // The formats, which ReadVolume.cxx lists.
@@ -70,6 +75,15 @@ std::unique_ptr<SlabReader> OpenMeta(const std::string& name, const Opening& ope
 
 /** MRC (.mrc, .ccp4); VTK's reader takes voxels of mode 6 for twice as many. */
 std::unique_ptr<SlabReader> OpenMrc(const std::string& name, const Opening& opening);
+
+/** NumPy's arrays (.npy) of three axes: z, y, x, or, in Fortran's order, x, y, z. */
+std::unique_ptr<SlabReader> OpenNumpy(const std::string& name, const Opening& opening);
+
+/** FreeSurfer's volumes (.mgz, .mgh), in its scanner coordinates (RAS). */
+std::unique_ptr<SlabReader> OpenMgh(const std::string& name, const Opening& opening);
+
+/** A file of nothing but voxels, or whose last bytes they are, as --raw describes them. */
+std::unique_ptr<SlabReader> OpenRaw(const std::string& name, const Opening& opening);
 
 /** NRRD (.nrrd, .nhdr; encodings raw, gzip, bzip2, text), in the file's `space`. */
 std::unique_ptr<SlabReader> OpenNrrd(const std::string& name, const Opening& opening);
@@ -83,18 +97,31 @@ std::unique_ptr<SlabReader> OpenNifti(const std::string& name, const Opening& op
  */
 std::unique_ptr<SlabReader> OpenInv3(const std::string& name, const Opening& opening);
 
-/** The slices of one series, in DICOM's patient coordinates (LPS, mm), sorted by position. */
+/**
+ * The slices of one series, in DICOM's patient coordinates (LPS, mm), sorted by position.
+ * @param slice one of those that are wanted; empty: any
+ */
 std::unique_ptr<SlabReader> OpenDicom(
-  const std::vector<std::string>& files, const Opening& opening);
+  const std::vector<std::string>& files, const std::string& slice, const Opening& opening);
 
 /** Pictures of one size as the slices of a volume of spacing 1, in this order. */
-std::unique_ptr<SlabReader> OpenPictures(const std::vector<std::string>& files);
+std::unique_ptr<SlabReader> OpenPictures(
+  const std::vector<std::string>& files, const Opening& opening);
 
 /** A picture, the pages of a TIFF, or what else a reader of VTK takes for its own. */
 std::unique_ptr<SlabReader> OpenByContent(const std::string& name, const Opening& opening);
 
-/** Tells that several numbers of a voxel are no vector, whose magnitude is taken if nobody chooses. */
-void TellOfMagnitude(int components, const std::string& kind);
+/**
+ * Several numbers of a voxel are no vector, whose magnitude could be taken.
+ * @throws Failure if one must be chosen
+ */
+void NeedComponent(int components, const std::string& kind, const Opening& opening);
+
+/** Which of so many times is chosen. @throws Failure if none is, or there is none of that number */
+int TimeOf(const VolumeChoice& choice, std::uint64_t times);
+
+/** "3 x 4 x 5" */
+std::string SizeText(const std::array<int, 3>& size);
 
 // ---- Readers of VTK -----------------------------------------------------------------------------
 
@@ -151,11 +178,15 @@ public:
   double Slope = 1.0; ///< What is read gets multiplied,
   double Shift = 0.0; ///< and shifted, and is float then.
 
+  /** The reader gives the numbers of several volumes for a voxel, of which one is wanted. */
+  void Pick(int time, int times);
+
   vtkSmartPointer<vtkDataArray> Read(int first, int count) override;
 
 private:
   std::string Name;
   Factory Make;
+  int Picked = -1; ///< the volume; -1: all numbers are its
 };
 
 // ---- Voxels that lie in files -------------------------------------------------------------------
@@ -203,6 +234,11 @@ public:
   bool AreLast = false;     ///< The values are the last bytes of a file, whatever is before.
   bool IsBig = false;       ///< The most significant byte of a value comes first.
 
+  /** Of so many volumes, one behind the other, choose one; where nothing follows them. */
+  void PickTime(const VolumeChoice& choice, std::uint64_t times);
+
+  bool HasMore = false; ///< Behind the values there may be others.
+
   /**
    * To call when all this is known. Packed values, of which parts will be wanted, are unpacked.
    * @throws Failure, before memory is taken, if a file is too short or too long.
@@ -221,6 +257,7 @@ private:
   void Unpack(const UnpackedSink& sink) const;
   void ReadBytes(std::uint64_t first, std::uint64_t count, char* values) const;
 
+  std::uint64_t After = 0; ///< bytes of the volumes behind the one that is chosen
   std::unique_ptr<NamelessFile> Unpacked; ///< If it is there, it is the only one of Files.
 };
 }

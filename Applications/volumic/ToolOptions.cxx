@@ -85,6 +85,11 @@ void SetSpace(ToolOptions& options, const std::string& text)
   options.World.Axes = isAsFile ? "" : text;
 }
 
+void SetTime(ToolOptions& options, const std::string& text)
+{
+  options.Choice.Time = ParseNumber<int>(text);
+}
+
 void SetPieceSize(ToolOptions& options, const std::string& text)
 {
   options.PieceSize = ParseNumber<int>(text);
@@ -117,6 +122,23 @@ const std::vector<ProgramOption>& InputOptions()
       "to which sides of the body the axes of what is written point (left, posterior, superior, as "
       "in DICOM; right, anterior, superior, as in NIfTI); where the file tells its own",
       SetSpace },
+    { "series", "N|UID",
+      "of DICOM: the series to read where there are several, by its number in --list-series, or by "
+      "its identifier",
+      [](ToolOptions& chosen, const std::string& text) { chosen.Choice.Series = text; } },
+    Show("list-series", ToolOptions::Task::ListSeries,
+      "print the DICOM series of the volume instead of making surfaces: number, description, kind, "
+      "date, slices, identifier"),
+    { "time", "N",
+      "of several volumes in one (times, phases, masks) the one to read, counted from 0", SetTime },
+    { "raw", "X,Y,Z,TYPE[,big]",
+      "the file has no header: sizes and type of its voxels, such as 512,512,400,uint16, x fastest, "
+      "the least significant byte first",
+      [](ToolOptions& chosen, const std::string& text) { chosen.Choice.Raw = text; } },
+    { "no-resampling", "",
+      "refuse slices that are no regular grid (one is missing, the gantry was tilted) instead of "
+      "interpolating them linearly",
+      [](ToolOptions& chosen, const std::string&) { chosen.Choice.Resamples = false; } },
     Text("seeds", "FILE", &ToolOptions::Seeds,
       "start from icosahedra at these points: a mesh file's, or the lines 'x y z' (or 'x,y,z') of "
       "a .txt, .csv or .xyz file; world coordinates"),
@@ -274,6 +296,8 @@ ToolOptions ParseOptions(int argc, const char* const argv[])
   {
     options.Labels = { "all" };
   }
+  options.Choice.NeedsComponent = options.WantsSurface() && options.Labels.empty() &&
+    !options.HasProperty("SelectedComponent");
   CheckOptions(options);
   return options;
 }
@@ -404,12 +428,14 @@ void CheckWithLabels(const ToolOptions& options)
 
 void CheckOptions(const ToolOptions& options)
 {
-  if (options.Task != ToolOptions::Task::Segment && options.Task != ToolOptions::Task::ListFiles)
+  const bool isSegmented = options.Task == ToolOptions::Task::Segment;
+  if (!isSegmented && options.Task != ToolOptions::Task::ListFiles &&
+    options.Task != ToolOptions::Task::ListSeries)
   {
     return;
   }
   FailIf<UsageError>(options.Volume.empty(), "no volume is given");
-  if (options.Task == ToolOptions::Task::ListFiles)
+  if (!isSegmented)
   {
     return;
   }

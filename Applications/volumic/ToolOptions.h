@@ -4,6 +4,7 @@
 #define volumicToolOptions_h
 
 #include "Messages.h"
+#include "ReadVolume.h"
 #include "SurfaceProperties.h"
 #include "WorldSpace.h"
 
@@ -27,11 +28,13 @@ struct ToolOptions
     ShowHelp,
     ShowVersion,
     ListProperties,
-    ListFiles
+    ListFiles,
+    ListSeries
   };
   Task Task = Task::Segment;
 
   std::string Volume;                ///< file, folder or pattern
+  VolumeChoice Choice;               ///< what of it is read
   std::vector<std::string> Surfaces; ///< files to write, at least one, unless the rest is asked for
   std::string Array;                 ///< point array of the volume; empty: the active one
   WorldChoice World;                 ///< where the volume is to lie

@@ -36,6 +36,7 @@ VolumeFacts FactsOf(vtkImageData* image, vtkDataArray* scalars, int component)
   image->GetExtent(facts.Extent.data());
   image->GetSpacing(facts.Spacing.data());
   image->GetOrigin(facts.Origin.data());
+  facts.Resampling = GetFact(image, "Resampling");
   facts.Type = scalars->GetDataType();
   facts.Components = scalars->GetNumberOfComponents();
   facts.Range = RangeOf(scalars, component);

@@ -8,7 +8,6 @@
 
 #include <array>
 #include <limits>
-#include <optional>
 #include <string>
 
 class vtkDataArray;
@@ -17,13 +16,6 @@ class vtkInformation;
 
 namespace tool
 {
-/** The voxels of an image. */
-struct GridFacts
-{
-  std::array<int, 3> Size = { 0, 0, 0 };
-  Vector3 Spacing = { 1.0, 1.0, 1.0 };
-};
-
 /** What a volume is, without its voxels. */
 struct VolumeFacts
 {
@@ -31,13 +23,12 @@ struct VolumeFacts
   Vector3 Spacing = { 1.0, 1.0, 1.0 };
   Vector3 Origin = { 0.0, 0.0, 0.0 };
   WorldSpace World; ///< that Spacing and Origin are in
+  std::string Resampling; ///< how it was made a regular grid; empty: it was one
   int Type = 0; ///< of the voxels, as VTK numbers types
   int Components = 1;
   /** Of the selected component: the smallest and the largest. */
   std::array<double, 2> Range = { std::numeric_limits<double>::infinity(),
     -std::numeric_limits<double>::infinity() };
-
-  std::optional<GridFacts> ResampledFrom; ///< as it was read, if it was resampled
 
   std::array<int, 3> Size() const;
 };

@@ -54,6 +54,12 @@ ExitCode Run(const ToolOptions& options, Ranks& ranks)
     case ToolOptions::Task::ListProperties:
       PrintProperties(std::cout, filters);
       return Success;
+    case ToolOptions::Task::ListSeries:
+      for (const std::string& series : ListSeries(options.Volume))
+      {
+        std::cout << series << "\n";
+      }
+      return Success;
     case ToolOptions::Task::ListFiles:
       for (const std::string& file : FilesOfVolume(options.Volume))
       {

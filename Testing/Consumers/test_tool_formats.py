@@ -183,9 +183,9 @@ class VolumesTest(ToolTestCase):
     def test_bad_series(self):
         for k in (0, 1, 2, 5, 6):
             self.write_bytes(f"IM{k}", dicom_slice(k, direction=TURNED))
-        self.refused("some are missing", self.folder, self.path("a.stl"))
+        self.refused("some are missing", self.folder, self.path("a.stl"), "--no-resampling")
         self.write_bytes("IM5", medical_files.dicom_slice(ball()[0], 1, SPACING, ORIGIN, TURNED))
-        self.refused("one series per folder", self.folder, self.path("a.stl"))
+        self.refused("lies where .* does", self.folder, self.path("a.stl"))
 
 
 class SurfacesTest(ToolTestCase):

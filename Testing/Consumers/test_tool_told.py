@@ -163,8 +163,8 @@ class ValuesTest(ToldTest):
                            "mode 12, .* not read; write them as mode 2")
 
     def test_numbers_that_are_no_vector(self):
-        for kind, warns in (("list", True), ("RGBA-color", True), ("RGB-color", False),
-                            ("vector", False)):
+        for kind, asks in (("list", True), ("RGBA-color", True), ("RGB-color", False),
+                           ("vector", False)):
             count = 4 if "A" in kind else 3
             header = nrrd_header().replace(b"dimension: 3", b"dimension: 4").replace(
                 b"sizes:", b"sizes: %d" % count).replace(b"space directions:",
@@ -172,7 +172,13 @@ class ValuesTest(ToldTest):
             header += f"kinds: {kind} domain domain domain\n\n".encode()
             self.write_bytes("a.nrrd", header + np.repeat(ball()[..., np.newaxis], count, -1).tobytes())
             with self.subTest(kind):
-                self.assertEqual("no vector" in self.warning("a.nrrd"), warns)
+                self.accepted("a.nrrd", "--component", "1")
+                if asks:
+                    self.refused_volume("a.nrrd", f"the {count} numbers of each voxel are no vector "
+                                        f".*; choose one with --component N, 0 to {count - 1}")
+                    os.remove(self.path("ok.stl"))
+                else:
+                    self.accepted("a.nrrd")
 
     def test_a_slope_that_is_no_number(self):
         nan = float("nan")

@@ -91,7 +91,7 @@ def dicom_slice(pixels, number, spacing, origin, direction, syntax="explicit", *
     direction = np.asarray(direction)
     values = {"series": "1.2.3", "description": "head", "samples": 1, "slope": None,
               "intercept": None, "frames": None, "kind": None,
-              "bits": 16, "lacks": (), **changes}
+              "bits": 16, "lacks": (), "more": (), "data": None, **changes}
     position = np.asarray(origin) + direction[:, 2] * spacing[2] * number
     elements = [
         (0x0008, 0x0016, "UI", values["kind"]),
@@ -113,8 +113,11 @@ def dicom_slice(pixels, number, spacing, origin, direction, syntax="explicit", *
         (0x0028, 0x0103, "US", 1 if pixels.dtype.kind == "i" else 0),
         (0x0028, 0x1052, "DS", values["intercept"]),
         (0x0028, 0x1053, "DS", values["slope"]),
-        (0x7FE0, 0x0010, "OW", pixels.astype("<u2").tobytes()),
+        *values["more"],
+        (0x7FE0, 0x0010, "OW", pixels.astype("<u2").tobytes()
+         if values["data"] is None else values["data"]),
     ]
+    elements.sort(key=lambda entry: entry[:2])
     body = b"".join(element(*entry, syntax != "implicit") for entry in elements
                     if entry[3] is not None)
     return bytes(128) + b"DICM" + element(2, 0x10, "UI", identifier, True) + body

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicRegularGrid_h
+#define volumicRegularGrid_h
+
+#include "SlabReader.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace tool
+{
+/** Parallel slices as they were taken, which need not be voxels of a regular grid. */
+struct SlicePlaces
+{
+  std::vector<Vector3> Positions; ///< of the first pixel of each, in the order along their normal
+  Vector3 Across = { 1, 0, 0 };   ///< unit vectors along the rows, and from row to row
+  Vector3 Down = { 0, 1, 0 };
+  std::array<double, 2> Spacing = { 1, 1 }; ///< along these
+
+  /** The unit vector that they follow each other along. */
+  Vector3 Normal() const;
+
+  /** Of the slices along the normal, from the first one. */
+  std::vector<double> Heights() const;
+
+  /**
+   * Why they are no regular grid: uneven distances (by more than 5 percent), or a shift along the
+   * slices from one to the next (a tilted gantry). Empty: they are one.
+   */
+  std::string Unevenness() const;
+
+  /** Where they are one, its place. @param thickness the distance if there is only one slice */
+  VolumePlacement Placement(double thickness) const;
+};
+
+/**
+ * The finest regular grid that holds the slices, as slices: from the first to the last, as far from
+ * each other as the nearest two, and as wide as all together. Values between are interpolated linearly,
+ * to the type that they have; where no slice is, they are `outside`.
+ * @throws Failure if some are so near to each other that this would be many times as many
+ */
+std::unique_ptr<SlabReader> ResampledSlices(
+  std::shared_ptr<SlabReader> slices, const SlicePlaces& places, double outside);
+}
+
+#endif
