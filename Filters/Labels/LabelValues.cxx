@@ -75,8 +75,12 @@ vtkSmartPointer<vtkDataArray> Rounded(vtkDataArray* voxels, int background, std:
         });
     });
   told = Join(NameOf(voxels), " is of type ", voxels->GetDataTypeAsString(),
-    "; its values are within ", farthest, " of integers, and are rounded to labels",
-    missing > 0 ? Join("; ", missing, " voxels that are NaN are background.") : std::string("."));
+    farthest > 0.0
+      ? Join("; its values are within ", farthest, " of integers, and are rounded to labels")
+      : std::string("; its values are integers, and taken for labels"),
+    missing > 0 ? Join("; NaN, at ", missing, missing == 1 ? " voxel" : " voxels",
+                    ", is background.")
+                : std::string("."));
   return rounded;
 }
 

@@ -222,7 +222,7 @@ class WhatIsReadTest(LabelsTest):
         voxels[0, 0, 0] = np.nan
         process = self.run_tool(self.map_file("b.vti", label_image(voxels)), self.path("b"),
                                 "--labels", "all")
-        self.assertRegex(process.stderr, r"warning: .*within 0.00\d+ of integers, .* 1 voxels that are NaN")
+        self.assertRegex(process.stderr, r"warning: .*within 0.00\d+ of integers, .*; NaN, at 1 voxel, is")
         self.assertEqual(self.content("a/label-7.vtp"), self.content("b/label-7.vtp"))
 
     def test_labels_that_no_int_holds(self):
