@@ -5,6 +5,7 @@
 
 #include <vtkSmartPointer.h>
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,6 +20,7 @@ struct VolumeChoice
 {
   std::string Series;      ///< of DICOM: a number from 1, or an identifier; empty: the only one
   std::optional<int> Time; ///< from 0; none: there is only one
+  std::shared_ptr<int> Times; ///< set to how many there are, where there may be several; null: not
   std::string Raw;         ///< of a file without a header: --raw
   bool Resamples = true;   ///< what is no regular grid
   /** Whether of several numbers that are no vector, such as times, one must have been chosen. */

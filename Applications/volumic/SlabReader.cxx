@@ -195,6 +195,10 @@ void NeedComponent(int components, const std::string& kind, const Opening& openi
 
 int TimeOf(const VolumeChoice& choice, std::uint64_t times)
 {
+  if (choice.Times)
+  {
+    *choice.Times = static_cast<int>(times);
+  }
   const auto last = std::to_string(times - 1);
   FailIf(!choice.Time && times > 1,
     std::to_string(times) + " volumes, one behind the other; choose one with --time N, 0 to " +

@@ -61,10 +61,10 @@ def meta():
                  + voxels().tobytes())
 
 
-def dicom():
+def dicom(name="series"):
     """The folder, of a file for each slice."""
     for number, pixels in enumerate(voxels()):
-        path = write(f"series/{number:03}.dcm", medical_files.dicom_slice(
+        path = write(f"{name}/{number:03}.dcm", medical_files.dicom_slice(
             pixels, number, SPACING, ORIGIN, TURN))
     return os.path.dirname(path)
 
@@ -118,6 +118,46 @@ class VolumeReaderTest(testing.PluginTestCase):
             image = source.GetDataInformation().GetPointDataInformation()
             self.assertEqual(image.GetArrayInformation(0).GetComponentRange(0),
                              (time, 12 + time))
+
+    def test_times_in_one_file(self):
+        path = nifti("times.nii.gz", numpy.stack([voxels(), voxels() + 1]))
+        source = simple.VolumicVolume(FileNames=[path])
+        source.UpdatePipelineInformation()
+        self.assertEqual(list(source.TimestepValues), [0, 1])
+        for time in (1, 0):
+            source.UpdatePipeline(time)
+            image = source.GetDataInformation().GetPointDataInformation()
+            self.assertEqual(image.GetArrayInformation(0).GetComponentRange(0), (time, 12 + time))
+
+    def test_series_of_a_folder(self):
+        folder = dicom("two")
+        for number, pixels in enumerate(voxels()):
+            write(f"two/B{number:03}.dcm", medical_files.dicom_slice(
+                100 + pixels, number, SPACING, ORIGIN, TURN, series="1.2.9"))
+        source = simple.VolumicDICOM(FileName=folder)
+        source.UpdatePipelineInformation()
+        with testing.CapturedMessages() as messages:
+            source.UpdatePipeline()
+        self.assertIn("2 series, one is needed; choose it as Series: 1: ", messages.text)
+        listed = list(source.SeriesList)
+        self.assertEqual(len(listed), 2)
+        least = set()
+        for series in listed:
+            source.Series = series
+            least.add(testing.fetch(source).GetScalarRange()[0])
+        self.assertEqual(least, {0, 100})
+        of_slice = simple.VolumicDICOM(FileName=os.path.join(folder, "B003.dcm"))
+        self.assertEqual(testing.fetch(of_slice).GetScalarRange()[0], 100)
+
+    def test_a_missing_slice(self):
+        folder = dicom("missing")
+        os.remove(os.path.join(folder, "005.dcm"))
+        source = simple.VolumicDICOM(FileName=folder)
+        self.assertEqual(testing.fetch(source).GetDimensions(), voxels().shape[::-1])
+        source.Resampling = 0
+        with testing.CapturedMessages() as messages:
+            source.UpdatePipeline()
+        self.assertIn("switch Resampling on, and they are resampled", messages.text)
 
     def test_a_matrix_that_mirrors_is_followed(self):
         """
