@@ -297,7 +297,8 @@ OpenedVolume OpenVolume(
       auto holder = vtkSmartPointer<vtkTrivialProducer>::New();
       holder->SetOutput(image);
       const std::string suffix = SuffixOf(name);
-      return OpenedVolume{ holder, areOfCells ? "values of cells" : suffix.empty() ? "masks" : suffix };
+      return OpenedVolume{ holder,
+        areOfCells ? "values of cells" : suffix.empty() ? "masks" : suffix };
     });
 }
 

@@ -238,7 +238,8 @@ const SurfaceFormat* FindSurfaceFormat(const std::string& name)
   static const std::map<std::string, SurfaceFormat> formats = {
     { ".vtp", { [](File file) { WriteVtp(file.Surface, file.Path, file.Line); }, nullptr } },
     { ".pvtp", { WritePieces, nullptr } },
-    { ".vtk", { [](File file) { WriteLegacy(file.Surface, file.Path, file.Remark, file.Line); }, nullptr } },
+    { ".vtk",
+      { [](File file) { WriteLegacy(file.Surface, file.Path, file.Remark, file.Line); }, nullptr } },
     { ".stl", { WriteStl, nullptr } },
     { ".ply", { WritePly, nullptr } },
     { ".glb", { WriteScene, nullptr } },

@@ -89,10 +89,10 @@ class VolumesTest(ToolTestCase):
                 report = self.check(file, origin=np.zeros(3), iso=ISO * scale)
                 self.assertEqual(report["input"]["range"], [voxels.min(), voxels.max()])
                 # The same surface, bit for bit, as of VTK's own format.
-                self.run_tool(file, self.path("a.ply"), "--iso", ISO * scale)
+                self.run_tool(file, self.path("a.tri"), "--iso", ISO * scale)
                 self.write(vtkXMLImageDataWriter(), "b.vti", make_image(voxels, origin=np.zeros(3)))
-                self.run_tool(self.path("b.vti"), self.path("b.ply"), "--iso", ISO * scale)
-                self.assertEqual(self.content("a.ply"), self.content("b.ply"))
+                self.run_tool(self.path("b.vti"), self.path("b.tri"), "--iso", ISO * scale)
+                self.assertEqual(self.content("a.tri"), self.content("b.tri"))
 
     @unittest.skipUnless(importlib.util.find_spec("vtkmodules.vtkIOMINC"), "VTK without MINC")
     def test_minc(self):
