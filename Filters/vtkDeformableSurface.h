@@ -256,10 +256,10 @@ public:
   ///@{
   /**
    * The object has values between IsoValue and this one: marrow in bone, one of two materials. All
-   * is as for the image min(image, IsoValue + UpperValue - image): its isopotential IsoValue is that
-   * of min(image - IsoValue, UpperValue - image) at 0. Of a pyramid level 0 is taken, and the others
-   * are made anew. Infinite, the default: none. UseUpperValue off, as for a panel that has a number
-   * always: none either.
+   * is as for the image min(image, IsoValue + UpperValue - image): its isopotential IsoValue is
+   * that of min(image - IsoValue, UpperValue - image) at 0. Of a pyramid level 0 is taken, and the
+   * others are made anew. Infinite, the default: none. UseUpperValue off, as for a panel that has a
+   * number always: none either.
    */
   virtual void SetUpperValue(double value);
   virtual double GetUpperValue();
@@ -452,8 +452,8 @@ public:
   /**
    * What is done about parts of the object that lie outside the surface when it comes to a level.
    * RecoverObjects (default): each gets a component of its own; RecoverObjectsAndCavities, or an
-   * UpperValue: also background that the object encloses; NoRecovery: nothing, as in the paper. `MissingParts` and
-   * `MissingBoundary` tell what is missing in the end.
+   * UpperValue: also background that the object encloses; NoRecovery: nothing, as in the paper.
+   * `MissingParts` and `MissingBoundary` tell what is missing in the end.
    */
   virtual void SetRecovery(int value);
   virtual int GetRecovery();

@@ -13,11 +13,12 @@
  * @par Input:
  * Port 0: a vtkImageData with integers of any type, of one component, as point data (voxels are
  * points) or cell data (voxels are cells), chosen by SetInputArrayToProcess(), by default the
- * active scalars. Floating-point numbers within a hundredth of integers serve, NaN as background, and
- * labels that no int holds are numbered anew and named by what they were, all with a warning. A composite
- * dataset with one image in it serves as that image. Names and colours of labels may come with the
- * image as arrays of its field data: `LabelValues` (integers) and, with an entry for each of these,
- * `LabelNames` (strings) and `LabelColors` (3 components, 0 to 1; as unsigned char 0 to 255).
+ * active scalars. Floating-point numbers within a hundredth of integers serve, NaN as background,
+ * and labels that no int holds are numbered anew and named by what they were, all with a warning.
+ * A composite dataset with one image in it serves as that image. Names and colours of labels may
+ * come with the image as arrays of its field data: `LabelValues` (integers) and, with an entry for
+ * each of these, `LabelNames` (strings) and `LabelColors` (3 components, 0 to 1; as unsigned char
+ * 0 to 255).
  *
  * @par Output:
  * World coordinates. Port 0: a vtkMultiBlockDataSet, a block (vtkPolyData) per label, in the order

@@ -32,7 +32,8 @@ namespace
 std::string NameOfMask(const std::string& file)
 {
   const std::string name = std::filesystem::path(file).filename().string();
-  for (const char* suffix : { ".nii.gz", ".nii", ".seg.nrrd", ".nrrd", ".nhdr", ".mha", ".mhd", ".vti", ".mgz" })
+  for (const char* suffix :
+    { ".nii.gz", ".nii", ".seg.nrrd", ".nrrd", ".nhdr", ".mha", ".mhd", ".vti", ".mgz" })
   {
     if (EndsWith(Lower(name), suffix))
     {

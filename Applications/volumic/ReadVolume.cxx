@@ -331,7 +331,8 @@ OpenedVolume OpenVolume(const std::string& name, const std::string& array,
       auto holder = vtkSmartPointer<vtkTrivialProducer>::New();
       holder->SetOutput(image);
       const std::string suffix = SuffixOf(name);
-      return OpenedVolume{ holder, areOfCells ? "values of cells" : suffix.empty() ? "masks" : suffix };
+      return OpenedVolume{ holder,
+        areOfCells ? "values of cells" : suffix.empty() ? "masks" : suffix };
     });
 }
 

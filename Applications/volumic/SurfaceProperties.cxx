@@ -89,7 +89,8 @@ std::vector<PropertyOption> MakeProperties()
       "the value of the image at the surface that is searched, in the units of the voxels; without "
       "this option Otsu's threshold of the image, which is told"),
     SURFACE_NUMBER(UpperValue, "upper", "VALUE",
-      "the object is where the image is between --iso and this: marrow in bone, one of two materials"),
+      "the object is where the image is between --iso and this: marrow in bone, one of two "
+      "materials"),
     SURFACE_SWITCH(ObjectIsBright, false, "dark",
       "the object is where the image is below --iso, or, with --upper, not between the two"),
     SURFACE_NUMBER(SelectedComponent, "component", "N",

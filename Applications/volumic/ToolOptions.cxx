@@ -115,8 +115,8 @@ const std::vector<ProgramOption>& InputOptions()
       "multiply all lengths and places of the volume by this, and so all that is written",
       SetScale },
     { "unit", "m|mm|um",
-      "have all that is written in this unit of length, which is also that of lengths and places in "
-      "options; where the file tells its own",
+      "have all that is written in this unit of length, which is also that of lengths and places "
+      "in options; where the file tells its own",
       SetUnit },
     { "space", "LPS|RAS|as-file",
       "to which sides of the body the axes of what is written point (left, posterior, superior, as "

@@ -116,8 +116,8 @@ PyramidBlocks MakePyramidBlocks(
 
   PyramidBlocks pyramid;
   pyramid.Blocks = vtkSmartPointer<vtkMultiBlockDataSet>::New();
-  // No voxel is copied, but where they were folded, or one component was selected: then the new array
-  // takes the place of theirs.
+  // No voxel is copied, but where they were folded, or one component was selected: then the new
+  // array takes the place of theirs.
   AddLevel(pyramid.Blocks, 0, WithVoxels(image, finest), levels[0].Unit);
   for (std::size_t h = 1; h <= made.size(); ++h)
   {

@@ -152,8 +152,8 @@ void BeginWhereHeld(LevelChoice& choice, int there, const SegmentationLevels& le
       ", but the object is too thin for it: no voxel is ", where,
       " there. Give a shorter Edge Length.");
   }
-  Refuse("the object has vanished at level ", choice.Coarsest, ", the coarsest: no voxel is ", where,
-    " there. It is too thin for that level; set Coarsest Level to ", there,
+  Refuse("the object has vanished at level ", choice.Coarsest, ", the coarsest: no voxel is ",
+    where, " there. It is too thin for that level; set Coarsest Level to ", there,
     ", where it is still there, or less.");
 }
 }

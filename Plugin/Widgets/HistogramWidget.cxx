@@ -83,6 +83,12 @@ void HistogramWidget::SetValue(double value)
   this->update();
 }
 
+void HistogramWidget::SetUpper(double value)
+{
+  this->Upper = value;
+  this->update();
+}
+
 //------------------------------------------------------------------------------
 int HistogramWidget::ColumnOf(double value) const
 {
@@ -119,6 +125,11 @@ void HistogramWidget::paintEvent(QPaintEvent*)
     painter.drawLine(column, 0, column, below);
   }
   const int column = this->ColumnOf(this->Value);
+  if (this->Upper > this->Value)
+  {
+    const int end = this->ColumnOf(this->Upper);
+    painter.fillRect(column, 0, end - column, below, QColor(208, 32, 32, 64));
+  }
   painter.fillRect(column - 1, 0, 2, below, QColor(208, 32, 32));
 }
 

@@ -6,6 +6,7 @@
 #include <QWidget>
 
 #include <functional>
+#include <limits>
 #include <vector>
 
 namespace volumic
@@ -24,6 +25,8 @@ public:
   void SetCounts(double low, double high, const std::vector<double>& counts, double threshold);
   /** Where the line is. */
   void SetValue(double value);
+  /** Where the values that are chosen end, from the line on; NaN: nothing shows that. */
+  void SetUpper(double value);
 
   /** Called while the line is dragged, at last with true. */
   std::function<void(double value, bool isDone)> Dragged;
@@ -45,6 +48,7 @@ private:
   double High = 0.0;
   double Threshold = 0.0;
   double Value = 0.0;
+  double Upper = std::numeric_limits<double>::quiet_NaN();
   std::vector<double> Counts;
 };
 }

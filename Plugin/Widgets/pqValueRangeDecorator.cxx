@@ -12,11 +12,14 @@
 #include <vtkSMDoubleRangeDomain.h>
 #include <vtkSMOtsuThresholdDomain.h>
 #include <vtkSMProperty.h>
+#include <vtkSMProxy.h>
 #include <vtkSMUncheckedPropertyHelper.h>
 
 #include <QBoxLayout>
 #include <QLabel>
 #include <QSlider>
+
+#include <limits>
 
 namespace
 {
@@ -50,6 +53,15 @@ pqValueRangeDecorator::pqValueRangeDecorator(vtkPVXMLElement* xml, pqPropertyWid
     parent->property(), vtkCommand::DomainModifiedEvent, this, SLOT(showRange()));
   pqCoreUtilities::connect(
     parent->property(), vtkCommand::UncheckedPropertyModifiedEvent, this, SLOT(showValue()));
+  for (const char* name : { "UpperValue", "UseUpperValue" })
+  {
+    if (vtkSMProperty* property = parent->proxy()->GetProperty(name))
+    {
+      pqCoreUtilities::connect(
+        property, vtkCommand::UncheckedPropertyModifiedEvent, this, SLOT(showUpper()));
+    }
+  }
+  this->showUpper();
 }
 
 pqValueRangeDecorator::~pqValueRangeDecorator() = default;
@@ -84,6 +96,17 @@ void pqValueRangeDecorator::showValue()
 {
   this->Histogram->SetValue(
     vtkSMUncheckedPropertyHelper(this->parentWidget()->property()).GetAsDouble());
+}
+
+//------------------------------------------------------------------------------
+void pqValueRangeDecorator::showUpper()
+{
+  vtkSMProxy* proxy = this->parentWidget()->proxy();
+  vtkSMProperty* upper = proxy->GetProperty("UpperValue");
+  vtkSMProperty* use = proxy->GetProperty("UseUpperValue");
+  const bool isUsed = upper && use && vtkSMUncheckedPropertyHelper(use).GetAsInt() != 0;
+  this->Histogram->SetUpper(isUsed ? vtkSMUncheckedPropertyHelper(upper).GetAsDouble()
+                                   : std::numeric_limits<double>::quiet_NaN());
 }
 
 //------------------------------------------------------------------------------

@@ -92,8 +92,8 @@ class VolumesTest(ToolTestCase):
                 self.run_tool(file, self.path("a.ply"), "--iso", ISO * scale)
                 self.write(vtkXMLImageDataWriter(), "b.vti", make_image(voxels, origin=np.zeros(3)))
                 self.run_tool(self.path("b.vti"), self.path("b.ply"), "--iso", ISO * scale)
-                self.assertEqual(self.content("a.ply").replace(b", SPACE=LAS, unit mm", b""),
-                                 self.content("b.ply"))
+                surfaces = [self.content(name).split(b"end_header")[1] for name in ("a.ply", "b.ply")]
+                self.assertEqual(*surfaces)
 
     @unittest.skipUnless(importlib.util.find_spec("vtkmodules.vtkIOMINC"), "VTK without MINC")
     def test_minc(self):

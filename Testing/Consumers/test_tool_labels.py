@@ -232,7 +232,8 @@ class WhatIsReadTest(LabelsTest):
         volume = self.map_file("map.vti", label_image(voxels))
         process = self.run_tool(volume, self.path("o"), "--labels", "1,4294967294")
         self.assertEqual(sorted(os.listdir(self.path("o"))), ["4294967294.vtp", "label-1.vtp"])
-        self.assertRegex(process.stderr, "warning: .*numbered anew.*: 4294967293 is 3, 4294967294 is 4")
+        self.assertRegex(process.stderr,
+                         "warning: .*numbered anew.*: 4294967293 is 3, 4294967294 is 4")
         rows = self.report(volume, "--list-labels")["labels"]
         self.assertEqual([row["name"] for row in rows if row["label"] > 2],
                          ["4294967293", "4294967294"])
@@ -276,8 +277,9 @@ class WhatIsReadTest(LabelsTest):
                  for row in json.loads(self.content("r.json"))["labels"]}
         self.assertEqual((sizes["part"], "whole" in sizes), (27, False))
         count = (voxels == 1).sum()
-        self.assertRegex(process.stderr, rf"{count} times a voxel is in two masks \(part and whole 27, "
-                                         rf"whole and zone {count - 27}\): .* the smaller one")
+        self.assertRegex(process.stderr,
+                         rf"{count} times a voxel is in two masks \(part and whole 27, "
+                         rf"whole and zone {count - 27}\): .* the smaller one")
 
     def test_what_is_no_folder_of_masks(self):
         voxels = label_voxels()

@@ -68,7 +68,8 @@ class OptionTableTest(ToolTestCase):
         """By the report's list of properties."""
         volume = self.write(vtkXMLImageDataWriter(), "small.vti", make_image(ball()))
         values = {
-            "iso": "400", "upper": "900", "reduction-factor": "1.5", "sampling-ratio": "0.9", "friction": "2.5",
+            "iso": "400", "upper": "900",
+            "reduction-factor": "1.5", "sampling-ratio": "0.9", "friction": "2.5",
             "tolerance": "0.01", "border": "replicate", "recovery": "none", "levels": "2",
             "initialization": "iso-surface", "coarsest": "0", "finest": "0", "seed-radius": "1.5",
             "minimum-level-size": "12", "iterations": "400", "threads": "1",

@@ -54,7 +54,8 @@ class SpaceTest(ToolTestCase):
                 (self.nifti(2), "RAS", "mm"), (self.nifti(3), "RAS", "um"),
                 (self.nifti(0), "RAS", ""), (self.nrrd(), "LPS", ""),
                 (self.nrrd(b'space units: "mm" "mm" "mm"\n'), "LPS", "mm"),
-                (self.path("dicom"), "LPS", "mm"), (self.path("a.mrc"), "", "A"), (self.ball_file(), "", "")):
+                (self.path("dicom"), "LPS", "mm"), (self.path("a.mrc"), "", "A"),
+                (self.ball_file(), "", "")):
             if "nii" in volume:
                 volume = self.nifti({"mm": 2, "um": 3, "": 0}[unit])
             with self.subTest(volume, unit=unit):

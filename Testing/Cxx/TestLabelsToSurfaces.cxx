@@ -94,7 +94,8 @@ TEST(LabelsToSurfaces, NumbersAnewWhatNoIntHolds)
     EXPECT_TRUE(warnings.Has("4294967295 is 8."));
     ASSERT_EQ(BlockNames(filter->GetOutput()), (Names{ "Label 7", "4294967295" }));
     EXPECT_EQ(FieldOf(BlockOf(filter, 1), "Label"), 8.0);
-    EXPECT_EQ(FieldOf(BlockOf(filter, 1), "LabelVoxels"), FieldOf(BlockOf(balls, 0), "LabelVoxels"));
+    EXPECT_EQ(
+      FieldOf(BlockOf(filter, 1), "LabelVoxels"), FieldOf(BlockOf(balls, 0), "LabelVoxels"));
   }
   EXPECT_EQ(names, (Names{ "Label 3", "Label 7" }));
 }

@@ -48,6 +48,21 @@ class VolumeToSurfaceTest(testing.PluginTestCase):
         self.assertNotAlmostEqual(filter_.IsoValue, (low + high) / 2, places=3)
         self.check_ball(testing.fetch(filter_))
 
+    def test_a_range_of_values(self):
+        """Of a ball within a ball the outer one's layer; none is wanted by default."""
+        inner = numpy.clip(0.5 + 0.5 * (5 - testing.distances(SIZE)), 0, 1)
+        values = (ball_values() + 400 * inner).astype(numpy.float32)
+        filter_ = simple.VolumetoSurface(testing.produce(testing.make_image(values)))
+        self.assertEqual((filter_.UseUpperValue, filter_.UpperValue), (0, values.max()))
+        filter_.IsoValue = (DARK + BRIGHT) / 2
+        self.assertEqual(testing.field(testing.fetch(filter_), "NumberOfComponents"), 1)
+        filter_.UpperValue = BRIGHT + 200
+        filter_.UseUpperValue = 1
+        surface = testing.fetch(filter_)
+        self.assertEqual(testing.field(surface, "NumberOfComponents"), 2)
+        distance = numpy.linalg.norm(points(surface) - (SIZE - 1) / 2, axis=1)
+        numpy.testing.assert_allclose((distance.min(), distance.max()), (5, RADIUS), atol=0.7)
+
     def test_voxels_in_cells(self):
         of_cells = simple.VolumetoSurface(testing.produce(ball_of_cells()))
         self.assertEqual(list(of_cells.Voxels), ["CELLS", "density"])

@@ -18,7 +18,8 @@ from paraview import simple
 
 VOLUME = source("RTAnalyticSource")
 FILTER = filter_of_the_menu("VolumeToSurface")
-BASIC = ("SetInputArrayToProcess", "IsoValue", "ObjectIsBright", "Preview", "FinestLevel",
+BASIC = ("SetInputArrayToProcess", "IsoValue", "UseUpperValue", "ObjectIsBright", "Preview",
+         "FinestLevel",
          "Recovery", "KeepComponents", "EdgeLength", "Tolerance", "ThinParts")
 ADVANCED = ("MaximumEdgeLength", "Gradation", "CoarsestLevel", "MinimumPartSize",
             "BorderValue", "NumberOfLevels",
@@ -215,6 +216,14 @@ class VolumeWindowTest(window.WindowTestCase):
         red, green, blue = (pixels[..., colour].astype(int) for colour in range(3))
         line = numpy.nonzero(((red == 208) & (green == 32) & (blue == 32)).sum(axis=0) > 40)[0]
         self.assertEqual(len(line), 2, line)
+        # The values up to Upper Value are tinted.
+        pixels = self.play(opened(path) + [
+            FILTER, gui.pause(500), *drag(9, -5), window.set_box("UseUpperValue", True),
+            gui.pause(300), gui.check(f"{PROPERTIES}/UpperValue", "visible", "true")],
+            "volume-histogram-range")
+        red, green, blue = (pixels[..., colour].astype(int) for colour in range(3))
+        tinted = ((red > green + 25) & (green == blue)).sum(axis=0) > 40
+        self.assertGreater(tinted.sum(), 50)
         # No value parts these voxels.
         flat = testing.write_volume("flat.vti", testing.make_image(values * 0 + 7, name="a"))
         self.assertTrue(self.session.play(opened(flat) + [

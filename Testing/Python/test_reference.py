@@ -21,8 +21,8 @@ from pipeline import property_names
 from volume_image import ARRAY_NAME, make_image
 
 REFERENCE = os.path.join(EXAMPLES, "..", "..", "Documentation", "reference.md")
-DEFAULTS = {"on": True, "off": False, "none": math.nan, "infinite": math.inf, "sqrt(3)": math.sqrt(3),
-            "empty": ""}
+DEFAULTS = {"on": True, "off": False, "none": math.nan, "infinite": math.inf,
+            "sqrt(3)": math.sqrt(3), "empty": ""}
 
 
 def tables():
