@@ -3,6 +3,7 @@
 #include "LabelMap.h"
 
 #include "LoadInputs.h"
+#include "MaskFolder.h"
 #include "ReadVolume.h"
 #include "ResampleImage.h"
 #include "Texts.h"
@@ -21,6 +22,7 @@
 #include <algorithm>
 #include <fnmatch.h>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 
@@ -88,6 +90,28 @@ std::vector<int> ComponentsOf(
 }
 }
 
+namespace
+{
+/** A label map, or, where nothing tells which of several volumes in the file it is, masks. */
+vtkSmartPointer<vtkImageData> LoadLabels(const ToolOptions& options, const Announcer& announcer)
+{
+  VolumeChoice choice = options.Choice;
+  choice.Times = std::make_shared<int>(1);
+  choice.Time = choice.Time.value_or(0);
+  vtkSmartPointer<vtkImageData> image =
+    LoadWhole(options.Volume, options.Array, choice, announcer);
+  if (!options.Choice.Time && *choice.Times > 1)
+  {
+    announcer.Follow(
+      options.Volume, [&] { image = ReadMasksOf(options.Volume, *choice.Times); });
+    announcer.Say(options.Volume + ": " + std::to_string(*choice.Times) +
+      " volumes, one behind the other, are taken for masks of labels 1 to " +
+      std::to_string(*choice.Times) + "; --time chooses one of them");
+  }
+  return image;
+}
+}
+
 LabelMap LoadLabelMap(const ToolOptions& options, vtkDeformableSurface* settings,
   vtkImagePyramid* holder, const Announcer& announcer)
 {
@@ -99,8 +123,7 @@ LabelMap LoadLabelMap(const ToolOptions& options, vtkDeformableSurface* settings
       LoadVoxels(options.Volume, options.Array, options.Choice, settings, holder, announcer);
     map.Image = loaded.Components == 1 || component >= 0 ? loaded.Image : nullptr;
   }
-  map.Image = map.Image ? map.Image :
-    LoadWhole(options.Volume, options.Array, options.Choice, announcer);
+  map.Image = map.Image ? map.Image : LoadLabels(options, announcer);
   const WorldSpace world =
     Named(options.Volume, [&] { return PlaceInWorld(map.Image, options.World); });
   ResampleAsAsked(options, true, map.Image, announcer);

@@ -18,6 +18,7 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <iterator>
 #include <limits>
 #include <map>
@@ -120,8 +121,9 @@ private:
         inside = size++ == 0 ? value : inside;
         FailIf(!(std::abs(value - inside) <= most),
           "has the values " + NumberText(inside) + " and " + NumberText(value) +
-            ": a mask has 0 and another one. A folder of volumes is read as masks, a file for each "
-            "label; give a volume, or a label map, by its own name");
+            ": a mask has 0 and another one. Volumes of a folder, or of a file, are read as masks, one "
+            "for each label; give a volume, or a label map, by its own name, or choose one of the "
+            "file's with --time");
       }
     }
     this->Sizes.push_back(size);
@@ -131,29 +133,41 @@ private:
       if (std::abs(static_cast<double>(values[i])) > most)
       {
         const std::uint16_t other = labels[i];
-        this->Shared[{ other, own }] += other != 0;
+        if (other != 0)
+        {
+          ++this->Shared[{ other, own }];
+        }
         labels[i] = other == 0 || size < this->Sizes[other] ? own : other;
       }
     }
   }
 };
 
-void TellOfShared(const GrowingMap& map, const std::vector<std::string>& files)
+/** A mask that is read when its turn comes. */
+struct Mask
+{
+  std::string Place; ///< what errors call it
+  std::string Name;  ///< empty: it has none
+  std::function<vtkSmartPointer<vtkImageData>()> Read;
+
+  /** In messages. */
+  std::string Called() const { return this->Name.empty() ? this->Place : this->Name; }
+};
+
+void TellOfShared(const GrowingMap& map, const std::vector<Mask>& masks)
 {
   constexpr std::size_t most = 5;
   vtkIdType all = 0;
-  std::size_t pairs = 0;
   std::string list;
+  std::size_t pairs = 0;
   for (const auto& [labels, voxels] : map.Shared)
   {
     all += voxels;
-    pairs += voxels > 0;
-    if (voxels > 0 && pairs <= most)
+    if (++pairs <= most)
     {
       list += (list.empty() ? "" : ", ") +
-        NameOfMask(files[static_cast<std::size_t>(labels.first) - 1]) + " and " +
-        NameOfMask(files[static_cast<std::size_t>(labels.second) - 1]) + " " +
-        std::to_string(voxels);
+        masks[static_cast<std::size_t>(labels.first) - 1].Called() + " and " +
+        masks[static_cast<std::size_t>(labels.second) - 1].Called() + " " + std::to_string(voxels);
     }
   }
   if (all > 0)
@@ -164,17 +178,51 @@ void TellOfShared(const GrowingMap& map, const std::vector<std::string>& files)
 }
 
 /** Organs that were not found have such. */
-void TellOfEmpty(const GrowingMap& map, const std::vector<std::string>& files)
+void TellOfEmpty(const GrowingMap& map, const std::vector<Mask>& masks)
 {
   std::string list;
   for (std::size_t label = 1; label < map.Sizes.size(); ++label)
   {
-    list += map.Sizes[label] > 0 ? "" : (list.empty() ? "" : ", ") + NameOfMask(files[label - 1]);
+    list += map.Sizes[label] > 0 ? "" : (list.empty() ? "" : ", ") + masks[label - 1].Called();
   }
   if (!list.empty())
   {
     TellOfFile("masks without a voxel: " + list);
   }
+}
+
+vtkSmartPointer<vtkImageData> MapOf(const std::vector<Mask>& masks)
+{
+  FailIf(masks.size() > std::numeric_limits<std::uint16_t>::max(), "there are too many masks");
+  vtkSmartPointer<vtkImageData> first;
+  std::unique_ptr<GrowingMap> map;
+  LabelNames names;
+  for (const Mask& each : masks)
+  {
+    const vtkSmartPointer<vtkImageData> mask = each.Read();
+    Named(each.Place,
+      [&]
+      {
+        ChooseScalars(mask, "");
+        first = first ? first : mask;
+        map = map ? std::move(map) : std::make_unique<GrowingMap>(mask->GetNumberOfPoints());
+        FailIf(!LieAlike(first, mask),
+          "its voxels are not those of " + masks.front().Place + ", in number or place");
+        map->Add(mask->GetPointData()->GetScalars());
+      });
+    if (!each.Name.empty())
+    {
+      names.push_back({ static_cast<int>(map->Sizes.size()) - 1, each.Name });
+    }
+  }
+  TellOfShared(*map, masks);
+  TellOfEmpty(*map, masks);
+  auto image = vtkSmartPointer<vtkImageData>::New();
+  image->CopyStructure(first);
+  image->GetFieldData()->ShallowCopy(first->GetFieldData());
+  image->GetPointData()->SetScalars(map->Labels);
+  SetLabelNames(image, names);
+  return image;
 }
 }
 
@@ -189,32 +237,24 @@ std::vector<std::string> MasksAmong(const std::vector<std::string>& files)
 
 vtkSmartPointer<vtkImageData> ReadMasks(const std::vector<std::string>& files)
 {
-  FailIf(files.size() > std::numeric_limits<std::uint16_t>::max(), "there are too many masks");
-  vtkSmartPointer<vtkImageData> first;
-  std::unique_ptr<GrowingMap> map;
-  LabelNames names;
+  std::vector<Mask> masks;
   for (const std::string& file : files)
   {
-    const vtkSmartPointer<vtkImageData> mask = ReadVolume(file);
-    Named(file,
-      [&]
-      {
-        ChooseScalars(mask, "");
-        first = first ? first : mask;
-        map = map ? std::move(map) : std::make_unique<GrowingMap>(mask->GetNumberOfPoints());
-        FailIf(!LieAlike(first, mask),
-          "its voxels are not those of " + files.front() + ", in number or place");
-        map->Add(mask->GetPointData()->GetScalars());
-      });
-    names.push_back({ static_cast<int>(names.size()) + 1, PlainName(NameOfMask(file)) });
+    masks.push_back({ file, PlainName(NameOfMask(file)), [file] { return ReadVolume(file); } });
   }
-  TellOfShared(*map, files);
-  TellOfEmpty(*map, files);
-  auto image = vtkSmartPointer<vtkImageData>::New();
-  image->CopyStructure(first);
-  image->GetFieldData()->ShallowCopy(first->GetFieldData());
-  image->GetPointData()->SetScalars(map->Labels);
-  SetLabelNames(image, names);
-  return image;
+  return MapOf(masks);
+}
+
+vtkSmartPointer<vtkImageData> ReadMasksOf(const std::string& file, int count)
+{
+  std::vector<Mask> masks;
+  for (int time = 0; time < count; ++time)
+  {
+    VolumeChoice choice;
+    choice.Time = time;
+    masks.push_back(
+      { "volume " + std::to_string(time), "", [file, choice] { return ReadVolume(file, choice); } });
+  }
+  return MapOf(masks);
 }
 }

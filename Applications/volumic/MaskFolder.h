@@ -22,6 +22,9 @@ std::vector<std::string> MasksAmong(const std::vector<std::string>& files);
  * @throws Failure that names the file which is no mask, or does not lie as the first.
  */
 vtkSmartPointer<vtkImageData> ReadMasks(const std::vector<std::string>& files);
+
+/** The same of so many masks in one file, one behind the other: "one-hot". They have no names. */
+vtkSmartPointer<vtkImageData> ReadMasksOf(const std::string& file, int count);
 }
 
 #endif

@@ -281,6 +281,24 @@ class WhatIsReadTest(LabelsTest):
                          rf"{count} times a voxel is in two masks \(part and whole 27, "
                          rf"whole and zone {count - 27}\): .* the smaller one")
 
+    def test_masks_behind_each_other_in_one_file(self):
+        voxels = label_voxels()
+        masks = np.stack([voxels == 1, voxels == 2, voxels == 7])
+        file = self.write_bytes("onehot.nii", medical_files.nifti(masks.astype("i2"), SPACING))
+        process = self.run_tool(file, "--list-labels", "--report", self.path("r.json"))
+        self.assertIn("3 volumes, one behind the other, are taken for masks of labels 1 to 3",
+                      process.stderr)
+        sizes = [(row["label"], row["voxels"])
+                 for row in json.loads(self.content("r.json"))["labels"] if row["label"]]
+        self.assertEqual(sizes, [(n + 1, mask.sum()) for n, mask in enumerate(masks)])
+        one = self.report(file, "--list-labels", "--time", "2")["labels"]
+        self.assertEqual([row["voxels"] for row in one if row["label"] == 1], [masks[2].sum()])
+        self.refused("choose one with --time", file, self.path("a.stl"), "--iso", "0.5")
+        file = self.write_bytes("times.nii", medical_files.nifti(
+            np.stack([voxels, voxels]).astype("i2"), SPACING))
+        self.refused("volume 0: has the values 1 and 2: a mask has 0 and another one", file,
+                     self.path("o/"), "--labels", "all")
+
     def test_what_is_no_folder_of_masks(self):
         voxels = label_voxels()
         for name, volume, reason in (
