@@ -10,9 +10,9 @@
 # from another package's dependencies, is, so that a new release needs no change here.
 
 # libarchive-dev: for projects of InVesalius, and NRRD packed by bzip2. nlohmann-json3-dev: for names
-# of labels, and reports.
+# of labels, and reports. libinsighttoolkit5-dev: DICOM, and what VTK has no reader for.
 tool_packages=(g++ cmake ninja-build python3 libpython3-dev python3-numpy libarchive-dev
-  nlohmann-json3-dev)
+  nlohmann-json3-dev libinsighttoolkit5-dev)
 # Without doxygen, which brings 200 MB of LLVM: its test is disabled where it is missing.
 # mpi-default-bin: mpirun, without which the tests of several ranks are skipped.
 # ccache: what is compiled for both flavours is compiled once.

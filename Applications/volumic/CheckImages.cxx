@@ -145,49 +145,11 @@ void CheckChosen(vtkObject* reader, const std::string& name)
     "pictures of this kind are not read; PNG, TIFF, JPEG, BMP, PGM and PPM are");
 }
 
-TiffFacts FactsOf(const std::string& text, bool isOnlyPage, std::array<double, 3> distances)
-{
-  const bool isOme = text.find("<OME") != std::string::npos;
-  if (!isOme && text.compare(0, 7, "ImageJ=") != 0)
-  {
-    return {};
-  }
-  // ImageJ has lines, OME attributes in XML.
-  const auto word = [&](const std::string& ofImageJ, const std::string& ofOme)
-  {
-    const std::string mark = isOme ? " " + ofOme + "=\"" : "\n" + ofImageJ + "=";
-    const std::size_t at = std::min(text.find(mark), text.size());
-    const std::size_t begin = std::min(at + mark.size(), text.size());
-    const std::size_t end = std::min(text.find_first_of("\"\r\n", begin), text.size());
-    return text.substr(begin, end - begin);
-  };
-  const auto number = [&](const std::string& ofImageJ, const std::string& ofOme, double otherwise)
-  {
-    const double value = AsNumber<double>(word(ofImageJ, ofOme)).value_or(otherwise);
-    return value > 0.0 ? value : otherwise;
-  };
-  const double channels = number("channels", "SizeC", 1.0);
-  const double times = number("frames", "SizeT", 1.0);
-  FailIf(channels * times > 1.0,
-    "its pages are of " + NumberText(channels) + " channels and " + NumberText(times) +
-      " times; save those of one, for example by ImageJ (Image > Duplicate)");
-  const double images = isOme ? 1.0 : number("images", "", 1.0);
-  FailIf(isOnlyPage && images > 1.0,
-    "ImageJ has put " + NumberText(images) +
-      " images into one page, which is not read; save it there as NRRD, or as an image sequence");
-  const std::string unit = word("unit", "PhysicalSizeXUnit");
-  const bool isUnsaid = isOme && unit.empty() && !word("", "PhysicalSizeX").empty();
-  return { { number("", "PhysicalSizeX", distances[0]), number("", "PhysicalSizeY", distances[1]),
-             number("spacing", "PhysicalSizeZ", 1.0) },
-    isUnsaid ? "um" : unit }; // OME's default
-}
-
-int CheckPicture(const std::string& name, TiffFacts* facts)
+void CheckPixels(const std::string& name)
 {
   CheckPng(name);
   CheckBmp(name);
   CheckPnm(name);
-  return std::max(CheckTiff(name, facts), 1);
 }
 
 // ---- netCDF -------------------------------------------------------------------------------------

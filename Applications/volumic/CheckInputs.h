@@ -3,7 +3,6 @@
 #ifndef volumicCheckInputs_h
 #define volumicCheckInputs_h
 
-#include <array>
 #include <cstdint>
 #include <iosfwd>
 #include <string>
@@ -37,31 +36,8 @@ void CheckLegacy(const std::string& name);
 /** A polygon file (.ply): all elements that its head tells of are there. */
 void CheckPly(const std::string& name);
 
-/** What programs that write volumes as TIFF tell beside the pixels. */
-struct TiffFacts
-{
-  std::array<double, 3> Spacing = { 1.0, 1.0, 1.0 };
-  std::string Unit; ///< of them, as the file calls it
-};
-
-/**
- * What the description of a first page tells, if ImageJ or OME-TIFF is its writer.
- * @param distances of the pixels, as the page's tags tell
- * @throws Failure for what makes the pages others than the slices of one volume
- */
-TiffFacts FactsOf(const std::string& text, bool isOnlyPage, std::array<double, 3> distances);
-
-/**
- * TIFF: all pages are of one kind that VTK reads, their data lie within the file without overlap,
- * and no page is left out. @return how many there are; 0 for other formats.
- */
-int CheckTiff(const std::string& name, TiffFacts* facts = nullptr);
-
-/**
- * TIFF as above; PNG: the checksums; BMP, PGM, PPM: the size of the data. Others are passed over.
- * @return pages of a TIFF, else 1
- */
-int CheckPicture(const std::string& name, TiffFacts* facts = nullptr);
+/** PNG: the checksums; BMP, PGM, PPM: the size of the data. Others are passed over. */
+void CheckPixels(const std::string& name);
 
 /**
  * What VTK has chosen a reader for, by a few bytes that any file may have: of TGA all pixels must be

@@ -7,7 +7,6 @@
 set(volumic_reader_sources
   BinaryFile.cxx
   CheckImages.cxx
-  CheckTiff.cxx
   CheckXmlInput.cxx
   InputFiles.cxx
   LabelJson.cxx
@@ -21,6 +20,7 @@ set(volumic_reader_sources
   ReadNrrd.cxx
   ReadPictures.cxx
   ReadPlain.cxx
+  ReadTiff.cxx
   ReadRaw.cxx
   ReadVolume.cxx
   RegularGrid.cxx

@@ -11,7 +11,6 @@
 #include <vtkImageData.h>
 #include <vtkImageReader2.h>
 #include <vtkPointData.h>
-#include <vtkTIFFReader.h>
 
 #include <algorithm>
 #include <array>
@@ -110,15 +109,53 @@ bool Matches(const std::string& name, const std::string& pattern)
   return reached.back();
 }
 
-/** @param isTiff given whether VTK's reader leaves the rows as they are, and does not turn them */
-vtkSmartPointer<vtkImageData> ReadPicture(const std::string& file, bool& isTiff)
+/** The pixels of a picture, whose rows VTK's readers turn upside down. */
+struct Picture
 {
+  std::array<int, 2> Size = { 0, 0 };
+  vtkSmartPointer<vtkDataArray> Pixels;
+  bool IsTurned = true;
+};
+
+Picture ReadPicture(const std::string& file)
+{
+  Picture picture;
+  if (IsTiff(file))
+  {
+    const std::unique_ptr<SlabReader> pages = Named(file, [&file] { return OpenTiff(file, {}); });
+    picture.Size = { pages->Size[0], pages->Size[1] };
+    picture.Pixels = Named(file, [&pages] { return pages->Read(0, 1); });
+    picture.IsTurned = false;
+    return picture;
+  }
   const vtkSmartPointer<vtkImageReader2> reader = ReaderOf(file);
-  isTiff = reader->IsA("vtkTIFFReader") != 0;
   reader->SetDataSpacing(1.0, 1.0, 1.0);
   VtkMessages messages;
   messages.UpdateReader(reader, file);
-  return reader->GetOutput();
+  vtkImageData* image = reader->GetOutput();
+  picture.Size = { image->GetDimensions()[0], image->GetDimensions()[1] };
+  picture.Pixels = image->GetPointData()->GetScalars();
+  FailIf(!picture.Pixels, file + ": holds no picture");
+  return picture;
+}
+
+/** Width, height, components and type of what one page holds. @throws Failure for damaged ones */
+std::array<int, 4> CheckPicture(const std::string& file)
+{
+  if (IsTiff(file))
+  {
+    const std::unique_ptr<SlabReader> pages = OpenTiff(file, {});
+    FailIf(pages->Size[2] > 1 || pages->Components > 4,
+      std::to_string(pages->Size[2]) + " pages; give it by its name, it is a volume");
+    return { pages->Size[0], pages->Size[1], pages->Components, pages->Type };
+  }
+  CheckPixels(file);
+  const vtkSmartPointer<vtkImageReader2> reader = ReaderOf(file);
+  CheckChosen(reader, file);
+  VtkMessages().AskReader(reader, file);
+  const int* extent = reader->GetDataExtent();
+  return { extent[1] - extent[0] + 1, extent[3] - extent[2] + 1,
+    reader->GetNumberOfScalarComponents(), reader->GetDataScalarType() };
 }
 
 /** @throws Failure unless they are pictures of one kind and size. */
@@ -138,20 +175,7 @@ void CheckPictures(const std::vector<std::string>& files)
   std::array<int, 4> size = { 0, 0, 0, 0 };
   for (const std::string& file : files)
   {
-    Named(file,
-      [&]
-      {
-        if (const int pages = CheckPicture(file); pages > 1)
-        {
-          throw Failure(std::to_string(pages) + " pages; give it by its name, it is a volume");
-        }
-      });
-    const vtkSmartPointer<vtkImageReader2> reader = ReaderOf(file);
-    Named(file, [&] { CheckChosen(reader, file); });
-    VtkMessages().AskReader(reader, file);
-    const int* extent = reader->GetDataExtent();
-    const std::array<int, 4> own = { extent[1] - extent[0] + 1, extent[3] - extent[2] + 1,
-      reader->GetNumberOfScalarComponents(), reader->GetDataScalarType() };
+    const std::array<int, 4> own = Named(file, [&file] { return CheckPicture(file); });
     size = file == files.front() ? own : size;
     FailIf(own != size,
       file + ": its " +
@@ -166,16 +190,11 @@ class PictureSlabs : public SlabReader
 public:
   explicit PictureSlabs(const std::vector<std::string>& files) : Files(files)
   {
-    bool isTiff = false;
-    const vtkSmartPointer<vtkImageData> first = ReadPicture(files.front(), isTiff);
-    vtkDataArray* values = ValuesOf(first, files.front());
-    this->Size = { first->GetDimensions()[0], first->GetDimensions()[1],
-      static_cast<int>(files.size()) };
-    this->Type = values->GetDataType();
-    this->Components = values->GetNumberOfComponents();
-    this->ArrayName = values->GetName() ? values->GetName() : "";
-    this->Placement.Origin = { first->GetOrigin()[0], first->GetOrigin()[1],
-      first->GetOrigin()[2] };
+    const Picture first = ReadPicture(files.front());
+    this->Size = { first.Size[0], first.Size[1], static_cast<int>(files.size()) };
+    this->Type = first.Pixels->GetDataType();
+    this->Components = first.Pixels->GetNumberOfComponents();
+    this->ArrayName = first.Pixels->GetName() ? first.Pixels->GetName() : "";
   }
 
   vtkSmartPointer<vtkDataArray> Read(int first, int count) override
@@ -187,30 +206,22 @@ public:
     for (int i = 0; i < count; ++i)
     {
       const std::string& file = this->Files[static_cast<std::size_t>(first + i)];
-      bool isTiff = false;
-      const vtkSmartPointer<vtkImageData> picture = ReadPicture(file, isTiff);
-      vtkDataArray* values = ValuesOf(picture, file);
-      FailIf(
-        values->GetDataType() != this->Type || values->GetNumberOfComponents() != this->Components,
+      const Picture picture = ReadPicture(file);
+      FailIf(picture.Size[0] != this->Size[0] || picture.Size[1] != this->Size[1] ||
+          picture.Pixels->GetDataType() != this->Type ||
+          picture.Pixels->GetNumberOfComponents() != this->Components,
         file + ": its values are of another type than the first picture's");
       for (int row = 0; row < this->Size[1]; ++row)
       {
         const vtkIdType width = this->Size[0];
         stack->InsertTuples(area * i + row * width, width,
-          (isTiff ? row : this->Size[1] - 1 - row) * width, values);
+          (picture.IsTurned ? this->Size[1] - 1 - row : row) * width, picture.Pixels);
       }
     }
     return stack;
   }
 
 private:
-  static vtkDataArray* ValuesOf(vtkImageData* picture, const std::string& file)
-  {
-    vtkDataArray* values = picture->GetPointData()->GetScalars();
-    FailIf(!values, file + ": holds no picture");
-    return values;
-  }
-
   std::vector<std::string> Files;
 };
 }
@@ -277,8 +288,13 @@ std::unique_ptr<SlabReader> OpenPictures(
 
 std::unique_ptr<SlabReader> OpenByContent(const std::string& name, const Opening& opening)
 {
-  TiffFacts facts;
-  CheckPicture(name, &facts); // before any reader of VTK looks at it
+  if (IsTiff(name))
+  {
+    auto pages = OpenTiff(name, opening);
+    TellOfAlpha(*pages, opening);
+    return pages;
+  }
+  CheckPixels(name); // before any reader of VTK looks at it
   const vtkSmartPointer<vtkImageReader2> reader = ReaderOf(name);
   CheckChosen(reader, name);
   if (reader->IsA("vtkNIFTIImageReader"))
@@ -286,13 +302,7 @@ std::unique_ptr<SlabReader> OpenByContent(const std::string& name, const Opening
     return OpenNifti(name, opening);
   }
   auto slabs = std::make_unique<ReaderSlabs>(name, [name] { return ReaderOf(name); });
-  slabs->HasParts = reader->IsA("vtkTIFFReader");
-  if (slabs->HasParts)
-  {
-    slabs->Placement.Spacing = facts.Spacing;
-    slabs->LengthUnit = facts.Unit;
-    TellOfAlpha(*slabs, opening);
-  }
+  slabs->HasParts = false;
   return slabs;
 }
 }

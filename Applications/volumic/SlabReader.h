@@ -108,6 +108,10 @@ std::unique_ptr<SlabReader> OpenDicom(
 std::unique_ptr<SlabReader> OpenPictures(
   const std::vector<std::string>& files, const Opening& opening);
 
+/** The pages of a TIFF, with the distances that programs of microscopes tell; channels, times. */
+std::unique_ptr<SlabReader> OpenTiff(const std::string& name, const Opening& opening);
+bool IsTiff(const std::string& name);
+
 /** A picture, the pages of a TIFF, or what else a reader of VTK takes for its own. */
 std::unique_ptr<SlabReader> OpenByContent(const std::string& name, const Opening& opening);
 

@@ -209,7 +209,7 @@ class FilesTest(DamageTest):
         page, = struct.unpack_from("<I", content, 4)
         count, = struct.unpack_from("<H", content, page)
         struct.pack_into("<I", content, page + 2 + 12 * count, page)
-        self.refused_bytes("a.tif", content, "its pages form a ring")
+        self.refused_bytes("a.tif", content, "its pages form no chain")
 
     def test_pictures(self):
         for writer, suffix in ((vtkPNGWriter, "png"), (vtkTIFFWriter, "tif"), (vtkPNMWriter, "pgm"),

@@ -125,17 +125,31 @@ class TiffTest(ToldTest):
         self.described("a.tif", b"some program")
         self.assertEqual(self.spacing("a.tif"), [1, 1, 1])
         self.described("b.tif", b"ImageJ=1.53c\nimages=18\nchannels=2\nslices=9\n")
-        self.refused_volume("b.tif", "2 channels and 1 times")
+        self.refused_volume("b.tif", "no vector .channels.; choose one with --component N, 0 to 1")
+        self.described("c.tif", b"ImageJ=1.53c\nimages=18\nchannels=4\nslices=9\n")
+        self.refused_volume("c.tif", "4 channels and 1 times, of which its 18 pages are no multiple")
         self.described("c.tif", b"ImageJ=1.53c\nimages=18\nslices=18\n", pages=ball("u2")[:1])
         self.refused_volume("c.tif", "ImageJ has put 18 images into one page")
 
     def test_ome(self):
-        head = (b'<?xml version="1.0"?><OME><Image><Pixels SizeC="%d" SizeT="1" PhysicalSizeX="0.5" '
+        head = (b'<?xml version="1.0"?><OME><Image><Pixels DimensionOrder="%s" SizeC="%d" SizeT="%d" '
+                b'PhysicalSizeX="0.5" '
                 b'PhysicalSizeY="0.25" PhysicalSizeZ="2"/></Image></OME>')
-        self.described("a.tif", head % 1)
+        self.described("a.tif", head % (b"XYZCT", 1, 1))
         self.assertEqual(self.spacing("a.tif"), [0.5, 0.25, 2])
-        self.described("b.tif", head % 2)
-        self.refused_volume("b.tif", "2 channels and 1 times")
+        for order, pages in ((b"XYCZT", np.repeat(ball("u2"), 2, 0)), (b"XYZTC", np.tile(
+                ball("u2"), (2, 1, 1)))):
+            pages[1 if order == b"XYCZT" else SIZE[2]] += 1
+            self.described("b.tif", head % (order, 2, 1), pages=pages)
+            self.refused_volume("b.tif", "the 2 numbers of each voxel are no vector .channels.")
+            there = self.centre("a.tif")
+            np.testing.assert_allclose(self.centre("b.tif", "--component", "0"), there, atol=1e-6)
+            np.testing.assert_allclose(
+                self.centre("b.tif", "--component", "1", "--memory", "200M"), there, atol=1e-2)
+            self.described("c.tif", head % (order.replace(b"C", b"?").replace(b"T", b"C").replace(
+                b"?", b"T"), 1, 2), pages=pages)
+            self.refused_volume("c.tif", "2 volumes, one behind the other; choose one with --time N")
+            np.testing.assert_allclose(self.centre("c.tif", "--time", "0"), there, atol=1e-6)
 
     def test_the_same_stack_in_two_formats(self):
         for name, writer in (("png", vtkPNGWriter()), ("tif", vtkTIFFWriter())):

@@ -1,0 +1,527 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// TIFF by libtiff, which VTK comes with. vtkTIFFReader gives other bytes than those of the file for
+// some kinds of pixels and takes all pages to be like the first; libtiff takes a chain of pages that
+// ends early for a whole one.
+#include "SlabReader.h"
+
+#include "Texts.h"
+#include "ToolErrors.h"
+
+#include <vtkDataArray.h>
+#include <vtk_tiff.h>
+
+#include <algorithm>
+#include <cstdarg>
+#include <cstdio>
+#include <cstring>
+#include <limits>
+#include <map>
+
+namespace tool
+{
+namespace
+{
+thread_local std::string Complaint; ///< of libtiff, the first since it was emptied
+
+void Complain(const char*, const char* format, va_list values)
+{
+  char text[300];
+  std::vsnprintf(text, sizeof(text), format, values);
+  Complaint = Complaint.empty() ? text : Complaint;
+}
+
+/** As long as it is there, libtiff tells this file of errors, and nobody of warnings. */
+class Listening
+{
+public:
+  Listening() : Errors(TIFFSetErrorHandler(Complain)), Warnings(TIFFSetWarningHandler(nullptr))
+  {
+    Complaint.clear();
+  }
+  ~Listening()
+  {
+    TIFFSetErrorHandler(this->Errors);
+    TIFFSetWarningHandler(this->Warnings);
+  }
+  Listening(const Listening&) = delete;
+  Listening& operator=(const Listening&) = delete;
+
+private:
+  TIFFErrorHandler Errors;
+  TIFFErrorHandler Warnings;
+};
+
+std::string Reason()
+{
+  return Complaint.empty() ? "" : " (" + AsUtf8(Complaint) + ")";
+}
+
+template <class T>
+T Tag(TIFF* file, std::uint32_t tag, T otherwise)
+{
+  T value = otherwise;
+  return TIFFGetFieldDefaulted(file, tag, &value) == 1 ? value : otherwise;
+}
+
+/** What of a page tells what its pixels are. */
+struct Kind
+{
+  std::uint32_t Width = 0;
+  std::uint32_t Height = 0;
+  std::uint16_t Bits = 1;
+  std::uint16_t Samples = 1;
+  std::uint16_t Format = SAMPLEFORMAT_UINT;
+  std::uint16_t Colours = 0;
+  std::uint16_t Planes = PLANARCONFIG_CONTIG;
+  std::uint16_t Orientation = ORIENTATION_TOPLEFT;
+
+  std::string Text() const
+  {
+    return std::to_string(this->Width) + " x " + std::to_string(this->Height) + ", " +
+      std::to_string(this->Samples) + " of " + std::to_string(this->Bits) + " bits, format " +
+      std::to_string(this->Format) + ", colours " + std::to_string(this->Colours) +
+      ", orientation " + std::to_string(this->Orientation);
+  }
+};
+
+Kind KindOf(TIFF* file)
+{
+  Kind kind;
+  kind.Width = Tag<std::uint32_t>(file, TIFFTAG_IMAGEWIDTH, 0);
+  kind.Height = Tag<std::uint32_t>(file, TIFFTAG_IMAGELENGTH, 0);
+  kind.Bits = Tag<std::uint16_t>(file, TIFFTAG_BITSPERSAMPLE, 1);
+  kind.Samples = Tag<std::uint16_t>(file, TIFFTAG_SAMPLESPERPIXEL, 1);
+  kind.Format = Tag<std::uint16_t>(file, TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_UINT);
+  kind.Colours = Tag<std::uint16_t>(file, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK);
+  kind.Planes = Tag<std::uint16_t>(file, TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG);
+  kind.Orientation = Tag<std::uint16_t>(file, TIFFTAG_ORIENTATION, ORIENTATION_TOPLEFT);
+  return kind;
+}
+
+int TypeOf(const Kind& kind)
+{
+  static const std::map<std::pair<int, int>, int> types = {
+    { { SAMPLEFORMAT_UINT, 1 }, VTK_UNSIGNED_CHAR }, { { SAMPLEFORMAT_UINT, 2 }, VTK_UNSIGNED_CHAR },
+    { { SAMPLEFORMAT_UINT, 4 }, VTK_UNSIGNED_CHAR }, { { SAMPLEFORMAT_UINT, 8 }, VTK_UNSIGNED_CHAR },
+    { { SAMPLEFORMAT_INT, 8 }, VTK_SIGNED_CHAR }, { { SAMPLEFORMAT_UINT, 16 }, VTK_UNSIGNED_SHORT },
+    { { SAMPLEFORMAT_INT, 16 }, VTK_SHORT }, { { SAMPLEFORMAT_UINT, 32 }, VTK_UNSIGNED_INT },
+    { { SAMPLEFORMAT_INT, 32 }, VTK_INT }, { { SAMPLEFORMAT_IEEEFP, 32 }, VTK_FLOAT },
+    { { SAMPLEFORMAT_IEEEFP, 64 }, VTK_DOUBLE } };
+  const int format = kind.Format == SAMPLEFORMAT_VOID ? SAMPLEFORMAT_UINT : kind.Format;
+  const bool isSmall = kind.Bits < 8;
+  FailIf(isSmall && kind.Samples > 1, "pixels of this kind are not read: " + kind.Text());
+  return EntryOf(types, { format, kind.Bits }, "pixels of this kind are not read: " + kind.Text());
+}
+
+/** From a byte of the file to behind another one. */
+using Part = std::pair<std::uint64_t, std::uint64_t>;
+
+/** Adds the parts of the file that have the pixels of the page at hand. @return their bytes */
+std::uint64_t AddParts(TIFF* file, std::vector<Part>& parts)
+{
+  const std::uint32_t count =
+    TIFFIsTiled(file) != 0 ? TIFFNumberOfTiles(file) : TIFFNumberOfStrips(file);
+  std::uint64_t all = 0;
+  for (std::uint32_t i = 0; i < count; ++i)
+  {
+    const std::uint64_t begin = TIFFGetStrileOffset(file, i);
+    const std::uint64_t bytes = TIFFGetStrileByteCount(file, i);
+    const std::uint64_t most = std::numeric_limits<std::uint64_t>::max() / 2;
+    FailIf(begin > most || bytes > most || all > most, "its header is damaged");
+    parts.emplace_back(begin, begin + bytes);
+    all += bytes;
+  }
+  return all;
+}
+
+/** What ImageJ and OME-TIFF tell in the description of the first page. */
+class Description
+{
+public:
+  explicit Description(TIFF* file)
+  {
+    const char* text = nullptr;
+    if (TIFFGetField(file, TIFFTAG_IMAGEDESCRIPTION, &text) == 1 && text)
+    {
+      this->Text = text;
+    }
+    this->IsOme = this->Text.find("<OME") != std::string::npos;
+    this->IsKnown = this->IsOme || this->Text.compare(0, 7, "ImageJ=") == 0;
+  }
+
+  bool IsKnown = false;
+  bool IsOme = false;
+
+  std::string Value(const std::string& ofImageJ, const std::string& ofOme) const
+  {
+    const std::string mark = this->IsOme ? " " + ofOme + "=\"" : "\n" + ofImageJ + "=";
+    const std::size_t at = this->IsKnown ? this->Text.find(mark) : std::string::npos;
+    if (at == std::string::npos)
+    {
+      return "";
+    }
+    const std::size_t begin = at + mark.size();
+    return this->Text.substr(begin, this->Text.find_first_of("\"\r\n", begin) - begin);
+  }
+
+  /** A number above 0. */
+  double Number(const std::string& ofImageJ, const std::string& ofOme, double otherwise) const
+  {
+    const double value = AsNumber<double>(this->Value(ofImageJ, ofOme)).value_or(otherwise);
+    return value > 0.0 && value < 1e9 ? value : otherwise;
+  }
+
+  std::uint64_t Count(const std::string& ofImageJ, const std::string& ofOme) const
+  {
+    return static_cast<std::uint64_t>(this->Number(ofImageJ, ofOme, 1.0));
+  }
+
+private:
+  std::string Text;
+};
+
+/** Distances of voxels that Zeiss's microscopes tell, in metres there: here micrometres. */
+bool TakeZeiss(TIFF* file, Vector3& spacing)
+{
+  constexpr std::uint32_t zeiss = 34412;
+  std::uint32_t count = 0;
+  void* data = nullptr;
+  if (TIFFGetField(file, zeiss, &count, &data) != 1 || !data || count < 64)
+  {
+    return false;
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    double metres = 0.0;
+    std::memcpy(&metres, static_cast<const char*>(data) + 40 + 8 * axis, sizeof(metres));
+    spacing[axis] = metres > 0.0 && metres < 1.0 ? 1e6 * metres : 1.0;
+  }
+  return true;
+}
+
+class TiffPages : public SlabReader
+{
+public:
+  TiffPages(const std::string& name, const VolumeChoice& choice);
+
+  std::size_t Pages() const { return this->Places.size(); }
+  bool HasChannels() const { return this->Channels > 1; }
+  vtkSmartPointer<vtkDataArray> Read(int first, int count) override;
+
+private:
+  void TakePages();
+  std::uint64_t CheckPage(std::vector<Part>& parts);
+  void CheckParts(std::vector<Part> parts, std::uint64_t others, std::uint64_t page) const;
+  void TakeVolume(const VolumeChoice& choice, std::uint64_t times, const std::string& order);
+  void TakeSpacing(const Description& told);
+  void ReadPage(std::size_t page, char* pixels);
+  void CopyPart(const std::vector<char>& part, std::uint32_t x, std::uint32_t y, std::uint32_t width,
+    std::uint32_t height, std::uint16_t sample, char* pixels) const;
+  std::size_t SampleBytes() const
+  {
+    return static_cast<std::size_t>(vtkDataArray::GetDataTypeSize(this->Type));
+  }
+
+  std::unique_ptr<TIFF, void (*)(TIFF*)> File;
+  std::uint64_t Bytes; ///< of the file
+  Kind First;
+  std::vector<std::uint64_t> Places; ///< of the pages in the file
+  std::uint64_t Channels = 1;        ///< that are pages of their own
+  std::size_t FirstPage = 0;         ///< of the time that is wanted
+  std::array<std::size_t, 2> Strides = { 1, 1 }; ///< pages to the next slice, and channel
+};
+
+TiffPages::TiffPages(const std::string& name, const VolumeChoice& choice)
+  : File(nullptr, TIFFClose), Bytes(BinaryFile(name).Size())
+{
+  const Listening listening;
+  this->File.reset(TIFFOpen(name.c_str(), "rm")); // not mapped: another program may cut it off
+  FailIf(!this->File, "the file is damaged or cut off" + Reason());
+  const Description told(this->File.get());
+  this->First = KindOf(this->File.get());
+  this->Type = TypeOf(this->First);
+  this->ArrayName = "Tiff Scalars"; // as VTK's reader calls them
+  this->TakeSpacing(told);
+  this->TakePages();
+  this->Size = { static_cast<int>(this->First.Width), static_cast<int>(this->First.Height), 0 };
+  const std::uint64_t images = told.IsOme ? 1 : told.Count("images", "");
+  FailIf(this->Pages() == 1 && images > 1,
+    "ImageJ has put " + std::to_string(images) +
+      " images into one page, which is not read; save it there as NRRD, or as an image sequence");
+  const std::uint64_t samples = this->First.Samples;
+  const std::uint64_t channels = told.Count("channels", "SizeC");
+  this->Channels = told.IsOme && channels % samples == 0 ? channels / samples : channels;
+  this->Components = static_cast<int>(samples * this->Channels);
+  const std::string order = told.Value("", "DimensionOrder");
+  this->TakeVolume(
+    choice, told.Count("frames", "SizeT"), order.size() == 5 ? order.substr(2) : "CZT");
+}
+
+void TiffPages::TakeSpacing(const Description& told)
+{
+  Vector3& spacing = this->Placement.Spacing;
+  if (TakeZeiss(this->File.get(), spacing))
+  {
+    this->LengthUnit = "um";
+    return;
+  }
+  const auto distance = [this](std::uint32_t tag)
+  {
+    const float perUnit = Tag<float>(this->File.get(), tag, 1.0f);
+    return perUnit > 0.0f ? 1.0 / static_cast<double>(perUnit) : 1.0;
+  };
+  if (told.IsKnown)
+  {
+    spacing = { told.Number("", "PhysicalSizeX", distance(TIFFTAG_XRESOLUTION)),
+      told.Number("", "PhysicalSizeY", distance(TIFFTAG_YRESOLUTION)),
+      told.Number("spacing", "PhysicalSizeZ", 1.0) };
+    const bool isDefault = told.IsOme && !told.Value("", "PhysicalSizeX").empty();
+    const std::string unit = told.Value("unit", "PhysicalSizeXUnit");
+    this->LengthUnit = unit.empty() && isDefault ? "um" : unit;
+  }
+}
+
+/** The page at hand is one of the volume's: like the first one, its pixels in the file. */
+std::uint64_t TiffPages::CheckPage(std::vector<Part>& parts)
+{
+  TIFF* file = this->File.get();
+  const Kind kind = KindOf(file);
+  FailIf(kind.Text() != this->First.Text(),
+    "it is " + kind.Text() + ", the first page " + this->First.Text() + "; pages of one kind are read");
+  const std::uint64_t most = std::numeric_limits<int>::max();
+  const std::uint64_t pixels = Times(kind.Width, kind.Height);
+  const std::uint64_t bits = Times(Times(pixels, kind.Samples), kind.Bits);
+  FailIf(bits == 0 || pixels > most || bits / 8 > most,
+    "it has " + std::to_string(kind.Width) + " x " + std::to_string(kind.Height) + " pixels");
+  const std::uint64_t packed = AddParts(file, parts);
+  FailIf(packed > this->Bytes,
+    "the file is cut off or damaged: its pixels have " + std::to_string(packed) + " bytes");
+  const bool isPlain = Tag<std::uint16_t>(file, TIFFTAG_COMPRESSION, 1) == COMPRESSION_NONE;
+  NeedPackedBytes(packed, isPlain ? 1 : 10000, bits / 8);
+  return packed;
+}
+
+void TiffPages::TakePages()
+{
+  TIFF* file = this->File.get();
+  std::vector<Part> parts;
+  std::uint64_t pixels = 0;
+  std::uint64_t others = 0; // bytes of what directories refer to
+  std::size_t number = 0;
+  BinaryFile bytes(TIFFFileName(file));
+  bytes.IsBig = TIFFIsBigEndian(file) != 0;
+  const bool isWide = bytes.Number(2, 2) == 43;
+  std::uint64_t next = 0;
+  do
+  {
+    ++number;
+    FailIf(number > std::numeric_limits<std::uint16_t>::max(), "it has more pages than libtiff counts");
+    const std::uint64_t place = TIFFCurrentDirOffset(file);
+    const char* text = nullptr;
+    const std::uint64_t entries = bytes.Number(place, isWide ? 8 : 2);
+    parts.emplace_back(place, place + (isWide ? 16 + 20 * entries : 6 + 12 * entries));
+    next = bytes.Number(parts.back().second - (isWide ? 8 : 4), isWide ? 8 : 4);
+    others += 20 + (TIFFGetField(file, TIFFTAG_IMAGEDESCRIPTION, &text) == 1 && text ? std::strlen(text) : 0);
+    const std::size_t before = parts.size();
+    Named("page " + std::to_string(number),
+      [&]
+      {
+        // Smaller copies, which are no slices.
+        if (number > 1 && (Tag<std::uint32_t>(file, TIFFTAG_SUBFILETYPE, 0) & 1u) != 0)
+        {
+          AddParts(file, parts);
+          return;
+        }
+        pixels += this->CheckPage(parts);
+        this->Places.push_back(place);
+      });
+    others += (parts.size() - before) * (isWide ? 16 : 8);
+    Complaint.clear();
+  } while (TIFFReadDirectory(file) != 0);
+  FailIf(!Complaint.empty() || next != 0, "the file is damaged: its pages form no chain" + Reason());
+  this->CheckParts(std::move(parts), others, pixels / this->Places.size());
+}
+
+/**
+ * @throws Failure if parts overlap, or if as much as a page is in none
+ * @param others bytes that are known otherwise
+ */
+void TiffPages::CheckParts(
+  std::vector<Part> parts, std::uint64_t others, std::uint64_t page) const
+{
+  std::sort(parts.begin(), parts.end());
+  std::uint64_t used = 0;
+  std::uint64_t end = 0;
+  for (const auto& [begin, behind] : parts)
+  {
+    FailIf(begin < end && behind > begin,
+      "the file is damaged: two parts of it overlap at byte " + std::to_string(begin));
+    used += behind - begin;
+    end = std::max(end, behind);
+  }
+  FailIf(end > this->Bytes, "the file is cut off: its pixels end at byte " + std::to_string(end) +
+      ", the file at byte " + std::to_string(this->Bytes));
+  std::uint16_t inner = 0;
+  std::uint64_t* ofInner = nullptr;
+  TIFF* file = this->File.get();
+  // Smaller copies within a page are not counted.
+  const bool hasInner = TIFFSetSubDirectory(file, this->Places[0]) == 1 &&
+    TIFFGetField(file, TIFFTAG_SUBIFD, &inner, &ofInner) == 1;
+  const std::uint64_t unused = this->Bytes - std::min(this->Bytes, used + others);
+  FailIf(!hasInner && unused >= page,
+    "the file is damaged, or no chain of pages: " + std::to_string(unused) +
+      " bytes, among them pixels, are in none of its pages");
+}
+
+/** Which pages are the slices and channels of the time that is wanted. @param order of the pages */
+void TiffPages::TakeVolume(
+  const VolumeChoice& choice, std::uint64_t times, const std::string& order)
+{
+  const std::uint64_t each = Times(this->Channels, times);
+  FailIf(this->Pages() % each != 0,
+    "it tells of " + std::to_string(this->Channels) + " channels and " + std::to_string(times) +
+      " times, of which its " + std::to_string(this->Pages()) + " pages are no multiple");
+  const std::uint64_t slices = this->Pages() / each;
+  std::size_t stride = 1;
+  std::size_t toTime = 0;
+  for (const char axis : order)
+  {
+    (axis == 'Z' ? this->Strides[0] : axis == 'C' ? this->Strides[1] : toTime) = stride;
+    stride *= static_cast<std::size_t>(axis == 'Z' ? slices : axis == 'C' ? this->Channels : times);
+  }
+  this->FirstPage = toTime * static_cast<std::size_t>(TimeOf(choice, times));
+  this->Size[2] = static_cast<int>(slices);
+}
+
+void TiffPages::CopyPart(const std::vector<char>& part, std::uint32_t x, std::uint32_t y,
+  std::uint32_t width, std::uint32_t height, std::uint16_t sample, char* pixels) const
+{
+  const std::size_t bytes = this->SampleBytes();
+  const bool isApart = this->First.Planes == PLANARCONFIG_SEPARATE && this->First.Samples > 1;
+  const std::size_t all = this->First.Samples;
+  const std::size_t run = (isApart ? 1 : all) * bytes; // of a pixel
+  const std::uint32_t columns = std::min(width, this->First.Width - x);
+  const std::uint32_t rows = std::min(height, this->First.Height - y);
+  const std::size_t bits = this->First.Bits;
+  const std::size_t rowBytes = bits < 8 ? (width * bits + 7) / 8 : width * run;
+  for (std::uint32_t row = 0; row < rows; ++row)
+  {
+    const char* from = part.data() + row * rowBytes;
+    const std::size_t pixel =
+      static_cast<std::size_t>(y + row) * this->First.Width + x;
+    char* to = pixels + pixel * all * bytes + (isApart ? sample * bytes : 0);
+    for (std::uint32_t column = 0; column < columns; ++column)
+    {
+      if (bits < 8)
+      {
+        const std::size_t bit = column * bits;
+        const unsigned int octet = static_cast<unsigned char>(from[bit / 8]);
+        to[column] = static_cast<char>(octet >> (8 - bits - bit % 8) & ((1u << bits) - 1u));
+      }
+      else
+      {
+        std::memcpy(to + column * all * bytes, from + column * run, run);
+      }
+    }
+  }
+}
+
+void TiffPages::ReadPage(std::size_t page, char* pixels)
+{
+  TIFF* file = this->File.get();
+  FailIf(TIFFSetSubDirectory(file, this->Places[page]) != 1, "its directory cannot be read" + Reason());
+  if (Tag<std::uint16_t>(file, TIFFTAG_COMPRESSION, 1) == COMPRESSION_JPEG)
+  {
+    TIFFSetField(file, TIFFTAG_JPEGCOLORMODE, JPEGCOLORMODE_RGB);
+  }
+  const bool isTiled = TIFFIsTiled(file) != 0;
+  const std::uint32_t width =
+    isTiled ? Tag<std::uint32_t>(file, TIFFTAG_TILEWIDTH, 0) : this->First.Width;
+  const std::uint32_t height = isTiled
+    ? Tag<std::uint32_t>(file, TIFFTAG_TILELENGTH, 0)
+    : std::min(Tag<std::uint32_t>(file, TIFFTAG_ROWSPERSTRIP, this->First.Height), this->First.Height);
+  FailIf(width == 0 || height == 0, "its strips or tiles are none");
+  const std::uint32_t across = (this->First.Width - 1) / width + 1;
+  const std::uint32_t down = (this->First.Height - 1) / height + 1;
+  const tmsize_t size = isTiled ? TIFFTileSize(file) : TIFFStripSize(file);
+  const auto planes = static_cast<std::uint16_t>(
+    this->First.Planes == PLANARCONFIG_SEPARATE ? this->First.Samples : 1);
+  FailIf(size <= 0 || static_cast<std::uint64_t>(size) > std::numeric_limits<int>::max(),
+    "its strips or tiles have no size" + Reason());
+  std::vector<char> part(static_cast<std::size_t>(size));
+  for (std::uint32_t i = 0; i < across * down * planes; ++i)
+  {
+    const std::uint32_t place = i % (across * down);
+    const std::uint32_t y = place / across * height;
+    const std::uint32_t rows = std::min(height, this->First.Height - y);
+    const tmsize_t needed = isTiled ? size : TIFFVStripSize(file, rows);
+    const tmsize_t got = isTiled ? TIFFReadEncodedTile(file, i, part.data(), size)
+                                 : TIFFReadEncodedStrip(file, i, part.data(), needed);
+    FailIf(got < needed,
+      "a strip or tile gives " + std::to_string(got) + " bytes, " + std::to_string(needed) +
+        " are needed: it is damaged or cut off" + Reason());
+    this->CopyPart(part, place % across * width, y, width, rows,
+      static_cast<std::uint16_t>(i / (across * down)), pixels);
+  }
+}
+
+vtkSmartPointer<vtkDataArray> TiffPages::Read(int first, int count)
+{
+  const Listening listening;
+  auto values = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(this->Type));
+  const std::size_t area =
+    static_cast<std::size_t>(this->First.Width) * static_cast<std::size_t>(this->First.Height);
+  const std::size_t pixel = this->First.Samples * this->SampleBytes();
+  values->SetName(this->ArrayName.c_str());
+  values->SetNumberOfComponents(this->Components);
+  values->SetNumberOfTuples(static_cast<vtkIdType>(area) * count);
+  char* to = static_cast<char*>(values->GetVoidPointer(0));
+  std::vector<char> channel(this->Channels > 1 ? area * pixel : 0);
+  for (int i = 0; i < count; ++i)
+  {
+    char* slice = to + static_cast<std::size_t>(i) * area * pixel * this->Channels;
+    for (std::size_t c = 0; c < this->Channels; ++c)
+    {
+      const std::size_t page = this->FirstPage + static_cast<std::size_t>(first + i) * this->Strides[0] +
+        c * this->Strides[1];
+      Named("page " + std::to_string(page + 1),
+        [&] { this->ReadPage(page, this->Channels > 1 ? channel.data() : slice); });
+      for (std::size_t k = 0; this->Channels > 1 && k < area; ++k)
+      {
+        std::memcpy(slice + (k * this->Channels + c) * pixel, channel.data() + k * pixel, pixel);
+      }
+    }
+  }
+  if (this->First.Colours == PHOTOMETRIC_MINISWHITE && this->First.Bits <= 16)
+  {
+    const double most = (1u << this->First.Bits) - 1u;
+    for (vtkIdType i = 0; i < values->GetNumberOfTuples(); ++i)
+    {
+      values->SetComponent(i, 0, most - values->GetComponent(i, 0));
+    }
+  }
+  return values;
+}
+}
+
+bool IsTiff(const std::string& name)
+{
+  BinaryFile file(name);
+  const std::string mark = file.Size() < 8 ? "" : file.Text(0, 2);
+  file.IsBig = mark == "MM";
+  const std::uint64_t version = mark == "II" || mark == "MM" ? file.Number(2, 2) : 0;
+  return version == 42 || version == 43;
+}
+
+std::unique_ptr<SlabReader> OpenTiff(const std::string& name, const Opening& opening)
+{
+  auto pages = std::make_unique<TiffPages>(name, opening.Choice);
+  if (pages->HasChannels())
+  {
+    NeedComponent(pages->Components, "channels", opening);
+  }
+  return pages;
+}
+}
