@@ -48,6 +48,37 @@ void vtkVolumicVolumeReader::SetFileName(const char* name)
 }
 
 //------------------------------------------------------------------------------
+void vtkVolumicVolumeReader::SetSeries(const char* series)
+{
+  const std::string wanted = series ? series : "";
+  if (this->Series != wanted)
+  {
+    this->Series = wanted;
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkVolumicVolumeReader::SetTime(int time)
+{
+  if (this->Time != time)
+  {
+    this->Time = time;
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkVolumicVolumeReader::SetResampling(bool on)
+{
+  if (this->Resampling != on)
+  {
+    this->Resampling = on;
+    this->Modified();
+  }
+}
+
+//------------------------------------------------------------------------------
 bool vtkVolumicVolumeReader::Open()
 {
   if (this->OpenedTime != this->GetMTime())
@@ -56,7 +87,11 @@ bool vtkVolumicVolumeReader::Open()
     this->OpenedTime = this->GetMTime();
     try
     {
-      this->Source = tool::OpenVolume(this->FileName, "", "").Source;
+      tool::VolumeChoice choice;
+      choice.Series = this->Series;
+      choice.Time = this->Time;
+      choice.Resamples = this->Resampling;
+      this->Source = tool::OpenVolume(this->FileName, "", "", choice).Source;
       this->Source->UpdateInformation();
     }
     catch (const std::exception& error)
@@ -116,5 +151,8 @@ int vtkVolumicVolumeReader::RequestData(
 void vtkVolumicVolumeReader::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "FileName: " << this->FileName << "\n";
+  os << indent << "FileName: " << this->FileName << "\n"
+     << indent << "Series: " << this->Series << "\n"
+     << indent << "Time: " << this->Time << "\n"
+     << indent << "Resampling: " << (this->Resampling ? "On\n" : "Off\n");
 }

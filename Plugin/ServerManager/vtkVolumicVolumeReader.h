@@ -29,6 +29,15 @@ public:
   /** Of DICOM: one of the slices of the series, or its folder. */
   void SetFileName(const char* name);
 
+  /** Of DICOM: a number from 1, or an identifier; empty: there is one series only. */
+  void SetSeries(const char* series);
+
+  /** Of several volumes in one (times, phases, masks) the one to read, counted from 0. */
+  void SetTime(int time);
+
+  /** Whether slices that are no regular grid are resampled; else they are refused. */
+  void SetResampling(bool on);
+
 protected:
   vtkVolumicVolumeReader();
   ~vtkVolumicVolumeReader() override;
@@ -46,6 +55,9 @@ private:
   bool Open();
 
   std::string FileName;
+  std::string Series;
+  int Time = 0;
+  bool Resampling = true;
   vtkSmartPointer<vtkAlgorithm> Source; ///< of what it is opened; null: it is not
   vtkMTimeType OpenedTime = 0;
 };
