@@ -102,6 +102,22 @@ Image ReadMinc(const std::string& name)
 }
 #endif
 
+/** MINC 1 is netCDF, and MINC 2 HDF5. */
+FoundVolume OpenMinc(const std::string& name, const Opening& opening)
+{
+  std::ifstream file(name, std::ios::binary);
+  char mark[4] = {};
+  const bool isHdf = file.read(mark, sizeof(mark)) && std::string(mark, 4) == "\x89HDF";
+#ifdef VOLUMIC_HAS_MINC
+  if (!isHdf)
+  {
+    return By(ReadMinc)(name, opening);
+  }
+#endif
+  FailIf(!isHdf, "MINC 1 is read where VTK was built with it; convert it by mincconvert -2");
+  return By(OpenMinc2)(name, opening);
+}
+
 /** The slices of a folder, of DICOM or pictures, and whether they are DICOM. */
 std::pair<std::vector<std::string>, bool> SlicesOf(const std::string& folder)
 {
@@ -116,24 +132,12 @@ std::pair<std::vector<std::string>, bool> SlicesOf(const std::string& folder)
   return { slices, areDicom };
 }
 
-#ifndef VOLUMIC_HAS_ITK
-const char* const NeedsItk = "is read by ITK, without which this program was built (Debian: "
-                             "libinsighttoolkit5-dev)";
-#endif
-
 /** @param slice of DICOM, that is wanted; empty: any */
 FoundVolume OpenSlices(const std::pair<std::vector<std::string>, bool>& slices,
   const Opening& opening, const std::string& slice = "")
 {
-  if (!slices.second)
-  {
-    return InSlabs(OpenPictures(slices.first, opening));
-  }
-#ifdef VOLUMIC_HAS_ITK
-  return InSlabs(OpenDicom(slices.first, slice, opening));
-#else
-  throw Failure(std::string("DICOM ") + NeedsItk);
-#endif
+  return InSlabs(slices.second ? OpenDicom(slices.first, slice, opening)
+                               : OpenPictures(slices.first, opening));
 }
 
 FoundVolume OpenDicomFile(const std::string& name, const Opening& opening)
@@ -203,9 +207,9 @@ Opener OpenerOf(const std::string& name)
     { ".img.gz", By(OpenNifti) },
     { ".hdr", By(OpenNifti) },
     { ".hdr.gz", By(OpenNifti) },
-#ifdef VOLUMIC_HAS_MINC
-    { ".mnc", By(ReadMinc) },
-#endif
+    { ".mnc", OpenMinc },
+    { ".gipl", By(OpenGipl) },
+    { ".gipl.gz", By(OpenGipl) },
     { ".inv3", By(OpenInv3) },
     { ".mrc", By(OpenMrc) },
     { ".ccp4", By(OpenMrc) },
@@ -307,13 +311,6 @@ vtkSmartPointer<vtkImageData> ReadVolume(const std::string& name, const VolumeCh
   return NameFailures(
     name, [&] { return ReadAll(FindVolume(name, { "", "", true, choice })); });
 }
-
-#ifndef VOLUMIC_HAS_ITK
-std::vector<std::string> ListSeries(const std::string& name)
-{
-  throw Failure(name + ": DICOM " + NeedsItk);
-}
-#endif
 
 OpenedVolume OpenVolume(const std::string& name, const std::string& array,
   const std::string& scratch, const VolumeChoice& choice)

@@ -108,6 +108,10 @@ std::unique_ptr<SlabReader> OpenDicom(
 std::unique_ptr<SlabReader> OpenPictures(
   const std::vector<std::string>& files, const Opening& opening);
 
+/** By ITK: GIPL (.gipl, .gipl.gz), and MINC 2, in its world coordinates. */
+std::unique_ptr<SlabReader> OpenGipl(const std::string& name, const Opening& opening);
+std::unique_ptr<SlabReader> OpenMinc2(const std::string& name, const Opening& opening);
+
 /** The pages of a TIFF, with the distances that programs of microscopes tell; channels, times. */
 std::unique_ptr<SlabReader> OpenTiff(const std::string& name, const Opening& opening);
 bool IsTiff(const std::string& name);

@@ -6,6 +6,7 @@ writes in each mesh format is what VTK reads from there."""
 import gzip
 import importlib.util
 import os
+import re
 import unittest
 
 import numpy as np
@@ -186,6 +187,26 @@ class VolumesTest(ToolTestCase):
         self.refused("some are missing", self.folder, self.path("a.stl"), "--no-resampling")
         self.write_bytes("IM5", medical_files.dicom_slice(ball()[0], 1, SPACING, ORIGIN, TURNED))
         self.refused("lies where .* does", self.folder, self.path("a.stl"))
+
+
+class TableTest(unittest.TestCase):
+    def test_documented_suffixes_are_those_of_the_reader_and_of_the_manual(self):
+        root = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
+
+        def text(*path):
+            with open(os.path.join(root, *path), encoding="utf-8") as file:
+                return file.read()
+
+        # Chosen by content: TIFF and pictures.
+        read = set(re.findall(r'\{ "(\.[a-z0-9.]+)", ', text("Applications", "volumic",
+                                                            "ReadVolume.cxx")))
+        read -= {".vtr", ".vts", ".vtu", ".vtp"}  # of which it is told that they are no images
+        rows = re.findall(r"(?m)^\| (.*?) \|", text("Documentation", "formats.md"))
+        documented = {name for row in rows for name in re.findall(r"`(\.[a-z0-9.]+)`", row)}
+        self.assertEqual(documented - {".tif", ".tiff", ".lsm", ".png", ".jpg", ".bmp", ".pgm"}, read)
+        manual = text("Applications", "volumic", "volumic.1")
+        listed = " ".join(re.findall(r"(?m)^\.It (\..*)", manual)).replace(",", "").split()
+        self.assertEqual(read - set(listed), set())
 
 
 class SurfacesTest(ToolTestCase):
