@@ -369,10 +369,10 @@ void vtkLabelsToSurfaces::MakeSurfaces(volumic::Ranks& ranks, const volumic::Fil
   {
     this->Internals->Stopped = surfaces;
   }
-  const std::string warning =
-    volumic::FillBlocks(choice, *image, internals.Settings, surfaces, output,
-      volumic::IsAbortRequested(this) ? Describe(volumic::StopReason::Cancelled)
-                                      : volumic::TimeLimitReason);
+  // Another process may have stopped it, too.
+  const bool isLate = internals.Limit.IsOver() && !volumic::IsAbortRequested(this);
+  const std::string warning = volumic::FillBlocks(choice, *image, internals.Settings, surfaces,
+    output, isLate ? volumic::TimeLimitReason : Describe(volumic::StopReason::Cancelled));
   // At the end: ParaView's message box would cover the progress bar.
   if (!image->Warning().empty())
   {
