@@ -113,7 +113,7 @@ void AddCompanions(const std::string& name, std::vector<std::string>& files)
 }
 }
 
-std::vector<std::string> FilesOfFolder(const std::string& folder)
+std::vector<std::string> FilesOfFolder(const std::string& folder, bool isNested)
 {
   const std::vector<std::string> files = FilesOf(folder);
   const auto slicesAmong = [](const std::vector<std::string>& all)
@@ -123,10 +123,19 @@ std::vector<std::string> FilesOfFolder(const std::string& folder)
     return slices;
   };
   // Networks write a folder for each patient, study and series.
-  const bool isNested = files.empty() || !slicesAmong(files).empty();
-  const std::vector<std::string> slices =
-    isNested ? slicesAmong(FilesOf(folder, true)) : std::vector<std::string>();
+  std::vector<std::string> slices = slicesAmong(files);
+  if (isNested && (files.empty() || !slices.empty()))
+  {
+    slices = slicesAmong(FilesOf(folder, true));
+  }
   return slices.empty() ? files : slices;
+}
+
+std::vector<std::string> FilesBesideSlice(const std::string& slice)
+{
+  const std::string folder = fs::path(slice).parent_path().string();
+  const bool isDirectory = Lower(fs::path(slice).filename().string()) == "dicomdir";
+  return FilesOfFolder(folder.empty() ? "." : folder, isDirectory);
 }
 
 bool IsDicom(const std::string& file)
@@ -202,8 +211,7 @@ std::vector<std::string> FilesOfVolume(const std::string& name)
     }
     if (IsDicom(name))
     {
-      const fs::path folder = fs::path(name).parent_path();
-      const std::vector<std::string> series = FilesOfFolder(folder.empty() ? "." : folder.string());
+      const std::vector<std::string> series = FilesBesideSlice(name);
       files.insert(files.end(), series.begin(), series.end());
     }
     AddCompanions(name, files);

@@ -338,6 +338,7 @@ std::unique_ptr<SlabReader> OpenNrrd(const std::string& name, const Opening& ope
   const bool isRaw = slabs->Code == RawSlabs::Packing::None;
   slabs->AreLast = isRaw && skip < 0;
   (isRaw ? slabs->Start : slabs->Before) += static_cast<std::uint64_t>(std::max(skip, 0));
+  slabs->Prepare(opening);
   const std::string kind = FirstKind(header.All);
   const bool isOfParts =
     kind == "list" || kind == "time" || kind == "rgba-color" || kind == "4-color";
@@ -346,7 +347,6 @@ std::unique_ptr<SlabReader> OpenNrrd(const std::string& name, const Opening& ope
   {
     NeedComponent(slabs->Components, kind, opening);
   }
-  slabs->Prepare(opening);
   return std::move(slabs);
 }
 }

@@ -16,6 +16,7 @@
 #include <cstdarg>
 #include <cstdio>
 #include <cstring>
+#include <iterator>
 #include <limits>
 #include <map>
 
@@ -113,6 +114,21 @@ int TypeOf(const Kind& kind)
   const bool isSmall = kind.Bits < 8;
   FailIf(isSmall && kind.Samples > 1, "pixels of this kind are not read: " + kind.Text());
   return EntryOf(types, { format, kind.Bits }, "pixels of this kind are not read: " + kind.Text());
+}
+
+/** Bytes of the values that the entries of a directory tell of. */
+std::uint64_t ValueBytes(BinaryFile& file, std::uint64_t first, std::uint64_t count, bool isWide)
+{
+  static const std::uint64_t typeBytes[] = { 0, 1, 1, 2, 4, 8, 1, 1, 2, 4, 8, 4, 8, 4, 0, 0, 8, 8, 8 };
+  const std::uint64_t entry = isWide ? 20 : 12;
+  std::uint64_t bytes = 0;
+  for (std::uint64_t i = 0; i < count; ++i)
+  {
+    const std::uint64_t type = file.Number(first + i * entry + 2, 2);
+    const std::uint64_t each = type < std::size(typeBytes) ? typeBytes[type] : 0;
+    bytes += std::min(Times(each, file.Number(first + i * entry + 4, isWide ? 8 : 4)), file.Size());
+  }
+  return bytes;
 }
 
 /** From a byte of the file to behind another one. */
@@ -314,6 +330,7 @@ void TiffPages::TakePages()
   bytes.IsBig = TIFFIsBigEndian(file) != 0;
   const bool isWide = bytes.Number(2, 2) == 43;
   std::uint64_t next = 0;
+  std::uint64_t values = 0; // bytes of them, which pages that share them have libtiff read again
   do
   {
     ++number;
@@ -321,6 +338,9 @@ void TiffPages::TakePages()
     const std::uint64_t place = TIFFCurrentDirOffset(file);
     const char* text = nullptr;
     const std::uint64_t entries = bytes.Number(place, isWide ? 8 : 2);
+    values += ValueBytes(bytes, place + (isWide ? 8 : 2), entries, isWide);
+    FailIf(values > 2 * this->Bytes,
+      "the file is damaged: its pages have more values than it has bytes");
     parts.emplace_back(place, place + (isWide ? 16 + 20 * entries : 6 + 12 * entries));
     next = bytes.Number(parts.back().second - (isWide ? 8 : 4), isWide ? 8 : 4);
     others += 20 + (TIFFGetField(file, TIFFTAG_IMAGEDESCRIPTION, &text) == 1 && text ? std::strlen(text) : 0);

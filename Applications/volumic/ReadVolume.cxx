@@ -118,16 +118,25 @@ FoundVolume OpenMinc(const std::string& name, const Opening& opening)
   return By(OpenMinc2)(name, opening);
 }
 
+/** @throws Failure for a file of the folder that may be a slice which was damaged. */
+void CheckBeside(const std::string& folder, const std::vector<std::string>& slices)
+{
+  for (const std::string& file : FilesOf(folder))
+  {
+    FailIf(!IsDicom(file) && IsLikeSlice(file, slices),
+      file + ": no DICOM file, though like the slices beside it: it is cut off or damaged; copy it "
+             "again, or take it out of the folder");
+  }
+}
+
 /** The slices of a folder, of DICOM or pictures, and whether they are DICOM. */
 std::pair<std::vector<std::string>, bool> SlicesOf(const std::string& folder)
 {
   const std::vector<std::string> slices = FilesOfFolder(folder);
   const bool areDicom = !slices.empty() && IsDicom(slices.front());
-  for (const std::string& file : areDicom ? FilesOf(folder) : std::vector<std::string>())
+  if (areDicom)
   {
-    FailIf(!IsDicom(file) && IsLikeSlice(file, slices),
-      file + ": no DICOM file, though like the slices beside it: it is cut off or damaged; copy it "
-             "again, or take it out of the folder");
+    CheckBeside(folder, slices);
   }
   return { slices, areDicom };
 }
@@ -143,9 +152,9 @@ FoundVolume OpenSlices(const std::pair<std::vector<std::string>, bool>& slices,
 FoundVolume OpenDicomFile(const std::string& name, const Opening& opening)
 {
   const std::string folder = std::filesystem::path(name).parent_path().string();
-  auto slices = SlicesOf(folder.empty() ? "." : folder);
-  slices.second = true;
-  return OpenSlices(slices, opening, name);
+  const std::vector<std::string> slices = FilesBesideSlice(name);
+  CheckBeside(folder.empty() ? "." : folder, slices);
+  return OpenSlices({ slices, true }, opening, name);
 }
 
 /**

@@ -96,7 +96,10 @@ std::vector<std::string> FilesOfVolume(const std::string& name);
  * The files of a folder: those of DICOM alone, with those of the folders within, or, if there are none,
  * all.
  */
-std::vector<std::string> FilesOfFolder(const std::string& folder);
+std::vector<std::string> FilesOfFolder(const std::string& folder, bool isNested = true);
+
+/** Those beside a DICOM file: of its folder, or, for a DICOMDIR, of those within, too. */
+std::vector<std::string> FilesBesideSlice(const std::string& slice);
 
 /** @throws Failure that names the one of these files that is a pipe or a device. */
 void NeedFilesOfVolume(const std::string& name);

@@ -136,19 +136,13 @@ class HeaderTest(HostileTest):
                                "gives no 18 files|cannot be opened")
 
     def test_sizes_that_are_not_those_of_the_files(self):
-        """Keys of another case or told twice, of which VTK's reader takes others."""
         listed = META.replace(b"LOCAL", b"%d.raw 0 17 1")
-        for sizes, share in ((b"1 1 19", 2), (b"1 1 2", 0)):
-            for k in range(18):
-                self.write_bytes(f"{k}.raw", bytes(share))
-            content = listed.replace(b"DimSize = 26 22 18", b"dimsize = 1 1 18\nDimSize = " + sizes)
-            self.refused_bytes("a.mhd", content, "header is damaged")
+        for k in range(18):
+            self.write_bytes(f"{k}.raw", bytes(2))
         for content in (META + ball().tobytes(), listed):
             self.refused_bytes("b.mhd", content.replace(
                 b"ElementType", b"ElementNumberOfChannels = 0\nElementType"), "header is damaged")
-        self.write_bytes("c.mha", META.replace(b"DimSize", b"dimsize"))
-        said = self.run_limited(self.path("c.mha"), self.path("x.stl"), "--iso", ISO).stderr
-        self.assertRegex(said, r"\Avolumic: .*cannot parse file.*\n\Z")
+        self.refused_bytes("c.mha", META.replace(b"DimSize", b"dimsize"), "cut off: it has 0 bytes")
 
     def test_more_slices_than_a_list_has(self):
         listed = META.replace(b"26 22 18", b"26 22 18446744073709551615")
@@ -160,8 +154,8 @@ class HeaderTest(HostileTest):
         """Each would have them read, or unpacked, once more."""
         page = zlib.compress(bytes(2 * SIZE[0] * SIZE[1]), 9)
         bomb = zlib.compress(bytes(100 << 20), 9)
-        self.refused_bytes("a.tif", bytes(tiff([page, bomb], {259: 8})),
-                           "page 2: the packed data give more than the 1144 bytes")
+        # Of what is packed only as much is unpacked as a page has.
+        self.refused_bytes("a.tif", bytes(tiff([page, bomb], {259: 8})), "26 x 22 x 2 voxels")
         content = bytearray(tiff([page], {259: 8}))
         values = len(content)
         content += bytes(2 << 20)
