@@ -258,11 +258,11 @@ public:
    * The object has values between IsoValue and this one: marrow in bone, one of two materials. All
    * is as for the image min(image, IsoValue + UpperValue - image): its isopotential IsoValue is
    * that of min(image - IsoValue, UpperValue - image) at 0. Of a pyramid level 0 is taken, and the
-   * others are made anew. Infinite, the default: none. UseUpperValue off, as for a panel that has a
-   * number always: none either.
+   * others are made anew. Infinite, the default: none.
    */
   virtual void SetUpperValue(double value);
   virtual double GetUpperValue();
+  /** Off: as without UpperValue, for a panel, which has a number always. Default: on. */
   virtual void SetUseUpperValue(bool value);
   virtual bool GetUseUpperValue();
   vtkBooleanMacro(UseUpperValue, bool);

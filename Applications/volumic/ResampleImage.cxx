@@ -72,8 +72,8 @@ Vector3 WantedSpacing(const ToolOptions& options, const GridFacts& grid, bool ar
   for (int axis = 0; axis < 3; ++axis)
   {
     const int size = grid.Size[axis];
-    const bool isThin = !areLabels && options.Edges.empty() && options.Choice.Resamples &&
-      size > 1 && size < LeastVoxels;
+    const bool isThin = !areLabels && options.WantsSurface() && options.Edges.empty() &&
+      options.Choice.Resamples && size > 1 && size < LeastVoxels;
     if (options.IsIsotropic)
     {
       wanted[axis] = least;

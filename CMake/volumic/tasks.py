@@ -233,12 +233,12 @@ class Job:
 
     def _details(self) -> list[dict[str, Any]]:
         """Properties of each level of detail, the finest first."""
-        if "multilod_draco" not in self.formats:
-            return [{}]
+        details: list[dict[str, Any]] = [{}]
         finest = max(0, self.properties.get("FinestLevel", 0))
         length = self.properties.get("EdgeLength", 0)
-        return [{}] + [{"FinestLevel": finest + more, "EdgeLength": length * 3 ** (more / 2)}
-                       for more in DETAILS]
+        for more in DETAILS if "multilod_draco" in self.formats else ():
+            details.append({"FinestLevel": finest + more, "EdgeLength": length * 3 ** (more / 2)})
+        return details
 
     def _surfaces(self, voxels: np.ndarray, labels: Sequence[int], box: Box,
                   **settings: Any) -> arrays.Surfaces:
