@@ -49,7 +49,7 @@ DicomSeries Choose(std::vector<DicomSeries> all, const std::string& wanted)
   }
   FailIf(!wanted.empty(), "no series " + wanted + "; there are " + ListOf(all));
   FailIf(all.size() > 1,
-    std::to_string(all.size()) + " series, one is needed; choose it with --series N (in ParaView: Series): " +
+    std::to_string(all.size()) + " series, one is needed; choose it with --series N: " +
       ListOf(all));
   return all.front();
 }
@@ -303,7 +303,7 @@ std::unique_ptr<SlabReader> OpenSeries(const DicomSeries& series, const Opening&
     slabs->Placement = places.Placement(thickness);
     return slabs;
   }
-  FailIf(!opening.Choice.Resamples, uneven + "; without --no-resampling (in ParaView: with Resampling) they are resampled");
+  FailIf(!opening.Choice.Resamples, uneven + "; without --no-resampling they are resampled");
   const double outside = slabs->Outside();
   const std::array<int, 3> size = slabs->Size;
   std::unique_ptr<SlabReader> grid =

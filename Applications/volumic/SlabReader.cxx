@@ -201,8 +201,9 @@ int TimeOf(const VolumeChoice& choice, std::uint64_t times)
   }
   const auto last = std::to_string(times - 1);
   FailIf(!choice.Time && times > 1,
-    std::to_string(times) + " volumes, one behind the other (times, phases, or masks); choose one with --time N, 0 to " +
-      last + " (in ParaView: Time)");
+    std::to_string(times) +
+      " volumes, one behind the other (times, phases, or masks); choose one with --time N, 0 to " +
+      last);
   const int time = choice.Time.value_or(0);
   FailIf(time < 0 || static_cast<std::uint64_t>(time) >= times,
     "there is no time " + std::to_string(time) + " (--time)" +

@@ -91,32 +91,6 @@ class VolumeReaderTest(testing.PluginTestCase):
         self.check(simple.VolumicDICOM(FileName=folder))
         self.check(simple.VolumicDICOM(FileName=os.path.join(folder, "007.dcm")))
 
-    def test_one_of_several(self):
-        folder = dicom()
-        other = write("two/other.dcm", medical_files.dicom_slice(
-            voxels()[0], 0, SPACING, ORIGIN, TURN, series="1.2.4"))
-        for name in os.listdir(folder):
-            with open(os.path.join(folder, name), "rb") as file:
-                write("two/" + name, file.read())
-        source = simple.VolumicDICOM(FileName=other)
-        self.assertEqual(testing.fetch(source).GetDimensions()[2], 1)
-        source = simple.VolumicDICOM(FileName=os.path.dirname(other), Series="1")
-        self.check(source)
-        both = numpy.stack([0 * voxels(), voxels()])
-        sform = numpy.column_stack([TURN * SPACING, ORIGIN])
-        path = write("times.nii", medical_files.nifti(both, SPACING, sform))
-        self.check(simple.VolumicVolume(FileNames=[path], Time=1))
-
-    def test_slices_that_are_no_grid(self):
-        folder = dicom()
-        os.remove(os.path.join(folder, "007.dcm"))
-        source = simple.VolumicDICOM(FileName=folder)
-        self.assertEqual(testing.fetch(source).GetDimensions(), voxels().shape[::-1])
-        source.Resampling = 0
-        with testing.CapturedMessages() as messages:
-            source.UpdatePipeline()
-        self.assertIn("some are missing", messages.text)
-
     def test_what_paraview_cannot_open_opens(self):
         self.check(simple.OpenDataFile(nifti()))
 
@@ -160,9 +134,8 @@ class VolumeReaderTest(testing.PluginTestCase):
         for number, pixels in enumerate(voxels()):
             write(f"two/B{number:03}.dcm", medical_files.dicom_slice(
                 100 + pixels, number, SPACING, ORIGIN, TURN, series="1.2.9"))
-        source = simple.VolumicDICOM(FileName=folder)
-        source.UpdatePipelineInformation()
         with testing.CapturedMessages() as messages:
+            source = simple.VolumicDICOM(FileName=folder)
             source.UpdatePipeline()
         self.assertIn("2 series, one is needed; choose it as Series: 1: ", messages.text)
         listed = list(source.SeriesList)
