@@ -138,7 +138,9 @@ class VolumeReaderTest(testing.PluginTestCase):
             source = simple.VolumicDICOM(FileName=folder)
             source.UpdatePipeline()
         self.assertIn("2 series, one is needed; choose it as Series: 1: ", messages.text)
-        listed = list(source.SeriesList)
+        source.SMProxy.UpdatePropertyInformation()
+        series = source.SMProxy.GetProperty("SeriesList")
+        listed = [series.GetElement(i) for i in range(series.GetNumberOfElements())]
         self.assertEqual(len(listed), 2)
         least = set()
         for series in listed:
