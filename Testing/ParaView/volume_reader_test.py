@@ -130,9 +130,9 @@ class VolumeReaderTest(testing.PluginTestCase):
             self.assertEqual(image.GetArrayInformation(0).GetComponentRange(0), (time, 12 + time))
 
     def test_series_of_a_folder(self):
-        folder = dicom("two")
+        folder = dicom("both")
         for number, pixels in enumerate(voxels()):
-            write(f"two/B{number:03}.dcm", medical_files.dicom_slice(
+            write(f"both/B{number:03}.dcm", medical_files.dicom_slice(
                 100 + pixels, number, SPACING, ORIGIN, TURN, series="1.2.9"))
         with testing.CapturedMessages() as messages:
             source = simple.VolumicDICOM(FileName=folder)
