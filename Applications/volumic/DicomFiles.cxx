@@ -47,8 +47,7 @@ std::vector<gdcm::DataSet> ItemsOf(const gdcm::DataElement& element)
 
 std::vector<gdcm::DataSet> ItemsAt(const gdcm::DataSet& set, const Tag& tag)
 {
-  return set.FindDataElement(tag) ? ItemsOf(set.GetDataElement(tag))
-                                  : std::vector<gdcm::DataSet>();
+  return set.FindDataElement(tag) ? ItemsOf(set.GetDataElement(tag)) : std::vector<gdcm::DataSet>();
 }
 
 /** What is told of a frame: by itself, by what all frames share, or by the file. */
@@ -196,8 +195,7 @@ std::size_t FramesOf(const Attributes& all)
 {
   const std::string text = all.Text(Tag(0x0028, 0x0008));
   const std::optional<int> frames = AsNumber<int>(text.empty() ? "1" : text);
-  FailIf(!frames || *frames < 1,
-    "its header is damaged: the number of frames is '" + text + "'");
+  FailIf(!frames || *frames < 1, "its header is damaged: the number of frames is '" + text + "'");
   return static_cast<std::size_t>(*frames);
 }
 
@@ -329,7 +327,8 @@ gdcm::Image ImageOf(const gdcm::File& file, const DicomSlice& slice, std::size_t
   FailIf(bits != 1 && bits != 8 && bits != 16 && bits != 32,
     NumberText(bits) + " bits per pixel; 1, 8, 16 and 32 are read");
   const int stored = std::min(bits, std::max(1, all.Number(Tag(0x0028, 0x0101), bits)));
-  const int high = std::min(bits - 1, std::max(stored - 1, all.Number(Tag(0x0028, 0x0102), bits - 1)));
+  const int high =
+    std::min(bits - 1, std::max(stored - 1, all.Number(Tag(0x0028, 0x0102), bits - 1)));
   gdcm::Image image;
   image.SetNumberOfDimensions(frames > 1 ? 3 : 2);
   image.SetDimension(0, static_cast<unsigned int>(slice.Size[0]));
@@ -338,10 +337,10 @@ gdcm::Image ImageOf(const gdcm::File& file, const DicomSlice& slice, std::size_t
   {
     image.SetDimension(2, static_cast<unsigned int>(frames));
   }
-  image.SetPixelFormat(gdcm::PixelFormat(static_cast<unsigned short>(samples),
-    static_cast<unsigned short>(bits), static_cast<unsigned short>(stored),
-    static_cast<unsigned short>(high),
-    static_cast<unsigned short>(bits > 1 && all.Number(Tag(0x0028, 0x0103), 0) == 1 ? 1 : 0)));
+  image.SetPixelFormat(
+    gdcm::PixelFormat(static_cast<unsigned short>(samples), static_cast<unsigned short>(bits),
+      static_cast<unsigned short>(stored), static_cast<unsigned short>(high),
+      static_cast<unsigned short>(bits > 1 && all.Number(Tag(0x0028, 0x0103), 0) == 1 ? 1 : 0)));
   image.SetPhotometricInterpretation(gdcm::PhotometricInterpretation::MONOCHROME2);
   const gdcm::TransferSyntax& syntax = file.GetHeader().GetDataSetTransferSyntax();
   image.SetTransferSyntax(syntax);
@@ -362,8 +361,7 @@ std::string DicomSeries::Text(std::size_t number) const
   const DicomSlice& first = this->Slices.front();
   return text + ", " + std::to_string(this->Slices.size()) +
     (this->Slices.size() == 1 ? " slice of " : " slices of ") + NumberText(first.Size[0]) + " x " +
-    NumberText(first.Size[1]) + ", from " +
-    std::filesystem::path(first.File).filename().string();
+    NumberText(first.Size[1]) + ", from " + std::filesystem::path(first.File).filename().string();
 }
 
 std::vector<DicomSeries> DicomSeriesOf(const std::vector<std::string>& files)
@@ -378,8 +376,8 @@ std::vector<DicomSeries> DicomSeriesOf(const std::vector<std::string>& files)
 
 vtkSmartPointer<vtkDataArray> DicomPixels::Read(const DicomSlice& slice)
 {
-  const auto area = static_cast<std::uint64_t>(slice.Size[0]) *
-    static_cast<std::uint64_t>(slice.Size[1]);
+  const auto area =
+    static_cast<std::uint64_t>(slice.Size[0]) * static_cast<std::uint64_t>(slice.Size[1]);
   if (this->File != slice.File)
   {
     Named(slice.File, [&] { this->Load(slice); });
@@ -419,12 +417,12 @@ void DicomPixels::Load(const DicomSlice& slice)
     { gdcm::PixelFormat::INT16, VTK_SHORT }, { gdcm::PixelFormat::UINT32, VTK_UNSIGNED_INT },
     { gdcm::PixelFormat::INT32, VTK_INT }, { gdcm::PixelFormat::SINGLEBIT, VTK_UNSIGNED_CHAR } };
   this->AreBits = image.GetPixelFormat().GetBitsAllocated() == 1;
-  const gdcm::PixelFormat::ScalarType kind = this->AreBits
-    ? gdcm::PixelFormat::SINGLEBIT
-    : image.GetPixelFormat().GetScalarType();
+  const gdcm::PixelFormat::ScalarType kind =
+    this->AreBits ? gdcm::PixelFormat::SINGLEBIT : image.GetPixelFormat().GetScalarType();
   this->Type = EntryOf(types, kind, "its pixels are no numbers");
-  const std::uint64_t pixels = Times(Times(static_cast<std::uint64_t>(slice.Size[0]),
-    static_cast<std::uint64_t>(slice.Size[1])), frames);
+  const std::uint64_t pixels = Times(
+    Times(static_cast<std::uint64_t>(slice.Size[0]), static_cast<std::uint64_t>(slice.Size[1])),
+    frames);
   FailIf(pixels == 0, "lacks its rows or columns: it is damaged, or no slice");
   const std::uint64_t needed = this->AreBits
     ? (pixels + 7) / 8
@@ -446,7 +444,8 @@ void DicomPixels::Load(const DicomSlice& slice)
   // As most as RLE or a code of images packs what is all alike; sizes are what a header says.
   NeedPackedBytes(all, this->AreBits ? 1 : 10000, needed);
   this->File.clear();
-  this->Bytes.assign(std::max<std::uint64_t>(needed, this->AreBits ? 0 : image.GetBufferLength()), 0);
+  this->Bytes.assign(
+    std::max<std::uint64_t>(needed, this->AreBits ? 0 : image.GetBufferLength()), 0);
   if (this->AreBits)
   {
     const gdcm::ByteValue* plain = element.GetByteValue();
@@ -455,8 +454,7 @@ void DicomPixels::Load(const DicomSlice& slice)
     return;
   }
   NeedDicom([&] { return image.GetBuffer(this->Bytes.data()); },
-    ("its pixels cannot be unpacked (" +
-      std::string(image.GetTransferSyntax().GetString()) +
+    ("its pixels cannot be unpacked (" + std::string(image.GetTransferSyntax().GetString()) +
       "): they are damaged, or packed in a way that is not read; try gdcmconv --raw")
       .c_str());
 }

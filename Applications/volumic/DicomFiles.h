@@ -22,12 +22,12 @@ struct DicomSlice
 {
   std::string File;
   std::size_t Frame = 0;
-  std::array<int, 2> Size = { 0, 0 };    ///< columns and rows
-  std::optional<Vector3> Position;       ///< of the first pixel: patient coordinates, mm
-  std::optional<std::array<Vector3, 2>> Axes;          ///< along its rows, and from row to row
-  std::optional<std::array<double, 2>> Spacing;        ///< along these
-  std::optional<std::array<double, 2>> ImagerSpacing;  ///< of the detector
-  double Thickness = 0.0;                              ///< 0: not told
+  std::array<int, 2> Size = { 0, 0 };           ///< columns and rows
+  std::optional<Vector3> Position;              ///< of the first pixel: patient coordinates, mm
+  std::optional<std::array<Vector3, 2>> Axes;   ///< along its rows, and from row to row
+  std::optional<std::array<double, 2>> Spacing; ///< along these
+  std::optional<std::array<double, 2>> ImagerSpacing; ///< of the detector
+  double Thickness = 0.0;                             ///< 0: not told
   double Slope = 1.0;
   double Shift = 0.0;
   std::optional<double> Padding; ///< the value of pixels that are none, as it is in the file

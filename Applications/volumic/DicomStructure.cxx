@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The elements of a DICOM file (PS3.5, sections 7 and A.4). GDCM ends the program where they don't fit
-// together, and takes memory for whatever length an element tells of.
+// The elements of a DICOM file (PS3.5, sections 7 and A.4). GDCM ends the program where they don't
+// fit together, and takes memory for whatever length an element tells of.
 #include "BinaryFile.h"
 #include "DicomFiles.h"
 #include "Texts.h"
@@ -29,7 +29,8 @@ struct Part
   std::uint64_t Start = 0; ///< of its value
 };
 
-/** Goes through a file from element to element. All throws a Failure where something does not fit. */
+/** Goes through a file from element to element. All throws a Failure where something does not fit.
+ */
 class Walk
 {
 public:
@@ -74,8 +75,9 @@ public:
     }
     catch (const Failure&)
     {
-      FailIf(hasPixels, "is damaged: it does not end behind its pixels, bytes may be too many; copy "
-                        "it again");
+      FailIf(hasPixels,
+        "is damaged: it does not end behind its pixels, bytes may be too many; copy "
+        "it again");
       throw;
     }
   }
@@ -134,10 +136,9 @@ private:
   void Go(const Part& element, std::uint64_t end)
   {
     FailIf(element.Length > end - element.Start,
-      element.Tag == PixelTag
-        ? "the pixels are cut off: " + std::to_string(end - element.Start) + " bytes, " +
-          std::to_string(element.Length) + " needed; copy the file again"
-        : "it is cut off within its header");
+      element.Tag == PixelTag ? "the pixels are cut off: " + std::to_string(end - element.Start) +
+          " bytes, " + std::to_string(element.Length) + " needed; copy the file again"
+                              : "it is cut off within its header");
     this->At = element.Start + element.Length;
   }
 
@@ -163,8 +164,8 @@ private:
       {
         break;
       }
-      FailIf(item.Tag != Item, "its header is damaged: sequence " + this->Name(element) +
-          " holds no items");
+      FailIf(item.Tag != Item,
+        "its header is damaged: sequence " + this->Name(element) + " holds no items");
       if (element.Tag == PixelTag)
       {
         FailIf(item.Length == Undefined, "its packed pixels are damaged");

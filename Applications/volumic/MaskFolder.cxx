@@ -121,7 +121,8 @@ private:
         inside = size++ == 0 ? value : inside;
         FailIf(!(std::abs(value - inside) <= most),
           "has the values " + NumberText(inside) + " and " + NumberText(value) +
-            ": a mask has 0 and another one. Volumes of a folder, or of a file, are read as masks, one "
+            ": a mask has 0 and another one. Volumes of a folder, or of a file, are read as masks, "
+            "one "
             "for each label; give a volume, or a label map, by its own name, or choose one of the "
             "file's with --time");
       }
@@ -252,8 +253,8 @@ vtkSmartPointer<vtkImageData> ReadMasksOf(const std::string& file, int count)
   {
     VolumeChoice choice;
     choice.Time = time;
-    masks.push_back(
-      { "volume " + std::to_string(time), "", [file, choice] { return ReadVolume(file, choice); } });
+    masks.push_back({ "volume " + std::to_string(time), "",
+      [file, choice] { return ReadVolume(file, choice); } });
   }
   return MapOf(masks);
 }

@@ -49,8 +49,8 @@ DicomSeries Choose(std::vector<DicomSeries> all, const std::string& wanted)
   }
   FailIf(!wanted.empty(), "no series " + wanted + "; there are " + ListOf(all));
   FailIf(all.size() > 1,
-    std::to_string(all.size()) + " series, one is needed; choose it with --series N: " +
-      ListOf(all));
+    std::to_string(all.size()) +
+      " series, one is needed; choose it with --series N: " + ListOf(all));
   return all.front();
 }
 
@@ -60,7 +60,8 @@ bool IsLike(const DicomSlice& a, const DicomSlice& b)
   const auto isNear = [](const auto& one, const auto& other)
   {
     return one.has_value() == other.has_value() &&
-      (!one || (std::abs((*one)[0] - (*other)[0]) < 1e-3 && std::abs((*one)[1] - (*other)[1]) < 1e-3));
+      (!one ||
+        (std::abs((*one)[0] - (*other)[0]) < 1e-3 && std::abs((*one)[1] - (*other)[1]) < 1e-3));
   };
   const bool areParallel = !a.Axes || !b.Axes ||
     (Dot((*a.Axes)[0], (*b.Axes)[0]) > 0.999 && Dot((*a.Axes)[1], (*b.Axes)[1]) > 0.999);
@@ -77,8 +78,8 @@ std::vector<DicomSlice> MostAlike(const DicomSeries& series)
       [&slice](const auto& group) { return IsLike(slice, group.front()); });
     (found != groups.end() ? *found : groups.emplace_back()).push_back(slice);
   }
-  std::stable_sort(groups.begin(), groups.end(),
-    [](const auto& a, const auto& b) { return a.size() > b.size(); });
+  std::stable_sort(
+    groups.begin(), groups.end(), [](const auto& a, const auto& b) { return a.size() > b.size(); });
   if (groups.size() > 1)
   {
     const DicomSlice& other = groups[1].front();
@@ -86,10 +87,12 @@ std::vector<DicomSlice> MostAlike(const DicomSeries& series)
       (other.Size != groups[0].front().Size ? "size" : "place, orientation or pixel spacing") +
       " differs from that of " + groups[0].front().File;
     const std::size_t left = series.Slices.size() - groups[0].size();
-    FailIf(left * 4 > series.Slices.size(), which + "; take those that are no slices of the volume "
-      "out of the folder");
-    TellOfFile(which + "; " + std::to_string(left) + " of " +
-      std::to_string(series.Slices.size()) + " slices are left out (a localizer?)");
+    FailIf(left * 4 > series.Slices.size(),
+      which +
+        "; take those that are no slices of the volume "
+        "out of the folder");
+    TellOfFile(which + "; " + std::to_string(left) + " of " + std::to_string(series.Slices.size()) +
+      " slices are left out (a localizer?)");
   }
   return groups[0];
 }
@@ -112,7 +115,8 @@ std::vector<DicomSlice> OfOneTime(std::vector<DicomSlice> slices, const VolumeCh
   {
     FailIf(place.size() != times,
       place.back().File + " lies where " + place.front().File +
-        " does, and others don't come twice; take what is no slice of the volume out of the folder");
+        " does, and others don't come twice; take what is no slice of the volume out of the "
+        "folder");
     std::stable_sort(place.begin(), place.end(),
       [](const DicomSlice& a, const DicomSlice& b) { return a.Time < b.Time; });
   }
@@ -147,7 +151,8 @@ void TellOfPlaces(const std::vector<DicomSlice>& slices)
 {
   if (slices.front().IsGuessed)
   {
-    const double distance = slices.size() < 2 ? 1.0
+    const double distance = slices.size() < 2
+      ? 1.0
       : std::sqrt(Dot(Step(slices[0], slices[1]), Step(slices[0], slices[1])));
     TellOfFile("its " + std::to_string(slices.size()) +
       " frames tell no places; they are taken for slices, " + NumberText(distance) + " mm apart");
@@ -216,9 +221,7 @@ public:
       }
     }
     this->Least = std::min(this->Least, this->Most); // where there are no pixels but padding
-    this->Type = areAsStored ? this->Type
-      : areWhole             ? TypeFor(this->Least, this->Most)
-                             : VTK_FLOAT;
+    this->Type = areAsStored ? this->Type : areWhole ? TypeFor(this->Least, this->Most) : VTK_FLOAT;
     this->WorldAxes = "LPS";
     this->LengthUnit = "mm";
   }
@@ -290,8 +293,8 @@ std::unique_ptr<SlabReader> OpenSeries(const DicomSeries& series, const Opening&
   {
     places.Positions.push_back(slice.Position.value_or(Vector3{ 0, 0, 0 }));
   }
-  const std::array<Vector3, 2> axes = slices[0].Axes.value_or(
-    std::array<Vector3, 2>{ { { 1, 0, 0 }, { 0, 1, 0 } } });
+  const std::array<Vector3, 2> axes =
+    slices[0].Axes.value_or(std::array<Vector3, 2>{ { { 1, 0, 0 }, { 0, 1, 0 } } });
   places.Across = axes[0];
   places.Down = axes[1];
   places.Spacing = SpacingOf(slices[0]);
@@ -308,8 +311,8 @@ std::unique_ptr<SlabReader> OpenSeries(const DicomSeries& series, const Opening&
   const std::array<int, 3> size = slabs->Size;
   std::unique_ptr<SlabReader> grid =
     ResampledSlices(std::shared_ptr<SlabReader>(std::move(slabs)), places, outside);
-  grid->Resampling = uneven + "; resampled from " + SizeText(size) + " to " +
-    SizeText(grid->Size) + " voxels of " + NumberText(grid->Placement.Spacing[0]) + " x " +
+  grid->Resampling = uneven + "; resampled from " + SizeText(size) + " to " + SizeText(grid->Size) +
+    " voxels of " + NumberText(grid->Placement.Spacing[0]) + " x " +
     NumberText(grid->Placement.Spacing[1]) + " x " + NumberText(grid->Placement.Spacing[2]);
   TellOfFile(grid->Resampling);
   return grid;

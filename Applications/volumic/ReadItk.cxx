@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What VTK has no reader for, by ITK's: it is read as a whole. A reader gives what memory holds where a
-// file has been cut off or tells of nonsense, so sizes are checked here, once for all.
+// What VTK has no reader for, by ITK's: it is read as a whole. A reader gives what memory holds
+// where a file has been cut off or tells of nonsense, so sizes are checked here, once for all.
 #include "SlabReader.h"
 
 #include "Texts.h"
@@ -27,9 +27,9 @@ int TypeOf(itk::ImageIOBase* reader)
 {
   using Kind = itk::ImageIOBase::IOComponentType;
   static const std::map<Kind, int> types = { { Kind::UCHAR, VTK_UNSIGNED_CHAR },
-    { Kind::CHAR, VTK_SIGNED_CHAR }, { Kind::USHORT, VTK_UNSIGNED_SHORT }, { Kind::SHORT, VTK_SHORT },
-    { Kind::UINT, VTK_UNSIGNED_INT }, { Kind::INT, VTK_INT }, { Kind::FLOAT, VTK_FLOAT },
-    { Kind::DOUBLE, VTK_DOUBLE } };
+    { Kind::CHAR, VTK_SIGNED_CHAR }, { Kind::USHORT, VTK_UNSIGNED_SHORT },
+    { Kind::SHORT, VTK_SHORT }, { Kind::UINT, VTK_UNSIGNED_INT }, { Kind::INT, VTK_INT },
+    { Kind::FLOAT, VTK_FLOAT }, { Kind::DOUBLE, VTK_DOUBLE } };
   return EntryOf(types, reader->GetComponentType(), "its voxels are no numbers that are read");
 }
 

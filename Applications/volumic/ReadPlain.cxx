@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Voxels behind a short header, or behind none: NumPy (https://numpy.org/neps/nep-0001-npy-format.html),
-// FreeSurfer (https://surfer.nmr.mgh.harvard.edu/fswiki/FsTutorial/MghFormat), --raw.
+// Voxels behind a short header, or behind none: NumPy
+// (https://numpy.org/neps/nep-0001-npy-format.html), FreeSurfer
+// (https://surfer.nmr.mgh.harvard.edu/fswiki/FsTutorial/MghFormat), --raw.
 #include "SlabReader.h"
 
 #include "Texts.h"
@@ -52,7 +53,8 @@ std::unique_ptr<SlabReader> OpenNumpy(const std::string& name, const Opening& op
   FailIf(file.Text(0, 6) != "\x93NUMPY", "does not start as a .npy file does");
   const int wide = file.Number(6, 1) == 1 ? 2 : 4;
   const std::uint64_t length = file.Number(8, wide);
-  FailIf(length > LargestText, "its header is damaged: it has " + std::to_string(length) + " bytes");
+  FailIf(
+    length > LargestText, "its header is damaged: it has " + std::to_string(length) + " bytes");
   const std::string header = file.Text(8 + static_cast<std::uint64_t>(wide), length);
   auto slabs = std::make_unique<RawSlabs>();
   slabs->Files = { name };
@@ -75,7 +77,8 @@ std::unique_ptr<SlabReader> OpenNumpy(const std::string& name, const Opening& op
     std::reverse(shape.begin(), shape.end());
   }
   FailIf(shape.size() != 3 || *std::min_element(shape.begin(), shape.end()) < 1,
-    "its shape is (" + ValueIn(header, "shape") + "); a volume has three axes (numpy.save one of "
+    "its shape is (" + ValueIn(header, "shape") +
+      "); a volume has three axes (numpy.save one of "
       "them, or the channel or time that is wanted)");
   std::copy(shape.begin(), shape.end(), slabs->Size.begin());
   slabs->Prepare(opening);
@@ -126,8 +129,8 @@ std::unique_ptr<SlabReader> OpenMgh(const std::string& name, const Opening& open
   slabs->Placement.SetSteps(steps);
   for (std::size_t c = 0; c < 3; ++c)
   {
-    slabs->Placement.Origin[c] = centre[c] - steps[0][c] * middle[0] - steps[1][c] * middle[1] -
-      steps[2][c] * middle[2];
+    slabs->Placement.Origin[c] =
+      centre[c] - steps[0][c] * middle[0] - steps[1][c] * middle[1] - steps[2][c] * middle[2];
   }
   slabs->WorldAxes = "RAS";
   slabs->LengthUnit = "mm";
@@ -144,7 +147,8 @@ std::unique_ptr<SlabReader> OpenRaw(const std::string& name, const Opening& open
 {
   const std::vector<std::string> words = SplitAtCommas(opening.Choice.Raw);
   FailIf(words.size() < 4 || words.size() > 5,
-    "--raw '" + opening.Choice.Raw + "': it is sizes, type and the order of bytes, such as "
+    "--raw '" + opening.Choice.Raw +
+      "': it is sizes, type and the order of bytes, such as "
       "512,512,400,uint16,little");
   auto slabs = std::make_unique<RawSlabs>();
   slabs->Files = { name };

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // TIFF by libtiff, which VTK comes with. vtkTIFFReader gives other bytes than those of the file for
-// some kinds of pixels and takes all pages to be like the first; libtiff takes a chain of pages that
-// ends early for a whole one.
+// some kinds of pixels and takes all pages to be like the first; libtiff takes a chain of pages
+// that ends early for a whole one.
 #include "SlabReader.h"
 
 #include "Texts.h"
@@ -103,13 +103,14 @@ Kind KindOf(TIFF* file)
 
 int TypeOf(const Kind& kind)
 {
-  static const std::map<std::pair<int, int>, int> types = {
-    { { SAMPLEFORMAT_UINT, 1 }, VTK_UNSIGNED_CHAR }, { { SAMPLEFORMAT_UINT, 2 }, VTK_UNSIGNED_CHAR },
-    { { SAMPLEFORMAT_UINT, 4 }, VTK_UNSIGNED_CHAR }, { { SAMPLEFORMAT_UINT, 8 }, VTK_UNSIGNED_CHAR },
-    { { SAMPLEFORMAT_INT, 8 }, VTK_SIGNED_CHAR }, { { SAMPLEFORMAT_UINT, 16 }, VTK_UNSIGNED_SHORT },
-    { { SAMPLEFORMAT_INT, 16 }, VTK_SHORT }, { { SAMPLEFORMAT_UINT, 32 }, VTK_UNSIGNED_INT },
-    { { SAMPLEFORMAT_INT, 32 }, VTK_INT }, { { SAMPLEFORMAT_IEEEFP, 32 }, VTK_FLOAT },
-    { { SAMPLEFORMAT_IEEEFP, 64 }, VTK_DOUBLE } };
+  static const std::map<std::pair<int, int>, int> types = { { { SAMPLEFORMAT_UINT, 1 },
+                                                              VTK_UNSIGNED_CHAR },
+    { { SAMPLEFORMAT_UINT, 2 }, VTK_UNSIGNED_CHAR },
+    { { SAMPLEFORMAT_UINT, 4 }, VTK_UNSIGNED_CHAR },
+    { { SAMPLEFORMAT_UINT, 8 }, VTK_UNSIGNED_CHAR }, { { SAMPLEFORMAT_INT, 8 }, VTK_SIGNED_CHAR },
+    { { SAMPLEFORMAT_UINT, 16 }, VTK_UNSIGNED_SHORT }, { { SAMPLEFORMAT_INT, 16 }, VTK_SHORT },
+    { { SAMPLEFORMAT_UINT, 32 }, VTK_UNSIGNED_INT }, { { SAMPLEFORMAT_INT, 32 }, VTK_INT },
+    { { SAMPLEFORMAT_IEEEFP, 32 }, VTK_FLOAT }, { { SAMPLEFORMAT_IEEEFP, 64 }, VTK_DOUBLE } };
   const int format = kind.Format == SAMPLEFORMAT_VOID ? SAMPLEFORMAT_UINT : kind.Format;
   const bool isSmall = kind.Bits < 8;
   FailIf(isSmall && kind.Samples > 1, "pixels of this kind are not read: " + kind.Text());
@@ -119,7 +120,8 @@ int TypeOf(const Kind& kind)
 /** Bytes of the values that the entries of a directory tell of. */
 std::uint64_t ValueBytes(BinaryFile& file, std::uint64_t first, std::uint64_t count, bool isWide)
 {
-  static const std::uint64_t typeBytes[] = { 0, 1, 1, 2, 4, 8, 1, 1, 2, 4, 8, 4, 8, 4, 0, 0, 8, 8, 8 };
+  static const std::uint64_t typeBytes[] = { 0, 1, 1, 2, 4, 8, 1, 1, 2, 4, 8, 4, 8, 4, 0, 0, 8, 8,
+    8 };
   const std::uint64_t entry = isWide ? 20 : 12;
   std::uint64_t bytes = 0;
   for (std::uint64_t i = 0; i < count; ++i)
@@ -233,8 +235,8 @@ private:
   void TakeVolume(const VolumeChoice& choice, std::uint64_t times, const std::string& order);
   void TakeSpacing(const Description& told);
   void ReadPage(std::size_t page, char* pixels);
-  void CopyPart(const std::vector<char>& part, std::uint32_t x, std::uint32_t y, std::uint32_t width,
-    std::uint32_t height, std::uint16_t sample, char* pixels) const;
+  void CopyPart(const std::vector<char>& part, std::uint32_t x, std::uint32_t y,
+    std::uint32_t width, std::uint32_t height, std::uint16_t sample, char* pixels) const;
   std::size_t SampleBytes() const
   {
     return static_cast<std::size_t>(vtkDataArray::GetDataTypeSize(this->Type));
@@ -243,9 +245,9 @@ private:
   std::unique_ptr<TIFF, void (*)(TIFF*)> File;
   std::uint64_t Bytes; ///< of the file
   Kind First;
-  std::vector<std::uint64_t> Places; ///< of the pages in the file
-  std::uint64_t Channels = 1;        ///< that are pages of their own
-  std::size_t FirstPage = 0;         ///< of the time that is wanted
+  std::vector<std::uint64_t> Places;             ///< of the pages in the file
+  std::uint64_t Channels = 1;                    ///< that are pages of their own
+  std::size_t FirstPage = 0;                     ///< of the time that is wanted
   std::array<std::size_t, 2> Strides = { 1, 1 }; ///< pages to the next slice, and channel
 };
 
@@ -305,7 +307,8 @@ std::uint64_t TiffPages::CheckPage(std::vector<Part>& parts)
   TIFF* file = this->File.get();
   const Kind kind = KindOf(file);
   FailIf(kind.Text() != this->First.Text(),
-    "it is " + kind.Text() + ", the first page " + this->First.Text() + "; pages of one kind are read");
+    "it is " + kind.Text() + ", the first page " + this->First.Text() +
+      "; pages of one kind are read");
   const std::uint64_t most = std::numeric_limits<int>::max();
   const std::uint64_t pixels = Times(kind.Width, kind.Height);
   const std::uint64_t bits = Times(Times(pixels, kind.Samples), kind.Bits);
@@ -334,7 +337,8 @@ void TiffPages::TakePages()
   do
   {
     ++number;
-    FailIf(number > std::numeric_limits<std::uint16_t>::max(), "it has more pages than libtiff counts");
+    FailIf(
+      number > std::numeric_limits<std::uint16_t>::max(), "it has more pages than libtiff counts");
     const std::uint64_t place = TIFFCurrentDirOffset(file);
     const char* text = nullptr;
     const std::uint64_t entries = bytes.Number(place, isWide ? 8 : 2);
@@ -343,7 +347,8 @@ void TiffPages::TakePages()
       "the file is damaged: its pages have more values than it has bytes");
     parts.emplace_back(place, place + (isWide ? 16 + 20 * entries : 6 + 12 * entries));
     next = bytes.Number(parts.back().second - (isWide ? 8 : 4), isWide ? 8 : 4);
-    others += 20 + (TIFFGetField(file, TIFFTAG_IMAGEDESCRIPTION, &text) == 1 && text ? std::strlen(text) : 0);
+    others += 20 +
+      (TIFFGetField(file, TIFFTAG_IMAGEDESCRIPTION, &text) == 1 && text ? std::strlen(text) : 0);
     const std::size_t before = parts.size();
     Named("page " + std::to_string(number),
       [&]
@@ -360,7 +365,8 @@ void TiffPages::TakePages()
     others += (parts.size() - before) * (isWide ? 16 : 8);
     Complaint.clear();
   } while (TIFFReadDirectory(file) != 0);
-  FailIf(!Complaint.empty() || next != 0, "the file is damaged: its pages form no chain" + Reason());
+  FailIf(
+    !Complaint.empty() || next != 0, "the file is damaged: its pages form no chain" + Reason());
   this->CheckParts(std::move(parts), others, pixels / this->Places.size());
 }
 
@@ -368,8 +374,7 @@ void TiffPages::TakePages()
  * @throws Failure if parts overlap, or if as much as a page is in none
  * @param others bytes that are known otherwise
  */
-void TiffPages::CheckParts(
-  std::vector<Part> parts, std::uint64_t others, std::uint64_t page) const
+void TiffPages::CheckParts(std::vector<Part> parts, std::uint64_t others, std::uint64_t page) const
 {
   std::sort(parts.begin(), parts.end());
   std::uint64_t used = 0;
@@ -381,8 +386,9 @@ void TiffPages::CheckParts(
     used += behind - begin;
     end = std::max(end, behind);
   }
-  FailIf(end > this->Bytes, "the file is cut off: its pixels end at byte " + std::to_string(end) +
-      ", the file at byte " + std::to_string(this->Bytes));
+  FailIf(end > this->Bytes,
+    "the file is cut off: its pixels end at byte " + std::to_string(end) + ", the file at byte " +
+      std::to_string(this->Bytes));
   std::uint16_t inner = 0;
   std::uint64_t* ofInner = nullptr;
   TIFF* file = this->File.get();
@@ -429,8 +435,7 @@ void TiffPages::CopyPart(const std::vector<char>& part, std::uint32_t x, std::ui
   for (std::uint32_t row = 0; row < rows; ++row)
   {
     const char* from = part.data() + row * rowBytes;
-    const std::size_t pixel =
-      static_cast<std::size_t>(y + row) * this->First.Width + x;
+    const std::size_t pixel = static_cast<std::size_t>(y + row) * this->First.Width + x;
     char* to = pixels + pixel * all * bytes + (isApart ? sample * bytes : 0);
     for (std::uint32_t column = 0; column < columns; ++column)
     {
@@ -451,7 +456,8 @@ void TiffPages::CopyPart(const std::vector<char>& part, std::uint32_t x, std::ui
 void TiffPages::ReadPage(std::size_t page, char* pixels)
 {
   TIFF* file = this->File.get();
-  FailIf(TIFFSetSubDirectory(file, this->Places[page]) != 1, "its directory cannot be read" + Reason());
+  FailIf(
+    TIFFSetSubDirectory(file, this->Places[page]) != 1, "its directory cannot be read" + Reason());
   if (Tag<std::uint16_t>(file, TIFFTAG_COMPRESSION, 1) == COMPRESSION_JPEG)
   {
     TIFFSetField(file, TIFFTAG_JPEGCOLORMODE, JPEGCOLORMODE_RGB);
@@ -461,7 +467,8 @@ void TiffPages::ReadPage(std::size_t page, char* pixels)
     isTiled ? Tag<std::uint32_t>(file, TIFFTAG_TILEWIDTH, 0) : this->First.Width;
   const std::uint32_t height = isTiled
     ? Tag<std::uint32_t>(file, TIFFTAG_TILELENGTH, 0)
-    : std::min(Tag<std::uint32_t>(file, TIFFTAG_ROWSPERSTRIP, this->First.Height), this->First.Height);
+    : std::min(
+        Tag<std::uint32_t>(file, TIFFTAG_ROWSPERSTRIP, this->First.Height), this->First.Height);
   FailIf(width == 0 || height == 0, "its strips or tiles are none");
   const std::uint32_t across = (this->First.Width - 1) / width + 1;
   const std::uint32_t down = (this->First.Height - 1) / height + 1;
@@ -504,8 +511,8 @@ vtkSmartPointer<vtkDataArray> TiffPages::Read(int first, int count)
     char* slice = to + static_cast<std::size_t>(i) * area * pixel * this->Channels;
     for (std::size_t c = 0; c < this->Channels; ++c)
     {
-      const std::size_t page = this->FirstPage + static_cast<std::size_t>(first + i) * this->Strides[0] +
-        c * this->Strides[1];
+      const std::size_t page = this->FirstPage +
+        static_cast<std::size_t>(first + i) * this->Strides[0] + c * this->Strides[1];
       Named("page " + std::to_string(page + 1),
         [&] { this->ReadPage(page, this->Channels > 1 ? channel.data() : slice); });
       for (std::size_t k = 0; this->Channels > 1 && k < area; ++k)

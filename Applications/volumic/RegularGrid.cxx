@@ -153,8 +153,8 @@ bool GridOfSlices::Add(const Layer& layer, int x, int y, double weight, double* 
   {
     const int right = corner % 2;
     const int down = corner / 2;
-    const double part = (right == 1 ? share[0] : 1.0 - share[0]) *
-      (down == 1 ? share[1] : 1.0 - share[1]);
+    const double part =
+      (right == 1 ? share[0] : 1.0 - share[0]) * (down == 1 ? share[1] : 1.0 - share[1]);
     if (part > 0.0)
     {
       const vtkIdType pixel = static_cast<vtkIdType>(low[1] + down) * size[0] + low[0] + right;
@@ -175,8 +175,8 @@ void GridOfSlices::FillSlice(int z, vtkDataArray* values, vtkIdType start)
     std::max<std::ptrdiff_t>(1, above - this->Heights.begin()), this->Heights.size() - 1);
   const Layer& low = this->Need(upper - 1);
   const Layer& high = this->Need(upper);
-  double share = (height - this->Heights[upper - 1]) /
-    (this->Heights[upper] - this->Heights[upper - 1]);
+  double share =
+    (height - this->Heights[upper - 1]) / (this->Heights[upper] - this->Heights[upper - 1]);
   // Where a slice is, its own values.
   share = share < 1e-3 ? 0.0 : share > 1.0 - 1e-3 ? 1.0 : share;
   const bool isWhole = values->GetDataType() != VTK_FLOAT && values->GetDataType() != VTK_DOUBLE;

@@ -37,8 +37,8 @@ struct SlicePlaces
 
 /**
  * The finest regular grid that holds the slices, as slices: from the first to the last, as far from
- * each other as the nearest two, and as wide as all together. Values between are interpolated linearly,
- * to the type that they have; where no slice is, they are `outside`.
+ * each other as the nearest two, and as wide as all together. Values between are interpolated
+ * linearly, to the type that they have; where no slice is, they are `outside`.
  * @throws Failure if some are so near to each other that this would be many times as many
  */
 std::unique_ptr<SlabReader> ResampledSlices(

@@ -87,8 +87,7 @@ Vector3 WantedSpacing(const ToolOptions& options, const GridFacts& grid, bool ar
 }
 }
 
-vtkSmartPointer<vtkImageData> Resampled(
-  vtkImageData* image, const Vector3& spacing, bool areLabels)
+vtkSmartPointer<vtkImageData> Resampled(vtkImageData* image, const Vector3& spacing, bool areLabels)
 {
   // Along the voxels' axes, from the outer face of the first voxel on: the place in the world is
   // set afterwards.
@@ -121,8 +120,7 @@ vtkSmartPointer<vtkImageData> Resampled(
   else
   {
     reslice->SetInterpolationModeToLinear();
-    reslice->SetOutputScalarType(
-      image->GetScalarType() == VTK_DOUBLE ? VTK_DOUBLE : VTK_FLOAT);
+    reslice->SetOutputScalarType(image->GetScalarType() == VTK_DOUBLE ? VTK_DOUBLE : VTK_FLOAT);
   }
   reslice->Update();
   auto made = vtkSmartPointer<vtkImageData>::New();
