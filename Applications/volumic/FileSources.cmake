@@ -26,6 +26,7 @@ set(volumic_reader_sources
   RegularGrid.cxx
   SlabReader.cxx
   Texts.cxx
+  TiffTags.cxx
   VolumeImage.cxx
   WorldSpace.cxx)
 find_package(nlohmann_json 3.9 REQUIRED) # headers, in Debian's nlohmann-json3-dev

@@ -122,9 +122,8 @@ private:
         FailIf(!(std::abs(value - inside) <= most),
           "has the values " + NumberText(inside) + " and " + NumberText(value) +
             ": a mask has 0 and another one. Volumes of a folder, or of a file, are read as masks, "
-            "one "
-            "for each label; give a volume, or a label map, by its own name, or choose one of the "
-            "file's with --time");
+            "one for each label; give a volume, or a label map, by its own name, or choose one of "
+            "the file's with --time");
       }
     }
     this->Sizes.push_back(size);

@@ -7,217 +7,20 @@
 #include "SlabReader.h"
 
 #include "Texts.h"
+#include "TiffTags.h"
 #include "ToolErrors.h"
 
 #include <vtkDataArray.h>
-#include <vtk_tiff.h>
 
 #include <algorithm>
-#include <cstdarg>
-#include <cstdio>
 #include <cstring>
-#include <iterator>
 #include <limits>
-#include <map>
 
 namespace tool
 {
 namespace
 {
-thread_local std::string Complaint; ///< of libtiff, the first since it was emptied
-
-void Complain(const char*, const char* format, va_list values)
-{
-  char text[300];
-  std::vsnprintf(text, sizeof(text), format, values);
-  Complaint = Complaint.empty() ? text : Complaint;
-}
-
-/** As long as it is there, libtiff tells this file of errors, and nobody of warnings. */
-class Listening
-{
-public:
-  Listening() : Errors(TIFFSetErrorHandler(Complain)), Warnings(TIFFSetWarningHandler(nullptr))
-  {
-    Complaint.clear();
-  }
-  ~Listening()
-  {
-    TIFFSetErrorHandler(this->Errors);
-    TIFFSetWarningHandler(this->Warnings);
-  }
-  Listening(const Listening&) = delete;
-  Listening& operator=(const Listening&) = delete;
-
-private:
-  TIFFErrorHandler Errors;
-  TIFFErrorHandler Warnings;
-};
-
-std::string Reason()
-{
-  return Complaint.empty() ? "" : " (" + AsUtf8(Complaint) + ")";
-}
-
-template <class T>
-T Tag(TIFF* file, std::uint32_t tag, T otherwise)
-{
-  T value = otherwise;
-  return TIFFGetFieldDefaulted(file, tag, &value) == 1 ? value : otherwise;
-}
-
-/** What of a page tells what its pixels are. */
-struct Kind
-{
-  std::uint32_t Width = 0;
-  std::uint32_t Height = 0;
-  std::uint16_t Bits = 1;
-  std::uint16_t Samples = 1;
-  std::uint16_t Format = SAMPLEFORMAT_UINT;
-  std::uint16_t Colours = 0;
-  std::uint16_t Planes = PLANARCONFIG_CONTIG;
-  std::uint16_t Orientation = ORIENTATION_TOPLEFT;
-
-  std::string Text() const
-  {
-    return std::to_string(this->Width) + " x " + std::to_string(this->Height) + ", " +
-      std::to_string(this->Samples) + " of " + std::to_string(this->Bits) + " bits, format " +
-      std::to_string(this->Format) + ", colours " + std::to_string(this->Colours) +
-      ", orientation " + std::to_string(this->Orientation);
-  }
-};
-
-Kind KindOf(TIFF* file)
-{
-  Kind kind;
-  kind.Width = Tag<std::uint32_t>(file, TIFFTAG_IMAGEWIDTH, 0);
-  kind.Height = Tag<std::uint32_t>(file, TIFFTAG_IMAGELENGTH, 0);
-  kind.Bits = Tag<std::uint16_t>(file, TIFFTAG_BITSPERSAMPLE, 1);
-  kind.Samples = Tag<std::uint16_t>(file, TIFFTAG_SAMPLESPERPIXEL, 1);
-  kind.Format = Tag<std::uint16_t>(file, TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_UINT);
-  kind.Colours = Tag<std::uint16_t>(file, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK);
-  kind.Planes = Tag<std::uint16_t>(file, TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG);
-  kind.Orientation = Tag<std::uint16_t>(file, TIFFTAG_ORIENTATION, ORIENTATION_TOPLEFT);
-  return kind;
-}
-
-int TypeOf(const Kind& kind)
-{
-  static const std::map<std::pair<int, int>, int> types = { { { SAMPLEFORMAT_UINT, 1 },
-                                                              VTK_UNSIGNED_CHAR },
-    { { SAMPLEFORMAT_UINT, 2 }, VTK_UNSIGNED_CHAR },
-    { { SAMPLEFORMAT_UINT, 4 }, VTK_UNSIGNED_CHAR },
-    { { SAMPLEFORMAT_UINT, 8 }, VTK_UNSIGNED_CHAR }, { { SAMPLEFORMAT_INT, 8 }, VTK_SIGNED_CHAR },
-    { { SAMPLEFORMAT_UINT, 16 }, VTK_UNSIGNED_SHORT }, { { SAMPLEFORMAT_INT, 16 }, VTK_SHORT },
-    { { SAMPLEFORMAT_UINT, 32 }, VTK_UNSIGNED_INT }, { { SAMPLEFORMAT_INT, 32 }, VTK_INT },
-    { { SAMPLEFORMAT_IEEEFP, 32 }, VTK_FLOAT }, { { SAMPLEFORMAT_IEEEFP, 64 }, VTK_DOUBLE } };
-  const int format = kind.Format == SAMPLEFORMAT_VOID ? SAMPLEFORMAT_UINT : kind.Format;
-  const bool isSmall = kind.Bits < 8;
-  FailIf(isSmall && kind.Samples > 1, "pixels of this kind are not read: " + kind.Text());
-  return EntryOf(types, { format, kind.Bits }, "pixels of this kind are not read: " + kind.Text());
-}
-
-/** Bytes of the values that the entries of a directory tell of. */
-std::uint64_t ValueBytes(BinaryFile& file, std::uint64_t first, std::uint64_t count, bool isWide)
-{
-  static const std::uint64_t typeBytes[] = { 0, 1, 1, 2, 4, 8, 1, 1, 2, 4, 8, 4, 8, 4, 0, 0, 8, 8,
-    8 };
-  const std::uint64_t entry = isWide ? 20 : 12;
-  std::uint64_t bytes = 0;
-  for (std::uint64_t i = 0; i < count; ++i)
-  {
-    const std::uint64_t type = file.Number(first + i * entry + 2, 2);
-    const std::uint64_t each = type < std::size(typeBytes) ? typeBytes[type] : 0;
-    bytes += std::min(Times(each, file.Number(first + i * entry + 4, isWide ? 8 : 4)), file.Size());
-  }
-  return bytes;
-}
-
-/** From a byte of the file to behind another one. */
-using Part = std::pair<std::uint64_t, std::uint64_t>;
-
-/** Adds the parts of the file that have the pixels of the page at hand. @return their bytes */
-std::uint64_t AddParts(TIFF* file, std::vector<Part>& parts)
-{
-  const std::uint32_t count =
-    TIFFIsTiled(file) != 0 ? TIFFNumberOfTiles(file) : TIFFNumberOfStrips(file);
-  std::uint64_t all = 0;
-  for (std::uint32_t i = 0; i < count; ++i)
-  {
-    const std::uint64_t begin = TIFFGetStrileOffset(file, i);
-    const std::uint64_t bytes = TIFFGetStrileByteCount(file, i);
-    const std::uint64_t most = std::numeric_limits<std::uint64_t>::max() / 2;
-    FailIf(begin > most || bytes > most || all > most, "its header is damaged");
-    parts.emplace_back(begin, begin + bytes);
-    all += bytes;
-  }
-  return all;
-}
-
-/** What ImageJ and OME-TIFF tell in the description of the first page. */
-class Description
-{
-public:
-  explicit Description(TIFF* file)
-  {
-    const char* text = nullptr;
-    if (TIFFGetField(file, TIFFTAG_IMAGEDESCRIPTION, &text) == 1 && text)
-    {
-      this->Text = text;
-    }
-    this->IsOme = this->Text.find("<OME") != std::string::npos;
-    this->IsKnown = this->IsOme || this->Text.compare(0, 7, "ImageJ=") == 0;
-  }
-
-  bool IsKnown = false;
-  bool IsOme = false;
-
-  std::string Value(const std::string& ofImageJ, const std::string& ofOme) const
-  {
-    const std::string mark = this->IsOme ? " " + ofOme + "=\"" : "\n" + ofImageJ + "=";
-    const std::size_t at = this->IsKnown ? this->Text.find(mark) : std::string::npos;
-    if (at == std::string::npos)
-    {
-      return "";
-    }
-    const std::size_t begin = at + mark.size();
-    return this->Text.substr(begin, this->Text.find_first_of("\"\r\n", begin) - begin);
-  }
-
-  /** A number above 0. */
-  double Number(const std::string& ofImageJ, const std::string& ofOme, double otherwise) const
-  {
-    const double value = AsNumber<double>(this->Value(ofImageJ, ofOme)).value_or(otherwise);
-    return value > 0.0 && value < 1e9 ? value : otherwise;
-  }
-
-  std::uint64_t Count(const std::string& ofImageJ, const std::string& ofOme) const
-  {
-    return static_cast<std::uint64_t>(this->Number(ofImageJ, ofOme, 1.0));
-  }
-
-private:
-  std::string Text;
-};
-
-/** Distances of voxels that Zeiss's microscopes tell, in metres there: here micrometres. */
-bool TakeZeiss(TIFF* file, Vector3& spacing)
-{
-  constexpr std::uint32_t zeiss = 34412;
-  std::uint32_t count = 0;
-  void* data = nullptr;
-  if (TIFFGetField(file, zeiss, &count, &data) != 1 || !data || count < 64)
-  {
-    return false;
-  }
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    double metres = 0.0;
-    std::memcpy(&metres, static_cast<const char*>(data) + 40 + 8 * axis, sizeof(metres));
-    spacing[axis] = metres > 0.0 && metres < 1.0 ? 1e6 * metres : 1.0;
-  }
-  return true;
-}
+using namespace tiff;
 
 class TiffPages : public SlabReader
 {
@@ -363,10 +166,10 @@ void TiffPages::TakePages()
         this->Places.push_back(place);
       });
     others += (parts.size() - before) * (isWide ? 16 : 8);
-    Complaint.clear();
+    Complaint().clear();
   } while (TIFFReadDirectory(file) != 0);
   FailIf(
-    !Complaint.empty() || next != 0, "the file is damaged: its pages form no chain" + Reason());
+    !Complaint().empty() || next != 0, "the file is damaged: its pages form no chain" + Reason());
   this->CheckParts(std::move(parts), others, pixels / this->Places.size());
 }
 
