@@ -364,7 +364,7 @@ class SeriesTest(DamageTest):
         self.series()
         for k in range(1, SIZE[2], 2):
             self.write_bytes(f"series/IM{k:02}", self.slice(k, series="1.2.4"))
-        self.refused_volume("series", r"2 series, one is needed; choose it with --series N .*: "
+        self.refused_volume("series", r"2 series, one is needed; choose it with --series N: "
                             "1: head, 9 slices of 26 x 22, from IM00; 2: head, 9 slices of .*IM01")
         self.refused_volume("series", "no series 3; there are 1: head", "--series", "3")
         self.accepted("series", "--series", "2")
