@@ -356,17 +356,12 @@ std::vector<std::string> FileNamesOf(const std::vector<KnownLabel>& known)
     names.push_back(safe.empty() ? "label-" + std::to_string(label.Label) : safe);
     ++uses[Lower(names.back())];
   }
-  std::set<std::string> taken;
+  DistinctNames distinct("-");
   for (std::size_t i = 0; i < names.size(); ++i)
   {
     const bool isShared = uses[Lower(names[i])] > 1;
-    const std::string start =
-      isShared ? names[i] + "-" + std::to_string(known[i].Label) : names[i];
-    names[i] = start;
-    for (int more = 2; !taken.insert(Lower(names[i])).second; ++more)
-    {
-      names[i] = start + "-" + std::to_string(more);
-    }
+    names[i] =
+      distinct.Take(isShared ? names[i] + "-" + std::to_string(known[i].Label) : names[i]);
   }
   return names;
 }

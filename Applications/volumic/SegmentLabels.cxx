@@ -213,7 +213,7 @@ void CheckThatAnyIsThere(const ToolOptions& options, const LabelReport& report)
 
 /** Write surfaces and report. @throws Failure if not all could be written. */
 void WriteAll(const ToolOptions& options, std::vector<LabelSurface>& surfaces,
-  const LabelReport& report, ProgressStyle style)
+  LabelReport& report, ProgressStyle style)
 {
   for (LabelSurface& surface : surfaces)
   {
@@ -221,8 +221,10 @@ void WriteAll(const ToolOptions& options, std::vector<LabelSurface>& surfaces,
   }
   MarkSpace(report.Filters.Labels->GetInterfaces(), report.Volume.World);
   Failures failures;
+  SolidMaker solids(options.Solids, WasInterrupted);
   WriteLabelSurfaces(
-    options, surfaces, report.Filters.Labels->GetInterfaces(), style, failures);
+    options, surfaces, report.Filters.Labels->GetInterfaces(), solids, style, failures);
+  report.Filling = SharesInterfaces(options) ? solids.Last() : Solid();
   if (!options.Report.empty())
   {
     failures.Try([&] { WriteText(ReportText(report), options.Report); });
@@ -351,6 +353,10 @@ ExitCode SegmentLabels(const ToolOptions& options, const FilterTrio& filters, Ra
   CheckThatAnyIsThere(options, report);
   announcer.Follow("", [&] { WriteAll(options, surfaces, report, announcer.Style); });
   TellEnd(surfaces, announcer);
+  if (report.Filling.Grid)
+  {
+    announcer.Say(TextOf(report.Filling));
+  }
   return report.IsFinished ? Success : Unfinished;
 }
 

@@ -267,6 +267,10 @@ ExitCode SegmentVolume(const ToolOptions& options, const FilterTrio& filters)
   job.Says.Say(std::to_string(results.Size.Vertices) + " vertices after " +
     std::to_string(filter->GetHistory()->GetNumberOfRows()) +
     " iterations: " + results.StopReason);
+  if (results.Filling.Grid)
+  {
+    job.Says.Say(TextOf(results.Filling));
+  }
   if (!results.IsFinished)
   {
     const bool canGoOn = !filter->GetCheckpointFolder().empty();

@@ -5,6 +5,7 @@
 #include "GltfScene.h"
 #include "OutputFiles.h"
 #include "SurfaceFacts.h"
+#include "Tetrahedra.h"
 #include "Texts.h"
 #include "ToolErrors.h"
 #include "VtkWriters.h"
@@ -152,6 +153,10 @@ void WriteScene(const SurfaceFile& file)
   WriteGlb({ { name, file.Surface } }, file.Path, file.Line);
 }
 
+const Solid& SolidOf(const SurfaceFile& file)
+{
+  return file.Solids->Make(file.Surface, file.Path, file.Line);
+}
 }
 
 SurfaceWriter FindSurfaceWriter(const std::string& name)
@@ -164,7 +169,15 @@ SurfaceWriter FindSurfaceWriter(const std::string& name)
     { ".stl", WriteStl },
     { ".ply", WritePly },
     { ".glb", WriteScene },
-    { ".msh", WriteMsh },
+    { ".vtu", [](File file) { WriteVtu(SolidOf(file).Grid, file.Path, file.Line); } },
+    { ".inp", [](File file) { WriteInp(SolidOf(file), file.Path, file.Remark); } },
+    { ".msh",
+      [](File file)
+      {
+        NeedsMesher(file.Path, file.Solids->Choice)
+          ? WriteSolidMsh(SolidOf(file), file.Path, file.Remark)
+          : WriteMsh(file);
+      } },
     { ".smesh", WriteSmesh },
     { ".poly", WritePoly },
     { ".obj", WriteObj },

@@ -90,6 +90,19 @@ void SetTime(ToolOptions& options, const std::string& text)
   options.Choice.Time = ParseNumber<int>(text);
 }
 
+void SetMesher(ToolOptions& options, const std::string& text)
+{
+  FailIf<UsageError>(
+    text != "tetgen" && text != "gmsh", "'" + text + "' is none of tetgen, gmsh");
+  options.Solids.Mesher = text;
+}
+
+void SetMaximumVolume(ToolOptions& options, const std::string& text)
+{
+  options.Solids.MaximumVolume = ParseNumber<double>(text);
+  FailIf<UsageError>(!(options.Solids.MaximumVolume > 0.0), "a volume is more than 0");
+}
+
 void SetPieceSize(ToolOptions& options, const std::string& text)
 {
   options.PieceSize = ParseNumber<int>(text);
@@ -186,6 +199,12 @@ const std::vector<ProgramOption>& OutputOptions()
       "write components, genus, area, volume, seconds, ...; - for the standard output"),
     Text("write-volume", "FILE.vti", &ToolOptions::WrittenVolume,
       "write the volume as it was read; without another file to write, that is all"),
+    { "mesher", "tetgen|gmsh",
+      "what fills surfaces with tetrahedra for .vtu and .inp (default: the first that is installed), "
+      "and then for .msh, too",
+      SetMesher },
+    { "maximum-volume", "VOLUME",
+      "of tetrahedra, in world units cubed; by gmsh about so much", SetMaximumVolume },
     { "piece-size", "N", "triangles in each piece of a .pvtp (default: 1048576)", SetPieceSize },
     Switch("quiet", &ToolOptions::Quiet, "print errors only"),
     Switch("progress", &ToolOptions::Progress,
@@ -320,8 +339,8 @@ void PrintHelp(std::ostream& out, const FilterTrio& filters)
          "\n"
          "VOLUME   a file (see FORMATS in volumic(1)), a folder of DICOM slices or of\n"
          "         pictures, or a pattern of pictures such as 'slice%03d.png' or '*.tif'\n"
-         "SURFACE  .vtp .pvtp .vtk .stl .ply .obj .glb, and for meshers of solids .msh\n"
-         "         .smesh .poly; all are written\n"
+         "SURFACE  .vtp .pvtp .vtk .stl .ply .obj .glb, filled with tetrahedra .vtu .inp, and\n"
+         "         for meshers of solids .msh .smesh .poly; all are written\n"
          "         (with --labels also a folder for a file per label, OUT/, or all in one\n"
          "         .vtm or .glb, or in one mesh: --shared-interfaces)\n"
          "\n"
@@ -462,6 +481,10 @@ void CheckOptions(const ToolOptions& options)
   }
   FailIf<UsageError>(options.Edges.empty() && options.HasProperty("EdgeAttractionWeight"),
     "--edge-attraction needs --edges");
+  FailIf<UsageError>(!options.Solids.Mesher.empty() && !MakesSolids(options),
+    "--mesher needs a file of tetrahedra: .vtu, .inp or .msh");
+  FailIf<UsageError>(options.Solids.MaximumVolume > 0.0 && !MakesSolids(options),
+    "--maximum-volume needs a file of tetrahedra: .vtu, .inp, or .msh with --mesher");
   FailIf<UsageError>(options.World.Scale && !options.World.Unit.empty(),
     "--scale and --unit exclude each other");
   FailIf<UsageError>(!options.Seeds.empty() && !options.InitialSurface.empty(),

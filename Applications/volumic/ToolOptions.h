@@ -6,6 +6,7 @@
 #include "Messages.h"
 #include "ReadVolume.h"
 #include "SurfaceProperties.h"
+#include "Tetrahedra.h"
 #include "WorldSpace.h"
 
 #include <array>
@@ -55,6 +56,7 @@ struct ToolOptions
   std::string Snapshots;                        ///< .vtm, or a folder
   std::string Report;                           ///< .json
   std::string WrittenVolume;                    ///< .vti
+  SolidChoice Solids;                           ///< of files of tetrahedra
   int PieceSize = 1 << 20;                      ///< triangles of a piece of a .pvtp
   int Ranks = 1;                                ///< that mpirun has started
   bool Quiet = false;
