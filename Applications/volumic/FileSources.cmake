@@ -66,6 +66,7 @@ set(volumic_writer_sources
   SurfaceFormats.cxx
   SurfacePieces.cxx
   Tetrahedra.cxx
+  ThreeMf.cxx
   VtkWriters.cxx
   WriteResults.cxx)
 list(TRANSFORM volumic_writer_sources PREPEND "${CMAKE_CURRENT_LIST_DIR}/")

@@ -150,7 +150,9 @@ void WriteScene(const SurfaceFile& file)
 {
   const std::vector<SurfaceLabel> labels = LabelsOf(file.Surface);
   const std::string name = labels.size() == 1 ? labels.front().Name : "surface";
-  WriteGlb({ { name, file.Surface } }, file.Path, file.Line);
+  const std::vector<SceneObject> objects = { { name, file.Surface } };
+  SuffixOf(file.Path) == ".3mf" ? WriteThreeMf(objects, file.Path, file.Line)
+                                : WriteGlb(objects, file.Path, file.Line);
 }
 
 const Solid& SolidOf(const SurfaceFile& file)
@@ -169,6 +171,7 @@ SurfaceWriter FindSurfaceWriter(const std::string& name)
     { ".stl", WriteStl },
     { ".ply", WritePly },
     { ".glb", WriteScene },
+    { ".3mf", WriteScene },
     { ".vtu", [](File file) { WriteVtu(SolidOf(file).Grid, file.Path, file.Line); } },
     { ".inp", [](File file) { WriteInp(SolidOf(file), file.Path, file.Remark); } },
     { ".msh",

@@ -339,10 +339,10 @@ void PrintHelp(std::ostream& out, const FilterTrio& filters)
          "\n"
          "VOLUME   a file (see FORMATS in volumic(1)), a folder of DICOM slices or of\n"
          "         pictures, or a pattern of pictures such as 'slice%03d.png' or '*.tif'\n"
-         "SURFACE  .vtp .pvtp .vtk .stl .ply .obj .glb; filled with tetrahedra .vtu .inp;\n"
-         "         for meshers of solids .msh .smesh .poly; all are written\n"
+         "SURFACE  .vtp .pvtp .vtk .stl .ply .obj .glb .3mf; filled with tetrahedra .vtu\n"
+         "         .inp; for meshers of solids .msh .smesh .poly; all are written\n"
          "         (with --labels also a folder for a file per label, OUT/, or all in one\n"
-         "         .vtm or .glb, or in one mesh: --shared-interfaces)\n"
+         "         .vtm, .glb or .3mf, or in one mesh: --shared-interfaces)\n"
          "\n"
          "Input:\n";
   for (const ProgramOption& option : InputOptions())

@@ -307,7 +307,7 @@ void CheckLabelSurfaces(const ToolOptions& options, const std::vector<LabelSurfa
       throw Failure(name + ": " + std::to_string(surfaces.size()) +
         " labels have as many surfaces: give a folder (" + stem + "/ --format " +
         SuffixOf(name).substr(1) + ") or blocks (" + stem + ".vtm, " + stem +
-        ".glb), or make one of them with --merge, or one mesh of all with --shared-interfaces (" +
+        ".glb, " + stem + ".3mf), or make one of them with --merge, or one mesh of all with --shared-interfaces (" +
         stem + ".vtp, .vtk, .vtu, .inp, .msh, .smesh, .poly)");
     }
   }

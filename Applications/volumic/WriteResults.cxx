@@ -115,12 +115,12 @@ void CheckSurfaceName(const std::string& name)
   FailIf<UsageError>(!FindSurfaceWriter(name),
     name +
       ": no surface format has this suffix; known are .vtp .pvtp .vtk .stl .ply "
-      ".obj .glb .vtu .inp .msh .smesh .poly");
+      ".obj .glb .3mf .vtu .inp .msh .smesh .poly");
 }
 
 bool IsScene(const std::string& name)
 {
-  return SuffixOf(name) == ".glb";
+  return SuffixOf(name) == ".glb" || SuffixOf(name) == ".3mf";
 }
 
 bool IsOfSolids(const std::string& name)
@@ -169,7 +169,10 @@ void WriteScene(
     TellOfRounding(object.Surface, name);
   }
   WriteBeside(name, style,
-    [&](const std::string& path, ProgressLine& line) { WriteGlb(objects, path, line); });
+    [&](const std::string& path, ProgressLine& line)
+    {
+      SuffixOf(path) == ".3mf" ? WriteThreeMf(objects, path, line) : WriteGlb(objects, path, line);
+    });
 }
 
 void WriteBlocks(vtkMultiBlockDataSet* blocks, const std::string& name, ProgressStyle style)

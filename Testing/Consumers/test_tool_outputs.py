@@ -21,7 +21,7 @@ from limited_files import largest_file
 from tool_test_case import ISO, PROGRAM, ToolTestCase, ball, make_image
 from vtk_files import points_of, read, triangles_of
 
-SURFACES = ("vtp", "pvtp", "vtk", "stl", "ply", "obj", "glb", "msh", "smesh", "poly")
+SURFACES = ("vtp", "pvtp", "vtk", "stl", "ply", "obj", "glb", "3mf", "msh", "smesh", "poly")
 OLD = b"an older result"
 
 
