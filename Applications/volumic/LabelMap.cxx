@@ -126,6 +126,7 @@ LabelMap LoadLabelMap(const ToolOptions& options, vtkDeformableSurface* settings
   map.Image = map.Image ? map.Image : LoadLabels(options, announcer);
   const WorldSpace world =
     Named(options.Volume, [&] { return PlaceInWorld(map.Image, options.World); });
+  CropAsAsked(options, map.Image);
   ResampleAsAsked(options, true, map.Image, announcer);
   const LabelNames own = OwnNames(options, map.Image);
   map.Facts = FactsOf(map.Image, map.Image->GetPointData()->GetScalars(), -1);

@@ -4,6 +4,7 @@
 
 #include "LabelMap.h"
 #include "LabelNames.h"
+#include "ProbeVolumes.h"
 #include "Ranks.h"
 #include "Report.h"
 #include "RunFilter.h"
@@ -348,9 +349,15 @@ ExitCode SegmentLabels(const ToolOptions& options, const FilterTrio& filters, Ra
   {
     return Success;
   }
+  const ProbeVolumes probes(options, announcer);
   CatchInterrupts();
   MakeSurfaces(options, map, filters.Labels, surfaces, announcer, report, ranks);
   CheckThatAnyIsThere(options, report);
+  for (LabelSurface& surface : surfaces)
+  {
+    probes.AddTo(surface.Surface);
+  }
+  probes.AddTo(filters.Labels->GetInterfaces());
   announcer.Follow("", [&] { WriteAll(options, surfaces, report, announcer.Style); });
   TellEnd(surfaces, announcer);
   if (report.Filling.Grid)

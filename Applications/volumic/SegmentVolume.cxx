@@ -4,6 +4,7 @@
 
 #include "LabelMap.h"
 #include "LoadInputs.h"
+#include "ProbeVolumes.h"
 #include "Report.h"
 #include "RunFilter.h"
 #include "SurfaceFacts.h"
@@ -244,6 +245,7 @@ ExitCode SegmentVolume(const ToolOptions& options, const FilterTrio& filters)
   {
     return Success;
   }
+  const ProbeVolumes probes(options, job.Says);
   TellOfLabels(job);
   SetStart(options, filter);
   const vtkNew<vtkImagePyramid> edgesHolder;
@@ -261,6 +263,7 @@ ExitCode SegmentVolume(const ToolOptions& options, const FilterTrio& filters)
   results.VolumeName = std::filesystem::path(options.Volume).filename().string();
   results.Volume = job.Volume.Facts;
   results.Filters = filters;
+  probes.AddTo(filter->GetOutput());
   job.Says.Follow("", [&] { WriteOutputs(options, results, job.Says.Style); });
   RemoveCheckpointOfEnded(job, results.StopReason);
 

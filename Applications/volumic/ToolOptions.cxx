@@ -65,6 +65,22 @@ std::array<double, 3> ParseSpacing(const std::string& text)
   return { numbers[0], numbers[1], numbers[2] };
 }
 
+/** Six numbers: from and to along each axis. */
+template <class Number>
+std::array<Number, 6> ParseRegion(const std::string& text)
+{
+  const std::vector<double> numbers = ParseNumbers(text, 6);
+  std::array<Number, 6> region;
+  for (std::size_t i = 0; i < 6; ++i)
+  {
+    region[i] = static_cast<Number>(std::clamp(numbers[i], -1e9, 1e9));
+    FailIf<UsageError>(region[i] != numbers[i], "voxels are counted in whole numbers");
+    FailIf<UsageError>(
+      i % 2 == 1 && region[i] < region[i - 1], "'" + text + "' ends before it begins");
+  }
+  return region;
+}
+
 void SetScale(ToolOptions& options, const std::string& text)
 {
   options.World.Scale = ParseNumber<double>(text);
@@ -118,6 +134,15 @@ const std::vector<ProgramOption>& InputOptions()
       "distances of neighbouring voxels along the three axes, instead of the file's, in its unit",
       [](ToolOptions& chosen, const std::string& text)
       { chosen.World.Spacing = ParseSpacing(text); } },
+    { "region", "I0,I1,J0,J1,K0,K1",
+      "use these voxels of the volume only, first and last along each axis, counted as "
+      "--list-labels does; surfaces close at its border",
+      [](ToolOptions& chosen, const std::string& text)
+      { chosen.Region = ParseRegion<int>(text); } },
+    { "region-box", "X0,X1,Y0,Y1,Z0,Z1",
+      "the same as a box in world coordinates: all voxels that it touches",
+      [](ToolOptions& chosen, const std::string& text)
+      { chosen.RegionBox = ParseRegion<double>(text); } },
     { "resample", "X,Y,Z",
       "resample the volume to these distances: linearly, a label map to the nearest voxel",
       [](ToolOptions& chosen, const std::string& text)
@@ -169,6 +194,17 @@ const std::vector<ProgramOption>& InputOptions()
     Text("edges", "NAME|FILE", &ToolOptions::Edges,
       "a map that is large on edges, see --edge-attraction (2 if that is not given): a point array "
       "of the volume, or a volume of the same size"),
+    { "probe", "FILE",
+      "give vertices the values of this volume, in whatever grid, as a point array named as the "
+      "file; may be given several times",
+      [](ToolOptions& chosen, const std::string& text) { chosen.Probes.push_back(text); } },
+    { "probe-depth", "LENGTH",
+      "of --probe the mean of the values from the surface so far inward, in world units",
+      [](ToolOptions& chosen, const std::string& text)
+      {
+        chosen.ProbeDepth = ParseNumber<double>(text);
+        FailIf<UsageError>(!(chosen.ProbeDepth >= 0.0), "a depth is not less than 0");
+      } },
     { "labels", "all|LIST",
       "the volume is a label map: make a surface of each of these labels, given as numbers, ranges "
       "and names with commas between, such as 1,7-9,liver,lung_*",
@@ -434,6 +470,8 @@ void CheckWithLabels(const ToolOptions& options)
       property->Property == "KeepComponents" && (text == "at-points" || text == "not-at-seeds"),
       "--keep " + text + " and --labels exclude each other");
   }
+  FailIf<UsageError>(options.ProbeDepth > 0.0 && SharesInterfaces(options),
+    "--probe-depth and shared interfaces, which have no normals, exclude each other");
   bool hasFolder = false;
   for (const std::string& name : options.Surfaces)
   {
@@ -468,7 +506,11 @@ void CheckOptions(const ToolOptions& options)
   {
     CheckWithLabels(options);
   }
-  const char* const resampling = options.ResampledSpacing ? "--resample"
+  FailIf<UsageError>(
+    options.Region && options.RegionBox, "--region and --region-box exclude each other");
+  const char* const resampling = options.Region           ? "--region"
+    : options.RegionBox                                   ? "--region-box"
+    : options.ResampledSpacing                            ? "--resample"
     : options.IsIsotropic                                 ? "--isotropic"
                                                           : "";
   FailIf<UsageError>(options.ResampledSpacing && options.IsIsotropic,
@@ -485,6 +527,8 @@ void CheckOptions(const ToolOptions& options)
     "--mesher needs a file of tetrahedra: .vtu, .inp or .msh");
   FailIf<UsageError>(options.Solids.MaximumVolume > 0.0 && !MakesSolids(options),
     "--maximum-volume needs a file of tetrahedra: .vtu, .inp, or .msh with --mesher");
+  FailIf<UsageError>(
+    options.ProbeDepth > 0.0 && options.Probes.empty(), "--probe-depth needs --probe");
   FailIf<UsageError>(options.World.Scale && !options.World.Unit.empty(),
     "--scale and --unit exclude each other");
   FailIf<UsageError>(!options.Seeds.empty() && !options.InitialSurface.empty(),

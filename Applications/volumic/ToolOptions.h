@@ -40,6 +40,8 @@ struct ToolOptions
   std::string Array;                 ///< point array of the volume; empty: the active one
   WorldChoice World;                 ///< where the volume is to lie
   std::optional<std::array<double, 3>> ResampledSpacing; ///< world units
+  std::optional<std::array<int, 6>> Region;        ///< voxel indices, first and last of each axis
+  std::optional<std::array<double, 6>> RegionBox;  ///< the same in the world
   bool IsIsotropic = false;                     ///< resampled to the smallest spacing
   std::string Seeds;                            ///< file of points
   std::string InitialSurface;                   ///< file of a closed surface
@@ -47,6 +49,8 @@ struct ToolOptions
   Positions SeedPositions;                      ///< beside those of the file
   Positions AttractingPositions;                ///< beside those of the file
   std::string Edges;                            ///< point array of the volume, or file of a volume
+  std::vector<std::string> Probes; ///< files of volumes whose values surfaces get
+  double ProbeDepth = 0.0;         ///< over which their mean is taken, world units
   std::vector<std::string> Labels; ///< which of them get surfaces; empty: it is no label map
   bool ListsLabels = false;        ///< to tell them, and make no surfaces
   std::string NamesOfLabels;       ///< file of names; empty: as the volume has them
