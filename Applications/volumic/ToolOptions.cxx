@@ -194,6 +194,13 @@ const std::vector<ProgramOption>& InputOptions()
     Text("edges", "NAME|FILE", &ToolOptions::Edges,
       "a map that is large on edges, see --edge-attraction (2 if that is not given): a point array "
       "of the volume, or a volume of the same size"),
+    { "triangles", "N",
+      "find the --tolerance with which the surface has about so many triangles, a tenth more or less",
+      [](ToolOptions& chosen, const std::string& text)
+      {
+        chosen.Triangles = ParseNumber<int>(text);
+        FailIf<UsageError>(chosen.Triangles < 20, "a surface has 20 triangles at least");
+      } },
     { "probe", "FILE",
       "give vertices the values of this volume, in whatever grid, as a point array named as the "
       "file; may be given several times",
@@ -454,7 +461,7 @@ void CheckWithLabels(const ToolOptions& options)
     { "initial-surface", !options.InitialSurface.empty() },
     { "attracting-points", !options.AttractingPoints.empty() },
     { "attracting-position", !options.AttractingPositions.empty() },
-    { "edges", !options.Edges.empty() }, { "history", !options.History.empty() },
+    { "edges", !options.Edges.empty() }, { "triangles", options.Triangles > 0 }, { "history", !options.History.empty() },
     { "levels-output", !options.Levels.empty() }, { "snapshots", !options.Snapshots.empty() },
     { "format", options.ListsLabels && !options.Format.empty() } };
   for (const auto& [option, isGiven] : others)
@@ -529,6 +536,13 @@ void CheckOptions(const ToolOptions& options)
     "--maximum-volume needs a file of tetrahedra: .vtu, .inp, or .msh with --mesher");
   FailIf<UsageError>(
     options.ProbeDepth > 0.0 && options.Probes.empty(), "--probe-depth needs --probe");
+  for (const auto& [property, text] : options.Properties)
+  {
+    const std::string& name = property->Property;
+    FailIf<UsageError>(options.Triangles > 0 &&
+        (name == "Tolerance" || name == "Resume" || name == "TimeLimit"),
+      "--triangles and --" + property->Option + " exclude each other");
+  }
   FailIf<UsageError>(options.World.Scale && !options.World.Unit.empty(),
     "--scale and --unit exclude each other");
   FailIf<UsageError>(!options.Seeds.empty() && !options.InitialSurface.empty(),

@@ -49,6 +49,7 @@ struct ToolOptions
   Positions SeedPositions;                      ///< beside those of the file
   Positions AttractingPositions;                ///< beside those of the file
   std::string Edges;                            ///< point array of the volume, or file of a volume
+  int Triangles = 0; ///< that the surface is to have, about; 0: as many as it gets
   std::vector<std::string> Probes; ///< files of volumes whose values surfaces get
   double ProbeDepth = 0.0;         ///< over which their mean is taken, world units
   std::vector<std::string> Labels; ///< which of them get surfaces; empty: it is no label map
