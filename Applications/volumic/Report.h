@@ -33,6 +33,7 @@ struct ReportInput
   double SurfaceSeconds = 0.0;
   double ReaderMemory = 0.0; ///< PeakMemory() when the volume had been read
   std::vector<std::string> Warnings;
+  vtkSmartPointer<vtkPolyData> Surface; ///< as it is written
   SurfaceSize Size;                    ///< of the surface
   std::vector<SurfaceSize> LevelSizes; ///< by block of the levels
   Solid Filling;                       ///< made of it, if it was

@@ -355,6 +355,7 @@ ExitCode SegmentLabels(const ToolOptions& options, const FilterTrio& filters, Ra
   CheckThatAnyIsThere(options, report);
   for (LabelSurface& surface : surfaces)
   {
+    surface.Surface = WithEnds(surface.Surface, map.Image, options.Ends);
     probes.AddTo(surface.Surface);
   }
   probes.AddTo(filters.Labels->GetInterfaces());

@@ -326,7 +326,8 @@ ExitCode SegmentVolume(const ToolOptions& options, const FilterTrio& filters)
   results.VolumeName = std::filesystem::path(options.Volume).filename().string();
   results.Volume = job.Volume.Facts;
   results.Filters = filters;
-  probes.AddTo(filter->GetOutput());
+  results.Surface = WithEnds(filter->GetOutput(), job.Volume.Image, options.Ends);
+  probes.AddTo(results.Surface);
   job.Says.Follow("", [&] { WriteOutputs(options, results, job.Says.Style); });
   RemoveCheckpointOfEnded(job, results.StopReason);
 

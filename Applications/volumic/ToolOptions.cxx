@@ -5,6 +5,7 @@
 #include "Texts.h"
 #include "ToolErrors.h"
 #include "WriteOutputs.h"
+#include "WriteResults.h"
 
 #include <algorithm>
 #include <functional>
@@ -106,6 +107,13 @@ void SetTime(ToolOptions& options, const std::string& text)
   options.Choice.Time = ParseNumber<int>(text);
 }
 
+void SetEnds(ToolOptions& options, const std::string& text)
+{
+  FailIf<UsageError>(text != "closed" && text != "marked" && text != "open",
+    "'" + text + "' is none of closed, marked, open");
+  options.Ends = text == "open" ? Ends::Open : text == "marked" ? Ends::Marked : Ends::Closed;
+}
+
 void SetMesher(ToolOptions& options, const std::string& text)
 {
   FailIf<UsageError>(
@@ -194,6 +202,10 @@ const std::vector<ProgramOption>& InputOptions()
     Text("edges", "NAME|FILE", &ToolOptions::Edges,
       "a map that is large on edges, see --edge-attraction (2 if that is not given): a point array "
       "of the volume, or a volume of the same size"),
+    { "ends", "closed|marked|open",
+      "where an object leaves the volume: closed by a cap (default), whose triangles may be marked by "
+      "a cell array Cap, or open, for flow: the surface ends in a plane, a voxel within the outermost ones",
+      SetEnds },
     { "triangles", "N",
       "find the --tolerance with which the surface has about so many triangles, a tenth more or less",
       [](ToolOptions& chosen, const std::string& text)
@@ -543,6 +555,11 @@ void CheckOptions(const ToolOptions& options)
         (name == "Tolerance" || name == "Resume" || name == "TimeLimit"),
       "--triangles and --" + property->Option + " exclude each other");
   }
+  FailIf<UsageError>(options.Ends != Ends::Closed && !options.Labels.empty() &&
+      SharesInterfaces(options), "--ends and shared interfaces exclude each other");
+  FailIf<UsageError>(options.Ends == Ends::Open &&
+      std::any_of(options.Surfaces.begin(), options.Surfaces.end(), IsOfSolids),
+    "--ends open and files of solids, which are closed, exclude each other");
   FailIf<UsageError>(options.World.Scale && !options.World.Unit.empty(),
     "--scale and --unit exclude each other");
   FailIf<UsageError>(!options.Seeds.empty() && !options.InitialSurface.empty(),

@@ -5,6 +5,7 @@
 
 #include "Messages.h"
 #include "ReadVolume.h"
+#include "SurfaceEnds.h"
 #include "SurfaceProperties.h"
 #include "Tetrahedra.h"
 #include "WorldSpace.h"
@@ -49,6 +50,7 @@ struct ToolOptions
   Positions SeedPositions;                      ///< beside those of the file
   Positions AttractingPositions;                ///< beside those of the file
   std::string Edges;                            ///< point array of the volume, or file of a volume
+  enum Ends Ends = Ends::Closed;   ///< of a surface at the border of the image
   int Triangles = 0; ///< that the surface is to have, about; 0: as many as it gets
   std::vector<std::string> Probes; ///< files of volumes whose values surfaces get
   double ProbeDepth = 0.0;         ///< over which their mean is taken, world units

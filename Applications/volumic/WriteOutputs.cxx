@@ -138,14 +138,14 @@ void WriteOutputs(const ToolOptions& options, ReportInput& results, ProgressStyl
   SolidMaker solids(options.Solids, WasInterrupted);
   const SurfaceWriting writing = { results.IsFinished ? ""
                                                       : ", UNFINISHED: " + results.StopReason,
-    PieceSizeOf(options, filter->GetOutput()), style, &solids };
-  MarkSpace(filter->GetOutput(), results.Volume.World);
+    PieceSizeOf(options, results.Surface), style, &solids };
+  MarkSpace(results.Surface, results.Volume.World);
   MarkSpace(filter->GetLevels(), results.Volume.World);
   MarkSpace(filter->GetSnapshots(), results.Volume.World);
   Failures failures;
   for (const std::string& name : options.Surfaces)
   {
-    failures.Try([&] { WriteSurface(filter->GetOutput(), name, writing); });
+    failures.Try([&] { WriteSurface(results.Surface, name, writing); });
   }
   results.Filling = solids.Last();
   WriteSeveral(filter->GetLevels(), options.Levels, "level", style, LevelOf, failures);

@@ -1,0 +1,160 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SurfaceEnds.h"
+
+#include "SurfaceFacts.h"
+
+#include <vtkCellData.h>
+#include <vtkClipPolyData.h>
+#include <vtkFieldData.h>
+#include <vtkImageData.h>
+#include <vtkIntArray.h>
+#include <vtkMath.h>
+#include <vtkMatrix3x3.h>
+#include <vtkNew.h>
+#include <vtkPlane.h>
+#include <vtkTriangle.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+namespace tool
+{
+namespace
+{
+/**
+ * The planes a voxel within the centres of the outermost ones, with normals that point out of the
+ * image: a cap lies about these, in some places within them.
+ */
+std::vector<vtkSmartPointer<vtkPlane>> BorderOf(vtkImageData* image)
+{
+  std::vector<vtkSmartPointer<vtkPlane>> planes;
+  const int* extent = image->GetExtent();
+  for (int face = 0; face < 6; ++face)
+  {
+    const int axisOfFace = face / 2;
+    int index[3] = { extent[0], extent[2], extent[4] };
+    double origin[3];
+    double normal[3];
+    index[axisOfFace] = std::clamp(extent[face] + (face % 2 == 0 ? 1 : -1),
+      extent[2 * axisOfFace], extent[2 * axisOfFace + 1]);
+    image->TransformIndexToPhysicalPoint(index, origin);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      normal[axis] =
+        (face % 2 == 0 ? -1.0 : 1.0) * image->GetDirectionMatrix()->GetElement(axis, axisOfFace);
+    }
+    planes.push_back(vtkSmartPointer<vtkPlane>::New());
+    planes.back()->SetOrigin(origin);
+    planes.back()->SetNormal(normal);
+  }
+  return planes;
+}
+
+bool IsBeyond(vtkPlane* plane, vtkPolyData* surface, vtkIdType point)
+{
+  return plane->EvaluateFunction(surface->GetPoint(point)) > 0.0;
+}
+
+/** Whether a triangle looks out of the image rather than along its border. */
+bool LooksOut(vtkPolyData* surface, const vtkIdType* corners, vtkPlane* plane)
+{
+  double places[3][3];
+  double normal[3];
+  for (int i = 0; i < 3; ++i)
+  {
+    surface->GetPoint(corners[i], places[i]);
+  }
+  vtkTriangle::ComputeNormal(places[0], places[1], places[2], normal);
+  return vtkMath::Dot(normal, plane->GetNormal()) > 0.7;
+}
+
+/** Triangles beyond a plane that look outwards and share points are a cap. */
+void MarkCaps(vtkPolyData* surface, vtkImageData* image)
+{
+  vtkNew<vtkIntArray> caps;
+  caps->SetName("Cap");
+  caps->SetNumberOfValues(surface->GetNumberOfCells());
+  caps->FillValue(0);
+  int last = 0;
+  for (const auto& plane : BorderOf(image))
+  {
+    std::vector<vtkIdType> parents(static_cast<std::size_t>(surface->GetNumberOfPoints()));
+    std::iota(parents.begin(), parents.end(), 0);
+    const auto root = [&parents](vtkIdType point)
+    {
+      auto at = static_cast<std::size_t>(point);
+      while (parents[at] != static_cast<vtkIdType>(at))
+      {
+        at = static_cast<std::size_t>(
+          parents[at] = parents[static_cast<std::size_t>(parents[at])]);
+      }
+      return at;
+    };
+    std::vector<std::pair<vtkIdType, vtkIdType>> beyond; // triangles, each with a corner
+    ForEachPolygon(surface,
+      [&](vtkIdType triangle, const vtkIdType* corners, vtkIdType count)
+      {
+        if (std::all_of(corners, corners + count,
+              [&](vtkIdType corner) { return IsBeyond(plane, surface, corner); }) &&
+          LooksOut(surface, corners, plane))
+        {
+          beyond.emplace_back(triangle, corners[0]);
+          for (vtkIdType i = 1; i < count; ++i)
+          {
+            parents[root(corners[i])] = static_cast<vtkIdType>(root(corners[0]));
+          }
+        }
+      });
+    std::map<std::size_t, int> numbers;
+    for (const auto& [triangle, corner] : beyond)
+    {
+      const auto found = numbers.emplace(root(corner), last + 1);
+      last += found.second ? 1 : 0;
+      caps->SetValue(triangle, found.first->second);
+    }
+  }
+  surface->GetCellData()->AddArray(caps);
+}
+
+/** Only where it goes beyond a plane: what is cut gets arrays anew. */
+vtkSmartPointer<vtkPolyData> Cut(vtkPolyData* surface, vtkPlane* plane)
+{
+  bool isBeyond = false;
+  for (vtkIdType point = 0; point < surface->GetNumberOfPoints() && !isBeyond; ++point)
+  {
+    isBeyond = IsBeyond(plane, surface, point);
+  }
+  if (!isBeyond)
+  {
+    return surface;
+  }
+  vtkNew<vtkClipPolyData> clip;
+  clip->SetInputData(surface);
+  clip->SetClipFunction(plane);
+  clip->InsideOutOn();
+  clip->Update();
+  vtkSmartPointer<vtkPolyData> rest = clip->GetOutput();
+  rest->GetFieldData()->ShallowCopy(surface->GetFieldData());
+  return rest;
+}
+}
+
+vtkSmartPointer<vtkPolyData> WithEnds(vtkPolyData* surface, vtkImageData* image, Ends ends)
+{
+  vtkSmartPointer<vtkPolyData> made = surface;
+  if (ends == Ends::Marked)
+  {
+    MarkCaps(surface, image);
+  }
+  else if (ends == Ends::Open)
+  {
+    for (const auto& plane : BorderOf(image))
+    {
+      made = Cut(made, plane);
+    }
+  }
+  return made;
+}
+}
