@@ -23,11 +23,17 @@ namespace tool
 {
 namespace
 {
+bool IsBeyond(vtkPlane* plane, vtkPolyData* surface, vtkIdType point)
+{
+  return plane->EvaluateFunction(surface->GetPoint(point)) > 0.0;
+}
+
 /**
- * The planes a voxel within the centres of the outermost ones, with normals that point out of the
- * image: a cap lies about these, in some places within them.
+ * For each side of the image where the surface goes beyond the centres of the outermost voxels a
+ * plane, a voxel within these, with a normal that points out of the image: a cap lies about the
+ * centres, in some places within them.
  */
-std::vector<vtkSmartPointer<vtkPlane>> BorderOf(vtkImageData* image)
+std::vector<vtkSmartPointer<vtkPlane>> BorderOf(vtkImageData* image, vtkPolyData* surface)
 {
   std::vector<vtkSmartPointer<vtkPlane>> planes;
   const int* extent = image->GetExtent();
@@ -37,24 +43,28 @@ std::vector<vtkSmartPointer<vtkPlane>> BorderOf(vtkImageData* image)
     int index[3] = { extent[0], extent[2], extent[4] };
     double origin[3];
     double normal[3];
-    index[axisOfFace] = std::clamp(extent[face] + (face % 2 == 0 ? 1 : -1),
-      extent[2 * axisOfFace], extent[2 * axisOfFace + 1]);
+    index[axisOfFace] = extent[face];
     image->TransformIndexToPhysicalPoint(index, origin);
     for (int axis = 0; axis < 3; ++axis)
     {
       normal[axis] =
         (face % 2 == 0 ? -1.0 : 1.0) * image->GetDirectionMatrix()->GetElement(axis, axisOfFace);
     }
-    planes.push_back(vtkSmartPointer<vtkPlane>::New());
-    planes.back()->SetOrigin(origin);
-    planes.back()->SetNormal(normal);
+    const auto plane = vtkSmartPointer<vtkPlane>::New();
+    plane->SetOrigin(origin);
+    plane->SetNormal(normal);
+    bool isLeft = false;
+    for (vtkIdType point = 0; point < surface->GetNumberOfPoints() && !isLeft; ++point)
+    {
+      isLeft = IsBeyond(plane, surface, point);
+    }
+    if (isLeft)
+    {
+      plane->Push(-image->GetSpacing()[axisOfFace]);
+      planes.push_back(plane);
+    }
   }
   return planes;
-}
-
-bool IsBeyond(vtkPlane* plane, vtkPolyData* surface, vtkIdType point)
-{
-  return plane->EvaluateFunction(surface->GetPoint(point)) > 0.0;
 }
 
 /** Whether a triangle looks out of the image rather than along its border. */
@@ -78,7 +88,7 @@ void MarkCaps(vtkPolyData* surface, vtkImageData* image)
   caps->SetNumberOfValues(surface->GetNumberOfCells());
   caps->FillValue(0);
   int last = 0;
-  for (const auto& plane : BorderOf(image))
+  for (const auto& plane : BorderOf(image, surface))
   {
     std::vector<vtkIdType> parents(static_cast<std::size_t>(surface->GetNumberOfPoints()));
     std::iota(parents.begin(), parents.end(), 0);
@@ -118,18 +128,8 @@ void MarkCaps(vtkPolyData* surface, vtkImageData* image)
   surface->GetCellData()->AddArray(caps);
 }
 
-/** Only where it goes beyond a plane: what is cut gets arrays anew. */
 vtkSmartPointer<vtkPolyData> Cut(vtkPolyData* surface, vtkPlane* plane)
 {
-  bool isBeyond = false;
-  for (vtkIdType point = 0; point < surface->GetNumberOfPoints() && !isBeyond; ++point)
-  {
-    isBeyond = IsBeyond(plane, surface, point);
-  }
-  if (!isBeyond)
-  {
-    return surface;
-  }
   vtkNew<vtkClipPolyData> clip;
   clip->SetInputData(surface);
   clip->SetClipFunction(plane);
@@ -150,7 +150,7 @@ vtkSmartPointer<vtkPolyData> WithEnds(vtkPolyData* surface, vtkImageData* image,
   }
   else if (ends == Ends::Open)
   {
-    for (const auto& plane : BorderOf(image))
+    for (const auto& plane : BorderOf(image, surface))
     {
       made = Cut(made, plane);
     }
