@@ -36,14 +36,14 @@ bool AddValues(vtkImageData* image, const double* place, std::vector<double>& su
   for (int axis = 0; axis < 3; ++axis)
   {
     const double outside = 0.5; // out to the faces of the outer voxels
-    if (!(index[axis] >= extent[2 * axis] - outside && index[axis] <= extent[2 * axis + 1] + outside))
+    if (!(index[axis] >= extent[2 * axis] - outside &&
+          index[axis] <= extent[2 * axis + 1] + outside))
     {
       return false;
     }
-    const double inside =
-      std::clamp<double>(index[axis], extent[2 * axis], extent[2 * axis + 1]);
-    first[axis] =
-      std::clamp(static_cast<int>(inside), extent[2 * axis], std::max(extent[2 * axis], extent[2 * axis + 1] - 1));
+    const double inside = std::clamp<double>(index[axis], extent[2 * axis], extent[2 * axis + 1]);
+    first[axis] = std::clamp(static_cast<int>(inside), extent[2 * axis],
+      std::max(extent[2 * axis], extent[2 * axis + 1] - 1));
     share[axis] = inside - first[axis];
   }
   vtkDataArray* values = image->GetPointData()->GetScalars();

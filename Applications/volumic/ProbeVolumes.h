@@ -21,13 +21,14 @@ struct ToolOptions;
 class ProbeVolumes
 {
 public:
-  /** Reads them. @throws Failure that names the one that cannot be read, or has no place of its own */
+  /** Reads them. @throws Failure that names the one that cannot be read, or has no place of its own
+   */
   ProbeVolumes(const ToolOptions& options, const Announcer& announcer);
 
   /**
    * Give the surface a point array for each, named as its file: the values there, interpolated
-   * linearly, with a depth their mean from each vertex so far inward along its normal; NaN where the
-   * volume does not reach.
+   * linearly, with a depth their mean from each vertex so far inward along its normal; NaN where
+   * the volume does not reach.
    */
   void AddTo(vtkPolyData* surface) const;
 

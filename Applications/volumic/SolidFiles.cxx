@@ -126,8 +126,8 @@ public:
     for (const auto& entry : faces.Between)
     {
       const auto& [first, second] = entry.first;
-      this->Pairs[entry.first] = names.Take(
-        this->Labels[first] + "_to_" + (second == 0 ? outside : this->Labels[second]));
+      this->Pairs[entry.first] =
+        names.Take(this->Labels[first] + "_to_" + (second == 0 ? outside : this->Labels[second]));
     }
   }
 
@@ -142,7 +142,7 @@ std::string WordOf(const std::string& name)
   std::replace_if(
     word.begin(), word.end(), [](unsigned char c) { return c > 127 || std::isalnum(c) == 0; }, '_');
   return word.empty() || std::isalpha(static_cast<unsigned char>(word[0])) == 0 ? "L_" + word
-                                                                               : word;
+                                                                                : word;
 }
 
 /** A file of text, with a comma-separated list of numbers where one is. */

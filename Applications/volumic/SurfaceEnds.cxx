@@ -97,8 +97,7 @@ void MarkCaps(vtkPolyData* surface, vtkImageData* image)
       auto at = static_cast<std::size_t>(point);
       while (parents[at] != static_cast<vtkIdType>(at))
       {
-        at = static_cast<std::size_t>(
-          parents[at] = parents[static_cast<std::size_t>(parents[at])]);
+        at = static_cast<std::size_t>(parents[at] = parents[static_cast<std::size_t>(parents[at])]);
       }
       return at;
     };

@@ -79,7 +79,8 @@ std::string EndOf(const std::string& log)
   return Shortened(end, 400);
 }
 
-/** Run a program in a folder, until it ends or there is an interrupt. @throws Failure if it fails */
+/** Run a program in a folder, until it ends or there is an interrupt. @throws Failure if it fails
+ */
 void RunProgram(std::vector<std::string> words, const std::string& folder, bool (*isInterrupted)())
 {
   const std::string program = words.front();
@@ -120,8 +121,8 @@ void RunProgram(std::vector<std::string> words, const std::string& folder, bool 
 }
 
 /**
- * gmsh takes volumes of a file for meshed, with or without elements: each gets one of gmsh's own with
- * the same boundary in its place, and in its physical group.
+ * gmsh takes volumes of a file for meshed, with or without elements: each gets one of gmsh's own
+ * with the same boundary in its place, and in its physical group.
  */
 const char* const OwnVolumes = R"(p() = Physical Volume{:};
 For k In {0 : #p() - 1}
@@ -200,8 +201,7 @@ vtkSmartPointer<vtkPoints> ReadPoints(std::istream& file, vtkPolyData* surface)
   for (; count > 0 && file >> place[0] >> place[1] >> place[2] >> reference; --count)
   {
     const auto found = own.find(PlaceKey(place.data()));
-    points->InsertNextPoint(
-      found == own.end() ? place.data() : surface->GetPoint(found->second));
+    points->InsertNextPoint(found == own.end() ? place.data() : surface->GetPoint(found->second));
   }
   FailIf(count > 0, "the mesher's file of nodes is cut off");
   return points;
@@ -338,8 +338,8 @@ const Solid& SolidMaker::Make(vtkPolyData* surface, const std::string& beside, P
   solid.Mesher = FindMesher(this->Choice);
   const StagedFiles work(std::filesystem::path(beside).parent_path().string());
   const SurfaceFile file{ surface, work.Folder() + "/solid", "", 0, line };
-  solid.Grid = ReadMedit(
-    solid.Mesher == "gmsh" ? RunGmsh(*this, file) : RunTetgen(*this, file), surface);
+  solid.Grid =
+    ReadMedit(solid.Mesher == "gmsh" ? RunGmsh(*this, file) : RunTetgen(*this, file), surface);
   solid.Grid->GetFieldData()->ShallowCopy(surface->GetFieldData());
   const std::vector<SurfaceLabel> labels = LabelledTriangles(surface).Labels;
   const std::vector<int> numbers = SolidNumbers(labels);

@@ -14,7 +14,6 @@
 
 class vtkPolyData;
 
-
 namespace tool
 {
 class ProgressLine;
@@ -47,10 +46,12 @@ struct SolidChoice
   double MaximumVolume = 0.0; ///< of a tetrahedron, world units cubed, gmsh: about; 0: none
 };
 
-/** @return the mesher that will be run. @throws Failure that says what to install if there is none */
+/** @return the mesher that will be run. @throws Failure that says what to install if there is none
+ */
 std::string FindMesher(const SolidChoice& choice);
 
-/** Whether a file of this name holds tetrahedra: .vtu and .inp do, .msh where a mesher is chosen. */
+/** Whether a file of this name holds tetrahedra: .vtu and .inp do, .msh where a mesher is chosen.
+ */
 bool NeedsMesher(const std::string& name, const SolidChoice& choice);
 
 /**

@@ -32,7 +32,10 @@ public:
     : File(path), Writer(archive_write_new(), archive_write_free)
   {
     const auto write = [](archive*, void* file, const void* bytes, std::size_t count) -> la_ssize_t
-    { return static_cast<FileBuffer*>(file)->sputn(static_cast<const char*>(bytes), static_cast<std::streamsize>(count)); };
+    {
+      return static_cast<FileBuffer*>(file)->sputn(
+        static_cast<const char*>(bytes), static_cast<std::streamsize>(count));
+    };
     this->Need(archive_write_set_format_zip(this->Writer.get()));
     this->Need(archive_write_set_bytes_in_last_block(this->Writer.get(), 1));
     this->Need(archive_write_open(this->Writer.get(), &this->File, nullptr, write, nullptr));
@@ -75,7 +78,8 @@ private:
   void Need(la_ssize_t result)
   {
     const char* reason = result < 0 ? archive_error_string(this->Writer.get()) : nullptr;
-    FailIf(result < 0, "cannot be written (" + std::string(reason ? reason : "libarchive fails") + ")");
+    FailIf(
+      result < 0, "cannot be written (" + std::string(reason ? reason : "libarchive fails") + ")");
   }
 
   void Empty()
@@ -121,7 +125,8 @@ std::string ColorText(const Vector3& color)
   return text;
 }
 
-/** Vertices, and triangles, each with the number of its label's material where there are several. */
+/** Vertices, and triangles, each with the number of its label's material where there are several.
+ */
 void AddMesh(
   Zip& zip, vtkPolyData* surface, const std::vector<SurfaceLabel>& labels, ProgressLine& line)
 {
@@ -130,8 +135,8 @@ void AddMesh(
   for (vtkIdType point = 0; point < surface->GetNumberOfPoints(); ++point)
   {
     const Floats at = AsFloats(surface->GetPoint(point));
-    std::snprintf(text, sizeof(text), "<vertex x=\"%.9g\" y=\"%.9g\" z=\"%.9g\"/>\n", at[0], at[1],
-      at[2]);
+    std::snprintf(
+      text, sizeof(text), "<vertex x=\"%.9g\" y=\"%.9g\" z=\"%.9g\"/>\n", at[0], at[1], at[2]);
     zip.Add(text);
   }
   zip.Add("</vertices><triangles>\n");
