@@ -361,6 +361,12 @@ ExitCode SegmentLabels(const ToolOptions& options, const FilterTrio& filters, Ra
   probes.AddTo(filters.Labels->GetInterfaces());
   announcer.Follow("", [&] { WriteAll(options, surfaces, report, announcer.Style); });
   TellEnd(surfaces, announcer);
+  std::vector<vtkPolyData*> printed;
+  for (const LabelSurface& surface : surfaces)
+  {
+    printed.push_back(surface.Surface);
+  }
+  announcer.Say(TextOfPrint(options, printed, report.Volume.World));
   if (report.Filling.Grid)
   {
     announcer.Say(TextOf(report.Filling));

@@ -334,6 +334,7 @@ ExitCode SegmentVolume(const ToolOptions& options, const FilterTrio& filters)
   job.Says.Say(std::to_string(results.Size.Vertices) + " vertices after " +
     std::to_string(filter->GetHistory()->GetNumberOfRows()) +
     " iterations: " + results.StopReason);
+  job.Says.Say(TextOfPrint(options, { results.Surface }, results.Volume.World));
   if (results.Filling.Grid)
   {
     job.Says.Say(TextOf(results.Filling));

@@ -108,7 +108,7 @@ public:
 
   void Say(const std::string& text) const
   {
-    if (!this->IsQuiet)
+    if (!this->IsQuiet && !text.empty())
     {
       std::cerr << "volumic: " << text << "\n";
     }

@@ -13,6 +13,7 @@
 #include "ToolOptions.h"
 #include "WriteResults.h"
 
+#include <vtkBoundingBox.h>
 #include <vtkCompositeDataSet.h>
 #include <vtkDataArray.h>
 #include <vtkDeformableSurface.h>
@@ -20,10 +21,14 @@
 #include <vtkInformation.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
+#include <vtkPointData.h>
 #include <vtkTable.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <filesystem>
+#include <limits>
 
 namespace tool
 {
@@ -160,6 +165,39 @@ void WriteOutputs(const ToolOptions& options, ReportInput& results, ProgressStyl
     failures.Try([&] { WriteText(ReportText(results), options.Report); });
   }
   failures.Throw();
+}
+
+std::string TextOfPrint(const ToolOptions& options, const std::vector<vtkPolyData*>& surfaces,
+  const WorldSpace& world)
+{
+  const bool isPrinted = options.Format == "3mf" || options.Format == ".3mf" ||
+    std::any_of(options.Surfaces.begin(), options.Surfaces.end(),
+      [](const std::string& name) { return SuffixOf(name) == ".3mf"; });
+  vtkBoundingBox box;
+  double thinnest = std::numeric_limits<double>::infinity();
+  for (vtkPolyData* surface : surfaces)
+  {
+    if (surface->GetNumberOfPoints() > 0)
+    {
+      box.AddBounds(surface->GetBounds());
+      vtkDataArray* walls = surface->GetPointData()->GetArray("Thickness");
+      thinnest = walls ? std::min(thinnest, walls->GetRange()[0]) : thinnest;
+    }
+  }
+  if (!isPrinted || !box.IsValid())
+  {
+    return "";
+  }
+  const auto text = [](double length)
+  {
+    char digits[32];
+    std::snprintf(digits, sizeof(digits), "%.4g", length);
+    return std::string(digits);
+  };
+  return "the print is " + text(box.GetLength(0)) + " x " + text(box.GetLength(1)) + " x " +
+    text(box.GetLength(2)) + " " + (world.Unit.empty() ? "mm" : world.Unit) +
+    (std::isfinite(thinnest) ? "; its thinnest wall has " + text(thinnest)
+                             : "; --thin-parts measures its walls");
 }
 
 // ---- Labels -------------------------------------------------------------------------------------

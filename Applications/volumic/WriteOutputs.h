@@ -5,6 +5,7 @@
 
 #include "LabelMap.h"
 #include "Messages.h"
+#include "WorldSpace.h"
 
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
@@ -31,6 +32,13 @@ void CheckFiles(const ToolOptions& options);
  * @throws Failure if not all could be written, with a line for each file.
  */
 void WriteOutputs(const ToolOptions& options, ReportInput& results, ProgressStyle style);
+
+/**
+ * What a printer asks of surfaces for which a .3mf was asked: their size, and the thinnest wall where
+ * --thin-parts has measured it. Empty without a .3mf, or without surfaces.
+ */
+std::string TextOfPrint(const ToolOptions& options, const std::vector<vtkPolyData*>& surfaces,
+  const WorldSpace& world);
 
 // ---- Labels -------------------------------------------------------------------------------------
 

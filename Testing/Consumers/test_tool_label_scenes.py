@@ -4,6 +4,7 @@
 
 import json
 import os
+import re
 import shutil
 import struct
 import subprocess
@@ -15,7 +16,7 @@ import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOGeometry import vtkGLTFReader
 
-from test_tool_labels import NAMES, LabelsTest
+from test_tool_labels import BLOBS, NAMES, LabelsTest
 from tool_test_case import ISO, ball, nrrd_header
 from vtk_files import points_of, read, triangles_of
 
@@ -217,6 +218,21 @@ class ThreeMfTest(ScenesTest):
         self.assertEqual(self.model("u.3mf")[0].get("unit"), "micron")
         self.refused(r"u.3mf: 3MF has no unit nm; --unit mm converts", volume, self.path("u.3mf"),
                      "--iso", ISO, "--unit", "nm")
+
+    def test_what_a_printer_asks(self):
+        said = self.run_tool(self.map_file(), self.path("a.3mf"), "--labels", "all").stderr
+        low, high = np.transpose([np.reshape(self.bounds_of(label), (3, 2)) for label in BLOBS],
+                                 (2, 0, 1))
+        size = re.search(r"the print is (\S+) x (\S+) x (\S+) mm; --thin-parts measures", said)
+        np.testing.assert_allclose([float(n) for n in size.groups()],
+                                   high.max(0) - low.min(0), atol=1.5)
+        said = self.run_tool(self.ball_file(), self.path("b.3mf"), self.path("b.vtp"), "--iso", ISO,
+                             "--thin-parts").stderr
+        walls = vtk_to_numpy(read(self.path("b.vtp")).GetPointData().GetArray("Thickness"))
+        self.assertAlmostEqual(float(re.search("thinnest wall has (.*)$", said, re.M).group(1)),
+                               walls.min(), delta=2e-3 * walls.min())
+        self.assertNotIn("the print", self.run_tool(self.map_file(), self.path("a.glb"), "--labels",
+                                                    "all").stderr)
 
     @unittest.skipUnless(shutil.which("assimp"), "Assimp is not installed")
     def test_assimp_reads_it(self):
