@@ -306,16 +306,9 @@ std::unique_ptr<SlabReader> OpenSeries(const DicomSeries& series, const Opening&
     slabs->Placement = places.Placement(thickness);
     return slabs;
   }
-  FailIf(!opening.Choice.Resamples, uneven + "; without --no-resampling they are resampled");
-  const double outside = slabs->Outside();
-  const std::array<int, 3> size = slabs->Size;
-  std::unique_ptr<SlabReader> grid =
-    ResampledSlices(std::shared_ptr<SlabReader>(std::move(slabs)), places, outside);
-  grid->Resampling = uneven + "; resampled from " + SizeText(size) + " to " + SizeText(grid->Size) +
-    " voxels of " + NumberText(grid->Placement.Spacing[0]) + " x " +
-    NumberText(grid->Placement.Spacing[1]) + " x " + NumberText(grid->Placement.Spacing[2]);
-  TellOfFile(grid->Resampling);
-  return grid;
+  const double outside = opening.Choice.AreLabels ? 0.0 : slabs->Outside();
+  return ResampledSlices(
+    std::shared_ptr<SlabReader>(std::move(slabs)), places, uneven, outside, opening);
 }
 
 // ---- Segmentations ------------------------------------------------------------------------------

@@ -5,6 +5,7 @@
 #include "CheckInputs.h"
 #include "MaskFolder.h"
 #include "Messages.h"
+#include "RegularGrid.h"
 #include "SlabReader.h"
 #include "Texts.h"
 #include "ToolErrors.h"
@@ -52,8 +53,9 @@ struct FoundVolume
   std::function<Image()> ReadAll;
 };
 
-FoundVolume InSlabs(std::shared_ptr<SlabReader> slabs)
+FoundVolume InSlabs(std::shared_ptr<SlabReader> slabs, const Opening& opening)
 {
+  slabs = AtRightAngles(std::move(slabs), opening);
   PlaceImage(vtkNew<vtkImageData>(), slabs->Placement); // fails here rather than in a pipeline
   return { slabs->HasParts ? NewSlabSource(slabs) : nullptr,
     [slabs] { return ReadAllSlabs(*slabs); } };
@@ -65,13 +67,14 @@ using SlabOpener = std::unique_ptr<SlabReader> (*)(const std::string&, const Ope
 Opener By(SlabOpener open)
 {
   return [open](const std::string& name, const Opening& opening)
-  { return InSlabs(open(name, opening)); };
+  { return InSlabs(open(name, opening), opening); };
 }
 
 Opener By(Image (*read)(const std::string&))
 {
-  return [read](const std::string& name, const Opening&)
-  { return FoundVolume{ nullptr, [name, read] { return read(name); } }; };
+  return [read](const std::string& name, const Opening&) {
+    return FoundVolume{ nullptr, [name, read] { return read(name); } };
+  };
 }
 
 #ifdef VOLUMIC_HAS_MINC
@@ -124,8 +127,9 @@ void CheckBeside(const std::string& folder, const std::vector<std::string>& slic
   for (const std::string& file : FilesOf(folder))
   {
     FailIf(!IsDicom(file) && IsLikeSlice(file, slices),
-      file + ": no DICOM file, though like the slices beside it: it is cut off or damaged; copy it "
-             "again, or take it out of the folder");
+      file +
+        ": no DICOM file, though like the slices beside it: it is cut off or damaged; copy it "
+        "again, or take it out of the folder");
   }
 }
 
@@ -145,8 +149,9 @@ std::pair<std::vector<std::string>, bool> SlicesOf(const std::string& folder)
 FoundVolume OpenSlices(const std::pair<std::vector<std::string>, bool>& slices,
   const Opening& opening, const std::string& slice = "")
 {
-  return InSlabs(slices.second ? OpenDicom(slices.first, slice, opening)
-                               : OpenPictures(slices.first, opening));
+  return InSlabs(
+    slices.second ? OpenDicom(slices.first, slice, opening) : OpenPictures(slices.first, opening),
+    opening);
 }
 
 FoundVolume OpenDicomFile(const std::string& name, const Opening& opening)
@@ -158,8 +163,8 @@ FoundVolume OpenDicomFile(const std::string& name, const Opening& opening)
 }
 
 /**
- * Readers of VTK that give parts; without the arrays that nobody asks for. Of values of cells all is
- * read, to become points.
+ * Readers of VTK that give parts; without the arrays that nobody asks for. Of values of cells all
+ * is read, to become points.
  */
 template <class Reader>
 FoundVolume OpenXml(const std::string& name, const Opening& opening)
@@ -241,17 +246,16 @@ Opener OpenerOf(const std::string& name)
   const auto found = std::find_if(openers.begin(), openers.end(),
     [&lower](const auto& each)
     { return lower.size() > each.first.size() && EndsWith(lower, each.first); });
-  return found != openers.end() ? found->second
-    : IsDicom(name)             ? OpenDicomFile
-                                : By(OpenByContent);
+  return found != openers.end() ? found->second : IsDicom(name) ? OpenDicomFile : By(OpenByContent);
 }
 
 FoundVolume FindVolume(const std::string& name, const Opening& opening)
 {
   NeedFilesOfVolume(name);
   // They are read at once: what is told of them would be lost later.
-  const auto byMasks = [](const std::vector<std::string>& masks)
-  { return FoundVolume{ nullptr, [image = ReadMasks(masks)] { return image; } }; };
+  const auto byMasks = [&opening](const std::vector<std::string>& masks) {
+    return FoundVolume{ nullptr, [image = ReadMasks(masks, opening.Choice)] { return image; } };
+  };
   if (std::filesystem::is_directory(name))
   {
     const std::vector<std::string> masks = MasksAmong(FilesOfFolder(name));
@@ -261,7 +265,7 @@ FoundVolume FindVolume(const std::string& name, const Opening& opening)
   {
     if (!opening.Choice.Raw.empty())
     {
-      return InSlabs(OpenRaw(name, opening));
+      return InSlabs(OpenRaw(name, opening), opening);
     }
     return OpenerOf(name)(name, opening);
   }
@@ -317,8 +321,7 @@ auto NameFailures(const std::string& name, const Work& work) -> decltype(work())
 
 vtkSmartPointer<vtkImageData> ReadVolume(const std::string& name, const VolumeChoice& choice)
 {
-  return NameFailures(
-    name, [&] { return ReadAll(FindVolume(name, { "", "", true, choice })); });
+  return NameFailures(name, [&] { return ReadAll(FindVolume(name, { "", "", true, choice })); });
 }
 
 OpenedVolume OpenVolume(const std::string& name, const std::string& array,
@@ -338,7 +341,9 @@ OpenedVolume OpenVolume(const std::string& name, const std::string& array,
       holder->SetOutput(image);
       const std::string suffix = SuffixOf(name);
       return OpenedVolume{ holder,
-        areOfCells ? "values of cells" : suffix.empty() ? "masks" : suffix };
+        areOfCells         ? "values of cells"
+          : suffix.empty() ? "masks"
+                           : suffix };
     });
 }
 

@@ -132,12 +132,14 @@ const std::vector<ProgramOption>& InputOptions()
     { "time", "N",
       "of several volumes in one (times, phases, masks) the one to read, counted from 0", SetTime },
     { "raw", "X,Y,Z,TYPE[,big]",
-      "the file has no header: sizes and type of its voxels, such as 512,512,400,uint16, x fastest, "
+      "the file has no header: sizes and type of its voxels, such as 512,512,400,uint16, x "
+      "fastest, "
       "the least significant byte first",
       [](ToolOptions& chosen, const std::string& text) { chosen.Choice.Raw = text; } },
     { "no-resampling", "",
-      "refuse slices that are no regular grid (one is missing, the gantry was tilted) instead of "
-      "interpolating them linearly",
+      "refuse what is no regular grid (a slice is missing, the gantry was tilted, shear) instead "
+      "of "
+      "interpolating it linearly",
       [](ToolOptions& chosen, const std::string&) { chosen.Choice.Resamples = false; } },
     Text("seeds", "FILE", &ToolOptions::Seeds,
       "start from icosahedra at these points: a mesh file's, or the lines 'x y z' (or 'x,y,z') of "
@@ -296,8 +298,9 @@ ToolOptions ParseOptions(int argc, const char* const argv[])
   {
     options.Labels = { "all" };
   }
-  options.Choice.NeedsComponent = options.WantsSurface() && options.Labels.empty() &&
-    !options.HasProperty("SelectedComponent");
+  options.Choice.AreLabels = !options.Labels.empty();
+  options.Choice.NeedsComponent =
+    options.WantsSurface() && options.Labels.empty() && !options.HasProperty("SelectedComponent");
   CheckOptions(options);
   return options;
 }
@@ -462,8 +465,8 @@ void CheckOptions(const ToolOptions& options)
   }
   FailIf<UsageError>(options.Edges.empty() && options.HasProperty("EdgeAttractionWeight"),
     "--edge-attraction needs --edges");
-  FailIf<UsageError>(options.World.Scale && !options.World.Unit.empty(),
-    "--scale and --unit exclude each other");
+  FailIf<UsageError>(
+    options.World.Scale && !options.World.Unit.empty(), "--scale and --unit exclude each other");
   FailIf<UsageError>(!options.Seeds.empty() && !options.InitialSurface.empty(),
     "--seeds and --initial-surface exclude each other");
   FailIf<UsageError>(!options.SeedPositions.empty() && !options.InitialSurface.empty(),

@@ -176,7 +176,7 @@ class VolumesTest(ToolTestCase):
         self.refused("damaged", self.write_bytes("a.nrrd", content), self.path("a.stl"))
         header = nrrd_header(direction=np.array([[1, 0.5, 0], [0, 1, 0], [0, 0, 1]]))
         self.refused("right angles", self.write_bytes("b.nrrd", header + b"\n" + ball().tobytes()),
-                     self.path("a.stl"))
+                     self.path("a.stl"), "--no-resampling")
         self.refused("no value separates", self.write(
             vtkXMLImageDataWriter(), "flat.vti", make_image(0 * ball())), self.path("a.stl"))
         self.assertFalse(os.path.exists(self.path("a.stl")))
