@@ -7,7 +7,9 @@ import gzip
 import importlib.util
 import os
 import re
+import struct
 import unittest
+import zlib
 
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk
@@ -187,6 +189,44 @@ class VolumesTest(ToolTestCase):
         self.refused("some are missing", self.folder, self.path("a.stl"), "--no-resampling")
         self.write_bytes("IM5", medical_files.dicom_slice(ball()[0], 1, SPACING, ORIGIN, TURNED))
         self.refused("lies where .* does", self.folder, self.path("a.stl"))
+
+
+class PalettesTest(ToolTestCase):
+    COLOURS = bytes([0, 0, 0, 250, 0, 0, 0, 0, 0, 250, 0, 0])  # the same one twice
+
+    def png(self, plane, bits):
+        def chunk(kind, data):
+            return struct.pack(">I", len(data)) + kind + data + struct.pack(
+                ">I", zlib.crc32(kind + data))
+
+        rows = plane if bits == 8 else plane[:, ::2] << 4 | plane[:, 1::2]
+        rows = b"".join(b"\0" + row.astype("u1").tobytes() for row in rows)
+        return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(
+            ">IIBBBBB", *plane.shape[::-1], bits, 3, 0, 0, 0)) + chunk(b"PLTE", self.COLOURS) + chunk(
+                b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b"")
+
+    def bmp(self, plane):
+        padded = np.pad(plane[::-1], ((0, 0), (0, -plane.shape[1] % 4)))
+        start, colours = 54 + 1024, bytearray(1024)
+        colours[4:16] = 0, 0, 250, 0, 0, 0, 0, 0, 0, 0, 250, 0
+        return b"BM" + struct.pack(
+            "<IHHIIiiHHIIiiII", start + padded.size, 0, 0, start, 40, *plane.shape[::-1], 1, 8, 0, 0,
+            0, 0, 0, 0) + bytes(colours) + padded.astype("u1").tobytes()
+
+    def test_labels_are_the_numbers_of_the_palette(self):
+        labels = (ball() > ISO).astype("u1")
+        labels[:8] *= 3
+        for kind, suffix, write in (("png", "png", lambda plane: self.png(plane, 8)),
+                                    ("half", "png", lambda plane: self.png(plane, 4)),
+                                    ("bmp", "bmp", self.bmp)):
+            os.makedirs(self.path(kind))
+            for k, plane in enumerate(labels):
+                self.write_bytes(f"{kind}/{k:02}.{suffix}", write(plane))
+            said = self.run_tool(self.path(kind), "--list-labels").stdout
+            counts = re.findall(r"(?m)^ *(\d+) +(\d+) ", said)
+            self.assertEqual(counts, [(str(n), str((labels == n).sum())) for n in (1, 3)], kind)
+        said = self.run_tool(self.path("png"), self.path("a.vtp"), "--iso", "60").stderr
+        self.assertIn("the colours of its palette are taken; --labels takes the numbers", said)
 
 
 class TableTest(unittest.TestCase):
