@@ -358,10 +358,20 @@ std::string DicomSeries::Text(std::size_t number) const
   {
     text += more.empty() ? "" : ", " + more;
   }
+  // Phases, echoes or times; segments lie at one place, too.
+  std::map<Vector3, int> places;
+  int most = 0;
+  for (const DicomSlice& slice : this->Slices)
+  {
+    most = slice.Position ? std::max(most, ++places[*slice.Position]) : most;
+  }
   const DicomSlice& first = this->Slices.front();
   return text + ", " + std::to_string(this->Slices.size()) +
     (this->Slices.size() == 1 ? " slice of " : " slices of ") + NumberText(first.Size[0]) + " x " +
-    NumberText(first.Size[1]) + ", from " + std::filesystem::path(first.File).filename().string();
+    NumberText(first.Size[1]) +
+    (most > 1 && this->Segments.empty() ? ", " + NumberText(most) + " at each place (--time)"
+                                        : "") +
+    ", from " + std::filesystem::path(first.File).filename().string();
 }
 
 std::vector<DicomSeries> DicomSeriesOf(const std::vector<std::string>& files)

@@ -131,6 +131,7 @@ const std::vector<ProgramOption>& InputOptions()
       "date, slices, identifier"),
     { "time", "N",
       "of several volumes in one (times, phases, masks) the one to read, counted from 0", SetTime },
+    { "phase", "N", "the same as --time, of phases and echoes within a DICOM series", SetTime },
     { "raw", "X,Y,Z,TYPE[,big]",
       "the file has no header: sizes and type of its voxels, such as 512,512,400,uint16, x "
       "fastest, "

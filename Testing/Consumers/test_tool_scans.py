@@ -165,7 +165,9 @@ class SlicesTest(ScanTest):
         self.series(name="T{:02}", voxels=1000 - ball(), more=((0x20, 0x13, "IS", "2"),))
         self.refused_volume("a", "2 volumes, .*choose one with --time N, 0 to 1")
         self.check("a", "--time", "0")
-        self.assertEqual(self.report(self.path("a"), "--iso", ISO, "--dark", "--time", "1")["genus"], 0)
+        self.assertEqual(self.report(self.path("a"), "--iso", ISO, "--dark", "--phase", "1")["genus"], 0)
+        said = self.run_tool(self.path("a"), "--list-series").stdout
+        self.assertIn("36 slices of 26 x 22, 2 at each place (--time)", said)
         self.refused_volume("a", "there is no time 2", "--time", "2")
 
     def test_padding(self):
