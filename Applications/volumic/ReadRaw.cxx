@@ -287,15 +287,15 @@ std::unique_ptr<SlabReader> OpenMrc(const std::string& name, const Opening& open
   // Types and numbers of components of the modes.
   static const std::map<std::uint64_t, std::pair<int, int>> modes = { { 0, { VTK_SIGNED_CHAR, 1 } },
     { 1, { VTK_SHORT, 1 } }, { 2, { VTK_FLOAT, 1 } }, { 3, { VTK_SHORT, 2 } },
-    { 4, { VTK_FLOAT, 2 } }, { 6, { VTK_UNSIGNED_SHORT, 1 } }, { 16, { VTK_UNSIGNED_CHAR, 3 } } };
+    { 4, { VTK_FLOAT, 2 } }, { 6, { VTK_UNSIGNED_SHORT, 1 } }, { 12, { VTK_UNSIGNED_SHORT, 1 } },
+    { 16, { VTK_UNSIGNED_CHAR, 3 } } };
   const std::uint64_t mode = file.Number(12, 4);
   auto slabs = std::make_unique<RawSlabs>();
   slabs->Files = { name };
   slabs->ArrayName = "ImageScalars";
-  FailIf(mode == 12 || mode == 101,
-    "voxels of mode " + std::to_string(mode) +
-      ", of half a float or half a byte, are not read; write them as mode 2 (IMOD: newstack "
-      "-mode 2)");
+  FailIf(mode == 101,
+    "voxels of mode 101, of half a byte, are not read; write them as mode 2 (IMOD: newstack -mode "
+    "2)");
   std::tie(slabs->Type, slabs->Components) = EntryOf(modes, mode,
     "its header is damaged: the mode " + std::to_string(mode) + " is no type of voxels");
   // IMOD tells where its bytes have no sign.
@@ -331,6 +331,6 @@ std::unique_ptr<SlabReader> OpenMrc(const std::string& name, const Opening& open
     }
   }
   slabs->Prepare(opening);
-  return slabs;
+  return AsFloats(std::move(slabs), mode == 12);
 }
 }

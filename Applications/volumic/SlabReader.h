@@ -220,6 +220,9 @@ private:
   Descriptor File;
 };
 
+/** The volume, or, where its numbers are bits of halves of floats, as floats. */
+std::unique_ptr<SlabReader> AsFloats(std::unique_ptr<SlabReader> volume, bool areHalves);
+
 /** The stream of a data file, at that byte. @throws Failure that names it if it cannot be opened.
  */
 std::ifstream OpenData(const std::string& name, std::uint64_t start);
