@@ -20,6 +20,7 @@
 #include <array>
 #include <cctype>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <set>
 
@@ -210,6 +211,23 @@ std::array<int, 4> CheckPicture(const std::string& file, bool areLabels)
     areIndices ? VTK_UNSIGNED_CHAR : reader->GetDataScalarType() };
 }
 
+/** Those of files beside which lie lists and logs; or all, where none is named as a picture. */
+std::vector<std::string> PicturesAmong(const std::vector<std::string>& files)
+{
+  static const std::set<std::string> known = { ".png", ".jpg", ".jpeg", ".tif", ".tiff", ".bmp",
+    ".pgm", ".ppm", ".pnm" };
+  std::vector<std::string> pictures;
+  std::copy_if(files.begin(), files.end(), std::back_inserter(pictures),
+    [](const std::string& file) { return known.count(SuffixOf(file)) > 0; });
+  if (!pictures.empty() && pictures.size() < files.size())
+  {
+    TellOfFile(std::to_string(files.size() - pictures.size()) +
+      " files that are not named as "
+      "pictures are left out");
+  }
+  return pictures.empty() ? files : pictures;
+}
+
 /** @throws Failure unless they are pictures of one kind and size. */
 void CheckPictures(const std::vector<std::string>& files, bool areLabels)
 {
@@ -217,7 +235,7 @@ void CheckPictures(const std::vector<std::string>& files, bool areLabels)
   std::set<std::string> suffixes;
   for (const std::string& file : files)
   {
-    suffixes.insert(std::filesystem::path(file).extension().string());
+    suffixes.insert(SuffixOf(file));
   }
   if (suffixes.size() > 1)
   {
@@ -331,8 +349,9 @@ static void TellOfAlpha(const SlabReader& slabs, const Opening& opening)
 }
 
 std::unique_ptr<SlabReader> OpenPictures(
-  const std::vector<std::string>& files, const Opening& opening)
+  const std::vector<std::string>& all, const Opening& opening)
 {
+  const std::vector<std::string> files = PicturesAmong(all);
   const bool areLabels = opening.Choice.AreLabels;
   CheckPictures(files, areLabels);
   if (!areLabels && IsOfPalette(files.front()))

@@ -76,6 +76,10 @@ std::unique_ptr<SlabReader> OpenNumpy(const std::string& name, const Opening& op
   {
     std::reverse(shape.begin(), shape.end());
   }
+  while (shape.size() > 3 && shape.back() == 1) // one time or channel
+  {
+    shape.pop_back();
+  }
   FailIf(shape.size() != 3 || *std::min_element(shape.begin(), shape.end()) < 1,
     "its shape is (" + ValueIn(header, "shape") +
       "); a volume has three axes (numpy.save one of "

@@ -209,7 +209,8 @@ std::unique_ptr<SlabReader> OpenMeta(const std::string& name, const Opening& ope
   {
     slabs->Size[axis] = axis < sizes.size() ? ParseNumber<int>(sizes[axis]) : 1;
     FailIf(slabs->Size[axis] < 1,
-      "its header is damaged: " + sizes[axis] + " voxels along axis " + std::to_string(axis + 1));
+      "its header is damaged: " + std::to_string(slabs->Size[axis]) + " voxels along axis " +
+        std::to_string(axis + 1));
   }
   const std::string channels = HeaderValue(name, "ElementNumberOfChannels");
   slabs->Components = channels.empty() ? 1 : ParseNumber<int>(channels);
@@ -279,7 +280,10 @@ std::array<Vector3, 3> AxesOfCells(BinaryFile& file)
 
 std::unique_ptr<SlabReader> OpenMrc(const std::string& name, const Opening& opening)
 {
-  BinaryFile file(name);
+  NamelessFile head(opening.Scratch); // unpacked, as EMDB packs its maps
+  const std::string bytes = HeadOf(name, 1024);
+  head.Append(bytes.data(), bytes.size());
+  BinaryFile file(head.Path());
   file.Need(0, 1024);
   // The machine stamp: 0x11 is big-endian; some programs leave it out.
   const std::uint64_t stamp = file.Number(212, 1);
@@ -304,7 +308,9 @@ std::unique_ptr<SlabReader> OpenMrc(const std::string& name, const Opening& open
   slabs->Type = isUnsigned ? VTK_UNSIGNED_CHAR : slabs->Type;
   slabs->IsBig = file.IsBig;
   slabs->LengthUnit = "A";
-  slabs->Start = 1024 + file.Number(92, 4);
+  const bool isPacked = IsGzip(name);
+  slabs->Code = isPacked ? RawSlabs::Packing::Zlib : RawSlabs::Packing::None;
+  (isPacked ? slabs->Before : slabs->Start) = 1024 + file.Number(92, 4);
   VolumePlacement& placement = slabs->Placement;
   const std::array<Vector3, 3> cells = AxesOfCells(file);
   std::set<std::uint64_t> taken;

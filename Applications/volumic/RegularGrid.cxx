@@ -369,6 +369,19 @@ std::unique_ptr<SlabReader> ResampledSlices(std::shared_ptr<SlabReader> slices,
 std::shared_ptr<SlabReader> AtRightAngles(
   std::shared_ptr<SlabReader> volume, const Opening& opening)
 {
+  if (!volume->Placement.HasRightAngles())
+  {
+    // What headers give as directions need not be unit vectors.
+    std::array<Vector3, 3> steps = volume->Placement.Axes;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      for (double& along : steps[axis])
+      {
+        along *= volume->Placement.Spacing[axis];
+      }
+    }
+    volume->Placement.SetSteps(steps);
+  }
   const VolumePlacement placement = volume->Placement;
   const std::array<Vector3, 3>& axes = placement.Axes;
   if (placement.HasRightAngles() || !placement.IsSpace() || volume->Size[2] < 2)

@@ -134,6 +134,58 @@ class VolumesTest(ToolTestCase):
         self.check(self.path("*.jpg"), *options, origin=np.zeros(3), iso=ISO / 5)
         self.check(self.path("*.bmp"), "--component", "0", *options, origin=np.zeros(3), iso=ISO / 5)
 
+    def test_what_lies_beside_pictures(self):
+        os.makedirs(self.path("a"))
+        for k, plane in enumerate(ball("u2")):
+            self.write(vtkPNGWriter(), f"a/{k:02}.png", make_image(plane[np.newaxis]))
+        self.write_bytes("a/log.txt", b"bright")
+        self.write_bytes("a/Thumbs.db", b"?")
+        said = self.run_tool(self.path("a"), self.path("a.vtp"), "--iso", ISO).stderr
+        self.assertIn("2 files that are not named as pictures are left out", said)
+
+    def test_names_that_end_otherwise(self):
+        self.write_bytes("a.1", META + ball().tobytes())
+        self.refused("begins like a .mha file: let its name end in .mha", self.path("a.1"),
+                     self.path("a.stl"))
+        nifti = medical_files.nifti(ball(), SPACING)
+        self.write_bytes("b.nii_old", gzip.compress(nifti))
+        self.refused("like a .nii file: let its name end in .nii.gz", self.path("b.nii_old"),
+                     self.path("a.stl"))
+        self.write_bytes("c.nrrd.gz", gzip.compress(nrrd_header() + b"\n" + ball().tobytes()))
+        self.refused("packed by gzip: unpack it", self.path("c.nrrd.gz"), self.path("a.stl"))
+
+    def test_what_may_not_be_read(self):
+        self.write_bytes("a.mha", META + ball().tobytes())
+        os.chmod(self.path("a.mha"), 0)
+        os.chmod(self.folder, 0o755)
+        user = {"user": 65534} if os.geteuid() == 0 else {}
+        self.refused("a.mha: cannot be read: Permission denied", self.path("a.mha"), "--list-labels",
+                     **user)
+
+    def test_a_slice_is_no_volume(self):
+        header = META.replace(b"NDims = 3", b"NDims = 2").replace(b"26 22 18", b"26 22")
+        self.refused("the volume: the image is 2D .26 x 22 x 1", self.write_bytes(
+            "a.mha", header + ball()[8].tobytes()), self.path("a.stl"), "--iso", ISO)
+
+    def test_directions_that_are_longer(self):
+        self.write_bytes("a.mha", META + ball().tobytes())
+        self.write_bytes("b.mha", META.replace(
+            b"1 0 0 0 1 0 0 0 1", b"2 0 0 0 2 0 0 0 2").replace(b"0.5 0.75 1.0", b"0.25 0.375 0.5")
+            + ball().tobytes())
+        reports = [self.report(self.path(name), "--iso", ISO) for name in ("a.mha", "b.mha")]
+        self.assertEqual(*(report["volume"] for report in reports))
+
+    def test_packed_maps(self):
+        content = medical_files.mrc(ball(), SPACING)
+        self.write_bytes("a.map", content)
+        self.write_bytes("a.map.gz", gzip.compress(content))
+        volumes = [self.report(self.path(name), "--iso", ISO, *way)["volume"] for name, way in (
+            ("a.map", ()), ("a.map.gz", ()), ("a.map.gz", ("--memory", "200M")))]
+        self.assertEqual(volumes[0], volumes[1])
+        self.assertAlmostEqual(volumes[0], volumes[2], delta=0.1)
+        self.refused("packed data give 21607 bytes", self.write_bytes("b.map.gz", gzip.compress(content[:-9])),
+                     self.path("a.stl"))
+
     def test_a_picture_with_pages(self):
         # VTK writes the slices of a volume from the last to the first page.
         file = self.write(vtkTIFFWriter(), "a.tif", make_image(ball("u2")))
