@@ -134,6 +134,12 @@ class VolumesTest(ToolTestCase):
         self.check(self.path("*.jpg"), *options, origin=np.zeros(3), iso=ISO / 5)
         self.check(self.path("*.bmp"), "--component", "0", *options, origin=np.zeros(3), iso=ISO / 5)
 
+    def test_a_folder_with_one_volume(self):
+        os.makedirs(self.path("a"))
+        self.write_bytes("a/a.mha", META + ball().tobytes())
+        self.write_bytes("a/a.json", b"{}")
+        self.check(self.path("a"))
+
     def test_what_lies_beside_pictures(self):
         os.makedirs(self.path("a"))
         for k, plane in enumerate(ball("u2")):
@@ -290,9 +296,8 @@ class TableTest(unittest.TestCase):
                 return file.read()
 
         # Chosen by content: TIFF and pictures.
-        read = set(re.findall(r'\{ "(\.[a-z0-9.]+)", ', text("Applications", "volumic",
-                                                            "ReadVolume.cxx")))
-        read -= {".vtr", ".vts", ".vtu", ".vtp"}  # of which it is told that they are no images
+        code = text("Applications", "volumic", "ReadVolume.cxx").split("> openers = {")[1]
+        read = set(re.findall(r'"(\.[a-z0-9.]+)"', code[:code.index("  };")]))
         rows = re.findall(r"(?m)^\| (.*?) \|", text("Documentation", "formats.md"))
         documented = {name for row in rows for name in re.findall(r"`(\.[a-z0-9.]+)`", row)}
         self.assertEqual(documented - {".tif", ".tiff", ".lsm", ".png", ".jpg", ".bmp", ".pgm"}, read)
