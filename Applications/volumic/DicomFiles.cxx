@@ -5,7 +5,6 @@
 #include "DicomFiles.h"
 
 #include "BinaryFile.h"
-#include "LabelNames.h"
 #include "Texts.h"
 #include "ToolErrors.h"
 
@@ -224,9 +223,9 @@ std::optional<Vector3> ColorOf(const std::string& lab)
     gamma(-0.9689 * x + 1.8758 * y + 0.0415 * z), gamma(0.0557 * x - 0.2040 * y + 1.0570 * z) };
 }
 
-std::vector<DicomSegment> SegmentsOf(const gdcm::DataSet& file)
+LabelNames SegmentsOf(const gdcm::DataSet& file)
 {
-  std::vector<DicomSegment> segments;
+  LabelNames segments;
   for (const gdcm::DataSet& item : ItemsAt(file, Tag(0x0062, 0x0002)))
   {
     const Attributes all(item);

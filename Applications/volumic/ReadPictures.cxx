@@ -153,13 +153,26 @@ Picture ReadIndices(const std::string& file)
   return picture;
 }
 
+/** Whether the palette of a BMP is that of grey values, which scanners write. */
+bool IsOfGreys(const std::string& file)
+{
+  std::string greys;
+  for (int i = 0; i < 256; ++i)
+  {
+    greys += std::string(3, static_cast<char>(i)) + '\0';
+  }
+  BinaryFile bytes(file);
+  const std::uint64_t place = 14 + bytes.Number(14, 4);
+  return bytes.Size() > place + greys.size() && bytes.Text(place, greys.size()) == greys;
+}
+
 /** @param areLabels numbers of a palette are wanted, not their colours */
 vtkSmartPointer<vtkImageReader2> PictureReader(const std::string& file, bool areLabels)
 {
   const vtkSmartPointer<vtkImageReader2> reader = ReaderOf(file);
   if (auto* bitmap = vtkBMPReader::SafeDownCast(reader))
   {
-    bitmap->SetAllow8BitBMP(areLabels);
+    bitmap->SetAllow8BitBMP(areLabels || IsOfGreys(file));
   }
   return reader;
 }

@@ -32,12 +32,6 @@ std::string Rounded(double length)
   return NumberText(std::round(1e3 * length) / 1e3);
 }
 
-std::string VoxelsText(const std::array<int, 3>& size, const Vector3& spacing)
-{
-  return SizeText(size) + " voxels of " + Rounded(spacing[0]) + " x " + Rounded(spacing[1]) +
-    " x " + Rounded(spacing[2]);
-}
-
 /** The smallest and the largest distance of two neighbours. */
 std::pair<double, double> Distances(const std::vector<double>& heights)
 {
@@ -59,12 +53,10 @@ public:
   vtkSmartPointer<vtkDataArray> Read(int first, int count) override;
 
 private:
-  /** A slice, and where its first pixel lies among those of the grid. */
   struct Layer
   {
     std::size_t Number = std::numeric_limits<std::size_t>::max();
     vtkSmartPointer<vtkDataArray> Values;
-    std::array<double, 2> Shift = { 0, 0 };
   };
 
   void Widen(const SlicePlaces& places);
@@ -74,7 +66,7 @@ private:
 
   std::shared_ptr<SlabReader> Slices;
   std::vector<double> Heights;
-  std::vector<std::array<double, 2>> Shifts; ///< of the slices, in pixels of the grid
+  std::vector<std::array<double, 2>> Shifts; ///< of their first pixels, in those of the grid
   double Lean = 0.0;                         ///< of each row against the one before, likewise
   double Outside;
   bool AreLabels;
@@ -102,13 +94,9 @@ GridOfSlices::GridOfSlices(std::shared_ptr<SlabReader> slices, const SlicePlaces
   this->Placement.Spacing = { places.Spacing[0], places.Spacing[1] * upright, height / steps };
   this->Placement.Origin = places.Positions[0];
   this->Widen(places);
-  double voxels = steps + 1.0;
-  double former = 1.0;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    former *= this->Slices->Size[axis];
-    voxels *= axis < 2 ? this->Size[axis] : 1.0;
-  }
+  const std::array<int, 3>& size = this->Slices->Size;
+  const double former = static_cast<double>(size[0]) * size[1] * size[2];
+  const double voxels = static_cast<double>(this->Size[0]) * this->Size[1] * (steps + 1.0);
   FailIf(!(voxels < MostRefined * former),
     "the regular grid that holds its slices, which are " + Rounded(Distances(this->Heights).first) +
       " to " + Rounded(Distances(this->Heights).second) + " apart, would have " +
@@ -162,7 +150,6 @@ const GridOfSlices::Layer& GridOfSlices::Need(std::size_t slice)
   {
     layer.Values = this->Slices->Read(static_cast<int>(slice), 1);
     layer.Number = slice;
-    layer.Shift = this->Shifts[slice];
   }
   return layer;
 }
@@ -173,7 +160,8 @@ bool GridOfSlices::Add(const Layer& layer, int x, int y, double weight, double* 
   const std::array<int, 3>& size = this->Slices->Size;
   std::array<int, 2> low;
   std::array<double, 2> share;
-  std::array<double, 2> place = { x - layer.Shift[0], y - layer.Shift[1] };
+  const std::array<double, 2>& shift = this->Shifts[layer.Number];
+  std::array<double, 2> place = { x - shift[0], y - shift[1] };
   place[0] -= this->Lean * place[1];
   for (std::size_t axis = 0; axis < 2; ++axis)
   {
@@ -360,8 +348,9 @@ std::unique_ptr<SlabReader> ResampledSlices(std::shared_ptr<SlabReader> slices,
   FailIf(!opening.Choice.Resamples, why + "; without --no-resampling they are resampled");
   const std::array<int, 3> size = slices->Size;
   auto grid = std::make_unique<GridOfSlices>(std::move(slices), places, outside, opening);
-  grid->Resampling = why + "; resampled from " + SizeText(size) + " to " +
-    VoxelsText(grid->Size, grid->Placement.Spacing);
+  const Vector3& spacing = grid->Placement.Spacing;
+  grid->Resampling = why + "; resampled from " + SizeText(size) + " to " + SizeText(grid->Size) +
+    " voxels of " + Rounded(spacing[0]) + " x " + Rounded(spacing[1]) + " x " + Rounded(spacing[2]);
   TellOfFile(grid->Resampling);
   return grid;
 }
@@ -372,15 +361,9 @@ std::shared_ptr<SlabReader> AtRightAngles(
   if (!volume->Placement.HasRightAngles())
   {
     // What headers give as directions need not be unit vectors.
-    std::array<Vector3, 3> steps = volume->Placement.Axes;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      for (double& along : steps[axis])
-      {
-        along *= volume->Placement.Spacing[axis];
-      }
-    }
-    volume->Placement.SetSteps(steps);
+    const std::array<double, 12> n = volume->Placement.Numbers();
+    volume->Placement.SetSteps(
+      { { { n[0], n[1], n[2] }, { n[3], n[4], n[5] }, { n[6], n[7], n[8] } } });
   }
   const VolumePlacement placement = volume->Placement;
   const std::array<Vector3, 3>& axes = placement.Axes;

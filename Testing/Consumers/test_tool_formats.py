@@ -263,13 +263,21 @@ class PalettesTest(ToolTestCase):
             ">IIBBBBB", *plane.shape[::-1], bits, 3, 0, 0, 0)) + chunk(b"PLTE", self.COLOURS) + chunk(
                 b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b"")
 
-    def bmp(self, plane):
+    def bmp(self, plane, isgrey=False):
         padded = np.pad(plane[::-1], ((0, 0), (0, -plane.shape[1] % 4)))
         start, colours = 54 + 1024, bytearray(1024)
         colours[4:16] = 0, 0, 250, 0, 0, 0, 0, 0, 0, 0, 250, 0
+        colours = np.arange(256, dtype="<u4") * 0x10101 if isgrey else colours
         return b"BM" + struct.pack(
             "<IHHIIiiHHIIiiII", start + padded.size, 0, 0, start, 40, *plane.shape[::-1], 1, 8, 0, 0,
             0, 0, 0, 0) + bytes(colours) + padded.astype("u1").tobytes()
+
+    def test_grey_values(self):
+        os.makedirs(self.path("a"))
+        for k, plane in enumerate(ball() // 4):
+            self.write_bytes(f"a/{k:02}.bmp", self.bmp(plane, isgrey=True))
+        said = self.run_tool(self.path("a"), self.path("a.vtp"), "--iso", "125").stderr
+        self.assertIn("x 1, unsigned char, 0 to 215", said)
 
     def test_labels_are_the_numbers_of_the_palette(self):
         labels = (ball() > ISO).astype("u1")
