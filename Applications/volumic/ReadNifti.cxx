@@ -230,10 +230,13 @@ bool Place(vtkNIFTIImageReader* reader, VolumePlacement& placement)
   };
   std::optional<VolumePlacement> sform = formOf(reader->GetSFormMatrix(), told);
   const std::optional<VolumePlacement> qform = formOf(reader->GetQFormMatrix(), placement.Spacing);
-  if (qform && (!sform || !sform->IsSpace()))
+  if (qform && sform && !sform->IsSpace())
   {
-    sform = qform;
+    TellOfFile("its sform has axes that lie in each other, or none (" + sform->Text() +
+      "); its qform is taken");
+    sform = std::nullopt;
   }
+  sform = sform ? sform : qform;
   const int* extent = reader->GetDataExtent();
   const int size[3] = { extent[1] + 1, extent[3] + 1, extent[5] + 1 };
   if (qform && !sform->IsLike(*qform, size))
