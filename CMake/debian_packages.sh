@@ -21,7 +21,7 @@ test_packages=(ccache dpkg-dev file locales libgtest-dev libcgal-dev xvfb xauth 
 # What more tests use where the release has it; they are skipped elsewhere. (So is that of gmsh, which
 # brings half a gigabyte.)
 optional_test_packages=(python3-scikit-build-core python3-venv python3-pip mypy tetgen
-  python3-distributed python3-zarr draco)
+  calculix-ccx python3-distributed python3-zarr draco)
 # The CT of a skull, from which the examples start.
 skull_package=invesalius-examples
 

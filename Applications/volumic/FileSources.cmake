@@ -58,12 +58,15 @@ list(TRANSFORM volumic_reader_sources PREPEND "${CMAKE_CURRENT_LIST_DIR}/")
 set(volumic_writer_sources
   GltfScene.cxx
   OutputFiles.cxx
+  SolidFiles.cxx
   SolidRegions.cxx
   SolidShells.cxx
   SolverFiles.cxx
   SurfaceFacts.cxx
   SurfaceFormats.cxx
   SurfacePieces.cxx
+  Tetrahedra.cxx
+  ThreeMf.cxx
   VtkWriters.cxx
   WriteResults.cxx)
 list(TRANSFORM volumic_writer_sources PREPEND "${CMAKE_CURRENT_LIST_DIR}/")

@@ -30,6 +30,14 @@ struct SceneObject
  * @throws Failure without the name of the file
  */
 void WriteGlb(const std::vector<SceneObject>& objects, const std::string& path, ProgressLine& line);
+
+/**
+ * Write surfaces as .3mf, for printers: an object for each, with its name, and a material of its
+ * colour for each label. Lengths have the surfaces' unit, millimetres where that is not told.
+ * @throws Failure without the name of the file
+ */
+void WriteThreeMf(
+  const std::vector<SceneObject>& objects, const std::string& path, ProgressLine& line);
 }
 
 #endif

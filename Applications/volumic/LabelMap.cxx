@@ -124,6 +124,7 @@ LabelMap LoadLabelMap(const ToolOptions& options, vtkDeformableSurface* settings
   map.Image = map.Image ? map.Image : LoadLabels(options, announcer);
   const WorldSpace world =
     Named(options.Volume, [&] { return PlaceInWorld(map.Image, options.World); });
+  CropAsAsked(options, map.Image);
   ResampleAsAsked(options, true, map.Image, announcer);
   const LabelNames own = OwnNames(options, map.Image);
   map.Facts = FactsOf(map.Image, map.Image->GetPointData()->GetScalars(), -1);
@@ -353,16 +354,12 @@ std::vector<std::string> FileNamesOf(const std::vector<KnownLabel>& known)
     names.push_back(safe.empty() ? "label-" + std::to_string(label.Label) : safe);
     ++uses[Lower(names.back())];
   }
-  std::set<std::string> taken;
+  DistinctNames distinct("-");
   for (std::size_t i = 0; i < names.size(); ++i)
   {
     const bool isShared = uses[Lower(names[i])] > 1;
-    const std::string start = isShared ? names[i] + "-" + std::to_string(known[i].Label) : names[i];
-    names[i] = start;
-    for (int more = 2; !taken.insert(Lower(names[i])).second; ++more)
-    {
-      names[i] = start + "-" + std::to_string(more);
-    }
+    names[i] =
+      distinct.Take(isShared ? names[i] + "-" + std::to_string(known[i].Label) : names[i]);
   }
   return names;
 }

@@ -156,6 +156,7 @@ LoadedVolume LoadVolume(const ToolOptions& options, vtkDeformableSurface* filter
     Named(options.Volume, [&] { return PlaceInWorld(volume.Image, options.World); });
   if (filter->GetMemoryLimit() == 0)
   {
+    CropAsAsked(options, volume.Image);
     ResampleAsAsked(options, false, volume.Image, announcer);
   }
   const int component = filter->GetSelectedComponent();
@@ -199,6 +200,11 @@ std::vector<std::string> InputsOf(const ToolOptions& options)
   std::vector<std::string> inputs = FilesOfVolume(options.Volume);
   const std::vector<std::string> edges = FilesOfVolume(options.Edges);
   inputs.insert(inputs.end(), edges.begin(), edges.end());
+  for (const std::string& probe : options.Probes)
+  {
+    const std::vector<std::string> files = FilesOfVolume(probe);
+    inputs.insert(inputs.end(), files.begin(), files.end());
+  }
   inputs.insert(inputs.end(),
     { options.Seeds, options.InitialSurface, options.AttractingPoints, options.NamesOfLabels });
   const std::vector<std::string> names =

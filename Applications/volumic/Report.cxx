@@ -3,6 +3,8 @@
 #include "Report.h"
 
 #include "Json.h"
+#include "Texts.h"
+#include "ToolErrors.h"
 
 #include <vtkDataArray.h>
 #include <vtkDeformableSurface.h>
@@ -10,6 +12,7 @@
 #include <vtkMultiBlockDataSet.h>
 #include <vtkPolyData.h>
 #include <vtkTable.h>
+#include <vtkUnstructuredGrid.h>
 #include <vtkVariant.h>
 #include <vtkVersion.h>
 
@@ -30,6 +33,14 @@ double PeakMemory()
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+std::string TextOf(const Solid& solid)
+{
+  const auto tenths = [](double angle) { return NumberText(std::round(10.0 * angle) / 10.0); };
+  return std::to_string(solid.Grid->GetNumberOfCells()) + " tetrahedra by " + solid.Mesher +
+    "; the least angle between two faces is " + tenths(solid.LeastAngle) +
+    " degrees, of 1 % it is under " + tenths(solid.PercentAngle);
 }
 
 namespace
@@ -96,6 +107,24 @@ Json ComponentFeatures(vtkPolyData* surface)
     }
   }
   return components;
+}
+
+/** The member `solid`, if there is one. */
+void AddSolid(Json& json, const Solid& solid)
+{
+  if (!solid.Grid)
+  {
+    return;
+  }
+  Json regions = Json::array();
+  for (const auto& [label, region] : solid.Regions)
+  {
+    regions.push_back({ { "label", label }, { "name", EntryOr(solid.Names, label, "") },
+      { "tetrahedra", region.Tetrahedra }, { "volume", AsJson(region.Volume) } });
+  }
+  json["solid"] = { { "mesher", solid.Mesher }, { "nodes", solid.Grid->GetNumberOfPoints() },
+    { "tetrahedra", solid.Grid->GetNumberOfCells() }, { "least_angle", solid.LeastAngle },
+    { "percent_angle", solid.PercentAngle }, { "regions", regions } };
 }
 
 /** The member `properties`: those that are meant, with their values. */
@@ -206,6 +235,7 @@ std::string ReportText(const ReportInput& input)
     { "upper_value", AsJson(filter->GetUpperValue()) }, { "finished", input.IsFinished } };
   AddSurfaceFacts(json, surface, input.Size);
   json["component_features"] = ComponentFeatures(surface);
+  AddSolid(json, input.Filling);
   json["levels"] = LevelFacts(input);
   json["seconds"] = SecondsOf(input);
   json["memory"] = MemoryFacts(input.ReaderMemory);
@@ -271,6 +301,7 @@ std::string ReportText(const LabelReport& report)
     AddSurfaceFacts(facts, surface, { surface->GetNumberOfPoints(), surface->GetNumberOfPolys() });
     facts["component_features"] = ComponentFeatures(surface);
   }
+  AddSolid(json, report.Filling);
   json["seconds"] = { { "surface", report.Seconds } };
   json["memory"] = MemoryFacts(report.ReaderMemory);
   json["properties"] = PropertyValues(report.Filters, IsOfLabels);

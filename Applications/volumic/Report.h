@@ -6,6 +6,7 @@
 #include "LabelMap.h"
 #include "SurfaceFacts.h"
 #include "SurfaceProperties.h"
+#include "Tetrahedra.h"
 #include "VolumeFacts.h"
 #include "WriteOutputs.h"
 
@@ -34,10 +35,14 @@ struct ReportInput
   std::vector<std::string> Warnings;
   SurfaceSize Size;                    ///< of the surface
   std::vector<SurfaceSize> LevelSizes; ///< by block of the levels
+  Solid Filling;                       ///< made of it, if it was
 };
 
 /** The report as JSON. Lengths, areas and volumes are in world units. */
 std::string ReportText(const ReportInput& input);
+
+/** What tetrahedra are like, in a line. */
+std::string TextOf(const Solid& solid);
 
 /** The most memory that was resident so far, MiB. */
 double PeakMemory();
@@ -55,6 +60,7 @@ struct LabelReport
   double Seconds = 0.0;      ///< of the surfaces
   double ReaderMemory = 0.0; ///< PeakMemory() when the volume had been read
   std::vector<std::string> Warnings = {};
+  Solid Filling = {}; ///< made of the interfaces, if it was
 };
 
 /** The report as JSON, `labels` with an object for each surface. */

@@ -6,6 +6,7 @@
 #include "ToolErrors.h"
 #include "ToolOptions.h"
 
+#include <vtkBoundingBox.h>
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
 #include <vtkImageData.h>
@@ -137,6 +138,59 @@ vtkSmartPointer<vtkImageData> Resampled(vtkImageData* image, const Vector3& spac
   made->SetDirectionMatrix(image->GetDirectionMatrix());
   made->GetFieldData()->ShallowCopy(image->GetFieldData());
   return made;
+}
+
+namespace
+{
+/** The voxels whose centres are in a box of the world, and those next to it; all that it touches. */
+std::array<int, 6> ExtentOf(vtkImageData* image, const std::array<double, 6>& box)
+{
+  vtkBoundingBox indices;
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    double place[3];
+    double index[3];
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      place[axis] = box[2 * axis + (corner >> axis & 1)];
+    }
+    image->TransformPhysicalPointToContinuousIndex(place, index);
+    indices.AddPoint(index);
+  }
+  std::array<int, 6> extent;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const auto whole = [](double index) { return static_cast<int>(std::clamp(index, -1e9, 1e9)); };
+    extent[2 * axis] = whole(std::floor(indices.GetBound(2 * axis) + 1e-6));
+    extent[2 * axis + 1] = whole(std::ceil(indices.GetBound(2 * axis + 1) - 1e-6));
+  }
+  return extent;
+}
+}
+
+void CropAsAsked(const ToolOptions& options, vtkSmartPointer<vtkImageData>& image)
+{
+  if (!options.Region && !options.RegionBox)
+  {
+    return;
+  }
+  std::array<int, 6> wanted =
+    options.Region ? *options.Region : ExtentOf(image, *options.RegionBox);
+  const int* whole = image->GetExtent();
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    int* range = &wanted[2 * axis];
+    const std::string text = std::string(1, "ijk"[axis]) + " " + std::to_string(whole[2 * axis]) +
+      " to " + std::to_string(whole[2 * axis + 1]);
+    FailIf(range[0] > whole[2 * axis + 1] || range[1] < whole[2 * axis],
+      options.Volume + ": the region lies beside the volume, which has voxels " + text);
+    range[0] = std::max(range[0], whole[2 * axis]);
+    range[1] = std::min(range[1], whole[2 * axis + 1]);
+  }
+  auto part = vtkSmartPointer<vtkImageData>::New();
+  part->ShallowCopy(image);
+  part->Crop(wanted.data());
+  image = part;
 }
 
 void ResampleAsAsked(const ToolOptions& options, bool areLabels,

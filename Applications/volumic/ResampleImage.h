@@ -22,6 +22,9 @@ struct ToolOptions;
 vtkSmartPointer<vtkImageData> Resampled(
   vtkImageData* image, const Vector3& spacing, bool areLabels);
 
+/** What --region or --region-box leaves of the image. @throws Failure if it lies beside it */
+void CropAsAsked(const ToolOptions& options, vtkSmartPointer<vtkImageData>& image);
+
 /**
  * What --resample or --isotropic asks for, and, of values, what an image of fewer than eight voxels
  * along an axis needs to have a surface; it is told, and is in the fact `Resampling`. With neither

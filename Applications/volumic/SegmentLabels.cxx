@@ -4,6 +4,7 @@
 
 #include "LabelMap.h"
 #include "LabelNames.h"
+#include "ProbeVolumes.h"
 #include "Ranks.h"
 #include "Report.h"
 #include "RunFilter.h"
@@ -213,7 +214,7 @@ void CheckThatAnyIsThere(const ToolOptions& options, const LabelReport& report)
 
 /** Write surfaces and report. @throws Failure if not all could be written. */
 void WriteAll(const ToolOptions& options, std::vector<LabelSurface>& surfaces,
-  const LabelReport& report, ProgressStyle style)
+  LabelReport& report, ProgressStyle style)
 {
   for (LabelSurface& surface : surfaces)
   {
@@ -221,8 +222,10 @@ void WriteAll(const ToolOptions& options, std::vector<LabelSurface>& surfaces,
   }
   MarkSpace(report.Filters.Labels->GetInterfaces(), report.Volume.World);
   Failures failures;
+  SolidMaker solids(options.Solids, WasInterrupted);
   WriteLabelSurfaces(
-    options, surfaces, report.Filters.Labels->GetInterfaces(), style, failures);
+    options, surfaces, report.Filters.Labels->GetInterfaces(), solids, style, failures);
+  report.Filling = SharesInterfaces(options) ? solids.Last() : Solid();
   if (!options.Report.empty())
   {
     failures.Try([&] { WriteText(ReportText(report), options.Report); });
@@ -346,11 +349,21 @@ ExitCode SegmentLabels(const ToolOptions& options, const FilterTrio& filters, Ra
   {
     return Success;
   }
+  const ProbeVolumes probes(options, announcer);
   CatchInterrupts();
   MakeSurfaces(options, map, filters.Labels, surfaces, announcer, report, ranks);
   CheckThatAnyIsThere(options, report);
+  for (LabelSurface& surface : surfaces)
+  {
+    probes.AddTo(surface.Surface);
+  }
+  probes.AddTo(filters.Labels->GetInterfaces());
   announcer.Follow("", [&] { WriteAll(options, surfaces, report, announcer.Style); });
   TellEnd(surfaces, announcer);
+  if (report.Filling.Grid)
+  {
+    announcer.Say(TextOf(report.Filling));
+  }
   return report.IsFinished ? Success : Unfinished;
 }
 

@@ -4,6 +4,7 @@
 
 #include "LabelMap.h"
 #include "LoadInputs.h"
+#include "ProbeVolumes.h"
 #include "Report.h"
 #include "RunFilter.h"
 #include "SurfaceFacts.h"
@@ -23,6 +24,8 @@
 #include <vtkTable.h>
 #include <vtkVolumeToSurface.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <iostream>
@@ -183,6 +186,68 @@ std::string PlaceOfObject(const Job& job)
     : (isBright ? "above " : "below ") + iso;
 }
 
+/** Run the filter of the surface, for --triangles with several tolerances. */
+FilterRun FindTriangles(const Job& job)
+{
+  const auto run = [&job]
+  { return RunOnVolume(job, job.Filter, "Evolving the surface", job.Says.Style); };
+  FilterRun last = run();
+  const double wanted = job.Options.Triangles;
+  constexpr double near = 1.1;
+  constexpr int tries = 10;
+  const Vector3& spacing = job.Volume.Facts.Spacing;
+  const double unit = *std::min_element(spacing.begin(), spacing.end());
+  // Tolerances with too many triangles, and with too few, with the counts.
+  std::pair<double, double> fine = { 0.0, 0.0 };
+  std::pair<double, double> coarse = { 0.0, 0.0 };
+  double seconds = last.Seconds;
+  for (int i = 0; wanted > 0.0 && i < tries && !last.IsInterrupted; ++i)
+  {
+    const double tolerance = job.Filter->GetTolerance();
+    const auto count = static_cast<double>(job.Filter->GetOutput()->GetNumberOfPolys());
+    job.Says.Say("tolerance " + NumberText(tolerance) + ": " + NumberText(count) + " triangles");
+    if (count <= 0.0 || (count < near * wanted && count * near > wanted))
+    {
+      break;
+    }
+    if (count < wanted && tolerance == 0.0)
+    {
+      last.Warnings.push_back("without a tolerance it has no more than " + NumberText(count) +
+        " triangles; --edge-length or --finest -1 makes smaller ones");
+      break;
+    }
+    const bool isStuck = fine.second > 0.0 && tolerance > fine.first && count > wanted &&
+      count > 0.98 * fine.second;
+    if (isStuck || tolerance > 1e3 * unit)
+    {
+      last.Warnings.push_back("no tolerance makes as few as " + NumberText(wanted) +
+        " triangles; --edge-length makes larger ones");
+      break;
+    }
+    (count > wanted ? fine : coarse) = { tolerance, count };
+    double next = 2.0 * tolerance;
+    if (tolerance == 0.0)
+    {
+      next = 0.2 * unit;
+    }
+    else if (coarse.second > 0.0 && fine.first == 0.0)
+    {
+      next = 0.5 * tolerance;
+    }
+    else if (coarse.second > 0.0)
+    {
+      const double share = std::log(fine.second / wanted) / std::log(fine.second / coarse.second);
+      next = fine.first * std::pow(coarse.first / fine.first, std::clamp(share, 0.1, 0.9));
+    }
+    const double digits = std::pow(10.0, std::floor(std::log10(next)) - 3.0);
+    job.Filter->SetTolerance(digits * std::round(next / digits));
+    last = run();
+    seconds += last.Seconds;
+  }
+  last.Seconds = seconds;
+  return last;
+}
+
 /** Run the filters. @param results given their times and warnings */
 void FindSurface(const Job& job, ReportInput& results)
 {
@@ -190,8 +255,7 @@ void FindSurface(const Job& job, ReportInput& results)
   job.Filter->LeaveCheckpoints(); // Until all is written.
   const FilterRun pyramidRun = GiveLevels(job);
   ResumeTeller teller(job);
-  const FilterRun run =
-    RunOnVolume(job, job.Filter, "Evolving the surface", job.Says.Style);
+  const FilterRun run = FindTriangles(job);
   teller.Tell();
   for (const FilterRun& each : { pyramidRun, run })
   {
@@ -244,6 +308,7 @@ ExitCode SegmentVolume(const ToolOptions& options, const FilterTrio& filters)
   {
     return Success;
   }
+  const ProbeVolumes probes(options, job.Says);
   TellOfLabels(job);
   SetStart(options, filter);
   const vtkNew<vtkImagePyramid> edgesHolder;
@@ -261,12 +326,17 @@ ExitCode SegmentVolume(const ToolOptions& options, const FilterTrio& filters)
   results.VolumeName = std::filesystem::path(options.Volume).filename().string();
   results.Volume = job.Volume.Facts;
   results.Filters = filters;
+  probes.AddTo(filter->GetOutput());
   job.Says.Follow("", [&] { WriteOutputs(options, results, job.Says.Style); });
   RemoveCheckpointOfEnded(job, results.StopReason);
 
   job.Says.Say(std::to_string(results.Size.Vertices) + " vertices after " +
     std::to_string(filter->GetHistory()->GetNumberOfRows()) +
     " iterations: " + results.StopReason);
+  if (results.Filling.Grid)
+  {
+    job.Says.Say(TextOf(results.Filling));
+  }
   if (!results.IsFinished)
   {
     const bool canGoOn = !filter->GetCheckpointFolder().empty();

@@ -104,6 +104,9 @@ private:
 };
 
 Vector3 Minus(const Vector3& a, const Vector3& b);
+
+/** The number of each label in files: its own, or one that no label has where that is not positive. */
+std::vector<int> SolidNumbers(const std::vector<SurfaceLabel>& labels);
 }
 
 #endif

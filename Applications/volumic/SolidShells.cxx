@@ -35,6 +35,21 @@ Vector3 Minus(const Vector3& a, const Vector3& b)
   return { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
 }
 
+std::vector<int> SolidNumbers(const std::vector<SurfaceLabel>& labels)
+{
+  int next = 0;
+  for (const SurfaceLabel& label : labels)
+  {
+    next = std::max(next, label.Label);
+  }
+  std::vector<int> numbers;
+  for (const SurfaceLabel& label : labels)
+  {
+    numbers.push_back(label.Label > 0 ? label.Label : ++next);
+  }
+  return numbers;
+}
+
 //------------------------------------------------------------------------------
 LabelledTriangles::LabelledTriangles(vtkPolyData* surface)
 {

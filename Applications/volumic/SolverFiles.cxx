@@ -23,18 +23,17 @@
 
 namespace tool
 {
-namespace
-{
-using Pair = std::pair<int, int>;
-
-/** No longer, and without what would end it: gmsh reads lines of 255 bytes, with names in quotes. */
-std::string PlainWord(const std::string& name)
+std::string GmshWord(const std::string& name)
 {
   std::string plain = Shortened(name, 50);
   std::replace(plain.begin(), plain.end(), '"', '\'');
   std::replace(plain.begin(), plain.end(), '\n', ' ');
   return plain;
 }
+
+namespace
+{
+using Pair = std::pair<int, int>;
 
 /** The coordinates of a point in the fewest digits that tell its number, with blanks between. */
 std::string PlaceText(vtkPoints* points, vtkIdType point)
@@ -87,15 +86,7 @@ private:
 SolverModel::SolverModel(vtkPolyData* surface)
   : Points(surface->GetPoints()), Solids(FindRegions(surface))
 {
-  int next = 0;
-  for (const SurfaceLabel& label : this->Solids.Labels)
-  {
-    next = std::max(next, label.Label);
-  }
-  for (const SurfaceLabel& label : this->Solids.Labels)
-  {
-    this->Numbers.push_back(label.Label > 0 ? label.Label : ++next);
-  }
+  this->Numbers = SolidNumbers(this->Solids.Labels);
   for (const SolidRegions::Triangle& triangle : this->Solids.Triangles)
   {
     this->Marks[this->LabelsBeside({ triangle.Behind, triangle.InFront })] = 0;
@@ -117,26 +108,17 @@ Pair SolverModel::LabelsBeside(const Pair& regions) const
 
 void SolverModel::MakeNames()
 {
-  std::set<std::string> taken;
-  const auto take = [&](const std::string& name)
-  {
-    std::string free = name;
-    for (int more = 2; !taken.insert(free).second; ++more)
-    {
-      free = name + " " + std::to_string(more);
-    }
-    return free;
-  };
+  DistinctNames names(" ");
   int number = 0;
   for (const SurfaceLabel& label : this->Solids.Labels)
   {
-    this->Names[number++] = take(PlainWord(label.Name));
+    this->Names[number++] = names.Take(GmshWord(label.Name));
   }
-  this->Names[-1] = take("outside");
+  this->Names[-1] = names.Take("outside");
   for (const auto& entry : this->Marks)
   {
     const auto& [behind, inFront] = entry.first;
-    this->PairNames[entry.first] = take(this->Names[behind] + "_to_" + this->Names[inFront]);
+    this->PairNames[entry.first] = names.Take(this->Names[behind] + "_to_" + this->Names[inFront]);
   }
 }
 

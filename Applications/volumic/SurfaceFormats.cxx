@@ -5,6 +5,7 @@
 #include "GltfScene.h"
 #include "OutputFiles.h"
 #include "SurfaceFacts.h"
+#include "Tetrahedra.h"
 #include "Texts.h"
 #include "ToolErrors.h"
 #include "VtkWriters.h"
@@ -149,9 +150,15 @@ void WriteScene(const SurfaceFile& file)
 {
   const std::vector<SurfaceLabel> labels = LabelsOf(file.Surface);
   const std::string name = labels.size() == 1 ? labels.front().Name : "surface";
-  WriteGlb({ { name, file.Surface } }, file.Path, file.Line);
+  const std::vector<SceneObject> objects = { { name, file.Surface } };
+  SuffixOf(file.Path) == ".3mf" ? WriteThreeMf(objects, file.Path, file.Line)
+                                : WriteGlb(objects, file.Path, file.Line);
 }
 
+const Solid& SolidOf(const SurfaceFile& file)
+{
+  return file.Solids->Make(file.Surface, file.Path, file.Line);
+}
 }
 
 SurfaceWriter FindSurfaceWriter(const std::string& name)
@@ -164,7 +171,16 @@ SurfaceWriter FindSurfaceWriter(const std::string& name)
     { ".stl", WriteStl },
     { ".ply", WritePly },
     { ".glb", WriteScene },
-    { ".msh", WriteMsh },
+    { ".3mf", WriteScene },
+    { ".vtu", [](File file) { WriteVtu(SolidOf(file).Grid, file.Path, file.Line); } },
+    { ".inp", [](File file) { WriteInp(SolidOf(file), file.Path, file.Remark); } },
+    { ".msh",
+      [](File file)
+      {
+        NeedsMesher(file.Path, file.Solids->Choice)
+          ? WriteSolidMsh(SolidOf(file), file.Path, file.Remark)
+          : WriteMsh(file);
+      } },
     { ".smesh", WriteSmesh },
     { ".poly", WritePoly },
     { ".obj", WriteObj },

@@ -12,6 +12,8 @@ class vtkPolyData;
 
 namespace tool
 {
+class SolidMaker;
+
 /** A surface, and all that is told to a writer of it. */
 struct SurfaceFile
 {
@@ -20,6 +22,7 @@ struct SurfaceFile
   std::string Remark;
   int PieceSize;
   ProgressLine& Line;
+  SolidMaker* Solids = nullptr; ///< of formats that hold tetrahedra
 };
 
 /** Writes a file of a format, and throws a Failure without its name. */
@@ -72,6 +75,9 @@ void WritePieceList(const std::string& path, const std::string& arrays, int piec
  * labels as numbers where these are positive, named as the labels.
  */
 void WriteMsh(const SurfaceFile& file);
+
+/** A name as gmsh takes it: it reads lines of 255 bytes, with names in quotes. */
+std::string GmshWord(const std::string& name);
 
 /** TetGen's .smesh: a point in each region, with its label, and in each cavity. */
 void WriteSmesh(const SurfaceFile& file);

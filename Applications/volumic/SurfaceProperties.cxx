@@ -212,7 +212,7 @@ std::vector<PropertyOption> MakeProperties()
       "with --labels: the space between the surfaces of neighbours, in world units"),
     LABELS_SWITCH(SharedInterfaces, true, "shared-interfaces",
       "with --labels: one mesh, in which neighbours have the same triangles between them; a file "
-      "for meshers of solids, .msh, .smesh or .poly, implies it"),
+      "of solids or for their meshers, .vtu, .inp, .msh, .smesh or .poly, implies it"),
   };
 }
 }

@@ -107,6 +107,16 @@ std::string AsUtf8(const std::string& text)
   }
 }
 
+std::string DistinctNames::Take(const std::string& name)
+{
+  std::string free = name;
+  for (int more = 2; !this->Taken.insert(Lower(free)).second; ++more)
+  {
+    free = name + this->Separator + std::to_string(more);
+  }
+  return free;
+}
+
 std::string SafeName(const std::string& name)
 {
   std::string safe;

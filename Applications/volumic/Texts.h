@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,20 @@ std::string AsUtf8(const std::string& text);
 
 /** Of a name what may be that of a file, on the systems of others, too; may be empty. */
 std::string SafeName(const std::string& name);
+
+/** Names of which no two are the same, in small letters, too. */
+class DistinctNames
+{
+public:
+  explicit DistinctNames(const std::string& separator) : Separator(separator) {}
+
+  /** @return the name, or, where it is taken, with a separator and a number behind it */
+  std::string Take(const std::string& name);
+
+private:
+  std::string Separator;
+  std::set<std::string> Taken;
+};
 
 // ---- Numbers ------------------------------------------------------------------------------------
 

@@ -65,6 +65,22 @@ std::array<double, 3> ParseSpacing(const std::string& text)
   return { numbers[0], numbers[1], numbers[2] };
 }
 
+/** Six numbers: from and to along each axis. */
+template <class Number>
+std::array<Number, 6> ParseRegion(const std::string& text)
+{
+  const std::vector<double> numbers = ParseNumbers(text, 6);
+  std::array<Number, 6> region;
+  for (std::size_t i = 0; i < 6; ++i)
+  {
+    region[i] = static_cast<Number>(std::clamp(numbers[i], -1e9, 1e9));
+    FailIf<UsageError>(region[i] != numbers[i], "voxels are counted in whole numbers");
+    FailIf<UsageError>(
+      i % 2 == 1 && region[i] < region[i - 1], "'" + text + "' ends before it begins");
+  }
+  return region;
+}
+
 void SetScale(ToolOptions& options, const std::string& text)
 {
   options.World.Scale = ParseNumber<double>(text);
@@ -90,6 +106,19 @@ void SetTime(ToolOptions& options, const std::string& text)
   options.Choice.Time = ParseNumber<int>(text);
 }
 
+void SetMesher(ToolOptions& options, const std::string& text)
+{
+  FailIf<UsageError>(
+    text != "tetgen" && text != "gmsh", "'" + text + "' is none of tetgen, gmsh");
+  options.Solids.Mesher = text;
+}
+
+void SetMaximumVolume(ToolOptions& options, const std::string& text)
+{
+  options.Solids.MaximumVolume = ParseNumber<double>(text);
+  FailIf<UsageError>(!(options.Solids.MaximumVolume > 0.0), "a volume is more than 0");
+}
+
 void SetPieceSize(ToolOptions& options, const std::string& text)
 {
   options.PieceSize = ParseNumber<int>(text);
@@ -105,6 +134,15 @@ const std::vector<ProgramOption>& InputOptions()
       "distances of neighbouring voxels along the three axes, instead of the file's, in its unit",
       [](ToolOptions& chosen, const std::string& text)
       { chosen.World.Spacing = ParseSpacing(text); } },
+    { "region", "I0,I1,J0,J1,K0,K1",
+      "use these voxels of the volume only, first and last along each axis, counted as "
+      "--list-labels does; surfaces close at its border",
+      [](ToolOptions& chosen, const std::string& text)
+      { chosen.Region = ParseRegion<int>(text); } },
+    { "region-box", "X0,X1,Y0,Y1,Z0,Z1",
+      "the same as a box in world coordinates: all voxels that it touches",
+      [](ToolOptions& chosen, const std::string& text)
+      { chosen.RegionBox = ParseRegion<double>(text); } },
     { "resample", "X,Y,Z",
       "resample the volume to these distances: linearly, a label map to the nearest voxel",
       [](ToolOptions& chosen, const std::string& text)
@@ -159,6 +197,24 @@ const std::vector<ProgramOption>& InputOptions()
     Text("edges", "NAME|FILE", &ToolOptions::Edges,
       "a map that is large on edges, see --edge-attraction (2 if that is not given): a point array "
       "of the volume, or a volume of the same size"),
+    { "triangles", "N",
+      "find the --tolerance with which the surface has about so many triangles, a tenth more or less",
+      [](ToolOptions& chosen, const std::string& text)
+      {
+        chosen.Triangles = ParseNumber<int>(text);
+        FailIf<UsageError>(chosen.Triangles < 20, "a surface has 20 triangles at least");
+      } },
+    { "probe", "FILE",
+      "give vertices the values of this volume, in whatever grid, as a point array named as the "
+      "file; may be given several times",
+      [](ToolOptions& chosen, const std::string& text) { chosen.Probes.push_back(text); } },
+    { "probe-depth", "LENGTH",
+      "of --probe the mean of the values from the surface so far inward, in world units",
+      [](ToolOptions& chosen, const std::string& text)
+      {
+        chosen.ProbeDepth = ParseNumber<double>(text);
+        FailIf<UsageError>(!(chosen.ProbeDepth >= 0.0), "a depth is not less than 0");
+      } },
     { "labels", "all|LIST",
       "the volume is a label map: make a surface of each of these labels, given as numbers, ranges "
       "and names with commas between, such as 1,7-9,liver,lung_*",
@@ -189,6 +245,12 @@ const std::vector<ProgramOption>& OutputOptions()
       "write components, genus, area, volume, seconds, ...; - for the standard output"),
     Text("write-volume", "FILE.vti", &ToolOptions::WrittenVolume,
       "write the volume as it was read; without another file to write, that is all"),
+    { "mesher", "tetgen|gmsh",
+      "what fills surfaces with tetrahedra for .vtu and .inp (default: the first that is installed), "
+      "and then for .msh, too",
+      SetMesher },
+    { "maximum-volume", "VOLUME",
+      "of tetrahedra, in world units cubed; by gmsh about so much", SetMaximumVolume },
     { "piece-size", "N", "triangles in each piece of a .pvtp (default: 1048576)", SetPieceSize },
     Switch("quiet", &ToolOptions::Quiet, "print errors only"),
     Switch("progress", &ToolOptions::Progress,
@@ -324,10 +386,10 @@ void PrintHelp(std::ostream& out, const FilterTrio& filters)
          "\n"
          "VOLUME   a file (see FORMATS in volumic(1)), a folder of DICOM slices or of\n"
          "         pictures, or a pattern of pictures such as 'slice%03d.png' or '*.tif'\n"
-         "SURFACE  .vtp .pvtp .vtk .stl .ply .obj .glb, and for meshers of solids .msh\n"
-         "         .smesh .poly; all are written\n"
+         "SURFACE  .vtp .pvtp .vtk .stl .ply .obj .glb .3mf; filled with tetrahedra .vtu\n"
+         "         .inp; for meshers of solids .msh .smesh .poly; all are written\n"
          "         (with --labels also a folder for a file per label, OUT/, or all in one\n"
-         "         .vtm or .glb, or in one mesh: --shared-interfaces)\n"
+         "         .vtm, .glb or .3mf, or in one mesh: --shared-interfaces)\n"
          "\n"
          "Input:\n";
   for (const ProgramOption& option : InputOptions())
@@ -403,7 +465,7 @@ void CheckWithLabels(const ToolOptions& options)
     { "initial-surface", !options.InitialSurface.empty() },
     { "attracting-points", !options.AttractingPoints.empty() },
     { "attracting-position", !options.AttractingPositions.empty() },
-    { "edges", !options.Edges.empty() }, { "history", !options.History.empty() },
+    { "edges", !options.Edges.empty() }, { "triangles", options.Triangles > 0 }, { "history", !options.History.empty() },
     { "levels-output", !options.Levels.empty() }, { "snapshots", !options.Snapshots.empty() },
     { "format", options.ListsLabels && !options.Format.empty() } };
   for (const auto& [option, isGiven] : others)
@@ -419,6 +481,8 @@ void CheckWithLabels(const ToolOptions& options)
       property->Property == "KeepComponents" && (text == "at-points" || text == "not-at-seeds"),
       "--keep " + text + " and --labels exclude each other");
   }
+  FailIf<UsageError>(options.ProbeDepth > 0.0 && SharesInterfaces(options),
+    "--probe-depth and shared interfaces, which have no normals, exclude each other");
   bool hasFolder = false;
   for (const std::string& name : options.Surfaces)
   {
@@ -453,7 +517,11 @@ void CheckOptions(const ToolOptions& options)
   {
     CheckWithLabels(options);
   }
-  const char* const resampling = options.ResampledSpacing ? "--resample"
+  FailIf<UsageError>(
+    options.Region && options.RegionBox, "--region and --region-box exclude each other");
+  const char* const resampling = options.Region           ? "--region"
+    : options.RegionBox                                   ? "--region-box"
+    : options.ResampledSpacing                            ? "--resample"
     : options.IsIsotropic                                 ? "--isotropic"
                                                           : "";
   FailIf<UsageError>(options.ResampledSpacing && options.IsIsotropic,
@@ -466,8 +534,21 @@ void CheckOptions(const ToolOptions& options)
   }
   FailIf<UsageError>(options.Edges.empty() && options.HasProperty("EdgeAttractionWeight"),
     "--edge-attraction needs --edges");
+  FailIf<UsageError>(!options.Solids.Mesher.empty() && !MakesSolids(options),
+    "--mesher needs a file of tetrahedra: .vtu, .inp or .msh");
+  FailIf<UsageError>(options.Solids.MaximumVolume > 0.0 && !MakesSolids(options),
+    "--maximum-volume needs a file of tetrahedra: .vtu, .inp, or .msh with --mesher");
   FailIf<UsageError>(
-    options.World.Scale && !options.World.Unit.empty(), "--scale and --unit exclude each other");
+    options.ProbeDepth > 0.0 && options.Probes.empty(), "--probe-depth needs --probe");
+  for (const auto& [property, text] : options.Properties)
+  {
+    const std::string& name = property->Property;
+    FailIf<UsageError>(options.Triangles > 0 &&
+        (name == "Tolerance" || name == "Resume" || name == "TimeLimit"),
+      "--triangles and --" + property->Option + " exclude each other");
+  }
+  FailIf<UsageError>(options.World.Scale && !options.World.Unit.empty(),
+    "--scale and --unit exclude each other");
   FailIf<UsageError>(!options.Seeds.empty() && !options.InitialSurface.empty(),
     "--seeds and --initial-surface exclude each other");
   FailIf<UsageError>(!options.SeedPositions.empty() && !options.InitialSurface.empty(),

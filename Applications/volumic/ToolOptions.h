@@ -6,6 +6,7 @@
 #include "Messages.h"
 #include "ReadVolume.h"
 #include "SurfaceProperties.h"
+#include "Tetrahedra.h"
 #include "WorldSpace.h"
 
 #include <array>
@@ -39,6 +40,8 @@ struct ToolOptions
   std::string Array;                 ///< point array of the volume; empty: the active one
   WorldChoice World;                 ///< where the volume is to lie
   std::optional<std::array<double, 3>> ResampledSpacing; ///< world units
+  std::optional<std::array<int, 6>> Region;        ///< voxel indices, first and last of each axis
+  std::optional<std::array<double, 6>> RegionBox;  ///< the same in the world
   bool IsIsotropic = false;                     ///< resampled to the smallest spacing
   std::string Seeds;                            ///< file of points
   std::string InitialSurface;                   ///< file of a closed surface
@@ -46,6 +49,9 @@ struct ToolOptions
   Positions SeedPositions;                      ///< beside those of the file
   Positions AttractingPositions;                ///< beside those of the file
   std::string Edges;                            ///< point array of the volume, or file of a volume
+  int Triangles = 0; ///< that the surface is to have, about; 0: as many as it gets
+  std::vector<std::string> Probes; ///< files of volumes whose values surfaces get
+  double ProbeDepth = 0.0;         ///< over which their mean is taken, world units
   std::vector<std::string> Labels; ///< which of them get surfaces; empty: it is no label map
   bool ListsLabels = false;        ///< to tell them, and make no surfaces
   std::string NamesOfLabels;       ///< file of names; empty: as the volume has them
@@ -55,6 +61,7 @@ struct ToolOptions
   std::string Snapshots;                        ///< .vtm, or a folder
   std::string Report;                           ///< .json
   std::string WrittenVolume;                    ///< .vti
+  SolidChoice Solids;                           ///< of files of tetrahedra
   int PieceSize = 1 << 20;                      ///< triangles of a piece of a .pvtp
   int Ranks = 1;                                ///< that mpirun has started
   bool Quiet = false;

@@ -14,6 +14,8 @@
 #include <vtkPolyDataWriter.h>
 #include <vtkXMLImageDataWriter.h>
 #include <vtkXMLPolyDataWriter.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkXMLUnstructuredGridWriter.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -175,6 +177,13 @@ void WriteVtp(vtkPolyData* surface, const std::string& path, ProgressLine& line)
   }
   writer->SetCompressorTypeToLZ4(); // nine times as fast as zlib, at 1.6 times the size
   WriteInline(writer.Get(), written, path, line);
+}
+
+void WriteVtu(vtkUnstructuredGrid* grid, const std::string& path, ProgressLine& line)
+{
+  vtkNew<XmlStreamWriter<vtkXMLUnstructuredGridWriter>> writer;
+  writer->SetCompressorTypeToLZ4();
+  WriteInline(writer.Get(), grid, path, line);
 }
 
 void WriteLegacy(

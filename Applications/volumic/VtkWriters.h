@@ -17,6 +17,7 @@
 class vtkAlgorithm;
 class vtkImageData;
 class vtkPolyData;
+class vtkUnstructuredGrid;
 
 namespace tool
 {
@@ -53,6 +54,9 @@ void WriteVtp(vtkPolyData* surface, const std::string& path, ProgressLine& line)
 /** The surface in VTK's legacy format, binary. @param head of which the file has a line */
 void WriteLegacy(
   vtkPolyData* surface, const std::string& path, const std::string& head, ProgressLine& line);
+
+/** Tetrahedra as .vtu. */
+void WriteVtu(vtkUnstructuredGrid* grid, const std::string& path, ProgressLine& line);
 
 /** The volume as .vti. */
 void WriteVti(vtkImageData* volume, const std::string& path, ProgressLine& line);

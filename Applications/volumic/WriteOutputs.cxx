@@ -6,6 +6,7 @@
 #include "LoadInputs.h"
 #include "OutputFiles.h"
 #include "Report.h"
+#include "RunFilter.h"
 #include "SurfaceFacts.h"
 #include "Texts.h"
 #include "ToolErrors.h"
@@ -93,6 +94,10 @@ void CheckFiles(const ToolOptions& options)
     CheckVolumeName(options.WrittenVolume);
   }
   CheckOutputs(outputs, InputsOf(options));
+  if (MakesSolids(options))
+  {
+    FindMesher(options.Solids);
+  }
 }
 
 // ---- Surfaces -----------------------------------------------------------------------------------
@@ -130,9 +135,10 @@ void WriteSeveral(vtkMultiBlockDataSet* blocks, const std::string& name, const s
 void WriteOutputs(const ToolOptions& options, ReportInput& results, ProgressStyle style)
 {
   vtkDeformableSurface* filter = results.Filters.Surface;
+  SolidMaker solids(options.Solids, WasInterrupted);
   const SurfaceWriting writing = { results.IsFinished ? ""
                                                       : ", UNFINISHED: " + results.StopReason,
-    PieceSizeOf(options, filter->GetOutput()), style };
+    PieceSizeOf(options, filter->GetOutput()), style, &solids };
   MarkSpace(filter->GetOutput(), results.Volume.World);
   MarkSpace(filter->GetLevels(), results.Volume.World);
   MarkSpace(filter->GetSnapshots(), results.Volume.World);
@@ -141,6 +147,7 @@ void WriteOutputs(const ToolOptions& options, ReportInput& results, ProgressStyl
   {
     failures.Try([&] { WriteSurface(filter->GetOutput(), name, writing); });
   }
+  results.Filling = solids.Last();
   WriteSeveral(filter->GetLevels(), options.Levels, "level", style, LevelOf, failures);
   WriteSeveral(filter->GetSnapshots(), options.Snapshots, "snapshot", style, nullptr, failures);
   if (!options.History.empty())
@@ -165,10 +172,10 @@ std::string UnfinishedRemark(const LabelSurface& surface)
 }
 
 SurfaceWriting WritingOf(
-  const ToolOptions& options, const LabelSurface& surface, ProgressStyle style)
+  const ToolOptions& options, const LabelSurface& surface, SolidMaker& solids, ProgressStyle style)
 {
   return { UnfinishedRemark(surface) + ", " + surface.Name,
-    PieceSizeOf(options, surface.Surface), style };
+    PieceSizeOf(options, surface.Surface), style, &solids };
 }
 
 /** All in one file. */
@@ -200,6 +207,13 @@ bool LabelSurface::IsUnfinished() const
 {
   const std::string reason = StopReason(this->Surface);
   return reason == "cancelled" || reason == "time limit" || reason == "iteration limit";
+}
+
+bool MakesSolids(const ToolOptions& options)
+{
+  return NeedsMesher("x." + options.Format, options.Solids) ||
+    std::any_of(options.Surfaces.begin(), options.Surfaces.end(),
+      [&options](const std::string& name) { return NeedsMesher(name, options.Solids); });
 }
 
 bool SharesInterfaces(const ToolOptions& options)
@@ -293,8 +307,8 @@ void CheckLabelSurfaces(const ToolOptions& options, const std::vector<LabelSurfa
       throw Failure(name + ": " + std::to_string(surfaces.size()) +
         " labels have as many surfaces: give a folder (" + stem + "/ --format " +
         SuffixOf(name).substr(1) + ") or blocks (" + stem + ".vtm, " + stem +
-        ".glb), or make one of them with --merge, or one mesh of all with --shared-interfaces (" +
-        stem + ".vtp, .vtk, .msh, .smesh, .poly)");
+        ".glb, " + stem + ".3mf), or make one of them with --merge, or one mesh of all with --shared-interfaces (" +
+        stem + ".vtp, .vtk, .vtu, .inp, .msh, .smesh, .poly)");
     }
   }
   for (const std::string& name : options.Surfaces)
@@ -315,7 +329,7 @@ void CheckLabelSurfaces(const ToolOptions& options, const std::vector<LabelSurfa
 }
 
 void WriteLabelSurfaces(const ToolOptions& options, std::vector<LabelSurface>& surfaces,
-  vtkPolyData* interfaces, ProgressStyle style, Failures& failures)
+  vtkPolyData* interfaces, SolidMaker& solids, ProgressStyle style, Failures& failures)
 {
   for (const std::string& name : options.Surfaces)
   {
@@ -328,7 +342,7 @@ void WriteLabelSurfaces(const ToolOptions& options, std::vector<LabelSurface>& s
     {
       // All are made at once, and so as finished as the first.
       const SurfaceWriting writing = { UnfinishedRemark(surfaces.front()),
-        PieceSizeOf(options, interfaces), style };
+        PieceSizeOf(options, interfaces), style, &solids };
       failures.Try([&] { WriteSurface(interfaces, name, writing); });
       continue;
     }
@@ -346,7 +360,7 @@ void WriteLabelSurfaces(const ToolOptions& options, std::vector<LabelSurface>& s
           [&]
           {
             WriteSurface(surface.Surface, path,
-              WritingOf(options, surface, isFolder ? ProgressStyle::None : style));
+              WritingOf(options, surface, solids, isFolder ? ProgressStyle::None : style));
             surface.Files.push_back(path);
           });
       }

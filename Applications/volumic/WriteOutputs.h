@@ -16,6 +16,7 @@ namespace tool
 {
 class Failures;
 struct ReportInput;
+class SolidMaker;
 struct ToolOptions;
 
 /**
@@ -58,6 +59,9 @@ enum class LabelOutput
 
 LabelOutput OutputOf(const ToolOptions& options, const std::string& name);
 
+/** Whether a file of tetrahedra is asked for. */
+bool MakesSolids(const ToolOptions& options);
+
 /** Whether the options ask for shared interfaces, or a file that needs them. */
 bool SharesInterfaces(const ToolOptions& options);
 
@@ -90,10 +94,11 @@ void CheckLabelSurfaces(const ToolOptions& options, const std::vector<LabelSurfa
  * Write the surfaces that have points, as the options ask for.
  * @param surfaces get their Files here
  * @param interfaces what they share, if they do
+ * @param solids of files of tetrahedra of these
  * @param failures given what could not be written
  */
 void WriteLabelSurfaces(const ToolOptions& options, std::vector<LabelSurface>& surfaces,
-  vtkPolyData* interfaces, ProgressStyle style, Failures& failures);
+  vtkPolyData* interfaces, SolidMaker& solids, ProgressStyle style, Failures& failures);
 }
 
 #endif

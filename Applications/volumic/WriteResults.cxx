@@ -6,6 +6,7 @@
 #include "Messages.h"
 #include "OutputFiles.h"
 #include "SurfaceFormats.h"
+#include "Tetrahedra.h"
 #include "Texts.h"
 #include "ToolErrors.h"
 #include "VtkWriters.h"
@@ -86,8 +87,8 @@ namespace
 /** Tells where a format, whose coordinates are float, rounds them too much for the triangles. */
 void TellOfRounding(vtkPolyData* surface, const std::string& name)
 {
-  static const std::set<std::string> exact = { ".vtp", ".pvtp", ".vtk", ".msh", ".smesh", ".poly" };
-  if (exact.count(SuffixOf(name)) > 0 || surface->GetNumberOfPolys() == 0)
+  static const std::set<std::string> exact = { ".vtp", ".pvtp", ".vtk" };
+  if (exact.count(SuffixOf(name)) > 0 || IsOfSolids(name) || surface->GetNumberOfPolys() == 0)
   {
     return;
   }
@@ -114,18 +115,19 @@ void CheckSurfaceName(const std::string& name)
   FailIf<UsageError>(!FindSurfaceWriter(name),
     name +
       ": no surface format has this suffix; known are .vtp .pvtp .vtk .stl .ply "
-      ".obj .glb .msh .smesh .poly");
+      ".obj .glb .3mf .vtu .inp .msh .smesh .poly");
 }
 
 bool IsScene(const std::string& name)
 {
-  return SuffixOf(name) == ".glb";
+  return SuffixOf(name) == ".glb" || SuffixOf(name) == ".3mf";
 }
 
 bool IsOfSolids(const std::string& name)
 {
   const std::string suffix = SuffixOf(name);
-  return suffix == ".msh" || suffix == ".smesh" || suffix == ".poly";
+  return suffix == ".msh" || suffix == ".smesh" || suffix == ".poly" || suffix == ".vtu" ||
+    suffix == ".inp";
 }
 
 bool HasPieces(const std::string& name)
@@ -142,7 +144,9 @@ void WriteSurface(vtkPolyData* surface, const std::string& name, const SurfaceWr
     {
       const std::string remark =
         "volumic " VOLUMIC_VERSION + SpaceRemark(surface) + writing.Remark;
-      write({ surface, path, remark, writing.PieceSize, line });
+      SolidMaker solids{ SolidChoice() };
+      write({ surface, path, remark, writing.PieceSize, line,
+        writing.Solids ? writing.Solids : &solids });
     });
 }
 
@@ -165,7 +169,10 @@ void WriteScene(
     TellOfRounding(object.Surface, name);
   }
   WriteBeside(name, style,
-    [&](const std::string& path, ProgressLine& line) { WriteGlb(objects, path, line); });
+    [&](const std::string& path, ProgressLine& line)
+    {
+      SuffixOf(path) == ".3mf" ? WriteThreeMf(objects, path, line) : WriteGlb(objects, path, line);
+    });
 }
 
 void WriteBlocks(vtkMultiBlockDataSet* blocks, const std::string& name, ProgressStyle style)

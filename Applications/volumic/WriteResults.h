@@ -16,6 +16,7 @@ class vtkTable;
 namespace tool
 {
 struct SceneObject;
+class SolidMaker;
 
 // All write beside the file, which takes its place when it is whole (see OutputFiles.h), and throw
 // a Failure that names the file if that cannot be. What is large shows its progress.
@@ -42,6 +43,7 @@ struct SurfaceWriting
   std::string Remark;
   int PieceSize = 0;  ///< triangles of a piece, where there are pieces
   ProgressStyle Style = ProgressStyle::None;
+  SolidMaker* Solids = nullptr; ///< of files of tetrahedra; null: one of its own
 };
 
 /**

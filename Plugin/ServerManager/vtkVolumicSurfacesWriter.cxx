@@ -155,15 +155,11 @@ void WriteEach(const std::vector<NamedSurface>& surfaces, const std::string& fil
 {
   const std::filesystem::path path(file);
   const std::string stem = (path.parent_path() / path.stem()).string();
-  std::set<std::string> taken; // in small letters, as some systems have it
+  tool::DistinctNames names("-");
   for (const NamedSurface& each : surfaces)
   {
-    const std::string safe = tool::SafeName(each.Name);
-    std::string name = each.Name.empty() ? "" : "-" + safe;
-    for (int more = 2; !taken.insert(tool::Lower(name)).second; ++more)
-    {
-      name = "-" + safe + "-" + std::to_string(more);
-    }
+    const std::string name =
+      names.Take(each.Name.empty() ? "" : "-" + tool::SafeName(each.Name));
     tool::WriteSurface(each.Surface, stem + name + path.extension().string(), {});
   }
 }

@@ -7,7 +7,7 @@
  * The writers of the program `volumic`, for ParaView: of `organs.stl` and blocks named liver and
  * spleen `organs-liver.stl` and `organs-spleen.stl`, of one surface with several components
  * `organs-component-0.stl` and so on, each with its cavities. Of other cells, as Clip and Threshold
- * give, the outer surface is written, as triangles; it is an error if there are none. A scene, .glb,
+ * give, the outer surface is written, as triangles; it is an error if there are none. A scene, .glb or .3mf,
  * holds all in one file. Surfaces that are empty
  * are left out.
  */

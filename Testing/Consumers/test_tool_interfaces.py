@@ -5,7 +5,6 @@
 import json
 import os
 import re
-import sys
 import unittest
 from collections import Counter
 
@@ -15,12 +14,7 @@ from vtkmodules.vtkIOLegacy import vtkPolyDataReader
 
 from test_tool_labels import LabelsTest
 from tool_test_case import ISO, make_image
-from examples_path import EXAMPLES
 from vtk_files import points_of, read, read_blocks, triangles_of
-
-sys.path.insert(0, EXAMPLES)
-# pylint: disable=wrong-import-position
-from tetrahedra import blocks_of, sections_of
 
 SPACING, ORIGIN = np.array([1.0, 1.25, 0.75]), np.array([5.0, -3.0, 40.0])
 NAMES = {1: "liver", 2: "left kidney", 4: 'a "b"', 9: "x" * 300}
@@ -119,7 +113,7 @@ class OneMeshTest(InterfacesTest):
     def test_without_it_surfaces_are_as_ever(self):
         volume = self.map_of(sectors())
         self.refused(r"a.stl: 4 labels .* --merge, or one mesh of all with --shared-interfaces "
-                     r"\(.*a.vtp, .vtk, .msh, .smesh, .poly\)", volume, self.path("a.stl"),
+                     r"\(.*a.vtp, .vtk, .vtu, .inp, .msh, .smesh, .poly\)", volume, self.path("a.stl"),
                      "--labels", "all", "--shared-interfaces")
         self.run_tool(volume, self.path("a.vtp"), "--labels", "1")
         self.assertFalse(read(self.path("a.vtp")).GetCellData().HasArray("BoundaryLabels"))
@@ -151,6 +145,30 @@ class OneMeshTest(InterfacesTest):
         self.refused("--shared-interfaces: the labels lie in several layers .* --component", file,
                      self.path("a.msh"), "--labels", "all")
         self.run_tool(file, self.path("a.msh"), "--labels", "s1")
+
+
+def sections_of(path):
+    """{name: lines} of a .msh that is text."""
+    sections = {}
+    with open(path, encoding="utf-8") as file:
+        for line in file:
+            if line.startswith("$End"):
+                continue
+            if line.startswith("$"):
+                lines = sections[line[1:].strip()] = []
+            else:
+                lines.append(line)
+    return sections
+
+
+def blocks_of(lines, each):
+    """(dimension, entity, third number of its head, how many things of so many lines each, the first
+    line of these) of each block."""
+    at, count = 1, int(lines[0].split()[0])
+    for _ in range(count):
+        dimension, entity, third, number = map(int, lines[at].split())
+        yield dimension, entity, third, number, at + 1
+        at += 1 + number * each
 
 
 class Msh:

@@ -1,18 +1,22 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""`volumic --labels`: colours and names in .ply and .glb, read without what has written them."""
+"""`volumic --labels`: colours and names in .ply, .glb and .3mf, read without what has written them."""
 
 import json
 import os
+import shutil
 import struct
+import subprocess
 import unittest
+import zipfile
+from xml.etree import ElementTree
 
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOGeometry import vtkGLTFReader
 
 from test_tool_labels import NAMES, LabelsTest
-from tool_test_case import ISO
+from tool_test_case import ISO, ball, nrrd_header
 from vtk_files import points_of, read, triangles_of
 
 COLORS = {1: (200, 30, 0), 2: (0, 255, 120), 7: (10, 20, 30), -3: (255, 255, 255)}
@@ -147,6 +151,79 @@ class GlbTest(ScenesTest):
         np.testing.assert_array_equal(triangles, triangles_of(surface))
         np.testing.assert_allclose(material["pbrMetallicRoughness"]["baseColorFactor"],
                                    [*linear((204, 204, 204)), 1])
+
+
+class ThreeMfTest(ScenesTest):
+    XML = {"m": "http://schemas.microsoft.com/3dmanufacturing/core/2015/02"}
+
+    def model(self, name):
+        """The root of the model, and {object's name: (points, triangles, materials of these)}."""
+        with zipfile.ZipFile(self.path(name)) as file:
+            self.assertIsNone(file.testzip())
+            self.assertEqual(file.namelist(),
+                             ["[Content_Types].xml", "_rels/.rels", "3D/3dmodel.model"])
+            for part in file.namelist():
+                ElementTree.fromstring(file.read(part))
+            root = ElementTree.fromstring(file.read("3D/3dmodel.model"))
+        objects = {}
+        for thing in root.findall("m:resources/m:object", self.XML):
+            points = [[float(v.get(axis)) for axis in "xyz"]
+                      for v in thing.iterfind(".//m:vertex", self.XML)]
+            corners = [[int(t.get(v)) for v in ("v1", "v2", "v3")]
+                       for t in thing.iterfind(".//m:triangle", self.XML)]
+            bases = root.findall(f"m:resources/m:basematerials[@id='{thing.get('pid')}']/m:base",
+                                 self.XML)
+            used = {t.get("p1", thing.get("pindex"))
+                    for t in thing.iterfind(".//m:triangle", self.XML)}
+            objects[thing.get("name")] = (np.array(points, "f4"), np.array(corners), {
+                bases[int(i)].get("name"): bases[int(i)].get("displaycolor") for i in used})
+            self.assertEqual(len(root.findall(
+                f"m:build/m:item[@objectid='{thing.get('id')}']", self.XML)), 1)
+        return root, objects
+
+    def test_an_object_for_each_label(self):
+        self.run_tool(self.map_file(), self.path("a.3mf"), self.path("a/"), "--labels", "all",
+                      "--label-names", self.colored_names())
+        root, objects = self.model("a.3mf")
+        self.assertEqual(root.get("unit"), "millimeter")
+        self.assertEqual(list(objects), ["Label -3", "liver", "Left lung", "spleen/x"])
+        files = ("label--3", "liver", "Left_lung", "spleen_x")
+        for (name, (points, corners, material)), file, label in zip(
+                objects.items(), files, (-3, 1, 2, 7)):
+            surface = read(self.path(f"a/{file}.vtp"))
+            np.testing.assert_array_equal(points, points_of(surface).astype("f4"))
+            np.testing.assert_array_equal(corners, triangles_of(surface))
+            self.assertEqual(material, {name: "#%02X%02X%02X" % COLORS[label]})
+
+    def test_merged_labels_keep_their_colours(self):
+        self.run_tool(self.map_file(), self.path("a.3mf"), "--labels", "1,2", "--merge",
+                      "--label-names", self.colored_names())
+        (_, _, materials), = self.model("a.3mf")[1].values()
+        self.assertEqual(materials, {"liver": "#C81E00", "Left lung": "#00FF78"})
+
+    def test_names_units_and_one_surface(self):
+        names = self.write_bytes("n.json", json.dumps({1: 'a<"&\u00e9>\n'}).encode())
+        self.run_tool(self.map_file(), self.path("a.3mf"), "--labels", "1", "--label-names", names)
+        self.assertEqual(list(self.model("a.3mf")[1]), ['a<"&\u00e9>'])
+        first = self.content("a.3mf")
+        self.run_tool(self.map_file(), self.path("a.3mf"), "--labels", "1", "--label-names", names)
+        self.assertEqual(self.content("a.3mf"), first)
+        self.run_tool(self.ball_file(), self.path("b.3mf"), "--iso", ISO)
+        self.assertEqual(list(self.model("b.3mf")[1]), ["surface"])
+        volume = self.write_bytes("u.nrrd", nrrd_header().replace(
+            b"space: left-posterior-superior", b'space: left-posterior-superior\nspace units: "um" "um" "um"')
+            + b"\n" + ball().tobytes())
+        self.run_tool(volume, self.path("u.3mf"), "--iso", ISO)
+        self.assertEqual(self.model("u.3mf")[0].get("unit"), "micron")
+        self.refused(r"u.3mf: 3MF has no unit nm; --unit mm converts", volume, self.path("u.3mf"),
+                     "--iso", ISO, "--unit", "nm")
+
+    @unittest.skipUnless(shutil.which("assimp"), "Assimp is not installed")
+    def test_assimp_reads_it(self):
+        self.run_tool(self.map_file(), self.path("a.3mf"), self.path("a.vtm"), "--labels", "all")
+        said = subprocess.run(["assimp", "info", self.path("a.3mf")], capture_output=True, text=True,
+                              check=True).stdout
+        self.assertRegex(said, r"Meshes: +4\n")
 
 
 class PlyTest(ScenesTest):

@@ -114,7 +114,7 @@ class OutputsTest(LabelsTest):
         self.run_tool(volume, self.path("a.stl"), "--labels", "2")
         self.assertGreater(read(self.path("a.stl")).GetNumberOfPolys(), 100)
         self.refused(r"b.stl: 4 labels have as many surfaces: give a folder \(.*b/ --format stl\) "
-                     r"or blocks \(.*b.vtm, .*b.glb\), or .*--merge", volume, self.path("b.stl"),
+                     r"or blocks \(.*b.vtm, .*b.glb, .*b.3mf\), or .*--merge", volume, self.path("b.stl"),
                      "--labels", "all")
         self.assertFalse(os.path.exists(self.path("b.stl")))
 

@@ -21,7 +21,7 @@ from limited_files import largest_file
 from tool_test_case import ISO, PROGRAM, ToolTestCase, ball, make_image
 from vtk_files import points_of, read, triangles_of
 
-SURFACES = ("vtp", "pvtp", "vtk", "stl", "ply", "obj", "glb", "msh", "smesh", "poly")
+SURFACES = ("vtp", "pvtp", "vtk", "stl", "ply", "obj", "glb", "3mf", "msh", "smesh", "poly")
 OLD = b"an older result"
 
 
@@ -357,6 +357,32 @@ class PiecesTest(OutputsTest):
         self.assertEqual(self.content("b/b_0.vtp"), OLD)
         process = self.segment(self.path("b.pvtp"), self.path("b/b_1.vtp"), status=1)
         self.assertIn("would take the same place", process.stderr)
+
+
+class TrianglesTest(ToolTestCase):
+    def triangles(self, count, *options):
+        process = self.run_tool(self.ball_file(), self.path("a.vtp"), "--iso", ISO, "--triangles",
+                                count, *options)
+        return read(self.path("a.vtp")).GetNumberOfPolys(), process.stderr
+
+    def test_about_so_many(self):
+        whole, said = self.triangles(10 ** 6)
+        self.assertIn(f"without a tolerance it has no more than {whole} triangles", said)
+        for share in (0.8, 0.5):
+            found, said = self.triangles(int(share * whole))
+            self.assertTrue(share * whole / 1.1 <= found <= share * whole * 1.1, said)
+            self.assertIn(f": {found} triangles", said)
+        found, said = self.triangles(20)
+        self.assertIn("warning: no tolerance makes as few as 20 triangles; --edge-length", said)
+        self.assertLess(found, 0.5 * whole)
+
+    def test_what_is_refused(self):
+        for reason, *options in (
+                ("--triangles and --tolerance exclude each other", "9999", "--tolerance", ".1"),
+                ("--triangles and --labels exclude each other", "9999", "--labels", "all"),
+                ("--triangles: a surface has 20 triangles at least", "19")):
+            self.refused(reason, self.ball_file(), self.path("a.vtp"), "--triangles", *options,
+                         status=2)
 
 
 class WrittenTest(OutputsTest):

@@ -135,6 +135,105 @@ class ResampledVolumeTest(ToolTestCase):
                      "--resample", "1e-6,1e-6,1e-6")
 
 
+class RegionTest(WrittenVolumeTest):
+    def world(self, *index):
+        return ORIGIN + np.asarray(TURNED) @ (SPACING * index)
+
+    def test_these_voxels_at_their_places(self):
+        volume, voxels = self.nrrd(), ball()[4:12, 3:15, 5:21]
+        corners = np.array([self.world(5, 3, 4), self.world(20, 14, 11)])
+        box = np.sort(corners, axis=0) + [[.1], [-.1]]
+        for options in (("--region", "5,20,3,14,4,11"),
+                        ("--region-box", ",".join(map(str, box.T.ravel())))):
+            image = self.written(volume, *options)
+            found = vtk_to_numpy(image.GetPointData().GetScalars())
+            np.testing.assert_array_equal(found.reshape(voxels.shape), voxels)
+            np.testing.assert_allclose(image.GetPoint(0), self.world(5, 3, 4), atol=1e-6)
+            os.remove(self.path("written.vti"))
+
+    def test_it_ends_where_the_volume_does(self):
+        image = self.written(self.nrrd(), "--region", "-5,8,0,10000,3,5")
+        self.assertEqual(image.GetDimensions(), (9, SIZE[1], 3))
+
+    def test_a_surface_closes_at_its_border(self):
+        whole = self.report(self.ball_file(), self.path("a.vtp"), "--iso", "500.5")
+        half = self.report(self.ball_file(), self.path("a.vtp"), "--iso", "500.5", "--region",
+                           "0,100,0,100,0,8")
+        self.assertEqual((half["genus"], half["components"]), (0, 1))
+        # The ball's centre is at 7.8 slices of 1; the surface ends between the last slice and the next.
+        bounds = read(self.path("a.vtp")).GetBounds()
+        self.assertTrue(8 + ORIGIN[2] < bounds[5] <= 9 + ORIGIN[2])
+        self.assertTrue(0.5 < half["volume"] / whole["volume"] < 0.75)
+
+    def test_what_is_refused(self):
+        volume = self.ball_file()
+        for reason, status, *options in (
+                ("the region lies beside the volume, which has voxels k 0 to 17", 1, "--region",
+                 "0,5,0,5,18,20"),
+                ("--region: '5,4,0,5,0,5' ends before it begins", 2, "--region", "5,4,0,5,0,5"),
+                ("--region: voxels are counted in whole", 2, "--region", "0,4.5,0,5,0,5"),
+                ("--region and --region-box exclude", 2, "--region", "0,4,0,5,0,5", "--region-box",
+                 "0,1,0,1,0,1"),
+                ("--memory and --region exclude", 2, "--region", "0,9,0,9,0,9", "--memory", "1G")):
+            with self.subTest(reason):
+                self.refused(reason, volume, self.path("a.vtp"), *options, status=status)
+
+
+class ProbeTest(ToolTestCase):
+    def other(self, name="pet.nii.vti", function=lambda world: world @ (3.0, -2.0, 0.5)):
+        """A linear function of the world in a turned grid of another spacing, about all of the ball
+        but a corner."""
+        index = np.stack(np.indices((20, 30, 30))[::-1], axis=-1)
+        places = np.array([12., 3., 8.]) + (index * (0.8, 0.7, 0.9)) @ np.asarray(TURNED).T
+        return self.write(vtkXMLImageDataWriter(), name,
+                          make_image(function(places), (0.8, 0.7, 0.9), (12, 3, 8), TURNED))
+
+    def values(self, *options):
+        self.run_tool(self.ball_file(), self.path("a.vtp"), "--iso", "500.5", *options)
+        surface = read(self.path("a.vtp"))
+        points = vtk_to_numpy(surface.GetPoints().GetData()).astype(float)
+        return surface, points
+
+    def test_values_at_vertices(self):
+        surface, points = self.values("--probe", self.other(), "--probe",
+                                      self.other("pet.vti", lambda world: world[..., 0]))
+        found = vtk_to_numpy(surface.GetPointData().GetArray("pet"))
+        inside = ~np.isnan(found)
+        self.assertTrue(0.9 < inside.mean() <= 1)
+        np.testing.assert_allclose(found[inside], (points @ (3.0, -2.0, 0.5))[inside], atol=2e-4)
+        second = vtk_to_numpy(surface.GetPointData().GetArray("pet-2"))
+        np.testing.assert_allclose(second[inside], points[inside, 0], atol=2e-4)
+
+    def test_the_mean_over_a_depth(self):
+        """Of a linear function it is the value half as deep."""
+        surface, points = self.values("--probe", self.other(), "--probe-depth", "1.5")
+        normals = vtk_to_numpy(surface.GetPointData().GetNormals())
+        found = vtk_to_numpy(surface.GetPointData().GetArray("pet"))
+        expected = (points - 0.75 * normals) @ (3.0, -2.0, 0.5)
+        np.testing.assert_allclose(found[~np.isnan(found)], expected[~np.isnan(found)], atol=2e-3)
+
+    def test_a_volume_elsewhere_and_errors(self):
+        far = self.write(vtkXMLImageDataWriter(), "far.vti", make_image(ball(), origin=(1e3, 0, 0)))
+        surface, _ = self.values("--probe", far)
+        self.assertTrue(np.isnan(vtk_to_numpy(surface.GetPointData().GetArray("far"))).all())
+        self.refused("none.vti: no such file", self.ball_file(), self.path("a.vtp"), "--probe",
+                     self.path("none.vti"))
+        self.refused("--probe-depth needs --probe", self.ball_file(), self.path("a.vtp"),
+                     "--probe-depth", "1", status=2)
+        os.symlink(far, self.path("link.vtp"))
+        self.refused("is the input", self.ball_file(), self.path("link.vtp"), "--probe", far)
+
+    def test_of_labels(self):
+        labels = self.write(vtkXMLImageDataWriter(), "labels.vti",
+                            make_image((ball() > 500).astype("u1")))
+        self.run_tool(labels, self.path("o/"), "--labels", "all", "--probe", self.other())
+        surface = read(self.path("o/label-1.vtp"))
+        self.assertTrue(surface.GetPointData().HasArray("pet"))
+        self.refused("--probe-depth and shared interfaces, which have no normals, exclude", labels,
+                     self.path("a.vtp"), "--labels", "all", "--shared-interfaces", "--probe",
+                     self.other(), "--probe-depth", "1", status=2)
+
+
 class ListFilesTest(ToolTestCase):
     def files(self, volume):
         return {os.path.basename(line)
