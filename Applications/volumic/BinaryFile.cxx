@@ -8,13 +8,16 @@
 #include <vtk_zlib.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <filesystem>
 #include <limits>
+#include <system_error>
 #include <type_traits>
 #include <utility>
 
 #include <archive.h>
 #include <archive_entry.h>
+#include <unistd.h>
 
 namespace tool
 {
@@ -23,6 +26,8 @@ void NeedFile(const std::string& name)
   std::error_code failed;
   const std::filesystem::file_status status = std::filesystem::status(name, failed);
   FailIf(std::filesystem::is_other(status), name + ": a pipe or a device; files are read");
+  FailIf(std::filesystem::exists(status) && access(name.c_str(), R_OK) != 0,
+    name + ": cannot be read: " + std::generic_category().message(errno));
 }
 
 BinaryFile::BinaryFile(const std::string& name)
@@ -238,8 +243,7 @@ std::string HeadOf(const std::string& name, std::size_t count)
   using Closing = int (*)(gzFile);
   const std::unique_ptr<std::remove_pointer_t<gzFile>, Closing> file(
     gzopen(name.c_str(), "rb"), gzclose);
-  const int there =
-    file ? gzread(file.get(), bytes.data(), static_cast<unsigned int>(count)) : 0;
+  const int there = file ? gzread(file.get(), bytes.data(), static_cast<unsigned int>(count)) : 0;
   bytes.resize(static_cast<std::size_t>(std::max(there, 0)));
   return bytes;
 }
@@ -253,7 +257,8 @@ Archive::Archive(Kind kind, Source source)
   this->Need(isTar ? archive_read_support_format_tar(this->Reader.get())
                    : archive_read_support_format_raw(this->Reader.get()));
   // One layer; who asks which it is unpacks as many as there are. Not by a program: that warns.
-  FailIf(!isTar && archive_read_append_filter(this->Reader.get(), ARCHIVE_FILTER_BZIP2) != ARCHIVE_OK,
+  FailIf(
+    !isTar && archive_read_append_filter(this->Reader.get(), ARCHIVE_FILTER_BZIP2) != ARCHIVE_OK,
     "what unpacks the data cannot be used");
   const auto feed = [](archive*, void* self, const void** bytes) -> la_ssize_t
   {
@@ -266,8 +271,8 @@ Archive::Archive(Kind kind, Source source)
 
 Archive::Source Archive::TarIn(const std::string& name)
 {
-  const std::shared_ptr<std::remove_pointer_t<gzFile>> file(gzopen(name.c_str(), "rb"),
-    [](gzFile opened) { return opened ? gzclose(opened) : Z_OK; });
+  const std::shared_ptr<std::remove_pointer_t<gzFile>> file(
+    gzopen(name.c_str(), "rb"), [](gzFile opened) { return opened ? gzclose(opened) : Z_OK; });
   FailIf(!file, "cannot be opened");
   return [file](char* bytes, std::size_t count) -> std::int64_t
   {

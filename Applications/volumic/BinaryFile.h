@@ -17,7 +17,7 @@ struct archive;
 
 namespace tool
 {
-/** @throws Failure that names it, for a pipe or a device, which may have no end. */
+/** @throws Failure that names it, for what must not be read, or a pipe or device: without end. */
 void NeedFile(const std::string& name);
 
 /** A file of binary numbers, read at any place. */
@@ -56,7 +56,8 @@ std::uint64_t NumberOf(const std::string& bytes, bool isBig);
 // How many bytes a file may ask for. Whoever made it may have meant harm, so no reader multiplies
 // sizes, takes memory or unpacks by what a header says without asking here.
 
-/** The most bytes of a header that is text; of lists of names; of what comes before packed voxels. */
+/** The most bytes of a header that is text; of lists of names; of what comes before packed voxels.
+ */
 constexpr std::uint64_t LargestText = 1 << 20;
 constexpr std::uint64_t LargestNames = 16 << 20;
 constexpr std::uint64_t LargestHeader = 64 << 20;
@@ -125,7 +126,8 @@ std::string HeadOf(const std::string& name, std::size_t count);
 
 // ---- Archives -----------------------------------------------------------------------------------
 
-/** What libarchive reads. Nothing is unpacked to disk. Failures are without the name of the file. */
+/** What libarchive reads. Nothing is unpacked to disk. Failures are without the name of the file.
+ */
 class Archive
 {
 public:

@@ -5,7 +5,6 @@
 #include "DicomFiles.h"
 
 #include "BinaryFile.h"
-#include "LabelNames.h"
 #include "Texts.h"
 #include "ToolErrors.h"
 
@@ -224,9 +223,9 @@ std::optional<Vector3> ColorOf(const std::string& lab)
     gamma(-0.9689 * x + 1.8758 * y + 0.0415 * z), gamma(0.0557 * x - 0.2040 * y + 1.0570 * z) };
 }
 
-std::vector<DicomSegment> SegmentsOf(const gdcm::DataSet& file)
+LabelNames SegmentsOf(const gdcm::DataSet& file)
 {
-  std::vector<DicomSegment> segments;
+  LabelNames segments;
   for (const gdcm::DataSet& item : ItemsAt(file, Tag(0x0062, 0x0002)))
   {
     const Attributes all(item);
@@ -358,10 +357,20 @@ std::string DicomSeries::Text(std::size_t number) const
   {
     text += more.empty() ? "" : ", " + more;
   }
+  // Phases, echoes or times; segments lie at one place, too.
+  std::map<Vector3, int> places;
+  int most = 0;
+  for (const DicomSlice& slice : this->Slices)
+  {
+    most = slice.Position ? std::max(most, ++places[*slice.Position]) : most;
+  }
   const DicomSlice& first = this->Slices.front();
   return text + ", " + std::to_string(this->Slices.size()) +
     (this->Slices.size() == 1 ? " slice of " : " slices of ") + NumberText(first.Size[0]) + " x " +
-    NumberText(first.Size[1]) + ", from " + std::filesystem::path(first.File).filename().string();
+    NumberText(first.Size[1]) +
+    (most > 1 && this->Segments.empty() ? ", " + NumberText(most) + " at each place (--time)"
+                                        : "") +
+    ", from " + std::filesystem::path(first.File).filename().string();
 }
 
 std::vector<DicomSeries> DicomSeriesOf(const std::vector<std::string>& files)

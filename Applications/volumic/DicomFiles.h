@@ -3,6 +3,7 @@
 #ifndef volumicDicomFiles_h
 #define volumicDicomFiles_h
 
+#include "LabelNames.h"
 #include "VolumeImage.h"
 
 #include <vtkSmartPointer.h>
@@ -36,21 +37,14 @@ struct DicomSlice
   int Segment = 0;                             ///< that a frame of a segmentation is of
 };
 
-struct DicomSegment
-{
-  int Number = 0;
-  std::string Name;
-  std::optional<Vector3> Color; ///< 0 to 1
-};
-
 struct DicomSeries
 {
   std::string Identifier;
   std::string Description;
   std::string Date;
   std::string Modality;
-  std::vector<DicomSlice> Slices;     ///< in the order of the files
-  std::vector<DicomSegment> Segments; ///< of a segmentation
+  std::vector<DicomSlice> Slices; ///< in the order of the files
+  LabelNames Segments;            ///< of a segmentation
 
   /** Number, what it is and how large, in one line. */
   std::string Text(std::size_t number) const;

@@ -5,6 +5,7 @@
 #include "Json.h"
 #include "SurfaceFacts.h"
 #include "ToolErrors.h"
+#include "VolumeImage.h"
 #include "VtkWriters.h"
 
 #include <vtkBoundingBox.h>
@@ -90,7 +91,7 @@ private:
 
   std::vector<SceneObject> Objects; ///< that have points
   Vector3 Middle = { 0.0, 0.0, 0.0 };
-  Json Told; ///< Its members are there from the begin: a new one would move the others.
+  Json Told;             ///< Its members are there from the begin: a new one would move the others.
   std::uint64_t End = 0; ///< of the numbers
 };
 
@@ -132,8 +133,16 @@ void Scene::Describe(const SceneObject& object)
   {
     labels.push_back(label.Label);
   }
-  this->Told["nodes"].push_back({ { "name", object.Name }, { "mesh", this->Told["meshes"].size() },
-    { "extras", { { "labels", labels }, { "stop_reason", StopReason(object.Surface) } } } });
+  Json extras = { { "labels", labels }, { "stop_reason", StopReason(object.Surface) } };
+  for (const char* fact : { "SPACE", "LengthUnit" }) // as MarkSpace has them
+  {
+    if (const std::string text = GetFact(object.Surface, fact); !text.empty())
+    {
+      extras[fact] = text;
+    }
+  }
+  this->Told["nodes"].push_back(
+    { { "name", object.Name }, { "mesh", this->Told["meshes"].size() }, { "extras", extras } });
   const Json attributes = this->DescribeVertices(object.Surface);
   this->Told["meshes"].push_back(
     { { "name", object.Name }, { "primitives", this->DescribeParts(object, attributes) } });
@@ -196,8 +205,8 @@ Json Scene::DescribeParts(const SceneObject& object, const Json& attributes)
 std::size_t Scene::AddPiece(std::uint64_t bytes, GltfCode use)
 {
   Json& pieces = this->Told["bufferViews"];
-  pieces.push_back({ { "buffer", 0 }, { "byteOffset", this->End }, { "byteLength", bytes },
-    { "target", use } });
+  pieces.push_back(
+    { { "buffer", 0 }, { "byteOffset", this->End }, { "byteLength", bytes }, { "target", use } });
   this->End += bytes;
   return pieces.size() - 1;
 }

@@ -31,8 +31,7 @@ namespace tool
 namespace
 {
 /** An image of one component, with the names of that layer. */
-vtkSmartPointer<vtkImageData> LayerOf(
-  vtkImageData* image, int component, const LabelNames& names)
+vtkSmartPointer<vtkImageData> LayerOf(vtkImageData* image, int component, const LabelNames& names)
 {
   vtkDataArray* all = image->GetPointData()->GetScalars();
   const auto one = vtkSmartPointer<vtkDataArray>::Take(all->NewInstance());
@@ -77,8 +76,8 @@ std::vector<int> ComponentsOf(
   std::vector<int> layers;
   for (int layer = 0; layer < components; ++layer)
   {
-    if (std::any_of(own.begin(), own.end(),
-          [layer](const LabelName& name) { return name.Layer == layer; }))
+    if (std::any_of(
+          own.begin(), own.end(), [layer](const LabelName& name) { return name.Layer == layer; }))
     {
       layers.push_back(layer);
     }
@@ -98,12 +97,11 @@ vtkSmartPointer<vtkImageData> LoadLabels(const ToolOptions& options, const Annou
   VolumeChoice choice = options.Choice;
   choice.Times = std::make_shared<int>(1);
   choice.Time = choice.Time.value_or(0);
-  vtkSmartPointer<vtkImageData> image =
-    LoadWhole(options.Volume, options.Array, choice, announcer);
+  vtkSmartPointer<vtkImageData> image = LoadWhole(options.Volume, options.Array, choice, announcer);
   if (!options.Choice.Time && *choice.Times > 1)
   {
-    announcer.Follow(
-      options.Volume, [&] { image = ReadMasksOf(options.Volume, *choice.Times); });
+    announcer.Follow(options.Volume,
+      [&] { image = ReadMasksOf(options.Volume, image, *choice.Times, options.Choice); });
     announcer.Say(options.Volume + ": " + std::to_string(*choice.Times) +
       " volumes, one behind the other, are taken for masks of labels 1 to " +
       std::to_string(*choice.Times) + "; --time chooses one of them");
@@ -159,8 +157,8 @@ void NameLabels(const ToolOptions& options, vtkImageData* image, const Announcer
   SetLabelNames(image, own);
   const bool isAsked = !options.Labels.empty();
   vtkDataArray* scalars = image->GetPointData()->GetScalars();
-  const bool mayHaveLabels = scalars && scalars->GetDataType() != VTK_FLOAT &&
-    scalars->GetDataType() != VTK_DOUBLE;
+  const bool mayHaveLabels =
+    scalars && scalars->GetDataType() != VTK_FLOAT && scalars->GetDataType() != VTK_DOUBLE;
   if (!own.empty() || !(isAsked || mayHaveLabels))
   {
     return;
@@ -297,16 +295,15 @@ std::vector<KnownLabel> LabelsOf(vtkTable* table, int layer)
   return labels;
 }
 
-std::vector<std::size_t> ChooseLabels(const std::vector<std::string>& texts,
-  const std::vector<KnownLabel>& known, int background)
+std::vector<std::size_t> ChooseLabels(
+  const std::vector<std::string>& texts, const std::vector<KnownLabel>& known, int background)
 {
   std::set<std::size_t> chosen;
   for (const std::string& text : texts)
   {
     // A name may have commas.
     const bool isName = !FindNamed(text, known, background).empty();
-    for (const std::string& part :
-      isName ? std::vector<std::string>{ text } : SplitAtCommas(text))
+    for (const std::string& part : isName ? std::vector<std::string>{ text } : SplitAtCommas(text))
     {
       const std::vector<std::size_t> found = FindText(part, known, background);
       FailIf(found.empty() && Lower(part) != "all",

@@ -44,35 +44,11 @@ std::string NameOfMask(const std::string& file)
   return "";
 }
 
-/** Whether the corners of both lie at the same places, to a hundredth of a voxel. */
+/** Whether both have the same voxels. */
 bool LieAlike(vtkImageData* a, vtkImageData* b)
 {
-  const int* extent = a->GetExtent();
-  if (!std::equal(extent, extent + 6, b->GetExtent()))
-  {
-    return false;
-  }
-  const double* spacing = a->GetSpacing();
-  const double most = 0.01 * *std::min_element(spacing, spacing + 3);
-  for (int corner = 0; corner < 8; ++corner)
-  {
-    double places[2][3];
-    int index[3];
-    for (int k = 0; k < 3; ++k)
-    {
-      index[k] = extent[2 * k + (corner >> k & 1)];
-    }
-    a->TransformIndexToPhysicalPoint(index, places[0]);
-    b->TransformIndexToPhysicalPoint(index, places[1]);
-    for (int k = 0; k < 3; ++k)
-    {
-      if (!(std::abs(places[0][k] - places[1][k]) < most))
-      {
-        return false;
-      }
-    }
-  }
-  return true;
+  return std::equal(a->GetExtent(), a->GetExtent() + 6, b->GetExtent()) &&
+    PlacementOf(a).IsLike(PlacementOf(b), a->GetDimensions());
 }
 
 /** The map as it grows, mask by mask. */
@@ -235,22 +211,27 @@ std::vector<std::string> MasksAmong(const std::vector<std::string>& files)
   return masks;
 }
 
-vtkSmartPointer<vtkImageData> ReadMasks(const std::vector<std::string>& files)
+vtkSmartPointer<vtkImageData> ReadMasks(
+  const std::vector<std::string>& files, const VolumeChoice& all)
 {
+  VolumeChoice choice; // The rest of it is that of the folder.
+  choice.AreLabels = true;
+  choice.Resamples = all.Resamples;
   std::vector<Mask> masks;
   for (const std::string& file : files)
   {
-    masks.push_back({ file, PlainName(NameOfMask(file)), [file] { return ReadVolume(file); } });
+    masks.push_back(
+      { file, PlainName(NameOfMask(file)), [file, choice] { return ReadVolume(file, choice); } });
   }
   return MapOf(masks);
 }
 
-vtkSmartPointer<vtkImageData> ReadMasksOf(const std::string& file, int count)
+vtkSmartPointer<vtkImageData> ReadMasksOf(
+  const std::string& file, vtkImageData* first, int count, VolumeChoice choice)
 {
-  std::vector<Mask> masks;
-  for (int time = 0; time < count; ++time)
+  std::vector<Mask> masks = { { "volume 0", "", [first] { return first; } } };
+  for (int time = 1; time < count; ++time)
   {
-    VolumeChoice choice;
     choice.Time = time;
     masks.push_back({ "volume " + std::to_string(time), "",
       [file, choice] { return ReadVolume(file, choice); } });

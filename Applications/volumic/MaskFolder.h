@@ -3,6 +3,8 @@
 #ifndef volumicToolMaskFolder_h
 #define volumicToolMaskFolder_h
 
+#include "ReadVolume.h"
+
 #include <vtkSmartPointer.h>
 
 #include <string>
@@ -21,10 +23,15 @@ std::vector<std::string> MasksAmong(const std::vector<std::string>& files);
  * lie within large ones; how many such there are is told.
  * @throws Failure that names the file which is no mask, or does not lie as the first.
  */
-vtkSmartPointer<vtkImageData> ReadMasks(const std::vector<std::string>& files);
+vtkSmartPointer<vtkImageData> ReadMasks(
+  const std::vector<std::string>& files, const VolumeChoice& all);
 
-/** The same of so many masks in one file, one behind the other: "one-hot". They have no names. */
-vtkSmartPointer<vtkImageData> ReadMasksOf(const std::string& file, int count);
+/**
+ * The same of so many masks in one file, one behind the other: "one-hot". They have no names.
+ * @param first that has been read
+ */
+vtkSmartPointer<vtkImageData> ReadMasksOf(
+  const std::string& file, vtkImageData* first, int count, VolumeChoice choice);
 }
 
 #endif

@@ -5,10 +5,13 @@
 #include "Texts.h"
 
 #include <vtkDataArray.h>
+#include <vtkFloatArray.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <iomanip>
+#include <limits>
 #include <optional>
 
 #include <fcntl.h>
@@ -126,8 +129,8 @@ void RawSlabs::CheckLength(const std::string& file) const
   if (this->Code != Packing::None)
   {
     const std::uint64_t most = this->Code == Packing::Zlib ? MostOfZlib
-      : this->Code == Packing::Bzip2                        ? MostOfBzip2
-                                                            : 8; // numbers of a digit, as doubles
+      : this->Code == Packing::Bzip2                       ? MostOfBzip2
+                                                           : 8; // numbers of a digit, as doubles
     NeedPackedBytes(there, most, this->Share());
   }
   else if (this->Files.size() > 1 && there != this->Share())
@@ -146,8 +149,9 @@ void RawSlabs::CheckLength(const std::string& file) const
 void RawSlabs::PickTime(const VolumeChoice& choice, std::uint64_t times)
 {
   const auto time = static_cast<std::uint64_t>(TimeOf(choice, times));
-  FailIf(times > 1 && (this->Files.size() > 1 || this->AreLast || this->Code == Packing::Text ||
-      this->Code == Packing::Bzip2),
+  FailIf(times > 1 &&
+      (this->Files.size() > 1 || this->AreLast || this->Code == Packing::Text ||
+        this->Code == Packing::Bzip2),
     "of several volumes in several files, or packed so, none can be chosen");
   const std::uint64_t before = Times(time, this->Bytes());
   (this->Code == Packing::None ? this->Start : this->Before) += before;
@@ -234,8 +238,8 @@ vtkSmartPointer<vtkDataArray> RawSlabs::Read(int first, int count)
   if (this->Code == Packing::None)
   {
     const std::uint64_t slice = this->Bytes() / static_cast<std::uint64_t>(this->Size[2]);
-    this->ReadBytes(slice * static_cast<std::uint64_t>(first),
-      slice * static_cast<std::uint64_t>(count), bytes);
+    this->ReadBytes(
+      slice * static_cast<std::uint64_t>(first), slice * static_cast<std::uint64_t>(count), bytes);
   }
   else
   {
@@ -245,5 +249,65 @@ vtkSmartPointer<vtkDataArray> RawSlabs::Read(int first, int count)
   }
   ToNativeOrder(values, this->IsBig);
   return values;
+}
+
+// ---- Halves of floats ---------------------------------------------------------------------------
+
+namespace
+{
+/** Of all halves, by their bits (IEEE 754, binary16). */
+std::vector<float> MakeFloats()
+{
+  std::vector<float> floats;
+  for (int bits = 0; bits <= 0xFFFF; ++bits)
+  {
+    const int exponent = bits >> 10 & 31;
+    const int fraction = bits & 1023;
+    float value = static_cast<float>(std::ldexp(fraction, -24));
+    if (exponent == 31)
+    {
+      value = fraction == 0 ? std::numeric_limits<float>::infinity()
+                            : std::numeric_limits<float>::quiet_NaN();
+    }
+    else if (exponent > 0)
+    {
+      value = static_cast<float>(std::ldexp(fraction + 1024, exponent - 25));
+    }
+    floats.push_back(bits > 0x7FFF ? -value : value);
+  }
+  return floats;
+}
+
+class HalfSlabs : public SlabReader
+{
+public:
+  explicit HalfSlabs(std::unique_ptr<SlabReader> halves) : Halves(std::move(halves))
+  {
+    static_cast<SlabReader&>(*this) = *this->Halves;
+    this->Type = VTK_FLOAT;
+  }
+
+  vtkSmartPointer<vtkDataArray> Read(int first, int count) override
+  {
+    static const std::vector<float> floats = MakeFloats();
+    const vtkSmartPointer<vtkDataArray> halves = this->Halves->Read(first, count);
+    const auto* bits = static_cast<const unsigned short*>(halves->GetVoidPointer(0));
+    const auto values = vtkSmartPointer<vtkFloatArray>::New();
+    values->SetName(halves->GetName());
+    values->SetNumberOfComponents(this->Components);
+    values->SetNumberOfTuples(halves->GetNumberOfTuples());
+    std::transform(bits, bits + halves->GetNumberOfValues(), values->GetPointer(0),
+      [](unsigned short each) { return floats[each]; });
+    return values;
+  }
+
+private:
+  std::unique_ptr<SlabReader> Halves;
+};
+}
+
+std::unique_ptr<SlabReader> AsFloats(std::unique_ptr<SlabReader> volume, bool areHalves)
+{
+  return areHalves ? std::make_unique<HalfSlabs>(std::move(volume)) : std::move(volume);
 }
 }

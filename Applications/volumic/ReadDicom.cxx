@@ -3,7 +3,6 @@
 
 // Which of the slices of a folder are a volume, and where they lie (DICOM PS3.3, C.7.6.2).
 #include "DicomFiles.h"
-#include "LabelNames.h"
 #include "Messages.h"
 #include "ReadVolume.h"
 #include "RegularGrid.h"
@@ -16,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <utility>
@@ -97,18 +97,29 @@ std::vector<DicomSlice> MostAlike(const DicomSeries& series)
   return groups[0];
 }
 
-/** Sorted along the normal; of several at each place those of one time. */
-std::vector<DicomSlice> OfOneTime(std::vector<DicomSlice> slices, const VolumeChoice& choice)
+/** Sorts slices along their normal. @return the places of all on it */
+std::vector<double> SortAlong(std::vector<DicomSlice>& slices)
 {
   const Vector3 normal = Cross((*slices[0].Axes)[0], (*slices[0].Axes)[1]);
   const auto along = [&normal](const DicomSlice& slice) { return Dot(*slice.Position, normal); };
   std::stable_sort(slices.begin(), slices.end(),
     [&along](const DicomSlice& a, const DicomSlice& b) { return along(a) < along(b); });
+  std::vector<double> places;
+  std::transform(slices.begin(), slices.end(), std::back_inserter(places), along);
+  return places;
+}
+
+/** Sorted along the normal; of several at each place those of one time. */
+std::vector<DicomSlice> OfOneTime(std::vector<DicomSlice> slices, const VolumeChoice& choice)
+{
+  const std::vector<double> along = SortAlong(slices);
   std::vector<std::vector<DicomSlice>> places;
-  for (const DicomSlice& slice : slices)
+  double last = 0.0;
+  for (std::size_t i = 0; i < slices.size(); ++i)
   {
-    const bool isNew = places.empty() || along(slice) - along(places.back().front()) > 1e-4;
-    (isNew ? places.emplace_back() : places.back()).push_back(slice);
+    const bool isNew = places.empty() || along[i] - last > 1e-4;
+    (isNew ? places.emplace_back() : places.back()).push_back(slices[i]);
+    last = isNew ? along[i] : last;
   }
   const std::size_t times = places.front().size();
   for (std::vector<DicomSlice>& place : places)
@@ -129,12 +140,6 @@ std::vector<DicomSlice> OfOneTime(std::vector<DicomSlice> slices, const VolumeCh
   return found;
 }
 
-Vector3 Step(const DicomSlice& a, const DicomSlice& b)
-{
-  return { (*b.Position)[0] - (*a.Position)[0], (*b.Position)[1] - (*a.Position)[1],
-    (*b.Position)[2] - (*a.Position)[2] };
-}
-
 /** @throws Failure naming the first of several slices that can't be placed among the others. */
 void NeedPlaces(const std::vector<DicomSlice>& slices)
 {
@@ -151,9 +156,14 @@ void TellOfPlaces(const std::vector<DicomSlice>& slices)
 {
   if (slices.front().IsGuessed)
   {
-    const double distance = slices.size() < 2
-      ? 1.0
-      : std::sqrt(Dot(Step(slices[0], slices[1]), Step(slices[0], slices[1])));
+    double squared = 0.0;
+    for (std::size_t c = 0; c < 3; ++c)
+    {
+      const double step = (*slices.back().Position)[c] - (*slices.front().Position)[c];
+      squared += step * step;
+    }
+    const double distance =
+      std::sqrt(squared) / static_cast<double>(std::max<std::size_t>(2, slices.size()) - 1);
     TellOfFile("its " + std::to_string(slices.size()) +
       " frames tell no places; they are taken for slices, " + NumberText(distance) + " mm apart");
   }
@@ -306,16 +316,9 @@ std::unique_ptr<SlabReader> OpenSeries(const DicomSeries& series, const Opening&
     slabs->Placement = places.Placement(thickness);
     return slabs;
   }
-  FailIf(!opening.Choice.Resamples, uneven + "; without --no-resampling they are resampled");
-  const double outside = slabs->Outside();
-  const std::array<int, 3> size = slabs->Size;
-  std::unique_ptr<SlabReader> grid =
-    ResampledSlices(std::shared_ptr<SlabReader>(std::move(slabs)), places, outside);
-  grid->Resampling = uneven + "; resampled from " + SizeText(size) + " to " + SizeText(grid->Size) +
-    " voxels of " + NumberText(grid->Placement.Spacing[0]) + " x " +
-    NumberText(grid->Placement.Spacing[1]) + " x " + NumberText(grid->Placement.Spacing[2]);
-  TellOfFile(grid->Resampling);
-  return grid;
+  const double outside = opening.Choice.AreLabels ? 0.0 : slabs->Outside();
+  return ResampledSlices(
+    std::shared_ptr<SlabReader>(std::move(slabs)), places, uneven, outside, opening);
 }
 
 // ---- Segmentations ------------------------------------------------------------------------------
@@ -324,54 +327,43 @@ std::unique_ptr<SlabReader> OpenSeries(const DicomSeries& series, const Opening&
 class SegmentSlabs : public SlabReader
 {
 public:
-  explicit SegmentSlabs(const DicomSeries& series) : Segments(series.Segments)
+  explicit SegmentSlabs(const DicomSeries& series)
   {
     const DicomSlice& first = series.Slices.front();
     std::vector<DicomSlice> sorted = series.Slices;
     NeedPlaces(sorted);
     FailIf(!first.Axes || !first.Position, "its frames tell no places");
     TellOfPlaces(sorted);
-    const std::array<Vector3, 2> axes = *first.Axes;
-    const Vector3 normal = Cross(axes[0], axes[1]);
-    const auto along = [&normal](const DicomSlice& slice) { return Dot(*slice.Position, normal); };
-    std::stable_sort(sorted.begin(), sorted.end(),
-      [&along](const DicomSlice& a, const DicomSlice& b) { return along(a) < along(b); });
+    const std::vector<double> along = SortAlong(sorted);
     SlicePlaces places;
-    places.Across = axes[0];
-    places.Down = axes[1];
+    places.Across = (*first.Axes)[0];
+    places.Down = (*first.Axes)[1];
     places.Spacing = SpacingOf(first);
     // Frames of several segments lie at one place, and empty ones are left out.
     double distance = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 1; i < sorted.size(); ++i)
+    for (std::size_t i = 1; i < along.size(); ++i)
     {
-      const double step = along(sorted[i]) - along(sorted[i - 1]);
+      const double step = along[i] - along[i - 1];
       distance = step > 1e-4 ? std::min(distance, step) : distance;
     }
     distance = std::isfinite(distance) ? distance : std::max(first.Thickness, 1e-3);
     places.Positions = { *sorted.front().Position };
     this->Placement = places.Placement(distance);
-    const double steps = std::round((along(sorted.back()) - along(sorted.front())) / distance);
+    const double steps = std::round((along.back() - along.front()) / distance);
     FailIf(steps > 100000, "its frames lie too far from each other");
     this->Frames.resize(static_cast<std::size_t>(steps) + 1);
-    for (const DicomSlice& slice : sorted)
+    for (std::size_t i = 0; i < along.size(); ++i)
     {
-      const double place = (along(slice) - along(sorted.front())) / distance;
+      const double place = (along[i] - along.front()) / distance;
       FailIf(std::abs(place - std::round(place)) > 0.05, "its frames lie at uneven distances");
-      this->Frames[static_cast<std::size_t>(std::round(place))].push_back(slice);
+      this->Frames[static_cast<std::size_t>(std::round(place))].push_back(sorted[i]);
     }
     this->Size = { first.Size[0], first.Size[1], static_cast<int>(this->Frames.size()) };
     this->Type = VTK_UNSIGNED_SHORT;
     this->WorldAxes = "LPS";
     this->LengthUnit = "mm";
     this->ArrayName = "Labels";
-    for (const DicomSegment& segment : this->Segments)
-    {
-      LabelName name;
-      name.Label = segment.Number;
-      name.Name = segment.Name;
-      name.Color = segment.Color;
-      this->Names.push_back(name);
-    }
+    this->Names = series.Segments;
   }
 
   vtkSmartPointer<vtkDataArray> Read(int first, int count) override
@@ -392,8 +384,7 @@ public:
           if (const double value = pixels->GetComponent(pixel, 0); value > 0.0)
           {
             overlap += values->GetComponent(area * i + pixel, 0) != 0.0 ? 1 : 0;
-            values->SetComponent(
-              area * i + pixel, 0, this->Segments.empty() ? value : frame.Segment);
+            values->SetComponent(area * i + pixel, 0, this->Names.empty() ? value : frame.Segment);
           }
         }
       }
@@ -407,7 +398,6 @@ public:
   }
 
 private:
-  std::vector<DicomSegment> Segments;
   std::vector<std::vector<DicomSlice>> Frames; ///< of each slice
   DicomPixels Pixels;
 };

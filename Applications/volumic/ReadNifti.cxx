@@ -122,8 +122,9 @@ std::uint64_t BitsOf(std::uint64_t type)
   static const std::map<std::uint64_t, std::uint64_t> bits = { { 2, 8 }, { 4, 16 }, { 8, 32 },
     { 16, 32 }, { 32, 64 }, { 64, 64 }, { 128, 24 }, { 256, 8 }, { 512, 16 }, { 768, 32 },
     { 1024, 64 }, { 1280, 64 }, { 1792, 128 }, { 2304, 32 } };
-  return EntryOf(bits, type, "its header is damaged: the data type " + std::to_string(type) +
-    " is none of NIfTI's types of numbers");
+  return EntryOf(bits, type,
+    "its header is damaged: the data type " + std::to_string(type) +
+      " is none of NIfTI's types of numbers");
 }
 
 /** Bytes of all voxels. @throws Failure for sizes that are none. */
@@ -206,7 +207,7 @@ std::pair<double, double> RescalingOf(vtkNIFTIImageReader* reader)
 }
 
 /**
- * The sform, or the qform where that fails; tells where they are not the same.
+ * The sform, or the qform where there is none; tells where they are not the same.
  * @return whether there is one.
  */
 bool Place(vtkNIFTIImageReader* reader, VolumePlacement& placement)
@@ -221,41 +222,30 @@ bool Place(vtkNIFTIImageReader* reader, VolumePlacement& placement)
     TellOfFile("the distance of its voxels is told as " + NumberText(told[0]) + ", " +
       NumberText(told[1]) + ", " + NumberText(told[2]) + "; it is taken without signs");
   }
-  std::string failure;
-  std::optional<VolumePlacement> found;
   // VTK has divided the sform by the spacing; a qform is a mere rotation.
-  using Form = std::pair<vtkMatrix4x4*, Vector3>;
-  for (const auto& [matrix, spacing] :
-    { Form(reader->GetSFormMatrix(), told), Form(reader->GetQFormMatrix(), placement.Spacing) })
+  const auto formOf = [](vtkMatrix4x4* matrix, const Vector3& spacing)
   {
-    if (!matrix)
-    {
-      continue;
-    }
-    try
-    {
-      const VolumePlacement next = PlacementOf(matrix, spacing.data());
-      PlaceImage(vtkNew<vtkImageData>(), next);
-      if (found && !found->IsLike(next))
-      {
-        TellOfFile("its sform, which is taken, and its qform differ: " + found->Text() + "; " +
-          next.Text());
-      }
-      found = found ? found : next;
-    }
-    catch (const Failure& error)
-    {
-      failure = failure.empty() ? error.what() : failure;
-    }
+    return matrix ? std::optional<VolumePlacement>(PlacementOf(matrix, spacing.data()))
+                  : std::nullopt;
+  };
+  std::optional<VolumePlacement> sform = formOf(reader->GetSFormMatrix(), told);
+  const std::optional<VolumePlacement> qform = formOf(reader->GetQFormMatrix(), placement.Spacing);
+  if (qform && sform && !sform->IsSpace())
+  {
+    TellOfFile("its sform has axes that lie in each other, or none (" + sform->Text() +
+      "); its qform is taken");
+    sform = std::nullopt;
   }
-  FailIf(!found && !failure.empty(), failure);
-  if (found && !failure.empty() && reader->GetSFormMatrix() && reader->GetQFormMatrix())
+  sform = sform ? sform : qform;
+  const int* extent = reader->GetDataExtent();
+  const int size[3] = { extent[1] + 1, extent[3] + 1, extent[5] + 1 };
+  if (qform && !sform->IsLike(*qform, size))
   {
     TellOfFile(
-      "one of its sform and qform is not at right angles; the other is taken: " + found->Text());
+      "its sform, which is taken, and its qform differ: " + sform->Text() + "; " + qform->Text());
   }
-  placement = found.value_or(placement);
-  return found.has_value();
+  placement = sform.value_or(placement);
+  return sform.has_value();
 }
 }
 
@@ -272,8 +262,8 @@ std::unique_ptr<SlabReader> OpenNifti(const std::string& name, const Opening& op
   {
     unpacked = std::make_shared<NamelessFile>(opening.Scratch);
     std::ifstream packed(name, std::ios::binary);
-    InflateJust(packed,
-      [&](const char* some, std::size_t count) { unpacked->Append(some, count); }, bytes);
+    InflateJust(
+      packed, [&](const char* some, std::size_t count) { unpacked->Append(some, count); }, bytes);
   }
   const std::string file = unpacked ? unpacked->Path() : name;
   const auto make = [file, unpacked, times]
@@ -316,9 +306,8 @@ namespace
 std::string Extensions(const std::string& name)
 {
   const NiftiHeader header(HeadOf(name, 540));
-  return header.Start() <= header.Length()
-    ? ""
-    : HeadOf(name, std::min(header.Start(), LargestNames));
+  return header.Start() <= header.Length() ? ""
+                                           : HeadOf(name, std::min(header.Start(), LargestNames));
 }
 
 /** What stands for a text in XML. */

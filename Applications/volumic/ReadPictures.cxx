@@ -7,15 +7,20 @@
 #include "SlabReader.h"
 #include "ToolErrors.h"
 
+#include <vtkBMPReader.h>
 #include <vtkDataArray.h>
 #include <vtkImageData.h>
 #include <vtkImageReader2.h>
+#include <vtkNew.h>
 #include <vtkPointData.h>
+#include <vtkUnsignedCharArray.h>
+#include <vtk_png.h>
 
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <set>
 
@@ -76,10 +81,10 @@ bool IsBefore(const std::string& a, const std::string& b)
 /** The length of "%d", "%03d" and the like, if one begins here; 0 else. */
 std::size_t NumberMark(const std::string& pattern, std::size_t at)
 {
-  const std::size_t end = pattern[at] == '%' ? pattern.find_first_not_of("0123456789", at + 1)
-                                             : std::string::npos;
-  const bool isMark = end != std::string::npos &&
-    (pattern[end] == 'd' || pattern[end] == 'i' || pattern[end] == 'u');
+  const std::size_t end =
+    pattern[at] == '%' ? pattern.find_first_not_of("0123456789", at + 1) : std::string::npos;
+  const bool isMark =
+    end != std::string::npos && (pattern[end] == 'd' || pattern[end] == 'i' || pattern[end] == 'u');
   return isMark ? end + 1 - at : 0;
 }
 
@@ -117,8 +122,67 @@ struct Picture
   bool IsTurned = true;
 };
 
-Picture ReadPicture(const std::string& file)
+/** Whether the pixels of a PNG are numbers of a palette. */
+bool IsOfPalette(const std::string& file)
 {
+  BinaryFile bytes(file);
+  return bytes.Size() > 25 && bytes.Text(1, 3) == "PNG" && bytes.Number(25, 1) == 3;
+}
+
+/** Those numbers; VTK's reader gives their colours alone. */
+Picture ReadIndices(const std::string& file)
+{
+  png_image image = {};
+  image.version = PNG_IMAGE_VERSION;
+  Picture picture;
+  picture.IsTurned = false;
+  bool isRead = png_image_begin_read_from_file(&image, file.c_str()) != 0;
+  if (isRead)
+  {
+    image.format = PNG_FORMAT_RGBA_COLORMAP;
+    picture.Size = { static_cast<int>(image.width), static_cast<int>(image.height) };
+    const vtkNew<vtkUnsignedCharArray> pixels;
+    pixels->SetName("PNGImage"); // as VTK's reader calls them
+    pixels->SetNumberOfValues(static_cast<vtkIdType>(image.width) * image.height);
+    picture.Pixels = pixels;
+    std::vector<png_byte> colours(PNG_IMAGE_COLORMAP_SIZE(image));
+    isRead = png_image_finish_read(&image, nullptr, pixels->GetPointer(0), 0, colours.data()) != 0;
+  }
+  png_image_free(&image);
+  FailIf(!isRead, file + ": cannot be read (" + image.message + ")");
+  return picture;
+}
+
+/** Whether the palette of a BMP is that of grey values, which scanners write. */
+bool IsOfGreys(const std::string& file)
+{
+  std::string greys;
+  for (int i = 0; i < 256; ++i)
+  {
+    greys += std::string(3, static_cast<char>(i)) + '\0';
+  }
+  BinaryFile bytes(file);
+  const std::uint64_t place = 14 + bytes.Number(14, 4);
+  return bytes.Size() > place + greys.size() && bytes.Text(place, greys.size()) == greys;
+}
+
+/** @param areLabels numbers of a palette are wanted, not their colours */
+vtkSmartPointer<vtkImageReader2> PictureReader(const std::string& file, bool areLabels)
+{
+  const vtkSmartPointer<vtkImageReader2> reader = ReaderOf(file);
+  if (auto* bitmap = vtkBMPReader::SafeDownCast(reader))
+  {
+    bitmap->SetAllow8BitBMP(areLabels || IsOfGreys(file));
+  }
+  return reader;
+}
+
+Picture ReadPicture(const std::string& file, bool areLabels)
+{
+  if (areLabels && IsOfPalette(file))
+  {
+    return ReadIndices(file);
+  }
   Picture picture;
   if (IsTiff(file))
   {
@@ -128,7 +192,7 @@ Picture ReadPicture(const std::string& file)
     picture.IsTurned = false;
     return picture;
   }
-  const vtkSmartPointer<vtkImageReader2> reader = ReaderOf(file);
+  const vtkSmartPointer<vtkImageReader2> reader = PictureReader(file, areLabels);
   reader->SetDataSpacing(1.0, 1.0, 1.0);
   VtkMessages messages;
   messages.UpdateReader(reader, file);
@@ -140,7 +204,7 @@ Picture ReadPicture(const std::string& file)
 }
 
 /** Width, height, components and type of what one page holds. @throws Failure for damaged ones */
-std::array<int, 4> CheckPicture(const std::string& file)
+std::array<int, 4> CheckPicture(const std::string& file, bool areLabels)
 {
   if (IsTiff(file))
   {
@@ -150,22 +214,41 @@ std::array<int, 4> CheckPicture(const std::string& file)
     return { pages->Size[0], pages->Size[1], pages->Components, pages->Type };
   }
   CheckPixels(file);
-  const vtkSmartPointer<vtkImageReader2> reader = ReaderOf(file);
+  const vtkSmartPointer<vtkImageReader2> reader = PictureReader(file, areLabels);
   CheckChosen(reader, file);
   VtkMessages().AskReader(reader, file);
   const int* extent = reader->GetDataExtent();
+  const bool areIndices = areLabels && IsOfPalette(file);
   return { extent[1] - extent[0] + 1, extent[3] - extent[2] + 1,
-    reader->GetNumberOfScalarComponents(), reader->GetDataScalarType() };
+    areIndices ? 1 : reader->GetNumberOfScalarComponents(),
+    areIndices ? VTK_UNSIGNED_CHAR : reader->GetDataScalarType() };
+}
+
+/** Those of files beside which lie lists and logs; or all, where none is named as a picture. */
+std::vector<std::string> PicturesAmong(const std::vector<std::string>& files)
+{
+  static const std::set<std::string> known = { ".png", ".jpg", ".jpeg", ".tif", ".tiff", ".bmp",
+    ".pgm", ".ppm", ".pnm" };
+  std::vector<std::string> pictures;
+  std::copy_if(files.begin(), files.end(), std::back_inserter(pictures),
+    [](const std::string& file) { return known.count(SuffixOf(file)) > 0; });
+  if (!pictures.empty() && pictures.size() < files.size())
+  {
+    TellOfFile(std::to_string(files.size() - pictures.size()) +
+      " files that are not named as "
+      "pictures are left out");
+  }
+  return pictures.empty() ? files : pictures;
 }
 
 /** @throws Failure unless they are pictures of one kind and size. */
-void CheckPictures(const std::vector<std::string>& files)
+void CheckPictures(const std::vector<std::string>& files, bool areLabels)
 {
   FailIf(files.empty(), "no pictures and no DICOM slices there");
   std::set<std::string> suffixes;
   for (const std::string& file : files)
   {
-    suffixes.insert(std::filesystem::path(file).extension().string());
+    suffixes.insert(SuffixOf(file));
   }
   if (suffixes.size() > 1)
   {
@@ -175,7 +258,7 @@ void CheckPictures(const std::vector<std::string>& files)
   std::array<int, 4> size = { 0, 0, 0, 0 };
   for (const std::string& file : files)
   {
-    const std::array<int, 4> own = Named(file, [&file] { return CheckPicture(file); });
+    const std::array<int, 4> own = Named(file, [&] { return CheckPicture(file, areLabels); });
     size = file == files.front() ? own : size;
     FailIf(own != size,
       file + ": its " +
@@ -188,9 +271,10 @@ void CheckPictures(const std::vector<std::string>& files)
 class PictureSlabs : public SlabReader
 {
 public:
-  explicit PictureSlabs(const std::vector<std::string>& files) : Files(files)
+  PictureSlabs(const std::vector<std::string>& files, bool areLabels)
+    : Files(files), AreLabels(areLabels)
   {
-    const Picture first = ReadPicture(files.front());
+    const Picture first = ReadPicture(files.front(), areLabels);
     this->Size = { first.Size[0], first.Size[1], static_cast<int>(files.size()) };
     this->Type = first.Pixels->GetDataType();
     this->Components = first.Pixels->GetNumberOfComponents();
@@ -206,7 +290,7 @@ public:
     for (int i = 0; i < count; ++i)
     {
       const std::string& file = this->Files[static_cast<std::size_t>(first + i)];
-      const Picture picture = ReadPicture(file);
+      const Picture picture = ReadPicture(file, this->AreLabels);
       FailIf(picture.Size[0] != this->Size[0] || picture.Size[1] != this->Size[1] ||
           picture.Pixels->GetDataType() != this->Type ||
           picture.Pixels->GetNumberOfComponents() != this->Components,
@@ -223,6 +307,7 @@ public:
 
 private:
   std::vector<std::string> Files;
+  bool AreLabels;
 };
 }
 
@@ -259,10 +344,9 @@ std::vector<std::string> MatchFiles(const std::string& pattern)
   const std::size_t longest = 4096; // of what the system takes for a path
   std::vector<std::string> files =
     wanted.size() > longest ? std::vector<std::string>() : FilesOf(folder);
-  files.erase(
-    std::remove_if(files.begin(), files.end(),
-      [&](const std::string& file)
-      { return !Matches(std::filesystem::path(file).filename().string(), wanted); }),
+  files.erase(std::remove_if(files.begin(), files.end(),
+                [&](const std::string& file)
+                { return !Matches(std::filesystem::path(file).filename().string(), wanted); }),
     files.end());
   return files;
 }
@@ -272,16 +356,22 @@ static void TellOfAlpha(const SlabReader& slabs, const Opening& opening)
 {
   if (slabs.Components == 2 || slabs.Components == 4)
   {
-    NeedComponent(slabs.Components,
-      slabs.Components == 2 ? "grey and alpha" : "colour and alpha", opening);
+    NeedComponent(
+      slabs.Components, slabs.Components == 2 ? "grey and alpha" : "colour and alpha", opening);
   }
 }
 
 std::unique_ptr<SlabReader> OpenPictures(
-  const std::vector<std::string>& files, const Opening& opening)
+  const std::vector<std::string>& all, const Opening& opening)
 {
-  CheckPictures(files);
-  auto slabs = std::make_unique<PictureSlabs>(files);
+  const std::vector<std::string> files = PicturesAmong(all);
+  const bool areLabels = opening.Choice.AreLabels;
+  CheckPictures(files, areLabels);
+  if (!areLabels && IsOfPalette(files.front()))
+  {
+    TellOfFile("the colours of its palette are taken; --labels takes the numbers of the palette");
+  }
+  auto slabs = std::make_unique<PictureSlabs>(files, areLabels);
   TellOfAlpha(*slabs, opening);
   return slabs;
 }

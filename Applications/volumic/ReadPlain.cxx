@@ -25,14 +25,14 @@ int TypeCalled(const std::string& name)
   static const std::map<std::string, int> types = { { "b1", VTK_UNSIGNED_CHAR },
     { "u1", VTK_UNSIGNED_CHAR }, { "i1", VTK_SIGNED_CHAR }, { "u2", VTK_UNSIGNED_SHORT },
     { "i2", VTK_SHORT }, { "u4", VTK_UNSIGNED_INT }, { "i4", VTK_INT },
-    { "u8", VTK_UNSIGNED_LONG_LONG }, { "i8", VTK_LONG_LONG }, { "f4", VTK_FLOAT },
-    { "f8", VTK_DOUBLE }, { "uint8", VTK_UNSIGNED_CHAR }, { "int8", VTK_SIGNED_CHAR },
-    { "uint16", VTK_UNSIGNED_SHORT }, { "int16", VTK_SHORT }, { "uint32", VTK_UNSIGNED_INT },
-    { "int32", VTK_INT }, { "uint64", VTK_UNSIGNED_LONG_LONG }, { "int64", VTK_LONG_LONG },
-    { "float32", VTK_FLOAT }, { "float64", VTK_DOUBLE }, { "float", VTK_FLOAT },
-    { "double", VTK_DOUBLE } };
+    { "u8", VTK_UNSIGNED_LONG_LONG }, { "i8", VTK_LONG_LONG }, { "f2", VTK_UNSIGNED_SHORT },
+    { "f4", VTK_FLOAT }, { "f8", VTK_DOUBLE }, { "uint8", VTK_UNSIGNED_CHAR },
+    { "int8", VTK_SIGNED_CHAR }, { "uint16", VTK_UNSIGNED_SHORT }, { "int16", VTK_SHORT },
+    { "uint32", VTK_UNSIGNED_INT }, { "int32", VTK_INT }, { "uint64", VTK_UNSIGNED_LONG_LONG },
+    { "int64", VTK_LONG_LONG }, { "float16", VTK_UNSIGNED_SHORT }, { "float32", VTK_FLOAT },
+    { "float64", VTK_DOUBLE }, { "float", VTK_FLOAT }, { "double", VTK_DOUBLE } };
   return EntryOf(types, name,
-    "voxels of type '" + name + "' are not read: uint8, int8 to int64, float32 and float64 are");
+    "voxels of type '" + name + "' are not read: uint8, int8 to int64, float16 to float64 are");
 }
 
 /** The value of a key in the dictionary that a .npy begins with. */
@@ -76,13 +76,17 @@ std::unique_ptr<SlabReader> OpenNumpy(const std::string& name, const Opening& op
   {
     std::reverse(shape.begin(), shape.end());
   }
+  while (shape.size() > 3 && shape.back() == 1) // one time or channel
+  {
+    shape.pop_back();
+  }
   FailIf(shape.size() != 3 || *std::min_element(shape.begin(), shape.end()) < 1,
     "its shape is (" + ValueIn(header, "shape") +
       "); a volume has three axes (numpy.save one of "
       "them, or the channel or time that is wanted)");
   std::copy(shape.begin(), shape.end(), slabs->Size.begin());
   slabs->Prepare(opening);
-  return slabs;
+  return AsFloats(std::move(slabs), type.substr(2, 2) == "f2");
 }
 
 std::unique_ptr<SlabReader> OpenMgh(const std::string& name, const Opening& opening)
@@ -167,6 +171,6 @@ std::unique_ptr<SlabReader> OpenRaw(const std::string& name, const Opening& open
       slabs->IsBig = order == "big";
     });
   slabs->Prepare(opening);
-  return slabs;
+  return AsFloats(std::move(slabs), Lower(words[3]) == "float16");
 }
 }

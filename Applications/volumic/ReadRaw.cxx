@@ -1,12 +1,14 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// MetaImage and MRC: a header tells of the voxels, which lie behind it or in other files as they are.
+// MetaImage and MRC: a header tells of the voxels, which lie behind it or in other files as they
+// are.
 #include "SlabReader.h"
 
 #include "ReadVolume.h"
 #include "Texts.h"
 
+#include <vtkMath.h>
 #include <vtkType.h>
 
 #include <algorithm>
@@ -37,9 +39,9 @@ int TypeOf(const std::string& name)
   static const std::map<std::string, int> types = { { "MET_CHAR", VTK_SIGNED_CHAR },
     { "MET_UCHAR", VTK_UNSIGNED_CHAR }, { "MET_SHORT", VTK_SHORT },
     { "MET_USHORT", VTK_UNSIGNED_SHORT }, { "MET_INT", VTK_INT }, { "MET_UINT", VTK_UNSIGNED_INT },
-    { "MET_LONG", VTK_INT }, { "MET_ULONG", VTK_UNSIGNED_INT },
-    { "MET_LONG_LONG", VTK_LONG_LONG }, { "MET_ULONG_LONG", VTK_UNSIGNED_LONG_LONG },
-    { "MET_FLOAT", VTK_FLOAT }, { "MET_DOUBLE", VTK_DOUBLE } };
+    { "MET_LONG", VTK_INT }, { "MET_ULONG", VTK_UNSIGNED_INT }, { "MET_LONG_LONG", VTK_LONG_LONG },
+    { "MET_ULONG_LONG", VTK_UNSIGNED_LONG_LONG }, { "MET_FLOAT", VTK_FLOAT },
+    { "MET_DOUBLE", VTK_DOUBLE } };
   return EntryOf(
     types, name, "its header is damaged: the ElementType '" + name + "' is no number's");
 }
@@ -191,8 +193,10 @@ std::vector<std::string> DataFiles(const std::string& name, const std::string& t
 std::unique_ptr<SlabReader> OpenMeta(const std::string& name, const Opening& opening)
 {
   const std::vector<std::string> sizes = SizesOf(name);
-  FailIf(sizes.size() > 4, std::to_string(sizes.size()) + " axes; a volume has three, or four with "
-    "times");
+  FailIf(sizes.size() > 4,
+    std::to_string(sizes.size()) +
+      " axes; a volume has three, or four with "
+      "times");
   auto slabs = std::make_unique<RawSlabs>();
   slabs->Type = TypeOf(HeaderValue(name, "ElementType"));
   const std::string told = HeaderValue(name, "ElementDataFile");
@@ -205,7 +209,8 @@ std::unique_ptr<SlabReader> OpenMeta(const std::string& name, const Opening& ope
   {
     slabs->Size[axis] = axis < sizes.size() ? ParseNumber<int>(sizes[axis]) : 1;
     FailIf(slabs->Size[axis] < 1,
-      "its header is damaged: " + sizes[axis] + " voxels along axis " + std::to_string(axis + 1));
+      "its header is damaged: " + std::to_string(slabs->Size[axis]) + " voxels along axis " +
+        std::to_string(axis + 1));
   }
   const std::string channels = HeaderValue(name, "ElementNumberOfChannels");
   slabs->Components = channels.empty() ? 1 : ParseNumber<int>(channels);
@@ -254,44 +259,60 @@ double FloatAt(BinaryFile& file, std::uint64_t place)
   std::memcpy(&number, &bits, sizeof(number));
   return number;
 }
+
+/** The unit vectors along the axes of cells, whose angles are told where they are none of 90. */
+std::array<Vector3, 3> AxesOfCells(BinaryFile& file)
+{
+  Vector3 cosines;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const double angle = FloatAt(file, 52 + 4 * axis);
+    const bool isRight = angle == 0.0 || std::abs(angle - 90.0) < 0.01;
+    cosines[axis] = isRight ? 0.0 : std::cos(angle * vtkMath::Pi() / 180.0);
+  }
+  const double sine = std::sqrt(1.0 - cosines[2] * cosines[2]);
+  const double y = (cosines[0] - cosines[1] * cosines[2]) / sine;
+  const double z = std::sqrt(1.0 - cosines[1] * cosines[1] - y * y);
+  FailIf(!(sine > 0.0 && z > 0.0), "its header is damaged: its cells have no such angles");
+  return { { { 1, 0, 0 }, { cosines[2], sine, 0 }, { cosines[1], y, z } } };
+}
 }
 
 std::unique_ptr<SlabReader> OpenMrc(const std::string& name, const Opening& opening)
 {
-  BinaryFile file(name);
+  NamelessFile head(opening.Scratch); // unpacked, as EMDB packs its maps
+  const std::string bytes = HeadOf(name, 1024);
+  head.Append(bytes.data(), bytes.size());
+  BinaryFile file(head.Path());
   file.Need(0, 1024);
   // The machine stamp: 0x11 is big-endian; some programs leave it out.
   const std::uint64_t stamp = file.Number(212, 1);
   file.IsBig = stamp == 0x11;
   // Types and numbers of components of the modes.
-  static const std::map<std::uint64_t, std::pair<int, int>> modes = {
-    { 0, { VTK_SIGNED_CHAR, 1 } }, { 1, { VTK_SHORT, 1 } }, { 2, { VTK_FLOAT, 1 } },
-    { 3, { VTK_SHORT, 2 } },
-    { 4, { VTK_FLOAT, 2 } }, { 6, { VTK_UNSIGNED_SHORT, 1 } }, { 16, { VTK_UNSIGNED_CHAR, 3 } } };
+  static const std::map<std::uint64_t, std::pair<int, int>> modes = { { 0, { VTK_SIGNED_CHAR, 1 } },
+    { 1, { VTK_SHORT, 1 } }, { 2, { VTK_FLOAT, 1 } }, { 3, { VTK_SHORT, 2 } },
+    { 4, { VTK_FLOAT, 2 } }, { 6, { VTK_UNSIGNED_SHORT, 1 } }, { 12, { VTK_UNSIGNED_SHORT, 1 } },
+    { 16, { VTK_UNSIGNED_CHAR, 3 } } };
   const std::uint64_t mode = file.Number(12, 4);
   auto slabs = std::make_unique<RawSlabs>();
   slabs->Files = { name };
   slabs->ArrayName = "ImageScalars";
-  FailIf(mode == 12 || mode == 101,
-    "voxels of mode " + std::to_string(mode) +
-      ", of half a float or half a byte, are not read; write them as mode 2 (IMOD: newstack "
-      "-mode 2)");
+  FailIf(mode == 101,
+    "voxels of mode 101, of half a byte, are not read; write them as mode 2 (IMOD: newstack -mode "
+    "2)");
   std::tie(slabs->Type, slabs->Components) = EntryOf(modes, mode,
     "its header is damaged: the mode " + std::to_string(mode) + " is no type of voxels");
   // IMOD tells where its bytes have no sign.
   const bool isOfImod = file.Number(152, 4) == 1146047817;
   const bool isUnsigned = mode == 0 && isOfImod && file.Number(156, 4) % 2 == 0;
   slabs->Type = isUnsigned ? VTK_UNSIGNED_CHAR : slabs->Type;
-  for (const std::uint64_t place : { 52, 56, 60 })
-  {
-    const double angle = FloatAt(file, place);
-    FailIf(angle != 0.0 && !(std::abs(angle - 90.0) < 0.01),
-      "its cells have an angle of " + NumberText(angle) + " degrees: " + MustBeResampled);
-  }
   slabs->IsBig = file.IsBig;
   slabs->LengthUnit = "A";
-  slabs->Start = 1024 + file.Number(92, 4);
+  const bool isPacked = IsGzip(name);
+  slabs->Code = isPacked ? RawSlabs::Packing::Zlib : RawSlabs::Packing::None;
+  (isPacked ? slabs->Before : slabs->Start) = 1024 + file.Number(92, 4);
   VolumePlacement& placement = slabs->Placement;
+  const std::array<Vector3, 3> cells = AxesOfCells(file);
   std::set<std::uint64_t> taken;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
@@ -306,12 +327,16 @@ std::unique_ptr<SlabReader> OpenMrc(const std::string& name, const Opening& open
     slabs->Size[axis] = static_cast<int>(size);
     placement.Spacing[axis] =
       FloatAt(file, 40 + 4 * world) / static_cast<double>(file.Signed(28 + 4 * world, 4));
-    placement.Axes[axis] = { 0.0, 0.0, 0.0 };
-    placement.Axes[axis][world] = 1.0;
-    placement.Origin[world] = FloatAt(file, 196 + 4 * world) +
+    placement.Axes[axis] = cells[world];
+    const double first =
       placement.Spacing[axis] * static_cast<double>(file.Signed(16 + 4 * axis, 4));
+    placement.Origin[world] += FloatAt(file, 196 + 4 * world);
+    for (std::size_t c = 0; c < 3; ++c)
+    {
+      placement.Origin[c] += first * cells[world][c];
+    }
   }
   slabs->Prepare(opening);
-  return slabs;
+  return AsFloats(std::move(slabs), mode == 12);
 }
 }

@@ -27,12 +27,17 @@ class TiffPages : public SlabReader
 public:
   TiffPages(const std::string& name, const VolumeChoice& choice);
 
-  std::size_t Pages() const { return this->Places.size(); }
+  std::size_t Pages() const { return this->Stacked > 0 ? this->Stacked : this->Places.size(); }
   bool HasChannels() const { return this->Channels > 1; }
+  bool HasHalves() const
+  {
+    return this->First.Format == SAMPLEFORMAT_IEEEFP && this->First.Bits == 16;
+  }
   vtkSmartPointer<vtkDataArray> Read(int first, int count) override;
 
 private:
-  void TakePages();
+  void TakePages(std::uint64_t images);
+  void TakeStack(std::uint64_t images, std::vector<Part>& parts);
   std::uint64_t CheckPage(std::vector<Part>& parts);
   void CheckParts(std::vector<Part> parts, std::uint64_t others, std::uint64_t page) const;
   void TakeVolume(const VolumeChoice& choice, std::uint64_t times, const std::string& order);
@@ -49,6 +54,8 @@ private:
   std::uint64_t Bytes; ///< of the file
   Kind First;
   std::vector<std::uint64_t> Places;             ///< of the pages in the file
+  std::size_t Stacked = 0;                       ///< images behind each other in the only page
+  std::uint64_t StackBegin = 0;                  ///< of these in the file
   std::uint64_t Channels = 1;                    ///< that are pages of their own
   std::size_t FirstPage = 0;                     ///< of the time that is wanted
   std::array<std::size_t, 2> Strides = { 1, 1 }; ///< pages to the next slice, and channel
@@ -65,12 +72,8 @@ TiffPages::TiffPages(const std::string& name, const VolumeChoice& choice)
   this->Type = TypeOf(this->First);
   this->ArrayName = "Tiff Scalars"; // as VTK's reader calls them
   this->TakeSpacing(told);
-  this->TakePages();
+  this->TakePages(told.IsOme ? 1 : told.Count("images", ""));
   this->Size = { static_cast<int>(this->First.Width), static_cast<int>(this->First.Height), 0 };
-  const std::uint64_t images = told.IsOme ? 1 : told.Count("images", "");
-  FailIf(this->Pages() == 1 && images > 1,
-    "ImageJ has put " + std::to_string(images) +
-      " images into one page, which is not read; save it there as NRRD, or as an image sequence");
   const std::uint64_t samples = this->First.Samples;
   const std::uint64_t channels = told.Count("channels", "SizeC");
   this->Channels = told.IsOme && channels % samples == 0 ? channels / samples : channels;
@@ -125,7 +128,8 @@ std::uint64_t TiffPages::CheckPage(std::vector<Part>& parts)
   return packed;
 }
 
-void TiffPages::TakePages()
+/** @param images of ImageJ, which may be more than pages */
+void TiffPages::TakePages(std::uint64_t images)
 {
   TIFF* file = this->File.get();
   std::vector<Part> parts;
@@ -170,7 +174,31 @@ void TiffPages::TakePages()
   } while (TIFFReadDirectory(file) != 0);
   FailIf(
     !Complaint().empty() || next != 0, "the file is damaged: its pages form no chain" + Reason());
+  if (this->Places.size() == 1 && images > 1)
+  {
+    this->TakeStack(images, parts);
+  }
   this->CheckParts(std::move(parts), others, pixels / this->Places.size());
+}
+
+/** Of large stacks ImageJ writes one page, behind whose pixels those of the other images are. */
+void TiffPages::TakeStack(std::uint64_t images, std::vector<Part>& parts)
+{
+  const std::uint64_t page = Times(Times(this->First.Width, this->First.Height),
+    static_cast<std::uint64_t>(this->First.Samples) * this->First.Bits / 8);
+  this->StackBegin = parts.at(1).first; // the directory is before the strips
+  const bool isPlain = this->First.Bits >= 8 && this->First.Planes == PLANARCONFIG_CONTIG &&
+    Tag<std::uint16_t>(this->File.get(), TIFFTAG_COMPRESSION, 1) == COMPRESSION_NONE;
+  const std::uint64_t bytes = Times(page, images);
+  const std::uint64_t told = parts.back().second - this->StackBegin;
+  FailIf(!isPlain || (told != page && told != bytes),
+    "ImageJ has put " + std::to_string(images) +
+      " images into one page, packed, which is not read; save it there as NRRD, or as an image "
+      "sequence");
+  FailIf(bytes > this->Bytes - std::min(this->Bytes, this->StackBegin),
+    "the file is cut off: " + std::to_string(images) + " images are told of");
+  this->Stacked = static_cast<std::size_t>(images);
+  parts = { parts.front(), { this->StackBegin, this->StackBegin + bytes } };
 }
 
 /**
@@ -259,6 +287,15 @@ void TiffPages::CopyPart(const std::vector<char>& part, std::uint32_t x, std::ui
 void TiffPages::ReadPage(std::size_t page, char* pixels)
 {
   TIFF* file = this->File.get();
+  if (this->Stacked > 0)
+  {
+    const std::size_t bytes = static_cast<std::size_t>(this->First.Width) * this->First.Height *
+      this->First.Samples * this->SampleBytes();
+    FailIf(!OpenData(TIFFFileName(file), this->StackBegin + page * bytes)
+              .read(pixels, static_cast<std::streamsize>(bytes)),
+      "it is cut off");
+    return;
+  }
   FailIf(
     TIFFSetSubDirectory(file, this->Places[page]) != 1, "its directory cannot be read" + Reason());
   if (Tag<std::uint16_t>(file, TIFFTAG_COMPRESSION, 1) == COMPRESSION_JPEG)
@@ -324,6 +361,10 @@ vtkSmartPointer<vtkDataArray> TiffPages::Read(int first, int count)
       }
     }
   }
+  if (this->Stacked > 0)
+  {
+    ToNativeOrder(values, TIFFIsBigEndian(this->File.get()) != 0);
+  }
   if (this->First.Colours == PHOTOMETRIC_MINISWHITE && this->First.Bits <= 16)
   {
     const double most = (1u << this->First.Bits) - 1u;
@@ -352,6 +393,7 @@ std::unique_ptr<SlabReader> OpenTiff(const std::string& name, const Opening& ope
   {
     NeedComponent(pages->Components, "channels", opening);
   }
-  return pages;
+  const bool areHalves = pages->HasHalves();
+  return AsFloats(std::move(pages), areHalves);
 }
 }

@@ -5,6 +5,7 @@
 #include "CheckInputs.h"
 #include "MaskFolder.h"
 #include "Messages.h"
+#include "RegularGrid.h"
 #include "SlabReader.h"
 #include "Texts.h"
 #include "ToolErrors.h"
@@ -31,6 +32,7 @@
 #endif
 
 #include <algorithm>
+#include <cstring>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -52,8 +54,9 @@ struct FoundVolume
   std::function<Image()> ReadAll;
 };
 
-FoundVolume InSlabs(std::shared_ptr<SlabReader> slabs)
+FoundVolume InSlabs(std::shared_ptr<SlabReader> slabs, const Opening& opening)
 {
+  slabs = AtRightAngles(std::move(slabs), opening);
   PlaceImage(vtkNew<vtkImageData>(), slabs->Placement); // fails here rather than in a pipeline
   return { slabs->HasParts ? NewSlabSource(slabs) : nullptr,
     [slabs] { return ReadAllSlabs(*slabs); } };
@@ -65,13 +68,14 @@ using SlabOpener = std::unique_ptr<SlabReader> (*)(const std::string&, const Ope
 Opener By(SlabOpener open)
 {
   return [open](const std::string& name, const Opening& opening)
-  { return InSlabs(open(name, opening)); };
+  { return InSlabs(open(name, opening), opening); };
 }
 
 Opener By(Image (*read)(const std::string&))
 {
-  return [read](const std::string& name, const Opening&)
-  { return FoundVolume{ nullptr, [name, read] { return read(name); } }; };
+  return [read](const std::string& name, const Opening&) {
+    return FoundVolume{ nullptr, [name, read] { return read(name); } };
+  };
 }
 
 #ifdef VOLUMIC_HAS_MINC
@@ -105,9 +109,7 @@ Image ReadMinc(const std::string& name)
 /** MINC 1 is netCDF, and MINC 2 HDF5. */
 FoundVolume OpenMinc(const std::string& name, const Opening& opening)
 {
-  std::ifstream file(name, std::ios::binary);
-  char mark[4] = {};
-  const bool isHdf = file.read(mark, sizeof(mark)) && std::string(mark, 4) == "\x89HDF";
+  const bool isHdf = HeadOf(name, 4) == "\x89HDF";
 #ifdef VOLUMIC_HAS_MINC
   if (!isHdf)
   {
@@ -124,42 +126,30 @@ void CheckBeside(const std::string& folder, const std::vector<std::string>& slic
   for (const std::string& file : FilesOf(folder))
   {
     FailIf(!IsDicom(file) && IsLikeSlice(file, slices),
-      file + ": no DICOM file, though like the slices beside it: it is cut off or damaged; copy it "
-             "again, or take it out of the folder");
+      file +
+        ": no DICOM file, though like the slices beside it: it is cut off or damaged; copy it "
+        "again, or take it out of the folder");
   }
-}
-
-/** The slices of a folder, of DICOM or pictures, and whether they are DICOM. */
-std::pair<std::vector<std::string>, bool> SlicesOf(const std::string& folder)
-{
-  const std::vector<std::string> slices = FilesOfFolder(folder);
-  const bool areDicom = !slices.empty() && IsDicom(slices.front());
-  if (areDicom)
-  {
-    CheckBeside(folder, slices);
-  }
-  return { slices, areDicom };
 }
 
 /** @param slice of DICOM, that is wanted; empty: any */
-FoundVolume OpenSlices(const std::pair<std::vector<std::string>, bool>& slices,
+FoundVolume OpenSlices(const std::vector<std::string>& slices, bool areDicom,
   const Opening& opening, const std::string& slice = "")
 {
-  return InSlabs(slices.second ? OpenDicom(slices.first, slice, opening)
-                               : OpenPictures(slices.first, opening));
+  return InSlabs(
+    areDicom ? OpenDicom(slices, slice, opening) : OpenPictures(slices, opening), opening);
 }
 
 FoundVolume OpenDicomFile(const std::string& name, const Opening& opening)
 {
-  const std::string folder = std::filesystem::path(name).parent_path().string();
   const std::vector<std::string> slices = FilesBesideSlice(name);
-  CheckBeside(folder.empty() ? "." : folder, slices);
-  return OpenSlices({ slices, true }, opening, name);
+  CheckBeside(std::filesystem::absolute(name).parent_path().string(), slices);
+  return OpenSlices(slices, true, opening, name);
 }
 
 /**
- * Readers of VTK that give parts; without the arrays that nobody asks for. Of values of cells all is
- * read, to become points.
+ * Readers of VTK that give parts; without the arrays that nobody asks for. Of values of cells all
+ * is read, to become points.
  */
 template <class Reader>
 FoundVolume OpenXml(const std::string& name, const Opening& opening)
@@ -198,39 +188,26 @@ const char* OtherDataOf(const std::string& suffix)
 
 Opener OpenerOf(const std::string& name)
 {
-  static const std::vector<std::pair<std::string, Opener>> openers = {
-    { ".vti", OpenXml<vtkXMLImageDataReader> },
-    { ".pvti", OpenXml<vtkXMLPImageDataReader> },
-    { ".vtk", By(ReadWith<vtkStructuredPointsReader>) },
+  using Suffixes = std::vector<const char*>;
+  static const std::vector<std::pair<Suffixes, Opener>> openers = {
+    { { ".vti" }, OpenXml<vtkXMLImageDataReader> },
+    { { ".pvti" }, OpenXml<vtkXMLPImageDataReader> },
+    { { ".vtk" }, By(ReadWith<vtkStructuredPointsReader>) },
 #ifdef VOLUMIC_HAS_HDF
-    { ".vtkhdf", By(ReadIfItsFormat<vtkHDFReader>) },
-    { ".hdf", By(ReadIfItsFormat<vtkHDFReader>) },
+    { { ".vtkhdf", ".hdf" }, By(ReadIfItsFormat<vtkHDFReader>) },
 #endif
-    { ".mha", By(OpenMeta) },
-    { ".mhd", By(OpenMeta) },
-    { ".nrrd", By(OpenNrrd) },
-    { ".nhdr", By(OpenNrrd) },
-    { ".nii", By(OpenNifti) },
-    { ".nii.gz", By(OpenNifti) },
-    { ".img", By(OpenNifti) },
-    { ".img.gz", By(OpenNifti) },
-    { ".hdr", By(OpenNifti) },
-    { ".hdr.gz", By(OpenNifti) },
-    { ".mnc", OpenMinc },
-    { ".gipl", By(OpenGipl) },
-    { ".gipl.gz", By(OpenGipl) },
-    { ".inv3", By(OpenInv3) },
-    { ".mrc", By(OpenMrc) },
-    { ".ccp4", By(OpenMrc) },
-    { ".map", By(OpenMrc) },
-    { ".rec", By(OpenMrc) },
-    { ".npy", By(OpenNumpy) },
-    { ".mgz", By(OpenMgh) },
-    { ".mgh", By(OpenMgh) },
-    { ".slc", By(ReadIfItsFormat<vtkSLCReader>) },
-    { ".dcm", OpenDicomFile },
-    { ".dicom", OpenDicomFile },
-    { ".ima", OpenDicomFile },
+    { { ".mha", ".mhd" }, By(OpenMeta) },
+    { { ".nrrd", ".nhdr" }, By(OpenNrrd) },
+    { { ".nii", ".nii.gz", ".img", ".img.gz", ".hdr", ".hdr.gz" }, By(OpenNifti) },
+    { { ".mnc" }, OpenMinc },
+    { { ".gipl", ".gipl.gz" }, By(OpenGipl) },
+    { { ".inv3" }, By(OpenInv3) },
+    { { ".mrc", ".ccp4", ".map", ".rec", ".mrc.gz", ".ccp4.gz", ".map.gz", ".rec.gz" },
+      By(OpenMrc) },
+    { { ".npy" }, By(OpenNumpy) },
+    { { ".mgz", ".mgh" }, By(OpenMgh) },
+    { { ".slc" }, By(ReadIfItsFormat<vtkSLCReader>) },
+    { { ".dcm", ".dicom", ".ima" }, OpenDicomFile },
   };
   if (const char* kind = OtherDataOf(SuffixOf(name)))
   {
@@ -238,40 +215,45 @@ Opener OpenerOf(const std::string& name)
       ", and no image: resample it to one (ParaView's Resample To Image writes a .vti)");
   }
   const std::string lower = Lower(name);
-  const auto found = std::find_if(openers.begin(), openers.end(),
-    [&lower](const auto& each)
-    { return lower.size() > each.first.size() && EndsWith(lower, each.first); });
-  return found != openers.end() ? found->second
-    : IsDicom(name)             ? OpenDicomFile
-                                : By(OpenByContent);
+  const auto isOf = [&lower](const char* suffix)
+  { return lower.size() > std::strlen(suffix) && EndsWith(lower, suffix); };
+  for (const auto& [suffixes, opener] : openers)
+  {
+    if (std::any_of(suffixes.begin(), suffixes.end(), isOf))
+    {
+      return opener;
+    }
+  }
+  return IsDicom(name) ? OpenDicomFile : By(OpenByContent);
 }
 
 FoundVolume FindVolume(const std::string& name, const Opening& opening)
 {
   NeedFilesOfVolume(name);
-  // They are read at once: what is told of them would be lost later.
-  const auto byMasks = [](const std::vector<std::string>& masks)
-  { return FoundVolume{ nullptr, [image = ReadMasks(masks)] { return image; } }; };
-  if (std::filesystem::is_directory(name))
+  const bool isFolder = std::filesystem::is_directory(name);
+  if (!isFolder && std::filesystem::exists(name))
   {
-    const std::vector<std::string> masks = MasksAmong(FilesOfFolder(name));
-    return masks.empty() ? OpenSlices(SlicesOf(name), opening) : byMasks(masks);
+    return opening.Choice.Raw.empty() ? OpenerOf(name)(name, opening)
+                                      : InSlabs(OpenRaw(name, opening), opening);
   }
-  if (std::filesystem::exists(name))
+  FailIf(!isFolder && name.find_first_of("%*") == std::string::npos, "no such file or folder");
+  const std::vector<std::string> files = isFolder ? FilesOfFolder(name) : MatchFiles(name);
+  const std::vector<std::string> masks = MasksAmong(files);
+  if (masks.size() == 1 && !opening.Choice.AreLabels)
   {
-    if (!opening.Choice.Raw.empty())
-    {
-      return InSlabs(OpenRaw(name, opening));
-    }
-    return OpenerOf(name)(name, opening);
+    return OpenerOf(masks[0])(masks[0], opening);
   }
-  FailIf(name.find_first_of("%*") == std::string::npos, "no such file or folder");
-  const std::vector<std::string> files = MatchFiles(name);
-  if (const std::vector<std::string> masks = MasksAmong(files); !masks.empty())
+  if (!masks.empty())
   {
-    return byMasks(masks);
+    // They are read at once: what is told of them would be lost later.
+    return { nullptr, [image = ReadMasks(masks, opening.Choice)] { return image; } };
   }
-  return OpenSlices({ files, !files.empty() && IsDicom(files.front()) }, opening);
+  const bool areDicom = !files.empty() && IsDicom(files.front());
+  if (areDicom && isFolder)
+  {
+    CheckBeside(name, files);
+  }
+  return OpenSlices(files, areDicom, opening);
 }
 
 Image ReadAll(const FoundVolume& volume)
@@ -317,8 +299,7 @@ auto NameFailures(const std::string& name, const Work& work) -> decltype(work())
 
 vtkSmartPointer<vtkImageData> ReadVolume(const std::string& name, const VolumeChoice& choice)
 {
-  return NameFailures(
-    name, [&] { return ReadAll(FindVolume(name, { "", "", true, choice })); });
+  return NameFailures(name, [&] { return ReadAll(FindVolume(name, { "", "", true, choice })); });
 }
 
 OpenedVolume OpenVolume(const std::string& name, const std::string& array,
@@ -338,7 +319,9 @@ OpenedVolume OpenVolume(const std::string& name, const std::string& array,
       holder->SetOutput(image);
       const std::string suffix = SuffixOf(name);
       return OpenedVolume{ holder,
-        areOfCells ? "values of cells" : suffix.empty() ? "masks" : suffix };
+        areOfCells         ? "values of cells"
+          : suffix.empty() ? "masks"
+                           : suffix };
     });
 }
 

@@ -18,11 +18,12 @@ namespace tool
 /** What is read of a file that holds several volumes, and how what is ambiguous. */
 struct VolumeChoice
 {
-  std::string Series;      ///< of DICOM: a number from 1, or an identifier; empty: the only one
-  std::optional<int> Time; ///< from 0; none: there is only one
+  std::string Series;         ///< of DICOM: a number from 1, or an identifier; empty: the only one
+  std::optional<int> Time;    ///< from 0; none: there is only one
   std::shared_ptr<int> Times; ///< set to how many there are, where there may be several; null: not
-  std::string Raw;         ///< of a file without a header: --raw
-  bool Resamples = true;   ///< what is no regular grid
+  std::string Raw;            ///< of a file without a header: --raw
+  bool Resamples = true;      ///< what is no regular grid
+  bool AreLabels = false;     ///< what it holds: not to be mixed with each other
   /** Whether of several numbers that are no vector, such as times, one must have been chosen. */
   bool NeedsComponent = false;
 };
@@ -59,8 +60,8 @@ OpenedVolume OpenVolume(const std::string& name, const std::string& array,
 std::vector<std::string> ListSeries(const std::string& name);
 
 /**
- * Make the array (empty: the active scalars, or the only one) the active scalars. Where it is one of
- * cells, the image becomes that of their centres.
+ * Make the array (empty: the active scalars, or the only one) the active scalars. Where it is one
+ * of cells, the image becomes that of their centres.
  * @return whether it is one of cells
  * @throws Failure if there is none.
  */
@@ -93,8 +94,8 @@ std::vector<std::string> FilesOf(const std::string& folder, bool isNested = fals
 std::vector<std::string> FilesOfVolume(const std::string& name);
 
 /**
- * The files of a folder: those of DICOM alone, with those of the folders within, or, if there are none,
- * all.
+ * The files of a folder: those of DICOM alone, with those of the folders within, or, if there are
+ * none, all.
  */
 std::vector<std::string> FilesOfFolder(const std::string& folder, bool isNested = true);
 

@@ -19,7 +19,7 @@ struct SlicePlaces
   Vector3 Down = { 0, 1, 0 };
   std::array<double, 2> Spacing = { 1, 1 }; ///< along these
 
-  /** The unit vector that they follow each other along. */
+  /** The unit vector at right angles to both that they follow each other along. */
   Vector3 Normal() const;
 
   /** Of the slices along the normal, from the first one. */
@@ -38,11 +38,20 @@ struct SlicePlaces
 /**
  * The finest regular grid that holds the slices, as slices: from the first to the last, as far from
  * each other as the nearest two, and as wide as all together. Values between are interpolated
- * linearly, to the type that they have; where no slice is, they are `outside`.
- * @throws Failure if some are so near to each other that this would be many times as many
+ * linearly, to the type that they have, and labels are those of the nearest voxel; where no slice
+ * is, they are `outside`. It is told, and is the grid's Resampling.
+ * @param why they are none
+ * @throws Failure if it must not be, or if the grid would have many times as many voxels
  */
-std::unique_ptr<SlabReader> ResampledSlices(
-  std::shared_ptr<SlabReader> slices, const SlicePlaces& places, double outside);
+std::unique_ptr<SlabReader> ResampledSlices(std::shared_ptr<SlabReader> slices,
+  const SlicePlaces& places, const std::string& why, double outside, const Opening& opening);
+
+/**
+ * The volume if its axes are at right angles, else, as such slices, on the regular grid that holds
+ * it; outside of it is the least of its values, or, of labels, 0.
+ */
+std::shared_ptr<SlabReader> AtRightAngles(
+  std::shared_ptr<SlabReader> volume, const Opening& opening);
 }
 
 #endif

@@ -52,8 +52,7 @@ Json InputFacts(const std::string& name, const VolumeFacts& volume)
     { "spacing", AsJsonArray(volume.Spacing) }, { "origin", AsJsonArray(volume.Origin) },
     { "space", volume.World.Axes }, { "unit", volume.World.Unit },
     { "file_space", volume.World.FileAxes }, { "file_unit", volume.World.FileUnit },
-    { "scale", volume.World.Scale },
-    { "scalar_type", vtkImageScalarTypeNameMacro(volume.Type) },
+    { "scale", volume.World.Scale }, { "scalar_type", vtkImageScalarTypeNameMacro(volume.Type) },
     { "range", AsJsonArray(volume.Range) } };
   if (!volume.Resampling.empty())
   {
@@ -69,7 +68,8 @@ void AddSurfaceFacts(Json& json, vtkPolyData* surface, const SurfaceSize& size)
     { "genus", "Genus" }, { "euler_characteristic", "EulerCharacteristic" }, { "area", "Area" },
     { "volume", "Volume" }, { "delta", "Delta" }, { "unit", "Unit" }, { "level", "Level" },
     { "iterations", "Iterations" }, { "lost_parts", "LostParts" },
-    { "recovered_parts", "RecoveredParts" }, { "missing_parts", "MissingParts" },
+    { "recovered_parts", "RecoveredParts" }, { "lost_cavities", "LostCavities" },
+    { "recovered_cavities", "RecoveredCavities" }, { "missing_parts", "MissingParts" },
     { "missing_boundary", "MissingBoundary" } };
   for (const auto& [name, array] : facts)
   {
@@ -101,9 +101,8 @@ Json ComponentFeatures(vtkPolyData* surface)
       {
         const double* tuple = values->GetTuple(c);
         const int count = values->GetNumberOfComponents();
-        component[name] = count == 1
-          ? AsJson(*tuple)
-          : AsJsonArray(std::vector<double>(tuple, tuple + count));
+        component[name] =
+          count == 1 ? AsJson(*tuple) : AsJsonArray(std::vector<double>(tuple, tuple + count));
       }
     }
   }
@@ -240,8 +239,8 @@ std::string ReportText(const ReportInput& input)
   json["levels"] = LevelFacts(input);
   json["seconds"] = SecondsOf(input);
   json["memory"] = MemoryFacts(input.ReaderMemory);
-  json["properties"] = PropertyValues(input.Filters,
-    [](const PropertyOption& property) { return !IsOfLabelsOnly(property); });
+  json["properties"] = PropertyValues(
+    input.Filters, [](const PropertyOption& property) { return !IsOfLabelsOnly(property); });
   return EndedReport(json, input.Warnings);
 }
 
@@ -250,9 +249,8 @@ std::string ReportText(const ReportInput& input)
 vtkIdType WrongVoxels(vtkPolyData* surface, const char* name)
 {
   vtkDataArray* wrong = surface->GetFieldData()->GetArray(name);
-  return wrong && wrong->GetNumberOfTuples() > 0
-    ? static_cast<vtkIdType>(wrong->GetComponent(0, 0))
-    : 0;
+  return wrong && wrong->GetNumberOfTuples() > 0 ? static_cast<vtkIdType>(wrong->GetComponent(0, 0))
+                                                 : 0;
 }
 
 namespace
@@ -393,9 +391,8 @@ std::string ReportText(const LabelList& list)
   for (const KnownLabel& label : list.Labels)
   {
     json["labels"].push_back({ { "label", label.Label }, { "name", label.Name },
-      { "color", AsJsonArray(label.Color) }, { "layer", label.Layer },
-      { "voxels", label.Voxels }, { "volume", AsJson(VolumeOf(label, list.Volume)) },
-      { "box", label.Box } });
+      { "color", AsJsonArray(label.Color) }, { "layer", label.Layer }, { "voxels", label.Voxels },
+      { "volume", AsJson(VolumeOf(label, list.Volume)) }, { "box", label.Box } });
   }
   return EndedReport(json, list.Warnings);
 }

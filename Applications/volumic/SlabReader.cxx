@@ -48,9 +48,9 @@ void CopyPart(vtkDataArray* slab, const std::array<int, 3>& size, int first, int
   {
     for (std::size_t y = 0; y < rows; ++y)
     {
-      const std::size_t begin =
-        (static_cast<std::size_t>(z) * static_cast<std::size_t>(size[1]) +
-          static_cast<std::size_t>(extent[2]) + y) * static_cast<std::size_t>(size[0]) +
+      const std::size_t begin = (static_cast<std::size_t>(z) * static_cast<std::size_t>(size[1]) +
+                                  static_cast<std::size_t>(extent[2]) + y) *
+          static_cast<std::size_t>(size[0]) +
         static_cast<std::size_t>(extent[0]);
       const std::size_t place = (static_cast<std::size_t>(first + z - extent[4]) * rows + y) * row;
       std::memcpy(to + place * voxel, from + begin * voxel, row * voxel);
@@ -67,9 +67,8 @@ vtkSmartPointer<vtkDataArray> ReadPart(SlabReader& reader, const int* extent)
   {
     return reader.Read(extent[4], slices);
   }
-  const std::size_t slice = static_cast<std::size_t>(size[0]) *
-    static_cast<std::size_t>(size[1]) * static_cast<std::size_t>(reader.Components) *
-    sizeof(double);
+  const std::size_t slice = static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) *
+    static_cast<std::size_t>(reader.Components) * sizeof(double);
   const auto most = static_cast<int>(std::max<std::size_t>(1, BytesAtATime / slice));
   vtkSmartPointer<vtkDataArray> part;
   for (int z = extent[4]; z <= extent[5]; z += most)
@@ -81,8 +80,8 @@ vtkSmartPointer<vtkDataArray> ReadPart(SlabReader& reader, const int* extent)
       part.TakeReference(slab->NewInstance());
       part->SetName(slab->GetName());
       part->SetNumberOfComponents(slab->GetNumberOfComponents());
-      part->SetNumberOfTuples(static_cast<vtkIdType>(extent[1] - extent[0] + 1) *
-        (extent[3] - extent[2] + 1) * slices);
+      part->SetNumberOfTuples(
+        static_cast<vtkIdType>(extent[1] - extent[0] + 1) * (extent[3] - extent[2] + 1) * slices);
     }
     CopyPart(slab, size, z, count, extent, part);
   }
@@ -137,8 +136,7 @@ protected:
     const int whole[6] = { 0, size[0] - 1, 0, size[1] - 1, 0, size[2] - 1 };
     info->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), whole, 6);
     info->Set(vtkAlgorithm::CAN_PRODUCE_SUB_EXTENT(), 1);
-    vtkDataObject::SetPointDataActiveScalarInfo(
-      info, this->Reader->Type, this->Reader->Components);
+    vtkDataObject::SetPointDataActiveScalarInfo(info, this->Reader->Type, this->Reader->Components);
     const vtkNew<vtkImageData> placed;
     PlaceImage(placed, this->Reader->Placement);
     info->Set(vtkDataObject::SPACING(), placed->GetSpacing(), 3);
@@ -159,8 +157,8 @@ protected:
     }
     catch (const std::exception& error)
     {
-      vtkErrorMacro(<< ReasonOf(
-        error, "not enough memory to read it; crop it, or resample it to fewer voxels"));
+      vtkErrorMacro(<< ReasonOf(error,
+                      "not enough memory to read it; crop it, or resample it to fewer voxels"));
       return 0;
     }
   }
@@ -227,16 +225,46 @@ vtkSmartPointer<vtkImageData> ImageOf(vtkAlgorithm* reader, const std::string& n
   return image;
 }
 
+namespace
+{
+/** What helps with a file of another suffix than those of its format. */
+std::string AdviceByMark(const std::string& name)
+{
+  struct Mark
+  {
+    std::size_t Place;
+    const char* Text;
+    const char* Suffix;
+  };
+  static const Mark marks[] = { { 344, "n+1", ".nii" }, { 4, "n+2", ".nii" },
+    { 208, "MAP ", ".mrc" }, { 0, "NRRD0", ".nrrd" }, { 0, "\x93NUMPY", ".npy" },
+    { 0, "ObjectType", ".mha" }, { 0, "NDims", ".mha" }, { 0, "<VTKFile", ".vti" } };
+  const std::string head = HeadOf(name, 400); // unpacked
+  for (const Mark& mark : marks)
+  {
+    if (head.size() > mark.Place &&
+      head.compare(mark.Place, std::strlen(mark.Text), mark.Text) == 0)
+    {
+      const bool isPacked = IsGzip(name);
+      return std::string("begins like a ") + mark.Suffix + " file" +
+        (isPacked && mark.Place == 0
+            ? ", packed by gzip: unpack it (gunzip), and let its name end so"
+            : std::string(": let its name end in ") + mark.Suffix + (isPacked ? ".gz" : ""));
+    }
+  }
+  return "not a format that is read (see FORMATS in volumic(1)); of voxels without a header give "
+         "its sizes and type with --raw; others convert to .nii.gz, .nrrd or .mha, for example by "
+         "3D Slicer or ImageJ";
+}
+}
+
 vtkSmartPointer<vtkImageReader2> ReaderOf(const std::string& name)
 {
   vtkSmartPointer<vtkImageReader2> reader;
   VtkMessages ignored; // Some of those that are asked complain of what they don't know.
   ignored.Catch(
     [&] { reader.TakeReference(vtkImageReader2Factory::CreateImageReader2(name.c_str())); });
-  FailIf(!reader,
-    name + ": not a format that is read (see FORMATS in volumic(1)); of voxels without a header give "
-           "its sizes and type with --raw; others convert to .nii.gz, .nrrd or .mha, for example by 3D "
-           "Slicer or ImageJ");
+  FailIf(!reader, name + ": " + AdviceByMark(name));
   reader->SetFileName(name.c_str());
   return reader;
 }

@@ -39,12 +39,12 @@ public:
   int Type = 0; ///< of the values, as VTK numbers types
   int Components = 1;
   VolumePlacement Placement;
-  std::string WorldAxes; ///< as SetWorldAxes takes them; may be empty
+  std::string WorldAxes;  ///< as SetWorldAxes takes them; may be empty
   std::string LengthUnit; ///< as files call it (LengthUnitOf); may be empty
-  std::string ArrayName; ///< of the values; empty: as Read() gives it
+  std::string ArrayName;  ///< of the values; empty: as Read() gives it
   std::string Resampling; ///< how it was made a regular grid; empty: it is one
   LabelNames Names;       ///< that come with it
-  bool HasParts = true;  ///< Else some slices cost as much as all, which Read() is asked for then.
+  bool HasParts = true;   ///< Else some slices cost as much as all, which Read() is asked for then.
 
   /** The values of so many slices; a new array, or one that is valid until the next call. */
   virtual vtkSmartPointer<vtkDataArray> Read(int first, int count) = 0;
@@ -88,7 +88,7 @@ std::unique_ptr<SlabReader> OpenRaw(const std::string& name, const Opening& open
 /** NRRD (.nrrd, .nhdr; encodings raw, gzip, bzip2, text), in the file's `space`. */
 std::unique_ptr<SlabReader> OpenNrrd(const std::string& name, const Opening& opening);
 
-/** NIfTI in its own world coordinates (RAS): the sform, or the qform where that fails. */
+/** NIfTI in its own world coordinates (RAS): the sform, or the qform where there is none. */
 std::unique_ptr<SlabReader> OpenNifti(const std::string& name, const Opening& opening);
 
 /**
@@ -182,9 +182,9 @@ public:
   ReaderSlabs(const std::string& name, const Factory& make);
 
   bool HasTrustedWarnings = true; ///< as VtkMessages::UpdateReader says
-  bool IsReversed = false; ///< The reader reverses the slices, of each part by itself.
-  double Slope = 1.0; ///< What is read gets multiplied,
-  double Shift = 0.0; ///< and shifted, and is float then.
+  bool IsReversed = false;        ///< The reader reverses the slices, of each part by itself.
+  double Slope = 1.0;             ///< What is read gets multiplied,
+  double Shift = 0.0;             ///< and shifted, and is float then.
 
   /** The reader gives the numbers of several volumes for a voxel, of which one is wanted. */
   void Pick(int time, int times);
@@ -220,7 +220,11 @@ private:
   Descriptor File;
 };
 
-/** The stream of a data file, at that byte. @throws Failure that names it if it cannot be opened. */
+/** The volume, or, where its numbers are bits of halves of floats, as floats. */
+std::unique_ptr<SlabReader> AsFloats(std::unique_ptr<SlabReader> volume, bool areHalves);
+
+/** The stream of a data file, at that byte. @throws Failure that names it if it cannot be opened.
+ */
 std::ifstream OpenData(const std::string& name, std::uint64_t start);
 
 /** Values one behind the other in a file, or in several, an equal share in each, x fastest. */
@@ -265,7 +269,7 @@ private:
   void Unpack(const UnpackedSink& sink) const;
   void ReadBytes(std::uint64_t first, std::uint64_t count, char* values) const;
 
-  std::uint64_t After = 0; ///< bytes of the volumes behind the one that is chosen
+  std::uint64_t After = 0;                ///< bytes of the volumes behind the one that is chosen
   std::unique_ptr<NamelessFile> Unpacked; ///< If it is there, it is the only one of Files.
 };
 }

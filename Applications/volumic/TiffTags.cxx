@@ -73,7 +73,8 @@ int TypeOf(const Kind& kind)
     { { SAMPLEFORMAT_UINT, 8 }, VTK_UNSIGNED_CHAR }, { { SAMPLEFORMAT_INT, 8 }, VTK_SIGNED_CHAR },
     { { SAMPLEFORMAT_UINT, 16 }, VTK_UNSIGNED_SHORT }, { { SAMPLEFORMAT_INT, 16 }, VTK_SHORT },
     { { SAMPLEFORMAT_UINT, 32 }, VTK_UNSIGNED_INT }, { { SAMPLEFORMAT_INT, 32 }, VTK_INT },
-    { { SAMPLEFORMAT_IEEEFP, 32 }, VTK_FLOAT }, { { SAMPLEFORMAT_IEEEFP, 64 }, VTK_DOUBLE } };
+    { { SAMPLEFORMAT_IEEEFP, 16 }, VTK_UNSIGNED_SHORT }, { { SAMPLEFORMAT_IEEEFP, 32 }, VTK_FLOAT },
+    { { SAMPLEFORMAT_IEEEFP, 64 }, VTK_DOUBLE } };
   const int format = kind.Format == SAMPLEFORMAT_VOID ? SAMPLEFORMAT_UINT : kind.Format;
   const bool isSmall = kind.Bits < 8;
   FailIf(isSmall && kind.Samples > 1, "pixels of this kind are not read: " + kind.Text());

@@ -177,13 +177,16 @@ const std::vector<ProgramOption>& InputOptions()
       "date, slices, identifier"),
     { "time", "N",
       "of several volumes in one (times, phases, masks) the one to read, counted from 0", SetTime },
+    { "phase", "N", "the same as --time, of phases and echoes within a DICOM series", SetTime },
     { "raw", "X,Y,Z,TYPE[,big]",
-      "the file has no header: sizes and type of its voxels, such as 512,512,400,uint16, x fastest, "
+      "the file has no header: sizes and type of its voxels, such as 512,512,400,uint16, x "
+      "fastest, "
       "the least significant byte first",
       [](ToolOptions& chosen, const std::string& text) { chosen.Choice.Raw = text; } },
     { "no-resampling", "",
-      "refuse slices that are no regular grid (one is missing, the gantry was tilted) instead of "
-      "interpolating them linearly",
+      "refuse what is no regular grid (a slice is missing, the gantry was tilted, shear) instead "
+      "of "
+      "interpolating it linearly",
       [](ToolOptions& chosen, const std::string&) { chosen.Choice.Resamples = false; } },
     Text("seeds", "FILE", &ToolOptions::Seeds,
       "start from icosahedra at these points: a mesh file's, or the lines 'x y z' (or 'x,y,z') of "
@@ -370,8 +373,9 @@ ToolOptions ParseOptions(int argc, const char* const argv[])
   {
     options.Labels = { "all" };
   }
-  options.Choice.NeedsComponent = options.WantsSurface() && options.Labels.empty() &&
-    !options.HasProperty("SelectedComponent");
+  options.Choice.AreLabels = !options.Labels.empty();
+  options.Choice.NeedsComponent =
+    options.WantsSurface() && options.Labels.empty() && !options.HasProperty("SelectedComponent");
   CheckOptions(options);
   return options;
 }

@@ -10,6 +10,7 @@
 #include <vtkFieldData.h>
 #include <vtkFloatArray.h>
 #include <vtkImageData.h>
+#include <vtkMatrix3x3.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkStringArray.h>
@@ -20,6 +21,12 @@
 
 namespace tool
 {
+namespace
+{
+/** Headers round their direction cosines to some digits. */
+constexpr double DigitsOfHeaders = 1e-3;
+}
+
 std::array<double, 2> RangeOf(vtkDataArray* values, int component)
 {
   // Nothing is between these where there is no such component.
@@ -75,34 +82,82 @@ std::string VolumePlacement::Text() const
   return text;
 }
 
-bool VolumePlacement::IsLike(const VolumePlacement& other) const
+bool VolumePlacement::IsLike(const VolumePlacement& other, const int* size) const
 {
-  const std::array<double, 12> numbers = this->Numbers();
-  const double most = 0.01 * *std::min_element(this->Spacing.begin(), this->Spacing.end());
-  return std::equal(numbers.begin(), numbers.end(), other.Numbers().begin(),
-    [most](double x, double y) { return std::abs(x - y) < most; });
+  const std::array<double, 12> a = this->Numbers();
+  const std::array<double, 12> b = other.Numbers();
+  const double most = 0.1 * *std::min_element(this->Spacing.begin(), this->Spacing.end());
+  for (std::size_t c = 0; c < 3; ++c)
+  {
+    double apart = std::abs(a[9 + c] - b[9 + c]);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      apart += (size[axis] - 1) * std::abs(a[3 * axis + c] - b[3 * axis + c]);
+    }
+    if (!(apart < most))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool VolumePlacement::IsSpace() const
+{
+  bool isSpace = std::abs(Dot(Cross(this->Axes[0], this->Axes[1]), this->Axes[2])) > 0.1;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    isSpace = isSpace && this->Spacing[axis] > 0.0 && std::isfinite(this->Spacing[axis]) &&
+      std::abs(Dot(this->Axes[axis], this->Axes[axis]) - 1.0) < DigitsOfHeaders;
+  }
+  return isSpace;
+}
+
+bool VolumePlacement::HasRightAngles() const
+{
+  bool areRight = true;
+  for (std::size_t a = 0; a < 3; ++a)
+  {
+    for (std::size_t b = 0; b < 3; ++b)
+    {
+      const double product = Dot(this->Axes[a], this->Axes[b]);
+      areRight = areRight && std::abs(product - (a == b ? 1.0 : 0.0)) < DigitsOfHeaders;
+    }
+  }
+  return areRight;
 }
 
 void PlaceImage(vtkImageData* image, const VolumePlacement& placement)
 {
-  // Headers round their direction cosines to some digits.
-  const double tolerance = 1e-3;
   double matrix[9];
-  for (int a = 0; a < 3; ++a)
+  for (int axis = 0; axis < 3; ++axis)
   {
-    FailIf(!(placement.Spacing[a] > 0.0) || !std::isfinite(placement.Spacing[a]),
+    FailIf(!(placement.Spacing[axis] > 0.0) || !std::isfinite(placement.Spacing[axis]),
       "the distance of the voxels is not positive");
-    for (int b = 0; b < 3; ++b)
+    for (int row = 0; row < 3; ++row)
     {
-      const double product = Dot(placement.Axes[a], placement.Axes[b]);
-      FailIf(!(std::abs(product - (a == b ? 1.0 : 0.0)) < tolerance),
-        std::string("the voxel axes are not at right angles: ") + MustBeResampled);
-      matrix[3 * b + a] = placement.Axes[a][b];
+      matrix[3 * row + axis] = placement.Axes[axis][row];
     }
   }
+  FailIf(!placement.HasRightAngles(),
+    "the voxel axes are not at right angles: such a sheared or tilted volume must be resampled "
+    "first (3D Slicer: Resample Scalar/Vector/DWI Volume)");
   image->SetSpacing(placement.Spacing.data());
   image->SetOrigin(placement.Origin.data());
   image->SetDirectionMatrix(matrix);
+}
+
+VolumePlacement PlacementOf(vtkImageData* image)
+{
+  VolumePlacement placement;
+  const double* matrix = image->GetDirectionMatrix()->GetData();
+  for (std::size_t i = 0; i < 9; ++i)
+  {
+    placement.Axes[i % 3][i / 3] = matrix[i];
+  }
+  std::copy_n(image->GetSpacing(), 3, placement.Spacing.begin());
+  std::copy_n(image->GetOrigin(), 3, placement.Origin.begin());
+  return placement;
 }
 
 void SetWorldAxes(vtkImageData* image, const std::string& axes)

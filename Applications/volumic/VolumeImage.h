@@ -29,8 +29,14 @@ struct VolumePlacement
   std::array<double, 12> Numbers() const;
   std::string Text() const; ///< of these
 
-  /** Whether they are the same to a hundredth of a voxel. */
-  bool IsLike(const VolumePlacement& other) const;
+  /** Whether of so many voxels each lies at the same place, to a tenth of a voxel. */
+  bool IsLike(const VolumePlacement& other, const int* size) const;
+
+  /** Whether spacings are positive, and the axes unit vectors of which none lies along others. */
+  bool IsSpace() const;
+
+  /** Whether the axes are unit vectors at right angles, but for the digits of headers. */
+  bool HasRightAngles() const;
 
   /** Have an index axis point the other way, the first voxel staying where it is, if it is so. */
   void Turn(std::size_t axis, bool isSo)
@@ -45,11 +51,6 @@ struct VolumePlacement
   void SetSteps(const std::array<Vector3, 3>& steps);
 };
 
-/** What is said of images whose axes are not at right angles. */
-constexpr const char* MustBeResampled =
-  "such a sheared or tilted volume must be resampled first (3D Slicer: Resample Scalar/Vector/DWI "
-  "Volume)";
-
 /**
  * Give the image its place.
  * @throws Failure if spacings are not positive or axes are not at right angles.
@@ -62,6 +63,9 @@ void PlaceImage(vtkImageData* image, const VolumePlacement& placement);
  * NIfTI "RAS". Images of files that don't tell have none.
  */
 void SetWorldAxes(vtkImageData* image, const std::string& axes);
+
+/** Where the voxels of an image lie, from that of index 0 on. */
+VolumePlacement PlacementOf(vtkImageData* image);
 
 /** Other field data that are a text, and what there is: "" for nothing. */
 void SetFact(vtkDataObject* data, const std::string& name, const std::string& text);

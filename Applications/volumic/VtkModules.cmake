@@ -8,6 +8,6 @@
 if (NOT ParaView_FOUND)
   find_package(VTK REQUIRED
     COMPONENTS FiltersCore ImagingCore IOCore IOGeometry IOImage IOLegacy IOPLY IOXML
-      ParallelCore tiff zlib
+      ParallelCore png tiff zlib
     OPTIONAL_COMPONENTS IOHDF IOMINC ParallelMPI mpi)
 endif ()

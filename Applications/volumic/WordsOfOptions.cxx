@@ -60,7 +60,8 @@ std::vector<Phrase> MakePhrases()
 {
   std::vector<Phrase> phrases = { { "Initial Surface (input port 1)", "--initial-surface" },
     { "Attracting Points (input port 2)", "--attracting-points" }, { "Edge Map", "--edges" },
-    { "Seed Positions", "--seed-position" }, { "Attracting Positions", "--attracting-position" } };
+    { "Input port 0", "the volume" }, { "Seed Positions", "--seed-position" },
+    { "Attracting Positions", "--attracting-position" } };
   for (const PropertyOption& option : SurfaceProperties())
   {
     if (option.Argument.empty())

@@ -7,7 +7,9 @@ import gzip
 import importlib.util
 import os
 import re
+import struct
 import unittest
+import zlib
 
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk
@@ -132,6 +134,64 @@ class VolumesTest(ToolTestCase):
         self.check(self.path("*.jpg"), *options, origin=np.zeros(3), iso=ISO / 5)
         self.check(self.path("*.bmp"), "--component", "0", *options, origin=np.zeros(3), iso=ISO / 5)
 
+    def test_a_folder_with_one_volume(self):
+        os.makedirs(self.path("a"))
+        self.write_bytes("a/a.mha", META + ball().tobytes())
+        self.write_bytes("a/a.json", b"{}")
+        self.check(self.path("a"))
+
+    def test_what_lies_beside_pictures(self):
+        os.makedirs(self.path("a"))
+        for k, plane in enumerate(ball("u2")):
+            self.write(vtkPNGWriter(), f"a/{k:02}.png", make_image(plane[np.newaxis]))
+        self.write_bytes("a/log.txt", b"bright")
+        self.write_bytes("a/Thumbs.db", b"?")
+        said = self.run_tool(self.path("a"), self.path("a.vtp"), "--iso", ISO).stderr
+        self.assertIn("2 files that are not named as pictures are left out", said)
+
+    def test_names_that_end_otherwise(self):
+        self.write_bytes("a.1", META + ball().tobytes())
+        self.refused("begins like a .mha file: let its name end in .mha", self.path("a.1"),
+                     self.path("a.stl"))
+        nifti = medical_files.nifti(ball(), SPACING)
+        self.write_bytes("b.nii_old", gzip.compress(nifti))
+        self.refused("like a .nii file: let its name end in .nii.gz", self.path("b.nii_old"),
+                     self.path("a.stl"))
+        self.write_bytes("c.nrrd.gz", gzip.compress(nrrd_header() + b"\n" + ball().tobytes()))
+        self.refused("packed by gzip: unpack it", self.path("c.nrrd.gz"), self.path("a.stl"))
+
+    def test_what_may_not_be_read(self):
+        self.write_bytes("a.mha", META + ball().tobytes())
+        os.chmod(self.path("a.mha"), 0)
+        os.chmod(self.folder, 0o755)
+        user = {"user": 65534} if os.geteuid() == 0 else {}
+        self.refused("a.mha: cannot be read: Permission denied", self.path("a.mha"), "--list-labels",
+                     **user)
+
+    def test_a_slice_is_no_volume(self):
+        header = META.replace(b"NDims = 3", b"NDims = 2").replace(b"26 22 18", b"26 22")
+        self.refused("the volume: the image is 2D .26 x 22 x 1", self.write_bytes(
+            "a.mha", header + ball()[8].tobytes()), self.path("a.stl"), "--iso", ISO)
+
+    def test_directions_that_are_longer(self):
+        self.write_bytes("a.mha", META + ball().tobytes())
+        self.write_bytes("b.mha", META.replace(
+            b"1 0 0 0 1 0 0 0 1", b"2 0 0 0 2 0 0 0 2").replace(b"0.5 0.75 1.0", b"0.25 0.375 0.5")
+            + ball().tobytes())
+        reports = [self.report(self.path(name), "--iso", ISO) for name in ("a.mha", "b.mha")]
+        self.assertEqual(*(report["volume"] for report in reports))
+
+    def test_packed_maps(self):
+        content = medical_files.mrc(ball(), SPACING)
+        self.write_bytes("a.map", content)
+        self.write_bytes("a.map.gz", gzip.compress(content))
+        volumes = [self.report(self.path(name), "--iso", ISO, *way)["volume"] for name, way in (
+            ("a.map", ()), ("a.map.gz", ()), ("a.map.gz", ("--memory", "200M")))]
+        self.assertEqual(volumes[0], volumes[1])
+        self.assertAlmostEqual(volumes[0], volumes[2], delta=0.1)
+        self.refused("packed data give 21607 bytes", self.write_bytes("b.map.gz", gzip.compress(content[:-9])),
+                     self.path("a.stl"))
+
     def test_a_picture_with_pages(self):
         # VTK writes the slices of a volume from the last to the first page.
         file = self.write(vtkTIFFWriter(), "a.tif", make_image(ball("u2")))
@@ -176,7 +236,7 @@ class VolumesTest(ToolTestCase):
         self.refused("damaged", self.write_bytes("a.nrrd", content), self.path("a.stl"))
         header = nrrd_header(direction=np.array([[1, 0.5, 0], [0, 1, 0], [0, 0, 1]]))
         self.refused("right angles", self.write_bytes("b.nrrd", header + b"\n" + ball().tobytes()),
-                     self.path("a.stl"))
+                     self.path("a.stl"), "--no-resampling")
         self.refused("no value separates", self.write(
             vtkXMLImageDataWriter(), "flat.vti", make_image(0 * ball())), self.path("a.stl"))
         self.assertFalse(os.path.exists(self.path("a.stl")))
@@ -189,6 +249,52 @@ class VolumesTest(ToolTestCase):
         self.refused("lies where .* does", self.folder, self.path("a.stl"))
 
 
+class PalettesTest(ToolTestCase):
+    COLOURS = bytes([0, 0, 0, 250, 0, 0, 0, 0, 0, 250, 0, 0])  # the same one twice
+
+    def png(self, plane, bits):
+        def chunk(kind, data):
+            return struct.pack(">I", len(data)) + kind + data + struct.pack(
+                ">I", zlib.crc32(kind + data))
+
+        rows = plane if bits == 8 else plane[:, ::2] << 4 | plane[:, 1::2]
+        rows = b"".join(b"\0" + row.astype("u1").tobytes() for row in rows)
+        return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(
+            ">IIBBBBB", *plane.shape[::-1], bits, 3, 0, 0, 0)) + chunk(b"PLTE", self.COLOURS) + chunk(
+                b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b"")
+
+    def bmp(self, plane, isgrey=False):
+        padded = np.pad(plane[::-1], ((0, 0), (0, -plane.shape[1] % 4)))
+        start, colours = 54 + 1024, bytearray(1024)
+        colours[4:16] = 0, 0, 250, 0, 0, 0, 0, 0, 0, 0, 250, 0
+        colours = np.arange(256, dtype="<u4") * 0x10101 if isgrey else colours
+        return b"BM" + struct.pack(
+            "<IHHIIiiHHIIiiII", start + padded.size, 0, 0, start, 40, *plane.shape[::-1], 1, 8, 0, 0,
+            0, 0, 0, 0) + bytes(colours) + padded.astype("u1").tobytes()
+
+    def test_grey_values(self):
+        os.makedirs(self.path("a"))
+        for k, plane in enumerate(ball() // 4):
+            self.write_bytes(f"a/{k:02}.bmp", self.bmp(plane, isgrey=True))
+        said = self.run_tool(self.path("a"), self.path("a.vtp"), "--iso", "125").stderr
+        self.assertIn("x 1, unsigned char, 0 to 215", said)
+
+    def test_labels_are_the_numbers_of_the_palette(self):
+        labels = (ball() > ISO).astype("u1")
+        labels[:8] *= 3
+        for kind, suffix, write in (("png", "png", lambda plane: self.png(plane, 8)),
+                                    ("half", "png", lambda plane: self.png(plane, 4)),
+                                    ("bmp", "bmp", self.bmp)):
+            os.makedirs(self.path(kind))
+            for k, plane in enumerate(labels):
+                self.write_bytes(f"{kind}/{k:02}.{suffix}", write(plane))
+            said = self.run_tool(self.path(kind), "--list-labels").stdout
+            counts = re.findall(r"(?m)^ *(\d+) +(\d+) ", said)
+            self.assertEqual(counts, [(str(n), str((labels == n).sum())) for n in (1, 3)], kind)
+        said = self.run_tool(self.path("png"), self.path("a.vtp"), "--iso", "60").stderr
+        self.assertIn("the colours of its palette are taken; --labels takes the numbers", said)
+
+
 class TableTest(unittest.TestCase):
     def test_documented_suffixes_are_those_of_the_reader_and_of_the_manual(self):
         root = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
@@ -198,9 +304,8 @@ class TableTest(unittest.TestCase):
                 return file.read()
 
         # Chosen by content: TIFF and pictures.
-        read = set(re.findall(r'\{ "(\.[a-z0-9.]+)", ', text("Applications", "volumic",
-                                                            "ReadVolume.cxx")))
-        read -= {".vtr", ".vts", ".vtu", ".vtp"}  # of which it is told that they are no images
+        code = text("Applications", "volumic", "ReadVolume.cxx").split("> openers = {")[1]
+        read = set(re.findall(r'"(\.[a-z0-9.]+)"', code[:code.index("  };")]))
         rows = re.findall(r"(?m)^\| (.*?) \|", text("Documentation", "formats.md"))
         documented = {name for row in rows for name in re.findall(r"`(\.[a-z0-9.]+)`", row)}
         self.assertEqual(documented - {".tif", ".tiff", ".lsm", ".png", ".jpg", ".bmp", ".pgm"}, read)

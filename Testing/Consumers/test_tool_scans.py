@@ -64,6 +64,47 @@ class ScanTest(ToolTestCase):
         return report
 
 
+class ShearTest(ScanTest):
+    LEANING = np.array([[1, 0.2, -0.1], [0, 1, 0.15], [0.02, 0, 1]]) * SPACING  # columns: steps
+
+    def seen(self, steps):
+        """A ball in the middle as voxels with these steps have it, and the place of that."""
+        index = np.moveaxis(np.indices(tuple(SIZE[::-1])), 0, -1)[..., ::-1] - (SIZE - 1) / 2
+        distance = np.linalg.norm(index @ steps.T, axis=-1)
+        voxels = np.clip(ISO + 100 * (RADIUS - distance), 0, 1000).round().astype("i2")
+        return voxels, ORIGIN + steps @ (SIZE - 1) / 2
+
+    def test_of_each_axis(self):
+        for form in (self.LEANING, self.LEANING[:, [1, 0, 2]], self.LEANING @ np.diag([1, 1, -1])):
+            voxels, centre = self.seen(form)
+            self.write_bytes("a/a.nii", medical_files.nifti(
+                voxels, SPACING, np.column_stack([form, ORIGIN]), offset=(50, 60, 70)))
+            self.write_bytes("a/b.nii.gz", gzip.compress(self.content("a/a.nii")))
+            for name, way in (("a/a.nii", ()), ("a/b.nii.gz", ()), ("a/a.nii", ("--memory", "200M"))):
+                self.check(name, *way, centre=centre, told="sform, which is taken.*its axes are "
+                           "up to 11.* degrees from right angles; resampled from 26 x 22 x 18 to")
+        self.refused_volume("a/a.nii", "without --no-resampling they are resampled", "--no-resampling")
+
+    def test_labels_are_not_mixed(self):
+        labels = np.where(self.seen(self.LEANING)[0] > ISO, 9, 0)
+        self.write_bytes("a.nii", medical_files.nifti(
+            labels, SPACING, np.column_stack([self.LEANING, ORIGIN])))
+        said = self.run_tool(self.path("a.nii"), "--list-labels").stdout
+        self.assertEqual(re.findall(r"(?m)^ *(\d+) ", said), ["9"], said)
+
+    def test_cells_of_mrc(self):
+        lean = np.radians(80)
+        steps = np.array([[1, 0, np.cos(lean)], [0, 1, 0], [0, 0, np.sin(lean)]]) * SPACING
+        voxels, centre = self.seen(steps)
+        content = bytearray(medical_files.mrc(voxels, SPACING))
+        struct.pack_into("<f", content, 56, 80)
+        self.write_bytes("a.mrc", content)
+        self.check("a.mrc", centre=centre - ORIGIN, told="its axes are up to 10 degrees")
+        self.refused_volume("a.mrc", "right angles; without", "--no-resampling")
+        struct.pack_into("<fff", content, 52, 10, 80, 120)
+        self.refused_bytes("a.mrc", bytes(content), "have no such angles")
+
+
 class SlicesTest(ScanTest):
     def test_a_missing_slice(self):
         self.series([k for k in range(SIZE[2]) if k != 9])
@@ -94,6 +135,14 @@ class SlicesTest(ScanTest):
         self.assertEqual(report["input"]["dimensions"], [26, 22 + 5, 18])
         self.refused_volume("a", "gantry was tilted", "--no-resampling")
 
+    def test_labels_of_tilted_slices_are_not_mixed(self):
+        for k in range(SIZE[2]):
+            self.write_bytes(f"a/IM{k}", dicom_slice(k, np.where(ball() > ISO, 9, 0).astype("i2"),
+                lacks=("position",), more=((0x20, 0x32, "DS", medical_files.decimal(
+                    ORIGIN + [0, 0.2 * k, k])),)))
+        said = self.run_tool(self.path("a"), "--list-labels", "--labels", "all").stdout
+        self.assertEqual(re.findall(r"(?m)^ *(\d+) ", said), ["9"], said)
+
     def test_a_localizer_among_them(self):
         self.series()
         across = np.array([[0, 0, 1], [1, 0, 0], [0, 1, 0]])
@@ -116,7 +165,9 @@ class SlicesTest(ScanTest):
         self.series(name="T{:02}", voxels=1000 - ball(), more=((0x20, 0x13, "IS", "2"),))
         self.refused_volume("a", "2 volumes, .*choose one with --time N, 0 to 1")
         self.check("a", "--time", "0")
-        self.assertEqual(self.report(self.path("a"), "--iso", ISO, "--dark", "--time", "1")["genus"], 0)
+        self.assertEqual(self.report(self.path("a"), "--iso", ISO, "--dark", "--phase", "1")["genus"], 0)
+        said = self.run_tool(self.path("a"), "--list-series").stdout
+        self.assertIn("36 slices of 26 x 22, 2 at each place (--time)", said)
         self.refused_volume("a", "there is no time 2", "--time", "2")
 
     def test_padding(self):

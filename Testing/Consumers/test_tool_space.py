@@ -129,6 +129,13 @@ class SpaceTest(ToolTestCase):
         self.assertRegex(self.content("a.stl")[:80],
                          rb"^volumic [0-9.]+, SPACE=RAS, unit mm, UNFINISHED: iteration limit ")
 
+    def test_scenes(self):
+        self.run_to("glb", self.nifti(2))
+        content = self.content("a.glb")
+        length = int.from_bytes(content[12:16], "little")
+        extras = json.loads(content[20:20 + length])["nodes"][1]["extras"]
+        self.assertEqual((extras["SPACE"], extras["LengthUnit"]), ("RAS", "mm"))
+
     def test_obj_is_the_surface(self):
         self.run_to("obj", self.nifti(2))
         self.run_to("stl", self.nifti(2))
