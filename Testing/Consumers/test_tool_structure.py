@@ -118,11 +118,12 @@ class TiffTest(StructureTest):
     def test_kinds_of_pixels(self):
         pages = [page.tobytes() for page in ball("u2")]
         for tags, reason in (({259: 32946}, "page 1: .* damaged or cut off"),
-                             ({258: 12}, "pixels of this kind"), ({339: 3}, "pixels of this kind"),
+                             ({258: 12}, "pixels of this kind"), ({339: 6}, "pixels of this kind"),
                              ({273: None, 322: 16, 323: 16}, "damaged or cut off")):
             with self.subTest(tags):
                 self.refused_bytes("c.tif", tiff(pages, tags), reason)
         for voxels, tags in ((ball("f4"), {258: 32, 339: 3}), (ball("i2"), {339: 2}),
+                             (ball("f2"), {339: 3}),
                              ((65535 - ball()).astype("u2"), {262: 0})):
             with self.subTest(tags):
                 self.accepted_bytes("d.tif", tiff([page.tobytes() for page in voxels], tags))
