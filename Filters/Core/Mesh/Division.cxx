@@ -144,7 +144,7 @@ public:
     : Mesh(mesh), Numbers(numbers), Kept(kept)
   {
     const auto n = static_cast<std::size_t>(this->FirstMiddle() + numbers.Middles);
-    this->Divided.Remake(n, static_cast<int>(n));
+    this->Divided.Remake(n);
   }
 
   /** Makes an old vertex, and the new ones that come of what it is the smallest of; on any thread. */

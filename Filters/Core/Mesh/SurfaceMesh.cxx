@@ -52,52 +52,34 @@ bool SurfaceMesh::AreFarApart(int v, int w) const
   return true;
 }
 
-int SurfaceMesh::AddVertex(const Vector& position, VertexPlaces* places)
+int SurfaceMesh::AddVertex(const Vector& position, VertexRoom* room)
 {
-  std::vector<int>& free = places ? places->Free : this->Free;
-  if (free.empty())
+  int v = this->Size();
+  if (room)
+  {
+    v = room->Next++;
+    ++room->Added;
+  }
+  else
   {
     Grow(this->Position, this->Position.size() + 1, Vector());
     Grow(this->Rings, this->Rings.size() + 1, Ring());
-    free.push_back(this->Size() - 1);
   }
-  const int v = free.back();
-  free.pop_back();
   this->Position[v] = position;
   return v;
 }
 
-void SurfaceMesh::RemoveVertex(int v, VertexPlaces* places)
+void SurfaceMesh::RemoveVertex(int v, VertexRoom* room)
 {
   this->Rings[v].Count = 0;
-  (places ? places->Removed : this->Free).push_back(v);
-}
-
-UnusedPlaces SurfaceMesh::AddUnusedPlaces(int n)
-{
-  const int size = this->Size();
-  LengthenZeroed(this->Position, static_cast<std::size_t>(size) + static_cast<std::size_t>(n));
-  LengthenZeroed(this->Rings, static_cast<std::size_t>(size) + static_cast<std::size_t>(n));
-  this->Aside += n;
-  return { size, size + n };
-}
-
-void SurfaceMesh::PutAside(VertexPlaces& places)
-{
-  this->Aside += static_cast<std::int64_t>(this->Free.size());
-  places.Free.insert(places.Free.end(), this->Free.begin(), this->Free.end());
-  this->Free.clear();
-}
-
-void SurfaceMesh::FreeFromAside(VertexPlaces& places, const UnusedPlaces& unused)
-{
-  this->Aside -= static_cast<std::int64_t>(places.Free.size()) + unused.Count();
-  for (int v = unused.End; v > unused.Next; --v)
+  if (room)
   {
-    this->Free.push_back(v - 1);
+    --room->Added;
   }
-  this->Free.insert(this->Free.end(), places.Free.begin(), places.Free.end());
-  places.Free.clear();
+  else
+  {
+    ++this->Empty;
+  }
 }
 
 std::int64_t SurfaceMesh::NumberOfFaces(Executor& executor) const
@@ -332,54 +314,59 @@ int SurfaceMesh::Append(const IndexedSurface& surface, Executor& executor)
 
 void SurfaceMesh::Reorder(const std::vector<int>& order, Executor& executor)
 {
+  this->Empty = static_cast<int>(std::count(order.begin(), order.end(), NoVertex));
   LargeVector<int> place;
   MakeZeroed(place, this->Rings.size());
   LargeVector<Vector> position;
-  MakeZeroed(position, order.size(), RoomForMore(order.size()));
+  MakeZeroed(position, order.size());
   LargeVector<Ring> rings;
-  MakeZeroed(rings, order.size(), RoomForMore(order.size()));
-  ForSpans(executor, order.size(), VertexSpan,
-    [&](std::size_t, std::size_t begin, std::size_t end)
-    {
-      for (std::size_t i = begin; i < end; ++i)
+  MakeZeroed(rings, order.size());
+  const auto forAll = [&](auto&& work)
+  {
+    ForSpans(executor, order.size(), VertexSpan,
+      [&](std::size_t, std::size_t begin, std::size_t end)
       {
-        place[order[i]] = static_cast<int>(i);
-        position[i] = this->Position[order[i]];
-      }
+        for (std::size_t i = begin; i < end; ++i)
+        {
+          if (order[i] != NoVertex)
+          {
+            work(i, order[i]);
+          }
+        }
+      });
+  };
+  forAll(
+    [&](std::size_t i, int before)
+    {
+      place[before] = static_cast<int>(i);
+      position[i] = this->Position[before];
     });
   this->Position.swap(position);
-  ForSpans(executor, order.size(), VertexSpan,
-    [&](std::size_t, std::size_t begin, std::size_t end)
+  forAll(
+    [&](std::size_t i, int before)
     {
-      for (std::size_t i = begin; i < end; ++i)
+      const Ring& from = this->Rings[before];
+      rings[i].Count = from.Count;
+      for (int k = 0; k < from.Count; ++k)
       {
-        const Ring& from = this->Rings[order[i]];
-        rings[i].Count = from.Count;
-        for (int k = 0; k < from.Count; ++k)
-        {
-          rings[i].Item[k] = place[from.Item[k]];
-        }
+        rings[i].Item[k] = place[from.Item[k]];
       }
     });
   this->Rings.swap(rings);
-  this->Free.clear();
-  this->Aside = 0;
 }
 
-void SurfaceMesh::Remake(std::size_t n, int vertices)
+void SurfaceMesh::Remake(std::size_t n)
 {
   this->Clear();
-  MakeZeroed(this->Position, n, RoomForMore(n));
-  MakeZeroed(this->Rings, n, RoomForMore(n));
-  this->Aside = static_cast<std::int64_t>(n) - vertices;
+  MakeZeroed(this->Position, n);
+  MakeZeroed(this->Rings, n);
 }
 
 void SurfaceMesh::Clear()
 {
-  this->Position = {}; // What was written is not zero any more.
+  this->Position = {};
   this->Rings = {};
-  this->Free.clear();
-  this->Aside = 0;
+  this->Empty = 0;
 }
 
 namespace

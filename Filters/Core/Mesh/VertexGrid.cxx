@@ -67,10 +67,17 @@ void VertexGrid::Resize(std::size_t n)
   Grow(this->Next, n, -1);
 }
 
-void VertexGrid::Lengthen(std::size_t n)
+void VertexGrid::Clear()
 {
-  LengthenZeroed(this->Cell, n);
-  LengthenZeroed(this->Next, n);
+  for (LargeVector<Brick>& bricks : this->Made)
+  {
+    for (Brick& brick : bricks)
+    {
+      brick.fill(-1);
+    }
+  }
+  this->Next.clear();
+  this->Cell.clear();
 }
 
 VertexGrid::Brick* VertexGrid::MakeBrick(std::size_t number)

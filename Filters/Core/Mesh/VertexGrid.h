@@ -43,8 +43,8 @@ public:
   /** Makes room for vertices of indices below n. */
   void Resize(std::size_t n);
 
-  /** The same for vertices to come, whose room takes no memory before. */
-  void Lengthen(std::size_t n);
+  /** Takes all vertices out. */
+  void Clear();
 
   void Insert(int v, const Vector& position);
   /**

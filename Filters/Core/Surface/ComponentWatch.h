@@ -23,10 +23,10 @@ public:
   static constexpr int SmallSize = 400;
 
   /**
-   * The small components that have a vertex in a list, or grow to it from there, and lie in a box
-   * get labels of their own and are watched; the others are left as they are.
+   * The small components that have a vertex in a range, and lie in a box, get labels of their own and
+   * are watched; the others are left as they are.
    */
-  void LabelSmall(SurfaceState& state, const std::vector<int>& vertices, const Box& within);
+  void LabelSmall(SurfaceState& state, int begin, int end, const Box& within);
 
   /**
    * Deletes those of them that must go.

@@ -113,7 +113,6 @@ void Remesher::Split(std::vector<int>& vertices)
   {
     this->SplitAt(this->Items[i], this->Items);
   }
-  this->Editor.EndPass();
   vertices.insert(vertices.end(),
     this->Items.begin() + static_cast<std::ptrdiff_t>(given), this->Items.end());
 }
@@ -166,7 +165,6 @@ void Remesher::Collapse(const std::vector<int>& vertices)
       this->CollapseAt(v);
     }
   }
-  this->Editor.EndPass();
 }
 
 void Remesher::FlipAt(int v)
@@ -201,7 +199,6 @@ void Remesher::Flip(const std::vector<int>& vertices)
       this->FlipAt(v);
     }
   }
-  this->Editor.EndPass();
 }
 
 void Remesher::UnstickAt(int v)
@@ -253,6 +250,5 @@ void Remesher::Unstick(const std::vector<int>& vertices)
       this->UnstickAt(v);
     }
   }
-  this->Editor.EndPass();
 }
 }

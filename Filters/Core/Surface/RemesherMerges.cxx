@@ -149,7 +149,6 @@ void Remesher::Merge(const std::vector<Proximity::ClosePair>& pairs)
   {
     this->MergeOrFlip(pair.V, pair.W, strips);
   }
-  this->Editor.EndPass();
   this->Split(strips); // What could not be split at once.
 }
 }

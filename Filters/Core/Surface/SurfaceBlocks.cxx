@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <numeric>
 #include <utility>
 
 namespace volumic
@@ -20,9 +19,11 @@ constexpr std::size_t VertexSpan = 8192;
  * Places for new vertices that a block gets at least, for how many of its own one more, and how many
  * for each that its last visit took: a surface that grows takes more each time.
  */
-constexpr int FewPlaces = 128;
+constexpr int FewPlaces = 32;
 constexpr int VerticesPerPlace = 4;
-constexpr int PlacesPerTaken = 4;
+constexpr int PlacesPerTaken = 2;
+/** How far out of its block a vertex may be before it must be another block's; in delta. */
+constexpr float Astray = SurfaceBlocks::MovingInDelta / 2.f;
 
 // See SurfaceBlocks; in delta. An edge, of which both ends may move by half a delta at once:
 constexpr float LongestEdge = HugeEdge * SizingField::LongestEdgeInDelta + 1.f;
@@ -41,6 +42,14 @@ static_assert(SurfaceBlocks::WrittenInDelta + SurfaceBlocks::HaloInDelta +
       SizingField::ReachInDelta <=
     SurfaceBlocks::SideInDelta,
   "what visits of one colour write and read has no cell of the grid in common");
+
+constexpr int NoBlock = -1;
+
+/** How many more vertices a block may get that has so many. */
+int RoomFor(int vertices, int taken)
+{
+  return vertices > 0 ? FewPlaces + vertices / VerticesPerPlace + PlacesPerTaken * taken : 0;
+}
 
 /** 0, 2, 1, 4, 3, ...: those of even place before their neighbours of odd place. */
 std::vector<int> EvenFirst(int count)
@@ -80,8 +89,10 @@ SurfaceBlocks::SurfaceBlocks(SurfaceState& state, const Frame& frame, Executor& 
   : State(state)
   , TheFrame(frame)
 {
-  state.Mesh.PutAside(this->Others); // What is free is for nobody.
-  this->Collect(executor);
+  const std::array<int, 3>& size = frame.Size;
+  this->All.resize(
+    static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) * size[2]);
+  this->Reorder(executor);
   this->FindOrder();
 }
 
@@ -158,31 +169,57 @@ std::vector<int> SurfaceBlocks::NeighboursOf(int block) const
   return neighbours;
 }
 
-void SurfaceBlocks::Collect(Executor& executor)
+void SurfaceBlocks::Reorder(Executor& executor)
 {
   const SurfaceMesh& mesh = this->State.Mesh;
   const std::size_t n = mesh.Rings.size();
+  LargeVector<int> blocks;
+  MakeZeroed(blocks, n);
   ForSpans(executor, n, VertexSpan,
     [&](std::size_t, std::size_t begin, std::size_t end)
     {
       for (std::size_t v = begin; v < end; ++v)
       {
-        if (mesh.IsAlive(static_cast<int>(v)))
-        {
-          this->State.Block[v] = this->BlockAt(mesh.Position[v]);
-        }
+        blocks[v] = mesh.IsAlive(static_cast<int>(v)) ? this->BlockAt(mesh.Position[v]) : NoBlock;
       }
     });
-  const std::array<int, 3>& size = this->TheFrame.Size;
-  const std::size_t count =
-    static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) * size[2];
-  this->All.resize(count);
+  std::vector<int> counts(this->All.size(), 0);
+  for (const int block : blocks)
+  {
+    if (block != NoBlock)
+    {
+      ++counts[block];
+    }
+  }
+  int first = 0;
+  for (std::size_t block = 0; block < counts.size(); ++block)
+  {
+    OfBlock& own = this->All[block];
+    own.First = own.Next = first;
+    own.End = first += counts[block] + RoomFor(counts[block], own.Taken);
+    own.IsAstray = false;
+  }
+  std::vector<int> order(static_cast<std::size_t>(first), NoVertex);
   for (std::size_t v = 0; v < n; ++v)
   {
-    if (mesh.IsAlive(static_cast<int>(v)))
+    if (blocks[v] != NoBlock)
     {
-      this->All[this->State.Block[v]].Vertices.push_back(static_cast<int>(v));
+      order[this->All[blocks[v]].Next++] = static_cast<int>(v);
     }
+  }
+  this->State.Reorder(order, executor);
+}
+
+void SurfaceBlocks::Prepare(Executor& executor)
+{
+  const auto isUnfit = [](const OfBlock& own)
+  {
+    return own.IsAstray ||
+      own.End - own.Next < RoomFor(own.Next - own.First, own.Taken) / 2;
+  };
+  if (std::any_of(this->All.begin(), this->All.end(), isUnfit))
+  {
+    this->Reorder(executor);
   }
 }
 
@@ -204,97 +241,19 @@ void SurfaceBlocks::FindOrder()
     std::move(order), [this](int block) { return this->NeighboursOf(block); });
 }
 
-int SurfaceBlocks::MissingPlacesOf(int block) const
-{
-  const OfBlock& own = this->All[block];
-  const int has = own.Unused.Count() + static_cast<int>(own.Places.Free.size());
-  const auto wantedFor = [&own](const std::vector<int>& vertices)
-  {
-    return vertices.empty() ? 0
-                            : FewPlaces + static_cast<int>(vertices.size()) / VerticesPerPlace +
-        PlacesPerTaken * own.Taken;
-  };
-  if (has >= wantedFor(own.Vertices) / 2)
-  {
-    return 0; // Also for those of the list that it really has.
-  }
-  const int wanted = wantedFor(this->VerticesOf(block));
-  return has < wanted / 2 ? wanted : 0;
-}
-
-std::vector<int> SurfaceBlocks::MissingPlaces(Executor& executor) const
-{
-  std::vector<int> counts(this->All.size());
-  ForSpans(executor, counts.size(), 1,
-    [&](std::size_t b, std::size_t, std::size_t)
-    { counts[b] = this->MissingPlacesOf(static_cast<int>(b)); });
-  return counts;
-}
-
-void SurfaceBlocks::AddPlaces(const std::vector<int>& counts, Executor& executor)
-{
-  const int total = std::accumulate(counts.begin(), counts.end(), 0);
-  if (total == 0)
-  {
-    return;
-  }
-  int next = this->State.AddUnusedPlaces(total, executor).Next;
-  for (std::size_t block = 0; block < counts.size(); ++block)
-  {
-    if (counts[block] > 0)
-    {
-      OfBlock& own = this->All[block];
-      for (int v = own.Unused.End; v > own.Unused.Next; --v)
-      {
-        own.Places.Free.push_back(v - 1); // Few are left; they stay aside.
-      }
-      own.Unused = { next, next + counts[block] };
-      next += counts[block];
-    }
-  }
-}
-
 void SurfaceBlocks::Append(const IndexedSurface& surface, Executor& executor)
 {
-  for (const int v : this->State.Append(surface, executor))
-  {
-    this->State.Block[v] = this->BlockAt(this->State.Mesh.Position[v]);
-    this->All[this->State.Block[v]].Vertices.push_back(v);
-  }
-}
-
-void SurfaceBlocks::Clean(int block, std::vector<int>& vertices) const
-{
-  // Others' visits have removed some of them; places that are taken again belong to whom they say.
-  const auto isOther = [this, block](int v)
-  { return !this->State.Mesh.IsAlive(v) || this->State.Block[v] != block; };
-  vertices.erase(std::remove_if(vertices.begin(), vertices.end(), isOther), vertices.end());
-  const auto isInOrder = [&vertices]
-  {
-    return std::adjacent_find(vertices.begin(), vertices.end(), std::greater_equal<int>()) ==
-      vertices.end();
-  };
-  if (!isInOrder()) // As they are where none has come from elsewhere.
-  {
-    std::sort(vertices.begin(), vertices.end());
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-  }
+  this->State.Append(surface, executor);
+  this->Reorder(executor);
 }
 
 BlockVisit SurfaceBlocks::Open(int block)
 {
-  OfBlock& own = this->All[block];
+  const OfBlock& own = this->All[block];
   BlockVisit visit;
   visit.Block = block;
-  visit.Vertices.swap(own.Vertices);
-  this->Clean(block, visit.Vertices);
-  visit.OldOnes = static_cast<std::ptrdiff_t>(visit.Vertices.size());
-  visit.Share.Block = block;
-  visit.Share.Places.Free.swap(own.Places.Free);
-  // Some have come back from visits of others: the smallest is taken first, whoever came when.
-  std::sort(visit.Share.Places.Free.begin(), visit.Share.Places.Free.end(), std::greater<int>());
-  visit.Share.Unused = own.Unused;
-  visit.PlacesBefore = visit.Share.NumberOfPlaces();
+  visit.First = own.First;
+  visit.Share.Room = { own.Next, own.End };
   const Box box = this->BoxOf(block);
   const float delta = this->State.Sizing.Smallest();
   visit.Moving = box.Grown(MovingInDelta * delta);
@@ -310,108 +269,40 @@ double SurfaceBlocks::SumUp(
     [&](std::size_t block, std::size_t)
     {
       double sum = 0.;
-      for (const int v : this->VerticesOf(static_cast<int>(block)))
+      for (int v = this->All[block].First; v < this->All[block].Next; ++v)
       {
-        sum += ofVertex(v);
+        sum += this->State.Mesh.IsAlive(v) ? ofVertex(v) : 0.;
       }
       return sum;
     });
 }
 
-void SurfaceBlocks::AddNew(BlockVisit& visit, const std::vector<int>& vertices) const
-{
-  std::vector<int>& all = visit.Vertices;
-  const auto oldOnes = visit.OldOnes;
-  const std::size_t before = all.size();
-  for (const int v : vertices)
-  {
-    if (this->State.Mesh.IsAlive(v) && this->State.Block[v] == NoBlock)
-    {
-      this->State.Block[v] = visit.Block;
-      if (!std::binary_search(all.begin(), all.begin() + oldOnes, v)) // Else in an old one's place.
-      {
-        all.push_back(v);
-      }
-    }
-  }
-  if (all.size() > before)
-  {
-    std::sort(all.begin() + oldOnes, all.end());
-    all.erase(std::unique(all.begin() + oldOnes, all.end()), all.end());
-  }
-}
-
 void SurfaceBlocks::Close(BlockVisit&& visit)
 {
   SurfaceState& s = this->State;
-  visit.Share.EndPass(s);
-  std::vector<int> stay;
-  std::vector<int> gone;
-  for (const int v : visit.Vertices)
-  {
-    if (s.Mesh.IsAlive(v) && s.Block[v] == visit.Block)
-    {
-      s.Block[v] = this->BlockAt(s.Mesh.Position[v]);
-      (s.Block[v] == visit.Block ? stay : gone).push_back(v);
-    }
-  }
-  std::sort(stay.begin(), stay.end());
   OfBlock& own = this->All[visit.Block];
-  own.Places.Free.swap(visit.Share.Places.Free);
-  own.Unused = visit.Share.Unused;
-  const int places = static_cast<int>(own.Places.Free.size()) + own.Unused.Count();
-  own.Taken = std::max(0, visit.PlacesBefore - places);
+  own.Taken = visit.End() - own.Next;
+  own.Next = visit.End();
+  const Box box = this->BoxOf(visit.Block).Grown(Astray * s.Sizing.Smallest());
+  for (int v = own.First; v < own.Next && !own.IsAstray; ++v)
+  {
+    own.IsAstray = s.Mesh.IsAlive(v) && !box.Contains(s.Mesh.Position[v]);
+  }
   const std::lock_guard<std::mutex> lock(this->Closing);
-  own.Vertices.insert(own.Vertices.end(), stay.begin(), stay.end());
-  for (const int v : gone)
-  {
-    this->All[s.Block[v]].Vertices.push_back(v);
-  }
-  for (const int v : visit.Share.Others)
-  {
-    this->All[s.Block[v]].Places.Free.push_back(v);
-  }
-  s.Mesh.CountOthers(
-    visit.PlacesBefore - places - static_cast<int>(visit.Share.Others.size()));
+  s.Mesh.Count(visit.Share.Room);
   s.EulerCharacteristic += visit.Share.EulerCharacteristic;
-}
-
-std::vector<int> SurfaceBlocks::VerticesOf(int block) const
-{
-  std::vector<int> vertices = this->All[block].Vertices;
-  this->Clean(block, vertices);
-  return vertices;
-}
-
-SurfaceBlocks::~SurfaceBlocks()
-{
-  for (OfBlock& block : this->All)
-  {
-    this->State.Mesh.FreeFromAside(block.Places, block.Unused);
-  }
-  this->State.Mesh.FreeFromAside(this->Others, UnusedPlaces());
 }
 
 void SurfaceBlocks::Prefetch(int block) const
 {
-  // They follow each other but for a few that came later, whose places are anywhere.
-  const std::vector<int>& vertices = this->All[block].Vertices;
-  const std::size_t few = vertices.size() / 32;
-  if (vertices.size() > 2 * few)
-  {
-    const int first = vertices[few];
-    const int last = vertices[vertices.size() - 1 - few];
-    if (first < last && last - first < 2 * static_cast<int>(vertices.size()))
-    {
-      this->State.Prefetch(first, last);
-    }
-  }
+  this->State.Prefetch(this->All[block].First, this->All[block].Next);
 }
 
 bool SurfaceBlocks::HasActive(int block) const
 {
-  const std::vector<int>& vertices = this->All[block].Vertices;
-  return std::any_of(vertices.begin(), vertices.end(),
-    [&](int v) { return this->State.Block[v] == block && this->State.Active[v] != 0; });
+  const OfBlock& own = this->All[block];
+  const std::uint8_t* active = this->State.Active.AsVector().data();
+  return std::any_of(
+    active + own.First, active + own.Next, [](std::uint8_t isActive) { return isActive != 0; });
 }
 }

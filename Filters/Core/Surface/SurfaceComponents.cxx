@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
 #include <utility>
 
 namespace volumic
@@ -67,13 +66,11 @@ std::vector<int> FindDegenerate(
   SurfaceState state;
   state.Sizing = SizingField(sizing.OfLevel()); // Its vertices have other numbers.
   Fill(state, records);
-  std::vector<int> all(records.size());
-  std::iota(all.begin(), all.end(), 0);
   constexpr float far = 1e9f;
   ComponentWatch watch;
-  watch.LabelSmall(state, all, { Vector(-far, -far, -far), Vector(far, far, far) });
+  watch.LabelSmall(state, 0, state.Mesh.Size(), { Vector(-far, -far, -far), Vector(far, far, far) });
   std::vector<int> roots; // By component; they come in order.
-  for (const int v : all)
+  for (int v = 0; v < static_cast<int>(records.size()); ++v)
   {
     if (roots.empty() || state.Component[v] > state.Component[roots.back()])
     {

@@ -77,9 +77,6 @@ enum RemeshFlag : std::uint8_t
   HasHugeEdge = 8       ///< An edge is longer than HugeEdge times the longest legal one.
 };
 
-/** Stands for the block of a vertex that is new and belongs to none yet. */
-constexpr int NoBlock = -1;
-
 /** What the steps of a visit note about a vertex for each other; no bit is set between visits. */
 enum VertexMark : std::uint8_t
 {
@@ -152,8 +149,6 @@ public:
   VertexProperty<std::uint8_t> Marks{ this->Properties, 0, 0 }; ///< Bits of VertexMark.
 
   VertexProperty<int> Component{ this->Properties, 0 }; ///< Label: ComponentWatch.
-  /** The block that it belongs to: SurfaceBlocks. */
-  VertexProperty<int> Block{ this->Properties, NoBlock, NoBlock };
 
   static constexpr float NotExamined = 1e6f; ///< More than any slack.
 
@@ -167,14 +162,13 @@ public:
 
   /** What is known of the vertices of [first, last) will be read soon: see PrefetchLarge. */
   void Prefetch(int first, int last) const;
-  /** SurfaceMesh::AddUnusedPlaces, with room for what their vertices will know. */
-  UnusedPlaces AddUnusedPlaces(int n, Executor& executor);
-  /**
-   * Adds a closed surface in places that follow the last ones and are aside. Its vertices are as
-   * after Reset(), with their shapes. @return these, in order
-   */
-  std::vector<int> Append(const IndexedSurface& surface, Executor& executor);
+  /** SurfaceMesh::Reorder, with all that is known of the vertices. */
+  void Reorder(const std::vector<int>& order, Executor& executor);
+  /** Adds a closed surface. Its vertices follow the last ones, as after Reset(), with their shapes. */
+  void Append(const IndexedSurface& surface, Executor& executor);
 
+  /** Of all vertices from `first` on, into the grid. */
+  void InsertAll(int first, Executor& executor);
   /** After v has been added to the mesh, next to, or as a copy of, its parent. */
   void AddVertex(int v, int parent);
   /** Before v is removed from the mesh. */
@@ -204,9 +198,9 @@ public:
   };
   /**
    * Deletes the whole component of a vertex; the caller keeps the books.
-   * @param places where the indices go; null: to the mesh's own
+   * @param room of the visit; null: nothing else is at work
    */
-  RemovedComponent TakeComponentAway(int v, VertexPlaces* places);
+  RemovedComponent TakeComponentAway(int v, VertexRoom* room);
   /** The same where nothing else is at work: counts and chi are kept. @return the vertices removed. */
   int RemoveComponent(int v);
 

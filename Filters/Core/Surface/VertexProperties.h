@@ -23,12 +23,10 @@ public:
   virtual void Reset(std::size_t n) = 0;
   /** Has values for indices below n; those that are new have the initial one. */
   virtual void Resize(std::size_t n) = 0;
-  /** The same for places of vertices to come, without a value, which take no memory before. */
-  virtual void Lengthen(std::size_t n) = 0;
-  /** Forgets all values: n places without one. */
-  virtual void Remake(std::size_t n) = 0;
-  /** Some vertices have the initial value. */
-  virtual void Initialise(const std::vector<int>& vertices) = 0;
+  /** Forgets all values, and has none until it is reset. */
+  virtual void Forget() = 0;
+  /** See SurfaceMesh::Reorder; where there is no vertex the value is zero. */
+  virtual void Reorder(const std::vector<int>& order) = 0;
   /** A value for a new vertex, `v`, which comes of another one. */
   virtual void Add(std::size_t v, std::size_t parent) = 0;
   /** The values of [first, last), which there are, will be read soon: see PrefetchLarge. */
@@ -59,29 +57,24 @@ public:
       property->Resize(n);
     }
   }
-  void Lengthen(std::size_t n, Executor& executor)
+  void Reorder(const std::vector<int>& order, Executor& executor)
   {
-    // An array that is lengthened is there twice for a moment: a few at a time.
+    // An array that is being reordered is there twice: a few at a time.
     executor.For(this->All.size(), this->All.size() / 4,
       [&](std::size_t begin, std::size_t end)
       {
         for (std::size_t i = begin; i < end; ++i)
         {
-          this->All[i]->Lengthen(n);
+          this->All[i]->Reorder(order);
         }
       });
   }
-  void Remake(std::size_t n)
+  void Forget()
   {
     for (VertexPropertyBase* property : this->All)
     {
-      property->Remake(n);
+      property->Forget();
     }
-  }
-  void Initialise(const std::vector<int>& vertices, Executor& executor)
-  {
-    ForSpans(executor, this->All.size(), 1,
-      [&](std::size_t i, std::size_t, std::size_t) { this->All[i]->Initialise(vertices); });
   }
   void Prefetch(std::size_t first, std::size_t last) const
   {
@@ -136,18 +129,23 @@ public:
 
   void Reset(std::size_t n) override
   {
-    MakeZeroed(this->Values, 0, RoomForMore(n));
+    this->Values = {};
     this->Values.assign(n, this->Initial);
   }
   void Resize(std::size_t n) override { Grow(this->Values, n, this->Initial); }
-  void Lengthen(std::size_t n) override { LengthenZeroed(this->Values, n); }
-  void Remake(std::size_t n) override { MakeZeroed(this->Values, n); }
-  void Initialise(const std::vector<int>& vertices) override
+  void Forget() override { this->Values = {}; }
+  void Reorder(const std::vector<int>& order) override
   {
-    for (const int v : vertices)
+    LargeVector<T> values;
+    MakeZeroed(values, order.size());
+    for (std::size_t i = 0; i < order.size(); ++i)
     {
-      this->Values[v] = this->Initial;
+      if (order[i] >= 0)
+      {
+        values[i] = this->Values[order[i]];
+      }
     }
+    this->Values.swap(values);
   }
   void Prefetch(std::size_t first, std::size_t last) const override
   {
