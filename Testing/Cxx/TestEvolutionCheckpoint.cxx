@@ -114,9 +114,8 @@ TEST(EvolutionCheckpoint, GoesOnInSweepsAlike)
   ExpectSameByWayOfFiles(InSmallBlocks(), Scene());
 }
 
-TEST(EvolutionCheckpoint, KeepsTheFreePlacesWhereALevelNeedsNoDivision)
+TEST(EvolutionCheckpoint, GoesOnAlikeWhereALevelNeedsNoDivision)
 {
-  // What is split then takes the places of vertices that are gone.
   ExpectSameByWayOfFiles(Options(), Scene(1.2));
 }
 

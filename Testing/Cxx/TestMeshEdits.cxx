@@ -172,37 +172,35 @@ TEST(SurfaceMesh, UsesThePlacesOfRemovedVerticesAgain)
   const int size = mesh.Size();
   EdgeCollapse{ 30, mesh.Rings[30].Item[0] }.Apply(mesh);
   EXPECT_EQ(mesh.NumberOfVertices(), size - 1);
-  EdgeSplit{ 50, mesh.Rings[50].Item[0] }.Apply(mesh, Vector(0, 0, 7));
+  EXPECT_EQ(EdgeSplit({ 50, mesh.Rings[50].Item[0] }).Apply(mesh, Vector(0, 0, 7)), size);
   EXPECT_EQ(mesh.NumberOfVertices(), size);
-  EXPECT_EQ(mesh.Size(), size);
+  EXPECT_EQ(mesh.Size(), size + 1);
   EXPECT_EQ(DescribeBrokenInvariant(mesh), "");
 }
 
-TEST(SurfaceMesh, KeepsPlacesAsideForTheirKeeper)
+TEST(SurfaceMesh, HasRoomBetweenItsVertices)
 {
   SurfaceMesh mesh = MakeSphere({ 0, 0, 0 }, 3, 1);
   const int size = mesh.Size();
-  mesh.RemoveVertex(4);
-  mesh.RemoveVertex(9);
-  VertexPlaces places;
-  mesh.PutAside(places);
-  EXPECT_EQ(mesh.NumberOfVertices(), size - 2);
-  const UnusedPlaces unused = mesh.AddUnusedPlaces(3);
-  EXPECT_EQ(unused.Next, size);
-  EXPECT_EQ(mesh.Size(), size + 3);
-  EXPECT_EQ(mesh.NumberOfVertices(), size - 2);
-  EXPECT_EQ(mesh.AddVertex(Vector(), &places), 9);
-  EXPECT_EQ(mesh.AddVertex(Vector(), &places), 4);
-  mesh.CountOthers(2);
+  std::vector<int> order(static_cast<std::size_t>(size) + 2, NoVertex);
+  std::iota(order.begin(), order.begin() + 4, 0);
+  std::iota(order.begin() + 6, order.end(), 4);
+  const Vector fifth = mesh.Position[4];
+  mesh.Reorder(order);
+  EXPECT_EQ(mesh.Size(), size + 2);
   EXPECT_EQ(mesh.NumberOfVertices(), size);
-  mesh.RemoveVertex(9, &places);
-  EXPECT_TRUE(places.Free.empty()) << "not one that was removed meanwhile";
-  places.Free.swap(places.Removed);
-  EXPECT_EQ(mesh.AddVertex(Vector(), &places), 9);
-  // What comes back is anyone's.
-  mesh.FreeFromAside(places, unused);
-  EXPECT_EQ(mesh.FreePlaces().size(), 3u);
-  EXPECT_EQ(mesh.AddVertex(Vector()), size);
+  EXPECT_FALSE(mesh.IsAlive(4) || mesh.IsAlive(5));
+  EXPECT_EQ(SquaredDistance(mesh.Position[6], fifth), 0.f);
+  EXPECT_EQ(DescribeBrokenInvariant(mesh), "");
+  VertexRoom room = { 4, 6 };
+  EXPECT_EQ(EdgeSplit({ 0, mesh.Rings[0].Item[0] }).Apply(mesh, Vector(0, 0, 7), &room), 4);
+  EXPECT_TRUE(room.Has(1));
+  EXPECT_FALSE(room.Has(2));
+  mesh.Count(room);
+  EXPECT_EQ(mesh.NumberOfVertices(), size + 1);
+  EXPECT_EQ(DescribeBrokenInvariant(mesh), "");
+  mesh.Reorder(SpaceFillingOrder(mesh, 1.));
+  EXPECT_EQ(mesh.Size(), size + 1);
   EXPECT_EQ(mesh.NumberOfVertices(), size + 1);
 }
 

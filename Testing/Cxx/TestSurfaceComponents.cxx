@@ -285,10 +285,8 @@ TEST(ComponentWatch, DeletesWhatHasPassedThroughItself)
   SurfaceState state;
   const IndexedSurface large = Ball({ 0, 0, 0 }, 10);
   Fill(state, { large, Ball({ 30, 0, 0 }, 4) });
-  std::vector<int> all(static_cast<std::size_t>(state.Mesh.Size()));
-  std::iota(all.begin(), all.end(), 0);
   ComponentWatch watch;
-  watch.LabelSmall(state, all, Everywhere);
+  watch.LabelSmall(state, 0, state.Mesh.Size(), Everywhere);
   for (const float size : { 0.2f, -0.2f })
   {
     for (int v = static_cast<int>(large.Points.size()); v < state.Mesh.Size(); ++v)
@@ -301,7 +299,7 @@ TEST(ComponentWatch, DeletesWhatHasPassedThroughItself)
   EXPECT_EQ(state.Mesh.NumberOfVertices(), static_cast<int>(large.Points.size()));
 }
 
-TEST(ComponentWatch, WatchesTheSmallOnesOfAListOnly)
+TEST(ComponentWatch, WatchesTheSmallOnesOfARangeOnly)
 {
   SurfaceState state;
   const IndexedSurface large = Ball({ 0, 0, 0 }, 12);
@@ -313,28 +311,28 @@ TEST(ComponentWatch, WatchesTheSmallOnesOfAListOnly)
   ASSERT_LE(size, 24);
   state.FieldValue.Fill(-1.f); // All of the wrong side.
   ComponentWatch watch;
-  // One vertex of the first speck, and some of the large one, from which the search ends early.
+  // One vertex of the first speck, and all of the large one, from which the search ends early.
   for (int round = 0; round < 2; ++round)
   {
-    watch.LabelSmall(state, { 5, 6, first / 2, first + 3, 700 }, Everywhere);
+    watch.LabelSmall(state, 0, first + 1, Everywhere);
   }
   const int before = state.Mesh.NumberOfVertices();
   EXPECT_TRUE(watch.DeleteDegenerate(state));
   EXPECT_EQ(state.Mesh.NumberOfVertices(), before - size);
   EXPECT_FALSE(state.Mesh.IsAlive(first));
-  EXPECT_TRUE(state.Mesh.IsAlive(first + size)) << "not in the list";
+  EXPECT_TRUE(state.Mesh.IsAlive(first + size)) << "not in the range";
   EXPECT_FALSE(watch.DeleteDegenerate(state));
-  watch.LabelSmall(state, { first + size }, Everywhere);
+  watch.LabelSmall(state, first + size, first + size + 1, Everywhere);
   EXPECT_TRUE(watch.DeleteDegenerate(state));
 }
 
-TEST(ComponentWatch, KeepsASmallOneOfAListOnTheRightSide)
+TEST(ComponentWatch, KeepsASmallOneOnTheRightSide)
 {
   SurfaceState state;
   Fill(state, { Ball({ 0, 0, 0 }, 0.8) });
   state.FieldValue.Fill(1.f);
   ComponentWatch watch;
-  watch.LabelSmall(state, { 0 }, Everywhere);
+  watch.LabelSmall(state, 0, 1, Everywhere);
   EXPECT_FALSE(watch.DeleteDegenerate(state));
   // Turned inside out since: its volume has changed its sign.
   for (int v = 0; v < state.Mesh.Size(); ++v)

@@ -178,8 +178,6 @@ struct Wilderness
     this->State.UpdateShape(all, this->Thread);
     this->Blocks = std::make_unique<SurfaceBlocks>(
       this->State, SurfaceBlocks::FrameOf({ 110., 110., 110. }, SurfaceBlocks::SideInDelta), this->Thread);
-    std::vector<int> places(static_cast<std::size_t>(this->Blocks->NumberOfBlocks()), 2000);
-    this->Blocks->AddPlaces(places, OnThisThread());
   }
 
   /** Visits the block in the middle, for many iterations. @return what the edits were */
@@ -194,7 +192,6 @@ struct Wilderness
     {
       HistoryRow row;
       iteration.Run(row, this->Motion, remesher, SurfaceIteration::Mode::Evolve);
-      this->Blocks->AddNew(visit, iteration.WorkingVertices());
     }
     iteration.EndVisit();
     const EditCounts counts = visit.Share.Counts;

@@ -200,8 +200,9 @@ void* AllocateLarge(std::size_t bytes, std::size_t alignment)
       return memory; // Files begin as zeros.
     }
   }
-  return ZeroedAllocations::AreOn() ? AllocateZeroed(bytes, alignment)
-                                    : AllocateOnHeap(bytes, alignment);
+  return ZeroedAllocations::AreOn() || bytes >= ScratchMemory::LargeBytes
+    ? AllocateZeroed(bytes, alignment)
+    : AllocateOnHeap(bytes, alignment);
 }
 
 void FreeLarge(void* memory) noexcept

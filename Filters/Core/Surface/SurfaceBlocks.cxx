@@ -17,11 +17,13 @@ namespace
 constexpr std::size_t VertexSpan = 8192;
 /**
  * Places for new vertices that a block gets at least, for how many of its own one more, and how many
- * for each that its last visit took: a surface that grows takes more each time.
+ * for each that its last visit took: a surface that grows takes more each time. Where there was none
+ * yet it is guessed for how many vertices one was taken.
  */
-constexpr int FewPlaces = 32;
-constexpr int VerticesPerPlace = 4;
+constexpr int FewPlaces = 24;
+constexpr int VerticesPerPlace = 8;
 constexpr int PlacesPerTaken = 2;
+constexpr int VerticesPerTaken = 8;
 /** How far out of its block a vertex may be before it must be another block's; in delta. */
 constexpr float Astray = SurfaceBlocks::MovingInDelta / 2.f;
 
@@ -48,7 +50,7 @@ constexpr int NoBlock = -1;
 /** How many more vertices a block may get that has so many. */
 int RoomFor(int vertices, int taken)
 {
-  return vertices > 0 ? FewPlaces + vertices / VerticesPerPlace + PlacesPerTaken * taken : 0;
+  return vertices > 0 ? FewPlaces + std::max(vertices / VerticesPerPlace, PlacesPerTaken * taken) : 0;
 }
 
 /** 0, 2, 1, 4, 3, ...: those of even place before their neighbours of odd place. */
@@ -92,7 +94,7 @@ SurfaceBlocks::SurfaceBlocks(SurfaceState& state, const Frame& frame, Executor& 
   const std::array<int, 3>& size = frame.Size;
   this->All.resize(
     static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) * size[2]);
-  this->Reorder(executor);
+  this->Reorder(executor, true);
   this->FindOrder();
 }
 
@@ -169,7 +171,7 @@ std::vector<int> SurfaceBlocks::NeighboursOf(int block) const
   return neighbours;
 }
 
-void SurfaceBlocks::Reorder(Executor& executor)
+void SurfaceBlocks::Reorder(Executor& executor, bool isNew)
 {
   const SurfaceMesh& mesh = this->State.Mesh;
   const std::size_t n = mesh.Rings.size();
@@ -195,6 +197,7 @@ void SurfaceBlocks::Reorder(Executor& executor)
   for (std::size_t block = 0; block < counts.size(); ++block)
   {
     OfBlock& own = this->All[block];
+    own.Taken = isNew ? counts[block] / VerticesPerTaken : own.Taken;
     own.First = own.Next = first;
     own.End = first += counts[block] + RoomFor(counts[block], own.Taken);
     own.IsAstray = false;
@@ -219,7 +222,7 @@ void SurfaceBlocks::Prepare(Executor& executor)
   };
   if (std::any_of(this->All.begin(), this->All.end(), isUnfit))
   {
-    this->Reorder(executor);
+    this->Reorder(executor, false);
   }
 }
 
@@ -244,7 +247,7 @@ void SurfaceBlocks::FindOrder()
 void SurfaceBlocks::Append(const IndexedSurface& surface, Executor& executor)
 {
   this->State.Append(surface, executor);
-  this->Reorder(executor);
+  this->Reorder(executor, true);
 }
 
 BlockVisit SurfaceBlocks::Open(int block)

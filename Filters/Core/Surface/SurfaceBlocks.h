@@ -142,7 +142,7 @@ private:
   };
   std::array<int, 3> PlaceOf(const Vector& position) const;
   int BlockOf(const std::array<int, 3>& place) const;
-  void Reorder(Executor& executor);
+  void Reorder(Executor& executor, bool isNew);
   void FindOrder();
 
   SurfaceState& State;

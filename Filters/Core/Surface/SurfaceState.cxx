@@ -87,9 +87,8 @@ void SurfaceState::InsertAll(int first, Executor& executor)
 
 void SurfaceState::Append(const IndexedSurface& surface, Executor& executor)
 {
-  SurfaceMesh added;
-  added.Append(surface, executor);
-  this->EulerCharacteristic += added.CountEulerCharacteristic(executor);
+  this->EulerCharacteristic +=
+    static_cast<int>(surface.Points.size()) - static_cast<int>(surface.Triangles.size() / 2);
   const int first = this->Mesh.Append(surface, executor);
   this->Properties.Resize(this->Mesh.Rings.size());
   this->InsertAll(first, executor);

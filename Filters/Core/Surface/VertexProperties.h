@@ -129,8 +129,8 @@ public:
 
   void Reset(std::size_t n) override
   {
-    this->Values = {};
-    this->Values.assign(n, this->Initial);
+    MakeZeroed(this->Values, n);
+    this->Fill(this->Initial);
   }
   void Resize(std::size_t n) override { Grow(this->Values, n, this->Initial); }
   void Forget() override { this->Values = {}; }
