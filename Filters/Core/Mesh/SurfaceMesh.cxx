@@ -314,45 +314,47 @@ int SurfaceMesh::Append(const IndexedSurface& surface, Executor& executor)
 
 void SurfaceMesh::Reorder(const std::vector<int>& order, Executor& executor)
 {
+  LargeVector<Ring> spare;
+  this->Reorder(order, spare, executor);
+}
+
+void SurfaceMesh::Reorder(
+  const std::vector<int>& order, LargeVector<Ring>& spare, Executor& executor)
+{
+  const std::size_t n = order.size();
   this->Empty = static_cast<int>(std::count(order.begin(), order.end(), NoVertex));
+  volumic::Reorder(this->Position, order, spare, executor);
   LargeVector<int> place;
   MakeZeroed(place, this->Rings.size());
-  LargeVector<Vector> position;
-  MakeZeroed(position, order.size());
-  LargeVector<Ring> rings;
-  MakeZeroed(rings, order.size());
-  const auto forAll = [&](auto&& work)
-  {
-    ForSpans(executor, order.size(), VertexSpan,
-      [&](std::size_t, std::size_t begin, std::size_t end)
+  ForSpans(executor, n, VertexSpan,
+    [&](std::size_t, std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
       {
-        for (std::size_t i = begin; i < end; ++i)
+        if (order[i] != NoVertex)
         {
-          if (order[i] != NoVertex)
-          {
-            work(i, order[i]);
-          }
+          place[order[i]] = static_cast<int>(i);
         }
-      });
-  };
-  forAll(
-    [&](std::size_t i, int before)
-    {
-      place[before] = static_cast<int>(i);
-      position[i] = this->Position[before];
-    });
-  this->Position.swap(position);
-  forAll(
-    [&](std::size_t i, int before)
-    {
-      const Ring& from = this->Rings[before];
-      rings[i].Count = from.Count;
-      for (int k = 0; k < from.Count; ++k)
-      {
-        rings[i].Item[k] = place[from.Item[k]];
       }
     });
-  this->Rings.swap(rings);
+  spare.resize(n);
+  ForSpans(executor, n, VertexSpan,
+    [&](std::size_t, std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        Ring& ring = spare[i];
+        ring.Count = 0;
+        if (order[i] != NoVertex)
+        {
+          const Ring& before = this->Rings[order[i]];
+          ring.Count = before.Count;
+          std::transform(before.Item, before.Item + before.Count, ring.Item,
+            [&place](int w) { return place[w]; });
+        }
+      }
+    });
+  this->Rings.swap(spare);
 }
 
 void SurfaceMesh::Remake(std::size_t n)

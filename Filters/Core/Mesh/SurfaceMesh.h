@@ -8,8 +8,10 @@
 #include "Core/Common/ScratchMemory.h"
 #include "Core/Common/Vector.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -174,7 +176,10 @@ public:
   /**
    * Renumbers: vertex i of the result is order[i] of before, none where that is NoVertex; all alive
    * ones must occur once.
+   * @param spare any memory; taken along from one time to the next it need not be made again, which
+   *              would take longer than all that is copied
    */
+  void Reorder(const std::vector<int>& order, LargeVector<Ring>& spare, Executor& executor);
   void Reorder(const std::vector<int>& order, Executor& executor = OnThisThread());
 
   void Clear();
@@ -184,6 +189,33 @@ public:
 private:
   int Empty = 0; ///< Places without a vertex.
 };
+
+/**
+ * Brings values of vertices into a new order, see SurfaceMesh::Reorder; where there is no vertex they
+ * are zero. @param spare memory that they go through
+ */
+template <typename T>
+void Reorder(LargeVector<T>& values, const std::vector<int>& order, LargeVector<Ring>& spare,
+  Executor& executor)
+{
+  static_assert(std::is_trivially_copyable_v<T> && sizeof(T) <= sizeof(Ring));
+  constexpr std::size_t span = 16384;
+  const std::size_t n = order.size();
+  spare.resize(std::max(n, spare.size()));
+  T* const ordered = reinterpret_cast<T*>(spare.data());
+  ForSpans(executor, n, span,
+    [&](std::size_t, std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        ordered[i] = order[i] != NoVertex ? values[order[i]] : T{};
+      }
+    });
+  values.resize(n);
+  ForSpans(executor, n, span,
+    [&](std::size_t, std::size_t begin, std::size_t end)
+    { std::copy(ordered + begin, ordered + end, values.data() + begin); });
+}
 
 /** The alive vertices along a Z-order (Morton) curve with cells of side `cell`, those of one by index. */
 std::vector<int> SpaceFillingOrder(

@@ -25,7 +25,7 @@ constexpr int VerticesPerPlace = 8;
 constexpr int PlacesPerTaken = 2;
 constexpr int VerticesPerTaken = 8;
 /** How far out of its block a vertex may be before it must be another block's; in delta. */
-constexpr float Astray = SurfaceBlocks::MovingInDelta / 2.f;
+constexpr float Astray = SurfaceBlocks::MovingInDelta - 0.5f;
 
 // See SurfaceBlocks; in delta. An edge, of which both ends may move by half a delta at once:
 constexpr float LongestEdge = HugeEdge * SizingField::LongestEdgeInDelta + 1.f;
@@ -210,7 +210,7 @@ void SurfaceBlocks::Reorder(Executor& executor, bool isNew)
       order[this->All[blocks[v]].Next++] = static_cast<int>(v);
     }
   }
-  this->State.Reorder(order, executor);
+  this->State.Reorder(order, this->Spare, executor);
 }
 
 void SurfaceBlocks::Prepare(Executor& executor)

@@ -30,7 +30,8 @@ void SurfaceState::Reset(const Vector& low, const Vector& high, Executor& execut
   this->PreviousPosition.Assign(this->Mesh.Position);
   this->Anchor.Assign(this->Mesh.Position);
   this->Grid.Reset(low, high, this->Sizing.SmallestReach());
-  this->InsertAll(0, executor);
+  this->Grid.InsertAll(
+    this->Mesh.Position, 0, [this](int v) { return this->Mesh.IsAlive(v); }, executor);
   executor.For(static_cast<std::size_t>(this->Mesh.Size()), AliveGrain,
     [this](std::size_t begin, std::size_t end)
     {
@@ -70,19 +71,14 @@ void SurfaceState::Prefetch(int first, int last) const
   this->Properties.Prefetch(static_cast<std::size_t>(first), static_cast<std::size_t>(last));
 }
 
-void SurfaceState::Reorder(const std::vector<int>& order, Executor& executor)
+void SurfaceState::Reorder(
+  const std::vector<int>& order, LargeVector<Ring>& spare, Executor& executor)
 {
-  this->Mesh.Reorder(order, executor);
-  this->Properties.Reorder(order, executor);
+  this->Mesh.Reorder(order, spare, executor);
+  this->Properties.Reorder(order, spare, executor);
   this->Grid.Clear();
-  this->InsertAll(0, executor);
-}
-
-void SurfaceState::InsertAll(int first, Executor& executor)
-{
   this->Grid.InsertAll(
-    this->Mesh.Position, static_cast<std::size_t>(first),
-    [this](int v) { return this->Mesh.IsAlive(v); }, executor);
+    this->Mesh.Position, 0, [&order](int v) { return order[v] != NoVertex; }, executor);
 }
 
 void SurfaceState::Append(const IndexedSurface& surface, Executor& executor)
@@ -91,7 +87,8 @@ void SurfaceState::Append(const IndexedSurface& surface, Executor& executor)
     static_cast<int>(surface.Points.size()) - static_cast<int>(surface.Triangles.size() / 2);
   const int first = this->Mesh.Append(surface, executor);
   this->Properties.Resize(this->Mesh.Rings.size());
-  this->InsertAll(first, executor);
+  this->Grid.InsertAll(
+    this->Mesh.Position, static_cast<std::size_t>(first), [](int) { return true; }, executor);
   std::vector<int> vertices(surface.Points.size());
   std::iota(vertices.begin(), vertices.end(), first);
   for (const int v : vertices)

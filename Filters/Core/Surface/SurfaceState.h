@@ -163,12 +163,10 @@ public:
   /** What is known of the vertices of [first, last) will be read soon: see PrefetchLarge. */
   void Prefetch(int first, int last) const;
   /** SurfaceMesh::Reorder, with all that is known of the vertices. */
-  void Reorder(const std::vector<int>& order, Executor& executor);
+  void Reorder(const std::vector<int>& order, LargeVector<Ring>& spare, Executor& executor);
   /** Adds a closed surface. Its vertices follow the last ones, as after Reset(), with their shapes. */
   void Append(const IndexedSurface& surface, Executor& executor);
 
-  /** Of all vertices from `first` on, into the grid. */
-  void InsertAll(int first, Executor& executor);
   /** After v has been added to the mesh, next to, or as a copy of, its parent. */
   void AddVertex(int v, int parent);
   /** Before v is removed from the mesh. */

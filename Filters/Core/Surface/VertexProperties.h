@@ -6,6 +6,7 @@
 #include "Core/Common/Executor.h"
 #include "Core/Common/Grow.h"
 #include "Core/Common/ScratchMemory.h"
+#include "Core/Mesh/SurfaceMesh.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -26,7 +27,8 @@ public:
   /** Forgets all values, and has none until it is reset. */
   virtual void Forget() = 0;
   /** See SurfaceMesh::Reorder; where there is no vertex the value is zero. */
-  virtual void Reorder(const std::vector<int>& order) = 0;
+  virtual void Reorder(
+    const std::vector<int>& order, LargeVector<Ring>& spare, Executor& executor) = 0;
   /** A value for a new vertex, `v`, which comes of another one. */
   virtual void Add(std::size_t v, std::size_t parent) = 0;
   /** The values of [first, last), which there are, will be read soon: see PrefetchLarge. */
@@ -57,17 +59,12 @@ public:
       property->Resize(n);
     }
   }
-  void Reorder(const std::vector<int>& order, Executor& executor)
+  void Reorder(const std::vector<int>& order, LargeVector<Ring>& spare, Executor& executor)
   {
-    // An array that is being reordered is there twice: a few at a time.
-    executor.For(this->All.size(), this->All.size() / 4,
-      [&](std::size_t begin, std::size_t end)
-      {
-        for (std::size_t i = begin; i < end; ++i)
-        {
-          this->All[i]->Reorder(order);
-        }
-      });
+    for (VertexPropertyBase* property : this->All)
+    {
+      property->Reorder(order, spare, executor);
+    }
   }
   void Forget()
   {
@@ -129,23 +126,14 @@ public:
 
   void Reset(std::size_t n) override
   {
-    MakeZeroed(this->Values, n);
-    this->Fill(this->Initial);
+    this->Values.assign(n, this->Initial);
   }
   void Resize(std::size_t n) override { Grow(this->Values, n, this->Initial); }
   void Forget() override { this->Values = {}; }
-  void Reorder(const std::vector<int>& order) override
+  void Reorder(
+    const std::vector<int>& order, LargeVector<Ring>& spare, Executor& executor) override
   {
-    LargeVector<T> values;
-    MakeZeroed(values, order.size());
-    for (std::size_t i = 0; i < order.size(); ++i)
-    {
-      if (order[i] >= 0)
-      {
-        values[i] = this->Values[order[i]];
-      }
-    }
-    this->Values.swap(values);
+    volumic::Reorder(this->Values, order, spare, executor);
   }
   void Prefetch(std::size_t first, std::size_t last) const override
   {
