@@ -268,7 +268,7 @@ TEST(SurfaceBlocks, TakeWhatIsAppended)
   const int vertices = state.Mesh.NumberOfVertices();
   const int characteristic = state.EulerCharacteristic;
   const IndexedSurface added = DividedIcosahedron({ 20, 0, 0 }, 1., 1.5);
-  blocks.Append(added, Thread);
+  blocks.Append(IndexedSurface(added), Thread);
   EXPECT_EQ(state.Mesh.NumberOfVertices(), vertices + static_cast<int>(added.Points.size()));
   EXPECT_EQ(state.EulerCharacteristic, characteristic + 2);
   EXPECT_EQ(state.EulerCharacteristic, state.Mesh.CountEulerCharacteristic());

@@ -68,12 +68,6 @@ public:
     return memory;
   }
 
-  bool Has(const void* memory)
-  {
-    const std::lock_guard<std::mutex> lock(this->Mutex);
-    return this->Arrays.count(const_cast<void*>(memory)) > 0;
-  }
-
   /** @return whether it was such memory. */
   bool Free(void* memory) noexcept
   {
@@ -113,27 +107,6 @@ void* AllocateZeroed(std::size_t bytes, std::size_t alignment)
   std::memset(memory, 0, bytes);
   return memory;
 }
-}
-
-bool IsMadeZero(const void* memory)
-{
-  return ZeroedMemory::Instance().Has(memory);
-}
-
-void CopyPagesInUse(const void* from, std::size_t bytes, void* to)
-{
-  constexpr std::size_t page = 4096;
-  const auto* source = static_cast<const char*>(from);
-  auto* target = static_cast<char*>(to);
-  for (std::size_t count = 0; bytes > 0; source += count, target += count, bytes -= count)
-  {
-    count = std::min(bytes, page - reinterpret_cast<std::uintptr_t>(target) % page);
-    const bool isZero = *source == 0 && std::memcmp(source, source + 1, count - 1) == 0;
-    if (!isZero)
-    {
-      std::memcpy(target, source, count);
-    }
-  }
 }
 
 ScratchMemory::ScratchMemory(const ScratchOptions& options)

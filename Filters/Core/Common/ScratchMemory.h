@@ -100,11 +100,6 @@ void FreeLarge(void* memory) noexcept;
  */
 void PrefetchLarge(const void* begin, std::size_t bytes);
 
-/** To memory that is all zero; pages of zeros are not written, as they may take no memory yet. */
-void CopyPagesInUse(const void* from, std::size_t bytes, void* to);
-/** Whether it is the beginning of an array whose bytes are zero until they are written. */
-bool IsMadeZero(const void* memory);
-
 /** Whether a limit is set, by anyone. */
 bool HasMemoryLimit();
 /**
@@ -177,57 +172,29 @@ template <typename T>
 using LargeVector = std::vector<T, LargeAllocator<T>>;
 
 /**
- * For so many values that will be more: address space costs nothing where no limit is set, and a
- * copy of all values takes as long as some iterations; in a file room is counted.
- */
-inline std::size_t RoomForMore(std::size_t n)
-{
-  return HasMemoryLimit() ? n + n / 4 : 3 * n;
-}
-
-/**
- * Makes it n values of bytes that are all zero, which take no memory before they are written, with
- * room for so many.
+ * Empties it where it has no room for n values, and gives it room for more: address space costs
+ * nothing where no limit is set, and new pages take longer than all that is done with them; in a file
+ * room is counted.
  */
 template <typename T>
-void MakeZeroed(LargeVector<T>& values, std::size_t n, std::size_t room = 0)
+void MakeRoom(LargeVector<T>& values, std::size_t n)
+{
+  if (values.capacity() < n)
+  {
+    values = LargeVector<T>();
+    values.reserve(HasMemoryLimit() ? n + n / 4 : 3 * n);
+  }
+}
+
+/** Makes it n values of bytes that are all zero, which take no memory before they are written. */
+template <typename T>
+void MakeZeroed(LargeVector<T>& values, std::size_t n)
 {
   values = LargeVector<T>();
   const ZeroedAllocations zeroed;
-  values.reserve(std::max(n, room));
   values.resize(n);
 }
 
-/**
- * Lengthens it by such values; those that it has take as much memory as before. Where MakeZeroed
- * or this has made it, it was never shortened.
- */
-template <typename T>
-void LengthenZeroed(LargeVector<T>& values, std::size_t n)
-{
-  static_assert(std::is_trivially_copyable_v<T>);
-  if (n <= values.size())
-  {
-    return;
-  }
-  if (n <= values.capacity())
-  {
-    if (IsMadeZero(values.data()))
-    {
-      const ZeroedAllocations zeroed;
-      values.resize(n);
-    }
-    else
-    {
-      values.resize(n);
-    }
-    return;
-  }
-  LargeVector<T> longer;
-  MakeZeroed(longer, n, RoomForMore(n));
-  CopyPagesInUse(values.data(), values.size() * sizeof(T), longer.data());
-  values.swap(longer);
-}
 }
 
 #endif

@@ -360,8 +360,10 @@ void SurfaceMesh::Reorder(
 void SurfaceMesh::Remake(std::size_t n)
 {
   this->Clear();
-  MakeZeroed(this->Position, n);
-  MakeZeroed(this->Rings, n);
+  MakeRoom(this->Position, n);
+  MakeRoom(this->Rings, n);
+  this->Position.resize(n);
+  this->Rings.resize(n);
 }
 
 void SurfaceMesh::Clear()

@@ -201,6 +201,7 @@ void Reorder(LargeVector<T>& values, const std::vector<int>& order, LargeVector<
   static_assert(std::is_trivially_copyable_v<T> && sizeof(T) <= sizeof(Ring));
   constexpr std::size_t span = 16384;
   const std::size_t n = order.size();
+  MakeRoom(spare, n);
   spare.resize(std::max(n, spare.size()));
   T* const ordered = reinterpret_cast<T*>(spare.data());
   ForSpans(executor, n, span,

@@ -23,7 +23,7 @@ constexpr std::size_t VertexSpan = 8192;
 constexpr int FewPlaces = 24;
 constexpr int VerticesPerPlace = 8;
 constexpr int PlacesPerTaken = 2;
-constexpr int VerticesPerTaken = 8;
+constexpr int VerticesPerTaken = 12;
 /** How far out of its block a vertex may be before it must be another block's; in delta. */
 constexpr float Astray = SurfaceBlocks::MovingInDelta - 0.5f;
 
@@ -244,9 +244,10 @@ void SurfaceBlocks::FindOrder()
     std::move(order), [this](int block) { return this->NeighboursOf(block); });
 }
 
-void SurfaceBlocks::Append(const IndexedSurface& surface, Executor& executor)
+void SurfaceBlocks::Append(IndexedSurface&& surface, Executor& executor)
 {
   this->State.Append(surface, executor);
+  surface = IndexedSurface(); // What comes takes the most memory that a level takes.
   this->Reorder(executor, true);
 }
 

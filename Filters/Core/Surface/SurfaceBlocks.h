@@ -117,7 +117,7 @@ public:
   /**
    * Adds a closed surface, and gives its vertices to their blocks. Between sweeps, while none is open.
    */
-  void Append(const IndexedSurface& surface, Executor& executor);
+  void Append(IndexedSurface&& surface, Executor& executor);
 
   int BlockAt(const Vector& position) const;
   /** The box that a block fills; at the border of the frame it goes on without end. */

@@ -126,6 +126,7 @@ public:
 
   void Reset(std::size_t n) override
   {
+    MakeRoom(this->Values, n);
     this->Values.assign(n, this->Initial);
   }
   void Resize(std::size_t n) override { Grow(this->Values, n, this->Initial); }
