@@ -293,61 +293,26 @@ TEST_F(ScratchMemoryTest, ManyThreadsTakeAndGiveWhileItDrops)
   EXPECT_EQ(scratch.Statistics().Mapped, 0u);
 }
 
-TEST_F(ScratchMemoryTest, LengthensWhatIsFilledHereAndThere)
-{
-  // A value in every fourth page; values lie across pages.
-  constexpr std::size_t page = 4096;
-  constexpr std::size_t pages = 8192;
-  LargeVector<Vector> values;
-  MakeZeroed(values, pages * page / sizeof(Vector));
-  const auto placeIn = [](std::size_t p) { return (p * page + page / 2) / sizeof(Vector); };
-  for (std::size_t p = 0; p + 1 < pages; p += 4)
-  {
-    values[placeIn(p)] = Vector(static_cast<float>(p), 1.f, 2.f);
-  }
-  values.back() = Vector(3.f, 4.f, 5.f);
-  const std::size_t n = values.size();
-  const ResidentMemoryMeter meter;
-  const std::size_t before = meter.Read().All;
-  LengthenZeroed(values, n + 100 * MiB);
-#ifndef __SANITIZE_ADDRESS__ // Which keeps memory of its own for each byte.
-  EXPECT_LT(meter.Read().All, before + pages * page / 16) << "the first array is gone";
-#endif
-  ASSERT_EQ(values.size(), n + 100 * MiB);
-  for (std::size_t p = 0; p + 1 < pages; ++p)
-  {
-    ASSERT_EQ(values[placeIn(p)].X, p % 4 == 0 ? static_cast<float>(p) : 0.f) << p;
-  }
-  EXPECT_EQ(values[n - 1].Z, 5.f);
-  EXPECT_EQ(values[n + 100 * MiB - 1].X, 0.f);
-}
-
-TEST_F(ScratchMemoryTest, LengthensInItsPlaceAndTakesNoMemoryWhereThereIsRoom)
+TEST_F(ScratchMemoryTest, MakesRoomThatTakesNoMemory)
 {
   constexpr std::size_t n = 4 * MiB;
   LargeVector<Vector> values;
-  MakeZeroed(values, n, RoomForMore(n));
-  values[n - 1].X = 1.f;
-  const Vector* const place = values.data();
   const ResidentMemoryMeter meter;
   const std::size_t before = meter.Read().All;
-  LengthenZeroed(values, 2 * n);
-#ifndef __SANITIZE_ADDRESS__
-  EXPECT_LT(meter.Read().All, before + n) << "an eighth of what those that are new have";
+  MakeRoom(values, n);
+#ifndef __SANITIZE_ADDRESS__ // Which keeps memory of its own for each byte.
+  EXPECT_LT(meter.Read().All, before + n) << "a sixteenth of what n have";
 #endif
+  values.resize(n);
+  const Vector* const place = values.data();
+  values[n - 1].X = 1.f;
+  values.resize(2 * n);
   EXPECT_EQ(values.data(), place);
-  ASSERT_EQ(values.size(), 2 * n);
+  MakeRoom(values, 3 * n);
+  EXPECT_EQ(values.size(), 2 * n) << "there is room already";
   EXPECT_EQ(values[n - 1].X, 1.f);
-  EXPECT_EQ(values[n].X + values[2 * n - 1].X, 0.f);
-}
-
-TEST_F(ScratchMemoryTest, LengthensOnTheHeapByZeros)
-{
-  LargeVector<int> values(100, 7);
-  values.resize(10);
-  LengthenZeroed(values, 100);
-  EXPECT_EQ(values[9], 7);
-  EXPECT_EQ(std::count(values.begin() + 10, values.end(), 0), 90);
+  MakeRoom(values, 3 * n + 1);
+  EXPECT_TRUE(values.empty());
 }
 
 TEST(MemoryHeadroom, GrowsWithWhatIsFilledBetweenTwoLooks)

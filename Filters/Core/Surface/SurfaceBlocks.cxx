@@ -18,12 +18,14 @@ constexpr std::size_t VertexSpan = 8192;
 /**
  * Places for new vertices that a block gets at least, for how many of its own one more, and how many
  * for each that its last visit took: a surface that grows takes more each time. Where there was none
- * yet it is guessed for how many vertices one was taken.
+ * yet it is guessed for how many vertices one was taken. And how many for each vertex with an edge
+ * that is too long: where only some of them are split needles come of what is left.
  */
-constexpr int FewPlaces = 24;
+constexpr int FewPlaces = 48;
 constexpr int VerticesPerPlace = 8;
 constexpr int PlacesPerTaken = 2;
 constexpr int VerticesPerTaken = 12;
+constexpr int PlacesPerLong = 16;
 /** How far out of its block a vertex may be before it must be another block's; in delta. */
 constexpr float Astray = SurfaceBlocks::MovingInDelta - 0.5f;
 
@@ -47,10 +49,12 @@ static_assert(SurfaceBlocks::WrittenInDelta + SurfaceBlocks::HaloInDelta +
 
 constexpr int NoBlock = -1;
 
-/** How many more vertices a block may get that has so many. */
-int RoomFor(int vertices, int taken)
+/** How many more vertices a block may get that has so many, of which some have long edges. */
+int RoomFor(int vertices, int taken, int withLongEdge)
 {
-  return vertices > 0 ? FewPlaces + std::max(vertices / VerticesPerPlace, PlacesPerTaken * taken) : 0;
+  return vertices > 0 ? FewPlaces +
+      std::max({ vertices / VerticesPerPlace, PlacesPerTaken * taken, PlacesPerLong * withLongEdge })
+                      : 0;
 }
 
 /** 0, 2, 1, 4, 3, ...: those of even place before their neighbours of odd place. */
@@ -186,11 +190,13 @@ void SurfaceBlocks::Reorder(Executor& executor, bool isNew)
       }
     });
   std::vector<int> counts(this->All.size(), 0);
-  for (const int block : blocks)
+  std::vector<int> withLongEdge(this->All.size(), 0);
+  for (std::size_t v = 0; v < n; ++v)
   {
-    if (block != NoBlock)
+    if (blocks[v] != NoBlock)
     {
-      ++counts[block];
+      ++counts[blocks[v]];
+      withLongEdge[blocks[v]] += (this->State.RemeshFlags[v] & HasLongEdge) != 0;
     }
   }
   int first = 0;
@@ -199,7 +205,7 @@ void SurfaceBlocks::Reorder(Executor& executor, bool isNew)
     OfBlock& own = this->All[block];
     own.Taken = isNew ? counts[block] / VerticesPerTaken : own.Taken;
     own.First = own.Next = first;
-    own.End = first += counts[block] + RoomFor(counts[block], own.Taken);
+    own.End = first += counts[block] + RoomFor(counts[block], own.Taken, withLongEdge[block]);
     own.IsAstray = false;
   }
   std::vector<int> order(static_cast<std::size_t>(first), NoVertex);
@@ -215,10 +221,14 @@ void SurfaceBlocks::Reorder(Executor& executor, bool isNew)
 
 void SurfaceBlocks::Prepare(Executor& executor)
 {
-  const auto isUnfit = [](const OfBlock& own)
+  const std::uint8_t* flags = this->State.RemeshFlags.AsVector().data();
+  const auto isUnfit = [flags](const OfBlock& own)
   {
+    const auto withLongEdge = std::count_if(flags + own.First, flags + own.Next,
+      [](std::uint8_t ofVertex) { return (ofVertex & HasLongEdge) != 0; });
     return own.IsAstray ||
-      own.End - own.Next < RoomFor(own.Next - own.First, own.Taken) / 2;
+      own.End - own.Next <
+      RoomFor(own.Next - own.First, own.Taken, static_cast<int>(withLongEdge)) / 2;
   };
   if (std::any_of(this->All.begin(), this->All.end(), isUnfit))
   {
