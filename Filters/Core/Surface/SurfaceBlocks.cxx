@@ -16,12 +16,14 @@ namespace
 /** Vertices that one thread looks at at a time. */
 constexpr std::size_t VertexSpan = 8192;
 /**
- * Places for new vertices that a block gets at least, for how many of its own one more, and how many
- * for each that its last visit took: a surface that grows takes more each time. Where there was none
- * yet it is guessed for how many vertices one was taken. And how many for each vertex with an edge
- * that is too long: where only some of them are split needles come of what is left.
+ * Places for new vertices that a block gets at least, and those that all blocks with vertices share,
+ * as a small surface grows fast; for how many of its own a block gets one more, and how many for each
+ * that its last visit took: a surface that grows takes more each time. Where there was none yet it is
+ * guessed for how many vertices one was taken. And how many for each vertex with an edge that is too
+ * long: where only some of them are split needles come of what is left.
  */
-constexpr int FewPlaces = 48;
+constexpr int FewPlaces = 24;
+constexpr int SharedPlaces = 12288;
 constexpr int VerticesPerPlace = 8;
 constexpr int PlacesPerTaken = 2;
 constexpr int VerticesPerTaken = 12;
@@ -52,9 +54,9 @@ constexpr int NoBlock = -1;
 /** How many more vertices a block may get that has so many, of which some have long edges. */
 int RoomFor(int vertices, int taken, int withLongEdge)
 {
-  return vertices > 0 ? FewPlaces +
-      std::max({ vertices / VerticesPerPlace, PlacesPerTaken * taken, PlacesPerLong * withLongEdge })
-                      : 0;
+  const int more = std::max(
+    { vertices / VerticesPerPlace, PlacesPerTaken * taken, PlacesPerLong * withLongEdge });
+  return vertices > 0 ? FewPlaces + more : 0;
 }
 
 /** 0, 2, 1, 4, 3, ...: those of even place before their neighbours of odd place. */
@@ -199,13 +201,17 @@ void SurfaceBlocks::Reorder(Executor& executor, bool isNew)
       withLongEdge[blocks[v]] += (this->State.RemeshFlags[v] & HasLongEdge) != 0;
     }
   }
+  const auto withVertices =
+    std::count_if(counts.begin(), counts.end(), [](int count) { return count > 0; });
+  const int share = SharedPlaces / std::max(static_cast<int>(withVertices), 1);
   int first = 0;
   for (std::size_t block = 0; block < counts.size(); ++block)
   {
     OfBlock& own = this->All[block];
     own.Taken = isNew ? counts[block] / VerticesPerTaken : own.Taken;
     own.First = own.Next = first;
-    own.End = first += counts[block] + RoomFor(counts[block], own.Taken, withLongEdge[block]);
+    const int room = RoomFor(counts[block], own.Taken, withLongEdge[block]);
+    own.End = first += counts[block] + room + (room > 0 ? share : 0);
     own.IsAstray = false;
   }
   std::vector<int> order(static_cast<std::size_t>(first), NoVertex);
