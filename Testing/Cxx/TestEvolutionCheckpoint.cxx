@@ -8,7 +8,8 @@ using namespace volumic;
 
 namespace
 {
-/** Waves, and balls that merge and are lost and found, at three levels; the coarsest comes first. */
+/** Waves, and balls that merge and are lost and found, at three levels; the coarsest comes first.
+ */
 struct Scene
 {
   std::vector<TestVolume> Levels;

@@ -11,8 +11,8 @@ using namespace volumic;
 
 namespace
 {
-#define EXPECT_SOUND(mesh, chi)                                                                    \
-  EXPECT_EQ(DescribeBrokenInvariant(mesh), "");                                                    \
+#define EXPECT_SOUND(mesh, chi)                 \
+  EXPECT_EQ(DescribeBrokenInvariant(mesh), ""); \
   EXPECT_EQ((mesh).CountEulerCharacteristic(), chi)
 }
 
@@ -44,7 +44,8 @@ TEST(SurfaceMesh, AppendsTheSameOnThreads)
     {
       const Ring& ring = one.Rings[v];
       ASSERT_TRUE(ring.Count == other.Rings[v].Count &&
-        std::equal(ring.Item, ring.Item + ring.Count, other.Rings[v].Item)) << v;
+        std::equal(ring.Item, ring.Item + ring.Count, other.Rings[v].Item))
+        << v;
     }
   }
 }
@@ -98,7 +99,9 @@ TEST(SurfaceMesh, IsOneListWhicheverSpansItWasMadeIn)
   EXPECT_EQ(surface.Points, points);
   LargeVector<Triangle> triangles;
   mesh.VisitFaces(
-    [&](int a, int b, int c) { triangles.push_back({ place[a], place[b], place[c] }); });
+    [&](int a, int b, int c) {
+      triangles.push_back({ place[a], place[b], place[c] });
+    });
   EXPECT_EQ(surface.Triangles, triangles);
   EXPECT_EQ(mesh.NumberOfFaces(threads), static_cast<std::int64_t>(triangles.size()));
   EXPECT_EQ(mesh.CountEulerCharacteristic(threads), 2);
@@ -123,8 +126,7 @@ TEST(SurfaceMesh, IsOrderedAlongTheCurveAsAWhole)
       static_cast<unsigned>(p.Y / cell), static_cast<unsigned>(p.Z / cell) };
   };
   EXPECT_TRUE(std::is_sorted(order.begin(), order.end(),
-    [&](int v, int w)
-    { return cellOf(v) != cellOf(w) ? IsBefore(cellOf(v), cellOf(w)) : v < w; }));
+    [&](int v, int w) { return cellOf(v) != cellOf(w) ? IsBefore(cellOf(v), cellOf(w)) : v < w; }));
   const LargeVector<Vector> before = mesh.Position;
   mesh.Reorder(order, threads);
   EXPECT_SOUND(mesh, 2);

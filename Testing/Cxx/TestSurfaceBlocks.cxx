@@ -115,8 +115,8 @@ TEST(SurfaceBlocks, ComeBeforeTheirNeighboursOfOddPlace)
   {
     for (int b = 0; b < 125; ++b)
     {
-      const bool touch = std::abs(a % 5 - b % 5) <= 1 &&
-        std::abs(a / 5 % 5 - b / 5 % 5) <= 1 && std::abs(a / 25 - b / 25) <= 1;
+      const bool touch = std::abs(a % 5 - b % 5) <= 1 && std::abs(a / 5 % 5 - b / 5 % 5) <= 1 &&
+        std::abs(a / 25 - b / 25) <= 1;
       if (touch && colour(a) < colour(b))
       {
         EXPECT_LT(turn[a], turn[b]) << a << " " << b;

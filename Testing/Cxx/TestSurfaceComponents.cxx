@@ -145,8 +145,8 @@ TEST(SurfaceComponents, KeepsTheGoodThatLieInTheInverted)
   SurfaceComponents components;
   EXPECT_TRUE(components.DeleteInsideOut(state, OnThisThread()));
   EXPECT_EQ(components.NumberOfComponents(), 2);
-  EXPECT_EQ(state.Mesh.NumberOfVertices(),
-    static_cast<int>(good.Points.size() + cavity.Points.size()));
+  EXPECT_EQ(
+    state.Mesh.NumberOfVertices(), static_cast<int>(good.Points.size() + cavity.Points.size()));
   EXPECT_FALSE(components.DeleteInsideOut(state, OnThisThread())) << "nothing wrong is left";
 }
 
@@ -154,8 +154,9 @@ TEST(SurfaceComponents, JudgesAfreshWhatLosesItsIsland)
 {
   // In the object an island, which is wrong; in the island a cavity, which is then in the object.
   SurfaceState state;
-  Fill(state, { Ball({ 0, 0, 0 }, 15), Ball({ 0, 0, 0 }, 10), Ball({ 0, 1, 0 }, 5, true),
-                Ball({ 0, 1, 0 }, 2, true) });
+  Fill(state,
+    { Ball({ 0, 0, 0 }, 15), Ball({ 0, 0, 0 }, 10), Ball({ 0, 1, 0 }, 5, true),
+      Ball({ 0, 1, 0 }, 2, true) });
   SurfaceComponents components;
   EXPECT_TRUE(components.DeleteInsideOut(state, OnThisThread()));
   EXPECT_EQ(components.NumberOfComponents(), 2) << "the outermost and the larger cavity";

@@ -176,8 +176,8 @@ struct Wilderness
     std::vector<int> all(this->State.Mesh.Size());
     std::iota(all.begin(), all.end(), 0);
     this->State.UpdateShape(all, this->Thread);
-    this->Blocks = std::make_unique<SurfaceBlocks>(
-      this->State, SurfaceBlocks::FrameOf({ 110., 110., 110. }, SurfaceBlocks::SideInDelta), this->Thread);
+    this->Blocks = std::make_unique<SurfaceBlocks>(this->State,
+      SurfaceBlocks::FrameOf({ 110., 110., 110. }, SurfaceBlocks::SideInDelta), this->Thread);
   }
 
   /** Visits the block in the middle, for many iterations. @return what the edits were */
@@ -221,8 +221,8 @@ TEST(Visits, WriteNowhereElseHoweverManyIterationsTheyMake)
     const Vector& p = before.State.Mesh.Position[v];
     if (written.Contains(p))
     {
-      moved += !after.State.Mesh.IsAlive(v) ||
-        SquaredDistance(p, after.State.Mesh.Position[v]) > 0.f;
+      moved +=
+        !after.State.Mesh.IsAlive(v) || SquaredDistance(p, after.State.Mesh.Position[v]) > 0.f;
       continue;
     }
     ++beyond;
@@ -247,8 +247,8 @@ TEST(Visits, DependOnNothingFarAway)
 {
   Wilderness one;
   Wilderness other;
-  const Box read = one.Blocks->BoxOf(one.Blocks->BlockAt(Vector(55, 55, 55)))
-                     .Grown(SurfaceBlocks::HaloInDelta);
+  const Box read =
+    one.Blocks->BoxOf(one.Blocks->BlockAt(Vector(55, 55, 55))).Grown(SurfaceBlocks::HaloInDelta);
   int changed = 0;
   for (int v = 0; v < other.State.Mesh.Size(); ++v)
   {

@@ -7,12 +7,8 @@
 #include "Core/Common/ScratchStore.h"
 
 #include <algorithm>
-#include <atomic>
-#include <cstdint>
 #include <cstdlib>
 #include <cstring>
-#include <map>
-#include <mutex>
 #include <new>
 
 #ifdef _WIN32
@@ -49,64 +45,6 @@ void FreeOnHeap(void* memory) noexcept
 #endif
 }
 
-/** Memory that is zero and not there before it is written: its bytes, by address. */
-class ZeroedMemory
-{
-public:
-  static ZeroedMemory& Instance()
-  {
-    static ZeroedMemory* const memory = new ZeroedMemory; // Never ends, as ScratchStore.
-    return *memory;
-  }
-
-  void* Allocate(std::size_t bytes)
-  {
-    void* memory = MapZeroed(bytes);
-    const std::lock_guard<std::mutex> lock(this->Mutex);
-    this->Arrays.emplace(memory, bytes);
-    this->Count = this->Arrays.size();
-    return memory;
-  }
-
-  /** @return whether it was such memory. */
-  bool Free(void* memory) noexcept
-  {
-    if (this->Count.load(std::memory_order_acquire) == 0)
-    {
-      return false;
-    }
-    std::size_t bytes = 0;
-    {
-      const std::lock_guard<std::mutex> lock(this->Mutex);
-      const auto found = this->Arrays.find(memory);
-      if (found == this->Arrays.end())
-      {
-        return false;
-      }
-      bytes = found->second;
-      this->Arrays.erase(found);
-      this->Count = this->Arrays.size();
-    }
-    UnmapScratchFile(memory, bytes);
-    return true;
-  }
-
-private:
-  std::mutex Mutex;
-  std::map<void*, std::size_t> Arrays;
-  std::atomic<std::size_t> Count{ 0 };
-};
-
-void* AllocateZeroed(std::size_t bytes, std::size_t alignment)
-{
-  if (ScratchIsPossible && bytes >= ScratchMemory::LargeBytes)
-  {
-    return ZeroedMemory::Instance().Allocate(bytes);
-  }
-  void* memory = AllocateOnHeap(bytes, alignment);
-  std::memset(memory, 0, bytes);
-  return memory;
-}
 }
 
 ScratchMemory::ScratchMemory(const ScratchOptions& options)
@@ -117,8 +55,9 @@ ScratchMemory::ScratchMemory(const ScratchOptions& options)
   }
   if (!ScratchIsPossible)
   {
-    Refuse("Memory Limit is ", Mebibytes(options.Limit), " MiB, but memory can only be limited on "
-           "Linux of 64 bits. Set it to 0, which is no limit.");
+    Refuse("Memory Limit is ", Mebibytes(options.Limit),
+      " MiB, but memory can only be limited on "
+      "Linux of 64 bits. Set it to 0, which is no limit.");
   }
   auto self = std::make_unique<ScratchLimit>();
   self->Options = options;
@@ -151,7 +90,8 @@ std::vector<std::string> ScratchMemory::Warnings() const
   const ScratchOptions& options = this->Self->Options;
   if (this->Self->DirectoryIsMemory)
   {
-    warnings.push_back(Join("Scratch Directory ", options.Directory, " is memory itself (tmpfs): "
+    warnings.push_back(Join("Scratch Directory ", options.Directory,
+      " is memory itself (tmpfs): "
       "what is put there still takes memory. Choose one on a disk."));
   }
   const ScratchStatistics statistics = this->Statistics();
@@ -166,22 +106,21 @@ std::vector<std::string> ScratchMemory::Warnings() const
 
 void* AllocateLarge(std::size_t bytes, std::size_t alignment)
 {
-  if (bytes >= ScratchMemory::LargeBytes && ScratchStore::Instance().HasLimit())
+  if (ScratchIsPossible && bytes >= ScratchMemory::LargeBytes)
   {
-    if (void* memory = ScratchStore::Instance().Map(bytes))
-    {
-      return memory; // Files begin as zeros.
-    }
+    return ScratchStore::Instance().Map(bytes);
   }
-  return ZeroedAllocations::AreOn() || bytes >= ScratchMemory::LargeBytes
-    ? AllocateZeroed(bytes, alignment)
-    : AllocateOnHeap(bytes, alignment);
+  void* memory = AllocateOnHeap(bytes, alignment);
+  if (ZeroedAllocations::AreOn())
+  {
+    std::memset(memory, 0, bytes);
+  }
+  return memory;
 }
 
 void FreeLarge(void* memory) noexcept
 {
-  if (memory && !ScratchStore::Instance().Unmap(memory) &&
-    !ZeroedMemory::Instance().Free(memory))
+  if (memory && !ScratchStore::Instance().Unmap(memory))
   {
     FreeOnHeap(memory);
   }
@@ -204,7 +143,8 @@ void PrefetchLarge(const void* begin, std::size_t bytes)
 {
   if (ScratchStore::Instance().HasLimit())
   {
-    ScratchStore::Instance().Prefetch(begin, bytes);
+    ScratchStore::Instance().KeepIfDue();
+    ReadPagesAhead(begin, bytes);
   }
 }
 }

@@ -3,7 +3,6 @@
 
 // How a surface is worked on: in visits of blocks, see SurfaceBlocks, and in sums over blocks.
 
-#include "Core/Common/ScratchMemory.h"
 #include "Core/Common/Spans.h"
 #include "Core/Evolution/EvolutionImplementation.h"
 #include "Core/Mesh/SurfaceMeasures.h"
@@ -93,11 +92,7 @@ void SurfaceEvolution::Implementation::VisitBlock(
   {
     return;
   }
-  if (HasMemoryLimit())
-  {
-    this->Blocks->Prefetch(block);
-    KeepMemoryLimit();
-  }
+  this->Blocks->Prefetch(block);
   SurfaceIteration& iteration = this->TakeIteration();
   BlockVisit visit = this->Blocks->Open(block);
   visit.Idle = &idle;

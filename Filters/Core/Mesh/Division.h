@@ -81,8 +81,8 @@ DivisionNumbers NumberForDivision(
   const KeptEdges* kept = nullptr, Executor& executor = OnThisThread());
 
 /** The same, which numbers it. */
-[[nodiscard]] SurfaceMesh Divide(const SurfaceMesh& mesh, const KeptEdges* kept = nullptr,
-  Executor& executor = OnThisThread());
+[[nodiscard]] SurfaceMesh Divide(
+  const SurfaceMesh& mesh, const KeptEdges* kept = nullptr, Executor& executor = OnThisThread());
 }
 
 #endif

@@ -53,7 +53,7 @@ private:
   void InsertBridgeEdges(SurfaceMesh& mesh, bool first) const;
 
   Ring FirstRim;
-  Ring SecondRim; ///< Reversed.
+  Ring SecondRim;                                ///< Reversed.
   float Squared[Ring::Capacity][Ring::Capacity]; ///< Distances from rim to rim.
   std::vector<BridgeEdge> BridgeEdges;
   std::vector<BridgeEdge> Candidate;

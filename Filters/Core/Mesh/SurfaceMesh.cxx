@@ -142,16 +142,17 @@ IndexedSurface SurfaceMesh::ToIndexed(Executor& executor) const
         }
       }
     });
-  const std::vector<std::size_t> firstFace =
-    FirstOfSpans(executor, this->Rings.size(), VertexSpan,
-      [this](std::size_t begin, std::size_t end) { return this->CountFaces(begin, end); });
+  const std::vector<std::size_t> firstFace = FirstOfSpans(executor, this->Rings.size(), VertexSpan,
+    [this](std::size_t begin, std::size_t end) { return this->CountFaces(begin, end); });
   MakeZeroed(surface.Triangles, firstFace.back());
   ForSpans(executor, this->Rings.size(), VertexSpan,
     [&](std::size_t span, std::size_t begin, std::size_t end)
     {
       std::size_t next = firstFace[span];
-      this->VisitFaces(begin, end, [&](int a, int b, int c)
-        { surface.Triangles[next++] = { place[a], place[b], place[c] }; });
+      this->VisitFaces(begin, end,
+        [&](int a, int b, int c) {
+          surface.Triangles[next++] = { place[a], place[b], place[c] };
+        });
     });
   return surface;
 }
@@ -168,10 +169,8 @@ class CornersOfPoints
 {
 public:
   CornersOfPoints(const IndexedSurface& surface, Executor& executor)
-    : Surface(surface)
-    , Left(surface.Points.size())
-    , Start(surface.Points.size() + 1, 0)
-    , Corners(3 * surface.Triangles.size())
+    : Surface(surface), Left(surface.Points.size()), Start(surface.Points.size() + 1, 0),
+      Corners(3 * surface.Triangles.size())
   {
     const auto forCorners = [&](auto&& visit)
     {
@@ -187,8 +186,8 @@ public:
           }
         });
     };
-    forCorners([this](int point, int)
-      { this->Left[point].fetch_add(1, std::memory_order_relaxed); });
+    forCorners(
+      [this](int point, int) { this->Left[point].fetch_add(1, std::memory_order_relaxed); });
     for (std::size_t p = 0; p < this->Left.size(); ++p)
     {
       this->Start[p + 1] = this->Start[p] + this->Left[p].load(std::memory_order_relaxed);
@@ -206,8 +205,8 @@ public:
   /** The edges opposite to a point, in the order of the triangles, whichever thread came first. */
   void FindOppositeEdges(std::size_t point, std::vector<DirectedEdge>& edges)
   {
-    std::sort(this->Corners.begin() + this->Start[point],
-      this->Corners.begin() + this->Start[point + 1]);
+    std::sort(
+      this->Corners.begin() + this->Start[point], this->Corners.begin() + this->Start[point + 1]);
     edges.clear();
     for (int i = this->Start[point]; i < this->Start[point + 1]; ++i)
     {
@@ -305,8 +304,8 @@ int SurfaceMesh::Append(const IndexedSurface& surface, Executor& executor)
   for (std::size_t v = 0; v < n; ++v)
   {
     const Point& p = surface.Points[v];
-    this->Position[static_cast<std::size_t>(first) + v] = Vector(
-      static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2]));
+    this->Position[static_cast<std::size_t>(first) + v] =
+      Vector(static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2]));
   }
   this->Rings.insert(this->Rings.end(), rings.begin(), rings.end());
   return first;
@@ -387,7 +386,8 @@ std::uint64_t SpreadBits(std::uint64_t x)
   return x;
 }
 
-/** Of a position on a Z-order (Morton) curve with cells of side `cell`, the first of which is at `low`. */
+/** Of a position on a Z-order (Morton) curve with cells of side `cell`, the first of which is at
+ * `low`. */
 std::uint64_t MortonCode(const Vector& position, const Vector& low, double cell)
 {
   const auto bits = [cell](float x, float from)

@@ -191,8 +191,8 @@ private:
 };
 
 /**
- * Brings values of vertices into a new order, see SurfaceMesh::Reorder; where there is no vertex they
- * are zero. @param spare memory that they go through
+ * Brings values of vertices into a new order, see SurfaceMesh::Reorder; where there is no vertex
+ * they are zero. @param spare memory that they go through
  */
 template <typename T>
 void Reorder(LargeVector<T>& values, const std::vector<int>& order, LargeVector<Ring>& spare,
@@ -218,7 +218,8 @@ void Reorder(LargeVector<T>& values, const std::vector<int>& order, LargeVector<
     { std::copy(ordered + begin, ordered + end, values.data() + begin); });
 }
 
-/** The alive vertices along a Z-order (Morton) curve with cells of side `cell`, those of one by index. */
+/** The alive vertices along a Z-order (Morton) curve with cells of side `cell`, those of one by
+ * index. */
 std::vector<int> SpaceFillingOrder(
   const SurfaceMesh& mesh, double cell, Executor& executor = OnThisThread());
 }

@@ -16,11 +16,11 @@ namespace
 /** Vertices that one thread looks at at a time. */
 constexpr std::size_t VertexSpan = 8192;
 /**
- * Places for new vertices that a block gets at least, and those that all blocks with vertices share,
- * as a small surface grows fast; for how many of its own a block gets one more, and how many for each
- * that its last visit took: a surface that grows takes more each time. Where there was none yet it is
- * guessed for how many vertices one was taken. And how many for each vertex with an edge that is too
- * long: where only some of them are split needles come of what is left.
+ * Places for new vertices that a block gets at least, and those that all blocks with vertices
+ * share, as a small surface grows fast; for how many of its own a block gets one more, and how many
+ * for each that its last visit took: a surface that grows takes more each time. Where there was
+ * none yet it is guessed for how many vertices one was taken. And how many for each vertex with an
+ * edge that is too long: where only some of them are split needles come of what is left.
  */
 constexpr int FewPlaces = 24;
 constexpr int SharedPlaces = 12288;
@@ -44,8 +44,8 @@ static_assert(SurfaceBlocks::MovingInDelta + 0.5f <= SurfaceBlocks::EditedInDelt
   "what has moved is written no further than what is edited");
 static_assert(SurfaceBlocks::WrittenInDelta + Reach + LongestEdge <= SurfaceBlocks::HaloInDelta,
   "what is examined is written, and stars within its reach are read");
-static_assert(SurfaceBlocks::WrittenInDelta + SurfaceBlocks::HaloInDelta +
-      SizingField::ReachInDelta <=
+static_assert(
+  SurfaceBlocks::WrittenInDelta + SurfaceBlocks::HaloInDelta + SizingField::ReachInDelta <=
     SurfaceBlocks::SideInDelta,
   "what visits of one colour write and read has no cell of the grid in common");
 
@@ -54,8 +54,8 @@ constexpr int NoBlock = -1;
 /** How many more vertices a block may get that has so many, of which some have long edges. */
 int RoomFor(int vertices, int taken, int withLongEdge)
 {
-  const int more = std::max(
-    { vertices / VerticesPerPlace, PlacesPerTaken * taken, PlacesPerLong * withLongEdge });
+  const int more =
+    std::max({ vertices / VerticesPerPlace, PlacesPerTaken * taken, PlacesPerLong * withLongEdge });
   return vertices > 0 ? FewPlaces + more : 0;
 }
 
@@ -94,12 +94,10 @@ SurfaceBlocks::Frame SurfaceBlocks::FrameOf(const std::array<double, 3>& extent,
 }
 
 SurfaceBlocks::SurfaceBlocks(SurfaceState& state, const Frame& frame, Executor& executor)
-  : State(state)
-  , TheFrame(frame)
+  : State(state), TheFrame(frame)
 {
   const std::array<int, 3>& size = frame.Size;
-  this->All.resize(
-    static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) * size[2]);
+  this->All.resize(static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) * size[2]);
   this->Reorder(executor, true);
   this->FindOrder();
 }
@@ -282,8 +280,7 @@ BlockVisit SurfaceBlocks::Open(int block)
   return visit;
 }
 
-double SurfaceBlocks::SumUp(
-  const std::function<double(int v)>& ofVertex, Executor& executor) const
+double SurfaceBlocks::SumUp(const std::function<double(int v)>& ofVertex, Executor& executor) const
 {
   return SumOfSpans(executor, this->All.size(), 1,
     [&](std::size_t block, std::size_t)
@@ -315,7 +312,10 @@ void SurfaceBlocks::Close(BlockVisit&& visit)
 
 void SurfaceBlocks::Prefetch(int block) const
 {
-  this->State.Prefetch(this->All[block].First, this->All[block].Next);
+  if (HasMemoryLimit())
+  {
+    this->State.Prefetch(this->All[block].First, this->All[block].Next);
+  }
 }
 
 bool SurfaceBlocks::HasActive(int block) const

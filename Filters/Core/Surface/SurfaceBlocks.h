@@ -115,7 +115,8 @@ public:
   /** Between sweeps, while no visit is open: numbers the vertices anew where that is needed. */
   void Prepare(Executor& executor);
   /**
-   * Adds a closed surface, and gives its vertices to their blocks. Between sweeps, while none is open.
+   * Adds a closed surface, and gives its vertices to their blocks. Between sweeps, while none is
+   * open.
    */
   void Append(IndexedSurface&& surface, Executor& executor);
 
@@ -128,16 +129,17 @@ public:
   std::vector<int> NeighboursOf(int block) const;
   const Frame& GetFrame() const { return this->TheFrame; }
 
-  /** The sum of ofVertex(v) over the vertices of a block, in order of index, then over the blocks. */
+  /** The sum of ofVertex(v) over the vertices of a block, in order of index, then over the blocks.
+   */
   double SumUp(const std::function<double(int v)>& ofVertex, Executor& executor) const;
 
 private:
   struct OfBlock
   {
-    int First = 0; ///< Its vertices are those of [First, Next), and
-    int Next = 0;  ///< its room for new ones is the rest of
-    int End = 0;   ///< [First, End).
-    int Taken = 0; ///< Its last visit has made so many.
+    int First = 0;         ///< Its vertices are those of [First, Next), and
+    int Next = 0;          ///< its room for new ones is the rest of
+    int End = 0;           ///< [First, End).
+    int Taken = 0;         ///< Its last visit has made so many.
     bool IsAstray = false; ///< A vertex has left it.
   };
   std::array<int, 3> PlaceOf(const Vector& position) const;

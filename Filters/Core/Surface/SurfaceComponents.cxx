@@ -55,8 +55,7 @@ void Fill(SurfaceState& state, const std::vector<VertexRecord>& records)
 }
 
 /** Of components those that must go, by their smallest vertices. @param records by vertex */
-std::vector<int> FindDegenerate(
-  const std::vector<VertexRecord>& records, const SizingField& sizing)
+std::vector<int> FindDegenerate(const std::vector<VertexRecord>& records, const SizingField& sizing)
 {
   std::vector<int> found;
   if (records.empty())
@@ -68,7 +67,8 @@ std::vector<int> FindDegenerate(
   Fill(state, records);
   constexpr float far = 1e9f;
   ComponentWatch watch;
-  watch.LabelSmall(state, 0, state.Mesh.Size(), { Vector(-far, -far, -far), Vector(far, far, far) });
+  watch.LabelSmall(
+    state, 0, state.Mesh.Size(), { Vector(-far, -far, -far), Vector(far, far, far) });
   std::vector<int> roots; // By component; they come in order.
   for (int v = 0; v < static_cast<int>(records.size()); ++v)
   {

@@ -80,8 +80,7 @@ Edit SurfaceEditor::Split(int u, int v)
     return {};
   }
   const std::size_t first = this->Log.size();
-  const int m =
-    split.Apply(s.Mesh, (s.Mesh.Position[u] + s.Mesh.Position[v]) * 0.5f, this->Room());
+  const int m = split.Apply(s.Mesh, (s.Mesh.Position[u] + s.Mesh.Position[v]) * 0.5f, this->Room());
   s.AddVertex(m, u);
   s.Velocity[m] = (s.Velocity[u] + s.Velocity[v]) * 0.5f;
   // What is not being moved has an old one.
@@ -145,7 +144,8 @@ Edit SurfaceEditor::CollapseInto(
   const std::size_t first = this->Log.size();
   if (s.Sizing.IsGraded())
   {
-    // As on the edge there; else sizes would be steeper than the gradation, about an end that moves.
+    // As on the edge there; else sizes would be steeper than the gradation, about an end that
+    // moves.
     const float toKept = Length(position - s.Mesh.Position[kept]);
     const float toRemoved = Length(position - s.Mesh.Position[removed]);
     const float length = toKept + toRemoved;
@@ -201,8 +201,7 @@ bool SurfaceEditor::StaysSmooth(
   const Vector mean = Normalized(oldA + oldB);
   constexpr float least = static_cast<float>(SmoothCosine);
   // Slivers have normals that say little; what counts is that the new pair is smooth.
-  return Dot(newA, newB) >= least && Dot(newA, mean) >= least &&
-    Dot(newB, mean) >= least;
+  return Dot(newA, newB) >= least && Dot(newA, mean) >= least && Dot(newB, mean) >= least;
 }
 
 Edit SurfaceEditor::Flip(int u, int v, EditTolerance tolerance)
@@ -258,8 +257,7 @@ Edit SurfaceEditor::Remove(int v)
   }
   const Ring ring = s.Mesh.Rings[v];
   this->Faces.assign({ TriangleOf(s.Mesh, ring.Item[0], ring.Item[1], ring.Item[2]) });
-  if (!IsWellShaped(this->Faces[0]) ||
-    NewFacesIntersect(s, this->Faces, { { v }, 1, false }))
+  if (!IsWellShaped(this->Faces[0]) || NewFacesIntersect(s, this->Faces, { { v }, 1, false }))
   {
     return {};
   }

@@ -55,10 +55,10 @@ struct EditShare
 class SurfaceEditor
 {
 public:
-  /** @param share null: nobody else edits; counts go to the state, new vertices follow the last one. */
+  /** @param share null: nobody else edits; counts go to the state, new vertices follow the last
+   * one. */
   explicit SurfaceEditor(SurfaceState& state, EditShare* share = nullptr)
-    : State(state)
-    , Share(share)
+    : State(state), Share(share)
   {
   }
 

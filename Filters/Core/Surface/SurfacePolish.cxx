@@ -43,8 +43,8 @@ void SurfacePolish::SeparateAll()
 {
   SurfaceState& s = this->State;
   std::vector<int> crowded = this->AliveOnes();
-  crowded.erase(std::remove_if(crowded.begin(), crowded.end(),
-                  [&s](int v) { return s.NearOthers[v] == 0; }),
+  crowded.erase(
+    std::remove_if(crowded.begin(), crowded.end(), [&s](int v) { return s.NearOthers[v] == 0; }),
     crowded.end());
   bool isDone = crowded.empty();
   for (int round = 0; round < SeparatingRounds && !isDone; ++round)

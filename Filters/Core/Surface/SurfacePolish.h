@@ -31,11 +31,8 @@ public:
    */
   SurfacePolish(
     SurfaceState& state, const Field* snapTo, bool topologyChanges, EditShare* share = nullptr)
-    : State(state)
-    , Share(share)
-    , Editor(state, share)
-    , SnapTo(snapTo)
-    , TopologyChanges(topologyChanges)
+    : State(state), Share(share), Editor(state, share), SnapTo(snapTo),
+      TopologyChanges(topologyChanges)
   {
   }
 
@@ -46,7 +43,7 @@ public:
   std::vector<int> TakeChanged() { return this->Editor.TakeChanged(); }
 
 private:
-  int EndOfNew() const; ///< What is made next gets this index.
+  int EndOfNew() const;               ///< What is made next gets this index.
   std::vector<int> AliveOnes() const; ///< Of the list, and what cuts have made.
   void SeparateAll();
   /** Those of the stars whose worst scores less than `good`. @return the cuts made */
@@ -55,7 +52,7 @@ private:
   SurfaceState& State;
   const EditShare* Share;
   SurfaceEditor Editor;
-  int FirstNew = 0; ///< What is made after Run() has begun follows it.
+  int FirstNew = 0;                         ///< What is made after Run() has begun follows it.
   const std::vector<int>* Within = nullptr; ///< Whose stars are looked at.
   const Field* SnapTo;
   bool TopologyChanges;

@@ -45,8 +45,8 @@ void SurfaceState::Reset(const Vector& low, const Vector& high, Executor& execut
 
 void SurfaceState::ForgetMotion()
 {
-  for (VertexProperty<Vector>* property : { &this->Velocity, &this->PreviousPosition,
-         &this->Anchor, &this->Laplacian, &this->SpringPull })
+  for (VertexProperty<Vector>* property : { &this->Velocity, &this->PreviousPosition, &this->Anchor,
+         &this->Laplacian, &this->SpringPull })
   {
     property->Forget();
   }
@@ -133,11 +133,9 @@ void SurfaceState::UpdateShape(int v)
     const Lanes length = star.Length.At(i);
     const Lanes rest = ofEdges([&](int w) { return this->Sizing.RestLength(v, w); });
     const Lanes longest = ofEdges([&](int w) { return this->Sizing.LongestEdge(v, w); });
-    const Lanes hugest =
-      ofEdges([&](int w) { return this->Sizing.LongestEdge(v, w, HugeEdge); });
+    const Lanes hugest = ofEdges([&](int w) { return this->Sizing.LongestEdge(v, w, HugeEdge); });
     const Lanes shortest = ofEdges([&](int w) { return this->Sizing.ShortestEdge(v, w); });
-    pull.Set(
-      i, star.Edge.At(i) * (Lanes(1.f) - rest / Maximum(length, Lanes(1e-6f) * rest)));
+    pull.Set(i, star.Edge.At(i) * (Lanes(1.f) - rest / Maximum(length, Lanes(1e-6f) * rest)));
     tooLong |= LessBits(longest, length) << i;
     huge |= LessBits(hugest, length) << i;
     tooShort |= LessBits(length, shortest) << i;

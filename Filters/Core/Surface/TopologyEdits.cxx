@@ -25,9 +25,7 @@ class TriedCut
 {
 public:
   TriedCut(SurfaceState& state, const CycleCut& cut, VertexRoom* room)
-    : State(state)
-    , Room(room)
-    , Corner{ cut.A, cut.B, cut.C }
+    : State(state), Room(room), Corner{ cut.A, cut.B, cut.C }
   {
     for (int k = 0; k < 3; ++k)
     {
@@ -138,7 +136,8 @@ Edit SurfaceEditor::Merge(int u, int v)
   merge.U = u;
   merge.V = v;
   const float longest = s.Sizing.LongestEdge(u, v, LongestBridgeEdge);
-  if (!this->MayEdit({ u, v }) || !merge.Plan(s.Mesh) || merge.SquaredLongestBridgeEdge() > longest * longest)
+  if (!this->MayEdit({ u, v }) || !merge.Plan(s.Mesh) ||
+    merge.SquaredLongestBridgeEdge() > longest * longest)
   {
     return {};
   }

@@ -99,17 +99,13 @@ class VertexProperty final : public VertexPropertyBase
 {
 public:
   /** New vertices inherit their parent's value. */
-  VertexProperty(VertexProperties& properties, T initial)
-    : Initial(initial)
-    , Inherits(true)
+  VertexProperty(VertexProperties& properties, T initial) : Initial(initial), Inherits(true)
   {
     properties.Register(*this);
   }
   /** New vertices have a value of their own. */
   VertexProperty(VertexProperties& properties, T initial, T ofNewVertices)
-    : Initial(initial)
-    , OfNewVertices(ofNewVertices)
-    , Inherits(false)
+    : Initial(initial), OfNewVertices(ofNewVertices), Inherits(false)
   {
     properties.Register(*this);
   }
@@ -121,7 +117,7 @@ public:
   std::size_t Size() const { return this->Values.size(); }
   void Fill(const T& value) { std::fill(this->Values.begin(), this->Values.end(), value); }
   void Assign(const LargeVector<T>& values) { this->Values = values; } ///< As many as there are.
-  LargeVector<T>& AsVector() { return this->Values; } ///< Not to be resized.
+  LargeVector<T>& AsVector() { return this->Values; }                  ///< Not to be resized.
   const LargeVector<T>& AsVector() const { return this->Values; }
 
   void Reset(std::size_t n) override
@@ -131,8 +127,7 @@ public:
   }
   void Resize(std::size_t n) override { Grow(this->Values, n, this->Initial); }
   void Forget() override { this->Values = {}; }
-  void Reorder(
-    const std::vector<int>& order, LargeVector<Ring>& spare, Executor& executor) override
+  void Reorder(const std::vector<int>& order, LargeVector<Ring>& spare, Executor& executor) override
   {
     volumic::Reorder(this->Values, order, spare, executor);
   }
