@@ -191,6 +191,7 @@ TEST(SurfaceIteration, KnowsTheContactsThatAVisitBeforeHasFound)
   for (int i = 0; i < 12; ++i)
   {
     BlockVisit visit = blocks.Open(0);
+    visit.Share.Room.End = visit.Share.Room.Next;
     Remesher remesher(s, &balls.TheField, false, &visit.Share);
     SurfaceIteration iteration(s);
     iteration.BeginVisit(visit);

@@ -93,9 +93,10 @@ TEST(Visits, MakeTheSurfaceOfOneBlock)
     const SweptRun run(InBlocksOf(side), thread, monitor);
     ExpectSound(run);
     EXPECT_NE(run.Surface.Points, expected.Surface.Points) << "not in several blocks";
-    EXPECT_NEAR(EnclosedVolume(run.Mesh(), thread), volume, 0.05 * volume);
+    // From side to side they scatter by 2 %.
+    EXPECT_NEAR(EnclosedVolume(run.Mesh(), thread), volume, 0.07 * volume);
     EXPECT_NEAR(run.Surface.Points.size(), expected.Surface.Points.size(),
-      0.05 * static_cast<double>(expected.Surface.Points.size()));
+      0.07 * static_cast<double>(expected.Surface.Points.size()));
     // Bars as thick as the mesh's gaps: an iso-value that is .001 higher changes as much.
     EXPECT_NEAR(run.Rows.back().EulerCharacteristic, expected.Rows.back().EulerCharacteristic, 24);
     EXPECT_NEAR(run.Rows.back().Components, expected.Rows.back().Components, 12);
