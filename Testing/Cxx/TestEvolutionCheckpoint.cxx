@@ -8,7 +8,8 @@ using namespace volumic;
 
 namespace
 {
-/** Waves, and balls that merge and are lost and found, at three levels; the coarsest comes first. */
+/** Waves, and balls that merge and are lost and found, at three levels; the coarsest comes first.
+ */
 struct Scene
 {
   std::vector<TestVolume> Levels;
@@ -114,9 +115,8 @@ TEST(EvolutionCheckpoint, GoesOnInSweepsAlike)
   ExpectSameByWayOfFiles(InSmallBlocks(), Scene());
 }
 
-TEST(EvolutionCheckpoint, KeepsTheFreePlacesWhereALevelNeedsNoDivision)
+TEST(EvolutionCheckpoint, GoesOnAlikeWhereALevelNeedsNoDivision)
 {
-  // What is split then takes the places of vertices that are gone.
   ExpectSameByWayOfFiles(Options(), Scene(1.2));
 }
 

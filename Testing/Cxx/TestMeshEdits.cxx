@@ -11,8 +11,8 @@ using namespace volumic;
 
 namespace
 {
-#define EXPECT_SOUND(mesh, chi)                                                                    \
-  EXPECT_EQ(DescribeBrokenInvariant(mesh), "");                                                    \
+#define EXPECT_SOUND(mesh, chi)                 \
+  EXPECT_EQ(DescribeBrokenInvariant(mesh), ""); \
   EXPECT_EQ((mesh).CountEulerCharacteristic(), chi)
 }
 
@@ -44,7 +44,8 @@ TEST(SurfaceMesh, AppendsTheSameOnThreads)
     {
       const Ring& ring = one.Rings[v];
       ASSERT_TRUE(ring.Count == other.Rings[v].Count &&
-        std::equal(ring.Item, ring.Item + ring.Count, other.Rings[v].Item)) << v;
+        std::equal(ring.Item, ring.Item + ring.Count, other.Rings[v].Item))
+        << v;
     }
   }
 }
@@ -98,7 +99,9 @@ TEST(SurfaceMesh, IsOneListWhicheverSpansItWasMadeIn)
   EXPECT_EQ(surface.Points, points);
   LargeVector<Triangle> triangles;
   mesh.VisitFaces(
-    [&](int a, int b, int c) { triangles.push_back({ place[a], place[b], place[c] }); });
+    [&](int a, int b, int c) {
+      triangles.push_back({ place[a], place[b], place[c] });
+    });
   EXPECT_EQ(surface.Triangles, triangles);
   EXPECT_EQ(mesh.NumberOfFaces(threads), static_cast<std::int64_t>(triangles.size()));
   EXPECT_EQ(mesh.CountEulerCharacteristic(threads), 2);
@@ -123,8 +126,7 @@ TEST(SurfaceMesh, IsOrderedAlongTheCurveAsAWhole)
       static_cast<unsigned>(p.Y / cell), static_cast<unsigned>(p.Z / cell) };
   };
   EXPECT_TRUE(std::is_sorted(order.begin(), order.end(),
-    [&](int v, int w)
-    { return cellOf(v) != cellOf(w) ? IsBefore(cellOf(v), cellOf(w)) : v < w; }));
+    [&](int v, int w) { return cellOf(v) != cellOf(w) ? IsBefore(cellOf(v), cellOf(w)) : v < w; }));
   const LargeVector<Vector> before = mesh.Position;
   mesh.Reorder(order, threads);
   EXPECT_SOUND(mesh, 2);
@@ -172,37 +174,35 @@ TEST(SurfaceMesh, UsesThePlacesOfRemovedVerticesAgain)
   const int size = mesh.Size();
   EdgeCollapse{ 30, mesh.Rings[30].Item[0] }.Apply(mesh);
   EXPECT_EQ(mesh.NumberOfVertices(), size - 1);
-  EdgeSplit{ 50, mesh.Rings[50].Item[0] }.Apply(mesh, Vector(0, 0, 7));
+  EXPECT_EQ(EdgeSplit({ 50, mesh.Rings[50].Item[0] }).Apply(mesh, Vector(0, 0, 7)), size);
   EXPECT_EQ(mesh.NumberOfVertices(), size);
-  EXPECT_EQ(mesh.Size(), size);
+  EXPECT_EQ(mesh.Size(), size + 1);
   EXPECT_EQ(DescribeBrokenInvariant(mesh), "");
 }
 
-TEST(SurfaceMesh, KeepsPlacesAsideForTheirKeeper)
+TEST(SurfaceMesh, HasRoomBetweenItsVertices)
 {
   SurfaceMesh mesh = MakeSphere({ 0, 0, 0 }, 3, 1);
   const int size = mesh.Size();
-  mesh.RemoveVertex(4);
-  mesh.RemoveVertex(9);
-  VertexPlaces places;
-  mesh.PutAside(places);
-  EXPECT_EQ(mesh.NumberOfVertices(), size - 2);
-  const UnusedPlaces unused = mesh.AddUnusedPlaces(3);
-  EXPECT_EQ(unused.Next, size);
-  EXPECT_EQ(mesh.Size(), size + 3);
-  EXPECT_EQ(mesh.NumberOfVertices(), size - 2);
-  EXPECT_EQ(mesh.AddVertex(Vector(), &places), 9);
-  EXPECT_EQ(mesh.AddVertex(Vector(), &places), 4);
-  mesh.CountOthers(2);
+  std::vector<int> order(static_cast<std::size_t>(size) + 2, NoVertex);
+  std::iota(order.begin(), order.begin() + 4, 0);
+  std::iota(order.begin() + 6, order.end(), 4);
+  const Vector fifth = mesh.Position[4];
+  mesh.Reorder(order);
+  EXPECT_EQ(mesh.Size(), size + 2);
   EXPECT_EQ(mesh.NumberOfVertices(), size);
-  mesh.RemoveVertex(9, &places);
-  EXPECT_TRUE(places.Free.empty()) << "not one that was removed meanwhile";
-  places.Free.swap(places.Removed);
-  EXPECT_EQ(mesh.AddVertex(Vector(), &places), 9);
-  // What comes back is anyone's.
-  mesh.FreeFromAside(places, unused);
-  EXPECT_EQ(mesh.FreePlaces().size(), 3u);
-  EXPECT_EQ(mesh.AddVertex(Vector()), size);
+  EXPECT_FALSE(mesh.IsAlive(4) || mesh.IsAlive(5));
+  EXPECT_EQ(SquaredDistance(mesh.Position[6], fifth), 0.f);
+  EXPECT_EQ(DescribeBrokenInvariant(mesh), "");
+  VertexRoom room = { 4, 6 };
+  EXPECT_EQ(EdgeSplit({ 0, mesh.Rings[0].Item[0] }).Apply(mesh, Vector(0, 0, 7), &room), 4);
+  EXPECT_TRUE(room.Has(1));
+  EXPECT_FALSE(room.Has(2));
+  mesh.Count(room);
+  EXPECT_EQ(mesh.NumberOfVertices(), size + 1);
+  EXPECT_EQ(DescribeBrokenInvariant(mesh), "");
+  mesh.Reorder(SpaceFillingOrder(mesh, 1.));
+  EXPECT_EQ(mesh.Size(), size + 1);
   EXPECT_EQ(mesh.NumberOfVertices(), size + 1);
 }
 

@@ -45,21 +45,6 @@ int StatusOf(const std::function<bool()>& isRight)
 }
 }
 
-TEST_F(ScratchProcess, RoomIsTakenBeforehand)
-{
-  ScratchOptions options = Allowing(144 * MiB, this->Directory.Path);
-  options.Room = 10 * MiB;
-  const ScratchMemory scratch(options);
-  LargeVector<char> six(6 * MiB, 'x');
-  const std::string message = WhyItIsFull(5 * MiB);
-  EXPECT_TRUE(Has(message, "has no room for 5 MiB more: 6 of 10 MiB are taken"));
-  EXPECT_TRUE(Has(message, this->Directory.Path));
-  EXPECT_EQ(scratch.Statistics().Mapped, 6 * MiB);
-  LargeVector<char>().swap(six);
-  EXPECT_EQ(WhyItIsFull(10 * MiB), "");
-  EXPECT_EQ(scratch.Statistics().MostMapped, 10 * MiB);
-}
-
 TEST_F(ScratchProcess, FilesMayHaveALimitOfTheSystem)
 {
   const ScratchMemory scratch(Allowing(144 * MiB, this->Directory.Path));

@@ -35,38 +35,43 @@ SurfaceBlocks::Frame FrameAbout(const SurfaceMesh& mesh, float side)
   return frame;
 }
 
-std::map<int, int> Visited(SurfaceBlocks& blocks)
+/** Of a block, those that are alive. */
+std::vector<int> VerticesOf(SurfaceBlocks& blocks, const SurfaceMesh& mesh, int block)
 {
-  std::map<int, int> visits;
-  for (const int block : blocks.Schedule().Order())
+  BlockVisit visit = blocks.Open(block);
+  std::vector<int> vertices;
+  for (int v = visit.First; v < visit.End(); ++v)
   {
-    BlockVisit visit = blocks.Open(block);
-    for (const int v : visit.Vertices)
+    if (mesh.IsAlive(v))
     {
-      ++visits[v];
+      vertices.push_back(v);
     }
-    blocks.Close(std::move(visit));
   }
-  return visits;
+  blocks.Close(std::move(visit));
+  return vertices;
 }
 
-/** The block that has a vertex; -1: none, -2: several. */
-int BlockWith(SurfaceBlocks& blocks, int v)
+/** The block that has the vertex at a place; -1: none, -2: several. */
+int BlockWith(SurfaceBlocks& blocks, const SurfaceMesh& mesh, const Vector& place)
 {
   int found = -1;
   for (const int block : blocks.Schedule().Order())
   {
-    BlockVisit visit = blocks.Open(block);
-    for (const int w : visit.Vertices)
+    for (const int v : VerticesOf(blocks, mesh, block))
     {
-      if (w == v)
+      if (SquaredDistance(mesh.Position[v], place) == 0.f)
       {
         found = found == -1 ? block : -2;
       }
     }
-    blocks.Close(std::move(visit));
   }
   return found;
+}
+
+/** Any of its vertices. */
+int VertexOf(SurfaceBlocks& blocks, const SurfaceMesh& mesh, int block)
+{
+  return VerticesOf(blocks, mesh, block).front();
 }
 }
 
@@ -75,12 +80,20 @@ TEST(SurfaceBlocks, HaveEachVertexOnce)
   LiveSurface state(MakeSphere({ 0, 0, 0 }, 20, 1.5));
   SurfaceBlocks blocks(state, FrameAbout(state.Mesh, 9.f), Thread);
   EXPECT_EQ(blocks.Schedule().Order().size(), 125u);
-  const std::map<int, int> visits = Visited(blocks);
-  EXPECT_EQ(static_cast<int>(visits.size()), state.Mesh.NumberOfVertices());
-  for (const auto& [v, count] : visits)
+  std::set<int> seen;
+  int count = 0;
+  for (const int block : blocks.Schedule().Order())
   {
-    EXPECT_EQ(count, 1) << v;
+    for (const int v : VerticesOf(blocks, state.Mesh, block))
+    {
+      EXPECT_EQ(blocks.BlockAt(state.Mesh.Position[v]), block);
+      seen.insert(v);
+      ++count;
+    }
   }
+  EXPECT_EQ(count, state.Mesh.NumberOfVertices());
+  EXPECT_EQ(static_cast<int>(seen.size()), count);
+  EXPECT_EQ(DescribeBrokenInvariant(state.Mesh), "");
 }
 
 TEST(SurfaceBlocks, ComeBeforeTheirNeighboursOfOddPlace)
@@ -101,8 +114,8 @@ TEST(SurfaceBlocks, ComeBeforeTheirNeighboursOfOddPlace)
   {
     for (int b = 0; b < 125; ++b)
     {
-      const bool touch = std::abs(a % 5 - b % 5) <= 1 &&
-        std::abs(a / 5 % 5 - b / 5 % 5) <= 1 && std::abs(a / 25 - b / 25) <= 1;
+      const bool touch = std::abs(a % 5 - b % 5) <= 1 && std::abs(a / 5 % 5 - b / 5 % 5) <= 1 &&
+        std::abs(a / 25 - b / 25) <= 1;
       if (touch && colour(a) < colour(b))
       {
         EXPECT_LT(turn[a], turn[b]) << a << " " << b;
@@ -111,122 +124,150 @@ TEST(SurfaceBlocks, ComeBeforeTheirNeighboursOfOddPlace)
   }
 }
 
-TEST(SurfaceBlocks, HandOverWhatLeavesThem)
+TEST(SurfaceBlocks, HandOverWhatLeavesThemBetweenSweeps)
 {
   LiveSurface state(Balls(4));
   SurfaceBlocks blocks(state, FrameAbout(state.Mesh, 10.f), Thread);
-  BlockVisit first = blocks.Open(0);
-  state.MoveTo(3, Vector(21, 0, 0));
-  blocks.Close(std::move(first));
-  EXPECT_EQ(BlockWith(blocks, 3), 2);
-  BlockVisit last = blocks.Open(2);
-  state.MoveTo(3, Vector(-40, 0, 0));
-  blocks.Close(std::move(last));
-  EXPECT_EQ(BlockWith(blocks, 3), 0) << "what is beyond the first is the first's";
+  const Vector near(
+    blocks.BoxOf(0).High.X + 0.4f * SurfaceBlocks::MovingInDelta * state.Sizing.Smallest(), 1, 0);
+  const Vector far(21, 0, 0);
+  const std::vector<int> vertices = VerticesOf(blocks, state.Mesh, 0);
+  state.MoveTo(vertices[0], near);
+  VerticesOf(blocks, state.Mesh, 0);
+  blocks.Prepare(Thread);
+  EXPECT_EQ(BlockWith(blocks, state.Mesh, near), 0) << "one that comes and goes is no reason";
+  state.MoveTo(vertices[1], far);
+  EXPECT_EQ(BlockWith(blocks, state.Mesh, far), 0) << "nobody else's in the same sweep";
+  blocks.Prepare(Thread);
+  EXPECT_EQ(BlockWith(blocks, state.Mesh, far), 2);
+  EXPECT_EQ(BlockWith(blocks, state.Mesh, near), 1);
+  const Vector beyond(-40, 0, 0);
+  state.MoveTo(VertexOf(blocks, state.Mesh, 2), beyond);
+  EXPECT_EQ(BlockWith(blocks, state.Mesh, beyond), 2);
+  blocks.Prepare(Thread);
+  EXPECT_EQ(BlockWith(blocks, state.Mesh, beyond), 0) << "what is beyond the first is the first's";
+}
+
+TEST(SurfaceBlocks, KeepWhatIsKnownOfTheirVertices)
+{
+  LiveSurface state(Balls(3));
+  for (int v = 0; v < state.Mesh.Size(); ++v)
+  {
+    state.FieldValue[v] = state.Mesh.Position[v].Z;
+    state.Velocity[v] = state.Mesh.Position[v];
+    state.Active[v] = state.Mesh.Position[v].Z > 0.f;
+  }
+  SurfaceBlocks blocks(state, FrameAbout(state.Mesh, 5.f), Thread);
+  state.Velocity[0] = Vector(9, 9, 9);
+  int alive = 0;
+  for (int v = 0; v < state.Mesh.Size(); ++v)
+  {
+    EXPECT_TRUE(state.Mesh.IsAlive(v) || !state.Active[v]);
+    if (state.Mesh.IsAlive(v) && v > 0)
+    {
+      ++alive;
+      EXPECT_EQ(state.FieldValue[v], state.Mesh.Position[v].Z);
+      EXPECT_EQ(SquaredDistance(state.Velocity[v], state.Mesh.Position[v]), 0.f);
+      EXPECT_EQ(state.Active[v], state.Mesh.Position[v].Z > 0.f);
+      bool isThere = false;
+      state.Grid.Visit(state.Mesh.Position[v], 0.f, [&](int w) { isThere = isThere || w == v; });
+      EXPECT_TRUE(isThere);
+    }
+  }
+  EXPECT_EQ(alive, state.Mesh.NumberOfVertices() - 1);
 }
 
 TEST(SurfaceBlocks, OwnTheNewVerticesOfTheirVisits)
 {
   LiveSurface state(Balls(3));
   SurfaceBlocks blocks(state, FrameAbout(state.Mesh, 10.f), Thread);
-  blocks.AddPlaces({ 0, 5, 0 }, OnThisThread());
   const int before = state.Mesh.NumberOfVertices();
   BlockVisit visit = blocks.Open(1);
   visit.Share.Region = visit.Share.Region.Grown(1000.f);
   SurfaceEditor editor(state, &visit.Share);
-  const std::size_t given = visit.Vertices.size();
-  const int v = visit.Vertices.front();
+  const int end = visit.End();
+  const int v = visit.First;
   const Edit split = editor.Split(v, state.Mesh.Rings[v].Item[0]);
   ASSERT_TRUE(split.IsDone);
-  blocks.AddNew(visit, { v, split.Vertex, split.Vertex });
-  EXPECT_EQ(visit.Vertices.size(), given + 1);
-  EXPECT_EQ(visit.Vertices.back(), split.Vertex);
-  // The place of an old one that is removed and used again is still in the list, once.
-  const int old = visit.Vertices[given / 2];
+  EXPECT_EQ(split.Vertex, end);
+  EXPECT_EQ(visit.End(), end + 1);
+  // Nobody takes the place of one that is gone before all are numbered anew.
+  const int old = visit.First + (end - visit.First) / 2;
   const int beside = state.Mesh.Rings[old].Item[0];
   ASSERT_TRUE(editor.Collapse(old, beside, EditTolerance::Loose).IsDone);
-  const int gone = state.Mesh.IsAlive(old) ? beside : old;
-  const int kept = gone == old ? beside : old;
-  editor.EndPass();
-  const Edit again = editor.Split(kept, state.Mesh.Rings[kept].Item[0]);
-  ASSERT_TRUE(again.IsDone);
-  ASSERT_EQ(again.Vertex, gone) << "taken again once the pass is over";
-  blocks.AddNew(visit, { gone });
-  EXPECT_EQ(std::count(visit.Vertices.begin(), visit.Vertices.end(), gone), 1);
+  const int kept = state.Mesh.IsAlive(old) ? old : beside;
+  EXPECT_EQ(editor.Split(kept, state.Mesh.Rings[kept].Item[0]).Vertex, end + 1);
+  const Vector place = state.Mesh.Position[split.Vertex];
   blocks.Close(std::move(visit));
-  EXPECT_EQ(BlockWith(blocks, gone), 1);
-  EXPECT_EQ(BlockWith(blocks, split.Vertex), 1);
   EXPECT_EQ(state.Mesh.NumberOfVertices(), before + 1);
+  EXPECT_EQ(BlockWith(blocks, state.Mesh, place), 1);
   EXPECT_EQ(DescribeBrokenInvariant(state.Mesh), "");
 }
 
-TEST(SurfaceBlocks, GetThePlacesOfTheirVerticesThatOthersHaveRemoved)
+TEST(SurfaceBlocks, CountWhatTheirVisitsRemoveElsewhere)
 {
   LiveSurface state(Balls(3));
   SurfaceBlocks blocks(state, FrameAbout(state.Mesh, 10.f), Thread);
   const int vertices = state.Mesh.NumberOfVertices();
-  BlockVisit first = blocks.Open(0);
-  const int v = first.Vertices.front();
-  blocks.Close(std::move(first));
+  const int v = VertexOf(blocks, state.Mesh, 0);
+  const std::size_t ofFirst = VerticesOf(blocks, state.Mesh, 0).size();
   BlockVisit other = blocks.Open(2);
   other.Share.Region = other.Share.Region.Grown(1000.f);
   SurfaceEditor editor(state, &other.Share);
-  const int w = state.Mesh.Rings[v].Item[0];
-  ASSERT_TRUE(editor.Collapse(v, w, EditTolerance::Loose).IsDone);
-  const int place = state.Mesh.IsAlive(v) ? w : v;
-  editor.EndPass();
-  const int u = other.Vertices.front();
-  EXPECT_FALSE(editor.Split(u, state.Mesh.Rings[u].Item[0])) << "not for one that is far away";
+  ASSERT_TRUE(editor.Collapse(v, state.Mesh.Rings[v].Item[0], EditTolerance::Loose).IsDone);
+  EXPECT_EQ(state.Mesh.NumberOfVertices(), vertices) << "counted when the visit ends";
   blocks.Close(std::move(other));
   EXPECT_EQ(state.Mesh.NumberOfVertices(), vertices - 1);
-  EXPECT_EQ(BlockWith(blocks, place), -1);
-  BlockVisit again = blocks.Open(0);
-  EXPECT_EQ(again.Share.Places.Free, std::vector<int>{ place });
-  SurfaceEditor own(state, &again.Share);
-  again.Share.Region = again.Share.Region.Grown(1000.f);
-  const int t = again.Vertices.front();
-  EXPECT_EQ(own.Split(t, state.Mesh.Rings[t].Item[0]).Vertex, place);
-  blocks.AddNew(again, { place });
-  blocks.Close(std::move(again));
-  EXPECT_EQ(BlockWith(blocks, place), 0);
-  EXPECT_EQ(state.Mesh.NumberOfVertices(), vertices);
+  EXPECT_EQ(VerticesOf(blocks, state.Mesh, 0).size(), ofFirst - 1);
 }
 
-TEST(SurfaceBlocks, KeepTheirPlacesForThemselves)
+TEST(SurfaceBlocks, GetMoreRoomWhereTheyHaveTakenIt)
 {
   LiveSurface state(Balls(3));
-  const int vertices = state.Mesh.NumberOfVertices();
-  const int size = state.Mesh.Size();
+  SurfaceBlocks blocks(state, FrameAbout(state.Mesh, 10.f), Thread);
+  const auto takeAll = [&]
   {
-    SurfaceBlocks blocks(state, FrameAbout(state.Mesh, 10.f), Thread);
     BlockVisit visit = blocks.Open(1);
-    visit.Share.Region = visit.Share.Region.Grown(1000.f);
-    SurfaceEditor editor(state, &visit.Share);
-    const int v = visit.Vertices.front();
-    EXPECT_FALSE(editor.Split(v, state.Mesh.Rings[v].Item[0])) << "it has no place for another";
-    ASSERT_TRUE(editor.Collapse(v, state.Mesh.Rings[v].Item[0], EditTolerance::Loose).IsDone);
+    const int size = visit.Share.Room.End - visit.Share.Room.Next;
+    visit.Share.Room.Next = visit.Share.Room.End; // As if edits had made and removed so many.
     blocks.Close(std::move(visit));
-    EXPECT_EQ(state.Mesh.NumberOfVertices(), vertices - 1);
-    EXPECT_EQ(state.Mesh.FreePlaces().size(), 0u) << "nobody else's";
-    BlockVisit beside = blocks.Open(0);
-    EXPECT_EQ(beside.Share.NumberOfPlaces(), 0);
-    blocks.Close(std::move(beside));
-    BlockVisit again = blocks.Open(1);
-    EXPECT_EQ(again.Share.NumberOfPlaces(), 1);
-    blocks.Close(std::move(again));
-    blocks.AddPlaces({ 7, 0, 0 }, OnThisThread());
-    EXPECT_EQ(state.Mesh.NumberOfVertices(), vertices - 1);
-  }
-  EXPECT_EQ(state.Mesh.FreePlaces().size(), 8u) << "given back";
-  EXPECT_EQ(state.Mesh.Size(), size + 7);
-  EXPECT_EQ(state.Mesh.NumberOfVertices(), vertices - 1);
+    return size;
+  };
+  const int first = takeAll();
+  EXPECT_GT(first, 0);
+  BlockVisit visit = blocks.Open(1);
+  SurfaceEditor editor(state, &visit.Share);
+  EXPECT_FALSE(visit.Share.Room.Has(1));
+  EXPECT_FALSE(editor.Split(visit.First, state.Mesh.Rings[visit.First].Item[0])) << "there is none";
+  blocks.Close(std::move(visit));
+  blocks.Prepare(Thread);
+  EXPECT_GT(takeAll(), 0);
+  blocks.Prepare(Thread);
+  EXPECT_GT(takeAll(), first) << "more where it was taken";
+  EXPECT_EQ(DescribeBrokenInvariant(state.Mesh), "");
+}
+
+TEST(SurfaceBlocks, TakeWhatIsAppended)
+{
+  LiveSurface state(Balls(3));
+  SurfaceBlocks blocks(state, FrameAbout(state.Mesh, 10.f), Thread);
+  const int vertices = state.Mesh.NumberOfVertices();
+  const int characteristic = state.EulerCharacteristic;
+  const IndexedSurface added = DividedIcosahedron({ 20, 0, 0 }, 1., 1.5);
+  blocks.Append(IndexedSurface(added), Thread);
+  EXPECT_EQ(state.Mesh.NumberOfVertices(), vertices + static_cast<int>(added.Points.size()));
+  EXPECT_EQ(state.EulerCharacteristic, characteristic + 2);
+  EXPECT_EQ(state.EulerCharacteristic, state.Mesh.CountEulerCharacteristic());
+  const Point& p = added.Points.front();
+  EXPECT_EQ(BlockWith(blocks, state.Mesh,
+              Vector(static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2]))),
+    2);
 }
 
 TEST(SurfaceBlocks, AreEditedNoFurtherThanTheirRegion)
 {
   LiveSurface state(Balls(3));
   SurfaceBlocks blocks(state, FrameAbout(state.Mesh, 10.f), Thread);
-  blocks.AddPlaces({ 0, 50, 0 }, OnThisThread());
   BlockVisit visit = blocks.Open(1);
   SurfaceEditor editor(state, &visit.Share);
   const float end = blocks.BoxOf(1).High.X;
@@ -266,7 +307,7 @@ TEST(SurfaceBlocks, KnowWhetherAnythingMoves)
   state.Active.Fill(0);
   EXPECT_FALSE(blocks.HasActive(1));
   BlockVisit visit = blocks.Open(1);
-  state.Active[visit.Vertices.front()] = 1;
+  state.Active[visit.First] = 1;
   blocks.Close(std::move(visit));
   EXPECT_TRUE(blocks.HasActive(1));
   EXPECT_FALSE(blocks.HasActive(0));

@@ -83,7 +83,7 @@ TEST(SurfaceComponents, WatchesSmallComponentsInAllSpans)
   StandardThreads threads(3);
   SurfaceComponents components;
   components.Label(state, threads);
-  EXPECT_TRUE(components.DeleteDegenerate(state)) << "both are on the wrong side";
+  EXPECT_TRUE(components.DeleteDegenerate(state, OnThisThread())) << "both are on the wrong side";
   EXPECT_EQ(components.NumberOfComponents(), 1);
 }
 
@@ -145,8 +145,8 @@ TEST(SurfaceComponents, KeepsTheGoodThatLieInTheInverted)
   SurfaceComponents components;
   EXPECT_TRUE(components.DeleteInsideOut(state, OnThisThread()));
   EXPECT_EQ(components.NumberOfComponents(), 2);
-  EXPECT_EQ(state.Mesh.NumberOfVertices(),
-    static_cast<int>(good.Points.size() + cavity.Points.size()));
+  EXPECT_EQ(
+    state.Mesh.NumberOfVertices(), static_cast<int>(good.Points.size() + cavity.Points.size()));
   EXPECT_FALSE(components.DeleteInsideOut(state, OnThisThread())) << "nothing wrong is left";
 }
 
@@ -154,8 +154,9 @@ TEST(SurfaceComponents, JudgesAfreshWhatLosesItsIsland)
 {
   // In the object an island, which is wrong; in the island a cavity, which is then in the object.
   SurfaceState state;
-  Fill(state, { Ball({ 0, 0, 0 }, 15), Ball({ 0, 0, 0 }, 10), Ball({ 0, 1, 0 }, 5, true),
-                Ball({ 0, 1, 0 }, 2, true) });
+  Fill(state,
+    { Ball({ 0, 0, 0 }, 15), Ball({ 0, 0, 0 }, 10), Ball({ 0, 1, 0 }, 5, true),
+      Ball({ 0, 1, 0 }, 2, true) });
   SurfaceComponents components;
   EXPECT_TRUE(components.DeleteInsideOut(state, OnThisThread()));
   EXPECT_EQ(components.NumberOfComponents(), 2) << "the outermost and the larger cavity";
@@ -201,13 +202,13 @@ TEST(SurfaceComponents, DeletesSmallOnesAndKeepsCount)
   SurfaceComponents components;
   components.Label(state, OnThisThread());
   ASSERT_EQ(components.NumberOfComponents(), 2);
-  EXPECT_FALSE(components.DeleteDegenerate(state)) << "no reason yet";
+  EXPECT_FALSE(components.DeleteDegenerate(state, OnThisThread())) << "no reason yet";
   // Wholly in the background, and tiny.
   for (int v = 0; v < state.Mesh.Size(); ++v)
   {
     state.FieldValue[v] = state.Mesh.Position[v].X > 20 ? -1.f : 0.f;
   }
-  const bool deleted = components.DeleteDegenerate(state);
+  const bool deleted = components.DeleteDegenerate(state, OnThisThread());
   EXPECT_TRUE(deleted);
   EXPECT_EQ(components.NumberOfComponents(), 1);
   components.Label(state, OnThisThread());
@@ -229,7 +230,7 @@ bool IsDeleted(double edge, double value, bool isCavity)
   {
     state.FieldValue[v] = state.Mesh.Position[v].X > 20 ? static_cast<float>(value) : 0.f;
   }
-  const bool deleted = components.DeleteDegenerate(state);
+  const bool deleted = components.DeleteDegenerate(state, OnThisThread());
   EXPECT_EQ(components.NumberOfComponents(), deleted ? 1 : 2);
   EXPECT_EQ(state.EulerCharacteristic, deleted ? 2 : 4);
   EXPECT_EQ(state.Mesh.CountEulerCharacteristic(), state.EulerCharacteristic);
@@ -258,7 +259,7 @@ TEST(SurfaceComponents, DeletesWhatHasHardlyAnyVertices)
   Fill(state, { Ball({ 0, 0, 0 }, 10), tetrahedron });
   SurfaceComponents components;
   components.Label(state, OnThisThread());
-  EXPECT_TRUE(components.DeleteDegenerate(state));
+  EXPECT_TRUE(components.DeleteDegenerate(state, OnThisThread()));
   EXPECT_EQ(components.NumberOfComponents(), 1);
 }
 
@@ -285,10 +286,8 @@ TEST(ComponentWatch, DeletesWhatHasPassedThroughItself)
   SurfaceState state;
   const IndexedSurface large = Ball({ 0, 0, 0 }, 10);
   Fill(state, { large, Ball({ 30, 0, 0 }, 4) });
-  std::vector<int> all(static_cast<std::size_t>(state.Mesh.Size()));
-  std::iota(all.begin(), all.end(), 0);
   ComponentWatch watch;
-  watch.LabelSmall(state, all, Everywhere);
+  watch.LabelSmall(state, 0, state.Mesh.Size(), Everywhere);
   for (const float size : { 0.2f, -0.2f })
   {
     for (int v = static_cast<int>(large.Points.size()); v < state.Mesh.Size(); ++v)
@@ -301,7 +300,7 @@ TEST(ComponentWatch, DeletesWhatHasPassedThroughItself)
   EXPECT_EQ(state.Mesh.NumberOfVertices(), static_cast<int>(large.Points.size()));
 }
 
-TEST(ComponentWatch, WatchesTheSmallOnesOfAListOnly)
+TEST(ComponentWatch, WatchesTheSmallOnesOfARangeOnly)
 {
   SurfaceState state;
   const IndexedSurface large = Ball({ 0, 0, 0 }, 12);
@@ -313,28 +312,28 @@ TEST(ComponentWatch, WatchesTheSmallOnesOfAListOnly)
   ASSERT_LE(size, 24);
   state.FieldValue.Fill(-1.f); // All of the wrong side.
   ComponentWatch watch;
-  // One vertex of the first speck, and some of the large one, from which the search ends early.
+  // One vertex of the first speck, and all of the large one, from which the search ends early.
   for (int round = 0; round < 2; ++round)
   {
-    watch.LabelSmall(state, { 5, 6, first / 2, first + 3, 700 }, Everywhere);
+    watch.LabelSmall(state, 0, first + 1, Everywhere);
   }
   const int before = state.Mesh.NumberOfVertices();
   EXPECT_TRUE(watch.DeleteDegenerate(state));
   EXPECT_EQ(state.Mesh.NumberOfVertices(), before - size);
   EXPECT_FALSE(state.Mesh.IsAlive(first));
-  EXPECT_TRUE(state.Mesh.IsAlive(first + size)) << "not in the list";
+  EXPECT_TRUE(state.Mesh.IsAlive(first + size)) << "not in the range";
   EXPECT_FALSE(watch.DeleteDegenerate(state));
-  watch.LabelSmall(state, { first + size }, Everywhere);
+  watch.LabelSmall(state, first + size, first + size + 1, Everywhere);
   EXPECT_TRUE(watch.DeleteDegenerate(state));
 }
 
-TEST(ComponentWatch, KeepsASmallOneOfAListOnTheRightSide)
+TEST(ComponentWatch, KeepsASmallOneOnTheRightSide)
 {
   SurfaceState state;
   Fill(state, { Ball({ 0, 0, 0 }, 0.8) });
   state.FieldValue.Fill(1.f);
   ComponentWatch watch;
-  watch.LabelSmall(state, { 0 }, Everywhere);
+  watch.LabelSmall(state, 0, 1, Everywhere);
   EXPECT_FALSE(watch.DeleteDegenerate(state));
   // Turned inside out since: its volume has changed its sign.
   for (int v = 0; v < state.Mesh.Size(); ++v)

@@ -92,19 +92,26 @@ TEST(SurfaceIteration, MovesNothingFarFromTheBlock)
   BallsInBlocks balls;
   SurfaceState& s = balls.State;
   SurfaceBlocks blocks(s, BallsInBlocks::Frame(), balls.Thread);
-  const int ofBall = s.Mesh.Size() / 3;
-  const int near = ofBall;
-  const int far = ofBall + 1;
   SurfaceIteration iteration(s);
   BlockVisit visit = blocks.Open(1);
+  const int near = visit.First;
+  const int far = visit.First + 1;
   s.MoveTo(near, Vector(20 + 0.9f * SurfaceBlocks::MovingInDelta, 0, 0));
-  s.MoveTo(far, Vector(20 + 1.1f * SurfaceBlocks::MovingInDelta, 0, 0));
+  const Vector place(20 + 1.1f * SurfaceBlocks::MovingInDelta, 0, 0);
+  s.MoveTo(far, place);
   iteration.BeginVisit(visit);
   EXPECT_TRUE(Has(iteration.ActiveVertices(), near));
   EXPECT_FALSE(Has(iteration.ActiveVertices(), far));
   iteration.EndVisit();
   blocks.Close(std::move(visit));
-  EXPECT_EQ(s.Block[far], 2) << "it is the neighbour's, which moves it";
+  blocks.Prepare(balls.Thread);
+  visit = blocks.Open(2);
+  iteration.BeginVisit(visit);
+  EXPECT_TRUE(std::any_of(iteration.ActiveVertices().begin(), iteration.ActiveVertices().end(),
+    [&](int v) { return s.Mesh.Position[v].X == place.X && s.Mesh.Position[v].Y == 0.f; }))
+    << "it is the neighbour's, which moves it";
+  iteration.EndVisit();
+  blocks.Close(std::move(visit));
 }
 
 TEST(SurfaceIteration, KeepsTheEndsOfHugeEdgesStill)
@@ -112,7 +119,7 @@ TEST(SurfaceIteration, KeepsTheEndsOfHugeEdgesStill)
   BallsInBlocks balls;
   SurfaceState& s = balls.State;
   SurfaceBlocks blocks(s, BallsInBlocks::Frame(), balls.Thread);
-  const int v = s.Mesh.Size() / 3;
+  const int v = blocks.Open(1).First;
   const auto stretch = [&s, v](float factor)
   {
     const Vector centre(15, 0, 0);
@@ -134,7 +141,7 @@ TEST(SurfaceIteration, KeepsTheEndsOfHugeEdgesStill)
   {
     EXPECT_FALSE(Has(active, ring.Item[i])) << i;
   }
-  EXPECT_EQ(static_cast<int>(active.size()), s.Mesh.Size() / 3 - 1 - ring.Count);
+  EXPECT_EQ(static_cast<int>(active.size()), s.Mesh.NumberOfVertices() / 3 - 1 - ring.Count);
 }
 
 TEST(SurfaceIteration, MakesWhatCannotBeSplitNoLonger)
@@ -144,6 +151,7 @@ TEST(SurfaceIteration, MakesWhatCannotBeSplitNoLonger)
   SurfaceState& s = balls.State;
   SurfaceBlocks& blocks = *balls.Blocks;
   BlockVisit visit = blocks.Open(0);
+  visit.Share.Room.End = visit.Share.Room.Next;
   Remesher remesher(s, &balls.TheField, true, &visit.Share);
   SurfaceIteration iteration(s);
   iteration.BeginVisit(visit);
@@ -172,10 +180,18 @@ TEST(SurfaceIteration, KnowsTheContactsThatAVisitBeforeHasFound)
     { DividedIcosahedron({ 15, 20, 20 }, 4., 1.5), DividedIcosahedron({ 25, 20, 20 }, 4., 1.5) });
   SurfaceState& s = balls.State;
   SurfaceBlocks& blocks = *balls.Blocks;
-  const int ofBall = s.Mesh.Size() / 2;
+  std::vector<int> ofBall[2];
+  for (int v = 0; v < s.Mesh.Size(); ++v)
+  {
+    if (s.Mesh.IsAlive(v))
+    {
+      ofBall[s.Mesh.Position[v].X > 20.f].push_back(v);
+    }
+  }
   for (int i = 0; i < 12; ++i)
   {
     BlockVisit visit = blocks.Open(0);
+    visit.Share.Room.End = visit.Share.Room.Next;
     Remesher remesher(s, &balls.TheField, false, &visit.Share);
     SurfaceIteration iteration(s);
     iteration.BeginVisit(visit);
@@ -185,9 +201,9 @@ TEST(SurfaceIteration, KnowsTheContactsThatAVisitBeforeHasFound)
     blocks.Close(std::move(visit));
   }
   float nearest = 100.f;
-  for (int v = 0; v < ofBall; ++v)
+  for (const int v : ofBall[0])
   {
-    for (int w = ofBall; w < 2 * ofBall; ++w)
+    for (const int w : ofBall[1])
     {
       nearest = std::min(nearest, SquaredDistance(s.Mesh.Position[v], s.Mesh.Position[w]));
     }

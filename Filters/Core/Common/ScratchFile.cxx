@@ -26,7 +26,6 @@
 #include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/statfs.h>
-#include <sys/syscall.h>
 #include <unistd.h>
 
 namespace volumic
@@ -133,7 +132,9 @@ std::string CheckedScratchDirectory(const std::string& given)
 
 bool IsMemory(const std::string& directory)
 {
-  struct statfs system{};
+  struct statfs system
+  {
+  };
   if (statfs(directory.c_str(), &system) != 0)
   {
     return false;
@@ -144,7 +145,9 @@ bool IsMemory(const std::string& directory)
 
 std::size_t FreeRoom(const std::string& directory)
 {
-  struct statfs system{};
+  struct statfs system
+  {
+  };
   return statfs(directory.c_str(), &system) == 0 && system.f_blocks > 0
     ? static_cast<std::size_t>(system.f_bavail) * static_cast<std::size_t>(system.f_bsize)
     : SIZE_MAX;
@@ -162,13 +165,14 @@ void* MapScratchFile(const std::string& directory, std::size_t bytes)
     error = size > FreeRoom(directory) ? ENOSPC : Reserve(file.Descriptor, size);
     if (error == EFBIG)
     {
-      throw ScratchFull(Join("Scratch Directory ", directory, " can't take a file of ",
-        Mebibytes(bytes), " MiB: files may not be as large there (ulimit -f). Allow larger "
-        "files, choose another Scratch Directory, or raise Memory Limit."));
+      throw ScratchFull(
+        Join("Scratch Directory ", directory, " can't take a file of ", Mebibytes(bytes),
+          " MiB: files may not be as large there (ulimit -f). Allow larger "
+          "files, choose another Scratch Directory, or raise Memory Limit."));
     }
-    void* memory = error == 0 ? mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED,
-                                  file.Descriptor, 0)
-                              : MAP_FAILED;
+    void* memory = error == 0
+      ? mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED, file.Descriptor, 0)
+      : MAP_FAILED;
     if (memory != MAP_FAILED)
     {
       // Else a look at one voxel may take 2 MiB, and a few hundred looks all that is free.
@@ -195,8 +199,8 @@ void UnmapScratchFile(void* memory, std::size_t bytes) noexcept
 void* MapZeroed(std::size_t bytes)
 {
   const std::size_t size = WholePages(bytes);
-  void* memory = mmap(nullptr, size, PROT_READ | PROT_WRITE,
-    MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  void* memory =
+    mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   if (memory == MAP_FAILED)
   {
     throw std::bad_alloc();
@@ -210,7 +214,7 @@ void DropPages(void* memory, std::size_t bytes) noexcept
   madvise(memory, bytes, MADV_DONTNEED);
 }
 
-void ReadPagesAhead(void* memory, std::size_t bytes) noexcept
+void ReadPagesAhead(const void* memory, std::size_t bytes) noexcept
 {
   const auto begin = reinterpret_cast<std::uintptr_t>(memory);
   const std::uintptr_t first = begin / PageSize() * PageSize();
@@ -227,34 +231,7 @@ void CallAtForks(void (*before)(), void (*inParent)(), void (*inChild)())
   pthread_atfork(before, inParent, inChild);
 }
 
-void AskForPromptTurns()
-{
-  // Those of high priority come sooner, where that is allowed, and short ones, from Linux 6.12 on;
-  // the C library has neither type nor function yet.
-  constexpr int high = -10;
-  struct
-  {
-    std::uint32_t Size;
-    std::uint32_t Policy;
-    std::uint64_t Flags;
-    std::int32_t Nice;
-    std::uint32_t Priority;
-    std::uint64_t Runtime; ///< Of a turn, ns.
-    std::uint64_t Deadline;
-    std::uint64_t Period;
-  } turns = { 48, 0, 0, high, 0, 100000, 0, 0 };
-  static_assert(sizeof turns == 48, "as the system has it");
-  if (syscall(SYS_sched_setattr, 0, &turns, 0) != 0)
-  {
-    turns.Nice = getpriority(PRIO_PROCESS, 0);
-    syscall(SYS_sched_setattr, 0, &turns, 0); // Older systems refuse, or take no notice.
-  }
-}
-
-ResidentMemoryMeter::ResidentMemoryMeter()
-  : File(open("/proc/self/statm", O_RDONLY | O_CLOEXEC))
-{
-}
+ResidentMemoryMeter::ResidentMemoryMeter() : File(open("/proc/self/statm", O_RDONLY | O_CLOEXEC)) {}
 
 ResidentMemoryMeter::~ResidentMemoryMeter()
 {
@@ -305,38 +282,22 @@ void* MapScratchFile(const std::string&, std::size_t)
   throw std::bad_alloc();
 }
 
-void UnmapScratchFile(void*, std::size_t) noexcept
-{
-}
+void UnmapScratchFile(void*, std::size_t) noexcept {}
 
 void* MapZeroed(std::size_t)
 {
   throw std::bad_alloc();
 }
 
-void DropPages(void*, std::size_t) noexcept
-{
-}
+void DropPages(void*, std::size_t) noexcept {}
 
-void ReadPagesAhead(void*, std::size_t) noexcept
-{
-}
+void ReadPagesAhead(const void*, std::size_t) noexcept {}
 
-void ProtectPages(void*, std::size_t) noexcept
-{
-}
+void ProtectPages(void*, std::size_t) noexcept {}
 
-void CallAtForks(void (*)(), void (*)(), void (*)())
-{
-}
+void CallAtForks(void (*)(), void (*)(), void (*)()) {}
 
-void AskForPromptTurns()
-{
-}
-
-ResidentMemoryMeter::ResidentMemoryMeter() : File(-1)
-{
-}
+ResidentMemoryMeter::ResidentMemoryMeter() : File(-1) {}
 
 ResidentMemoryMeter::~ResidentMemoryMeter() = default;
 

@@ -62,15 +62,12 @@ void* MapZeroed(std::size_t bytes);
 /** Takes pages of a mapping out of the process; they come back when they are touched. */
 void DropPages(void* memory, std::size_t bytes) noexcept;
 /** Has pages of a mapping read from the disk, without waiting. */
-void ReadPagesAhead(void* memory, std::size_t bytes) noexcept;
+void ReadPagesAhead(const void* memory, std::size_t bytes) noexcept;
 /** Lets a mapping only be read from now on. */
 void ProtectPages(void* memory, std::size_t bytes) noexcept;
 
 /** Has these called whenever the process is forked, the last one in the child. */
 void CallAtForks(void (*before)(), void (*inParent)(), void (*inChild)());
-
-/** Has this thread get its turn soon where there are more threads than processors. */
-void AskForPromptTurns();
 
 struct ResidentMemory
 {

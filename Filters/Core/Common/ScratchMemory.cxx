@@ -7,12 +7,8 @@
 #include "Core/Common/ScratchStore.h"
 
 #include <algorithm>
-#include <atomic>
-#include <cstdint>
 #include <cstdlib>
 #include <cstring>
-#include <map>
-#include <mutex>
 #include <new>
 
 #ifdef _WIN32
@@ -49,91 +45,6 @@ void FreeOnHeap(void* memory) noexcept
 #endif
 }
 
-/** Memory that is zero and not there before it is written: its bytes, by address. */
-class ZeroedMemory
-{
-public:
-  static ZeroedMemory& Instance()
-  {
-    static ZeroedMemory* const memory = new ZeroedMemory; // Never ends, as ScratchStore.
-    return *memory;
-  }
-
-  void* Allocate(std::size_t bytes)
-  {
-    void* memory = MapZeroed(bytes);
-    const std::lock_guard<std::mutex> lock(this->Mutex);
-    this->Arrays.emplace(memory, bytes);
-    this->Count = this->Arrays.size();
-    return memory;
-  }
-
-  bool Has(const void* memory)
-  {
-    const std::lock_guard<std::mutex> lock(this->Mutex);
-    return this->Arrays.count(const_cast<void*>(memory)) > 0;
-  }
-
-  /** @return whether it was such memory. */
-  bool Free(void* memory) noexcept
-  {
-    if (this->Count.load(std::memory_order_acquire) == 0)
-    {
-      return false;
-    }
-    std::size_t bytes = 0;
-    {
-      const std::lock_guard<std::mutex> lock(this->Mutex);
-      const auto found = this->Arrays.find(memory);
-      if (found == this->Arrays.end())
-      {
-        return false;
-      }
-      bytes = found->second;
-      this->Arrays.erase(found);
-      this->Count = this->Arrays.size();
-    }
-    UnmapScratchFile(memory, bytes);
-    return true;
-  }
-
-private:
-  std::mutex Mutex;
-  std::map<void*, std::size_t> Arrays;
-  std::atomic<std::size_t> Count{ 0 };
-};
-
-void* AllocateZeroed(std::size_t bytes, std::size_t alignment)
-{
-  if (ScratchIsPossible && bytes >= ScratchMemory::LargeBytes)
-  {
-    return ZeroedMemory::Instance().Allocate(bytes);
-  }
-  void* memory = AllocateOnHeap(bytes, alignment);
-  std::memset(memory, 0, bytes);
-  return memory;
-}
-}
-
-bool IsMadeZero(const void* memory)
-{
-  return ZeroedMemory::Instance().Has(memory);
-}
-
-void CopyPagesInUse(const void* from, std::size_t bytes, void* to)
-{
-  constexpr std::size_t page = 4096;
-  const auto* source = static_cast<const char*>(from);
-  auto* target = static_cast<char*>(to);
-  for (std::size_t count = 0; bytes > 0; source += count, target += count, bytes -= count)
-  {
-    count = std::min(bytes, page - reinterpret_cast<std::uintptr_t>(target) % page);
-    const bool isZero = *source == 0 && std::memcmp(source, source + 1, count - 1) == 0;
-    if (!isZero)
-    {
-      std::memcpy(target, source, count);
-    }
-  }
 }
 
 ScratchMemory::ScratchMemory(const ScratchOptions& options)
@@ -144,8 +55,9 @@ ScratchMemory::ScratchMemory(const ScratchOptions& options)
   }
   if (!ScratchIsPossible)
   {
-    Refuse("Memory Limit is ", Mebibytes(options.Limit), " MiB, but memory can only be limited on "
-           "Linux of 64 bits. Set it to 0, which is no limit.");
+    Refuse("Memory Limit is ", Mebibytes(options.Limit),
+      " MiB, but memory can only be limited on "
+      "Linux of 64 bits. Set it to 0, which is no limit.");
   }
   auto self = std::make_unique<ScratchLimit>();
   self->Options = options;
@@ -178,7 +90,8 @@ std::vector<std::string> ScratchMemory::Warnings() const
   const ScratchOptions& options = this->Self->Options;
   if (this->Self->DirectoryIsMemory)
   {
-    warnings.push_back(Join("Scratch Directory ", options.Directory, " is memory itself (tmpfs): "
+    warnings.push_back(Join("Scratch Directory ", options.Directory,
+      " is memory itself (tmpfs): "
       "what is put there still takes memory. Choose one on a disk."));
   }
   const ScratchStatistics statistics = this->Statistics();
@@ -193,21 +106,21 @@ std::vector<std::string> ScratchMemory::Warnings() const
 
 void* AllocateLarge(std::size_t bytes, std::size_t alignment)
 {
-  if (bytes >= ScratchMemory::LargeBytes && ScratchStore::Instance().HasLimit())
+  if (ScratchIsPossible && bytes >= ScratchMemory::LargeBytes)
   {
-    if (void* memory = ScratchStore::Instance().Map(bytes))
-    {
-      return memory; // Files begin as zeros.
-    }
+    return ScratchStore::Instance().Map(bytes);
   }
-  return ZeroedAllocations::AreOn() ? AllocateZeroed(bytes, alignment)
-                                    : AllocateOnHeap(bytes, alignment);
+  void* memory = AllocateOnHeap(bytes, alignment);
+  if (ZeroedAllocations::AreOn())
+  {
+    std::memset(memory, 0, bytes);
+  }
+  return memory;
 }
 
 void FreeLarge(void* memory) noexcept
 {
-  if (memory && !ScratchStore::Instance().Unmap(memory) &&
-    !ZeroedMemory::Instance().Free(memory))
+  if (memory && !ScratchStore::Instance().Unmap(memory))
   {
     FreeOnHeap(memory);
   }
@@ -230,7 +143,8 @@ void PrefetchLarge(const void* begin, std::size_t bytes)
 {
   if (ScratchStore::Instance().HasLimit())
   {
-    ScratchStore::Instance().Prefetch(begin, bytes);
+    ScratchStore::Instance().KeepIfDue();
+    ReadPagesAhead(begin, bytes);
   }
 }
 }

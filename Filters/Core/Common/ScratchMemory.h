@@ -22,8 +22,6 @@ struct ScratchOptions
   std::size_t Limit = 0;
   /** Where files are made; empty: TMPDIR, or else /var/tmp. */
   std::string Directory;
-  /** What the files may take together, bytes; 0: as much as there is. */
-  std::size_t Room = 0;
 };
 
 /** The scratch directory has no room for what is asked for. */
@@ -39,8 +37,7 @@ struct ScratchStatistics
 {
   std::size_t MostResident = 0;  ///< The most memory that the whole process has had.
   std::size_t MostAnonymous = 0; ///< The most of it that no file held, and that could not leave.
-  std::size_t Mapped = 0;        ///< What arrays in files take now,
-  std::size_t MostMapped = 0;    ///< and at most: the room that was needed on the disk.
+  std::size_t Mapped = 0;        ///< What arrays in files take now.
   std::size_t Dropped = 0;       ///< What was taken out of memory, counted again each time.
 };
 
@@ -87,23 +84,16 @@ private:
 };
 
 /**
- * Memory for an array, with any content: on the heap, or in a file while a limit is set and it is
- * large. The address is a multiple of `alignment`, a power of 2 of 64 at most.
+ * Memory for an array. Where it is large, it is zero, and takes none before it is written; while a
+ * limit is set it is in a file. Otherwise it is on the heap, with any content. The address is a
+ * multiple of `alignment`, a power of 2 of 64 at most.
  * @throws std::bad_alloc, ScratchFull.
  */
 void* AllocateLarge(std::size_t bytes, std::size_t alignment = 64);
 /** Null is nothing. */
 void FreeLarge(void* memory) noexcept;
-/**
- * It will be needed soon: room is made below the limit, and what is on disk is read ahead. Any
- * range; of other memory, nothing is read.
- */
+/** It will be needed soon: room is made below the limit, and what is on disk is read ahead. */
 void PrefetchLarge(const void* begin, std::size_t bytes);
-
-/** To memory that is all zero; pages of zeros are not written, as they may take no memory yet. */
-void CopyPagesInUse(const void* from, std::size_t bytes, void* to);
-/** Whether it is the beginning of an array whose bytes are zero until they are written. */
-bool IsMadeZero(const void* memory);
 
 /** Whether a limit is set, by anyone. */
 bool HasMemoryLimit();
@@ -114,8 +104,8 @@ bool HasMemoryLimit();
 void KeepMemoryLimit();
 
 /**
- * While one is alive, arrays that this thread allocates are all zero, and take memory only where
- * they are written: for arrays that have room for much more than they hold. See MakeZeroed.
+ * While one is alive, arrays that this thread allocates are all zero, and the values that it adds
+ * to them are not written: those of an array that is new. See MakeZeroed.
  */
 class ZeroedAllocations
 {
@@ -140,10 +130,7 @@ struct LargeAllocator
   LargeAllocator(const LargeAllocator<U>&)
   {
   }
-  T* allocate(std::size_t n)
-  {
-    return static_cast<T*>(AllocateLarge(n * sizeof(T), alignof(T)));
-  }
+  T* allocate(std::size_t n) { return static_cast<T*>(AllocateLarge(n * sizeof(T), alignof(T))); }
   void deallocate(T* memory, std::size_t) noexcept { FreeLarge(memory); }
   /** Writes nothing where the memory is zero already. */
   template <typename U>
@@ -177,57 +164,29 @@ template <typename T>
 using LargeVector = std::vector<T, LargeAllocator<T>>;
 
 /**
- * For so many values that will be more: address space costs nothing where no limit is set, and a
- * copy of all values takes as long as some iterations; in a file room is counted.
- */
-inline std::size_t RoomForMore(std::size_t n)
-{
-  return HasMemoryLimit() ? n + n / 4 : 3 * n;
-}
-
-/**
- * Makes it n values of bytes that are all zero, which take no memory before they are written, with
- * room for so many.
+ * Empties it where it has no room for n values, and gives it room for more: address space costs
+ * nothing where no limit is set, and new pages take longer than all that is done with them; in a
+ * file room is counted.
  */
 template <typename T>
-void MakeZeroed(LargeVector<T>& values, std::size_t n, std::size_t room = 0)
+void MakeRoom(LargeVector<T>& values, std::size_t n)
+{
+  if (values.capacity() < n)
+  {
+    values = LargeVector<T>();
+    values.reserve(HasMemoryLimit() ? n + n / 4 : 3 * n);
+  }
+}
+
+/** Makes it n values of bytes that are all zero, which take no memory before they are written. */
+template <typename T>
+void MakeZeroed(LargeVector<T>& values, std::size_t n)
 {
   values = LargeVector<T>();
   const ZeroedAllocations zeroed;
-  values.reserve(std::max(n, room));
   values.resize(n);
 }
 
-/**
- * Lengthens it by such values; those that it has take as much memory as before. Where MakeZeroed
- * or this has made it, it was never shortened.
- */
-template <typename T>
-void LengthenZeroed(LargeVector<T>& values, std::size_t n)
-{
-  static_assert(std::is_trivially_copyable_v<T>);
-  if (n <= values.size())
-  {
-    return;
-  }
-  if (n <= values.capacity())
-  {
-    if (IsMadeZero(values.data()))
-    {
-      const ZeroedAllocations zeroed;
-      values.resize(n);
-    }
-    else
-    {
-      values.resize(n);
-    }
-    return;
-  }
-  LargeVector<T> longer;
-  MakeZeroed(longer, n, RoomForMore(n));
-  CopyPagesInUse(values.data(), values.size() * sizeof(T), longer.data());
-  values.swap(longer);
-}
 }
 
 #endif

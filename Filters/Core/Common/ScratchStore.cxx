@@ -15,18 +15,16 @@
 
 namespace volumic
 {
-void MemoryHeadroom::See(std::size_t resident)
+namespace
 {
-  constexpr std::size_t memory = 4096; // Looks: some seconds.
-  this->Burst -= this->Burst / memory;
-  this->Burst = std::max(this->Burst, resident - std::min(resident, this->Left));
+/**
+ * How far below the limit dropping begins: what threads may fill until somebody looks again, on a
+ * machine with more to do than it has processors.
+ */
+std::size_t HeadroomOf(std::size_t limit)
+{
+  return std::min(std::max(limit / 5 * 2, 32 * Mebibyte), 1024 * Mebibyte);
 }
-
-std::size_t MemoryHeadroom::Below(std::size_t limit, std::size_t anonymous) const
-{
-  // On a machine with seven times more to do than processors 170 MiB were filled, of 400.
-  const std::size_t usual = std::min(std::max(limit / 5 * 2, 32 * Mebibyte), 1024 * Mebibyte);
-  return std::max(usual, std::min(2 * this->Burst, (limit - std::min(limit, anonymous)) / 4 * 3));
 }
 
 struct ScratchStore::Governor
@@ -46,7 +44,7 @@ ScratchStore::ScratchStore()
 
 void ScratchStore::GoOnInChild()
 {
-  for (const auto& array : this->Arrays)
+  for (const auto& array : this->InFiles)
   {
     ProtectPages(reinterpret_cast<void*>(array.first), array.second);
   }
@@ -80,7 +78,6 @@ void ScratchStore::Add(ScratchLimit& limit)
       Mebibytes(held), " MiB already, for programs, libraries and data. It must be ",
       Mebibytes(least), " MiB at least; 0 is no limit.");
   }
-  this->Headroom.Leave(held);
   // What may fail comes first: a limit that could not be set must not be known of.
   this->Limits.reserve(this->Limits.size() + 1);
   if (!this->Governing)
@@ -88,7 +85,6 @@ void ScratchStore::Add(ScratchLimit& limit)
     this->Start();
   }
   this->Limits.push_back(&limit);
-  limit.Statistics.Mapped = limit.Statistics.MostMapped = this->Mapped;
   this->NumberOfLimits = this->Limits.size();
 }
 
@@ -116,15 +112,6 @@ ScratchStatistics ScratchStore::StatisticsOf(const ScratchLimit& limit)
   return statistics;
 }
 
-void ScratchStore::CountMapped(std::size_t bytes)
-{
-  this->Mapped += bytes;
-  for (ScratchLimit* limit : this->Limits)
-  {
-    limit->Statistics.MostMapped = std::max(limit->Statistics.MostMapped, this->Mapped);
-  }
-}
-
 void ScratchStore::Record(const ResidentMemory& memory)
 {
   for (ScratchLimit* limit : this->Limits)
@@ -140,39 +127,27 @@ void* ScratchStore::Map(std::size_t bytes)
   std::string directory;
   {
     const std::lock_guard<std::mutex> lock(this->Mutex);
-    if (this->Limits.empty())
+    if (!this->Limits.empty())
     {
-      return nullptr;
+      this->Keep(this->Governing->Meter, bytes); // It will be filled at once, mostly.
+      directory = this->Limits.back()->Options.Directory;
     }
-    const ScratchOptions& options = this->Limits.back()->Options;
-    if (options.Room > 0 && this->Mapped + bytes > options.Room)
-    {
-      throw ScratchFull(Join("Scratch Directory ", options.Directory, " has no room for ",
-        Mebibytes(bytes), " MiB more: ", Mebibytes(this->Mapped), " of ",
-        Mebibytes(options.Room), " MiB are taken. Allow more, or raise Memory Limit."));
-    }
-    this->Keep(this->Governing->Meter, bytes); // It will be filled at once, mostly.
-    directory = options.Directory;
-    this->CountMapped(bytes); // Before the file is made: several threads may ask at once.
   }
-  void* memory = nullptr;
+  const bool isInFile = !directory.empty();
+  void* memory = isInFile ? MapScratchFile(directory, bytes) : MapZeroed(bytes);
+  const std::lock_guard<std::mutex> lock(this->Mutex);
   try
   {
-    memory = MapScratchFile(directory, bytes);
-    const std::lock_guard<std::mutex> lock(this->Mutex);
-    this->Arrays.emplace(reinterpret_cast<std::uintptr_t>(memory), bytes);
-    this->NumberOfArrays = this->Arrays.size();
+    (isInFile ? this->InFiles : this->InMemory)
+      .emplace(reinterpret_cast<std::uintptr_t>(memory), bytes);
   }
   catch (...)
   {
-    if (memory)
-    {
-      UnmapScratchFile(memory, bytes);
-    }
-    const std::lock_guard<std::mutex> lock(this->Mutex);
-    this->Mapped -= bytes;
+    UnmapScratchFile(memory, bytes);
     throw;
   }
+  ++this->NumberOfArrays;
+  this->Mapped += isInFile ? bytes : 0;
   return memory;
 }
 
@@ -184,46 +159,23 @@ bool ScratchStore::Unmap(void* memory) noexcept
   {
     return false;
   }
-  std::size_t bytes = 0;
+  Arrays::node_type array;
   {
     const std::lock_guard<std::mutex> lock(this->Mutex);
-    const auto found = this->Arrays.find(address);
-    if (found == this->Arrays.end())
+    array = this->InMemory.extract(address);
+    if (array.empty())
     {
-      return false;
+      array = this->InFiles.extract(address);
+      this->Mapped -= array.empty() ? 0 : array.mapped();
     }
-    bytes = found->second;
-    this->Arrays.erase(found);
-    this->NumberOfArrays = this->Arrays.size();
-    this->Mapped -= bytes;
+    this->NumberOfArrays -= array.empty() ? 0 : 1;
   }
-  UnmapScratchFile(memory, bytes);
+  if (array.empty())
+  {
+    return false;
+  }
+  UnmapScratchFile(memory, array.mapped());
   return true;
-}
-
-void ScratchStore::Prefetch(const void* begin, std::size_t bytes)
-{
-  const auto first = reinterpret_cast<std::uintptr_t>(begin);
-  std::uintptr_t last = first + bytes;
-  {
-    const std::lock_guard<std::mutex> lock(this->Mutex);
-    if (this->Governing)
-    {
-      this->Keep(this->Governing->Meter);
-    }
-    auto array = this->Arrays.upper_bound(first);
-    if (array == this->Arrays.begin())
-    {
-      return;
-    }
-    --array;
-    last = std::min(last, array->first + array->second);
-  }
-  // Should it be freed meanwhile, nothing is read.
-  if (first < last)
-  {
-    ReadPagesAhead(reinterpret_cast<void*>(first), last - first);
-  }
 }
 
 namespace
@@ -255,27 +207,27 @@ ResidentMemory ScratchStore::Drop(const ResidentMemoryMeter& meter, std::size_t 
 {
   constexpr std::size_t stepsAtATime = 4;
   ResidentMemory before = meter.Read();
-  std::size_t left = this->Mapped + ScratchStep * this->Arrays.size(); // Once around.
-  while (before.All > goal && left > 0 && !this->Arrays.empty())
+  std::size_t left = this->Mapped + ScratchStep * this->InFiles.size(); // Once around.
+  while (before.All > goal && left > 0 && !this->InFiles.empty())
   {
     for (std::size_t i = 0; i < stepsAtATime && left > 0; ++i)
     {
       // The array that the hand is in, or the next one, or the first.
-      auto array = this->Arrays.upper_bound(this->Hand);
-      if (array != this->Arrays.begin() &&
+      auto array = this->InFiles.upper_bound(this->Hand);
+      if (array != this->InFiles.begin() &&
         this->Hand < std::prev(array)->first + std::prev(array)->second)
       {
         --array;
       }
       else
       {
-        array = array != this->Arrays.end() ? array : this->Arrays.begin();
+        array = array != this->InFiles.end() ? array : this->InFiles.begin();
         this->Hand = array->first;
       }
       const std::uintptr_t begin = this->Hand;
       // Up to the next multiple of a step, which is a table of the processor's.
-      const std::uintptr_t end = std::min(
-        array->first + array->second, begin / ScratchStep * ScratchStep + ScratchStep);
+      const std::uintptr_t end =
+        std::min(array->first + array->second, begin / ScratchStep * ScratchStep + ScratchStep);
       DropPages(reinterpret_cast<void*>(begin), end - begin);
       this->Hand = end;
       left -= std::min(left, end - begin);
@@ -296,14 +248,12 @@ ResidentMemory ScratchStore::Keep(const ResidentMemoryMeter& meter, std::size_t 
   this->IsKeeping = true;
   ResidentMemory memory = meter.Read();
   this->Record(memory);
-  this->Headroom.See(memory.All);
-  const std::size_t headroom = this->Headroom.Below(limit, memory.Anonymous);
+  const std::size_t headroom = HeadroomOf(limit);
   const std::size_t ahead = std::min(toCome, headroom);
   if (memory.All + ahead > limit - headroom)
   {
     memory = this->Drop(meter, limit - std::min(limit, headroom + headroom / 4 + ahead));
   }
-  this->Headroom.Leave(memory.All);
   this->LastKept = Microseconds();
   this->IsKeeping = false;
   return memory;
@@ -319,7 +269,9 @@ void ScratchStore::Start()
   catch (const std::system_error& error)
   {
     throw std::runtime_error(Join("Memory Limit needs a thread of its own, and the system denies "
-      "one (", error.code().message(), "). Let the process have more threads (ulimit -u), or set "
+                                  "one (",
+      error.code().message(),
+      "). Let the process have more threads (ulimit -u), or set "
       "Memory Limit to 0, which is no limit."));
   }
   this->Governing = std::move(governor);
@@ -336,13 +288,12 @@ void ScratchStore::Stop(std::unique_lock<std::mutex>& lock)
 
 void ScratchStore::Govern(Governor& governor)
 {
-  AskForPromptTurns();
   std::unique_lock<std::mutex> lock(this->Mutex);
   while (!governor.Ends)
   {
     const std::size_t limit = this->SmallestLimit();
     const ResidentMemory memory = this->Keep(governor.Meter);
-    const std::size_t begin = limit - this->Headroom.Below(limit, memory.Anonymous);
+    const std::size_t begin = limit - HeadroomOf(limit);
     // Microseconds: as long as it takes to fill what is free until then, at 60 GB/s (two threads
     // that read what is cached: 36). Where nothing is left to be dropped, arrays may stay for a
     // while: else all would be waiting for pages.

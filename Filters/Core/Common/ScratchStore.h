@@ -25,28 +25,8 @@ struct ScratchLimit
 };
 
 /**
- * How far below the limit dropping begins: what threads may fill until somebody looks again. On a
- * machine with more to do than processors that is more: twice the most that has been filled between
- * two looks of late, where it is more than usual.
- */
-class MemoryHeadroom
-{
-public:
-  /** Before pages are dropped. */
-  void See(std::size_t resident);
-  /** And when they have been. */
-  void Leave(std::size_t resident) { this->Left = resident; }
-  /** @param anonymous what cannot be dropped */
-  std::size_t Below(std::size_t limit, std::size_t anonymous) const;
-
-private:
-  std::size_t Left = 0;  ///< At the end of the last look.
-  std::size_t Burst = 0; ///< Filled between two looks, at most; it is forgotten slowly.
-};
-
-/**
- * All arrays in files, and all limits of the process; what ScratchMemory and its functions do is
- * done here. Any thread may call anything.
+ * All large arrays, and all limits of the process; what ScratchMemory and its functions do is done
+ * here. Any thread may call anything.
  */
 class ScratchStore
 {
@@ -64,11 +44,10 @@ public:
   ScratchStatistics StatisticsOf(const ScratchLimit& limit);
 
   bool HasLimit() const { return this->NumberOfLimits.load(std::memory_order_acquire) > 0; }
-  /** Null where there is no limit any more. @throws ScratchFull. */
+  /** In a file while there is a limit. @throws std::bad_alloc, ScratchFull. */
   void* Map(std::size_t bytes);
   /** @return whether it was such memory. */
   bool Unmap(void* memory) noexcept;
-  void Prefetch(const void* begin, std::size_t bytes);
   /** Does what the governor does, if nobody has for a tenth of a millisecond. */
   void KeepIfDue();
 
@@ -78,7 +57,6 @@ private:
 
   ScratchStore();
   std::size_t SmallestLimit() const;
-  void CountMapped(std::size_t bytes);
   void Record(const ResidentMemory& memory);
   /** Until so much is resident, once around at most. @return what is resident then. */
   ResidentMemory Drop(const ResidentMemoryMeter& meter, std::size_t goal);
@@ -94,11 +72,12 @@ private:
   std::atomic<std::size_t> NumberOfLimits{ 0 };
   std::atomic<std::int64_t> LastKept{ 0 }; ///< Microseconds of the steady clock.
   std::atomic<bool> IsKeeping{ false };    ///< Pages are being dropped, if any must be.
-  std::map<std::uintptr_t, std::size_t> Arrays; ///< Bytes by address.
+  using Arrays = std::map<std::uintptr_t, std::size_t>; ///< Bytes by address.
+  Arrays InFiles;
+  Arrays InMemory;
   std::atomic<std::size_t> NumberOfArrays{ 0 };
-  std::size_t Mapped = 0;  ///< Bytes, of arrays that are being made, too.
+  std::size_t Mapped = 0;  ///< Bytes, of files.
   std::uintptr_t Hand = 0; ///< Where dropping goes on.
-  MemoryHeadroom Headroom;
   std::unique_ptr<Governor> Governing;
 };
 }

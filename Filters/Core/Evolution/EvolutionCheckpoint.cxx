@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
+#include <iterator>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -22,27 +22,45 @@ namespace
 /** Vertices that are packed at a time. */
 constexpr std::size_t PackedSpan = 1 << 16;
 
-/** Of rings only the neighbours that there are: half of what they take. */
-void SaveVertices(CheckedWriter& file, const SurfaceMesh& mesh, const std::vector<int>& vertices)
+/** The vertices without the places between them; of rings only the neighbours that there are. */
+void SaveVertices(CheckedWriter& file, const SurfaceMesh& mesh)
 {
+  std::vector<int> number(mesh.Rings.size());
+  int next = 0;
+  for (int v = 0; v < mesh.Size(); ++v)
+  {
+    number[v] = mesh.IsAlive(v) ? next++ : NoVertex;
+  }
   std::vector<Vector> positions;
   std::vector<std::uint8_t> counts;
   std::vector<int> items;
-  for (std::size_t i = 0; i < vertices.size();)
+  const auto save = [&]
   {
-    positions.clear();
-    counts.clear();
-    items.clear();
-    for (; i < vertices.size() && counts.size() < PackedSpan; ++i)
-    {
-      const Ring& ring = mesh.Rings[vertices[i]];
-      positions.push_back(mesh.Position[vertices[i]]);
-      counts.push_back(static_cast<std::uint8_t>(ring.Count));
-      items.insert(items.end(), ring.Item, ring.Item + ring.Count);
-    }
     file.PutList(positions);
     file.PutList(counts);
     file.PutList(items);
+    positions.clear();
+    counts.clear();
+    items.clear();
+  };
+  for (int v = 0; v < mesh.Size(); ++v)
+  {
+    const Ring& ring = mesh.Rings[v];
+    if (ring.Count > 0)
+    {
+      positions.push_back(mesh.Position[v]);
+      counts.push_back(static_cast<std::uint8_t>(ring.Count));
+      std::transform(ring.Item, ring.Item + ring.Count, std::back_inserter(items),
+        [&number](int w) { return number[w]; });
+    }
+    if (counts.size() == PackedSpan)
+    {
+      save();
+    }
+  }
+  if (!counts.empty())
+  {
+    save();
   }
 }
 
@@ -56,9 +74,9 @@ void NeedThat(bool isSo, const CheckedReader& file)
 }
 
 /** Refuses rings that lead elsewhere than to vertices, or do not lead back. */
-void CheckRings(const CheckedReader& file, const SurfaceMesh& mesh, const std::vector<int>& alive)
+void CheckRings(const CheckedReader& file, const SurfaceMesh& mesh)
 {
-  for (const int v : alive)
+  for (int v = 0; v < mesh.Size(); ++v)
   {
     const Ring& ring = mesh.Rings[v];
     NeedThat(ring.Count >= 3, file);
@@ -73,15 +91,14 @@ void CheckRings(const CheckedReader& file, const SurfaceMesh& mesh, const std::v
 }
 
 /** Refuses edges so long that cutting them up would never end. @param length the level's */
-void CheckLengths(const CheckedReader& file, const SurfaceMesh& mesh,
-  const std::vector<int>& alive, double length)
+void CheckLengths(const CheckedReader& file, const SurfaceMesh& mesh, double length)
 {
   // More than any grading makes them.
   constexpr double longest = 1000.;
   constexpr double mean = 64.;
   double sum = 0.;
   double count = 0.;
-  for (const int v : alive)
+  for (int v = 0; v < mesh.Size(); ++v)
   {
     const Ring& ring = mesh.Rings[v];
     for (int i = 0; i < ring.Count; ++i)
@@ -97,18 +114,18 @@ void CheckLengths(const CheckedReader& file, const SurfaceMesh& mesh,
   NeedThat(sum <= mean * mean * count, file);
 }
 
-void LoadVertices(CheckedReader& file, SurfaceMesh& mesh, const std::vector<int>& vertices)
+void LoadVertices(CheckedReader& file, SurfaceMesh& mesh)
 {
   std::vector<Vector> positions;
   std::vector<std::uint8_t> counts;
   std::vector<int> items;
-  for (std::size_t i = 0; i < vertices.size();)
+  for (std::size_t i = 0; i < mesh.Rings.size();)
   {
     file.GetList(positions);
     file.GetList(counts);
     file.GetList(items);
     const auto wanted = std::accumulate(counts.begin(), counts.end(), std::size_t(0));
-    NeedThat(!counts.empty() && counts.size() <= vertices.size() - i &&
+    NeedThat(!counts.empty() && counts.size() <= mesh.Rings.size() - i &&
         positions.size() == counts.size() && items.size() == wanted &&
         *std::max_element(counts.begin(), counts.end()) <= Ring::Capacity,
       file);
@@ -117,27 +134,14 @@ void LoadVertices(CheckedReader& file, SurfaceMesh& mesh, const std::vector<int>
     {
       const Vector& p = positions[k];
       NeedThat(std::isfinite(p.X) && std::isfinite(p.Y) && std::isfinite(p.Z), file);
-      mesh.Position[vertices[i]] = p;
-      Ring& ring = mesh.Rings[vertices[i]];
+      mesh.Position[i] = p;
+      Ring& ring = mesh.Rings[i];
       ring.Count = counts[k];
       std::copy(next, next + ring.Count, ring.Item);
       next += ring.Count;
     }
   }
-  CheckRings(file, mesh, vertices);
-}
-
-std::vector<int> AliveOf(const SurfaceMesh& mesh)
-{
-  std::vector<int> alive;
-  for (int v = 0; v < mesh.Size(); ++v)
-  {
-    if (mesh.IsAlive(v))
-    {
-      alive.push_back(v);
-    }
-  }
-  return alive;
+  CheckRings(file, mesh);
 }
 }
 
@@ -154,12 +158,8 @@ void SurfaceEvolution::Save(CheckedWriter& file) const
   file.Put(self.SinceEvolved);
   file.Put(self.Unchecked);
   file.Put(s.Sizing.OfLevel());
-  const std::vector<int> alive = AliveOf(s.Mesh);
-  file.Put<std::uint64_t>(s.Mesh.Position.size());
   file.Put<int>(s.Mesh.NumberOfVertices());
-  file.PutList(alive);
-  SaveVertices(file, s.Mesh, alive);
-  file.PutList(s.Mesh.FreePlaces());
+  SaveVertices(file, s.Mesh);
 }
 
 void SurfaceEvolution::Load(CheckedReader& file)
@@ -180,30 +180,14 @@ void SurfaceEvolution::Load(CheckedReader& file)
   const auto length = file.Get<float>();
   NeedThat(length > 0.f && std::isfinite(length), file);
   s.Sizing = SizingField(length);
-  const auto places = file.Get<std::uint64_t>();
   const int vertices = file.Get<int>();
-  std::vector<int> alive;
-  file.GetList(alive);
-  // Places that no vertex has are listed as well.
-  file.Need(places - std::min<std::uint64_t>(places, alive.size()), sizeof(int));
-  const auto isNoPlace = [places](int v)
-  { return v < 0 || static_cast<std::uint64_t>(v) >= places; };
-  NeedThat(vertices == static_cast<int>(alive.size()) &&
-      std::adjacent_find(alive.begin(), alive.end(), std::greater_equal<>()) == alive.end() &&
-      std::none_of(alive.begin(), alive.end(), isNoPlace),
-    file);
+  NeedThat(vertices >= 0, file);
+  // A position and the number of its neighbours.
+  file.Need(static_cast<std::uint64_t>(vertices), sizeof(Vector) + 1);
   SurfaceMesh mesh;
-  mesh.Remake(places, vertices);
-  LoadVertices(file, mesh, alive);
-  CheckLengths(file, mesh, alive, length);
-  std::vector<int> free;
-  file.GetList(free);
-  NeedThat(free.size() + alive.size() == places &&
-      std::none_of(
-        free.begin(), free.end(), [&](int v) { return isNoPlace(v) || mesh.IsAlive(v); }),
-    file);
-  mesh.CountOthers(static_cast<int>(free.size()));
-  mesh.SetFreePlaces(std::move(free));
+  mesh.Remake(static_cast<std::size_t>(vertices));
+  LoadVertices(file, mesh);
+  CheckLengths(file, mesh, length);
   s.Mesh = std::move(mesh);
 }
 }

@@ -15,7 +15,7 @@ void SurfaceEvolution::Implementation::LabelComponents()
 
 void SurfaceEvolution::Implementation::DeleteDegenerate()
 {
-  this->Components->DeleteDegenerate(this->State);
+  this->Components->DeleteDegenerate(this->State, this->Threads);
   this->NumberOfComponents = this->Components->NumberOfComponents();
 }
 

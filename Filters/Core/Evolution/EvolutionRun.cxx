@@ -9,7 +9,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
 #include <utility>
 
 namespace volumic
@@ -228,14 +227,17 @@ void SurfaceEvolution::Implementation::Polish(const std::function<bool(int v)>& 
   visits.Visit = [&](BlockVisit& visit, SurfaceIteration&)
   {
     std::vector<int> wanted;
-    std::copy_if(
-      visit.Vertices.begin(), visit.Vertices.end(), std::back_inserter(wanted), isWanted);
+    for (int v = visit.First; v < visit.End(); ++v)
+    {
+      if (s.Mesh.IsAlive(v) && isWanted(v))
+      {
+        wanted.push_back(v);
+      }
+    }
     SurfacePolish polish(s, this->Options.SnapToIsoValue ? this->TheField.get() : nullptr,
       this->Options.TopologyChanges, &visit.Share);
     polish.Run(wanted);
-    std::vector<int> changed = polish.TakeChanged();
-    this->Blocks->AddNew(visit, changed);
-    SurfaceIteration::UpdateChanged(s, std::move(changed));
+    SurfaceIteration::UpdateChanged(s, polish.TakeChanged());
   };
   this->VisitBlocks(visits);
   const bool hasCut = s.Counts.Cuts > 0;

@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <memory>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace volumic
@@ -128,7 +129,7 @@ void SurfaceEvolution::Implementation::Recover()
     }
     return cover;
   };
-  const LostPartCover objects = find(PartKind::Object, 0., objectShare);
+  LostPartCover objects = find(PartKind::Object, 0., objectShare);
   this->LastLost.Found = objects.Found;
   this->LastLost.Enclosed = recovers ? objects.Covered : 0;
   this->Lost = objects.Boundary;
@@ -148,12 +149,12 @@ void SurfaceEvolution::Implementation::Recover()
   }
   if (this->LastLost.Enclosed > 0)
   {
-    this->Blocks->Append(objects.Surface, this->Threads);
+    this->Blocks->Append(std::move(objects.Surface), this->Threads);
     ++this->Unchecked;
   }
   if (this->LastLost.EnclosedCavities > 0)
   {
-    this->Blocks->Append(cavities.Surface, this->Threads);
+    this->Blocks->Append(std::move(cavities.Surface), this->Threads);
     ++this->Unchecked;
   }
 }

@@ -3,7 +3,6 @@
 
 // How a surface is worked on: in visits of blocks, see SurfaceBlocks, and in sums over blocks.
 
-#include "Core/Common/ScratchMemory.h"
 #include "Core/Common/Spans.h"
 #include "Core/Evolution/EvolutionImplementation.h"
 #include "Core/Mesh/SurfaceMeasures.h"
@@ -93,11 +92,7 @@ void SurfaceEvolution::Implementation::VisitBlock(
   {
     return;
   }
-  if (HasMemoryLimit())
-  {
-    this->Blocks->Prefetch(block);
-    KeepMemoryLimit();
-  }
+  this->Blocks->Prefetch(block);
   SurfaceIteration& iteration = this->TakeIteration();
   BlockVisit visit = this->Blocks->Open(block);
   visit.Idle = &idle;
@@ -113,7 +108,7 @@ void SurfaceEvolution::Implementation::VisitBlock(
 void SurfaceEvolution::Implementation::VisitBlocks(const BlockVisits& visits)
 {
   this->State.Counts = EditCounts();
-  this->Blocks->AddPlaces(this->Blocks->MissingPlaces(this->Threads), this->Threads);
+  this->Blocks->Prepare(this->Threads);
   const auto count = static_cast<std::size_t>(this->Blocks->NumberOfBlocks());
   this->Visit.Blocks = static_cast<int>(count);
   const auto goOn = [&](std::size_t done)
@@ -152,14 +147,13 @@ void SurfaceEvolution::Implementation::VisitToEvolve(BlockVisit& visit,
   std::vector<SweptRow> own(rows.size());
   for (std::size_t i = 0; i < own.size(); ++i)
   {
-    const int places = visit.Share.NumberOfPlaces();
+    const int added = visit.Share.Room.Added;
     const int characteristic = visit.Share.EulerCharacteristic;
     const EditCounts counts = visit.Share.Counts;
     iteration.Run(own[i].Row, dynamics, remesher, SurfaceIteration::Mode::Evolve);
-    this->Blocks->AddNew(visit, iteration.WorkingVertices());
     rows[i].KineticEnergy[static_cast<std::size_t>(visit.Block)] = this->KineticEnergy(iteration);
     own[i].Counts = visit.Share.Counts - counts;
-    own[i].Vertices = places - visit.Share.NumberOfPlaces();
+    own[i].Vertices = visit.Share.Room.Added - added;
     own[i].EulerCharacteristic = visit.Share.EulerCharacteristic - characteristic;
   }
   iteration.EndVisit();
@@ -290,19 +284,18 @@ void SurfaceEvolution::Implementation::VisitAll(SurfaceIteration::Mode mode,
     iteration.BeginVisit(visit);
     for (int i = 0; i < iterations; ++i)
     {
-      for (const int v : visit.Vertices)
+      for (int v = visit.First; v < visit.End(); ++v)
       {
         s.Disturbed[v] = 0;
       }
       HistoryRow row;
       iteration.Run(row, dynamics, remesher, mode);
-      this->Blocks->AddNew(visit, iteration.WorkingVertices());
       if (mode != SurfaceIteration::Mode::Adapt)
       {
         this->KeepActiveIfMoving(iteration); // Also beyond the block, for the visits to come.
       }
     }
-    for (const int v : visit.Vertices)
+    for (int v = visit.First; v < visit.End(); ++v)
     {
       s.Velocity[v] = Vector();
     }
@@ -328,12 +321,12 @@ void SurfaceEvolution::Implementation::SplitLongEdges(BlockVisits visits)
   visits.Visit = [this](BlockVisit& visit, SurfaceIteration&)
   {
     Remesher remesher(this->State, nullptr, false, &visit.Share);
-    std::vector<int> vertices = visit.Vertices;
+    std::vector<int> vertices(static_cast<std::size_t>(visit.End() - visit.First));
+    std::iota(vertices.begin(), vertices.end(), visit.First);
     remesher.Split(vertices);
-    this->Blocks->AddNew(visit, vertices);
     SurfaceIteration::UpdateChanged(this->State, remesher.TakeChanged());
   };
-  // A block may have too few places for all of them at once, and half of a split edge is split again.
+  // A block may have too little room for all of them at once, and half of a split edge is split again.
   do
   {
     this->VisitBlocks(visits);

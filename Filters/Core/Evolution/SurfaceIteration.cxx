@@ -59,7 +59,7 @@ void SurfaceIteration::BeginVisit(BlockVisit& visit)
   }
   this->Near.Examine(s, this->Suspects, *visit.Idle);
   this->Near.AddPairs(s, crowded);
-  this->Watch.LabelSmall(s, visit.Vertices, visit.Written);
+  this->Watch.LabelSmall(s, visit.First, visit.End(), visit.Written);
   this->Labelled = visit.Share.Counts;
 }
 
@@ -77,13 +77,14 @@ void SurfaceIteration::CollectActive()
   // Where an edge has grown beyond measure its ends wait until it is split.
   const SurfaceState& s = this->State;
   this->Active.clear();
-  std::copy_if(this->Visit->Vertices.begin(), this->Visit->Vertices.end(),
-    std::back_inserter(this->Active),
-    [this, &s](int v)
+  for (int v = this->Visit->First; v < this->Visit->End(); ++v)
+  {
+    if (s.Active[v] != 0 && s.Mesh.IsAlive(v) && !(s.RemeshFlags[v] & HasHugeEdge) &&
+      this->Visit->Moving.Contains(s.Mesh.Position[v]))
     {
-      return s.Mesh.IsAlive(v) && s.Active[v] != 0 && !(s.RemeshFlags[v] & HasHugeEdge) &&
-        this->Visit->Moving.Contains(s.Mesh.Position[v]);
-    });
+      this->Active.push_back(v);
+    }
+  }
 }
 
 void SurfaceIteration::CollectWorking()
@@ -289,7 +290,8 @@ void SurfaceIteration::WatchComponents()
   if (share.Counts.Merges + share.Counts.Cuts > then.Merges + then.Cuts ||
     share.Counts.Collapses > then.Collapses + SuspiciousCollapses)
   {
-    this->Watch.LabelSmall(this->State, this->Visit->Vertices, this->Visit->Written);
+    this->Watch.LabelSmall(
+      this->State, this->Visit->First, this->Visit->End(), this->Visit->Written);
     this->Labelled = share.Counts;
   }
   this->Watch.DeleteDegenerate(this->State, &share);

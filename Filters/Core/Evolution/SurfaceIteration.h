@@ -68,15 +68,12 @@ public:
   void EndVisit();
 
   /**
-   * Times of phases go to the row, counts to the visit's share. New vertices are in
-   * WorkingVertices(): those that are to move next time must be put on the visit's list.
+   * Times of phases go to the row, counts to the visit's share.
    */
   void Run(HistoryRow& row, const Dynamics& dynamics, Remesher& remesher, Mode mode);
 
   /** The vertices that the last iteration has found active. */
   const std::vector<int>& ActiveVertices() const { return this->Active; }
-  /** These and those beside them, and what the last iteration has made or changed. */
-  const std::vector<int>& WorkingVertices() const { return this->Working; }
 
   /** After edits: shape of the vertices, and that their stars must be examined again. */
   static void UpdateChanged(SurfaceState& state, std::vector<int> changed);

@@ -25,7 +25,7 @@ struct CycleCut
   /** Whether the three are pairwise neighbours and neither of the two triangles is a face. */
   bool IsLegal(const SurfaceMesh& mesh) const;
   /** @return the copies of A, B and C; the caps are (A, C, B) and (A', B', C'). */
-  std::array<int, 3> Apply(SurfaceMesh& mesh, VertexPlaces* places = nullptr) const;
+  std::array<int, 3> Apply(SurfaceMesh& mesh, VertexRoom* room = nullptr) const;
 };
 }
 

@@ -139,15 +139,15 @@ void Append(Ring& ring, int vertex)
 class SqrtThreeDivision
 {
 public:
-  SqrtThreeDivision(
-    const SurfaceMesh& mesh, const DivisionNumbers& numbers, const KeptEdges* kept)
+  SqrtThreeDivision(const SurfaceMesh& mesh, const DivisionNumbers& numbers, const KeptEdges* kept)
     : Mesh(mesh), Numbers(numbers), Kept(kept)
   {
     const auto n = static_cast<std::size_t>(this->FirstMiddle() + numbers.Middles);
-    this->Divided.Remake(n, static_cast<int>(n));
+    this->Divided.Remake(n);
   }
 
-  /** Makes an old vertex, and the new ones that come of what it is the smallest of; on any thread. */
+  /** Makes an old vertex, and the new ones that come of what it is the smallest of; on any thread.
+   */
   void DivideAt(int v);
   SurfaceMesh Take() { return std::move(this->Divided); }
 
@@ -184,7 +184,9 @@ void SqrtThreeDivision::DivideAt(int v)
   this->Divided.Rings[i] = this->RingOfOld(v);
   int centre = this->FirstCentre() + this->Numbers.FirstFace[i];
   this->Mesh.VisitFaces(i, i + 1,
-    [&](int a, int b, int c) { this->MakeCentre(centre++, { a, b, c }); });
+    [&](int a, int b, int c) {
+      this->MakeCentre(centre++, { a, b, c });
+    });
   if (this->Kept)
   {
     int middle = this->FirstMiddle() + this->Numbers.FirstMiddle[i];
@@ -282,8 +284,8 @@ Ring SqrtThreeDivision::RingOfOld(int v) const
 }
 }
 
-SurfaceMesh Divide(const SurfaceMesh& mesh, const DivisionNumbers& numbers,
-  const KeptEdges* kept, Executor& executor)
+SurfaceMesh Divide(const SurfaceMesh& mesh, const DivisionNumbers& numbers, const KeptEdges* kept,
+  Executor& executor)
 {
   SqrtThreeDivision division(mesh, numbers, kept);
   ForSpans(executor, mesh.Rings.size(), SpanSize,

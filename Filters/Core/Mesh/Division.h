@@ -75,14 +75,14 @@ DivisionNumbers NumberForDivision(
  * them, and is the old one if all are kept.
  *
  * The centre of face i is the vertex with i plus the number of old ones. The middles of edges come
- * last. `mesh` must have no free places, `kept` be of it.
+ * last. `mesh` must have no empty places, `kept` be of it.
  */
 [[nodiscard]] SurfaceMesh Divide(const SurfaceMesh& mesh, const DivisionNumbers& numbers,
   const KeptEdges* kept = nullptr, Executor& executor = OnThisThread());
 
 /** The same, which numbers it. */
-[[nodiscard]] SurfaceMesh Divide(const SurfaceMesh& mesh, const KeptEdges* kept = nullptr,
-  Executor& executor = OnThisThread());
+[[nodiscard]] SurfaceMesh Divide(
+  const SurfaceMesh& mesh, const KeptEdges* kept = nullptr, Executor& executor = OnThisThread());
 }
 
 #endif

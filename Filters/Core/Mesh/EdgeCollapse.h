@@ -21,7 +21,7 @@ struct EdgeCollapse
   /** A third common neighbour, which makes a 3-cycle that bounds no face; -1 where none is. */
   int ThirdCommonNeighbour(const SurfaceMesh& mesh) const;
   /** The position of Kept is the caller's to set. */
-  void Apply(SurfaceMesh& mesh, VertexPlaces* places = nullptr) const;
+  void Apply(SurfaceMesh& mesh, VertexRoom* room = nullptr) const;
 };
 }
 

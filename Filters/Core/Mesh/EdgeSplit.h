@@ -18,7 +18,7 @@ struct EdgeSplit
 
   bool IsLegal(const SurfaceMesh& mesh) const;
   /** @return the new vertex. */
-  int Apply(SurfaceMesh& mesh, const Vector& position, VertexPlaces* places = nullptr) const;
+  int Apply(SurfaceMesh& mesh, const Vector& position, VertexRoom* room = nullptr) const;
 };
 }
 

@@ -230,11 +230,11 @@ void StarMerge::InsertBridgeEdges(SurfaceMesh& mesh, bool first) const
   }
 }
 
-void StarMerge::Apply(SurfaceMesh& mesh, VertexPlaces* places) const
+void StarMerge::Apply(SurfaceMesh& mesh, VertexRoom* room) const
 {
   this->InsertBridgeEdges(mesh, true);
   this->InsertBridgeEdges(mesh, false);
-  mesh.RemoveVertex(this->U, places);
-  mesh.RemoveVertex(this->V, places);
+  mesh.RemoveVertex(this->U, room);
+  mesh.RemoveVertex(this->V, room);
 }
 }

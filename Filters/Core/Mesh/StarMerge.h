@@ -32,7 +32,7 @@ public:
   const std::vector<std::array<int, 3>>& Strip() const { return this->Triangles; }
   float SquaredLongestBridgeEdge() const { return this->SquaredLongest; }
 
-  void Apply(SurfaceMesh& mesh, VertexPlaces* places = nullptr) const;
+  void Apply(SurfaceMesh& mesh, VertexRoom* room = nullptr) const;
 
 private:
   struct BridgeEdge
@@ -53,7 +53,7 @@ private:
   void InsertBridgeEdges(SurfaceMesh& mesh, bool first) const;
 
   Ring FirstRim;
-  Ring SecondRim; ///< Reversed.
+  Ring SecondRim;                                ///< Reversed.
   float Squared[Ring::Capacity][Ring::Capacity]; ///< Distances from rim to rim.
   std::vector<BridgeEdge> BridgeEdges;
   std::vector<BridgeEdge> Candidate;

@@ -52,52 +52,34 @@ bool SurfaceMesh::AreFarApart(int v, int w) const
   return true;
 }
 
-int SurfaceMesh::AddVertex(const Vector& position, VertexPlaces* places)
+int SurfaceMesh::AddVertex(const Vector& position, VertexRoom* room)
 {
-  std::vector<int>& free = places ? places->Free : this->Free;
-  if (free.empty())
+  int v = this->Size();
+  if (room)
+  {
+    v = room->Next++;
+    ++room->Added;
+  }
+  else
   {
     Grow(this->Position, this->Position.size() + 1, Vector());
     Grow(this->Rings, this->Rings.size() + 1, Ring());
-    free.push_back(this->Size() - 1);
   }
-  const int v = free.back();
-  free.pop_back();
   this->Position[v] = position;
   return v;
 }
 
-void SurfaceMesh::RemoveVertex(int v, VertexPlaces* places)
+void SurfaceMesh::RemoveVertex(int v, VertexRoom* room)
 {
   this->Rings[v].Count = 0;
-  (places ? places->Removed : this->Free).push_back(v);
-}
-
-UnusedPlaces SurfaceMesh::AddUnusedPlaces(int n)
-{
-  const int size = this->Size();
-  LengthenZeroed(this->Position, static_cast<std::size_t>(size) + static_cast<std::size_t>(n));
-  LengthenZeroed(this->Rings, static_cast<std::size_t>(size) + static_cast<std::size_t>(n));
-  this->Aside += n;
-  return { size, size + n };
-}
-
-void SurfaceMesh::PutAside(VertexPlaces& places)
-{
-  this->Aside += static_cast<std::int64_t>(this->Free.size());
-  places.Free.insert(places.Free.end(), this->Free.begin(), this->Free.end());
-  this->Free.clear();
-}
-
-void SurfaceMesh::FreeFromAside(VertexPlaces& places, const UnusedPlaces& unused)
-{
-  this->Aside -= static_cast<std::int64_t>(places.Free.size()) + unused.Count();
-  for (int v = unused.End; v > unused.Next; --v)
+  if (room)
   {
-    this->Free.push_back(v - 1);
+    --room->Added;
   }
-  this->Free.insert(this->Free.end(), places.Free.begin(), places.Free.end());
-  places.Free.clear();
+  else
+  {
+    ++this->Empty;
+  }
 }
 
 std::int64_t SurfaceMesh::NumberOfFaces(Executor& executor) const
@@ -160,16 +142,17 @@ IndexedSurface SurfaceMesh::ToIndexed(Executor& executor) const
         }
       }
     });
-  const std::vector<std::size_t> firstFace =
-    FirstOfSpans(executor, this->Rings.size(), VertexSpan,
-      [this](std::size_t begin, std::size_t end) { return this->CountFaces(begin, end); });
+  const std::vector<std::size_t> firstFace = FirstOfSpans(executor, this->Rings.size(), VertexSpan,
+    [this](std::size_t begin, std::size_t end) { return this->CountFaces(begin, end); });
   MakeZeroed(surface.Triangles, firstFace.back());
   ForSpans(executor, this->Rings.size(), VertexSpan,
     [&](std::size_t span, std::size_t begin, std::size_t end)
     {
       std::size_t next = firstFace[span];
-      this->VisitFaces(begin, end, [&](int a, int b, int c)
-        { surface.Triangles[next++] = { place[a], place[b], place[c] }; });
+      this->VisitFaces(begin, end,
+        [&](int a, int b, int c) {
+          surface.Triangles[next++] = { place[a], place[b], place[c] };
+        });
     });
   return surface;
 }
@@ -186,10 +169,8 @@ class CornersOfPoints
 {
 public:
   CornersOfPoints(const IndexedSurface& surface, Executor& executor)
-    : Surface(surface)
-    , Left(surface.Points.size())
-    , Start(surface.Points.size() + 1, 0)
-    , Corners(3 * surface.Triangles.size())
+    : Surface(surface), Left(surface.Points.size()), Start(surface.Points.size() + 1, 0),
+      Corners(3 * surface.Triangles.size())
   {
     const auto forCorners = [&](auto&& visit)
     {
@@ -205,8 +186,8 @@ public:
           }
         });
     };
-    forCorners([this](int point, int)
-      { this->Left[point].fetch_add(1, std::memory_order_relaxed); });
+    forCorners(
+      [this](int point, int) { this->Left[point].fetch_add(1, std::memory_order_relaxed); });
     for (std::size_t p = 0; p < this->Left.size(); ++p)
     {
       this->Start[p + 1] = this->Start[p] + this->Left[p].load(std::memory_order_relaxed);
@@ -224,8 +205,8 @@ public:
   /** The edges opposite to a point, in the order of the triangles, whichever thread came first. */
   void FindOppositeEdges(std::size_t point, std::vector<DirectedEdge>& edges)
   {
-    std::sort(this->Corners.begin() + this->Start[point],
-      this->Corners.begin() + this->Start[point + 1]);
+    std::sort(
+      this->Corners.begin() + this->Start[point], this->Corners.begin() + this->Start[point + 1]);
     edges.clear();
     for (int i = this->Start[point]; i < this->Start[point + 1]; ++i)
     {
@@ -323,8 +304,8 @@ int SurfaceMesh::Append(const IndexedSurface& surface, Executor& executor)
   for (std::size_t v = 0; v < n; ++v)
   {
     const Point& p = surface.Points[v];
-    this->Position[static_cast<std::size_t>(first) + v] = Vector(
-      static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2]));
+    this->Position[static_cast<std::size_t>(first) + v] =
+      Vector(static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2]));
   }
   this->Rings.insert(this->Rings.end(), rings.begin(), rings.end());
   return first;
@@ -332,54 +313,63 @@ int SurfaceMesh::Append(const IndexedSurface& surface, Executor& executor)
 
 void SurfaceMesh::Reorder(const std::vector<int>& order, Executor& executor)
 {
+  LargeVector<Ring> spare;
+  this->Reorder(order, spare, executor);
+}
+
+void SurfaceMesh::Reorder(
+  const std::vector<int>& order, LargeVector<Ring>& spare, Executor& executor)
+{
+  const std::size_t n = order.size();
+  this->Empty = static_cast<int>(std::count(order.begin(), order.end(), NoVertex));
+  volumic::Reorder(this->Position, order, spare, executor);
   LargeVector<int> place;
   MakeZeroed(place, this->Rings.size());
-  LargeVector<Vector> position;
-  MakeZeroed(position, order.size(), RoomForMore(order.size()));
-  LargeVector<Ring> rings;
-  MakeZeroed(rings, order.size(), RoomForMore(order.size()));
-  ForSpans(executor, order.size(), VertexSpan,
+  ForSpans(executor, n, VertexSpan,
     [&](std::size_t, std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end; ++i)
       {
-        place[order[i]] = static_cast<int>(i);
-        position[i] = this->Position[order[i]];
-      }
-    });
-  this->Position.swap(position);
-  ForSpans(executor, order.size(), VertexSpan,
-    [&](std::size_t, std::size_t begin, std::size_t end)
-    {
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        const Ring& from = this->Rings[order[i]];
-        rings[i].Count = from.Count;
-        for (int k = 0; k < from.Count; ++k)
+        if (order[i] != NoVertex)
         {
-          rings[i].Item[k] = place[from.Item[k]];
+          place[order[i]] = static_cast<int>(i);
         }
       }
     });
-  this->Rings.swap(rings);
-  this->Free.clear();
-  this->Aside = 0;
+  spare.resize(n);
+  ForSpans(executor, n, VertexSpan,
+    [&](std::size_t, std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        Ring& ring = spare[i];
+        ring.Count = 0;
+        if (order[i] != NoVertex)
+        {
+          const Ring& before = this->Rings[order[i]];
+          ring.Count = before.Count;
+          std::transform(before.Item, before.Item + before.Count, ring.Item,
+            [&place](int w) { return place[w]; });
+        }
+      }
+    });
+  this->Rings.swap(spare);
 }
 
-void SurfaceMesh::Remake(std::size_t n, int vertices)
+void SurfaceMesh::Remake(std::size_t n)
 {
   this->Clear();
-  MakeZeroed(this->Position, n, RoomForMore(n));
-  MakeZeroed(this->Rings, n, RoomForMore(n));
-  this->Aside = static_cast<std::int64_t>(n) - vertices;
+  MakeRoom(this->Position, n);
+  MakeRoom(this->Rings, n);
+  this->Position.resize(n);
+  this->Rings.resize(n);
 }
 
 void SurfaceMesh::Clear()
 {
-  this->Position = {}; // What was written is not zero any more.
+  this->Position = {};
   this->Rings = {};
-  this->Free.clear();
-  this->Aside = 0;
+  this->Empty = 0;
 }
 
 namespace
@@ -396,7 +386,8 @@ std::uint64_t SpreadBits(std::uint64_t x)
   return x;
 }
 
-/** Of a position on a Z-order (Morton) curve with cells of side `cell`, the first of which is at `low`. */
+/** Of a position on a Z-order (Morton) curve with cells of side `cell`, the first of which is at
+ * `low`. */
 std::uint64_t MortonCode(const Vector& position, const Vector& low, double cell)
 {
   const auto bits = [cell](float x, float from)

@@ -8,8 +8,10 @@
 #include "Core/Common/ScratchMemory.h"
 #include "Core/Common/Vector.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -73,29 +75,27 @@ struct alignas(64) Ring
 };
 
 /**
- * The places that edits take for new vertices, and those of the vertices that they remove, where
- * edits are made side by side and must not all use the mesh's own list of free places.
+ * Places that follow each other, for the new vertices of edits that are made where others edit the
+ * same mesh elsewhere; what is added and removed is counted here.
  */
-struct VertexPlaces
-{
-  std::vector<int> Free;    ///< Places without a vertex; new vertices take them from the back.
-  std::vector<int> Removed; ///< Places that must not be taken before the pass is over.
-};
-
-/** Places that follow each other and have never been taken. */
-struct UnusedPlaces
+struct VertexRoom
 {
   int Next = 0;
   int End = 0;
-  int Count() const { return this->End - this->Next; }
+  int Added = 0; ///< Vertices, less those removed.
+  bool Has(int n) const { return this->End - this->Next >= n; }
 };
+
+/** In an order of vertices: a place without one. */
+constexpr int NoVertex = -1;
 
 /**
  * A closed oriented triangulated mesh, possibly of several components.
  *
  * The rings alone are the connectivity: the faces are the triangles (v, ring[i], ring[i + 1]).
  * There are no face or edge records to keep up to date, and a vertex finds all it needs for the
- * forces in two cache lines. Indices are stable; those of removed vertices are used again.
+ * forces in two cache lines. Indices are stable until Reorder(); those of removed vertices are not
+ * used again before.
  */
 class SurfaceMesh
 {
@@ -105,11 +105,8 @@ public:
 
   /** Indices, of alive vertices or not, run below this. */
   int Size() const { return static_cast<int>(this->Rings.size()); }
-  /** Alive ones; those of places that are aside as CountOthers() has told. */
-  int NumberOfVertices() const
-  {
-    return this->Size() - static_cast<int>(static_cast<std::int64_t>(this->Free.size()) + this->Aside);
-  }
+  /** Alive ones, of what was added and removed by way of a VertexRoom as Count() has told. */
+  int NumberOfVertices() const { return this->Size() - this->Empty; }
   bool IsAlive(int v) const { return this->Rings[v].Count > 0; }
   bool AreNeighbours(int u, int v) const { return this->Rings[u].Contains(v); }
 
@@ -120,25 +117,14 @@ public:
   bool AreFarApart(int v, int w) const;
 
   /**
-   * @param places where its index comes from, which must have one; null: the mesh's own, which
-   *               grows where it has none.
+   * @param room where its index comes from, which must have one; null: it follows the last one.
    * @return the index of a new vertex; its ring is the caller's to fill before anything else.
    */
-  int AddVertex(const Vector& position, VertexPlaces* places = nullptr);
-  /** @param places where its index goes; null: to the mesh's own. */
-  void RemoveVertex(int v, VertexPlaces* places = nullptr);
-
-  /**
-   * Room for so many more vertices, in places that follow the last ones and are aside. They take
-   * no memory before they are used.
-   */
-  UnusedPlaces AddUnusedPlaces(int n);
-  /** Puts all free places aside, so that only their keeper uses them. */
-  void PutAside(VertexPlaces& places);
-  /** Takes these places back from their keeper: any new vertex may have them. */
-  void FreeFromAside(VertexPlaces& places, const UnusedPlaces& unused);
-  /** Counts vertices that came from, or went to, places aside. */
-  void CountOthers(int more) { this->Aside -= more; }
+  int AddVertex(const Vector& position, VertexRoom* room = nullptr);
+  /** @param room which counts it; null: it is counted here. */
+  void RemoveVertex(int v, VertexRoom* room = nullptr);
+  /** Counts what was added and removed by way of a room, once nobody uses it any more. */
+  void Count(const VertexRoom& room) { this->Empty -= room.Added; }
 
   /** Calls visit(a, b, c) once for each face, counter-clockwise, a the smallest index. */
   template <typename Visitor>
@@ -187,23 +173,53 @@ public:
    */
   int Append(const IndexedSurface& surface, Executor& executor = OnThisThread());
 
-  /** Renumbers: vertex i of the result is order[i] of before; all alive ones must occur once. */
+  /**
+   * Renumbers: vertex i of the result is order[i] of before, none where that is NoVertex; all alive
+   * ones must occur once.
+   * @param spare any memory; taken along from one time to the next it need not be made again, which
+   *              would take longer than all that is copied
+   */
+  void Reorder(const std::vector<int>& order, LargeVector<Ring>& spare, Executor& executor);
   void Reorder(const std::vector<int>& order, Executor& executor = OnThisThread());
 
   void Clear();
-  /** Empties it; of n places, which take no memory, all are aside but those of some vertices. */
-  void Remake(std::size_t n, int vertices);
-
-  /** The places that no vertex has, the next one to be taken at the end, as a copy needs them. */
-  const std::vector<int>& FreePlaces() const { return this->Free; }
-  void SetFreePlaces(std::vector<int> places) { this->Free = std::move(places); }
+  /** Makes it one of n vertices, whose positions and rings are the caller's to fill. */
+  void Remake(std::size_t n);
 
 private:
-  std::vector<int> Free;
-  std::int64_t Aside = 0; ///< Places that are neither free nor a vertex's.
+  int Empty = 0; ///< Places without a vertex.
 };
 
-/** The alive vertices along a Z-order (Morton) curve with cells of side `cell`, those of one by index. */
+/**
+ * Brings values of vertices into a new order, see SurfaceMesh::Reorder; where there is no vertex
+ * they are zero. @param spare memory that they go through
+ */
+template <typename T>
+void Reorder(LargeVector<T>& values, const std::vector<int>& order, LargeVector<Ring>& spare,
+  Executor& executor)
+{
+  static_assert(std::is_trivially_copyable_v<T> && sizeof(T) <= sizeof(Ring));
+  constexpr std::size_t span = 16384;
+  const std::size_t n = order.size();
+  MakeRoom(spare, n);
+  spare.resize(std::max(n, spare.size()));
+  T* const ordered = reinterpret_cast<T*>(spare.data());
+  ForSpans(executor, n, span,
+    [&](std::size_t, std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        ordered[i] = order[i] != NoVertex ? values[order[i]] : T{};
+      }
+    });
+  values.resize(n);
+  ForSpans(executor, n, span,
+    [&](std::size_t, std::size_t begin, std::size_t end)
+    { std::copy(ordered + begin, ordered + end, values.data() + begin); });
+}
+
+/** The alive vertices along a Z-order (Morton) curve with cells of side `cell`, those of one by
+ * index. */
 std::vector<int> SpaceFillingOrder(
   const SurfaceMesh& mesh, double cell, Executor& executor = OnThisThread());
 }

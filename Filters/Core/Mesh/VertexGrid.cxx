@@ -52,8 +52,7 @@ void VertexGrid::Reset(const Vector& low, const Vector& high, float cell)
   this->Inverse = 1.f / cell;
   this->BricksAlong[0] = static_cast<int>(bricks(size[0]));
   this->BricksAlong[1] = static_cast<int>(bricks(size[1]));
-  const auto places =
-    static_cast<std::size_t>(bricks(size[0]) * bricks(size[1]) * bricks(size[2]));
+  const auto places = static_cast<std::size_t>(bricks(size[0]) * bricks(size[1]) * bricks(size[2]));
   this->Made.clear();
   this->NumberMade = 0;
   this->Bricks = LargeVector<std::atomic<Brick*>>(places); // All null.
@@ -67,10 +66,17 @@ void VertexGrid::Resize(std::size_t n)
   Grow(this->Next, n, -1);
 }
 
-void VertexGrid::Lengthen(std::size_t n)
+void VertexGrid::Clear()
 {
-  LengthenZeroed(this->Cell, n);
-  LengthenZeroed(this->Next, n);
+  for (LargeVector<Brick>& bricks : this->Made)
+  {
+    for (Brick& brick : bricks)
+    {
+      brick.fill(-1);
+    }
+  }
+  this->Next.clear();
+  this->Cell.clear();
 }
 
 VertexGrid::Brick* VertexGrid::MakeBrick(std::size_t number)

@@ -43,8 +43,8 @@ public:
   /** Makes room for vertices of indices below n. */
   void Resize(std::size_t n);
 
-  /** The same for vertices to come, whose room takes no memory before. */
-  void Lengthen(std::size_t n);
+  /** Takes all vertices out. */
+  void Clear();
 
   void Insert(int v, const Vector& position);
   /**
@@ -108,7 +108,8 @@ public:
 private:
   static constexpr int Bits = 3; ///< Of a coordinate within a brick.
   static constexpr int Mask = (1 << Bits) - 1;
-  using Brick = std::array<int, std::size_t(1) << (3 * Bits)>; ///< First vertex of each cell, or -1.
+  using Brick =
+    std::array<int, std::size_t(1) << (3 * Bits)>; ///< First vertex of each cell, or -1.
   static constexpr std::uint32_t NoCell = 0xffffffff;
 
   static std::size_t PlaceInBrick(int x, int y, int z)
@@ -118,7 +119,8 @@ private:
   std::size_t NumberOfBrick(int x, int y, int z) const
   {
     return (static_cast<std::size_t>(z >> Bits) * this->BricksAlong[1] + (y >> Bits)) *
-      this->BricksAlong[0] + (x >> Bits);
+      this->BricksAlong[0] +
+      (x >> Bits);
   }
   const Brick* BrickAt(int x, int y, int z) const
   {
@@ -193,8 +195,10 @@ private:
   /** The layer of bricks that a cell lies in. */
   std::size_t LayerOf(std::uint32_t cell) const
   {
-    return static_cast<std::size_t>(cell / (static_cast<std::uint32_t>(this->Size[0]) *
-             static_cast<std::uint32_t>(this->Size[1]))) >> Bits;
+    return static_cast<std::size_t>(cell /
+             (static_cast<std::uint32_t>(this->Size[0]) *
+               static_cast<std::uint32_t>(this->Size[1]))) >>
+      Bits;
   }
   /** The first vertex of a cell, in a brick that is made where there is none. */
   int& HeadOf(std::uint32_t cell);
@@ -204,7 +208,7 @@ private:
   LargeVector<std::atomic<Brick*>> Bricks; ///< Null where no vertex has been.
   std::vector<LargeVector<Brick>> Made;    ///< Each with room for as many as all before.
   std::size_t NumberMade = 0;              ///< Bricks in use.
-  std::mutex Making; ///< Held while a brick is made.
+  std::mutex Making;                       ///< Held while a brick is made.
   LargeVector<int> Next;
   LargeVector<std::uint32_t> Cell;
   int Size[3] = { 1, 1, 1 };

@@ -14,7 +14,7 @@ struct VertexRemoval
 
   /** Whether the valence is 3 and the neighbours keep at least 3. */
   bool IsLegal(const SurfaceMesh& mesh) const;
-  void Apply(SurfaceMesh& mesh, VertexPlaces* places = nullptr) const;
+  void Apply(SurfaceMesh& mesh, VertexRoom* room = nullptr) const;
 };
 }
 

@@ -65,11 +65,10 @@ bool ComponentWatch::IsSmall(SurfaceState& state, int v, const Box& within)
   return isSmall;
 }
 
-void ComponentWatch::LabelSmall(
-  SurfaceState& state, const std::vector<int>& vertices, const Box& within)
+void ComponentWatch::LabelSmall(SurfaceState& state, int begin, int end, const Box& within)
 {
   this->Watched.clear();
-  for (const int v : vertices)
+  for (int v = begin; v < end; ++v)
   {
     if (!state.Mesh.IsAlive(v) || (state.Marks[v] & IsSeen) || !this->IsSmall(state, v, within))
     {
@@ -95,8 +94,7 @@ void ComponentWatch::LabelSmall(
 
 bool ComponentWatch::FindVertices(SurfaceState& state, const SmallComponent& small)
 {
-  // Collapses and splits change the vertices of a component without a new label. A place that was
-  // given up may belong to a vertex of another component now.
+  // Collapses and splits change the vertices of a component without a new label.
   const auto seed = std::find_if(small.Vertices.begin(), small.Vertices.end(),
     [&](int v) { return state.Mesh.IsAlive(v) && state.Component[v] == small.Label; });
   if (seed == small.Vertices.end())
@@ -151,7 +149,7 @@ bool ComponentWatch::DeleteDegenerate(SurfaceState& state, EditShare* share)
       if (share)
       {
         const SurfaceState::RemovedComponent removed =
-          state.TakeComponentAway(small.Vertices.front(), &share->Places);
+          state.TakeComponentAway(small.Vertices.front(), &share->Room);
         share->EulerCharacteristic -= removed.EulerCharacteristic;
         ++share->Counts.Removed;
         share->Counts.RemovedGenus += 1 - removed.EulerCharacteristic / 2;

@@ -12,8 +12,8 @@
 namespace volumic
 {
 /**
- * Watches the small components that a visit sees: those that have shrunk to nothing, that lie wholly
- * on the side where they must vanish, or whose signed volume has changed sign are deleted
+ * Watches the small components that a visit sees: those that have shrunk to nothing, that lie
+ * wholly on the side where they must vanish, or whose signed volume has changed sign are deleted
  * (Documentation/differences.md, Changes of topology).
  */
 class ComponentWatch
@@ -23,10 +23,10 @@ public:
   static constexpr int SmallSize = 400;
 
   /**
-   * The small components that have a vertex in a list, or grow to it from there, and lie in a box
-   * get labels of their own and are watched; the others are left as they are.
+   * The small components that have a vertex in a range, and lie in a box, get labels of their own
+   * and are watched; the others are left as they are.
    */
-  void LabelSmall(SurfaceState& state, const std::vector<int>& vertices, const Box& within);
+  void LabelSmall(SurfaceState& state, int begin, int end, const Box& within);
 
   /**
    * Deletes those of them that must go.

@@ -5,7 +5,6 @@
 #include "Core/Common/Spans.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cstddef>
 
 namespace volumic
@@ -19,40 +18,6 @@ constexpr std::size_t JoinedSpan = 4096;
 constexpr int MarkOfRoot(int label)
 {
   return -2 - label;
-}
-
-/** Gives the vertices of a range, but not the roots, their root's label, and counts them. */
-void LabelOthers(const SurfaceMesh& mesh, LargeVector<int>& labels, int begin, int end,
-  std::vector<std::atomic<int>>& sizes)
-{
-  // Mostly neighbours follow each other: they are added up before the others are told.
-  int label = 0;
-  int count = 0;
-  const auto add = [&]
-  {
-    if (count > 0)
-    {
-      sizes[label].fetch_add(count, std::memory_order_relaxed);
-    }
-  };
-  for (int v = begin; v < end; ++v)
-  {
-    const int root = labels[v];
-    if (root < 0 || !mesh.IsAlive(v))
-    {
-      continue;
-    }
-    const int own = MarkOfRoot(labels[root]); // Its own inverse.
-    if (own != label)
-    {
-      add();
-      label = own;
-      count = 0;
-    }
-    labels[v] = own;
-    ++count;
-  }
-  add();
 }
 
 /** Where a neighbour is, seen from a vertex of a span. */
@@ -98,25 +63,21 @@ void ConnectedVertices::Label(
         }
       }
     });
-  this->CountAndLabel(mesh, labels, executor);
-}
-
-void ConnectedVertices::CountAndLabel(
-  const SurfaceMesh& mesh, LargeVector<int>& labels, Executor& executor)
-{
-  std::vector<std::atomic<int>> sizes(this->SmallestOnes.size());
-  for (std::atomic<int>& size : sizes)
-  {
-    size.store(1, std::memory_order_relaxed); // The root.
-  }
-  ForSpans(executor, mesh.Rings.size(), JoinedSpan,
+  ForSpans(executor, n, JoinedSpan,
     [&](std::size_t, std::size_t begin, std::size_t end)
-    { LabelOthers(mesh, labels, static_cast<int>(begin), static_cast<int>(end), sizes); });
+    {
+      for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
+      {
+        if (labels[v] >= 0 && mesh.IsAlive(v))
+        {
+          labels[v] = MarkOfRoot(labels[labels[v]]); // Its own inverse.
+        }
+      }
+    });
   for (std::size_t label = 0; label < this->SmallestOnes.size(); ++label)
   {
     labels[this->SmallestOnes[label]] = static_cast<int>(label);
   }
-  this->Numbers.assign(sizes.begin(), sizes.end());
 }
 
 void ConnectedVertices::JoinVertices(

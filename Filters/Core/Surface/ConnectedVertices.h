@@ -25,17 +25,13 @@ public:
 
   /** By label: its smallest vertex. */
   const std::vector<int>& Roots() const { return this->SmallestOnes; }
-  /** By label: how many vertices it has. */
-  const std::vector<int>& Sizes() const { return this->Numbers; }
 
 private:
   void JoinVertices(const SurfaceMesh& mesh, Executor& executor);
-  void CountAndLabel(const SurfaceMesh& mesh, LargeVector<int>& labels, Executor& executor);
 
   DisjointSets Joined;
   std::vector<std::vector<std::pair<int, int>>> Borders; ///< Edges from each span to those before.
   std::vector<int> SmallestOnes;
-  std::vector<int> Numbers;
 };
 }
 

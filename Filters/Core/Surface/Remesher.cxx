@@ -61,8 +61,7 @@ bool Remesher::SplitEdge(int u, int v, std::vector<int>& added, int depth)
     // of the ends is split, that one's middle is what lies opposite.
     for (int full : { across.A, across.B })
     {
-      if (s.Mesh.Rings[full].Count == Ring::Capacity &&
-        !this->SplitEdge(full, u, added, depth - 1))
+      if (s.Mesh.Rings[full].Count == Ring::Capacity && !this->SplitEdge(full, u, added, depth - 1))
       {
         this->SplitEdge(full, v, added, depth - 1);
       }
@@ -113,9 +112,8 @@ void Remesher::Split(std::vector<int>& vertices)
   {
     this->SplitAt(this->Items[i], this->Items);
   }
-  this->Editor.EndPass();
-  vertices.insert(vertices.end(),
-    this->Items.begin() + static_cast<std::ptrdiff_t>(given), this->Items.end());
+  vertices.insert(
+    vertices.end(), this->Items.begin() + static_cast<std::ptrdiff_t>(given), this->Items.end());
 }
 
 void Remesher::CollapseAt(int v)
@@ -166,7 +164,6 @@ void Remesher::Collapse(const std::vector<int>& vertices)
       this->CollapseAt(v);
     }
   }
-  this->Editor.EndPass();
 }
 
 void Remesher::FlipAt(int v)
@@ -182,8 +179,7 @@ void Remesher::FlipAt(int v)
     const Vector& b = s.Mesh.Position[ring.Previous(i)];
     const float sineA = Length(Cross(p - a, q - a));
     const float sineB = Length(Cross(p - b, q - b));
-    if (Dot(p - a, q - a) * sineB + Dot(p - b, q - b) * sineA <
-        LeastCotangentSum * sineA * sineB &&
+    if (Dot(p - a, q - a) * sineB + Dot(p - b, q - b) * sineA < LeastCotangentSum * sineA * sineB &&
       ring.Count > 3 && this->Editor.Flip(v, w, EditTolerance::Smooth))
     {
       --i;
@@ -201,7 +197,6 @@ void Remesher::Flip(const std::vector<int>& vertices)
       this->FlipAt(v);
     }
   }
-  this->Editor.EndPass();
 }
 
 void Remesher::UnstickAt(int v)
@@ -253,6 +248,5 @@ void Remesher::Unstick(const std::vector<int>& vertices)
       this->UnstickAt(v);
     }
   }
-  this->Editor.EndPass();
 }
 }

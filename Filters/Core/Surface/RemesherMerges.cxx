@@ -27,14 +27,10 @@ struct NearPair
 
   bool operator<(const NearPair& other) const
   {
-    return this->Squared != other.Squared
-      ? this->Squared < other.Squared
-      : std::tie(this->V, this->W) < std::tie(other.V, other.W);
+    return this->Squared != other.Squared ? this->Squared < other.Squared
+                                          : std::tie(this->V, this->W) < std::tie(other.V, other.W);
   }
-  bool operator==(const NearPair& other) const
-  {
-    return this->V == other.V && this->W == other.W;
-  }
+  bool operator==(const NearPair& other) const { return this->V == other.V && this->W == other.W; }
 };
 }
 
@@ -63,11 +59,11 @@ bool Remesher::IsMergeWanted(int u, int v) const
     return Dot(s.Velocity[v] - s.Velocity[u], across) < 0;
   }
   const float sign = front ? 1.f : -1.f;
-  const float middle =
-    this->TheField->ValueAt((s.Mesh.Position[u] + s.Mesh.Position[v]) * 0.5f);
+  const float middle = this->TheField->ValueAt((s.Mesh.Position[u] + s.Mesh.Position[v]) * 0.5f);
   return sign * middle > 0 &&
-    sign * (this->TheField->ValueAt(s.Mesh.Position[u]) +
-             this->TheField->ValueAt(s.Mesh.Position[v])) > 0;
+    sign *
+      (this->TheField->ValueAt(s.Mesh.Position[u]) + this->TheField->ValueAt(s.Mesh.Position[v])) >
+    0;
 }
 
 bool Remesher::FlipBetween(int u, int v)
@@ -149,7 +145,6 @@ void Remesher::Merge(const std::vector<Proximity::ClosePair>& pairs)
   {
     this->MergeOrFlip(pair.V, pair.W, strips);
   }
-  this->Editor.EndPass();
   this->Split(strips); // What could not be split at once.
 }
 }

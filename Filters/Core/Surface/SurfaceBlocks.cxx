@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <numeric>
 #include <utility>
 
 namespace volumic
@@ -17,12 +16,20 @@ namespace
 /** Vertices that one thread looks at at a time. */
 constexpr std::size_t VertexSpan = 8192;
 /**
- * Places for new vertices that a block gets at least, for how many of its own one more, and how many
- * for each that its last visit took: a surface that grows takes more each time.
+ * Places for new vertices that a block gets at least, and those that all blocks with vertices
+ * share, as a small surface grows fast; for how many of its own a block gets one more, and how many
+ * for each that its last visit took: a surface that grows takes more each time. Where there was
+ * none yet it is guessed for how many vertices one was taken. And how many for each vertex with an
+ * edge that is too long: where only some of them are split needles come of what is left.
  */
-constexpr int FewPlaces = 128;
-constexpr int VerticesPerPlace = 4;
-constexpr int PlacesPerTaken = 4;
+constexpr int FewPlaces = 24;
+constexpr int SharedPlaces = 12288;
+constexpr int VerticesPerPlace = 8;
+constexpr int PlacesPerTaken = 2;
+constexpr int VerticesPerTaken = 12;
+constexpr int PlacesPerLong = 16;
+/** How far out of its block a vertex may be before it must be another block's; in delta. */
+constexpr float Astray = SurfaceBlocks::MovingInDelta - 0.5f;
 
 // See SurfaceBlocks; in delta. An edge, of which both ends may move by half a delta at once:
 constexpr float LongestEdge = HugeEdge * SizingField::LongestEdgeInDelta + 1.f;
@@ -37,10 +44,20 @@ static_assert(SurfaceBlocks::MovingInDelta + 0.5f <= SurfaceBlocks::EditedInDelt
   "what has moved is written no further than what is edited");
 static_assert(SurfaceBlocks::WrittenInDelta + Reach + LongestEdge <= SurfaceBlocks::HaloInDelta,
   "what is examined is written, and stars within its reach are read");
-static_assert(SurfaceBlocks::WrittenInDelta + SurfaceBlocks::HaloInDelta +
-      SizingField::ReachInDelta <=
+static_assert(
+  SurfaceBlocks::WrittenInDelta + SurfaceBlocks::HaloInDelta + SizingField::ReachInDelta <=
     SurfaceBlocks::SideInDelta,
   "what visits of one colour write and read has no cell of the grid in common");
+
+constexpr int NoBlock = -1;
+
+/** How many more vertices a block may get that has so many, of which some have long edges. */
+int RoomFor(int vertices, int taken, int withLongEdge)
+{
+  const int more =
+    std::max({ vertices / VerticesPerPlace, PlacesPerTaken * taken, PlacesPerLong * withLongEdge });
+  return vertices > 0 ? FewPlaces + more : 0;
+}
 
 /** 0, 2, 1, 4, 3, ...: those of even place before their neighbours of odd place. */
 std::vector<int> EvenFirst(int count)
@@ -77,11 +94,11 @@ SurfaceBlocks::Frame SurfaceBlocks::FrameOf(const std::array<double, 3>& extent,
 }
 
 SurfaceBlocks::SurfaceBlocks(SurfaceState& state, const Frame& frame, Executor& executor)
-  : State(state)
-  , TheFrame(frame)
+  : State(state), TheFrame(frame)
 {
-  state.Mesh.PutAside(this->Others); // What is free is for nobody.
-  this->Collect(executor);
+  const std::array<int, 3>& size = frame.Size;
+  this->All.resize(static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) * size[2]);
+  this->Reorder(executor, true);
   this->FindOrder();
 }
 
@@ -158,31 +175,68 @@ std::vector<int> SurfaceBlocks::NeighboursOf(int block) const
   return neighbours;
 }
 
-void SurfaceBlocks::Collect(Executor& executor)
+void SurfaceBlocks::Reorder(Executor& executor, bool isNew)
 {
   const SurfaceMesh& mesh = this->State.Mesh;
   const std::size_t n = mesh.Rings.size();
+  LargeVector<int> blocks;
+  MakeZeroed(blocks, n);
   ForSpans(executor, n, VertexSpan,
     [&](std::size_t, std::size_t begin, std::size_t end)
     {
       for (std::size_t v = begin; v < end; ++v)
       {
-        if (mesh.IsAlive(static_cast<int>(v)))
-        {
-          this->State.Block[v] = this->BlockAt(mesh.Position[v]);
-        }
+        blocks[v] = mesh.IsAlive(static_cast<int>(v)) ? this->BlockAt(mesh.Position[v]) : NoBlock;
       }
     });
-  const std::array<int, 3>& size = this->TheFrame.Size;
-  const std::size_t count =
-    static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) * size[2];
-  this->All.resize(count);
+  std::vector<int> counts(this->All.size(), 0);
+  std::vector<int> withLongEdge(this->All.size(), 0);
   for (std::size_t v = 0; v < n; ++v)
   {
-    if (mesh.IsAlive(static_cast<int>(v)))
+    if (blocks[v] != NoBlock)
     {
-      this->All[this->State.Block[v]].Vertices.push_back(static_cast<int>(v));
+      ++counts[blocks[v]];
+      withLongEdge[blocks[v]] += (this->State.RemeshFlags[v] & HasLongEdge) != 0;
     }
+  }
+  const auto withVertices =
+    std::count_if(counts.begin(), counts.end(), [](int count) { return count > 0; });
+  const int share = SharedPlaces / std::max(static_cast<int>(withVertices), 1);
+  int first = 0;
+  for (std::size_t block = 0; block < counts.size(); ++block)
+  {
+    OfBlock& own = this->All[block];
+    own.Taken = isNew ? counts[block] / VerticesPerTaken : own.Taken;
+    own.First = own.Next = first;
+    const int room = RoomFor(counts[block], own.Taken, withLongEdge[block]);
+    own.End = first += counts[block] + room + (room > 0 ? share : 0);
+    own.IsAstray = false;
+  }
+  std::vector<int> order(static_cast<std::size_t>(first), NoVertex);
+  for (std::size_t v = 0; v < n; ++v)
+  {
+    if (blocks[v] != NoBlock)
+    {
+      order[this->All[blocks[v]].Next++] = static_cast<int>(v);
+    }
+  }
+  this->State.Reorder(order, this->Spare, executor);
+}
+
+void SurfaceBlocks::Prepare(Executor& executor)
+{
+  const std::uint8_t* flags = this->State.RemeshFlags.AsVector().data();
+  const auto isUnfit = [flags](const OfBlock& own)
+  {
+    const auto withLongEdge = std::count_if(flags + own.First, flags + own.Next,
+      [](std::uint8_t ofVertex) { return (ofVertex & HasLongEdge) != 0; });
+    return own.IsAstray ||
+      own.End - own.Next <
+      RoomFor(own.Next - own.First, own.Taken, static_cast<int>(withLongEdge)) / 2;
+  };
+  if (std::any_of(this->All.begin(), this->All.end(), isUnfit))
+  {
+    this->Reorder(executor, false);
   }
 }
 
@@ -204,97 +258,20 @@ void SurfaceBlocks::FindOrder()
     std::move(order), [this](int block) { return this->NeighboursOf(block); });
 }
 
-int SurfaceBlocks::MissingPlacesOf(int block) const
+void SurfaceBlocks::Append(IndexedSurface&& surface, Executor& executor)
 {
-  const OfBlock& own = this->All[block];
-  const int has = own.Unused.Count() + static_cast<int>(own.Places.Free.size());
-  const auto wantedFor = [&own](const std::vector<int>& vertices)
-  {
-    return vertices.empty() ? 0
-                            : FewPlaces + static_cast<int>(vertices.size()) / VerticesPerPlace +
-        PlacesPerTaken * own.Taken;
-  };
-  if (has >= wantedFor(own.Vertices) / 2)
-  {
-    return 0; // Also for those of the list that it really has.
-  }
-  const int wanted = wantedFor(this->VerticesOf(block));
-  return has < wanted / 2 ? wanted : 0;
-}
-
-std::vector<int> SurfaceBlocks::MissingPlaces(Executor& executor) const
-{
-  std::vector<int> counts(this->All.size());
-  ForSpans(executor, counts.size(), 1,
-    [&](std::size_t b, std::size_t, std::size_t)
-    { counts[b] = this->MissingPlacesOf(static_cast<int>(b)); });
-  return counts;
-}
-
-void SurfaceBlocks::AddPlaces(const std::vector<int>& counts, Executor& executor)
-{
-  const int total = std::accumulate(counts.begin(), counts.end(), 0);
-  if (total == 0)
-  {
-    return;
-  }
-  int next = this->State.AddUnusedPlaces(total, executor).Next;
-  for (std::size_t block = 0; block < counts.size(); ++block)
-  {
-    if (counts[block] > 0)
-    {
-      OfBlock& own = this->All[block];
-      for (int v = own.Unused.End; v > own.Unused.Next; --v)
-      {
-        own.Places.Free.push_back(v - 1); // Few are left; they stay aside.
-      }
-      own.Unused = { next, next + counts[block] };
-      next += counts[block];
-    }
-  }
-}
-
-void SurfaceBlocks::Append(const IndexedSurface& surface, Executor& executor)
-{
-  for (const int v : this->State.Append(surface, executor))
-  {
-    this->State.Block[v] = this->BlockAt(this->State.Mesh.Position[v]);
-    this->All[this->State.Block[v]].Vertices.push_back(v);
-  }
-}
-
-void SurfaceBlocks::Clean(int block, std::vector<int>& vertices) const
-{
-  // Others' visits have removed some of them; places that are taken again belong to whom they say.
-  const auto isOther = [this, block](int v)
-  { return !this->State.Mesh.IsAlive(v) || this->State.Block[v] != block; };
-  vertices.erase(std::remove_if(vertices.begin(), vertices.end(), isOther), vertices.end());
-  const auto isInOrder = [&vertices]
-  {
-    return std::adjacent_find(vertices.begin(), vertices.end(), std::greater_equal<int>()) ==
-      vertices.end();
-  };
-  if (!isInOrder()) // As they are where none has come from elsewhere.
-  {
-    std::sort(vertices.begin(), vertices.end());
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-  }
+  this->State.Append(surface, executor);
+  surface = IndexedSurface(); // What comes takes the most memory that a level takes.
+  this->Reorder(executor, true);
 }
 
 BlockVisit SurfaceBlocks::Open(int block)
 {
-  OfBlock& own = this->All[block];
+  const OfBlock& own = this->All[block];
   BlockVisit visit;
   visit.Block = block;
-  visit.Vertices.swap(own.Vertices);
-  this->Clean(block, visit.Vertices);
-  visit.OldOnes = static_cast<std::ptrdiff_t>(visit.Vertices.size());
-  visit.Share.Block = block;
-  visit.Share.Places.Free.swap(own.Places.Free);
-  // Some have come back from visits of others: the smallest is taken first, whoever came when.
-  std::sort(visit.Share.Places.Free.begin(), visit.Share.Places.Free.end(), std::greater<int>());
-  visit.Share.Unused = own.Unused;
-  visit.PlacesBefore = visit.Share.NumberOfPlaces();
+  visit.First = own.First;
+  visit.Share.Room = { own.Next, own.End };
   const Box box = this->BoxOf(block);
   const float delta = this->State.Sizing.Smallest();
   visit.Moving = box.Grown(MovingInDelta * delta);
@@ -303,115 +280,49 @@ BlockVisit SurfaceBlocks::Open(int block)
   return visit;
 }
 
-double SurfaceBlocks::SumUp(
-  const std::function<double(int v)>& ofVertex, Executor& executor) const
+double SurfaceBlocks::SumUp(const std::function<double(int v)>& ofVertex, Executor& executor) const
 {
   return SumOfSpans(executor, this->All.size(), 1,
     [&](std::size_t block, std::size_t)
     {
       double sum = 0.;
-      for (const int v : this->VerticesOf(static_cast<int>(block)))
+      for (int v = this->All[block].First; v < this->All[block].Next; ++v)
       {
-        sum += ofVertex(v);
+        sum += this->State.Mesh.IsAlive(v) ? ofVertex(v) : 0.;
       }
       return sum;
     });
 }
 
-void SurfaceBlocks::AddNew(BlockVisit& visit, const std::vector<int>& vertices) const
-{
-  std::vector<int>& all = visit.Vertices;
-  const auto oldOnes = visit.OldOnes;
-  const std::size_t before = all.size();
-  for (const int v : vertices)
-  {
-    if (this->State.Mesh.IsAlive(v) && this->State.Block[v] == NoBlock)
-    {
-      this->State.Block[v] = visit.Block;
-      if (!std::binary_search(all.begin(), all.begin() + oldOnes, v)) // Else in an old one's place.
-      {
-        all.push_back(v);
-      }
-    }
-  }
-  if (all.size() > before)
-  {
-    std::sort(all.begin() + oldOnes, all.end());
-    all.erase(std::unique(all.begin() + oldOnes, all.end()), all.end());
-  }
-}
-
 void SurfaceBlocks::Close(BlockVisit&& visit)
 {
   SurfaceState& s = this->State;
-  visit.Share.EndPass(s);
-  std::vector<int> stay;
-  std::vector<int> gone;
-  for (const int v : visit.Vertices)
-  {
-    if (s.Mesh.IsAlive(v) && s.Block[v] == visit.Block)
-    {
-      s.Block[v] = this->BlockAt(s.Mesh.Position[v]);
-      (s.Block[v] == visit.Block ? stay : gone).push_back(v);
-    }
-  }
-  std::sort(stay.begin(), stay.end());
   OfBlock& own = this->All[visit.Block];
-  own.Places.Free.swap(visit.Share.Places.Free);
-  own.Unused = visit.Share.Unused;
-  const int places = static_cast<int>(own.Places.Free.size()) + own.Unused.Count();
-  own.Taken = std::max(0, visit.PlacesBefore - places);
+  own.Taken = visit.End() - own.Next;
+  own.Next = visit.End();
+  const Box box = this->BoxOf(visit.Block).Grown(Astray * s.Sizing.Smallest());
+  for (int v = own.First; v < own.Next && !own.IsAstray; ++v)
+  {
+    own.IsAstray = s.Mesh.IsAlive(v) && !box.Contains(s.Mesh.Position[v]);
+  }
   const std::lock_guard<std::mutex> lock(this->Closing);
-  own.Vertices.insert(own.Vertices.end(), stay.begin(), stay.end());
-  for (const int v : gone)
-  {
-    this->All[s.Block[v]].Vertices.push_back(v);
-  }
-  for (const int v : visit.Share.Others)
-  {
-    this->All[s.Block[v]].Places.Free.push_back(v);
-  }
-  s.Mesh.CountOthers(
-    visit.PlacesBefore - places - static_cast<int>(visit.Share.Others.size()));
+  s.Mesh.Count(visit.Share.Room);
   s.EulerCharacteristic += visit.Share.EulerCharacteristic;
-}
-
-std::vector<int> SurfaceBlocks::VerticesOf(int block) const
-{
-  std::vector<int> vertices = this->All[block].Vertices;
-  this->Clean(block, vertices);
-  return vertices;
-}
-
-SurfaceBlocks::~SurfaceBlocks()
-{
-  for (OfBlock& block : this->All)
-  {
-    this->State.Mesh.FreeFromAside(block.Places, block.Unused);
-  }
-  this->State.Mesh.FreeFromAside(this->Others, UnusedPlaces());
 }
 
 void SurfaceBlocks::Prefetch(int block) const
 {
-  // They follow each other but for a few that came later, whose places are anywhere.
-  const std::vector<int>& vertices = this->All[block].Vertices;
-  const std::size_t few = vertices.size() / 32;
-  if (vertices.size() > 2 * few)
+  if (HasMemoryLimit())
   {
-    const int first = vertices[few];
-    const int last = vertices[vertices.size() - 1 - few];
-    if (first < last && last - first < 2 * static_cast<int>(vertices.size()))
-    {
-      this->State.Prefetch(first, last);
-    }
+    this->State.Prefetch(this->All[block].First, this->All[block].Next);
   }
 }
 
 bool SurfaceBlocks::HasActive(int block) const
 {
-  const std::vector<int>& vertices = this->All[block].Vertices;
-  return std::any_of(vertices.begin(), vertices.end(),
-    [&](int v) { return this->State.Block[v] == block && this->State.Active[v] != 0; });
+  const OfBlock& own = this->All[block];
+  const std::uint8_t* active = this->State.Active.AsVector().data();
+  return std::any_of(
+    active + own.First, active + own.Next, [](std::uint8_t isActive) { return isActive != 0; });
 }
 }

@@ -10,7 +10,6 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -24,22 +23,24 @@ namespace volumic
  */
 struct BlockVisit
 {
-  int Block = NoBlock;
-  std::vector<int> Vertices; ///< That lie in the block, by index; then those that the visit made.
-  Box Moving;                ///< Vertices that lie in it may move; EditShare::Region is for edits.
-  Box Written;               ///< Beyond it nothing is changed.
+  int Block = 0;
+  int First = 0; ///< Its vertices are those of [First, End()): the block's, then those it has made.
+  Box Moving;    ///< Vertices that lie in it may move; EditShare::Region is for edits.
+  Box Written;   ///< Beyond it nothing is changed.
   EditShare Share;
   /** Threads that may share in loops that write to their own vertex only, and read nothing such. */
   Executor* Idle = &OnThisThread();
-  std::ptrdiff_t OldOnes = 0; ///< So many of the vertices were there when the visit was opened.
-  int PlacesBefore = 0;       ///< The share had so many places then.
+
+  /** Some places of the range may be without a vertex. */
+  int End() const { return this->Share.Room.Next; }
 };
 
 /**
  * The vertices of a surface by cubes of space, the blocks, so that it can be worked on block by
- * block. The vertices of a block follow each other in memory (SurfaceMesh::Reorder along a curve
- * through the same cubes), and each block has places of its own for new ones: what is far away is
- * not touched, and may be out of memory (ScratchMemory).
+ * block. The vertices of a block are a range of indices, with some room at its end for new ones, so
+ * that a visit touches a range of each array, and the rest may be out of memory (ScratchMemory).
+ * Between sweeps, where one has left its block or there is little room, all are numbered anew; in
+ * between a vertex stays with its block wherever it goes.
  *
  * What a visit does depends on the vertices in the block and about it only, as they are then, and
  * not on what is done elsewhere meanwhile. So blocks that do not touch may be visited in any order,
@@ -82,7 +83,6 @@ public:
   static constexpr float SideInDelta = 24.f;
 
   SurfaceBlocks(SurfaceState& state, const Frame& frame, Executor& executor);
-  ~SurfaceBlocks();
   SurfaceBlocks(const SurfaceBlocks&) = delete;
   SurfaceBlocks& operator=(const SurfaceBlocks&) = delete;
 
@@ -101,28 +101,24 @@ public:
    * block's vertices, and what lies about them, are the visit's alone.
    */
   BlockVisit Open(int block);
-  /** Gives the open block those vertices of a list that are new. */
-  void AddNew(BlockVisit& visit, const std::vector<int>& vertices) const;
   /**
-   * Ends it, on the thread that made it: vertices that have left the block are others' from now on,
-   * and the state's number of vertices and chi are those after the visit.
+   * Ends it, on the thread that made it: the state's number of vertices and chi are those after the
+   * visit.
    */
   void Close(BlockVisit&& visit);
 
-  /** Before a visit: has the memory fetch most of what the block's vertices know. */
+  /** Before a visit: has the memory fetch what the block's vertices know. */
   void Prefetch(int block) const;
 
   /** Whether a vertex of the block may move. */
   bool HasActive(int block) const;
-  /** How many places each block would like to have for new vertices, beyond those that it has. */
-  std::vector<int> MissingPlaces(Executor& executor) const;
-  /** Gives each block so many more. Between sweeps, while no visit is open. */
-  void AddPlaces(const std::vector<int>& counts, Executor& executor);
+  /** Between sweeps, while no visit is open: numbers the vertices anew where that is needed. */
+  void Prepare(Executor& executor);
   /**
-   * Adds a closed surface, whose vertices follow all others, and gives them to their blocks. Between
-   * sweeps, while none is open.
+   * Adds a closed surface, and gives its vertices to their blocks. Between sweeps, while none is
+   * open.
    */
-  void Append(const IndexedSurface& surface, Executor& executor);
+  void Append(IndexedSurface&& surface, Executor& executor);
 
   int BlockAt(const Vector& position) const;
   /** The box that a block fills; at the border of the frame it goes on without end. */
@@ -131,33 +127,30 @@ public:
   std::array<int, 3> PlaceOf(int block) const;
   /** Those that touch it, in order of their number. */
   std::vector<int> NeighboursOf(int block) const;
-  /** The vertices that are the block's now, each once, in order. */
-  std::vector<int> VerticesOf(int block) const;
   const Frame& GetFrame() const { return this->TheFrame; }
 
-  /** The sum of ofVertex(v) over the vertices of a block, in order of index, then over the blocks. */
+  /** The sum of ofVertex(v) over the vertices of a block, in order of index, then over the blocks.
+   */
   double SumUp(const std::function<double(int v)>& ofVertex, Executor& executor) const;
 
 private:
   struct OfBlock
   {
-    std::vector<int> Vertices; ///< Some may be others' by now, or be removed.
-    VertexPlaces Places;       ///< For new vertices.
-    UnusedPlaces Unused;
-    int Taken = 0; ///< Its last visit has taken so many of the places.
+    int First = 0;         ///< Its vertices are those of [First, Next), and
+    int Next = 0;          ///< its room for new ones is the rest of
+    int End = 0;           ///< [First, End).
+    int Taken = 0;         ///< Its last visit has made so many.
+    bool IsAstray = false; ///< A vertex has left it.
   };
   std::array<int, 3> PlaceOf(const Vector& position) const;
   int BlockOf(const std::array<int, 3>& place) const;
-  /** Leaves of a list those that are the block's, each once, in order. */
-  void Clean(int block, std::vector<int>& vertices) const;
-  int MissingPlacesOf(int block) const;
-  void Collect(Executor& executor);
+  void Reorder(Executor& executor, bool isNew);
   void FindOrder();
 
   SurfaceState& State;
   Frame TheFrame;
   std::vector<OfBlock> All;
-  VertexPlaces Others; ///< Places that were free before there were blocks: no block takes them.
+  LargeVector<Ring> Spare; ///< See SurfaceMesh::Reorder.
   std::unique_ptr<VisitSchedule> Visits;
   mutable std::mutex Closing; ///< Held while a visit changes what all visits share.
 };

@@ -24,14 +24,14 @@ public:
    */
   void Label(SurfaceState& state, Executor& executor);
 
-  /** How many there were when they were last labelled, less those deleted since. */
+  /** How many there were when they were last labelled. */
   int NumberOfComponents() const { return this->Components; }
 
   /**
-   * Deletes the small components that must go: ComponentWatch::DeleteDegenerate. Other labels stay.
+   * Deletes the small components that must go: ComponentWatch::DeleteDegenerate. Labels are fresh then.
    * @return whether anything was deleted.
    */
-  bool DeleteDegenerate(SurfaceState& state);
+  bool DeleteDegenerate(SurfaceState& state, Executor& executor);
 
   /**
    * Labels, and deletes the components that are inside out: a cavity must lie inside the others, any
@@ -46,8 +46,6 @@ public:
   std::vector<int> FindInsideOut(const SurfaceState& state, Executor& executor) const;
 
 private:
-  void Remove(SurfaceState& state, const std::vector<int>& roots);
-
   ConnectedVertices Connected;
   int Components = 0;
 };

@@ -32,26 +32,6 @@ Vector FaceNormal(const SurfaceMesh& mesh, int a, int b, int c)
 }
 }
 
-void EditShare::EndPass(const SurfaceState& state)
-{
-  for (const int v : this->Places.Removed)
-  {
-    const int block = state.Block[v];
-    (block == this->Block || block == NoBlock ? this->Places.Free : this->Others).push_back(v);
-  }
-  this->Places.Removed.clear();
-}
-
-bool EditShare::HasPlaces(std::size_t n)
-{
-  std::vector<int>& free = this->Places.Free;
-  while (free.size() < n && this->Unused.Count() > 0)
-  {
-    free.push_back(this->Unused.Next++);
-  }
-  return free.size() >= n;
-}
-
 void SurfaceEditor::Touch(int v)
 {
   this->Log.push_back(v);
@@ -95,13 +75,12 @@ Edit SurfaceEditor::Split(int u, int v)
 {
   SurfaceState& s = this->State;
   const EdgeSplit split{ u, v };
-  if (!this->MayEdit({ u }) || !split.IsLegal(s.Mesh) || !this->HasPlaces(1))
+  if (!this->MayEdit({ u }) || !split.IsLegal(s.Mesh) || !this->HasRoom(1))
   {
     return {};
   }
   const std::size_t first = this->Log.size();
-  const int m =
-    split.Apply(s.Mesh, (s.Mesh.Position[u] + s.Mesh.Position[v]) * 0.5f, this->Places());
+  const int m = split.Apply(s.Mesh, (s.Mesh.Position[u] + s.Mesh.Position[v]) * 0.5f, this->Room());
   s.AddVertex(m, u);
   s.Velocity[m] = (s.Velocity[u] + s.Velocity[v]) * 0.5f;
   // What is not being moved has an old one.
@@ -165,7 +144,8 @@ Edit SurfaceEditor::CollapseInto(
   const std::size_t first = this->Log.size();
   if (s.Sizing.IsGraded())
   {
-    // As on the edge there; else sizes would be steeper than the gradation, about an end that moves.
+    // As on the edge there; else sizes would be steeper than the gradation, about an end that
+    // moves.
     const float toKept = Length(position - s.Mesh.Position[kept]);
     const float toRemoved = Length(position - s.Mesh.Position[removed]);
     const float length = toKept + toRemoved;
@@ -173,7 +153,7 @@ Edit SurfaceEditor::CollapseInto(
     s.Size[kept] = s.Sizing.At(kept) * share + s.Sizing.At(removed) * (1.f - share);
   }
   s.RemoveVertex(removed);
-  EdgeCollapse{ kept, removed }.Apply(s.Mesh, this->Places());
+  EdgeCollapse{ kept, removed }.Apply(s.Mesh, this->Room());
   s.Velocity[kept] = (s.Velocity[kept] + s.Velocity[removed]) * 0.5f;
   s.NearOthers[kept] |= s.NearOthers[removed];
   s.MoveTo(kept, position);
@@ -221,8 +201,7 @@ bool SurfaceEditor::StaysSmooth(
   const Vector mean = Normalized(oldA + oldB);
   constexpr float least = static_cast<float>(SmoothCosine);
   // Slivers have normals that say little; what counts is that the new pair is smooth.
-  return Dot(newA, newB) >= least && Dot(newA, mean) >= least &&
-    Dot(newB, mean) >= least;
+  return Dot(newA, newB) >= least && Dot(newA, mean) >= least && Dot(newB, mean) >= least;
 }
 
 Edit SurfaceEditor::Flip(int u, int v, EditTolerance tolerance)
@@ -278,14 +257,13 @@ Edit SurfaceEditor::Remove(int v)
   }
   const Ring ring = s.Mesh.Rings[v];
   this->Faces.assign({ TriangleOf(s.Mesh, ring.Item[0], ring.Item[1], ring.Item[2]) });
-  if (!IsWellShaped(this->Faces[0]) ||
-    NewFacesIntersect(s, this->Faces, { { v }, 1, false }))
+  if (!IsWellShaped(this->Faces[0]) || NewFacesIntersect(s, this->Faces, { { v }, 1, false }))
   {
     return {};
   }
   const std::size_t first = this->Log.size();
   s.RemoveVertex(v);
-  removal.Apply(s.Mesh, this->Places());
+  removal.Apply(s.Mesh, this->Room());
   ++this->Counts().Collapses;
   for (int i = 0; i < 3; ++i)
   {

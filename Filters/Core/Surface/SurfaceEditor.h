@@ -39,26 +39,10 @@ struct Edit
 /** What an editor has to itself where others are at work elsewhere: see SurfaceBlocks. */
 struct EditShare
 {
-  int Block = NoBlock; ///< The block that is visited.
-  Box Region;          ///< The vertices whose stars are edited lie in it; others are refused.
-  VertexPlaces Places; ///< For new vertices; edits that find too few are refused.
-  UnusedPlaces Unused; ///< More of them.
-  /** Places of removed vertices of other blocks. These get them back: edits take none of them. */
-  std::vector<int> Others;
+  Box Region;        ///< The vertices whose stars are edited lie in it; others are refused.
+  VertexRoom Room;   ///< For new vertices; edits that find too little of it are refused.
   EditCounts Counts; ///< Of the edits of the visit.
   int EulerCharacteristic = 0; ///< What its edits have added to that of the surface.
-
-  /** How many places no vertex has: one less is a vertex more. */
-  int NumberOfPlaces() const
-  {
-    return static_cast<int>(
-             this->Places.Free.size() + this->Places.Removed.size() + this->Others.size()) +
-      this->Unused.Count();
-  }
-  /** Whether there are n in Places, where they come from Unused as long as there are any. */
-  bool HasPlaces(std::size_t n);
-  /** The places of vertices of its block that have been removed may be taken from now on. */
-  void EndPass(const SurfaceState& state);
 };
 
 /**
@@ -71,20 +55,11 @@ struct EditShare
 class SurfaceEditor
 {
 public:
-  /** @param share null: nobody else edits; counts go to the state, places come from the mesh. */
+  /** @param share null: nobody else edits; counts go to the state, new vertices follow the last
+   * one. */
   explicit SurfaceEditor(SurfaceState& state, EditShare* share = nullptr)
-    : State(state)
-    , Share(share)
+    : State(state), Share(share)
   {
-  }
-
-  /** The places of vertices removed so far may be taken by new ones from now on. */
-  void EndPass()
-  {
-    if (this->Share)
-    {
-      this->Share->EndPass(this->State);
-    }
   }
 
   /** Splits an edge at its midpoint; always possible unless a valence is at its limit. */
@@ -129,8 +104,8 @@ private:
   Edit Done(std::size_t firstChange, int vertex = -1) const;
   /** Whether the stars of these vertices may be edited. */
   bool MayEdit(std::initializer_list<int> vertices) const;
-  bool HasPlaces(std::size_t n) { return !this->Share || this->Share->HasPlaces(n); }
-  VertexPlaces* Places() { return this->Share ? &this->Share->Places : nullptr; }
+  bool HasRoom(int n) const { return !this->Share || this->Share->Room.Has(n); }
+  VertexRoom* Room() { return this->Share ? &this->Share->Room : nullptr; }
   EditCounts& Counts() { return this->Share ? this->Share->Counts : this->State.Counts; }
   void AddToEulerCharacteristic(int change);
 

@@ -18,16 +18,24 @@ constexpr int Rounds = 8;
 constexpr int SeparatingRounds = 4;
 }
 
+int SurfacePolish::EndOfNew() const
+{
+  return this->Share ? this->Share->Room.Next : this->State.Mesh.Size();
+}
+
 std::vector<int> SurfacePolish::AliveOnes() const
 {
   const SurfaceState& s = this->State;
   std::vector<int> alive;
   std::copy_if(this->Within->begin(), this->Within->end(), std::back_inserter(alive),
     [&s](int v) { return s.Mesh.IsAlive(v); });
-  // And what cuts have made.
-  std::copy_if(this->Editor.Changed().begin(), this->Editor.Changed().end(),
-    std::back_inserter(alive), [&s](int v) { return s.Mesh.IsAlive(v) && s.Block[v] == NoBlock; });
-  SortUnique(alive);
+  for (int v = this->FirstNew; v < this->EndOfNew(); ++v)
+  {
+    if (s.Mesh.IsAlive(v))
+    {
+      alive.push_back(v);
+    }
+  }
   return alive;
 }
 
@@ -35,8 +43,8 @@ void SurfacePolish::SeparateAll()
 {
   SurfaceState& s = this->State;
   std::vector<int> crowded = this->AliveOnes();
-  crowded.erase(std::remove_if(crowded.begin(), crowded.end(),
-                  [&s](int v) { return s.NearOthers[v] == 0; }),
+  crowded.erase(
+    std::remove_if(crowded.begin(), crowded.end(), [&s](int v) { return s.NearOthers[v] == 0; }),
     crowded.end());
   bool isDone = crowded.empty();
   for (int round = 0; round < SeparatingRounds && !isDone; ++round)
@@ -49,7 +57,6 @@ void SurfacePolish::SeparateAll()
         isDone = !StarImprovement(s, this->Editor, this->SnapTo, false).Separate(v) && isDone;
       }
     }
-    this->Editor.EndPass();
   }
 }
 
@@ -73,7 +80,6 @@ int SurfacePolish::ImproveAll(float good, bool mayCut)
         again.push_back(v); // What is edited next to it may help.
       }
     }
-    this->Editor.EndPass();
     const std::vector<int>& changed = this->Editor.Changed();
     again.insert(again.end(), changed.begin() + edited, changed.end());
     SortUnique(again);
@@ -85,6 +91,7 @@ int SurfacePolish::ImproveAll(float good, bool mayCut)
 void SurfacePolish::Run(const std::vector<int>& vertices)
 {
   this->Within = &vertices;
+  this->FirstNew = this->EndOfNew();
   // A collapse may bring together what is far apart on the surface, and what is pushed apart may
   // get ill-shaped faces.
   this->SeparateAll();

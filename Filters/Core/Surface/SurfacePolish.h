@@ -31,10 +31,8 @@ public:
    */
   SurfacePolish(
     SurfaceState& state, const Field* snapTo, bool topologyChanges, EditShare* share = nullptr)
-    : State(state)
-    , Editor(state, share)
-    , SnapTo(snapTo)
-    , TopologyChanges(topologyChanges)
+    : State(state), Share(share), Editor(state, share), SnapTo(snapTo),
+      TopologyChanges(topologyChanges)
   {
   }
 
@@ -45,13 +43,16 @@ public:
   std::vector<int> TakeChanged() { return this->Editor.TakeChanged(); }
 
 private:
-  std::vector<int> AliveOnes() const; ///< Of the list and what is new.
+  int EndOfNew() const;               ///< What is made next gets this index.
+  std::vector<int> AliveOnes() const; ///< Of the list, and what cuts have made.
   void SeparateAll();
   /** Those of the stars whose worst scores less than `good`. @return the cuts made */
   int ImproveAll(float good, bool mayCut);
 
   SurfaceState& State;
+  const EditShare* Share;
   SurfaceEditor Editor;
+  int FirstNew = 0;                         ///< What is made after Run() has begun follows it.
   const std::vector<int>* Within = nullptr; ///< Whose stars are looked at.
   const Field* SnapTo;
   bool TopologyChanges;

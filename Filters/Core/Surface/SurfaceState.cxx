@@ -7,6 +7,7 @@
 #include "Core/Surface/StarShape.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace volumic
 {
@@ -44,21 +45,21 @@ void SurfaceState::Reset(const Vector& low, const Vector& high, Executor& execut
 
 void SurfaceState::ForgetMotion()
 {
-  for (VertexProperty<Vector>* property : { &this->Velocity, &this->PreviousPosition,
-         &this->Anchor, &this->Laplacian, &this->SpringPull })
+  for (VertexProperty<Vector>* property : { &this->Velocity, &this->PreviousPosition, &this->Anchor,
+         &this->Laplacian, &this->SpringPull })
   {
-    property->Remake(0);
+    property->Forget();
   }
   for (VertexProperty<float>* property :
     { &this->FieldValue, &this->Displacement, &this->Drift, &this->Slack })
   {
-    property->Remake(0);
+    property->Forget();
   }
 }
 
 void SurfaceState::ForgetAllButMesh()
 {
-  this->Properties.Remake(0);
+  this->Properties.Forget();
   this->Grid.Reset(Vector(), Vector(), 1.f);
 }
 
@@ -70,44 +71,31 @@ void SurfaceState::Prefetch(int first, int last) const
   this->Properties.Prefetch(static_cast<std::size_t>(first), static_cast<std::size_t>(last));
 }
 
-UnusedPlaces SurfaceState::AddUnusedPlaces(int n, Executor& executor)
+void SurfaceState::Reorder(
+  const std::vector<int>& order, LargeVector<Ring>& spare, Executor& executor)
 {
-  const UnusedPlaces places = this->Mesh.AddUnusedPlaces(n);
-  this->Properties.Lengthen(static_cast<std::size_t>(places.End), executor);
-  this->Grid.Lengthen(static_cast<std::size_t>(places.End));
-  return places;
+  this->Mesh.Reorder(order, spare, executor);
+  this->Properties.Reorder(order, spare, executor);
+  this->Grid.Clear();
+  this->Grid.InsertAll(
+    this->Mesh.Position, 0, [&order](int v) { return order[v] != NoVertex; }, executor);
 }
 
-std::vector<int> SurfaceState::Append(const IndexedSurface& surface, Executor& executor)
+void SurfaceState::Append(const IndexedSurface& surface, Executor& executor)
 {
-  SurfaceMesh added;
-  added.Append(surface, executor);
-  const int first = this->AddUnusedPlaces(added.Size(), executor).Next;
-  std::vector<int> vertices(added.Rings.size());
-  ForSpans(executor, vertices.size(), AliveGrain,
-    [&](std::size_t, std::size_t begin, std::size_t end)
-    {
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        const int v = vertices[i] = first + static_cast<int>(i);
-        Ring& ring = this->Mesh.Rings[v];
-        ring = added.Rings[i];
-        std::for_each(ring.Item, ring.Item + ring.Count, [first](int& w) { w += first; });
-        this->Mesh.Position[v] = added.Position[i];
-      }
-    });
+  this->EulerCharacteristic +=
+    static_cast<int>(surface.Points.size()) - static_cast<int>(surface.Triangles.size() / 2);
+  const int first = this->Mesh.Append(surface, executor);
+  this->Properties.Resize(this->Mesh.Rings.size());
   this->Grid.InsertAll(
-    this->Mesh.Position, static_cast<std::size_t>(first),
-    [this](int v) { return this->Mesh.IsAlive(v); }, executor);
-  this->Properties.Initialise(vertices, executor);
+    this->Mesh.Position, static_cast<std::size_t>(first), [](int) { return true; }, executor);
+  std::vector<int> vertices(surface.Points.size());
+  std::iota(vertices.begin(), vertices.end(), first);
   for (const int v : vertices)
   {
     this->PreviousPosition[v] = this->Anchor[v] = this->Mesh.Position[v];
   }
   this->UpdateShape(vertices, executor);
-  this->Mesh.CountOthers(added.Size());
-  this->EulerCharacteristic += added.CountEulerCharacteristic(executor);
-  return vertices;
 }
 
 void SurfaceState::AddVertex(int v, int parent)
@@ -145,11 +133,9 @@ void SurfaceState::UpdateShape(int v)
     const Lanes length = star.Length.At(i);
     const Lanes rest = ofEdges([&](int w) { return this->Sizing.RestLength(v, w); });
     const Lanes longest = ofEdges([&](int w) { return this->Sizing.LongestEdge(v, w); });
-    const Lanes hugest =
-      ofEdges([&](int w) { return this->Sizing.LongestEdge(v, w, HugeEdge); });
+    const Lanes hugest = ofEdges([&](int w) { return this->Sizing.LongestEdge(v, w, HugeEdge); });
     const Lanes shortest = ofEdges([&](int w) { return this->Sizing.ShortestEdge(v, w); });
-    pull.Set(
-      i, star.Edge.At(i) * (Lanes(1.f) - rest / Maximum(length, Lanes(1e-6f) * rest)));
+    pull.Set(i, star.Edge.At(i) * (Lanes(1.f) - rest / Maximum(length, Lanes(1e-6f) * rest)));
     tooLong |= LessBits(longest, length) << i;
     huge |= LessBits(hugest, length) << i;
     tooShort |= LessBits(length, shortest) << i;
@@ -188,7 +174,7 @@ void SurfaceState::UpdateShape(const std::vector<int>& vertices, Executor& execu
     });
 }
 
-SurfaceState::RemovedComponent SurfaceState::TakeComponentAway(int v, VertexPlaces* places)
+SurfaceState::RemovedComponent SurfaceState::TakeComponentAway(int v, VertexRoom* room)
 {
   // The ring of a removed vertex is kept aside as it is emptied; -1 in Component marks visits.
   std::vector<int> stack(1, v);
@@ -211,7 +197,7 @@ SurfaceState::RemovedComponent SurfaceState::TakeComponentAway(int v, VertexPlac
   for (const int w : stack)
   {
     this->RemoveVertex(w);
-    this->Mesh.RemoveVertex(w, places);
+    this->Mesh.RemoveVertex(w, room);
   }
   // V - E + F with 2 E = 3 F, which is the sum of the valences.
   const int vertices = static_cast<int>(stack.size());

@@ -24,15 +24,15 @@ struct EditCounts
   int Splits = 0;
   int Collapses = 0;
   int Flips = 0;
-  int Removed = 0; ///< Components deleted.
+  int Removed = 0;      ///< Components deleted.
   int RemovedGenus = 0; ///< Sum of their genera.
 
   EditCounts operator-(const EditCounts& less) const
   {
     EditCounts counts = less;
-    for (int EditCounts::*count : { &EditCounts::Merges, &EditCounts::Cuts, &EditCounts::Splits,
-           &EditCounts::Collapses, &EditCounts::Flips, &EditCounts::Removed,
-           &EditCounts::RemovedGenus })
+    for (int EditCounts::*count :
+      { &EditCounts::Merges, &EditCounts::Cuts, &EditCounts::Splits, &EditCounts::Collapses,
+        &EditCounts::Flips, &EditCounts::Removed, &EditCounts::RemovedGenus })
     {
       counts.*count = this->*count - less.*count;
     }
@@ -71,24 +71,21 @@ constexpr float LongestBridgeEdge = 1.6f;
 /** What a vertex may need of the remesher. */
 enum RemeshFlag : std::uint8_t
 {
-  HasLongEdge = 1,      ///< An edge is longer than eq. (1) allows.
-  HasShortEdge = 2,     ///< An edge is shorter than eq. (1) allows.
-  IsNotDelaunay = 4,    ///< An edge is not locally Delaunay.
-  HasHugeEdge = 8       ///< An edge is longer than HugeEdge times the longest legal one.
+  HasLongEdge = 1,   ///< An edge is longer than eq. (1) allows.
+  HasShortEdge = 2,  ///< An edge is shorter than eq. (1) allows.
+  IsNotDelaunay = 4, ///< An edge is not locally Delaunay.
+  HasHugeEdge = 8    ///< An edge is longer than HugeEdge times the longest legal one.
 };
-
-/** Stands for the block of a vertex that is new and belongs to none yet. */
-constexpr int NoBlock = -1;
 
 /** What the steps of a visit note about a vertex for each other; no bit is set between visits. */
 enum VertexMark : std::uint8_t
 {
-  IsWorking = 1,  ///< SurfaceIteration: it may have moved, or a neighbour has.
-  IsListed = 2,   ///< Proximity: it is being examined.
-  HasMoved = 4,   ///< Dynamics: it has moved visibly.
-  IsMoving = 32,  ///< Dynamics: it is about to move.
-  IsSeen = 8,     ///< ComponentWatch: it has been looked at.
-  IsOfLarge = 16  ///< ComponentWatch: it was looked at, and its component is not small.
+  IsWorking = 1, ///< SurfaceIteration: it may have moved, or a neighbour has.
+  IsListed = 2,  ///< Proximity: it is being examined.
+  HasMoved = 4,  ///< Dynamics: it has moved visibly.
+  IsMoving = 32, ///< Dynamics: it is about to move.
+  IsSeen = 8,    ///< ComponentWatch: it has been looked at.
+  IsOfLarge = 16 ///< ComponentWatch: it was looked at, and its component is not small.
 };
 
 /**
@@ -104,7 +101,7 @@ public:
   SurfaceMesh Mesh;
   VertexGrid Grid;
   SizingField Sizing;
-  ImageMargin Margin; ///< Of the level: no vertex is moved further out.
+  ImageMargin Margin;          ///< Of the level: no vertex is moved further out.
   int EulerCharacteristic = 0; ///< Kept by the edits; tests hold it against a count.
   EditCounts Counts;           ///< Of edits that no visit (EditShare) keeps for itself.
 
@@ -119,7 +116,8 @@ public:
   // Rest: Dynamics, the roll back, and edits, by Activate().
   /** Forces act on it; 0: motionless. */
   VertexProperty<std::uint8_t> Active{ this->Properties, 1, 1 };
-  /** Active before the regularisation, or off the isopotential before a revision, or made by them. */
+  /** Active before the regularisation, or off the isopotential before a revision, or made by them.
+   */
   VertexProperty<std::uint8_t> WasActive{ this->Properties, 1, 1 };
   /** Iterations since it has moved visibly. */
   VertexProperty<std::uint8_t> RestCount{ this->Properties, 0, 0 };
@@ -152,8 +150,6 @@ public:
   VertexProperty<std::uint8_t> Marks{ this->Properties, 0, 0 }; ///< Bits of VertexMark.
 
   VertexProperty<int> Component{ this->Properties, 0 }; ///< Label: ComponentWatch.
-  /** The block that it belongs to: SurfaceBlocks. */
-  VertexProperty<int> Block{ this->Properties, NoBlock, NoBlock };
 
   static constexpr float NotExamined = 1e6f; ///< More than any slack.
 
@@ -167,13 +163,11 @@ public:
 
   /** What is known of the vertices of [first, last) will be read soon: see PrefetchLarge. */
   void Prefetch(int first, int last) const;
-  /** SurfaceMesh::AddUnusedPlaces, with room for what their vertices will know. */
-  UnusedPlaces AddUnusedPlaces(int n, Executor& executor);
-  /**
-   * Adds a closed surface in places that follow the last ones and are aside. Its vertices are as
-   * after Reset(), with their shapes. @return these, in order
+  /** SurfaceMesh::Reorder, with all that is known of the vertices. */
+  void Reorder(const std::vector<int>& order, LargeVector<Ring>& spare, Executor& executor);
+  /** Adds a closed surface. Its vertices follow the last ones, as after Reset(), with their shapes.
    */
-  std::vector<int> Append(const IndexedSurface& surface, Executor& executor);
+  void Append(const IndexedSurface& surface, Executor& executor);
 
   /** After v has been added to the mesh, next to, or as a copy of, its parent. */
   void AddVertex(int v, int parent);
@@ -204,10 +198,11 @@ public:
   };
   /**
    * Deletes the whole component of a vertex; the caller keeps the books.
-   * @param places where the indices go; null: to the mesh's own
+   * @param room of the visit; null: nothing else is at work
    */
-  RemovedComponent TakeComponentAway(int v, VertexPlaces* places);
-  /** The same where nothing else is at work: counts and chi are kept. @return the vertices removed. */
+  RemovedComponent TakeComponentAway(int v, VertexRoom* room);
+  /** The same where nothing else is at work: counts and chi are kept. @return the vertices removed.
+   */
   int RemoveComponent(int v);
 
   /**

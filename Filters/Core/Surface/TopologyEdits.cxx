@@ -24,10 +24,8 @@ constexpr float DrawnApart = 0.25f;
 class TriedCut
 {
 public:
-  TriedCut(SurfaceState& state, const CycleCut& cut, VertexPlaces* places)
-    : State(state)
-    , Places(places)
-    , Corner{ cut.A, cut.B, cut.C }
+  TriedCut(SurfaceState& state, const CycleCut& cut, VertexRoom* room)
+    : State(state), Room(room), Corner{ cut.A, cut.B, cut.C }
   {
     for (int k = 0; k < 3; ++k)
     {
@@ -39,7 +37,7 @@ public:
         this->Saved.emplace_back(ring.Item[i], state.Mesh.Rings[ring.Item[i]]);
       }
     }
-    const std::array<int, 3> copy = cut.Apply(state.Mesh, places);
+    const std::array<int, 3> copy = cut.Apply(state.Mesh, room);
     for (int k = 0; k < 3; ++k)
     {
       state.AddVertex(copy[k], this->Corner[k]);
@@ -105,7 +103,11 @@ public:
     for (int k = 3; k < 6; ++k)
     {
       this->State.RemoveVertex(this->All[k]);
-      mesh.RemoveVertex(this->All[k], this->Places);
+      mesh.RemoveVertex(this->All[k], this->Room);
+    }
+    if (this->Room)
+    {
+      this->Room->Next -= 3; // Tried often, it would take all of it.
     }
     for (const auto& entry : this->Saved)
     {
@@ -119,7 +121,7 @@ public:
 
 private:
   SurfaceState& State;
-  VertexPlaces* Places;
+  VertexRoom* Room;
   std::array<int, 3> Corner;
   Vector Place[3];
   std::array<int, 6> All;
@@ -134,7 +136,8 @@ Edit SurfaceEditor::Merge(int u, int v)
   merge.U = u;
   merge.V = v;
   const float longest = s.Sizing.LongestEdge(u, v, LongestBridgeEdge);
-  if (!this->MayEdit({ u, v }) || !merge.Plan(s.Mesh) || merge.SquaredLongestBridgeEdge() > longest * longest)
+  if (!this->MayEdit({ u, v }) || !merge.Plan(s.Mesh) ||
+    merge.SquaredLongestBridgeEdge() > longest * longest)
   {
     return {};
   }
@@ -154,7 +157,7 @@ Edit SurfaceEditor::Merge(int u, int v)
   const std::size_t first = this->Log.size();
   s.RemoveVertex(u);
   s.RemoveVertex(v);
-  merge.Apply(s.Mesh, this->Places());
+  merge.Apply(s.Mesh, this->Room());
   this->AddToEulerCharacteristic(-2);
   ++this->Counts().Merges;
   for (const auto& t : merge.Strip())
@@ -172,11 +175,11 @@ Edit SurfaceEditor::Cut(int u, int v, int w)
 {
   SurfaceState& s = this->State;
   const CycleCut cut{ u, v, w };
-  if (!this->MayEdit({ u, v, w }) || !cut.IsLegal(s.Mesh) || !this->HasPlaces(3))
+  if (!this->MayEdit({ u, v, w }) || !cut.IsLegal(s.Mesh) || !this->HasRoom(3))
   {
     return {};
   }
-  TriedCut tried(s, cut, this->Places());
+  TriedCut tried(s, cut, this->Room());
   tried.DrawApart();
   this->Faces.clear();
   tried.AddFaces(this->Faces);

@@ -6,6 +6,7 @@
 #include "Core/Common/Executor.h"
 #include "Core/Common/Grow.h"
 #include "Core/Common/ScratchMemory.h"
+#include "Core/Mesh/SurfaceMesh.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -23,12 +24,11 @@ public:
   virtual void Reset(std::size_t n) = 0;
   /** Has values for indices below n; those that are new have the initial one. */
   virtual void Resize(std::size_t n) = 0;
-  /** The same for places of vertices to come, without a value, which take no memory before. */
-  virtual void Lengthen(std::size_t n) = 0;
-  /** Forgets all values: n places without one. */
-  virtual void Remake(std::size_t n) = 0;
-  /** Some vertices have the initial value. */
-  virtual void Initialise(const std::vector<int>& vertices) = 0;
+  /** Forgets all values, and has none until it is reset. */
+  virtual void Forget() = 0;
+  /** See SurfaceMesh::Reorder; where there is no vertex the value is zero. */
+  virtual void Reorder(
+    const std::vector<int>& order, LargeVector<Ring>& spare, Executor& executor) = 0;
   /** A value for a new vertex, `v`, which comes of another one. */
   virtual void Add(std::size_t v, std::size_t parent) = 0;
   /** The values of [first, last), which there are, will be read soon: see PrefetchLarge. */
@@ -59,29 +59,19 @@ public:
       property->Resize(n);
     }
   }
-  void Lengthen(std::size_t n, Executor& executor)
-  {
-    // An array that is lengthened is there twice for a moment: a few at a time.
-    executor.For(this->All.size(), this->All.size() / 4,
-      [&](std::size_t begin, std::size_t end)
-      {
-        for (std::size_t i = begin; i < end; ++i)
-        {
-          this->All[i]->Lengthen(n);
-        }
-      });
-  }
-  void Remake(std::size_t n)
+  void Reorder(const std::vector<int>& order, LargeVector<Ring>& spare, Executor& executor)
   {
     for (VertexPropertyBase* property : this->All)
     {
-      property->Remake(n);
+      property->Reorder(order, spare, executor);
     }
   }
-  void Initialise(const std::vector<int>& vertices, Executor& executor)
+  void Forget()
   {
-    ForSpans(executor, this->All.size(), 1,
-      [&](std::size_t i, std::size_t, std::size_t) { this->All[i]->Initialise(vertices); });
+    for (VertexPropertyBase* property : this->All)
+    {
+      property->Forget();
+    }
   }
   void Prefetch(std::size_t first, std::size_t last) const
   {
@@ -109,17 +99,13 @@ class VertexProperty final : public VertexPropertyBase
 {
 public:
   /** New vertices inherit their parent's value. */
-  VertexProperty(VertexProperties& properties, T initial)
-    : Initial(initial)
-    , Inherits(true)
+  VertexProperty(VertexProperties& properties, T initial) : Initial(initial), Inherits(true)
   {
     properties.Register(*this);
   }
   /** New vertices have a value of their own. */
   VertexProperty(VertexProperties& properties, T initial, T ofNewVertices)
-    : Initial(initial)
-    , OfNewVertices(ofNewVertices)
-    , Inherits(false)
+    : Initial(initial), OfNewVertices(ofNewVertices), Inherits(false)
   {
     properties.Register(*this);
   }
@@ -131,23 +117,19 @@ public:
   std::size_t Size() const { return this->Values.size(); }
   void Fill(const T& value) { std::fill(this->Values.begin(), this->Values.end(), value); }
   void Assign(const LargeVector<T>& values) { this->Values = values; } ///< As many as there are.
-  LargeVector<T>& AsVector() { return this->Values; } ///< Not to be resized.
+  LargeVector<T>& AsVector() { return this->Values; }                  ///< Not to be resized.
   const LargeVector<T>& AsVector() const { return this->Values; }
 
   void Reset(std::size_t n) override
   {
-    MakeZeroed(this->Values, 0, RoomForMore(n));
+    MakeRoom(this->Values, n);
     this->Values.assign(n, this->Initial);
   }
   void Resize(std::size_t n) override { Grow(this->Values, n, this->Initial); }
-  void Lengthen(std::size_t n) override { LengthenZeroed(this->Values, n); }
-  void Remake(std::size_t n) override { MakeZeroed(this->Values, n); }
-  void Initialise(const std::vector<int>& vertices) override
+  void Forget() override { this->Values = {}; }
+  void Reorder(const std::vector<int>& order, LargeVector<Ring>& spare, Executor& executor) override
   {
-    for (const int v : vertices)
-    {
-      this->Values[v] = this->Initial;
-    }
+    volumic::Reorder(this->Values, order, spare, executor);
   }
   void Prefetch(std::size_t first, std::size_t last) const override
   {
