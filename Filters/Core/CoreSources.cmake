@@ -89,14 +89,11 @@ set(volumic_core_sources
   Evolution/Dynamics.cxx
   Evolution/EdgeLengthPlan.cxx
   Evolution/EdgesToKeep.cxx
-  Evolution/EvolutionCheckpoint.cxx
-  Evolution/EvolutionComponents.cxx
   Evolution/EvolutionDivision.cxx
   Evolution/EvolutionGrading.cxx
   Evolution/EvolutionHistory.cxx
   Evolution/EvolutionRun.cxx
   Evolution/EvolutionStart.cxx
-  Evolution/EvolutionVerification.cxx
   Evolution/EvolutionVisits.cxx
   Evolution/GivenSurface.cxx
   Evolution/GradedSizes.cxx
@@ -105,8 +102,10 @@ set(volumic_core_sources
   Evolution/LostParts.cxx
   Evolution/LostVoxels.cxx
   Evolution/SlabSearch.cxx
+  Evolution/SurfaceAtRest.cxx
   Evolution/SurfaceEvolution.cxx
   Evolution/SurfaceIteration.cxx
+  Evolution/SurfaceResult.cxx
   Evolution/VerticesOfSlabs.cxx)
 set(volumic_core_headers
   Common/Box.h
@@ -225,7 +224,8 @@ set(volumic_core_headers
   Evolution/Dynamics.h
   Evolution/EdgeLengthPlan.h
   Evolution/EdgesToKeep.h
-  Evolution/EvolutionImplementation.h
+  Evolution/Evolution.h
+  Evolution/EvolutionHistory.h
   Evolution/GradedSizes.h
   Evolution/InitialSurface.h
   Evolution/LostBoundary.h
@@ -233,10 +233,11 @@ set(volumic_core_headers
   Evolution/LostVoxels.h
   Evolution/RestCriterion.h
   Evolution/SlabSearch.h
-  Evolution/Stopwatch.h
+  Evolution/SurfaceAtRest.h
   Evolution/SurfaceEvolution.h
   Evolution/SurfaceIteration.h
   Evolution/SurfaceOptions.h
+  Evolution/SurfaceResult.h
   Evolution/VerticesOfSlabs.h
   Evolution/VoxelRuns.h)
 list(TRANSFORM volumic_core_sources PREPEND "${CMAKE_CURRENT_LIST_DIR}/")

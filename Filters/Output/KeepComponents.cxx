@@ -233,10 +233,10 @@ std::vector<int> OwnersOf(
   return owners;
 }
 
-ComponentChoice ChoiceOf(const SegmentationSettings& settings, const SegmentationRequest& request,
-  const Workspace& space, const std::array<int, 3>& size)
+ComponentChoice ChoiceOf(const SegmentationRequest& request, const Workspace& space,
+  const std::array<int, 3>& size)
 {
-  const SegmentationEnd& end = settings.End;
+  const SegmentationEnd& end = request.Settings.End;
   CheckEnumeration(
     "Keep Components", end.KeepComponents, KeepComponentsType::ComponentsNotAtSeeds);
   if (!(end.MinimumComponentVolume >= 0.0))
@@ -251,7 +251,7 @@ ComponentChoice ChoiceOf(const SegmentationSettings& settings, const Segmentatio
     choice.Places = PlacesOf(request.InitialSurface, request.AttractingPoints, space);
     for (const std::vector<Point>& more :
       { PositionsOf(end.SeedPositions, "Seed Positions", space, size),
-        PositionsOf(settings.AttractingPositions, "Attracting Positions", space, size) })
+        PositionsOf(request.Settings.AttractingPositions, "Attracting Positions", space, size) })
     {
       choice.Places.insert(choice.Places.end(), more.begin(), more.end());
     }

@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* Prefix = "volumic-";
 /** Begins each state; to be changed with the format, or with the bits of what a run makes of it. */
-constexpr const char* Format = "Volumic checkpoint 5";
+constexpr const char* Format = "Volumic checkpoint 6";
 
 std::string StateIn(const fs::path& folder)
 {
@@ -81,12 +81,7 @@ void WriteDescription(CheckedWriter& file, const SurfaceDescription& about)
   file.Put(about.Iterations);
   file.Put(about.TotalIterations);
   file.PutText(about.StopReason);
-  file.Put(about.LostParts);
-  file.Put(about.RecoveredParts);
-  file.Put(about.MissingParts);
-  file.Put(about.MissingBoundary);
-  file.Put(about.LostCavities);
-  file.Put(about.RecoveredCavities);
+  file.Put(about.Lost);
 }
 
 SurfaceDescription ReadDescription(CheckedReader& file)
@@ -97,12 +92,7 @@ SurfaceDescription ReadDescription(CheckedReader& file)
   about.Iterations = file.Get<int>();
   about.TotalIterations = file.Get<int>();
   about.StopReason = file.GetText();
-  about.LostParts = file.Get<int>();
-  about.RecoveredParts = file.Get<int>();
-  about.MissingParts = file.Get<int>();
-  about.MissingBoundary = file.Get<double>();
-  about.LostCavities = file.Get<int>();
-  about.RecoveredCavities = file.Get<int>();
+  about.Lost = file.Get<LostParts>();
   return about;
 }
 
@@ -264,7 +254,7 @@ void SegmentationCheckpoint::CheckOthers() const
 }
 
 std::optional<SegmentationCheckpoint::Place> SegmentationCheckpoint::Load(
-  SegmentationResults& results, SurfaceEvolution& evolution)
+  SegmentationResults& results, SurfaceAtRest& rest)
 {
   if (!HasState(this->Folder))
   {
@@ -282,7 +272,7 @@ std::optional<SegmentationCheckpoint::Place> SegmentationCheckpoint::Load(
     const StateHead head = ReadHead(file);
     std::vector<int> levels;
     file.GetList(levels);
-    evolution.Load(file);
+    rest.Load(file);
     for (const int level : levels)
     {
       ReadLevel(LevelFileIn(this->Folder, level), results, level);
@@ -313,7 +303,7 @@ bool SegmentationCheckpoint::TakeFolder()
 }
 
 std::string SegmentationCheckpoint::Save(
-  const SegmentationResults& results, const SurfaceEvolution& evolution, const Place& place)
+  const SegmentationResults& results, const SurfaceAtRest& rest, const Place& place)
 {
   if (this->HasFailed)
   {
@@ -338,7 +328,7 @@ std::string SegmentationCheckpoint::Save(
     }
     if (!this->Existing || this->Existing->Level >= place.Level)
     {
-      this->Write(results, evolution, place);
+      this->Write(results, rest, place);
       this->Existing = place;
     }
     return "";
@@ -363,7 +353,7 @@ std::string SegmentationCheckpoint::Save(
 }
 
 void SegmentationCheckpoint::Write(
-  const SegmentationResults& results, const SurfaceEvolution& evolution, const Place& place)
+  const SegmentationResults& results, const SurfaceAtRest& rest, const Place& place)
 {
   std::vector<int> levels;
   for (const auto& [level, result] : results.Levels())
@@ -391,7 +381,7 @@ void SegmentationCheckpoint::Write(
     file.Put(place.Level);
     file.Put(place.GoesOn);
     file.PutList(std::vector<int>(levels.rbegin(), levels.rend()));
-    evolution.Save(file);
+    rest.Save(file);
     file.Commit();
   }
   catch (...)

@@ -3,7 +3,7 @@
 #ifndef volumicSegmentationCheckpoint_h
 #define volumicSegmentationCheckpoint_h
 
-#include "Core/Evolution/SurfaceEvolution.h"
+#include "Core/Evolution/SurfaceAtRest.h"
 #include "Output/SegmentationResults.h"
 #include "Run/RunFingerprint.h"
 
@@ -47,20 +47,20 @@ public:
   };
 
   /**
-   * Brings results and evolution to where the run was that left the checkpoint. @return nothing,
+   * Brings results and surface to where the run was that left the checkpoint. @return nothing,
    * where there is none in the directory: neither has changed.
    * @throws where there are only such of other volumes or settings, telling what differs (of other
    *         volumes only in a directory that was given: the system's is for whatever anyone does);
    *         where another run is at it; where it is damaged.
    */
-  std::optional<Place> Load(SegmentationResults& results, SurfaceEvolution& evolution);
+  std::optional<Place> Load(SegmentationResults& results, SurfaceAtRest& rest);
 
   /**
    * Keeps where a run stands, unless there is one of the same run that has come further.
    * @return what went wrong, for a warning; then what was there before still is. Once.
    */
   std::string Save(
-    const SegmentationResults& results, const SurfaceEvolution& evolution, const Place& place);
+    const SegmentationResults& results, const SurfaceAtRest& rest, const Place& place);
 
   /** Removes its files, once the run is over; nothing where another process is at it. */
   void Remove();
@@ -77,7 +77,7 @@ private:
   void CheckOthers() const;
   std::optional<Place> PlaceOfState() const;
   void Write(
-    const SegmentationResults& results, const SurfaceEvolution& evolution, const Place& place);
+    const SegmentationResults& results, const SurfaceAtRest& rest, const Place& place);
 
   std::string Directory;
   bool IsShared; ///< The directory is the system's, for whatever anyone does.

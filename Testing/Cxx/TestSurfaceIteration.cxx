@@ -72,11 +72,8 @@ struct BallsInOneBlock
 /** Those that the visit of a block would move. */
 std::vector<int> ActiveOnes(SurfaceState& state, SurfaceBlocks& blocks, int block)
 {
-  SurfaceIteration iteration(state);
   BlockVisit visit = blocks.Open(block);
-  iteration.BeginVisit(visit);
-  std::vector<int> active = iteration.ActiveVertices();
-  iteration.EndVisit();
+  std::vector<int> active = SurfaceIteration(state, visit, nullptr, true).ActiveVertices();
   blocks.Close(std::move(visit));
   return active;
 }
@@ -95,14 +92,12 @@ TEST(SurfaceIteration, MovesNothingFarFromTheBlock)
   const int ofBall = s.Mesh.Size() / 3;
   const int near = ofBall;
   const int far = ofBall + 1;
-  SurfaceIteration iteration(s);
   BlockVisit visit = blocks.Open(1);
   s.MoveTo(near, Vector(20 + 0.9f * SurfaceBlocks::MovingInDelta, 0, 0));
   s.MoveTo(far, Vector(20 + 1.1f * SurfaceBlocks::MovingInDelta, 0, 0));
-  iteration.BeginVisit(visit);
-  EXPECT_TRUE(Has(iteration.ActiveVertices(), near));
-  EXPECT_FALSE(Has(iteration.ActiveVertices(), far));
-  iteration.EndVisit();
+  const std::vector<int> active = SurfaceIteration(s, visit, nullptr, true).ActiveVertices();
+  EXPECT_TRUE(Has(active, near));
+  EXPECT_FALSE(Has(active, far));
   blocks.Close(std::move(visit));
   EXPECT_EQ(s.Block[far], 2) << "it is the neighbour's, which moves it";
 }
@@ -144,21 +139,18 @@ TEST(SurfaceIteration, MakesWhatCannotBeSplitNoLonger)
   SurfaceState& s = balls.State;
   SurfaceBlocks& blocks = *balls.Blocks;
   BlockVisit visit = blocks.Open(0);
-  Remesher remesher(s, &balls.TheField, true, &visit.Share);
-  SurfaceIteration iteration(s);
-  iteration.BeginVisit(visit);
+  auto iteration = std::make_unique<SurfaceIteration>(s, visit, &balls.TheField, true);
   double longest = 0.;
   for (int i = 0; i < 40; ++i)
   {
-    HistoryRow row;
-    iteration.Run(row, balls.Motion, remesher, SurfaceIteration::Mode::Evolve);
+    iteration->Run(balls.Motion, SurfaceIteration::Mode::Evolve);
     for (const double edge : EdgeLengths(s.Mesh.ToIndexed()))
     {
       longest = std::max(longest, edge);
       ASSERT_LE(edge, 2.5001) << "iteration " << i;
     }
   }
-  iteration.EndVisit();
+  iteration.reset();
   EXPECT_EQ(visit.Share.Counts.Splits, 0);
   EXPECT_GT(longest, 2.4) << "it has grown as far as it may";
   blocks.Close(std::move(visit));
@@ -176,12 +168,8 @@ TEST(SurfaceIteration, KnowsTheContactsThatAVisitBeforeHasFound)
   for (int i = 0; i < 12; ++i)
   {
     BlockVisit visit = blocks.Open(0);
-    Remesher remesher(s, &balls.TheField, false, &visit.Share);
-    SurfaceIteration iteration(s);
-    iteration.BeginVisit(visit);
-    HistoryRow row;
-    iteration.Run(row, balls.Motion, remesher, SurfaceIteration::Mode::Evolve);
-    iteration.EndVisit();
+    SurfaceIteration(s, visit, &balls.TheField, false)
+      .Run(balls.Motion, SurfaceIteration::Mode::Evolve);
     blocks.Close(std::move(visit));
   }
   float nearest = 100.f;
