@@ -9,7 +9,6 @@ set(volumic_core_sources
   Common/CheckedFile.cxx
   Common/ContentHash.cxx
   Common/FreeMemory.cxx
-  Common/JoinLabels.cxx
   Common/ScratchFile.cxx
   Common/ScratchMemory.cxx
   Common/ScratchStore.cxx
@@ -119,7 +118,6 @@ set(volumic_core_headers
   Common/Grow.h
   Common/IndexedSurface.h
   Common/Join.h
-  Common/JoinLabels.h
   Common/Lanes.h
   Common/LatticeKey.h
   Common/Monitor.h
@@ -238,8 +236,7 @@ set(volumic_core_headers
   Evolution/SurfaceIteration.h
   Evolution/SurfaceOptions.h
   Evolution/SurfaceResult.h
-  Evolution/VerticesOfSlabs.h
-  Evolution/VoxelRuns.h)
+  Evolution/VerticesOfSlabs.h)
 list(TRANSFORM volumic_core_sources PREPEND "${CMAKE_CURRENT_LIST_DIR}/")
 list(TRANSFORM volumic_core_headers PREPEND "${CMAKE_CURRENT_LIST_DIR}/")
 

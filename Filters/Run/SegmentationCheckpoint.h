@@ -9,7 +9,6 @@
 
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
 
 namespace volumic
@@ -19,8 +18,9 @@ class FolderLock;
 /**
  * What a run leaves on the disk at the end of each level, so that another process can go on from
  * there as if the run had never ended. It is a folder `volumic-<hash>` in the scratch directory,
- * one for each volume and choice of settings: `level-<h>` holds a level's surface and its
- * snapshots, `state` the rest; that is written last, and replaced at once.
+ * one for each volume and choice of settings, with a file `level-<h>` of the last level: the surface
+ * at rest, what the outputs hold so far, and of which run it is. When it is whole, that of the level
+ * before goes.
  *
  * A folder in use is locked, for as long as this object or the process lives. It is made with the
  * first checkpoint. What others have put under its name is neither read nor touched: then a run
@@ -75,7 +75,7 @@ private:
   bool TakeFolder();
   void RemoveIfEmpty();
   void CheckOthers() const;
-  std::optional<Place> PlaceOfState() const;
+  std::optional<Place> PlaceOfFile() const;
   void Write(
     const SegmentationResults& results, const SurfaceAtRest& rest, const Place& place);
 
@@ -84,7 +84,6 @@ private:
   std::string Folder;
   RunFingerprint Fingerprint;
   std::unique_ptr<FolderLock> Locked; ///< null: nothing of the folder is ours
-  std::set<int> WrittenLevels;   ///< the levels whose files are there
   std::optional<Place> Existing; ///< where the run stood whose files are there
   std::optional<int> Resumed;
   bool HasFailed = false;

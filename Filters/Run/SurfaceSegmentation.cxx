@@ -10,7 +10,6 @@
 #include "Input/InputPoints.h"
 #include "Output/SurfaceOutput.h"
 #include "Run/InitialSurfaces.h"
-#include "Run/RunFingerprint.h"
 #include "Settings/CheckEnumeration.h"
 #include "Settings/CheckGrading.h"
 
@@ -45,13 +44,6 @@ std::unique_ptr<SurfaceAtRest> CopyIfRoom(const SurfaceAtRest& rest)
   }
 }
 
-bool Choose(SegmentationResults& results, const SegmentationRequest& request)
-{
-  HostThreads threads(request.Settings.End.NumberOfThreads);
-  bool hasChosen = false;
-  threads.Run([&] { hasChosen = results.Choose(request, threads); });
-  return hasChosen;
-}
 }
 
 SurfaceSegmentation::SurfaceSegmentation(const SegmentationRequest& request)
@@ -134,76 +126,6 @@ void SurfaceSegmentation::ChooseEdgeLength()
   this->Levels.SetFactorBelowLevel0(plan.ReductionFactor);
 }
 
-SurfaceStart SurfaceSegmentation::StartOn(
-  const LevelImage& image, const std::vector<Point>& seeds) const
-{
-  const Workspace& space = this->Levels.GetWorkspace();
-  vtkPolyData* given = this->Request.InitialSurface;
-  SurfaceStart start;
-  switch (this->Settings.Initialization)
-  {
-    case InitializationType::Seeds:
-      start.From = SurfaceStart::Kind::Seeds;
-      start.Seeds = SeedsOf(given, space);
-      start.Seeds.insert(start.Seeds.end(), seeds.begin(), seeds.end());
-      break;
-    case InitializationType::IsoSurface:
-      start.From = SurfaceStart::Kind::IsoSurface;
-      start.Surface = ClosedIsoSurface(image, this->Settings.Options);
-      break;
-    case InitializationType::InputSurface:
-      start.From = SurfaceStart::Kind::Surface;
-      start.Surface = SurfaceOf(given, space);
-      break;
-    case InitializationType::EnclosingIcosahedron:
-      start.From = this->Choice.StartsAtParts ? SurfaceStart::Kind::EnclosingParts
-                                              : SurfaceStart::Kind::Enclosing;
-      break;
-  }
-  return start;
-}
-
-int SurfaceSegmentation::EndOf(const SegmentationRequest& request) const
-{
-  const SegmentationEnd& end = request.Settings.End;
-  const int finest =
-    this->Settings.EdgeLength != 0.0 ? this->Settings.End.FinestLevel : end.FinestLevel;
-  return end.Preview ? std::max(finest, this->Found.LevelOfPreview()) : finest;
-}
-
-bool SurfaceSegmentation::HasAll(const SegmentationRequest& request)
-{
-  if (!this->Found.HasAtRest(this->EndOf(request)) || !Choose(this->Found, request))
-  {
-    return false;
-  }
-  this->Found.SetStoppedSurface(nullptr); // That was on the way to a finer one.
-  return true;
-}
-
-bool SurfaceSegmentation::Renew(const SegmentationRequest& request)
-{
-  SegmentationSettings settings = this->Settings;
-  settings.End = request.Settings.End;
-  if (settings.EdgeLength != 0.0)
-  {
-    settings.End.FinestLevel = this->Settings.End.FinestLevel;
-  }
-  this->Request = request;
-  this->Settings = settings;
-  // Levels up to the one at which it rests are there.
-  const int coarsest = ChooseLevels(this->Levels, this->Settings).Coarsest;
-  return Choose(this->Found, request) &&
-    (coarsest == this->Choice.Coarsest || this->Levels.HasVoxels(coarsest));
-}
-
-void SurfaceSegmentation::LetGo()
-{
-  this->Levels.ReleaseCoarserThan(PyramidLevels::AllLevels);
-  this->Rest = SurfaceAtRest();
-  this->Left.reset();
-}
-
 void SurfaceSegmentation::Run()
 {
   const int before = this->Choice.Coarsest;
@@ -256,19 +178,13 @@ void SurfaceSegmentation::Run()
   this->Request.InitialSurface = this->Request.AttractingPoints = nullptr;
 }
 
-bool SurfaceSegmentation::CanGoOn() const
-{
-  const bool holdsImage = this->Reached <= 0 && this->Found.HasAtRest(this->Choice.Last);
-  return this->GoesOn && !holdsImage;
-}
-
 void SurfaceSegmentation::Begin()
 {
   this->HasBegun = false;
   this->Found = SegmentationResults(this->Settings.Profile,
     this->Levels.Pyramid().NumberOfLevels(), this->Choice.Coarsest, this->Levels.GetWorkspace(),
     this->Levels.Pyramid().SizeOfLevel0());
-  Choose(this->Found, this->Request);
+  this->Choose(this->Request);
   this->Found.SetPreviewLevel(this->Choice.Preview);
 }
 
@@ -373,7 +289,12 @@ LevelOutcome SurfaceSegmentation::Evolve(LevelTask& task)
   return PrefixErrors(place,
     [&]
     {
-      const SurfaceStart start = this->StartOn(task.Image, seeds);
+      SurfaceStart start =
+        StartOf(this->Request, this->Levels.GetWorkspace(), seeds, task.Image);
+      if (start.From == SurfaceStart::Kind::Enclosing && this->Choice.StartsAtParts)
+      {
+        start.From = SurfaceStart::Kind::EnclosingParts;
+      }
       task.Start = &start;
       return EvolveOnLevel(task, this->Rest, *this->Threads, *this->Progress);
     });
@@ -461,61 +382,5 @@ void SurfaceSegmentation::KeepStoppedSurface(int level)
   surface->ShallowCopy(this->Found.SurfaceOf(level + 1));
   SetStopReason(surface, this->DescribeStop());
   this->Found.SetStoppedSurface(surface);
-}
-
-void SurfaceSegmentation::PrepareCheckpoint()
-{
-  if (!this->Settings.End.LeavesCheckpoints())
-  {
-    this->Left.reset();
-  }
-  else if (this->HasBegun)
-  {
-    // It goes on with the one that it has: levels that it has let go of tell nothing any more.
-    this->Request.Prepared(this->Left);
-  }
-  else
-  {
-    HostThreads threads(this->Settings.End.NumberOfThreads);
-    threads.Run(
-      [&]
-      {
-        SegmentationSettings settings = this->Settings;
-        settings.CoarsestLevel = this->Choice.Coarsest;
-        this->Left = std::make_shared<SegmentationCheckpoint>(settings.End.ScratchDirectory,
-          RunFingerprint(settings, this->Request, this->Levels, threads));
-      });
-  }
-}
-
-void SurfaceSegmentation::Resume()
-{
-  if (!this->Left)
-  {
-    return;
-  }
-  if (this->Settings.End.Resume)
-  {
-    if (const auto place = this->Left->Load(this->Found, this->Rest))
-    {
-      this->Reached = place->Level;
-      this->GoesOn = place->GoesOn;
-    }
-  }
-  this->Request.Prepared(this->Left);
-}
-
-void SurfaceSegmentation::LeaveCheckpoint(int level)
-{
-  const bool isLast = level <= this->Choice.Last && !this->Request.IsStep;
-  if (!this->Left || !this->Found.HasAtRest(level) || (isLast && !this->Request.CheckpointStays))
-  {
-    return;
-  }
-  const std::string warning = this->Left->Save(this->Found, this->Rest, { level, this->GoesOn });
-  if (!warning.empty())
-  {
-    this->Request.Warn(warning);
-  }
 }
 }

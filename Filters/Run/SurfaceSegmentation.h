@@ -3,7 +3,6 @@
 #ifndef volumicSurfaceSegmentation_h
 #define volumicSurfaceSegmentation_h
 
-#include "Core/Common/IndexedSurface.h"
 #include "Core/Evolution/SurfaceEvolution.h"
 #include "Core/Image/LevelImage.h"
 #include "Host/HostThreads.h"
@@ -18,7 +17,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
 namespace volumic
 {
@@ -84,8 +82,8 @@ private:
   void CheckGrading() const;
   /** With EdgeLength: plans finest level, sampling ratio and factor below level 0. */
   void ChooseEdgeLength();
-  /** What the surface begins with on the coarsest level. @throws where what is given cannot be read */
-  SurfaceStart StartOn(const LevelImage& image, const std::vector<Point>& seeds) const;
+  /** Of Found. @return see SegmentationResults::Choose() */
+  bool Choose(const SegmentationRequest& request);
   /** Forgets the last run, its results included; the next level is the coarsest one. */
   void Begin();
   /**

@@ -83,7 +83,7 @@ TEST(SurfaceComponents, WatchesSmallComponentsInAllSpans)
   StandardThreads threads(3);
   SurfaceComponents components;
   components.Label(state, threads);
-  EXPECT_TRUE(components.DeleteDegenerate(state)) << "both are on the wrong side";
+  EXPECT_TRUE(components.DeleteDegenerate(state, OnThisThread())) << "both are on the wrong side";
   EXPECT_EQ(components.NumberOfComponents(), 1);
 }
 
@@ -201,13 +201,13 @@ TEST(SurfaceComponents, DeletesSmallOnesAndKeepsCount)
   SurfaceComponents components;
   components.Label(state, OnThisThread());
   ASSERT_EQ(components.NumberOfComponents(), 2);
-  EXPECT_FALSE(components.DeleteDegenerate(state)) << "no reason yet";
+  EXPECT_FALSE(components.DeleteDegenerate(state, OnThisThread())) << "no reason yet";
   // Wholly in the background, and tiny.
   for (int v = 0; v < state.Mesh.Size(); ++v)
   {
     state.FieldValue[v] = state.Mesh.Position[v].X > 20 ? -1.f : 0.f;
   }
-  const bool deleted = components.DeleteDegenerate(state);
+  const bool deleted = components.DeleteDegenerate(state, OnThisThread());
   EXPECT_TRUE(deleted);
   EXPECT_EQ(components.NumberOfComponents(), 1);
   components.Label(state, OnThisThread());
@@ -229,7 +229,7 @@ bool IsDeleted(double edge, double value, bool isCavity)
   {
     state.FieldValue[v] = state.Mesh.Position[v].X > 20 ? static_cast<float>(value) : 0.f;
   }
-  const bool deleted = components.DeleteDegenerate(state);
+  const bool deleted = components.DeleteDegenerate(state, OnThisThread());
   EXPECT_EQ(components.NumberOfComponents(), deleted ? 1 : 2);
   EXPECT_EQ(state.EulerCharacteristic, deleted ? 2 : 4);
   EXPECT_EQ(state.Mesh.CountEulerCharacteristic(), state.EulerCharacteristic);
@@ -258,7 +258,7 @@ TEST(SurfaceComponents, DeletesWhatHasHardlyAnyVertices)
   Fill(state, { Ball({ 0, 0, 0 }, 10), tetrahedron });
   SurfaceComponents components;
   components.Label(state, OnThisThread());
-  EXPECT_TRUE(components.DeleteDegenerate(state));
+  EXPECT_TRUE(components.DeleteDegenerate(state, OnThisThread()));
   EXPECT_EQ(components.NumberOfComponents(), 1);
 }
 

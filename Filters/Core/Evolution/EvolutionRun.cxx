@@ -168,7 +168,7 @@ void Polish(Evolution& e, const IsWanted& isWanted)
   if (s.Counts.Cuts > 0)
   {
     LabelComponents(e);
-    e.Components.DeleteDegenerate(s);
+    e.Components.DeleteDegenerate(s, e.Threads);
   }
   e.History.CountAfterwards(s.Counts);
 }

@@ -38,7 +38,7 @@ namespace volumic
  *   that is the mesh of before, which needs no test.
  * - Deletions take whole components away.
  * Divisions are tested like displacements. That normals do not turn by more is what was found, not
- * what is enforced: SurfaceEvolution therefore tests all faces against all others, whatever their
+ * what is enforced: a level therefore tests all faces against all others, whatever their
  * normals are, at the end of a level, or of a run that was stopped, and in a given start
  * (CountIntersecting).
  */

@@ -2,11 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Surface/ConnectedVertices.h"
 
-#include "Core/Common/Spans.h"
+#include "Core/Common/DisjointSets.h"
+#include "Core/Common/Select.h"
 
-#include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <utility>
 
 namespace volumic
 {
@@ -15,168 +16,77 @@ namespace
 /** Vertices that one thread joins at a time. */
 constexpr std::size_t JoinedSpan = 4096;
 
-/** Of a root, while the others of its set still bear its index; no index. */
-constexpr int MarkOfRoot(int label)
+void JoinNeighbours(const SurfaceMesh& mesh, DisjointSets& joined, Executor& executor)
 {
-  return -2 - label;
+  ForSpans(executor, mesh.Rings.size(), JoinedSpan,
+    [&](std::size_t, std::size_t begin, std::size_t end)
+    {
+      for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
+      {
+        // Neighbours next to each other are neighbours themselves: of the smaller ones that follow
+        // each other one is enough.
+        const Ring& ring = mesh.Rings[v];
+        bool wasSmaller = false;
+        for (int i = 0; i < ring.Count; ++i)
+        {
+          const bool isSmaller = ring.Item[i] < v;
+          if (isSmaller && !wasSmaller)
+          {
+            joined.Join(v, ring.Item[i]);
+          }
+          wasSmaller = isSmaller;
+        }
+      }
+    });
 }
-
-/** Gives the vertices of a range, but not the roots, their root's label, and counts them. */
-void LabelOthers(const SurfaceMesh& mesh, LargeVector<int>& labels, int begin, int end,
-  std::vector<std::atomic<int>>& sizes)
-{
-  // Mostly neighbours follow each other: they are added up before the others are told.
-  int label = 0;
-  int count = 0;
-  const auto add = [&]
-  {
-    if (count > 0)
-    {
-      sizes[label].fetch_add(count, std::memory_order_relaxed);
-    }
-  };
-  for (int v = begin; v < end; ++v)
-  {
-    const int root = labels[v];
-    if (root < 0 || !mesh.IsAlive(v))
-    {
-      continue;
-    }
-    const int own = MarkOfRoot(labels[root]); // Its own inverse.
-    if (own != label)
-    {
-      add();
-      label = own;
-      count = 0;
-    }
-    labels[v] = own;
-    ++count;
-  }
-  add();
-}
-
-/** Where a neighbour is, seen from a vertex of a span. */
-enum class Side
-{
-  Later, ///< It sees to the edge between them itself.
-  SameSpan,
-  SpanBefore
-};
 }
 
 void ConnectedVertices::Label(
   const SurfaceMesh& mesh, LargeVector<int>& labels, Executor& executor)
 {
   const std::size_t n = mesh.Rings.size();
-  this->JoinVertices(mesh, executor);
-  // Roots first: they are the smallest of their set, and numbered in their order.
-  const std::vector<std::size_t> first = FirstOfSpans(executor, n, JoinedSpan,
-    [&](std::size_t begin, std::size_t end)
+  DisjointSets joined(n);
+  JoinNeighbours(mesh, joined, executor);
+  this->SmallestOnes = SelectIndices(executor, n,
+    [&](std::size_t i)
     {
-      std::size_t roots = 0;
-      for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
-      {
-        if (mesh.IsAlive(v))
-        {
-          labels[v] = this->Joined.FindRoot(v);
-          roots += labels[v] == v;
-        }
-      }
-      return roots;
+      const int v = static_cast<int>(i);
+      return mesh.IsAlive(v) && joined.Find(v) == v;
     });
-  this->SmallestOnes.resize(first.back());
-  ForSpans(executor, n, JoinedSpan,
-    [&](std::size_t b, std::size_t begin, std::size_t end)
-    {
-      std::size_t label = first[b];
-      for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
-      {
-        if (labels[v] == v && mesh.IsAlive(v))
-        {
-          labels[v] = MarkOfRoot(static_cast<int>(label));
-          this->SmallestOnes[label++] = v;
-        }
-      }
-    });
-  this->CountAndLabel(mesh, labels, executor);
-}
-
-void ConnectedVertices::CountAndLabel(
-  const SurfaceMesh& mesh, LargeVector<int>& labels, Executor& executor)
-{
-  std::vector<std::atomic<int>> sizes(this->SmallestOnes.size());
-  for (std::atomic<int>& size : sizes)
-  {
-    size.store(1, std::memory_order_relaxed); // The root.
-  }
-  ForSpans(executor, mesh.Rings.size(), JoinedSpan,
-    [&](std::size_t, std::size_t begin, std::size_t end)
-    { LabelOthers(mesh, labels, static_cast<int>(begin), static_cast<int>(end), sizes); });
   for (std::size_t label = 0; label < this->SmallestOnes.size(); ++label)
   {
     labels[this->SmallestOnes[label]] = static_cast<int>(label);
   }
-  this->Numbers.assign(sizes.begin(), sizes.end());
-}
-
-void ConnectedVertices::JoinVertices(
-  const SurfaceMesh& mesh, Executor& executor)
-{
-  // First within spans, side by side, then across their borders.
-  const std::size_t n = mesh.Rings.size();
-  this->Joined.MakeRoom(n);
-  this->Borders.resize((n + JoinedSpan - 1) / JoinedSpan);
+  std::vector<std::atomic<int>> sizes(this->SmallestOnes.size());
   ForSpans(executor, n, JoinedSpan,
-    [&](std::size_t b, std::size_t begin, std::size_t end)
+    [&](std::size_t, std::size_t begin, std::size_t end)
     {
-      this->Borders[b].clear();
+      // Mostly neighbours follow each other: they are added up before the others are told.
+      int label = 0;
+      int count = 0;
       for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
       {
-        if (!mesh.IsAlive(v))
+        if (mesh.IsAlive(v))
         {
-          continue;
-        }
-        this->Joined.MakeSet(v);
-        int root = v;
-        const Ring& ring = mesh.Rings[v];
-        Side before = Side::Later;
-        for (int i = 0; i < ring.Count; ++i)
-        {
-          // Neighbours next to each other are neighbours themselves: on one side one is enough.
-          const int w = ring.Item[i];
-          const Side side = w >= v         ? Side::Later
-            : w >= static_cast<int>(begin) ? Side::SameSpan
-                                           : Side::SpanBefore;
-          if (side == Side::SpanBefore && side != before)
+          const int root = joined.Find(v);
+          const int own = labels[root];
+          if (own != label && count > 0)
           {
-            this->Borders[b].emplace_back(v, w);
+            sizes[label].fetch_add(std::exchange(count, 0), std::memory_order_relaxed);
           }
-          else if (side == Side::SameSpan && side != before)
+          label = own;
+          ++count;
+          if (v != root) // Others read the root's.
           {
-            root = this->Joined.Join(root, w);
+            labels[v] = own;
           }
-          before = side;
         }
       }
-    });
-  // Of the many edges between the same two sets one is enough.
-  ForSpans(executor, this->Borders.size(), 1,
-    [this](std::size_t b, std::size_t, std::size_t)
-    {
-      std::vector<std::pair<int, int>>& border = this->Borders[b];
-      for (auto& edge : border)
+      if (count > 0)
       {
-        edge = { this->Joined.FindRoot(edge.first), this->Joined.FindRoot(edge.second) };
+        sizes[label].fetch_add(count, std::memory_order_relaxed);
       }
-      std::sort(border.begin(), border.end());
-      border.erase(std::unique(border.begin(), border.end()), border.end());
     });
-  for (const auto& border : this->Borders)
-  {
-    for (const auto& edge : border)
-    {
-      this->Joined.Join(edge.first, edge.second);
-    }
-  }
+  this->Numbers.assign(sizes.begin(), sizes.end());
 }
 }

@@ -7,8 +7,6 @@
 #include "Core/Surface/ConnectedVertices.h"
 #include "Core/Surface/SurfaceState.h"
 
-#include <vector>
-
 namespace volumic
 {
 /**
@@ -24,14 +22,14 @@ public:
    */
   void Label(SurfaceState& state, Executor& executor);
 
-  /** How many there were when they were last labelled, less those deleted since. */
+  /** How many there were when they were last labelled. */
   int NumberOfComponents() const { return this->Components; }
 
   /**
-   * Deletes the small components that must go: ComponentWatch::DeleteDegenerate. Other labels stay.
-   * @return whether anything was deleted.
+   * After Label(): deletes the small components that must go (ComponentWatch::DeleteDegenerate).
+   * @return whether anything was deleted; labels are fresh then
    */
-  bool DeleteDegenerate(SurfaceState& state);
+  bool DeleteDegenerate(SurfaceState& state, Executor& executor);
 
   /**
    * Labels, and deletes the components that are inside out: a cavity must lie inside the others, any
@@ -42,12 +40,7 @@ public:
    */
   bool DeleteInsideOut(SurfaceState& state, Executor& executor);
 
-  /** The smallest vertices of those that are inside out, of what Label() has labelled. */
-  std::vector<int> FindInsideOut(const SurfaceState& state, Executor& executor) const;
-
 private:
-  void Remove(SurfaceState& state, const std::vector<int>& roots);
-
   ConnectedVertices Connected;
   int Components = 0;
 };
