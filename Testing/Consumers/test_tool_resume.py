@@ -148,7 +148,7 @@ class KillTest(ResumeTestCase):
 
 class OutputTest(ResumeTestCase):
     def test_what_could_not_be_written_is_not_lost(self):
-        """The checkpoints are as large as the file: of coarse levels some fit."""
+        """The checkpoints are larger than the file: of coarse levels some fit."""
         volume = self.waves_file()
         whole, part = self.path("whole.stl"), self.path("part.stl")
         self.run_tool(volume, whole, "--iso", 100)
@@ -156,10 +156,10 @@ class OutputTest(ResumeTestCase):
         run = self.run_tool(*resume, status=1,
                             preexec_fn=largest_file(os.path.getsize(whole) * 3 // 4))
         self.assertIn("part.stl: cannot be written", run.stderr)
-        self.assertIn("The checkpoint of level 0 could not be left", run.stderr)
-        self.assertIn("can be resumed from level 1 only", run.stderr)
+        self.assertIn("The checkpoint of level 1 could not be left", run.stderr)
+        self.assertIn("can be resumed from level 2 only", run.stderr)
         run = self.run_tool(*resume)
-        self.assertIn("going on from level 1,", run.stderr)
+        self.assertIn("going on from level 2,", run.stderr)
         self.assertEqual(self.content(whole), self.content(part))
         self.assertEqual(os.listdir(self.scratch), [])
 
