@@ -74,8 +74,7 @@ void vtkDeformableSurface::vtkInternals::ChooseStep(
   const volumic::SegmentationSettings& settings = this->Settings;
   // Whoever asks whether a finer level is still to come asks one rank only: the others would not
   // run again.
-  const bool isWatched =
-    settings.End.ShowLevels && this->IsWatched && !this->All->AreMany();
+  const bool isWatched = settings.End.ShowLevels && this->IsWatched && !this->All->AreMany();
   if (!isWatched || std::exchange(this->GoesToTheEnd, false))
   {
     return;
@@ -100,8 +99,8 @@ void vtkDeformableSurface::vtkInternals::ChooseStep(
 std::unique_ptr<volumic::SurfaceSegmentation> vtkDeformableSurface::vtkInternals::NewRun(
   volumic::SegmentationRequest request)
 {
-  const vtkSmartPointer<vtkDataObject> input = volumic::PrefixErrors(
-    "Input port 0: ", [&] { return this->All->TakeImages(0); });
+  const vtkSmartPointer<vtkDataObject> input =
+    volumic::PrefixErrors("Input port 0: ", [&] { return this->All->TakeImages(0); });
   volumic::VoxelSource source;
   source.Filter = &this->Filter;
   // What ranks had in pieces is in scratch memory already.
@@ -180,8 +179,7 @@ void vtkDeformableSurface::vtkInternals::RunOrGoOn(const volumic::FilterCall& ca
   {
     run->Results().WarnOf(run->EndsAt(), settings.WantsAllParts(), request.Warn);
   }
-  this->IsOnTheWay =
-    request.IsStep && !request.Limit.IsOver() && !isStopped() && !isFinest;
+  this->IsOnTheWay = request.IsStep && !request.Limit.IsOver() && !isStopped() && !isFinest;
   this->Cache.Keep(std::move(run), &this->Filter, this->All->Count());
   volumic::GiveBackFreeMemory();
 }

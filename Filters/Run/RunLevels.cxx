@@ -83,7 +83,8 @@ vtkSmartPointer<vtkImageData> CompleteImage(
         [&]
         {
           return FindOtsuThreshold(voxels.Image, voxels.Selection, settings.SelectedComponent,
-            settings.End.NumberOfThreads).Threshold;
+            settings.End.NumberOfThreads)
+            .Threshold;
         });
   }
   vtkDataArray* values =
@@ -105,15 +106,14 @@ void MakeLevels(SegmentationRequest& request, vtkImageData* image, const VoxelSo
   PyramidRequest pyramid = PyramidAsSet(settings, source);
   if (settings.EdgeLength != 0.0)
   {
-    const EdgeLengthPlan plan = PlanEdgeLength(
-      settings.EdgeLength, settings.Options.SamplingRatio, image, pyramid.Levels);
+    const EdgeLengthPlan plan =
+      PlanEdgeLength(settings.EdgeLength, settings.Options.SamplingRatio, image, pyramid.Levels);
     settings.End.FinestLevel = plan.FinestLevel;
     settings.Options.SamplingRatio = plan.SamplingRatio;
     request.FactorBelowLevel0 = plan.ReductionFactor;
   }
   request.LevelsAreOwn = true;
-  request.Levels =
-    BuildPyramid(image, request.Selection, settings.SelectedComponent, pyramid);
+  request.Levels = BuildPyramid(image, request.Selection, settings.SelectedComponent, pyramid);
 }
 }
 

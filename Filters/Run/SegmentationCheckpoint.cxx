@@ -237,8 +237,8 @@ void SegmentationCheckpoint::CheckOthers() const
   for (const std::string& name : NamesIn(this->Directory))
   {
     const std::string folder = (fs::path(this->Directory) / name).string();
-    if (name.rfind(Prefix, 0) != 0 || fs::is_symlink(folder, ignored) ||
-      FileIn(folder).empty() || FolderLock::IsHeld(folder))
+    if (name.rfind(Prefix, 0) != 0 || fs::is_symlink(folder, ignored) || FileIn(folder).empty() ||
+      FolderLock::IsHeld(folder))
     {
       continue;
     }
@@ -265,8 +265,10 @@ void SegmentationCheckpoint::CheckOthers() const
   }
   if (!nearest.empty() && fewest == 0)
   {
-    Refuse("Resume: the checkpoint ", nearest, " is of this volume and these settings, but has "
-      "not their name. Rename it to ", this->Folder, ", or, to begin anew, remove it.");
+    Refuse("Resume: the checkpoint ", nearest,
+      " is of this volume and these settings, but has "
+      "not their name. Rename it to ",
+      this->Folder, ", or, to begin anew, remove it.");
   }
   if (!nearest.empty())
   {
@@ -310,7 +312,8 @@ std::optional<SegmentationCheckpoint::Place> SegmentationCheckpoint::Load(
   }
   catch (const FileError& error)
   {
-    Refuse("Resume: ", error.what(), ". Begin anew: switch Resume off, or remove that folder, or "
+    Refuse("Resume: ", error.what(),
+      ". Begin anew: switch Resume off, or remove that folder, or "
       "choose another Scratch Directory.");
   }
 }

@@ -71,8 +71,7 @@ void SurfaceSegmentation::CheckSettings() const
   CheckEnumeration(
     "Initialization", this->Settings.Initialization, InitializationType::InputSurface);
   CheckEnumeration("Border Value", options.BorderValue, Border::Replicate);
-  CheckEnumeration(
-    "Recovery", this->Settings.Recovery, RecoveryType::RecoverObjectsAndCavities);
+  CheckEnumeration("Recovery", this->Settings.Recovery, RecoveryType::RecoverObjectsAndCavities);
   if (options.MaximumNumberOfIterations < 1)
   {
     Refuse("Maximum Number Of Iterations is ", options.MaximumNumberOfIterations,
@@ -98,11 +97,11 @@ void SurfaceSegmentation::CheckGrading() const
     (!(options.IsopotentialWeight > options.EdgeAttractionWeight) || !options.SnapToIsoValue))
   {
     Refuse(WhatGrades(grading), ", but ",
-      options.SnapToIsoValue
-        ? "Isopotential Weight is not more than Edge Attraction Weight"
-        : "Snap To Iso Value is off",
+      options.SnapToIsoValue ? "Isopotential Weight is not more than Edge Attraction Weight"
+                             : "Snap To Iso Value is off",
       ": the surface does not lie at the iso-value, from which ",
-      grading.HasTolerance() ? "a tolerance is measured. Set it to 0" : "thickness is. Switch it off",
+      grading.HasTolerance() ? "a tolerance is measured. Set it to 0"
+                             : "thickness is. Switch it off",
       ", or change that.");
   }
 }
@@ -181,9 +180,8 @@ void SurfaceSegmentation::Run()
 void SurfaceSegmentation::Begin()
 {
   this->HasBegun = false;
-  this->Found = SegmentationResults(this->Settings.Profile,
-    this->Levels.Pyramid().NumberOfLevels(), this->Choice.Coarsest, this->Levels.GetWorkspace(),
-    this->Levels.Pyramid().SizeOfLevel0());
+  this->Found = SegmentationResults(this->Settings.Profile, this->Levels.Pyramid().NumberOfLevels(),
+    this->Choice.Coarsest, this->Levels.GetWorkspace(), this->Levels.Pyramid().SizeOfLevel0());
   this->Choose(this->Request);
   this->Found.SetPreviewLevel(this->Choice.Preview);
 }
@@ -284,13 +282,13 @@ LevelOutcome SurfaceSegmentation::Evolve(LevelTask& task)
   const bool ofPositions = !seeds.empty() && !this->Request.InitialSurface;
   const bool isGiven =
     type == InitializationType::InputSurface || type == InitializationType::Seeds;
-  const char* place =
-    ofPositions ? "Seed Positions: " : isGiven ? "Input port 1 (Initial Surface): " : "";
+  const char* place = ofPositions ? "Seed Positions: "
+    : isGiven                     ? "Input port 1 (Initial Surface): "
+                                  : "";
   return PrefixErrors(place,
     [&]
     {
-      SurfaceStart start =
-        StartOf(this->Request, this->Levels.GetWorkspace(), seeds, task.Image);
+      SurfaceStart start = StartOf(this->Request, this->Levels.GetWorkspace(), seeds, task.Image);
       if (start.From == SurfaceStart::Kind::Enclosing && this->Choice.StartsAtParts)
       {
         start.From = SurfaceStart::Kind::EnclosingParts;
@@ -320,8 +318,7 @@ void SurfaceSegmentation::TakeSnapshot(
     description.Iterations = iteration;
     description.TotalIterations = static_cast<int>(this->Rest.History.Rows.size());
     this->Found.AddSnapshot(level, Join("Level ", level, ", iteration ", iteration),
-      MakePolyData(
-        std::move(surface), description, this->Levels.GetWorkspace(), *this->Threads));
+      MakePolyData(std::move(surface), description, this->Levels.GetWorkspace(), *this->Threads));
   }
 }
 
@@ -331,7 +328,7 @@ bool SurfaceSegmentation::PreviewMissesParts(int level) const
     level > std::max(this->Settings.End.FinestLevel, 0) &&
     this->Settings.Recovery != RecoveryType::NoRecovery &&
     this->Found.Levels().at(level).Description.Lost.MissingBoundary >
-      SegmentationResults::NotableShare;
+    SegmentationResults::NotableShare;
 }
 
 bool SurfaceSegmentation::KeepLevel(int level, LevelOutcome outcome)

@@ -49,8 +49,8 @@ public:
   /** The level at which such a run ends. */
   int EndOf(const SegmentationRequest& request) const;
   /**
-   * For the next Run(), which is to end, and to put out, otherwise; with EdgeLength the finest level
-   * stays what was planned.
+   * For the next Run(), which is to end, and to put out, otherwise; with EdgeLength the finest
+   * level stays what was planned.
    * @return whether that can be reached from here: levels that the surface has left are let go, and
    *         a run that would begin at one of them must be made anew
    */
@@ -125,9 +125,9 @@ private:
   std::optional<HostThreads> Threads; ///< these two within Run()
   std::optional<ProgressMonitor> Progress;
   bool HasBegun = false;
-  SurfaceAtRest Rest;  ///< at level Reached
+  SurfaceAtRest Rest; ///< at level Reached
   int Reached = 0;
-  bool GoesOn = false; ///< It rests there, and is fit for a finer level.
+  bool GoesOn = false;  ///< It rests there, and is fit for a finer level.
   int SnapshotLook = 0; ///< Iteration of the level at which the last snapshot could be taken.
   std::shared_ptr<SegmentationCheckpoint> Left; ///< null: none is left
 };

@@ -26,8 +26,7 @@ struct LevelPair
   /** @param shownFine, shownCoarse outside distances, of what each level shows */
   template <typename ShownFine, typename ShownCoarse>
   LevelPair(int n, const ShownFine& shownFine, const ShownCoarse& shownCoarse)
-    : Fine(MakeVolume(
-        n, [&](double x, double y, double z) { return Soft(shownFine(x, y, z)); }))
+    : Fine(MakeVolume(n, [&](double x, double y, double z) { return Soft(shownFine(x, y, z)); }))
   {
     const int coarse = static_cast<int>(std::lround(n / std::sqrt(3.)));
     const double step = static_cast<double>(n) / coarse;
@@ -55,8 +54,7 @@ class TestEvolution
 {
 public:
   TestEvolution(const SurfaceOptions& options, Executor& executor, Monitor& monitor)
-    : Executing(executor)
-    , Listener(monitor)
+    : Executing(executor), Listener(monitor)
   {
     this->Task.Options = options;
     this->Task.Look = [this](int iteration, const std::function<SurfaceResult()>&)
@@ -125,8 +123,7 @@ private:
     this->Task.Level = level;
     this->Task.Start = start;
     auto before = std::exchange(this->Now,
-      std::make_unique<Evolution>(
-        this->Task, this->Rest.History, this->Executing, this->Listener));
+      std::make_unique<Evolution>(this->Task, this->Rest.History, this->Executing, this->Listener));
     const bool hasCome = ComeToLevel(*this->Now, this->Rest);
     if (!hasCome)
     {

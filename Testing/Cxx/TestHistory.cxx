@@ -44,22 +44,22 @@ TEST(History, RowsTellTheStateAfterTheirSweep)
   TestEvolution evolution(IsoHalf(), Threads, Silent);
   int looks = 0;
   evolution.AfterSweep = [&]
-    {
-      ++looks;
-      const SurfaceResult surface = evolution.Result();
-      const SurfaceFeatures features = ComputeFeatures(surface);
-      const HistoryRow& row = evolution.History().back();
-      SCOPED_TRACE("sweep " + std::to_string(looks));
-      EXPECT_EQ(row.Iteration, 5 * looks);
-      EXPECT_EQ(row.Vertices, static_cast<int>(surface.Points.size()));
-      EXPECT_EQ(row.EulerCharacteristic, features.EulerCharacteristic);
-      EXPECT_EQ(row.Components, static_cast<int>(features.Components.size()));
-      const std::vector<double> lengths = EdgeLengths(surface);
-      const double sum = std::accumulate(lengths.begin(), lengths.end(), 0.);
-      EXPECT_NEAR(row.MeanEdgeLength, sum / static_cast<double>(lengths.size()), 1e-4);
-      EXPECT_TRUE(row.TimeStep > 0 || row.ActiveVertices == 0);
-      EXPECT_LE(row.TimeStep, 1.5 + 1e-5);
-    };
+  {
+    ++looks;
+    const SurfaceResult surface = evolution.Result();
+    const SurfaceFeatures features = ComputeFeatures(surface);
+    const HistoryRow& row = evolution.History().back();
+    SCOPED_TRACE("sweep " + std::to_string(looks));
+    EXPECT_EQ(row.Iteration, 5 * looks);
+    EXPECT_EQ(row.Vertices, static_cast<int>(surface.Points.size()));
+    EXPECT_EQ(row.EulerCharacteristic, features.EulerCharacteristic);
+    EXPECT_EQ(row.Components, static_cast<int>(features.Components.size()));
+    const std::vector<double> lengths = EdgeLengths(surface);
+    const double sum = std::accumulate(lengths.begin(), lengths.end(), 0.);
+    EXPECT_NEAR(row.MeanEdgeLength, sum / static_cast<double>(lengths.size()), 1e-4);
+    EXPECT_TRUE(row.TimeStep > 0 || row.ActiveVertices == 0);
+    EXPECT_LE(row.TimeStep, 1.5 + 1e-5);
+  };
   evolution.StartEnclosing(volume.Image, 0);
   EXPECT_EQ(evolution.Run(), StopReason::Converged);
   EXPECT_GT(looks, 5);

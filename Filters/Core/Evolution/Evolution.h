@@ -25,33 +25,30 @@ namespace volumic
 struct Evolution
 {
   Evolution(const LevelTask& task, EvolutionHistory& history, Executor& executor, Monitor& monitor)
-    : Task(task)
-    , Threads(executor)
-    , Listener(&monitor)
-    , History(history)
+    : Task(task), Threads(executor), Listener(&monitor), History(history)
   {
   }
 
   const LevelTask Task;
   Executor& Threads;
   Monitor* Listener;
-  bool Stopped = false; ///< The listener has said stop; it is not asked again.
+  bool Stopped = false;   ///< The listener has said stop; it is not asked again.
   Monitor::Status Status; ///< As it was told last.
   EvolutionHistory& History;
   SurfaceState State;
   std::unique_ptr<Field> TheField;
-  std::unique_ptr<Dynamics> Motion; ///< In the field.
+  std::unique_ptr<Dynamics> Motion;      ///< In the field.
   std::unique_ptr<SurfaceBlocks> Blocks; ///< While the surface lies on a level, else null.
   SurfaceComponents Components;          ///< As they were labelled last.
   int Unchecked = 1; ///< Starts, cuts and deletions since components were judged from outside in.
   LostParts Lost;
-  LostBoundary Boundary; ///< Of the parts that were lost when it came to the level.
+  LostBoundary Boundary;     ///< Of the parts that were lost when it came to the level.
   bool HasDescended = false; ///< See DescendField.
   Verdict Verified;
 
   /**
-   * The one question of all work on a level: the share of an activity that is done, of iterations how
-   * many of the sweep's.
+   * The one question of all work on a level: the share of an activity that is done, of iterations
+   * how many of the sweep's.
    */
   bool GoOn(Monitor::Activity doing, double share);
   /** The same for work whose own shares lie between two of the activity's. */
@@ -97,8 +94,8 @@ bool HasEdgeTooLong(const Evolution& evolution);
 
 /**
  * From a level of this delta: only where what is seen on the new one asks for shorter edges.
- * @return false where a tolerance asks for them at more than half of the vertices: then all is to be
- *         divided, and laid out
+ * @return false where a tolerance asks for them at more than half of the vertices: then all is to
+ * be divided, and laid out
  */
 bool DivideWhereWanted(Evolution& evolution, double delta);
 /** The same about parts that are lost, so that these can be enclosed beside it. */
@@ -111,8 +108,8 @@ void Grade(Evolution& evolution);
 struct Sweep
 {
   Monitor::Activity Doing = Monitor::Activity::Iterating;
-  double From = 0.; ///< The share of the activity that is done before the sweep, and
-  double To = 1.;   ///< after it.
+  double From = 0.;       ///< The share of the activity that is done before the sweep, and
+  double To = 1.;         ///< after it.
   bool OnlyActive = true; ///< Blocks in which nothing may move are left out.
   bool IsAsked = true;    ///< The listener is told, and may stop it.
 };
@@ -120,16 +117,15 @@ struct Sweep
 void MakeBlocks(Evolution& evolution);   ///< Those of the mesh as it is.
 void ForgetBlocks(Evolution& evolution); ///< Any new vertex may have their places again.
 /**
- * After a stop some blocks were not visited; the surface is valid all the same. State.Counts is then
- * the sum of what the visits have edited. @param visit called on any thread
+ * After a stop some blocks were not visited; the surface is valid all the same. State.Counts is
+ * then the sum of what the visits have edited. @param visit called on any thread
  */
 void VisitBlocks(
   Evolution& evolution, const Sweep& sweep, const std::function<void(BlockVisit& visit)>& visit);
 /** A few iterations of evolution, which the history tells of; labels the components. */
 void RunSweep(Evolution& evolution);
 /** Some iterations in each block with active vertices; the history has no rows of them. */
-void Relax(
-  Evolution& evolution, SurfaceIteration::Mode mode, int iterations, const Sweep& sweep);
+void Relax(Evolution& evolution, SurfaceIteration::Mode mode, int iterations, const Sweep& sweep);
 /** Splits all edges that are too long. @param sweep after a stop some long edges are left */
 void SplitLongEdges(Evolution& evolution, Sweep sweep);
 void LabelComponents(Evolution& evolution);
@@ -147,8 +143,8 @@ double AreaOf(const Evolution& evolution);
  */
 bool ActivateWhereOff(Evolution& evolution, float least);
 /**
- * Sweeps until the level rests, goes in circles, has had its iterations, vanishes or is stopped, and
- * then what ends a level, also after a stop: nothing inside out or unverified stays.
+ * Sweeps until the level rests, goes in circles, has had its iterations, vanishes or is stopped,
+ * and then what ends a level, also after a stop: nothing inside out or unverified stays.
  */
 StopReason RunLevel(Evolution& evolution);
 /** Goes where the field has changed. */

@@ -22,8 +22,8 @@ void HistoryRow::Add(const EditCounts& counts)
 
 void HistoryRow::Add(const HistoryRow& row)
 {
-  this->Add(EditCounts{ row.Merges, row.Cuts, row.Splits, row.Collapses, row.Flips, row.Deletions,
-    row.DeletedGenus });
+  this->Add(EditCounts{
+    row.Merges, row.Cuts, row.Splits, row.Collapses, row.Flips, row.Deletions, row.DeletedGenus });
   this->Vertices += row.Vertices;
   this->EulerCharacteristic += row.EulerCharacteristic;
   this->ActiveVertices += row.ActiveVertices;
@@ -35,8 +35,8 @@ void HistoryRow::Add(const HistoryRow& row)
 }
 
 SweptRows::SweptRows(int iterations, int blocks)
-  : Rows(static_cast<std::size_t>(iterations))
-  , KineticEnergy(this->Rows.size(), std::vector<double>(static_cast<std::size_t>(blocks), 0.))
+  : Rows(static_cast<std::size_t>(iterations)),
+    KineticEnergy(this->Rows.size(), std::vector<double>(static_cast<std::size_t>(blocks), 0.))
 {
 }
 
@@ -78,8 +78,8 @@ void EvolutionHistory::EndSweep(SweptRows& swept, const SurfaceNumbers& after)
   const double seconds = this->Lap();
   HistoryRow& first = swept.Rows.front();
   first.SecondsBefore = this->SecondsBefore;
-  first.AddedEulerCharacteristic = this->EulerCharacteristic -
-    (this->Rows.empty() ? 0 : this->Rows.back().EulerCharacteristic);
+  first.AddedEulerCharacteristic =
+    this->EulerCharacteristic - (this->Rows.empty() ? 0 : this->Rows.back().EulerCharacteristic);
   double spent = 0.;
   for (const HistoryRow& row : swept.Rows)
   {

@@ -12,7 +12,8 @@
 
 namespace volumic
 {
-/** Parts of an iteration, and of what lies between two, in the order of HistoryRow::PhaseSeconds. */
+/** Parts of an iteration, and of what lies between two, in the order of HistoryRow::PhaseSeconds.
+ */
 enum class Phase
 {
   Forces,
@@ -21,8 +22,8 @@ enum class Phase
   Verification,
   Remeshing,
   Topology,
-  Division, ///< Division, start.
-  Recovery, ///< Of lost parts.
+  Division,       ///< Division, start.
+  Recovery,       ///< Of lost parts.
   Regularisation, ///< The final one.
   Count
 };
@@ -39,9 +40,10 @@ enum class Phase
  *     + 2 (RegularisationCuts - RegularisationDeletions)
  *
  * (and, if a regularisation should ever delete a component with handles, twice their number).
- * SecondsBefore, Seconds and SecondsAfter of all rows follow each other without a gap. Iterations are
- * made in sweeps of five over the blocks (SurfaceBlocks): a row adds up what all blocks did in the
- * same one; MeanEdgeLength and Components are those at the end of the sweep, TimeStep the longest.
+ * SecondsBefore, Seconds and SecondsAfter of all rows follow each other without a gap. Iterations
+ * are made in sweeps of five over the blocks (SurfaceBlocks): a row adds up what all blocks did in
+ * the same one; MeanEdgeLength and Components are those at the end of the sweep, TimeStep the
+ * longest.
  */
 struct HistoryRow
 {
@@ -50,7 +52,7 @@ struct HistoryRow
   int Vertices = 0;
   double KineticEnergy = 0.; ///< Mean over vertices of half the squared speed along the normal.
   double MeanEdgeLength = 0.;
-  double Seconds = 0.;  ///< Of those of its sweep, what was spent in this iteration.
+  double Seconds = 0.; ///< Of those of its sweep, what was spent in this iteration.
   double TimeStep = 0.;
   int ActiveVertices = 0;
   int Merges = 0;
@@ -61,7 +63,7 @@ struct HistoryRow
   /** Like Vertices, MeanEdgeLength, Components: in the last row of a level as regularised. */
   int EulerCharacteristic = 0;
   int Components = 0;
-  int Recovered = 0; ///< Lost parts and cavities enclosed again before the first of a level.
+  int Recovered = 0;    ///< Lost parts and cavities enclosed again before the first of a level.
   int Deletions = 0;    ///< Components deleted.
   int DeletedGenus = 0; ///< Sum of their genera.
   /** Of what came new before this iteration: the start, what encloses lost parts. */
@@ -83,8 +85,8 @@ struct HistoryRow
 };
 
 /**
- * What the iterations of a sweep add to the history, while blocks are visited: of vertices and Euler
- * characteristic by how many there are more.
+ * What the iterations of a sweep add to the history, while blocks are visited: of vertices and
+ * Euler characteristic by how many there are more.
  */
 class SweptRows
 {
@@ -142,7 +144,7 @@ private:
 
   int Level = 0;
   int OfLevel = 0;
-  int Vertices = 0; ///< Before the last sweep.
+  int Vertices = 0;            ///< Before the last sweep.
   int EulerCharacteristic = 0; ///< Likewise.
   EditCounts Afterwards;
   double SecondsBefore = 0.; ///< The last sweep.

@@ -224,7 +224,7 @@ void Verify(Evolution& e)
   ForgetBlocks(e);
   const SurfaceMesh before = e.State.Mesh;
   e.State.Sizing = SizingField(e.State.Sizing.OfLevel()); // The mesh to come is even.
-  Monitor nobody; // Is asked meanwhile, and says no stop.
+  Monitor nobody;                                         // Is asked meanwhile, and says no stop.
   Monitor* const listener = std::exchange(e.Listener, &nobody);
   const bool wasStopped = std::exchange(e.Stopped, false);
   try
@@ -278,8 +278,8 @@ bool ActivateWhereOff(Evolution& e, float least)
   SurfaceState& s = e.State;
   const auto n = static_cast<std::size_t>(s.Mesh.Size());
   std::vector<std::uint8_t> isOff(n, 0);
-  ForAll(e, [&](int v)
-    { isOff[v] = e.TheField->IsOff(s.Mesh.Position[v], least * s.Sizing.At(v)); });
+  ForAll(
+    e, [&](int v) { isOff[v] = e.TheField->IsOff(s.Mesh.Position[v], least * s.Sizing.At(v)); });
   return CountInSpans(e.Threads, n, VertexGrain,
            [&](std::size_t begin, std::size_t end)
            {

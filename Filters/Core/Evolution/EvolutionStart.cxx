@@ -38,9 +38,10 @@ Box BoxOfGrid(const Evolution& e)
 {
   const SurfaceMesh& mesh = e.State.Mesh;
   const LevelImage& image = e.Task.Image;
-  const Box ofImage = { Vector(0, 0, 0), Vector(static_cast<float>(image.Size[0] * image.Step[0]),
-    static_cast<float>(image.Size[1] * image.Step[1]),
-    static_cast<float>(image.Size[2] * image.Step[2])) };
+  const Box ofImage = { Vector(0, 0, 0),
+    Vector(static_cast<float>(image.Size[0] * image.Step[0]),
+      static_cast<float>(image.Size[1] * image.Step[1]),
+      static_cast<float>(image.Size[2] * image.Step[2])) };
   std::vector<Box> boxes((mesh.Position.size() + VertexSpan - 1) / VertexSpan, ofImage);
   ForSpans(e.Threads, mesh.Position.size(), VertexSpan,
     [&](std::size_t span, std::size_t begin, std::size_t end)
@@ -50,8 +51,8 @@ Box BoxOfGrid(const Evolution& e)
         boxes[span] = boxes[span].With({ mesh.Position[v], mesh.Position[v] });
       }
     });
-  const Box all = std::accumulate(boxes.begin(), boxes.end(), ofImage,
-    [](const Box& a, const Box& b) { return a.With(b); });
+  const Box all = std::accumulate(
+    boxes.begin(), boxes.end(), ofImage, [](const Box& a, const Box& b) { return a.With(b); });
   return all.Grown(2 * e.State.Sizing.Largest());
 }
 
@@ -170,8 +171,8 @@ void Divide(Evolution& e, const SurfaceAtRest& rest)
     std::log(coarse / e.State.Sizing.OfLevel()) / std::log(SizingField::DivisionFactor)));
   // After each of these steps the surface is one to hand over.
   const bool isGraded = e.Task.Grading.IsWanted();
-  // What is too thin for the undivided mesh is lost in a descent, and must be found again. Beyond the
-  // image the field is that of the level before.
+  // What is too thin for the undivided mesh is lost in a descent, and must be found again. Beyond
+  // the image the field is that of the level before.
   const bool descends = e.Task.Options.FollowsFieldAlone() && e.Task.Options.RecoverLostParts;
   if (descends && !isGraded && divisions > 0 && e.Task.Level >= 0)
   {

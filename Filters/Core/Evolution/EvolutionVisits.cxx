@@ -133,8 +133,7 @@ void RunSweep(Evolution& e)
     });
 
   const EditCounts& counts = s.Counts;
-  const bool hasChanged =
-    e.Status.Sweep == 1 || counts.Merges + counts.Cuts + counts.Removed > 0;
+  const bool hasChanged = e.Status.Sweep == 1 || counts.Merges + counts.Cuts + counts.Removed > 0;
   s.Counts = EditCounts();
   if (e.Status.Sweep % InsideOutSweeps == 0 && e.Unchecked > 0)
   {
@@ -182,7 +181,8 @@ void SplitLongEdges(Evolution& e, Sweep sweep)
   // Verification relies on it that no edge is longer than the constraints allow. One whose split
   // would make needles stays, as in an iteration, and what moves it waits: see HasHugeEdge.
   sweep.OnlyActive = false;
-  // A block may have too few places for all of them at once, and half of a split edge is split again.
+  // A block may have too few places for all of them at once, and half of a split edge is split
+  // again.
   do
   {
     VisitBlocks(e, sweep,
@@ -212,8 +212,7 @@ SurfaceNumbers NumbersOf(const Evolution& e)
 {
   const SurfaceState& s = e.State;
   const int vertices = s.Mesh.NumberOfVertices();
-  const double lengths =
-    e.Blocks->SumUp([&s](int v) { return s.EdgeLengthSum[v]; }, e.Threads);
+  const double lengths = e.Blocks->SumUp([&s](int v) { return s.EdgeLengthSum[v]; }, e.Threads);
   const std::int64_t edges = NumberOfEdges(vertices, s.EulerCharacteristic);
   // Each edge is in two sums.
   return { vertices, s.EulerCharacteristic, e.Components.NumberOfComponents(),

@@ -30,8 +30,8 @@ bool IsAtBorder(const VoxelRun& run, const std::array<int, 3>& size)
 }
 
 /** Joins runs, which are in order, that lie beside each other. */
-void JoinRuns(const std::vector<VoxelRun>& runs, const std::array<int, 3>& size,
-  DisjointSets& joined)
+void JoinRuns(
+  const std::vector<VoxelRun>& runs, const std::array<int, 3>& size, DisjointSets& joined)
 {
   const VoxelNumbers numbers(size);
   for (const int axis : { 1, 2 })
@@ -54,8 +54,8 @@ void JoinRuns(const std::vector<VoxelRun>& runs, const std::array<int, 3>& size,
 }
 
 /**
- * Numbers the parts of runs, which are in order, by their first voxels, and leaves out those that are
- * too small. @param isOpen of a run whose part may go on elsewhere @return how many there are
+ * Numbers the parts of runs, which are in order, by their first voxels, and leaves out those that
+ * are too small. @param isOpen of a run whose part may go on elsewhere @return how many there are
  */
 template <typename IsOpen>
 int NumberParts(std::vector<VoxelRun>& runs, const std::array<int, 3>& size,
@@ -121,8 +121,7 @@ LostVoxels FindLostVoxels(const SurfaceState& state, const Field& field, PartKin
   if (!lost.IsStopped)
   {
     lost.Runs = Joined(executor, runs);
-    lost.Parts =
-      NumberParts(lost.Runs, size, minimumSize, [](const VoxelRun&) { return false; });
+    lost.Parts = NumberParts(lost.Runs, size, minimumSize, [](const VoxelRun&) { return false; });
   }
   return lost;
 }

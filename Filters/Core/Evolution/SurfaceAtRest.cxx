@@ -58,8 +58,8 @@ void CheckLengths(const CheckedReader& file, const SurfaceMesh& mesh, double len
     for (int i = 0; i < ring.Count; ++i)
     {
       const int w = ring.Item[i];
-      const double square = SquaredDistance(VectorD(mesh.Position[v]), VectorD(mesh.Position[w])) /
-        (length * length);
+      const double square =
+        SquaredDistance(VectorD(mesh.Position[v]), VectorD(mesh.Position[w])) / (length * length);
       NeedThat(square <= longest * longest, file);
       sum += square;
       count += 1.;
@@ -92,7 +92,8 @@ void SaveMesh(CheckedWriter& file, const SurfaceMesh& mesh)
       const Ring& ring = mesh.Rings[alive[i]];
       positions.push_back(mesh.Position[alive[i]]);
       counts.push_back(static_cast<std::uint8_t>(ring.Count));
-      std::for_each(ring.Item, ring.Item + ring.Count, [&](int w) { items.push_back(numberOf[w]); });
+      std::for_each(
+        ring.Item, ring.Item + ring.Count, [&](int w) { items.push_back(numberOf[w]); });
     }
     file.PutList(positions);
     file.PutList(counts);
@@ -114,8 +115,7 @@ void LoadMesh(CheckedReader& file, SurfaceMesh& mesh)
     file.GetList(items);
     const auto wanted = std::accumulate(counts.begin(), counts.end(), std::size_t(0));
     NeedThat(!counts.empty() && counts.size() <= n - v && positions.size() == counts.size() &&
-        items.size() == wanted &&
-        *std::max_element(counts.begin(), counts.end()) <= Ring::Capacity,
+        items.size() == wanted && *std::max_element(counts.begin(), counts.end()) <= Ring::Capacity,
       file);
     const int* next = items.data();
     for (std::size_t k = 0; k < counts.size(); ++k, ++v)

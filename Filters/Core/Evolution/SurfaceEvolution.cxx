@@ -78,8 +78,7 @@ std::string Verdict::Describe(int level) const
 
 void CheckOptions(const SurfaceOptions& options)
 {
-  CheckRange("Sampling Ratio", options.SamplingRatio,
-    SizingField::LeastSamplingRatio - 1e-6, 1.);
+  CheckRange("Sampling Ratio", options.SamplingRatio, SizingField::LeastSamplingRatio - 1e-6, 1.);
   CheckRange("Tension Weight", options.TensionWeight, 0., 1e6);
   CheckRange("Elasticity Weight", options.ElasticityWeight, 0., 1e6);
   CheckRange("Isopotential Weight", options.IsopotentialWeight, 0., 1e6);
@@ -127,8 +126,7 @@ SurfaceResult Evolution::Result()
 
 void Evolution::MakeField()
 {
-  this->TheField =
-    std::make_unique<Field>(this->Task.Image, this->Task.Options, this->Threads);
+  this->TheField = std::make_unique<Field>(this->Task.Image, this->Task.Options, this->Threads);
   this->Motion = std::make_unique<Dynamics>(*this->TheField, this->Task.Options, this->Threads);
 }
 
@@ -151,8 +149,8 @@ LevelOutcome EvolveOnLevel(
   }
   GiveBackFreeMemory();
   outcome.Surface = e.Result();
-  while (task.Revise && !e.Stopped && !outcome.Surface.Points.empty() &&
-    task.Revise(outcome.Surface))
+  while (
+    task.Revise && !e.Stopped && !outcome.Surface.Points.empty() && task.Revise(outcome.Surface))
   {
     Revise(e);
     outcome.Surface = e.Result();

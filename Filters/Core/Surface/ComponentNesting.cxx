@@ -69,8 +69,7 @@ std::vector<PartialVolume> VolumesOf(const SurfaceMesh& mesh, const LargeVector<
           volumes.emplace_back(label, ExactSum());
         }
       }
-      volumes[place].second.Add(
-        SignedVolume::OfFace(mesh, VectorD(origins[label]), a, b, c));
+      volumes[place].second.Add(SignedVolume::OfFace(mesh, VectorD(origins[label]), a, b, c));
     });
   return volumes;
 }

@@ -41,8 +41,7 @@ void JoinNeighbours(const SurfaceMesh& mesh, DisjointSets& joined, Executor& exe
 }
 }
 
-void ConnectedVertices::Label(
-  const SurfaceMesh& mesh, LargeVector<int>& labels, Executor& executor)
+void ConnectedVertices::Label(const SurfaceMesh& mesh, LargeVector<int>& labels, Executor& executor)
 {
   const std::size_t n = mesh.Rings.size();
   DisjointSets joined(n);
