@@ -18,7 +18,6 @@
 #include <vtkStreamingDemandDrivenPipeline.h>
 #include <vtkTable.h>
 
-#include <algorithm>
 #include <memory>
 #include <string>
 #include <utility>
@@ -125,7 +124,7 @@ bool vtkDeformableSurface::GetNeedsUpdate()
   }
   internals.IsOnTheWay = false;
   // The run of level 0 is not kept: level -1 is not reached from there.
-  internals.GoesToTheEnd = !internals.Cache.CanGoOn();
+  internals.GoesToTheEnd = !internals.Cache.Run() || !internals.Cache.Run()->CanGoOn();
   this->GoOn();
   return true;
 }
@@ -212,33 +211,6 @@ int vtkDeformableSurface::RequestUpdateExtent(
 }
 
 //------------------------------------------------------------------------------
-void vtkDeformableSurface::Warn(const std::string& text)
-{
-  std::vector<std::string>& warnings = this->Internals->Warnings;
-  if (std::find(warnings.begin(), warnings.end(), text) == warnings.end())
-  {
-    warnings.push_back(text);
-  }
-}
-
-//------------------------------------------------------------------------------
-void vtkDeformableSurface::TellWarnings()
-{
-  for (const std::string& text : this->Internals->Memory.TakeWarnings())
-  {
-    this->Warn(text);
-  }
-  if (this->Internals->IsOnTheWay)
-  {
-    return;
-  }
-  for (const std::string& text : std::exchange(this->Internals->Warnings, {}))
-  {
-    vtkWarningMacro(<< text);
-  }
-}
-
-//------------------------------------------------------------------------------
 int vtkDeformableSurface::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
@@ -290,9 +262,16 @@ int vtkDeformableSurface::RequestData(
     this->SetErrorCode(error.Code);
     vtkErrorMacro(<< error.Text);
   }
-  this->TellWarnings();
-  internals.InitialSurface = nullptr;
-  internals.AttractingPoints = nullptr;
+  for (const std::string& text : internals.Memory.TakeWarnings())
+  {
+    internals.Warn(text);
+  }
+  // Not while another run is still to come.
+  for (const std::string& text :
+    internals.IsOnTheWay ? std::vector<std::string>() : std::exchange(internals.Warnings, {}))
+  {
+    vtkWarningMacro(<< text);
+  }
   volumic::ForgetAbort(this);
   internals.All.reset();
   return 1;

@@ -149,24 +149,15 @@
 #include "vtkFiltersVolumicModule.h" // For export macro
 #include "vtkPolyDataAlgorithm.h"
 
-#include <vtkSmartPointer.h>
-
 #include <memory> // For what is hidden
 #include <string>
 
 class vtkAlgorithmOutput;
 class vtkDataObject;
-class vtkImageData;
 class vtkInformation;
 class vtkMultiBlockDataSet;
 class vtkMultiProcessController;
 class vtkTable;
-namespace volumic
-{
-struct PyramidOptions;
-struct PyramidRequest;
-struct SegmentationVolume;
-}
 
 class VTKFILTERSVOLUMIC_EXPORT vtkDeformableSurface : public vtkPolyDataAlgorithm
 {
@@ -631,31 +622,10 @@ protected:
   int RequestData(
     vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
 
-  /// Without levels, the rest as the properties have it.
-  volumic::SegmentationVolume VolumeAsSet();
-  /// What a pyramid is made by here; its levels are those of the defaults.
-  volumic::PyramidRequest PyramidAsSet();
-  /// Makes the pyramid of an image, for EdgeLength if there is one.
-  void MakeLevels(const volumic::PyramidOptions& pyramid, vtkImageData* image,
-    volumic::SegmentationVolume& volume);
-  /// What the surface is searched in, of the data of input port 0; its levels are null where
-  /// ShowPyramidProgress() said stop. Errors are thrown as std::invalid_argument.
-  virtual volumic::SegmentationVolume PrepareVolume(vtkDataObject* input);
-  /// The data of input port 0, which come in slabs where the memory is limited and the source can;
-  /// then what `volume` tells of the voxels is changed to fit. Null after a stop.
-  vtkSmartPointer<vtkDataObject> ReadInput(
-    vtkDataObject* input, bool takesCells, volumic::SegmentationVolume& volume);
-  /// Told at the end of the run, once: ParaView's message box would cover the progress bar.
-  void Warn(const std::string& text);
-  /// For the share of a pyramid that PrepareVolume() builds; false asks to stop.
-  bool ShowPyramidProgress(double share, const char* text = "Building the pyramid");
-
-private:
   class vtkInternals;
-  /// Of all that Warn() was given, unless another run is still to come.
-  void TellWarnings();
   std::unique_ptr<vtkInternals> Internals; ///< the properties, the run, and what is kept of it
 
+private:
   vtkDeformableSurface(const vtkDeformableSurface&) = delete;
   void operator=(const vtkDeformableSurface&) = delete;
 };

@@ -3,28 +3,20 @@
 #ifndef vtkDeformableSurfaceInternals_h
 #define vtkDeformableSurfaceInternals_h
 
-#include "Host/Deadline.h"
 #include "Host/LimitedMemory.h"
 #include "Ranks/Ranks.h"
 #include "Run/SegmentationCache.h"
 #include "Run/SegmentationCheckpoint.h"
-#include "Settings/SegmentationSettings.h"
-#include "Settings/SegmentationVolume.h"
+#include "Settings/SegmentationRequest.h"
 #include "vtkDeformableSurface.h"
 
 #include <vtkMultiProcessController.h>
-#include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
-
-namespace volumic
-{
-struct SegmentationRequest;
-class SurfaceSegmentation;
-}
 
 /**
  * What vtkDeformableSurface holds, beside what all algorithms do, and what RequestData() does.
@@ -42,50 +34,35 @@ public:
    * is kept.
    */
   void RunOrGoOn(const volumic::FilterCall& call);
+  /** Told at the end of the run, once: ParaView's message box would cover the progress bar. */
+  void Warn(const std::string& text);
 
   volumic::SegmentationSettings Settings; ///< the properties
   volumic::LimitedMemory Memory;          ///< as the last run had it; outlives what is kept
   volumic::SegmentationCache Cache;       ///< of the last run
-  volumic::Deadline Limit;                ///< of the run
   std::shared_ptr<volumic::SegmentationCheckpoint> Checkpoint; ///< of the last run; null: none
   vtkSmartPointer<vtkMultiProcessController> Controller;
   std::unique_ptr<volumic::Ranks> All; ///< of the run that is under way; else null
-  vtkSmartPointer<vtkPolyData> InitialSurface;   ///< of the run, of all ranks
-  vtkSmartPointer<vtkPolyData> AttractingPoints; ///< likewise
-  std::vector<std::string> Warnings; ///< to be told at the end
+  std::vector<std::string> Warnings;   ///< to be told at the end
+  std::set<std::string> WarnedOf;      ///< what is told once in the filter's life
   bool LeavesCheckpoints = false; ///< also of runs that have come to their end
-  bool HasToldOfWhole = false; ///< that the image does not come in slabs
   bool IsWatched = false;    ///< Someone asks whether a finer level is still to come.
   bool IsOnTheWay = false;   ///< One is, and nobody has asked yet.
   bool GoesToTheEnd = false; ///< The next run shows no level before.
 
 private:
-  /** What becomes of the last run. */
-  enum class Course
-  {
-    IsShown, ///< It has all that is asked for: the outputs are filled.
-    GoesOn,
-    BeginsAnew ///< It is gone; another one is to be made.
-  };
   /**
    * What a run is asked for by the properties and the inputs. From now on the run's time counts.
    */
   volumic::SegmentationRequest RequestAsSet(const volumic::FilterCall& call);
-  /** With ShowLevels: makes it a request for the next level to be shown, if it is not the last. */
-  void ChooseStep(volumic::SegmentationRequest& request, bool isKept);
-  /** Fills the outputs with what is kept. @return whether it is all that is wanted */
-  bool ShowKept(const volumic::SegmentationRequest& request, vtkInformationVector* output);
+  /**
+   * With ShowLevels: makes it a request for the next level to be shown, if it is not the last.
+   * @param kept may be null
+   */
+  void ChooseStep(
+    volumic::SegmentationRequest& request, const volumic::SurfaceSegmentation* kept);
   /** Makes the levels, and of them a run that has not begun. Null where that was stopped. */
-  std::unique_ptr<volumic::SurfaceSegmentation> NewRun(
-    const volumic::SegmentationRequest& request, const volumic::FilterCall& call);
-  /** Afterwards only what is shown is kept. @param run gets the one that goes on */
-  Course ChooseCourse(bool isKept, volumic::SegmentationRequest& request,
-    std::unique_ptr<volumic::SurfaceSegmentation>& run, vtkInformationVector* output);
-  /** Fills the outputs with what a run has, that is over or was stopped. */
-  void ShowRun(const volumic::SurfaceSegmentation& run,
-    const volumic::SegmentationRequest& request, vtkInformationVector* output);
-  /** Whether this rank or another one was asked to stop. */
-  bool IsStopped();
+  std::unique_ptr<volumic::SurfaceSegmentation> NewRun(volumic::SegmentationRequest request);
 
   vtkDeformableSurface& Filter;
 };

@@ -78,7 +78,7 @@ void CopyPosition(const std::vector<volumic::Point>& positions, int index, doubl
 
 //------------------------------------------------------------------------------
 #define VolumicSetting(name, type, field, change, kind)                                            \
-  VOLUMIC_SET_AND_GET(vtkDeformableSurface, name, type, Settings.field,                            \
+  VOLUMIC_SET_AND_GET(vtkDeformableSurface, name, type, Internals->Settings.field,                            \
     Modify(this, this->Internals->Cache, Change::change))
 #define VolumicWritten(name, type, field, change, kind)
 VOLUMIC_SURFACE_PROPERTIES(VolumicSetting, VolumicWritten)

@@ -112,7 +112,7 @@ vtkLabelsToSurfaces::~vtkLabelsToSurfaces() = default;
   MADE(ScratchDirectory, const char*, ScratchDirectory)
 
 #define VolumicSetting(name, type, field)                                                          \
-  VOLUMIC_SET_AND_GET(vtkLabelsToSurfaces, name, type, field, this->Modified())
+  VOLUMIC_SET_AND_GET(vtkLabelsToSurfaces, name, type, Internals->field, this->Modified())
 #define VolumicWritten(name, type, field)
 VOLUMIC_LABEL_PROPERTIES(VolumicSetting, VolumicWritten)
 

@@ -40,8 +40,8 @@ public:
    * Number of levels of the pyramid, the image included. 0, the default: as many as
    * MinimumLevelSize allows.
    */
-  vtkSetMacro(NumberOfLevels, int);
-  vtkGetMacro(NumberOfLevels, int);
+  virtual void SetNumberOfLevels(int value);
+  virtual int GetNumberOfLevels();
   ///@}
 
   ///@{
@@ -49,8 +49,8 @@ public:
    * With NumberOfLevels 0: no level after the image has an axis of fewer voxels than this.
    * Default: 10.
    */
-  vtkSetMacro(MinimumLevelSize, int);
-  vtkGetMacro(MinimumLevelSize, int);
+  virtual void SetMinimumLevelSize(int value);
+  virtual int GetMinimumLevelSize();
   ///@}
 
   ///@{
@@ -58,8 +58,8 @@ public:
    * How many times fewer voxels a level has along each axis than the level below it. Between 1 and
    * 2, both excluded. Default: sqrt(3).
    */
-  vtkSetMacro(ReductionFactor, double);
-  vtkGetMacro(ReductionFactor, double);
+  virtual void SetReductionFactor(double value);
+  virtual double GetReductionFactor();
   ///@}
 
   /**
@@ -72,17 +72,7 @@ protected:
   vtkVolumeToSurface();
   ~vtkVolumeToSurface() override;
 
-  volumic::SegmentationVolume PrepareVolume(vtkDataObject* input) override;
-
-  int NumberOfLevels;
-  int MinimumLevelSize;
-  double ReductionFactor;
-
 private:
-  /// Tells, once, that there is vtkLabelsToSurfaces, where the voxels look like labels.
-  void TellOfLabels(vtkImageData* image, vtkInformation* selection);
-  bool HasToldOfLabels = false;
-
   vtkVolumeToSurface(const vtkVolumeToSurface&) = delete;
   void operator=(const vtkVolumeToSurface&) = delete;
 };

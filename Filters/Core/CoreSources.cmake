@@ -9,7 +9,6 @@ set(volumic_core_sources
   Common/CheckedFile.cxx
   Common/ContentHash.cxx
   Common/FreeMemory.cxx
-  Common/JoinLabels.cxx
   Common/ScratchFile.cxx
   Common/ScratchMemory.cxx
   Common/ScratchStore.cxx
@@ -89,14 +88,11 @@ set(volumic_core_sources
   Evolution/Dynamics.cxx
   Evolution/EdgeLengthPlan.cxx
   Evolution/EdgesToKeep.cxx
-  Evolution/EvolutionCheckpoint.cxx
-  Evolution/EvolutionComponents.cxx
   Evolution/EvolutionDivision.cxx
   Evolution/EvolutionGrading.cxx
   Evolution/EvolutionHistory.cxx
   Evolution/EvolutionRun.cxx
   Evolution/EvolutionStart.cxx
-  Evolution/EvolutionVerification.cxx
   Evolution/EvolutionVisits.cxx
   Evolution/GivenSurface.cxx
   Evolution/GradedSizes.cxx
@@ -105,8 +101,10 @@ set(volumic_core_sources
   Evolution/LostParts.cxx
   Evolution/LostVoxels.cxx
   Evolution/SlabSearch.cxx
+  Evolution/SurfaceAtRest.cxx
   Evolution/SurfaceEvolution.cxx
   Evolution/SurfaceIteration.cxx
+  Evolution/SurfaceResult.cxx
   Evolution/VerticesOfSlabs.cxx)
 set(volumic_core_headers
   Common/Box.h
@@ -120,7 +118,6 @@ set(volumic_core_headers
   Common/Grow.h
   Common/IndexedSurface.h
   Common/Join.h
-  Common/JoinLabels.h
   Common/Lanes.h
   Common/LatticeKey.h
   Common/Monitor.h
@@ -225,7 +222,8 @@ set(volumic_core_headers
   Evolution/Dynamics.h
   Evolution/EdgeLengthPlan.h
   Evolution/EdgesToKeep.h
-  Evolution/EvolutionImplementation.h
+  Evolution/Evolution.h
+  Evolution/EvolutionHistory.h
   Evolution/GradedSizes.h
   Evolution/InitialSurface.h
   Evolution/LostBoundary.h
@@ -233,12 +231,12 @@ set(volumic_core_headers
   Evolution/LostVoxels.h
   Evolution/RestCriterion.h
   Evolution/SlabSearch.h
-  Evolution/Stopwatch.h
+  Evolution/SurfaceAtRest.h
   Evolution/SurfaceEvolution.h
   Evolution/SurfaceIteration.h
   Evolution/SurfaceOptions.h
-  Evolution/VerticesOfSlabs.h
-  Evolution/VoxelRuns.h)
+  Evolution/SurfaceResult.h
+  Evolution/VerticesOfSlabs.h)
 list(TRANSFORM volumic_core_sources PREPEND "${CMAKE_CURRENT_LIST_DIR}/")
 list(TRANSFORM volumic_core_headers PREPEND "${CMAKE_CURRENT_LIST_DIR}/")
 

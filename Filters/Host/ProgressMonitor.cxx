@@ -45,12 +45,6 @@ ProgressMonitor::ProgressMonitor(Callback callback, int coarsest, int finest, co
 {
 }
 
-bool ProgressMonitor::Continue(const Status& status)
-{
-  this->AfterSweep(status);
-  return this->GoOn(status);
-}
-
 bool ProgressMonitor::GoOn(const Status& status)
 {
   return this->Report(status.Level, status.Fraction,

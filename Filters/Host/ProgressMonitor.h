@@ -28,10 +28,6 @@ public:
    */
   ProgressMonitor(Callback callback, int coarsest, int finest, const Deadline& limit = Deadline());
 
-  /** Called after each sweep, on the thread of the run; it may look at the surface. */
-  std::function<void(const Status&)> AfterSweep = [](const Status&) {};
-
-  bool Continue(const Status& status) override;
   bool GoOn(const Status& status) override;
 
   /** Before the voxels of a level are made ready; false asks to stop. */

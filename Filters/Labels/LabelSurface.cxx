@@ -8,8 +8,6 @@
 #include "Output/SurfaceOutput.h"
 #include "Pyramid/BuildPyramid.h"
 #include "Run/SurfaceSegmentation.h"
-#include "Settings/SegmentationRequest.h"
-#include "Settings/SegmentationSettings.h"
 
 #include <vtkDataArray.h>
 #include <vtkDataSetAttributes.h>
@@ -165,13 +163,17 @@ LabelSurfaceMaker::LabelSurfaceMaker(
   this->Plan = PlanOf(settings, image);
 }
 
-SegmentationVolume LabelSurfaceMaker::MakeVolume(
-  const Place& place, vtkImageData* field, const Progress& progress) const
+SegmentationRequest LabelSurfaceMaker::MakeRequest(const Place& place, vtkImageData* field,
+  int numberOfThreads, const Progress& progress) const
 {
   const int level = place.Level;
-  SegmentationVolume volume;
-  volume.Selection = SelectScalars();
-  SegmentationSettings& settings = volume.Settings;
+  SegmentationRequest request;
+  request.Progress = [&progress](double share, const std::string& text)
+  { return progress(FieldShare + (1.0 - FieldShare) * share, text); };
+  request.Warn = [](const std::string&) {}; // Of all labels that are empty one warning tells.
+  request.Selection = SelectScalars();
+  SegmentationSettings& settings = request.Settings;
+  settings.End.NumberOfThreads = numberOfThreads;
   settings.Options.IsoValue = this->HalfGap();
   // The field's iso-surface has all parts but those too thin for its triangles.
   settings.Recovery =
@@ -189,8 +191,7 @@ SegmentationVolume LabelSurfaceMaker::MakeVolume(
   {
     settings.Options.SamplingRatio = this->Plan.SamplingRatio;
     pyramid.Levels.ReductionFactor = this->Plan.ReductionFactor;
-    volume.FactorBelowLevel0 = this->Plan.ReductionFactor;
-    volume.EdgeLengthIsPlanned = true;
+    request.FactorBelowLevel0 = this->Plan.ReductionFactor;
   }
   // No coarser ones, not even above level -1: what is thin, or hollow, would be lost there.
   settings.CoarsestLevel = std::max(level, 0);
@@ -204,9 +205,9 @@ SegmentationVolume LabelSurfaceMaker::MakeVolume(
   {
     image = PadForLevel(field, pyramid.Levels.ReductionFactor, settings.CoarsestLevel);
   }
-  volume.LevelsAreOwn = true;
-  volume.Levels = BuildPyramid(image, volume.Selection, -1, pyramid);
-  return volume;
+  request.LevelsAreOwn = true;
+  request.Levels = BuildPyramid(image, request.Selection, -1, pyramid);
+  return request;
 }
 
 double LabelSurfaceMaker::AllowedDistance() const
@@ -309,22 +310,17 @@ LabelSurface LabelSurfaceMaker::MakeAt(const Place& place, int object, int numbe
   }
   const LabelExtent& extent = this->Bricks.ExtentOf(object);
   made.WrongVoxels = made.MissedVoxels = extent.Voxels;
-  SegmentationRequest request;
-  request.Progress = [&](double share, const std::string& text)
-  { return progress(FieldShare + (1.0 - FieldShare) * share, text); };
-  request.Warn = [](const std::string&) {}; // Of all labels that are empty one warning tells.
   const LabelField original = this->Settings.Gap > 0.0 ? field.Field : LabelField();
   try
   {
-    const SegmentationVolume volume = this->MakeVolume(place, field.Image, progress);
-    if (!volume.Levels)
+    SegmentationRequest request =
+      this->MakeRequest(place, field.Image, numberOfThreads, progress);
+    if (!request.Levels)
     {
       made.Surface = nullptr;
       return made;
     }
-    request.End = volume.Settings.End;
-    request.End.NumberOfThreads = numberOfThreads;
-    const Point step = Workspace(this->Image, volume.Settings.Metric).Step();
+    const Point step = Workspace(this->Image, request.Settings.Metric).Step();
     Revision revision;
     request.Revise = [&](const SurfaceResult& surface)
     {
@@ -335,7 +331,8 @@ LabelSurface LabelSurfaceMaker::MakeAt(const Place& place, int object, int numbe
       }
       return this->ReviseField(object, revision, inVoxels, original, field.Field);
     };
-    SurfaceSegmentation run(volume, request);
+    SurfaceSegmentation run(request);
+    request.Levels = nullptr;
     run.Run();
     vtkPolyData* surface = run.Results().Outcome(run.EndsAt());
     if (!surface)

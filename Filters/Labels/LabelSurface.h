@@ -9,7 +9,7 @@
 #include "Core/Labels/LabelField.h"
 #include "Host/HostThreads.h"
 #include "Labels/LabelSettings.h"
-#include "Settings/SegmentationVolume.h"
+#include "Settings/SegmentationRequest.h"
 
 #include <vtkSmartPointer.h>
 
@@ -135,8 +135,9 @@ private:
   /** Whether a level finer than the image may hold what this surface leaves out. */
   bool LosesParts(int object, const LabelSurface& made) const;
   FieldImage MakeField(const Place& place, int object, HostThreads& threads) const;
-  SegmentationVolume MakeVolume(
-    const Place& place, vtkImageData* field, const Progress& progress) const;
+  /** A run of the surface of a field, but for Revise; without levels where it was stopped. */
+  SegmentationRequest MakeRequest(
+    const Place& place, vtkImageData* field, int numberOfThreads, const Progress& progress) const;
   /** Smallest distances of voxels from a surface within which a wrong centre is no fault of it. */
   double AllowedDistance() const;
   /** The wrong voxels that are further from the surface than that. */

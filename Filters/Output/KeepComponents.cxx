@@ -4,10 +4,10 @@
 
 #include "Core/Common/Refuse.h"
 #include "Core/Common/Spans.h"
+#include "Core/Mesh/RowCrossing.h"
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "Core/Surface/SizingField.h"
 #include "Input/InputPoints.h"
-#include "Output/PartOfSurface.h"
 #include "Output/SurfaceTransform.h"
 #include "Settings/CheckEnumeration.h"
 
@@ -57,34 +57,6 @@ private:
 };
 
 /**
- * Whether the ray from p along +y of the plane (y, z) crosses the edge. Both faces of an edge get
- * the same answer, and of a vertex on the ray one of the two edges counts.
- */
-bool Crosses(const Point& p, const Point& a, const Point& b)
-{
-  if ((a[2] > p[2]) == (b[2] > p[2]))
-  {
-    return false;
-  }
-  const Point& low = a[2] < b[2] ? a : b;
-  const Point& high = a[2] < b[2] ? b : a;
-  return p[1] < low[1] + (p[2] - low[2]) / (high[2] - low[2]) * (high[1] - low[1]);
-}
-
-/** Whether the ray from p along +x goes through the triangle. */
-bool Pierces(const Point& p, const Point& a, const Point& b, const Point& c)
-{
-  if (Crosses(p, a, b) == (Crosses(p, b, c) != Crosses(p, c, a)))
-  {
-    return false;
-  }
-  const double ny = (b[1] - a[1]) * (c[2] - a[2]) - (b[2] - a[2]) * (c[1] - a[1]);
-  const double u = ((p[1] - a[1]) * (c[2] - a[2]) - (p[2] - a[2]) * (c[1] - a[1])) / ny;
-  const double v = ((b[1] - a[1]) * (p[2] - a[2]) - (b[2] - a[2]) * (p[1] - a[1])) / ny;
-  return a[0] + u * (b[0] - a[0]) + v * (c[0] - a[0]) > p[0];
-}
-
-/**
  * For each place the innermost component that encloses it, -1 if none; `own` (may be empty) does
  * not count.
  */
@@ -113,9 +85,13 @@ std::vector<int> InnermostAbout(const std::vector<Point>& places, const std::vec
         sorted.Visit(y.first, y.second,
           [&](std::size_t i)
           {
-            if ((own.empty() || own[i] != component) && Pierces(places[i], a, b, c))
+            if (own.empty() || own[i] != component)
             {
-              spans[span].push_back({ i, component });
+              const RowCrossing where = RowCrossing::Of(a, b, c, places[i][1], places[i][2]);
+              if (where.Winding != 0 && where.X > places[i][0])
+              {
+                spans[span].push_back({ i, component });
+              }
             }
           });
       }
@@ -143,6 +119,62 @@ std::vector<int> InnermostAbout(const std::vector<Point>& places, const std::vec
     }
   }
   return innermost;
+}
+
+/** Leaves the components that are kept. */
+void LeaveKept(
+  SurfaceResult& surface, const SurfaceFeatures& features, const std::vector<bool>& isKept)
+{
+  LargeVector<int> index(surface.Points.size(), -1);
+  std::size_t count = 0;
+  for (std::size_t t = 0; t < surface.Triangles.size(); ++t)
+  {
+    if (isKept[features.ComponentOfTriangle[t]])
+    {
+      surface.Triangles[count++] = surface.Triangles[t];
+      for (const int corner : surface.Triangles[t])
+      {
+        index[corner] = 0;
+      }
+    }
+  }
+  surface.Triangles.resize(count);
+  int points = 0;
+  for (int& i : index)
+  {
+    i = i == 0 ? points++ : -1;
+  }
+  const auto leave = [&](auto& values)
+  {
+    for (std::size_t p = 0; p < values.size(); ++p)
+    {
+      if (index[p] >= 0)
+      {
+        values[index[p]] = values[p];
+      }
+    }
+    values.resize(values.empty() ? 0 : points);
+  };
+  leave(surface.Points);
+  leave(surface.Normals);
+  leave(surface.Residual);
+  leave(surface.Motionless);
+  leave(surface.Held);
+  leave(surface.Size);
+  leave(surface.Thickness);
+  const auto isGone = [&](const std::array<int, 2>& pair)
+  { return index[pair[0]] < 0 || index[pair[1]] < 0; };
+  surface.Contacts.erase(
+    std::remove_if(surface.Contacts.begin(), surface.Contacts.end(), isGone),
+    surface.Contacts.end());
+  for (std::array<int, 2>& pair : surface.Contacts)
+  {
+    pair = { index[pair[0]], index[pair[1]] };
+  }
+  for (Triangle& triangle : surface.Triangles)
+  {
+    triangle = { index[triangle[0]], index[triangle[1]], index[triangle[2]] };
+  }
 }
 
 void MarkTouching(const SurfaceResult& surface, const SurfaceFeatures& features,
@@ -233,10 +265,10 @@ std::vector<int> OwnersOf(
   return owners;
 }
 
-ComponentChoice ChoiceOf(const SegmentationSettings& settings, const SegmentationRequest& request,
-  const Workspace& space, const std::array<int, 3>& size)
+ComponentChoice ChoiceOf(const SegmentationRequest& request, const Workspace& space,
+  const std::array<int, 3>& size)
 {
-  const SegmentationEnd& end = settings.End;
+  const SegmentationEnd& end = request.Settings.End;
   CheckEnumeration(
     "Keep Components", end.KeepComponents, KeepComponentsType::ComponentsNotAtSeeds);
   if (!(end.MinimumComponentVolume >= 0.0))
@@ -251,7 +283,7 @@ ComponentChoice ChoiceOf(const SegmentationSettings& settings, const Segmentatio
     choice.Places = PlacesOf(request.InitialSurface, request.AttractingPoints, space);
     for (const std::vector<Point>& more :
       { PositionsOf(end.SeedPositions, "Seed Positions", space, size),
-        PositionsOf(settings.AttractingPositions, "Attracting Positions", space, size) })
+        PositionsOf(request.Settings.AttractingPositions, "Attracting Positions", space, size) })
     {
       choice.Places.insert(choice.Places.end(), more.begin(), more.end());
     }
@@ -310,6 +342,7 @@ SurfaceResult KeepChosen(SurfaceResult surface, const ComponentChoice& choice,
   {
     isKept[c] = owners[c] >= 0 && isKept[owners[c]];
   }
-  return PartOf(surface, features, isKept);
+  LeaveKept(surface, features, isKept);
+  return surface;
 }
 }

@@ -37,23 +37,16 @@ vtkSmartPointer<vtkPolyData> ShallowCopyOf(vtkPolyData* surface)
 }
 }
 
-SegmentationResults::SegmentationResults() = default;
-
-SegmentationResults::SegmentationResults(int numberOfLevels, int coarsest,
-  const Workspace& space, const std::array<int, 3>& size, bool withPhases)
+SegmentationResults::SegmentationResults(bool withPhases, int numberOfLevels, int coarsest,
+  const Workspace& space, const std::array<int, 3>& size)
   : NumberOfLevels(numberOfLevels), Coarsest(coarsest), Space(space), Size(size)
   , WithPhases(withPhases)
 {
 }
 
-SegmentationResults::~SegmentationResults() = default;
-SegmentationResults::SegmentationResults(const SegmentationResults&) = default;
-SegmentationResults& SegmentationResults::operator=(const SegmentationResults&) = default;
-
-bool SegmentationResults::Choose(const SegmentationSettings& settings,
-  const SegmentationRequest& request, Executor& threads)
+bool SegmentationResults::Choose(const SegmentationRequest& request, Executor& threads)
 {
-  const ComponentChoice choice = ChoiceOf(settings, request, this->Space, this->Size);
+  const ComponentChoice choice = ChoiceOf(request, this->Space, this->Size);
   if (choice == this->Choice)
   {
     return true;
@@ -171,15 +164,15 @@ std::string SegmentationResults::WarningOf(int last, bool wantsAll) const
   {
     return Join("Level ", about.Level, ": Keep Components leaves none of the components.");
   }
-  if (about.MissingBoundary > NotableShare && wantsAll)
+  if (about.Lost.MissingBoundary > NotableShare && wantsAll)
   {
-    const int lost = about.LostParts + about.LostCavities;
+    const int lost = about.Lost.Found + about.Lost.FoundCavities;
     const std::string parts =
       Join(lost, lost == 1 ? " part" : " parts", " that coarser levels had lost");
-    const std::string what = about.MissingParts == 0 ? "thin ends of " + parts
-      : about.MissingParts == lost                   ? "all of " + parts
-      : Join(about.MissingParts, " of ", parts, ", and thin ends of others");
-    return Join(std::lround(100.0 * about.MissingBoundary), " % of the object's boundary at level ",
+    const std::string what = about.Lost.Missing == 0 ? "thin ends of " + parts
+      : about.Lost.Missing == lost                   ? "all of " + parts
+      : Join(about.Lost.Missing, " of ", parts, ", and thin ends of others");
+    return Join(std::lround(100.0 * about.Lost.MissingBoundary), " % of the object's boundary at level ",
       about.Level, " is not on the surface: ", what,
       ", too thin for triangles of this size or too near to the rest. ",
       about.Level > 0

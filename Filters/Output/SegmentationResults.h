@@ -8,7 +8,6 @@
 #include "Output/KeepComponents.h"
 #include "Output/SurfaceOutput.h"
 #include "Settings/SegmentationRequest.h"
-#include "Settings/SegmentationSettings.h"
 
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
@@ -50,13 +49,9 @@ public:
     vtkSmartPointer<vtkPolyData> Surface;
   };
 
-  SegmentationResults();
   /** @param size voxels of level 0 along each axis */
-  SegmentationResults(int numberOfLevels, int coarsest, const Workspace& space,
-    const std::array<int, 3>& size, bool withPhases);
-  ~SegmentationResults();
-  SegmentationResults(const SegmentationResults&);
-  SegmentationResults& operator=(const SegmentationResults&);
+  explicit SegmentationResults(bool withPhases = false, int numberOfLevels = 0, int coarsest = 0,
+    const Workspace& space = Workspace(), const std::array<int, 3>& size = { 0, 0, 0 });
 
   /** The finest level that a preview visits. */
   void SetPreviewLevel(int level) { this->PreviewLevel = level; }
@@ -67,8 +62,7 @@ public:
    * @return false where they cannot be, as those of all components were not kept
    * @throws as ChoiceOf()
    */
-  bool Choose(const SegmentationSettings& settings, const SegmentationRequest& request,
-    Executor& threads);
+  bool Choose(const SegmentationRequest& request, Executor& threads);
   /** Of a level, by its description: the part of it that is chosen, and whether that is none. */
   void MakeSurface(Level& result, SurfaceResult surface, Executor& threads) const;
 

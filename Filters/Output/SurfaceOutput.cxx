@@ -321,12 +321,13 @@ vtkSmartPointer<vtkPolyData> MakePolyData(SurfaceResult surface,
     AddField<vtkDoubleArray>(
       polyData, "WithinTolerance", surface.FitToTolerance->WithinTolerance);
   }
-  AddField<vtkIntArray>(polyData, "LostParts", description.LostParts);
-  AddField<vtkIntArray>(polyData, "RecoveredParts", description.RecoveredParts);
-  AddField<vtkIntArray>(polyData, "MissingParts", description.MissingParts);
-  AddField<vtkDoubleArray>(polyData, "MissingBoundary", description.MissingBoundary);
-  AddField<vtkIntArray>(polyData, "LostCavities", description.LostCavities);
-  AddField<vtkIntArray>(polyData, "RecoveredCavities", description.RecoveredCavities);
+  const LostParts& lost = description.Lost;
+  AddField<vtkIntArray>(polyData, "LostParts", lost.Found);
+  AddField<vtkIntArray>(polyData, "RecoveredParts", lost.Enclosed);
+  AddField<vtkIntArray>(polyData, "MissingParts", lost.Missing);
+  AddField<vtkDoubleArray>(polyData, "MissingBoundary", lost.MissingBoundary);
+  AddField<vtkIntArray>(polyData, "LostCavities", lost.FoundCavities);
+  AddField<vtkIntArray>(polyData, "RecoveredCavities", lost.EnclosedCavities);
   if (description.TotalIterations >= 0)
   {
     AddField<vtkIntArray>(polyData, "Iteration", description.TotalIterations);

@@ -23,12 +23,7 @@ struct SurfaceDescription
   int Iterations = 0;       ///< at this level
   int TotalIterations = -1; ///< over all levels; field `Iteration`, -1: none
   std::string StopReason;   ///< empty: none, the surface is still on its way
-  int LostParts = 0;
-  int RecoveredParts = 0;
-  int MissingParts = 0;
-  double MissingBoundary = 0.0; ///< share, 0 to 1
-  int LostCavities = 0;
-  int RecoveredCavities = 0;
+  LostParts Lost;
 };
 
 /**

@@ -215,7 +215,7 @@ void PyramidLevels::ReleaseCoarserThan(int level)
 {
   this->Loaded = nullptr;
   this->Filled = LargeVector<float>();
-  for (int h = std::max(level, 0) + 1; h < this->NumberOfLevels(); ++h)
+  for (int h = level == AllLevels ? 0 : std::max(level, 0) + 1; h < this->NumberOfLevels(); ++h)
   {
     this->Images[h] = nullptr;
     this->Voxels[h] = nullptr;

@@ -99,9 +99,11 @@ public:
    */
   LevelImage Load(int level, double base, double background, Executor& executor);
 
+  /** Coarser than none. */
+  static constexpr int AllLevels = -2;
   /**
    * Lets go of the voxels of the levels that are coarser: no more than sizes, units and ranges that
-   * were asked for is known of them afterwards. Of level 0 the voxels stay.
+   * were asked for is known of them afterwards. Of level 0 the voxels stay, unless AllLevels go.
    */
   void ReleaseCoarserThan(int level);
   /** Whether the voxels of a level are still there. */

@@ -4,9 +4,9 @@
 
 #include "Core/Common/Executor.h"
 #include "Core/Common/Refuse.h"
-#include "Core/Evolution/SurfaceOptions.h"
 #include "Core/Image/Field.h"
 #include "Input/CellIndices.h"
+#include "Input/InputPoints.h"
 #include "Output/SurfaceTransform.h"
 
 #include <vtkCellArray.h>
@@ -90,7 +90,6 @@ vtkSmartPointer<vtkImageData> PadByBackground(
   }
   return padded;
 }
-}
 
 IndexedSurface SurfaceOf(vtkPolyData* polyData, const Workspace& space)
 {
@@ -127,5 +126,32 @@ IndexedSurface ClosedIsoSurface(const LevelImage& image, const SurfaceOptions& o
     FlipOrientation(surface);
   }
   return surface;
+}
+}
+
+SurfaceStart StartOf(const SegmentationRequest& request, const Workspace& space,
+  const std::vector<Point>& seeds, const LevelImage& image)
+{
+  vtkPolyData* given = request.InitialSurface;
+  SurfaceStart start;
+  switch (request.Settings.Initialization)
+  {
+    case InitializationType::Seeds:
+      start.From = SurfaceStart::Kind::Seeds;
+      start.Seeds = SeedsOf(given, space);
+      start.Seeds.insert(start.Seeds.end(), seeds.begin(), seeds.end());
+      break;
+    case InitializationType::IsoSurface:
+      start.From = SurfaceStart::Kind::IsoSurface;
+      start.Surface = ClosedIsoSurface(image, request.Settings.Options);
+      break;
+    case InitializationType::InputSurface:
+      start.From = SurfaceStart::Kind::Surface;
+      start.Surface = SurfaceOf(given, space);
+      break;
+    case InitializationType::EnclosingIcosahedron:
+      break;
+  }
+  return start;
 }
 }

@@ -3,26 +3,22 @@
 #ifndef volumicInitialSurfaces_h
 #define volumicInitialSurfaces_h
 
-#include "Core/Common/IndexedSurface.h"
-#include "Core/Evolution/SurfaceOptions.h"
-#include "Core/Image/LevelImage.h"
+#include "Core/Evolution/SurfaceEvolution.h"
 #include "Input/Workspace.h"
+#include "Settings/SegmentationRequest.h"
 
-class vtkPolyData;
+#include <vector>
 
 namespace volumic
 {
 /**
- * The polygons of a poly data, triangulated, as a surface of the workspace.
- * @throws std::invalid_argument if there is none.
+ * What the surface begins with on the coarsest level, as Initialization says: of the polygons of the
+ * initial surface, triangulated, its points and those of `seeds` (workspace), or the iso-surface of
+ * the level, closed at the border of the image by background.
+ * @throws std::invalid_argument for an initial surface that cannot be read
  */
-IndexedSurface SurfaceOf(vtkPolyData* polyData, const Workspace& space);
-
-/**
- * The iso-surface of a level (workspace), closed at the border of the image by background, outward
- * oriented, by vtkFlyingEdges3D.
- */
-IndexedSurface ClosedIsoSurface(const LevelImage& image, const SurfaceOptions& options);
+SurfaceStart StartOf(const SegmentationRequest& request, const Workspace& space,
+  const std::vector<Point>& seeds, const LevelImage& image);
 }
 
 #endif

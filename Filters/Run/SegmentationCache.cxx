@@ -12,6 +12,7 @@
 #include <vtkSmartPointer.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace volumic
 {
@@ -47,9 +48,6 @@ vtkMTimeType TimeOf(vtkDataObject* data)
   return time;
 }
 }
-
-SegmentationCache::SegmentationCache() = default;
-SegmentationCache::~SegmentationCache() = default;
 
 SegmentationCache::Inputs SegmentationCache::InputsOf(vtkAlgorithm* filter)
 {
@@ -87,29 +85,25 @@ void SegmentationCache::Keep(
   this->Time = filter->GetMTime();
   this->Ranks = ranks;
   this->InputsOfRun = InputsOf(filter);
-  if (!run)
+  if (run && !run->CanGoOn())
   {
-    return;
+    run->LetGo();
   }
-  this->IsGraded = run->GetSettings().Grading.IsWanted();
-  this->EndIsPlanned = run->GetSettings().EdgeLength != 0.0;
-  this->PlannedEnd = run->GetSettings().End.FinestLevel;
-  if (run->CanGoOn())
-  {
-    this->Run = std::move(run);
-  }
-  else
-  {
-    this->Results = std::make_unique<SegmentationResults>(run->Results());
-  }
+  this->Kept = std::move(run);
 }
 
 void SegmentationCache::Drop()
 {
-  this->Run.reset();
-  this->Results.reset();
+  this->Kept.reset();
   this->InputsOfRun.clear();
   this->Time = 0;
+}
+
+std::unique_ptr<SurfaceSegmentation> SegmentationCache::TakeRun()
+{
+  std::unique_ptr<SurfaceSegmentation> run = std::move(this->Kept);
+  this->Drop();
+  return run;
 }
 
 void SegmentationCache::IgnoreChange(vtkMTimeType before, vtkMTimeType after)
@@ -124,36 +118,5 @@ bool SegmentationCache::IsValidFor(vtkAlgorithm* filter, int ranks) const
 {
   return this->Time != 0 && this->Time == filter->GetMTime() && this->Ranks == ranks &&
     this->InputsOfRun == InputsOf(filter);
-}
-
-int SegmentationCache::EndOf(const SegmentationEnd& end) const
-{
-  const SegmentationResults& results = this->Run ? this->Run->Results() : *this->Results;
-  const int finest = this->EndIsPlanned ? this->PlannedEnd : end.FinestLevel;
-  return end.Preview ? std::max(finest, results.LevelOfPreview()) : finest;
-}
-
-const SegmentationResults* SegmentationCache::ResultsFor(
-  const SegmentationSettings& settings, const SegmentationRequest& request)
-{
-  SegmentationResults& results = this->Run ? this->Run->Results() : *this->Results;
-  const bool isThere = results.HasAtRest(this->EndOf(request.End));
-  if (!isThere || !SurfaceSegmentation::Choose(results, settings, request))
-  {
-    return nullptr;
-  }
-  results.SetStoppedSurface(nullptr); // That was on the way to a finer one.
-  return &results;
-}
-
-int SegmentationCache::NextLevel() const
-{
-  const int end = this->Run->EndsAt();
-  return this->Run->Results().HasAtRest(end) ? end - 1 : end;
-}
-
-std::unique_ptr<SurfaceSegmentation> SegmentationCache::TakeRun()
-{
-  return std::move(this->Run);
 }
 }

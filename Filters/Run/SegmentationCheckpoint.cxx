@@ -9,8 +9,10 @@
 #include "Host/FolderLock.h"
 #include "Input/SurfaceFile.h"
 
+#include <charconv>
 #include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <exception>
 #include <filesystem>
 #include <system_error>
@@ -24,35 +26,59 @@ namespace
 namespace fs = std::filesystem;
 
 constexpr const char* Prefix = "volumic-";
-/** Begins each state; to be changed with the format, or with the bits of what a run makes of it. */
-constexpr const char* Format = "Volumic checkpoint 5";
-
-std::string StateIn(const fs::path& folder)
-{
-  return (folder / "state").string();
-}
+/** Begins each file; to be changed with the format, or with the bits of what a run makes of it. */
+constexpr const char* Format = "Volumic checkpoint 7";
 
 constexpr const char* LevelPrefix = "level-";
+/** What former versions had beside files of levels. */
+constexpr const char* FormerState = "state";
 
-std::string LevelFileIn(const fs::path& folder, int level)
+std::string FileIn(const fs::path& folder, int level)
 {
   return (folder / Join(LevelPrefix, level)).string();
 }
 
-bool HasState(const std::string& folder)
+/** Of a name of such a file. */
+std::optional<int> LevelOf(const std::string& name)
 {
-  std::error_code ignored;
-  return fs::exists(StateIn(folder), ignored);
+  int level = 0;
+  const char* end = name.data() + name.size();
+  if (name.rfind(LevelPrefix, 0) == 0)
+  {
+    const char* begin = name.data() + std::strlen(LevelPrefix);
+    const std::from_chars_result read = std::from_chars(begin, end, level);
+    if (read.ec == std::errc() && read.ptr == end)
+    {
+      return level;
+    }
+  }
+  return std::nullopt;
 }
 
-/** Removes the files of a checkpoint, the state first: from then on there is none. */
-void RemoveFilesIn(const std::string& folder)
+/** That of the finest level, of what a folder holds; empty: none. */
+std::string FileIn(const std::string& folder)
 {
-  std::error_code ignored;
-  fs::remove(StateIn(folder), ignored);
+  std::optional<int> finest;
   for (const std::string& name : NamesIn(folder))
   {
-    if (name.rfind(LevelPrefix, 0) == 0 || name.rfind("state", 0) == 0)
+    if (name == FormerState)
+    {
+      return (fs::path(folder) / name).string(); // Is refused as what it is.
+    }
+    const std::optional<int> level = LevelOf(name);
+    finest = level && (!finest || *level < *finest) ? level : finest;
+  }
+  return finest ? FileIn(fs::path(folder), *finest) : std::string();
+}
+
+/** But for that of a level. */
+void RemoveFilesIn(const std::string& folder, std::optional<int> but = std::nullopt)
+{
+  for (const std::string& name : NamesIn(folder))
+  {
+    std::error_code ignored;
+    if ((name.rfind(LevelPrefix, 0) == 0 || name.rfind(FormerState, 0) == 0) &&
+      (!but || LevelOf(name) != but))
     {
       fs::remove(fs::path(folder) / name, ignored);
     }
@@ -81,12 +107,7 @@ void WriteDescription(CheckedWriter& file, const SurfaceDescription& about)
   file.Put(about.Iterations);
   file.Put(about.TotalIterations);
   file.PutText(about.StopReason);
-  file.Put(about.LostParts);
-  file.Put(about.RecoveredParts);
-  file.Put(about.MissingParts);
-  file.Put(about.MissingBoundary);
-  file.Put(about.LostCavities);
-  file.Put(about.RecoveredCavities);
+  file.Put(about.Lost);
 }
 
 SurfaceDescription ReadDescription(CheckedReader& file)
@@ -97,19 +118,13 @@ SurfaceDescription ReadDescription(CheckedReader& file)
   about.Iterations = file.Get<int>();
   about.TotalIterations = file.Get<int>();
   about.StopReason = file.GetText();
-  about.LostParts = file.Get<int>();
-  about.RecoveredParts = file.Get<int>();
-  about.MissingParts = file.Get<int>();
-  about.MissingBoundary = file.Get<double>();
-  about.LostCavities = file.Get<int>();
-  about.RecoveredCavities = file.Get<int>();
+  about.Lost = file.Get<LostParts>();
   return about;
 }
 
-void WriteLevel(const std::string& name, const SegmentationResults& results, int level)
+void WriteLevel(CheckedWriter& file, const SegmentationResults& results, int level)
 {
   const SegmentationResults::Level& result = results.Levels().at(level);
-  CheckedWriter file(name);
   WriteDescription(file, result.Description);
   file.Put(result.KeepsNone);
   file.Put(result.IsAtRest);
@@ -121,17 +136,16 @@ void WriteLevel(const std::string& name, const SegmentationResults& results, int
     file.PutText(snapshot->Name);
     WriteSurfaceTo(file, snapshot->Surface);
   }
-  file.Commit();
 }
 
-void ReadLevel(const std::string& name, SegmentationResults& results, int level)
+void ReadLevel(CheckedReader& file, SegmentationResults& results)
 {
-  CheckedReader file(name);
   SegmentationResults::Level result;
   result.Description = ReadDescription(file);
   result.KeepsNone = file.Get<bool>();
   result.IsAtRest = file.Get<bool>();
   result.Surface = ReadSurfaceFrom(file);
+  const int level = result.Description.Level;
   results.SetLevel(level, result);
   for (auto left = file.Get<std::uint64_t>(); left > 0; --left)
   {
@@ -140,20 +154,20 @@ void ReadLevel(const std::string& name, SegmentationResults& results, int level)
   }
 }
 
-/** What each state begins with. */
-struct StateHead
+/** What each file begins with. */
+struct FileHead
 {
   RunFingerprint Fingerprint;
   SegmentationCheckpoint::Place Place;
 };
 
-StateHead ReadHead(CheckedReader& file)
+FileHead ReadHead(CheckedReader& file)
 {
   if (file.GetText() != Format)
   {
     file.Refuse("was written by another version of Volumic");
   }
-  StateHead head;
+  FileHead head;
   head.Fingerprint = RunFingerprint::Read(file);
   head.Place.Level = file.Get<int>();
   head.Place.GoesOn = file.Get<bool>();
@@ -194,7 +208,7 @@ SegmentationCheckpoint::~SegmentationCheckpoint()
 
 void SegmentationCheckpoint::RemoveIfEmpty()
 {
-  if (this->Locked && !HasState(this->Folder))
+  if (this->Locked && FileIn(this->Folder).empty())
   {
     RemoveFilesIn(this->Folder);
     this->Locked->RemoveFolder();
@@ -202,13 +216,14 @@ void SegmentationCheckpoint::RemoveIfEmpty()
   }
 }
 
-std::optional<SegmentationCheckpoint::Place> SegmentationCheckpoint::PlaceOfState() const
+std::optional<SegmentationCheckpoint::Place> SegmentationCheckpoint::PlaceOfFile() const
 {
-  if (!HasState(this->Folder))
+  const std::string name = FileIn(this->Folder);
+  if (name.empty())
   {
     return std::nullopt;
   }
-  CheckedReader file(StateIn(this->Folder));
+  CheckedReader file(name);
   return ReadHead(file).Place;
 }
 
@@ -222,14 +237,14 @@ void SegmentationCheckpoint::CheckOthers() const
   for (const std::string& name : NamesIn(this->Directory))
   {
     const std::string folder = (fs::path(this->Directory) / name).string();
-    if (name.rfind(Prefix, 0) != 0 || fs::is_symlink(folder, ignored) || !HasState(folder) ||
+    if (name.rfind(Prefix, 0) != 0 || fs::is_symlink(folder, ignored) || FileIn(folder).empty() ||
       FolderLock::IsHeld(folder))
     {
       continue;
     }
     try
     {
-      CheckedReader file(StateIn(folder));
+      CheckedReader file(FileIn(folder));
       const RunFingerprint found = ReadHead(file).Fingerprint;
       if (this->IsShared && !this->Fingerprint.IsSameVolume(found))
       {
@@ -250,8 +265,10 @@ void SegmentationCheckpoint::CheckOthers() const
   }
   if (!nearest.empty() && fewest == 0)
   {
-    Refuse("Resume: the checkpoint ", nearest, " is of this volume and these settings, but has "
-      "not their name. Rename it to ", this->Folder, ", or, to begin anew, remove it.");
+    Refuse("Resume: the checkpoint ", nearest,
+      " is of this volume and these settings, but has "
+      "not their name. Rename it to ",
+      this->Folder, ", or, to begin anew, remove it.");
   }
   if (!nearest.empty())
   {
@@ -264,9 +281,9 @@ void SegmentationCheckpoint::CheckOthers() const
 }
 
 std::optional<SegmentationCheckpoint::Place> SegmentationCheckpoint::Load(
-  SegmentationResults& results, SurfaceEvolution& evolution)
+  SegmentationResults& results, SurfaceAtRest& rest)
 {
-  if (!HasState(this->Folder))
+  if (FileIn(this->Folder).empty())
   {
     this->CheckOthers();
     return std::nullopt;
@@ -278,16 +295,13 @@ std::optional<SegmentationCheckpoint::Place> SegmentationCheckpoint::Load(
       Refuse("Resume: another run is at the checkpoint ", this->Folder,
         ". Wait until it has ended, or end it.");
     }
-    CheckedReader file(StateIn(this->Folder));
-    const StateHead head = ReadHead(file);
-    std::vector<int> levels;
-    file.GetList(levels);
-    evolution.Load(file);
-    for (const int level : levels)
+    CheckedReader file(FileIn(this->Folder));
+    const FileHead head = ReadHead(file);
+    rest.Load(file);
+    for (auto left = file.Get<std::uint64_t>(); left > 0; --left)
     {
-      ReadLevel(LevelFileIn(this->Folder, level), results, level);
+      ReadLevel(file, results);
     }
-    this->WrittenLevels.insert(levels.begin(), levels.end());
     this->Existing = head.Place;
     this->Resumed = head.Place.Level;
     return head.Place;
@@ -298,7 +312,8 @@ std::optional<SegmentationCheckpoint::Place> SegmentationCheckpoint::Load(
   }
   catch (const FileError& error)
   {
-    Refuse("Resume: ", error.what(), ". Begin anew: switch Resume off, or remove that folder, or "
+    Refuse("Resume: ", error.what(),
+      ". Begin anew: switch Resume off, or remove that folder, or "
       "choose another Scratch Directory.");
   }
 }
@@ -313,7 +328,7 @@ bool SegmentationCheckpoint::TakeFolder()
 }
 
 std::string SegmentationCheckpoint::Save(
-  const SegmentationResults& results, const SurfaceEvolution& evolution, const Place& place)
+  const SegmentationResults& results, const SurfaceAtRest& rest, const Place& place)
 {
   if (this->HasFailed)
   {
@@ -330,7 +345,7 @@ std::string SegmentationCheckpoint::Save(
     }
     try
     {
-      this->Existing = isNew ? this->PlaceOfState() : this->Existing;
+      this->Existing = isNew ? this->PlaceOfFile() : this->Existing;
     }
     catch (const FileError&)
     {
@@ -338,7 +353,7 @@ std::string SegmentationCheckpoint::Save(
     }
     if (!this->Existing || this->Existing->Level >= place.Level)
     {
-      this->Write(results, evolution, place);
+      this->Write(results, rest, place);
       this->Existing = place;
     }
     return "";
@@ -363,49 +378,22 @@ std::string SegmentationCheckpoint::Save(
 }
 
 void SegmentationCheckpoint::Write(
-  const SegmentationResults& results, const SurfaceEvolution& evolution, const Place& place)
+  const SegmentationResults& results, const SurfaceAtRest& rest, const Place& place)
 {
-  std::vector<int> levels;
-  for (const auto& [level, result] : results.Levels())
+  CheckedWriter file(FileIn(fs::path(this->Folder), place.Level));
+  file.PutText(Format);
+  this->Fingerprint.Write(file);
+  file.Put(place.Level);
+  file.Put(place.GoesOn);
+  rest.Save(file);
+  file.Put<std::uint64_t>(results.Levels().size());
+  // The coarser ones come first, as their snapshots do.
+  for (auto level = results.Levels().rbegin(); level != results.Levels().rend(); ++level)
   {
-    levels.push_back(level);
+    WriteLevel(file, results, level->first);
   }
-  std::vector<int> added;
-  std::vector<int> replaced; // By the same: the state that was there before may need them.
-  try
-  {
-    // The coarser ones come first, as their snapshots do.
-    for (auto level = levels.rbegin(); level != levels.rend(); ++level)
-    {
-      if (this->WrittenLevels.count(*level) == 0)
-      {
-        const std::string name = LevelFileIn(this->Folder, *level);
-        std::error_code ignored;
-        (fs::exists(name, ignored) ? replaced : added).push_back(*level);
-        WriteLevel(name, results, *level);
-      }
-    }
-    CheckedWriter file(StateIn(this->Folder));
-    file.PutText(Format);
-    this->Fingerprint.Write(file);
-    file.Put(place.Level);
-    file.Put(place.GoesOn);
-    file.PutList(std::vector<int>(levels.rbegin(), levels.rend()));
-    evolution.Save(file);
-    file.Commit();
-  }
-  catch (...)
-  {
-    // The room is better used by others.
-    for (const int level : added)
-    {
-      std::error_code ignored;
-      fs::remove(LevelFileIn(this->Folder, level), ignored);
-    }
-    throw;
-  }
-  this->WrittenLevels.insert(added.begin(), added.end());
-  this->WrittenLevels.insert(replaced.begin(), replaced.end());
+  file.Commit();
+  RemoveFilesIn(this->Folder, place.Level);
 }
 
 void SegmentationCheckpoint::Remove()
@@ -425,7 +413,6 @@ void SegmentationCheckpoint::Remove()
   RemoveFilesIn(this->Folder);
   this->Locked->RemoveFolder();
   this->Locked.reset();
-  this->WrittenLevels.clear();
   this->Existing.reset();
 }
 

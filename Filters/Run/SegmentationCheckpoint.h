@@ -3,13 +3,12 @@
 #ifndef volumicSegmentationCheckpoint_h
 #define volumicSegmentationCheckpoint_h
 
-#include "Core/Evolution/SurfaceEvolution.h"
+#include "Core/Evolution/SurfaceAtRest.h"
 #include "Output/SegmentationResults.h"
 #include "Run/RunFingerprint.h"
 
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
 
 namespace volumic
@@ -19,8 +18,9 @@ class FolderLock;
 /**
  * What a run leaves on the disk at the end of each level, so that another process can go on from
  * there as if the run had never ended. It is a folder `volumic-<hash>` in the scratch directory,
- * one for each volume and choice of settings: `level-<h>` holds a level's surface and its
- * snapshots, `state` the rest; that is written last, and replaced at once.
+ * one for each volume and choice of settings, with a file `level-<h>` of the last level: the surface
+ * at rest, what the outputs hold so far, and of which run it is. When it is whole, that of the level
+ * before goes.
  *
  * A folder in use is locked, for as long as this object or the process lives. It is made with the
  * first checkpoint. What others have put under its name is neither read nor touched: then a run
@@ -47,20 +47,20 @@ public:
   };
 
   /**
-   * Brings results and evolution to where the run was that left the checkpoint. @return nothing,
+   * Brings results and surface to where the run was that left the checkpoint. @return nothing,
    * where there is none in the directory: neither has changed.
    * @throws where there are only such of other volumes or settings, telling what differs (of other
    *         volumes only in a directory that was given: the system's is for whatever anyone does);
    *         where another run is at it; where it is damaged.
    */
-  std::optional<Place> Load(SegmentationResults& results, SurfaceEvolution& evolution);
+  std::optional<Place> Load(SegmentationResults& results, SurfaceAtRest& rest);
 
   /**
    * Keeps where a run stands, unless there is one of the same run that has come further.
    * @return what went wrong, for a warning; then what was there before still is. Once.
    */
   std::string Save(
-    const SegmentationResults& results, const SurfaceEvolution& evolution, const Place& place);
+    const SegmentationResults& results, const SurfaceAtRest& rest, const Place& place);
 
   /** Removes its files, once the run is over; nothing where another process is at it. */
   void Remove();
@@ -75,16 +75,15 @@ private:
   bool TakeFolder();
   void RemoveIfEmpty();
   void CheckOthers() const;
-  std::optional<Place> PlaceOfState() const;
+  std::optional<Place> PlaceOfFile() const;
   void Write(
-    const SegmentationResults& results, const SurfaceEvolution& evolution, const Place& place);
+    const SegmentationResults& results, const SurfaceAtRest& rest, const Place& place);
 
   std::string Directory;
   bool IsShared; ///< The directory is the system's, for whatever anyone does.
   std::string Folder;
   RunFingerprint Fingerprint;
   std::unique_ptr<FolderLock> Locked; ///< null: nothing of the folder is ours
-  std::set<int> WrittenLevels;   ///< the levels whose files are there
   std::optional<Place> Existing; ///< where the run stood whose files are there
   std::optional<int> Resumed;
   bool HasFailed = false;

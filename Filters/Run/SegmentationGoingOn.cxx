@@ -1,27 +1,83 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// From where a run that has ended early goes on: checkpoints in files, and in memory the last level
-// at which the surface rested.
+// From where a run that has ended goes on: what is there already, and checkpoints in files.
 
 #include "Run/SurfaceSegmentation.h"
 
+#include "Run/RunFingerprint.h"
+
+#include <algorithm>
 #include <memory>
 #include <string>
 
 namespace volumic
 {
+bool SurfaceSegmentation::Choose(const SegmentationRequest& request)
+{
+  HostThreads threads(request.Settings.End.NumberOfThreads);
+  bool hasChosen = false;
+  threads.Run([&] { hasChosen = this->Found.Choose(request, threads); });
+  return hasChosen;
+}
+
+int SurfaceSegmentation::EndOf(const SegmentationRequest& request) const
+{
+  const SegmentationEnd& end = request.Settings.End;
+  const int finest =
+    this->Settings.EdgeLength != 0.0 ? this->Settings.End.FinestLevel : end.FinestLevel;
+  return end.Preview ? std::max(finest, this->Found.LevelOfPreview()) : finest;
+}
+
+bool SurfaceSegmentation::HasAll(const SegmentationRequest& request)
+{
+  if (!this->Found.HasAtRest(this->EndOf(request)) || !this->Choose(request))
+  {
+    return false;
+  }
+  this->Found.SetStoppedSurface(nullptr); // That was on the way to a finer one.
+  return true;
+}
+
+bool SurfaceSegmentation::Renew(const SegmentationRequest& request)
+{
+  SegmentationSettings settings = this->Settings;
+  settings.End = request.Settings.End;
+  if (settings.EdgeLength != 0.0)
+  {
+    settings.End.FinestLevel = this->Settings.End.FinestLevel;
+  }
+  this->Request = request;
+  this->Settings = settings;
+  // Levels up to the one at which it rests are there.
+  const int coarsest = ChooseLevels(this->Levels, this->Settings).Coarsest;
+  return this->Choose(request) &&
+    (coarsest == this->Choice.Coarsest || this->Levels.HasVoxels(coarsest));
+}
+
+void SurfaceSegmentation::LetGo()
+{
+  this->Levels.ReleaseCoarserThan(PyramidLevels::AllLevels);
+  this->Rest = SurfaceAtRest();
+  this->Left.reset();
+}
+
+bool SurfaceSegmentation::CanGoOn() const
+{
+  const bool holdsImage = this->Reached <= 0 && this->Found.HasAtRest(this->Choice.Last);
+  return this->GoesOn && !holdsImage;
+}
+
 void SurfaceSegmentation::PrepareCheckpoint()
 {
-  const CheckpointRequest& wanted = this->Request.Checkpoints;
-  if (!wanted.AreLeft && !wanted.Resumes)
+  if (!this->Settings.End.LeavesCheckpoints())
   {
     this->Left.reset();
   }
-  else if (this->Evolution)
+  else if (this->HasBegun)
   {
     // It goes on with the one that it has: levels that it has let go of tell nothing any more.
-    this->Request.Checkpoints.Prepared(this->Left);
+    this->Request.Prepared(this->Left);
   }
   else
   {
@@ -31,8 +87,8 @@ void SurfaceSegmentation::PrepareCheckpoint()
       {
         SegmentationSettings settings = this->Settings;
         settings.CoarsestLevel = this->Choice.Coarsest;
-        this->Left = std::make_shared<SegmentationCheckpoint>(
-          wanted.Directory, RunFingerprint(settings, this->Request, this->Levels, threads));
+        this->Left = std::make_shared<SegmentationCheckpoint>(settings.End.ScratchDirectory,
+          RunFingerprint(settings, this->Request, this->Levels, threads));
       });
   }
 }
@@ -43,50 +99,29 @@ void SurfaceSegmentation::Resume()
   {
     return;
   }
-  if (this->Request.Checkpoints.Resumes)
+  if (this->Settings.End.Resume)
   {
-    const auto place = this->Left->Load(this->Found, *this->Evolution);
-    if (place)
+    if (const auto place = this->Left->Load(this->Found, this->Rest))
     {
       this->Reached = place->Level;
       this->GoesOn = place->GoesOn;
+      this->Found.SetRows(this->Rest.History.Rows);
     }
   }
-  this->Request.Checkpoints.Prepared(this->Left);
+  this->Request.Prepared(this->Left);
 }
 
 void SurfaceSegmentation::LeaveCheckpoint(int level)
 {
-  const CheckpointRequest& wanted = this->Request.Checkpoints;
   const bool isLast = level <= this->Choice.Last && !this->Request.IsStep;
-  if (!this->Left || !wanted.AreLeft || !this->Found.HasAtRest(level) || (isLast && !wanted.Stay))
+  if (!this->Left || !this->Found.HasAtRest(level) || (isLast && !this->Request.CheckpointStays))
   {
     return;
   }
-  const std::string warning =
-    this->Left->Save(this->Found, *this->Evolution, { level, this->GoesOn });
+  const std::string warning = this->Left->Save(this->Found, this->Rest, { level, this->GoesOn });
   if (!warning.empty())
   {
     this->Request.Warn(warning);
   }
-}
-
-void SurfaceSegmentation::ReturnToRest()
-{
-  if (this->Evolution->IsStopped() && this->Rest.IsKept())
-  {
-    this->Evolution.reset(); // Not both at a time.
-    this->MakeEvolution();
-    this->GoesOn = this->Rest.GiveTo(*this->Evolution);
-    if (this->GoesOn)
-    {
-      this->Reached += this->Found.HasAtRest(this->Reached) ? 0 : 1;
-    }
-    else
-    {
-      this->Evolution.reset(); // The surface as it was stopped stays.
-    }
-  }
-  this->Rest.Drop();
 }
 }

@@ -10,7 +10,6 @@
 
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
-#include <vtkMultiBlockDataSet.h>
 
 #include <algorithm>
 #include <utility>
@@ -22,28 +21,29 @@ namespace
 constexpr const char* Port0 = "Input port 0: ";
 
 /** Image Pyramid has counted them, and tells it itself where it is a filter of the user's. */
-bool MayHaveNaNsToReport(const SegmentationVolume& volume)
+bool MayHaveNaNsToReport(const SegmentationRequest& request)
 {
-  vtkDataArray* counted = volume.Levels->GetFieldData()->GetArray("NaNVoxels");
-  return !counted || (volume.LevelsAreOwn && counted->GetTuple1(0) > 0.0);
+  vtkDataArray* counted = request.Levels->GetFieldData()->GetArray("NaNVoxels");
+  return !counted || (request.LevelsAreOwn && counted->GetTuple1(0) > 0.0);
 }
 
-PyramidLevels ReadVoxels(const SegmentationVolume& volume)
+PyramidLevels ReadVoxels(const SegmentationRequest& request)
 {
-  const SegmentationSettings& settings = volume.Settings;
+  const SegmentationSettings& settings = request.Settings;
   CheckEnumeration("Metric", settings.Metric, Metric::World);
   return PrefixErrors(Port0,
     [&]
     {
       return PyramidLevels(
-        volume.Levels, volume.Selection, settings.Metric, settings.NaNIsBackground);
+        request.Levels, request.Selection, settings.Metric, settings.NaNIsBackground);
     });
 }
 }
 
-SegmentationLevels::SegmentationLevels(const SegmentationVolume& volume)
-  : MayHaveUnreportedNaNs(MayHaveNaNsToReport(volume)), Voxels(ReadVoxels(volume))
+SegmentationLevels::SegmentationLevels(const SegmentationRequest& request)
+  : MayHaveUnreportedNaNs(MayHaveNaNsToReport(request)), Voxels(ReadVoxels(request))
 {
+  this->Voxels.SetFactorBelowLevel0(request.FactorBelowLevel0);
 }
 
 SegmentationLevels::~SegmentationLevels() = default;
@@ -61,9 +61,9 @@ std::vector<Point> SegmentationLevels::AttractingPositions(
     this->Voxels.SizeOfLevel0());
 }
 
-void SegmentationLevels::ReadAttraction(vtkMultiBlockDataSet* blocks,
-  const SegmentationSettings& settings, const SegmentationRequest& request)
+void SegmentationLevels::ReadAttraction(const SegmentationRequest& request)
 {
+  const SegmentationSettings& settings = request.Settings;
   const SurfaceOptions& options = settings.Options;
   std::vector<AttractingPoint> points = PrefixErrors("Input port 2 (Attracting Points): ",
     [&]
@@ -83,7 +83,7 @@ void SegmentationLevels::ReadAttraction(vtkMultiBlockDataSet* blocks,
   }
   if (options.EdgeAttractionWeight > 0.0)
   {
-    this->Edges = std::make_unique<EdgeLevels>(blocks, request.EdgeSelection,
+    this->Edges = std::make_unique<EdgeLevels>(request.Levels, request.EdgeSelection,
       settings.End.NumberOfThreads,
       [&request](double) {
         return request.Progress(0.0, "Pyramid of the map of edges") && !request.Limit.IsOver();

@@ -11,8 +11,6 @@
 #include "Pyramid/EdgeLevels.h"
 #include "Pyramid/PyramidLevels.h"
 #include "Settings/SegmentationRequest.h"
-#include "Settings/SegmentationSettings.h"
-#include "Settings/SegmentationVolume.h"
 
 #include <array>
 #include <cstdint>
@@ -20,8 +18,6 @@
 #include <memory>
 #include <string>
 #include <vector>
-
-class vtkMultiBlockDataSet;
 
 namespace volumic
 {
@@ -36,12 +32,11 @@ class SegmentationLevels
 {
 public:
   /** @throws if the blocks are not the levels of a pyramid, or there is no such Metric. */
-  explicit SegmentationLevels(const SegmentationVolume& volume);
+  explicit SegmentationLevels(const SegmentationRequest& request);
   ~SegmentationLevels();
 
   /** Once, before Load(): takes the points and the map of edges that the settings give a weight. */
-  void ReadAttraction(vtkMultiBlockDataSet* blocks, const SegmentationSettings& settings,
-    const SegmentationRequest& request);
+  void ReadAttraction(const SegmentationRequest& request);
   bool HasPoints() const { return this->Points != nullptr; }
   bool HasEdges() const { return this->Edges != nullptr; }
 
@@ -73,8 +68,8 @@ public:
   LevelImage Load(int level, const SurfaceOptions& options, Executor& threads);
 
   /**
-   * Lets go of the voxels of coarser levels, and of what Load() gave last: what was asked of them
-   * stays known.
+   * Lets go of the voxels of coarser levels (AllLevels: of all), and of what Load() gave last: what
+   * was asked of them stays known.
    */
   void ReleaseCoarserThan(int level);
   bool HasVoxels(int level) const { return this->Voxels.HasVoxels(level); }

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Run/SurfaceSegmentation.h"
 
-#include "Core/Common/FreeMemory.h"
 #include "Core/Common/Join.h"
 #include "Core/Common/Refuse.h"
 #include "Core/Common/ScratchMemory.h"
@@ -19,21 +18,60 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <new>
 #include <utility>
+#include <vector>
 
 namespace volumic
 {
-SurfaceSegmentation::SurfaceSegmentation(
-  const SegmentationVolume& volume, const SegmentationRequest& request)
-  : Settings(volume.Settings), Levels(volume),
-    Snapshots(volume.Settings.SnapshotInterval, this->Levels.GetWorkspace())
+namespace
 {
+/** Null where the memory does not suffice for it: a run can do without. */
+std::unique_ptr<SurfaceAtRest> CopyIfRoom(const SurfaceAtRest& rest)
+{
+  try
+  {
+    return std::make_unique<SurfaceAtRest>(rest);
+  }
+  catch (const std::bad_alloc&)
+  {
+    return nullptr;
+  }
+  catch (const ScratchFull&)
+  {
+    return nullptr;
+  }
+}
+
+}
+
+SurfaceSegmentation::SurfaceSegmentation(const SegmentationRequest& request)
+  : Request(request), Levels(request)
+{
+  this->CheckSettings();
+  this->CheckGrading();
   SurfaceOptions& options = this->Settings.Options;
+  options.RecoverLostParts = this->Settings.Recovery != RecoveryType::NoRecovery;
+  // What is above a range is more often within the object than not.
+  options.RecoverCavities = options.RecoverLostParts &&
+    (this->Settings.Recovery == RecoveryType::RecoverObjectsAndCavities ||
+      this->Settings.Range().IsUsed());
+  options.SeedRadius /= this->Levels.GetWorkspace().WorldUnit();
+  this->ChooseEdgeLength();
+  this->Levels.ReadAttraction(this->Request);
+  this->Request.Levels = nullptr; // Each is let go when the surface has left it.
+}
+
+SurfaceSegmentation::~SurfaceSegmentation() = default;
+
+void SurfaceSegmentation::CheckSettings() const
+{
+  const SurfaceOptions& options = this->Settings.Options;
   CheckEnumeration(
     "Initialization", this->Settings.Initialization, InitializationType::InputSurface);
   CheckEnumeration("Border Value", options.BorderValue, Border::Replicate);
-  CheckEnumeration(
-    "Recovery", this->Settings.Recovery, RecoveryType::RecoverObjectsAndCavities);
+  CheckEnumeration("Recovery", this->Settings.Recovery, RecoveryType::RecoverObjectsAndCavities);
   if (options.MaximumNumberOfIterations < 1)
   {
     Refuse("Maximum Number Of Iterations is ", options.MaximumNumberOfIterations,
@@ -48,19 +86,7 @@ SurfaceSegmentation::SurfaceSegmentation(
   {
     Refuse("Seed Radius is ", options.SeedRadius, "; it must be 0 (automatic) or more.");
   }
-  this->CheckGrading();
-  options.RecoverLostParts = this->Settings.Recovery != RecoveryType::NoRecovery;
-  // What is above a range is more often within the object than not.
-  options.RecoverCavities = options.RecoverLostParts &&
-    (this->Settings.Recovery == RecoveryType::RecoverObjectsAndCavities ||
-      this->Settings.Range().IsUsed());
-  options.SeedRadius /= this->Levels.GetWorkspace().WorldUnit();
-  this->Renew(request);
-  this->ChooseEdgeLength(volume);
-  this->Levels.ReadAttraction(volume.Levels, this->Settings, this->Request);
 }
-
-SurfaceSegmentation::~SurfaceSegmentation() = default;
 
 void SurfaceSegmentation::CheckGrading() const
 {
@@ -71,101 +97,39 @@ void SurfaceSegmentation::CheckGrading() const
     (!(options.IsopotentialWeight > options.EdgeAttractionWeight) || !options.SnapToIsoValue))
   {
     Refuse(WhatGrades(grading), ", but ",
-      options.SnapToIsoValue
-        ? "Isopotential Weight is not more than Edge Attraction Weight"
-        : "Snap To Iso Value is off",
+      options.SnapToIsoValue ? "Isopotential Weight is not more than Edge Attraction Weight"
+                             : "Snap To Iso Value is off",
       ": the surface does not lie at the iso-value, from which ",
-      grading.HasTolerance() ? "a tolerance is measured. Set it to 0" : "thickness is. Switch it off",
+      grading.HasTolerance() ? "a tolerance is measured. Set it to 0"
+                             : "thickness is. Switch it off",
       ", or change that.");
   }
 }
 
-void SurfaceSegmentation::ChooseEdgeLength(const SegmentationVolume& volume)
+void SurfaceSegmentation::ChooseEdgeLength()
 {
-  double factor = volume.FactorBelowLevel0;
-  if (this->Settings.EdgeLength != 0.0 && !volume.EdgeLengthIsPlanned)
+  if (this->Settings.EdgeLength == 0.0 || this->Request.LevelsAreOwn)
   {
-    std::vector<double> units;
-    for (int level = 0; level < this->Levels.Pyramid().NumberOfLevels(); ++level)
-    {
-      units.push_back(this->Levels.UnitInWorld(level));
-    }
-    EdgeLengthPreferences preferences;
-    preferences.SamplingRatio = this->Settings.Options.SamplingRatio;
-    const EdgeLengthPlan plan = PlanEdgeLength(this->Settings.EdgeLength, units, preferences);
-    this->Settings.End.FinestLevel = plan.FinestLevel;
-    this->Settings.Options.SamplingRatio = plan.SamplingRatio;
-    factor = plan.ReductionFactor;
+    return;
   }
-  this->Levels.SetFactorBelowLevel0(factor);
-}
-
-void SurfaceSegmentation::Start(SurfaceEvolution& evolution, const LevelImage& image)
-{
-  const Workspace& space = this->Levels.GetWorkspace();
-  const int level = this->Choice.Coarsest;
-  vtkPolyData* given = this->Request.InitialSurface;
-  const InitializationType type = this->Settings.Initialization;
-  std::vector<Point> seeds;
-  if (type == InitializationType::Seeds)
+  std::vector<double> units;
+  for (int level = 0; level < this->Levels.Pyramid().NumberOfLevels(); ++level)
   {
-    seeds = this->Levels.SeedPositions(this->Settings);
+    units.push_back(this->Levels.UnitInWorld(level));
   }
-  const bool isGiven =
-    type == InitializationType::InputSurface || type == InitializationType::Seeds;
-  const bool ofPositions = !seeds.empty() && !given;
-  const char* place =
-    ofPositions ? "Seed Positions: " : isGiven ? "Input port 1 (Initial Surface): " : "";
-  PrefixErrors(place,
-    [&]
-    {
-      switch (type)
-      {
-        case InitializationType::Seeds:
-        {
-          const std::vector<Point> connected = SeedsOf(given, space);
-          seeds.insert(seeds.begin(), connected.begin(), connected.end());
-          evolution.StartSeeds(image, level, seeds);
-          break;
-        }
-        case InitializationType::IsoSurface:
-          evolution.StartIsoSurface(
-            image, level, ClosedIsoSurface(image, this->Settings.Options));
-          break;
-        case InitializationType::InputSurface:
-          evolution.StartSurface(image, level, SurfaceOf(given, space));
-          break;
-        case InitializationType::EnclosingIcosahedron:
-          if (this->Choice.StartsAtParts)
-          {
-            evolution.StartEnclosingParts(image, level);
-          }
-          else
-          {
-            evolution.StartEnclosing(image, level);
-          }
-          break;
-      }
-    });
-}
-
-void SurfaceSegmentation::Renew(const SegmentationRequest& request)
-{
-  const int planned = this->Settings.End.FinestLevel;
-  this->Request = request;
-  this->Settings.End = request.End;
-  if (this->Settings.EdgeLength != 0.0)
-  {
-    this->Settings.End.FinestLevel = planned;
-  }
-  this->HasChosen = !this->Evolution || Choose(this->Found, this->Settings, request);
+  EdgeLengthPreferences preferences;
+  preferences.SamplingRatio = this->Settings.Options.SamplingRatio;
+  const EdgeLengthPlan plan = PlanEdgeLength(this->Settings.EdgeLength, units, preferences);
+  this->Settings.End.FinestLevel = plan.FinestLevel;
+  this->Settings.Options.SamplingRatio = plan.SamplingRatio;
+  this->Levels.SetFactorBelowLevel0(plan.ReductionFactor);
 }
 
 void SurfaceSegmentation::Run()
 {
   const int before = this->Choice.Coarsest;
   this->Choice = ChooseLevels(this->Levels, this->Settings);
-  if (!this->Evolution)
+  if (!this->HasBegun)
   {
     // Once for all runs that go on from this one.
     const std::string text = this->Levels.DescribeUnreportedNaNs();
@@ -175,7 +139,7 @@ void SurfaceSegmentation::Run()
     }
   }
   // Where a run begins may depend on where it is to end; then nothing of the last one serves.
-  if (!this->Evolution || this->Choice.Coarsest != before)
+  if (!this->HasBegun || this->Choice.Coarsest != before)
   {
     this->Begin();
   }
@@ -183,16 +147,9 @@ void SurfaceSegmentation::Run()
   this->PrepareCheckpoint();
   if (!this->Found.HasAtRest(this->Choice.Last))
   {
-    // What the evolution refers to stays in its place.
     this->Threads.emplace(this->Settings.End.NumberOfThreads);
     this->Progress.emplace(
       this->Request.Progress, this->Choice.Coarsest, this->Choice.Last, this->Request.Limit);
-    this->Progress->AfterSweep = [this](const Monitor::Status& status)
-    {
-      this->Snapshots.TakeIfDue(*this->Evolution, status.Level,
-        this->Levels.UnitInWorld(status.Level), status.Iteration, this->Found,
-        *this->Threads);
-    };
     try
     {
       this->Threads->Run([this] { this->RunLevels(); });
@@ -206,9 +163,10 @@ void SurfaceSegmentation::Run()
       }
       throw;
     }
+    this->Threads.reset();
   }
   const bool isOver = this->Found.HasAtRest(this->Choice.Last) && !this->Request.IsStep;
-  if (this->Left && isOver && !this->Request.Checkpoints.Stay)
+  if (this->Left && isOver && !this->Request.CheckpointStays)
   {
     this->Left->Remove();
   }
@@ -216,79 +174,54 @@ void SurfaceSegmentation::Run()
   {
     this->Found.WarnOf(this->Choice.Last, this->Settings.WantsAllParts(), this->Request.Warn);
   }
-}
-
-bool SurfaceSegmentation::Choose(SegmentationResults& results,
-  const SegmentationSettings& settings, const SegmentationRequest& request)
-{
-  HostThreads threads(request.End.NumberOfThreads);
-  bool hasChosen = false;
-  threads.Run([&] { hasChosen = results.Choose(settings, request, threads); });
-  return hasChosen;
-}
-
-bool SurfaceSegmentation::CanServe() const
-{
-  // Those up to the level at which it rests are there.
-  const int coarsest = ChooseLevels(this->Levels, this->Settings).Coarsest;
-  return this->HasChosen &&
-    (coarsest == this->Choice.Coarsest || this->Levels.HasVoxels(coarsest));
-}
-
-bool SurfaceSegmentation::CanGoOn() const
-{
-  const bool holdsImage = this->Reached <= 0 && this->Found.HasAtRest(this->Choice.Last);
-  return this->GoesOn && !holdsImage && !this->Evolution->IsStopped();
+  this->Request.InitialSurface = this->Request.AttractingPoints = nullptr;
 }
 
 void SurfaceSegmentation::Begin()
 {
-  this->Evolution.reset();
-  this->GoesOn = false;
-  this->Found = SegmentationResults(this->Levels.Pyramid().NumberOfLevels(), this->Choice.Coarsest,
-    this->Levels.GetWorkspace(), this->Levels.Pyramid().SizeOfLevel0(), this->Settings.Profile);
-  Choose(this->Found, this->Settings, this->Request);
+  this->HasBegun = false;
+  this->Found = SegmentationResults(this->Settings.Profile, this->Levels.Pyramid().NumberOfLevels(),
+    this->Choice.Coarsest, this->Levels.GetWorkspace(), this->Levels.Pyramid().SizeOfLevel0());
+  this->Choose(this->Request);
   this->Found.SetPreviewLevel(this->Choice.Preview);
 }
 
 void SurfaceSegmentation::RunLevels()
 {
-  if (!this->Evolution)
+  if (!std::exchange(this->HasBegun, true))
   {
-    this->MakeEvolution();
+    CheckOptions(this->Settings.Options);
+    this->Rest = SurfaceAtRest();
     this->Reached = this->Choice.Coarsest + 1;
     this->GoesOn = true;
     this->Resume();
   }
-  this->Evolution->StartClock(this->Request.Started);
-  while (this->GoesOn && this->Reached > this->Choice.Last)
+  this->Rest.History.StartClock(this->Request.Started);
+  bool isStopped = false;
+  while (!isStopped && this->GoesOn && this->Reached > this->Choice.Last)
   {
-    const int level = this->Reached - 1;
-    if (!this->Progress->BeginLevel(level))
-    {
-      this->KeepStoppedSurface(level);
-      break;
-    }
+    isStopped = !this->RunLevel(this->Reached - 1);
+  }
+}
+
+bool SurfaceSegmentation::RunLevel(int level)
+{
+  // What rests stays while a finer level is under way, which may be stopped.
+  const std::unique_ptr<SurfaceAtRest> before =
+    this->Request.MayGoOn && level < this->Choice.Coarsest ? CopyIfRoom(this->Rest) : nullptr;
+  LevelOutcome outcome;
+  if (this->Progress->BeginLevel(level))
+  {
     this->Found.Forget(level); // Of a run that was stopped there.
     this->Levels.ReleaseCoarserThan(level);
     const LevelImage image = this->Levels.Load(level, this->Settings.Options, *this->Threads);
-    if (level == this->Settings.End.FinestLevel)
-    {
-      this->Evolution->SetMeanEdgeLength(this->WantedMeanEdge(level));
-      Grading grading = this->Settings.Grading;
-      grading.ThinParts = grading.ThinParts && level < 0;
-      grading.Tolerance /= this->Levels.GetWorkspace().WorldUnit();
-      grading.MaximumEdgeLength /= this->Levels.GetWorkspace().WorldUnit();
-      this->Evolution->SetGrading(grading);
-    }
-    StopReason reason = StopReason::Cancelled;
-    SurfaceResult surface;
-    if (!this->EvolveOn(image, level, reason, surface))
-    {
-      this->KeepStoppedSurface(level);
-      break;
-    }
-    this->GoesOn = this->KeepLevel(level, reason, std::move(surface));
+    LevelTask task = this->TaskOf(level, image);
+    outcome = this->Evolve(task);
+  }
+  const bool isStopped = outcome.Reason == StopReason::Cancelled;
+  if (outcome.HasCome)
+  {
+    this->GoesOn = this->KeepLevel(level, std::move(outcome));
     this->Reached = level;
     if (level == this->Choice.Last && this->PreviewMissesParts(level))
     {
@@ -298,14 +231,95 @@ void SurfaceSegmentation::RunLevels()
     }
     this->LeaveCheckpoint(level);
   }
-  this->Found.SetRows(this->Evolution->History());
-  this->ReturnToRest();
+  else
+  {
+    this->KeepStoppedSurface(level);
+  }
+  this->Found.SetRows(this->Rest.History.Rows);
+  if (isStopped && before)
+  {
+    this->Rest = std::move(*before);
+    this->Reached = level + 1;
+    this->GoesOn = true;
+  }
+  return !isStopped;
 }
 
-void SurfaceSegmentation::MakeEvolution()
+LevelTask SurfaceSegmentation::TaskOf(int level, const LevelImage& image)
 {
-  this->Evolution =
-    std::make_unique<SurfaceEvolution>(this->Settings.Options, *this->Threads, *this->Progress);
+  const double unit = this->Levels.GetWorkspace().WorldUnit();
+  LevelTask task;
+  task.Options = this->Settings.Options;
+  task.Image = image;
+  task.Level = level;
+  if (level == this->Settings.End.FinestLevel)
+  {
+    task.MeanEdgeLength = this->Settings.EdgeLength / unit;
+    task.Grading = this->Settings.Grading;
+    task.Grading.ThinParts = task.Grading.ThinParts && level < 0;
+    task.Grading.Tolerance /= unit;
+    task.Grading.MaximumEdgeLength /= unit;
+  }
+  task.Look = [this, level](int iteration, const std::function<SurfaceResult()>& take)
+  { this->TakeSnapshot(level, iteration, take); };
+  if (level == this->Choice.Last && level <= 0)
+  {
+    task.Revise = this->Request.Revise;
+  }
+  return task;
+}
+
+LevelOutcome SurfaceSegmentation::Evolve(LevelTask& task)
+{
+  if (task.Level < this->Choice.Coarsest)
+  {
+    return EvolveOnLevel(task, this->Rest, *this->Threads, *this->Progress);
+  }
+  const InitializationType type = this->Settings.Initialization;
+  const std::vector<Point> seeds = type == InitializationType::Seeds
+    ? this->Levels.SeedPositions(this->Settings)
+    : std::vector<Point>();
+  const bool ofPositions = !seeds.empty() && !this->Request.InitialSurface;
+  const bool isGiven =
+    type == InitializationType::InputSurface || type == InitializationType::Seeds;
+  const char* place = ofPositions ? "Seed Positions: "
+    : isGiven                     ? "Input port 1 (Initial Surface): "
+                                  : "";
+  return PrefixErrors(place,
+    [&]
+    {
+      SurfaceStart start = StartOf(this->Request, this->Levels.GetWorkspace(), seeds, task.Image);
+      if (start.From == SurfaceStart::Kind::Enclosing && this->Choice.StartsAtParts)
+      {
+        start.From = SurfaceStart::Kind::EnclosingParts;
+      }
+      task.Start = &start;
+      return EvolveOnLevel(task, this->Rest, *this->Threads, *this->Progress);
+    });
+}
+
+void SurfaceSegmentation::TakeSnapshot(
+  int level, int iteration, const std::function<SurfaceResult()>& take)
+{
+  const int interval = this->Settings.SnapshotInterval;
+  if (interval == 0)
+  {
+    return;
+  }
+  // Iterations come in sweeps: the end of that in which one is due.
+  const bool isDue = iteration == 0 || iteration / interval > this->SnapshotLook / interval;
+  this->SnapshotLook = iteration;
+  SurfaceResult surface = isDue ? take() : SurfaceResult();
+  if (!surface.Points.empty())
+  {
+    SurfaceDescription description;
+    description.Level = level;
+    description.Unit = this->Levels.UnitInWorld(level);
+    description.Iterations = iteration;
+    description.TotalIterations = static_cast<int>(this->Rest.History.Rows.size());
+    this->Found.AddSnapshot(level, Join("Level ", level, ", iteration ", iteration),
+      MakePolyData(std::move(surface), description, this->Levels.GetWorkspace(), *this->Threads));
+  }
 }
 
 bool SurfaceSegmentation::PreviewMissesParts(int level) const
@@ -313,88 +327,35 @@ bool SurfaceSegmentation::PreviewMissesParts(int level) const
   return this->Settings.End.Preview && this->GoesOn &&
     level > std::max(this->Settings.End.FinestLevel, 0) &&
     this->Settings.Recovery != RecoveryType::NoRecovery &&
-    this->Found.Levels().at(level).Description.MissingBoundary >
-      SegmentationResults::NotableShare;
+    this->Found.Levels().at(level).Description.Lost.MissingBoundary >
+    SegmentationResults::NotableShare;
 }
 
-double SurfaceSegmentation::WantedMeanEdge(int level) const
+bool SurfaceSegmentation::KeepLevel(int level, LevelOutcome outcome)
 {
-  return level == this->Settings.End.FinestLevel
-    ? this->Settings.EdgeLength / this->Levels.GetWorkspace().WorldUnit()
-    : 0.0;
-}
-
-bool SurfaceSegmentation::EvolveOn(
-  const LevelImage& image, int level, StopReason& reason, SurfaceResult& surface)
-{
-  SurfaceEvolution& evolution = *this->Evolution;
-  const bool keepsRest = this->Request.MayGoOn && level < this->Choice.Coarsest;
-  if (keepsRest)
-  {
-    this->Rest.Keep(evolution);
-  }
-  if (level == this->Choice.Coarsest)
-  {
-    this->Start(evolution, image);
-  }
-  else if (!evolution.Divide(image, level))
-  {
-    return false;
-  }
-  GiveBackFreeMemory();
-  this->Snapshots.TakeIfDue(
-    evolution, level, this->Levels.UnitInWorld(level), 0, this->Found, *this->Threads);
-  reason = evolution.Run();
-  const bool mayBeRevised = this->Request.Revise && level == this->Choice.Last && level <= 0 &&
-    reason != StopReason::Cancelled;
-  if (!mayBeRevised)
-  {
-    evolution.ForgetMotion();
-  }
-  GiveBackFreeMemory();
-  surface = evolution.Result();
-  while (mayBeRevised && !evolution.IsStopped() && !surface.Points.empty() &&
-    this->Request.Revise(surface))
-  {
-    evolution.Revise(image);
-    surface = evolution.Result();
-  }
-  reason = evolution.IsStopped() ? StopReason::Cancelled : reason;
-  evolution.LeaveLevel();
-  return true;
-}
-
-bool SurfaceSegmentation::KeepLevel(int level, StopReason reason, SurfaceResult surface)
-{
+  const StopReason reason = outcome.Reason;
   SegmentationResults::Level result;
   result.IsAtRest = reason != StopReason::Cancelled;
   SurfaceDescription& description = result.Description;
   description.Level = level;
   description.Unit = this->Levels.UnitInWorld(level);
-  description.Iterations = this->Evolution->Iterations();
+  description.Iterations = outcome.Iterations;
   description.StopReason = result.IsAtRest ? Describe(reason) : this->DescribeStop();
-  const SurfaceEvolution::Verdict verdict = this->Evolution->Verified();
-  if (verdict.Found > 0)
-  {
-    this->Request.Warn(verdict.Describe(level));
-  }
   if (level < this->Choice.Coarsest || this->Choice.StartsAtParts)
   {
-    const SurfaceEvolution::LostParts lost = this->Evolution->Lost();
-    description.LostParts = lost.Found;
-    description.RecoveredParts = lost.Enclosed;
-    description.MissingParts = lost.Missing;
-    description.MissingBoundary = lost.MissingBoundary;
-    description.LostCavities = lost.FoundCavities;
-    description.RecoveredCavities = lost.EnclosedCavities;
+    description.Lost = outcome.Lost;
+  }
+  if (outcome.Verified.Found > 0)
+  {
+    this->Request.Warn(outcome.Verified.Describe(level));
   }
   if (this->Request.KeepsAll)
   {
-    result.All = std::make_shared<const SurfaceResult>(surface);
+    result.All = std::make_shared<const SurfaceResult>(outcome.Surface);
   }
-  this->Found.MakeSurface(result, std::move(surface), *this->Threads);
+  this->Found.MakeSurface(result, std::move(outcome.Surface), *this->Threads);
   this->Found.SetLevel(level, result);
-  this->Evolution->EndLevel();
+  this->Rest.History.EndLevel();
   // With recovery a finer level may find again what has vanished.
   return reason == StopReason::Converged || reason == StopReason::LimitCycle ||
     reason == StopReason::IterationLimit ||

@@ -59,18 +59,18 @@ void PrintSetting(std::ostream& os, const Setting& setting)
 }
 }
 
-// As vtkGetMacro() and vtkSetMacro() of vtkSetGet.h, but for where the value is: a setting of the
-// class's Internals. When it has changed, `modified` is called.
+// As vtkGetMacro() and vtkSetMacro() of vtkSetGet.h, but for where the value is: a member of the
+// class, or of what it holds. When it has changed, `modified` is called.
 #define VOLUMIC_SET_AND_GET(Class, name, type, setting, modified)                                  \
   type Class::Get##name()                                                                          \
   {                                                                                                \
-    const auto value = volumic::ValueOf<type>(this->Internals->setting);                           \
+    const auto value = volumic::ValueOf<type>(this->setting);                           \
     vtkDebugMacro(<< "returning " #name " of " << value);                                          \
     return value;                                                                                  \
   }                                                                                                \
   void Class::Set##name(type value)                                                                \
   {                                                                                                \
-    auto& now = this->Internals->setting;                                                          \
+    auto& now = this->setting;                                                          \
     const auto wanted = volumic::SettingOf<std::decay_t<decltype(now)>>(value);                    \
     vtkDebugMacro(<< "setting " #name " to " << volumic::ValueOf<type>(wanted));                   \
     if (now != wanted)                                                                             \

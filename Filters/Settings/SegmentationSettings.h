@@ -6,6 +6,7 @@
 #include "Core/Common/Grading.h"
 #include "Core/Common/IndexedSurface.h"
 #include "Core/Evolution/SurfaceOptions.h"
+#include "Core/Image/PyramidGeometry.h"
 #include "Input/ValueRange.h"
 #include "Input/Workspace.h"
 
@@ -81,6 +82,8 @@ struct SegmentationSettings
   SurfaceOptions Options;
   SegmentationEnd End;
 
+  PyramidOptions Pyramid; ///< of an image
+  bool OfImages = false;  ///< Cells count as points, and an iso-value that is not set is found.
   int SelectedComponent = -1;
   bool NaNIsBackground = true;
   double UpperValue = std::numeric_limits<double>::infinity();

@@ -73,11 +73,11 @@ class ResumeTestCase(ToolTestCase):
             self.assertEqual(one, two)
 
     def checkpoint_level(self):
-        """That of the checkpoint, by the surfaces that it has; None without one."""
+        """That of the checkpoint, by its file; None without one."""
         for folder in os.listdir(self.scratch):
-            files = os.listdir(os.path.join(self.scratch, folder))
-            if "state" in files:
-                return min(int(f[6:]) for f in files if re.fullmatch(r"level--?\d+|level-\d+", f))
+            levels = [int(f[6:]) for f in os.listdir(os.path.join(self.scratch, folder))
+                      if re.fullmatch(r"level--?\d+", f)]
+            return min(levels, default=None)
         return None
 
     def stopped(self, arguments, level, stop=signal.SIGKILL):
@@ -114,7 +114,7 @@ class KillTest(ResumeTestCase):
                 found = self.kill_at_level(level, self.resume(volume, "killed", *memory))
                 run = self.run_tool(*self.resume(volume, "killed", *memory))
                 told = int(re.search(r"going on from level (-?\d+)", run.stderr).group(1))
-                self.assertIn(told, (found, found + 1))  # The state comes last.
+                self.assertEqual(told, found)
                 self.expect_same("killed", "whole")
                 self.assertEqual(os.listdir(self.scratch), [])
 
@@ -148,7 +148,7 @@ class KillTest(ResumeTestCase):
 
 class OutputTest(ResumeTestCase):
     def test_what_could_not_be_written_is_not_lost(self):
-        """The checkpoints are as large as the file: of coarse levels some fit."""
+        """The checkpoints are larger than the file: of coarse levels some fit."""
         volume = self.waves_file()
         whole, part = self.path("whole.stl"), self.path("part.stl")
         self.run_tool(volume, whole, "--iso", 100)
@@ -156,10 +156,10 @@ class OutputTest(ResumeTestCase):
         run = self.run_tool(*resume, status=1,
                             preexec_fn=largest_file(os.path.getsize(whole) * 3 // 4))
         self.assertIn("part.stl: cannot be written", run.stderr)
-        self.assertIn("The checkpoint of level 0 could not be left", run.stderr)
-        self.assertIn("can be resumed from level 1 only", run.stderr)
+        self.assertIn("The checkpoint of level 1 could not be left", run.stderr)
+        self.assertIn("can be resumed from level 2 only", run.stderr)
         run = self.run_tool(*resume)
-        self.assertIn("going on from level 1,", run.stderr)
+        self.assertIn("going on from level 2,", run.stderr)
         self.assertEqual(self.content(whole), self.content(part))
         self.assertEqual(os.listdir(self.scratch), [])
 
@@ -228,14 +228,14 @@ class RefusalTest(ResumeTestCase):
 
         def looped():
             os.mkdir(folder)
-            os.symlink("state", os.path.join(folder, "state"))
+            os.symlink("level-1", os.path.join(folder, "level-1"))
 
         for name, plant in (("link", lambda: os.symlink(aside, folder)),
                             ("loop", lambda: os.symlink(folder, folder)),
                             ("pipe", lambda: os.mkfifo(folder)),
                             ("file", lambda: open(folder, "wb").close()),
                             ("files", lambda: with_files("notes", "level-1")),
-                            ("state", lambda: with_files("state")),
+                            ("level", lambda: with_files("level-1")),
                             ("lock", lambda: with_files("lock", "notes")), ("looped", looped)):
             plant()
             before = sorted(os.listdir(folder)) if os.path.isdir(folder) else []
@@ -264,17 +264,17 @@ class RefusalTest(ResumeTestCase):
     @unittest.skipUnless(os.geteuid() == 0, "only root can give files to others")
     def test_what_others_have_left_is_not_read(self):
         volume = self.waves_file()
-        self.kill_at_level(1, self.resume(volume, "killed"))
+        level = self.kill_at_level(1, self.resume(volume, "killed"))
         folder = os.path.join(self.scratch, os.listdir(self.scratch)[0])
-        os.chown(os.path.join(folder, "state"), 12345, 12345)
-        self.refused("--resume: .*state is no file of yours. Begin anew",
+        os.chown(os.path.join(folder, f"level-{level}"), 12345, 12345)
+        self.refused(f"--resume: .*level-{level} is no file of yours. Begin anew",
                      *self.resume(volume, "killed"))
         os.chown(folder, 12345, 12345)
         run = self.run_tool(*self.resume(volume, "killed"))
         self.assertIn("there is no checkpoint to resume from: the run begins anew", run.stderr)
         self.assertIn("is no folder of yours. Remove it", run.stderr)
         os.mkdir(os.path.join(self.scratch, "volumic-" + 16 * "a"))
-        os.mkfifo(os.path.join(self.scratch, "volumic-" + 16 * "a", "state"))
+        os.mkfifo(os.path.join(self.scratch, "volumic-" + 16 * "a", "level-1"))
         run = self.run_tool(self.ball_file(), self.path("a.vtp"), "--iso", ISO, "--resume",
                             "--scratch", self.scratch)
         self.assertIn("there is no checkpoint to resume from: the run begins anew", run.stderr)

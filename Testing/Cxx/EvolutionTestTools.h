@@ -3,7 +3,7 @@
 #ifndef volumicEvolutionTestTools_h
 #define volumicEvolutionTestTools_h
 
-#include "Core/Evolution/SurfaceEvolution.h"
+#include "Core/Evolution/Evolution.h"
 #include "Core/Evolution/SurfaceOptions.h"
 #include "CoreTestTools.h"
 
@@ -26,8 +26,7 @@ struct LevelPair
   /** @param shownFine, shownCoarse outside distances, of what each level shows */
   template <typename ShownFine, typename ShownCoarse>
   LevelPair(int n, const ShownFine& shownFine, const ShownCoarse& shownCoarse)
-    : Fine(MakeVolume(
-        n, [&](double x, double y, double z) { return Soft(shownFine(x, y, z)); }))
+    : Fine(MakeVolume(n, [&](double x, double y, double z) { return Soft(shownFine(x, y, z)); }))
   {
     const int coarse = static_cast<int>(std::lround(n / std::sqrt(3.)));
     const double step = static_cast<double>(n) / coarse;
@@ -50,19 +49,93 @@ inline SurfaceOptions IsoHalf()
 inline SequentialExecutor Threads;
 inline Monitor Silent;
 
-/** Calls back after every sweep. */
-class Observer final : public Monitor
+/** The steps of EvolveOnLevel(), one by one, level after level. */
+class TestEvolution
 {
 public:
-  explicit Observer(std::function<void(const Status&)> look) : Look(std::move(look)) {}
-  bool Continue(const Status& status) override
+  TestEvolution(const SurfaceOptions& options, Executor& executor, Monitor& monitor)
+    : Executing(executor), Listener(monitor)
   {
-    this->Look(status);
-    return true;
+    this->Task.Options = options;
+    this->Task.Look = [this](int iteration, const std::function<SurfaceResult()>&)
+    {
+      if (iteration > 0 && this->AfterSweep)
+      {
+        this->AfterSweep();
+      }
+    };
   }
 
+  LevelTask Task; ///< Of the levels to come.
+  SurfaceAtRest Rest;
+  std::function<void()> AfterSweep;
+  std::unique_ptr<Evolution> Now; ///< On the level.
+
+  void StartEnclosing(const LevelImage& image, int level) { this->Start(image, level, {}); }
+  /** @return how many there are */
+  int StartSeeds(const LevelImage& image, int level, const std::vector<Point>& seeds)
+  {
+    this->Start(image, level, { SurfaceStart::Kind::Seeds, seeds, {} });
+    return this->Now->Components.NumberOfComponents();
+  }
+  void StartSurface(const LevelImage& image, int level, const IndexedSurface& surface)
+  {
+    this->Start(image, level, { SurfaceStart::Kind::Surface, {}, surface });
+  }
+  void StartIsoSurface(const LevelImage& image, int level, const IndexedSurface& surface)
+  {
+    this->Start(image, level, { SurfaceStart::Kind::IsoSurface, {}, surface });
+  }
+  /** @return false where it was stopped before: then it is on the level before. */
+  bool Divide(const LevelImage& image, int level)
+  {
+    this->Leave();
+    return this->Come(image, level, nullptr);
+  }
+  StopReason Run() { return RunLevel(*this->Now); }
+  void Leave()
+  {
+    if (this->Now)
+    {
+      ForgetBlocks(*this->Now);
+      this->Rest.Mesh = std::move(this->Now->State.Mesh);
+      this->Rest.Level = this->Now->Task.Level;
+      this->Rest.Delta = this->Now->State.Sizing.OfLevel();
+      this->Rest.Unchecked = this->Now->Unchecked;
+    }
+  }
+
+  SurfaceResult Result() const { return this->Now->Result(); }
+  const std::vector<HistoryRow>& History() const { return this->Rest.History.Rows; }
+  int Iterations() const { return this->Rest.History.Iterations(); }
+  LostParts Lost() const { return this->Now->Lost; }
+  Verdict Verified() const { return this->Now->Verified; }
+  bool IsStopped() const { return this->Now->Stopped; }
+
 private:
-  std::function<void(const Status&)> Look;
+  void Start(const LevelImage& image, int level, const SurfaceStart& start)
+  {
+    this->Come(image, level, &start);
+  }
+  bool Come(const LevelImage& image, int level, const SurfaceStart* start)
+  {
+    this->Task.Image = image;
+    this->Task.Level = level;
+    this->Task.Start = start;
+    auto before = std::exchange(this->Now,
+      std::make_unique<Evolution>(this->Task, this->Rest.History, this->Executing, this->Listener));
+    const bool hasCome = ComeToLevel(*this->Now, this->Rest);
+    if (!hasCome)
+    {
+      before->State.Mesh = std::move(this->Rest.Mesh);
+      before->Stopped = true;
+      this->Now = std::move(before);
+    }
+    return hasCome;
+  }
+
+  Executor& Executing;
+  Monitor& Listener;
 };
 
 /** Lengths of all edges, each twice. */

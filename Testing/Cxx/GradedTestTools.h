@@ -50,9 +50,9 @@ inline SurfaceResult SurfaceOf(
 {
   const TestVolume volume = VolumeOf(outside, size);
   Monitor silent;
-  SurfaceEvolution evolution(IsoHalf(), executor, silent);
+  TestEvolution evolution(IsoHalf(), executor, silent);
+  evolution.Task.Grading = grading;
   evolution.StartEnclosing(volume.Image, 0);
-  evolution.SetGrading(grading);
   EXPECT_EQ(evolution.Run(), StopReason::Converged);
   EXPECT_EQ(evolution.Verified().Found, 0);
   return evolution.Result();

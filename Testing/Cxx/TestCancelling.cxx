@@ -15,16 +15,7 @@ public:
   StopAt() = default;
   StopAt(int level, Activity doing, int question) : Level(level), Doing(doing), Left(question) {}
 
-  bool Continue(const Status& status) override { return this->Hear(status); }
-  bool GoOn(const Status& status) override { return this->Hear(status); }
-
-  std::vector<double> Fractions; ///< Level by level, added to those before.
-  std::map<std::pair<int, Activity>, int> Questions;
-  bool HasStopped = false;
-  int QuestionsAfter = 0;
-
-private:
-  bool Hear(const Status& status)
+  bool GoOn(const Status& status) override
   {
     this->QuestionsAfter += this->HasStopped;
     ++this->Questions[{ status.Level, status.Doing }];
@@ -36,6 +27,12 @@ private:
     return !this->HasStopped;
   }
 
+  std::vector<double> Fractions; ///< Level by level, added to those before.
+  std::map<std::pair<int, Activity>, int> Questions;
+  bool HasStopped = false;
+  int QuestionsAfter = 0;
+
+private:
   int Level = -5;
   Activity Doing = Activity::Starting;
   int Left = 0;
@@ -62,7 +59,7 @@ LevelPair Scene()
 }
 
 /** As vtkDeformableSurface does it. @return how the last level ended. */
-StopReason RunIn(const LevelPair& scene, SurfaceEvolution& evolution)
+StopReason RunIn(const LevelPair& scene, TestEvolution& evolution)
 {
   evolution.StartEnclosing(scene.Coarse.Image, 1);
   const StopReason reason = evolution.Run();
@@ -74,7 +71,7 @@ StopReason RunIn(const LevelPair& scene, SurfaceEvolution& evolution)
 }
 
 /** @param isTold that the last row tells of it */
-void ExpectValid(const SurfaceEvolution& evolution, bool isTold)
+void ExpectValid(const TestEvolution& evolution, bool isTold)
 {
   const SurfaceResult surface = evolution.Result();
   EXPECT_FALSE(surface.Points.empty());
@@ -91,7 +88,7 @@ TEST(Cancelling, IsLookedAtInEveryPartOfALevel)
 {
   const LevelPair scene = Scene();
   StopAt silent;
-  SurfaceEvolution evolution(Options(), Threads, silent);
+  TestEvolution evolution(Options(), Threads, silent);
   ASSERT_EQ(RunIn(scene, evolution), StopReason::Converged);
   ASSERT_EQ(evolution.Lost().Enclosed, 1);
   ASSERT_EQ(evolution.Lost().EnclosedCavities, 1);
@@ -118,7 +115,7 @@ TEST(Cancelling, IsLookedAtInEveryPartOfALevel)
       SCOPED_TRACE("level " + std::to_string(where.first) + ", activity " +
         std::to_string(static_cast<int>(where.second)) + ", question " + std::to_string(question));
       StopAt monitor(where.first, where.second, question);
-      SurfaceEvolution stopped(Options(), Threads, monitor);
+      TestEvolution stopped(Options(), Threads, monitor);
       const StopReason reason = RunIn(scene, stopped);
       ASSERT_TRUE(monitor.HasStopped);
       EXPECT_TRUE(stopped.IsStopped());

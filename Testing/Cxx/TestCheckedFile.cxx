@@ -21,8 +21,9 @@ std::vector<int> LongList()
   return list;
 }
 
-void WriteTo(CheckedWriter& file)
+void WriteSome(const std::string& name)
 {
+  CheckedWriter file(name);
   file.Put(2.5);
   file.PutText("a text");
   file.PutList(LongList());
@@ -30,26 +31,15 @@ void WriteTo(CheckedWriter& file)
   file.Commit();
 }
 
-void WriteSome(const std::string& name)
+void ExpectSome(const std::string& name)
 {
-  CheckedWriter file(name);
-  WriteTo(file);
-}
-
-void ReadSome(CheckedReader& file)
-{
+  CheckedReader file(name);
   EXPECT_EQ(file.Get<double>(), 2.5);
   EXPECT_EQ(file.GetText(), "a text");
   std::vector<int> list;
   file.GetList(list);
   EXPECT_EQ(list, LongList());
   EXPECT_EQ(file.GetText(), "");
-}
-
-void ExpectSome(const std::string& name)
-{
-  CheckedReader file(name);
-  ReadSome(file);
 }
 
 void SetBytes(const std::string& name, const std::string& bytes)
@@ -85,19 +75,6 @@ TEST(CheckedFile, GivesBackWhatWasWritten)
   WriteSome(name);
   ExpectSome(name);
   EXPECT_EQ(folder.Names(), std::set<std::string>{ "some" });
-}
-
-TEST(CheckedFile, MayBeInMemory)
-{
-  FileInMemory memory;
-  CheckedWriter writer(memory);
-  WriteTo(writer);
-  CheckedReader reader(memory);
-  ReadSome(reader);
-  EXPECT_THROW(reader.Get<int>(), FileError);
-  memory.pop_back();
-  CheckedReader cut(memory);
-  EXPECT_THROW(ReadSome(cut); cut.Get<int>(), FileError);
 }
 
 TEST(CheckedFile, IsThereWhenItIsCommittedAndTheOldOneUntilThen)

@@ -129,7 +129,7 @@ SurfaceResult DivideWithin(const IndexedSurface& given, double unit)
   options.SamplingRatio = 1.;
   options.RecoverLostParts = false;
   options.SnapToIsoValue = false; // Else it is led to the field before it is divided.
-  SurfaceEvolution evolution(options, Threads, Silent);
+  TestEvolution evolution(options, Threads, Silent);
   evolution.StartSurface(volume.Image, 1, given);
   EXPECT_EQ(evolution.Result().Points.size(), given.Points.size()) << "taken as it is";
   LevelImage fine = volume.Image;

@@ -9,7 +9,7 @@ using namespace volumic;
 
 namespace
 {
-double Work(const SurfaceEvolution& evolution)
+double Work(const TestEvolution& evolution)
 {
   double work = 0;
   for (const HistoryRow& row : evolution.History())
@@ -66,7 +66,7 @@ TEST(EndlessRuns, NoiseThatMergesAndCutsInTurnIsALimitCycle)
   SurfaceOptions options = IsoHalf();
   options.Friction = 0.3;
   options.ConvergenceTolerance = 0.;
-  SurfaceEvolution evolution(options, Threads, Silent);
+  TestEvolution evolution(options, Threads, Silent);
   evolution.StartEnclosing(volume.Image, 0);
   const StopReason reason = evolution.Run();
   EXPECT_EQ(reason, StopReason::LimitCycle) << Describe(reason);
@@ -90,7 +90,7 @@ TEST(EndlessRuns, ACheckerboardAtAReplicatedBorderCostsLittle)
   options.Friction = 0.65;
   options.ConvergenceTolerance = 0.;
   options.FreezeMotionlessVertices = false;
-  SurfaceEvolution evolution(options, Threads, Silent);
+  TestEvolution evolution(options, Threads, Silent);
   evolution.StartEnclosing(volume.Image, 0);
   evolution.Run();
   EXPECT_LT(Work(evolution), 2e6);
@@ -106,7 +106,7 @@ TEST(EndlessRuns, StrongInnerForcesComeToRest)
     SurfaceOptions options = IsoHalf();
     options.TensionWeight = weights.first;
     options.ElasticityWeight = weights.second;
-    SurfaceEvolution evolution(options, Threads, Silent);
+    TestEvolution evolution(options, Threads, Silent);
     evolution.StartEnclosing(volume.Image, 0);
     EXPECT_EQ(evolution.Run(), StopReason::Converged) << weights.first;
     EXPECT_LT(Work(evolution), 6e5) << weights.first;

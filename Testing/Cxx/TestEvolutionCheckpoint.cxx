@@ -52,7 +52,7 @@ SurfaceOptions InSmallBlocks()
   return options;
 }
 
-void ExpectSameSurface(const SurfaceEvolution& a, const SurfaceEvolution& b)
+void ExpectSameSurface(const TestEvolution& a, const TestEvolution& b)
 {
   const SurfaceResult one = a.Result();
   const SurfaceResult other = b.Result();
@@ -70,13 +70,13 @@ void ExpectSameByWayOfFiles(const SurfaceOptions& options, const Scene& scene)
 {
   const TemporaryFolder folder;
   const std::string name = folder.File("state");
-  SurfaceEvolution whole(options, Threads, Silent);
-  auto part = std::make_unique<SurfaceEvolution>(options, Threads, Silent);
+  TestEvolution whole(options, Threads, Silent);
+  auto part = std::make_unique<TestEvolution>(options, Threads, Silent);
   for (std::size_t i = 0; i < scene.Levels.size(); ++i)
   {
     SCOPED_TRACE(i);
     const int level = static_cast<int>(scene.Levels.size() - i) - 1;
-    for (SurfaceEvolution* evolution : { &whole, part.get() })
+    for (TestEvolution* evolution : { &whole, part.get() })
     {
       if (i == 0)
       {
@@ -93,17 +93,17 @@ void ExpectSameByWayOfFiles(const SurfaceOptions& options, const Scene& scene)
     EXPECT_EQ(whole.Lost().Found, part->Lost().Found);
     EXPECT_EQ(whole.Lost().Missing, part->Lost().Missing);
 
+    part->Leave();
     CheckedWriter file(name);
-    part->Save(file);
+    part->Rest.Save(file);
     file.Commit();
-    part = std::make_unique<SurfaceEvolution>(options, Threads, Silent);
+    part = std::make_unique<TestEvolution>(options, Threads, Silent);
     CheckedReader saved(name);
-    part->Load(saved);
-    EXPECT_EQ(part->Iterations(), whole.Iterations());
+    part->Rest.Load(saved);
     ExpectSameHistory(whole.History(), part->History());
     // All that was saved is there again.
     CheckedWriter again(folder.File("again"));
-    part->Save(again);
+    part->Rest.Save(again);
     again.Commit();
     EXPECT_TRUE(BytesOf(name) == BytesOf(folder.File("again")));
   }
@@ -128,16 +128,17 @@ TEST(EvolutionCheckpoint, SavesWhatDoesNotGoOn)
   TestVolume empty = scene.Levels[0];
   empty.Values.assign(empty.Values.size(), 0.f);
   empty.Image.Values = empty.Values.data();
-  SurfaceEvolution whole(Options(), Threads, Silent);
+  TestEvolution whole(Options(), Threads, Silent);
   whole.StartEnclosing(empty.Image, 2);
   ASSERT_EQ(whole.Run(), StopReason::Vanished);
   CheckedWriter file(folder.File("state"));
-  whole.Save(file);
+  whole.Leave();
+  whole.Rest.Save(file);
   file.Commit();
-  SurfaceEvolution part(Options(), Threads, Silent);
+  TestEvolution part(Options(), Threads, Silent);
   CheckedReader saved(folder.File("state"));
-  part.Load(saved);
-  for (SurfaceEvolution* evolution : { &whole, &part })
+  part.Rest.Load(saved);
+  for (TestEvolution* evolution : { &whole, &part })
   {
     ASSERT_TRUE(evolution->Divide(scene.Levels[1].Image, 1));
     evolution->Run();

@@ -55,7 +55,7 @@ void ExpectExplained(const std::vector<HistoryRow>& rows)
 }
 
 /** @return the number of rows of the coarse level */
-std::size_t RunBothLevels(SurfaceEvolution& evolution, const LevelPair& scene)
+std::size_t RunBothLevels(TestEvolution& evolution, const LevelPair& scene)
 {
   evolution.StartEnclosing(scene.Coarse.Image, 1);
   evolution.Run();
@@ -77,7 +77,7 @@ TEST(EvolutionHistory, NewVerticesOnASmoothObjectHardlyMoveAfterADivision)
     const LevelPair scene(32, ball(11.), ball(10.));
     SurfaceOptions options = IsoHalf();
     options.SnapToIsoValue = alone;
-    SurfaceEvolution evolution(options, Threads, Silent);
+    TestEvolution evolution(options, Threads, Silent);
     const std::size_t coarseRows = RunBothLevels(evolution, scene);
     const std::vector<HistoryRow>& rows = evolution.History();
     const double visits = std::accumulate(rows.begin() + static_cast<std::ptrdiff_t>(coarseRows),
@@ -90,7 +90,7 @@ TEST(EvolutionHistory, NewVerticesOnASmoothObjectHardlyMoveAfterADivision)
 TEST(EvolutionHistory, ExplainsTheEulerCharacteristicRowByRow)
 {
   const LevelPair scene = SceneWithLostBalls();
-  SurfaceEvolution evolution(IsoHalf(), Threads, Silent);
+  TestEvolution evolution(IsoHalf(), Threads, Silent);
   const std::size_t coarseRows = RunBothLevels(evolution, scene);
   const std::vector<HistoryRow>& rows = evolution.History();
   ExpectExplained(rows);
@@ -118,7 +118,7 @@ TEST(EvolutionHistory, TellsOfDeletedComponents)
       return Soft(std::min({ Distance(x, y, z, 20, 20, 20) - 8., Distance(x, y, z, 6, 6, 6) - 1.,
         Distance(x, y, z, 33, 33, 33) - 1. }));
     });
-  SurfaceEvolution evolution(IsoHalf(), Threads, Silent);
+  TestEvolution evolution(IsoHalf(), Threads, Silent);
   ASSERT_EQ(
     evolution.StartSeeds(volume.Image, 0, { { 20, 20, 20 }, { 6, 6, 6 }, { 33, 33, 33 } }), 3);
   evolution.Run();
@@ -154,11 +154,9 @@ TEST(EvolutionHistory, CountsTheHandlesOfADeletedComponent)
 TEST(EvolutionHistory, LastRowTellsWhatTheIterationsLeftAndWhatTheRegularisationMadeOfIt)
 {
   const LevelPair scene = SceneWithLostBalls();
-  const SurfaceEvolution* watched = nullptr;
   std::size_t last = 0; // Vertices after the last iteration.
-  Observer observer([&](const Monitor::Status&) { last = watched->Result().Points.size(); });
-  SurfaceEvolution evolution(IsoHalf(), Threads, observer);
-  watched = &evolution;
+  TestEvolution evolution(IsoHalf(), Threads, Silent);
+  evolution.AfterSweep = [&] { last = evolution.Result().Points.size(); };
   evolution.StartEnclosing(scene.Coarse.Image, 1);
   evolution.Run();
   const HistoryRow row = evolution.History().back();
@@ -175,17 +173,21 @@ TEST(EvolutionHistory, LastRowTellsWhatTheIterationsLeftAndWhatTheRegularisation
 TEST(EvolutionHistory, SecondsOfTheRowsAddUpToThoseOfTheLevels)
 {
   const LevelPair scene = SceneWithLostBalls();
-  SurfaceEvolution evolution(IsoHalf(), Threads, Silent);
+  TestEvolution evolution(IsoHalf(), Threads, Silent);
   using std::chrono::steady_clock;
   const auto start = steady_clock::now() - std::chrono::seconds(1000);
-  evolution.StartClock(start);
+  const auto elapsed = [start]
+  { return std::chrono::duration<double>(steady_clock::now() - start).count(); };
+  evolution.Rest.History.StartClock(start);
   evolution.StartEnclosing(scene.Coarse.Image, 1);
   evolution.Run();
-  const double coarse = evolution.EndLevel();
+  evolution.Rest.History.EndLevel();
+  const double coarse = elapsed();
   evolution.Divide(scene.Fine.Image, 0);
   evolution.Run();
-  const double fine = evolution.EndLevel();
-  const double all = std::chrono::duration<double>(steady_clock::now() - start).count();
+  const double most = elapsed();
+  evolution.Rest.History.EndLevel();
+  const double all = elapsed();
   double sums[2] = { 0., 0. };
   for (const HistoryRow& row : evolution.History())
   {
@@ -193,11 +195,10 @@ TEST(EvolutionHistory, SecondsOfTheRowsAddUpToThoseOfTheLevels)
     EXPECT_GT(row.Seconds, 0.);
     sums[row.Level] += row.SecondsBefore + row.Seconds + row.SecondsAfter;
   }
-  EXPECT_NEAR(sums[1], coarse, 1e-9 * coarse);
-  EXPECT_NEAR(sums[0], fine, 1e-9 * fine);
-  EXPECT_GE(coarse, 1000.) << "what came before counts to the first level";
+  EXPECT_LE(sums[1], coarse);
+  EXPECT_GE(sums[0] + sums[1], most) << "no second is lost";
+  EXPECT_LE(sums[0] + sums[1], all);
   EXPECT_GE(evolution.History().front().SecondsBefore, 1000.);
-  EXPECT_LE(coarse + fine, all);
   EXPECT_EQ(evolution.History()[1].SecondsAfter, 0.) << "only after the last of a level";
   EXPECT_GT(evolution.History().back().SecondsAfter, 0.);
 }
@@ -205,13 +206,13 @@ TEST(EvolutionHistory, SecondsOfTheRowsAddUpToThoseOfTheLevels)
 TEST(EvolutionHistory, PhasesFitIntoTheSecondsOfTheirRow)
 {
   const LevelPair scene = SceneWithLostBalls();
-  SurfaceEvolution evolution(IsoHalf(), Threads, Silent);
+  TestEvolution evolution(IsoHalf(), Threads, Silent);
   evolution.StartEnclosing(scene.Coarse.Image, 1);
   evolution.Run();
-  evolution.EndLevel();
+  evolution.Rest.History.EndLevel();
   evolution.Divide(scene.Fine.Image, 0);
   evolution.Run();
-  evolution.EndLevel();
+  evolution.Rest.History.EndLevel();
   const std::vector<HistoryRow>& rows = evolution.History();
   for (std::size_t r = 0; r < rows.size(); ++r)
   {

@@ -58,7 +58,7 @@ void ExpectLegal(const IndexedSurface& surface, double delta)
 std::string RefusalOf(const IndexedSurface& surface)
 {
   const TestVolume volume = Ball();
-  SurfaceEvolution evolution(IsoHalf(), Threads, Silent);
+  TestEvolution evolution(IsoHalf(), Threads, Silent);
   return volumic::RefusalOf([&] { evolution.StartSurface(volume.Image, 0, surface); });
 }
 }
@@ -78,7 +78,7 @@ TEST(GivenSurface, IsLegalBeforeTheFirstIterationWhateverItsTriangles)
          Case{ "cube", Cuboid({ 6, 6, 6 }, { 33, 33, 33 }) } })
   {
     SCOPED_TRACE(given.Name);
-    SurfaceEvolution evolution(IsoHalf(), Threads, Silent);
+    TestEvolution evolution(IsoHalf(), Threads, Silent);
     evolution.StartSurface(volume.Image, 0, given.Surface);
     const SurfaceResult start = evolution.Result();
     ExpectLegal(start, start.Delta);
@@ -101,7 +101,7 @@ TEST(GivenSurface, KeepsItsComponentsCavitiesAndTunnels)
   AddSurface(given, Cuboid({ 20, 20, 16 }, { 38, 38, 36 }));
   AddSurface(given, InsideOut(Cuboid({ 24, 24, 20 }, { 34, 34, 32 })));
   AddSurface(given, DividedIcosahedron({ 8, 30, 30 }, 5, 0.1));
-  SurfaceEvolution evolution(IsoHalf(), Threads, Silent);
+  TestEvolution evolution(IsoHalf(), Threads, Silent);
   evolution.StartSurface(volume.Image, 0, given);
   const SurfaceResult start = evolution.Result();
   ExpectLegal(start, start.Delta);
@@ -114,11 +114,11 @@ TEST(GivenSurface, KeepsItsComponentsCavitiesAndTunnels)
 TEST(GivenSurface, IsTakenAsItIsWhereItIsLegal)
 {
   const TestVolume volume = Ball();
-  SurfaceEvolution first(IsoHalf(), Threads, Silent);
+  TestEvolution first(IsoHalf(), Threads, Silent);
   first.StartEnclosing(volume.Image, 0);
   first.Run();
   const SurfaceResult rested = first.Result();
-  SurfaceEvolution second(IsoHalf(), Threads, Silent);
+  TestEvolution second(IsoHalf(), Threads, Silent);
   IndexedSurface withMore = rested;
   withMore.Points.insert(withMore.Points.begin(), { 1, 2, 3 }); // Used by no triangle.
   for (Triangle& t : withMore.Triangles)
@@ -137,7 +137,6 @@ class CancelAt final : public Monitor
 {
 public:
   explicit CancelAt(int call) : Left(call) {}
-  bool Continue(const Status&) override { return --this->Left >= 0; }
   bool GoOn(const Status&) override { return --this->Left >= 0; }
   int Left;
 };
@@ -148,7 +147,7 @@ TEST(GivenSurface, CanBeCancelledWhileItIsMadeReady)
   const TestVolume volume = Ball();
   CancelAt count(1000000);
   {
-    SurfaceEvolution evolution(IsoHalf(), Threads, count);
+    TestEvolution evolution(IsoHalf(), Threads, count);
     evolution.StartSurface(volume.Image, 0, Cylinder(13, 25.5, 12));
   }
   const int calls = 1000000 - count.Left;
@@ -156,7 +155,7 @@ TEST(GivenSurface, CanBeCancelledWhileItIsMadeReady)
   for (int call = 0; call < calls; call += 7)
   {
     CancelAt monitor(call);
-    SurfaceEvolution evolution(IsoHalf(), Threads, monitor);
+    TestEvolution evolution(IsoHalf(), Threads, monitor);
     evolution.StartSurface(volume.Image, 0, Cylinder(13, 25.5, 12));
     EXPECT_EQ(monitor.Left, -1) << "not asked again";
     const SurfaceResult state = evolution.Result();

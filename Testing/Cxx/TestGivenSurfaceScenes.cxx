@@ -4,9 +4,7 @@
 // What people give as initial surfaces: VTK's sources with their coarse facets, slivers and fans,
 // decimated scans. Each must be legal before the first iteration and at the end,
 // by the judge's exact tests, or be refused because it is not legal itself.
-#include "Core/Evolution/SurfaceEvolution.h"
-#include "Core/Evolution/SurfaceOptions.h"
-#include "ForVoxels.h"
+#include "EvolutionTestTools.h"
 #include "SurfaceJudge.h"
 #include "TestPrelude.h"
 
@@ -219,7 +217,7 @@ TEST_P(GivenSurfaces, AreLegalBeforeTheFirstIterationAndAtTheEnd)
     const IndexedSurface given = Placed(MakeShape(GetParam(), dice), dice);
     SurfaceOptions options;
     options.IsoValue = 0.5;
-    SurfaceEvolution evolution(options, executor, silent);
+    TestEvolution evolution(options, executor, silent);
     try
     {
       evolution.StartSurface(image, 0, given);

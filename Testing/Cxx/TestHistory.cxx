@@ -24,7 +24,7 @@ TEST(History, KineticEnergyIsThatOfTheFinalSpeedInTheOpenAndNoneAtRest)
   {
     SurfaceOptions options = IsoHalf();
     options.Friction = friction;
-    SurfaceEvolution evolution(options, Threads, Silent);
+    TestEvolution evolution(options, Threads, Silent);
     evolution.StartEnclosing(volume.Image, 0);
     ASSERT_EQ(evolution.Run(), StopReason::Converged);
     const std::vector<HistoryRow>& rows = evolution.History();
@@ -41,30 +41,25 @@ TEST(History, KineticEnergyIsThatOfTheFinalSpeedInTheOpenAndNoneAtRest)
 TEST(History, RowsTellTheStateAfterTheirSweep)
 {
   const TestVolume volume = BallVolume(28, 7);
-  const SurfaceEvolution* watched = nullptr;
+  TestEvolution evolution(IsoHalf(), Threads, Silent);
   int looks = 0;
-  Observer observer(
-    [&](const Monitor::Status& status)
-    {
-      ++looks;
-      const SurfaceResult surface = watched->Result();
-      const SurfaceFeatures features = ComputeFeatures(surface);
-      const HistoryRow& row = watched->History().back();
-      SCOPED_TRACE("sweep " + std::to_string(looks));
-      EXPECT_EQ(row.Iteration, 5 * looks);
-      EXPECT_EQ(status.Iteration, 5 * looks);
-      EXPECT_EQ(row.Vertices, static_cast<int>(surface.Points.size()));
-      EXPECT_EQ(status.Vertices, row.Vertices);
-      EXPECT_EQ(row.EulerCharacteristic, features.EulerCharacteristic);
-      EXPECT_EQ(row.Components, static_cast<int>(features.Components.size()));
-      const std::vector<double> lengths = EdgeLengths(surface);
-      const double sum = std::accumulate(lengths.begin(), lengths.end(), 0.);
-      EXPECT_NEAR(row.MeanEdgeLength, sum / static_cast<double>(lengths.size()), 1e-4);
-      EXPECT_TRUE(row.TimeStep > 0 || row.ActiveVertices == 0);
-      EXPECT_LE(row.TimeStep, 1.5 + 1e-5);
-    });
-  SurfaceEvolution evolution(IsoHalf(), Threads, observer);
-  watched = &evolution;
+  evolution.AfterSweep = [&]
+  {
+    ++looks;
+    const SurfaceResult surface = evolution.Result();
+    const SurfaceFeatures features = ComputeFeatures(surface);
+    const HistoryRow& row = evolution.History().back();
+    SCOPED_TRACE("sweep " + std::to_string(looks));
+    EXPECT_EQ(row.Iteration, 5 * looks);
+    EXPECT_EQ(row.Vertices, static_cast<int>(surface.Points.size()));
+    EXPECT_EQ(row.EulerCharacteristic, features.EulerCharacteristic);
+    EXPECT_EQ(row.Components, static_cast<int>(features.Components.size()));
+    const std::vector<double> lengths = EdgeLengths(surface);
+    const double sum = std::accumulate(lengths.begin(), lengths.end(), 0.);
+    EXPECT_NEAR(row.MeanEdgeLength, sum / static_cast<double>(lengths.size()), 1e-4);
+    EXPECT_TRUE(row.TimeStep > 0 || row.ActiveVertices == 0);
+    EXPECT_LE(row.TimeStep, 1.5 + 1e-5);
+  };
   evolution.StartEnclosing(volume.Image, 0);
   EXPECT_EQ(evolution.Run(), StopReason::Converged);
   EXPECT_GT(looks, 5);
@@ -81,7 +76,7 @@ TEST(History, VerticesBecomeMotionlessAsTheyArriveIfAllowedTo)
   {
     SurfaceOptions options = IsoHalf();
     options.FreezeMotionlessVertices = freeze;
-    SurfaceEvolution evolution(options, Threads, Silent);
+    TestEvolution evolution(options, Threads, Silent);
     const auto vertices = [&evolution]() { return evolution.Result().Points.size(); };
     evolution.StartEnclosing(volume.Image, 0);
     const std::size_t first = vertices();
@@ -116,7 +111,7 @@ TEST(History, CountsOfMergesAndCutsExplainTheTopology)
       const double q = std::sqrt((x - 20) * (x - 20) + (y - 20) * (y - 20)) - 11;
       return Soft(std::sqrt(q * q + (z - 20) * (z - 20)) - 5);
     });
-  SurfaceEvolution evolution(IsoHalf(), Threads, Silent);
+  TestEvolution evolution(IsoHalf(), Threads, Silent);
   evolution.StartSeeds(volume.Image, 0, { { 9, 20, 20 }, { 31, 20, 20 } });
   const std::size_t start = evolution.Result().Points.size();
   evolution.Run();
@@ -149,11 +144,8 @@ TEST(History, ALevelRestsAsSoonAsItsVolumeDoes)
     options.ConvergenceTolerance = tolerance;
     options.FreezeMotionlessVertices = false; // Else it ends when none is active any more.
     std::vector<double> volumes;
-    const SurfaceEvolution* watched = nullptr;
-    Observer observer([&](const Monitor::Status&)
-      { volumes.push_back(ComputeFeatures(watched->Result()).Volume); });
-    SurfaceEvolution evolution(options, Threads, observer);
-    watched = &evolution;
+    TestEvolution evolution(options, Threads, Silent);
+    evolution.AfterSweep = [&] { volumes.push_back(ComputeFeatures(evolution.Result()).Volume); };
     evolution.StartEnclosing(volume.Image, 0);
     EXPECT_EQ(evolution.Run(), StopReason::Converged);
     const double delta = evolution.Result().Delta;

@@ -1,16 +1,12 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Evolution/SurfaceEvolution.h"
-#include "Core/Evolution/SurfaceOptions.h"
 #include "Core/Mesh/SurfaceFeatures.h"
-#include "CoreTestTools.h"
+#include "EvolutionTestTools.h"
 
 using namespace volumic;
 
 namespace
 {
-SequentialExecutor Threads;
-
 /** Furthest way of a point beyond the outermost voxels, along any axis, in lengths. */
 double Beyond(const SurfaceResult& surface, const LevelImage& image)
 {
@@ -24,20 +20,6 @@ double Beyond(const SurfaceResult& surface, const LevelImage& image)
   }
   return furthest;
 }
-
-/** Keeps the furthest way out of all iterations. */
-class Watcher final : public Monitor
-{
-public:
-  const SurfaceEvolution* Evolution = nullptr;
-  const LevelImage* Image = nullptr;
-  double Furthest = 0;
-  bool Continue(const Status&) override
-  {
-    this->Furthest = std::max(this->Furthest, Beyond(this->Evolution->Result(), *this->Image));
-    return true;
-  }
-};
 
 SurfaceOptions Replicating()
 {
@@ -75,7 +57,7 @@ TEST(ImageMargin, AReplicatedObjectClosesAtTheMargin)
     SurfaceOptions options = Replicating();
     options.MaximumNumberOfIterations = 300;
     Monitor silent;
-    SurfaceEvolution evolution(options, Threads, silent);
+    TestEvolution evolution(options, Threads, silent);
     evolution.StartSeeds(volume.Image, 0, { { 8 * step, 8, 8 } });
     EXPECT_EQ(evolution.Run(), StopReason::Converged);
     const double beyond = Beyond(evolution.Result(), volume.Image);
@@ -114,10 +96,10 @@ TEST(ImageMargin, NoSettingLeadsFurtherOut)
     {
       volume.Image.Edges = edges.Values.data();
     }
-    Watcher watcher;
-    SurfaceEvolution evolution(options, Threads, watcher);
-    watcher.Evolution = &evolution;
-    watcher.Image = &volume.Image;
+    TestEvolution evolution(options, Threads, Silent);
+    double furthest = 0;
+    evolution.AfterSweep = [&]
+    { furthest = std::max(furthest, Beyond(evolution.Result(), volume.Image)); };
     if (run % 2 == 0)
     {
       evolution.StartSeeds(volume.Image, 0, {});
@@ -129,7 +111,7 @@ TEST(ImageMargin, NoSettingLeadsFurtherOut)
     const double start = Beyond(evolution.Result(), volume.Image);
     evolution.Run();
     const SurfaceResult surface = evolution.Result();
-    EXPECT_LT(std::max(watcher.Furthest, Beyond(surface, volume.Image)),
+    EXPECT_LT(std::max(furthest, Beyond(surface, volume.Image)),
       std::max(start + 1e-3, Most(volume.Image, surface.Delta)))
       << "run " << run;
     EXPECT_EQ(CountSelfIntersections(surface, 1), 0) << "run " << run;

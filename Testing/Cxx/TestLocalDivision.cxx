@@ -29,7 +29,7 @@ struct TwoLevels
 {
   SurfaceResult Divided; ///< As it comes to the finer level,
   SurfaceResult AtRest;  ///< and when it rests there.
-  SurfaceEvolution::LostParts Lost;
+  LostParts Lost;
 };
 TwoLevels SurfaceOfTwoLevels(const Outside& outside,
   const Grading& grading, double fineUnit = 1., Executor& executor = Alone, int size = 48)
@@ -40,10 +40,10 @@ TwoLevels SurfaceOfTwoLevels(const Outside& outside,
   LevelImage fine = volume.Image;
   fine.Unit = fineUnit;
   Monitor silent;
-  SurfaceEvolution evolution(IsoHalf(), executor, silent);
+  TestEvolution evolution(IsoHalf(), executor, silent);
   evolution.StartEnclosing(coarse, 1);
   EXPECT_EQ(evolution.Run(), StopReason::Converged);
-  evolution.SetGrading(grading);
+  evolution.Task.Grading = grading;
   TwoLevels result;
   EXPECT_TRUE(evolution.Divide(fine, 0));
   result.Divided = evolution.Result();
@@ -175,10 +175,10 @@ TEST(LocalDivision, IsLeftWhereItIsStopped)
   {
     SCOPED_TRACE(at);
     StopInDivision monitor(at);
-    SurfaceEvolution evolution(IsoHalf(), Alone, monitor);
+    TestEvolution evolution(IsoHalf(), Alone, monitor);
     evolution.StartEnclosing(coarse, 1);
     ASSERT_EQ(evolution.Run(), StopReason::Converged);
-    evolution.SetGrading(Within(0.25));
+    evolution.Task.Grading = Within(0.25);
     const std::size_t coarsePoints = evolution.Result().Points.size();
     ASSERT_TRUE(evolution.Divide(volume.Image, 0));
     EXPECT_EQ(evolution.IsStopped(), at < 100);

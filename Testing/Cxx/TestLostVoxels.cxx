@@ -84,15 +84,12 @@ Parts PartsOf(std::vector<std::uint8_t> marks, std::size_t minimumSize)
 
 Parts PartsOf(const LostVoxels& lost)
 {
-  Parts all(static_cast<std::size_t>(lost.NumberOfParts()));
-  for (const auto& slab : lost.Slabs())
+  Parts all(static_cast<std::size_t>(lost.Parts));
+  for (const VoxelRun& run : lost.Runs)
   {
-    for (const VoxelRun& run : slab)
+    for (int i = 0; i < run.Length; ++i)
     {
-      for (int i = 0; i < run.Length; ++i)
-      {
-        all.at(static_cast<std::size_t>(run.Part)).push_back(run.First + i);
-      }
+      all.at(static_cast<std::size_t>(run.Part)).push_back(run.First + i);
     }
   }
   return all;
@@ -118,7 +115,8 @@ TEST(LostVoxels, AreThoseOfTheWholeImageInTheSameParts)
         const Parts wanted = PartsOf(marks, static_cast<std::size_t>(minimumSize));
         for (Executor* executor : executors)
         {
-          const LostVoxels lost(state, field, kind, minimumSize, *executor, NeverStop);
+          const LostVoxels lost =
+            FindLostVoxels(state, field, kind, minimumSize, *executor, NeverStop);
           EXPECT_EQ(PartsOf(lost), wanted) << percent << " %, at least " << minimumSize;
         }
       }
@@ -137,7 +135,8 @@ TEST(LostVoxels, FormPartsThroughOtherSlabs)
   SurfaceState state;
   state.Sizing = SizingField(0.85f);
   state.Reset(Vector(-2, -2, -2), Vector(Size + 2, Size + 2, Size + 2));
-  const LostVoxels lost(state, field, PartKind::Object, 1, executor, NeverStop);
-  ASSERT_EQ(lost.NumberOfParts(), 1);
+  const LostVoxels lost =
+    FindLostVoxels(state, field, PartKind::Object, 1, executor, NeverStop);
+  ASSERT_EQ(lost.Parts, 1);
   EXPECT_EQ(PartsOf(lost)[0].size(), 17u * (Size - 1) + 68u);
 }

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // What has come near is merged where the image wants it, nearest first; what is thin is cut.
-#include "Core/Evolution/SurfaceEvolution.h"
 #include "Core/Mesh/CycleCut.h"
 #include "Core/Mesh/StarMerge.h"
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "Core/Surface/Remesher.h"
+#include "EvolutionTestTools.h"
 #include "RemeshTestTools.h"
 
 using namespace volumic;
@@ -381,7 +381,7 @@ TEST(Merging, AnEvolutionAsksTheImage)
   Monitor silent;
   SurfaceOptions options;
   options.IsoValue = 0.5;
-  SurfaceEvolution evolution(options, threads, silent);
+  TestEvolution evolution(options, threads, silent);
   evolution.StartSeeds(volume.Image, 0, { { 8.5, 16, 16 }, { 23.6, 16, 16 } });
   EXPECT_EQ(evolution.Run(), StopReason::Converged);
   EXPECT_EQ(ComputeFeatures(evolution.Result()).Components.size(), 2u);

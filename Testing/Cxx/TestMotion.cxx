@@ -212,7 +212,7 @@ TEST(Smoothing, LeadsOntoTheEdgesOnRequest)
       Stage stage(radius);
       stage.Volume.Image.Edges = map.Values.data();
       stage.Options.EdgeAttractionWeight = 1;
-      stage.Options.SnapToEdges = snap;
+      stage.Options.SnapToIsoValue = snap;
       stage.Relax(false);
       EXPECT_NEAR(stage.MeanSpeedOutward(), snap ? (radius < 8 ? 0.14 : -0.14) : 0, 0.03);
     }

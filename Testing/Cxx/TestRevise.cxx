@@ -46,7 +46,7 @@ protected:
   }
 
   TestVolume Volume = DistanceToBall(9.2);
-  SurfaceEvolution Evolution{ SurfaceOptions(), Threads, Silent };
+  TestEvolution Evolution{ SurfaceOptions(), Threads, Silent };
   SurfaceResult Before;
 };
 }
@@ -54,7 +54,7 @@ protected:
 TEST_F(Revise, TheSurfaceGoesWhereTheFieldHasChangedAndStaysElsewhere)
 {
   MakeBump(this->Volume);
-  this->Evolution.Revise(this->Volume.Image);
+  volumic::Revise(*this->Evolution.Now);
   const SurfaceResult after = this->Evolution.Result();
   const std::set<Point> before(this->Before.Points.begin(), this->Before.Points.end());
   double most = 0.;
@@ -86,7 +86,7 @@ TEST_F(Revise, TheSurfaceGoesWhereTheFieldHasChangedAndStaysElsewhere)
 
 TEST_F(Revise, NothingMovesWhereNothingHasChanged)
 {
-  this->Evolution.Revise(this->Volume.Image);
+  volumic::Revise(*this->Evolution.Now);
   EXPECT_EQ(this->Evolution.Result().Points, this->Before.Points);
   EXPECT_EQ(this->Evolution.Result().Triangles, this->Before.Triangles);
 }
@@ -95,9 +95,9 @@ TEST(StartIsoSurface, IsTheStartFromAGivenSurfaceWithoutItsTests)
 {
   const TestVolume volume = DistanceToBall(9.2);
   const IndexedSurface sphere = DividedIcosahedron(Middle, 9.2, 1.2);
-  SurfaceEvolution tested(SurfaceOptions(), Threads, Silent);
+  TestEvolution tested(SurfaceOptions(), Threads, Silent);
   tested.StartSurface(volume.Image, 0, sphere);
-  SurfaceEvolution known(SurfaceOptions(), Threads, Silent);
+  TestEvolution known(SurfaceOptions(), Threads, Silent);
   known.StartIsoSurface(volume.Image, 0, sphere);
   EXPECT_EQ(known.Result().Points, tested.Result().Points);
   EXPECT_EQ(known.Result().Triangles, tested.Result().Triangles);
@@ -109,7 +109,7 @@ TEST(StartIsoSurface, WithEdgesThatAreTooLongKeepsItsPoints)
   // As where voxels are long: a lattice in its place would have other points, and costs more.
   const TestVolume volume = DistanceToBall(9.2);
   const IndexedSurface coarse = DividedIcosahedron(Middle, 9.2, 5.);
-  SurfaceEvolution evolution(SurfaceOptions(), Threads, Silent);
+  TestEvolution evolution(SurfaceOptions(), Threads, Silent);
   evolution.StartIsoSurface(volume.Image, 0, coarse);
   const SurfaceResult start = evolution.Result();
   EXPECT_GT(start.Points.size(), 2 * coarse.Points.size());

@@ -7,27 +7,15 @@ using namespace volumic;
 
 namespace
 {
-/** Counts states that are not what they must be between two iterations. */
-class Inspector final : public Monitor
+/** States, between two sweeps, that are not what they must be. */
+int CountBroken(const TestEvolution& evolution)
 {
-public:
-  const SurfaceEvolution* Evolution = nullptr;
-  int Broken = 0;
-  int Calls = 0;
-
-  bool Continue(const Status&) override
-  {
-    ++this->Calls;
-    const SurfaceResult surface = this->Evolution->Result();
-    SurfaceMesh mesh;
-    mesh.Append(surface);
-    this->Broken += !DescribeBrokenInvariant(mesh).empty();
-    this->Broken += CountSelfIntersections(surface, 1);
-    this->Broken += mesh.CountEulerCharacteristic() !=
-      this->Evolution->History().back().EulerCharacteristic;
-    return true;
-  }
-};
+  const SurfaceResult surface = evolution.Result();
+  SurfaceMesh mesh;
+  mesh.Append(surface);
+  return !DescribeBrokenInvariant(mesh).empty() + CountSelfIntersections(surface, 1) +
+    (mesh.CountEulerCharacteristic() != evolution.History().back().EulerCharacteristic);
+}
 
 TestVolume NoisyTorus(int n)
 {
@@ -42,7 +30,7 @@ TestVolume NoisyTorus(int n)
     });
 }
 
-void ExpectSound(const SurfaceEvolution& evolution)
+void ExpectSound(const TestEvolution& evolution)
 {
   const SurfaceResult surface = evolution.Result();
   EXPECT_EQ(CountSelfIntersections(surface), 0);
@@ -63,27 +51,32 @@ TEST(SurfaceEvolution, StartsFromALongBoxWithoutIntersections)
   volume.Image.Size = { 11, 17, 19 };
   volume.Image.Step = { 3., 3.07, 22.6 };
   volume.Image.Unit = 3.;
-  Inspector check;
   SurfaceOptions options = IsoHalf();
   options.MaximumNumberOfIterations = 12;
-  SurfaceEvolution evolution(options, Threads, check);
-  check.Evolution = &evolution;
+  TestEvolution evolution(options, Threads, Silent);
+  int broken = 0;
+  evolution.AfterSweep = [&] { broken += CountBroken(evolution); };
   evolution.StartEnclosing(volume.Image, 0);
   EXPECT_EQ(evolution.Run(), StopReason::IterationLimit);
-  EXPECT_EQ(check.Broken, 0);
+  EXPECT_EQ(broken, 0);
   ExpectSound(evolution);
 }
 
 TEST(SurfaceEvolution, IsSoundAfterEverySweep)
 {
   const TestVolume volume = NoisyTorus(36);
-  Inspector inspector;
-  SurfaceEvolution evolution(IsoHalf(), Threads, inspector);
-  inspector.Evolution = &evolution;
+  TestEvolution evolution(IsoHalf(), Threads, Silent);
+  int calls = 0;
+  int broken = 0;
+  evolution.AfterSweep = [&]
+  {
+    ++calls;
+    broken += CountBroken(evolution);
+  };
   evolution.StartEnclosing(volume.Image, 0);
   EXPECT_EQ(evolution.Run(), StopReason::Converged);
-  EXPECT_GT(inspector.Calls, 5);
-  EXPECT_EQ(inspector.Broken, 0);
+  EXPECT_GT(calls, 5);
+  EXPECT_EQ(broken, 0);
   const SurfaceFeatures features = ComputeFeatures(evolution.Result());
   EXPECT_EQ(features.Components[0].Genus, 1);
 }
@@ -99,7 +92,7 @@ TEST(SurfaceEvolution, FindsAgainWhatTheCoarseLevelLost)
   {
     SurfaceOptions options = IsoHalf();
     options.RecoverLostParts = recover;
-    SurfaceEvolution evolution(options, Threads, Silent);
+    TestEvolution evolution(options, Threads, Silent);
     evolution.StartEnclosing(scene.Coarse.Image, 1);
     evolution.Run();
     EXPECT_EQ(ComputeFeatures(evolution.Result()).Components.size(), 1u);
@@ -115,7 +108,7 @@ TEST(SurfaceEvolution, FindsAgainWhatTheCoarseLevelLost)
 TEST(SurfaceEvolution, SaysWhenNothingIsLeft)
 {
   const TestVolume volume = MakeVolume(24, [](double, double, double) { return 0.; });
-  SurfaceEvolution evolution(IsoHalf(), Threads, Silent);
+  TestEvolution evolution(IsoHalf(), Threads, Silent);
   evolution.StartEnclosing(volume.Image, 0);
   EXPECT_EQ(evolution.Run(), StopReason::Vanished);
   EXPECT_TRUE(evolution.Result().Points.empty());
@@ -132,7 +125,7 @@ TEST(SurfaceEvolution, KeepsItsTopologyOnRequest)
   SurfaceOptions options = IsoHalf();
   options.TopologyChanges = false;
   options.MaximumNumberOfIterations = 150;
-  SurfaceEvolution evolution(options, Threads, Silent);
+  TestEvolution evolution(options, Threads, Silent);
   evolution.StartEnclosing(volume.Image, 0);
   evolution.Run();
   EXPECT_EQ(ComputeFeatures(evolution.Result()).Components.size(), 1u);
@@ -142,7 +135,7 @@ TEST(SurfaceEvolution, KeepsItsTopologyOnRequest)
 TEST(SurfaceEvolutionInvalid, RefusesSeedsItCannotUse)
 {
   const TestVolume volume = BallVolume(32, 10);
-  SurfaceEvolution evolution(IsoHalf(), Threads, Silent);
+  TestEvolution evolution(IsoHalf(), Threads, Silent);
   EXPECT_THROW(
     evolution.StartSeeds(volume.Image, 0, { { 16, 16, 50 } }), std::invalid_argument);
   EXPECT_THROW(evolution.StartSeeds(volume.Image, 0, { { 1, 1, 1 } }), std::invalid_argument);

@@ -72,11 +72,8 @@ struct BallsInOneBlock
 /** Those that the visit of a block would move. */
 std::vector<int> ActiveOnes(SurfaceState& state, SurfaceBlocks& blocks, int block)
 {
-  SurfaceIteration iteration(state);
   BlockVisit visit = blocks.Open(block);
-  iteration.BeginVisit(visit);
-  std::vector<int> active = iteration.ActiveVertices();
-  iteration.EndVisit();
+  std::vector<int> active = SurfaceIteration(state, visit, nullptr, true).ActiveVertices();
   blocks.Close(std::move(visit));
   return active;
 }
@@ -92,25 +89,22 @@ TEST(SurfaceIteration, MovesNothingFarFromTheBlock)
   BallsInBlocks balls;
   SurfaceState& s = balls.State;
   SurfaceBlocks blocks(s, BallsInBlocks::Frame(), balls.Thread);
-  SurfaceIteration iteration(s);
   BlockVisit visit = blocks.Open(1);
   const int near = visit.First;
   const int far = visit.First + 1;
   s.MoveTo(near, Vector(20 + 0.9f * SurfaceBlocks::MovingInDelta, 0, 0));
   const Vector place(20 + 1.1f * SurfaceBlocks::MovingInDelta, 0, 0);
   s.MoveTo(far, place);
-  iteration.BeginVisit(visit);
-  EXPECT_TRUE(Has(iteration.ActiveVertices(), near));
-  EXPECT_FALSE(Has(iteration.ActiveVertices(), far));
-  iteration.EndVisit();
+  std::vector<int> active = SurfaceIteration(s, visit, nullptr, true).ActiveVertices();
+  EXPECT_TRUE(Has(active, near));
+  EXPECT_FALSE(Has(active, far));
   blocks.Close(std::move(visit));
   blocks.Prepare(balls.Thread);
   visit = blocks.Open(2);
-  iteration.BeginVisit(visit);
-  EXPECT_TRUE(std::any_of(iteration.ActiveVertices().begin(), iteration.ActiveVertices().end(),
+  active = SurfaceIteration(s, visit, nullptr, true).ActiveVertices();
+  EXPECT_TRUE(std::any_of(active.begin(), active.end(),
     [&](int v) { return s.Mesh.Position[v].X == place.X && s.Mesh.Position[v].Y == 0.f; }))
     << "it is the neighbour's, which moves it";
-  iteration.EndVisit();
   blocks.Close(std::move(visit));
 }
 
@@ -152,21 +146,18 @@ TEST(SurfaceIteration, MakesWhatCannotBeSplitNoLonger)
   SurfaceBlocks& blocks = *balls.Blocks;
   BlockVisit visit = blocks.Open(0);
   visit.Share.Room.End = visit.Share.Room.Next;
-  Remesher remesher(s, &balls.TheField, true, &visit.Share);
-  SurfaceIteration iteration(s);
-  iteration.BeginVisit(visit);
+  auto iteration = std::make_unique<SurfaceIteration>(s, visit, &balls.TheField, true);
   double longest = 0.;
   for (int i = 0; i < 40; ++i)
   {
-    HistoryRow row;
-    iteration.Run(row, balls.Motion, remesher, SurfaceIteration::Mode::Evolve);
+    iteration->Run(balls.Motion, SurfaceIteration::Mode::Evolve);
     for (const double edge : EdgeLengths(s.Mesh.ToIndexed()))
     {
       longest = std::max(longest, edge);
       ASSERT_LE(edge, 2.5001) << "iteration " << i;
     }
   }
-  iteration.EndVisit();
+  iteration.reset();
   EXPECT_EQ(visit.Share.Counts.Splits, 0);
   EXPECT_GT(longest, 2.4) << "it has grown as far as it may";
   blocks.Close(std::move(visit));
@@ -192,12 +183,8 @@ TEST(SurfaceIteration, KnowsTheContactsThatAVisitBeforeHasFound)
   {
     BlockVisit visit = blocks.Open(0);
     visit.Share.Room.End = visit.Share.Room.Next;
-    Remesher remesher(s, &balls.TheField, false, &visit.Share);
-    SurfaceIteration iteration(s);
-    iteration.BeginVisit(visit);
-    HistoryRow row;
-    iteration.Run(row, balls.Motion, remesher, SurfaceIteration::Mode::Evolve);
-    iteration.EndVisit();
+    SurfaceIteration(s, visit, &balls.TheField, false)
+      .Run(balls.Motion, SurfaceIteration::Mode::Evolve);
     blocks.Close(std::move(visit));
   }
   float nearest = 100.f;

@@ -34,7 +34,7 @@ TEST(SurfaceResult, HasOutwardUnitNormalsAndTheFieldAtItsPoints)
     options.ObjectIsBright = bright;
     options.SnapToIsoValue = false;
     options.MaximumNumberOfIterations = 25;
-    SurfaceEvolution evolution(options, Threads, Silent);
+    TestEvolution evolution(options, Threads, Silent);
     evolution.StartEnclosing(volume.Image, 0);
     evolution.Run();
     const SurfaceResult surface = evolution.Result();
@@ -62,7 +62,7 @@ TEST(SurfaceResult, LiesOnTheIsopotentialMoreExactlyWhereItIsSnapped)
   {
     SurfaceOptions options = IsoHalf();
     options.SnapToIsoValue = snap;
-    SurfaceEvolution evolution(options, Threads, Silent);
+    TestEvolution evolution(options, Threads, Silent);
     evolution.StartEnclosing(volume.Image, 0);
     EXPECT_EQ(evolution.Run(), StopReason::Converged);
     const SurfaceResult surface = evolution.Result();
@@ -89,7 +89,7 @@ TEST(SurfaceResult, LiesOnTheEdgesWhereTheyAreGiven)
   volume.Image.Edges = map.Values.data();
   SurfaceOptions options = IsoHalf();
   options.EdgeAttractionWeight = 4;
-  SurfaceEvolution evolution(options, Threads, Silent);
+  TestEvolution evolution(options, Threads, Silent);
   evolution.StartEnclosing(volume.Image, 0);
   EXPECT_EQ(evolution.Run(), StopReason::Converged);
   double radius = 0;
@@ -106,7 +106,7 @@ TEST(SurfaceStart, DivisionMakesThreeTimesTheTriangles)
   const auto ball = [](double x, double y, double z)
   { return Distance(x, y, z, 16, 16, 16) - 10.; };
   const LevelPair scene(32, ball, ball);
-  SurfaceEvolution evolution(IsoHalf(), Threads, Silent);
+  TestEvolution evolution(IsoHalf(), Threads, Silent);
   evolution.StartEnclosing(scene.Coarse.Image, 1);
   evolution.Run();
   const SurfaceResult before = evolution.Result();
@@ -122,7 +122,7 @@ TEST(SurfaceStart, DivisionMakesThreeTimesTheTriangles)
 TEST(SurfaceStart, SeedsKeepClearOfEachOther)
 {
   const TestVolume volume = BallVolume(40, 16);
-  SurfaceEvolution evolution(IsoHalf(), Threads, Silent);
+  TestEvolution evolution(IsoHalf(), Threads, Silent);
   // The second is too near to the first one, the last one lies in the background.
   const std::vector<Point> places = { { 20, 20, 20 }, { 22, 20, 20 }, { 26, 20, 20 }, { 2, 2, 2 } };
   EXPECT_EQ(evolution.StartSeeds(volume.Image, 0, places), 2);
@@ -137,7 +137,7 @@ TEST(SurfaceStart, SeedsAreOfTheirRadiusButNeverTooSmallForTheEdges)
   {
     SurfaceOptions options = IsoHalf();
     options.SeedRadius = radius;
-    SurfaceEvolution evolution(options, Threads, Silent);
+    TestEvolution evolution(options, Threads, Silent);
     EXPECT_EQ(evolution.StartSeeds(volume.Image, 0, { { 20, 20, 20 } }), 1);
     const SurfaceResult surface = evolution.Result();
     ExpectLegalEdges(surface);
@@ -175,7 +175,7 @@ TEST(SurfaceEvolutionInvalid, RefusesEveryOptionOutsideItsRange)
       SurfaceOptions options = IsoHalf();
       options.*c.Option = value;
       const std::string refusal =
-        RefusalOf([&] { const SurfaceEvolution evolution(options, Threads, Silent); });
+        RefusalOf([&] { CheckOptions(options); });
       EXPECT_EQ(refusal.find(c.Name), 0u) << c.Name << " " << value << ": " << refusal;
     }
   }

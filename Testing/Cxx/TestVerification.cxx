@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // The last look at a surface: it finds whatever intersects, and the surface gets another mesh.
-#include "Core/Evolution/EvolutionImplementation.h"
 #include "Core/Mesh/SelfIntersections.h"
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "Core/Surface/NewFaces.h"
@@ -13,15 +12,6 @@ using namespace volumic;
 
 namespace
 {
-// What only an error of Volumic could change: instantiations may name what is private.
-SurfaceState& StateOf(SurfaceEvolution& evolution);
-template <auto Member>
-struct Opened
-{
-  friend SurfaceState& StateOf(SurfaceEvolution& evolution) { return (evolution.*Member)->State; }
-};
-template struct Opened<&SurfaceEvolution::Self>;
-
 std::size_t CountIn(const Bench& bench)
 {
   SequentialExecutor threads;
@@ -43,23 +33,14 @@ void Pierce(SurfaceState& state)
   }
 }
 
-/** Does something to the surface after so many iterations, and then goes on or not. */
+/** Says stop, or not, once a surface has been pierced. */
 class Intruder final : public Monitor
 {
 public:
-  SurfaceEvolution* Evolution = nullptr;
-  int At = 20;
   bool GoesOn = true;
+  bool HasPierced = false;
 
-  bool Continue(const Status& status) override
-  {
-    if (status.Iteration < this->At)
-    {
-      return true;
-    }
-    Pierce(StateOf(*this->Evolution));
-    return this->GoesOn;
-  }
+  bool GoOn(const Status&) override { return this->GoesOn || !this->HasPierced; }
 };
 
 SurfaceOptions TwentyIterations()
@@ -123,7 +104,7 @@ TEST(Verification, TheEndOfALevelIsMended)
 {
   const TestVolume volume = BallVolume(32, 10);
   Monitor silent;
-  SurfaceEvolution undisturbed(TwentyIterations(), Threads, silent);
+  TestEvolution undisturbed(TwentyIterations(), Threads, silent);
   undisturbed.StartEnclosing(volume.Image, 0);
   undisturbed.Run();
   EXPECT_EQ(undisturbed.Verified().Found, 0);
@@ -132,8 +113,15 @@ TEST(Verification, TheEndOfALevelIsMended)
   {
     Intruder intruder;
     intruder.GoesOn = goesOn;
-    SurfaceEvolution evolution(TwentyIterations(), Threads, intruder);
-    intruder.Evolution = &evolution;
+    TestEvolution evolution(TwentyIterations(), Threads, intruder);
+    evolution.AfterSweep = [&]
+    {
+      intruder.HasPierced = evolution.Iterations() == 20;
+      if (intruder.HasPierced)
+      {
+        Pierce(evolution.Now->State);
+      }
+    };
     evolution.StartEnclosing(volume.Image, 0);
     EXPECT_EQ(evolution.Run(), goesOn ? StopReason::IterationLimit : StopReason::Cancelled);
     EXPECT_GT(evolution.Verified().Found, 0);
@@ -153,11 +141,11 @@ TEST(Verification, WhatCannotBeMendedIsTold)
 {
   const TestVolume volume = BallVolume(32, 10);
   Monitor silent;
-  SurfaceEvolution evolution(IsoHalf(), Threads, silent);
+  TestEvolution evolution(IsoHalf(), Threads, silent);
   evolution.StartEnclosing(volume.Image, 0);
   evolution.Run();
   EXPECT_EQ(evolution.Verified().Found, 0);
-  SurfaceState& state = StateOf(evolution);
+  SurfaceState& state = evolution.Now->State;
   for (int v = 0; v < state.Mesh.Size(); ++v)
   {
     if (state.Mesh.IsAlive(v))
@@ -167,7 +155,7 @@ TEST(Verification, WhatCannotBeMendedIsTold)
       state.MoveTo(v, p);
     }
   }
-  evolution.Revise(volume.Image);
+  volumic::Revise(*evolution.Now);
   EXPECT_GT(evolution.Verified().Found, 0);
   EXPECT_EQ(evolution.Verified().Left, evolution.Verified().Found);
   EXPECT_TRUE(Has(evolution.Verified().Describe(0), "could not be mended"));

@@ -28,17 +28,15 @@ class Listener final : public Monitor
 {
 public:
   explicit Listener(int most = 0) : Most(most) {}
-  bool Continue(const Status& status) override { return this->Hear(status); }
-  bool GoOn(const Status& status) override { return this->Hear(status); }
-
-  std::vector<Status> Heard;
-
-private:
-  bool Hear(const Status& status)
+  bool GoOn(const Status& status) override
   {
     this->Heard.push_back(status);
     return static_cast<int>(this->Heard.size()) != this->Most;
   }
+
+  std::vector<Status> Heard;
+
+private:
   int Most;
 };
 
@@ -52,7 +50,7 @@ struct SweptRun
   {
     const TestVolume fine = FineBars();
     const TestVolume coarse = CoarseBars();
-    SurfaceEvolution evolution(options, executor, monitor);
+    TestEvolution evolution(options, executor, monitor);
     evolution.StartEnclosing(coarse.Image, 1);
     if (evolution.Run() != StopReason::Cancelled && evolution.Divide(fine.Image, 0))
     {
@@ -186,15 +184,13 @@ struct Wilderness
   {
     BlockVisit visit = this->Blocks->Open(this->Blocks->BlockAt(Vector(55, 55, 55)));
     written = visit.Written;
-    Remesher remesher(this->State, &this->TheField, true, &visit.Share);
-    SurfaceIteration iteration(this->State);
-    iteration.BeginVisit(visit);
-    for (int i = 0; i < iterations; ++i)
     {
-      HistoryRow row;
-      iteration.Run(row, this->Motion, remesher, SurfaceIteration::Mode::Evolve);
+      SurfaceIteration iteration(this->State, visit, &this->TheField, true);
+      for (int i = 0; i < iterations; ++i)
+      {
+        iteration.Run(this->Motion, SurfaceIteration::Mode::Evolve);
+      }
     }
-    iteration.EndVisit();
     const EditCounts counts = visit.Share.Counts;
     this->Blocks->Close(std::move(visit));
     return counts;

@@ -99,11 +99,6 @@ CheckedWriter::CheckedWriter(const std::string& name)
   this->Buffer.reserve(BufferSize);
 }
 
-CheckedWriter::CheckedWriter(FileInMemory& memory)
-  : Memory(&memory)
-{
-}
-
 CheckedWriter::~CheckedWriter()
 {
   if (this->File)
@@ -119,17 +114,6 @@ void CheckedWriter::Fail()
   throw FileError(Join(this->Name, " cannot be written (", ReasonOf(error), ")"));
 }
 
-bool CheckedWriter::Append(const void* bytes, std::size_t count)
-{
-  if (this->Memory)
-  {
-    const auto* first = static_cast<const unsigned char*>(bytes);
-    this->Memory->emplace_back(first, first + count);
-    return true;
-  }
-  return std::fwrite(bytes, 1, count, this->File) == count;
-}
-
 void CheckedWriter::WriteBuffer()
 {
   const std::size_t count = this->Buffer.size();
@@ -137,7 +121,8 @@ void CheckedWriter::WriteBuffer()
     CombineHashes(this->Hash, CombineHashes(count, ContentHash(this->Buffer.data(), count)));
   const BufferHead head = { count, this->Hash };
   errno = 0;
-  if (!this->Append(&head, sizeof(head)) || !this->Append(this->Buffer.data(), count))
+  if (std::fwrite(&head, 1, sizeof(head), this->File) != sizeof(head) ||
+    std::fwrite(this->Buffer.data(), 1, count, this->File) != count)
   {
     this->Fail();
   }
@@ -173,10 +158,6 @@ void CheckedWriter::Commit()
     this->WriteBuffer();
   }
   this->WriteBuffer(); // The end.
-  if (this->Memory)
-  {
-    return;
-  }
   errno = 0;
   if (!Flush(this->File))
   {
@@ -215,15 +196,6 @@ CheckedReader::CheckedReader(const std::string& name)
   std::setvbuf(this->File, nullptr, _IONBF, 0);
 }
 
-CheckedReader::CheckedReader(const FileInMemory& memory)
-  : Memory(&memory)
-{
-  for (const auto& list : memory)
-  {
-    this->Left += list.size();
-  }
-}
-
 CheckedReader::~CheckedReader()
 {
   if (this->File)
@@ -241,16 +213,6 @@ bool CheckedReader::Fetch(void* bytes, std::size_t count)
 {
   const std::uint64_t left = this->Left;
   this->Left -= std::min<std::uint64_t>(left, count);
-  if (this->Memory)
-  {
-    // A list is what was appended at a time.
-    if (this->Fetches == this->Memory->size() || (*this->Memory)[this->Fetches].size() != count)
-    {
-      return false;
-    }
-    std::copy_n((*this->Memory)[this->Fetches++].data(), count, static_cast<unsigned char*>(bytes));
-    return true;
-  }
   return std::fread(bytes, 1, count, this->File) == count;
 }
 

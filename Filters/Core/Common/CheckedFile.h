@@ -3,8 +3,6 @@
 #ifndef volumicCheckedFile_h
 #define volumicCheckedFile_h
 
-#include "Core/Common/ScratchMemory.h"
-
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -15,7 +13,6 @@
 
 // Files of numbers, texts and lists for a program to read again on the same machine, after a crash
 // too: each is there as a whole or not at all, and what is not as it was written is not believed.
-// Where it is this process that goes on, memory does instead.
 
 namespace volumic
 {
@@ -26,12 +23,6 @@ struct FileError : std::runtime_error
 };
 
 /**
- * What stands for a file in memory, which may be limited: a list for each append, so that it grows
- * in place.
- */
-using FileInMemory = std::vector<LargeVector<unsigned char>>;
-
-/**
  * Writes a file beside its place, `NAME.new`, and moves it there when it is whole and on the disk.
  * All throw FileError.
  */
@@ -39,8 +30,6 @@ class CheckedWriter
 {
 public:
   explicit CheckedWriter(const std::string& name);
-  /** It writes behind what the memory holds, which must outlive it. */
-  explicit CheckedWriter(FileInMemory& memory);
   /** Where nothing was committed, no file is left. */
   ~CheckedWriter();
   CheckedWriter(const CheckedWriter&) = delete;
@@ -68,10 +57,8 @@ public:
 private:
   [[noreturn]] void Fail();
   void WriteBuffer();
-  bool Append(const void* bytes, std::size_t count);
 
   std::string Name;
-  FileInMemory* Memory = nullptr; ///< null: a file
   std::FILE* File = nullptr;
   std::vector<unsigned char> Buffer;
   std::uint64_t Hash = 0; ///< Of all buffers so far.
@@ -86,8 +73,6 @@ class CheckedReader
 {
 public:
   explicit CheckedReader(const std::string& name);
-  /** It reads from the begin of the memory, which must outlive it. */
-  explicit CheckedReader(const FileInMemory& memory);
   ~CheckedReader();
   CheckedReader(const CheckedReader&) = delete;
   CheckedReader& operator=(const CheckedReader&) = delete;
@@ -123,8 +108,6 @@ private:
   bool Fetch(void* bytes, std::size_t count);
 
   std::string Name;
-  const FileInMemory* Memory = nullptr; ///< null: a file
-  std::size_t Fetches = 0;              ///< So many of its lists have been read.
   std::FILE* File = nullptr;
   std::vector<unsigned char> Buffer;
   std::size_t Taken = 0;  ///< Of the buffer.

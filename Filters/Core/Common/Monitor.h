@@ -55,15 +55,9 @@ public:
   virtual ~Monitor() = default;
 
   /**
-   * Asked after every sweep of five iterations; the surface may be looked at. False asks to stop after it. The
-   * surface is then handed over as it is: closed, manifold and free of self-intersections.
-   */
-  virtual bool Continue(const Status&) { return true; }
-
-  /**
    * Asked within, before and after the iterations, several times a second; the surface is in
-   * work. False asks to stop as soon as it is closed, manifold and free of self-intersections.
-   * After false from either, neither is asked again.
+   * work. False asks to stop as soon as it is closed, manifold and free of self-intersections, as
+   * which it is then handed over. After that it is not asked again.
    */
   virtual bool GoOn(const Status&) { return true; }
 };

@@ -186,12 +186,12 @@ Vector Dynamics::RelaxationOf(
   Vector pull = state.Laplacian[v];
   pull.Padding = 0;
   Vector move = (pull - n * Dot(pull, n)) * relaxation.Smoothing;
-  if (relaxation.Snap && this->Options.SnapToIsoValue)
+  if (relaxation.Snap && this->Options.SnapsToIsoValue())
   {
     const Field::Sample sample = this->TheField.At(state.Mesh.Position[v]);
     move += n * this->TheField.StepToIso(sample, n, longest);
   }
-  if (this->Edges && this->Options.SnapToEdges)
+  if (this->Edges && this->Options.SnapsToEdges())
   {
     const float share = this->TheField.Margin().DepthAt(state.Mesh.Position[v]).Share;
     move += n * ((1 - share) * longest * this->Edges->Along(state.Mesh.Position[v], n));

@@ -93,7 +93,7 @@ public:
 
   /**
    * Instead of Accelerate: velocities that even the mesh out tangentially and, on request, lead onto
-   * the isopotential (Newton's step along the normal), or, by SurfaceOptions::SnapToEdges, up to
+   * the isopotential (Newton's step along the normal), or, by SurfaceOptions::SnapsToEdges(), up to
    * the ridge of the map of edges, never towards a contact.
    */
   void Relax(SurfaceState& state, const std::vector<int>& vertices,

@@ -39,7 +39,7 @@ constexpr int MaximumLevel = 40;
 constexpr double LengthStep = 1.01;
 constexpr double SearchedLengths = 1e6;
 
-/** Of the factor, beside 1 of the ratio, which SurfaceEvolution may still have to change. */
+/** Of the factor, beside 1 of the ratio, which LevelTask::MeanEdgeLength may still have to change. */
 constexpr double WeightOfFactor = 0.25;
 
 /**

@@ -11,7 +11,7 @@ namespace volumic
 {
 /**
  * Mean length of the edges of a level that rests, in delta. Found by experiment, on nine scans in
- * both metrics: from 1.5 (smooth heads) to 1.8 (skulls). SurfaceEvolution::SetMeanEdgeLength makes
+ * both metrics: from 1.5 (smooth heads) to 1.8 (skulls). LevelTask::MeanEdgeLength makes
  * up for the difference.
  */
 constexpr double MeanEdgeInDelta = 1.7;

@@ -3,10 +3,9 @@
 
 // The way of a surface to the next level's edge lengths.
 
-#include "Core/Common/Select.h"
 #include "Core/Common/Spans.h"
 #include "Core/Evolution/EdgesToKeep.h"
-#include "Core/Evolution/EvolutionImplementation.h"
+#include "Core/Evolution/Evolution.h"
 
 #include <algorithm>
 #include <cmath>
@@ -49,26 +48,11 @@ void VisitEdges(const SurfaceMesh& mesh, std::size_t begin, std::size_t end, con
   }
 }
 
-/** Whether an edge is longer than this share of the longest that eq. (1) allows. */
-bool HasEdgeOver(const SurfaceState& state, float share, Executor& executor)
+float LongestEdge(const Evolution& e)
 {
-  const SurfaceMesh& mesh = state.Mesh;
-  return CountInSpans(executor, mesh.Rings.size(), VertexSpan,
-           [&](std::size_t begin, std::size_t end)
-           {
-             std::size_t count = 0;
-             VisitEdges(mesh, begin, end, [&](int v, int w, float squared)
-               { count += std::sqrt(squared) > state.Sizing.LongestEdge(v, w, share); });
-             return count;
-           }) > 0;
-}
-}
-
-float SurfaceEvolution::Implementation::LongestEdge() const
-{
-  const SurfaceMesh& mesh = this->State.Mesh;
+  const SurfaceMesh& mesh = e.State.Mesh;
   std::vector<float> longest((mesh.Rings.size() + VertexSpan - 1) / VertexSpan, 0.f);
-  ForSpans(this->Threads, mesh.Rings.size(), VertexSpan,
+  ForSpans(e.Threads, mesh.Rings.size(), VertexSpan,
     [&](std::size_t span, std::size_t begin, std::size_t end)
     {
       VisitEdges(mesh, begin, end, [&](int, int, float squared)
@@ -78,52 +62,33 @@ float SurfaceEvolution::Implementation::LongestEdge() const
     [](float most, float ofSpan) { return std::max(most, ofSpan); }));
 }
 
-std::vector<Proximity::FacePair> SurfaceEvolution::Implementation::FindIntersections()
+std::vector<Proximity::FacePair> FindIntersections(Evolution& e)
 {
   // A division leaves some edges longer than verification may rely on; it looks further for them.
-  SurfaceState& s = this->State;
+  SurfaceState& s = e.State;
   const SizingField sizing = s.Sizing;
-  s.Sizing = sizing.ForEdgesOf(this->LongestEdge());
-  this->LayGrid();
+  s.Sizing = sizing.ForEdgesOf(LongestEdge(e));
+  LayGrid(e);
   const std::vector<Proximity::FacePair> found =
-    Proximity::FindIntersections(s, this->AliveVertices(), this->Threads);
+    Proximity::FindIntersections(s, AliveVertices(e), e.Threads);
   s.Sizing = sizing;
   return found;
 }
 
-void SurfaceEvolution::Implementation::DescendField(double delta)
-{
-  const SizingField sizing = this->State.Sizing;
-  this->State.Sizing = SizingField(static_cast<float>(delta));
-  this->Reset(); // In an order that does not depend on what has been done before.
-  this->ActivateAll();
-  const Dynamics dynamics(*this->TheField, this->Options, this->Threads);
-  for (int sweep = 0; sweep < DescendingSweeps && !this->Stopped; ++sweep)
-  {
-    this->VisitAll(SurfaceIteration::Mode::Descend, dynamics, DescendingPasses,
-      Monitor::Activity::Dividing, DescendingShare * sweep / DescendingSweeps,
-      DescendingShare * (sweep + 1) / DescendingSweeps);
-  }
-  this->ForgetBlocks();
-  this->State.Sizing = sizing;
-  this->HasDescended = true;
-}
-
-void SurfaceEvolution::Implementation::DivideOnce()
+void DivideOnce(Evolution& e)
 {
   // The division flips edges of the old surface; in narrow places these may pass through each
   // other. Such edges are kept, then more and more about them, and all of them at last, which
   // leaves the old surface, with more vertices.
-  this->ForgetBlocks();
-  SurfaceMesh old = std::exchange(this->State.Mesh, SurfaceMesh());
-  old.Reorder(
-    SpaceFillingOrder(old, this->State.Sizing.Smallest(), this->Threads), this->Threads);
+  ForgetBlocks(e);
+  SurfaceMesh old = std::exchange(e.State.Mesh, SurfaceMesh());
+  old.Reorder(SpaceFillingOrder(old, e.State.Sizing.Smallest(), e.Threads), e.Threads);
   std::unique_ptr<KeptEdges> kept;
   for (int round = 0; round <= EdgesToKeep::Rounds; ++round)
   {
-    const DivisionNumbers numbers = NumberForDivision(old, kept.get(), this->Threads);
-    this->State.Mesh = volumic::Divide(old, numbers, kept.get(), this->Threads);
-    const std::vector<Proximity::FacePair> found = this->FindIntersections();
+    const DivisionNumbers numbers = NumberForDivision(old, kept.get(), e.Threads);
+    e.State.Mesh = volumic::Divide(old, numbers, kept.get(), e.Threads);
+    const std::vector<Proximity::FacePair> found = FindIntersections(e);
     if (found.empty() || round == EdgesToKeep::Rounds)
     {
       return;
@@ -135,34 +100,55 @@ void SurfaceEvolution::Implementation::DivideOnce()
     EdgesToKeep(old, numbers, *kept).KeepAbout(found, round);
   }
 }
+}
 
-bool SurfaceEvolution::Implementation::DivideAll(int divisions)
+void DescendField(Evolution& e, double delta)
+{
+  const SizingField sizing = e.State.Sizing;
+  e.State.Sizing = SizingField(static_cast<float>(delta));
+  Renumber(e); // In an order that does not depend on what has been done before.
+  ActivateAll(e);
+  for (int sweep = 0; sweep < DescendingSweeps && !e.Stopped; ++sweep)
+  {
+    Relax(e, SurfaceIteration::Mode::Descend, DescendingPasses,
+      { Monitor::Activity::Dividing, DescendingShare * sweep / DescendingSweeps,
+        DescendingShare * (sweep + 1) / DescendingSweeps });
+  }
+  ForgetBlocks(e);
+  e.State.Sizing = sizing;
+  e.HasDescended = true;
+}
+
+bool DivideAll(Evolution& e, int divisions)
 {
   bool goesOn = true;
   for (int i = 0; i < divisions && goesOn; ++i)
   {
-    this->DivideOnce();
-    goesOn = this->GoOn(Monitor::Activity::Dividing, (i + 1.) / divisions);
+    DivideOnce(e);
+    goesOn = e.GoOn(Monitor::Activity::Dividing, (i + 1.) / divisions);
   }
   if (divisions > 0)
   {
-    this->LayOut();
+    LayOut(e);
   }
   else
   {
-    this->Reset();
+    Renumber(e);
   }
   return goesOn;
 }
 
-bool SurfaceEvolution::Implementation::HasEdgeTooLong() const
+bool HasEdgeTooLong(const Evolution& e)
 {
-  return HasEdgeOver(this->State, 1.0001f, this->Threads);
-}
-
-std::vector<int> SurfaceEvolution::Implementation::AliveVertices() const
-{
-  return SelectIndices(this->Threads, this->State.Mesh.Rings.size(),
-    [this](std::size_t v) { return this->State.Mesh.IsAlive(static_cast<int>(v)); });
+  constexpr float share = 1.0001f; // Of the longest that eq. (1) allows.
+  const SurfaceMesh& mesh = e.State.Mesh;
+  return CountInSpans(e.Threads, mesh.Rings.size(), VertexSpan,
+           [&](std::size_t begin, std::size_t end)
+           {
+             std::size_t count = 0;
+             VisitEdges(mesh, begin, end, [&](int v, int w, float squared)
+               { count += std::sqrt(squared) > e.State.Sizing.LongestEdge(v, w, share); });
+             return count;
+           }) > 0;
 }
 }

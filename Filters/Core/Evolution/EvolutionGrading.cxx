@@ -6,7 +6,7 @@
 // else.
 
 #include "Core/Common/Select.h"
-#include "Core/Evolution/EvolutionImplementation.h"
+#include "Core/Evolution/Evolution.h"
 #include "Core/Evolution/GradedSizes.h"
 #include "Core/Image/VoxelNumbers.h"
 
@@ -29,13 +29,12 @@ constexpr int Passes = 2;
 constexpr double MostDivided = 0.5;
 /** Of a division's progress, once it is known where it is wanted. */
 constexpr double HalfDivided = 0.5;
-}
 
-void SurfaceEvolution::Implementation::ApplySizes(
-  const std::vector<int>& changed, const BlockVisits& visits)
+/** @param sweep to split edges, see SplitLongEdges */
+void ApplySizes(Evolution& e, const std::vector<int>& changed, const Sweep& sweep)
 {
   // What is known of a star that has another size now was found within another reach.
-  SurfaceState& s = this->State;
+  SurfaceState& s = e.State;
   std::vector<int> stars;
   for (const int v : changed)
   {
@@ -49,50 +48,47 @@ void SurfaceEvolution::Implementation::ApplySizes(
     s.Active[v] = 1;
     s.Drift[v] = SurfaceState::NotExamined;
   }
-  s.UpdateShape(stars, this->Threads);
-  if (this->HasEdgeTooLong())
+  s.UpdateShape(stars, e.Threads);
+  if (HasEdgeTooLong(e))
   {
-    this->SplitLongEdges(visits);
+    SplitLongEdges(e, sweep);
   }
 }
+}
 
-bool SurfaceEvolution::Implementation::DivideWhereWanted(double delta)
+bool DivideWhereWanted(Evolution& e, double delta)
 {
-  SurfaceState& s = this->State;
-  this->ForgetBlocks();
-  s.Mesh.Reorder(
-    SpaceFillingOrder(s.Mesh, s.Sizing.Smallest(), this->Threads), this->Threads);
+  SurfaceState& s = e.State;
+  ForgetBlocks(e);
+  s.Mesh.Reorder(SpaceFillingOrder(s.Mesh, s.Sizing.Smallest(), e.Threads), e.Threads);
   // Most of it is to keep the edges that it has: so large are the cells of the grid, too.
   const SizingField fine = s.Sizing;
   s.Sizing = SizingField(static_cast<float>(delta));
-  this->LayGrid();
+  LayGrid(e);
   s.Sizing = fine;
-  GradedSizes sizes(s, *this->TheField, this->WantedGrading, this->Threads);
+  GradedSizes sizes(s, *e.TheField, e.Task.Grading, e.Threads);
   sizes.Begin(static_cast<float>(delta));
-  s.UpdateShape(this->AliveVertices(), this->Threads);
+  s.UpdateShape(AliveVertices(e), e.Threads);
   const std::vector<int> divided = sizes.Refine();
-  if (this->WantedGrading.HasTolerance() &&
+  if (e.Task.Grading.HasTolerance() &&
     static_cast<double>(divided.size()) > MostDivided * s.Mesh.NumberOfVertices())
   {
     s.Sizing = SizingField(s.Sizing.OfLevel());
     return false;
   }
   // The mesh stays: what is to have shorter edges is split.
-  this->MakeBlocks();
-  BlockVisits visits;
-  visits.Doing = Monitor::Activity::Dividing;
-  visits.From = visits.To = HalfDivided;
-  if (this->GoOn(visits.Doing, HalfDivided))
+  MakeBlocks(e);
+  if (e.GoOn(Monitor::Activity::Dividing, HalfDivided))
   {
-    this->ApplySizes(divided, visits);
+    ApplySizes(e, divided, { Monitor::Activity::Dividing, HalfDivided, HalfDivided });
   }
-  this->LabelComponents();
+  LabelComponents(e);
   return true;
 }
 
-void SurfaceEvolution::Implementation::DivideNear(const LostBoundary& lost)
+void DivideNear(Evolution& e, const LostBoundary& lost)
 {
-  const LevelImage& image = this->TheField->Image();
+  const LevelImage& image = e.Task.Image;
   const VoxelNumbers numbers(image.Size);
   std::vector<Vector> places;
   for (const std::int64_t voxel : lost.Voxels())
@@ -101,42 +97,39 @@ void SurfaceEvolution::Implementation::DivideNear(const LostBoundary& lost)
     places.emplace_back(static_cast<float>(index[0] * image.Step[0]),
       static_cast<float>(index[1] * image.Step[1]), static_cast<float>(index[2] * image.Step[2]));
   }
-  GradedSizes sizes(this->State, *this->TheField, this->WantedGrading, this->Threads);
-  BlockVisits visits;
-  visits.IsAsked = false;
-  this->ApplySizes(sizes.ShrinkNear(places), visits);
+  GradedSizes sizes(e.State, *e.TheField, e.Task.Grading, e.Threads);
+  Sweep sweep;
+  sweep.IsAsked = false;
+  ApplySizes(e, sizes.ShrinkNear(places), sweep);
 }
 
-void SurfaceEvolution::Implementation::Grade(const Dynamics& dynamics)
+void Grade(Evolution& e)
 {
-  SurfaceState& s = this->State;
-  GradedSizes sizes(s, *this->TheField, this->WantedGrading, this->Threads);
+  SurfaceState& s = e.State;
+  GradedSizes sizes(s, *e.TheField, e.Task.Grading, e.Threads);
   if (!s.Sizing.IsGraded())
   {
     sizes.Begin(s.Sizing.OfLevel());
   }
   sizes.Widen();
-  this->MakeBlocks(); // Wider ones: their bounds are in the largest delta.
-  this->LabelComponents();
-  for (const int v : this->AliveVertices())
+  MakeBlocks(e); // Wider ones: their bounds are in the largest delta.
+  LabelComponents(e);
+  for (const int v : AliveVertices(e))
   {
     s.WasActive[v] = s.Active[v];
     s.Velocity[v] = Vector();
   }
-  BlockVisits visits;
-  visits.Doing = Monitor::Activity::Regularising;
-  visits.To = visits.From;
+  const Sweep sweep{ Monitor::Activity::Regularising, 0., 0. };
   for (const float growth : Growths)
   {
-    if (!this->GoOn(visits.Doing, visits.To))
+    if (!e.GoOn(sweep.Doing, sweep.To))
     {
       break;
     }
-    this->ApplySizes(sizes.Adjust(growth), visits);
-    this->VisitAll(SurfaceIteration::Mode::Regularise, dynamics, Passes, visits.Doing,
-      visits.From, visits.To);
+    ApplySizes(e, sizes.Adjust(growth), sweep);
+    Relax(e, SurfaceIteration::Mode::Regularise, Passes, sweep);
   }
-  for (const int v : this->AliveVertices())
+  for (const int v : AliveVertices(e))
   {
     s.Active[v] = s.WasActive[v];
   }

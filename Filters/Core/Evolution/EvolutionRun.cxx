@@ -1,148 +1,104 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Common/Spans.h"
-#include "Core/Evolution/EvolutionImplementation.h"
-#include "Core/Evolution/Stopwatch.h"
+#include "Core/Evolution/CycleCriterion.h"
+#include "Core/Evolution/Evolution.h"
+#include "Core/Evolution/RestCriterion.h"
+#include "Core/Surface/NewFaces.h"
 #include "Core/Surface/SurfacePolish.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <stdexcept>
 #include <utility>
+#include <vector>
 
 namespace volumic
 {
 namespace
 {
+/** Of a regularisation, the passes; the rest is the polish. */
+constexpr double PassesShare = 0.6;
 /** Sweeps of the regularisation, and passes in each block. */
 constexpr int RegularisingSweeps = 3;
 constexpr int SweptPasses = 4;
-/** Way in a pass, in delta, under which a vertex is left where it is. */
-constexpr float SmallestMove = 0.015f;
+/** Residual, in delta, over which a vertex is off the isopotential that has changed. */
+constexpr float LeastOff = 0.03f;
 /** Vertices that one thread looks at at a time. */
 constexpr std::size_t VertexGrain = 2048;
-/** Iterations after which the estimate of a level's progress is 1 - 1/e of its way. */
-constexpr double TypicalIterations = 80.;
-/** Share of a level's progress that is left to what comes before and after its iterations. */
-constexpr double ShareBefore = 0.1;
-constexpr double ShareAfter = 0.2;
 
-/** Of a level, in [0, 1]. */
-double FractionOf(Monitor::Activity doing, double share, double iterations)
+/** Calls work(v) for all vertices, on several threads. */
+template <typename Work>
+void ForAll(Evolution& e, const Work& work)
 {
-  switch (doing)
-  {
-    case Monitor::Activity::Starting:
-      return ShareBefore * share;
-    case Monitor::Activity::Dividing:
-      return 0.5 * ShareBefore * share;
-    case Monitor::Activity::Recovering:
-      return 0.5 * ShareBefore * (1. + share);
-    case Monitor::Activity::Iterating:
-      return ShareBefore +
-        (1. - ShareBefore - ShareAfter) * (1. - std::exp(-iterations / TypicalIterations));
-    default:
-      return 1. - ShareAfter * (1. - share);
-  }
-}
-}
-
-bool SurfaceEvolution::Implementation::GoOn(Monitor::Activity doing, double share)
-{
-  return this->Ask(&Monitor::GoOn, doing, share);
-}
-
-bool SurfaceEvolution::Implementation::Ask(
-  bool (Monitor::*question)(const Monitor::Status&), Monitor::Activity doing, double share)
-{
-  if (this->IsMending)
-  {
-    return true;
-  }
-  if (this->Stopped)
-  {
-    return false;
-  }
-  Monitor::Status status;
-  status.Level = this->Level;
-  status.Doing = doing;
-  status.Iteration = this->LastIterations;
-  status.Vertices =
-    this->Blocks ? this->Blocks->NumberOfVertices() : this->State.Mesh.NumberOfVertices();
-  status.ActiveVertices = this->Visit.Active;
-  status.Sweep = this->Visit.Sweep;
-  status.Block = this->Visit.Block;
-  status.Blocks = this->Visit.Blocks;
-  status.Fraction = FractionOf(
-    doing, std::clamp(share, 0., 1.), this->LastIterations + this->Visit.Iterations);
-  this->Stopped = !(this->Listener.*question)(status);
-  return !this->Stopped;
-}
-
-ProgressQuestion SurfaceEvolution::Implementation::QuestionOf(
-  Monitor::Activity doing, double from, double to)
-{
-  return [this, doing, from, to](double share)
-  { return this->GoOn(doing, from + (to - from) * share); };
-}
-
-StopReason SurfaceEvolution::Implementation::Evolve()
-{
-  SurfaceState& s = this->State;
-  this->LastIterations = 0;
-  this->Rest.Reset();
-  this->Cycle.Reset();
-  Dynamics dynamics(*this->TheField, this->Options, this->Threads);
-  if (this->HasDescended)
-  {
-    dynamics.LeaveToRegularisation();
-  }
-  const double cube = std::pow(static_cast<double>(s.Sizing.OfLevel()), 3);
-  while (true)
-  {
-    if (this->Stopped)
+  const SurfaceMesh& mesh = e.State.Mesh;
+  e.Threads.For(static_cast<std::size_t>(mesh.Size()), VertexGrain,
+    [&](std::size_t begin, std::size_t end)
     {
-      return StopReason::Cancelled;
-    }
-    if (s.Mesh.NumberOfVertices() == 0)
+      for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
+      {
+        if (mesh.IsAlive(v)) // Other places may take no memory.
+        {
+          work(v);
+        }
+      }
+    });
+}
+
+StopReason Evolve(Evolution& e)
+{
+  const SurfaceOptions& options = e.Task.Options;
+  const SurfaceMesh& mesh = e.State.Mesh;
+  RestCriterion rest;
+  CycleCriterion cycle;
+  if (e.HasDescended)
+  {
+    e.Motion->LeaveToRegularisation();
+  }
+  const double cube = std::pow(static_cast<double>(e.State.Sizing.OfLevel()), 3);
+  while (!e.Stopped)
+  {
+    if (mesh.NumberOfVertices() == 0)
     {
       return StopReason::Vanished;
     }
-    if (this->LastIterations >= this->Options.MaximumNumberOfIterations)
+    if (e.History.Iterations() >= options.MaximumNumberOfIterations)
     {
       return StopReason::IterationLimit;
     }
-    this->RunSweep(dynamics);
-    this->Ask(&Monitor::Continue, Monitor::Activity::Iterating, 1.);
-    if (this->Stopped)
+    RunSweep(e);
+    e.LookAt();
+    if (!e.GoOn(Monitor::Activity::Iterating, 0.) || mesh.NumberOfVertices() == 0)
     {
-      return StopReason::Cancelled;
+      continue;
     }
-    if (this->Visit.Active == 0 && s.Mesh.NumberOfVertices() > 0)
+    if (e.Status.ActiveVertices == 0)
     {
       return StopReason::Converged; // Nothing would ever move again.
     }
-    if (this->LastIterations % RestCriterion::Interval == 0 && s.Mesh.NumberOfVertices() > 0)
+    if (e.History.Iterations() % RestCriterion::Interval == 0)
     {
-      const double volume = this->Visit.Volume;
-      const double limit =
-        std::max(cube, this->Options.ConvergenceTolerance * std::abs(volume));
-      this->Rest.Add(volume);
-      this->Cycle.Add(volume);
-      if (this->Rest.IsMet(limit))
+      const double volume = VolumeOf(e);
+      const double limit = std::max(cube, options.ConvergenceTolerance * std::abs(volume));
+      rest.Add(volume);
+      cycle.Add(volume);
+      if (rest.IsMet(limit))
       {
         return StopReason::Converged;
       }
-      if (this->Cycle.IsMet(limit))
+      if (cycle.IsMet(limit))
       {
         return StopReason::LimitCycle;
       }
     }
   }
+  return StopReason::Cancelled;
 }
 
-void SurfaceEvolution::Implementation::FitMeanEdge(const Dynamics& dynamics)
+void FitMeanEdge(Evolution& e)
 {
   // Edges anywhere in [delta, 2.5 delta] are left as they are, so their mean depends on where they
   // come from. With delta changing slowly the worst of them are collapsed or split first.
@@ -150,19 +106,18 @@ void SurfaceEvolution::Implementation::FitMeanEdge(const Dynamics& dynamics)
   constexpr double close = 0.02;
   constexpr double share = 0.6; // of what is missing, in a step
   constexpr double longestStep = 0.03;
-  SurfaceState& s = this->State;
-  const double unit = this->TheField->Image().Unit;
+  SurfaceState& s = e.State;
+  const double unit = e.Task.Image.Unit;
   const float least = static_cast<float>(SizingField::LeastSamplingRatio * unit);
   const float most = static_cast<float>(unit);
   double first = 0.;
   for (int step = 0; step < steps && s.Mesh.NumberOfVertices() > 0; ++step)
   {
-    this->GoOn(Monitor::Activity::Regularising, 0.);
-    if (this->Stopped)
+    if (!e.GoOn(Monitor::Activity::Regularising, 0.))
     {
       break;
     }
-    const double missing = this->WantedMeanEdge / this->MeanEdgeLength() - 1.;
+    const double missing = e.Task.MeanEdgeLength / NumbersOf(e).MeanEdgeLength - 1.;
     first = step == 0 ? missing : first;
     const double change = std::min(std::max(share * missing, -longestStep), longestStep);
     const float old = s.Sizing.OfLevel();
@@ -172,113 +127,69 @@ void SurfaceEvolution::Implementation::FitMeanEdge(const Dynamics& dynamics)
       break;
     }
     s.Sizing = SizingField(delta);
-    this->Reset();
+    Renumber(e);
     s.Velocity.Fill(Vector());
-    this->VisitAll(
-      SurfaceIteration::Mode::Regularise, dynamics, 1, Monitor::Activity::Regularising, 0., 0.);
+    Relax(e, SurfaceIteration::Mode::Regularise, 1, { Monitor::Activity::Regularising, 0., 0. });
   }
 }
 
-void SurfaceEvolution::Implementation::KeepActiveIfMoving(const SurfaceIteration& iteration)
+void RunPasses(Evolution& e)
 {
-  // What went some way in the last pass stays active, with its neighbours, and what was edited.
-  SurfaceState& s = this->State;
-  const auto moves = [&s](int v)
+  for (int sweep = 0; sweep < RegularisingSweeps && !e.Stopped; ++sweep)
   {
-    const float least = SmallestMove * s.Sizing.At(v);
-    return s.Mesh.IsAlive(v) && SquaredLength(s.Velocity[v]) > least * least;
-  };
-  const std::vector<int>& last = iteration.ActiveVertices();
-  for (const int v : last)
-  {
-    s.Active[v] = s.Active[v] && (s.Disturbed[v] || moves(v));
-  }
-  for (const int v : last)
-  {
-    if (moves(v))
-    {
-      const Ring& ring = s.Mesh.Rings[v];
-      std::for_each(ring.Item, ring.Item + ring.Count, [&s](int w) { s.Active[w] = 1; });
-    }
+    Relax(e, SurfaceIteration::Mode::Regularise, SweptPasses,
+      { Monitor::Activity::Regularising, PassesShare * sweep / RegularisingSweeps,
+        PassesShare * (sweep + 1) / RegularisingSweeps });
   }
 }
 
-void SurfaceEvolution::Implementation::RunPasses(const Dynamics& dynamics)
+template <typename IsWanted>
+void Polish(Evolution& e, const IsWanted& isWanted)
 {
-  for (int sweep = 0; sweep < RegularisingSweeps && !this->Stopped; ++sweep)
-  {
-    this->VisitAll(SurfaceIteration::Mode::Regularise, dynamics, SweptPasses,
-      Monitor::Activity::Regularising, PassesShare * sweep / RegularisingSweeps,
-      PassesShare * (sweep + 1) / RegularisingSweeps);
-  }
-}
-
-void SurfaceEvolution::Implementation::Polish(const std::function<bool(int v)>& isWanted)
-{
-  SurfaceState& s = this->State;
-  if (this->Stopped)
+  SurfaceState& s = e.State;
+  const SurfaceOptions& options = e.Task.Options;
+  if (e.Stopped)
   {
     return;
   }
-  BlockVisits visits;
-  visits.OnlyActive = false;
-  visits.Doing = Monitor::Activity::Regularising;
-  visits.From = PassesShare;
-  visits.Visit = [&](BlockVisit& visit, SurfaceIteration&)
-  {
-    std::vector<int> wanted;
-    for (int v = visit.First; v < visit.End(); ++v)
+  VisitBlocks(e, { Monitor::Activity::Regularising, PassesShare, 1., false },
+    [&](BlockVisit& visit)
     {
-      if (s.Mesh.IsAlive(v) && isWanted(v))
+      std::vector<int> wanted;
+      for (int v = visit.First; v < visit.End(); ++v)
       {
-        wanted.push_back(v);
+        if (s.Mesh.IsAlive(v) && isWanted(v))
+        {
+          wanted.push_back(v);
+        }
       }
-    }
-    SurfacePolish polish(s, this->Options.SnapToIsoValue ? this->TheField.get() : nullptr,
-      this->Options.TopologyChanges, &visit.Share);
-    polish.Run(wanted);
-    SurfaceIteration::UpdateChanged(s, polish.TakeChanged());
-  };
-  this->VisitBlocks(visits);
-  const bool hasCut = s.Counts.Cuts > 0;
-  this->SinceEvolved.Cuts += s.Counts.Cuts;
-  s.Counts = EditCounts();
-  if (hasCut)
+      SurfacePolish polish(s, options.SnapsToIsoValue() ? e.TheField.get() : nullptr,
+        options.TopologyChanges, &visit.Share);
+      polish.Run(wanted);
+      SurfaceIteration::UpdateChanged(s, polish.TakeChanged());
+    });
+  if (s.Counts.Cuts > 0)
   {
-    this->LabelComponents();
-    this->DeleteDegenerate();
-    this->SinceEvolved.Removed += s.Counts.Removed;
+    LabelComponents(e);
+    e.Components.DeleteDegenerate(s, e.Threads);
   }
+  e.History.CountAfterwards(s.Counts);
 }
 
-void SurfaceEvolution::Implementation::Regularise(const Dynamics& dynamics)
+void Regularise(Evolution& e)
 {
   // The same verified displacements and edits, driven by shape and residual instead of forces.
-  SurfaceState& s = this->State;
-  const auto forAll = [this, &s](auto&& work)
-  {
-    this->Threads.For(static_cast<std::size_t>(s.Mesh.Size()), VertexGrain,
-      [&](std::size_t begin, std::size_t end)
-      {
-        for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
-        {
-          if (s.Mesh.IsAlive(v)) // Other places may take no memory.
-          {
-            work(v);
-          }
-        }
-      });
-  };
-  forAll(
+  SurfaceState& s = e.State;
+  ForAll(e,
     [&s](int v)
     {
       s.Velocity[v] = Vector();
       s.WasActive[v] = s.Active[v];
     });
-  this->ActivateAll();
-  this->RunPasses(dynamics);
-  this->Polish([](int) { return true; });
-  forAll(
+  ActivateAll(e);
+  RunPasses(e);
+  Polish(e, [](int) { return true; });
+  ForAll(e,
     [&s](int v)
     {
       s.Active[v] = s.WasActive[v];
@@ -286,39 +197,93 @@ void SurfaceEvolution::Implementation::Regularise(const Dynamics& dynamics)
     });
 }
 
-void SurfaceEvolution::Implementation::DeleteInsideOut()
+void DeleteThoseInsideOut(Evolution& e)
 {
-  this->State.Counts = EditCounts();
-  if (this->Unchecked > 0)
+  e.State.Counts = EditCounts();
+  if (e.Unchecked > 0)
   {
-    this->DeleteThoseInsideOut();
+    DeleteInsideOut(e);
   }
-  this->SinceEvolved.Removed += this->State.Counts.Removed;
+  e.History.CountAfterwards(e.State.Counts);
 }
 
-void SurfaceEvolution::Implementation::FindMissing()
+void FindMissing(Evolution& e)
 {
   const LostBoundary::Missing missing =
-    this->Lost.MissedBy(this->State, this->Area(), *this->TheField, this->Threads);
-  this->LastLost.Missing = missing.Parts;
-  this->LastLost.MissingBoundary = missing.Share;
+    e.Boundary.MissedBy(e.State, AreaOf(e), *e.TheField, e.Threads);
+  e.Lost.Missing = missing.Parts;
+  e.Lost.MissingBoundary = missing.Share;
 }
 
-bool SurfaceEvolution::Implementation::ActivateWhereOff(float least)
+/** The last look at what a level hands on: see SurfaceIteration for why it finds nothing. */
+void Verify(Evolution& e)
 {
-  SurfaceState& s = this->State;
+  e.Verified.Found = static_cast<int>(CountIntersecting(e.State, e.Threads));
+  e.Verified.Left = 0;
+  if (e.Verified.Found == 0)
+  {
+    return;
+  }
+  ForgetBlocks(e);
+  const SurfaceMesh before = e.State.Mesh;
+  e.State.Sizing = SizingField(e.State.Sizing.OfLevel()); // The mesh to come is even.
+  Monitor nobody;                                         // Is asked meanwhile, and says no stop.
+  Monitor* const listener = std::exchange(e.Listener, &nobody);
+  const bool wasStopped = std::exchange(e.Stopped, false);
+  try
+  {
+    TakeRemeshed(e, before.ToIndexed(e.Threads));
+  }
+  catch (const std::invalid_argument&)
+  {
+    e.State.Mesh = before;
+    LayGrid(e);
+    MakeBlocks(e);
+    LabelComponents(e);
+    e.Verified.Left = e.Verified.Found;
+  }
+  e.Listener = listener;
+  e.Stopped = wasStopped;
+}
+
+/** What ends a level at which the surface rests. */
+void Finish(Evolution& e)
+{
+  HistoryRow none;
+  Stopwatch watch(e.History.Iterations() > 0 ? e.History.Rows.back() : none);
+  if (e.Task.MeanEdgeLength > 0.)
+  {
+    FitMeanEdge(e);
+  }
+  const bool isGraded =
+    e.Task.Grading.HasTolerance() && !e.Stopped && e.State.Mesh.NumberOfVertices() > 0;
+  if (isGraded)
+  {
+    FindMissing(e); // Before: it asks for vertices that are near.
+    Grade(e);
+  }
+  Regularise(e);
+  DeleteThoseInsideOut(e); // The polish may have cut.
+  Verify(e);
+  e.History.Finish(NumbersOf(e));
+  watch.Lap(Phase::Regularisation);
+  if (!isGraded)
+  {
+    FindMissing(e);
+  }
+  ForgetBlocks(e);
+  watch.Lap(Phase::Recovery);
+}
+}
+
+bool ActivateWhereOff(Evolution& e, float least)
+{
+  SurfaceState& s = e.State;
   const auto n = static_cast<std::size_t>(s.Mesh.Size());
   std::vector<std::uint8_t> isOff(n, 0);
-  ForSpans(this->Threads, n, VertexGrain,
-    [&](std::size_t, std::size_t begin, std::size_t end)
-    {
-      for (std::size_t v = begin; v < end; ++v)
-      {
-        isOff[v] = s.Mesh.IsAlive(static_cast<int>(v)) &&
-          this->TheField->IsOff(s.Mesh.Position[v], least * s.Sizing.At(static_cast<int>(v)));
-      }
-    });
-  return CountInSpans(this->Threads, n, VertexGrain,
+  ForAll(
+    e, [&](int v) { isOff[v] = e.TheField->IsOff(s.Mesh.Position[v], least * s.Sizing.At(v)); });
+  return CountInSpans(e.Threads, n, VertexGrain,
            [&](std::size_t begin, std::size_t end)
            {
              std::size_t count = 0;
@@ -337,75 +302,46 @@ bool SurfaceEvolution::Implementation::ActivateWhereOff(float least)
            }) > 0;
 }
 
-void SurfaceEvolution::Implementation::Revise(const LevelImage& image)
+StopReason RunLevel(Evolution& e)
 {
-  /** Residual, in delta, over which a vertex is off the isopotential. */
-  constexpr float leastOff = 0.03f;
-  SurfaceState& s = this->State;
-  this->TheField = std::make_unique<Field>(image, this->Options, this->Threads);
-  const bool isAny = this->ActivateWhereOff(leastOff);
-  for (int v = 0; v < s.Mesh.Size(); ++v)
+  const StopReason reason = Evolve(e);
+  DeleteThoseInsideOut(e);
+  if (reason == StopReason::Cancelled || reason == StopReason::Vanished)
   {
-    if (s.Mesh.IsAlive(v))
+    Verify(e);
+    e.History.Finish(NumbersOf(e));
+    FindMissing(e);
+    ForgetBlocks(e);
+    return reason;
+  }
+  Finish(e);
+  if (e.Stopped)
+  {
+    return StopReason::Cancelled;
+  }
+  return e.State.Mesh.NumberOfVertices() > 0 ? reason : StopReason::Vanished;
+}
+
+void Revise(Evolution& e)
+{
+  SurfaceState& s = e.State;
+  e.MakeField();
+  const bool isAny = ActivateWhereOff(e, LeastOff);
+  ForAll(e,
+    [&s](int v)
     {
       s.Velocity[v] = Vector();
-    }
-    s.WasActive[v] = s.Active[v];
-  }
+      s.WasActive[v] = s.Active[v];
+    });
   if (!isAny)
   {
     return;
   }
-  this->MakeBlocks();
-  const Dynamics dynamics(*this->TheField, this->Options, this->Threads);
-  this->RunPasses(dynamics);
-  this->Polish([&s](int v) { return s.WasActive[v] != 0; });
-  this->DeleteInsideOut();
-  this->Verify();
-  this->ForgetBlocks();
-}
-
-StopReason SurfaceEvolution::Implementation::Run()
-{
-  const StopReason reason = this->Evolve();
-  this->DeleteInsideOut();
-  if (reason == StopReason::Cancelled || reason == StopReason::Vanished)
-  {
-      this->Verify();
-    this->FinishRow();
-    this->FindMissing();
-    this->ForgetBlocks();
-    return reason;
-  }
-  HistoryRow none;
-  Stopwatch watch(this->HasIteration() ? this->Rows.back() : none);
-  Dynamics dynamics(*this->TheField, this->Options, this->Threads);
-  if (this->WantedMeanEdge > 0.)
-  {
-    this->FitMeanEdge(dynamics);
-  }
-  const bool isGraded = this->WantedGrading.HasTolerance() && !this->Stopped &&
-    this->State.Mesh.NumberOfVertices() > 0;
-  if (isGraded)
-  {
-    this->FindMissing(); // Before: it asks for vertices that are near.
-    this->Grade(dynamics);
-  }
-  this->Regularise(dynamics);
-  this->DeleteInsideOut(); // The polish may have cut.
-  this->Verify();
-  this->FinishRow();
-  watch.Lap(Phase::Regularisation);
-  if (!isGraded)
-  {
-    this->FindMissing();
-  }
-  this->ForgetBlocks();
-  watch.Lap(Phase::Recovery);
-  if (this->Stopped)
-  {
-    return StopReason::Cancelled;
-  }
-  return this->State.Mesh.NumberOfVertices() > 0 ? reason : StopReason::Vanished;
+  MakeBlocks(e);
+  RunPasses(e);
+  Polish(e, [&s](int v) { return s.WasActive[v] != 0; });
+  DeleteThoseInsideOut(e);
+  Verify(e);
+  ForgetBlocks(e);
 }
 }

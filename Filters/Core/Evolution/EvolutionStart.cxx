@@ -1,13 +1,14 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Common/Box.h"
+#include "Core/Common/Select.h"
 #include "Core/Common/Spans.h"
-#include "Core/Evolution/EvolutionImplementation.h"
+#include "Core/Evolution/Evolution.h"
 #include "Core/Evolution/InitialSurface.h"
 #include "Core/Evolution/LostParts.h"
+#include "Core/Mesh/SurfaceCheck.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <memory>
@@ -21,52 +22,28 @@ namespace
 {
 /** Vertices that one thread looks at at a time. */
 constexpr std::size_t VertexSpan = 8192;
+
+void Enter(Evolution& e)
+{
+  const LevelImage& image = e.Task.Image;
+  e.MakeField();
+  e.State.Margin = e.TheField->Margin();
+  e.State.Sizing = SizingField(static_cast<float>(e.Task.Options.SamplingRatio * image.Unit));
+  e.Status = Monitor::Status();
+  e.Status.Level = e.Task.Level;
+  e.History.BeginLevel(e.Task.Level);
 }
 
-void SurfaceEvolution::Implementation::Enter(const LevelImage& image, int level)
+Box BoxOfGrid(const Evolution& e)
 {
-  this->TheField = std::make_unique<Field>(image, this->Options, this->Threads);
-  this->State.Margin = this->TheField->Margin();
-  this->Level = level;
-  this->LastIterations = 0;
-  this->HasDescended = false;
-  this->Visit = {};
-  this->State.Sizing = SizingField(static_cast<float>(this->Options.SamplingRatio * image.Unit));
-}
-
-void SurfaceEvolution::Implementation::Clear()
-{
-  this->ForgetBlocks();
-  this->State.Mesh.Clear();
-}
-
-void SurfaceEvolution::Implementation::Reset()
-{
-  SurfaceState& s = this->State;
-  this->ForgetBlocks();
-  s.Mesh.Reorder(
-    SpaceFillingOrder(s.Mesh, s.Sizing.Smallest(), this->Threads), this->Threads);
-  this->LayOut();
-}
-
-void SurfaceEvolution::Implementation::LayOut()
-{
-  this->ForgetBlocks();
-  this->LayGrid();
-  this->MakeBlocks();
-  this->SplitLongEdges();
-  this->LabelComponents();
-}
-
-Box SurfaceEvolution::Implementation::BoxOfGrid() const
-{
-  const SurfaceMesh& mesh = this->State.Mesh;
-  const LevelImage& image = this->TheField->Image();
-  const Box ofImage = { Vector(0, 0, 0), Vector(static_cast<float>(image.Size[0] * image.Step[0]),
-    static_cast<float>(image.Size[1] * image.Step[1]),
-    static_cast<float>(image.Size[2] * image.Step[2])) };
+  const SurfaceMesh& mesh = e.State.Mesh;
+  const LevelImage& image = e.Task.Image;
+  const Box ofImage = { Vector(0, 0, 0),
+    Vector(static_cast<float>(image.Size[0] * image.Step[0]),
+      static_cast<float>(image.Size[1] * image.Step[1]),
+      static_cast<float>(image.Size[2] * image.Step[2])) };
   std::vector<Box> boxes((mesh.Position.size() + VertexSpan - 1) / VertexSpan, ofImage);
-  ForSpans(this->Threads, mesh.Position.size(), VertexSpan,
+  ForSpans(e.Threads, mesh.Position.size(), VertexSpan,
     [&](std::size_t span, std::size_t begin, std::size_t end)
     {
       for (std::size_t v = begin; v < end; ++v)
@@ -74,23 +51,189 @@ Box SurfaceEvolution::Implementation::BoxOfGrid() const
         boxes[span] = boxes[span].With({ mesh.Position[v], mesh.Position[v] });
       }
     });
-  const Box all = std::accumulate(boxes.begin(), boxes.end(), ofImage,
-    [](const Box& a, const Box& b) { return a.With(b); });
-  return all.Grown(2 * this->State.Sizing.Largest());
+  const Box all = std::accumulate(
+    boxes.begin(), boxes.end(), ofImage, [](const Box& a, const Box& b) { return a.With(b); });
+  return all.Grown(2 * e.State.Sizing.Largest());
 }
 
-void SurfaceEvolution::Implementation::LayGrid()
+LostPartCover FindParts(Evolution& e, PartKind kind, double from, double to)
 {
-  SurfaceState& s = this->State;
-  const Box box = this->BoxOfGrid();
-  s.Reset(box.Low, box.High, this->Threads);
-  s.UpdateShape(this->AliveVertices(), this->Threads);
+  const auto look = [&]
+  {
+    return FindLostParts(e.State, *e.TheField, kind, e.Task.Options.MinimumPartSize, e.Threads,
+      e.QuestionOf(Monitor::Activity::Recovering, from, to));
+  };
+  LostPartCover cover = look();
+  if (cover.Found > 0 && e.Task.Options.RecoverLostParts && e.State.Sizing.IsGraded())
+  {
+    DivideNear(e, cover.Boundary); // Else nothing that is near would be clear of it.
+    cover = look();
+  }
+  return cover;
 }
 
-void SurfaceEvolution::Implementation::ActivateAll()
+/** Encloses what the surface has lost. */
+void Recover(Evolution& e)
 {
-  SurfaceState& s = this->State;
-  ForSpans(this->Threads, s.Mesh.Rings.size(), VertexSpan,
+  const SurfaceOptions& options = e.Task.Options;
+  // Without an isopotential there is no object's side to look for.
+  if (!(options.IsopotentialWeight > 0.))
+  {
+    return;
+  }
+  const bool recovers = options.RecoverLostParts;
+  const double objectShare = recovers && options.RecoverCavities ? 0.5 : 1.;
+  LostPartCover objects = FindParts(e, PartKind::Object, 0., objectShare);
+  LostPartCover cavities;
+  if (recovers && options.RecoverCavities && !e.Stopped)
+  {
+    cavities = FindParts(e, PartKind::Cavity, objectShare, 1.);
+  }
+  if (e.Stopped)
+  {
+    return;
+  }
+  e.Lost.Found = objects.Found;
+  e.Lost.Enclosed = recovers ? objects.Covered : 0;
+  e.Lost.FoundCavities = cavities.Found;
+  e.Lost.EnclosedCavities = cavities.Covered;
+  e.Boundary.Add(objects.Boundary);
+  e.Boundary.Add(cavities.Boundary);
+  e.History.Pending.Recovered = e.Lost.Enclosed + e.Lost.EnclosedCavities;
+  for (LostPartCover* cover : { &objects, &cavities })
+  {
+    if (recovers && cover->Covered > 0)
+    {
+      e.Blocks->Append(std::move(cover->Surface), e.Threads);
+      ++e.Unchecked;
+    }
+  }
+}
+
+void PlaceSeeds(Evolution& e, const std::vector<Point>& centres)
+{
+  const double delta = e.State.Sizing.OfLevel();
+  const double wanted = e.Task.Options.SeedRadius;
+  const double radius = std::max(wanted > 0. ? wanted : 1.2 * delta, SmallestSeed * delta);
+  for (const Point& centre : ChooseSeeds(*e.TheField, centres, 2. * radius + 1.6 * delta))
+  {
+    e.State.Mesh.Append(DividedIcosahedron(centre, radius, 2. * delta));
+  }
+  Renumber(e);
+}
+
+void Start(Evolution& e, const SurfaceStart& start)
+{
+  using Kind = SurfaceStart::Kind;
+  // Of an object that has no iso-surface there is the message of a given one that is empty.
+  const bool isIso = start.From == Kind::IsoSurface && !start.Surface.Triangles.empty();
+  const bool isGiven = start.From == Kind::Surface || start.From == Kind::IsoSurface;
+  if (isGiven && !isIso)
+  {
+    CheckInitialSurface(start.Surface);
+    CheckOverlapsImage(start.Surface, e.Task.Image);
+  }
+  Stopwatch watch(e.History.Pending);
+  Enter(e);
+  if (start.From == Kind::EnclosingParts)
+  {
+    Renumber(e);
+    Recover(e);
+    watch.Lap(Phase::Recovery);
+  }
+  const bool isEnclosed = e.Lost.Enclosed > 0 || (start.From == Kind::EnclosingParts && e.Stopped);
+  if (isGiven)
+  {
+    TakeGiven(e, start.Surface, isIso);
+  }
+  else if (start.From == Kind::Seeds)
+  {
+    PlaceSeeds(e, start.Seeds);
+  }
+  else if (!isEnclosed)
+  {
+    e.State.Mesh.Append(EnclosingSurface(e.Task.Image, e.State.Sizing.OfLevel()));
+    Renumber(e);
+    e.GoOn(Monitor::Activity::Starting, 1.);
+  }
+  watch.Lap(Phase::Division);
+}
+
+void Divide(Evolution& e, const SurfaceAtRest& rest)
+{
+  Stopwatch watch(e.History.Pending);
+  e.Unchecked = rest.Unchecked;
+  const double coarse = rest.Delta;
+  Enter(e);
+  // As many divisions as bring delta nearest to the new one: one where the pyramid's factor is
+  // the mesh's, sqrt 3.
+  const int divisions = static_cast<int>(std::lround(
+    std::log(coarse / e.State.Sizing.OfLevel()) / std::log(SizingField::DivisionFactor)));
+  // After each of these steps the surface is one to hand over.
+  const bool isGraded = e.Task.Grading.IsWanted();
+  // What is too thin for the undivided mesh is lost in a descent, and must be found again. Beyond
+  // the image the field is that of the level before.
+  const bool descends = e.Task.Options.FollowsFieldAlone() && e.Task.Options.RecoverLostParts;
+  if (descends && !isGraded && divisions > 0 && e.Task.Level >= 0)
+  {
+    DescendField(e, coarse);
+  }
+  bool goesOn = true;
+  if (!isGraded || divisions == 0 || !DivideWhereWanted(e, coarse))
+  {
+    goesOn = DivideAll(e, divisions);
+  }
+  watch.Lap(Phase::Division);
+  goesOn = e.GoOn(Monitor::Activity::Dividing, 1.) && goesOn;
+  if (goesOn)
+  {
+    Recover(e);
+  }
+  if (e.HasDescended)
+  {
+    ActivateWhereOff(e, Dynamics::LeftOff);
+  }
+  watch.Lap(Phase::Recovery);
+  e.GoOn(Monitor::Activity::Recovering, 1.);
+}
+}
+
+void Renumber(Evolution& e)
+{
+  SurfaceState& s = e.State;
+  ForgetBlocks(e);
+  s.Mesh.Reorder(SpaceFillingOrder(s.Mesh, s.Sizing.Smallest(), e.Threads), e.Threads);
+  LayOut(e);
+}
+
+void LayOut(Evolution& e)
+{
+  ForgetBlocks(e);
+  LayGrid(e);
+  MakeBlocks(e);
+  Sweep sweep;
+  sweep.IsAsked = false;
+  SplitLongEdges(e, sweep);
+  LabelComponents(e);
+}
+
+void LayGrid(Evolution& e)
+{
+  const Box box = BoxOfGrid(e);
+  e.State.Reset(box.Low, box.High, e.Threads);
+  e.State.UpdateShape(AliveVertices(e), e.Threads);
+}
+
+std::vector<int> AliveVertices(const Evolution& e)
+{
+  return SelectIndices(e.Threads, e.State.Mesh.Rings.size(),
+    [&e](std::size_t v) { return e.State.Mesh.IsAlive(static_cast<int>(v)); });
+}
+
+void ActivateAll(Evolution& e)
+{
+  SurfaceState& s = e.State;
+  ForSpans(e.Threads, s.Mesh.Rings.size(), VertexSpan,
     [&](std::size_t, std::size_t begin, std::size_t end)
     {
       for (std::size_t v = begin; v < end; ++v)
@@ -103,59 +246,21 @@ void SurfaceEvolution::Implementation::ActivateAll()
     });
 }
 
-void SurfaceEvolution::Implementation::Recover()
+bool ComeToLevel(Evolution& e, SurfaceAtRest& rest)
 {
-  this->LastLost = LostParts();
-  this->Lost = LostBoundary();
-  // Without an isopotential there is no object's side to look for.
-  if (!(this->Options.IsopotentialWeight > 0.))
+  if (e.Task.Start)
   {
-    return;
+    Start(e, *e.Task.Start);
+    return true;
   }
-  const bool recovers = this->Options.RecoverLostParts;
-  const double objectShare = recovers && this->Options.RecoverCavities ? 0.5 : 1.;
-  const auto find = [&](PartKind kind, double from, double to)
+  std::swap(e.State.Mesh, rest.Mesh);
+  e.Status.Level = rest.Level;
+  if (!e.GoOn(Monitor::Activity::Regularising, 1.))
   {
-    const auto look = [&]
-    {
-      return FindLostParts(this->State, *this->TheField, kind, this->Options.MinimumPartSize,
-        this->Threads, this->QuestionOf(Monitor::Activity::Recovering, from, to));
-    };
-    LostPartCover cover = look();
-    if (cover.Found > 0 && recovers && this->State.Sizing.IsGraded())
-    {
-      this->DivideNear(cover.Boundary); // Else nothing that is near would be clear of it.
-      cover = look();
-    }
-    return cover;
-  };
-  LostPartCover objects = find(PartKind::Object, 0., objectShare);
-  this->LastLost.Found = objects.Found;
-  this->LastLost.Enclosed = recovers ? objects.Covered : 0;
-  this->Lost = objects.Boundary;
-  LostPartCover cavities;
-  if (recovers && this->Options.RecoverCavities && !this->Stopped)
-  {
-    cavities = find(PartKind::Cavity, objectShare, 1.);
-    this->LastLost.FoundCavities = cavities.Found;
-    this->LastLost.EnclosedCavities = cavities.Covered;
-    this->Lost.Add(cavities.Boundary);
+    std::swap(e.State.Mesh, rest.Mesh);
+    return false;
   }
-  if (this->Stopped)
-  {
-    this->LastLost = LostParts();
-    this->Lost = LostBoundary();
-    return;
-  }
-  if (this->LastLost.Enclosed > 0)
-  {
-    this->Blocks->Append(std::move(objects.Surface), this->Threads);
-    ++this->Unchecked;
-  }
-  if (this->LastLost.EnclosedCavities > 0)
-  {
-    this->Blocks->Append(std::move(cavities.Surface), this->Threads);
-    ++this->Unchecked;
-  }
+  Divide(e, rest);
+  return true;
 }
 }

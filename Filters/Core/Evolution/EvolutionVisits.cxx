@@ -3,12 +3,14 @@
 
 // How a surface is worked on: in visits of blocks, see SurfaceBlocks, and in sums over blocks.
 
-#include "Core/Common/Spans.h"
-#include "Core/Evolution/EvolutionImplementation.h"
+#include "Core/Evolution/Evolution.h"
+#include "Core/Evolution/RestCriterion.h"
 #include "Core/Mesh/SurfaceMeasures.h"
+#include "Core/Surface/Remesher.h"
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <mutex>
 #include <numeric>
@@ -22,315 +24,212 @@ namespace
 constexpr int SweptIterations = RestCriterion::Interval;
 /** Sweeps between two looks for components that are inside out. */
 constexpr int InsideOutSweeps = 2;
+/** Way in a pass, in delta, under which a vertex is left where it is. */
+constexpr float SmallestMove = 0.015f;
 
-void Add(HistoryRow& to, const HistoryRow& row)
+/** What went some way in the last pass stays active, with its neighbours, and what was edited. */
+void KeepActiveIfMoving(SurfaceState& s, const SurfaceIteration& iteration)
 {
-  to.ActiveVertices += row.ActiveVertices;
-  to.TimeStep = std::max(to.TimeStep, row.TimeStep);
-  for (std::size_t i = 0; i < to.PhaseSeconds.size(); ++i)
+  const auto moves = [&s](int v)
   {
-    to.PhaseSeconds[i] += row.PhaseSeconds[i];
+    const float least = SmallestMove * s.Sizing.At(v);
+    return s.Mesh.IsAlive(v) && SquaredLength(s.Velocity[v]) > least * least;
+  };
+  const std::vector<int>& last = iteration.ActiveVertices();
+  for (const int v : last)
+  {
+    s.Active[v] = s.Active[v] && (s.Disturbed[v] || moves(v));
+  }
+  for (const int v : last)
+  {
+    if (moves(v))
+    {
+      const Ring& ring = s.Mesh.Rings[v];
+      std::for_each(ring.Item, ring.Item + ring.Count, [&s](int w) { s.Active[w] = 1; });
+    }
   }
 }
-
-void Add(HistoryRow& to, const EditCounts& counts)
-{
-  to.Merges += counts.Merges;
-  to.Cuts += counts.Cuts;
-  to.Splits += counts.Splits;
-  to.Collapses += counts.Collapses;
-  to.Flips += counts.Flips;
-  to.Deletions += counts.Removed;
-  to.DeletedGenus += counts.RemovedGenus;
-}
 }
 
-SurfaceBlocks::Frame SurfaceEvolution::Implementation::FrameOfLevel() const
+void MakeBlocks(Evolution& e)
 {
-  const LevelImage& image = this->TheField->Image();
+  ForgetBlocks(e);
+  const LevelImage& image = e.Task.Image;
   std::array<double, 3> extent;
   for (int axis = 0; axis < 3; ++axis)
   {
     extent[axis] = image.Size[axis] * image.Step[axis];
   }
-  const double side =
-    this->Options.BlockSide > 0. ? this->Options.BlockSide : SurfaceBlocks::SideInDelta;
-  return SurfaceBlocks::FrameOf(extent, side * this->State.Sizing.Largest());
+  const double wanted = e.Task.Options.BlockSide;
+  const double side = wanted > 0. ? wanted : SurfaceBlocks::SideInDelta;
+  e.Blocks = std::make_unique<SurfaceBlocks>(
+    e.State, SurfaceBlocks::FrameOf(extent, side * e.State.Sizing.Largest()), e.Threads);
 }
 
-void SurfaceEvolution::Implementation::MakeBlocks()
+void ForgetBlocks(Evolution& e)
 {
-  this->ForgetBlocks();
-  this->Blocks =
-    std::make_unique<SurfaceBlocks>(this->State, this->FrameOfLevel(), this->Threads);
-  this->Components = std::make_unique<SurfaceComponents>();
+  e.Components = SurfaceComponents();
+  e.Blocks.reset();
 }
 
-void SurfaceEvolution::Implementation::ForgetBlocks()
+void VisitBlocks(
+  Evolution& e, const Sweep& sweep, const std::function<void(BlockVisit& visit)>& visit)
 {
-  this->Components.reset();
-  this->Blocks.reset();
-}
-
-SurfaceIteration& SurfaceEvolution::Implementation::TakeIteration()
-{
-  const std::lock_guard<std::mutex> lock(this->Handing);
-  if (this->Idle.empty())
+  e.State.Counts = EditCounts();
+  e.Blocks->Prepare(e.Threads);
+  std::mutex counting;
+  const auto visitBlock = [&](int block, std::size_t, Executor& idle)
   {
-    this->Iterations.push_back(std::make_unique<SurfaceIteration>(this->State));
-    this->Idle.push_back(this->Iterations.back().get());
-  }
-  SurfaceIteration* iteration = this->Idle.back();
-  this->Idle.pop_back();
-  return *iteration;
-}
-
-void SurfaceEvolution::Implementation::VisitBlock(
-  int block, const BlockVisits& visits, Executor& idle)
-{
-  if (visits.OnlyActive && !this->Blocks->HasActive(block))
-  {
-    return;
-  }
-  this->Blocks->Prefetch(block);
-  SurfaceIteration& iteration = this->TakeIteration();
-  BlockVisit visit = this->Blocks->Open(block);
-  visit.Idle = &idle;
-  visits.Visit(visit, iteration);
-  const EditCounts counts = visit.Share.Counts;
-  this->Blocks->Close(std::move(visit));
-  const std::lock_guard<std::mutex> lock(this->Handing);
-  this->State.Counts += counts;
-  this->Unchecked += counts.Cuts + counts.Removed;
-  this->Idle.push_back(&iteration);
-}
-
-void SurfaceEvolution::Implementation::VisitBlocks(const BlockVisits& visits)
-{
-  this->State.Counts = EditCounts();
-  this->Blocks->Prepare(this->Threads);
-  const auto count = static_cast<std::size_t>(this->Blocks->NumberOfBlocks());
-  this->Visit.Blocks = static_cast<int>(count);
+    if (sweep.OnlyActive && !e.Blocks->HasActive(block))
+    {
+      return;
+    }
+    e.Blocks->Prefetch(block);
+    BlockVisit opened = e.Blocks->Open(block);
+    opened.Idle = &idle;
+    visit(opened);
+    const EditCounts counts = opened.Share.Counts;
+    e.Blocks->Close(std::move(opened));
+    const std::lock_guard<std::mutex> lock(counting);
+    e.State.Counts += counts;
+    e.Unchecked += counts.Cuts + counts.Removed;
+  };
+  e.Status.Blocks = e.Blocks->NumberOfBlocks();
   const auto goOn = [&](std::size_t done)
   {
-    const double share = static_cast<double>(done) / static_cast<double>(count);
-    this->Visit.Block = static_cast<int>(done);
-    this->Visit.Iterations = visits.Iterations * share;
-    return !visits.IsAsked ||
-      this->GoOn(visits.Doing, visits.From + share * (visits.To - visits.From));
+    e.Status.Block = static_cast<int>(done);
+    return !sweep.IsAsked ||
+      e.GoOn(sweep.Doing, sweep.From + (sweep.To - sweep.From) * e.Status.Block / e.Status.Blocks);
   };
-  this->Blocks->Schedule().Run(
-    this->Threads,
-    [&](int block, std::size_t, Executor& idle) { this->VisitBlock(block, visits, idle); }, goOn);
-  this->Visit.Block = 0;
-  this->Visit.Iterations = 0.;
+  e.Blocks->Schedule().Run(e.Threads, visitBlock, goOn);
+  e.Status.Block = 0;
 }
 
-double SurfaceEvolution::Implementation::KineticEnergy(const SurfaceIteration& iteration) const
+void RunSweep(Evolution& e)
 {
-  const SurfaceState& s = this->State;
-  double sum = 0;
-  for (const int v : iteration.ActiveVertices())
+  SurfaceState& s = e.State;
+  const SurfaceOptions& options = e.Task.Options;
+  const int iterations =
+    std::min(SweptIterations, options.MaximumNumberOfIterations - e.History.Iterations());
+  const Field* evidence = options.IsopotentialWeight > 0. ? e.TheField.get() : nullptr;
+  SweptRows swept(iterations, e.Blocks->NumberOfBlocks());
+  e.History.BeginSweep(s.Mesh.NumberOfVertices(), s.EulerCharacteristic);
+  ++e.Status.Sweep;
+  VisitBlocks(e, { Monitor::Activity::Iterating, 0., static_cast<double>(iterations) },
+    [&](BlockVisit& visit)
+    {
+      SurfaceIteration iteration(s, visit, evidence, options.TopologyChanges);
+      std::vector<HistoryRow> rows;
+      for (int i = 0; i < iterations; ++i)
+      {
+        rows.push_back(iteration.Run(*e.Motion, SurfaceIteration::Mode::Evolve));
+      }
+      swept.Add(visit.Block, rows);
+    });
+
+  const EditCounts& counts = s.Counts;
+  const bool hasChanged = e.Status.Sweep == 1 || counts.Merges + counts.Cuts + counts.Removed > 0;
+  s.Counts = EditCounts();
+  if (e.Status.Sweep % InsideOutSweeps == 0 && e.Unchecked > 0)
   {
-    const double speed = s.Mesh.IsAlive(v) ? Dot(s.Velocity[v], s.Normal[v].Axis()) : 0.;
-    sum += 0.5 * speed * speed;
+    DeleteInsideOut(e);
   }
-  return sum;
-}
-
-void SurfaceEvolution::Implementation::VisitToEvolve(BlockVisit& visit,
-  SurfaceIteration& iteration, const Dynamics& dynamics, std::vector<SweptRow>& rows)
-{
-  const Field* evidence = this->Options.IsopotentialWeight > 0 ? this->TheField.get() : nullptr;
-  Remesher remesher(this->State, evidence, this->Options.TopologyChanges, &visit.Share);
-  iteration.BeginVisit(visit);
-  std::vector<SweptRow> own(rows.size());
-  for (std::size_t i = 0; i < own.size(); ++i)
+  else if (hasChanged)
   {
-    const int added = visit.Share.Room.Added;
-    const int characteristic = visit.Share.EulerCharacteristic;
-    const EditCounts counts = visit.Share.Counts;
-    iteration.Run(own[i].Row, dynamics, remesher, SurfaceIteration::Mode::Evolve);
-    rows[i].KineticEnergy[static_cast<std::size_t>(visit.Block)] = this->KineticEnergy(iteration);
-    own[i].Counts = visit.Share.Counts - counts;
-    own[i].Vertices = visit.Share.Room.Added - added;
-    own[i].EulerCharacteristic = visit.Share.EulerCharacteristic - characteristic;
+    LabelComponents(e);
   }
-  iteration.EndVisit();
-  const std::lock_guard<std::mutex> lock(this->Handing);
-  for (std::size_t i = 0; i < own.size(); ++i)
+  swept.Rows.back().Add(s.Counts);
+  e.Status.ActiveVertices = swept.Rows.back().ActiveVertices;
+  e.History.EndSweep(swept, NumbersOf(e));
+}
+
+void Relax(Evolution& e, SurfaceIteration::Mode mode, int iterations, const Sweep& sweep)
+{
+  SurfaceState& s = e.State;
+  VisitBlocks(e, sweep,
+    [&](BlockVisit& visit)
+    {
+      SurfaceIteration iteration(s, visit, e.TheField.get(), false);
+      for (int i = 0; i < iterations; ++i)
+      {
+        for (int v = visit.First; v < visit.End(); ++v)
+        {
+          s.Disturbed[v] = 0;
+        }
+        iteration.Run(*e.Motion, mode);
+        if (mode != SurfaceIteration::Mode::Adapt)
+        {
+          KeepActiveIfMoving(s, iteration); // Also beyond the block, for the visits to come.
+        }
+      }
+      for (int v = visit.First; v < visit.End(); ++v)
+      {
+        s.Velocity[v] = Vector();
+      }
+    });
+  e.History.CountAfterwards(s.Counts);
+}
+
+void SplitLongEdges(Evolution& e, Sweep sweep)
+{
+  // Verification relies on it that no edge is longer than the constraints allow. One whose split
+  // would make needles stays, as in an iteration, and what moves it waits: see HasHugeEdge.
+  sweep.OnlyActive = false;
+  // A block may have too little room for all of them at once, and half of a split edge is split
+  // again.
+  do
   {
-    Add(rows[i].Row, own[i].Row);
-    Add(rows[i].Row, own[i].Counts);
-    rows[i].Vertices += own[i].Vertices;
-    rows[i].EulerCharacteristic += own[i].EulerCharacteristic;
-  }
+    VisitBlocks(e, sweep,
+      [&e](BlockVisit& visit)
+      {
+        Remesher remesher(e.State, nullptr, false, &visit.Share);
+        std::vector<int> vertices(static_cast<std::size_t>(visit.End() - visit.First));
+        std::iota(vertices.begin(), vertices.end(), visit.First);
+        remesher.Split(vertices);
+        SurfaceIteration::UpdateChanged(e.State, remesher.TakeChanged());
+      });
+  } while (!(sweep.IsAsked && e.Stopped) && e.State.Counts.Splits > 0 && HasEdgeTooLong(e));
 }
 
-double SurfaceEvolution::Implementation::Area() const
+void LabelComponents(Evolution& e)
 {
-  const SurfaceMesh& mesh = this->State.Mesh;
-  return this->Blocks->SumUp([&mesh](int v) { return AreaShare(mesh, v); }, this->Threads);
+  e.Components.Label(e.State, e.Threads);
 }
 
-double SurfaceEvolution::Implementation::Volume() const
+void DeleteInsideOut(Evolution& e)
 {
-  const SurfaceMesh& mesh = this->State.Mesh;
-  const Vector origin = this->Blocks->GetFrame().Low;
-  return this->Blocks->SumUp(
+  e.Components.DeleteInsideOut(e.State, e.Threads);
+  e.Unchecked = 0;
+}
+
+SurfaceNumbers NumbersOf(const Evolution& e)
+{
+  const SurfaceState& s = e.State;
+  const int vertices = s.Mesh.NumberOfVertices();
+  const double lengths = e.Blocks->SumUp([&s](int v) { return s.EdgeLengthSum[v]; }, e.Threads);
+  const std::int64_t edges = NumberOfEdges(vertices, s.EulerCharacteristic);
+  // Each edge is in two sums.
+  return { vertices, s.EulerCharacteristic, e.Components.NumberOfComponents(),
+    edges > 0 ? lengths / (2. * static_cast<double>(edges)) : 0. };
+}
+
+double AreaOf(const Evolution& e)
+{
+  const SurfaceMesh& mesh = e.State.Mesh;
+  return e.Blocks->SumUp([&mesh](int v) { return AreaShare(mesh, v); }, e.Threads);
+}
+
+double VolumeOf(const Evolution& e)
+{
+  const SurfaceMesh& mesh = e.State.Mesh;
+  const Vector origin = e.Blocks->GetFrame().Low;
+  return e.Blocks->SumUp(
     [&mesh, origin](int v)
     {
       SignedVolume share(origin);
       share.Add(mesh, v);
       return share.Value();
     },
-    this->Threads);
-}
-
-void SurfaceEvolution::Implementation::RunSweep(const Dynamics& dynamics)
-{
-  SurfaceState& s = this->State;
-  const int iterations =
-    std::min(SweptIterations, this->Options.MaximumNumberOfIterations - this->LastIterations);
-  std::vector<SweptRow> rows(static_cast<std::size_t>(iterations));
-  for (SweptRow& row : rows)
-  {
-    row.KineticEnergy.assign(static_cast<std::size_t>(this->Blocks->NumberOfBlocks()), 0.);
-  }
-  this->BeginRow(rows.front().Row);
-  const int vertices = s.Mesh.NumberOfVertices();
-  const int characteristic = s.EulerCharacteristic;
-  ++this->Visit.Sweep;
-  BlockVisits visits;
-  visits.Iterations = iterations;
-  visits.Visit = [&](BlockVisit& visit, SurfaceIteration& iteration)
-  { this->VisitToEvolve(visit, iteration, dynamics, rows); };
-  this->VisitBlocks(visits);
-
-  const bool hasChanged = this->Visit.Sweep == 1 ||
-    std::any_of(rows.begin(), rows.end(), [](const SweptRow& swept)
-      { return swept.Row.Merges + swept.Row.Cuts + swept.Row.Deletions > 0; });
-  s.Counts = EditCounts();
-  const int before = s.Mesh.NumberOfVertices();
-  const int characteristicBefore = s.EulerCharacteristic;
-  if (this->Visit.Sweep % InsideOutSweeps == 0 && this->Unchecked > 0)
-  {
-    this->DeleteThoseInsideOut(); // Labels them, too.
-  }
-  else if (hasChanged)
-  {
-    this->LabelComponents();
-  }
-  Add(rows.back().Row, s.Counts);
-  rows.back().Vertices += s.Mesh.NumberOfVertices() - before;
-  rows.back().EulerCharacteristic += s.EulerCharacteristic - characteristicBefore;
-  this->KeepSweptRows(rows, vertices, characteristic);
-}
-
-void SurfaceEvolution::Implementation::KeepSweptRows(
-  std::vector<SweptRow>& rows, int vertices, int eulerCharacteristic)
-{
-  // As if all blocks had been in the same iteration: what has changed in each, added up. The
-  // seconds are shared out as the threads that make the visits have spent them.
-  const double meanEdge = this->MeanEdgeLength();
-  this->Visit.Volume = this->Volume();
-  const double seconds = this->Lap();
-  double spent = 0.;
-  this->Visit.Active = rows.back().Row.ActiveVertices;
-  for (const SweptRow& swept : rows)
-  {
-    for (const double ofPhase : swept.Row.PhaseSeconds)
-    {
-      spent += ofPhase;
-    }
-  }
-  const double equal = seconds / static_cast<double>(rows.size());
-  for (std::size_t i = 0; i < rows.size(); ++i)
-  {
-    HistoryRow& row = rows[i].Row;
-    vertices += rows[i].Vertices;
-    eulerCharacteristic += rows[i].EulerCharacteristic;
-    row.Iteration = static_cast<int>(this->Rows.size()) + 1;
-    row.Level = this->Level;
-    row.Vertices = row.IterationVertices = vertices;
-    row.EulerCharacteristic = row.IterationEulerCharacteristic = eulerCharacteristic;
-    row.Components = row.IterationComponents = this->NumberOfComponents;
-    row.MeanEdgeLength = row.IterationMeanEdgeLength = meanEdge;
-    const std::vector<double>& energy = rows[i].KineticEnergy;
-    row.KineticEnergy =
-      std::accumulate(energy.begin(), energy.end(), 0.) / std::max(vertices, 1);
-    row.Seconds = spent > 0. ? 0. : equal;
-    for (double& ofPhase : row.PhaseSeconds)
-    {
-      ofPhase *= spent > 0. ? seconds / spent : 0.;
-      row.Seconds += ofPhase;
-    }
-    this->KeepRow(row);
-  }
-}
-
-void SurfaceEvolution::Implementation::VisitAll(SurfaceIteration::Mode mode,
-  const Dynamics& dynamics, int iterations, Monitor::Activity doing, double from, double to)
-{
-  BlockVisits visits;
-  visits.OnlyActive = true;
-  visits.Doing = doing;
-  visits.From = from;
-  visits.To = to;
-  visits.Visit = [&](BlockVisit& visit, SurfaceIteration& iteration)
-  {
-    SurfaceState& s = this->State;
-    Remesher remesher(s, this->TheField.get(), false, &visit.Share);
-    iteration.BeginVisit(visit);
-    for (int i = 0; i < iterations; ++i)
-    {
-      for (int v = visit.First; v < visit.End(); ++v)
-      {
-        s.Disturbed[v] = 0;
-      }
-      HistoryRow row;
-      iteration.Run(row, dynamics, remesher, mode);
-      if (mode != SurfaceIteration::Mode::Adapt)
-      {
-        this->KeepActiveIfMoving(iteration); // Also beyond the block, for the visits to come.
-      }
-    }
-    for (int v = visit.First; v < visit.End(); ++v)
-    {
-      s.Velocity[v] = Vector();
-    }
-    iteration.EndVisit();
-  };
-  this->VisitBlocks(visits);
-  this->SinceEvolved.Cuts += this->State.Counts.Cuts;
-  this->SinceEvolved.Removed += this->State.Counts.Removed;
-}
-
-void SurfaceEvolution::Implementation::SplitLongEdges()
-{
-  BlockVisits visits;
-  visits.IsAsked = false;
-  this->SplitLongEdges(std::move(visits));
-}
-
-void SurfaceEvolution::Implementation::SplitLongEdges(BlockVisits visits)
-{
-  // Verification relies on it that no edge is longer than the constraints allow. One whose split
-  // would make needles stays, as in an iteration, and what moves it waits: see HasHugeEdge.
-  visits.OnlyActive = false;
-  visits.Visit = [this](BlockVisit& visit, SurfaceIteration&)
-  {
-    Remesher remesher(this->State, nullptr, false, &visit.Share);
-    std::vector<int> vertices(static_cast<std::size_t>(visit.End() - visit.First));
-    std::iota(vertices.begin(), vertices.end(), visit.First);
-    remesher.Split(vertices);
-    SurfaceIteration::UpdateChanged(this->State, remesher.TakeChanged());
-  };
-  // A block may have too little room for all of them at once, and half of a split edge is split again.
-  do
-  {
-    this->VisitBlocks(visits);
-  } while (!(visits.IsAsked && this->Stopped) &&
-    this->State.Counts.Splits > 0 && this->HasEdgeTooLong());
+    e.Threads);
 }
 }

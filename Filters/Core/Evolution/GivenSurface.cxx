@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Common/LatticeKey.h"
 #include "Core/Common/Refuse.h"
-#include "Core/Evolution/EvolutionImplementation.h"
+#include "Core/Evolution/Evolution.h"
 #include "Core/Evolution/InitialSurface.h"
 #include "Core/Mesh/LatticeSurface.h"
 #include "Core/Mesh/LongEdges.h"
@@ -10,6 +10,7 @@
 #include "Core/Mesh/RingRelief.h"
 #include "Core/Mesh/SelfIntersections.h"
 #include "Core/Mesh/SurfaceFeatures.h"
+#include "Core/Surface/NewFaces.h"
 
 #include <algorithm>
 #include <cmath>
@@ -147,14 +148,13 @@ bool IsSound(const IndexedSurface& surface, double delta)
     lengths.Longest <= SizingField::LongestEdgeInDelta * Rounding * delta &&
     CountSelfIntersections(surface, 1) == 0;
 }
-}
 
-IndexedSurface SurfaceEvolution::Implementation::Remesh(const IndexedSurface& surface)
+IndexedSurface Remesh(Evolution& e, const IndexedSurface& surface)
 {
   // What is thin, or thins out to an edge, may be torn on one lattice and not on another: take the
   // mesh that has the components and tunnels of what was given, or else the nearest to it.
   // Large surfaces get a coarse one at once, for the sake of time.
-  const double delta = this->State.Sizing.OfLevel();
+  const double delta = e.State.Sizing.OfLevel();
   const Topology wanted = Topology::Of(surface);
   const bool isLarge = wanted.Area > LargeArea * delta * delta;
   IndexedSurface best;
@@ -162,10 +162,9 @@ IndexedSurface SurfaceEvolution::Implementation::Remesh(const IndexedSurface& su
   for (int attempt = 0; attempt < ObliqueRotation::Count && least > 0; ++attempt)
   {
     const double pitch = delta * (isLarge ? CoarsePitch : Pitches[attempt]);
-    IndexedSurface mesh = RemeshOnLattice(surface, pitch, attempt, this->Threads,
-      [this](double share)
-      { return this->GoOn(Monitor::Activity::Starting, ShareOfRemeshing * share); });
-    if (this->Stopped)
+    IndexedSurface mesh = RemeshOnLattice(surface, pitch, attempt, e.Threads,
+      e.QuestionOf(Monitor::Activity::Starting, 0., ShareOfRemeshing));
+    if (e.Stopped)
     {
       return {};
     }
@@ -185,108 +184,108 @@ IndexedSurface SurfaceEvolution::Implementation::Remesh(const IndexedSurface& su
   return best;
 }
 
-void SurfaceEvolution::Implementation::Take(const IndexedSurface& given, bool isSound)
+void Begin(Evolution& e, const IndexedSurface& surface)
+{
+  ForgetBlocks(e);
+  e.State.Mesh.Clear();
+  e.State.Mesh.Append(surface);
+  Renumber(e);
+}
+
+void Adapt(Evolution& e)
+{
+  // The verified displacements and edits of an iteration, until the lengths are legal.
+  for (int round = 0; round < MaximumNumberOfRounds && !e.Stopped; ++round)
+  {
+    const auto shareAt = [](int done)
+    { return ShareOfRemeshing + (1. - ShareOfRemeshing) * done / MaximumNumberOfRounds; };
+    ActivateAll(e);
+    Relax(e, SurfaceIteration::Mode::Adapt, AdaptingPasses,
+      { Monitor::Activity::Starting, shareAt(round), shareAt(round + 1) });
+    const EditCounts& counts = e.State.Counts;
+    if (counts.Splits + counts.Collapses <= e.State.Mesh.NumberOfVertices() / VerticesPerEdit)
+    {
+      break;
+    }
+  }
+  if (e.State.Mesh.NumberOfVertices() > 0)
+  {
+    Renumber(e);
+  }
+}
+}
+
+void TakeGiven(Evolution& e, const IndexedSurface& given, bool isSound)
 {
   IndexedSurface surface = WithoutUnusedPoints(given);
   // A mesh that is near to the constraints is brought within them as it is, by the edits of an
   // iteration. They rely on edges that are not too long and rings that have room; where long edges,
   // slivers or fans deny them that, the same surface gets another mesh first. An iso-surface, whose
   // edges are as long as voxels, needs no other than its own, divided.
-  const SurfaceState& s = this->State;
-  const double longest = SizingField::LongestEdgeInDelta * s.Sizing.OfLevel();
+  const SurfaceState& s = e.State;
+  const float delta = s.Sizing.OfLevel();
+  const double longest = SizingField::LongestEdgeInDelta * delta;
   EdgeLengths lengths = LengthsOf(surface);
   if (isSound && lengths.Longest > longest)
   {
-    CheckNumberOfVertices(
-      ComputeFeatures(surface).Area, this->TheField->Image(), s.Sizing.OfLevel());
+    CheckNumberOfVertices(ComputeFeatures(surface).Area, e.Task.Image, delta);
     HalveLongEdges(surface, longest);
     lengths = LengthsOf(surface);
   }
   if (lengths.Longest <= longest &&
-    (isSound ? RelieveRings(surface)
-             : FitsRings(surface) && !IsTooDense(surface, s.Sizing.OfLevel())))
+    (isSound ? RelieveRings(surface) : FitsRings(surface) && !IsTooDense(surface, delta)))
   {
-    this->Begin(surface);
-    if (Proximity::FindIntersections(this->State, this->AliveVertices(), this->Threads).empty())
+    Begin(e, surface);
+    if (Proximity::FindIntersections(e.State, AliveVertices(e), e.Threads).empty())
     {
-      if (lengths.Shortest < s.Sizing.OfLevel())
+      if (lengths.Shortest < delta)
       {
-        this->Adapt();
+        Adapt(e);
       }
       // Edits of what does not intersect itself are verified.
-      if (this->Stopped || (isSound ? this->CountIntersecting() == 0
-                                   : IsSound(s.Mesh.ToIndexed(), s.Sizing.OfLevel())))
+      if (e.Stopped || (isSound ? CountIntersecting(s, e.Threads) == 0
+                                : IsSound(s.Mesh.ToIndexed(), delta)))
       {
         return;
       }
     }
   }
-  this->TakeRemeshed(surface);
+  TakeRemeshed(e, surface);
 }
 
-void SurfaceEvolution::Implementation::Begin(const IndexedSurface& surface)
+void TakeRemeshed(Evolution& e, const IndexedSurface& surface)
 {
-  this->Clear();
-  this->State.Mesh.Append(surface);
-  this->Reset();
-}
-
-void SurfaceEvolution::Implementation::TakeRemeshed(const IndexedSurface& surface)
-{
-  const SurfaceState& s = this->State;
-  const IndexedSurface fine = this->Remesh(surface);
-  if (!this->Stopped)
+  const SurfaceState& s = e.State;
+  const float delta = s.Sizing.OfLevel();
+  const IndexedSurface fine = Remesh(e, surface);
+  if (!e.Stopped)
   {
     // Of what is thinner than the lattice only shreds are left.
     const double share = ComputeFeatures(fine).Volume / ComputeFeatures(surface).Volume;
     if (!(share > LeastShareOfVolume))
     {
       Refuse("The initial surface is too thin for this level, whose triangles have edges of about ",
-        SizingField::RestLengthInDelta * s.Sizing.OfLevel(), " voxel distances: they would hold ",
+        SizingField::RestLengthInDelta * delta, " voxel distances: they would hold ",
         std::lround(100. * std::max(share, 0.)),
         " % of its volume. Start at a finer level, give a thicker surface, or check that its "
         "coordinates are in the image's unit.");
     }
   }
-  this->Begin(fine);
-  this->Adapt();
-  if (!this->Stopped && s.Mesh.NumberOfVertices() == 0)
+  Begin(e, fine);
+  Adapt(e);
+  if (!e.Stopped && s.Mesh.NumberOfVertices() == 0)
   {
     Refuse("The initial surface is too small for this level, whose triangles have edges of about ",
-      SizingField::RestLengthInDelta * s.Sizing.OfLevel(),
+      SizingField::RestLengthInDelta * delta,
       " voxel distances: none of it is left. Start at a finer level, give a larger surface, or "
       "check that its coordinates are in the image's unit.");
   }
-  if (!this->Stopped && !IsSound(s.Mesh.ToIndexed(), s.Sizing.OfLevel()))
+  if (!e.Stopped && !IsSound(s.Mesh.ToIndexed(), delta))
   {
-    Refuse("The initial surface could not be brought to edges between ", s.Sizing.OfLevel(),
-      " and ", SizingField::LongestEdgeInDelta * s.Sizing.OfLevel(),
+    Refuse("The initial surface could not be brought to edges between ", delta, " and ",
+      SizingField::LongestEdgeInDelta * delta,
       " voxel distances without an intersection. Remesh it to such edges before it is given, or "
       "choose another Initialization.");
-  }
-}
-
-void SurfaceEvolution::Implementation::Adapt()
-{
-  // The verified displacements and edits of an iteration, until the lengths are legal.
-  const Dynamics dynamics(*this->TheField, this->Options, this->Threads);
-  for (int round = 0; round < MaximumNumberOfRounds && !this->Stopped; ++round)
-  {
-    const auto shareAt = [](int done)
-    { return ShareOfRemeshing + (1. - ShareOfRemeshing) * done / MaximumNumberOfRounds; };
-    this->ActivateAll();
-    this->VisitAll(SurfaceIteration::Mode::Adapt, dynamics, AdaptingPasses,
-      Monitor::Activity::Starting, shareAt(round), shareAt(round + 1));
-    const EditCounts& counts = this->State.Counts;
-    if (counts.Splits + counts.Collapses <=
-      this->State.Mesh.NumberOfVertices() / VerticesPerEdit)
-    {
-      break;
-    }
-  }
-  if (this->State.Mesh.NumberOfVertices() > 0)
-  {
-    this->Reset();
   }
 }
 }

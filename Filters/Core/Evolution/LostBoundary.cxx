@@ -49,27 +49,29 @@ void LostBoundary::Add(
   const LostVoxels& lost, const Field& field, PartKind kind, Executor& executor)
 {
   const VoxelNumbers numbers(field.Image().Size);
-  std::vector<std::vector<Patch>> slabs(lost.Slabs().size());
-  ForSpans(executor, slabs.size(), 1,
-    [&](std::size_t slab, std::size_t, std::size_t)
+  std::vector<std::vector<Patch>> spans(
+    (lost.Runs.size() + LostVoxels::RunSpan - 1) / LostVoxels::RunSpan);
+  ForSpans(executor, lost.Runs.size(), LostVoxels::RunSpan,
+    [&](std::size_t span, std::size_t begin, std::size_t end)
     {
-      for (const VoxelRun& run : lost.Slabs()[slab])
+      for (std::size_t r = begin; r < end; ++r)
       {
+        const VoxelRun& run = lost.Runs[r];
         std::array<int, 3> place = numbers.PlaceOf(run.First);
         for (int i = 0; i < run.Length; ++i, ++place[0])
         {
           const double area = BoundaryOf(place, field, kind == PartKind::Object);
           if (area > 0.)
           {
-            slabs[slab].push_back(
+            spans[span].push_back(
               { run.First + i, static_cast<float>(area), this->Parts + run.Part });
           }
         }
       }
     });
-  const std::vector<Patch> added = Joined(executor, slabs);
+  const std::vector<Patch> added = Joined(executor, spans);
   this->Patches.insert(this->Patches.end(), added.begin(), added.end());
-  this->Parts += lost.NumberOfParts();
+  this->Parts += lost.Parts;
 }
 
 void LostBoundary::Add(const LostBoundary& other)

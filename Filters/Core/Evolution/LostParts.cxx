@@ -23,8 +23,8 @@ namespace
  * cover are longer.
  */
 constexpr double LongestSampled = 1.5;
-/** Slabs between two questions whether to go on. */
-constexpr std::size_t SlabsPerBatch = 32;
+/** Spans of runs between two questions whether to go on. */
+constexpr std::size_t SpansPerBatch = 32;
 
 /** Shares of the whole work that are done after its steps, as the questions tell them. */
 constexpr double AfterLost = 0.7;
@@ -90,13 +90,15 @@ struct PartCell
   }
 };
 
-/** Those of a slab's runs, each once. */
-std::vector<PartCell> CellsOf(const std::vector<VoxelRun>& runs, const VoxelNumbers& numbers,
-  const VoxelSamples& samples, const CellLattice& lattice)
+/** Those of the runs from one to another, each once. */
+std::vector<PartCell> CellsOf(const std::vector<VoxelRun>& runs, std::size_t begin,
+  std::size_t end, const VoxelNumbers& numbers, const VoxelSamples& samples,
+  const CellLattice& lattice)
 {
   std::vector<PartCell> cells;
-  for (const VoxelRun& run : runs)
+  for (std::size_t r = begin; r < end; ++r)
   {
+    const VoxelRun& run = runs[r];
     std::array<int, 3> voxel = numbers.PlaceOf(run.First);
     for (int i = 0; i < run.Length; ++i, ++voxel[0])
     {
@@ -189,16 +191,17 @@ std::vector<PartCell> FindPartCells(const SurfaceState& state, const Field& fiel
 {
   const VoxelNumbers numbers(field.Image().Size);
   const VoxelSamples samples(field.Image());
-  const std::size_t n = lost.Slabs().size();
-  std::vector<std::vector<PartCell>> slabs(n);
-  for (std::size_t first = 0; first < n; first += SlabsPerBatch)
+  const std::size_t n = lost.Runs.size();
+  constexpr std::size_t batch = SpansPerBatch * LostVoxels::RunSpan;
+  std::vector<std::vector<PartCell>> spans((n + LostVoxels::RunSpan - 1) / LostVoxels::RunSpan);
+  for (std::size_t first = 0; first < n; first += batch)
   {
-    const std::size_t count = std::min(SlabsPerBatch, n - first);
-    ForSpans(executor, count, 1,
-      [&](std::size_t slab, std::size_t, std::size_t)
+    const std::size_t count = std::min(batch, n - first);
+    ForSpans(executor, count, LostVoxels::RunSpan,
+      [&](std::size_t span, std::size_t begin, std::size_t end)
       {
-        std::vector<PartCell>& cells = slabs[first + slab];
-        cells = CellsOf(lost.Slabs()[first + slab], numbers, samples, lattice);
+        std::vector<PartCell>& cells = spans[first / LostVoxels::RunSpan + span];
+        cells = CellsOf(lost.Runs, first + begin, first + end, numbers, samples, lattice);
         LeaveClear(cells, state, lattice);
       });
     if (!goOn(static_cast<double>(first + count) / static_cast<double>(n)))
@@ -206,7 +209,7 @@ std::vector<PartCell> FindPartCells(const SurfaceState& state, const Field& fiel
       return {};
     }
   }
-  std::vector<PartCell> all = Joined(executor, slabs);
+  std::vector<PartCell> all = Joined(executor, spans);
   SortInSpans(executor, all);
   all.erase(std::unique(all.begin(), all.end()), all.end());
   return all;
@@ -237,14 +240,14 @@ LostPartCover FindLostParts(const SurfaceState& state, const Field& field, PartK
 {
   LostPartCover stopped;
   stopped.IsStopped = true;
-  const LostVoxels lost(state, field, kind, minimumSize, executor,
+  const LostVoxels lost = FindLostVoxels(state, field, kind, minimumSize, executor,
     [&goOn](double share) { return goOn(AfterLost * share); });
-  if (lost.IsStopped())
+  if (lost.IsStopped)
   {
     return stopped;
   }
   LostPartCover result;
-  result.Found = lost.NumberOfParts();
+  result.Found = lost.Parts;
   result.Boundary.Add(lost, field, kind, executor);
   const CellLattice lattice(CellEdge * state.Sizing.OfLevel());
   bool goesOn = true;

@@ -192,7 +192,7 @@ void SlabSearch::AddRuns(std::int64_t row, const std::uint64_t* open,
       }
       else if (isLost)
       {
-        runs.push_back({ row + i, 1, VoxelRun::NoPart });
+        runs.push_back({ row + i, 1, 0 });
       }
       isOnRun = isLost;
     }

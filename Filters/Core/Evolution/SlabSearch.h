@@ -3,7 +3,6 @@
 #ifndef volumicSlabSearch_h
 #define volumicSlabSearch_h
 
-#include "Core/Evolution/VoxelRuns.h"
 #include "Core/Image/Field.h"
 #include "Core/Image/VoxelBox.h"
 #include "Core/Surface/SurfaceState.h"
@@ -17,6 +16,14 @@ namespace volumic
 {
 /** A voxel that lies no farther than so many units of the level from a vertex is not lost. */
 constexpr double NearUnits = 2.;
+
+/** Voxels of a part that follow each other along x. */
+struct VoxelRun
+{
+  std::int64_t First; ///< Number of the first one, see VoxelNumbers.
+  int Length;
+  int Part;
+};
 
 /** Which kind of parts a surface may have lost. */
 enum class PartKind

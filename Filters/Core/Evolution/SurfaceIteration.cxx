@@ -3,7 +3,6 @@
 #include "Core/Evolution/SurfaceIteration.h"
 
 #include "Core/Common/Select.h"
-#include "Core/Evolution/Stopwatch.h"
 
 #include <algorithm>
 #include <cassert>
@@ -35,15 +34,15 @@ const Dynamics::Relaxation& RelaxationOf(SurfaceIteration::Mode mode)
 }
 }
 
-void SurfaceIteration::BeginVisit(BlockVisit& visit)
+SurfaceIteration::SurfaceIteration(
+  SurfaceState& state, BlockVisit& visit, const Field* evidence, bool topologyChanges)
+  : State(state)
+  , Visit(visit)
+  , Edits(state, evidence, topologyChanges, &visit.Share)
 {
   SurfaceState& s = this->State;
-  this->Visit = &visit;
-  this->Working.clear();
-  this->Near.Clear();
   this->CollectActive();
   // What others have edited or moved since; and of what has contacts, which: no visit remembers.
-  this->Suspects.clear();
   std::vector<int> crowded;
   for (const int v : this->Active)
   {
@@ -63,13 +62,12 @@ void SurfaceIteration::BeginVisit(BlockVisit& visit)
   this->Labelled = visit.Share.Counts;
 }
 
-void SurfaceIteration::EndVisit()
+SurfaceIteration::~SurfaceIteration()
 {
   for (const int v : this->Working)
   {
     this->State.Marks[v] = 0;
   }
-  this->Visit = nullptr;
 }
 
 void SurfaceIteration::CollectActive()
@@ -77,10 +75,10 @@ void SurfaceIteration::CollectActive()
   // Where an edge has grown beyond measure its ends wait until it is split.
   const SurfaceState& s = this->State;
   this->Active.clear();
-  for (int v = this->Visit->First; v < this->Visit->End(); ++v)
+  for (int v = this->Visit.First; v < this->Visit.End(); ++v)
   {
     if (s.Active[v] != 0 && s.Mesh.IsAlive(v) && !(s.RemeshFlags[v] & HasHugeEdge) &&
-      this->Visit->Moving.Contains(s.Mesh.Position[v]))
+      this->Visit.Moving.Contains(s.Mesh.Position[v]))
     {
       this->Active.push_back(v);
     }
@@ -225,20 +223,20 @@ void SurfaceIteration::RollBack()
   }
 }
 
-void SurfaceIteration::SplitBeforeVerification(Remesher& remesher)
+void SurfaceIteration::SplitBeforeVerification()
 {
   SurfaceState& s = this->State;
   const std::size_t unsplit = this->Working.size();
-  remesher.Split(this->Working);
+  this->Edits.Split(this->Working);
   for (std::size_t i = unsplit; i < this->Working.size(); ++i)
   {
     s.Marks[this->Working[i]] |= IsWorking; // New, with a previous position of its own.
   }
-  for (const int v : remesher.Changed())
+  for (const int v : this->Edits.Changed())
   {
     this->AddUnmoved(v);
   }
-  UpdateChanged(s, remesher.TakeChanged());
+  UpdateChanged(s, this->Edits.TakeChanged());
   // What could not be split gets no longer: verification relies on edges that are legal.
   // Where one goes back, an edge to another one that has moved with it may become too long.
   std::vector<int> stars;
@@ -261,23 +259,23 @@ void SurfaceIteration::SplitBeforeVerification(Remesher& remesher)
   } while (!stars.empty());
 }
 
-void SurfaceIteration::RestoreConstraints(Remesher& remesher)
+void SurfaceIteration::RestoreConstraints()
 {
   SurfaceState& s = this->State;
-  remesher.Collapse(this->Working);
-  remesher.Flip(this->Working);
-  remesher.Unstick(this->Working);
+  this->Edits.Collapse(this->Working);
+  this->Edits.Flip(this->Working);
+  this->Edits.Unstick(this->Working);
   for (const int v : this->Working)
   {
     std::uint8_t& count = s.RollbackCount[v];
     count = static_cast<std::uint8_t>(count > 0 ? count - 1 : 0);
   }
   // What was rolled back, or drawn back from a cut, may have made edges too long.
-  const std::vector<int>& changed = remesher.Changed();
+  const std::vector<int>& changed = this->Edits.Changed();
   this->Working.insert(this->Working.end(), changed.begin(), changed.end());
-  UpdateChanged(s, remesher.TakeChanged());
-  remesher.Split(this->Working);
-  UpdateChanged(s, remesher.TakeChanged());
+  UpdateChanged(s, this->Edits.TakeChanged());
+  this->Edits.Split(this->Working);
+  UpdateChanged(s, this->Edits.TakeChanged());
 }
 
 void SurfaceIteration::WatchComponents()
@@ -285,27 +283,69 @@ void SurfaceIteration::WatchComponents()
   // A component may become a small one without any change of topology. After a merge a small cavity
   // may be a part of the main component, and must not be judged as the cavity it was: labels are
   // made afresh before anything is deleted.
-  EditShare& share = this->Visit->Share;
+  EditShare& share = this->Visit.Share;
   const EditCounts& then = this->Labelled;
   if (share.Counts.Merges + share.Counts.Cuts > then.Merges + then.Cuts ||
     share.Counts.Collapses > then.Collapses + SuspiciousCollapses)
   {
     this->Watch.LabelSmall(
-      this->State, this->Visit->First, this->Visit->End(), this->Visit->Written);
+      this->State, this->Visit.First, this->Visit.End(), this->Visit.Written);
     this->Labelled = share.Counts;
   }
   this->Watch.DeleteDegenerate(this->State, &share);
 }
 
-void SurfaceIteration::Run(
-  HistoryRow& row, const Dynamics& dynamics, Remesher& remesher, Mode mode)
+double SurfaceIteration::KineticEnergy() const
+{
+  const SurfaceState& s = this->State;
+  double sum = 0;
+  for (const int v : this->Active)
+  {
+    const double speed = s.Mesh.IsAlive(v) ? Dot(s.Velocity[v], s.Normal[v].Axis()) : 0.;
+    sum += 0.5 * speed * speed;
+  }
+  return sum;
+}
+
+HistoryRow SurfaceIteration::Run(const Dynamics& dynamics, Mode mode)
 {
   SurfaceState& s = this->State;
-  Executor& idle = *this->Visit->Idle;
-  const bool evolves = mode == Mode::Evolve;
+  EditShare& share = this->Visit.Share;
+  const EditCounts counts = share.Counts;
+  const int added = share.Room.Added;
+  const int characteristic = share.EulerCharacteristic;
+  HistoryRow row;
   Stopwatch watch(row);
   this->CollectActive();
   row.ActiveVertices = static_cast<int>(this->Active.size());
+  this->Move(dynamics, mode, watch);
+  row.TimeStep = this->Step.Time;
+
+  if (mode == Mode::Evolve)
+  {
+    this->Edits.Merge(this->Near.Pairs());
+  }
+  watch.Lap(Phase::Topology);
+  this->RestoreConstraints();
+  watch.Lap(Phase::Remeshing);
+  this->WatchComponents();
+  assert(std::all_of(this->Working.begin(), this->Working.end(),
+    [this, &s](int v)
+    { return !s.Mesh.IsAlive(v) || this->Visit.Written.Contains(s.Mesh.Position[v]); }));
+  watch.Lap(Phase::Topology);
+
+  row.Add(share.Counts - counts);
+  row.Vertices = share.Room.Added - added;
+  row.EulerCharacteristic = share.EulerCharacteristic - characteristic;
+  row.KineticEnergy = this->KineticEnergy();
+  return row;
+}
+
+void SurfaceIteration::Move(const Dynamics& dynamics, Mode mode, Stopwatch& watch)
+{
+  SurfaceState& s = this->State;
+  Executor& idle = *this->Visit.Idle;
+  const bool evolves = mode == Mode::Evolve;
   if (evolves)
   {
     dynamics.Accelerate(s, this->Active, this->Near.Pairs(), this->Step, idle);
@@ -315,7 +355,6 @@ void SurfaceIteration::Run(
     dynamics.Relax(
       s, this->Active, this->Near.Pairs(), RelaxationOf(mode), this->Step, idle);
   }
-  row.TimeStep = this->Step.Time;
   watch.Lap(Phase::Forces);
 
   dynamics.Displace(s, this->Active, this->Step);
@@ -323,7 +362,7 @@ void SurfaceIteration::Run(
   s.UpdateShape(this->Working, idle);
   watch.Lap(Phase::Contact);
 
-  this->SplitBeforeVerification(remesher);
+  this->SplitBeforeVerification();
   watch.Lap(Phase::Remeshing);
 
   this->CollectSuspects();
@@ -335,18 +374,5 @@ void SurfaceIteration::Run(
     dynamics.Freeze(s, this->Active, this->Working);
   }
   watch.Lap(Phase::Verification);
-
-  if (evolves)
-  {
-    remesher.Merge(this->Near.Pairs());
-  }
-  watch.Lap(Phase::Topology);
-  this->RestoreConstraints(remesher);
-  watch.Lap(Phase::Remeshing);
-  this->WatchComponents();
-  assert(std::all_of(this->Working.begin(), this->Working.end(),
-    [this, &s](int v)
-    { return !s.Mesh.IsAlive(v) || this->Visit->Written.Contains(s.Mesh.Position[v]); }));
-  watch.Lap(Phase::Topology);
 }
 }

@@ -4,7 +4,7 @@
 #define volumicSurfaceIteration_h
 
 #include "Core/Evolution/Dynamics.h"
-#include "Core/Evolution/SurfaceEvolution.h"
+#include "Core/Evolution/EvolutionHistory.h"
 #include "Core/Surface/ComponentWatch.h"
 #include "Core/Surface/Proximity.h"
 #include "Core/Surface/Remesher.h"
@@ -38,7 +38,7 @@ namespace volumic
  *   that is the mesh of before, which needs no test.
  * - Deletions take whole components away.
  * Divisions are tested like displacements. That normals do not turn by more is what was found, not
- * what is enforced: SurfaceEvolution therefore tests all faces against all others, whatever their
+ * what is enforced: a level therefore tests all faces against all others, whatever their
  * normals are, at the end of a level, or of a run that was stopped, and in a given start
  * (CountIntersecting).
  */
@@ -54,23 +54,22 @@ public:
     Adapt
   };
 
-  explicit SurfaceIteration(SurfaceState& state)
-    : State(state)
-  {
-  }
+  /**
+   * Works on the vertices of a visit, which must have a shape that is up to date; all others keep
+   * still, as if they were not active. Components are watched that are small and lie where the visit
+   * may write.
+   * @param evidence, topologyChanges see Remesher
+   */
+  SurfaceIteration(
+    SurfaceState& state, BlockVisit& visit, const Field* evidence, bool topologyChanges);
+  ~SurfaceIteration();
+  SurfaceIteration(const SurfaceIteration&) = delete;
+  SurfaceIteration& operator=(const SurfaceIteration&) = delete;
 
   /**
-   * From now on it works on the vertices of a visit, all others keep still, as if they were not
-   * active. Components are watched that are small and lie where the visit may write. The vertices
-   * must have a shape that is up to date.
+   * @return what it has done; of vertices and Euler characteristic, by how many there are more
    */
-  void BeginVisit(BlockVisit& visit);
-  void EndVisit();
-
-  /**
-   * Times of phases go to the row, counts to the visit's share.
-   */
-  void Run(HistoryRow& row, const Dynamics& dynamics, Remesher& remesher, Mode mode);
+  HistoryRow Run(const Dynamics& dynamics, Mode mode);
 
   /** The vertices that the last iteration has found active. */
   const std::vector<int>& ActiveVertices() const { return this->Active; }
@@ -79,6 +78,8 @@ public:
   static void UpdateChanged(SurfaceState& state, std::vector<int> changed);
 
 private:
+  /** Displaces the active vertices, verifies that, and rolls back. */
+  void Move(const Dynamics& dynamics, Mode mode, Stopwatch& watch);
   void CollectActive();
   void CollectWorking();
   void AddUnmoved(int v);
@@ -86,12 +87,14 @@ private:
   void CollectSuspects();
   void RollBack();
   void RollBackVertex(int v);
-  void SplitBeforeVerification(Remesher& remesher);
-  void RestoreConstraints(Remesher& remesher);
+  void SplitBeforeVerification();
+  void RestoreConstraints();
   void WatchComponents();
+  double KineticEnergy() const;
 
   SurfaceState& State;
-  BlockVisit* Visit = nullptr; ///< See BeginVisit.
+  BlockVisit& Visit;
+  Remesher Edits;
   Proximity Near;    ///< Of all; keeps the pairs.
   Proximity Recheck; ///< Of what has been rolled back.
   ComponentWatch Watch;

@@ -45,7 +45,8 @@ struct SurfaceOptions : FieldOptions
    * the surface may rest at edges that are not at the iso-value, onto the edges near them instead.
    */
   bool SnapToIsoValue = true;
-  bool SnapToEdges = false; ///< Found by SurfaceEvolution: which of the two it is.
+  bool SnapsToEdges() const { return this->SnapToIsoValue && this->EdgeAttractionWeight > 0.; }
+  bool SnapsToIsoValue() const { return this->SnapToIsoValue && !this->SnapsToEdges(); }
 
   /**
    * After a division, parts of the object that the coarser level did not resolve, and that the

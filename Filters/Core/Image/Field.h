@@ -41,6 +41,8 @@ public:
   Field(const LevelImage& image, const FieldOptions& options, Executor& executor);
 
   float ValueAt(const Vector& position) const;
+  /** The image minus the iso-value, whichever side the object is on. */
+  float ResidualAt(const Vector& position) const { return this->Sign * this->ValueAt(position); }
   Sample At(const Vector& position) const;
 
   /** Extremes of Value in the image; where the highest is not positive there is no object. */

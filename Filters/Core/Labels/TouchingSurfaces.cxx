@@ -3,7 +3,6 @@
 #include "Core/Labels/TouchingSurfaces.h"
 
 #include "Core/Common/Spans.h"
-#include "Core/Mesh/RowCrossing.h"
 #include "Core/Mesh/SelfIntersections.h"
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "Core/Mesh/TriangleTree.h"
@@ -31,31 +30,9 @@ bool Overlap(const Bounds& a, const Bounds& b)
   return overlap;
 }
 
-/** Whether a closed surface that does not touch the place has it inside. */
-bool Encloses(const IndexedSurface& surface, const TriangleTree& tree, const Point& place)
-{
-  int winding = 0;
-  tree.Traverse(
-    [&](const TriangleTree::Node& node)
-    {
-      return place[0] <= node.Box.High[0] && node.Box.Low[1] <= place[1] &&
-        place[1] <= node.Box.High[1] && node.Box.Low[2] <= place[2] && place[2] <= node.Box.High[2];
-    },
-    [&](int t)
-    {
-      const auto corner = [&](int k)
-      { return surface.Points[static_cast<std::size_t>(surface.Triangles[t][k])]; };
-      const RowCrossing crossing =
-        RowCrossing::Of(corner(0), corner(1), corner(2), place[1], place[2]);
-      winding += crossing.X > place[0] ? crossing.Winding : 0;
-      return true;
-    });
-  return winding != 0;
-}
-
 /** The triangles of the components within another surface, none of whose are among `touching`. */
 std::vector<int> FindEnclosed(const IndexedSurface& surface, const SurfaceFeatures& features,
-  const std::vector<int>& touching, const IndexedSurface& other, const TriangleTree& tree)
+  const std::vector<int>& touching, const TriangleTree& other)
 {
   enum class State : char
   {
@@ -75,7 +52,8 @@ std::vector<int> FindEnclosed(const IndexedSurface& surface, const SurfaceFeatur
     if (state == State::Unknown)
     {
       const Point& place = surface.Points[static_cast<std::size_t>(surface.Triangles[t][0])];
-      state = Encloses(other, tree, place) ? State::Inside : State::Outside;
+      const bool isInside = other.WindingAbout(place, [](int) { return true; }) != 0;
+      state = isInside ? State::Inside : State::Outside;
     }
     if (state == State::Inside)
     {
@@ -123,7 +101,7 @@ std::vector<std::vector<SurfaceTriangle>> FindTouching(
           meeting[i].push_back({ i, t });
         }
         for (const int t :
-          FindEnclosed(surfaces[i], features, touching, surfaces[other], *trees[other]))
+          FindEnclosed(surfaces[i], features, touching, *trees[other]))
         {
           within[i].push_back({ other, { i, t } });
         }

@@ -4,7 +4,6 @@
 
 #include "Core/Common/Refuse.h"
 #include "Core/Mesh/ObliqueRotation.h"
-#include "Core/Mesh/RowCrossing.h"
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "Core/Mesh/TriangleTree.h"
 
@@ -170,32 +169,6 @@ Point PlaceIn(const IndexedSurface& surface, const Triangle& t)
   return place;
 }
 
-/** How often the components other than one wind round a place of it. */
-int WindingNumber(const TriangleTree& tree, const IndexedSurface& surface,
-  const LargeVector<int>& componentOf, int component, const Point& place)
-{
-  int winding = 0;
-  tree.Traverse(
-    [&place](const TriangleTree::Node& node)
-    {
-      const Bounds& box = node.Box;
-      return box.Low[0] <= place[0] && box.Low[1] <= place[1] && box.High[1] >= place[1] &&
-        box.Low[2] <= place[2] && box.High[2] >= place[2];
-    },
-    [&](int i)
-    {
-      if (componentOf[i] != component)
-      {
-        const Triangle& t = surface.Triangles[i];
-        const RowCrossing crossing = RowCrossing::Of(
-          surface.Points[t[0]], surface.Points[t[1]], surface.Points[t[2]], place[1], place[2]);
-        winding += crossing.X < place[0] ? crossing.Winding : 0;
-      }
-      return true;
-    });
-  return winding;
-}
-
 /**
  * Every component must face outward, or inward if it is a cavity of one that does: only then is
  * the whole the boundary of a volume.
@@ -223,8 +196,8 @@ void CheckNesting(const IndexedSurface& surface)
   int wrong = 0;
   for (std::size_t c = 0; c < count; ++c)
   {
-    const int winding = WindingNumber(tree, rotated, features.ComponentOfTriangle,
-      static_cast<int>(c), PlaceIn(rotated, *first[c]));
+    const int winding = tree.WindingAbout(PlaceIn(rotated, *first[c]),
+      [&](int t) { return features.ComponentOfTriangle[t] != static_cast<int>(c); });
     const bool isCavity = features.Components[c].Volume < 0.;
     wrong += winding != (isCavity ? 1 : 0);
   }

@@ -151,7 +151,7 @@ Components::Components(const IndexedSurface& surface, Executor& executor)
 
 void Components::FindRoots(const IndexedSurface& surface, Executor& executor)
 {
-  SharedDisjointSets joined(surface.Points.size());
+  DisjointSets joined(surface.Points.size());
   ForSpans(executor, surface.Triangles.size(), SpanSize,
     [&](std::size_t, std::size_t begin, std::size_t end)
     {

@@ -4,6 +4,7 @@
 #define volumicTriangleTree_h
 
 #include "Core/Common/IndexedSurface.h"
+#include "Core/Mesh/RowCrossing.h"
 
 #include <vector>
 
@@ -63,6 +64,30 @@ public:
         }
       }
     }
+  }
+
+  /** How often those triangles wind round a place for which counts(triangle) says so. */
+  template <typename Counts>
+  int WindingAbout(const Point& place, const Counts& counts) const
+  {
+    int winding = 0;
+    this->Traverse(
+      [&place](const Node& node)
+      {
+        return node.Box.Low[0] <= place[0] && node.Box.Low[1] <= place[1] &&
+          place[1] <= node.Box.High[1] && node.Box.Low[2] <= place[2] &&
+          place[2] <= node.Box.High[2];
+      },
+      [&](int i)
+      {
+        const Triangle& t = this->Surface.Triangles[i];
+        const auto corner = [&](int k) -> const Point& { return this->Surface.Points[t[k]]; };
+        const RowCrossing crossing =
+          RowCrossing::Of(corner(0), corner(1), corner(2), place[1], place[2]);
+        winding += crossing.X < place[0] && counts(i) ? crossing.Winding : 0;
+        return true;
+      });
+    return winding;
   }
 
   /** Distance to the nearest of the triangles, squared. */

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Surface/ComponentNesting.h"
 
+#include "Core/Common/ExactSum.h"
+#include "Core/Common/IndexedSurface.h"
 #include "Core/Common/Spans.h"
 #include "Core/Mesh/RowCrossing.h"
 #include "Core/Mesh/SurfaceMeasures.h"
@@ -23,6 +25,26 @@ Point PointAt(const Vector& p)
 {
   return { p.X, p.Y, p.Z };
 }
+
+/** From the first vertex of a component along x. */
+struct ComponentRay
+{
+  int Root;
+  int Label;
+  Point Origin;
+  bool IsCavity; ///< The component's volume is negative.
+};
+
+/** A ray that another component crosses an odd number of times. */
+struct RayCrossing
+{
+  int Ray; ///< Its place among the rays.
+  int Label;
+  bool operator<(const RayCrossing& other) const
+  {
+    return this->Ray != other.Ray ? this->Ray < other.Ray : this->Label < other.Label;
+  }
+};
 
 /** Faces of one label in a span. */
 using PartialVolume = std::pair<int, ExactSum>;
@@ -47,8 +69,7 @@ std::vector<PartialVolume> VolumesOf(const SurfaceMesh& mesh, const LargeVector<
           volumes.emplace_back(label, ExactSum());
         }
       }
-      volumes[place].second.Add(
-        SignedVolume::OfFace(mesh, VectorD(origins[label]), a, b, c));
+      volumes[place].second.Add(SignedVolume::OfFace(mesh, VectorD(origins[label]), a, b, c));
     });
   return volumes;
 }
@@ -106,8 +127,8 @@ void AddCrossings(const SurfaceMesh& mesh, int v, int component,
     }
   }
 }
-}
 
+/** The volumes of all labels; each seen from a place of its own. */
 std::vector<ExactSum> VolumesOfFaces(const SurfaceMesh& mesh, const LargeVector<int>& labels,
   const std::vector<Vector>& origins, Executor& executor)
 {
@@ -127,9 +148,16 @@ std::vector<ExactSum> VolumesOfFaces(const SurfaceMesh& mesh, const LargeVector<
   return volumes;
 }
 
-std::vector<ComponentRay> CastRays(const std::vector<int>& roots,
-  const std::vector<Vector>& places, const std::vector<ExactSum>& volumes)
+/** A ray of each component, by Y. */
+std::vector<ComponentRay> CastRays(const SurfaceMesh& mesh, const LargeVector<int>& labels,
+  const std::vector<int>& roots, Executor& executor)
 {
+  std::vector<Vector> places;
+  for (const int root : roots)
+  {
+    places.push_back(mesh.Position[root]);
+  }
+  const std::vector<ExactSum> volumes = VolumesOfFaces(mesh, labels, places, executor);
   std::vector<ComponentRay> rays;
   for (std::size_t label = 0; label < roots.size(); ++label)
   {
@@ -142,6 +170,7 @@ std::vector<ComponentRay> CastRays(const std::vector<int>& roots,
   return rays;
 }
 
+/** Of the faces with the rays of other components, sorted. */
 std::vector<RayCrossing> FindCrossings(const SurfaceMesh& mesh, const LargeVector<int>& labels,
   const std::vector<ComponentRay>& rays, Executor& executor)
 {
@@ -161,12 +190,15 @@ std::vector<RayCrossing> FindCrossings(const SurfaceMesh& mesh, const LargeVecto
   return crossings;
 }
 
-std::vector<int> JudgeFromOutsideIn(
-  const std::vector<ComponentRay>& rays, const std::vector<RayCrossing>& crossings)
+}
+
+std::vector<int> FindInsideOut(const SurfaceMesh& mesh, const LargeVector<int>& labels,
+  const std::vector<int>& roots, Executor& executor)
 {
+  const std::vector<ComponentRay> rays = CastRays(mesh, labels, roots, executor);
   // The labels of the components around the origin of each ray.
   std::vector<std::vector<int>> around(rays.size());
-  for (const RayCrossing& crossing : crossings)
+  for (const RayCrossing& crossing : FindCrossings(mesh, labels, rays, executor))
   {
     around[crossing.Ray].push_back(crossing.Label);
   }

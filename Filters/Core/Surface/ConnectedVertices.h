@@ -3,12 +3,10 @@
 #ifndef volumicConnectedVertices_h
 #define volumicConnectedVertices_h
 
-#include "Core/Common/DisjointSets.h"
 #include "Core/Common/Executor.h"
 #include "Core/Common/ScratchMemory.h"
 #include "Core/Mesh/SurfaceMesh.h"
 
-#include <utility>
 #include <vector>
 
 namespace volumic
@@ -27,10 +25,6 @@ public:
   const std::vector<int>& Roots() const { return this->SmallestOnes; }
 
 private:
-  void JoinVertices(const SurfaceMesh& mesh, Executor& executor);
-
-  DisjointSets Joined;
-  std::vector<std::vector<std::pair<int, int>>> Borders; ///< Edges from each span to those before.
   std::vector<int> SmallestOnes;
 };
 }

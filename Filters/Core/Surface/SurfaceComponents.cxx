@@ -20,30 +20,16 @@ bool SurfaceComponents::DeleteDegenerate(SurfaceState& state, Executor& executor
   ComponentWatch watch;
   watch.LabelSmall(
     state, 0, state.Mesh.Size(), { Vector(-far, -far, -far), Vector(far, far, far) });
-  const bool hasDeleted = watch.DeleteDegenerate(state);
-  this->Label(state, executor); // The watch has labels of its own.
-  return hasDeleted;
-}
-
-std::vector<int> SurfaceComponents::FindInsideOut(
-  const SurfaceState& state, Executor& executor) const
-{
-  const LargeVector<int>& labels = state.Component.AsVector();
-  const std::vector<int>& roots = this->Connected.Roots();
-  std::vector<Vector> places;
-  for (const int root : roots)
-  {
-    places.push_back(state.Mesh.Position[root]);
-  }
-  const std::vector<ComponentRay> rays =
-    CastRays(roots, places, VolumesOfFaces(state.Mesh, labels, places, executor));
-  return JudgeFromOutsideIn(rays, FindCrossings(state.Mesh, labels, rays, executor));
+  const bool deleted = watch.DeleteDegenerate(state);
+  this->Label(state, executor); // It gives labels of its own.
+  return deleted;
 }
 
 bool SurfaceComponents::DeleteInsideOut(SurfaceState& state, Executor& executor)
 {
   this->Label(state, executor);
-  const std::vector<int> insideOut = this->FindInsideOut(state, executor);
+  const std::vector<int> insideOut = FindInsideOut(
+    state.Mesh, state.Component.AsVector(), this->Connected.Roots(), executor);
   for (const int root : insideOut)
   {
     state.RemoveComponent(root);

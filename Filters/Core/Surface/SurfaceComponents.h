@@ -7,8 +7,6 @@
 #include "Core/Surface/ConnectedVertices.h"
 #include "Core/Surface/SurfaceState.h"
 
-#include <vector>
-
 namespace volumic
 {
 /**
@@ -28,8 +26,8 @@ public:
   int NumberOfComponents() const { return this->Components; }
 
   /**
-   * Deletes the small components that must go: ComponentWatch::DeleteDegenerate. Labels are fresh then.
-   * @return whether anything was deleted.
+   * Deletes the small components that must go (ComponentWatch::DeleteDegenerate).
+   * @return whether anything was deleted; labels are fresh then
    */
   bool DeleteDegenerate(SurfaceState& state, Executor& executor);
 
@@ -41,9 +39,6 @@ public:
    * @return whether anything was deleted; labels are fresh then, too
    */
   bool DeleteInsideOut(SurfaceState& state, Executor& executor);
-
-  /** The smallest vertices of those that are inside out, of what Label() has labelled. */
-  std::vector<int> FindInsideOut(const SurfaceState& state, Executor& executor) const;
 
 private:
   ConnectedVertices Connected;
