@@ -22,8 +22,8 @@ constexpr std::size_t VertexSpan = 8192;
  * none yet it is guessed for how many vertices one was taken. And how many for each vertex with an
  * edge that is too long: where only some of them are split needles come of what is left.
  */
-constexpr int FewPlaces = 24;
-constexpr int SharedPlaces = 12288;
+constexpr int FewPlaces = 40;
+constexpr int SharedPlaces = 4096;
 constexpr int VerticesPerPlace = 8;
 constexpr int PlacesPerTaken = 2;
 constexpr int VerticesPerTaken = 12;
