@@ -57,12 +57,6 @@ void SurfaceState::ForgetMotion()
   }
 }
 
-void SurfaceState::ForgetAllButMesh()
-{
-  this->Properties.Forget();
-  this->Grid.Reset(Vector(), Vector(), 1.f);
-}
-
 void SurfaceState::Prefetch(int first, int last) const
 {
   const auto count = static_cast<std::size_t>(last - first);

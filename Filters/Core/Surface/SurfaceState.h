@@ -155,8 +155,6 @@ public:
 
   /** Lets go of all that only iterations need: a reset must come before others. */
   void ForgetMotion();
-  /** The same of all but the mesh. */
-  void ForgetAllButMesh();
   /** Resets all properties to those of a mesh that is new, lays the grid over the box. */
   void Reset(const Vector& low, const Vector& high, Executor& executor);
   void Reset(const Vector& low, const Vector& high);
