@@ -15,6 +15,24 @@ namespace
 /** Vertices keep this share of their edge from its ends. */
 constexpr float LeastShare = 0.15f;
 
+/**
+ * How far the first sites beyond the sides of a box are moved away from them, in voxels along each
+ * axis: so none is on a plane; edges of the lattice leave the box by the side that SideAt() tells,
+ * which they do where it is the furthest; and edges between sites beyond two sides pass by the box,
+ * which they do as the last ones in it are half a voxel from its sides.
+ */
+constexpr std::array<double, 3> Beyond = { 1.2, 1.1, 1. };
+
+float& CoordinateOf(Vector& place, int axis)
+{
+  return axis == 0 ? place.X : axis == 1 ? place.Y : place.Z;
+}
+
+float CoordinateOf(const Vector& place, int axis)
+{
+  return axis == 0 ? place.X : axis == 1 ? place.Y : place.Z;
+}
+
 /** Which of the directions of the lattice's edges leads from one site to a later one. */
 std::uint64_t DirectionTo(const LatticeSite& from, const LatticeSite& to)
 {
@@ -212,11 +230,48 @@ bool LatticeCutter::MayChange(const std::array<int, 3>& voxel) const
 LatticeSite LatticeCutter::SiteAt(const std::array<int, 3>& halves) const
 {
   const std::array<int, 3> cube = { halves[0] >> 1, halves[1] >> 1, halves[2] >> 1 };
+  if (const Number side = this->SideAt(halves))
+  {
+    return { halves, side };
+  }
   return { halves,
     (halves[0] & 1) != 0 ? this->ObjectOfMiddle[static_cast<std::size_t>(
                              this->Middles.NumberOf(cube[0], cube[1], cube[2]))]
                          : this->ObjectOf({ this->Pitch[0] * cube[0], this->Pitch[1] * cube[1],
                              this->Pitch[2] * cube[2] }) };
+}
+
+LatticeCutter::Number LatticeCutter::SideAt(const std::array<int, 3>& halves) const
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const int twice = this->Pitch[axis] * halves[axis];
+    const bool isBefore = twice < 2 * this->Box.First[axis];
+    if (isBefore || twice > 2 * this->Box.End[axis] - 2)
+    {
+      return static_cast<Number>(this->Mesh.FirstSide + 2 * axis + (isBefore ? 0 : 1));
+    }
+  }
+  return 0;
+}
+
+void LatticeCutter::PutOnSide(Vector& place, int side) const
+{
+  CoordinateOf(place, this->Mesh.AxisOf(side)) = this->Mesh.PlaneOf(side);
+}
+
+bool LatticeCutter::HasSides(int i, int j, int k) const
+{
+  const std::array<int, 3> brick = { i, j, k };
+  VoxelBox about;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    about.First[axis] = LabelBricks::Side * brick[axis] - this->Pitch[axis];
+    about.End[axis] = LabelBricks::Side * (brick[axis] + 1) + this->Pitch[axis];
+  }
+  const VoxelBox inside = about.CommonWith(this->Box);
+  return this->Mesh.FirstSide <= std::numeric_limits<Number>::max() && !inside.IsEmpty() &&
+    !(inside == about);
 }
 
 void LatticeCutter::CutBrick(int i, int j, int k)
@@ -386,13 +441,51 @@ void LatticeCutter::CutInMore(const Tetrahedron& cell)
     middle += this->Mesh.Position[static_cast<std::size_t>(pieces[n].From)] +
       this->Mesh.Position[static_cast<std::size_t>(pieces[n].To)];
   }
-  const int inside =
-    this->Mesh.AddVertex(middle * (0.5f / static_cast<float>(count)), Stratum::Interface);
+  middle *= 0.5f / static_cast<float>(count);
+  if (std::any_of(cell.Corner.begin(), cell.Corner.end(),
+        [this](const LatticeSite& site) { return this->Mesh.IsSide(site.Object); }))
+  {
+    std::vector<int> ends;
+    for (int n = 0; n < count; ++n)
+    {
+      ends.insert(ends.end(), { pieces[n].From, pieces[n].To });
+    }
+    middle = this->OnSidesOf(cell, ends, middle);
+  }
+  const int inside = this->Mesh.AddVertex(middle, Stratum::Interface);
   for (int n = 0; n < count; ++n)
   {
     this->AddTriangle({ pieces[n].From, pieces[n].To, inside }, cell.Corner[pieces[n].Behind],
       cell.Corner[pieces[n].Front]);
   }
+}
+
+Vector LatticeCutter::OnSidesOf(
+  const Tetrahedron& cell, const std::vector<int>& ends, const Vector& middle) const
+{
+  const auto put = [&](Vector place)
+  {
+    for (const LatticeSite& site : cell.Corner)
+    {
+      if (this->Mesh.IsSide(site.Object))
+      {
+        this->PutOnSide(place, site.Object);
+      }
+    }
+    return place;
+  };
+  Vector sum;
+  int count = 0;
+  for (const int v : ends)
+  {
+    const Vector& place = this->Mesh.Position[static_cast<std::size_t>(v)];
+    if (SquaredDistance(put(place), place) == 0.f)
+    {
+      sum += place;
+      ++count;
+    }
+  }
+  return put(count > 0 ? sum * (1.f / static_cast<float>(count)) : middle);
 }
 
 float LatticeCutter::ValueAt(const std::array<int, 3>& halves, int object) const
@@ -413,7 +506,12 @@ Vector LatticeCutter::PlaceOf(const LatticeSite& site) const
   std::array<double, 3> place;
   for (int axis = 0; axis < 3; ++axis)
   {
-    place[axis] = 0.5 * this->Pitch[axis] * this->Fields.Step()[axis] * site.At[axis];
+    const int twice = this->Pitch[axis] * site.At[axis];
+    const double beyond = Beyond[axis] - 0.5 * (this->Pitch[axis] - 1);
+    const double moved = twice < 2 * this->Box.First[axis] ? -beyond
+      : twice > 2 * this->Box.End[axis] - 2                ? beyond
+                                                           : 0.;
+    place[axis] = this->Fields.Step()[axis] * (0.5 * twice + moved);
   }
   return Vector(VectorD(place[0], place[1], place[2]));
 }
@@ -427,6 +525,26 @@ LatticeCutter::Key LatticeCutter::KeyOf(const LatticeSite& site) const
     static_cast<Key>(2 * this->Map.Size[0]) * (y + static_cast<Key>(2 * this->Map.Size[1]) * z);
 }
 
+LatticeCutter::Number LatticeCutter::FirstSideOf(const LatticeSite& a, const LatticeSite& b) const
+{
+  const auto [first, last] = std::minmax(a.Object, b.Object);
+  return this->Mesh.IsSide(first) ? first : this->Mesh.IsSide(last) ? last : Number(0);
+}
+
+float LatticeCutter::ShareOf(const LatticeSite& from, const LatticeSite& to) const
+{
+  if (const Number side = this->FirstSideOf(from, to))
+  {
+    const int axis = this->Mesh.AxisOf(side);
+    const float start = CoordinateOf(this->PlaceOf(from), axis);
+    return (this->Mesh.PlaneOf(side) - start) / (CoordinateOf(this->PlaceOf(to), axis) - start);
+  }
+  const float first = this->ValueAt(from.At, from.Object) - this->ValueAt(from.At, to.Object);
+  const float last = this->ValueAt(to.At, to.Object) - this->ValueAt(to.At, from.Object);
+  const float both = first + last;
+  return std::clamp(both > 0.f ? first / both : 0.5f, LeastShare, 1.f - LeastShare);
+}
+
 int LatticeCutter::VertexOn(const LatticeSite& a, const LatticeSite& b)
 {
   const bool isInOrder = IsBefore(a, b);
@@ -435,14 +553,13 @@ int LatticeCutter::VertexOn(const LatticeSite& a, const LatticeSite& b)
   const auto found = this->OnEdge.emplace(this->KeyOf(from) * 128 + DirectionTo(from, to), -1);
   if (found.second)
   {
-    const float first = this->ValueAt(from.At, from.Object) - this->ValueAt(from.At, to.Object);
-    const float last = this->ValueAt(to.At, to.Object) - this->ValueAt(to.At, from.Object);
-    const float both = first + last;
-    const float share =
-      std::clamp(both > 0.f ? first / both : 0.5f, LeastShare, 1.f - LeastShare);
-    const Vector place = this->PlaceOf(from);
-    found.first->second = this->Mesh.AddVertex(
-      place + (this->PlaceOf(to) - place) * share, Stratum::Interface);
+    Vector place = this->PlaceOf(from);
+    place += (this->PlaceOf(to) - place) * this->ShareOf(from, to);
+    if (const Number side = this->FirstSideOf(a, b))
+    {
+      this->PutOnSide(place, side);
+    }
+    found.first->second = this->Mesh.AddVertex(place, Stratum::Interface);
   }
   return found.first->second;
 }
@@ -465,14 +582,46 @@ int LatticeCutter::VertexOn(const LatticeSite& a, const LatticeSite& b, const La
     {
       middle += this->Mesh.Position[static_cast<std::size_t>(v)] * (1.f / 3.f);
     }
-    found.first->second = this->Mesh.AddVertex(middle, Stratum::Interface);
+    std::sort(sites.begin(), sites.end(),
+      [](const LatticeSite* p, const LatticeSite* q) { return p->Object < q->Object; });
+    found.first->second = this->Mesh.AddVertex(
+      this->Mesh.IsSide(sites[2]->Object) ? this->OnSidesOf(sites) : middle, Stratum::Interface);
   }
   return found.first->second;
+}
+
+Vector LatticeCutter::OnSidesOf(const std::array<const LatticeSite*, 3>& sites)
+{
+  const auto placeOn = [&](const LatticeSite& p, const LatticeSite& q)
+  {
+    const int vertex = this->VertexOn(p, q);
+    return this->Mesh.Position[static_cast<std::size_t>(vertex)];
+  };
+  const int last = sites[2]->Object;
+  if (!this->Mesh.IsSide(sites[1]->Object))
+  {
+    Vector middle = (placeOn(*sites[0], *sites[2]) + placeOn(*sites[1], *sites[2])) * 0.5f;
+    this->PutOnSide(middle, last);
+    return middle;
+  }
+  // From one point of the first side to another one, to where the second one is.
+  const Vector start = placeOn(*sites[0], *sites[1]);
+  const Vector way = placeOn(*sites[1], *sites[2]) - start;
+  const int axis = this->Mesh.AxisOf(last);
+  Vector place = start +
+    way * ((this->Mesh.PlaneOf(last) - CoordinateOf(start, axis)) / CoordinateOf(way, axis));
+  this->PutOnSide(place, last);
+  return place;
 }
 
 void LatticeCutter::AddTriangle(
   const std::array<int, 3>& vertices, const LatticeSite& behind, const LatticeSite& front)
 {
+  const auto isOutside = [this](Number object) { return object == 0 || this->Mesh.IsSide(object); };
+  if (isOutside(behind.Object) && isOutside(front.Object))
+  {
+    return;
+  }
   InterfaceMesh::Face face = { vertices, std::min(behind.Object, front.Object),
     std::max(behind.Object, front.Object) };
   // An edge from one side to the other passes the plane.
