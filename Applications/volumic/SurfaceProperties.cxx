@@ -68,19 +68,24 @@ int FindName(const std::vector<std::string>& names, const std::string& name)
 
 // An enumeration; its names in the order of its values.
 template <class Getter, class Setter>
-PropertyOption Menu(const char* property, const char* option, const char* help,
+PropertyOption Menu(const char* filter, const char* property, const char* option, const char* help,
   const std::vector<std::string>& names, Getter get, Setter set)
 {
-  return PropertyOption{ option, JoinNames(names), "vtkDeformableSurface", property, help,
-    [=](const FilterTrio& filters) { return names.at(get(filters.Surface)); },
+  return PropertyOption{ option, JoinNames(names), filter, property, help,
+    [=](const FilterTrio& filters) { return names.at(get(filters)); },
     [=](const FilterTrio& filters, const std::string& text)
-    { set(filters.Surface, FindName(names, text)); } };
+    { set(filters, FindName(names, text)); } };
 }
-#define SURFACE_MENU(PROPERTY, OPTION, HELP, ...)                           \
-  Menu(                                                                     \
-    #PROPERTY, OPTION, HELP, { __VA_ARGS__ },                               \
-    [](vtkDeformableSurface* surface) { return surface->Get##PROPERTY(); }, \
-    [](vtkDeformableSurface* surface, int value) { surface->Set##PROPERTY(value); })
+
+#define VOLUMIC_MENU(FILTER, CLASS, PROPERTY, OPTION, HELP, ...)                 \
+  Menu(                                                                          \
+    CLASS, #PROPERTY, OPTION, HELP, { __VA_ARGS__ },                             \
+    [](const FilterTrio& filters) { return filters.FILTER->Get##PROPERTY(); },   \
+    [](const FilterTrio& filters, int value) { filters.FILTER->Set##PROPERTY(value); })
+#define SURFACE_MENU(PROPERTY, OPTION, HELP, ...) \
+  VOLUMIC_MENU(Surface, "vtkDeformableSurface", PROPERTY, OPTION, HELP, __VA_ARGS__)
+#define LABELS_MENU(PROPERTY, OPTION, HELP, ...) \
+  VOLUMIC_MENU(Labels, "vtkLabelsToSurfaces", PROPERTY, OPTION, HELP, __VA_ARGS__)
 
 std::vector<PropertyOption> MakeProperties()
 {
@@ -213,6 +218,10 @@ std::vector<PropertyOption> MakeProperties()
     LABELS_SWITCH(SharedInterfaces, true, "shared-interfaces",
       "with --labels: one mesh, in which neighbours have the same triangles between them; a file "
       "of solids or for their meshers, .vtu, .inp, .msh, .smesh or .poly, implies it"),
+    LABELS_MENU(BoxFaces, "box-faces",
+      "with --labels as one mesh: what surfaces are where labels reach the border of the volume; "
+      "flat: in its planes, with edges and corners, for boundary conditions of a box",
+      "rounded", "flat"),
   };
 }
 }
