@@ -66,7 +66,7 @@ void LabelSettings::Check(double unit) const
   if (this->HasFlatBox() && !this->SharedInterfaces)
   {
     Refuse("Box Faces are to be flat, which only Shared Interfaces can have. Switch Shared "
-           "Interfaces on, or set Box Faces to 0 (rounded).");
+           "Interfaces on, or set Box Faces to rounded.");
   }
   CheckNumber("Edge Length", this->EdgeLength);
   CheckGrading(this->Grading, this->EdgeLength);

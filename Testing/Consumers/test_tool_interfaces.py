@@ -255,7 +255,7 @@ class BoxTest(InterfacesTest):
     def test_without_it_nothing_is_flat(self):
         self.make(grains(), "b.vtp", options=["--shared-interfaces"])
         self.assertIsNone(read(self.path("b.vtp")).GetCellData().GetArray("BoxFace"))
-        self.refused("Box Faces are to be flat.*Switch Shared Interfaces on", self.map_of(grains()),
+        self.refused("--box-faces are to be flat.*Give --shared-interfaces", self.map_of(grains()),
                      self.path("o/"), "--labels", "all", "--box-faces", "flat")
 
 
