@@ -52,7 +52,8 @@
  * a triangle, and that which its normal points to, BackgroundLabel where that is outside; of a line
  *   BackgroundLabel twice. With Merge the label behind is that of the nearest voxel.
  * - cell data `BoxFace` (unsigned char), with flat BoxFaces, of blocks, too: at which side of the
- *   image a triangle is, along its axes: 1 x-min, 2 x-max, 3 y-min, 4 y-max, 5 z-min, 6 z-max; 0: none
+ *   image a triangle is, along its axes: 1 x-min, 2 x-max, 3 y-min, 4 y-max, 5 z-min, 6 z-max; 0:
+ * none
  * - point data `Junction` (unsigned char): 0 on an interface, 1 on a junction line, 2 where lines
  *   meet or end
  * - point data `EdgeSize` (float): with Tolerance, the length of edges that is wanted there
@@ -221,10 +222,10 @@ public:
   ///@{
   /**
    * What surfaces are where labels reach the border of the image. Rounded, the default: closed as
-   * elsewhere, about half a voxel beyond the outermost centres. Flat, with SharedInterfaces only, as
-   * boundary conditions of a box want it: exactly in the planes there; cell data `BoxFace` of blocks
-   * and interfaces tell in which, edges of the box, and rims where labels end, are lines of the
-   * interfaces, and corners are points of Junction 2.
+   * elsewhere, about half a voxel beyond the outermost centres. Flat, with SharedInterfaces only,
+   * as boundary conditions of a box want it: exactly in the planes there; cell data `BoxFace` of
+   * blocks and interfaces tell in which, edges of the box, and rims where labels end, are lines of
+   * the interfaces, and corners are points of Junction 2.
    */
   void SetBoxFaces(int value);
   int GetBoxFaces();

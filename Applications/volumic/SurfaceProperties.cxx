@@ -77,10 +77,10 @@ PropertyOption Menu(const char* filter, const char* property, const char* option
     { set(filters, FindName(names, text)); } };
 }
 
-#define VOLUMIC_MENU(FILTER, CLASS, PROPERTY, OPTION, HELP, ...)                 \
-  Menu(                                                                          \
-    CLASS, #PROPERTY, OPTION, HELP, { __VA_ARGS__ },                             \
-    [](const FilterTrio& filters) { return filters.FILTER->Get##PROPERTY(); },   \
+#define VOLUMIC_MENU(FILTER, CLASS, PROPERTY, OPTION, HELP, ...)               \
+  Menu(                                                                        \
+    CLASS, #PROPERTY, OPTION, HELP, { __VA_ARGS__ },                           \
+    [](const FilterTrio& filters) { return filters.FILTER->Get##PROPERTY(); }, \
     [](const FilterTrio& filters, int value) { filters.FILTER->Set##PROPERTY(value); })
 #define SURFACE_MENU(PROPERTY, OPTION, HELP, ...) \
   VOLUMIC_MENU(Surface, "vtkDeformableSurface", PROPERTY, OPTION, HELP, __VA_ARGS__)
@@ -116,7 +116,8 @@ std::vector<PropertyOption> MakeProperties()
       "end at a coarse level of at most a million voxels, to try a value of --iso"),
     SURFACE_MENU(Initialization, "initialization",
       "what to start from: a rounded box about the image; seeds, at --seed-position and the "
-      "points of --seeds, or on a grid; the iso-surface of the coarsest level; or --initial-surface",
+      "points of --seeds, or on a grid; the iso-surface of the coarsest level; or "
+      "--initial-surface",
       "icosahedron", "seeds", "iso-surface", "input-surface"),
     SURFACE_NUMBER(SeedRadius, "seed-radius", "LENGTH",
       "radius of the seeds in world units; 0: 1.2 times the shortest edge of the coarsest level"),
@@ -205,14 +206,13 @@ std::vector<PropertyOption> MakeProperties()
       "iterations from one of the --snapshots to the next; 0: none"),
     LABELS_NUMBER(BackgroundLabel, "background", "LABEL",
       "with --labels: the label that is nothing, and not one of all"),
-    LABELS_SWITCH(
-      Merge, true, "merge", "with --labels: one surface about all of them together"),
+    LABELS_SWITCH(Merge, true, "merge", "with --labels: one surface about all of them together"),
     LABELS_NUMBER(Smoothing, "smoothing", "VOXELS",
       "with --labels: how far the stairs between voxels are smoothed, in smallest distances of "
       "voxels or 5/8 of the longest; 0: not at all"),
     LABELS_NUMBER(VoxelTolerance, "voxel-tolerance", "VOXELS",
-      "with --labels: how far the centre of a voxel may be on the wrong side, in smallest distances "
-      "of voxels: .5 makes noise and stairs smooth, 0 keeps each voxel"),
+      "with --labels: how far the centre of a voxel may be on the wrong side, in "
+      "smallest distances of voxels: .5 makes noise and stairs smooth, 0 keeps each voxel"),
     LABELS_NUMBER(Gap, "gap", "LENGTH",
       "with --labels: the space between the surfaces of neighbours, in world units"),
     LABELS_SWITCH(SharedInterfaces, true, "shared-interfaces",

@@ -293,15 +293,15 @@ LabelSurface LabelInterfaceMaker::SurfaceOf(int object, const std::vector<int>& 
     this->Mesh.FindObjects(vertices[n], objects);
     const float own = this->Fields->ValueAt(object, place);
     // Where there are only sides of the box beside it, it is where it should be.
-    float others = objects.size() == 1 || this->Mesh.IsSide(objects[1]) ? own : -2.f * LabelField::Far;
+    float others =
+      objects.size() == 1 || this->Mesh.IsSide(objects[1]) ? own : -2.f * LabelField::Far;
     for (const int other : objects)
     {
       others = other == object || this->Mesh.IsSide(other)
         ? others
         : std::max(others, this->Fields->ValueAt(other, place));
     }
-    surface.Residual.push_back(
-      static_cast<float>(0.5 * this->Space.WorldUnit() * (own - others)));
+    surface.Residual.push_back(static_cast<float>(0.5 * this->Space.WorldUnit() * (own - others)));
     surface.Motionless.push_back(this->IsFinished ? 1 : 0);
     surface.Held.push_back(0);
     ids->InsertNextValue(vertices[n]);

@@ -294,7 +294,8 @@ inline void ExpectSound(const InterfaceMesh& mesh)
     for (const int f : about)
     {
       placed.push_back(PlacedFaceOf(mesh, mesh.Faces[static_cast<std::size_t>(f)]));
-      placed.back().Front = mesh.IsSide(placed.back().Front) ? LabelMap::Number(0) : placed.back().Front;
+      placed.back().Front =
+        mesh.IsSide(placed.back().Front) ? LabelMap::Number(0) : placed.back().Front;
     }
     EXPECT_TRUE(AreInOrder(line[0], line[1], placed)) << line[0] << ' ' << line[1];
   }
@@ -318,11 +319,12 @@ inline std::array<int, 6> ExpectFlatSides(const InterfaceMesh& mesh, const Inter
       {
         const int axis = side / 2;
         const bool isFirst = side % 2 == 0;
-        const auto plane = static_cast<float>(fields.Step()[axis] *
-          ((isFirst ? box.First[axis] : box.End[axis]) - 0.5));
+        const auto plane = static_cast<float>(
+          fields.Step()[axis] * ((isFirst ? box.First[axis] : box.End[axis]) - 0.5));
         const bool isAt = face.Front == mesh.FirstSide + side;
         EXPECT_TRUE(isAt ? at[axis] == plane
-                         : isFirst ? at[axis] >= plane : at[axis] <= plane)
+            : isFirst    ? at[axis] >= plane
+                         : at[axis] <= plane)
           << side << ' ' << at[axis] << ' ' << plane;
         counts[side] += isAt ? 1 : 0;
       }

@@ -77,8 +77,8 @@ TEST_P(InterfaceLatticeOfNoise, IsSoundAndFlatWhereItEndsAtABox)
       for (const Pitches& pitch :
         { Pitches{ 1, 1, 1 }, Pitches{ 2, 2, 2 }, Pitches{ 2, 2, 1 }, Pitches{ 1, 2, 1 } })
       {
-        SCOPED_TRACE(testing::Message() << objects << ' ' << box.First[0] << ' ' << box.End[0] << ' '
-                                        << pitch[0] << pitch[1] << pitch[2]);
+        SCOPED_TRACE(testing::Message() << objects << ' ' << box.First[0] << ' ' << box.End[0]
+                                        << ' ' << pitch[0] << pitch[1] << pitch[2]);
         const InterfaceMesh mesh = StartOf(scene, pitch);
         ExpectSound(mesh);
         const std::array<int, 6> counts = ExpectFlatSides(mesh, *scene.Fields);

@@ -142,8 +142,7 @@ TEST_P(InterfacesInABox, AreFlatAtItsSides)
   for (const std::array<int, 2>& line : mesh.FindLines())
   {
     mesh.FindFaces(line[0], line[1], about);
-    const auto isOther = [&](int f)
-    { return mesh.Faces[f].Front != mesh.Faces[about[0]].Front; };
+    const auto isOther = [&](int f) { return mesh.Faces[f].Front != mesh.Faces[about[0]].Front; };
     const bool isEdge = about.size() == 2 && std::any_of(about.begin(), about.end(), isOther);
     edges += isEdge ? Length(mesh.Position[line[0]] - mesh.Position[line[1]]) : 0.;
   }

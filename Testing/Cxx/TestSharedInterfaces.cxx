@@ -257,7 +257,8 @@ TEST(SharedInterfaces, AreTheSameWithThreads)
 
 TEST(SharedInterfaces, AreFlatAtTheBorderOfTheImage)
 {
-  const auto filter = FilterOf(LabelImageOf(12, 10, 9, [](int i, int, int) { return i < 5 ? 3. : 7.; }));
+  const auto filter =
+    FilterOf(LabelImageOf(12, 10, 9, [](int i, int, int) { return i < 5 ? 3. : 7.; }));
   filter->Update();
   EXPECT_FALSE(filter->GetInterfaces()->GetCellData()->GetArray("BoxFace"));
   EXPECT_LT(filter->GetInterfaces()->GetBounds()[0], -0.6);

@@ -61,8 +61,7 @@ std::vector<std::vector<std::int64_t>> FindWrong(const InterfaceMesh& mesh,
           p[axis] /= fields.Step()[axis];
         }
       }
-      wrong[object] = 
-        FindWrongVoxels(bricks, static_cast<int>(object), surface, bricks.Inside());
+      wrong[object] = FindWrongVoxels(bricks, static_cast<int>(object), surface, bricks.Inside());
       if (tolerance > 0.)
       {
         wrong[object] = FindMissedVoxels(bricks.Map(), wrong[object], surface, tolerance);

@@ -108,8 +108,11 @@ Vector InterfaceMesh::OnSides(int v, const Vector& place) const
       if (this->IsSide(front))
       {
         const int axis = this->AxisOf(front);
-        (axis == 0 ? moved.X : axis == 1 ? moved.Y : moved.Z) =
-          axis == 0 ? own.X : axis == 1 ? own.Y : own.Z;
+        (axis == 0      ? moved.X
+            : axis == 1 ? moved.Y
+                        : moved.Z) = axis == 0 ? own.X
+          : axis == 1                          ? own.Y
+                                               : own.Z;
       }
     });
   return moved;

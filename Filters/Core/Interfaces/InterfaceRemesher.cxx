@@ -80,9 +80,8 @@ void InterfaceRemesher::Split(int u, int v)
   this->Mesh.FindFaces(u, v, this->AtEdge);
   const Vector middle = (this->Mesh.Position[static_cast<std::size_t>(u)] +
                           this->Mesh.Position[static_cast<std::size_t>(v)]) * 0.5f;
-  const int added = this->Mesh.AddVertex(
-    middle, this->Mesh.IsLine(this->AtEdge) ? Stratum::Line : Stratum::Interface,
-    this->Mesh.SizeOf(u, v));
+  const int added = this->Mesh.AddVertex(middle,
+    this->Mesh.IsLine(this->AtEdge) ? Stratum::Line : Stratum::Interface, this->Mesh.SizeOf(u, v));
   for (const int f : this->AtEdge)
   {
     InterfaceMesh::Face half = this->Mesh.Faces[static_cast<std::size_t>(f)];

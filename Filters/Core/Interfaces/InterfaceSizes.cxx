@@ -33,8 +33,8 @@ class FaceDistances
 public:
   FaceDistances(const InterfaceMesh& mesh, const InterfaceFields& fields, double tolerance,
     const InterfaceMesh::Face& face)
-    : Fields(fields), Of(face), IsOnSide(mesh.IsSide(face.Front)), Near(static_cast<float>(tolerance)),
-      Normal(Normalized(mesh.NormalOf(face)))
+    : Fields(fields), Of(face), IsOnSide(mesh.IsSide(face.Front)),
+      Near(static_cast<float>(tolerance)), Normal(Normalized(mesh.NormalOf(face)))
   {
     for (std::size_t k = 0; k < 3; ++k)
     {

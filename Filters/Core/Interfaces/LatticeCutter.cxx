@@ -15,24 +15,6 @@ namespace
 /** Vertices keep this share of their edge from its ends. */
 constexpr float LeastShare = 0.15f;
 
-/**
- * How far the first sites beyond the sides of a box are moved away from them, in voxels along each
- * axis: so none is on a plane; edges of the lattice leave the box by the side that SideAt() tells,
- * which they do where it is the furthest; and edges between sites beyond two sides pass by the box,
- * which they do as the last ones in it are half a voxel from its sides.
- */
-constexpr std::array<double, 3> Beyond = { 1.2, 1.1, 1. };
-
-float& CoordinateOf(Vector& place, int axis)
-{
-  return axis == 0 ? place.X : axis == 1 ? place.Y : place.Z;
-}
-
-float CoordinateOf(const Vector& place, int axis)
-{
-  return axis == 0 ? place.X : axis == 1 ? place.Y : place.Z;
-}
-
 /** Which of the directions of the lattice's edges leads from one site to a later one. */
 std::uint64_t DirectionTo(const LatticeSite& from, const LatticeSite& to)
 {
@@ -49,28 +31,6 @@ bool IsBefore(const LatticeSite& a, const LatticeSite& b)
   return std::tie(a.At[2], a.At[1], a.At[0]) < std::tie(b.At[2], b.At[1], b.At[0]);
 }
 }
-
-/** The corners of a tetrahedron, and which of them are of one object. */
-struct Tetrahedron
-{
-  std::array<LatticeSite, 4> Corner;
-  std::array<int, 4> Group = { 0, 0, 0, 0 }; ///< of each corner, the objects numbered from 0
-  int Groups = 0;
-
-  void FindGroups()
-  {
-    this->Groups = 0;
-    for (int c = 0; c < 4; ++c)
-    {
-      int same = 0;
-      while (same < c && this->Corner[same].Object != this->Corner[c].Object)
-      {
-        ++same;
-      }
-      this->Group[c] = same < c ? this->Group[same] : this->Groups++;
-    }
-  }
-};
 
 void LatticeCutter::FindMiddles(Executor& executor)
 {
@@ -239,39 +199,6 @@ LatticeSite LatticeCutter::SiteAt(const std::array<int, 3>& halves) const
                              this->Middles.NumberOf(cube[0], cube[1], cube[2]))]
                          : this->ObjectOf({ this->Pitch[0] * cube[0], this->Pitch[1] * cube[1],
                              this->Pitch[2] * cube[2] }) };
-}
-
-LatticeCutter::Number LatticeCutter::SideAt(const std::array<int, 3>& halves) const
-{
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const int twice = this->Pitch[axis] * halves[axis];
-    const bool isBefore = twice < 2 * this->Box.First[axis];
-    if (isBefore || twice > 2 * this->Box.End[axis] - 2)
-    {
-      return static_cast<Number>(this->Mesh.FirstSide + 2 * axis + (isBefore ? 0 : 1));
-    }
-  }
-  return 0;
-}
-
-void LatticeCutter::PutOnSide(Vector& place, int side) const
-{
-  CoordinateOf(place, this->Mesh.AxisOf(side)) = this->Mesh.PlaneOf(side);
-}
-
-bool LatticeCutter::HasSides(int i, int j, int k) const
-{
-  const std::array<int, 3> brick = { i, j, k };
-  VoxelBox about;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    about.First[axis] = LabelBricks::Side * brick[axis] - this->Pitch[axis];
-    about.End[axis] = LabelBricks::Side * (brick[axis] + 1) + this->Pitch[axis];
-  }
-  const VoxelBox inside = about.CommonWith(this->Box);
-  return this->Mesh.FirstSide <= std::numeric_limits<Number>::max() && !inside.IsEmpty() &&
-    !(inside == about);
 }
 
 void LatticeCutter::CutBrick(int i, int j, int k)
@@ -460,34 +387,6 @@ void LatticeCutter::CutInMore(const Tetrahedron& cell)
   }
 }
 
-Vector LatticeCutter::OnSidesOf(
-  const Tetrahedron& cell, const std::vector<int>& ends, const Vector& middle) const
-{
-  const auto put = [&](Vector place)
-  {
-    for (const LatticeSite& site : cell.Corner)
-    {
-      if (this->Mesh.IsSide(site.Object))
-      {
-        this->PutOnSide(place, site.Object);
-      }
-    }
-    return place;
-  };
-  Vector sum;
-  int count = 0;
-  for (const int v : ends)
-  {
-    const Vector& place = this->Mesh.Position[static_cast<std::size_t>(v)];
-    if (SquaredDistance(put(place), place) == 0.f)
-    {
-      sum += place;
-      ++count;
-    }
-  }
-  return put(count > 0 ? sum * (1.f / static_cast<float>(count)) : middle);
-}
-
 float LatticeCutter::ValueAt(const std::array<int, 3>& halves, int object) const
 {
   float sum = 0.f;
@@ -501,21 +400,6 @@ float LatticeCutter::ValueAt(const std::array<int, 3>& halves, int object) const
   return sum / static_cast<float>(count);
 }
 
-Vector LatticeCutter::PlaceOf(const LatticeSite& site) const
-{
-  std::array<double, 3> place;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const int twice = this->Pitch[axis] * site.At[axis];
-    const double beyond = Beyond[axis] - 0.5 * (this->Pitch[axis] - 1);
-    const double moved = twice < 2 * this->Box.First[axis] ? -beyond
-      : twice > 2 * this->Box.End[axis] - 2                ? beyond
-                                                           : 0.;
-    place[axis] = this->Fields.Step()[axis] * (0.5 * twice + moved);
-  }
-  return Vector(VectorD(place[0], place[1], place[2]));
-}
-
 LatticeCutter::Key LatticeCutter::KeyOf(const LatticeSite& site) const
 {
   const Key x = static_cast<Key>(site.At[0]);
@@ -525,19 +409,11 @@ LatticeCutter::Key LatticeCutter::KeyOf(const LatticeSite& site) const
     static_cast<Key>(2 * this->Map.Size[0]) * (y + static_cast<Key>(2 * this->Map.Size[1]) * z);
 }
 
-LatticeCutter::Number LatticeCutter::FirstSideOf(const LatticeSite& a, const LatticeSite& b) const
-{
-  const auto [first, last] = std::minmax(a.Object, b.Object);
-  return this->Mesh.IsSide(first) ? first : this->Mesh.IsSide(last) ? last : Number(0);
-}
-
 float LatticeCutter::ShareOf(const LatticeSite& from, const LatticeSite& to) const
 {
   if (const Number side = this->FirstSideOf(from, to))
   {
-    const int axis = this->Mesh.AxisOf(side);
-    const float start = CoordinateOf(this->PlaceOf(from), axis);
-    return (this->Mesh.PlaneOf(side) - start) / (CoordinateOf(this->PlaceOf(to), axis) - start);
+    return this->ShareOf(from, to, side);
   }
   const float first = this->ValueAt(from.At, from.Object) - this->ValueAt(from.At, to.Object);
   const float last = this->ValueAt(to.At, to.Object) - this->ValueAt(to.At, from.Object);
@@ -588,30 +464,6 @@ int LatticeCutter::VertexOn(const LatticeSite& a, const LatticeSite& b, const La
       this->Mesh.IsSide(sites[2]->Object) ? this->OnSidesOf(sites) : middle, Stratum::Interface);
   }
   return found.first->second;
-}
-
-Vector LatticeCutter::OnSidesOf(const std::array<const LatticeSite*, 3>& sites)
-{
-  const auto placeOn = [&](const LatticeSite& p, const LatticeSite& q)
-  {
-    const int vertex = this->VertexOn(p, q);
-    return this->Mesh.Position[static_cast<std::size_t>(vertex)];
-  };
-  const int last = sites[2]->Object;
-  if (!this->Mesh.IsSide(sites[1]->Object))
-  {
-    Vector middle = (placeOn(*sites[0], *sites[2]) + placeOn(*sites[1], *sites[2])) * 0.5f;
-    this->PutOnSide(middle, last);
-    return middle;
-  }
-  // From one point of the first side to another one, to where the second one is.
-  const Vector start = placeOn(*sites[0], *sites[1]);
-  const Vector way = placeOn(*sites[1], *sites[2]) - start;
-  const int axis = this->Mesh.AxisOf(last);
-  Vector place = start +
-    way * ((this->Mesh.PlaneOf(last) - CoordinateOf(start, axis)) / CoordinateOf(way, axis));
-  this->PutOnSide(place, last);
-  return place;
 }
 
 void LatticeCutter::AddTriangle(

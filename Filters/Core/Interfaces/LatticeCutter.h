@@ -27,7 +27,27 @@ struct LatticeSite
   LabelMap::Number Object;
 };
 
-struct Tetrahedron;
+/** The corners of a tetrahedron, and which of them are of one object. */
+struct Tetrahedron
+{
+  std::array<LatticeSite, 4> Corner;
+  std::array<int, 4> Group = { 0, 0, 0, 0 }; ///< of each corner, the objects numbered from 0
+  int Groups = 0;
+
+  void FindGroups()
+  {
+    this->Groups = 0;
+    for (int c = 0; c < 4; ++c)
+    {
+      int same = 0;
+      while (same < c && this->Corner[same].Object != this->Corner[c].Object)
+      {
+        ++same;
+      }
+      this->Group[c] = same < c ? this->Group[same] : this->Groups++;
+    }
+  }
+};
 
 /** Cuts the tetrahedra of the lattice. */
 class LatticeCutter
@@ -103,7 +123,8 @@ private:
     }
   }
   LatticeSite SiteAt(const std::array<int, 3>& halves) const;
-  /** The side of the box beyond which a site is, along the first axis along which it is; 0: none. */
+  /** The side of the box beyond which a site is, along the first axis along which it is; 0: none.
+   */
   Number SideAt(const std::array<int, 3>& halves) const;
   void PutOnSide(Vector& place, int side) const;
   /** That of two sites which is a side, the first one if both are; 0: none. */
@@ -124,6 +145,7 @@ private:
   Key KeyOf(const LatticeSite& site) const;
   /** What of an edge is before its vertex. @param from earlier than the other one */
   float ShareOf(const LatticeSite& from, const LatticeSite& to) const;
+  float ShareOf(const LatticeSite& from, const LatticeSite& to, int side) const;
   int VertexOn(const LatticeSite& a, const LatticeSite& b);
   int VertexOn(const LatticeSite& a, const LatticeSite& b, const LatticeSite& c);
   /** The same for sites in the order of their objects, of which the last is a side of the box. */
