@@ -97,6 +97,7 @@ vtkLabelsToSurfaces::~vtkLabelsToSurfaces() = default;
   MADE(VoxelTolerance, double, Settings.VoxelTolerance)                 \
   MADE(Gap, double, Settings.Gap)                                       \
   MADE(SharedInterfaces, bool, Settings.SharedInterfaces)               \
+  MADE(BoxFaces, int, Settings.BoxFaces)                                \
   MADE(Metric, int, Settings.Metric)                                    \
   MADE(EdgeLength, double, Settings.EdgeLength)                         \
   MADE(Tolerance, double, Settings.Grading.Tolerance)                   \

@@ -51,6 +51,9 @@
  * - cell data `BoundaryLabels` (int, 2 components, as vtkSurfaceNets3D has them): the label behind
  * a triangle, and that which its normal points to, BackgroundLabel where that is outside; of a line
  *   BackgroundLabel twice. With Merge the label behind is that of the nearest voxel.
+ * - cell data `BoxFace` (unsigned char), with flat BoxFaces, of blocks, too: at which side of the
+ *   image a triangle is, along its axes: 1 x-min, 2 x-max, 3 y-min, 4 y-max, 5 z-min, 6 z-max; 0:
+ * none
  * - point data `Junction` (unsigned char): 0 on an interface, 1 on a junction line, 2 where lines
  *   meet or end
  * - point data `EdgeSize` (float): with Tolerance, the length of edges that is wanted there
@@ -128,6 +131,12 @@ public:
   {
     Voxels = 0,
     World = 1
+  };
+
+  enum BoxFacesType
+  {
+    Rounded = 0,
+    Flat = 1
   };
 
   ///@{
@@ -208,6 +217,20 @@ public:
   void SetSharedInterfaces(bool shared);
   bool GetSharedInterfaces();
   vtkBooleanMacro(SharedInterfaces, bool);
+  ///@}
+
+  ///@{
+  /**
+   * What surfaces are where labels reach the border of the image. Rounded, the default: closed as
+   * elsewhere, about half a voxel beyond the outermost centres. Flat, with SharedInterfaces only,
+   * as boundary conditions of a box want it: exactly in the planes there; cell data `BoxFace` of
+   * blocks and interfaces tell in which, edges of the box, and rims where labels end, are lines of
+   * the interfaces, and corners are points of Junction 2.
+   */
+  void SetBoxFaces(int value);
+  int GetBoxFaces();
+  void SetBoxFacesToRounded() { this->SetBoxFaces(Rounded); }
+  void SetBoxFacesToFlat() { this->SetBoxFaces(Flat); }
   ///@}
 
   ///@{

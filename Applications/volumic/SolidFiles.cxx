@@ -129,10 +129,16 @@ public:
       this->Pairs[entry.first] =
         names.Take(this->Labels[first] + "_to_" + (second == 0 ? outside : this->Labels[second]));
     }
+    this->BoxFaces = { "x_min", "x_max", "y_min", "y_max", "z_min", "z_max" };
+    for (std::string& name : this->BoxFaces)
+    {
+      name = names.Take(name);
+    }
   }
 
   std::map<int, std::string> Labels;
   std::map<Pair, std::string> Pairs;
+  std::array<std::string, 6> BoxFaces;
 };
 
 /** A set's name in Abaqus: it begins with a letter, and has 80 characters at most. */
@@ -231,6 +237,13 @@ void WriteInp(const Solid& solid, const std::string& path, const std::string& re
       nodes.insert(corners.begin(), corners.end());
     }
     file.WriteSet("*NSET, NSET=" + name, nodes);
+  }
+  for (std::size_t side = 0; side < solid.BoxNodes.size(); ++side)
+  {
+    if (!solid.BoxNodes[side].empty())
+    {
+      file.WriteSet("*NSET, NSET=" + names.BoxFaces[side], solid.BoxNodes[side]);
+    }
   }
   file.Finish();
 }

@@ -68,19 +68,24 @@ int FindName(const std::vector<std::string>& names, const std::string& name)
 
 // An enumeration; its names in the order of its values.
 template <class Getter, class Setter>
-PropertyOption Menu(const char* property, const char* option, const char* help,
+PropertyOption Menu(const char* filter, const char* property, const char* option, const char* help,
   const std::vector<std::string>& names, Getter get, Setter set)
 {
-  return PropertyOption{ option, JoinNames(names), "vtkDeformableSurface", property, help,
-    [=](const FilterTrio& filters) { return names.at(get(filters.Surface)); },
+  return PropertyOption{ option, JoinNames(names), filter, property, help,
+    [=](const FilterTrio& filters) { return names.at(get(filters)); },
     [=](const FilterTrio& filters, const std::string& text)
-    { set(filters.Surface, FindName(names, text)); } };
+    { set(filters, FindName(names, text)); } };
 }
-#define SURFACE_MENU(PROPERTY, OPTION, HELP, ...)                           \
-  Menu(                                                                     \
-    #PROPERTY, OPTION, HELP, { __VA_ARGS__ },                               \
-    [](vtkDeformableSurface* surface) { return surface->Get##PROPERTY(); }, \
-    [](vtkDeformableSurface* surface, int value) { surface->Set##PROPERTY(value); })
+
+#define VOLUMIC_MENU(FILTER, CLASS, PROPERTY, OPTION, HELP, ...)               \
+  Menu(                                                                        \
+    CLASS, #PROPERTY, OPTION, HELP, { __VA_ARGS__ },                           \
+    [](const FilterTrio& filters) { return filters.FILTER->Get##PROPERTY(); }, \
+    [](const FilterTrio& filters, int value) { filters.FILTER->Set##PROPERTY(value); })
+#define SURFACE_MENU(PROPERTY, OPTION, HELP, ...) \
+  VOLUMIC_MENU(Surface, "vtkDeformableSurface", PROPERTY, OPTION, HELP, __VA_ARGS__)
+#define LABELS_MENU(PROPERTY, OPTION, HELP, ...) \
+  VOLUMIC_MENU(Labels, "vtkLabelsToSurfaces", PROPERTY, OPTION, HELP, __VA_ARGS__)
 
 std::vector<PropertyOption> MakeProperties()
 {
@@ -111,7 +116,8 @@ std::vector<PropertyOption> MakeProperties()
       "end at a coarse level of at most a million voxels, to try a value of --iso"),
     SURFACE_MENU(Initialization, "initialization",
       "what to start from: a rounded box about the image; seeds, at --seed-position and the "
-      "points of --seeds, or on a grid; the iso-surface of the coarsest level; or --initial-surface",
+      "points of --seeds, or on a grid; the iso-surface of the coarsest level; or "
+      "--initial-surface",
       "icosahedron", "seeds", "iso-surface", "input-surface"),
     SURFACE_NUMBER(SeedRadius, "seed-radius", "LENGTH",
       "radius of the seeds in world units; 0: 1.2 times the shortest edge of the coarsest level"),
@@ -200,19 +206,22 @@ std::vector<PropertyOption> MakeProperties()
       "iterations from one of the --snapshots to the next; 0: none"),
     LABELS_NUMBER(BackgroundLabel, "background", "LABEL",
       "with --labels: the label that is nothing, and not one of all"),
-    LABELS_SWITCH(
-      Merge, true, "merge", "with --labels: one surface about all of them together"),
+    LABELS_SWITCH(Merge, true, "merge", "with --labels: one surface about all of them together"),
     LABELS_NUMBER(Smoothing, "smoothing", "VOXELS",
       "with --labels: how far the stairs between voxels are smoothed, in smallest distances of "
       "voxels or 5/8 of the longest; 0: not at all"),
     LABELS_NUMBER(VoxelTolerance, "voxel-tolerance", "VOXELS",
-      "with --labels: how far the centre of a voxel may be on the wrong side, in smallest distances "
-      "of voxels: .5 makes noise and stairs smooth, 0 keeps each voxel"),
+      "with --labels: how far the centre of a voxel may be on the wrong side, in "
+      "smallest distances of voxels: .5 makes noise and stairs smooth, 0 keeps each voxel"),
     LABELS_NUMBER(Gap, "gap", "LENGTH",
       "with --labels: the space between the surfaces of neighbours, in world units"),
     LABELS_SWITCH(SharedInterfaces, true, "shared-interfaces",
       "with --labels: one mesh, in which neighbours have the same triangles between them; a file "
       "of solids or for their meshers, .vtu, .inp, .msh, .smesh or .poly, implies it"),
+    LABELS_MENU(BoxFaces, "box-faces",
+      "with --labels as one mesh: what surfaces are where labels reach the border of the volume; "
+      "flat: in its planes, with edges and corners, for boundary conditions of a box",
+      "rounded", "flat"),
   };
 }
 }

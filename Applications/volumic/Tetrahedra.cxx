@@ -11,6 +11,7 @@
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkFieldData.h>
+#include <vtkIdList.h>
 #include <vtkIntArray.h>
 #include <vtkMath.h>
 #include <vtkNew.h>
@@ -262,6 +263,32 @@ vtkSmartPointer<vtkUnstructuredGrid> ReadMedit(const std::string& name, vtkPolyD
   return grid;
 }
 
+/** A mesher keeps the corners of all triangles. */
+std::array<std::set<vtkIdType>, 6> FindBoxNodes(vtkPolyData* surface, vtkUnstructuredGrid* grid)
+{
+  std::array<std::set<vtkIdType>, 6> nodes;
+  vtkDataArray* faces = surface->GetCellData()->GetArray("BoxFace");
+  std::map<Vector3, vtkIdType> numbers;
+  Vector3 place;
+  for (vtkIdType point = 0; faces && point < grid->GetNumberOfPoints(); ++point)
+  {
+    grid->GetPoint(point, place.data());
+    numbers[place] = point;
+  }
+  vtkNew<vtkIdList> corners;
+  for (vtkIdType cell = 0; faces && cell < surface->GetNumberOfCells(); ++cell)
+  {
+    const auto face = static_cast<std::size_t>(faces->GetTuple1(cell));
+    surface->GetCellPoints(cell, corners);
+    for (vtkIdType k = 0; face > 0 && k < corners->GetNumberOfIds(); ++k)
+    {
+      surface->GetPoint(corners->GetId(k), place.data());
+      nodes[face - 1].insert(numbers.at(place));
+    }
+  }
+  return nodes;
+}
+
 /** The least angle between two faces, degrees. */
 double LeastAngleOf(const std::array<Vector3, 4>& corners)
 {
@@ -347,6 +374,7 @@ const Solid& SolidMaker::Make(vtkPolyData* surface, const std::string& beside, P
   {
     solid.Names[numbers[i]] = labels[i].Name;
   }
+  solid.BoxNodes = FindBoxNodes(surface, solid.Grid);
   Measure(solid);
   for (const auto& [number, name] : solid.Names)
   {

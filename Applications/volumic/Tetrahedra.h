@@ -9,6 +9,7 @@
 
 #include <array>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,10 @@ struct Solid
     double Volume = 0.0; ///< world units cubed
   };
   std::map<int, Region> Regions; ///< by the numbers in the grid
+
+  /** At flat faces of a box, by BoxFace less 1, the nodes; those of edges and corners are in
+   * several. */
+  std::array<std::set<vtkIdType>, 6> BoxNodes;
 };
 
 /** How solids are made of surfaces. */
@@ -96,7 +101,8 @@ void WriteSolidMsh(const Solid& solid, const std::string& path, const std::strin
 /**
  * Abaqus's and CalculiX's .inp: nodes, elements C3D4, for each label a set of elements and one of
  * nodes, for each two labels that touch, or one and the outside, an element surface and a set of
- * nodes. Names are letters, digits and underscores. Materials and steps are the user's.
+ * nodes, and one for each flat face of a box, x_min and so on. Names are letters, digits and
+ * underscores. Materials and steps are the user's.
  */
 void WriteInp(const Solid& solid, const std::string& path, const std::string& remark);
 }

@@ -65,6 +65,7 @@ set(volumic_core_sources
   Interfaces/InterfaceSizes.cxx
   Interfaces/InterfaceSlivers.cxx
   Interfaces/LatticeCutter.cxx
+  Interfaces/LatticeSides.cxx
   Interfaces/MakeInterfaces.cxx
   Interfaces/VertexTargets.cxx
   Surface/ComponentNesting.cxx

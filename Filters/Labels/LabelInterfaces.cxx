@@ -45,6 +45,24 @@ int MarginFor(double sigma)
   const int reach = static_cast<int>(std::ceil(3.0 * sigma)) - side;
   return std::max(1, (reach + side - 1) / side) * side;
 }
+/** Has what is beyond a box go on with the nearest voxel in it. */
+void GoOnBeyond(LabelMap& map, const VoxelBox& box)
+{
+  const VoxelBox all = VoxelBox::Of(map.Size);
+  const auto nearest = [&](int at, int axis)
+  { return std::clamp(at, box.First[axis], box.End[axis] - 1); };
+  ForRowsOf(all, all,
+    [&](std::int64_t first, std::int64_t count)
+    {
+      const std::array<int, 3> at = VoxelNumbers(map.Size).PlaceOf(first);
+      for (int i = 0; i < static_cast<int>(count); ++i)
+      {
+        map.Voxels[static_cast<std::size_t>(first + i)] =
+          map.At(nearest(i, 0), nearest(at[1], 1), nearest(at[2], 2));
+      }
+    });
+}
+
 /** Of the whole work. */
 constexpr double FieldShare = 0.4;
 
@@ -119,8 +137,11 @@ LabelInterfaceMaker::LabelInterfaceMaker(LabelMap map, int objects, vtkImageData
   : Settings(settings), Space(image, static_cast<Metric>(settings.Metric))
 {
   LabelSurfaceMaker::PlanOf(settings, image); // Lengths have the same limits.
+  const bool isFlat = settings.HasFlatBox();
   const VoxelBox box = BoxOf(map, objects);
-  const int margin = MarginFor(LabelSurfaceMaker::FieldOptions(settings, map).Sigma);
+  // With flat faces fields are those of labels that go on beyond them, for the whole Gaussian.
+  const int margin = MarginFor(LabelSurfaceMaker::FieldOptions(settings, map).Sigma) +
+    (isFlat ? LabelBricks::Side : 0);
   std::transform(box.First.begin(), box.First.end(), this->First.begin(),
     [margin](int first) { return first - margin; });
   const auto keep = static_cast<KeepComponentsType>(settings.KeepComponents);
@@ -141,7 +162,16 @@ LabelInterfaceMaker::LabelInterfaceMaker(LabelMap map, int objects, vtkImageData
     this->InImage.First[axis] = std::max(-this->First[axis], 0);
     this->InImage.End[axis] = std::min(map.Size[axis] - this->First[axis], this->Map.Size[axis]);
   }
-  threads.Run([&] { this->Bricks.emplace(this->Map, threads); });
+  if (isFlat)
+  {
+    GoOnBeyond(this->Map, this->InImage);
+  }
+  threads.Run(
+    [&]
+    {
+      this->Bricks.emplace(
+        this->Map, threads, isFlat ? this->InImage : VoxelBox::Of(this->Map.Size));
+    });
 }
 
 InterfaceOptions LabelInterfaceMaker::Options() const
@@ -194,6 +224,22 @@ Point LabelInterfaceMaker::InWorkspace(const Vector& place) const
     place.Z + this->First[2] * step[2] };
 }
 
+Point LabelInterfaceMaker::PlaceOf(int v) const
+{
+  Point place = this->InWorkspace(this->Mesh.Position[static_cast<std::size_t>(v)]);
+  this->Mesh.ForFaces(v,
+    [&](int f)
+    {
+      if (const int side = this->BoxFaceOf(this->Mesh.Faces[static_cast<std::size_t>(f)]))
+      {
+        const int axis = (side - 1) / 2;
+        const int voxel = (side % 2 == 1 ? this->InImage.First : this->InImage.End)[axis];
+        place[axis] = this->Space.Step()[axis] * (this->First[axis] + voxel - 0.5);
+      }
+    });
+  return place;
+}
+
 LabelSurface LabelInterfaceMaker::SurfaceOf(int object, const std::vector<int>& faces) const
 {
   LabelSurface made;
@@ -239,19 +285,23 @@ LabelSurface LabelInterfaceMaker::SurfaceOf(int object, const std::vector<int>& 
   for (std::size_t n = 0; n < vertices.size(); ++n)
   {
     const Vector& place = this->Mesh.Position[static_cast<std::size_t>(vertices[n])];
-    surface.Points[n] = this->InWorkspace(place);
+    surface.Points[n] = this->PlaceOf(vertices[n]);
     inVoxels.Points[n] = { place.X / step[0], place.Y / step[1], place.Z / step[2] };
     const VectorD normal = Normalized(normals[n]);
     surface.Normals.push_back({ static_cast<float>(normal.X), static_cast<float>(normal.Y),
       static_cast<float>(normal.Z) });
     this->Mesh.FindObjects(vertices[n], objects);
-    float others = -2.f * LabelField::Far;
+    const float own = this->Fields->ValueAt(object, place);
+    // Where there are only sides of the box beside it, it is where it should be.
+    float others =
+      objects.size() == 1 || this->Mesh.IsSide(objects[1]) ? own : -2.f * LabelField::Far;
     for (const int other : objects)
     {
-      others = other != object ? std::max(others, this->Fields->ValueAt(other, place)) : others;
+      others = other == object || this->Mesh.IsSide(other)
+        ? others
+        : std::max(others, this->Fields->ValueAt(other, place));
     }
-    surface.Residual.push_back(static_cast<float>(
-      0.5 * this->Space.WorldUnit() * (this->Fields->ValueAt(object, place) - others)));
+    surface.Residual.push_back(static_cast<float>(0.5 * this->Space.WorldUnit() * (own - others)));
     surface.Motionless.push_back(this->IsFinished ? 1 : 0);
     surface.Held.push_back(0);
     ids->InsertNextValue(vertices[n]);
@@ -270,6 +320,16 @@ LabelSurface LabelInterfaceMaker::SurfaceOf(int object, const std::vector<int>& 
   made.VolumeError = VolumeErrorOf(inVoxels, this->Counted().ExtentOf(object).Voxels);
   made.Surface = MakePolyData(std::move(surface), description, this->Space);
   made.Surface->GetPointData()->SetGlobalIds(ids);
+  if (this->Settings.HasFlatBox())
+  {
+    vtkNew<vtkUnsignedCharArray> boxFaces;
+    boxFaces->SetName("BoxFace");
+    for (const int f : faces)
+    {
+      boxFaces->InsertNextValue(this->BoxFaceOf(this->Mesh.Faces[static_cast<std::size_t>(f)]));
+    }
+    made.Surface->GetCellData()->AddArray(boxFaces);
+  }
   return made;
 }
 
@@ -306,23 +366,28 @@ vtkSmartPointer<vtkPolyData> LabelInterfaceMaker::Interfaces(
   const double edge = EdgeOf(this->Settings, this->Space) * this->Space.WorldUnit();
   for (std::size_t v = 0; v < this->Mesh.Position.size(); ++v)
   {
-    points->InsertNextPoint(
-      this->Space.ToWorld(this->InWorkspace(this->Mesh.Position[v])).data());
+    points->InsertNextPoint(this->Space.ToWorld(this->PlaceOf(static_cast<int>(v))).data());
     junction->InsertNextValue(static_cast<unsigned char>(this->Mesh.StratumOf[v]));
     sizes->InsertNextValue(static_cast<float>(edge * this->Mesh.Size[v]));
   }
   vtkNew<vtkIntArray> sides;
   sides->SetName("BoundaryLabels");
   sides->SetNumberOfComponents(2);
+  vtkNew<vtkUnsignedCharArray> boxFaces;
+  boxFaces->SetName("BoxFace");
   vtkNew<vtkCellArray> lines;
   for (const std::array<int, 2>& edge : this->Mesh.FindLines())
   {
     lines->InsertNextCell({ edge[0], edge[1] });
     const int nothing[2] = { outside, outside };
     sides->InsertNextTypedTuple(nothing);
+    boxFaces->InsertNextValue(0);
   }
   const auto labelOf = [&](int object)
-  { return object > 0 ? labels[static_cast<std::size_t>(object) - 1] : outside; };
+  {
+    return object > 0 && !this->Mesh.IsSide(object) ? labels[static_cast<std::size_t>(object) - 1]
+                                                    : outside;
+  };
   vtkNew<vtkCellArray> triangles;
   for (const InterfaceMesh::Face& face : this->Mesh.Faces)
   {
@@ -333,12 +398,17 @@ vtkSmartPointer<vtkPolyData> LabelInterfaceMaker::Interfaces(
     const int both[2] = { labelOf(isTurned ? face.Front : face.Behind),
       labelOf(isTurned ? face.Behind : face.Front) };
     sides->InsertNextTypedTuple(both);
+    boxFaces->InsertNextValue(this->BoxFaceOf(face));
   }
   interfaces->SetPoints(points);
   interfaces->SetLines(lines);
   interfaces->SetPolys(triangles);
   interfaces->GetCellData()->AddArray(sides);
   interfaces->GetPointData()->AddArray(junction);
+  if (this->Settings.HasFlatBox())
+  {
+    interfaces->GetCellData()->AddArray(boxFaces);
+  }
   if (this->Settings.Grading.HasTolerance())
   {
     interfaces->GetPointData()->AddArray(sizes);

@@ -46,7 +46,7 @@ public:
 
   /**
    * All interfaces, each once, with `BoundaryLabels` and `Junction`, with a tolerance `EdgeSize`,
-   * and the lines where they meet.
+   * with flat faces of the box `BoxFace`, and the lines where they meet.
    * @param labels of the objects, from 1 on
    * @param outside the value outside
    */
@@ -66,6 +66,14 @@ private:
   }
   LabelSurface SurfaceOf(int object, const std::vector<int>& faces) const;
   Point InWorkspace(const Vector& place) const;
+  /** Of a vertex in the workspace, at flat faces of the box to the last bit. */
+  Point PlaceOf(int v) const;
+  /** At which side of the image a face is, 1 to 6: x-min, x-max, y-min ...; 0: none. */
+  unsigned char BoxFaceOf(const InterfaceMesh::Face& face) const
+  {
+    return static_cast<unsigned char>(
+      this->Mesh.IsSide(face.Front) ? face.Front - this->Mesh.FirstSide + 1 : 0);
+  }
 
   const LabelSettings& Settings;
   std::array<int, 3> First = { 0, 0, 0 }; ///< voxel of the image that is that of Map

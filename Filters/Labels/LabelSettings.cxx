@@ -59,6 +59,15 @@ void LabelSettings::Check(double unit) const
       "labels are thin. Switch Thin Parts off, or Shared Interfaces (files for meshers of solids, "
       ".msh, .smesh and .poly, need them); a shorter Edge Length makes all triangles smaller.");
   }
+  if (this->BoxFaces != 0 && this->BoxFaces != 1)
+  {
+    Refuse("Box Faces is ", this->BoxFaces, "; it must be 0 (rounded) or 1 (flat).");
+  }
+  if (this->HasFlatBox() && !this->SharedInterfaces)
+  {
+    Refuse("Box Faces are to be flat, which only Shared Interfaces can have. Switch Shared "
+           "Interfaces on, or set Box Faces to rounded.");
+  }
   CheckNumber("Edge Length", this->EdgeLength);
   CheckGrading(this->Grading, this->EdgeLength);
   CheckNumber("Minimum Component Volume", this->MinimumComponentVolume);

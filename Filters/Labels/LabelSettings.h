@@ -14,12 +14,15 @@ struct LabelSettings
   double VoxelTolerance = 0.0; ///< smallest distances of voxels
   double Gap = 0.0;            ///< world units
   bool SharedInterfaces = false;
+  int BoxFaces = 0; ///< where labels reach the border of the image: 0 rounded, 1 flat
   int Metric = 1;
   double EdgeLength = 0.0;
   volumic::Grading Grading;
   int FinestLevel = 0;
   int KeepComponents = 0;
   double MinimumComponentVolume = 0.0;
+
+  bool HasFlatBox() const { return this->BoxFaces == 1; }
 
   /**
    * @param unit the smallest distance of voxels, world units

@@ -13,7 +13,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOLegacy import vtkPolyDataReader
 
 from test_tool_labels import LabelsTest
-from tool_test_case import ISO, make_image
+from tool_test_case import ISO, TURNED, make_image
 from vtk_files import points_of, read, read_blocks, triangles_of
 
 SPACING, ORIGIN = np.array([1.0, 1.25, 0.75]), np.array([5.0, -3.0, 40.0])
@@ -36,6 +36,26 @@ def nested():
     voxels[8:14, 8:14, 18:24] = 0
     voxels[6:14, 6:14, 34:42] = -3
     return voxels
+
+
+def grains():
+    """[z, y, x] The cells of ten points, which fill all."""
+    shape = (21, 24, 27)
+    seeds = np.random.default_rng(5).random((10, 3)) * shape
+    way = SPACING[::-1] * (np.stack(np.indices(shape), axis=-1)[..., None, :] - seeds)
+    return (np.argmin((way ** 2).sum(-1), axis=-1) + 1).astype("u1")
+
+
+def leaving():
+    """[z, y, x] A ball that leaves the volume at x-min, and a block that does at an edge."""
+    z, y, x = np.indices((24, 26, 28))
+    return np.select([(x - 1) ** 2 + (y - 9) ** 2 + (z - 9) ** 2 < 40, (y > 17) & (z > 15) & (x > 15) & (x < 25)],
+                     [1, 2], 0).astype("u1")
+
+
+def edges_of(triangles):
+    return Counter(tuple(sorted(pair)) for triangle in triangles.tolist()
+                   for pair in zip(triangle, triangle[1:] + triangle[:1]))
 
 
 def solid_angles(points, triangles, place):
@@ -78,8 +98,7 @@ class OneMeshTest(InterfacesTest):
         self.assertEqual(set(map(tuple, np.sort(sides, axis=1).tolist())),
                          {(0, 1), (0, 2), (0, 4), (0, 9), (1, 2), (1, 4), (2, 4), (1, 9), (2, 9),
                           (4, 9)})
-        edges = Counter(tuple(sorted(pair)) for triangle in triangles.tolist()
-                        for pair in zip(triangle, triangle[1:] + triangle[:1]))
+        edges = edges_of(triangles)
         self.assertEqual({edge for edge, count in edges.items() if count > 2},
                          {tuple(sorted(line)) for line in lines.tolist()})
         self.assertGreaterEqual(min(edges.values()), 2)
@@ -169,6 +188,75 @@ def blocks_of(lines, each):
         dimension, entity, third, number = map(int, lines[at].split())
         yield dimension, entity, third, number, at + 1
         at += 1 + number * each
+
+
+class BoxTest(InterfacesTest):
+    """--box-faces flat."""
+
+    def flat(self, voxels, *options):
+        """The mesh of a turned image: points in index space, lines, triangles, labels beside them,
+        and at which side of the image they are."""
+        file = self.map_file("map.vti", make_image(voxels, SPACING, ORIGIN, TURNED))
+        report = self.report(file, self.path("a.vtp"), self.path("a.vtm"), "--labels", "all",
+                             "--shared-interfaces", "--box-faces", "flat", *options)
+        mesh = read(self.path("a.vtp"))
+        points = (points_of(mesh) - ORIGIN) @ np.linalg.inv(TURNED).T / SPACING
+        lines = vtk_to_numpy(mesh.GetLines().GetConnectivityArray()).reshape(-1, 2)
+        faces = vtk_to_numpy(mesh.GetCellData().GetArray("BoxFace"))
+        self.assertFalse(faces[:len(lines)].any())
+        faces, triangles = faces[len(lines):], triangles_of(mesh)
+        sides = vtk_to_numpy(mesh.GetCellData().GetArray("BoundaryLabels"))[len(lines):]
+        at = points[triangles]
+        for face in np.unique(faces[faces > 0]):
+            axis, last = divmod(face - 1, 2)
+            plane = voxels.shape[2 - axis] - 0.5 if last else -0.5
+            self.assertLess(np.abs(at[faces == face][..., axis] - plane).max(), 1e-12)
+            self.assertGreater(np.abs(at[faces != face][..., axis] - plane).max(axis=1).min(), 1e-6)
+            self.assertTrue((sides[faces == face][:, 1] == 0).all())
+        for row in report["labels"]:
+            own = np.where(sides[:, :1] == row["label"], triangles, triangles[:, ::-1])
+            own = own[(sides == row["label"]).any(1)]
+            self.assertEqual(set(edges_of(own).values()), {2})
+            self.assertAlmostEqual(enclosed(points, own) / row["voxels"], 1, delta=0.01)
+        for label, block in zip(np.unique(voxels[voxels > 0]), read_blocks(self.path("a.vtm")).values()):
+            np.testing.assert_array_equal(vtk_to_numpy(block.GetCellData().GetArray("BoxFace")),
+                                          faces[(sides == label).any(1)])
+        return mesh, points, lines, triangles, sides, faces
+
+    def test_grains_fill_a_box(self):
+        for options in ((), ("--tolerance", "0.2")):
+            voxels = grains()
+            mesh, points, lines, triangles, sides, faces = self.flat(voxels, *options)
+            self.assertTrue(((faces > 0) == (sides == 0).any(1)).all())
+            self.assertAlmostEqual(enclosed(points, triangles[faces > 0]), voxels.size, 6)
+            # The box's edges are lines, and its corners ends of these.
+            low, high = np.full(3, -0.5), np.array(voxels.shape[::-1]) - 0.5
+            away = np.sort(np.minimum(np.abs(points - low), np.abs(points - high)), axis=1)
+            along = lines[(away[lines][..., 1] < 1e-9).all(1)]
+            self.assertAlmostEqual(np.linalg.norm(points[along[:, 0]] - points[along[:, 1]], axis=1).sum(),
+                                   4 * sum(voxels.shape), 6)
+            junction = vtk_to_numpy(mesh.GetPointData().GetArray("Junction"))
+            corners = away[:, 2] < 1e-9
+            self.assertEqual((corners.sum(), set(junction[corners])), (8, {2}))
+
+    def test_objects_at_some_sides(self):
+        _, points, lines, triangles, sides, faces = self.flat(leaving())
+        self.assertEqual(Counter(map(tuple, np.column_stack([sides, faces]).tolist())).keys(),
+                         {(1, 0, 0), (2, 0, 0), (1, 0, 1), (2, 0, 4), (2, 0, 6)})
+        # Rims, and the edge of the box, are the lines; elsewhere it is as round as ever.
+        beside = {}
+        for triangle, face in zip(triangles.tolist(), faces.tolist()):
+            for pair in zip(triangle, triangle[1:] + triangle[:1]):
+                beside.setdefault(tuple(sorted(pair)), set()).add(face)
+        self.assertEqual({edge for edge, found in beside.items() if len(found) > 1},
+                         set(map(tuple, np.sort(lines, axis=1).tolist())))
+        self.assertEqual(points[triangles[faces == 0]].min(axis=(0, 1))[0], points[:, 0].min())
+
+    def test_without_it_nothing_is_flat(self):
+        self.make(grains(), "b.vtp", options=["--shared-interfaces"])
+        self.assertIsNone(read(self.path("b.vtp")).GetCellData().GetArray("BoxFace"))
+        self.refused("--box-faces are to be flat.*Give --shared-interfaces", self.map_of(grains()),
+                     self.path("o/"), "--labels", "all", "--box-faces", "flat")
 
 
 class Msh:

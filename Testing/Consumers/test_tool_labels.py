@@ -355,13 +355,16 @@ class OptionsTest(LabelsTest):
                   "ScratchDirectory": ("--scratch", self.folder),
                   "ThinParts": ("--thin-parts",),
                   "SharedInterfaces": ("--shared-interfaces",),
+                  "BoxFaces": ("--box-faces", "flat"),
                   "SelectedComponent": ("--component", "0"), "Merge": ("--merge",)}
         before = self.report(volume, "--labels", "2")["properties"]
         self.assertEqual(set(before), set(values))
         for name, (option, *value) in values.items():
-            after = self.report(volume, "--labels", "2", option, *value)["properties"]
+            also = ["--shared-interfaces"] if name == "BoxFaces" else []
+            after = self.report(volume, "--labels", "2", option, *value, *also)["properties"]
             self.assertEqual({n: v for n, v in after.items() if v != before[n]},
-                             {name: value[0] if value else "on"})
+                             {name: value[0] if value else "on",
+                              **({"SharedInterfaces": "on"} if also else {})})
 
     def test_properties_reach_the_filter(self):
         """What is in common with vtkDeformableSurface is set there first."""
@@ -401,7 +404,7 @@ class OptionsTest(LabelsTest):
                 self.refused(f"{option}( at-points| not-at-seeds)? and --labels exclude each other",
                              "a.vti", "out/", "--labels", "1", option, *value, status=2)
         for option, *value in (
-                ("--merge",), ("--gap", "1"), ("--smoothing", "1"), ("--shared-interfaces",), ("--background", "1"),
+                ("--merge",), ("--gap", "1"), ("--smoothing", "1"), ("--shared-interfaces",), ("--box-faces", "flat"), ("--background", "1"),
                 ("--voxel-tolerance", "0.5"), ("--format", "stl"), ("--label-names", "n")):
             with self.subTest(option):
                 self.refused(f"{option} needs --labels", "a.vti", "out.stl", option, *value,

@@ -14,7 +14,7 @@ import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
-from test_tool_interfaces import InterfacesTest, sections_of
+from test_tool_interfaces import ORIGIN, SPACING, InterfacesTest, sections_of
 from tool_test_case import ISO
 from vtk_files import points_of, read, triangles_of
 
@@ -158,6 +158,23 @@ class MesherTest(SolidsTest):
         self.run_tool(self.map_of(voxels()), self.path("all/"), "--labels", "all", "--format", "vtu")
         self.assertEqual(sorted(os.listdir(self.path("all"))),
                          ["label-1.vtu", "label-2.vtu", "label-4.vtu"])
+
+    def test_nodes_of_a_box(self):
+        """Two labels fill it, one of which has the name that a face of it wants."""
+        found = np.ones((8, 9, 10), "u1")
+        found[:, :, 5:] = 2
+        for mesher in MESHERS:
+            self.run_tool(self.map_of(found), self.path("a.inp"), "--labels", "all", "--label-names",
+                          self.write_bytes("box.json", b'{"1": "x min", "2": "b"}'), "--box-faces",
+                          "flat", "--mesher", mesher)
+            parts = dict(keywords_of(self.path("a.inp")))
+            nodes = np.array(parts["*NODE, NSET=Nall"], float)[:, 1:]
+            places = (nodes - ORIGIN) / SPACING
+            for name, axis, plane in (("x_min_2", 0, -0.5), ("x_max", 0, 9.5), ("y_min", 1, -0.5),
+                                      ("y_max", 1, 8.5), ("z_min", 2, -0.5), ("z_max", 2, 7.5)):
+                numbers = np.array([int(word) for row in parts[f"*NSET, NSET={name}"] for word in row])
+                at = np.abs(places[:, axis] - plane) < 1e-9
+                self.assertEqual(set((numbers - 1).tolist()), set(np.flatnonzero(at).tolist()))
 
     def test_msh_of_tetrahedra(self):
         _, grid = self.solid("a.vtu", "a.msh", options=("--mesher", MESHERS[0]))

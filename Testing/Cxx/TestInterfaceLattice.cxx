@@ -64,6 +64,30 @@ TEST_P(InterfaceLatticeOfNoise, IsSoundWithAnyPitch)
   }
 }
 
+TEST_P(InterfaceLatticeOfNoise, IsSoundAndFlatWhereItEndsAtABox)
+{
+  for (const int objects : { 1, 7 })
+  {
+    const LabelMap noise =
+      NoisyLabelMap({ 16, 17, 15 }, objects, static_cast<unsigned>(GetParam() * 10 + objects));
+    for (const VoxelBox& box : { VoxelBox{ { 4, 4, 4 }, { 12, 13, 11 } },
+           VoxelBox{ { 5, 4, 5 }, { 11, 10, 12 } }, VoxelBox{ { 4, 5, 4 }, { 6, 8, 12 } } })
+    {
+      const InterfaceScene scene(noise, box);
+      for (const Pitches& pitch :
+        { Pitches{ 1, 1, 1 }, Pitches{ 2, 2, 2 }, Pitches{ 2, 2, 1 }, Pitches{ 1, 2, 1 } })
+      {
+        SCOPED_TRACE(testing::Message() << objects << ' ' << box.First[0] << ' ' << box.End[0]
+                                        << ' ' << pitch[0] << pitch[1] << pitch[2]);
+        const InterfaceMesh mesh = StartOf(scene, pitch);
+        ExpectSound(mesh);
+        const std::array<int, 6> counts = ExpectFlatSides(mesh, *scene.Fields);
+        EXPECT_GT(*std::max_element(counts.begin(), counts.end()), 0);
+      }
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Seeds, InterfaceLatticeOfNoise, testing::Range(1, 4));
 
 TEST(InterfaceLattice, IsCoarseWhereObjectsAreThick)

@@ -99,6 +99,74 @@ TEST(MakeInterfaces, TurnsNoPartInsideOut)
   }
 }
 
+class InterfacesInABox : public testing::TestWithParam<std::array<double, 4>>
+{
+};
+
+TEST_P(InterfacesInABox, AreFlatAtItsSides)
+{
+  const std::array<double, 3> spacing = { GetParam()[0], GetParam()[1], GetParam()[2] };
+  InterfaceScene scene(Grains({ 40, 36, 37 }, spacing, 14, 3), { { 8, 8, 8 }, { 32, 29, 28 } });
+  InterfaceOptions options;
+  options.Tolerance = GetParam()[3];
+  const InterfaceMesh mesh =
+    MakeInterfaces(*scene.Fields, options, OnThisThread(), [](double) { return true; });
+  ExpectSound(mesh);
+  for (const int faces : ExpectFlatSides(mesh, *scene.Fields))
+  {
+    EXPECT_GT(faces, 20);
+  }
+  const double ofVoxel = spacing[0] * spacing[1] * spacing[2];
+  double all = 0.;
+  for (int object = 1; object <= 14; ++object)
+  {
+    const double voxels = VoxelsOf(scene, object);
+    const double volume = voxels > 0. ? VolumeOf(mesh, object) / ofVoxel : 0.;
+    EXPECT_NEAR(volume, voxels, std::max(15., 0.01 * voxels)) << object;
+    all += volume;
+  }
+  EXPECT_NEAR(all, 24. * 21. * 20., 1e-3); // the whole box
+  // Its edges are lines, and there are its corners, where objects are at three sides.
+  int corners = 0;
+  double edges = 0.;
+  std::vector<int> about;
+  const auto sidesAt = [&](int v)
+  {
+    mesh.FindObjects(v, about);
+    return std::count_if(about.begin(), about.end(), [&](int o) { return mesh.IsSide(o); });
+  };
+  for (int v = 0; v < static_cast<int>(mesh.Position.size()); ++v)
+  {
+    corners += sidesAt(v) == 3 ? 1 : 0;
+  }
+  for (const std::array<int, 2>& line : mesh.FindLines())
+  {
+    mesh.FindFaces(line[0], line[1], about);
+    const auto isOther = [&](int f) { return mesh.Faces[f].Front != mesh.Faces[about[0]].Front; };
+    const bool isEdge = about.size() == 2 && std::any_of(about.begin(), about.end(), isOther);
+    edges += isEdge ? Length(mesh.Position[line[0]] - mesh.Position[line[1]]) : 0.;
+  }
+  EXPECT_EQ(corners, 8);
+  EXPECT_NEAR(edges, 4. * (24. * spacing[0] + 21. * spacing[1] + 20. * spacing[2]), 1e-3);
+}
+
+INSTANTIATE_TEST_SUITE_P(OfVoxels, InterfacesInABox,
+  testing::Values(std::array<double, 4>{ 1., 1., 1., 0. }, std::array<double, 4>{ 1., 1., 1., 0.3 },
+    std::array<double, 4>{ 1., 1., 2.5, 0. }));
+
+TEST(MakeInterfaces, EndAtABoxInNoiseToo)
+{
+  for (unsigned seed = 0; seed < 6; ++seed)
+  {
+    SCOPED_TRACE(seed);
+    const LabelMap noise = NoisyLabelMap({ 16, 16, 16 }, 1 + static_cast<int>(seed) % 3, seed);
+    InterfaceScene scene(noise, { { 4, 4, 4 }, { 12, 11, 9 } });
+    const InterfaceMesh mesh = Make(scene);
+    ExpectSound(mesh);
+    ExpectFlatSides(mesh, *scene.Fields);
+  }
+}
+
 class StoppedInterfaces : public testing::TestWithParam<int>
 {
 };

@@ -255,6 +255,37 @@ TEST(SharedInterfaces, AreTheSameWithThreads)
   ExpectSameBlocks(one->GetOutput(), all->GetOutput());
 }
 
+TEST(SharedInterfaces, AreFlatAtTheBorderOfTheImage)
+{
+  const auto filter =
+    FilterOf(LabelImageOf(12, 10, 9, [](int i, int, int) { return i < 5 ? 3. : 7.; }));
+  filter->Update();
+  EXPECT_FALSE(filter->GetInterfaces()->GetCellData()->GetArray("BoxFace"));
+  EXPECT_LT(filter->GetInterfaces()->GetBounds()[0], -0.6);
+  filter->SetBoxFacesToFlat();
+  filter->Update();
+  vtkPolyData* interfaces = filter->GetInterfaces();
+  const std::array<double, 6> planes = { -0.5, 11.5, -0.5, 9.5, -0.5, 8.5 };
+  for (std::size_t side = 0; side < planes.size(); ++side)
+  {
+    EXPECT_NEAR(interfaces->GetBounds()[side], planes[side], 1e-12);
+  }
+  EXPECT_EQ(AllSides(interfaces), (std::set<Sides>{ { 3, 0 }, { 7, 0 }, { 3, 7 } }));
+  for (unsigned int block = 0; block < 2; ++block)
+  {
+    vtkPolyData* surface = BlockOf(filter, block);
+    ExpectClosedSurface(surface);
+    EXPECT_NEAR(FieldOf(surface, "Volume") / FieldOf(surface, "LabelVoxels"), 1., 1e-3);
+    EXPECT_EQ(surface->GetCellData()->GetArray("BoxFace")->GetRange()[1], 6.);
+    EXPECT_NEAR(surface->GetPointData()->GetArray("Residual")->GetRange()[1], 0., 0.5);
+  }
+  filter->SetBoxFaces(2);
+  EXPECT_TRUE(Has(ErrorOf(filter), "Box Faces is 2"));
+  filter->SetBoxFacesToFlat();
+  filter->SharedInterfacesOff();
+  EXPECT_TRUE(Has(ErrorOf(filter), "Switch Shared Interfaces on"));
+}
+
 TEST(SharedInterfaces, AreNoneWhereNobodyAsksForThem)
 {
   const auto filter = LabelSurfacesOf(BlocksImage());

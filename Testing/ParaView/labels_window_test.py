@@ -18,7 +18,7 @@ from window_testing import (
 FILTER = filter_of_the_menu("LabelsToSurfaces")
 TABLE = f"{PROPERTIES}/Labels"
 BASIC = ("SetInputArrayToProcess", "Labels", "BackgroundLabel", "Merge", "Smoothing",
-         "VoxelTolerance", "Gap", "SharedInterfaces", "FinestLevel", "EdgeLength", "Tolerance", "ThinParts")
+         "VoxelTolerance", "Gap", "SharedInterfaces", "BoxFaces", "FinestLevel", "EdgeLength", "Tolerance", "ThinParts")
 ADVANCED = ("MaximumEdgeLength", "Gradation", "KeepComponents", "Metric", "TimeLimit",
             "NumberOfThreads", "MemoryLimit", "ScratchDirectory")
 CHECKED, UNCHECKED = 2, 0

@@ -378,6 +378,10 @@ bool InterfaceClearance::AreInOrderAtLines(
           about.push_back(PlacedFaceOf(this->Mesh, there));
         }
       }
+      for (PlacedFace& placed : about)
+      {
+        placed.Front = this->Mesh.IsSide(placed.Front) ? LabelMap::Number(0) : placed.Front;
+      }
       if (about.size() > 2 && !AreInOrder(u, v, about))
       {
         return false;

@@ -61,7 +61,7 @@ std::vector<std::vector<std::int64_t>> FindWrong(const InterfaceMesh& mesh,
           p[axis] /= fields.Step()[axis];
         }
       }
-      wrong[object] = FindWrongVoxels(bricks, static_cast<int>(object), surface);
+      wrong[object] = FindWrongVoxels(bricks, static_cast<int>(object), surface, bricks.Inside());
       if (tolerance > 0.)
       {
         wrong[object] = FindMissedVoxels(bricks.Map(), wrong[object], surface, tolerance);
@@ -92,6 +92,10 @@ void CorrectVolumes(const InterfaceMesh& mesh, InterfaceFields& fields, double t
       const double volume =
         Dot(across, VectorD(mesh.Position[static_cast<std::size_t>(face.Vertex[0])])) / 6.;
       missing[face.Behind] -= volume;
+      if (mesh.IsSide(face.Front))
+      {
+        continue; // It stays where it is.
+      }
       missing[face.Front] += volume;
       areas[{ face.Behind, face.Front }] +=
         0.5 * Length(across) / std::max(SlopeAt(mesh, fields, face), LeastSlope);

@@ -124,7 +124,7 @@ InterfaceMesh InterfaceLattice::Start(Executor& executor) const
     {
       for (int i = 0; i < bricks[0]; ++i)
       {
-        if (this->Fields.HasInterfaces(i, j, k))
+        if (this->Fields.HasInterfaces(i, j, k) || cutter.HasSides(i, j, k))
         {
           cutter.CutBrick(i, j, k);
         }

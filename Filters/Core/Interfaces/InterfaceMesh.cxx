@@ -84,6 +84,40 @@ void InterfaceMesh::FindFaces(int u, int v, std::vector<int>& faces) const
     });
 }
 
+bool InterfaceMesh::IsLine(const std::vector<int>& faces) const
+{
+  const auto isOther = [this](int f, int g)
+  {
+    const Face& first = this->Faces[static_cast<std::size_t>(f)];
+    const Face& second = this->Faces[static_cast<std::size_t>(g)];
+    return first.Behind != second.Behind || first.Front != second.Front;
+  };
+  return faces.size() > 2 || (faces.size() == 2 && isOther(faces[0], faces[1]));
+}
+
+Vector InterfaceMesh::OnSides(int v, const Vector& place) const
+{
+  const Vector& own = this->Position[static_cast<std::size_t>(v)];
+  Vector moved(std::clamp(place.X, this->Planes[0], this->Planes[1]),
+    std::clamp(place.Y, this->Planes[2], this->Planes[3]),
+    std::clamp(place.Z, this->Planes[4], this->Planes[5]));
+  this->ForFaces(v,
+    [&](int f)
+    {
+      const int front = this->Faces[static_cast<std::size_t>(f)].Front;
+      if (this->IsSide(front))
+      {
+        const int axis = this->AxisOf(front);
+        (axis == 0      ? moved.X
+            : axis == 1 ? moved.Y
+                        : moved.Z) = axis == 0 ? own.X
+          : axis == 1                          ? own.Y
+                                               : own.Z;
+      }
+    });
+  return moved;
+}
+
 bool InterfaceMesh::HasEdge(int u, int v) const
 {
   bool has = false;
@@ -95,9 +129,11 @@ bool InterfaceMesh::HasEdge(int u, int v) const
 void InterfaceMesh::FindNeighbours(int v, std::vector<int>& neighbours) const
 {
   neighbours.clear();
+  bool hasSides = false;
   this->ForFaces(v,
     [&](int face)
     {
+      hasSides = hasSides || this->IsSide(this->Faces[static_cast<std::size_t>(face)].Front);
       for (const int w : this->Faces[static_cast<std::size_t>(face)].Vertex)
       {
         if (w != v)
@@ -107,6 +143,19 @@ void InterfaceMesh::FindNeighbours(int v, std::vector<int>& neighbours) const
       }
     });
   std::sort(neighbours.begin(), neighbours.end());
+  std::vector<int> faces;
+  for (std::size_t n = 0; hasSides && n + 1 < neighbours.size(); ++n)
+  {
+    const int w = neighbours[n];
+    if (neighbours[n + 1] == w && (n == 0 || neighbours[n - 1] != w))
+    {
+      this->FindFaces(v, w, faces);
+      if (faces.size() == 2 && this->IsLine(faces))
+      {
+        neighbours.insert(neighbours.begin() + static_cast<std::ptrdiff_t>(n), w);
+      }
+    }
+  }
 }
 
 void InterfaceMesh::FindObjects(int v, std::vector<int>& objects) const
@@ -246,6 +295,8 @@ double InterfaceMesh::MeanEdge() const
 void InterfaceMesh::Compact()
 {
   InterfaceMesh kept;
+  kept.FirstSide = this->FirstSide;
+  kept.Planes = this->Planes;
   std::vector<int> number(this->Position.size(), -1);
   for (std::size_t v = 0; v < this->Position.size(); ++v)
   {

@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 namespace volumic
@@ -29,6 +30,11 @@ enum class Stratum : unsigned char
  * The interfaces of the objects of a label map: triangles between two objects each, of which any
  * number may share an edge. The triangles of an object, taken together, are a closed manifold
  * surface. Lengths: workspace.
+ *
+ * Objects may end at the sides of a box, which are numbered as objects are, after these: x-min,
+ * x-max, y-min and so on. A face in front of which a side is lies in its plane, exactly. Sides have
+ * no faces between each other, nor with object 0, so that the edges of the box, and the rims of its
+ * faces, are lines with two triangles only.
  */
 class InterfaceMesh
 {
@@ -56,6 +62,19 @@ public:
   /** By how much longer edges are wanted about a vertex than where they are shortest. */
   LargeVector<float> Size;
   LargeVector<Face> Faces;
+  /** The number of x-min. */
+  int FirstSide = std::numeric_limits<int>::max();
+  /** The planes of the sides. */
+  std::array<float, 6> Planes = { -Infinite, Infinite, -Infinite, Infinite, -Infinite, Infinite };
+
+  bool IsSide(int object) const { return object >= this->FirstSide; }
+  int AxisOf(int side) const { return (side - this->FirstSide) / 2; }
+  float PlaneOf(int side) const
+  {
+    return this->Planes[static_cast<std::size_t>(side - this->FirstSide)];
+  }
+  /** A place in the box, with a vertex's own coordinates along axes at whose sides it is. */
+  Vector OnSides(int v, const Vector& place) const;
 
   int AddVertex(const Vector& position, Stratum stratum, float size = 1.f);
   int AddFace(const Face& face);
@@ -76,10 +95,15 @@ public:
       corner = next;
     }
   }
+  /** Whether the faces at an edge are those of a line: not two between the same objects. */
+  bool IsLine(const std::vector<int>& faces) const;
   /** The faces at an edge. */
   void FindFaces(int u, int v, std::vector<int>& faces) const;
   bool HasEdge(int u, int v) const;
-  /** Other vertices of the faces of a vertex, sorted; each as often as there are faces at the edge. */
+  /**
+   * Other vertices of the faces of a vertex, sorted; each as often as there are faces at the edge,
+   * but along lines at least three times.
+   */
   void FindNeighbours(int v, std::vector<int>& neighbours) const;
   /** The objects about a vertex, sorted. */
   void FindObjects(int v, std::vector<int>& objects) const;
@@ -109,6 +133,8 @@ public:
   void Compact();
 
 private:
+  static constexpr float Infinite = std::numeric_limits<float>::infinity();
+
   void Link(int corner, int v);
   void Unlink(int corner, int v);
 

@@ -80,8 +80,8 @@ void InterfaceRemesher::Split(int u, int v)
   this->Mesh.FindFaces(u, v, this->AtEdge);
   const Vector middle = (this->Mesh.Position[static_cast<std::size_t>(u)] +
                           this->Mesh.Position[static_cast<std::size_t>(v)]) * 0.5f;
-  const int added = this->Mesh.AddVertex(
-    middle, this->AtEdge.size() > 2 ? Stratum::Line : Stratum::Interface, this->Mesh.SizeOf(u, v));
+  const int added = this->Mesh.AddVertex(middle,
+    this->Mesh.IsLine(this->AtEdge) ? Stratum::Line : Stratum::Interface, this->Mesh.SizeOf(u, v));
   for (const int f : this->AtEdge)
   {
     InterfaceMesh::Face half = this->Mesh.Faces[static_cast<std::size_t>(f)];
@@ -113,7 +113,7 @@ bool InterfaceRemesher::MayCollapse(int u, int v)
   const Stratum lower = std::min(this->Mesh.StratumOf[static_cast<std::size_t>(u)],
     this->Mesh.StratumOf[static_cast<std::size_t>(v)]);
   this->Mesh.FindFaces(u, v, this->AtEdge);
-  const bool isOnLine = this->AtEdge.size() > 2;
+  const bool isOnLine = this->Mesh.IsLine(this->AtEdge);
   if (isOnLine != (lower != Stratum::Interface))
   {
     return false; // Two lines would meet, or a vertex leave its own.
@@ -186,6 +186,13 @@ bool InterfaceRemesher::TryCollapse(int u, int v)
 
 bool InterfaceRemesher::TryCollapseAt(const Vector& place, int kept, int removed)
 {
+  for (const int v : { kept, removed })
+  {
+    if (SquaredDistance(this->Mesh.OnSides(v, place), place) > 0.f)
+    {
+      return false; // A face would leave its side of the box.
+    }
+  }
   this->Made.clear();
   this->Changed.clear();
   // Short edges at corners bend lines: rather longer ones for a while, which are split elsewhere.
@@ -286,7 +293,7 @@ int InterfaceRemesher::FlipEdges()
 bool InterfaceRemesher::TryFlip(int u, int v, double flatness)
 {
   this->Mesh.FindFaces(u, v, this->AtEdge);
-  if (this->AtEdge.size() != 2)
+  if (this->AtEdge.size() != 2 || this->Mesh.IsLine(this->AtEdge))
   {
     return false;
   }

@@ -67,7 +67,7 @@ private:
    * If its worst triangle is better then, or this face is and no other one of it becomes a sliver,
    * or a worse one. @param face -1: none
    */
-  bool TryMoveTo(int v, const Vector& target, int face = -1);
+  bool TryMoveTo(int v, const Vector& wanted, int face = -1);
   /** The vertices of a sliver off lines, little by little, whichever way makes it better. */
   bool TryMoveAbout(int face);
   /** A vertex of it, by a share of the longest edge along one of its sides, or across it. */

@@ -33,8 +33,8 @@ class FaceDistances
 public:
   FaceDistances(const InterfaceMesh& mesh, const InterfaceFields& fields, double tolerance,
     const InterfaceMesh::Face& face)
-    : Fields(fields), Of(face), Near(static_cast<float>(tolerance)),
-      Normal(Normalized(mesh.NormalOf(face)))
+    : Fields(fields), Of(face), IsOnSide(mesh.IsSide(face.Front)),
+      Near(static_cast<float>(tolerance)), Normal(Normalized(mesh.NormalOf(face)))
   {
     for (std::size_t k = 0; k < 3; ++k)
     {
@@ -58,6 +58,10 @@ public:
 private:
   float At(const Vector& place) const
   {
+    if (this->IsOnSide)
+    {
+      return 0.f;
+    }
     const auto sample = this->Fields.Between(this->Of.Behind, this->Of.Front, place);
     const float near = sample.Value / std::max(Length(sample.Gradient), LeastSlope);
     return std::abs(near) <= this->Near
@@ -69,6 +73,7 @@ private:
 
   const InterfaceFields& Fields;
   const InterfaceMesh::Face& Of;
+  const bool IsOnSide; ///< of a box
   const float Near; ///< Distances up to this are told from values and slopes.
   const Vector Normal;
   std::array<Vector, 3> Corner;

@@ -77,8 +77,9 @@ bool InterfaceRemesher::TryMove(int v)
     this->TryMoveTo(v, Vector(place + way * 0.25));
 }
 
-bool InterfaceRemesher::TryMoveTo(int v, const Vector& target, int face)
+bool InterfaceRemesher::TryMoveTo(int v, const Vector& wanted, int face)
 {
+  const Vector target = this->Mesh.OnSides(v, wanted);
   this->Made.clear();
   this->Changed.clear();
   double before = 1.;

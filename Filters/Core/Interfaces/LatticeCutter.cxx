@@ -32,28 +32,6 @@ bool IsBefore(const LatticeSite& a, const LatticeSite& b)
 }
 }
 
-/** The corners of a tetrahedron, and which of them are of one object. */
-struct Tetrahedron
-{
-  std::array<LatticeSite, 4> Corner;
-  std::array<int, 4> Group = { 0, 0, 0, 0 }; ///< of each corner, the objects numbered from 0
-  int Groups = 0;
-
-  void FindGroups()
-  {
-    this->Groups = 0;
-    for (int c = 0; c < 4; ++c)
-    {
-      int same = 0;
-      while (same < c && this->Corner[same].Object != this->Corner[c].Object)
-      {
-        ++same;
-      }
-      this->Group[c] = same < c ? this->Group[same] : this->Groups++;
-    }
-  }
-};
-
 void LatticeCutter::FindMiddles(Executor& executor)
 {
   this->ObjectOfMiddle.resize(static_cast<std::size_t>(this->Middles.Count()));
@@ -212,6 +190,10 @@ bool LatticeCutter::MayChange(const std::array<int, 3>& voxel) const
 LatticeSite LatticeCutter::SiteAt(const std::array<int, 3>& halves) const
 {
   const std::array<int, 3> cube = { halves[0] >> 1, halves[1] >> 1, halves[2] >> 1 };
+  if (const Number side = this->SideAt(halves))
+  {
+    return { halves, side };
+  }
   return { halves,
     (halves[0] & 1) != 0 ? this->ObjectOfMiddle[static_cast<std::size_t>(
                              this->Middles.NumberOf(cube[0], cube[1], cube[2]))]
@@ -386,8 +368,18 @@ void LatticeCutter::CutInMore(const Tetrahedron& cell)
     middle += this->Mesh.Position[static_cast<std::size_t>(pieces[n].From)] +
       this->Mesh.Position[static_cast<std::size_t>(pieces[n].To)];
   }
-  const int inside =
-    this->Mesh.AddVertex(middle * (0.5f / static_cast<float>(count)), Stratum::Interface);
+  middle *= 0.5f / static_cast<float>(count);
+  if (std::any_of(cell.Corner.begin(), cell.Corner.end(),
+        [this](const LatticeSite& site) { return this->Mesh.IsSide(site.Object); }))
+  {
+    std::vector<int> ends;
+    for (int n = 0; n < count; ++n)
+    {
+      ends.insert(ends.end(), { pieces[n].From, pieces[n].To });
+    }
+    middle = this->OnSidesOf(cell, ends, middle);
+  }
+  const int inside = this->Mesh.AddVertex(middle, Stratum::Interface);
   for (int n = 0; n < count; ++n)
   {
     this->AddTriangle({ pieces[n].From, pieces[n].To, inside }, cell.Corner[pieces[n].Behind],
@@ -408,16 +400,6 @@ float LatticeCutter::ValueAt(const std::array<int, 3>& halves, int object) const
   return sum / static_cast<float>(count);
 }
 
-Vector LatticeCutter::PlaceOf(const LatticeSite& site) const
-{
-  std::array<double, 3> place;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    place[axis] = 0.5 * this->Pitch[axis] * this->Fields.Step()[axis] * site.At[axis];
-  }
-  return Vector(VectorD(place[0], place[1], place[2]));
-}
-
 LatticeCutter::Key LatticeCutter::KeyOf(const LatticeSite& site) const
 {
   const Key x = static_cast<Key>(site.At[0]);
@@ -425,6 +407,18 @@ LatticeCutter::Key LatticeCutter::KeyOf(const LatticeSite& site) const
   const Key z = static_cast<Key>(site.At[2]);
   return x +
     static_cast<Key>(2 * this->Map.Size[0]) * (y + static_cast<Key>(2 * this->Map.Size[1]) * z);
+}
+
+float LatticeCutter::ShareOf(const LatticeSite& from, const LatticeSite& to) const
+{
+  if (const Number side = this->FirstSideOf(from, to))
+  {
+    return this->ShareOf(from, to, side);
+  }
+  const float first = this->ValueAt(from.At, from.Object) - this->ValueAt(from.At, to.Object);
+  const float last = this->ValueAt(to.At, to.Object) - this->ValueAt(to.At, from.Object);
+  const float both = first + last;
+  return std::clamp(both > 0.f ? first / both : 0.5f, LeastShare, 1.f - LeastShare);
 }
 
 int LatticeCutter::VertexOn(const LatticeSite& a, const LatticeSite& b)
@@ -435,14 +429,13 @@ int LatticeCutter::VertexOn(const LatticeSite& a, const LatticeSite& b)
   const auto found = this->OnEdge.emplace(this->KeyOf(from) * 128 + DirectionTo(from, to), -1);
   if (found.second)
   {
-    const float first = this->ValueAt(from.At, from.Object) - this->ValueAt(from.At, to.Object);
-    const float last = this->ValueAt(to.At, to.Object) - this->ValueAt(to.At, from.Object);
-    const float both = first + last;
-    const float share =
-      std::clamp(both > 0.f ? first / both : 0.5f, LeastShare, 1.f - LeastShare);
-    const Vector place = this->PlaceOf(from);
-    found.first->second = this->Mesh.AddVertex(
-      place + (this->PlaceOf(to) - place) * share, Stratum::Interface);
+    Vector place = this->PlaceOf(from);
+    place += (this->PlaceOf(to) - place) * this->ShareOf(from, to);
+    if (const Number side = this->FirstSideOf(a, b))
+    {
+      this->PutOnSide(place, side);
+    }
+    found.first->second = this->Mesh.AddVertex(place, Stratum::Interface);
   }
   return found.first->second;
 }
@@ -465,7 +458,10 @@ int LatticeCutter::VertexOn(const LatticeSite& a, const LatticeSite& b, const La
     {
       middle += this->Mesh.Position[static_cast<std::size_t>(v)] * (1.f / 3.f);
     }
-    found.first->second = this->Mesh.AddVertex(middle, Stratum::Interface);
+    std::sort(sites.begin(), sites.end(),
+      [](const LatticeSite* p, const LatticeSite* q) { return p->Object < q->Object; });
+    found.first->second = this->Mesh.AddVertex(
+      this->Mesh.IsSide(sites[2]->Object) ? this->OnSidesOf(sites) : middle, Stratum::Interface);
   }
   return found.first->second;
 }
@@ -473,6 +469,11 @@ int LatticeCutter::VertexOn(const LatticeSite& a, const LatticeSite& b, const La
 void LatticeCutter::AddTriangle(
   const std::array<int, 3>& vertices, const LatticeSite& behind, const LatticeSite& front)
 {
+  const auto isOutside = [this](Number object) { return object == 0 || this->Mesh.IsSide(object); };
+  if (isOutside(behind.Object) && isOutside(front.Object))
+  {
+    return;
+  }
   InterfaceMesh::Face face = { vertices, std::min(behind.Object, front.Object),
     std::max(behind.Object, front.Object) };
   // An edge from one side to the other passes the plane.

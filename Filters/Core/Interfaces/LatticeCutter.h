@@ -27,7 +27,27 @@ struct LatticeSite
   LabelMap::Number Object;
 };
 
-struct Tetrahedron;
+/** The corners of a tetrahedron, and which of them are of one object. */
+struct Tetrahedron
+{
+  std::array<LatticeSite, 4> Corner;
+  std::array<int, 4> Group = { 0, 0, 0, 0 }; ///< of each corner, the objects numbered from 0
+  int Groups = 0;
+
+  void FindGroups()
+  {
+    this->Groups = 0;
+    for (int c = 0; c < 4; ++c)
+    {
+      int same = 0;
+      while (same < c && this->Corner[same].Object != this->Corner[c].Object)
+      {
+        ++same;
+      }
+      this->Group[c] = same < c ? this->Group[same] : this->Groups++;
+    }
+  }
+};
 
 /** Cuts the tetrahedra of the lattice. */
 class LatticeCutter
@@ -35,10 +55,18 @@ class LatticeCutter
 public:
   /** @param pitch along each axis, in voxels, 1 or 2 */
   LatticeCutter(const InterfaceFields& fields, const std::array<int, 3>& pitch)
-    : Fields(fields), Map(fields.Bricks().Map()), Pitch(pitch)
+    : Fields(fields), Map(fields.Bricks().Map()), Pitch(pitch), Box(fields.Bricks().Inside())
   {
+    const bool hasBox = !(this->Box == VoxelBox::Of(this->Map.Size));
+    this->Mesh.FirstSide = hasBox ? this->Map.NumberOfObjects + 1 : this->Mesh.FirstSide;
     for (int axis = 0; axis < 3; ++axis)
     {
+      const std::array<int, 2> ends = { this->Box.First[axis], this->Box.End[axis] };
+      for (int end = 0; end < 2 && hasBox; ++end)
+      {
+        this->Mesh.Planes[2 * axis + end] =
+          static_cast<float>(fields.Step()[axis] * (ends[end] - 0.5));
+      }
       this->Corners[axis] = (this->Map.Size[axis] - 1) / pitch[axis] + 1;
       this->Middles.End[axis] = this->Corners[axis] - 1;
     }
@@ -53,6 +81,8 @@ public:
   void KeepGaps();
   void FindMiddles(Executor& executor);
   void CutBrick(int i, int j, int k);
+  /** Whether a side of the box is in a brick, or beside it. */
+  bool HasSides(int i, int j, int k) const;
   InterfaceMesh Take()
   {
     this->Mesh.FindStrata();
@@ -93,6 +123,18 @@ private:
     }
   }
   LatticeSite SiteAt(const std::array<int, 3>& halves) const;
+  /** The side of the box beyond which a site is, along the first axis along which it is; 0: none.
+   */
+  Number SideAt(const std::array<int, 3>& halves) const;
+  void PutOnSide(Vector& place, int side) const;
+  /** That of two sites which is a side, the first one if both are; 0: none. */
+  Number FirstSideOf(const LatticeSite& a, const LatticeSite& b) const;
+  /**
+   * On all sides of the box at a cell: the middle of those ends of the curves on its faces that are
+   * so, or what is in its own middle put there.
+   */
+  Vector OnSidesOf(
+    const Tetrahedron& cell, const std::vector<int>& ends, const Vector& middle) const;
   void CutAbout(const std::array<int, 3>& cube);
   void Cut(const Tetrahedron& cell);
   void CutInTwo(const Tetrahedron& cell);
@@ -101,8 +143,13 @@ private:
   float ValueAt(const std::array<int, 3>& halves, int object) const;
   Vector PlaceOf(const LatticeSite& site) const;
   Key KeyOf(const LatticeSite& site) const;
+  /** What of an edge is before its vertex. @param from earlier than the other one */
+  float ShareOf(const LatticeSite& from, const LatticeSite& to) const;
+  float ShareOf(const LatticeSite& from, const LatticeSite& to, int side) const;
   int VertexOn(const LatticeSite& a, const LatticeSite& b);
   int VertexOn(const LatticeSite& a, const LatticeSite& b, const LatticeSite& c);
+  /** The same for sites in the order of their objects, of which the last is a side of the box. */
+  Vector OnSidesOf(const std::array<const LatticeSite*, 3>& sites);
   /** A triangle between the objects of two sites, which are on either side of it. */
   void AddTriangle(
     const std::array<int, 3>& vertices, const LatticeSite& behind, const LatticeSite& front);
@@ -110,6 +157,7 @@ private:
   const InterfaceFields& Fields;
   LabelMap Map;
   std::array<int, 3> Pitch;
+  VoxelBox Box;               ///< in which all objects end
   std::array<int, 3> Corners; ///< of cubes, along each axis
   VoxelBox Middles;           ///< of cubes
   std::vector<Number> ObjectOfMiddle;

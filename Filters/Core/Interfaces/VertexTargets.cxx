@@ -33,17 +33,17 @@ Vector VertexTargets::Of(int v)
     shortest =
       std::min(shortest, SquaredDistance(place, this->Mesh.Position[static_cast<std::size_t>(w)]));
   }
-  this->Mesh.FindObjects(v, this->Objects);
+  this->FindObjects(v);
   this->FindEnds();
   const bool isOnLine = !this->Ends.empty();
-  Vector target =
-    place + (isOnLine ? this->AlongLine(v) : this->AlongInterface(v)) * this->Share;
+  const Vector along = isOnLine ? this->AlongLine(v) : this->AlongInterface(v);
+  Vector target = place + Vector(this->AlongSides(VectorD(along))) * this->Share;
   target += this->ToInterfaces(target);
   if (isOnLine)
   {
-    target += this->Straightening(target);
+    target += Vector(this->AlongSides(VectorD(this->Straightening(target))));
   }
-  const Vector way = target - place;
+  const Vector way = this->Mesh.OnSides(v, target) - place;
   const float length = Length(way);
   const float most = MostOfEdge * std::sqrt(shortest);
   float part = length > most ? most / length : 1.f;
@@ -52,6 +52,17 @@ Vector VertexTargets::Of(int v)
     part *= 0.5f;
   }
   return part > LeastPart ? place + way * part : place;
+}
+
+void VertexTargets::FindObjects(int v)
+{
+  this->Mesh.FindObjects(v, this->Objects);
+  this->Free = { 1., 1., 1. };
+  while (this->Mesh.IsSide(this->Objects.back()))
+  {
+    this->Free[static_cast<std::size_t>(this->Mesh.AxisOf(this->Objects.back()))] = 0.;
+    this->Objects.pop_back();
+  }
 }
 
 bool VertexTargets::Shortens(const Vector& place, const Vector& target) const
@@ -157,7 +168,7 @@ Vector VertexTargets::ToInterfaces(const Vector& place) const
   for (std::size_t n = 1; n < this->Objects.size(); ++n)
   {
     const InterfaceFields::Sample other = this->Fields.Interpolate(this->Objects[n], place);
-    const VectorD slope(other.Gradient - first.Gradient);
+    const VectorD slope = this->AlongSides(VectorD(other.Gradient - first.Gradient));
     const double difference = static_cast<double>(other.Value) - first.Value;
     const double s[3] = { slope.X, slope.Y, slope.Z };
     for (int a = 0; a < 3; ++a)

@@ -7,6 +7,7 @@
 #include "Core/Interfaces/InterfaceFields.h"
 #include "Core/Interfaces/InterfaceMesh.h"
 
+#include <array>
 #include <vector>
 
 namespace volumic
@@ -37,6 +38,12 @@ public:
   Vector Of(int v);
 
 private:
+  /** The objects about it, and which ways it may go where sides of a box are among them. */
+  void FindObjects(int v);
+  VectorD AlongSides(const VectorD& way) const
+  {
+    return { way.X * this->Free[0], way.Y * this->Free[1], way.Z * this->Free[2] };
+  }
   /**
    * Whether it would make an edge too short, if the neighbour did the same: two corners of the same
    * objects want to be in one place.
@@ -62,7 +69,8 @@ private:
   float Shortest;
   float Straightest;
   std::vector<int> Neighbours; ///< of the vertex that is looked at
-  std::vector<int> Objects;    ///< about it
+  std::vector<int> Objects;    ///< about it, without sides of a box
+  std::array<double, 3> Free;  ///< of each axis 1, or 0 where it is at a side across it
   std::vector<Vector> Ends;    ///< its neighbours on junction lines
 };
 }

@@ -99,7 +99,8 @@ bool LabelBricks::Range::Has(LabelMap::Number object) const
   return std::binary_search(this->First, this->Last, object);
 }
 
-LabelBricks::LabelBricks(const LabelMap& map, Executor& executor) : Labels(&map)
+LabelBricks::LabelBricks(const LabelMap& map, Executor& executor, const VoxelBox& inside)
+  : Labels(&map), Counted(inside)
 {
   for (int axis = 0; axis < 3; ++axis)
   {
@@ -206,23 +207,20 @@ void LabelBricks::FindExtents(Executor& executor)
   const auto numberOfExtents = static_cast<std::size_t>(this->Labels->NumberOfObjects) + 1;
   this->Extents.assign(numberOfExtents, LabelExtent());
   std::mutex mutex;
-  const auto rowsOfLayer = static_cast<std::size_t>(this->Labels->Size[1]);
   // Numbers of voxels: the same in whatever order they are added.
   executor.For(static_cast<std::size_t>(this->Count[2]), 1,
     [&](std::size_t begin, std::size_t end)
     {
       std::vector<LabelExtent> own(numberOfExtents);
-      const auto rowLength = static_cast<std::size_t>(this->Labels->Size[0]);
-      const std::size_t last =
-        std::min(end * Side, static_cast<std::size_t>(this->Labels->Size[2]));
-      const LabelMap::Number* voxel =
-        this->Labels->Voxels.data() + begin * Side * rowsOfLayer * rowLength;
-      const LabelMap::Number* const stop =
-        this->Labels->Voxels.data() + last * rowsOfLayer * rowLength;
-      for (; voxel != stop; ++voxel)
-      {
-        ++own[*voxel].Voxels;
-      }
+      VoxelBox part = this->Counted;
+      part.First[2] = std::max(part.First[2], static_cast<int>(begin) * Side);
+      part.End[2] = std::min(part.End[2], static_cast<int>(end) * Side);
+      ForRowsOf(part, VoxelBox::Of(this->Labels->Size),
+        [&](std::int64_t first, std::int64_t count)
+        {
+          const LabelMap::Number* row = this->Labels->Voxels.data() + first;
+          std::for_each(row, row + count, [&](LabelMap::Number object) { ++own[object].Voxels; });
+        });
       for (std::size_t k = begin; k < end; ++k)
       {
         for (int j = 0; j < this->Count[1]; ++j)

@@ -30,10 +30,18 @@ class LabelBricks
 public:
   static constexpr int Side = 4; ///< of a brick, in voxels
 
-  /** The map must outlive it. */
-  LabelBricks(const LabelMap& map, Executor& executor);
+  /**
+   * The map must outlive it.
+   * @param inside where voxels are counted: what is beyond only goes on with what is there
+   */
+  LabelBricks(const LabelMap& map, Executor& executor, const VoxelBox& inside);
+  LabelBricks(const LabelMap& map, Executor& executor)
+    : LabelBricks(map, executor, VoxelBox::Of(map.Size))
+  {
+  }
 
   const LabelMap& Map() const { return *this->Labels; }
+  const VoxelBox& Inside() const { return this->Counted; }
   const std::array<int, 3>& Size() const { return this->Count; }
   const LabelExtent& ExtentOf(int object) const { return this->Extents[object]; }
 
@@ -70,6 +78,7 @@ private:
   void FindContested(Executor& executor);
 
   const LabelMap* Labels;
+  VoxelBox Counted;
   std::array<int, 3> Count;
   std::vector<std::size_t> First; ///< of each brick, in Objects
   std::vector<LabelMap::Number> Objects;
