@@ -5,6 +5,7 @@
 #include "CheckInputs.h"
 #include "Messages.h"
 #include "SlabReader.h"
+#include "Texts.h"
 #include "ToolErrors.h"
 
 #include <vtkBMPReader.h>
