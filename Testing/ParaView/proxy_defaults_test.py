@@ -140,8 +140,8 @@ class ProxyDefaultsTest(unittest.TestCase):
                     self.assertEqual({domain.GetEntryValue(i) for i in entries}, choices)
                     self.assertGreater(len(choices), 1)
                     chosen.add(name)
-        self.assertEqual(chosen, {"BorderValue", "BoxFaces", "Initialization", "KeepComponents", "Metric",
-                                  "Recovery"})
+        self.assertEqual(chosen, {"BorderValue", "BoxFaces", "Initialization", "KeepComponents",
+                                  "Metric", "Recovery"})
 
     def test_lists_of_positions_reach_the_object(self):
         for name in ("DeformableSurface", "VolumeToSurface"):
