@@ -20,8 +20,8 @@ void CheckNetcdf(const std::string& name);
 
 /**
  * VTK's XML, whatever the encoding: elements within elements, which its reader takes by recursion;
- * the blocks that arrays are packed in, for whose sizes it takes memory; and the values of each array,
- * of which it makes zeros where they are missing. Of a name all parts, as .pvti has.
+ * the blocks that arrays are packed in, for whose sizes it takes memory; and the values of each
+ * array, of which it makes zeros where they are missing. Of a name all parts, as .pvti has.
  * @return how many points the cells of a surface have, which is to be compared with what was read
  */
 std::uint64_t CheckXmlInput(std::istream& file);
@@ -40,9 +40,9 @@ void CheckPly(const std::string& name);
 void CheckPixels(const std::string& name);
 
 /**
- * What VTK has chosen a reader for, by a few bytes that any file may have: of TGA all pixels must be
- * there; PNM of other kinds, and the pictures of Radiance, are refused, as VTK's readers go on where
- * those end.
+ * What VTK has chosen a reader for, by a few bytes that any file may have: of TGA all pixels must
+ * be there; PNM of other kinds, and the pictures of Radiance, are refused, as VTK's readers go on
+ * where those end.
  */
 void CheckChosen(vtkObject* reader, const std::string& name);
 }

@@ -70,8 +70,7 @@ Head ReadHead(std::istream& file)
   std::string line;
   // VTK's reader has room for 4096 bytes, and takes zeros for the ends of lines.
   constexpr std::size_t longest = 4000;
-  while (std::getline(file, line) && line.size() <= longest &&
-    line.find('\0') == std::string::npos)
+  while (std::getline(file, line) && line.size() <= longest && line.find('\0') == std::string::npos)
   {
     std::istringstream words(line);
     std::string word;

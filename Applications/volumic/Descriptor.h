@@ -29,7 +29,8 @@ inline void NeedWritten(bool isWritten)
   }
 }
 
-/** An open file, by its name or its number, that closes itself. What fails leaves its reason in errno. */
+/** An open file, by its name or its number, that closes itself. What fails leaves its reason in
+ * errno. */
 class Descriptor
 {
 public:

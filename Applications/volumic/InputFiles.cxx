@@ -39,8 +39,8 @@ std::vector<std::string> HeaderLines(const std::string& name)
 /** The place in the lines of "key = value" or "key: value". */
 std::size_t FindKey(const std::vector<std::string>& lines, const std::string& key)
 {
-  const auto found = std::find_if(lines.begin(), lines.end(),
-    [&key](const std::string& line) { return IsOfKey(line, key); });
+  const auto found = std::find_if(
+    lines.begin(), lines.end(), [&key](const std::string& line) { return IsOfKey(line, key); });
   return static_cast<std::size_t>(found - lines.begin());
 }
 
@@ -153,8 +153,8 @@ bool IsLikeSlice(const std::string& file, const std::vector<std::string>& slices
     std::string path = std::filesystem::path(name).filename().string();
     std::replace_if(
       path.begin(), path.end(), [](char c) { return c >= '0' && c <= '9'; }, '0');
-    path.erase(std::unique(path.begin(), path.end(),
-                 [](char a, char b) { return a == '0' && b == '0'; }),
+    path.erase(
+      std::unique(path.begin(), path.end(), [](char a, char b) { return a == '0' && b == '0'; }),
       path.end());
     return path;
   };
@@ -172,9 +172,7 @@ bool IsLikeSlice(const std::string& file, const std::vector<std::string>& slices
   return isMarked ||
     std::any_of(slices.begin(), slices.end(),
       [&](const std::string& slice)
-      {
-        return withoutNumbers(slice) == like || (isPreamble && SuffixOf(slice) == suffix);
-      });
+      { return withoutNumbers(slice) == like || (isPreamble && SuffixOf(slice) == suffix); });
 }
 
 bool IsOfKey(const std::string& line, const std::string& key)

@@ -358,8 +358,7 @@ std::vector<std::string> FileNamesOf(const std::vector<KnownLabel>& known)
   for (std::size_t i = 0; i < names.size(); ++i)
   {
     const bool isShared = uses[Lower(names[i])] > 1;
-    names[i] =
-      distinct.Take(isShared ? names[i] + "-" + std::to_string(known[i].Label) : names[i]);
+    names[i] = distinct.Take(isShared ? names[i] + "-" + std::to_string(known[i].Label) : names[i]);
   }
   return names;
 }

@@ -43,8 +43,8 @@ std::vector<KnownLabel> LabelsOf(vtkTable* table, int layer);
  * @return their places among `known`, ascending
  * @throws Failure that tells those that there are, if a text asks for none of them; `all` may.
  */
-std::vector<std::size_t> ChooseLabels(const std::vector<std::string>& texts,
-  const std::vector<KnownLabel>& known, int background);
+std::vector<std::size_t> ChooseLabels(
+  const std::vector<std::string>& texts, const std::vector<KnownLabel>& known, int background);
 
 /** The labels of texts that have but numbers, if all do; none otherwise. */
 std::vector<KnownLabel> NumberedLabels(

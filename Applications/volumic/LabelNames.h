@@ -19,7 +19,7 @@ struct LabelName
   int Label = 0;
   std::string Name;             ///< UTF-8, on one line; may be empty
   std::optional<Vector3> Color; ///< 0 to 1, or, until ScaleColors, as the file has it
-  int Layer = 0; ///< of a volume whose voxels have several labels: the component
+  int Layer = 0;                ///< of a volume whose voxels have several labels: the component
 };
 
 using LabelNames = std::vector<LabelName>;

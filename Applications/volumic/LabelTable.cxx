@@ -89,8 +89,7 @@ std::vector<std::pair<int, std::string>> LinesOf(std::string text)
   for (std::string line; std::getline(stream, line);)
   {
     ++number;
-    const bool isComment =
-      Trimmed(line).empty() || line[0] == '#' || line.compare(0, 2, "//") == 0;
+    const bool isComment = Trimmed(line).empty() || line[0] == '#' || line.compare(0, 2, "//") == 0;
     if (!isComment)
     {
       lines.emplace_back(number, line);
@@ -107,8 +106,7 @@ char SeparatorOf(const std::vector<std::pair<int, std::string>>& lines)
     const auto has = [&](const auto& line)
     { return line.second.find(separator) != std::string::npos; };
     const auto count = std::count_if(lines.begin(), lines.end(), has);
-    if (!lines.empty() && has(lines.front()) &&
-      2 * static_cast<std::size_t>(count) >= lines.size())
+    if (!lines.empty() && has(lines.front()) && 2 * static_cast<std::size_t>(count) >= lines.size())
     {
       return separator;
     }
@@ -156,18 +154,21 @@ int FindColumn(const Row& head, const std::vector<std::string>& names, int taken
 Columns ColumnsOf(const Row& head)
 {
   Columns columns;
-  columns.Name = FindColumn(head, { "name", "labelname", "segmentname", "structure",
-    "structurename", "region", "regionname", "organ", "segment", "description" });
-  columns.Label = FindColumn(head, { "labelvalue", "value", "index", "labelid", "labelindex", "id",
-    "idx", "number", "no", "key", "roi", "label" }, columns.Name);
+  columns.Name = FindColumn(head,
+    { "name", "labelname", "segmentname", "structure", "structurename", "region", "regionname",
+      "organ", "segment", "description" });
+  columns.Label = FindColumn(head,
+    { "labelvalue", "value", "index", "labelid", "labelindex", "id", "idx", "number", "no", "key",
+      "roi", "label" },
+    columns.Name);
   if (columns.Name < 0)
   {
     columns.Name = FindColumn(head, { "label", "text", "class" }, columns.Label);
   }
   RefuseLineIf(columns.Label < 0 || columns.Name < 0, head.Line,
     "neither a label and its name, nor names of columns such as 'label' and 'name'");
-  const std::vector<std::string> colors[3] = { { "r", "red", "colorr" },
-    { "g", "green", "colorg" }, { "b", "blue", "colorb" } };
+  const std::vector<std::string> colors[3] = { { "r", "red", "colorr" }, { "g", "green", "colorg" },
+    { "b", "blue", "colorb" } };
   std::transform(std::begin(colors), std::end(colors), columns.Colors,
     [&](const auto& names) { return FindColumn(head, names); });
   if (columns.Colors[0] < 0)
@@ -209,10 +210,9 @@ LabelNames NamesInColumns(const std::vector<Row>& rows, std::size_t first, const
       row.Line, "it has fewer columns than the first one");
     const std::string& label = row.Words[static_cast<std::size_t>(columns.Label)];
     const std::optional<int> value = AsNumber<int>(label);
-    RefuseLineIf(
-      !value, row.Line, "'" + label.substr(0, 40) + "' is no label: a whole number is");
-    names.push_back({ *value, row.Words[static_cast<std::size_t>(columns.Name)],
-      ColorOf(row, columns.Colors) });
+    RefuseLineIf(!value, row.Line, "'" + label.substr(0, 40) + "' is no label: a whole number is");
+    names.push_back(
+      { *value, row.Words[static_cast<std::size_t>(columns.Name)], ColorOf(row, columns.Colors) });
   }
   return names;
 }
@@ -286,7 +286,8 @@ LabelNames ParseLabelTable(const std::string& text)
   }
   const auto begins = [&](std::size_t column)
   {
-    return std::all_of(rows.begin(), rows.end(), [&](const Row& row)
+    return std::all_of(rows.begin(), rows.end(),
+      [&](const Row& row)
       { return row.Words.size() > column && AsNumber<int>(row.Words[column]).has_value(); });
   };
   if (std::all_of(rows.begin(), rows.end(), IsOfItkSnap))

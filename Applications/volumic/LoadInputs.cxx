@@ -56,8 +56,7 @@ vtkSmartPointer<vtkImageData> GatherSlabs(
       }
     });
   // What a reader warns of are data that it lacked and made up.
-  messages.Errors.insert(
-    messages.Errors.end(), messages.Warnings.begin(), messages.Warnings.end());
+  messages.Errors.insert(messages.Errors.end(), messages.Warnings.begin(), messages.Warnings.end());
   messages.ThrowErrors(name);
   FailIf(!failure.empty(), name + ": " + failure);
   auto image = vtkSmartPointer<vtkImageData>::New();
@@ -85,7 +84,8 @@ vtkSmartPointer<vtkImageData> LoadWhole(const std::string& name, const std::stri
 }
 
 LoadedVoxels LoadVoxels(const std::string& name, const std::string& array,
-  const VolumeChoice& choice, vtkDeformableSurface* filter, vtkImagePyramid* holder, const Announcer& announcer)
+  const VolumeChoice& choice, vtkDeformableSurface* filter, vtkImagePyramid* holder,
+  const Announcer& announcer)
 {
   LoadedVoxels loaded;
   vtkSmartPointer<vtkImageData>& image = loaded.Image;
@@ -96,8 +96,8 @@ LoadedVoxels LoadVoxels(const std::string& name, const std::string& array,
   else
   {
     OpenedVolume opened;
-    announcer.Follow(name,
-      [&] { opened = OpenVolume(name, array, filter->GetScratchDirectory(), choice); });
+    announcer.Follow(
+      name, [&] { opened = OpenVolume(name, array, filter->GetScratchDirectory(), choice); });
     if (!opened.Whole.empty())
     {
       announcer.Say("warning: " + name + ": volumes of this kind (" + opened.Whole +
@@ -117,8 +117,8 @@ LoadedVoxels LoadVoxels(const std::string& name, const std::string& array,
     holder->RemoveAllInputs();
     Named(name, [&] { ChooseScalars(image, array); });
   }
-  loaded.Components = std::max(
-    loaded.Components, image->GetPointData()->GetScalars()->GetNumberOfComponents());
+  loaded.Components =
+    std::max(loaded.Components, image->GetPointData()->GetScalars()->GetNumberOfComponents());
   return loaded;
 }
 
@@ -160,8 +160,7 @@ LoadedVolume LoadVolume(const ToolOptions& options, vtkDeformableSurface* filter
     ResampleAsAsked(options, false, volume.Image, announcer);
   }
   const int component = filter->GetSelectedComponent();
-  volume.Facts =
-    FactsOf(volume.Image, volume.Image->GetPointData()->GetScalars(), component);
+  volume.Facts = FactsOf(volume.Image, volume.Image->GetPointData()->GetScalars(), component);
   volume.Facts.World = world;
   Announce(options, volume.Facts, loaded.Components, component, announcer);
   return volume;
@@ -172,8 +171,8 @@ LoadedVolume LoadVolume(const ToolOptions& options, vtkDeformableSurface* filter
 namespace
 {
 /** @return the name of the array of the volume that is the map. */
-std::string AddEdges(const ToolOptions& options, vtkImageData* volume,
-  vtkDeformableSurface* filter, vtkImagePyramid* holder, const Announcer& announcer)
+std::string AddEdges(const ToolOptions& options, vtkImageData* volume, vtkDeformableSurface* filter,
+  vtkImagePyramid* holder, const Announcer& announcer)
 {
   std::string name = options.Edges;
   vtkPointData* points = volume->GetPointData();

@@ -51,7 +51,8 @@ vtkSmartPointer<vtkImageData> LoadWhole(const std::string& name, const std::stri
 
 /** The same, or slab by slab. */
 LoadedVoxels LoadVoxels(const std::string& name, const std::string& array,
-  const VolumeChoice& choice, vtkDeformableSurface* filter, vtkImagePyramid* holder, const Announcer& announcer);
+  const VolumeChoice& choice, vtkDeformableSurface* filter, vtkImagePyramid* holder,
+  const Announcer& announcer);
 
 // ---- What else a surface is made of -------------------------------------------------------------
 

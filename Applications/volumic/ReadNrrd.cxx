@@ -331,8 +331,8 @@ std::unique_ptr<SlabReader> OpenNrrd(const std::string& name, const Opening& ope
   Header header = ReadHeader(name);
   std::unique_ptr<RawSlabs>& slabs = header.Slabs;
   slabs->Code = PackingOf(Lower(EntryOr(header.All, "encoding", "raw")));
-  slabs->Start = BehindLines(slabs->Files.front(), slabs->Start,
-    ParseNumber<int>(EntryOr(header.All, "line skip", "0")));
+  slabs->Start = BehindLines(
+    slabs->Files.front(), slabs->Start, ParseNumber<int>(EntryOr(header.All, "line skip", "0")));
   // -1: the voxels are the last bytes.
   const int skip = ParseNumber<int>(EntryOr(header.All, "byte skip", "0"));
   const bool isRaw = slabs->Code == RawSlabs::Packing::None;

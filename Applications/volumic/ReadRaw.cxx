@@ -280,10 +280,14 @@ std::array<Vector3, 3> AxesOfCells(BinaryFile& file)
 
 std::unique_ptr<SlabReader> OpenMrc(const std::string& name, const Opening& opening)
 {
-  NamelessFile head(opening.Scratch); // unpacked, as EMDB packs its maps
-  const std::string bytes = HeadOf(name, 1024);
-  head.Append(bytes.data(), bytes.size());
-  BinaryFile file(head.Path());
+  const bool isPacked = IsGzip(name); // as EMDB packs its maps
+  std::optional<NamelessFile> head;
+  if (isPacked)
+  {
+    const std::string bytes = HeadOf(name, 1024);
+    head.emplace(opening.Scratch).Append(bytes.data(), bytes.size());
+  }
+  BinaryFile file(head ? head->Path() : name);
   file.Need(0, 1024);
   // The machine stamp: 0x11 is big-endian; some programs leave it out.
   const std::uint64_t stamp = file.Number(212, 1);
@@ -308,7 +312,6 @@ std::unique_ptr<SlabReader> OpenMrc(const std::string& name, const Opening& open
   slabs->Type = isUnsigned ? VTK_UNSIGNED_CHAR : slabs->Type;
   slabs->IsBig = file.IsBig;
   slabs->LengthUnit = "A";
-  const bool isPacked = IsGzip(name);
   slabs->Code = isPacked ? RawSlabs::Packing::Zlib : RawSlabs::Packing::None;
   (isPacked ? slabs->Before : slabs->Start) = 1024 + file.Number(92, 4);
   VolumePlacement& placement = slabs->Placement;

@@ -57,7 +57,8 @@ bool IsStlText(BinaryFile& file)
   return 20 * (head.size() - static_cast<std::size_t>(signs)) < head.size();
 }
 
-/** STL; VTK's reader takes memory for as many triangles as a header tells of, be the file cut off. */
+/** STL; VTK's reader takes memory for as many triangles as a header tells of, be the file cut off.
+ */
 vtkSmartPointer<vtkPolyData> ReadStl(const std::string& name)
 {
   BinaryFile file(name);
@@ -96,14 +97,13 @@ vtkSmartPointer<vtkPolyData> ReadXml(const std::string& name)
 vtkSmartPointer<vtkPolyData> ReadMeshFile(const std::string& name)
 {
   using Read = vtkSmartPointer<vtkPolyData> (*)(const std::string&);
-  static const std::map<std::string, Read> readers = {
-    { ".vtp", ReadXml }, { ".vtk", ReadChecked<vtkPolyDataReader, CheckLegacy> },
-    { ".stl", ReadStl },
-    { ".ply", ReadChecked<vtkPLYReader, CheckPly> }, { ".obj", ReadChecked<vtkOBJReader, CheckObj> }
-  };
+  static const std::map<std::string, Read> readers = { { ".vtp", ReadXml },
+    { ".vtk", ReadChecked<vtkPolyDataReader, CheckLegacy> }, { ".stl", ReadStl },
+    { ".ply", ReadChecked<vtkPLYReader, CheckPly> },
+    { ".obj", ReadChecked<vtkOBJReader, CheckObj> } };
   FailIf(!std::filesystem::exists(name), name + ": no such file");
-  return EntryOf(
-    readers, SuffixOf(name), name + ": .vtp, .vtk, .stl, .ply and .obj are read")(name);
+  return EntryOf(readers, SuffixOf(name), name + ": .vtp, .vtk, .stl, .ply and .obj are read")(
+    name);
 }
 
 /** The mesh, whose cells have points that are there. */

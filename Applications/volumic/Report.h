@@ -34,9 +34,9 @@ struct ReportInput
   double ReaderMemory = 0.0; ///< PeakMemory() when the volume had been read
   std::vector<std::string> Warnings;
   vtkSmartPointer<vtkPolyData> Surface; ///< as it is written
-  SurfaceSize Size;                    ///< of the surface
-  std::vector<SurfaceSize> LevelSizes; ///< by block of the levels
-  Solid Filling;                       ///< made of it, if it was
+  SurfaceSize Size;                     ///< of the surface
+  std::vector<SurfaceSize> LevelSizes;  ///< by block of the levels
+  Solid Filling;                        ///< made of it, if it was
 };
 
 /** The report as JSON. Lengths, areas and volumes are in world units. */

@@ -142,7 +142,8 @@ vtkSmartPointer<vtkImageData> Resampled(vtkImageData* image, const Vector3& spac
 
 namespace
 {
-/** The voxels whose centres are in a box of the world, and those next to it; all that it touches. */
+/** The voxels whose centres are in a box of the world, and those next to it; all that it touches.
+ */
 std::array<int, 6> ExtentOf(vtkImageData* image, const std::array<double, 6>& box)
 {
   vtkBoundingBox indices;

@@ -94,7 +94,8 @@ bool WasInterrupted()
 
 namespace
 {
-/** What the handler writes, which may not make a text itself. Never freed: it may be called late. */
+/** What the handler writes, which may not make a text itself. Never freed: it may be called late.
+ */
 const std::string* words = nullptr;
 
 void EndWithWords(int, siginfo_t* info, void*)
@@ -115,7 +116,8 @@ void TellOfFullDisk(const std::string& directory)
   words = new std::string("volumic: the scratch directory" +
     (directory.empty() ? std::string() : " " + directory) +
     " can't keep what was put there: its disk is full, or fails, and its file system had not kept "
-    "the room that was reserved. Make room, choose another one with --scratch, or raise --memory\n");
+    "the room that was reserved. Make room, choose another one with --scratch, or raise "
+    "--memory\n");
   struct sigaction action = {};
   action.sa_sigaction = EndWithWords;
   action.sa_flags = SA_SIGINFO;

@@ -38,8 +38,8 @@ bool WasInterrupted();
  * Update the filter, showing its progress; with ranks by all of them together.
  * @throws Failure with the errors that it reports, on this rank.
  */
-FilterRun RunFilter(vtkAlgorithm* filter, const std::string& title, ProgressStyle style,
-  Ranks* ranks = nullptr);
+FilterRun RunFilter(
+  vtkAlgorithm* filter, const std::string& title, ProgressStyle style, Ranks* ranks = nullptr);
 
 // ---- Full disks ---------------------------------------------------------------------------------
 

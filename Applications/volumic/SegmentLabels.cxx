@@ -107,8 +107,7 @@ std::vector<LabelSurface> PlanSurfaces(
   {
     if (!filter->GetMerge() || surfaces.empty())
     {
-      surfaces.push_back(
-        { { known[i] }, known[i].Name, fileNames[i], NoSurface("cancelled"), {} });
+      surfaces.push_back({ { known[i] }, known[i].Name, fileNames[i], NoSurface("cancelled"), {} });
       continue;
     }
     LabelSurface& merged = surfaces.front();
@@ -146,13 +145,14 @@ FilterRun RunOnLayer(const ToolOptions& options, const LabelMap& map, int layer,
     return FilterRun();
   }
   SetInput(filter, map, layer);
-  FilterRun run = Named(
-    options.Volume, [&] { return RunFilter(filter, "Making surfaces", style, &ranks); });
+  FilterRun run =
+    Named(options.Volume, [&] { return RunFilter(filter, "Making surfaces", style, &ranks); });
   auto* blocks = vtkMultiBlockDataSet::SafeDownCast(filter->GetOutputDataObject(0));
   auto* lost = vtkStringArray::SafeDownCast(blocks->GetFieldData()->GetAbstractArray("LostLabels"));
   const std::string told = lost ? InWordsOfOptions(lost->GetValue(0)) : std::string();
   // Where it is much, it is a warning of the filter's already.
-  if (lost && std::none_of(run.Warnings.begin(), run.Warnings.end(),
+  if (lost &&
+    std::none_of(run.Warnings.begin(), run.Warnings.end(),
       [&told](const std::string& warning) { return warning.find(told) != std::string::npos; }))
   {
     run.Warnings.push_back(told);
@@ -179,8 +179,7 @@ void MakeSurfaces(const ToolOptions& options, const LabelMap& map, vtkLabelsToSu
     {
       filter->SetTimeLimit(std::max(limit - report.Seconds, LeastTime));
     }
-    const FilterRun run =
-      RunOnLayer(options, map, layer, filter, surfaces, announcer.Style, ranks);
+    const FilterRun run = RunOnLayer(options, map, layer, filter, surfaces, announcer.Style, ranks);
     report.Seconds += run.Seconds;
     for (const std::string& warning : run.Warnings)
     {
@@ -213,8 +212,8 @@ void CheckThatAnyIsThere(const ToolOptions& options, const LabelReport& report)
 }
 
 /** Write surfaces and report. @throws Failure if not all could be written. */
-void WriteAll(const ToolOptions& options, std::vector<LabelSurface>& surfaces,
-  LabelReport& report, ProgressStyle style)
+void WriteAll(const ToolOptions& options, std::vector<LabelSurface>& surfaces, LabelReport& report,
+  ProgressStyle style)
 {
   for (LabelSurface& surface : surfaces)
   {

@@ -180,10 +180,9 @@ std::string PlaceOfObject(const Job& job)
 {
   const bool isBright = job.Filter->GetObjectIsBright();
   const std::string iso = NumberText(job.Filter->GetIsoValue());
-  return job.Options.HasProperty("UpperValue")
-    ? (isBright ? "between " : "not between ") + iso + " and " +
-      NumberText(job.Filter->GetUpperValue())
-    : (isBright ? "above " : "below ") + iso;
+  return job.Options.HasProperty("UpperValue") ? (isBright ? "between " : "not between ") + iso +
+      " and " + NumberText(job.Filter->GetUpperValue())
+                                               : (isBright ? "above " : "below ") + iso;
 }
 
 /** Run the filter of the surface, for --triangles with several tolerances. */
@@ -194,14 +193,14 @@ FilterRun FindTriangles(const Job& job)
   FilterRun last = run();
   const double wanted = job.Options.Triangles;
   constexpr double near = 1.1;
-  constexpr int tries = 10;
+  constexpr int tries = 12;
   const Vector3& spacing = job.Volume.Facts.Spacing;
   const double unit = *std::min_element(spacing.begin(), spacing.end());
   // Tolerances with too many triangles, and with too few, with the counts.
   std::pair<double, double> fine = { 0.0, 0.0 };
   std::pair<double, double> coarse = { 0.0, 0.0 };
   double seconds = last.Seconds;
-  for (int i = 0; wanted > 0.0 && i < tries && !last.IsInterrupted; ++i)
+  for (int i = 1; wanted > 0.0 && !last.IsInterrupted; ++i)
   {
     const double tolerance = job.Filter->GetTolerance();
     const auto count = static_cast<double>(job.Filter->GetOutput()->GetNumberOfPolys());
@@ -210,35 +209,23 @@ FilterRun FindTriangles(const Job& job)
     {
       break;
     }
-    if (count < wanted && tolerance == 0.0)
+    const bool isStuck =
+      tolerance > fine.first && count > wanted && count > 0.98 * fine.second && fine.second > 0.0;
+    if ((tolerance == 0.0 && count < wanted) || isStuck || i == tries)
     {
-      last.Warnings.push_back("without a tolerance it has no more than " + NumberText(count) +
-        " triangles; --edge-length or --finest -1 makes smaller ones");
-      break;
-    }
-    const bool isStuck = fine.second > 0.0 && tolerance > fine.first && count > wanted &&
-      count > 0.98 * fine.second;
-    if (isStuck || tolerance > 1e3 * unit)
-    {
-      last.Warnings.push_back("no tolerance makes as few as " + NumberText(wanted) +
-        " triangles; --edge-length makes larger ones");
+      last.Warnings.push_back((tolerance == 0.0 ? "without a tolerance it has no more than "
+                                                : "no tolerance was found; this one leaves ") +
+        NumberText(count) + " triangles; --edge-length makes others");
       break;
     }
     (count > wanted ? fine : coarse) = { tolerance, count };
-    double next = 2.0 * tolerance;
-    if (tolerance == 0.0)
-    {
-      next = 0.2 * unit;
-    }
-    else if (coarse.second > 0.0 && fine.first == 0.0)
-    {
-      next = 0.5 * tolerance;
-    }
-    else if (coarse.second > 0.0)
-    {
-      const double share = std::log(fine.second / wanted) / std::log(fine.second / coarse.second);
-      next = fine.first * std::pow(coarse.first / fine.first, std::clamp(share, 0.1, 0.9));
-    }
+    const double next = tolerance == 0.0 ? 0.2 * unit
+      : coarse.second == 0.0             ? 2.0 * tolerance
+      : fine.first == 0.0                ? 0.5 * tolerance
+                                         : fine.first *
+        std::pow(coarse.first / fine.first,
+          std::clamp(
+            std::log(fine.second / wanted) / std::log(fine.second / coarse.second), 0.1, 0.9));
     const double digits = std::pow(10.0, std::floor(std::log10(next)) - 3.0);
     job.Filter->SetTolerance(digits * std::round(next / digits));
     last = run();
@@ -276,12 +263,10 @@ void FindSurface(const Job& job, ReportInput& results)
   }
   RemoveCheckpointOfEnded(job, results.StopReason);
   const bool isLate = results.StopReason == "time limit";
-  throw Failure(isLate
-      ? "the time limit came before there was a surface; nothing is written"
-      : run.IsInterrupted
-      ? "interrupted before there was a surface; nothing is written"
-      : "the surface vanished: is the object where the image is " + PlaceOfObject(job) +
-        "? (--iso, --upper, --dark)");
+  throw Failure(isLate    ? "the time limit came before there was a surface; nothing is written"
+      : run.IsInterrupted ? "interrupted before there was a surface; nothing is written"
+                          : "the surface vanished: is the object where the image is " +
+        PlaceOfObject(job) + "? (--iso, --upper, --dark)");
 }
 }
 
@@ -332,8 +317,7 @@ ExitCode SegmentVolume(const ToolOptions& options, const FilterTrio& filters)
   RemoveCheckpointOfEnded(job, results.StopReason);
 
   job.Says.Say(std::to_string(results.Size.Vertices) + " vertices after " +
-    std::to_string(filter->GetHistory()->GetNumberOfRows()) +
-    " iterations: " + results.StopReason);
+    std::to_string(filter->GetHistory()->GetNumberOfRows()) + " iterations: " + results.StopReason);
   job.Says.Say(TextOfPrint(options, { results.Surface }, results.Volume.World));
   if (results.Filling.Grid)
   {

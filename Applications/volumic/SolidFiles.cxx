@@ -196,7 +196,6 @@ void WriteInp(const Solid& solid, const std::string& path, const std::string& re
   vtkUnstructuredGrid* grid = solid.Grid;
   const SolidFaces faces(grid);
   const SetNames names(solid, faces, "_", WordOf);
-  const int* labels = LabelsIn(grid);
   InpFile file(path);
   file.Out << "** " << remark << "\n*NODE, NSET=Nall\n";
   for (vtkIdType point = 0; point < grid->GetNumberOfPoints(); ++point)
@@ -204,19 +203,21 @@ void WriteInp(const Solid& solid, const std::string& path, const std::string& re
     const double* place = grid->GetPoint(point);
     file.Out << point + 1 << ", " << place[0] << ", " << place[1] << ", " << place[2] << "\n";
   }
+  std::map<int, std::vector<vtkIdType>> cells;
+  for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell)
+  {
+    cells[LabelsIn(grid)[cell]].push_back(cell);
+  }
   for (const auto& [label, name] : names.Labels)
   {
     std::set<vtkIdType> nodes;
     file.Out << "*ELEMENT, TYPE=C3D4, ELSET=" << name << "\n";
-    for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell)
+    for (const vtkIdType cell : cells[label])
     {
-      if (labels[cell] == label)
-      {
-        const vtkIdType* corners = CornersIn(grid, cell);
-        nodes.insert(corners, corners + 4);
-        file.Out << cell + 1 << ", " << corners[0] + 1 << ", " << corners[1] + 1 << ", "
-                 << corners[2] + 1 << ", " << corners[3] + 1 << "\n";
-      }
+      const vtkIdType* corners = CornersIn(grid, cell);
+      nodes.insert(corners, corners + 4);
+      file.Out << cell + 1 << ", " << corners[0] + 1 << ", " << corners[1] + 1 << ", "
+               << corners[2] + 1 << ", " << corners[3] + 1 << "\n";
     }
     file.WriteSet("*NSET, NSET=" + name, nodes);
   }

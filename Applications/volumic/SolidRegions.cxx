@@ -29,7 +29,8 @@ Vector3 MiddleOf(const Corners& corners)
   return { sum[0] / 3.0, sum[1] / 3.0, sum[2] / 3.0 };
 }
 
-/** How much of the sphere about a point a triangle covers, negative where its normal points to it. */
+/** How much of the sphere about a point a triangle covers, negative where its normal points to it.
+ */
 double SolidAngle(const Corners& corners, const Vector3& point)
 {
   std::array<Vector3, 3> to;
@@ -39,9 +40,10 @@ double SolidAngle(const Corners& corners, const Vector3& point)
     to[i] = Minus(corners[i], point);
     far[i] = std::sqrt(Dot(to[i], to[i]));
   }
-  return 2.0 * std::atan2(Dot(to[0], Cross(to[1], to[2])),
-    far[0] * far[1] * far[2] + Dot(to[0], to[1]) * far[2] + Dot(to[1], to[2]) * far[0] +
-      Dot(to[2], to[0]) * far[1]);
+  return 2.0 *
+    std::atan2(Dot(to[0], Cross(to[1], to[2])),
+      far[0] * far[1] * far[2] + Dot(to[0], to[1]) * far[2] + Dot(to[1], to[2]) * far[0] +
+        Dot(to[2], to[0]) * far[1]);
 }
 
 /** Where a ray meets a triangle, its border included, in lengths of its direction; or infinity. */
@@ -90,15 +92,16 @@ private:
 
 double RegionFinder::SolidAngleOf(const std::vector<Side>& sides, const Vector3& point) const
 {
-  return std::accumulate(sides.begin(), sides.end(), 0.0, [&](double sum, Side side)
-    { return sum + SolidAngle(this->Mesh.CornersOf(side), point); });
+  return std::accumulate(sides.begin(), sides.end(), 0.0,
+    [&](double sum, Side side) { return sum + SolidAngle(this->Mesh.CornersOf(side), point); });
 }
 
 /** That of the smallest shell that has a cavity's one inside. @param outer by their volumes */
 int RegionFinder::RegionAbout(const Shell& cavity, const std::vector<const Shell*>& outer) const
 {
   const Vector3 place = MiddleOf(this->Mesh.CornersOf(cavity.Sides.front()));
-  const auto found = std::find_if(outer.begin(), outer.end(), [&](const Shell* shell)
+  const auto found = std::find_if(outer.begin(), outer.end(),
+    [&](const Shell* shell)
     {
       return shell->Label == cavity.Label && shell->Volume > -cavity.Volume &&
         shell->Box.Contains(cavity.Box) &&
@@ -131,7 +134,8 @@ void RegionFinder::MakeRegions()
   };
   this->Found.Regions.resize(1 + outer.size());
   this->SidesOf.resize(1 + outer.size());
-  std::stable_sort(outer.begin(), outer.end(), [](const Shell* a, const Shell* b)
+  std::stable_sort(outer.begin(), outer.end(),
+    [](const Shell* a, const Shell* b)
     { return std::make_pair(a->Label < 0, a->Label) < std::make_pair(b->Label < 0, b->Label); });
   for (std::size_t i = 0; i < outer.size(); ++i)
   {
@@ -169,12 +173,12 @@ void RegionFinder::FindPoint(std::size_t region)
     }
     if (std::isfinite(way))
     {
-      points.emplace_back(
-        -way * std::sqrt(Dot(inward, inward)), Along(middle, inward, way / 2.0));
+      points.emplace_back(-way * std::sqrt(Dot(inward, inward)), Along(middle, inward, way / 2.0));
     }
   }
   std::sort(points.begin(), points.end());
-  const auto found = std::find_if(points.begin(), points.end(), [&](const auto& point)
+  const auto found = std::find_if(points.begin(), points.end(),
+    [&](const auto& point)
     { return std::abs(this->SolidAngleOf(sides, point.second) - 4.0 * vtkMath::Pi()) < 1e-3; });
   FailIf(found == points.end(), "cannot be written (a region of it is too thin for a point in it)");
   this->Found.Regions[region].Inside = found->second;

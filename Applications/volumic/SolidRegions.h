@@ -19,13 +19,14 @@ namespace tool
 /** A connected part of space, bounded by triangles. */
 struct SolidRegion
 {
-  int Label = -1; ///< which of SolidRegions::Labels; -1: of none, it is empty
+  int Label = -1;                     ///< which of SolidRegions::Labels; -1: of none, it is empty
   Vector3 Inside = { 0.0, 0.0, 0.0 }; ///< a point in it, off its boundary; none of the outermost
 };
 
 /**
  * What meshers of solids have to know: the connected regions into which triangles part space.
- * Region 0 is the outermost one, all others are bounded; those of labels come first, in their order.
+ * Region 0 is the outermost one, all others are bounded; those of labels come first, in their
+ * order.
  */
 struct SolidRegions
 {
@@ -53,15 +54,15 @@ SolidRegions FindRegions(vtkPolyData* surface);
 // ---- Shells -------------------------------------------------------------------------------------
 
 // Each triangle t has two sides: side 2 t is behind it, 2 t + 1 in front of it, where its normal
-// points. Sides that face each other across a wedge of an edge are of the same region of space; those
-// that are joined so make a shell: the outer boundary of a region, or that of a cavity in it.
+// points. Sides that face each other across a wedge of an edge are of the same region of space;
+// those that are joined so make a shell: the outer boundary of a region, or that of a cavity in it.
 using Side = std::size_t;
 
 using Corners = std::array<Vector3, 3>;
 
 struct Shell
 {
-  int Label; ///< which of LabelledTriangles::Labels; -1: none
+  int Label;           ///< which of LabelledTriangles::Labels; -1: none
   double Volume = 0.0; ///< enclosed by it, negative if the region is about it
   vtkBoundingBox Box = {};
   std::vector<Side> Sides = {};
@@ -71,7 +72,8 @@ struct Shell
 class LabelledTriangles
 {
 public:
-  /** Interfaces have `BoundaryLabels`; of others one label is behind. @throws Failure if it has none */
+  /** Interfaces have `BoundaryLabels`; of others one label is behind. @throws Failure if it has
+   * none */
   explicit LabelledTriangles(vtkPolyData* surface);
 
   /** In the order of their first sides. @throws Failure if the triangles do not part space */
@@ -105,7 +107,8 @@ private:
 
 Vector3 Minus(const Vector3& a, const Vector3& b);
 
-/** The number of each label in files: its own, or one that no label has where that is not positive. */
+/** The number of each label in files: its own, or one that no label has where that is not positive.
+ */
 std::vector<int> SolidNumbers(const std::vector<SurfaceLabel>& labels);
 }
 

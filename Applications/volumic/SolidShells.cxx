@@ -25,7 +25,8 @@ struct LabelledTriangles::EdgeUse
   bool IsUpwards; ///< from Low to High in the order of the triangle's corners
   vtkIdType Opposite;
 
-  /** The side that whoever goes about the edge counterclockwise, seen from High, comes upon last. */
+  /** The side that whoever goes about the edge counterclockwise, seen from High, comes upon last.
+   */
   Side Leaving() const { return 2 * this->Triangle + (this->IsUpwards ? 1 : 0); }
   Side Coming() const { return 2 * this->Triangle + (this->IsUpwards ? 0 : 1); }
 };
@@ -94,9 +95,8 @@ void LabelledTriangles::ReadTriangles(vtkPolyData* surface)
       this->Triangles.push_back({ corners[0], corners[1], corners[2] });
       for (int side = 0; side < 2; ++side)
       {
-        this->LabelOf.push_back(labels
-            ? EntryOr(numbers, labels->GetTypedComponent(before + polygon, side), -1)
-            : -side);
+        this->LabelOf.push_back(
+          labels ? EntryOr(numbers, labels->GetTypedComponent(before + polygon, side), -1) : -side);
       }
     });
   FailIf(this->Triangles.empty(), "cannot be written (there is no surface)");
@@ -133,18 +133,19 @@ void LabelledTriangles::JoinSides()
     {
       const vtkIdType from = this->Triangles[t][i];
       const vtkIdType to = this->Triangles[t][(i + 1) % 3];
-      uses.push_back({ std::min(from, to), std::max(from, to), t, from < to,
-        this->Triangles[t][(i + 2) % 3] });
+      uses.push_back(
+        { std::min(from, to), std::max(from, to), t, from < to, this->Triangles[t][(i + 2) % 3] });
     }
   }
-  std::sort(uses.begin(), uses.end(), [](const EdgeUse& a, const EdgeUse& b)
+  std::sort(uses.begin(), uses.end(),
+    [](const EdgeUse& a, const EdgeUse& b)
     { return std::tie(a.Low, a.High, a.Triangle) < std::tie(b.Low, b.High, b.Triangle); });
   std::vector<EdgeUse> about;
   const EdgeUse* end = uses.data() + uses.size();
   for (const EdgeUse* first = uses.data(); first != end;)
   {
-    const EdgeUse* last = std::find_if(first, end, [first](const EdgeUse& use)
-      { return use.Low != first->Low || use.High != first->High; });
+    const EdgeUse* last = std::find_if(first, end,
+      [first](const EdgeUse& use) { return use.Low != first->Low || use.High != first->High; });
     about.assign(first, last);
     this->JoinAbout(about);
     first = last;
@@ -164,8 +165,8 @@ void LabelledTriangles::JoinAbout(std::vector<EdgeUse>& uses)
       sides[this->LabelOf[use.Coming()]].push_back(use.Coming());
       sides[this->LabelOf[use.Leaving()]].push_back(use.Leaving());
     }
-    if (std::all_of(sides.begin(), sides.end(),
-          [](const auto& of) { return of.second.size() == 2; }))
+    if (std::all_of(
+          sides.begin(), sides.end(), [](const auto& of) { return of.second.size() == 2; }))
     {
       for (const auto& of : sides)
       {
@@ -195,10 +196,10 @@ void LabelledTriangles::SortAbout(std::vector<EdgeUse>& uses) const
     const Vector3 to = Minus(this->Place(use.Opposite), low);
     byAngle.emplace_back(std::atan2(Dot(to, y) * scale, Dot(to, x)), use);
   }
-  std::stable_sort(byAngle.begin(), byAngle.end(),
-    [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::transform(byAngle.begin(), byAngle.end(), uses.begin(),
-    [](const auto& angled) { return angled.second; });
+  std::stable_sort(
+    byAngle.begin(), byAngle.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::transform(
+    byAngle.begin(), byAngle.end(), uses.begin(), [](const auto& angled) { return angled.second; });
 }
 
 //------------------------------------------------------------------------------
@@ -227,8 +228,8 @@ std::vector<Shell> LabelledTriangles::FindShells()
     shell.Sides.push_back(side);
     const Vector3 origin = this->Place(this->Triangles[shell.Sides.front() / 2][0]);
     const Corners corners = this->CornersOf(side);
-    shell.Volume += Dot(Minus(corners[0], origin),
-                      Cross(Minus(corners[1], origin), Minus(corners[2], origin))) /
+    shell.Volume +=
+      Dot(Minus(corners[0], origin), Cross(Minus(corners[1], origin), Minus(corners[2], origin))) /
       6.0;
     for (const Vector3& corner : corners)
     {

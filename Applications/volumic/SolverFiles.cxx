@@ -123,7 +123,8 @@ void SolverModel::MakeNames()
 }
 
 //------------------------------------------------------------------------------
-/** A surface of gmsh's model: the triangles between two regions, and points that no earlier one has. */
+/** A surface of gmsh's model: the triangles between two regions, and points that no earlier one
+ * has. */
 struct MshSurface
 {
   int Number = 0;

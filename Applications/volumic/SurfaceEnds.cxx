@@ -4,6 +4,7 @@
 
 #include "SurfaceFacts.h"
 
+#include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkClipPolyData.h>
 #include <vtkFieldData.h>
@@ -13,11 +14,12 @@
 #include <vtkMatrix3x3.h>
 #include <vtkNew.h>
 #include <vtkPlane.h>
+#include <vtkPointData.h>
+#include <vtkPolyDataConnectivityFilter.h>
 #include <vtkTriangle.h>
 
 #include <algorithm>
-#include <map>
-#include <numeric>
+#include <vector>
 
 namespace tool
 {
@@ -90,18 +92,8 @@ void MarkCaps(vtkPolyData* surface, vtkImageData* image)
   int last = 0;
   for (const auto& plane : BorderOf(image, surface))
   {
-    std::vector<vtkIdType> parents(static_cast<std::size_t>(surface->GetNumberOfPoints()));
-    std::iota(parents.begin(), parents.end(), 0);
-    const auto root = [&parents](vtkIdType point)
-    {
-      auto at = static_cast<std::size_t>(point);
-      while (parents[at] != static_cast<vtkIdType>(at))
-      {
-        at = static_cast<std::size_t>(parents[at] = parents[static_cast<std::size_t>(parents[at])]);
-      }
-      return at;
-    };
-    std::vector<std::pair<vtkIdType, vtkIdType>> beyond; // triangles, each with a corner
+    std::vector<vtkIdType> triangles;
+    vtkNew<vtkCellArray> beyond;
     ForEachPolygon(surface,
       [&](vtkIdType triangle, const vtkIdType* corners, vtkIdType count)
       {
@@ -109,20 +101,26 @@ void MarkCaps(vtkPolyData* surface, vtkImageData* image)
               [&](vtkIdType corner) { return IsBeyond(plane, surface, corner); }) &&
           LooksOut(surface, corners, plane))
         {
-          beyond.emplace_back(triangle, corners[0]);
-          for (vtkIdType i = 1; i < count; ++i)
-          {
-            parents[root(corners[i])] = static_cast<vtkIdType>(root(corners[0]));
-          }
+          triangles.push_back(triangle);
+          beyond->InsertNextCell(count, corners);
         }
       });
-    std::map<std::size_t, int> numbers;
-    for (const auto& [triangle, corner] : beyond)
-    {
-      const auto found = numbers.emplace(root(corner), last + 1);
-      last += found.second ? 1 : 0;
-      caps->SetValue(triangle, found.first->second);
-    }
+    vtkNew<vtkPolyData> part;
+    part->SetPoints(surface->GetPoints());
+    part->SetPolys(beyond);
+    vtkNew<vtkPolyDataConnectivityFilter> connect;
+    connect->SetInputData(part);
+    connect->SetExtractionModeToAllRegions();
+    connect->ColorRegionsOn();
+    connect->Update();
+    vtkDataArray* regions = connect->GetOutput()->GetPointData()->GetArray("RegionId");
+    ForEachPolygon(connect->GetOutput(),
+      [&](vtkIdType number, const vtkIdType* corners, vtkIdType)
+      {
+        caps->SetValue(triangles[static_cast<std::size_t>(number)],
+          last + 1 + static_cast<int>(regions->GetComponent(corners[0], 0)));
+      });
+    last += connect->GetNumberOfExtractedRegions();
   }
   surface->GetCellData()->AddArray(caps);
 }

@@ -18,9 +18,9 @@
 #include <vtkUnsignedCharArray.h>
 
 #include <cstdint>
-#include <ostream>
 #include <locale>
 #include <map>
+#include <ostream>
 #include <vector>
 
 namespace tool

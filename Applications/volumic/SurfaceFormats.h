@@ -34,11 +34,12 @@ SurfaceWriter FindSurfaceWriter(const std::string& name);
 // ---- Pieces -------------------------------------------------------------------------------------
 
 /**
- * Write a surface of triangles as .pvtp, which names its pieces, STEM/STEM_0.vtp, ... beside it, for
- * programs that read some of them only, or each process its own. A piece has PieceSize triangles
- * that follow each other in the surface, the last one what is left, and their points. Points that
- * triangles of several pieces share are in each of these; the point array GlobalIds tells which
- * point of the surface each one is. Of the pieces one is in memory at a time. Field data are in each.
+ * Write a surface of triangles as .pvtp, which names its pieces, STEM/STEM_0.vtp, ... beside it,
+ * for programs that read some of them only, or each process its own. A piece has PieceSize
+ * triangles that follow each other in the surface, the last one what is left, and their points.
+ * Points that triangles of several pieces share are in each of these; the point array GlobalIds
+ * tells which point of the surface each one is. Of the pieces one is in memory at a time. Field
+ * data are in each.
  */
 void WritePieces(const SurfaceFile& file);
 
@@ -66,13 +67,13 @@ void WritePieceList(const std::string& path, const std::string& arrays, int piec
 // ---- Solids -------------------------------------------------------------------------------------
 
 // What meshers of solids fill with tetrahedra: a closed surface, or the output `Interfaces` of
-// vtkLabelsToSurfaces. Triangles between the same two labels, or a label and the outside, are marked
-// with the same number, 1 and more, which is named `liver_to_kidney`, `liver_to_outside`.
+// vtkLabelsToSurfaces. Triangles between the same two labels, or a label and the outside, are
+// marked with the same number, 1 and more, which is named `liver_to_kidney`, `liver_to_outside`.
 
 /**
- * MSH 4.1 of gmsh, as text: a surface for each pair of regions that touch, a volume for each region,
- * without elements, that tells which surfaces bound it; physical surfaces and volumes, these with the
- * labels as numbers where these are positive, named as the labels.
+ * MSH 4.1 of gmsh, as text: a surface for each pair of regions that touch, a volume for each
+ * region, without elements, that tells which surfaces bound it; physical surfaces and volumes,
+ * these with the labels as numbers where these are positive, named as the labels.
  */
 void WriteMsh(const SurfaceFile& file);
 

@@ -52,14 +52,14 @@ int FindName(const std::vector<std::string>& names, const std::string& name)
   VOLUMIC_NUMBER(Labels, "vtkLabelsToSurfaces", PROPERTY, OPTION, ARGUMENT, HELP)
 
 // An option without argument that gives a boolean property the value that is not its default.
-#define VOLUMIC_SWITCH(FILTER, CLASS, PROPERTY, VALUE, OPTION, HELP)                              \
-  PropertyOption                                                                                  \
-  {                                                                                               \
-    OPTION, "", CLASS, #PROPERTY, HELP,                                                           \
-      [](const FilterTrio& filters)                                                               \
-    { return std::string(filters.FILTER->Get##PROPERTY() ? "on" : "off"); },                      \
+#define VOLUMIC_SWITCH(FILTER, CLASS, PROPERTY, VALUE, OPTION, HELP)                               \
+  PropertyOption                                                                                   \
+  {                                                                                                \
+    OPTION, "", CLASS, #PROPERTY, HELP,                                                            \
+      [](const FilterTrio& filters)                                                                \
+    { return std::string(filters.FILTER->Get##PROPERTY() ? "on" : "off"); },                       \
       [](const FilterTrio& filters, const std::string&) { filters.FILTER->Set##PROPERTY(VALUE); }, \
-      VALUE                                                                                       \
+      VALUE                                                                                        \
   }
 #define SURFACE_SWITCH(PROPERTY, VALUE, OPTION, HELP) \
   VOLUMIC_SWITCH(Surface, "vtkDeformableSurface", PROPERTY, VALUE, OPTION, HELP)
@@ -238,13 +238,15 @@ bool IsOfLabelsOnly(const PropertyOption& option)
 }
 
 // What the labels' filter has of the surface's, and how it gets it.
-#define SHARED(PROPERTY) \
-  { #PROPERTY, [](const FilterTrio& f) { f.Labels->Set##PROPERTY(f.Surface->Get##PROPERTY()); } }
-static const std::map<std::string, std::function<void(const FilterTrio&)>> Shared = {
-  SHARED(Metric), SHARED(EdgeLength), SHARED(Tolerance), SHARED(MaximumEdgeLength),
-  SHARED(Gradation), SHARED(ThinParts), SHARED(FinestLevel), SHARED(KeepComponents),
-  SHARED(MinimumComponentVolume), SHARED(TimeLimit), SHARED(NumberOfThreads), SHARED(MemoryLimit), SHARED(ScratchDirectory)
-};
+#define SHARED(PROPERTY)                                                                        \
+  {                                                                                             \
+#PROPERTY, [](const FilterTrio& f) { f.Labels->Set##PROPERTY(f.Surface->Get##PROPERTY()); } \
+  }
+static const std::map<std::string, std::function<void(const FilterTrio&)>> Shared = { SHARED(
+                                                                                        Metric),
+  SHARED(EdgeLength), SHARED(Tolerance), SHARED(MaximumEdgeLength), SHARED(Gradation),
+  SHARED(ThinParts), SHARED(FinestLevel), SHARED(KeepComponents), SHARED(MinimumComponentVolume),
+  SHARED(TimeLimit), SHARED(NumberOfThreads), SHARED(MemoryLimit), SHARED(ScratchDirectory) };
 
 bool IsOfLabels(const PropertyOption& option)
 {

@@ -103,18 +103,21 @@ void RunProgram(std::vector<std::string> words, const std::string& folder, bool 
   FailIf(error != 0, program + " cannot be run");
   int status = 0;
   bool isStopped = false;
+  // What there is after an interrupt is filled as well, unless there is a second one.
+  const bool mayStop = isInterrupted && !isInterrupted();
   while (waitpid(child, &status, WNOHANG) == 0)
   {
-    if (!isStopped && isInterrupted && isInterrupted())
+    if (mayStop && !isStopped && isInterrupted())
     {
       isStopped = true;
       kill(child, SIGKILL);
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
-  FailIf(isStopped || (isInterrupted && isInterrupted()),
+  const bool isWell = WIFEXITED(status) && WEXITSTATUS(status) == 0;
+  FailIf(!isWell && mayStop && isInterrupted(),
     "interrupted while " + program + " made tetrahedra; not written");
-  FailIf(!WIFEXITED(status) || WEXITSTATUS(status) != 0,
+  FailIf(!isWell,
     program + " fails (" +
       (WIFEXITED(status) ? "exit code " + std::to_string(WEXITSTATUS(status))
                          : "signal " + std::to_string(WTERMSIG(status))) +

@@ -178,8 +178,8 @@ int ParseMebibytes(const std::string& text)
   static const std::map<std::string, double> units = { { "k", 0x1p-10 }, { "m", 1.0 },
     { "g", 0x1p10 }, { "t", 0x1p20 } };
   const auto found = units.find(unit.substr(0, 1));
-  const bool isUnit = found != units.end() &&
-    (unit.size() == 1 || unit.substr(1) == "b" || unit.substr(1) == "ib");
+  const bool isUnit =
+    found != units.end() && (unit.size() == 1 || unit.substr(1) == "b" || unit.substr(1) == "ib");
   FailIf<UsageError>(!isUnit && !(unit.empty() && number == 0.0),
     "'" + text + "' has no unit: give it as 1500M or 2G; 0 is no limit");
   const double mebibytes = isUnit ? std::ceil(number * found->second) : 0.0;

@@ -11,7 +11,8 @@
 
 namespace tool
 {
-/** The text, or of a longer one about so many bytes at its begin and its end, in whole characters. */
+/** The text, or of a longer one about so many bytes at its begin and its end, in whole characters.
+ */
 std::string Shortened(const std::string& text, std::size_t most);
 
 /** ASCII letters made small. */

@@ -79,7 +79,8 @@ typename Table::mapped_type EntryOr(const Table& table, const typename Table::ke
   return found != table.end() ? found->second : otherwise;
 }
 
-/** Of things that are tried one after the other, what failed: it must not take the others with it. */
+/** Of things that are tried one after the other, what failed: it must not take the others with it.
+ */
 class Failures
 {
 public:

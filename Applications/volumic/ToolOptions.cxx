@@ -4,12 +4,9 @@
 
 #include "Texts.h"
 #include "ToolErrors.h"
-#include "WriteOutputs.h"
-#include "WriteResults.h"
 
 #include <algorithm>
 #include <functional>
-#include <iterator>
 #include <ostream>
 #include <sstream>
 
@@ -94,31 +91,39 @@ void SetUnit(ToolOptions& options, const std::string& text)
   FailIf<UsageError>(options.World.Unit.empty(), "'" + text + "' is none of m, cm, mm, um, nm, A");
 }
 
+/** The text. @throws UsageError if it is none of the words */
+const std::string& OneOf(const std::string& text, const std::vector<std::string>& words)
+{
+  std::string all;
+  for (const std::string& word : words)
+  {
+    all += (all.empty() ? "" : ", ") + word;
+  }
+  FailIf<UsageError>(
+    std::find(words.begin(), words.end(), text) == words.end(), "'" + text + "' is none of " + all);
+  return text;
+}
+
 void SetSpace(ToolOptions& options, const std::string& text)
 {
-  const bool isAsFile = text == "as-file";
-  FailIf<UsageError>(
-    !isAsFile && text != "LPS" && text != "RAS", "'" + text + "' is none of LPS, RAS, as-file");
+  const bool isAsFile = OneOf(text, { "LPS", "RAS", "as-file" }) == "as-file";
   options.World.Axes = isAsFile ? "" : text;
+}
+
+void SetMesher(ToolOptions& options, const std::string& text)
+{
+  options.Solids.Mesher = OneOf(text, { "tetgen", "gmsh" });
+}
+
+void SetEnds(ToolOptions& options, const std::string& text)
+{
+  OneOf(text, { "closed", "marked", "open" });
+  options.Ends = text == "open" ? Ends::Open : text == "marked" ? Ends::Marked : Ends::Closed;
 }
 
 void SetTime(ToolOptions& options, const std::string& text)
 {
   options.Choice.Time = ParseNumber<int>(text);
-}
-
-void SetEnds(ToolOptions& options, const std::string& text)
-{
-  FailIf<UsageError>(text != "closed" && text != "marked" && text != "open",
-    "'" + text + "' is none of closed, marked, open");
-  options.Ends = text == "open" ? Ends::Open : text == "marked" ? Ends::Marked : Ends::Closed;
-}
-
-void SetMesher(ToolOptions& options, const std::string& text)
-{
-  FailIf<UsageError>(
-    text != "tetgen" && text != "gmsh", "'" + text + "' is none of tetgen, gmsh");
-  options.Solids.Mesher = text;
 }
 
 void SetMaximumVolume(ToolOptions& options, const std::string& text)
@@ -206,11 +211,14 @@ const std::vector<ProgramOption>& InputOptions()
       "a map that is large on edges, see --edge-attraction (2 if that is not given): a point array "
       "of the volume, or a volume of the same size"),
     { "ends", "closed|marked|open",
-      "where an object leaves the volume: closed by a cap (default), whose triangles may be marked by "
-      "a cell array Cap, or open, for flow: the surface ends in a plane, a voxel within the outermost ones",
+      "where an object leaves the volume: closed by a cap (default), whose triangles may be marked "
+      "by "
+      "a cell array Cap, or open, for flow: the surface ends in a plane, a voxel within the "
+      "outermost ones",
       SetEnds },
     { "triangles", "N",
-      "find the --tolerance with which the surface has about so many triangles, a tenth more or less",
+      "find the --tolerance with which the surface has about so many triangles, a tenth more or "
+      "less",
       [](ToolOptions& chosen, const std::string& text)
       {
         chosen.Triangles = ParseNumber<int>(text);
@@ -258,11 +266,12 @@ const std::vector<ProgramOption>& OutputOptions()
     Text("write-volume", "FILE.vti", &ToolOptions::WrittenVolume,
       "write the volume as it was read; without another file to write, that is all"),
     { "mesher", "tetgen|gmsh",
-      "what fills surfaces with tetrahedra for .vtu and .inp (default: the first that is installed), "
+      "what fills surfaces with tetrahedra for .vtu and .inp (default: the first that is "
+      "installed), "
       "and then for .msh, too",
       SetMesher },
-    { "maximum-volume", "VOLUME",
-      "of tetrahedra, in world units cubed; by gmsh about so much", SetMaximumVolume },
+    { "maximum-volume", "VOLUME", "of tetrahedra, in world units cubed; by gmsh about so much",
+      SetMaximumVolume },
     { "piece-size", "N", "triangles in each piece of a .pvtp (default: 1048576)", SetPieceSize },
     Switch("quiet", &ToolOptions::Quiet, "print errors only"),
     Switch("progress", &ToolOptions::Progress,
@@ -368,6 +377,7 @@ ToolOptions ParseOptions(int argc, const char* const argv[])
       text = argv[i];
     }
     Named<UsageError>("--" + name, [&] { found.Set(options, text); });
+    options.Given.insert(name);
   }
   if (options.ListsLabels && options.Labels.empty())
   {
@@ -434,141 +444,5 @@ void PrintProperties(std::ostream& out, const FilterTrio& filters)
     out << option.Class << "\t" << option.Property << "\t--" << option.Option << "\t"
         << option.Get(filters) << "\n";
   }
-}
-
-// ---- What makes sense ---------------------------------------------------------------------------
-
-namespace
-{
-/** What means nothing unless there are labels. */
-void CheckWithoutLabels(const ToolOptions& options)
-{
-  for (const auto& [property, text] : options.Properties)
-  {
-    FailIf<UsageError>(IsOfLabelsOnly(*property), "--" + property->Option + " needs --labels");
-  }
-  FailIf<UsageError>(!options.Format.empty(), "--format needs --labels");
-  FailIf<UsageError>(!options.NamesOfLabels.empty() && options.WrittenVolume.empty(),
-    "--label-names needs --labels, or --write-volume");
-}
-
-/** Whether the property means something where labels are only listed. */
-bool IsOfList(const PropertyOption& property)
-{
-  static const std::string needed[] = { "SelectedComponent", "BackgroundLabel", "NumberOfThreads",
-    "MemoryLimit", "ScratchDirectory" };
-  return std::find(std::begin(needed), std::end(needed), property.Property) != std::end(needed);
-}
-
-/**
- * What makes no sense for surfaces of labels, which have no evolution to choose and look at, or for
- * a list of labels.
- */
-void CheckWithLabels(const ToolOptions& options)
-{
-  const std::string asked = options.ListsLabels ? "--list-labels" : "--labels";
-  if (options.ListsLabels && !options.Surfaces.empty())
-  {
-    throw UsageError(options.Surfaces.front() +
-      ": --list-labels makes no surfaces; leave out the file or the option");
-  }
-  const std::pair<const char*, bool> others[] = { { "seeds", !options.Seeds.empty() },
-    { "seed-position", !options.SeedPositions.empty() },
-    { "initial-surface", !options.InitialSurface.empty() },
-    { "attracting-points", !options.AttractingPoints.empty() },
-    { "attracting-position", !options.AttractingPositions.empty() },
-    { "edges", !options.Edges.empty() }, { "triangles", options.Triangles > 0 }, { "history", !options.History.empty() },
-    { "levels-output", !options.Levels.empty() }, { "snapshots", !options.Snapshots.empty() },
-    { "format", options.ListsLabels && !options.Format.empty() } };
-  for (const auto& [option, isGiven] : others)
-  {
-    FailIf<UsageError>(
-      isGiven, "--" + std::string(option) + " and " + asked + " exclude each other");
-  }
-  for (const auto& [property, text] : options.Properties)
-  {
-    FailIf<UsageError>(!(options.ListsLabels ? IsOfList(*property) : IsOfLabels(*property)),
-      "--" + property->Option + " and " + asked + " exclude each other");
-    FailIf<UsageError>(
-      property->Property == "KeepComponents" && (text == "at-points" || text == "not-at-seeds"),
-      "--keep " + text + " and --labels exclude each other");
-  }
-  FailIf<UsageError>(options.ProbeDepth > 0.0 && SharesInterfaces(options),
-    "--probe-depth and shared interfaces, which have no normals, exclude each other");
-  bool hasFolder = false;
-  for (const std::string& name : options.Surfaces)
-  {
-    CheckLabelOutput(options, name);
-    hasFolder = hasFolder || OutputOf(options, name) == LabelOutput::Folder;
-  }
-  FailIf<UsageError>(!options.Format.empty() && !hasFolder,
-    "--format is that of the files in a folder: give one to write to");
-}
-}
-
-void CheckOptions(const ToolOptions& options)
-{
-  const bool isSegmented = options.Task == ToolOptions::Task::Segment;
-  if (!isSegmented && options.Task != ToolOptions::Task::ListFiles &&
-    options.Task != ToolOptions::Task::ListSeries)
-  {
-    return;
-  }
-  FailIf<UsageError>(options.Volume.empty(), "no volume is given");
-  if (!isSegmented)
-  {
-    return;
-  }
-  FailIf<UsageError>(
-    !options.WantsSurface() && options.WrittenVolume.empty(), "no file to write is given");
-  if (options.Labels.empty())
-  {
-    CheckWithoutLabels(options);
-  }
-  else
-  {
-    CheckWithLabels(options);
-  }
-  FailIf<UsageError>(
-    options.Region && options.RegionBox, "--region and --region-box exclude each other");
-  const char* const resampling = options.Region           ? "--region"
-    : options.RegionBox                                   ? "--region-box"
-    : options.ResampledSpacing                            ? "--resample"
-    : options.IsIsotropic                                 ? "--isotropic"
-                                                          : "";
-  FailIf<UsageError>(options.ResampledSpacing && options.IsIsotropic,
-    "--resample and --isotropic exclude each other");
-  for (const auto& [option, isGiven] : { std::pair("--edges", !options.Edges.empty()),
-         std::pair("--memory", options.HasProperty("MemoryLimit")) })
-  {
-    FailIf<UsageError>(
-      isGiven && *resampling, std::string(option) + " and " + resampling + " exclude each other");
-  }
-  FailIf<UsageError>(options.Edges.empty() && options.HasProperty("EdgeAttractionWeight"),
-    "--edge-attraction needs --edges");
-  FailIf<UsageError>(!options.Solids.Mesher.empty() && !MakesSolids(options),
-    "--mesher needs a file of tetrahedra: .vtu, .inp or .msh");
-  FailIf<UsageError>(options.Solids.MaximumVolume > 0.0 && !MakesSolids(options),
-    "--maximum-volume needs a file of tetrahedra: .vtu, .inp, or .msh with --mesher");
-  FailIf<UsageError>(
-    options.ProbeDepth > 0.0 && options.Probes.empty(), "--probe-depth needs --probe");
-  for (const auto& [property, text] : options.Properties)
-  {
-    const std::string& name = property->Property;
-    FailIf<UsageError>(options.Triangles > 0 &&
-        (name == "Tolerance" || name == "Resume" || name == "TimeLimit"),
-      "--triangles and --" + property->Option + " exclude each other");
-  }
-  FailIf<UsageError>(options.Ends != Ends::Closed && !options.Labels.empty() &&
-      SharesInterfaces(options), "--ends and shared interfaces exclude each other");
-  FailIf<UsageError>(options.Ends == Ends::Open &&
-      std::any_of(options.Surfaces.begin(), options.Surfaces.end(), IsOfSolids),
-    "--ends open and files of solids, which are closed, exclude each other");
-  FailIf<UsageError>(options.World.Scale && !options.World.Unit.empty(),
-    "--scale and --unit exclude each other");
-  FailIf<UsageError>(!options.Seeds.empty() && !options.InitialSurface.empty(),
-    "--seeds and --initial-surface exclude each other");
-  FailIf<UsageError>(!options.SeedPositions.empty() && !options.InitialSurface.empty(),
-    "--seed-position and --initial-surface exclude each other");
 }
 }

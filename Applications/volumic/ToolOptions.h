@@ -12,6 +12,7 @@
 
 #include <array>
 #include <iostream>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -41,31 +42,31 @@ struct ToolOptions
   std::string Array;                 ///< point array of the volume; empty: the active one
   WorldChoice World;                 ///< where the volume is to lie
   std::optional<std::array<double, 3>> ResampledSpacing; ///< world units
-  std::optional<std::array<int, 6>> Region;        ///< voxel indices, first and last of each axis
-  std::optional<std::array<double, 6>> RegionBox;  ///< the same in the world
-  bool IsIsotropic = false;                     ///< resampled to the smallest spacing
-  std::string Seeds;                            ///< file of points
-  std::string InitialSurface;                   ///< file of a closed surface
-  std::string AttractingPoints;                 ///< file of points
-  Positions SeedPositions;                      ///< beside those of the file
-  Positions AttractingPositions;                ///< beside those of the file
-  std::string Edges;                            ///< point array of the volume, or file of a volume
+  std::optional<std::array<int, 6>> Region;       ///< voxel indices, first and last of each axis
+  std::optional<std::array<double, 6>> RegionBox; ///< the same in the world
+  bool IsIsotropic = false;                       ///< resampled to the smallest spacing
+  std::string Seeds;                              ///< file of points
+  std::string InitialSurface;                     ///< file of a closed surface
+  std::string AttractingPoints;                   ///< file of points
+  Positions SeedPositions;                        ///< beside those of the file
+  Positions AttractingPositions;                  ///< beside those of the file
+  std::string Edges;               ///< point array of the volume, or file of a volume
   enum Ends Ends = Ends::Closed;   ///< of a surface at the border of the image
-  int Triangles = 0; ///< that the surface is to have, about; 0: as many as it gets
+  int Triangles = 0;               ///< that the surface is to have, about; 0: as many as it gets
   std::vector<std::string> Probes; ///< files of volumes whose values surfaces get
   double ProbeDepth = 0.0;         ///< over which their mean is taken, world units
   std::vector<std::string> Labels; ///< which of them get surfaces; empty: it is no label map
   bool ListsLabels = false;        ///< to tell them, and make no surfaces
   std::string NamesOfLabels;       ///< file of names; empty: as the volume has them
   std::string Format;              ///< suffix of surfaces in a folder, without its dot
-  std::string History;                          ///< .csv
-  std::string Levels;                           ///< .vtm, or a folder
-  std::string Snapshots;                        ///< .vtm, or a folder
-  std::string Report;                           ///< .json
-  std::string WrittenVolume;                    ///< .vti
-  SolidChoice Solids;                           ///< of files of tetrahedra
-  int PieceSize = 1 << 20;                      ///< triangles of a piece of a .pvtp
-  int Ranks = 1;                                ///< that mpirun has started
+  std::string History;             ///< .csv
+  std::string Levels;              ///< .vtm, or a folder
+  std::string Snapshots;           ///< .vtm, or a folder
+  std::string Report;              ///< .json
+  std::string WrittenVolume;       ///< .vti
+  SolidChoice Solids;              ///< of files of tetrahedra
+  int PieceSize = 1 << 20;         ///< triangles of a piece of a .pvtp
+  int Ranks = 1;                   ///< that mpirun has started
   bool Quiet = false;
   bool Progress = false; ///< also where stderr is no terminal
 
@@ -73,6 +74,10 @@ struct ToolOptions
   std::vector<std::pair<const PropertyOption*, std::string>> Properties;
 
   bool HasProperty(const std::string& property) const;
+
+  /** The options of the command line, without dashes. */
+  std::set<std::string> Given;
+  bool Has(const std::string& option) const { return this->Given.count(option) > 0; }
 
   /** Whether a surface is wanted, or something that tells of it, or of the labels. */
   bool WantsSurface() const;

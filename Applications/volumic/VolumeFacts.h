@@ -22,9 +22,9 @@ struct VolumeFacts
   std::array<int, 6> Extent = { 0, -1, 0, -1, 0, -1 };
   Vector3 Spacing = { 1.0, 1.0, 1.0 };
   Vector3 Origin = { 0.0, 0.0, 0.0 };
-  WorldSpace World; ///< that Spacing and Origin are in
+  WorldSpace World;       ///< that Spacing and Origin are in
   std::string Resampling; ///< how it was made a regular grid; empty: it was one
-  int Type = 0; ///< of the voxels, as VTK numbers types
+  int Type = 0;           ///< of the voxels, as VTK numbers types
   int Components = 1;
   /** Of the selected component: the smallest and the largest. */
   std::array<double, 2> Range = { std::numeric_limits<double>::infinity(),

@@ -12,9 +12,9 @@
 #include <vtkNew.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataWriter.h>
+#include <vtkUnstructuredGrid.h>
 #include <vtkXMLImageDataWriter.h>
 #include <vtkXMLPolyDataWriter.h>
-#include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
 #include <algorithm>
@@ -34,8 +34,10 @@ void RunWriter(vtkAlgorithm* writer, const std::function<void()>& write, Progres
   messages.ListenTo(writer);
   vtkNew<vtkCallbackCommand> observer;
   observer->SetClientData(&line);
-  observer->SetCallback([](vtkObject* caller, unsigned long, void* to, void*)
-    { static_cast<ProgressLine*>(to)->Show(static_cast<vtkAlgorithm*>(caller)->GetProgress(), ""); });
+  observer->SetCallback(
+    [](vtkObject* caller, unsigned long, void* to, void*) {
+      static_cast<ProgressLine*>(to)->Show(static_cast<vtkAlgorithm*>(caller)->GetProgress(), "");
+    });
   writer->AddObserver(vtkCommand::ProgressEvent, observer);
   messages.Catch(write);
   if (!messages.Errors.empty() || writer->GetErrorCode() != 0)
@@ -250,7 +252,7 @@ FileBuffer::pos_type FileBuffer::seekoff(
   }
   this->Empty();
   this->Start = distance +
-    (from == std::ios_base::cur       ? here
+    (from == std::ios_base::cur      ? here
         : from == std::ios_base::end ? this->End
                                      : 0);
   if (this->Error == 0)

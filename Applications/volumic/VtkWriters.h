@@ -22,8 +22,8 @@ class vtkUnstructuredGrid;
 namespace tool
 {
 /**
- * Have a writer of VTK, whose input and file are set, do its work: `write` calls its Write, which is
- * no method of what they have in common. What it tells of its progress is shown. It cannot be
+ * Have a writer of VTK, whose input and file are set, do its work: `write` calls its Write, which
+ * is no method of what they have in common. What it tells of its progress is shown. It cannot be
  * interrupted: what there is of an interrupted run is to be written.
  * @throws Failure, without the name of the file, if it reports an error.
  */
@@ -32,7 +32,8 @@ void RunWriter(vtkAlgorithm* writer, const std::function<void()>& write, Progres
 template <class Writer>
 void RunWriter(Writer* writer, ProgressLine& line)
 {
-  RunWriter(writer, [writer] { writer->Write(); }, line);
+  RunWriter(
+    writer, [writer] { writer->Write(); }, line);
 }
 
 // ---- What the disk took -------------------------------------------------------------------------

@@ -53,7 +53,8 @@ std::vector<OutputName> OtherOutputs(const ToolOptions& options)
   std::vector<OutputName> outputs = {
     { options.Levels, IsBlocks(options.Levels) ? Kind::Blocks : Kind::Folder, "level" },
     { options.Snapshots, IsBlocks(options.Snapshots) ? Kind::Blocks : Kind::Folder, "snapshot" },
-    { options.WrittenVolume }, { options.History }, { report } };
+    { options.WrittenVolume }, { options.History }, { report }
+  };
   outputs.erase(std::remove_if(outputs.begin(), outputs.end(),
                   [](const OutputName& output) { return output.Name.empty(); }),
     outputs.end());
@@ -72,8 +73,8 @@ std::string SuffixIn(const ToolOptions& options)
   return suffix[0] == '.' ? suffix : "." + suffix;
 }
 
-std::string PathIn(const std::string& folder, const LabelSurface& surface,
-  const ToolOptions& options)
+std::string PathIn(
+  const std::string& folder, const LabelSurface& surface, const ToolOptions& options)
 {
   return (fs::path(folder) / (surface.FileName + SuffixIn(options))).string();
 }
@@ -141,8 +142,7 @@ void WriteOutputs(const ToolOptions& options, ReportInput& results, ProgressStyl
 {
   vtkDeformableSurface* filter = results.Filters.Surface;
   SolidMaker solids(options.Solids, WasInterrupted);
-  const SurfaceWriting writing = { results.IsFinished ? ""
-                                                      : ", UNFINISHED: " + results.StopReason,
+  const SurfaceWriting writing = { results.IsFinished ? "" : ", UNFINISHED: " + results.StopReason,
     PieceSizeOf(options, results.Surface), style, &solids };
   MarkSpace(results.Surface, results.Volume.World);
   MarkSpace(filter->GetLevels(), results.Volume.World);
@@ -167,8 +167,8 @@ void WriteOutputs(const ToolOptions& options, ReportInput& results, ProgressStyl
   failures.Throw();
 }
 
-std::string TextOfPrint(const ToolOptions& options, const std::vector<vtkPolyData*>& surfaces,
-  const WorldSpace& world)
+std::string TextOfPrint(
+  const ToolOptions& options, const std::vector<vtkPolyData*>& surfaces, const WorldSpace& world)
 {
   const bool isPrinted = options.Format == "3mf" || options.Format == ".3mf" ||
     std::any_of(options.Surfaces.begin(), options.Surfaces.end(),
@@ -212,8 +212,8 @@ std::string UnfinishedRemark(const LabelSurface& surface)
 SurfaceWriting WritingOf(
   const ToolOptions& options, const LabelSurface& surface, SolidMaker& solids, ProgressStyle style)
 {
-  return { UnfinishedRemark(surface) + ", " + surface.Name,
-    PieceSizeOf(options, surface.Surface), style, &solids };
+  return { UnfinishedRemark(surface) + ", " + surface.Name, PieceSizeOf(options, surface.Surface),
+    style, &solids };
 }
 
 /** All in one file. */
@@ -323,11 +323,12 @@ void MadeFolders::Make(const std::string& name)
   this->Names.push_back(folder.string());
 }
 
-void CheckLabelSurfaces(const ToolOptions& options, const std::vector<LabelSurface>& surfaces,
-  MadeFolders& folders)
+void CheckLabelSurfaces(
+  const ToolOptions& options, const std::vector<LabelSurface>& surfaces, MadeFolders& folders)
 {
   FailIf(SharesInterfaces(options) &&
-      std::any_of(surfaces.begin(), surfaces.end(), [&](const LabelSurface& surface)
+      std::any_of(surfaces.begin(), surfaces.end(),
+        [&](const LabelSurface& surface)
         { return surface.Labels.front().Layer != surfaces.front().Labels.front().Layer; }),
     "--shared-interfaces: the labels lie in several layers of the file, of which those of one can "
     "share interfaces; choose it with --component");
@@ -344,8 +345,8 @@ void CheckLabelSurfaces(const ToolOptions& options, const std::vector<LabelSurfa
       const std::string stem = fs::path(name).replace_extension().string();
       throw Failure(name + ": " + std::to_string(surfaces.size()) +
         " labels have as many surfaces: give a folder (" + stem + "/ --format " +
-        SuffixOf(name).substr(1) + ") or blocks (" + stem + ".vtm, " + stem +
-        ".glb, " + stem + ".3mf), or make one of them with --merge, or one mesh of all with --shared-interfaces (" +
+        SuffixOf(name).substr(1) + ") or blocks (" + stem + ".vtm, " + stem + ".glb, " + stem +
+        ".3mf), or make one of them with --merge, or one mesh of all with --shared-interfaces (" +
         stem + ".vtp, .vtk, .vtu, .inp, .msh, .smesh, .poly)");
     }
   }

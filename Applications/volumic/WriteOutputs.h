@@ -34,20 +34,21 @@ void CheckFiles(const ToolOptions& options);
 void WriteOutputs(const ToolOptions& options, ReportInput& results, ProgressStyle style);
 
 /**
- * What a printer asks of surfaces for which a .3mf was asked: their size, and the thinnest wall where
+ * What a printer asks of surfaces for which a .3mf was asked: their size, and the thinnest wall
+ * where
  * --thin-parts has measured it. Empty without a .3mf, or without surfaces.
  */
-std::string TextOfPrint(const ToolOptions& options, const std::vector<vtkPolyData*>& surfaces,
-  const WorldSpace& world);
+std::string TextOfPrint(
+  const ToolOptions& options, const std::vector<vtkPolyData*>& surfaces, const WorldSpace& world);
 
 // ---- Labels -------------------------------------------------------------------------------------
 
 /** A surface about a label, or, with --merge, about several. */
 struct LabelSurface
 {
-  std::vector<KnownLabel> Labels; ///< of the surface, at least one
-  std::string Name;               ///< of its block
-  std::string FileName;           ///< in a folder, without suffix
+  std::vector<KnownLabel> Labels;       ///< of the surface, at least one
+  std::string Name;                     ///< of its block
+  std::string FileName;                 ///< in a folder, without suffix
   vtkSmartPointer<vtkPolyData> Surface; ///< may have no points
   std::vector<std::string> Files;       ///< that were written of it alone
   double Seconds = 0.0;                 ///< that the work on it took
@@ -59,9 +60,10 @@ struct LabelSurface
 /** What a name on the command line asks for. */
 enum class LabelOutput
 {
-  Folder, ///< it ends with a slash, is one, or has no suffix
-  Blocks, ///< .vtm and .glb: one file of all
-  Interfaces, ///< one mesh of all, for meshers of solids or, where interfaces are shared, .vtp, .vtk
+  Folder,     ///< it ends with a slash, is one, or has no suffix
+  Blocks,     ///< .vtm and .glb: one file of all
+  Interfaces, ///< one mesh of all, for meshers of solids or, where interfaces are shared, .vtp,
+              ///< .vtk
   File        ///< of one surface
 };
 
@@ -95,8 +97,8 @@ private:
  * As CheckFiles, now that the surfaces are known; makes the folders.
  * @throws Failure if a file is to hold several of them, too.
  */
-void CheckLabelSurfaces(const ToolOptions& options, const std::vector<LabelSurface>& surfaces,
-  MadeFolders& folders);
+void CheckLabelSurfaces(
+  const ToolOptions& options, const std::vector<LabelSurface>& surfaces, MadeFolders& folders);
 
 /**
  * Write the surfaces that have points, as the options ask for.

@@ -142,8 +142,7 @@ void WriteSurface(vtkPolyData* surface, const std::string& name, const SurfaceWr
   WriteBeside(name, writing.Style,
     [&](const std::string& path, ProgressLine& line)
     {
-      const std::string remark =
-        "volumic " VOLUMIC_VERSION + SpaceRemark(surface) + writing.Remark;
+      const std::string remark = "volumic " VOLUMIC_VERSION + SpaceRemark(surface) + writing.Remark;
       SolidMaker solids{ SolidChoice() };
       write({ surface, path, remark, writing.PieceSize, line,
         writing.Solids ? writing.Solids : &solids });
@@ -169,8 +168,7 @@ void WriteScene(
     TellOfRounding(object.Surface, name);
   }
   WriteBeside(name, style,
-    [&](const std::string& path, ProgressLine& line)
-    {
+    [&](const std::string& path, ProgressLine& line) {
       SuffixOf(path) == ".3mf" ? WriteThreeMf(objects, path, line) : WriteGlb(objects, path, line);
     });
 }

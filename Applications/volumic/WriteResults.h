@@ -41,15 +41,15 @@ struct SurfaceWriting
    * that (.stl, .ply, .obj, .vtk, .msh, .smesh).
    */
   std::string Remark;
-  int PieceSize = 0;  ///< triangles of a piece, where there are pieces
+  int PieceSize = 0; ///< triangles of a piece, where there are pieces
   ProgressStyle Style = ProgressStyle::None;
   SolidMaker* Solids = nullptr; ///< of files of tetrahedra; null: one of its own
 };
 
 /**
  * Write a surface in the format of the suffix. Arrays and field data go along where the format has
- * a place for them (.vtp, .pvtp, .vtk), and colours of labels (.ply, .glb). Interfaces of labels may
- * be what is written, as .vtp, .vtk and where IsOfSolids().
+ * a place for them (.vtp, .pvtp, .vtk), and colours of labels (.ply, .glb). Interfaces of labels
+ * may be what is written, as .vtp, .vtk and where IsOfSolids().
  */
 void WriteSurface(vtkPolyData* surface, const std::string& name, const SurfaceWriting& writing);
 

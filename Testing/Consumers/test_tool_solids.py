@@ -228,6 +228,13 @@ class MesherTest(SolidsTest):
         self.assertRegex(told, "a.vtu: interrupted while tetgen made tetrahedra")
         self.assertEqual(files, ["a.vtp"])
 
+    def test_what_there_is_after_an_interrupt_is_filled(self):
+        rest = self.interrupted("volumic: Making surfaces", self.many_labels(4),
+                                self.path("many.vtu"), "--labels", "all")
+        self.assertIn("unfinished", rest)
+        grid = read(self.path("many.vtu"), vtkXMLUnstructuredGridReader())
+        self.assertGreater(grid.GetNumberOfCells(), 100)
+
 
 class OptionsTest(SolidsTest):
     def test_what_is_missing_is_told_before_the_work(self):

@@ -179,61 +179,6 @@ class RegionTest(WrittenVolumeTest):
                 self.refused(reason, volume, self.path("a.vtp"), *options, status=status)
 
 
-class ProbeTest(ToolTestCase):
-    def other(self, name="pet.nii.vti", function=lambda world: world @ (3.0, -2.0, 0.5)):
-        """A linear function of the world in a turned grid of another spacing, about all of the ball
-        but a corner."""
-        index = np.stack(np.indices((20, 30, 30))[::-1], axis=-1)
-        places = np.array([12., 3., 8.]) + (index * (0.8, 0.7, 0.9)) @ np.asarray(TURNED).T
-        return self.write(vtkXMLImageDataWriter(), name,
-                          make_image(function(places), (0.8, 0.7, 0.9), (12, 3, 8), TURNED))
-
-    def values(self, *options):
-        self.run_tool(self.ball_file(), self.path("a.vtp"), "--iso", "500.5", *options)
-        surface = read(self.path("a.vtp"))
-        points = vtk_to_numpy(surface.GetPoints().GetData()).astype(float)
-        return surface, points
-
-    def test_values_at_vertices(self):
-        surface, points = self.values("--probe", self.other(), "--probe",
-                                      self.other("pet.vti", lambda world: world[..., 0]))
-        found = vtk_to_numpy(surface.GetPointData().GetArray("pet"))
-        inside = ~np.isnan(found)
-        self.assertTrue(0.9 < inside.mean() <= 1)
-        np.testing.assert_allclose(found[inside], (points @ (3.0, -2.0, 0.5))[inside], atol=2e-4)
-        second = vtk_to_numpy(surface.GetPointData().GetArray("pet-2"))
-        np.testing.assert_allclose(second[inside], points[inside, 0], atol=2e-4)
-
-    def test_the_mean_over_a_depth(self):
-        """Of a linear function it is the value half as deep."""
-        surface, points = self.values("--probe", self.other(), "--probe-depth", "1.5")
-        normals = vtk_to_numpy(surface.GetPointData().GetNormals())
-        found = vtk_to_numpy(surface.GetPointData().GetArray("pet"))
-        expected = (points - 0.75 * normals) @ (3.0, -2.0, 0.5)
-        np.testing.assert_allclose(found[~np.isnan(found)], expected[~np.isnan(found)], atol=2e-3)
-
-    def test_a_volume_elsewhere_and_errors(self):
-        far = self.write(vtkXMLImageDataWriter(), "far.vti", make_image(ball(), origin=(1e3, 0, 0)))
-        surface, _ = self.values("--probe", far)
-        self.assertTrue(np.isnan(vtk_to_numpy(surface.GetPointData().GetArray("far"))).all())
-        self.refused("none.vti: no such file", self.ball_file(), self.path("a.vtp"), "--probe",
-                     self.path("none.vti"))
-        self.refused("--probe-depth needs --probe", self.ball_file(), self.path("a.vtp"),
-                     "--probe-depth", "1", status=2)
-        os.symlink(far, self.path("link.vtp"))
-        self.refused("is the input", self.ball_file(), self.path("link.vtp"), "--probe", far)
-
-    def test_of_labels(self):
-        labels = self.write(vtkXMLImageDataWriter(), "labels.vti",
-                            make_image((ball() > 500).astype("u1")))
-        self.run_tool(labels, self.path("o/"), "--labels", "all", "--probe", self.other())
-        surface = read(self.path("o/label-1.vtp"))
-        self.assertTrue(surface.GetPointData().HasArray("pet"))
-        self.refused("--probe-depth and shared interfaces, which have no normals, exclude", labels,
-                     self.path("a.vtp"), "--labels", "all", "--shared-interfaces", "--probe",
-                     self.other(), "--probe-depth", "1", status=2)
-
-
 class ListFilesTest(ToolTestCase):
     def files(self, volume):
         return {os.path.basename(line)

@@ -50,8 +50,8 @@ struct ScratchStatistics
  * The limit is that of the process. Where several are alive, the smallest limit counts, and new
  * arrays go to the directory of the last one. A thread looks at the resident memory of the
  * process every few ms, and so do threads that work (KeepMemoryLimit); they drop pages from 3/5
- * of it on, or sooner on a busy machine, one array after another, round and round; the system
- * keeps them in its cache while it can, so that most come back without the disk.
+ * of it on, or from 1 GiB below it, one array after another, round and round; the system keeps
+ * them in its cache while it can, so that most come back without the disk.
  * What is no large array cannot be dropped: where that alone passes the limit, or threads fill it
  * faster than it is emptied, the run goes on beyond it, and Warnings() says so.
  *

@@ -115,7 +115,7 @@ struct Sweep
 };
 
 void MakeBlocks(Evolution& evolution);   ///< Those of the mesh as it is.
-void ForgetBlocks(Evolution& evolution); ///< Any new vertex may have their places again.
+void ForgetBlocks(Evolution& evolution); ///< Before the mesh is numbered otherwise.
 /**
  * After a stop some blocks were not visited; the surface is valid all the same. State.Counts is
  * then the sum of what the visits have edited. @param visit called on any thread
