@@ -19,6 +19,13 @@ namespace volumic
 {
 namespace
 {
+#ifdef __SANITIZE_ADDRESS__
+// It guards what is about an array of the heap, not what is about a mapping.
+constexpr bool HeapIsGuarded = true;
+#else
+constexpr bool HeapIsGuarded = false;
+#endif
+
 void* AllocateOnHeap(std::size_t bytes, std::size_t alignment)
 {
 #ifdef _WIN32
@@ -106,12 +113,13 @@ std::vector<std::string> ScratchMemory::Warnings() const
 
 void* AllocateLarge(std::size_t bytes, std::size_t alignment)
 {
-  if (ScratchIsPossible && bytes >= ScratchMemory::LargeBytes)
+  const bool isLarge = bytes >= ScratchMemory::LargeBytes;
+  if (ScratchIsPossible && isLarge && (!HeapIsGuarded || HasMemoryLimit()))
   {
     return ScratchStore::Instance().Map(bytes);
   }
   void* memory = AllocateOnHeap(bytes, alignment);
-  if (ZeroedAllocations::AreOn())
+  if (isLarge || ZeroedAllocations::AreOn())
   {
     std::memset(memory, 0, bytes);
   }
