@@ -45,6 +45,7 @@ set(volumic_core_sources
   Mesh/LatticeSurface.cxx
   Mesh/LongEdges.cxx
   Mesh/RingRelief.cxx
+  Mesh/RowCrossing.cxx
   Mesh/SelfIntersections.cxx
   Mesh/StarMerge.cxx
   Mesh/SurfaceCheck.cxx
@@ -120,7 +121,7 @@ set(volumic_core_headers
   Common/IndexedSurface.h
   Common/Join.h
   Common/Lanes.h
-  Common/LatticeKey.h
+  Common/Lattice.h
   Common/Monitor.h
   Common/Refuse.h
   Common/ScratchFile.h

@@ -25,97 +25,36 @@ namespace
 constexpr std::size_t SpanSize = 16384;
 
 /**
- * Places sorted along y, so that what is near a triangle or a vertex is found without a search of
- * all.
- */
-class SortedPlaces
-{
-public:
-  explicit SortedPlaces(const std::vector<Point>& places)
-    : Places(places), Order(places.size())
-  {
-    std::iota(this->Order.begin(), this->Order.end(), std::size_t(0));
-    std::sort(this->Order.begin(), this->Order.end(),
-      [&](std::size_t a, std::size_t b) { return places[a][1] < places[b][1]; });
-  }
-
-  /** Calls visit(index) for the places with low <= y <= high. */
-  template <typename Visitor>
-  void Visit(double low, double high, const Visitor& visit) const
-  {
-    auto at = std::lower_bound(this->Order.begin(), this->Order.end(), low,
-      [this](std::size_t i, double y) { return this->Places[i][1] < y; });
-    for (; at != this->Order.end() && this->Places[*at][1] <= high; ++at)
-    {
-      visit(*at);
-    }
-  }
-
-private:
-  const std::vector<Point>& Places;
-  std::vector<std::size_t> Order;
-};
-
-/**
  * For each place the innermost component that encloses it, -1 if none; `own` (may be empty) does
  * not count.
  */
 std::vector<int> InnermostAbout(const std::vector<Point>& places, const std::vector<int>& own,
   const IndexedSurface& surface, const SurfaceFeatures& features, Executor& executor)
 {
-  const SortedPlaces sorted(places);
-  const std::size_t n = surface.Triangles.size();
-  struct Piercing
-  {
-    std::size_t Place;
-    int Component;
-  };
-  std::vector<std::vector<Piercing>> spans((n + SpanSize - 1) / SpanSize);
-  ForSpans(executor, n, SpanSize,
-    [&](std::size_t span, std::size_t begin, std::size_t end)
+  const std::vector<std::vector<int>> about = ComponentsAbout(
+    places, own, surface.Triangles.size(),
+    [&](std::size_t begin, std::size_t end, const auto& visit)
     {
       for (std::size_t t = begin; t < end; ++t)
       {
         const Triangle& triangle = surface.Triangles[t];
-        const Point& a = surface.Points[triangle[0]];
-        const Point& b = surface.Points[triangle[1]];
-        const Point& c = surface.Points[triangle[2]];
-        const int component = features.ComponentOfTriangle[t];
-        const auto y = std::minmax({ a[1], b[1], c[1] });
-        sorted.Visit(y.first, y.second,
-          [&](std::size_t i)
-          {
-            if (own.empty() || own[i] != component)
-            {
-              const RowCrossing where = RowCrossing::Of(a, b, c, places[i][1], places[i][2]);
-              if (where.Winding != 0 && where.X > places[i][0])
-              {
-                spans[span].push_back({ i, component });
-              }
-            }
-          });
+        visit(surface.Points[triangle[0]], surface.Points[triangle[1]], surface.Points[triangle[2]],
+          features.ComponentOfTriangle[t]);
       }
-    });
-  std::vector<std::vector<int>> pierced(places.size());
-  for (const Piercing& found : Joined(executor, spans))
-  {
-    pierced[found.Place].push_back(found.Component);
-  }
+    },
+    executor);
   std::vector<int> innermost(places.size(), -1);
   for (std::size_t i = 0; i < places.size(); ++i)
   {
     double least = 0.0;
-    std::sort(pierced[i].begin(), pierced[i].end());
-    for (auto at = pierced[i].begin(); at != pierced[i].end();)
+    for (const int component : about[i])
     {
-      const auto end = std::upper_bound(at, pierced[i].end(), *at);
-      const double volume = std::abs(features.Components[*at].Volume);
-      if ((end - at) % 2 == 1 && (innermost[i] < 0 || volume < least))
+      const double volume = std::abs(features.Components[component].Volume);
+      if (innermost[i] < 0 || volume < least)
       {
-        innermost[i] = *at;
+        innermost[i] = component;
         least = volume;
       }
-      at = end;
     }
   }
   return innermost;
@@ -164,8 +103,7 @@ void LeaveKept(
   leave(surface.Thickness);
   const auto isGone = [&](const std::array<int, 2>& pair)
   { return index[pair[0]] < 0 || index[pair[1]] < 0; };
-  surface.Contacts.erase(
-    std::remove_if(surface.Contacts.begin(), surface.Contacts.end(), isGone),
+  surface.Contacts.erase(std::remove_if(surface.Contacts.begin(), surface.Contacts.end(), isGone),
     surface.Contacts.end());
   for (std::array<int, 2>& pair : surface.Contacts)
   {
@@ -202,7 +140,7 @@ void MarkTouching(const SurfaceResult& surface, const SurfaceFeatures& features,
         {
           const Point& p = surface.Points[corner];
           sorted.Visit(p[1] - reach, p[1] + reach,
-            [&](std::size_t i)
+            [&](int i)
             {
               const double x = p[0] - places[i][0];
               const double y = p[1] - places[i][1];
@@ -265,12 +203,11 @@ std::vector<int> OwnersOf(
   return owners;
 }
 
-ComponentChoice ChoiceOf(const SegmentationRequest& request, const Workspace& space,
-  const std::array<int, 3>& size)
+ComponentChoice ChoiceOf(
+  const SegmentationRequest& request, const Workspace& space, const std::array<int, 3>& size)
 {
   const SegmentationEnd& end = request.Settings.End;
-  CheckEnumeration(
-    "Keep Components", end.KeepComponents, KeepComponentsType::ComponentsNotAtSeeds);
+  CheckEnumeration("Keep Components", end.KeepComponents, KeepComponentsType::ComponentsNotAtSeeds);
   if (!(end.MinimumComponentVolume >= 0.0))
   {
     Refuse("Minimum Component Volume is ", end.MinimumComponentVolume, "; it must be 0 or more.");
@@ -298,23 +235,21 @@ ComponentChoice ChoiceOf(const SegmentationRequest& request, const Workspace& sp
   {
     // Points known to belong to the object mark nothing that is to go; of no seeds nothing is.
     choice.Places = PlacesOf(request.InitialSurface, nullptr, space);
-    const std::vector<Point> more =
-      PositionsOf(end.SeedPositions, "Seed Positions", space, size);
+    const std::vector<Point> more = PositionsOf(end.SeedPositions, "Seed Positions", space, size);
     choice.Places.insert(choice.Places.end(), more.begin(), more.end());
   }
   return choice;
 }
 
-SurfaceResult KeepChosen(SurfaceResult surface, const ComponentChoice& choice,
-  const Workspace& space, Executor& executor)
+SurfaceResult KeepChosen(
+  SurfaceResult surface, const ComponentChoice& choice, const Workspace& space, Executor& executor)
 {
   if (choice.Mode == KeepComponentsType::AllComponents)
   {
     return surface;
   }
   // Components are numbered by their areas, which differ in the world where voxels are no cubes.
-  const SurfaceFeatures features =
-    ComputeFeatures(ToWorld(surface, space, executor), executor);
+  const SurfaceFeatures features = ComputeFeatures(ToWorld(surface, space, executor), executor);
   const std::size_t n = features.Components.size();
   const std::vector<int> owners = OwnersOf(surface, features, executor);
   std::vector<bool> isKept(n, false);

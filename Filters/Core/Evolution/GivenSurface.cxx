@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Common/LatticeKey.h"
+#include "Core/Common/Lattice.h"
 #include "Core/Common/Refuse.h"
 #include "Core/Evolution/Evolution.h"
 #include "Core/Evolution/InitialSurface.h"

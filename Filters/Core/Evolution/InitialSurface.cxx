@@ -3,7 +3,7 @@
 #include "Core/Evolution/InitialSurface.h"
 
 #include "Core/Common/Join.h"
-#include "Core/Common/LatticeKey.h"
+#include "Core/Common/Lattice.h"
 #include "Core/Common/Refuse.h"
 #include "Core/Mesh/Division.h"
 

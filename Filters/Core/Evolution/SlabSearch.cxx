@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Evolution/SlabSearch.h"
 
-#include "Core/Common/IndexedSurface.h"
 #include "Core/Image/VoxelNumbers.h"
-#include "Core/Mesh/RowCrossing.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,13 +22,10 @@ constexpr int BitsOfWord = 64;
 
 SlabSearch::SlabSearch(
   const SurfaceState& state, const Field& field, PartKind kind, int begin, int end)
-  : State(state)
-  , TheField(field)
-  , Kind(kind)
-  , Size(field.Image().Size)
-  , Rows{ { 0, 0, begin }, { Size[0], Size[1], end } }
-  , Words((Size[0] + BitsOfWord - 1) / BitsOfWord)
-  , Open(static_cast<std::size_t>(end - begin) * Size[1] * Words,
+  : State(state), TheField(field), Kind(kind),
+    Size(field.Image().Size), Rows{ { 0, 0, begin }, { Size[0], Size[1], end } },
+    Words((Size[0] + BitsOfWord - 1) / BitsOfWord),
+    Open(static_cast<std::size_t>(end - begin) * Size[1] * Words,
       kind == PartKind::Object ? ~std::uint64_t(0) : 0)
 {
   for (int k = 0; k < 3; ++k)
@@ -39,7 +34,7 @@ SlabSearch::SlabSearch(
   }
 }
 
-void SlabSearch::Set(int row, int first, int last, bool isOpen)
+void SlabSearch::Set(std::int64_t row, int first, int last, bool isOpen)
 {
   if (first > last)
   {
@@ -49,51 +44,29 @@ void SlabSearch::Set(int row, int first, int last, bool isOpen)
   for (int w = first / BitsOfWord; w <= last / BitsOfWord; ++w)
   {
     const std::uint64_t all = ~std::uint64_t(0);
-    const std::uint64_t bits =
-      (w == first / BitsOfWord ? all << first % BitsOfWord : all) &
+    const std::uint64_t bits = (w == first / BitsOfWord ? all << first % BitsOfWord : all) &
       (w == last / BitsOfWord ? all >> (BitsOfWord - 1 - last % BitsOfWord) : all);
     words[w] = isOpen ? words[w] | bits : words[w] & ~bits;
   }
 }
 
-void SlabSearch::FindCrossings(int a, int b, int c)
-{
-  Point corner[3];
-  Bounds bounds;
-  const int vertices[3] = { a, b, c };
-  for (int k = 0; k < 3; ++k)
-  {
-    const Vector& p = this->State.Mesh.Position[vertices[k]];
-    corner[k] = { p.X * this->Inverse[0], p.Y * this->Inverse[1] - Aside[0],
-      p.Z * this->Inverse[2] - Aside[1] };
-    bounds.Add(corner[k]);
-  }
-  const auto first = [&](int axis)
-  { return std::max(this->Rows.First[axis], static_cast<int>(std::ceil(bounds.Low[axis]))); };
-  const auto last = [&](int axis)
-  { return std::min(this->Rows.End[axis] - 1, static_cast<int>(std::floor(bounds.High[axis]))); };
-  for (int k = first(2); k <= last(2); ++k)
-  {
-    for (int j = first(1); j <= last(1); ++j)
-    {
-      const RowCrossing crossing = RowCrossing::Of(corner[0], corner[1], corner[2], j, k);
-      if (crossing.Winding != 0)
-      {
-        this->Crossings.push_back({ this->RowOf(j, k), static_cast<float>(crossing.X) });
-      }
-    }
-  }
-}
-
 void SlabSearch::LeaveSide(const int* vertices, std::size_t count)
 {
+  const auto cornerAt = [this](int v)
+  {
+    const Vector& p = this->State.Mesh.Position[v];
+    return Point{ p.X * this->Inverse[0], p.Y * this->Inverse[1] - Aside[0],
+      p.Z * this->Inverse[2] - Aside[1] };
+  };
+  std::vector<RowGrid::Crossing> crossings;
   for (std::size_t i = 0; i < count; ++i)
   {
     const auto v = static_cast<std::size_t>(vertices[i]);
-    const SurfaceMesh& mesh = this->State.Mesh;
-    mesh.VisitFaces(v, v + 1, [this](int a, int b, int c) { this->FindCrossings(a, b, c); });
+    this->State.Mesh.VisitFaces(v, v + 1,
+      [&](int a, int b, int c) {
+        this->Rows.AddCrossings({ cornerAt(a), cornerAt(b), cornerAt(c) }, crossings);
+      });
   }
-  std::vector<Crossing>& crossings = this->Crossings;
   std::sort(crossings.begin(), crossings.end());
   for (std::size_t i = 0; i + 1 < crossings.size();)
   {
@@ -102,9 +75,9 @@ void SlabSearch::LeaveSide(const int* vertices, std::size_t count)
       ++i; // Odd ones don't exist on a closed surface.
       continue;
     }
-    const int first = std::max(0, static_cast<int>(std::ceil(crossings[i].X)));
-    const int last =
-      std::min(this->Size[0] - 1, static_cast<int>(std::floor(crossings[i + 1].X)));
+    const auto x = [&](std::size_t n) { return static_cast<float>(crossings[n].Where.X); };
+    const int first = std::max(0, static_cast<int>(std::ceil(x(i))));
+    const int last = std::min(this->Size[0] - 1, static_cast<int>(std::floor(x(i + 1))));
     this->Set(crossings[i].Row, first, last, this->Kind == PartKind::Cavity);
     i += 2;
   }
@@ -118,15 +91,15 @@ void SlabSearch::CloseNear(int v)
   const Vector& p = this->State.Mesh.Position[v];
   const double place[3] = { p.X * this->Inverse[0], p.Y * this->Inverse[1],
     p.Z * this->Inverse[2] };
-  const std::array<int, 3> least = { 0, this->Rows.First[1], this->Rows.First[2] };
-  const std::array<int, 3> end = { this->Size[0], this->Rows.End[1], this->Rows.End[2] };
   int low[3];
   int high[3];
   for (int k = 0; k < 3; ++k)
   {
     const double reach = width * this->Inverse[k];
-    low[k] = std::max(least[k], static_cast<int>(std::ceil(place[k] - reach)));
-    high[k] = std::min(end[k] - 1, static_cast<int>(std::floor(place[k] + reach)));
+    low[k] = std::max(
+      static_cast<int>(this->Rows.First[k]), static_cast<int>(std::ceil(place[k] - reach)));
+    high[k] = std::min(
+      static_cast<int>(this->Rows.End[k]) - 1, static_cast<int>(std::floor(place[k] + reach)));
   }
   for (int k = low[2]; k <= high[2]; ++k)
   {
@@ -149,7 +122,7 @@ void SlabSearch::CloseNear(int v)
       {
         --last;
       }
-      this->Set(this->RowOf(j, k), first, last, false);
+      this->Set(this->Rows.RowOf(j, k), first, last, false);
     }
   }
 }
@@ -158,12 +131,12 @@ std::vector<VoxelRun> SlabSearch::FindRuns() const
 {
   std::vector<VoxelRun> runs;
   std::vector<float> values(static_cast<std::size_t>(this->Size[0]));
-  for (int k = this->Rows.First[2]; k < this->Rows.End[2]; ++k)
+  for (int k = static_cast<int>(this->Rows.First[2]); k < this->Rows.End[2]; ++k)
   {
-    for (int j = this->Rows.First[1]; j < this->Rows.End[1]; ++j)
+    for (int j = 0; j < this->Size[1]; ++j)
     {
       const std::uint64_t* open =
-        this->Open.data() + static_cast<std::size_t>(this->RowOf(j, k)) * this->Words;
+        this->Open.data() + static_cast<std::size_t>(this->Rows.RowOf(j, k)) * this->Words;
       if (std::any_of(open, open + this->Words, [](std::uint64_t word) { return word != 0; }))
       {
         this->TheField.Row(0, j, k, this->Size[0], values.data());
@@ -184,8 +157,7 @@ void SlabSearch::AddRuns(std::int64_t row, const std::uint64_t* open,
     const int end = std::min(i + BitsOfWord, this->Size[0]);
     for (std::uint64_t bits = open[w]; bits != 0 && i < end; bits >>= 1, ++i)
     {
-      const bool isLost =
-        (bits & 1) != 0 && (values[i] > 0) == (this->Kind == PartKind::Object);
+      const bool isLost = (bits & 1) != 0 && (values[i] > 0) == (this->Kind == PartKind::Object);
       if (isLost && isOnRun)
       {
         ++runs.back().Length;

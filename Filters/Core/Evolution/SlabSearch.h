@@ -4,7 +4,7 @@
 #define volumicSlabSearch_h
 
 #include "Core/Image/Field.h"
-#include "Core/Image/VoxelBox.h"
+#include "Core/Mesh/RowCrossing.h"
 #include "Core/Surface/SurfaceState.h"
 
 #include <array>
@@ -33,15 +33,14 @@ enum class PartKind
 };
 
 /**
- * The search of one slab, a range of layers of an image, for the voxels that a surface has lost: see
- * LostVoxels.
+ * The search of one slab, a range of layers of an image, for the voxels that a surface has lost:
+ * see LostVoxels.
  */
 class SlabSearch
 {
 public:
   /** Searches the layers [begin, end). What is given must outlive it. */
-  SlabSearch(
-    const SurfaceState& state, const Field& field, PartKind kind, int begin, int end);
+  SlabSearch(const SurfaceState& state, const Field& field, PartKind kind, int begin, int end);
 
   /**
    * Leaves the voxels open that lie outside the surface (for cavities: inside). `vertices`: all of
@@ -54,37 +53,20 @@ public:
   std::vector<VoxelRun> FindRuns() const;
 
 private:
-  struct Crossing
-  {
-    int Row; ///< Of the slab.
-    float X; ///< Place along it.
-    bool operator<(const Crossing& other) const
-    {
-      return this->Row != other.Row ? this->Row < other.Row : this->X < other.X;
-    }
-  };
-  /** Finds the crossings of the rows of voxels with a face. */
-  void FindCrossings(int a, int b, int c);
-
-  int RowOf(int j, int k) const
-  {
-    return (k - this->Rows.First[2]) * this->Rows.Length(1) + j - this->Rows.First[1];
-  }
   /** Those of a row: number of its first voxel, bits and values. */
   void AddRuns(std::int64_t row, const std::uint64_t* open, const std::vector<float>& values,
     std::vector<VoxelRun>& runs) const;
   /** Opens or closes voxels of a row of the slab, the last one as well. */
-  void Set(int row, int first, int last, bool isOpen);
+  void Set(std::int64_t row, int first, int last, bool isOpen);
 
   const SurfaceState& State;
   const Field& TheField;
   PartKind Kind;
   std::array<int, 3> Size;
-  VoxelBox Rows;
+  RowGrid Rows;
   int Words; ///< How many words of bits a row has.
   double Inverse[3];
   std::vector<std::uint64_t> Open; ///< A bit for each voxel that may be lost, row by row.
-  std::vector<Crossing> Crossings;
 };
 }
 

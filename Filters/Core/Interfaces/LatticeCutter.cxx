@@ -15,17 +15,6 @@ namespace
 /** Vertices keep this share of their edge from its ends. */
 constexpr float LeastShare = 0.15f;
 
-/** Which of the directions of the lattice's edges leads from one site to a later one. */
-std::uint64_t DirectionTo(const LatticeSite& from, const LatticeSite& to)
-{
-  std::uint64_t code = 0;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    code = 5 * code + static_cast<std::uint64_t>(to.At[axis] - from.At[axis] + 2);
-  }
-  return code; // below 5^3
-}
-
 bool IsBefore(const LatticeSite& a, const LatticeSite& b)
 {
   return std::tie(a.At[2], a.At[1], a.At[0]) < std::tie(b.At[2], b.At[1], b.At[0]);
@@ -65,8 +54,9 @@ LatticeCutter::Number LatticeCutter::ObjectBetween(const std::array<int, 3>& hal
   std::array<Number, 8> about;
   std::size_t count = 0;
   this->ForVoxels(halves,
-    [&](int i, int j, int k)
-    { about[count++] = this->ObjectOf({ i, j, k }); });
+    [&](int i, int j, int k) {
+      about[count++] = this->ObjectOf({ i, j, k });
+    });
   auto* const last = about.begin() + count;
   std::sort(about.begin(), last);
   const auto* end = std::unique(about.begin(), last);
@@ -103,8 +93,9 @@ void LatticeCutter::FollowFields(Executor& executor)
         {
           if (this->Fields.HasInterfaces(i / side, j / side, k / side))
           {
-            this->Map.Voxels[static_cast<std::size_t>(
-              VoxelBox::Of(this->Map.Size).NumberOf(i, j, k))] = this->Fields.LargestAt(i, j, k);
+            this->Map
+              .Voxels[static_cast<std::size_t>(VoxelBox::Of(this->Map.Size).NumberOf(i, j, k))] =
+              this->Fields.LargestAt(i, j, k);
           }
         }
       }
@@ -129,9 +120,8 @@ void LatticeCutter::KeepGaps()
           isCorner = isCorner && voxel[axis] % this->Pitch[axis] == 0;
         }
         isSite = isSite || isCorner;
-        for (int axis = 0; axis < 3 && isSite &&
-             this->Fields.HasInterfaces(i / side, j / side, k / side);
-             ++axis)
+        for (int axis = 0;
+             axis < 3 && isSite && this->Fields.HasInterfaces(i / side, j / side, k / side); ++axis)
         {
           if (this->Pitch[axis] == 2 && voxel[axis] + 2 < this->Map.Size[axis])
           {
@@ -225,8 +215,6 @@ void LatticeCutter::CutBrick(int i, int j, int k)
 
 void LatticeCutter::CutAbout(const std::array<int, 3>& cube)
 {
-  // Each tetrahedron has one edge between corners of cubes, and one between middles of cubes: it
-  // belongs to the lower end of the former.
   for (int axis = 0; axis < 3; ++axis)
   {
     const int first = (axis + 1) % 3;
@@ -236,19 +224,14 @@ void LatticeCutter::CutAbout(const std::array<int, 3>& cube)
     {
       continue; // All is of one object there.
     }
-    std::array<int, 3> halves = { 2 * cube[0], 2 * cube[1], 2 * cube[2] };
-    const LatticeSite own = this->SiteAt(halves);
-    halves[axis] += 2;
-    const LatticeSite next = this->SiteAt(halves);
-    halves[axis] -= 1;
+    const LatticeEdge edge({ 2 * cube[0], 2 * cube[1], 2 * cube[2] }, axis);
+    const LatticeSite own = this->SiteAt(edge.From);
+    const LatticeSite next = this->SiteAt(edge.To);
     std::array<LatticeSite, 4> about;
     bool isSame = own.Object == next.Object;
     for (int turn = 0; turn < 4; ++turn)
     {
-      std::array<int, 3> middle = halves;
-      middle[first] += turn == 0 || turn == 3 ? -1 : 1;
-      middle[second] += turn == 0 || turn == 1 ? -1 : 1;
-      about[turn] = this->SiteAt(middle);
+      about[turn] = this->SiteAt(edge.About[turn]);
       isSame = isSame && about[turn].Object == own.Object;
     }
     for (int turn = 0; turn < 4 && !isSame; ++turn)
@@ -340,8 +323,7 @@ void LatticeCutter::CutInMore(const Tetrahedron& cell)
     const std::array<int, 3> group = { cell.Group[c[0]], cell.Group[c[1]], cell.Group[c[2]] };
     if (group[0] != group[1] && group[1] != group[2] && group[0] != group[2])
     {
-      const int middle =
-        this->VertexOn(cell.Corner[c[0]], cell.Corner[c[1]], cell.Corner[c[2]]);
+      const int middle = this->VertexOn(cell.Corner[c[0]], cell.Corner[c[1]], cell.Corner[c[2]]);
       for (int n = 0; n < 3; ++n)
       {
         const int a = c[n];
@@ -400,15 +382,6 @@ float LatticeCutter::ValueAt(const std::array<int, 3>& halves, int object) const
   return sum / static_cast<float>(count);
 }
 
-LatticeCutter::Key LatticeCutter::KeyOf(const LatticeSite& site) const
-{
-  const Key x = static_cast<Key>(site.At[0]);
-  const Key y = static_cast<Key>(site.At[1]);
-  const Key z = static_cast<Key>(site.At[2]);
-  return x +
-    static_cast<Key>(2 * this->Map.Size[0]) * (y + static_cast<Key>(2 * this->Map.Size[1]) * z);
-}
-
 float LatticeCutter::ShareOf(const LatticeSite& from, const LatticeSite& to) const
 {
   if (const Number side = this->FirstSideOf(from, to))
@@ -426,7 +399,7 @@ int LatticeCutter::VertexOn(const LatticeSite& a, const LatticeSite& b)
   const bool isInOrder = IsBefore(a, b);
   const LatticeSite& from = isInOrder ? a : b;
   const LatticeSite& to = isInOrder ? b : a;
-  const auto found = this->OnEdge.emplace(this->KeyOf(from) * 128 + DirectionTo(from, to), -1);
+  const auto found = this->OnEdge.emplace(LatticeKey(a.At, b.At), -1);
   if (found.second)
   {
     Vector place = this->PlaceOf(from);
@@ -442,12 +415,7 @@ int LatticeCutter::VertexOn(const LatticeSite& a, const LatticeSite& b)
 
 int LatticeCutter::VertexOn(const LatticeSite& a, const LatticeSite& b, const LatticeSite& c)
 {
-  std::array<const LatticeSite*, 3> sites = { &a, &b, &c };
-  std::sort(sites.begin(), sites.end(),
-    [](const LatticeSite* p, const LatticeSite* q) { return IsBefore(*p, *q); });
-  const Key key = (this->KeyOf(*sites[0]) * 128 + DirectionTo(*sites[0], *sites[1])) * 128 +
-    DirectionTo(*sites[0], *sites[2]);
-  const auto found = this->OnFace.emplace(key, -1);
+  const auto found = this->OnFace.emplace(LatticeKey(a.At, b.At, c.At), -1);
   if (found.second)
   {
     // Of the vertices on the edges, so that it is no nearer to a corner than these are.
@@ -458,6 +426,7 @@ int LatticeCutter::VertexOn(const LatticeSite& a, const LatticeSite& b, const La
     {
       middle += this->Mesh.Position[static_cast<std::size_t>(v)] * (1.f / 3.f);
     }
+    std::array<const LatticeSite*, 3> sites = { &a, &b, &c };
     std::sort(sites.begin(), sites.end(),
       [](const LatticeSite* p, const LatticeSite* q) { return p->Object < q->Object; });
     found.first->second = this->Mesh.AddVertex(

@@ -4,6 +4,7 @@
 #define volumicLatticeCutter_h
 
 #include "Core/Common/Executor.h"
+#include "Core/Common/Lattice.h"
 #include "Core/Image/VoxelBox.h"
 #include "Core/Interfaces/InterfaceFields.h"
 #include "Core/Interfaces/InterfaceMesh.h"
@@ -17,13 +18,9 @@
 
 namespace volumic
 {
-/**
- * A point of the lattice, in halves of its pitch: all even, a corner of a cube, or all odd, the
- * middle of one.
- */
 struct LatticeSite
 {
-  std::array<int, 3> At;
+  LatticePoint At;
   LabelMap::Number Object;
 };
 
@@ -75,8 +72,8 @@ public:
   /** Has voxels be of the object whose field is the largest there. */
   void FollowFields(Executor& executor);
   /**
-   * Where an edge of the lattice passes over a voxel of a third object, one of its ends, the one less
-   * deep in its object, becomes of that: so thin gaps are not bridged. After FollowFields().
+   * Where an edge of the lattice passes over a voxel of a third object, one of its ends, the one
+   * less deep in its object, becomes of that: so thin gaps are not bridged. After FollowFields().
    */
   void KeepGaps();
   void FindMiddles(Executor& executor);
@@ -91,7 +88,6 @@ public:
 
 private:
   using Number = LabelMap::Number;
-  using Key = std::uint64_t;
 
   /** The end of an edge that may be of another object: not the last one of its own about it. */
   bool MayChange(const std::array<int, 3>& voxel) const;
@@ -142,7 +138,6 @@ private:
   /** The field of an object at a site, from the voxels about it. */
   float ValueAt(const std::array<int, 3>& halves, int object) const;
   Vector PlaceOf(const LatticeSite& site) const;
-  Key KeyOf(const LatticeSite& site) const;
   /** What of an edge is before its vertex. @param from earlier than the other one */
   float ShareOf(const LatticeSite& from, const LatticeSite& to) const;
   float ShareOf(const LatticeSite& from, const LatticeSite& to, int side) const;
@@ -161,8 +156,8 @@ private:
   std::array<int, 3> Corners; ///< of cubes, along each axis
   VoxelBox Middles;           ///< of cubes
   std::vector<Number> ObjectOfMiddle;
-  std::unordered_map<Key, int> OnEdge;
-  std::unordered_map<Key, int> OnFace;
+  std::unordered_map<std::uint64_t, int> OnEdge; ///< by LatticeKey()
+  std::unordered_map<std::uint64_t, int> OnFace;
   InterfaceMesh Mesh;
 };
 }

@@ -16,18 +16,6 @@ namespace volumic
 {
 namespace
 {
-/** Where the surface crosses a row of voxels along x. */
-struct Crossing
-{
-  std::int64_t Row;
-  RowCrossing Where;
-
-  bool operator<(const Crossing& other) const
-  {
-    return this->Row < other.Row || (this->Row == other.Row && this->Where.X < other.Where.X);
-  }
-};
-
 /**
  * A whole number near the surface, along an axis: what is reckoned from there is the same wherever
  * the map begins.
@@ -37,42 +25,20 @@ double NearSurface(const IndexedSurface& surface, int axis)
   return surface.Points.empty() ? 0. : std::floor(surface.Points.front()[axis]);
 }
 
-/** Of all rows of the map; X from NearSurface() on. */
-std::vector<Crossing> FindCrossings(const std::array<int, 3>& size, const IndexedSurface& surface)
+/** Of all rows of the map, sorted; X from NearSurface() on. */
+std::vector<RowGrid::Crossing> FindCrossings(const RowGrid& rows, const IndexedSurface& surface)
 {
   const double base = NearSurface(surface, 0);
-  const auto cornerOf = [&](const Triangle& t, int corner)
-  {
-    Point p = surface.Points[static_cast<std::size_t>(t[corner])];
-    p[0] -= base;
-    return p;
-  };
-  std::vector<Crossing> crossings;
+  std::vector<RowGrid::Crossing> crossings;
   for (const Triangle& t : surface.Triangles)
   {
-    const Point a = cornerOf(t, 0);
-    const Point b = cornerOf(t, 1);
-    const Point c = cornerOf(t, 2);
-    int first[3];
-    int last[3];
-    for (int axis = 1; axis < 3; ++axis)
+    std::array<Point, 3> corners;
+    for (int c = 0; c < 3; ++c)
     {
-      const double low = std::min({ a[axis], b[axis], c[axis] });
-      const double high = std::max({ a[axis], b[axis], c[axis] });
-      first[axis] = std::max(0, static_cast<int>(std::ceil(low)));
-      last[axis] = std::min(size[axis] - 1, static_cast<int>(std::floor(high)));
+      corners[c] = surface.Points[static_cast<std::size_t>(t[c])];
+      corners[c][0] -= base;
     }
-    for (int k = first[2]; k <= last[2]; ++k)
-    {
-      for (int j = first[1]; j <= last[1]; ++j)
-      {
-        const RowCrossing crossing = RowCrossing::Of(a, b, c, j, k);
-        if (crossing.Winding != 0)
-        {
-          crossings.push_back({ static_cast<std::int64_t>(k) * size[1] + j, crossing });
-        }
-      }
-    }
+    rows.AddCrossings(corners, crossings);
   }
   std::sort(crossings.begin(), crossings.end());
   return crossings;
@@ -83,7 +49,9 @@ std::vector<std::int64_t> FindWrongVoxels(
   const LabelBricks& bricks, int object, const IndexedSurface& surface, const VoxelBox& within)
 {
   const LabelMap& map = bricks.Map();
-  const std::vector<Crossing> crossings = FindCrossings(map.Size, surface);
+  RowGrid rows;
+  std::copy(map.Size.begin(), map.Size.end(), rows.End.begin());
+  const std::vector<RowGrid::Crossing> crossings = FindCrossings(rows, surface);
   const double base = NearSurface(surface, 0);
   VoxelBox box = bricks.ExtentOf(object).Bricks;
   for (int axis = 0; axis < 3; ++axis)
@@ -98,9 +66,10 @@ std::vector<std::int64_t> FindWrongVoxels(
   {
     for (int j = box.First[1]; j < box.End[1]; ++j)
     {
-      const std::int64_t row = static_cast<std::int64_t>(k) * map.Size[1] + j;
+      const std::int64_t row = rows.RowOf(j, k);
       auto next = std::lower_bound(crossings.begin(), crossings.end(), row,
-        [](const Crossing& crossing, std::int64_t number) { return crossing.Row < number; });
+        [](const RowGrid::Crossing& crossing, std::int64_t number)
+        { return crossing.Row < number; });
       const std::int64_t start = all.NumberOf(0, j, k);
       int winding = 0;
       for (int i = box.First[0]; i < box.End[0]; ++i)
@@ -161,9 +130,9 @@ std::vector<std::int64_t> FindLostVoxels(
   const VoxelBox all = VoxelBox::Of(map.Size);
   const auto isWrong = [&](std::int64_t voxel)
   { return std::binary_search(wrong.begin(), wrong.end(), voxel); };
-  const auto isOfSide = [&](int i, int j, int k) { return (map.At(i, j, k) == object) == isObject; };
-  const auto isKept = [&](int i, int j, int k)
-  {
+  const auto isOfSide = [&](int i, int j, int k)
+  { return (map.At(i, j, k) == object) == isObject; };
+  const auto isKept = [&](int i, int j, int k) {
     return isOfSide(i, j, k) && !(all.Contains({ i, j, k }) && isWrong(all.NumberOf(i, j, k)));
   };
   const VoxelNumbers numbers(map.Size);
@@ -171,9 +140,8 @@ std::vector<std::int64_t> FindLostVoxels(
   for (const std::int64_t voxel : wrong)
   {
     const auto [i, j, k] = numbers.PlaceOf(voxel);
-    if (isOfSide(i, j, k) && !isKept(i - 1, j, k) && !isKept(i + 1, j, k) &&
-      !isKept(i, j - 1, k) && !isKept(i, j + 1, k) && !isKept(i, j, k - 1) &&
-      !isKept(i, j, k + 1))
+    if (isOfSide(i, j, k) && !isKept(i - 1, j, k) && !isKept(i + 1, j, k) && !isKept(i, j - 1, k) &&
+      !isKept(i, j + 1, k) && !isKept(i, j, k - 1) && !isKept(i, j, k + 1))
     {
       lost.push_back(voxel);
     }

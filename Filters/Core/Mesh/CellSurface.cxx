@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Mesh/CellSurface.h"
 
-#include "Core/Common/LatticeKey.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -49,8 +47,7 @@ std::vector<Face> MakeFaces()
     const Offset sign = { octant & 1 ? -1 : 1, octant & 2 ? -1 : 1, octant & 4 ? -1 : 1 };
     Face face;
     face.Neighbour = sign;
-    face.Corners = { { 2, 1, 0 }, { 1, 2, 0 }, { 0, 2, 1 }, { 0, 1, 2 }, { 1, 0, 2 },
-      { 2, 0, 1 } };
+    face.Corners = { { 2, 1, 0 }, { 1, 2, 0 }, { 0, 2, 1 }, { 0, 1, 2 }, { 1, 0, 2 }, { 2, 0, 1 } };
     for (Offset& corner : face.Corners)
     {
       for (int k = 0; k < 3; ++k)
@@ -80,10 +77,7 @@ int Nearest(double x, int parity)
 }
 }
 
-CellLattice::CellLattice(double edge)
-  : Scale(edge / std::sqrt(2.))
-{
-}
+CellLattice::CellLattice(double edge) : Scale(edge / std::sqrt(2.)) {}
 
 CellLattice::Cell CellLattice::CellAt(const Point& place) const
 {
@@ -155,14 +149,11 @@ IndexedSurface CellLattice::Boundary(const std::vector<Cell>& cells, Executor& e
   std::unordered_map<std::uint64_t, int> places;
   const auto place = [&](const Cell& cell, const Offset& offset)
   {
-    const Offset at = { 2 * cell[0] + offset[0], 2 * cell[1] + offset[1],
-      2 * cell[2] + offset[2] };
-    const auto found =
-      places.emplace(LatticeKey(at[0], at[1], at[2]), static_cast<int>(surface.Points.size()));
+    const Offset at = { 2 * cell[0] + offset[0], 2 * cell[1] + offset[1], 2 * cell[2] + offset[2] };
+    const auto found = places.emplace(LatticeKey(at), static_cast<int>(surface.Points.size()));
     if (found.second)
     {
-      surface.Points.push_back(
-        { this->Scale * at[0], this->Scale * at[1], this->Scale * at[2] });
+      surface.Points.push_back({ this->Scale * at[0], this->Scale * at[1], this->Scale * at[2] });
     }
     return found.first->second;
   };

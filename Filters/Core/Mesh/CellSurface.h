@@ -5,8 +5,8 @@
 
 #include "Core/Common/Executor.h"
 #include "Core/Common/IndexedSurface.h"
+#include "Core/Common/Lattice.h"
 
-#include <array>
 #include <vector>
 
 namespace volumic
@@ -22,7 +22,7 @@ namespace volumic
 class CellLattice
 {
 public:
-  using Cell = std::array<int, 3>;
+  using Cell = LatticePoint;
   static constexpr int NumberOfCorners = 24;
   /** Distance of the corners from the centre, in edge lengths: sqrt(5/2). */
   static constexpr double Circumradius = 1.5811388300841898;

@@ -4,6 +4,7 @@
 #define volumicLatticeInside_h
 
 #include "Core/Common/IndexedSurface.h"
+#include "Core/Common/Lattice.h"
 #include "Core/Mesh/RowCrossing.h"
 
 #include <array>
@@ -13,17 +14,10 @@
 
 namespace volumic
 {
-/** A point of a body-centred cubic lattice: of the corners of cubes (0) or of their centres (1). */
-struct LatticePoint
-{
-  int Kind;
-  std::array<std::int64_t, 3> At;
-};
-
 /**
- * Which points of such a lattice a closed surface encloses, layer by layer: the winding number is
- * counted along the rows of points. All points of the outermost layers are
- * outside. The surface must outlive it; lengths are those of its points.
+ * Which points of a body-centred cubic lattice a closed surface encloses, layer by layer: the
+ * winding number is counted along the rows of points. All points of the outermost layers are
+ * outside. Lengths are those of the surface's points.
  */
 class LatticeInside
 {
@@ -35,19 +29,19 @@ public:
   void Fill(std::int64_t k);
 
   const std::array<std::int64_t, 3>& Size() const { return this->Count; }
-  double Coordinate(int kind, int axis, std::int64_t i) const
+  Point PlaceOf(const LatticePoint& p) const
   {
-    return this->Origin[axis] + this->Pitch * (static_cast<double>(i) + 0.5 * kind);
-  }
-  /** A number of its own for each point. */
-  std::int64_t Index(const LatticePoint& p) const
-  {
-    return ((p.Kind * this->Count[2] + p.At[2]) * this->Count[1] + p.At[1]) * this->Count[0] +
-      p.At[0];
+    Point place;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      place[axis] = this->Origin[axis] + this->Pitch * (0.5 * p[axis]);
+    }
+    return place;
   }
   bool IsInside(const LatticePoint& p) const
   {
-    return this->Word(p.Kind, p.At[1], p.At[2], p.At[0] / WordSize) >> (p.At[0] % WordSize) & 1u;
+    const int i = p[0] >> 1;
+    return this->Word(p[0] & 1, p[1] >> 1, p[2] >> 1, i / WordSize) >> (i % WordSize) & 1u;
   }
 
   /** Points of a row are looked at this many at a time. */
@@ -63,11 +57,6 @@ public:
   }
 
 private:
-  struct Crossing
-  {
-    std::int64_t Row; ///< Of all rows of points of its kind.
-    RowCrossing Where;
-  };
   static constexpr std::int64_t LayersKept = 3;
 
   std::size_t PlaceOfWord(int kind, std::int64_t j, std::int64_t k, std::int64_t w) const
@@ -79,16 +68,14 @@ private:
   {
     return this->Bits[this->PlaceOfWord(kind, j, k, w)];
   }
-  void FindCrossings(int kind);
 
-  const IndexedSurface& Surface;
   double Pitch;
   Point Origin;
   std::array<std::int64_t, 3> Count; ///< Points along each axis.
   std::int64_t Words;                ///< Of bits in a row.
   std::vector<std::uint64_t> Bits;
-  std::vector<Crossing> Crossings[2]; ///< Of the two kinds of points, row by row.
-  std::size_t Next[2] = { 0, 0 };     ///< The first of them in the layer to be filled.
+  std::vector<RowGrid::Crossing> Crossings[2]; ///< Of the two kinds of points, row by row.
+  std::size_t Next[2] = { 0, 0 };              ///< The first of them in the layer to be filled.
 };
 }
 

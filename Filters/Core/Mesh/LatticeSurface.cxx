@@ -19,8 +19,6 @@ namespace volumic
 {
 namespace
 {
-using Key = std::uint64_t;
-
 /** About what a crossing of a row and the surface brings about: room is made for so many. */
 constexpr std::size_t EdgesPerCrossing = 7;
 constexpr std::size_t EndsPerCrossing = 5;
@@ -68,10 +66,10 @@ private:
   const IndexedSurface& Surface;
   LatticeInside Lattice;
   LargeVector<Triangle> Triangles;
-  LargeVector<CutEdge> Edges;      ///< One per corner of the result.
-  LargeVector<LatticePoint> Ends;  ///< Of the edges: their distance from the surface is needed.
-  std::unordered_map<Key, int> EdgeOf;
-  std::unordered_map<std::int64_t, int> EndOf;
+  LargeVector<CutEdge> Edges;     ///< One per corner of the result.
+  LargeVector<LatticePoint> Ends; ///< Of the edges: their distance from the surface is needed.
+  std::unordered_map<std::uint64_t, int> EdgeOf; ///< By LatticeKey().
+  std::unordered_map<std::uint64_t, int> EndOf;
 };
 
 void TetrahedraCutter::Cut(std::int64_t k)
@@ -94,7 +92,8 @@ void TetrahedraCutter::Cut(std::int64_t k)
       const std::int64_t end = std::min(word * (w + 1), size[0] - 1);
       for (std::int64_t i = std::max<std::int64_t>(word * w, 1); i < end; ++i)
       {
-        this->CutAbout({ 0, { i, j, k } });
+        this->CutAbout(
+          { static_cast<int>(2 * i), static_cast<int>(2 * j), static_cast<int>(2 * k) });
       }
     }
   }
@@ -102,27 +101,15 @@ void TetrahedraCutter::Cut(std::int64_t k)
 
 void TetrahedraCutter::CutAbout(const LatticePoint& own)
 {
-  // Each tetrahedron has one edge between corners of cubes, and one between centres: it belongs to
-  // the lower end of the former.
   for (int axis = 0; axis < 3; ++axis)
   {
-    LatticePoint next = own;
-    ++next.At[axis];
-    LatticePoint about[4];
-    const int first = (axis + 1) % 3;
-    const int second = (axis + 2) % 3;
-    for (int turn = 0; turn < 4; ++turn)
-    {
-      about[turn] = { 1, own.At };
-      about[turn].At[first] -= turn == 0 || turn == 3;
-      about[turn].At[second] -= turn == 0 || turn == 1;
-    }
-    const unsigned ends = static_cast<unsigned>(this->Lattice.IsInside(own)) |
-      static_cast<unsigned>(this->Lattice.IsInside(next)) << 1;
+    const LatticeEdge edge(own, axis);
+    const unsigned ends = static_cast<unsigned>(this->Lattice.IsInside(edge.From)) |
+      static_cast<unsigned>(this->Lattice.IsInside(edge.To)) << 1;
     bool inside[4];
     for (int turn = 0; turn < 4; ++turn)
     {
-      inside[turn] = this->Lattice.IsInside(about[turn]);
+      inside[turn] = this->Lattice.IsInside(edge.About[turn]);
     }
     for (int turn = 0; turn < 4; ++turn)
     {
@@ -131,7 +118,7 @@ void TetrahedraCutter::CutAbout(const LatticePoint& own)
         ends | static_cast<unsigned>(inside[turn]) << 2 | static_cast<unsigned>(inside[after]) << 3;
       if (bits != 0 && bits != 15)
       {
-        this->CutTetrahedron({ own, next, about[turn], about[after] }, bits);
+        this->CutTetrahedron({ edge.From, edge.To, edge.About[turn], edge.About[after] }, bits);
       }
     }
   }
@@ -179,30 +166,21 @@ void TetrahedraCutter::CutTetrahedron(const LatticePoint (&corner)[4], unsigned 
 
 int TetrahedraCutter::CornerOn(const LatticePoint& p, const LatticePoint& q)
 {
-  // An edge is known by its lower end, or the one at a corner of cubes, and its direction.
-  const bool swapped = p.Kind != q.Kind ? p.Kind == 1 : p.At > q.At;
-  const LatticePoint& from = swapped ? q : p;
-  const LatticePoint& to = swapped ? p : q;
-  Key direction = from.Kind == to.Kind ? 0 : 3;
-  for (int k = 0; k < 3; ++k)
-  {
-    const bool differs = from.At[k] != to.At[k];
-    direction += static_cast<Key>(differs) * (from.Kind == to.Kind ? k : 1 << k);
-  }
-  const Key key = static_cast<Key>(this->Lattice.Index(from)) * 16 + direction;
-  const auto found = this->EdgeOf.emplace(key, static_cast<int>(this->Edges.size()));
+  const auto found = this->EdgeOf.emplace(LatticeKey(p, q), static_cast<int>(this->Edges.size()));
   if (found.second)
   {
-    const int first = this->EndAt(from);
-    this->Edges.push_back({ first, this->EndAt(to) });
+    // From the lower end, or the one at a corner of cubes.
+    const bool isMixed = ((p[0] ^ q[0]) & 1) != 0;
+    const bool isSwapped = isMixed ? (p[0] & 1) != 0 : p > q;
+    const int first = this->EndAt(isSwapped ? q : p);
+    this->Edges.push_back({ first, this->EndAt(isSwapped ? p : q) });
   }
   return found.first->second;
 }
 
 int TetrahedraCutter::EndAt(const LatticePoint& p)
 {
-  const auto found =
-    this->EndOf.emplace(this->Lattice.Index(p), static_cast<int>(this->Ends.size()));
+  const auto found = this->EndOf.emplace(LatticeKey(p), static_cast<int>(this->Ends.size()));
   if (found.second)
   {
     this->Ends.push_back(p);
@@ -220,10 +198,7 @@ IndexedSurface TetrahedraCutter::Finish(Executor& executor)
     {
       for (std::size_t n = begin; n < end; ++n)
       {
-        for (int k = 0; k < 3; ++k)
-        {
-          place[n][k] = this->Lattice.Coordinate(this->Ends[n].Kind, k, this->Ends[n].At[k]);
-        }
+        place[n] = this->Lattice.PlaceOf(this->Ends[n]);
         distance[n] = std::sqrt(tree.SquaredDistance(place[n]));
       }
     });

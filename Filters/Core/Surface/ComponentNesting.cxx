@@ -35,17 +35,6 @@ struct ComponentRay
   bool IsCavity; ///< The component's volume is negative.
 };
 
-/** A ray that another component crosses an odd number of times. */
-struct RayCrossing
-{
-  int Ray; ///< Its place among the rays.
-  int Label;
-  bool operator<(const RayCrossing& other) const
-  {
-    return this->Ray != other.Ray ? this->Ray < other.Ray : this->Label < other.Label;
-  }
-};
-
 /** Faces of one label in a span. */
 using PartialVolume = std::pair<int, ExactSum>;
 
@@ -72,60 +61,6 @@ std::vector<PartialVolume> VolumesOf(const SurfaceMesh& mesh, const LargeVector<
       volumes[place].second.Add(SignedVolume::OfFace(mesh, VectorD(origins[label]), a, b, c));
     });
   return volumes;
-}
-
-/** Leaves those that there are an odd number of, sorted, each once. */
-void KeepOdd(std::vector<RayCrossing>& crossings)
-{
-  std::sort(crossings.begin(), crossings.end());
-  std::size_t count = 0; // Of those that no equal one has met yet.
-  for (const RayCrossing& crossing : crossings)
-  {
-    if (count > 0 && !(crossings[count - 1] < crossing))
-    {
-      --count;
-    }
-    else
-    {
-      crossings[count++] = crossing;
-    }
-  }
-  crossings.resize(count);
-}
-
-/** Finds the crossings with the faces that have v as their smallest vertex. */
-void AddCrossings(const SurfaceMesh& mesh, int v, int component,
-  const std::vector<ComponentRay>& rays, std::vector<RayCrossing>& crossings)
-{
-  const Ring& ring = mesh.Rings[v];
-  for (int i = 0; i < ring.Count; ++i)
-  {
-    const int second = ring.Item[i];
-    const int third = ring.Next(i);
-    if (second < v || third < v)
-    {
-      continue;
-    }
-    const Point a = PointAt(mesh.Position[v]);
-    const Point b = PointAt(mesh.Position[second]);
-    const Point c = PointAt(mesh.Position[third]);
-    const double low = std::min({ a[1], b[1], c[1] });
-    const double high = std::max({ a[1], b[1], c[1] });
-    auto ray = std::lower_bound(rays.begin(), rays.end(), low,
-      [](const ComponentRay& r, double y) { return r.Origin[1] < y; });
-    for (; ray != rays.end() && ray->Origin[1] <= high; ++ray)
-    {
-      if (ray->Label == component)
-      {
-        continue;
-      }
-      const RowCrossing crossing = RowCrossing::Of(a, b, c, ray->Origin[1], ray->Origin[2]);
-      if (crossing.Winding != 0 && crossing.X > ray->Origin[0])
-      {
-        crossings.push_back({ static_cast<int>(ray - rays.begin()), component });
-      }
-    }
-  }
 }
 
 /** The volumes of all labels; each seen from a place of its own. */
@@ -169,39 +104,31 @@ std::vector<ComponentRay> CastRays(const SurfaceMesh& mesh, const LargeVector<in
     { return a.Origin[1] != b.Origin[1] ? a.Origin[1] < b.Origin[1] : a.Root < b.Root; });
   return rays;
 }
-
-/** Of the faces with the rays of other components, sorted. */
-std::vector<RayCrossing> FindCrossings(const SurfaceMesh& mesh, const LargeVector<int>& labels,
-  const std::vector<ComponentRay>& rays, Executor& executor)
-{
-  const std::size_t n = mesh.Rings.size();
-  std::vector<std::vector<RayCrossing>> spans((n + CrossedSpan - 1) / CrossedSpan);
-  ForSpans(executor, n, CrossedSpan,
-    [&](std::size_t b, std::size_t begin, std::size_t end)
-    {
-      for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
-      {
-        AddCrossings(mesh, v, labels[v], rays, spans[b]);
-      }
-      KeepOdd(spans[b]);
-    });
-  std::vector<RayCrossing> crossings = Joined(executor, spans);
-  KeepOdd(crossings);
-  return crossings;
-}
-
 }
 
 std::vector<int> FindInsideOut(const SurfaceMesh& mesh, const LargeVector<int>& labels,
   const std::vector<int>& roots, Executor& executor)
 {
   const std::vector<ComponentRay> rays = CastRays(mesh, labels, roots, executor);
-  // The labels of the components around the origin of each ray.
-  std::vector<std::vector<int>> around(rays.size());
-  for (const RayCrossing& crossing : FindCrossings(mesh, labels, rays, executor))
+  std::vector<Point> origins;
+  std::vector<int> own;
+  for (const ComponentRay& ray : rays)
   {
-    around[crossing.Ray].push_back(crossing.Label);
+    origins.push_back(ray.Origin);
+    own.push_back(ray.Label);
   }
+  const std::vector<std::vector<int>> around = ComponentsAbout(
+    origins, own, mesh.Rings.size(),
+    [&](std::size_t begin, std::size_t end, const auto& visit)
+    {
+      mesh.VisitFaces(begin, end,
+        [&](int a, int b, int c)
+        {
+          visit(PointAt(mesh.Position[a]), PointAt(mesh.Position[b]), PointAt(mesh.Position[c]),
+            labels[a]);
+        });
+    },
+    executor);
   // From outside in: what is inside out encloses nothing.
   std::vector<int> order(rays.size());
   std::iota(order.begin(), order.end(), 0);
