@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDeformableSurface.h"
 
-#include "Host/VersionCompatibility.h"
-#include "Host/WholeInput.h"
+#include "Host/Pipeline.h"
 #include "Input/SlabInput.h"
 #include "Ranks/Ranks.h"
 #include "vtkDeformableSurfaceInternals.h"

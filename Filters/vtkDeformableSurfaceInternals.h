@@ -7,7 +7,7 @@
 #include "Ranks/Ranks.h"
 #include "Run/SegmentationCache.h"
 #include "Run/SegmentationCheckpoint.h"
-#include "Settings/SegmentationRequest.h"
+#include "Settings/SegmentationSettings.h"
 #include "vtkDeformableSurface.h"
 
 #include <vtkMultiProcessController.h>

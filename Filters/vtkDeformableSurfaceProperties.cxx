@@ -7,7 +7,6 @@
 #include "vtkDeformableSurface.h"
 
 #include "Settings/PropertyTable.h"
-#include "Settings/PropertyValues.h"
 #include "vtkDeformableSurfaceInternals.h"
 
 #include <vtkMath.h>

@@ -6,9 +6,8 @@
 
 #include "Core/Common/FreeMemory.h"
 #include "Core/Common/Refuse.h"
-#include "Host/PrefixErrors.h"
-#include "Host/VersionCompatibility.h"
-#include "Host/WholeInput.h"
+#include "Host/Errors.h"
+#include "Host/Pipeline.h"
 #include "Output/SurfaceOutput.h"
 #include "Run/RunLevels.h"
 #include "vtkDeformableSurfaceInternals.h"
@@ -31,7 +30,8 @@ constexpr double PyramidShare = 0.02;
 //------------------------------------------------------------------------------
 void vtkDeformableSurface::vtkInternals::Warn(const std::string& text)
 {
-  if (std::find(this->Warnings.begin(), this->Warnings.end(), text) == this->Warnings.end())
+  if (!text.empty() &&
+    std::find(this->Warnings.begin(), this->Warnings.end(), text) == this->Warnings.end())
   {
     this->Warnings.push_back(text);
   }
@@ -109,9 +109,9 @@ std::unique_ptr<volumic::SurfaceSegmentation> vtkDeformableSurface::vtkInternals
   { return this->All->GoOn(PyramidShare * share, text) && !request.Limit.IsOver(); };
   source.WarnOnce = [this](const char* what, const std::string& text)
   {
-    if (this->WarnedOf.insert(what).second)
+    if (!text.empty() && this->WarnedOf.insert(what).second)
     {
-      this->Warn(text);
+      this->Warn("Input port 0: " + text);
     }
   };
   if (volumic::IsImage(input))
@@ -150,7 +150,7 @@ void vtkDeformableSurface::vtkInternals::RunOrGoOn(const volumic::FilterCall& ca
   if (kept && kept->HasAll(request))
   {
     kept->Results().FillOutputs(kept->EndOf(request), call.Outputs);
-    kept->Results().WarnOf(kept->EndOf(request), settings.WantsAllParts(), request.Warn);
+    request.Warn(kept->Results().WarningOf(kept->EndOf(request), settings.WantsAllParts()));
     return;
   }
   this->ChooseStep(request, kept);
@@ -177,7 +177,7 @@ void vtkDeformableSurface::vtkInternals::RunOrGoOn(const volumic::FilterCall& ca
   const bool isFinest = run->EndsAt() <= settings.LastLevel() && settings.EdgeLength == 0.0;
   if (request.IsStep && isFinest)
   {
-    run->Results().WarnOf(run->EndsAt(), settings.WantsAllParts(), request.Warn);
+    request.Warn(run->Results().WarningOf(run->EndsAt(), settings.WantsAllParts()));
   }
   this->IsOnTheWay = request.IsStep && !request.Limit.IsOver() && !isStopped() && !isFinest;
   this->Cache.Keep(std::move(run), &this->Filter, this->All->Count());

@@ -4,10 +4,9 @@
 
 #include "Core/Common/Join.h"
 #include "Core/Image/PyramidGeometry.h"
-#include "Host/AlgorithmErrors.h"
+#include "Host/Errors.h"
 #include "Host/LimitedMemory.h"
-#include "Host/VersionCompatibility.h"
-#include "Host/WholeInput.h"
+#include "Host/Pipeline.h"
 #include "Input/ImageVoxels.h"
 #include "Input/InputImage.h"
 #include "Input/SlabInput.h"

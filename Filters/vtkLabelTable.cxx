@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkLabelTable.h"
 
-#include "Host/AlgorithmErrors.h"
+#include "Host/Errors.h"
 #include "Host/HostThreads.h"
-#include "Host/WholeInput.h"
+#include "Host/Pipeline.h"
 #include "Input/InputImage.h"
 #include "Labels/LabelImage.h"
 #include "Labels/LabelNames.h"

@@ -4,13 +4,11 @@
 
 #include "Core/Common/FreeMemory.h"
 #include "Core/Common/Refuse.h"
-#include "Host/AlgorithmErrors.h"
-#include "Host/Deadline.h"
+#include "Host/Errors.h"
 #include "Host/HostThreads.h"
 #include "Host/LimitedMemory.h"
-#include "Host/PrefixErrors.h"
-#include "Host/VersionCompatibility.h"
-#include "Host/WholeInput.h"
+#include "Host/Pipeline.h"
+#include "Host/ProgressMonitor.h"
 #include "Input/InputImage.h"
 #include "Input/Workspace.h"
 #include "Labels/LabelBlocks.h"
@@ -23,7 +21,7 @@
 #include "Output/SurfaceOutput.h"
 #include "Ranks/Ranks.h"
 #include "Run/SegmentationCache.h"
-#include "Settings/PropertyValues.h"
+#include "Settings/PropertyTable.h"
 
 #include <vtkCellData.h>
 #include <vtkDataObject.h>

@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkOtsuThreshold.h"
 
-#include "Host/AlgorithmErrors.h"
-#include "Host/WholeInput.h"
-#include "Input/CellVoxels.h"
+#include "Host/Errors.h"
+#include "Host/Pipeline.h"
 #include "Input/InputImage.h"
-#include "Input/OtsuThreshold.h"
+#include "Input/ValueHints.h"
 #include "Ranks/Ranks.h"
 
 #include <vtkDataObject.h>

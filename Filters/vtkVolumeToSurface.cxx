@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkVolumeToSurface.h"
 
-#include "Input/LabelHint.h"
-#include "Settings/PropertyValues.h"
+#include "Input/ValueHints.h"
+#include "Settings/PropertyTable.h"
 #include "vtkDeformableSurfaceInternals.h"
 
 #include <vtkDataArray.h>

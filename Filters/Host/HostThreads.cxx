@@ -4,13 +4,20 @@
 
 #include "Core/Common/ScratchMemory.h"
 #include "Core/Common/StandardThreads.h"
-#include "Host/Processors.h"
 
 #include <vtkSMPTools.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdlib>
+#include <fstream>
 #include <string>
+#include <thread>
+
+#ifdef __linux__
+#include <sched.h>
+#endif
 
 namespace volumic
 {
@@ -83,5 +90,77 @@ void HostThreads::For(
         body(begin, std::min(end, begin + step));
       }
     });
+}
+
+namespace
+{
+/** Of one group; 0: it has none. "max" and -1, which stand for no limit, are no numbers above 0. */
+int QuotaOf(double quota, double period)
+{
+  return quota > 0. && period > 0. ? static_cast<int>(std::min(std::ceil(quota / period), 1e6)) : 0;
+}
+
+double FirstNumberOf(const std::string& file)
+{
+  double number = 0.;
+  std::ifstream(file) >> number;
+  return number;
+}
+
+int QuotaOfFolder(const std::string& folder)
+{
+  double quota = 0.;
+  double period = 0.;
+  if (std::ifstream file(folder + "/cpu.max"); file >> quota >> period)
+  {
+    return QuotaOf(quota, period);
+  }
+  return QuotaOf(
+    FirstNumberOf(folder + "/cpu.cfs_quota_us"), FirstNumberOf(folder + "/cpu.cfs_period_us"));
+}
+}
+
+int NumberOfProcessors()
+{
+#ifdef __linux__
+  std::array<cpu_set_t, 16> set; // One may be too small for a machine's processors.
+  if (sched_getaffinity(0, sizeof(set), set.data()) == 0)
+  {
+    return std::max(CPU_COUNT_S(sizeof(set), set.data()), 1);
+  }
+#endif
+  return std::max(static_cast<int>(std::thread::hardware_concurrency()), 1);
+}
+
+int QuotaOfProcessors(const std::string& root)
+{
+  int least = 0;
+  std::ifstream groups(root + "/proc/self/cgroup");
+  // As "0::/a/b" (version 2) or "4:cpu,cpuacct:/a/b".
+  std::string number;
+  std::string controllers;
+  std::string group;
+  while (std::getline(groups, number, ':') && std::getline(groups, controllers, ':') &&
+    std::getline(groups, group))
+  {
+    const bool isOfAll = controllers.empty();
+    if (!isOfAll && ("," + controllers + ",").find(",cpu,") == std::string::npos)
+    {
+      continue;
+    }
+    const std::string mount = root + (isOfAll ? "/sys/fs/cgroup" : "/sys/fs/cgroup/cpu");
+    // What a group may take holds for those within it. In a container its own is the outermost one.
+    while (true)
+    {
+      const int quota = QuotaOfFolder(mount + group);
+      least = quota > 0 && (least == 0 || quota < least) ? quota : least;
+      if (group.find('/') == std::string::npos)
+      {
+        break;
+      }
+      group.erase(group.rfind('/'));
+    }
+  }
+  return least;
 }
 }

@@ -4,13 +4,39 @@
 #define volumicProgressMonitor_h
 
 #include "Core/Common/Monitor.h"
-#include "Host/Deadline.h"
 
+#include <chrono>
 #include <functional>
 #include <string>
 
 namespace volumic
 {
+/** When a run must end. */
+class Deadline
+{
+public:
+  using Clock = std::chrono::steady_clock;
+
+  /**
+   * @param start when the run began
+   * @param limit seconds from then on; 0: none
+   */
+  explicit Deadline(Clock::time_point start = Clock::now(), double limit = 0.0)
+    : Start(start), Limit(limit)
+  {
+  }
+
+  bool IsOver() const
+  {
+    return this->Limit > 0.0 &&
+      std::chrono::duration<double>(Clock::now() - this->Start).count() >= this->Limit;
+  }
+
+private:
+  Clock::time_point Start;
+  double Limit;
+};
+
 /**
  * Tells the host of the work on the levels, as a share of the whole that never becomes less, and
  * the core whether the host has asked to stop, or time is over. It is the one place that ends a run

@@ -3,8 +3,11 @@
 #ifndef volumicImageVoxels_h
 #define volumicImageVoxels_h
 
+#include "Core/Common/Executor.h"
+
 #include <vtkSmartPointer.h>
 
+#include <limits>
 #include <string>
 
 class vtkDataArray;
@@ -15,6 +18,7 @@ class vtkInformation;
  * What the filters ask of an image before they believe it. Errors are std::invalid_argument with
  * a message that names the array and the way out.
  */
+
 namespace volumic
 {
 /** The name of the array that a selection means; empty: none, as for the active scalars. */
@@ -60,6 +64,28 @@ std::string NameOf(vtkDataArray* array);
 
 /** `256 x 256 x 108`, for messages. */
 std::string SizeOf(vtkImageData* image);
+
+/** The values of an object that is neither all above nor all below one: Lower < image < Upper. */
+struct ValueRange
+{
+  double Lower = 0.0;
+  double Upper = std::numeric_limits<double>::infinity(); ///< infinite: Lower alone parts it
+
+  bool IsUsed() const { return this->Upper != std::numeric_limits<double>::infinity(); }
+  /** @throws std::invalid_argument naming Iso Value, Upper Value and what they are. */
+  void Check() const;
+};
+
+/**
+ * The voxels folded at the middle of the range, min(v, Lower + Upper - v): they are above Lower
+ * where v is within the range, by min(v - Lower, Upper - v), so that Lower is the iso-value of the
+ * object, and all that asks for voxels needs to know of no range. As float, or as double where the
+ * type has more digits than float; of the same name.
+ * @param voxels contiguous in memory, one component
+ * @throws std::invalid_argument if their type is not supported; std::bad_alloc, ScratchFull.
+ */
+vtkSmartPointer<vtkDataArray> FoldVoxels(
+  vtkDataArray* voxels, const ValueRange& range, Executor& threads);
 }
 
 #endif

@@ -3,8 +3,11 @@
 #ifndef volumicInputImage_h
 #define volumicInputImage_h
 
+#include <vtkSmartPointer.h>
+
 class vtkDataObject;
 class vtkImageData;
+class vtkInformation;
 
 namespace volumic
 {
@@ -15,6 +18,32 @@ namespace volumic
  *         several.
  */
 vtkImageData* ImageOf(vtkDataObject* input);
+
+/** What messages about blocks that are no levels end with. */
+inline constexpr const char* LevelsWayOut =
+  " Give the output of Image Pyramid, or the image itself.";
+
+/**
+ * Looks whether an image is level h of the pyramid of level 0, by its size and place.
+ * @param below level h - 1
+ * @throws std::invalid_argument naming the block and the way out if it is not.
+ */
+void CheckPlace(vtkImageData* level0, vtkImageData* below, vtkImageData* image, unsigned int h);
+
+/** An image whose voxels are points, and which array they are in. */
+struct PointVoxels
+{
+  vtkSmartPointer<vtkImageData> Image;
+  vtkSmartPointer<vtkInformation> Selection; ///< as GetInputArrayInformation()
+};
+
+/**
+ * The image as it is where its voxels are points. Where a cell array is chosen, or none and only
+ * cells have active scalars, an image whose points are the centres of the cells: it shares the
+ * array, so that no value is blurred, as it would be by the way to the corners. Of no image it
+ * makes none.
+ */
+PointVoxels TakeCellsAsPoints(vtkImageData* image, vtkInformation* selection);
 }
 
 #endif

@@ -3,8 +3,7 @@
 #include "Input/InputPoints.h"
 
 #include "Core/Common/Refuse.h"
-#include "Host/PrefixErrors.h"
-#include "Input/CellIndices.h"
+#include "Host/Errors.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellArrayIterator.h>
@@ -12,6 +11,7 @@
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
+#include <vtkType.h>
 
 #include <algorithm>
 #include <cmath>
@@ -24,6 +24,14 @@ namespace volumic
 {
 namespace
 {
+/** A point of a poly data. */
+struct InputPoint
+{
+  vtkIdType Id;
+  Point World;
+  Point Place; ///< workspace
+};
+
 std::vector<vtkIdType> IdsMeantBy(vtkPolyData* polyData)
 {
   const auto numberOfPoints = static_cast<std::size_t>(polyData->GetNumberOfPoints());
@@ -61,6 +69,31 @@ std::vector<vtkIdType> IdsMeantBy(vtkPolyData* polyData)
     }
   }
   return ids;
+}
+
+/**
+ * The points that are meant by a poly data where points are asked for, whatever for: those of its
+ * vertices (cells of the list Verts), each once, in their order; all its points where it has no
+ * cells at all; none if it is null. Other cells beside vertices do not count.
+ * @throws std::invalid_argument if it has cells, but no vertices: nothing says that the points of
+ *         a line or of a surface are meant.
+ */
+std::vector<InputPoint> PointsMeantBy(vtkPolyData* polyData, const Workspace& space)
+{
+  std::vector<InputPoint> points;
+  if (!polyData)
+  {
+    return points;
+  }
+  for (const vtkIdType id : IdsMeantBy(polyData))
+  {
+    InputPoint point;
+    point.Id = id;
+    polyData->GetPoint(id, point.World.data());
+    point.Place = space.ToWorkspace(point.World);
+    points.push_back(point);
+  }
+  return points;
 }
 
 /** Whether it has polygons and no vertices: then it is a surface, and no points are meant. */
@@ -101,24 +134,6 @@ double NumberAt(vtkDataArray* numbers, vtkIdType id, double missing)
 }
 }
 
-std::vector<InputPoint> PointsMeantBy(vtkPolyData* polyData, const Workspace& space)
-{
-  std::vector<InputPoint> points;
-  if (!polyData)
-  {
-    return points;
-  }
-  for (const vtkIdType id : IdsMeantBy(polyData))
-  {
-    InputPoint point;
-    point.Id = id;
-    polyData->GetPoint(id, point.World.data());
-    point.Place = space.ToWorkspace(point.World);
-    points.push_back(point);
-  }
-  return points;
-}
-
 std::vector<Point> SeedsOf(vtkPolyData* port1, const Workspace& space)
 {
   if (port1 && IsSurfaceOnly(port1))
@@ -147,8 +162,7 @@ std::vector<AttractingPoint> AttractingPointsOf(
       const double step = space.Step()[axis];
       if (!(given.Place[axis] >= -step && given.Place[axis] <= step * size[axis]))
       {
-        Refuse("point ", given.Id, " (", given.World[0], ", ", given.World[1], ", ",
-          given.World[2],
+        Refuse("point ", given.Id, " (", given.World[0], ", ", given.World[1], ", ", given.World[2],
           ") lies outside the image. Points are in world coordinates; leave it out.");
       }
     }
@@ -166,11 +180,11 @@ std::vector<Point> PlacesOf(vtkPolyData* port1, vtkPolyData* port2, const Worksp
   std::vector<InputPoint> points;
   if (port1 && !IsSurfaceOnly(port1))
   {
-    points = PrefixErrors("Input port 1 (Initial Surface): ",
-      [&] { return PointsMeantBy(port1, space); });
+    points =
+      PrefixErrors("Input port 1 (Initial Surface): ", [&] { return PointsMeantBy(port1, space); });
   }
-  const std::vector<InputPoint> more = PrefixErrors("Input port 2 (Attracting Points): ",
-    [&] { return PointsMeantBy(port2, space); });
+  const std::vector<InputPoint> more =
+    PrefixErrors("Input port 2 (Attracting Points): ", [&] { return PointsMeantBy(port2, space); });
   points.insert(points.end(), more.begin(), more.end());
   return Places(points);
 }
@@ -200,5 +214,29 @@ std::vector<Point> PositionsOf(const std::vector<Point>& positions, const char* 
     places.push_back(place);
   }
   return places;
+}
+
+std::string FaultOfCells(vtkPolyData* data)
+{
+  const vtkIdType points = data->GetNumberOfPoints();
+  for (vtkCellArray* cells :
+    { data->GetVerts(), data->GetLines(), data->GetPolys(), data->GetStrips() })
+  {
+    if (!cells->IsValid())
+    {
+      return "is damaged: its cells overlap.";
+    }
+    double range[2] = { 0.0, -1.0 };
+    if (cells->GetNumberOfConnectivityIds() > 0)
+    {
+      cells->GetConnectivityArray()->GetRange(range, 0);
+    }
+    if (range[0] < 0.0 || range[1] >= static_cast<double>(points))
+    {
+      return Join("is damaged: a cell has point ", range[0] < 0.0 ? range[0] : range[1],
+        ", there are ", points, ".");
+    }
+  }
+  return "";
 }
 }

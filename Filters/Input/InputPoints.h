@@ -10,6 +10,7 @@
 #include <vtkType.h>
 
 #include <array>
+#include <string>
 #include <vector>
 
 class vtkPolyData;
@@ -19,23 +20,6 @@ class vtkPolyData;
 
 namespace volumic
 {
-/** A point of a poly data. */
-struct InputPoint
-{
-  vtkIdType Id;
-  Point World;
-  Point Place; ///< workspace
-};
-
-/**
- * The points that are meant by a poly data where points are asked for, whatever for: those of its
- * vertices (cells of the list Verts), each once, in their order; all its points where it has no
- * cells at all; none if it is null. Other cells beside vertices do not count.
- * @throws std::invalid_argument if it has cells, but no vertices: nothing says that the points of
- *         a line or of a surface are meant.
- */
-std::vector<InputPoint> PointsMeantBy(vtkPolyData* polyData, const Workspace& space);
-
 /**
  * Port 1 as centres of seeds: the points that it means, in the workspace.
  * @throws std::invalid_argument if it has polygons or lines only.
@@ -68,6 +52,13 @@ std::vector<Point> PlacesOf(vtkPolyData* port1, vtkPolyData* port2, const Worksp
  */
 std::vector<Point> PositionsOf(const std::vector<Point>& positions, const char* label,
   const Workspace& space, const std::array<int, 3>& size);
+
+/**
+ * What is wrong with the cells of data that come from elsewhere, as words behind a name: their
+ * points are others than those that are there, at which VTK's filters end the program. Empty:
+ * nothing.
+ */
+std::string FaultOfCells(vtkPolyData* data);
 }
 
 #endif

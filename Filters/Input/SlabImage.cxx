@@ -4,7 +4,7 @@
 
 #include "Core/Common/Refuse.h"
 #include "Core/Image/VoxelBox.h"
-#include "Host/LargeArray.h"
+#include "Host/LimitedMemory.h"
 #include "Input/ImageVoxels.h"
 
 #include <vtkAbstractArray.h>
@@ -35,7 +35,8 @@ bool IsBetween(const int* slab, const Extent& whole, int axis)
 }
 
 /** Copies the tuples of a part to where they belong; of points, or of the cells between them. */
-void CopyTuples(vtkDataArray* from, const int* slab, vtkDataArray* to, const Extent& whole, int less)
+void CopyTuples(
+  vtkDataArray* from, const int* slab, vtkDataArray* to, const Extent& whole, int less)
 {
   const auto bytes = static_cast<std::size_t>(from->GetNumberOfComponents()) *
     static_cast<std::size_t>(from->GetDataTypeSize());
@@ -78,8 +79,7 @@ vtkSmartPointer<vtkDataArray> NumbersOf(vtkAbstractArray* array, vtkIdType count
 
 vtkDataArray* CellGhostsOf(vtkImageData* slab)
 {
-  vtkDataArray* ghosts =
-    slab->GetCellData()->GetArray(vtkDataSetAttributes::GhostArrayName());
+  vtkDataArray* ghosts = slab->GetCellData()->GetArray(vtkDataSetAttributes::GhostArrayName());
   return ghosts && ghosts->GetDataType() == VTK_UNSIGNED_CHAR &&
       ghosts->GetNumberOfTuples() == slab->GetNumberOfCells()
     ? ghosts
@@ -94,8 +94,9 @@ std::string NameIn(vtkAbstractArray* array)
 bool AreAlike(vtkDataArray* a, vtkDataArray* b)
 {
   return !a == !b &&
-    (!a || (a->GetDataType() == b->GetDataType() && NameIn(a) == NameIn(b) &&
-             a->GetNumberOfComponents() == b->GetNumberOfComponents()));
+    (!a ||
+      (a->GetDataType() == b->GetDataType() && NameIn(a) == NameIn(b) &&
+        a->GetNumberOfComponents() == b->GetNumberOfComponents()));
 }
 }
 
@@ -172,7 +173,8 @@ void SlabImage::Take(vtkImageData* slab)
     const vtkSmartPointer<vtkDataArray> numbers = NumbersOf(array, count);
     if (!AreAlike(numbers, to))
     {
-      Refuse("an array of the slices ", has[4], " to ", has[5], " is missing, or of another name "
+      Refuse("an array of the slices ", has[4], " to ", has[5],
+        " is missing, or of another name "
         "or type than in the slices before them.");
     }
     if (numbers)

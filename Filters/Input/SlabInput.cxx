@@ -3,11 +3,10 @@
 #include "Input/SlabInput.h"
 
 #include "Core/Common/Refuse.h"
-#include "Host/AlgorithmErrors.h"
-#include "Host/PrefixErrors.h"
-#include "Host/WholeInput.h"
-#include "Input/CellVoxels.h"
+#include "Host/Errors.h"
+#include "Host/Pipeline.h"
 #include "Input/ImageVoxels.h"
+#include "Input/InputImage.h"
 #include "Input/SlabImage.h"
 
 #include <vtkAlgorithm.h>
@@ -209,8 +208,10 @@ std::string SlabInput::DescribeWhole() const
     return "";
   }
   return Join("the image is in memory as a whole (",
-    static_cast<std::int64_t>(image->GetActualMemorySize()) / 1024, " MiB), which counts to Memory "
-    "Limit: ", refusing, " cannot give it slab by slab.");
+    static_cast<std::int64_t>(image->GetActualMemorySize()) / 1024,
+    " MiB), which counts to Memory "
+    "Limit: ",
+    refusing, " cannot give it slab by slab.");
 }
 
 vtkImageData* SlabInput::Pull(int first, int last) const
@@ -257,8 +258,8 @@ SlabInput::Result SlabInput::Read(const Request& request) const
     // The first has come, unless that of a former run is there.
     const bool isAtHand = slab->GetExtent()[4] <= first && last <= slab->GetExtent()[5];
     slab = image || !isAtHand ? this->Pull(first, last) : slab;
-    const PointVoxels points = PrefixErrors(Join("slices ", first, " to ", last, ": "),
-      [&] { return Prepare(slab, request); });
+    const PointVoxels points = PrefixErrors(
+      Join("slices ", first, " to ", last, ": "), [&] { return Prepare(slab, request); });
     vtkImageData* prepared = points.Image;
     result.Selection = points.Selection;
     if (!image)

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Input/SurfaceFile.h"
 
-#include "Input/CellIndices.h"
+#include "Input/InputPoints.h"
 
 #include <vtkAbstractArray.h>
 #include <vtkCellArray.h>
@@ -69,8 +69,8 @@ vtkSmartPointer<vtkAbstractArray> ReadArray(CheckedReader& file)
   array->SetNumberOfComponents(std::max(components, 1));
   const auto tuples = file.Get<std::int64_t>();
   // Each text has its length.
-  const std::size_t least = array->IsNumeric() ? static_cast<std::size_t>(array->GetDataTypeSize())
-                                               : sizeof(std::uint64_t);
+  const std::size_t least =
+    array->IsNumeric() ? static_cast<std::size_t>(array->GetDataTypeSize()) : sizeof(std::uint64_t);
   file.Need(static_cast<std::uint64_t>(tuples),
     std::max<std::size_t>(least, 1) * static_cast<std::size_t>(array->GetNumberOfComponents()));
   array->SetNumberOfTuples(tuples);

@@ -3,6 +3,7 @@
 #ifndef volumicWorkspace_h
 #define volumicWorkspace_h
 
+#include "Core/Common/Executor.h"
 #include "Core/Common/IndexedSurface.h"
 
 #include <array>
@@ -63,6 +64,17 @@ private:
   bool Mirrored = false;
   double Unit = 1;
 };
+
+/** Makes outward what was inward. */
+void FlipOrientation(IndexedSurface& surface, Executor& executor = OnThisThread());
+
+/** The surface in world coordinates, outward oriented there; in its place if it is given up. */
+IndexedSurface ToWorld(
+  IndexedSurface surface, const Workspace& space, Executor& executor = OnThisThread());
+
+/** The surface in the workspace, outward oriented there; in its place if it is given up. */
+IndexedSurface ToWorkspace(
+  IndexedSurface surface, const Workspace& space, Executor& executor = OnThisThread());
 }
 
 #endif

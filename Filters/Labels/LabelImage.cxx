@@ -4,7 +4,6 @@
 
 #include "Core/Common/Refuse.h"
 #include "Core/Common/Spans.h"
-#include "Input/CellVoxels.h"
 #include "Input/ImageVoxels.h"
 #include "Input/InputImage.h"
 #include "Input/Workspace.h"

@@ -6,7 +6,7 @@
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "Input/Workspace.h"
 #include "Output/SurfaceOutput.h"
-#include "Pyramid/BuildPyramid.h"
+#include "Pyramid/PyramidBlocks.h"
 #include "Run/SurfaceSegmentation.h"
 
 #include <vtkDataArray.h>

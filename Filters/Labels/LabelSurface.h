@@ -9,7 +9,7 @@
 #include "Core/Labels/LabelField.h"
 #include "Host/HostThreads.h"
 #include "Labels/LabelSettings.h"
-#include "Settings/SegmentationRequest.h"
+#include "Settings/SegmentationSettings.h"
 
 #include <vtkSmartPointer.h>
 

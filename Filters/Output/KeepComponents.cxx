@@ -8,8 +8,8 @@
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "Core/Surface/SizingField.h"
 #include "Input/InputPoints.h"
-#include "Output/SurfaceTransform.h"
-#include "Settings/CheckEnumeration.h"
+#include "Input/Workspace.h"
+#include "Settings/CheckSettings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -171,28 +171,18 @@ std::vector<int> OwnersOf(
   {
     return owners;
   }
-  struct Cavity
-  {
-    int Component;
-    Point Place; ///< a corner of its first triangle here
-  };
-  std::vector<Cavity> own;
+  std::vector<int> cavities;
+  std::vector<Point> places; // Of each a corner of its first triangle here.
   std::vector<bool> isDone(static_cast<std::size_t>(n), false);
   for (std::size_t t = 0; t < surface.Triangles.size(); ++t)
   {
     const int component = features.ComponentOfTriangle[t];
     if (!isDone[component] && features.Components[component].Volume < 0)
     {
-      own.push_back({ component, surface.Points[surface.Triangles[t][0]] });
+      cavities.push_back(component);
+      places.push_back(surface.Points[surface.Triangles[t][0]]);
     }
     isDone[component] = true;
-  }
-  std::vector<Point> places;
-  std::vector<int> cavities;
-  for (const Cavity& cavity : own)
-  {
-    places.push_back(cavity.Place);
-    cavities.push_back(cavity.Component);
   }
   const std::vector<int> about = InnermostAbout(places, cavities, surface, features, executor);
   for (std::size_t i = 0; i < cavities.size(); ++i)

@@ -8,7 +8,7 @@
 #include "Core/Evolution/SurfaceEvolution.h"
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "Input/Workspace.h"
-#include "Settings/SegmentationRequest.h"
+#include "Settings/SegmentationSettings.h"
 
 #include <array>
 #include <vector>
@@ -42,8 +42,8 @@ std::vector<int> OwnersOf(const IndexedSurface& surface, const SurfaceFeatures& 
  * @throws std::invalid_argument if the settings are out of range, or points to choose by are
  * missing
  */
-ComponentChoice ChoiceOf(const SegmentationRequest& request, const Workspace& space,
-  const std::array<int, 3>& size);
+ComponentChoice ChoiceOf(
+  const SegmentationRequest& request, const Workspace& space, const std::array<int, 3>& size);
 
 /**
  * The part of a closed surface that is chosen. A cavity is kept with its owner. A component touches

@@ -3,24 +3,127 @@
 #include "Output/SegmentationResults.h"
 
 #include "Core/Common/Join.h"
-#include "Output/HistoryTable.h"
 
 #include <vtkCompositeDataSet.h>
 #include <vtkDataObject.h>
+#include <vtkDoubleArray.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
+#include <vtkIntArray.h>
 #include <vtkMultiBlockDataSet.h>
+#include <vtkNew.h>
 #include <vtkTable.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <iterator>
+#include <string>
+#include <type_traits>
 #include <utility>
+#include <vector>
 
 namespace volumic
 {
 namespace
 {
+/** What one column of seconds is the sum of. */
+struct PhaseColumn
+{
+  const char* Name;
+  std::vector<Phase> Phases;
+};
+
+const PhaseColumn PhaseColumns[] = {
+  { "Forces", { Phase::Forces } },
+  { "Contact", { Phase::Contact } },
+  { "Proximity", { Phase::Proximity } },
+  { "Verification", { Phase::Verification } },
+  { "Remeshing", { Phase::Remeshing } },
+  { "Topology", { Phase::Topology } },
+  { "Division", { Phase::Division, Phase::Recovery, Phase::Regularisation } },
+  { "Recovery", { Phase::Recovery } },
+  { "Regularisation", { Phase::Regularisation } },
+};
+
+/** A column of the values that `get` gives of each row. */
+template <typename Get>
+void AddColumn(
+  vtkTable* table, const std::string& name, const std::vector<HistoryRow>& rows, const Get& get)
+{
+  using Value = decltype(get(HistoryRow()));
+  vtkNew<std::conditional_t<std::is_same_v<Value, int>, vtkIntArray, vtkDoubleArray>> column;
+  column->SetName(name.c_str());
+  column->SetNumberOfTuples(static_cast<vtkIdType>(rows.size()));
+  for (std::size_t r = 0; r < rows.size(); ++r)
+  {
+    column->SetValue(static_cast<vtkIdType>(r), get(rows[r]));
+  }
+  table->AddColumn(column);
+}
+
+/**
+ * A row per iteration, the columns that vtkDeformableSurface documents; those of the phases too,
+ * if asked for.
+ */
+vtkSmartPointer<vtkTable> MakeHistory(
+  const std::vector<HistoryRow>& rows, const Workspace& space, bool withPhases)
+{
+  using Row = HistoryRow;
+  auto table = vtkSmartPointer<vtkTable>::New();
+  const auto add = [&](const char* name, auto member)
+  { AddColumn(table, name, rows, [member](const Row& row) { return row.*member; }); };
+  const auto addLength = [&](const char* name, double Row::*member)
+  {
+    AddColumn(table, name, rows,
+      [member, unit = space.WorldUnit()](const Row& row) { return row.*member * unit; });
+  };
+  add("Iteration", &Row::Iteration);
+  add("Level", &Row::Level);
+  add("Vertices", &Row::Vertices);
+  add("KineticEnergy", &Row::KineticEnergy);
+  addLength("MeanEdgeLength", &Row::MeanEdgeLength);
+  add("Seconds", &Row::Seconds);
+  add("TimeStep", &Row::TimeStep);
+  add("ActiveVertices", &Row::ActiveVertices);
+  add("Merges", &Row::Merges);
+  add("Cuts", &Row::Cuts);
+  add("Splits", &Row::Splits);
+  add("Collapses", &Row::Collapses);
+  add("Flips", &Row::Flips);
+  add("EulerCharacteristic", &Row::EulerCharacteristic);
+  add("Components", &Row::Components);
+  add("RecoveredParts", &Row::Recovered);
+  add("Deletions", &Row::Deletions);
+  add("DeletedGenus", &Row::DeletedGenus);
+  add("AddedEulerCharacteristic", &Row::AddedEulerCharacteristic);
+  add("IterationVertices", &Row::IterationVertices);
+  addLength("IterationMeanEdgeLength", &Row::IterationMeanEdgeLength);
+  add("IterationEulerCharacteristic", &Row::IterationEulerCharacteristic);
+  add("IterationComponents", &Row::IterationComponents);
+  add("RegularisationCuts", &Row::RegularisationCuts);
+  add("RegularisationDeletions", &Row::RegularisationDeletions);
+  add("SecondsBefore", &Row::SecondsBefore);
+  add("SecondsAfter", &Row::SecondsAfter);
+  for (const PhaseColumn& phases : PhaseColumns)
+  {
+    if (withPhases)
+    {
+      AddColumn(table, std::string(phases.Name) + "Seconds", rows,
+        [&phases](const Row& row)
+        {
+          double sum = 0.0;
+          for (const Phase phase : phases.Phases)
+          {
+            sum += row.PhaseSeconds[static_cast<std::size_t>(phase)];
+          }
+          return sum;
+        });
+    }
+  }
+  return table;
+}
+
 void SetBlock(
   vtkMultiBlockDataSet* blocks, unsigned int block, const std::string& name, vtkPolyData* surface)
 {
@@ -39,8 +142,8 @@ vtkSmartPointer<vtkPolyData> ShallowCopyOf(vtkPolyData* surface)
 
 SegmentationResults::SegmentationResults(bool withPhases, int numberOfLevels, int coarsest,
   const Workspace& space, const std::array<int, 3>& size)
-  : NumberOfLevels(numberOfLevels), Coarsest(coarsest), Space(space), Size(size)
-  , WithPhases(withPhases)
+  : NumberOfLevels(numberOfLevels), Coarsest(coarsest), Space(space), Size(size),
+    WithPhases(withPhases)
 {
 }
 
@@ -64,8 +167,7 @@ bool SegmentationResults::Choose(const SegmentationRequest& request, Executor& t
   return true;
 }
 
-void SegmentationResults::MakeSurface(
-  Level& result, SurfaceResult surface, Executor& threads) const
+void SegmentationResults::MakeSurface(Level& result, SurfaceResult surface, Executor& threads) const
 {
   const bool isAny = !surface.Points.empty();
   // Each step uses up what the one before has made.
@@ -78,8 +180,7 @@ void SegmentationResults::Forget(int level)
 {
   this->ByLevel.erase(level);
   const auto isOfLevel = [level](const Snapshot& snapshot) { return snapshot.Level == level; };
-  this->Snapshots.erase(
-    std::remove_if(this->Snapshots.begin(), this->Snapshots.end(), isOfLevel),
+  this->Snapshots.erase(std::remove_if(this->Snapshots.begin(), this->Snapshots.end(), isOfLevel),
     this->Snapshots.end());
 }
 
@@ -136,8 +237,8 @@ void SegmentationResults::FillOutputs(int last, vtkInformationVector* outputs) c
   {
     if (snapshot.Level >= last)
     {
-      SetBlock(snapshots, snapshots->GetNumberOfBlocks(), snapshot.Name,
-        ShallowCopyOf(snapshot.Surface));
+      SetBlock(
+        snapshots, snapshots->GetNumberOfBlocks(), snapshot.Name, ShallowCopyOf(snapshot.Surface));
     }
   }
   vtkMultiBlockDataSet::GetData(outputs, 3)->ShallowCopy(snapshots);
@@ -170,10 +271,11 @@ std::string SegmentationResults::WarningOf(int last, bool wantsAll) const
     const std::string parts =
       Join(lost, lost == 1 ? " part" : " parts", " that coarser levels had lost");
     const std::string what = about.Lost.Missing == 0 ? "thin ends of " + parts
-      : about.Lost.Missing == lost                   ? "all of " + parts
+      : about.Lost.Missing == lost
+      ? "all of " + parts
       : Join(about.Lost.Missing, " of ", parts, ", and thin ends of others");
-    return Join(std::lround(100.0 * about.Lost.MissingBoundary), " % of the object's boundary at level ",
-      about.Level, " is not on the surface: ", what,
+    return Join(std::lround(100.0 * about.Lost.MissingBoundary),
+      " % of the object's boundary at level ", about.Level, " is not on the surface: ", what,
       ", too thin for triangles of this size or too near to the rest. ",
       about.Level > 0
         ? "Set Finest Level to a finer level."
@@ -182,15 +284,5 @@ std::string SegmentationResults::WarningOf(int last, bool wantsAll) const
               : "Resample the image more finely."));
   }
   return "";
-}
-
-void SegmentationResults::WarnOf(
-  int last, bool wantsAll, const std::function<void(const std::string& text)>& warn) const
-{
-  const std::string warning = this->WarningOf(last, wantsAll);
-  if (!warning.empty())
-  {
-    warn(warning);
-  }
 }
 }

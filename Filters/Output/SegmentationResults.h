@@ -7,13 +7,12 @@
 #include "Input/Workspace.h"
 #include "Output/KeepComponents.h"
 #include "Output/SurfaceOutput.h"
-#include "Settings/SegmentationRequest.h"
+#include "Settings/SegmentationSettings.h"
 
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 
 #include <array>
-#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -35,8 +34,8 @@ public:
 
   struct Level
   {
-    vtkSmartPointer<vtkPolyData> Surface;       ///< the components that are chosen
-    std::shared_ptr<const SurfaceResult> All;   ///< with all components; null: not kept
+    vtkSmartPointer<vtkPolyData> Surface;     ///< the components that are chosen
+    std::shared_ptr<const SurfaceResult> All; ///< with all components; null: not kept
     SurfaceDescription Description;
     bool KeepsNone = false; ///< KeepComponents has left nothing of a surface that was there.
     bool IsAtRest = false;  ///< It was not cut off while it evolved.
@@ -83,9 +82,6 @@ public:
    * @param wantsAll whether it matters if parts of the object are missing
    */
   std::string WarningOf(int last, bool wantsAll) const;
-  /** Warns of what is worth a warning, if anything is. */
-  void WarnOf(
-    int last, bool wantsAll, const std::function<void(const std::string& text)>& warn) const;
   /** What FillOutputs() gives as output 0. */
   vtkPolyData* Outcome(int last) const;
   vtkPolyData* SurfaceOf(int level) const { return this->ByLevel.at(level).Surface; }

@@ -4,9 +4,9 @@
 
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "Core/Surface/SizingField.h"
-#include "Host/LargeArray.h"
+#include "Host/LimitedMemory.h"
+#include "Input/Workspace.h"
 #include "Output/KeepComponents.h"
-#include "Output/SurfaceTransform.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -194,8 +194,7 @@ void TakeTriangles(vtkPolyData* polyData, LargeVector<Triangle>& corners, Execut
 
 int CountContacts(vtkPolyData* polyData)
 {
-  auto* contact =
-    vtkUnsignedCharArray::SafeDownCast(polyData->GetPointData()->GetArray("Contact"));
+  auto* contact = vtkUnsignedCharArray::SafeDownCast(polyData->GetPointData()->GetArray("Contact"));
   const unsigned char* values = contact->GetPointer(0);
   return static_cast<int>(std::count(values, values + contact->GetNumberOfValues(), 1));
 }
@@ -308,18 +307,15 @@ vtkSmartPointer<vtkPolyData> MakePolyData(SurfaceResult surface,
   AddField<vtkDoubleArray>(polyData, "Delta", surface.Delta * space.WorldUnit());
   AddField<vtkDoubleArray>(polyData, "Unit", description.Unit);
   AddField<vtkIntArray>(polyData, "Iterations", description.Iterations);
-  AddField<vtkIntArray>(
-    polyData, "RemainingContacts", static_cast<int>(surface.Contacts.size()));
+  AddField<vtkIntArray>(polyData, "RemainingContacts", static_cast<int>(surface.Contacts.size()));
   AddField<vtkIntArray>(polyData, "ContactVertices", CountContacts(polyData));
-  AddField<vtkDoubleArray>(
-    polyData, "ResidualQuantile", ResidualQuantile(surface.Residual));
+  AddField<vtkDoubleArray>(polyData, "ResidualQuantile", ResidualQuantile(surface.Residual));
   Free(surface.Residual);
   if (surface.FitToTolerance)
   {
     AddField<vtkDoubleArray>(
       polyData, "LargestDistance", surface.FitToTolerance->LargestDistance * space.WorldUnit());
-    AddField<vtkDoubleArray>(
-      polyData, "WithinTolerance", surface.FitToTolerance->WithinTolerance);
+    AddField<vtkDoubleArray>(polyData, "WithinTolerance", surface.FitToTolerance->WithinTolerance);
   }
   const LostParts& lost = description.Lost;
   AddField<vtkIntArray>(polyData, "LostParts", lost.Found);

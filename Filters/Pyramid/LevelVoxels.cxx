@@ -6,7 +6,7 @@
 #include "Core/Common/Refuse.h"
 #include "Core/Image/LevelReduction.h"
 #include "Core/Image/ValidReduction.h"
-#include "Host/LargeArray.h"
+#include "Host/LimitedMemory.h"
 #include "Input/ImageVoxels.h"
 
 #include <vtkDataArray.h>
@@ -38,8 +38,8 @@ vtkSmartPointer<ArrayOf<Real>> NewArray(std::int64_t n, int level)
   }
   catch (const std::bad_alloc&)
   {
-    throw std::runtime_error(Join("the memory does not suffice for level ", level,
-      ", which takes ", static_cast<double>(n) * sizeof(Real) / (1024. * 1024.),
+    throw std::runtime_error(Join("the memory does not suffice for level ", level, ", which takes ",
+      static_cast<double>(n) * sizeof(Real) / (1024. * 1024.),
       " MB. Set Memory Limit, ask for fewer levels, or crop the image."));
   }
 }
@@ -101,8 +101,8 @@ class LevelMaker
 public:
   using Real = typename RealOf<T>::Type;
 
-  LevelMaker(const std::vector<LevelGeometry>& levels, Executor& executor,
-    const PyramidProgress& progress)
+  LevelMaker(
+    const std::vector<LevelGeometry>& levels, Executor& executor, const PyramidProgress& progress)
     : Levels(levels), Threads(executor), Progress(progress), Before(ShareDoneBefore(levels))
   {
   }
@@ -119,8 +119,7 @@ public:
       Real* values = array->GetPointer(0);
       const bool isFinished = h == 1
         ? this->Reduce(h, level0, valid, values)
-        : this->Reduce(
-            h, static_cast<const Real*>(made.back()->GetVoidPointer(0)), marks, values);
+        : this->Reduce(h, static_cast<const Real*>(made.back()->GetVoidPointer(0)), marks, values);
       if (!isFinished)
       {
         break;
@@ -137,8 +136,7 @@ public:
 private:
   /** Level h from the one below it. */
   template <typename Below>
-  bool Reduce(
-    std::size_t h, const Below* below, const LargeVector<std::uint8_t>& marks, Real* made)
+  bool Reduce(std::size_t h, const Below* below, const LargeVector<std::uint8_t>& marks, Real* made)
   {
     const std::string text = Join("Level ", h, " of ", this->Levels.size() - 1);
     const double before = this->Before[h - 1];
@@ -152,8 +150,7 @@ private:
     const LevelGeometry& geometry = this->Levels[h - 1];
     return marks.empty()
       ? ReduceLevel(below, geometry, made, this->Levels[h], this->Threads, progress)
-      : ReduceValidVoxels(
-          below, marks, geometry, made, this->Levels[h], this->Threads, progress);
+      : ReduceValidVoxels(below, marks, geometry, made, this->Levels[h], this->Threads, progress);
   }
 
   const std::vector<LevelGeometry>& Levels;

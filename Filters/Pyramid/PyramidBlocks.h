@@ -3,8 +3,9 @@
 #ifndef volumicPyramidBlocks_h
 #define volumicPyramidBlocks_h
 
+#include "Core/Evolution/EdgeLengthPlan.h"
 #include "Core/Image/PyramidGeometry.h"
-#include "Input/ValueRange.h"
+#include "Input/ImageVoxels.h"
 #include "Pyramid/LevelVoxels.h"
 
 #include <vtkSmartPointer.h>
@@ -13,6 +14,7 @@
 
 class vtkDataArray;
 class vtkImageData;
+class vtkInformation;
 class vtkMultiBlockDataSet;
 
 namespace volumic
@@ -44,6 +46,27 @@ PyramidBlocks MakePyramidBlocks(
 
 /** Those where the work was stopped before there was an image. */
 PyramidBlocks StoppedPyramidBlocks();
+
+/**
+ * What gives edges of a mean length (world units) at the finest level; sets the factor of the
+ * pyramid, which is not made yet, to the plan's.
+ * @throws std::invalid_argument naming the lengths that are possible.
+ */
+EdgeLengthPlan PlanEdgeLength(
+  double edgeLength, double samplingRatio, vtkImageData* image, PyramidOptions& pyramid);
+
+/**
+ * The levels of an image, as vtkImagePyramid has them.
+ * @param selection of the voxels, as GetInputArrayInformation()
+ * @param component of them, as SelectComponent() takes it
+ * @return null if the request's Progress said stop.
+ * @throws std::invalid_argument naming input port 0; others as they are.
+ */
+vtkSmartPointer<vtkMultiBlockDataSet> BuildPyramid(
+  vtkImageData* image, vtkInformation* selection, int component, const PyramidRequest& request);
+
+/** As many levels as the blocks are, by the factor that they tell. */
+PyramidOptions LevelsAs(vtkMultiBlockDataSet* blocks);
 }
 
 #endif

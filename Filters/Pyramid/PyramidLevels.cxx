@@ -2,12 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Pyramid/PyramidLevels.h"
 
+#include "Core/Common/ContentHash.h"
 #include "Core/Common/Refuse.h"
+#include "Core/Image/VoxelHash.h"
 #include "Core/Image/VoxelNumbers.h"
-#include "Host/PrefixErrors.h"
+#include "Host/Errors.h"
 #include "Input/ImageVoxels.h"
-#include "Input/LevelPlaces.h"
-#include "Pyramid/FieldVoxels.h"
+#include "Input/InputImage.h"
 
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
@@ -55,6 +56,46 @@ double UnitInWorkspace(vtkImageData* level0, vtkImageData* image)
   }
   return ratio;
 }
+
+/**
+ * The voxels as the surface reads them. Floats are taken as they are, unless their differences are
+ * small beside their size; of all others `base` is subtracted.
+ */
+void ShareVoxels(
+  LevelImage& to, vtkDataArray* voxels, const std::array<double, 2>& range, double base)
+{
+  if (voxels->GetDataType() == VTK_FLOAT && FloatHolds(range[0], range[1]))
+  {
+    to.Values = static_cast<const float*>(voxels->GetVoidPointer(0));
+    return;
+  }
+  to.Base = base;
+  switch (voxels->GetDataType())
+  {
+    vtkTemplateMacro(
+      to.Values = VoxelValues(static_cast<const VTK_TT*>(voxels->GetVoidPointer(0)), base));
+    default:
+      Refuse(NameOf(voxels), " has voxels of type ", voxels->GetDataTypeAsString(),
+        ", which is not supported.");
+  }
+}
+
+/** Copies the values to `filled`, with the background for those that are not marked as valid. */
+void FillInvalid(const LevelImage& image, const LargeVector<std::uint8_t>& marks, double background,
+  float* filled, Executor& executor)
+{
+  const auto value = static_cast<float>(background - image.Base);
+  executor.For(marks.size(), 1 << 16,
+    [&](std::size_t begin, std::size_t end)
+    {
+      image.Values.Copy(static_cast<std::ptrdiff_t>(begin),
+        static_cast<std::ptrdiff_t>(end - begin), filled + begin);
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        filled[i] = marks[i] != 0 ? filled[i] : value;
+      }
+    });
+}
 }
 
 PyramidLevels::PyramidLevels(
@@ -75,11 +116,12 @@ PyramidLevels::PyramidLevels(
       Refuse("block ", h, " is ", block ? block->GetClassName() : "empty", ", not an image.",
         LevelsWayOut);
     }
-    this->Voxels.emplace_back(PrefixErrors(
-      Join("level ", h, ": "), [&] { return ChooseVoxels(selection, image); }));
+    this->Voxels.emplace_back(
+      PrefixErrors(Join("level ", h, ": "), [&] { return ChooseVoxels(selection, image); }));
     if (h == 0)
     {
-      CheckSize(image, "the image", "Resample it more finely (vtkImageResize; ParaView: Resample To Image).");
+      CheckSize(image, "the image",
+        "Resample it more finely (vtkImageResize; ParaView: Resample To Image).");
       this->Space = Workspace(image, metric);
     }
     else
@@ -137,8 +179,24 @@ bool PyramidLevels::HoldsPart(
   int level, const PartSize& least, double isoValue, bool objectIsBright) const
 {
   SequentialExecutor thread;
-  return HavePart(ContiguousVoxels(this->Voxels[level]), this->Sizes[level],
-    this->ValidAt(level, thread), least, isoValue, objectIsBright);
+  const ValidVoxels valid = this->ValidAt(level, thread);
+  const vtkSmartPointer<vtkDataArray> voxels = ContiguousVoxels(this->Voxels[level]);
+  const auto have = [&](const auto* values)
+  {
+    return HasThickPart(
+      [&](std::int64_t voxel)
+      {
+        const auto number = static_cast<double>(values[voxel]);
+        return (objectIsBright ? number > isoValue : number < isoValue) && valid.Has(voxel);
+      },
+      this->Sizes[level], least);
+  };
+  switch (voxels->GetDataType())
+  {
+    vtkTemplateMacro(return have(static_cast<const VTK_TT*>(voxels->GetVoidPointer(0))));
+    default:
+      return true;
+  }
 }
 
 std::array<double, 2> PyramidLevels::Range(int level) const
@@ -166,8 +224,11 @@ std::string PyramidLevels::DescribeNaNsOfLevel0() const
 
 std::uint64_t PyramidLevels::HashOfVoxels(int level, Executor& executor) const
 {
-  return volumic::HashOfVoxels(
-    ContiguousVoxels(this->Voxels[level]), this->Sizes[level], executor);
+  const vtkSmartPointer<vtkDataArray> voxels = ContiguousVoxels(this->Voxels[level]);
+  const VoxelBox all = VoxelBox::Of(this->Sizes[level]);
+  return CombineHashes(static_cast<std::uint64_t>(voxels->GetDataType()),
+    volumic::HashOfVoxels(voxels->GetVoidPointer(0),
+      static_cast<std::size_t>(voxels->GetDataTypeSize()), all, all, all, executor));
 }
 
 LevelImage PyramidLevels::Load(int wanted, double base, double background, Executor& executor)
@@ -190,22 +251,19 @@ LevelImage PyramidLevels::Load(int wanted, double base, double background, Execu
 
   this->Loaded = voxels;
   this->Filled = LargeVector<float>();
-  const FieldVoxels read =
-    PrefixErrors(name + ": ", [&] { return FieldVoxelsOf(voxels, range, base); });
   LevelImage loaded;
-  loaded.Values = read.Values;
-  loaded.Base = read.Base;
+  PrefixErrors(name + ": ", [&] { ShareVoxels(loaded, voxels, range, base); });
   if (!valid.Marks.empty())
   {
     this->Filled.resize(valid.Marks.size());
-    FillInvalid(read, valid.Marks, background, this->Filled.data(), executor);
+    FillInvalid(loaded, valid.Marks, background, this->Filled.data(), executor);
     loaded.Values = this->Filled.data();
   }
   for (int axis = 0; axis < 3; ++axis)
   {
     loaded.Size[axis] = this->Sizes[level][axis];
-    loaded.Step[axis] = this->Space.Step()[axis] *
-      static_cast<double>(this->Sizes[0][axis]) / loaded.Size[axis];
+    loaded.Step[axis] =
+      this->Space.Step()[axis] * static_cast<double>(this->Sizes[0][axis]) / loaded.Size[axis];
   }
   loaded.Unit = this->UnitOf(wanted);
   return loaded;

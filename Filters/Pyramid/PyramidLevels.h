@@ -8,6 +8,7 @@
 #include "Core/Common/ScratchMemory.h"
 #include "Core/Image/LevelImage.h"
 #include "Core/Image/ThickPart.h"
+#include "Core/Image/VoxelValues.h"
 #include "Input/ValidVoxels.h"
 #include "Input/Workspace.h"
 
@@ -71,7 +72,7 @@ public:
 
   /**
    * Whether a part of the object, which is above the value (bright) or below, is at least that
-   * large at a level (ThickPart.h).
+   * large at a level (ThickPart.h); also where the type of the voxels is not supported.
    */
   bool HoldsPart(int level, const PartSize& least, double isoValue, bool objectIsBright) const;
 
@@ -84,7 +85,7 @@ public:
   /** What DescribeNaNs() says of level 0; nothing if there are none. */
   std::string DescribeNaNsOfLevel0() const;
 
-  /** Of the values of the level's voxels as they came, also of those that are not valid. */
+  /** 64 bits that tell voxels apart (VoxelHash.h), of their type and the values as they came. */
   std::uint64_t HashOfVoxels(int level, Executor& executor) const;
 
   /**

@@ -4,7 +4,7 @@
 
 #include "Core/Common/Refuse.h"
 #include "Core/Image/VoxelBox.h"
-#include "Host/WholeInput.h"
+#include "Host/Pipeline.h"
 #include "Input/ImageVoxels.h"
 #include "Input/InputImage.h"
 #include "Input/SlabImage.h"
@@ -19,8 +19,10 @@
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
 #include <vtkPolyData.h>
+#include <vtkStreamingDemandDrivenPipeline.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <utility>
@@ -194,9 +196,42 @@ RankMessage GivePart(RankMessage& message, const FilterCall& call)
 
 void Ranks::AskForInputs() const
 {
-  const int ports = this->Call.Filter->GetNumberOfInputPorts();
-  (this->AreMany() ? AskForPieces : AskForWholeInputs)(
-    this->Call.Request, this->Call.Inputs, ports, this->Call.Outputs);
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  vtkInformation* asked = AskedOutput(this->Call.Request, this->Call.Outputs);
+  // A process that makes nothing of an image's voxels must not hold them. Data in pieces keeps the
+  // piece that the process would get, which is small and its own.
+  const bool wantsNone =
+    !this->AreMany() && !IsFirstProcess(this->Call.Request, this->Call.Outputs);
+  for (int port = 0; port < this->Call.Filter->GetNumberOfInputPorts(); ++port)
+  {
+    for (int i = 0; i < this->Call.Inputs[port]->GetNumberOfInformationObjects(); ++i)
+    {
+      vtkInformation* info = this->Call.Inputs[port]->GetInformationObject(i);
+      std::array<int, 6> extent = { 0, -1, 0, -1, 0, -1 };
+      if (info->Has(Pipeline::WHOLE_EXTENT()))
+      {
+        wantsNone ? void() : info->Get(Pipeline::WHOLE_EXTENT(), extent.data());
+        info->Set(Pipeline::UPDATE_EXTENT(), extent.data(), 6);
+      }
+      else if (wantsNone)
+      {
+        continue;
+      }
+      if (this->AreMany())
+      {
+        info->CopyEntry(asked, Pipeline::UPDATE_PIECE_NUMBER());
+        info->CopyEntry(asked, Pipeline::UPDATE_NUMBER_OF_PIECES());
+      }
+      else
+      {
+        // All, as levels and surfaces depend on the whole image; and a part of nothing is nonsense
+        // where a source can produce sub-extents.
+        info->Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
+        info->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
+      }
+      info->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+    }
+  }
 }
 
 vtkSmartPointer<vtkDataObject> Ranks::TakeImages(int port)

@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Ranks/Ranks.h"
 
-#include "Host/WholeInput.h"
+#include "Host/Pipeline.h"
 #include "Ranks/Pieces.h"
 
 #include <vtkDataObject.h>
-#include <vtkExecutive.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
@@ -35,8 +34,7 @@ constexpr int Failed = -1;
 bool WorkTogether(vtkMultiProcessController* controller, const FilterCall& call)
 {
   using Pipeline = vtkStreamingDemandDrivenPipeline;
-  const int port = std::max(0, call.Request->Get(vtkExecutive::FROM_OUTPUT_PORT()));
-  vtkInformation* info = call.Outputs->GetInformationObject(port);
+  vtkInformation* info = AskedOutput(call.Request, call.Outputs);
   return controller && controller->GetNumberOfProcesses() > 1 &&
     info->Get(Pipeline::UPDATE_NUMBER_OF_PIECES()) == controller->GetNumberOfProcesses() &&
     info->Get(Pipeline::UPDATE_PIECE_NUMBER()) == controller->GetLocalProcessId();

@@ -3,7 +3,7 @@
 #ifndef volumicRanks_h
 #define volumicRanks_h
 
-#include "Host/AlgorithmErrors.h"
+#include "Host/Errors.h"
 #include "Ranks/RankMessage.h"
 
 #include <vtkMultiProcessController.h>

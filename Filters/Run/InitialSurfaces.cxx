@@ -5,9 +5,8 @@
 #include "Core/Common/Executor.h"
 #include "Core/Common/Refuse.h"
 #include "Core/Image/Field.h"
-#include "Input/CellIndices.h"
 #include "Input/InputPoints.h"
-#include "Output/SurfaceTransform.h"
+#include "Input/Workspace.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellArrayIterator.h>
@@ -83,8 +82,8 @@ vtkSmartPointer<vtkImageData> PadByBackground(
     for (int j = 0; j < image.Size[1]; ++j)
     {
       auto* row = static_cast<float*>(padded->GetScalarPointer(0, j, k));
-      image.Values.Copy((static_cast<std::ptrdiff_t>(k) * image.Size[1] + j) * image.Size[0],
-        image.Size[0], row);
+      image.Values.Copy(
+        (static_cast<std::ptrdiff_t>(k) * image.Size[1] + j) * image.Size[0], image.Size[0], row);
       std::transform(row, row + image.Size[0], row, clear);
     }
   }

@@ -5,16 +5,16 @@
 
 #include "Core/Evolution/SurfaceEvolution.h"
 #include "Input/Workspace.h"
-#include "Settings/SegmentationRequest.h"
+#include "Settings/SegmentationSettings.h"
 
 #include <vector>
 
 namespace volumic
 {
 /**
- * What the surface begins with on the coarsest level, as Initialization says: of the polygons of the
- * initial surface, triangulated, its points and those of `seeds` (workspace), or the iso-surface of
- * the level, closed at the border of the image by background.
+ * What the surface begins with on the coarsest level, as Initialization says: of the polygons of
+ * the initial surface, triangulated, its points and those of `seeds` (workspace), or the
+ * iso-surface of the level, closed at the border of the image by background.
  * @throws std::invalid_argument for an initial surface that cannot be read
  */
 SurfaceStart StartOf(const SegmentationRequest& request, const Workspace& space,

@@ -6,7 +6,6 @@
 #include "Core/Common/CheckedFile.h"
 #include "Core/Common/Executor.h"
 #include "Run/SegmentationLevels.h"
-#include "Settings/SegmentationRequest.h"
 #include "Settings/SegmentationSettings.h"
 
 #include <cstdint>

@@ -2,14 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Run/RunLevels.h"
 
-#include "Host/PrefixErrors.h"
-#include "Input/CellVoxels.h"
+#include "Host/Errors.h"
 #include "Input/ImageVoxels.h"
 #include "Input/InputImage.h"
-#include "Input/LabelHint.h"
-#include "Input/OtsuThreshold.h"
 #include "Input/SlabInput.h"
-#include "Pyramid/BuildPyramid.h"
+#include "Input/ValueHints.h"
+#include "Pyramid/PyramidBlocks.h"
 
 #include <vtkDataArray.h>
 #include <vtkImageData.h>
@@ -43,11 +41,7 @@ vtkSmartPointer<vtkDataObject> ReadInput(
   wanted.GoOn = [&source](double share)
   { return source.GoOn(ReadingShare * share, "Reading the image"); };
   const SlabInput::Result read = PrefixErrors(Port0, [&] { return slabs.Read(wanted); });
-  const std::string whole = slabs.DescribeWhole();
-  if (!whole.empty())
-  {
-    source.WarnOnce("whole", Port0 + whole);
-  }
+  source.WarnOnce("whole", slabs.DescribeWhole());
   if (read.IsStopped || !read.Image)
   {
     return read.IsStopped ? nullptr : input;
@@ -91,11 +85,7 @@ vtkSmartPointer<vtkImageData> CompleteImage(
     PrefixErrors(Port0, [&] { return ChooseArray(voxels.Selection, voxels.Image); });
   if (values->GetNumberOfComponents() == 1 && values->HasStandardMemoryLayout())
   {
-    const std::string hint = HintAtLabels(values, voxels.Image->GetDimensions());
-    if (!hint.empty())
-    {
-      source.WarnOnce("labels", Port0 + hint);
-    }
+    source.WarnOnce("labels", HintAtLabels(values, voxels.Image->GetDimensions()));
   }
   return voxels.Image;
 }

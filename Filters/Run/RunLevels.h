@@ -3,7 +3,7 @@
 #ifndef volumicRunLevels_h
 #define volumicRunLevels_h
 
-#include "Settings/SegmentationRequest.h"
+#include "Settings/SegmentationSettings.h"
 
 #include <cstddef>
 #include <functional>
@@ -21,7 +21,8 @@ struct VoxelSource
   std::size_t MemoryLimit = 0;    ///< bytes; 0: none, or it is kept already
   /** Told the share that is done, and what is being done; false asks to stop. */
   std::function<bool(double share, const char* text)> GoOn;
-  /** Told what is worth a warning once in a filter's life; `what` says which. */
+  /** Told what is worth a warning of port 0 once in a filter's life, or nothing; `what` says which.
+   */
   std::function<void(const char* what, const std::string& text)> WarnOnce;
 };
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Run/SegmentationCache.h"
 
-#include "Host/WholeInput.h"
+#include "Host/Pipeline.h"
 
 #include <vtkAlgorithm.h>
 #include <vtkAlgorithmOutput.h>

@@ -118,10 +118,6 @@ void SurfaceSegmentation::LeaveCheckpoint(int level)
   {
     return;
   }
-  const std::string warning = this->Left->Save(this->Found, this->Rest, { level, this->GoesOn });
-  if (!warning.empty())
-  {
-    this->Request.Warn(warning);
-  }
+  this->Request.Warn(this->Left->Save(this->Found, this->Rest, { level, this->GoesOn }));
 }
 }

@@ -2,16 +2,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Run/SegmentationLevels.h"
 
+#include "Core/Common/ContentHash.h"
+#include "Core/Common/Refuse.h"
 #include "Core/Image/ThickPart.h"
-#include "Host/PrefixErrors.h"
+#include "Host/Errors.h"
+#include "Input/ImageVoxels.h"
 #include "Input/InputPoints.h"
-#include "Pyramid/FieldVoxels.h"
-#include "Settings/CheckEnumeration.h"
+#include "Pyramid/PyramidBlocks.h"
+#include "Pyramid/PyramidLevels.h"
+#include "Settings/CheckSettings.h"
 
 #include <vtkDataArray.h>
+#include <vtkDataObject.h>
 #include <vtkFieldData.h>
+#include <vtkImageData.h>
+#include <vtkInformation.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkPointData.h>
+#include <vtkSmartPointer.h>
 
 #include <algorithm>
+#include <string>
 #include <utility>
 
 namespace volumic
@@ -19,6 +30,7 @@ namespace volumic
 namespace
 {
 constexpr const char* Port0 = "Input port 0: ";
+constexpr const char* PlaceOfEdges = "Input port 0, the map of edges: ";
 
 /** Image Pyramid has counted them, and tells it itself where it is a filter of the user's. */
 bool MayHaveNaNsToReport(const SegmentationRequest& request)
@@ -38,6 +50,61 @@ PyramidLevels ReadVoxels(const SegmentationRequest& request)
         request.Levels, request.Selection, settings.Metric, settings.NaNIsBackground);
     });
 }
+
+/** The blocks where all of them carry the map, else the pyramid of block 0's; null after a stop. */
+vtkSmartPointer<vtkMultiBlockDataSet> LevelsOfMap(const SegmentationRequest& request)
+{
+  vtkMultiBlockDataSet* blocks = request.Levels;
+  vtkInformation* selection = request.EdgeSelection;
+  auto* image = vtkImageData::SafeDownCast(blocks->GetBlock(0));
+  ChooseVoxels(selection, image);
+  const std::string name = ChosenName(selection);
+  bool everywhere = !name.empty();
+  for (unsigned int h = 0; h < blocks->GetNumberOfBlocks(); ++h)
+  {
+    auto* level = vtkImageData::SafeDownCast(blocks->GetBlock(h));
+    everywhere = everywhere && level && level->GetPointData()->HasArray(name.c_str());
+  }
+  if (everywhere || blocks->GetNumberOfBlocks() <= 1)
+  {
+    return blocks;
+  }
+  PyramidRequest pyramid;
+  pyramid.Levels = LevelsAs(blocks);
+  pyramid.NumberOfThreads = request.Settings.End.NumberOfThreads;
+  pyramid.Progress = [&request](double, const std::string&)
+  { return request.Progress(0.0, "Pyramid of the map of edges") && !request.Limit.IsOver(); };
+  return BuildPyramid(image, selection, -1, pyramid);
+}
+
+/** The levels of the map of edges; null after a stop. */
+std::unique_ptr<PyramidLevels> ReadEdges(const SegmentationRequest& request)
+{
+  vtkInformation* selection = request.EdgeSelection;
+  const bool isChosen = selection &&
+    (selection->Has(vtkDataObject::FIELD_NAME()) ||
+      selection->Has(vtkDataObject::FIELD_ATTRIBUTE_TYPE()));
+  if (!isChosen)
+  {
+    Refuse("Edge Attraction Weight is not 0, but there is no map of edges: choose a second point "
+           "array of the image as Edge Map (SetInputArrayToProcess(1, ...)), such as its gradient "
+           "magnitude.");
+  }
+  return PrefixErrors(PlaceOfEdges,
+    [&]
+    {
+      const vtkSmartPointer<vtkMultiBlockDataSet> levels = LevelsOfMap(request);
+      return levels ? std::make_unique<PyramidLevels>(levels, selection, Metric::Voxels) : nullptr;
+    });
+}
+
+/** What voxels get that are not valid: as far from the iso-value as any voxel is (Field.h). */
+double BackgroundOf(const std::array<double, 2>& range, const SurfaceOptions& options)
+{
+  const double iso = options.IsoValue;
+  const double away = std::max(range[1] - iso, iso - range[0]);
+  return options.ObjectIsBright ? iso - away : iso + away;
+}
 }
 
 SegmentationLevels::SegmentationLevels(const SegmentationRequest& request)
@@ -47,19 +114,6 @@ SegmentationLevels::SegmentationLevels(const SegmentationRequest& request)
 }
 
 SegmentationLevels::~SegmentationLevels() = default;
-
-std::vector<Point> SegmentationLevels::SeedPositions(const SegmentationSettings& settings) const
-{
-  return PositionsOf(settings.End.SeedPositions, "Seed Positions", this->GetWorkspace(),
-    this->Voxels.SizeOfLevel0());
-}
-
-std::vector<Point> SegmentationLevels::AttractingPositions(
-  const SegmentationSettings& settings) const
-{
-  return PositionsOf(settings.AttractingPositions, "Attracting Positions", this->GetWorkspace(),
-    this->Voxels.SizeOfLevel0());
-}
 
 void SegmentationLevels::ReadAttraction(const SegmentationRequest& request)
 {
@@ -71,7 +125,8 @@ void SegmentationLevels::ReadAttraction(const SegmentationRequest& request)
       return AttractingPointsOf(
         request.AttractingPoints, this->GetWorkspace(), this->Voxels.SizeOfLevel0());
     });
-  for (const Point& place : this->AttractingPositions(settings))
+  for (const Point& place : PositionsOf(settings.AttractingPositions, "Attracting Positions",
+         this->GetWorkspace(), this->Voxels.SizeOfLevel0()))
   {
     points.emplace_back();
     points.back().Place = place;
@@ -81,14 +136,8 @@ void SegmentationLevels::ReadAttraction(const SegmentationRequest& request)
     this->Points =
       std::make_unique<PointAttraction>(std::move(points), options.PointAttractionWeight);
   }
-  if (options.EdgeAttractionWeight > 0.0)
-  {
-    this->Edges = std::make_unique<EdgeLevels>(request.Levels, request.EdgeSelection,
-      settings.End.NumberOfThreads,
-      [&request](double) {
-        return request.Progress(0.0, "Pyramid of the map of edges") && !request.Limit.IsOver();
-      });
-  }
+  this->EdgesAttract = options.EdgeAttractionWeight > 0.0;
+  this->Edges = this->EdgesAttract ? ReadEdges(request) : nullptr;
 }
 
 std::array<double, 2> SegmentationLevels::Range(int level) const
@@ -119,11 +168,11 @@ std::string SegmentationLevels::DescribeUnreportedNaNs() const
 LevelImage SegmentationLevels::Load(int level, const SurfaceOptions& options, Executor& threads)
 {
   const double background = BackgroundOf(this->Range(std::max(level, 0)), options);
-  LevelImage image = PrefixErrors(Port0,
-    [&] { return this->Voxels.Load(level, options.IsoValue, background, threads); });
+  LevelImage image = PrefixErrors(
+    Port0, [&] { return this->Voxels.Load(level, options.IsoValue, background, threads); });
   if (this->Edges)
   {
-    image.Edges = this->Edges->Load(level, image.Size, threads);
+    image.Edges = this->LoadEdges(level, image.Size, threads);
   }
   if (this->Points)
   {
@@ -133,9 +182,35 @@ LevelImage SegmentationLevels::Load(int level, const SurfaceOptions& options, Ex
   return image;
 }
 
+VoxelValues SegmentationLevels::LoadEdges(
+  int level, const std::array<int, 3>& size, Executor& threads)
+{
+  return PrefixErrors(PlaceOfEdges,
+    [&]
+    {
+      // The force knows differences only.
+      const double lowest = this->Edges->Range(0)[0];
+      const LevelImage loaded = level < this->Edges->NumberOfLevels()
+        ? this->Edges->Load(level, lowest, lowest, threads)
+        : LevelImage();
+      if (loaded.Size != size)
+      {
+        Refuse("its level ", level, " has ", loaded.Size[0], " x ", loaded.Size[1], " x ",
+          loaded.Size[2], " voxels, that of the voxels ", size[0], " x ", size[1], " x ", size[2],
+          ". Give the image instead of its pyramid, or one whose blocks all carry both arrays.");
+      }
+      return loaded.Values;
+    });
+}
+
 std::uint64_t SegmentationLevels::HashOfEdges(Executor& threads) const
 {
-  return this->Edges ? this->Edges->HashOfVoxels(threads) : 0;
+  std::uint64_t hash = 0;
+  for (int level = 0; this->Edges && level < this->Edges->NumberOfLevels(); ++level)
+  {
+    hash = CombineHashes(hash, this->Edges->HashOfVoxels(level, threads));
+  }
+  return hash;
 }
 
 void SegmentationLevels::ReleaseCoarserThan(int level)

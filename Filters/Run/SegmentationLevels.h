@@ -4,13 +4,11 @@
 #define volumicSegmentationLevels_h
 
 #include "Core/Common/Executor.h"
-#include "Core/Common/IndexedSurface.h"
 #include "Core/Image/LevelImage.h"
 #include "Core/Image/PointAttraction.h"
 #include "Input/Workspace.h"
-#include "Pyramid/EdgeLevels.h"
 #include "Pyramid/PyramidLevels.h"
-#include "Settings/SegmentationRequest.h"
+#include "Settings/SegmentationSettings.h"
 
 #include <array>
 #include <cstdint>
@@ -38,14 +36,10 @@ public:
   /** Once, before Load(): takes the points and the map of edges that the settings give a weight. */
   void ReadAttraction(const SegmentationRequest& request);
   bool HasPoints() const { return this->Points != nullptr; }
-  bool HasEdges() const { return this->Edges != nullptr; }
+  bool HasEdges() const { return this->EdgesAttract; }
 
   const PyramidLevels& Pyramid() const { return this->Voxels; }
   const Workspace& GetWorkspace() const { return this->Voxels.GetWorkspace(); }
-
-  /** A list of positions of the settings, in the workspace (PositionsOf in InputPoints.h). */
-  std::vector<Point> SeedPositions(const SegmentationSettings& settings) const;
-  std::vector<Point> AttractingPositions(const SegmentationSettings& settings) const;
 
   /** U_h in world units. */
   double UnitInWorld(int level) const { return this->Voxels.UnitInWorld(level); }
@@ -55,9 +49,9 @@ public:
   std::array<double, 2> Range(int level) const;
 
   /**
-   * Whether a surface that starts at a level finds something that it is to hold there: with recovery
-   * a part that this would enclose, else one that is thick enough for it. Looks once at a level, so
-   * the options must be the same always.
+   * Whether a surface that starts at a level finds something that it is to hold there: with
+   * recovery a part that this would enclose, else one that is thick enough for it. Looks once at a
+   * level, so the options must be the same always.
    */
   bool HoldsObject(int level, const SurfaceOptions& options) const;
 
@@ -78,12 +72,20 @@ public:
   std::uint64_t HashOfEdges(Executor& threads) const;
 
 private:
+  /** For LevelImage::Edges. @throws where the level has not the size of the voxels'. */
+  VoxelValues LoadEdges(int level, const std::array<int, 3>& size, Executor& threads);
+
   bool MayHaveUnreportedNaNs;
   PyramidLevels Voxels;
   std::unique_ptr<PointAttraction> Points; ///< null: none
-  std::unique_ptr<EdgeLevels> Edges;       ///< null: none
-  std::vector<float> Bent;                 ///< the level's voxels as the points bend them
-  mutable std::map<int, bool> Holds;       ///< what HoldsObject() has found
+  bool EdgesAttract = false;
+  /**
+   * Of the map of edges. Where all blocks carry the array these are taken; else the pyramid of the
+   * array of block 0 is made, by the factor that the blocks tell. Null: none, or after a stop.
+   */
+  std::unique_ptr<PyramidLevels> Edges;
+  std::vector<float> Bent;           ///< the level's voxels as the points bend them
+  mutable std::map<int, bool> Holds; ///< what HoldsObject() has found
 };
 }
 

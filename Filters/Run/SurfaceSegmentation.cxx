@@ -6,12 +6,11 @@
 #include "Core/Common/Refuse.h"
 #include "Core/Common/ScratchMemory.h"
 #include "Core/Evolution/EdgeLengthPlan.h"
-#include "Host/PrefixErrors.h"
+#include "Host/Errors.h"
 #include "Input/InputPoints.h"
 #include "Output/SurfaceOutput.h"
 #include "Run/InitialSurfaces.h"
-#include "Settings/CheckEnumeration.h"
-#include "Settings/CheckGrading.h"
+#include "Settings/CheckSettings.h"
 
 #include <vtkNew.h>
 #include <vtkPolyData.h>
@@ -131,12 +130,7 @@ void SurfaceSegmentation::Run()
   this->Choice = ChooseLevels(this->Levels, this->Settings);
   if (!this->HasBegun)
   {
-    // Once for all runs that go on from this one.
-    const std::string text = this->Levels.DescribeUnreportedNaNs();
-    if (!text.empty())
-    {
-      this->Request.Warn(text);
-    }
+    this->Request.Warn(this->Levels.DescribeUnreportedNaNs()); // Once for all that go on from it.
   }
   // Where a run begins may depend on where it is to end; then nothing of the last one serves.
   if (!this->HasBegun || this->Choice.Coarsest != before)
@@ -172,7 +166,7 @@ void SurfaceSegmentation::Run()
   }
   if (!this->Request.IsStep)
   {
-    this->Found.WarnOf(this->Choice.Last, this->Settings.WantsAllParts(), this->Request.Warn);
+    this->Request.Warn(this->Found.WarningOf(this->Choice.Last, this->Settings.WantsAllParts()));
   }
   this->Request.InitialSurface = this->Request.AttractingPoints = nullptr;
 }
@@ -277,7 +271,8 @@ LevelOutcome SurfaceSegmentation::Evolve(LevelTask& task)
   }
   const InitializationType type = this->Settings.Initialization;
   const std::vector<Point> seeds = type == InitializationType::Seeds
-    ? this->Levels.SeedPositions(this->Settings)
+    ? PositionsOf(this->Settings.End.SeedPositions, "Seed Positions", this->Levels.GetWorkspace(),
+        this->Levels.Pyramid().SizeOfLevel0())
     : std::vector<Point>();
   const bool ofPositions = !seeds.empty() && !this->Request.InitialSurface;
   const bool isGiven =

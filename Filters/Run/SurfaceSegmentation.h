@@ -11,7 +11,7 @@
 #include "Run/LevelChoice.h"
 #include "Run/SegmentationCheckpoint.h"
 #include "Run/SegmentationLevels.h"
-#include "Settings/SegmentationRequest.h"
+#include "Settings/SegmentationSettings.h"
 
 #include <functional>
 #include <memory>

@@ -7,10 +7,18 @@
 #include "Core/Common/IndexedSurface.h"
 #include "Core/Evolution/SurfaceOptions.h"
 #include "Core/Image/PyramidGeometry.h"
-#include "Input/ValueRange.h"
+#include "Host/ProgressMonitor.h"
+#include "Input/ImageVoxels.h"
 #include "Input/Workspace.h"
 
+#include <vtkInformation.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+
+#include <functional>
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -54,13 +62,13 @@ struct SegmentationEnd
   KeepComponentsType KeepComponents = KeepComponentsType::AllComponents;
   double MinimumComponentVolume = 0.0; ///< world units cubed
   std::vector<Point> SeedPositions;    ///< world, beside those of input port 1
-  double TimeLimit = 0.0; ///< seconds; 0: none
-  bool Preview = false;   ///< End at a level of few voxels.
+  double TimeLimit = 0.0;              ///< seconds; 0: none
+  bool Preview = false;                ///< End at a level of few voxels.
   bool ShowLevels = false;
-  int NumberOfThreads = 0; ///< 0: all
-  int MemoryLimit = 0;     ///< of the process, MiB; 0: none
+  int NumberOfThreads = 0;      ///< 0: all
+  int MemoryLimit = 0;          ///< of the process, MiB; 0: none
   std::string ScratchDirectory; ///< for what memory does not hold; empty: the system's
-  bool Resume = false; ///< Go on from a checkpoint, where there is one.
+  bool Resume = false;          ///< Go on from a checkpoint, where there is one.
 
   /** A limit of memory, or a folder, says that the run is long. */
   bool LeavesCheckpoints() const
@@ -90,7 +98,7 @@ struct SegmentationSettings
   bool UseUpperValue = true;
   volumic::Metric Metric = volumic::Metric::World;
   volumic::Grading Grading; ///< at the finest level, world units
-  double EdgeLength = 0.0; ///< mean at the finest level, world units; 0: as FinestLevel has it
+  double EdgeLength = 0.0;  ///< mean at the finest level, world units; 0: as FinestLevel has it
   InitializationType Initialization = InitializationType::EnclosingIcosahedron;
   int CoarsestLevel = -1;        ///< -1: the last that serves
   bool BeginsBelowImage = false; ///< at level -1, whatever CoarsestLevel is; FinestLevel is -1
@@ -122,6 +130,39 @@ struct SegmentationSettings
     return this->Recovery != RecoveryType::NoRecovery && !this->End.Preview &&
       this->End.KeepComponents == KeepComponentsType::AllComponents;
   }
+};
+
+class SegmentationCheckpoint;
+struct SurfaceResult;
+
+/** What a run is asked for: settings, inputs, and whom it tells. */
+struct SegmentationRequest
+{
+  /** As set, but for what was found for the image, and where a step on the way ends. */
+  SegmentationSettings Settings;
+
+  vtkSmartPointer<vtkMultiBlockDataSet> Levels;  ///< null where their making was stopped
+  vtkSmartPointer<vtkInformation> Selection;     ///< of the voxels, as GetInputArrayInformation()
+  double FactorBelowLevel0 = 1.7320508075688772; ///< U_0 over the unit of level -1
+  /** Made for this run, by EdgeLength if there is one; nobody was told of their NaN voxels. */
+  bool LevelsAreOwn = false;
+  vtkSmartPointer<vtkPolyData> InitialSurface;   ///< input port 1, may be missing
+  vtkSmartPointer<vtkPolyData> AttractingPoints; ///< input port 2, may be missing
+  vtkInformation* EdgeSelection = nullptr; ///< of the map of edges; without effect at weight 0
+
+  bool IsStep = false;  ///< Another run goes on from it: what is wrong with the surface may change.
+  bool MayGoOn = false; ///< After a stop, too: what rests stays while a finer level is under way.
+  bool KeepsAll = false;        ///< All components stay, for who may choose others.
+  bool CheckpointStays = false; ///< It is not removed at the end, whose own is left, too.
+  Deadline Limit;
+  /** When the run began: what came before counts to the seconds of its first level. */
+  Deadline::Clock::time_point Started = Deadline::Clock::now();
+  ProgressMonitor::Callback Progress;
+  std::function<void(const std::string& text)> Warn; ///< an empty text is no warning
+  /** Given the run's checkpoint, once it has been looked at; null where it has none. */
+  std::function<void(const std::shared_ptr<SegmentationCheckpoint>& checkpoint)> Prepared;
+  /** See LevelTask::Revise; of the last level, where this is 0 or -1. */
+  std::function<bool(const SurfaceResult& surface)> Revise;
 };
 }
 

@@ -4,7 +4,6 @@
 // How many threads there are, and another executor in their place, for measurements.
 #include "FilterTestTools.h"
 #include "Host/HostThreads.h"
-#include "Host/Processors.h"
 #include "TemporaryFolder.h"
 #include "vtkDeformableSurface.h"
 
@@ -65,8 +64,7 @@ std::size_t ThreadsAtWork(int numberOfThreads)
 class Variable
 {
 public:
-  Variable(const char* name, const char* value)
-    : Name(name)
+  Variable(const char* name, const char* value) : Name(name)
   {
     const char* before = std::getenv(name);
     this->Before = before ? std::optional<std::string>(before) : std::nullopt;

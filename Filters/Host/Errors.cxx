@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Host/AlgorithmErrors.h"
+#include "Host/Errors.h"
 
 #include <vtkAlgorithm.h>
 #include <vtkCallbackCommand.h>

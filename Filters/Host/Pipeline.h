@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicPipeline_h
+#define volumicPipeline_h
+
+#include <vtkAlgorithm.h>
+#include <vtkDataObject.h>
+#include <vtkDemandDrivenPipeline.h>
+#include <vtkExecutive.h>
+#include <vtkInformation.h>
+#include <vtkInformationVector.h>
+#include <vtkStreamingDemandDrivenPipeline.h>
+#include <vtkVersion.h>
+#include <vtkVersionMacros.h>
+
+#include <algorithm>
+
+namespace volumic
+{
+/** Of the output that someone asks for: the piece, and the ghost levels. */
+inline vtkInformation* AskedOutput(vtkInformation* request, vtkInformationVector* outputs)
+{
+  return outputs->GetInformationObject(std::max(0, request->Get(vtkExecutive::FROM_OUTPUT_PORT())));
+}
+
+/**
+ * Whether this is the first process of a parallel run, or the only one. It makes the whole
+ * output; the others have none, as they would only repeat it. Some filters (vtkCleanPolyData) have
+ * the others ask for one of no pieces.
+ */
+inline bool IsFirstProcess(vtkInformation* request, vtkInformationVector* outputs)
+{
+  vtkInformation* info = AskedOutput(request, outputs);
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  const bool isOfNone = info->Has(Pipeline::UPDATE_NUMBER_OF_PIECES()) &&
+    info->Get(Pipeline::UPDATE_NUMBER_OF_PIECES()) == 0;
+  return !isOfNone && info->Get(Pipeline::UPDATE_PIECE_NUMBER()) <= 0;
+}
+
+/** How many layers beyond a piece someone asks for, of an output. */
+inline int GhostLevelsAskedOf(vtkInformation* request, vtkInformationVector* outputs)
+{
+  return AskedOutput(request, outputs)
+    ->Get(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS());
+}
+
+/** Whether the data that come to a port are released once they have been used. */
+inline bool AreReleased(vtkAlgorithm* filter, int port)
+{
+  for (int i = 0; i < filter->GetNumberOfInputConnections(port); ++i)
+  {
+    vtkInformation* info = filter->GetExecutive()->GetInputInformation(port, i);
+    if (info->Get(vtkDemandDrivenPipeline::RELEASE_DATA()))
+    {
+      return true;
+    }
+  }
+  return vtkDataObject::GetGlobalReleaseDataFlag() != 0;
+}
+
+// What differs between VTK 9.1, ParaView 5.11's VTK 9.2 and newer ones.
+
+/**
+ * Has someone asked the filter to stop? Newer VTKs can also be asked through other filters. The
+ * filter's own flag comes first: after CheckAbort() says yes, the executive empties the outputs.
+ */
+inline bool IsAbortRequested(vtkAlgorithm* algorithm)
+{
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 2, 20230000)
+  return algorithm->GetAbortExecute() || algorithm->CheckAbort();
+#else
+  return algorithm->GetAbortExecute() != 0;
+#endif
+}
+
+/**
+ * Takes back a request to stop: from VTK 9.2 on nobody else does. One that came before a run isn't
+ * meant for it; and one that was obeyed would make filters behind this one stop as well, with
+ * nothing.
+ */
+inline void ForgetAbort(vtkAlgorithm* algorithm)
+{
+  if (algorithm->GetAbortExecute())
+  {
+    algorithm->SetAbortExecute(0);
+  }
+}
+}
+
+#endif
