@@ -9,7 +9,7 @@
 #include "Host/Errors.h"
 #include "Host/Pipeline.h"
 #include "Output/SurfaceOutput.h"
-#include "Run/RunLevels.h"
+#include "Run/SegmentationLevels.h"
 #include "vtkDeformableSurfaceInternals.h"
 
 #include <vtkDataObject.h>

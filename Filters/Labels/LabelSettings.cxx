@@ -4,7 +4,6 @@
 
 #include "Core/Common/Refuse.h"
 #include "Core/Labels/LabelField.h"
-#include "Settings/CheckSettings.h"
 #include "Settings/SegmentationSettings.h"
 
 #include <cmath>

@@ -9,7 +9,7 @@
 #include "Core/Surface/SizingField.h"
 #include "Input/InputPoints.h"
 #include "Input/Workspace.h"
-#include "Settings/CheckSettings.h"
+#include "Settings/SegmentationSettings.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,14 +3,17 @@
 #ifndef volumicPyramidBlocks_h
 #define volumicPyramidBlocks_h
 
+#include "Core/Common/Executor.h"
 #include "Core/Evolution/EdgeLengthPlan.h"
 #include "Core/Image/PyramidGeometry.h"
 #include "Input/ImageVoxels.h"
-#include "Pyramid/LevelVoxels.h"
+#include "Input/ValidVoxels.h"
 
 #include <vtkSmartPointer.h>
 
+#include <functional>
 #include <string>
+#include <vector>
 
 class vtkDataArray;
 class vtkImageData;
@@ -19,6 +22,9 @@ class vtkMultiBlockDataSet;
 
 namespace volumic
 {
+/** The share of the whole work that is done, in [0, 1], and the text for it; false asks to stop. */
+using PyramidProgress = std::function<bool(double share, const std::string& text)>;
+
 /** What vtkImagePyramid is asked for. */
 struct PyramidRequest
 {

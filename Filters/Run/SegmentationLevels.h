@@ -11,11 +11,16 @@
 #include "Settings/SegmentationSettings.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
 #include <vector>
+
+class vtkAlgorithm;
+class vtkDataObject;
 
 namespace volumic
 {
@@ -87,6 +92,29 @@ private:
   std::vector<float> Bent;           ///< the level's voxels as the points bend them
   mutable std::map<int, bool> Holds; ///< what HoldsObject() has found
 };
+
+/** Where the voxels of a run come from, and whom their reading tells. */
+struct VoxelSource
+{
+  vtkAlgorithm* Filter = nullptr; ///< to whose input port 0 they come
+  std::size_t MemoryLimit = 0;    ///< bytes; 0: none, or it is kept already
+  /** Told the share that is done, and what is being done; false asks to stop. */
+  std::function<bool(double share, const char* text)> GoOn;
+  /** Told what is worth a warning of port 0 once in a filter's life, or nothing; `what` says which.
+   */
+  std::function<void(const char* what, const std::string& text)> WarnOnce;
+};
+
+/** Whether the data of input port 0 are an image, of which the levels are still to be made. */
+bool IsImage(vtkDataObject* input);
+
+/**
+ * Sets the levels of a request, of the data of input port 0, and what its settings find for them:
+ * an image comes in slabs where the memory is limited and its source can. After a stop they are
+ * null.
+ * @throws std::invalid_argument naming the port or the property
+ */
+void SetLevels(SegmentationRequest& request, vtkDataObject* input, const VoxelSource& source);
 }
 
 #endif

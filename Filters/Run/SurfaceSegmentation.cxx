@@ -9,8 +9,7 @@
 #include "Host/Errors.h"
 #include "Input/InputPoints.h"
 #include "Output/SurfaceOutput.h"
-#include "Run/InitialSurfaces.h"
-#include "Settings/CheckSettings.h"
+#include "Run/RunStart.h"
 
 #include <vtkNew.h>
 #include <vtkPolyData.h>
@@ -48,8 +47,7 @@ std::unique_ptr<SurfaceAtRest> CopyIfRoom(const SurfaceAtRest& rest)
 SurfaceSegmentation::SurfaceSegmentation(const SegmentationRequest& request)
   : Request(request), Levels(request)
 {
-  this->CheckSettings();
-  this->CheckGrading();
+  this->Settings.Check();
   SurfaceOptions& options = this->Settings.Options;
   options.RecoverLostParts = this->Settings.Recovery != RecoveryType::NoRecovery;
   // What is above a range is more often within the object than not.
@@ -63,47 +61,6 @@ SurfaceSegmentation::SurfaceSegmentation(const SegmentationRequest& request)
 }
 
 SurfaceSegmentation::~SurfaceSegmentation() = default;
-
-void SurfaceSegmentation::CheckSettings() const
-{
-  const SurfaceOptions& options = this->Settings.Options;
-  CheckEnumeration(
-    "Initialization", this->Settings.Initialization, InitializationType::InputSurface);
-  CheckEnumeration("Border Value", options.BorderValue, Border::Replicate);
-  CheckEnumeration("Recovery", this->Settings.Recovery, RecoveryType::RecoverObjectsAndCavities);
-  if (options.MaximumNumberOfIterations < 1)
-  {
-    Refuse("Maximum Number Of Iterations is ", options.MaximumNumberOfIterations,
-      "; it must be at least 1.");
-  }
-  if (this->Settings.SnapshotInterval < 0)
-  {
-    Refuse(
-      "Snapshot Interval is ", this->Settings.SnapshotInterval, "; it must be 0 (off) or more.");
-  }
-  if (options.SeedRadius < 0.0 || !std::isfinite(options.SeedRadius))
-  {
-    Refuse("Seed Radius is ", options.SeedRadius, "; it must be 0 (automatic) or more.");
-  }
-}
-
-void SurfaceSegmentation::CheckGrading() const
-{
-  const Grading& grading = this->Settings.Grading;
-  const SurfaceOptions& options = this->Settings.Options;
-  volumic::CheckGrading(grading, this->Settings.EdgeLength);
-  if (grading.IsWanted() &&
-    (!(options.IsopotentialWeight > options.EdgeAttractionWeight) || !options.SnapToIsoValue))
-  {
-    Refuse(WhatGrades(grading), ", but ",
-      options.SnapToIsoValue ? "Isopotential Weight is not more than Edge Attraction Weight"
-                             : "Snap To Iso Value is off",
-      ": the surface does not lie at the iso-value, from which ",
-      grading.HasTolerance() ? "a tolerance is measured. Set it to 0"
-                             : "thickness is. Switch it off",
-      ", or change that.");
-  }
-}
 
 void SurfaceSegmentation::ChooseEdgeLength()
 {

@@ -8,7 +8,7 @@
 #include "Host/HostThreads.h"
 #include "Host/ProgressMonitor.h"
 #include "Output/SegmentationResults.h"
-#include "Run/LevelChoice.h"
+#include "Run/RunStart.h"
 #include "Run/SegmentationCheckpoint.h"
 #include "Run/SegmentationLevels.h"
 #include "Settings/SegmentationSettings.h"
@@ -78,8 +78,6 @@ public:
   int EndsAt() const { return this->Choice.Last; }
 
 private:
-  void CheckSettings() const;
-  void CheckGrading() const;
   /** With EdgeLength: plans finest level, sampling ratio and factor below level 0. */
   void ChooseEdgeLength();
   /** Of Found. @return see SegmentationResults::Choose() */

@@ -5,6 +5,7 @@
 
 #include "Core/Common/Grading.h"
 #include "Core/Common/IndexedSurface.h"
+#include "Core/Common/Refuse.h"
 #include "Core/Evolution/SurfaceOptions.h"
 #include "Core/Image/PyramidGeometry.h"
 #include "Host/ProgressMonitor.h"
@@ -24,6 +25,24 @@
 
 namespace volumic
 {
+/**
+ * Properties of VTK classes give enumerations as any int: this refuses what is none of them.
+ * @param name of the property, for the message
+ * @param last the largest of the enumeration, which begins at 0 and leaves none out
+ */
+template <typename Enumeration>
+void CheckEnumeration(const char* name, Enumeration value, Enumeration last)
+{
+  const int number = static_cast<int>(value);
+  if (number < 0 || value > last)
+  {
+    Refuse(name, " is ", number, "; it must be 0 to ", static_cast<int>(last), ".");
+  }
+}
+
+/** @throws std::invalid_argument naming the property that is out of range. */
+void CheckGrading(const Grading& grading, double edgeLength);
+
 /** What the surface starts from. */
 enum class InitializationType
 {
@@ -116,6 +135,11 @@ struct SegmentationSettings
     range.Check();
     return range;
   }
+  /**
+   * @throws std::invalid_argument naming the first property of those that the levels don't look at
+   *         which is out of range, or does not go with others.
+   */
+  void Check() const;
   /** The level that a run ends at: -1 where thin parts are followed beyond level 0. */
   int LastLevel() const
   {

@@ -1,10 +1,14 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef volumicLevelChoice_h
-#define volumicLevelChoice_h
+#ifndef volumicRunStart_h
+#define volumicRunStart_h
 
+#include "Core/Evolution/SurfaceEvolution.h"
+#include "Input/Workspace.h"
 #include "Run/SegmentationLevels.h"
 #include "Settings/SegmentationSettings.h"
+
+#include <vector>
 
 namespace volumic
 {
@@ -23,12 +27,21 @@ struct LevelChoice
 
 /**
  * Those that the settings ask for. CoarsestLevel -1 becomes the coarsest level on which anything of
- * the object is left; and if that is not the last, or there is no recovery, on which a part of it is
- * large enough for a surface that starts there, where nothing but the isopotential moves it.
+ * the object is left; and if that is not the last, or there is no recovery, on which a part of it
+ * is large enough for a surface that starts there, where nothing but the isopotential moves it.
  * @throws std::invalid_argument if there are no such levels, if the iso-value is not within the
  *         voxels, or if nothing of the object is left at the coarsest level.
  */
 LevelChoice ChooseLevels(const SegmentationLevels& levels, const SegmentationSettings& settings);
+
+/**
+ * What the surface begins with on the coarsest level, as Initialization says: of the polygons of
+ * the initial surface, triangulated, its points and those of `seeds` (workspace), or the
+ * iso-surface of the level, closed at the border of the image by background.
+ * @throws std::invalid_argument for an initial surface that cannot be read
+ */
+SurfaceStart StartOf(const SegmentationRequest& request, const Workspace& space,
+  const std::vector<Point>& seeds, const LevelImage& image);
 }
 
 #endif
