@@ -69,9 +69,7 @@ set(volumic_core_sources
   Interfaces/LatticeSides.cxx
   Interfaces/MakeInterfaces.cxx
   Interfaces/VertexTargets.cxx
-  Surface/ComponentNesting.cxx
   Surface/ComponentWatch.cxx
-  Surface/ConnectedVertices.cxx
   Surface/NewFaces.cxx
   Surface/Proximity.cxx
   Surface/RemainingContacts.cxx
@@ -89,7 +87,6 @@ set(volumic_core_sources
   Surface/TopologyEdits.cxx
   Evolution/Dynamics.cxx
   Evolution/EdgeLengthPlan.cxx
-  Evolution/EdgesToKeep.cxx
   Evolution/EvolutionDivision.cxx
   Evolution/EvolutionGrading.cxx
   Evolution/EvolutionHistory.cxx
@@ -106,8 +103,7 @@ set(volumic_core_sources
   Evolution/SurfaceAtRest.cxx
   Evolution/SurfaceEvolution.cxx
   Evolution/SurfaceIteration.cxx
-  Evolution/SurfaceResult.cxx
-  Evolution/VerticesOfSlabs.cxx)
+  Evolution/SurfaceResult.cxx)
 set(volumic_core_headers
   Common/Box.h
   Common/CheckedFile.h
@@ -147,7 +143,6 @@ set(volumic_core_headers
   Image/VoxelBox.h
   Image/VoxelHash.h
   Image/VoxelNumbers.h
-  Image/VoxelParts.h
   Image/VoxelRows.h
   Image/VoxelValues.h
   Image/WayToZero.h
@@ -199,9 +194,7 @@ set(volumic_core_headers
   Interfaces/MakeInterfaces.h
   Interfaces/TriangleShape.h
   Interfaces/VertexTargets.h
-  Surface/ComponentNesting.h
   Surface/ComponentWatch.h
-  Surface/ConnectedVertices.h
   Surface/FaceShape.h
   Surface/NewFaces.h
   Surface/NormalCone.h
@@ -223,7 +216,6 @@ set(volumic_core_headers
   Evolution/CycleCriterion.h
   Evolution/Dynamics.h
   Evolution/EdgeLengthPlan.h
-  Evolution/EdgesToKeep.h
   Evolution/Evolution.h
   Evolution/EvolutionHistory.h
   Evolution/GradedSizes.h
@@ -237,8 +229,7 @@ set(volumic_core_headers
   Evolution/SurfaceEvolution.h
   Evolution/SurfaceIteration.h
   Evolution/SurfaceOptions.h
-  Evolution/SurfaceResult.h
-  Evolution/VerticesOfSlabs.h)
+  Evolution/SurfaceResult.h)
 list(TRANSFORM volumic_core_sources PREPEND "${CMAKE_CURRENT_LIST_DIR}/")
 list(TRANSFORM volumic_core_headers PREPEND "${CMAKE_CURRENT_LIST_DIR}/")
 

@@ -3,7 +3,6 @@
 #include "Core/Common/StandardThreads.h"
 #include "Core/Evolution/LostVoxels.h"
 #include "Core/Image/VoxelNumbers.h"
-#include "Core/Image/VoxelParts.h"
 #include "EvolutionTestTools.h"
 
 using namespace volumic;
@@ -67,16 +66,36 @@ std::vector<std::uint8_t> Marks(const SurfaceState& state, const Field& field, P
 
 using Parts = std::vector<std::vector<std::int64_t>>;
 
+/** Sets joined by faces, one after the other, in the order of their first voxels. */
 Parts PartsOf(std::vector<std::uint8_t> marks, std::size_t minimumSize)
 {
+  const VoxelNumbers numbers({ Size, Size, Size });
   Parts all;
-  VoxelParts parts(marks, { Size, Size, Size }, 1, 0);
-  for (const auto* part = &parts.Next(); !part->empty(); part = &parts.Next())
+  for (std::int64_t first = 0; first < numbers.Count(); ++first)
   {
-    if (part->size() >= minimumSize)
+    std::vector<std::int64_t> part;
+    const auto take = [&](std::int64_t voxel)
     {
-      all.push_back(*part);
-      std::sort(all.back().begin(), all.back().end());
+      if (std::exchange(marks[static_cast<std::size_t>(voxel)], 0) != 0)
+      {
+        part.push_back(voxel);
+      }
+    };
+    take(first);
+    for (std::size_t n = 0; n < part.size(); ++n)
+    {
+      const std::array<int, 3> place = numbers.PlaceOf(part[n]);
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        const std::int64_t voxel = part[n];
+        place[axis] > 0 ? take(voxel - numbers.Stride(axis)) : void();
+        place[axis] + 1 < Size ? take(voxel + numbers.Stride(axis)) : void();
+      }
+    }
+    if (!part.empty() && part.size() >= minimumSize)
+    {
+      std::sort(part.begin(), part.end());
+      all.push_back(part);
     }
   }
   return all;
@@ -135,8 +154,7 @@ TEST(LostVoxels, FormPartsThroughOtherSlabs)
   SurfaceState state;
   state.Sizing = SizingField(0.85f);
   state.Reset(Vector(-2, -2, -2), Vector(Size + 2, Size + 2, Size + 2));
-  const LostVoxels lost =
-    FindLostVoxels(state, field, PartKind::Object, 1, executor, NeverStop);
+  const LostVoxels lost = FindLostVoxels(state, field, PartKind::Object, 1, executor, NeverStop);
   ASSERT_EQ(lost.Parts, 1);
   EXPECT_EQ(PartsOf(lost)[0].size(), 17u * (Size - 1) + 68u);
 }

@@ -3,11 +3,14 @@
 
 // The way of a surface to the next level's edge lengths.
 
+#include "Core/Common/Select.h"
 #include "Core/Common/Spans.h"
-#include "Core/Evolution/EdgesToKeep.h"
 #include "Core/Evolution/Evolution.h"
+#include "Core/Mesh/Division.h"
+#include "Core/Surface/Proximity.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <memory>
@@ -19,6 +22,126 @@ namespace volumic
 {
 namespace
 {
+/** Of a division: finds edges that are to be kept. */
+class EdgesToKeep
+{
+public:
+  /** More and more edges are kept in these, until none is flipped in the last. */
+  static constexpr int Rounds = 6;
+
+  EdgesToKeep(const SurfaceMesh& mesh, const DivisionNumbers& numbers, KeptEdges& kept)
+    : Mesh(mesh), Numbers(numbers), Kept(kept)
+  {
+  }
+
+  /**
+   * Keeps the edges whose flips made faces that intersect; from the second round on others about
+   * them, too, and all in the last one; then those at rings that would overflow.
+   */
+  void KeepAbout(const std::vector<Proximity::FacePair>& pairs, int round);
+
+private:
+  using Face = std::array<int, 3>;
+  bool IsCentre(int v) const
+  {
+    const int olds = this->Mesh.Size();
+    return v >= olds && v < olds + this->Numbers.Faces;
+  }
+  /** The old face that a new vertex is the centre of. */
+  Face FaceOf(int centre) const;
+  /** Keeps the edges of old faces of which corners of a new one are the centres. @return their
+   * corners */
+  std::vector<int> KeepOf(const Face& face);
+
+  const SurfaceMesh& Mesh;
+  const DivisionNumbers& Numbers;
+  KeptEdges& Kept;
+};
+
+EdgesToKeep::Face EdgesToKeep::FaceOf(int centre) const
+{
+  // Of the last vertex whose faces do not begin behind it.
+  int number = centre - this->Mesh.Size();
+  const LargeVector<int>& first = this->Numbers.FirstFace;
+  const auto behind = std::upper_bound(first.begin(), first.end(), number);
+  const auto v = static_cast<std::size_t>(behind - first.begin() - 1);
+  number -= first[v];
+  Face found{};
+  this->Mesh.VisitFaces(v, v + 1,
+    [&](int a, int b, int c)
+    {
+      if (number-- == 0)
+      {
+        found = { a, b, c };
+      }
+    });
+  return found;
+}
+
+std::vector<int> EdgesToKeep::KeepOf(const Face& face)
+{
+  std::vector<int> corners;
+  for (int k = 0; k < 3; ++k)
+  {
+    if (!this->IsCentre(face[k]))
+    {
+      continue;
+    }
+    const Face own = this->FaceOf(face[k]);
+    corners.insert(corners.end(), own.begin(), own.end());
+    const int next = face[(k + 1) % 3];
+    if (this->IsCentre(next))
+    {
+      const Face other = this->FaceOf(next);
+      const auto has = [&other](int v)
+      { return std::find(other.begin(), other.end(), v) != other.end(); };
+      for (int i = 0; i < 3; ++i)
+      {
+        if (has(own[i]) && has(own[(i + 1) % 3]))
+        {
+          this->Kept.Keep(own[i], own[(i + 1) % 3]);
+        }
+      }
+    }
+  }
+  return corners;
+}
+
+void EdgesToKeep::KeepAbout(const std::vector<Proximity::FacePair>& pairs, int round)
+{
+  std::vector<int> about;
+  for (const Proximity::FacePair& pair : pairs)
+  {
+    for (const Face& face : { pair.First, pair.Second })
+    {
+      const std::vector<int> corners = this->KeepOf(face);
+      about.insert(about.end(), corners.begin(), corners.end());
+    }
+  }
+  for (int ring = 0; ring < round; ++ring)
+  {
+    SortUnique(about);
+    const std::size_t count = about.size();
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      this->Kept.KeepAllAt(about[i]);
+      const Ring& neighbours = this->Mesh.Rings[about[i]];
+      about.insert(about.end(), neighbours.Item, neighbours.Item + neighbours.Count);
+    }
+  }
+  if (round == Rounds - 1)
+  {
+    this->Kept.KeepAll();
+  }
+  for (auto full = this->Kept.FindOverfull(); !full.empty(); full = this->Kept.FindOverfull())
+  {
+    for (const int v : full)
+    {
+      this->Kept.KeepAllAt(v);
+    }
+  }
+}
+
 /** Vertices that one thread looks at at a time. */
 constexpr std::size_t VertexSpan = 8192;
 /** Sweeps of a descent, and passes in each block; more make no difference to what comes after. */
@@ -55,8 +178,8 @@ float LongestEdge(const Evolution& e)
   ForSpans(e.Threads, mesh.Rings.size(), VertexSpan,
     [&](std::size_t span, std::size_t begin, std::size_t end)
     {
-      VisitEdges(mesh, begin, end, [&](int, int, float squared)
-        { longest[span] = std::max(longest[span], squared); });
+      VisitEdges(mesh, begin, end,
+        [&](int, int, float squared) { longest[span] = std::max(longest[span], squared); });
     });
   return std::sqrt(std::accumulate(longest.begin(), longest.end(), 0.f,
     [](float most, float ofSpan) { return std::max(most, ofSpan); }));
@@ -146,7 +269,8 @@ bool HasEdgeTooLong(const Evolution& e)
            [&](std::size_t begin, std::size_t end)
            {
              std::size_t count = 0;
-             VisitEdges(mesh, begin, end, [&](int v, int w, float squared)
+             VisitEdges(mesh, begin, end,
+               [&](int v, int w, float squared)
                { count += std::sqrt(squared) > e.State.Sizing.LongestEdge(v, w, share); });
              return count;
            }) > 0;

@@ -3,15 +3,228 @@
 #include "Core/Surface/SurfaceComponents.h"
 
 #include "Core/Common/Box.h"
-#include "Core/Surface/ComponentNesting.h"
+#include "Core/Common/DisjointSets.h"
+#include "Core/Common/ExactSum.h"
+#include "Core/Common/IndexedSurface.h"
+#include "Core/Common/Select.h"
+#include "Core/Common/Spans.h"
+#include "Core/Mesh/RowCrossing.h"
+#include "Core/Mesh/SurfaceMeasures.h"
 #include "Core/Surface/ComponentWatch.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+#include <unordered_map>
+#include <utility>
 
 namespace volumic
 {
+namespace
+{
+/** Vertices that one thread joins at a time. */
+constexpr std::size_t JoinedSpan = 4096;
+
+void JoinNeighbours(const SurfaceMesh& mesh, DisjointSets& joined, Executor& executor)
+{
+  ForSpans(executor, mesh.Rings.size(), JoinedSpan,
+    [&](std::size_t, std::size_t begin, std::size_t end)
+    {
+      for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
+      {
+        // Neighbours next to each other are neighbours themselves: of the smaller ones that follow
+        // each other one is enough.
+        const Ring& ring = mesh.Rings[v];
+        bool wasSmaller = false;
+        for (int i = 0; i < ring.Count; ++i)
+        {
+          const bool isSmaller = ring.Item[i] < v;
+          if (isSmaller && !wasSmaller)
+          {
+            joined.Join(v, ring.Item[i]);
+          }
+          wasSmaller = isSmaller;
+        }
+      }
+    });
+}
+
+/**
+ * Labels alive vertices by the sets that edges join, from 0, in the order of their smallest ones.
+ * O(vertices). @return by label: its smallest vertex
+ */
+std::vector<int> LabelConnected(
+  const SurfaceMesh& mesh, LargeVector<int>& labels, Executor& executor)
+{
+  const std::size_t n = mesh.Rings.size();
+  DisjointSets joined(n);
+  JoinNeighbours(mesh, joined, executor);
+  std::vector<int> smallest = SelectIndices(executor, n,
+    [&](std::size_t i)
+    {
+      const int v = static_cast<int>(i);
+      return mesh.IsAlive(v) && joined.Find(v) == v;
+    });
+  for (std::size_t label = 0; label < smallest.size(); ++label)
+  {
+    labels[smallest[label]] = static_cast<int>(label);
+  }
+  ForSpans(executor, n, JoinedSpan,
+    [&](std::size_t, std::size_t begin, std::size_t end)
+    {
+      for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
+      {
+        const int root = mesh.IsAlive(v) ? joined.Find(v) : v;
+        if (v != root) // Others read the root's.
+        {
+          labels[v] = labels[root];
+        }
+      }
+    });
+  return smallest;
+}
+
+/** Vertices that one thread looks for crossings at at a time. */
+constexpr std::size_t CrossedSpan = 8192;
+
+Point PointAt(const Vector& p)
+{
+  return { p.X, p.Y, p.Z };
+}
+
+/** From the first vertex of a component along x. */
+struct ComponentRay
+{
+  int Root;
+  int Label;
+  Point Origin;
+  bool IsCavity; ///< The component's volume is negative.
+};
+
+/** Faces of one label in a span. */
+using PartialVolume = std::pair<int, ExactSum>;
+
+/** Of the faces whose smallest vertex is in a range, by label. */
+std::vector<PartialVolume> VolumesOf(const SurfaceMesh& mesh, const LargeVector<int>& labels,
+  const std::vector<Vector>& origins, std::size_t begin, std::size_t end)
+{
+  std::vector<PartialVolume> volumes;
+  std::unordered_map<int, std::size_t> places;
+  std::size_t place = 0;
+  mesh.VisitFaces(begin, end,
+    [&](int a, int b, int c)
+    {
+      const int label = labels[a];
+      if (volumes.empty() || volumes[place].first != label)
+      {
+        const auto found = places.emplace(label, volumes.size());
+        place = found.first->second;
+        if (found.second)
+        {
+          volumes.emplace_back(label, ExactSum());
+        }
+      }
+      volumes[place].second.Add(SignedVolume::OfFace(mesh, VectorD(origins[label]), a, b, c));
+    });
+  return volumes;
+}
+
+/** The volumes of all labels; each seen from a place of its own. */
+std::vector<ExactSum> VolumesOfFaces(const SurfaceMesh& mesh, const LargeVector<int>& labels,
+  const std::vector<Vector>& origins, Executor& executor)
+{
+  const std::size_t n = mesh.Rings.size();
+  std::vector<std::vector<PartialVolume>> spans((n + CrossedSpan - 1) / CrossedSpan);
+  ForSpans(executor, n, CrossedSpan,
+    [&](std::size_t b, std::size_t begin, std::size_t end)
+    { spans[b] = VolumesOf(mesh, labels, origins, begin, end); });
+  std::vector<ExactSum> volumes(origins.size());
+  for (const std::vector<PartialVolume>& ofSpan : spans)
+  {
+    for (const PartialVolume& volume : ofSpan)
+    {
+      volumes[volume.first].Add(volume.second);
+    }
+  }
+  return volumes;
+}
+
+/** A ray of each component, by Y. */
+std::vector<ComponentRay> CastRays(const SurfaceMesh& mesh, const LargeVector<int>& labels,
+  const std::vector<int>& roots, Executor& executor)
+{
+  std::vector<Vector> places;
+  for (const int root : roots)
+  {
+    places.push_back(mesh.Position[root]);
+  }
+  const std::vector<ExactSum> volumes = VolumesOfFaces(mesh, labels, places, executor);
+  std::vector<ComponentRay> rays;
+  for (std::size_t label = 0; label < roots.size(); ++label)
+  {
+    rays.push_back({ roots[label], static_cast<int>(label), PointAt(places[label]),
+      volumes[label].Value() < 0. });
+  }
+  std::sort(rays.begin(), rays.end(),
+    [](const ComponentRay& a, const ComponentRay& b)
+    { return a.Origin[1] != b.Origin[1] ? a.Origin[1] < b.Origin[1] : a.Root < b.Root; });
+  return rays;
+}
+
+/**
+ * The components that are inside out: a cavity must lie inside the others, any other one outside.
+ * They are judged from outside in, as if what is inside out were not there. Rays along x: O(n +
+ * pairs of ray and triangle that overlap). The same for any executor.
+ * @param labels of vertices, from 0 @param roots a vertex of each label
+ * @return the roots of those that are inside out, those within fewer others first
+ */
+std::vector<int> FindInsideOut(const SurfaceMesh& mesh, const LargeVector<int>& labels,
+  const std::vector<int>& roots, Executor& executor)
+{
+  const std::vector<ComponentRay> rays = CastRays(mesh, labels, roots, executor);
+  std::vector<Point> origins;
+  std::vector<int> own;
+  for (const ComponentRay& ray : rays)
+  {
+    origins.push_back(ray.Origin);
+    own.push_back(ray.Label);
+  }
+  const std::vector<std::vector<int>> around = ComponentsAbout(
+    origins, own, mesh.Rings.size(),
+    [&](std::size_t begin, std::size_t end, const auto& visit)
+    {
+      mesh.VisitFaces(begin, end,
+        [&](int a, int b, int c)
+        {
+          visit(PointAt(mesh.Position[a]), PointAt(mesh.Position[b]), PointAt(mesh.Position[c]),
+            labels[a]);
+        });
+    },
+    executor);
+  // From outside in: what is inside out encloses nothing.
+  std::vector<int> order(rays.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+    [&around](int a, int b) { return around[a].size() < around[b].size(); });
+  std::vector<char> isInsideOut(rays.size(), 0); // By label.
+  std::vector<int> found;
+  for (int i : order)
+  {
+    const auto depth = std::count_if(around[i].begin(), around[i].end(),
+      [&isInsideOut](int label) { return !isInsideOut[label]; });
+    if ((depth % 2 == 1) != rays[i].IsCavity)
+    {
+      isInsideOut[rays[i].Label] = 1;
+      found.push_back(rays[i].Root);
+    }
+  }
+  return found;
+}
+}
+
 void SurfaceComponents::Label(SurfaceState& state, Executor& executor)
 {
-  this->Connected.Label(state.Mesh, state.Component.AsVector(), executor);
-  this->Components = static_cast<int>(this->Connected.Roots().size());
+  this->Roots = LabelConnected(state.Mesh, state.Component.AsVector(), executor);
 }
 
 bool SurfaceComponents::DeleteDegenerate(SurfaceState& state, Executor& executor)
@@ -28,8 +241,8 @@ bool SurfaceComponents::DeleteDegenerate(SurfaceState& state, Executor& executor
 bool SurfaceComponents::DeleteInsideOut(SurfaceState& state, Executor& executor)
 {
   this->Label(state, executor);
-  const std::vector<int> insideOut = FindInsideOut(
-    state.Mesh, state.Component.AsVector(), this->Connected.Roots(), executor);
+  const std::vector<int> insideOut =
+    FindInsideOut(state.Mesh, state.Component.AsVector(), this->Roots, executor);
   for (const int root : insideOut)
   {
     state.RemoveComponent(root);

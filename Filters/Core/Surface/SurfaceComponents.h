@@ -4,14 +4,15 @@
 #define volumicSurfaceComponents_h
 
 #include "Core/Common/Executor.h"
-#include "Core/Surface/ConnectedVertices.h"
 #include "Core/Surface/SurfaceState.h"
+
+#include <vector>
 
 namespace volumic
 {
 /**
- * The components of a surface, between sweeps: their labels, and which of them must go. The same for
- * any executor. SurfaceState::Counts tell what was deleted.
+ * The components of a surface, between sweeps: their labels, and which of them must go. The same
+ * for any executor. SurfaceState::Counts tell what was deleted.
  */
 class SurfaceComponents
 {
@@ -23,7 +24,7 @@ public:
   void Label(SurfaceState& state, Executor& executor);
 
   /** How many there were when they were last labelled. */
-  int NumberOfComponents() const { return this->Components; }
+  int NumberOfComponents() const { return static_cast<int>(this->Roots.size()); }
 
   /**
    * Deletes the small components that must go (ComponentWatch::DeleteDegenerate).
@@ -32,17 +33,16 @@ public:
   bool DeleteDegenerate(SurfaceState& state, Executor& executor);
 
   /**
-   * Labels, and deletes the components that are inside out: a cavity must lie inside the others, any
-   * other one outside. Such a one may be born by a cut, of no size and without any intersection, and
-   * would grow without limit. They are judged from outside in, as if what is deleted had never been:
-   * what lies in one that is inside out need not be.
+   * Labels, and deletes the components that are inside out: a cavity must lie inside the others,
+   * any other one outside. Such a one may be born by a cut, of no size and without any
+   * intersection, and would grow without limit. They are judged from outside in, as if what is
+   * deleted had never been: what lies in one that is inside out need not be.
    * @return whether anything was deleted; labels are fresh then, too
    */
   bool DeleteInsideOut(SurfaceState& state, Executor& executor);
 
 private:
-  ConnectedVertices Connected;
-  int Components = 0;
+  std::vector<int> Roots; ///< By label: its smallest vertex.
 };
 }
 
