@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Small tools of meshes: rows through triangles, edges that are halved, rings that are relieved,
-// volumes and areas.
+// Small tools of meshes: rows through triangles, lattices, edges that are halved, rings that are
+// relieved, volumes and areas.
+#include "Core/Common/Lattice.h"
 #include "Core/Common/StandardThreads.h"
 #include "Core/Mesh/LongEdges.h"
 #include "Core/Mesh/RingRelief.h"
@@ -22,8 +23,8 @@ std::vector<RowCrossing> CrossingsOf(const IndexedSurface& surface, double y, do
   std::vector<RowCrossing> crossings;
   for (const Triangle& t : surface.Triangles)
   {
-    const RowCrossing crossing = RowCrossing::Of(
-      surface.Points[t[0]], surface.Points[t[1]], surface.Points[t[2]], y, z);
+    const RowCrossing crossing =
+      RowCrossing::Of(surface.Points[t[0]], surface.Points[t[1]], surface.Points[t[2]], y, z);
     if (crossing.Winding != 0)
     {
       crossings.push_back(crossing);
@@ -53,8 +54,8 @@ TEST(RowCrossing, CountsOnceAtEdgesAndCorners)
 {
   const IndexedSurface surface = Octahedron({ 0, 0, 0 }, 4, 4, 4);
   // Through two corners, and along the planes of four edges each.
-  for (const Point& p : std::vector<Point>{ { 0, 0, 0 }, { 0, 1, 0 }, { 0, -1, 0 }, { 0, 0, 1 },
-         { 0, 0, -1 } })
+  for (const Point& p :
+    std::vector<Point>{ { 0, 0, 0 }, { 0, 1, 0 }, { 0, -1, 0 }, { 0, 0, 1 }, { 0, 0, -1 } })
   {
     const std::vector<RowCrossing> crossings = CrossingsOf(surface, p[1], p[2]);
     ASSERT_EQ(crossings.size(), 2u) << p[1] << " " << p[2];
@@ -73,6 +74,117 @@ TEST(RowCrossing, CountsOnceAtEdgesAndCorners)
     }
     EXPECT_EQ(sum, 0) << p[1] << " " << p[2];
   }
+}
+
+TEST(RowGrid, FindsTheCrossingsOfAllItsRows)
+{
+  const RowGrid rows = { { 0, -2, 3 }, { 0, 9, 17 }, { 0., 0.3, -0.2 }, 0.7, 0.5 };
+  std::uint32_t random = 1;
+  const auto next = [&random](double size)
+  {
+    random = random * 1664525u + 1013904223u;
+    return size * (random >> 8) / (1 << 24) - 2.;
+  };
+  std::size_t all = 0;
+  for (int n = 0; n < 300; ++n)
+  {
+    std::array<Point, 3> t;
+    for (Point& p : t)
+    {
+      p = { next(9.), next(10.), next(16.) };
+    }
+    if (n % 3 == 0) // a sliver
+    {
+      t[2] = { t[1][0] + 0.01, t[1][1] + 0.03, t[1][2] };
+    }
+    std::vector<RowGrid::Crossing> found;
+    rows.AddCrossings(t, found);
+    std::sort(found.begin(), found.end());
+    auto place = found.begin();
+    for (std::int64_t k = rows.First[2]; k < rows.End[2]; ++k)
+    {
+      for (std::int64_t j = rows.First[1]; j < rows.End[1]; ++j)
+      {
+        const RowCrossing wanted =
+          RowCrossing::Of(t[0], t[1], t[2], rows.Coordinate(1, j), rows.Coordinate(2, k));
+        if (wanted.Winding != 0)
+        {
+          ASSERT_NE(place, found.end());
+          EXPECT_EQ(place->Row, rows.RowOf(j, k));
+          EXPECT_EQ(place->Where.Winding, wanted.Winding);
+          EXPECT_EQ((place++)->Where.X, wanted.X);
+        }
+      }
+    }
+    EXPECT_EQ(place, found.end());
+    all += found.size();
+  }
+  EXPECT_GT(all, 1000u);
+}
+
+TEST(ComponentsAbout, AreThoseThatEncloseAPlaceButItsOwn)
+{
+  std::vector<IndexedSurface> nested;
+  for (const double size : { 4., 3., 2. })
+  {
+    nested.push_back(Octahedron({ 0, 0, 0 }, size, size, size));
+  }
+  const auto facesOf = [&nested](std::size_t begin, std::size_t end, const auto& visit)
+  {
+    for (std::size_t component = begin; component < end; ++component)
+    {
+      const IndexedSurface& surface = nested[component];
+      for (const Triangle& t : surface.Triangles)
+      {
+        visit(surface.Points[t[0]], surface.Points[t[1]], surface.Points[t[2]],
+          static_cast<int>(component));
+      }
+    }
+  };
+  const std::vector<Point> places = { { 3.5, 0.1, 0.1 }, { 0, 0, 0 }, { -2.5, 0.1, 0 },
+    { -9, 0.1, 0.1 }, { 0, 5, 0 } };
+  using Lists = std::vector<std::vector<int>>;
+  StandardThreads threads(3);
+  EXPECT_EQ(ComponentsAbout(places, {}, nested.size(), facesOf, threads),
+    (Lists{ { 0 }, { 0, 1, 2 }, { 0, 1 }, {}, {} }));
+  EXPECT_EQ(ComponentsAbout(places, { 0, 1, 1, -1, 2 }, nested.size(), facesOf, threads),
+    (Lists{ {}, { 0, 2 }, { 0 }, {}, {} }));
+}
+
+TEST(Lattice, EdgesAndTrianglesHaveKeysOfTheirOwn)
+{
+  std::map<std::uint64_t, std::vector<LatticePoint>> edges;
+  std::map<std::uint64_t, std::vector<LatticePoint>> triangles;
+  std::size_t tetrahedra = 0;
+  const auto check = [](auto& known, std::uint64_t key, std::vector<LatticePoint> points)
+  {
+    std::sort(points.begin(), points.end());
+    EXPECT_EQ(known.emplace(key, points).first->second, points);
+  };
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    ForBox({ 1, 1, 1 }, { 4, 4, 4 },
+      [&](int i, int j, int k)
+      {
+        const LatticeEdge edge({ 2 * i, 2 * j, 2 * k }, axis);
+        for (int turn = 0; turn < 4; ++turn, ++tetrahedra)
+        {
+          const std::array<LatticePoint, 4> corners = { edge.From, edge.To, edge.About[turn],
+            edge.About[(turn + 1) % 4] };
+          for (int c = 0; c < 4; ++c)
+          {
+            const LatticePoint& a = corners[(c + 1) % 4];
+            const LatticePoint& b = corners[(c + 2) % 4];
+            const LatticePoint& d = corners[(c + 3) % 4];
+            check(triangles, LatticeKey(a, b, d), { a, b, d });
+            check(edges, LatticeKey(a, b), { a, b });
+            check(edges, LatticeKey(a, d), { a, d });
+          }
+        }
+      });
+  }
+  EXPECT_EQ(tetrahedra, 3u * 27u * 4u);
+  EXPECT_LT(triangles.size(), 4 * tetrahedra) << "neighbours share them";
 }
 
 TEST(HalveLongEdges, LeavesTheSurfaceWhereItIs)
