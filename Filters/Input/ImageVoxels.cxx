@@ -22,6 +22,7 @@
 #include <cstddef>
 #include <limits>
 #include <stdexcept>
+#include <type_traits>
 
 namespace volumic
 {
@@ -199,14 +200,14 @@ vtkSmartPointer<vtkDataArray> SelectComponent(vtkDataArray* array, int component
     vtkDataArray::CreateDataArray(component >= 0 ? type : (isSmall ? VTK_FLOAT : VTK_DOUBLE)));
   selected->SetName(array->GetName());
   selected->SetNumberOfTuples(array->GetNumberOfTuples());
-  switch (type)
-  {
-    vtkTemplateMacro({
-      const auto* values = static_cast<const VTK_TT*>(tuples->GetVoidPointer(0));
+  VisitVoxels(tuples,
+    [&](const auto* values)
+    {
+      using Voxel = std::remove_cv_t<std::remove_pointer_t<decltype(values)>>;
       if (component >= 0)
       {
         CopyComponent(values + component, count, selected->GetNumberOfTuples(),
-          static_cast<VTK_TT*>(selected->GetVoidPointer(0)));
+          static_cast<Voxel*>(selected->GetVoidPointer(0)));
       }
       else if (isSmall)
       {
@@ -219,10 +220,6 @@ vtkSmartPointer<vtkDataArray> SelectComponent(vtkDataArray* array, int component
           static_cast<double*>(selected->GetVoidPointer(0)));
       }
     });
-    default:
-      Refuse(NameOf(array), " has voxels of type ", array->GetDataTypeAsString(),
-        ", which is not supported.");
-  }
   return selected;
 }
 
@@ -317,17 +314,12 @@ vtkSmartPointer<vtkDataArray> FoldVoxels(
   const auto count = static_cast<std::size_t>(voxels->GetNumberOfTuples());
   const bool isSmall = voxels->GetDataType() == VTK_FLOAT || voxels->GetDataTypeSize() < 4;
   vtkSmartPointer<vtkDataArray> folded;
-  switch (voxels->GetDataType())
-  {
-    vtkTemplateMacro({
-      const auto* values = static_cast<const VTK_TT*>(voxels->GetVoidPointer(0));
+  VisitVoxels(voxels,
+    [&](const auto* values)
+    {
       folded = isSmall ? Fold<vtkFloatArray>(values, count, range, threads)
                        : Fold<vtkDoubleArray>(values, count, range, threads);
     });
-    default:
-      Refuse(NameOf(voxels), " has voxels of type ", voxels->GetDataTypeAsString(),
-        ", which is not supported.");
-  }
   folded->SetName(voxels->GetName());
   return folded;
 }

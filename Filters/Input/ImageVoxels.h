@@ -5,12 +5,12 @@
 
 #include "Core/Common/Executor.h"
 
+#include <vtkDataArray.h>
 #include <vtkSmartPointer.h>
 
 #include <limits>
 #include <string>
 
-class vtkDataArray;
 class vtkImageData;
 class vtkInformation;
 
@@ -53,6 +53,16 @@ vtkSmartPointer<vtkImageData> WithVoxels(vtkImageData* image, vtkDataArray* voxe
 /** The same values plain and contiguous in memory: the array itself where it is one already. */
 vtkSmartPointer<vtkDataArray> ContiguousVoxels(vtkDataArray* voxels);
 
+/** Calls `work` with the voxels, contiguous in memory, in the type that they have. */
+template <typename Work>
+void VisitVoxels(vtkDataArray* voxels, const Work& work)
+{
+  switch (voxels->GetDataType())
+  {
+    vtkTemplateMacro(work(static_cast<const VTK_TT*>(voxels->GetVoidPointer(0))));
+  }
+}
+
 /**
  * Whether single precision keeps the differences of voxels of this range: rounding changes them by
  * less than 1e-5 of the range.
@@ -82,7 +92,7 @@ struct ValueRange
  * object, and all that asks for voxels needs to know of no range. As float, or as double where the
  * type has more digits than float; of the same name.
  * @param voxels contiguous in memory, one component
- * @throws std::invalid_argument if their type is not supported; std::bad_alloc, ScratchFull.
+ * @throws std::bad_alloc, ScratchFull.
  */
 vtkSmartPointer<vtkDataArray> FoldVoxels(
   vtkDataArray* voxels, const ValueRange& range, Executor& threads);

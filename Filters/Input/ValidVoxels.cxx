@@ -82,8 +82,8 @@ VoxelBox CellsOf(const VoxelBox& points)
 LargeVector<std::uint8_t> NotBlanked(vtkImageData* image)
 {
   LargeVector<std::uint8_t> marks;
-  const unsigned char* cells = HidingGhosts(
-    image->GetCellData(), image->GetNumberOfCells(), vtkDataSetAttributes::HIDDENCELL);
+  const unsigned char* cells =
+    HidingGhosts(image->GetCellData(), image->GetNumberOfCells(), vtkDataSetAttributes::HIDDENCELL);
   const unsigned char* points = HidingGhosts(
     image->GetPointData(), image->GetNumberOfPoints(), vtkDataSetAttributes::HIDDENPOINT);
   if (cells)
@@ -161,9 +161,8 @@ void FindRange(const T* values, const LargeVector<std::uint8_t>& marks, double r
 }
 
 /** `3 NaN voxels, the first at (i, j, k)` */
-std::string Describe(
-  const char* kind, std::int64_t count, const std::string& share, std::int64_t first,
-  vtkImageData* image)
+std::string Describe(const char* kind, std::int64_t count, const std::string& share,
+  std::int64_t first, vtkImageData* image)
 {
   const int* extent = image->GetExtent();
   const int* size = image->GetDimensions();
@@ -181,19 +180,15 @@ ValidVoxels FindValidVoxels(vtkDataArray* original, vtkDataArray* contiguous, vt
   valid.Marks = NotBlanked(image);
   const std::int64_t count = contiguous->GetNumberOfTuples();
   NotFinite found;
-  switch (contiguous->GetDataType())
-  {
-    vtkTemplateMacro({
-      const auto* values = static_cast<const VTK_TT*>(contiguous->GetVoidPointer(0));
+  VisitVoxels(contiguous,
+    [&](const auto* values)
+    {
       if (FindNotFiniteVoxels(values, count, executor).Count > 0)
       {
         found = CountNotFinite(values, count, valid.Marks);
         ExcludeNaNs(values, count, valid.Marks);
       }
     });
-    default:
-      break;
-  }
   if (found.Infinite.Count > 0)
   {
     Refuse(NameOf(original), " has ",
@@ -219,13 +214,8 @@ std::array<double, 2> RangeOf(vtkDataArray* contiguous, const ValidVoxels& valid
     contiguous->GetRange(range.data());
     return range;
   }
-  switch (contiguous->GetDataType())
-  {
-    vtkTemplateMacro(FindRange(
-      static_cast<const VTK_TT*>(contiguous->GetVoidPointer(0)), valid.Marks, range.data()));
-    default:
-      break;
-  }
+  VisitVoxels(
+    contiguous, [&](const auto* values) { FindRange(values, valid.Marks, range.data()); });
   return range;
 }
 

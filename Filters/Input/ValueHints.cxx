@@ -166,15 +166,8 @@ VoxelHistogram FindOtsuThreshold(
   HostThreads threads(numberOfThreads);
   ValidVoxels valid = FindValidVoxels(chosen, voxels, image, true, threads);
   CheckAnyIsValid(chosen, valid);
-  const auto visit = [&](const auto& work)
-  {
-    switch (voxels->GetDataType())
-    {
-      vtkTemplateMacro(work(static_cast<const VTK_TT*>(voxels->GetVoidPointer(0))));
-    }
-  };
   std::array<double, 2> range = RangeOf(voxels, valid);
-  visit(
+  VisitVoxels(voxels,
     [&](const auto* values)
     {
       if (LeaveOutPadding(values, voxels->GetNumberOfTuples(), range, valid))
@@ -189,7 +182,7 @@ VoxelHistogram FindOtsuThreshold(
       ": no value separates its voxels.");
   }
   VoxelHistogram found{ range, {}, 0.0 };
-  visit(
+  VisitVoxels(voxels,
     [&](const auto* values)
     {
       threads.Run(
@@ -199,7 +192,8 @@ VoxelHistogram FindOtsuThreshold(
     });
   const double value = range[0] + BestSplit(found.Counts) * size / Bins;
   std::array<double, 2> neighbours = range;
-  visit([&](const auto* values)
+  VisitVoxels(voxels,
+    [&](const auto* values)
     { neighbours = FindNeighbours(values, voxels->GetNumberOfTuples(), valid, value); });
   const double middle = 0.5 * (neighbours[0] + neighbours[1]);
   const bool areReal = voxels->GetDataType() == VTK_FLOAT || voxels->GetDataType() == VTK_DOUBLE;
@@ -276,11 +270,7 @@ std::string HintAtLabels(vtkDataArray* voxels, const int size[3])
 {
   bool areLabels = false;
   std::size_t count = 0;
-  switch (voxels->GetDataType())
-  {
-    vtkTemplateMacro(areLabels = LookLikeLabels(
-                       static_cast<const VTK_TT*>(voxels->GetVoidPointer(0)), size, count));
-  }
+  VisitVoxels(voxels, [&](const auto* values) { areLabels = LookLikeLabels(values, size, count); });
   return areLabels
     ? Join(NameOf(voxels), " looks like a label map: ", count,
         " different integers. Labels to Surfaces (vtkLabelsToSurfaces) makes a smooth surface of "

@@ -14,16 +14,6 @@
 
 namespace volumic
 {
-/** Calls `work` with the voxels, contiguous in memory, in the type that they have. */
-template <typename Work>
-void VisitVoxels(vtkDataArray* voxels, const Work& work)
-{
-  switch (voxels->GetDataType())
-  {
-    vtkTemplateMacro(work(static_cast<const VTK_TT*>(voxels->GetVoidPointer(0))));
-  }
-}
-
 /** Voxels of which each is an int, in any type. */
 struct LabelValues
 {

@@ -79,19 +79,16 @@ vtkSmartPointer<vtkDataArray> SourceVoxels(
     return contiguous;
   }
   const auto wide = NewArray<double>(contiguous->GetNumberOfTuples(), 0);
-  const auto copy = [&](const auto* values)
-  {
-    executor.For(static_cast<std::size_t>(wide->GetNumberOfTuples()), 1 << 16,
-      [&](std::size_t begin, std::size_t end)
-      {
-        std::transform(values + begin, values + end, wide->GetPointer(0) + begin,
-          [](auto value) { return static_cast<double>(value); });
-      });
-  };
-  switch (type)
-  {
-    vtkTemplateMacro(copy(static_cast<const VTK_TT*>(contiguous->GetVoidPointer(0))));
-  }
+  VisitVoxels(contiguous,
+    [&](const auto* values)
+    {
+      executor.For(static_cast<std::size_t>(wide->GetNumberOfTuples()), 1 << 16,
+        [&](std::size_t begin, std::size_t end)
+        {
+          std::transform(values + begin, values + end, wide->GetPointer(0) + begin,
+            [](auto value) { return static_cast<double>(value); });
+        });
+    });
   return wide;
 }
 
@@ -186,18 +183,14 @@ std::vector<vtkSmartPointer<vtkDataArray>> MakeLevelVoxels(vtkDataArray* voxels,
   const PyramidProgress& progress)
 {
   const vtkSmartPointer<vtkDataArray> source = SourceVoxels(voxels, valid, executor);
-  const auto make = [&](const auto* level0)
-  {
-    using Voxel = std::remove_cv_t<std::remove_pointer_t<decltype(level0)>>;
-    return LevelMaker<Voxel>(levels, executor, progress).Make(level0, valid.Marks);
-  };
-  switch (source->GetDataType())
-  {
-    vtkTemplateMacro(return make(static_cast<const VTK_TT*>(source->GetVoidPointer(0))));
-    default:
-      Refuse(NameOf(voxels), " has voxels of type ", voxels->GetDataTypeAsString(),
-        ", which is not supported.");
-  }
+  std::vector<vtkSmartPointer<vtkDataArray>> made;
+  VisitVoxels(source,
+    [&](const auto* level0)
+    {
+      using Voxel = std::remove_cv_t<std::remove_pointer_t<decltype(level0)>>;
+      made = LevelMaker<Voxel>(levels, executor, progress).Make(level0, valid.Marks);
+    });
+  return made;
 }
 
 std::vector<LevelGeometry> Plan(vtkImageData* image, const PyramidOptions& options)

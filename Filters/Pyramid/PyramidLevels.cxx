@@ -70,14 +70,7 @@ void ShareVoxels(
     return;
   }
   to.Base = base;
-  switch (voxels->GetDataType())
-  {
-    vtkTemplateMacro(
-      to.Values = VoxelValues(static_cast<const VTK_TT*>(voxels->GetVoidPointer(0)), base));
-    default:
-      Refuse(NameOf(voxels), " has voxels of type ", voxels->GetDataTypeAsString(),
-        ", which is not supported.");
-  }
+  VisitVoxels(voxels, [&](const auto* values) { to.Values = VoxelValues(values, base); });
 }
 
 /** Copies the values to `filled`, with the background for those that are not marked as valid. */
@@ -181,22 +174,19 @@ bool PyramidLevels::HoldsPart(
   SequentialExecutor thread;
   const ValidVoxels valid = this->ValidAt(level, thread);
   const vtkSmartPointer<vtkDataArray> voxels = ContiguousVoxels(this->Voxels[level]);
-  const auto have = [&](const auto* values)
-  {
-    return HasThickPart(
-      [&](std::int64_t voxel)
-      {
-        const auto number = static_cast<double>(values[voxel]);
-        return (objectIsBright ? number > isoValue : number < isoValue) && valid.Has(voxel);
-      },
-      this->Sizes[level], least);
-  };
-  switch (voxels->GetDataType())
-  {
-    vtkTemplateMacro(return have(static_cast<const VTK_TT*>(voxels->GetVoidPointer(0))));
-    default:
-      return true;
-  }
+  bool holds = false;
+  VisitVoxels(voxels,
+    [&](const auto* values)
+    {
+      holds = HasThickPart(
+        [&](std::int64_t voxel)
+        {
+          const auto number = static_cast<double>(values[voxel]);
+          return (objectIsBright ? number > isoValue : number < isoValue) && valid.Has(voxel);
+        },
+        this->Sizes[level], least);
+    });
+  return holds;
 }
 
 std::array<double, 2> PyramidLevels::Range(int level) const
@@ -252,7 +242,7 @@ LevelImage PyramidLevels::Load(int wanted, double base, double background, Execu
   this->Loaded = voxels;
   this->Filled = LargeVector<float>();
   LevelImage loaded;
-  PrefixErrors(name + ": ", [&] { ShareVoxels(loaded, voxels, range, base); });
+  ShareVoxels(loaded, voxels, range, base);
   if (!valid.Marks.empty())
   {
     this->Filled.resize(valid.Marks.size());

@@ -72,7 +72,7 @@ public:
 
   /**
    * Whether a part of the object, which is above the value (bright) or below, is at least that
-   * large at a level (ThickPart.h); also where the type of the voxels is not supported.
+   * large at a level (ThickPart.h).
    */
   bool HoldsPart(int level, const PartSize& least, double isoValue, bool objectIsBright) const;
 
