@@ -14,7 +14,7 @@ import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
-from test_tool_interfaces import ORIGIN, SPACING, InterfacesTest, sections_of
+from test_tool_interfaces import ORIGIN, SPACING, InterfacesTest, period, sections_of
 from tool_test_case import ISO
 from vtk_files import points_of, read, triangles_of
 
@@ -175,6 +175,44 @@ class MesherTest(SolidsTest):
                 numbers = np.array([int(word) for row in parts[f"*NSET, NSET={name}"] for word in row])
                 at = np.abs(places[:, axis] - plane) < 1e-9
                 self.assertEqual(set((numbers - 1).tolist()), set(np.flatnonzero(at).tolist()))
+
+    def test_nodes_of_a_period_match(self):
+        """Those of opposite sides, in the order of their numbers."""
+        for mesher in MESHERS:
+            self.run_tool(self.map_of(period()), self.path("a.inp"), "--labels", "all", "--box-faces",
+                          "periodic", "--mesher", mesher)
+            parts = dict(keywords_of(self.path("a.inp")))
+            nodes = np.array(parts["*NODE, NSET=Nall"], float)[:, 1:]
+            for axis, name in enumerate("xyz"):
+                first, last = (np.array([int(word) for row in parts[f"*NSET, NSET={name}_{end}"]
+                                         for word in row]) for end in ("min", "max"))
+                self.assertTrue((np.diff(first) > 0).all() and (np.diff(last) > 0).all())
+                apart = nodes[last - 1] - nodes[first - 1]
+                np.testing.assert_array_equal(np.delete(apart, axis, 1), 0)
+                np.testing.assert_allclose(apart[:, axis], period().shape[2 - axis] * SPACING[axis])
+
+    def test_sides_of_a_box_in_msh(self):
+        found = np.ones((8, 9, 10), "u1")
+        found[:, :, 5:] = 2
+        self.run_tool(self.map_of(found), self.path("a.msh"), "--labels", "all", "--label-names",
+                      self.write_bytes("box.json", b'{"1": "x_min", "2": "b"}'), "--box-faces", "flat",
+                      "--mesher", MESHERS[0])
+        sections = sections_of(self.path("a.msh"))
+        nodes = np.array([line.split()[1:] for line in sections["Nodes"][1:]], float)
+        rows = [list(map(int, line.split())) for line in sections["Elements"][1:]]
+        triangles = np.array([row[3:4] + row[5:] for row in rows if row[1] == 2])
+        self.assertEqual(len(triangles), len(set(map(frozenset, triangles[:, 1:].tolist()))))
+        names = {name: int(number) for number, name in re.findall(
+            r'^2 (\d+) "(.*)"$', "".join(sections["PhysicalNames"]), re.M)}
+        sides = ["x_min 2", "x_max", "y_min", "y_max", "z_min", "z_max"]
+        self.assertEqual(list(names), ["x_min_to_b", *sides])
+        lengths = np.array(found.shape[::-1]) * SPACING
+        for side, name in enumerate(sides):
+            a, b, c = (nodes[triangles[triangles[:, 0] == names[name], i] - 1] for i in (1, 2, 3))
+            plane = ORIGIN[side // 2] - SPACING[side // 2] / 2 + side % 2 * lengths[side // 2]
+            np.testing.assert_allclose(np.stack([a, b, c])[..., side // 2], plane, atol=1e-12)
+            self.assertAlmostEqual(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2,
+                                   np.delete(lengths, side // 2).prod(), 6)
 
     def test_msh_of_tetrahedra(self):
         _, grid = self.solid("a.vtu", "a.msh", options=("--mesher", MESHERS[0]))
