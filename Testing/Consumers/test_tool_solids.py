@@ -134,6 +134,22 @@ class MesherTest(SolidsTest):
             self.assertAlmostEqual(volumes(points_of(grid), corners).sum() / volume, 1, 5)
             self.assertEqual(set(labels.tolist()), {1})
 
+    def test_flat_ends_have_nodes_and_sides(self):
+        z, y, x = np.indices((16, 18, 18))
+        volume = self.map_of((5 - np.hypot(x - 8.5, y - 8.5)).astype("f4"), "rod.vti")
+        for mesher in MESHERS:
+            self.run_tool(volume, self.path("rod.inp"), self.path("rod.msh"), "--iso", "0", "--ends",
+                          "marked", "--mesher", mesher)
+            parts = dict(keywords_of(self.path("rod.inp")))
+            nodes = np.array(parts["*NODE, NSET=Nall"], float)[:, 1:]
+            for name, voxel in (("z_min", 1), ("z_max", 14)):
+                numbers = [int(word) for row in parts[f"*NSET, NSET={name}"] for word in row]
+                plane = ORIGIN[2] + voxel * SPACING[2]
+                self.assertEqual({n - 1 for n in numbers},
+                                 set(np.flatnonzero(abs(nodes[:, 2] - plane) < 1e-9).tolist()))
+            names = "".join(sections_of(self.path("rod.msh"))["PhysicalNames"])
+            self.assertIn('"z_min"', names)
+
     def test_a_volume_without_a_node_of_its_own(self):
         """Its tetrahedra have the corners that its triangles have."""
         volume = self.map_of(np.pad(np.ones((2, 2, 2), "u1"), 2), "small.vti")
