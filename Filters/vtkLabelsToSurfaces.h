@@ -136,7 +136,8 @@ public:
   enum BoxFacesType
   {
     Rounded = 0,
-    Flat = 1
+    Flat = 1,
+    Periodic = 2
   };
 
   ///@{
@@ -207,12 +208,12 @@ public:
   /**
    * One mesh of all labels, in which neighbours have the same triangles between them, instead of
    * surfaces that overlap, or leave a gap: no pair of its triangles intersects, what is between two
-   * labels is there once, at output port 1, and each block of port 0 is a closed surface of the same
-   * points. What nobody has chosen is outside. Volumes are those of the voxels. KeepComponents leaves
-   * parts out by their voxels, and gives these to the neighbour that has most of their faces. The
-   * first process makes them. A run that was stopped hands
-   * over all surfaces as they are by then, or, before there are any, empty blocks; afterwards all is
-   * made anew. Not with Gap or ThinParts. Default: off.
+   * labels is there once, at output port 1, and each block of port 0 is a closed surface of the
+   * same points. What nobody has chosen is outside. Volumes are those of the voxels. KeepComponents
+   * leaves parts out by their voxels, and gives these to the neighbour that has most of their
+   * faces. The first process makes them. A run that was stopped hands over all surfaces as they are
+   * by then, or, before there are any, empty blocks; afterwards all is made anew. Not with Gap or
+   * ThinParts. Default: off.
    */
   void SetSharedInterfaces(bool shared);
   bool GetSharedInterfaces();
@@ -225,12 +226,15 @@ public:
    * elsewhere, about half a voxel beyond the outermost centres. Flat, with SharedInterfaces only,
    * as boundary conditions of a box want it: exactly in the planes there; cell data `BoxFace` of
    * blocks and interfaces tell in which, edges of the box, and rims where labels end, are lines of
-   * the interfaces, and corners are points of Junction 2.
+   * the interfaces, and corners are points of Junction 2. Periodic: flat, and opposite sides have
+   * the same triangles, with bits of coordinates in common; the image is one period of a map in
+   * which labels go on at the other side, which is checked.
    */
   void SetBoxFaces(int value);
   int GetBoxFaces();
   void SetBoxFacesToRounded() { this->SetBoxFaces(Rounded); }
   void SetBoxFacesToFlat() { this->SetBoxFaces(Flat); }
+  void SetBoxFacesToPeriodic() { this->SetBoxFaces(Periodic); }
   ///@}
 
   ///@{
@@ -249,9 +253,10 @@ public:
 
   ///@{
   /**
-   * As vtkDeformableSurface: graded triangles, world units. With SharedInterfaces faces keep to where
-   * the fields of the labels on both sides are the same, volumes are those of the voxels even so, and
-   * junction lines are straightened by no more than the tolerance. Defaults: 0 (none), 0 and 0.2.
+   * As vtkDeformableSurface: graded triangles, world units. With SharedInterfaces faces keep to
+   * where the fields of the labels on both sides are the same, volumes are those of the voxels even
+   * so, and junction lines are straightened by no more than the tolerance. Defaults: 0 (none), 0
+   * and 0.2.
    */
   void SetTolerance(double value);
   double GetTolerance();
@@ -300,8 +305,8 @@ public:
   ///@{
   /**
    * Seconds, from the start of RequestData(), after which a run ends as one that is cancelled does,
-   * but with the `StopReason` `time limit`; 0, the default: none. With a new limit the next Update()
-   * goes on.
+   * but with the `StopReason` `time limit`; 0, the default: none. With a new limit the next
+   * Update() goes on.
    */
   void SetTimeLimit(double seconds);
   double GetTimeLimit();
@@ -362,7 +367,8 @@ public:
   void GoOn();
 
 #ifndef __VTK_WRAP__ // It is no property of ours.
-  /** As of all algorithms, but while no run is under way it asks for nothing, and changes nothing. */
+  /** As of all algorithms, but while no run is under way it asks for nothing, and changes nothing.
+   */
   void SetAbortExecute(vtkTypeBool abort) override;
 #endif
 

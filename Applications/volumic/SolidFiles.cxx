@@ -249,6 +249,46 @@ void WriteInp(const Solid& solid, const std::string& path, const std::string& re
   file.Finish();
 }
 
+namespace
+{
+/**
+ * Named surfaces: between two labels, of a label and the outside, and the sides of a box. A face is
+ * in one of them only, as programs that read .msh want it: in a side, if it is in one.
+ */
+std::vector<std::pair<std::string, std::vector<Face>>> SurfacesOf(
+  const Solid& solid, const SolidFaces& faces, const SetNames& names)
+{
+  std::vector<std::pair<std::string, std::vector<Face>>> surfaces;
+  std::array<std::vector<Face>, 6> sides;
+  for (const auto& [pair, between] : faces.Between)
+  {
+    std::vector<Face> others;
+    for (const Face& face : between)
+    {
+      const std::array<vtkIdType, 3> corners = faces.CornersOf(face);
+      const auto hasAll = [&](const std::set<vtkIdType>& nodes)
+      {
+        return std::all_of(corners.begin(), corners.end(),
+          [&](vtkIdType corner) { return nodes.count(corner) > 0; });
+      };
+      const auto* side = std::find_if(solid.BoxNodes.begin(), solid.BoxNodes.end(), hasAll);
+      const bool isInSide = pair.second == 0 && side != solid.BoxNodes.end();
+      (isInSide ? sides[static_cast<std::size_t>(side - solid.BoxNodes.begin())] : others)
+        .push_back(face);
+    }
+    surfaces.emplace_back(names.Pairs.at(pair), others);
+  }
+  for (std::size_t side = 0; side < sides.size(); ++side)
+  {
+    surfaces.emplace_back(names.BoxFaces[side], sides[side]);
+  }
+  surfaces.erase(std::remove_if(surfaces.begin(), surfaces.end(),
+                   [](const auto& surface) { return surface.second.empty(); }),
+    surfaces.end());
+  return surfaces;
+}
+}
+
 void WriteSolidMsh(const Solid& solid, const std::string& path, const std::string& remark)
 {
   vtkUnstructuredGrid* grid = solid.Grid;
@@ -260,13 +300,14 @@ void WriteSolidMsh(const Solid& solid, const std::string& path, const std::strin
   out.imbue(std::locale::classic());
   out.precision(17);
   out << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Comments\n" << remark << "\n$EndComments\n";
-  out << "$PhysicalNames\n" << names.Pairs.size() + names.Labels.size() << "\n";
+  const auto surfaces = SurfacesOf(solid, faces, names);
+  out << "$PhysicalNames\n" << surfaces.size() + names.Labels.size() << "\n";
   int mark = 0;
   vtkIdType elements = grid->GetNumberOfCells();
-  for (const auto& [pair, name] : names.Pairs)
+  for (const auto& [name, found] : surfaces)
   {
     out << "2 " << ++mark << " \"" << name << "\"\n";
-    elements += static_cast<vtkIdType>(faces.Between.at(pair).size());
+    elements += static_cast<vtkIdType>(found.size());
   }
   for (const auto& [label, name] : names.Labels)
   {
@@ -281,7 +322,7 @@ void WriteSolidMsh(const Solid& solid, const std::string& path, const std::strin
   out << "$EndNodes\n$Elements\n" << elements << "\n";
   vtkIdType element = 0;
   mark = 0;
-  for (const auto& entry : faces.Between)
+  for (const auto& entry : surfaces)
   {
     ++mark;
     for (const Face& face : entry.second)

@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SurfaceEnds.h"
 
+#include "CapMesh.h"
 #include "SurfaceFacts.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
+#include <vtkClipClosedSurface.h>
 #include <vtkClipPolyData.h>
 #include <vtkFieldData.h>
 #include <vtkImageData.h>
@@ -14,11 +16,14 @@
 #include <vtkMatrix3x3.h>
 #include <vtkNew.h>
 #include <vtkPlane.h>
+#include <vtkPlaneCollection.h>
 #include <vtkPointData.h>
 #include <vtkPolyDataConnectivityFilter.h>
-#include <vtkTriangle.h>
+#include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <vector>
 
 namespace tool
@@ -30,14 +35,20 @@ bool IsBeyond(vtkPlane* plane, vtkPolyData* surface, vtkIdType point)
   return plane->EvaluateFunction(surface->GetPoint(point)) > 0.0;
 }
 
+struct Border
+{
+  vtkSmartPointer<vtkPlane> Plane;
+  int Face; ///< as `BoxFace` has it: 1 to 6
+};
+
 /**
  * For each side of the image where the surface goes beyond the centres of the outermost voxels a
  * plane, a voxel within these, with a normal that points out of the image: a cap lies about the
  * centres, in some places within them.
  */
-std::vector<vtkSmartPointer<vtkPlane>> BorderOf(vtkImageData* image, vtkPolyData* surface)
+std::vector<Border> BorderOf(vtkImageData* image, vtkPolyData* surface)
 {
-  std::vector<vtkSmartPointer<vtkPlane>> planes;
+  std::vector<Border> borders;
   const int* extent = image->GetExtent();
   for (int face = 0; face < 6; ++face)
   {
@@ -63,66 +74,165 @@ std::vector<vtkSmartPointer<vtkPlane>> BorderOf(vtkImageData* image, vtkPolyData
     if (isLeft)
     {
       plane->Push(-image->GetSpacing()[axisOfFace]);
-      planes.push_back(plane);
+      borders.push_back({ plane, face + 1 });
     }
   }
-  return planes;
+  return borders;
 }
 
-/** Whether a triangle looks out of the image rather than along its border. */
-bool LooksOut(vtkPolyData* surface, const vtkIdType* corners, vtkPlane* plane)
+/** Which of the planes a triangle lies in. */
+int PlaneOf(
+  vtkPolyData* surface, const std::array<vtkIdType, 3>& corners, const std::vector<Border>& borders)
 {
-  double places[3][3];
-  double normal[3];
-  for (int i = 0; i < 3; ++i)
+  const auto distanceTo = [&](const Border& border)
   {
-    surface->GetPoint(corners[i], places[i]);
-  }
-  vtkTriangle::ComputeNormal(places[0], places[1], places[2], normal);
-  return vtkMath::Dot(normal, plane->GetNormal()) > 0.7;
+    double most = 0.0;
+    for (const vtkIdType corner : corners)
+    {
+      most = std::max(most, border.Plane->DistanceToPlane(surface->GetPoint(corner)));
+    }
+    return most;
+  };
+  return static_cast<int>(
+    std::min_element(borders.begin(), borders.end(),
+      [&](const Border& p, const Border& q) { return distanceTo(p) < distanceTo(q); }) -
+    borders.begin());
 }
 
-/** Triangles beyond a plane that look outwards and share points are a cap. */
-void MarkCaps(vtkPolyData* surface, vtkImageData* image)
+double MeanEdge(vtkPolyData* surface)
 {
-  vtkNew<vtkIntArray> caps;
-  caps->SetName("Cap");
-  caps->SetNumberOfValues(surface->GetNumberOfCells());
-  caps->FillValue(0);
-  int last = 0;
-  for (const auto& plane : BorderOf(image, surface))
+  double sum = 0.0;
+  ForEachPolygon(surface,
+    [&](vtkIdType, const vtkIdType* corners, vtkIdType count)
+    {
+      for (vtkIdType k = 0; k < count; ++k)
+      {
+        double from[3];
+        surface->GetPoint(corners[k], from);
+        sum += std::sqrt(
+          vtkMath::Distance2BetweenPoints(from, surface->GetPoint(corners[(k + 1) % count])));
+      }
+    });
+  return sum / (3.0 * static_cast<double>(std::max<vtkIdType>(surface->GetNumberOfPolys(), 1)));
+}
+
+/** Numbers triangles of a plane that hang together, from `first` on. @return how many parts */
+int NumberParts(vtkPolyData* surface, const std::vector<CapMesh::Triangle>& caps, int plane,
+  int first, std::vector<int>& numbers)
+{
+  std::vector<std::size_t> own;
+  vtkNew<vtkCellArray> cells;
+  for (std::size_t t = 0; t < caps.size(); ++t)
   {
-    std::vector<vtkIdType> triangles;
-    vtkNew<vtkCellArray> beyond;
-    ForEachPolygon(surface,
-      [&](vtkIdType triangle, const vtkIdType* corners, vtkIdType count)
-      {
-        if (std::all_of(corners, corners + count,
-              [&](vtkIdType corner) { return IsBeyond(plane, surface, corner); }) &&
-          LooksOut(surface, corners, plane))
-        {
-          triangles.push_back(triangle);
-          beyond->InsertNextCell(count, corners);
-        }
-      });
-    vtkNew<vtkPolyData> part;
-    part->SetPoints(surface->GetPoints());
-    part->SetPolys(beyond);
-    vtkNew<vtkPolyDataConnectivityFilter> connect;
-    connect->SetInputData(part);
-    connect->SetExtractionModeToAllRegions();
-    connect->ColorRegionsOn();
-    connect->Update();
-    vtkDataArray* regions = connect->GetOutput()->GetPointData()->GetArray("RegionId");
-    ForEachPolygon(connect->GetOutput(),
-      [&](vtkIdType number, const vtkIdType* corners, vtkIdType)
-      {
-        caps->SetValue(triangles[static_cast<std::size_t>(number)],
-          last + 1 + static_cast<int>(regions->GetComponent(corners[0], 0)));
-      });
-    last += connect->GetNumberOfExtractedRegions();
+    if (caps[t].Plane == plane)
+    {
+      own.push_back(t);
+      cells->InsertNextCell(3, caps[t].Corners.data());
+    }
   }
-  surface->GetCellData()->AddArray(caps);
+  vtkNew<vtkPolyData> part;
+  part->SetPoints(surface->GetPoints());
+  part->SetPolys(cells);
+  vtkNew<vtkPolyDataConnectivityFilter> connect;
+  connect->SetInputData(part);
+  connect->SetExtractionModeToAllRegions();
+  connect->ColorRegionsOn();
+  connect->Update();
+  vtkDataArray* regions = connect->GetOutput()->GetPointData()->GetArray("RegionId");
+  ForEachPolygon(connect->GetOutput(),
+    [&](vtkIdType number, const vtkIdType* corners, vtkIdType)
+    {
+      numbers[own[static_cast<std::size_t>(number)]] =
+        first + static_cast<int>(regions->GetComponent(corners[0], 0));
+    });
+  return connect->GetNumberOfExtractedRegions();
+}
+
+/** Gives a surface these triangles, with `Cap` and `BoxFace`. */
+void SetCells(vtkPolyData* surface, vtkCellArray* others,
+  const std::vector<CapMesh::Triangle>& caps, const std::vector<Border>& borders)
+{
+  vtkNew<vtkIntArray> numbers;
+  numbers->SetName("Cap");
+  vtkNew<vtkUnsignedCharArray> faces;
+  faces->SetName("BoxFace");
+  for (vtkIdType cell = 0; cell < others->GetNumberOfCells(); ++cell)
+  {
+    numbers->InsertNextValue(0);
+    faces->InsertNextValue(0);
+  }
+  std::vector<int> parts(caps.size());
+  int next = 1;
+  for (int plane = 0; plane < static_cast<int>(borders.size()); ++plane)
+  {
+    next += NumberParts(surface, caps, plane, next, parts);
+  }
+  for (std::size_t t = 0; t < caps.size(); ++t)
+  {
+    others->InsertNextCell(3, caps[t].Corners.data());
+    numbers->InsertNextValue(parts[t]);
+    faces->InsertNextValue(
+      static_cast<unsigned char>(borders[static_cast<std::size_t>(caps[t].Plane)].Face));
+  }
+  surface->SetPolys(others);
+  surface->GetCellData()->AddArray(numbers);
+  surface->GetCellData()->AddArray(faces);
+}
+
+/** Cut at the planes, and closed there by triangles as long as the surface's. */
+vtkSmartPointer<vtkPolyData> Capped(vtkPolyData* surface, const std::vector<Border>& borders)
+{
+  vtkNew<vtkCellArray> others;
+  if (borders.empty())
+  {
+    const auto same = vtkSmartPointer<vtkPolyData>::New();
+    same->ShallowCopy(surface);
+    others->DeepCopy(surface->GetPolys());
+    SetCells(same, others, {}, {});
+    return same;
+  }
+  vtkNew<vtkPlaneCollection> planes;
+  for (const Border& border : borders)
+  {
+    vtkNew<vtkPlane> inward;
+    inward->SetOrigin(border.Plane->GetOrigin());
+    const double* normal = border.Plane->GetNormal();
+    inward->SetNormal(-normal[0], -normal[1], -normal[2]);
+    planes->AddItem(inward);
+  }
+  vtkNew<vtkClipClosedSurface> clip;
+  clip->SetInputData(surface);
+  clip->SetClippingPlanes(planes);
+  clip->SetScalarModeToLabels();
+  clip->PassPointDataOn();
+  clip->Update();
+  vtkSmartPointer<vtkPolyData> made = clip->GetOutput();
+  vtkDataArray* isNew = made->GetCellData()->GetScalars();
+  std::vector<CapMesh::Triangle> caps;
+  ForEachPolygon(made,
+    [&](vtkIdType cell, const vtkIdType* corners, vtkIdType count)
+    {
+      if (isNew->GetComponent(cell, 0) == 0.0)
+      {
+        others->InsertNextCell(count, corners);
+        return;
+      }
+      const std::array<vtkIdType, 3> triangle = { corners[0], corners[1], corners[2] };
+      caps.push_back({ triangle, PlaneOf(made, triangle, borders) });
+      for (const vtkIdType corner : triangle)
+      {
+        double place[3];
+        made->GetPoint(corner, place);
+        borders[static_cast<std::size_t>(caps.back().Plane)].Plane->ProjectPoint(place, place);
+        made->GetPoints()->SetPoint(corner, place);
+      }
+    });
+  CapMesh even(made, caps);
+  even.MakeEven(MeanEdge(surface));
+  made->GetCellData()->Initialize();
+  SetCells(made, others, even.Triangles, borders);
+  made->GetFieldData()->ShallowCopy(surface->GetFieldData());
+  return made;
 }
 
 vtkSmartPointer<vtkPolyData> Cut(vtkPolyData* surface, vtkPlane* plane)
@@ -141,17 +251,23 @@ vtkSmartPointer<vtkPolyData> Cut(vtkPolyData* surface, vtkPlane* plane)
 vtkSmartPointer<vtkPolyData> WithEnds(vtkPolyData* surface, vtkImageData* image, Ends ends)
 {
   vtkSmartPointer<vtkPolyData> made = surface;
+  if (ends == Ends::Closed)
+  {
+    return made;
+  }
+  const std::vector<Border> borders = BorderOf(image, surface);
   if (ends == Ends::Marked)
   {
-    MarkCaps(surface, image);
+    made = Capped(surface, borders);
   }
-  else if (ends == Ends::Open)
+  for (std::size_t n = 0; n < borders.size() && ends == Ends::Open; ++n)
   {
-    for (const auto& plane : BorderOf(image, surface))
-    {
-      made = Cut(made, plane);
-    }
+    made = Cut(made, borders[n].Plane);
   }
-  return made;
+  if (made->GetNumberOfPolys() == 0 && ends == Ends::Marked)
+  {
+    return Capped(surface, {});
+  }
+  return made->GetNumberOfPolys() == 0 ? vtkSmartPointer<vtkPolyData>(surface) : made;
 }
 }

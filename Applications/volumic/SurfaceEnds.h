@@ -14,11 +14,16 @@ namespace tool
 enum class Ends
 {
   Closed, ///< nothing: a cap closes it
-  Marked, ///< cell array `Cap`: 0, or the number of the cap that a triangle is of, from 1
-  Open    ///< it ends a voxel within the outermost voxels' centres, in closed curves
+  Marked, ///< flat caps close it a voxel within the outermost voxels' centres, numbered
+  Open    ///< it ends there in closed curves
 };
 
-/** @return the surface, or one made of it. Its field data stay those of the closed one. */
+/**
+ * Marked, it has the cell arrays `Cap`, 0 or the number of the cap, from 1, that a triangle is of,
+ * and `BoxFace`, at which side of the image the cap is, as vtkLabelsToSurfaces has it.
+ * @return the surface, or one made of it: where all of it lies about the outermost voxels it stays
+ * as it is. Field data stay those of the closed one.
+ */
 vtkSmartPointer<vtkPolyData> WithEnds(vtkPolyData* surface, vtkImageData* image, Ends ends);
 }
 

@@ -220,8 +220,10 @@ std::vector<PropertyOption> MakeProperties()
       "of solids or for their meshers, .vtu, .inp, .msh, .smesh or .poly, implies it"),
     LABELS_MENU(BoxFaces, "box-faces",
       "with --labels as one mesh: what surfaces are where labels reach the border of the volume; "
-      "flat: in its planes, with edges and corners, for boundary conditions of a box",
-      "rounded", "flat"),
+      "flat: in its planes, with edges and corners, for boundary conditions of a box; periodic: "
+      "with "
+      "the same triangles on opposite sides, too",
+      "rounded", "flat", "periodic"),
   };
 }
 }

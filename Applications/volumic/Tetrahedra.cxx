@@ -188,8 +188,12 @@ double SixfoldVolume(const std::array<Vector3, 4>& corners)
     Minus(corners[3], corners[0]));
 }
 
-/** The places of the surface's points are its own, all digits of them. */
-vtkSmartPointer<vtkPoints> ReadPoints(std::istream& file, vtkPolyData* surface)
+/**
+ * The surface's points come first, in their order, and all digits of them.
+ * @param numbers of the points in the file those that they get
+ */
+vtkSmartPointer<vtkPoints> ReadPoints(
+  std::istream& file, vtkPolyData* surface, std::vector<vtkIdType>& numbers)
 {
   std::unordered_map<std::string, vtkIdType> own;
   for (vtkIdType point = 0; point < surface->GetNumberOfPoints(); ++point)
@@ -200,19 +204,23 @@ vtkSmartPointer<vtkPoints> ReadPoints(std::istream& file, vtkPolyData* surface)
   file >> count;
   auto points = vtkSmartPointer<vtkPoints>::New();
   points->SetDataTypeToDouble();
+  for (vtkIdType point = 0; point < surface->GetNumberOfPoints(); ++point)
+  {
+    points->InsertNextPoint(surface->GetPoint(point));
+  }
   Vector3 place;
   std::string reference;
   for (; count > 0 && file >> place[0] >> place[1] >> place[2] >> reference; --count)
   {
     const auto found = own.find(PlaceKey(place.data()));
-    points->InsertNextPoint(found == own.end() ? place.data() : surface->GetPoint(found->second));
+    numbers.push_back(found == own.end() ? points->InsertNextPoint(place.data()) : found->second);
   }
   FailIf(count > 0, "the mesher's file of nodes is cut off");
   return points;
 }
 
 /** Those of positive volume, as VTK and solvers have their corners, with their labels. */
-void ReadCells(std::istream& file, vtkUnstructuredGrid* grid)
+void ReadCells(std::istream& file, vtkUnstructuredGrid* grid, const std::vector<vtkIdType>& numbers)
 {
   vtkIdType count = 0;
   file >> count;
@@ -227,8 +235,9 @@ void ReadCells(std::istream& file, vtkUnstructuredGrid* grid)
     std::array<Vector3, 4> places;
     for (std::size_t i = 0; i < 4; ++i)
     {
-      FailIf(--corners[i] < 0 || corners[i] >= grid->GetNumberOfPoints(),
+      FailIf(corners[i] < 1 || corners[i] > static_cast<vtkIdType>(numbers.size()),
         "the mesher's file of tetrahedra is damaged");
+      corners[i] = numbers[static_cast<std::size_t>(corners[i] - 1)];
       grid->GetPoint(corners[i], places[i].data());
     }
     if (SixfoldVolume(places) < 0.0)
@@ -247,6 +256,7 @@ vtkSmartPointer<vtkUnstructuredGrid> ReadMedit(const std::string& name, vtkPolyD
 {
   std::ifstream file(name);
   auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  std::vector<vtkIdType> numbers;
   for (std::string word; file >> word;)
   {
     if (word[0] == '#')
@@ -255,29 +265,21 @@ vtkSmartPointer<vtkUnstructuredGrid> ReadMedit(const std::string& name, vtkPolyD
     }
     else if (word == "Vertices")
     {
-      grid->SetPoints(ReadPoints(file, surface));
+      grid->SetPoints(ReadPoints(file, surface, numbers));
     }
     else if (word == "Tetrahedra" && grid->GetPoints())
     {
-      ReadCells(file, grid);
+      ReadCells(file, grid, numbers);
     }
   }
   FailIf(grid->GetNumberOfCells() == 0, "the mesher has made no tetrahedra");
   return grid;
 }
 
-/** A mesher keeps the corners of all triangles. */
-std::array<std::set<vtkIdType>, 6> FindBoxNodes(vtkPolyData* surface, vtkUnstructuredGrid* grid)
+std::array<std::set<vtkIdType>, 6> FindBoxNodes(vtkPolyData* surface)
 {
   std::array<std::set<vtkIdType>, 6> nodes;
   vtkDataArray* faces = surface->GetCellData()->GetArray("BoxFace");
-  std::map<Vector3, vtkIdType> numbers;
-  Vector3 place;
-  for (vtkIdType point = 0; faces && point < grid->GetNumberOfPoints(); ++point)
-  {
-    grid->GetPoint(point, place.data());
-    numbers[place] = point;
-  }
   vtkNew<vtkIdList> corners;
   for (vtkIdType cell = 0; faces && cell < surface->GetNumberOfCells(); ++cell)
   {
@@ -285,8 +287,7 @@ std::array<std::set<vtkIdType>, 6> FindBoxNodes(vtkPolyData* surface, vtkUnstruc
     surface->GetCellPoints(cell, corners);
     for (vtkIdType k = 0; face > 0 && k < corners->GetNumberOfIds(); ++k)
     {
-      surface->GetPoint(corners->GetId(k), place.data());
-      nodes[face - 1].insert(numbers.at(place));
+      nodes[face - 1].insert(corners->GetId(k));
     }
   }
   return nodes;
@@ -377,7 +378,7 @@ const Solid& SolidMaker::Make(vtkPolyData* surface, const std::string& beside, P
   {
     solid.Names[numbers[i]] = labels[i].Name;
   }
-  solid.BoxNodes = FindBoxNodes(surface, solid.Grid);
+  solid.BoxNodes = FindBoxNodes(surface);
   Measure(solid);
   for (const auto& [number, name] : solid.Names)
   {

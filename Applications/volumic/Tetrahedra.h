@@ -22,7 +22,8 @@ class ProgressLine;
 /** Tetrahedra that fill a surface, or the interfaces of labels, each within one label. */
 struct Solid
 {
-  /** Its triangles are those of the surface; cell array `Label`, field data as the surface's. */
+  /** Its triangles and first points are those of the surface; cell array `Label`, field data as the
+   * surface's. */
   vtkSmartPointer<vtkUnstructuredGrid> Grid;
   std::map<int, std::string> Names; ///< of the labels, by the numbers in the grid
   std::string Mesher;               ///< the program that made it

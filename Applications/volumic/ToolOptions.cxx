@@ -211,10 +211,9 @@ const std::vector<ProgramOption>& InputOptions()
       "a map that is large on edges, see --edge-attraction (2 if that is not given): a point array "
       "of the volume, or a volume of the same size"),
     { "ends", "closed|marked|open",
-      "where an object leaves the volume: closed by a cap (default), whose triangles may be marked "
-      "by "
-      "a cell array Cap, or open, for flow: the surface ends in a plane, a voxel within the "
-      "outermost ones",
+      "where an object leaves the volume: closed by a round cap (default), or cut in a plane, a voxel "
+      "within the outermost ones, marked: closed there by flat caps, numbered by a cell array Cap, or "
+      "open, for flow",
       SetEnds },
     { "triangles", "N",
       "find the --tolerance with which the surface has about so many triangles, a tenth more or "

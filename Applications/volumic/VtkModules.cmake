@@ -7,7 +7,7 @@
 # With ParaView, all of its own VTK was found already.
 if (NOT ParaView_FOUND)
   find_package(VTK REQUIRED
-    COMPONENTS FiltersCore ImagingCore IOCore IOGeometry IOImage IOLegacy IOPLY IOXML
+    COMPONENTS FiltersCore FiltersGeneral ImagingCore IOCore IOGeometry IOImage IOLegacy IOPLY IOXML
       ParallelCore png tiff zlib
     OPTIONAL_COMPONENTS IOHDF IOMINC ParallelMPI mpi)
 endif ()

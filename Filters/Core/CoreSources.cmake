@@ -32,6 +32,7 @@ set(volumic_core_sources
   Labels/LabelField.cxx
   Labels/LabelHold.cxx
   Labels/LabelSides.cxx
+  Labels/MapBeyond.cxx
   Labels/SmallParts.cxx
   Labels/TouchingSurfaces.cxx
   Labels/WrongVoxels.cxx
@@ -68,6 +69,7 @@ set(volumic_core_sources
   Interfaces/LatticeCutter.cxx
   Interfaces/LatticeSides.cxx
   Interfaces/MakeInterfaces.cxx
+  Interfaces/PeriodicImages.cxx
   Interfaces/VertexTargets.cxx
   Surface/ComponentWatch.cxx
   Surface/NewFaces.cxx

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Labels/LabelInterfaces.h"
 
+#include "Core/Common/Refuse.h"
 #include "Core/Evolution/SurfaceOptions.h"
 #include "Core/Image/VoxelNumbers.h"
 #include "Core/Interfaces/InterfaceSizes.h"
+#include "Core/Labels/MapBeyond.h"
 #include "Core/Labels/SmallParts.h"
 #include "Core/Labels/WrongVoxels.h"
 #include "Core/Surface/SizingField.h"
@@ -45,33 +47,18 @@ int MarginFor(double sigma)
   const int reach = static_cast<int>(std::ceil(3.0 * sigma)) - side;
   return std::max(1, (reach + side - 1) / side) * side;
 }
-/** Has what is beyond a box go on with the nearest voxel in it. */
-void GoOnBeyond(LabelMap& map, const VoxelBox& box)
-{
-  const VoxelBox all = VoxelBox::Of(map.Size);
-  const auto nearest = [&](int at, int axis)
-  { return std::clamp(at, box.First[axis], box.End[axis] - 1); };
-  ForRowsOf(all, all,
-    [&](std::int64_t first, std::int64_t count)
-    {
-      const std::array<int, 3> at = VoxelNumbers(map.Size).PlaceOf(first);
-      for (int i = 0; i < static_cast<int>(count); ++i)
-      {
-        map.Voxels[static_cast<std::size_t>(first + i)] =
-          map.At(nearest(i, 0), nearest(at[1], 1), nearest(at[2], 2));
-      }
-    });
-}
+
+/** A period, at least, in wanted edges: what is at its two ends is far from each other. */
+constexpr double LeastPeriod = 4.;
 
 /** Of the whole work. */
 constexpr double FieldShare = 0.4;
 
 double EdgeOf(const LabelSettings& settings, const Workspace& space)
 {
-  return settings.EdgeLength != 0.0
-    ? settings.EdgeLength / space.WorldUnit()
-    : SizingField::RestLengthInDelta * SurfaceOptions().SamplingRatio *
-      std::pow(std::sqrt(3.0), settings.FinestLevel);
+  return settings.EdgeLength != 0.0 ? settings.EdgeLength / space.WorldUnit()
+                                    : SizingField::RestLengthInDelta *
+      SurfaceOptions().SamplingRatio * std::pow(std::sqrt(3.0), settings.FinestLevel);
 }
 }
 
@@ -82,7 +69,8 @@ VoxelBox LabelInterfaceMaker::BoxOf(const LabelMap& map, int objects)
   ForRowsOf(all, all,
     [&](std::int64_t first, std::int64_t count)
     {
-      const auto isObject = [&](LabelMap::Number object) { return object > 0 && object <= objects; };
+      const auto isObject = [&](LabelMap::Number object)
+      { return object > 0 && object <= objects; };
       const auto* row = map.Voxels.data() + first;
       const auto* begin = std::find_if(row, row + count, isObject);
       if (begin == row + count)
@@ -138,7 +126,7 @@ LabelInterfaceMaker::LabelInterfaceMaker(LabelMap map, int objects, vtkImageData
 {
   LabelSurfaceMaker::PlanOf(settings, image); // Lengths have the same limits.
   const bool isFlat = settings.HasFlatBox();
-  const VoxelBox box = BoxOf(map, objects);
+  const VoxelBox box = settings.IsPeriodic() ? VoxelBox::Of(map.Size) : BoxOf(map, objects);
   // With flat faces fields are those of labels that go on beyond them, for the whole Gaussian.
   const int margin = MarginFor(LabelSurfaceMaker::FieldOptions(settings, map).Sigma) +
     (isFlat ? LabelBricks::Side : 0);
@@ -153,8 +141,8 @@ LabelInterfaceMaker::LabelInterfaceMaker(LabelMap map, int objects, vtkImageData
       static_cast<double>(map.Voxels.size()) + 1.0);
     this->WholeMap = Padded(map, objects, box, margin);
     threads.Run([&] { this->WholeBricks.emplace(this->WholeMap, threads); });
-    GiveAwaySmallParts(map, objects, static_cast<std::int64_t>(least),
-      keep == KeepComponentsType::LargestComponent);
+    GiveAwaySmallParts(
+      map, objects, static_cast<std::int64_t>(least), keep == KeepComponentsType::LargestComponent);
   }
   this->Map = Padded(map, objects, box, margin);
   for (int axis = 0; axis < 3; ++axis)
@@ -162,9 +150,13 @@ LabelInterfaceMaker::LabelInterfaceMaker(LabelMap map, int objects, vtkImageData
     this->InImage.First[axis] = std::max(-this->First[axis], 0);
     this->InImage.End[axis] = std::min(map.Size[axis] - this->First[axis], this->Map.Size[axis]);
   }
+  if (settings.IsPeriodic())
+  {
+    this->CheckPeriod();
+  }
   if (isFlat)
   {
-    GoOnBeyond(this->Map, this->InImage);
+    GoOnBeyond(this->Map, this->InImage, settings.IsPeriodic());
   }
   threads.Run(
     [&]
@@ -172,6 +164,23 @@ LabelInterfaceMaker::LabelInterfaceMaker(LabelMap map, int objects, vtkImageData
       this->Bricks.emplace(
         this->Map, threads, isFlat ? this->InImage : VoxelBox::Of(this->Map.Size));
     });
+}
+
+void LabelInterfaceMaker::CheckPeriod() const
+{
+  CheckPeriodic(this->Map, this->InImage);
+  const double edge = EdgeOf(this->Settings, this->Space);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double period = this->InImage.Length(axis) * this->Space.Step()[axis];
+    if (period < LeastPeriod * edge)
+    {
+      Refuse("Box Faces are to be periodic, but the volume is only ",
+        period * this->Space.WorldUnit(), " wide along ", "xyz"[axis], ": it must be ", LeastPeriod,
+        " Edge Lengths, which are ", edge * this->Space.WorldUnit(),
+        ". Set a shorter Edge Length, or Box Faces to flat.");
+    }
+  }
 }
 
 InterfaceOptions LabelInterfaceMaker::Options() const
@@ -202,16 +211,16 @@ void LabelInterfaceMaker::Make(HostThreads& threads, const LabelSurfaceMaker::Pr
   threads.Run(
     [&]
     {
-      this->Fields.emplace(*this->Bricks,
-        LabelSurfaceMaker::FieldOptions(this->Settings, this->Map), this->Space.Step(), threads,
-        [&](double share) { return tell(FieldShare * share, "Fields of the labels"); });
+      this->Fields.emplace(
+        *this->Bricks, LabelSurfaceMaker::FieldOptions(this->Settings, this->Map),
+        this->Space.Step(), threads,
+        [&](double share) { return tell(FieldShare * share, "Fields of the labels"); },
+        this->Settings.IsPeriodic());
       if (goesOn)
       {
         this->Mesh = MakeInterfaces(*this->Fields, this->Options(), threads,
           [&](double share)
-          {
-            return tell(FieldShare + (1.0 - FieldShare) * share, "Interfaces of the labels");
-          });
+          { return tell(FieldShare + (1.0 - FieldShare) * share, "Interfaces of the labels"); });
       }
     });
   this->IsFinished = goesOn;
@@ -288,8 +297,8 @@ LabelSurface LabelInterfaceMaker::SurfaceOf(int object, const std::vector<int>& 
     surface.Points[n] = this->PlaceOf(vertices[n]);
     inVoxels.Points[n] = { place.X / step[0], place.Y / step[1], place.Z / step[2] };
     const VectorD normal = Normalized(normals[n]);
-    surface.Normals.push_back({ static_cast<float>(normal.X), static_cast<float>(normal.Y),
-      static_cast<float>(normal.Z) });
+    surface.Normals.push_back(
+      { static_cast<float>(normal.X), static_cast<float>(normal.Y), static_cast<float>(normal.Z) });
     this->Mesh.FindObjects(vertices[n], objects);
     const float own = this->Fields->ValueAt(object, place);
     // Where there are only sides of the box beside it, it is where it should be.
@@ -309,8 +318,8 @@ LabelSurface LabelInterfaceMaker::SurfaceOf(int object, const std::vector<int>& 
   SurfaceDescription description;
   description.Level = this->Settings.FinestLevel;
   description.Unit = this->Space.WorldUnit() * std::pow(std::sqrt(3.0), this->Settings.FinestLevel);
-  description.StopReason = Describe(
-    this->IsFinished ? StopReason::Converged : StopReason::Cancelled);
+  description.StopReason =
+    Describe(this->IsFinished ? StopReason::Converged : StopReason::Cancelled);
   const std::vector<std::int64_t> wrong =
     FindWrongVoxels(this->Counted(), object, inVoxels, this->InImage);
   made.WrongVoxels = static_cast<vtkIdType>(wrong.size());

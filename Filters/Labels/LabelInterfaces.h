@@ -35,8 +35,8 @@ public:
    * Settings must outlive it.
    * @throws std::invalid_argument as LabelSurfaceMaker.
    */
-  LabelInterfaceMaker(LabelMap map, int objects, vtkImageData* image,
-    const LabelSettings& settings, HostThreads& threads);
+  LabelInterfaceMaker(LabelMap map, int objects, vtkImageData* image, const LabelSettings& settings,
+    HostThreads& threads);
 
   /** @param progress as LabelSurfaceMaker's; after false what there is is not finished. */
   void Make(HostThreads& threads, const LabelSurfaceMaker::Progress& progress);
@@ -56,8 +56,9 @@ private:
   /** What is about all objects, from the first voxel of a brick on. */
   static VoxelBox BoxOf(const LabelMap& map, int objects);
   /** That part of the map with a margin, and 0 for all that is no object of a label. */
-  static LabelMap Padded(
-    const LabelMap& map, int objects, const VoxelBox& box, int margin);
+  static LabelMap Padded(const LabelMap& map, int objects, const VoxelBox& box, int margin);
+  /** @throws std::invalid_argument where the map is not periodic, or too short. */
+  void CheckPeriod() const;
   InterfaceOptions Options() const; ///< as the settings ask for
   /** What voxels are counted in. */
   const LabelBricks& Counted() const
@@ -77,9 +78,9 @@ private:
 
   const LabelSettings& Settings;
   std::array<int, 3> First = { 0, 0, 0 }; ///< voxel of the image that is that of Map
-  LabelMap Map; ///< of the box, with its margin
+  LabelMap Map;                           ///< of the box, with its margin
   LabelMap WholeMap; ///< the same with the parts that Keep Components leaves out, if it does
-  VoxelBox InImage; ///< of Map what is in the image
+  VoxelBox InImage;  ///< of Map what is in the image
   Workspace Space;
   std::optional<LabelBricks> Bricks;
   std::optional<LabelBricks> WholeBricks; ///< of WholeMap

@@ -54,17 +54,18 @@ void LabelSettings::Check(double unit) const
   }
   if (this->SharedInterfaces && this->Grading.ThinParts)
   {
-    Refuse("Thin Parts are asked for and Shared Interfaces, which have no smaller triangles where "
+    Refuse(
+      "Thin Parts are asked for and Shared Interfaces, which have no smaller triangles where "
       "labels are thin. Switch Thin Parts off, or Shared Interfaces (files for meshers of solids, "
       ".msh, .smesh and .poly, need them); a shorter Edge Length makes all triangles smaller.");
   }
-  if (this->BoxFaces != 0 && this->BoxFaces != 1)
+  if (this->BoxFaces < 0 || this->BoxFaces > 2)
   {
-    Refuse("Box Faces is ", this->BoxFaces, "; it must be 0 (rounded) or 1 (flat).");
+    Refuse("Box Faces is ", this->BoxFaces, "; it must be 0 (rounded), 1 (flat) or 2 (periodic).");
   }
   if (this->HasFlatBox() && !this->SharedInterfaces)
   {
-    Refuse("Box Faces are to be flat, which only Shared Interfaces can have. Switch Shared "
+    Refuse("Box Faces are to be flat, as only Shared Interfaces can have them. Switch Shared "
            "Interfaces on, or set Box Faces to rounded.");
   }
   CheckNumber("Edge Length", this->EdgeLength);

@@ -56,16 +56,55 @@ class EndsTest(ToolTestCase):
 
     def test_marked(self):
         surface, points, triangles = self.surface("--iso", "0", "--ends", "marked")
-        whole, _, _ = self.surface("--iso", "0")
-        self.assertEqual(surface.GetNumberOfPolys(), whole.GetNumberOfPolys())
-        caps = vtk_to_numpy(surface.GetCellData().GetArray("Cap"))
-        self.assertEqual(set(caps.tolist()), {0, 1, 2})
+        caps, faces = self.check_caps(surface, points, triangles)
+        self.assertEqual(sorted(set(zip(caps.tolist(), faces.tolist()))), [(0, 0), (1, 5), (2, 6)])
         heights = points[triangles, 2]
         a, b, c = (points[triangles[:, i]] for i in range(3))
-        areas = np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
-        for cap, beyond in ((1, heights.max(1) < 6), (2, heights.min(1) > 17)):
-            self.assertTrue(beyond[caps == cap].all())
-            self.assertTrue(0.7 < areas[caps == cap].sum() / (np.pi * 25) < 1.1)
+        areas = np.cross(b - a, c - a)[:, 2] / 2
+        for cap, height, out in ((1, 6, -1), (2, 17, 1)):
+            self.assertLess(abs(heights[caps == cap] - height).max(), 1e-12)
+            self.assertGreater((areas[caps == cap] * out).min(), 0)
+            self.assertTrue(0.95 < areas[caps == cap].sum() * out / (np.pi * 25) < 1.02)
+        # Caps have points within, at distances that the surface has.
+        sides = np.linalg.norm(np.concatenate([b - a, c - b, a - c]), axis=1).reshape(3, -1).max(0)
+        self.assertLess(sides[caps > 0].max(), 1.3 * sides[caps == 0].max())
+
+    def check_caps(self, surface, points, triangles):
+        """It is closed, and each cap in a plane: the caps, and the sides that they are at."""
+        edges = Counter((a, b) for triangle in triangles.tolist()
+                        for a, b in zip(triangle, triangle[1:] + triangle[:1]))
+        self.assertEqual(set(edges.values()), {1})
+        self.assertTrue(all((b, a) in edges for a, b in edges))
+        self.assertEqual(len(np.unique(triangles)), len(points))
+        caps, faces = (vtk_to_numpy(surface.GetCellData().GetArray(name)) for name in ("Cap", "BoxFace"))
+        np.testing.assert_array_equal(caps > 0, faces > 0)
+        self.assertEqual(set(caps.tolist()), set(range(caps.max() + 1)))
+        return caps, faces
+
+    def test_caps_that_meet(self):
+        """A ball about a corner of the volume, and what leaves it on all sides, with holes in caps."""
+        z, y, x = np.indices((20, 22, 24)).astype("f4")
+        for values, sides in ((7 - np.sqrt(x ** 2 + y ** 2 + z ** 2), {0, 1, 3, 5}),
+                              (2 - abs(4 - np.hypot(x - 12, y - 11)), {0, 5, 6}),
+                              (np.cos(x / 3) * np.sin(y / 3) + np.cos(y / 3) * np.sin(z / 3)
+                               + np.cos(z / 3) * np.sin(x / 3), set(range(7)))):
+            volume = self.write(vtkXMLImageDataWriter(), "leaving.vti",
+                                make_image(values, (1, 1, 1), (0, 0, 0)))
+            surface, points, triangles = self.surface("--iso", "0", "--ends", "marked", volume=volume)
+            _, faces = self.check_caps(surface, points, triangles)
+            self.assertEqual(set(faces.tolist()), sides)
+            for side in sides - {0}:
+                axis, last = divmod(side - 1, 2)
+                plane = values.shape[2 - axis] - 2 if last else 1
+                self.assertLess(abs(points[triangles[faces == side]][..., axis] - plane).max(), 1e-12)
+
+    def test_what_lies_at_the_border_alone_stays(self):
+        values = 1.2 - np.hypot(*np.indices((20, 22, 24))[:2]).astype("f4")
+        volume = self.write(vtkXMLImageDataWriter(), "rod.vti", make_image(values, (1, 1, 1), (0, 0, 0)))
+        whole, _, _ = self.surface("--iso", "0", volume=volume)
+        for ends in ("open", "marked"):
+            surface, _, _ = self.surface("--iso", "0", "--ends", ends, volume=volume)
+            np.testing.assert_array_equal(triangles_of(surface), triangles_of(whole))
 
     def test_an_object_within_the_image_has_none(self):
         volume = self.ball_file()

@@ -46,6 +46,15 @@ def grains():
     return (np.argmin((way ** 2).sum(-1), axis=-1) + 1).astype("u1")
 
 
+def period():
+    """[z, y, x] The same of a map that goes on at its other side."""
+    shape = np.array((21, 24, 27))
+    seeds = np.random.default_rng(5).random((10, 3)) * shape
+    way = np.stack(np.indices(shape), axis=-1)[..., None, :] - seeds
+    way = SPACING[::-1] * (way - shape * np.round(way / shape))
+    return (np.argmin((way ** 2).sum(-1), axis=-1) + 1).astype("u1")
+
+
 def leaving():
     """[z, y, x] A ball that leaves the volume at x-min, and a block that does at an edge."""
     z, y, x = np.indices((24, 26, 28))
@@ -193,12 +202,12 @@ def blocks_of(lines, each):
 class BoxTest(InterfacesTest):
     """--box-faces flat."""
 
-    def flat(self, voxels, *options):
+    def flat(self, voxels, *options, kind="flat"):
         """The mesh of a turned image: points in index space, lines, triangles, labels beside them,
         and at which side of the image they are."""
         file = self.map_file("map.vti", make_image(voxels, SPACING, ORIGIN, TURNED))
         report = self.report(file, self.path("a.vtp"), self.path("a.vtm"), "--labels", "all",
-                             "--shared-interfaces", "--box-faces", "flat", *options)
+                             "--shared-interfaces", "--box-faces", kind, *options)
         mesh = read(self.path("a.vtp"))
         points = (points_of(mesh) - ORIGIN) @ np.linalg.inv(TURNED).T / SPACING
         lines = vtk_to_numpy(mesh.GetLines().GetConnectivityArray()).reshape(-1, 2)
@@ -238,6 +247,31 @@ class BoxTest(InterfacesTest):
             junction = vtk_to_numpy(mesh.GetPointData().GetArray("Junction"))
             corners = away[:, 2] < 1e-9
             self.assertEqual((corners.sum(), set(junction[corners])), (8, {2}))
+
+    def test_sides_of_a_period_match(self):
+        for options in ((), ("--tolerance", "0.2")):
+            self.flat(period(), *options, kind="periodic")
+            # Where the axes are those of the world nodes match to the last bit.
+            self.make(period(), "b.vtp", options=["--shared-interfaces", "--box-faces", "periodic", *options])
+            mesh = read(self.path("b.vtp"))
+            points, triangles, lines = points_of(mesh), triangles_of(mesh), mesh.GetNumberOfLines()
+            faces = vtk_to_numpy(mesh.GetCellData().GetArray("BoxFace"))[lines:]
+            labels = vtk_to_numpy(mesh.GetCellData().GetArray("BoundaryLabels"))[lines:, 0]
+            for axis in range(3):
+                first, last = (
+                    {(label, *sorted(map(tuple, np.delete(points[corners], axis, 1).tolist())))
+                     for label, corners in zip(labels[faces == face], triangles[faces == face])}
+                    for face in (2 * axis + 1, 2 * axis + 2))
+                self.assertGreater(len(first), 100)
+                self.assertEqual(first, last)
+
+    def test_what_is_no_period_is_told(self):
+        for voxels, said in (
+                (period()[:, :12], r"not along y: .* differs from it in \d+ % of the voxels, .* Set "
+                 "--box-faces to flat"),
+                (np.ones((3, 9, 9)), "only 2.25 wide along z: .* shorter --edge-length")):
+            self.refused(said, self.map_of(voxels.astype("u1")), self.path("o.msh"), "--labels", "all",
+                         "--box-faces", "periodic")
 
     def test_objects_at_some_sides(self):
         _, points, lines, triangles, sides, faces = self.flat(leaving())

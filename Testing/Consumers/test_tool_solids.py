@@ -14,7 +14,7 @@ import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
-from test_tool_interfaces import ORIGIN, SPACING, InterfacesTest, sections_of
+from test_tool_interfaces import ORIGIN, SPACING, InterfacesTest, period, sections_of
 from tool_test_case import ISO
 from vtk_files import points_of, read, triangles_of
 
@@ -134,6 +134,22 @@ class MesherTest(SolidsTest):
             self.assertAlmostEqual(volumes(points_of(grid), corners).sum() / volume, 1, 5)
             self.assertEqual(set(labels.tolist()), {1})
 
+    def test_flat_ends_have_nodes_and_sides(self):
+        z, y, x = np.indices((16, 18, 18))
+        volume = self.map_of((5 - np.hypot(x - 8.5, y - 8.5)).astype("f4"), "rod.vti")
+        for mesher in MESHERS:
+            self.run_tool(volume, self.path("rod.inp"), self.path("rod.msh"), "--iso", "0", "--ends",
+                          "marked", "--mesher", mesher)
+            parts = dict(keywords_of(self.path("rod.inp")))
+            nodes = np.array(parts["*NODE, NSET=Nall"], float)[:, 1:]
+            for name, voxel in (("z_min", 1), ("z_max", 14)):
+                numbers = [int(word) for row in parts[f"*NSET, NSET={name}"] for word in row]
+                plane = ORIGIN[2] + voxel * SPACING[2]
+                self.assertEqual({n - 1 for n in numbers},
+                                 set(np.flatnonzero(abs(nodes[:, 2] - plane) < 1e-9).tolist()))
+            names = "".join(sections_of(self.path("rod.msh"))["PhysicalNames"])
+            self.assertIn('"z_min"', names)
+
     def test_a_volume_without_a_node_of_its_own(self):
         """Its tetrahedra have the corners that its triangles have."""
         volume = self.map_of(np.pad(np.ones((2, 2, 2), "u1"), 2), "small.vti")
@@ -175,6 +191,44 @@ class MesherTest(SolidsTest):
                 numbers = np.array([int(word) for row in parts[f"*NSET, NSET={name}"] for word in row])
                 at = np.abs(places[:, axis] - plane) < 1e-9
                 self.assertEqual(set((numbers - 1).tolist()), set(np.flatnonzero(at).tolist()))
+
+    def test_nodes_of_a_period_match(self):
+        """Those of opposite sides, in the order of their numbers."""
+        for mesher in MESHERS:
+            self.run_tool(self.map_of(period()), self.path("a.inp"), "--labels", "all", "--box-faces",
+                          "periodic", "--mesher", mesher)
+            parts = dict(keywords_of(self.path("a.inp")))
+            nodes = np.array(parts["*NODE, NSET=Nall"], float)[:, 1:]
+            for axis, name in enumerate("xyz"):
+                first, last = (np.array([int(word) for row in parts[f"*NSET, NSET={name}_{end}"]
+                                         for word in row]) for end in ("min", "max"))
+                self.assertTrue((np.diff(first) > 0).all() and (np.diff(last) > 0).all())
+                apart = nodes[last - 1] - nodes[first - 1]
+                np.testing.assert_array_equal(np.delete(apart, axis, 1), 0)
+                np.testing.assert_allclose(apart[:, axis], period().shape[2 - axis] * SPACING[axis])
+
+    def test_sides_of_a_box_in_msh(self):
+        found = np.ones((8, 9, 10), "u1")
+        found[:, :, 5:] = 2
+        self.run_tool(self.map_of(found), self.path("a.msh"), "--labels", "all", "--label-names",
+                      self.write_bytes("box.json", b'{"1": "x_min", "2": "b"}'), "--box-faces", "flat",
+                      "--mesher", MESHERS[0])
+        sections = sections_of(self.path("a.msh"))
+        nodes = np.array([line.split()[1:] for line in sections["Nodes"][1:]], float)
+        rows = [list(map(int, line.split())) for line in sections["Elements"][1:]]
+        triangles = np.array([row[3:4] + row[5:] for row in rows if row[1] == 2])
+        self.assertEqual(len(triangles), len(set(map(frozenset, triangles[:, 1:].tolist()))))
+        names = {name: int(number) for number, name in re.findall(
+            r'^2 (\d+) "(.*)"$', "".join(sections["PhysicalNames"]), re.M)}
+        sides = ["x_min 2", "x_max", "y_min", "y_max", "z_min", "z_max"]
+        self.assertEqual(list(names), ["x_min_to_b", *sides])
+        lengths = np.array(found.shape[::-1]) * SPACING
+        for side, name in enumerate(sides):
+            a, b, c = (nodes[triangles[triangles[:, 0] == names[name], i] - 1] for i in (1, 2, 3))
+            plane = ORIGIN[side // 2] - SPACING[side // 2] / 2 + side % 2 * lengths[side // 2]
+            np.testing.assert_allclose(np.stack([a, b, c])[..., side // 2], plane, atol=1e-12)
+            self.assertAlmostEqual(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2,
+                                   np.delete(lengths, side // 2).prod(), 6)
 
     def test_msh_of_tetrahedra(self):
         _, grid = self.solid("a.vtu", "a.msh", options=("--mesher", MESHERS[0]))

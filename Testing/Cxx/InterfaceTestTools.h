@@ -7,6 +7,7 @@
 #include "Core/Interfaces/InterfaceClearance.h"
 #include "Core/Interfaces/InterfaceFields.h"
 #include "Core/Interfaces/InterfaceMesh.h"
+#include "Core/Labels/MapBeyond.h"
 #include "Core/Mesh/SelfIntersections.h"
 #include "Core/Mesh/SurfaceCheck.h"
 #include "Core/Mesh/SurfaceFeatures.h"
@@ -36,11 +37,14 @@ struct InterfaceScene
 
   explicit InterfaceScene(LabelMap map) : InterfaceScene(map, VoxelBox::Of(map.Size)) {}
   /** @param inside where objects end */
-  InterfaceScene(LabelMap map, const VoxelBox& inside) : Map(std::move(map))
+  InterfaceScene(LabelMap map, const VoxelBox& inside, bool isPeriodic = false)
+    : Map(std::move(map))
   {
+    GoOnBeyond(this->Map, inside, isPeriodic);
     this->Bricks.emplace(this->Map, OnThisThread(), inside);
-    this->Fields.emplace(*this->Bricks, LabelFieldOptions(), this->Map.Spacing, OnThisThread(),
-      [](double) { return true; });
+    this->Fields.emplace(
+      *this->Bricks, LabelFieldOptions(), this->Map.Spacing, OnThisThread(),
+      [](double) { return true; }, isPeriodic);
   }
   InterfaceScene(const InterfaceScene&) = delete;
 };
@@ -333,13 +337,39 @@ inline std::array<int, 6> ExpectFlatSides(const InterfaceMesh& mesh, const Inter
   return counts;
 }
 
+/** Opposite sides have the same triangles of the same objects, to the last bit. */
+inline void ExpectMatchingSides(const InterfaceMesh& mesh)
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    std::array<std::multiset<std::pair<int, std::set<std::array<float, 2>>>>, 2> sides;
+    for (const InterfaceMesh::Face& face : mesh.Faces)
+    {
+      if (face.IsThere() && mesh.IsSide(face.Front) && mesh.AxisOf(face.Front) == axis)
+      {
+        std::set<std::array<float, 2>> places;
+        for (const int v : face.Vertex)
+        {
+          const Vector& p = mesh.Position[static_cast<std::size_t>(v)];
+          const std::array<float, 3> at = { p.X, p.Y, p.Z };
+          places.insert({ at[(axis + 1) % 3], at[(axis + 2) % 3] });
+        }
+        sides[static_cast<std::size_t>((face.Front - mesh.FirstSide) % 2)].emplace(
+          face.Behind, places);
+      }
+    }
+    EXPECT_FALSE(sides[0].empty());
+    EXPECT_TRUE(sides[0] == sides[1]) << axis;
+  }
+}
+
 /** Of an object, in voxels if these are cubes of side 1. */
 inline double VolumeOf(const InterfaceMesh& mesh, int object)
 {
   std::vector<int> vertices;
   const std::vector<std::vector<int>> faces = mesh.FindFacesOfObjects();
-  return ComputeFeatures(
-    mesh.SurfaceOf(object, faces[static_cast<std::size_t>(object)], vertices)).Volume;
+  return ComputeFeatures(mesh.SurfaceOf(object, faces[static_cast<std::size_t>(object)], vertices))
+    .Volume;
 }
 
 /** Sum over the objects but 0. */

@@ -73,16 +73,19 @@ TEST_P(InterfaceLatticeOfNoise, IsSoundAndFlatWhereItEndsAtABox)
     for (const VoxelBox& box : { VoxelBox{ { 4, 4, 4 }, { 12, 13, 11 } },
            VoxelBox{ { 5, 4, 5 }, { 11, 10, 12 } }, VoxelBox{ { 4, 5, 4 }, { 6, 8, 12 } } })
     {
-      const InterfaceScene scene(noise, box);
-      for (const Pitches& pitch :
-        { Pitches{ 1, 1, 1 }, Pitches{ 2, 2, 2 }, Pitches{ 2, 2, 1 }, Pitches{ 1, 2, 1 } })
+      for (const bool isPeriodic : { false, true })
       {
-        SCOPED_TRACE(testing::Message() << objects << ' ' << box.First[0] << ' ' << box.End[0]
-                                        << ' ' << pitch[0] << pitch[1] << pitch[2]);
-        const InterfaceMesh mesh = StartOf(scene, pitch);
+        SCOPED_TRACE(testing::Message()
+          << objects << ' ' << box.First[0] << ' ' << box.End[0] << ' ' << isPeriodic);
+        const InterfaceScene scene(noise, box, isPeriodic);
+        const InterfaceMesh mesh = StartOf(scene, { 1, 1, 1 });
         ExpectSound(mesh);
         const std::array<int, 6> counts = ExpectFlatSides(mesh, *scene.Fields);
         EXPECT_GT(*std::max_element(counts.begin(), counts.end()), 0);
+        if (isPeriodic)
+        {
+          ExpectMatchingSides(mesh);
+        }
       }
     }
   }
@@ -147,7 +150,8 @@ TEST(InterfaceLattice, DoesNotBridgeGapsOfAVoxel)
 TEST(InterfaceFields, AreLargestWhereTheMapSaysSo)
 {
   const InterfaceScene scene(ManyCells(28, 6, 5));
-  ForVoxels({ 28, 28, 28 }, [&](int i, int j, int k)
+  ForVoxels({ 28, 28, 28 },
+    [&](int i, int j, int k)
     { ASSERT_EQ(scene.Fields->LargestAt(i, j, k), scene.Map.At(i, j, k)) << i << j << k; });
 }
 
@@ -163,7 +167,8 @@ TEST(InterfaceFields, AreInterpolatedWithTheirGradient)
       const auto slope = [&](const Vector& way)
       {
         return (scene.Fields->ValueAt(object, place + way * step) -
-                 scene.Fields->ValueAt(object, place - way * step)) / (2.f * step);
+                 scene.Fields->ValueAt(object, place - way * step)) /
+          (2.f * step);
       };
       EXPECT_NEAR(sample.Gradient.X, slope(Vector(1.f, 0.f, 0.f)), 2e-3);
       EXPECT_NEAR(sample.Gradient.Y, slope(Vector(0.f, 1.f, 0.f)), 2e-3);
@@ -179,9 +184,11 @@ TEST(InterfaceFields, OfTheOutsideAreOppositeToThoseOfTheOneObjectInIt)
   for (const int side : { 28, 27, 25 })
   {
     const InterfaceScene scene(MakeLabelMap({ side, side, side }, 1,
-      [=](int i, int j, int k)
-      { return std::min({ i, j, k }) >= 4 && std::max({ i, j, k }) < side - 4 ? 1 : 0; }));
-    ForBox({ 2, 2, 2 }, { side - 2, side - 2, side - 2 }, [&](int i, int j, int k)
+      [=](int i, int j, int k) {
+        return std::min({ i, j, k }) >= 4 && std::max({ i, j, k }) < side - 4 ? 1 : 0;
+      }));
+    ForBox({ 2, 2, 2 }, { side - 2, side - 2, side - 2 },
+      [&](int i, int j, int k)
       { ASSERT_NEAR(scene.Fields->At(0, i, j, k), -scene.Fields->At(1, i, j, k), 0.1) << side; });
   }
 }

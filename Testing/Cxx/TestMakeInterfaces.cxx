@@ -13,11 +13,11 @@ namespace
 bool IsOffLines(const InterfaceMesh& mesh, const InterfaceMesh::Face& face)
 {
   return std::all_of(face.Vertex.begin(), face.Vertex.end(),
-    [&](int v)
-    { return mesh.StratumOf[static_cast<std::size_t>(v)] == Stratum::Interface; });
+    [&](int v) { return mesh.StratumOf[static_cast<std::size_t>(v)] == Stratum::Interface; });
 }
 
-InterfaceMesh Make(InterfaceScene& scene, Executor& executor = OnThisThread(),
+InterfaceMesh Make(
+  InterfaceScene& scene, Executor& executor = OnThisThread(),
   const std::function<bool(double)>& goOn = [](double) { return true; })
 {
   return MakeInterfaces(*scene.Fields, InterfaceOptions(), executor, goOn);
@@ -99,14 +99,17 @@ TEST(MakeInterfaces, TurnsNoPartInsideOut)
   }
 }
 
-class InterfacesInABox : public testing::TestWithParam<std::array<double, 4>>
+/** Lengths of a voxel, the tolerance, and whether the box is periodic. */
+class InterfacesInABox : public testing::TestWithParam<std::array<double, 5>>
 {
 };
 
 TEST_P(InterfacesInABox, AreFlatAtItsSides)
 {
   const std::array<double, 3> spacing = { GetParam()[0], GetParam()[1], GetParam()[2] };
-  InterfaceScene scene(Grains({ 40, 36, 37 }, spacing, 14, 3), { { 8, 8, 8 }, { 32, 29, 28 } });
+  const bool isPeriodic = GetParam()[4] != 0.;
+  InterfaceScene scene(
+    Grains({ 40, 36, 37 }, spacing, 14, 3), { { 8, 8, 8 }, { 32, 29, 28 } }, isPeriodic);
   InterfaceOptions options;
   options.Tolerance = GetParam()[3];
   const InterfaceMesh mesh =
@@ -115,6 +118,10 @@ TEST_P(InterfacesInABox, AreFlatAtItsSides)
   for (const int faces : ExpectFlatSides(mesh, *scene.Fields))
   {
     EXPECT_GT(faces, 20);
+  }
+  if (isPeriodic)
+  {
+    ExpectMatchingSides(mesh);
   }
   const double ofVoxel = spacing[0] * spacing[1] * spacing[2];
   double all = 0.;
@@ -151,8 +158,9 @@ TEST_P(InterfacesInABox, AreFlatAtItsSides)
 }
 
 INSTANTIATE_TEST_SUITE_P(OfVoxels, InterfacesInABox,
-  testing::Values(std::array<double, 4>{ 1., 1., 1., 0. }, std::array<double, 4>{ 1., 1., 1., 0.3 },
-    std::array<double, 4>{ 1., 1., 2.5, 0. }));
+  testing::Values(std::array<double, 5>{ 1., 1., 1., 0., 0. },
+    std::array<double, 5>{ 1., 1., 1., 0.3, 0. }, std::array<double, 5>{ 1., 1., 2.5, 0., 0. },
+    std::array<double, 5>{ 1., 1., 1., 0., 1. }, std::array<double, 5>{ 1., 1., 1.7, 0.3, 1. }));
 
 TEST(MakeInterfaces, EndAtABoxInNoiseToo)
 {
@@ -160,10 +168,17 @@ TEST(MakeInterfaces, EndAtABoxInNoiseToo)
   {
     SCOPED_TRACE(seed);
     const LabelMap noise = NoisyLabelMap({ 16, 16, 16 }, 1 + static_cast<int>(seed) % 3, seed);
-    InterfaceScene scene(noise, { { 4, 4, 4 }, { 12, 11, 9 } });
-    const InterfaceMesh mesh = Make(scene);
-    ExpectSound(mesh);
-    ExpectFlatSides(mesh, *scene.Fields);
+    for (const bool isPeriodic : { false, true })
+    {
+      InterfaceScene scene(noise, { { 4, 4, 4 }, { 12, 11, 9 } }, isPeriodic);
+      const InterfaceMesh mesh = Make(scene);
+      ExpectSound(mesh);
+      ExpectFlatSides(mesh, *scene.Fields);
+      if (isPeriodic)
+      {
+        ExpectMatchingSides(mesh);
+      }
+    }
   }
 }
 
@@ -193,8 +208,7 @@ TEST(CorrectVolumes, ShiftsInterfacesToWhatIsMissing)
     p.X += p.X < 10.f ? 0.04f : 0.f;
   }
   const Vector middle(11.5f, 8.f, 11.5f);
-  const float before =
-    scene.Fields->ValueAt(1, middle) - scene.Fields->ValueAt(2, middle);
+  const float before = scene.Fields->ValueAt(1, middle) - scene.Fields->ValueAt(2, middle);
   CorrectVolumes(mesh, *scene.Fields);
   EXPECT_GT(scene.Fields->ValueAt(1, middle) - scene.Fields->ValueAt(2, middle), before);
 }

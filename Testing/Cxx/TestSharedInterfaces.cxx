@@ -14,7 +14,8 @@ using namespace volumic;
 
 namespace
 {
-/** Two blocks side by side, labels 3 and 7, a ball of label 5 in the first, and crumbs of label 7. */
+/** Two blocks side by side, labels 3 and 7, a ball of label 5 in the first, and crumbs of label 7.
+ */
 double TouchingBlocks(int i, int j, int k)
 {
   if (i < 3 || i >= 25 || j < 3 || j >= 17 || k < 3 || k >= 17)
@@ -79,8 +80,7 @@ TEST(SharedInterfaces, AreThereOnceEach)
   const auto filter = FilterOf(BlocksImage());
   filter->Update();
   vtkPolyData* interfaces = filter->GetInterfaces();
-  EXPECT_EQ(AllSides(interfaces),
-    (std::set<Sides>{ { 3, 0 }, { 7, 0 }, { 3, 5 }, { 3, 7 } }));
+  EXPECT_EQ(AllSides(interfaces), (std::set<Sides>{ { 3, 0 }, { 7, 0 }, { 3, 5 }, { 3, 7 } }));
   EXPECT_GT(interfaces->GetNumberOfLines(), 10); // where 3, 7 and the outside meet
   EXPECT_EQ(SidesOf(interfaces, 0), (Sides{ 0, 0 }));
   vtkDataArray* junction = interfaces->GetPointData()->GetArray("Junction");
@@ -279,8 +279,22 @@ TEST(SharedInterfaces, AreFlatAtTheBorderOfTheImage)
     EXPECT_EQ(surface->GetCellData()->GetArray("BoxFace")->GetRange()[1], 6.);
     EXPECT_NEAR(surface->GetPointData()->GetArray("Residual")->GetRange()[1], 0., 0.5);
   }
-  filter->SetBoxFaces(2);
-  EXPECT_TRUE(Has(ErrorOf(filter), "Box Faces is 2"));
+  filter->SetBoxFacesToPeriodic();
+  filter->Update();
+  std::array<int, 7> triangles = {};
+  vtkDataArray* faces = filter->GetInterfaces()->GetCellData()->GetArray("BoxFace");
+  for (vtkIdType cell = 0; cell < faces->GetNumberOfTuples(); ++cell)
+  {
+    ++triangles[static_cast<std::size_t>(faces->GetComponent(cell, 0))];
+  }
+  EXPECT_EQ(triangles[1], triangles[2]);
+  EXPECT_EQ(triangles[3], triangles[4]);
+  EXPECT_EQ(triangles[5], triangles[6]);
+  filter->SetInputData(
+    LabelImageOf(12, 10, 9, [](int i, int j, int) { return i + j < 10 ? 3. : 7.; }));
+  EXPECT_TRUE(Has(ErrorOf(filter), "not along x"));
+  filter->SetBoxFaces(3);
+  EXPECT_TRUE(Has(ErrorOf(filter), "Box Faces is 3"));
   filter->SetBoxFacesToFlat();
   filter->SharedInterfacesOff();
   EXPECT_TRUE(Has(ErrorOf(filter), "Switch Shared Interfaces on"));

@@ -21,10 +21,7 @@ struct VoxelBox
   static VoxelBox Of(const std::array<int, 3>& size) { return { { 0, 0, 0 }, size }; }
 
   int Length(int axis) const { return this->End[axis] - this->First[axis]; }
-  std::array<int, 3> Size() const
-  {
-    return { this->Length(0), this->Length(1), this->Length(2) };
-  }
+  std::array<int, 3> Size() const { return { this->Length(0), this->Length(1), this->Length(2) }; }
   bool IsEmpty() const
   {
     return this->Length(0) <= 0 || this->Length(1) <= 0 || this->Length(2) <= 0;
@@ -44,6 +41,13 @@ struct VoxelBox
       isInside = isInside && voxel[axis] >= this->First[axis] && voxel[axis] < this->End[axis];
     }
     return isInside;
+  }
+
+  /** Where in the box a coordinate is, if the box follows itself. */
+  int Wrapped(int at, int axis) const
+  {
+    const int after = (at - this->First[axis]) % this->Length(axis);
+    return this->First[axis] + (after < 0 ? after + this->Length(axis) : after);
   }
 
   /** The number of a voxel of the image among those of the box, x fastest. */

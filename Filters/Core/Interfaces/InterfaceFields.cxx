@@ -47,14 +47,15 @@ void ForBricks(const LabelBricks& map, int object, Visitor&& visit)
 
 InterfaceFields::InterfaceFields(const LabelBricks& bricks, const LabelFieldOptions& options,
   const std::array<double, 3>& step, Executor& executor,
-  const std::function<bool(double share)>& goOn)
-  : Map(bricks), Lengths(step)
+  const std::function<bool(double share)>& goOn, bool isPeriodic)
+  : Map(bricks), Lengths(step), IsPeriodic(isPeriodic)
 {
   const auto count = static_cast<std::size_t>(bricks.Map().NumberOfObjects) + 1;
   // The largest first, as none should be waited for at the end.
   std::vector<int> order(count);
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b)
+  std::stable_sort(order.begin(), order.end(),
+    [&](int a, int b)
     { return bricks.ExtentOf(a).Bricks.Count() > bricks.ExtentOf(b).Bricks.Count(); });
   this->Shifts.assign(count, 0.f);
   this->FindBricks(executor);
@@ -149,10 +150,10 @@ const float* InterfaceFields::ValuesIn(std::size_t brick, int object) const
   return nullptr;
 }
 
-float InterfaceFields::At(int object, int i, int j, int k) const
+float InterfaceFields::At(int object, int x, int y, int z) const
 {
-  const float* values =
-    this->ValuesIn(this->NumberOfBrick(i / Side, j / Side, k / Side), object);
+  const auto [i, j, k] = this->SourceOf({ x, y, z });
+  const float* values = this->ValuesIn(this->NumberOfBrick(i / Side, j / Side, k / Side), object);
   if (!values)
   {
     return this->Map.Map().At(i, j, k) == object ? LabelField::Far : -LabelField::Far;
@@ -181,8 +182,9 @@ void InterfaceFields::Push(int object, const std::array<int, 3>& voxel, float by
 {
   const LabelMap& map = this->Map.Map();
   const LabelMap::Number own = map.At(voxel[0], voxel[1], voxel[2]);
-  const auto add = [&](const std::array<int, 3>& at, float size)
+  const auto add = [&](const std::array<int, 3>& place, float size)
   {
+    const std::array<int, 3> at = this->SourceOf(place);
     const std::size_t brick = this->NumberOfBrick(at[0] / Side, at[1] / Side, at[2] / Side);
     if (const float* values = this->ValuesIn(brick, object))
     {
@@ -218,8 +220,12 @@ InterfaceFields::Sample InterfaceFields::Interpolate(int object, const Vector& p
     share[axis] = at - static_cast<float>(low[axis]);
   }
   float corner[2][2][2];
-  const bool isInOneBrick =
-    low[0] % Side < Side - 1 && low[1] % Side < Side - 1 && low[2] % Side < Side - 1;
+  const VoxelBox& inside = this->Map.Inside();
+  const bool isInOneBrick = low[0] % Side < Side - 1 && low[1] % Side < Side - 1 &&
+    low[2] % Side < Side - 1 &&
+    (!this->IsPeriodic ||
+      (inside.Contains({ low[0], low[1], low[2] }) &&
+        inside.Contains({ low[0] + 1, low[1] + 1, low[2] + 1 })));
   const float* values = isInOneBrick
     ? this->ValuesIn(this->NumberOfBrick(low[0] / Side, low[1] / Side, low[2] / Side), object)
     : nullptr;
@@ -254,9 +260,9 @@ InterfaceFields::Sample InterfaceFields::Interpolate(int object, const Vector& p
   const float x = between(between(along[0][0], along[0][1], share[1]),
     between(along[1][0], along[1][1], share[1]), share[2]);
   const float y = between(row[0][1] - row[0][0], row[1][1] - row[1][0], share[2]);
-  sample.Gradient = Vector(x / static_cast<float>(this->Lengths[0]),
-    y / static_cast<float>(this->Lengths[1]),
-    (layer[1] - layer[0]) / static_cast<float>(this->Lengths[2]));
+  sample.Gradient =
+    Vector(x / static_cast<float>(this->Lengths[0]), y / static_cast<float>(this->Lengths[1]),
+      (layer[1] - layer[0]) / static_cast<float>(this->Lengths[2]));
   return sample;
 }
 }

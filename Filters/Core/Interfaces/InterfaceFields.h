@@ -28,15 +28,28 @@ class InterfaceFields
 {
 public:
   /**
-   * @param step     lengths of a voxel in the workspace
+   * @param step       lengths of a voxel in the workspace
+   * @param isPeriodic beyond the box in which voxels are counted its other end follows
    * @param goOn told the share that is done, on any thread; after false what there is is of no use
    */
   InterfaceFields(const LabelBricks& bricks, const LabelFieldOptions& options,
     const std::array<double, 3>& step, Executor& executor,
-    const std::function<bool(double share)>& goOn);
+    const std::function<bool(double share)>& goOn, bool isPeriodic = false);
 
   const LabelBricks& Bricks() const { return this->Map; }
   const std::array<double, 3>& Step() const { return this->Lengths; }
+  /** Whether objects end at the box in which voxels are counted, and not in what is about it. */
+  bool HaveBox() const { return !(this->Map.Inside() == VoxelBox::Of(this->Map.Map().Size)); }
+  bool ArePeriodic() const { return this->IsPeriodic; }
+  /** That in the box whose values a voxel has: another one only where fields are periodic. */
+  std::array<int, 3> SourceOf(std::array<int, 3> voxel) const
+  {
+    for (int axis = 0; axis < 3 && this->IsPeriodic; ++axis)
+    {
+      voxel[axis] = this->Map.Inside().Wrapped(voxel[axis], axis);
+    }
+    return voxel;
+  }
 
   /** Whether there is more than one object in a brick, or beside it. */
   bool HasInterfaces(int i, int j, int k) const
@@ -110,10 +123,11 @@ private:
 
   const LabelBricks& Map;
   std::array<double, 3> Lengths;
-  std::vector<std::size_t> First; ///< of each brick, in Objects
+  bool IsPeriodic;
+  std::vector<std::size_t> First;        ///< of each brick, in Objects
   std::vector<LabelMap::Number> Objects; ///< those of a brick sorted
-  LargeVector<float> Values; ///< a brick of each
-  std::vector<float> Shifts; ///< of each object
+  LargeVector<float> Values;             ///< a brick of each
+  std::vector<float> Shifts;             ///< of each object
 };
 }
 

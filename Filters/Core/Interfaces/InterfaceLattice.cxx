@@ -22,7 +22,8 @@ constexpr std::int64_t MostWithout = 8;
 constexpr std::int64_t MostWithoutShare = 1000;
 using Pitches = std::array<int, 3>;
 
-/** Whether it is a corner or a middle of a cube, along axes where these are at every second voxel. */
+/** Whether it is a corner or a middle of a cube, along axes where these are at every second voxel.
+ */
 bool IsSite(const Pitches& pitch, const std::array<int, 3>& voxel)
 {
   bool hasEven = false;
@@ -98,14 +99,14 @@ bool HoldsObjects(const LabelBricks& bricks, const Pitches& pitch, Executor& exe
 }
 }
 
-InterfaceLattice::InterfaceLattice(
-  const InterfaceFields& fields, double edge, Executor& executor)
+InterfaceLattice::InterfaceLattice(const InterfaceFields& fields, double edge, Executor& executor)
   : Fields(fields)
 {
   Pitches pitch;
   std::transform(fields.Step().begin(), fields.Step().end(), pitch.begin(),
     [edge](double step) { return 2. * step <= MostPitch * edge ? 2 : 1; });
-  if (pitch != this->Distances && HoldsObjects(fields.Bricks(), pitch, executor))
+  if (pitch != this->Distances && !fields.HaveBox() &&
+    HoldsObjects(fields.Bricks(), pitch, executor))
   {
     this->Distances = pitch;
   }

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 #include <new>
+#include <numeric>
+#include <tuple>
 #include <utility>
 
 namespace volumic
@@ -16,7 +18,8 @@ int InterfaceMesh::AddVertex(const Vector& position, Stratum stratum, float size
   this->StratumOf.push_back(stratum);
   this->Size.push_back(size);
   this->Head.push_back(-1);
-  return static_cast<int>(this->Position.size()) - 1;
+  this->NextImage.push_back(static_cast<int>(this->Position.size()) - 1);
+  return this->NextImage.back();
 }
 
 void InterfaceMesh::Link(int corner, int v)
@@ -292,17 +295,38 @@ double InterfaceMesh::MeanEdge() const
   return count > 0. ? sum / count : 0.;
 }
 
-void InterfaceMesh::Compact()
+void InterfaceMesh::Compact(bool isSorted)
 {
+  std::vector<int> order(this->Position.size());
+  std::iota(order.begin(), order.end(), 0);
+  if (isSorted)
+  {
+    std::sort(order.begin(), order.end(),
+      [this](int a, int b)
+      {
+        const Vector& p = this->Position[static_cast<std::size_t>(a)];
+        const Vector& q = this->Position[static_cast<std::size_t>(b)];
+        return std::tie(p.Z, p.Y, p.X, a) < std::tie(q.Z, q.Y, q.X, b);
+      });
+  }
   InterfaceMesh kept;
   kept.FirstSide = this->FirstSide;
   kept.Planes = this->Planes;
   std::vector<int> number(this->Position.size(), -1);
-  for (std::size_t v = 0; v < this->Position.size(); ++v)
+  for (const int vertex : order)
   {
+    const auto v = static_cast<std::size_t>(vertex);
     if (this->Head[v] >= 0)
     {
       number[v] = kept.AddVertex(this->Position[v], this->StratumOf[v], this->Size[v]);
+    }
+  }
+  for (std::size_t v = 0; v < number.size(); ++v)
+  {
+    if (number[v] >= 0)
+    {
+      kept.NextImage[static_cast<std::size_t>(number[v])] =
+        number[static_cast<std::size_t>(this->NextImage[v])];
     }
   }
   for (Face face : this->Faces)

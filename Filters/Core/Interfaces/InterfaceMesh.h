@@ -76,6 +76,21 @@ public:
   /** A place in the box, with a vertex's own coordinates along axes at whose sides it is. */
   Vector OnSides(int v, const Vector& place) const;
 
+  /**
+   * In a periodic box vertices on a side have images on the opposite one, with bits of two
+   * coordinates in common, and so have the edges and faces there: 2 in a side, 4 in an edge of the
+   * box, 8 in its corners. Those of a vertex are a ring of next ones; others are their own.
+   */
+  LargeVector<int> NextImage;
+  bool HasImages(int v) const { return this->NextImage[static_cast<std::size_t>(v)] != v; }
+  /** From the places of vertices. @throws std::logic_error where some have no image */
+  void MatchSides();
+  int NumberOfImages(int v) const; ///< itself among them
+  /** Those of an edge (u, v), or of a vertex (v, v), itself first. */
+  void FindImages(int u, int v, std::vector<std::array<int, 2>>& images) const;
+  /** Makes a ring of vertices that are images of each other. */
+  void JoinImages(const std::vector<int>& images);
+
   int AddVertex(const Vector& position, Stratum stratum, float size = 1.f);
   int AddFace(const Face& face);
   void RemoveFace(int face);
@@ -123,14 +138,15 @@ public:
   /** Of an edge (u, v), which need not be there yet. */
   float SizeOf(int u, int v) const
   {
-    return 0.5f * (this->Size[static_cast<std::size_t>(u)] + this->Size[static_cast<std::size_t>(v)]);
+    return 0.5f *
+      (this->Size[static_cast<std::size_t>(u)] + this->Size[static_cast<std::size_t>(v)]);
   }
 
   VectorD NormalOf(const Face& face) const; ///< twice the area long
-  double MeanEdge() const; ///< of the faces' edges
+  double MeanEdge() const;                  ///< of the faces' edges
 
-  /** Takes what is removed out of all arrays. */
-  void Compact();
+  /** Takes what is removed out of all arrays. @param isSorted numbers vertices by Z, Y and X */
+  void Compact(bool isSorted = false);
 
 private:
   static constexpr float Infinite = std::numeric_limits<float>::infinity();

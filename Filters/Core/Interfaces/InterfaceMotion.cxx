@@ -70,6 +70,7 @@ private:
       isBack = 1;
       this->Mesh.Position[static_cast<std::size_t>(v)] = this->Before[static_cast<std::size_t>(v)];
       back.push_back(v);
+      this->TakeBack(this->Mesh.NextImage[static_cast<std::size_t>(v)], back);
     }
   }
 
@@ -127,7 +128,8 @@ private:
     this->Follow(back);
   }
 
-  /** One of those from `first` on with an edge of this face that it has been turned past; -1: none. */
+  /** One of those from `first` on with an edge of this face that it has been turned past; -1: none.
+   */
   int FindPassed(int face, int first, std::vector<int>& about) const
   {
     const std::array<int, 3>& corners = this->Mesh.Faces[static_cast<std::size_t>(face)].Vertex;
@@ -189,6 +191,31 @@ private:
   Executor& Threads;
   std::vector<unsigned char> IsBack;
 };
+
+/** Has images make the shortest of their steps. */
+void MoveImagesAlike(const InterfaceMesh& mesh, LargeVector<Vector>& after)
+{
+  const auto lengthOf = [&](int v)
+  {
+    return SquaredDistance(
+      after[static_cast<std::size_t>(v)], mesh.Position[static_cast<std::size_t>(v)]);
+  };
+  std::vector<std::array<int, 2>> images;
+  for (int v = 0; v < static_cast<int>(after.size()); ++v)
+  {
+    if (mesh.HasImages(v))
+    {
+      mesh.FindImages(v, v, images);
+      const int shortest = (*std::min_element(images.begin(), images.end(),
+        [&](const auto& a, const auto& b) { return lengthOf(a[0]) < lengthOf(b[0]); }))[0];
+      const Vector place = after[static_cast<std::size_t>(shortest)];
+      for (const auto& image : images)
+      {
+        after[static_cast<std::size_t>(image[0])] = mesh.OnSides(image[0], place);
+      }
+    }
+  }
+}
 }
 
 void MoveInterfaces(InterfaceMesh& mesh, const InterfaceFields& fields, int steps, double share,
@@ -210,6 +237,7 @@ void MoveInterfaces(InterfaceMesh& mesh, const InterfaceFields& fields, int step
           }
         }
       });
+    MoveImagesAlike(mesh, after);
     mesh.Position.swap(after);
   }
   Verification(mesh, before, tolerance, leastAngle, executor).Run();

@@ -28,7 +28,8 @@ constexpr double LeastGain = 0.02;
 InterfaceRemesher::InterfaceRemesher(InterfaceMesh& mesh, double shortest, double longest,
   double tolerance, std::function<bool()> goOn)
   : Mesh(mesh), GoOn(std::move(goOn)), Clearance(mesh, tolerance),
-    Shortest(static_cast<float>(shortest * shortest)), Longest(static_cast<float>(longest * longest))
+    Shortest(static_cast<float>(shortest * shortest)),
+    Longest(static_cast<float>(longest * longest))
 {
 }
 
@@ -77,9 +78,19 @@ int InterfaceRemesher::SplitLongEdges()
 
 void InterfaceRemesher::Split(int u, int v)
 {
+  this->Mesh.FindImages(u, v, this->Images);
+  std::vector<int> added;
+  std::transform(this->Images.begin(), this->Images.end(), std::back_inserter(added),
+    [this](const std::array<int, 2>& edge) { return this->SplitOne(edge[0], edge[1]); });
+  this->Mesh.JoinImages(added);
+}
+
+int InterfaceRemesher::SplitOne(int u, int v)
+{
   this->Mesh.FindFaces(u, v, this->AtEdge);
   const Vector middle = (this->Mesh.Position[static_cast<std::size_t>(u)] +
-                          this->Mesh.Position[static_cast<std::size_t>(v)]) * 0.5f;
+                          this->Mesh.Position[static_cast<std::size_t>(v)]) *
+    0.5f;
   const int added = this->Mesh.AddVertex(middle,
     this->Mesh.IsLine(this->AtEdge) ? Stratum::Line : Stratum::Interface, this->Mesh.SizeOf(u, v));
   for (const int f : this->AtEdge)
@@ -89,6 +100,7 @@ void InterfaceRemesher::Split(int u, int v)
     this->Mesh.ReplaceVertex(f, v, added);
     this->Mesh.AddFace(half);
   }
+  return added;
 }
 
 int InterfaceRemesher::CollapseShortEdges()
@@ -166,26 +178,62 @@ bool InterfaceRemesher::ShareObjects(int u, int v)
 
 bool InterfaceRemesher::TryCollapse(int u, int v)
 {
-  if (!this->MayCollapse(u, v))
+  const auto rankOf = [this](int w)
+  {
+    return std::pair(
+      this->Mesh.StratumOf[static_cast<std::size_t>(w)], this->Mesh.NumberOfImages(w));
+  };
+  const int kept = rankOf(u) >= rankOf(v) ? u : v;
+  const int removed = kept == u ? v : u;
+  const auto mayCollapse = [&](const std::array<int, 2>& edge)
+  {
+    return this->Mesh.StratumOf[static_cast<std::size_t>(edge[0])] >=
+      this->Mesh.StratumOf[static_cast<std::size_t>(edge[1])] &&
+      this->MayCollapse(edge[0], edge[1]);
+  };
+  this->Mesh.FindImages(kept, removed, this->Images);
+  if (static_cast<int>(this->Images.size()) != this->Mesh.NumberOfImages(removed) ||
+    !std::all_of(this->Images.begin(), this->Images.end(), mayCollapse))
   {
     return false;
   }
-  const Stratum first = this->Mesh.StratumOf[static_cast<std::size_t>(u)];
-  const Stratum second = this->Mesh.StratumOf[static_cast<std::size_t>(v)];
-  const int kept = first >= second ? u : v;
-  const int removed = kept == u ? v : u;
   const Vector place = this->Mesh.Position[static_cast<std::size_t>(kept)];
-  if (first != second)
+  if (rankOf(kept).first != rankOf(removed).first)
   {
-    return this->TryCollapseAt(place, kept, removed);
+    return this->TryCollapseAt(place);
   }
   const Vector other = this->Mesh.Position[static_cast<std::size_t>(removed)];
-  return this->TryCollapseAt((place + other) * 0.5f, kept, removed) ||
-    this->TryCollapseAt(place, kept, removed) || this->TryCollapseAt(other, kept, removed);
+  return this->TryCollapseAt((place + other) * 0.5f) || this->TryCollapseAt(place) ||
+    this->TryCollapseAt(other);
 }
 
-bool InterfaceRemesher::TryCollapseAt(const Vector& place, int kept, int removed)
+bool InterfaceRemesher::TryCollapseAt(const Vector& place)
 {
+  this->Made.clear();
+  this->Changed.clear();
+  const auto placeOf = [&](int kept)
+  { return kept == this->Images[0][0] ? place : this->Mesh.OnSides(kept, place); };
+  if (!std::all_of(this->Images.begin(), this->Images.end(),
+        [&](const std::array<int, 2>& edge)
+        { return this->IsFairCollapse(placeOf(edge[0]), edge[0], edge[1]); }) ||
+    !this->Clearance.AreClear(this->Made, this->Changed, this->Near))
+  {
+    return false;
+  }
+  for (const std::array<int, 2>& edge : this->Images)
+  {
+    this->Collapse(placeOf(edge[0]), edge[0], edge[1]);
+  }
+  for (const int f : this->Changed)
+  {
+    this->Clearance.Change(f);
+  }
+  return true;
+}
+
+bool InterfaceRemesher::IsFairCollapse(const Vector& place, int kept, int removed)
+{
+  const auto firstMade = static_cast<std::ptrdiff_t>(this->Made.size());
   for (const int v : { kept, removed })
   {
     if (SquaredDistance(this->Mesh.OnSides(v, place), place) > 0.f)
@@ -193,8 +241,6 @@ bool InterfaceRemesher::TryCollapseAt(const Vector& place, int kept, int removed
       return false; // A face would leave its side of the box.
     }
   }
-  this->Made.clear();
-  this->Changed.clear();
   // Short edges at corners bend lines: rather longer ones for a while, which are split elsewhere.
   const double longest = this->Longest *
     (this->Mesh.StratumOf[static_cast<std::size_t>(kept)] == Stratum::Corner ? CornerSlack : 1.);
@@ -233,24 +279,19 @@ bool InterfaceRemesher::TryCollapseAt(const Vector& place, int kept, int removed
           }
         }
         // The normals of slivers say nothing.
-        isFair = isFair && (RadiusRatio(before) < MostSliver ||
-          CosineOf(NormalOf(before), NormalOf(after)) > LeastTurnCosine);
+        isFair = isFair &&
+          (RadiusRatio(before) < MostSliver ||
+            CosineOf(NormalOf(before), NormalOf(after)) > LeastTurnCosine);
         this->Made.push_back(after);
       });
   }
   const double least = std::min(worst, LeastRatio);
-  isFair = isFair &&
-    std::all_of(this->Made.begin(), this->Made.end(),
+  return isFair &&
+    std::all_of(this->Made.begin() + firstMade, this->Made.end(),
       [least](const MeshTriangle& triangle) { return RadiusRatio(triangle) >= least; });
-  if (!isFair || !this->Clearance.AreClear(this->Made, this->Changed, this->Near))
-  {
-    return false;
-  }
-  this->Collapse(kept, removed, place);
-  return true;
 }
 
-void InterfaceRemesher::Collapse(int kept, int removed, const Vector& place)
+void InterfaceRemesher::Collapse(const Vector& place, int kept, int removed)
 {
   for (const int f : this->Changed)
   {
@@ -265,10 +306,6 @@ void InterfaceRemesher::Collapse(int kept, int removed, const Vector& place)
     }
   }
   this->Mesh.Position[static_cast<std::size_t>(kept)] = place;
-  for (const int f : this->Changed)
-  {
-    this->Clearance.Change(f);
-  }
 }
 
 int InterfaceRemesher::FlipEdges()
@@ -280,7 +317,8 @@ int InterfaceRemesher::FlipEdges()
     for (int k = 0; k < 3; ++k)
     {
       const InterfaceMesh::Face& face = this->Mesh.Faces[f];
-      if (face.IsThere() && this->TryFlip(face.Vertex[k], face.Vertex[(k + 1) % 3], LeastFlatCosine))
+      if (face.IsThere() &&
+        this->TryFlip(face.Vertex[k], face.Vertex[(k + 1) % 3], LeastFlatCosine))
       {
         ++count;
         break;
@@ -291,6 +329,35 @@ int InterfaceRemesher::FlipEdges()
 }
 
 bool InterfaceRemesher::TryFlip(int u, int v, double flatness)
+{
+  this->Made.clear();
+  this->Changed.clear();
+  this->Mesh.FindImages(u, v, this->Images);
+  if (!std::all_of(this->Images.begin(), this->Images.end(),
+        [&](const std::array<int, 2>& edge)
+        { return this->IsFairFlip(edge[0], edge[1], flatness); }) ||
+    !this->Clearance.AreClear(this->Made, this->Changed, this->Near))
+  {
+    return false;
+  }
+  for (std::size_t n = 0; n < this->Changed.size(); n += 2)
+  {
+    const std::array<int, 2>& edge = this->Images[n / 2];
+    const int f = this->Changed[n];
+    const int g = this->Changed[n + 1];
+    const auto oppositeIn = [&](int face)
+    { return this->Mesh.Faces[static_cast<std::size_t>(face)].Opposite(edge[0], edge[1]); };
+    const int p = oppositeIn(f);
+    const int q = oppositeIn(g);
+    this->Mesh.ReplaceVertex(f, edge[1], q);
+    this->Mesh.ReplaceVertex(g, edge[0], p);
+    this->Clearance.Change(f);
+    this->Clearance.Change(g);
+  }
+  return true;
+}
+
+bool InterfaceRemesher::IsFairFlip(int u, int v, double flatness)
 {
   this->Mesh.FindFaces(u, v, this->AtEdge);
   if (this->AtEdge.size() != 2 || this->Mesh.IsLine(this->AtEdge))
@@ -311,26 +378,18 @@ bool InterfaceRemesher::TryFlip(int u, int v, double flatness)
     TriangleOf(this->Mesh, second.Vertex) };
   std::replace(first.Vertex.begin(), first.Vertex.end(), v, q);
   std::replace(second.Vertex.begin(), second.Vertex.end(), u, p);
-  this->Made = { PlacedFaceOf(this->Mesh, first), PlacedFaceOf(this->Mesh, second) };
-  if (std::min(SmallestAngle(this->Made[0]), SmallestAngle(this->Made[1])) <
+  const PlacedFace after[2] = { PlacedFaceOf(this->Mesh, first), PlacedFaceOf(this->Mesh, second) };
+  if (std::min(SmallestAngle(after[0]), SmallestAngle(after[1])) <
     std::min(SmallestAngle(before[0]), SmallestAngle(before[1])) + LeastGain)
   {
     return false;
   }
   const VectorD normals[2] = { NormalOf(before[0]), NormalOf(before[1]) };
   const VectorD both = normals[0] + normals[1];
-  this->Changed = { f, g };
-  if (CosineOf(normals[0], normals[1]) < flatness ||
-    CosineOf(NormalOf(this->Made[0]), both) < LeastTurnCosine ||
-    CosineOf(NormalOf(this->Made[1]), both) < LeastTurnCosine || this->Mesh.HasEdge(p, q) ||
-    !this->Clearance.AreClear(this->Made, this->Changed, this->Near))
-  {
-    return false;
-  }
-  this->Mesh.ReplaceVertex(f, v, q);
-  this->Mesh.ReplaceVertex(g, u, p);
-  this->Clearance.Change(f);
-  this->Clearance.Change(g);
-  return true;
+  this->Changed.insert(this->Changed.end(), { f, g });
+  this->Made.insert(this->Made.end(), { after[0], after[1] });
+  return CosineOf(normals[0], normals[1]) >= flatness &&
+    CosineOf(NormalOf(after[0]), both) >= LeastTurnCosine &&
+    CosineOf(NormalOf(after[1]), both) >= LeastTurnCosine && !this->Mesh.HasEdge(p, q);
 }
 }

@@ -20,9 +20,10 @@ namespace volumic
  * - Collapses take a vertex into another of its stratum, or of a higher one: from an interface into
  *   anything, along a junction line into one of its vertices, or its end. Vertices that have both
  *   ends as neighbours must be those of the faces at the edge (the link condition), and at most one
- *   edge of these faces may be of a junction line. Two junction points must have no object in common
- *   but those at their edge.
+ *   edge of these faces may be of a junction line. Two junction points must have no object in
+ * common but those at their edge.
  * - Flips are between two faces of the same objects.
+ * - In the sides of a periodic box all images of an edge or vertex are edited, or none is.
  */
 class InterfaceRemesher
 {
@@ -41,9 +42,9 @@ public:
   int CollapseShortEdges();
   int FlipEdges();
   /**
-   * Triangles with a small angle: their longest edge is flipped, or their shortest collapsed, or one
-   * of their vertices moved to between its neighbours; those that stay, off lines, have all three
-   * moved about. Such are about necks of three edges, which no collapse may close.
+   * Triangles with a small angle: their longest edge is flipped, or their shortest collapsed, or
+   * one of their vertices moved to between its neighbours; those that stay, off lines, have all
+   * three moved about. Such are about necks of three edges, which no collapse may close.
    */
   int RemoveSlivers();
 
@@ -57,10 +58,15 @@ private:
   bool ShareObjects(int u, int v);
   /** With the vertex in the middle, where both are alike, or at either end. */
   bool TryCollapse(int u, int v);
-  bool TryCollapseAt(const Vector& place, int kept, int removed);
-  void Collapse(int kept, int removed, const Vector& place);
+  /** Of Images. */
+  bool TryCollapseAt(const Vector& place);
+  /** Adds what the faces of both would be to Made, and which these are to Changed. */
+  bool IsFairCollapse(const Vector& place, int kept, int removed);
+  void Collapse(const Vector& place, int kept, int removed);
   /** @param flatness cosine of the angle that there may be between the faces */
   bool TryFlip(int u, int v, double flatness);
+  /** Adds the faces to Changed, and what they would be to Made. */
+  bool IsFairFlip(int u, int v, double flatness);
   /** To between its neighbours, or some of the way, if its worst triangle is better then. */
   bool TryMove(int v);
   /**
@@ -73,6 +79,7 @@ private:
   /** A vertex of it, by a share of the longest edge along one of its sides, or across it. */
   bool TryMoveAlongSides(int corner, int face, double share);
   void Split(int u, int v);
+  int SplitOne(int u, int v); ///< the vertex that it adds
   float SquaredEdge(int u, int v) const
   {
     return SquaredDistance(this->Mesh.Position[static_cast<std::size_t>(u)],
@@ -92,10 +99,11 @@ private:
   std::function<bool()> GoOn;
   InterfaceClearance Clearance;
   bool HasGrid = false; ///< of the mesh as it is
-  float Shortest; ///< squared, where sizes are 1
-  float Longest;  ///< squared, where sizes are 1
+  float Shortest;       ///< squared, where sizes are 1
+  float Longest;        ///< squared, where sizes are 1
   std::vector<int> AtEdge;
   std::vector<int> Changed;
+  std::vector<std::array<int, 2>> Images; ///< of the edge, that which is kept first, or the vertex
   std::vector<int> Near;
   std::vector<int> First;
   std::vector<int> Second;

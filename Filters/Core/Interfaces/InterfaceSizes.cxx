@@ -67,21 +67,22 @@ private:
     return std::abs(near) <= this->Near
       ? -near
       : SignedWayToZero(place, this->Normal, sample.Value,
-          std::max(Furthest, FurthestInTolerances * this->Near), [this](const Vector& at)
+          std::max(Furthest, FurthestInTolerances * this->Near),
+          [this](const Vector& at)
           { return this->Fields.Between(this->Of.Behind, this->Of.Front, at).Value; });
   }
 
   const InterfaceFields& Fields;
   const InterfaceMesh::Face& Of;
   const bool IsOnSide; ///< of a box
-  const float Near; ///< Distances up to this are told from values and slopes.
+  const float Near;    ///< Distances up to this are told from values and slopes.
   const Vector Normal;
   std::array<Vector, 3> Corner;
 };
 
 /** Of each vertex by how far what is about it would be off if its corners were not. */
-LargeVector<float> FindSags(const InterfaceMesh& mesh, const InterfaceFields& fields,
-  double tolerance, Executor& executor)
+LargeVector<float> FindSags(
+  const InterfaceMesh& mesh, const InterfaceFields& fields, double tolerance, Executor& executor)
 {
   std::vector<std::array<float, 4>> ofFaces(mesh.Faces.size());
   ForSpans(executor, ofFaces.size(), SpanSize,
@@ -132,12 +133,13 @@ void LayGrid(VertexGrid& grid, const LargeVector<Vector>& places, float cell, Ex
     high = Vector(std::max(high.X, p.X), std::max(high.Y, p.Y), std::max(high.Z, p.Z));
   }
   grid.Reset(low, high, cell);
-  grid.InsertAll(places, 0, [](int) { return true; }, executor);
+  grid.InsertAll(
+    places, 0, [](int) { return true; }, executor);
 }
 }
 
-void AdjustSizes(InterfaceMesh& mesh, const InterfaceFields& fields, const SizeBounds& bounds,
-  Executor& executor)
+void AdjustSizes(
+  InterfaceMesh& mesh, const InterfaceFields& fields, const SizeBounds& bounds, Executor& executor)
 {
   if (mesh.Position.empty())
   {
@@ -149,13 +151,22 @@ void AdjustSizes(InterfaceMesh& mesh, const InterfaceFields& fields, const SizeB
   for (std::size_t v = 0; v < sizes.size(); ++v)
   {
     const float change = sizes[v] > 0.f ? std::sqrt(aimed / sizes[v]) : growth;
-    sizes[v] = std::clamp(mesh.Size[v] * std::clamp(change, LeastChange, growth), 1.f,
-      static_cast<float>(bounds.Most));
+    sizes[v] = std::clamp(
+      mesh.Size[v] * std::clamp(change, LeastChange, growth), 1.f, static_cast<float>(bounds.Most));
   }
   VertexGrid grid;
   LayGrid(grid, mesh.Position, static_cast<float>(mesh.MeanEdge()), executor);
-  mesh.Size = LimitedSizes(
-    sizes, mesh.Position, grid, 1.f, static_cast<float>(bounds.Gradation), executor);
+  mesh.Size =
+    LimitedSizes(sizes, mesh.Position, grid, 1.f, static_cast<float>(bounds.Gradation), executor);
+  for (std::size_t v = 0; v < sizes.size(); ++v)
+  {
+    // Round its ring it meets the least one, and so has each.
+    for (int w = mesh.NextImage[v]; w != static_cast<int>(v);
+         w = mesh.NextImage[static_cast<std::size_t>(w)])
+    {
+      mesh.Size[v] = std::min(mesh.Size[v], mesh.Size[static_cast<std::size_t>(w)]);
+    }
+  }
 }
 
 Fit MeasureFit(const InterfaceMesh& mesh, const InterfaceFields& fields,
@@ -166,12 +177,10 @@ Fit MeasureFit(const InterfaceMesh& mesh, const InterfaceFields& fields,
   std::size_t all = 0;
   for (const int f : faces)
   {
-    const FaceDistances distances(
-      mesh, fields, tolerance, mesh.Faces[static_cast<std::size_t>(f)]);
+    const FaceDistances distances(mesh, fields, tolerance, mesh.Faces[static_cast<std::size_t>(f)]);
     for (const float distance : distances.AtMiddles())
     {
-      fit.LargestDistance =
-        std::max(fit.LargestDistance, static_cast<double>(std::abs(distance)));
+      fit.LargestDistance = std::max(fit.LargestDistance, static_cast<double>(std::abs(distance)));
       within += std::abs(distance) <= static_cast<float>(tolerance) ? 1 : 0;
       ++all;
     }

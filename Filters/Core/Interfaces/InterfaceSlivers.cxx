@@ -40,15 +40,14 @@ int InterfaceRemesher::RemoveSlivers()
     }
     std::array<int, 3> order = { 0, 1, 2 };
     std::sort(order.begin(), order.end(),
-      [&](int a, int b)
-      {
+      [&](int a, int b) {
         return this->SquaredEdge(v[a], v[(a + 1) % 3]) < this->SquaredEdge(v[b], v[(b + 1) % 3]);
       });
     const int shortest = order[0];
     const int longest = order[2];
     const bool isDone = this->TryFlip(v[longest], v[(longest + 1) % 3], LeastSliverCosine) ||
-        this->TryCollapse(v[shortest], v[(shortest + 1) % 3]) ||
-        std::any_of(v.begin(), v.end(), [this](int corner) { return this->TryMove(corner); });
+      this->TryCollapse(v[shortest], v[(shortest + 1) % 3]) ||
+      std::any_of(v.begin(), v.end(), [this](int corner) { return this->TryMove(corner); });
     count += this->TryMoveAbout(static_cast<int>(f)) || isDone ? 1 : 0;
   }
   return count;
@@ -69,8 +68,8 @@ bool InterfaceRemesher::TryMove(int v)
       (1. / static_cast<double>(this->First.size()));
   }
   VectorD normal;
-  this->Mesh.ForFaces(v, [&](int f)
-    { normal += this->Mesh.NormalOf(this->Mesh.Faces[static_cast<std::size_t>(f)]); });
+  this->Mesh.ForFaces(v,
+    [&](int f) { normal += this->Mesh.NormalOf(this->Mesh.Faces[static_cast<std::size_t>(f)]); });
   normal = Normalized(normal);
   const VectorD way = middle - place - normal * Dot(normal, middle - place); // No volume is lost.
   return this->TryMoveTo(v, Vector(place + way)) || this->TryMoveTo(v, Vector(place + way * 0.5)) ||
@@ -86,30 +85,38 @@ bool InterfaceRemesher::TryMoveTo(int v, const Vector& wanted, int face)
   double after = 1.;
   bool isFair = true;
   bool isBetter = face >= 0;
-  this->Mesh.ForFaces(v,
-    [&](int f)
-    {
-      PlacedFace t = PlacedFaceOf(this->Mesh, this->Mesh.Faces[static_cast<std::size_t>(f)]);
-      const MeshTriangle old = t;
-      t.Corner[std::find(t.Vertex, t.Vertex + 3, v) - t.Vertex] = VectorD(target);
-      before = std::min(before, RadiusRatio(old));
-      after = std::min(after, RadiusRatio(t));
-      isFair = isFair && CosineOf(NormalOf(old), NormalOf(t)) > LeastTurnCosine;
-      if (isBetter)
+  this->Mesh.FindImages(v, v, this->Images);
+  for (const std::array<int, 2>& image : this->Images)
+  {
+    this->Mesh.ForFaces(image[0],
+      [&](int f)
       {
-        const double angle = SmallestAngle(old);
-        isBetter = f == face ? SmallestAngle(t) > angle
-                             : SmallestAngle(t) >= std::min(angle, SliverAngle);
-      }
-      this->Changed.push_back(f);
-      this->Made.push_back(t);
-    });
+        PlacedFace t = PlacedFaceOf(this->Mesh, this->Mesh.Faces[static_cast<std::size_t>(f)]);
+        const MeshTriangle old = t;
+        t.Corner[std::find(t.Vertex, t.Vertex + 3, image[0]) - t.Vertex] =
+          VectorD(this->Mesh.OnSides(image[0], target));
+        before = std::min(before, RadiusRatio(old));
+        after = std::min(after, RadiusRatio(t));
+        isFair = isFair && CosineOf(NormalOf(old), NormalOf(t)) > LeastTurnCosine;
+        if (isBetter)
+        {
+          const double angle = SmallestAngle(old);
+          isBetter =
+            f == face ? SmallestAngle(t) > angle : SmallestAngle(t) >= std::min(angle, SliverAngle);
+        }
+        this->Changed.push_back(f);
+        this->Made.push_back(t);
+      });
+  }
   isBetter = isBetter || after > before;
   if (!isFair || !isBetter || !this->Clearance.AreClear(this->Made, this->Changed, this->Near))
   {
     return false;
   }
-  this->Mesh.Position[static_cast<std::size_t>(v)] = target;
+  for (const std::array<int, 2>& image : this->Images)
+  {
+    this->Mesh.Position[static_cast<std::size_t>(image[0])] = this->Mesh.OnSides(image[0], target);
+  }
   for (const int f : this->Changed)
   {
     this->Clearance.Change(f);
@@ -159,8 +166,7 @@ bool InterfaceRemesher::TryMoveAlongSides(int corner, int face, double share)
   const double length = share * std::sqrt(static_cast<double>(this->Longest));
   for (int k = 0; k < 4; ++k)
   {
-    const VectorD way =
-      (k < 3 ? Normalized(t.Corner[(k + 1) % 3] - t.Corner[k]) : normal) * length;
+    const VectorD way = (k < 3 ? Normalized(t.Corner[(k + 1) % 3] - t.Corner[k]) : normal) * length;
     if (this->TryMoveTo(corner, Vector(place + way), face) ||
       this->TryMoveTo(corner, Vector(place - way), face))
     {

@@ -76,8 +76,9 @@ LatticeCutter::Number LatticeCutter::ObjectBetween(const std::array<int, 3>& hal
 
 LatticeCutter::Number LatticeCutter::ObjectOf(const std::array<int, 3>& voxel) const
 {
+  const std::array<int, 3> source = this->Fields.SourceOf(voxel);
   return this->Map.Voxels[static_cast<std::size_t>(
-    VoxelBox::Of(this->Map.Size).NumberOf(voxel[0], voxel[1], voxel[2]))];
+    VoxelBox::Of(this->Map.Size).NumberOf(source[0], source[1], source[2]))];
 }
 
 void LatticeCutter::FollowFields(Executor& executor)
@@ -180,15 +181,16 @@ bool LatticeCutter::MayChange(const std::array<int, 3>& voxel) const
 LatticeSite LatticeCutter::SiteAt(const std::array<int, 3>& halves) const
 {
   const std::array<int, 3> cube = { halves[0] >> 1, halves[1] >> 1, halves[2] >> 1 };
-  if (const Number side = this->SideAt(halves))
+  const int odd = (halves[0] & 1) + (halves[1] & 1) + (halves[2] & 1);
+  if (odd == 1)
   {
-    return { halves, side };
+    return { halves, this->ObjectBetween(halves) };
   }
   return { halves,
-    (halves[0] & 1) != 0 ? this->ObjectOfMiddle[static_cast<std::size_t>(
-                             this->Middles.NumberOf(cube[0], cube[1], cube[2]))]
-                         : this->ObjectOf({ this->Pitch[0] * cube[0], this->Pitch[1] * cube[1],
-                             this->Pitch[2] * cube[2] }) };
+    odd != 0 ? this->ObjectOfMiddle[static_cast<std::size_t>(
+                 this->Middles.NumberOf(cube[0], cube[1], cube[2]))]
+             : this->ObjectOf({ this->Pitch[0] * cube[0], this->Pitch[1] * cube[1],
+                 this->Pitch[2] * cube[2] }) };
 }
 
 void LatticeCutter::CutBrick(int i, int j, int k)
@@ -220,11 +222,16 @@ void LatticeCutter::CutAbout(const std::array<int, 3>& cube)
     const int first = (axis + 1) % 3;
     const int second = (axis + 2) % 3;
     if (cube[axis] + 1 >= this->Corners[axis] || cube[first] < 1 || cube[second] < 1 ||
-      cube[first] + 1 >= this->Corners[first] || cube[second] + 1 >= this->Corners[second])
+      cube[first] + 1 >= this->Corners[first] || cube[second] + 1 >= this->Corners[second] ||
+      !this->IsInBox(cube, axis))
     {
       continue; // All is of one object there.
     }
-    const LatticeEdge edge({ 2 * cube[0], 2 * cube[1], 2 * cube[2] }, axis);
+    const bool isAtFirst = this->Fields.HaveBox() && cube[axis] < this->Box.First[axis];
+    const bool isAtLast = this->Fields.HaveBox() && cube[axis] + 1 >= this->Box.End[axis];
+    LatticeEdge edge({ 2 * cube[0], 2 * cube[1], 2 * cube[2] }, axis);
+    edge.From[axis] += isAtFirst ? 1 : 0;
+    edge.To[axis] -= isAtLast ? 1 : 0;
     const LatticeSite own = this->SiteAt(edge.From);
     const LatticeSite next = this->SiteAt(edge.To);
     std::array<LatticeSite, 4> about;
@@ -234,12 +241,17 @@ void LatticeCutter::CutAbout(const std::array<int, 3>& cube)
       about[turn] = this->SiteAt(edge.About[turn]);
       isSame = isSame && about[turn].Object == own.Object;
     }
-    for (int turn = 0; turn < 4 && !isSame; ++turn)
+    for (int turn = 0; turn < 4 && !(isSame && !isAtFirst && !isAtLast); ++turn)
     {
       Tetrahedron cell;
       cell.Corner = { own, next, about[turn], about[(turn + 1) % 4] };
       cell.FindGroups();
       this->Cut(cell);
+      if (isAtFirst || isAtLast)
+      {
+        this->CutSide(
+          { isAtFirst ? own : next, cell.Corner[2], cell.Corner[3] }, isAtFirst ? next : own, axis);
+      }
     }
   }
 }
@@ -351,16 +363,6 @@ void LatticeCutter::CutInMore(const Tetrahedron& cell)
       this->Mesh.Position[static_cast<std::size_t>(pieces[n].To)];
   }
   middle *= 0.5f / static_cast<float>(count);
-  if (std::any_of(cell.Corner.begin(), cell.Corner.end(),
-        [this](const LatticeSite& site) { return this->Mesh.IsSide(site.Object); }))
-  {
-    std::vector<int> ends;
-    for (int n = 0; n < count; ++n)
-    {
-      ends.insert(ends.end(), { pieces[n].From, pieces[n].To });
-    }
-    middle = this->OnSidesOf(cell, ends, middle);
-  }
   const int inside = this->Mesh.AddVertex(middle, Stratum::Interface);
   for (int n = 0; n < count; ++n)
   {
@@ -384,14 +386,20 @@ float LatticeCutter::ValueAt(const std::array<int, 3>& halves, int object) const
 
 float LatticeCutter::ShareOf(const LatticeSite& from, const LatticeSite& to) const
 {
-  if (const Number side = this->FirstSideOf(from, to))
-  {
-    return this->ShareOf(from, to, side);
-  }
   const float first = this->ValueAt(from.At, from.Object) - this->ValueAt(from.At, to.Object);
   const float last = this->ValueAt(to.At, to.Object) - this->ValueAt(to.At, from.Object);
   const float both = first + last;
   return std::clamp(both > 0.f ? first / both : 0.5f, LeastShare, 1.f - LeastShare);
+}
+
+int LatticeCutter::VertexAt(const LatticeSite& site)
+{
+  const auto found = this->OnEdge.emplace(LatticeKey(site.At, site.At), -1);
+  if (found.second)
+  {
+    found.first->second = this->Mesh.AddVertex(this->PlaceOf(site), Stratum::Interface);
+  }
+  return found.first->second;
 }
 
 int LatticeCutter::VertexOn(const LatticeSite& a, const LatticeSite& b)
@@ -404,10 +412,6 @@ int LatticeCutter::VertexOn(const LatticeSite& a, const LatticeSite& b)
   {
     Vector place = this->PlaceOf(from);
     place += (this->PlaceOf(to) - place) * this->ShareOf(from, to);
-    if (const Number side = this->FirstSideOf(a, b))
-    {
-      this->PutOnSide(place, side);
-    }
     found.first->second = this->Mesh.AddVertex(place, Stratum::Interface);
   }
   return found.first->second;
@@ -418,19 +422,25 @@ int LatticeCutter::VertexOn(const LatticeSite& a, const LatticeSite& b, const La
   const auto found = this->OnFace.emplace(LatticeKey(a.At, b.At, c.At), -1);
   if (found.second)
   {
+    std::array<const LatticeSite*, 3> sites = { &a, &b, &c };
+    std::sort(sites.begin(), sites.end(),
+      [](const LatticeSite* p, const LatticeSite* q) { return IsBefore(*p, *q); });
+    const LatticeSite* p = &a;
+    const LatticeSite* q = &b;
+    const LatticeSite* r = &c;
     // Of the vertices on the edges, so that it is no nearer to a corner than these are.
-    const std::array<int, 3> about = { this->VertexOn(a, b), this->VertexOn(b, c),
-      this->VertexOn(a, c) };
+    if (this->Fields.HaveBox())
+    {
+      std::tie(p, q, r) = std::tie(sites[0], sites[1], sites[2]); // as on the opposite side
+    }
+    const std::array<int, 3> about = { this->VertexOn(*p, *q), this->VertexOn(*q, *r),
+      this->VertexOn(*p, *r) };
     Vector middle;
     for (const int v : about)
     {
       middle += this->Mesh.Position[static_cast<std::size_t>(v)] * (1.f / 3.f);
     }
-    std::array<const LatticeSite*, 3> sites = { &a, &b, &c };
-    std::sort(sites.begin(), sites.end(),
-      [](const LatticeSite* p, const LatticeSite* q) { return p->Object < q->Object; });
-    found.first->second = this->Mesh.AddVertex(
-      this->Mesh.IsSide(sites[2]->Object) ? this->OnSidesOf(sites) : middle, Stratum::Interface);
+    found.first->second = this->Mesh.AddVertex(this->InSidesOf(sites, middle), Stratum::Interface);
   }
   return found.first->second;
 }

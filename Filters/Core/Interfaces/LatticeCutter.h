@@ -18,6 +18,7 @@
 
 namespace volumic
 {
+/** Of the lattice; at the sides of a box one odd, the middle of an edge that they cut. */
 struct LatticeSite
 {
   LatticePoint At;
@@ -46,15 +47,20 @@ struct Tetrahedron
   }
 };
 
-/** Cuts the tetrahedra of the lattice. */
+/**
+ * Cuts the tetrahedra of the lattice. The sides of a box are half a voxel from its outermost
+ * voxels: with a pitch of 1 they lead through middles of cubes, and halve the tetrahedra that they
+ * cut. The triangles of the lattice that are so in the sides are cut, too, between the objects in
+ * them.
+ */
 class LatticeCutter
 {
 public:
-  /** @param pitch along each axis, in voxels, 1 or 2 */
+  /** @param pitch along each axis, in voxels, 1 or 2; 1 where objects end at a box */
   LatticeCutter(const InterfaceFields& fields, const std::array<int, 3>& pitch)
     : Fields(fields), Map(fields.Bricks().Map()), Pitch(pitch), Box(fields.Bricks().Inside())
   {
-    const bool hasBox = !(this->Box == VoxelBox::Of(this->Map.Size));
+    const bool hasBox = fields.HaveBox();
     this->Mesh.FirstSide = hasBox ? this->Map.NumberOfObjects + 1 : this->Mesh.FirstSide;
     for (int axis = 0; axis < 3; ++axis)
     {
@@ -80,11 +86,7 @@ public:
   void CutBrick(int i, int j, int k);
   /** Whether a side of the box is in a brick, or beside it. */
   bool HasSides(int i, int j, int k) const;
-  InterfaceMesh Take()
-  {
-    this->Mesh.FindStrata();
-    return std::move(this->Mesh);
-  }
+  InterfaceMesh Take();
 
 private:
   using Number = LabelMap::Number;
@@ -119,19 +121,11 @@ private:
     }
   }
   LatticeSite SiteAt(const std::array<int, 3>& halves) const;
-  /** The side of the box beyond which a site is, along the first axis along which it is; 0: none.
-   */
-  Number SideAt(const std::array<int, 3>& halves) const;
-  void PutOnSide(Vector& place, int side) const;
-  /** That of two sites which is a side, the first one if both are; 0: none. */
-  Number FirstSideOf(const LatticeSite& a, const LatticeSite& b) const;
-  /**
-   * On all sides of the box at a cell: the middle of those ends of the curves on its faces that are
-   * so, or what is in its own middle put there.
-   */
-  Vector OnSidesOf(
-    const Tetrahedron& cell, const std::vector<int>& ends, const Vector& middle) const;
+  /** Whether there is an edge along an axis, from a cube's corner on, in the box or into it. */
+  bool IsInBox(const std::array<int, 3>& cube, int axis) const;
   void CutAbout(const std::array<int, 3>& cube);
+  /** A triangle in a side of the box. @param inside the fourth corner of its tetrahedron */
+  void CutSide(const std::array<LatticeSite, 3>& corners, const LatticeSite& inside, int axis);
   void Cut(const Tetrahedron& cell);
   void CutInTwo(const Tetrahedron& cell);
   void CutInMore(const Tetrahedron& cell);
@@ -140,11 +134,11 @@ private:
   Vector PlaceOf(const LatticeSite& site) const;
   /** What of an edge is before its vertex. @param from earlier than the other one */
   float ShareOf(const LatticeSite& from, const LatticeSite& to) const;
-  float ShareOf(const LatticeSite& from, const LatticeSite& to, int side) const;
+  int VertexAt(const LatticeSite& site);
   int VertexOn(const LatticeSite& a, const LatticeSite& b);
   int VertexOn(const LatticeSite& a, const LatticeSite& b, const LatticeSite& c);
-  /** The same for sites in the order of their objects, of which the last is a side of the box. */
-  Vector OnSidesOf(const std::array<const LatticeSite*, 3>& sites);
+  /** A place between these, exactly in the side of the box in which all of them are. */
+  Vector InSidesOf(const std::array<const LatticeSite*, 3>& sites, Vector place) const;
   /** A triangle between the objects of two sites, which are on either side of it. */
   void AddTriangle(
     const std::array<int, 3>& vertices, const LatticeSite& behind, const LatticeSite& front);

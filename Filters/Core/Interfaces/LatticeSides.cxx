@@ -6,50 +6,9 @@
 #include "Core/Interfaces/LatticeCutter.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace volumic
 {
-namespace
-{
-/**
- * How far the first sites beyond the sides of a box are moved away from them, in voxels along each
- * axis: so none is on a plane; edges of the lattice leave the box by the side that SideAt() tells,
- * which they do where it is the furthest; and edges between sites beyond two sides pass by the box,
- * which they do as the last ones in it are half a voxel from its sides.
- */
-constexpr std::array<double, 3> Beyond = { 1.2, 1.1, 1. };
-
-float& CoordinateOf(Vector& place, int axis)
-{
-  return axis == 0 ? place.X : axis == 1 ? place.Y : place.Z;
-}
-
-float CoordinateOf(const Vector& place, int axis)
-{
-  return axis == 0 ? place.X : axis == 1 ? place.Y : place.Z;
-}
-}
-
-LatticeCutter::Number LatticeCutter::SideAt(const std::array<int, 3>& halves) const
-{
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const int twice = this->Pitch[axis] * halves[axis];
-    const bool isBefore = twice < 2 * this->Box.First[axis];
-    if (isBefore || twice > 2 * this->Box.End[axis] - 2)
-    {
-      return static_cast<Number>(this->Mesh.FirstSide + 2 * axis + (isBefore ? 0 : 1));
-    }
-  }
-  return 0;
-}
-
-void LatticeCutter::PutOnSide(Vector& place, int side) const
-{
-  CoordinateOf(place, this->Mesh.AxisOf(side)) = this->Mesh.PlaneOf(side);
-}
-
 bool LatticeCutter::HasSides(int i, int j, int k) const
 {
   const std::array<int, 3> brick = { i, j, k };
@@ -60,36 +19,14 @@ bool LatticeCutter::HasSides(int i, int j, int k) const
     about.End[axis] = LabelBricks::Side * (brick[axis] + 1) + this->Pitch[axis];
   }
   const VoxelBox inside = about.CommonWith(this->Box);
-  return this->Mesh.FirstSide <= std::numeric_limits<Number>::max() && !inside.IsEmpty() &&
-    !(inside == about);
+  return this->Fields.HaveBox() && !inside.IsEmpty() && !(inside == about);
 }
 
-Vector LatticeCutter::OnSidesOf(
-  const Tetrahedron& cell, const std::vector<int>& ends, const Vector& middle) const
+bool LatticeCutter::IsInBox(const std::array<int, 3>& cube, int axis) const
 {
-  const auto put = [&](Vector place)
-  {
-    for (const LatticeSite& site : cell.Corner)
-    {
-      if (this->Mesh.IsSide(site.Object))
-      {
-        this->PutOnSide(place, site.Object);
-      }
-    }
-    return place;
-  };
-  Vector sum;
-  int count = 0;
-  for (const int v : ends)
-  {
-    const Vector& place = this->Mesh.Position[static_cast<std::size_t>(v)];
-    if (SquaredDistance(put(place), place) == 0.f)
-    {
-      sum += place;
-      ++count;
-    }
-  }
-  return put(count > 0 ? sum * (1.f / static_cast<float>(count)) : middle);
+  VoxelBox box = this->Box;
+  --box.First[axis];
+  return !this->Fields.HaveBox() || box.Contains(cube);
 }
 
 Vector LatticeCutter::PlaceOf(const LatticeSite& site) const
@@ -97,50 +34,81 @@ Vector LatticeCutter::PlaceOf(const LatticeSite& site) const
   std::array<double, 3> place;
   for (int axis = 0; axis < 3; ++axis)
   {
-    const int twice = this->Pitch[axis] * site.At[axis];
-    const double beyond = Beyond[axis] - 0.5 * (this->Pitch[axis] - 1);
-    const double moved = twice < 2 * this->Box.First[axis] ? -beyond
-      : twice > 2 * this->Box.End[axis] - 2                ? beyond
-                                                           : 0.;
-    place[axis] = this->Fields.Step()[axis] * (0.5 * twice + moved);
+    place[axis] = this->Fields.Step()[axis] * (0.5 * this->Pitch[axis] * site.At[axis]);
   }
   return Vector(VectorD(place[0], place[1], place[2]));
 }
 
-LatticeCutter::Number LatticeCutter::FirstSideOf(const LatticeSite& a, const LatticeSite& b) const
+Vector LatticeCutter::InSidesOf(const std::array<const LatticeSite*, 3>& sites, Vector place) const
 {
-  const auto [first, last] = std::minmax(a.Object, b.Object);
-  return this->Mesh.IsSide(first) ? first : this->Mesh.IsSide(last) ? last : Number(0);
-}
-
-float LatticeCutter::ShareOf(const LatticeSite& from, const LatticeSite& to, int side) const
-{
-  const int axis = this->Mesh.AxisOf(side);
-  const float start = CoordinateOf(this->PlaceOf(from), axis);
-  return (this->Mesh.PlaneOf(side) - start) / (CoordinateOf(this->PlaceOf(to), axis) - start);
-}
-
-Vector LatticeCutter::OnSidesOf(const std::array<const LatticeSite*, 3>& sites)
-{
-  const auto placeOn = [&](const LatticeSite& p, const LatticeSite& q)
+  const auto isIn = [&](std::size_t axis)
   {
-    const int vertex = this->VertexOn(p, q);
-    return this->Mesh.Position[static_cast<std::size_t>(vertex)];
+    const int at = sites[0]->At[axis];
+    return this->Fields.HaveBox() && at == sites[1]->At[axis] && at == sites[2]->At[axis];
   };
-  const int last = sites[2]->Object;
-  if (!this->Mesh.IsSide(sites[1]->Object))
-  {
-    Vector middle = (placeOn(*sites[0], *sites[2]) + placeOn(*sites[1], *sites[2])) * 0.5f;
-    this->PutOnSide(middle, last);
-    return middle;
-  }
-  // From one point of the first side to another one, to where the second one is.
-  const Vector start = placeOn(*sites[0], *sites[1]);
-  const Vector way = placeOn(*sites[1], *sites[2]) - start;
-  const int axis = this->Mesh.AxisOf(last);
-  Vector place = start +
-    way * ((this->Mesh.PlaneOf(last) - CoordinateOf(start, axis)) / CoordinateOf(way, axis));
-  this->PutOnSide(place, last);
+  const Vector side = this->PlaceOf(*sites[0]);
+  place.X = isIn(0) ? side.X : place.X;
+  place.Y = isIn(1) ? side.Y : place.Y;
+  place.Z = isIn(2) ? side.Z : place.Z;
   return place;
+}
+
+void LatticeCutter::CutSide(
+  const std::array<LatticeSite, 3>& corners, const LatticeSite& inside, int axis)
+{
+  const int plane = corners[0].At[axis];
+  LatticeSite beyond = inside;
+  beyond.At[axis] = 2 * plane - inside.At[axis];
+  beyond.Object =
+    static_cast<Number>(this->Mesh.FirstSide + 2 * axis + (plane < inside.At[axis] ? 0 : 1));
+  const auto add = [&](const LatticeSite& own, const std::array<int, 3>& vertices) {
+    this->AddTriangle(vertices, { inside.At, own.Object }, beyond);
+  };
+  const auto isSame = [&](int a, int b) { return corners[a].Object == corners[b].Object; };
+  if (isSame(0, 1) && isSame(1, 2))
+  {
+    if (corners[0].Object != 0)
+    {
+      add(corners[0],
+        { this->VertexAt(corners[0]), this->VertexAt(corners[1]), this->VertexAt(corners[2]) });
+    }
+    return;
+  }
+  const bool areThree = !isSame(0, 1) && !isSame(1, 2) && !isSame(0, 2);
+  for (int n = 0; n < 3; ++n)
+  {
+    const LatticeSite& own = corners[n];
+    const LatticeSite& next = corners[(n + 1) % 3];
+    const LatticeSite& last = corners[(n + 2) % 3];
+    if (areThree)
+    {
+      const int middle = this->VertexOn(corners[0], corners[1], corners[2]);
+      const int between = this->VertexOn(own, next);
+      add(own, { this->VertexAt(own), between, middle });
+      add(next, { between, this->VertexAt(next), middle });
+    }
+    else if (next.Object == last.Object)
+    {
+      const int toNext = this->VertexOn(own, next);
+      const int toLast = this->VertexOn(own, last);
+      add(own, { this->VertexAt(own), toNext, toLast });
+      add(next, { toNext, this->VertexAt(next), this->VertexAt(last) });
+      add(next, { toNext, this->VertexAt(last), toLast });
+    }
+  }
+}
+
+InterfaceMesh LatticeCutter::Take()
+{
+  this->Mesh.FindStrata();
+  if (this->Fields.HaveBox())
+  {
+    this->Mesh.Compact(); // Background has no faces in sides.
+  }
+  if (this->Fields.ArePeriodic())
+  {
+    this->Mesh.MatchSides();
+  }
+  return std::move(this->Mesh);
 }
 }

@@ -53,8 +53,7 @@ void Edit(InterfaceMesh& mesh, double wanted, bool hasCollapses, int sliverRound
   // What is searched near goes with the square of the lengths: they grow by rounds.
   const double edge = std::min(wanted, MostGrowth * mesh.MeanEdge());
   const double longest = (hasCollapses ? LongestShare : LongestLast) * edge;
-  InterfaceRemesher remesher(
-    mesh, ShortestShare * edge, longest, ToleranceOfEdge * wanted, goOn);
+  InterfaceRemesher remesher(mesh, ShortestShare * edge, longest, ToleranceOfEdge * wanted, goOn);
   remesher.SplitLongEdges();
   if (hasCollapses)
   {
@@ -92,8 +91,10 @@ InterfaceMesh MakeInterfaces(InterfaceFields& fields, const InterfaceOptions& op
     }
     if (isGraded && isLast)
     {
-      AdjustSizes(mesh, fields, { options.Tolerance, Growths[static_cast<std::size_t>(round - Rounds)],
-        options.MostSize, options.Gradation }, executor);
+      AdjustSizes(mesh, fields,
+        { options.Tolerance, Growths[static_cast<std::size_t>(round - Rounds)], options.MostSize,
+          options.Gradation },
+        executor);
     }
     Edit(mesh, options.Edge, isGraded || !isLast, round >= FirstFit ? 1 : 0, mayGoOn);
     mesh.Compact();
@@ -119,6 +120,10 @@ InterfaceMesh MakeInterfaces(InterfaceFields& fields, const InterfaceOptions& op
     CorrectVolumes(mesh, fields, options.Tolerance);
     MoveInterfaces(mesh, fields, 1, 0., LeastShare * options.Edge, ToleranceOfEdge * options.Edge,
       SliverAngle, executor, straightening);
+  }
+  if (fields.ArePeriodic())
+  {
+    mesh.Compact(true); // In both of two opposite sides vertices are numbered in the same order.
   }
   goOn(1.);
   return mesh;
