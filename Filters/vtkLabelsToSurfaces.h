@@ -183,10 +183,11 @@ public:
   ///@{
   /**
    * How far the centre of a voxel may be on the wrong side of the surface, in smallest distances of
-   * voxels, at most 1. 0: none is, as far as triangles can: each voxel of a rough label sticks out.
-   * With .5 what is one voxel high or deep, as noise and the stairs of resampled maps, becomes
-   * smooth; volumes stay, and so does what is thin: a centre may be wrong only where the surface is
-   * so near. Default: 0.
+   * voxels, at most 1. With .5 what is one voxel high or deep, as noise and the stairs of resampled
+   * maps, becomes smooth; volumes stay, and so does what is thin: a centre may be wrong only where
+   * the surface is so near. 0: none is, as far as triangles can: each voxel of a rough label sticks
+   * out. A label that loses parts is made with 0, and then, if that does not hold them, with finer
+   * triangles. Default: .5.
    */
   void SetVoxelTolerance(double voxels);
   double GetVoxelTolerance();

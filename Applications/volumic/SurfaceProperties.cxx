@@ -212,7 +212,7 @@ std::vector<PropertyOption> MakeProperties()
       "voxels or 5/8 of the longest; 0: not at all"),
     LABELS_NUMBER(VoxelTolerance, "voxel-tolerance", "VOXELS",
       "with --labels: how far the centre of a voxel may be on the wrong side, in "
-      "smallest distances of voxels: .5 makes noise and stairs smooth, 0 keeps each voxel"),
+      "smallest distances of voxels: .5 (default) makes noise and stairs smooth, 0 keeps each voxel"),
     LABELS_NUMBER(Gap, "gap", "LENGTH",
       "with --labels: the space between the surfaces of neighbours, in world units"),
     LABELS_SWITCH(SharedInterfaces, true, "shared-interfaces",

@@ -11,7 +11,7 @@ namespace volumic
 struct LabelSettings
 {
   double Smoothing = 2.0;      ///< smallest distances of voxels, or 5/8 of the longest
-  double VoxelTolerance = 0.0; ///< smallest distances of voxels
+  double VoxelTolerance = 0.5; ///< smallest distances of voxels
   double Gap = 0.0;            ///< world units
   bool SharedInterfaces = false;
   int BoxFaces = 0; ///< where labels reach the border of the image: 0 rounded, 1 flat, 2 periodic

@@ -54,8 +54,8 @@ constexpr double MostHarmlessHalfGap = 0.25;
 /** One of so many voxels on the wrong side is, too. */
 constexpr std::int64_t SeverelyLost = 4;
 
-/** Share of the work on a label whose surface is made at level 0, where it may be made again. */
-constexpr double ShareOfLevel0 = 0.7;
+/** Share of what is left of the work on a label that a surface is, where it may be made again. */
+constexpr double ShareOfFirst = 0.7;
 
 /** That of the active scalars, as GetInputArrayInformation(). */
 vtkSmartPointer<vtkInformation> SelectScalars()
@@ -153,18 +153,15 @@ EdgeLengthPlan LabelSurfaceMaker::PlanOf(const LabelSettings& settings, vtkImage
 
 LabelSurfaceMaker::LabelSurfaceMaker(
   const LabelBricks& bricks, vtkImageData* image, const LabelSettings& settings)
-  : Bricks(bricks)
-  , Image(image)
-  , Settings(settings)
-  , Claims(bricks)
-  , Lowered(static_cast<std::size_t>(bricks.Map().NumberOfObjects) + 1)
+  : Bricks(bricks), Image(image), Settings(settings), Claims(bricks),
+    Lowered(static_cast<std::size_t>(bricks.Map().NumberOfObjects) + 1)
 {
   this->Options = FieldOptions(settings, bricks.Map());
   this->Plan = PlanOf(settings, image);
 }
 
-SegmentationRequest LabelSurfaceMaker::MakeRequest(const Place& place, vtkImageData* field,
-  int numberOfThreads, const Progress& progress) const
+SegmentationRequest LabelSurfaceMaker::MakeRequest(
+  const Place& place, vtkImageData* field, int numberOfThreads, const Progress& progress) const
 {
   const int level = place.Level;
   SegmentationRequest request;
@@ -237,42 +234,66 @@ bool LabelSurfaceMaker::LosesParts(int object, const LabelSurface& made) const
         this->FindMissed(object, this->InVoxels(object, made.Surface))) >= worth);
 }
 
+std::vector<LabelSurfaceMaker::Place> LabelSurfaceMaker::PlacesToTry(int object) const
+{
+  Place first{ this->FinestLevel() };
+  const bool mayGoFiner = first.Level == 0 && this->Settings.EdgeLength == 0.0;
+  if (this->Settings.Grading.ThinParts && first.Level <= 0)
+  {
+    first = { -1, true };
+  }
+  std::vector<Place> places{ first };
+  if (mayGoFiner)
+  {
+    places.push_back({ -1 });
+    if (this->Lowered[static_cast<std::size_t>(object)].IsFiner)
+    {
+      places.erase(places.begin());
+    }
+  }
+  if (this->Options.Tolerance > 0.0)
+  {
+    // Voxels that hold a part cost less than triangles that do.
+    for (std::size_t p = 0; p < places.size(); p += 2)
+    {
+      Place strict = places[p];
+      strict.IsStrict = true;
+      places.insert(places.begin() + static_cast<std::ptrdiff_t>(p) + 1, strict);
+    }
+  }
+  return places;
+}
+
 LabelSurface LabelSurfaceMaker::Make(
   int object, int numberOfThreads, HostThreads& threads, const Progress& progress) const
 {
-  Place place{ this->FinestLevel() };
-  const bool mayGoFiner = place.Level == 0 && this->Settings.EdgeLength == 0.0;
-  if (this->Settings.Grading.ThinParts && place.Level <= 0)
+  LabelSurface best;
+  double done = 0.0;
+  for (const Place& place : this->PlacesToTry(object))
   {
-    place = { -1, true };
-  }
-  if (!mayGoFiner)
-  {
-    return this->MakeWithVolume(place, object, numberOfThreads, threads, progress);
-  }
-  LabelSurface made;
-  if (!this->Lowered[static_cast<std::size_t>(object)].IsFiner)
-  {
-    made = this->MakeWithVolume(place, object, numberOfThreads, threads,
-      [&](double share, const std::string& text) { return progress(ShareOfLevel0 * share, text); });
-    if (!made.Surface || !this->LosesParts(object, made))
+    const double share = ShareOfFirst * (1.0 - done);
+    LabelSurface made = this->MakeWithVolume(place, object, numberOfThreads, threads,
+      [&](double ofThis, const std::string& text)
+      { return progress(done + share * ofThis, text); });
+    done += share;
+    if (!made.Surface)
     {
-      return made;
+      break; // It was stopped; what there is is finished.
+    }
+    const bool isBetter = !best.Surface || best.Surface->GetNumberOfCells() == 0 ||
+      made.MissedVoxels < best.MissedVoxels;
+    made.IsFiner = place.Level < 0 && !place.IsForThinParts;
+    best = isBetter ? made : best;
+    if (!this->LosesParts(object, best))
+    {
+      break;
     }
   }
-  LabelSurface finer = this->MakeWithVolume({ -1 }, object, numberOfThreads, threads,
-    [&](double share, const std::string& text)
-    { return progress(ShareOfLevel0 + (1.0 - ShareOfLevel0) * share, text); });
-  finer.IsFiner = true;
-  // Null: it was stopped; what level 0 has is finished.
-  const bool isBetter = finer.Surface &&
-    (!made.Surface || made.Surface->GetNumberOfCells() == 0 ||
-      finer.MissedVoxels < made.MissedVoxels);
-  return isBetter ? finer : made;
+  return best;
 }
 
-LabelSurface LabelSurfaceMaker::MakeWithVolume(const Place& place, int object,
-  int numberOfThreads, HostThreads& threads, const Progress& progress) const
+LabelSurface LabelSurfaceMaker::MakeWithVolume(const Place& place, int object, int numberOfThreads,
+  HostThreads& threads, const Progress& progress) const
 {
   LabelSurface made = this->MakeAt(place, object, numberOfThreads, threads, progress);
   const std::int64_t voxels = this->Bricks.ExtentOf(object).Voxels;
@@ -313,8 +334,7 @@ LabelSurface LabelSurfaceMaker::MakeAt(const Place& place, int object, int numbe
   const LabelField original = this->Settings.Gap > 0.0 ? field.Field : LabelField();
   try
   {
-    SegmentationRequest request =
-      this->MakeRequest(place, field.Image, numberOfThreads, progress);
+    SegmentationRequest request = this->MakeRequest(place, field.Image, numberOfThreads, progress);
     if (!request.Levels)
     {
       made.Surface = nullptr;
@@ -329,7 +349,7 @@ LabelSurface LabelSurfaceMaker::MakeAt(const Place& place, int object, int numbe
       {
         p = InMap({ p[0] / step[0], p[1] / step[1], p[2] / step[2] }, field.Field.Box.First);
       }
-      return this->ReviseField(object, revision, inVoxels, original, field.Field);
+      return this->ReviseField(object, revision, inVoxels, original, field);
     };
     SurfaceSegmentation run(request);
     request.Levels = nullptr;

@@ -32,7 +32,8 @@ struct LabelSurface
   vtkSmartPointer<vtkPolyData> Surface; ///< null: it was not begun
   double Seconds = 0.0;                 ///< that the work on it took, from its begin to its end
   vtkIdType WrongVoxels = 0;
-  vtkIdType MissedVoxels = 0;  ///< those of them further from the surface than VoxelTolerance and Tolerance
+  vtkIdType MissedVoxels =
+    0; ///< those of them further from the surface than VoxelTolerance and Tolerance
   double VolumeError = 0.0;    ///< by how much its volume is more than that of the voxels, in that
   vtkIdType TouchingFaces = 0; ///< with Gap: those where it meets neighbours all the same
   bool IsFiner = false;        ///< Level 0 has lost parts: it is one of level -1.
@@ -66,8 +67,7 @@ public:
    * All must outlive it.
    * @throws std::invalid_argument naming the lengths that are possible, if EdgeLength is none.
    */
-  LabelSurfaceMaker(
-    const LabelBricks& bricks, vtkImageData* image, const LabelSettings& settings);
+  LabelSurfaceMaker(const LabelBricks& bricks, vtkImageData* image, const LabelSettings& settings);
 
   /** How the fields of objects are made. */
   static LabelFieldOptions FieldOptions(const LabelSettings& settings, const LabelMap& map);
@@ -82,7 +82,8 @@ public:
   void AddClaim(int object, HostThreads& threads);
 
   /**
-   * On any thread. What a level 0 does not hold is tried with the triangles of level -1.
+   * On any thread. What a surface does not hold is tried without VoxelTolerance, and then what that
+   * does not hold with the triangles of level -1.
    * @param numberOfThreads those of `threads`; 0: all
    */
   LabelSurface Make(
@@ -105,6 +106,7 @@ private:
   /** A field and the image that shows its values. */
   struct FieldImage
   {
+    LabelFieldOptions Options;
     LabelField Field;
     vtkSmartPointer<vtkImageData> Image;
   };
@@ -120,13 +122,16 @@ private:
   }
   /** Half of the gap, in smallest distances of voxels. */
   double HalfGap() const;
-  /** A level, whether it is for thin parts alone, level 0 for all else, and a share of Sigma. */
+  /** What a surface is made with. */
   struct Place
   {
     int Level = 0;
-    bool IsForThinParts = false;
-    double Smoothing = 1.0;
+    bool IsForThinParts = false; ///< alone, level 0 for all else
+    bool IsStrict = false;       ///< without VoxelTolerance
+    double Smoothing = 1.0;      ///< a share of Sigma
   };
+  /** In their order, until nothing is lost. */
+  std::vector<Place> PlacesToTry(int object) const;
   /** MakeAt(), and with less smoothing as long as the volume is not that of the voxels. */
   LabelSurface MakeWithVolume(const Place& place, int object, int numberOfThreads,
     HostThreads& threads, const Progress& progress) const;
@@ -149,8 +154,8 @@ private:
   {
     int Round = 0;
     int Shifts = 0;
-    double LastShift = 0.0; ///< smallest distances of voxels
-    double LastError = 0.0; ///< voxels
+    double LastShift = 0.0;      ///< smallest distances of voxels
+    double LastError = 0.0;      ///< voxels
     std::size_t LastOutside = 0; ///< triangles, the last time that it was drawn back for a gap
   };
   /**
@@ -160,9 +165,9 @@ private:
    * @return whether it has
    */
   bool ReviseField(int object, Revision& revision, const IndexedSurface& surface,
-    const LabelField& original, LabelField& field) const;
+    const LabelField& original, FieldImage& made) const;
   bool CorrectVolume(
-    int object, Revision& revision, const IndexedSurface& surface, LabelField& field) const;
+    int object, Revision& revision, const IndexedSurface& surface, FieldImage& made) const;
 
   const LabelBricks& Bricks;
   vtkImageData* Image;

@@ -45,8 +45,8 @@ constexpr double LeastHeldInGap = 0.1;
 constexpr double BendPerLevel = 0.4;
 
 /**
- * By what fields are lowered, at least, where surfaces of neighbours touch, in smallest distances of
- * voxels: half a small gap would not part triangles that are deep in each other.
+ * By what fields are lowered, at least, where surfaces of neighbours touch, in smallest distances
+ * of voxels: half a small gap would not part triangles that are deep in each other.
  */
 constexpr double LeastLowering = 0.2;
 
@@ -90,8 +90,7 @@ Point InMap(const Point& inBox, const std::array<int, 3>& first)
 
 void LabelSurfaceMaker::AddClaim(int object, HostThreads& threads)
 {
-  threads.Run(
-    [&]
+  threads.Run([&]
     { this->Claims.Add(object, MakeLabelField(this->Bricks, object, this->Options, threads)); });
 }
 
@@ -104,17 +103,22 @@ LabelSurfaceMaker::FieldImage LabelSurfaceMaker::MakeField(
   const Place& place, int object, HostThreads& threads) const
 {
   const int level = place.Level;
-  LabelFieldOptions options = this->Options;
-  options.Sigma *= place.Smoothing;
   FieldImage made;
-  threads.Run([&] { made.Field = MakeLabelField(this->Bricks, object, options, threads); });
+  made.Options = this->Options;
+  made.Options.Sigma *= place.Smoothing;
+  made.Options.Tolerance = place.IsStrict ? 0.0 : made.Options.Tolerance;
+  threads.Run([&] { made.Field = MakeLabelField(this->Bricks, object, made.Options, threads); });
   this->Claims.Settle(object, made.Field);
+  if (place.IsStrict && this->HasClaims())
+  {
+    // What neighbours claim within their tolerance must not take its own voxels away.
+    threads.Run([&] { HoldFurther(made.Field, this->Bricks, object, made.Options, {}, threads); });
+  }
   if (level > 0)
   {
     const double squaredFactor = std::pow(this->LevelFactor(), 2 * level);
     threads.Run(
-      [&]
-      {
+      [&] {
         CorrectBends(
           made.Field, this->Bricks, object, BendPerLevel * (squaredFactor - 1.0), threads);
       });
@@ -132,8 +136,8 @@ LabelSurfaceMaker::FieldImage LabelSurfaceMaker::MakeField(
   {
     if (made.Field.Box.Contains(voxel))
     {
-      made.Field.Values[static_cast<std::size_t>(made.Field.Box.NumberOf(
-        voxel[0], voxel[1], voxel[2]))] -=
+      made.Field
+        .Values[static_cast<std::size_t>(made.Field.Box.NumberOf(voxel[0], voxel[1], voxel[2]))] -=
         static_cast<float>(std::max(this->HalfGap(), LeastLowering));
     }
   }
@@ -188,8 +192,8 @@ IndexedSurface LabelSurfaceMaker::InVoxels(int object, vtkPolyData* surface) con
     vtkIdType size = 0;
     const vtkIdType* corners = nullptr;
     cells->GetCurrentCell(size, corners);
-    indexed.Triangles.push_back({ static_cast<int>(corners[0]),
-      static_cast<int>(corners[second]), static_cast<int>(corners[3 - second]) });
+    indexed.Triangles.push_back({ static_cast<int>(corners[0]), static_cast<int>(corners[second]),
+      static_cast<int>(corners[3 - second]) });
   }
   return indexed;
 }
@@ -202,7 +206,7 @@ std::vector<std::int64_t> LabelSurfaceMaker::FindMissed(
 }
 
 bool LabelSurfaceMaker::CorrectVolume(
-  int object, Revision& revision, const IndexedSurface& surface, LabelField& field) const
+  int object, Revision& revision, const IndexedSurface& surface, FieldImage& made) const
 {
   const LabelMap& map = this->Bricks.Map();
   const std::vector<std::int64_t> wrong = FindWrongVoxels(this->Bricks, object, surface);
@@ -216,13 +220,15 @@ bool LabelSurfaceMaker::CorrectVolume(
   {
     for (int axis = 0; axis < 3; ++axis)
     {
-      p[axis] = (p[axis] - field.Box.First[axis]) * map.Spacing[axis]; // the same wherever it lies
+      p[axis] =
+        (p[axis] - made.Field.Box.First[axis]) * map.Spacing[axis]; // the same wherever it lies
     }
   }
   const SurfaceFeatures features = ComputeFeatures(scaled);
   const double voxel = map.Spacing[0] * map.Spacing[1] * map.Spacing[2];
   const double error = features.Volume / voxel - wanted;
-  const bool isBetter = revision.Shifts < 2 || std::abs(error) < LeastGain * std::abs(revision.LastError);
+  const bool isBetter =
+    revision.Shifts < 2 || std::abs(error) < LeastGain * std::abs(revision.LastError);
   if (revision.Shifts == MostShifts || std::abs(error) <= HarmlessVolumeError * wanted || !isBetter)
   {
     return false;
@@ -237,12 +243,12 @@ bool LabelSurfaceMaker::CorrectVolume(
   ++revision.Shifts;
   revision.LastError = error;
   revision.LastShift = std::clamp(error / rate, -MostShift, MostShift);
-  ShiftField(field, this->Bricks, object, this->Options, revision.LastShift, OnThisThread());
+  ShiftField(made.Field, this->Bricks, object, made.Options, revision.LastShift, OnThisThread());
   return true;
 }
 
 bool LabelSurfaceMaker::ReviseField(int object, Revision& revision, const IndexedSurface& surface,
-  const LabelField& original, LabelField& field) const
+  const LabelField& original, FieldImage& made) const
 {
   const int round = revision.Round++;
   const double halfGap = this->HalfGap();
@@ -275,19 +281,20 @@ bool LabelSurfaceMaker::ReviseField(int object, Revision& revision, const Indexe
     }
     if (!held.empty())
     {
-      HoldFurther(field, this->Bricks, object, this->Options, held, OnThisThread());
+      HoldFurther(made.Field, this->Bricks, object, made.Options, held, OnThisThread());
       return true;
     }
   }
   if (halfGap == 0.0)
   {
-    return this->CorrectVolume(object, revision, surface, field);
+    return this->CorrectVolume(object, revision, surface, made);
   }
   if (round == holds + RoundsOfGap)
   {
     return false;
   }
-  const std::size_t outside = DrawBackWithin(original, surface, static_cast<float>(halfGap), field);
+  const std::size_t outside =
+    DrawBackWithin(original, surface, static_cast<float>(halfGap), made.Field);
   // What has been lowered where it met others need but stay away from these.
   const bool mayStop = this->Lowered[static_cast<std::size_t>(object)].Times > 0 && round > 0;
   const bool isBetter =
@@ -309,9 +316,9 @@ LabelSurfaceMaker::VoxelsOfObjects LabelSurfaceMaker::FindTouchingVoxels(
         {
           for (std::size_t i = begin; i < end; ++i)
           {
-            inVoxels[i] =
-              surfaces[i].Surface ? this->InVoxels(static_cast<int>(i) + 1, surfaces[i].Surface)
-                                  : IndexedSurface();
+            inVoxels[i] = surfaces[i].Surface
+              ? this->InVoxels(static_cast<int>(i) + 1, surfaces[i].Surface)
+              : IndexedSurface();
           }
         });
       touching = FindTouching(inVoxels, threads);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What vtkLabelsToSurfaces promises, on shapes that are known by formula, of neighbours and of what is
-// a voxel thin, by the judge that shares no code with it.
+// What vtkLabelsToSurfaces promises, on shapes that are known by formula, of neighbours and of what
+// is a voxel thin, by the judge that shares no code with it.
 #include "JudgedLabels.h"
 
 #include <ostream>
@@ -40,6 +40,7 @@ TEST_P(LabelPromises, AreKept)
   const DigitisedShapes shapes = Digitise(promise.Kind, promise.Size, promise.Stretch);
   const Filter filter = FilterOf(ToImage(shapes.Map));
   filter->SetSmoothing(promise.Smoothing);
+  filter->SetVoxelTolerance(0.0);
   for (std::size_t s = 0; s < shapes.Shapes.size(); ++s)
   {
     const LabelShape& shape = shapes.Shapes[s];
@@ -80,6 +81,24 @@ INSTANTIATE_TEST_SUITE_P(Of, LabelPromises,
       (info.param.Stretch > 1.0 ? "Stretched" : "");
   });
 
+// A voxel's centre is no truth about the surface that was digitised.
+TEST(LabelSurfaces, AreNearerToTheTruthByDefaultThanWithEachVoxel)
+{
+  const DigitisedShapes shapes = Digitise(LabelShapeKind::Sphere, 64);
+  const Filter filter = FilterOf(ToImage(shapes.Map));
+  const auto judged = [&](double tolerance)
+  {
+    filter->SetVoxelTolerance(tolerance);
+    return JudgeTruth(ToTriangleSurface(BlockOf(filter, 0)), shapes.Shapes[0]);
+  };
+  const TruthVerdict byDefault =
+    judged(vtkSmartPointer<vtkLabelsToSurfaces>::New()->GetVoxelTolerance());
+  const TruthVerdict strict = judged(0.0);
+  EXPECT_LT(byDefault.MeanAngle, 0.8 * strict.MeanAngle);
+  EXPECT_LT(byDefault.MeanAtVertices, strict.MeanAtVertices);
+  EXPECT_LT(std::abs(byDefault.VolumeError), 0.002);
+}
+
 TEST(LabelNeighbours, HardlyOverlap)
 {
   const DigitisedShapes shapes = Digitise(LabelShapeKind::CutBall, 64);
@@ -89,8 +108,8 @@ TEST(LabelNeighbours, HardlyOverlap)
   {
     for (unsigned int b = a + 1; b < 4; ++b)
     {
-      const OverlapVerdict verdict = JudgeOverlap(
-        ToTriangleSurface(BlockOf(filter, a)), ToTriangleSurface(BlockOf(filter, b)));
+      const OverlapVerdict verdict =
+        JudgeOverlap(ToTriangleSurface(BlockOf(filter, a)), ToTriangleSurface(BlockOf(filter, b)));
       sum += verdict.MeanDepth * static_cast<double>(verdict.VerticesInside);
       count += static_cast<double>(verdict.VerticesInside);
     }
@@ -110,8 +129,8 @@ TEST(LabelNeighbours, AreApartWithAGap)
     ExpectGoodTriangles(BlockOf(filter, a));
     for (unsigned int b = a + 1; b < 4; ++b)
     {
-      const OverlapVerdict verdict = JudgeOverlap(
-        ToTriangleSurface(BlockOf(filter, a)), ToTriangleSurface(BlockOf(filter, b)));
+      const OverlapVerdict verdict =
+        JudgeOverlap(ToTriangleSurface(BlockOf(filter, a)), ToTriangleSurface(BlockOf(filter, b)));
       EXPECT_EQ(verdict.VerticesInside, 0u) << a << " and " << b;
       EXPECT_EQ(verdict.IntersectingPairs, 0u) << a << " and " << b;
     }
@@ -170,7 +189,7 @@ TEST(LabelCounts, AreThoseOfTheMapWithSharedInterfaces)
   const LabelMap map = RandomBlobs(24, 4, 3);
   const Filter filter = FilterOf(ToImage(map));
   filter->SharedInterfacesOn();
-  filter->SetTolerance(1.0); // has triangles reach beyond the image
+  filter->SetTolerance(1.0);      // has triangles reach beyond the image
   for (const int keep : { 0, 1 }) // all, the largest
   {
     filter->SetKeepComponents(keep);
@@ -204,8 +223,9 @@ TEST_P(LabelGaps, OfAnySizeKeepNeighboursApart)
       {
         for (unsigned int b = a + 1; b < 5; ++b)
         {
-          EXPECT_EQ(JudgeOverlap(ToTriangleSurface(BlockOf(filter, a)),
-                      ToTriangleSurface(BlockOf(filter, b))).IntersectingPairs,
+          EXPECT_EQ(JudgeOverlap(
+                      ToTriangleSurface(BlockOf(filter, a)), ToTriangleSurface(BlockOf(filter, b)))
+                      .IntersectingPairs,
             0u)
             << "level " << level << ", seed " << seed << ", blocks " << a << ", " << b;
         }
@@ -306,9 +326,9 @@ TEST(ThinLabels, LoseNoVoxelWithTheFinestTriangles)
     SCOPED_TRACE(name);
     const Filter filter = FilterOf(ToImage(map));
     filter->SetFinestLevel(-1);
+    filter->SetVoxelTolerance(0.0);
     vtkPolyData* block = BlockOf(filter);
-    const SurfaceVerdict verdict =
-      JudgeSurface(ToTriangleSurface(block), FieldOf(block, "Delta"));
+    const SurfaceVerdict verdict = JudgeSurface(ToTriangleSurface(block), FieldOf(block, "Delta"));
     EXPECT_TRUE(verdict.Topology.Closed && verdict.Topology.Outward);
     EXPECT_EQ(verdict.Intersections.Pairs, 0u);
     const WrongVoxelVerdict voxels = JudgeVoxels(ToTriangleSurface(block), map, 1);
@@ -316,13 +336,12 @@ TEST(ThinLabels, LoseNoVoxelWithTheFinestTriangles)
   }
 }
 
-TEST(ThinLabels, StayWithAToleranceToo)
+TEST(ThinLabels, StayWithTheDefaultToleranceToo)
 {
   for (const auto& [name, map] : ThinLabels())
   {
     SCOPED_TRACE(name);
     const Filter filter = FilterOf(ToImage(map));
-    filter->SetVoxelTolerance(0.5);
     vtkPolyData* block = BlockOf(filter);
     ASSERT_GT(block->GetNumberOfCells(), 0);
     EXPECT_LE(FieldOf(block, "MissedVoxels"), 0.15 * FieldOf(block, "LabelVoxels"));
@@ -336,8 +355,8 @@ TEST(ThinLabels, LeaveOtherLabelsAsTheyAre)
   { return std::hypot(i - 16.0, j - 8.0, k - 16.0) < 6.0; };
   const auto isTip = [](int i, int j, int k) { return i == 16 && j > 12 && j < 26 && k == 16; };
   const Filter ball = FilterOf(ToImage(MapOf(32, isBall)));
-  const Filter both = FilterOf(ToImage(
-    MapOf(32, [&](int i, int j, int k) { return isBall(i, j, k) || isTip(i, j, k); })));
+  const Filter both = FilterOf(
+    ToImage(MapOf(32, [&](int i, int j, int k) { return isBall(i, j, k) || isTip(i, j, k); })));
   EXPECT_EQ(FieldOf(BlockOf(ball), "Level"), 0);
   EXPECT_EQ(FieldOf(BlockOf(both), "Level"), -1);
   EXPECT_LE(FieldOf(BlockOf(both), "WrongVoxels"), 2);

@@ -120,9 +120,9 @@ TEST_P(LabelVolumes, AreSoWithMuchSmoothing)
   this->ExpectVolume([](vtkLabelsToSurfaces* filter) { filter->SetSmoothing(8.0); });
 }
 
-TEST_P(LabelVolumes, AreSoWithAVoxelTolerance)
+TEST_P(LabelVolumes, AreSoWithoutAVoxelTolerance)
 {
-  this->ExpectVolume([](vtkLabelsToSurfaces* filter) { filter->SetVoxelTolerance(0.5); });
+  this->ExpectVolume([](vtkLabelsToSurfaces* filter) { filter->SetVoxelTolerance(0.0); });
 }
 
 TEST_P(LabelVolumes, AreSoWithSharedInterfaces)
@@ -130,13 +130,13 @@ TEST_P(LabelVolumes, AreSoWithSharedInterfaces)
   this->ExpectVolume([](vtkLabelsToSurfaces* filter) { filter->SharedInterfacesOn(); });
 }
 
-TEST_P(LabelVolumes, AreSoWithSharedInterfacesAndAVoxelTolerance)
+TEST_P(LabelVolumes, AreSoWithSharedInterfacesWithoutAVoxelTolerance)
 {
   this->ExpectVolume(
     [](vtkLabelsToSurfaces* filter)
     {
       filter->SharedInterfacesOn();
-      filter->SetVoxelTolerance(0.5);
+      filter->SetVoxelTolerance(0.0);
     });
 }
 
