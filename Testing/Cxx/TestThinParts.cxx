@@ -153,6 +153,7 @@ TEST(ThinParts, AreOfLabelsToo)
     });
   vtkNew<vtkLabelsToSurfaces> filter;
   filter->SetInputData(map);
+  filter->SetVoxelTolerance(0.0);
   const auto surface = [&filter](unsigned int block)
   { return vtkPolyData::SafeDownCast(filter->GetOutput()->GetBlock(block)); };
   filter->Update();
