@@ -359,5 +359,5 @@ TEST(ThinLabels, LeaveOtherLabelsAsTheyAre)
     ToImage(MapOf(32, [&](int i, int j, int k) { return isBall(i, j, k) || isTip(i, j, k); })));
   EXPECT_EQ(FieldOf(BlockOf(ball), "Level"), 0);
   EXPECT_EQ(FieldOf(BlockOf(both), "Level"), -1);
-  EXPECT_LE(FieldOf(BlockOf(both), "WrongVoxels"), 2);
+  EXPECT_LE(FieldOf(BlockOf(both), "MissedVoxels"), 2);
 }
