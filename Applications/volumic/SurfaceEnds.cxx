@@ -290,21 +290,24 @@ vtkSmartPointer<vtkPolyData> CappedInOrder(
 }
 
 /**
- * Cut at the planes and closed. The rim of a cap with many holes, with those of other caps, is more
- * than vtkClipClosedSurface triangulates at times: then the planes are taken in another order.
- * @return null: none of these closes it
+ * Cut at the planes and closed. A rim with many holes is more than vtkClipClosedSurface
+ * triangulates at times: then the planes are taken in another order, and a hundredth of an edge
+ * further within.
+ * @return null: none of these tries closes it
  */
 vtkSmartPointer<vtkPolyData> Capped(vtkPolyData* surface, std::vector<Border> borders)
 {
-  constexpr int mostOrders = 24;
+  constexpr int mostTries = 24;
+  constexpr double further = 0.01;
   const double length = MeanEdge(surface);
   const auto byFace = [](const Border& a, const Border& b) { return a.Face < b.Face; };
   vtkSmartPointer<vtkPolyData> made = CappedInOrder(surface, borders, length);
-  for (int n = 1; n < mostOrders && !made; ++n)
+  for (int n = 1; n < mostTries && !made; ++n)
   {
-    if (!std::next_permutation(borders.begin(), borders.end(), byFace))
+    std::next_permutation(borders.begin(), borders.end(), byFace);
+    for (const Border& border : borders)
     {
-      break;
+      border.Plane->Push(-further * length);
     }
     made = CappedInOrder(surface, borders, length);
   }

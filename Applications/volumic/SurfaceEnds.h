@@ -17,7 +17,7 @@ namespace tool
 enum class Ends
 {
   Closed, ///< nothing: a cap closes it
-  Marked, ///< flat caps close it a voxel within the outermost voxels' centres, numbered
+  Marked, ///< flat caps close it, a voxel within the outermost voxels' centres, or a bit further
   Open    ///< it ends there in closed curves
 };
 
