@@ -354,7 +354,13 @@ ExitCode SegmentLabels(const ToolOptions& options, const FilterTrio& filters, Ra
   CheckThatAnyIsThere(options, report);
   for (LabelSurface& surface : surfaces)
   {
-    surface.Surface = WithEnds(surface.Surface, map.Image, options.Ends);
+    std::vector<std::string> warnings;
+    surface.Surface = WithEnds(surface.Surface, map.Image, options.Ends, warnings);
+    for (const std::string& warning : warnings)
+    {
+      announcer.Say("warning: " + surface.Name + ": " + warning);
+      report.Warnings.push_back(surface.Name + ": " + warning);
+    }
     probes.AddTo(surface.Surface);
   }
   probes.AddTo(filters.Labels->GetInterfaces());

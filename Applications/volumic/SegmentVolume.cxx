@@ -311,7 +311,13 @@ ExitCode SegmentVolume(const ToolOptions& options, const FilterTrio& filters)
   results.VolumeName = std::filesystem::path(options.Volume).filename().string();
   results.Volume = job.Volume.Facts;
   results.Filters = filters;
-  results.Surface = WithEnds(filter->GetOutput(), job.Volume.Image, options.Ends);
+  std::vector<std::string> warnings;
+  results.Surface = WithEnds(filter->GetOutput(), job.Volume.Image, options.Ends, warnings);
+  for (const std::string& warning : warnings)
+  {
+    job.Says.Say("warning: " + options.Volume + ": " + warning);
+    results.Warnings.push_back(warning);
+  }
   probes.AddTo(results.Surface);
   job.Says.Follow("", [&] { WriteOutputs(options, results, job.Says.Style); });
   RemoveCheckpointOfEnded(job, results.StopReason);

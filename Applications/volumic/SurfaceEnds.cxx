@@ -9,6 +9,7 @@
 #include <vtkCellData.h>
 #include <vtkClipClosedSurface.h>
 #include <vtkClipPolyData.h>
+#include <vtkFeatureEdges.h>
 #include <vtkFieldData.h>
 #include <vtkImageData.h>
 #include <vtkIntArray.h>
@@ -19,6 +20,7 @@
 #include <vtkPlaneCollection.h>
 #include <vtkPointData.h>
 #include <vtkPolyDataConnectivityFilter.h>
+#include <vtkTriangle.h>
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
@@ -80,23 +82,21 @@ std::vector<Border> BorderOf(vtkImageData* image, vtkPolyData* surface)
   return borders;
 }
 
-/** Which of the planes a triangle lies in. */
-int PlaneOf(
-  vtkPolyData* surface, const std::array<vtkIdType, 3>& corners, const std::vector<Border>& borders)
+/** How many times the length of edges a point may be off a plane in which it is. */
+constexpr double InPlane = 1e-9;
+
+/** Which of the first so many planes a triangle lies in; -1: none. */
+int PlaneOf(vtkPolyData* surface, const vtkIdType* corners, const std::vector<Border>& borders,
+  int count, double length)
 {
-  const auto distanceTo = [&](const Border& border)
+  const auto isIn = [&](const Border& border)
   {
-    double most = 0.0;
-    for (const vtkIdType corner : corners)
-    {
-      most = std::max(most, border.Plane->DistanceToPlane(surface->GetPoint(corner)));
-    }
-    return most;
+    return std::all_of(corners, corners + 3,
+      [&](vtkIdType corner)
+      { return border.Plane->DistanceToPlane(surface->GetPoint(corner)) < InPlane * length; });
   };
-  return static_cast<int>(
-    std::min_element(borders.begin(), borders.end(),
-      [&](const Border& p, const Border& q) { return distanceTo(p) < distanceTo(q); }) -
-    borders.begin());
+  const auto found = std::find_if(borders.begin(), borders.begin() + count, isIn);
+  return found == borders.begin() + count ? -1 : static_cast<int>(found - borders.begin());
 }
 
 double MeanEdge(vtkPolyData* surface)
@@ -179,27 +179,20 @@ void SetCells(vtkPolyData* surface, vtkCellArray* others,
   surface->GetCellData()->AddArray(faces);
 }
 
-/** Cut at the planes, and closed there by triangles as long as the surface's. */
-vtkSmartPointer<vtkPolyData> Capped(vtkPolyData* surface, const std::vector<Border>& borders)
+/**
+ * Cut at a plane, and closed there. The caps, of the planes before it, too, are taken out of the
+ * cells.
+ */
+vtkSmartPointer<vtkPolyData> CutAndClosed(vtkPolyData* surface, const std::vector<Border>& borders,
+  int number, double length, std::vector<CapMesh::Triangle>& caps)
 {
-  vtkNew<vtkCellArray> others;
-  if (borders.empty())
-  {
-    const auto same = vtkSmartPointer<vtkPolyData>::New();
-    same->ShallowCopy(surface);
-    others->DeepCopy(surface->GetPolys());
-    SetCells(same, others, {}, {});
-    return same;
-  }
+  vtkPlane* plane = borders[static_cast<std::size_t>(number)].Plane;
+  vtkNew<vtkPlane> inward;
+  inward->SetOrigin(plane->GetOrigin());
+  const double* normal = plane->GetNormal();
+  inward->SetNormal(-normal[0], -normal[1], -normal[2]);
   vtkNew<vtkPlaneCollection> planes;
-  for (const Border& border : borders)
-  {
-    vtkNew<vtkPlane> inward;
-    inward->SetOrigin(border.Plane->GetOrigin());
-    const double* normal = border.Plane->GetNormal();
-    inward->SetNormal(-normal[0], -normal[1], -normal[2]);
-    planes->AddItem(inward);
-  }
+  planes->AddItem(inward);
   vtkNew<vtkClipClosedSurface> clip;
   clip->SetInputData(surface);
   clip->SetClippingPlanes(planes);
@@ -208,30 +201,116 @@ vtkSmartPointer<vtkPolyData> Capped(vtkPolyData* surface, const std::vector<Bord
   clip->Update();
   vtkSmartPointer<vtkPolyData> made = clip->GetOutput();
   vtkDataArray* isNew = made->GetCellData()->GetScalars();
-  std::vector<CapMesh::Triangle> caps;
+  vtkNew<vtkCellArray> others;
   ForEachPolygon(made,
     [&](vtkIdType cell, const vtkIdType* corners, vtkIdType count)
     {
-      if (isNew->GetComponent(cell, 0) == 0.0)
+      const bool isCap = isNew->GetComponent(cell, 0) != 0.0;
+      const int own = isCap ? number : PlaneOf(made, corners, borders, number, length);
+      if (own < 0)
       {
         others->InsertNextCell(count, corners);
         return;
       }
-      const std::array<vtkIdType, 3> triangle = { corners[0], corners[1], corners[2] };
-      caps.push_back({ triangle, PlaneOf(made, triangle, borders) });
-      for (const vtkIdType corner : triangle)
+      caps.push_back({ { corners[0], corners[1], corners[2] }, own });
+      for (int k = 0; k < 3 && isCap; ++k)
       {
         double place[3];
-        made->GetPoint(corner, place);
-        borders[static_cast<std::size_t>(caps.back().Plane)].Plane->ProjectPoint(place, place);
-        made->GetPoints()->SetPoint(corner, place);
+        made->GetPoint(corners[k], place);
+        plane->ProjectPoint(place, place);
+        made->GetPoints()->SetPoint(corners[k], place);
       }
     });
-  CapMesh even(made, caps);
-  even.MakeEven(MeanEdge(surface));
+  made->SetPolys(others);
   made->GetCellData()->Initialize();
-  SetCells(made, others, even.Triangles, borders);
+  return made;
+}
+
+/**
+ * Whether caps close a surface and look outwards all over. Then nothing of them lies above other
+ * parts of them, as their rims are where a surface without intersections meets a plane.
+ */
+bool IsSound(vtkPolyData* surface, const std::vector<CapMesh::Triangle>& caps,
+  const std::vector<Border>& borders)
+{
+  vtkNew<vtkFeatureEdges> wrong;
+  wrong->SetInputData(surface);
+  wrong->FeatureEdgesOff();
+  wrong->ManifoldEdgesOff();
+  wrong->Update();
+  return wrong->GetOutput()->GetNumberOfLines() == 0 &&
+    std::all_of(caps.begin(), caps.end(),
+      [&](const CapMesh::Triangle& cap)
+      {
+        double places[3][3];
+        for (int k = 0; k < 3; ++k)
+        {
+          surface->GetPoint(cap.Corners[static_cast<std::size_t>(k)], places[k]);
+        }
+        double normal[3];
+        vtkTriangle::ComputeNormalDirection(places[0], places[1], places[2], normal);
+        return vtkMath::Dot(
+                 normal, borders[static_cast<std::size_t>(cap.Plane)].Plane->GetNormal()) > 0.0;
+      });
+}
+
+/**
+ * Cut at the planes, in their order, and closed there by triangles as long as the surface's: one
+ * plane after the other, as long thin triangles of a cap that the next plane cuts would leave it
+ * open. @return null: this does not close it
+ */
+vtkSmartPointer<vtkPolyData> CappedInOrder(
+  vtkPolyData* surface, const std::vector<Border>& borders, double length)
+{
+  auto made = vtkSmartPointer<vtkPolyData>::New();
+  made->ShallowCopy(surface);
+  vtkNew<vtkCellArray> others;
+  others->DeepCopy(surface->GetPolys());
+  std::vector<CapMesh::Triangle> caps;
+  for (int number = 0; number < static_cast<int>(borders.size()); ++number)
+  {
+    caps.clear();
+    made = CutAndClosed(made, borders, number, length, caps);
+    CapMesh even(made, caps);
+    even.MakeEven(length);
+    caps = even.Triangles;
+    others->DeepCopy(made->GetPolys());
+    for (const CapMesh::Triangle& cap : caps)
+    {
+      made->GetPolys()->InsertNextCell(3, cap.Corners.data());
+    }
+    if (!IsSound(made, caps, borders))
+    {
+      return nullptr;
+    }
+  }
+  SetCells(made, others, caps, borders);
   made->GetFieldData()->ShallowCopy(surface->GetFieldData());
+  return made;
+}
+
+/**
+ * Cut at the planes and closed. A rim with many holes is more than vtkClipClosedSurface
+ * triangulates at times: then the planes are taken in another order, and a hundredth of an edge
+ * further within.
+ * @return null: none of these tries closes it
+ */
+vtkSmartPointer<vtkPolyData> Capped(vtkPolyData* surface, std::vector<Border> borders)
+{
+  constexpr int mostTries = 24;
+  constexpr double further = 0.01;
+  const double length = MeanEdge(surface);
+  const auto byFace = [](const Border& a, const Border& b) { return a.Face < b.Face; };
+  vtkSmartPointer<vtkPolyData> made = CappedInOrder(surface, borders, length);
+  for (int n = 1; n < mostTries && !made; ++n)
+  {
+    std::next_permutation(borders.begin(), borders.end(), byFace);
+    for (const Border& border : borders)
+    {
+      border.Plane->Push(-further * length);
+    }
+    made = CappedInOrder(surface, borders, length);
+  }
   return made;
 }
 
@@ -248,25 +327,28 @@ vtkSmartPointer<vtkPolyData> Cut(vtkPolyData* surface, vtkPlane* plane)
 }
 }
 
-vtkSmartPointer<vtkPolyData> WithEnds(vtkPolyData* surface, vtkImageData* image, Ends ends)
+vtkSmartPointer<vtkPolyData> WithEnds(
+  vtkPolyData* surface, vtkImageData* image, Ends ends, std::vector<std::string>& warnings)
 {
-  vtkSmartPointer<vtkPolyData> made = surface;
   if (ends == Ends::Closed)
   {
-    return made;
+    return surface;
   }
   const std::vector<Border> borders = BorderOf(image, surface);
   if (ends == Ends::Marked)
   {
-    made = Capped(surface, borders);
+    const vtkSmartPointer<vtkPolyData> made = Capped(surface, borders);
+    if (!made)
+    {
+      warnings.push_back("its ends cannot be made flat: they stay as they are, and are not marked; "
+                         "--ends open leaves them out, --region takes another part");
+    }
+    return made && made->GetNumberOfPolys() > 0 ? made : Capped(surface, {});
   }
-  for (std::size_t n = 0; n < borders.size() && ends == Ends::Open; ++n)
+  vtkSmartPointer<vtkPolyData> made = surface;
+  for (const Border& border : borders)
   {
-    made = Cut(made, borders[n].Plane);
-  }
-  if (made->GetNumberOfPolys() == 0 && ends == Ends::Marked)
-  {
-    return Capped(surface, {});
+    made = Cut(made, border.Plane);
   }
   return made->GetNumberOfPolys() == 0 ? vtkSmartPointer<vtkPolyData>(surface) : made;
 }

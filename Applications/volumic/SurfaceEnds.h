@@ -5,6 +5,9 @@
 
 #include <vtkSmartPointer.h>
 
+#include <string>
+#include <vector>
+
 class vtkImageData;
 class vtkPolyData;
 
@@ -14,7 +17,7 @@ namespace tool
 enum class Ends
 {
   Closed, ///< nothing: a cap closes it
-  Marked, ///< flat caps close it a voxel within the outermost voxels' centres, numbered
+  Marked, ///< flat caps close it, a voxel within the outermost voxels' centres, or a bit further
   Open    ///< it ends there in closed curves
 };
 
@@ -22,9 +25,11 @@ enum class Ends
  * Marked, it has the cell arrays `Cap`, 0 or the number of the cap, from 1, that a triangle is of,
  * and `BoxFace`, at which side of the image the cap is, as vtkLabelsToSurfaces has it.
  * @return the surface, or one made of it: where all of it lies about the outermost voxels it stays
- * as it is. Field data stay those of the closed one.
+ * as it is, and where no flat caps close it, too, with a warning. Field data stay those of the
+ * closed one.
  */
-vtkSmartPointer<vtkPolyData> WithEnds(vtkPolyData* surface, vtkImageData* image, Ends ends);
+vtkSmartPointer<vtkPolyData> WithEnds(
+  vtkPolyData* surface, vtkImageData* image, Ends ends, std::vector<std::string>& warnings);
 }
 
 #endif

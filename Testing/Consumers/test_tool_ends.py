@@ -98,6 +98,22 @@ class EndsTest(ToolTestCase):
                 plane = values.shape[2 - axis] - 2 if last else 1
                 self.assertLess(abs(points[triangles[faces == side]][..., axis] - plane).max(), 1e-12)
 
+    def test_caps_with_many_holes(self):
+        """Noise, whose rims are more than one cut closes at times."""
+        for seed in (0, 2):
+            values = np.random.default_rng(seed).standard_normal((48, 48, 48))
+            for axis in (0, 1, 2, 0, 1, 2):
+                values = (np.roll(values, 1, axis) + values + np.roll(values, -1, axis)) / 3
+            volume = self.write(vtkXMLImageDataWriter(), "noise.vti",
+                                make_image((values / values.std()).astype("f4"), (1, 1, 1), (0, 0, 0)))
+            surface, points, triangles = self.surface("--iso", "0", "--ends", "marked", volume=volume)
+            _, faces = self.check_caps(surface, points, triangles)
+            for side in range(1, 7):
+                axis, last = divmod(side - 1, 2)
+                a, b, c = np.moveaxis(points[triangles[faces == side]], 1, 0)
+                areas = np.cross(b - a, c - a)[:, axis] * (1 if last else -1)
+                self.assertGreater(areas.min(), 0)
+
     def test_what_lies_at_the_border_alone_stays(self):
         values = 1.2 - np.hypot(*np.indices((20, 22, 24))[:2]).astype("f4")
         volume = self.write(vtkXMLImageDataWriter(), "rod.vti", make_image(values, (1, 1, 1), (0, 0, 0)))
