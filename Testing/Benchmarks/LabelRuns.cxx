@@ -4,7 +4,7 @@
 // vtkLabelsToSurfaces and its peers, on digitised shapes, whose surfaces are known, or on a label
 // map:
 //
-//     runs=LIST of us, tolerant (VoxelTolerance .5), windowed, remeshed
+//     runs=LIST of us, strict (VoxelTolerance 0), windowed, remeshed
 //     map=FILE mask=1 least=VOXELS | shapes=LIST size=N stretch=S; threads=N (of us) repetitions=N
 //
 // Figures of each label follow "@row MAP<tab>LABEL<tab>RUN". Ours are made of the whole map, each
@@ -110,7 +110,7 @@ std::vector<LabelSurface> OurSurfaces(
   {
     filter->AddLabel(label);
   }
-  filter->SetVoxelTolerance(run == "tolerant" ? 0.5 : filter->GetVoxelTolerance());
+  filter->SetVoxelTolerance(run == "strict" ? 0.0 : filter->GetVoxelTolerance());
   filter->SetNumberOfThreads(options.Integer("threads", 1));
   Measure(
     [&]()
@@ -239,7 +239,7 @@ void MeasureRun(const std::string& run, const Subject& subject, const Options& o
   std::map<int, double>& edgeLengths)
 {
   std::cerr << subject.Name << ' ' << run << std::endl;
-  if (run == "us" || run == "tolerant")
+  if (run == "us" || run == "strict")
   {
     Figures costs;
     for (const LabelSurface& surface : OurSurfaces(run, subject, options, costs))
@@ -320,7 +320,7 @@ void RunLabels(const Options& options)
   for (const Subject& subject : subjects)
   {
     std::map<int, double> edgeLengths; // of us; what the remeshed peer is told
-    for (const std::string& run : options.List("runs", "us,tolerant,windowed,remeshed"))
+    for (const std::string& run : options.List("runs", "us,strict,windowed,remeshed"))
     {
       MeasureRun(run, subject, options, edgeLengths);
     }

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """vtkLabelsToSurfaces and its peers on digitised shapes, whose surfaces are known, or on a label map.
 
-Distances are to the true surface, in voxels; angles in degrees. `tolerant` is ours with a
-VoxelTolerance of .5; peers get each label cut out: windowed is vtkDiscreteFlyingEdges3D and
+Distances are to the true surface, in voxels; angles in degrees. `strict` is ours with a
+VoxelTolerance of 0; peers get each label cut out: windowed is vtkDiscreteFlyingEdges3D and
 vtkWindowedSincPolyDataFilter, remeshed that and CGAL's remeshing to our mean edge."""
 
 import math
@@ -32,7 +32,7 @@ def add_options(parser):
     parser.add_argument("--shapes", metavar="LIST", help="of these (all)")
     parser.add_argument("--size", type=int, help="voxels of shapes along an axis (128)")
     parser.add_argument("--stretch", type=float, help="of their voxels along z")
-    parser.add_argument("--runs", metavar="LIST", help="of us, tolerant, windowed, remeshed (all)")
+    parser.add_argument("--runs", metavar="LIST", help="of us, strict, windowed, remeshed (all)")
     parser.add_argument("--threads", type=int, help="of ours; peers have one")
     parser.add_argument("--repetitions", type=int, help="the fastest counts")
 

@@ -74,7 +74,7 @@ for table in "${tables[@]}"; do
       measure labels --repetitions 3
       measure labels --stretch 3 --shapes Sphere
       for map in aal JHU-WhiteMatter-labels-1mm inia19-NeuroMaps; do
-        measure labels --map "/usr/share/mricron/templates/$map.nii.gz" --runs us,tolerant,windowed
+        measure labels --map "/usr/share/mricron/templates/$map.nii.gz" --runs us,strict,windowed
       done
       measure labels --map /usr/share/mricron/templates/ch2bet.nii.gz --mask 1
       ;;
