@@ -42,7 +42,7 @@
  *
  * Field data of the whole, only where there is anything to tell:
  * - `LostLabels` (string): which labels are lost, of which more voxels than half are on the wrong
- *   side, and of which, of 100 voxels or more, the volume is further than .03 from theirs; a
+ *   side by more than the tolerances, and of which, of 100 voxels or more, the volume is further than .03 from theirs; a
  *   warning, too, where these are more than 5 % of the labels' voxels
  *
  * Port 1, `Interfaces`: a vtkPolyData, empty but with SharedInterfaces. Its points are those of the

@@ -206,10 +206,10 @@ std::string FillBlocks(const LabelChoice& choice, const LabelImage& image,
       empty.push_back(name);
       missing += static_cast<double>(voxels);
     }
-    else if (surfaces[i].IsFinished && 2 * surfaces[i].WrongVoxels > voxels)
+    else if (surfaces[i].IsFinished && 2 * surfaces[i].MissedVoxels > voxels)
     {
       lost.push_back(name);
-      missing += settings.KeepComponents == 0 ? static_cast<double>(surfaces[i].WrongVoxels) : 0.0;
+      missing += settings.KeepComponents == 0 ? static_cast<double>(surfaces[i].MissedVoxels) : 0.0;
     }
     else if (surfaces[i].IsFinished && HasWrongVolume(surfaces[i], voxels, settings))
     {

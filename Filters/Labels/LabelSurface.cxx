@@ -271,6 +271,14 @@ LabelSurface LabelSurfaceMaker::Make(
   double done = 0.0;
   for (const Place& place : this->PlacesToTry(object))
   {
+    const bool losesParts = !best.Surface || this->LosesParts(object, best);
+    // Where labels meet by threes a tolerance may cost volume.
+    const bool isOff =
+      !losesParts && place.IsStrict && place.Level <= 0 && this->HasVolumeOff(object, best);
+    if (!losesParts && !isOff)
+    {
+      break;
+    }
     const double share = ShareOfFirst * (1.0 - done);
     LabelSurface made = this->MakeWithVolume(place, object, numberOfThreads, threads,
       [&](double ofThis, const std::string& text)
@@ -281,27 +289,27 @@ LabelSurface LabelSurfaceMaker::Make(
       break; // It was stopped; what there is is finished.
     }
     const bool isBetter = !best.Surface || best.Surface->GetNumberOfCells() == 0 ||
-      made.MissedVoxels < best.MissedVoxels;
+      (isOff ? std::abs(made.VolumeError) < std::abs(best.VolumeError)
+             : made.MissedVoxels < best.MissedVoxels);
     made.IsFiner = place.Level < 0 && !place.IsForThinParts;
     best = isBetter ? made : best;
-    if (!this->LosesParts(object, best))
-    {
-      break;
-    }
   }
   return best;
+}
+
+bool LabelSurfaceMaker::HasVolumeOff(int object, const LabelSurface& made) const
+{
+  return made.Surface->GetNumberOfCells() > 0 && this->Settings.Gap == 0.0 &&
+    this->Settings.KeepComponents == 0 && made.IsVolumeOff(this->Bricks.ExtentOf(object).Voxels);
 }
 
 LabelSurface LabelSurfaceMaker::MakeWithVolume(const Place& place, int object, int numberOfThreads,
   HostThreads& threads, const Progress& progress) const
 {
   LabelSurface made = this->MakeAt(place, object, numberOfThreads, threads, progress);
-  const std::int64_t voxels = this->Bricks.ExtentOf(object).Voxels;
-  const bool mayBeOff =
-    place.Level > 0 || this->Settings.Gap > 0.0 || this->Settings.KeepComponents != 0;
   const auto stayAtEnd = [&](double, const std::string& text) { return progress(1.0, text); };
-  for (Place less = place; made.Surface && made.Surface->GetNumberOfCells() > 0 && !mayBeOff &&
-       made.IsVolumeOff(voxels) && less.Smoothing * this->Options.Sigma > LeastSmoothing;)
+  for (Place less = place; made.Surface && place.Level <= 0 && this->HasVolumeOff(object, made) &&
+       less.Smoothing * this->Options.Sigma > LeastSmoothing;)
   {
     less.Smoothing *= 0.5;
     const LabelSurface other = this->MakeAt(less, object, numberOfThreads, threads, stayAtEnd);

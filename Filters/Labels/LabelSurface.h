@@ -137,6 +137,8 @@ private:
     HostThreads& threads, const Progress& progress) const;
   LabelSurface MakeAt(const Place& place, int object, int numberOfThreads, HostThreads& threads,
     const Progress& progress) const;
+  /** Whether its volume is not that of the voxels, though nothing asks for another one. */
+  bool HasVolumeOff(int object, const LabelSurface& made) const;
   /** Whether a level finer than the image may hold what this surface leaves out. */
   bool LosesParts(int object, const LabelSurface& made) const;
   FieldImage MakeField(const Place& place, int object, HostThreads& threads) const;
