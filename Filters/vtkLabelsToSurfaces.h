@@ -42,8 +42,8 @@
  *
  * Field data of the whole, only where there is anything to tell:
  * - `LostLabels` (string): which labels are lost, of which more voxels than half are on the wrong
- *   side by more than the tolerances, and of which, of 100 voxels or more, the volume is further than .03 from theirs; a
- *   warning, too, where these are more than 5 % of the labels' voxels
+ *   side by more than the tolerances, and of which, of 100 voxels or more, the volume is further than
+ *   .03 from theirs; a warning, too, where these are more than 5 % of the labels' voxels
  *
  * Port 1, `Interfaces`: a vtkPolyData, empty but with SharedInterfaces. Its points are those of the
  * blocks, whose point data `GlobalIds` (vtkIdType) then say which. Its cells are the segments of
@@ -186,8 +186,8 @@ public:
    * voxels, at most 1. With .5 what is one voxel high or deep, as noise and the stairs of resampled
    * maps, becomes smooth; volumes stay, and so does what is thin: a centre may be wrong only where
    * the surface is so near. 0: none is, as far as triangles can: each voxel of a rough label sticks
-   * out. A label that loses parts is made with 0, and then, if that does not hold them, with finer
-   * triangles. Default: .5.
+   * out. A label that loses parts, or volume, is made with 0, and then, if that does not hold the
+   * parts, with finer triangles. Default: .5.
    */
   void SetVoxelTolerance(double voxels);
   double GetVoxelTolerance();
@@ -368,8 +368,7 @@ public:
   void GoOn();
 
 #ifndef __VTK_WRAP__ // It is no property of ours.
-  /** As of all algorithms, but while no run is under way it asks for nothing, and changes nothing.
-   */
+  /** As of all algorithms, but while no run is under way it asks for and changes nothing. */
   void SetAbortExecute(vtkTypeBool abort) override;
 #endif
 

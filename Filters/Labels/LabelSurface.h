@@ -32,8 +32,7 @@ struct LabelSurface
   vtkSmartPointer<vtkPolyData> Surface; ///< null: it was not begun
   double Seconds = 0.0;                 ///< that the work on it took, from its begin to its end
   vtkIdType WrongVoxels = 0;
-  vtkIdType MissedVoxels =
-    0; ///< those of them further from the surface than VoxelTolerance and Tolerance
+  vtkIdType MissedVoxels = 0;  ///< those of them that are so by more than the tolerances
   double VolumeError = 0.0;    ///< by how much its volume is more than that of the voxels, in that
   vtkIdType TouchingFaces = 0; ///< with Gap: those where it meets neighbours all the same
   bool IsFiner = false;        ///< Level 0 has lost parts: it is one of level -1.
@@ -82,8 +81,8 @@ public:
   void AddClaim(int object, HostThreads& threads);
 
   /**
-   * On any thread. What a surface does not hold is tried without VoxelTolerance, and then what that
-   * does not hold with the triangles of level -1.
+   * On any thread. What a surface does not hold, and a volume that is off, is tried without
+   * VoxelTolerance, and then what that does not hold with the triangles of level -1.
    * @param numberOfThreads those of `threads`; 0: all
    */
   LabelSurface Make(
@@ -130,7 +129,7 @@ private:
     bool IsStrict = false;       ///< without VoxelTolerance
     double Smoothing = 1.0;      ///< a share of Sigma
   };
-  /** In their order, until nothing is lost. */
+  /** In their order, until nothing is lost, and no tolerance costs volume. */
   std::vector<Place> PlacesToTry(int object) const;
   /** MakeAt(), and with less smoothing as long as the volume is not that of the voxels. */
   LabelSurface MakeWithVolume(const Place& place, int object, int numberOfThreads,

@@ -338,6 +338,20 @@ class WhatIsReadTest(LabelsTest):
             np.testing.assert_allclose(bounds, expected, atol=1.5)
 
 
+class ToleranceTest(LabelsTest):
+    def test_grains_of_few_voxels_hold_what_neighbours_claim(self):
+        """Their tolerance is let go, rather than that all get smaller triangles, or are lost."""
+        grains = np.kron(np.arange(1, 65).reshape(4, 4, 4), np.ones((2, 2, 3), int))
+        image = make_image(np.pad(grains, 2).astype("u1"), (1, 1, 1))
+        volume = self.write(vtkXMLImageDataWriter(), "grains.vti", image)
+        report = self.report(volume, self.path("grains/"), "--labels", "all", "--voxel-tolerance", ".5")
+        self.assertEqual(len(report["labels"]), 64)
+        for label in report["labels"]:
+            self.assertEqual((label["level"], label["missed_voxels"]), (0, 0))
+            self.assertLess(label["wrong_voxels"], 3)
+        self.assertEqual(report["warnings"], [])
+
+
 class OptionsTest(LabelsTest):
     def test_every_property_of_labels_is_set(self):
         volume = self.map_file()
