@@ -135,13 +135,8 @@ void BeginWhereHeld(
   LevelChoice& choice, int there, const SegmentationLevels& levels, const SurfaceOptions& options)
 {
   const int last = std::exchange(choice.Coarsest, there);
-  // Where other forces stop the surface, the object is not what its voxels' values tell.
-  if (!(options.IsopotentialWeight > 0.0) || options.GradientWeight > 0.0 || levels.HasEdges())
-  {
-    return;
-  }
   // With recovery a surface that has vanished comes again, and the way on the last level is short.
-  if (options.RecoverLostParts && there == last)
+  if (!options.IsDrivenByFieldAlone() || (options.RecoverLostParts && there == last))
   {
     return;
   }

@@ -140,8 +140,7 @@ void SegmentationLevels::ReadAttraction(const SegmentationRequest& request)
     this->Points =
       std::make_unique<PointAttraction>(std::move(points), options.PointAttractionWeight);
   }
-  this->EdgesAttract = options.EdgeAttractionWeight > 0.0;
-  this->Edges = this->EdgesAttract ? ReadEdges(request) : nullptr;
+  this->Edges = options.EdgeAttractionWeight > 0.0 ? ReadEdges(request) : nullptr;
 }
 
 std::array<double, 2> SegmentationLevels::Range(int level) const

@@ -41,7 +41,6 @@ public:
   /** Once, before Load(): takes the points and the map of edges that the settings give a weight. */
   void ReadAttraction(const SegmentationRequest& request);
   bool HasPoints() const { return this->Points != nullptr; }
-  bool HasEdges() const { return this->EdgesAttract; }
 
   const PyramidLevels& Pyramid() const { return this->Voxels; }
   const Workspace& GetWorkspace() const { return this->Voxels.GetWorkspace(); }
@@ -83,7 +82,6 @@ private:
   bool MayHaveUnreportedNaNs;
   PyramidLevels Voxels;
   std::unique_ptr<PointAttraction> Points; ///< null: none
-  bool EdgesAttract = false;
   /**
    * Of the map of edges. Where all blocks carry the array these are taken; else the pyramid of the
    * array of block 0 is made, by the factor that the blocks tell. Null: none, or after a stop.

@@ -63,15 +63,16 @@ struct SurfaceOptions : FieldOptions
    */
   double BlockSide = 0.;
 
-  /**
-   * Whether nothing but the field drives the surface, so that where it is to lie is known before a
-   * level begins.
-   */
-  bool FollowsFieldAlone() const
+  /** Whether no other force stops the surface: the object is what the values of voxels tell. */
+  bool IsDrivenByFieldAlone() const
   {
     return this->IsopotentialWeight > 0. && !(this->GradientWeight > 0.) &&
-      !(this->EdgeAttractionWeight > 0.) && this->SnapToIsoValue &&
-      this->FreezeMotionlessVertices;
+      !(this->EdgeAttractionWeight > 0.);
+  }
+  /** Whether, so, where it is to lie is known before a level begins. */
+  bool FollowsFieldAlone() const
+  {
+    return this->IsDrivenByFieldAlone() && this->SnapToIsoValue && this->FreezeMotionlessVertices;
   }
 };
 }
