@@ -37,7 +37,7 @@ private:
   std::vector<int> FindVertices();
   /** How narrow all is about a vertex, squared differences from what is aimed at; 0: nothing is. */
   double NarrownessAt(int v);
-  double NarrownessOfImages() ;
+  double NarrownessOfImages();
   bool TryMove(int v);
   bool TryMoveTo(int v, const Vector& wanted);
   /** What a face would be with its vertex at a place has no voxel on the wrong side of it. */
