@@ -58,6 +58,8 @@
  *   meet or end
  * - point data `EdgeSize` (float): with Tolerance, the length of edges that is wanted there
  * - field data `Label`, `LabelName`, `LabelColor`, `LabelVoxels`: with an entry for each label
+ * - field data `WorstAngle` (double, degrees), `WorstAnglePosition` (double, 3 components): the least
+ *   angle between two interfaces about a junction line, and where that is; only where there are lines
  *
  * @par Algorithm:
  * What is not the paper's. The field of which vtkDeformableSurface takes the isopotential is made

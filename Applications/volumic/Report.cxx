@@ -9,6 +9,7 @@
 #include <vtkDataArray.h>
 #include <vtkDeformableSurface.h>
 #include <vtkFieldData.h>
+#include <vtkLabelsToSurfaces.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkPolyData.h>
 #include <vtkTable.h>
@@ -281,6 +282,17 @@ Json NameFacts(const LabelSurface& surface)
   facts["files"] = surface.Files;
   return facts;
 }
+
+/** The members `worst_angle` and `worst_angle_position`, of interfaces with lines. */
+void AddWorstAngle(Json& json, vtkPolyData* interfaces)
+{
+  if (vtkDataArray* angle = interfaces->GetFieldData()->GetArray("WorstAngle"))
+  {
+    const double* place = interfaces->GetFieldData()->GetArray("WorstAnglePosition")->GetTuple(0);
+    json["worst_angle"] = angle->GetComponent(0, 0);
+    json["worst_angle_position"] = AsJsonArray(std::vector<double>(place, place + 3));
+  }
+}
 }
 
 std::string ReportText(const LabelReport& report)
@@ -301,6 +313,7 @@ std::string ReportText(const LabelReport& report)
     AddSurfaceFacts(facts, surface, { surface->GetNumberOfPoints(), surface->GetNumberOfPolys() });
     facts["component_features"] = ComponentFeatures(surface);
   }
+  AddWorstAngle(json, report.Filters.Labels->GetInterfaces());
   AddSolid(json, report.Filling);
   json["seconds"] = { { "surface", report.Seconds } };
   json["memory"] = MemoryFacts(report.ReaderMemory);

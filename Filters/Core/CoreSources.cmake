@@ -68,7 +68,9 @@ set(volumic_core_sources
   Interfaces/InterfaceSlivers.cxx
   Interfaces/LatticeCutter.cxx
   Interfaces/LatticeSides.cxx
+  Interfaces/LineWedges.cxx
   Interfaces/MakeInterfaces.cxx
+  Interfaces/NarrowPlaces.cxx
   Interfaces/PeriodicImages.cxx
   Interfaces/VertexTargets.cxx
   Surface/ComponentWatch.cxx
@@ -193,7 +195,9 @@ set(volumic_core_headers
   Interfaces/InterfaceRemesher.h
   Interfaces/InterfaceSizes.h
   Interfaces/LatticeCutter.h
+  Interfaces/LineWedges.h
   Interfaces/MakeInterfaces.h
+  Interfaces/NarrowPlaces.h
   Interfaces/TriangleShape.h
   Interfaces/VertexTargets.h
   Surface/ComponentWatch.h

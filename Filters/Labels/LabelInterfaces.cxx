@@ -6,6 +6,7 @@
 #include "Core/Evolution/SurfaceOptions.h"
 #include "Core/Image/VoxelNumbers.h"
 #include "Core/Interfaces/InterfaceSizes.h"
+#include "Core/Interfaces/LineWedges.h"
 #include "Core/Labels/MapBeyond.h"
 #include "Core/Labels/SmallParts.h"
 #include "Core/Labels/WrongVoxels.h"
@@ -15,9 +16,12 @@
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
+#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
 #include <vtkFloatArray.h>
 #include <vtkIdTypeArray.h>
 #include <vtkIntArray.h>
+#include <vtkMath.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -362,6 +366,28 @@ std::vector<LabelSurface> LabelInterfaceMaker::Surfaces(HostThreads& threads) co
   return surfaces;
 }
 
+void LabelInterfaceMaker::TellWorstAngle(vtkPolyData* interfaces) const
+{
+  const LineWedge worst = NarrowestWedge(this->Mesh);
+  if (worst.Edge[0] < 0)
+  {
+    return;
+  }
+  vtkNew<vtkDoubleArray> angle;
+  angle->SetName("WorstAngle");
+  angle->InsertNextValue(worst.Angle * 180.0 / vtkMath::Pi());
+  vtkNew<vtkDoubleArray> position;
+  position->SetName("WorstAnglePosition");
+  position->SetNumberOfComponents(3);
+  double ends[2][3];
+  interfaces->GetPoint(worst.Edge[0], ends[0]);
+  interfaces->GetPoint(worst.Edge[1], ends[1]);
+  position->InsertNextTuple3(0.5 * (ends[0][0] + ends[1][0]), 0.5 * (ends[0][1] + ends[1][1]),
+    0.5 * (ends[0][2] + ends[1][2]));
+  interfaces->GetFieldData()->AddArray(angle);
+  interfaces->GetFieldData()->AddArray(position);
+}
+
 vtkSmartPointer<vtkPolyData> LabelInterfaceMaker::Interfaces(
   const std::vector<int>& labels, int outside) const
 {
@@ -422,6 +448,7 @@ vtkSmartPointer<vtkPolyData> LabelInterfaceMaker::Interfaces(
   {
     interfaces->GetPointData()->AddArray(sizes);
   }
+  this->TellWorstAngle(interfaces);
   return interfaces;
 }
 }

@@ -7,6 +7,7 @@ import os
 import re
 import unittest
 from collections import Counter
+from itertools import combinations
 
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
@@ -128,6 +129,29 @@ class OneMeshTest(InterfacesTest):
                                    enclosed(points_of(block).astype(float), triangles_of(block)),
                                    1, places=5)
             self.assertGreater(enclosed(points_of(mesh), own), 0)
+
+    def test_the_worst_angle_about_a_line_is_told(self):
+        report = self.report(self.map_of(sectors()), self.path("a.vtp"), "--labels", "all",
+                             "--shared-interfaces")
+        mesh = read(self.path("a.vtp"))
+        points, triangles, worst = points_of(mesh), triangles_of(mesh), (180, None)
+        for ends in vtk_to_numpy(mesh.GetLines().GetConnectivityArray()).reshape(-1, 2):
+            outer = triangles[np.isin(triangles, ends).sum(1) == 2]
+            outer = points[outer[~np.isin(outer, ends)]] - points[ends[0]]
+            axis = points[ends[1]] - points[ends[0]]
+            outer -= np.outer(outer @ axis, axis) / (axis @ axis)
+            outer /= np.linalg.norm(outer, axis=1, keepdims=True)
+            angle = np.degrees(np.arccos(max(a @ b for a, b in combinations(outer, 2))))
+            worst = min(worst, (angle, points[ends].mean(axis=0).tolist()))
+        self.assertLess(worst[0], 120)
+        self.assertAlmostEqual(report["worst_angle"], worst[0], places=2)
+        np.testing.assert_allclose(report["worst_angle_position"], worst[1], atol=1e-4)
+        told = mesh.GetFieldData()
+        self.assertEqual(told.GetArray("WorstAngle").GetTuple1(0), report["worst_angle"])
+        self.assertEqual(list(told.GetArray("WorstAnglePosition").GetTuple3(0)),
+                         report["worst_angle_position"])
+        separate = self.report(self.map_of(sectors()), "--labels", "all")
+        self.assertNotIn("worst_angle", separate)
 
     def test_merged(self):
         for options in ((), ("--shared-interfaces",)):

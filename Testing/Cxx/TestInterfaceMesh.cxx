@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Common/ScratchMemory.h"
+#include "Core/Interfaces/LineWedges.h"
 #include "InterfaceTestTools.h"
 
 using namespace volumic;
@@ -113,6 +114,17 @@ bool AreInOrderAbout(const InterfaceMesh& mesh, int u, int v)
   }
   return AreInOrder(u, v, faces);
 }
+}
+
+TEST(LineWedges, AreBetweenFacesThatAreNextToEachOther)
+{
+  const double degree = std::acos(-1.) / 180.;
+  EXPECT_NEAR(NarrowestWedge(FacesAt({ 0., 90., 175., 270. })).Angle, 85. * degree, 1e-6);
+  const LineWedge across = NarrowestWedge(FacesAt({ 3., 100., 200., 355. }));
+  EXPECT_NEAR(across.Angle, 8. * degree, 1e-6);
+  EXPECT_EQ(across.Edge, (std::array<int, 2>{ 0, 1 }));
+  EXPECT_EQ(across.Faces, (std::array<int, 2>{ 3, 0 }));
+  EXPECT_EQ(NarrowestWedge(InterfaceMesh()).Edge[0], -1) << "there are no lines";
 }
 
 TEST(InterfaceClearance, KnowsFacesThatAreTurnedPastOthers)

@@ -3,6 +3,8 @@
 #include "Core/Interfaces/MakeInterfaces.h"
 
 #include "Core/Interfaces/InterfaceFit.h"
+#include "Core/Interfaces/LineWedges.h"
+#include "Core/Interfaces/NarrowPlaces.h"
 #include "Core/Interfaces/TriangleShape.h"
 #include "InterfaceTestTools.h"
 
@@ -21,6 +23,29 @@ InterfaceMesh Make(
   const std::function<bool(double)>& goOn = [](double) { return true; })
 {
   return MakeInterfaces(*scene.Fields, InterfaceOptions(), executor, goOn);
+}
+
+/** Three balls that are pressed together a little. */
+LabelMap ThreeBalls()
+{
+  return MakeLabelMap({ 40, 32, 40 }, 3,
+    [](int i, int j, int k)
+    {
+      return std::hypot(i - 12., j - 15., k - 29.) < 7.9 ? 3
+        : std::hypot(i - 21., j - 12., k - 22.) < 6.1    ? 2
+        : std::hypot(i - 11., j - 16., k - 14.) < 7.2    ? 1
+                                                         : 0;
+    });
+}
+
+double LeastAngle(const InterfaceMesh& mesh)
+{
+  double least = 1.;
+  for (const InterfaceMesh::Face& face : mesh.Faces)
+  {
+    least = std::min(least, SmallestAngle(TriangleOf(mesh, face.Vertex)));
+  }
+  return least;
 }
 
 double VoxelsOf(const InterfaceScene& scene, int object)
@@ -80,6 +105,54 @@ TEST(MakeInterfaces, HasNoSliversAboutNecks)
   }
   EXPECT_GT(least, 25.);
 }
+
+TEST(MakeInterfaces, HasNoNarrowWedges)
+{
+  InterfaceScene scene(ThreeBalls());
+  const InterfaceMesh mesh = Make(scene);
+  ExpectSound(mesh);
+  EXPECT_GT(NarrowestWedge(mesh).Angle * 57.2958, 10.);
+  EXPECT_GT(LeastAngle(mesh) * 57.2958, 20.);
+}
+
+class NarrowPlacesOfBalls : public testing::TestWithParam<double>
+{
+};
+
+TEST_P(NarrowPlacesOfBalls, AreOpenedWithinTheVoxels)
+{
+  InterfaceScene scene(ThreeBalls());
+  InterfaceMesh mesh = Make(scene);
+  unsigned seed = 1;
+  for (Vector& p : mesh.Position)
+  {
+    for (float* at : { &p.X, &p.Y, &p.Z })
+    {
+      seed = seed * 1664525u + 1013904223u;
+      *at += 0.5f * (static_cast<float>(seed >> 8) / (1u << 24) - 0.5f);
+    }
+  }
+  ASSERT_EQ(CountSelfIntersections(AllFaces(mesh)), 0);
+  const InterfaceMesh before = mesh;
+  ASSERT_LT(LeastAngle(before) * 57.2958, 15.);
+  const auto wrongOf = [&](const InterfaceMesh& of)
+  { return PushWrongVoxels(of, *scene.Fields, GetParam(), OnThisThread()); };
+  const std::size_t wrong = wrongOf(before);
+  NarrowPlaces(mesh, *scene.Fields, 1.36, 1e-3, GetParam()).Open([] { return true; });
+  ExpectSound(mesh);
+  EXPECT_LE(wrongOf(mesh), wrong);
+  EXPECT_GT(LeastAngle(mesh), LeastAngle(before));
+  for (std::size_t v = 0; v < mesh.Position.size(); ++v)
+  {
+    EXPECT_LE(Length(mesh.Position[v] - before.Position[v]), 0.5001f);
+  }
+  // As soon as it is told to stop nothing is moved.
+  InterfaceMesh stopped = before;
+  NarrowPlaces(stopped, *scene.Fields, 1.36, 1e-3, GetParam()).Open([] { return false; });
+  EXPECT_EQ(LeastAngle(stopped), LeastAngle(before));
+}
+
+INSTANTIATE_TEST_SUITE_P(Tolerances, NarrowPlacesOfBalls, testing::Values(0., 0.5));
 
 TEST(MakeInterfaces, TurnsNoPartInsideOut)
 {

@@ -7,6 +7,7 @@
 #include "Core/Interfaces/InterfaceMotion.h"
 #include "Core/Interfaces/InterfaceRemesher.h"
 #include "Core/Interfaces/InterfaceSizes.h"
+#include "Core/Interfaces/NarrowPlaces.h"
 #include "Core/Interfaces/TriangleShape.h"
 
 #include <algorithm>
@@ -115,11 +116,19 @@ InterfaceMesh MakeInterfaces(InterfaceFields& fields, const InterfaceOptions& op
   // Of the last steps some slivers are left; without them volumes are a little different again.
   Edit(mesh, options.Edge, false, LastSliverRounds, mayGoOn);
   mesh.Compact();
+  const auto openNarrowPlaces = [&]
+  {
+    NarrowPlaces(mesh, fields, options.Edge, ToleranceOfEdge * options.Edge,
+      options.VoxelTolerance + options.Tolerance)
+      .Open(mayGoOn);
+  };
   if (mayGoOn())
   {
+    openNarrowPlaces(); // For the volumes, as it will be done again.
     CorrectVolumes(mesh, fields, options.Tolerance);
     MoveInterfaces(mesh, fields, 1, 0., LeastShare * options.Edge, ToleranceOfEdge * options.Edge,
       SliverAngle, executor, straightening);
+    openNarrowPlaces();
   }
   if (fields.ArePeriodic())
   {

@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Interfaces/LineWedges.h"
+
+#include "Core/Common/Vector.h"
+
+#include <cmath>
+#include <cstddef>
+
+namespace volumic
+{
+LineWedge NarrowestWedgeAt(
+  const InterfaceMesh& mesh, const std::array<int, 2>& edge, const std::vector<int>& faces)
+{
+  const auto placeOf = [&](int v) { return VectorD(mesh.Position[static_cast<std::size_t>(v)]); };
+  const VectorD from = placeOf(edge[0]);
+  const VectorD axis = placeOf(edge[1]) - from;
+  const auto across = [&](int f)
+  {
+    const VectorD way =
+      placeOf(mesh.Faces[static_cast<std::size_t>(f)].Opposite(edge[0], edge[1])) - from;
+    return way * SquaredLength(axis) - axis * Dot(axis, way);
+  };
+  // The nearest two of all are neighbours.
+  LineWedge narrowest;
+  for (std::size_t n = 0; n < faces.size(); ++n)
+  {
+    for (std::size_t m = n + 1; m < faces.size(); ++m)
+    {
+      const VectorD a = across(faces[n]);
+      const VectorD b = across(faces[m]);
+      const double angle = std::atan2(Length(Cross(a, b)), Dot(a, b));
+      if (angle < narrowest.Angle)
+      {
+        narrowest = { edge, { faces[n], faces[m] }, angle };
+      }
+    }
+  }
+  return narrowest;
+}
+
+LineWedge NarrowestWedge(const InterfaceMesh& mesh)
+{
+  LineWedge narrowest;
+  std::vector<int> faces;
+  for (const std::array<int, 2>& edge : mesh.FindLines())
+  {
+    mesh.FindFaces(edge[0], edge[1], faces);
+    const LineWedge wedge = NarrowestWedgeAt(mesh, edge, faces);
+    narrowest = wedge.Angle < narrowest.Angle ? wedge : narrowest;
+  }
+  return narrowest;
+}
+}

@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicLineWedges_h
+#define volumicLineWedges_h
+
+#include "Core/Interfaces/InterfaceMesh.h"
+
+#include <array>
+#include <limits>
+#include <vector>
+
+namespace volumic
+{
+/** What lies between two interfaces that are next to each other about an edge of a junction line. */
+struct LineWedge
+{
+  std::array<int, 2> Edge = { -1, -1 };
+  std::array<int, 2> Faces = { -1, -1 };
+  double Angle = std::numeric_limits<double>::infinity(); ///< radian
+};
+
+/** The wedge between the faces at an edge that is the narrowest. */
+LineWedge NarrowestWedgeAt(
+  const InterfaceMesh& mesh, const std::array<int, 2>& edge, const std::vector<int>& faces);
+
+/** That of all lines; without an edge where there are none. */
+LineWedge NarrowestWedge(const InterfaceMesh& mesh);
+}
+
+#endif

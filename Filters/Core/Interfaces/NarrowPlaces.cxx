@@ -1,0 +1,263 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Interfaces/NarrowPlaces.h"
+
+#include "Core/Interfaces/LineWedges.h"
+#include "Core/Interfaces/TriangleShape.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace volumic
+{
+namespace
+{
+/** Triangles and wedges of less are opened, radian: a little more than 20 and 10 degrees. */
+constexpr double NarrowAngle = 0.38;
+constexpr double NarrowWedge = 0.2;
+/** How often all that is narrow is visited. */
+constexpr int Rounds = 12;
+/** How far a vertex goes at a time, in its wanted edge, at first and at least. */
+constexpr double LargestStep = 0.15;
+constexpr double SmallestStep = 0.015;
+/** How far it may go, in smallest distances of voxels. */
+constexpr float MostWay = 0.5f;
+/** In wanted edges, how far it is moved to see what that does. */
+constexpr float Probe = 1e-3f;
+/** Cosine of the angle by which a step may turn a face. */
+constexpr double LeastTurnCosine = 0.4;
+
+double SquaredLack(double angle, double wanted)
+{
+  const double lack = 1. - angle / wanted;
+  return lack > 0. ? lack * lack : 0.;
+}
+
+/** Six times the volume of a tetrahedron. */
+double VolumeOf(const VectorD& a, const VectorD& b, const VectorD& c, const VectorD& d)
+{
+  return Dot(Cross(b - a, c - a), d - a);
+}
+}
+
+NarrowPlaces::NarrowPlaces(InterfaceMesh& mesh, const InterfaceFields& fields, double edge,
+  double tolerance, double voxelTolerance)
+  : Mesh(mesh), Fields(fields), Edge(edge), VoxelTolerance(voxelTolerance),
+    Clearance(mesh, tolerance), Start(mesh.Position)
+{
+}
+
+void NarrowPlaces::Open(const std::function<bool()>& goOn)
+{
+  this->Clearance.Reset();
+  for (int round = 0; round < Rounds && goOn(); ++round)
+  {
+    bool hasMoved = false;
+    for (const int v : this->FindVertices())
+    {
+      hasMoved = this->TryMove(v) || hasMoved;
+    }
+    if (!hasMoved)
+    {
+      break;
+    }
+  }
+}
+
+std::vector<int> NarrowPlaces::FindVertices()
+{
+  std::vector<int> vertices;
+  for (const InterfaceMesh::Face& face : this->Mesh.Faces)
+  {
+    if (face.IsThere() && SmallestAngle(TriangleOf(this->Mesh, face.Vertex)) < NarrowAngle)
+    {
+      vertices.insert(vertices.end(), face.Vertex.begin(), face.Vertex.end());
+    }
+  }
+  for (const std::array<int, 2>& edge : this->Mesh.FindLines())
+  {
+    this->Mesh.FindFaces(edge[0], edge[1], this->AtEdge);
+    const LineWedge wedge = NarrowestWedgeAt(this->Mesh, edge, this->AtEdge);
+    if (wedge.Angle < NarrowWedge)
+    {
+      for (const int f : wedge.Faces)
+      {
+        const std::array<int, 3>& corners = this->Mesh.Faces[static_cast<std::size_t>(f)].Vertex;
+        vertices.insert(vertices.end(), corners.begin(), corners.end());
+      }
+    }
+  }
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  return vertices;
+}
+
+double NarrowPlaces::NarrownessAt(int v)
+{
+  double sum = 0.;
+  const auto isOnLine = [this](int w)
+  { return this->Mesh.StratumOf[static_cast<std::size_t>(w)] != Stratum::Interface; };
+  this->Mesh.ForFaces(v,
+    [&](int f)
+    {
+      const std::array<int, 3>& corners = this->Mesh.Faces[static_cast<std::size_t>(f)].Vertex;
+      sum += SquaredLack(SmallestAngle(TriangleOf(this->Mesh, corners)), NarrowAngle);
+      for (int k = 0; k < 3; ++k)
+      {
+        const std::array<int, 2> edge = { corners[k], corners[(k + 1) % 3] };
+        if (!isOnLine(edge[0]) || !isOnLine(edge[1]))
+        {
+          continue;
+        }
+        this->Mesh.FindFaces(edge[0], edge[1], this->AtEdge);
+        if (this->Mesh.IsLine(this->AtEdge))
+        {
+          sum += SquaredLack(
+            NarrowestWedgeAt(this->Mesh, edge, this->AtEdge).Angle, NarrowWedge);
+        }
+      }
+    });
+  return sum;
+}
+
+double NarrowPlaces::NarrownessOfImages()
+{
+  double sum = 0.;
+  for (const std::array<int, 2>& image : this->Images)
+  {
+    sum += this->NarrownessAt(image[0]);
+  }
+  return sum;
+}
+
+void NarrowPlaces::Place(const Vector& target)
+{
+  for (const std::array<int, 2>& image : this->Images)
+  {
+    this->Mesh.Position[static_cast<std::size_t>(image[0])] = this->Mesh.OnSides(image[0], target);
+  }
+}
+
+bool NarrowPlaces::TryMove(int v)
+{
+  this->Mesh.FindImages(v, v, this->Images);
+  const double before = this->NarrownessOfImages();
+  if (before == 0.)
+  {
+    return false;
+  }
+  const Vector place = this->Mesh.Position[static_cast<std::size_t>(v)];
+  const float edge =
+    static_cast<float>(this->Edge) * this->Mesh.Size[static_cast<std::size_t>(v)];
+  const auto differenceAlong = [&](const Vector& way)
+  {
+    this->Place(place + way);
+    const double ahead = this->NarrownessOfImages();
+    this->Place(place - way);
+    const double behind = this->NarrownessOfImages();
+    return static_cast<float>(behind - ahead);
+  };
+  const float probe = Probe * edge;
+  const Vector slope(differenceAlong(Vector(probe, 0.f, 0.f)),
+    differenceAlong(Vector(0.f, probe, 0.f)), differenceAlong(Vector(0.f, 0.f, probe)));
+  this->Place(place);
+  if (!(SquaredLength(slope) > 0.f))
+  {
+    return false;
+  }
+  for (double step = LargestStep; step > SmallestStep; step *= 0.5)
+  {
+    const Vector target = place + Normalized(slope) * (static_cast<float>(step) * edge);
+    this->Place(target);
+    const double after = this->NarrownessOfImages();
+    this->Place(place);
+    if (after < before && this->TryMoveTo(v, target))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+bool NarrowPlaces::TryMoveTo(int v, const Vector& wanted)
+{
+  const Vector target = this->Mesh.OnSides(v, wanted);
+  if (SquaredDistance(target, this->Start[static_cast<std::size_t>(v)]) > MostWay * MostWay)
+  {
+    return false;
+  }
+  this->Made.clear();
+  this->Changed.clear();
+  bool isFair = true;
+  for (const std::array<int, 2>& image : this->Images)
+  {
+    this->Mesh.ForFaces(image[0],
+      [&](int f)
+      {
+        const InterfaceMesh::Face& face = this->Mesh.Faces[static_cast<std::size_t>(f)];
+        PlacedFace t = PlacedFaceOf(this->Mesh, face);
+        const MeshTriangle old = t;
+        const std::ptrdiff_t moved = std::find(t.Vertex, t.Vertex + 3, image[0]) - t.Vertex;
+        t.Corner[moved] = VectorD(this->Mesh.OnSides(image[0], target));
+        isFair = isFair && CosineOf(NormalOf(old), NormalOf(t)) > LeastTurnCosine &&
+          this->KeepsVoxels(face, moved, old, t);
+        this->Changed.push_back(f);
+        this->Made.push_back(t);
+      });
+  }
+  if (!isFair || !this->Clearance.AreClear(this->Made, this->Changed, this->Near))
+  {
+    return false;
+  }
+  this->Place(target);
+  for (const int f : this->Changed)
+  {
+    this->Clearance.Change(f);
+  }
+  return true;
+}
+
+bool NarrowPlaces::KeepsVoxels(const InterfaceMesh::Face& face, std::ptrdiff_t moved,
+  const MeshTriangle& before, const MeshTriangle& after) const
+{
+  const VectorD& from = before.Corner[moved];
+  const VectorD& to = after.Corner[moved];
+  const VectorD& a = before.Corner[(moved + 1) % 3];
+  const VectorD& b = before.Corner[(moved + 2) % 3];
+  const double all = VolumeOf(from, a, b, to);
+  // What it goes through is given to the object behind it where it goes forward.
+  const int taker = all > 0. ? face.Behind : face.Front;
+  const VectorD normal = Normalized(NormalOf(after));
+  const std::array<double, 3>& step = this->Fields.Step();
+  const auto cellsOf = [&](double VectorD::*axis, double length)
+  {
+    const auto [low, high] = std::minmax({ from.*axis, to.*axis, a.*axis, b.*axis });
+    return std::array<int, 2>{ static_cast<int>(std::ceil(low / length)),
+      static_cast<int>(std::floor(high / length)) };
+  };
+  const std::array<int, 2> x = cellsOf(&VectorD::X, step[0]);
+  const std::array<int, 2> y = cellsOf(&VectorD::Y, step[1]);
+  const std::array<int, 2> z = cellsOf(&VectorD::Z, step[2]);
+  for (int k = z[0]; k <= z[1]; ++k)
+  {
+    for (int j = y[0]; j <= y[1]; ++j)
+    {
+      for (int i = x[0]; i <= x[1]; ++i)
+      {
+        const VectorD centre(i * step[0], j * step[1], k * step[2]);
+        const auto isWithin = [all](double volume) { return volume * all >= 0.; };
+        if (isWithin(VolumeOf(centre, a, b, to)) && isWithin(VolumeOf(from, centre, b, to)) &&
+          isWithin(VolumeOf(from, a, centre, to)) && isWithin(VolumeOf(from, a, b, centre)) &&
+          std::abs(Dot(normal, centre - to)) > this->VoxelTolerance &&
+          this->Fields.Bricks().Map().At(i, j, k) != taker)
+        {
+          return false;
+        }
+      }
+    }
+  }
+  return true;
+}
+}
