@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 namespace volumic
 {
@@ -24,6 +25,9 @@ constexpr double LargestStep = 0.15;
 constexpr double SmallestStep = 0.015;
 /** How far it may go, in smallest distances of voxels. */
 constexpr float MostWay = 0.5f;
+/** What an object may win or lose by all moves, as a share of its voxels, or so many of them. */
+constexpr double MostGainShare = 0.001;
+constexpr double MostGain = 2.;
 /** In wanted edges, how far it is moved to see what that does. */
 constexpr float Probe = 1e-3f;
 /** Cosine of the angle by which a step may turn a face. */
@@ -45,7 +49,8 @@ double VolumeOf(const VectorD& a, const VectorD& b, const VectorD& c, const Vect
 NarrowPlaces::NarrowPlaces(InterfaceMesh& mesh, const InterfaceFields& fields, double edge,
   double tolerance, double voxelTolerance)
   : Mesh(mesh), Fields(fields), Edge(edge), VoxelTolerance(voxelTolerance),
-    Clearance(mesh, tolerance), Start(mesh.Position)
+    Clearance(mesh, tolerance), Start(mesh.Position),
+    Gains(static_cast<std::size_t>(fields.Bricks().Map().NumberOfObjects) + 1, 0.)
 {
 }
 
@@ -207,7 +212,8 @@ bool NarrowPlaces::TryMoveTo(int v, const Vector& wanted)
         this->Made.push_back(t);
       });
   }
-  if (!isFair || !this->Clearance.AreClear(this->Made, this->Changed, this->Near))
+  if (!isFair || !this->Clearance.AreClear(this->Made, this->Changed, this->Near) ||
+    !this->TakeVolumes())
   {
     return false;
   }
@@ -215,6 +221,56 @@ bool NarrowPlaces::TryMoveTo(int v, const Vector& wanted)
   for (const int f : this->Changed)
   {
     this->Clearance.Change(f);
+  }
+  return true;
+}
+
+bool NarrowPlaces::TakeVolumes()
+{
+  std::vector<std::pair<int, double>> gains; // by object
+  const auto add = [&](int object, double volume)
+  {
+    const auto found = std::find_if(
+      gains.begin(), gains.end(), [object](const auto& gain) { return gain.first == object; });
+    if (found != gains.end())
+    {
+      found->second += volume;
+    }
+    else if (object > 0 && !this->Mesh.IsSide(object))
+    {
+      gains.emplace_back(object, volume);
+    }
+  };
+  const std::array<double, 3>& step = this->Fields.Step();
+  for (std::size_t n = 0; n < this->Made.size(); ++n)
+  {
+    const PlacedFace& face = this->Made[n];
+    const MeshTriangle old = TriangleOf(
+      this->Mesh, this->Mesh.Faces[static_cast<std::size_t>(this->Changed[n])].Vertex);
+    double volume = 0.;
+    for (int k = 0; k < 3; ++k)
+    {
+      volume += VolumeOf(old.Corner[k], old.Corner[(k + 1) % 3], old.Corner[(k + 2) % 3],
+        face.Corner[k]);
+    }
+    volume /= 6. * step[0] * step[1] * step[2];
+    add(face.Behind, volume);
+    add(face.Front, -volume);
+  }
+  const auto isFair = [this](const auto& gain)
+  {
+    const double voxels = static_cast<double>(this->Fields.Bricks().ExtentOf(gain.first).Voxels);
+    const double before = this->Gains[static_cast<std::size_t>(gain.first)];
+    const double after = std::abs(before + gain.second);
+    return after <= std::max(MostGain, MostGainShare * voxels) || after <= std::abs(before);
+  };
+  if (!std::all_of(gains.begin(), gains.end(), isFair))
+  {
+    return false;
+  }
+  for (const auto& gain : gains)
+  {
+    this->Gains[static_cast<std::size_t>(gain.first)] += gain.second;
   }
   return true;
 }

@@ -16,7 +16,8 @@ namespace volumic
  * Opens what is narrow at the end: triangles, and wedges between two interfaces about a junction
  * line, also of vertices on lines. One after another these go the way on which what is about them
  * becomes wider, step by step, no further than MostWay from where they were; only where nothing
- * intersects then, and no voxel's centre comes to the wrong side by more than a tolerance.
+ * intersects then, no voxel's centre comes to the wrong side by more than a tolerance, and objects
+ * keep their volumes.
  */
 class NarrowPlaces
 {
@@ -43,6 +44,8 @@ private:
   /** What a face would be with its vertex at a place has no voxel on the wrong side of it. */
   bool KeepsVoxels(const InterfaceMesh::Face& face, std::ptrdiff_t moved,
     const MeshTriangle& before, const MeshTriangle& after) const;
+  /** Adds what Made, in the place of Changed, gives each object to Gains, if none gets too much. */
+  bool TakeVolumes();
   void Place(const Vector& target);
 
   InterfaceMesh& Mesh;
@@ -50,7 +53,8 @@ private:
   const double Edge;
   const double VoxelTolerance;
   InterfaceClearance Clearance;
-  LargeVector<Vector> Start; ///< where vertices were
+  LargeVector<Vector> Start;              ///< where vertices were
+  std::vector<double> Gains;              ///< of each object by all moves, voxels
   std::vector<std::array<int, 2>> Images; ///< of the vertex that is looked at
   std::vector<int> Changed;
   std::vector<int> AtEdge;
