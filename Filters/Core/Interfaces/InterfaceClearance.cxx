@@ -47,23 +47,34 @@ VectorD AcrossEdge(const MeshTriangle& face, int u, int v)
   return way * SquaredLength(axis) - axis * Dot(axis, way);
 }
 
-/** From one face to the other one about the edge, -pi to pi. */
-double AngleAt(int u, int v, const std::array<MeshTriangle, 2>& faces)
+/** From one face to the other one about the edge: the angle's cosine and sine, times a length. */
+struct Turn
+{
+  double Cosine;
+  double Sine;
+};
+
+Turn TurnAt(int u, int v, const std::array<MeshTriangle, 2>& faces)
 {
   const VectorD first = AcrossEdge(faces[0], u, v);
   const VectorD second = AcrossEdge(faces[1], u, v);
   const VectorD axis = Normalized(CornerAt(faces[0], v) - CornerAt(faces[0], u));
-  return std::atan2(Dot(axis, Cross(first, second)), Dot(first, second));
+  return { Dot(first, second), Dot(axis, Cross(first, second)) };
 }
 }
 
 bool HavePassed(int u, int v, const std::array<MeshTriangle, 2>& before,
   const std::array<MeshTriangle, 2>& after)
 {
+  const Turn from = TurnAt(u, v, before);
+  const Turn to = TurnAt(u, v, after);
+  if (std::signbit(from.Sine) == std::signbit(to.Sine))
+  {
+    return false;
+  }
   constexpr double flat = 3.14159265358979;
-  const double from = AngleAt(u, v, before);
-  const double to = AngleAt(u, v, after);
-  return (from < 0.) != (to < 0.) && std::abs(from) + std::abs(to) < flat;
+  return std::abs(std::atan2(from.Sine, from.Cosine)) + std::abs(std::atan2(to.Sine, to.Cosine)) <
+    flat;
 }
 
 TriangleBox::TriangleBox(const Vector& a, const Vector& b, const Vector& c)
@@ -87,13 +98,13 @@ PlacedFace PlacedFaceOf(const InterfaceMesh& mesh, const InterfaceMesh::Face& fa
 
 bool AreInOrder(int u, int v, const std::vector<PlacedFace>& faces)
 {
-  struct Turn
+  struct Side
   {
     double Angle;
     LabelMap::Number Before; ///< the object at smaller angles
     LabelMap::Number After;
   };
-  std::vector<Turn> turns;
+  std::vector<Side> turns;
   VectorD axis;
   VectorD first;
   VectorD second;
@@ -122,7 +133,7 @@ bool AreInOrder(int u, int v, const std::vector<PlacedFace>& faces)
       isForward ? face.Behind : face.Front, isForward ? face.Front : face.Behind });
   }
   std::sort(turns.begin(), turns.end(),
-    [](const Turn& a, const Turn& b) { return a.Angle < b.Angle; });
+    [](const Side& a, const Side& b) { return a.Angle < b.Angle; });
   for (std::size_t n = 0; n < turns.size(); ++n)
   {
     if (turns[n].After != turns[(n + 1) % turns.size()].Before)

@@ -100,6 +100,10 @@ bool InterfaceMesh::IsLine(const std::vector<int>& faces) const
 
 Vector InterfaceMesh::OnSides(int v, const Vector& place) const
 {
+  if (this->FirstSide == std::numeric_limits<int>::max())
+  {
+    return place; // There is no box.
+  }
   const Vector& own = this->Position[static_cast<std::size_t>(v)];
   Vector moved(std::clamp(place.X, this->Planes[0], this->Planes[1]),
     std::clamp(place.Y, this->Planes[2], this->Planes[3]),

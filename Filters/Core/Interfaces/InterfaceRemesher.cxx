@@ -150,7 +150,7 @@ bool InterfaceRemesher::MayCollapse(int u, int v)
   { neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end()); };
   unique(this->First);
   unique(this->Second);
-  std::vector<int>& common = this->Changed;
+  std::vector<int>& common = this->Common;
   common.clear();
   std::set_intersection(this->First.begin(), this->First.end(), this->Second.begin(),
     this->Second.end(), std::back_inserter(common));
@@ -161,10 +161,10 @@ bool InterfaceRemesher::ShareObjects(int u, int v)
 {
   this->Mesh.FindObjects(u, this->First);
   this->Mesh.FindObjects(v, this->Second);
-  this->Changed.clear();
+  this->Common.clear();
   std::set_intersection(this->First.begin(), this->First.end(), this->Second.begin(),
-    this->Second.end(), std::back_inserter(this->Changed));
-  return std::all_of(this->Changed.begin(), this->Changed.end(),
+    this->Second.end(), std::back_inserter(this->Common));
+  return std::all_of(this->Common.begin(), this->Common.end(),
     [&](int object)
     {
       return std::any_of(this->AtEdge.begin(), this->AtEdge.end(),
@@ -185,50 +185,79 @@ bool InterfaceRemesher::TryCollapse(int u, int v)
   };
   const int kept = rankOf(u) >= rankOf(v) ? u : v;
   const int removed = kept == u ? v : u;
-  const auto mayCollapse = [&](const std::array<int, 2>& edge)
-  {
-    return this->Mesh.StratumOf[static_cast<std::size_t>(edge[0])] >=
-      this->Mesh.StratumOf[static_cast<std::size_t>(edge[1])] &&
-      this->MayCollapse(edge[0], edge[1]);
-  };
   this->Mesh.FindImages(kept, removed, this->Images);
-  if (static_cast<int>(this->Images.size()) != this->Mesh.NumberOfImages(removed) ||
-    !std::all_of(this->Images.begin(), this->Images.end(), mayCollapse))
+  if (static_cast<int>(this->Images.size()) != this->Mesh.NumberOfImages(removed))
   {
     return false;
   }
   const Vector place = this->Mesh.Position[static_cast<std::size_t>(kept)];
-  if (rankOf(kept).first != rankOf(removed).first)
-  {
-    return this->TryCollapseAt(place);
-  }
   const Vector other = this->Mesh.Position[static_cast<std::size_t>(removed)];
-  return this->TryCollapseAt((place + other) * 0.5f) || this->TryCollapseAt(place) ||
-    this->TryCollapseAt(other);
+  const bool isAlike = rankOf(kept).first == rankOf(removed).first;
+  const std::array<Vector, 3> places = { isAlike ? (place + other) * 0.5f : place, place, other };
+  // What is made is looked at first: it is the least work, and what most are refused for.
+  bool isAllowed = false;
+  for (std::size_t n = 0; n < (isAlike ? places.size() : 1); ++n)
+  {
+    if (!this->AreFairCollapses(places[n]))
+    {
+      continue;
+    }
+    isAllowed = isAllowed || this->MayCollapseImages();
+    if (!isAllowed)
+    {
+      return false;
+    }
+    if (this->Clearance.AreClear(this->Made, this->Changed, this->Near))
+    {
+      this->CollapseImages(places[n]);
+      return true;
+    }
+  }
+  return false;
 }
 
-bool InterfaceRemesher::TryCollapseAt(const Vector& place)
+bool InterfaceRemesher::MayCollapseImages()
+{
+  return std::all_of(this->Images.begin(), this->Images.end(),
+    [this](const std::array<int, 2>& edge)
+    {
+      return this->Mesh.StratumOf[static_cast<std::size_t>(edge[0])] >=
+        this->Mesh.StratumOf[static_cast<std::size_t>(edge[1])] &&
+        this->MayCollapse(edge[0], edge[1]);
+    });
+}
+
+Vector InterfaceRemesher::PlaceOfImage(std::size_t image, const Vector& place) const
+{
+  return image == 0 ? place : this->Mesh.OnSides(this->Images[image][0], place);
+}
+
+bool InterfaceRemesher::AreFairCollapses(const Vector& place)
 {
   this->Made.clear();
   this->Changed.clear();
-  const auto placeOf = [&](int kept)
-  { return kept == this->Images[0][0] ? place : this->Mesh.OnSides(kept, place); };
-  if (!std::all_of(this->Images.begin(), this->Images.end(),
-        [&](const std::array<int, 2>& edge)
-        { return this->IsFairCollapse(placeOf(edge[0]), edge[0], edge[1]); }) ||
-    !this->Clearance.AreClear(this->Made, this->Changed, this->Near))
+  for (std::size_t n = 0; n < this->Images.size(); ++n)
   {
-    return false;
+    const std::array<int, 2>& edge = this->Images[n];
+    if (!this->IsFairCollapse(this->PlaceOfImage(n, place), edge[0], edge[1]))
+    {
+      return false;
+    }
   }
-  for (const std::array<int, 2>& edge : this->Images)
+  return true;
+}
+
+void InterfaceRemesher::CollapseImages(const Vector& place)
+{
+  for (std::size_t n = 0; n < this->Images.size(); ++n)
   {
-    this->Collapse(placeOf(edge[0]), edge[0], edge[1]);
+    const std::array<int, 2>& edge = this->Images[n];
+    this->Collapse(this->PlaceOfImage(n, place), edge[0], edge[1]);
   }
   for (const int f : this->Changed)
   {
     this->Clearance.Change(f);
   }
-  return true;
 }
 
 bool InterfaceRemesher::IsFairCollapse(const Vector& place, int kept, int removed)
@@ -241,54 +270,70 @@ bool InterfaceRemesher::IsFairCollapse(const Vector& place, int kept, int remove
       return false; // A face would leave its side of the box.
     }
   }
+  if (this->MakesLongEdges(place, kept, removed))
+  {
+    return false;
+  }
+  double worst = 1.;
+  for (const int v : { kept, removed })
+  {
+    bool isFair = true;
+    this->Mesh.ForFaces(v,
+      [&](int f)
+      {
+        const InterfaceMesh::Face& face = this->Mesh.Faces[static_cast<std::size_t>(f)];
+        if (!isFair || (v == removed && face.Has(kept)))
+        {
+          return;
+        }
+        const PlacedFace before = PlacedFaceOf(this->Mesh, face);
+        const double ratio = RadiusRatio(before);
+        worst = std::min(worst, ratio);
+        this->Changed.push_back(f);
+        if (face.Has(removed) && v == kept)
+        {
+          return;
+        }
+        PlacedFace after = before;
+        const auto k = std::find(after.Vertex, after.Vertex + 3, v) - after.Vertex;
+        after.Vertex[k] = kept;
+        after.Corner[k] = VectorD(place);
+        // The normals of slivers say nothing.
+        isFair = ratio < MostSliver || CosineOf(NormalOf(before), NormalOf(after)) > LeastTurnCosine;
+        this->Made.push_back(after);
+      });
+    if (!isFair)
+    {
+      return false;
+    }
+  }
+  const double least = std::min(worst, LeastRatio);
+  return std::all_of(this->Made.begin() + firstMade, this->Made.end(),
+    [least](const MeshTriangle& triangle) { return RadiusRatio(triangle) >= least; });
+}
+
+bool InterfaceRemesher::MakesLongEdges(const Vector& place, int kept, int removed) const
+{
   // Short edges at corners bend lines: rather longer ones for a while, which are split elsewhere.
   const double longest = this->Longest *
     (this->Mesh.StratumOf[static_cast<std::size_t>(kept)] == Stratum::Corner ? CornerSlack : 1.);
-  double worst = 1.;
-  bool isFair = true;
+  bool isLong = false;
   for (const int v : { kept, removed })
   {
     this->Mesh.ForFaces(v,
       [&](int f)
       {
-        const InterfaceMesh::Face& face = this->Mesh.Faces[static_cast<std::size_t>(f)];
-        const PlacedFace before = PlacedFaceOf(this->Mesh, face);
-        worst = std::min(worst, RadiusRatio(before));
-        if (face.Has(kept) && face.Has(removed))
+        for (const int w : this->Mesh.Faces[static_cast<std::size_t>(f)].Vertex)
         {
-          if (v == kept)
-          {
-            this->Changed.push_back(f);
-          }
-          return;
+          const Vector& end = this->Mesh.Position[static_cast<std::size_t>(w)];
+          isLong = isLong ||
+            (w != kept && w != removed &&
+              SquaredDistance(VectorD(end), VectorD(place)) >
+                longest * this->SquaredSize(kept, w));
         }
-        this->Changed.push_back(f);
-        PlacedFace after = before;
-        for (int k = 0; k < 3; ++k)
-        {
-          if (after.Vertex[k] == v)
-          {
-            after.Vertex[k] = kept;
-            after.Corner[k] = VectorD(place);
-          }
-          else
-          {
-            isFair = isFair &&
-              SquaredDistance(after.Corner[k], VectorD(place)) <=
-                longest * this->SquaredSize(kept, after.Vertex[k]);
-          }
-        }
-        // The normals of slivers say nothing.
-        isFair = isFair &&
-          (RadiusRatio(before) < MostSliver ||
-            CosineOf(NormalOf(before), NormalOf(after)) > LeastTurnCosine);
-        this->Made.push_back(after);
       });
   }
-  const double least = std::min(worst, LeastRatio);
-  return isFair &&
-    std::all_of(this->Made.begin() + firstMade, this->Made.end(),
-      [least](const MeshTriangle& triangle) { return RadiusRatio(triangle) >= least; });
+  return isLong;
 }
 
 void InterfaceRemesher::Collapse(const Vector& place, int kept, int removed)

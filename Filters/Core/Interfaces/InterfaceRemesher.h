@@ -6,6 +6,7 @@
 #include "Core/Interfaces/InterfaceClearance.h"
 #include "Core/Interfaces/InterfaceMesh.h"
 
+#include <cstddef>
 #include <functional>
 #include <vector>
 
@@ -58,10 +59,15 @@ private:
   bool ShareObjects(int u, int v);
   /** With the vertex in the middle, where both are alike, or at either end. */
   bool TryCollapse(int u, int v);
-  /** Of Images. */
-  bool TryCollapseAt(const Vector& place);
+  /** Of all Images of the edge: whether it may, at a place would be fair, and to that. */
+  bool MayCollapseImages();
+  bool AreFairCollapses(const Vector& place);
+  void CollapseImages(const Vector& place);
+  /** Where the vertex that an image keeps is, if that of the first one is at a place. */
+  Vector PlaceOfImage(std::size_t image, const Vector& place) const;
   /** Adds what the faces of both would be to Made, and which these are to Changed. */
   bool IsFairCollapse(const Vector& place, int kept, int removed);
+  bool MakesLongEdges(const Vector& place, int kept, int removed) const;
   void Collapse(const Vector& place, int kept, int removed);
   /** @param flatness cosine of the angle that there may be between the faces */
   bool TryFlip(int u, int v, double flatness);
@@ -107,6 +113,7 @@ private:
   std::vector<int> Near;
   std::vector<int> First;
   std::vector<int> Second;
+  std::vector<int> Common; ///< of these two
   std::vector<PlacedFace> Made;
 };
 }
