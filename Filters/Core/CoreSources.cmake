@@ -57,12 +57,14 @@ set(volumic_core_sources
   Mesh/TriangleTree.cxx
   Mesh/VertexGrid.cxx
   Mesh/VertexRemoval.cxx
+  Interfaces/FaceCubes.cxx
   Interfaces/InterfaceClearance.cxx
   Interfaces/InterfaceFields.cxx
   Interfaces/InterfaceFit.cxx
   Interfaces/InterfaceLattice.cxx
   Interfaces/InterfaceMesh.cxx
   Interfaces/InterfaceMotion.cxx
+  Interfaces/InterfaceEdits.cxx
   Interfaces/InterfaceRemesher.cxx
   Interfaces/InterfaceSizes.cxx
   Interfaces/InterfaceSlivers.cxx
@@ -186,12 +188,14 @@ set(volumic_core_headers
   Mesh/TriangleTree.h
   Mesh/VertexGrid.h
   Mesh/VertexRemoval.h
+  Interfaces/FaceCubes.h
   Interfaces/InterfaceClearance.h
   Interfaces/InterfaceFields.h
   Interfaces/InterfaceFit.h
   Interfaces/InterfaceLattice.h
   Interfaces/InterfaceMesh.h
   Interfaces/InterfaceMotion.h
+  Interfaces/InterfaceEdits.h
   Interfaces/InterfaceRemesher.h
   Interfaces/InterfaceSizes.h
   Interfaces/LatticeCutter.h

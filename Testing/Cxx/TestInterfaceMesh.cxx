@@ -140,7 +140,7 @@ TEST(InterfaceClearance, LetsNoFaceBeTurnedPastAnother)
 {
   const InterfaceMesh mesh = FacesAt({ 0., 90., 180., 270. });
   InterfaceClearance clearance(mesh, 1e-3);
-  clearance.Reset();
+  clearance.Reset(OnThisThread());
   std::vector<int> near;
   std::vector<PlacedFace> made = { PlacedFaceOf(mesh, mesh.Faces[1]) };
   EXPECT_TRUE(clearance.AreClear(made, { 1 }, near));
@@ -158,7 +158,7 @@ TEST(InterfaceClearance, LetsNoFaceIntersectThoseThatStay)
   mesh.AddVertex(Vector(0.6f, 0.2f, 0.5f), Stratum::Interface);
   const int beside = mesh.AddFace({ { first, first + 1, first + 2 }, 1, 2 });
   InterfaceClearance clearance(mesh, 1e-3);
-  clearance.Reset();
+  clearance.Reset(OnThisThread());
   std::vector<int> near;
   std::vector<PlacedFace> made = { PlacedFaceOf(mesh, mesh.Faces[beside]) };
   EXPECT_TRUE(clearance.AreClear(made, { beside }, near));
@@ -180,7 +180,7 @@ TEST(InterfaceClearance, FollowsFacesThatChange)
     mesh.AddFace({ { first, first + 1, first + 2 }, 1, 2 });
   }
   InterfaceClearance clearance(mesh, 1e-3);
-  clearance.Reset();
+  clearance.Reset(OnThisThread());
   std::vector<int> near;
   EXPECT_EQ(clearance.FindIntersecting(0, 0, near), -1);
   mesh.Position[6] = Vector(0.2f, 0.2f, -1.f);

@@ -36,7 +36,7 @@ InterfaceMesh RoughMesh(const InterfaceScene& scene)
 {
   InterfaceMesh mesh =
     InterfaceLattice(*scene.Fields, 1.36, OnThisThread()).Start(OnThisThread());
-  InterfaceRemesher remesher(mesh, 1.1, 1.8, 1e-3, [] { return true; });
+  InterfaceRemesher remesher(mesh, 1.1, 1.8, 1e-3, OnThisThread(), [] { return true; });
   remesher.CollapseShortEdges();
   remesher.FlipEdges();
   mesh.Compact();
@@ -137,7 +137,8 @@ protected:
 
   InterfaceRemesher RemesherOf(double shortest, double longest)
   {
-    return InterfaceRemesher(this->Mesh, shortest, longest, Tolerance, [] { return true; });
+    return InterfaceRemesher(
+      this->Mesh, shortest, longest, Tolerance, OnThisThread(), [] { return true; });
   }
 
   std::optional<InterfaceScene> Scene;

@@ -141,14 +141,14 @@ TEST(InterfaceSizes, AreLengthsOfEdgesThatAreEdited)
   InterfaceMesh mesh = Make(scene, 0.);
   const std::size_t vertices = mesh.Position.size();
   std::fill(mesh.Size.begin(), mesh.Size.end(), 2.f);
-  InterfaceRemesher coarser(mesh, 0.8 * 1.36, 4. / 3. * 1.36, 1e-3, [] { return true; });
+  InterfaceRemesher coarser(mesh, 0.8 * 1.36, 4. / 3. * 1.36, 1e-3, OnThisThread(), [] { return true; });
   EXPECT_EQ(coarser.SplitLongEdges(), 0);
   EXPECT_GT(coarser.CollapseShortEdges(), 0);
   mesh.Compact();
   EXPECT_LT(mesh.Position.size(), vertices / 2);
   ExpectSound(mesh);
   std::fill(mesh.Size.begin(), mesh.Size.end(), 0.5f);
-  InterfaceRemesher finer(mesh, 0.8 * 1.36, 4. / 3. * 1.36, 1e-3, [] { return true; });
+  InterfaceRemesher finer(mesh, 0.8 * 1.36, 4. / 3. * 1.36, 1e-3, OnThisThread(), [] { return true; });
   int rounds = 0;
   while (finer.SplitLongEdges() > 0)
   {

@@ -143,7 +143,7 @@ TEST_P(NarrowPlacesOfBalls, AreOpenedWithinTheVoxels)
   const auto wrongOf = [&](const InterfaceMesh& of)
   { return PushWrongVoxels(of, *scene.Fields, GetParam(), OnThisThread()); };
   const std::size_t wrong = wrongOf(before);
-  NarrowPlaces(mesh, *scene.Fields, 1.36, 1e-3, GetParam()).Open([] { return true; });
+  NarrowPlaces(mesh, *scene.Fields, 1.36, 1e-3, GetParam()).Open(OnThisThread(), [] { return true; });
   ExpectSound(mesh);
   EXPECT_LE(wrongOf(mesh), wrong);
   EXPECT_GT(LeastAngle(mesh), LeastAngle(before));
@@ -157,7 +157,7 @@ TEST_P(NarrowPlacesOfBalls, AreOpenedWithinTheVoxels)
   }
   // As soon as it is told to stop nothing is moved.
   InterfaceMesh stopped = before;
-  NarrowPlaces(stopped, *scene.Fields, 1.36, 1e-3, GetParam()).Open([] { return false; });
+  NarrowPlaces(stopped, *scene.Fields, 1.36, 1e-3, GetParam()).Open(OnThisThread(), [] { return false; });
   EXPECT_EQ(LeastAngle(stopped), LeastAngle(before));
 }
 

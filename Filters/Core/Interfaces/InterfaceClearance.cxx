@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Interfaces/InterfaceClearance.h"
 
+#include "Core/Common/Spans.h"
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -10,7 +12,10 @@ namespace volumic
 {
 namespace
 {
-TriangleBox BoxOf(const MeshTriangle& t)
+/** Faces that a thread looks at at a time. */
+constexpr std::size_t SpanSize = 4096;
+
+TriangleBox BoxAbout(const MeshTriangle& t)
 {
   return { Vector(t.Corner[0]), Vector(t.Corner[1]), Vector(t.Corner[2]) };
 }
@@ -19,11 +24,6 @@ float LongestSide(const TriangleBox& box)
 {
   const Vector sides = box.High - box.Low;
   return std::max({ sides.X, sides.Y, sides.Z });
-}
-
-Vector MiddleOf(const TriangleBox& box)
-{
-  return (box.Low + box.High) * 0.5f;
 }
 
 bool Has(const MeshTriangle& face, int v)
@@ -160,42 +160,58 @@ InterfaceClearance::InterfaceClearance(const InterfaceMesh& mesh, double toleran
 {
 }
 
-void InterfaceClearance::Reset()
+void InterfaceClearance::Reset(Executor& executor)
 {
   const LargeVector<InterfaceMesh::Face>& faces = this->Mesh.Faces;
   const Vector* at = this->Mesh.Position.data();
+  struct Summary
+  {
+    TriangleBox All;
+    float Longest = 0.f;
+    double Sides = 0.;
+    std::size_t Count = 0;
+  };
+  std::vector<Summary> summaries((faces.size() + SpanSize - 1) / SpanSize);
+  LargeVector<Vector> middles(faces.size());
   this->Boxes.resize(faces.size());
-  this->Reach = 0.f;
-  TriangleBox all;
-  double sides = 0.;
-  std::size_t count = 0;
-  for (std::size_t f = 0; f < faces.size(); ++f)
-  {
-    if (faces[f].IsThere())
+  ForSpans(executor, faces.size(), SpanSize,
+    [&](std::size_t span, std::size_t begin, std::size_t end)
     {
-      const std::array<int, 3>& v = faces[f].Vertex;
-      const TriangleBox& box = this->Boxes[f] = TriangleBox(at[v[0]], at[v[1]], at[v[2]]);
-      if (count == 0)
+      Summary& summary = summaries[span];
+      for (std::size_t f = begin; f < end; ++f)
       {
-        all = box;
+        if (faces[f].IsThere())
+        {
+          const std::array<int, 3>& v = faces[f].Vertex;
+          const TriangleBox& box = this->Boxes[f] = TriangleBox(at[v[0]], at[v[1]], at[v[2]]);
+          middles[f] = box.Middle();
+          summary.All = summary.Count == 0 ? box : summary.All;
+          summary.All.Add(box);
+          summary.Longest = std::max(summary.Longest, LongestSide(box));
+          summary.Sides += LongestSide(box);
+          ++summary.Count;
+        }
       }
-      all.Add(box);
-      sides += LongestSide(box);
-      this->Reach = std::max(this->Reach, 0.5f * LongestSide(box));
-      ++count;
-    }
-  }
-  // A cell is as wide as a box is long in the mean.
-  const double cell = sides / static_cast<double>(std::max<std::size_t>(count, 1));
-  this->Grid.Reset(all.Low, all.High, std::max(static_cast<float>(cell), 1e-6f));
-  this->Grid.Resize(faces.size());
-  for (std::size_t f = 0; f < faces.size(); ++f)
+    });
+  Summary all;
+  for (const Summary& summary : summaries)
   {
-    if (faces[f].IsThere())
+    if (summary.Count > 0)
     {
-      this->Grid.Insert(static_cast<int>(f), MiddleOf(this->Boxes[f]));
+      all.All = all.Count == 0 ? summary.All : all.All;
+      all.All.Add(summary.All);
+      all.Longest = std::max(all.Longest, summary.Longest);
+      all.Sides += summary.Sides;
+      all.Count += summary.Count;
     }
   }
+  this->All = all.All;
+  this->Reach = 0.5f * all.Longest;
+  // A cell is as wide as a box is long in the mean.
+  const double cell = all.Sides / static_cast<double>(std::max<std::size_t>(all.Count, 1));
+  this->Grid.Reset(all.All.Low, all.All.High, std::max(static_cast<float>(cell), 1e-6f));
+  this->Grid.InsertAll(
+    middles, 0, [&](int f) { return faces[static_cast<std::size_t>(f)].IsThere(); }, executor);
 }
 
 void InterfaceClearance::Change(int face)
@@ -209,8 +225,11 @@ void InterfaceClearance::Change(int face)
   const Vector* at = this->Mesh.Position.data();
   TriangleBox& box = this->Boxes[static_cast<std::size_t>(face)];
   box = TriangleBox(at[v[0]], at[v[1]], at[v[2]]);
-  this->Reach = std::max(this->Reach, 0.5f * LongestSide(box));
-  this->Grid.Move(face, MiddleOf(box));
+  if (0.5f * LongestSide(box) > this->Reach)
+  {
+    this->Reach = 0.5f * LongestSide(box);
+  }
+  this->Grid.Move(face, box.Middle());
 }
 
 void InterfaceClearance::FindNear(
@@ -258,12 +277,12 @@ bool InterfaceClearance::AreClear(const std::vector<PlacedFace>& faces,
   {
     return true;
   }
-  TriangleBox all = BoxOf(faces.front());
+  TriangleBox all = BoxAbout(faces.front());
   std::vector<TriangleBox> boxes;
   const float thick = static_cast<float>(this->Tolerance);
   for (const PlacedFace& triangle : faces)
   {
-    boxes.push_back(BoxOf(triangle));
+    boxes.push_back(BoxAbout(triangle));
     all.Add(boxes.back());
     boxes.back().Low -= Vector(thick, thick, thick);
     boxes.back().High += Vector(thick, thick, thick);

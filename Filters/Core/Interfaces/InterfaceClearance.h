@@ -3,10 +3,12 @@
 #ifndef volumicInterfaceClearance_h
 #define volumicInterfaceClearance_h
 
+#include "Core/Common/Executor.h"
 #include "Core/Interfaces/InterfaceMesh.h"
 #include "Core/Mesh/TriangleTests.h"
 #include "Core/Mesh/VertexGrid.h"
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -24,6 +26,13 @@ struct TriangleBox
   TriangleBox() = default;
   TriangleBox(const Vector& a, const Vector& b, const Vector& c);
   void Add(const TriangleBox& other);
+  Vector Middle() const { return (this->Low + this->High) * 0.5f; }
+  bool IsWithin(const TriangleBox& other) const
+  {
+    return this->Low.X >= other.Low.X && this->Low.Y >= other.Low.Y &&
+      this->Low.Z >= other.Low.Z && this->High.X <= other.High.X &&
+      this->High.Y <= other.High.Y && this->High.Z <= other.High.Z;
+  }
   bool IsApart(const Vector& low, const Vector& high) const
   {
     return this->High.X < low.X || this->Low.X > high.X || this->High.Y < low.Y ||
@@ -66,9 +75,19 @@ public:
   InterfaceClearance(const InterfaceMesh& mesh, double tolerance);
 
   /** Lays its grid afresh. */
-  void Reset();
-  /** To be called of each face that has another corner, a corner elsewhere, or is removed. */
+  void Reset(Executor& executor);
+  /**
+   * To be called of each face that has another corner, a corner elsewhere, or is removed. Threads
+   * may do so at the same time, and ask about faces, if none finds what another one changes, nor
+   * something in the same cells of the grid; and if no edge becomes longer than was expected.
+   */
   void Change(int face);
+  void ExpectEdges(float longest) { this->Reach = std::max(this->Reach, 0.5f * longest); }
+
+  /** Of a face that is there. */
+  const TriangleBox& BoxOf(int face) const { return this->Boxes[static_cast<std::size_t>(face)]; }
+  /** Of all faces when the grid was laid. */
+  const TriangleBox& Bounds() const { return this->All; }
 
   /** Faces from `first` on whose boxes come near a box. */
   void FindNear(const Vector& low, const Vector& high, int first, std::vector<int>& near) const;
@@ -94,6 +113,7 @@ private:
   const InterfaceMesh& Mesh;
   double Tolerance;
   LargeVector<TriangleBox> Boxes; ///< of each face, which the grid has at its middle
+  TriangleBox All;                ///< of them when the grid was laid
   float Reach = 0.f;              ///< half of the longest side of a box, at least
   VertexGrid Grid;
 };

@@ -44,7 +44,7 @@ public:
     {
       this->TakeBackTurned(f, back);
     }
-    this->Clearance.Reset();
+    this->Clearance.Reset(this->Threads);
     // Each round takes back a vertex more, or is the last one.
     for (bool isFirst = true; isFirst || !faces.empty(); isFirst = false)
     {

@@ -2,34 +2,100 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Interfaces/InterfaceRemesher.h"
 
-#include "Core/Interfaces/TriangleShape.h"
+#include "Core/Common/Spans.h"
+#include "Core/Interfaces/FaceCubes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <iterator>
 #include <utility>
+#include <vector>
 
 namespace volumic
 {
 namespace
 {
-/** Cosine of the angle between two faces whose edge is flipped. */
-constexpr double LeastFlatCosine = 0.85;
-/** Triangles worse than that, by RadiusRatio(), are made of worse ones only. */
-constexpr double LeastRatio = 0.3;
-/** Those are slivers, by the same. */
-constexpr double MostSliver = 0.15;
-/** By how much edges at corners may be longer for a while, squared. */
-constexpr double CornerSlack = 16. / 9.;
-/** By how much a flip must make the smallest angle larger, radian. */
-constexpr double LeastGain = 0.02;
+/** Faces that a thread looks at at a time. */
+constexpr std::size_t SpanSize = 4096;
+/** Cubes between two questions whether to go on. */
+constexpr std::size_t CubesPerQuestion = 128;
+/**
+ * In longest edges: how far faces may come out of their cube, and how wide a cube is. An edit writes
+ * what is within an edge of its face, and the cells of the grid there, which are as wide as an edge
+ * at most. It reads what is within two edges and a half, and the cells there: two cubes of a colour
+ * have nothing in common if there are 2 * 1 + 1 + 2.5 + 2 edges between them.
+ */
+constexpr float MarginInEdges = 1.f;
+constexpr float SideInEdges = 7.5f;
+
+/** What is to be done in a cube. */
+class CubeWork
+{
+public:
+  CubeWork(const InterfaceMesh& mesh, const InterfaceClearance& clearance,
+    const FaceCubes::Cube& cube, float margin)
+    : Mesh(mesh), Clearance(clearance), Cube(cube), Share(cube.Box)
+  {
+    this->Share.Low -= Vector(margin, margin, margin);
+    this->Share.High += Vector(margin, margin, margin);
+  }
+
+  /** @param faces of all cubes */
+  void FindFaces(const std::vector<int>& faces)
+  {
+    for (std::size_t n = this->Cube.First; n < this->Cube.Last; ++n)
+    {
+      if (this->Mesh.Faces[static_cast<std::size_t>(faces[n])].IsThere())
+      {
+        (this->IsNear(faces[n]) ? this->Faces : this->Left).push_back(faces[n]);
+      }
+    }
+  }
+
+  template <typename Visit>
+  void Run(InterfaceEdits edits, const Visit& visit)
+  {
+    for (const int face : this->Faces)
+    {
+      if (!this->Mesh.Faces[static_cast<std::size_t>(face)].IsThere())
+      {
+        continue;
+      }
+      if (this->IsNear(face))
+      {
+        this->Count += visit(edits, face);
+      }
+      else
+      {
+        this->Left.push_back(face);
+      }
+    }
+  }
+
+  std::vector<int> Left; ///< what is not done here
+  int Count = 0;         ///< of edits
+
+private:
+  /** Whether an edit at a face touches nothing that those in other cubes do. */
+  bool IsNear(int face) const
+  {
+    const std::array<int, 3>& v = this->Mesh.Faces[static_cast<std::size_t>(face)].Vertex;
+    return this->Clearance.BoxOf(face).IsWithin(this->Share) &&
+      std::none_of(v.begin(), v.end(), [this](int corner) { return this->Mesh.HasImages(corner); });
+  }
+
+  const InterfaceMesh& Mesh;
+  const InterfaceClearance& Clearance;
+  const FaceCubes::Cube& Cube;
+  TriangleBox Share; ///< of space
+  std::vector<int> Faces;
+};
 }
 
 InterfaceRemesher::InterfaceRemesher(InterfaceMesh& mesh, double shortest, double longest,
-  double tolerance, std::function<bool()> goOn)
-  : Mesh(mesh), GoOn(std::move(goOn)), Clearance(mesh, tolerance),
-    Shortest(static_cast<float>(shortest * shortest)),
-    Longest(static_cast<float>(longest * longest))
+  double tolerance, Executor& executor, std::function<bool()> goOn)
+  : Mesh(mesh), GoOn(std::move(goOn)), Threads(executor), Clearance(mesh, tolerance),
+    Shortest(shortest), Longest(longest)
 {
 }
 
@@ -37,404 +103,115 @@ void InterfaceRemesher::LayGrid()
 {
   if (!this->HasGrid)
   {
-    this->Clearance.Reset();
+    this->Clearance.Reset(this->Threads);
     this->HasGrid = true;
   }
 }
 
 int InterfaceRemesher::SplitLongEdges()
 {
+  InterfaceEdits edits = this->Edits();
   int count = 0;
   // New faces are looked at in their turn.
   for (std::size_t f = 0; f < this->Mesh.Faces.size() && this->GoesOn(f); ++f)
   {
-    const InterfaceMesh::Face face = this->Mesh.Faces[f];
-    if (!face.IsThere())
-    {
-      continue;
-    }
-    int longest = 0;
-    float length = 0.f;
-    for (int k = 0; k < 3; ++k)
-    {
-      const int u = face.Vertex[k];
-      const int v = face.Vertex[(k + 1) % 3];
-      const float squared = this->SquaredEdge(u, v) / this->SquaredSize(u, v);
-      if (squared > length)
-      {
-        longest = k;
-        length = squared;
-      }
-    }
-    if (length > this->Longest)
-    {
-      this->Split(face.Vertex[longest], face.Vertex[(longest + 1) % 3]);
-      ++count;
-    }
+    count += this->Mesh.Faces[f].IsThere() && edits.TrySplit(static_cast<int>(f)) ? 1 : 0;
   }
   this->HasGrid = this->HasGrid && count == 0;
   return count;
 }
 
-void InterfaceRemesher::Split(int u, int v)
+int InterfaceRemesher::RemoveSlivers()
 {
-  this->Mesh.FindImages(u, v, this->Images);
-  std::vector<int> added;
-  std::transform(this->Images.begin(), this->Images.end(), std::back_inserter(added),
-    [this](const std::array<int, 2>& edge) { return this->SplitOne(edge[0], edge[1]); });
-  this->Mesh.JoinImages(added);
+  this->LayGrid();
+  InterfaceEdits edits = this->Edits();
+  int count = 0;
+  for (std::size_t f = 0; f < this->Mesh.Faces.size() && this->GoesOn(f); ++f)
+  {
+    count += this->Mesh.Faces[f].IsThere() && edits.RemoveSliver(static_cast<int>(f)) ? 1 : 0;
+  }
+  return count;
 }
 
-int InterfaceRemesher::SplitOne(int u, int v)
+float InterfaceRemesher::LongestEdge() const
 {
-  this->Mesh.FindFaces(u, v, this->AtEdge);
-  const Vector middle = (this->Mesh.Position[static_cast<std::size_t>(u)] +
-                          this->Mesh.Position[static_cast<std::size_t>(v)]) *
-    0.5f;
-  const int added = this->Mesh.AddVertex(middle,
-    this->Mesh.IsLine(this->AtEdge) ? Stratum::Line : Stratum::Interface, this->Mesh.SizeOf(u, v));
-  for (const int f : this->AtEdge)
+  const InterfaceMesh& mesh = this->Mesh;
+  std::vector<float> longest((mesh.Faces.size() + SpanSize - 1) / SpanSize, 0.f);
+  std::vector<float> largest = longest;
+  ForSpans(this->Threads, mesh.Faces.size(), SpanSize,
+    [&](std::size_t span, std::size_t begin, std::size_t end)
+    {
+      for (std::size_t f = begin; f < end; ++f)
+      {
+        for (int k = 0; k < 3 && mesh.Faces[f].IsThere(); ++k)
+        {
+          const auto u = static_cast<std::size_t>(mesh.Faces[f].Vertex[k]);
+          const auto v = static_cast<std::size_t>(mesh.Faces[f].Vertex[(k + 1) % 3]);
+          longest[span] =
+            std::max(longest[span], SquaredDistance(mesh.Position[u], mesh.Position[v]));
+          largest[span] = std::max(largest[span], mesh.Size[u]);
+        }
+      }
+    });
+  const float now = std::sqrt(*std::max_element(longest.begin(), longest.end()));
+  const float size = *std::max_element(largest.begin(), largest.end());
+  return std::max(
+    now, static_cast<float>(this->Longest * InterfaceEdits::CornerSlack) * size);
+}
+
+template <typename Visit>
+int InterfaceRemesher::VisitInCubes(const Visit& visit)
+{
+  if (this->Mesh.Faces.empty())
   {
-    InterfaceMesh::Face half = this->Mesh.Faces[static_cast<std::size_t>(f)];
-    std::replace(half.Vertex.begin(), half.Vertex.end(), u, added);
-    this->Mesh.ReplaceVertex(f, v, added);
-    this->Mesh.AddFace(half);
+    return 0;
   }
-  return added;
+  this->LayGrid();
+  const float longest = this->LongestEdge();
+  this->Clearance.ExpectEdges(longest);
+  const FaceCubes cubes(this->Mesh, this->Clearance, SideInEdges * longest, this->Threads);
+  std::vector<std::vector<int>> left;
+  int count = 0;
+  for (const std::vector<FaceCubes::Cube>& colour : cubes.OfColour)
+  {
+    for (std::size_t n = 0; n < colour.size() && this->GoOn(); n += CubesPerQuestion)
+    {
+      const std::size_t end = std::min(n + CubesPerQuestion, colour.size());
+      std::vector<CubeWork> works;
+      for (std::size_t cube = n; cube < end; ++cube)
+      {
+        works.emplace_back(this->Mesh, this->Clearance, colour[cube], MarginInEdges * longest);
+      }
+      // What comes out of its cube is found before the first one is edited.
+      ForSpans(this->Threads, works.size(), 1,
+        [&](std::size_t w, std::size_t, std::size_t) { works[w].FindFaces(cubes.Faces); });
+      ForSpans(this->Threads, works.size(), 1,
+        [&](std::size_t w, std::size_t, std::size_t) { works[w].Run(this->Edits(), visit); });
+      for (CubeWork& work : works)
+      {
+        count += work.Count;
+        left.push_back(std::move(work.Left));
+      }
+    }
+  }
+  std::vector<int> rest = Joined(this->Threads, left);
+  std::sort(rest.begin(), rest.end());
+  InterfaceEdits edits = this->Edits();
+  for (std::size_t n = 0; n < rest.size() && this->GoesOn(n); ++n)
+  {
+    const int face = rest[n];
+    count += this->Mesh.Faces[static_cast<std::size_t>(face)].IsThere() ? visit(edits, face) : 0;
+  }
+  return count;
 }
 
 int InterfaceRemesher::CollapseShortEdges()
 {
-  this->LayGrid();
-  int count = 0;
-  for (std::size_t f = 0; f < this->Mesh.Faces.size() && this->GoesOn(f); ++f)
-  {
-    for (int k = 0; k < 3 && this->Mesh.Faces[f].IsThere(); ++k)
-    {
-      const int u = this->Mesh.Faces[f].Vertex[k];
-      const int v = this->Mesh.Faces[f].Vertex[(k + 1) % 3];
-      const bool isShort = this->SquaredEdge(u, v) < this->Shortest * this->SquaredSize(u, v);
-      count += isShort && this->TryCollapse(u, v) ? 1 : 0;
-    }
-  }
-  return count;
-}
-
-bool InterfaceRemesher::MayCollapse(int u, int v)
-{
-  const Stratum lower = std::min(this->Mesh.StratumOf[static_cast<std::size_t>(u)],
-    this->Mesh.StratumOf[static_cast<std::size_t>(v)]);
-  this->Mesh.FindFaces(u, v, this->AtEdge);
-  const bool isOnLine = this->Mesh.IsLine(this->AtEdge);
-  if (isOnLine != (lower != Stratum::Interface))
-  {
-    return false; // Two lines would meet, or a vertex leave its own.
-  }
-  if (lower == Stratum::Corner && !this->ShareObjects(u, v))
-  {
-    return false;
-  }
-  this->Mesh.FindNeighbours(u, this->First);
-  this->Mesh.FindNeighbours(v, this->Second);
-  const auto countOf = [](const std::vector<int>& neighbours, int w)
-  { return std::count(neighbours.begin(), neighbours.end(), w); };
-  for (const int f : this->AtEdge)
-  {
-    const int w = this->Mesh.Faces[static_cast<std::size_t>(f)].Opposite(u, v);
-    if (countOf(this->First, w) > 2 && countOf(this->Second, w) > 2)
-    {
-      return false;
-    }
-  }
-  const auto unique = [](std::vector<int>& neighbours)
-  { neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end()); };
-  unique(this->First);
-  unique(this->Second);
-  std::vector<int>& common = this->Common;
-  common.clear();
-  std::set_intersection(this->First.begin(), this->First.end(), this->Second.begin(),
-    this->Second.end(), std::back_inserter(common));
-  return common.size() == this->AtEdge.size();
-}
-
-bool InterfaceRemesher::ShareObjects(int u, int v)
-{
-  this->Mesh.FindObjects(u, this->First);
-  this->Mesh.FindObjects(v, this->Second);
-  this->Common.clear();
-  std::set_intersection(this->First.begin(), this->First.end(), this->Second.begin(),
-    this->Second.end(), std::back_inserter(this->Common));
-  return std::all_of(this->Common.begin(), this->Common.end(),
-    [&](int object)
-    {
-      return std::any_of(this->AtEdge.begin(), this->AtEdge.end(),
-        [&](int f)
-        {
-          const InterfaceMesh::Face& face = this->Mesh.Faces[static_cast<std::size_t>(f)];
-          return face.Behind == object || face.Front == object;
-        });
-    });
-}
-
-bool InterfaceRemesher::TryCollapse(int u, int v)
-{
-  const auto rankOf = [this](int w)
-  {
-    return std::pair(
-      this->Mesh.StratumOf[static_cast<std::size_t>(w)], this->Mesh.NumberOfImages(w));
-  };
-  const int kept = rankOf(u) >= rankOf(v) ? u : v;
-  const int removed = kept == u ? v : u;
-  this->Mesh.FindImages(kept, removed, this->Images);
-  if (static_cast<int>(this->Images.size()) != this->Mesh.NumberOfImages(removed))
-  {
-    return false;
-  }
-  const Vector place = this->Mesh.Position[static_cast<std::size_t>(kept)];
-  const Vector other = this->Mesh.Position[static_cast<std::size_t>(removed)];
-  const bool isAlike = rankOf(kept).first == rankOf(removed).first;
-  const std::array<Vector, 3> places = { isAlike ? (place + other) * 0.5f : place, place, other };
-  // What is made is looked at first: it is the least work, and what most are refused for.
-  bool isAllowed = false;
-  for (std::size_t n = 0; n < (isAlike ? places.size() : 1); ++n)
-  {
-    if (!this->AreFairCollapses(places[n]))
-    {
-      continue;
-    }
-    isAllowed = isAllowed || this->MayCollapseImages();
-    if (!isAllowed)
-    {
-      return false;
-    }
-    if (this->Clearance.AreClear(this->Made, this->Changed, this->Near))
-    {
-      this->CollapseImages(places[n]);
-      return true;
-    }
-  }
-  return false;
-}
-
-bool InterfaceRemesher::MayCollapseImages()
-{
-  return std::all_of(this->Images.begin(), this->Images.end(),
-    [this](const std::array<int, 2>& edge)
-    {
-      return this->Mesh.StratumOf[static_cast<std::size_t>(edge[0])] >=
-        this->Mesh.StratumOf[static_cast<std::size_t>(edge[1])] &&
-        this->MayCollapse(edge[0], edge[1]);
-    });
-}
-
-Vector InterfaceRemesher::PlaceOfImage(std::size_t image, const Vector& place) const
-{
-  return image == 0 ? place : this->Mesh.OnSides(this->Images[image][0], place);
-}
-
-bool InterfaceRemesher::AreFairCollapses(const Vector& place)
-{
-  this->Made.clear();
-  this->Changed.clear();
-  for (std::size_t n = 0; n < this->Images.size(); ++n)
-  {
-    const std::array<int, 2>& edge = this->Images[n];
-    if (!this->IsFairCollapse(this->PlaceOfImage(n, place), edge[0], edge[1]))
-    {
-      return false;
-    }
-  }
-  return true;
-}
-
-void InterfaceRemesher::CollapseImages(const Vector& place)
-{
-  for (std::size_t n = 0; n < this->Images.size(); ++n)
-  {
-    const std::array<int, 2>& edge = this->Images[n];
-    this->Collapse(this->PlaceOfImage(n, place), edge[0], edge[1]);
-  }
-  for (const int f : this->Changed)
-  {
-    this->Clearance.Change(f);
-  }
-}
-
-bool InterfaceRemesher::IsFairCollapse(const Vector& place, int kept, int removed)
-{
-  const auto firstMade = static_cast<std::ptrdiff_t>(this->Made.size());
-  for (const int v : { kept, removed })
-  {
-    if (SquaredDistance(this->Mesh.OnSides(v, place), place) > 0.f)
-    {
-      return false; // A face would leave its side of the box.
-    }
-  }
-  if (this->MakesLongEdges(place, kept, removed))
-  {
-    return false;
-  }
-  double worst = 1.;
-  for (const int v : { kept, removed })
-  {
-    bool isFair = true;
-    this->Mesh.ForFaces(v,
-      [&](int f)
-      {
-        const InterfaceMesh::Face& face = this->Mesh.Faces[static_cast<std::size_t>(f)];
-        if (!isFair || (v == removed && face.Has(kept)))
-        {
-          return;
-        }
-        const PlacedFace before = PlacedFaceOf(this->Mesh, face);
-        const double ratio = RadiusRatio(before);
-        worst = std::min(worst, ratio);
-        this->Changed.push_back(f);
-        if (face.Has(removed) && v == kept)
-        {
-          return;
-        }
-        PlacedFace after = before;
-        const auto k = std::find(after.Vertex, after.Vertex + 3, v) - after.Vertex;
-        after.Vertex[k] = kept;
-        after.Corner[k] = VectorD(place);
-        // The normals of slivers say nothing.
-        isFair = ratio < MostSliver || CosineOf(NormalOf(before), NormalOf(after)) > LeastTurnCosine;
-        this->Made.push_back(after);
-      });
-    if (!isFair)
-    {
-      return false;
-    }
-  }
-  const double least = std::min(worst, LeastRatio);
-  return std::all_of(this->Made.begin() + firstMade, this->Made.end(),
-    [least](const MeshTriangle& triangle) { return RadiusRatio(triangle) >= least; });
-}
-
-bool InterfaceRemesher::MakesLongEdges(const Vector& place, int kept, int removed) const
-{
-  // Short edges at corners bend lines: rather longer ones for a while, which are split elsewhere.
-  const double longest = this->Longest *
-    (this->Mesh.StratumOf[static_cast<std::size_t>(kept)] == Stratum::Corner ? CornerSlack : 1.);
-  bool isLong = false;
-  for (const int v : { kept, removed })
-  {
-    this->Mesh.ForFaces(v,
-      [&](int f)
-      {
-        for (const int w : this->Mesh.Faces[static_cast<std::size_t>(f)].Vertex)
-        {
-          const Vector& end = this->Mesh.Position[static_cast<std::size_t>(w)];
-          isLong = isLong ||
-            (w != kept && w != removed &&
-              SquaredDistance(VectorD(end), VectorD(place)) >
-                longest * this->SquaredSize(kept, w));
-        }
-      });
-  }
-  return isLong;
-}
-
-void InterfaceRemesher::Collapse(const Vector& place, int kept, int removed)
-{
-  for (const int f : this->Changed)
-  {
-    const InterfaceMesh::Face& face = this->Mesh.Faces[static_cast<std::size_t>(f)];
-    if (face.Has(kept) && face.Has(removed))
-    {
-      this->Mesh.RemoveFace(f);
-    }
-    else if (face.Has(removed))
-    {
-      this->Mesh.ReplaceVertex(f, removed, kept);
-    }
-  }
-  this->Mesh.Position[static_cast<std::size_t>(kept)] = place;
+  return this->VisitInCubes([](InterfaceEdits& edits, int face) { return edits.CollapseAt(face); });
 }
 
 int InterfaceRemesher::FlipEdges()
 {
-  this->LayGrid();
-  int count = 0;
-  for (std::size_t f = 0; f < this->Mesh.Faces.size() && this->GoesOn(f); ++f)
-  {
-    for (int k = 0; k < 3; ++k)
-    {
-      const InterfaceMesh::Face& face = this->Mesh.Faces[f];
-      if (face.IsThere() &&
-        this->TryFlip(face.Vertex[k], face.Vertex[(k + 1) % 3], LeastFlatCosine))
-      {
-        ++count;
-        break;
-      }
-    }
-  }
-  return count;
-}
-
-bool InterfaceRemesher::TryFlip(int u, int v, double flatness)
-{
-  this->Made.clear();
-  this->Changed.clear();
-  this->Mesh.FindImages(u, v, this->Images);
-  if (!std::all_of(this->Images.begin(), this->Images.end(),
-        [&](const std::array<int, 2>& edge)
-        { return this->IsFairFlip(edge[0], edge[1], flatness); }) ||
-    !this->Clearance.AreClear(this->Made, this->Changed, this->Near))
-  {
-    return false;
-  }
-  for (std::size_t n = 0; n < this->Changed.size(); n += 2)
-  {
-    const std::array<int, 2>& edge = this->Images[n / 2];
-    const int f = this->Changed[n];
-    const int g = this->Changed[n + 1];
-    const auto oppositeIn = [&](int face)
-    { return this->Mesh.Faces[static_cast<std::size_t>(face)].Opposite(edge[0], edge[1]); };
-    const int p = oppositeIn(f);
-    const int q = oppositeIn(g);
-    this->Mesh.ReplaceVertex(f, edge[1], q);
-    this->Mesh.ReplaceVertex(g, edge[0], p);
-    this->Clearance.Change(f);
-    this->Clearance.Change(g);
-  }
-  return true;
-}
-
-bool InterfaceRemesher::IsFairFlip(int u, int v, double flatness)
-{
-  this->Mesh.FindFaces(u, v, this->AtEdge);
-  if (this->AtEdge.size() != 2 || this->Mesh.IsLine(this->AtEdge))
-  {
-    return false;
-  }
-  const int f = this->AtEdge[0];
-  const int g = this->AtEdge[1];
-  InterfaceMesh::Face first = this->Mesh.Faces[static_cast<std::size_t>(f)];
-  InterfaceMesh::Face second = this->Mesh.Faces[static_cast<std::size_t>(g)];
-  const int p = first.Opposite(u, v);
-  const int q = second.Opposite(u, v);
-  if (p == q || this->SquaredEdge(p, q) > this->Longest * this->SquaredSize(p, q))
-  {
-    return false;
-  }
-  const MeshTriangle before[2] = { TriangleOf(this->Mesh, first.Vertex),
-    TriangleOf(this->Mesh, second.Vertex) };
-  std::replace(first.Vertex.begin(), first.Vertex.end(), v, q);
-  std::replace(second.Vertex.begin(), second.Vertex.end(), u, p);
-  const PlacedFace after[2] = { PlacedFaceOf(this->Mesh, first), PlacedFaceOf(this->Mesh, second) };
-  if (std::min(SmallestAngle(after[0]), SmallestAngle(after[1])) <
-    std::min(SmallestAngle(before[0]), SmallestAngle(before[1])) + LeastGain)
-  {
-    return false;
-  }
-  const VectorD normals[2] = { NormalOf(before[0]), NormalOf(before[1]) };
-  const VectorD both = normals[0] + normals[1];
-  this->Changed.insert(this->Changed.end(), { f, g });
-  this->Made.insert(this->Made.end(), { after[0], after[1] });
-  return CosineOf(normals[0], normals[1]) >= flatness &&
-    CosineOf(NormalOf(after[0]), both) >= LeastTurnCosine &&
-    CosineOf(NormalOf(after[1]), both) >= LeastTurnCosine && !this->Mesh.HasEdge(p, q);
+  return this->VisitInCubes([](InterfaceEdits& edits, int face) { return edits.FlipAt(face); });
 }
 }

@@ -3,7 +3,9 @@
 #ifndef volumicInterfaceRemesher_h
 #define volumicInterfaceRemesher_h
 
+#include "Core/Common/Executor.h"
 #include "Core/Interfaces/InterfaceClearance.h"
+#include "Core/Interfaces/InterfaceEdits.h"
 #include "Core/Interfaces/InterfaceMesh.h"
 
 #include <cstddef>
@@ -13,18 +15,12 @@
 namespace volumic
 {
 /**
- * Edits of interfaces that keep what meets where: junction lines and points stay, and each object's
- * surface keeps its topology. None makes triangles intersect: each is tried by itself, one after
- * another, in the order of the faces.
+ * Passes of edits (InterfaceEdits) over all faces.
  *
- * - Splits are at the middle of an edge, of all faces at it.
- * - Collapses take a vertex into another of its stratum, or of a higher one: from an interface into
- *   anything, along a junction line into one of its vertices, or its end. Vertices that have both
- *   ends as neighbours must be those of the faces at the edge (the link condition), and at most one
- *   edge of these faces may be of a junction line. Two junction points must have no object in
- * common but those at their edge.
- * - Flips are between two faces of the same objects.
- * - In the sides of a periodic box all images of an edge or vertex are edited, or none is.
+ * Collapses and flips, which are most of the work, are made by threads in cubes (FaceCubes), the
+ * eight colours one after another, and at the end what has come out of its cube, or has images. In a
+ * cube faces follow each other in their order. Cubes are wider than edits reach, so that the edits are
+ * the same by any number of threads.
  */
 class InterfaceRemesher
 {
@@ -33,88 +29,45 @@ public:
    * @param shortest, longest between which edges are wanted, times the mesh's sizes; lengths of the
    *                  workspace
    * @param tolerance nearer than that triangles are never
-   * @param goOn      asked now and then; after false no more edits are made
+   * @param goOn      asked now and then, on the calling thread; after false no more edits are made
    */
   InterfaceRemesher(InterfaceMesh& mesh, double shortest, double longest, double tolerance,
-    std::function<bool()> goOn);
+    Executor& executor, std::function<bool()> goOn);
 
   /** All edits once. @return how many were made */
   int SplitLongEdges();
   int CollapseShortEdges();
   int FlipEdges();
-  /**
-   * Triangles with a small angle: their longest edge is flipped, or their shortest collapsed, or
-   * one of their vertices moved to between its neighbours; those that stay, off lines, have all
-   * three moved about. Such are about necks of three edges, which no collapse may close.
-   */
   int RemoveSlivers();
 
 private:
+  InterfaceEdits Edits()
+  {
+    return InterfaceEdits(this->Mesh, this->Clearance, this->Shortest, this->Longest);
+  }
   /** For edits that are tried against what is near; splits change nothing for anybody. */
   void LayGrid();
   /** Whether to look at this face and those after it. */
   bool GoesOn(std::size_t face) { return face % FacesPerQuestion != 0 || this->GoOn(); }
-  bool MayCollapse(int u, int v);
-  /** Whether objects that are at both ends of the edge, AtEdge, are beside it: none is pinched. */
-  bool ShareObjects(int u, int v);
-  /** With the vertex in the middle, where both are alike, or at either end. */
-  bool TryCollapse(int u, int v);
-  /** Of all Images of the edge: whether it may, at a place would be fair, and to that. */
-  bool MayCollapseImages();
-  bool AreFairCollapses(const Vector& place);
-  void CollapseImages(const Vector& place);
-  /** Where the vertex that an image keeps is, if that of the first one is at a place. */
-  Vector PlaceOfImage(std::size_t image, const Vector& place) const;
-  /** Adds what the faces of both would be to Made, and which these are to Changed. */
-  bool IsFairCollapse(const Vector& place, int kept, int removed);
-  bool MakesLongEdges(const Vector& place, int kept, int removed) const;
-  void Collapse(const Vector& place, int kept, int removed);
-  /** @param flatness cosine of the angle that there may be between the faces */
-  bool TryFlip(int u, int v, double flatness);
-  /** Adds the faces to Changed, and what they would be to Made. */
-  bool IsFairFlip(int u, int v, double flatness);
-  /** To between its neighbours, or some of the way, if its worst triangle is better then. */
-  bool TryMove(int v);
+  /** Longer than this no edge is, nor becomes. */
+  float LongestEdge() const;
   /**
-   * If its worst triangle is better then, or this face is and no other one of it becomes a sliver,
-   * or a worse one. @param face -1: none
+   * Visits all faces that are there, those of cubes of a colour (FaceCubes) by threads.
+   * @param visit int(InterfaceEdits&, int face): how many edits it has made
+   * @return how many all have
    */
-  bool TryMoveTo(int v, const Vector& wanted, int face = -1);
-  /** The vertices of a sliver off lines, little by little, whichever way makes it better. */
-  bool TryMoveAbout(int face);
-  /** A vertex of it, by a share of the longest edge along one of its sides, or across it. */
-  bool TryMoveAlongSides(int corner, int face, double share);
-  void Split(int u, int v);
-  int SplitOne(int u, int v); ///< the vertex that it adds
-  float SquaredEdge(int u, int v) const
-  {
-    return SquaredDistance(this->Mesh.Position[static_cast<std::size_t>(u)],
-      this->Mesh.Position[static_cast<std::size_t>(v)]);
-  }
-  float SquaredSize(int u, int v) const
-  {
-    const float size = this->Mesh.SizeOf(u, v);
-    return size * size;
-  }
+  template <typename Visit>
+  int VisitInCubes(const Visit& visit);
 
   static constexpr std::size_t FacesPerQuestion = 4096;
-  /** Cosine of the angle by which an edit may turn a face. */
-  static constexpr double LeastTurnCosine = 0.4;
 
   InterfaceMesh& Mesh;
   std::function<bool()> GoOn;
+  Executor& Threads;
   InterfaceClearance Clearance;
   bool HasGrid = false; ///< of the mesh as it is
-  float Shortest;       ///< squared, where sizes are 1
-  float Longest;        ///< squared, where sizes are 1
-  std::vector<int> AtEdge;
-  std::vector<int> Changed;
-  std::vector<std::array<int, 2>> Images; ///< of the edge, that which is kept first, or the vertex
-  std::vector<int> Near;
-  std::vector<int> First;
-  std::vector<int> Second;
-  std::vector<int> Common; ///< of these two
-  std::vector<PlacedFace> Made;
+  double Shortest;
+  double Longest;
 };
 }
 

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// How InterfaceRemesher removes triangles with a small angle.
+// How InterfaceEdits removes triangles with a small angle.
 
-#include "Core/Interfaces/InterfaceRemesher.h"
+#include "Core/Interfaces/InterfaceEdits.h"
 
 #include "Core/Interfaces/TriangleShape.h"
 
@@ -23,37 +23,27 @@ constexpr double SmallestMove = 0.01;
 constexpr int MostMoves = 8;
 }
 
-int InterfaceRemesher::RemoveSlivers()
+bool InterfaceEdits::RemoveSliver(int face)
 {
-  this->LayGrid();
-  int count = 0;
-  for (std::size_t f = 0; f < this->Mesh.Faces.size() && this->GoesOn(f); ++f)
+  const std::array<int, 3> v = this->Mesh.Faces[static_cast<std::size_t>(face)].Vertex;
+  if (SmallestAngle(TriangleOf(this->Mesh, v)) >= SliverAngle)
   {
-    const std::array<int, 3> v = this->Mesh.Faces[f].Vertex;
-    if (!this->Mesh.Faces[f].IsThere())
-    {
-      continue;
-    }
-    if (SmallestAngle(TriangleOf(this->Mesh, v)) >= SliverAngle)
-    {
-      continue;
-    }
-    std::array<int, 3> order = { 0, 1, 2 };
-    std::sort(order.begin(), order.end(),
-      [&](int a, int b) {
-        return this->SquaredEdge(v[a], v[(a + 1) % 3]) < this->SquaredEdge(v[b], v[(b + 1) % 3]);
-      });
-    const int shortest = order[0];
-    const int longest = order[2];
-    const bool isDone = this->TryFlip(v[longest], v[(longest + 1) % 3], LeastSliverCosine) ||
-      this->TryCollapse(v[shortest], v[(shortest + 1) % 3]) ||
-      std::any_of(v.begin(), v.end(), [this](int corner) { return this->TryMove(corner); });
-    count += this->TryMoveAbout(static_cast<int>(f)) || isDone ? 1 : 0;
+    return false;
   }
-  return count;
+  std::array<int, 3> order = { 0, 1, 2 };
+  std::sort(order.begin(), order.end(),
+    [&](int a, int b) {
+      return this->SquaredEdge(v[a], v[(a + 1) % 3]) < this->SquaredEdge(v[b], v[(b + 1) % 3]);
+    });
+  const int shortest = order[0];
+  const int longest = order[2];
+  const bool isDone = this->TryFlip(v[longest], v[(longest + 1) % 3], LeastSliverCosine) ||
+    this->TryCollapse(v[shortest], v[(shortest + 1) % 3]) ||
+    std::any_of(v.begin(), v.end(), [this](int corner) { return this->TryMove(corner); });
+  return this->TryMoveAbout(face) || isDone;
 }
 
-bool InterfaceRemesher::TryMove(int v)
+bool InterfaceEdits::TryMove(int v)
 {
   if (this->Mesh.StratumOf[static_cast<std::size_t>(v)] != Stratum::Interface)
   {
@@ -76,7 +66,7 @@ bool InterfaceRemesher::TryMove(int v)
     this->TryMoveTo(v, Vector(place + way * 0.25));
 }
 
-bool InterfaceRemesher::TryMoveTo(int v, const Vector& wanted, int face)
+bool InterfaceEdits::TryMoveTo(int v, const Vector& wanted, int face)
 {
   const Vector target = this->Mesh.OnSides(v, wanted);
   this->Made.clear();
@@ -124,7 +114,7 @@ bool InterfaceRemesher::TryMoveTo(int v, const Vector& wanted, int face)
   return true;
 }
 
-bool InterfaceRemesher::TryMoveAbout(int face)
+bool InterfaceEdits::TryMoveAbout(int face)
 {
   const std::array<int, 3> v = this->Mesh.Faces[static_cast<std::size_t>(face)].Vertex;
   // At lines voxels would be cut off for shapes that lines do not allow.
@@ -157,7 +147,7 @@ bool InterfaceRemesher::TryMoveAbout(int face)
   return hasMoved;
 }
 
-bool InterfaceRemesher::TryMoveAlongSides(int corner, int face, double share)
+bool InterfaceEdits::TryMoveAlongSides(int corner, int face, double share)
 {
   const MeshTriangle t =
     TriangleOf(this->Mesh, this->Mesh.Faces[static_cast<std::size_t>(face)].Vertex);

@@ -49,12 +49,13 @@ constexpr double StepShare = 0.7;
 
 /** A round's edits. @param hasCollapses else edges are split that steps have drawn out */
 void Edit(InterfaceMesh& mesh, double wanted, bool hasCollapses, int sliverRounds,
-  const std::function<bool()>& goOn)
+  Executor& executor, const std::function<bool()>& goOn)
 {
   // What is searched near goes with the square of the lengths: they grow by rounds.
   const double edge = std::min(wanted, MostGrowth * mesh.MeanEdge());
   const double longest = (hasCollapses ? LongestShare : LongestLast) * edge;
-  InterfaceRemesher remesher(mesh, ShortestShare * edge, longest, ToleranceOfEdge * wanted, goOn);
+  InterfaceRemesher remesher(
+    mesh, ShortestShare * edge, longest, ToleranceOfEdge * wanted, executor, goOn);
   remesher.SplitLongEdges();
   if (hasCollapses)
   {
@@ -97,7 +98,7 @@ InterfaceMesh MakeInterfaces(InterfaceFields& fields, const InterfaceOptions& op
           options.Gradation },
         executor);
     }
-    Edit(mesh, options.Edge, isGraded || !isLast, round >= FirstFit ? 1 : 0, mayGoOn);
+    Edit(mesh, options.Edge, isGraded || !isLast, round >= FirstFit ? 1 : 0, executor, mayGoOn);
     mesh.Compact();
     if (!mayGoOn())
     {
@@ -114,13 +115,13 @@ InterfaceMesh MakeInterfaces(InterfaceFields& fields, const InterfaceOptions& op
     share = std::min(1., static_cast<double>(all / 2 + round) / all);
   }
   // Of the last steps some slivers are left; without them volumes are a little different again.
-  Edit(mesh, options.Edge, false, LastSliverRounds, mayGoOn);
+  Edit(mesh, options.Edge, false, LastSliverRounds, executor, mayGoOn);
   mesh.Compact();
   const auto openNarrowPlaces = [&]
   {
     NarrowPlaces(mesh, fields, options.Edge, ToleranceOfEdge * options.Edge,
       options.VoxelTolerance + options.Tolerance)
-      .Open(mayGoOn);
+      .Open(executor, mayGoOn);
   };
   if (mayGoOn())
   {

@@ -54,9 +54,9 @@ NarrowPlaces::NarrowPlaces(InterfaceMesh& mesh, const InterfaceFields& fields, d
 {
 }
 
-void NarrowPlaces::Open(const std::function<bool()>& goOn)
+void NarrowPlaces::Open(Executor& executor, const std::function<bool()>& goOn)
 {
-  this->Clearance.Reset();
+  this->Clearance.Reset(executor);
   for (int round = 0; round < Rounds && goOn(); ++round)
   {
     bool hasMoved = false;

@@ -3,6 +3,7 @@
 #ifndef volumicNarrowPlaces_h
 #define volumicNarrowPlaces_h
 
+#include "Core/Common/Executor.h"
 #include "Core/Interfaces/InterfaceClearance.h"
 #include "Core/Interfaces/InterfaceFields.h"
 #include "Core/Interfaces/InterfaceMesh.h"
@@ -31,7 +32,7 @@ public:
     double voxelTolerance);
 
   /** @param goOn asked now and then; after false no more is opened */
-  void Open(const std::function<bool()>& goOn);
+  void Open(Executor& executor, const std::function<bool()>& goOn);
 
 private:
   /** The corners of narrow triangles and wedges, sorted. */
