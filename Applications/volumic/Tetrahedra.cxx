@@ -96,6 +96,8 @@ void RunProgram(std::vector<std::string> words, const std::string& folder, bool 
   posix_spawn_file_actions_addopen(&actions, 1, log.c_str(), O_WRONLY | O_CREAT, 0600);
   posix_spawn_file_actions_adddup2(&actions, 1, 2);
   posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
+  // What there is after an interrupt is filled as well, unless there is a second one.
+  const bool mayStop = isInterrupted && !isInterrupted();
   pid_t child = 0;
   const int error =
     posix_spawnp(&child, program.c_str(), &actions, nullptr, pointers.data(), environ);
@@ -103,8 +105,6 @@ void RunProgram(std::vector<std::string> words, const std::string& folder, bool 
   FailIf(error != 0, program + " cannot be run");
   int status = 0;
   bool isStopped = false;
-  // What there is after an interrupt is filled as well, unless there is a second one.
-  const bool mayStop = isInterrupted && !isInterrupted();
   while (waitpid(child, &status, WNOHANG) == 0)
   {
     if (mayStop && !isStopped && isInterrupted())

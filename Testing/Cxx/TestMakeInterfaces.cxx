@@ -291,6 +291,6 @@ TEST(CorrectVolumes, ShiftsInterfacesToWhatIsMissing)
   }
   const Vector middle(11.5f, 8.f, 11.5f);
   const float before = scene.Fields->ValueAt(1, middle) - scene.Fields->ValueAt(2, middle);
-  CorrectVolumes(mesh, *scene.Fields);
+  CorrectVolumes(mesh, *scene.Fields, 0., OnThisThread());
   EXPECT_GT(scene.Fields->ValueAt(1, middle) - scene.Fields->ValueAt(2, middle), before);
 }

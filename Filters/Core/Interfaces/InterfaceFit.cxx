@@ -23,6 +23,8 @@ constexpr float PushOfWrong = 0.25f;
 
 /** Where fields differ less from place to place nothing is said by how much. */
 constexpr double LeastSlope = 0.3;
+/** Faces that a thread adds at a time. */
+constexpr std::size_t SpanSize = 4096;
 
 /** How fast half of the difference of its fields grows across a face. */
 double SlopeAt(
@@ -34,6 +36,50 @@ double SlopeAt(
     middle += mesh.Position[static_cast<std::size_t>(v)] * (1.f / 3.f);
   }
   return Length(fields.Between(face.Behind, face.Front, middle).Gradient);
+}
+
+/** Of the faces between two objects. */
+struct FaceSums
+{
+  double Volume = 0.; ///< between them and the origin
+  double Area = 0.;   ///< of each over the slope of half of the difference of its fields
+};
+/** By the object behind and that in front. */
+using SumsOfPairs = std::map<std::array<std::size_t, 2>, FaceSums>;
+
+SumsOfPairs SumFaces(const InterfaceMesh& mesh, const InterfaceFields& fields, Executor& executor)
+{
+  std::vector<SumsOfPairs> ofSpans((mesh.Faces.size() + SpanSize - 1) / SpanSize);
+  ForSpans(executor, mesh.Faces.size(), SpanSize,
+    [&](std::size_t span, std::size_t begin, std::size_t end)
+    {
+      for (std::size_t f = begin; f < end; ++f)
+      {
+        const InterfaceMesh::Face& face = mesh.Faces[f];
+        if (!face.IsThere())
+        {
+          continue;
+        }
+        FaceSums& sums = ofSpans[span][{ face.Behind, face.Front }];
+        const VectorD across = mesh.NormalOf(face);
+        sums.Volume +=
+          Dot(across, VectorD(mesh.Position[static_cast<std::size_t>(face.Vertex[0])])) / 6.;
+        if (!mesh.IsSide(face.Front))
+        {
+          sums.Area += 0.5 * Length(across) / std::max(SlopeAt(mesh, fields, face), LeastSlope);
+        }
+      }
+    });
+  SumsOfPairs all;
+  for (const SumsOfPairs& some : ofSpans)
+  {
+    for (const auto& [objects, sums] : some)
+    {
+      all[objects].Volume += sums.Volume;
+      all[objects].Area += sums.Area;
+    }
+  }
+  return all;
 }
 
 /** Of each object but 0 the voxels that its surface has on the wrong side. */
@@ -71,34 +117,27 @@ std::vector<std::vector<std::int64_t>> FindWrong(const InterfaceMesh& mesh,
 }
 }
 
-void CorrectVolumes(const InterfaceMesh& mesh, InterfaceFields& fields, double tolerance)
+void CorrectVolumes(
+  const InterfaceMesh& mesh, InterfaceFields& fields, double tolerance, Executor& executor)
 {
   const LabelBricks& bricks = fields.Bricks();
   const auto count = static_cast<std::size_t>(bricks.Map().NumberOfObjects) + 1;
   const std::array<double, 3>& step = fields.Step();
   const double ofVoxel = step[0] * step[1] * step[2];
   std::vector<double> missing(count, 0.);
-  std::map<std::array<std::size_t, 2>, double> areas;
   for (std::size_t object = 1; object < count; ++object)
   {
     missing[object] =
       ofVoxel * static_cast<double>(bricks.ExtentOf(static_cast<int>(object)).Voxels);
   }
-  for (const InterfaceMesh::Face& face : mesh.Faces)
+  std::map<std::array<std::size_t, 2>, double> areas;
+  for (const auto& [objects, sums] : SumFaces(mesh, fields, executor))
   {
-    if (face.IsThere())
+    missing[objects[0]] -= sums.Volume;
+    if (!mesh.IsSide(static_cast<int>(objects[1]))) // which stays where it is
     {
-      const VectorD across = mesh.NormalOf(face);
-      const double volume =
-        Dot(across, VectorD(mesh.Position[static_cast<std::size_t>(face.Vertex[0])])) / 6.;
-      missing[face.Behind] -= volume;
-      if (mesh.IsSide(face.Front))
-      {
-        continue; // It stays where it is.
-      }
-      missing[face.Front] += volume;
-      areas[{ face.Behind, face.Front }] +=
-        0.5 * Length(across) / std::max(SlopeAt(mesh, fields, face), LeastSlope);
+      missing[objects[1]] += sums.Volume;
+      areas[objects] = sums.Area;
     }
   }
   std::vector<double> shifts(count, 0.);

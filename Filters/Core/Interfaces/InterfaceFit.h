@@ -18,7 +18,8 @@ namespace volumic
  * Laplacian whose weights are the areas between two objects.
  * @param tolerance how far faces may be from the interfaces of the fields; workspace
  */
-void CorrectVolumes(const InterfaceMesh& mesh, InterfaceFields& fields, double tolerance = 0.);
+void CorrectVolumes(
+  const InterfaceMesh& mesh, InterfaceFields& fields, double tolerance, Executor& executor);
 
 /**
  * Changes fields at voxels that the mesh has on the wrong side, so that the next steps take

@@ -106,7 +106,7 @@ InterfaceMesh MakeInterfaces(InterfaceFields& fields, const InterfaceOptions& op
     }
     if (round >= FirstFit)
     {
-      CorrectVolumes(mesh, fields, options.Tolerance);
+      CorrectVolumes(mesh, fields, options.Tolerance, executor);
       wrong = PushWrongVoxels(
         mesh, fields, options.VoxelTolerance + (isLast ? options.Tolerance : 0.), executor);
     }
@@ -126,7 +126,7 @@ InterfaceMesh MakeInterfaces(InterfaceFields& fields, const InterfaceOptions& op
   if (mayGoOn())
   {
     openNarrowPlaces(); // For the volumes, as it will be done again.
-    CorrectVolumes(mesh, fields, options.Tolerance);
+    CorrectVolumes(mesh, fields, options.Tolerance, executor);
     MoveInterfaces(mesh, fields, 1, 0., LeastShare * options.Edge, ToleranceOfEdge * options.Edge,
       SliverAngle, executor, straightening);
     openNarrowPlaces();

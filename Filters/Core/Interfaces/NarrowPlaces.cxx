@@ -18,7 +18,7 @@ namespace
 /** Triangles and wedges of less are opened, radian: a little more than 20 and 10 degrees. */
 constexpr double NarrowAngle = 0.38;
 constexpr double NarrowWedge = 0.2;
-/** How often all that is narrow is visited. */
+/** How often what is narrow is visited. */
 constexpr int Rounds = 12;
 /** How far a vertex goes at a time, in its wanted edge, at first and at least. */
 constexpr double LargestStep = 0.15;
@@ -39,6 +39,14 @@ double SquaredLack(double angle, double wanted)
   return lack > 0. ? lack * lack : 0.;
 }
 
+/** Each once. */
+std::vector<int> Sorted(std::vector<int> vertices)
+{
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  return vertices;
+}
+
 /** Six times the volume of a tetrahedron. */
 double VolumeOf(const VectorD& a, const VectorD& b, const VectorD& c, const VectorD& d)
 {
@@ -57,17 +65,23 @@ NarrowPlaces::NarrowPlaces(InterfaceMesh& mesh, const InterfaceFields& fields, d
 void NarrowPlaces::Open(Executor& executor, const std::function<bool()>& goOn)
 {
   this->Clearance.Reset(executor);
-  for (int round = 0; round < Rounds && goOn(); ++round)
+  std::vector<int> vertices = this->FindVertices();
+  for (int round = 0; round < Rounds && !vertices.empty() && goOn(); ++round)
   {
-    bool hasMoved = false;
-    for (const int v : this->FindVertices())
+    // Where nothing has moved nothing more will.
+    std::vector<int> next;
+    for (const int v : vertices)
     {
-      hasMoved = this->TryMove(v) || hasMoved;
+      if (this->TryMove(v))
+      {
+        for (const int f : this->Changed)
+        {
+          const std::array<int, 3>& corners = this->Mesh.Faces[static_cast<std::size_t>(f)].Vertex;
+          next.insert(next.end(), corners.begin(), corners.end());
+        }
+      }
     }
-    if (!hasMoved)
-    {
-      break;
-    }
+    vertices = Sorted(std::move(next));
   }
 }
 
@@ -94,9 +108,7 @@ std::vector<int> NarrowPlaces::FindVertices()
       }
     }
   }
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-  return vertices;
+  return Sorted(std::move(vertices));
 }
 
 double NarrowPlaces::NarrownessAt(int v)
