@@ -31,6 +31,7 @@ set(volumic_core_sources
   Labels/LabelDistance.cxx
   Labels/LabelField.cxx
   Labels/LabelHold.cxx
+  Labels/LabelMap.cxx
   Labels/LabelSides.cxx
   Labels/MapBeyond.cxx
   Labels/SmallParts.cxx

@@ -37,16 +37,17 @@ void LabelHelper::Begin(
   vtkNew<vtkImageData> place;
   place->CopyStructure(frame);
   RankMessage message;
-  message << Step::Begin << map.NumberOfObjects << map.Size << map.Spacing << names;
+  message << Step::Begin << map.NumberOfObjects << map.Size() << map.Spacing << names;
   message.Put(place);
   ranks.AskAll(RankQuestion::Own, message);
-  const auto slice = static_cast<std::size_t>(VoxelBox::Of(map.Size).NumberOf(0, 0, 1));
-  for (std::size_t first = 0; first < map.Voxels.size(); first += slice)
+  std::vector<LabelMap::Number> voxels;
+  for (int layer = 0; layer < map.NumberOfLayers(); ++layer)
   {
+    voxels.resize(static_cast<std::size_t>(map.Layer(layer).Count()));
+    map.CopyLayer(layer, voxels.data());
     RankMessage part;
-    part << Step::TakeSlice;
-    part.Pass(
-      const_cast<LabelMap::Number*>(map.Voxels.data()) + first, slice * sizeof(LabelMap::Number));
+    part << Step::TakeLayer;
+    part.Pass(voxels.data(), voxels.size() * sizeof(LabelMap::Number));
     ranks.AskAll(RankQuestion::Own, part);
   }
 }
@@ -109,8 +110,8 @@ RankMessage LabelHelper::Answer(RankMessage& message)
     case Step::Begin:
       this->TakeMap(message);
       break;
-    case Step::TakeSlice:
-      this->TakeSlice(message);
+    case Step::TakeLayer:
+      this->TakeLayer(message);
       break;
     case Step::Do:
       this->StartWork(message);
@@ -132,17 +133,23 @@ RankMessage LabelHelper::Answer(RankMessage& message)
 
 void LabelHelper::TakeMap(RankMessage& message)
 {
-  message >> this->Map.NumberOfObjects >> this->Map.Size >> this->Map.Spacing >> this->Names;
+  int numberOfObjects = 0;
+  std::array<int, 3> size;
+  message >> numberOfObjects >> size;
+  this->Map = LabelMap(size);
+  this->Map.NumberOfObjects = numberOfObjects;
+  message >> this->Map.Spacing >> this->Names;
   this->Frame = vtkImageData::SafeDownCast(message.TakeData());
-  this->Map.Voxels.resize(static_cast<std::size_t>(VoxelBox::Of(this->Map.Size).Count()));
 }
 
-void LabelHelper::TakeSlice(RankMessage& message)
+void LabelHelper::TakeLayer(RankMessage& message)
 {
-  const auto slice = static_cast<std::size_t>(VoxelBox::Of(this->Map.Size).NumberOf(0, 0, 1));
-  message.Pass(this->Map.Voxels.data() + this->Taken, slice * sizeof(LabelMap::Number));
-  this->Taken += slice;
-  if (this->Taken == this->Map.Voxels.size())
+  std::vector<LabelMap::Number> voxels(
+    static_cast<std::size_t>(this->Map.Layer(this->Taken).Count()));
+  message.Pass(voxels.data(), voxels.size() * sizeof(LabelMap::Number));
+  this->Map.PutLayer(this->Taken, voxels.data());
+  ++this->Taken;
+  if (this->Taken == this->Map.NumberOfLayers())
   {
     HostThreads threads(this->NumberOfThreads);
     threads.Run([&] { this->Bricks.emplace(this->Map, threads); });

@@ -62,14 +62,14 @@ private:
   enum class Step : int
   {
     Begin,
-    TakeSlice,
+    TakeLayer,
     Do,
     Tell,
     Give,
     Lower
   };
   void TakeMap(RankMessage& message);
-  void TakeSlice(RankMessage& message);
+  void TakeLayer(RankMessage& message);
   void StartWork(RankMessage& message);
   RankMessage TellOfWork(RankMessage& message);
   RankMessage Give(RankMessage& message);
@@ -80,7 +80,7 @@ private:
   LabelMap Map;
   vtkSmartPointer<vtkImageData> Frame; ///< where the voxels are
   std::vector<std::string> Names;
-  std::size_t Taken = 0; ///< voxels of the map
+  int Taken = 0; ///< layers of the map
   std::optional<LabelBricks> Bricks;
   std::optional<LabelSurfaceMaker> Maker;
   std::optional<LabelWork> Work;

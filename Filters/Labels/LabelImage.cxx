@@ -189,8 +189,8 @@ std::vector<int> LabelImage::Choose(const std::vector<int>& wanted, int backgrou
 LabelMap LabelImage::MakeMap(
   const std::vector<int>& labels, bool merge, int background, Executor& executor) const
 {
-  LabelMap map;
-  std::copy_n(this->Geometry->GetDimensions(), 3, map.Size.begin());
+  const int* size = this->Geometry->GetDimensions();
+  LabelMap map({ size[0], size[1], size[2] });
   map.Spacing = Workspace(this->Geometry, Metric::World).Step();
   std::unordered_map<int, LabelMap::Number> objects;
   for (const int label : labels)
@@ -207,24 +207,26 @@ LabelMap LabelImage::MakeMap(
       objects[entry.first] = static_cast<LabelMap::Number>(++map.NumberOfObjects);
     }
   }
-  const auto count = static_cast<std::size_t>(this->Voxels->GetNumberOfTuples());
-  map.Voxels.resize(count);
   VisitVoxels(this->Voxels,
     [&](const auto* voxels)
     {
-      executor.For(count, Grain,
-        [&](std::size_t begin, std::size_t end)
+      ForSpans(executor, static_cast<std::size_t>(map.NumberOfLayers()), 1,
+        [&](std::size_t layer, std::size_t, std::size_t)
         {
-          for (std::size_t i = begin; i < end;)
+          const VoxelBox box = map.Layer(static_cast<int>(layer));
+          std::vector<LabelMap::Number> numbers(static_cast<std::size_t>(box.Count()));
+          const auto* from = voxels + VoxelBox::Of(map.Size()).NumberOf(0, 0, box.First[2]);
+          for (std::size_t i = 0; i < numbers.size();)
           {
-            const auto value = voxels[i];
+            const auto value = from[i];
             const auto found = objects.find(static_cast<int>(value));
             const LabelMap::Number object = found == objects.end() ? 0 : found->second;
-            for (; i < end && voxels[i] == value; ++i)
+            for (; i < numbers.size() && from[i] == value; ++i)
             {
-              map.Voxels[i] = object;
+              numbers[i] = object;
             }
           }
+          map.PutLayer(static_cast<int>(layer), numbers.data());
         });
     });
   return map;

@@ -69,28 +69,9 @@ double EdgeOf(const LabelSettings& settings, const Workspace& space)
 VoxelBox LabelInterfaceMaker::BoxOf(const LabelMap& map, int objects)
 {
   VoxelBox box;
-  const VoxelBox all = VoxelBox::Of(map.Size);
-  ForRowsOf(all, all,
-    [&](std::int64_t first, std::int64_t count)
-    {
-      const auto isObject = [&](LabelMap::Number object)
-      { return object > 0 && object <= objects; };
-      const auto* row = map.Voxels.data() + first;
-      const auto* begin = std::find_if(row, row + count, isObject);
-      if (begin == row + count)
-      {
-        return;
-      }
-      const auto* end = row + count;
-      while (!isObject(end[-1]))
-      {
-        --end;
-      }
-      const std::array<int, 3> at = VoxelNumbers(map.Size).PlaceOf(first);
-      const VoxelBox part = { { static_cast<int>(begin - row), at[1], at[2] },
-        { static_cast<int>(end - row), at[1] + 1, at[2] + 1 } };
-      box = box.With(part);
-    });
+  map.ForParts(VoxelBox::Of(map.Size()),
+    [&](const VoxelBox& part, LabelMap::Number object)
+    { box = object > 0 && object <= objects ? box.With(part) : box; });
   for (int& first : box.First)
   {
     first -= first % LabelBricks::Side; // Whole bricks, so that what is about does not matter.
@@ -102,25 +83,39 @@ LabelMap LabelInterfaceMaker::Padded(
   const LabelMap& map, int objects, const VoxelBox& box, int margin)
 {
   constexpr int side = LabelBricks::Side;
-  LabelMap padded;
-  padded.Spacing = map.Spacing;
-  padded.NumberOfObjects = objects;
+  std::array<int, 3> size;
   for (int axis = 0; axis < 3; ++axis)
   {
-    padded.Size[axis] = (box.Length(axis) + side - 1) / side * side + 2 * margin;
+    size[axis] = (box.Length(axis) + side - 1) / side * side + 2 * margin;
   }
-  const VoxelBox all = VoxelBox::Of(padded.Size);
-  padded.Voxels.resize(static_cast<std::size_t>(all.Count()), 0);
-  ForRowsOf(box, VoxelBox::Of(map.Size),
-    [&](std::int64_t first, std::int64_t count)
-    {
-      const std::array<int, 3> at = VoxelNumbers(map.Size).PlaceOf(first);
-      const LabelMap::Number* from = map.Voxels.data() + first;
-      std::transform(from, from + count,
-        padded.Voxels.begin() +
-          all.NumberOf(margin, at[1] - box.First[1] + margin, at[2] - box.First[2] + margin),
-        [&](LabelMap::Number object) { return object > objects ? LabelMap::Number(0) : object; });
-    });
+  LabelMap padded(size);
+  padded.Spacing = map.Spacing;
+  padded.NumberOfObjects = objects;
+  std::vector<LabelMap::Number> voxels;
+  for (int layer = 0; layer < padded.NumberOfLayers(); ++layer)
+  {
+    const VoxelBox slices = padded.Layer(layer);
+    voxels.assign(static_cast<std::size_t>(slices.Count()), 0);
+    VoxelBox source = box;
+    source.First[2] = std::max(box.First[2], slices.First[2] + box.First[2] - margin);
+    source.End[2] = std::min(box.End[2], slices.End[2] + box.First[2] - margin);
+    map.ForParts(source,
+      [&](const VoxelBox& part, LabelMap::Number object)
+      {
+        VoxelBox to;
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          to.First[axis] = part.First[axis] - box.First[axis] + margin;
+          to.End[axis] = part.End[axis] - box.First[axis] + margin;
+        }
+        ForRowsOf(to, slices,
+          [&](std::int64_t first, std::int64_t count)
+          {
+            std::fill_n(voxels.begin() + first, count, object > objects ? LabelMap::Number(0) : object);
+          });
+      });
+    padded.PutLayer(layer, voxels.data());
+  }
   return padded;
 }
 
@@ -130,7 +125,7 @@ LabelInterfaceMaker::LabelInterfaceMaker(LabelMap map, int objects, vtkImageData
 {
   LabelSurfaceMaker::PlanOf(settings, image); // Lengths have the same limits.
   const bool isFlat = settings.HasFlatBox();
-  const VoxelBox box = settings.IsPeriodic() ? VoxelBox::Of(map.Size) : BoxOf(map, objects);
+  const VoxelBox box = settings.IsPeriodic() ? VoxelBox::Of(map.Size()) : BoxOf(map, objects);
   // With flat faces fields are those of labels that go on beyond them, for the whole Gaussian.
   const int margin = MarginFor(LabelSurfaceMaker::FieldOptions(settings, map).Sigma) +
     (isFlat ? LabelBricks::Side : 0);
@@ -142,7 +137,7 @@ LabelInterfaceMaker::LabelInterfaceMaker(LabelMap map, int objects, vtkImageData
     const double ofVoxel =
       map.Spacing[0] * map.Spacing[1] * map.Spacing[2] * std::pow(this->Space.WorldUnit(), 3.0);
     const double least = std::min(std::ceil(settings.MinimumComponentVolume / ofVoxel),
-      static_cast<double>(map.Voxels.size()) + 1.0);
+      static_cast<double>(VoxelBox::Of(map.Size()).Count()) + 1.0);
     this->WholeMap = Padded(map, objects, box, margin);
     threads.Run([&] { this->WholeBricks.emplace(this->WholeMap, threads); });
     GiveAwaySmallParts(
@@ -152,7 +147,7 @@ LabelInterfaceMaker::LabelInterfaceMaker(LabelMap map, int objects, vtkImageData
   for (int axis = 0; axis < 3; ++axis)
   {
     this->InImage.First[axis] = std::max(-this->First[axis], 0);
-    this->InImage.End[axis] = std::min(map.Size[axis] - this->First[axis], this->Map.Size[axis]);
+    this->InImage.End[axis] = std::min(map.Size()[axis] - this->First[axis], this->Map.Size()[axis]);
   }
   if (settings.IsPeriodic())
   {
@@ -166,7 +161,7 @@ LabelInterfaceMaker::LabelInterfaceMaker(LabelMap map, int objects, vtkImageData
     [&]
     {
       this->Bricks.emplace(
-        this->Map, threads, isFlat ? this->InImage : VoxelBox::Of(this->Map.Size));
+        this->Map, threads, isFlat ? this->InImage : VoxelBox::Of(this->Map.Size()));
     });
 }
 

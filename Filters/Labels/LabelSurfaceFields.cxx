@@ -259,7 +259,7 @@ bool LabelSurfaceMaker::ReviseField(int object, Revision& revision, const Indexe
   if (round < holds && mayHold)
   {
     const float further = FurtherMargins[static_cast<std::size_t>(round)];
-    const VoxelNumbers numbers(this->Bricks.Map().Size);
+    const VoxelNumbers numbers(this->Bricks.Map().Size());
     std::vector<HeldVoxel> held;
     for (const std::int64_t voxel : this->FindMissed(object, surface))
     {

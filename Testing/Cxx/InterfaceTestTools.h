@@ -35,7 +35,7 @@ struct InterfaceScene
   std::optional<LabelBricks> Bricks;
   std::optional<InterfaceFields> Fields;
 
-  explicit InterfaceScene(LabelMap map) : InterfaceScene(map, VoxelBox::Of(map.Size)) {}
+  explicit InterfaceScene(LabelMap map) : InterfaceScene(map, VoxelBox::Of(map.Size())) {}
   /** @param inside where objects end */
   InterfaceScene(LabelMap map, const VoxelBox& inside, bool isPeriodic = false)
     : Map(std::move(map))

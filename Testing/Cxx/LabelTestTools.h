@@ -15,13 +15,12 @@ namespace volumic
 inline LabelMap MakeLabelMap(const std::array<int, 3>& size, int objects,
   const std::function<int(int, int, int)>& objectAt)
 {
-  LabelMap map;
-  map.Size = size;
+  LabelMap map(size);
   map.NumberOfObjects = objects;
   ForVoxels(size,
     [&](int i, int j, int k)
     {
-      map.Voxels.push_back(static_cast<LabelMap::Number>(objectAt(i, j, k)));
+      map.Set(i, j, k, static_cast<LabelMap::Number>(objectAt(i, j, k)));
     });
   return map;
 }

@@ -107,11 +107,10 @@ TEST(InterfaceLattice, IsFineWhereSomethingWouldBeLost)
   LabelMap map = FourBlocks(8);
   map.NumberOfObjects = 5;
   // A rod of a voxel, along voxels that are no points of the coarse lattice, nor beside any of it.
-  const VoxelBox all = VoxelBox::Of(map.Size);
   for (int i = 5; i < 19; ++i)
   {
-    map.Voxels[static_cast<std::size_t>(all.NumberOf(i, 12, 11))] = 5;
-    map.Voxels[static_cast<std::size_t>(all.NumberOf(i, 12, 12))] = i % 2 == 0 ? 1 : 5;
+    map.Set(i, 12, 11, 5);
+    map.Set(i, 12, 12, i % 2 == 0 ? 1 : 5);
   }
   const Pitches pitch = PitchOf(map);
   const InterfaceScene scene(map);

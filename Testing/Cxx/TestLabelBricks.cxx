@@ -145,7 +145,10 @@ LabelMap Parts()
 
 long VoxelsOf(const LabelMap& map, int object)
 {
-  return static_cast<long>(std::count(map.Voxels.begin(), map.Voxels.end(), object));
+  long count = 0;
+  map.ForParts(VoxelBox::Of(map.Size()), [&](const VoxelBox& part, LabelMap::Number other)
+    { count += other == object ? static_cast<long>(part.Count()) : 0; });
+  return count;
 }
 }
 
@@ -171,7 +174,7 @@ TEST(SmallParts, GoToNothingThatGoes)
 {
   LabelMap map = Parts();
   GiveAwaySmallParts(map, 3, 1000000, false);
-  EXPECT_EQ(VoxelsOf(map, 0), static_cast<long>(map.Voxels.size()));
+  EXPECT_EQ(VoxelsOf(map, 0), static_cast<long>(VoxelBox::Of(map.Size()).Count()));
   // Two voxels of 1 in some of 3 in 2: all of it is 2 then.
   map = MakeLabelMap({ 9, 9, 9 }, 3,
     [](int i, int j, int k)

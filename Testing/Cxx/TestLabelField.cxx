@@ -171,7 +171,7 @@ TEST(LabelField, HoldsVoxelsFurther)
     ++i;
   }
   ASSERT_LT(ValueAt(field, i, 16, 16), 0.85f);
-  HoldFurther(field, bricks, 1, options, { { VoxelBox::Of(map.Size).NumberOf(i, 16, 16), 0.9f } },
+  HoldFurther(field, bricks, 1, options, { { VoxelBox::Of(map.Size()).NumberOf(i, 16, 16), 0.9f } },
     OnThisThread());
   EXPECT_GE(ValueAt(field, i, 16, 16), 0.88f);
   EXPECT_EQ(CountWrongSigns(map, 1, field), 0);

@@ -15,7 +15,7 @@ TEST(FindMissedVoxels, FindsThoseThatAreFurtherFromTheSurfaceInTheWorld)
   IndexedSurface corner;
   corner.Points = { { 0., 0., 2.5 }, { 9., 0., 2.5 }, { 0., 9., 2.5 } };
   corner.Triangles = { { 0, 1, 2 } };
-  const VoxelBox all = VoxelBox::Of(map.Size);
+  const VoxelBox all = VoxelBox::Of(map.Size());
   const std::vector<std::int64_t> wrong = { all.NumberOf(2, 2, 1), all.NumberOf(2, 2, 2),
     all.NumberOf(2, 2, 3) };
   const std::vector<std::int64_t> furthest = { wrong[0] };
@@ -32,9 +32,9 @@ TEST(FindWrongVoxels, FindsThoseOutsideAndThoseInside)
   const IndexedSurface cube = Cuboid({ 7.5, 7.5, 7.5 }, { 20.5, 20.5, 20.5 });
   EXPECT_TRUE(FindWrongVoxels(LabelBricks(map, OnThisThread()), 1, cube).empty());
   const auto place = [&](int i, int j, int k)
-  { return static_cast<std::size_t>(VoxelBox::Of(map.Size).NumberOf(i, j, k)); };
-  map.Voxels[place(15, 15, 15)] = 0;
-  map.Voxels[place(15, 15, 27)] = 1;
+  { return static_cast<std::size_t>(VoxelBox::Of(map.Size()).NumberOf(i, j, k)); };
+  map.Set(15, 15, 15, 0);
+  map.Set(15, 15, 27, 1);
   EXPECT_EQ(FindWrongVoxels(LabelBricks(map, OnThisThread()), 1, cube),
     (std::vector<std::int64_t>{ static_cast<std::int64_t>(place(15, 15, 15)),
       static_cast<std::int64_t>(place(15, 15, 27)) }));

@@ -199,7 +199,7 @@ void InterfaceFields::Push(int object, const std::array<int, 3>& voxel, float by
     {
       std::array<int, 3> at = voxel;
       at[axis] += step;
-      if (map.At(at[0], at[1], at[2]) == own && VoxelBox::Of(map.Size).Contains(at))
+      if (map.At(at[0], at[1], at[2]) == own && VoxelBox::Of(map.Size()).Contains(at))
       {
         add(at, 0.5f * by);
       }
@@ -209,7 +209,7 @@ void InterfaceFields::Push(int object, const std::array<int, 3>& voxel, float by
 
 InterfaceFields::Sample InterfaceFields::Interpolate(int object, const Vector& place) const
 {
-  const std::array<int, 3>& size = this->Map.Map().Size;
+  const std::array<int, 3>& size = this->Map.Map().Size();
   const float places[3] = { place.X, place.Y, place.Z };
   int low[3];
   float share[3];

@@ -39,7 +39,7 @@ public:
   const LabelBricks& Bricks() const { return this->Map; }
   const std::array<double, 3>& Step() const { return this->Lengths; }
   /** Whether objects end at the box in which voxels are counted, and not in what is about it. */
-  bool HaveBox() const { return !(this->Map.Inside() == VoxelBox::Of(this->Map.Map().Size)); }
+  bool HaveBox() const { return !(this->Map.Inside() == VoxelBox::Of(this->Map.Map().Size())); }
   bool ArePeriodic() const { return this->IsPeriodic; }
   /** That in the box whose values a voxel has: another one only where fields are periodic. */
   std::array<int, 3> SourceOf(std::array<int, 3> voxel) const

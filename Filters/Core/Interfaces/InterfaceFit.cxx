@@ -173,7 +173,7 @@ std::size_t PushWrongVoxels(const InterfaceMesh& mesh, InterfaceFields& fields, 
   Executor& executor)
 {
   const LabelMap& map = fields.Bricks().Map();
-  const VoxelNumbers numbers(map.Size);
+  const VoxelNumbers numbers(map.Size());
   const std::vector<std::vector<std::int64_t>> wrong =
     FindWrong(mesh, fields, tolerance, executor);
   std::size_t count = 0;
@@ -181,10 +181,11 @@ std::size_t PushWrongVoxels(const InterfaceMesh& mesh, InterfaceFields& fields, 
   {
     for (const std::int64_t voxel : wrong[object])
     {
-      fields.Push(static_cast<int>(object), numbers.PlaceOf(voxel), PushOfWrong);
-      if (map.Voxels[static_cast<std::size_t>(voxel)] == 0)
+      const std::array<int, 3> place = numbers.PlaceOf(voxel);
+      fields.Push(static_cast<int>(object), place, PushOfWrong);
+      if (map.At(place[0], place[1], place[2]) == 0)
       {
-        fields.Push(0, numbers.PlaceOf(voxel), PushOfWrong);
+        fields.Push(0, place, PushOfWrong);
       }
     }
     count += wrong[object].size();

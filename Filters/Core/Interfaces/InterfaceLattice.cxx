@@ -65,20 +65,22 @@ bool HoldsObjects(const LabelBricks& bricks, const Pitches& pitch, Executor& exe
   const auto objects = static_cast<std::size_t>(map.NumberOfObjects) + 1;
   std::vector<std::int64_t> without(objects, 0);
   std::mutex mutex;
-  executor.For(static_cast<std::size_t>(map.Size[2]), 1,
+  executor.For(static_cast<std::size_t>(map.Size()[2]), 1,
     [&](std::size_t begin, std::size_t end)
     {
       std::vector<std::int64_t> own(objects, 0);
       for (int k = static_cast<int>(begin); k < static_cast<int>(end); ++k)
       {
-        for (int j = 0; j < map.Size[1]; ++j)
+        for (int j = 0; j < map.Size()[1]; ++j)
         {
-          for (int i = 0; i < map.Size[0]; ++i)
+          for (int brick = 0; brick < bricks.Size()[0]; ++brick)
           {
-            const LabelBricks::Range range = bricks.ObjectsIn(i / side, j / side, k / side);
-            if (range.end() - range.begin() > 1 && !IsHeld(map, pitch, i, j, k))
+            const LabelBricks::Range range = bricks.ObjectsIn(brick, j / side, k / side);
+            const bool hasSeveral = range.end() - range.begin() > 1;
+            const int end = hasSeveral ? std::min((brick + 1) * side, map.Size()[0]) : 0;
+            for (int i = brick * side; i < end; ++i)
             {
-              ++own[map.At(i, j, k)];
+              own[map.At(i, j, k)] += IsHeld(map, pitch, i, j, k) ? 0 : 1;
             }
           }
         }

@@ -23,19 +23,23 @@ bool IsBefore(const LatticeSite& a, const LatticeSite& b)
 
 void LatticeCutter::FindMiddles(Executor& executor)
 {
-  this->ObjectOfMiddle.resize(static_cast<std::size_t>(this->Middles.Count()));
-  ForSpans(executor, static_cast<std::size_t>(this->Middles.Length(2)), 1,
+  ForSpans(executor, static_cast<std::size_t>(this->OfMiddles.NumberOfLayers()), 1,
     [&](std::size_t layer, std::size_t, std::size_t)
     {
-      const int k = static_cast<int>(layer);
-      std::size_t at = static_cast<std::size_t>(this->Middles.NumberOf(0, 0, k));
-      for (int j = 0; j < this->Middles.End[1]; ++j)
+      const VoxelBox box = this->OfMiddles.Layer(static_cast<int>(layer));
+      std::vector<Number> objects(static_cast<std::size_t>(box.Count()));
+      for (int k = box.First[2]; k < box.End[2]; ++k)
       {
-        for (int i = 0; i < this->Middles.End[0]; ++i)
+        for (int j = 0; j < box.End[1]; ++j)
         {
-          this->ObjectOfMiddle[at++] = this->ObjectBetween({ 2 * i + 1, 2 * j + 1, 2 * k + 1 });
+          for (int i = 0; i < box.End[0]; ++i)
+          {
+            objects[static_cast<std::size_t>(box.NumberOf(i, j, k))] =
+              this->ObjectBetween({ 2 * i + 1, 2 * j + 1, 2 * k + 1 });
+          }
         }
       }
+      this->OfMiddles.PutLayer(static_cast<int>(layer), objects.data());
     });
 }
 
@@ -77,61 +81,41 @@ LatticeCutter::Number LatticeCutter::ObjectBetween(const std::array<int, 3>& hal
 LatticeCutter::Number LatticeCutter::ObjectOf(const std::array<int, 3>& voxel) const
 {
   const std::array<int, 3> source = this->Fields.SourceOf(voxel);
-  return this->Map.Voxels[static_cast<std::size_t>(
-    VoxelBox::Of(this->Map.Size).NumberOf(source[0], source[1], source[2]))];
+  return this->Map.At(source[0], source[1], source[2]);
 }
 
 void LatticeCutter::FollowFields(Executor& executor)
 {
-  constexpr int side = LabelBricks::Side;
-  ForSpans(executor, static_cast<std::size_t>(this->Map.Size[2]), 1,
+  ForSpans(executor, static_cast<std::size_t>(this->Map.NumberOfLayers()), 1,
     [&](std::size_t layer, std::size_t, std::size_t)
     {
-      const int k = static_cast<int>(layer);
-      for (int j = 0; j < this->Map.Size[1]; ++j)
-      {
-        for (int i = 0; i < this->Map.Size[0]; ++i)
-        {
-          if (this->Fields.HasInterfaces(i / side, j / side, k / side))
-          {
-            this->Map
-              .Voxels[static_cast<std::size_t>(VoxelBox::Of(this->Map.Size).NumberOf(i, j, k))] =
-              this->Fields.LargestAt(i, j, k);
-          }
-        }
-      }
+      this->ForVoxelsAtInterfaces(this->Map.Layer(static_cast<int>(layer)),
+        [&](int i, int j, int k) { this->Map.Set(i, j, k, this->Fields.LargestAt(i, j, k)); });
     });
 }
 
 void LatticeCutter::KeepGaps()
 {
-  constexpr int side = LabelBricks::Side;
   const bool areSites = this->Pitch == std::array<int, 3>{ 2, 2, 2 }; // also middles of cubes
-  for (int k = 0; k < this->Map.Size[2]; ++k)
-  {
-    for (int j = 0; j < this->Map.Size[1]; ++j)
+  this->ForVoxelsAtInterfaces(VoxelBox::Of(this->Map.Size()),
+    [&](int i, int j, int k)
     {
-      for (int i = 0; i < this->Map.Size[0]; ++i)
+      const std::array<int, 3> voxel = { i, j, k };
+      bool isSite = areSites && (i & 1) == 1 && (j & 1) == 1 && (k & 1) == 1;
+      bool isCorner = true;
+      for (int axis = 0; axis < 3; ++axis)
       {
-        const std::array<int, 3> voxel = { i, j, k };
-        bool isSite = areSites && (i & 1) == 1 && (j & 1) == 1 && (k & 1) == 1;
-        bool isCorner = true;
-        for (int axis = 0; axis < 3; ++axis)
+        isCorner = isCorner && voxel[axis] % this->Pitch[axis] == 0;
+      }
+      isSite = isSite || isCorner;
+      for (int axis = 0; axis < 3 && isSite; ++axis)
+      {
+        if (this->Pitch[axis] == 2 && voxel[axis] + 2 < this->Map.Size()[axis])
         {
-          isCorner = isCorner && voxel[axis] % this->Pitch[axis] == 0;
-        }
-        isSite = isSite || isCorner;
-        for (int axis = 0;
-             axis < 3 && isSite && this->Fields.HasInterfaces(i / side, j / side, k / side); ++axis)
-        {
-          if (this->Pitch[axis] == 2 && voxel[axis] + 2 < this->Map.Size[axis])
-          {
-            this->KeepGapAt(voxel, axis);
-          }
+          this->KeepGapAt(voxel, axis);
         }
       }
-    }
-  }
+    });
 }
 
 void LatticeCutter::KeepGapAt(const std::array<int, 3>& voxel, int axis)
@@ -153,8 +137,7 @@ void LatticeCutter::KeepGapAt(const std::array<int, 3>& voxel, int axis)
   {
     if (this->MayChange(end))
     {
-      this->Map.Voxels[static_cast<std::size_t>(
-        VoxelBox::Of(this->Map.Size).NumberOf(end[0], end[1], end[2]))] = between;
+      this->Map.Set(end[0], end[1], end[2], between);
       return;
     }
   }
@@ -168,7 +151,7 @@ bool LatticeCutter::MayChange(const std::array<int, 3>& voxel) const
     {
       std::array<int, 3> near = voxel;
       near[axis] += step;
-      if (VoxelBox::Of(this->Map.Size).Contains(near) &&
+      if (VoxelBox::Of(this->Map.Size()).Contains(near) &&
         this->ObjectOf(near) == this->ObjectOf(voxel))
       {
         return true;
@@ -187,8 +170,7 @@ LatticeSite LatticeCutter::SiteAt(const std::array<int, 3>& halves) const
     return { halves, this->ObjectBetween(halves) };
   }
   return { halves,
-    odd != 0 ? this->ObjectOfMiddle[static_cast<std::size_t>(
-                 this->Middles.NumberOf(cube[0], cube[1], cube[2]))]
+    odd != 0 ? this->OfMiddles.At(cube[0], cube[1], cube[2])
              : this->ObjectOf({ this->Pitch[0] * cube[0], this->Pitch[1] * cube[1],
                  this->Pitch[2] * cube[2] }) };
 }

@@ -70,9 +70,10 @@ public:
         this->Mesh.Planes[2 * axis + end] =
           static_cast<float>(fields.Step()[axis] * (ends[end] - 0.5));
       }
-      this->Corners[axis] = (this->Map.Size[axis] - 1) / pitch[axis] + 1;
-      this->Middles.End[axis] = this->Corners[axis] - 1;
+      this->Corners[axis] = (this->Map.Size()[axis] - 1) / pitch[axis] + 1;
     }
+    this->OfMiddles =
+      LabelMap({ this->Corners[0] - 1, this->Corners[1] - 1, this->Corners[2] - 1 });
   }
 
   /** Has voxels be of the object whose field is the largest there. */
@@ -91,6 +92,29 @@ public:
 private:
   using Number = LabelMap::Number;
 
+  /** Calls visit(i, j, k) for those of a box that are in bricks with interfaces, in their order. */
+  template <typename Visitor>
+  void ForVoxelsAtInterfaces(const VoxelBox& box, Visitor&& visit) const
+  {
+    constexpr int side = LabelBricks::Side;
+    for (int k = box.First[2]; k < box.End[2]; ++k)
+    {
+      for (int j = box.First[1]; j < box.End[1]; ++j)
+      {
+        for (int brick = box.First[0] / side; brick * side < box.End[0]; ++brick)
+        {
+          if (this->Fields.HasInterfaces(brick, j / side, k / side))
+          {
+            const int end = std::min((brick + 1) * side, box.End[0]);
+            for (int i = std::max(brick * side, box.First[0]); i < end; ++i)
+            {
+              visit(i, j, k);
+            }
+          }
+        }
+      }
+    }
+  }
   /** The end of an edge that may be of another object: not the last one of its own about it. */
   bool MayChange(const std::array<int, 3>& voxel) const;
   void KeepGapAt(const std::array<int, 3>& voxel, int axis);
@@ -148,8 +172,7 @@ private:
   std::array<int, 3> Pitch;
   VoxelBox Box;               ///< in which all objects end
   std::array<int, 3> Corners; ///< of cubes, along each axis
-  VoxelBox Middles;           ///< of cubes
-  std::vector<Number> ObjectOfMiddle;
+  LabelMap OfMiddles;         ///< of cubes
   std::unordered_map<std::uint64_t, int> OnEdge; ///< by LatticeKey()
   std::unordered_map<std::uint64_t, int> OnFace;
   InterfaceMesh Mesh;

@@ -71,22 +71,12 @@ void FindObjectsIn(const LabelMap& map, const std::array<int, 3>& first,
   std::vector<LabelMap::Number>& objects)
 {
   constexpr int side = LabelBricks::Side;
-  const VoxelBox all = VoxelBox::Of(map.Size);
+  const VoxelBox all = VoxelBox::Of(map.Size());
   const VoxelBox box = { first, { first[0] + side, first[1] + side, first[2] + side } };
   const VoxelBox inside = box.CommonWith(all);
   objects.clear();
-  ForRowsOf(inside, all,
-    [&](std::int64_t begin, std::int64_t count)
-    {
-      const LabelMap::Number* row = map.Voxels.data() + begin;
-      for (std::int64_t i = 0; i < count; ++i)
-      {
-        if (i == 0 || row[i] != row[i - 1])
-        {
-          AddTo(objects, row[i]);
-        }
-      }
-    });
+  map.ForParts(
+    inside, [&](const VoxelBox&, LabelMap::Number object) { AddTo(objects, object); });
   if (inside.Count() < box.Count())
   {
     AddTo(objects, 0);
@@ -104,7 +94,7 @@ LabelBricks::LabelBricks(const LabelMap& map, Executor& executor, const VoxelBox
 {
   for (int axis = 0; axis < 3; ++axis)
   {
-    this->Count[axis] = (map.Size[axis] + Side - 1) / Side;
+    this->Count[axis] = (map.Size()[axis] + Side - 1) / Side;
   }
   this->FindObjects(executor);
   this->FindExtents(executor);
@@ -215,12 +205,8 @@ void LabelBricks::FindExtents(Executor& executor)
       VoxelBox part = this->Counted;
       part.First[2] = std::max(part.First[2], static_cast<int>(begin) * Side);
       part.End[2] = std::min(part.End[2], static_cast<int>(end) * Side);
-      ForRowsOf(part, VoxelBox::Of(this->Labels->Size),
-        [&](std::int64_t first, std::int64_t count)
-        {
-          const LabelMap::Number* row = this->Labels->Voxels.data() + first;
-          std::for_each(row, row + count, [&](LabelMap::Number object) { ++own[object].Voxels; });
-        });
+      this->Labels->ForParts(part,
+        [&](const VoxelBox& box, LabelMap::Number object) { own[object].Voxels += box.Count(); });
       for (std::size_t k = begin; k < end; ++k)
       {
         for (int j = 0; j < this->Count[1]; ++j)

@@ -36,7 +36,7 @@ public:
    */
   LabelBricks(const LabelMap& map, Executor& executor, const VoxelBox& inside);
   LabelBricks(const LabelMap& map, Executor& executor)
-    : LabelBricks(map, executor, VoxelBox::Of(map.Size))
+    : LabelBricks(map, executor, VoxelBox::Of(map.Size()))
   {
   }
 

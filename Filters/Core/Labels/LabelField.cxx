@@ -320,7 +320,7 @@ private:
         continue;
       }
       auto margin = static_cast<float>(this->MarginAt(i + x, j, k));
-      const VoxelBox all = VoxelBox::Of(this->Map.Size);
+      const VoxelBox all = VoxelBox::Of(this->Map.Size());
       const std::int64_t voxel =
         all.Contains({ i + x, j, k }) ? all.NumberOf(i + x, j, k) : std::int64_t(-1);
       const auto found = std::lower_bound(held.begin(), held.end(), voxel,

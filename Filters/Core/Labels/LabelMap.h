@@ -6,33 +6,140 @@
 #include "Core/Common/ScratchMemory.h"
 #include "Core/Image/VoxelBox.h"
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <vector>
 
 namespace volumic
 {
 /**
  * Which object each voxel belongs to. Objects are numbered from 1, 0 is none of them: labels that
  * nobody asks for, and what is outside the map.
+ *
+ * Memory grows with the boundaries of the objects, as a part of 8 x 8 x 8 voxels that are all of one
+ * object takes only a number. Voxels in different layers of parts may be written at once.
  */
-struct LabelMap
+class LabelMap
 {
+public:
   using Number = std::uint16_t;
+  static constexpr int LayerSize = 8; ///< slices of a layer of parts
 
-  std::array<int, 3> Size = { 0, 0, 0 };
+  LabelMap() = default;
+  /** All of 0. */
+  explicit LabelMap(const std::array<int, 3>& size);
+
+  const std::array<int, 3>& Size() const { return this->Voxels; }
+  int NumberOfLayers() const { return this->Parts[2]; }
+
   /** Distances of voxels along the axes, in the smallest of them, as all lengths of the fields. */
   std::array<double, 3> Spacing = { 1., 1., 1. };
-  LargeVector<Number> Voxels; ///< x fastest
-  int NumberOfObjects = 0;    ///< the largest number that a voxel may have
+  int NumberOfObjects = 0; ///< the largest number that a voxel may have
 
   Number At(int i, int j, int k) const
   {
-    const bool isInside = i >= 0 && j >= 0 && k >= 0 && i < this->Size[0] && j < this->Size[1] &&
-      k < this->Size[2];
-    return isInside
-      ? this->Voxels[static_cast<std::size_t>(VoxelBox::Of(this->Size).NumberOf(i, j, k))]
-      : Number(0);
+    const bool isInside = i >= 0 && j >= 0 && k >= 0 && i < this->Voxels[0] &&
+      j < this->Voxels[1] && k < this->Voxels[2];
+    return isInside ? this->Inside(i, j, k) : Number(0);
   }
+  void Set(int i, int j, int k, Number object);
+
+  /** The slices of a layer, in one array, x fastest. */
+  void PutLayer(int layer, const Number* voxels);
+  void CopyLayer(int layer, Number* voxels) const;
+  /** The slices of a layer, and all of their voxels. */
+  VoxelBox Layer(int layer) const;
+
+  /**
+   * Calls visit(box, object) for boxes of voxels of one object that together are those of a box
+   * within the map, in no order of use.
+   */
+  template <typename Visitor>
+  void ForParts(const VoxelBox& box, Visitor&& visit) const
+  {
+    if (box.IsEmpty())
+    {
+      return;
+    }
+    for (int k = box.First[2] / LayerSize; k * LayerSize < box.End[2]; ++k)
+    {
+      for (int j = box.First[1] / LayerSize; j * LayerSize < box.End[1]; ++j)
+      {
+        for (int i = box.First[0] / LayerSize; i * LayerSize < box.End[0]; ++i)
+        {
+          this->ForRunsOfPart(i, j, k, box, visit);
+        }
+      }
+    }
+  }
+
+private:
+  /** Of a part that has a place in its layer's list; others are numbers of objects. */
+  static constexpr std::uint32_t IsMixed = 0x80000000u;
+  static constexpr std::size_t VoxelsOfPart =
+    static_cast<std::size_t>(LayerSize) * LayerSize * LayerSize;
+
+  static std::size_t PlaceInPart(int i, int j, int k)
+  {
+    return static_cast<std::size_t>(
+      (k % LayerSize * LayerSize + j % LayerSize) * LayerSize + i % LayerSize);
+  }
+  std::size_t NumberOfPart(int i, int j, int k) const
+  {
+    return static_cast<std::size_t>(VoxelBox::Of(this->Parts).NumberOf(i, j, k));
+  }
+  Number Inside(int i, int j, int k) const
+  {
+    const auto x = static_cast<unsigned>(i);
+    const auto y = static_cast<unsigned>(j);
+    const auto z = static_cast<unsigned>(k);
+    const std::uint32_t part = this->OfPart[x / LayerSize +
+      static_cast<std::size_t>(this->Parts[0]) *
+        (y / LayerSize + static_cast<std::size_t>(this->Parts[1]) * (z / LayerSize))];
+    return (part & IsMixed) == 0
+      ? static_cast<Number>(part)
+      : this->Mixed[z / LayerSize][(part & ~IsMixed) * VoxelsOfPart +
+          (z % LayerSize * LayerSize + y % LayerSize) * LayerSize + x % LayerSize];
+  }
+
+  template <typename Visitor>
+  void ForRunsOfPart(int i, int j, int k, const VoxelBox& box, Visitor&& visit) const
+  {
+    const VoxelBox part = VoxelBox{ { i * LayerSize, j * LayerSize, k * LayerSize },
+      { (i + 1) * LayerSize, (j + 1) * LayerSize, (k + 1) * LayerSize } }.CommonWith(box);
+    const std::uint32_t what = this->OfPart[this->NumberOfPart(i, j, k)];
+    if ((what & IsMixed) == 0)
+    {
+      visit(part, static_cast<Number>(what));
+      return;
+    }
+    const Number* voxels = this->Mixed[static_cast<std::size_t>(k)].data() +
+      (what & ~IsMixed) * VoxelsOfPart;
+    for (int z = part.First[2]; z < part.End[2]; ++z)
+    {
+      for (int y = part.First[1]; y < part.End[1]; ++y)
+      {
+        const Number* row = voxels + PlaceInPart(0, y, z);
+        for (int x = part.First[0]; x < part.End[0];)
+        {
+          const Number object = row[x % LayerSize];
+          const int first = x++;
+          while (x < part.End[0] && row[x % LayerSize] == object)
+          {
+            ++x;
+          }
+          visit(VoxelBox{ { first, y, z }, { x, y + 1, z + 1 } }, object);
+        }
+      }
+    }
+  }
+
+  std::array<int, 3> Voxels = { 0, 0, 0 };
+  std::array<int, 3> Parts = { 0, 0, 0 };
+  std::vector<std::uint32_t> OfPart;
+  std::vector<LargeVector<Number>> Mixed; ///< of each layer, the voxels of its parts of several
 };
 }
 

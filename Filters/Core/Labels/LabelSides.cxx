@@ -11,18 +11,13 @@ namespace volumic
 void LabelSides::CopyMembership(int i, int j, int k, int count, float* values) const
 {
   std::fill(values, values + count, this->Object == 0 ? 1.f : 0.f); // Outside the map all is 0.
-  const std::array<int, 3>& size = this->Map->Size;
-  if (j < 0 || k < 0 || j >= size[1] || k >= size[2])
-  {
-    return;
-  }
-  const int first = std::max(i, 0);
-  const int end = std::min(i + count, size[0]);
-  const LabelMap::Number* row = this->Map->Voxels.data() + VoxelBox::Of(size).NumberOf(0, j, k);
-  for (int x = first; x < end; ++x)
-  {
-    values[x - i] = row[x] == this->Object ? 1.f : 0.f;
-  }
+  const VoxelBox row{ { i, j, k }, { i + count, j + 1, k + 1 } };
+  this->Map->ForParts(row.CommonWith(VoxelBox::Of(this->Map->Size())),
+    [&](const VoxelBox& part, LabelMap::Number object)
+    {
+      std::fill(values + (part.First[0] - i), values + (part.End[0] - i),
+        object == this->Object ? 1.f : 0.f);
+    });
 }
 
 bool LabelSides::IsRight(const LabelField& field, int i, int j, int k) const

@@ -3,7 +3,6 @@
 #include "Core/Labels/MapBeyond.h"
 
 #include "Core/Common/Refuse.h"
-#include "Core/Image/VoxelNumbers.h"
 
 #include <algorithm>
 #include <array>
@@ -45,20 +44,22 @@ double DifferenceOf(
 
 void GoOnBeyond(LabelMap& map, const VoxelBox& box, bool isPeriodic)
 {
-  const VoxelBox all = VoxelBox::Of(map.Size);
   const auto sourceOf = [&](int at, int axis) {
     return isPeriodic ? box.Wrapped(at, axis) : std::clamp(at, box.First[axis], box.End[axis] - 1);
   };
-  ForRowsOf(all, all,
-    [&](std::int64_t first, std::int64_t count)
+  for (const VoxelBox& part : VoxelBox::Of(map.Size()).Without(box))
+  {
+    for (int k = part.First[2]; k < part.End[2]; ++k)
     {
-      const std::array<int, 3> at = VoxelNumbers(map.Size).PlaceOf(first);
-      for (int i = 0; i < static_cast<int>(count); ++i)
+      for (int j = part.First[1]; j < part.End[1]; ++j)
       {
-        map.Voxels[static_cast<std::size_t>(first + i)] =
-          map.At(sourceOf(i, 0), sourceOf(at[1], 1), sourceOf(at[2], 2));
+        for (int i = part.First[0]; i < part.End[0]; ++i)
+        {
+          map.Set(i, j, k, map.At(sourceOf(i, 0), sourceOf(j, 1), sourceOf(k, 2)));
+        }
       }
-    });
+    }
+  }
 }
 
 void CheckPeriodic(const LabelMap& map, const VoxelBox& box)

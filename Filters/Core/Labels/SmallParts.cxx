@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Labels/SmallParts.h"
 
+#include "Core/Common/DisjointSets.h"
 #include "Core/Image/VoxelBox.h"
-#include "Core/Image/VoxelNumbers.h"
 
 #include <algorithm>
 #include <array>
@@ -18,11 +18,20 @@ namespace
 {
 using Number = LabelMap::Number;
 
+/** Voxels of one object in a row, from one on. */
+struct Run
+{
+  std::array<int, 3> First;
+  int Length;
+  Number Object;
+};
+
 /** Voxels of one object that are joined. */
 struct LabelPart
 {
   Number Object = 0;
-  std::vector<std::int64_t> Voxels;
+  std::int64_t Voxels = 0;
+  std::vector<Run> Runs;
 };
 
 /** All parts of objects from one number to another, in the order of their first voxels. */
@@ -30,59 +39,88 @@ class PartFinder
 {
 public:
   PartFinder(const LabelMap& map, int first, int last)
-    : Map(map), First(first), Last(last), Numbers(map.Size), IsFound(map.Voxels.size(), 0)
+    : Rows({ 1, map.Size()[1], map.Size()[2] }), FirstOfRow(1, 0)
   {
+    std::vector<Number> voxels;
+    for (int layer = 0; layer < map.NumberOfLayers(); ++layer)
+    {
+      const VoxelBox box = map.Layer(layer);
+      voxels.resize(static_cast<std::size_t>(box.Count()));
+      map.CopyLayer(layer, voxels.data());
+      for (int k = box.First[2]; k < box.End[2]; ++k)
+      {
+        for (int j = 0; j < box.End[1]; ++j)
+        {
+          const Number* row = voxels.data() + box.NumberOf(0, j, k);
+          for (int i = 0; i < box.End[0];)
+          {
+            const int begin = i;
+            i = static_cast<int>(std::find_if(row + i, row + box.End[0],
+              [&](Number object) { return object != row[begin]; }) - row);
+            if (row[begin] >= first && row[begin] <= last)
+            {
+              this->Runs.push_back({ { begin, j, k }, i - begin, row[begin] });
+            }
+          }
+          this->FirstOfRow.push_back(this->Runs.size());
+        }
+      }
+    }
   }
 
-  std::vector<LabelPart> Find()
+  std::vector<LabelPart> Find() const
   {
-    std::vector<LabelPart> parts;
-    for (std::size_t v = 0; v < this->Map.Voxels.size(); ++v)
+    DisjointSets sets(this->Runs.size());
+    for (std::size_t n = 0; n < this->Runs.size(); ++n)
     {
-      const Number object = this->Map.Voxels[v];
-      if (object >= this->First && object <= this->Last && this->IsFound[v] == 0)
+      const auto [i, j, k] = this->Runs[n].First;
+      for (const std::array<int, 2>& step : { std::array<int, 2>{ -1, -1 }, { 0, -1 }, { 1, -1 },
+             { -1, 0 } })
       {
-        parts.push_back(this->PartOf(static_cast<std::int64_t>(v)));
+        this->JoinWithRow(n, j + step[0], k + step[1], sets);
       }
+    }
+    std::vector<LabelPart> parts;
+    std::vector<std::size_t> partOf(this->Runs.size(), this->Runs.size());
+    for (std::size_t n = 0; n < this->Runs.size(); ++n)
+    {
+      std::size_t& part = partOf[static_cast<std::size_t>(sets.Find(static_cast<int>(n)))];
+      if (part == this->Runs.size())
+      {
+        part = parts.size();
+        parts.push_back({ this->Runs[n].Object, 0, {} });
+      }
+      parts[part].Voxels += this->Runs[n].Length;
+      parts[part].Runs.push_back(this->Runs[n]);
     }
     return parts;
   }
 
 private:
-  LabelPart PartOf(std::int64_t first)
+  /** With what touches it there, also by corners. */
+  void JoinWithRow(std::size_t n, int j, int k, DisjointSets& sets) const
   {
-    LabelPart part;
-    part.Object = this->Map.Voxels[static_cast<std::size_t>(first)];
-    part.Voxels.push_back(first);
-    this->IsFound[static_cast<std::size_t>(first)] = 1;
-    const VoxelBox all = VoxelBox::Of(this->Map.Size);
-    for (std::size_t n = 0; n < part.Voxels.size(); ++n)
+    if (!this->Rows.Contains({ 0, j, k }))
     {
-      const std::array<int, 3> at = this->Numbers.PlaceOf(part.Voxels[n]);
-      for (int c = 0; c < 27; ++c)
+      return;
+    }
+    const Run& run = this->Runs[n];
+    const auto row = static_cast<std::size_t>(this->Rows.NumberOf(0, j, k));
+    const auto* end = this->Runs.data() + this->FirstOfRow[row + 1];
+    const auto* other = std::lower_bound(this->Runs.data() + this->FirstOfRow[row], end,
+      run.First[0], [](const Run& one, int i) { return one.First[0] + one.Length < i; });
+    for (; other != end && other->First[0] <= run.First[0] + run.Length; ++other)
+    {
+      if (other->Object == run.Object)
       {
-        const std::array<int, 3> near = { at[0] + c % 3 - 1, at[1] + c / 3 % 3 - 1,
-          at[2] + c / 9 - 1 };
-        if (this->Map.At(near[0], near[1], near[2]) != part.Object)
-        {
-          continue;
-        }
-        const std::int64_t voxel = all.NumberOf(near[0], near[1], near[2]);
-        if (this->IsFound[static_cast<std::size_t>(voxel)] == 0)
-        {
-          this->IsFound[static_cast<std::size_t>(voxel)] = 1;
-          part.Voxels.push_back(voxel);
-        }
+        sets.Join(static_cast<int>(n), static_cast<int>(other - this->Runs.data()));
       }
     }
-    return part;
   }
 
-  const LabelMap& Map;
-  int First;
-  int Last;
-  VoxelNumbers Numbers;
-  std::vector<unsigned char> IsFound;
+  VoxelBox Rows; ///< by y and z
+  std::vector<Run> Runs;
+  std::vector<std::size_t> FirstOfRow;
 };
 
 /**
@@ -91,21 +129,23 @@ private:
  */
 Number NeighbourOf(const LabelPart& part, const LabelMap& map, int objects)
 {
-  const VoxelNumbers numbers(map.Size);
   std::map<Number, std::int64_t> faces;
-  for (const std::int64_t voxel : part.Voxels)
+  for (const Run& run : part.Runs)
   {
-    const std::array<int, 3> at = numbers.PlaceOf(voxel);
-    for (int axis = 0; axis < 3; ++axis)
+    for (int n = 0; n < run.Length; ++n)
     {
-      for (const int step : { -1, 1 })
+      for (int axis = 0; axis < 3; ++axis)
       {
-        std::array<int, 3> near = at;
-        near[axis] += step;
-        const Number other = map.At(near[0], near[1], near[2]);
-        if (other != part.Object)
+        for (const int step : { -1, 1 })
         {
-          ++faces[other > objects ? Number(0) : other];
+          std::array<int, 3> near = run.First;
+          near[0] += n;
+          near[axis] += step;
+          const Number other = map.At(near[0], near[1], near[2]);
+          if (other != part.Object)
+          {
+            ++faces[other > objects ? Number(0) : other];
+          }
         }
       }
     }
@@ -116,9 +156,12 @@ Number NeighbourOf(const LabelPart& part, const LabelMap& map, int objects)
 
 void Give(LabelMap& map, const LabelPart& part, Number object)
 {
-  for (const std::int64_t voxel : part.Voxels)
+  for (const Run& run : part.Runs)
   {
-    map.Voxels[static_cast<std::size_t>(voxel)] = object;
+    for (int n = 0; n < run.Length; ++n)
+    {
+      map.Set(run.First[0] + n, run.First[1], run.First[2], object);
+    }
   }
 }
 }
@@ -131,7 +174,7 @@ void GiveAwaySmallParts(
   for (std::size_t n = 0; n < parts.size(); ++n)
   {
     std::size_t& of = largest[parts[n].Object];
-    if (of == parts.size() || parts[n].Voxels.size() > parts[of].Voxels.size())
+    if (of == parts.size() || parts[n].Voxels > parts[of].Voxels)
     {
       of = n;
     }
@@ -140,7 +183,7 @@ void GiveAwaySmallParts(
   constexpr Number nobodys = std::numeric_limits<Number>::max();
   for (std::size_t n = 0; n < parts.size(); ++n)
   {
-    const bool isSmall = static_cast<std::int64_t>(parts[n].Voxels.size()) < leastVoxels;
+    const bool isSmall = parts[n].Voxels < leastVoxels;
     if (isSmall || (keepsLargest && largest[parts[n].Object] != n))
     {
       Give(map, parts[n], nobodys);

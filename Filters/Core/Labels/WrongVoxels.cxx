@@ -50,7 +50,7 @@ std::vector<std::int64_t> FindWrongVoxels(
 {
   const LabelMap& map = bricks.Map();
   RowGrid rows;
-  std::copy(map.Size.begin(), map.Size.end(), rows.End.begin());
+  std::copy(map.Size().begin(), map.Size().end(), rows.End.begin());
   const std::vector<RowGrid::Crossing> crossings = FindCrossings(rows, surface);
   const double base = NearSurface(surface, 0);
   VoxelBox box = bricks.ExtentOf(object).Bricks;
@@ -61,7 +61,7 @@ std::vector<std::int64_t> FindWrongVoxels(
     box.End[axis] = std::min(within.End[axis], (box.End[axis] + 1) * LabelBricks::Side);
   }
   std::vector<std::int64_t> wrong;
-  const VoxelBox all = VoxelBox::Of(map.Size);
+  const VoxelBox all = VoxelBox::Of(map.Size());
   for (int k = box.First[2]; k < box.End[2]; ++k)
   {
     for (int j = box.First[1]; j < box.End[1]; ++j)
@@ -78,7 +78,7 @@ std::vector<std::int64_t> FindWrongVoxels(
         {
           winding += next->Where.Winding;
         }
-        const bool isObject = map.Voxels[static_cast<std::size_t>(start + i)] == object;
+        const bool isObject = map.At(i, j, k) == object;
         if (isObject != (winding > 0))
         {
           wrong.push_back(start + i);
@@ -110,7 +110,7 @@ std::vector<std::int64_t> FindMissedVoxels(const LabelMap& map,
     p = scaled(p);
   }
   const TriangleTree tree(inUnits);
-  const VoxelNumbers numbers(map.Size);
+  const VoxelNumbers numbers(map.Size());
   std::vector<std::int64_t> missed;
   for (const std::int64_t voxel : wrong)
   {
@@ -127,7 +127,7 @@ std::vector<std::int64_t> FindMissedVoxels(const LabelMap& map,
 std::vector<std::int64_t> FindLostVoxels(
   const LabelMap& map, int object, const std::vector<std::int64_t>& wrong, bool isObject)
 {
-  const VoxelBox all = VoxelBox::Of(map.Size);
+  const VoxelBox all = VoxelBox::Of(map.Size());
   const auto isWrong = [&](std::int64_t voxel)
   { return std::binary_search(wrong.begin(), wrong.end(), voxel); };
   const auto isOfSide = [&](int i, int j, int k)
@@ -135,7 +135,7 @@ std::vector<std::int64_t> FindLostVoxels(
   const auto isKept = [&](int i, int j, int k) {
     return isOfSide(i, j, k) && !(all.Contains({ i, j, k }) && isWrong(all.NumberOf(i, j, k)));
   };
-  const VoxelNumbers numbers(map.Size);
+  const VoxelNumbers numbers(map.Size());
   std::vector<std::int64_t> lost;
   for (const std::int64_t voxel : wrong)
   {
@@ -153,7 +153,7 @@ std::int64_t SizeOfLargestLostPart(
   const LabelMap& map, int object, const std::vector<std::int64_t>& wrong)
 {
   const std::vector<std::int64_t> lost = FindLostVoxels(map, object, wrong, true);
-  const VoxelNumbers numbers(map.Size);
+  const VoxelNumbers numbers(map.Size());
   DisjointSets parts(lost.size());
   for (std::size_t n = 0; n < lost.size(); ++n)
   {

@@ -22,7 +22,7 @@ std::vector<std::int64_t> FindWrongVoxels(const LabelBricks& bricks, int object,
 inline std::vector<std::int64_t> FindWrongVoxels(
   const LabelBricks& bricks, int object, const IndexedSurface& surface)
 {
-  return FindWrongVoxels(bricks, object, surface, VoxelBox::Of(bricks.Map().Size));
+  return FindWrongVoxels(bricks, object, surface, VoxelBox::Of(bricks.Map().Size()));
 }
 
 /**
