@@ -198,3 +198,48 @@ TEST(SmallParts, JoinedByACornerAreOne)
     EXPECT_EQ(VoxelsOf(map, 1), 4) << sign;
   }
 }
+
+namespace
+{
+/** The voxels that are joined with one by others of its object, itself too. */
+std::set<std::array<int, 3>> PartAbout(const LabelMap& map, const std::array<int, 3>& voxel)
+{
+  std::set<std::array<int, 3>> part = { voxel };
+  std::vector<std::array<int, 3>> next = { voxel };
+  while (!next.empty())
+  {
+    const auto [i, j, k] = next.back();
+    next.pop_back();
+    ForBox({ i - 1, j - 1, k - 1 }, { i + 2, j + 2, k + 2 },
+      [&, i = i, j = j, k = k](int x, int y, int z)
+      {
+        if (map.At(x, y, z) == map.At(i, j, k) && part.insert({ x, y, z }).second)
+        {
+          next.push_back({ x, y, z });
+        }
+      });
+  }
+  return part;
+}
+}
+
+TEST(SmallParts, OthersStayAsTheyAre)
+{
+  for (unsigned seed = 1; seed < 6; ++seed)
+  {
+    const LabelMap noise = NoisyLabelMap({ 11, 13, 17 }, 9, seed);
+    LabelMap map = noise;
+    GiveAwaySmallParts(map, 9, 4, false);
+    int given = 0;
+    ForVoxels(map.Size(),
+      [&](int i, int j, int k)
+      {
+        const int object = noise.At(i, j, k);
+        const bool stays = object == 0 || PartAbout(noise, { i, j, k }).size() >= 4;
+        EXPECT_LE(map.At(i, j, k), 9);
+        EXPECT_TRUE(!stays || map.At(i, j, k) == object) << i << " " << j << " " << k;
+        given += stays ? 0 : 1;
+      });
+    EXPECT_GT(given, 100);
+  }
+}

@@ -39,7 +39,7 @@ class PartFinder
 {
 public:
   PartFinder(const LabelMap& map, int first, int last)
-    : Rows({ 1, map.Size()[1], map.Size()[2] }), FirstOfRow(1, 0)
+    : Rows(VoxelBox::Of({ 1, map.Size()[1], map.Size()[2] })), FirstOfRow(1, 0)
   {
     std::vector<Number> voxels;
     for (int layer = 0; layer < map.NumberOfLayers(); ++layer)
