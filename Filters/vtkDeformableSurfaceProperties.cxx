@@ -131,3 +131,9 @@ void vtkDeformableSurface::PrintSelf(ostream& os, vtkIndent indent)
   os << endl;
   VOLUMIC_SURFACE_PROPERTIES(VolumicPrint, VolumicPrint)
 }
+
+// Files may be compiled together.
+#undef VolumicSetting
+#undef VolumicWritten
+#undef VolumicPositions
+#undef VolumicPrint

@@ -460,3 +460,8 @@ void vtkLabelsToSurfaces::PrintSelf(ostream& os, vtkIndent indent)
   os << endl;
   VOLUMIC_LABEL_PROPERTIES(VolumicPrint, VolumicPrint)
 }
+
+// Files may be compiled together.
+#undef VolumicSetting
+#undef VolumicWritten
+#undef VolumicPrint

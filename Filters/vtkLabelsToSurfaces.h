@@ -59,7 +59,10 @@
  * - point data `EdgeSize` (float): with Tolerance, the length of edges that is wanted there
  * - field data `Label`, `LabelName`, `LabelColor`, `LabelVoxels`: with an entry for each label
  * - field data `WorstAngle` (double, degrees), `WorstAnglePosition` (double, 3 components): the least
- *   angle between two interfaces about a junction line, and where that is; only where there are lines
+ *   angle between two interfaces about a junction line, and where that is; only where there are
+ *   lines, as the next one
+ * - field data `SmallContacts` (int): how many triangles have junction lines on all sides. Two labels
+ *   touch by one alone there, and lines cannot be straight
  *
  * @par Algorithm:
  * What is not the paper's. The field of which vtkDeformableSurface takes the isopotential is made

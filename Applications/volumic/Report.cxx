@@ -283,12 +283,14 @@ Json NameFacts(const LabelSurface& surface)
   return facts;
 }
 
-/** The members `worst_angle` and `worst_angle_position`, of interfaces with lines. */
-void AddWorstAngle(Json& json, vtkPolyData* interfaces)
+/** The members `worst_angle`, `worst_angle_position`, `small_contacts`, of interfaces with lines. */
+void AddLineFacts(Json& json, vtkPolyData* interfaces)
 {
   if (vtkDataArray* angle = interfaces->GetFieldData()->GetArray("WorstAngle"))
   {
-    const double* place = interfaces->GetFieldData()->GetArray("WorstAnglePosition")->GetTuple(0);
+    vtkFieldData* told = interfaces->GetFieldData();
+    const double* place = told->GetArray("WorstAnglePosition")->GetTuple(0);
+    json["small_contacts"] = static_cast<int>(told->GetArray("SmallContacts")->GetComponent(0, 0));
     json["worst_angle"] = angle->GetComponent(0, 0);
     json["worst_angle_position"] = AsJsonArray(std::vector<double>(place, place + 3));
   }
@@ -313,7 +315,7 @@ std::string ReportText(const LabelReport& report)
     AddSurfaceFacts(facts, surface, { surface->GetNumberOfPoints(), surface->GetNumberOfPolys() });
     facts["component_features"] = ComponentFeatures(surface);
   }
-  AddWorstAngle(json, report.Filters.Labels->GetInterfaces());
+  AddLineFacts(json, report.Filters.Labels->GetInterfaces());
   AddSolid(json, report.Filling);
   json["seconds"] = { { "surface", report.Seconds } };
   json["memory"] = MemoryFacts(report.ReaderMemory);

@@ -361,7 +361,7 @@ std::vector<LabelSurface> LabelInterfaceMaker::Surfaces(HostThreads& threads) co
   return surfaces;
 }
 
-void LabelInterfaceMaker::TellWorstAngle(vtkPolyData* interfaces) const
+void LabelInterfaceMaker::TellOfLines(vtkPolyData* interfaces) const
 {
   const LineWedge worst = NarrowestWedge(this->Mesh);
   if (worst.Edge[0] < 0)
@@ -379,8 +379,13 @@ void LabelInterfaceMaker::TellWorstAngle(vtkPolyData* interfaces) const
   interfaces->GetPoint(worst.Edge[1], ends[1]);
   position->InsertNextTuple3(0.5 * (ends[0][0] + ends[1][0]), 0.5 * (ends[0][1] + ends[1][1]),
     0.5 * (ends[0][2] + ends[1][2]));
-  interfaces->GetFieldData()->AddArray(angle);
-  interfaces->GetFieldData()->AddArray(position);
+  vtkNew<vtkIntArray> contacts;
+  contacts->SetName("SmallContacts");
+  contacts->InsertNextValue(CountContactsOfOneTriangle(this->Mesh));
+  for (vtkDataArray* told : std::initializer_list<vtkDataArray*>{ angle, position, contacts })
+  {
+    interfaces->GetFieldData()->AddArray(told);
+  }
 }
 
 vtkSmartPointer<vtkPolyData> LabelInterfaceMaker::Interfaces(
@@ -443,7 +448,7 @@ vtkSmartPointer<vtkPolyData> LabelInterfaceMaker::Interfaces(
   {
     interfaces->GetPointData()->AddArray(sizes);
   }
-  this->TellWorstAngle(interfaces);
+  this->TellOfLines(interfaces);
   return interfaces;
 }
 }

@@ -46,7 +46,8 @@ public:
 
   /**
    * All interfaces, each once, with `BoundaryLabels` and `Junction`, with a tolerance `EdgeSize`,
-   * with flat faces of the box `BoxFace`, and the lines where they meet, with `WorstAngle`.
+   * with flat faces of the box `BoxFace`, and the lines where they meet, with `WorstAngle`
+   * and `SmallContacts`.
    * @param labels of the objects, from 1 on
    * @param outside the value outside
    */
@@ -65,8 +66,8 @@ private:
   {
     return this->WholeBricks ? *this->WholeBricks : *this->Bricks;
   }
-  /** Adds the field data `WorstAngle` and `WorstAnglePosition`, where there are lines. */
-  void TellWorstAngle(vtkPolyData* interfaces) const;
+  /** Adds the field data `WorstAngle`, `WorstAnglePosition`, `SmallContacts`, where there are lines. */
+  void TellOfLines(vtkPolyData* interfaces) const;
   LabelSurface SurfaceOf(int object, const std::vector<int>& faces) const;
   Point InWorkspace(const Vector& place) const;
   /** Of a vertex in the workspace, at flat faces of the box to the last bit. */

@@ -153,6 +153,25 @@ class OneMeshTest(InterfacesTest):
         separate = self.report(self.map_of(sectors()), "--labels", "all")
         self.assertNotIn("worst_angle", separate)
 
+    def test_contacts_of_one_triangle_are_told(self):
+        voxels = np.zeros((12, 12, 20), "i2")
+        voxels[2:10, 2:10, 2:9] = 1
+        voxels[2:10, 2:10, 11:18] = 2
+        report = self.report(self.map_of(voxels), self.path("a.vtp"), "--labels", "all",
+                             "--shared-interfaces")
+        self.assertNotIn("small_contacts", report)  # There are no lines.
+        voxels[5:7, 5:7, 9] = 1
+        voxels[5:7, 5:7, 10] = 2
+        report = self.report(self.map_of(voxels), self.path("a.vtp"), "--labels", "all",
+                             "--shared-interfaces")
+        mesh = read(self.path("a.vtp"))
+        between = mesh.GetCellData().GetArray("BoundaryLabels")
+        lines = mesh.GetNumberOfLines()
+        touching = sum(between.GetTuple(lines + n) == (1, 2) for n in range(mesh.GetNumberOfPolys()))
+        self.assertEqual((touching, lines), (1, 3))
+        self.assertEqual(report["small_contacts"], 1)
+        self.assertEqual(mesh.GetFieldData().GetArray("SmallContacts").GetTuple1(0), 1)
+
     def test_merged(self):
         for options in ((), ("--shared-interfaces",)):
             self.make(sectors(), "a.vtp", "a.smesh", options=["--merge", *options])

@@ -51,4 +51,21 @@ LineWedge NarrowestWedge(const InterfaceMesh& mesh)
   }
   return narrowest;
 }
+
+int CountContactsOfOneTriangle(const InterfaceMesh& mesh)
+{
+  std::vector<unsigned char> sides(mesh.Faces.size(), 0);
+  std::vector<int> faces;
+  int count = 0;
+  for (const std::array<int, 2>& edge : mesh.FindLines())
+  {
+    mesh.FindFaces(edge[0], edge[1], faces);
+    for (const int f : faces)
+    {
+      const bool isWhole = ++sides[static_cast<std::size_t>(f)] == 3;
+      count += isWhole && !mesh.IsSide(mesh.Faces[static_cast<std::size_t>(f)].Front) ? 1 : 0;
+    }
+  }
+  return count;
+}
 }

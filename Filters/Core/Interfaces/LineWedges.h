@@ -25,6 +25,9 @@ LineWedge NarrowestWedgeAt(
 
 /** That of all lines; without an edge where there are none. */
 LineWedge NarrowestWedge(const InterfaceMesh& mesh);
+
+/** How many triangles have junction lines on all sides: two objects touch there by one alone. */
+int CountContactsOfOneTriangle(const InterfaceMesh& mesh);
 }
 
 #endif
