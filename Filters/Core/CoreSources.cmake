@@ -54,6 +54,7 @@ set(volumic_core_sources
   Mesh/SurfaceFeatures.cxx
   Mesh/SurfaceMeasures.cxx
   Mesh/SurfaceMesh.cxx
+  Mesh/TriangleDistance.cxx
   Mesh/TriangleTests.cxx
   Mesh/TriangleTree.cxx
   Mesh/VertexGrid.cxx
@@ -185,6 +186,7 @@ set(volumic_core_headers
   Mesh/SurfaceFeatures.h
   Mesh/SurfaceMeasures.h
   Mesh/SurfaceMesh.h
+  Mesh/TriangleDistance.h
   Mesh/TriangleTests.h
   Mesh/TriangleTree.h
   Mesh/VertexGrid.h

@@ -5,6 +5,7 @@
 #include "Core/Interfaces/InterfaceFit.h"
 #include "Core/Interfaces/LineWedges.h"
 #include "Core/Interfaces/NarrowPlaces.h"
+#include "Core/Mesh/TriangleDistance.h"
 #include "Core/Interfaces/TriangleShape.h"
 #include "InterfaceTestTools.h"
 
@@ -113,6 +114,28 @@ TEST(MakeInterfaces, HasNoNarrowWedges)
   ExpectSound(mesh);
   EXPECT_GT(NarrowestWedge(mesh).Angle * 57.2958, 10.);
   EXPECT_GT(LeastAngle(mesh) * 57.2958, 20.);
+}
+
+TEST(MakeInterfaces, HasNoNarrowGaps)
+{
+  for (unsigned seed = 6; seed < 18; ++seed)
+  {
+    SCOPED_TRACE(seed);
+    InterfaceScene scene(seed < 12 ? ScatteredVoxels(9, 3, seed) : ManyCells(24, 6, seed));
+    const InterfaceMesh mesh = Make(scene);
+    ExpectSound(mesh);
+    double least = 9.;
+    for (std::size_t f = 0; f < mesh.Faces.size(); ++f)
+    {
+      const MeshTriangle face = TriangleOf(mesh, mesh.Faces[f].Vertex);
+      for (std::size_t g = 0; g < f; ++g)
+      {
+        least =
+          std::min(least, SquaredGapBetween(face, TriangleOf(mesh, mesh.Faces[g].Vertex)));
+      }
+    }
+    EXPECT_GT(std::sqrt(least), 0.13); // a tenth of an edge
+  }
 }
 
 class NarrowPlacesOfBalls : public testing::TestWithParam<double>

@@ -112,6 +112,39 @@ struct VoxelBox
     return parts;
   }
 
+  VoxelBox Grown(int by) const
+  {
+    VoxelBox grown = *this;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      grown.First[axis] -= by;
+      grown.End[axis] += by;
+    }
+    return grown;
+  }
+
+  /** Boxes of about the same size that together are this one, none of more voxels along an axis. */
+  std::vector<VoxelBox> Parts(int most) const
+  {
+    std::vector<VoxelBox> parts = { *this };
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const int count = (this->Length(axis) + most - 1) / most;
+      std::vector<VoxelBox> thinner;
+      for (VoxelBox part : parts)
+      {
+        for (int n = 0; n < count; ++n)
+        {
+          part.First[axis] = this->First[axis] + n * this->Length(axis) / count;
+          part.End[axis] = this->First[axis] + (n + 1) * this->Length(axis) / count;
+          thinner.push_back(part);
+        }
+      }
+      parts.swap(thinner);
+    }
+    return parts;
+  }
+
   bool operator==(const VoxelBox& other) const
   {
     return (this->IsEmpty() && other.IsEmpty()) ||

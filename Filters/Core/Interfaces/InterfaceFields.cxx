@@ -18,12 +18,21 @@ namespace
 /** One of so many is a large part. */
 constexpr std::int64_t LargePart = 8;
 
-/** Calls visit(brick, first voxel) for the bricks of the map about the boundary of an object. */
+/** Fields of more bricks are made in parts, */
+constexpr std::int64_t MostBricks = std::int64_t(1) << 20;
+/** each about so many bricks wide, and so many beyond it, further than the Gaussian reaches. */
+constexpr int PartSize = 48;
+constexpr int PartMargin = 6;
+
+/**
+ * Calls visit(brick, first voxel) for the bricks of the map about the boundary of an object, and
+ * within some.
+ */
 template <typename Visitor>
-void ForBricks(const LabelBricks& map, int object, Visitor&& visit)
+void ForBricks(const LabelBricks& map, int object, const VoxelBox& within, Visitor&& visit)
 {
   constexpr int side = LabelBricks::Side;
-  const BoundaryRows rows(map, object);
+  const BoundaryRows rows(map, object, within.Grown(1));
   const std::array<int, 3>& first = rows.Box().First;
   const VoxelBox all = VoxelBox::Of(map.Size());
   for (int k = 0; k < rows.Box().Length(2) / side; ++k)
@@ -34,7 +43,7 @@ void ForBricks(const LabelBricks& map, int object, Visitor&& visit)
       {
         const std::array<int, 3> at = { first[0] / side + i, first[1] / side + j,
           first[2] / side + k };
-        if (all.Contains(at) && rows.Has(i, j, k))
+        if (all.Contains(at) && within.Contains(at) && rows.Has(i, j, k))
         {
           visit(static_cast<std::size_t>(all.NumberOf(at[0], at[1], at[2])),
             std::array<int, 3>{ at[0] * side, at[1] * side, at[2] * side });
@@ -42,6 +51,13 @@ void ForBricks(const LabelBricks& map, int object, Visitor&& visit)
       }
     }
   }
+}
+
+bool HasBricks(const LabelBricks& map, int object, const VoxelBox& within)
+{
+  bool has = false;
+  ForBricks(map, object, within, [&](std::size_t, const std::array<int, 3>&) { has = true; });
+  return has;
 }
 }
 
@@ -65,7 +81,17 @@ InterfaceFields::InterfaceFields(const LabelBricks& bricks, const LabelFieldOpti
   {
     if (goesOn && bricks.ExtentOf(object).Voxels > 0)
     {
-      this->Take(object, MakeLabelField(bricks, object, options, threads));
+      const VoxelBox box = bricks.ExtentOf(object).Bricks.Grown(1);
+      const std::vector<VoxelBox> parts =
+        box.Count() > MostBricks ? box.Parts(PartSize) : std::vector<VoxelBox>{ box };
+      for (const VoxelBox& part : parts)
+      {
+        if (goesOn && (parts.size() == 1 || HasBricks(bricks, object, part)))
+        {
+          this->Take(object, part,
+            MakeLabelField(bricks, object, options, threads, part.Grown(PartMargin)));
+        }
+      }
     }
     if (!goOn(static_cast<double>(++done) / static_cast<double>(count)))
     {
@@ -96,7 +122,7 @@ void InterfaceFields::FindBricks(Executor& executor)
     {
       if (this->Map.ExtentOf(static_cast<int>(object)).Voxels > 0)
       {
-        ForBricks(this->Map, static_cast<int>(object),
+        ForBricks(this->Map, static_cast<int>(object), VoxelBox::Of(this->Map.Size()),
           [&](std::size_t brick, const std::array<int, 3>&)
           { ofObjects[object].push_back(brick); });
       }
@@ -122,9 +148,9 @@ void InterfaceFields::FindBricks(Executor& executor)
   MakeZeroed(this->Values, this->First.back() * VoxelsOfBrick);
 }
 
-void InterfaceFields::Take(int object, const LabelField& field)
+void InterfaceFields::Take(int object, const VoxelBox& part, const LabelField& field)
 {
-  ForBricks(this->Map, object,
+  ForBricks(this->Map, object, part,
     [&](std::size_t brick, const std::array<int, 3>& at)
     {
       float* to = this->Values.data() + (this->ValuesIn(brick, object) - this->Values.data());

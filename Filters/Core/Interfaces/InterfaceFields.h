@@ -116,8 +116,8 @@ private:
   }
   /** Finds the bricks of all objects, and makes room for their values. */
   void FindBricks(Executor& executor);
-  /** The values of an object that are in these. */
-  void Take(int object, const LabelField& field);
+  /** The values of an object in some bricks. */
+  void Take(int object, const VoxelBox& part, const LabelField& field);
   /** The values of a brick, x fastest; null: it has none of this object. */
   const float* ValuesIn(std::size_t brick, int object) const;
 

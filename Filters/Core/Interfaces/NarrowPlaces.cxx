@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Interfaces/NarrowPlaces.h"
 
+#include "Core/Common/Spans.h"
 #include "Core/Interfaces/LineWedges.h"
 #include "Core/Interfaces/TriangleShape.h"
+#include "Core/Mesh/TriangleDistance.h"
 
 #include <algorithm>
 #include <array>
@@ -16,8 +18,12 @@ namespace volumic
 namespace
 {
 /** Triangles and wedges of less are opened, radian: a little more than 20 and 10 degrees. */
-constexpr double NarrowAngle = 0.38;
+constexpr double NarrowAngle = 0.44;
 constexpr double NarrowWedge = 0.2;
+/** And gaps of less, in wanted edges. */
+constexpr double NarrowGap = 0.12;
+/** Faces that a thread looks at at a time. */
+constexpr std::size_t SpanSize = 1024;
 /** How often what is narrow is visited. */
 constexpr int Rounds = 12;
 /** How far a vertex goes at a time, in its wanted edge, at first and at least. */
@@ -65,7 +71,7 @@ NarrowPlaces::NarrowPlaces(InterfaceMesh& mesh, const InterfaceFields& fields, d
 void NarrowPlaces::Open(Executor& executor, const std::function<bool()>& goOn)
 {
   this->Clearance.Reset(executor);
-  std::vector<int> vertices = this->FindVertices();
+  std::vector<int> vertices = this->FindVertices(executor);
   for (int round = 0; round < Rounds && !vertices.empty() && goOn(); ++round)
   {
     // Where nothing has moved nothing more will.
@@ -85,16 +91,32 @@ void NarrowPlaces::Open(Executor& executor, const std::function<bool()>& goOn)
   }
 }
 
-std::vector<int> NarrowPlaces::FindVertices()
+std::vector<int> NarrowPlaces::FindVertices(Executor& executor)
 {
-  std::vector<int> vertices;
-  for (const InterfaceMesh::Face& face : this->Mesh.Faces)
-  {
-    if (face.IsThere() && SmallestAngle(TriangleOf(this->Mesh, face.Vertex)) < NarrowAngle)
+  const LargeVector<InterfaceMesh::Face>& faces = this->Mesh.Faces;
+  std::vector<std::vector<int>> ofSpans((faces.size() + SpanSize - 1) / SpanSize);
+  ForSpans(executor, faces.size(), SpanSize,
+    [&](std::size_t span, std::size_t begin, std::size_t end)
     {
-      vertices.insert(vertices.end(), face.Vertex.begin(), face.Vertex.end());
-    }
-  }
+      std::vector<int> near;
+      const auto add = [&](const InterfaceMesh::Face& face)
+      { ofSpans[span].insert(ofSpans[span].end(), face.Vertex.begin(), face.Vertex.end()); };
+      for (std::size_t f = begin; f < end; ++f)
+      {
+        if (!faces[f].IsThere())
+        {
+          continue;
+        }
+        bool isNarrow = SmallestAngle(TriangleOf(this->Mesh, faces[f].Vertex)) < NarrowAngle;
+        this->ForGapsAt(
+          static_cast<int>(f), near, [&](double) { isNarrow = true; }); // Both find it.
+        if (isNarrow)
+        {
+          add(faces[f]);
+        }
+      }
+    });
+  std::vector<int> vertices = Joined(executor, ofSpans);
   for (const std::array<int, 2>& edge : this->Mesh.FindLines())
   {
     this->Mesh.FindFaces(edge[0], edge[1], this->AtEdge);
@@ -111,6 +133,29 @@ std::vector<int> NarrowPlaces::FindVertices()
   return Sorted(std::move(vertices));
 }
 
+template <typename Visitor>
+void NarrowPlaces::ForGapsAt(int face, std::vector<int>& near, Visitor&& visit) const
+{
+  const std::array<int, 3>& v = this->Mesh.Faces[static_cast<std::size_t>(face)].Vertex;
+  const MeshTriangle triangle = TriangleOf(this->Mesh, v);
+  const double wanted = NarrowGap * this->Edge * this->Mesh.SizeOf(v[0], v[1]);
+  const auto margin = static_cast<float>(wanted);
+  const TriangleBox box{ Vector(triangle.Corner[0]), Vector(triangle.Corner[1]),
+    Vector(triangle.Corner[2]) };
+  const Vector thick(margin, margin, margin);
+  this->Clearance.FindNear(box.Low - thick, box.High + thick, 0, near);
+  for (const int other : near)
+  {
+    const InterfaceMesh::Face& there = this->Mesh.Faces[static_cast<std::size_t>(other)];
+    const double squared =
+      other == face ? wanted * wanted : SquaredGapBetween(triangle, TriangleOf(this->Mesh, there.Vertex));
+    if (squared < wanted * wanted)
+    {
+      visit(SquaredLack(std::sqrt(squared), wanted));
+    }
+  }
+}
+
 double NarrowPlaces::NarrownessAt(int v)
 {
   double sum = 0.;
@@ -121,6 +166,7 @@ double NarrowPlaces::NarrownessAt(int v)
     {
       const std::array<int, 3>& corners = this->Mesh.Faces[static_cast<std::size_t>(f)].Vertex;
       sum += SquaredLack(SmallestAngle(TriangleOf(this->Mesh, corners)), NarrowAngle);
+      this->ForGapsAt(f, this->Near, [&](double lack) { sum += lack; });
       for (int k = 0; k < 3; ++k)
       {
         const std::array<int, 2> edge = { corners[k], corners[(k + 1) % 3] };

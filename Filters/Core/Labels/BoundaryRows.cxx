@@ -35,12 +35,12 @@ std::vector<unsigned char> Spread(const std::vector<unsigned char>& bits,
 }
 }
 
-BoundaryRows::BoundaryRows(const LabelBricks& bricks, int object)
+BoundaryRows::BoundaryRows(const LabelBricks& bricks, int object, const VoxelBox& within)
 {
   constexpr int side = LabelBricks::Side;
   constexpr unsigned char isObject = 1;
   constexpr unsigned char isOther = 2;
-  const VoxelBox& inner = bricks.ExtentOf(object).Bricks;
+  const VoxelBox inner = bricks.ExtentOf(object).Bricks.CommonWith(within);
   std::array<int, 3> first = inner.First;
   for (int axis = 0; axis < 3; ++axis)
   {

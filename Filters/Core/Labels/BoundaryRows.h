@@ -21,7 +21,12 @@ namespace volumic
 class BoundaryRows
 {
 public:
-  BoundaryRows(const LabelBricks& bricks, int object);
+  /** @param within bricks: there only, and not beyond them by more than one */
+  BoundaryRows(const LabelBricks& bricks, int object, const VoxelBox& within);
+  BoundaryRows(const LabelBricks& bricks, int object)
+    : BoundaryRows(bricks, object, VoxelBox::Of(bricks.Size()))
+  {
+  }
 
   /** The box, in voxels of the map, which is one of whole bricks. */
   const VoxelBox& Box() const { return this->Voxels; }

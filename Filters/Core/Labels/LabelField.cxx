@@ -39,12 +39,17 @@ class FieldMaker
 public:
   FieldMaker(const LabelBricks& bricks, int object, const LabelFieldOptions& options,
     Executor& executor)
+    : FieldMaker(bricks, object, options, executor, VoxelBox::Of(bricks.Size()))
+  {
+  }
+  FieldMaker(const LabelBricks& bricks, int object, const LabelFieldOptions& options,
+    Executor& executor, const VoxelBox& within)
     : Map(bricks.Map())
     , Object(object)
     , Sides(bricks.Map(), object)
     , Options(options)
     , Threads(executor)
-    , Rows(bricks, object)
+    , Rows(bricks, object, within)
   {
   }
 
@@ -347,6 +352,12 @@ LabelField MakeLabelField(
   const LabelBricks& bricks, int object, const LabelFieldOptions& options, Executor& executor)
 {
   return FieldMaker(bricks, object, options, executor).Make();
+}
+
+LabelField MakeLabelField(const LabelBricks& bricks, int object, const LabelFieldOptions& options,
+  Executor& executor, const VoxelBox& within)
+{
+  return FieldMaker(bricks, object, options, executor, within).Make();
 }
 
 void CorrectBends(LabelField& field, const LabelBricks& bricks, int object, double amount,

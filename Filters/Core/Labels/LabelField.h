@@ -92,6 +92,12 @@ struct LabelField
  */
 LabelField MakeLabelField(const LabelBricks& bricks, int object, const LabelFieldOptions& options,
   Executor& executor);
+/**
+ * In some bricks only, and one beyond them: for large objects, in parts. The reach of the Gaussian
+ * from the ends of these it is that of the whole object, but for what step 4 carries further.
+ */
+LabelField MakeLabelField(const LabelBricks& bricks, int object, const LabelFieldOptions& options,
+  Executor& executor, const VoxelBox& within);
 
 /**
  * For surfaces of a coarser level: takes so much of its Laplacian off the field, as step 3 does.

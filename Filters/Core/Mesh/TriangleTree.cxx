@@ -3,6 +3,7 @@
 #include "Core/Mesh/TriangleTree.h"
 
 #include "Core/Common/Vector.h"
+#include "Core/Mesh/TriangleDistance.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -26,33 +27,6 @@ double SquaredDistanceToBox(const Point& place, const Bounds& box)
     sum += beyond * beyond;
   }
   return sum;
-}
-
-double SquaredDistanceToSegment(const VectorD& p, const VectorD& a, const VectorD& b)
-{
-  const VectorD along = b - a;
-  const double length = SquaredLength(along);
-  const double share = length > 0. ? std::clamp(Dot(p - a, along) / length, 0., 1.) : 0.;
-  return SquaredLength(p - a - along * share);
-}
-
-double SquaredDistanceToTriangle(const VectorD& p, const VectorD* t)
-{
-  // Where the foot on the plane lies in the triangle it is nearest, else a point of an edge is.
-  const VectorD normal = Cross(t[1] - t[0], t[2] - t[0]);
-  const double size = SquaredLength(normal);
-  bool inside = size > 0.;
-  for (int k = 0; k < 3 && inside; ++k)
-  {
-    inside = Dot(Cross(t[(k + 1) % 3] - t[k], p - t[k]), normal) >= 0.;
-  }
-  if (inside)
-  {
-    const double height = Dot(normal, p - t[0]);
-    return height * height / size;
-  }
-  return std::min({ SquaredDistanceToSegment(p, t[0], t[1]),
-    SquaredDistanceToSegment(p, t[1], t[2]), SquaredDistanceToSegment(p, t[2], t[0]) });
 }
 }
 
