@@ -45,11 +45,7 @@ public:
   int CollapseAt(int face);
   /** Of one edge of a face that is there. @return how many were flipped */
   int FlipAt(int face);
-  /**
-   * A triangle with a small angle: its longest edge is flipped, or its shortest collapsed, or one of
-   * its vertices moved to between its neighbours; if it stays, off lines, all three are moved about.
-   * Such are about necks of three edges, which no collapse may close.
-   */
+  /** Of a triangle with a small angle the longest edge is flipped, or the shortest collapsed. */
   bool RemoveSliver(int face);
 
 private:
@@ -72,17 +68,6 @@ private:
   bool TryFlip(int u, int v, double flatness);
   /** Adds the faces to Changed, and what they would be to Made. */
   bool IsFairFlip(int u, int v, double flatness);
-  /** To between its neighbours, or some of the way, if its worst triangle is better then. */
-  bool TryMove(int v);
-  /**
-   * If its worst triangle is better then, or this face is and no other one of it becomes a sliver,
-   * or a worse one. @param face -1: none
-   */
-  bool TryMoveTo(int v, const Vector& wanted, int face = -1);
-  /** The vertices of a sliver off lines, little by little, whichever way makes it better. */
-  bool TryMoveAbout(int face);
-  /** A vertex of it, by a share of the longest edge along one of its sides, or across it. */
-  bool TryMoveAlongSides(int corner, int face, double share);
   void Split(int u, int v);
   int SplitOne(int u, int v); ///< the vertex that it adds
   float SquaredEdge(int u, int v) const
