@@ -78,11 +78,12 @@ class RandomRun:
             *self.now_and_then(.2, "--edge-length", f"{smallest * self.rng.uniform(.7, 4):.6g}"),
             *self.now_and_then(.3, "--keep", "largest")]
         tolerance = self.now_and_then(.3, "--voxel-tolerance", self.number(0, 1))
-        self.is_default = not (gap or other or tolerance) and smoothing[1:] != ["0"]
         merge = self.chance(.05)
+        shared = [] if gap else self.now_and_then(.5, "--shared-interfaces")
+        self.is_default = not (gap or other or tolerance or shared) and smoothing[1:] != ["0"]
         return [
             "labels.vtp" if merge else "labels", "--labels", "all", *["--merge"] * merge,
-            *smoothing, *gap, *other, *self.now_and_then(.3, "--metric", "voxels"),
+            *smoothing, *gap, *other, *shared, *self.now_and_then(.3, "--metric", "voxels"),
             *tolerance]
 
     # ---- The surface of an object ----
