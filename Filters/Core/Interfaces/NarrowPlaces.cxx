@@ -21,7 +21,9 @@ namespace
 constexpr double NarrowAngle = 0.44;
 constexpr double NarrowWedge = 0.2;
 /** And gaps of less, in wanted edges. */
-constexpr double NarrowGap = 0.12;
+constexpr double NarrowGap = 0.15;
+/** Of the normals of two triangles of one interface about a vertex that do not face each other. */
+constexpr double FlatCosine = 0.5;
 /** Faces that a thread looks at at a time. */
 constexpr std::size_t SpanSize = 1024;
 /** How often what is narrow is visited. */
@@ -136,8 +138,10 @@ std::vector<int> NarrowPlaces::FindVertices(Executor& executor)
 template <typename Visitor>
 void NarrowPlaces::ForGapsAt(int face, std::vector<int>& near, Visitor&& visit) const
 {
-  const std::array<int, 3>& v = this->Mesh.Faces[static_cast<std::size_t>(face)].Vertex;
+  const InterfaceMesh::Face& here = this->Mesh.Faces[static_cast<std::size_t>(face)];
+  const std::array<int, 3>& v = here.Vertex;
   const MeshTriangle triangle = TriangleOf(this->Mesh, v);
+  const VectorD normal = NormalOf(triangle);
   const double wanted = NarrowGap * this->Edge * this->Mesh.SizeOf(v[0], v[1]);
   const auto margin = static_cast<float>(wanted);
   const TriangleBox box{ Vector(triangle.Corner[0]), Vector(triangle.Corner[1]),
@@ -147,8 +151,14 @@ void NarrowPlaces::ForGapsAt(int face, std::vector<int>& near, Visitor&& visit) 
   for (const int other : near)
   {
     const InterfaceMesh::Face& there = this->Mesh.Faces[static_cast<std::size_t>(other)];
-    const double squared =
-      other == face ? wanted * wanted : SquaredGapBetween(triangle, TriangleOf(this->Mesh, there.Vertex));
+    const MeshTriangle facing = TriangleOf(this->Mesh, there.Vertex);
+    const bool isBeside = there.Behind == here.Behind && there.Front == here.Front &&
+      (there.Has(v[0]) || there.Has(v[1]) || there.Has(v[2]));
+    if (isBeside && CosineOf(normal, NormalOf(facing)) > FlatCosine)
+    {
+      continue; // Or it itself. What is narrow there is one of the triangles.
+    }
+    const double squared = SquaredGapBetween(triangle, facing);
     if (squared < wanted * wanted)
     {
       visit(SquaredLack(std::sqrt(squared), wanted));
