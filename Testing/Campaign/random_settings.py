@@ -79,7 +79,7 @@ class RandomRun:
             *self.now_and_then(.3, "--keep", "largest")]
         tolerance = self.now_and_then(.3, "--voxel-tolerance", self.number(0, 1))
         merge = self.chance(.05)
-        shared = [] if gap else self.now_and_then(.5, "--shared-interfaces")
+        shared = [] if gap or merge else self.now_and_then(.5, "--shared-interfaces")
         self.is_default = not (gap or other or tolerance or shared) and smoothing[1:] != ["0"]
         return [
             "labels.vtp" if merge else "labels", "--labels", "all", *["--merge"] * merge,
