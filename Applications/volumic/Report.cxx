@@ -283,7 +283,8 @@ Json NameFacts(const LabelSurface& surface)
   return facts;
 }
 
-/** The members `worst_angle`, `worst_angle_position`, `small_contacts`, of interfaces with lines. */
+/** The members `worst_angle`, `worst_angle_position`, `small_contacts`, of interfaces with lines.
+ */
 void AddLineFacts(Json& json, vtkPolyData* interfaces)
 {
   if (vtkDataArray* angle = interfaces->GetFieldData()->GetArray("WorstAngle"))

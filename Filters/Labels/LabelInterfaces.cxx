@@ -109,9 +109,9 @@ LabelMap LabelInterfaceMaker::Padded(
           to.End[axis] = part.End[axis] - box.First[axis] + margin;
         }
         ForRowsOf(to, slices,
-          [&](std::int64_t first, std::int64_t count)
-          {
-            std::fill_n(voxels.begin() + first, count, object > objects ? LabelMap::Number(0) : object);
+          [&](std::int64_t first, std::int64_t count) {
+            std::fill_n(
+              voxels.begin() + first, count, object > objects ? LabelMap::Number(0) : object);
           });
       });
     padded.PutLayer(layer, voxels.data());
@@ -147,7 +147,8 @@ LabelInterfaceMaker::LabelInterfaceMaker(LabelMap map, int objects, vtkImageData
   for (int axis = 0; axis < 3; ++axis)
   {
     this->InImage.First[axis] = std::max(-this->First[axis], 0);
-    this->InImage.End[axis] = std::min(map.Size()[axis] - this->First[axis], this->Map.Size()[axis]);
+    this->InImage.End[axis] =
+      std::min(map.Size()[axis] - this->First[axis], this->Map.Size()[axis]);
   }
   if (settings.IsPeriodic())
   {

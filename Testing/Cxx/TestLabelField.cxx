@@ -10,8 +10,8 @@ using namespace volumic;
 
 namespace
 {
-LabelField FieldOf(const LabelMap& map, int object, double sigma = 2.,
-  Executor& executor = OnThisThread())
+LabelField FieldOf(
+  const LabelMap& map, int object, double sigma = 2., Executor& executor = OnThisThread())
 {
   LabelFieldOptions options;
   options.Sigma = sigma;
@@ -22,7 +22,8 @@ LabelField FieldOf(const LabelMap& map, int object, double sigma = 2.,
 int CountWrongSigns(const LabelMap& map, int object, const LabelField& field)
 {
   int wrong = 0;
-  ForVoxelsOf(field, [&](int i, int j, int k, float value)
+  ForVoxelsOf(field,
+    [&](int i, int j, int k, float value)
     { wrong += (map.At(i, j, k) == object) != (value > 0.f) || value == 0.f; });
   return wrong;
 }
@@ -78,7 +79,8 @@ LabelMap ManyBlobs()
   return MakeLabelMap({ 56, 60, 52 }, 2,
     [](int i, int j, int k)
     {
-      const auto far = [&](double x, double y, double z) { return std::hypot(i - x, j - y, k - z); };
+      const auto far = [&](double x, double y, double z)
+      { return std::hypot(i - x, j - y, k - z); };
       const bool isIn = far(14, 15, 13) < 9.5 || far(40, 20, 30) < 11.3 || far(25, 45, 38) < 6.2 ||
         (i * 7 + j * 11 + k * 13) % 997 == 0;
       return isIn ? 1 : far(30, 24, 20) < 7.7 ? 2 : 0;
@@ -134,7 +136,8 @@ TEST(LabelField, IsTheDistanceToASphere)
 
 TEST(LabelField, IsInLengthsOfTheWorldWhereVoxelsAreLong)
 {
-  LabelMap map = MakeLabelMap({ 48, 48, 16 }, 1, [](int i, int j, int k)
+  LabelMap map = MakeLabelMap({ 48, 48, 16 }, 1,
+    [](int i, int j, int k)
     { return std::hypot(i - 23.4, j - 23.7, 3. * (k - 7.6)) < 15. ? 1 : 0; });
   map.Spacing = { 1., 1., 3. };
   const LabelField field = FieldOf(map, 1, 6.);
@@ -189,8 +192,8 @@ TEST(LabelField, OfSomeBricksIsThatOfAll)
     ForBox(voxels.First, voxels.End,
       [&](int i, int j, int k)
       {
-        furthest = std::max(
-          furthest, static_cast<double>(std::abs(ValueAt(some, i, j, k) - ValueAt(whole, i, j, k))));
+        furthest = std::max(furthest,
+          static_cast<double>(std::abs(ValueAt(some, i, j, k) - ValueAt(whole, i, j, k))));
       });
     EXPECT_LT(furthest, 0.002);
   }
@@ -236,14 +239,15 @@ TEST(HoldToLabels, MeetsItsConstraintsAndLeavesTheRest)
   LabelField field;
   field.Box = { { 0, 0, 0 }, { 30, 30, 30 } };
   field.Values.assign(27000, 0.f);
-  ForVoxelsOf(field, [&](int i, int j, int k, float)
+  ForVoxelsOf(field,
+    [&](int i, int j, int k, float)
     { field.Values[static_cast<std::size_t>(field.Box.NumberOf(i, j, k))] = 15.2f - i; });
   const LabelField before = field;
   std::vector<VoxelConstraint> constraints;
   for (int n = 0; n < 20; ++n)
   {
-    constraints.push_back({ field.Box.NumberOf(14 + n % 3, 10 + n % 7, 8 + n % 11),
-      n % 2 == 0 ? 1.f : -1.f, 0.2f });
+    constraints.push_back(
+      { field.Box.NumberOf(14 + n % 3, 10 + n % 7, 8 + n % 11), n % 2 == 0 ? 1.f : -1.f, 0.2f });
   }
   HoldToLabels(field, { 1., 1., 1. }, constraints);
   for (const VoxelConstraint& constraint : constraints)
@@ -316,8 +320,8 @@ TEST(LabelFieldOfThinParts, RodsAndVoxelsKeepTheirWidth)
   const LabelMap rod = MakeLabelMap({ 32, 24, 24 }, 1,
     [](int i, int j, int k) { return i > 5 && i < 26 && j == 12 && k == 12 ? 1 : 0; });
   const LabelField field = FieldOf(rod, 1);
-  const LabelMap voxel = MakeLabelMap({ 24, 24, 24 }, 1,
-    [](int i, int j, int k) { return i == 12 && j == 12 && k == 12 ? 1 : 0; });
+  const LabelMap voxel = MakeLabelMap(
+    { 24, 24, 24 }, 1, [](int i, int j, int k) { return i == 12 && j == 12 && k == 12 ? 1 : 0; });
   const LabelField small = FieldOf(voxel, 1);
   const float middle = ValueAt(field, 16, 12, 12);
   for (const int side : { -1, 1 })
@@ -356,8 +360,8 @@ TEST(LabelFieldWithTolerance, HasBumpsAndPitsWrongByThatButLosesNothingThin)
 
 TEST(LabelFieldWithTolerance, DoesNotThickenPlates)
 {
-  const LabelMap map = MakeLabelMap(
-    { 32, 32, 32 }, 1, [](int, int, int k) { return k >= 14 && k < 17 ? 1 : 0; });
+  const LabelMap map =
+    MakeLabelMap({ 32, 32, 32 }, 1, [](int, int, int k) { return k >= 14 && k < 17 ? 1 : 0; });
   LabelFieldOptions options;
   options.Tolerance = 0.5;
   const LabelField field =
@@ -369,8 +373,8 @@ TEST(LabelFieldOfThinParts, SlitsKeepTheirsToo)
 {
   const auto isRod = [](int i, int j, int k)
   { return i > 5 && i < 26 && (j == 12 || j == 13) && k == 12; };
-  const LabelMap map = MakeLabelMap(
-    { 32, 26, 24 }, 2, [&](int i, int j, int k) { return isRod(i, j, k) ? 1 : 2; });
+  const LabelMap map =
+    MakeLabelMap({ 32, 26, 24 }, 2, [&](int i, int j, int k) { return isRod(i, j, k) ? 1 : 2; });
   const LabelField rod = FieldOf(map, 1);
   const LabelField others = FieldOf(map, 2);
   EXPECT_EQ(CountWrongSigns(map, 1, rod), 0);
@@ -386,8 +390,8 @@ TEST(LabelFieldOfThinParts, SlitsKeepTheirsToo)
 
 TEST(LabelFieldOfThinParts, KeepTheirThicknessWithMuchSmoothing)
 {
-  const LabelMap map = MakeLabelMap(
-    { 32, 32, 32 }, 1, [](int, int, int k) { return k == 15 || k == 16 ? 1 : 0; });
+  const LabelMap map =
+    MakeLabelMap({ 32, 32, 32 }, 1, [](int, int, int k) { return k == 15 || k == 16 ? 1 : 0; });
   const LabelField field = FieldOf(map, 1, 4.);
   EXPECT_EQ(CountWrongSigns(map, 1, field), 0);
   EXPECT_NEAR(CrossingOf(ValueAt(field, 16, 16, 16), ValueAt(field, 16, 16, 17)), 0.5, 0.3);

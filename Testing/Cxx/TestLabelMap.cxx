@@ -32,7 +32,8 @@ protected:
 
 TEST_P(LabelMapOfSizes, HasWhatIsSet)
 {
-  ForVoxels(GetParam(), [&](int i, int j, int k) { EXPECT_EQ(this->Map.At(i, j, k), ObjectAt(i, j, k)); });
+  ForVoxels(
+    GetParam(), [&](int i, int j, int k) { EXPECT_EQ(this->Map.At(i, j, k), ObjectAt(i, j, k)); });
   const auto [i, j, k] = GetParam();
   for (const auto& [x, y, z] : std::vector<std::array<int, 3>>{
          { -1, 0, 0 }, { 0, -1, 0 }, { 0, 0, -1 }, { i, 0, 0 }, { 0, j, 0 }, { 0, 0, k } })

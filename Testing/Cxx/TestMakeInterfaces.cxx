@@ -5,8 +5,8 @@
 #include "Core/Interfaces/InterfaceFit.h"
 #include "Core/Interfaces/LineWedges.h"
 #include "Core/Interfaces/NarrowPlaces.h"
-#include "Core/Mesh/TriangleDistance.h"
 #include "Core/Interfaces/TriangleShape.h"
+#include "Core/Mesh/TriangleDistance.h"
 #include "InterfaceTestTools.h"
 
 using namespace volumic;
@@ -130,8 +130,7 @@ TEST(MakeInterfaces, HasNoNarrowGaps)
       const MeshTriangle face = TriangleOf(mesh, mesh.Faces[f].Vertex);
       for (std::size_t g = 0; g < f; ++g)
       {
-        least =
-          std::min(least, SquaredGapBetween(face, TriangleOf(mesh, mesh.Faces[g].Vertex)));
+        least = std::min(least, SquaredGapBetween(face, TriangleOf(mesh, mesh.Faces[g].Vertex)));
       }
     }
     EXPECT_GT(std::sqrt(least), 0.13); // a tenth of an edge
@@ -166,7 +165,8 @@ TEST_P(NarrowPlacesOfBalls, AreOpenedWithinTheVoxels)
   const auto wrongOf = [&](const InterfaceMesh& of)
   { return PushWrongVoxels(of, *scene.Fields, GetParam(), OnThisThread()); };
   const std::size_t wrong = wrongOf(before);
-  NarrowPlaces(mesh, *scene.Fields, 1.36, 1e-3, GetParam()).Open(OnThisThread(), [] { return true; });
+  NarrowPlaces(mesh, *scene.Fields, 1.36, 1e-3, GetParam())
+    .Open(OnThisThread(), [] { return true; });
   ExpectSound(mesh);
   EXPECT_LE(wrongOf(mesh), wrong);
   EXPECT_GT(LeastAngle(mesh), LeastAngle(before));
@@ -180,7 +180,8 @@ TEST_P(NarrowPlacesOfBalls, AreOpenedWithinTheVoxels)
   }
   // As soon as it is told to stop nothing is moved.
   InterfaceMesh stopped = before;
-  NarrowPlaces(stopped, *scene.Fields, 1.36, 1e-3, GetParam()).Open(OnThisThread(), [] { return false; });
+  NarrowPlaces(stopped, *scene.Fields, 1.36, 1e-3, GetParam())
+    .Open(OnThisThread(), [] { return false; });
   EXPECT_EQ(LeastAngle(stopped), LeastAngle(before));
 }
 

@@ -60,7 +60,8 @@ TEST(TriangleDistance, IsThatToTheNearestPlace)
     const MeshTriangle t = RandomTriangle(random, 0);
     const VectorD place = RandomTriangle(random, 3).Corner[0];
     double nearest = 9.;
-    ForPlacesIn(t.Corner, [&](const VectorD& at) { nearest = std::min(nearest, Length(place - at)); });
+    ForPlacesIn(
+      t.Corner, [&](const VectorD& at) { nearest = std::min(nearest, Length(place - at)); });
     const double distance = std::sqrt(SquaredDistanceToTriangle(place, t.Corner));
     EXPECT_LE(distance, nearest + 1e-12);
     EXPECT_GT(distance, nearest - 1.8 / Steps);
@@ -80,8 +81,7 @@ TEST(TriangleDistance, GapsAreWhereTwoTrianglesAreNearest)
     }
     double nearest = 9.;
     ForPlacesIn(f.Corner,
-      [&](const VectorD& a)
-      {
+      [&](const VectorD& a) {
         ForPlacesIn(
           g.Corner, [&](const VectorD& b) { nearest = std::min(nearest, Length(a - b)); });
       });
@@ -105,7 +105,7 @@ TEST(TriangleDistance, WhatTwoTrianglesHaveInCommonIsNoGap)
   EXPECT_NEAR(
     GapBetween(f, { { 0, 3, 4 }, { a, VectorD(.3, .3, .05), VectorD(0, 0, 1) } }), .05, 1e-12);
   // An edge above another one.
-  EXPECT_NEAR(GapBetween(f,
-                { { 2, 3, 4 }, { VectorD(0, 1, 0), VectorD(.5, -.5, .02), VectorD(0, .5, 2) } }),
+  EXPECT_NEAR(
+    GapBetween(f, { { 2, 3, 4 }, { VectorD(0, 1, 0), VectorD(.5, -.5, .02), VectorD(0, .5, 2) } }),
     .04 / 3., 1e-4);
 }

@@ -15,8 +15,8 @@ namespace volumic
 {
 /**
  * The faces of interfaces in cubes that space is cut into, each where its middle is. Cubes have
- * eight colours, so that between two of a colour there is at least another one: what is done in these
- * by threads at the same time touches nothing in common if it stays near.
+ * eight colours, so that between two of a colour there is at least another one: what is done in
+ * these by threads at the same time touches nothing in common if it stays near.
  */
 class FaceCubes
 {
@@ -32,8 +32,8 @@ public:
    * @param clearance has the boxes of all faces
    * @param side      of a cube; workspace
    */
-  FaceCubes(const InterfaceMesh& mesh, const InterfaceClearance& clearance, float side,
-    Executor& executor);
+  FaceCubes(
+    const InterfaceMesh& mesh, const InterfaceClearance& clearance, float side, Executor& executor);
 
   std::vector<int> Faces; ///< sorted in each cube
   std::array<std::vector<Cube>, 8> OfColour;

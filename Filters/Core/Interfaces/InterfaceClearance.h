@@ -29,9 +29,8 @@ struct TriangleBox
   Vector Middle() const { return (this->Low + this->High) * 0.5f; }
   bool IsWithin(const TriangleBox& other) const
   {
-    return this->Low.X >= other.Low.X && this->Low.Y >= other.Low.Y &&
-      this->Low.Z >= other.Low.Z && this->High.X <= other.High.X &&
-      this->High.Y <= other.High.Y && this->High.Z <= other.High.Z;
+    return this->Low.X >= other.Low.X && this->Low.Y >= other.Low.Y && this->Low.Z >= other.Low.Z &&
+      this->High.X <= other.High.X && this->High.Y <= other.High.Y && this->High.Z <= other.High.Z;
   }
   bool IsApart(const Vector& low, const Vector& high) const
   {
@@ -91,7 +90,8 @@ public:
 
   /** Faces from `first` on whose boxes come near a box. */
   void FindNear(const Vector& low, const Vector& high, int first, std::vector<int>& near) const;
-  /** A face that this one intersects, of those from `first` on; -1: none. @param near room for it */
+  /** A face that this one intersects, of those from `first` on; -1: none. @param near room for it
+   */
   int FindIntersecting(int face, int first, std::vector<int>& near) const;
   /**
    * Whether faces may take the place of some: they intersect nothing else, nor each other, are in

@@ -273,7 +273,8 @@ bool InterfaceEdits::IsFairCollapse(const Vector& place, int kept, int removed)
         after.Vertex[k] = kept;
         after.Corner[k] = VectorD(place);
         // The normals of slivers say nothing.
-        isFair = ratio < MostSliver || CosineOf(NormalOf(before), NormalOf(after)) > LeastTurnCosine;
+        isFair =
+          ratio < MostSliver || CosineOf(NormalOf(before), NormalOf(after)) > LeastTurnCosine;
         this->Made.push_back(after);
       });
     if (!isFair)
@@ -304,8 +305,7 @@ bool InterfaceEdits::MakesLongEdges(const Vector& place, int kept, int removed) 
           const Vector& end = this->Mesh.Position[static_cast<std::size_t>(w)];
           isLong = isLong ||
             (w != kept && w != removed &&
-              SquaredDistance(VectorD(end), VectorD(place)) >
-                longest * this->SquaredSize(kept, w));
+              SquaredDistance(VectorD(end), VectorD(place)) > longest * this->SquaredSize(kept, w));
         }
       });
   }

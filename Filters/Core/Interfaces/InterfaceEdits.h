@@ -32,7 +32,8 @@ public:
   static constexpr double CornerSlack = 4. / 3.;
 
   /**
-   * @param clearance of the mesh as it is, for all edits but splits, which change nothing for anybody
+   * @param clearance of the mesh as it is, for all edits but splits, which change nothing for
+   * anybody
    * @param shortest, longest between which edges are wanted, times the mesh's sizes; lengths of the
    *                  workspace
    */
@@ -86,8 +87,8 @@ private:
 
   InterfaceMesh& Mesh;
   InterfaceClearance& Clearance;
-  float Shortest;       ///< squared, where sizes are 1
-  float Longest;        ///< squared, where sizes are 1
+  float Shortest; ///< squared, where sizes are 1
+  float Longest;  ///< squared, where sizes are 1
   std::vector<int> AtEdge;
   std::vector<int> Changed;
   std::vector<std::array<int, 2>> Images; ///< of the edge, that which is kept first, or the vertex

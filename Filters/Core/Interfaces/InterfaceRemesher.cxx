@@ -20,10 +20,10 @@ constexpr std::size_t SpanSize = 4096;
 /** Cubes between two questions whether to go on. */
 constexpr std::size_t CubesPerQuestion = 128;
 /**
- * In longest edges: how far faces may come out of their cube, and how wide a cube is. An edit writes
- * what is within an edge of its face, and the cells of the grid there, which are as wide as an edge
- * at most. It reads what is within two edges and a half, and the cells there: two cubes of a colour
- * have nothing in common if there are 2 * 1 + 1 + 2.5 + 2 edges between them.
+ * In longest edges: how far faces may come out of their cube, and how wide a cube is. An edit
+ * writes what is within an edge of its face, and the cells of the grid there, which are as wide as
+ * an edge at most. It reads what is within two edges and a half, and the cells there: two cubes of
+ * a colour have nothing in common if there are 2 * 1 + 1 + 2.5 + 2 edges between them.
  */
 constexpr float MarginInEdges = 1.f;
 constexpr float SideInEdges = 7.5f;
@@ -155,8 +155,7 @@ float InterfaceRemesher::LongestEdge() const
     });
   const float now = std::sqrt(*std::max_element(longest.begin(), longest.end()));
   const float size = *std::max_element(largest.begin(), largest.end());
-  return std::max(
-    now, static_cast<float>(this->Longest * InterfaceEdits::CornerSlack) * size);
+  return std::max(now, static_cast<float>(this->Longest * InterfaceEdits::CornerSlack) * size);
 }
 
 template <typename Visit>

@@ -18,9 +18,9 @@ namespace volumic
  * Passes of edits (InterfaceEdits) over all faces.
  *
  * Collapses and flips, which are most of the work, are made by threads in cubes (FaceCubes), the
- * eight colours one after another, and at the end what has come out of its cube, or has images. In a
- * cube faces follow each other in their order. Cubes are wider than edits reach, so that the edits are
- * the same by any number of threads.
+ * eight colours one after another, and at the end what has come out of its cube, or has images. In
+ * a cube faces follow each other in their order. Cubes are wider than edits reach, so that the
+ * edits are the same by any number of threads.
  */
 class InterfaceRemesher
 {

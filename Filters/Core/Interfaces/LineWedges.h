@@ -11,7 +11,8 @@
 
 namespace volumic
 {
-/** What lies between two interfaces that are next to each other about an edge of a junction line. */
+/** What lies between two interfaces that are next to each other about an edge of a junction line.
+ */
 struct LineWedge
 {
   std::array<int, 2> Edge = { -1, -1 };

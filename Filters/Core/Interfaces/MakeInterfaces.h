@@ -33,8 +33,8 @@ struct InterfaceOptions
  * 1. The start is cut out of a lattice (InterfaceLattice).
  * 2. Rounds of edits (InterfaceRemesher) bring its edges to one length, while its vertices go to
  *    where the fields of the objects beside them are the same (MoveInterfaces).
- * 3. Meanwhile fields are shifted so that each object keeps the volume of its voxels, and changed at
- *    voxels that triangles cut off, until these are few.
+ * 3. Meanwhile fields are shifted so that each object keeps the volume of its voxels, and changed
+ * at voxels that triangles cut off, until these are few.
  * 4. With a tolerance the last rounds are others: edges become as long as it allows (AdjustSizes).
  * 5. At the end narrow triangles, wedges and gaps are opened (NarrowPlaces).
  *

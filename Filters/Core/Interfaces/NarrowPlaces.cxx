@@ -187,8 +187,7 @@ double NarrowPlaces::NarrownessAt(int v)
         this->Mesh.FindFaces(edge[0], edge[1], this->AtEdge);
         if (this->Mesh.IsLine(this->AtEdge))
         {
-          sum += SquaredLack(
-            NarrowestWedgeAt(this->Mesh, edge, this->AtEdge).Angle, NarrowWedge);
+          sum += SquaredLack(NarrowestWedgeAt(this->Mesh, edge, this->AtEdge).Angle, NarrowWedge);
         }
       }
     });
@@ -222,8 +221,7 @@ bool NarrowPlaces::TryMove(int v)
     return false;
   }
   const Vector place = this->Mesh.Position[static_cast<std::size_t>(v)];
-  const float edge =
-    static_cast<float>(this->Edge) * this->Mesh.Size[static_cast<std::size_t>(v)];
+  const float edge = static_cast<float>(this->Edge) * this->Mesh.Size[static_cast<std::size_t>(v)];
   const auto differenceAlong = [&](const Vector& way)
   {
     this->Place(place + way);
@@ -313,13 +311,13 @@ bool NarrowPlaces::TakeVolumes()
   for (std::size_t n = 0; n < this->Made.size(); ++n)
   {
     const PlacedFace& face = this->Made[n];
-    const MeshTriangle old = TriangleOf(
-      this->Mesh, this->Mesh.Faces[static_cast<std::size_t>(this->Changed[n])].Vertex);
+    const MeshTriangle old =
+      TriangleOf(this->Mesh, this->Mesh.Faces[static_cast<std::size_t>(this->Changed[n])].Vertex);
     double volume = 0.;
     for (int k = 0; k < 3; ++k)
     {
-      volume += VolumeOf(old.Corner[k], old.Corner[(k + 1) % 3], old.Corner[(k + 2) % 3],
-        face.Corner[k]);
+      volume +=
+        VolumeOf(old.Corner[k], old.Corner[(k + 1) % 3], old.Corner[(k + 2) % 3], face.Corner[k]);
     }
     volume /= 6. * step[0] * step[1] * step[2];
     add(face.Behind, volume);

@@ -15,10 +15,10 @@ namespace volumic
 {
 /**
  * Opens what is narrow at the end: triangles, wedges between two interfaces about a junction line,
- * and gaps between triangles where they have nothing in common, also of vertices on lines. One after another these go the way on which what is about them
- * becomes wider, step by step, no further than MostWay from where they were; only where nothing
- * intersects then, no voxel's centre comes to the wrong side by more than a tolerance, and objects
- * keep their volumes.
+ * and gaps between triangles where they have nothing in common, also of vertices on lines. One
+ * after another these go the way on which what is about them becomes wider, step by step, no
+ * further than MostWay from where they were; only where nothing intersects then, no voxel's centre
+ * comes to the wrong side by more than a tolerance, and objects keep their volumes.
  */
 class NarrowPlaces
 {
@@ -37,7 +37,8 @@ public:
 private:
   /** The corners of narrow triangles, and of those about narrow wedges and gaps, sorted. */
   std::vector<int> FindVertices(Executor& executor);
-  /** Calls visit(squared lack) for each gap too narrow between a face and another one. @param near room */
+  /** Calls visit(squared lack) for each gap too narrow between a face and another one. @param near
+   * room */
   template <typename Visitor>
   void ForGapsAt(int face, std::vector<int>& near, Visitor&& visit) const;
   /** How narrow all is about a vertex, squared differences from what is aimed at; 0: nothing is. */

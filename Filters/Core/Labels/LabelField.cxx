@@ -37,19 +37,15 @@ constexpr float MostBent = 2.5f;
 class FieldMaker
 {
 public:
-  FieldMaker(const LabelBricks& bricks, int object, const LabelFieldOptions& options,
-    Executor& executor)
+  FieldMaker(
+    const LabelBricks& bricks, int object, const LabelFieldOptions& options, Executor& executor)
     : FieldMaker(bricks, object, options, executor, VoxelBox::Of(bricks.Size()))
   {
   }
   FieldMaker(const LabelBricks& bricks, int object, const LabelFieldOptions& options,
     Executor& executor, const VoxelBox& within)
-    : Map(bricks.Map())
-    , Object(object)
-    , Sides(bricks.Map(), object)
-    , Options(options)
-    , Threads(executor)
-    , Rows(bricks, object, within)
+    : Map(bricks.Map()), Object(object), Sides(bricks.Map(), object), Options(options),
+      Threads(executor), Rows(bricks, object, within)
   {
   }
 
@@ -92,7 +88,8 @@ public:
         for (int x = 0; x < count; ++x)
         {
           const float side = this->Sides.Of(i + x, j, k);
-          const float least = this->IsStrict(i + x, j, k) ? LeastShifted : this->LeastAt(i + x, j, k);
+          const float least =
+            this->IsStrict(i + x, j, k) ? LeastShifted : this->LeastAt(i + x, j, k);
           values[x] = side *
             std::clamp(side * (values[x] - by), std::min(least, side * values[x]), LabelField::Far);
         }
@@ -248,8 +245,7 @@ private:
         this->Rows.ForLayer(static_cast<int>(layer),
           [&](int i, int j, int k, int count)
           {
-            unsigned char* strict =
-              this->Field.IsStrict.data() + this->Field.Box.NumberOf(i, j, k);
+            unsigned char* strict = this->Field.IsStrict.data() + this->Field.Box.NumberOf(i, j, k);
             for (int x = 0; x < count; ++x)
             {
               if (strict[x] == 0 && this->Sides.IsLost(this->Field, i + x, j, k))
@@ -360,8 +356,8 @@ LabelField MakeLabelField(const LabelBricks& bricks, int object, const LabelFiel
   return FieldMaker(bricks, object, options, executor, within).Make();
 }
 
-void CorrectBends(LabelField& field, const LabelBricks& bricks, int object, double amount,
-  Executor& executor)
+void CorrectBends(
+  LabelField& field, const LabelBricks& bricks, int object, double amount, Executor& executor)
 {
   FieldMaker(bricks, object, LabelFieldOptions(), executor).CorrectBendsOf(field, amount);
 }

@@ -48,9 +48,9 @@ void LabelMap::PutLayer(int layer, const Number* voxels)
   {
     for (int i = 0; i < this->Parts[0]; ++i)
     {
-      const VoxelBox box =
-        VoxelBox{ { i * LayerSize, j * LayerSize, all.First[2] },
-          { (i + 1) * LayerSize, (j + 1) * LayerSize, all.End[2] } }.CommonWith(all);
+      const VoxelBox box = VoxelBox{ { i * LayerSize, j * LayerSize, all.First[2] },
+        { (i + 1) * LayerSize, (j + 1) * LayerSize,
+          all.End[2] } }.CommonWith(all);
       const Number first = voxels[all.NumberOf(box.First[0], box.First[1], box.First[2])];
       part.fill(first); // Also what is beyond the map.
       bool isMixed = false;
@@ -60,7 +60,8 @@ void LabelMap::PutLayer(int layer, const Number* voxels)
         {
           const Number* row = voxels + all.NumberOf(box.First[0], y, z);
           isMixed = isMixed ||
-            std::any_of(row, row + box.Length(0), [first](Number object) { return object != first; });
+            std::any_of(
+              row, row + box.Length(0), [first](Number object) { return object != first; });
           std::copy_n(row, box.Length(0), part.begin() + PlaceInPart(0, y, z));
         }
       }
@@ -81,7 +82,8 @@ void LabelMap::CopyLayer(int layer, Number* voxels) const
     [&](const VoxelBox& part, Number object)
     {
       ForRowsOf(part, all,
-        [&](std::int64_t first, std::int64_t count) { std::fill_n(voxels + first, count, object); });
+        [&](std::int64_t first, std::int64_t count)
+        { std::fill_n(voxels + first, count, object); });
     });
 }
 }

@@ -18,8 +18,8 @@ namespace volumic
  * Which object each voxel belongs to. Objects are numbered from 1, 0 is none of them: labels that
  * nobody asks for, and what is outside the map.
  *
- * Memory grows with the boundaries of the objects, as a part of 8 x 8 x 8 voxels that are all of one
- * object takes only a number. Voxels in different layers of parts may be written at once.
+ * Memory grows with the boundaries of the objects, as a part of 8 x 8 x 8 voxels that are all of
+ * one object takes only a number. Voxels in different layers of parts may be written at once.
  */
 class LabelMap
 {
@@ -107,16 +107,18 @@ private:
   template <typename Visitor>
   void ForRunsOfPart(int i, int j, int k, const VoxelBox& box, Visitor&& visit) const
   {
-    const VoxelBox part = VoxelBox{ { i * LayerSize, j * LayerSize, k * LayerSize },
-      { (i + 1) * LayerSize, (j + 1) * LayerSize, (k + 1) * LayerSize } }.CommonWith(box);
+    const VoxelBox part = VoxelBox{
+      { i * LayerSize, j * LayerSize, k * LayerSize },
+      { (i + 1) * LayerSize, (j + 1) * LayerSize, (k + 1) * LayerSize }
+    }.CommonWith(box);
     const std::uint32_t what = this->OfPart[this->NumberOfPart(i, j, k)];
     if ((what & IsMixed) == 0)
     {
       visit(part, static_cast<Number>(what));
       return;
     }
-    const Number* voxels = this->Mixed[static_cast<std::size_t>(k)].data() +
-      (what & ~IsMixed) * VoxelsOfPart;
+    const Number* voxels =
+      this->Mixed[static_cast<std::size_t>(k)].data() + (what & ~IsMixed) * VoxelsOfPart;
     for (int z = part.First[2]; z < part.End[2]; ++z)
     {
       for (int y = part.First[1]; y < part.End[1]; ++y)

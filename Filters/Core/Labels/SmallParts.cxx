@@ -56,7 +56,8 @@ public:
           {
             const int begin = i;
             i = static_cast<int>(std::find_if(row + i, row + box.End[0],
-              [&](Number object) { return object != row[begin]; }) - row);
+                                   [&](Number object) { return object != row[begin]; }) -
+              row);
             if (row[begin] >= first && row[begin] <= last)
             {
               this->Runs.push_back({ { begin, j, k }, i - begin, row[begin] });
@@ -74,8 +75,8 @@ public:
     for (std::size_t n = 0; n < this->Runs.size(); ++n)
     {
       const auto [i, j, k] = this->Runs[n].First;
-      for (const std::array<int, 2>& step : { std::array<int, 2>{ -1, -1 }, { 0, -1 }, { 1, -1 },
-             { -1, 0 } })
+      for (const std::array<int, 2>& step :
+        { std::array<int, 2>{ -1, -1 }, { 0, -1 }, { 1, -1 }, { -1, 0 } })
       {
         this->JoinWithRow(n, j + step[0], k + step[1], sets);
       }
@@ -124,8 +125,8 @@ private:
 };
 
 /**
- * What it shares most faces with, of objects that have voxels yet, or 0, the outside; of several the
- * one with the smallest number.
+ * What it shares most faces with, of objects that have voxels yet, or 0, the outside; of several
+ * the one with the smallest number.
  */
 Number NeighbourOf(const LabelPart& part, const LabelMap& map, int objects)
 {
@@ -150,8 +151,9 @@ Number NeighbourOf(const LabelPart& part, const LabelMap& map, int objects)
       }
     }
   }
-  return std::max_element(faces.begin(), faces.end(),
-    [](const auto& a, const auto& b) { return a.second < b.second; })->first;
+  return std::max_element(
+    faces.begin(), faces.end(), [](const auto& a, const auto& b) { return a.second < b.second; })
+    ->first;
 }
 
 void Give(LabelMap& map, const LabelPart& part, Number object)
@@ -166,8 +168,7 @@ void Give(LabelMap& map, const LabelPart& part, Number object)
 }
 }
 
-void GiveAwaySmallParts(
-  LabelMap& map, int objects, std::int64_t leastVoxels, bool keepsLargest)
+void GiveAwaySmallParts(LabelMap& map, int objects, std::int64_t leastVoxels, bool keepsLargest)
 {
   const std::vector<LabelPart> parts = PartFinder(map, 1, objects).Find();
   std::vector<std::size_t> largest(static_cast<std::size_t>(objects) + 1, parts.size());

@@ -17,8 +17,8 @@ namespace volumic
  * @param surface in coordinates in which voxel (i, j, k) of the map is at (i, j, k)
  * @param within  voxels elsewhere are nobody's
  */
-std::vector<std::int64_t> FindWrongVoxels(const LabelBricks& bricks, int object,
-  const IndexedSurface& surface, const VoxelBox& within);
+std::vector<std::int64_t> FindWrongVoxels(
+  const LabelBricks& bricks, int object, const IndexedSurface& surface, const VoxelBox& within);
 inline std::vector<std::int64_t> FindWrongVoxels(
   const LabelBricks& bricks, int object, const IndexedSurface& surface)
 {
@@ -26,8 +26,8 @@ inline std::vector<std::int64_t> FindWrongVoxels(
 }
 
 /**
- * Those of the wrong voxels that are further than a tolerance from the surface, in smallest distances
- * of voxels.
+ * Those of the wrong voxels that are further than a tolerance from the surface, in smallest
+ * distances of voxels.
  */
 std::vector<std::int64_t> FindMissedVoxels(const LabelMap& map,
   const std::vector<std::int64_t>& wrong, const IndexedSurface& surface, double tolerance);

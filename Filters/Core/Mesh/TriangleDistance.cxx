@@ -87,8 +87,8 @@ double SquaredGapBetween(const MeshTriangle& f, const MeshTriangle& g)
       {
         continue;
       }
-      nearest = std::min(nearest, SquaredDistanceOfSegments(f.Corner[k], f.Corner[next],
-                                    g.Corner[l], g.Corner[(l + 1) % 3]));
+      nearest = std::min(nearest,
+        SquaredDistanceOfSegments(f.Corner[k], f.Corner[next], g.Corner[l], g.Corner[(l + 1) % 3]));
     }
   }
   return nearest;

@@ -12,9 +12,9 @@ namespace volumic
 double SquaredDistanceToTriangle(const VectorD& place, const VectorD* triangle);
 
 /**
- * How near two triangles of one mesh come to each other where they have nothing in common: the least
- * distance of a corner of the one, which the other one has not, from that, or between two edges
- * without a common end.
+ * How near two triangles of one mesh come to each other where they have nothing in common: the
+ * least distance of a corner of the one, which the other one has not, from that, or between two
+ * edges without a common end.
  */
 double SquaredGapBetween(const MeshTriangle& f, const MeshTriangle& g);
 }
