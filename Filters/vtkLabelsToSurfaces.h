@@ -43,7 +43,7 @@
  * Field data of the whole, only where there is anything to tell:
  * - `LostLabels` (string): which labels are lost, of which more voxels than half are on the wrong
  *   side by more than the tolerances, and of which, of 100 voxels or more, the volume is further
- * than .03 from theirs; a warning, too, where these are more than 5 % of the labels' voxels
+ *   than .03 from theirs; a warning, too, where these are more than 5 % of the labels' voxels
  *
  * Port 1, `Interfaces`: a vtkPolyData, empty but with SharedInterfaces. Its points are those of the
  * blocks, whose point data `GlobalIds` (vtkIdType) then say which. Its cells are the segments of
@@ -59,10 +59,10 @@
  * - point data `EdgeSize` (float): with Tolerance, the length of edges that is wanted there
  * - field data `Label`, `LabelName`, `LabelColor`, `LabelVoxels`: with an entry for each label
  * - field data `WorstAngle` (double, degrees), `WorstAnglePosition` (double, 3 components): the
- * least angle between two interfaces about a junction line, and where that is; only where there are
- *   lines, as the next one
+ *   least angle between two interfaces about a junction line, and where that is; only where there
+ *   are lines, as the next one
  * - field data `SmallContacts` (int): how many triangles have junction lines on all sides. Two
- * labels touch by one alone there, and lines cannot be straight
+ *   labels touch by one alone there, and lines cannot be straight
  *
  * @par Algorithm:
  * What is not the paper's. The field of which vtkDeformableSurface takes the isopotential is made

@@ -283,8 +283,7 @@ Json NameFacts(const LabelSurface& surface)
   return facts;
 }
 
-/** The members `worst_angle`, `worst_angle_position`, `small_contacts`, of interfaces with lines.
- */
+/** `worst_angle`, `worst_angle_position` and `small_contacts`, of interfaces with lines. */
 void AddLineFacts(Json& json, vtkPolyData* interfaces)
 {
   if (vtkDataArray* angle = interfaces->GetFieldData()->GetArray("WorstAngle"))

@@ -148,7 +148,7 @@ std::string RunTetgen(const SolidMaker& maker, const SurfaceFile& surface)
   WriteSmesh({ surface.Surface, folder + "/solid.smesh", "", 0, surface.Line });
   surface.Line.Show(0.1, "");
   // p: what the triangles bound, Y: these as they are, A: with the labels, q: well-shaped, with
-  // angles between faces of 8 degrees where the triangles allow that (without a number of 5).
+  // angles between faces of 8 degrees where the triangles allow that.
   const std::string volume =
     maker.Choice.MaximumVolume > 0.0 ? "a" + NumberText(maker.Choice.MaximumVolume) : std::string();
   RunProgram({ "tetgen", "-pYAq/8gNEF" + volume, "solid.smesh" }, folder, maker.IsInterrupted);

@@ -383,10 +383,9 @@ void LabelInterfaceMaker::TellOfLines(vtkPolyData* interfaces) const
   vtkNew<vtkIntArray> contacts;
   contacts->SetName("SmallContacts");
   contacts->InsertNextValue(CountContactsOfOneTriangle(this->Mesh));
-  for (vtkDataArray* told : std::initializer_list<vtkDataArray*>{ angle, position, contacts })
-  {
-    interfaces->GetFieldData()->AddArray(told);
-  }
+  interfaces->GetFieldData()->AddArray(angle);
+  interfaces->GetFieldData()->AddArray(position);
+  interfaces->GetFieldData()->AddArray(contacts);
 }
 
 vtkSmartPointer<vtkPolyData> LabelInterfaceMaker::Interfaces(

@@ -66,8 +66,7 @@ private:
   {
     return this->WholeBricks ? *this->WholeBricks : *this->Bricks;
   }
-  /** Adds the field data `WorstAngle`, `WorstAnglePosition`, `SmallContacts`, where there are
-   * lines. */
+  /** Adds the field data of lines, where there are some. */
   void TellOfLines(vtkPolyData* interfaces) const;
   LabelSurface SurfaceOf(int object, const std::vector<int>& faces) const;
   Point InWorkspace(const Vector& place) const;

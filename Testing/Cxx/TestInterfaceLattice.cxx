@@ -154,6 +154,33 @@ TEST(InterfaceFields, AreLargestWhereTheMapSaysSo)
     { ASSERT_EQ(scene.Fields->LargestAt(i, j, k), scene.Map.At(i, j, k)) << i << j << k; });
 }
 
+TEST(InterfaceFields, MadeInPartsAreThoseMadeAsAWhole)
+{
+  const LabelMap map = ManyCells(56, 5, 3);
+  const LabelBricks bricks(map, OnThisThread());
+  const auto fieldsIn = [&](int partSize)
+  {
+    LabelFieldOptions options;
+    options.PartSize = partSize;
+    return InterfaceFields(
+      bricks, options, map.Spacing, OnThisThread(), [](double) { return true; });
+  };
+  const InterfaceFields parts = fieldsIn(4);
+  const InterfaceFields whole = fieldsIn(48);
+  double furthest = 0.;
+  for (int object = 0; object <= map.NumberOfObjects; ++object)
+  {
+    ForVoxels(map.Size(),
+      [&](int i, int j, int k)
+      {
+        const float difference = parts.At(object, i, j, k) - whole.At(object, i, j, k);
+        furthest = std::max(furthest, static_cast<double>(std::abs(difference)));
+      });
+  }
+  EXPECT_LT(furthest, 0.002);
+  EXPECT_GT(furthest, 0.); // Else none was made in parts.
+}
+
 TEST(InterfaceFields, AreInterpolatedWithTheirGradient)
 {
   const InterfaceScene scene(ManyCells(24, 3, 1));

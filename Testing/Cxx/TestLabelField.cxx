@@ -71,23 +71,6 @@ TEST(BoundaryGaussian, IsTheSumOfItsWeights)
   EXPECT_GT(inside, 20);
 }
 
-namespace
-{
-/** Balls of many sizes, and single voxels. */
-LabelMap ManyBlobs()
-{
-  return MakeLabelMap({ 56, 60, 52 }, 2,
-    [](int i, int j, int k)
-    {
-      const auto far = [&](double x, double y, double z)
-      { return std::hypot(i - x, j - y, k - z); };
-      const bool isIn = far(14, 15, 13) < 9.5 || far(40, 20, 30) < 11.3 || far(25, 45, 38) < 6.2 ||
-        (i * 7 + j * 11 + k * 13) % 997 == 0;
-      return isIn ? 1 : far(30, 24, 20) < 7.7 ? 2 : 0;
-    });
-}
-}
-
 TEST(LabelField, HasTheSignOfEachVoxelEvenInNoise)
 {
   for (const double sigma : { 0., 0.5, 2., 6. })
@@ -176,27 +159,6 @@ TEST(LabelField, IsTheSameBitsOnAnyThreads)
   const LabelField alone = FieldOf(map, 2);
   DelayedThreads threads(4, 1, 50, 3);
   EXPECT_EQ(FieldOf(map, 2, 2., threads).Values, alone.Values);
-}
-
-TEST(LabelField, OfSomeBricksIsThatOfAll)
-{
-  const LabelMap map = ManyBlobs();
-  const LabelBricks bricks(map, OnThisThread());
-  const LabelField whole = MakeLabelField(bricks, 0, {}, OnThisThread());
-  for (const VoxelBox& part : VoxelBox::Of(bricks.Size()).Parts(7))
-  {
-    const LabelField some = MakeLabelField(bricks, 0, {}, OnThisThread(), part.Grown(6));
-    const VoxelBox voxels{ { 4 * part.First[0], 4 * part.First[1], 4 * part.First[2] },
-      { 4 * part.End[0], 4 * part.End[1], 4 * part.End[2] } };
-    double furthest = 0.;
-    ForBox(voxels.First, voxels.End,
-      [&](int i, int j, int k)
-      {
-        furthest = std::max(furthest,
-          static_cast<double>(std::abs(ValueAt(some, i, j, k) - ValueAt(whole, i, j, k))));
-      });
-    EXPECT_LT(furthest, 0.002);
-  }
 }
 
 TEST(VoxelBox, PartsAreTheWhole)

@@ -18,10 +18,7 @@ namespace
 /** One of so many is a large part. */
 constexpr std::int64_t LargePart = 8;
 
-/** Fields of more bricks are made in parts, */
-constexpr std::int64_t MostBricks = std::int64_t(1) << 20;
-/** each about so many bricks wide, and so many beyond it, further than the Gaussian reaches. */
-constexpr int PartSize = 48;
+/** Bricks beyond a part in which its field is made, too: further than the Gaussian reaches. */
 constexpr int PartMargin = 6;
 
 /**
@@ -77,13 +74,14 @@ InterfaceFields::InterfaceFields(const LabelBricks& bricks, const LabelFieldOpti
   this->FindBricks(executor);
   std::atomic<std::size_t> done{ 0 };
   std::atomic<bool> goesOn{ true };
+  const std::int64_t most = 8 * static_cast<std::int64_t>(std::pow(options.PartSize, 3));
   const auto make = [&](int object, Executor& threads)
   {
     if (goesOn && bricks.ExtentOf(object).Voxels > 0)
     {
       const VoxelBox box = bricks.ExtentOf(object).Bricks.Grown(1);
       const std::vector<VoxelBox> parts =
-        box.Count() > MostBricks ? box.Parts(PartSize) : std::vector<VoxelBox>{ box };
+        box.Count() > most ? box.Parts(options.PartSize) : std::vector<VoxelBox>{ box };
       for (const VoxelBox& part : parts)
       {
         if (goesOn && (parts.size() == 1 || HasBricks(bricks, object, part)))

@@ -45,6 +45,11 @@ struct LabelFieldOptions
    * bend. Without, all of it, which makes up for what is held.
    */
   double ChordCorrection = 0.3;
+  /**
+   * Of InterfaceFields: a field in a box of more than eight parts, each so many bricks wide, is made
+   * in such parts, as its memory grows with the box.
+   */
+  int PartSize = 48;
 };
 
 /** A voxel that must be further inside, or outside, than the options ask for. */
