@@ -70,13 +70,13 @@ def make_image(voxels, spacing=SPACING, origin=ORIGIN, direction=np.eye(3)):
     return image
 
 
-class ToolTestCase(FolderTestCase):
+class CommandTestCase(FolderTestCase):
     ways = itertools.repeat(())  # options with any of which a volume is refused alike, in turn
 
     def ball_file(self):
         return self.write(vtkXMLImageDataWriter(), "ball.vti", make_image(ball()))
 
-    def run_tool(self, *arguments, status=0, **options):
+    def run_command(self, *arguments, status=0, **options):
         """The finished process; a test failure with its output if it ends with another status,
         unless that is None."""
         process = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True,
@@ -112,11 +112,11 @@ class ToolTestCase(FolderTestCase):
 
     def report(self, *arguments, status=0):
         """The report of a run, parsed."""
-        return json.loads(self.run_tool(*arguments, "--report", "-", status=status).stdout)
+        return json.loads(self.run_command(*arguments, "--report", "-", status=status).stdout)
 
     def refused_volume(self, name, reason, *options):
         """By its name, for this reason, in one line, and no surface is written."""
-        process = self.run_tool(self.path(name), self.path("out.stl"), "--iso", ISO,
+        process = self.run_command(self.path(name), self.path("out.stl"), "--iso", ISO,
                                 *next(self.ways), *options, status=1)
         self.assertRegex(process.stderr, f"^volumic: .*{name}.*({reason})[^\n]*\n$")
         self.assertFalse(os.path.exists(self.path("out.stl")))
@@ -131,7 +131,7 @@ class ToolTestCase(FolderTestCase):
         self.refused_volume(name, reason)
 
     def accepted(self, name, *options):
-        self.run_tool(self.path(name), self.path("ok.stl"), "--iso", ISO, *options)
+        self.run_command(self.path(name), self.path("ok.stl"), "--iso", ISO, *options)
 
     def accepted_bytes(self, name, content):
         self.write_bytes(name, content)
@@ -139,6 +139,6 @@ class ToolTestCase(FolderTestCase):
 
     def refused(self, reason, *arguments, status=1, **options):
         """The program ends with this status and says why, in one line that names itself."""
-        process = self.run_tool(*arguments, status=status, **options)
+        process = self.run_command(*arguments, status=status, **options)
         self.assertRegex(process.stderr, reason)
         self.assertRegex(process.stderr.strip().splitlines()[-1 if status == 1 else 0], "^volumic: ")

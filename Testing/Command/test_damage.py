@@ -19,8 +19,8 @@ from vtkmodules.vtkIOLegacy import vtkStructuredPointsWriter
 from vtkmodules.vtkIOXML import (
     vtkXMLImageDataWriter, vtkXMLPolyDataReader, vtkXMLPolyDataWriter)
 
-from tool_test_case import (
-    ISO, META, SIZE, SPACING, ToolTestCase, ball, dicom_slice, make_image, nrrd_header)
+from command_test_case import (
+    ISO, META, SIZE, SPACING, CommandTestCase, ball, dicom_slice, make_image, nrrd_header)
 
 import medical_files
 
@@ -31,7 +31,7 @@ def noisy_ball(dtype="i2"):
     return (ball() + noise).astype(dtype)
 
 
-class DamageTest(ToolTestCase):
+class DamageTest(CommandTestCase):
     def bytes_of(self, writer, name, image=None):
         """What the writer writes of the image, of a ball if there is none."""
         return super().bytes_of(writer, name, image or make_image(noisy_ball()))
@@ -221,7 +221,7 @@ class FilesTest(DamageTest):
                                        make_image(plane[np.newaxis]))
             with self.subTest(suffix):
                 self.write_bytes(f"{suffix}/17.{suffix}", content[:len(content) * 2 // 3])
-                process = self.run_tool(self.path(suffix), self.path("out.stl"), "--component", "0",
+                process = self.run_command(self.path(suffix), self.path("out.stl"), "--component", "0",
                                         "--iso", ISO / (1 if suffix in ("png", "tif") else 5),
                                         status=1)
                 self.assertRegex(process.stderr, rf"17\.{suffix}")
@@ -236,7 +236,7 @@ class FilesTest(DamageTest):
         told = set()
         for megabytes in (280, 230):
             limit = megabytes << 20
-            process = self.run_tool(
+            process = self.run_command(
                 file, self.path("a.stl"), "--iso", "500.5", "--threads", "1", "-q",
                 status=None, preexec_fn=lambda size=limit: resource.setrlimit(
                     resource.RLIMIT_AS, (size, size)))
@@ -253,7 +253,7 @@ class MeshesTest(DamageTest):
     def setUp(self):
         super().setUp()
         names = [self.path(f"a.{suffix}") for suffix in ("vtp", "vtk", "stl", "ply", "obj")]
-        self.run_tool(self.ball_file(), *names, "--iso", ISO)
+        self.run_command(self.ball_file(), *names, "--iso", ISO)
 
     def refused_mesh(self, name, reason):
         for option in ("--initial-surface", "--seeds", "--attracting-points"):
@@ -272,7 +272,7 @@ class MeshesTest(DamageTest):
 
     def test_whole_ones_are_read(self):
         for suffix in ("vtp", "vtk", "stl", "ply", "obj"):
-            self.run_tool(self.path("ball.vti"), self.path("x.vtp"), "--iso", ISO,
+            self.run_command(self.path("ball.vti"), self.path("x.vtp"), "--iso", ISO,
                           "--initial-surface", self.path("a." + suffix))
 
     def test_polygon_file_as_text(self):
@@ -319,7 +319,7 @@ class MeshesTest(DamageTest):
             writer.SetEncodeAppendedData(encodes)
             content = super().bytes_of(writer, "b.vtp", reader.GetOutput())
             with self.subTest(mode=mode, compressor=compressor, encodes=encodes):
-                self.run_tool(self.path("ball.vti"), self.path("x.vtp"), "--iso", ISO,
+                self.run_command(self.path("ball.vti"), self.path("x.vtp"), "--iso", ISO,
                               "--initial-surface", self.path("b.vtp"))
                 at = len(content) * 3 // 4
                 self.write_bytes("b.vtp", content[:at] + content[at + (200 if mode == 0 else 12):])
@@ -370,7 +370,7 @@ class SeriesTest(DamageTest):
         self.accepted("series", "--series", "2")
         self.accepted("series", "--series", "1.2.4")
         self.accepted("series/IM01")
-        listed = self.run_tool(self.path("series"), "--list-series").stdout.splitlines()
+        listed = self.run_command(self.path("series"), "--list-series").stdout.splitlines()
         self.assertEqual(listed[1], "2: head, 9 slices of 26 x 22, from IM01, 1.2.4")
 
     def test_headers_that_make_no_sense(self):

@@ -9,11 +9,11 @@ import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 
-from tool_test_case import ISO, TURNED, ToolTestCase, make_image
+from command_test_case import ISO, TURNED, CommandTestCase, make_image
 from vtk_files import points_of, read, triangles_of
 
 
-class EndsTest(ToolTestCase):
+class EndsTest(CommandTestCase):
     """A tube of radius 5 through the image along z, whose axes are turned, with voxels of .5, .5, 1."""
     SPACING, ORIGIN = np.array([.5, .5, 1.]), np.array([3., 4., 5.])
 
@@ -26,7 +26,7 @@ class EndsTest(ToolTestCase):
                                      self.ORIGIN, TURNED))
 
     def surface(self, *options, volume=None):
-        self.run_tool(volume or self.tube(), self.path("a.vtp"), *options)
+        self.run_command(volume or self.tube(), self.path("a.vtp"), *options)
         surface = read(self.path("a.vtp"))
         return surface, points_of(surface).astype(float), triangles_of(surface)
 

@@ -21,14 +21,14 @@ from vtkmodules.vtkIOPLY import vtkPLYReader
 from vtkmodules.vtkIOXML import vtkXMLImageDataWriter, vtkXMLPolyDataReader
 from vtkmodules.vtkFiltersCore import vtkCleanPolyData
 
-from tool_test_case import (
-    CENTRE, ISO, META, ORIGIN, RADIUS, SIZE, SPACING, TURNED, ToolTestCase, ball, dicom_slice,
+from command_test_case import (
+    CENTRE, ISO, META, ORIGIN, RADIUS, SIZE, SPACING, TURNED, CommandTestCase, ball, dicom_slice,
     make_image, nrrd_header)
 
 import medical_files
 
 
-class VolumesTest(ToolTestCase):
+class VolumesTest(CommandTestCase):
     def check(self, volume, *options, direction=np.eye(3), spacing=SPACING, origin=ORIGIN, iso=ISO):
         """The ball of the report lies where the file's geometry puts it, and has its size."""
         report = self.report(volume, "--iso", iso, "--quiet", *options)
@@ -92,9 +92,9 @@ class VolumesTest(ToolTestCase):
                 report = self.check(file, origin=np.zeros(3), iso=ISO * scale)
                 self.assertEqual(report["input"]["range"], [voxels.min(), voxels.max()])
                 # The same surface, bit for bit, as of VTK's own format.
-                self.run_tool(file, self.path("a.ply"), "--iso", ISO * scale)
+                self.run_command(file, self.path("a.ply"), "--iso", ISO * scale)
                 self.write(vtkXMLImageDataWriter(), "b.vti", make_image(voxels, origin=np.zeros(3)))
-                self.run_tool(self.path("b.vti"), self.path("b.ply"), "--iso", ISO * scale)
+                self.run_command(self.path("b.vti"), self.path("b.ply"), "--iso", ISO * scale)
                 surfaces = [self.content(name).split(b"end_header")[1] for name in ("a.ply", "b.ply")]
                 self.assertEqual(*surfaces)
 
@@ -146,7 +146,7 @@ class VolumesTest(ToolTestCase):
             self.write(vtkPNGWriter(), f"a/{k:02}.png", make_image(plane[np.newaxis]))
         self.write_bytes("a/log.txt", b"bright")
         self.write_bytes("a/Thumbs.db", b"?")
-        said = self.run_tool(self.path("a"), self.path("a.vtp"), "--iso", ISO).stderr
+        said = self.run_command(self.path("a"), self.path("a.vtp"), "--iso", ISO).stderr
         self.assertIn("2 files that are not named as pictures are left out", said)
 
     def test_names_that_end_otherwise(self):
@@ -210,9 +210,9 @@ class VolumesTest(ToolTestCase):
         self.check(file)
         self.refused("no point array none; point arrays: vectors", file, self.path("a.stl"),
                      "--array", "none")
-        told = self.run_tool(file, self.path("a.stl"), "--iso", ISO).stderr
+        told = self.run_command(file, self.path("a.stl"), "--iso", ISO).stderr
         self.assertIn("magnitude of 2 components (--component)", told)
-        told = self.run_tool(file, self.path("b.stl"), "--component", "2", "--iso", ISO, status=1)
+        told = self.run_command(file, self.path("b.stl"), "--component", "2", "--iso", ISO, status=1)
         self.assertIn("--component is 2, but array 'vectors' has 2 components", told.stderr)
         self.assertIn("component 2 of 2 components (--component)\n", told.stderr)  # and no range
 
@@ -222,7 +222,7 @@ class VolumesTest(ToolTestCase):
         file = self.write(vtkXMLImageDataWriter(), "a.vti", make_image(voxels))
         self.check(file)
         for way in ([], ["--edge-length", "1.2"]):
-            told = self.run_tool(file, self.path("a.stl"), "--iso", ISO, *way).stderr
+            told = self.run_command(file, self.path("a.stl"), "--iso", ISO, *way).stderr
             self.assertEqual(told.count(f"{np.isnan(voxels).sum()} NaN voxels"), 1, told)
         self.refused("NaN voxels", file, self.path("b.stl"), "--refuse-nan", "--iso", ISO)
 
@@ -230,7 +230,7 @@ class VolumesTest(ToolTestCase):
         self.refused("no such file", self.path("missing.vti"), self.path("a.stl"))
         self.refused("suffix", self.write_bytes("a.vti", b"not an image"), self.path("a.stl"))
         self.refused("a.xyz.*not a format", self.write_bytes("a.xyz", b"?"), self.path("a.stl"))
-        said = self.run_tool(self.path("a.xyz"), self.path("a.stl"), status=1).stderr
+        said = self.run_command(self.path("a.xyz"), self.path("a.stl"), status=1).stderr
         self.assertEqual(len(said.splitlines()), 1, "readers that were asked complain: " + said)
         content = nrrd_header("gzip") + b"\nnothing but this text"
         self.refused("damaged", self.write_bytes("a.nrrd", content), self.path("a.stl"))
@@ -249,7 +249,7 @@ class VolumesTest(ToolTestCase):
         self.refused("lies where .* does", self.folder, self.path("a.stl"))
 
 
-class PalettesTest(ToolTestCase):
+class PalettesTest(CommandTestCase):
     COLOURS = bytes([0, 0, 0, 250, 0, 0, 0, 0, 0, 250, 0, 0])  # the same one twice
 
     def png(self, plane, bits):
@@ -276,7 +276,7 @@ class PalettesTest(ToolTestCase):
         os.makedirs(self.path("a"))
         for k, plane in enumerate(ball() // 4):
             self.write_bytes(f"a/{k:02}.bmp", self.bmp(plane, isgrey=True))
-        said = self.run_tool(self.path("a"), self.path("a.vtp"), "--iso", "125").stderr
+        said = self.run_command(self.path("a"), self.path("a.vtp"), "--iso", "125").stderr
         self.assertIn("x 1, unsigned char, 0 to 215", said)
 
     def test_labels_are_the_numbers_of_the_palette(self):
@@ -288,10 +288,10 @@ class PalettesTest(ToolTestCase):
             os.makedirs(self.path(kind))
             for k, plane in enumerate(labels):
                 self.write_bytes(f"{kind}/{k:02}.{suffix}", write(plane))
-            said = self.run_tool(self.path(kind), "--list-labels").stdout
+            said = self.run_command(self.path(kind), "--list-labels").stdout
             counts = re.findall(r"(?m)^ *(\d+) +(\d+) ", said)
             self.assertEqual(counts, [(str(n), str((labels == n).sum())) for n in (1, 3)], kind)
-        said = self.run_tool(self.path("png"), self.path("a.vtp"), "--iso", "60").stderr
+        said = self.run_command(self.path("png"), self.path("a.vtp"), "--iso", "60").stderr
         self.assertIn("the colours of its palette are taken; --labels takes the numbers", said)
 
 
@@ -314,7 +314,7 @@ class TableTest(unittest.TestCase):
         self.assertEqual(read - set(listed), set())
 
 
-class SurfacesTest(ToolTestCase):
+class SurfacesTest(CommandTestCase):
     READERS = {"vtp": vtkXMLPolyDataReader, "vtk": vtkPolyDataReader, "stl": vtkSTLReader,
                "ply": vtkPLYReader, "obj": vtkOBJReader}
 

@@ -24,7 +24,7 @@ import zlib
 import numpy as np
 from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 
-from tool_test_case import ISO, META, PROGRAM, SIZE, SPACING, ToolTestCase, ball, make_image
+from command_test_case import ISO, META, PROGRAM, SIZE, SPACING, CommandTestCase, ball, make_image
 
 import medical_files
 from test_tool_label_names import labelled_nifti
@@ -43,7 +43,7 @@ def limit():
     resource.setrlimit(resource.RLIMIT_CPU, (SECONDS, SECONDS))
 
 
-class HostileTest(ToolTestCase):
+class HostileTest(CommandTestCase):
     def run_limited(self, *arguments):
         """The finished process; a failure if it hangs."""
         command = [PROGRAM, *map(str, arguments)]
@@ -128,7 +128,7 @@ class HeaderTest(HostileTest):
         for words in ("%d.raw", "%d.raw 1", "%d.raw 1 18 1", "%01d.raw 1 19 1"):
             self.write_bytes("a.mhd", META.replace(b"LOCAL", words.encode()))
             with self.subTest(words):
-                self.run_tool(self.path("a.mhd"), "--write-volume", self.path("a.vti"))
+                self.run_command(self.path("a.mhd"), "--write-volume", self.path("a.vti"))
         self.refused_bytes("a.mhd", META.replace(b"LOCAL", b"%d.raw 1 x 1"), "not a whole number")
         for word in (b"a" * 60000, b"a" * 60000 + b" 1 18 1", b"*" * 60000 + b"%d.raw 1 18 1",
                      b"%d*" * 20000):

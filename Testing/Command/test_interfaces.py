@@ -14,7 +14,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOLegacy import vtkPolyDataReader
 
 from test_tool_labels import LabelsTest
-from tool_test_case import ISO, TURNED, make_image
+from command_test_case import ISO, TURNED, make_image
 from vtk_files import points_of, read, read_blocks, triangles_of
 
 SPACING, ORIGIN = np.array([1.0, 1.25, 0.75]), np.array([5.0, -3.0, 40.0])
@@ -89,7 +89,7 @@ class InterfacesTest(LabelsTest):
         return self.write_bytes(name, json.dumps(NAMES).encode())
 
     def make(self, voxels, *files, options=()):
-        self.run_tool(self.map_of(voxels), *(self.path(file) for file in files), "--labels", "all",
+        self.run_command(self.map_of(voxels), *(self.path(file) for file in files), "--labels", "all",
                       "--label-names", self.names_file(), *options)
 
 
@@ -186,7 +186,7 @@ class OneMeshTest(InterfacesTest):
         self.refused(r"a.stl: 4 labels .* --merge, or one mesh of all with --shared-interfaces "
                      r"\(.*a.vtp, .vtk, .vtu, .inp, .msh, .smesh, .poly\)", volume, self.path("a.stl"),
                      "--labels", "all", "--shared-interfaces")
-        self.run_tool(volume, self.path("a.vtp"), "--labels", "1")
+        self.run_command(volume, self.path("a.vtp"), "--labels", "1")
         self.assertFalse(read(self.path("a.vtp")).GetCellData().HasArray("BoundaryLabels"))
 
     def test_files_of_meshers_imply_it(self):
@@ -215,7 +215,7 @@ class OneMeshTest(InterfacesTest):
         file = self.write_bytes("two.seg.nrrd", head.encode() + voxels.tobytes())
         self.refused("--shared-interfaces: the labels lie in several layers .* --component", file,
                      self.path("a.msh"), "--labels", "all")
-        self.run_tool(file, self.path("a.msh"), "--labels", "s1")
+        self.run_command(file, self.path("a.msh"), "--labels", "s1")
 
 
 def sections_of(path):
@@ -423,7 +423,7 @@ class GmshTest(InterfacesTest):
         """Whatever labels are called, and however much of it the file can tell."""
         names = {"0": "Background", "1": "outside", "2": "x" * 25 + "1" * 9 + "x" * 25,
                  "4": "x" * 25 + "2" * 9 + "x" * 25, "9": "outside_to_outside 2"}
-        self.run_tool(self.map_of(sectors()), self.path("a.msh"), self.path("a.smesh"), "--labels",
+        self.run_command(self.map_of(sectors()), self.path("a.msh"), self.path("a.smesh"), "--labels",
                       "all", "--label-names",
                       self.write_bytes("same.json", json.dumps(names).encode()))
         found = list(Msh(self.path("a.msh")).names.values())
@@ -449,7 +449,7 @@ class GmshTest(InterfacesTest):
         self.assertEqual(sorted(map(len, faces)), [1, 1, 2, 3])
 
     def test_one_surface(self):
-        self.run_tool(self.ball_file(), self.path("a.msh"), self.path("a.vtp"), "--iso", ISO)
+        self.run_command(self.ball_file(), self.path("a.msh"), self.path("a.vtp"), "--iso", ISO)
         msh, surface = Msh(self.path("a.msh")), read(self.path("a.vtp"))
         self.assertEqual(msh.names, {(2, 1): '"object_to_outside"', (3, 1): '"object"'})
         np.testing.assert_array_equal(np.sort(msh.points, axis=0),
@@ -505,7 +505,7 @@ class TetgenTest(InterfacesTest):
         z, y, x = np.indices((30, 30, 30)) - 14.5
         far = np.sqrt(x ** 2 + y ** 2 + z ** 2)
         volume = self.map_of(np.minimum(11 - far, far - 5), "hollow.vti")
-        self.run_tool(volume, self.path("a.smesh"), "--iso", "0", "--recovery",
+        self.run_command(volume, self.path("a.smesh"), "--iso", "0", "--recovery",
                       "objects-and-cavities")
         names, _, _, marks, holes, regions = self.parts("a.smesh")
         self.assertEqual(names, {"region 1": "object", "facets 1": "object_to_outside"})

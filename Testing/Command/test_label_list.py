@@ -7,7 +7,7 @@ import unittest
 import numpy as np
 
 from test_tool_labels import BLOBS, NAMES, SPACING, LabelsTest, label_image, label_voxels
-from tool_test_case import make_image
+from command_test_case import make_image
 
 
 def box_of(voxels, label):
@@ -19,7 +19,7 @@ def box_of(voxels, label):
 class ListTest(LabelsTest):
     def table(self, *arguments):
         """The lines of the table, split, below its heading."""
-        lines = self.run_tool("--list-labels", *arguments).stdout.splitlines()
+        lines = self.run_command("--list-labels", *arguments).stdout.splitlines()
         self.assertRegex(lines[0], r"^ *label +voxels +volume +.*box \(first\.\.last voxel along i, "
                                    r"j, k\) +name$")
         return [line.split() for line in lines[1:]]
@@ -80,7 +80,7 @@ class ListTest(LabelsTest):
         self.assertEqual([(row["label"], row["name"], row["layer"]) for row in rows],
                          [(1, "Leber", 0), (1, "Milz", 1)])
         self.assertEqual(rows[1]["box"], box_of(voxels, 7))
-        heading, *lines = self.run_tool(file, "--list-labels").stdout.splitlines()
+        heading, *lines = self.run_command(file, "--list-labels").stdout.splitlines()
         self.assertIn("layer", heading.split())
         self.assertEqual([line.split()[3] for line in lines], ["0", "1"])
         row, = self.listed(file, "--component", "1")

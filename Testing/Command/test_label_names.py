@@ -13,7 +13,7 @@ import unittest
 import numpy as np
 from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 
-from tool_test_case import ORIGIN, SPACING, ToolTestCase, make_image
+from command_test_case import ORIGIN, SPACING, CommandTestCase, make_image
 
 import medical_files
 from vtk_files import read
@@ -32,13 +32,13 @@ def label_voxels():
     return voxels
 
 
-class NamesTest(ToolTestCase):
+class NamesTest(CommandTestCase):
     def map_file(self, name="map.vti"):
         return self.write(vtkXMLImageDataWriter(), name, make_image(label_voxels()))
 
     def fields_of(self, volume, *options):
         """Field data of the volume as the command writes it."""
-        self.run_tool(volume, "--write-volume", self.path("read.vti"), *options)
+        self.run_command(volume, "--write-volume", self.path("read.vti"), *options)
         return read(self.path("read.vti")).GetFieldData()
 
     def names_of(self, volume, *options):
@@ -229,22 +229,22 @@ class BesideTest(NamesTest):
 
     def test_it_is_told_and_used(self):
         self.write_bytes("map.txt", b"3 liver\n")
-        process = self.run_tool(self.map_file(), self.path("o/"), "--labels", "liver")
+        process = self.run_command(self.map_file(), self.path("o/"), "--labels", "liver")
         self.assertIn("names of labels are those of " + self.path("map.txt"), process.stderr)
         self.assertEqual(os.listdir(self.path("o")), ["liver.vtp"])
         mine = self.write_bytes("mine.txt", b"3 mine\n")
-        process = self.run_tool(self.map_file(), self.path("o/"), "--labels", "mine",
+        process = self.run_command(self.map_file(), self.path("o/"), "--labels", "mine",
                                 "--label-names", mine)
         self.assertNotIn("map.txt", process.stderr)
 
     def test_what_cannot_be_read_is_passed_over(self):
         self.write_bytes("map.json", b'{"EchoTime": 0.03, "Manufacturer": "x"}')
-        process = self.run_tool(self.map_file(), self.path("o/"), "--labels", "1")
+        process = self.run_command(self.map_file(), self.path("o/"), "--labels", "1")
         self.assertRegex(process.stderr, "warning: .*map.json: names of labels cannot be read: "
                          "there are no labels .*; it is passed over")
         self.write_bytes("map.csv", b"label,name\n1,liver\n")
-        self.run_tool(self.map_file(), self.path("o/"), "--labels", "liver")
-        process = self.run_tool(self.map_file(), "--write-volume", self.path("v.vti"))
+        self.run_command(self.map_file(), self.path("o/"), "--labels", "liver")
+        process = self.run_command(self.map_file(), "--write-volume", self.path("v.vti"))
         self.assertNotIn("map.json", process.stderr)
 
 
@@ -270,7 +270,7 @@ class NiftiTest(NamesTest):
             names, colors = self.names_of(self.write_bytes(name, data))
             self.assertEqual(names, {1: "a<b", 3: "x & <y>"})
             self.assertEqual(colors, {1: (1, 0.5, 0), 3: (0, 0, 1)})
-        self.run_tool(self.path("a.nii.gz"), self.path("o/"), "--labels", "a<b", "--memory", "1G")
+        self.run_command(self.path("a.nii.gz"), self.path("o/"), "--labels", "a<b", "--memory", "1G")
         self.assertEqual(os.listdir(self.path("o")), ["a_b.vtp"])
 
 
@@ -312,7 +312,7 @@ class SegmentsTest(NamesTest):
 
     def test_layers(self):
         volume = self.layer_file()
-        process = self.run_tool(volume, self.path("o/"), "--labels", "all", "--report",
+        process = self.run_command(volume, self.path("o/"), "--labels", "all", "--report",
                                 self.path("r.json"))
         self.assertIn("5 labels in 2 layers", process.stderr)
         rows = json.loads(self.content("r.json"))["labels"]
@@ -330,7 +330,7 @@ class SegmentsTest(NamesTest):
                                        centre * SPACING + ORIGIN, atol=0.2)
             self.assertEqual(row["color"], {"vessel": [0, 1, 0], "Left lung": [0, 0, 1],
                                             "tumour": [1, 1, 0]}[name])
-        self.run_tool(volume, self.path("all.vtm"), "--labels", "all")
+        self.run_command(volume, self.path("all.vtm"), "--labels", "all")
         self.assertEqual(len(os.listdir(self.path("all"))), 5)
 
     def test_choices_in_layers(self):
@@ -342,7 +342,7 @@ class SegmentsTest(NamesTest):
             self.assertEqual({row["name"] for row in report["labels"]}, names)
         self.refused("--merge: the labels lie in several layers", volume, self.path("o.stl"),
                      "--labels", "1", "--merge")
-        self.run_tool(volume, self.path("o.stl"), "--labels", "1,2", "--merge", "--component", "1")
+        self.run_command(volume, self.path("o.stl"), "--labels", "1,2", "--merge", "--component", "1")
 
     def test_layers_of_older_files(self):
         """Each component is a segment, and nothing tells its label."""

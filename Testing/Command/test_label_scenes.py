@@ -17,7 +17,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOGeometry import vtkGLTFReader
 
 from test_tool_labels import BLOBS, NAMES, LabelsTest
-from tool_test_case import ISO, ball, nrrd_header
+from command_test_case import ISO, ball, nrrd_header
 from vtk_files import points_of, read, triangles_of
 
 COLORS = {1: (200, 30, 0), 2: (0, 255, 120), 7: (10, 20, 30), -3: (255, 255, 255)}
@@ -96,7 +96,7 @@ class ScenesTest(LabelsTest):
 class GlbTest(ScenesTest):
     def test_a_node_for_each_label(self):
         volume, names = self.map_file(), self.colored_names()
-        self.run_tool(volume, self.path("a.glb"), self.path("a/"), "--labels", "all",
+        self.run_command(volume, self.path("a.glb"), self.path("a/"), "--labels", "all",
                       "--label-names", names)
         scene = self.scene("a.glb")
         self.assertEqual(list(scene.nodes()), ["Label -3", "liver", "Left lung", "spleen/x"])
@@ -118,7 +118,7 @@ class GlbTest(ScenesTest):
             np.testing.assert_allclose(color, [*linear(COLORS[label]), 1], atol=1e-9)
 
     def test_vtk_reads_it(self):
-        self.run_tool(self.map_file(), self.path("a.glb"), "--labels", "all")
+        self.run_command(self.map_file(), self.path("a.glb"), "--labels", "all")
         blocks = read(self.path("a.glb"), vtkGLTFReader())
         iterator = blocks.NewIterator()
         bounds = []
@@ -133,16 +133,16 @@ class GlbTest(ScenesTest):
     def test_names(self):
         names = {1: "same", 2: "same", 7: 'a/"b"\\\u00e9\u809d', -3: ""}
         file = self.write_bytes("n.json", json.dumps(names).encode())
-        self.run_tool(self.map_file(), self.path("a.glb"), "--labels", "all", "--label-names", file)
+        self.run_command(self.map_file(), self.path("a.glb"), "--labels", "all", "--label-names", file)
         told = [node.get("name") for node in self.scene("a.glb").text["nodes"]]
         self.assertEqual(told, [None, "Label -3", "same", "same", names[7]])
 
     def test_one_surface(self):
-        self.run_tool(self.map_file(), self.path("o"), "--labels", "1", "--format", "glb",
+        self.run_command(self.map_file(), self.path("o"), "--labels", "1", "--format", "glb",
                       "--label-names", self.names_file())
         self.assertEqual(os.listdir(self.path("o")), ["liver.glb"])
         self.assertEqual(list(self.scene("o/liver.glb").nodes()), ["liver"])
-        self.run_tool(self.ball_file(), self.path("b.glb"), self.path("b.vtp"), "--iso", ISO)
+        self.run_command(self.ball_file(), self.path("b.glb"), self.path("b.vtp"), "--iso", ISO)
         scene = self.scene("b.glb")
         (node, mesh), = scene.nodes().values()
         self.assertEqual((node["name"], node["extras"]["labels"]), ("surface", []))
@@ -183,7 +183,7 @@ class ThreeMfTest(ScenesTest):
         return root, objects
 
     def test_an_object_for_each_label(self):
-        self.run_tool(self.map_file(), self.path("a.3mf"), self.path("a/"), "--labels", "all",
+        self.run_command(self.map_file(), self.path("a.3mf"), self.path("a/"), "--labels", "all",
                       "--label-names", self.colored_names())
         root, objects = self.model("a.3mf")
         self.assertEqual(root.get("unit"), "millimeter")
@@ -197,46 +197,46 @@ class ThreeMfTest(ScenesTest):
             self.assertEqual(material, {name: "#%02X%02X%02X" % COLORS[label]})
 
     def test_merged_labels_keep_their_colours(self):
-        self.run_tool(self.map_file(), self.path("a.3mf"), "--labels", "1,2", "--merge",
+        self.run_command(self.map_file(), self.path("a.3mf"), "--labels", "1,2", "--merge",
                       "--label-names", self.colored_names())
         (_, _, materials), = self.model("a.3mf")[1].values()
         self.assertEqual(materials, {"liver": "#C81E00", "Left lung": "#00FF78"})
 
     def test_names_units_and_one_surface(self):
         names = self.write_bytes("n.json", json.dumps({1: 'a<"&\u00e9>\n'}).encode())
-        self.run_tool(self.map_file(), self.path("a.3mf"), "--labels", "1", "--label-names", names)
+        self.run_command(self.map_file(), self.path("a.3mf"), "--labels", "1", "--label-names", names)
         self.assertEqual(list(self.model("a.3mf")[1]), ['a<"&\u00e9>'])
         first = self.content("a.3mf")
-        self.run_tool(self.map_file(), self.path("a.3mf"), "--labels", "1", "--label-names", names)
+        self.run_command(self.map_file(), self.path("a.3mf"), "--labels", "1", "--label-names", names)
         self.assertEqual(self.content("a.3mf"), first)
-        self.run_tool(self.ball_file(), self.path("b.3mf"), "--iso", ISO)
+        self.run_command(self.ball_file(), self.path("b.3mf"), "--iso", ISO)
         self.assertEqual(list(self.model("b.3mf")[1]), ["surface"])
         volume = self.write_bytes("u.nrrd", nrrd_header().replace(
             b"space: left-posterior-superior", b'space: left-posterior-superior\nspace units: "um" "um" "um"')
             + b"\n" + ball().tobytes())
-        self.run_tool(volume, self.path("u.3mf"), "--iso", ISO)
+        self.run_command(volume, self.path("u.3mf"), "--iso", ISO)
         self.assertEqual(self.model("u.3mf")[0].get("unit"), "micron")
         self.refused(r"u.3mf: 3MF has no unit nm; --unit mm converts", volume, self.path("u.3mf"),
                      "--iso", ISO, "--unit", "nm")
 
     def test_what_a_printer_asks(self):
-        said = self.run_tool(self.map_file(), self.path("a.3mf"), "--labels", "all").stderr
+        said = self.run_command(self.map_file(), self.path("a.3mf"), "--labels", "all").stderr
         low, high = np.transpose([np.reshape(self.bounds_of(label), (3, 2)) for label in BLOBS],
                                  (2, 0, 1))
         size = re.search(r"the print is (\S+) x (\S+) x (\S+) mm; --thin-parts measures", said)
         np.testing.assert_allclose([float(n) for n in size.groups()],
                                    high.max(0) - low.min(0), atol=1.5)
-        said = self.run_tool(self.ball_file(), self.path("b.3mf"), self.path("b.vtp"), "--iso", ISO,
+        said = self.run_command(self.ball_file(), self.path("b.3mf"), self.path("b.vtp"), "--iso", ISO,
                              "--thin-parts").stderr
         walls = vtk_to_numpy(read(self.path("b.vtp")).GetPointData().GetArray("Thickness"))
         self.assertAlmostEqual(float(re.search("thinnest wall has (.*)$", said, re.M).group(1)),
                                walls.min(), delta=2e-3 * walls.min())
-        self.assertNotIn("the print", self.run_tool(self.map_file(), self.path("a.glb"), "--labels",
+        self.assertNotIn("the print", self.run_command(self.map_file(), self.path("a.glb"), "--labels",
                                                     "all").stderr)
 
     @unittest.skipUnless(shutil.which("assimp"), "Assimp is not installed")
     def test_assimp_reads_it(self):
-        self.run_tool(self.map_file(), self.path("a.3mf"), self.path("a.vtm"), "--labels", "all")
+        self.run_command(self.map_file(), self.path("a.3mf"), self.path("a.vtm"), "--labels", "all")
         said = subprocess.run(["assimp", "info", self.path("a.3mf")], capture_output=True, text=True,
                               check=True).stdout
         self.assertRegex(said, r"Meshes: +4\n")
@@ -244,9 +244,9 @@ class ThreeMfTest(ScenesTest):
 
 class PlyTest(ScenesTest):
     def test_vertices_have_the_colour_of_their_label(self):
-        self.run_tool(self.map_file(), self.path("o"), "--labels", "all", "--format", "ply",
+        self.run_command(self.map_file(), self.path("o"), "--labels", "all", "--format", "ply",
                       "--label-names", self.colored_names())
-        self.run_tool(self.map_file(), self.path("p"), "--labels", "all", "--label-names",
+        self.run_command(self.map_file(), self.path("p"), "--labels", "all", "--label-names",
                       self.colored_names())
         for file, label in (("liver", 1), ("Left_lung", 2), ("spleen_x", 7), ("label--3", -3)):
             surface = read(self.path(f"o/{file}.ply"))

@@ -13,8 +13,8 @@ from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkImageData
 from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 
-from tool_test_case import (
-    ISO, ORIGIN, SPACING, TURNED, ToolTestCase, make_image, medical_files)
+from command_test_case import (
+    ISO, ORIGIN, SPACING, TURNED, CommandTestCase, make_image, medical_files)
 from vtk_files import read, read_blocks
 
 # Centres and half axes in voxels along x, y, z; 1 and 2 touch each other.
@@ -37,7 +37,7 @@ def label_image(voxels=None, direction=np.eye(3)):
     return make_image(label_voxels() if voxels is None else voxels, SPACING, ORIGIN, direction)
 
 
-class LabelsTest(ToolTestCase):
+class LabelsTest(CommandTestCase):
     def map_file(self, name="map.vti", image=None):
         return self.write(vtkXMLImageDataWriter(), name, image or label_image())
 
@@ -83,7 +83,7 @@ class OutputsTest(LabelsTest):
         volume, names = self.map_file(), self.names_file()
         for suffix in ("stl", "ply", "obj", "vtk"):
             out = self.path(suffix)  # not there, without a suffix or slash
-            self.run_tool(volume, out, "--labels", "1,2", "--format",
+            self.run_command(volume, out, "--labels", "1,2", "--format",
                           "." * (suffix == "ply") + suffix, "--label-names", names)
             self.assertEqual(sorted(os.listdir(out)), [f"Left_lung.{suffix}", f"liver.{suffix}"])
         self.assertGreater(read(self.path("stl/liver.stl")).GetNumberOfPolys(), 100)
@@ -91,7 +91,7 @@ class OutputsTest(LabelsTest):
 
     def test_blocks(self):
         names = self.write_bytes("n.csv", b'label,name\n1,"a<b & ""c"""\n2,two\n')
-        self.run_tool(self.map_file(), self.path("out.vtm"), "--labels", "1,2", "--label-names",
+        self.run_command(self.map_file(), self.path("out.vtm"), "--labels", "1,2", "--label-names",
                       names)
         blocks = read_blocks(self.path("out.vtm"))
         self.assertEqual(list(blocks), ['a<b & "c"', "two"])
@@ -106,12 +106,12 @@ class OutputsTest(LabelsTest):
                          ([1, 2], "Labels 1, 2", 1))
         labels = vtk_to_numpy(read(self.path("both.vtp")).GetCellData().GetArray("Label"))
         self.assertEqual(set(labels), {1, 2})
-        self.run_tool(volume, self.path("both.vtm"), "--labels", "1,2", "--merge")
+        self.run_command(volume, self.path("both.vtm"), "--labels", "1,2", "--merge")
         self.assertEqual(list(read_blocks(self.path("both.vtm"))), ["Labels 1, 2"])
 
     def test_one_label_goes_into_one_file(self):
         volume = self.map_file()
-        self.run_tool(volume, self.path("a.stl"), "--labels", "2")
+        self.run_command(volume, self.path("a.stl"), "--labels", "2")
         self.assertGreater(read(self.path("a.stl")).GetNumberOfPolys(), 100)
         self.refused(r"b.stl: 4 labels have as many surfaces: give a folder \(.*b/ --format stl\) "
                      r"or blocks \(.*b.vtm, .*b.glb, .*b.3mf\), or .*--merge", volume, self.path("b.stl"),
@@ -121,13 +121,13 @@ class OutputsTest(LabelsTest):
     def test_names_of_files_are_safe_and_different(self):
         names = {1: "../Up", 2: "up", 7: "..", -3: "C:\\con?*\u00e9 1"}
         file = self.write_bytes("n.json", json.dumps(names).encode())
-        self.run_tool(self.map_file(), self.path("o/"), "--labels", "all", "--label-names", file)
+        self.run_command(self.map_file(), self.path("o/"), "--labels", "all", "--label-names", file)
         # Of two that differ in nothing but the case of letters each has its number.
         self.assertEqual(sorted(os.listdir(self.path("o"))),
                          ["C__con__\u00e9_1.vtp", "Up-1.vtp",
                           "label-7.vtp", "up-2.vtp"])
         same = self.write_bytes("s.json", json.dumps({n: "x" * 300 for n in BLOBS}).encode())
-        self.run_tool(self.map_file(), self.path("p/"), "--labels", "1,2", "--label-names", same)
+        self.run_command(self.map_file(), self.path("p/"), "--labels", "1,2", "--label-names", same)
         self.assertEqual(sorted(os.listdir(self.path("p"))),
                          ["x" * 120 + "-1.vtp", "x" * 120 + "-2.vtp"])
 
@@ -207,7 +207,7 @@ class WhatIsReadTest(LabelsTest):
         surfaces = {}
         for dtype in ("i2", "i1", "i4", "i8", "f4", "f8"):
             volume = self.map_file(f"{dtype}.vti", label_image(label_voxels(dtype)))
-            process = self.run_tool(volume, self.path(dtype), "--labels", "all")
+            process = self.run_command(volume, self.path(dtype), "--labels", "all")
             surfaces[dtype] = self.content(f"{dtype}/label--3.vtp")
             told = re.search("warning: .*integers", process.stderr)
             self.assertEqual(bool(told), dtype[0] == "f", process.stderr)
@@ -216,11 +216,11 @@ class WhatIsReadTest(LabelsTest):
     def test_labels_that_were_resampled(self):
         """Whole but for a little, and one is NaN: they are those of before, and that is told."""
         voxels = label_voxels("f4")
-        self.run_tool(self.map_file("a.vti", label_image(voxels)), self.path("a"), "--labels", "all")
+        self.run_command(self.map_file("a.vti", label_image(voxels)), self.path("a"), "--labels", "all")
         self.assertEqual(voxels[0, 0, 0], 0)
         voxels[voxels == 7] = 6.995
         voxels[0, 0, 0] = np.nan
-        process = self.run_tool(self.map_file("b.vti", label_image(voxels)), self.path("b"),
+        process = self.run_command(self.map_file("b.vti", label_image(voxels)), self.path("b"),
                                 "--labels", "all")
         self.assertRegex(process.stderr, r"warning: .*within 0.00\d+ of integers, .*; NaN, at 1 voxel, is")
         self.assertEqual(self.content("a/label-7.vtp"), self.content("b/label-7.vtp"))
@@ -230,7 +230,7 @@ class WhatIsReadTest(LabelsTest):
         voxels = label_voxels("i8").astype("u4")
         voxels[voxels == 7] = 2 ** 32 - 2
         volume = self.map_file("map.vti", label_image(voxels))
-        process = self.run_tool(volume, self.path("o"), "--labels", "1,4294967294")
+        process = self.run_command(volume, self.path("o"), "--labels", "1,4294967294")
         self.assertEqual(sorted(os.listdir(self.path("o"))), ["4294967294.vtp", "label-1.vtp"])
         self.assertRegex(process.stderr,
                          "warning: .*numbered anew.*: 4294967293 is 3, 4294967294 is 4")
@@ -251,7 +251,7 @@ class WhatIsReadTest(LabelsTest):
         folder = self.masks("organs", liver=255 * (voxels == 1), lung_left=voxels == 2,
                             kidney=voxels == 7, absent=voxels == 99)
         self.write_bytes("organs/statistics.json", b"{}")
-        process = self.run_tool(folder, self.path("o/"), "--labels", "all", "--report",
+        process = self.run_command(folder, self.path("o/"), "--labels", "all", "--report",
                                 self.path("r.json"))
         self.assertEqual(sorted(os.listdir(self.path("o"))),
                          ["kidney.vtp", "liver.vtp", "lung_left.vtp"])
@@ -262,7 +262,7 @@ class WhatIsReadTest(LabelsTest):
                          {"kidney": (voxels == 7).sum(), "liver": (voxels == 1).sum(),
                           "lung_left": (voxels == 2).sum()})
         written = self.path("w.vti")
-        self.run_tool(self.path("organs/*.nii.gz"), "--write-volume", written, "--memory", "3G")
+        self.run_command(self.path("organs/*.nii.gz"), "--write-volume", written, "--memory", "3G")
         listed = self.report(written, "--list-labels")["labels"]
         self.assertEqual([row["name"] for row in listed if row["label"] > 0],
                          ["kidney", "liver", "lung_left"])
@@ -272,7 +272,7 @@ class WhatIsReadTest(LabelsTest):
         part = np.zeros_like(voxels)
         part[6:9, 6:9, 6:9] = 1
         folder = self.masks("m", whole=voxels == 1, part=part, zone=(voxels == 1) & (part == 0))
-        process = self.run_tool(folder, "--list-labels", "--report", self.path("r.json"))
+        process = self.run_command(folder, "--list-labels", "--report", self.path("r.json"))
         sizes = {row["name"]: row["voxels"]
                  for row in json.loads(self.content("r.json"))["labels"]}
         self.assertEqual((sizes["part"], "whole" in sizes), (27, False))
@@ -285,7 +285,7 @@ class WhatIsReadTest(LabelsTest):
         voxels = label_voxels()
         masks = np.stack([voxels == 1, voxels == 2, voxels == 7])
         file = self.write_bytes("onehot.nii", medical_files.nifti(masks.astype("i2"), SPACING))
-        process = self.run_tool(file, "--list-labels", "--report", self.path("r.json"))
+        process = self.run_command(file, "--list-labels", "--report", self.path("r.json"))
         self.assertIn("3 volumes, one behind the other, are taken for masks of labels 1 to 3",
                       process.stderr)
         sizes = [(row["label"], row["voxels"])
@@ -329,8 +329,8 @@ class WhatIsReadTest(LabelsTest):
 
     def test_directions_and_spacing(self):
         turned = self.map_file("turned.vti", label_image(direction=TURNED))
-        self.run_tool(turned, self.path("t/"), "--labels", "7")
-        self.run_tool(self.map_file(), self.path("s/"), "--labels", "7", "--spacing", "1,1.5,2")
+        self.run_command(turned, self.path("t/"), "--labels", "7")
+        self.run_command(self.map_file(), self.path("s/"), "--labels", "7", "--spacing", "1,1.5,2")
         places = np.argwhere(label_voxels() == 7)[:, ::-1] * SPACING
         for path, world in (("t", places @ TURNED.T), ("s", 2 * places)):
             bounds = read(self.path(f"{path}/label-7.vtp")).GetBounds()
@@ -446,10 +446,10 @@ class OptionsTest(LabelsTest):
         voxels[2, 2, 26] = 9
         volume = self.map_file("dot.vti", label_image(voxels))
         # Level 0 loses it, -1 does not.
-        process = self.run_tool(volume, self.path("h/"), "--labels", "1,9")
+        process = self.run_command(volume, self.path("h/"), "--labels", "1,9")
         self.assertNotIn("warning", process.stderr)
         self.assertEqual(sorted(os.listdir(self.path("h"))), ["label-1.vtp", "label-9.vtp"])
-        process = self.run_tool(volume, self.path("o/"), "--labels", "1,9", "--finest", "1",
+        process = self.run_command(volume, self.path("o/"), "--labels", "1,9", "--finest", "1",
                                 "--report", self.path("r.json"))
         self.assertRegex(process.stderr, "warning: .*Label 9")
         self.assertEqual(os.listdir(self.path("o")), ["label-1.vtp"])
@@ -465,12 +465,12 @@ class RunTest(LabelsTest):
     def test_an_isopotential_of_a_label_map_is_told(self):
         volume = self.map_file()
         for more in ((), ("--edge-length", "1.2")):
-            process = self.run_tool(volume, self.path("a.stl"), "--iso", "0.5", *more)
+            process = self.run_command(volume, self.path("a.stl"), "--iso", "0.5", *more)
             told = re.findall("warning: .*looks like a label map", process.stderr)
             self.assertEqual(len(told), 1, process.stderr)
-        process = self.run_tool(volume, self.path("o/"), "--labels", "1")
+        process = self.run_command(volume, self.path("o/"), "--labels", "1")
         self.assertNotIn("looks like", process.stderr)
-        process = self.run_tool(self.ball_file(), self.path("a.stl"), "--iso", ISO)
+        process = self.run_command(self.ball_file(), self.path("a.stl"), "--iso", ISO)
         self.assertNotIn("looks like", process.stderr)
 
     def test_interrupt_keeps_what_is_finished(self):
@@ -496,7 +496,7 @@ class RunTest(LabelsTest):
                          "--time-limit", "1e-9")
         seconds, status = 0.1, 1
         while status == 1:  # until some are finished, long before all are
-            process = self.run_tool(
+            process = self.run_command(
                 volume, self.path("o/"), "--labels", "all", "--finest", "-1", "--threads", "1",
                 "--time-limit", seconds, status=None)
             seconds, status = 2 * seconds, process.returncode

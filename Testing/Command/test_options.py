@@ -16,7 +16,7 @@ from vtkmodules.vtkCommonExecutionModel import (
     vtkImageAlgorithm, vtkMultiBlockDataSetAlgorithm, vtkPolyDataAlgorithm)
 from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 
-from tool_test_case import CENTRE, ISO, MANUAL, ORIGIN, SPACING, ToolTestCase, ball, make_image
+from command_test_case import CENTRE, ISO, MANUAL, ORIGIN, SPACING, CommandTestCase, ball, make_image
 from volumic import vtkDeformableSurface, vtkImagePyramid, vtkLabelsToSurfaces
 from vtk_files import read
 
@@ -35,9 +35,9 @@ def properties_of(filter_class, base_class):
     return {n for n in names if not any(n.startswith(m + "To") for m in names)}
 
 
-class OptionTableTest(ToolTestCase):
+class OptionTableTest(CommandTestCase):
     def table(self):
-        lines = self.run_tool("--list-properties").stdout.splitlines()
+        lines = self.run_command("--list-properties").stdout.splitlines()
         return [line.split("\t") for line in lines]
 
     def test_every_property_has_an_option(self):
@@ -139,9 +139,9 @@ class OptionTableTest(ToolTestCase):
             self.refused(reason, self.ball_file(), self.path("a.stl"), "--iso", ISO, *options)
 
 
-class ManualTest(ToolTestCase):
+class ManualTest(CommandTestCase):
     def test_every_option_is_in_the_manual_and_the_other_way_round(self):
-        options = set(re.findall(r"^  --([a-z-]+)", self.run_tool("--help").stdout, re.M))
+        options = set(re.findall(r"^  --([a-z-]+)", self.run_command("--help").stdout, re.M))
         self.assertGreater(len(options), 30)
         with open(MANUAL, encoding="utf-8") as file:
             described = set(re.findall(r"^\.It Fl (?:[a-z] , )?-([a-z-]+)", file.read(), re.M))
@@ -161,15 +161,15 @@ class ManualTest(ToolTestCase):
         self.assertEqual(process.stdout + process.stderr, "")
 
     def test_help_and_version(self):
-        self.assertRegex(self.run_tool("--version").stdout, r"^volumic [0-9.]+ \(VTK [0-9.]+")
-        text = self.run_tool("-h").stdout
+        self.assertRegex(self.run_command("--version").stdout, r"^volumic [0-9.]+ \(VTK [0-9.]+")
+        text = self.run_command("-h").stdout
         prose = [line for line in text.splitlines() if not line.startswith("  --")]
         self.assertLessEqual(max(map(len, prose)), 80)
 
 
-class RunTest(ToolTestCase):
+class RunTest(CommandTestCase):
     def test_all_outputs(self):
-        self.run_tool(self.ball_file(), self.path("a.vtp"), "--iso", ISO,
+        self.run_command(self.ball_file(), self.path("a.vtp"), "--iso", ISO,
                       "--history", self.path("h.csv"), "--report", self.path("r.json"),
                       "--levels-output", self.path("l.vtm"), "--snapshots", self.path("s"),
                       "--snapshot-interval", "5", "--levels", "2")
@@ -191,7 +191,7 @@ class RunTest(ToolTestCase):
         self.assertEqual(read(self.path("l.vtm")).GetBlock(1).GetNumberOfPoints(),
                          report["levels"][0]["vertices"])
         self.assertGreater(len(os.listdir(self.path("s"))), 2)
-        self.run_tool(self.ball_file(), "--levels-output", self.path("levels"), "--iso", ISO,
+        self.run_command(self.ball_file(), "--levels-output", self.path("levels"), "--iso", ISO,
                       "--levels", "2")
         self.assertEqual(sorted(os.listdir(self.path("levels"))), ["level-0.vtp", "level-1.vtp"])
 
@@ -202,14 +202,14 @@ class RunTest(ToolTestCase):
         voxels = np.clip(ISO + 100 * (16 - distance), 0, 1000).astype("i2")
         voxels[10:54, 10:54, 4:9:4] = 620
         volume = self.write(vtkXMLImageDataWriter(), "sheets.vti", make_image(voxels, [1] * 3))
-        process = self.run_tool(volume, self.path("a.vtp"), "--iso", ISO)
+        process = self.run_command(volume, self.path("a.vtp"), "--iso", ISO)
         self.assertRegex(process.stderr, "warning: .*of the object's boundary.* Set --finest to -1")
 
     def test_iso_value_by_otsu_is_told(self):
-        process = self.run_tool(self.ball_file(), self.path("a.vtp"))
+        process = self.run_command(self.ball_file(), self.path("a.vtp"))
         told = re.search(r"iso-value ([0-9.]+), a guess by Otsu", process.stderr)
         self.assertTrue(100 < float(told.group(1)) < 900)
-        self.assertEqual(self.run_tool(self.ball_file(), self.path("a.vtp"), "-q").stderr, "")
+        self.assertEqual(self.run_command(self.ball_file(), self.path("a.vtp"), "-q").stderr, "")
 
     def test_seeds_and_initial_surface(self):
         centre = ORIGIN + SPACING * CENTRE
@@ -269,7 +269,7 @@ class RunTest(ToolTestCase):
     def test_time_limit_is_marked(self):
         volume = self.waves_file()
         for limit in (0.6, 3, 15, 75, 375):  # A busy machine has no surface so soon.
-            run = self.run_tool(volume, self.path("limited.stl"), "--iso", "0", "--convergence",
+            run = self.run_command(volume, self.path("limited.stl"), "--iso", "0", "--convergence",
                                 "0", "--time-limit", limit, status=None)
             if run.returncode == 3:
                 break

@@ -18,7 +18,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOXML import vtkXMLImageDataWriter, vtkXMLPPolyDataReader
 
 from limited_files import largest_file
-from tool_test_case import ISO, PROGRAM, ToolTestCase, ball, make_image
+from command_test_case import ISO, PROGRAM, CommandTestCase, ball, make_image
 from vtk_files import points_of, read, triangles_of
 
 SURFACES = ("vtp", "pvtp", "vtk", "stl", "ply", "obj", "glb", "3mf", "msh", "smesh", "poly")
@@ -33,13 +33,13 @@ def nobody():
         os.setuid(65534)
 
 
-class OutputsTest(ToolTestCase):
+class OutputsTest(CommandTestCase):
     def setUp(self):
         super().setUp()
         self.volume = self.ball_file()
 
     def segment(self, *arguments, **options):
-        return self.run_tool(self.volume, "--iso", ISO, "--levels", 2, "-q", *arguments, **options)
+        return self.run_command(self.volume, "--iso", ISO, "--levels", 2, "-q", *arguments, **options)
 
     def without_rests(self, *names):
         """No file but these, the volume and those of earlier calls is in the folder."""
@@ -152,7 +152,7 @@ class PlacesTest(OutputsTest):
         self.no_image = self.write_bytes("no image.vti", b"nothing")
 
     def refused_at_once(self, reason, *arguments, **options):
-        process = self.run_tool(self.no_image, *arguments, status=1, **options)
+        process = self.run_command(self.no_image, *arguments, status=1, **options)
         self.assertRegex(process.stderr, reason)
         self.assertNotRegex(process.stderr, "no image.vti: (?!cannot be written)")
         self.without_rests()
@@ -216,7 +216,7 @@ class PlacesTest(OutputsTest):
             with self.subTest(arguments):
                 self.refused_at_once("cannot be written: it is the input .*no image.vti",
                                      *arguments)
-        process = self.run_tool("no image.vti", "--report", "./no image.vti", status=1,
+        process = self.run_command("no image.vti", "--report", "./no image.vti", status=1,
                                 cwd=self.folder)
         self.assertIn("it is the input", process.stderr)
         self.assertEqual(self.content("no image.vti"), before)
@@ -253,7 +253,7 @@ class PlacesTest(OutputsTest):
                     self.write_bytes(header, text)
                     self.write_bytes(data, OLD)
                 before = self.content(data)
-                process = self.run_tool(self.path(header), "--report", self.path(data), status=1)
+                process = self.run_command(self.path(header), "--report", self.path(data), status=1)
                 self.assertIn("it is the input", process.stderr)
                 self.assertEqual(self.content(data), before)
 
@@ -279,7 +279,7 @@ class PiecesTest(OutputsTest):
         self.volume = self.write(vtkXMLImageDataWriter(), "balls.vti", make_image(voxels))
 
     def segment(self, *arguments, **options):
-        return self.run_tool(self.volume, "--iso", 750.5, "--levels", 1, "-q", *arguments,
+        return self.run_command(self.volume, "--iso", 750.5, "--levels", 1, "-q", *arguments,
                              **options)
 
     def read(self, name, reader=None):
@@ -362,7 +362,7 @@ class PiecesTest(OutputsTest):
 class WrittenTest(OutputsTest):
     def test_writing_shows_its_progress(self):
         names = [self.path("a." + suffix) for suffix in ("vtp", "pvtp", "vtk", "stl")]
-        said = self.run_tool(self.volume, "--iso", ISO, "--levels", 2, "--progress", *names,
+        said = self.run_command(self.volume, "--iso", ISO, "--levels", 2, "--progress", *names,
                              "--piece-size", 100, "--levels-output", self.path("l"),
                              "--write-volume", self.path("v.vti")).stderr
         for name in ("a.vtp", "a.pvtp", "level-1.vtp", "v.vti"):

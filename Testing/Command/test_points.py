@@ -4,15 +4,15 @@
 
 import unittest
 
-from tool_test_case import CENTRE, ISO, ORIGIN, SPACING, ToolTestCase
+from command_test_case import CENTRE, ISO, ORIGIN, SPACING, CommandTestCase
 
 SEED = ",".join(map(str, ORIGIN + SPACING * CENTRE)).encode()
 
 
-class PointsTest(ToolTestCase):
+class PointsTest(CommandTestCase):
     def seeded(self, content, status=0):
         self.write_bytes("seeds.csv", content)
-        return self.run_tool(self.ball_file(), "--iso", ISO, "--levels", 1, "--seeds",
+        return self.run_command(self.ball_file(), "--iso", ISO, "--levels", 1, "--seeds",
                              self.path("seeds.csv"), "--seed-radius", 2, "--report", "-", "-q",
                              status=status)
 

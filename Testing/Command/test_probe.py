@@ -9,11 +9,11 @@ import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 
-from tool_test_case import TURNED, ToolTestCase, ball, make_image
+from command_test_case import TURNED, CommandTestCase, ball, make_image
 from vtk_files import read
 
 
-class ProbeTest(ToolTestCase):
+class ProbeTest(CommandTestCase):
     def other(self, name="pet.nii.vti", function=lambda world: world @ (3.0, -2.0, 0.5)):
         """A linear function of the world in a turned grid of another spacing, about all of the ball
         but a corner."""
@@ -23,7 +23,7 @@ class ProbeTest(ToolTestCase):
                           make_image(function(places), (0.8, 0.7, 0.9), (12, 3, 8), TURNED))
 
     def values(self, *options):
-        self.run_tool(self.ball_file(), self.path("a.vtp"), "--iso", "500.5", *options)
+        self.run_command(self.ball_file(), self.path("a.vtp"), "--iso", "500.5", *options)
         surface = read(self.path("a.vtp"))
         points = vtk_to_numpy(surface.GetPoints().GetData()).astype(float)
         return surface, points
@@ -60,7 +60,7 @@ class ProbeTest(ToolTestCase):
     def test_of_labels(self):
         labels = self.write(vtkXMLImageDataWriter(), "labels.vti",
                             make_image((ball() > 500).astype("u1")))
-        self.run_tool(labels, self.path("o/"), "--labels", "all", "--probe", self.other())
+        self.run_command(labels, self.path("o/"), "--labels", "all", "--probe", self.other())
         surface = read(self.path("o/label-1.vtp"))
         self.assertTrue(surface.GetPointData().HasArray("pet"))
         self.refused("--probe-depth and shared interfaces, which have no normals, exclude", labels,

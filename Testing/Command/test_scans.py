@@ -11,8 +11,8 @@ import unittest
 
 import numpy as np
 
-from tool_test_case import (
-    CENTRE, ISO, META, ORIGIN, RADIUS, SIZE, SPACING, ToolTestCase, ball, dicom_slice)
+from command_test_case import (
+    CENTRE, ISO, META, ORIGIN, RADIUS, SIZE, SPACING, CommandTestCase, ball, dicom_slice)
 
 import medical_files
 
@@ -43,7 +43,7 @@ def run_lengths(pixels):
     return struct.pack("<16I", 2, 64, 64 + len(parts[0]), *[0] * 13) + b"".join(parts)
 
 
-class ScanTest(ToolTestCase):
+class ScanTest(CommandTestCase):
     def series(self, numbers=range(SIZE[2]), name="IM{:02}", **changes):
         for k in numbers:
             self.write_bytes("a/" + name.format(k), dicom_slice(k, **changes))
@@ -58,7 +58,7 @@ class ScanTest(ToolTestCase):
         centre = ORIGIN + SPACING * CENTRE if centre is None else centre
         np.testing.assert_allclose(report["component_features"][0]["centroid"], centre, atol=0.1)
         self.assertTrue(shrink < report["volume"] / BALL < 1.02, report["volume"] / BALL)
-        said = self.run_tool(self.path(name), self.path("o.vtp"), "--iso", ISO, *options).stderr
+        said = self.run_command(self.path(name), self.path("o.vtp"), "--iso", ISO, *options).stderr
         warnings = re.findall("volumic: warning: (.*)", said)
         self.assertRegex("; ".join(warnings), told if told else "^$")
         return report
@@ -89,7 +89,7 @@ class ShearTest(ScanTest):
         labels = np.where(self.seen(self.LEANING)[0] > ISO, 9, 0)
         self.write_bytes("a.nii", medical_files.nifti(
             labels, SPACING, np.column_stack([self.LEANING, ORIGIN])))
-        said = self.run_tool(self.path("a.nii"), "--list-labels").stdout
+        said = self.run_command(self.path("a.nii"), "--list-labels").stdout
         self.assertEqual(re.findall(r"(?m)^ *(\d+) ", said), ["9"], said)
 
     def test_cells_of_mrc(self):
@@ -140,7 +140,7 @@ class SlicesTest(ScanTest):
             self.write_bytes(f"a/IM{k}", dicom_slice(k, np.where(ball() > ISO, 9, 0).astype("i2"),
                 lacks=("position",), more=((0x20, 0x32, "DS", medical_files.decimal(
                     ORIGIN + [0, 0.2 * k, k])),)))
-        said = self.run_tool(self.path("a"), "--list-labels", "--labels", "all").stdout
+        said = self.run_command(self.path("a"), "--list-labels", "--labels", "all").stdout
         self.assertEqual(re.findall(r"(?m)^ *(\d+) ", said), ["9"], said)
 
     def test_a_localizer_among_them(self):
@@ -157,7 +157,7 @@ class SlicesTest(ScanTest):
             2, 2, "UI", "1.2.840.10008.1.3.10") + element(2, 0x10, "UI", medical_files.EXPLICIT)
             + element(4, 0x1130, "CS", "SET"))
         self.check("a")
-        self.assertEqual(len(self.run_tool(
+        self.assertEqual(len(self.run_command(
             self.path("a"), "--list-files").stdout.splitlines()), SIZE[2] + 1)
 
     def test_several_times(self):
@@ -166,7 +166,7 @@ class SlicesTest(ScanTest):
         self.refused_volume("a", "2 volumes, .*choose one with --time N, 0 to 1")
         self.check("a", "--time", "0")
         self.assertEqual(self.report(self.path("a"), "--iso", ISO, "--dark", "--phase", "1")["genus"], 0)
-        said = self.run_tool(self.path("a"), "--list-series").stdout
+        said = self.run_command(self.path("a"), "--list-series").stdout
         self.assertIn("36 slices of 26 x 22, 2 at each place (--time)", said)
         self.refused_volume("a", "there is no time 2", "--time", "2")
 
@@ -239,7 +239,7 @@ class PixelsTest(ScanTest):
         content = self.content("a/many.dcm")
         at = content.rindex(struct.pack("<HH", 0x7FE0, 0x10)) + 8
         self.write_bytes("a/many.dcm", content[:at] + struct.pack("<I", len(bits)) + bits)
-        listed = self.run_tool(self.path("a"), "--list-labels").stdout
+        listed = self.run_command(self.path("a"), "--list-labels").stdout
         self.assertRegex(listed, rf"(?m)^ *1\s+{(object_ & left).sum()} .*liver$")
         self.assertRegex(listed, "(?m)^ *2 .*spleen$")
 

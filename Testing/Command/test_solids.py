@@ -15,7 +15,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
 from test_tool_interfaces import ORIGIN, SPACING, InterfacesTest, period, sections_of
-from tool_test_case import ISO
+from command_test_case import ISO
 from vtk_files import points_of, read, triangles_of
 
 MESHERS = [name for name in ("tetgen", "gmsh") if shutil.which(name)]
@@ -126,7 +126,7 @@ class MesherTest(SolidsTest):
 
     def test_a_surface_of_a_scan(self):
         for mesher in MESHERS:
-            self.run_tool(self.ball_file(), self.path("ball.vtu"), self.path("ball.vtp"), "--iso",
+            self.run_command(self.ball_file(), self.path("ball.vtu"), self.path("ball.vtp"), "--iso",
                           ISO, "--mesher", mesher)
             grid = read(self.path("ball.vtu"), vtkXMLUnstructuredGridReader())
             volume = read(self.path("ball.vtp")).GetFieldData().GetArray("Volume").GetValue(0)
@@ -138,7 +138,7 @@ class MesherTest(SolidsTest):
         z, y, x = np.indices((16, 18, 18))
         volume = self.map_of((5 - np.hypot(x - 8.5, y - 8.5)).astype("f4"), "rod.vti")
         for mesher in MESHERS:
-            self.run_tool(volume, self.path("rod.inp"), self.path("rod.msh"), "--iso", "0", "--ends",
+            self.run_command(volume, self.path("rod.inp"), self.path("rod.msh"), "--iso", "0", "--ends",
                           "marked", "--mesher", mesher)
             parts = dict(keywords_of(self.path("rod.inp")))
             nodes = np.array(parts["*NODE, NSET=Nall"], float)[:, 1:]
@@ -171,7 +171,7 @@ class MesherTest(SolidsTest):
             self.assertGreater(counts[1], 1.3 * counts[0])
 
     def test_a_file_for_each_label(self):
-        self.run_tool(self.map_of(voxels()), self.path("all/"), "--labels", "all", "--format", "vtu")
+        self.run_command(self.map_of(voxels()), self.path("all/"), "--labels", "all", "--format", "vtu")
         self.assertEqual(sorted(os.listdir(self.path("all"))),
                          ["label-1.vtu", "label-2.vtu", "label-4.vtu"])
 
@@ -180,7 +180,7 @@ class MesherTest(SolidsTest):
         found = np.ones((8, 9, 10), "u1")
         found[:, :, 5:] = 2
         for mesher in MESHERS:
-            self.run_tool(self.map_of(found), self.path("a.inp"), "--labels", "all", "--label-names",
+            self.run_command(self.map_of(found), self.path("a.inp"), "--labels", "all", "--label-names",
                           self.write_bytes("box.json", b'{"1": "x min", "2": "b"}'), "--box-faces",
                           "flat", "--mesher", mesher)
             parts = dict(keywords_of(self.path("a.inp")))
@@ -195,7 +195,7 @@ class MesherTest(SolidsTest):
     def test_nodes_of_a_period_match(self):
         """Those of opposite sides, in the order of their numbers."""
         for mesher in MESHERS:
-            self.run_tool(self.map_of(period()), self.path("a.inp"), "--labels", "all", "--box-faces",
+            self.run_command(self.map_of(period()), self.path("a.inp"), "--labels", "all", "--box-faces",
                           "periodic", "--mesher", mesher)
             parts = dict(keywords_of(self.path("a.inp")))
             nodes = np.array(parts["*NODE, NSET=Nall"], float)[:, 1:]
@@ -210,7 +210,7 @@ class MesherTest(SolidsTest):
     def test_sides_of_a_box_in_msh(self):
         found = np.ones((8, 9, 10), "u1")
         found[:, :, 5:] = 2
-        self.run_tool(self.map_of(found), self.path("a.msh"), "--labels", "all", "--label-names",
+        self.run_command(self.map_of(found), self.path("a.msh"), "--labels", "all", "--label-names",
                       self.write_bytes("box.json", b'{"1": "x_min", "2": "b"}'), "--box-faces", "flat",
                       "--mesher", MESHERS[0])
         sections = sections_of(self.path("a.msh"))
@@ -262,7 +262,7 @@ class MesherTest(SolidsTest):
             os.makedirs(self.path(folder), exist_ok=True)
         self.write_bytes("bin/tetgen", f"#!/bin/sh\n{script}\n".encode())
         os.chmod(self.path("bin/tetgen"), 0o755)
-        process = self.run_tool(self.map_of(voxels()), self.path("out/a.vtu"), self.path("out/a.vtp"),
+        process = self.run_command(self.map_of(voxels()), self.path("out/a.vtu"), self.path("out/a.vtp"),
                                 "--labels", "all", status=status,
                                 env={**os.environ, "PATH": self.path("bin") + ":/bin"})
         return process.stderr, os.listdir(self.path("out"))
@@ -350,7 +350,7 @@ class SolverTest(SolidsTest):
 
     def test_names_of_sets_are_words_and_differ(self):
         names = b'{"1": "Liver, left", "2": "liver left", "4": "4th"}'
-        self.run_tool(self.map_of(voxels()), self.path("a.inp"), "--labels", "all", "--label-names",
+        self.run_command(self.map_of(voxels()), self.path("a.inp"), "--labels", "all", "--label-names",
                       self.write_bytes("words.json", names))
         heads = [head for head, _ in keywords_of(self.path("a.inp"))]
         elements = [re.search("ELSET=(.*)", head).group(1) for head in heads if "C3D4" in head]

@@ -9,8 +9,8 @@ import unittest
 
 import numpy as np
 
-from tool_test_case import (
-    CENTRE, ISO, ORIGIN, SIZE, SPACING, ToolTestCase, ball, dicom_slice, medical_files,
+from command_test_case import (
+    CENTRE, ISO, ORIGIN, SIZE, SPACING, CommandTestCase, ball, dicom_slice, medical_files,
     nrrd_header)
 from vtk_files import points_of, read
 
@@ -18,7 +18,7 @@ SFORM = np.column_stack((np.diag(SPACING), ORIGIN))
 MIDDLE = ORIGIN + SPACING * CENTRE
 
 
-class SpaceTest(ToolTestCase):
+class SpaceTest(CommandTestCase):
     def nifti(self, unit):
         content = bytearray(medical_files.nifti(ball(), SPACING, SFORM, offset=ORIGIN))
         content[123] = unit
@@ -32,7 +32,7 @@ class SpaceTest(ToolTestCase):
 
     def run_to(self, suffix, volume, *options, status=0):
         """The surface, what was said, and the report."""
-        process = self.run_tool(volume, self.path("a." + suffix), "--iso", ISO, "--levels", 1,
+        process = self.run_command(volume, self.path("a." + suffix), "--iso", ISO, "--levels", 1,
                                 "--report", self.path("r.json"), *options, status=status)
         return process.stderr, json.loads(self.content("r.json"))
 

@@ -11,15 +11,15 @@ import zlib
 import numpy as np
 from vtkmodules.vtkIOImage import vtkBMPWriter, vtkTIFFWriter
 
-from tool_test_case import (
-    ISO, META, SIZE, SPACING, ToolTestCase, ball, dicom_slice, make_image, nrrd_header)
+from command_test_case import (
+    ISO, META, SIZE, SPACING, CommandTestCase, ball, dicom_slice, make_image, nrrd_header)
 
 import medical_files
 
 ENTRY = struct.Struct("<HHII")
 
 
-class StructureTest(ToolTestCase):
+class StructureTest(CommandTestCase):
     ways = itertools.cycle(((), ("--memory", "200M")))  # read as a whole, and in parts
 
 
@@ -162,7 +162,7 @@ class TiffTest(StructureTest):
     def test_pages_in_a_folder(self):
         os.makedirs(self.path("folder"))
         self.write_bytes("folder/a.tif", self.content)
-        process = self.run_tool(self.path("folder"), self.path("out.stl"), status=1)
+        process = self.run_command(self.path("folder"), self.path("out.stl"), status=1)
         self.assertRegex(process.stderr, r"a\.tif: 18 pages; give it by its name")
 
 
@@ -177,10 +177,10 @@ class PicturesTest(StructureTest):
         head = b"P5\n# comment\n26 22\n255\n"
         self.pictures("pgm", [head + plane.tobytes() for plane in planes])
         iso = ("--iso", ISO / 5)
-        self.run_tool(self.path("pgm"), self.path("a.stl"), *iso)
+        self.run_command(self.path("pgm"), self.path("a.stl"), *iso)
         self.write_bytes("pgm/08.pgm", b"P5\n# a comment of another length\n26 22\n255\n"
                          + planes[8].tobytes())
-        self.run_tool(self.path("pgm"), self.path("b.stl"), *iso)
+        self.run_command(self.path("pgm"), self.path("b.stl"), *iso)
         self.assertEqual(self.content("a.stl"), self.content("b.stl"))
         for content, reason in ((head + b"\7" + planes[8].tobytes(), "too long"),
                                 (head.replace(b"26", b"2x") + planes[8].tobytes(), "damaged")):
@@ -191,7 +191,7 @@ class PicturesTest(StructureTest):
         for k, plane in enumerate(planes):
             os.makedirs(self.path("bmp"), exist_ok=True)
             self.write(vtkBMPWriter(), f"bmp/{k:02}.bmp", make_image(plane[np.newaxis]))
-        self.run_tool(self.path("bmp"), self.path("a.stl"), "--iso", ISO / 5, "--component", 0)
+        self.run_command(self.path("bmp"), self.path("a.stl"), "--iso", ISO / 5, "--component", 0)
         content = self.content("bmp/08.bmp")
         for place, form, value in ((28, "<H", 8), (10, "<I", 53), (22, "<i", 21), (2, "<I", 9)):
             damaged = bytearray(content)
@@ -298,12 +298,12 @@ class HeaderTest(StructureTest):
     def test_mrc_of_unsigned_numbers(self):
         """VTK's reader takes each for two."""
         self.write_bytes("a.mrc", medical_files.mrc(ball("u2") + 40000, SPACING, 6))
-        process = self.run_tool(self.path("a.mrc"), self.path("ok.stl"), "--iso", 40000 + ISO)
+        process = self.run_command(self.path("a.mrc"), self.path("ok.stl"), "--iso", 40000 + ISO)
         self.assertIn("unsigned short, 40000 to 40861", process.stderr)
 
     def test_mrc_whose_rows_are_along_another_axis(self):
         self.write_bytes("a.mrc", medical_files.mrc(ball(), SPACING, order=(3, 2, 1)))
-        self.run_tool(self.path("a.mrc"), "--write-volume", self.path("b.vti"))
+        self.run_command(self.path("a.mrc"), "--write-volume", self.path("b.vti"))
         self.assertIn(b'Direction="0 0 1 0 1 0 1 0 0"', self.content("b.vti"))
 
 
@@ -346,7 +346,7 @@ class NoFileTest(StructureTest):
         self.write_bytes("b.nhdr", nrrd_header("gzip") + b"data file: p.raw\n")
         for name in ("b.mhd", "b.nhdr"):
             with self.subTest(name):
-                process = self.run_tool(self.path(name), self.path("x.stl"), status=1)
+                process = self.run_command(self.path(name), self.path("x.stl"), status=1)
                 self.assertIn("p.raw: a pipe or a device", process.stderr)
         for option, name in (("--seeds", "list.txt"), ("--attracting-points", "list.txt"),
                              ("--initial-surface", "list.stl"), ("--seeds", "list.stl"),

@@ -13,7 +13,7 @@ import unittest
 
 import numpy as np
 from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
-from tool_test_case import PROGRAM, ToolTestCase, make_image
+from command_test_case import PROGRAM, CommandTestCase, make_image
 
 FAKE = os.environ["VOLUMIC_FAKE_PROCESSORS"]
 
@@ -31,7 +31,7 @@ def working_threads(process):
     return working
 
 
-class ThreadsTest(ToolTestCase):
+class ThreadsTest(CommandTestCase):
     def most_threads(self, *arguments, **environment):
         """At a time, during a run that must succeed."""
         command = [PROGRAM, *map(str, arguments)]

@@ -13,15 +13,15 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOImage import vtkPNGWriter, vtkTIFFWriter
 from vtkmodules.vtkIOXML import vtkXMLImageDataReader, vtkXMLImageDataWriter
 
-from tool_test_case import (
-    ISO, META, ORIGIN, SIZE, SPACING, ToolTestCase, ball, dicom_slice, make_image, nrrd_header)
+from command_test_case import (
+    ISO, META, ORIGIN, SIZE, SPACING, CommandTestCase, ball, dicom_slice, make_image, nrrd_header)
 
 import medical_files
 
 SFORM = np.column_stack([np.diag(SPACING), ORIGIN])
 
 
-class ToldTest(ToolTestCase):
+class ToldTest(CommandTestCase):
     def centre(self, volume, *options, iso=ISO):
         """Of the ball."""
         report = self.report(self.path(volume), "--iso", iso, "--quiet", *options)
@@ -29,7 +29,7 @@ class ToldTest(ToolTestCase):
 
     def warning(self, volume, *options, iso=ISO):
         """The one that there is; empty if there is none."""
-        said = self.run_tool(self.path(volume), self.path("a.vtp"), "--iso", iso, *options).stderr
+        said = self.run_command(self.path(volume), self.path("a.vtp"), "--iso", iso, *options).stderr
         return "".join(re.findall("volumic: warning: .*", said))
 
 
@@ -171,12 +171,12 @@ class TiffTest(ToldTest):
 class ValuesTest(ToldTest):
     def test_bytes_of_mrc(self):
         self.write_bytes("a.mrc", medical_files.mrc((ball() // 8 - 60).astype("i1"), SPACING, 0))
-        said = self.run_tool(self.path("a.mrc"), self.path("a.vtp"), "--iso", 2).stderr
+        said = self.run_command(self.path("a.mrc"), self.path("a.vtp"), "--iso", 2).stderr
         self.assertIn("signed char, -60 to 47", said)
         content = bytearray(medical_files.mrc((ball() // 8).astype("u1"), SPACING, 0))
         struct.pack_into("<II", content, 152, 1146047817, 0)
         self.write_bytes("b.mrc", bytes(content))
-        self.assertIn("unsigned char, 0 to 107", self.run_tool(
+        self.assertIn("unsigned char, 0 to 107", self.run_command(
             self.path("b.mrc"), self.path("a.vtp"), "--iso", 60).stderr)
         self.refused_bytes("c.mrc", medical_files.mrc(ball("u1"), SPACING, 101),
                            "mode 101, .* not read; write them as mode 2")
@@ -188,7 +188,7 @@ class ValuesTest(ToldTest):
         self.write_bytes("b.raw", voxels.astype(">f2").tobytes())
         np.save(self.path("c.npy"), voxels)
         for name, more in (("a.mrc", ()), ("b.raw", ("--raw", "26,22,18,float16,big")), ("c.npy", ())):
-            self.run_tool(self.path(name), *more, "--write-volume", self.path("a.vti"))
+            self.run_command(self.path(name), *more, "--write-volume", self.path("a.vti"))
             reader = vtkXMLImageDataReader()
             reader.SetFileName(self.path("a.vti"))
             reader.Update()
@@ -218,7 +218,7 @@ class ValuesTest(ToldTest):
         nan = float("nan")
         self.write_bytes("a.nii", medical_files.nifti(
             ball(), SPACING, SFORM, offset=ORIGIN, slope=nan, intercept=nan))
-        self.assertIn("short, 0 to 8", self.run_tool(
+        self.assertIn("short, 0 to 8", self.run_command(
             self.path("a.nii"), self.path("a.vtp"), "--iso", ISO).stderr)
 
     def test_padding_of_a_ct(self):
@@ -229,7 +229,7 @@ class ValuesTest(ToldTest):
         voxels += noise
         voxels[(x - 23.5) ** 2 + (y - 23.5) ** 2 > 576] = -3024
         self.write(vtkXMLImageDataWriter(), "a.vti", make_image(voxels.astype("i2"), (1, 1, 1)))
-        process = self.run_tool(self.path("a.vti"), self.path("a.vtp"), "--report", self.path("r"))
+        process = self.run_command(self.path("a.vti"), self.path("a.vtp"), "--report", self.path("r"))
         self.assertRegex(process.stderr, "iso-value -4.*, a guess by Otsu's .*voxels of -3024 are padding")
         report = json.loads(self.content("r"))
         self.assertLess(report["volume"], 4 / 3 * np.pi * 13 * 13 * 9, "it is the head")
@@ -237,7 +237,7 @@ class ValuesTest(ToldTest):
     def test_false_advice(self):
         self.write(vtkXMLImageDataWriter(), "flat.vti", make_image(np.full((12, 12, 12), 4, "u1")))
         for options in ((), ("--iso", 4), ("--iso", 5)):
-            said = self.run_tool(
+            said = self.run_command(
                 self.path("flat.vti"), self.path("a.vtp"), *options, status=1).stderr
             self.assertRegex(said, "no value (separates|parts)")
             self.assertNotIn("set it between", said)

@@ -4,13 +4,13 @@
 
 import unittest
 
-from tool_test_case import ISO, ToolTestCase
+from command_test_case import ISO, CommandTestCase
 from vtk_files import read
 
 
-class TrianglesTest(ToolTestCase):
+class TrianglesTest(CommandTestCase):
     def triangles(self, count, *options):
-        process = self.run_tool(self.ball_file(), self.path("a.vtp"), "--iso", ISO, "--triangles",
+        process = self.run_command(self.ball_file(), self.path("a.vtp"), "--iso", ISO, "--triangles",
                                 count, *options)
         return read(self.path("a.vtp")).GetNumberOfPolys(), process.stderr
 

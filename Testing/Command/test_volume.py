@@ -11,13 +11,13 @@ from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 
 from limited_files import largest_file
-from tool_test_case import (
-    ORIGIN, SIZE, SPACING, TURNED, ToolTestCase, ball, dicom_slice, make_image, nrrd_header)
+from command_test_case import (
+    ORIGIN, SIZE, SPACING, TURNED, CommandTestCase, ball, dicom_slice, make_image, nrrd_header)
 
 from vtk_files import read
 
 
-class WrittenVolumeTest(ToolTestCase):
+class WrittenVolumeTest(CommandTestCase):
     def nrrd(self):
         return self.write_bytes("a.nrrd",
                                 nrrd_header(direction=TURNED) + b"\n" + ball().tobytes())
@@ -26,7 +26,7 @@ class WrittenVolumeTest(ToolTestCase):
         """The volume that is written, and that nothing else is."""
         path = self.path("written.vti")
         before = set(os.listdir(self.folder))
-        process = self.run_tool(volume, "--write-volume", path, *options)
+        process = self.run_command(volume, "--write-volume", path, *options)
         self.assertNotIn("iso-value", process.stderr)
         self.assertEqual(set(os.listdir(self.folder)) - before, {"written.vti"})
         return read(path)
@@ -66,10 +66,10 @@ class WrittenVolumeTest(ToolTestCase):
         self.assertEqual((self.content("ball.vti"), self.content("old.vti")), (before, b"older"))
 
 
-class ResampledVolumeTest(ToolTestCase):
+class ResampledVolumeTest(CommandTestCase):
     def resampled(self, image, *options):
         path = self.path("resampled.vti")
-        process = self.run_tool(self.write(vtkXMLImageDataWriter(), "a.vti", image),
+        process = self.run_command(self.write(vtkXMLImageDataWriter(), "a.vti", image),
                                 "--write-volume", path, *options)
         self.assertIn("resampled from", process.stderr)
         return read(path)
@@ -113,7 +113,7 @@ class ResampledVolumeTest(ToolTestCase):
         image = make_image((100 - 10 * np.hypot(np.hypot(x - 15, y - 15), 4 * (z - 3))).astype("i2"))
         image.SetSpacing(1, 1, 4)
         volume = self.write(vtkXMLImageDataWriter(), "a.vti", image)
-        process = self.run_tool(
+        process = self.run_command(
             volume, self.path("a.vtp"), "--iso", "0", "--report", self.path("a.json"))
         self.assertIn("resampled from 30 x 30 x 7 voxels of 1 x 1 x 4: a surface needs 8 voxels",
                       process.stderr)
@@ -179,10 +179,10 @@ class RegionTest(WrittenVolumeTest):
                 self.refused(reason, volume, self.path("a.vtp"), *options, status=status)
 
 
-class ListFilesTest(ToolTestCase):
+class ListFilesTest(CommandTestCase):
     def files(self, volume):
         return {os.path.basename(line)
-                for line in self.run_tool(volume, "--list-files").stdout.splitlines()}
+                for line in self.run_command(volume, "--list-files").stdout.splitlines()}
 
     def test_a_header_names_its_data(self):
         header = nrrd_header() + b"data file: a.raw\n"
