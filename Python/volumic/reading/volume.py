@@ -1,0 +1,144 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Volume, which all readers return, the choices of the caller, and the checks of both."""
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+
+from volumic.errors import VolumeError
+
+METERS = {'m': 1., 'cm': 1e-2, 'mm': 1e-3, 'um': 1e-6, 'nm': 1e-9, 'A': 1e-10}
+
+_UNITS = {'metre': 'm', 'centimetre': 'cm', 'millimetre': 'mm', 'micrometre': 'um', 'micron': 'um',
+          'µm': 'um', 'μm': 'um', '\ufffdm': 'um', '\\u00b5m': 'um', 'nanometre': 'nm',
+          'angstrom': 'A', 'ångström': 'A', 'å': 'A'}
+
+
+def unit_of(name):
+    """Return our name ('m', 'cm', 'mm', 'um', 'nm', 'A') of a unit of length, '' if it is unknown."""
+    name = str(name or '').strip()
+    lower = name.lower().replace('meter', 'metre')
+    unit = _UNITS.get(lower) or _UNITS.get(lower.rstrip('s'), '')
+    return name if name in METERS else lower if lower in METERS else unit
+
+
+@dataclasses.dataclass
+class Label:
+    """A named label."""
+    value: int
+    name: str = ''
+    color: tuple | None = None  # r, g, b in 0..1
+    layer: int = 0              # component of the array that holds it
+
+
+@dataclasses.dataclass
+class Choice:
+    """Which part of a file is read, and how."""
+    series: object = None       # number or UID of a DICOM series
+    time: int | None = None     # number of the volume
+    component: int | None = None  # -1: all (their magnitude)
+    spacing: tuple | None = None  # replaces that of the file
+    raw: str | None = None      # the text of --raw
+    labels: bool = False        # values are labels: never interpolated
+    resampling: bool = True     # False: irregular grids are an error
+    array: str | None = None    # name of an array of .vti, .vtk
+    layers: bool = False        # overlapping masks become components; Label.layer names them
+    tell: object = None         # callable(str) for warnings
+    times: int = 1              # set by one_of_times(): how many volumes the file has
+
+
+@dataclasses.dataclass
+class Volume:
+    """Voxels and their positions: point(i, j, k) = origin + direction @ (spacing * (i, j, k))."""
+    array: np.ndarray           # [z, y, x] or [component, z, y, x]
+    spacing: tuple = (1., 1., 1.)  # x, y, z
+    origin: tuple = (0., 0., 0.)
+    direction: np.ndarray = dataclasses.field(default_factory=lambda: np.eye(3))
+    space: str = ''             # sides of the body the axes point to, such as 'RAS'; '' unknown
+    unit: str = ''              # a key of METERS; '' unknown
+    labels: list = dataclasses.field(default_factory=list)
+    warnings: list = dataclasses.field(default_factory=list)
+    components: str = ''        # '', 'vector', 'color', or what they are: one must be chosen
+    times: int = 1
+    resampling: str = ''        # how the file was made a regular grid; '' it is one
+    name: str = ''              # of the array
+    start: tuple = (0, 0, 0)    # index of the first voxel
+
+    @property
+    def names(self):
+        """Return {value: name} of the labels."""
+        return {label.value: label.name for label in self.labels if label.name}
+
+    def __iter__(self):
+        return iter((self.array, self.spacing, self.origin, self.direction, self.space, self.unit,
+                     self.names))
+
+    def scalars(self, component=None):
+        """Return the values [z, y, x] of a component; -1 or None: the magnitude of all.
+
+        None is an error where the components are no vector."""
+        count = 1 if self.array.ndim == 3 else len(self.array)
+        if component is not None and component >= count:
+            raise VolumeError('there is no component %d; the volume has %d: 0 to %d'
+                              % (component, count, count - 1))
+        if self.array.ndim == 3:
+            return self.array
+        if component is None and self.components not in ('', 'vector', 'color'):
+            raise VolumeError(
+                'the %d numbers of each voxel are no vector (%s); choose one with --component N, '
+                '0 to %d (-1: their magnitude)' % (count, self.components, count - 1))
+        if component is None or component < 0:
+            return np.sqrt(sum(np.square(part, dtype=np.float64) for part in self.array))
+        return self.array[component]
+
+
+def checked(volume, choice):
+    """Return the volume with native numbers and the chosen component.
+
+    Throw VolumeError if its sizes or positions are not those of a volume."""
+    array = volume.array
+    if array.dtype.kind == 'c':
+        array = np.stack([array.real, array.imag])
+        volume.components = 'complex'
+    if array.ndim not in (3, 4) or not all(array.shape):
+        raise VolumeError('the sizes %s are not those of a volume' % text_of(array.shape))
+    if array.dtype.kind not in 'uifb':
+        raise VolumeError('voxels of type %s cannot be read' % array.dtype)
+    if array.ndim == 4 and len(array) == 1:
+        array = array[0]
+    volume.array = array
+    if array.ndim == 4 and choice.component is not None and choice.component >= 0:
+        volume.array = array = volume.scalars(choice.component)
+        volume.components = ''
+    size = array.dtype.itemsize
+    kind = {('b', 1): 'u1', ('f', 2): 'f4'}.get((array.dtype.kind, size), array.dtype.kind + str(min(size, 8)))
+    if array.dtype != np.dtype(kind):  # also of another byte order
+        volume.array = array.view(kind) if kind == 'u1' else array.astype(kind)
+    volume.spacing = tuple(float(s) for s in (choice.spacing or volume.spacing))
+    volume.origin = tuple(float(c) for c in volume.origin)
+    volume.direction = np.asarray(volume.direction, float)
+    check_positions(volume)
+    return volume
+
+
+def check_positions(volume):
+    """Throw VolumeError unless doubles can represent the positions of all voxels."""
+    if not (np.isfinite(volume.spacing).all() and min(volume.spacing) > 0
+            and np.isfinite(volume.direction).all()):
+        raise VolumeError('the spacing %s is not positive and finite; give --spacing X,Y,Z'
+                          % text_of(volume.spacing))
+    if not np.isfinite(volume.origin).all():
+        raise VolumeError('the origin %s is not finite; correct the header' % text_of(volume.origin))
+    sizes = np.array(volume.array.shape[:-4:-1])
+    far = np.abs(volume.origin) + np.abs(volume.direction) @ (np.array(volume.spacing) * sizes)
+    if not np.isfinite(far).all() or np.spacing(far.max()) > 1e-3 * min(volume.spacing):
+        raise VolumeError('the origin %s is too far away for a spacing of %g: neighboring voxels '
+                          'have equal coordinates; correct the header'
+                          % (text_of(volume.origin), min(volume.spacing)))
+
+
+def text_of(numbers, separator=' x '):
+    """Return numbers as text: '3 x 4 x 5'."""
+    return separator.join('%.15g' % n for n in numbers)
