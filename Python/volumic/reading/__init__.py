@@ -3,7 +3,7 @@
 """Readers of volumes. read() returns one Volume or throws one VolumeError of one line."""
 from __future__ import annotations
 
-from volumic.errors import VolumeError
-from volumic.reading.volume import Choice, Label, Volume, checked, unit_of
+from ..errors import VolumeError
+from .volume import Choice, Label, Volume, checked, unit_of
 
-__all__ = ['Choice', 'Label', 'Volume', 'VolumeError', 'checked', 'unit_of']
+__all__ = ["Choice", "Label", "Volume", "VolumeError", "checked", "unit_of"]

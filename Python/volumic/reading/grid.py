@@ -11,8 +11,8 @@ import zlib
 
 import numpy as np
 
-from volumic.errors import VolumeError
-from volumic.reading.volume import Volume, text_of
+from ..errors import VolumeError
+from .volume import Volume, text_of
 
 
 def placed(array, steps, origin, space, unit, choice, **more):
@@ -23,22 +23,22 @@ def placed(array, steps, origin, space, unit, choice, **more):
     for axis in range(3):
         if not (np.isfinite(steps[:, axis]).all() and np.abs(steps[:, axis]).max() > 0):
             if not choice.spacing:
-                raise VolumeError('the distance of the voxels along axis %d is not positive and '
-                                  'finite; give --spacing X,Y,Z' % axis)
+                raise VolumeError("the distance of the voxels along axis %d is not positive and "
+                                  "finite; give --spacing X,Y,Z" % axis)
             steps[:, axis] = np.eye(3)[axis]
     spacing = np.sqrt((steps ** 2).sum(0))
     axes = steps / spacing
     products = [abs(axes[:, a] @ axes[:, (a + 1) % 3]) for a in range(3)]
     if max(products) > 1e-3:
         if abs(np.linalg.det(axes)) < .1 or array.shape[-3] < 2:
-            raise VolumeError('the axes of the voxels are not at right angles; correct the header')
+            raise VolumeError("the axes of the voxels are not at right angles; correct the header")
         if not np.isfinite(origin).all():
-            raise VolumeError('the origin %s is not finite; correct the header' % text_of(origin))
+            raise VolumeError("the origin %s is not finite; correct the header" % text_of(origin))
         positions = origin + np.arange(array.shape[-3])[:, None] * steps[:, 2]
-        why = ('its axes are up to %.3g degrees from right angles'
+        why = ("its axes are up to %.3g degrees from right angles"
                % np.degrees(np.arcsin(min(1, max(products)))))
         volume = on_regular_grid(array, positions, axes[:, 0], axes[:, 1], spacing[:2], choice, why)
-        more['warnings'] = volume.warnings + more.get('warnings', [])
+        more["warnings"] = volume.warnings + more.get("warnings", [])
         return dataclasses.replace(volume, space=space, unit=unit, **more)
     return Volume(array, tuple(spacing), tuple(origin), axes, space, unit, **more)
 
@@ -50,7 +50,7 @@ def on_regular_grid(array, positions, across, down, spacing, choice, why, outsid
     Values are interpolated linearly; labels are those of the nearest voxel. outside: value
     where there is no slice (default: the least value; 0 for labels)."""
     if not choice.resampling:
-        raise VolumeError(why + '; without --no-resampling they are resampled')
+        raise VolumeError(why + "; without --no-resampling they are resampled")
     positions, pitch = np.asarray(positions, float), np.array(spacing, float)
     lean = across @ down
     lean = lean if abs(lean) > 1e-3 else 0.
@@ -60,7 +60,7 @@ def on_regular_grid(array, positions, across, down, spacing, choice, why, outsid
     normal *= np.sign(normal @ (positions[-1] - positions[0])) or 1
     heights = (positions - positions[0]) @ normal
     if not (np.diff(heights) > 0).all():
-        raise VolumeError('its slices do not follow each other')
+        raise VolumeError("its slices do not follow each other")
     lean *= pitch[1] / pitch[0]
     pitch[1] *= upright
     gaps = np.diff(heights)
@@ -72,9 +72,9 @@ def on_regular_grid(array, positions, across, down, spacing, choice, why, outsid
     size = np.array(array.shape[:-4:-1], float)
     times = (size[0] + wider[0]) * (size[1] + wider[1]) * (count + 1) / size.prod()
     if not times < 16:
-        raise VolumeError('%s; the regular grid that contains its slices, which are %.4g to %.4g '
-                          'apart, would have %.0f times as many voxels; take out the slices that '
-                          'are too near to others, or too far from them'
+        raise VolumeError("%s; the regular grid that contains its slices, which are %.4g to %.4g "
+                          "apart, would have %.0f times as many voxels; take out the slices that "
+                          "are too near to others, or too far from them"
                           % (why, gaps.min(), gaps.max(), times))
     shape = (int(count) + 1, array.shape[-2] + int(wider[1]), array.shape[-1] + int(wider[0]))
     if outside is None:
@@ -83,7 +83,7 @@ def on_regular_grid(array, positions, across, down, spacing, choice, why, outsid
     result = np.empty(array.shape[:-3] + shape, array.dtype)
     heights_of_grid = heights[-1] * np.arange(shape[0]) / count
     for z, height in enumerate(heights_of_grid):
-        upper = int(np.clip(np.searchsorted(heights, height, 'right'), 1, len(heights) - 1))
+        upper = int(np.clip(np.searchsorted(heights, height, "right"), 1, len(heights) - 1))
         share = (height - heights[upper - 1]) / gaps[upper - 1]
         near = .5 if choice.labels else 1e-3
         share = 0. if share < near else 1. if share > 1 - near else share
@@ -93,12 +93,12 @@ def on_regular_grid(array, positions, across, down, spacing, choice, why, outsid
                 part, there = _slice_on(shape[1:], array[..., number, :, :],
                                         before - shifts[number], lean, choice.labels)
                 values, inside = values + weight * part, inside & there
-        if array.dtype.kind in 'ui':
+        if array.dtype.kind in "ui":
             values = np.trunc(values + np.copysign(.5, values))
         result[..., z, :, :] = np.where(inside, values, outside)
     pitch = (pitch[0], pitch[1], heights[-1] / count)
     origin = positions[0] + across * pitch[0] * before[0] + down * pitch[1] * before[1]
-    text = ('%s; resampled from %s to %s voxels of %s'
+    text = ("%s; resampled from %s to %s voxels of %s"
             % (why, text_of(size), text_of(shape[::-1]), text_of(np.round(pitch, 3))))
     return Volume(result, pitch, tuple(origin), np.stack([across, down, normal], 1),
                   warnings=[text], resampling=text)
@@ -116,27 +116,27 @@ def _slice_on(shape, pixels, shift, lean, are_labels):
     last = np.array(pixels.shape[-2:])[:, None, None] - 1
     inside = ((places >= -margin) & (places <= last + margin)).all(0)
     values = [ndimage.map_coordinates(plane.astype(float), places, order=0 if are_labels else 1,
-                                      mode='nearest')  # 'constant' excludes 1e-13 beyond the end
+                                      mode="nearest")  # 'constant' excludes 1e-13 beyond the end
               for plane in pixels.reshape(-1, *pixels.shape[-2:])]
     return np.stack(values).reshape(pixels.shape[:-2] + tuple(shape)), inside
 
 
-def one_of_times(count, choice, what='volumes, one behind the other (times, phases, or masks)'):
+def one_of_times(count, choice, what="volumes, one behind the other (times, phases, or masks)"):
     """Return the index of the chosen one of `count` volumes, and store the count in `choice`."""
     choice.times = count
-    last = ', but 0 to %d' % (count - 1) if count > 1 else ', but one volume'
+    last = ", but 0 to %d" % (count - 1) if count > 1 else ", but one volume"
     if choice.time is None and count > 1 and not choice.labels:
-        raise VolumeError('%d %s; choose one with --time N, 0 to %d' % (count, what, count - 1))
+        raise VolumeError("%d %s; choose one with --time N, 0 to %d" % (count, what, count - 1))
     if not 0 <= (choice.time or 0) < count:
-        raise VolumeError('there is no time %d (--time)%s' % (choice.time, last))
+        raise VolumeError("there is no time %d (--time)%s" % (choice.time, last))
     return choice.time or 0
 
 
-def need_bytes(have, need, name=''):
+def need_bytes(have, need, name=""):
     """Throw VolumeError if a file is shorter than its header says: the check of all formats."""
     if have < need:
-        raise VolumeError('%sthe file is cut off: the header requires %d bytes of voxels, the file '
-                          'has %d; copy it again' % (name and name + ': ', need, max(have, 0)))
+        raise VolumeError("%sthe file is cut off: the header requires %d bytes of voxels, the file "
+                          "has %d; copy it again" % (name and name + ": ", need, max(have, 0)))
 
 
 def voxels(file, offset, dtype, count, packing=None):
@@ -144,8 +144,8 @@ def voxels(file, offset, dtype, count, packing=None):
     dtype, count = np.dtype(dtype), int(count)
     if not packing:
         need_bytes(os.path.getsize(file) - offset, count * dtype.itemsize)
-        return np.memmap(file, dtype, 'r', int(offset), (count,))
-    with open(file, 'rb') as stream:
+        return np.memmap(file, dtype, "r", int(offset), (count,))
+    with open(file, "rb") as stream:
         stream.seek(offset)
         return unpacked(stream, packing, dtype, count)
 
@@ -153,21 +153,21 @@ def voxels(file, offset, dtype, count, packing=None):
 def unpacked(stream, packing, dtype, count, skip=0):
     """Return `count` values of a packed stream, behind `skip` bytes; checksums are compared."""
     try:
-        if packing == 'zlib':
+        if packing == "zlib":
             return _from_zlib(stream, np.dtype(dtype), int(count))
-        with (bz2.open if packing == 'bz2' else gzip.open)(stream) as plain:
+        with (bz2.open if packing == "bz2" else gzip.open)(stream) as plain:
             while skip:
                 got = len(plain.read(min(skip, 1 << 20)))
                 need_bytes(got, 1)
                 skip -= got
             return from_stream(plain, dtype, count)
     except EOFError:
-        raise VolumeError('the file is cut off: its packed data end too early; copy it '
-                          'again') from None
+        raise VolumeError("the file is cut off: its packed data end too early; copy it "
+                          "again") from None
     except (OSError, zlib.error) as error:
-        if getattr(error, 'errno', None):
+        if getattr(error, "errno", None):
             raise
-        raise VolumeError('the packed data are damaged (%s); copy it again' % error) from None
+        raise VolumeError("the packed data are damaged (%s); copy it again" % error) from None
 
 
 def _from_zlib(stream, dtype, count):
@@ -192,7 +192,7 @@ def _from_zlib(stream, dtype, count):
 def _room(dtype, count):
     """Return an array for values, and 0."""
     if count * dtype.itemsize > 1 << 42:
-        raise VolumeError('its header is damaged: it requires %d bytes of voxels'
+        raise VolumeError("its header is damaged: it requires %d bytes of voxels"
                           % (count * dtype.itemsize))
     return np.empty(count, dtype), 0
 

@@ -7,20 +7,20 @@ import dataclasses
 
 import numpy as np
 
-from volumic.errors import VolumeError
+from ..errors import Failure, VolumeError
 
-METERS = {'m': 1., 'cm': 1e-2, 'mm': 1e-3, 'um': 1e-6, 'nm': 1e-9, 'A': 1e-10}
+METERS = {"m": 1., "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "nm": 1e-9, "A": 1e-10}
 
-_UNITS = {'metre': 'm', 'centimetre': 'cm', 'millimetre': 'mm', 'micrometre': 'um', 'micron': 'um',
-          'µm': 'um', 'μm': 'um', '\ufffdm': 'um', '\\u00b5m': 'um', 'nanometre': 'nm',
-          'angstrom': 'A', 'ångström': 'A', 'å': 'A'}
+_UNITS = {"metre": "m", "centimetre": "cm", "millimetre": "mm", "micrometre": "um", "micron": "um",
+          "µm": "um", "μm": "um", "\ufffdm": "um", "\\u00b5m": "um", "nanometre": "nm",
+          "angstrom": "A", "ångström": "A", "å": "A"}
 
 
 def unit_of(name):
     """Return our name ('m', 'cm', 'mm', 'um', 'nm', 'A') of a unit of length, '' if it is unknown."""
-    name = str(name or '').strip()
-    lower = name.lower().replace('meter', 'metre')
-    unit = _UNITS.get(lower) or _UNITS.get(lower.rstrip('s'), '')
+    name = str(name or "").strip()
+    lower = name.lower().replace("meter", "metre")
+    unit = _UNITS.get(lower) or _UNITS.get(lower.rstrip("s"), "")
     return name if name in METERS else lower if lower in METERS else unit
 
 
@@ -28,7 +28,7 @@ def unit_of(name):
 class Label:
     """A named label."""
     value: int
-    name: str = ''
+    name: str = ""
     color: tuple | None = None  # r, g, b in 0..1
     layer: int = 0              # component of the array that holds it
 
@@ -56,14 +56,14 @@ class Volume:
     spacing: tuple = (1., 1., 1.)  # x, y, z
     origin: tuple = (0., 0., 0.)
     direction: np.ndarray = dataclasses.field(default_factory=lambda: np.eye(3))
-    space: str = ''             # sides of the body the axes point to, such as 'RAS'; '' unknown
-    unit: str = ''              # a key of METERS; '' unknown
+    space: str = ""             # sides of the body the axes point to, such as 'RAS'; '' unknown
+    unit: str = ""              # a key of METERS; '' unknown
     labels: list = dataclasses.field(default_factory=list)
     warnings: list = dataclasses.field(default_factory=list)
-    components: str = ''        # '', 'vector', 'color', or what they are: one must be chosen
+    components: str = ""        # '', 'vector', 'color', or what they are: one must be chosen
     times: int = 1
-    resampling: str = ''        # how the file was made a regular grid; '' it is one
-    name: str = ''              # of the array
+    resampling: str = ""        # how the file was made a regular grid; '' it is one
+    name: str = ""              # of the array
     start: tuple = (0, 0, 0)    # index of the first voxel
 
     @property
@@ -81,14 +81,14 @@ class Volume:
         None is an error where the components are no vector."""
         count = 1 if self.array.ndim == 3 else len(self.array)
         if component is not None and component >= count:
-            raise VolumeError('there is no component %d; the volume has %d: 0 to %d'
+            raise VolumeError("there is no component %d; the volume has %d: 0 to %d"
                               % (component, count, count - 1))
         if self.array.ndim == 3:
             return self.array
-        if component is None and self.components not in ('', 'vector', 'color'):
+        if component is None and self.components not in ("", "vector", "color"):
             raise VolumeError(
-                'the %d numbers of each voxel are no vector (%s); choose one with --component N, '
-                '0 to %d (-1: their magnitude)' % (count, self.components, count - 1))
+                "the %d numbers of each voxel are no vector (%s); choose one with --component N, "
+                "0 to %d (-1: their magnitude)" % (count, self.components, count - 1))
         if component is None or component < 0:
             return np.sqrt(sum(np.square(part, dtype=np.float64) for part in self.array))
         return self.array[component]
@@ -99,23 +99,23 @@ def checked(volume, choice):
 
     Throw VolumeError if its sizes or positions are not those of a volume."""
     array = volume.array
-    if array.dtype.kind == 'c':
+    if array.dtype.kind == "c":
         array = np.stack([array.real, array.imag])
-        volume.components = 'complex'
+        volume.components = "complex"
     if array.ndim not in (3, 4) or not all(array.shape):
-        raise VolumeError('the sizes %s are not those of a volume' % text_of(array.shape))
-    if array.dtype.kind not in 'uifb':
-        raise VolumeError('voxels of type %s cannot be read' % array.dtype)
+        raise VolumeError("the sizes %s are not those of a volume" % text_of(array.shape))
+    if array.dtype.kind not in "uifb":
+        raise VolumeError("voxels of type %s cannot be read" % array.dtype)
     if array.ndim == 4 and len(array) == 1:
         array = array[0]
     volume.array = array
     if array.ndim == 4 and choice.component is not None and choice.component >= 0:
         volume.array = array = volume.scalars(choice.component)
-        volume.components = ''
+        volume.components = ""
     size = array.dtype.itemsize
-    kind = {('b', 1): 'u1', ('f', 2): 'f4'}.get((array.dtype.kind, size), array.dtype.kind + str(min(size, 8)))
+    kind = {("b", 1): "u1", ("f", 2): "f4"}.get((array.dtype.kind, size), array.dtype.kind + str(min(size, 8)))
     if array.dtype != np.dtype(kind):  # also of another byte order
-        volume.array = array.view(kind) if kind == 'u1' else array.astype(kind)
+        volume.array = array.view(kind) if kind == "u1" else array.astype(kind)
     volume.spacing = tuple(float(s) for s in (choice.spacing or volume.spacing))
     volume.origin = tuple(float(c) for c in volume.origin)
     volume.direction = np.asarray(volume.direction, float)
@@ -127,18 +127,36 @@ def check_positions(volume):
     """Throw VolumeError unless doubles can represent the positions of all voxels."""
     if not (np.isfinite(volume.spacing).all() and min(volume.spacing) > 0
             and np.isfinite(volume.direction).all()):
-        raise VolumeError('the spacing %s is not positive and finite; give --spacing X,Y,Z'
+        raise VolumeError("the spacing %s is not positive and finite; give --spacing X,Y,Z"
                           % text_of(volume.spacing))
     if not np.isfinite(volume.origin).all():
-        raise VolumeError('the origin %s is not finite; correct the header' % text_of(volume.origin))
+        raise VolumeError("the origin %s is not finite; correct the header" % text_of(volume.origin))
     sizes = np.array(volume.array.shape[:-4:-1])
     far = np.abs(volume.origin) + np.abs(volume.direction) @ (np.array(volume.spacing) * sizes)
     if not np.isfinite(far).all() or np.spacing(far.max()) > 1e-3 * min(volume.spacing):
-        raise VolumeError('the origin %s is too far away for a spacing of %g: neighboring voxels '
-                          'have equal coordinates; correct the header'
+        raise VolumeError("the origin %s is too far away for a spacing of %g: neighboring voxels "
+                          "have equal coordinates; correct the header"
                           % (text_of(volume.origin), min(volume.spacing)))
 
 
-def text_of(numbers, separator=' x '):
+def failure_of(error):
+    """Return the VolumeError of one line for any exception of a library."""
+    if isinstance(error, VolumeError):
+        return error
+    text = " ".join(str(error).split())[:300] or type(error).__name__
+    if isinstance(error, MemoryError):
+        text = "not enough memory to read it; crop it, or resample it to fewer voxels"
+    elif isinstance(error, ImportError) and error.name:
+        module = error.name.split(".")[0]
+        package = {"PIL": "python3-pil", "vtkmodules": "python3-vtk9"}.get(module, "python3-" + module)
+        text = "install the Python package %s to read this format (Debian: %s)" % (module, package)
+    elif isinstance(error, OSError) and error.strerror:
+        text = error.strerror + (": " + str(error.filename) if error.filename else "")
+    elif not isinstance(error, Failure):
+        text = "cannot be read: " + text
+    return VolumeError(text)
+
+
+def text_of(numbers, separator=" x "):
     """Return numbers as text: '3 x 4 x 5'."""
-    return separator.join('%.15g' % n for n in numbers)
+    return separator.join("%.15g" % n for n in numbers)
