@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 
 # Debian packages, made by `cpack` in the build tree:
-#   with VTK       volumic (program and library), volumic-dev, python3-volumic
+#   with VTK       volumic (command, Python package and library), volumic-dev
 #   with ParaView  paraview-volumic (plugin, its library and Python package)
 # The headers and CMake files for ParaView's VTK are in no package: they would be where those of
 # volumic-dev are.
@@ -88,42 +88,55 @@ math(EXPR volumic_next_python "${Python3_VERSION_MINOR} + 1")
 set(volumic_python_dependency
   "python3 (>= 3.${Python3_VERSION_MINOR}~), python3 (<< 3.${volumic_next_python})")
 
+# Which are imported as a file is read or written that needs them; tetgen and gmsh are programs.
+set(volumic_python_recommends "python3-scipy, python3-nibabel, python3-pydicom, python3-gdcm"
+  "python3-tifffile, python3-mrcfile, python3-zarr, python3-h5py, python3-meshio, python3-pil")
+list(JOIN volumic_python_recommends ", " volumic_python_recommends)
+
+# One package of all that is not for development.
+set(CPACK_COMPONENTS_GROUPING ONE_PER_GROUP)
+set(CPACK_COMPONENTS_ALL runtime)
+set(control ${volumic_library_control})
+if (VOLUMIC_WRAP_PYTHON)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+  list(APPEND control ${volumic_python_control})
+endif ()
 if (VOLUMIC_BUILD_PARAVIEW_PLUGIN)
-  # One package of all that is not for development.
-  set(CPACK_COMPONENTS_ALL runtime plugin)
-  if (VOLUMIC_WRAP_PYTHON)
-    list(APPEND CPACK_COMPONENTS_ALL python)
-    set(CPACK_DEBIAN_PLUGIN_PACKAGE_RECOMMENDS "python3-paraview")
-    volumic_add_control_files(plugin paraview-volumic ${volumic_python_control})
-  endif ()
-  set(CPACK_COMPONENTS_GROUPING ONE_PER_GROUP)
-  foreach (component IN LISTS CPACK_COMPONENTS_ALL)
-    string(TOUPPER "${component}" upper)
-    set("CPACK_COMPONENT_${upper}_GROUP" plugin)
-  endforeach ()
+  list(APPEND CPACK_COMPONENTS_ALL plugin)
+  set(group plugin)
+  set(CPACK_DEBIAN_PLUGIN_PACKAGE_RECOMMENDS
+    "python3-paraview, python3-numpy, ${volumic_python_recommends}")
   list(APPEND CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${VOLUMIC_PLUGIN_DIR}")
-  volumic_add_control_files(plugin paraview-volumic ${volumic_library_control})
+  volumic_add_control_files(plugin paraview-volumic ${control})
   volumic_describe_package(plugin paraview-volumic science
     "trustworthy surfaces from 3D images, plugin for ParaView")
 else ()
-  set(CPACK_COMPONENTS_ALL runtime development)
-  volumic_add_control_files(runtime volumic ${volumic_library_control})
+  set(group runtime)
+  if (VOLUMIC_WRAP_PYTHON)
+    set(CPACK_DEBIAN_RUNTIME_PACKAGE_DEPENDS
+      "python3-vtk9, python3-numpy, ${volumic_python_dependency}")
+    set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS "${volumic_python_recommends}")
+    set(CPACK_DEBIAN_RUNTIME_PACKAGE_SUGGESTS "tetgen, gmsh, draco, python3-distributed")
+    # The Python package had a package of its own.
+    foreach (field IN ITEMS PROVIDES CONFLICTS REPLACES)
+      set("CPACK_DEBIAN_RUNTIME_PACKAGE_${field}" python3-volumic)
+    endforeach ()
+  endif ()
+  volumic_add_control_files(runtime volumic ${control})
   volumic_describe_package(runtime volumic science
-    "trustworthy surfaces from 3D images, program and library")
+    "trustworthy surfaces from 3D images, command and Python package")
   volumic_describe_package(development volumic-dev libdevel
     "trustworthy surfaces from 3D images, development files")
   set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
     "volumic (= ${volumic_debian_version}), libvtk9-dev (>= 9.1)")
-  if (VOLUMIC_WRAP_PYTHON)
-    list(APPEND CPACK_COMPONENTS_ALL python)
-    volumic_describe_package(python python3-volumic python
-      "trustworthy surfaces from 3D images, Python package")
-    set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
-      "volumic (= ${volumic_debian_version}), python3-vtk9, ${volumic_python_dependency}")
-    set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-numpy")
-    set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "draco, python3-distributed, python3-zarr")
-    volumic_add_control_files(python python3-volumic ${volumic_python_control})
-  endif ()
+endif ()
+foreach (component IN LISTS CPACK_COMPONENTS_ALL)
+  string(TOUPPER "${component}" upper)
+  set("CPACK_COMPONENT_${upper}_GROUP" "${group}")
+endforeach ()
+if (NOT VOLUMIC_BUILD_PARAVIEW_PLUGIN)
+  list(APPEND CPACK_COMPONENTS_ALL development)
+  set(CPACK_COMPONENT_DEVELOPMENT_GROUP development)
 endif ()
 
 include(CPack)

@@ -11,17 +11,10 @@ option(VOLUMIC_BUILD_EXAMPLES "Build the C++ examples" OFF)
 option(VOLUMIC_BUILD_BENCHMARKS "Build the benchmarks" OFF)
 option(VOLUMIC_EXTRA_WARNINGS "For developers: let the compiler warn of more than it does by default" OFF)
 
-set(volumic_builds_with_vtk ON)
-if (VOLUMIC_BUILD_PARAVIEW_PLUGIN)
-  set(volumic_builds_with_vtk OFF)
-endif ()
-option(VOLUMIC_BUILD_TOOL "Build and install the program `volumic`" "${volumic_builds_with_vtk}")
-option(VOLUMIC_USE_MPI "Have `mpirun volumic` work where VTK has MPI" ON)
-
 # Debian's VTK works with Debian's interpreter only, which need not be the first on PATH:
 # -DPython3_EXECUTABLE=/usr/bin/python3 chooses it.
 find_package(Python3 QUIET COMPONENTS Interpreter Development.Module)
-option(VOLUMIC_WRAP_PYTHON "Build the Python package `volumic`" "${Python3_FOUND}")
+option(VOLUMIC_WRAP_PYTHON "Build the Python package and the command `volumic`" "${Python3_FOUND}")
 
 # The Python wrappers can't be linked to static libraries.
 option(BUILD_SHARED_LIBS "Build shared libraries" ON)

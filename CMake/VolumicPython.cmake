@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
-# The Python package `volumic`: VTK's wrapper of the module, an __init__.py that finds it, and type
-# stubs for editors.
+# The Python package `volumic`: VTK's wrapper of the module, the sources of Python/volumic, and type
+# stubs for editors. Without ParaView also the command `volumic`, a script that starts the package.
 
 find_package(Python3 REQUIRED COMPONENTS Interpreter Development.Module)
 
@@ -22,8 +22,11 @@ set(VOLUMIC_PYTHON_DESTINATION "${volumic_python_default}" CACHE STRING
   "Where the Python package goes, below the installation prefix")
 mark_as_advanced(VOLUMIC_PYTHON_DESTINATION)
 
-# vtk_module_wrap_python puts the wrappers below CMAKE_BINARY_DIR, where __init__.py joins them.
+# vtk_module_wrap_python puts the wrappers below CMAKE_BINARY_DIR, where the sources join them: the
+# package and the command work in the build tree, too.
+set(volumic_python_sources "${CMAKE_SOURCE_DIR}/Python/volumic")
 set(volumic_python_build_directory "${CMAKE_BINARY_DIR}/${VOLUMIC_PYTHON_DESTINATION}")
+set(volumic_python_package "${volumic_python_build_directory}/volumic")
 
 function (volumic_wrap_python)
   # From <python>/volumic up to the prefix, and down to the library.
@@ -51,17 +54,32 @@ else ()
     set(volumic_python_hint "Use the Python of that VTK.")
   endif ()
 endif ()
-configure_file("${CMAKE_CURRENT_LIST_DIR}/volumic/__init__.py.in"
-  "${volumic_python_build_directory}/volumic/__init__.py" @ONLY)
-set(volumic_python_files "${volumic_python_build_directory}/volumic/__init__.py")
-foreach (file IN ITEMS arrays.py neuroglancer.py ome_zarr.py tasks.py)
-  configure_file("${CMAKE_CURRENT_LIST_DIR}/volumic/${file}"
-    "${volumic_python_build_directory}/volumic/${file}" COPYONLY)
-  list(APPEND volumic_python_files "${volumic_python_build_directory}/volumic/${file}")
-endforeach ()
-install(FILES ${volumic_python_files}
+configure_file("${volumic_python_sources}/__init__.py.in" "${volumic_python_package}/__init__.py"
+  @ONLY)
+install(FILES "${volumic_python_package}/__init__.py"
   DESTINATION "${VOLUMIC_PYTHON_DESTINATION}/volumic"
   COMPONENT python)
+file(GLOB_RECURSE volumic_python_files RELATIVE "${volumic_python_sources}" CONFIGURE_DEPENDS
+  "${volumic_python_sources}/*.py")
+foreach (file IN LISTS volumic_python_files)
+  configure_file("${volumic_python_sources}/${file}" "${volumic_python_package}/${file}" COPYONLY)
+endforeach ()
+install(DIRECTORY "${volumic_python_sources}/"
+  DESTINATION "${VOLUMIC_PYTHON_DESTINATION}/volumic"
+  COMPONENT python
+  FILES_MATCHING PATTERN "*.py"
+  PATTERN __pycache__ EXCLUDE)
+
+# A wheel's command is made by pip (pyproject.toml); a plugin for ParaView has none.
+if (NOT SKBUILD AND NOT VOLUMIC_BUILD_PARAVIEW_PLUGIN)
+  file(RELATIVE_PATH volumic_command_to_package
+    "/prefix/${CMAKE_INSTALL_BINDIR}" "/prefix/${VOLUMIC_PYTHON_DESTINATION}")
+  configure_file("${CMAKE_CURRENT_LIST_DIR}/volumic.in"
+    "${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/volumic" @ONLY)
+  install(PROGRAMS "${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/volumic"
+    DESTINATION "${CMAKE_INSTALL_BINDIR}"
+    COMPONENT python)
+endif ()
 
 # The stubs are written by the built package itself, which must find VTK's Python package for that:
 # without the module `site` (-S), by which pip hides the system's packages while it builds.
@@ -88,19 +106,17 @@ endif ()
 if (volumic_stubs_obstacle)
   message(STATUS "No type stubs of the Python package: ${volumic_stubs_obstacle}")
 else ()
-  set(volumic_stubs "${volumic_python_build_directory}/volumic/vtkFiltersVolumic.pyi"
-    "${volumic_python_build_directory}/volumic/__init__.pyi"
-    "${volumic_python_build_directory}/volumic/py.typed")
+  set(volumic_stubs "${volumic_python_package}/vtkFiltersVolumic.pyi"
+    "${volumic_python_package}/__init__.pyi" "${volumic_python_package}/py.typed")
   set(volumic_wrapper vtkFiltersVolumicPython)
   if (TARGET "Py${volumic_wrapper}") # from VTK 9.7 on
     string(PREPEND volumic_wrapper "Py")
   endif ()
-  set(volumic_stubs_script "${CMAKE_CURRENT_LIST_DIR}/volumic/write_stubs.py")
+  set(volumic_stubs_script "${CMAKE_CURRENT_LIST_DIR}/write_stubs.py")
   add_custom_command(OUTPUT ${volumic_stubs}
-    COMMAND ${volumic_stubs_command} "${volumic_stubs_script}"
-      "${volumic_python_build_directory}/volumic"
+    COMMAND ${volumic_stubs_command} "${volumic_stubs_script}" "${volumic_python_package}"
     DEPENDS "${volumic_stubs_script}" "${volumic_wrapper}"
-      "${CMAKE_CURRENT_LIST_DIR}/volumic/__init__.py.in"
+      "${volumic_python_sources}/__init__.py.in"
     COMMENT "Writing the type stubs of the Python package"
     VERBATIM)
   add_custom_target(VolumicPythonStubs ALL DEPENDS ${volumic_stubs})

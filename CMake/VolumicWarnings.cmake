@@ -44,7 +44,7 @@ volumic_add_warnings(
   TARGETS VolumicCore
   WARNINGS ${volumic_warnings} ${volumic_conversion_warnings})
 volumic_add_warnings(
-  TARGETS Volumic::FiltersVolumic Volumic::ServerManagerVolumic volumic BuildPyramid Volumic
+  TARGETS Volumic::FiltersVolumic Volumic::ServerManagerVolumic BuildPyramid Volumic
   WARNINGS ${volumic_vtk_warnings} ${volumic_conversion_warnings})
 volumic_add_warnings(
   TARGETS TestCore VolumicTestSupport

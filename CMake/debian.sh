@@ -105,8 +105,7 @@ configure_vtk()
 {
   local vtk_options
   find_vtk
-  # The Python scripts have the command read volumes.
-  configure vtk -DVOLUMIC_BUILD_PARAVIEW_PLUGIN=OFF -DVOLUMIC_BUILD_TOOL=ON "${vtk_options[@]}" "$@"
+  configure vtk -DVOLUMIC_BUILD_PARAVIEW_PLUGIN=OFF "${vtk_options[@]}" "$@"
 }
 
 configure_paraview()

@@ -43,9 +43,3 @@ set(volumic_vtk_headers
   <vtkStreamingDemandDrivenPipeline.h>
   <vtkStringArray.h>
   <vtkTable.h>)
-# What reads and writes files (Applications/volumic), beside those.
-set(volumic_file_headers
-  <filesystem>
-  <fstream>
-  <set>
-  <sstream>)

@@ -16,8 +16,7 @@ if [ $# -ne 1 ] || [[ $1 == -* ]]; then
   exit 2
 fi
 arm64_root=$(realpath -m "$1")
-packages=(base-files libc6-dev libvtk9-dev libgtest-dev libcgal-dev nlohmann-json3-dev
-  libarchive-dev)
+packages=(base-files libc6-dev libvtk9-dev libgtest-dev libcgal-dev)
 
 program=$(echo /usr/bin/vtkWrapHierarchy-*)
 if [ ! -e "$program" ]; then

@@ -98,8 +98,8 @@ configure_copy()
   # Optimised a little: compiled once and run once.
   cmake -S "$copy/sources" -B "$copy/build" -G Ninja \
     -DCMAKE_BUILD_TYPE=None -DCMAKE_CXX_FLAGS=-O1 -DVOLUMIC_BUILD_PARAVIEW_PLUGIN=OFF \
-    -DVOLUMIC_BUILD_TESTING=ON -DVOLUMIC_BUILD_TOOL=OFF -DVOLUMIC_BUILD_EXAMPLES=OFF \
-    -DVOLUMIC_WRAP_PYTHON=OFF "${vtk_options[@]}"
+    -DVOLUMIC_BUILD_TESTING=ON -DVOLUMIC_BUILD_EXAMPLES=OFF -DVOLUMIC_WRAP_PYTHON=OFF \
+    "${vtk_options[@]}"
 }
 
 build_copy() { cmake --build "$copy/build" --target TestCore -j "$(job_count)"; }

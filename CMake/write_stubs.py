@@ -34,7 +34,7 @@ SPECIAL = {"__init__": "(self, **properties: Any) -> None",
 CORRECTIONS = {"AddObserver": ("event:int", "event:EventName")}
 UNKNOWN = "(self, *arguments: Any) -> Any"
 
-HEAD = """# Written by the build, from the classes' docstrings (CMake/volumic/write_stubs.py).
+HEAD = """# Written by the build, from the classes' docstrings (CMake/write_stubs.py).
 from collections.abc import Callable, MutableSequence, Sequence
 from typing import Any, overload
 
@@ -224,6 +224,7 @@ def package_stub():
     names = "".join(f"    {cls.__name__} as {cls.__name__},\n" for cls in classes())
     return (f"{quoted(volumic.__doc__.strip())}\n"
             "from .arrays import labels as labels, surface as surface\n"
+            "from .reading import read as read\n"
             f"from .vtkFiltersVolumic import (\n{names})\n\n__version__: str\n")
 
 
