@@ -5,24 +5,25 @@
 from __future__ import annotations
 
 import difflib
+import math
 import os
-import re
 import signal
 import threading
-import time
 import uuid
 import warnings
 from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from vtkmodules.util.misc import calldata_type
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.util.vtkConstants import VTK_STRING
-from vtkmodules.vtkCommonDataModel import vtkImageData
+from vtkmodules.vtkCommonCore import vtkCharArray
+from vtkmodules.vtkCommonDataModel import vtkImageData, vtkMultiBlockDataSet, vtkPolyData
 from vtkmodules.vtkIOXML import vtkXMLMultiBlockDataWriter, vtkXMLPolyDataWriter
 
+from . import messages
 from . import vtkFiltersVolumic as filters
+from .errors import VolumeError
+from .reading.volume import Volume, check_positions
 
 
 class FilterError(RuntimeError):
@@ -57,6 +58,15 @@ class Surface:
                 self.arrays[data.GetArrayName(i)] = vtk_to_numpy(data.GetArray(i))
         self.report = _fields(polydata, told)
 
+    def __repr__(self) -> str:
+        facts = {"components": "NumberOfComponents", "genus": "Genus", "volume": "Volume"}
+        return (f"<volumic.Surface: {len(self.points)} points, {len(self.triangles)} triangles"
+                + "".join(f", {text} {self.report[name]:g}" for text, name in facts.items()
+                          if isinstance(self.report.get(name), (int, float))) + ">")
+
+    def __reduce__(self) -> Any:
+        return _unpickled, (Surface, _serialized(self._polydata), self.report.get("Warnings", ()))
+
     def to_vtk(self) -> Any:
         """The vtkPolyData, with all arrays and field data."""
         return self._polydata
@@ -85,6 +95,9 @@ class Surfaces(dict[int, Surface]):
         self._blocks = blocks
         self.report = _fields(blocks, told)
 
+    def __reduce__(self) -> Any:
+        return _unpickled, (Surfaces, _serialized(self._blocks), self.report.get("Warnings", ()))
+
     def to_vtk(self) -> Any:
         """The vtkMultiBlockDataSet, a block for each label."""
         return self._blocks
@@ -102,20 +115,36 @@ class Surfaces(dict[int, Surface]):
             surface.save(os.path.join(path, f"label-{label}.vtp"))
 
 
-def surface(array: Any, iso: float | None = None, *, spacing: Sequence[float] = (1, 1, 1),
-            origin: Sequence[float] = (0, 0, 0), direction: Any = None,
-            start: Sequence[int] = (0, 0, 0), **properties: Any) -> Surface:
+def _serialized(data: Any) -> bytes:
+    """A data object of VTK with its arrays, field data and names as bytes."""
+    from vtkmodules.vtkParallelCore import vtkCommunicator
+    buffer = vtkCharArray()
+    vtkCommunicator.MarshalDataObject(data, buffer)
+    return bytes(memoryview(vtk_to_numpy(buffer)))
+
+
+def _unpickled(kind: Any, content: bytes, told: Sequence[str]) -> Any:
+    from vtkmodules.vtkParallelCore import vtkCommunicator
+    buffer = numpy_to_vtk(np.frombuffer(content, np.int8), deep=True, array_type=2)  # char
+    data = vtkMultiBlockDataSet() if kind is Surfaces else vtkPolyData()
+    vtkCommunicator.UnMarshalDataObject(buffer, data)
+    return kind(data, told)
+
+
+def surface(array: Any, iso: float | None = None, *, spacing: Sequence[float] | None = None,
+            origin: Sequence[float] | None = None, direction: Any = None,
+            start: Sequence[int] | None = None, **properties: Any) -> Surface:
     """The closed surface at an iso-value of a volume, by vtkVolumeToSurface.
 
     Parameters
     ----------
-    array : array_like
-        Voxels [z, y, x]. What is contiguous is not copied.
+    array : array_like or Volume
+        Voxels [z, y, x], or what `volumic.read` returns. What is contiguous is not copied.
     iso : float, optional
         The value on the surface; by default Otsu's threshold, a guess, which the warnings tell.
         With `UpperValue=...` the object has the values between the two.
     spacing, origin : sequence of 3 floats, optional
-        x, y, z: distances of the voxels, and where voxel 0 is, in the world.
+        x, y, z: voxel distances (default 1), and position of voxel 0 (default 0), in the world.
     direction : array_like, 3 x 3, optional
         Its columns are the unit vectors of index x, y, z in the world.
     start : sequence of 3 ints, optional
@@ -144,7 +173,9 @@ def surface(array: Any, iso: float | None = None, *, spacing: Sequence[float] = 
     """
     algorithm = filters.vtkVolumeToSurface()
     _set(algorithm, properties)
-    algorithm.SetInputData(_image(array, spacing, origin, direction, start))
+    if iso is not None and not math.isfinite(iso):
+        raise ValueError(f"iso is {iso}; it must be a finite number")
+    algorithm.SetInputData(_input(array, spacing, origin, direction, start))
     told = []
     if iso is None and "UpperValue" not in properties:
         otsu = filters.vtkOtsuThreshold()
@@ -158,15 +189,15 @@ def surface(array: Any, iso: float | None = None, *, spacing: Sequence[float] = 
     return Surface(algorithm.GetOutput(), _warn(told))
 
 
-def labels(array: Any, only: Sequence[int] = (), *, spacing: Sequence[float] = (1, 1, 1),
-           origin: Sequence[float] = (0, 0, 0), direction: Any = None,
-           start: Sequence[int] = (0, 0, 0), **properties: Any) -> Surfaces:
+def labels(array: Any, only: Sequence[int] = (), *, spacing: Sequence[float] | None = None,
+           origin: Sequence[float] | None = None, direction: Any = None,
+           start: Sequence[int] | None = None, **properties: Any) -> Surfaces:
     """A smooth closed surface about each label of a label map, by vtkLabelsToSurfaces.
 
     Parameters
     ----------
-    array : array_like of integers
-        Labels [z, y, x]. What is contiguous is not copied.
+    array : array_like of integers or Volume
+        Labels [z, y, x], or what `volumic.read` returns. What is contiguous is not copied.
     only : sequence of ints, optional
         Labels that get a surface; by default all but BackgroundLabel.
     spacing, origin, direction, start
@@ -190,7 +221,7 @@ def labels(array: Any, only: Sequence[int] = (), *, spacing: Sequence[float] = (
     _set(algorithm, properties)
     for label in only:
         algorithm.AddLabel(int(label))
-    algorithm.SetInputData(_image(array, spacing, origin, direction, start))
+    algorithm.SetInputData(_input(array, spacing, origin, direction, start))
     told = _run(algorithm)
     return Surfaces(algorithm.GetOutput(), _warn(told))
 
@@ -198,7 +229,7 @@ def labels(array: Any, only: Sequence[int] = (), *, spacing: Sequence[float] = (
 def label_boxes(array: Any, start: Sequence[int] = (0, 0, 0)) -> dict[int, list[int]]:
     """{label: [voxels, first x, last x, first y, last y, first z, last z]}, by vtkLabelTable."""
     table = filters.vtkLabelTable()
-    table.SetInputData(_image(array, (1, 1, 1), (0, 0, 0), None, start))
+    table.SetInputData(_input(array, None, None, None, start))
     _run(table)
     numbers, voxels, extents = (vtk_to_numpy(table.GetOutput().GetColumnByName(name)).tolist()
                                 for name in ("Label", "Voxels", "Extent"))
@@ -240,11 +271,11 @@ def _set(algorithm: Any, properties: dict[str, Any]) -> None:
             raise TypeError(f"{name}={value!r}: {error}") from None
 
 
-def _image(array: Any, spacing: Sequence[float], origin: Sequence[float], direction: Any,
-           start: Sequence[int]) -> Any:
+def make_image(array: Any, spacing: Sequence[float], origin: Sequence[float], direction: Any,
+               start: Sequence[int] = (0, 0, 0), name: str = "Voxels") -> Any:
+    """A vtkImageData of an array [z, y, x] or [z, y, x, component]; what is contiguous is not
+    copied."""
     voxels = np.asarray(array)
-    if voxels.ndim != 3:
-        raise ValueError(f"the array must have three axes, z, y and x, not {voxels.ndim}")
     if voxels.dtype.kind not in "biuf":
         raise ValueError(f"voxels of type {voxels.dtype} are not numbers that VTK's images hold")
     voxels = np.ascontiguousarray(voxels, voxels.dtype.newbyteorder("="))
@@ -253,48 +284,54 @@ def _image(array: Any, spacing: Sequence[float], origin: Sequence[float], direct
     if voxels.dtype == np.float16:
         voxels = voxels.astype(np.float32)
     image = vtkImageData()
-    image.SetExtent([int(place) for first, size in zip(start, voxels.shape[::-1])
-                     for place in (first, first + size - 1)])
+    image.SetExtent([int(index) for first, size in zip(start, voxels.shape[2::-1])
+                     for index in (first, first + size - 1)])
     image.SetSpacing([float(length) for length in spacing])
-    image.SetOrigin([float(place) for place in origin])
+    image.SetOrigin([float(coordinate) for coordinate in origin])
     if direction is not None:
         image.SetDirectionMatrix(np.asarray(direction, float).ravel())
-    scalars = numpy_to_vtk(voxels.ravel())  # It holds the array.
-    scalars.SetName("Voxels")
+    scalars = numpy_to_vtk(voxels.reshape(-1, *voxels.shape[3:]))  # It holds the array.
+    scalars.SetName(name)
     image.GetPointData().SetScalars(scalars)
     return image
 
 
+def _input(array: Any, spacing: Any, origin: Any, direction: Any, start: Any) -> Any:
+    """The image of an array and its position, or of a Volume."""
+    if isinstance(array, Volume):
+        if (spacing, origin, direction, start) != (None,) * 4:
+            raise TypeError("a Volume has a spacing, an origin and a direction of its own")
+        return make_image(array.scalars(), array.spacing, array.origin, array.direction,
+                          array.start, array.name or "Voxels")
+    if np.ndim(array) != 3:
+        raise ValueError(f"the array must have three axes, z, y and x, not {np.ndim(array)}")
+    volume = Volume(np.asarray(array), (1, 1, 1) if spacing is None else tuple(spacing),
+                    (0, 0, 0) if origin is None else tuple(origin),
+                    np.eye(3) if direction is None else np.asarray(direction, float),
+                    start=(0, 0, 0) if start is None else tuple(start))
+    try:
+        check_positions(volume)
+    except VolumeError as error:
+        raise ValueError(str(error)) from None
+    return make_image(volume.array, volume.spacing, volume.origin, direction, volume.start)
+
+
 def _run(algorithm: Any) -> list[str]:
     """Update it; returns the warnings. Ctrl-C stops it, and is raised then."""
-    errors: list[str] = []
-    told: list[str] = []
     interrupts: list[int] = []
-
-    @calldata_type(VTK_STRING)
-    def keep(_caller: Any, event: str, text: str) -> None:
-        (errors if event == "ErrorEvent" else told).append(_plain(text))
 
     def interrupt(*_: Any) -> None:
         interrupts.append(1)
         algorithm.SetAbortExecute(1)
 
-    # VTK holds Python's lock while it works: here other threads get it, such as those by which a
-    # worker of Dask tells that it is alive; and Python's handlers of signals run.
-    tags = [(algorithm, algorithm.AddObserver("ProgressEvent", lambda *_: time.sleep(0)))]
-    for source in (algorithm, algorithm.GetExecutive()):
-        for event in ("ErrorEvent", "WarningEvent"):
-            tags.append((source, source.AddObserver(event, keep)))
     former = None
     if threading.current_thread() is threading.main_thread():
         former = signal.signal(signal.SIGINT, interrupt)
     try:
-        (algorithm.Write if algorithm.IsA("vtkXMLWriter") else algorithm.Update)()
+        errors, told = messages.update(algorithm)
     finally:
         if former is not None:
             signal.signal(signal.SIGINT, former)
-        for source, tag in tags:
-            source.RemoveObserver(tag)
     if errors:
         raise FilterError(errors[0])
     if interrupts:
@@ -306,12 +343,6 @@ def _warn(told: list[str]) -> list[str]:
     for text in told:
         warnings.warn(text, stacklevel=3)
     return told
-
-
-def _plain(text: str) -> str:
-    """A message without the place in the source code."""
-    text = re.sub(r"^(ERROR|Warning): In .*?\n.*?\): ", "", text, flags=re.DOTALL)
-    return re.sub(r"\s+", " ", text).strip()
 
 
 def _fields(data: Any, told: Sequence[str]) -> dict[str, Any]:

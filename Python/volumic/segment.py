@@ -1,0 +1,401 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The command on a volume: read it, find the surface of the object, write what the options
+request. Label maps: segment_labels.py."""
+
+from __future__ import annotations
+
+import math
+from argparse import Namespace
+from collections.abc import Sequence
+from typing import Any
+
+from . import geometry, messages, report, writing
+from . import vtkFiltersVolumic as vtk
+from .ends import with_ends
+from .errors import Failure, Interrupted
+from .labels import name_labels
+from .messages import Run, Teller, number_text
+from .option_tables import Filters
+from .options import (
+    has_property, in_words_of_options, makes_tetrahedra, wants_surface)
+from .reading import list_files, points
+from .writing import files
+from .writing.tetrahedra import SolidMaker, find_mesher
+
+DONE, UNFINISHED = 0, 3  # exit codes
+NOTHING = "there was a surface; nothing is written"
+TRIES = 12      # runs of --triangles at most
+NEAR = 1.1      # ratio of triangles that is near enough
+
+
+# ---- Files -------------------------------------------------------------------------------------
+
+def inputs_of(options: Namespace) -> list[str]:
+    """All files that a run reads."""
+    paths = list_files(options.volume, options.choice)
+    for path in [options.edges, *options.probe]:
+        paths += list_files(path, None) if path else []
+    given = (options.seeds, options.initial_surface, options.attracting_points,
+             options.label_names)
+    return paths + [path for path in given if path]
+
+
+def other_outputs(options: Namespace) -> list[files.OutputName]:
+    """What is written beside the surfaces."""
+    outputs = []
+    for name, prefix in ((options.levels_output, "level"), (options.snapshots, "snapshot")):
+        if name:
+            outputs.append(files.OutputName(
+                name, "blocks" if name.lower().endswith(".vtm") else "folder", prefix))
+    for name in (options.write_volume, options.history,
+                 None if options.report == "-" else options.report):
+        if name:
+            outputs.append(files.OutputName(name, "file", ""))
+    return outputs
+
+
+def check_files(options: Namespace) -> None:
+    """Throw Failure or UsageError if something is wrong with the files before the work begins."""
+    outputs = []
+    for name in options.surfaces:
+        writing.check_surface_name(name)
+        outputs.append(files.OutputName(name, "file", ""))
+    if options.write_volume:
+        writing.check_volume_name(options.write_volume)
+    files.check_outputs(outputs + other_outputs(options), inputs_of(options))
+    if makes_tetrahedra(options):
+        find_mesher(options.mesher)
+
+
+# ---- Before the run ----------------------------------------------------------------------------
+
+def set_start(options: Namespace, surface: Any) -> None:
+    """Give the filter the seeds, the initial surface and the attracting points."""
+    chosen = has_property(options, "Initialization")
+    for position in options.seed_position:
+        surface.AddSeedPosition(*position)
+    for position in options.attracting_position:
+        surface.AddAttractingPosition(*position)
+    if options.seeds:
+        surface.SetInitialSurfaceData(points.read_seeds(options.seeds))
+    if options.seeds or options.seed_position:
+        if not chosen:
+            surface.SetInitializationToSeeds()
+    elif options.initial_surface:
+        surface.SetInitialSurfaceData(points.read_surface(options.initial_surface))
+        if not chosen:
+            surface.SetInitializationToInputSurface()
+    if options.attracting_points:
+        surface.SetAttractingPointsData(points.read_attracting_points(options.attracting_points))
+
+
+def set_edges(options: Namespace, image: Any, surface: Any, teller: Teller) -> None:
+    """Give the image the map of edges as a second array."""
+    if not options.edges:
+        return
+    from . import reading
+    try:
+        # An array of the volume, if it has one of this name.
+        edges = reading.read(options.volume, **{**vars(options.choice), "array": options.edges,
+                                                "tell": None})
+        if edges.name != options.edges:
+            raise Failure("")
+    except Failure:
+        edges = geometry.read(options.edges, teller)
+    if edges.array.shape[-3:] != tuple(image.GetDimensions()[::-1]):
+        raise Failure(f"{options.edges}: its size differs from the volume's")
+    array = geometry.image_of(edges, edges.scalars()).GetPointData().GetScalars()
+    array.SetName("Edges" if image.GetPointData().GetScalars().GetName() != "Edges" else "Edges_")
+    image.GetPointData().AddArray(array)
+    surface.SetInputArrayToProcess(1, 0, 0, 0, array.GetName())
+    if not has_property(options, "EdgeAttractionWeight"):
+        surface.SetEdgeAttractionWeight(2.0)
+
+
+def take_otsu_threshold(loaded: geometry.LoadedVolume, surface: Any, teller: Teller) -> None:
+    """Set the iso-value where the options have none, and report it."""
+    otsu = vtk.vtkOtsuThreshold()
+    otsu.SetInputData(loaded.image)
+    messages.run(otsu, "Otsu's threshold", Teller(quiet=True), in_words_of_options)
+    surface.SetIsoValue(otsu.GetThreshold())
+    least = loaded.range[0]
+    padding = least < -1024 and otsu.GetHistogram().GetValue(0) > least
+    teller.say(f"iso-value {number_text(otsu.GetThreshold())}, a guess by Otsu's threshold"
+               + (f", for which voxels of {number_text(least)} are padding" if padding else "")
+               + "; choose another one with --iso")
+
+
+# ---- The run -----------------------------------------------------------------------------------
+
+class Segmentation:
+    """One run: the volume, the filters, and what came of them."""
+
+    def __init__(self, options: Namespace, filters: Filters, loaded: geometry.LoadedVolume,
+                 teller: Teller) -> None:
+        self.options, self.filters, self.loaded, self.teller = options, filters, loaded, teller
+        self.warnings: list[str] = []
+        self.seconds = [0.0, 0.0]  # of the pyramid and of the surface
+
+    def run(self, algorithm: Any, title: str) -> Run:
+        """Run a filter. Failures for want of memory name the volume and say what helps."""
+        try:
+            return messages.run(algorithm, title, self.teller, in_words_of_options)
+        except (Failure, MemoryError) as error:
+            if isinstance(error, MemoryError) or "memory" in str(error):
+                raise Failure(
+                    f"{self.options.volume}: not enough memory to segment it; a coarser level "
+                    "(--finest 1), or the volume cropped or resampled, needs less") from None
+            raise
+
+    def give_levels(self) -> None:
+        """Give the surface's filter its levels: those of a pyramid that is built here, or, where a
+        property decides on them, the volume."""
+        pyramid, surface = self.filters.pyramid, self.filters.surface
+        if surface.IsA("vtkVolumeToSurface"):
+            for name in ("NumberOfLevels", "MinimumLevelSize", "ReductionFactor"):
+                getattr(surface, "Set" + name)(getattr(pyramid, "Get" + name)())
+            surface.SetInputData(self.loaded.image)
+            return
+        pyramid.SetSelectedComponent(surface.GetSelectedComponent())
+        pyramid.SetInputData(self.loaded.image)
+        pyramid.ReleaseDataFlagOn()  # the surface leaves one level after the other
+        run = self.run(pyramid, "Building the pyramid")
+        self.keep(run)
+        self.seconds[0] = run.seconds
+        if run.interrupted:
+            raise Interrupted("interrupted before " + NOTHING)
+        surface.SetInputConnection(pyramid.GetOutputPort())
+
+    def keep(self, run: Run) -> None:
+        """Print the warnings of a run."""
+        for text in run.warnings:
+            self.teller.warn(text)
+        self.warnings += run.warnings
+
+    def evolve(self) -> None:
+        """Run the filter of the surface. Throw Failure where there is none at the end."""
+        surface = self.filters.surface
+        self.give_levels()
+        run = (self.find_triangles() if self.options.triangles
+               else self.run(surface, "Evolving the surface"))
+        self.keep(run)
+        self.seconds[1] = run.seconds
+        if surface.GetOutput().GetNumberOfPolys() == 0:
+            if report.stop_reason(surface.GetOutput()) == "time limit":
+                raise Interrupted("the time limit came before " + NOTHING)
+            if run.interrupted:
+                raise Interrupted("interrupted before " + NOTHING)
+            raise Failure(f"the surface vanished: is the object where the image is "
+                          f"{self.place_of_object()}? (--iso, --upper, --dark)")
+
+    def place_of_object(self) -> str:
+        """Where the image is ..."""
+        surface = self.filters.surface
+        bright, iso = surface.GetObjectIsBright(), number_text(surface.GetIsoValue())
+        if has_property(self.options, "UpperValue"):
+            return (("between " if bright else "not between ") + iso + " and "
+                    + number_text(surface.GetUpperValue()))
+        return ("above " if bright else "below ") + iso
+
+    def find_triangles(self) -> Run:
+        """Run the filter until the surface has about --triangles triangles."""
+        surface = self.filters.surface
+        unit = min(self.loaded.image.GetSpacing())
+        run = Run()
+
+        def count(property_name: str, value: float) -> int:
+            nonlocal run
+            surface.SetTolerance(0.0)
+            getattr(surface, "Set" + property_name)(value)
+            last = self.run(surface, "Evolving the surface")
+            run = Run(run.seconds + last.seconds, last.warnings, last.interrupted)
+            found = surface.GetOutput().GetNumberOfPolys()
+            if not last.interrupted:
+                self.teller.say(f"{'tolerance' if property_name == 'Tolerance' else 'edge length'} "
+                                f"{number_text(value)}: {found} triangles")
+            return found
+
+        reached, found = search_triangles(count, self.options.triangles, unit,
+                                          messages.was_interrupted)
+        if not reached and not run.interrupted:
+            raise Failure(f"--triangles {self.options.triangles}: no tolerance and no edge length "
+                          f"gives about so many; the nearest surface has {found}. Choose a number "
+                          "nearer to that")
+        return run
+
+
+def search_triangles(count: Any, wanted: int, unit: float, stopped: Any) -> tuple[bool, int]:
+    """Find a tolerance, or where none leaves so few triangles or so many are wanted an edge
+    length, with which the surface has about `wanted` triangles.
+
+    `count(property, value)` runs the filter and returns the number of triangles. Return whether it
+    came near enough, and the number of the nearest run.
+    """
+    nearest = found = uniform = count("Tolerance", 0.0)
+
+    def near(number: int) -> bool:
+        return number > 0 and wanted / NEAR < number < NEAR * wanted
+
+    def note(number: int) -> int:
+        nonlocal nearest
+        if number > 0 and abs(math.log(number / wanted)) < abs(math.log(max(nearest, 1) / wanted)):
+            nearest = number
+        return number
+
+    if near(found) or stopped() or found == 0:
+        return True, found
+    fine, coarse, tries = (0.0, found), None, TRIES // 2
+    value = 0.2 * unit
+    while found > wanted and tries > 0 and not stopped():
+        # Larger tolerances until there are too few triangles, or no fewer than before.
+        tries -= 1
+        now = note(count("Tolerance", value))
+        if near(now):
+            return True, now
+        if now < wanted:
+            coarse = (value, now)
+            break
+        if now > 0.98 * fine[1] and fine[0] > 0:
+            break
+        fine, value = (value, now), 2 * value
+    while coarse is not None and tries > 0 and not stopped():
+        tries -= 1
+        share = min(max(math.log(fine[1] / wanted) / math.log(fine[1] / max(coarse[1], 1)), .1), .9)
+        low = fine[0] or coarse[0] / 4
+        value = float(f"{low * (coarse[0] / low) ** share:.4g}")
+        now = note(count("Tolerance", value))
+        if near(now):
+            return True, now
+        if now > wanted:
+            fine = (value, now)
+        else:
+            coarse = (value, now)
+    if stopped():
+        return True, found
+    # The number of triangles goes with the inverse square of the edge length.
+    length = edge = unit * math.sqrt(uniform / wanted)
+    for _ in range(TRIES // 2):
+        now = note(count("EdgeLength", float(f"{edge:.4g}")))
+        if near(now) or stopped():
+            return True, now
+        if now == 0:
+            edge = (edge + length) / 2
+            continue
+        length, edge = edge, edge * math.sqrt(now / wanted)
+    return False, nearest
+
+
+# ---- The end of the run ------------------------------------------------------------------------
+
+def write_outputs(run: Segmentation, surface: Any, finished: bool, solids: SolidMaker,
+                  reader_memory: float) -> None:
+    """Write all that the options request. Throw Failure, with a line for each file, if not all
+    could be written; those that can be are."""
+    options, teller = run.options, run.teller
+    filter_ = run.filters.surface
+    reason = report.stop_reason(filter_.GetOutput())
+    remark = "" if finished else f", UNFINISHED: {reason}"
+    failures = files.Failures()
+    for data in (surface, filter_.GetLevels(), filter_.GetSnapshots()):
+        geometry.mark_space(data, run.loaded.world)
+    for name in options.surfaces:
+        with failures.collect(), teller.progress(f"Writing {name}") as progress:
+            if writing.is_scene(name):
+                writing.write_scene([("surface", surface)], name, tell=teller.warn)
+            else:
+                writing.write_surface(surface, name, remark, solids, teller.warn, progress)
+    for name, blocks, prefix in ((options.levels_output, filter_.GetLevels(), "level"),
+                                 (options.snapshots, filter_.GetSnapshots(), "snapshot")):
+        if name:
+            with failures.collect():
+                if name.lower().endswith(".vtm"):
+                    writing.write_blocks(blocks, name)
+                else:
+                    writing.write_folder(blocks, name, prefix,
+                                         level_of if prefix == "level" else None)
+    if options.history:
+        with failures.collect():
+            writing.write_table(filter_.GetHistory(), options.history)
+    if options.report:
+        with failures.collect():
+            files.write_text(report.of_volume(
+                options.volume, run.loaded, run.filters, surface, finished, tuple(run.seconds),
+                reader_memory, solids.last, run.warnings), options.report)
+    failures.throw()
+
+
+def level_of(surface: Any) -> int:
+    """The level of a surface; the last block may be that of level -1."""
+    return int(report.values_of(surface, "Level")[0, 0])
+
+
+def segment_volume(options: Namespace, filters: Filters, teller: Teller) -> int:
+    """Do what the command line requests; return the exit code."""
+    check_files(options)
+    loaded = geometry.load_volume(options, filters, teller)
+    reader_memory = report.peak_memory()
+    surface = filters.surface
+    component = surface.GetSelectedComponent()
+    if options.write_volume:
+        image = geometry.image_of(loaded.volume, loaded.volume.array) \
+            if loaded.component is not None and component == -1 else loaded.image
+        name_labels(options, loaded.volume, image, teller)
+        writing.write_volume(image, options.write_volume)
+    if not wants_surface(options):
+        return DONE
+    probes = geometry.Probes(options, loaded.world, teller)
+    hint = "" if surface.IsA("vtkVolumeToSurface") else \
+        vtk.vtkVolumeToSurface.HintAtLabels(loaded.image)
+    if hint:
+        teller.warn(f"{options.volume}: {hint} (--labels all)")
+    surface.SetSelectedComponent(-1)  # the image has one
+    set_start(options, surface)
+    set_edges(options, loaded.image, surface, teller)
+    if not has_property(options, "IsoValue") and not has_property(options, "UpperValue"):
+        take_otsu_threshold(loaded, surface, teller)
+    if options.snapshots and not has_property(options, "SnapshotInterval"):
+        surface.SetSnapshotInterval(10)
+    messages.hold_signals()
+    run = Segmentation(options, filters, loaded, teller)
+    run.evolve()
+    surface.SetSelectedComponent(component)
+    ended: list[str] = []
+    written = with_ends(surface.GetOutput(), loaded.image, options.ends, ended)
+    for text in ended:
+        teller.warn(f"{options.volume}: {text}")
+    run.warnings += ended
+    probes.add_to(written)
+    reason = report.stop_reason(surface.GetOutput())
+    finished = reason in ("converged", "limit cycle")
+    solids = make_solids(options, filters, probes)
+    write_outputs(run, written, finished, solids, reader_memory)
+    _tell_end(run, written, solids, reason, finished)
+    return DONE if finished else UNFINISHED
+
+
+def make_solids(options: Namespace, filters: Filters, probes: geometry.Probes) -> SolidMaker:
+    """What makes tetrahedra of surfaces."""
+    import time
+    limit = filters.surface.GetTimeLimit()
+    deadline = time.monotonic() + limit if limit > 0 else None
+    return SolidMaker(options.mesher or "", options.maximum_volume or 0.0,
+                      messages.was_interrupted, deadline, probes if probes else None)
+
+
+def prints(options: Namespace, names: Sequence[str]) -> bool:
+    """Whether something is written for printers."""
+    return any(name.lower().endswith(".3mf") for name in names) \
+        or (options.format or "").lower() in ("3mf", ".3mf")
+
+
+def _tell_end(run: Segmentation, surface: Any, solids: SolidMaker, reason: str,
+              finished: bool) -> None:
+    teller = run.teller
+    iterations = run.filters.surface.GetHistory().GetNumberOfRows()
+    teller.say(f"{surface.GetNumberOfPoints()} vertices after {iterations} iterations: {reason}")
+    teller.say(report.text_of_print(prints(run.options, run.options.surfaces), [surface],
+                                    run.loaded.world.unit))
+    teller.say(report.text_of_solid(solids.last))
+    if not finished:
+        teller.error(f"unfinished ({reason}); the surface as it is was written")
