@@ -6,6 +6,8 @@ request. Label maps: segment_labels.py."""
 from __future__ import annotations
 
 import math
+import os
+import time
 from argparse import Namespace
 from collections.abc import Sequence
 from typing import Any
@@ -35,7 +37,7 @@ def inputs_of(options: Namespace) -> list[str]:
     """All files that a run reads."""
     paths = list_files(options.volume, options.choice)
     for path in [options.edges, *options.probe]:
-        paths += list_files(path, None) if path else []
+        paths += list_files(path, None) if path and os.path.exists(path) else []
     given = (options.seeds, options.initial_surface, options.attracting_points,
              options.label_names)
     return paths + [path for path in given if path]
@@ -94,15 +96,12 @@ def set_edges(options: Namespace, image: Any, surface: Any, teller: Teller) -> N
     """Give the image the map of edges as a second array."""
     if not options.edges:
         return
-    from . import reading
-    try:
-        # An array of the volume, if it has one of this name.
-        edges = reading.read(options.volume, **{**vars(options.choice), "array": options.edges,
-                                                "tell": None})
-        if edges.name != options.edges:
-            raise Failure("")
-    except Failure:
+    if os.path.exists(options.edges):
         edges = geometry.read(options.edges, teller)
+    else:
+        edges = geometry.read(options.volume, Teller(quiet=True), array=options.edges)
+        if edges.name != options.edges:
+            raise Failure(f"{options.edges}: neither a file nor an array of {options.volume}")
     if edges.array.shape[-3:] != tuple(image.GetDimensions()[::-1]):
         raise Failure(f"{options.edges}: its size differs from the volume's")
     array = geometry.image_of(edges, edges.scalars()).GetPointData().GetScalars()
@@ -376,7 +375,6 @@ def segment_volume(options: Namespace, filters: Filters, teller: Teller) -> int:
 
 def make_solids(options: Namespace, filters: Filters, probes: geometry.Probes) -> SolidMaker:
     """What makes tetrahedra of surfaces."""
-    import time
     limit = filters.surface.GetTimeLimit()
     deadline = time.monotonic() + limit if limit > 0 else None
     return SolidMaker(options.mesher or "", options.maximum_volume or 0.0,
