@@ -45,7 +45,7 @@ def make_parser(filters: Filters | None = None) -> Parser:
     """The parser; with filters the help has the defaults of their properties."""
     parser = Parser(
         prog="volumic", usage="volumic [OPTION]... VOLUME SURFACE...", add_help=False,
-        allow_abbrev=False, formatter_class=lambda prog: argparse.HelpFormatter(prog, 26, 26, 80),
+        allow_abbrev=False, formatter_class=lambda prog: argparse.HelpFormatter(prog, 2, 26, 80),
         description="Finds the surface of an object in a 3D image with a closed, deformable "
         "surface that descends a pyramid of the image from coarse to fine, and writes it.",
         epilog="Exit codes: 0 done; 1 something failed; 2 wrong usage; 3 stopped by Ctrl-C, "
@@ -69,7 +69,7 @@ def make_parser(filters: Filters | None = None) -> Parser:
         for item in options:
             if isinstance(item, Property):
                 default = item.get(filters) if filters and item.metavar else ""
-                text = item.help + (f" (default: {default})" if default not in ("", "nan") else "")
+                text = item.help + (f" (default: {default})" if default not in ("", "nan", "inf") else "")
                 add(group, item, text, action=_Keep, const=item, dest="properties", default=[])
             else:
                 add(group, item, item.help, action=_Store, const=item,

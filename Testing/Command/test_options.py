@@ -1,14 +1,14 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The options of the program `volumic`: none is forgotten, each has its effect, all are in the
-manual; exit codes and interruption."""
+"""The options of the command: none is forgotten, each has its effect; exit codes and interruption."""
 
 import csv
 import json
 import os
 import re
-import shutil
+import signal
 import subprocess
+import time
 import unittest
 
 import numpy as np
@@ -16,16 +16,18 @@ from vtkmodules.vtkCommonExecutionModel import (
     vtkImageAlgorithm, vtkMultiBlockDataSetAlgorithm, vtkPolyDataAlgorithm)
 from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 
-from command_test_case import CENTRE, ISO, MANUAL, ORIGIN, SPACING, CommandTestCase, ball, make_image
+from command_test_case import (
+    CENTRE, ISO, ORIGIN, PROGRAM, SPACING, CommandTestCase, ball, make_image)
 from volumic import vtkDeformableSurface, vtkImagePyramid, vtkLabelsToSurfaces
 from vtk_files import read
 
 # What is set in another way: inputs, and what of the pyramid is the surface's.
 NOT_OPTIONS = {"vtkDeformableSurface": {"InitialSurfaceConnection", "InitialSurfaceData",
                                         "AttractingPointsConnection", "AttractingPointsData",
-                                        "Controller", "ShowLevels", "UseUpperValue"},
-               "vtkLabelsToSurfaces": {"Controller", "LabelColor", "LabelName"},
-               "vtkImagePyramid": {"Controller"}}
+                                        "Controller", "ShowLevels", "UseUpperValue", "MemoryLimit",
+                                        "Resume"},
+               "vtkLabelsToSurfaces": {"Controller", "Gap", "LabelColor", "LabelName", "MemoryLimit"},
+               "vtkImagePyramid": {"Controller", "MemoryLimit"}}
 
 
 def properties_of(filter_class, base_class):
@@ -75,7 +77,7 @@ class OptionTableTest(CommandTestCase):
             "minimum-level-size": "12", "iterations": "400", "threads": "1",
             "minimum-part-size": "7", "snapshot-interval": "50",
             "component": "0", "time-limit": "100", "metric": "voxels", "edge-length": "1.1",
-            "keep": "largest", "memory": "3000M", "scratch": self.folder}
+            "keep": "largest", "scratch": self.folder}
         before = self.report(volume, "--iso", ISO)["properties"]
         for class_name, name, option, default in self.table():
             if class_name == "vtkLabelsToSurfaces":
@@ -111,13 +113,11 @@ class OptionTableTest(CommandTestCase):
                 ("--dark takes no", "a b.stl --dark=on"),
                 (r"--recovery: 'all' is none of none\|objects", "a b.stl --recovery all"),
                 ("--spacing: .* are 2 numbers, not 3", "a b.stl --spacing 1,2"),
-                ("--memory: '2000' has no unit", "a b.stl --memory 2000"),
-                ("--memory: '2GX' has no unit", "a b.stl --memory 2GX"),
-                ("--memory: '-1G' is no amount of memory", "a b.stl --memory=-1G"),
-                ("--memory: '9999999T' is no amount", "a b.stl --memory 9999999T"),
-                ("--memory: '' is not a number", "a b.stl --memory G"),
-                ("--piece-size: pieces have a triangle", "a b.pvtp --piece-size 0"),
-                ("--piece-size: '1.5' is not a whole", "a b.pvtp --piece-size 1.5"),
+                ("--memory is gone: .*--scratch", "a b.stl --memory 2G"),
+                ("--resume is gone", "a b.stl --resume"),
+                ("did you mean --iso", "a b.stl --ios 3"),
+                ("--time: -1 is less than 0", "a b.stl --time -1"),
+                ("--phase and|--time and --phase", "a b.stl --time 1 --phase 1"),
                 ("--edge-attraction needs", "a b.stl --edge-attraction 1"),
                 ("exclude each other", "a b.stl --seeds c --initial-surface d"),
                 ("--seed-position: .* are 2 numbers", "a b.stl --seed-position 1,2"),
@@ -139,32 +139,18 @@ class OptionTableTest(CommandTestCase):
             self.refused(reason, self.ball_file(), self.path("a.stl"), "--iso", ISO, *options)
 
 
-class ManualTest(CommandTestCase):
-    def test_every_option_is_in_the_manual_and_the_other_way_round(self):
-        options = set(re.findall(r"^  --([a-z-]+)", self.run_command("--help").stdout, re.M))
-        self.assertGreater(len(options), 30)
-        with open(MANUAL, encoding="utf-8") as file:
-            described = set(re.findall(r"^\.It Fl (?:[a-z] , )?-([a-z-]+)", file.read(), re.M))
-        self.assertEqual(options, described)
-
-    @unittest.skipUnless(shutil.which("groff"), "no groff")
-    def test_it_renders_without_warnings(self):
-        process = subprocess.run(["groff", "-mdoc", "-ww", "-Tutf8", MANUAL], check=True,
-                                 capture_output=True, text=True)
-        self.assertEqual(process.stderr, "")
-        self.assertIn("--levels-output", re.sub(".\b", "", process.stdout))  # bold: overstruck
-
-    @unittest.skipUnless(shutil.which("mandoc"), "no mandoc")
-    def test_mandoc_finds_nothing(self):
-        process = subprocess.run(["mandoc", "-T", "lint", "-W", "warning", MANUAL], check=False,
-                                 capture_output=True, text=True)
-        self.assertEqual(process.stdout + process.stderr, "")
-
+class HelpTest(CommandTestCase):
     def test_help_and_version(self):
         self.assertRegex(self.run_command("--version").stdout, r"^volumic [0-9.]+ \(VTK [0-9.]+")
         text = self.run_command("-h").stdout
-        prose = [line for line in text.splitlines() if not line.startswith("  --")]
-        self.assertLessEqual(max(map(len, prose)), 80)
+        self.assertGreater(len(re.findall("^  (?:-q, )?--([a-z-]+)", text, re.M)), 90)
+        self.assertLessEqual(max(map(len, text.splitlines())), 80)
+        self.assertRegex(re.sub(r"\s+", " ", text), r"--reduction-factor T .*\(default: 1.732")
+
+    def test_a_closed_pipe_is_no_error(self):
+        done = subprocess.run(["sh", "-c", f"'{PROGRAM}' --help | head -1"], capture_output=True,
+                              text=True, check=True)
+        self.assertEqual((done.stderr, done.stdout[:6]), ("", "usage:"))
 
 
 class RunTest(CommandTestCase):
@@ -286,6 +272,21 @@ class RunTest(CommandTestCase):
         waves = 300 * (np.sin(x / 4) + np.sin(y / 4) + np.sin(z / 4)) + noise
         return self.write(vtkXMLImageDataWriter(), "waves.vti",
                           make_image(waves.astype("f4"), (1, 1, 1)))
+
+    def test_two_signals_at_once_are_one(self):
+        """As `timeout` sends them, to the process and to its group."""
+        command = [PROGRAM, self.waves_file(), self.path("a.vtp"), "--iso", "0", "--convergence",
+                   "0", "--progress"]
+        with subprocess.Popen(command, stderr=subprocess.PIPE, text=True) as process:
+            for line in process.stderr:
+                if line.startswith("Evolving") and "teration" in line:
+                    break
+            process.send_signal(signal.SIGTERM)
+            time.sleep(0.02)
+            process.send_signal(signal.SIGTERM)
+            rest = process.stderr.read()
+        self.assertEqual(process.returncode, 3, rest)
+        self.assertGreater(read(self.path("a.vtp")).GetNumberOfPolys(), 0)
 
     def test_interrupt_writes_what_there_is(self):
         rest = self.interrupted(
