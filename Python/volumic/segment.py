@@ -16,7 +16,7 @@ from . import geometry, messages, report, writing
 from . import vtkFiltersVolumic as vtk
 from .ends import with_ends
 from .errors import Failure, Interrupted
-from .labels import name_labels
+from .label_map import name_labels
 from .messages import Run, Teller, number_text
 from .option_tables import Filters
 from .options import (

@@ -1,0 +1,439 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The command on a label map: choose labels, make their surfaces, write them."""
+
+from __future__ import annotations
+
+import contextlib
+import dataclasses
+import os
+import re
+import sys
+from argparse import Namespace
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from . import geometry, messages, report, writing
+from .ends import with_ends
+from .errors import Failure, Interrupted, UsageError
+from .label_map import (
+    KnownLabel, choose, known_labels, layers_of, list_rows, name_labels, table_of)
+from .messages import Teller
+from .option_tables import Filters, is_of_labels
+from .options import has_property, in_words_of_options, makes_tetrahedra, wants_surface
+from .segment import DONE, NOTHING, UNFINISHED, inputs_of, make_solids, other_outputs, prints
+from .writing import files
+from .writing.tetrahedra import SolidMaker, find_mesher, needs_mesher
+
+LEAST_TIME = 1e-3  # seconds of a layer where the others have used the time limit up
+
+
+@dataclasses.dataclass
+class LabelSurface:
+    """A surface of one label, or, with --merge, of several."""
+    labels: list[KnownLabel]
+    name: str
+    surface: Any  # vtkPolyData; without points where there is none
+    files: list[str] = dataclasses.field(default_factory=list)  # that were written of it alone
+    seconds: float = 0.0
+
+    @property
+    def unfinished(self) -> str:
+        """What stopped it on its way, or before it began; empty if nothing did."""
+        reason = report.stop_reason(self.surface)
+        return reason if reason in ("cancelled", "time limit", "iteration limit") else ""
+
+
+# ---- What the names of files mean ----------------------------------------------------------------
+
+def shares_interfaces(options: Namespace) -> bool:
+    """Whether one mesh of all labels is requested, or a file that needs it."""
+    return has_property(options, "SharedInterfaces") or (
+        not has_property(options, "Merge") and any(map(writing.is_of_solids, options.surfaces)))
+
+
+def form_of(options: Namespace, name: str) -> str:
+    """What a name requests: a `folder` of files, `blocks` or a scene of all surfaces, the
+    `interfaces` of all labels as one mesh, or a `file` of one surface."""
+    suffix = os.path.splitext(name)[1].lower()
+    if name.endswith("/") or not suffix or os.path.isdir(name):
+        return "folder"
+    if suffix == ".vtm" or writing.is_scene(name):
+        return "blocks"
+    is_mesh = suffix in (".vtp", ".vtk") or (
+        writing.is_of_solids(name) and not has_property(options, "Merge"))
+    return "interfaces" if is_mesh and shares_interfaces(options) else "file"
+
+
+def check_outputs(options: Namespace) -> None:
+    """Throw UsageError if surfaces of labels cannot be written to the names of the options."""
+    forms = [form_of(options, name) for name in options.surfaces]
+    for name, form in zip(options.surfaces, forms):
+        is_new = form == "folder" and not name.endswith("/") and not os.path.isdir(name)
+        if is_new and (len(forms) > 1 or re.fullmatch("[+-]?[0-9]+(-[+-]?[0-9]+)?", name)):
+            raise UsageError(f"'{name}' is not the name of a file; in a list of labels put commas "
+                             f"between them (--labels {options.labels[-1]},{name}), after the name "
+                             f"of a folder a slash ({name}/)")
+        if name == "-":
+            raise UsageError("surfaces of labels are not written to the standard output")
+        if form == "folder" and has_property(options, "Merge"):
+            raise UsageError(f"{name}: --merge makes one surface; give a file, not a folder")
+        try:
+            if form in ("folder", "file"):
+                writing.check_surface_name("labels" + _suffix(options) if form == "folder" else name)
+        except UsageError as error:
+            raise UsageError(str(error) if form == "folder" else
+                             f"{error}, .vtm; a folder is {name}/") from None
+    if options.format and forms and "folder" not in forms:
+        raise UsageError("--format is that of the files in a folder; the suffix of "
+                         f"{options.surfaces[0]} is its format")
+
+
+def _suffix(options: Namespace) -> str:
+    """With a dot, of the files in a folder."""
+    return "." + (options.format or "vtp").lstrip(".")
+
+
+def _output(name: str, form: str) -> Any:
+    is_blocks = name.lower().endswith(".vtm")
+    return files.OutputName(name, "place" if form == "folder" else
+                            "blocks" if is_blocks else "file", "")
+
+
+def check_files(options: Namespace) -> None:
+    """Throw Failure or UsageError if something is wrong with the files before the work begins."""
+    if options.write_volume:
+        writing.check_volume_name(options.write_volume)
+    files.check_outputs([_output(name, form_of(options, name)) for name in options.surfaces]
+                        + other_outputs(options), inputs_of(options))
+    if makes_tetrahedra(options) or needs_mesher("x" + _suffix(options), options.mesher):
+        find_mesher(options.mesher)
+
+
+@contextlib.contextmanager
+def made_folders(folders: Sequence[str]) -> Iterator[None]:
+    """Folders that are made where they are missing, and removed if they are empty at the end."""
+    made: list[str] = []
+    try:
+        for folder in folders:
+            missing, path = [], folder.rstrip("/")
+            while path and not os.path.isdir(path):
+                missing.append(path)
+                path = os.path.dirname(path)
+            for path in reversed(missing):
+                try:
+                    os.mkdir(path)
+                except OSError as error:
+                    raise Failure(f"{folder}: cannot be written: {error.strerror}") from None
+                made.append(path)
+        yield
+    finally:
+        for path in reversed(made):
+            with contextlib.suppress(OSError):
+                os.rmdir(path)
+
+
+@contextlib.contextmanager
+def naming(path: str) -> Iterator[None]:
+    """Failures name the file."""
+    try:
+        yield
+    except Failure as failure:
+        raise type(failure)(f"{path}: {failure}") from None
+
+
+# ---- The run -------------------------------------------------------------------------------------
+
+class LabelRun:
+    """One run: the map, its labels, their surfaces."""
+
+    def __init__(self, options: Namespace, filters: Filters, loaded: geometry.LoadedVolume,
+                 teller: Teller) -> None:
+        self.options, self.loaded, self.teller = options, loaded, teller
+        self.filters, self.filter = filters, filters.labels
+        self.surfaces: list[LabelSurface] = []
+        self.warnings: list[str] = []
+        self.seconds = 0.0
+        self.reader_memory = report.peak_memory()
+        component = (filters.surface.GetSelectedComponent()
+                     if has_property(options, "SelectedComponent") else None)
+        names = name_labels(options, loaded.volume, loaded.image, teller)
+        self.layers: list[Any] = []
+        self.known: list[KnownLabel] = []
+        if wants_surface(options):
+            with naming(options.volume):
+                self.layers = layers_of(loaded.image, names, component)
+                self.known, self.warnings = known_labels(self.layers, options, teller)
+
+    def announce(self) -> None:
+        """Print what the map is."""
+        count = sum(label.label != self.filter.GetBackgroundLabel() for label in self.known)
+        image, layers = self.loaded.image, len(self.layers)
+        self.teller.say(
+            f"{self.options.volume}: " + " x ".join(map(str, image.GetDimensions()))
+            + f" voxels, {image.GetScalarTypeAsString()}, {count} label{'s' * (count != 1)}"
+            + (f" in {layers} layers" if layers > 1 else "") + self.loaded.world.text())
+
+    def chosen(self) -> list[KnownLabel]:
+        """The labels of --labels."""
+        with naming(self.options.volume):
+            return choose(self.options.labels, self.known, self.filter.GetBackgroundLabel())
+
+    def warn(self, text: str) -> None:
+        """Print a warning, and keep it for the report."""
+        self.teller.warn(text)
+        self.warnings.append(text)
+
+    def list_labels(self) -> None:
+        """Print the chosen labels, and write them to the report."""
+        labels, spacing = self.chosen(), self.loaded.image.GetSpacing()
+        if self.options.report:
+            facts = {"input": report.input_facts(self.options.volume, self.loaded),
+                     "labels": list_rows(labels, spacing)}
+            files.write_text(report.ended(facts, self.warnings), self.options.report)
+        if self.options.report != "-":
+            sys.stdout.write(table_of(labels, spacing, len(self.layers)))
+
+    def plan(self) -> None:
+        """List the surfaces to make. Throw Failure if they cannot be made or written."""
+        chosen, options = self.chosen(), self.options
+        if not chosen:
+            raise Failure(
+                f"{options.volume}: it has no label but the background, "
+                f"{self.filter.GetBackgroundLabel()}; choose another one with --background")
+        option = ("--merge" if self.filter.GetMerge() else
+                  "--shared-interfaces" if shares_interfaces(options) else "")
+        if option and len({label.layer for label in chosen}) > 1:
+            raise Failure(f"{option}: the labels lie in several layers of the file; choose one "
+                          "layer with --component")
+        groups = [chosen] if self.filter.GetMerge() else [[label] for label in chosen]
+        self.surfaces = [LabelSurface(group, group[0].name, _no_surface()) for group in groups]
+
+    def check_surfaces(self) -> None:
+        """Throw Failure if surfaces cannot be written."""
+        options, inputs, outputs = self.options, inputs_of(self.options), []
+        for name in options.surfaces:
+            form, (stem, suffix) = form_of(options, name), os.path.splitext(name)
+            if form == "file" and len(self.surfaces) > 1:
+                raise Failure(
+                    f"{name}: {len(self.surfaces)} labels have as many surfaces: give a folder "
+                    f"({stem}/ --format {suffix[1:].lower()}) or blocks ({stem}.vtm, {stem}.glb, "
+                    f"{stem}.3mf), or make one surface of them with --merge, or one mesh of all "
+                    f"with --shared-interfaces ({stem}.vtp, .vtk, .vtu, .inp, .msh, .smesh, .poly)")
+            outputs += [_output(path, "file") for path in self.paths(name)
+                        ] if form == "folder" else [_output(name, form)]
+        files.check_outputs(outputs + other_outputs(options), inputs)
+
+    def paths(self, folder: str) -> list[str]:
+        """The files of the surfaces in a folder."""
+        return [os.path.join(folder, each.labels[0].file_name + _suffix(self.options))
+                for each in self.surfaces]
+
+    def make(self) -> None:
+        """Make the surfaces, layer by layer. Throw Failure if there is none at the end."""
+        limit = self.filter.GetTimeLimit()
+        for number, layer in enumerate(self.layers):
+            own = [each for each in self.surfaces if each.labels[0].layer == number]
+            if own and not messages.was_interrupted():
+                if limit > 0:
+                    self.filter.SetTimeLimit(max(limit - self.seconds, LEAST_TIME))
+                self.filter.SetInputData(layer)
+                self.make_own(own)
+        if not any(each.surface.GetNumberOfPoints() for each in self.surfaces):
+            reasons = {each.unfinished for each in self.surfaces} - {""}
+            if reasons:
+                raise Interrupted(("the time limit came" if "time limit" in reasons
+                                   else "interrupted") + " before " + NOTHING)
+            raise Failure(f"{self.options.volume}: none of the labels has a surface; smaller "
+                          "triangles may hold them (--finest, --edge-length)")
+
+    def make_own(self, own: Sequence[LabelSurface]) -> None:
+        """Make the surfaces of the labels of one layer."""
+        self.filter.ClearLabels()
+        for each in own:
+            for label in each.labels:
+                self.filter.AddLabel(label.label)
+        with naming(self.options.volume):
+            run = messages.run(self.filter, "Making surfaces", self.teller, in_words_of_options)
+        self.seconds += run.seconds
+        blocks = self.filter.GetOutputDataObject(0)
+        lost = in_words_of_options(geometry.fact(blocks, "LostLabels"))
+        # A large loss is among the warnings.
+        for text in [*run.warnings] + [lost] * (not any(lost in text for text in run.warnings)):
+            if text:
+                self.warn(text)
+        for i, each in enumerate(own[:blocks.GetNumberOfBlocks()]):
+            each.seconds, each.surface = self.filter.GetSeconds(i), blocks.GetBlock(i)
+            each.name = blocks.GetMetaData(i).Get(blocks.NAME()) or each.name
+
+    def finish(self) -> None:
+        """Cut surfaces at the border of the volume (--ends), and probe other volumes (--probe)."""
+        probes = geometry.Probes(self.options, self.loaded.world, self.teller)
+        for each in self.surfaces:
+            warnings: list[str] = []
+            each.surface = with_ends(each.surface, self.loaded.image, self.options.ends, warnings)
+            for text in warnings:
+                self.warn(f"{each.name}: {text}")
+        interfaces = self.filter.GetInterfaces()
+        for surface in [*(each.surface for each in self.surfaces), interfaces]:
+            probes.add_to(surface)
+            geometry.mark_space(surface, self.loaded.world)
+        self.solids = make_solids(self.options, self.filters, probes)
+
+    def write(self) -> None:
+        """Write surfaces and report. Throw Failure if not all could be written."""
+        failures = files.Failures()
+        for name in self.options.surfaces:
+            form = form_of(self.options, name)
+            if form == "blocks":
+                with failures.collect():
+                    self.write_blocks(name)
+            elif form == "interfaces":
+                # All are made at once: they are as finished as the first.
+                with failures.collect(), self.teller.progress(f"Writing {name}") as progress:
+                    writing.write_surface(self.filter.GetInterfaces(), name,
+                                          _remark(self.surfaces[0]), self.solids,
+                                          self.teller.warn, progress)
+            else:
+                self.write_files(name, form, failures)
+        if self.options.report:
+            with failures.collect():
+                files.write_text(self.report(), self.options.report)
+        failures.throw()
+
+    def write_blocks(self, name: str) -> None:
+        """Write all surfaces to one file."""
+        if writing.is_scene(name):
+            writing.write_scene([(each.name, each.surface) for each in self.surfaces], name,
+                                tell=self.teller.warn)
+            return
+        from vtkmodules.vtkCommonDataModel import vtkMultiBlockDataSet
+        blocks = vtkMultiBlockDataSet()
+        for i, each in enumerate(self.surfaces):
+            blocks.SetBlock(i, each.surface)
+            blocks.GetMetaData(i).Set(blocks.NAME(), each.name)
+        writing.write_blocks(blocks, name)
+
+    def write_files(self, name: str, form: str, failures: Any) -> None:
+        """Write a file for each surface, and report those of earlier runs in the folder."""
+        paths = self.paths(name) if form == "folder" else [name]
+        with self.teller.progress(f"Writing {name}") as progress:
+            for i, (each, path) in enumerate(zip(self.surfaces, paths)):
+                progress(i / len(paths), path)
+                if each.surface.GetNumberOfPoints() > 0:
+                    with failures.collect():
+                        writing.write_surface(each.surface, path, f"{_remark(each)}, {each.name}",
+                                              self.solids, self.teller.warn)
+                        each.files.append(path)
+        written = {os.path.basename(path) for each in self.surfaces for path in each.files}
+        others = [file for file in sorted(os.listdir(name)) if file not in written
+                  and os.path.splitext(file)[1] == _suffix(self.options)] if form == "folder" else []
+        if others:
+            self.warn(f"{name}: {len(others)} file{'s' * (len(others) > 1)} there "
+                      f"{'are' if len(others) > 1 else 'is'} not of this run: "
+                      f"{', '.join(others[:5])}{', ...' * (len(others) > 5)}; delete what is old")
+
+    def report(self) -> str:
+        """The report as JSON, `labels` with an object for each surface."""
+        facts = {"input": report.input_facts(self.options.volume, self.loaded),
+                 "finished": self.is_finished, "labels": list(map(_facts, self.surfaces))}
+        interfaces = self.filter.GetInterfaces()
+        angle, position, contacts = (report.values_of(interfaces, name) for name in (
+            "WorstAngle", "WorstAnglePosition", "SmallContacts"))
+        if angle is not None:
+            facts.update(small_contacts=int(contacts[0, 0]), worst_angle=angle[0, 0],
+                         worst_angle_position=position[0].tolist())
+        if shares_interfaces(self.options):
+            facts.update(report.solid_facts(self.solids.last))
+        facts["seconds"] = {"surface": self.seconds}
+        facts["memory"] = {"reader": self.reader_memory, "peak": report.peak_memory()}
+        facts["properties"] = report.property_values(self.filters, is_of_labels)
+        return report.ended(facts, self.warnings)
+
+    @property
+    def is_finished(self) -> bool:
+        """Whether nothing stopped any surface."""
+        return not any(each.unfinished for each in self.surfaces)
+
+    def tell_end(self) -> None:
+        """Print what was made and what is missing."""
+        there = [each for each in self.surfaces if each.surface.GetNumberOfPoints() > 0]
+        wrong = sum(_count(each.surface, "WrongVoxels") for each in self.surfaces)
+        vertices = sum(each.surface.GetNumberOfPoints() for each in there)
+        self.teller.say(f"{len(there)} surface{'s' * (len(there) != 1)}, {vertices} vertices"
+                        + (f"; {wrong} voxel centres are on the wrong side" if wrong else ""))
+        stopped = [each for each in self.surfaces if each.unfinished]
+        if stopped:
+            missing = ", ".join(each.name for each in stopped if each not in there)
+            partial = ", ".join(each.name for each in stopped if each in there)
+            self.teller.error(
+                f"unfinished ({stopped[-1].unfinished}); what is finished was written"
+                + (f"; there is no surface of {missing}" if missing else "")
+                + (f"; as they were then, those of {partial}" if partial else ""))
+        self.teller.say(report.text_of_print(
+            prints(self.options, self.options.surfaces), [each.surface for each in there],
+            self.loaded.world.unit))
+        if shares_interfaces(self.options):
+            self.teller.say(report.text_of_solid(self.solids.last))
+
+
+def segment_labels(options: Namespace, filters: Filters, teller: Teller) -> int:
+    """Do what the command line requests of a label map; return the exit code."""
+    shared = shares_interfaces(options)
+    filters.labels.SetSharedInterfaces(shared)
+    # Masks that overlap stay whole where each has a surface of its own.
+    options.choice.layers = not shared and not filters.labels.GetMerge()
+    check_files(options)
+    loaded = geometry.load_volume(options, filters, teller, announce=False)
+    run = LabelRun(options, filters, loaded, teller)
+    if options.write_volume:
+        writing.write_volume(loaded.image, options.write_volume)
+    if not wants_surface(options):
+        return DONE
+    run.announce()
+    if options.list_labels:
+        run.list_labels()
+        return DONE
+    run.plan()
+    folders = [name for name in options.surfaces if form_of(options, name) == "folder"]
+    with made_folders(folders):
+        run.check_surfaces()
+        messages.hold_signals()
+        run.make()
+        run.finish()
+        run.write()
+    run.tell_end()
+    return DONE if run.is_finished else UNFINISHED
+
+
+def _no_surface() -> Any:
+    """Of a label whose turn has not come."""
+    from vtkmodules.vtkCommonDataModel import vtkPolyData
+    surface = vtkPolyData()
+    geometry.set_fact(surface, "StopReason", "cancelled")
+    return surface
+
+
+def _remark(each: LabelSurface) -> str:
+    return f", UNFINISHED: {each.unfinished}" if each.unfinished else ""
+
+
+def _count(surface: Any, name: str, otherwise: int = 0) -> int:
+    values = report.values_of(surface, name)
+    return otherwise if values is None or not values.size else int(values[0, 0])
+
+
+def _facts(each: LabelSurface) -> dict[str, Any]:
+    """The object of a surface in the report."""
+    labels, surface = each.labels, each.surface
+    error = report.values_of(surface, "VolumeError")
+    return {
+        **({"label": labels[0].label} if len(labels) == 1 else {}),
+        "labels": [label.label for label in labels], "name": each.name,
+        "color": labels[0].color, "layer": labels[0].layer,
+        "voxels": _count(surface, "LabelVoxels", sum(label.voxels for label in labels)),
+        "files": each.files, "seconds": each.seconds,
+        "wrong_voxels": _count(surface, "WrongVoxels"),
+        **({} if error is None else {"volume_error": error[0, 0]}),
+        "missed_voxels": _count(surface, "MissedVoxels"), **report.surface_facts(surface),
+        "component_features": report.component_features(surface)}
