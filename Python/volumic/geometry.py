@@ -290,8 +290,8 @@ def resampled(image: Any, spacing: np.ndarray, labels: bool) -> Any:
 class Probes:
     """The volumes of --probe, in the space and unit of what is written.
 
-    Values are interpolated linearly, labels (voxels of whole numbers under --labels, or a map with
-    names) are those of the nearest voxel; NaN, or 0 for labels, outside.
+    Values are interpolated linearly, NaN outside. A label map (it has names, or few values of
+    whole numbers with steps between neighbours) gives the label of the nearest voxel, 0 outside.
     """
 
     def __init__(self, options: Namespace, world: World, teller: Teller) -> None:
@@ -307,7 +307,7 @@ class Probes:
             while free.lower() in taken:
                 free, number = f"{name}-{number}", number + 1
             taken.add(free.lower())
-            self.volumes.append((free, path, volume, bool(volume.labels)))
+            self.volumes.append((free, path, volume, _is_label_map(volume)))
 
     def __bool__(self) -> bool:
         return bool(self.volumes)
@@ -371,6 +371,13 @@ class Probes:
                 part, indices, np.float64, order=1, mode="nearest") for part in parts], -1)
             values[outside] = np.nan
         return values[:, 0] if len(parts) == 1 else values
+
+
+def _is_label_map(volume: Volume) -> bool:
+    from .vtkFiltersVolumic import vtkVolumeToSurface
+    return bool(volume.labels) or (
+        volume.array.ndim == 3 and volume.array.dtype.kind in "ui"
+        and bool(vtkVolumeToSurface.HintAtLabels(image_of(volume, volume.array))))
 
 
 def _convert(path: str, volume: Volume, world: World, teller: Teller) -> None:

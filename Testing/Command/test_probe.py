@@ -9,7 +9,8 @@ import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 
-from command_test_case import TURNED, CommandTestCase, ball, make_image
+from command_test_case import (
+    ORIGIN, SIZE, SPACING, TURNED, CommandTestCase, ball, make_image, medical_files)
 from vtk_files import read
 
 
@@ -56,6 +57,51 @@ class ProbeTest(CommandTestCase):
                      "--probe-depth", "1", status=2)
         os.symlink(far, self.path("link.vtp"))
         self.refused("is the input", self.ball_file(), self.path("link.vtp"), "--probe", far)
+
+    def nifti(self, name, voxels, unit=2):
+        """A volume in RAS whose unit is millimetres (2) or micrometres (3)."""
+        content = bytearray(medical_files.nifti(voxels.astype("f4"), SPACING, np.column_stack(
+            (np.diag(SPACING), ORIGIN)), offset=ORIGIN))
+        content[123] = unit
+        return self.write_bytes(name, bytes(content))
+
+    def x_of_world(self):
+        return np.broadcast_to(ORIGIN[0] + SPACING[0] * np.arange(SIZE[0]), SIZE[::-1])
+
+    def test_a_probe_has_a_space_and_a_unit_of_its_own(self):
+        """Files in LPS, and in micrometres, that lie where the volume lies: the same values."""
+        volume = self.nifti("a.nii", ball())
+        header = medical_files.nrrd_header(self.x_of_world().astype("f4"), SPACING,
+                                           ORIGIN * (-1, -1, 1), np.diag((-1., -1, 1)))
+        self.write_bytes("lps.nrrd", header + b"\n" + self.x_of_world().astype("<f4").tobytes())
+        content = bytearray(medical_files.nifti(self.x_of_world().astype("f4"), SPACING * 1000,
+                                                1000 * np.column_stack((np.diag(SPACING), ORIGIN)),
+                                                offset=1000 * ORIGIN))
+        content[123] = 3
+        self.write_bytes("um.nii", bytes(content))
+        said = self.run_command(volume, self.path("a.vtp"), "--iso", "500.5", "--probe",
+                                self.path("lps.nrrd"), "--probe", self.path("um.nii")).stderr
+        self.assertNotIn("lie outside", said)
+        surface = read(self.path("a.vtp"))
+        points = vtk_to_numpy(surface.GetPoints().GetData())
+        for name in ("lps", "um"):
+            np.testing.assert_allclose(
+                vtk_to_numpy(surface.GetPointData().GetArray(name)), points[:, 0], atol=1e-3)
+
+    def test_labels_of_a_probe_are_not_interpolated(self):
+        halves = np.where(self.x_of_world() < 0, 3, 7).astype("u1")
+        image = make_image(halves)
+        probe = self.write(vtkXMLImageDataWriter(), "halves.vti", image)
+        self.write_bytes("halves.csv", b"label,name\n3,left\n7,right\n")
+        surface, _ = self.values("--probe", probe)
+        self.assertEqual(set(np.unique(vtk_to_numpy(surface.GetPointData().GetArray("halves")))),
+                         {3, 7})
+
+    def test_points_outside_are_reported(self):
+        far = self.write(vtkXMLImageDataWriter(), "far.vti", make_image(ball(), origin=(1e3, 0, 0)))
+        said = self.run_command(self.ball_file(), self.path("a.vtp"), "--iso", "500.5", "--probe",
+                                far).stderr
+        self.assertRegex(said, r"far.vti: (\d+) of \1 vertices lie outside this volume")
 
     def test_of_labels(self):
         labels = self.write(vtkXMLImageDataWriter(), "labels.vti",

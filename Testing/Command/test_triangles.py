@@ -1,34 +1,54 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""`volumic --triangles`: a tolerance for a number of triangles."""
+"""`volumic --triangles`: a tolerance or an edge length for a number of triangles."""
 
+import os
+import re
 import unittest
 
-from command_test_case import ISO, CommandTestCase
+import numpy as np
+from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
+
+from command_test_case import ISO, CommandTestCase, make_image
 from vtk_files import read
 
 
 class TrianglesTest(CommandTestCase):
-    def triangles(self, count, *options):
-        process = self.run_command(self.ball_file(), self.path("a.vtp"), "--iso", ISO, "--triangles",
-                                count, *options)
+    def triangles(self, count, volume=None, iso=ISO):
+        process = self.run_command(volume or self.ball_file(), self.path("a.vtp"), "--iso", iso,
+                                   "--triangles", count)
         return read(self.path("a.vtp")).GetNumberOfPolys(), process.stderr
 
     def test_about_so_many(self):
-        whole, said = self.triangles(10 ** 6)
-        self.assertIn(f"without a tolerance it has no more than {whole} triangles", said)
-        for share in (0.8, 0.5):
-            found, said = self.triangles(int(share * whole))
-            self.assertTrue(share * whole / 1.1 <= found <= share * whole * 1.1, said)
+        """By a tolerance where fewer are wanted, by the edge length where more are, or where no
+        tolerance leaves so few."""
+        whole, said = self.triangles(10 ** 4)
+        self.assertTrue(10 ** 4 / 1.1 <= whole <= 1.1 * 10 ** 4, said)
+        self.assertRegex(said, rf"edge length [0-9.]+: {whole} triangles")
+        uniform = int(re.search("tolerance 0: ([0-9]+) triangles", said).group(1))
+        for share in (1.0, 0.5, 0.1):
+            found, said = self.triangles(int(share * uniform))
+            self.assertTrue(share * uniform / 1.1 <= found <= share * uniform * 1.1, said)
             self.assertIn(f": {found} triangles", said)
-        found, said = self.triangles(20)
-        self.assertIn(f"warning: no tolerance was found; this one leaves {found} triangles", said)
-        self.assertLess(found, 0.5 * whole)
+
+    def test_a_sponge(self):
+        """No tolerance makes few triangles of it: shared/repro's, whose least was 5986."""
+        z, y, x = np.mgrid[0:40, 0:40, 0:40] / 4.5
+        waves = np.sin(x) * np.cos(y) + np.sin(y) * np.cos(z) + np.sin(z) * np.cos(x)
+        sponge = self.write(vtkXMLImageDataWriter(), "sponge.vti",
+                            make_image(waves.astype("f4"), (1, 1, 1)))
+        found, said = self.triangles(2500, volume=sponge, iso=0)
+        self.assertTrue(2500 / 1.1 <= found <= 2500 * 1.1, said)
+
+    def test_out_of_reach(self):
+        process = self.run_command(self.ball_file(), self.path("a.vtp"), "--iso", ISO,
+                                   "--triangles", 20, status=1)
+        self.assertRegex(process.stderr, "no edge length gives about so many; the nearest")
+        self.assertFalse(os.path.exists(self.path("a.vtp")))
 
     def test_what_is_refused(self):
         for reason, *options in (
                 ("--triangles and --tolerance exclude each other", "9999", "--tolerance", ".1"),
-                ("--triangles and --labels exclude each other", "9999", "--labels", "all"),
                 ("--triangles: a surface has 20 triangles at least", "19")):
             self.refused(reason, self.ball_file(), self.path("a.vtp"), "--triangles", *options,
                          status=2)
