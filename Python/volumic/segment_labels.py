@@ -7,7 +7,6 @@ from __future__ import annotations
 import contextlib
 import dataclasses
 import os
-import re
 import sys
 from argparse import Namespace
 from collections.abc import Iterator, Sequence
@@ -15,15 +14,16 @@ from typing import Any
 
 from . import geometry, messages, report, writing
 from .ends import with_ends
-from .errors import Failure, Interrupted, UsageError
+from .errors import Failure, Interrupted
 from .label_map import (
     KnownLabel, choose, known_labels, layers_of, list_rows, name_labels, table_of)
+from .label_outputs import (
+    check_files, form_of, old_files, output_of, shares_interfaces, suffix_in_folder)
 from .messages import Teller
 from .option_tables import Filters, is_of_labels
-from .options import has_property, in_words_of_options, makes_tetrahedra, wants_surface
+from .options import has_property, in_words_of_options, wants_surface
 from .segment import DONE, NOTHING, UNFINISHED, inputs_of, make_solids, other_outputs, prints
 from .writing import files
-from .writing.tetrahedra import SolidMaker, find_mesher, needs_mesher
 
 LEAST_TIME = 1e-3  # seconds of a layer where the others have used the time limit up
 
@@ -42,95 +42,6 @@ class LabelSurface:
         """What stopped it on its way, or before it began; empty if nothing did."""
         reason = report.stop_reason(self.surface)
         return reason if reason in ("cancelled", "time limit", "iteration limit") else ""
-
-
-# ---- What the names of files mean ----------------------------------------------------------------
-
-def shares_interfaces(options: Namespace) -> bool:
-    """Whether one mesh of all labels is requested, or a file that needs it."""
-    return has_property(options, "SharedInterfaces") or (
-        not has_property(options, "Merge") and any(map(writing.is_of_solids, options.surfaces)))
-
-
-def form_of(options: Namespace, name: str) -> str:
-    """What a name requests: a `folder` of files, `blocks` or a scene of all surfaces, the
-    `interfaces` of all labels as one mesh, or a `file` of one surface."""
-    suffix = os.path.splitext(name)[1].lower()
-    if name.endswith("/") or not suffix or os.path.isdir(name):
-        return "folder"
-    if suffix == ".vtm" or writing.is_scene(name):
-        return "blocks"
-    is_mesh = suffix in (".vtp", ".vtk") or (
-        writing.is_of_solids(name) and not has_property(options, "Merge"))
-    return "interfaces" if is_mesh and shares_interfaces(options) else "file"
-
-
-def check_outputs(options: Namespace) -> None:
-    """Throw UsageError if surfaces of labels cannot be written to the names of the options."""
-    forms = [form_of(options, name) for name in options.surfaces]
-    for name, form in zip(options.surfaces, forms):
-        is_new = form == "folder" and not name.endswith("/") and not os.path.isdir(name)
-        if is_new and (len(forms) > 1 or re.fullmatch("[+-]?[0-9]+(-[+-]?[0-9]+)?", name)):
-            raise UsageError(f"'{name}' is not the name of a file; in a list of labels put commas "
-                             f"between them (--labels {options.labels[-1]},{name}), after the name "
-                             f"of a folder a slash ({name}/)")
-        if name == "-":
-            raise UsageError("surfaces of labels are not written to the standard output")
-        if form == "folder" and has_property(options, "Merge"):
-            raise UsageError(f"{name}: --merge makes one surface; give a file, not a folder")
-        try:
-            if form in ("folder", "file"):
-                writing.check_surface_name("labels" + _suffix(options) if form == "folder" else name)
-        except UsageError as error:
-            raise UsageError(str(error) if form == "folder" else
-                             f"{error}, .vtm; a folder is {name}/") from None
-    if options.format and forms and "folder" not in forms:
-        raise UsageError("--format is that of the files in a folder; the suffix of "
-                         f"{options.surfaces[0]} is its format")
-
-
-def _suffix(options: Namespace) -> str:
-    """With a dot, of the files in a folder."""
-    return "." + (options.format or "vtp").lstrip(".")
-
-
-def _output(name: str, form: str) -> Any:
-    is_blocks = name.lower().endswith(".vtm")
-    return files.OutputName(name, "place" if form == "folder" else
-                            "blocks" if is_blocks else "file", "")
-
-
-def check_files(options: Namespace) -> None:
-    """Throw Failure or UsageError if something is wrong with the files before the work begins."""
-    if options.write_volume:
-        writing.check_volume_name(options.write_volume)
-    files.check_outputs([_output(name, form_of(options, name)) for name in options.surfaces]
-                        + other_outputs(options), inputs_of(options))
-    if makes_tetrahedra(options) or needs_mesher("x" + _suffix(options), options.mesher):
-        find_mesher(options.mesher)
-
-
-@contextlib.contextmanager
-def made_folders(folders: Sequence[str]) -> Iterator[None]:
-    """Folders that are made where they are missing, and removed if they are empty at the end."""
-    made: list[str] = []
-    try:
-        for folder in folders:
-            missing, path = [], folder.rstrip("/")
-            while path and not os.path.isdir(path):
-                missing.append(path)
-                path = os.path.dirname(path)
-            for path in reversed(missing):
-                try:
-                    os.mkdir(path)
-                except OSError as error:
-                    raise Failure(f"{folder}: cannot be written: {error.strerror}") from None
-                made.append(path)
-        yield
-    finally:
-        for path in reversed(made):
-            with contextlib.suppress(OSError):
-                os.rmdir(path)
 
 
 @contextlib.contextmanager
@@ -220,13 +131,13 @@ class LabelRun:
                     f"({stem}/ --format {suffix[1:].lower()}) or blocks ({stem}.vtm, {stem}.glb, "
                     f"{stem}.3mf), or make one surface of them with --merge, or one mesh of all "
                     f"with --shared-interfaces ({stem}.vtp, .vtk, .vtu, .inp, .msh, .smesh, .poly)")
-            outputs += [_output(path, "file") for path in self.paths(name)
-                        ] if form == "folder" else [_output(name, form)]
+            outputs += [output_of(path, "file") for path in (
+                [name] if form != "folder" else self.paths(name) if os.path.isdir(name) else [])]
         files.check_outputs(outputs + other_outputs(options), inputs)
 
     def paths(self, folder: str) -> list[str]:
         """The files of the surfaces in a folder."""
-        return [os.path.join(folder, each.labels[0].file_name + _suffix(self.options))
+        return [os.path.join(folder, each.labels[0].file_name + suffix_in_folder(self.options))
                 for each in self.surfaces]
 
     def make(self) -> None:
@@ -298,7 +209,7 @@ class LabelRun:
                 self.write_files(name, form, failures)
         if self.options.report:
             with failures.collect():
-                files.write_text(self.report(), self.options.report)
+                files.write_text(self.report_text(), self.options.report)
         failures.throw()
 
     def write_blocks(self, name: str) -> None:
@@ -317,6 +228,8 @@ class LabelRun:
     def write_files(self, name: str, form: str, failures: Any) -> None:
         """Write a file for each surface, and report those of earlier runs in the folder."""
         paths = self.paths(name) if form == "folder" else [name]
+        if form == "folder":
+            os.makedirs(name, exist_ok=True)
         with self.teller.progress(f"Writing {name}") as progress:
             for i, (each, path) in enumerate(zip(self.surfaces, paths)):
                 progress(i / len(paths), path)
@@ -325,15 +238,13 @@ class LabelRun:
                         writing.write_surface(each.surface, path, f"{_remark(each)}, {each.name}",
                                               self.solids, self.teller.warn)
                         each.files.append(path)
-        written = {os.path.basename(path) for each in self.surfaces for path in each.files}
-        others = [file for file in sorted(os.listdir(name)) if file not in written
-                  and os.path.splitext(file)[1] == _suffix(self.options)] if form == "folder" else []
-        if others:
-            self.warn(f"{name}: {len(others)} file{'s' * (len(others) > 1)} there "
-                      f"{'are' if len(others) > 1 else 'is'} not of this run: "
-                      f"{', '.join(others[:5])}{', ...' * (len(others) > 5)}; delete what is old")
+        old = form == "folder" and old_files(
+            name, [path for each in self.surfaces for path in each.files],
+            suffix_in_folder(self.options))
+        if old:
+            self.warn(old)
 
-    def report(self) -> str:
+    def report_text(self) -> str:
         """The report as JSON, `labels` with an object for each surface."""
         facts = {"input": report.input_facts(self.options.volume, self.loaded),
                  "finished": self.is_finished, "labels": list(map(_facts, self.surfaces))}
@@ -395,13 +306,11 @@ def segment_labels(options: Namespace, filters: Filters, teller: Teller) -> int:
         run.list_labels()
         return DONE
     run.plan()
-    folders = [name for name in options.surfaces if form_of(options, name) == "folder"]
-    with made_folders(folders):
-        run.check_surfaces()
-        messages.hold_signals()
-        run.make()
-        run.finish()
-        run.write()
+    run.check_surfaces()
+    messages.hold_signals()
+    run.make()
+    run.finish()
+    run.write()
     run.tell_end()
     return DONE if run.is_finished else UNFINISHED
 
