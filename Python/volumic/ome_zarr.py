@@ -1,25 +1,30 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Volumes and label maps in OME-Zarr, version 0.4 and, where zarr is 3 or later, 0.5.
+"""Volumes and label maps in OME-Zarr, version 0.4 and, with zarr 3 or later, 0.5.
 
     volume = volumic.ome_zarr.open("scan.ome.zarr", level=2)
     cells = volumic.ome_zarr.open("scan.ome.zarr", label="cells")
     volumic.surface(cells[:64], spacing=cells.spacing, origin=cells.origin, iso=0.5)
 
-Paths are folders, or what fsspec opens: https://, s3://. Needs zarr (Debian: python3-zarr).
+Paths are folders, or what fsspec opens: https://, s3://. Requires zarr (Debian: python3-zarr).
 """
 
 from __future__ import annotations
 
+import itertools
+import os
+import re
+import warnings
 from collections.abc import Sequence
 from typing import Any
 
-NANOMETERS = {"angstrom": 0.1, "nanometer": 1.0, "micrometer": 1e3, "millimeter": 1e6,
-              "centimeter": 1e7, "meter": 1e9}
+import numpy as np
+
+from .reading.volume import METERS, unit_of
 
 
 class Volume:
-    """Three axes, z, y and x, of an array, of which slices are read when they are asked for.
+    """Three axes, z, y and x, of an array. Slices are read on demand.
 
     Attributes
     ----------
@@ -27,55 +32,75 @@ class Volume:
         z, y, x.
     dtype : numpy.dtype
     spacing, origin : tuple of 3 floats
-        x, y, z: by the coordinateTransformations; the centre of voxel 0 is at the origin.
+        x, y, z, from the coordinateTransformations; `origin` is the centre of voxel 0.
     unit : str
-        Of these lengths, of all axes alike; empty: not told.
+        Unit of these lengths, common to all axes; empty if the file has none.
     nanometers : float
-        What one of them is in nanometers; 1 where that is not told.
+        Length of one unit in nanometers; 1 if the unit is missing or unknown.
+    others : dict
+        {name: size} of the other axes of the array, such as "t" and "c".
     """
 
-    def __init__(self, array: Any, place: Sequence[int | None], spacing: Sequence[float],
-                 origin: Sequence[float], unit: str) -> None:
+    def __init__(self, array: Any, place: Sequence[int | None], order: Sequence[int],
+                 others: dict[str, int] | None = None, folder: str = "") -> None:
         self.array = array
-        self.place = tuple(place)  # of each axis of the array: an index, None of z, y and x
-        kept = [axis for axis, index in enumerate(self.place) if index is None]
-        self.shape = tuple(array.shape[axis] for axis in kept)
-        self.chunks = tuple(array.chunks[axis] for axis in kept)
+        self.place = tuple(place)  # of each axis of the array: an index, None for z, y and x
+        self.order = tuple(order)  # axes of the array that are z, y and x
+        self.shape = tuple(array.shape[axis] for axis in order)
+        self.chunks = tuple(array.chunks[axis] for axis in order)
         self.dtype = array.dtype
-        self.spacing = tuple(spacing)
-        self.origin = tuple(origin)
-        self.unit = unit
-        self.nanometers = NANOMETERS.get(unit, 1.0)
+        self.spacing = self.origin = (1.0, 1.0, 1.0)
+        self.unit, self.nanometers, self.others, self.folder = "", 1.0, others or {}, folder
 
     def __getitem__(self, key: Any) -> Any:
         keys = list(key) if isinstance(key, tuple) else [key]
+        for at in [at for at, index in enumerate(keys) if index is Ellipsis][:1]:
+            keys[at:at + 1] = [slice(None)] * (4 - len(keys))
         keys += [slice(None)] * (3 - len(keys))
-        return self.array[tuple(keys.pop(0) if index is None else index for index in self.place)]
+        if len(keys) > 3 or not all(isinstance(index, (int, np.integer, slice))
+                                    and not isinstance(index, bool) for index in keys):
+            raise IndexError(f"{key} does not index z, y, x: use integers, slices and one ellipsis")
+        picks = list(self.place)
+        for axis, index in zip(self.order, keys):
+            picks[axis] = index
+        kept = [axis for axis, index in zip(self.order, keys) if isinstance(index, slice)]
+        return np.transpose(self.array[tuple(picks)], [sorted(kept).index(axis) for axis in kept])
 
     def __array__(self, dtype: Any = None, copy: Any = None) -> Any:
         whole = self[:]
         return whole if dtype is None else whole.astype(dtype)
 
+    def missing_chunks(self) -> tuple[int, int]:
+        """Return the number of chunks of the volume that have no file, which zarr reads as the fill
+        value, and the number of all. (0, 0) unless the array is a folder."""
+        sizes = getattr(self.array, "shards", None) or self.array.chunks
+        needed = set(itertools.product(*(
+            range(-(-length // size)) if index is None else [index // size]
+            for length, size, index in zip(self.array.shape, sizes, self.place))))
+        there = {tuple(map(int, re.findall(r"\d+", os.path.relpath(folder, self.folder) + "/" + name)))
+                 for folder, _, names in os.walk(self.folder) for name in names}
+        return (len(needed - there), len(needed)) if os.path.isdir(self.folder) else (0, 0)
+
 
 def open(path: str, level: int = 0, *, label: str | None = None, time: int = 0,  # pylint: disable=redefined-builtin
          channel: int = 0) -> Volume:
-    """A level of the image in a group, or of one of its label maps.
+    """Return a level of the image in a group, or of one of its label maps.
 
     Parameters
     ----------
     path : str
-        Of the group that has the `multiscales`.
+        The group that has the `multiscales`.
     level : int, optional
         0 is the finest.
     label : str, optional
         A label map of the image, see `label_names`.
     time, channel : int, optional
-        Where the array has such axes.
+        Indices along these axes; 0 if the array has no such axis.
 
     Raises
     ------
     ValueError
-        Where there is no such image; it tells what there is.
+        If there is no such image. The message lists what the group has.
     """
     if label is not None:
         known = label_names(path)
@@ -86,9 +111,9 @@ def open(path: str, level: int = 0, *, label: str | None = None, time: int = 0, 
     attributes = _attributes(group)
     scales = attributes.get("multiscales")
     if not scales:
+        there = attributes.get("labels") or sorted(name for name, _ in group.groups())
         raise ValueError(f"{path}: no OME-Zarr image, there are no multiscales"
-                         + (f"; labels: {', '.join(attributes['labels'])}"
-                            if "labels" in attributes else ""))
+                         + (f"; it has {', '.join(there)}: append one of them" if there else ""))
     datasets = scales[0]["datasets"]
     if not 0 <= level < len(datasets):
         raise ValueError(f"{path} has no level {level}; it has 0 to {len(datasets) - 1}")
@@ -96,49 +121,74 @@ def open(path: str, level: int = 0, *, label: str | None = None, time: int = 0, 
     axes = [axis if isinstance(axis, dict) else {"name": axis}
             for axis in scales[0].get("axes", "tczyx"[-len(array.shape):])]
     names = [axis["name"] for axis in axes]
-    if names[-3:] != ["z", "y", "x"] or len(names) != len(array.shape):
-        raise ValueError(f"{path} has the axes {', '.join(names)} for {len(array.shape)} dimensions; "
-                         "the last three must be z, y and x")
-    scale, translation = [1.0] * len(names), [0.0] * len(names)
-    for steps in (datasets[level], scales[0]):
-        for step in steps.get("coordinateTransformations", []):
-            if step.get("type") not in ("scale", "translation", "identity") or "path" in step:
-                raise ValueError(f"{path}: no coordinates are known of the transformation {step}")
-            factors = step.get("scale", [1.0] * len(names))
-            scale = [a * b for a, b in zip(scale, factors)]
-            translation = [a * b + c for a, b, c in zip(
-                translation, factors, step.get("translation", [0.0] * len(names)))]
-    units = {axis.get("unit", "") for axis in axes[-3:]}
-    if len(units) > 1:
-        raise ValueError(f"{path}: the axes have different units, {', '.join(sorted(units))}")
-    others = {"t": time, "c": channel}
-    place = [others.get(name, 0) for name in names[:-3]] + [None] * 3
-    for name, index, size in zip(names, place, array.shape):
-        if index is not None and not 0 <= index < size:
-            raise ValueError(f"{path} has no index {index} along {name}; it has 0 to {size - 1}")
-    return Volume(array, place, scale[:-4:-1], translation[:-4:-1], units.pop())
+    if not {*"zyx"} <= {*names} or not len({*names}) == len(names) == len(array.shape):
+        raise ValueError(f"{path} has the axes {', '.join(names)} for {len(array.shape)} dimensions;"
+                         " it must have z, y and x")
+    sizes = {name: size for name, size in zip(names, array.shape) if name not in tuple("zyx")}
+    chosen = {"t": time, "c": channel}
+    for name, index in chosen.items():
+        if not 0 <= index < sizes.get(name, 1):
+            raise ValueError(f"{path} has no index {index} along {name}; it has "
+                             + (f"0 to {sizes[name] - 1}" if name in sizes else "no such axis"))
+    for name in [name for name in sizes if name not in chosen and sizes[name] > 1]:
+        raise ValueError(f"{path} has {sizes[name]} images along its axis {name}; copy one of them "
+                         "into an image of its own")
+    place = [chosen.get(name, 0) if name in sizes else None for name in names]
+    volume = Volume(array, place, [names.index(name) for name in "zyx"], sizes,
+                    os.path.join(path, str(datasets[level]["path"])))
+    _set_coordinates(volume, path, [datasets[level], scales[0]],
+                     [str(axes[axis].get("unit") or "") for axis in volume.order[::-1]])
+    return volume
+
+
+def _set_coordinates(volume: Volume, path: str, sources: list[Any], units: list[str]) -> None:
+    """Set spacing, origin and unit. `units` are those of x, y and z; lengths are in that of x."""
+    count = len(volume.place)
+    scale, translation = np.ones(count), np.zeros(count)
+    for step in [step for source in sources for step in source.get("coordinateTransformations", [])]:
+        given = [np.asarray(step.get(name, default * np.ones(count)), dtype=float)
+                 for name, default in (("scale", 1), ("translation", 0))]
+        if step.get("type") not in ("scale", "translation", "identity") or "path" in step or any(
+                numbers.shape != (count,) or not np.isfinite(numbers).all() for numbers in given):
+            raise ValueError(f"{path}: the transformation {step} is not supported; there must be "
+                             f"scale or translation with {count} numbers")
+        scale, translation = scale * given[0], translation * given[0] + given[1]
+    lengths = [round(1e9 * METERS.get(unit_of(unit), 0.0), 6) for unit in units]  # in nanometers
+    if 0.0 in lengths and len(set(units)) > 1:
+        raise ValueError(f"{path}: the units of the axes, {', '.join(map(repr, sorted(set(units))))}, "
+                         "cannot be converted")
+    factors = [length / lengths[0] if lengths[0] else 1.0 for length in lengths]
+    volume.spacing, volume.origin = (tuple(float(values[axis] * factor) for axis, factor in zip(
+        volume.order[::-1], factors)) for values in (scale, translation))
+    volume.unit, volume.nanometers = units[0], lengths[0] or 1.0
+    if units[0] and not lengths[0]:
+        warnings.warn(f"{path}: the unit '{units[0]}' is unknown; lengths have no unit", stacklevel=3)
 
 
 def label_names(path: str) -> list[str]:
-    """Of the label maps of the image in a group, for `open`."""
+    """Return the names of the label maps of the image in a group, for `open`."""
     try:
-        group = _group(f"{path.rstrip('/')}/labels")
+        return list(_attributes(_group(f"{path.rstrip('/')}/labels")).get("labels", []))
     except ValueError:
         return []
-    return list(_attributes(group).get("labels", []))
 
 
 def _group(path: str) -> Any:
     try:
         import zarr  # pylint: disable=import-outside-toplevel
     except ImportError as error:
-        raise ImportError("OME-Zarr is read by zarr, which is missing (Debian: python3-zarr)"
+        raise ImportError("zarr is missing; install it to read OME-Zarr (Debian: python3-zarr)"
                           ) from error
-    missing: Any = getattr(zarr.errors, "GroupNotFoundError", FileNotFoundError)  # zarr 2's
     try:
         return zarr.open_group(path, mode="r")
-    except (FileNotFoundError, missing) as error:
-        raise ValueError(f"{path}: there is no group of Zarr") from error
+    except Exception as error:
+        kind = type(error).__name__  # zarr 2 and 3 have different classes
+        if "ContainsArray" in kind or "TypeError" in kind:
+            raise ValueError(f"{path} is the array of a level; give the group that has it, "
+                             f"{os.path.dirname(path.rstrip('/'))}") from error
+        if isinstance(error, FileNotFoundError) or "NotFound" in kind:
+            raise ValueError(f"{path}: there is no group of Zarr") from error
+        raise
 
 
 def _attributes(group: Any) -> dict[str, Any]:
