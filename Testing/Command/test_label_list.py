@@ -6,7 +6,7 @@ import unittest
 
 import numpy as np
 
-from test_tool_labels import BLOBS, NAMES, SPACING, LabelsTest, label_image, label_voxels
+from test_labels import BLOBS, NAMES, SPACING, LabelsTest, label_image, label_voxels
 from command_test_case import make_image
 
 

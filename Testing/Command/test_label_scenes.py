@@ -16,7 +16,7 @@ import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOGeometry import vtkGLTFReader
 
-from test_tool_labels import BLOBS, NAMES, LabelsTest
+from test_labels import BLOBS, NAMES, LabelsTest
 from command_test_case import ISO, ball, nrrd_header
 from vtk_files import points_of, read, triangles_of
 

@@ -89,6 +89,17 @@ class OutputsTest(LabelsTest):
         self.assertGreater(read(self.path("stl/liver.stl")).GetNumberOfPolys(), 100)
         self.assertIn(b"liver", self.content("stl/liver.stl")[:80])
 
+    def test_files_of_earlier_runs_are_reported(self):
+        volume, folder = self.map_file(), self.path("o/")
+        self.run_command(volume, folder, "--labels", "1,2,7")
+        self.write_bytes("o/notes.txt", b"")
+        process = self.run_command(volume, folder, "--labels", "1")
+        self.assertRegex(process.stderr, "warning: .*o/: 2 .vtp files there are not of this run: "
+                         "label-2.vtp, label-7.vtp; delete what is old")
+        self.assertEqual(len(os.listdir(folder)), 4)
+        process = self.run_command(volume, folder, "--labels", "1,2", "--format", "stl")
+        self.assertNotIn("warning", process.stderr)
+
     def test_blocks(self):
         names = self.write_bytes("n.csv", b'label,name\n1,"a<b & ""c"""\n2,two\n')
         self.run_command(self.map_file(), self.path("out.vtm"), "--labels", "1,2", "--label-names",
@@ -114,8 +125,8 @@ class OutputsTest(LabelsTest):
         self.run_command(volume, self.path("a.stl"), "--labels", "2")
         self.assertGreater(read(self.path("a.stl")).GetNumberOfPolys(), 100)
         self.refused(r"b.stl: 4 labels have as many surfaces: give a folder \(.*b/ --format stl\) "
-                     r"or blocks \(.*b.vtm, .*b.glb, .*b.3mf\), or .*--merge", volume, self.path("b.stl"),
-                     "--labels", "all")
+                     r"or blocks \(.*b.vtm, .*b.glb, .*b.3mf\), or .*--merge", volume,
+                     self.path("b.stl"), "--labels", "all")
         self.assertFalse(os.path.exists(self.path("b.stl")))
 
     def test_names_of_files_are_safe_and_different(self):
@@ -216,13 +227,15 @@ class WhatIsReadTest(LabelsTest):
     def test_labels_that_were_resampled(self):
         """Whole but for a little, and one is NaN: they are those of before, and that is told."""
         voxels = label_voxels("f4")
-        self.run_command(self.map_file("a.vti", label_image(voxels)), self.path("a"), "--labels", "all")
+        self.run_command(self.map_file("a.vti", label_image(voxels)), self.path("a"), "--labels",
+                         "all")
         self.assertEqual(voxels[0, 0, 0], 0)
         voxels[voxels == 7] = 6.995
         voxels[0, 0, 0] = np.nan
         process = self.run_command(self.map_file("b.vti", label_image(voxels)), self.path("b"),
                                 "--labels", "all")
-        self.assertRegex(process.stderr, r"warning: .*within 0.00\d+ of integers, .*; NaN, at 1 voxel, is")
+        self.assertRegex(process.stderr,
+                         r"warning: .*within 0.00\d+ of integers, .*; NaN, at 1 voxel, is")
         self.assertEqual(self.content("a/label-7.vtp"), self.content("b/label-7.vtp"))
 
     def test_labels_that_no_int_holds(self):
@@ -262,24 +275,34 @@ class WhatIsReadTest(LabelsTest):
                          {"kidney": (voxels == 7).sum(), "liver": (voxels == 1).sum(),
                           "lung_left": (voxels == 2).sum()})
         written = self.path("w.vti")
-        self.run_command(self.path("organs/*.nii.gz"), "--write-volume", written, "--memory", "3G")
+        self.run_command(self.path("organs/*.nii.gz"), "--write-volume", written, "--labels", "all")
         listed = self.report(written, "--list-labels")["labels"]
         self.assertEqual([row["name"] for row in listed if row["label"] > 0],
                          ["kidney", "liver", "lung_left"])
 
     def test_masks_that_overlap(self):
+        """Each has its whole surface; in one mesh a voxel belongs to the smallest mask."""
         voxels = label_voxels()
         part = np.zeros_like(voxels)
         part[6:9, 6:9, 6:9] = 1
-        folder = self.masks("m", whole=voxels == 1, part=part, zone=(voxels == 1) & (part == 0))
-        process = self.run_command(folder, "--list-labels", "--report", self.path("r.json"))
-        sizes = {row["name"]: row["voxels"]
-                 for row in json.loads(self.content("r.json"))["labels"]}
-        self.assertEqual((sizes["part"], "whole" in sizes), (27, False))
         count = (voxels == 1).sum()
-        self.assertRegex(process.stderr,
-                         rf"{count} times a voxel is in two masks \(part and whole 27, "
-                         rf"whole and zone {count - 27}\): .* the smaller one")
+        folder = self.masks("m", whole=voxels == 1, part=part, zone=(voxels == 1) & (part == 0))
+        rows = {row["name"]: row for row in
+                self.report(folder, self.path("o/"), "--labels", "all")["labels"]}
+        self.assertEqual({name: row["voxels"] for name, row in rows.items()},
+                         {"whole": count, "part": 27, "zone": count - 27})
+        for row in rows.values():
+            self.assertAlmostEqual(row["volume"] / (row["voxels"] * SPACING.prod()), 1, delta=.06)
+        listed = self.report(folder, "--list-labels")["labels"]
+        self.assertEqual({row["name"]: row["voxels"] for row in listed if row["label"]},
+                         {name: row["voxels"] for name, row in rows.items()})
+        process = self.run_command(folder, self.path("a.vtp"), "--labels", "all", "--report",
+                                   self.path("r.json"), "--shared-interfaces")
+        self.assertRegex(process.stderr, r"warning: .*in two masks \(part and whole 27, whole and "
+                         rf"zone {count - 27}\): .* the smaller")
+        self.assertEqual({row["name"]: row["voxels"]
+                          for row in json.loads(self.content("r.json"))["labels"]},
+                         {"part": 27, "zone": count - 27})
 
     def test_masks_behind_each_other_in_one_file(self):
         voxels = label_voxels()
@@ -338,24 +361,10 @@ class WhatIsReadTest(LabelsTest):
             np.testing.assert_allclose(bounds, expected, atol=1.5)
 
 
-class ToleranceTest(LabelsTest):
-    def test_grains_of_few_voxels_hold_what_neighbours_claim(self):
-        """Their tolerance is let go, rather than that all get smaller triangles, or are lost."""
-        grains = np.kron(np.arange(1, 65).reshape(4, 4, 4), np.ones((2, 2, 3), int))
-        image = make_image(np.pad(grains, 2).astype("u1"), (1, 1, 1))
-        volume = self.write(vtkXMLImageDataWriter(), "grains.vti", image)
-        report = self.report(volume, self.path("grains/"), "--labels", "all", "--voxel-tolerance", ".5")
-        self.assertEqual(len(report["labels"]), 64)
-        for label in report["labels"]:
-            self.assertEqual((label["level"], label["missed_voxels"]), (0, 0))
-            self.assertLess(label["wrong_voxels"], 3)
-        self.assertEqual(report["warnings"], [])
-
-
 class OptionsTest(LabelsTest):
     def test_every_property_of_labels_is_set(self):
         volume = self.map_file()
-        values = {"BackgroundLabel": ("--background", "1"), "Gap": ("--gap", "0.25"),
+        values = {"BackgroundLabel": ("--background", "1"),
                   "Smoothing": ("--smoothing", "0.5"),
                   "VoxelTolerance": ("--voxel-tolerance", "0.25"),
                   "Metric": ("--metric", "voxels"),
@@ -365,7 +374,7 @@ class OptionsTest(LabelsTest):
                   "KeepComponents": ("--keep", "large"),
                   "MinimumComponentVolume": ("--minimum-component-volume", "2"),
                   "TimeLimit": ("--time-limit", "600"),
-                  "NumberOfThreads": ("--threads", "1"), "MemoryLimit": ("--memory", "3000M"),
+                  "NumberOfThreads": ("--threads", "1"),
                   "ScratchDirectory": ("--scratch", self.folder),
                   "ThinParts": ("--thin-parts",),
                   "SharedInterfaces": ("--shared-interfaces",),
@@ -388,7 +397,6 @@ class OptionsTest(LabelsTest):
             return self.rows(volume, "--labels", "1,2", *options)[1]
 
         plain = volume_of()
-        self.assertLess(volume_of("--gap", "0.5")["volume"], 0.9 * plain["volume"])
         self.assertNotEqual(volume_of("--smoothing", "0")["area"], plain["area"])
         strict = volume_of("--voxel-tolerance", "0")
         self.assertNotEqual(strict["area"], plain["area"])
@@ -411,21 +419,25 @@ class OptionsTest(LabelsTest):
                 ("--levels-output", "l"), ("--snapshots", "s"), ("--edges", "e"),
                 ("--initial-surface", "a.stl"), ("--seed-position", "1,2,3"),
                 ("--attracting-points", "p"), ("--attracting-position", "1,2,3"),
-                ("--levels", "2"), ("--preview",), ("--resume",),
+                ("--levels", "2"), ("--preview",),
                 ("--tension", "3"), ("--no-snap",), ("--keep", "at-points"),
                 ("--keep", "not-at-seeds"), ("--profile",), ("--border", "replicate")):
             with self.subTest(option, value=value):
                 self.refused(f"{option}( at-points| not-at-seeds)? and --labels exclude each other",
                              "a.vti", "out/", "--labels", "1", option, *value, status=2)
         for option, *value in (
-                ("--merge",), ("--gap", "1"), ("--smoothing", "1"), ("--shared-interfaces",), ("--box-faces", "flat"), ("--background", "1"),
+                ("--merge",), ("--smoothing", "1"), ("--shared-interfaces",),
+                ("--box-faces", "flat"), ("--background", "1"),
                 ("--voxel-tolerance", "0.5"), ("--format", "stl"), ("--label-names", "n")):
             with self.subTest(option):
                 self.refused(f"{option} needs --labels", "a.vti", "out.stl", option, *value,
                              status=2)
         for reason, arguments in (
                 ("no surface format", ["o/", "--format", "dwg"]),
-                ("not written in pieces", ["o/", "--format", "pvtp"]),
+                ("'2' is not the name of a file; write a list of labels with commas",
+                 ["o.vtp", "2", "3"]),
+                ("'2-3' is not the name of a file; write .*--labels 1,2-3.*", ["2-3"]),
+                ("'liver' is not the name of a file; .* a folder with a slash", ["o.vtp", "liver"]),
                 ("--format is that of the files in a folder", ["o.stl", "--format", "stl"]),
                 ("no surface format .*, .vtm; a folder is o.v1/", ["o.v1"]),
                 ("the standard output", ["-"]), ("no file to write", []),
@@ -436,7 +448,7 @@ class OptionsTest(LabelsTest):
 
     def test_what_the_filter_refuses(self):
         for reason, *options in (
-                ("map.vti: --gap is -1", "--gap", "-1"), ("--smoothing is -1", "--smoothing", "-1"),
+                ("map.vti: --smoothing is -1", "--smoothing", "-1"),
                 ("--voxel-tolerance is 2 voxels; it must be at most 1", "--voxel-tolerance", "2")):
             with self.subTest(reason):
                 self.no_surfaces(reason, self.map_file(), "--labels", "1", *options)
@@ -492,8 +504,8 @@ class RunTest(LabelsTest):
 
     def test_a_time_limit(self):
         volume = self.many_labels(4)
-        self.no_surfaces("the time limit came before there was a surface", volume, "--labels", "all",
-                         "--time-limit", "1e-9")
+        self.no_surfaces("the time limit came before there was a surface", volume, "--labels",
+                         "all", "--time-limit", "1e-9")
         seconds, status = 0.1, 1
         while status == 1:  # until some are finished, long before all are
             process = self.run_command(
