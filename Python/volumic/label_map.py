@@ -61,23 +61,6 @@ def set_label_names(image: Any, labels: Sequence[Label]) -> None:
             image.GetFieldData().AddArray(array)
 
 
-def get_label_names(image: Any) -> list[Label]:
-    """The names of labels in the field data of an image."""
-    values, texts, colors, layers = map(image.GetFieldData().GetAbstractArray, FIELDS)
-    count = values.GetNumberOfTuples() if values and values.IsA("vtkDataArray") else 0
-    colors, layers = (array if array and array.IsA("vtkDataArray")
-                      and array.GetNumberOfTuples() == count
-                      and array.GetNumberOfComponents() == parts else None
-                      for array, parts in ((colors, 3), (layers, 1)))
-    texts = texts if texts and texts.IsA("vtkStringArray") and (
-        texts.GetNumberOfValues() == count) else None
-    scale = 1 / 255 if colors and colors.IsA("vtkUnsignedCharArray") else 1.0
-    return [Label(int(values.GetComponent(i, 0)), texts.GetValue(i) if texts else "",
-                  tuple(scale * part for part in colors.GetTuple(i)) if colors else None,
-                  int(layers.GetComponent(i, 0)) if layers else 0)
-            for i in range(count) if abs(values.GetComponent(i, 0)) < 2 ** 31]
-
-
 def name_labels(options: Namespace, volume: Volume, image: Any, teller: Teller) -> list[Label]:
     """Give the image of a volume the names of its labels, and return them: those of --label-names
     before its own; where it has none, those of a file beside it, which is reported with
@@ -141,8 +124,8 @@ def layers_of(image: Any, names: Sequence[Label], component: int | None) -> list
     return layers
 
 
-def known_labels(layers: Sequence[Any], options: Namespace, teller: Teller
-                 ) -> tuple[list[KnownLabel], list[str]]:
+def known_labels(layers: Sequence[Any], names: Sequence[Label], options: Namespace,
+                 teller: Teller) -> tuple[list[KnownLabel], list[str]]:
     """The labels of the layers, and the warnings about them.
 
     Where there are too many to list, a few that --labels names by their numbers are returned.
@@ -156,7 +139,7 @@ def known_labels(layers: Sequence[Any], options: Namespace, teller: Teller
         try:
             warnings += run(table, "", Teller(quiet=True)).warnings
         except Failure:
-            known = _numbered(options.labels, get_label_names(layer))
+            known = _numbered(options.labels, names)
             if not known or len(layers) > 1 or options.list_labels:
                 raise
             break

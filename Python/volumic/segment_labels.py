@@ -74,7 +74,8 @@ class LabelRun:
         if wants_surface(options):
             with naming(options.volume):
                 self.layers = layers_of(loaded.image, names, component)
-                self.known, self.warnings = known_labels(self.layers, options, teller)
+                self.known, self.warnings = known_labels(self.layers, names, options,
+                                                         teller)
 
     def announce(self) -> None:
         """Print what the map is."""

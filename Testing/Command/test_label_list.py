@@ -20,8 +20,8 @@ class ListTest(LabelsTest):
     def table(self, *arguments):
         """The lines of the table, split, below its heading."""
         lines = self.run_command("--list-labels", *arguments).stdout.splitlines()
-        self.assertRegex(lines[0], r"^ *label +voxels +volume +.*box \(first\.\.last voxel along i, "
-                                   r"j, k\) +name$")
+        self.assertRegex(lines[0], r"^ *label +voxels +volume +.*box \(first\.\.last voxel along "
+                                   r"i, j, k\) +name$")
         return [line.split() for line in lines[1:]]
 
     def listed(self, *arguments):

@@ -138,7 +138,8 @@ class FilesTest(NamesTest):
         for text in ("1,liver\n3,Left lung\n", "liver,1\nLeft lung,3\n",
                      'label,name\n1,liver\n3,"Left lung"\n', "index;label\n1;liver\n3;Left lung\n",
                      "Structure Name,ROI\nliver,1\nLeft lung,3\n",
-                     "label,name\n1.0,liver\n3.0,Left lung\n", 'label , name\n1 , "liver" \n3,Left lung\n',
+                     "label,name\n1.0,liver\n3.0,Left lung\n",
+                     'label , name\n1 , "liver" \n3,Left lung\n',
                      "\ufeffLabel Value,Label Name,volume\n1,liver,33.5\n3,Left lung,3\n",
                      "# made by me\nid\tregion\n1\tliver\n3\tLeft lung\n"):
             with self.subTest(text):
@@ -166,12 +167,12 @@ class DamageTest(NamesTest):
         for text, reason in (
                 ("", "it names no label"), ("# nothing\n", "it names no label"),
                 ("1 2 3\n4 5 6\n", "line 1: .* is a number, not a name"),
-                ("liver\nspleen\n", "line 1: there are neither a label and its name"),
+                ("liver\nspleen\n", "line 1: there must be a label, .*column names such as"),
                 ("1 liver\n3\n", "line 2: there must be a label, .*, and a name"),
                 ('1 "liver\n', "line 1: a quote does not end"),
-                ("label,name\n1,liver\n3\n", "line 3: it has too few columns"),
-                ("label,name\n1,liver\n2.5,x\n", "line 3: '2.5' is not a label"),
-                ("label,name\n99999999999,x\n", "line 2: '99999999999' is not a label"),
+                ("label,name\n1,liver\n3\n", "line 3: there must be a label"),
+                ("label,name\n1,liver\n2.5,x\n", "line 3: there must be a label, which is an integer"),
+                ("label,name\n99999999999,x\n", "line 2: there must be a label"),
                 ("1,2\n3,4\n", "line 1: '2' is a number"),
                 ("1 liver 255 300 0\n", "the color of label 1 is not between 0 and 255"),
                 (b"1\0l\0i\0v\0", "not text in UTF-8")):
@@ -343,7 +344,8 @@ class SegmentsTest(NamesTest):
             self.assertEqual({row["name"] for row in report["labels"]}, names)
         self.refused("--merge: the labels lie in several layers", volume, self.path("o.stl"),
                      "--labels", "1", "--merge")
-        self.run_command(volume, self.path("o.stl"), "--labels", "1,2", "--merge", "--component", "1")
+        self.run_command(volume, self.path("o.stl"), "--labels", "1,2", "--merge", "--component",
+                         "1")
 
     def test_layers_of_older_files(self):
         """Each component is a segment, and nothing tells its label."""

@@ -9,7 +9,7 @@ import json
 import os
 import re
 from collections.abc import Iterable, Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
 from ..errors import Failure
 from .volume import Label
@@ -149,15 +149,48 @@ def _scale_colors(names: list[Label]) -> None:
             label.color = label.color and tuple(part / 255 for part in label.color)
 
 
+# ---- Segments ------------------------------------------------------------------------------------
+
+# Members of objects of JSON and columns of tables, in small letters and digits.
+LABEL_KEYS = ("labelvalue", "labelid", "labelindex", "value", "label", "index", "id", "idx",
+              "number", "no", "key", "roi")
+NAME_KEYS = ("name", "labelname", "segmentname", "segmentlabel", "segmentdescription", "structure",
+             "structurename", "region", "regionname", "organ", "segment", "label", "text", "class",
+             "description")
+COLOR_KEYS = ("color", "colour", "rgb", "recommendeddisplayrgbvalue")
+RGB_KEYS = (("r", "red", "colorr"), ("g", "green", "colorg"), ("b", "blue", "colorb"))
+
+
+def _labels_of(segments: Iterable[Any]) -> list[Label | None]:
+    """The label of each segment; None where it has no label or no name."""
+    plain = [{re.sub("[^a-z0-9]", "", key.lower()): value for key, value in segment.items()}
+             if isinstance(segment, dict) else {} for segment in segments]
+    usual = [key for key in LABEL_KEYS if all(_label(each.get(key)) is not None for each in plain)]
+    return [_label_of(segment, usual[:1] or LABEL_KEYS) for segment in plain]
+
+
+def _label_of(segment: dict[str, Any], keys: Sequence[str]) -> Label | None:
+    key = next((key for key in keys if _label(segment.get(key)) is not None), "")
+    name = next((segment[other] for other in NAME_KEYS
+                 if other != key and isinstance(segment.get(other), str)), None)
+    label = _label(segment.get(key))
+    return None if label is None or name is None else Label(label, name, _color_of(segment))
+
+
+def _color_of(segment: dict[str, Any]) -> tuple[float, ...] | None:
+    color = next((segment[key] for key in COLOR_KEYS if key in segment), None)
+    if isinstance(color, str):
+        return _hex_color(color)
+    values = color if isinstance(color, list) else [
+        segment.get(key) for keys in RGB_KEYS for key in keys if key in segment]
+    parts = tuple(map(_number, values[:3]))
+    return parts if len(parts) == 3 and None not in parts else None
+
+
 # ---- JSON ----------------------------------------------------------------------------------------
 
-LABEL_KEYS = ("labelvalue", "labelid", "label_value", "label_id", "value", "label", "index", "id",
-              "number", "key")
-NAME_KEYS = ("name", "labelname", "segmentlabel", "segmentdescription", "structure", "label",
-             "text", "description")
-COLOR_KEYS = ("color", "colour", "rgb", "recommendeddisplayrgbvalue")
-USUAL_KEYS = ("labels", "label_names", "names", "segments", "segmentattributes", "class_map",
-              "classes", "structures", "organs")
+USUAL_MEMBERS = ("labels", "label_names", "names", "segments", "segmentattributes", "class_map",
+                 "classes", "structures", "organs")
 
 
 def _names_in_json(text: str) -> list[Label]:
@@ -170,106 +203,67 @@ def _names_in_json(text: str) -> list[Label]:
 
 
 def _find_names(value: Any) -> list[Label]:
-    """The first names in a value: its own, those in members with a usual key, those in others."""
-    if isinstance(value, dict):
-        names = _names_by_label(value) or _labels_by_name(value)
-        value = [value[key] for key in sorted(value, key=lambda key: key.lower() not in USUAL_KEYS)]
-    else:
-        names = _names_in_list(value) if isinstance(value, list) else []
+    """The first names in a value: its own, those in usual members, those in others."""
+    found: list[Label | None] = []
+    if isinstance(value, dict):  # {"1": "liver"} or {"1": {"name": "liver"}} or {"liver": 1}
+        found = _labels_of({**(each if isinstance(each, dict) else {"name": each}),
+                            "label value": key} for key, each in value.items())
+        found = _labels_by_name(value) if None in found else found
+        value = [value[key] for key in sorted(value,
+                                              key=lambda key: key.lower() not in USUAL_MEMBERS)]
+    elif isinstance(value, list):  # [{"label": 1, "name": "liver"}], also in lists within
+        found = _labels_of(segment for group in value
+                           for segment in (group if isinstance(group, list) else [group]))
+    if found and None not in found:
+        return [label for label in found if label is not None]
     members = value if isinstance(value, list) else []
-    return names or next(filter(None, map(_find_names, members)), [])
+    return next(filter(None, map(_find_names, members)), [])
 
 
-def _names_by_label(value: dict[str, Any]) -> list[Label]:
-    """{"1": "liver"} or {"1": {"name": "liver"}}; nothing where any member is something else."""
-    names = [(_label(key), each if isinstance(each, str) else _member(each, NAME_KEYS, str),
-              _color_of(each)) for key, each in value.items()]
-    return [] if any(None in name[:2] for name in names) else [Label(*name) for name in names]
-
-
-def _labels_by_name(value: dict[str, Any]) -> list[Label]:
-    """{"liver": 1}; nothing where any member is something else. Several labels under a name
-    (regions of nnU-Net) name none of them."""
-    names = []
+def _labels_by_name(value: dict[str, Any]) -> list[Label | None]:
+    """{"liver": 1}; several labels under a name (regions of nnU-Net) name none of them."""
+    names: list[Label | None] = []
     for name, each in value.items():
         is_region = isinstance(each, list) and each and None not in map(_number, each)
         label = _label(each[0] if is_region and len(each) == 1 else each)
-        if label is not None:
-            names.append(Label(label, name))
-        elif not is_region:
-            return []
+        if label is not None or not is_region:
+            names.append(None if label is None else Label(label, name))
     return names
 
 
-def _names_in_list(value: list[Any]) -> list[Label]:
-    """[{"label": 1, "name": "liver"}, ...], also in lists within; nothing where any member is
-    something else."""
-    segments = [each for group in value for each in (group if isinstance(group, list) else [group])]
-    names = [(_label(_member(each, LABEL_KEYS, (int, float, str), _label)),
-              _member(each, NAME_KEYS, str), _color_of(each)) for each in segments]
-    return [] if any(None in name[:2] for name in names) else [Label(*name) for name in names]
-
-
-def _member(value: Any, keys: Sequence[str], types: Any, passes: Any = bool) -> Any:
-    """The first member with one of the keys, in any case, that is of a type and passes."""
-    members = {key.lower(): each for key, each in value.items()} if isinstance(value, dict) else {}
-    return next((members[key] for key in keys if isinstance(members.get(key), types)
-                 and passes(members[key]) is not None), None)
-
-
-def _color_of(segment: Any) -> tuple[float, ...] | None:
-    color = _member(segment, COLOR_KEYS, (str, list))
-    if isinstance(color, list):
-        parts = tuple(map(_number, color[:3]))
-        return parts if len(parts) == 3 and None not in parts else None
-    return _hex_color(color) if color else None
-
-
 # ---- Tables --------------------------------------------------------------------------------------
-
-NAME_COLUMNS = ("name", "labelname", "segmentname", "structure", "structurename", "region",
-                "regionname", "organ", "segment", "description")
-LABEL_COLUMNS = ("labelvalue", "value", "index", "labelid", "labelindex", "id", "idx", "number",
-                 "no", "key", "roi", "label")
-COLOR_COLUMNS = (("r", "red", "colorr", "color", "colour"), ("g", "green", "colorg"),
-                 ("b", "blue", "colorb"))
-
-
-class _Row(NamedTuple):
-    line: int  # counted from 1
-    words: list[str]
-
-    def failure(self, reason: str) -> Failure:
-        return Failure(f"line {self.line}: {reason}")
-
-    def word(self, column: int | None) -> str:
-        return self.words[column] if column is not None and column < len(self.words) else ""
-
-    def numbers(self) -> list[bool]:
-        """Which words are numbers."""
-        return [_number(word) is not None for word in self.words]
-
 
 def _names_in_table(text: str) -> list[Label]:
     rows, separator = _rows_of(text)
     if not rows:
         return []
-    if all(row.numbers() == [True] * 7 + [False] for row in rows):  # ITK-SNAP
-        return _names_in_columns(rows, 0, 7, (1, 2, 3))
-    if not any(rows[0].numbers()):
-        return _names_below(rows[0], rows[1:])
-    if separator == " ":
-        return _names_between_numbers(rows)
-    label = 1 if any(_label(row.word(0)) is None for row in rows) and all(
-        _label(row.word(1)) is not None for row in rows) else 0
-    for row in rows:
-        if _number(row.word(1 - label)) is not None:
-            raise row.failure(f"'{row.word(1 - label)}' is a number, not a name")
-    return _names_in_columns(rows, label, 1 - label, (2, 3, 4))
+    numbers = [[_number(word) is not None for word in words] for _, words in rows]
+    keys, first, has_head = ["label", "name", "r", "g", "b"], rows[0][0], not any(numbers[0])
+    if all(row == [True] * 7 + [False] for row in numbers):  # ITK-SNAP
+        keys = ["label", "r", "g", "b", "alpha", "visible", "mesh", "name"]
+    elif has_head:
+        keys, rows = rows[0][1], rows[1:]
+    elif separator == " ":
+        rows = _joined(rows, numbers)
+    elif any(_label(words[0]) is None for _, words in rows) and all(
+            _label(words[len(words) > 1]) is not None for _, words in rows):
+        keys[:2] = ["name", "label"]
+    segments = [dict(zip(keys, words)) for _, words in rows]
+    names = []
+    for (line, _), label, segment in zip(rows, _labels_of(segments), segments):
+        name = segment.get("name", "")
+        if not has_head and _number(name) is not None:
+            raise Failure(f"line {line}: '{name}' is a number, not a name")
+        if label is None:
+            line = line if any(key.lower() in LABEL_KEYS for key in keys) else first
+            raise Failure(f"line {line}: there must be a label, which is an integer, and a name, "
+                          "or above them column names such as 'label' and 'name'")
+        names.append(label)
+    return names
 
 
-def _rows_of(text: str) -> tuple[list[_Row], str]:
-    """The rows of a table, and what separates words: that is in the first line and most others."""
+def _rows_of(text: str) -> tuple[list[tuple[int, list[str]]], str]:
+    """Numbers and words of lines, and what separates words: that is in the first line and most."""
     lines = [(number, line) for number, line in enumerate(re.split("\r\n?|\n", text), 1)
              if line.strip() and not line.startswith(("#", "//"))]
     separator = next((sign for sign in "\t;," if lines and sign in lines[0][1]
@@ -283,60 +277,16 @@ def _rows_of(text: str) -> tuple[list[_Row], str]:
                                 skipinitialspace=separator != " ")
         except csv.Error:
             raise Failure(f"line {number}: a quote does not end, or a cell is too long") from None
-        rows.append(_Row(number, [word.strip() for word in words]))
+        rows.append((number, [word.strip() for word in words]))
     return rows, separator
 
 
-def _names_below(head: _Row, rows: list[_Row]) -> list[Label]:
-    """The rows below column names."""
-    keys = [re.sub("[^a-z0-9]", "", word.lower()) for word in head.words]
-
-    def column(names: Sequence[str], other: int | None = None) -> int | None:
-        return next((place for name in names for place, key in enumerate(keys)
-                     if key == name and place != other), None)
-
-    name = column(NAME_COLUMNS)
-    label = column(LABEL_COLUMNS, name)
-    if name is None:
-        name = column(("label", "text", "class"), label)
-    if label is None or name is None:
-        raise head.failure("there are neither a label and its name, nor column names such as "
-                           "'label' and 'name'")
-    return _names_in_columns(rows, label, name, [column(names) for names in COLOR_COLUMNS])
-
-
-def _names_in_columns(rows: list[_Row], label: int, name: int,
-                      colors: Sequence[int | None]) -> list[Label]:
-    names = []
-    for row in rows:
-        if len(row.words) <= max(label, name):
-            raise row.failure("it has too few columns for a label and a name")
-        value = _label(row.words[label])
-        if value is None:
-            raise row.failure(f"'{row.words[label][:40]}' is not a label; labels are integers")
-        names.append(Label(value, row.words[name], _row_color(row, colors)))
-    return names
-
-
-def _row_color(row: _Row, columns: Sequence[int | None]) -> tuple[float, ...] | None:
-    parts = tuple(_number(row.word(column)) for column in columns)
-    return parts if None not in parts else _hex_color(row.word(columns[0]))
-
-
-def _names_between_numbers(rows: list[_Row]) -> list[Label]:
-    """Rows of a label, words of a name, and numbers."""
-    at_end = [(row.numbers()[:1:-1] + [False]).index(False) for row in rows]
-    numbers = min(min(at_end), 4)
+def _joined(rows: list[tuple[int, list[str]]], numbers: list[list[bool]]
+            ) -> list[tuple[int, list[str]]]:
+    """Rows of a label, words of a name, and numbers; the words become one."""
+    at_end = min((row[:1:-1] + [False]).index(False) for row in numbers)
     # A number at the end of some names is a part of them.
-    if numbers < 3 and not (numbers == 1 and all(len(row.words) == 3 for row in rows)):
-        numbers = 0
-    names = []
-    for row in rows:
-        label, end = _label(row.word(0)), len(row.words) - numbers
-        if label is None or len(row.words) < 2:
-            raise row.failure("there must be a label, which is an integer, and a name")
-        name = " ".join(row.words[1:end])
-        if _number(name) is not None:
-            raise row.failure(f"'{name}' is a number, not a name")
-        names.append(Label(label, name, _row_color(row, (end, end + 1, end + 2))))
-    return names
+    count = min(at_end, 4) if at_end >= 3 or (
+        at_end == 1 and all(len(row) == 3 for row in numbers)) else 0
+    return [(line, [words[0], " ".join(words[1:len(words) - count]), *words[len(words) - count:]]
+             if len(words) > 1 else words) for line, words in rows]
