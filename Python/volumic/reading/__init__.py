@@ -1,9 +1,208 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Readers of volumes. read() returns one Volume or throws one VolumeError of one line."""
+"""Readers of volumes. read() returns one Volume or throws one VolumeError of one line.
+
+A reader is a function (path, choice) -> Volume. Its module is imported when a file needs it.
+"""
 from __future__ import annotations
 
-from ..errors import VolumeError
-from .volume import Choice, Label, Volume, checked, unit_of
+import importlib
+import os
+import re
+import stat
 
-__all__ = ["Choice", "Label", "Volume", "VolumeError", "checked", "unit_of"]
+from ..errors import VolumeError
+from .grid import one_of_times
+from .volume import Choice, Label, Volume, checked, failure_of, unit_of
+
+__all__ = ["Choice", "Label", "SUFFIXES", "Volume", "VolumeError", "checked", "list_files",
+           "list_series", "read", "unit_of"]
+
+SUFFIXES = {suffix: reader for reader, suffixes in {
+    "vtkfiles:read_xml": ".vti .pvti .vtr",
+    "vtkfiles:read_legacy": ".vtk .vtkhdf .hdf",
+    "plain:read_meta_image": ".mha .mhd",
+    "plain:read_nrrd": ".nrrd .nhdr",
+    "plain:read_npy": ".npy .npz",
+    "plain:read_inv3": ".inv3",
+    "neuro:read_nifti": ".nii .nii.gz .nii.bz2 .img .img.gz .hdr .hdr.gz .mgz .mgh",
+    "neuro:read_minc": ".mnc",
+    "microscopy:read_mrc": ".mrc .map .rec .ccp4 .mrc.gz .map.gz .rec.gz .ccp4.gz .mrc.bz2",
+    "microscopy:read_tiff": ".tif .tiff .lsm .btf",
+    "microscopy:read_pictures": ".png .jpg .jpeg .bmp .pgm .ppm .pnm",
+    "dicom:read_dicom": ".dcm .dicom .ima",
+}.items() for suffix in suffixes.split()}
+_MARKS = (  # of files whose suffix is another one: place, bytes, reader
+    (128, b"DICM", "dicom:read_dicom"), (0, b"NRRD000", "plain:read_nrrd"),
+    (0, b"\x93NUMPY", "plain:read_npy"), (0, b"ObjectType", "plain:read_meta_image"),
+    (0, b"NDims", "plain:read_meta_image"), (0, b"# vtk DataFile", "vtkfiles:read_legacy"),
+    (0, b"<VTKFile", "vtkfiles:read_xml"), (0, b"<?xml", "vtkfiles:read_xml"),
+    (208, b"MAP ", "microscopy:read_mrc"), (0, b"II*\0", "microscopy:read_tiff"),
+    (0, b"MM\0*", "microscopy:read_tiff"), (0, b"II+\0", "microscopy:read_tiff"),
+    (0, b"\x89PNG", "microscopy:read_pictures"), (0, b"\xff\xd8\xff", "microscopy:read_pictures"),
+    (0, b"BM", "microscopy:read_pictures"), (0, b"P5", "microscopy:read_pictures"),
+    (344, b"n+1", ".nii"), (4, b"n+2", ".nii"), (0, b"\x89HDF", ".mnc or .vtkhdf"),
+    (0, b"\x1f\x8b", ".nii.gz, .mgz, .mrc.gz or .inv3"), (0, b"CDF", ".mnc"))
+
+
+def read(path, **choice):
+    """Return the Volume of a file, a folder, or a pattern such as "slice*.png".
+
+    The keywords are the fields of Choice, such as time, component, series, labels."""
+    path, choice = os.fspath(path), Choice(**choice)
+    choice.times = 0
+    try:
+        _check_files(path)
+        volume = _read(path, choice)
+        if choice.labels and choice.time is None and choice.times > 1:
+            from . import masks
+            volume = masks.read_times(path, choice.times, choice, _read)
+        volume.times = max(choice.times, 1)
+        if not choice.times and choice.time is not None:
+            one_of_times(1, choice)
+        return volume
+    except Exception as error:  # pylint: disable=broad-except
+        text = str(failure_of(error))
+        raise VolumeError(text if text.startswith(path) else "%s: %s" % (path, text)) from None
+
+
+def _read(path, choice):
+    """Return the checked Volume."""
+    reader = _reader_of(path, choice)
+    if isinstance(reader, str):
+        if choice.series is not None and not reader.startswith("dicom"):
+            raise VolumeError("there is no series %s (--series): it is no DICOM" % choice.series)
+        module, name = reader.split(":")
+        reader = getattr(importlib.import_module("." + module, __name__), name)
+    return checked(reader(path, choice), choice)
+
+
+def _reader_of(path, choice):
+    """Return the reader, "module:function" or a function, of a file, folder or pattern."""
+    if choice.raw:
+        return "plain:read_raw"
+    if os.path.isfile(path):
+        return _reader_of_file(path)
+    if not os.path.isdir(path):
+        if not re.search(r"[*%]", os.path.basename(path)):
+            raise VolumeError("no such file or folder")
+    elif any(os.path.exists(os.path.join(path, name)) for name in (".zattrs", ".zgroup", "zarr.json",
+                                                                   ".zarray")):
+        return "microscopy:read_ome_zarr"
+    from . import masks
+    files = list_files(path)
+    if any(_is_dicom(file) for file in files[:1]):
+        return "dicom:read_dicom"
+    found = masks.masks_among(files)
+    if len(found) == 1 and not choice.labels:
+        return lambda _, choice: _read(found[0], choice)
+    if found:
+        return lambda _, choice: masks.read_masks(found, choice, _read)
+    pictures = [file for file in files if _suffix_of(file) and "microscopy:" in
+                SUFFIXES[_suffix_of(file)]]
+    return "microscopy:read_pictures" if pictures else "dicom:read_dicom"
+
+
+def _suffix_of(path):
+    """Return the longest suffix of SUFFIXES that a name ends in, or ""."""
+    name = os.path.basename(path).lower()
+    return max((s for s in SUFFIXES if name.endswith(s) and name != s), key=len, default="")
+
+
+def _reader_of_file(path):
+    """Return the reader by the suffix, or, of other files, by their first bytes."""
+    with open(path, "rb") as stream:
+        head = stream.read(352)
+    if _is_dicom(path):
+        return "dicom:read_dicom"
+    suffix = _suffix_of(path)
+    if suffix:
+        return SUFFIXES[suffix]
+    found = next((reader for at, mark, reader in _MARKS if head[at:at + len(mark)] == mark), None)
+    if found is None:
+        raise VolumeError("not a format that is read (%s); give --raw for voxels without a header"
+                          % " ".join(sorted(SUFFIXES)))
+    if ":" not in found:
+        raise VolumeError("begins like a %s file: let its name end so" % found)
+    return found
+
+
+def _is_dicom(path):
+    try:
+        with open(path, "rb") as stream:
+            return stream.read(132)[128:] == b"DICM"
+    except OSError:
+        return False
+
+
+def list_series(path):
+    """Return a line for each DICOM series of a file or folder."""
+    from . import dicom
+    try:
+        _check_files(path)
+        return dicom.list_series(path)
+    except Exception as error:  # pylint: disable=broad-except
+        text = str(failure_of(error))
+        raise VolumeError(text if text.startswith(path) else "%s: %s" % (path, text)) from None
+
+
+def list_files(path, choice=None):  # pylint: disable=unused-argument
+    """Return all files that read() would open."""
+    if os.path.isdir(path):
+        return _files_of_folder(path)
+    folder = os.path.dirname(path)
+    if not os.path.exists(path):
+        from .microscopy import names_of_pattern
+        if not re.search(r"[*%]", os.path.basename(path)) or not os.path.isdir(folder or "."):
+            return []
+        return [os.path.join(folder, name) for name in names_of_pattern(path)[1]]
+    if not os.path.isfile(path):
+        return [path]
+    if _is_dicom(path):
+        is_directory = os.path.basename(path).lower() == "dicomdir"
+        return [path] + [file for file in _files_of_folder(folder or ".", is_directory)
+                         if not os.path.samefile(file, path)]
+    return [path] + _companions(path)
+
+
+def _files_of_folder(folder, is_nested=True):
+    """Return the files of a folder: those of DICOM with those in folders within, else all."""
+    from .microscopy import natural
+    files = [entry.path for entry in os.scandir(folder) if entry.is_file()]
+    slices = [file for file in files if _is_dicom(file)]
+    is_zarr = any(os.path.basename(file) in (".zattrs", ".zgroup", "zarr.json") for file in files)
+    if is_nested and (slices or not files or is_zarr):
+        files = [os.path.join(top, name) for top, _, names in os.walk(folder) for name in names]
+        slices = [] if is_zarr else [file for file in files if _is_dicom(file)]
+    return sorted(slices or [f for f in files if os.path.isfile(f)], key=natural)
+
+
+def _companions(path):
+    """Return the other files that a header names, or that belong to it."""
+    suffix = _suffix_of(path)
+    folder, files = os.path.dirname(path), []
+    if suffix in (".img", ".img.gz", ".hdr", ".hdr.gz"):
+        return [path[:-len(suffix)] + other for other in (".img", ".img.gz", ".hdr", ".hdr.gz")
+                if other != suffix and os.path.exists(path[:-len(suffix)] + other)]
+    with open(path, "rb") as stream:
+        text = stream.read(1 << 20).decode("latin-1")
+    if suffix == ".pvti":
+        files = re.findall(r'Source="([^"]*)"', text)
+    elif suffix in (".mha", ".mhd", ".nhdr", ".nrrd"):
+        head, _, rest = re.split(r"\n\s*\n", text)[0].partition("\0")
+        found = re.search(r"(?im)^(?:ElementDataFile\s*[=:]|data ?file:)\s*(.*?)\s*$", head)
+        if found and found[1] and found[1].lower() != "local":
+            from .plain import data_files
+            try:
+                return data_files(path, found[1], head[found.end() + 1:].split(), 1 << 16)
+            except (VolumeError, ValueError):
+                lines = head[found.end():].split("\n")[1:] if found[1].startswith("LIST") else []
+                files = [line.strip() for line in lines if line.strip()]
+    return [os.path.join(folder, file) for file in files]
+
+
+def _check_files(path):
+    """Throw VolumeError for pipes and devices, on which programs wait."""
+    for file in list_files(path) if not os.path.isdir(path) else [path]:
+        if os.path.exists(file) and not (stat.S_ISREG(os.stat(file).st_mode) or os.path.isdir(file)):
+            raise VolumeError("%s: a file is needed; this is a pipe or a device" % file)

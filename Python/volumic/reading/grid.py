@@ -6,6 +6,7 @@ from __future__ import annotations
 import bz2
 import dataclasses
 import gzip
+import io
 import os
 import zlib
 
@@ -132,80 +133,98 @@ def one_of_times(count, choice, what="volumes, one behind the other (times, phas
     return choice.time or 0
 
 
-def need_bytes(have, need, name=""):
-    """Throw VolumeError if a file is shorter than its header says: the check of all formats."""
-    if have < need:
-        raise VolumeError("%sthe file is cut off: the header requires %d bytes of voxels, the file "
-                          "has %d; copy it again" % (name and name + ": ", need, max(have, 0)))
+def need_bytes(have, need, more=False):
+    """Throw VolumeError if a file has fewer bytes of voxels than its header requires, or, unless
+    there may be `more`, more of them: the check of all formats."""
+    if have < need or have > need and not more:
+        raise VolumeError("the file is %s: it has %d bytes of voxels, its header requires %d; copy "
+                          "it again" % ("cut off" if have < need else "too long", max(have, 0), need))
 
 
-def voxels(file, offset, dtype, count, packing=None):
-    """Return `count` values of a file: a memory map unless it is packed ('gzip', 'zlib', 'bz2')."""
+def voxels(file, offset, dtype, count, packing=None, skip=0, size=None, more=False):
+    """Return `count` values of a file, mapped into memory unless packed ("gzip", "zlib", "bz2").
+
+    offset: where the data begin. skip: bytes of the plain data before the values. size: bytes of
+    all plain data (default: up to the last value). more: other bytes may follow these."""
     dtype, count = np.dtype(dtype), int(count)
+    size = skip + count * dtype.itemsize if size is None else size
     if not packing:
-        need_bytes(os.path.getsize(file) - offset, count * dtype.itemsize)
-        return np.memmap(file, dtype, "r", int(offset), (count,))
+        need_bytes(os.path.getsize(file) - offset, size, more)
+        return np.memmap(file, dtype, "r", offset + skip, (count,))
     with open(file, "rb") as stream:
         stream.seek(offset)
-        return unpacked(stream, packing, dtype, count)
+        return unpacked(stream, packing, dtype, count, skip, size, more)
 
 
-def unpacked(stream, packing, dtype, count, skip=0):
-    """Return `count` values of a packed stream, behind `skip` bytes; checksums are compared."""
+def unpacked(stream, packing, dtype, count, skip=0, size=None, more=False):
+    """Return values of a packed stream as voxels() does; checksums are compared."""
+    dtype, count = np.dtype(dtype), int(count)
+    size = skip + count * dtype.itemsize if size is None else size
+    opener = {"bz2": bz2.open, "zlib": _Inflated}.get(packing, gzip.open)
     try:
-        if packing == "zlib":
-            return _from_zlib(stream, np.dtype(dtype), int(count))
-        with (bz2.open if packing == "bz2" else gzip.open)(stream) as plain:
-            while skip:
-                got = len(plain.read(min(skip, 1 << 20)))
-                need_bytes(got, 1)
-                skip -= got
-            return from_stream(plain, dtype, count)
+        with opener(stream) as plain:
+            behind = size - _skip(plain, skip) - count * dtype.itemsize
+            data = from_stream(plain, dtype, count)
+            if _skip(plain, behind) == behind and plain.read(1) and not more:
+                raise VolumeError("the packed data give more than the %d bytes that the header "
+                                  "requires; copy the file again" % size)
+            while more and plain.read(1 << 20):
+                pass
+            return data
     except EOFError:
-        raise VolumeError("the file is cut off: its packed data end too early; copy it "
-                          "again") from None
+        raise VolumeError("the packed data are cut off; copy the file again") from None
     except (OSError, zlib.error) as error:
         if getattr(error, "errno", None):
             raise
-        raise VolumeError("the packed data are damaged (%s); copy it again" % error) from None
+        raise VolumeError("the packed data are damaged (%s); copy the file again" % error) from None
 
 
-def _from_zlib(stream, dtype, count):
-    """Return values of a stream in the format of zlib or gzip."""
-    data, filled = _room(dtype, count)
-    view, machine = memoryview(data.view(np.uint8)), zlib.decompressobj(47)
-    while filled < len(view) or not machine.eof:
-        packed = machine.unconsumed_tail or stream.read(1 << 20)
-        if not packed and not machine.eof:
+def _skip(stream, count):
+    """Read `count` bytes, and return the count."""
+    left = count
+    while left:
+        part = len(stream.read(min(left, 1 << 20)))
+        if not part:
             raise EOFError
-        part = machine.decompress(packed, 1 << 24)
-        if filled + len(part) > len(view):
-            part = part[:len(view) - filled]
-        view[filled:filled + len(part)] = part
-        filled += len(part)
-        if machine.eof:
-            break
-    need_bytes(filled, len(view))
-    return data
+        left -= part
+    return count
 
 
-def _room(dtype, count):
-    """Return an array for values, and 0."""
-    if count * dtype.itemsize > 1 << 42:
-        raise VolumeError("its header is damaged: it requires %d bytes of voxels"
-                          % (count * dtype.itemsize))
-    return np.empty(count, dtype), 0
+class _Inflated(io.BufferedIOBase):
+    """The plain bytes of a stream in the format of zlib or gzip."""
+
+    def __init__(self, packed):
+        self.packed, self.machine = packed, zlib.decompressobj(47)
+
+    def read(self, count=-1):
+        """Return up to `count` bytes; none at the end of the packed data."""
+        while not self.machine.eof:
+            data = self.machine.unconsumed_tail or self.packed.read(1 << 20)
+            part = self.machine.decompress(data, count)
+            if part:
+                return part
+            if not data and not self.machine.eof:
+                raise EOFError
+        return b""
+
+    def readinto(self, buffer):
+        """Read into a buffer."""
+        part = self.read(len(buffer))
+        buffer[:len(part)] = part
+        return len(part)
 
 
 def from_stream(stream, dtype, count):
-    """Return `count` values of a stream, which is read to its end: this compares checksums."""
-    data, filled = _room(np.dtype(dtype), int(count))
+    """Return the next `count` values of a stream of bytes."""
+    dtype = np.dtype(dtype)
+    if count * dtype.itemsize > 1 << 42:
+        raise VolumeError("its header is damaged: it requires %d bytes of voxels"
+                          % (count * dtype.itemsize))
+    data, filled = np.empty(count, dtype), 0
     view = memoryview(data.view(np.uint8))
     while filled < len(view):
         got = stream.readinto(view[filled:filled + (1 << 24)])
         if not got:
-            need_bytes(filled, len(view))
+            raise EOFError
         filled += got
-    while stream.read(1 << 20):
-        pass
     return data

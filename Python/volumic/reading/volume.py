@@ -64,7 +64,7 @@ class Volume:
     times: int = 1
     resampling: str = ""        # how the file was made a regular grid; '' it is one
     name: str = ""              # of the array
-    start: tuple = (0, 0, 0)    # index of the first voxel
+    start: tuple = (0, 0, 0)    # index i, j, k of the first voxel
 
     @property
     def names(self):
@@ -72,7 +72,8 @@ class Volume:
         return {label.value: label.name for label in self.labels if label.name}
 
     def __iter__(self):
-        return iter((self.array, self.spacing, self.origin, self.direction, self.space, self.unit,
+        first = self.origin + self.direction @ (np.array(self.spacing) * self.start)
+        return iter((self.array, self.spacing, tuple(first.tolist()), self.direction, self.space, self.unit,
                      self.names))
 
     def scalars(self, component=None):
@@ -131,7 +132,7 @@ def check_positions(volume):
                           % text_of(volume.spacing))
     if not np.isfinite(volume.origin).all():
         raise VolumeError("the origin %s is not finite; correct the header" % text_of(volume.origin))
-    sizes = np.array(volume.array.shape[:-4:-1])
+    sizes = np.array(volume.array.shape[:-4:-1]) + np.abs(volume.start)
     far = np.abs(volume.origin) + np.abs(volume.direction) @ (np.array(volume.spacing) * sizes)
     if not np.isfinite(far).all() or np.spacing(far.max()) > 1e-3 * min(volume.spacing):
         raise VolumeError("the origin %s is too far away for a spacing of %g: neighboring voxels "
@@ -155,6 +156,11 @@ def failure_of(error):
     elif not isinstance(error, Failure):
         text = "cannot be read: " + text
     return VolumeError(text)
+
+
+def plain_name(text):
+    """Return the name of a label without control characters and blanks at its ends."""
+    return "".join(c if c.isprintable() else " " for c in text).strip()
 
 
 def text_of(numbers, separator=" x "):

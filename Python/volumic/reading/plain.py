@@ -1,0 +1,394 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Formats that are a header and voxels: NRRD, MetaImage, NumPy's arrays, raw voxels, and projects
+of InVesalius. (VTK 9.1's readers of NRRD and MetaImage ignore the directions of the axes.)"""
+from __future__ import annotations
+
+import os
+import plistlib
+import re
+import tarfile
+
+import numpy as np
+
+from ..errors import VolumeError
+from .grid import from_stream, need_bytes, one_of_times, placed, voxels
+from .volume import Label, plain_name, text_of, unit_of
+
+_LARGEST_HEADER = 1 << 20
+
+
+# ---- Data in other files -----------------------------------------------------------------------
+
+def _header_lines(path):
+    """Return the lines of a text header, and a function: where the data behind line n begin."""
+    with open(path, "rb") as stream:
+        data = stream.read(_LARGEST_HEADER)
+    lines = data.split(b"\n")
+    ends = np.cumsum([len(line) + 1 for line in lines])
+    return [line.decode("latin-1").strip() for line in lines], lambda n: int(ends[n])
+
+
+def data_files(path, value, following, count):
+    """Return the files that a header names: one; a pattern "%03d.raw FIRST LAST STEP"; or LIST, with
+    the names in the lines that follow. count: of the files if there are several."""
+    folder, words = os.path.dirname(path), value.split()
+    if not words:
+        raise VolumeError("its header is damaged: it names no data file")
+    if words[0] == "LIST":
+        if any(word in ("3", "3D") for word in words[1:2]):
+            count = 1
+        names = [line for line in following if line]
+        if len(names) < count:
+            raise VolumeError("its header lists %d files for %d slices" % (len(names), count))
+        names = names[:count]
+    elif "%" in words[0]:
+        first, last, step = [int(w) for w in (words[1:4] + ["1", str(count), "1"][len(words) - 1:])]
+        names = list(range(first, last + 1, step or 1))[:count] if last - first < 1 << 20 else []
+        if not re.fullmatch(r"[^%]*%0?\d?\d?[diu][^%]*", words[0]) or len(names) != count:
+            raise VolumeError("its header is damaged: the data file \"%s\" gives no %d files, as "
+                              "\"slice%%03d.raw 1 100 1\" gives 100" % (value[:80], count))
+        names = [words[0].replace("u", "d") % n for n in names]
+    else:
+        names = [value]
+    return [os.path.join(folder, name) for name in names]
+
+
+def _values(files, offset, dtype, count, packing, **more):
+    """Return `count` values of one file, or of several with equal shares. A negative offset: they
+    are the last bytes. packing "text": numbers with blanks between them."""
+    dtype, parts = np.dtype(dtype), []
+    if count * dtype.itemsize > 1 << 62:
+        raise VolumeError("its header is damaged: it requires %d values" % count)
+    for file in files:
+        share = count // len(files)
+        try:
+            if packing == "text":
+                parts.append(_from_text(file, offset, dtype, share))
+                continue
+            start = offset
+            if offset < 0:
+                start = os.path.getsize(file) - share * dtype.itemsize
+                need_bytes(os.path.getsize(file), share * dtype.itemsize, more=True)
+            parts.append(voxels(file, start, dtype, share, packing, **more))
+        except VolumeError as error:
+            raise VolumeError("%s%s" % ("" if len(files) == 1 else
+                                        os.path.basename(file) + ": ", error)) from None
+    return parts[0] if len(parts) == 1 else np.concatenate(parts)
+
+
+def _from_text(file, offset, dtype, count):
+    """Return the numbers of a text."""
+    with open(file, "rb") as stream:
+        stream.seek(offset)
+        words = stream.read(min(os.path.getsize(file), 40 * count + 1000)).split()
+    try:
+        values = np.array(words).astype(dtype)
+    except ValueError as error:
+        raise VolumeError("the file is damaged: a value is no number (%s)" % error) from None
+    if len(values) != count:
+        raise VolumeError("the file is %s: it has %d values, its header requires %d; copy it again"
+                          % ("cut off" if len(values) < count else "damaged", len(values), count))
+    return values
+
+
+# ---- NRRD --------------------------------------------------------------------------------------
+
+_NRRD_TYPES = {name: kind for kind, names in {
+    "i1": "signed char,int8,int8_t", "u1": "uchar,unsigned char,uint8,uint8_t",
+    "i2": "short,short int,signed short,signed short int,int16,int16_t",
+    "u2": "ushort,unsigned short,unsigned short int,uint16,uint16_t",
+    "i4": "int,signed int,int32,int32_t", "u4": "uint,unsigned int,uint32,uint32_t",
+    "i8": "longlong,long long,long long int,signed long long,int64,int64_t", "f4": "float",
+    "u8": "ulonglong,unsigned long long,unsigned long long int,uint64,uint64_t", "f8": "double",
+}.items() for name in names.split(",")}
+_NRRD_FIELDS = set(
+    "dimension,type,blocksize,encoding,endian,content,oldmin,oldmax,min,max,datafile,lineskip,"
+    "byteskip,number,sampleunits,sizes,spacings,thicknesses,axismins,axismaxs,centers,centerings,"
+    "labels,units,kinds,space,spacedimension,spaceunits,spaceorigin,spacedirections,"
+    "measurementframe".split(","))
+_PACKINGS = {"raw": None, "gzip": "gzip", "gz": "gzip", "bzip2": "bz2", "bz2": "bz2",
+             "text": "text", "txt": "text", "ascii": "text"}
+_SPACES = {"left-posterior-superior": "LPS", "right-anterior-superior": "RAS",
+           "left-anterior-superior": "LAS"}
+
+
+def _read_nrrd_header(path):
+    """Return the fields, the pairs of keys and values, the lines that follow, and where these
+    begin."""
+    lines, behind = _header_lines(path)
+    if not lines[0].startswith("NRRD000"):
+        raise VolumeError("does not begin as a NRRD file does")
+    fields, pairs, at = {}, {}, 0
+    for at, line in enumerate(lines[1:], 1):
+        name, colon, value = line.partition(":")
+        field = name.lower().replace(" ", "")
+        if not line:
+            break
+        if line[0] == "#":
+            continue
+        if value.startswith("="):
+            pairs[name] = value[1:]
+        elif colon and field in _NRRD_FIELDS:
+            fields[field] = value.strip()
+            if field == "datafile" and value.split()[:1] == ["LIST"]:
+                break
+        else:
+            raise VolumeError("its header is damaged: \"%s\" is no field of NRRD"
+                              % plain_name(name[:80]))
+    return fields, pairs, lines[at + 1:], behind(at)
+
+
+def _vectors(text):
+    """Return the vectors in "(1,0,0) none (0,1,0)"."""
+    return [None if word == "none" else [float(n) for n in word.strip("()").split(",")]
+            for word in re.findall(r"none|\([^)]*\)", text)]
+
+
+def _nrrd_steps(fields, kinds):
+    """Return which axes are those of space, and the steps along them."""
+    count = len(kinds)
+    vectors = _vectors(fields.get("spacedirections", ""))
+    if vectors:
+        axes = [n for n, vector in enumerate(vectors) if vector]
+        if len(vectors) != count or len(axes) != 3 or any(len(vectors[n]) != 3 for n in axes):
+            raise VolumeError("its space directions \"%s\" are not three vectors of three numbers"
+                              % fields["spacedirections"])
+        return axes, np.array([vectors[n] for n in axes]).T
+    axes = [n for n, kind in enumerate(kinds) if kind in ("domain", "space", "none", "???")][-3:]
+    words = fields.get("spacings", "").split() or ["1"] * count
+    if len(axes) != 3 or len(words) != count:
+        raise VolumeError("it has %d axes of space and %d spacings; a volume has three"
+                          % (len(axes), len(words)))
+    steps = np.array([float(words[n]) for n in axes])
+    return axes, np.diag(np.where(np.isnan(steps), 1, steps))
+
+
+def read_nrrd(path, choice):
+    """Read NRRD, with its voxels in the same file or others, and segments of 3D Slicer."""
+    fields, pairs, following, start = _read_nrrd_header(path)
+    for name in ("type", "sizes", "dimension"):
+        if name not in fields:
+            raise VolumeError("its header is damaged: it lacks " + name)
+    sizes = [int(n) for n in fields["sizes"].split()]
+    kind, encoding = fields["type"].lower(), fields.get("encoding", "raw").lower()
+    endian = fields.get("endian", "little").lower()
+    if kind not in _NRRD_TYPES or encoding not in _PACKINGS or endian not in ("little", "big"):
+        raise VolumeError("voxels of type \"%s\", encoding \"%s\" and endian \"%s\" cannot be read"
+                          % (kind, encoding, endian))
+    if fields["dimension"] != str(len(sizes)) or not 3 <= len(sizes) <= 4 or min(sizes) < 1:
+        raise VolumeError("dimension %s and sizes \"%s\" are not those of a volume, which has three "
+                          "axes, or four with components" % (fields["dimension"], fields["sizes"]))
+    dtype = np.dtype(_NRRD_TYPES[kind]).newbyteorder(">" if endian == "big" else "<")
+    kinds = (fields.get("kinds", "").lower().split() or ["domain"] * len(sizes))
+    kinds += ["domain"] * (len(sizes) - len(kinds))
+    axes, steps = _nrrd_steps(fields, kinds)
+    others = [n for n in range(len(sizes)) if n not in axes]
+    files = [path]
+    if "datafile" in fields:
+        files, start = data_files(path, fields["datafile"], following, sizes[-1]), 0
+    packing, count = _PACKINGS[encoding], int(np.prod([float(n) for n in sizes]))
+    start += _bytes_of_lines(files[0], start, int(fields.get("lineskip", 0)))
+    skip = int(fields.get("byteskip", 0))
+    more = {"skip": max(skip, 0)} if packing in ("gzip", "bz2") else {}
+    start = start if more else -1 if skip < 0 else start + skip
+    array = _values(files, start, dtype, count, packing, **more).reshape(sizes[::-1])
+    labels = _segments(pairs, sizes[others[0]] if others else 1)
+    components = ""
+    if others:
+        array = np.moveaxis(array, len(sizes) - 1 - others[0], 0)
+        components = kinds[others[0]]
+        if components in ("list", "time") and others[0] == 3 and not labels:
+            array, components = array[one_of_times(len(array), choice)], ""
+        elif components not in ("list", "time", "rgba-color", "4-color") or labels:
+            components = "color" if "color" in components else "vector"
+    origins = _vectors(fields.get("spaceorigin", "")) or [[0, 0, 0]]
+    space = fields.get("space", "").lower()
+    units = re.findall(r'"([^"]*)"', fields.get("spaceunits", fields.get("units", "")))
+    return placed(array, steps, origins[0], _SPACES.get(space, space.upper() if space.upper() in
+                                                        _SPACES.values() else ""),
+                  unit_of(units[-1]) if units else "", choice, labels=labels, components=components)
+
+
+def _bytes_of_lines(file, start, count):
+    """Return how many bytes the lines behind `start` have."""
+    with open(file, "rb") as stream:
+        stream.seek(start)
+        return sum(len(stream.readline()) for _ in range(min(count, _LARGEST_HEADER)))
+
+
+def _segments(pairs, components):
+    """Return the labels that 3D Slicer names: Segment0_Name, Segment0_LabelValue, Segment0_Layer,
+    Segment0_Color. Older files have a component for each segment, and neither value nor layer."""
+    labels = []
+    for number in sorted({int(m[1]) for m in (re.match(r"Segment(\d{1,9})_Name$", k) for k in pairs)
+                          if m}):
+        def get(name, other, kind=int, start="Segment%d_" % number):
+            try:
+                return kind(pairs[start + name])
+            except (KeyError, ValueError):
+                return other
+        is_old = components > 1 and get("Layer", None) is None
+        color = get("Color", None, lambda text: tuple(float(n) for n in text.split()[:3]))
+        name = re.sub(r"\\(.)", lambda m: " " if m[1] == "n" else m[1], get("Name", "", str))
+        labels.append(Label(get("LabelValue", 1 if is_old else number + 1), plain_name(name),
+                            color if color and len(color) == 3 else None,
+                            get("Layer", number if is_old else 0)))
+    return labels
+
+
+# ---- MetaImage ---------------------------------------------------------------------------------
+
+_META_TYPES = {"UCHAR": "u1", "CHAR": "i1", "SHORT": "i2", "USHORT": "u2", "INT": "i4",
+               "UINT": "u4", "LONG": "i4", "ULONG": "u4", "LONG_LONG": "i8", "ULONG_LONG": "u8",
+               "FLOAT": "f4", "DOUBLE": "f8"}
+
+
+def read_meta_image(path, choice):
+    """Read MetaImage: .mha, or .mhd with its voxels in other files."""
+    lines, behind = _header_lines(path)
+    fields, at = {}, 0
+    for at, line in enumerate(lines):
+        name, _, value = line.partition("=" if "=" in line else ":")
+        fields.setdefault(name.strip().lower(), value.strip())
+        if name.strip().lower() == "elementdatafile":
+            break
+
+    def get(*names, default=""):
+        return next((fields[name] for name in names if fields.get(name)), default)
+
+    def numbers(default, *names):
+        return np.array([float(word) for word in get(*names, default=default).split()])
+
+    def is_true(*names, default="false"):
+        value = get(*names, default=default).lower()
+        if value not in ("true", "t", "1", "false", "f", "0"):
+            raise VolumeError("its header is damaged: %s is \"%s\"" % (names[0], value))
+        return value[0] in "t1"
+
+    sizes = [int(n) for n in get("dimsize").split()]
+    count, kind = len(sizes), re.sub("^MET_|_ARRAY$", "", get("elementtype"))
+    channels = int(get("elementnumberofchannels", default="1"))
+    if get("ndims") != str(count) or not 2 <= count <= 4 or min(sizes) < 1 or channels < 1:
+        raise VolumeError("its header is damaged, or it is no volume: NDims is %s, DimSize \"%s\""
+                          % (get("ndims"), get("dimsize")))
+    if kind not in _META_TYPES:
+        raise VolumeError("its header is damaged: the ElementType \"%s\" is no number's"
+                          % get("elementtype"))
+    is_big = is_true("binarydatabyteordermsb", "elementbyteordermsb")
+    dtype = np.dtype(_META_TYPES[kind]).newbyteorder(">" if is_big else "<")
+    packing = ("text" if not is_true("binarydata", default="true")
+               else "zlib" if is_true("compresseddata") else None)
+    data, skip = get("elementdatafile"), 0 if packing else int(get("headersize", default="0"))
+    is_here = data.lower() == "local"
+    files = [path] if is_here else data_files(path, data, lines[at + 1:], sizes[-1])
+    start = -1 if skip < 0 else skip + (behind(at) if is_here else 0)
+    total = int(np.prod([float(n) for n in sizes])) * channels
+    array = _values(files, start, dtype, total, packing)
+    sizes += [1] * (4 - count)
+    array = array.reshape(sizes[::-1] + [channels])[one_of_times(sizes[3], choice)]
+    array = np.moveaxis(array, -1, 0) if channels > 1 else array[..., 0]
+    matrix = numbers(text_of(np.eye(count).ravel(), " "), "transformmatrix", "rotation",
+                     "orientation")
+    spacing = numbers("1 " * count, "elementspacing", "elementsize")
+    origin = numbers("0 " * count, "offset", "position", "origin")
+    if (len(matrix), len(spacing), len(origin)) != (count * count, count, count):
+        raise VolumeError("its header is damaged: it does not have %d numbers for the directions and "
+                          "%d for spacing and offset" % (count * count, count))
+    steps, place = np.eye(3), np.zeros(3)
+    axes = min(count, 3)
+    steps[:axes, :axes] = (matrix.reshape(count, count).T * spacing)[:axes, :axes]
+    place[:axes] = origin[:axes]
+    sides = get("anatomicalorientation")  # where the axes of the voxels, not the world's, come from
+    return placed(array, steps, place, "LPS" if re.fullmatch("[LRAPSI]{3}", sides) else "",
+                  unit_of(get("distanceunits")), choice, name="MetaImage",
+                  components="vector" if channels > 1 else "")
+
+
+# ---- NumPy, raw voxels, InVesalius -------------------------------------------------------------
+
+def read_npy(path, choice):
+    """Read an array [z, y, x], or [x, y, z] in Fortran's order, of .npy or .npz."""
+    array, name = np.load(path, mmap_mode="r", allow_pickle=False), ""
+    if not isinstance(array, np.ndarray):
+        names = [n for n in array.files if choice.array in (None, "", n)]
+        if len(names) != 1:
+            raise VolumeError("its arrays are %s; choose one with --array" % ", ".join(array.files))
+        array, name = array[names[0]], names[0]
+    else:
+        with open(path, "rb") as stream:
+            need_bytes(os.fstat(stream.fileno()).st_size - array.offset, array.nbytes)
+    array = array if array.flags.c_contiguous else array.T
+    while array.ndim > 3 and len(array) == 1:  # one time or channel
+        array = array[0]
+    if array.ndim != 3:
+        raise VolumeError("its shape is (%s); a volume has three axes (numpy.save the channel or time "
+                          "that is to be read)" % text_of(array.shape, ", "))
+    return placed(array, np.eye(3), [0, 0, 0], "", "", choice, name=name)
+
+
+def read_raw(path, choice):
+    """Read voxels without a header, as --raw describes them: 512,512,400,uint16,big."""
+    words = [word.strip().lower() for word in choice.raw.split(",")]
+    kinds = "int8 int16 int32 int64 float16 float32 float64 float double".split()
+    kinds += ["u" + kind for kind in kinds[:4]] + "u1 i1 u2 i2 u4 i4 u8 i8 f2 f4 f8".split()
+    if not (4 <= len(words) <= 5 and all(w.isdigit() and int(w) > 0 for w in words[:3])
+            and words[3] in kinds and words[4:] in ([], ["little"], ["big"])):
+        raise VolumeError("--raw \"%s\" is not three sizes, a type (uint8 to int64, float16 to "
+                          "float64) and the order of bytes (little or big), such as "
+                          "512,512,400,uint16,little" % choice.raw)
+    sizes = [int(n) for n in words[2::-1]]
+    dtype = np.dtype("float32" if words[3] == "float" else words[3])
+    dtype = dtype.newbyteorder(">" if words[4:] == ["big"] else "<")
+    return placed(_values([path], 0, dtype, int(np.prod([float(n) for n in sizes])), None)
+                  .reshape(sizes), np.eye(3), [0, 0, 0], "", "", choice)
+
+
+def read_inv3(path, choice):
+    """Read an InVesalius project: a tar archive with main.plist and matrix.dat, unit mm."""
+    def member(archive, name):
+        found = next((m for m in archive if m.name.rsplit("/", 1)[-1] == name), None)
+        if not found or not found.isreg() or found.issparse():
+            raise VolumeError("no %s in it: not an InVesalius project" % name)
+        return found
+
+    with tarfile.open(path) as archive:
+        found = member(archive, "main.plist")
+        if found.size > _LARGEST_HEADER:
+            raise VolumeError("main.plist is too large to be the description of a project")
+        project = _plist(archive.extractfile(found).read())
+        try:
+            matrix, spacing = project["matrix"], [float(s) for s in project["spacing"]]
+            shape, dtype = [int(n) for n in matrix["shape"]], str(matrix["dtype"])
+        except (KeyError, TypeError, ValueError) as error:
+            raise VolumeError("main.plist lacks a value, or it is damaged: %s" % error) from None
+        if len(shape) != 3 or len(spacing) != 3 or min(shape) < 1:
+            raise VolumeError("main.plist: the sizes %s and the spacing %s are not those of a volume"
+                              % (text_of(shape), text_of(spacing)))
+        if not re.fullmatch(r"u?int(8|16|32|64)|float(32|64)", dtype):
+            raise VolumeError("main.plist: voxels of type \"%s\" cannot be read" % dtype)
+        if min(spacing) <= 0:
+            raise VolumeError("main.plist: the distance of the voxels is not positive")
+        name = os.path.basename(str(matrix.get("filename", "matrix.dat")))
+        found, dtype = member(archive, name), np.dtype(dtype).newbyteorder("<")
+        count = int(np.prod([float(n) for n in shape]))
+        need_bytes(found.size, count * dtype.itemsize)
+        array = from_stream(archive.extractfile(found), dtype, count)
+        for _ in archive:  # to its end, where the checksum is
+            pass
+    is_axial = str(project.get("orientation", 1)) == "1"  # rows from back to front
+    return placed(array.reshape(shape), np.diag(spacing), [0, 0, 0], "LAS" if is_axial else "",
+                  "mm", choice)
+
+
+def _plist(data):
+    """Return a property list of the XML form."""
+    if data.count(b"<") > 100000 or re.search(rb"<!ENTITY", data):
+        raise VolumeError("main.plist cannot be parsed")
+    try:
+        project = plistlib.loads(data, fmt=plistlib.FMT_XML)
+    except Exception as error:  # pylint: disable=broad-except
+        raise VolumeError("main.plist cannot be parsed: %s" % error) from None
+    if not isinstance(project, dict):
+        raise VolumeError("main.plist cannot be parsed")
+    return project
