@@ -36,8 +36,7 @@ def placed(array, steps, origin, space, unit, choice, **more):
         if not np.isfinite(origin).all():
             raise VolumeError("the origin %s is not finite; correct the header" % text_of(origin))
         positions = origin + np.arange(array.shape[-3])[:, None] * steps[:, 2]
-        why = ("its axes are up to %.3g degrees from right angles"
-               % np.degrees(np.arcsin(min(1, max(products)))))
+    
         volume = on_regular_grid(array, positions, axes[:, 0], axes[:, 1], spacing[:2], choice, why)
         more["warnings"] = volume.warnings + more.get("warnings", [])
         return dataclasses.replace(volume, space=space, unit=unit, **more)
@@ -133,30 +132,30 @@ def one_of_times(count, choice, what="volumes, one behind the other (times, phas
     return choice.time or 0
 
 
-def need_bytes(have, need, more=False):
-    """Throw VolumeError if a file has fewer bytes of voxels than its header requires, or, unless
-    there may be `more`, more of them: the check of all formats."""
-    if have < need or have > need and not more:
+def need_bytes(have, need, exact=False):
+    """Throw VolumeError if a file has fewer bytes of voxels than its header requires, or, with
+    `exact`, more of them: the check of all formats."""
+    if have < need or have > need and exact:
         raise VolumeError("the file is %s: it has %d bytes of voxels, its header requires %d; copy "
                           "it again" % ("cut off" if have < need else "too long", max(have, 0), need))
 
 
-def voxels(file, offset, dtype, count, packing=None, skip=0, size=None, more=False):
+def voxels(file, offset, dtype, count, packing=None, skip=0, size=None, exact=False):
     """Return `count` values of a file, mapped into memory unless packed ("gzip", "zlib", "bz2").
 
     offset: where the data begin. skip: bytes of the plain data before the values. size: bytes of
-    all plain data (default: up to the last value). more: other bytes may follow these."""
+    all plain data (default: up to the last value). exact: no other bytes may follow these."""
     dtype, count = np.dtype(dtype), int(count)
     size = skip + count * dtype.itemsize if size is None else size
     if not packing:
-        need_bytes(os.path.getsize(file) - offset, size, more)
+        need_bytes(os.path.getsize(file) - offset, size, exact)
         return np.memmap(file, dtype, "r", offset + skip, (count,))
     with open(file, "rb") as stream:
         stream.seek(offset)
-        return unpacked(stream, packing, dtype, count, skip, size, more)
+        return unpacked(stream, packing, dtype, count, skip, size, exact)
 
 
-def unpacked(stream, packing, dtype, count, skip=0, size=None, more=False):
+def unpacked(stream, packing, dtype, count, skip=0, size=None, exact=False):
     """Return values of a packed stream as voxels() does; checksums are compared."""
     dtype, count = np.dtype(dtype), int(count)
     size = skip + count * dtype.itemsize if size is None else size
@@ -165,10 +164,10 @@ def unpacked(stream, packing, dtype, count, skip=0, size=None, more=False):
         with opener(stream) as plain:
             behind = size - _skip(plain, skip) - count * dtype.itemsize
             data = from_stream(plain, dtype, count)
-            if _skip(plain, behind) == behind and plain.read(1) and not more:
+            if _skip(plain, behind) == behind and plain.read(1) and exact:
                 raise VolumeError("the packed data give more than the %d bytes that the header "
                                   "requires; copy the file again" % size)
-            while more and plain.read(1 << 20):
+            while not exact and plain.read(1 << 20):
                 pass
             return data
     except EOFError:

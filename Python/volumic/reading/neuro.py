@@ -111,7 +111,7 @@ def _stored(image, choice):
     offset, head = (0, head) if packing else (head, 0)
     parts = [voxels(file, offset, dtype, size // dtype.itemsize, packing,
                     head + size * (time + shape[3] * part), head + size * shape[3] * shape[4],
-                    more=type(image).__name__.startswith("MGH")).reshape(shape[2::-1])
+                    exact=not type(image).__name__.startswith("MGH")).reshape(shape[2::-1])
              for part in range(shape[4])]
     array = np.stack(parts) if len(parts) > 1 else parts[0]
     slope, shift = proxy.slope, proxy.inter

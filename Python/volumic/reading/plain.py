@@ -69,8 +69,8 @@ def _values(files, offset, dtype, count, packing, **more):
             start = offset
             if offset < 0:
                 start = os.path.getsize(file) - share * dtype.itemsize
-                need_bytes(os.path.getsize(file), share * dtype.itemsize, more=True)
-            parts.append(voxels(file, start, dtype, share, packing, **more))
+                need_bytes(os.path.getsize(file), share * dtype.itemsize)
+            parts.append(voxels(file, start, dtype, share, packing, exact=True, **more))
         except VolumeError as error:
             raise VolumeError("%s%s" % ("" if len(files) == 1 else
                                         os.path.basename(file) + ": ", error)) from None
@@ -317,7 +317,7 @@ def read_npy(path, choice):
         array, name = array[names[0]], names[0]
     else:
         with open(path, "rb") as stream:
-            need_bytes(os.fstat(stream.fileno()).st_size - array.offset, array.nbytes)
+            need_bytes(os.fstat(stream.fileno()).st_size - array.offset, array.nbytes, exact=True)
     array = array if array.flags.c_contiguous else array.T
     while array.ndim > 3 and len(array) == 1:  # one time or channel
         array = array[0]
@@ -372,7 +372,7 @@ def read_inv3(path, choice):
         name = os.path.basename(str(matrix.get("filename", "matrix.dat")))
         found, dtype = member(archive, name), np.dtype(dtype).newbyteorder("<")
         count = int(np.prod([float(n) for n in shape]))
-        need_bytes(found.size, count * dtype.itemsize)
+        need_bytes(found.size, count * dtype.itemsize, exact=True)
         array = from_stream(archive.extractfile(found), dtype, count)
         for _ in archive:  # to its end, where the checksum is
             pass
