@@ -36,7 +36,8 @@ def placed(array, steps, origin, space, unit, choice, **more):
         if not np.isfinite(origin).all():
             raise VolumeError("the origin %s is not finite; correct the header" % text_of(origin))
         positions = origin + np.arange(array.shape[-3])[:, None] * steps[:, 2]
-    
+        angle = np.degrees(np.arcsin(min(1, max(products))))
+        why = "its axes are up to %.15g degrees from right angles" % np.round(angle, 3)
         volume = on_regular_grid(array, positions, axes[:, 0], axes[:, 1], spacing[:2], choice, why)
         more["warnings"] = volume.warnings + more.get("warnings", [])
         return dataclasses.replace(volume, space=space, unit=unit, **more)
