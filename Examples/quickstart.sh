@@ -4,21 +4,20 @@
 #
 # Examples/quickstart.sh [VOLUME [ISO]] [--output DIR]
 #
-# Installs what is missing, builds Volumic for VTK under build/, and makes the surface of a volume:
-# by default of the CT of a skull from Debian's package invesalius-examples; else of VOLUME (.vti,
-# .mha, .mhd, .nrrd, .nii, .nii.gz, .inv3 or a folder with the slices of a DICOM series), at the
-# value ISO (by default Otsu's threshold). The results go to build/quickstart/ or DIR.
+# Installs what is missing, builds Volumic for VTK under build/, and makes the surface of a volume with
+# the command `volumic`: by default of the CT of a skull from Debian's package invesalius-examples,
+# else of VOLUME (a file or a folder of DICOM slices, see Documentation/formats.md), at the value ISO
+# (by default Otsu's threshold). The results go to build/quickstart/ or DIR.
 
 set -euo pipefail
 
 usage="Usage: bash Examples/quickstart.sh [VOLUME [ISO]] [--output DIR]
-VOLUME: .vti, .mha, .mhd, .nrrd, .nii, .nii.gz, .inv3 or a folder with one DICOM series"
+VOLUME: a file such as scan.nii.gz, or a folder of DICOM slices"
 
 usage() { say "$usage"; }
 
-script_folder=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 # shellcheck source=../CMake/debian.sh
-. "$script_folder/../CMake/debian.sh"
+. "$(dirname "${BASH_SOURCE[0]}")/../CMake/debian.sh"
 
 output=$build/quickstart
 inputs=()
@@ -48,31 +47,48 @@ check_system
 mapfile -t packages < <(vtk_packages)
 packages+=("${tool_packages[@]}" xvfb xauth libgl1-mesa-dri)
 if [ "${#inputs[@]}" -eq 0 ]; then
-  plan_steps $((3 + $(skull_steps)))
+  plan_steps $((5 + $(skull_steps)))
   mapfile -t -O "${#packages[@]}" packages < <(skull_packages)
 else
-  plan_steps 3
+  plan_steps 5
 fi
 install_packages "${packages[@]}"
 if [ "${#inputs[@]}" -eq 0 ]; then
   prepare_skull
+  inputs=("$(cranium)" 226.5) # bone; between two integers, so that no voxel equals it
+  copy=skull.vti
+else
+  case ${inputs[0]} in
+    *.vti) copy= ;; # ParaView reads it as it is
+    *) copy=volume.vti ;;
+  esac
 fi
 build_vtk_flavour -DVOLUMIC_BUILD_TESTING=OFF -DVOLUMIC_BUILD_EXAMPLES=OFF
 
-# Python's modules of the installed package, wherever this Python's version puts them.
-site=$(find "$build/install-vtk" -type d -name volumic -path '*-packages/volumic' -print -quit)
-[ -n "$site" ] || fail "No Python package in $build/install-vtk. See $logs/build-vtk.log"
+command=$build/install-vtk/bin/volumic
+make_surface()
+{
+  mkdir -p "$output"
+  "$command" "${inputs[0]}" "$output/surface.vtp" ${inputs[1]:+"--iso=${inputs[1]}"} \
+    --levels-output "$output/levels.vtm" --history "$output/history.csv" \
+    --report "$output/report.json" ${copy:+--write-volume "$output/$copy"}
+}
+draw_pictures()
+{
+  # Wherever this Python's version puts packages.
+  PYTHONPATH=$(dirname "$(find "$build/install-vtk" -path '*-packages/volumic' -print -quit)") \
+    PYTHONDONTWRITEBYTECODE=1 xvfb-run -a -s "-screen 0 1280x1024x24 -noreset" \
+    "$(vtk_python)" "$root/Examples/Python/pictures.py" "${inputs[0]}" "$output"
+}
+run_step "Making the surface" quickstart-surface make_surface
+run_step "Drawing pictures" quickstart-pictures draw_pictures
 
 say ""
-# A negative iso-value must not be taken for an option: hence the --.
-PYTHONPATH="$(dirname "$site")${PYTHONPATH:+:$PYTHONPATH}" PYTHONDONTWRITEBYTECODE=1 \
-  VOLUMIC_CRANIUM=$(cranium) \
-  xvfb-run -a -s "-screen 0 1280x1024x24 -noreset" \
-  "$(vtk_python)" "$script_folder/Python/quickstart.py" --output "$output" -- "${inputs[@]}" \
-  2> >(tee "$logs/quickstart-errors.log" >&2) \
-  || fail "The example failed. Its errors are above and in $logs/quickstart-errors.log"
-
+cat "$logs/quickstart-surface.log"
+say "Written to $output:"
+ls "$output"
 say ""
 say "To use it yourself:"
-say "  $build/install-vtk/bin/volumic --help"
-say "  PYTHONPATH=$(dirname "$site") $(vtk_python) $script_folder/Python/segment.py --help"
+say "  $command --help"
+say "  PYTHONPATH=$(dirname "$(find "$build/install-vtk" -path '*-packages/volumic' -print -quit)") \\"
+say "    $(vtk_python) -c 'import volumic; help(volumic)'"

@@ -45,7 +45,7 @@ take_option()
 parse_options "$@"
 [ ${#numbers[@]} -gt 0 ] || fail "How many seeds? Try --help."
 
-build_campaign() { cmake --build "$build/vtk" --target volumic JudgeFiles -j "$(job_count)"; }
+build_campaign() { cmake --build "$build/vtk" --target VolumicPythonStubs JudgeFiles -j "$(job_count)"; }
 
 check_system
 plan_steps 3

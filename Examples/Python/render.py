@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Off-screen pictures of surfaces and slices, as numpy arrays [row, column, RGB] from the top.
 
-Panels are drawn one by one at twice their size and averaged down, which smooths edges on every
-driver, then laid out with captions by compose(). Needs a display; xvfb-run gives one.
+draw() renders a panel at twice its size and averages it down, which smooths edges with every driver;
+compose() lays panels out with captions. Rendering needs a display; xvfb-run provides one.
 """
 
 import numpy as np
@@ -17,30 +17,31 @@ from vtkmodules.vtkRenderingCore import (
     vtkRenderWindow, vtkTextProperty, vtkTextRenderer, vtkWindowToImageFilter)
 from vtkmodules.vtkRenderingOpenGL2 import vtkRenderStepsPass, vtkSSAOPass
 
-from output_files import check_end, write_with
-from volume_image import OPPOSITE, direction_of, world_axes
-
 BACKGROUND = (0.085, 0.092, 0.105)
 BONE = (0.93, 0.87, 0.75)
 CUT_FACE = (0.72, 0.36, 0.27)
 INK, SOFT_INK = (0.95, 0.95, 0.95), (0.66, 0.69, 0.73)
 OVERSAMPLING = 2
+OPPOSITE = dict(zip("LRAPSI", "RLPAIS"))  # sides of the body
+# Position relative to the camera, intensity, colour: a key light, a weak fill, one from behind.
+LIGHTS = (((-0.7, 0.9, 1.2), 0.95, (1.0, 0.985, 0.95)),
+          ((1.0, -0.1, 0.9), 0.26, (0.90, 0.95, 1.0)),
+          ((0.3, 1.0, -0.6), 0.22, (1.0, 1.0, 1.0)))
 
 
 class Frame:
-    """Where left, posterior and superior lie among three coordinate axes.
+    """The directions of left, posterior and superior among three coordinate axes.
 
-    axes: letters of x, y, z; None is taken as LPS, DICOM's frame.
+    axes: the sides that x, y, z point to, such as "RAS"; "" is taken as LPS, that of DICOM.
     """
 
-    def __init__(self, axes=None):
-        letters = axes if axes and sorted(map(canonical, axes)) == ["L", "P", "S"] else "LPS"
+    def __init__(self, axes=""):
+        self.axes = axes or "LPS"
         self.directions = {}
-        for axis, letter in zip(np.eye(3), letters):
+        for axis, letter in zip(np.eye(3), self.axes):
             self.directions[letter] = axis
             self.directions[OPPOSITE[letter]] = -axis
-        self.letters = letters
-        # In a left-handed frame a renderer shows the mirror image.
+        # A renderer shows the mirror image of a left-handed frame.
         self.mirrored = np.linalg.det([self.directions[c] for c in "LPS"]) < 0
 
     def vector(self, letters):
@@ -48,26 +49,17 @@ class Frame:
         total = sum(self.directions[letter] for letter in letters)
         return total / np.linalg.norm(total)
 
-
-def canonical(letter):
-    return letter if letter in "LPS" else OPPOSITE.get(letter, letter)
-
-
-def world_frame(image):
-    """The frame of the image's world coordinates."""
-    return Frame(world_axes(image))
+    def of_indices(self, direction):
+        """The frame of index axes, for each that of the nearest world axis."""
+        nearest = np.abs(direction).argmax(axis=0)
+        return Frame("".join(self.axes[w] if direction[w, c] > 0 else OPPOSITE[self.axes[w]]
+                             for c, w in enumerate(nearest)))
 
 
-def index_frame(image):
-    """The frame of the image's index axes: for each the nearest world axis."""
-    direction, letters = direction_of(image), world_axes(image) or "LPS"
-    nearest = [int(np.argmax(np.abs(direction[:, c]))) for c in range(3)]
-    return Frame("".join(letters[w] if direction[w, c] > 0 else OPPOSITE[letters[w]]
-                         for c, w in enumerate(nearest)))
-
+# ---- Actors ------------------------------------------------------------------------------------
 
 def surface_actor(surface, color=BONE, edges=False):
-    """Matt actor of polygons; edges draws the triangles' sides as well."""
+    """Matt actor of polygons; edges draws the sides of the triangles as well."""
     mapper = vtkPolyDataMapper()
     mapper.SetInputData(surface)
     mapper.ScalarVisibilityOff()
@@ -83,13 +75,20 @@ def surface_actor(surface, color=BONE, edges=False):
     if edges:
         look.EdgeVisibilityOn()
         look.SetEdgeColor(0.16, 0.15, 0.14)
-        look.SetLineWidth(1.0)
         look.SetInterpolationToFlat()
     return actor
 
 
+def line_actor(lines, color, width):
+    """Unlit lines, as wide as that many pixels of the finished picture."""
+    actor = surface_actor(lines, color)
+    actor.GetProperty().LightingOff()
+    actor.GetProperty().SetLineWidth(width * OVERSAMPLING)
+    return actor
+
+
 def slice_actor(image, axis, index, window):
-    """Grey actor of one slice across an index axis, index counted from the first voxel.
+    """Grey actor of one slice across an index axis; index is counted from the first voxel.
 
     Coordinates are such indices times the spacing. window: the values shown black and white.
     """
@@ -103,27 +102,20 @@ def slice_actor(image, axis, index, window):
     mapper.SetSliceNumber(image.GetExtent()[2 * axis] + index)
     actor = vtkImageSlice()
     actor.SetMapper(mapper)
-    look = actor.GetProperty()
-    look.SetInterpolationTypeToNearest()
-    look.SetColorWindow(window[1] - window[0])
-    look.SetColorLevel((window[0] + window[1]) / 2)
+    actor.GetProperty().SetInterpolationTypeToNearest()
+    actor.GetProperty().SetColorWindow(window[1] - window[0])
+    actor.GetProperty().SetColorLevel((window[0] + window[1]) / 2)
     return actor
 
 
-def line_actor(lines, color, width):
-    """Unlit lines of the given colour, as wide as that many pixels of the finished picture."""
-    actor = surface_actor(lines, color)
-    actor.GetProperty().LightingOff()
-    actor.GetProperty().SetLineWidth(width * OVERSAMPLING)
-    return actor
-
+# ---- Panels ------------------------------------------------------------------------------------
 
 def draw(actors, size, frame, look_from, up, bounds, zoom=1.0, shaded=True, focus=None):
     """Picture of the actors, size = (width, height) in pixels.
 
-    look_from and up are letters as Frame.vector takes them. The bounds, not the actors, decide
-    about the scale, so that panels with the same bounds can be compared. focus: the point in the
-    middle, that of the bounds by default.
+    look_from and up are letters as Frame.vector takes them. The scale is that of the bounds, not of
+    the actors, so that panels with the same bounds can be compared. focus: the point in the middle,
+    by default that of the bounds.
     """
     renderer = vtkRenderer()
     renderer.SetBackground(BACKGROUND)
@@ -131,13 +123,19 @@ def draw(actors, size, frame, look_from, up, bounds, zoom=1.0, shaded=True, focu
         renderer.AddViewProp(actor)
     place_camera(renderer, size, frame.vector(look_from), frame.vector(up), bounds, zoom, focus)
     if shaded:
-        add_lights(renderer)
-        add_occlusion(renderer, bounds, zoom)
+        add_lights(renderer, np.linalg.norm(np.diff(np.reshape(bounds, (3, 2)))) / zoom)
     window = vtkRenderWindow()
+    window.AddRenderer(renderer)
+    pixels = pixels_of_window(window, size)
+    return pixels[:, ::-1] if frame.mirrored else pixels
+
+
+def pixels_of_window(window, size):
+    """What the window shows, at that size in pixels."""
+    n = OVERSAMPLING
     window.SetOffScreenRendering(1)
     window.SetMultiSamples(0)
-    window.SetSize(size[0] * OVERSAMPLING, size[1] * OVERSAMPLING)
-    window.AddRenderer(renderer)
+    window.SetSize(size[0] * n, size[1] * n)
     window.Render()
     grab = vtkWindowToImageFilter()
     grab.SetInput(window)
@@ -145,9 +143,6 @@ def draw(actors, size, frame, look_from, up, bounds, zoom=1.0, shaded=True, focu
     grab.Update()
     pixels = pixels_of(grab.GetOutput())
     window.Finalize()
-    if frame.mirrored:
-        pixels = pixels[:, ::-1]
-    n = OVERSAMPLING
     return pixels.reshape(size[1], n, size[0], n, 3).mean(axis=(1, 3)).astype(np.uint8)
 
 
@@ -155,7 +150,7 @@ def place_camera(renderer, size, towards, up, bounds, zoom, focus):
     """Parallel projection in which the bounds fill the picture."""
     half_width, half_height = projected(towards, up, bounds)
     bounds = np.reshape(bounds, (3, 2))
-    centre = bounds.mean(axis=1) if focus is None else np.asarray(focus, dtype=float)
+    centre = bounds.mean(axis=1) if focus is None else np.asarray(focus, float)
     radius = np.linalg.norm(bounds[:, 1] - bounds[:, 0])
     camera = renderer.GetActiveCamera()
     camera.ParallelProjectionOn()
@@ -175,19 +170,18 @@ def projected(towards, up, bounds):
     return np.abs(corners @ np.cross(up, towards)).max(), np.abs(corners @ up).max()
 
 
-def fitting_height(width, frame, look_from, up, bounds):
-    """Height in pixels at which a picture of this width shows the bounds without waste."""
-    half_width, half_height = projected(frame.vector(look_from), frame.vector(up), bounds)
-    return int(np.clip(width * half_height / half_width, 0.5 * width, 1.4 * width))
+def fitting_height(width, frame, views, bounds):
+    """Height in pixels of panels of this width in which each view (look_from, up) fits."""
+    halves = [projected(frame.vector(look_from), frame.vector(up), bounds)
+              for look_from, up in views]
+    return max(int(np.clip(width * height / half, 0.5 * width, 1.4 * width))
+               for half, height in halves)
 
 
-def add_lights(renderer):
-    """A key light from the upper left of the camera, a weak fill and a light from behind."""
+def add_lights(renderer, radius):
+    """LIGHTS, and occlusion, which darkens hollows and so makes openings and cavities readable."""
     renderer.AutomaticLightCreationOff()
-    for position, intensity, color in (
-            ((-0.7, 0.9, 1.2), 0.95, (1.0, 0.985, 0.95)),
-            ((1.0, -0.1, 0.9), 0.26, (0.90, 0.95, 1.0)),
-            ((0.3, 1.0, -0.6), 0.22, (1.0, 1.0, 1.0))):
+    for position, intensity, color in LIGHTS:
         light = vtkLight()
         light.SetLightTypeToCameraLight()
         light.SetPosition(position)
@@ -195,11 +189,6 @@ def add_lights(renderer):
         light.SetIntensity(intensity)
         light.SetColor(color)
         renderer.AddLight(light)
-
-
-def add_occlusion(renderer, bounds, zoom):
-    """Darken what lies in hollows: it makes openings and cavities readable."""
-    radius = np.linalg.norm(np.diff(np.reshape(bounds, (3, 2)))) / zoom
     occlusion = vtkSSAOPass()
     occlusion.SetDelegatePass(vtkRenderStepsPass())
     occlusion.SetRadius(0.12 * radius)
@@ -216,30 +205,16 @@ def pixels_of(image):
     return scalars.reshape(height, width, -1)[::-1]
 
 
-def text_picture(text, size, color=INK, bold=False):
-    """Picture of one line of text on the background, as large as it needs to be."""
-    look = vtkTextProperty()
-    look.SetFontFamilyToArial()
-    look.SetFontSize(size)
-    look.SetBold(bold)
-    look.SetColor(color)
-    look.SetBackgroundColor(BACKGROUND)
-    look.SetBackgroundOpacity(1)
-    image = vtkImageData()
-    extent = [0, 0]
-    vtkTextRenderer.GetInstance().RenderString(look, text, image, extent, 72)
-    return pixels_of(image)[-extent[1]:, :extent[0], :3]
-
+# ---- Layout ------------------------------------------------------------------------------------
 
 def compose(rows, captions=None, title=None, headings=None, gap=10):
     """One picture of panels.
 
-    rows: lists of equally large panels. captions: for each row a list of tuples of lines, drawn
-    under the panels, the first line bold. headings: a line above each row.
+    rows: lists of equally large panels. captions: for each row a list of tuples of lines below the
+    panels, the first line bold. headings: a line above each row.
     """
-    height, width = rows[0][0].shape[:2]
-    columns = max(len(row) for row in rows)
-    total = columns * (width + gap) + gap
+    width = rows[0][0].shape[1]
+    total = max(map(len, rows)) * (width + gap) + gap
     size = max(15, min(22, width // 21))
     strips = [blank(gap, total)]
     if title:
@@ -263,28 +238,51 @@ def compose(rows, captions=None, title=None, headings=None, gap=10):
 
 
 def blank(height, width):
-    strip = np.empty((height, width, 3), np.uint8)
-    strip[:] = np.round(np.array(BACKGROUND) * 255)
-    return strip
+    """Background."""
+    return np.full((height, width, 3), np.round(np.array(BACKGROUND) * 255), np.uint8)
 
 
 def line_strip(entries, width, size, centred=False):
-    """Strip with texts on one line; entries: (place from the left, text, bold, colour)."""
+    """Texts on one line; entries: (position from the left, text, bold, colour)."""
     strip = blank(int(size * 1.6), width)
-    for place, text, bold, color in entries:
+    for position, text, bold, color in entries:
         picture = text_picture(text, size, color, bold)
-        left = max(0, place - picture.shape[1] // 2 if centred else place)
+        left = max(0, position - picture.shape[1] // 2 if centred else position)
         picture = picture[:strip.shape[0], :width - left]
         top = (strip.shape[0] - picture.shape[0]) // 2
         strip[top:top + picture.shape[0], left:left + picture.shape[1]] = picture
     return strip
 
 
-def write_png(pixels, path):
+def text_picture(text, size, color, bold):
+    """One line of text on the background, as large as it needs to be."""
+    look = vtkTextProperty()
+    look.SetFontFamilyToArial()
+    look.SetFontSize(size)
+    look.SetBold(bold)
+    look.SetColor(color)
+    look.SetBackgroundColor(BACKGROUND)
+    look.SetBackgroundOpacity(1)
+    image, extent = vtkImageData(), [0, 0]
+    vtkTextRenderer.GetInstance().RenderString(look, text, image, extent, 72)
+    return pixels_of(image)[-extent[1]:, :extent[0], :3]
+
+
+def image_of(pixels):
+    """The vtkImageData of a picture."""
     image = vtkImageData()
     image.SetDimensions(pixels.shape[1], pixels.shape[0], 1)
-    image.GetPointData().SetScalars(
-        numpy_to_vtk(np.ascontiguousarray(pixels[::-1]).reshape(-1, 3), deep=True))
+    rows = np.ascontiguousarray(pixels[::-1]).reshape(-1, 3)
+    image.GetPointData().SetScalars(numpy_to_vtk(rows, deep=True))
+    return image
+
+
+def write_png(pixels, path):
+    """OSError where the file cannot be written."""
     writer = vtkPNGWriter()
+    writer.WriteToMemoryOn()
     writer.SetCompressionLevel(9)
-    write_with(writer, image, path, lambda written: check_end(written, b"IEND"))
+    writer.SetInputData(image_of(pixels))
+    writer.Write()
+    with open(path, "wb") as file:
+        file.write(memoryview(vtk_to_numpy(writer.GetResult())))

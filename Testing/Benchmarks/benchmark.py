@@ -14,7 +14,7 @@ import sys
 TABLES = {
     "pyramid": "vtkImagePyramid and its peers",
     "surface": "vtkDeformableSurface and its peers",
-    "command": "volumic with sizes, threads, limits of memory",
+    "command": "volumic with sizes and threads",
     "graded": "graded triangles",
     "labels": "surfaces of labels, of shapes or of a map",
     "interfaces": "surfaces of labels that share their interfaces"}

@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The command `volumic` on one volume, with each size, number of threads and limit of memory: how
-cost grows, what threads gain, what a limit costs. Reading and writing are included; surfaces must be
-the same files for any threads and limit. Options that are not known here are volumic's."""
+"""The command `volumic` on one volume, with each size and number of threads: how cost grows, and what
+threads gain. Reading and writing are included; surfaces must be the same files for any number of
+threads. Options that are not known here are volumic's."""
 
 import csv
 import hashlib
@@ -28,7 +28,6 @@ def add_options(parser):
     parser.add_argument("--sizes", default="0", metavar="LIST",
                         help="as many voxels as N^3 has; 0: as it is (0)")
     parser.add_argument("--threads", default="1,2", metavar="LIST", help="(1,2)")
-    parser.add_argument("--memory", default="none", metavar="LIST", help="none,1500M: limits (none)")
     parser.add_argument("--repetitions", type=int, default=1, help="by turns; medians")
     parser.add_argument("--suffix", default=".vtp", help="of the surfaces (.vtp)")
 
@@ -53,13 +52,12 @@ def resample(volume, size, output):
         raise RuntimeError(f"{output} can't be written")
 
 
-def run(options, folder, volume, threads, memory):
+def run(options, folder, volume, threads):
     surface, history, report = (os.path.join(folder, name) for name in (
         "surface" + options.suffix, "history.csv", "report.json"))
-    limit = [] if memory == "none" else ["--memory", memory]
     seconds, processor, peak = timed(
-        options.volumic, volume, surface, "--quiet", "--threads", threads, *limit, "--report",
-        report, "--history", history, *options.rest)
+        options.volumic, volume, surface, "--quiet", "--threads", threads, "--report", report,
+        "--history", history, *options.rest)
     with open(report, encoding="utf-8") as file:
         vertices = json.load(file)["vertices"]
     with open(history, encoding="utf-8") as file:
@@ -76,26 +74,24 @@ def run(options, folder, volume, threads, memory):
 
 
 def measure_size(options, folder, size):
-    """{(threads, memory): figures}"""
+    """{threads: figures}"""
     volume = options.volume if size == "0" else os.path.join(folder, "volume.vti")
     if size != "0":
         resample(options.volume, int(size), volume)
-    asked = [(threads, memory) for memory in options.memory.split(",")
-             for threads in options.threads.split(",")]
-    runs = {key: [] for key in asked}
+    runs = {threads: [] for threads in options.threads.split(",")}
     for _ in range(options.repetitions):
-        for key in asked:
-            say(f"size {size}, {key[0]} thread(s), memory {key[1]}")
+        for threads, figures in runs.items():
+            say(f"size {size}, {threads} thread(s)")
             try:
-                runs[key].append(run(options, folder, volume, *key))
+                figures.append(run(options, folder, volume, threads))
             except RuntimeError as error:
-                runs[key].append(Figures(Failure=str(error)))
+                figures.append(Figures(Failure=str(error)))
     medians = {}
-    for key, repetitions in runs.items():
-        medians[key] = Figures(repetitions[-1])
+    for threads, repetitions in runs.items():
+        medians[threads] = Figures(repetitions[-1])
         for column in ("Seconds", "ProcessorSeconds", "PeakMegabytes", "MillionSeconds"):
-            medians[key][column] = statistics.median(each[column] for each in repetitions)
-    first = medians[asked[0]]
+            medians[threads][column] = statistics.median(each[column] for each in repetitions)
+    first = next(iter(medians.values()))
     for figures in medians.values():
         figures["Gain"] = ratio(first["Seconds"], figures["Seconds"])
         figures["Same"] = "yes" if figures["Surface"] == first["Surface"] else "no"
@@ -105,11 +101,11 @@ def measure_size(options, folder, size):
 def target_rows(size, medians):
     rows = [("Q5", f"{size}: surfaces that differ",
              len({f["Surface"] for f in medians.values() if "Surface" in f}), "<=", 1)]
-    for (threads, memory), figures in medians.items():
+    for threads, figures in medians.items():
         wanted = {"2": 1.85, "16": 10 if int(size) >= 512 else 7}.get(threads)
-        if wanted and memory == "none" and ("1", "none") in medians:
+        if wanted and "1" in medians:
             rows.append(("S6", f"{size}: gain of {threads} threads", figures["Gain"], ">=", wanted))
-        if memory == "none" and size in ("512", "1024"):
+        if size in ("512", "1024"):
             rows.append(("M1", f"{size}^3: MB, {threads} thread(s)", figures["PeakMegabytes"], "<=",
                          800 if size == "512" else 4200))
     return rows
@@ -120,8 +116,8 @@ def measure(options):
     for size in options.sizes.split(","):
         with tempfile.TemporaryDirectory(dir="/var/tmp", prefix="volumic-") as folder:
             medians = measure_size(options, folder, size)
-        runs += [(f"{size}^3, " * bool(int(size)) + f"{threads} thread(s), memory {memory}", figures)
-                 for (threads, memory), figures in medians.items()]
+        runs += [(f"{size}^3, " * bool(int(size)) + f"{threads} thread(s)", figures)
+                 for threads, figures in medians.items()]
         targets += target_rows(size, medians)
     print(f"{options.volume}: gain is the first one's seconds over the run's\n")
     print_figures(COLUMNS, runs)

@@ -22,7 +22,7 @@ Tables are printed; all figures are left in build/benchmarks/*.csv.
 USAGE
 }
 
-packages=("${tool_packages[@]}" libcgal-dev mricron-data python3-numpy)
+packages=("${tool_packages[@]}" libcgal-dev mricron-data)
 if [ "$1" = --peers ]; then
   packages+=(libinsighttoolkit5-dev libopenvdb-dev)
   shift

@@ -163,11 +163,6 @@ def faults_of_label(verdict, told, outcome):
                                f"seed {outcome.seed} ({run.kind}), {label}: {voxels} voxels"))
     if verdict["wrong"] != told["WrongVoxels"]:
         yield f"WrongVoxels {told['WrongVoxels']}, which is {verdict['wrong']:g}"
-    if "--gap" in run.words and (verdict["touching"] or verdict["overlapping"]):
-        text = f"{verdict['touching']:g} pairs of triangles touch others' in spite of the gap"
-        if not warned(outcome, "in spite of the --gap:", label):
-            yield text
-        outcome.told.append(f"{label}: {text}")
 
 
 def parts_of(labels):

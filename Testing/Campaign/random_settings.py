@@ -34,8 +34,6 @@ class RandomRun:
         self.words = (self.of_small_labels() if only_labels else
                       self.of_labels() if self.is_of_labels else self.of_surface())
         self.words = [self.volume, *self.words, "--threads", str(self.rng.integers(1, 3))]
-        if self.chance(.1):
-            self.words += ["--memory", f"{self.rng.integers(250, 400)}M", "--scratch", "."]
 
     def chance(self, share):
         return self.rng.random() < share
@@ -55,7 +53,6 @@ class RandomRun:
         return [
             "labels", "--labels", "all",
             *self.now_and_then(.3, "--smoothing", self.number(0, 4)),
-            *self.now_and_then(.3, "--gap", f"{smallest * self.rng.uniform(0, 2):.6g}"),
             *self.now_and_then(.3, "--metric", "voxels"),
             *self.now_and_then(.3, "--finest", str(self.rng.choice((-1, 1, 2)))),
             *self.now_and_then(.1, "--edge-length", f"{smallest * self.rng.uniform(.7, 6):.6g}"),
@@ -72,18 +69,17 @@ class RandomRun:
         smallest = self.spacing.min()
         smoothing = self.now_and_then(.4, "--smoothing", self.rng.choice(("0", self.number(.1, 4)),
                                                                          p=(.15, .85)))
-        gap = self.now_and_then(.5, "--gap", f"{smallest * 3 * 150 ** -self.rng.random():.6g}")
         other = [] if self.chance(.5) else [
             *self.now_and_then(.5, "--finest", str(self.rng.choice((-1, 1, 2)))),
             *self.now_and_then(.2, "--edge-length", f"{smallest * self.rng.uniform(.7, 4):.6g}"),
             *self.now_and_then(.3, "--keep", "largest")]
         tolerance = self.now_and_then(.3, "--voxel-tolerance", self.number(0, 1))
         merge = self.chance(.05)
-        shared = [] if gap or merge else self.now_and_then(.5, "--shared-interfaces")
-        self.is_default = not (gap or other or tolerance or shared) and smoothing[1:] != ["0"]
+        shared = [] if merge else self.now_and_then(.5, "--shared-interfaces")
+        self.is_default = not (other or tolerance or shared) and smoothing[1:] != ["0"]
         return [
             "labels.vtp" if merge else "labels", "--labels", "all", *["--merge"] * merge,
-            *smoothing, *gap, *other, *shared, *self.now_and_then(.3, "--metric", "voxels"),
+            *smoothing, *other, *shared, *self.now_and_then(.3, "--metric", "voxels"),
             *tolerance]
 
     # ---- The surface of an object ----

@@ -13,7 +13,7 @@ SOURCE = Path(os.environ["VOLUMIC_SOURCE"])
 BUILD = Path(os.environ["VOLUMIC_BUILD"])
 SKIPPED = 77  # exit code
 
-NAMES = {"vtk": ["volumic", "volumic-dev", "python3-volumic"],
+NAMES = {"vtk": ["volumic", "volumic-dev"],
          "paraview": ["paraview-volumic"]}[FLAVOUR]
 
 

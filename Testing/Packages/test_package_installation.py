@@ -85,7 +85,7 @@ def choose_packages():
                 skip(f"{path} is there already")
     if can_be_installed(packages.values()):
         return packages
-    # Where ParaView's Python excludes VTK's, the program works all the same.
+    # Without the files for development there.
     alone = {name: package for name, package in packages.items() if name == "volumic"}
     if alone and can_be_installed(alone.values()):
         return alone
@@ -154,11 +154,9 @@ class InstallationTest(unittest.TestCase):
             "volumic", "ball.vti", "ball.stl", "--iso", "0", "--report", "-"))
         self.assertEqual((report["components"], report["genus"]), (1, 0))
         self.assertAlmostEqual(report["volume"], 4 / 3 * 3.14159 * 6 ** 3, delta=60)
-        self.assertIn("find the surface", self.run_in_folder(
-            "zcat", "/usr/share/man/man1/volumic.1.gz"))
 
     def test_python(self):
-        self.needs("python3-volumic")
+        self.needs("volumic")
         output = self.run_in_folder("/usr/bin/python3", "-c", VTK_SCRIPT)
         self.assertGreater(int(output), 100)
 

@@ -1,44 +1,10 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""A test with a folder of its own, for files that it writes; a program on a terminal."""
+"""A test with a folder of its own, for files that it writes."""
 
 import os
-import pty
-import re
-import signal
-import subprocess
 import tempfile
 import unittest
-
-
-def run_on_terminal(command, interrupt_at=None):
-    """All that a terminal shows, and the exit code; Ctrl-C when the text has come."""
-    leader, follower = pty.openpty()
-    with subprocess.Popen(command, stdout=follower, stderr=follower) as process:
-        os.close(follower)
-        shown = ""
-        while True:
-            try:
-                piece = os.read(leader, 4096)
-            except OSError:  # Linux's way to say that the other end is closed
-                piece = b""
-            if not piece:
-                break
-            shown += piece.decode()
-            if interrupt_at and re.search(interrupt_at, shown):
-                process.send_signal(signal.SIGINT)
-                interrupt_at = None
-        os.close(leader)
-    return shown, process.returncode
-
-
-def interrupted_on_terminal(command, at):
-    """The same of a run that gets its Ctrl-C: one that was quicker than that is made again."""
-    for _ in range(20):
-        shown, code = run_on_terminal(command, at)
-        if code != 0:
-            break
-    return shown, code
 
 
 class FolderTestCase(unittest.TestCase):

@@ -1,19 +1,16 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Small volumes whose surfaces are known, for the tests of the example scripts."""
+"""A small volume whose surface is known, and scripts that are run on it."""
 
 import os
 import subprocess
 import sys
 
 import numpy as np
+from volumic import arrays
 from vtkmodules.vtkIOImage import vtkMetaImageWriter
 
-from examples_path import EXAMPLES
-
-sys.path.insert(0, EXAMPLES)
-from volume_image import make_image  # pylint: disable=wrong-import-position
-
+ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
 RING_SIZE, RING_SPACING, RING_ISO = 40, (1, 1, 1.5), 125.5
 MAJOR, MINOR = 0.27 * RING_SIZE, 0.12 * RING_SIZE  # radii in voxels
 RING_VOLUME = 2 * np.pi ** 2 * MAJOR * MINOR ** 2 * np.prod(RING_SPACING)  # world units
@@ -27,6 +24,10 @@ def ring_voxels(bright=200, dark=50):
     return (np.where(inside, bright, dark) + noise).astype("u1")
 
 
+def make_image(voxels, spacing=(1, 1, 1)):
+    return arrays.make_image(voxels, spacing, (0, 0, 0), None)
+
+
 def write_volume(path, voxels, spacing=(1, 1, 1)):
     """A MetaImage; returns the path."""
     writer = vtkMetaImageWriter()
@@ -37,6 +38,6 @@ def write_volume(path, voxels, spacing=(1, 1, 1)):
 
 
 def run_script(name, *arguments, **options):
-    """Run a script of Examples/Python to its end."""
-    return subprocess.run([sys.executable, os.path.join(EXAMPLES, name), *arguments],
+    """Run a script of the project to its end."""
+    return subprocess.run([sys.executable, os.path.join(ROOT, name), *arguments],
                           capture_output=True, text=True, check=False, timeout=1200, **options)

@@ -13,17 +13,11 @@ import unittest
 
 import medical_files
 import test_ome_zarr
-import volumic
-from examples_path import EXAMPLES
 from folder_test_case import FolderTestCase
-from sample_volumes import ring_voxels
+from sample_volumes import ROOT, ring_voxels
 from vtk_files import read as read_file
 
-sys.path.insert(0, EXAMPLES)
-# pylint: disable=wrong-import-position
-from pipeline import property_names
-
-ROOT = os.path.normpath(os.path.join(EXAMPLES, "..", ".."))
+PREFIX = os.environ["VOLUMIC_TEST_INSTALL_PREFIX"]
 DOCUMENTS = ("README.md", *(f"Documentation/{name}"
                             for name in sorted(os.listdir(os.path.join(ROOT, "Documentation")))
                             if name.endswith(".md")))
@@ -59,16 +53,21 @@ class LinksTest(unittest.TestCase):
     def test_files_that_are_named_exist(self):
         for document in DOCUMENTS:
             for path in re.findall(r"\b((?:Examples|Testing|Documentation|CMake)/[\w/.-]+\w)"
-                                   r"|`((?:Applications|Filters|Plugin)/[\w/.]+\w)`",
+                                   r"|`((?:Python|Filters|Plugin)/[\w/.]+\w)`",
                                    read(document)):
                 path = "".join(path)
                 self.assertTrue(os.path.exists(os.path.join(ROOT, path)), f"{document}: {path}")
 
-    def test_properties_on_command_lines_are_known(self):
-        names = property_names(volumic.vtkDeformableSurface())
-        settings = re.findall(r"--set (\w+)=", "".join(map(read, DOCUMENTS)))
-        self.assertTrue(settings)
-        self.assertLessEqual(set(settings), set(names))
+    def test_options_of_the_command_are_known(self):
+        text = subprocess.run([os.path.join(PREFIX, "bin", "volumic"), "--help"], check=True,
+                              capture_output=True, text=True).stdout
+        known = set(re.findall(r"--[a-z][a-z-]+", text))
+        self.assertGreater(len(known), 50)
+        for document in DOCUMENTS:
+            lines = "".join(blocks(document, "sh")).replace("\\\n", " ").splitlines()
+            for line in (line for line in lines if re.match(r"(\S*/)?volumic ", line)):
+                self.assertLessEqual(set(re.findall(r" (--[a-z][a-z-]+)", line)), known,
+                                     f"{document}: {line}")
 
 
 class CodeTest(FolderTestCase):
@@ -136,8 +135,7 @@ class CodeTest(FolderTestCase):
         project, = blocks("README.md", "cmake")
         self.write_text("example.cxx", source)
         self.write_text("CMakeLists.txt", project)
-        prefix = os.environ["VOLUMIC_TEST_INSTALL_PREFIX"]
-        self.run_here("cmake", "-S", ".", "-B", "build", f"-DCMAKE_PREFIX_PATH={prefix}",
+        self.run_here("cmake", "-S", ".", "-B", "build", f"-DCMAKE_PREFIX_PATH={PREFIX}",
                       f"-DPython3_EXECUTABLE={sys.executable}")
         self.run_here("cmake", "--build", "build")
         self.run_here(self.path("build/example"))

@@ -5,24 +5,30 @@
 import math
 import os
 import re
-import sys
 import unittest
 
 import numpy as np
 import volumic
 from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet
 
-from examples_path import EXAMPLES
-from sample_volumes import RING_ISO, RING_SPACING, ring_voxels
+from sample_volumes import RING_ISO, RING_SPACING, ROOT, make_image, ring_voxels
 
-sys.path.insert(0, EXAMPLES)
-# pylint: disable=wrong-import-position
-from pipeline import property_names
-from volume_image import ARRAY_NAME, make_image
-
-REFERENCE = os.path.join(EXAMPLES, "..", "..", "Documentation", "reference.md")
+REFERENCE = os.path.join(ROOT, "Documentation", "reference.md")
 DEFAULTS = {"on": True, "off": False, "none": math.nan, "infinite": math.inf,
             "sqrt(3)": math.sqrt(3), "empty": ""}
+
+
+def property_names(algorithm):
+    """The properties of the filter's own class that are a number, a switch or a text."""
+    names = []
+    for name in (name[3:] for name in vars(type(algorithm)) if name.startswith("Set")):
+        try:
+            value = getattr(algorithm, "Get" + name, lambda: None)()
+        except TypeError:  # of more than one value, such as the names of labels
+            continue
+        if isinstance(value, (int, float, str)):
+            names.append(name)
+    return sorted(names)
 
 
 def tables():
@@ -117,10 +123,10 @@ class PropertiesTest(ReferenceTest):
 class PyramidTest(ReferenceTest):
     def test_arrays(self):
         finest, *coarser = blocks_of(self.pyramid.GetOutput())
-        self.assertEqual(list(arrays_of(finest.GetPointData())), [ARRAY_NAME])
+        self.assertEqual(list(arrays_of(finest.GetPointData())), ["Voxels"])
         for block in coarser:
             self.assertEqual(arrays_of(block.GetPointData()),
-                             {ARRAY_NAME: self.tables["Point arrays of a level"]["the input's"]})
+                             {"Voxels": self.tables["Point arrays of a level"]["the input's"]})
 
     def test_field_data(self):
         pyramid = self.pyramid.GetOutput()

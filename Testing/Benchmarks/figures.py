@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Makes the pictures of data in README.md and Documentation/, all with one command:
 
-    xvfb-run -a /usr/bin/python3 Examples/Python/figures.py --vessels aneurism.vti 100.5
+    xvfb-run -a /usr/bin/python3 Testing/Benchmarks/figures.py --vessels aneurism.vti 100.5
 
     pyramid    slices and iso-surfaces of the images of all levels           Cranium.inv3
     levels     the surface at the end of each level                          Cranium.inv3
@@ -36,18 +36,15 @@ from functools import partial
 
 import numpy as np
 
+from scan_runs import SKULL, SKULL_ISO, Scan, field, iterations, starts
+from label_pictures import interface_picture, label_picture
 import render
-from history_chart import comparison_chart
-from interface_picture import interface_picture
-from label_picture import label_picture
-from pipeline import SKULL, SKULL_ISO
-from pyramid_picture import grey_window, index_bounds, pyramid_picture
-from read_volume import VolumeError
-from scan_runs import Scan, field, iterations, starts
-from surface_pictures import (
-    close_view, common_height, cut_open, field_value, main_component, slice_with_contour,
-    surface_row, to_index_space, visited_levels)
-from terminal import FilterError, Interrupted
+from history_chart import CURVES, comparison_chart
+from pictures import (
+    INSIDE, blocks_of, close_view, contour_on_slice, cut_open, main_component, number,
+    pyramid_picture, surface_row, visited_levels)
+from volumic.errors import Failure
+from vtkmodules.util.numpy_support import vtk_to_numpy
 
 ROW_WIDTH = 1240  # pixels of a whole picture, about as wide as a page of a repository is shown
 GAP = 10  # between panels, that of render.compose
@@ -64,14 +61,15 @@ def panel_width(columns):
 
 
 def pyramid(skull):
+    skull.pyramid.Update()
     levels = skull.pyramid.GetOutput()
-    return pyramid_picture(levels, skull.iso, "Pyramid of a skull CT",
+    return pyramid_picture(levels, skull, "Pyramid of a skull CT",
                            panel_width(levels.GetNumberOfBlocks()))
 
 
 def level_row(surface, frame, columns, bounds, **options):
     """Panels and captions of the surfaces of the visited levels."""
-    surfaces = [(f"Level {number}", block) for number, block in visited_levels(surface.GetLevels())]
+    surfaces = [(f"Level {level}", block) for level, block in visited_levels(surface.GetLevels())]
     return surface_row(surfaces, frame, bounds, panel_width(columns), **options)
 
 
@@ -87,27 +85,21 @@ def levels(skull):
 def views(skull):
     shown, _ = main_component(skull.run().GetOutput())
     bounds, frame = shown.GetBounds(), skull.frame
-    centre = np.reshape(bounds, (3, 2)).mean(axis=1)
-    width = panel_width(4)
-    size = width, common_height(frame, (("L", "S"), ("I", "A")), bounds, width)
+    width, outside = panel_width(4), (("L", "S"), ("I", "A"))
+    size = width, render.fitting_height(width, frame, outside, bounds)
     row = [render.draw([render.surface_actor(shown)], size, frame, *view, bounds)
-           for view in (("L", "S"), ("I", "A"))]
-    for view in (("L", "S"), ("S", "A")):
-        half = cut_open(shown, centre, -frame.vector(view[0]))
-        row.append(render.draw([half], size, frame, *view, bounds))
+           for view in outside]
+    row += [render.draw([cut_open(shown, -frame.vector(view[0]))], size, frame, *view, bounds)
+            for view in INSIDE]
     names = ("From the side", "From below", "Cut open, from the side", "Cut open, from above")
     return render.compose([row], [[(name,) for name in names]])
 
 
 def triangles(skull):
-    surface, image = skull.run().GetOutput(), skull.image
-    frame, bounds = render.index_frame(image), index_bounds(image)
-    width = panel_width(3)
-    size = width, render.fitting_height(width, frame, "L", "S", bounds)
-    flat, window = to_index_space(surface, image), grey_window(image, skull.iso)
+    surface, width = skull.run().GetOutput(), panel_width(3)
+    size = width, render.fitting_height(width, skull.indices, [("L", "S")], skull.bounds())
     row = [close_view(main_component(surface)[0], skull.frame, size)]
-    row += [slice_with_contour(flat, image, frame, view, window, size, bounds)
-            for view in (("A", "S"), ("L", "S"))]
+    row += [contour_on_slice(surface, skull, view, size) for view in (("A", "S"), ("L", "S"))]
     names = ("The triangles of level 0", "Their contour on a coronal slice",
              "and on a sagittal slice")
     return render.compose([row], [[(name,) for name in names]])
@@ -121,14 +113,14 @@ def graded(scan, tolerance=0.5, unit=" mm"):
 
 def thin(skull):
     surfaces = skull.run().GetOutput(), skull.run(ThinParts=True).GetOutput()
-    return beside_even(skull, surfaces, surfaces, "Thin parts", towards="P", place=EDGE_OF_THE_REST)
+    return beside_even(skull, surfaces, surfaces, "Thin parts", towards="P", at=EDGE_OF_THE_REST)
 
 
 def beside_even(skull, surfaces, shown, name, **view):
     """Two surfaces' triangles, of which the first has edges of one length."""
     width = panel_width(2)
     row = [close_view(surface, skull.frame, (width, width * 3 // 10),
-                      delta=field_value(surfaces[0], "Delta"), **view) for surface in shown]
+                      delta=number(surfaces[0], "Delta"), **view) for surface in shown]
     return render.compose([row], [[(f"{name}: {surface.GetNumberOfPoints()} vertices",)
                                    for name, surface in zip(("All edges of one length", name),
                                                             surfaces)]])
@@ -141,23 +133,27 @@ def without_pyramid(skull):
 
 def history(skull):
     as_paper, start = skull.run_as_paper()
-    return comparison_chart(((AS_PAPER.format(start + 1), as_paper.GetHistory()),
-                             ("With the default properties", skull.run().GetHistory())),
-                            ("without the pyramid", without_pyramid(skull).GetHistory()))
+    return comparison_chart(((AS_PAPER.format(start + 1), columns(as_paper)),
+                             ("With the default properties", columns(skull.run()))),
+                            ("without the pyramid", columns(without_pyramid(skull))))
+
+
+def columns(surface):
+    """The columns of a history that are drawn."""
+    return {name: vtk_to_numpy(surface.GetHistory().GetColumnByName(name)).astype(float)
+            for name in ("Level", *(curve[0] for curve in CURVES))}
 
 
 def evolution(skull):
     direct = without_pyramid(skull)
-    snapshots = direct.GetSnapshots()
-    taken = {field(snapshots.GetBlock(b), "Iterations"): snapshots.GetBlock(b)
-             for b in range(snapshots.GetNumberOfBlocks())}
+    taken = {field(block, "Iterations"): block for block in blocks_of(direct.GetSnapshots())}
     stages = [(f"Iteration {n}", taken[n]) for n in SNAPSHOTS if n in taken]
     stages.append((f"At rest, iteration {iterations(direct)[0][1]}", direct.GetOutput()))
     as_paper, start = skull.run_as_paper()
     rows = [stages, stages_by_level(as_paper), stages_by_level(skull.run())]
     # The starts enclose the image, a little wider on coarser levels.
     bounds = np.array([surface.GetBounds() for row in rows for _, surface in row])
-    bounds = np.ravel([bounds[:, ::2].min(axis=0), bounds[:, 1::2].max(axis=0)], order="F")
+    bounds = np.where([True, False] * 3, bounds.min(axis=0), bounds.max(axis=0))
     width = panel_width(max(map(len, rows)))
     panels, captions = zip(*(surface_row(row, skull.frame, bounds, width, zoom=START_ZOOM)
                              for row in rows))
@@ -241,7 +237,7 @@ def write_picture(draw, scan, folder, name=None):
 
 
 def main():
-    folder = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "Documentation")
+    folder = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../Documentation")
     known = [draw.__name__ for draw in SKULL_PICTURES] + ["vessels", "labels", "interfaces"]
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--output", default=os.path.normpath(folder), help="default: Documentation")
@@ -257,14 +253,14 @@ def main():
     arguments = parser.parse_args()
     try:
         os.makedirs(arguments.output, exist_ok=True)
-        skull = Scan(arguments.skull[0], float(arguments.skull[1]))
-        for draw in SKULL_PICTURES:
-            if draw.__name__ in arguments.only:
-                write_picture(draw, skull, arguments.output)
+        of_skull = [draw for draw in SKULL_PICTURES if draw.__name__ in arguments.only]
+        skull = of_skull and Scan(arguments.skull[0], float(arguments.skull[1]))
+        for draw in of_skull:
+            write_picture(draw, skull, arguments.output)
         wanted = arguments.vessels if "vessels" in arguments.only else []
-        for number, (path, iso) in enumerate(wanted):
+        for place, (path, iso) in enumerate(wanted):
             write_picture(vessels, Scan(path, float(iso)), arguments.output,
-                          further_name("vessels", path) if number else "vessels")
+                          further_name("vessels", path) if place else "vessels")
         for path, iso, tolerance in arguments.graded if "graded" in arguments.only else []:
             write_picture(partial(graded, tolerance=float(tolerance), unit=""), Scan(path, float(iso)),
                           arguments.output, further_name("graded", path))
@@ -276,7 +272,7 @@ def main():
             print("No --vessels: their pictures stay as they are")
         if "graded" in arguments.only and not arguments.graded:
             print("No --graded: the pictures of other scans stay as they are")
-    except (VolumeError, FilterError, Interrupted, ValueError, OSError) as error:
+    except (Failure, ValueError, OSError) as error:
         sys.exit(f"figures.py: {error}")
 
 

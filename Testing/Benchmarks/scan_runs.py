@@ -3,8 +3,13 @@
 """A scan with the runs on it that figures.py draws and paper_tables.py counts."""
 
 import functools
+import os
+import sys
 
 import numpy as np
+import volumic
+from volumic.errors import Failure
+from volumic.messages import update
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import reference
 from vtkmodules.vtkCommonDataModel import vtkGenericCell, vtkStaticCellLocator
@@ -14,32 +19,26 @@ from vtkmodules.vtkFiltersCore import (
 from vtkmodules.vtkFiltersGeneral import vtkTransformFilter
 from vtkmodules.vtkImagingCore import vtkImageConstantPad
 
-import render
-from pipeline import build_pyramid, load_volume, prepare_surface, run_surface
-from terminal import FilterError
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "Examples",
+                                "Python"))
+import pictures  # pylint: disable=wrong-import-position
 
+SKULL = os.environ.get(
+    "VOLUMIC_CRANIUM", "/usr/share/doc/invesalius-examples/examples/Cranium.inv3")
+SKULL_ISO = 226.5
 PAPERS_COARSEST = 3  # the paper starts at G3, the fourth of its levels
 STARTS_ONLY = 10 ** 6  # iterations between snapshots: none but the one at each level's start
 LEAST_TRIANGLES = 200  # of a component of the iso-surface that counts as a part of the object
 
 
-class Scan:
-    """A volume, its pyramid and the runs on it, each made when it is first asked for."""
+class Scan(pictures.Scan):
+    """A volume, its pyramid and the runs on it, each made when it is first used."""
 
     def __init__(self, path, iso):
-        self.path, self.iso = path, iso
-
-    @functools.cached_property
-    def image(self):
-        return load_volume(self.path, self.iso)[0]
-
-    @functools.cached_property
-    def pyramid(self):
-        return build_pyramid(self.image)[0]
-
-    @functools.cached_property
-    def frame(self):
-        return render.world_frame(self.image)
+        super().__init__(volumic.read(path), iso)
+        self.path = path
+        self.pyramid = volumic.vtkImagePyramid()
+        self.pyramid.SetInputData(self.image)
 
     @functools.cache
     def run(self, **properties):
@@ -48,16 +47,21 @@ class Scan:
         Its snapshots hold at least the start of every level.
         """
         print(f"  {', '.join(f'{n} {v}' for n, v in properties.items()) or 'default properties'}")
-        surface = prepare_surface(self.pyramid, self.iso,
-                                  {"SnapshotInterval": STARTS_ONLY, **properties})
-        run_surface(surface)
+        surface = volumic.vtkDeformableSurface()
+        surface.SetInputConnection(self.pyramid.GetOutputPort())
+        surface.SetIsoValue(self.iso)
+        for name, value in {"SnapshotInterval": STARTS_ONLY, **properties}.items():
+            getattr(surface, "Set" + name)(value)
+        errors, _ = update(surface)
+        if errors or surface.GetOutput().GetNumberOfPolys() == 0:
+            raise Failure(errors[0] if errors else f"no surface at the iso-value {self.iso:g}")
         return surface
 
     def coarsest(self):
         """The coarsest level where a voxel is above the iso-value."""
-        levels = self.pyramid.GetOutput()
-        return max(h for h in range(levels.GetNumberOfBlocks())
-                   if levels.GetBlock(h).GetScalarRange()[1] > self.iso)
+        self.pyramid.Update()
+        return max(h for h, image in enumerate(pictures.blocks_of(self.pyramid.GetOutput()))
+                   if image.GetScalarRange()[1] > self.iso)
 
     @functools.cache
     def run_as_paper(self):
@@ -66,7 +70,7 @@ class Scan:
         for level in range(min(PAPERS_COARSEST, self.coarsest()), 0, -1):
             try:
                 return self.run(Recovery=0, Metric=0, CoarsestLevel=level), level
-            except FilterError as error:
+            except Failure as error:
                 print(f"  from level {level}: {error}")
         return self.run(Recovery=0, Metric=0, CoarsestLevel=0), 0
 
@@ -91,19 +95,17 @@ def iterations(surface):
 
 def starts(surface):
     """The surface before the first iteration of each level, by level."""
-    snapshots = surface.GetSnapshots()
-    blocks = [snapshots.GetBlock(b) for b in range(snapshots.GetNumberOfBlocks())]
-    return {field(block, "Level"): block for block in blocks if field(block, "Iterations") == 0}
+    return {field(block, "Level"): block for block in pictures.blocks_of(surface.GetSnapshots())
+            if field(block, "Iterations") == 0}
 
 
 def field(surface, name):
-    return int(surface.GetFieldData().GetArray(name).GetTuple1(0))
+    return int(pictures.number(surface, name))
 
 
 def closed_iso_surface(image, iso):
     """vtkFlyingEdges3D on the image padded by background, in voxels: components of some size."""
     low, high = image.GetScalarRange()
-    extent = image.GetExtent()
     plain = image.NewInstance()
     plain.ShallowCopy(image)
     plain.SetOrigin(0, 0, 0)
@@ -111,13 +113,12 @@ def closed_iso_surface(image, iso):
     plain.SetDirectionMatrix(1, 0, 0, 0, 1, 0, 0, 0, 1)
     pad = vtkImageConstantPad()
     pad.SetInputData(plain)
-    pad.SetOutputWholeExtent([e + (1 if i % 2 else -1) for i, e in enumerate(extent)])
+    pad.SetOutputWholeExtent([e + (1 if i % 2 else -1) for i, e in enumerate(image.GetExtent())])
     pad.SetConstant(low if iso > low else high)
     contour = vtkFlyingEdges3D()
     contour.SetInputConnection(pad.GetOutputPort())
     contour.SetValue(0, iso)
     contour.ComputeNormalsOff()
-    contour.ComputeGradientsOff()
     contour.ComputeScalarsOff()
     parts = vtkPolyDataConnectivityFilter()
     parts.SetInputConnection(contour.GetOutputPort())

@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Makes the tables of the paper's experiments in Documentation/, as Markdown on standard output:
 
-    /usr/bin/python3 Examples/Python/paper_tables.py --scan aneurism.mhd 100.5 --scan ...
+    /usr/bin/python3 Testing/Benchmarks/paper_tables.py --scan aneurism.mhd 100.5 --scan ...
 
     levels    iterations per level on the skull, beside those that the paper states
     vessels   without recovery, as in the paper: iterations, and how much is there at each level
@@ -25,10 +25,8 @@ from time import process_time
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
-from pipeline import SKULL, SKULL_ISO
-from read_volume import VolumeError
-from scan_runs import Scan, field, iterations
-from terminal import FilterError, Interrupted
+from scan_runs import SKULL, SKULL_ISO, Scan, field, iterations
+from volumic.errors import Failure
 
 # Lachaud and Montanvert (1996), section 6 and figure 4: the divisions came after 225, 333 and 461
 # iterations. How many there were on level 0 is not stated.
@@ -186,7 +184,7 @@ def main():
                 with contextlib.redirect_stdout(sys.stderr):
                     text = make(scans)
                 print(f"{text}\n", flush=True)
-    except (VolumeError, FilterError, Interrupted, ValueError, OSError) as error:
+    except (Failure, ValueError, OSError) as error:
         sys.exit(f"paper_tables.py: {error}")
 
 

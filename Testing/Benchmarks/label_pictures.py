@@ -1,0 +1,99 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The pictures of labels: surfaces of an atlas beside what else VTK makes, and one mesh of grains."""
+
+import numpy as np
+import scan_runs  # noqa: F401, which finds the modules of Examples/Python
+import render
+import volumic
+from pictures import blocks_of
+from volumic.arrays import make_image
+from vtkmodules.vtkCommonDataModel import vtkPolyData
+from vtkmodules.vtkFiltersCore import vtkWindowedSincPolyDataFilter
+from vtkmodules.vtkFiltersGeneral import vtkDiscreteFlyingEdges3D
+
+CLOSE_LABELS = (1, 3, 4, 5)  # of the atlas of white matter: corpus callosum and middle peduncle
+SIZE = 32  # voxels of the grains along each axis
+GRAINS = 20
+TAKEN_AWAY = 6  # those nearest to the camera
+LINES = 0.1, 0.1, 0.1
+
+
+def surfaces_of(image, labels=()):
+    """(surface, colour) of each label that has a surface."""
+    surfaces = volumic.vtkLabelsToSurfaces()
+    surfaces.SetInputData(image)
+    for label in labels:
+        surfaces.AddLabel(label)
+    surfaces.Update()
+    return [(block, color_of(block)) for block in blocks_of(surfaces.GetOutput())
+            if block.GetNumberOfPolys() > 0]
+
+
+def color_of(block):
+    return block.GetFieldData().GetArray("LabelColor").GetTuple3(0)
+
+
+def stairs_of(image, label, smoothed):
+    """What vtkDiscreteFlyingEdges3D makes of a label, smoothed with VTK's defaults or not."""
+    contour = vtkDiscreteFlyingEdges3D()
+    contour.SetInputData(image)
+    contour.SetValue(0, label)
+    last = contour
+    if smoothed:
+        last = vtkWindowedSincPolyDataFilter()
+        last.SetInputConnection(contour.GetOutputPort())
+    last.Update()
+    return last.GetOutput()
+
+
+def label_picture(path, width):
+    """Four panels, each so many pixels wide: all surfaces, and a few beside those of others."""
+    volume = volumic.read(path)
+    image = make_image(volume.array, volume.spacing, volume.origin, volume.direction)
+    frame = render.Frame(volume.space)
+    everything, near = surfaces_of(image), surfaces_of(image, CLOSE_LABELS)
+    stairs = [[(stairs_of(image, label, smoothed), color)
+               for label, (_, color) in zip(CLOSE_LABELS, near)] for smoothed in (False, True)]
+    panels = []
+    for surfaces, shown in ((everything, everything), *((row, near) for row in (*stairs, near))):
+        bounds = np.array([surface.GetBounds() for surface, _ in shown])
+        bounds = np.where([True, False] * 3, bounds.min(axis=0), bounds.max(axis=0))
+        actors = [render.surface_actor(surface, color) for surface, color in surfaces]
+        for actor in actors:
+            actor.GetProperty().SetInterpolationToFlat()  # triangles as they are
+        panels.append(render.draw(actors, (width, width), frame, "LLAS", "S", bounds, zoom=1.05))
+    captions = [(f"All {len(everything)} labels", "vtkLabelsToSurfaces"),
+                ("Four of them", "vtkDiscreteFlyingEdges3D"),
+                ("smoothed", "vtkWindowedSincPolyDataFilter"), ("and here", "vtkLabelsToSurfaces")]
+    return render.compose([panels], [captions])
+
+
+def grains():
+    """A label map: each voxel has the number of the nearest of some random points."""
+    points = np.random.default_rng(3).random((GRAINS, 3)) * SIZE
+    voxels = np.moveaxis(np.indices((SIZE, SIZE, SIZE)), 0, -1)[..., np.newaxis, :]
+    labels = 1 + ((voxels - points) ** 2).sum(axis=-1).argmin(axis=-1)
+    return make_image(labels.astype(np.int32), (1, 1, 1), (0, 0, 0), None)
+
+
+def interface_picture(width):
+    """Two panels, each so many pixels wide: all grains, and those behind the nearest ones."""
+    surfaces = volumic.vtkLabelsToSurfaces()
+    surfaces.SetInputData(grains())
+    surfaces.SharedInterfacesOn()
+    surfaces.Update()
+    frame, mesh = render.Frame(), surfaces.GetInterfaces()
+    towards = frame.vector("LLAS")
+    blocks = sorted(blocks_of(surfaces.GetOutput()),
+                    key=lambda block: np.dot(block.GetCenter(), towards))
+    lines = vtkPolyData()  # where three labels and more meet
+    lines.SetPoints(mesh.GetPoints())
+    lines.SetLines(mesh.GetLines())
+    panels = [render.draw([*(render.surface_actor(block, color_of(block), edges=True)
+                             for block in shown), render.line_actor(lines, LINES, 2.5)],
+                          (width, width * 3 // 4), frame, "LLAS", "S", mesh.GetBounds())
+              for shown in (blocks, blocks[:-TAKEN_AWAY])]
+    return render.compose([panels], [[
+        (f"{GRAINS} labels, one mesh of {mesh.GetNumberOfPolys()} triangles",),
+        ("without those in front: each interface is there once",)]])
