@@ -27,35 +27,17 @@ take_option()
 }
 parse_options "$@"
 
-# unpack_skull FOLDER: skull.mhd, which ParaView reads, and its voxels.
-unpack_skull()
-{
-  mkdir -p "$1"
-  tar -xzf "$(cranium)" -O --wildcards '*/matrix.dat' > "$1/skull.raw"
-  cat > "$1/skull.mhd" << 'HEADER'
-ObjectType = Image
-NDims = 3
-BinaryData = True
-BinaryDataByteOrderMSB = False
-DimSize = 256 256 108
-ElementSpacing = 0.9570312 0.9570312 1.5
-ElementType = MET_SHORT
-ElementDataFile = skull.raw
-HEADER
-}
-
 check_system
 mapfile -t packages < <(paraview_packages; skull_packages)
-plan_steps $((4 + $(skull_steps)))
+plan_steps $((3 + $(skull_steps)))
 install_packages "${tool_packages[@]}" "${packages[@]}"
 prepare_skull
-run_step "Unpacking the skull" skull-volume unpack_skull "$build/paraview-skull"
 build_paraview_flavour -DVOLUMIC_BUILD_TESTING=OFF -DVOLUMIC_BUILD_EXAMPLES=OFF
 
 plugin=$(find "$build/install-paraview" -name Volumic.so)
 [ -n "$plugin" ] || fail "No plugin in $build/install-paraview. See $logs/build-paraview.log"
 start=("$(paraview_prefix)/bin/paraview" --plugin-search-paths="$(dirname "$plugin")"
-  --plugins=Volumic --data="$build/paraview-skull/skull.mhd")
+  --plugins=Volumic --data="$(cranium)")
 say ""
 say "The plugin: $plugin
 To have it in each ParaView that you start: Tools > Manage Plugins... > Load New..., choose that

@@ -44,28 +44,25 @@ if [ "${#inputs[@]}" -eq 2 ] \
 fi
 
 check_system
+copy=volume.vti
+steps=5
 mapfile -t packages < <(vtk_packages)
-packages+=("${tool_packages[@]}" xvfb xauth libgl1-mesa-dri)
 if [ "${#inputs[@]}" -eq 0 ]; then
-  plan_steps $((5 + $(skull_steps)))
-  mapfile -t -O "${#packages[@]}" packages < <(skull_packages)
-else
-  plan_steps 5
-fi
-install_packages "${packages[@]}"
-if [ "${#inputs[@]}" -eq 0 ]; then
-  prepare_skull
   inputs=("$(cranium)" 226.5) # bone; between two integers, so that no voxel equals it
   copy=skull.vti
-else
-  case ${inputs[0]} in
-    *.vti) copy= ;; # ParaView reads it as it is
-    *) copy=volume.vti ;;
-  esac
+  steps=$((steps + $(skull_steps)))
+  mapfile -t -O "${#packages[@]}" packages < <(skull_packages)
+elif [[ ${inputs[0]} == *.vti ]]; then
+  copy= # ParaView reads it as it is
 fi
+plan_steps $steps
+install_packages "${tool_packages[@]}" "${packages[@]}" xvfb xauth libgl1-mesa-dri
+[ "$copy" != skull.vti ] || prepare_skull
 build_vtk_flavour -DVOLUMIC_BUILD_TESTING=OFF -DVOLUMIC_BUILD_EXAMPLES=OFF
 
 command=$build/install-vtk/bin/volumic
+# Wherever this Python's version puts packages.
+package=$(find "$build/install-vtk" -path '*-packages/volumic' -print -quit)
 make_surface()
 {
   mkdir -p "$output"
@@ -75,9 +72,8 @@ make_surface()
 }
 draw_pictures()
 {
-  # Wherever this Python's version puts packages.
-  PYTHONPATH=$(dirname "$(find "$build/install-vtk" -path '*-packages/volumic' -print -quit)") \
-    PYTHONDONTWRITEBYTECODE=1 xvfb-run -a -s "-screen 0 1280x1024x24 -noreset" \
+  PYTHONPATH=${package%/volumic} PYTHONDONTWRITEBYTECODE=1 \
+    xvfb-run -a -s "-screen 0 1280x1024x24 -noreset" \
     "$(vtk_python)" "$root/Examples/Python/pictures.py" "${inputs[0]}" "$output"
 }
 run_step "Making the surface" quickstart-surface make_surface
@@ -85,10 +81,7 @@ run_step "Drawing pictures" quickstart-pictures draw_pictures
 
 say ""
 cat "$logs/quickstart-surface.log"
-say "Written to $output:"
-ls "$output"
-say ""
-say "To use it yourself:"
-say "  $command --help"
-say "  PYTHONPATH=$(dirname "$(find "$build/install-vtk" -path '*-packages/volumic' -print -quit)") \\"
-say "    $(vtk_python) -c 'import volumic; help(volumic)'"
+say "Written to $output: $(ls -m "$output" | tr '\n' ' ')"
+say "To use it yourself:
+  $command --help
+  PYTHONPATH=${package%/volumic} $(vtk_python) -c 'import volumic; help(volumic)'"

@@ -60,7 +60,8 @@ def side_by_side(layout, count):
 def compare_levels(filter_):
     """A new layout with a view per level; the views, from the coarsest level to the finest."""
     levels = visited_levels(filter_)
-    layout = simple.CreateLayout(f"Levels of {chosen_name(filter_)}")
+    names = [key[0] for key, source in simple.GetSources().items() if source == filter_]
+    layout = simple.CreateLayout(f"Levels of {names[0] if names else 'a surface'}")
     views = []
     for (name, selector), cell in zip(levels, side_by_side(layout, len(levels))):
         view = simple.CreateView("RenderView")
@@ -80,11 +81,6 @@ def compare_levels(filter_):
     simple.ResetCamera(views[-1])
     simple.RenderAllViews()
     return layout, views
-
-
-def chosen_name(filter_):
-    names = [key[0] for key, source in simple.GetSources().items() if source == filter_]
-    return names[0] if names else "a surface"
 
 
 def main(arguments):

@@ -42,24 +42,6 @@ def history_chart(history, size=(1480, 900)):
     return np.concatenate([render.blank(14, size[0]), names, draw_charts(cells, None, size)])
 
 
-def comparison_chart(evolutions, other, size=(1240, 1240)):
-    """The curves of several evolutions, (name, history), a column for each, at the same scale; those
-    of the other one, (name, history), dashed in all columns."""
-    coarsest = max(history["Level"].max() for _, history in evolutions)
-    width = size[0] // len(evolutions)
-    heads = [np.concatenate([
-        render.blank(10, width),
-        render.line_strip([(width // 2, name, True, render.INK)], width, 19, centred=True),
-        legend(history, width, 15, coarsest)]) for name, history in evolutions]
-    dashed = f"Iterations on each level. Dashed: {other[0]}, {len(other[1]['Level'])} iterations"
-    cells = [(column, row, curve, history) for column, (_, history) in enumerate(evolutions)
-             for row, curve in enumerate(CURVES)]
-    return np.concatenate([np.concatenate(heads, axis=1),
-                           render.line_strip([(size[0] // 2, dashed, False, render.SOFT_INK)],
-                                             size[0], 15, centred=True),
-                           draw_charts(cells, other[1], size)])
-
-
 def legend(history, width, size, coarsest, unit=""):
     """A strip with the number of iterations on each level, in its colour."""
     levels, counts = np.unique(history["Level"], return_counts=True)

@@ -132,10 +132,9 @@ def draw(actors, size, frame, look_from, up, bounds, zoom=1.0, shaded=True, focu
 
 def pixels_of_window(window, size):
     """What the window shows, at that size in pixels."""
-    n = OVERSAMPLING
     window.SetOffScreenRendering(1)
     window.SetMultiSamples(0)
-    window.SetSize(size[0] * n, size[1] * n)
+    window.SetSize(size[0] * OVERSAMPLING, size[1] * OVERSAMPLING)
     window.Render()
     grab = vtkWindowToImageFilter()
     grab.SetInput(window)
@@ -143,7 +142,8 @@ def pixels_of_window(window, size):
     grab.Update()
     pixels = pixels_of(grab.GetOutput())
     window.Finalize()
-    return pixels.reshape(size[1], n, size[0], n, 3).mean(axis=(1, 3)).astype(np.uint8)
+    boxes = pixels.reshape(size[1], OVERSAMPLING, size[0], OVERSAMPLING, 3)
+    return boxes.mean(axis=(1, 3)).astype(np.uint8)
 
 
 def place_camera(renderer, size, towards, up, bounds, zoom, focus):
@@ -272,8 +272,7 @@ def image_of(pixels):
     """The vtkImageData of a picture."""
     image = vtkImageData()
     image.SetDimensions(pixels.shape[1], pixels.shape[0], 1)
-    rows = np.ascontiguousarray(pixels[::-1]).reshape(-1, 3)
-    image.GetPointData().SetScalars(numpy_to_vtk(rows, deep=True))
+    image.GetPointData().SetScalars(numpy_to_vtk(pixels[::-1].reshape(-1, 3), deep=True))
     return image
 
 

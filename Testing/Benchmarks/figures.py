@@ -39,7 +39,7 @@ import numpy as np
 from scan_runs import SKULL, SKULL_ISO, Scan, field, iterations, starts
 from label_pictures import interface_picture, label_picture
 import render
-from history_chart import CURVES, comparison_chart
+import history_chart
 from pictures import (
     INSIDE, blocks_of, close_view, contour_on_slice, cut_open, main_component, number,
     pyramid_picture, surface_row, visited_levels)
@@ -138,10 +138,28 @@ def history(skull):
                             ("without the pyramid", columns(without_pyramid(skull))))
 
 
+def comparison_chart(evolutions, other, size=(1240, 1240)):
+    """The curves of several evolutions, (name, history), a column for each, at the same scale; those
+    of the other one, (name, history), dashed in all columns."""
+    coarsest = max(history["Level"].max() for _, history in evolutions)
+    width = size[0] // len(evolutions)
+    heads = [np.concatenate([
+        render.blank(10, width),
+        render.line_strip([(width // 2, name, True, render.INK)], width, 19, centred=True),
+        history_chart.legend(history, width, 15, coarsest)]) for name, history in evolutions]
+    dashed = f"Iterations on each level. Dashed: {other[0]}, {len(other[1]['Level'])} iterations"
+    cells = [(column, row, curve, history) for column, (_, history) in enumerate(evolutions)
+             for row, curve in enumerate(history_chart.CURVES)]
+    return np.concatenate([np.concatenate(heads, axis=1),
+                           render.line_strip([(size[0] // 2, dashed, False, render.SOFT_INK)],
+                                             size[0], 15, centred=True),
+                           history_chart.draw_charts(cells, other[1], size)])
+
+
 def columns(surface):
     """The columns of a history that are drawn."""
     return {name: vtk_to_numpy(surface.GetHistory().GetColumnByName(name)).astype(float)
-            for name in ("Level", *(curve[0] for curve in CURVES))}
+            for name in ("Level", *(curve[0] for curve in history_chart.CURVES))}
 
 
 def evolution(skull):
