@@ -10,6 +10,9 @@ import importlib
 import os
 import re
 import stat
+import warnings
+
+import numpy as np
 
 from ..errors import VolumeError
 from .grid import one_of_times
@@ -20,7 +23,7 @@ __all__ = ["Choice", "Label", "SUFFIXES", "Volume", "VolumeError", "checked", "l
 
 SUFFIXES = {suffix: reader for reader, suffixes in {
     "vtkfiles:read_xml": ".vti .pvti .vtr",
-    "vtkfiles:read_legacy": ".vtk .vtkhdf .hdf",
+    "vtkfiles:read_by_vtk": ".vtk .vtkhdf .hdf",
     "plain:read_meta_image": ".mha .mhd",
     "plain:read_nrrd": ".nrrd .nhdr",
     "plain:read_npy": ".npy .npz",
@@ -35,7 +38,7 @@ SUFFIXES = {suffix: reader for reader, suffixes in {
 _MARKS = (  # of files whose suffix is another one: place, bytes, reader
     (128, b"DICM", "dicom:read_dicom"), (0, b"NRRD000", "plain:read_nrrd"),
     (0, b"\x93NUMPY", "plain:read_npy"), (0, b"ObjectType", "plain:read_meta_image"),
-    (0, b"NDims", "plain:read_meta_image"), (0, b"# vtk DataFile", "vtkfiles:read_legacy"),
+    (0, b"NDims", "plain:read_meta_image"), (0, b"# vtk DataFile", "vtkfiles:read_by_vtk"),
     (0, b"<VTKFile", "vtkfiles:read_xml"), (0, b"<?xml", "vtkfiles:read_xml"),
     (208, b"MAP ", "microscopy:read_mrc"), (0, b"II*\0", "microscopy:read_tiff"),
     (0, b"MM\0*", "microscopy:read_tiff"), (0, b"II+\0", "microscopy:read_tiff"),
@@ -53,10 +56,12 @@ def read(path, **choice):
     choice.times = 0
     try:
         _check_files(path)
-        volume = _read(path, choice)
-        if choice.labels and choice.time is None and choice.times > 1:
-            from . import masks
-            volume = masks.read_times(path, choice.times, choice, _read)
+        with warnings.catch_warnings(), np.errstate(all="ignore"):
+            warnings.simplefilter("ignore")
+            volume = _read(path, choice)
+            if choice.labels and choice.time is None and choice.times > 1:
+                from . import masks
+                volume = masks.read_times(path, choice.times, choice, _read)
         volume.times = max(choice.times, 1)
         if not choice.times and choice.time is not None:
             one_of_times(1, choice)

@@ -161,22 +161,15 @@ def unpacked(stream, packing, dtype, count, skip=0, size=None, exact=False):
     dtype, count = np.dtype(dtype), int(count)
     size = skip + count * dtype.itemsize if size is None else size
     opener = {"bz2": bz2.open, "zlib": _Inflated}.get(packing, gzip.open)
-    try:
-        with opener(stream) as plain:
-            behind = size - _skip(plain, skip) - count * dtype.itemsize
-            data = from_stream(plain, dtype, count)
-            if _skip(plain, behind) == behind and plain.read(1) and exact:
-                raise VolumeError("the packed data give more than the %d bytes that the header "
-                                  "requires; copy the file again" % size)
-            while not exact and plain.read(1 << 20):
-                pass
-            return data
-    except EOFError:
-        raise VolumeError("the packed data are cut off; copy the file again") from None
-    except (OSError, zlib.error) as error:
-        if getattr(error, "errno", None):
-            raise
-        raise VolumeError("the packed data are damaged (%s); copy the file again" % error) from None
+    with opener(stream) as plain:
+        behind = size - _skip(plain, skip) - count * dtype.itemsize
+        data = from_stream(plain, dtype, count)
+        if _skip(plain, behind) == behind and plain.read(1) and exact:
+            raise VolumeError("the packed data give more than the %d bytes that the header requires; "
+                              "copy the file again" % size)
+        while not exact and plain.read(1 << 20):
+            pass
+    return data
 
 
 def _skip(stream, count):

@@ -10,7 +10,8 @@ import numpy as np
 
 from ..errors import VolumeError
 from .volume import failure_of
-from .vtkfiles import XmlFile, updated
+from .vtkfiles import updated
+from .vtkxml import XmlFile
 from .worker import in_worker
 
 _SUFFIXES = (".vtp", ".vtk", ".stl", ".ply", ".obj")
@@ -113,7 +114,7 @@ def _xml_mesh(path):
     count, polygons = int(piece["NumberOfPoints"]), int(piece.get("NumberOfPolys", 0))
     mesh = {"arrays": {}, "offsets": np.zeros(0, int), "connectivity": np.zeros(0, int)}
     for array in file.arrays:
-        name, width = array.get("Name", ""), int(array.get("NumberOfComponents", 1))
+        name, width = array["name"], int(array.get("NumberOfComponents", 1))
         if array["parent"] == "Points":
             mesh["points"] = file.read(array, 3 * count).reshape(-1, 3)
         elif array["parent"] == "PointData" and array.get("type") != "String":
@@ -136,11 +137,7 @@ def load(path):
         from vtkmodules.vtkIOGeometry import vtkSTLReader as Reader
     else:
         from vtkmodules.vtkIOGeometry import vtkOBJReader as Reader
-    reader, messages = Reader(), []
-    reader.SetFileName(path)
-    mesh = updated(reader, messages)
-    if messages or mesh is None or not mesh.GetPoints():
-        raise VolumeError("VTK cannot be read it: " + (messages or ["it has no points"])[0])
+    mesh = updated(Reader(), path)
     if expected and mesh.GetNumberOfPolys() != expected:
         raise VolumeError("the file is cut off or damaged: it has %d polygons, its header requires "
                           "%d" % (mesh.GetNumberOfPolys(), expected))

@@ -4,6 +4,8 @@
 from __future__ import annotations
 
 import dataclasses
+import gzip
+import zlib
 
 import numpy as np
 
@@ -147,6 +149,10 @@ def failure_of(error):
     text = " ".join(str(error).split())[:300] or type(error).__name__
     if isinstance(error, MemoryError):
         text = "not enough memory to read it; crop it, or resample it to fewer voxels"
+    elif isinstance(error, EOFError):
+        text = "the file is cut off: its data end too early; copy it again"
+    elif isinstance(error, (zlib.error, gzip.BadGzipFile)) or text == "Invalid data stream":
+        text = "the packed data are damaged (%s); copy the file again" % text
     elif isinstance(error, ImportError) and error.name:
         module = error.name.split(".")[0]
         package = {"PIL": "python3-pil", "vtkmodules": "python3-vtk9"}.get(module, "python3-" + module)

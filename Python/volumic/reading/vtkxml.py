@@ -1,0 +1,154 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""XML files of VTK. Its own readers crash on damaged files, accept some that are cut off, and hold
+all arrays in memory; here arrays are checked, and mapped unless they are packed."""
+from __future__ import annotations
+
+import binascii
+import lzma
+import mmap
+import zlib
+from xml.parsers import expat
+
+import numpy as np
+
+from ..errors import VolumeError
+
+_TYPES = {kind + size: kind[0].lower() + str(int(size) // 8)
+          for kind in ("Int", "UInt", "Float") for size in ("8", "16", "32", "64")}
+_TYPES["String"] = "i1"
+
+
+class XmlFile:
+    """The pieces and arrays of a file, with their attributes; arrays are decoded by read()."""
+
+    def __init__(self, path):
+        with open(path, "rb") as stream:
+            self.data = mmap.mmap(stream.fileno(), 0, access=mmap.ACCESS_READ)
+        self.root, self.grid, self.pieces, self.arrays, self._open = {}, {}, [], [], []
+        parser = expat.ParserCreate()
+        parser.buffer_text, parser.buffer_size = True, 1 << 20
+        parser.StartElementHandler, parser.CharacterDataHandler = self._start, self._text
+        parser.EndElementHandler = lambda _: self._open.pop()
+        head = self.data.find(b"<AppendedData")
+        try:
+            parser.Parse(self.data if head < 0 else self.data[:head], head < 0)
+        except expat.ExpatError as error:
+            raise VolumeError("the file is cut off or damaged: its XML cannot be parsed (%s)"
+                              % error) from None
+        self.kind = self.root.get("type", "")
+        self.order = ">" if self.root.get("byte_order") == "BigEndian" else "<"
+        self.header = self.order + ("u8" if self.root.get("header_type") == "UInt64" else "u4")
+        if head >= 0:
+            begin = self.data.find(b"_", head, head + 4096) + 1
+            end = self.data.rfind(b"</AppendedData>")
+            if not 0 < begin <= end or self.data[-4096:].rstrip()[-10:] != b"</VTKFile>":
+                raise VolumeError("the file is cut off: its appended data do not end; copy it again")
+            self.is_base64 = b'"base64"' in self.data[head:begin]
+            self.appended = memoryview(self.data)[begin:end]
+            self.offsets = sorted({int(a["offset"]) for a in self.arrays if "offset" in a})
+
+    def _start(self, name, values):
+        self._open.append(name)
+        if len(self._open) > 64:
+            raise VolumeError("its header is damaged: too many elements within elements")
+        if name == "VTKFile":
+            self.root = values
+        elif name == self.root.get("type"):
+            self.grid = values
+        elif name == "Piece":
+            self.pieces.append(values)
+        elif name in ("PointData", "CellData") and self.pieces:
+            self.pieces[-1][name] = values.get("Scalars", "")
+        elif name in ("DataArray", "Array") and len(self._open) > 1:
+            self.arrays.append(dict(values, parent=self._open[-2], piece=len(self.pieces) - 1,
+                                    name=values.get("Name", ""), text=[]))
+
+    def _text(self, text):
+        if self._open[-1] in ("DataArray", "Array"):
+            self.arrays[-1]["text"].append(text)
+
+    def read(self, array, count=None):
+        """Return the values of an array; VolumeError unless there are `count`."""
+        try:
+            dtype = np.dtype(self.order + _TYPES[array["type"]])
+            need = None if count is None else count * dtype.itemsize
+            if array["format"] == "ascii":
+                words = "".join(array["text"]).split()
+                values = np.array(words or [0]).astype(dtype)[:len(words)]
+                if count is not None and len(values) != count:
+                    raise ValueError("it has %d numbers, %d are needed" % (len(values), count))
+                return values
+            if array["format"] == "appended":
+                at = int(array["offset"])
+                data = self.appended[at:min([o for o in self.offsets if o > at] or [None])]
+                raw, used = self._unpacked(data, self.is_base64, need)
+            else:
+                data = memoryview("".join(array["text"]).strip().encode("ascii"))
+                raw, used = self._unpacked(data, True, need)
+            if len(data) - used > 4096 or bytes(data[used:]).strip():
+                raise ValueError("%d bytes too many follow it" % (len(data) - used))
+            return np.frombuffer(raw, dtype)
+        except Exception as error:  # pylint: disable=broad-except
+            raise VolumeError("the file is cut off or damaged: its array %s cannot be read: %s; copy "
+                              "it again" % (array["name"], error or "it ends too early")) from None
+
+    def _unpacked(self, data, is_base64, need):
+        """Return the bytes of an array, and how many bytes at the begin of the data encode it."""
+        wide = np.dtype(self.header).itemsize
+        packed = self.root.get("compressor", "")
+        if not packed:
+            size = int(np.frombuffer(_decoded(data, is_base64, wide), self.header)[0])
+            if need not in (None, size):
+                raise ValueError("it has %d bytes, %d are needed" % (size, need))
+            return (_decoded(data, is_base64, wide + size)[wide:], _encoded(wide + size, is_base64))
+        blocks, size, last = np.frombuffer(_decoded(data, is_base64, 3 * wide), self.header).tolist()
+        whole = (blocks - bool(last)) * size + last
+        if blocks and not size or last > size or need not in (None, whole):
+            raise ValueError("it is packed in %d blocks of %d bytes, the last one of %d; %s bytes "
+                             "are needed" % (blocks, size, last, need))
+        start = wide * (3 + blocks)
+        sizes = np.frombuffer(_decoded(data, is_base64, start), self.header)[3:].tolist()
+        head = _encoded(start, is_base64)  # base64 encodes sizes and blocks one after the other
+        plain = _decoded(data[head:], is_base64, sum(sizes))
+        result, at, unpack = bytearray(), 0, _unpacker(packed)
+        for number, length in enumerate(sizes):
+            expected = last if last and number == blocks - 1 else size
+            block = unpack(plain[at:at + length], expected)
+            if len(block) != expected:
+                raise ValueError("a block of %d bytes has %d" % (expected, len(block)))
+            result += block
+            at += length
+        return result, head + _encoded(at, is_base64)
+
+
+def _encoded(size, is_base64):
+    """Return how many bytes encode so many."""
+    return -(-size // 3) * 4 if is_base64 else size
+
+
+def _decoded(data, is_base64, size):
+    """Return the first bytes that the data encode; EOFError if there are too few."""
+    data = data[:_encoded(size, is_base64)]
+    plain = memoryview(binascii.a2b_base64(data)) if is_base64 else data
+    padding = bytes(data[-2:]).count(b"=") if is_base64 else 0
+    if len(plain) < size or is_base64 and len(plain) != len(data) // 4 * 3 - padding:
+        raise EOFError
+    return plain[:size]
+
+
+def _unpacker(name):
+    """Return the function that unpacks a block of at most `size` bytes."""
+    def unpack(data, size):
+        if name == "vtkLZ4DataCompressor":
+            from vtkmodules.vtkIOCore import vtkLZ4DataCompressor
+            block = np.empty(size, np.uint8)
+            size = vtkLZ4DataCompressor().Uncompress(np.frombuffer(data, "u1"), len(data), block, size)
+            return block[:size].tobytes()
+        machine = {"vtkZLibDataCompressor": zlib.decompressobj,
+                   "vtkLZMADataCompressor": lzma.LZMADecompressor}[name]()
+        block = machine.decompress(data, size + 1)
+        if not machine.eof:
+            raise EOFError
+        return block
+    return unpack
