@@ -1,0 +1,243 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Several surfaces in one file, with names and colors: .glb for viewers (Khronos Group: glTF 2.0)
+and .3mf for printers (3MF Consortium: Core Specification 1.3)."""
+
+from __future__ import annotations
+
+import io
+import json
+import zipfile
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+import numpy as np
+
+from ..errors import Failure
+from .regions import SurfaceLabel, cell_array, surface_labels, triangles_of
+from .surfaces import (
+    Show, _chunks, _silent, bytes_of, escaped, lines, normals_of, points_of)
+
+Objects = Sequence[tuple[str, Any]]  # names and surfaces
+
+FLOAT, UNSIGNED, VERTICES, CORNERS = 5126, 5125, 34962, 34963  # numbers of OpenGL
+GRAY, LIGHT_GRAY = (0.8, 0.8, 0.8), (0.9, 0.9, 0.9)  # of surfaces without labels
+
+
+def _with_points(objects: Objects) -> Objects:
+    found = [(name, surface) for name, surface in objects if surface.GetNumberOfPoints() > 0]
+    if not found:
+        raise Failure("cannot be written (there is no surface)")
+    return found
+
+
+# ---- .glb --------------------------------------------------------------------------------------
+
+def glb(objects: Objects, show: Show = _silent) -> Iterator[bytes]:
+    """A scene of glTF: a node and a mesh for each surface, with normals and a material for each
+    label. VTK's writers of glTF write no names, or need a window.
+
+    Vertices are relative to the middle of the scene, in single precision, so that those that
+    surfaces share stay equal. A node above all moves them back, and turns z upwards, which is y in
+    glTF.
+    """
+    scene = _Scene(_with_points(objects))
+    text = (json.dumps(scene.text, separators=(",", ":"), ensure_ascii=False) + "\n").encode()
+    text += b" " * (-len(text) % 4)
+    whole = 28 + len(text) + scene.size
+    if whole >= 1 << 32:
+        raise Failure("cannot be written (.glb holds no more than 4 GiB; write fewer surfaces, "
+                      "coarser ones, or .vtp)")
+    yield b"glTF" + np.array([2, whole, len(text)], "<u4").tobytes() + b"JSON" + text
+    yield np.array([scene.size], "<u4").tobytes() + b"BIN\0"
+    for i, (_, surface) in enumerate(scene.objects):
+        show(i / len(scene.objects))
+        for numbers in scene.numbers_of(surface):
+            yield numbers.tobytes()
+
+
+class _Scene:
+    """The JSON of a scene, and the numbers that it describes."""
+
+    def __init__(self, objects: Objects) -> None:
+        from .. import __version__
+        self.objects = objects
+        self.size = 0  # bytes of numbers
+        bounds = np.reshape([surface.GetBounds() for _, surface in objects], (-1, 3, 2))
+        self.middle = (bounds[:, :, 0].min(axis=0) + bounds[:, :, 1].max(axis=0)) / 2
+        x, y, z = self.middle.tolist()
+        half = float(np.sqrt(0.5))  # of a quarter turn about x
+        self.text: dict[str, Any] = {
+            "asset": {"version": "2.0", "generator": f"volumic {__version__}"}, "scene": 0,
+            "scenes": [{"nodes": [0]}],
+            "nodes": [{"children": list(range(1, len(objects) + 1)),
+                       "rotation": [-half, 0.0, 0.0, half], "translation": [x, z, -y]}],
+            "meshes": [], "materials": [], "accessors": [], "bufferViews": []}
+        for name, surface in objects:
+            self._describe(name, surface)
+        self.text["buffers"] = [{"byteLength": self.size}]
+
+    def numbers_of(self, surface: Any) -> Iterator[np.ndarray]:
+        """Positions, normals if there are any, and the corners of the triangles of each label."""
+        yield (points_of(surface) - self.middle).astype("<f4")
+        normals = normals_of(surface)
+        if normals is not None:
+            yield normals.astype("<f4")
+        yield from _corners_of(surface).values()
+
+    def _describe(self, name: str, surface: Any) -> None:
+        from ..geometry import fact
+        labels = surface_labels(surface)
+        extras = {"labels": [label.number for label in labels],
+                  "stop_reason": fact(surface, "StopReason")}
+        extras.update({key: fact(surface, key) for key in ("SPACE", "LengthUnit")
+                       if fact(surface, key)})
+        self.text["nodes"].append({"name": name, "mesh": len(self.text["meshes"]),
+                                   "extras": extras})
+        numbers = self.numbers_of(surface)
+        positions = next(numbers)
+        attributes = {"POSITION": self._add(self._add_view(positions.nbytes, VERTICES), 0, positions)}
+        self.text["accessors"][-1].update(min=positions.min(axis=0).tolist(),
+                                          max=positions.max(axis=0).tolist())
+        if normals_of(surface) is not None:
+            normals = next(numbers)
+            attributes["NORMAL"] = self._add(self._add_view(normals.nbytes, VERTICES), 0, normals)
+        known = {label.number: label for label in labels}
+        corners = _corners_of(surface)
+        view = self._add_view(sum(part.nbytes for part in corners.values()), CORNERS)
+        parts, offset = [], 0
+        for number, part in corners.items():
+            parts.append({"attributes": attributes, "indices": self._add(view, offset, part),
+                          "material": len(self.text["materials"])})
+            self.text["materials"].append(
+                _material(known.get(number, SurfaceLabel(number, name, GRAY))))
+            offset += part.nbytes
+        self.text["meshes"].append({"name": name, "primitives": parts})
+
+    def _add_view(self, size: int, target: int) -> int:
+        self.text["bufferViews"].append({"buffer": 0, "byteOffset": self.size, "byteLength": size,
+                                         "target": target})
+        self.size += size
+        return len(self.text["bufferViews"]) - 1
+
+    def _add(self, view: int, offset: int, numbers: np.ndarray) -> int:
+        is_vector = numbers.ndim == 2
+        self.text["accessors"].append({
+            "bufferView": view, "byteOffset": offset,
+            "componentType": FLOAT if is_vector else UNSIGNED, "count": len(numbers),
+            "type": "VEC3" if is_vector else "SCALAR"})
+        return len(self.text["accessors"]) - 1
+
+
+def _corners_of(surface: Any) -> dict[int, np.ndarray]:
+    """The corners of the triangles of each label."""
+    triangles, labels = triangles_of(surface).astype("<u4"), cell_array(surface, "Label")
+    if labels is None:
+        return {0: triangles.ravel()}
+    return {number: triangles[labels == number].ravel() for number in np.unique(labels).tolist()}
+
+
+def _material(label: SurfaceLabel) -> dict[str, Any]:
+    """glTF has linear intensities, screens sRGB."""
+    color = [part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4
+             for part in label.color]
+    return {"name": label.name, "pbrMetallicRoughness": {
+        "baseColorFactor": [*color, 1.0], "metallicFactor": 0, "roughnessFactor": 0.6}}
+
+
+# ---- .3mf --------------------------------------------------------------------------------------
+# Several surfaces are one object, since slicers move and drop objects separately: labels that touch
+# would come apart, and a label with a small lowest layer stops PrusaSlicer. In PrusaSlicer each
+# surface is a part of the object, by a file of its own within the .3mf. It does not regard 3MF's
+# components as parts. To other programs the triangles of each label have a material of its name.
+
+XML = '<?xml version="1.0" encoding="UTF-8"?>\n'
+PACKAGE = "http://schemas.openxmlformats.org/package/2006/"
+TYPES = (f'{XML}<Types xmlns="{PACKAGE}content-types"><Default Extension="rels" ContentType="'
+         'application/vnd.openxmlformats-package.relationships+xml"/><Default Extension="model" '
+         'ContentType="application/vnd.ms-package.3dmanufacturing-3dmodel+xml"/><Default '
+         'Extension="config" ContentType="text/xml"/></Types>\n')
+RELATIONS = (f'{XML}<Relationships xmlns="{PACKAGE}relationships"><Relationship Id="model" '
+             'Target="/3D/3dmodel.model" Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/'
+             '3dmodel"/></Relationships>\n')
+MODEL = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02"
+UNITS = {"": "millimeter", "mm": "millimeter", "cm": "centimeter", "m": "meter", "um": "micron"}
+
+
+def three_mf(objects: Objects, show: Show = _silent) -> bytes:
+    """A model for printers, with a material for each label."""
+    from .. import __version__
+    from ..geometry import fact
+    objects = _with_points(objects)
+    unit = fact(objects[0][1], "LengthUnit")
+    if unit not in UNITS:
+        raise Failure(f"3MF has no unit {unit}; --unit mm converts")
+    materials = [surface_labels(surface) or [SurfaceLabel(0, name, LIGHT_GRAY)]
+                 for name, surface in objects]
+    bases = "".join(f'<base name="{escaped(label.name)}" displaycolor="#%02X%02X%02X"/>'
+                    % bytes_of(label.color) for labels in materials for label in labels)
+    name = escaped(objects[0][0] if len(objects) == 1 else "labels")
+    content = io.BytesIO()
+    with zipfile.ZipFile(content, "w", zipfile.ZIP_DEFLATED, compresslevel=6) as package:
+        package.writestr(_entry("[Content_Types].xml"), TYPES)
+        package.writestr(_entry("_rels/.rels"), RELATIONS)
+        with package.open(_entry("3D/3dmodel.model"), "w") as model:
+            model.write((
+                f'{XML}<model unit="{UNITS[unit]}" xmlns="{MODEL}">\n<metadata name="Application">'
+                f'volumic {__version__}</metadata>\n<resources>\n<basematerials id="1">{bases}'
+                f'</basematerials>\n<object id="2" type="model" name="{name}" pid="1" pindex="0">'
+                "<mesh><vertices>\n").encode())
+            for i, (_, surface) in enumerate(objects):
+                show(i / len(objects) / 2)
+                points = points_of(surface).astype(np.float32)
+                for some in _chunks(len(points), _silent):
+                    model.write(lines('<vertex x="%.9g" y="%.9g" z="%.9g"/>\n', points[some]))
+            model.write(b"</vertices><triangles>\n")
+            for i, (form, rows) in enumerate(_triangles(objects, materials)):
+                show(0.5 + i / len(objects) / 2)
+                for some in _chunks(len(rows), _silent):
+                    model.write(lines(form, rows[some]))
+            model.write(b'</triangles></mesh></object>\n</resources>\n<build><item objectid="2"/>'
+                        b"</build>\n</model>\n")
+        if len(objects) > 1:
+            package.writestr(_entry("Metadata/Slic3r_PE_model.config"), _parts(name, objects))
+    return content.getvalue()
+
+
+def _entry(name: str) -> zipfile.ZipInfo:
+    """With zip's first date: runs give equal bytes."""
+    entry = zipfile.ZipInfo(name, (1980, 1, 1, 0, 0, 0))
+    entry.compress_type, entry.external_attr = zipfile.ZIP_DEFLATED, 0o100644 << 16
+    return entry
+
+
+def _triangles(objects: Objects, materials: list[list[SurfaceLabel]]
+               ) -> Iterator[tuple[str, np.ndarray]]:
+    """Of each surface the format of a line, and the numbers in it: corners, and the material where
+    there are several."""
+    form = '<triangle v1="%d" v2="%d" v3="%d"'
+    first_point = first_material = 0
+    for (_, surface), labels in zip(objects, materials):
+        rows = triangles_of(surface) + first_point
+        if sum(map(len, materials)) == 1:
+            yield f"{form}/>\n", rows
+            return
+        own, place = cell_array(surface, "Label"), np.zeros(len(rows), int)
+        for k, label in enumerate(labels if own is not None else ()):
+            place[own == label.number] = k
+        yield f'{form} p1="%d"/>\n', np.column_stack([rows, place + first_material])
+        first_point += surface.GetNumberOfPoints()
+        first_material += len(labels)
+
+
+def _parts(name: str, objects: Objects) -> str:
+    """PrusaSlicer's list of the parts of the object: ranges of its triangles."""
+    parts, first = "", 0
+    for part, surface in objects:
+        last = first + surface.GetNumberOfPolys() - 1
+        parts += (f'<volume firstid="{first}" lastid="{last}"><metadata type="volume" key="name" '
+                  f'value="{escaped(part)}"/><metadata type="volume" key="volume_type" '
+                  'value="ModelPart"/></volume>\n')
+        first = last + 1
+    return (f'{XML}<config>\n<object id="2"><metadata type="object" key="name" value="{name}"/>\n'
+            f"{parts}</object>\n</config>\n")
