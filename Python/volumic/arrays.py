@@ -9,7 +9,6 @@ import math
 import os
 import signal
 import threading
-import uuid
 import warnings
 from collections.abc import Sequence
 from typing import Any
@@ -18,12 +17,13 @@ import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkCharArray
 from vtkmodules.vtkCommonDataModel import vtkImageData, vtkMultiBlockDataSet, vtkPolyData
-from vtkmodules.vtkIOXML import vtkXMLMultiBlockDataWriter, vtkXMLPolyDataWriter
 
 from . import messages
 from . import vtkFiltersVolumic as filters
 from .errors import VolumeError
 from .reading.volume import Volume, check_positions
+from .writing.files import beside, replace_file
+from .writing.surfaces import FORMATS, write_vtm
 
 
 class FilterError(RuntimeError):
@@ -72,17 +72,17 @@ class Surface:
         return self._polydata
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write it to .vtp (all of it), .ply (points, normals, triangles) or .stl.
+        """Write a .vtp or .vtk (with all arrays), .ply (points, normals, triangles), .stl or .obj.
 
-        Whoever reads `path` meanwhile finds the former file, or the new one, never half of it.
+        The file at `path` is replaced when the new one is whole.
         """
         replace_file(path, self.to_bytes(os.path.splitext(path)[1].lower()))
 
     def to_bytes(self, suffix: str) -> bytes:
         """What save() writes."""
-        if suffix not in WRITERS:
-            raise ValueError(f"'{suffix}' is no format of surfaces; there are {', '.join(WRITERS)}")
-        return WRITERS[suffix](self)
+        if suffix not in FORMATS:
+            raise ValueError(f"'{suffix}' is no format of surfaces; there are {', '.join(FORMATS)}")
+        return b"".join(FORMATS[suffix](self._polydata, "volumic"))
 
 
 class Surfaces(dict[int, Surface]):
@@ -105,10 +105,8 @@ class Surfaces(dict[int, Surface]):
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write them to a .vtm, or each to `label-3.vtp` in a folder, which is made."""
         if os.path.splitext(path)[1].lower() == ".vtm":
-            writer = vtkXMLMultiBlockDataWriter()
-            writer.SetFileName(os.fspath(path))
-            writer.SetInputData(self._blocks)
-            _run(writer)
+            with beside(path) as written:
+                write_vtm(self._blocks, written)
             return
         os.makedirs(path, exist_ok=True)
         for label, surface in self.items():
@@ -356,55 +354,3 @@ def _fields(data: Any, told: Sequence[str]) -> dict[str, Any]:
     if told:
         report["Warnings"] = list(told)
     return report
-
-
-def _vtp(of: Surface) -> bytes:
-    writer = vtkXMLPolyDataWriter()
-    # By way of a string: VTK's writer ends the program on a full disk.
-    writer.WriteToOutputStringOn()
-    writer.SetDataModeToBinary()
-    writer.SetInputData(of.to_vtk())
-    _run(writer)
-    return writer.GetOutputString().encode()
-
-
-def _ply(of: Surface) -> bytes:
-    columns = "".join(f"property float {name}\n" for name in ("x", "y", "z", "nx", "ny", "nz"))
-    faces = np.zeros(len(of.triangles), [("count", "u1"), ("corners", "<i4", 3)])
-    faces["count"], faces["corners"] = 3, of.triangles
-    normals = of.arrays.get("Normals", np.zeros((0, 3)))
-    return (f"ply\nformat binary_little_endian 1.0\nelement vertex {len(of.points)}\n{columns}"
-            f"element face {len(faces)}\nproperty list uchar int vertex_indices\nend_header\n"
-            ).encode() + np.hstack([of.points, normals]).astype("<f4").tobytes() + faces.tobytes()
-
-
-def _stl(of: Surface) -> bytes:
-    facets = np.zeros(len(of.triangles),
-                      [("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("word", "<u2")])
-    corners = np.asarray(of.points, float)[of.triangles]
-    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    lengths = np.linalg.norm(normals, axis=1, keepdims=True)
-    facets["normal"] = np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0)
-    facets["corners"] = corners
-    return (b"Volumic: closed surface in world coordinates".ljust(80)
-            + np.array([len(facets)], "<u4").tobytes() + facets.tobytes())
-
-
-WRITERS = {".vtp": _vtp, ".ply": _ply, ".stl": _stl}
-HIDDEN = ".volumic-"  # What a killed process left behind begins so.
-
-
-def replace_file(path: str | os.PathLike[str], content: bytes) -> None:
-    """Write the file beside its place, have it on the disk, and put it there."""
-    folder, name = os.path.split(os.path.abspath(path))
-    hidden = os.path.join(folder, f"{HIDDEN}{uuid.uuid4().hex}-{name}")
-    try:
-        with open(hidden, "wb") as file:
-            file.write(content)
-            file.flush()
-            os.fsync(file.fileno())
-        os.replace(hidden, path)
-    except BaseException:
-        if os.path.exists(hidden):
-            os.remove(hidden)
-        raise

@@ -26,6 +26,7 @@ import io
 import itertools
 import json
 import os
+import shutil
 import warnings
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any
@@ -33,7 +34,9 @@ from typing import Any
 import numpy as np
 
 from . import arrays, neuroglancer
-from .arrays import HIDDEN, Surface, replace_file
+from .arrays import Surface
+from .writing.files import HIDDEN, replace_file
+from .writing.surfaces import FORMATS
 
 BRICK = 4  # voxels, LabelBricks::Side
 MARGIN = 3  # bricks: those beside the label's, and what is within LabelBricks' reach of them
@@ -86,9 +89,9 @@ class Job:
         if properties.get("TimeLimit"):
             raise ValueError("TimeLimit would leave labels unfinished: end the job, and start it again")
         for name in formats:
-            if name not in arrays.WRITERS and name not in neuroglancer.INFO:
+            if name not in FORMATS and name not in neuroglancer.INFO:
                 raise ValueError(f"'{name}' is no format; there are "
-                                 + ", ".join([*arrays.WRITERS, *neuroglancer.INFO]))
+                                 + ", ".join([*FORMATS, *neuroglancer.INFO]))
         if "multilod_draco" in formats:
             neuroglancer.draco_encoder()
         if len(source.shape) != 3:
@@ -267,10 +270,10 @@ class Job:
         for folder in self._viewers():
             replace_file(os.path.join(folder, "info"),
                          _json(neuroglancer.INFO[os.path.basename(folder)]))
-        for folder, _, names in os.walk(self.folder):
+        for folder, names, _ in os.walk(self.folder):
             for name in names:
                 if name.startswith(HIDDEN):
-                    os.remove(os.path.join(folder, name))
+                    shutil.rmtree(os.path.join(folder, name))
         return rows
 
     # ---- Crops ---------------------------------------------------------------------------------

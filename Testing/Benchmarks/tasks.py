@@ -24,7 +24,8 @@ import dask
 import distributed
 import numpy as np
 import zarr
-from volumic import arrays, tasks
+from volumic import tasks
+from volumic.writing import files
 
 CHUNK = 128
 
@@ -83,8 +84,8 @@ def measured(step, folder, kills, task):
         subprocess.Popen(["sh", "-c", f"sleep {delay}; kill -KILL {os.getpid()}"])
         break
     step(task)
-    arrays.replace_file(os.path.join(folder, f"peak-{os.getpid()}"),
-                        str(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss // 1024).encode())
+    files.replace_file(os.path.join(folder, f"peak-{os.getpid()}"),
+                       str(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss // 1024).encode())
 
 
 def sum_of(folder):
@@ -128,8 +129,8 @@ def main():
     killed = sum(entry.name.startswith("killed") for entry in os.scandir(peaks))
     most = max(int(open(entry.path, encoding="utf-8").read()) for entry in os.scandir(peaks)
                if entry.name.startswith("peak"))
-    left = [name for _, _, names in os.walk(arguments.folder) for name in names
-            if name.startswith(arrays.HIDDEN)]
+    left = [name for _, names, _ in os.walk(arguments.folder) for name in names
+            if name.startswith(files.HIDDEN)]
     print(f"  {len(rows)} labels, {sum(row['Triangles'] for row in rows):,} triangles, sum"
           f" {sum_of(arguments.folder)}, peak of a worker {most} MiB, killed {killed},"
           f" left behind: {left or 'nothing'}")

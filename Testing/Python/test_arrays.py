@@ -162,8 +162,8 @@ class FilesTest(FolderTestCase):
             there = reader.GetOutput()
             self.assertEqual(there.GetNumberOfPolys(), triangles)
             np.testing.assert_allclose(there.GetBounds(), self.ball.to_vtk().GetBounds(), atol=1e-5)
-        with self.assertRaisesRegex(ValueError, "'.obj' is no format of surfaces; there are .vtp"):
-            self.ball.save(self.path("ball.obj"))
+        with self.assertRaisesRegex(ValueError, "'.off' is no format of surfaces; there are .vtp"):
+            self.ball.save(self.path("ball.off"))
 
     def test_the_former_file_stays_where_writing_fails(self):
         path = self.write_text("ball.vtp", "former")

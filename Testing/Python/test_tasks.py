@@ -19,6 +19,7 @@ import unittest.mock
 import numpy as np
 import volumic
 from volumic import arrays, tasks
+from volumic.writing.files import HIDDEN
 
 from folder_test_case import FolderTestCase, SharedFolderTestCase
 
@@ -72,15 +73,15 @@ def job_of(voxels, folder, **settings):
 
 
 def die_once(folder, job, labels):
-    """Makes them, but the first time with label 3 the process ends, with half a file beside."""
+    """Makes them, but the first time with label 3 the process ends, with a hidden folder beside."""
     if 3 in labels:
         try:
             os.mkdir(os.path.join(folder, "died"))
         except FileExistsError:
             pass
         else:
-            with open(os.path.join(job.folder, arrays.HIDDEN + "half"), "w", encoding="utf-8"):
-                os.kill(os.getpid(), signal.SIGKILL)
+            os.mkdir(os.path.join(job.folder, HIDDEN + "half"))
+            os.kill(os.getpid(), signal.SIGKILL)
     with open(os.path.join(folder, "made"), "a", encoding="utf-8") as file:
         file.write("".join(f"{label}\n" for label in labels if not job.is_done(label)))
     job.make(labels)
@@ -182,11 +183,11 @@ class SameBitsTest(SharedFolderTestCase):
             make = functools.partial(die_once, self.folder, job)
             client.gather(client.map(make, job.bundles()))
         self.assertTrue(os.path.isdir(self.path("died")))
-        self.assertTrue(os.path.exists(os.path.join(job.folder, arrays.HIDDEN + "half")))
+        self.assertTrue(os.path.exists(os.path.join(job.folder, HIDDEN + "half")))
         job.finish()
         self.check_files(self.path("dask"))
-        left = [name for _, _, names in os.walk(job.folder) for name in names
-                if name.startswith(arrays.HIDDEN)]
+        left = [name for _, names, _ in os.walk(job.folder) for name in names
+                if name.startswith(HIDDEN)]
         self.assertEqual(left, [])
         with open(self.path("made"), encoding="utf-8") as file:
             made = [int(line) for line in file]
@@ -236,7 +237,7 @@ class JobTest(FolderTestCase):
                 ("Merge=True couples", {"Merge": True}),
                 ("SharedInterfaces=True couples", {"SharedInterfaces": True}),
                 ("TimeLimit would leave labels unfinished", {"TimeLimit": 3}),
-                ("'.obj' is no format; there are .vtp.*multilod_draco", {"formats": [".obj"]})):
+                ("'.off' is no format; there are .vtp.*multilod_draco", {"formats": [".obj"]})):
             with self.subTest(words), self.assertRaisesRegex((TypeError, ValueError), words):
                 self.job(**settings)
         with self.assertRaisesRegex(ValueError, "the map has no label 9"):
