@@ -14,7 +14,6 @@ from typing import Any
 
 from . import geometry, messages, report, writing
 from . import vtkFiltersVolumic as vtk
-from .ends import with_ends
 from .errors import Failure, Interrupted
 from .label_map import name_labels
 from .messages import Run, Teller, number_text
@@ -360,7 +359,10 @@ def segment_volume(options: Namespace, filters: Filters, teller: Teller) -> int:
     run.evolve()
     surface.SetSelectedComponent(component)
     ended: list[str] = []
-    written = with_ends(surface.GetOutput(), loaded.image, options.ends, ended)
+    written = surface.GetOutput()
+    if options.ends != "closed":
+        from .ends import with_ends
+        written = with_ends(written, loaded.image, options.ends, ended)
     for text in ended:
         teller.warn(f"{options.volume}: {text}")
     run.warnings += ended
