@@ -57,7 +57,7 @@ class SurfaceTest(unittest.TestCase):
 
     def test_it_is_what_the_filter_makes(self):
         algorithm = volumic.vtkVolumeToSurface()
-        algorithm.SetInputData(arrays._image(ring_voxels(), RING_SPACING, (10, 20, 30), None,
+        algorithm.SetInputData(arrays.make_image(ring_voxels(), RING_SPACING, (10, 20, 30), None,
                                              (0, 0, 0)))
         algorithm.SetIsoValue(125.5)
         algorithm.Update()

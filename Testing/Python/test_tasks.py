@@ -237,7 +237,7 @@ class JobTest(FolderTestCase):
                 ("Merge=True couples", {"Merge": True}),
                 ("SharedInterfaces=True couples", {"SharedInterfaces": True}),
                 ("TimeLimit would leave labels unfinished", {"TimeLimit": 3}),
-                ("'.off' is no format; there are .vtp.*multilod_draco", {"formats": [".obj"]})):
+                ("'.off' is no format; there are .vtp.*multilod_draco", {"formats": [".off"]})):
             with self.subTest(words), self.assertRaisesRegex((TypeError, ValueError), words):
                 self.job(**settings)
         with self.assertRaisesRegex(ValueError, "the map has no label 9"):
