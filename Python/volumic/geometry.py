@@ -178,7 +178,7 @@ def load_volume(options: Namespace, filters: Filters, teller: Teller,
             values = volume.scalars(component)
         image = image_of(volume, values)
         image = resample_as_asked(image, options, bool(options.labels), teller)
-    except VolumeError as error:
+    except Failure as error:
         raise VolumeError(f"{path}: {error}") from None
     taken = None if components == 1 else -1 if component is None else component
     loaded = LoadedVolume(image, volume, world, taken)

@@ -24,18 +24,18 @@ class PointsTest(CommandTestCase):
 
     def test_lines_that_are_no_heading(self):
         for content, place in (
-                (b"1 2 x\n", "line 1: 'x' is not a number"), (b"1;2;3\n", "line 1: not three"),
+                (b"1 2 x\n", "line 1: 'x' is not a number"), (b"1;2;3\n", "line 1: '1;2;3' is not"),
                 (b"1.5.2 2 3\n", "line 1: '1.5.2' is not"), (b"1 2\n", "line 1: not three numbers"),
                 (b"nan nan nan\n", "line 1: 'nan' is not a number"),
                 (b"inf 1 2\n", "line 1: 'inf' is not"), (b"1,5 2,0 3,5\n", "line 1: not three"),
                 (b"x,y,z\nx,y,z\n", "line 2: 'x' is not"), (b"x,y,z\n1,2,three\n", "line 2: 'thr")):
             with self.subTest(content):
                 error = self.seeded(content + SEED + b"\n", status=1).stderr
-                self.assertRegex(error, f"seeds.csv, {place}")
+                self.assertRegex(error, f"seeds.csv: {place}")
 
     def test_attracting_points_likewise(self):
         self.write_bytes("points.txt", b"1 2 3 heavy\n")
-        self.refused("points.txt, line 1: 'heavy' is not a number", self.ball_file(),
+        self.refused("points.txt: line 1: 'heavy' is not a number", self.ball_file(),
                      self.path("a.stl"), "--attracting-points", self.path("points.txt"))
 
     def test_a_heading_alone(self):

@@ -58,38 +58,33 @@ class ProbeTest(CommandTestCase):
         os.symlink(far, self.path("link.vtp"))
         self.refused("is the input", self.ball_file(), self.path("link.vtp"), "--probe", far)
 
-    def nifti(self, name, voxels, unit=2):
-        """A volume in RAS whose unit is millimetres (2) or micrometres (3)."""
-        content = bytearray(medical_files.nifti(voxels.astype("f4"), SPACING, np.column_stack(
-            (np.diag(SPACING), ORIGIN)), offset=ORIGIN))
-        content[123] = unit
-        return self.write_bytes(name, bytes(content))
-
-    def x_of_world(self):
-        return np.broadcast_to(ORIGIN[0] + SPACING[0] * np.arange(SIZE[0]), SIZE[::-1])
+    def twice_x(self):
+        """Twice the x of the world, whole numbers, on the grid of the ball."""
+        return np.broadcast_to(np.rint(2 * (ORIGIN[0] + SPACING[0] * np.arange(SIZE[0]))),
+                               SIZE[::-1]).astype("<i2")
 
     def test_a_probe_has_a_space_and_a_unit_of_its_own(self):
         """Files in LPS, and in micrometres, that lie where the volume lies: the same values."""
-        volume = self.nifti("a.nii", ball())
-        header = medical_files.nrrd_header(self.x_of_world().astype("f4"), SPACING,
-                                           ORIGIN * (-1, -1, 1), np.diag((-1., -1, 1)))
-        self.write_bytes("lps.nrrd", header + b"\n" + self.x_of_world().astype("<f4").tobytes())
-        content = bytearray(medical_files.nifti(self.x_of_world().astype("f4"), SPACING * 1000,
-                                                1000 * np.column_stack((np.diag(SPACING), ORIGIN)),
-                                                offset=1000 * ORIGIN))
-        content[123] = 3
-        self.write_bytes("um.nii", bytes(content))
-        said = self.run_command(volume, self.path("a.vtp"), "--iso", "500.5", "--probe",
+        form = np.column_stack((np.diag(SPACING), ORIGIN))
+        ball_file, micro = (bytearray(medical_files.nifti(voxels, factor * SPACING, factor * form))
+                            for voxels, factor in ((ball(), 1), (self.twice_x(), 1000)))
+        ball_file[123], micro[123] = 2, 3
+        self.write_bytes("a.nii", ball_file)
+        self.write_bytes("um.nii", micro)
+        header = medical_files.nrrd_header(self.twice_x(), SPACING, ORIGIN * (-1, -1, 1),
+                                           np.diag((-1., -1, 1)), "raw", "little")
+        self.write_bytes("lps.nrrd", header + b"\n" + self.twice_x().tobytes())
+        said = self.run_command(self.path("a.nii"), self.path("a.vtp"), "--iso", "500.5", "--probe",
                                 self.path("lps.nrrd"), "--probe", self.path("um.nii")).stderr
         self.assertNotIn("lie outside", said)
         surface = read(self.path("a.vtp"))
         points = vtk_to_numpy(surface.GetPoints().GetData())
         for name in ("lps", "um"):
-            np.testing.assert_allclose(
-                vtk_to_numpy(surface.GetPointData().GetArray(name)), points[:, 0], atol=1e-3)
+            np.testing.assert_allclose(vtk_to_numpy(surface.GetPointData().GetArray(name)),
+                                       2 * points[:, 0], atol=1e-3)
 
     def test_labels_of_a_probe_are_not_interpolated(self):
-        halves = np.where(self.x_of_world() < 0, 3, 7).astype("u1")
+        halves = np.where(self.twice_x() < 0, 3, 7).astype("u1")
         image = make_image(halves)
         probe = self.write(vtkXMLImageDataWriter(), "halves.vti", image)
         self.write_bytes("halves.csv", b"label,name\n3,left\n7,right\n")

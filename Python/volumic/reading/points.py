@@ -14,6 +14,7 @@ from .vtkfiles import updated
 from .vtkxml import XmlFile
 from .worker import in_worker
 
+_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d{1,2})?", re.I)
 _SUFFIXES = (".vtp", ".vtk", ".stl", ".ply", ".obj")
 
 
@@ -72,12 +73,13 @@ def _text_points(path, columns):
                 continue
             is_first = False
             try:
+                wrong = [word for word in words if not _NUMBER.fullmatch(word)]
+                if wrong:
+                    raise ValueError("'%s' is not a number" % wrong[0])
                 row = [float(word) for word in words]
                 if not 3 <= len(row) <= columns:
                     raise ValueError("not three numbers" if columns == 3
                                      else "not three to five numbers")
-                if not np.isfinite(row).all():
-                    raise ValueError("a number is not finite")
             except ValueError as error:
                 raise VolumeError("line %d: %s" % (number, error)) from None
             rows.append(row + [0, 0, 0, 1, 0][len(row):])
