@@ -223,7 +223,7 @@ def _check_without_labels(options: argparse.Namespace) -> None:
 
 
 def _check_with_labels(options: argparse.Namespace) -> None:
-    from .label_outputs import check_outputs
+    from .label_outputs import check_outputs, shares_interfaces
     asked = "list-labels" if options.list_labels else "labels"
     if options.list_labels and options.surfaces:
         raise UsageError(f"{options.surfaces[0]}: --list-labels makes no surfaces; leave out the "
@@ -236,6 +236,10 @@ def _check_with_labels(options: argparse.Namespace) -> None:
             raise UsageError(f"--{item.option} and --{asked} exclude each other")
         if item.name == "KeepComponents" and text in ("at-points", "not-at-seeds"):
             raise UsageError(f"--keep {text} and --labels exclude each other")
+    if shares_interfaces(options):
+        for option, why in (("probe-depth", ", which have no normals,"), ("ends", "")):
+            if option in options.given:
+                raise UsageError(f"--{option} and shared interfaces{why} exclude each other")
     check_outputs(options)
 
 
