@@ -86,7 +86,7 @@ def old_files(folder: str, written: Sequence[str], suffix: str) -> str:
     """A warning about files of a suffix in a folder that were not written; empty if there is
     none."""
     names = set(map(os.path.basename, written))
-    old = sorted(name for name in os.listdir(folder)
+    old = sorted(name for name in (os.listdir(folder) if os.path.isdir(folder) else ())
                  if name not in names and os.path.splitext(name)[1] == suffix)
-    return old and (f"{folder}: {len(old)} {suffix} files there are not of this run: "
-                    f"{', '.join(old[:5])}{', ...' * (len(old) > 5)}; delete what is old") or ""
+    return (f"{folder}: {len(old)} files of an earlier run stay there: {', '.join(old[:5])}"
+            f"{', ...' * (len(old) > 5)}; delete what is old") if old else ""

@@ -13,7 +13,6 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from . import geometry, messages, report, writing
-from .ends import with_ends
 from .errors import Failure, Interrupted
 from .label_map import (
     KnownLabel, choose, known_labels, layers_of, list_rows, name_labels, table_of)
@@ -181,7 +180,8 @@ class LabelRun:
     def finish(self) -> None:
         """Cut surfaces at the border of the volume (--ends), and probe other volumes (--probe)."""
         probes = geometry.Probes(self.options, self.loaded.world, self.teller)
-        for each in self.surfaces:
+        for each in self.surfaces if self.options.ends != "closed" else ():
+            from .ends import with_ends
             warnings: list[str] = []
             each.surface = with_ends(each.surface, self.loaded.image, self.options.ends, warnings)
             for text in warnings:
@@ -224,14 +224,13 @@ class LabelRun:
         for i, each in enumerate(self.surfaces):
             blocks.SetBlock(i, each.surface)
             blocks.GetMetaData(i).Set(blocks.NAME(), each.name)
-        writing.write_blocks(blocks, name)
+        writing.write_blocks(blocks, name, self.teller.warn)
 
-    def write_files(self, name: str, form: str, failures: Any) -> None:
+    def write_files(self, name: str, form: str, failures: files.Failures) -> None:
         """Write a file for each surface, and report those of earlier runs in the folder."""
-        paths = self.paths(name) if form == "folder" else [name]
-        if form == "folder":
-            os.makedirs(name, exist_ok=True)
-        with self.teller.progress(f"Writing {name}") as progress:
+        folder, paths = (name, self.paths(name)) if form == "folder" else (None, [name])
+        with files.made_folder(name) if folder else contextlib.nullcontext(), \
+                self.teller.progress(f"Writing {name}") as progress:
             for i, (each, path) in enumerate(zip(self.surfaces, paths)):
                 progress(i / len(paths), path)
                 if each.surface.GetNumberOfPoints() > 0:
@@ -239,9 +238,8 @@ class LabelRun:
                         writing.write_surface(each.surface, path, f"{_remark(each)}, {each.name}",
                                               self.solids, self.teller.warn)
                         each.files.append(path)
-        old = form == "folder" and old_files(
-            name, [path for each in self.surfaces for path in each.files],
-            suffix_in_folder(self.options))
+        old = folder and old_files(folder, [path for each in self.surfaces for path in each.files],
+                                   suffix_in_folder(self.options))
         if old:
             self.warn(old)
 

@@ -102,10 +102,10 @@ class ListTest(LabelsTest):
         for reason, arguments in (
                 ("out.stl: --list-labels makes no surfaces", ["out.stl"]),
                 ("--merge and --list-labels exclude each other", ["--merge"]),
-                ("--format and --list-labels exclude", ["--format", "stl"]),
+                ("--list-labels and --format exclude", ["--format", "stl"]),
                 ("--iso and --list-labels exclude", ["--iso", "3"]),
                 ("--finest and --list-labels exclude", ["--finest", "1"]),
-                ("--seeds and --list-labels exclude", ["--seeds", "a.txt"])):
+                ("--list-labels and --seeds exclude", ["--seeds", "a.txt"])):
             with self.subTest(reason):
                 self.refused(reason, "a.vti", "--list-labels", *arguments, status=2)
         self.refused("no volume is given", "--list-labels", status=2)

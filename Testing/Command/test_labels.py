@@ -94,7 +94,7 @@ class OutputsTest(LabelsTest):
         self.run_command(volume, folder, "--labels", "1,2,7")
         self.write_bytes("o/notes.txt", b"")
         process = self.run_command(volume, folder, "--labels", "1")
-        self.assertRegex(process.stderr, "warning: .*o/: 2 .vtp files there are not of this run: "
+        self.assertRegex(process.stderr, "warning: .*o/: 2 files of an earlier run stay there: "
                          "label-2.vtp, label-7.vtp; delete what is old")
         self.assertEqual(len(os.listdir(folder)), 4)
         process = self.run_command(volume, folder, "--labels", "1,2", "--format", "stl")
@@ -299,7 +299,7 @@ class WhatIsReadTest(LabelsTest):
         process = self.run_command(folder, self.path("a.vtp"), "--labels", "all", "--report",
                                    self.path("r.json"), "--shared-interfaces")
         self.assertRegex(process.stderr, r"warning: .*in two masks \(part and whole 27, whole and "
-                         rf"zone {count - 27}\): .* the smaller")
+                         rf"zone {count - 27}\): the smaller mask has it")
         self.assertEqual({row["name"]: row["voxels"]
                           for row in json.loads(self.content("r.json"))["labels"]},
                          {"part": 27, "zone": count - 27})
@@ -319,13 +319,13 @@ class WhatIsReadTest(LabelsTest):
         self.refused("choose one with --time", file, self.path("a.stl"), "--iso", "0.5")
         file = self.write_bytes("times.nii", medical_files.nifti(
             np.stack([voxels, voxels]).astype("i2"), SPACING))
-        self.refused("volume 0: has the values 1 and 2: a mask has 0 and another one", file,
+        self.refused("volume 0: has the values 1 and 2: a mask has 0 and one other value", file,
                      self.path("o/"), "--labels", "all")
 
     def test_what_is_no_folder_of_masks(self):
         voxels = label_voxels()
         for name, volume, reason in (
-                ("a", voxels, "map.nii.gz: has the values .* a mask has 0 and another"),
+                ("a", voxels, "map.nii.gz: has the values .* a mask has 0 and one other"),
                 ("b", voxels[1:] == 1, "map.nii.gz: its voxels are not those of .*liver.nii.gz")):
             folder = self.masks(name, liver=voxels == 1, map=volume)
             self.no_surfaces(reason, folder, "--labels", "all")
@@ -423,8 +423,8 @@ class OptionsTest(LabelsTest):
                 ("--tension", "3"), ("--no-snap",), ("--keep", "at-points"),
                 ("--keep", "not-at-seeds"), ("--profile",), ("--border", "replicate")):
             with self.subTest(option, value=value):
-                self.refused(f"{option}( at-points| not-at-seeds)? and --labels exclude each other",
-                             "a.vti", "out/", "--labels", "1", option, *value, status=2)
+                self.refused(f"(--labels and {option}|{option}( .*)? and --labels) exclude each "
+                             "other", "a.vti", "out/", "--labels", "1", option, *value, status=2)
         for option, *value in (
                 ("--merge",), ("--smoothing", "1"), ("--shared-interfaces",),
                 ("--box-faces", "flat"), ("--background", "1"),
@@ -441,7 +441,7 @@ class OptionsTest(LabelsTest):
                 ("--format is that of the files in a folder", ["o.stl", "--format", "stl"]),
                 ("no surface format .*, .vtm; a folder is o.v1/", ["o.v1"]),
                 ("the standard output", ["-"]), ("no file to write", []),
-                ("--merge makes one surface: give it a file", ["o/", "--merge"]),
+                ("--merge makes one surface; give a file", ["o/", "--merge"]),
                 ("--smoothing: 'x' is not a number", ["o/", "--smoothing", "x"])):
             with self.subTest(reason):
                 self.refused(reason, "a.vti", "--labels", "1", *arguments, status=2)
