@@ -4,6 +4,7 @@
 
 import json
 import os
+import re
 import shutil
 import struct
 
@@ -61,8 +62,8 @@ class ExportTest(testing.PluginTestCase):
             self.assertRegex(text, f'\n3 \\d+ "{name}"\n')
         with open(os.path.join(self.folder, "organs.smesh"), encoding="utf-8") as file:
             text = file.read()
-        self.assertEqual(len([line for line in text.splitlines() if line.startswith("3 ")
-                              and len(line.split()) == 5]), interfaces.GetNumberOfPolys())
+        self.assertEqual(len(re.findall(r"^3( \d+){4}$", text, re.MULTILINE)),
+                         interfaces.GetNumberOfPolys())
 
     def test_a_file_for_each_label(self):
         source = self.labels()

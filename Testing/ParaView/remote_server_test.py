@@ -13,6 +13,7 @@ from paraview.vtk.util.numpy_support import vtk_to_numpy
 
 import label_maps
 import plugin_testing as testing
+import volume_reader_test as files
 
 
 def free_port():
@@ -156,6 +157,16 @@ class RemoteServerTest(unittest.TestCase):
         self.assertEqual(list(colors.Annotations), ["3", "Label 3", "7", "kidney"])
         color = self.local_labels.GetBlock(1).GetFieldData().GetArray("LabelColor").GetTuple(0)
         self.assertEqual(tuple(colors.IndexedColors)[3:], color)
+
+    def test_files_are_read_and_written_by_the_server(self):
+        reader = simple.VolumicVolume(FileNames=[files.segmentation()])
+        self.assertIsNone(reader.GetClientSideObject(), "the reader runs on the server")
+        surfaces = simple.LabelstoSurfaces(reader, FinestLevel=1)
+        self.assertEqual(testing.names(testing.fetch(surfaces)), ["liver", "left kidney", "spleen"])
+        path = testing.output_path("remote.glb")
+        servermanager.writers.ExportSurfaces(Input=surfaces, FileName=path).UpdatePipeline()
+        with open(path, "rb") as file:
+            self.assertIn(b"left kidney", file.read())
 
     def test_displays_on_the_client(self):
         filter_ = wavelet_to_surface()

@@ -3,8 +3,12 @@
 """The reader Volumic Volume: places, directions and names of labels of files, series, errors."""
 
 import gzip
+import importlib
 import os
+import re
+import shutil
 import sys
+import unittest.mock
 
 import numpy
 from paraview import simple
@@ -160,19 +164,37 @@ class VolumeReaderTest(testing.PluginTestCase):
             source.UpdatePipeline()
         self.assertIn("switch Resampling on, and they are resampled", messages.text)
 
-    def test_a_matrix_that_mirrors_is_followed(self):
-        """
-        Of the two matrices of the file, VTK's reader wants both to mirror, or none; that they differ
-        is all that is told.
-        """
-        sform = numpy.column_stack([numpy.diag([-1.0, 1.0, 1.0]) * SPACING, ORIGIN])
-        for name in ("mirrored.nii", "mirrored.nii.gz"):
-            content = medical_files.nifti(voxels(), SPACING, sform)
-            path = write(name, gzip.compress(content) if name.endswith("gz") else content)
-            with testing.CapturedMessages() as messages:
-                simple.VolumicVolume(FileNames=[path]).UpdatePipeline()
-            self.assertIn("its sform, which is taken, and its qform differ", messages.text)
-            self.assertNotIn("vtkNIFTI", messages.text)
+    def test_a_warning_begins_with_its_sentence_and_comes_once(self):
+        with testing.CapturedMessages() as messages:
+            source = simple.VolumicVolume(FileNames=[nifti(), nifti("turned.nii")])
+            for time in (0, 1, 0):
+                source.UpdatePipeline(time)
+        self.assertEqual(re.findall("Its .*", messages.text), [
+            f"Its sform, which is used, and its qform differ ({name})"
+            for name in ("turned.nii.gz", "turned.nii")])
+
+    def test_a_folder_of_ome_zarr(self):
+        zarr = importlib.import_module("zarr")
+        path = testing.output_path("organs.zarr")
+        shutil.rmtree(path, ignore_errors=True)
+        group = zarr.open_group(path, mode="w")
+        group.create_dataset("0", data=label_maps.values(), chunks=(16, 16, 16))
+        group.attrs["multiscales"] = [{
+            "version": "0.4", "axes": [{"name": name, "type": "space", "unit": "micrometer"}
+                                       for name in "zyx"],
+            "datasets": [{"path": "0", "coordinateTransformations": [
+                {"type": "scale", "scale": [2, 0.75, 0.5]}]}]}]
+        image = testing.fetch(simple.OpenDataFile(path))
+        self.assertEqual(image.GetSpacing(), (0.5, 0.75, 2))
+        name = image.GetPointData().GetScalars().GetName()
+        numpy.testing.assert_array_equal(testing.voxels(image, name), label_maps.values())
+
+    def test_a_library_that_is_missing(self):
+        with unittest.mock.patch.dict(sys.modules, {"nibabel": None}), \
+                testing.CapturedMessages() as messages:
+            simple.VolumicVolume(FileNames=[nifti()]).UpdatePipeline()
+        self.assertIn("python3-nibabel", messages.text)
+        self.assertEqual(messages.text.count("ERROR"), 1, messages.text)
 
     def test_damage_is_an_error_that_names_the_file(self):
         with open(nifti(), "rb") as file:
