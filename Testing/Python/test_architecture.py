@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Includes keep to the rooms of Documentation/architecture.md. Needs no build, and no VTK."""
+"""Includes keep to the rooms of Documentation/architecture.md, and folders to its sizes. Needs no
+build, and no VTK."""
 
 import os
 import re
@@ -10,6 +11,7 @@ ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)),
 FILTERS = os.path.join(ROOT, "Filters")
 PAGE = os.path.join(ROOT, "Documentation", "architecture.md")
 MADE_BY_CMAKE = "vtkFiltersVolumicModule.h"
+COUNTED = (".h", ".cxx", ".c", ".cmake", ".txt", ".py", ".sh", ".xml")
 
 
 def read(path):
@@ -55,6 +57,24 @@ class RoomsTest(unittest.TestCase):
                       if room and name != MADE_BY_CMAKE
                       and os.path.dirname(name) not in may_include[room] | {room}]
         self.assertEqual(wrong, [])
+
+
+class SizesTest(unittest.TestCase):
+    def lines_of(self, folder):
+        return sum(read(os.path.join(top, name)).count("\n")
+                   for top, _, names in os.walk(os.path.join(ROOT, folder)) for name in names
+                   if name.endswith(COUNTED))
+
+    def test_folders_have_at_most_their_lines(self):
+        rows = re.findall(r"^\| `([\w/]+)` \| ([\d,]+) \|", read(PAGE).split("## Sizes\n", 1)[1],
+                          flags=re.M)
+        limits = {folder: int(lines.replace(",", "")) for folder, lines in rows}
+        folders = {name for name in os.listdir(ROOT)
+                   if name[0] != "." and name != "build" and self.lines_of(name)}
+        self.assertEqual(folders, {folder for folder in limits if "/" not in folder})
+        too_large = {folder: self.lines_of(folder) for folder, lines in limits.items()
+                     if self.lines_of(folder) > lines}
+        self.assertEqual(too_large, {}, "remove as much as you add; limits only go down")
 
 
 if __name__ == "__main__":

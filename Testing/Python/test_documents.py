@@ -16,6 +16,7 @@ import test_ome_zarr
 from folder_test_case import FolderTestCase
 from sample_volumes import ROOT, ring_voxels
 from vtk_files import read as read_file
+from volumic.reading import SUFFIXES
 
 PREFIX = os.environ["VOLUMIC_TEST_INSTALL_PREFIX"]
 DOCUMENTS = ("README.md", *(f"Documentation/{name}"
@@ -143,6 +144,11 @@ class CodeTest(FolderTestCase):
         self.run_here("cmake", "--build", "build")
         self.run_here(self.path("build/example"))
         self.check_surface()
+
+    def test_suffixes_of_formats_are_those_of_the_readers(self):
+        rows = re.findall(r"^\| (.*?) \|", read("Documentation/formats.md"), flags=re.MULTILINE)
+        told = {name for row in rows for name in re.findall(r"`(\.[a-z0-9.]+)`", row)}
+        self.assertEqual(told - {".zarr"}, set(SUFFIXES))
 
     def test_options_of_the_build_are_told(self):
         known = re.findall(r"^option\((\w+)", read("CMake/VolumicOptions.cmake"),
