@@ -9,7 +9,7 @@ import math
 import os
 import time
 from argparse import Namespace
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from . import geometry, messages, report, writing
@@ -199,89 +199,91 @@ class Segmentation:
     def find_triangles(self) -> Run:
         """Run the filter until the surface has about --triangles triangles."""
         surface = self.filters.surface
-        unit = min(self.loaded.image.GetSpacing())
         run = Run()
 
-        def count(property_name: str, value: float) -> int:
+        def count(edge_length: float, tolerance: float) -> int:
             nonlocal run
-            surface.SetTolerance(0.0)
-            getattr(surface, "Set" + property_name)(value)
-            last = self.run(surface, "Evolving the surface")
+            surface.SetEdgeLength(edge_length)
+            surface.SetTolerance(tolerance)
+            try:
+                last = self.run(surface, "Evolving the surface")
+            except Failure:
+                if edge_length == 0.0:
+                    raise
+                return 0  # no pyramid of this image has such edges
             run = Run(run.seconds + last.seconds, last.warnings, last.interrupted)
             found = surface.GetOutput().GetNumberOfPolys()
-            if not last.interrupted:
-                self.teller.say(f"{'tolerance' if property_name == 'Tolerance' else 'edge length'} "
-                                f"{number_text(value)}: {found} triangles")
+            self.teller.say((f"edge length {number_text(edge_length)}" if edge_length else
+                             f"tolerance {number_text(tolerance)}") + f": {found} triangles")
             return found
 
-        reached, found = search_triangles(count, self.options.triangles, unit,
-                                          messages.was_interrupted)
-        if not reached and not run.interrupted:
+        def mean_edge() -> float:
+            output = surface.GetOutput()
+            area = report.values_of(output, "Area")[0, 0]
+            return math.sqrt(4 * area / (math.sqrt(3) * output.GetNumberOfPolys()))
+
+        reached, found = search_triangles(
+            count, mean_edge, self.options.triangles, min(self.loaded.image.GetSpacing()),
+            messages.was_interrupted)
+        if not reached:
             raise Failure(f"--triangles {self.options.triangles}: no tolerance and no edge length "
                           f"gives about so many; the nearest surface has {found}. Choose a number "
                           "nearer to that")
         return run
 
 
-def search_triangles(count: Any, wanted: int, unit: float, stopped: Any) -> tuple[bool, int]:
-    """Find a tolerance, or where none leaves so few triangles or so many are wanted an edge
-    length, with which the surface has about `wanted` triangles.
+def search_triangles(count: Callable[[float, float], int], mean_edge: Callable[[], float],
+                     wanted: int, unit: float, stopped: Callable[[], bool]) -> tuple[bool, int]:
+    """Find a tolerance, or, where none leaves so few triangles or more are wanted, an edge length
+    with which the surface has about `wanted` triangles.
 
-    `count(property, value)` runs the filter and returns the number of triangles. Return whether it
-    came near enough, and the number of the nearest run.
+    `count(edge length, tolerance)` makes the surface and returns its number of triangles, 0 where
+    there is no such surface. Return whether the last run is near enough or was stopped, and the
+    number of the nearest run.
     """
-    nearest = found = uniform = count("Tolerance", 0.0)
+    tried: list[int] = []
 
-    def near(number: int) -> bool:
-        return number > 0 and wanted / NEAR < number < NEAR * wanted
+    def run(edge_length: float, tolerance: float) -> int:
+        tried.append(count(edge_length, tolerance))
+        return tried[-1]
 
-    def note(number: int) -> int:
-        nonlocal nearest
-        if number > 0 and abs(math.log(number / wanted)) < abs(math.log(max(nearest, 1) / wanted)):
-            nearest = number
-        return number
+    def ended() -> bool:
+        return stopped() or wanted / NEAR < tried[-1] < NEAR * wanted
 
-    if near(found) or stopped() or found == 0:
-        return True, found
-    fine, coarse, tries = (0.0, found), None, TRIES // 2
-    value = 0.2 * unit
-    while found > wanted and tries > 0 and not stopped():
-        # Larger tolerances until there are too few triangles, or no fewer than before.
-        tries -= 1
-        now = note(count("Tolerance", value))
-        if near(now):
+    uniform = run(0.0, 0.0)
+    if ended() or uniform == 0:
+        return True, uniform
+    length = mean_edge()
+    fine, coarse, tolerance = (0.0, uniform), None, 0.2 * unit
+    while uniform > wanted and len(tried) <= TRIES // 2:
+        now = run(0.0, tolerance)
+        if ended():
             return True, now
         if now < wanted:
-            coarse = (value, now)
-            break
-        if now > 0.98 * fine[1] and fine[0] > 0:
-            break
-        fine, value = (value, now), 2 * value
-    while coarse is not None and tries > 0 and not stopped():
-        tries -= 1
-        share = min(max(math.log(fine[1] / wanted) / math.log(fine[1] / max(coarse[1], 1)), .1), .9)
-        low = fine[0] or coarse[0] / 4
-        value = float(f"{low * (coarse[0] / low) ** share:.4g}")
-        now = note(count("Tolerance", value))
-        if near(now):
-            return True, now
-        if now > wanted:
-            fine = (value, now)
+            coarse = (tolerance, now)
+        elif now > 0.98 * fine[1]:
+            break  # no tolerance leaves fewer
         else:
-            coarse = (value, now)
-    if stopped():
-        return True, found
+            fine = (tolerance, now)
+        if coarse is None:
+            tolerance *= 2
+        else:
+            share = math.log(fine[1] / wanted) / math.log(fine[1] / max(coarse[1], 1))
+            least = fine[0] or coarse[0] / 4
+            tolerance = _rounded(least * (coarse[0] / least) ** min(max(share, 0.1), 0.9))
     # The number of triangles goes with the inverse square of the edge length.
-    length = edge = unit * math.sqrt(uniform / wanted)
+    edge = length * math.sqrt(uniform / wanted)
     for _ in range(TRIES // 2):
-        now = note(count("EdgeLength", float(f"{edge:.4g}")))
-        if near(now) or stopped():
+        now = run(_rounded(edge), 0.0)
+        if ended():
             return True, now
-        if now == 0:
-            edge = (edge + length) / 2
-            continue
-        length, edge = edge, edge * math.sqrt(now / wanted)
-    return False, nearest
+        length, edge = (length, (length + edge) / 2) if now == 0 else (
+            edge, edge * math.sqrt(now / wanted))
+    return False, min(filter(None, tried), key=lambda found: abs(math.log(found / wanted)))
+
+
+def _rounded(length: float) -> float:
+    return float(f"{length:.4g}")
 
 
 # ---- The end of the run ------------------------------------------------------------------------

@@ -13,24 +13,12 @@ from command_test_case import ISO, CommandTestCase, ball, make_image
 
 
 class RunsTest(CommandTestCase):
-    def content(self, name):
-        with open(self.path(name), "rb") as file:
-            return file.read()
-
-    def test_a_limit_of_memory(self):
-        volume = self.ball_file()
-        self.run_command(volume, self.path("a.ply"), "--iso", ISO)
-        self.run_command(volume, self.path("b.ply"), "--iso", ISO, "--memory", "500M", "--scratch",
-                      self.folder)
-        self.assertGreater(len(self.content("a.ply")), 1000)
-        self.assertEqual(self.content("a.ply"), self.content("b.ply"))
-
     def test_labels(self):
         """Two halves of a ball, each by itself and in one surface."""
         labels = np.where(ball() > ISO, 3, 0)
         labels[:, :, 8:] *= 2
         volume = self.write(vtkXMLImageDataWriter(), "map.vti", make_image(labels.astype("u1")))
-        self.run_command(volume, self.path("each/"), "--labels", "all", "--memory", "500M")
+        self.run_command(volume, self.path("each/"), "--labels", "all")
         self.assertEqual(sorted(os.listdir(self.path("each"))), ["label-3.vtp", "label-6.vtp"])
         self.run_command(volume, self.path("merged.vtp"), "--labels", "all", "--merge")
         self.assertIn(b'"Label"', self.content("merged.vtp"))

@@ -101,7 +101,7 @@ class SpaceTest(CommandTestCase):
         self.assertEqual((scaled["area"], scaled["input"]["unit"]), (report["area"], "mm"))
         said, scaled = self.run_to("vtp", volume, "--scale", "3")
         self.assertEqual((scaled["input"]["unit"], self.fields()), ("", ["RAS", None]))
-        self.refused("--unit mm: the file does not state its unit .* by --scale", self.ball_file(),
+        self.refused("--unit mm: the file does not state its unit.* by --scale", self.ball_file(),
                      self.path("a.stl"), "--iso", ISO, "--unit", "mm")
 
     def test_labels(self):
