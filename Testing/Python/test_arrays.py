@@ -3,6 +3,7 @@
 """volumic.surface and volumic.labels: arrays in, surfaces out, errors as exceptions."""
 
 import os
+import pickle
 import subprocess
 import sys
 import unittest
@@ -15,6 +16,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOGeometry import vtkSTLReader
 from vtkmodules.vtkIOPLY import vtkPLYReader
 from volumic import arrays
+from volumic.reading import Volume
 
 from folder_test_case import FolderTestCase
 from sample_volumes import RING_SPACING, RING_VOLUME, ring_voxels
@@ -63,6 +65,40 @@ class SurfaceTest(unittest.TestCase):
         algorithm.Update()
         points = vtk_to_numpy(algorithm.GetOutput().GetPoints().GetData())
         self.assertEqual(points.tobytes(), self.ring.points.tobytes())
+
+    def test_a_volume_of_read(self):
+        """Its position comes along; a spacing beside it is refused."""
+        volume = Volume(ring_voxels(), RING_SPACING, (10, 20, 30), unit="mm")
+        self.assertEqual(volumic.surface(volume, 125.5).points.tobytes(), self.ring.points.tobytes())
+        array, spacing, origin, direction, space, unit, names = volume
+        self.assertEqual((array.shape, spacing, unit, space, names),
+                         (ring_voxels().shape, tuple(RING_SPACING), "mm", "", {}))
+        self.assertEqual((origin, direction.tolist()), ((10, 20, 30), np.eye(3).tolist()))
+        with self.assertRaisesRegex(TypeError, "of its own"):
+            volumic.surface(volume, 125.5, spacing=(1, 1, 1))
+
+    def test_what_is_not_finite_or_too_far_is_refused(self):
+        for reason, iso, more in (
+                ("iso is nan", np.nan, {}), ("iso is inf", np.inf, {}),
+                ("origin nan", 125.5, {"origin": (np.nan, 0, 0)}),
+                ("too far away for a spacing of 1", 125.5, {"origin": (1e20, 0, 0)}),
+                ("spacing 1 x -1 x 1", 125.5, {"spacing": (1, -1, 1)})):
+            with self.assertRaisesRegex(ValueError, reason):
+                volumic.surface(ring_voxels(), iso, **more)
+
+    def test_results_come_back_from_processes(self):
+        again = pickle.loads(pickle.dumps(self.ring))
+        self.assertEqual(again.points.tobytes(), self.ring.points.tobytes())
+        self.assertEqual((again.report, list(again.arrays)), (self.ring.report, list(self.ring.arrays)))
+        balls = volumic.labels(two_balls())
+        again = pickle.loads(pickle.dumps(balls))
+        self.assertEqual(list(again), [3, 7])
+        self.assertEqual(again[7].points.tobytes(), balls[7].points.tobytes())
+
+    def test_what_dir_and_repr_tell(self):
+        self.assertLess({"surface", "labels", "read"}, set(dir(volumic)))
+        self.assertRegex(repr(self.ring), rf"{len(self.ring.points)} points, "
+                         rf"{len(self.ring.triangles)} triangles, components 1, genus 1, volume \d")
 
     def test_arrays_outlive_the_filter(self):
         points = volumic.surface(ring_voxels(), 125.5).points
