@@ -301,19 +301,16 @@ def write_outputs(run: Segmentation, surface: Any, finished: bool, solids: Solid
         geometry.mark_space(data, run.loaded.world)
     for name in options.surfaces:
         with failures.collect(), teller.progress(f"Writing {name}") as progress:
-            if writing.is_scene(name):
-                writing.write_scene([("surface", surface)], name, tell=teller.warn)
-            else:
-                writing.write_surface(surface, name, remark, solids, teller.warn, progress)
+            writing.write_surface(surface, name, remark, solids, teller.warn, progress)
     for name, blocks, prefix in ((options.levels_output, filter_.GetLevels(), "level"),
                                  (options.snapshots, filter_.GetSnapshots(), "snapshot")):
         if name:
             with failures.collect():
                 if name.lower().endswith(".vtm"):
-                    writing.write_blocks(blocks, name)
+                    writing.write_blocks(blocks, name, teller.warn)
                 else:
                     writing.write_folder(blocks, name, prefix,
-                                         level_of if prefix == "level" else None)
+                                         level_of if prefix == "level" else None, teller.warn)
     if options.history:
         with failures.collect():
             writing.write_table(filter_.GetHistory(), options.history)

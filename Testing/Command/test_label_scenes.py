@@ -158,59 +158,67 @@ class ThreeMfTest(ScenesTest):
     XML = {"m": "http://schemas.microsoft.com/3dmanufacturing/core/2015/02"}
 
     def model(self, name):
-        """The root of the model, and {object's name: (points, triangles, materials of these)}."""
+        """The root of the model, and of its only object the name, points, triangles, and for each
+        triangle the name and the colour of its material."""
         with zipfile.ZipFile(self.path(name)) as file:
             self.assertIsNone(file.testzip())
-            self.assertEqual(file.namelist(),
-                             ["[Content_Types].xml", "_rels/.rels", "3D/3dmodel.model"])
             for part in file.namelist():
                 ElementTree.fromstring(file.read(part))
             root = ElementTree.fromstring(file.read("3D/3dmodel.model"))
-        objects = {}
-        for thing in root.findall("m:resources/m:object", self.XML):
-            points = [[float(v.get(axis)) for axis in "xyz"]
-                      for v in thing.iterfind(".//m:vertex", self.XML)]
-            corners = [[int(t.get(v)) for v in ("v1", "v2", "v3")]
-                       for t in thing.iterfind(".//m:triangle", self.XML)]
-            bases = root.findall(f"m:resources/m:basematerials[@id='{thing.get('pid')}']/m:base",
-                                 self.XML)
-            used = {t.get("p1", thing.get("pindex"))
-                    for t in thing.iterfind(".//m:triangle", self.XML)}
-            objects[thing.get("name")] = (np.array(points, "f4"), np.array(corners), {
-                bases[int(i)].get("name"): bases[int(i)].get("displaycolor") for i in used})
-            self.assertEqual(len(root.findall(
-                f"m:build/m:item[@objectid='{thing.get('id')}']", self.XML)), 1)
-        return root, objects
+        thing, = root.findall("m:resources/m:object", self.XML)
+        item, = root.findall("m:build/m:item", self.XML)
+        self.assertEqual(item.get("objectid"), thing.get("id"))
+        points = [[float(v.get(axis)) for axis in "xyz"]
+                  for v in thing.iterfind(".//m:vertex", self.XML)]
+        triangles = list(thing.iterfind(".//m:triangle", self.XML))
+        corners = [[int(t.get(v)) for v in ("v1", "v2", "v3")] for t in triangles]
+        bases = [(base.get("name"), base.get("displaycolor")) for base in root.findall(
+            f"m:resources/m:basematerials[@id='{thing.get('pid')}']/m:base", self.XML)]
+        used = [bases[int(t.get("p1", thing.get("pindex")))] for t in triangles]
+        return root, thing.get("name"), np.array(points, "f4"), np.array(corners), used
 
-    def test_an_object_for_each_label(self):
+    def parts(self, name):
+        """The name and the triangles of each part, as PrusaSlicer has them."""
+        with zipfile.ZipFile(self.path(name)) as file:
+            root = ElementTree.fromstring(file.read("Metadata/Slic3r_PE_model.config"))
+        return [(part.find("metadata[@key='name']").get("value"),
+                 slice(int(part.get("firstid")), int(part.get("lastid")) + 1))
+                for part in root.iter("volume")]
+
+    def test_one_object_whose_parts_are_the_labels(self):
         self.run_command(self.map_file(), self.path("a.3mf"), self.path("a/"), "--labels", "all",
                       "--label-names", self.colored_names())
-        root, objects = self.model("a.3mf")
-        self.assertEqual(root.get("unit"), "millimeter")
-        self.assertEqual(list(objects), ["Label -3", "liver", "Left lung", "spleen/x"])
-        files = ("label--3", "liver", "Left_lung", "spleen_x")
-        for (name, (points, corners, material)), file, label in zip(
-                objects.items(), files, (-3, 1, 2, 7)):
+        root, name, points, corners, used = self.model("a.3mf")
+        self.assertEqual((root.get("unit"), name), ("millimeter", "labels"))
+        parts = self.parts("a.3mf")
+        self.assertEqual([part for part, _ in parts], ["Label -3", "liver", "Left lung", "spleen/x"])
+        first = 0
+        for (part, which), file, label in zip(
+                parts, ("label--3", "liver", "Left_lung", "spleen_x"), (-3, 1, 2, 7)):
             surface = read(self.path(f"a/{file}.vtp"))
-            np.testing.assert_array_equal(points, points_of(surface).astype("f4"))
-            np.testing.assert_array_equal(corners, triangles_of(surface))
-            self.assertEqual(material, {name: "#%02X%02X%02X" % COLORS[label]})
+            count = surface.GetNumberOfPoints()
+            np.testing.assert_array_equal(points[first:first + count],
+                                          points_of(surface).astype("f4"))
+            np.testing.assert_array_equal(corners[which] - first, triangles_of(surface))
+            self.assertEqual(set(used[which]), {(part, "#%02X%02X%02X" % COLORS[label])})
+            first += count
+        self.assertEqual((first, parts[-1][1].stop), (len(points), len(corners)))
 
     def test_merged_labels_keep_their_colours(self):
         self.run_command(self.map_file(), self.path("a.3mf"), "--labels", "1,2", "--merge",
                       "--label-names", self.colored_names())
-        (_, _, materials), = self.model("a.3mf")[1].values()
-        self.assertEqual(materials, {"liver": "#C81E00", "Left lung": "#00FF78"})
+        self.assertEqual(set(self.model("a.3mf")[4]),
+                         {("liver", "#C81E00"), ("Left lung", "#00FF78")})
 
     def test_names_units_and_one_surface(self):
         names = self.write_bytes("n.json", json.dumps({1: 'a<"&\u00e9>\n'}).encode())
         self.run_command(self.map_file(), self.path("a.3mf"), "--labels", "1", "--label-names", names)
-        self.assertEqual(list(self.model("a.3mf")[1]), ['a<"&\u00e9>'])
+        self.assertEqual(self.model("a.3mf")[1], 'a<"&\u00e9>')
         first = self.content("a.3mf")
         self.run_command(self.map_file(), self.path("a.3mf"), "--labels", "1", "--label-names", names)
         self.assertEqual(self.content("a.3mf"), first)
         self.run_command(self.ball_file(), self.path("b.3mf"), "--iso", ISO)
-        self.assertEqual(list(self.model("b.3mf")[1]), ["surface"])
+        self.assertEqual(self.model("b.3mf")[1], "surface")
         volume = self.write_bytes("u.nrrd", nrrd_header().replace(
             b"space: left-posterior-superior", b'space: left-posterior-superior\nspace units: "um" "um" "um"')
             + b"\n" + ball().tobytes())
@@ -236,11 +244,24 @@ class ThreeMfTest(ScenesTest):
 
     @unittest.skipUnless(shutil.which("assimp"), "Assimp is not installed")
     def test_assimp_reads_it(self):
-        self.run_command(self.map_file(), self.path("a.3mf"), self.path("a.vtm"), "--labels", "all")
+        self.run_command(self.map_file(), self.path("a.3mf"), "--labels", "all")
         said = subprocess.run(["assimp", "info", self.path("a.3mf")], capture_output=True, text=True,
                               check=True).stdout
-        self.assertRegex(said, r"Meshes: +4\n")
+        self.assertRegex(said, rf"Faces: +{len(self.model('a.3mf')[3])}\n")
 
+    @unittest.skipUnless(shutil.which("prusa-slicer"), "PrusaSlicer is not installed")
+    def test_labels_that_touch_are_sliced_together(self):
+        """Where they are: labels that are objects of their own would be moved apart, and fail
+        where the lowest layer of one is too small."""
+        self.run_command(self.map_file(), self.path("a.3mf"), "--labels", "all")
+        subprocess.run(["prusa-slicer", "--export-gcode", self.path("a.3mf"), "--gcode-label-objects",
+                        "--output", self.path("a.gcode")], capture_output=True, check=True,
+                       env={**os.environ, "HOME": self.folder})
+        code = self.content("a.gcode").decode()
+        self.assertEqual(set(re.findall("; printing object (.*?) id:", code)), {"labels"})
+        heights = [float(z) for z in re.findall(r"(?m)^;Z:([0-9.]+)", code)]
+        points = self.model("a.3mf")[2]
+        self.assertAlmostEqual(max(heights), np.ptp(points[:, 2]), delta=0.5)
 
 class PlyTest(ScenesTest):
     def test_vertices_have_the_colour_of_their_label(self):

@@ -6,22 +6,22 @@ import contextlib
 import json
 import os
 import random
+import re
 import shutil
 import stat
 import subprocess
 import time
 import unittest
-from xml.etree import ElementTree
 
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkIOXML import vtkXMLImageDataWriter, vtkXMLPPolyDataReader
+from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 
 from limited_files import largest_file
 from command_test_case import ISO, PROGRAM, CommandTestCase, ball, make_image
 from vtk_files import points_of, read, triangles_of
 
-SURFACES = ("vtp", "pvtp", "vtk", "stl", "ply", "obj", "glb", "3mf", "msh", "smesh", "poly")
+SURFACES = ("vtp", "vtk", "stl", "ply", "obj", "glb", "3mf", "msh", "smesh", "poly")
 OLD = b"an older result"
 
 
@@ -64,15 +64,25 @@ class FullDiskTest(OutputsTest):
             with self.subTest(name):
                 self.old_survives_limit(name, os.path.getsize(self.path(name)) - 1, self.path(name))
 
-    def test_history_report_and_levels(self):
+    def test_other_files(self):
         for option, name in (("--history", "h.csv"), ("--report", "r.json"),
-                             ("--levels-output", "l.vtm"), ("--snapshots", "s.vtm")):
+                             ("--write-volume", "v.vti"), ("--levels-output", "l.vtm"),
+                             ("--snapshots", "s.vtm")):
             self.segment(option, self.path(name))
             whole = os.path.getsize(self.path(name))
             # A limit on the .vtm alone is none on the larger files of its blocks, nor can be.
             for limit in (whole - 100, whole // 2) if not name.endswith("vtm") else (1000,):
                 with self.subTest(name, limit=limit):
                     self.old_survives_limit(name, limit, option, self.path(name))
+
+    def test_a_folder(self):
+        self.write_bytes("old", b"")
+        for kind, *arguments in (("levels", "--levels-output"), ("labels", "--labels", "all")):
+            process = self.run_command(self.volume, *arguments[:1], *(
+                [self.path("l"), "--iso", ISO] if kind == "levels" else ["all", self.path("l/")]),
+                status=1, preexec_fn=largest_file(1000))
+            self.assertRegex(process.stderr, r"/l.*: cannot be written \(File too large\)")
+            self.assertFalse(os.path.exists(self.path("l")), kind)
 
     @unittest.skipUnless(os.path.exists("/dev/full"), "no /dev/full")
     def test_devices(self):
@@ -92,7 +102,7 @@ class FullDiskTest(OutputsTest):
                 process = subprocess.run([PROGRAM, *arguments], stdout=full, stderr=subprocess.PIPE,
                                          text=True, check=False)
                 self.assertEqual(process.returncode, 1)
-                self.assertIn("the standard output cannot be written", process.stderr)
+                self.assertRegex(process.stderr, "the standard output.*No space left")
 
 
 class KilledTest(OutputsTest):
@@ -119,6 +129,8 @@ class KilledTest(OutputsTest):
             for name in names:
                 self.assertIn(self.content(name), (OLD, new[name]), name)
                 were_old += self.content(name) == OLD
+            self.assertEqual({n for n in os.listdir(self.folder) if n[0] != "."},
+                             {*names, "ball.vti"})
             for hidden in self.hidden_folders():
                 shutil.rmtree(hidden)
         self.assertGreater(were_old, 0, "all were killed after they had written")
@@ -134,14 +146,14 @@ class KilledTest(OutputsTest):
         return found
 
     def test_runs_at_the_same_time(self):
-        commands = [[PROGRAM, self.volume, self.path("a.obj"), "--iso", str(ISO), "--levels", "2",
-                     "-q", "--levels-output", self.path("l.vtm")] for _ in range(4)]
-        processes = [subprocess.Popen(command) for command in commands]
+        command = [PROGRAM, self.volume, self.path("a.obj"), "--iso", str(ISO), "--levels", "2", "-q",
+                   "--levels-output", self.path("l.vtm"), "--snapshots", self.path("s")]
+        processes = [subprocess.Popen(command) for _ in range(4)]
         self.assertEqual([process.wait() for process in processes], [0] * 4)
         together = self.content("a.obj")
         self.segment(self.path("a.obj"))
         self.assertEqual(self.content("a.obj"), together)
-        self.without_rests("l", "l.vtm")
+        self.without_rests("l", "l.vtm", "s")
 
 
 class PlacesTest(OutputsTest):
@@ -241,7 +253,8 @@ class PlacesTest(OutputsTest):
         for header, text, data in (
                 ("a.mhd", b"ObjectType = Image\nElementDataFile = a.raw\n", "a.raw"),
                 ("b.mhd", b"ElementDataFile = LIST\n b1.raw\nb2.raw\n", "b2.raw"),
-                ("c.mhd", b"ElementDataFile = c%02d.raw 1 3 1\n", "c02.raw"),
+                ("c.mhd", b"NDims = 3\nDimSize = 2 2 1\nElementType = MET_UCHAR\n"
+                 b"ElementDataFile = c%02d.raw 2 2 1\n", "c02.raw"),
                 ("d.nhdr", b"NRRD0004\nData File: d.gz\n", "d.gz"),
                 ("e.pvti", b"<VTKFile>\n<Piece Source=\"e_0.vti\"/>", "e_0.vti"),
                 ("f.img", b"", "f.hdr"), ("series", None, "series/IM1")):
@@ -270,103 +283,54 @@ class PlacesTest(OutputsTest):
                     word if word.startswith("--") else self.path(word) for word in words))
 
 
-class PiecesTest(OutputsTest):
-    """A .pvtp and its pieces: of two balls, so that cells have values that differ."""
-
-    def setUp(self):
-        super().setUp()
-        voxels = np.maximum(ball(), ball()[:, :, ::-1])
-        self.volume = self.write(vtkXMLImageDataWriter(), "balls.vti", make_image(voxels))
-
-    def segment(self, *arguments, **options):
-        return self.run_command(self.volume, "--iso", 750.5, "--levels", 1, "-q", *arguments,
-                             **options)
-
-    def read(self, name, reader=None):
-        return read(self.path(name), reader)
-
-    def check_that_it_is(self, whole, pieces):
-        """Several pieces in their order, or one that holds them all."""
-        corners, places = [], {}
-        for piece in pieces:
-            ids = vtk_to_numpy(piece.GetPointData().GetGlobalIds())
-            self.assertEqual(len(ids), piece.GetNumberOfPoints())
-            corners.append(ids[triangles_of(piece)])
-            places.update(zip(ids, points_of(piece)))
-        self.assertEqual(sorted(places), list(range(whole.GetNumberOfPoints())))
-        np.testing.assert_array_equal([places[i] for i in sorted(places)], points_of(whole))
-        np.testing.assert_array_equal(np.concatenate(corners), triangles_of(whole))
-
-    def test_they_are_the_surface(self):
-        self.segment(self.path("a.vtp"), self.path("a.pvtp"), "--piece-size", 40)
-        whole = self.read("a.vtp")
-        triangles = whole.GetNumberOfPolys()
-        self.assertGreater(triangles, 120)
-        self.assertEqual(set(vtk_to_numpy(whole.GetCellData().GetArray("Component"))), {0, 1})
-        sources = [piece.get("Source") for piece
-                   in ElementTree.parse(self.path("a.pvtp")).getroot().iter("Piece")]
-        self.assertEqual(sources, [f"a/a_{i}.vtp" for i in range(-(-triangles // 40))])
-        pieces = [self.read(source) for source in sources]
-        self.assertEqual([p.GetNumberOfPolys() for p in pieces[:-1]], [40] * (len(pieces) - 1))
-        self.check_that_it_is(whole, pieces)
-        for piece in pieces:
-            ids = vtk_to_numpy(piece.GetPointData().GetGlobalIds())
-            self.assertEqual(len(set(ids)), len(ids))
-            self.assertEqual(piece.GetPointData().GetNormals().GetName(), "Normals")
-            for name in ("Normals", "Residual", "Motionless", "Contact"):
-                np.testing.assert_array_equal(
-                    vtk_to_numpy(piece.GetPointData().GetArray(name)),
-                    vtk_to_numpy(whole.GetPointData().GetArray(name))[ids], name)
-            self.assertEqual(piece.GetFieldData().GetNumberOfArrays(),
-                             whole.GetFieldData().GetNumberOfArrays())
-        for i in range(whole.GetCellData().GetNumberOfArrays()):
-            name = whole.GetCellData().GetArrayName(i)
-            np.testing.assert_array_equal(
-                np.concatenate([vtk_to_numpy(p.GetCellData().GetArray(name)) for p in pieces]),
-                vtk_to_numpy(whole.GetCellData().GetArray(i)), name)
-
-    def test_vtk_reads_them_together(self):
-        self.segment(self.path("a.vtp"), self.path("a & b.pvtp"), "--piece-size", 50)
-        whole, together = self.read("a.vtp"), self.read("a & b.pvtp", vtkXMLPPolyDataReader())
-        self.check_that_it_is(whole, [together])
-        for data, of_whole in ((together.GetPointData(), whole.GetPointData()),
-                               (together.GetCellData(), whole.GetCellData())):
-            for i in range(of_whole.GetNumberOfArrays()):
-                array = data.GetArray(of_whole.GetArrayName(i))
-                self.assertEqual(array.GetDataType(), of_whole.GetArray(i).GetDataType())
-                self.assertEqual(array.GetNumberOfComponents(),
-                                 of_whole.GetArray(i).GetNumberOfComponents())
-        self.assertIsNotNone(together.GetPointData().GetNormals())
-
-    def test_one_piece_and_no_half_of_them(self):
-        self.segment(self.path("a.pvtp"))
-        self.assertEqual(os.listdir(self.path("a")), ["a_0.vtp"])
-        before = {name: self.content(name) for name in ("a.pvtp", "a/a_0.vtp")}
-        process = self.segment(self.path("a.pvtp"), "--piece-size", 150, status=1,
-                               preexec_fn=largest_file(12000))
-        self.assertRegex(process.stderr, "a.pvtp: cannot be written .File too large")
-        self.assertEqual({name: self.content(name) for name in before}, before)
-        self.assertEqual(os.listdir(self.path("a")), ["a_0.vtp"])
-        self.without_rests("a.pvtp")
-
-    def test_inputs_are_not_replaced_by_pieces(self):
-        os.mkdir(self.path("b"))
-        start = self.write_bytes("b/b_0.vtp", OLD)
-        process = self.segment(self.path("b.pvtp"), "--initial-surface", start, status=1)
-        self.assertIn("b_0.vtp would be replaced, which is the input", process.stderr)
-        self.assertEqual(self.content("b/b_0.vtp"), OLD)
-        process = self.segment(self.path("b.pvtp"), self.path("b/b_1.vtp"), status=1)
-        self.assertIn("would take the same place", process.stderr)
-
-
 class WrittenTest(OutputsTest):
     def test_writing_shows_its_progress(self):
-        names = [self.path("a." + suffix) for suffix in ("vtp", "pvtp", "vtk", "stl")]
-        said = self.run_command(self.volume, "--iso", ISO, "--levels", 2, "--progress", *names,
-                             "--piece-size", 100, "--levels-output", self.path("l"),
-                             "--write-volume", self.path("v.vti")).stderr
-        for name in ("a.vtp", "a.pvtp", "level-1.vtp", "v.vti"):
+        names = [self.path("a." + suffix) for suffix in ("vtp", "vtk", "stl")]
+        said = self.run_command(self.volume, "--iso", ISO, "--levels", 2, "--progress", *names).stderr
+        for name in names:
             self.assertRegex(said, rf"(?m)^Writing {name}:  *\d+ %$")
+
+    def test_values_are_written_or_reported(self):
+        said = self.run_command(
+            self.volume, "--iso", ISO, "--probe", self.volume, "--thin-parts",
+            *(self.path(f"{stem}.{suffix}") for stem, suffix in (
+                ("a", "vtp"), ("a", "ply"), ("a", "stl"), ("b", "stl"), ("a", "obj"), ("a", "3mf")))).stderr
+        lost = [line for line in said.splitlines() if "has no place" in line]
+        self.assertEqual([line.split(": ")[2][-5:] for line in lost], ["a.stl", "a.obj", "a.3mf"])
+        for line in lost:
+            self.assertIn("values Thickness, ball; .vtp, .vtk and .ply have", line)
+        whole = read(self.path("a.vtp")).GetPointData()
+        head, body = self.content("a.ply").split(b"end_header\n")
+        self.assertIn(b"property float Thickness\nproperty double ball\nelement face", head)
+        rows = np.frombuffer(body, [("place", "<f4", 3), ("normal", "<f4", 3), ("Thickness", "<f4"),
+                                    ("ball", "<f8")], whole.GetNumberOfTuples())
+        for name, array in (("normal", "Normals"), ("Thickness", "Thickness"), ("ball", "ball")):
+            np.testing.assert_array_equal(rows[name], vtk_to_numpy(whole.GetArray(array)))
+
+    def test_files_of_an_earlier_run_are_reported(self):
+        for output, old in (("l", "/l: 1 files of an earlier run stay there: level-1.vtp"),
+                            ("m.vtm", "/m: 1 files of an earlier run stay there: m_1.vtp")):
+            arguments = (self.volume, "--iso", ISO, "--levels-output", self.path(output), "--levels")
+            self.assertNotIn("earlier run", self.run_command(*arguments, 2).stderr)
+            self.assertIn(old, self.run_command(*arguments, 1).stderr)
+
+    def test_caps_are_solids_of_an_stl(self):
+        """As OpenFOAM's tools read it: a text with a named solid for each patch."""
+        voxels = np.minimum(ball(), 900)
+        voxels[:] = voxels[len(voxels) // 2]  # a cylinder, which leaves the volume at both ends
+        self.write(vtkXMLImageDataWriter(), "tube.vti", make_image(voxels))
+        self.run_command(self.path("tube.vti"), "--iso", ISO, "--ends", "marked",
+                         self.path("a.vtp"), self.path("a.stl"))
+        whole = read(self.path("a.vtp"))
+        caps = vtk_to_numpy(whole.GetCellData().GetArray("Cap"))
+        solids = re.findall(r"(?s)solid (\w+)\n(.*?)endsolid \1\n", self.content("a.stl").decode())
+        self.assertEqual([name for name, _ in solids], ["wall", "cap_1", "cap_2"])
+        for number, (_, text) in enumerate(solids):
+            places = np.array([line.split()[1:] for line in text.splitlines() if "vertex" in line], float)
+            np.testing.assert_allclose(places.reshape(-1, 3, 3), points_of(whole)[
+                triangles_of(whole)[caps == number]], atol=1e-6)
+        self.assertIn("a.ply: .ply has no place for the numbers of caps", self.run_command(
+            self.path("tube.vti"), "--iso", ISO, "--ends", "marked", self.path("a.ply")).stderr)
 
     def test_links_are_followed(self):
         os.mkdir(self.path("there"))

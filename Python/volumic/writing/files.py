@@ -61,7 +61,7 @@ def output_file(name: str) -> Iterator[str]:
 def output_folder(folder: str) -> Iterator[str]:
     """The folder to write files to which take their places in `folder` together. It is made, and
     removed if nothing comes into it. Throw Failure that names the folder."""
-    with _naming(folder), made_folder(folder), _hidden_folder(folder) as hidden:
+    with made_folder(folder), _naming(folder), _hidden_folder(folder) as hidden:
         yield hidden
         _publish(hidden, folder)
 
@@ -108,13 +108,15 @@ def write_text(text: str, name: str) -> None:
 
 @contextlib.contextmanager
 def made_folder(name: str) -> Iterator[None]:
-    """Make a folder and those above it; at the end remove those made here that are empty."""
+    """Make a folder and those above it; at the end remove those made here that are empty. Throw
+    Failure that names the folder if it cannot be made."""
     made, folder = [], os.path.abspath(name)
     while not os.path.lexists(folder):
         made.append(folder)
         folder = os.path.dirname(folder)
     try:
-        os.makedirs(name, exist_ok=True)
+        with _naming(name):
+            os.makedirs(name, exist_ok=True)
         yield
     finally:
         with contextlib.suppress(OSError):
@@ -251,7 +253,7 @@ def _check_file(name: str, taken: dict[object, str], tried: set[str]) -> None:
     if not is_stream(name):
         folder = os.path.dirname(path)
         if not os.path.isdir(folder):
-            raise Failure(f"there is no folder {os.path.dirname(name) or folder}")
+            raise Failure(f"there is no folder {folder}")
         _try_folder(folder, tried)
 
 

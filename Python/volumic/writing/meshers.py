@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..messages import one_line
 from .regions import cell_array, find_regions, surface_labels
 
 SIDES = ("x_min", "x_max", "y_min", "y_max", "z_min", "z_max")  # BoxFace 1 to 6
@@ -47,7 +48,7 @@ def inp_word(name: str) -> str:
 
 def gmsh_word(name: str) -> str:
     """A name between the quotes of a physical group."""
-    return name[:50].replace('"', "'").replace("\n", " ")
+    return one_line(name, 50).replace('"', "'")
 
 
 class SetNames(NamedTuple):

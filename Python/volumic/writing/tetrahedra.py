@@ -273,7 +273,7 @@ def _solid_of(path: str, surface: Any, mesher: str) -> Solid:
     marked = marks.any(axis=1)
     solid = Solid(grid, points, cells, rows[:, 4], {}, mesher,
                   triangles_of(surface)[marked], marks[marked])
-    for label in solid_labels(surface):
+    for label in sorted(solid_labels(surface)):
         solid.names[label.number] = label.name
         if not (solid.labels == label.number).any():
             raise Failure(f"{mesher} has left out {label.name}")
