@@ -1,0 +1,139 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Pixels of DICOM files. GDCM unpacks compressed ones in a worker process, which it may crash."""
+from __future__ import annotations
+
+import collections
+import os
+import re
+import warnings
+
+import numpy as np
+
+from ..errors import VolumeError
+from .grid import need_bytes
+from .worker import in_worker, reading, said
+
+NO_SLICE = "; copy it again, or move it to another folder"
+
+
+def read_file(file, name, **more):
+    """Return the data set of a file."""
+    import pydicom
+    warnings.filterwarnings("ignore", module="pydicom")
+    try:
+        data = pydicom.dcmread(file, force=True, **more)
+    except Exception as error:  # pylint: disable=broad-except
+        raise VolumeError("%s: it is cut off, or its header is damaged (%.100s); copy it again"
+                          % (name, error)) from None
+    data.syntax = data.file_meta.get("TransferSyntaxUID") or pydicom.uid.ImplicitVRLittleEndian
+    return data
+
+
+def values_of(slices):
+    """Return the rescaled values [slice, y, x], and the least, which padding gets."""
+    raw = None
+    for i, pixels in pixels_of(slices):
+        raw = np.empty((len(slices), *pixels.shape), pixels.dtype) if raw is None else raw.astype(
+            np.promote_types(raw.dtype, pixels.dtype), copy=False)
+        raw[i] = pixels
+    ends = []
+    for plane, s in zip(raw, slices):
+        kept = plane if s.padding is None else plane[plane != s.padding]
+        if kept.size:
+            ends += [s.slope * float(end) + s.shift for end in (kept.min(), kept.max())]
+    least, most = min(ends, default=0.), max(ends, default=0.)
+    factors, dtype = np.array([(s.slope, s.shift) for s in slices]), raw.dtype
+    if (factors != (1, 0)).any():
+        whole = [t for t in ("i2", "u2", "i4") if np.iinfo(t).min <= least <= most <= np.iinfo(t).max]
+        dtype = np.dtype("f4" if (factors % 1).any() else (whole + ["f8"])[0])
+    result = raw.view(dtype) if dtype.itemsize == raw.itemsize else np.empty(raw.shape, dtype)
+    for plane, new, s in zip(raw, result, slices):
+        values = plane if (s.slope, s.shift) == (1, 0) else plane * s.slope + s.shift
+        new[...] = values if s.padding is None else np.where(plane == s.padding, least, values)
+    return result, least
+
+
+def pixels_of(slices):
+    """Generate (number, stored pixels) of each slice, file by file."""
+    numbers = collections.defaultdict(list)
+    for number, each in enumerate(slices):
+        numbers[each.file, each.name].append(number)
+    packed = [file for file, those in numbers.items() if slices[those[0]].is_packed]
+    for file in packed:
+        _whole(*file)
+    unpacked = in_worker("volumic.reading.dicom_pixels:unpack", packed) if packed else []
+    unpacked = dict(zip(packed, unpacked))
+    for file, those in numbers.items():
+        size = slices[those[0]].size
+        area = size[0] * size[1]
+        values, bits = (unpacked.pop(file), 8) if file in unpacked else _plain(*file, area)
+        for number in those:
+            at = slices[number].frame * area
+            part = values[at:at + area] if bits > 1 else np.unpackbits(
+                values[at // 8:(at + area + 7) // 8], bitorder="little")[at % 8:at % 8 + area]
+            if part.size != area:
+                raise VolumeError("%s: its pixels are fewer than its sizes require" % file[1])
+            yield number, part.reshape(size)
+
+
+def _whole(file, name):
+    """Return the data set of a file that ends where its header says."""
+    data = read_file(file, name)
+    tags, end = list(data.keys()), os.path.getsize(file)
+    if "PixelData" not in data:
+        raise VolumeError("%s: it has no pixels: it is cut off, or no slice%s" % (name, NO_SLICE))
+    last, behind = data.get_item(tags[-1]), tags[tags.index(0x7FE00010):]
+    if hasattr(last, "value_tell") and last.length != 0xFFFFFFFF and not data.syntax.is_deflated:
+        end = last.value_tell + last.length
+    if behind != sorted(behind) or end != os.path.getsize(file):
+        raise VolumeError("%s: it is cut off or damaged: it does not end behind its pixels; copy "
+                          "it again" % name)
+    return data
+
+
+def _plain(file, name, area):
+    """Return the values of a file that is not compressed (of 1 bit: its bytes), and their bits."""
+    data = _whole(file, name)
+    bits, samples = int(data.get("BitsAllocated") or 0), int(data.get("SamplesPerPixel") or 1)
+    if samples != 1 or bits not in (1, 8, 16, 32):
+        raise VolumeError("%s: %d components per pixel of %d bits cannot be read; one of 1, 8, 16 "
+                          "or 32 bits can" % (name, samples, bits))
+    need, have = (int(data.get("NumberOfFrames") or 1) * area * bits + 7) // 8, len(data.PixelData)
+    try:
+        need_bytes(have, need + need % 2 * (have > need), exact=True)
+    except VolumeError as error:
+        raise VolumeError("%s: %s" % (name, error)) from None
+    kind = "%s%s%d" % ("<" if data.syntax.is_little_endian else ">", "i" if bits > 1 and data.get(
+        "PixelRepresentation") == 1 else "u", max(1, bits // 8))
+    return np.frombuffer(data.PixelData, kind, need * 8 // max(8, bits)), bits
+
+
+def unpack(files):
+    """Return the values of compressed files (path, name): for the worker process.
+
+    pydicom's handler for GDCM ignores its failures, and returns memory that was never written."""
+    import gdcm
+    gdcm.Trace.ErrorOff()
+    gdcm.Trace.WarningOff()
+    plain, found = gdcm.TransferSyntax(gdcm.TransferSyntax.ExplicitVRLittleEndian), []
+    for file, name in files:
+        reading(name)
+        said()
+        reader, change = gdcm.ImageReader(), gdcm.ImageChangeTransferSyntax()
+        reader.SetFileName(file)
+        change.SetTransferSyntax(plain)
+        done = reader.Read() and not change.SetInput(reader.GetImage()) and change.Change()
+        damage = re.search("(?i).*(corrupt|premature|bogus|invalid).*", said())
+        if not done or damage:
+            raise VolumeError("%s: its pixels cannot be unpacked: they are damaged, or GDCM does "
+                              "not know their code%s; try gdcmconv --raw"
+                              % (name, " (%s)" % damage[0] if damage else ""))
+        image = change.GetOutput()
+        kind = image.GetPixelFormat()
+        if kind.GetSamplesPerPixel() != 1:
+            raise VolumeError("%s: %d components per pixel cannot be read; one can"
+                              % (name, kind.GetSamplesPerPixel()))
+        found.append(np.frombuffer(image.GetBuffer().encode("utf-8", "surrogateescape"), "%s%d" % (
+            "i" if kind.GetPixelRepresentation() else "u", kind.GetBitsAllocated() // 8)))
+    return found
