@@ -365,7 +365,7 @@ class TetgenTest(InterfacesTest):
             labels = [label for label in np.unique(voxels) if label != 0]
             numbers = {label: abs(label) for label in labels}
             blocks = dict(zip(labels, read_blocks(self.path("a.vtm")).values()))
-            for *place, label, _ in regions:
+            for place, label in zip(regions[:, :3], regions[:, 3]):
                 for other, block in blocks.items():
                     angle = solid_angles(points_of(block), triangles_of(block), place)
                     self.assertAlmostEqual(angle, 4 * np.pi * (numbers[other] == label), places=3)
