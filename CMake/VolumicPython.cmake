@@ -47,7 +47,7 @@ volumic_wrap_python()
 
 # What helps where the package does not find the VTK that it was built for.
 if (VOLUMIC_BUILD_PARAVIEW_PLUGIN)
-  set(volumic_python_hint "Use ParaView's pvpython or pvbatch.")
+  set(volumic_python_hint "Use ParaView's pvpython or pvbatch; install python3-paraview where it is missing.")
 else ()
   set(volumic_python_hint "Use /usr/bin/python3, or python3 -m venv --system-site-packages.")
   if (NOT EXISTS "/etc/debian_version")

@@ -26,7 +26,7 @@ void AddPythonPath()
   {
     folder = folder.parent_path();
     const std::filesystem::path packages = folder / VOLUMIC_PYTHON_DESTINATION;
-    if (std::filesystem::exists(packages / "volumic" / "paraview.py", error))
+    if (std::filesystem::exists(packages / "volumic_paraview.py", error))
     {
       vtkPythonInterpreter::PrependPythonPath(packages.c_str());
       return;

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The readers and the writer of ParaView's plugin, by the readers and writers of this package.
+"""The readers and the writer of ParaView's plugin, by those of the package volumic.
 
 The XML of the plugin names these classes; ParaView makes them by vtkSIPythonSourceProxy, also in a
 server. ParaView repeats a failed request with messages of its own: after an error that was reported
@@ -14,15 +14,22 @@ import functools
 import os
 import platform
 import re
+import sys
 import traceback
 from typing import Any
+
+try:
+    import volumic  # which checks that its VTK is ParaView's
+except ImportError as missing:
+    sys.stderr.write(f"ERROR: Volumic cannot read or write files on {platform.node()}: {missing}\n")
+    raise
 
 from vtkmodules.util.vtkAlgorithm import VTKPythonAlgorithmBase
 from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkStringArray
 from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkImageData
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as Pipeline
 
-from .errors import Failure
+from volumic.errors import Failure
 
 # What messages say of options, and what of properties.
 PROPERTIES = (("with --series N", "as Series"), ("(--series)", "(Series)"),
@@ -38,7 +45,7 @@ def _reporting(method: Any) -> Any:
             return method(*arguments)
         except Failure as failure:
             text = str(failure)
-        except ImportError as error:
+        except ModuleNotFoundError as error:
             name = (error.name or "").split(".")[0]
             text = f"Python lacks the module {name}: install the package python3-{name}"
         except Exception:  # pylint: disable=broad-except
@@ -101,7 +108,7 @@ class VolumeReader(VTKPythonAlgorithmBase):
 
     def GetSeriesList(self) -> vtkStringArray:
         """Return the series of the file or folder."""
-        from . import reading
+        from volumic import reading
         lines = vtkStringArray()
         try:
             for line in reading.list_series(self._files[0]):
@@ -136,7 +143,7 @@ class VolumeReader(VTKPythonAlgorithmBase):
     @_reporting
     def RequestData(self, _request: Any, _inputs: Any, outputs: Any) -> int:
         """Give the requested part of the volume of the requested time."""
-        from . import geometry, label_map
+        from volumic import geometry, label_map
         information = outputs.GetInformationObject(0)
         step = (round(information.Get(Pipeline.UPDATE_TIME_STEP()))
                 if information.Has(Pipeline.UPDATE_TIME_STEP()) else 0)
@@ -155,8 +162,8 @@ class VolumeReader(VTKPythonAlgorithmBase):
 
     def _read(self, step: int) -> Any:
         """Return the volume of a time step, None if there is none, or if reading it failed before."""
-        from . import reading
-        from .reading.tables import names_beside
+        from volumic import reading
+        from volumic.reading.tables import names_beside
         if not self._files:
             return None
         times = self._volume.times if self._volume else 1
@@ -208,9 +215,9 @@ class SurfacesWriter(VTKPythonAlgorithmBase):
     def RequestData(self, _request: Any, inputs: Any, _outputs: Any) -> int:
         """Write the files."""
         from vtkmodules.vtkParallelCore import vtkMultiProcessController
-        from . import writing
-        from .labels import safe_name
-        from .writing.meshers import DistinctNames
+        from volumic import writing
+        from volumic.label_map import safe_name
+        from volumic.writing.meshers import DistinctNames
         data = inputs[0].GetInformationObject(0).Get(vtkDataObject.DATA_OBJECT())
         ranks = vtkMultiProcessController.GetGlobalController()
         if ranks and ranks.GetNumberOfProcesses() > 1 and not data.IsA("vtkCompositeDataSet"):
