@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
+from .errors import UsageError
 from .messages import number_text
 from .option_values import (
     box, depth, index, more_than_0, number, numbers, one_of, spacing, triangles, unit, whole)
@@ -49,6 +50,8 @@ class Property(NamedTuple):
             kind = type(getattr(owner, "Get" + self.name)())
             value = text if kind is str else whole(text) if kind is int else number(text)
         getattr(owner, "Set" + self.name)(value)
+        if getattr(owner, "Get" + self.name)() != value:
+            raise UsageError(f"'{text}' is out of range")
 
 
 class Filters:

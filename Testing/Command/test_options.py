@@ -117,6 +117,7 @@ class OptionTableTest(CommandTestCase):
                 ("--resume is gone", "a b.stl --resume"),
                 ("did you mean --iso", "a b.stl --ios 3"),
                 ("--time: -1 is less than 0", "a b.stl --time -1"),
+                ("--threads: '-1' is out of range", "a b.stl --threads -1"),
                 ("--phase and|--time and --phase", "a b.stl --time 1 --phase 1"),
                 ("--edge-attraction needs", "a b.stl --edge-attraction 1"),
                 ("exclude each other", "a b.stl --seeds c --initial-surface d"),
