@@ -194,15 +194,15 @@ def _companions(path):
     if suffix == ".pvti":
         files = re.findall(r'Source="([^"]*)"', text)
     elif suffix in (".mha", ".mhd", ".nhdr", ".nrrd"):
-        head, _, rest = re.split(r"\n\s*\n", text)[0].partition("\0")
-        found = re.search(r"(?im)^(?:ElementDataFile\s*[=:]|data ?file:)\s*(.*?)\s*$", head)
-        if found and found[1] and found[1].lower() != "local":
-            from .plain import data_files
-            try:
-                return data_files(path, found[1], head[found.end() + 1:].split(), 1 << 16)
-            except (VolumeError, ValueError):
-                lines = head[found.end():].split("\n")[1:] if found[1].startswith("LIST") else []
-                files = [line.strip() for line in lines if line.strip()]
+        head = re.split(r"\n\s*\n|\0", text)[0]
+        found = re.search(r"(?im)^(?:ElementDataFile\s*[=:]|data ?file:)[ \t]*(.*?)\s*$", head)
+        name = found[1] if found and found[1].lower() != "local" else ""
+        if name.startswith("LIST"):
+            files = head[found.end():].split()
+        elif "%" in name:
+            return list_files(os.path.join(folder, name.split()[0]))
+        elif name:
+            files = [name]
     return [os.path.join(folder, file) for file in files]
 
 

@@ -4,6 +4,7 @@
 of InVesalius. (VTK 9.1's readers of NRRD and MetaImage ignore the directions of the axes.)"""
 from __future__ import annotations
 
+import gzip
 import os
 import plistlib
 import re
@@ -352,43 +353,37 @@ def read_inv3(path, choice):
             raise VolumeError("no %s in it: not an InVesalius project" % name)
         return found
 
-    with tarfile.open(path) as archive:
+    with open(path, "rb") as stream:
+        opener = gzip.open if stream.read(2) == b"\x1f\x8b" else open
+    with opener(path, "rb") as plain, tarfile.open(fileobj=plain, mode="r:") as archive:
         found = member(archive, "main.plist")
         if found.size > _LARGEST_HEADER:
             raise VolumeError("main.plist is too large to be the description of a project")
-        project = _plist(archive.extractfile(found).read())
-        try:
-            matrix, spacing = project["matrix"], [float(s) for s in project["spacing"]]
-            shape, dtype = [int(n) for n in matrix["shape"]], str(matrix["dtype"])
-        except (KeyError, TypeError, ValueError) as error:
-            raise VolumeError("main.plist lacks a value, or it is damaged: %s" % error) from None
-        if len(shape) != 3 or len(spacing) != 3 or min(shape) < 1:
-            raise VolumeError("main.plist: the sizes %s and the spacing %s are not those of a volume"
-                              % (text_of(shape), text_of(spacing)))
-        if not re.fullmatch(r"u?int(8|16|32|64)|float(32|64)", dtype):
-            raise VolumeError("main.plist: voxels of type \"%s\" cannot be read" % dtype)
-        if min(spacing) <= 0:
-            raise VolumeError("main.plist: the distance of the voxels is not positive")
-        name = os.path.basename(str(matrix.get("filename", "matrix.dat")))
-        found, dtype = member(archive, name), np.dtype(dtype).newbyteorder("<")
-        count = int(np.prod([float(n) for n in shape]))
+        shape, dtype, steps, name, space = _inv3_header(archive.extractfile(found).read())
+        found, count = member(archive, name), int(np.prod(shape, dtype=object))
         need_bytes(found.size, count * dtype.itemsize, exact=True)
         array = from_stream(archive.extractfile(found), dtype, count)
-        for _ in archive:  # to its end, where the checksum is
+        while plain.read(1 << 20):  # to the end, where the checksum is
             pass
-    is_axial = str(project.get("orientation", 1)) == "1"  # rows from back to front
-    return placed(array.reshape(shape), np.diag(spacing), [0, 0, 0], "LAS" if is_axial else "",
-                  "mm", choice)
+    return placed(array.reshape(shape), steps, [0, 0, 0], space, "mm", choice)
 
 
-def _plist(data):
-    """Return a property list of the XML form."""
-    if data.count(b"<") > 100000 or re.search(rb"<!ENTITY", data):
-        raise VolumeError("main.plist cannot be parsed")
+def _inv3_header(data):
+    """Return sizes, type, steps, name of the data and space that main.plist gives."""
     try:
+        if data.count(b"<") > 100000:
+            raise ValueError("it has too many elements")
         project = plistlib.loads(data, fmt=plistlib.FMT_XML)
+        matrix, spacing = project["matrix"], [float(s) for s in project["spacing"]]
+        shape, dtype = [int(n) for n in matrix["shape"]], str(matrix["dtype"])
+        name = os.path.basename(str(matrix.get("filename", "matrix.dat")))
     except Exception as error:  # pylint: disable=broad-except
-        raise VolumeError("main.plist cannot be parsed: %s" % error) from None
-    if not isinstance(project, dict):
-        raise VolumeError("main.plist cannot be parsed")
-    return project
+        raise VolumeError("main.plist is damaged, or lacks a value: %s" % error) from None
+    if len(shape) != 3 or len(spacing) != 3 or min(shape) < 1 or min(spacing) <= 0:
+        raise VolumeError("main.plist: the sizes %s and the spacing %s are not those of a volume"
+                          % (text_of(shape), text_of(spacing)))
+    if not re.fullmatch(r"u?int(8|16|32|64)|float(32|64)", dtype):
+        raise VolumeError("main.plist: voxels of type \"%s\" cannot be read" % dtype)
+    # The rows of axial slices are stored from back to front.
+    space = "LAS" if str(project.get("orientation", 1)) == "1" else ""
+    return shape, np.dtype(dtype).newbyteorder("<"), np.diag(spacing), name, space

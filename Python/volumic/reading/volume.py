@@ -158,7 +158,7 @@ def failure_of(error):
         package = {"PIL": "python3-pil", "vtkmodules": "python3-vtk9"}.get(module, "python3-" + module)
         text = "install the Python package %s to read this format (Debian: %s)" % (module, package)
     elif isinstance(error, OSError) and error.strerror:
-        text = error.strerror + (": " + str(error.filename) if error.filename else "")
+        text = error.strerror + (": " + str(error.filename)[:200] if error.filename else "")
     elif not isinstance(error, Failure):
         text = "cannot be read: " + text
     return VolumeError(text)

@@ -39,7 +39,8 @@ def read_xml(path, choice):
         lines = [a for a in file.arrays if a["parent"] == "Coordinates"]
         steps, origin = _regular([file.read(a, int(n)) for a, n in zip(lines, sizes)], whole)
     else:
-        spacing, origin, axes = ([float(n) for n in file.grid.get(key, default).split()]
+        grid = {**files[0].grid, **file.grid}  # VTK 9.1 writes the Direction into pieces only
+        spacing, origin, axes = ([float(n) for n in grid.get(key, default).split()]
                                  for key, default in (("Spacing", "1 1 1"), ("Origin", "0 0 0"),
                                                       ("Direction", "1 0 0 0 1 0 0 0 1")))
         steps = np.reshape(axes, (3, 3)) * spacing
@@ -202,17 +203,16 @@ def load(path, wanted):
 
 
 def updated(reader, path):
-    """Return the output of a reader of VTK; VolumeError if it reports an error."""
-    messages = []
-
-    def note(_caller, _event, text):
-        if "InformationKey" not in text:  # a range that is NaN
-            messages.append(" ".join(text.split("\n", 1)[-1].split())[-200:])
-    note.CallDataType = "string0"
-    reader.AddObserver("ErrorEvent", note)
+    """Return the output of a reader of VTK; VolumeError if it, or one within it, reports an error."""
+    from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkStringOutputWindow
+    window = vtkStringOutputWindow()
+    vtkOutputWindow.SetInstance(window)
     reader.SetFileName(path)
     reader.Update()
     output = reader.GetOutputDataObject(0)
-    if messages or output is None or not output.GetNumberOfPoints():
-        raise VolumeError("VTK cannot read it: " + (messages or ["it holds no data"])[0])
+    errors = [" ".join(re.sub(r"^[^\n]*\n(\w+ \(0x\w+\): )?", "", text).split()) for text in
+              re.split("(?m)^(?=ERROR|Warning|Generic)", window.GetOutput())
+              if text[:7] in ("ERROR: ", "Generic") and "InformationKey" not in text]  # NaN ranges
+    if errors or output is None or not output.GetNumberOfPoints():
+        raise VolumeError("VTK cannot read it: " + (errors or ["it holds no data"])[0][-200:])
     return output
