@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """README.md and Documentation/: what links lead to is there, and the code in them runs."""
 
+import gzip
 import importlib.util
 import os
 import re
@@ -74,8 +75,8 @@ class LinksTest(unittest.TestCase):
 class CodeTest(FolderTestCase):
     def setUp(self):
         super().setUp()
-        self.write_bytes("scan.nii.gz",
-                         medical_files.nifti(ring_voxels().astype("i2"), (1, 1, 1.5)))
+        self.write_bytes("scan.nii.gz", gzip.compress(
+            medical_files.nifti(ring_voxels().astype("i2"), (1, 1, 1.5))))
 
     def run_here(self, *command, **options):
         run = subprocess.run(command, cwd=self.folder, capture_output=True, text=True, check=False,

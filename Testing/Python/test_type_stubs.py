@@ -16,7 +16,8 @@ import volumic
 
 FOLDER = Path(volumic.__file__).parent
 CLASSES = {name: value for name, value in vars(volumic).items() if inspect.isclass(value)}
-FUNCTIONS = {"labels", "surface"}
+FUNCTIONS = {"labels", "read", "surface"}
+TYPED = ("arrays", "tasks", "neuroglancer")  # modules that users call, checked as a whole
 
 # A user's script. Comments tell what mypy says of the line: a type, or a kind of error.
 SCRIPT = """
@@ -118,11 +119,10 @@ class StubsTest(unittest.TestCase):
         environment["MYPYPATH"] = "site"
         with tempfile.TemporaryDirectory() as folder:
             site = Path(folder, "site", "volumic")
-            site.mkdir(parents=True)
-            for file in FOLDER.glob("*.py*"):
-                if file.name != "__init__.py":
-                    shutil.copy(file, site)
-            self.assertEqual(mypy("-p", "volumic", "--follow-imports=skip"), "")
+            shutil.copytree(FOLDER, site)
+            (site / "__init__.py").unlink()  # the stub has its place
+            modules = [word for name in TYPED for word in ("-m", f"volumic.{name}")]
+            self.assertEqual(mypy(*modules, "--follow-imports=skip"), "")
             Path(folder, "script.py").write_text(SCRIPT, encoding="utf-8")
             output = mypy("script.py").replace("builtins.", "")
             found = {}
