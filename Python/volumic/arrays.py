@@ -7,8 +7,6 @@ from __future__ import annotations
 import difflib
 import math
 import os
-import signal
-import threading
 import warnings
 from collections.abc import Sequence
 from typing import Any
@@ -316,24 +314,9 @@ def _input(array: Any, spacing: Any, origin: Any, direction: Any, start: Any) ->
 
 def _run(algorithm: Any) -> list[str]:
     """Update it; returns the warnings. Ctrl-C stops it, and is raised then."""
-    interrupts: list[int] = []
-
-    def interrupt(*_: Any) -> None:
-        interrupts.append(1)
-        algorithm.SetAbortExecute(1)
-
-    former = None
-    if threading.current_thread() is threading.main_thread():
-        former = signal.signal(signal.SIGINT, interrupt)
-    try:
-        errors, told = messages.update(algorithm)
-    finally:
-        if former is not None:
-            signal.signal(signal.SIGINT, former)
+    errors, told = messages.update(algorithm)
     if errors:
         raise FilterError(errors[0])
-    if interrupts:
-        raise KeyboardInterrupt
     return told
 
 

@@ -5,13 +5,15 @@ progress, Ctrl-C."""
 
 from __future__ import annotations
 
+import contextlib
 import os
 import re
 import shutil
 import signal
 import sys
+import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any, NamedTuple
 
 from .errors import Failure
@@ -187,11 +189,35 @@ def update(algorithm: Any, on_progress: Callable[[], None] | None = None
         for event in ("ErrorEvent", "WarningEvent"):
             tags.append((source, source.AddObserver(event, keep)))
     try:
-        (algorithm.Write if hasattr(algorithm, "Write") else algorithm.Update)()
+        with _signals_deferred(algorithm):
+            (algorithm.Write if hasattr(algorithm, "Write") else algorithm.Update)()
     finally:
         for source, tag in tags:
             source.RemoveObserver(tag)
     return errors, warnings
+
+
+@contextlib.contextmanager
+def _signals_deferred(algorithm: Any) -> Iterator[None]:
+    """A signal stops the algorithm, and its handler is called afterwards: VTK ends the process where
+    one raises KeyboardInterrupt at an event."""
+    came: list[int] = []
+    handlers: dict[int, Any] = {}
+
+    def keep(number: int, _frame: Any) -> None:
+        came.append(number)
+        algorithm.SetAbortExecute(1)
+
+    if not _State.holds and threading.current_thread() is threading.main_thread():
+        handlers = {number: signal.signal(number, keep) for number in (signal.SIGINT, signal.SIGTERM)
+                    if callable(signal.getsignal(number))}
+    try:
+        yield
+    finally:
+        for number, handler in handlers.items():
+            signal.signal(number, handler)
+    for number in came[:1]:
+        handlers[number](number, None)
 
 
 def run(algorithm: Any, title: str, teller: Teller, words: Callable[[str], str] = str) -> Run:

@@ -8,14 +8,19 @@ import os
 import random
 import re
 import shutil
+import signal
 import stat
 import subprocess
 import time
 import unittest
+import unittest.mock
 
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
+from vtkmodules.vtkIOXML import vtkXMLImageDataReader, vtkXMLImageDataWriter
+from volumic import writing
+from volumic.errors import Failure
+from volumic.writing import files, surfaces
 
 from limited_files import largest_file
 from command_test_case import ISO, PROGRAM, CommandTestCase, ball, make_image
@@ -376,6 +381,34 @@ class WrittenTest(OutputsTest):
         self.volume = self.path("\u00e9t\u00e9 \U0001f9b4.vti")
         report = json.loads(self.segment("--report", "-").stdout)
         self.assertEqual(report["input"]["name"], "\u00e9t\u00e9 \U0001f9b4.vti")
+
+
+class PackageTest(CommandTestCase):
+    """What the command cannot show."""
+
+    def test_ctrl_c_while_vtk_writes(self):
+        old = self.write_bytes("a.vti", OLD)
+        with self.assertRaises(KeyboardInterrupt):
+            writing.write_volume(make_image(ball()), old,
+                                 lambda _: os.kill(os.getpid(), signal.SIGINT))
+        self.assertEqual((self.content("a.vti"), os.listdir(self.folder)), (OLD, ["a.vti"]))
+
+    def test_errors_name_the_file_and_no_hidden_folder(self):
+        for error, reason in ((lambda path: Failure(f"{path} is full"), "a is full"),
+                              (MemoryError, "cannot be written (not enough memory)")):
+            with self.assertRaises(Failure) as caught:
+                with files.output_file(self.path("a")) as path:
+                    raise error(path)
+            self.assertEqual(str(caught.exception), f"{self.path('a')}: {reason}")
+
+    def test_large_volumes_are_written_in_slabs(self):
+        with unittest.mock.patch.object(surfaces, "SLAB", 3 * 2 * ball()[0].size):
+            writing.write_volume(make_image(ball()), self.path("a.vti"))
+        self.assertEqual(self.content("a.vti").count(b"<Piece "), 9)
+        image = read(self.path("a.vti"), vtkXMLImageDataReader())
+        self.assertEqual(image.GetDimensions(), ball().shape[::-1])
+        np.testing.assert_array_equal(
+            vtk_to_numpy(image.GetPointData().GetScalars()), ball().ravel())
 
 
 if __name__ == "__main__":

@@ -68,7 +68,7 @@ def write_surface(surface: Any, name: str, remark: str = "", solids: Any = None,
     from . import surfaces
     from .solids import write_boundary, write_solid
     from .tetrahedra import SolidMaker, needs_mesher
-    show = progress or surfaces._silent
+    show = progress or surfaces.silent
     solids = solids or SolidMaker()
     suffix, head = suffix_of(name), _head(surface) + remark
     _report_losses([surface], name, tell)
@@ -85,7 +85,7 @@ def write_scene(objects: Sequence[tuple[str, Any]], name: str, tell: Tell | None
                 progress: Show | None = None) -> None:
     """Write surfaces that are not empty, with their names, to one .glb or .3mf."""
     from . import scenes, surfaces
-    show = progress or surfaces._silent
+    show = progress or surfaces.silent
     _report_losses([surface for _, surface in objects], name, tell)
     with files.output_file(name) as path:
         surfaces.write_pieces(path, scenes.glb(objects, show) if suffix_of(name) == ".glb"
@@ -97,7 +97,7 @@ def write_blocks(blocks: Any, name: str, tell: Tell | None = None, progress: Sho
     """Write blocks that are surfaces to a .vtm, with their files in a folder beside it."""
     from . import surfaces
     with files.output_file(name) as path:
-        surfaces.write_vtm(blocks, path, progress or surfaces._silent)
+        surfaces.write_vtm(blocks, path, progress or surfaces.silent)
     folder = os.path.splitext(os.path.realpath(name))[0]
     stem = os.path.basename(folder)
     _report_old(folder, f"{stem}_", [f"{stem}_{i}.vtp" for i in range(blocks.GetNumberOfBlocks())],
@@ -123,7 +123,7 @@ def write_volume(image: Any, name: str, progress: Show | None = None) -> None:
     """Write a volume with all its arrays and field data."""
     from . import surfaces
     with files.output_file(name) as path:
-        surfaces.write_pieces(path, surfaces.vti(image, progress or surfaces._silent))
+        surfaces.write_pieces(path, surfaces.vti(image, progress or surfaces.silent))
 
 
 def write_table(table: Any, name: str) -> None:

@@ -14,6 +14,7 @@ from __future__ import annotations
 import contextlib
 import errno
 import os
+import re
 import shutil
 import stat
 import sys
@@ -136,7 +137,8 @@ def _naming(name: str) -> Iterator[None]:
     except Failure as failure:
         if type(failure) is not Failure:
             raise
-        raise Failure(f"{name}: {failure}") from failure
+        text = re.sub(r"\S*" + re.escape(HIDDEN) + "[^/]*/", "", str(failure))
+        raise Failure(f"{name}: {text}") from failure
 
 
 @contextlib.contextmanager

@@ -16,7 +16,7 @@ import numpy as np
 from ..errors import Failure
 from .regions import SurfaceLabel, cell_array, surface_labels, triangles_of
 from .surfaces import (
-    Show, _chunks, _silent, bytes_of, escaped, lines, normals_of, points_of)
+    Show, chunks, silent, bytes_of, escaped, lines, normals_of, points_of)
 
 Objects = Sequence[tuple[str, Any]]  # names and surfaces
 
@@ -33,7 +33,7 @@ def _with_points(objects: Objects) -> Objects:
 
 # ---- .glb --------------------------------------------------------------------------------------
 
-def glb(objects: Objects, show: Show = _silent) -> Iterator[bytes]:
+def glb(objects: Objects, show: Show = silent) -> Iterator[bytes]:
     """A scene of glTF: a node and a mesh for each surface, with normals and a material for each
     label. VTK's writers of glTF write no names, or need a window.
 
@@ -164,7 +164,7 @@ MODEL = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02"
 UNITS = {"": "millimeter", "mm": "millimeter", "cm": "centimeter", "m": "meter", "um": "micron"}
 
 
-def three_mf(objects: Objects, show: Show = _silent) -> bytes:
+def three_mf(objects: Objects, show: Show = silent) -> bytes:
     """A model for printers, with a material for each label."""
     from .. import __version__
     from ..geometry import fact
@@ -190,12 +190,12 @@ def three_mf(objects: Objects, show: Show = _silent) -> bytes:
             for i, (_, surface) in enumerate(objects):
                 show(i / len(objects) / 2)
                 points = points_of(surface).astype(np.float32)
-                for some in _chunks(len(points), _silent):
+                for some in chunks(len(points), silent):
                     model.write(lines('<vertex x="%.9g" y="%.9g" z="%.9g"/>\n', points[some]))
             model.write(b"</vertices><triangles>\n")
             for i, (form, rows) in enumerate(_triangles(objects, materials)):
                 show(0.5 + i / len(objects) / 2)
-                for some in _chunks(len(rows), _silent):
+                for some in chunks(len(rows), silent):
                     model.write(lines(form, rows[some]))
             model.write(b'</triangles></mesh></object>\n</resources>\n<build><item objectid="2"/>'
                         b"</build>\n</model>\n")

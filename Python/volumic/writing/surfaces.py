@@ -30,11 +30,11 @@ OF_FIT = {"Normals", "Residual", "Motionless", "Contact", "EdgeSize", "Junction"
 PLY_NAMES = {"x", "y", "z", "nx", "ny", "nz", "red", "green", "blue"}  # of properties that exist
 
 
-def _silent(_share: float) -> None:
+def silent(_share: float) -> None:
     """Progress that nobody sees."""
 
 
-def _chunks(count: int, show: Show, first: float = 0.0, last: float = 1.0) -> Iterator[slice]:
+def chunks(count: int, show: Show, first: float = 0.0, last: float = 1.0) -> Iterator[slice]:
     for start in range(0, count, CHUNK):
         show(first + (last - first) * start / count)
         yield slice(start, min(start + CHUNK, count))
@@ -107,13 +107,13 @@ def rounding(surface: Any) -> str:
 
 # ---- Formats of surfaces -----------------------------------------------------------------------
 
-def vtp(surface: Any, _remark: str = "", show: Show = _silent) -> Iterator[bytes]:
+def vtp(surface: Any, _remark: str = "", show: Show = silent) -> Iterator[bytes]:
     """VTK's XML format, with all arrays."""
     from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
     yield xml_text(vtkXMLPolyDataWriter(), surface, show)
 
 
-def vtk(surface: Any, remark: str = "", show: Show = _silent) -> Iterator[bytes]:
+def vtk(surface: Any, remark: str = "", show: Show = silent) -> Iterator[bytes]:
     """VTK's legacy format, binary, with all arrays."""
     from vtkmodules.vtkIOLegacy import vtkPolyDataWriter
     writer = vtkPolyDataWriter()
@@ -124,7 +124,7 @@ def vtk(surface: Any, remark: str = "", show: Show = _silent) -> Iterator[bytes]
     yield _as_bytes(writer.GetOutputStdString())
 
 
-def stl(surface: Any, remark: str = "", show: Show = _silent) -> Iterator[bytes]:
+def stl(surface: Any, remark: str = "", show: Show = silent) -> Iterator[bytes]:
     """Binary, or, with caps (--ends marked), a text with a solid `wall` and one for each cap."""
     points, triangles = points_of(surface), triangles_of(surface)
     caps = cell_array(surface, "Cap")
@@ -133,7 +133,7 @@ def stl(surface: Any, remark: str = "", show: Show = _silent) -> Iterator[bytes]
             yield from _stl_text(name, points, triangles[caps == number])
         return
     yield remark.encode()[:80].ljust(80) + np.array([len(triangles)], "<u4").tobytes()
-    for some in _chunks(len(triangles), show):
+    for some in chunks(len(triangles), show):
         corners = points[triangles[some]]
         facets = np.zeros(len(corners), [("normal", "<f4", 3), ("corners", "<f4", (3, 3)),
                                          ("nothing", "<u2")])
@@ -145,7 +145,7 @@ def _stl_text(name: str, points: np.ndarray, triangles: np.ndarray) -> Iterator[
     vertex = "   vertex %.9g %.9g %.9g\n"
     form = f" facet normal %.6g %.6g %.6g\n  outer loop\n{3 * vertex}  endloop\n endfacet\n"
     yield f"solid {name}\n".encode()
-    for some in _chunks(len(triangles), _silent):
+    for some in chunks(len(triangles), silent):
         corners = points[triangles[some]]
         yield lines(form, np.hstack([_facet_normals(corners), corners.reshape(-1, 9)]))
     yield f"endsolid {name}\n".encode()
@@ -159,7 +159,7 @@ def _facet_normals(corners: np.ndarray) -> np.ndarray:
     return np.divide(normals, length, out=normals, where=length > 0)
 
 
-def ply(surface: Any, remark: str = "", show: Show = _silent) -> Iterator[bytes]:
+def ply(surface: Any, remark: str = "", show: Show = silent) -> Iterator[bytes]:
     """Binary, with normals, the color of its label at each vertex, and the values that the user
     requested."""
     triangles = triangles_of(surface)
@@ -170,12 +170,12 @@ def ply(surface: Any, remark: str = "", show: Show = _silent) -> Iterator[bytes]
            f"{remark}\nobj_info vtkPolyData points and polygons: vtk4.0\nelement vertex "
            f"{surface.GetNumberOfPoints()}\n{properties}element face {len(triangles)}\n"
            "property list uchar int vertex_indices\nend_header\n").encode()
-    for some in _chunks(surface.GetNumberOfPoints(), show, 0, 0.5):
+    for some in chunks(surface.GetNumberOfPoints(), show, 0, 0.5):
         rows = np.empty(some.stop - some.start, [column[:2] for column in columns])
         for name, _, numbers in columns:
             rows[name] = numbers[some]
         yield rows.tobytes()
-    for some in _chunks(len(triangles), show, 0.5, 1):
+    for some in chunks(len(triangles), show, 0.5, 1):
         faces = np.full(some.stop - some.start, 3, [("count", "u1"), ("corners", "<i4", 3)])
         faces["corners"] = triangles[some]
         yield faces.tobytes()
@@ -202,19 +202,19 @@ def _ply_columns(surface: Any) -> list[tuple[str, str, np.ndarray]]:
     return columns
 
 
-def obj(surface: Any, remark: str = "", show: Show = _silent) -> Iterator[bytes]:
+def obj(surface: Any, remark: str = "", show: Show = silent) -> Iterator[bytes]:
     """A text: a line for each point, for its normal, and for each triangle."""
     points, normals, triangles = points_of(surface), normals_of(surface), triangles_of(surface)
     yield f"# {remark}\n".encode()
-    for some in _chunks(len(points), show, 0, 0.3):
+    for some in chunks(len(points), show, 0, 0.3):
         yield lines("v %.9g %.9g %.9g\n", points[some])
     if normals is None:
         form, triangles = "f %d %d %d\n", triangles + 1
     else:
         form, triangles = "f %d//%d %d//%d %d//%d\n", np.repeat(triangles + 1, 2, axis=1)
-        for some in _chunks(len(normals), show, 0.3, 0.6):
+        for some in chunks(len(normals), show, 0.3, 0.6):
             yield lines("vn %.9g %.9g %.9g\n", normals[some])
-    for some in _chunks(len(triangles), show, 0.6, 1):
+    for some in chunks(len(triangles), show, 0.6, 1):
         yield lines(form, triangles[some])
 
 
@@ -228,7 +228,7 @@ FORMATS = {".vtp": vtp, ".vtk": vtk, ".stl": stl, ".ply": ply, ".obj": obj}
 
 # ---- VTK's writers -----------------------------------------------------------------------------
 
-def xml_text(writer: Any, data: Any, show: Show = _silent) -> bytes:
+def xml_text(writer: Any, data: Any, show: Show = silent) -> bytes:
     """What a writer of VTK's XML formats writes."""
     # Inline: readers of ParaView 5.11, with an expat of 2024 or later, refuse appended data.
     writer.SetDataModeToBinary()
@@ -259,7 +259,7 @@ def write_pieces(path: str, pieces: Iterator[bytes]) -> None:
             file.write(piece)
 
 
-def vti(image: Any, show: Show = _silent) -> Iterator[bytes]:
+def vti(image: Any, show: Show = silent) -> Iterator[bytes]:
     """A volume with all its arrays and field data; a large one in slabs, each a piece."""
     from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
     x0, x1, y0, y1, z0, z1 = image.GetExtent()
@@ -279,7 +279,7 @@ def vti(image: Any, show: Show = _silent) -> Iterator[bytes]:
     yield text[end:]
 
 
-def write_vtm(blocks: Any, path: str, show: Show = _silent) -> None:
+def write_vtm(blocks: Any, path: str, show: Show = silent) -> None:
     """Write blocks that are surfaces, each to a file in a folder beside, and the .vtm that names
     them."""
     folder = os.path.splitext(path)[0]
@@ -306,7 +306,7 @@ def csv(table: Any) -> bytes:
     writer = vtkDelimitedTextWriter()
     writer.SetFieldDelimiter(",")
     writer.SetWriteToOutputString(True)
-    _write(writer, table, _silent)
+    _write(writer, table, silent)
     return writer.RegisterAndGetOutputString().encode()
 
 
