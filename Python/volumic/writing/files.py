@@ -138,7 +138,7 @@ def _naming(name: str) -> Iterator[None]:
         if type(failure) is not Failure:
             raise
         text = re.sub(r"\S*" + re.escape(HIDDEN) + "[^/]*/", "", str(failure))
-        raise Failure(f"{name}: {text}") from failure
+        raise Failure(f"{name}: {' '.join(text.split())}") from failure
 
 
 @contextlib.contextmanager

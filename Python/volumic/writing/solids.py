@@ -151,7 +151,7 @@ def write_vtu(solid: Any, path: str, _remark: str = "") -> None:
     from vtkmodules.vtkCommonCore import vtkIntArray
     from vtkmodules.vtkCommonDataModel import vtkUnstructuredGrid
     from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
-    from ..messages import update
+    from .surfaces import write_pieces, xml_text
     grid = vtkUnstructuredGrid()
     grid.ShallowCopy(solid.grid)
     fields = solid.grid.GetFieldData()
@@ -167,13 +167,9 @@ def write_vtu(solid: Any, path: str, _remark: str = "") -> None:
                 numbers.SetComponentName(k, text)
             grid.GetFieldData().AddArray(numbers)
     writer = vtkXMLUnstructuredGridWriter()
-    writer.SetFileName(path)
-    writer.SetInputData(grid)
     writer.SetCompressorTypeToZLib()
     writer.SetCompressionLevel(2)
-    errors = update(writer)[0]
-    if errors:
-        raise Failure(f"cannot be written ({errors[0]})")
+    write_pieces(path, iter([xml_text(writer, grid)]))
 
 
 # ---- Formats of meshio -------------------------------------------------------------------------
@@ -221,6 +217,9 @@ def write_by_meshio(solid: Any, path: str, _remark: str = "") -> None:
             meshio.write(path, mesh, form, **({"data_format": "XML"} if form == "xdmf" else {}))
             if form == "exodus":
                 _name_blocks(path, names.labels)
+            if form == "med":  # meshio does not close it, where a full disk would be reported
+                import h5py
+                h5py.File(path, "r").close()
     except ImportError as error:
         raise Failure(f"cannot be written without {error.name} (Debian: apt install "
                       f"{PACKAGES.get(error.name or '', 'python3-meshio')})") from None

@@ -110,7 +110,9 @@ def rounding(surface: Any) -> str:
 def vtp(surface: Any, _remark: str = "", show: Show = silent) -> Iterator[bytes]:
     """VTK's XML format, with all arrays."""
     from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
-    yield xml_text(vtkXMLPolyDataWriter(), surface, show)
+    writer = vtkXMLPolyDataWriter()
+    writer.SetCompressorTypeToLZ4()  # nine times as fast as zlib, at 1.6 times the size
+    yield xml_text(writer, surface, show)
 
 
 def vtk(surface: Any, remark: str = "", show: Show = silent) -> Iterator[bytes]:
@@ -232,8 +234,6 @@ def xml_text(writer: Any, data: Any, show: Show = silent) -> bytes:
     """What a writer of VTK's XML formats writes."""
     # Inline: readers of ParaView 5.11, with an expat of 2024 or later, refuse appended data.
     writer.SetDataModeToBinary()
-    # Nine times as fast as zlib, at 1.6 times the size (a surface).
-    writer.SetCompressorTypeToLZ4()
     writer.WriteToOutputStringOn()
     _write(writer, data, show)
     return _as_bytes(writer.GetOutputString())
@@ -267,6 +267,7 @@ def vti(image: Any, show: Show = silent) -> Iterator[bytes]:
     for bottom in range(z0, max(z1, z0 + 1), step):
         top = min(bottom + step, z1)
         writer = vtkXMLImageDataWriter()
+        writer.SetCompressorTypeToLZ4()
         if (bottom, top) != (z0, z1):
             writer.SetWriteExtent(x0, x1, y0, y1, bottom, top)
         text = xml_text(writer, image, lambda share, at=(bottom - z0) / max(z1 - z0, 1): show(
