@@ -131,13 +131,14 @@ def known_labels(layers: Sequence[Any], names: Sequence[Label], options: Namespa
     Where there are too many to list, a few that --labels names by their numbers are returned.
     """
     from . import vtkFiltersVolumic
+    from .options import in_words_of_options
     known: list[KnownLabel] = []
     warnings: list[str] = []
     for number, layer in enumerate(layers):
         table = vtkFiltersVolumic.vtkLabelTable()
         table.SetInputData(layer)
         try:
-            warnings += run(table, "", Teller(quiet=True)).warnings
+            warnings += run(table, "", Teller(quiet=True), in_words_of_options).warnings
         except Failure:
             known = _numbered(options.labels, names)
             if not known or len(layers) > 1 or options.list_labels:

@@ -44,14 +44,15 @@ def suffix_in_folder(options: Namespace) -> str:
 def check_outputs(options: Namespace) -> None:
     """Throw UsageError if surfaces of labels cannot be written to the names of the options."""
     forms = [form_of(options, name) for name in options.surfaces]
+    new = [name for name, form in zip(options.surfaces, forms)
+           if form == "folder" and name[-1] not in "-/" and not os.path.isdir(name)]
+    if new and (len(forms) > 1 or re.fullmatch("[+-]?[0-9]+(-[+-]?[0-9]+)?", new[0])):
+        raise UsageError(f"'{new[0]}' is not the name of a file; write a list of labels with commas "
+                         f"(--labels {','.join([options.labels[-1], *new])}), a folder with a slash "
+                         f"({new[0]}/)")
     for name, form in zip(options.surfaces, forms):
         if name == "-":
             raise UsageError("surfaces of labels are not written to the standard output")
-        is_new = form == "folder" and not name.endswith("/") and not os.path.isdir(name)
-        if is_new and (len(forms) > 1 or re.fullmatch("[+-]?[0-9]+(-[+-]?[0-9]+)?", name)):
-            raise UsageError(f"'{name}' is not the name of a file; write a list of labels with "
-                             f"commas (--labels {options.labels[-1]},{name}), a folder with a "
-                             f"slash ({name}/)")
         if form == "folder":
             if has_property(options, "Merge"):
                 raise UsageError(f"{name}: --merge makes one surface; give a file, not a folder")

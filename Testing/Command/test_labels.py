@@ -160,9 +160,8 @@ class OutputsTest(LabelsTest):
 
 class ChoiceTest(LabelsTest):
     def chosen(self, *arguments, volume=None):
-        """Labels of the surfaces, of a coarse level."""
         return sorted(self.rows(volume or self.map_file(), "--label-names", self.names_file(),
-                                "--finest", "1", *arguments))
+                                "--list-labels", *arguments))
 
     def test_numbers_ranges_and_names(self):
         for text, labels in (
@@ -177,12 +176,13 @@ class ChoiceTest(LabelsTest):
     def test_a_name_with_commas_or_brackets(self):
         file = self.write_bytes("n.json", b'{"1": "lung, left", "2": "a[1]", "7": "a1"}')
         for text, label in (("lung, left", 1), ("a[*", 2), ("a[1]", 2)):
-            rows = self.rows(self.map_file(), "--labels", text, "--label-names", file)
+            rows = self.rows(self.map_file(), "--list-labels", "--labels", text, "--label-names",
+                             file)
             self.assertEqual(list(rows), [label])
 
     def test_those_that_are_not_there(self):
         volume = self.map_file()
-        for text in ("9", "kidney", "10-20", "1,kidney", "", "k*"):
+        for text in ("9", "10-20", "1,kidney", "", "k*"):
             with self.subTest(text):
                 self.no_surfaces(
                     r"map.vti: there is no label '[^,]*' \(--labels\); there are -3, 0, "
@@ -364,30 +364,24 @@ class WhatIsReadTest(LabelsTest):
 class OptionsTest(LabelsTest):
     def test_every_property_of_labels_is_set(self):
         volume = self.map_file()
-        values = {"BackgroundLabel": ("--background", "1"),
-                  "Smoothing": ("--smoothing", "0.5"),
-                  "VoxelTolerance": ("--voxel-tolerance", "0.25"),
-                  "Metric": ("--metric", "voxels"),
-                  "Tolerance": ("--tolerance", "0.1"), "Gradation": ("--gradation", "0.3"),
-                  "MaximumEdgeLength": ("--maximum-edge-length", "9"),
-                  "EdgeLength": ("--edge-length", "1.2"), "FinestLevel": ("--finest", "1"),
-                  "KeepComponents": ("--keep", "large"),
-                  "MinimumComponentVolume": ("--minimum-component-volume", "2"),
-                  "TimeLimit": ("--time-limit", "600"),
-                  "NumberOfThreads": ("--threads", "1"),
-                  "ScratchDirectory": ("--scratch", self.folder),
-                  "ThinParts": ("--thin-parts",),
-                  "SharedInterfaces": ("--shared-interfaces",),
-                  "BoxFaces": ("--box-faces", "flat"),
-                  "SelectedComponent": ("--component", "0"), "Merge": ("--merge",)}
         before = self.report(volume, "--labels", "2")["properties"]
-        self.assertEqual(set(before), set(values))
-        for name, (option, *value) in values.items():
-            also = ["--shared-interfaces"] if name == "BoxFaces" else []
-            after = self.report(volume, "--labels", "2", option, *value, *also)["properties"]
-            self.assertEqual({n: v for n, v in after.items() if v != before[n]},
-                             {name: value[0] if value else "on",
-                              **({"SharedInterfaces": "on"} if also else {})})
+        groups = (
+            {"BackgroundLabel": "--background 1", "Smoothing": "--smoothing 0.5",
+             "VoxelTolerance": "--voxel-tolerance 0.25", "Metric": "--metric voxels",
+             "Tolerance": "--tolerance 0.1", "Gradation": "--gradation 0.3",
+             "MaximumEdgeLength": "--maximum-edge-length 9", "FinestLevel": "--finest 1",
+             "KeepComponents": "--keep large", "TimeLimit": "--time-limit 600",
+             "MinimumComponentVolume": "--minimum-component-volume 2", "Merge": "--merge",
+             "NumberOfThreads": "--threads 1", "ScratchDirectory": f"--scratch {self.folder}",
+             "SelectedComponent": "--component 0"},
+            {"EdgeLength": "--edge-length 1.2"}, {"ThinParts": "--thin-parts"},
+            {"SharedInterfaces": "--shared-interfaces", "BoxFaces": "--box-faces flat"})
+        self.assertEqual(set(before), {name for group in groups for name in group})
+        for group in groups:
+            words = " ".join(group.values()).split()
+            after = self.report(volume, "--labels", "2", *words)["properties"]
+            self.assertEqual(after, {**before, **{
+                name: (text.split() + ["on"])[1] for name, text in group.items()}})
 
     def test_properties_reach_the_filter(self):
         """What is in common with vtkDeformableSurface is set there first."""
@@ -416,19 +410,14 @@ class OptionsTest(LabelsTest):
     def test_what_excludes_what(self):
         for option, *value in (
                 ("--iso", "3"), ("--dark",), ("--seeds", "a.txt"), ("--history", "h.csv"),
-                ("--levels-output", "l"), ("--snapshots", "s"), ("--edges", "e"),
-                ("--initial-surface", "a.stl"), ("--seed-position", "1,2,3"),
-                ("--attracting-points", "p"), ("--attracting-position", "1,2,3"),
-                ("--levels", "2"), ("--preview",),
-                ("--tension", "3"), ("--no-snap",), ("--keep", "at-points"),
-                ("--keep", "not-at-seeds"), ("--profile",), ("--border", "replicate")):
+                ("--seed-position", "1,2,3"), ("--levels", "2"), ("--keep", "at-points"),
+                ("--profile",)):
             with self.subTest(option, value=value):
                 self.refused(f"(--labels and {option}|{option}( .*)? and --labels) exclude each "
                              "other", "a.vti", "out/", "--labels", "1", option, *value, status=2)
         for option, *value in (
-                ("--merge",), ("--smoothing", "1"), ("--shared-interfaces",),
-                ("--box-faces", "flat"), ("--background", "1"),
-                ("--voxel-tolerance", "0.5"), ("--format", "stl"), ("--label-names", "n")):
+                ("--merge",), ("--box-faces", "flat"), ("--format", "stl"),
+                ("--label-names", "n")):
             with self.subTest(option):
                 self.refused(f"{option} needs --labels", "a.vti", "out.stl", option, *value,
                              status=2)
