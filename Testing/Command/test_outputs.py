@@ -313,8 +313,8 @@ class WrittenTest(OutputsTest):
             np.testing.assert_array_equal(rows[name], vtk_to_numpy(whole.GetArray(array)))
 
     def test_files_of_an_earlier_run_are_reported(self):
-        for output, old in (("l", "/l: 1 files of an earlier run stay there: level-1.vtp"),
-                            ("m.vtm", "/m: 1 files of an earlier run stay there: m_1.vtp")):
+        for output, old in (("l", "/l: files of an earlier run are there: level-1.vtp;"),
+                            ("m.vtm", "/m: files of an earlier run are there: m_1.vtp;")):
             arguments = (self.volume, "--iso", ISO, "--levels-output", self.path(output), "--levels")
             self.assertNotIn("earlier run", self.run_command(*arguments, 2).stderr)
             self.assertIn(old, self.run_command(*arguments, 1).stderr)

@@ -9,12 +9,15 @@ names the file if it cannot be written.
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
 from ..errors import UsageError
-from . import files
-from .solids import BY_MESHIO, FOR_MESHERS, TETRAHEDRA
+from . import files, surfaces
+from .regions import surface_labels
+from .scenes import glb, three_mf
+from .solids import BY_MESHIO, FOR_MESHERS, TETRAHEDRA, write_boundary, write_solid
+from .tetrahedra import SolidMaker, needs_mesher
 
 Tell = Callable[[str], Any]
 Show = Callable[[float], Any]
@@ -60,42 +63,34 @@ def write_surface(surface: Any, name: str, remark: str = "", solids: Any = None,
     """Write a surface, or interfaces of labels. `remark` is what the head of the file says beside
     our name and the space; `solids` is a SolidMaker for files of tetrahedra."""
     if is_scene(name):
-        from .regions import surface_labels
         labels = surface_labels(surface)
         write_scene([(labels[0].name if len(labels) == 1 else "surface", surface)], name, tell,
                     progress)
         return
-    from . import surfaces
-    from .solids import write_boundary, write_solid
-    from .tetrahedra import SolidMaker, needs_mesher
-    show = progress or surfaces.silent
-    solids = solids or SolidMaker()
+    show, solids = progress or surfaces.silent, solids or SolidMaker()
     suffix, head = suffix_of(name), _head(surface) + remark
     _report_losses([surface], name, tell)
+    if suffix in surfaces.FORMATS:
+        _write(name, surfaces.FORMATS[suffix](surface, head, show))
+        return
     with files.output_file(name) as path:
         if needs_mesher(name, solids.mesher):
             write_solid(solids.make(surface, path, show, tell), path, head)
-        elif suffix in FOR_MESHERS:
-            write_boundary(surface, path, head)
         else:
-            surfaces.write_pieces(path, surfaces.FORMATS[suffix](surface, head, show))
+            write_boundary(surface, path, head)
 
 
 def write_scene(objects: Sequence[tuple[str, Any]], name: str, tell: Tell | None = None,
                 progress: Show | None = None) -> None:
     """Write surfaces that are not empty, with their names, to one .glb or .3mf."""
-    from . import scenes, surfaces
     show = progress or surfaces.silent
     _report_losses([surface for _, surface in objects], name, tell)
-    with files.output_file(name) as path:
-        surfaces.write_pieces(path, scenes.glb(objects, show) if suffix_of(name) == ".glb"
-                              else iter([scenes.three_mf(objects, show)]))
+    _write(name, (glb if suffix_of(name) == ".glb" else three_mf)(objects, show))
 
 
 def write_blocks(blocks: Any, name: str, tell: Tell | None = None, progress: Show | None = None
                  ) -> None:
     """Write blocks that are surfaces to a .vtm, with their files in a folder beside it."""
-    from . import surfaces
     with files.output_file(name) as path:
         surfaces.write_vtm(blocks, path, progress or surfaces.silent)
     folder = os.path.splitext(os.path.realpath(name))[0]
@@ -108,7 +103,6 @@ def write_folder(blocks: Any, folder: str, prefix: str,
                  number_of: Callable[[Any], int] | None = None, tell: Tell | None = None) -> None:
     """Write each block that is not empty to FOLDER/PREFIX-NUMBER.vtp; `number_of` gives the number
     of a surface, without it that of the block. The folder is made."""
-    from . import surfaces
     written = []
     with files.output_folder(folder) as path:
         for i in range(blocks.GetNumberOfBlocks()):
@@ -121,16 +115,17 @@ def write_folder(blocks: Any, folder: str, prefix: str,
 
 def write_volume(image: Any, name: str, progress: Show | None = None) -> None:
     """Write a volume with all its arrays and field data."""
-    from . import surfaces
-    with files.output_file(name) as path:
-        surfaces.write_pieces(path, surfaces.vti(image, progress or surfaces.silent))
+    _write(name, surfaces.vti(image, progress or surfaces.silent))
 
 
 def write_table(table: Any, name: str) -> None:
     """Write a .csv with a line of column names."""
-    from . import surfaces
+    _write(name, surfaces.csv(table))
+
+
+def _write(name: str, pieces: Iterable[bytes]) -> None:
     with files.output_file(name) as path:
-        surfaces.write_pieces(path, iter([surfaces.csv(table)]))
+        surfaces.write_pieces(path, pieces)
 
 
 # ---- What is reported --------------------------------------------------------------------------
@@ -145,29 +140,18 @@ def _head(surface: Any) -> str:
 
 
 def _report_losses(those: Sequence[Any], name: str, tell: Tell | None) -> None:
-    """Report what the format cannot hold: coordinates in double precision, values of points."""
-    from . import surfaces
-    suffix = suffix_of(name)
-    if tell is None or suffix in surfaces.EXACT or is_of_solids(name):
-        return
-    for surface in those:
-        text = surfaces.rounding(surface)
-        if text:
+    """Report what the format cannot hold: for all files of a suffix once."""
+    for text in (text for surface in those if tell for text in surfaces.losses(
+            surface, suffix_of(name))):
+        if text not in _reported and tell:
+            _reported.add(text)
             tell(f"{name}: {text}")
-    lost = sorted({array for surface in those for array in surfaces.lost_arrays(surface, suffix)})
-    text = (f"{suffix} has no place for the values {', '.join(lost)}; .vtp, .vtk and .ply have"
-            if lost and lost != ["Cap"] else
-            f"{suffix} has no place for the numbers of caps; .vtp, .vtk and .stl have" if lost
-            else "")
-    if text and text not in _reported:
-        _reported.add(text)
-        tell(f"{name}: {text}")
 
 
 def _report_old(folder: str, start: str, written: Sequence[str], tell: Tell | None) -> None:
     """Report files of an earlier run that have such names."""
     old = sorted(name for name in (os.listdir(folder) if os.path.isdir(folder) else ())
                  if name.startswith(start) and name.endswith(".vtp") and name not in written)
-    if old and tell is not None:
-        tell(f"{folder}: {len(old)} files of an earlier run stay there: {', '.join(old[:5])}"
+    if old and tell:
+        tell(f"{folder}: files of an earlier run are there: {', '.join(old[:5])}"
              f"{', ...' * (len(old) > 5)}; delete what is old")

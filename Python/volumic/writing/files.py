@@ -16,7 +16,6 @@ import errno
 import os
 import re
 import shutil
-import stat
 import sys
 import tempfile
 from collections.abc import Iterator, Sequence
@@ -50,17 +49,15 @@ class Failures:
 
 @contextlib.contextmanager
 def output_file(name: str) -> Iterator[str]:
-    """The path to write a file to. Throw Failure that names the file if it cannot be written.
-
-    A Failure of the block gets the name in front.
-    """
+    """The path to write a file to. Throw Failure that names the file if it cannot be written; a
+    Failure of the block gets the name in front."""
     with _naming(name), beside(name) as path:
         yield path
 
 
 @contextlib.contextmanager
 def output_folder(folder: str) -> Iterator[str]:
-    """The folder to write files to which take their places in `folder` together. It is made, and
+    """The folder to write files to that take their places in `folder` together. It is made, and
     removed if nothing comes into it. Throw Failure that names the folder."""
     with made_folder(folder), _naming(folder), _hidden_folder(folder) as hidden:
         yield hidden
@@ -72,17 +69,19 @@ def beside(name: str | os.PathLike[str]) -> Iterator[str]:
     """As output_file(), with OSError as it comes. A link is followed; a file that is replaced hands
     down its permissions; devices and pipes get the whole file at the end. What the block puts into
     a folder beside the path is moved, too."""
-    name = os.fspath(name)
-    target = name if is_stream(name) else os.path.realpath(name)
-    folder = tempfile.gettempdir() if is_stream(name) else os.path.dirname(target)
+    target = name = os.fspath(name)
+    folder = tempfile.gettempdir()
+    if not is_stream(name):
+        target = os.path.realpath(name)
+        folder = os.path.dirname(target)
     with _hidden_folder(folder) as hidden:
         path = os.path.join(hidden, os.path.basename(target))
         yield path
-        if is_stream(name):
-            with open(path, "rb") as source, open(name, "ab") as stream:
-                shutil.copyfileobj(source, stream)
-        else:
+        if not is_stream(name):
             _publish(hidden, folder)
+            return
+        with open(path, "rb") as source, open(name, "ab") as stream:
+            shutil.copyfileobj(source, stream)
 
 
 def replace_file(name: str | os.PathLike[str], content: bytes) -> None:
@@ -95,16 +94,13 @@ def write_text(text: str, name: str) -> None:
     """Write a text; `-` is the standard output. Bytes of file names that are not UTF-8 become the
     replacement character."""
     content = text.encode("utf-8", "surrogateescape").decode("utf-8", "replace").encode()
-    if name != "-":
-        with output_file(name) as path, open(path, "wb") as file:
-            file.write(content)
-        return
-    try:
-        sys.stdout.flush()
-        sys.stdout.buffer.write(content)
-        sys.stdout.flush()
-    except OSError as error:
-        raise Failure(f"the standard output cannot be written ({error.strerror})") from None
+    with _naming("the standard output" if name == "-" else name):
+        if name != "-":
+            replace_file(name, content)
+        else:
+            sys.stdout.flush()
+            sys.stdout.buffer.write(content)
+            sys.stdout.flush()
 
 
 @contextlib.contextmanager
@@ -127,7 +123,7 @@ def made_folder(name: str) -> Iterator[None]:
 
 @contextlib.contextmanager
 def _naming(name: str) -> Iterator[None]:
-    """Errors become a Failure that begins with the name, and without the hidden folder."""
+    """Errors become a Failure on one line that begins with the name, without the hidden folder."""
     try:
         yield
     except OSError as error:
@@ -156,45 +152,42 @@ def _hidden_folder(folder: str) -> Iterator[str]:
 
 def _publish(hidden: str, folder: str) -> None:
     """Have all files on the disk, then move each to its place: the one that names the others comes
-    last."""
+    last. Each gets the owner and the permissions of the file that it replaces, as far as is
+    allowed."""
     names = [os.path.relpath(os.path.join(place, name), hidden)
              for place, _, files in os.walk(hidden) for name in files]
     for name in names:
-        with open(os.path.join(hidden, name), "rb") as file:
-            os.fsync(file.fileno())
+        _flush(os.path.join(hidden, name))
     for name in sorted(names, key=lambda name: (os.path.dirname(name) == "", name)):
         made, target = os.path.join(hidden, name), os.path.join(folder, name)
         os.makedirs(os.path.dirname(target), exist_ok=True)
-        _inherit_permissions(made, target)
+        with contextlib.suppress(OSError):
+            facts, mask = os.stat(target), 0o777
+            with contextlib.suppress(OSError):
+                os.chown(made, facts.st_uid, facts.st_gid)
+                mask = 0o7777
+            os.chmod(made, facts.st_mode & mask)
         try:
             os.replace(made, target)
         except OSError as error:
             raise OSError(error.errno, f"{target}: {error.strerror}") from None
     with contextlib.suppress(OSError):
-        descriptor = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
-        try:
-            os.fsync(descriptor)
-        finally:
-            os.close(descriptor)
+        _flush(folder)
 
 
-def _inherit_permissions(path: str, old: str) -> None:
-    """Give a file the owner and the permissions of the one it replaces, as far as is allowed."""
-    with contextlib.suppress(OSError):
-        facts = os.stat(old)
-        mask = 0o777
-        with contextlib.suppress(OSError):
-            os.chown(path, facts.st_uid, facts.st_gid)
-            mask = 0o7777
-        os.chmod(path, facts.st_mode & mask)
+def _flush(path: str) -> None:
+    descriptor = os.open(path, os.O_RDONLY)
+    try:
+        os.fsync(descriptor)
+    finally:
+        os.close(descriptor)
 
 
 def is_stream(name: str) -> bool:
     """Whether the name is that of a device or a pipe, such as /dev/stdout."""
     path = os.path.abspath(name)
-    return ((path.startswith("/dev/") and not path.startswith("/dev/shm/"))
-            or path.startswith("/proc/")
-            or (os.path.exists(path) and not os.path.isfile(path) and not os.path.isdir(path)))
+    return bool(re.match("/(proc|dev(?!/shm/))/", path)) or (
+        os.path.exists(path) and not os.path.isfile(path) and not os.path.isdir(path))
 
 
 # ---- Before the work begins --------------------------------------------------------------------
@@ -208,16 +201,14 @@ class OutputName(NamedTuple):
     @property
     def folder(self) -> str:
         """Of an output of several files; empty for others."""
-        return ("" if self.form == "file" else
-                os.path.splitext(os.path.realpath(self.name))[0] if self.form == "blocks" else
-                self.name)
+        return ("" if self.form == "file" else self.name if self.form != "blocks" else
+                os.path.splitext(os.path.realpath(self.name))[0])
 
     def may_write(self, path: str) -> bool:
         """Whether this path may be one of several files."""
-        folder, name = os.path.split(path)
         start = {"folder": self.prefix + "-", "blocks": os.path.basename(self.folder) + "_"}
-        return (self.form in start and name.startswith(start[self.form])
-                and os.path.realpath(self.folder) == os.path.realpath(folder))
+        return (self.form in start and os.path.basename(path).startswith(start[self.form])
+                and os.path.realpath(self.folder) == os.path.realpath(os.path.dirname(path)))
 
 
 def check_outputs(outputs: Sequence[OutputName], inputs: Sequence[str]) -> None:
@@ -228,6 +219,7 @@ def check_outputs(outputs: Sequence[OutputName], inputs: Sequence[str]) -> None:
     for name in inputs:
         with contextlib.suppress(OSError):
             taken.setdefault(_identity(name), name)
+    taken.pop(None, None)
     tried: set[str] = set()
     before: dict[object, OutputName] = {}
     for output in outputs:
@@ -245,29 +237,28 @@ def check_outputs(outputs: Sequence[OutputName], inputs: Sequence[str]) -> None:
 
 def _check_file(name: str, taken: dict[object, str], tried: set[str]) -> None:
     path = name if is_stream(name) else os.path.realpath(name)
-    if _is_there(path):
-        if os.path.isdir(path):
-            raise Failure("cannot be written: it is a folder")
-        if not os.access(path, os.W_OK):
-            raise Failure(f"cannot be written: {os.strerror(errno.EACCES)}")
-        if _identity(path) in taken:
-            raise Failure(f"cannot be written: it is the input {taken[_identity(path)]}")
+    identity = _identity(path)
+    if os.path.isdir(path):
+        raise Failure("cannot be written: it is a folder")
+    if identity and not os.access(path, os.W_OK):
+        raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
+    if identity in taken:
+        raise Failure(f"cannot be written: it is the input {taken[identity]}")
     if not is_stream(name):
-        folder = os.path.dirname(path)
-        if not os.path.isdir(folder):
-            raise Failure(f"there is no folder {folder}")
-        _try_folder(folder, tried)
+        if not os.path.isdir(os.path.dirname(path)):
+            raise Failure(f"there is no folder {os.path.dirname(path)}")
+        _try_folder(os.path.dirname(path), tried)
 
 
 def _check_folder(output: OutputName, taken: dict[object, str], tried: set[str]) -> None:
     folder = output.folder
     # A link to nothing is no folder, either.
-    while folder and not _is_there(folder) and not os.path.islink(folder):
+    while folder and not _identity(folder) and not os.path.islink(folder):
         folder = os.path.dirname(folder)
     _try_folder(folder or ".", tried)
-    for path in (os.path.join(output.folder, name) for name in os.listdir(output.folder)
-                 ) if os.path.isdir(output.folder) else ():
-        if output.may_write(path) and os.path.exists(path) and _identity(path) in taken:
+    for name in os.listdir(output.folder) if os.path.isdir(output.folder) else ():
+        path = os.path.join(output.folder, name)
+        if output.may_write(path) and _identity(path) in taken:
             raise Failure(f"cannot be written: {path} would be replaced, which is the input "
                           f"{taken[_identity(path)]}")
 
@@ -286,30 +277,23 @@ def _try_folder(folder: str, tried: set[str]) -> None:
 
 def _check_others(output: OutputName, before: dict[object, OutputName]) -> None:
     """Throw Failure if one of the outputs before this one would write the same file."""
-    if is_stream(output.name):
-        return
-    path = os.path.realpath(output.name)
-    keys = [path, _identity(path)] if os.path.exists(path) else [path]
-    # Two folders of surfaces may be one: the names of their files begin differently.
-    same = [before[key] for key in keys if key in before
-            and not output.form == before[key].form == "folder"]
-    same += [other for other in before.values() if (other.folder and other.may_write(path))
-             or (output.folder and output.may_write(os.path.realpath(other.name)))]
-    if same:
-        raise Failure(f"cannot be written: {same[0].name} would take the same place")
-    before.update(dict.fromkeys(keys, output))
+    if not is_stream(output.name):
+        path = os.path.realpath(output.name)
+        keys = [path, _identity(path) or path]
+        # Two folders of surfaces may be one: the names of their files begin differently.
+        same = [before[key] for key in keys if key in before
+                and not output.form == before[key].form == "folder"]
+        same += [other for other in before.values() if (other.folder and other.may_write(path))
+                 or (output.folder and output.may_write(os.path.realpath(other.name)))]
+        if same:
+            raise Failure(f"cannot be written: {same[0].name} would take the same place")
+        before.update(dict.fromkeys(keys, output))
 
 
-def _is_there(path: str) -> bool:
-    """Throw OSError where the rights to know that are missing."""
+def _identity(path: str) -> tuple[int, int] | None:
+    """The same for all names of a file; None if there is none."""
     try:
-        os.stat(path)
+        facts = os.stat(path)
     except (FileNotFoundError, NotADirectoryError):
-        return False
-    return True
-
-
-def _identity(path: str) -> tuple[int, int]:
-    """The same for all names of a file."""
-    facts = os.stat(path)
+        return None
     return facts.st_dev, facts.st_ino

@@ -41,100 +41,70 @@ def glb(objects: Objects, show: Show = silent) -> Iterator[bytes]:
     surfaces share stay equal. A node above all moves them back, and turns z upwards, which is y in
     glTF.
     """
-    scene = _Scene(_with_points(objects))
-    text = (json.dumps(scene.text, separators=(",", ":"), ensure_ascii=False) + "\n").encode()
+    from .. import __version__
+    objects = _with_points(objects)
+    bounds = np.reshape([surface.GetBounds() for _, surface in objects], (-1, 3, 2))
+    middle = (bounds[:, :, 0].min(axis=0) + bounds[:, :, 1].max(axis=0)) / 2
+    x, y, z = middle.tolist()
+    half = float(np.sqrt(0.5))  # of a quarter turn about x
+    scene: dict[str, Any] = {
+        "asset": {"version": "2.0", "generator": f"volumic {__version__}"}, "scene": 0,
+        "scenes": [{"nodes": [0]}],
+        "nodes": [{"children": list(range(1, len(objects) + 1)),
+                   "rotation": [-half, 0.0, 0.0, half], "translation": [x, z, -y]}],
+        "meshes": [], "materials": [], "accessors": [], "bufferViews": [],
+        "buffers": [{"byteLength": 0}]}
+    numbers: list[np.ndarray] = []
+    for i, (name, surface) in enumerate(objects):
+        show(i / len(objects))
+        _add_surface(scene, numbers, name, surface, middle)
+    text = (json.dumps(scene, separators=(",", ":"), ensure_ascii=False) + "\n").encode()
     text += b" " * (-len(text) % 4)
-    whole = 28 + len(text) + scene.size
-    if whole >= 1 << 32:
+    size = scene["buffers"][0]["byteLength"]
+    if 28 + len(text) + size >= 1 << 32:
         raise Failure("cannot be written (.glb holds no more than 4 GiB; write fewer surfaces, "
                       "coarser ones, or .vtp)")
-    yield b"glTF" + np.array([2, whole, len(text)], "<u4").tobytes() + b"JSON" + text
-    yield np.array([scene.size], "<u4").tobytes() + b"BIN\0"
-    for i, (_, surface) in enumerate(scene.objects):
-        show(i / len(scene.objects))
-        for numbers in scene.numbers_of(surface):
-            yield numbers.tobytes()
+    head = np.array([2, 28 + len(text) + size, len(text)], "<u4").tobytes()
+    yield b"glTF" + head + b"JSON" + text + np.array([size], "<u4").tobytes() + b"BIN\0"
+    yield from (array.tobytes() for array in numbers)
 
 
-class _Scene:
-    """The JSON of a scene, and the numbers that it describes."""
+def _add_surface(scene: dict[str, Any], numbers: list[np.ndarray], name: str, surface: Any,
+                 middle: np.ndarray) -> None:
+    """Add a node, a mesh, its materials, and the numbers that they refer to."""
+    from ..geometry import fact
 
-    def __init__(self, objects: Objects) -> None:
-        from .. import __version__
-        self.objects = objects
-        self.size = 0  # bytes of numbers
-        bounds = np.reshape([surface.GetBounds() for _, surface in objects], (-1, 3, 2))
-        self.middle = (bounds[:, :, 0].min(axis=0) + bounds[:, :, 1].max(axis=0)) / 2
-        x, y, z = self.middle.tolist()
-        half = float(np.sqrt(0.5))  # of a quarter turn about x
-        self.text: dict[str, Any] = {
-            "asset": {"version": "2.0", "generator": f"volumic {__version__}"}, "scene": 0,
-            "scenes": [{"nodes": [0]}],
-            "nodes": [{"children": list(range(1, len(objects) + 1)),
-                       "rotation": [-half, 0.0, 0.0, half], "translation": [x, z, -y]}],
-            "meshes": [], "materials": [], "accessors": [], "bufferViews": []}
-        for name, surface in objects:
-            self._describe(name, surface)
-        self.text["buffers"] = [{"byteLength": self.size}]
+    def add(array: np.ndarray, target: int, kind: int) -> int:
+        buffer = scene["buffers"][0]
+        scene["accessors"].append({
+            "bufferView": len(scene["bufferViews"]), "byteOffset": 0, "componentType": kind,
+            "count": len(array), "type": "VEC3" if array.ndim == 2 else "SCALAR"})
+        scene["bufferViews"].append({"buffer": 0, "byteOffset": buffer["byteLength"],
+                                     "byteLength": array.nbytes, "target": target})
+        buffer["byteLength"] += array.nbytes
+        numbers.append(array)
+        return len(scene["accessors"]) - 1
 
-    def numbers_of(self, surface: Any) -> Iterator[np.ndarray]:
-        """Positions, normals if there are any, and the corners of the triangles of each label."""
-        yield (points_of(surface) - self.middle).astype("<f4")
-        normals = normals_of(surface)
-        if normals is not None:
-            yield normals.astype("<f4")
-        yield from _corners_of(surface).values()
-
-    def _describe(self, name: str, surface: Any) -> None:
-        from ..geometry import fact
-        labels = surface_labels(surface)
-        extras = {"labels": [label.number for label in labels],
-                  "stop_reason": fact(surface, "StopReason")}
-        extras.update({key: fact(surface, key) for key in ("SPACE", "LengthUnit")
-                       if fact(surface, key)})
-        self.text["nodes"].append({"name": name, "mesh": len(self.text["meshes"]),
-                                   "extras": extras})
-        numbers = self.numbers_of(surface)
-        positions = next(numbers)
-        attributes = {"POSITION": self._add(self._add_view(positions.nbytes, VERTICES), 0, positions)}
-        self.text["accessors"][-1].update(min=positions.min(axis=0).tolist(),
-                                          max=positions.max(axis=0).tolist())
-        if normals_of(surface) is not None:
-            normals = next(numbers)
-            attributes["NORMAL"] = self._add(self._add_view(normals.nbytes, VERTICES), 0, normals)
-        known = {label.number: label for label in labels}
-        corners = _corners_of(surface)
-        view = self._add_view(sum(part.nbytes for part in corners.values()), CORNERS)
-        parts, offset = [], 0
-        for number, part in corners.items():
-            parts.append({"attributes": attributes, "indices": self._add(view, offset, part),
-                          "material": len(self.text["materials"])})
-            self.text["materials"].append(
-                _material(known.get(number, SurfaceLabel(number, name, GRAY))))
-            offset += part.nbytes
-        self.text["meshes"].append({"name": name, "primitives": parts})
-
-    def _add_view(self, size: int, target: int) -> int:
-        self.text["bufferViews"].append({"buffer": 0, "byteOffset": self.size, "byteLength": size,
-                                         "target": target})
-        self.size += size
-        return len(self.text["bufferViews"]) - 1
-
-    def _add(self, view: int, offset: int, numbers: np.ndarray) -> int:
-        is_vector = numbers.ndim == 2
-        self.text["accessors"].append({
-            "bufferView": view, "byteOffset": offset,
-            "componentType": FLOAT if is_vector else UNSIGNED, "count": len(numbers),
-            "type": "VEC3" if is_vector else "SCALAR"})
-        return len(self.text["accessors"]) - 1
-
-
-def _corners_of(surface: Any) -> dict[int, np.ndarray]:
-    """The corners of the triangles of each label."""
-    triangles, labels = triangles_of(surface).astype("<u4"), cell_array(surface, "Label")
-    if labels is None:
-        return {0: triangles.ravel()}
-    return {number: triangles[labels == number].ravel() for number in np.unique(labels).tolist()}
+    labels = surface_labels(surface)
+    facts = {key: fact(surface, key) for key in ("SPACE", "LengthUnit") if fact(surface, key)}
+    scene["nodes"].append({"name": name, "mesh": len(scene["meshes"]), "extras": {
+        "labels": [label.number for label in labels], "stop_reason": fact(surface, "StopReason"),
+        **facts}})
+    points = (points_of(surface) - middle).astype("<f4")
+    attributes = {"POSITION": add(points, VERTICES, FLOAT)}
+    scene["accessors"][-1].update(min=points.min(axis=0).tolist(), max=points.max(axis=0).tolist())
+    normals, parts = normals_of(surface), []
+    if normals is not None:
+        attributes["NORMAL"] = add(normals.astype("<f4"), VERTICES, FLOAT)
+    known = {label.number: label for label in labels}
+    triangles, of_label = triangles_of(surface).astype("<u4"), cell_array(surface, "Label")
+    of_label = np.zeros(len(triangles)) if of_label is None else of_label
+    for number in np.unique(of_label).tolist():
+        corners = triangles[of_label == number].ravel()
+        parts.append({"attributes": attributes, "indices": add(corners, CORNERS, UNSIGNED),
+                      "material": len(scene["materials"])})
+        scene["materials"].append(_material(known.get(number, SurfaceLabel(0, name, GRAY))))
+    scene["meshes"].append({"name": name, "primitives": parts})
 
 
 def _material(label: SurfaceLabel) -> dict[str, Any]:
@@ -164,7 +134,7 @@ MODEL = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02"
 UNITS = {"": "millimeter", "mm": "millimeter", "cm": "centimeter", "m": "meter", "um": "micron"}
 
 
-def three_mf(objects: Objects, show: Show = silent) -> bytes:
+def three_mf(objects: Objects, show: Show = silent) -> Iterator[bytes]:
     """A model for printers, with a material for each label."""
     from .. import __version__
     from ..geometry import fact
@@ -201,7 +171,7 @@ def three_mf(objects: Objects, show: Show = silent) -> bytes:
                         b"</build>\n</model>\n")
         if len(objects) > 1:
             package.writestr(_entry("Metadata/Slic3r_PE_model.config"), _parts(name, objects))
-    return content.getvalue()
+    yield content.getvalue()
 
 
 def _entry(name: str) -> zipfile.ZipInfo:

@@ -169,7 +169,7 @@ def write_vtu(solid: Any, path: str, _remark: str = "") -> None:
     writer = vtkXMLUnstructuredGridWriter()
     writer.SetCompressorTypeToZLib()
     writer.SetCompressionLevel(2)
-    write_pieces(path, iter([xml_text(writer, grid)]))
+    write_pieces(path, [xml_text(writer, grid)])
 
 
 # ---- Formats of meshio -------------------------------------------------------------------------

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from typing import Any
 
 import numpy as np
@@ -82,27 +82,24 @@ def _requested_values(surface: Any) -> dict[str, np.ndarray]:
             for i in range(data.GetNumberOfArrays()) if data.GetArrayName(i) not in OF_FIT}
 
 
-def lost_arrays(surface: Any, suffix: str) -> list[str]:
-    """Names of arrays with results that files with this suffix have no place for."""
-    caps = cell_array(surface, "Cap")
-    has_caps = caps is not None and caps.any()
-    return ([] if suffix in EXACT else [] if suffix == ".ply" else list(_requested_values(surface))
-            ) + ["Cap"] * (has_caps and suffix not in (*EXACT, ".stl"))
-
-
-def rounding(surface: Any) -> str:
-    """A warning if single precision is too coarse for the coordinates; else empty."""
-    count = surface.GetNumberOfPolys()
-    if count == 0:
-        return ""
+def losses(surface: Any, suffix: str) -> Iterator[str]:
+    """What files with this suffix cannot hold: requested values of points, numbers of caps, and
+    coordinates for which single precision is too coarse."""
+    if suffix not in FORMATS and suffix not in (".glb", ".3mf") or suffix in EXACT:
+        return
+    values, caps = _requested_values(surface), cell_array(surface, "Cap")
+    if values and suffix != ".ply":
+        yield (f"{suffix} has no place for the values {', '.join(sorted(values))}; .vtp, .vtk and "
+               ".ply have")
+    if caps is not None and caps.any() and suffix != ".stl":
+        yield f"{suffix} has no place for the numbers of caps; .vtp, .vtk and .stl have"
     bounds = np.reshape(surface.GetBounds(), (3, 2))
     # About the edges of as many triangles on the faces of the surface's box.
-    edge = 2 * np.linalg.norm(np.ptp(bounds, axis=1)) / np.sqrt(count)
-    largest = np.abs(bounds).max()
-    step = largest * np.finfo(np.float32).eps
-    return "" if step <= 0.01 * edge else (
-        f"coordinates up to {largest:.0f} are rounded to steps of {step:.4g}, edges are about "
-        f"{edge:.4g} long; .vtp, .vtk and .msh keep them")
+    edge = 2 * np.linalg.norm(np.ptp(bounds, axis=1)) / np.sqrt(surface.GetNumberOfPolys() or 1)
+    step = np.abs(bounds).max() * np.finfo(np.float32).eps
+    if surface.GetNumberOfPolys() and step > 0.01 * edge:
+        yield (f"coordinates up to {np.abs(bounds).max():.0f} are rounded there by steps of "
+               f"{step:.4g}, edges are about {edge:.4g} long; .vtp, .vtk and .msh keep them")
 
 
 # ---- Formats of surfaces -----------------------------------------------------------------------
@@ -252,7 +249,7 @@ def _write(writer: Any, data: Any, show: Show) -> None:
         raise Failure(f"cannot be written ({errors[0] if errors else 'not enough memory?'})")
 
 
-def write_pieces(path: str, pieces: Iterator[bytes]) -> None:
+def write_pieces(path: str, pieces: Iterable[bytes]) -> None:
     """Write a file."""
     with open(path, "wb") as file:
         for piece in pieces:
@@ -298,17 +295,17 @@ def write_vtm(blocks: Any, path: str, show: Show = silent) -> None:
             text += f' file="{escaped(f"{stem}/{file}")}"'
         text += "/>\n"
     text += "  </vtkMultiBlockDataSet>\n</VTKFile>\n"
-    write_pieces(path, iter([text.encode("utf-8", "surrogateescape")]))
+    write_pieces(path, [text.encode("utf-8", "surrogateescape")])
 
 
-def csv(table: Any) -> bytes:
+def csv(table: Any) -> Iterator[bytes]:
     """A table as text, with a line of column names."""
     from vtkmodules.vtkIOCore import vtkDelimitedTextWriter
     writer = vtkDelimitedTextWriter()
     writer.SetFieldDelimiter(",")
     writer.SetWriteToOutputString(True)
     _write(writer, table, silent)
-    return writer.RegisterAndGetOutputString().encode()
+    yield writer.RegisterAndGetOutputString().encode()
 
 
 def escaped(text: str) -> str:
