@@ -42,6 +42,16 @@ class LabelSurface:
         reason = report.stop_reason(self.surface)
         return reason if reason in ("cancelled", "time limit", "iteration limit") else ""
 
+    @property
+    def remark(self) -> str:
+        """For the heads of files."""
+        return f", UNFINISHED: {self.unfinished}" if self.unfinished else ""
+
+    @property
+    def is_there(self) -> bool:
+        """Whether it has points."""
+        return self.surface.GetNumberOfPoints() > 0
+
 
 @contextlib.contextmanager
 def naming(path: str) -> Iterator[None]:
@@ -73,8 +83,7 @@ class LabelRun:
         if wants_surface(options):
             with naming(options.volume):
                 self.layers = layers_of(loaded.image, names, component)
-                self.known, self.warnings = known_labels(self.layers, names, options,
-                                                         teller)
+                self.known, self.warnings = known_labels(self.layers, names, options, teller)
 
     def announce(self) -> None:
         """Print what the map is."""
@@ -150,7 +159,7 @@ class LabelRun:
                     self.filter.SetTimeLimit(max(limit - self.seconds, LEAST_TIME))
                 self.filter.SetInputData(layer)
                 self.make_own(own)
-        if not any(each.surface.GetNumberOfPoints() for each in self.surfaces):
+        if not any(each.is_there for each in self.surfaces):
             reasons = {each.unfinished for each in self.surfaces} - {""}
             if reasons:
                 raise Interrupted(("the time limit came" if "time limit" in reasons
@@ -179,9 +188,9 @@ class LabelRun:
 
     def finish(self) -> None:
         """Cut surfaces at the border of the volume (--ends), and probe other volumes (--probe)."""
+        from .ends import with_ends
         probes = geometry.Probes(self.options, self.loaded.world, self.teller)
-        for each in self.surfaces if self.options.ends != "closed" else ():
-            from .ends import with_ends
+        for each in self.surfaces:
             warnings: list[str] = []
             each.surface = with_ends(each.surface, self.loaded.image, self.options.ends, warnings)
             for text in warnings:
@@ -197,34 +206,32 @@ class LabelRun:
         failures = files.Failures()
         for name in self.options.surfaces:
             form = form_of(self.options, name)
-            if form == "blocks":
-                with failures.collect():
-                    self.write_blocks(name)
-            elif form == "interfaces":
-                # All are made at once: they are as finished as the first.
-                with failures.collect(), self.teller.progress(f"Writing {name}") as progress:
-                    writing.write_surface(self.filter.GetInterfaces(), name,
-                                          _remark(self.surfaces[0]), self.solids,
-                                          self.teller.warn, progress)
-            else:
+            if form in ("folder", "file"):
                 self.write_files(name, form, failures)
+            else:
+                with failures.collect(), self.teller.progress(f"Writing {name}") as progress:
+                    self.write_together(name, form, progress)
         if self.options.report:
             with failures.collect():
                 files.write_text(self.report_text(), self.options.report)
         failures.throw()
 
-    def write_blocks(self, name: str) -> None:
+    def write_together(self, name: str, form: str, progress: messages.Progress) -> None:
         """Write all surfaces to one file."""
-        if writing.is_scene(name):
-            writing.write_scene([(each.name, each.surface) for each in self.surfaces], name,
-                                tell=self.teller.warn)
-            return
-        from vtkmodules.vtkCommonDataModel import vtkMultiBlockDataSet
-        blocks = vtkMultiBlockDataSet()
-        for i, each in enumerate(self.surfaces):
-            blocks.SetBlock(i, each.surface)
-            blocks.GetMetaData(i).Set(blocks.NAME(), each.name)
-        writing.write_blocks(blocks, name, self.teller.warn)
+        tell = self.teller.warn
+        if form == "interfaces":  # All are made at once: they are as finished as the first.
+            writing.write_surface(self.filter.GetInterfaces(), name, self.surfaces[0].remark,
+                                  self.solids, tell, progress)
+        elif writing.is_scene(name):
+            writing.write_scene([(each.name, each.surface) for each in self.surfaces], name, tell,
+                                progress)
+        else:
+            from vtkmodules.vtkCommonDataModel import vtkMultiBlockDataSet
+            blocks = vtkMultiBlockDataSet()
+            for i, each in enumerate(self.surfaces):
+                blocks.SetBlock(i, each.surface)
+                blocks.GetMetaData(i).Set(blocks.NAME(), each.name)
+            writing.write_blocks(blocks, name, tell, progress)
 
     def write_files(self, name: str, form: str, failures: files.Failures) -> None:
         """Write a file for each surface, and report those of earlier runs in the folder."""
@@ -233,9 +240,9 @@ class LabelRun:
                 self.teller.progress(f"Writing {name}") as progress:
             for i, (each, path) in enumerate(zip(self.surfaces, paths)):
                 progress(i / len(paths), path)
-                if each.surface.GetNumberOfPoints() > 0:
+                if each.is_there:
                     with failures.collect():
-                        writing.write_surface(each.surface, path, f"{_remark(each)}, {each.name}",
+                        writing.write_surface(each.surface, path, f"{each.remark}, {each.name}",
                                               self.solids, self.teller.warn)
                         each.files.append(path)
         old = folder and old_files(folder, [path for each in self.surfaces for path in each.files],
@@ -267,15 +274,15 @@ class LabelRun:
 
     def tell_end(self) -> None:
         """Print what was made and what is missing."""
-        there = [each for each in self.surfaces if each.surface.GetNumberOfPoints() > 0]
+        there = [each for each in self.surfaces if each.is_there]
         wrong = sum(_count(each.surface, "WrongVoxels") for each in self.surfaces)
         vertices = sum(each.surface.GetNumberOfPoints() for each in there)
         self.teller.say(f"{len(there)} surface{'s' * (len(there) != 1)}, {vertices} vertices"
                         + (f"; {wrong} voxel centres are on the wrong side" if wrong else ""))
         stopped = [each for each in self.surfaces if each.unfinished]
         if stopped:
-            missing = ", ".join(each.name for each in stopped if each not in there)
-            partial = ", ".join(each.name for each in stopped if each in there)
+            missing = ", ".join(each.name for each in stopped if not each.is_there)
+            partial = ", ".join(each.name for each in stopped if each.is_there)
             self.teller.error(
                 f"unfinished ({stopped[-1].unfinished}); what is finished was written"
                 + (f"; there is no surface of {missing}" if missing else "")
@@ -320,10 +327,6 @@ def _no_surface() -> Any:
     surface = vtkPolyData()
     geometry.set_fact(surface, "StopReason", "cancelled")
     return surface
-
-
-def _remark(each: LabelSurface) -> str:
-    return f", UNFINISHED: {each.unfinished}" if each.unfinished else ""
 
 
 def _count(surface: Any, name: str, otherwise: int = 0) -> int:
