@@ -14,7 +14,7 @@ from .errors import UsageError
 from .options import has_property, makes_tetrahedra
 from .segment import inputs_of, other_outputs
 from .writing import files
-from .writing.tetrahedra import find_mesher, needs_mesher
+from .writing.tetrahedra import find_mesher
 
 
 def shares_interfaces(options: Namespace) -> bool:
@@ -79,7 +79,7 @@ def check_files(options: Namespace) -> None:
         writing.check_volume_name(options.write_volume)
     files.check_outputs([output_of(name, form_of(options, name)) for name in options.surfaces]
                         + other_outputs(options), inputs_of(options))
-    if makes_tetrahedra(options) or needs_mesher("x" + suffix_in_folder(options), options.mesher):
+    if makes_tetrahedra(options):
         find_mesher(options.mesher)
 
 

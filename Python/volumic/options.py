@@ -176,7 +176,8 @@ def wants_surface(options: argparse.Namespace) -> bool:
 def makes_tetrahedra(options: argparse.Namespace) -> bool:
     """Whether a file of tetrahedra is requested."""
     from .writing.tetrahedra import needs_mesher
-    return any(needs_mesher(name, options.mesher) for name in options.surfaces)
+    names = options.surfaces + ([f"in_folder.{options.format}"] if options.format else [])
+    return any(needs_mesher(name, options.mesher) for name in names)
 
 
 # ---- What makes no sense together --------------------------------------------------------------
