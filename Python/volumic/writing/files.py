@@ -42,7 +42,7 @@ class Failures:
     def throw(self) -> None:
         """Throw Failure with a line for each failure, if there is one."""
         if self.texts:
-            raise Failure("\nvolumic: ".join(self.texts))
+            raise Failure("\n".join(self.texts))
 
 
 # ---- Writing -----------------------------------------------------------------------------------
