@@ -5,11 +5,10 @@ request. Label maps: segment_labels.py."""
 
 from __future__ import annotations
 
-import math
 import os
 import time
 from argparse import Namespace
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 from . import geometry, messages, report, writing
@@ -21,13 +20,12 @@ from .option_tables import Filters
 from .options import (
     has_property, in_words_of_options, makes_tetrahedra, wants_surface)
 from .reading import list_files, points
+from .triangles import find_triangles
 from .writing import files
 from .writing.tetrahedra import SolidMaker, find_mesher
 
 DONE, UNFINISHED = 0, 3  # exit codes
 NOTHING = "there was a surface; nothing is written"
-TRIES = 12      # runs of --triangles at most
-NEAR = 1.1      # ratio of triangles that is near enough
 
 
 # ---- Files -------------------------------------------------------------------------------------
@@ -198,92 +196,20 @@ class Segmentation:
 
     def find_triangles(self) -> Run:
         """Run the filter until the surface has about --triangles triangles."""
-        surface = self.filters.surface
-        run = Run()
+        surface, last, seconds = self.filters.surface, Run(), 0.0
 
-        def count(edge_length: float, tolerance: float) -> int:
-            nonlocal run
+        def make(edge_length: float, tolerance: float) -> tuple[int, float]:
+            nonlocal last, seconds
             surface.SetEdgeLength(edge_length)
             surface.SetTolerance(tolerance)
-            try:
-                last = self.run(surface, "Evolving the surface")
-            except Failure:
-                if edge_length == 0.0:
-                    raise
-                return 0  # no pyramid of this image has such edges
-            run = Run(run.seconds + last.seconds, last.warnings, last.interrupted)
-            found = surface.GetOutput().GetNumberOfPolys()
-            self.teller.say((f"edge length {number_text(edge_length)}" if edge_length else
-                             f"tolerance {number_text(tolerance)}") + f": {found} triangles")
-            return found
-
-        def mean_edge() -> float:
+            last = self.run(surface, "Evolving the surface")
+            seconds += last.seconds
             output = surface.GetOutput()
-            area = report.values_of(output, "Area")[0, 0]
-            return math.sqrt(4 * area / (math.sqrt(3) * output.GetNumberOfPolys()))
+            return output.GetNumberOfPolys(), report.values_of(output, "Area")[0, 0]
 
-        reached, found = search_triangles(
-            count, mean_edge, self.options.triangles, min(self.loaded.image.GetSpacing()),
-            messages.was_interrupted)
-        if not reached:
-            raise Failure(f"--triangles {self.options.triangles}: no tolerance and no edge length "
-                          f"gives about so many; the nearest surface has {found}. Choose a number "
-                          "nearer to that")
-        return run
-
-
-def search_triangles(count: Callable[[float, float], int], mean_edge: Callable[[], float],
-                     wanted: int, unit: float, stopped: Callable[[], bool]) -> tuple[bool, int]:
-    """Find a tolerance, or, where none leaves so few triangles or more are wanted, an edge length
-    with which the surface has about `wanted` triangles.
-
-    `count(edge length, tolerance)` makes the surface and returns its number of triangles, 0 where
-    there is no such surface. Return whether the last run is near enough or was stopped, and the
-    number of the nearest run.
-    """
-    tried: list[int] = []
-
-    def run(edge_length: float, tolerance: float) -> int:
-        tried.append(count(edge_length, tolerance))
-        return tried[-1]
-
-    def ended() -> bool:
-        return stopped() or wanted / NEAR < tried[-1] < NEAR * wanted
-
-    uniform = run(0.0, 0.0)
-    if ended() or uniform == 0:
-        return True, uniform
-    length = mean_edge()
-    fine, coarse, tolerance = (0.0, uniform), None, 0.2 * unit
-    while uniform > wanted and len(tried) <= TRIES // 2:
-        now = run(0.0, tolerance)
-        if ended():
-            return True, now
-        if now < wanted:
-            coarse = (tolerance, now)
-        elif now > 0.98 * fine[1]:
-            break  # no tolerance leaves fewer
-        else:
-            fine = (tolerance, now)
-        if coarse is None:
-            tolerance *= 2
-        else:
-            share = math.log(fine[1] / wanted) / math.log(fine[1] / max(coarse[1], 1))
-            least = fine[0] or coarse[0] / 4
-            tolerance = _rounded(least * (coarse[0] / least) ** min(max(share, 0.1), 0.9))
-    # The number of triangles goes with the inverse square of the edge length.
-    edge = length * math.sqrt(uniform / wanted)
-    for _ in range(TRIES // 2):
-        now = run(_rounded(edge), 0.0)
-        if ended():
-            return True, now
-        length, edge = (length, (length + edge) / 2) if now == 0 else (
-            edge, edge * math.sqrt(now / wanted))
-    return False, min(filter(None, tried), key=lambda found: abs(math.log(found / wanted)))
-
-
-def _rounded(length: float) -> float:
-    return float(f"{length:.4g}")
+        find_triangles(make, self.options.triangles, min(self.loaded.image.GetSpacing()),
+                       self.teller)
+        return Run(seconds, last.warnings, last.interrupted)
 
 
 # ---- The end of the run ------------------------------------------------------------------------

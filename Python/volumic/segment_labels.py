@@ -22,6 +22,7 @@ from .messages import Teller
 from .option_tables import Filters, is_of_labels
 from .options import has_property, in_words_of_options, wants_surface
 from .segment import DONE, NOTHING, UNFINISHED, inputs_of, make_solids, other_outputs, prints
+from .triangles import find_triangles
 from .writing import files
 
 LEAST_TIME = 1e-3  # seconds of a layer where the others have used the time limit up
@@ -150,7 +151,33 @@ class LabelRun:
                 for each in self.surfaces]
 
     def make(self) -> None:
-        """Make the surfaces, layer by layer. Throw Failure if there is none at the end."""
+        """Make the surfaces. Throw Failure if there is none at the end."""
+        if self.options.triangles:
+            find_triangles(self.make_with, self.options.triangles,
+                           min(self.loaded.image.GetSpacing()), self.teller)
+        else:
+            self.make_layers()
+        if not any(each.is_there for each in self.surfaces):
+            reasons = {each.unfinished for each in self.surfaces} - {""}
+            if reasons:
+                raise Interrupted(("the time limit came" if "time limit" in reasons
+                                   else "interrupted") + " before " + NOTHING)
+            raise Failure(f"{self.options.volume}: none of the labels has a surface; smaller "
+                          "triangles may hold them (--finest, --edge-length)")
+
+    def make_with(self, edge_length: float, tolerance: float) -> tuple[int, float]:
+        """Make the surfaces; return their triangles, each of shared ones once, and their area."""
+        self.filter.SetEdgeLength(edge_length)
+        self.filter.SetTolerance(tolerance)
+        self.make_layers()
+        areas = [report.values_of(each.surface, "Area") for each in self.surfaces]
+        whole = ([self.filter.GetInterfaces()] if self.filter.GetSharedInterfaces()
+                 else [each.surface for each in self.surfaces])
+        return (sum(surface.GetNumberOfPolys() for surface in whole),
+                sum(area[0, 0] for area in areas if area is not None))
+
+    def make_layers(self) -> None:
+        """Make the surfaces, layer by layer."""
         limit = self.filter.GetTimeLimit()
         for number, layer in enumerate(self.layers):
             own = [each for each in self.surfaces if each.labels[0].layer == number]
@@ -159,13 +186,6 @@ class LabelRun:
                     self.filter.SetTimeLimit(max(limit - self.seconds, LEAST_TIME))
                 self.filter.SetInputData(layer)
                 self.make_own(own)
-        if not any(each.is_there for each in self.surfaces):
-            reasons = {each.unfinished for each in self.surfaces} - {""}
-            if reasons:
-                raise Interrupted(("the time limit came" if "time limit" in reasons
-                                   else "interrupted") + " before " + NOTHING)
-            raise Failure(f"{self.options.volume}: none of the labels has a surface; smaller "
-                          "triangles may hold them (--finest, --edge-length)")
 
     def make_own(self, own: Sequence[LabelSurface]) -> None:
         """Make the surfaces of the labels of one layer."""

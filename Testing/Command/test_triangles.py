@@ -9,7 +9,7 @@ import unittest
 import numpy as np
 from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 
-from command_test_case import ISO, CommandTestCase, make_image
+from command_test_case import ISO, CommandTestCase, ball, make_image
 from vtk_files import read
 
 
@@ -39,6 +39,18 @@ class TrianglesTest(CommandTestCase):
                             make_image(waves.astype("f4"), (1, 1, 1)))
         found, said = self.triangles(2500, volume=sponge, iso=0)
         self.assertTrue(2500 / 1.1 <= found <= 2500 * 1.1, said)
+
+    def test_of_labels(self):
+        """All surfaces together; interfaces count once."""
+        halves = np.where(ball() > ISO, 3, 0)
+        halves[:, :, 8:] *= 2
+        volume = self.write(vtkXMLImageDataWriter(), "map.vti", make_image(halves.astype("u1")))
+        for output, more in (("each/", ()), ("all.vtp", ("--shared-interfaces",))):
+            self.run_command(volume, self.path(output), "--labels", "all", "--triangles", 2000, *more)
+            names = ([f"each/{name}" for name in os.listdir(self.path("each"))]
+                     if output == "each/" else [output])
+            count = sum(read(self.path(name)).GetNumberOfPolys() for name in names)
+            self.assertTrue(2000 / 1.1 <= count <= 2000 * 1.1, count)
 
     def test_out_of_reach(self):
         process = self.run_command(self.ball_file(), self.path("a.vtp"), "--iso", ISO,
