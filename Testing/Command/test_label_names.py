@@ -167,7 +167,7 @@ class DamageTest(NamesTest):
         for text, reason in (
                 ("", "it names no label"), ("# nothing\n", "it names no label"),
                 ("1 2 3\n4 5 6\n", "line 1: .* is a number, not a name"),
-                ("liver\nspleen\n", "line 1: there must be a label, .*column names such as"),
+                ("liver\nspleen\n", "line 1: .*, or above them column names such as"),
                 ("1 liver\n3\n", "line 2: there must be a label, .*, and a name"),
                 ('1 "liver\n', "line 1: a quote does not end"),
                 ("label,name\n1,liver\n3\n", "line 3: there must be a label"),
