@@ -317,23 +317,26 @@ class Probes:
         return {name: self._values(volume, points, labels)
                 for name, _, volume, labels in self.volumes}
 
-    def add_to(self, surface: Any) -> None:
-        """Give the points of a surface the values, and report points outside."""
+    def add_to(self, *surfaces: Any) -> None:
+        """Give the points of surfaces the values, and report how many points lie outside."""
         from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-        if not self.volumes or surface is None or surface.GetNumberOfPoints() == 0:
-            return
-        points = vtk_to_numpy(surface.GetPoints().GetData()).astype(float)
-        normals = surface.GetPointData().GetNormals()
-        inward = vtk_to_numpy(normals).astype(float) * -self.depth if normals else None
         for name, path, volume, labels in self.volumes:
-            values = self._mean(volume, points, inward, labels)
-            outside = int((self._fraction(volume, points)[1]).sum())
+            outside, count = 0, 0
+            for surface in surfaces:
+                if surface is None or surface.GetNumberOfPoints() == 0:
+                    continue
+                points = vtk_to_numpy(surface.GetPoints().GetData()).astype(float)
+                normals = surface.GetPointData().GetNormals()
+                inward = vtk_to_numpy(normals).astype(float) * -self.depth if normals else None
+                values = self._mean(volume, points, inward, labels)
+                outside += int(self._fraction(volume, points)[1].sum())
+                count += len(points)
+                array = numpy_to_vtk(np.ascontiguousarray(values), deep=True)
+                array.SetName(name)
+                surface.GetPointData().AddArray(array)
             if outside:
-                self.teller.warn(f"{path}: {outside} of {len(points)} vertices lie outside this "
-                                 "volume; they have " + ("label 0" if labels else "the value NaN"))
-            array = numpy_to_vtk(np.ascontiguousarray(values), deep=True)
-            array.SetName(name)
-            surface.GetPointData().AddArray(array)
+                self.teller.warn(f"{path}: {outside} of {count} vertices lie outside this volume; "
+                                 "they have " + ("label 0" if labels else "the value NaN"))
 
     def _mean(self, volume: Volume, points: np.ndarray, inward: np.ndarray | None,
               labels: bool) -> np.ndarray:

@@ -294,16 +294,17 @@ def segment_volume(options: Namespace, filters: Filters, teller: Teller) -> int:
     probes.add_to(written)
     reason = report.stop_reason(surface.GetOutput())
     finished = reason in ("converged", "limit cycle")
-    solids = make_solids(options, filters, probes)
+    solids = make_solids(options, filters, probes, sum(run.seconds))
     write_outputs(run, written, finished, solids, reader_memory)
     _tell_end(run, written, solids, reason, finished)
     return DONE if finished else UNFINISHED
 
 
-def make_solids(options: Namespace, filters: Filters, probes: geometry.Probes) -> SolidMaker:
-    """What makes tetrahedra of surfaces."""
+def make_solids(options: Namespace, filters: Filters, probes: geometry.Probes,
+                seconds: float) -> SolidMaker:
+    """What makes tetrahedra of surfaces, in the time that --time-limit leaves after `seconds`."""
     limit = filters.surface.GetTimeLimit()
-    deadline = time.monotonic() + limit if limit > 0 else None
+    deadline = time.monotonic() + max(limit - seconds, 0.0) if limit > 0 else None
     return SolidMaker(options.mesher or "", options.maximum_volume or 0.0,
                       messages.was_interrupted, deadline, probes if probes else None)
 

@@ -216,10 +216,11 @@ class LabelRun:
             for text in warnings:
                 self.warn(f"{each.name}: {text}")
         interfaces = self.filter.GetInterfaces()
-        for surface in [*(each.surface for each in self.surfaces), interfaces]:
-            probes.add_to(surface)
+        surfaces = [each.surface for each in self.surfaces]
+        probes.add_to(*([interfaces] if shares_interfaces(self.options) else surfaces))
+        for surface in [*surfaces, interfaces]:
             geometry.mark_space(surface, self.loaded.world)
-        self.solids = make_solids(self.options, self.filters, probes)
+        self.solids = make_solids(self.options, self.filters, probes, self.seconds)
 
     def write(self) -> None:
         """Write surfaces and report. Throw Failure if not all could be written."""
