@@ -217,7 +217,7 @@ class LabelRun:
                 self.warn(f"{each.name}: {text}")
         interfaces = self.filter.GetInterfaces()
         surfaces = [each.surface for each in self.surfaces]
-        probes.add_to(*([interfaces] if shares_interfaces(self.options) else surfaces))
+        probes.add_to(*surfaces, interfaces)
         for surface in [*surfaces, interfaces]:
             geometry.mark_space(surface, self.loaded.world)
         self.solids = make_solids(self.options, self.filters, probes, self.seconds)
