@@ -89,6 +89,12 @@ class FullDiskTest(OutputsTest):
             self.assertRegex(process.stderr, r"/l.*: cannot be written \(File too large\)")
             self.assertFalse(os.path.exists(self.path("l")), kind)
 
+    def test_what_fails_does_not_stop_the_others(self):
+        said = self.segment(self.path("a.obj"), self.path("b.obj"), "--history", self.path("h.csv"),
+                            status=1, preexec_fn=largest_file(20000)).stderr
+        self.assertRegex(said, r"^volumic: /.*/a.obj: .*\nvolumic: /.*/b.obj: .*\n$")
+        self.without_rests("h.csv")
+
     @unittest.skipUnless(os.path.exists("/dev/full"), "no /dev/full")
     def test_devices(self):
         for option in ("--history", "--report"):

@@ -90,7 +90,7 @@ def write_volume(file_name, image):
     """Path of a .vti file, in the folder for what tests write."""
     path = output_path(file_name)
     writer = vtkXMLImageDataWriter()
-    writer.SetDataModeToBinary()  # see output_files.py
+    writer.SetDataModeToBinary()  # see volumic.writing.surfaces
     writer.SetFileName(path)
     writer.SetInputData(image)
     writer.Write()
