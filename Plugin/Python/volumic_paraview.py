@@ -1,10 +1,9 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The readers and the writer of ParaView's plugin, by those of the package volumic.
+"""The readers and the writer of ParaView's plugin, on the package volumic.
 
-The XML of the plugin names these classes; ParaView makes them by vtkSIPythonSourceProxy, also in a
-server. ParaView repeats a failed request with messages of its own: after an error that was reported
-they return 1.
+The XML of the plugin names these classes. ParaView creates them by vtkSIPythonSourceProxy, also in
+a server. Requests return 1 after an error, too: ParaView would add messages of its own.
 """
 
 from __future__ import annotations
@@ -31,14 +30,14 @@ from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline 
 
 from volumic.errors import Failure
 
-# What messages say of options, and what of properties.
+# Words for options in messages of the command, and those for properties.
 PROPERTIES = (("with --series N", "as Series"), ("(--series)", "(Series)"),
               ("with --time N", "as time step"), ("(--time)", "(time step)"),
               ("without --no-resampling they are", "switch Resampling on, and they are"))
 
 
 def _reporting(method: Any) -> Any:
-    """Have a method report its exceptions, and return 1 then."""
+    """Decorate a method: it reports its exceptions in ParaView's messages and returns 1."""
     @functools.wraps(method)
     def guarded(*arguments: Any) -> Any:
         try:
@@ -60,33 +59,33 @@ def _reporting(method: Any) -> Any:
 
 
 class VolumeReader(VTKPythonAlgorithmBase):
-    """Reads a volume where it lies in the world: a file, a folder, or a series of files in time.
+    """Reads a volume at its position in the world: a file, a folder, or a series of files in time.
 
-    The file that was read last is kept, in the memory that the output shares.
+    The reader keeps the last volume, whose memory the output shares.
     """
 
     def __init__(self) -> None:
         super().__init__(nInputPorts=0, outputType="vtkImageData")
         self._files: list[str] = []
         self._choice: dict[str, Any] = {"series": None, "resampling": True}
-        self._key: Any = None  # of the volume; also where reading it failed
+        self._key: Any = None  # of the last volume, also if reading it failed
         self._volume: Any = None
         self._warnings: set[str] = set()  # that were shown
 
     # ---- Properties ----
 
     def SetFileName(self, name: str | None) -> None:
-        """Of DICOM: one of the slices of the series, or its folder."""
+        """Set the file. Of DICOM: one of the slices of the series, or its folder."""
         self._files = [name] if name else []
         self.Modified()
 
     def AddFileName(self, name: str) -> None:
-        """Add a file; more than one are a series in time."""
+        """Add a file. Each file is a time step."""
         self._files.append(name)
         self.Modified()
 
     def RemoveAllFileNames(self) -> None:
-        """Leave no file."""
+        """Remove all files."""
         self._files = []
         self.Modified()
 
@@ -95,14 +94,14 @@ class VolumeReader(VTKPythonAlgorithmBase):
         return self._key[0] if self._key else ""
 
     def SetSeries(self, series: str | None) -> None:
-        """Of DICOM: the series to read, a line of GetSeriesList(), its number or its UID; a text in
-        parentheses chooses that of the file."""
+        """Set the DICOM series: a line of GetSeriesList(), its number or its UID. A text in
+        parentheses chooses the series of the file."""
         series = (series or "").split(":")[0]
         self._choice["series"] = None if series.startswith("(") else series or None
         self.Modified()
 
     def SetResampling(self, is_on: int) -> None:
-        """Whether slices that are no regular grid are interpolated, or refused."""
+        """Set whether slices that form no regular grid are interpolated, or are an error."""
         self._choice["resampling"] = bool(is_on)
         self.Modified()
 
@@ -114,7 +113,7 @@ class VolumeReader(VTKPythonAlgorithmBase):
             for line in reading.list_series(self._files[0]):
                 lines.InsertNextValue(line)
         except (Failure, IndexError):
-            pass  # why it cannot be read is reported when it is
+            pass  # RequestInformation reports the error
         return lines
 
     # ---- The pipeline ----
@@ -142,7 +141,7 @@ class VolumeReader(VTKPythonAlgorithmBase):
 
     @_reporting
     def RequestData(self, _request: Any, _inputs: Any, outputs: Any) -> int:
-        """Give the requested part of the volume of the requested time."""
+        """Output the requested extent of the volume of the requested time."""
         from volumic import geometry, label_map
         information = outputs.GetInformationObject(0)
         step = (round(information.Get(Pipeline.UPDATE_TIME_STEP()))
@@ -161,7 +160,7 @@ class VolumeReader(VTKPythonAlgorithmBase):
         return 1
 
     def _read(self, step: int) -> Any:
-        """Return the volume of a time step, None if there is none, or if reading it failed before."""
+        """Return the volume of a time step. Return None without a file, or if reading failed before."""
         from volumic import reading
         from volumic.reading.tables import names_beside
         if not self._files:
@@ -181,7 +180,7 @@ class VolumeReader(VTKPythonAlgorithmBase):
 
 
     def _warn(self, text: str, path: str) -> None:
-        """Show a warning, once. ParaView shows the first line of what does not look like VTK's."""
+        """Show a warning once. ParaView shows the whole line unless it looks like VTK's messages."""
         text = f"{text[:1].upper()}{text[1:]} ({os.path.basename(path)})"
         if text not in self._warnings:
             self._warnings.add(text)
@@ -191,10 +190,10 @@ class VolumeReader(VTKPythonAlgorithmBase):
 class SurfacesWriter(VTKPythonAlgorithmBase):
     """Writes a file for each label, level or component, or a scene with all of them.
 
-    Of `organs.stl` and blocks named liver and spleen `organs-liver.stl` and `organs-spleen.stl`, of
-    one surface with several components `organs-component-0.stl` and so on, each with its cavities.
-    Of other cells, as Clip and Threshold give, the outer surface is written. Empty surfaces are
-    left out; it is an error if there are no others.
+    `organs.stl` becomes `organs-liver.stl` and `organs-spleen.stl` for blocks named liver and
+    spleen, and `organs-component-0.stl` and so on for one surface with several components, each
+    with its cavities. Of other cells, as Clip and Threshold produce, the outer surface is written.
+    Empty surfaces are left out. It is an error if there are no others.
     """
 
     def __init__(self) -> None:
@@ -202,7 +201,7 @@ class SurfacesWriter(VTKPythonAlgorithmBase):
         self._name = ""
 
     def SetFileName(self, name: str | None) -> None:
-        """Set what the names of the files begin with, and the suffix of all."""
+        """Set the beginning of the names of all files, and their suffix."""
         self._name = name or ""
         self.Modified()
 
@@ -239,7 +238,8 @@ class SurfacesWriter(VTKPythonAlgorithmBase):
 
 
 def _surfaces_of(data: Any) -> list[tuple[str, Any]]:
-    """The surfaces in a data object that are not empty, with their names; one has none."""
+    """Return the names and surfaces of a data object that are not empty. A single surface has the
+    name ""."""
     if not data.IsA("vtkCompositeDataSet"):
         surface = _triangles_of(data)
         return _components_of(surface) if surface else []
@@ -255,7 +255,7 @@ def _surfaces_of(data: Any) -> list[tuple[str, Any]]:
 
 
 def _triangles_of(data: Any) -> Any:
-    """The outer surface of a data set, of triangles; None if it has none."""
+    """Return the triangles of the outer surface of a data set, None if it has none."""
     from vtkmodules.vtkFiltersCore import vtkTriangleFilter
     from vtkmodules.vtkFiltersGeometry import vtkDataSetSurfaceFilter
     if not data.IsA("vtkPolyData"):
@@ -269,7 +269,7 @@ def _triangles_of(data: Any) -> Any:
 
 
 def _components_of(surface: Any) -> list[tuple[str, Any]]:
-    """The components of a surface, each with its cavities."""
+    """Return the names and surfaces of the components, each with its cavities."""
     import numpy as np
     from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
     from vtkmodules.vtkFiltersCore import vtkThreshold

@@ -33,7 +33,8 @@ const char* const Formats =
   "STL, a file each (*.stl);;PLY, a file each (*.ply);;OBJ, a file each (*.obj);;"
   "VTK, a file each (*.vtp);;glTF, all in one, with names and colours (*.glb);;"
   "3MF, all in one, for printers (*.3mf);;Tetrahedra of Interfaces (*.vtu);;"
-  "CalculiX and Abaqus, tetrahedra of Interfaces (*.inp);;gmsh, volumes of Interfaces (*.msh);;TetGen, regions of Interfaces (*.smesh)";
+  "CalculiX and Abaqus, tetrahedra of Interfaces (*.inp);;"
+  "gmsh, volumes of Interfaces (*.msh);;TetGen, regions of Interfaces (*.smesh)";
 
 /** Those of a display that shows some blocks only; empty: all are shown, or there is no display. */
 std::vector<std::string> ShownBlocks(pqOutputPort* port)

@@ -9,9 +9,9 @@
 class QAction;
 
 /**
- * The entry Export Surfaces... below Save Data... in the menu File: a file for each label, level or
- * component of what is selected, if it comes from a filter of Volumic and has cells; without blocks that are
- * hidden in the active view. vtkVolumicSurfacesWriter writes them.
+ * The entry Export Surfaces... below Save Data... in the menu File. It writes a file for each label,
+ * level or component of the selected output of a filter of Volumic. Blocks that are hidden in the
+ * active view are left out. The class SurfacesWriter of volumic_paraview.py writes the files.
  */
 class pqExportSurfacesBehavior : public QObject
 {

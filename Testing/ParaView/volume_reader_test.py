@@ -154,6 +154,19 @@ class VolumeReaderTest(testing.PluginTestCase):
         of_slice = simple.VolumicDICOM(FileName=os.path.join(folder, "B003.dcm"))
         self.assertEqual(testing.fetch(of_slice).GetScalarRange()[0], 100)
 
+    def test_a_state(self):
+        path = testing.output_path("readers.pvsm")
+        simple.VolumicVolume(registrationName="times", FileNames=[nifti(f"t{i}.nii.gz", voxels() + i)
+                                                                  for i in range(2)])
+        simple.VolumicDICOM(registrationName="slices", FileName=dicom(), Resampling=0)
+        simple.SaveState(path)
+        testing.delete_sources()
+        simple.LoadState(path)
+        times, slices = (simple.FindSource(name) for name in ("times", "slices"))
+        self.assertEqual(list(times.TimestepValues), [0, 1])
+        self.assertEqual(slices.Resampling, 0)
+        self.check(slices)
+
     def test_a_missing_slice(self):
         folder = dicom("missing")
         os.remove(os.path.join(folder, "005.dcm"))
