@@ -229,7 +229,7 @@ def _crosses(points: np.ndarray, triangles: np.ndarray, changed: np.ndarray) -> 
     far = np.linalg.norm(corners - center[:, None], axis=2).max(axis=1)
     chosen = np.flatnonzero(changed)
     pairs = cKDTree(center[chosen]).sparse_distance_matrix(
-        cKDTree(center), far[chosen].max(initial=0) + far.max(), output_type="ndarray")
+        cKDTree(center), far[chosen].max(initial=0) + far.max(initial=0), output_type="ndarray")
     one, other = chosen[pairs["i"]], pairs["j"]
     close = (pairs["v"] < far[one] + far[other]) & (one != other)
     one, other = np.append(one[close], other[close]), np.append(other[close], one[close])

@@ -9,14 +9,24 @@ import shutil
 import subprocess
 import unittest
 from collections import Counter
+from typing import NamedTuple
 
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
-from test_tool_interfaces import ORIGIN, SPACING, InterfacesTest, period, sections_of
+from test_interfaces import ORIGIN, SPACING, InterfacesTest, period, sections_of
 from command_test_case import ISO
 from vtk_files import points_of, read, triangles_of
+
+try:
+    import meshio
+except ImportError:
+    meshio = None
+try:
+    import netCDF4
+except ImportError:
+    netCDF4 = None
 
 MESHERS = [name for name in ("tetgen", "gmsh") if shutil.which(name)]
 
@@ -82,6 +92,40 @@ def keywords_of(path):
     return parts
 
 
+class InpMesh(NamedTuple):
+    nodes: dict     # {number: position}
+    cells: dict     # {number: numbers of nodes}
+    sets: dict      # {(keyword, name): set of numbers}
+    surfaces: dict  # {name: set of faces, each the numbers of its nodes}
+
+
+def inp_mesh(path):
+    """What an .inp has; sets that list names are left out."""
+    sides = {"S1": (1, 2, 3), "S2": (1, 4, 2), "S3": (2, 4, 3), "S4": (3, 4, 1)}  # of Abaqus
+    mesh = InpMesh({}, {}, {}, {})
+    for head, rows in keywords_of(path):
+        keyword, name = head.split(",")[0], re.search(r"(ELSET|NSET|NAME)=(\w+)", head).group(2)
+        if keyword == "*NODE":
+            mesh.nodes.update((int(row[0]), [float(word) for word in row[1:]]) for row in rows)
+        elif keyword == "*ELEMENT":
+            mesh.cells.update((int(row[0]), [int(word) for word in row[1:]]) for row in rows)
+            mesh.sets[keyword, name] = {int(row[0]) for row in rows}
+        elif keyword == "*SURFACE":
+            mesh.surfaces[name] = {frozenset(mesh.cells[int(cell)][i - 1] for i in sides[side])
+                                   for cell, side in rows}
+        elif keyword == "*NSET":
+            mesh.sets[keyword, name] = {int(word) for row in rows for word in row}
+    return mesh
+
+
+def physical_surfaces(path):
+    """{name: number of triangles} of an MSH 2.2."""
+    sections = sections_of(path)
+    names = dict(re.findall(r'^2 (\d+) "(.*)"$', "".join(sections["PhysicalNames"]), re.M))
+    return Counter(names[line.split()[3]] for line in sections["Elements"][1:]
+                   if line.split()[1] == "2")
+
+
 class SolidsTest(InterfacesTest):
     def solid(self, *files, options=()):
         """The report of a run that makes them, and the grid of the first one."""
@@ -120,9 +164,9 @@ class MesherTest(SolidsTest):
                              (mesher, len(points), len(corners)))
             self.assertEqual({row["label"]: row["name"] for row in solid["regions"]},
                              {1: "liver", 2: "left kidney", 4: 'a "b"'})
-            names = grid.GetFieldData().GetAbstractArray("LabelName")
-            self.assertEqual([names.GetValue(i) for i in range(3)],
-                             ["liver", "left kidney", 'a "b"'])
+            names = grid.GetFieldData().GetArray("LabelName")
+            self.assertEqual([names.GetComponentName(i) for i in range(3)],
+                             ["liver", "left kidney", "a 'b'"])
 
     def test_a_surface_of_a_scan(self):
         for mesher in MESHERS:
@@ -134,21 +178,78 @@ class MesherTest(SolidsTest):
             self.assertAlmostEqual(volumes(points_of(grid), corners).sum() / volume, 1, 5)
             self.assertEqual(set(labels.tolist()), {1})
 
-    def test_flat_ends_have_nodes_and_sides(self):
-        z, y, x = np.indices((16, 18, 18))
-        volume = self.map_of((5 - np.hypot(x - 8.5, y - 8.5)).astype("f4"), "rod.vti")
+    def outlets(self):
+        """A file of two vessels that leave the volume at z-max, with values that grow with z."""
+        z, y, x = np.indices((18, 18, 40))
+        far = np.minimum(np.hypot(x - 9.3, y - 8.5), np.hypot(x - 29.6, y - 8.5))
+        return self.map_of(np.minimum(5.2 - far, z - 3.5).astype("f4"), "outlets.vti")
+
+    def test_each_cap_is_a_set(self):
+        """In .inp a surface and a set of nodes, beside those of the side that both are in; in .msh a
+        physical surface, in .stl a solid."""
         for mesher in MESHERS:
-            self.run_command(volume, self.path("rod.inp"), self.path("rod.msh"), "--iso", "0", "--ends",
-                          "marked", "--mesher", mesher)
-            parts = dict(keywords_of(self.path("rod.inp")))
-            nodes = np.array(parts["*NODE, NSET=Nall"], float)[:, 1:]
-            for name, voxel in (("z_min", 1), ("z_max", 14)):
-                numbers = [int(word) for row in parts[f"*NSET, NSET={name}"] for word in row]
-                plane = ORIGIN[2] + voxel * SPACING[2]
-                self.assertEqual({n - 1 for n in numbers},
-                                 set(np.flatnonzero(abs(nodes[:, 2] - plane) < 1e-9).tolist()))
-            names = "".join(sections_of(self.path("rod.msh"))["PhysicalNames"])
-            self.assertIn('"z_min"', names)
+            self.run_command(self.outlets(), *map(self.path, ("a.vtp", "a.inp", "a.msh", "a.stl")),
+                             "--iso", "0", "--ends", "marked", "--mesher", mesher)
+            surface = read(self.path("a.vtp"))
+            points, caps = points_of(surface), vtk_to_numpy(surface.GetCellData().GetArray("Cap"))
+            faces = {f"cap_{cap}": {frozenset(map(tuple, np.round(points[triangle], 6).tolist()))
+                                    for triangle in triangles_of(surface)[caps == cap]}
+                     for cap in (1, 2)}
+            self.assertGreater(min(map(len, faces.values())), 20)
+            mesh = inp_mesh(self.path("a.inp"))
+            places = np.array([mesh.nodes[i + 1] for i in range(len(mesh.nodes))])
+            for name, found in {**faces, "z_max": faces["cap_1"] | faces["cap_2"]}.items():
+                self.assertEqual({frozenset(tuple(np.round(mesh.nodes[i], 6).tolist()) for i in face)
+                                  for face in mesh.surfaces[name]}, found)
+                self.assertEqual(mesh.sets["*NSET", name], set().union(*mesh.surfaces[name]))
+            plane = ORIGIN[2] + 16 * SPACING[2]
+            self.assertEqual(mesh.sets["*NSET", "z_max"],
+                             set((1 + np.flatnonzero(abs(places[:, 2] - plane) < 1e-9)).tolist()))
+            self.assertEqual(physical_surfaces(self.path("a.msh")),
+                             {"object_to_outside": np.count_nonzero(caps == 0),
+                              **{name: len(found) for name, found in faces.items()}})
+            self.assertEqual(re.findall(r"^solid (\w+)", self.content("a.stl").decode(), re.M),
+                             ["wall", "cap_1", "cap_2"])
+
+    def test_caps_without_a_mesher(self):
+        self.run_command(self.outlets(), self.path("a.msh"), self.path("a.smesh"), "--iso", "0",
+                         "--ends", "marked")
+        names = "".join(sections_of(self.path("a.msh"))["PhysicalNames"])
+        self.assertEqual(re.findall('"(.*)"', names),
+                         ["object_to_outside", "cap_1", "cap_2", "object"])
+        self.assertIn(b"# facets 3: cap_2\n", self.content("a.smesh"))
+
+    def test_probes_give_nodes_and_tetrahedra_values(self):
+        z = np.indices((18, 18, 40))[0].astype("f4")
+        self.run_command(self.outlets(), self.path("a.vtu"), "--iso", "0", "--ends", "marked",
+                         "--probe", self.map_of(z, "density.vti"))
+        grid = read(self.path("a.vtu"), vtkXMLUnstructuredGridReader())
+        heights = (points_of(grid)[:, 2] - ORIGIN[2]) / SPACING[2]
+        np.testing.assert_allclose(vtk_to_numpy(grid.GetPointData().GetArray("density")), heights,
+                                   atol=1e-5)
+        np.testing.assert_allclose(vtk_to_numpy(grid.GetCellData().GetArray("density")),
+                                   heights[tetrahedra_of(grid)[0]].mean(axis=1), atol=1e-5)
+
+    @unittest.skipUnless(meshio, "meshio is not installed")
+    def test_meshio_reads_what_is_written(self):
+        files = ["a.vtu", "a.xdmf", "a.med", "a.bdf", "a.mesh"] + ["a.exo"] * bool(netCDF4)
+        report, grid = self.solid(*files)
+        points, (corners, labels) = points_of(grid), tetrahedra_of(grid)
+        for file in files:
+            mesh = meshio.read(self.path(file))
+            np.testing.assert_allclose(mesh.points, points, rtol=1e-9)
+            cells = np.concatenate([block.data for block in mesh.cells if block.type == "tetra"])
+            order = np.argsort(labels, kind="stable") if file == "a.exo" else np.arange(len(labels))
+            np.testing.assert_array_equal(cells, corners[order])
+            numbers = next((values[0] for name, values in mesh.cell_data.items()
+                            if name in ("Label", "nastran:ref", "medit:ref")), None)
+            if numbers is not None:
+                np.testing.assert_array_equal(numbers, labels)
+        names = meshio.read(self.path("a.med")).cell_tags
+        self.assertEqual([names[-label] for label in (1, 2, 4)],
+                         [["liver"], ["left kidney"], ['a "b"']])
+        self.assertIn(["left kidney_to_outside"], names.values())
+        self.assertEqual(len(corners), report["solid"]["tetrahedra"])
 
     def test_a_volume_without_a_node_of_its_own(self):
         """Its tetrahedra have the corners that its triangles have."""
@@ -256,15 +357,15 @@ class MesherTest(SolidsTest):
                               capture_output=True, text=True, check=True).stdout
         self.assertIn(f"{report['solid']['nodes']} nodes", said)
 
-    def run_script(self, script, status=1):
+    def run_script(self, script, *options, status=1):
         """What is said of a run whose TetGen is this script, and the files that it leaves."""
         for folder in ("bin", "out"):
             os.makedirs(self.path(folder), exist_ok=True)
         self.write_bytes("bin/tetgen", f"#!/bin/sh\n{script}\n".encode())
         os.chmod(self.path("bin/tetgen"), 0o755)
-        process = self.run_command(self.map_of(voxels()), self.path("out/a.vtu"), self.path("out/a.vtp"),
-                                "--labels", "all", status=status,
-                                env={**os.environ, "PATH": self.path("bin") + ":/bin"})
+        process = self.run_command(
+            self.map_of(voxels()), self.path("out/a.vtu"), self.path("out/a.vtp"), "--labels", "all",
+            *options, status=status, env={**os.environ, "PATH": self.path("bin") + ":/bin"})
         return process.stderr, os.listdir(self.path("out"))
 
     def test_what_fails_is_told(self):
@@ -278,9 +379,28 @@ class MesherTest(SolidsTest):
             self.assertEqual(files, ["a.vtp"])
 
     def test_it_can_be_stopped(self):
-        told, files = self.run_script("kill -INT $PPID\nsleep 100")
-        self.assertRegex(told, "a.vtu: interrupted while tetgen made tetrahedra")
+        """By a signal, by two at once, as timeout(1) sends them, and by the time limit."""
+        for script, said, *options in (
+                ("kill -INT $PPID; exec sleep 100", "a.vtu: interrupted while tetgen made"),
+                ("kill -TERM $PPID; kill -TERM $PPID; exec sleep 100",
+                 "a.vtu: interrupted while tetgen made"),
+                ("exec sleep 100", "a.vtu: the time limit came while tetgen made", "--time-limit", 2)):
+            told, files = self.run_script(script, *options)
+            self.assertRegex(told, said)
+            self.assertEqual(files, ["a.vtp"])
+
+    def test_tetrahedra_without_number_are_refused(self):
+        told, files = self.run_script("exit 9", "--maximum-volume", "1e-300")
+        self.assertRegex(told, "a.vtu: --maximum-volume 1e-300 means about .*choose at least")
         self.assertEqual(files, ["a.vtp"])
+
+    def test_small_angles_are_told(self):
+        for height, told in ((0.01, "warning: the least dihedral angle .* is .* degrees"), (1, "^$")):
+            rows = [f"{x} {y} {z} 0" for x, y, z in ((0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, height))]
+            mesh = "\n".join(["Vertices", "4", *rows, "Tetrahedra", "3",
+                              *(f"1 2 3 4 {label}" for label in (1, 2, 4)), "End"])
+            said, _ = self.run_script(f"cat > solid.1.mesh <<.\n{mesh}\n.", status=0)
+            self.assertRegex("".join(re.findall("warning: the least.*", said)), told)
 
     def test_what_there_is_after_an_interrupt_is_filled(self):
         rest = self.interrupted(r"Making surfaces: +[78]\d %", self.many_labels(4),
@@ -303,58 +423,49 @@ class OptionsTest(SolidsTest):
         for options, said in ((("--mesher", "netgen"), "'netgen' is none of tetgen, gmsh"),
                               (("--mesher", "gmsh"), "--mesher needs a file of tetrahedra"),
                               (("--maximum-volume", "2"), "needs a file of tetrahedra"),
-                              (("--maximum-volume", "0"), "a volume is more than 0")):
+                              (("--maximum-volume", "0"), "0 must be more than 0")):
             self.refused(said, self.path("missing.vti"), self.path("a.stl"), *options, status=2)
 
 
 @unittest.skipUnless(MESHERS, "no mesher is installed")
 class SolverTest(SolidsTest):
-    def sets(self, path):
-        """{(keyword, name): rows}"""
-        found = {}
-        for head, rows in keywords_of(path):
-            name = re.search(r"(ELSET|NSET|NAME)=(\w+)", head)
-            found[head.split(",")[0], name.group(2)] = rows
-        return found
-
     def test_sets_of_inp(self):
         _, grid = self.solid("a.vtu", "a.inp")
         corners, labels = tetrahedra_of(grid)
-        sets = self.sets(self.path("a.inp"))
-        nodes = np.array(sets["*NODE", "Nall"], float)
-        np.testing.assert_allclose(nodes[:, 1:], points_of(grid), atol=1e-9)
-        called = {1: "liver", 2: "left_kidney", 4: "a__b_"}
-        numbers = {name: {int(i) for row in rows for i in row}
-                   for (keyword, name), rows in sets.items() if keyword == "*NSET"}
-        for label, name in called.items():
-            rows = np.array(sets["*ELEMENT", name], int)
-            np.testing.assert_array_equal(rows[:, 0] - 1, np.flatnonzero(labels == label))
-            np.testing.assert_array_equal(rows[:, 1:] - 1, corners[labels == label])
-            self.assertEqual(numbers[name], set(rows[:, 1:].ravel().tolist()))
-        self.assertEqual([row[0] for row in sets["*ELSET", "Eall"]], list(called.values()))
-        # The corners of faces in Abaqus, from 1.
-        sides = {"S1": (1, 2, 3), "S2": (1, 4, 2), "S3": (2, 4, 3), "S4": (3, 4, 1)}
-        surfaces = {}
-        for (keyword, name), rows in sets.items():
-            if keyword == "*SURFACE":
-                found = {frozenset(corners[int(cell) - 1][np.array(sides[side]) - 1].tolist())
-                         for cell, side in rows}
-                surfaces[name] = found
-                self.assertEqual(numbers[name], {i + 1 for face in found for i in face})
-        called[0] = "outside"
-        self.assertEqual(surfaces, {f"{called[a]}_to_{called[b]}": found for (a, b), found in
-                                    faces_between(corners, labels).items()})
-        text = self.content("a.inp").decode()
-        self.assertLess(max(len(word) for line in text.splitlines() if line[0] != "*"
-                            for word in line.split(", ")), 21)
+        mesh = inp_mesh(self.path("a.inp"))
+        np.testing.assert_allclose(list(mesh.nodes.values()), points_of(grid), atol=1e-9)
+        called = {1: "liver", 2: "left_kidney", 4: "a__b_", 0: "outside"}
+        for label in (1, 2, 4):
+            self.assertEqual(mesh.sets["*ELEMENT", called[label]],
+                             set((1 + np.flatnonzero(labels == label)).tolist()))
+            self.assertEqual(mesh.sets["*NSET", called[label]],
+                             set((1 + corners[labels == label]).ravel().tolist()))
+        for number, cell in mesh.cells.items():
+            self.assertEqual(cell, (1 + corners[number - 1]).tolist())
+        self.assertIn("*ELSET, ELSET=Eall\nliver,\nleft_kidney,\na__b_,\n",
+                      self.content("a.inp").decode())
+        self.assertEqual(mesh.surfaces, {
+            f"{called[a]}_to_{called[b]}": {frozenset(i + 1 for i in face) for face in found}
+            for (a, b), found in faces_between(corners, labels).items()})
+        for name, found in mesh.surfaces.items():
+            self.assertEqual(mesh.sets["*NSET", name], set().union(*found))
+        self.assertLess(max(len(word) for line in self.content("a.inp").decode().splitlines()
+                            if line[0] != "*" for word in line.split(", ")), 21)
 
     def test_names_of_sets_are_words_and_differ(self):
+        """Those of a file are Eall and Nall, whatever labels are called."""
         names = b'{"1": "Liver, left", "2": "liver left", "4": "4th"}'
         self.run_command(self.map_of(voxels()), self.path("a.inp"), "--labels", "all", "--label-names",
                       self.write_bytes("words.json", names))
         heads = [head for head, _ in keywords_of(self.path("a.inp"))]
         elements = [re.search("ELSET=(.*)", head).group(1) for head in heads if "C3D4" in head]
         self.assertEqual(elements, ["Liver__left", "liver_left", "L_4th"])
+        names = b'{"1": "Eall", "2": "a b", "4": "a.b"}'
+        self.run_command(self.map_of(voxels()), self.path("a.inp"), "--labels", "all",
+                         "--label-names", self.write_bytes("words.json", names))
+        heads = [head for head, _ in keywords_of(self.path("a.inp"))]
+        self.assertEqual([re.search("ELSET=(.*)", head).group(1) for head in heads if "C3D4" in head],
+                         ["Eall_2", "a_b", "a_b_2"])
         names = Counter(re.search("NSET=(.*)", head).group(1).lower() for head in heads
                         if head.startswith("*NSET"))
         self.assertEqual(max(names.values()), 1)

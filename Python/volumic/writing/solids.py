@@ -22,6 +22,7 @@ from .meshers import write_msh, write_tetgen
 BY_MESHIO = {".xdmf": "xdmf", ".med": "med", ".bdf": "nastran", ".mesh": "medit", ".exo": "exodus"}
 TETRAHEDRA = (".vtu", ".inp", *BY_MESHIO)   # files of these hold tetrahedra
 FOR_MESHERS = (".msh", ".smesh", ".poly")   # a .msh holds tetrahedra where a mesher is chosen
+PLAIN = str.maketrans("\"<>&", "'()+")  # VTK writes names of components as they are into XML
 PACKAGES = {"meshio": "python3-meshio", "h5py": "python3-h5py", "netCDF4": "python3-netcdf4"}
 
 
@@ -82,6 +83,16 @@ def faces_of(solid: Any) -> Faces:
                  *marks[of_face[found]].T)
 
 
+def named_sets(faces: Faces, labels: dict[int, str], names: DistinctNames
+               ) -> tuple[SetNames, dict[str, np.ndarray]]:
+    """The names of a file, and which faces are in the set of each pair of labels, side and cap."""
+    own = {part: faces.box == part for part in np.unique(faces.box[faces.box > 0]).tolist()}
+    own.update({6 + cap: faces.cap == cap for cap in np.unique(faces.cap[faces.cap > 0]).tolist()})
+    called = SetNames.of(labels, faces.pairs, own, names)
+    sets = {called.pairs[a, b]: (faces.first == a) & (faces.second == b) for a, b in faces.pairs}
+    return called, {**sets, **{called.parts[part]: which for part, which in own.items()}}
+
+
 # ---- Tetrahedra --------------------------------------------------------------------------------
 
 def write_solid_msh(solid: Any, path: str, remark: str = "") -> None:
@@ -121,11 +132,8 @@ def write_inp(solid: Any, path: str, remark: str = "") -> None:
     """Elements C3D4, a set of elements and of nodes for each label, a surface and a set of nodes
     for two labels that touch, for each side of a box and for each cap."""
     faces = faces_of(solid)
-    chosen = {part: faces.box == part for part in range(1, 7)}
-    chosen.update({6 + cap: faces.cap == cap for cap in np.unique(faces.cap).tolist() if cap})
-    chosen = {part: which for part, which in chosen.items() if which.any()}
-    names = SetNames.of(solid.names, faces.pairs, chosen,
-                        DistinctNames("_", inp_word, ("Eall", "Nall")))
+    names, sets = named_sets(faces, solid.names,
+                             DistinctNames("_", inp_word, ("Eall", "Nall")))
     # CalculiX reads twenty characters of a number.
     text = [f"** {remark}\n*NODE, NSET=Nall\n",
             rows("%d, %.12g, %.12g, %.12g", np.arange(1, len(solid.points) + 1), solid.points)]
@@ -135,10 +143,7 @@ def write_inp(solid: Any, path: str, remark: str = "") -> None:
                  rows("%d, %d, %d, %d, %d", own + 1, solid.cells[own] + 1),
                  _set(f"*NSET, NSET={name}", solid.cells[own])]
     text.append("*ELSET, ELSET=Eall\n" + "".join(f"{name},\n" for name in names.labels.values()))
-    surfaces = [(names.pairs[pair], (faces.first == pair[0]) & (faces.second == pair[1]))
-                for pair in faces.pairs]
-    surfaces += [(names.parts[part], which) for part, which in chosen.items()]
-    for name, which in surfaces:
+    for name, which in sets.items():
         text += [f"*SURFACE, NAME={name}, TYPE=ELEMENT\n",
                  rows("%d, %s", faces.tetrahedron[which] + 1, ABAQUS[faces.side[which]]),
                  _set(f"*NSET, NSET={name}", faces.corners[which])]
@@ -164,7 +169,7 @@ def write_vtu(solid: Any, path: str, _remark: str = "") -> None:
             numbers.SetNumberOfComponents(max(len(texts), 1))
             numbers.InsertNextTuple(range(len(texts)) if texts else (0,))
             for k, text in enumerate(texts):
-                numbers.SetComponentName(k, text)
+                numbers.SetComponentName(k, text.translate(PLAIN))
             grid.GetFieldData().AddArray(numbers)
     writer = vtkXMLUnstructuredGridWriter()
     writer.SetCompressorTypeToZLib()
@@ -176,24 +181,18 @@ def write_vtu(solid: Any, path: str, _remark: str = "") -> None:
 
 def write_by_meshio(solid: Any, path: str, _remark: str = "") -> None:
     """Tetrahedra and the faces between labels: in .med named groups, in .exo named blocks and sets
-    of nodes, in .bdf and .mesh numbers of labels (and above them those of faces); .xdmf has the
-    cell data, and the tetrahedra alone, as FEniCS reads one type of cells."""
-    form = BY_MESHIO[os.path.splitext(path)[1].lower()]
-    faces = faces_of(solid)
-    names = SetNames.of(solid.names, faces.pairs, np.unique(faces.part[faces.part > 0]).tolist(),
-                        DistinctNames("_", str))
-    sets = {names.pairs[a, b]: (faces.first == a) & (faces.second == b) & (faces.part == 0)
-            for a, b in faces.pairs}
-    sets.update({name: faces.part == part for part, name in names.parts.items()})
+    of nodes, in .bdf and .mesh numbers, those of faces above those of labels; .xdmf has the cell
+    data, and the tetrahedra alone, as FEniCS reads one type of cells."""
+    form, faces = BY_MESHIO[os.path.splitext(path)[1].lower()], faces_of(solid)
+    names, sets = named_sets(faces, solid.names, DistinctNames("_", str))
     first = max(solid.names) + 1
-    numbers = np.zeros(len(faces.corners), int)
-    for i, which in enumerate(sets.values()):
-        numbers[which] = first + i
+    # Faces that are in the same sets have a number.
+    kinds, numbers = np.unique(np.stack(list(sets.values()), axis=1), axis=0, return_inverse=True)
+    refs = [solid.labels, first + numbers.ravel()]
     try:
         import meshio
         with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
             mesh = meshio.Mesh(solid.points, [("tetra", solid.cells), ("triangle", faces.corners)])
-            refs = [solid.labels, numbers]
             if form == "nastran":
                 # The format has 16 characters for a number.
                 with np.errstate(divide="ignore"):
@@ -202,8 +201,10 @@ def write_by_meshio(solid: Any, path: str, _remark: str = "") -> None:
             if form in ("nastran", "medit"):
                 mesh.cell_data[f"{form}:ref"] = refs
             if form == "med":
+                mesh.point_data = solid.point_values
                 mesh.cell_data["cell_tags"] = [-ref for ref in refs]
-                mesh.cell_tags = {-(first + i): [name] for i, name in enumerate(sets)}
+                mesh.cell_tags = {-(first + i): [name for name, there in zip(sets, kind) if there]
+                                  for i, kind in enumerate(kinds)}
                 mesh.cell_tags.update({-label: [name] for label, name in names.labels.items()})
             if form == "xdmf":
                 mesh = meshio.Mesh(solid.points, [("tetra", solid.cells)], solid.point_values,

@@ -17,7 +17,7 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import Failure, Interrupted
+from ..errors import Failure
 from .meshers import write_msh, write_tetgen
 from .regions import cell_array, find_regions, solid_labels, triangles_of
 from .solids import TETRAHEDRA
@@ -182,7 +182,7 @@ class SolidMaker:
         if not stopped and code != 0 and may_stop and self.interrupted():
             stopped = "interrupted"  # the signal reached the program, too
         if stopped:
-            raise Interrupted(f"{stopped} while {words[0]} made tetrahedra; not written")
+            raise Failure(f"{stopped} while {words[0]} made tetrahedra; not written")
         if code != 0:
             reason = f"exit code {code}" if code > 0 else f"signal {-code}"
             raise Failure(f"{words[0]} fails ({reason}): {_end_of(log)}")
