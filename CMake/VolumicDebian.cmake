@@ -116,7 +116,8 @@ else ()
     set(CPACK_DEBIAN_RUNTIME_PACKAGE_DEPENDS
       "python3-vtk9, python3-numpy, ${volumic_python_dependency}")
     set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS "${volumic_python_recommends}")
-    set(CPACK_DEBIAN_RUNTIME_PACKAGE_SUGGESTS "tetgen, gmsh, draco, python3-distributed")
+    set(CPACK_DEBIAN_RUNTIME_PACKAGE_SUGGESTS
+      "tetgen, gmsh, draco, python3-distributed, python3-argcomplete")
     # The Python package had a package of its own.
     foreach (field IN ITEMS PROVIDES CONFLICTS REPLACES)
       set("CPACK_DEBIAN_RUNTIME_PACKAGE_${field}" python3-volumic)

@@ -9,8 +9,8 @@
 # build/ (prepare_paraview, prepare_vtk). And names of packages tell versions: what can be derived
 # from another package's dependencies, is, so that a new release needs no change here.
 
-# The second line and the third: for formats of files, 41 MB to download beside the 600 MB of VTK and
-# the compiler. The command names the package where one is missing; the skull needs NumPy only.
+# The second line and the third: for formats of files, 41 MB to download beside the 600 MB of VTK
+# and the compiler. The command names the package where one is missing; the skull needs NumPy only.
 tool_packages=(g++ cmake ninja-build python3 libpython3-dev python3-numpy
   python3-scipy python3-nibabel python3-pydicom python3-gdcm python3-tifffile python3-mrcfile
   python3-zarr python3-h5py python3-meshio python3-pil)

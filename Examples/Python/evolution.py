@@ -6,8 +6,8 @@
     volumic skull.vti skull.vtp --iso 226.5 --snapshots steps.vtm --snapshot-interval 5
     xvfb-run -a /usr/bin/python3 evolution.py steps.vtm evolution.ogv
 
-OUTPUT is an .ogv video or a folder for pictures. (With --snapshots DIR the command writes files that
-ParaView opens as one surface in time.)
+OUTPUT is an .ogv video or a folder for pictures. (With --snapshots DIR the command writes files
+that ParaView opens as one surface in time.)
 """
 
 import os

@@ -226,8 +226,9 @@ def close_view(surface, frame, size, towards="AAAL", at=(.5, .5, .5), delta=None
     low, high = np.reshape(bounds, (3, 2)).T
     half_width, half_height = render.projected(*(frame.vector(c) for c in "AS"), bounds)
     whole = 2 * max(half_width, half_height * size[0] / size[1])
+    focus = low + np.array(at) * (high - low)
     return render.draw([render.surface_actor(surface, edges=True)], size, frame, towards, "S",
-                       bounds, zoom=max(1.0, whole / width), focus=low + np.array(at) * (high - low))
+                       bounds, zoom=max(1.0, whole / width), focus=focus)
 
 
 def contour_on_slice(surface, scan, view, size):

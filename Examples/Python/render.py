@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Off-screen pictures of surfaces and slices, as numpy arrays [row, column, RGB] from the top.
 
-draw() renders a panel at twice its size and averages it down, which smooths edges with every driver;
-compose() lays panels out with captions. Rendering needs a display; xvfb-run provides one.
+draw() renders a panel at twice its size and averages it down, which smooths edges with every
+driver; compose() lays panels out with captions. Rendering needs a display, such as xvfb-run's.
 """
 
 import numpy as np

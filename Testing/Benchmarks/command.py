@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The command `volumic` on one volume, with each size and number of threads: how cost grows, and what
-threads gain. Reading and writing are included; surfaces must be the same files for any number of
+"""The command `volumic` on one volume, with each size and number of threads: how cost grows, and
+what threads gain. Reading and writing are included; surfaces must be the same files for any number of
 threads. Options that are not known here are volumic's."""
 
 import csv

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The pictures of labels: surfaces of an atlas beside what else VTK makes, and one mesh of grains."""
+"""Pictures of labels: surfaces of an atlas beside those of VTK's filters, and one mesh of grains."""
 
 import numpy as np
 import scan_runs  # noqa: F401, which finds the modules of Examples/Python

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The scripts that make the documents' pictures and tables, and the example that makes a video of an
-evolution, on a small volume. Needs a display."""
+"""The scripts that make the documents' pictures and tables, and the example that makes a video of
+an evolution, on a small volume. Needs a display."""
 
 import os
 import subprocess

@@ -3,6 +3,7 @@
 """The Python package `volumic` as it is installed: what a user's script relies on."""
 
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -64,6 +65,16 @@ class PackageTest(unittest.TestCase):
             ours = ".".join(vtkmodules.__version__.split(".")[:2])
             self.assertRegex(self.refusal(folder),
                              rf"built for VTK {ours}, .* VTK 8\.90\.1 in {folder}")
+
+    def test_the_command_finds_the_package_where_the_prefix_was_moved_to(self):
+        with tempfile.TemporaryDirectory() as folder:
+            moved = os.path.join(folder, "moved")
+            shutil.copytree(PREFIX, moved, symlinks=True)
+            os.symlink("moved/bin/volumic", os.path.join(folder, "link"))
+            for path in ("moved/bin/volumic", "link"):
+                printed = subprocess.run([os.path.join(folder, path), "--version"], check=True,
+                                         capture_output=True, text=True, env={}).stdout
+                self.assertIn(f"volumic {volumic.__version__} ", printed)
 
     def test_help_of_the_package_names_every_class(self):
         for name in dir(volumic):

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What Examples/quickstart.sh does after it has built the project, on a small volume: every file that
-it promises is there and can be read."""
+"""What Examples/quickstart.sh does after it has built the project, on a small volume: every file
+that it promises is there and can be read."""
 
 import csv
 import json
