@@ -5,10 +5,9 @@
 # Examples/quickstart.sh [VOLUME [ISO]] [--output DIR]
 #
 # Installs what is missing, builds Volumic for VTK under build/, and makes the surface of a volume
-# with the command `volumic`: by default of the CT of a skull from Debian's package
-# invesalius-examples, else of VOLUME (a file or a folder of DICOM slices, see
-# Documentation/formats.md), at the value ISO (by default Otsu's threshold). The results go to
-# build/quickstart/ or DIR.
+# with the command `volumic`: by default of a skull CT (Debian's package invesalius-examples), else
+# of VOLUME, a file or a folder of DICOM slices, at the value ISO (by default Otsu's threshold). The
+# results go to build/quickstart/ or DIR.
 
 set -euo pipefail
 
