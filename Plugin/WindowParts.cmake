@@ -33,9 +33,12 @@ if (PARAVIEW_USE_QT)
     Widgets/PointHandles.cxx Widgets/PointHandles.h
     Window/SurfaceSources.cxx Window/SurfaceSources.h)
 
-  foreach (behavior IN ITEMS
-    pqAbortButtonBehavior pqExportSurfacesBehavior pqPanelWidthBehavior
-    pqSurfaceColorBehavior pqUnfinishedBehavior)
+  set(volumic_behaviors
+    pqAbortButtonBehavior pqPanelWidthBehavior pqSurfaceColorBehavior pqUnfinishedBehavior)
+  if (VOLUMIC_WRAP_PYTHON) # in which the writer is
+    list(APPEND volumic_behaviors pqExportSurfacesBehavior)
+  endif ()
+  foreach (behavior IN LISTS volumic_behaviors)
     paraview_plugin_add_auto_start(
       CLASS_NAME "${behavior}"
       INTERFACES interfaces

@@ -160,7 +160,7 @@ class VolumeReader(VTKPythonAlgorithmBase):
         return 1
 
     def _read(self, step: int) -> Any:
-        """Return the volume of a time step. Return None without a file, or if reading failed before."""
+        """Return the volume of a time step; None without a file, or if reading failed before."""
         from volumic import reading
         from volumic.reading.tables import names_beside
         if not self._files:
@@ -180,7 +180,7 @@ class VolumeReader(VTKPythonAlgorithmBase):
 
 
     def _warn(self, text: str, path: str) -> None:
-        """Show a warning once. ParaView shows the whole line unless it looks like VTK's messages."""
+        """Show a warning once. ParaView cuts off the beginning of messages in VTK's form only."""
         text = f"{text[:1].upper()}{text[1:]} ({os.path.basename(path)})"
         if text not in self._warnings:
             self._warnings.add(text)
