@@ -9,14 +9,13 @@ from __future__ import annotations
 import importlib
 import os
 import re
-import stat
 import warnings
 
 import numpy as np
 
 from ..errors import VolumeError
 from .grid import one_of_times
-from .volume import Choice, Label, Volume, checked, failure_of, unit_of
+from .volume import Choice, Label, Volume, checked, failure_of, need_file, unit_of
 
 __all__ = ["Choice", "Label", "SUFFIXES", "Volume", "VolumeError", "checked", "list_files",
            "list_series", "read", "unit_of"]
@@ -55,7 +54,7 @@ def read(path, **choice):
     path, choice = os.fspath(path), Choice(**choice)
     choice.times = 0
     try:
-        _check_files(path)
+        _need_files(path)
         with warnings.catch_warnings(), np.errstate(all="ignore"):
             warnings.simplefilter("ignore")
             volume = _read(path, choice)
@@ -144,11 +143,16 @@ def list_series(path):
     """Return a line for each DICOM series of a file or folder."""
     from . import dicom
     try:
-        _check_files(path)
+        _need_files(path)
         return dicom.list_series(path)
     except Exception as error:  # pylint: disable=broad-except
         text = str(failure_of(error))
         raise VolumeError(text if text.startswith(path) else "%s: %s" % (path, text)) from None
+
+
+def _need_files(path):
+    for file in [path] if os.path.isdir(path) else list_files(path):
+        need_file(file)
 
 
 def list_files(path, choice=None):  # pylint: disable=unused-argument
@@ -204,10 +208,3 @@ def _companions(path):
         elif name:
             files = [name]
     return [os.path.join(folder, file) for file in files]
-
-
-def _check_files(path):
-    """Throw VolumeError for pipes and devices, on which programs wait."""
-    for file in list_files(path) if not os.path.isdir(path) else [path]:
-        if os.path.exists(file) and not (stat.S_ISREG(os.stat(file).st_mode) or os.path.isdir(file)):
-            raise VolumeError("%s: a file is needed; this is a pipe or a device" % file)

@@ -4,7 +4,9 @@
 from __future__ import annotations
 
 import dataclasses
+import errno
 import gzip
+import os
 import zlib
 
 import numpy as np
@@ -142,16 +144,23 @@ def check_positions(volume):
                           % (text_of(volume.origin), min(volume.spacing)))
 
 
+def need_file(path):
+    """Throw VolumeError for a pipe or a device, on which programs wait."""
+    if os.path.exists(path) and not (os.path.isfile(path) or os.path.isdir(path)):
+        raise VolumeError("%s: a pipe or a device; a file is needed" % path)
+
+
 def failure_of(error):
     """Return the VolumeError of one line for any exception of a library."""
     if isinstance(error, VolumeError):
         return error
     text = " ".join(str(error).split())[:300] or type(error).__name__
-    if isinstance(error, MemoryError):
+    if isinstance(error, MemoryError) or getattr(error, "errno", 0) == errno.ENOMEM:
         text = "not enough memory to read it; crop it, or resample it to fewer voxels"
     elif isinstance(error, EOFError):
         text = "the file is cut off: its data end too early; copy it again"
-    elif isinstance(error, (zlib.error, gzip.BadGzipFile)) or text == "Invalid data stream":
+    elif isinstance(error, (zlib.error, gzip.BadGzipFile)) or text.startswith(
+            ("Invalid data stream", "zlib error")):
         text = "the packed data are damaged (%s); copy the file again" % text
     elif isinstance(error, ImportError) and error.name:
         module = error.name.split(".")[0]

@@ -142,8 +142,9 @@ def _unpacker(name):
     def unpack(data, size):
         if name == "vtkLZ4DataCompressor":
             from vtkmodules.vtkIOCore import vtkLZ4DataCompressor
-            block = np.empty(size, np.uint8)
-            size = vtkLZ4DataCompressor().Uncompress(np.frombuffer(data, "u1"), len(data), block, size)
+            machine, block = vtkLZ4DataCompressor(), np.empty(size, np.uint8)
+            machine.AddObserver("ErrorEvent", lambda *_: None)  # it prints otherwise
+            size = machine.Uncompress(np.frombuffer(data, "u1"), len(data), block, size)
             return block[:size].tobytes()
         machine = {"vtkZLibDataCompressor": zlib.decompressobj,
                    "vtkLZMADataCompressor": lzma.LZMADecompressor}[name]()
