@@ -23,9 +23,8 @@ def is_dicom(file):
     """Return whether a file begins as DICOM: with its mark, or, of old ones, with group 2 or 8."""
     with open(file, "rb") as stream:
         head = stream.read(132)
-    return head[128:] == b"DICM" or len(head) == 132 and (
-        head[:4] in (b"\2\0\0\0", b"\b\0\0\0", b"\b\0\5\0", b"\b\0\b\0", b"\b\0\x16\0")
-        and (head[4:6].isupper() or head[5:8] == bytes(3)))
+    return head[128:] == b"DICM" or len(head) == 132 and head[0] in (2, 8) and not (
+        head[1] or head[3]) and (head[4:6].isupper() or head[5:8] == bytes(3))
 
 
 def dicom_files(path):
@@ -64,9 +63,10 @@ def _numbers(sets, name, count=1, default=None):
 
 def _slices(data, file, name):
     """Return the slices in a file; none if it is a directory or a report."""
-    if not data.get("Rows"):
+    if not data.get("Rows") or not data.has_pixels:
         kind = data.file_meta.get("MediaStorageSOPClassUID") or data.get("SOPClassUID") or ""
-        if getattr(kind, "name", kind) == kind or re.search("Image|Segmentation|Dose", kind.name):
+        if getattr(kind, "name", kind) == kind or re.search(
+                "Image|Segmentation|Dose", kind.name) or data.get("Rows"):
             raise VolumeError("it has no pixels: it is cut off, or no slice" + NO_SLICE)
         return []
     frames = int(data.get("NumberOfFrames") or 1)
@@ -127,9 +127,9 @@ class _Series:
 def _all_series(files):
     """Return the series of files, in the order of their first files."""
     found, root = {}, os.path.commonpath([os.path.dirname(file) for file in files] or ["."])
-    for file in files:
+    for file in [file for file in files if os.path.basename(file).lower() != "dicomdir"]:
         name = os.path.relpath(file, root)
-        data = read_file(file, name, stop_before_pixels=True)
+        data = read_file(file, name, True)
         try:
             slices = {each.copy: each for each in _slices(data, file, name)}
             uid = str(data.get("SeriesInstanceUID") or "")

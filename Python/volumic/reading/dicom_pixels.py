@@ -17,17 +17,20 @@ from .worker import in_worker, reading, said
 NO_SLICE = "; copy it again, or move it to another folder"
 
 
-def read_file(file, name, **more):
-    """Return the data set of a file."""
+def read_file(file, name, is_header=False):
+    """Return the data set of a file, or its elements before the pixels, if all of them are there."""
     import pydicom
     warnings.filterwarnings("ignore", module="pydicom")
     try:
-        data = pydicom.dcmread(file, force=True, **more)
+        with open(file, "rb") as stream:
+            data = pydicom.dcmread(stream, force=True, stop_before_pixels=is_header)
+            data.syntax = data.file_meta.get("TransferSyntaxUID") or pydicom.uid.ImplicitVRLittleEndian
+            data.has_pixels = stream.read(4) in (b"\xe0\x7f\x10\0", b"\x7f\xe0\0\x10") or (
+                data.syntax.is_deflated)
+            return data
     except Exception as error:  # pylint: disable=broad-except
         raise VolumeError("%s: it is cut off, or its header is damaged (%.100s); copy it again"
                           % (name, error)) from None
-    data.syntax = data.file_meta.get("TransferSyntaxUID") or pydicom.uid.ImplicitVRLittleEndian
-    return data
 
 
 def values_of(slices):

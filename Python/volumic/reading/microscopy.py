@@ -72,13 +72,15 @@ def read_tiff(path, choice):
     logging.getLogger("tifffile").addHandler(handler)
     try:
         with tifffile.TiffFile(path) as file:
+            is_plain = not (file.is_ome or file.is_imagej or file.is_lsm)
+            kinds = [page.hash for page in file.pages if not page.is_reduced] if is_plain else []
             series = file.series[0]
             damage = [text for text in logged
                       if re.search("invalid|corrupt|damage|missing|circular|failed", text)]
             damage += ["pages are missing"] * any(page is None for page in series.pages)
-            if damage:
-                raise IndexError(damage[0])
-            _check_pages(file, series)
+            if damage or len(set(kinds)) > 1:
+                raise IndexError((damage or ["its pages differ in size or kind of pixels"])[0])
+            _check_pages(file, series, is_plain)
             return _tiff_volume(path, file, series, choice)
     except (IndexError, TypeError, KeyError, struct.error, tifffile.TiffFileError) as error:
         raise VolumeError("the file is cut off or damaged: %s" % error) from None
@@ -86,21 +88,24 @@ def read_tiff(path, choice):
         logging.getLogger("tifffile").removeHandler(handler)
 
 
-def _check_pages(file, series):
-    """Throw VolumeError if pixels are not in the file, or many bytes of the file in no page."""
-    length, key = file.filehandle.size, series.keyframe
+def _check_pages(file, series, is_plain):
+    """Throw IndexError if pixels are not in the file, or bytes of the file in no page."""
+    length, key, first = file.filehandle.size, series.keyframe, file.pages[0]
     for number, page in enumerate(series.pages):
         counts = page.databytecounts
         end = max(map(sum, zip(page.dataoffsets, counts)), default=0)
         if not counts or end > length or min(counts) <= 0 or (
-                key.compression == 1 and not key.is_tiled and sum(counts) < key.nbytes):
+                key.compression == 1 and key.bitspersample >= 8 and sum(counts) < key.nbytes):
             raise IndexError("page %d: its pixels, %d bytes, end at byte %d, the file at byte %d"
                              % (number + 1, sum(counts), end, length))
-    used = sum(sum(page.databytecounts) + 1024 for page in file.pages) + 8192
-    if len(file.series) == 1 and not (file.is_ome or file.is_imagej or file.is_lsm) and (
-            length > used + key.nbytes):
-        raise IndexError("%d bytes belong to none of its %d pages"
-                         % (length - used, len(file.pages)))
+    if not is_plain or first.subifds:
+        return
+    entry, inner = (20, 8) if file.is_bigtiff else (12, 4)  # bytes of the first directory
+    other = 2 * inner + sum(entry + tag.valuebytecount * (tag.valuebytecount > inner) for tag in first.tags)
+    data = sum(sum(page.databytecounts) for page in file.pages) / len(file.pages)
+    if length - len(file.pages) * (data + other) >= max(data, 32 * len(file.pages)):
+        raise IndexError("%d bytes belong to none of its %d pages; copy it again, or by tiffcp"
+                         % (length - len(file.pages) * data, len(file.pages)))
 
 
 def _tiff_volume(path, file, series, choice):
@@ -112,8 +117,8 @@ def _tiff_volume(path, file, series, choice):
     else:
         try:
             array = series.asarray()
-        except (ValueError, KeyError) as error:
-            if "imagecodecs" not in str(error):
+        except (ValueError, KeyError):
+            if first.compression == 1:
                 raise
             array = _pages_by_pillow(path, series)
     array = array.reshape(series.shape)
@@ -132,8 +137,6 @@ def _tiff_volume(path, file, series, choice):
     if order:
         array = array.reshape(-1, *array.shape[-3:])
         more["components"] = "channels" if "C" in axes else _COLORS.get(len(array), "channels")
-    if len(file.series) > 1 and not file.is_ome:
-        more["warnings"] = ["the first of its %d series of pages is read" % len(file.series)]
     pixel, unit = _tiff_spacing(file, first)
     return placed(array, np.diag(pixel), [0, 0, 0], "", unit, choice, **more)
 
