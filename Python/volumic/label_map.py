@@ -14,8 +14,8 @@ from typing import Any
 
 from .errors import Failure
 from .messages import Teller, run
-from .reading.tables import names_beside, plain_name, read_label_names
-from .reading.volume import Label, Volume
+from .reading.tables import names_beside, read_label_names
+from .reading.volume import Label, Volume, plain_name
 
 FIELDS = ("LabelValues", "LabelNames", "LabelColors", "LabelLayers")
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Names and colors of labels, from the files in which programs and people keep them."""
+"""Names and colors of labels from JSON, color tables, and tables of text."""
 
 from __future__ import annotations
 
@@ -12,53 +12,58 @@ from collections.abc import Iterable, Sequence
 from typing import Any
 
 from ..errors import Failure
-from .volume import Label
+from .volume import Label, need_file, plain_name
 
 LARGEST_FILE = 16 << 20  # bytes
-LARGEST_LABEL = 2 ** 31 - 1
 NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?", re.IGNORECASE | re.ASCII)
 
 
 def read_label_names(file: str) -> list[Label]:
-    """The labels that a file names, by their values. Its content tells what kind it is of:
+    """Return the labels that a file names, sorted by value. Throw Failure that names the file.
 
-    - JSON: {"1": "liver"} or {"liver": 1}, alone or within other members (nnU-Net's `labels`,
-      TotalSegmentator's classes), or a list of segments (3D Slicer, dcmqi);
-    - label descriptions of ITK-SNAP;
-    - lines of a label, a name and a color (3D Slicer's .ctbl, FreeSurfer), or of a label, a name
-      and a number without meaning here (MRIcron);
+    - JSON: {"1": "liver"} or {"liver": 1}, alone or in other members (nnU-Net, TotalSegmentator),
+      or a list of segments (3D Slicer, dcmqi);
+    - lines of a label, a name and a color (3D Slicer, FreeSurfer, MRIcron, ITK-SNAP);
     - tables with commas, semicolons or tabs, with or without column names (BIDS).
-
-    Throw Failure that names the file, and the line where there is one.
     """
+    need_file(file)
     try:
         text = _text_of(file)
-        if file.lower().endswith(".json") or text.lstrip()[:1] in ("{", "["):
-            names, example = _names_in_json(text), '{"1": "liver"} or {"liver": 1}'
-        else:
-            names, example = _names_in_table(text), "'1 liver' or '1,liver'"
-        if not names:
-            raise Failure(f"it names no label; labels are written as {example}")
-        _scale_colors(names)
-    except Failure as failure:
-        raise Failure(f"{file}: names of labels cannot be read: {failure}") from None
-    first = {label.value: label for label in reversed(names)}
-    for label in first.values():
-        label.name = plain_name(label.name)
-    return [first[value] for value in sorted(first)]
+        is_json = file.lower().endswith(".json") or text.lstrip()[:1] in ("{", "[")
+        labels = _labels_in(json.loads(text)) if is_json else _labels_in_table(text)
+        if not labels:
+            raise ValueError("the file names no label; write labels as "
+                             + ('{"1": "liver"}' if is_json else "'1 liver' or '1,liver'"))
+        colors = [part for label in labels for part in label.color or ()]
+        if colors and not 0 <= min(colors) <= max(colors) <= 255:
+            raise ValueError(f"colors are from {min(colors):g} to {max(colors):g}; write them from "
+                             "0 to 1 or from 0 to 255")
+    except (OSError, ValueError, RecursionError, csv.Error) as error:
+        raise Failure(f"{file}: names of labels cannot be read: "
+                      f"{getattr(error, 'strerror', None) or error}") from None
+    scale = 255 if max(colors, default=0) > 1 else 1
+    first = {label.value: label for label in reversed(labels)}
+    return [Label(value, plain_name(label.name), label.color and tuple(
+        part / scale for part in label.color)) for value, label in sorted(first.items())]
 
 
 def names_beside(volume: str, outputs: Iterable[str] = ()) -> tuple[list[Label], str, list[str]]:
-    """The labels that a file beside a volume names, that file, and why others were not read.
+    """Return the labels that a file beside a volume names, that file, and why others were skipped.
 
     For a.nii.gz the file is a.nii.txt, a.label, a.txt, a.ctbl, a.json, a.csv or a.tsv, or
-    nnU-Net's dataset.json in the folder or the one above. A report of this program and a file
-    that is among the `outputs` of this run are no such files.
+    dataset.json in the folder or the one above. Reports and `outputs` of this run are ignored.
     """
     refused: list[str] = []
-    written = {os.path.realpath(name) for name in outputs}
-    for file in _files_beside(volume):
-        if os.path.realpath(file) not in written and not _is_report(file):
+    ignored = {os.path.realpath(name) for name in (volume, *outputs)}
+    stems = [os.path.splitext(volume)[0]]
+    if volume.lower().endswith((".gz", ".bz2", ".seg.nrrd")):  # a.nii.gz has a.nii and a
+        stems.append(os.path.splitext(stems[0])[0])
+    files = [stem + suffix for stem in stems
+             for suffix in (".label", ".txt", ".ctbl", ".json", ".csv", ".tsv")]
+    files += [os.path.join(os.path.dirname(volume), *above, "dataset.json")
+              for above in ((), ("..",))]
+    for file in files if os.path.isfile(volume) else ():
+        if os.path.isfile(file) and os.path.realpath(file) not in ignored and not _is_report(file):
             try:
                 return read_label_names(file), file, refused
             except Failure as failure:
@@ -66,60 +71,41 @@ def names_beside(volume: str, outputs: Iterable[str] = ()) -> tuple[list[Label],
     return [], "", refused
 
 
-def plain_name(text: str) -> str:
-    """A name on one line, which UTF-8 can hold."""
-    text = re.sub(r"[\x00-\x1f\x7f]", " ", text).strip()
-    return text.encode("utf-8", "replace").decode()
-
-
-def _files_beside(volume: str) -> list[str]:
-    if not os.path.isfile(volume):
-        return []
-    stem, stems = volume, []  # a.nii.gz has a.nii and a; a.seg.nrrd has a.seg and a
-    for ending in (".gz", "", ".seg"):
-        shorter, suffix = os.path.splitext(stem)
-        if suffix and ending in ("", suffix.lower()):
-            stem = shorter
-            stems.append(stem)
-    folder = os.path.dirname(volume)
-    files = [stem + suffix for stem in stems
-             for suffix in (".label", ".txt", ".ctbl", ".json", ".csv", ".tsv")]
-    files += [os.path.join(folder, *above, "dataset.json") for above in ((), ("..",))]
-    return [file for file in files if os.path.isfile(file) and not os.path.samefile(file, volume)]
-
-
 def _is_report(file: str) -> bool:
-    """Whether a file is a report that this program wrote."""
+    """Return whether this program wrote the file as its report."""
     try:
-        report = json.loads(_text_of(file)) if file.lower().endswith(".json") else None
-    except (Failure, ValueError, RecursionError):
+        return "volumic" in json.loads(_text_of(file))["versions"]
+    except (OSError, ValueError, RecursionError, LookupError, TypeError):
         return False
-    versions = report.get("versions") if isinstance(report, dict) else None
-    return isinstance(versions, dict) and "volumic" in versions
 
 
 def _text_of(file: str) -> str:
-    try:
-        with open(file, "rb") as stream:
-            data = stream.read(LARGEST_FILE + 1)
-    except IsADirectoryError:
-        raise Failure("it is a folder; give a file") from None
-    except OSError as error:
-        raise Failure(f"it cannot be opened ({error.strerror})") from None
+    with open(file, "rb") as stream:
+        data = stream.read(LARGEST_FILE + 1)
     if len(data) > LARGEST_FILE:
-        raise Failure("it is too large for a list of names (16 MiB)")
+        raise ValueError("it is too large for a list of names (16 MiB)")
     if b"\0" in data:
-        raise Failure("it is not text in UTF-8")
+        raise ValueError("it is not text in UTF-8")
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError:
         return data.decode("latin-1")
 
 
-# ---- Values --------------------------------------------------------------------------------------
+# ---- Segments ------------------------------------------------------------------------------------
+
+# Members of JSON objects and columns of tables, in small letters and digits.
+LABEL_KEYS = ("labelvalue", "labelid", "labelindex", "value", "label", "index", "id", "idx",
+              "number", "no", "key", "roi")
+NAME_KEYS = ("name", "labelname", "segmentname", "segmentlabel", "segmentdescription", "structure",
+             "structurename", "region", "regionname", "organ", "segment", "label", "text", "class",
+             "description")
+COLOR_KEYS = ("color", "colour", "rgb", "recommendeddisplayrgbvalue")
+RGB_KEYS = ("r", "red", "colorr", "g", "green", "colorg", "b", "blue", "colorb")
+
 
 def _number(value: Any) -> float | None:
-    """The number that a text or a value of JSON is; None where it is none."""
+    """Return the number that a text or a JSON value denotes."""
     if isinstance(value, str):
         value = float(value) if NUMBER.fullmatch(value) else None
     is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
@@ -127,64 +113,34 @@ def _number(value: Any) -> float | None:
 
 
 def _label(value: Any) -> int | None:
-    """The label that a text or a value of JSON is: 7, "7" and "7.0" are 7."""
+    """Return the label that a text or a JSON value denotes: 7, "7" and "7.0" are 7."""
     number = _number(value)
-    is_label = number is not None and number.is_integer() and abs(number) <= LARGEST_LABEL
-    return int(number) if number is not None and is_label else None
+    is_label = number is not None and number.is_integer() and abs(number) < 2 ** 31
+    return int(number) if is_label else None
 
 
-def _hex_color(text: str) -> tuple[float, ...] | None:
-    """The color "#ff8000", from 0 to 255."""
-    is_color = re.fullmatch("#([0-9a-fA-F]{6})([0-9a-fA-F]{2})?", text)
-    return tuple(map(float, bytes.fromhex(is_color[1]))) if is_color else None
-
-
-def _scale_colors(names: list[Label]) -> None:
-    """Have all colors from 0 to 1, which may be from 0 to 255."""
-    for label in names:
-        if not all(0 <= part <= 255 for part in label.color or ()):
-            raise Failure(f"the color of label {label.value} is not between 0 and 255")
-    if any(max(label.color or (0,)) > 1 for label in names):
-        for label in names:
-            label.color = label.color and tuple(part / 255 for part in label.color)
-
-
-# ---- Segments ------------------------------------------------------------------------------------
-
-# Members of objects of JSON and columns of tables, in small letters and digits.
-LABEL_KEYS = ("labelvalue", "labelid", "labelindex", "value", "label", "index", "id", "idx",
-              "number", "no", "key", "roi")
-NAME_KEYS = ("name", "labelname", "segmentname", "segmentlabel", "segmentdescription", "structure",
-             "structurename", "region", "regionname", "organ", "segment", "label", "text", "class",
-             "description")
-COLOR_KEYS = ("color", "colour", "rgb", "recommendeddisplayrgbvalue")
-RGB_KEYS = (("r", "red", "colorr"), ("g", "green", "colorg"), ("b", "blue", "colorb"))
-
-
-def _labels_of(segments: Iterable[Any]) -> list[Label | None]:
-    """The label of each segment; None where it has no label or no name."""
+def _labels_of(segments: Sequence[Any]) -> list[Label | None]:
+    """Return the label of each segment, None if it lacks a label or a name. The label stands under
+    the key that most segments have."""
+    if not all(isinstance(segment, dict) for segment in segments):
+        return []
     plain = [{re.sub("[^a-z0-9]", "", key.lower()): value for key, value in segment.items()}
-             if isinstance(segment, dict) else {} for segment in segments]
-    usual = [key for key in LABEL_KEYS if all(_label(each.get(key)) is not None for each in plain)]
-    return [_label_of(segment, usual[:1] or LABEL_KEYS) for segment in plain]
+             for segment in segments]
+    key = max(LABEL_KEYS, key=lambda key: sum(_label(each.get(key)) is not None for each in plain))
+    return [_label_of(segment, key) for segment in plain]
 
 
-def _label_of(segment: dict[str, Any], keys: Sequence[str]) -> Label | None:
-    key = next((key for key in keys if _label(segment.get(key)) is not None), "")
+def _label_of(segment: dict[str, Any], key: str) -> Label | None:
+    value = _label(segment.get(key))
     name = next((segment[other] for other in NAME_KEYS
                  if other != key and isinstance(segment.get(other), str)), None)
-    label = _label(segment.get(key))
-    return None if label is None or name is None else Label(label, name, _color_of(segment))
-
-
-def _color_of(segment: dict[str, Any]) -> tuple[float, ...] | None:
-    color = next((segment[key] for key in COLOR_KEYS if key in segment), None)
-    if isinstance(color, str):
-        return _hex_color(color)
-    values = color if isinstance(color, list) else [
-        segment.get(key) for keys in RGB_KEYS for key in keys if key in segment]
-    parts = tuple(map(_number, values[:3]))
-    return parts if len(parts) == 3 and None not in parts else None
+    color = next((segment[key] for key in COLOR_KEYS if key in segment),
+                 [segment[key] for key in RGB_KEYS if key in segment])
+    if isinstance(color, str) and re.fullmatch("#([0-9a-fA-F]{2}){3,4}", color):
+        color = list(bytes.fromhex(color[1:]))
+    parts = tuple(map(_number, color[:3])) if isinstance(color, list) else ()
+    return None if value is None or name is None else Label(
+        value, name, parts if len(parts) == 3 and None not in parts else None)
 
 
 # ---- JSON ----------------------------------------------------------------------------------------
@@ -193,100 +149,55 @@ USUAL_MEMBERS = ("labels", "label_names", "names", "segments", "segmentattribute
                  "classes", "structures", "organs")
 
 
-def _names_in_json(text: str) -> list[Label]:
-    try:
-        return _find_names(json.loads(text))
-    except RecursionError:
-        raise Failure("it is JSON that is nested too deeply") from None
-    except ValueError as error:
-        raise Failure(f"it is not JSON: {error}") from None
-
-
-def _find_names(value: Any) -> list[Label]:
-    """The first names in a value: its own, those in usual members, those in others."""
-    found: list[Label | None] = []
-    if isinstance(value, dict):  # {"1": "liver"} or {"1": {"name": "liver"}} or {"liver": 1}
-        found = _labels_of({**(each if isinstance(each, dict) else {"name": each}),
-                            "label value": key} for key, each in value.items())
-        found = _labels_by_name(value) if None in found else found
+def _labels_in(value: Any) -> list[Label]:
+    """Return the first labels in a JSON value: its own, those in usual members, those in others."""
+    ways: list[list[Any]] = []
+    if isinstance(value, list):  # [{"label": 1, "name": "liver"}], also in lists within
+        ways = [[segment for group in value
+                 for segment in (group if isinstance(group, list) else [group])]]
+    elif isinstance(value, dict):  # {"1": "liver"}, {"1": {"name": "liver"}}; {"liver": 1}
+        # A region of nnU-Net is a list of several labels.
+        lists = {key: each if isinstance(each, list) else [each] for key, each in value.items()}
+        ways = [[{**(each if isinstance(each, dict) else {"name": each}), "label value": key}
+                 for key, each in value.items()],
+                [{"name": key, "label": each[0]} for key, each in lists.items() if len(each) == 1]]
         value = [value[key] for key in sorted(value,
                                               key=lambda key: key.lower() not in USUAL_MEMBERS)]
-    elif isinstance(value, list):  # [{"label": 1, "name": "liver"}], also in lists within
-        found = _labels_of(segment for group in value
-                           for segment in (group if isinstance(group, list) else [group]))
-    if found and None not in found:
-        return [label for label in found if label is not None]
-    members = value if isinstance(value, list) else []
-    return next(filter(None, map(_find_names, members)), [])
-
-
-def _labels_by_name(value: dict[str, Any]) -> list[Label | None]:
-    """{"liver": 1}; several labels under a name (regions of nnU-Net) name none of them."""
-    names: list[Label | None] = []
-    for name, each in value.items():
-        is_region = isinstance(each, list) and each and None not in map(_number, each)
-        label = _label(each[0] if is_region and len(each) == 1 else each)
-        if label is not None or not is_region:
-            names.append(None if label is None else Label(label, name))
-    return names
+    for labels in map(_labels_of, ways):
+        if labels and None not in labels:
+            return labels
+    return next(filter(None, map(_labels_in, value if isinstance(value, list) else ())), [])
 
 
 # ---- Tables --------------------------------------------------------------------------------------
 
-def _names_in_table(text: str) -> list[Label]:
-    rows, separator = _rows_of(text)
-    if not rows:
-        return []
-    numbers = [[_number(word) is not None for word in words] for _, words in rows]
-    keys, first, has_head = ["label", "name", "r", "g", "b"], rows[0][0], not any(numbers[0])
-    if all(row == [True] * 7 + [False] for row in numbers):  # ITK-SNAP
-        keys = ["label", "r", "g", "b", "alpha", "visible", "mesh", "name"]
-    elif has_head:
-        keys, rows = rows[0][1], rows[1:]
-    elif separator == " ":
-        rows = _joined(rows, numbers)
-    elif any(_label(words[0]) is None for _, words in rows) and all(
-            _label(words[len(words) > 1]) is not None for _, words in rows):
-        keys[:2] = ["name", "label"]
-    segments = [dict(zip(keys, words)) for _, words in rows]
-    names = []
-    for (line, _), label, segment in zip(rows, _labels_of(segments), segments):
-        name = segment.get("name", "")
-        if not has_head and _number(name) is not None:
-            raise Failure(f"line {line}: '{name}' is a number, not a name")
-        if label is None:
-            line = line if any(key.lower() in LABEL_KEYS for key in keys) else first
-            raise Failure(f"line {line}: there must be a label, which is an integer, and a name, "
-                          "or above them column names such as 'label' and 'name'")
-        names.append(label)
-    return names
+NAME, COLOR, OTHER = " (?P<name>.+?)", r" (?P<r>[\d.]+) (?P<g>[\d.]+) (?P<b>[\d.]+)", r" [\d.]+"
+LINES = [re.compile(r"(?P<label>[+-]?\d+)" + rest) for rest in (
+    COLOR + 3 * OTHER + NAME,  # ITK-SNAP
+    NAME + COLOR + OTHER, NAME + COLOR, r" (?P<name>\S+)" + OTHER, NAME)]
 
 
-def _rows_of(text: str) -> tuple[list[tuple[int, list[str]]], str]:
-    """Numbers and words of lines, and what separates words: that is in the first line and most."""
-    lines = [(number, line) for number, line in enumerate(re.split("\r\n?|\n", text), 1)
-             if line.strip() and not line.startswith(("#", "//"))]
-    separator = next((sign for sign in "\t;," if lines and sign in lines[0][1]
-                      and 2 * sum(sign in line for _, line in lines) >= len(lines)), " ")
-    rows = []
-    for number, line in lines:
-        line = " ".join(line.split()) if separator == " " else re.sub(
-            f'" +(?={separator}|$)', '"', line)
-        try:
-            words, = csv.reader([line], delimiter=separator, strict=True,
-                                skipinitialspace=separator != " ")
-        except csv.Error:
-            raise Failure(f"line {number}: a quote does not end, or a cell is too long") from None
-        rows.append((number, [word.strip() for word in words]))
-    return rows, separator
-
-
-def _joined(rows: list[tuple[int, list[str]]], numbers: list[list[bool]]
-            ) -> list[tuple[int, list[str]]]:
-    """Rows of a label, words of a name, and numbers; the words become one."""
-    at_end = min((row[:1:-1] + [False]).index(False) for row in numbers)
-    # A number at the end of some names is a part of them.
-    count = min(at_end, 4) if at_end >= 3 or (
-        at_end == 1 and all(len(row) == 3 for row in numbers)) else 0
-    return [(line, [words[0], " ".join(words[1:len(words) - count]), *words[len(words) - count:]]
-             if len(words) > 1 else words) for line, words in rows]
+def _labels_in_table(text: str) -> list[Label]:
+    lines = {number: line for number, line in enumerate(text.splitlines(), 1)
+             if line.strip() and not line.startswith(("#", "//"))}
+    sign = next((sign for sign in "\t;," if 2 * sum(
+        sign in line for line in lines.values()) > len(lines)), "")
+    rows = [[word.strip() for word in next(csv.reader(
+        [line], delimiter=sign, skipinitialspace=True))] if sign
+        else line.replace('"', "").split() for line in lines.values()]
+    head = rows.pop(0) if rows and not any(_number(word) is not None for word in rows[0]) else []
+    if head and sign:
+        segments = [dict(zip(head, words)) for words in rows]
+    elif sign:  # The name may be first.
+        segments = [dict(zip(("label", "name", "r", "g", "b"), sorted(
+            words[:2], key=lambda word: _label(word) is None) + words[2:])) for words in rows]
+    else:  # The first pattern that fits all lines; names may have blanks.
+        fits = [[pattern.fullmatch(" ".join(words)) for words in rows] for pattern in LINES]
+        best = next(filter(all, fits), fits[-1])
+        segments = [match.groupdict() if match else {} for match in best]
+    labels = _labels_of(segments)
+    for number, label in zip(list(lines)[-len(rows):], labels):
+        if label is None or (not head and _number(label.name) is not None):
+            raise ValueError(f"line {number} lacks a label, which is an integer, or a name; put "
+                             "column names such as 'label' and 'name' in the first line")
+    return labels
