@@ -106,7 +106,7 @@ def checked(volume, choice):
     array = volume.array
     if array.dtype.kind == "c":
         array = np.stack([array.real, array.imag])
-        volume.components = "complex"
+        volume.components = "vector"
     if array.ndim not in (3, 4) or not all(array.shape):
         raise VolumeError("the sizes %s are not those of a volume" % text_of(array.shape))
     if array.dtype.kind not in "uifb":
