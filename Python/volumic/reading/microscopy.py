@@ -19,7 +19,7 @@ from .volume import METERS, Choice, failure_of, unit_of
 
 _PICTURES = (".png", ".tif", ".tiff", ".bmp", ".jpg", ".jpeg", ".pgm", ".ppm", ".pnm")
 _COLORS = {1: "", 2: "gray and alpha", 3: "color", 4: "color and alpha"}  # by components
-_MODES = {0: "i1", 1: "i2", 2: "f4", 3: "(2)i2", 4: "c8", 6: "u2", 12: "f2", 16: "(3)u1"}
+_MODES = {0: "i1", 1: "i2", 2: "f4", 3: "(2,)i2", 4: "c8", 6: "u2", 12: "f2", 16: "(3,)u1"}
 
 
 def read_mrc(path, choice):
