@@ -131,8 +131,8 @@ def open(path: str, level: int = 0, *, label: str | None = None, time: int = 0, 
             for axis in scales[0].get("axes", "tczyx"[-len(array.shape):])]
     names = [axis["name"] for axis in axes]
     if not {*"zyx"} <= {*names} or not len({*names}) == len(names) == len(array.shape):
-        raise ValueError(f"{path} has the axes {', '.join(names)} for {len(array.shape)} dimensions;"
-                         " it must have z, y and x")
+        raise ValueError(f"{path} has the axes {', '.join(names)} for {len(array.shape)} "
+                         "dimensions; it must have z, y and x")
     sizes = {name: size for name, size in zip(names, array.shape) if name not in tuple("zyx")}
     chosen = {"t": time, "c": channel}
     for name, index in chosen.items():
@@ -154,7 +154,7 @@ def _set_coordinates(volume: Volume, path: str, sources: list[Any], units: list[
     """Set spacing, origin and unit. `units` are those of x, y and z; lengths are in that of x."""
     count = len(volume.place)
     scale, translation = np.ones(count), np.zeros(count)
-    for step in [step for source in sources for step in source.get("coordinateTransformations", [])]:
+    for step in [s for source in sources for s in source.get("coordinateTransformations", [])]:
         given = [np.asarray(step.get(name, default * np.ones(count)), dtype=float)
                  for name, default in (("scale", 1), ("translation", 0))]
         if step.get("type") not in ("scale", "translation", "identity") or "path" in step or any(
@@ -164,14 +164,14 @@ def _set_coordinates(volume: Volume, path: str, sources: list[Any], units: list[
         scale, translation = scale * given[0], translation * given[0] + given[1]
     lengths = [round(1e9 * METERS.get(unit_of(unit), 0.0), 6) for unit in units]  # in nanometers
     if 0.0 in lengths and len(set(units)) > 1:
-        raise ValueError(f"{path}: the units of the axes, {', '.join(map(repr, sorted(set(units))))}, "
-                         "cannot be converted")
+        raise ValueError(f"{path}: the units of the axes cannot be converted: {', '.join(units)}")
     factors = [length / lengths[0] if lengths[0] else 1.0 for length in lengths]
     volume.spacing, volume.origin = (tuple(float(values[axis] * factor) for axis, factor in zip(
         volume.order[::-1], factors)) for values in (scale, translation))
     volume.unit, volume.nanometers = units[0], lengths[0] or 1.0
     if units[0] and not lengths[0]:
-        warnings.warn(f"{path}: the unit '{units[0]}' is unknown; lengths have no unit", stacklevel=3)
+        warnings.warn(f"{path}: the unit '{units[0]}' is unknown; lengths have no unit",
+                      stacklevel=3)
 
 
 def label_names(path: str) -> list[str]:
@@ -196,7 +196,9 @@ def _group(path: str) -> Any:
             raise ValueError(f"{path} is the array of a level; give the group that has it, "
                              f"{os.path.dirname(path.rstrip('/'))}") from error
         if isinstance(error, FileNotFoundError) or "NotFound" in kind:
-            raise ValueError(f"{path}: there is no group of Zarr") from error
+            raise ValueError(f"{path}: there is no group of Zarr" + (
+                " 2; install zarr 3 to read Zarr 3" * os.path.exists(
+                    os.path.join(path, "zarr.json")))) from error
         raise
 
 

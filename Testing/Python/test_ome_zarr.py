@@ -22,10 +22,11 @@ except ImportError:
     zarr = None
 
 
-def axes(names, unit="micrometer"):
-    kinds = {"t": "time", "c": "channel"}
+def axes(names, *units):
+    kinds, units = {"t": "time", "c": "channel", "a": "angle"}, units or ["micrometer"] * 3
+    spatial = dict(zip([name for name in names if name not in kinds], units))
     return [{"name": name, "type": kinds[name]} if name in kinds
-            else {"name": name, "type": "space", "unit": unit} for name in names]
+            else {"name": name, "type": "space", "unit": spatial[name]} for name in names]
 
 
 def add_array(group, name, voxels):
@@ -107,22 +108,78 @@ class OmeZarrTest(FolderTestCase):
         old.attrs["ome"] = {"version": "0.5", "multiscales": multiscales}
         self.assertEqual(ome_zarr.open(self.path("old.zarr")).spacing, (1, 2, 3))
 
+    def test_indices_are_those_of_numpy(self):
+        volume = ome_zarr.open(self.path("scan.zarr"), channel=1)
+        index = np.s_
+        for key in (5, index[3:9], index[..., 5], index[..., 3:9], index[3, ..., 5], index[2:4, ...],
+                    (1, 2, 3), ..., (-1, 4), index[:, 4, 1:9:2]):
+            with self.subTest(key=key):
+                np.testing.assert_array_equal(volume[key], ring_voxels()[key])
+        for key in (None, [1, 2], (1, 2, 3, 4), (..., ...), 2.5, True):
+            with self.subTest(key=key), self.assertRaisesRegex(IndexError, "integers, slices"):
+                volume[key]  # pylint: disable=pointless-statement
+
+    def test_axes_in_another_order(self):
+        turned = zarr.open_group(self.path("turned.zarr"), mode="w")
+        add_array(turned, "0", np.stack([np.transpose(ring_voxels())]))
+        describe(turned, "cxyz", [("0", [{"type": "scale", "scale": [1, 2, 1, 3]}])])
+        volume = ome_zarr.open(self.path("turned.zarr"))
+        self.assertEqual((volume.shape, volume.spacing), ((40, 40, 40), (2, 1, 3)))
+        np.testing.assert_array_equal(volume[..., 5], ring_voxels()[..., 5])
+        np.testing.assert_array_equal(volume[4, 2:], ring_voxels()[4, 2:])
+
+    def test_units(self):
+        for units, nanometers, spacing in (
+                (("um",) * 3, 1000, (2, 1, 3)), (("µm",) * 3, 1000, (2, 1, 3)),
+                (("micron",) * 3, 1000, (2, 1, 3)), (("millimetre",) * 3, 1e6, (2, 1, 3)),
+                (("micrometer", "nanometer", "nanometer"), 1, (2, 1, 3000))):
+            with self.subTest(units):
+                group = self.root.create_group("units", overwrite=True)
+                add_array(group, "0", ring_voxels())
+                describe(group, "zyx", [("0", [{"type": "scale", "scale": [3, 1, 2]}])])
+                scales = group.attrs["multiscales"]
+                scales[0]["axes"] = axes("zyx", *units)
+                group.attrs["multiscales"] = scales
+                volume = ome_zarr.open(self.path("scan.zarr/units"))
+                self.assertEqual((volume.nanometers, volume.spacing), (nanometers, spacing))
+        scales[0]["axes"] = axes("zyx", *["furlong"] * 3)
+        group.attrs["multiscales"] = scales
+        with self.assertWarnsRegex(UserWarning, "the unit 'furlong' is unknown"):
+            self.assertEqual(ome_zarr.open(self.path("scan.zarr/units")).nanometers, 1)
+        scales[0]["axes"] = axes("zyx", "um", "um", "")
+        group.attrs["multiscales"] = scales
+        with self.assertRaisesRegex(ValueError, "units of the axes cannot be converted"):
+            ome_zarr.open(self.path("scan.zarr/units"))
+
+    def test_chunks_without_a_file(self):
+        volume = ome_zarr.open(self.path("scan.zarr"), channel=1)
+        self.assertEqual(volume.missing_chunks(), (0, 27))
+        name = "0.1.2.0.1" if os.path.exists(self.path("scan.zarr/0/0.1.2.0.1")) else "0/1/2/0/1"
+        os.remove(self.path("scan.zarr/0/" + name))
+        self.assertEqual(volume.missing_chunks(), (1, 27))
+
     def test_refused(self):
         path = self.path("scan.zarr")
         for words, call in (
+                ("scan.zarr/0 is the array of a level; give the group that has it, .*scan.zarr$",
+                 lambda: ome_zarr.open(path + "/0")),
+                ("no index 3 along t; it has no such axis",
+                 lambda: ome_zarr.open(path, label="cells", time=3)),
                 ("none.zarr: there is no group", lambda: ome_zarr.open(self.path("none.zarr"))),
                 ("no level 2; it has 0 to 1", lambda: ome_zarr.open(path, 2)),
                 ("no labels nuclei; it has cells", lambda: ome_zarr.open(path, label="nuclei")),
                 ("no index 2 along c; it has 0 to 1", lambda: ome_zarr.open(path, channel=2)),
-                ("no multiscales; labels: cells", lambda: ome_zarr.open(path + "/labels"))):
+                ("no multiscales; it has cells: append", lambda: ome_zarr.open(path + "/labels"))):
             with self.subTest(words), self.assertRaisesRegex(ValueError, words):
                 call()
-        describe(self.root, "tcxyz", [("0", [])])
-        with self.assertRaisesRegex(ValueError, "axes t, c, x, y, z .* must be z, y and x"):
-            ome_zarr.open(path)
-        describe(self.root, "tczyx", [("0", [{"type": "affine"}])])
-        with self.assertRaisesRegex(ValueError, "no coordinates .*affine"):
-            ome_zarr.open(path)
+        for names, steps, words in (
+                ("tcwyx", [], "axes t, c, w, y, x .* must have z, y and x"),
+                ("tazyx", [], "2 images along its axis a; copy one"),
+                ("tczyx", [{"type": "affine"}], "affine'} is not supported"),
+                ("tczyx", [{"type": "scale", "scale": [1, 1, 1]}], "with 5 numbers")):
+            describe(self.root, names, [("0", steps)])
+            with self.subTest(words), self.assertRaisesRegex(ValueError, words):
+                ome_zarr.open(path)
 
 
 class WithoutZarrTest(unittest.TestCase):
