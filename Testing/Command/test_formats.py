@@ -7,23 +7,20 @@ import gzip
 import importlib.util
 import os
 import re
-import struct
 import unittest
-import zlib
 
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkIOGeometry import vtkOBJReader, vtkSTLReader
-from vtkmodules.vtkIOImage import (
-    vtkBMPWriter, vtkJPEGWriter, vtkMetaImageWriter, vtkPNGWriter, vtkTIFFWriter)
+from vtkmodules.vtkIOImage import vtkMetaImageWriter
 from vtkmodules.vtkIOLegacy import vtkPolyDataReader, vtkStructuredPointsWriter
 from vtkmodules.vtkIOPLY import vtkPLYReader
 from vtkmodules.vtkIOXML import vtkXMLImageDataWriter, vtkXMLPolyDataReader
 from vtkmodules.vtkFiltersCore import vtkCleanPolyData
 
 from command_test_case import (
-    CENTRE, ISO, META, ORIGIN, RADIUS, SIZE, SPACING, TURNED, CommandTestCase, ball, dicom_slice,
-    make_image, nrrd_header)
+    CENTRE, ISO, META, ORIGIN, RADIUS, SIZE, SPACING, TURNED, CommandTestCase, ball, make_image,
+    nrrd_header)
 
 import medical_files
 
@@ -103,51 +100,11 @@ class VolumesTest(CommandTestCase):
         from vtkmodules.vtkIOMINC import vtkMINCImageWriter
         self.check(self.write(vtkMINCImageWriter(), "a.mnc", make_image(ball())))
 
-    def test_dicom_series_in_any_order(self):
-        voxels = ball("u2") + 24
-        for k, name in enumerate(np.random.default_rng(1).permutation(SIZE[2])):
-            self.write_bytes(f"IM{name:03}.dcm", dicom_slice(k, voxels, TURNED, slope="1",
-                                                             intercept="-24"))
-        report = self.check(self.folder, direction=TURNED)
-        self.assertEqual(report["input"]["range"], [ball().min(), ball().max()])
-        self.check(self.path("IM000.dcm"), direction=TURNED)
-        self.check(self.path("IM*.dcm"), direction=TURNED)
-
-    def write_pictures(self, writer, suffix, voxels):
-        for k, plane in enumerate(voxels):
-            image = make_image(plane[np.newaxis])
-            self.write(writer, f"slice{k}.{suffix}", image)  # slice9 comes before slice10
-
-    def test_pictures_in_a_folder_or_of_a_pattern(self):
-        place = {"origin": np.zeros(3), "iso": ISO}
-        options = ("--spacing", ",".join(map(str, SPACING)))
-        turned = ball("u2")[:, ::-1]  # VTK's writers write the last row first
-        self.write_pictures(vtkPNGWriter(), "png", turned)
-        self.check(self.folder, *options, **place)
-        self.write_pictures(vtkTIFFWriter(), "tif", turned)
-        self.refused(r"several kinds.*'\*\.tif'", self.folder, self.path("a.vtp"))
-        for pattern in ("slice*.tif", "slice%d.tif", "*.png"):
-            with self.subTest(pattern):
-                self.check(self.path(pattern), *options, **place)
-        self.write_pictures(vtkJPEGWriter(), "jpg", ball("u1", scale=0.2)[:, ::-1])
-        self.write_pictures(vtkBMPWriter(), "bmp", ball("u1", scale=0.2)[:, ::-1])
-        self.check(self.path("*.jpg"), *options, origin=np.zeros(3), iso=ISO / 5)
-        self.check(self.path("*.bmp"), "--component", "0", *options, origin=np.zeros(3), iso=ISO / 5)
-
     def test_a_folder_with_one_volume(self):
         os.makedirs(self.path("a"))
         self.write_bytes("a/a.mha", META + ball().tobytes())
         self.write_bytes("a/a.json", b"{}")
         self.check(self.path("a"))
-
-    def test_what_lies_beside_pictures(self):
-        os.makedirs(self.path("a"))
-        for k, plane in enumerate(ball("u2")):
-            self.write(vtkPNGWriter(), f"a/{k:02}.png", make_image(plane[np.newaxis]))
-        self.write_bytes("a/log.txt", b"bright")
-        self.write_bytes("a/Thumbs.db", b"?")
-        said = self.run_command(self.path("a"), self.path("a.vtp"), "--iso", ISO).stderr
-        self.assertIn("2 files that are not named as pictures are left out", said)
 
     def test_names_that_end_otherwise(self):
         self.write_bytes("a.1", META + ball().tobytes())
@@ -180,24 +137,6 @@ class VolumesTest(CommandTestCase):
             + ball().tobytes())
         reports = [self.report(self.path(name), "--iso", ISO) for name in ("a.mha", "b.mha")]
         self.assertEqual(*(report["volume"] for report in reports))
-
-    def test_packed_maps(self):
-        content = medical_files.mrc(ball(), SPACING)
-        self.write_bytes("a.map", content)
-        self.write_bytes("a.map.gz", gzip.compress(content))
-        volumes = [self.report(self.path(name), "--iso", ISO, *way)["volume"] for name, way in (
-            ("a.map", ()), ("a.map.gz", ()), ("a.map.gz", ("--memory", "200M")))]
-        self.assertEqual(volumes[0], volumes[1])
-        self.assertAlmostEqual(volumes[0], volumes[2], delta=0.1)
-        self.refused("packed data give 21607 bytes", self.write_bytes("b.map.gz", gzip.compress(content[:-9])),
-                     self.path("a.stl"))
-
-    def test_a_picture_with_pages(self):
-        # VTK writes the slices of a volume from the last to the first page.
-        file = self.write(vtkTIFFWriter(), "a.tif", make_image(ball("u2")))
-        report = self.report(file, "--iso", ISO, "--quiet")
-        self.assertEqual(report["input"]["dimensions"], SIZE.tolist())
-        self.assertEqual((report["components"], report["genus"]), (1, 0))
 
     def test_a_component_or_the_magnitude(self):
         image = make_image(ball())
@@ -240,59 +179,6 @@ class VolumesTest(CommandTestCase):
         self.refused("no value separates", self.write(
             vtkXMLImageDataWriter(), "flat.vti", make_image(0 * ball())), self.path("a.stl"))
         self.assertFalse(os.path.exists(self.path("a.stl")))
-
-    def test_bad_series(self):
-        for k in (0, 1, 2, 5, 6):
-            self.write_bytes(f"IM{k}", dicom_slice(k, direction=TURNED))
-        self.refused("some are missing", self.folder, self.path("a.stl"), "--no-resampling")
-        self.write_bytes("IM5", medical_files.dicom_slice(ball()[0], 1, SPACING, ORIGIN, TURNED))
-        self.refused("lies where .* does", self.folder, self.path("a.stl"))
-
-
-class PalettesTest(CommandTestCase):
-    COLOURS = bytes([0, 0, 0, 250, 0, 0, 0, 0, 0, 250, 0, 0])  # the same one twice
-
-    def png(self, plane, bits):
-        def chunk(kind, data):
-            return struct.pack(">I", len(data)) + kind + data + struct.pack(
-                ">I", zlib.crc32(kind + data))
-
-        rows = plane if bits == 8 else plane[:, ::2] << 4 | plane[:, 1::2]
-        rows = b"".join(b"\0" + row.astype("u1").tobytes() for row in rows)
-        return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(
-            ">IIBBBBB", *plane.shape[::-1], bits, 3, 0, 0, 0)) + chunk(b"PLTE", self.COLOURS) + chunk(
-                b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b"")
-
-    def bmp(self, plane, isgrey=False):
-        padded = np.pad(plane[::-1], ((0, 0), (0, -plane.shape[1] % 4)))
-        start, colours = 54 + 1024, bytearray(1024)
-        colours[4:16] = 0, 0, 250, 0, 0, 0, 0, 0, 0, 0, 250, 0
-        colours = np.arange(256, dtype="<u4") * 0x10101 if isgrey else colours
-        return b"BM" + struct.pack(
-            "<IHHIIiiHHIIiiII", start + padded.size, 0, 0, start, 40, *plane.shape[::-1], 1, 8, 0, 0,
-            0, 0, 0, 0) + bytes(colours) + padded.astype("u1").tobytes()
-
-    def test_grey_values(self):
-        os.makedirs(self.path("a"))
-        for k, plane in enumerate(ball() // 4):
-            self.write_bytes(f"a/{k:02}.bmp", self.bmp(plane, isgrey=True))
-        said = self.run_command(self.path("a"), self.path("a.vtp"), "--iso", "125").stderr
-        self.assertIn("x 1, unsigned char, 0 to 215", said)
-
-    def test_labels_are_the_numbers_of_the_palette(self):
-        labels = (ball() > ISO).astype("u1")
-        labels[:8] *= 3
-        for kind, suffix, write in (("png", "png", lambda plane: self.png(plane, 8)),
-                                    ("half", "png", lambda plane: self.png(plane, 4)),
-                                    ("bmp", "bmp", self.bmp)):
-            os.makedirs(self.path(kind))
-            for k, plane in enumerate(labels):
-                self.write_bytes(f"{kind}/{k:02}.{suffix}", write(plane))
-            said = self.run_command(self.path(kind), "--list-labels").stdout
-            counts = re.findall(r"(?m)^ *(\d+) +(\d+) ", said)
-            self.assertEqual(counts, [(str(n), str((labels == n).sum())) for n in (1, 3)], kind)
-        said = self.run_command(self.path("png"), self.path("a.vtp"), "--iso", "60").stderr
-        self.assertIn("the colours of its palette are taken; --labels takes the numbers", said)
 
 
 class TableTest(unittest.TestCase):

@@ -10,11 +10,10 @@ import unittest
 
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkIOImage import vtkPNGWriter, vtkTIFFWriter
 from vtkmodules.vtkIOXML import vtkXMLImageDataReader, vtkXMLImageDataWriter
 
 from command_test_case import (
-    ISO, META, ORIGIN, SIZE, SPACING, CommandTestCase, ball, dicom_slice, make_image, nrrd_header)
+    ISO, META, ORIGIN, SPACING, CommandTestCase, ball, make_image, nrrd_header)
 
 import medical_files
 
@@ -64,23 +63,6 @@ class PlacesTest(ToldTest):
         self.write_bytes("a.nii", content)
         self.assertIn("unless --unit asks for another, is micrometres, not", self.warning("a.nii"))
 
-    def test_dicom_without_pixel_spacing(self):
-        for k in range(SIZE[2]):
-            content = dicom_slice(k)
-            at = content.index(struct.pack("<HH", 0x28, 0x30))
-            length, = struct.unpack_from("<H", content, at + 6)
-            value = content[at:at + 8 + length]
-            content = content[:at] + content[at + 8 + length:]
-            before = content.index(struct.pack("<HH", 0x20, 0x32))
-            imager = struct.pack("<HH", 0x18, 0x1164) + value[4:]
-            for name, more in (("with", imager), ("without", b"")):
-                os.makedirs(self.path(name), exist_ok=True)
-                self.write_bytes(f"{name}/IM{k:02}", content[:before] + more + content[before:])
-        self.assertRegex(self.warning("with"), "Imager Pixel Spacing, 0.75 x 0.5, .* is taken")
-        np.testing.assert_allclose(self.report(
-            self.path("with"), "--iso", ISO, "-q")["input"]["spacing"], SPACING)
-        self.assertRegex(self.warning("without"), "no Pixel Spacing; 1 x 1 is taken")
-
     def test_far_from_the_origin(self):
         far = make_image(ball(), SPACING * 0.1, (500000, 4000000, 300))
         self.write(vtkXMLImageDataWriter(), "a.vti", far)
@@ -89,98 +71,7 @@ class PlacesTest(ToldTest):
                          r"b.stl: coordinates up to 400000\d are rounded there by steps of 0\.4")
 
 
-class TiffTest(ToldTest):
-    def described(self, name, description, resolution=(2, 1), pages=None, isone=False):
-        """A volume of pages whose first one, or which as one, has a description and a resolution."""
-        pages = ball("u2") if pages is None else pages
-        content, link = bytearray(b"II*\0\0\0\0\0"), 4
-        for plane in pages[:1] if isone else pages:
-            place = len(content)
-            content += pages.tobytes() if isone else plane.tobytes()
-            texts = len(content)
-            content += struct.pack("<II", *resolution) + description + b"\0" * (1 + len(description) % 2)
-            entries = [(256, 4, 1, SIZE[0]), (257, 4, 1, SIZE[1]), (258, 3, 1, 16), (259, 3, 1, 1),
-                       (262, 3, 1, 1), (270, 2, len(description) + 1, texts + 8), (273, 4, 1, place),
-                       (277, 3, 1, 1), (278, 4, 1, SIZE[1]), (279, 4, 1, 2 * SIZE[0] * SIZE[1]),
-                       (282, 5, 1, texts), (283, 5, 1, texts)]
-            struct.pack_into("<I", content, link, len(content))
-            content += struct.pack("<H", len(entries))
-            content += b"".join(struct.pack("<HHII", *entry) for entry in entries)
-            link = len(content)
-            content += bytes(4)
-        self.write_bytes(name, bytes(content))
-
-    def spacing(self, name):
-        return self.report(self.path(name), "--iso", ISO, "-q")["input"]["spacing"]
-
-    def test_imagej(self):
-        self.described("a.tif", b"ImageJ=1.53c\nimages=18\nslices=18\nspacing=2.5\nloop=false\n")
-        self.assertEqual(self.spacing("a.tif"), [0.5, 0.5, 2.5])
-        self.described("a.tif", b"some program")
-        self.assertEqual(self.spacing("a.tif"), [1, 1, 1])
-        self.described("b.tif", b"ImageJ=1.53c\nimages=18\nchannels=2\nslices=9\n")
-        self.refused_volume("b.tif", "no vector .channels.; choose one with --component N, 0 to 1")
-        self.described("c.tif", b"ImageJ=1.53c\nimages=18\nchannels=4\nslices=9\n")
-        self.refused_volume("c.tif", "4 channels and 1 times, of which its 18 pages are no multiple")
-        self.described("c.tif", b"ImageJ=1.53c\nimages=18\nslices=18\n", pages=ball("u2")[:1])
-        self.refused_volume("c.tif", "the file is cut off: 18 images are told of")
-
-    def test_imagej_with_all_images_in_one_page(self):
-        twice = np.repeat(ball("u2"), 2, 0)
-        for name, text, pages in (("a.tif", b"images=18\nslices=18", ball("u2")),
-                                  ("b.tif", b"images=36\nchannels=2\nslices=18", twice)):
-            self.described(name, b"ImageJ=1.53c\n" + text + b"\n", pages=pages)
-            self.described("c.tif", b"ImageJ=1.53c\n" + text + b"\n", pages=pages, isone=True)
-            for way in ((), ("--memory", "200M")):
-                options = ("--component", "1", *way) if pages is twice else way
-                np.testing.assert_allclose(
-                    self.centre("c.tif", *options), self.centre(name, *options), atol=1e-6)
-
-    def test_ome(self):
-        head = (b'<?xml version="1.0"?><OME><Image><Pixels DimensionOrder="%s" SizeC="%d" SizeT="%d" '
-                b'PhysicalSizeX="0.5" '
-                b'PhysicalSizeY="0.25" PhysicalSizeZ="2"/></Image></OME>')
-        self.described("a.tif", head % (b"XYZCT", 1, 1))
-        self.assertEqual(self.spacing("a.tif"), [0.5, 0.25, 2])
-        for order, pages in ((b"XYCZT", np.repeat(ball("u2"), 2, 0)), (b"XYZTC", np.tile(
-                ball("u2"), (2, 1, 1)))):
-            pages[1 if order == b"XYCZT" else SIZE[2]] += 1
-            self.described("b.tif", head % (order, 2, 1), pages=pages)
-            self.refused_volume("b.tif", "the 2 numbers of each voxel are no vector .channels.")
-            there = self.centre("a.tif")
-            np.testing.assert_allclose(self.centre("b.tif", "--component", "0"), there, atol=1e-6)
-            np.testing.assert_allclose(
-                self.centre("b.tif", "--component", "1", "--memory", "200M"), there, atol=1e-2)
-            self.described("c.tif", head % (order.replace(b"C", b"?").replace(b"T", b"C").replace(
-                b"?", b"T"), 1, 2), pages=pages)
-            self.refused_volume("c.tif", "2 volumes, one behind the other .*; choose one with --time N")
-            np.testing.assert_allclose(self.centre("c.tif", "--time", "0"), there, atol=1e-6)
-
-    def test_the_same_stack_in_two_formats(self):
-        for name, writer in (("png", vtkPNGWriter()), ("tif", vtkTIFFWriter())):
-            os.makedirs(self.path(name))
-            for k, plane in enumerate(ball("u2")):
-                # VTK's writers write the last row first.
-                self.write(writer, f"{name}/{k:02}.{name}", make_image(plane[np.newaxis, ::-1]))
-        self.described("a.tif", b"pages")
-        there = self.centre("a.tif")
-        np.testing.assert_allclose(self.centre("png"), there, atol=1e-6)
-        np.testing.assert_allclose(self.centre("tif"), there, atol=1e-6)
-
-
 class ValuesTest(ToldTest):
-    def test_bytes_of_mrc(self):
-        self.write_bytes("a.mrc", medical_files.mrc((ball() // 8 - 60).astype("i1"), SPACING, 0))
-        said = self.run_command(self.path("a.mrc"), self.path("a.vtp"), "--iso", 2).stderr
-        self.assertIn("signed char, -60 to 47", said)
-        content = bytearray(medical_files.mrc((ball() // 8).astype("u1"), SPACING, 0))
-        struct.pack_into("<II", content, 152, 1146047817, 0)
-        self.write_bytes("b.mrc", bytes(content))
-        self.assertIn("unsigned char, 0 to 107", self.run_command(
-            self.path("b.mrc"), self.path("a.vtp"), "--iso", 60).stderr)
-        self.refused_bytes("c.mrc", medical_files.mrc(ball("u1"), SPACING, 101),
-                           "mode 101, .* not read; write them as mode 2")
-
     def test_halves_of_floats(self):
         voxels = (ball("f4") - 300.25).astype("f2")
         voxels[0, 0, :4] = np.nan, 6e-8, -0.0, 65504
