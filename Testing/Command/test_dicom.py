@@ -202,9 +202,11 @@ class SlicesTest(DicomTest):
         self.check(told="18 of its files are copies of others")
 
     def test_without_preamble(self):
+        self.series()
         for k in range(SIZE[2]):
             self.write_bytes(f"a/IM{k:02}", dicom_slice(k)[132:])
-        self.check()
+            if k in (0, 17):
+                self.check()
 
     def test_without_positions(self):
         for k in range(SIZE[2]):

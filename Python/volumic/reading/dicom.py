@@ -37,7 +37,10 @@ def dicom_files(path):
     folders = sorted({os.path.dirname(file) for file in slices})
     for file in [os.path.join(folder, name) for folder in folders for name in os.listdir(folder)]:
         name, (ending, form) = os.path.basename(file), keys(file)
-        if name.startswith(".") or not os.path.isfile(file) or is_dicom(file):
+        if name.startswith(".") or not os.path.isfile(file):
+            continue
+        if is_dicom(file):
+            slices += [file] * os.path.exists(path)  # one without preamble among others
             continue
         with open(file, "rb") as stream:
             head = stream.read(136)
