@@ -5,6 +5,7 @@ and positions are those of the file, and damaged files are refused in one line."
 
 import base64
 import bz2
+import contextlib
 import gzip
 import io
 import itertools
@@ -12,6 +13,7 @@ import os
 import plistlib
 import struct
 import tarfile
+import time
 import unittest
 import zlib
 
@@ -25,6 +27,8 @@ from vtkmodules.vtkIOXML import vtkXMLImageDataWriter, vtkXMLRectilinearGridWrit
 from command_test_case import META, ORIGIN, SIZE, SPACING, TURNED, ball, make_image, nrrd_header
 from reading_test_case import ReadingTestCase
 from volumic import reading
+from volumic.errors import Failure
+from volumic.reading.tables import read_label_names
 
 import medical_files
 
@@ -508,6 +512,19 @@ class HostileTest(ReadingTestCase):
                              "GNU.sparse.name": "matrix.dat", "GNU.sparse.realsize": str(large.size)}
         self.refused("a.inv3", "no matrix.dat|cut off", archive(
             holes, b"1\n0\n512\n".ljust(1024, b"\0")))
+
+
+    def test_tables_of_names(self):
+        most = 4 << 20
+        for content in (b"\r\n" * (most // 2), b"1 " + b"a" * most, b"a,b\n" + b" " * most,
+                        b'1,"' + b" " * most + b'"\n', b"1 a\r\n" * (most // 5),
+                        b"\n".join(b"%d a" % k for k in range(most // 10)), b"[" * most,
+                        b'{"a":' * (most // 5), b"[1," * (most // 10),
+                        b"{" + b",".join(b'"%d":1' % k for k in range(300000)) + b"}"):
+            used, name = time.process_time(), self.write_bytes("names.txt", content)
+            with self.subTest(content[:10]), contextlib.suppress(Failure):
+                read_label_names(name)
+            self.assertLess(time.process_time() - used, 20)
 
 
 class RandomDamageTest(ReadingTestCase):

@@ -76,15 +76,17 @@ def _text_points(path, columns):
             is_first = is_first and not words
             if is_heading or not words:
                 continue
-            try:
-                row = [float(word) for word in words]
-                if not 3 <= len(row) <= columns:
-                    raise ValueError("not three numbers" if columns == 3 else
-                                     "not three to five numbers")
-                if not np.isfinite(row).all():
-                    raise ValueError("a number is not finite")
-            except ValueError as error:
-                raise VolumeError("line %d: %s" % (number, error)) from None
+            row = []
+            for word in words:
+                try:
+                    row.append(float(word))
+                except ValueError:
+                    row.append(np.nan)
+                if not np.isfinite(row[-1]):
+                    raise VolumeError("line %d: '%s' is not a number" % (number, word))
+            if not 3 <= len(row) <= columns:
+                raise VolumeError("line %d: not three %snumbers"
+                                  % (number, "" if columns == 3 else "to five "))
             rows.append(row + [0, 0, 0, 1, 0][len(row):])
     table, result, points = np.array(rows, float).reshape(-1, 5), vtkPolyData(), vtkPoints()
     points.SetData(numpy_to_vtk(np.ascontiguousarray(table[:, :3]), deep=True))
