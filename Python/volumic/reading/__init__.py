@@ -15,7 +15,7 @@ import numpy as np
 
 from ..errors import VolumeError
 from .grid import one_of_times
-from .volume import Choice, Label, Volume, checked, failure_of, need_file, unit_of
+from .volume import Choice, Label, Volume, checked, naming, need_file, unit_of
 
 __all__ = ["Choice", "Label", "SUFFIXES", "Volume", "VolumeError", "checked", "list_files",
            "list_series", "read", "unit_of"]
@@ -53,21 +53,17 @@ def read(path, **choice):
     The keywords are the fields of Choice, such as time, component, series, labels."""
     path, choice = os.fspath(path), Choice(**choice)
     choice.times = 0
-    try:
+    with naming(path), warnings.catch_warnings(), np.errstate(all="ignore"):
+        warnings.simplefilter("ignore")
         _need_files(path)
-        with warnings.catch_warnings(), np.errstate(all="ignore"):
-            warnings.simplefilter("ignore")
-            volume = _read(path, choice)
-            if choice.labels and choice.time is None and choice.times > 1:
-                from . import masks
-                volume = masks.read_times(path, choice.times, choice, _read)
-        volume.times = max(choice.times, 1)
+        volume = _read(path, choice)
+        if choice.labels and choice.time is None and choice.times > 1:
+            from . import masks
+            volume = masks.read_times(path, choice.times, choice, _read)
         if not choice.times and choice.time is not None:
             one_of_times(1, choice)
+        volume.times = max(choice.times, 1)
         return volume
-    except Exception as error:  # pylint: disable=broad-except
-        text = str(failure_of(error))
-        raise VolumeError(text if text.startswith(path) else "%s: %s" % (path, text)) from None
 
 
 def _read(path, choice):
@@ -90,8 +86,7 @@ def _reader_of(path, choice):
     if not os.path.isdir(path):
         if not re.search(r"[*%]", os.path.basename(path)):
             raise VolumeError("no such file or folder")
-    elif any(os.path.exists(os.path.join(path, name)) for name in (".zattrs", ".zgroup", "zarr.json",
-                                                                   ".zarray")):
+    elif {".zattrs", ".zgroup", ".zarray", "zarr.json"} & set(os.listdir(path)):
         return "microscopy:read_ome_zarr"
     from . import masks
     files = list_files(path)
@@ -102,9 +97,9 @@ def _reader_of(path, choice):
         return lambda _, choice: _read(found[0], choice)
     if found:
         return lambda _, choice: masks.read_masks(found, choice, _read)
-    pictures = [file for file in files if _suffix_of(file) and "microscopy:" in
-                SUFFIXES[_suffix_of(file)]]
-    return "microscopy:read_pictures" if pictures else "dicom:read_dicom"
+    if any(SUFFIXES.get(_suffix_of(file), "").startswith("microscopy:") for file in files):
+        return "microscopy:read_pictures"
+    return "dicom:read_dicom"
 
 
 def _suffix_of(path):
@@ -141,13 +136,10 @@ def _is_dicom(path):
 
 def list_series(path):
     """Return a line for each DICOM series of a file or folder."""
-    from . import dicom
-    try:
+    with naming(path):
+        from . import dicom
         _need_files(path)
         return dicom.list_series(path)
-    except Exception as error:  # pylint: disable=broad-except
-        text = str(failure_of(error))
-        raise VolumeError(text if text.startswith(path) else "%s: %s" % (path, text)) from None
 
 
 def _need_files(path):

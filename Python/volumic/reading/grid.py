@@ -137,8 +137,9 @@ def need_bytes(have, need, exact=False):
     """Throw VolumeError if a file has fewer bytes of voxels than its header requires, or, with
     `exact`, more of them: the check of all formats."""
     if have < need or have > need and exact:
-        raise VolumeError("the file is %s: it has %d bytes of voxels, its header requires %d; copy "
-                          "it again" % ("cut off" if have < need else "too long", max(have, 0), need))
+        raise VolumeError("the file is %s: it has %d bytes of voxels, its header requires %d; "
+                          "copy it again" % ("cut off" if have < need else "too long",
+                                             max(have, 0), need))
 
 
 def voxels(file, offset, dtype, count, packing=None, skip=0, size=None, exact=False):
@@ -165,8 +166,8 @@ def unpacked(stream, packing, dtype, count, skip=0, size=None, exact=False):
         behind = size - _skip(plain, skip) - count * dtype.itemsize
         data = from_stream(plain, dtype, count)
         if _skip(plain, behind) == behind and plain.read(1) and exact:
-            raise VolumeError("the packed data give more than the %d bytes that the header requires; "
-                              "copy the file again" % size)
+            raise VolumeError("the packed data give more than the %d bytes that the header "
+                              "requires; copy the file again" % size)
         while not exact and plain.read(1 << 20):
             pass
     return data

@@ -9,7 +9,7 @@ import os
 import numpy as np
 
 from ..errors import VolumeError
-from .volume import Label, plain_name
+from .volume import Label, naming, plain_name
 
 _SUFFIXES = (".nii.gz", ".nii", ".seg.nrrd", ".nrrd", ".nhdr", ".mha", ".mhd", ".vti", ".mgz")
 _NEAR = .01  # as labels are rounded
@@ -36,8 +36,8 @@ def read_times(path, count, choice, read_one):
     """Read a mask for each of the volumes of one file."""
     volume = _merged([("volume %d" % t, "", lambda t=t: read_one(path, dataclasses.replace(
         choice, time=t))) for t in range(count)], choice)
-    volume.warnings.append("%d volumes, one behind the other, are taken for masks of labels 1 to %d;"
-                           " --time chooses one of them" % (count, count))
+    volume.warnings.append("%d volumes, one behind the other, are taken for masks of labels 1 to "
+                           "%d; --time chooses one of them" % (count, count))
     return volume
 
 
@@ -48,17 +48,16 @@ def _merged(masks, choice):
     that overlap are in different components of the array."""
     whole, layers, counts, called, shared = None, [], [0], [""], {}
     for number, (place, name, load) in enumerate(masks, 1):
-        try:
+        with naming(place):
             mask = load()
             if whole is None:
-                whole = dataclasses.replace(mask, labels=[], warnings=[], components="", name="Labels")
-                layers = [np.zeros(mask.array.shape[-3:], np.uint16)]
                 first = place
+                whole = dataclasses.replace(mask, labels=[], warnings=[], components="",
+                                            name="Labels")
+                layers = [np.zeros(mask.array.shape[-3:], np.uint16)]
             if not _alike(whole, mask):
                 raise VolumeError("its voxels are not those of %s, in number or position" % first)
             inside = _inside(mask.array)
-        except VolumeError as error:
-            raise VolumeError("%s: %s" % (place, error)) from None
         whole.warnings += [text for text in mask.warnings if text not in whole.warnings]
         counts.append(int(inside.sum()))
         called.append(name or place)
@@ -75,10 +74,8 @@ def _merged(masks, choice):
                 shared[int(other), number] = int(voxels)
             inside[inside] = (others == 0) | (np.array(counts)[others] > counts[number])
         layers[at][inside] = number
-        if name:
+        if name or choice.layers:
             whole.labels.append(Label(number, name, layer=at))
-        elif at:
-            whole.labels.append(Label(number, layer=at))
     whole.warnings += _warnings(shared, counts, called)
     dtype = np.uint8 if len(counts) <= 256 else np.uint16
     whole.array = np.stack(layers).astype(dtype) if len(layers) > 1 else layers[0].astype(dtype)
@@ -103,9 +100,9 @@ def _inside(values):
     other = found[np.argmax(np.abs(found - found[0].astype(float)) > _NEAR)] if len(found) else 0
     if len(found) and abs(float(other) - float(found[0])) > _NEAR:
         raise VolumeError(
-            "has the values %g and %g: a mask has 0 and one other value. Volumes of a folder, or of a "
-            "file, are read as masks, one for each label; give a volume, or a label map, by its own "
-            "name, or choose one of the file's with --time" % (found[0], other))
+            "has the values %g and %g: a mask has 0 and one other value. Volumes of a folder, or "
+            "of a file, are read as masks, one for each label; give a volume, or a label map, by its "
+            "own name, or choose one of the file's with --time" % (found[0], other))
     return inside
 
 

@@ -9,6 +9,7 @@ import dataclasses
 import gzip
 import html
 import logging
+import math
 import re
 
 import numpy as np
@@ -106,7 +107,7 @@ def _stored(image, choice):
     with open(file, "rb") as stream:
         start = stream.read(3)
     packing = "gzip" if start[:2] == b"\x1f\x8b" else "bz2" if start == b"BZh" else None
-    dtype, size = proxy.dtype, int(np.prod(shape[:3])) * proxy.dtype.itemsize
+    dtype, size = proxy.dtype, math.prod(shape[:3]) * proxy.dtype.itemsize
     time, head = one_of_times(shape[3], choice), proxy.offset
     offset, head = (0, head) if packing else (head, 0)
     parts = [voxels(file, offset, dtype, size // dtype.itemsize, packing,

@@ -4,7 +4,9 @@
 of InVesalius. (VTK 9.1's readers of NRRD and MetaImage ignore the directions of the axes.)"""
 from __future__ import annotations
 
+import contextlib
 import gzip
+import math
 import os
 import plistlib
 import re
@@ -14,7 +16,7 @@ import numpy as np
 
 from ..errors import VolumeError
 from .grid import from_stream, need_bytes, one_of_times, placed, voxels
-from .volume import Label, plain_name, text_of, unit_of
+from .volume import Label, naming, plain_name, text_of, unit_of
 
 _LARGEST_HEADER = 1 << 20
 
@@ -27,12 +29,12 @@ def _header_lines(path):
         data = stream.read(_LARGEST_HEADER)
     lines = data.split(b"\n")
     ends = np.cumsum([len(line) + 1 for line in lines])
-    return [line.decode("latin-1").strip() for line in lines], lambda n: int(ends[n])
+    return [line.decode("utf-8", "replace").strip() for line in lines], lambda n: int(ends[n])
 
 
 def data_files(path, value, following, count):
-    """Return the files that a header names: one; a pattern "%03d.raw FIRST LAST STEP"; or LIST, with
-    the names in the lines that follow. count: of the files if there are several."""
+    """Return the files that a header names: one; a pattern "%03d.raw FIRST LAST STEP"; or LIST,
+    with the names in the lines that follow. count: of the files if there are several."""
     folder, words = os.path.dirname(path), value.split()
     if not words:
         raise VolumeError("its header is damaged: it names no data file")
@@ -44,12 +46,14 @@ def data_files(path, value, following, count):
             raise VolumeError("its header lists %d files for %d slices" % (len(names), count))
         names = names[:count]
     elif "%" in words[0]:
-        first, last, step = [int(w) for w in (words[1:4] + ["1", str(count), "1"][len(words) - 1:])]
+        first = int(words[1]) if len(words) > 1 else 1
+        last = int(words[2]) if len(words) > 2 else first + count - 1
+        step = int(words[3]) if len(words) > 3 else 1
         names = list(range(first, last + 1, step or 1))[:count] if last - first < 1 << 20 else []
         if not re.fullmatch(r"[^%]*%0?\d?\d?[diu][^%]*", words[0]) or len(names) != count:
             raise VolumeError("its header is damaged: the data file \"%s\" gives no %d files, as "
                               "\"slice%%03d.raw 1 100 1\" gives 100" % (value[:80], count))
-        names = [words[0].replace("u", "d") % n for n in names]
+        names = [re.sub(r"(%\d*)[iu]", r"\1d", words[0]) % n for n in names]
     else:
         names = [value]
     return [os.path.join(folder, name) for name in names]
@@ -63,18 +67,11 @@ def _values(files, offset, dtype, count, packing, **more):
         raise VolumeError("its header is damaged: it requires %d values" % count)
     for file in files:
         share = count // len(files)
-        try:
-            if packing == "text":
-                parts.append(_from_text(file, offset, dtype, share))
-                continue
-            start = offset
-            if offset < 0:
-                start = os.path.getsize(file) - share * dtype.itemsize
-                need_bytes(os.path.getsize(file), share * dtype.itemsize)
-            parts.append(voxels(file, start, dtype, share, packing, exact=True, **more))
-        except VolumeError as error:
-            raise VolumeError("%s%s" % ("" if len(files) == 1 else
-                                        os.path.basename(file) + ": ", error)) from None
+        with naming(os.path.basename(file)) if len(files) > 1 else contextlib.nullcontext():
+            last = max(0, os.path.getsize(file) - share * dtype.itemsize)
+            start = last if offset < 0 else offset
+            parts.append(_from_text(file, start, dtype, share) if packing == "text" else
+                         voxels(file, start, dtype, share, packing, exact=True, **more))
     return parts[0] if len(parts) == 1 else np.concatenate(parts)
 
 
@@ -178,8 +175,9 @@ def read_nrrd(path, choice):
         raise VolumeError("voxels of type \"%s\", encoding \"%s\" and endian \"%s\" cannot be read"
                           % (kind, encoding, endian))
     if fields["dimension"] != str(len(sizes)) or not 3 <= len(sizes) <= 4 or min(sizes) < 1:
-        raise VolumeError("dimension %s and sizes \"%s\" are not those of a volume, which has three "
-                          "axes, or four with components" % (fields["dimension"], fields["sizes"]))
+        raise VolumeError("dimension %s and sizes \"%s\" are not those of a volume, which has "
+                          "three axes, or four with components"
+                          % (fields["dimension"], fields["sizes"]))
     dtype = np.dtype(_NRRD_TYPES[kind]).newbyteorder(">" if endian == "big" else "<")
     kinds = (fields.get("kinds", "").lower().split() or ["domain"] * len(sizes))
     kinds += ["domain"] * (len(sizes) - len(kinds))
@@ -188,7 +186,7 @@ def read_nrrd(path, choice):
     files = [path]
     if "datafile" in fields:
         files, start = data_files(path, fields["datafile"], following, sizes[-1]), 0
-    packing, count = _PACKINGS[encoding], int(np.prod([float(n) for n in sizes]))
+    packing, count = _PACKINGS[encoding], math.prod(sizes)
     start += _bytes_of_lines(files[0], start, int(fields.get("lineskip", 0)))
     skip = int(fields.get("byteskip", 0))
     more = {"skip": max(skip, 0)} if packing in ("gzip", "bz2") else {}
@@ -284,7 +282,7 @@ def read_meta_image(path, choice):
     is_here = data.lower() == "local"
     files = [path] if is_here else data_files(path, data, lines[at + 1:], sizes[-1])
     start = -1 if skip < 0 else skip + (behind(at) if is_here else 0)
-    total = int(np.prod([float(n) for n in sizes])) * channels
+    total = math.prod(sizes) * channels
     array = _values(files, start, dtype, total, packing)
     sizes += [1] * (4 - count)
     array = array.reshape(sizes[::-1] + [channels])[one_of_times(sizes[3], choice)]
@@ -294,8 +292,8 @@ def read_meta_image(path, choice):
     spacing = numbers("1 " * count, "elementspacing", "elementsize")
     origin = numbers("0 " * count, "offset", "position", "origin")
     if (len(matrix), len(spacing), len(origin)) != (count * count, count, count):
-        raise VolumeError("its header is damaged: it does not have %d numbers for the directions and "
-                          "%d for spacing and offset" % (count * count, count))
+        raise VolumeError("its header is damaged: it does not have %d numbers for the directions "
+                          "and %d for spacing and offset" % (count * count, count))
     steps, place = np.eye(3), np.zeros(3)
     axes = min(count, 3)
     steps[:axes, :axes] = (matrix.reshape(count, count).T * spacing)[:axes, :axes]
@@ -311,20 +309,21 @@ def read_meta_image(path, choice):
 def read_npy(path, choice):
     """Read an array [z, y, x], or [x, y, z] in Fortran's order, of .npy or .npz."""
     array, name = np.load(path, mmap_mode="r", allow_pickle=False), ""
-    if not isinstance(array, np.ndarray):
-        names = [n for n in array.files if choice.array in (None, "", n)]
-        if len(names) != 1:
-            raise VolumeError("its arrays are %s; choose one with --array" % ", ".join(array.files))
-        array, name = array[names[0]], names[0]
+    if isinstance(array, np.ndarray):
+        need_bytes(os.path.getsize(path) - array.offset, array.nbytes, exact=True)
     else:
-        with open(path, "rb") as stream:
-            need_bytes(os.fstat(stream.fileno()).st_size - array.offset, array.nbytes, exact=True)
+        with array as file:
+            names = [n for n in file.files if choice.array in (None, "", n)]
+            if len(names) != 1:
+                raise VolumeError("its arrays are %s; choose one with --array"
+                                  % ", ".join(file.files))
+            array, name = file[names[0]], names[0]
     array = array if array.flags.c_contiguous else array.T
     while array.ndim > 3 and len(array) == 1:  # one time or channel
         array = array[0]
     if array.ndim != 3:
-        raise VolumeError("its shape is (%s); a volume has three axes (numpy.save the channel or time "
-                          "that is to be read)" % text_of(array.shape, ", "))
+        raise VolumeError("its shape is (%s); a volume has three axes (numpy.save the channel or "
+                          "time that is to be read)" % text_of(array.shape, ", "))
     return placed(array, np.eye(3), [0, 0, 0], "", "", choice, name=name)
 
 
@@ -341,7 +340,7 @@ def read_raw(path, choice):
     sizes = [int(n) for n in words[2::-1]]
     dtype = np.dtype("float32" if words[3] == "float" else words[3])
     dtype = dtype.newbyteorder(">" if words[4:] == ["big"] else "<")
-    return placed(_values([path], 0, dtype, int(np.prod([float(n) for n in sizes])), None)
+    return placed(_values([path], 0, dtype, math.prod(sizes), None)
                   .reshape(sizes), np.eye(3), [0, 0, 0], "", "", choice)
 
 
@@ -360,7 +359,7 @@ def read_inv3(path, choice):
         if found.size > _LARGEST_HEADER:
             raise VolumeError("main.plist is too large to be the description of a project")
         shape, dtype, steps, name, space = _inv3_header(archive.extractfile(found).read())
-        found, count = member(archive, name), int(np.prod(shape, dtype=object))
+        found, count = member(archive, name), math.prod(shape)
         need_bytes(found.size, count * dtype.itemsize, exact=True)
         array = from_stream(archive.extractfile(found), dtype, count)
         while plain.read(1 << 20):  # to the end, where the checksum is

@@ -9,41 +9,32 @@ import re
 import numpy as np
 
 from ..errors import VolumeError
-from .volume import failure_of, need_file
+from .volume import naming, need_file
 from .vtkxml import XmlFile
 from .worker import in_worker
 
 
 def read_seeds(path):
     """Return the points of a mesh, or of lines of three numbers, as vertices."""
-    return _named(path, lambda: _vertices(path, 3))
+    return _vertices(path, 3)
 
 
 def read_attracting_points(path):
     """Return points with their arrays; a text has the columns x, y, z, Weight, Radius."""
-    return _named(path, lambda: _vertices(path, 5))
+    return _vertices(path, 5)
 
 
 def read_surface(path):
     """Return the polygons of a mesh, whose equal points are merged."""
     from vtkmodules.vtkFiltersCore import vtkCleanPolyData
     clean = vtkCleanPolyData()
-    clean.SetInputData(_named(path, lambda: _mesh(path)))
-    clean.SetTolerance(0.)
-    clean.Update()
-    if not clean.GetOutput().GetNumberOfPolys():
-        raise VolumeError("%s: has no polygons" % path)
+    with naming(path):
+        clean.SetInputData(_mesh(path))
+        clean.SetTolerance(0.)
+        clean.Update()
+        if not clean.GetOutput().GetNumberOfPolys():
+            raise VolumeError("has no polygons")
     return clean.GetOutput()
-
-
-def _named(path, work):
-    """Return what the work returns; its errors name the file."""
-    try:
-        need_file(path)
-        return work()
-    except Exception as error:  # pylint: disable=broad-except
-        text = str(failure_of(error))
-        raise VolumeError(text if text.startswith(path) else "%s: %s" % (path, text)) from None
 
 
 def _vertices(path, columns):
@@ -51,9 +42,11 @@ def _vertices(path, columns):
     from vtkmodules.vtkCommonDataModel import vtkPolyData
     from vtkmodules.vtkFiltersGeneral import vtkVertexGlyphFilter
     is_text = os.path.splitext(path)[1].lower() in (".txt", ".csv", ".xyz")
-    found = _text_points(path, columns) if is_text else _mesh(path)
-    if not found.GetNumberOfPoints():
-        raise VolumeError("has no points")
+    with naming(path):
+        need_file(path)
+        found = _text_points(path, columns) if is_text else _mesh(path)
+        if not found.GetNumberOfPoints():
+            raise VolumeError("has no points")
     points, vertices = vtkPolyData(), vtkVertexGlyphFilter()
     points.SetPoints(found.GetPoints())
     if columns == 5:
@@ -103,6 +96,7 @@ def _mesh(path):
     from vtkmodules.util.numpy_support import numpy_to_vtk
     from vtkmodules.vtkCommonDataModel import vtkPolyData
     from vtkmodules.vtkParallelCore import vtkCommunicator
+    need_file(path)
     if not os.path.exists(path):
         raise VolumeError("no such file")
     content, mesh = in_worker("volumic.reading.points:load", path), vtkPolyData()
@@ -184,8 +178,8 @@ def _count_ply(path):
     body = body[body.find(b"\n") + 1:]
     elements = re.findall(rb"(?m)^element +(\w+) +(\d+)", head)
     if not end or [name for name, _ in elements] != [b"vertex", b"face"]:
-        raise VolumeError("has no points, or its header is damaged: a surface has the elements vertex "
-                          "and face")
+        raise VolumeError("has no points, or its header is damaged: a surface has the elements "
+                          "vertex and face")
     vertices, faces = (int(count) for _, count in elements)
     widths = {b"char": 1, b"int8": 1, b"short": 2, b"int16": 2, b"double": 8, b"float64": 8}
     kinds = re.findall(rb"(?m)^property +u?(?!list)(\w+)", head.partition(b"element face")[0])

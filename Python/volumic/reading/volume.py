@@ -3,6 +3,7 @@
 """Volume, which all readers return, the choices of the caller, and the checks of both."""
 from __future__ import annotations
 
+import contextlib
 import dataclasses
 import errno
 import gzip
@@ -21,7 +22,7 @@ _UNITS = {"metre": "m", "centimetre": "cm", "millimetre": "mm", "micrometre": "u
 
 
 def unit_of(name):
-    """Return our name ('m', 'cm', 'mm', 'um', 'nm', 'A') of a unit of length, '' if it is unknown."""
+    """Return the key of METERS for a unit of length, or "" for an unknown one."""
     name = str(name or "").strip()
     lower = name.lower().replace("meter", "metre")
     unit = _UNITS.get(lower) or _UNITS.get(lower.rstrip("s"), "")
@@ -77,8 +78,8 @@ class Volume:
 
     def __iter__(self):
         first = self.origin + self.direction @ (np.array(self.spacing) * self.start)
-        return iter((self.array, self.spacing, tuple(first.tolist()), self.direction, self.space, self.unit,
-                     self.names))
+        return iter((self.array, self.spacing, tuple(first.tolist()), self.direction, self.space,
+                     self.unit, self.names))
 
     def scalars(self, component=None):
         """Return the values [z, y, x] of a component; -1 or None: the magnitude of all.
@@ -117,8 +118,8 @@ def checked(volume, choice):
     if array.ndim == 4 and choice.component is not None and choice.component >= 0:
         volume.array = array = volume.scalars(choice.component)
         volume.components = ""
-    size = array.dtype.itemsize
-    kind = {("b", 1): "u1", ("f", 2): "f4"}.get((array.dtype.kind, size), array.dtype.kind + str(min(size, 8)))
+    kind = array.dtype.kind + str(min(array.dtype.itemsize, 8))
+    kind = {"b1": "u1", "f2": "f4"}.get(kind, kind)
     if array.dtype != np.dtype(kind):  # also of another byte order
         volume.array = array.view(kind) if kind == "u1" else array.astype(kind)
     volume.spacing = tuple(float(s) for s in (choice.spacing or volume.spacing))
@@ -135,13 +136,25 @@ def check_positions(volume):
         raise VolumeError("the spacing %s is not positive and finite; give --spacing X,Y,Z"
                           % text_of(volume.spacing))
     if not np.isfinite(volume.origin).all():
-        raise VolumeError("the origin %s is not finite; correct the header" % text_of(volume.origin))
+        raise VolumeError("the origin %s is not finite; correct the header"
+                          % text_of(volume.origin))
     sizes = np.array(volume.array.shape[:-4:-1]) + np.abs(volume.start)
     far = np.abs(volume.origin) + np.abs(volume.direction) @ (np.array(volume.spacing) * sizes)
     if not np.isfinite(far).all() or np.spacing(far.max()) > 1e-3 * min(volume.spacing):
         raise VolumeError("the origin %s is too far away for a spacing of %g: neighboring voxels "
                           "have equal coordinates; correct the header"
                           % (text_of(volume.origin), min(volume.spacing)))
+
+
+@contextlib.contextmanager
+def naming(path):
+    """Turn all errors into VolumeErrors that begin with the name of this file."""
+    try:
+        yield
+    except Exception as error:  # pylint: disable=broad-except
+        text = str(failure_of(error))
+        raise VolumeError(text if text.startswith((path + ":", path + os.sep)) else
+                          "%s: %s" % (path, text)) from None
 
 
 def need_file(path):
@@ -164,7 +177,7 @@ def failure_of(error):
         text = "the packed data are damaged (%s); copy the file again" % text
     elif isinstance(error, ImportError) and error.name:
         module = error.name.split(".")[0]
-        package = {"PIL": "python3-pil", "vtkmodules": "python3-vtk9"}.get(module, "python3-" + module)
+        package = "python3-" + {"PIL": "pil", "vtkmodules": "vtk9"}.get(module, module)
         text = "install the Python package %s to read this format (Debian: %s)" % (module, package)
     elif isinstance(error, OSError) and error.strerror:
         text = error.strerror + (": " + str(error.filename)[:200] if error.filename else "")

@@ -3,7 +3,7 @@
 """Images of VTK: .vti, .pvti and .vtr; .vtk and .vtkhdf by VTK's readers, in a worker."""
 from __future__ import annotations
 
-import dataclasses
+import math
 import os
 import re
 
@@ -11,7 +11,7 @@ import numpy as np
 
 from ..errors import VolumeError
 from .grid import placed
-from .volume import Label, failure_of, unit_of
+from .volume import Label, naming, unit_of
 from .vtkxml import XmlFile
 from .worker import in_worker
 
@@ -87,13 +87,11 @@ def _extent(element, key):
 def _piece(path, piece):
     """Open a piece of .pvti."""
     name = piece.get("Source", "")
-    try:
+    with naming(name[:200]):
         file = XmlFile(os.path.join(os.path.dirname(path), name))
         if file.kind != "ImageData" or not file.pieces:
             raise VolumeError("it is no image")
         return file
-    except Exception as error:  # pylint: disable=broad-except
-        raise VolumeError("%s: %s" % (name[:200], failure_of(error))) from None
 
 
 def _parts(file, parent, name):
@@ -107,7 +105,7 @@ def _parts(file, parent, name):
             raise VolumeError("a piece has no array " + name)
         shape = _shape(extent[1::2] - extent[::2] + 1, parent)
         count = int(array.get("NumberOfComponents", 1))
-        values = file.read(array, int(np.prod(shape, dtype=object)) * count)
+        values = file.read(array, math.prod(shape) * count)
         parts.append((extent, values.reshape(*shape, count)))
     return parts
 
@@ -115,13 +113,13 @@ def _parts(file, parent, name):
 def _joined(parts, whole, shape):
     """Return the values of pieces as one array."""
     count = parts[0][1].shape[3]
-    if sum(values.size for _, values in parts) < np.prod(shape, dtype=object) * count:
+    if sum(values.size for _, values in parts) < math.prod(shape) * count:
         raise VolumeError("its pieces do not cover the whole image")
     result, covered = np.empty((*shape, count), parts[0][1].dtype), np.zeros(shape, bool)
     for extent, values in parts:
         begin = (extent[::2] - whole[::2])[::-1]
         place = tuple(slice(a, a + n) for a, n in zip(begin, values.shape))
-        if (begin < 0).any() or values.shape[3] != count or covered[place].shape != values.shape[:3]:
+        if (begin < 0).any() or (*covered[place].shape, count) != values.shape:
             raise VolumeError("its header is damaged: a piece is outside the whole image")
         result[place], covered[place] = values, True
     if not covered.all():
@@ -203,7 +201,7 @@ def load(path, wanted):
 
 
 def updated(reader, path):
-    """Return the output of a reader of VTK; VolumeError if it, or one within it, reports an error."""
+    """Return the output of a reader of VTK; VolumeError if it, or one in it, reports an error."""
     from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkStringOutputWindow
     window = vtkStringOutputWindow()
     vtkOutputWindow.SetInstance(window)

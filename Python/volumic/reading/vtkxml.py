@@ -43,7 +43,8 @@ class XmlFile:
             begin = self.data.find(b"_", head, head + 4096) + 1
             end = self.data.rfind(b"</AppendedData>")
             if not 0 < begin <= end or self.data[-4096:].rstrip()[-10:] != b"</VTKFile>":
-                raise VolumeError("the file is cut off: its appended data do not end; copy it again")
+                raise VolumeError("the file is cut off: its appended data do not end; copy it "
+                                  "again")
             self.is_base64 = b'"base64"' in self.data[head:begin]
             self.appended = memoryview(self.data)[begin:end]
             self.offsets = sorted({int(a["offset"]) for a in self.arrays if "offset" in a})
@@ -90,8 +91,9 @@ class XmlFile:
                 raise ValueError("%d bytes too many follow it" % (len(data) - used))
             return np.frombuffer(raw, dtype)
         except Exception as error:  # pylint: disable=broad-except
-            raise VolumeError("the file is cut off or damaged: its array %s cannot be read: %s; copy "
-                              "it again" % (array["name"], error or "it ends too early")) from None
+            raise VolumeError("the file is cut off or damaged: its array %s cannot be read: %s; "
+                              "copy it again" % (array["name"], error or "it ends too early")
+                              ) from None
 
     def _unpacked(self, data, is_base64, need):
         """Return the bytes of an array, and how many bytes at the begin of the data encode it."""
@@ -101,8 +103,9 @@ class XmlFile:
             size = int(np.frombuffer(_decoded(data, is_base64, wide), self.header)[0])
             if need not in (None, size):
                 raise ValueError("it has %d bytes, %d are needed" % (size, need))
-            return (_decoded(data, is_base64, wide + size)[wide:], _encoded(wide + size, is_base64))
-        blocks, size, last = np.frombuffer(_decoded(data, is_base64, 3 * wide), self.header).tolist()
+            return _decoded(data, is_base64, wide + size)[wide:], _encoded(wide + size, is_base64)
+        head = np.frombuffer(_decoded(data, is_base64, 3 * wide), self.header)
+        blocks, size, last = head.tolist()
         whole = (blocks - bool(last)) * size + last
         if blocks and not size or last > size or need not in (None, whole):
             raise ValueError("it is packed in %d blocks of %d bytes, the last one of %d; %s bytes "
