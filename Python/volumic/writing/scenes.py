@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import io
 import json
+import struct
 import zipfile
 from collections.abc import Iterator, Sequence
 from typing import Any
@@ -15,20 +16,12 @@ import numpy as np
 
 from ..errors import Failure
 from .regions import SurfaceLabel, cell_array, surface_labels, triangles_of
-from .surfaces import (
-    Show, chunks, silent, bytes_of, escaped, lines, normals_of, points_of)
+from .surfaces import Show, bytes_of, escaped, lines, numbers, packed, points_of, silent
 
-Objects = Sequence[tuple[str, Any]]  # names and surfaces
+Objects = Sequence[tuple[str, Any]]  # names and surfaces, none of which is empty
 
 FLOAT, UNSIGNED, VERTICES, CORNERS = 5126, 5125, 34962, 34963  # numbers of OpenGL
 GRAY, LIGHT_GRAY = (0.8, 0.8, 0.8), (0.9, 0.9, 0.9)  # of surfaces without labels
-
-
-def _with_points(objects: Objects) -> Objects:
-    found = [(name, surface) for name, surface in objects if surface.GetNumberOfPoints() > 0]
-    if not found:
-        raise Failure("cannot be written (there is no surface)")
-    return found
 
 
 # ---- .glb --------------------------------------------------------------------------------------
@@ -37,15 +30,13 @@ def glb(objects: Objects, show: Show = silent) -> Iterator[bytes]:
     """A scene of glTF: a node and a mesh for each surface, with normals and a material for each
     label. VTK's writers of glTF write no names, or need a window.
 
-    Vertices are relative to the middle of the scene, in single precision, so that those that
-    surfaces share stay equal. A node above all moves them back, and turns z upwards, which is y in
-    glTF.
+    Vertices are relative to the center of the scene, in single precision, so that shared vertices
+    stay equal. The root node moves them back, and turns z upwards, which is y in glTF.
     """
     from .. import __version__
-    objects = _with_points(objects)
     bounds = np.reshape([surface.GetBounds() for _, surface in objects], (-1, 3, 2))
-    middle = (bounds[:, :, 0].min(axis=0) + bounds[:, :, 1].max(axis=0)) / 2
-    x, y, z = middle.tolist()
+    center = (bounds[:, :, 0].min(axis=0) + bounds[:, :, 1].max(axis=0)) / 2
+    x, y, z = center.tolist()
     half = float(np.sqrt(0.5))  # of a quarter turn about x
     scene: dict[str, Any] = {
         "asset": {"version": "2.0", "generator": f"volumic {__version__}"}, "scene": 0,
@@ -54,46 +45,46 @@ def glb(objects: Objects, show: Show = silent) -> Iterator[bytes]:
                    "rotation": [-half, 0.0, 0.0, half], "translation": [x, z, -y]}],
         "meshes": [], "materials": [], "accessors": [], "bufferViews": [],
         "buffers": [{"byteLength": 0}]}
-    numbers: list[np.ndarray] = []
+    arrays: list[np.ndarray] = []
     for i, (name, surface) in enumerate(objects):
         show(i / len(objects))
-        _add_surface(scene, numbers, name, surface, middle)
+        _add_surface(scene, arrays, name, surface, center)
     text = (json.dumps(scene, separators=(",", ":"), ensure_ascii=False) + "\n").encode()
     text += b" " * (-len(text) % 4)
     size = scene["buffers"][0]["byteLength"]
     if 28 + len(text) + size >= 1 << 32:
         raise Failure("cannot be written (.glb holds no more than 4 GiB; write fewer surfaces, "
                       "coarser ones, or .vtp)")
-    head = np.array([2, 28 + len(text) + size, len(text)], "<u4").tobytes()
-    yield b"glTF" + head + b"JSON" + text + np.array([size], "<u4").tobytes() + b"BIN\0"
-    yield from (array.tobytes() for array in numbers)
+    yield struct.pack("<4sIII4s", b"glTF", 2, 28 + len(text) + size, len(text), b"JSON") + text
+    yield struct.pack("<I4s", size, b"BIN\0")
+    yield from (array.tobytes() for array in arrays)
 
 
-def _add_surface(scene: dict[str, Any], numbers: list[np.ndarray], name: str, surface: Any,
-                 middle: np.ndarray) -> None:
-    """Add a node, a mesh, its materials, and the numbers that they refer to."""
+def _add_surface(scene: dict[str, Any], arrays: list[np.ndarray], name: str, surface: Any,
+                 center: np.ndarray) -> None:
+    """Add a node, a mesh, its materials, and the arrays that they refer to."""
     from ..geometry import fact
 
-    def add(array: np.ndarray, target: int, kind: int) -> int:
+    def add(array: np.ndarray, target: int, kind: int, **limits: Any) -> int:
         buffer = scene["buffers"][0]
         scene["accessors"].append({
-            "bufferView": len(scene["bufferViews"]), "byteOffset": 0, "componentType": kind,
-            "count": len(array), "type": "VEC3" if array.ndim == 2 else "SCALAR"})
+            "bufferView": len(arrays), "byteOffset": 0, "componentType": kind, "count": len(array),
+            "type": "VEC3" if array.ndim == 2 else "SCALAR", **limits})
         scene["bufferViews"].append({"buffer": 0, "byteOffset": buffer["byteLength"],
                                      "byteLength": array.nbytes, "target": target})
         buffer["byteLength"] += array.nbytes
-        numbers.append(array)
-        return len(scene["accessors"]) - 1
+        arrays.append(array)
+        return len(arrays) - 1
 
     labels = surface_labels(surface)
     facts = {key: fact(surface, key) for key in ("SPACE", "LengthUnit") if fact(surface, key)}
     scene["nodes"].append({"name": name, "mesh": len(scene["meshes"]), "extras": {
         "labels": [label.number for label in labels], "stop_reason": fact(surface, "StopReason"),
         **facts}})
-    points = (points_of(surface) - middle).astype("<f4")
-    attributes = {"POSITION": add(points, VERTICES, FLOAT)}
-    scene["accessors"][-1].update(min=points.min(axis=0).tolist(), max=points.max(axis=0).tolist())
-    normals, parts = normals_of(surface), []
+    points = (points_of(surface) - center).astype("<f4")
+    attributes = {"POSITION": add(points, VERTICES, FLOAT, min=points.min(axis=0).tolist(),
+                                  max=points.max(axis=0).tolist())}
+    normals, parts = numbers(surface.GetPointData().GetNormals()), []
     if normals is not None:
         attributes["NORMAL"] = add(normals.astype("<f4"), VERTICES, FLOAT)
     known = {label.number: label for label in labels}
@@ -103,23 +94,19 @@ def _add_surface(scene: dict[str, Any], numbers: list[np.ndarray], name: str, su
         corners = triangles[of_label == number].ravel()
         parts.append({"attributes": attributes, "indices": add(corners, CORNERS, UNSIGNED),
                       "material": len(scene["materials"])})
-        scene["materials"].append(_material(known.get(number, SurfaceLabel(0, name, GRAY))))
+        label = known.get(number, SurfaceLabel(0, name, GRAY))
+        linear = [part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4
+                  for part in label.color]  # labels have sRGB
+        scene["materials"].append({"name": label.name, "pbrMetallicRoughness": {
+            "baseColorFactor": [*linear, 1.0], "metallicFactor": 0, "roughnessFactor": 0.6}})
     scene["meshes"].append({"name": name, "primitives": parts})
-
-
-def _material(label: SurfaceLabel) -> dict[str, Any]:
-    """glTF has linear intensities, screens sRGB."""
-    color = [part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4
-             for part in label.color]
-    return {"name": label.name, "pbrMetallicRoughness": {
-        "baseColorFactor": [*color, 1.0], "metallicFactor": 0, "roughnessFactor": 0.6}}
 
 
 # ---- .3mf --------------------------------------------------------------------------------------
 # Several surfaces are one object, since slicers move and drop objects separately: labels that touch
-# would come apart, and a label with a small lowest layer stops PrusaSlicer. In PrusaSlicer each
-# surface is a part of the object, by a file of its own within the .3mf. It does not regard 3MF's
-# components as parts. To other programs the triangles of each label have a material of its name.
+# would come apart, and a label with a small lowest layer stops PrusaSlicer. PrusaSlicer ignores
+# 3MF's components. It reads parts of the object from a file of its own within the .3mf. To other
+# programs the triangles of each label have a material of its name.
 
 XML = '<?xml version="1.0" encoding="UTF-8"?>\n'
 PACKAGE = "http://schemas.openxmlformats.org/package/2006/"
@@ -132,21 +119,40 @@ RELATIONS = (f'{XML}<Relationships xmlns="{PACKAGE}relationships"><Relationship 
              '3dmodel"/></Relationships>\n')
 MODEL = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02"
 UNITS = {"": "millimeter", "mm": "millimeter", "cm": "centimeter", "m": "meter", "um": "micron"}
+PART = ('<volume firstid="{0}" lastid="{1}"><metadata type="volume" key="name" value="{2}"/>'
+        '<metadata type="volume" key="volume_type" value="ModelPart"/></volume>\n')
 
 
 def three_mf(objects: Objects, show: Show = silent) -> Iterator[bytes]:
     """A model for printers, with a material for each label."""
     from .. import __version__
     from ..geometry import fact
-    objects = _with_points(objects)
     unit = fact(objects[0][1], "LengthUnit")
     if unit not in UNITS:
         raise Failure(f"3MF has no unit {unit}; --unit mm converts")
-    materials = [surface_labels(surface) or [SurfaceLabel(0, name, LIGHT_GRAY)]
-                 for name, surface in objects]
+    labels = [surface_labels(surface) or [SurfaceLabel(0, name, LIGHT_GRAY)]
+              for name, surface in objects]
+    materials = [label for own in labels for label in own]
     bases = "".join(f'<base name="{escaped(label.name)}" displaycolor="#%02X%02X%02X"/>'
-                    % bytes_of(label.color) for labels in materials for label in labels)
+                    % bytes_of(label.color) for label in materials)
     name = escaped(objects[0][0] if len(objects) == 1 else "labels")
+    vertices, triangles, parts = [], [], ""
+    points = polygons = first_material = 0
+    for (part, surface), own in zip(objects, labels):
+        vertices.append((lines('<vertex x="%.9g" y="%.9g" z="%.9g"/>\n'),
+                         points_of(surface).astype(np.float32)))
+        rows, of_label = triangles_of(surface) + points, cell_array(surface, "Label")
+        form = '<triangle v1="%d" v2="%d" v3="%d"/>\n'
+        if len(materials) > 1:
+            material = np.full(len(rows), first_material)
+            for k, label in enumerate(own if of_label is not None else ()):
+                material[of_label == label.number] += k
+            form, rows = form.replace("/", ' p1="%d"/'), np.column_stack([rows, material])
+        triangles.append((lines(form), rows))
+        parts += PART.format(polygons, polygons + len(rows) - 1, escaped(part))
+        points += surface.GetNumberOfPoints()
+        polygons += len(rows)
+        first_material += len(own)
     content = io.BytesIO()
     with zipfile.ZipFile(content, "w", zipfile.ZIP_DEFLATED, compresslevel=6) as package:
         package.writestr(_entry("[Content_Types].xml"), TYPES)
@@ -157,57 +163,20 @@ def three_mf(objects: Objects, show: Show = silent) -> Iterator[bytes]:
                 f'volumic {__version__}</metadata>\n<resources>\n<basematerials id="1">{bases}'
                 f'</basematerials>\n<object id="2" type="model" name="{name}" pid="1" pindex="0">'
                 "<mesh><vertices>\n").encode())
-            for i, (_, surface) in enumerate(objects):
-                show(i / len(objects) / 2)
-                points = points_of(surface).astype(np.float32)
-                for some in chunks(len(points), silent):
-                    model.write(lines('<vertex x="%.9g" y="%.9g" z="%.9g"/>\n', points[some]))
+            model.writelines(packed(lambda share: show(share / 2), *vertices))
             model.write(b"</vertices><triangles>\n")
-            for i, (form, rows) in enumerate(_triangles(objects, materials)):
-                show(0.5 + i / len(objects) / 2)
-                for some in chunks(len(rows), silent):
-                    model.write(lines(form, rows[some]))
+            model.writelines(packed(lambda share: show((1 + share) / 2), *triangles))
             model.write(b'</triangles></mesh></object>\n</resources>\n<build><item objectid="2"/>'
                         b"</build>\n</model>\n")
-        if len(objects) > 1:
-            package.writestr(_entry("Metadata/Slic3r_PE_model.config"), _parts(name, objects))
+        if len(objects) > 1:  # for PrusaSlicer: ranges of triangles
+            package.writestr(_entry("Metadata/Slic3r_PE_model.config"), (
+                f'{XML}<config>\n<object id="2"><metadata type="object" key="name" value="{name}"/>'
+                f"\n{parts}</object>\n</config>\n"))
     yield content.getvalue()
 
 
 def _entry(name: str) -> zipfile.ZipInfo:
     """With zip's first date: runs give equal bytes."""
-    entry = zipfile.ZipInfo(name, (1980, 1, 1, 0, 0, 0))
+    entry = zipfile.ZipInfo(name)
     entry.compress_type, entry.external_attr = zipfile.ZIP_DEFLATED, 0o100644 << 16
     return entry
-
-
-def _triangles(objects: Objects, materials: list[list[SurfaceLabel]]
-               ) -> Iterator[tuple[str, np.ndarray]]:
-    """Of each surface the format of a line, and the numbers in it: corners, and the material where
-    there are several."""
-    form = '<triangle v1="%d" v2="%d" v3="%d"'
-    first_point = first_material = 0
-    for (_, surface), labels in zip(objects, materials):
-        rows = triangles_of(surface) + first_point
-        if sum(map(len, materials)) == 1:
-            yield f"{form}/>\n", rows
-            return
-        own, place = cell_array(surface, "Label"), np.zeros(len(rows), int)
-        for k, label in enumerate(labels if own is not None else ()):
-            place[own == label.number] = k
-        yield f'{form} p1="%d"/>\n', np.column_stack([rows, place + first_material])
-        first_point += surface.GetNumberOfPoints()
-        first_material += len(labels)
-
-
-def _parts(name: str, objects: Objects) -> str:
-    """PrusaSlicer's list of the parts of the object: ranges of its triangles."""
-    parts, first = "", 0
-    for part, surface in objects:
-        last = first + surface.GetNumberOfPolys() - 1
-        parts += (f'<volume firstid="{first}" lastid="{last}"><metadata type="volume" key="name" '
-                  f'value="{escaped(part)}"/><metadata type="volume" key="volume_type" '
-                  'value="ModelPart"/></volume>\n')
-        first = last + 1
-    return (f'{XML}<config>\n<object id="2"><metadata type="object" key="name" value="{name}"/>\n'
-            f"{parts}</object>\n</config>\n")
