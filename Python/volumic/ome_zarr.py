@@ -82,16 +82,17 @@ class Volume:
         files = {tuple(map(int, re.findall(r"\d+", os.path.relpath(path, self.folder)))): path
                  for folder, _, names in os.walk(self.folder)
                  for path in (os.path.join(folder, name) for name in names)}
-        codecs = getattr(self.array, "compressors", None) or getattr(self.array, "compressor", None)
-        for path in [files[key] for key in needed & files.keys()
-                     if "blosc" in repr(codecs).lower() and not shards]:
+        name = "compressors" if hasattr(self.array, "compressors") else "compressor"  # in zarr 2
+        is_blosc = "blosc" in repr(getattr(self.array, name)).lower() and not shards
+        for path in [files[key] for key in needed & files.keys() if is_blosc]:
             with io.open(path, "rb") as file:
                 if int.from_bytes(file.read(16)[12:], "little") > os.path.getsize(path):
                     raise ValueError(f"{path} is cut off; copy it again")
         return (len(needed - files.keys()), len(needed)) if os.path.isdir(self.folder) else (0, 0)
 
 
-def open(path: str, level: int = 0, *, label: str | None = None, time: int = 0,  # pylint: disable=redefined-builtin
+# pylint: disable-next=redefined-builtin
+def open(path: str, level: int = 0, *, label: str | None = None, time: int = 0,
          channel: int = 0) -> Volume:
     """Return a level of the image in a group, or of one of its label maps.
 
@@ -188,18 +189,21 @@ def _group(path: str) -> Any:
     except ImportError as error:
         raise ImportError("zarr is missing; install it to read OME-Zarr (Debian: python3-zarr)"
                           ) from error
+    errors = zarr.errors
+    missing = (FileNotFoundError, *(getattr(errors, name) for name in (
+        "GroupNotFoundError", "ContainsArrayError", "NodeTypeValidationError")
+        if hasattr(errors, name)))  # of zarr 2 and 3
     try:
         return zarr.open_group(path, mode="r")
-    except Exception as error:
-        kind = type(error).__name__  # zarr 2 and 3 have different classes
-        if "ContainsArray" in kind or "TypeError" in kind:
-            raise ValueError(f"{path} is the array of a level; give the group that has it, "
-                             f"{os.path.dirname(path.rstrip('/'))}") from error
-        if isinstance(error, FileNotFoundError) or "NotFound" in kind:
+    except missing as error:
+        try:
+            zarr.open_array(path, mode="r")
+        except Exception:  # pylint: disable=broad-except
+            new = os.path.exists(os.path.join(path, "zarr.json")) and zarr.__version__ < "3"
             raise ValueError(f"{path}: there is no group of Zarr" + (
-                " 2; install zarr 3 to read Zarr 3" * os.path.exists(
-                    os.path.join(path, "zarr.json")))) from error
-        raise
+                " 2; install zarr 3 to read Zarr 3" if new else "")) from error
+        raise ValueError(f"{path} is the array of a level; give the group that has it, "
+                         f"{os.path.dirname(path.rstrip('/'))}") from error
 
 
 def _attributes(group: Any) -> dict[str, Any]:

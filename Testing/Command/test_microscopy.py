@@ -169,6 +169,10 @@ class TiffTest(MicroscopyTestCase):
         pages[0].save(self.path("b.tif"), save_all=True, append_images=pages[1:],
                       compression="jpeg", quality=95)
         self.assertLess(np.abs(self.read("b.tif").array.astype(int) - BYTES).max(), 30)
+        pages = [Image.fromarray(plane > 100) for plane in BYTES]
+        pages[0].save(self.path("c.tif"), save_all=True, append_images=pages[1:],
+                      compression="group4")
+        self.check(self.read("c.tif"), (BYTES > 100).astype("u1"))
 
 
 @unittest.skipUnless(Image, "no Pillow (Debian: python3-pil)")
@@ -205,7 +209,8 @@ class PicturesTest(MicroscopyTestCase):
                 self.write_text(folder + "/log.txt", "bright")
                 Image.fromarray(plane).save(self.path(f"{folder}/{stranger}"))
                 volume = self.check(self.read(folder))
-                self.assertRegex(volume.warnings[0], "2 files are left out.*" + stranger)
+                self.assertRegex(volume.warnings[0], "are left out: .*" + stranger)
+                self.assertIn("log.txt", volume.warnings[0])
                 self.assertEqual(len(volume.warnings), 1)
 
     def test_gaps_in_numbers_are_reported(self):

@@ -6,6 +6,7 @@ from __future__ import annotations
 import collections
 import os
 import re
+import resource
 import warnings
 
 import numpy as np
@@ -18,15 +19,16 @@ NO_SLICE = "; copy it again, or move it to another folder"
 
 
 def read_file(file, name, is_header=False):
-    """Return the data set of a file, or its elements before the pixels, if all of them are there."""
+    """Return the data set of a file, or its elements before the pixels."""
     import pydicom
     warnings.filterwarnings("ignore", module="pydicom")
     try:
         with open(file, "rb") as stream:
             data = pydicom.dcmread(stream, force=True, stop_before_pixels=is_header)
-            data.syntax = data.file_meta.get("TransferSyntaxUID") or pydicom.uid.ImplicitVRLittleEndian
-            data.has_pixels = stream.read(4) in (b"\xe0\x7f\x10\0", b"\x7f\xe0\0\x10") or (
-                data.syntax.is_deflated)
+            data.syntax = (data.file_meta.get("TransferSyntaxUID")
+                           or pydicom.uid.ImplicitVRLittleEndian)
+            data.has_pixels = data.syntax.is_deflated or stream.read(4) in (
+                b"\xe0\x7f\x10\0", b"\x7f\xe0\0\x10")  # where pydicom stops
             return data
     except Exception as error:  # pylint: disable=broad-except
         raise VolumeError("%s: it is cut off, or its header is damaged (%.100s); copy it again"
@@ -48,8 +50,9 @@ def values_of(slices):
     least, most = min(ends, default=0.), max(ends, default=0.)
     factors, dtype = np.array([(s.slope, s.shift) for s in slices]), raw.dtype
     if (factors != (1, 0)).any():
-        whole = [t for t in ("i2", "u2", "i4") if np.iinfo(t).min <= least <= most <= np.iinfo(t).max]
-        dtype = np.dtype("f4" if (factors % 1).any() else (whole + ["f8"])[0])
+        fits = [t for t in ("i2", "u2", "i4") if np.iinfo(t).min <= least
+                and most <= np.iinfo(t).max]
+        dtype = np.dtype("f4" if (factors % 1).any() else (fits + ["f8"])[0])
     result = raw.view(dtype) if dtype.itemsize == raw.itemsize else np.empty(raw.shape, dtype)
     for plane, new, s in zip(raw, result, slices):
         values = plane if (s.slope, s.shift) == (1, 0) else plane * s.slope + s.shift
@@ -117,6 +120,8 @@ def unpack(files):
 
     pydicom's handler for GDCM ignores its failures, and returns memory that was never written."""
     import gdcm
+    seconds = 30 + sum(os.path.getsize(file) for file, _ in files) // 1000000
+    resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds))  # damaged JPEG 2000 may take hours
     gdcm.Trace.ErrorOff()
     gdcm.Trace.WarningOff()
     plain, found = gdcm.TransferSyntax(gdcm.TransferSyntax.ExplicitVRLittleEndian), []

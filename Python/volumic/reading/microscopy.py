@@ -68,7 +68,7 @@ def read_tiff(path, choice):
     """TIFF, BigTIFF, OME-TIFF, ImageJ and LSM by tifffile; packings that it lacks by Pillow."""
     import tifffile
     logged, handler = [], logging.Handler(logging.WARNING)
-    handler.emit = lambda record: logged.append(record.getMessage().split("> ")[-1])
+    handler.emit = lambda record: logged.append(record.getMessage().split("> ")[-1].strip("')"))
     logging.getLogger("tifffile").addHandler(handler)
     try:
         with tifffile.TiffFile(path) as file:
@@ -101,7 +101,8 @@ def _check_pages(file, series, is_plain):
     if not is_plain or first.subifds:
         return
     entry, inner = (20, 8) if file.is_bigtiff else (12, 4)  # bytes of the first directory
-    other = 2 * inner + sum(entry + tag.valuebytecount * (tag.valuebytecount > inner) for tag in first.tags)
+    values = [tag.valuebytecount for tag in first.tags]
+    other = 2 * inner + sum(entry + value * (value > inner) for value in values)
     data = sum(sum(page.databytecounts) for page in file.pages) / len(file.pages)
     if length - len(file.pages) * (data + other) >= max(data, 32 * len(file.pages)):
         raise IndexError("%d bytes belong to none of its %d pages; copy it again, or by tiffcp"
@@ -111,6 +112,7 @@ def _check_pages(file, series, is_plain):
 def _tiff_volume(path, file, series, choice):
     """Return the volume of the first series of pages."""
     axes, first, more = series.axes, file.pages[0], {}
+    is_white_0 = first.photometric == 0
     if series.dataoffset is not None:
         array = voxels(path, series.dataoffset, series.dtype.newbyteorder(file.byteorder),
                        np.prod(series.shape, dtype=object))
@@ -120,9 +122,9 @@ def _tiff_volume(path, file, series, choice):
         except (ValueError, KeyError):
             if first.compression == 1:
                 raise
-            array = _pages_by_pillow(path, series)
+            array, is_white_0 = _pages_by_pillow(path, series), False
     array = array.reshape(series.shape)
-    if first.photometric == 0 and array.dtype.kind in "ub":  # white is 0
+    if is_white_0 and array.dtype.kind in "ub":
         array = ((1 << first.bitspersample) - 1 - array).astype(array.dtype)
     for letter in [letter for letter in axes if letter not in "ZYXCS"]:  # T, I, Q, R ...
         if letter in "IQ" and "Z" not in axes:
@@ -180,7 +182,8 @@ def _pages_by_pillow(path, series):
     if {page.shape for page in pages} != {series.keyframe.shape} or len(pages) < len(series.pages):
         raise VolumeError("its packing cannot be read; install imagecodecs, or convert it by "
                           "tiffcp -c none")
-    return np.stack(pages).astype(series.dtype, copy=False)
+    pages = np.stack(pages)
+    return (pages > 0 if series.keyframe.bitspersample == 1 else pages).astype(series.dtype)
 
 
 # ---- Pictures ----------------------------------------------------------------------------------
@@ -229,8 +232,8 @@ def read_pictures(path, choice):
                           "pattern" % (next(n for n in kept if n not in slices), [*slices][0]))
     others, numbers = [name for name in names if name not in slices], _gaps(list(slices))
     if others:
-        notes.append("%d files are left out, whose names or sizes differ from those of the slices: "
-                     % len(others) + ", ".join(others[:5]) + ", ..." * (len(others) > 5))
+        notes.append("files whose names or sizes differ from those of the slices are left out: "
+                     + ", ".join(others[:5]) + ", ... (%d)" % len(others) * (len(others) > 5))
     if numbers:
         notes.append("the numbers of its slices have gaps (%s): slices are missing" % numbers)
     array = np.empty((len(slices), *most[0]), most[1])
@@ -294,7 +297,7 @@ def read_ome_zarr(path, choice):
                                  % (missing, count, image.array.fill_value))
                 values[...] = image[...]
         except (ValueError, RuntimeError, KeyError) as error:
-            text = re.sub("^%s:? " % re.escape(path), "", str(error))
+            text = re.sub("^%s(:? |/)" % re.escape(path), "", str(error))
             raise VolumeError(text if text != str(error) else "its chunks or metadata are damaged "
                               "or cut off (%s)" % text) from None
     notes += sorted({str(each.message).replace(path + ": ", "") for each in told})
