@@ -11,7 +11,10 @@ import io
 import itertools
 import os
 import plistlib
+import signal
 import struct
+import subprocess
+import sys
 import tarfile
 import time
 import unittest
@@ -566,6 +569,30 @@ class WorkerTest(unittest.TestCase):
                 in_worker(function)
         with self.assertRaises(ChildProcessError):
             os.waitpid(-1, os.WNOHANG)  # no zombie
+
+    def test_it_ends_with_its_caller(self):
+        code = "from volumic.reading.worker import in_worker; in_worker('time:sleep', 60)"
+        for number in (signal.SIGINT, signal.SIGKILL):
+            with subprocess.Popen([sys.executable, "-c", code], stderr=subprocess.DEVNULL,
+                                  start_new_session=True) as process:
+                deadline = time.monotonic() + 60
+                while len(self.group(process.pid)) < 2 and time.monotonic() < deadline:
+                    time.sleep(0.1)
+                (os.killpg if number == signal.SIGINT else os.kill)(process.pid, number)
+                process.wait(60)
+            while self.group(process.pid) and time.monotonic() < deadline:
+                time.sleep(0.1)
+            self.assertEqual(self.group(process.pid), [])
+
+    @staticmethod
+    def group(number):
+        """The running processes of a group."""
+        found = []
+        for name in filter(str.isdigit, os.listdir("/proc")):
+            with contextlib.suppress(OSError), open(f"/proc/{name}/stat", encoding="ascii") as file:
+                state, _, group = file.read().rpartition(")")[2].split()[:3]
+                found += [name] if int(group) == number and state != "Z" else []
+        return found
 
 
 if __name__ == "__main__":

@@ -48,6 +48,7 @@ def in_worker(function, *arguments):
                 process.wait()
             finally:  # also after an exception that a signal handler throws
                 process.kill()
+                process.wait()
         head = os.pread(file.fileno(), _HEAD, 0)
         offset, size = struct.unpack("<QQ", head[:16]) if process.returncode == 0 else (0, 0)
         if not size:
