@@ -28,7 +28,7 @@ from .volume import failure_of
 _HEAD = 1024  # bytes: offset and size of the answer, then the item that is read
 # A package without its __init__.py, which loads VTK and the filters.
 _START = ("import sys, types; p = types.ModuleType('volumic'); p.__path__ = [%r]; "
-          "sys.modules['volumic'] = p; from volumic.reading import worker; worker.serve(%d)")
+          "sys.modules['volumic'] = p; from volumic.reading import worker; worker.serve(%d, %d)")
 
 
 def in_worker(function, *arguments):
@@ -41,14 +41,15 @@ def in_worker(function, *arguments):
         file.flush()
         package = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
         environment = dict(os.environ, PYTHONPATH=os.pathsep.join(p for p in sys.path if p))
-        with subprocess.Popen([_interpreter(), "-c", _START % (package, file.fileno())],
-                              env=environment, pass_fds=[file.fileno()], stdin=subprocess.DEVNULL,
-                              stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as process:
-            try:
-                process.wait()
-            finally:  # also after an exception that a signal handler throws
-                process.kill()
-                process.wait()
+        code = _START % (package, file.fileno(), os.getpid())
+        nowhere = dict.fromkeys(("stdin", "stdout", "stderr"), subprocess.DEVNULL)
+        process = subprocess.Popen([_interpreter(), "-c", code], env=environment,
+                                   pass_fds=[file.fileno()], **nowhere)
+        try:
+            process.wait()
+        finally:  # also after an exception that a signal handler throws
+            process.kill()
+            process.wait()
         head = os.pread(file.fileno(), _HEAD, 0)
         offset, size = struct.unpack("<QQ", head[:16]) if process.returncode == 0 else (0, 0)
         if not size:
@@ -82,12 +83,14 @@ _words = None
 _read = [0]  # bytes of _words that said() has returned
 
 
-def serve(number):
-    """Run the function whose name is in the file of this descriptor, and write its result there."""
+def serve(number, caller):
+    """Run the function that the file of this descriptor names, and write its result there."""
     global _file, _words
     for each in (signal.SIGINT, signal.SIGTERM):
         signal.signal(each, signal.SIG_IGN)  # the caller ends this process
     ctypes.CDLL(None).prctl(1, signal.SIGKILL)  # PR_SET_PDEATHSIG
+    if os.getppid() != caller:
+        os._exit(1)  # it has ended meanwhile
     _file = open(number, "r+b")
     _words = tempfile.TemporaryFile()
     os.dup2(_words.fileno(), 1)
