@@ -61,6 +61,16 @@ class VolumesTest(CommandTestCase):
             self.check(self.path(name), "--spacing", ",".join(map(str, SPACING)), origin=np.zeros(3))
         self.check(self.path("one"))
 
+    def test_masks_that_overlap_stay_whole(self):
+        os.mkdir(self.path("masks"))
+        for name, least in (("organ", 300), ("part", 700)):
+            self.write_bytes(f"masks/{name}.nii", medical_files.nifti((ball() > least).astype("i2"),
+                                                                      SPACING))
+        report = self.report(self.path("masks"), self.path("lab/"), "--labels", "all")
+        for label, least in zip(report["labels"], (300, 700)):
+            volume = (ball() > least).sum() * np.prod(SPACING)
+            self.assertAlmostEqual(label["volume"] / volume, 1, delta=0.05)
+
     def test_a_component_or_the_magnitude(self):
         image = make_image(ball())
         vectors = numpy_to_vtk(np.stack([ball() * 0 + 3, ball()], axis=-1).reshape(-1, 2), deep=True)

@@ -217,6 +217,25 @@ class NiftiTest(ReadingTestCase):
         np.testing.assert_array_equal(volume.array, np.where(masks[2], 3, masks[0]))
         self.assertRegex(" ".join(volume.warnings), "in two masks.*without a voxel: volume 1")
 
+    def test_masks_of_a_folder(self):
+        os.mkdir(self.path("a"))
+        organ, part = ball() > 300, ball() > 700
+        for name, mask in (("organ", organ), ("part", part), ("none", part * 0)):
+            self.write_bytes(f"a/{name}.nii", medical_files.nifti(mask.astype("i2"), SPACING))
+        volume = self.read("a", labels=True)
+        np.testing.assert_array_equal(volume.array, np.where(part, 3, organ * 2))
+        self.assertEqual(volume.names, {1: "none", 2: "organ", 3: "part"})
+        self.assertRegex(" ".join(volume.warnings), f"{part.sum()} times a voxel is in two masks "
+                         ".organ and part.*masks without a voxel: none")
+        volume = self.read("a", labels=True, layers=True)
+        np.testing.assert_array_equal(volume.array, [organ * 2, part * 3])
+        self.assertEqual([(label.value, label.layer) for label in volume.labels],
+                         [(1, 0), (2, 0), (3, 1)])
+        self.write_bytes("a/other.nii", medical_files.nifti(organ[1:].astype("i2"), SPACING))
+        self.refused("a", "other.nii: its voxels are not those of none.nii", labels=True)
+        self.write_bytes("a/other.nii", medical_files.nifti(ball(), SPACING))
+        self.refused("a", "other.nii: has the values .* a mask has 0 and one other", labels=True)
+
     def test_damage(self):
         content = medical_files.nifti(noisy_ball(), SPACING)
         self.cut("a.nii", content)
