@@ -7,17 +7,19 @@ https://neuroglancer-docs.web.app/datasource/precomputed/mesh.html
 
 from __future__ import annotations
 
-import os
 import shutil
+import struct
 import subprocess
 import tempfile
 from collections.abc import Sequence
+from pathlib import Path
 
 import numpy as np
 
 from .arrays import Surface
+from .writing.surfaces import ply_faces
 
-BITS = 16  # of a coordinate in multilod_draco
+BITS = 16  # per coordinate in multilod_draco
 INFO = {"precomputed": {"@type": "neuroglancer_legacy_mesh"},
         "multilod_draco": {"@type": "neuroglancer_multilod_draco", "vertex_quantization_bits": BITS,
                            "transform": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0],
@@ -25,62 +27,58 @@ INFO = {"precomputed": {"@type": "neuroglancer_legacy_mesh"},
 
 
 def precomputed(surface: Surface, nanometers: float = 1.0) -> bytes:
-    """A fragment of a legacy single-resolution mesh; world units are so many nanometers."""
+    """Return a fragment of a legacy single-resolution mesh; `nanometers` is the length of a world
+    unit."""
     return (np.array([len(surface.points)], "<u4").tobytes()
             + (np.asarray(surface.points, float) * nanometers).astype("<f4").tobytes()
             + surface.triangles.astype("<u4").tobytes())
 
 
 def multilod_draco(levels: Sequence[Surface], nanometers: float = 1.0) -> tuple[bytes, bytes]:
-    """A mesh of several levels of detail, the finest first: its manifest, and its fragments.
+    """Return the manifest and the fragments of a mesh of several levels of detail, finest first.
 
-    Each level is one fragment, so that it stays closed: the format would have it cut along an octree.
-    A level's node is twice as large as the one before, of which the mesh then fills the first octant.
-    So coordinates are rounded to 1/65535 of the box, in each level after it to twice as much.
+    Each level is one fragment, so that it stays closed; others cut the mesh along an octree. The
+    node of a level is twice as large as the one before, and the mesh fills its first octant. The
+    coordinates of a level are rounded to 1/65535 of its node.
     """
     points = [np.asarray(surface.points, float) * nanometers for surface in levels]
-    lowest = np.min([each.min(axis=0) for each in points], axis=0)
-    origin = np.nextafter(lowest.astype("<f4"), np.float32(-np.inf))
-    extent = np.max([each.max(axis=0) for each in points], axis=0) - origin
+    together = np.concatenate(points)
+    origin = np.nextafter(together.min(axis=0).astype("<f4"), np.float32(-np.inf))
+    extent = together.max(axis=0) - origin
     shape = np.nextafter(np.maximum(extent, 1e-6 * extent.max()).astype("<f4"), np.float32(np.inf))
-    fragments = []
-    for level, (surface, places) in enumerate(zip(levels, points)):
-        steps = (places - origin) / (shape.astype(float) * 2 ** level) * (2 ** BITS - 1)
+    fragments, scales = [], []
+    for level, (surface, positions) in enumerate(zip(levels, points)):
+        steps = (positions - origin) / (shape.astype(float) * 2 ** level) * (2 ** BITS - 1)
         fragments.append(_draco(np.rint(steps).astype("<i4"), surface.triangles))
+        scales.append(nanometers * _mean_edge(surface))
     count = len(levels)
-    scales = np.array([nanometers * _mean_edge(surface) for surface in levels], "<f4")
-    manifest = [shape, origin, np.array([count], "<u4"), scales, np.zeros((count, 3), "<f4"),
-                np.ones(count, "<u4")]
-    for fragment in fragments:
-        manifest += [np.zeros(3, "<u4"), np.array([len(fragment)], "<u4")]
-    return b"".join(part.tobytes() for part in manifest), b"".join(fragments)
+    manifest = struct.pack(f"<6fI{4 * count}f{count}I", *shape, *origin, count, *scales,
+                           *[0.0] * (3 * count), *[1] * count)
+    nodes = [struct.pack("<4I", 0, 0, 0, len(fragment)) for fragment in fragments]
+    return manifest + b"".join(nodes), b"".join(fragments)
 
 
 def draco_encoder() -> str:
-    """The path of Draco's program, which compresses."""
+    """Return the path of Draco's program."""
     program = shutil.which("draco_encoder")
     if program is None:
-        raise RuntimeError("multilod_draco is written by the program draco_encoder, which is missing "
-                           "(Debian: draco)")
+        raise RuntimeError("multilod_draco is written by draco_encoder, which is missing (Debian: "
+                           "apt install draco)")
     return program
 
 
-def _draco(places: np.ndarray, triangles: np.ndarray) -> bytes:
-    faces = np.zeros(len(triangles), [("count", "u1"), ("corners", "<i4", 3)])
-    faces["count"], faces["corners"] = 3, triangles
+def _draco(positions: np.ndarray, triangles: np.ndarray) -> bytes:
     columns = "".join(f"property int {name}\n" for name in "xyz")
-    header = (f"ply\nformat binary_little_endian 1.0\nelement vertex {len(places)}\n{columns}"
-              f"element face {len(faces)}\nproperty list uchar int vertex_indices\nend_header\n")
+    head = (f"ply\nformat binary_little_endian 1.0\nelement vertex {len(positions)}\n{columns}"
+            f"element face {len(triangles)}\nproperty list uchar int vertex_indices\nend_header\n")
     with tempfile.TemporaryDirectory(prefix="volumic-") as folder:
-        ply, drc = (os.path.join(folder, "mesh" + suffix) for suffix in (".ply", ".drc"))
-        with open(ply, "wb") as file:
-            file.write(header.encode() + places.tobytes() + faces.tobytes())
+        ply, drc = Path(folder, "mesh.ply"), Path(folder, "mesh.drc")
+        ply.write_bytes(head.encode() + positions.tobytes() + ply_faces(triangles))
         done = subprocess.run([draco_encoder(), "-i", ply, "-o", drc], check=False,
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-        if done.returncode != 0 or not os.path.exists(drc):
+        if done.returncode != 0 or not drc.exists():
             raise RuntimeError(f"draco_encoder: {done.stdout.decode(errors='replace').strip()}")
-        with open(drc, "rb") as file:
-            return file.read()
+        return drc.read_bytes()
 
 
 def _mean_edge(surface: Surface) -> float:

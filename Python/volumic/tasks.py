@@ -7,15 +7,15 @@
     job.run(executor.map)                              # concurrent.futures, processes
     job.run(lambda function, of: client.gather(client.map(function, of)))    # dask.distributed
 
-First all blocks of the map are counted (`count`), then labels are made (`make`), both by whatever
-maps. A task leaves its result in the folder and returns next to nothing. What is done is in the
-folder: a job that was killed goes on, and a task that runs twice finds it done.
+`count` counts the labels of a block of the map, then `make` makes the surfaces of some labels. A
+task leaves its result in the folder and returns nothing. A job that was killed resumes there, and a
+task that runs twice finds its result.
 
-Surfaces are the bits that vtkLabelsToSurfaces makes of the whole map. What it makes of a label
-depends on the voxels in the bricks of 4 x 4 x 4 voxels, from voxel 0 of the map on, that have some
-of it, and in those up to three further. Labels with voxels in bricks up to two further may claim
-places where three meet; so these labels are in the crop, each all of it. Settings by which labels
-depend on labels beyond that are refused: Gap, Merge, SharedInterfaces.
+Surfaces are bit-identical to those that vtkLabelsToSurfaces makes of the whole map. The surface of
+a label depends on the voxels in the bricks of 4 x 4 x 4 voxels, from voxel 0 of the map on, that
+contain the label, and in those up to three further. Labels in bricks up to two further may claim
+positions where three labels meet. The crop contains all voxels of these labels. Settings that
+couple labels beyond that are refused: Gap, Merge, SharedInterfaces.
 """
 
 from __future__ import annotations
@@ -25,13 +25,16 @@ import functools
 import io
 import itertools
 import json
+import math
 import os
 import shutil
 import warnings
 from collections.abc import Callable, Iterable, Sequence
+from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 
 from . import arrays, neuroglancer
 from .arrays import Surface
@@ -39,8 +42,8 @@ from .writing.files import HIDDEN, replace_file
 from .writing.surfaces import FORMATS
 
 BRICK = 4  # voxels, LabelBricks::Side
-MARGIN = 3  # bricks: those beside the label's, and what is within LabelBricks' reach of them
-CLAIMS = 2  # bricks: about those beside the label's that others' fields may be in
+MARGIN = 3  # bricks: those beside the label's, and those within LabelBricks' reach of them
+CLAIMS = 2  # bricks beside the label's in which the fields of other labels may be
 BLOCK = 256  # voxels along each axis that are counted at a time, at most
 DETAILS = (1, 2, 3)  # FinestLevel of the coarser levels of detail: edges sqrt(3) times as long
 Box = list[tuple[int, int]]  # [begin, end) of x, y and z
@@ -53,24 +56,24 @@ class Job:
     ----------
     source : array-like
         The map, labels [z, y, x]: `shape`, `dtype` and slices, such as a zarr.Array, a volume of
-        volumic.ome_zarr or a numpy.ndarray. Whatever runs tasks in other processes pickles it.
+        volumic.ome_zarr or a numpy.ndarray. Tasks in other processes get it pickled.
     folder : str
-        For the results. It is made; the parent is there. Seen by all workers.
+        Folder of the results, which all workers see. It is made in a folder that exists.
     spacing, origin : sequence of 3 floats, optional
-        As of volumic.surface; by default those of `source`, where it has such.
+        As of volumic.surface (default: those of `source`, if it has them).
     direction : array_like, optional
     only : sequence of ints, optional
-        Labels to make; by default all but BackgroundLabel.
+        Labels to make (default: all but BackgroundLabel).
     formats : sequence of str, optional
-        `.vtp`, `.ply`, `.stl`: label-3.vtp. For Neuroglancer, folders of these names: `precomputed`
-        and, with four levels of detail, compressed, `multilod_draco`.
+        `.vtp`, `.ply`, `.stl`: files label-3.vtp. `precomputed` and `multilod_draco`: folders for
+        Neuroglancer, the latter with four levels of detail, compressed.
     nanometers : float, optional
-        Of one world unit, for Neuroglancer; by default that of `source`, or 1.
+        Length of a world unit, for Neuroglancer (default: that of `source`, or 1).
     bundle : int, optional
         Voxels of a crop up to which labels that lie near each other are one task.
     most : int, optional
-        Voxels of the largest crop; a label that needs a larger one is refused. With that memory is
-        bounded: a worker takes about 20 bytes for each voxel of a crop, plus its surfaces.
+        Voxels of the largest crop, which bounds the memory: a worker takes about 20 bytes for each
+        voxel of a crop, plus its surfaces. A label that needs a larger crop is refused.
     **properties
         Those of vtkLabelsToSurfaces. Workers with several tasks at a time share the processors by
         NumberOfThreads.
@@ -84,10 +87,10 @@ class Job:
         arrays.check_properties("vtkLabelsToSurfaces", properties)
         for name in ("Gap", "Merge", "SharedInterfaces"):
             if properties.get(name):
-                raise ValueError(f"{name}={properties[name]} couples labels all over the map: there "
-                                 "are no tasks of their own. Apply volumic.labels to the whole map.")
+                raise ValueError(f"{name}={properties[name]} couples labels all over the map; "
+                                 "apply volumic.labels to the whole map")
         if properties.get("TimeLimit"):
-            raise ValueError("TimeLimit would leave labels unfinished: end the job, and start it again")
+            raise ValueError("TimeLimit would leave labels unfinished; end the job and restart it")
         for name in formats:
             if name not in FORMATS and name not in neuroglancer.INFO:
                 raise ValueError(f"'{name}' is no format; there are "
@@ -96,21 +99,22 @@ class Job:
             neuroglancer.draco_encoder()
         if len(source.shape) != 3:
             raise ValueError(f"the map must have three axes, z, y and x, not {len(source.shape)}")
-        self.source = source
-        self.folder = os.path.abspath(folder)
-        self.spacing = _floats(getattr(source, "spacing", (1, 1, 1)) if spacing is None else spacing)
-        self.origin = _floats(getattr(source, "origin", (0, 0, 0)) if origin is None else origin)
+
+        def given(value: Any, name: str, otherwise: Any) -> Any:
+            return getattr(source, name, otherwise) if value is None else value
+
+        self.source, self.folder = source, os.path.abspath(folder)
+        self.spacing = [float(length) for length in given(spacing, "spacing", (1, 1, 1))]
+        self.origin = [float(position) for position in given(origin, "origin", (0, 0, 0))]
         self.direction = None if direction is None else np.asarray(direction, float).tolist()
         self.only = sorted({int(label) for label in only})
         self.formats = list(formats)
-        self.nanometers = float(getattr(source, "nanometers", 1) if nanometers is None else nanometers)
-        self.bundle = bundle
-        self.most = most
-        self.properties = properties
+        self.nanometers = float(given(nanometers, "nanometers", 1))
+        self.bundle, self.most, self.properties = bundle, most, properties
         self._begin()
 
     def _begin(self) -> None:
-        """Makes the folders. Results of other settings are not mixed with these."""
+        """Make the folders. Throw ValueError if they have results of other settings."""
         for folder in (*map(self._path, ("counts", "rows")), *self._viewers()):
             os.makedirs(folder, exist_ok=True)
         free = ("NumberOfThreads", "MemoryLimit", "ScratchDirectory")  # no bit depends on them
@@ -141,36 +145,34 @@ class Job:
         """Boxes of whole chunks that cover the map, each of two voxels or more along an axis."""
         chunks = getattr(self.source, "chunks", None) or (BLOCK,) * 3
         axes = []
-        for size, chunk in zip(self.source.shape[::-1], tuple(chunks)[::-1]):
-            chunk = chunk if isinstance(chunk, int) else max(chunk)
-            ends = list(range(0, size, max(chunk, BLOCK // chunk * chunk)))[1:] + [size]
-            if len(ends) > 1 and size - ends[-2] < 2:
-                del ends[-2]
-            axes.append(list(zip([0, *ends[:-1]], ends)))
-        return [[x, y, z] for z, y, x in itertools.product(*axes[::-1])]
+        for size, chunk in zip(self.source.shape, chunks):
+            chunk = int(np.max(chunk))
+            starts = [start for start in range(0, size, max(chunk, BLOCK // chunk * chunk))
+                      if start == 0 or size - start > 1]
+            axes.append(list(zip(starts, [*starts[1:], size])))
+        return [list(box[::-1]) for box in itertools.product(*axes)]
 
     def blocks(self, part: int = 0, parts: int = 1) -> list[int]:
-        """The tasks for `count` that are not done, or the share of them that one of `parts` does."""
+        """Return the tasks for `count` that are not done, or the share of one of `parts`."""
         return [number for number in range(part, len(self._grid()), parts)
                 if not os.path.exists(self._path("counts", f"{number}.json"))]
 
     def count(self, block: int) -> None:
-        """The boxes and numbers of voxels of the labels in a block."""
+        """Count the voxels of the labels in a block, and find their boxes."""
         path = self._path("counts", f"{block}.json")
         if not os.path.exists(path):
             box = self._grid()[block]
-            replace_file(path, _json(arrays.label_boxes(self._read(box), _starts(box))))
+            found = arrays.label_boxes(self._read(box), [begin for begin, _ in box])
+            replace_file(path, _json(found))
 
     def boxes(self) -> dict[int, list[int]]:
-        """{label: [voxels, first x, last x, first y, ..., last z]} of the whole map."""
+        """Return {label: [voxels, first x, last x, first y, ..., last z]} of the whole map."""
         path = self._path("boxes.json")
         if not os.path.exists(path):
-            missing = self.blocks()
-            if missing:
-                raise ValueError(f"{self.folder}: {len(missing)} of {len(self._grid())} blocks are not "
-                                 f"counted yet, block {missing[0]} is one")
+            blocks = range(len(self._grid()))
+            self._check_done(self.blocks(), blocks, "block", "counted")
             whole: dict[str, list[int]] = {}
-            for number in range(len(self._grid())):
+            for number in blocks:
                 for label, found in _read(self._path("counts", f"{number}.json")).items():
                     box = whole.setdefault(label, [0] + found[1:])
                     box[0] += found[0]
@@ -179,10 +181,15 @@ class Job:
             replace_file(path, _json(dict(sorted(whole.items(), key=lambda item: int(item[0])))))
         return _boxes(path, os.stat(path).st_mtime_ns)
 
+    def _check_done(self, due: Sequence[int], tasks: Sequence[int], what: str, done: str) -> None:
+        if due:
+            raise ValueError(f"{self.folder}: {len(due)} of {len(tasks)} {what}s are not {done} "
+                             f"yet, {what} {due[0]} is one")
+
     # ---- Making --------------------------------------------------------------------------------
 
     def labels(self) -> list[int]:
-        """Those that get a surface."""
+        """Return the labels that get a surface."""
         boxes = self.boxes()
         unknown = [label for label in self.only if label not in boxes]
         if unknown:
@@ -191,12 +198,12 @@ class Job:
         return self.only or [label for label in boxes if label != background]
 
     def is_done(self, label: int) -> bool:
+        """Return whether the surface of a label is made."""
         return os.path.exists(self._path("rows", f"{label}.json"))
 
     def bundles(self, part: int = 0, parts: int = 1) -> list[list[int]]:
-        """The tasks for `make` that are not done, those with the largest crops first; or the share of
-        them that one of `parts` does.
-        """
+        """Return the tasks for `make` that are not done, or the share of one of `parts`. Those with
+        the largest crops come first."""
         bundles: list[tuple[Box, list[int]]] = []
         for label in sorted(self.labels(), key=self._order):
             box = self._about([label])
@@ -213,7 +220,7 @@ class Job:
         return [labels for labels in due if labels]
 
     def make(self, labels: Sequence[int]) -> None:
-        """Surfaces of labels, in a crop that has what they depend on."""
+        """Make the surfaces of labels, in a crop with all that they depend on."""
         due = [label for label in labels if not self.is_done(label)]
         if not due:
             return
@@ -228,38 +235,31 @@ class Job:
         if whole != box:
             self._check(due, whole)
             voxels = self._read(whole)
-        made = [self._surfaces(voxels, due, whole, **settings) for settings in self._details()]
-        for label, surface in made[0].items():
-            self._write(label, surface, [level[label] for level in made])
-            row = self._row(label, surface)
-            replace_file(self._path("rows", f"{label}.json"), _json(row))  # Now it is done.
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # rows and field data have them
+            made = [arrays.labels(
+                voxels, due, spacing=self.spacing, origin=self.origin, direction=self.direction,
+                start=[begin for begin, _ in whole], **{**self.properties, **settings})
+                for settings in self._details()]
+        for label in made[0]:
+            self._write(label, [level[label] for level in made])
+            row = _json(self._row(label, made[0][label]))
+            replace_file(self._path("rows", f"{label}.json"), row)  # Now it is done.
 
     def _details(self) -> list[dict[str, Any]]:
         """Properties of each level of detail, the finest first."""
-        details: list[dict[str, Any]] = [{}]
         finest = max(0, self.properties.get("FinestLevel", 0))
         length = self.properties.get("EdgeLength", 0)
-        for more in DETAILS if "multilod_draco" in self.formats else ():
-            details.append({"FinestLevel": finest + more, "EdgeLength": length * 3 ** (more / 2)})
-        return details
-
-    def _surfaces(self, voxels: np.ndarray, labels: Sequence[int], box: Box,
-                  **settings: Any) -> arrays.Surfaces:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # Rows and field data have what they tell.
-            return arrays.labels(voxels, labels, spacing=self.spacing, origin=self.origin,
-                                 direction=self.direction, start=_starts(box),
-                                 **{**self.properties, **settings})
+        coarser = DETAILS if "multilod_draco" in self.formats else ()
+        return [{}, *({"FinestLevel": finest + more, "EdgeLength": length * 3 ** (more / 2)}
+                      for more in coarser)]
 
     def finish(self) -> list[dict[str, Any]]:
-        """Writes labels.csv, and what viewers want; takes away what killed workers left. All tasks
-        must be done, and none at work. Returns a dict for each label.
-        """
+        """Write labels.csv and `info` for viewers, and remove what killed workers left. All tasks
+        must be done, and none running. Return a dict for each label."""
         labels = self.labels()
-        missing = [label for label in labels if not self.is_done(label)]
-        if missing:
-            raise ValueError(f"{self.folder}: {len(missing)} of {len(labels)} labels are not made yet, "
-                             f"label {missing[0]} is one")
+        due = [label for label in labels if not self.is_done(label)]
+        self._check_done(due, labels, "label", "made")
         rows = [_read(self._path("rows", f"{label}.json")) for label in labels]
         table = io.StringIO()
         if rows:
@@ -270,60 +270,46 @@ class Job:
         for folder in self._viewers():
             replace_file(os.path.join(folder, "info"),
                          _json(neuroglancer.INFO[os.path.basename(folder)]))
-        for folder, names, _ in os.walk(self.folder):
-            for name in names:
-                if name.startswith(HIDDEN):
-                    shutil.rmtree(os.path.join(folder, name))
+        for left in list(Path(self.folder).rglob(HIDDEN + "*")):
+            shutil.rmtree(left)
         return rows
 
     # ---- Crops ---------------------------------------------------------------------------------
 
-    def _about(self, labels: Sequence[int]) -> Box:
-        """Of the bricks that labels are in, and MARGIN more."""
-        return self._in_bricks(labels, MARGIN)
-
-    def _in_bricks(self, labels: Iterable[int], margin: int) -> Box:
-        found = [self.boxes()[label] for label in labels]
-        return [(max(0, (min(box[1 + 2 * axis] for box in found) // BRICK - margin) * BRICK),
-                 min(size, (max(box[2 + 2 * axis] for box in found) // BRICK + 1 + margin) * BRICK))
-                for axis, size in enumerate(self.source.shape[::-1])]
+    def _about(self, labels: Sequence[int], margin: int = MARGIN) -> Box:
+        """The bricks with these labels, and more of them about these."""
+        found = np.array([self.boxes()[label][1:] for label in labels]) // BRICK
+        low, high = found[:, ::2].min(axis=0) - margin, found[:, 1::2].max(axis=0) + 1 + margin
+        return [(max(0, begin * BRICK), min(size, end * BRICK))
+                for begin, end, size in zip(low.tolist(), high.tolist(), self.source.shape[::-1])]
 
     def _with_claimants(self, labels: Sequence[int], box: Box, voxels: np.ndarray) -> Box:
-        """The box, grown by all of the other labels that may claim places about these."""
-        sizes = [-(-size // BRICK) for size in voxels.shape]
-        padded = np.zeros([size * BRICK for size in sizes], bool)
-        padded[tuple(slice(size) for size in voxels.shape)] = np.isin(voxels, labels)
-        near = padded.reshape(sizes[0], BRICK, sizes[1], BRICK, sizes[2], BRICK).any(axis=(1, 3, 5))
+        """The box, grown by all of the other labels that may claim positions about these."""
+        near = np.isin(voxels, labels)
+        for axis, size in enumerate(voxels.shape):
+            near = np.logical_or.reduceat(near, np.arange(0, size, BRICK), axis)
+        near = np.pad(near, CLAIMS)
         for axis in range(3):
-            spread = near.copy()
-            for step in range(1, CLAIMS + 1):
-                ahead, behind = [slice(None)] * 3, [slice(None)] * 3
-                ahead[axis], behind[axis] = slice(step, None), slice(None, -step)
-                spread[tuple(ahead)] |= near[tuple(behind)]
-                spread[tuple(behind)] |= near[tuple(ahead)]
-            near = spread
+            near = sliding_window_view(near, 2 * CLAIMS + 1, axis).any(axis=-1)
         for axis, size in enumerate(voxels.shape):
             near = near.repeat(BRICK, axis).take(np.arange(size), axis)
         found = voxels[near]
-        others = set(np.unique(found[np.flatnonzero(np.diff(found, prepend=~found[:1]))]).tolist())
-        others -= {self.properties.get("BackgroundLabel", 0), *labels}
-        if not others:
-            return box
-        return _around(box, self._in_bricks([int(label) for label in others], 0))
+        found = np.unique(found[np.flatnonzero(np.diff(found, prepend=~found[:1]))])
+        others = set(found.tolist()) - {self.properties.get("BackgroundLabel", 0), *labels}
+        return _around(box, self._about([int(label) for label in others], 0)) if others else box
 
     def _check(self, labels: Sequence[int], box: Box) -> None:
         if _count(box) > self.most:
             size = " x ".join(str(end - begin) for begin, end in box)
-            raise ValueError(
-                f"label {labels[0]} and what it depends on are in {size} voxels, more than most="
-                f"{self.most}: allow more, make others `only`, or, where a label about it is nothing "
-                "that matters, choose that one as BackgroundLabel")
+            raise ValueError(f"label {labels[0]} and what it depends on are in {size} voxels, more "
+                             f"than most={self.most}: allow more, exclude the label by `only`, or "
+                             "choose a label about it as BackgroundLabel")
 
     def _order(self, label: int) -> int:
-        """So that labels in this order are near each other: bits of the places in turn."""
-        box = self.boxes()[label]
-        places = [(box[1 + 2 * axis] + box[2 + 2 * axis]) // 64 for axis in range(3)]
-        return sum((places[axis] >> bit & 1) << (3 * bit + axis)
+        """Morton order of the centers: labels that follow each other lie near each other."""
+        _, *box = self.boxes()[label]
+        center = [(first + last) // 64 for first, last in zip(box[::2], box[1::2])]
+        return sum((center[axis] >> bit & 1) << (3 * bit + axis)
                    for bit in range(26) for axis in range(3))
 
     def _read(self, box: Box) -> np.ndarray:
@@ -339,49 +325,37 @@ class Job:
         return [os.path.join(self.folder, name) for name in self.formats
                 if name in neuroglancer.INFO]
 
-    def _write(self, label: int, surface: Surface, details: Sequence[Surface]) -> None:
+    def _write(self, label: int, levels: Sequence[Surface]) -> None:
+        """Write the surface of a label, the first of its levels of detail, in all formats."""
+        surface, made = levels[0], {}
         for name in self.formats if len(surface.triangles) else ():
-            folder = os.path.join(self.folder, name)
             if name == "precomputed":
-                replace_file(os.path.join(folder, f"{label}.mesh"),
-                             neuroglancer.precomputed(surface, self.nanometers))
-                replace_file(os.path.join(folder, f"{label}:0"),
-                             _json({"fragments": [f"{label}.mesh"]}))
+                made[f"{name}/{label}.mesh"] = neuroglancer.precomputed(surface, self.nanometers)
+                made[f"{name}/{label}:0"] = _json({"fragments": [f"{label}.mesh"]})
             elif name == "multilod_draco":
                 manifest, fragments = neuroglancer.multilod_draco(
-                    [level for level in details if len(level.triangles)], self.nanometers)
-                replace_file(os.path.join(folder, str(label)), fragments)
-                replace_file(os.path.join(folder, f"{label}.index"), manifest)
+                    [level for level in levels if len(level.triangles)], self.nanometers)
+                made.update({f"{name}/{label}": fragments, f"{name}/{label}.index": manifest})
             else:
-                replace_file(os.path.join(self.folder, f"label-{label}{name}"), surface.to_bytes(name))
+                made[f"label-{label}{name}"] = surface.to_bytes(name)
+        for name, content in made.items():
+            replace_file(os.path.join(self.folder, name), content)
 
     def _row(self, label: int, surface: Surface) -> dict[str, Any]:
-        report = surface.report
-        row: dict[str, Any] = {"Label": label}
-        row.update(zip(("Voxels", "FirstX", "LastX", "FirstY", "LastY", "FirstZ", "LastZ"),
-                       self.boxes()[label]))
-        row.update({"Points": len(surface.points), "Triangles": len(surface.triangles)})
-        row.update({name: report.get(name) for name in (
-            "Volume", "Area", "NumberOfComponents", "Genus", "VolumeError", "WrongVoxels",
-            "MissedVoxels", "Level", "StopReason")})
-        return row | arrays.quality(surface)
-
-
-def _floats(values: Any) -> list[float]:
-    return [float(value) for value in values]
+        names = ("Voxels", "FirstX", "LastX", "FirstY", "LastY", "FirstZ", "LastZ")
+        facts = ("Volume", "Area", "NumberOfComponents", "Genus", "VolumeError", "WrongVoxels",
+                 "MissedVoxels", "Level", "StopReason")
+        return {"Label": label, **dict(zip(names, self.boxes()[label])),
+                "Points": len(surface.points), "Triangles": len(surface.triangles),
+                **{name: surface.report.get(name) for name in facts}, **arrays.quality(surface)}
 
 
 def _count(box: Box) -> int:
-    x, y, z = (end - begin for begin, end in box)
-    return x * y * z
+    return math.prod(end - begin for begin, end in box)
 
 
 def _around(one: Box, other: Box) -> Box:
     return [(min(a[0], b[0]), max(a[1], b[1])) for a, b in zip(one, other)]
-
-
-def _starts(box: Box) -> list[int]:
-    return [begin for begin, _ in box]
 
 
 def _json(content: Any) -> bytes:

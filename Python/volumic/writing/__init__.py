@@ -68,9 +68,9 @@ def write_surface(surface: Any, name: str, remark: str = "", solids: SolidMaker 
         write_scene([(labels[0].name if len(labels) == 1 else "surface", surface)], name, tell,
                     progress)
         return
-    head = f"volumic {__version__}" + "".join(
-        text + fact(surface, key) for key, text in (("SPACE", ", SPACE="), ("LengthUnit", ", unit "))
-        if fact(surface, key)) + remark
+    space, unit = fact(surface, "SPACE"), fact(surface, "LengthUnit")
+    head = (f"volumic {__version__}" + f", SPACE={space}" * bool(space)
+            + f", unit {unit}" * bool(unit) + remark)
     solids = solids or SolidMaker()
     _report_losses([surface], name, tell)
     with files.output_file(name) as path:

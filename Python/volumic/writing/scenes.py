@@ -115,8 +115,8 @@ TYPES = (f'{XML}<Types xmlns="{PACKAGE}content-types"><Default Extension="rels" 
          'ContentType="application/vnd.ms-package.3dmanufacturing-3dmodel+xml"/><Default '
          'Extension="config" ContentType="text/xml"/></Types>\n')
 RELATIONS = (f'{XML}<Relationships xmlns="{PACKAGE}relationships"><Relationship Id="model" '
-             'Target="/3D/3dmodel.model" Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/'
-             '3dmodel"/></Relationships>\n')
+             'Target="/3D/3dmodel.model" Type="http://schemas.microsoft.com/3dmanufacturing/2013/'
+             '01/3dmodel"/></Relationships>\n')
 MODEL = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02"
 UNITS = {"": "millimeter", "mm": "millimeter", "cm": "centimeter", "m": "meter", "um": "micron"}
 PART = ('<volume firstid="{0}" lastid="{1}"><metadata type="volume" key="name" value="{2}"/>'

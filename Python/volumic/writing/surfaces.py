@@ -163,7 +163,8 @@ def ply(surface: Any, remark: str = "", show: Show = silent) -> Iterator[bytes]:
            f"{remark}\nobj_info vtkPolyData points and polygons: vtk4.0\nelement vertex "
            f"{surface.GetNumberOfPoints()}\n{properties}element face {len(triangles)}\n"
            "property list uchar int vertex_indices\nend_header\n").encode()
-    vertices = np.rec.fromarrays(list(columns.values()), names=list(columns))
+    vertices = np.rec.fromarrays(
+        list(columns.values()), [(name, column.dtype) for name, column in columns.items()])
     yield from packed(show, (np.ndarray.tobytes, vertices), (ply_faces, triangles))
 
 
