@@ -7,7 +7,6 @@ from __future__ import annotations
 import os
 import re
 from argparse import Namespace
-from collections.abc import Sequence
 
 from . import writing
 from .errors import UsageError
@@ -43,28 +42,24 @@ def suffix_in_folder(options: Namespace) -> str:
 
 def check_outputs(options: Namespace) -> None:
     """Throw UsageError if surfaces of labels cannot be written to the names of the options."""
-    forms = [form_of(options, name) for name in options.surfaces]
-    new = [name for name, form in zip(options.surfaces, forms)
-           if form == "folder" and name[-1] not in "-/" and not os.path.isdir(name)]
-    if new and (len(forms) > 1 or re.fullmatch("[+-]?[0-9]+(-[+-]?[0-9]+)?", new[0])):
-        raise UsageError(f"'{new[0]}' is not the name of a file; write a list of labels with commas "
-                         f"(--labels {','.join([options.labels[-1], *new])}), a folder with a slash "
-                         f"({new[0]}/)")
-    for name, form in zip(options.surfaces, forms):
+    names = options.surfaces
+    forms = [form_of(options, name) for name in names]
+    for name, form in zip(names, forms):
+        is_new = form == "folder" and name[-1] not in "-/" and not os.path.isdir(name)
+        if is_new and (len(names) > 1 or re.fullmatch("[+-]?[0-9]+(-[+-]?[0-9]+)?", name)):
+            raise UsageError(f"'{name}' is not the name of a file; write a list of labels with "
+                             f"commas (--labels {options.labels[-1]},{name}), a folder with a slash "
+                             f"({name}/)")
         if name == "-":
             raise UsageError("surfaces of labels are not written to the standard output")
-        if form == "folder":
-            if has_property(options, "Merge"):
-                raise UsageError(f"{name}: --merge makes one surface; give a file, not a folder")
-            writing.check_surface_name("labels" + suffix_in_folder(options))
-        elif form == "file":
-            try:
-                writing.check_surface_name(name)
-            except UsageError as error:
-                raise UsageError(f"{error}, .vtm; a folder is {name}/") from None
-    if options.format and forms and "folder" not in forms:
+        if form == "folder" and has_property(options, "Merge"):
+            raise UsageError(f"{name}: --merge makes one surface; give a file, not a folder")
+        if form in ("folder", "file"):
+            writing.check_surface_name(
+                name if form == "file" else "labels" + suffix_in_folder(options))
+    if options.format and names and "folder" not in forms:
         raise UsageError("--format is that of the files in a folder; the format of "
-                         f"{options.surfaces[0]} is its suffix")
+                         f"{names[0]} is its suffix")
 
 
 def output_of(name: str, form: str) -> files.OutputName:
@@ -81,13 +76,3 @@ def check_files(options: Namespace) -> None:
                         + other_outputs(options), inputs_of(options))
     if makes_tetrahedra(options):
         find_mesher(options.mesher)
-
-
-def old_files(folder: str, written: Sequence[str], suffix: str) -> str:
-    """A warning about files of a suffix in a folder that were not written; empty if there is
-    none."""
-    names = set(map(os.path.basename, written))
-    old = sorted(name for name in (os.listdir(folder) if os.path.isdir(folder) else ())
-                 if name not in names and os.path.splitext(name)[1] == suffix)
-    return (f"{folder}: {len(old)} files of an earlier run stay there: {', '.join(old[:5])}"
-            f"{', ...' * (len(old) > 5)}; delete what is old") if old else ""

@@ -13,6 +13,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
 
 from .geometry import LoadedVolume, fact
 from .option_tables import PROPERTIES, Filters, Property
@@ -23,7 +24,10 @@ SURFACE_FACTS = {
     "delta": "Delta", "unit": "Unit", "level": "Level", "iterations": "Iterations",
     "lost_parts": "LostParts", "recovered_parts": "RecoveredParts",
     "lost_cavities": "LostCavities", "recovered_cavities": "RecoveredCavities",
-    "missing_parts": "MissingParts", "missing_boundary": "MissingBoundary"}
+    "missing_parts": "MissingParts", "missing_boundary": "MissingBoundary",
+    "wrong_voxels": "WrongVoxels", "volume_error": "VolumeError", "missed_voxels": "MissedVoxels"}
+INTERFACE_FACTS = {"small_contacts": "SmallContacts", "worst_angle": "WorstAngle",
+                   "worst_angle_position": "WorstAnglePosition"}
 COMPONENT_FACTS = {"area": "ComponentArea", "volume": "ComponentVolume", "genus": "ComponentGenus",
                    "centroid": "ComponentCentroid", "inertia": "ComponentInertia"}
 
@@ -41,9 +45,15 @@ def number_of(value: float) -> Any:
 def values_of(data: Any, name: str) -> np.ndarray | None:
     """The numbers of an array of the field data, tuples x components; None if there is none."""
     array = data.GetFieldData().GetArray(name)
-    if array is None:
-        return None
-    return np.array([array.GetTuple(i) for i in range(array.GetNumberOfTuples())])
+    return None if array is None else vtk_to_numpy(array).astype(float).reshape(
+        -1, array.GetNumberOfComponents())
+
+
+def facts_of(data: Any, names: dict[str, str]) -> dict[str, Any]:
+    """Members for arrays of the field data, {member: name of the array}, if there are any."""
+    found = {name: values_of(data, array) for name, array in names.items()}
+    return {name: number_of(values[0, 0]) if values.shape[1] == 1 else _numbers(values[0])
+            for name, values in found.items() if values is not None and values.size}
 
 
 def stop_reason(surface: Any) -> str:
@@ -66,24 +76,17 @@ def input_facts(name: str, loaded: LoadedVolume) -> dict[str, Any]:
 
 def surface_facts(surface: Any) -> dict[str, Any]:
     """Members of the size and shape of a surface, from its field data and its cells."""
-    facts = {}
-    for name, array in SURFACE_FACTS.items():
-        values = values_of(surface, array)
-        if values is not None and values.size:
-            facts[name] = number_of(values[0, 0])
-    facts.update(vertices=surface.GetNumberOfPoints(), triangles=surface.GetNumberOfPolys(),
-                 stop_reason=stop_reason(surface))
-    return facts
+    return {**facts_of(surface, SURFACE_FACTS), "vertices": surface.GetNumberOfPoints(),
+            "triangles": surface.GetNumberOfPolys(), "stop_reason": stop_reason(surface)}
 
 
 def component_features(surface: Any) -> list[dict[str, Any]]:
     """The member `component_features`: an object per component, the largest area first."""
     columns = {name: values_of(surface, array) for name, array in COMPONENT_FACTS.items()}
-    columns = {name: values for name, values in columns.items() if values is not None}
-    if "area" not in columns:
-        return []
-    return [{name: number_of(values[i, 0]) if values.shape[1] == 1 else _numbers(values[i])
-             for name, values in columns.items()} for i in range(len(columns["area"]))]
+    columns = {name: values.squeeze(1) if values.shape[1] == 1 else values
+               for name, values in columns.items() if values is not None}
+    return [{name: number_of(values[i]) if values.ndim == 1 else _numbers(values[i])
+             for name, values in columns.items()} for i in range(len(columns.get("area", ())))]
 
 
 def solid_facts(solid: Any) -> dict[str, Any]:
@@ -115,17 +118,14 @@ def property_values(filters: Filters, applies: Callable[[Property], bool]) -> di
 
 def level_facts(surface: Any) -> list[dict[str, Any]]:
     """The member `levels`: the visited levels of the filter, from the coarsest to the finest."""
-    history, blocks = surface.GetHistory(), surface.GetLevels()
-    columns = {name: _column(history, name)
-               for name in ("Level", "SecondsBefore", "Seconds", "SecondsAfter")}
-    seconds = columns["SecondsBefore"] + columns["Seconds"] + columns["SecondsAfter"]
-    levels = []
-    for i in range(blocks.GetNumberOfBlocks()):
-        block = blocks.GetBlock(i)
+    rows, blocks, levels = surface.GetHistory().GetRowData(), surface.GetLevels(), []
+    has_rows = surface.GetHistory().GetNumberOfRows() > 0
+    level, *seconds = (vtk_to_numpy(rows.GetArray(name)) if has_rows else np.zeros(0)
+                       for name in ("Level", "SecondsBefore", "Seconds", "SecondsAfter"))
+    for block in map(blocks.GetBlock, range(blocks.GetNumberOfBlocks())):
         if block is not None:
             facts = surface_facts(block)
-            facts["seconds"] = float(seconds[columns["Level"] == facts["level"]].sum())
-            levels.append(facts)
+            levels.append({**facts, "seconds": float(sum(seconds)[level == facts["level"]].sum())})
     return sorted(levels, key=lambda facts: -facts["level"])
 
 
@@ -157,26 +157,17 @@ def of_volume(volume_name: str, loaded: LoadedVolume, filters: Filters, surface:
               warnings: Sequence[str]) -> str:
     """The report of a surface. `surface` is as it is written, seconds are those of the pyramid and
     of the surface, reader_memory is peak_memory() when the volume had been read."""
-    report = {"input": input_facts(volume_name, loaded),
-              "iso_value": number_of(filters.surface.GetIsoValue()),
-              "upper_value": number_of(filters.surface.GetUpperValue()), "finished": finished}
-    report.update(surface_facts(surface))
-    report["component_features"] = component_features(surface)
-    report.update(solid_facts(solid))
-    report["levels"] = level_facts(filters.surface)
-    report["seconds"] = {"pyramid": seconds[0], "surface": seconds[1]}
-    report["memory"] = {"reader": reader_memory, "peak": peak_memory()}
-    report["properties"] = property_values(filters, lambda item: item.cls != "vtkLabelsToSurfaces")
-    return ended(report, warnings)
+    properties = property_values(filters, lambda item: item.cls != "vtkLabelsToSurfaces")
+    return ended({
+        "input": input_facts(volume_name, loaded),
+        "iso_value": number_of(filters.surface.GetIsoValue()),
+        "upper_value": number_of(filters.surface.GetUpperValue()), "finished": finished,
+        **surface_facts(surface), "component_features": component_features(surface),
+        **solid_facts(solid), "levels": level_facts(filters.surface),
+        "seconds": {"pyramid": seconds[0], "surface": seconds[1]},
+        "memory": {"reader": reader_memory, "peak": peak_memory()}, "properties": properties},
+        warnings)
 
 
 def _numbers(values: Sequence[float]) -> list[Any]:
     return [number_of(float(value)) for value in values]
-
-
-def _column(table: Any, name: str) -> np.ndarray:
-    from vtkmodules.util.numpy_support import vtk_to_numpy
-    column = table.GetColumnByName(name)
-    return vtk_to_numpy(column).astype(float) if column is not None else np.zeros(0)
-
-

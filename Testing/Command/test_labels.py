@@ -93,7 +93,7 @@ class OutputsTest(LabelsTest):
         self.run_command(volume, folder, "--labels", "1,2,7")
         self.write_bytes("o/notes.txt", b"")
         process = self.run_command(volume, folder, "--labels", "1")
-        self.assertRegex(process.stderr, "warning: .*o/: 2 files of an earlier run stay there: "
+        self.assertRegex(process.stderr, "warning: .*o/: files of an earlier run are there: "
                          "label-2.vtp, label-7.vtp; delete what is old")
         self.assertEqual(len(os.listdir(folder)), 4)
         process = self.run_command(volume, folder, "--labels", "1,2", "--format", "stl")
@@ -400,7 +400,7 @@ class OptionsTest(LabelsTest):
                 ("'2-3' is not the name of a file; write .*--labels 1,2-3.*", ["2-3"]),
                 ("'liver' is not the name of a file; .* a folder with a slash", ["o.vtp", "liver"]),
                 ("--format is that of the files in a folder", ["o.stl", "--format", "stl"]),
-                ("no surface format .*, .vtm; a folder is o.v1/", ["o.v1"]),
+                ("o.v1: no surface format", ["o.v1"]),
                 ("the standard output", ["-"]), ("no file to write", []),
                 ("--merge makes one surface; give a file", ["o/", "--merge"]),
                 ("--smoothing: 'x' is not a number", ["o/", "--smoothing", "x"])):
