@@ -226,15 +226,19 @@ class Cutter:
         self.add_rims(halves, self.faces[which])
 
     def refine(self) -> None:
-        """Split edges of the surface that lie in a plane, as a cap could have the same edge, and
-        move their midpoints inward; divide long edges between two caps."""
+        """Split edges in a plane that are in no rim, and move what touches the plane without being
+        in a rim inward: a cap may lie there. Divide long edges between two caps."""
         for plane in self.planes:
             edges, size = edges_of(self.triangles), len(self.points)
             rims = np.isin(edges @ (size, 1), self.rims @ (1, size))
             chords = edges[plane.holds(self.points)[edges].all(axis=1) & ~rims]
             if len(chords):
                 self.split(chords)
-                self.points[size:, plane.axis] -= plane.sign * SNAP / 2 * self.sizes[size:]
+            touching = np.zeros(len(self.points), bool)
+            touching[self.triangles] = True
+            touching[self.rims[self.faces == plane.face]] = False
+            touching &= plane.holds(self.points)
+            self.points[touching, plane.axis] -= plane.sign * SNAP * self.sizes[touching]
         while True:
             size, ends = len(self.points), self.points[self.rims]
             chosen = np.isin(self.rims @ (size, 1), self.rims @ (1, size))

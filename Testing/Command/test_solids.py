@@ -118,12 +118,17 @@ def inp_mesh(path):
     return mesh
 
 
-def physical_surfaces(path):
-    """{name: number of triangles} of an MSH 2.2."""
+def msh(path):
+    """Of an MSH 2.2 the positions of nodes, rows of label and corners of tetrahedra, and {name:
+    corners of triangles}; corners from 0."""
     sections = sections_of(path)
-    names = dict(re.findall(r'^2 (\d+) "(.*)"$', "".join(sections["PhysicalNames"]), re.M))
-    return Counter(names[line.split()[3]] for line in sections["Elements"][1:]
-                   if line.split()[1] == "2")
+    nodes = np.array([line.split()[1:] for line in sections["Nodes"][1:]], float)
+    rows = [list(map(int, line.split())) for line in sections["Elements"][1:]]
+    cells, triangles = (np.array([row[3:4] + row[5:] for row in rows if row[1] == kind]) - [1] * count
+                        for kind, count in ((4, 5), (2, 4)))
+    names = re.findall(r'^2 (\d+) "(.*)"$', "".join(sections["PhysicalNames"]), re.M)
+    return nodes, cells + [1, 0, 0, 0, 0], {
+        name: triangles[triangles[:, 0] == int(number) - 1, 1:] for number, name in names}
 
 
 class SolidsTest(InterfacesTest):
@@ -205,7 +210,7 @@ class MesherTest(SolidsTest):
             plane = ORIGIN[2] + 16 * SPACING[2]
             self.assertEqual(mesh.sets["*NSET", "z_max"],
                              set((1 + np.flatnonzero(abs(places[:, 2] - plane) < 1e-9)).tolist()))
-            self.assertEqual(physical_surfaces(self.path("a.msh")),
+            self.assertEqual({name: len(found) for name, found in msh(self.path("a.msh"))[2].items()},
                              {"object_to_outside": np.count_nonzero(caps == 0),
                               **{name: len(found) for name, found in faces.items()}})
             self.assertEqual(re.findall(r"^solid (\w+)", self.content("a.stl").decode(), re.M),
@@ -276,28 +281,37 @@ class MesherTest(SolidsTest):
         self.assertEqual(sorted(os.listdir(self.path("all"))),
                          ["label-1.vtu", "label-2.vtu", "label-4.vtu"])
 
-    def test_nodes_of_a_box(self):
-        """Two labels fill it, one of which has the name that a face of it wants."""
+    def test_sides_of_a_box(self):
+        """Two labels fill it, one of which has the name of a side."""
         found = np.ones((8, 9, 10), "u1")
         found[:, :, 5:] = 2
+        lengths = np.array(found.shape[::-1]) * SPACING
         for mesher in MESHERS:
-            self.run_command(self.map_of(found), self.path("a.inp"), "--labels", "all", "--label-names",
-                          self.write_bytes("box.json", b'{"1": "x min", "2": "b"}'), "--box-faces",
-                          "flat", "--mesher", mesher)
-            parts = dict(keywords_of(self.path("a.inp")))
-            nodes = np.array(parts["*NODE, NSET=Nall"], float)[:, 1:]
-            places = (nodes - ORIGIN) / SPACING
-            for name, axis, plane in (("x_min_2", 0, -0.5), ("x_max", 0, 9.5), ("y_min", 1, -0.5),
-                                      ("y_max", 1, 8.5), ("z_min", 2, -0.5), ("z_max", 2, 7.5)):
-                numbers = np.array([int(word) for row in parts[f"*NSET, NSET={name}"] for word in row])
-                at = np.abs(places[:, axis] - plane) < 1e-9
-                self.assertEqual(set((numbers - 1).tolist()), set(np.flatnonzero(at).tolist()))
+            self.run_command(self.map_of(found), self.path("a.inp"), self.path("a.msh"), "--labels",
+                             "all", "--label-names",
+                             self.write_bytes("box.json", b'{"1": "x_min", "2": "b"}'),
+                             "--box-faces", "flat", "--mesher", mesher)
+            sets = inp_mesh(self.path("a.inp")).sets
+            nodes, _, triangles = msh(self.path("a.msh"))
+            sides = ["x_min 2", "x_max", "y_min", "y_max", "z_min", "z_max"]
+            self.assertEqual(list(triangles), ["x_min_to_b", *sides])
+            rows = np.concatenate(list(triangles.values())).tolist()
+            self.assertEqual(len(rows), len(set(map(frozenset, rows))))
+            for side, name in enumerate(sides):
+                axis = side // 2
+                plane = ORIGIN[axis] - SPACING[axis] / 2 + side % 2 * lengths[axis]
+                there = np.flatnonzero(abs(nodes[:, axis] - plane) < 1e-9)
+                self.assertEqual(sets["*NSET", name.replace(" ", "_")], set((there + 1).tolist()))
+                self.assertEqual(set(triangles[name].ravel().tolist()), set(there.tolist()))
+                a, b, c = np.moveaxis(nodes[triangles[name]], 1, 0)
+                self.assertAlmostEqual(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2,
+                                       np.delete(lengths, axis).prod(), 6)
 
     def test_nodes_of_a_period_match(self):
         """Those of opposite sides, in the order of their numbers."""
         for mesher in MESHERS:
-            self.run_command(self.map_of(period()), self.path("a.inp"), "--labels", "all", "--box-faces",
-                          "periodic", "--mesher", mesher)
+            self.run_command(self.map_of(period()), self.path("a.inp"), "--labels", "all",
+                             "--box-faces", "periodic", "--mesher", mesher)
             parts = dict(keywords_of(self.path("a.inp")))
             nodes = np.array(parts["*NODE, NSET=Nall"], float)[:, 1:]
             for axis, name in enumerate("xyz"):
@@ -308,47 +322,16 @@ class MesherTest(SolidsTest):
                 np.testing.assert_array_equal(np.delete(apart, axis, 1), 0)
                 np.testing.assert_allclose(apart[:, axis], period().shape[2 - axis] * SPACING[axis])
 
-    def test_sides_of_a_box_in_msh(self):
-        found = np.ones((8, 9, 10), "u1")
-        found[:, :, 5:] = 2
-        self.run_command(self.map_of(found), self.path("a.msh"), "--labels", "all", "--label-names",
-                      self.write_bytes("box.json", b'{"1": "x_min", "2": "b"}'), "--box-faces", "flat",
-                      "--mesher", MESHERS[0])
-        sections = sections_of(self.path("a.msh"))
-        nodes = np.array([line.split()[1:] for line in sections["Nodes"][1:]], float)
-        rows = [list(map(int, line.split())) for line in sections["Elements"][1:]]
-        triangles = np.array([row[3:4] + row[5:] for row in rows if row[1] == 2])
-        self.assertEqual(len(triangles), len(set(map(frozenset, triangles[:, 1:].tolist()))))
-        names = {name: int(number) for number, name in re.findall(
-            r'^2 (\d+) "(.*)"$', "".join(sections["PhysicalNames"]), re.M)}
-        sides = ["x_min 2", "x_max", "y_min", "y_max", "z_min", "z_max"]
-        self.assertEqual(list(names), ["x_min_to_b", *sides])
-        lengths = np.array(found.shape[::-1]) * SPACING
-        for side, name in enumerate(sides):
-            a, b, c = (nodes[triangles[triangles[:, 0] == names[name], i] - 1] for i in (1, 2, 3))
-            plane = ORIGIN[side // 2] - SPACING[side // 2] / 2 + side % 2 * lengths[side // 2]
-            np.testing.assert_allclose(np.stack([a, b, c])[..., side // 2], plane, atol=1e-12)
-            self.assertAlmostEqual(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2,
-                                   np.delete(lengths, side // 2).prod(), 6)
-
     def test_msh_of_tetrahedra(self):
         _, grid = self.solid("a.vtu", "a.msh", options=("--mesher", MESHERS[0]))
         corners, labels = tetrahedra_of(grid)
-        sections = sections_of(self.path("a.msh"))
-        nodes = np.array([line.split()[1:] for line in sections["Nodes"][1:]], float)
+        nodes, cells, triangles = msh(self.path("a.msh"))
         np.testing.assert_array_equal(nodes, points_of(grid))
-        rows = [list(map(int, line.split())) for line in sections["Elements"][1:]]
-        cells = np.array([row for row in rows if row[1] == 4])
-        np.testing.assert_array_equal(cells[:, 5:] - 1, corners)
-        np.testing.assert_array_equal(cells[:, 3], labels)
-        names = dict(re.findall(r'^2 (\d+) "(.*)"$', "".join(sections["PhysicalNames"]), re.M))
-        faces = {}
-        for row in rows:
-            if row[1] == 2:
-                faces.setdefault(names[str(row[3])], set()).add(frozenset(i - 1 for i in row[5:]))
+        np.testing.assert_array_equal(cells, np.column_stack([labels, corners]))
         called = {0: "outside", 1: "liver", 2: "left kidney", 4: "a 'b'"}
-        self.assertEqual(faces, {f"{called[a]}_to_{called[b]}": found for (a, b), found in
-                                 faces_between(corners, labels).items()})
+        self.assertEqual({name: set(map(frozenset, found.tolist())) for name, found in triangles.items()},
+                         {f"{called[a]}_to_{called[b]}": found for (a, b), found in
+                          faces_between(corners, labels).items()})
 
     @unittest.skipUnless("gmsh" in MESHERS, "gmsh is not installed")
     def test_gmsh_reads_its_msh(self):
@@ -391,7 +374,7 @@ class MesherTest(SolidsTest):
 
     def test_tetrahedra_without_number_are_refused(self):
         told, files = self.run_script("exit 9", "--maximum-volume", "1e-300")
-        self.assertRegex(told, "a.vtu: --maximum-volume 1e-300 means about .*choose at least")
+        self.assertRegex(told, "a.vtu: --maximum-volume 1e-300 means more than 2e.08 .*choose at least [1-9]")
         self.assertEqual(files, ["a.vtp"])
 
     def test_small_angles_are_told(self):

@@ -125,7 +125,7 @@ class _Boundaries:
         labels = self.regions.labels
         numbers = np.array([label.number for label in labels] + [OUTSIDE])
         self.number = numbers[self.regions.label]  # of each region, that of its label
-        self.parts = parts_of(surface)[self.regions.source]
+        self.parts = parts_of(surface)
         keys = np.stack([self.regions.behind, self.regions.in_front, self.parts], axis=1)
         self.groups, self.group = np.unique(keys, axis=0, return_inverse=True)
         self.group = self.group.ravel()

@@ -19,7 +19,7 @@ import numpy as np
 
 from ..errors import Failure
 from .meshers import write_msh, write_tetgen
-from .regions import cell_array, find_regions, solid_labels, triangles_of
+from .regions import cell_array, labels_of_sides, solid_labels, triangles_of
 from .solids import TETRAHEDRA
 
 MESHERS = ("tetgen", "gmsh")
@@ -127,20 +127,18 @@ class SolidMaker:
         return solid
 
     def _check_size(self, surface: Any) -> None:
+        """Throw Failure if the limit of the volume means tetrahedra without number."""
+        from vtkmodules.util.numpy_support import vtk_to_numpy
         if self.maximum_volume <= 0:
             return
-        from vtkmodules.util.numpy_support import vtk_to_numpy
-        points = vtk_to_numpy(surface.GetPoints().GetData()).astype(float)
-        regions = find_regions(surface)
-        a, b, c = np.moveaxis(points[regions.triangles] - points.mean(0), 1, 0)
-        six = (a * np.cross(b, c)).sum(1)
-        solid = [(regions.label[end] >= 0).astype(int) for end in (regions.behind, regions.in_front)]
-        volume = (six * (solid[0] - solid[1])).sum() / 6
-        with np.errstate(over="ignore"):
-            count = np.float64(volume) / self.maximum_volume
-        if count > MOST_TETRAHEDRA:
-            raise Failure(f"--maximum-volume {self.maximum_volume:g} means about {count:.1g} "
-                          f"tetrahedra, more than {MOST_TETRAHEDRA:.0e}; choose at least "
+        points, triangles = vtk_to_numpy(surface.GetPoints().GetData()), triangles_of(surface)
+        a, b, c = np.moveaxis(points[triangles] - points.mean(axis=0), 1, 0)
+        filled = (labels_of_sides(surface, len(triangles)) >= 0).reshape(-1, 2)
+        ways = filled[:, 0].astype(int) - filled[:, 1]
+        volume = float((ways * (a * np.cross(b, c)).sum(1)).sum() / 6)
+        if volume > MOST_TETRAHEDRA * self.maximum_volume:
+            raise Failure(f"--maximum-volume {self.maximum_volume:g} means more than "
+                          f"{MOST_TETRAHEDRA:.0e} tetrahedra; choose at least "
                           f"{volume / MOST_TETRAHEDRA:.1g}")
 
     def _words(self, program: str, folder: str) -> list[str]:
