@@ -9,9 +9,12 @@ import dataclasses
 import math
 import os
 from argparse import Namespace
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkStringArray
 
 from . import reading
 from .arrays import make_image
@@ -20,16 +23,16 @@ from .messages import Teller, number_text
 from .option_tables import Filters
 from .options import has_property, wants_surface
 from .reading.volume import METERS, Volume
+from .vtkFiltersVolumic import vtkVolumeToSurface
+from .writing.meshers import DistinctNames
 
 LEAST_VOXELS = 8    # along an axis, for a pyramid to have a level
 MOST_VOXELS = 1e11  # of a resampled image: more is a mistake
 
 # ---- Field data --------------------------------------------------------------------------------
 
-
 def set_fact(data: Any, name: str, text: str) -> None:
     """Set a text of the field data; an empty one removes it."""
-    from vtkmodules.vtkCommonCore import vtkStringArray
     data.GetFieldData().RemoveArray(name)
     if text:
         array = vtkStringArray()
@@ -48,9 +51,8 @@ def mark_space(data: Any, world: World) -> None:
     """Set the field data `SPACE`, as 3D Slicer reads it, and `LengthUnit` of a surface or of all
     blocks."""
     if data.IsA("vtkMultiBlockDataSet"):
-        for i in range(data.GetNumberOfBlocks()):
-            if data.GetBlock(i) is not None:
-                mark_space(data.GetBlock(i), world)
+        for block in filter(None, map(data.GetBlock, range(data.GetNumberOfBlocks()))):
+            mark_space(block, world)
         return
     set_fact(data, "SPACE", world.space)
     set_fact(data, "LengthUnit", world.unit)
@@ -69,61 +71,47 @@ class World:
 
     def text(self) -> str:
         """"; space RAS, unit mm (of the file: um)", or nothing where nothing is known."""
-        def part(what: str, now: str, file: str) -> str:
-            return ((what + now if now else "")
-                    + (f" (of the file: {file})" if file not in ("", now) else ""))
-        parts = [part("space ", self.space, self.file_space),
-                 part("unit ", self.unit, self.file_unit),
-                 "" if self.scale == 1 else f"lengths of the file times {number_text(self.scale)}"]
-        return "".join("; " + text if i == 0 else ", " + text
-                       for i, text in enumerate(filter(None, parts)))
+        parts = [(f"{what} {now}" if now else "")
+                 + (f" (of the file: {file})" if file not in ("", now) else "")
+                 for what, now, file in (("space", self.space, self.file_space),
+                                         ("unit", self.unit, self.file_unit))]
+        if self.scale != 1:
+            parts.append(f"lengths of the file times {number_text(self.scale)}")
+        text = ", ".join(filter(None, parts))
+        return "; " + text if text else ""
 
 
-def turn_between(one: str, other: str) -> np.ndarray:
-    """The matrix that turns coordinates whose axes point to some sides of the body, such as RAS,
-    into those of others."""
-    sides = "LRAPSI"  # opposite ones stand side by side
-    turn = np.zeros((3, 3))
-    for row, wanted in enumerate(other):
-        for column, there in enumerate(one):
-            if sides.index(wanted) // 2 == sides.index(there) // 2:
-                turn[row, column] = 1.0 if wanted == there else -1.0
-    return turn
+def _axes(space: str) -> np.ndarray:
+    """Return the axes of a space such as RAS as rows, in LPS."""
+    return np.array([np.eye(3)[i // 2] * (1 - i % 2 * 2) for i in map("LRPASI".index, space)])
 
 
 def place_in_world(volume: Volume, options: Namespace) -> World:
-    """Put a volume into the space and unit of the options, in place.
-
-    Throw Failure where the file does not state what is needed for that.
-    """
-    world = World(volume.space, volume.unit, 1.0, volume.space, volume.unit)
-    if options.unit:
-        if not volume.unit:
-            raise Failure(f"--unit {options.unit}: the file does not state its unit; give the "
-                          "factor by --scale instead, such as --scale 0.001 for a file in "
-                          "millimetres whose surface is to be in metres")
-        world.scale = _factor(volume.unit, options.unit)
-        volume.unit = world.unit = options.unit
-    elif options.scale:
-        world.scale = options.scale
-        after = [name for name in METERS
-                 if volume.unit and _factor(volume.unit, name) == world.scale]
-        volume.unit = world.unit = volume.unit if world.scale == 1 else (after or [""])[0]
-    volume.spacing = tuple(length * world.scale for length in volume.spacing)
-    volume.origin = tuple(length * world.scale for length in volume.origin)
-    if options.space not in (None, "as-file"):
-        if not volume.space:
-            raise Failure(f"--space {options.space}: the file does not state which sides of the "
-                          "body its axes point to")
-        turn = turn_between(volume.space, options.space)
+    """Put a volume into the space and unit of the options, in place. Throw Failure if the file does
+    not state what is needed for that."""
+    if options.unit and not volume.unit:
+        raise Failure(f"--unit {options.unit}: the file does not state its unit; give --scale "
+                      "instead, such as --scale 0.001 from millimetres to metres")
+    turns = options.space not in (None, "as-file")
+    if turns and not volume.space:
+        raise Failure(f"--space {options.space}: the file does not state which sides of the body "
+                      "its axes point to")
+    scale = _factor(volume.unit, options.unit) if options.unit else options.scale or 1.0
+    world = World(options.space if turns else volume.space, next((
+        name for name in METERS if volume.unit and _factor(volume.unit, name) == scale), ""),
+                  scale, volume.space, volume.unit)
+    volume.spacing = tuple(length * scale for length in volume.spacing)
+    volume.origin = tuple(length * scale for length in volume.origin)
+    if turns:
+        turn = _axes(world.space) @ _axes(volume.space).T
         volume.direction = turn @ volume.direction + 0.0  # no -0
         volume.origin = tuple((turn @ volume.origin + 0.0).tolist())
-        volume.space = world.space = options.space
+    volume.space, volume.unit = world.space, world.unit
     return world
 
 
 def _factor(one: str, other: str) -> float:
-    """How many of a unit another one is: a power of ten, exactly."""
+    """Return how many of a unit another one is: a power of ten, exactly."""
     return float(f"1e{round(math.log10(METERS[one] / METERS[other]))}")
 
 
@@ -151,46 +139,39 @@ def image_of(volume: Volume, array: np.ndarray) -> Any:
 
 def read(path: str, teller: Teller, **choice: Any) -> Volume:
     """Read a volume and print its warnings."""
-    volume = reading.read(path, tell=lambda text: teller.warn(f"{path}: {text}"), **choice)
+    choice["tell"] = lambda text: teller.warn(f"{path}: {text}")
+    volume = reading.read(path, **choice)
     for text in volume.warnings:
-        teller.warn(f"{path}: {text}")
+        choice["tell"](text)
     return volume
 
 
 def load_volume(options: Namespace, filters: Filters, teller: Teller,
                 announce: bool = True) -> LoadedVolume:
-    """Read the volume, put it into its place, crop and resample it as the options request, and
+    """Read the volume, put it into its position, crop and resample it as the options request, and
     print what it is."""
     path = options.volume
     component = (filters.surface.GetSelectedComponent()
                  if has_property(options, "SelectedComponent") else None)
-    choice = {field.name: getattr(options.choice, field.name)
-              for field in dataclasses.fields(options.choice) if field.name not in ("tell", "times")}
-    # Masks that overlap stay whole, in layers, where each has a surface of its own.
-    volume = read(path, teller, **{**choice, "spacing": options.spacing})
+    volume = read(path, teller, **vars(options.choice))
     try:
         world = place_in_world(volume, options)
         crop(volume, options)
-        components = 1 if volume.array.ndim == 3 else len(volume.array)
-        if options.labels or (component is None and not wants_surface(options)):
-            values = volume.array
-        else:
-            values = volume.scalars(component)
-        image = image_of(volume, values)
-        image = resample_as_asked(image, options, bool(options.labels), teller)
+        is_whole = options.labels or (component is None and not wants_surface(options))
+        values = volume.array if is_whole else volume.scalars(component)
+        image = resample(image_of(volume, values), options, teller)
     except Failure as error:
         raise VolumeError(f"{path}: {error}") from None
-    taken = None if components == 1 else -1 if component is None else component
-    loaded = LoadedVolume(image, volume, world, taken)
+    count = 1 if volume.array.ndim == 3 else len(volume.array)
+    taken = None if count == 1 else -1 if component is None else component
     scalars = image.GetPointData().GetScalars()
-    loaded.range = tuple(scalars.GetRange(0 if scalars.GetNumberOfComponents() == 1 else -1))
+    least, most = scalars.GetRange(0 if scalars.GetNumberOfComponents() == 1 else -1)
     if announce:
+        part = "magnitude" if taken == -1 else f"component {taken}"
         teller.say(f"{path}: {describe(image)}, {image.GetScalarTypeAsString()}"
-                   + ("" if components == 1 else ", " + ("magnitude" if taken < 0 else
-                      f"component {taken}") + f" of {components} components (--component)")
-                   + f", {number_text(loaded.range[0])} to {number_text(loaded.range[1])}"
-                   + world.text())
-    return loaded
+                   + (f", {part} of {count} components (--component)" if count > 1 else "")
+                   + f", {number_text(least)} to {number_text(most)}{world.text()}")
+    return LoadedVolume(image, volume, world, taken, (least, most))
 
 
 def describe(image: Any) -> str:
@@ -201,82 +182,72 @@ def describe(image: Any) -> str:
 
 def crop(volume: Volume, options: Namespace) -> None:
     """Leave the voxels of --region or --region-box only, in place: no voxel is copied."""
-    sizes = np.array(volume.array.shape[:-4:-1])
-    start = np.array(volume.start)
+    sizes, start = np.array(volume.array.shape[:-4:-1]), np.array(volume.start)
     if options.region:
         wanted = np.reshape(options.region, (3, 2)).T
     elif options.region_box:
-        corners = np.stack(np.meshgrid(*np.reshape(options.region_box, (3, 2)), indexing="ij"), -1)
+        corners = np.stack(np.meshgrid(*np.reshape(options.region_box, (3, 2))), -1).reshape(-1, 3)
         # The origin is the position of index 0, whatever the index of the first voxel.
-        indices = ((corners.reshape(-1, 3) - volume.origin) @ volume.direction) / volume.spacing
+        indices = (corners - volume.origin) @ volume.direction / volume.spacing
         wanted = np.clip([np.floor(indices.min(0) + 1e-6), np.ceil(indices.max(0) - 1e-6)],
                          -1e9, 1e9).astype(int)
     else:
         return
-    last = start + sizes - 1
-    for axis in range(3):
-        if wanted[0, axis] > last[axis] or wanted[1, axis] < start[axis]:
-            raise VolumeError(f"the region lies beside the volume, which has voxels "
-                              f"{'ijk'[axis]} {start[axis]} to {last[axis]}")
-    begin, end = np.maximum(wanted[0], start) - start, np.minimum(wanted[1], last) - start + 1
-    x, y, z = (slice(int(a), int(b)) for a, b in zip(begin, end))
-    volume.array = volume.array[..., z, y, x]
-    volume.start = tuple((start + begin).tolist())
+    first, last = np.maximum(wanted[0], start), np.minimum(wanted[1], start + sizes - 1)
+    for axis in np.flatnonzero(first > last):
+        raise VolumeError(f"the region lies beside the volume, which has voxels {'ijk'[axis]} "
+                          f"{start[axis]} to {start[axis] + sizes[axis] - 1}")
+    x, y, z = map(slice, (first - start).tolist(), (last - start + 1).tolist())
+    volume.array, volume.start = volume.array[..., z, y, x], tuple(first.tolist())
 
 
-def resample_as_asked(image: Any, options: Namespace, labels: bool, teller: Teller) -> Any:
+def resample(image: Any, options: Namespace, teller: Teller) -> Any:
     """Resample to --resample or --isotropic, or, for a surface, to 8 voxels along thin axes."""
     before, sizes = np.array(image.GetSpacing()), np.array(image.GetDimensions())
     wanted = np.array(options.resample or before, float)
     if options.isotropic:
         wanted[:] = before.min()
-    if not options.resample and not labels and wants_surface(options) and not options.edges \
+    if not (options.resample or options.labels or options.edges) and wants_surface(options) \
             and options.choice.resampling:
-        thin = (sizes > 1) & (sizes < LEAST_VOXELS) & (np.rint(sizes * before / wanted)
-                                                        < LEAST_VOXELS)
+        thin = (sizes > 1) & (np.maximum(sizes, np.rint(sizes * before / wanted)) < LEAST_VOXELS)
         wanted[thin] = (sizes * before / LEAST_VOXELS)[thin]
     if (wanted == before).all():
         return image
     count = np.prod(np.maximum(1.0, sizes * before / wanted))
     if not count < MOST_VOXELS:
         raise VolumeError(f"resampled it would have {count:.0f} voxels")
-    text = f"resampled from {describe(image)}" + (
-        "" if options.resample or options.isotropic else ": a surface needs 8 voxels along each axis")
-    image = resampled(image, wanted, labels)
+    text = f"resampled from {describe(image)}" + ": a surface needs 8 voxels along each axis" * (
+        not options.resample and not options.isotropic)
+    image = _resampled(image, wanted, bool(options.labels))
     set_fact(image, "Resampling", "; ".join(filter(None, (fact(image, "Resampling"), text))))
     teller.say(f"{options.volume}: {text}")
     return image
 
 
-def resampled(image: Any, spacing: np.ndarray, labels: bool) -> Any:
-    """The image with other voxel distances that fills the same box: linear, or, for labels, the
+def _resampled(image: Any, spacing: np.ndarray, labels: bool) -> Any:
+    """Return the image with other voxel distances in the same box: linear, or, for labels, the
     nearest voxel."""
     from vtkmodules.vtkCommonDataModel import vtkImageData
     from vtkmodules.vtkImagingCore import vtkImageReslice
     before, sizes = np.array(image.GetSpacing()), np.array(image.GetDimensions())
     new_sizes = np.maximum(1, np.floor(sizes * before / spacing + 0.5)).astype(int)
     first = 0.5 * ((sizes - 1) * before - (new_sizes - 1) * spacing)
-    scalars = image.GetPointData().GetScalars()
-    plain = vtkImageData()
+    plain, reslice = vtkImageData(), vtkImageReslice()
+    plain.ShallowCopy(image)  # VTK's versions differ in where they put an image that is turned.
     plain.SetDimensions(sizes.tolist())
-    plain.SetSpacing(before.tolist())
-    plain.GetPointData().SetScalars(scalars)
-    reslice = vtkImageReslice()
+    plain.SetOrigin(0, 0, 0)
+    plain.SetDirectionMatrix(np.eye(3).ravel())
     reslice.SetInputData(plain)
     reslice.SetOutputSpacing(spacing.tolist())
     reslice.SetOutputOrigin(first.tolist())
     reslice.SetOutputExtent([int(n) for size in new_sizes for n in (0, size - 1)])
     reslice.BorderOn()  # values reach out to the faces of the outer voxels
-    if labels:
-        reslice.SetInterpolationModeToNearestNeighbor()
-    else:
+    if not labels:
         reslice.SetInterpolationModeToLinear()
         reslice.SetOutputScalarType(11 if image.GetScalarType() == 11 else 10)  # double, float
     reslice.Update()
-    made = vtkImageData()
-    made.ShallowCopy(reslice.GetOutput())
-    made.GetPointData().GetScalars().SetName(scalars.GetName())
-    origin = [0.0] * 3
+    made, origin = reslice.GetOutput(), [0.0] * 3
+    made.GetPointData().GetScalars().SetName(image.GetPointData().GetScalars().GetName())
     image.TransformContinuousIndexToPhysicalPoint(
         (np.array(image.GetExtent()[::2]) + first / before).tolist(), origin)
     made.SetOrigin(origin)
@@ -297,29 +268,27 @@ class Probes:
     def __init__(self, options: Namespace, world: World, teller: Teller) -> None:
         self.depth, self.teller = options.probe_depth, teller
         self.volumes: list[tuple[str, str, Volume, bool]] = []
-        taken: set[str] = set()
+        names = DistinctNames("-", lambda name: name[:max(name.find("."), 1)]
+                              if "." in name else name)
         for path in options.probe:
             volume = read(path, teller)
             _convert(path, volume, world, teller)
-            name = os.path.basename(os.path.normpath(path))
-            name = free = name[:max(name.find("."), 1)] if "." in name else name
-            number = 2
-            while free.lower() in taken:
-                free, number = f"{name}-{number}", number + 1
-            taken.add(free.lower())
-            self.volumes.append((free, path, volume, _is_label_map(volume)))
+            is_label_map = bool(volume.labels) or (
+                volume.array.ndim == 3 and volume.array.dtype.kind in "ui"
+                and bool(vtkVolumeToSurface.HintAtLabels(image_of(volume, volume.array))))
+            self.volumes.append((names.take(os.path.basename(os.path.normpath(path))), path, volume,
+                                 is_label_map))
 
     def __bool__(self) -> bool:
         return bool(self.volumes)
 
     def __call__(self, points: np.ndarray) -> dict[str, np.ndarray]:
         """{name: values, n or n x components} at points, n x 3."""
-        return {name: self._values(volume, points, labels)
+        return {name: _values(volume, points, labels)[0]
                 for name, _, volume, labels in self.volumes}
 
     def add_to(self, *surfaces: Any) -> None:
         """Give the points of surfaces the values, and report how many points lie outside."""
-        from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
         for name, path, volume, labels in self.volumes:
             outside, count = 0, 0
             for surface in surfaces:
@@ -327,10 +296,13 @@ class Probes:
                     continue
                 points = vtk_to_numpy(surface.GetPoints().GetData()).astype(float)
                 normals = surface.GetPointData().GetNormals()
-                inward = vtk_to_numpy(normals).astype(float) * -self.depth if normals else None
-                values = self._mean(volume, points, inward, labels)
-                outside += int(self._fraction(volume, points)[1].sum())
-                count += len(points)
+                values, is_outside = _values(volume, points, labels)
+                if self.depth and normals is not None and not labels:
+                    steps = math.ceil(self.depth / (0.5 * min(volume.spacing)))
+                    inward = vtk_to_numpy(normals).astype(float) * (-self.depth / steps)
+                    values = _mean(_values(volume, points + i * inward, labels)[0]
+                                   for i in range(steps + 1))
+                outside, count = outside + int(is_outside.sum()), count + len(points)
                 array = numpy_to_vtk(np.ascontiguousarray(values), deep=True)
                 array.SetName(name)
                 surface.GetPointData().AddArray(array)
@@ -338,62 +310,39 @@ class Probes:
                 self.teller.warn(f"{path}: {outside} of {count} vertices lie outside this volume; "
                                  "they have " + ("label 0" if labels else "the value NaN"))
 
-    def _mean(self, volume: Volume, points: np.ndarray, inward: np.ndarray | None,
-              labels: bool) -> np.ndarray:
-        if not self.depth or inward is None or labels:
-            return self._values(volume, points, labels)
-        steps = math.ceil(self.depth / (0.5 * min(volume.spacing)))
-        sums, counts = 0.0, 0
-        for i in range(steps + 1):
-            values = self._values(volume, points + inward * (i / steps), False)
-            known = ~np.isnan(values)
-            sums, counts = sums + np.where(known, values, 0), counts + known
-        with np.errstate(invalid="ignore"):
-            return sums / np.where(counts > 0, counts, np.nan)
 
-    @staticmethod
-    def _fraction(volume: Volume, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Indices z, y, x of points, as 3 x n, and whether they are outside the voxels' faces."""
-        indices = ((points - volume.origin) @ volume.direction) / volume.spacing - volume.start
-        indices = indices[:, ::-1].T
-        sizes = np.array(volume.array.shape[-3:])[:, None]
-        outside = ((indices < -0.5 - 1e-9) | (indices > sizes - 0.5 + 1e-9)).any(axis=0)
-        return indices, outside
-
-    def _values(self, volume: Volume, points: np.ndarray, labels: bool) -> np.ndarray:
-        from scipy import ndimage
-        indices, outside = self._fraction(volume, points)
-        sizes = np.array(volume.array.shape[-3:])[:, None]
-        indices = np.clip(indices, 0, sizes - 1)
-        parts = volume.array[None] if volume.array.ndim == 3 else volume.array
-        if labels:
-            near = tuple(np.rint(indices).astype(int))
-            values = np.stack([np.where(outside, 0, part[near]) for part in parts], -1)
-        else:
-            values = np.stack([ndimage.map_coordinates(
-                part, indices, np.float64, order=1, mode="nearest") for part in parts], -1)
-            values[outside] = np.nan
-        return values[:, 0] if len(parts) == 1 else values
+def _mean(parts: Iterable[np.ndarray]) -> np.ndarray:
+    """Return the mean of the arrays without their NaN."""
+    sums, counts = 0.0, 0
+    for values in parts:
+        known = ~np.isnan(values)
+        sums, counts = sums + np.where(known, values, 0), counts + known
+    with np.errstate(invalid="ignore"):
+        return sums / np.where(counts > 0, counts, np.nan)
 
 
-def _is_label_map(volume: Volume) -> bool:
-    from .vtkFiltersVolumic import vtkVolumeToSurface
-    return bool(volume.labels) or (
-        volume.array.ndim == 3 and volume.array.dtype.kind in "ui"
-        and bool(vtkVolumeToSurface.HintAtLabels(image_of(volume, volume.array))))
+def _values(volume: Volume, points: np.ndarray, labels: bool) -> tuple[np.ndarray, np.ndarray]:
+    """Return the values at points, and whether the points are outside the voxels' faces."""
+    from scipy import ndimage
+    indices = ((points - volume.origin) @ volume.direction) / volume.spacing - volume.start
+    indices, sizes = indices[:, ::-1], np.array(volume.array.shape[-3:])
+    outside = ((indices < -0.5 - 1e-9) | (indices > sizes - 0.5 + 1e-9)).any(axis=1)
+    parts = volume.array.reshape(-1, *sizes)
+    values = np.stack([ndimage.map_coordinates(
+        part, indices.T, part.dtype if labels else np.float64, order=0 if labels else 1,
+        mode="nearest") for part in parts], -1)
+    values[outside] = 0 if labels else np.nan
+    return (values[:, 0] if len(parts) == 1 else values), outside
 
 
 def _convert(path: str, volume: Volume, world: World, teller: Teller) -> None:
-    """Put a second volume, which has a space and a unit of its own, into those of the first."""
-    asked = Namespace(unit=None, scale=None, space=None)
-    if world.unit and volume.unit:
-        asked.unit = world.unit
-    elif volume.unit != world.unit or (not world.unit and world.scale != 1):
-        teller.warn(f"{path}: its unit is {volume.unit or 'not stated'}, that of the surface "
-                    f"{world.unit or 'not stated'}: lengths are taken as they are")
-    if world.space and volume.space:
-        asked.space = world.space
-    elif volume.space != world.space:
-        teller.warn(f"{path}: its space is {volume.space or 'not stated'}, that of the surface "
-                    f"{world.space or 'not stated'}: coordinates are taken as they are")
-    place_in_world(volume, asked)
+    """Put a second volume into the space and unit of the first."""
+    options = Namespace(unit=None, scale=None, space=None)
+    for what in ("unit", "space"):
+        own, other = getattr(volume, what), getattr(world, what)
+        if own and other:
+            setattr(options, what, other)
+        elif own != other or (what == "unit" and world.scale != 1):
+            teller.warn(f"{path}: its {what} is {own or 'not stated'}, that of the surface "
+                        f"{other or 'not stated'}: coordinates are used unchanged")
+    place_in_world(volume, options)

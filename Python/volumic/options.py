@@ -139,8 +139,8 @@ def parse(words: Sequence[str]) -> argparse.Namespace:
         options.labels = ["all"]
     options.choice = Choice(
         series=options.series, time=options.phase if options.time is None else options.time,
-        raw=options.raw, labels=bool(options.labels), resampling=not options.no_resampling,
-        array=options.array)
+        spacing=options.spacing, raw=options.raw, labels=bool(options.labels),
+        resampling=not options.no_resampling, array=options.array)
     check(options)
     return options
 
