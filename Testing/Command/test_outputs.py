@@ -30,38 +30,29 @@ SURFACES = ("vtk", "vtp", "stl", "ply", "obj", "glb", "3mf", "msh", "smesh", "po
 OLD = b"an older result"
 
 
-def nobody():
-    """A preexec_fn: the rights of nobody, because nothing is forbidden for root."""
-    if os.geteuid() == 0:
-        os.setgroups([])
-        os.setgid(65534)
-        os.setuid(65534)
-
-
 class OutputsTest(CommandTestCase):
     def setUp(self):
         super().setUp()
         self.volume = self.ball_file()
+        self.words = [self.volume, "--iso", str(ISO), "--levels", "2", "-q"]
 
     def segment(self, *arguments, **options):
-        return self.run_command(self.volume, "--iso", ISO, "--levels", 2, "-q", *arguments, **options)
+        return self.run_command(*self.words, *arguments, **options)
 
     def hidden_files(self):
-        return glob.glob(self.path(".volumic-*")) + glob.glob(self.path(".volumic-*/*"))
+        return [name for name in os.listdir(self.folder) if name.startswith(".")]
 
 
 class FullDiskTest(OutputsTest):
     def test_the_old_file_survives(self):
         options = {"v.vti": ["--write-volume"], "h.csv": ["--history"], "r.json": ["--report"],
-                   "l.vtm": ["--levels-output"], "s.vtm": ["--snapshots"],
-                   **{f"a.{suffix}": [] for suffix in SURFACES}}
-        self.segment(*(word for name in options if name[-1] != "m"
-                       for word in (*options[name], self.path(name))))
+                   "l.vtm": ["--levels-output"], **{f"a.{suffix}": [] for suffix in SURFACES}}
+        self.segment(*(word for name in options for word in (*options[name], self.path(name))))
         for name, option in options.items():
             # Seconds in tables and reports have more or fewer digits. A limit on the .vtm alone
             # would be none on the larger files of its blocks.
-            missing = 100 if name in ("h.csv", "r.json") else 1
-            limit = 20000 if name.endswith("m") else os.path.getsize(self.path(name)) - missing
+            missing = {"h.csv": 100, "r.json": 100, "l.vtm": -20000}.get(name, 1)
+            limit = os.path.getsize(self.path(name)) - missing
             self.write_bytes(name, OLD)
             with self.subTest(name):
                 process = self.segment(*option, self.path(name), status=1,
@@ -93,8 +84,8 @@ class FullDiskTest(OutputsTest):
         self.assertIn("\"Iteration\",", self.segment("--history", "/dev/stdout").stdout)
         for option in (["--report", "-"], ["--help"], ["--version"], ["--list-properties"]):
             with self.subTest(option), open("/dev/full", "w", encoding="utf-8") as full:
-                process = subprocess.run([PROGRAM, self.volume, "--iso", str(ISO), *option],
-                                         stdout=full, stderr=subprocess.PIPE, text=True, check=False)
+                process = subprocess.run([PROGRAM, *self.words, *option], stdout=full, check=False,
+                                         stderr=subprocess.PIPE, text=True)
                 self.assertEqual(process.returncode, 1)
                 self.assertRegex(process.stderr, "the standard output.*No space left")
 
@@ -111,8 +102,7 @@ class KilledTest(OutputsTest):
             attempts += 1
             for name in names:
                 self.write_bytes(name, OLD)
-            with subprocess.Popen([PROGRAM, self.volume, *paths, "--iso", str(ISO), "--levels",
-                                   "2", "-q"]) as process:
+            with subprocess.Popen([PROGRAM, *self.words, *paths]) as process:
                 # The trial of the folder comes first, then a hidden folder for each file.
                 while process.poll() is None and not glob.glob(self.path(".volumic-*/*")):
                     pass
@@ -121,15 +111,15 @@ class KilledTest(OutputsTest):
             for name in names:
                 self.assertIn(self.content(name), (OLD, new[name]), name)
                 were_old += self.content(name) == OLD
-            for hidden in glob.glob(self.path(".volumic-*")):
-                shutil.rmtree(hidden)
+            for name in self.hidden_files():
+                shutil.rmtree(self.path(name))
             self.assertEqual(set(os.listdir(self.folder)), {*names, "ball.vti"})
         self.assertGreater(were_old, 0, "all were killed after they had written")
 
     def test_runs_at_the_same_time(self):
-        command = [PROGRAM, self.volume, self.path("a.obj"), "--iso", str(ISO), "--levels", "2", "-q",
-                   "--levels-output", self.path("l.vtm"), "--snapshots", self.path("s")]
-        processes = [subprocess.Popen(command) for _ in range(4)]
+        words = [PROGRAM, *self.words, self.path("a.obj"), "--levels-output", self.path("l.vtm"),
+                 "--snapshots", self.path("s")]
+        processes = [subprocess.Popen(words) for _ in range(4)]
         self.assertEqual([process.wait() for process in processes], [0] * 4)
         together = self.content("a.obj")
         self.segment(self.path("a.obj"))
@@ -142,106 +132,54 @@ class RefusedTest(OutputsTest):
 
     def setUp(self):
         super().setUp()
-        self.no_image = self.write_bytes("no image.vti", b"nothing")
+        self.no_image = self.write_bytes("no.vti", b"nothing")
 
-    def refused_at_once(self, reason, *arguments, **options):
-        """Arguments that are no options are names in the folder."""
-        with self.subTest(arguments):
-            process = self.run_command(self.no_image, *(
-                word if word.startswith("--") else self.path(word) for word in arguments),
-                status=1, **options)
-            self.assertRegex(process.stderr, reason)
-            self.assertNotRegex(process.stderr, "no image.vti: (?!cannot be written)")
-            self.assertEqual((self.hidden_files(), self.content("no image.vti")), ([], b"nothing"))
-
-    def test_folders_and_missing_folders(self):
-        os.mkdir(self.path("b.vtp"))
-        os.symlink(self.path("c/a.stl"), self.path("link.stl"))
-        os.symlink("nowhere", self.path("loose"))
-        self.write_bytes("l", b"")
-        for reason, *arguments in (
-                (r"b.vtp: cannot be written \(Is a directory", "b.vtp"),
-                (r"b.vtp: cannot be written \(Is a directory", "--history", "b.vtp"),
-                ("there is no folder .*/c", "c/a.stl"),
-                ("there is no folder .*/c", "--history", "c/h.csv"),
-                ("there is no folder .*/c", "--levels-output", "c/l.vtm"),
-                ("link.stl: .*there is no folder .*/c", "link.stl"),
-                ("there is no folder .*/l", "--levels-output", "l/levels"),
-                ("there is no folder .*/l", "--levels-output", "l"),
-                ("there is no folder .*/l", "--levels-output", "l.vtm"),
-                ("there is no folder .*loose", "--levels-output", "loose/levels")):
-            self.refused_at_once(reason, *arguments)
-
-    def test_missing_rights(self):
-        os.chmod(self.folder, 0o755)
-        if subprocess.run([PROGRAM, "--version"], preexec_fn=nobody, check=False,
-                          capture_output=True).returncode != 0:
-            self.skipTest("nobody may not run the program")
-        os.mkdir(self.path("locked"), mode=0o555)
-        os.makedirs(self.path("closed/inner"))
-        os.chmod(self.path("closed"), 0o700)
-        os.mkdir(self.path("open"))
-        os.chmod(self.path("open"), 0o777)
-        os.chmod(self.write_bytes("open/a.stl", OLD), 0o444)
-        for place, *arguments in (
-                ("the folder .*locked: ", "locked/a.stl"),
-                ("the folder .*locked: ", "--report", "locked/r.json"),
-                ("the folder .*locked: ", "--levels-output", "locked"),
-                ("the folder .*locked: ", "--snapshots", "locked/new/ones"),
-                ("the folder .*closed/inner: ", "closed/inner/a.stl"),
-                ("the folder .*closed: ", "--levels-output", "closed/inner/l"), ("", "open/a.stl")):
-            self.refused_at_once(rf"cannot be written \({place}Permission denied", *arguments,
-                                 preexec_fn=nobody)
-        self.assertEqual(self.content("open/a.stl"), OLD)
+    def refused_at_once(self, reason, *lines):
+        """Words of the lines that are no options are names in the folder."""
+        for line in lines:
+            with self.subTest(line):
+                process = self.run_command(self.no_image, *(
+                    word if word.startswith("--") else self.path(word) for word in line.split()),
+                    status=1)
+                self.assertRegex(process.stderr, f"cannot be written: .* {reason} ")
+                self.assertEqual((self.hidden_files(), self.content("no.vti")), ([], b"nothing"))
 
     def test_inputs_are_not_replaced(self):
         os.link(self.no_image, self.path("hard.json"))
-        os.symlink("no image.vti", self.path("soft.csv"))
+        os.symlink("no.vti", self.path("soft.csv"))
         os.mkdir(self.path("levels"))
-        for name in ("start.stl", "seeds.csv", "edges.vti", "levels/level-2.vtp",
-                     "levels/levels_0.vtp"):
+        for name in ("a.stl", "b.csv", "c.vti", "levels/level-2.vtp", "levels/levels_0.vtp"):
             self.write_bytes(name, b"1,2,3")
-        for reason, *arguments in (
-                ("it is the input .*no image.vti", "--report", "no image.vti"),
-                ("it is the input .*no image.vti", "--report", "hard.json"),
-                ("it is the input .*no image.vti", "--history", "soft.csv"),
-                ("it is the input .*start.stl", "--initial-surface", "start.stl", "start.stl"),
-                ("it is the input .*seeds.csv", "--seeds", "seeds.csv", "--history", "seeds.csv"),
-                ("it is the input .*seeds.csv", "--attracting-points", "seeds.csv", "--history",
-                 "./seeds.csv"),
-                ("it is the input .*edges.vti", "--edges", "edges.vti", "--report", "edges.vti"),
-                ("level-2.vtp is the input", "--initial-surface", "levels/level-2.vtp",
-                 "--levels-output", "levels"),
-                ("levels_0.vtp is the input", "--initial-surface", "levels/levels_0.vtp",
-                 "--levels-output", "levels.vtm")):
-            self.refused_at_once(reason, *arguments)
+        self.refused_at_once(
+            "is the input", "--report no.vti", "--report hard.json", "--history soft.csv",
+            "--initial-surface a.stl a.stl", "--seeds b.csv --history b.csv",
+            "--attracting-points b.csv --history ./b.csv", "--edges c.vti --report c.vti",
+            "--initial-surface levels/level-2.vtp --levels-output levels",
+            "--initial-surface levels/levels_0.vtp --levels-output levels.vtm")
 
     def test_the_other_files_of_a_volume(self):
         os.mkdir(self.path("series"))
         self.write_bytes("a.mhd", b"ElementDataFile = LIST\n a1.raw\na2.raw\n")
         self.write_bytes("b.img", b"")
         for volume, data in (("a.mhd", "a2.raw"), ("b.img", "b.hdr"), ("series", "series/IM1")):
-            with self.subTest(volume):
-                self.write_bytes(data, bytes(128) + b"DICM")
-                self.refused("it is the input", self.path(volume), "--report", self.path(data))
-                self.assertEqual(self.content(data), bytes(128) + b"DICM")
+            self.write_bytes(data, bytes(128) + b"DICM")
+            self.refused("it is the input", self.path(volume), "--report", self.path(data))
+            self.assertEqual(self.content(data), bytes(128) + b"DICM")
 
     def test_outputs_that_are_one_file(self):
         os.symlink("b.vtp", self.path("c.vtp"))
         os.mkdir(self.path("l"))
-        for words in (("a.vtp", "a.vtp"), ("b.vtp", "c.vtp"), ("a.vtp", "--history", "./a.vtp"),
-                      ("--report", "r", "--history", "r"), ("--levels-output", "r", "--report", "r"),
-                      ("--levels-output", "l.vtm", "--snapshots", "l.vtm"),
-                      ("l/level-0.vtp", "--levels-output", "l"),
-                      ("--levels-output", "l", "--report", "l/level-0.vtp"),
-                      ("l/l_0.vtp", "--levels-output", "l.vtm")):
-            self.refused_at_once("is also the output", *words)
+        self.refused_at_once(
+            "is also the output", "a.vtp a.vtp", "b.vtp c.vtp", "a.vtp --history ./a.vtp",
+            "--levels-output r --report r", "--levels-output l.vtm --snapshots l.vtm",
+            "l/level-0.vtp --levels-output l", "--levels-output l --report l/level-0.vtp",
+            "l/l_0.vtp --levels-output l.vtm")
 
 
 class WrittenTest(OutputsTest):
     def test_writing_shows_its_progress(self):
         names = [self.path("a." + suffix) for suffix in ("vtp", "vtk", "stl")]
-        said = self.run_command(self.volume, "--iso", ISO, "--levels", 2, "--progress", *names).stderr
+        said = self.run_command(*self.words[:-1], "--progress", *names).stderr
         for name in names:
             self.assertRegex(said, rf"(?m)^Writing {name}:  *\d+ %$")
 
@@ -249,12 +187,13 @@ class WrittenTest(OutputsTest):
         names = ("a.vtp", "a.ply", "a.stl", "b.stl", "a.obj", "a.3mf")
         said = self.run_command(self.volume, "--iso", ISO, "--probe", self.volume, "--thin-parts",
                                 *map(self.path, names)).stderr
-        self.assertEqual(re.findall(r"(.\.\w+): \.\w+ has no place for the values Thickness, ball; "
-                                    r"\.vtp, \.vtk and \.ply have", said), ["a.stl", "a.obj", "a.3mf"])
+        lost = re.findall(r"(.\.\w+): \.\w+ has no place for the values Thickness, ball; \.vtp, "
+                          r"\.vtk and \.ply have", said)
+        self.assertEqual(lost, ["a.stl", "a.obj", "a.3mf"])
         whole = read(self.path("a.vtp")).GetPointData()
         head, body = self.content("a.ply").split(b"end_header\n")
         self.assertIn(b"property float Thickness\nproperty double ball\nelement face", head)
-        rows = np.frombuffer(body, [("place", "<f4", 3), ("Normals", "<f4", 3), ("Thickness", "<f4"),
+        rows = np.frombuffer(body, [("x", "<f4", 3), ("Normals", "<f4", 3), ("Thickness", "<f4"),
                                     ("ball", "<f8")], whole.GetNumberOfTuples())
         for name in ("Normals", "Thickness", "ball"):
             np.testing.assert_array_equal(rows[name], vtk_to_numpy(whole.GetArray(name)))
@@ -262,9 +201,9 @@ class WrittenTest(OutputsTest):
     def test_files_of_an_earlier_run_are_reported(self):
         for output, old in (("l", "/l: files of an earlier run are there: level-1.vtp;"),
                             ("m.vtm", "/m: files of an earlier run are there: m_1.vtp;")):
-            arguments = (self.volume, "--iso", ISO, "--levels-output", self.path(output), "--levels")
-            self.assertNotIn("earlier run", self.run_command(*arguments, 2).stderr)
-            self.assertIn(old, self.run_command(*arguments, 1).stderr)
+            words = (self.volume, "--iso", ISO, "--levels-output", self.path(output), "--levels")
+            self.assertNotIn("earlier run", self.run_command(*words, 2).stderr)
+            self.assertIn(old, self.run_command(*words, 1).stderr)
 
     def test_caps_are_solids_of_an_stl(self):
         """OpenFOAM's tools read a text with a named solid for each patch."""
@@ -285,18 +224,47 @@ class WrittenTest(OutputsTest):
 
     def test_a_name_that_is_not_utf_8(self):
         for name, text in ((b"\xe9t\xe9 \xed\xa0\x80.vti", "\ufffdt\ufffd \ufffd\ufffd\ufffd.vti"),
-                           ("\u00e9t\u00e9 \U0001f9b4.vti".encode(), "\u00e9t\u00e9 \U0001f9b4.vti")):
+                           (os.fsencode("\u00e9 \U0001f9b4.vti"), "\u00e9 \U0001f9b4.vti")):
             path = os.path.join(os.fsencode(self.folder), name)
             shutil.copy(self.volume, path)
             process = subprocess.run([PROGRAM, path, "--report", "-", "-q"], check=True,
-                                     capture_output=True)
+                                     stdout=subprocess.PIPE)
             self.assertEqual(json.loads(process.stdout.decode("utf-8"))["input"]["name"], text)
 
 
 class PackageTest(CommandTestCase):
     """Without the command."""
 
-    def test_links_are_followed(self):
+    def refused_names(self, reason, **names):
+        """Names, separated by blanks, of outputs of each form."""
+        for form, name in ((form, name) for form in names for name in names[form].split()):
+            with self.subTest(name, form=form), self.assertRaisesRegex(
+                    Failure, rf"{name}: cannot be written \({reason}"):
+                files.check_outputs([files.OutputName(self.path(name), form)], [])
+
+    def test_folders_and_rights(self):
+        os.chmod(self.folder, 0o777)
+        os.mkdir(self.path("b.vtp"))
+        os.symlink(self.path("c/a.stl"), self.path("link.stl"))
+        os.symlink("nowhere", self.path("loose"))
+        self.write_bytes("l", b"")
+        os.chmod(self.write_bytes("a.stl", OLD), 0o444)
+        os.mkdir(self.path("locked"), 0o555)
+        os.makedirs(self.path("closed/inner"))
+        os.chmod(self.path("closed"), 0)
+        if os.geteuid() == 0:  # for whom nothing is forbidden
+            self.addCleanup(os.seteuid, 0)
+            os.seteuid(65534)
+        self.refused_names("Is a directory", file="b.vtp")
+        self.refused_names("there is no folder .*/c", file="c/a.stl link.stl", blocks="c/l.vtm")
+        self.refused_names("there is no folder .*/l", folder="l l/levels loose/m", blocks="l.vtm")
+        self.refused_names("Permission denied", file="a.stl")
+        self.refused_names("the folder .*locked: Permission denied", file="locked/a.stl",
+                           folder="locked locked/new/ones")
+        self.refused_names("the folder .*closed.*: Permission denied", file="closed/inner/a.stl",
+                           folder="closed/inner/l")
+
+    def test_links_and_pipes(self):
         os.mkdir(self.path("there"))
         os.symlink("there/a", self.path("link"))
         for content in (OLD, b"new"):
@@ -304,6 +272,10 @@ class PackageTest(CommandTestCase):
             self.assertTrue(os.path.islink(self.path("link")))
             self.assertEqual((self.content("there/a"), os.listdir(self.path("there"))),
                              (content, ["a"]))
+        os.mkfifo(self.path("pipe"))
+        with subprocess.Popen(["cat", self.path("pipe")], stdout=subprocess.PIPE) as reader:
+            files.replace_file(self.path("pipe"), OLD)
+            self.assertEqual(reader.stdout.read(), OLD)
 
     def test_permissions(self):
         owner = (1234, 4321) if os.geteuid() == 0 else (os.getuid(), os.getgid())
@@ -316,12 +288,6 @@ class PackageTest(CommandTestCase):
         facts = [os.stat(self.path(name)) for name in ("old", "l/m", "l/m/new")]
         self.assertEqual([stat.S_IMODE(each.st_mode) for each in facts], [0o600, 0o750, 0o640])
         self.assertEqual((facts[0].st_uid, facts[0].st_gid), owner)
-
-    def test_a_pipe_gets_the_whole_file(self):
-        os.mkfifo(self.path("pipe"))
-        with subprocess.Popen(["cat", self.path("pipe")], stdout=subprocess.PIPE) as reader:
-            files.replace_file(self.path("pipe"), OLD)
-            self.assertEqual(reader.stdout.read(), OLD)
 
     def test_ctrl_c_while_vtk_writes(self):
         old = self.write_bytes("a.vti", OLD)
@@ -342,10 +308,8 @@ class PackageTest(CommandTestCase):
         with unittest.mock.patch.object(surfaces, "SLAB", 3 * 2 * ball()[0].size):
             writing.write_volume(make_image(ball()), self.path("a.vti"))
         self.assertEqual(self.content("a.vti").count(b"<Piece "), 9)
-        image = read(self.path("a.vti"))
-        self.assertEqual(image.GetDimensions(), ball().shape[::-1])
-        np.testing.assert_array_equal(
-            vtk_to_numpy(image.GetPointData().GetScalars()), ball().ravel())
+        voxels = vtk_to_numpy(read(self.path("a.vti")).GetPointData().GetScalars())
+        np.testing.assert_array_equal(voxels.reshape(ball().shape), ball())
 
 
 if __name__ == "__main__":
