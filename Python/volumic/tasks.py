@@ -117,7 +117,7 @@ class Job:
         """Make the folders. Throw ValueError if they have results of other settings."""
         for folder in (*map(self._path, ("counts", "rows")), *self._viewers()):
             os.makedirs(folder, exist_ok=True)
-        free = ("NumberOfThreads", "MemoryLimit", "ScratchDirectory")  # no bit depends on them
+        free = ("NumberOfThreads", "MemoryLimit", "ScratchDirectory")  # without effect on results
         ours = {"shape": list(self.source.shape), "type": str(self.source.dtype),
                 "spacing": self.spacing, "origin": self.origin, "direction": self.direction,
                 "formats": self.formats, "nanometers": self.nanometers,

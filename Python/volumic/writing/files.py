@@ -230,7 +230,6 @@ def check_outputs(outputs: Sequence[OutputName], inputs: Sequence[str]) -> None:
 def _identity(path: str) -> object:
     """The same for all names of a file."""
     try:
-        facts = os.stat(path)
+        return os.stat(path)[1:3]  # inode and device
     except OSError:
         return os.path.realpath(path)
-    return facts.st_dev, facts.st_ino
