@@ -90,8 +90,8 @@ def place_in_world(volume: Volume, options: Namespace) -> World:
     """Put a volume into the space and unit of the options, in place. Throw Failure if the file does
     not state what is needed for that."""
     if options.unit and not volume.unit:
-        raise Failure(f"--unit {options.unit}: the file does not state its unit; give --scale "
-                      "instead, such as --scale 0.001 from millimetres to metres")
+        raise Failure(f"--unit {options.unit}: the file does not state its unit; give the factor "
+                      "by --scale, such as --scale 0.001 from millimetres to metres")
     turns = options.space not in (None, "as-file")
     if turns and not volume.space:
         raise Failure(f"--space {options.space}: the file does not state which sides of the body "
