@@ -24,27 +24,24 @@ SAME_SIGNAL = 1.0  # seconds within which a second signal is the same one: `time
 
 
 class _State:
-    """Of the process: when the first signal came, and whether work goes on after one."""
-    interrupted_at: float | None = None
-    holds = False
+    interrupted_at: float | None = None  # when the first signal came
+    holds = False  # whether work continues after a signal
 
 
 def _interrupt(number: int, _frame: Any) -> None:
     now = time.monotonic()
-    if _State.interrupted_at is not None:
-        if now - _State.interrupted_at > SAME_SIGNAL:
-            signal.signal(number, signal.SIG_DFL)
-            os.kill(os.getpid(), number)
-        return
-    _State.interrupted_at = now
-    if not _State.holds:
-        raise KeyboardInterrupt
+    if _State.interrupted_at is None:
+        _State.interrupted_at = now
+        if not _State.holds:
+            raise KeyboardInterrupt
+    elif now - _State.interrupted_at > SAME_SIGNAL:
+        signal.signal(number, signal.SIG_DFL)
+        os.kill(os.getpid(), number)
 
 
 def catch_signals() -> None:
-    """Handle SIGINT and SIGTERM: the first one raises KeyboardInterrupt, or, after
-    hold_signals(), is remembered for was_interrupted(); one that comes a second later ends the
-    process."""
+    """Handle SIGINT and SIGTERM. The first signal raises KeyboardInterrupt, or, after
+    hold_signals(), sets was_interrupted(). One that comes a second later ends the process."""
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, _interrupt)
 
@@ -72,6 +69,14 @@ def one_line(text: str, most: int = 1500) -> str:
     return text if len(text) <= most else f"{text[:most // 2]} ... {text[-most // 2:]}"
 
 
+def _write(text: str) -> None:
+    try:
+        sys.stderr.write(text)
+        sys.stderr.flush()
+    except OSError:
+        pass  # nobody reads it
+
+
 class Teller:
     """Prints messages and progress on the standard error; with `quiet` nothing but errors."""
 
@@ -91,10 +96,7 @@ class Teller:
 
     def error(self, text: str) -> None:
         """Print a message even with --quiet."""
-        try:
-            print(f"volumic: {text}", file=sys.stderr, flush=True)
-        except OSError:
-            pass  # nobody reads it
+        _write(f"volumic: {text}\n")
 
     def progress(self, title: str) -> Progress:
         """The progress of one piece of work, for `with`."""
@@ -102,44 +104,30 @@ class Teller:
 
 
 class Progress:
-    """Shows which share of a piece of work is done: on a terminal one line that is redrawn and
-    vanishes at the end, else, where asked for, a line for each tenth."""
+    """Shows the finished share of a piece of work: on a terminal in one line that is redrawn and
+    erased at the end, else, with --progress, in a line for each tenth."""
 
     def __init__(self, title: str, style: str) -> None:
         self.title, self.style = title, style
-        self.drawn_at = 0.0
-        self.next_share = 0.0
+        self.drawn_at = self.next_share = 0.0
 
     def __enter__(self) -> Progress:
         return self
 
     def __exit__(self, *_: Any) -> None:
         if self.drawn_at:
-            self._print("\r" + " " * (self._width() - 1) + "\r")
+            _write("\r\x1b[K")  # erases the line
 
     def __call__(self, share: float, text: str = "") -> None:
         """`share` of the work is done, 0 to 1."""
         share = min(max(share, 0.0), 1.0)
         if self.style == "line" and time.monotonic() - self.drawn_at > 0.1:
             self.drawn_at = time.monotonic()
-            filled = int(24 * share)
-            line = f"{self.title} [{'#' * filled:.<24}] {100 * share:3.0f} % {text}"
-            self._print("\r" + line[:self._width() - 1].ljust(self._width() - 1))
+            line = f"{self.title} [{'#' * int(24 * share):.<24}] {100 * share:3.0f} % {text}"
+            _write("\r\x1b[K" + line[:max(shutil.get_terminal_size().columns, 20) - 1])
         elif self.style == "lines" and share >= self.next_share:
-            self._print(f"{self.title}: {100 * share:3.0f} %{'  ' + text if text else ''}\n")
+            _write(f"{self.title}: {100 * share:3.0f} %{'  ' + text if text else ''}\n")
             self.next_share = share + 0.1
-
-    @staticmethod
-    def _width() -> int:
-        return max(shutil.get_terminal_size().columns, 20)
-
-    @staticmethod
-    def _print(text: str) -> None:
-        try:
-            sys.stderr.write(text)
-            sys.stderr.flush()
-        except OSError:
-            pass
 
 
 # ---- Algorithms --------------------------------------------------------------------------------
@@ -151,14 +139,7 @@ class Run(NamedTuple):
     interrupted: bool = False
 
 
-def plain_message(text: str) -> str:
-    """A message of VTK without the place in the source code, on one line."""
-    text = re.sub(r"^(ERROR|Warning): In .*?\n.*?\): ", "", text, flags=re.DOTALL)
-    text = re.sub(r"^Generic Warning: In .*?\n", "", text, flags=re.DOTALL)
-    return re.sub(r"\s+", " ", text).strip()
-
-
-def update(algorithm: Any, on_progress: Callable[[], None] | None = None
+def update(algorithm: Any, on_progress: Callable[[], None] = lambda: None
            ) -> tuple[list[str], list[str]]:
     """Update an algorithm, or have a writer write; return its errors and its warnings.
 
@@ -172,22 +153,23 @@ def update(algorithm: Any, on_progress: Callable[[], None] | None = None
 
     @calldata_type(VTK_STRING)
     def keep(_caller: Any, event: str, text: str) -> None:
-        text = plain_message(text)
-        # The executive repeats that its algorithm failed, which has said why.
+        # Without the position in VTK's source code.
+        text = re.sub(r"^(ERROR|Warning): In .*?\n.*?\): |^Generic Warning: In .*?\n", "", text,
+                      flags=re.DOTALL)
+        # The executive repeats that its algorithm failed, which has stated the reason.
         if event == "WarningEvent":
-            warnings.append(text)
+            warnings.append(" ".join(text.split()))
         elif not errors or "returned failure for request" not in text:
-            errors.append(text)
+            errors.append(" ".join(text.split()))
 
     def follow(*_: Any) -> None:
         time.sleep(0)
-        if on_progress:
-            on_progress()
+        on_progress()
 
     tags = [(algorithm, algorithm.AddObserver("ProgressEvent", follow))]
-    for source in (algorithm, algorithm.GetExecutive()):
-        for event in ("ErrorEvent", "WarningEvent"):
-            tags.append((source, source.AddObserver(event, keep)))
+    tags += [(source, source.AddObserver(event, keep))
+             for source in (algorithm, algorithm.GetExecutive())
+             for event in ("ErrorEvent", "WarningEvent")]
     try:
         with _signals_deferred(algorithm):
             (algorithm.Write if hasattr(algorithm, "Write") else algorithm.Update)()
@@ -199,33 +181,31 @@ def update(algorithm: Any, on_progress: Callable[[], None] | None = None
 
 @contextlib.contextmanager
 def _signals_deferred(algorithm: Any) -> Iterator[None]:
-    """A signal stops the algorithm, and its handler is called afterwards: VTK ends the process where
-    one raises KeyboardInterrupt at an event."""
+    """A signal stops the algorithm, and its handler is called afterwards: VTK ends the process if
+    a handler raises KeyboardInterrupt at an event."""
     came: list[int] = []
-    handlers: dict[int, Any] = {}
 
     def keep(number: int, _frame: Any) -> None:
         came.append(number)
         algorithm.SetAbortExecute(1)
 
-    if not _State.holds and threading.current_thread() is threading.main_thread():
-        handlers = {number: signal.signal(number, keep) for number in (signal.SIGINT, signal.SIGTERM)
-                    if callable(signal.getsignal(number))}
+    is_main = threading.current_thread() is threading.main_thread()
+    handlers = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)
+                if is_main and not _State.holds and callable(signal.getsignal(number))}
     try:
+        for number in handlers:
+            signal.signal(number, keep)
         yield
     finally:
         for number, handler in handlers.items():
             signal.signal(number, handler)
     for number in came[:1]:
-        handlers[number](number, None)
+        signal.raise_signal(number)
 
 
 def run(algorithm: Any, title: str, teller: Teller, words: Callable[[str], str] = str) -> Run:
-    """Update an algorithm, show its progress, and stop it after a signal.
-
-    `words` puts the algorithm's messages into the words of the command line. Throw Failure with
-    its first error.
-    """
+    """Update an algorithm, show its progress, and stop it after a signal. Throw Failure with its
+    first error. `words` puts messages into the terms of the command line."""
     started = time.monotonic()
     with teller.progress(title) as progress:
         def follow() -> None:
