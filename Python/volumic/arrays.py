@@ -25,7 +25,7 @@ from .writing.surfaces import FORMATS, write_vtm
 
 
 class FilterError(RuntimeError):
-    """What a filter refused, in its words."""
+    """The error message of a filter."""
 
 
 class Surface:
@@ -38,22 +38,20 @@ class Surface:
     triangles : ndarray, m x 3
         Indices of points, counter-clockwise seen from outside.
     arrays : dict of ndarray
-        Per point (`Normals`, ...) or per triangle (`Component`, ...), by name. As the two above they
-        share VTK's memory.
+        Per point (`Normals`, ...) or per triangle (`Component`, ...), by name. All arrays share
+        VTK's memory.
     report : dict
-        The field data, by name: `Area`, `Volume`, `StopReason`, ...; `Warnings`: those of the filter.
+        The field data by name: `Area`, `Volume`, `StopReason`, ...; `Warnings` of the filter.
     """
 
     def __init__(self, polydata: Any, told: Sequence[str] = ()) -> None:
         self._polydata = polydata
-        has_points = polydata.GetPoints() is not None
-        self.points = (vtk_to_numpy(polydata.GetPoints().GetData()) if has_points
-                       else np.zeros((0, 3)))
+        points = polydata.GetPoints()
+        self.points = vtk_to_numpy(points.GetData()) if points else np.zeros((0, 3))
         self.triangles = vtk_to_numpy(polydata.GetPolys().GetConnectivityArray()).reshape(-1, 3)
-        self.arrays: dict[str, np.ndarray] = {}
-        for data in (polydata.GetPointData(), polydata.GetCellData()):
-            for i in range(data.GetNumberOfArrays()):
-                self.arrays[data.GetArrayName(i)] = vtk_to_numpy(data.GetArray(i))
+        self.arrays = {data.GetArrayName(i): vtk_to_numpy(data.GetArray(i))
+                       for data in (polydata.GetPointData(), polydata.GetCellData())
+                       for i in range(data.GetNumberOfArrays())}
         self.report = _fields(polydata, told)
 
     def __repr__(self) -> str:
@@ -88,8 +86,8 @@ class Surfaces(dict[int, Surface]):
 
     def __init__(self, blocks: Any, told: Sequence[str] = ()) -> None:
         surfaces = [Surface(blocks.GetBlock(i)) for i in range(blocks.GetNumberOfBlocks())]
-        super().__init__((surface.report["Label"] if isinstance(surface.report["Label"], int)
-                          else surface.report["Label"][0], surface) for surface in surfaces)
+        super().__init__((int(np.ravel(surface.report["Label"])[0]), surface)
+                         for surface in surfaces)
         self._blocks = blocks
         self.report = _fields(blocks, told)
 
@@ -137,7 +135,7 @@ def surface(array: Any, iso: float | None = None, *, spacing: Sequence[float] | 
     array : array_like or Volume
         Voxels [z, y, x], or what `volumic.read` returns. What is contiguous is not copied.
     iso : float, optional
-        The value on the surface; by default Otsu's threshold, a guess, which the warnings tell.
+        The value on the surface (default: Otsu's threshold, a guess, with a warning).
         With `UpperValue=...` the object has the values between the two.
     spacing, origin : sequence of 3 floats, optional
         x, y, z: voxel distances (default 1), and position of voxel 0 (default 0), in the world.
@@ -156,9 +154,9 @@ def surface(array: Any, iso: float | None = None, *, spacing: Sequence[float] | 
     Raises
     ------
     TypeError
-        A property that there is not.
+        The filter has no such property.
     FilterError
-        What the filter refuses, in its words.
+        The error message of the filter.
 
     Examples
     --------
@@ -188,7 +186,7 @@ def surface(array: Any, iso: float | None = None, *, spacing: Sequence[float] | 
 def labels(array: Any, only: Sequence[int] = (), *, spacing: Sequence[float] | None = None,
            origin: Sequence[float] | None = None, direction: Any = None,
            start: Sequence[int] | None = None, **properties: Any) -> Surfaces:
-    """A smooth closed surface about each label of a label map, by vtkLabelsToSurfaces.
+    """A smooth closed surface around each label of a label map, by vtkLabelsToSurfaces.
 
     Parameters
     ----------
@@ -197,7 +195,7 @@ def labels(array: Any, only: Sequence[int] = (), *, spacing: Sequence[float] | N
     only : sequence of ints, optional
         Labels that get a surface; by default all but BackgroundLabel.
     spacing, origin, direction, start
-        As of `volumic.surface`.
+        As in `volumic.surface`, which raises the same exceptions.
     **properties
         Those of vtkLabelsToSurfaces, by their names: `Smoothing=1.5`.
 
@@ -205,13 +203,6 @@ def labels(array: Any, only: Sequence[int] = (), *, spacing: Sequence[float] | N
     -------
     Surfaces
         {label: Surface}. With Merge it is one, by the first label.
-
-    Raises
-    ------
-    TypeError
-        A property that there is not.
-    FilterError
-        What the filter refuses, in its words.
     """
     algorithm = filters.vtkLabelsToSurfaces()
     _set(algorithm, properties)
@@ -233,8 +224,8 @@ def label_boxes(array: Any, start: Sequence[int] = (0, 0, 0)) -> dict[int, list[
 
 
 def quality(surface: Surface) -> dict[str, Any]:
-    """Of the triangles: the smallest angle, degrees, and the mean of 4 sqrt(3) area / sum of squared
-    sides, which is 1 for an equilateral one."""
+    """The smallest angle of the triangles in degrees, and the mean of their 4 sqrt(3) area / sum of
+    squared sides, which is 1 for an equilateral triangle."""
     corners = np.asarray(surface.points, float)[surface.triangles]
     if len(corners) == 0:
         return {"SmallestAngle": None, "MeanQuality": None}
@@ -294,26 +285,26 @@ def make_image(array: Any, spacing: Sequence[float], origin: Sequence[float], di
 
 def _input(array: Any, spacing: Any, origin: Any, direction: Any, start: Any) -> Any:
     """The image of an array and its position, or of a Volume."""
+    given = {"spacing": spacing, "origin": origin, "direction": direction, "start": start}
+    given = {name: value for name, value in given.items() if value is not None}
     if isinstance(array, Volume):
-        if (spacing, origin, direction, start) != (None,) * 4:
-            raise TypeError("a Volume has a spacing, an origin and a direction of its own")
-        return make_image(array.scalars(), array.spacing, array.origin, array.direction,
-                          array.start, array.name or "Voxels")
-    if np.ndim(array) != 3:
+        if given:
+            raise TypeError(f"a Volume has {', '.join(given)} of its own")
+        volume = array
+    elif np.ndim(array) != 3:
         raise ValueError(f"the array must have three axes, z, y and x, not {np.ndim(array)}")
-    volume = Volume(np.asarray(array), (1, 1, 1) if spacing is None else tuple(spacing),
-                    (0, 0, 0) if origin is None else tuple(origin),
-                    np.eye(3) if direction is None else np.asarray(direction, float),
-                    start=(0, 0, 0) if start is None else tuple(start))
+    else:
+        volume = Volume(np.asarray(array), **given)
     try:
         check_positions(volume)
     except VolumeError as error:
         raise ValueError(str(error)) from None
-    return make_image(volume.array, volume.spacing, volume.origin, direction, volume.start)
+    return make_image(volume.scalars(), volume.spacing, volume.origin, volume.direction,
+                      volume.start, volume.name or "Voxels")
 
 
 def _run(algorithm: Any) -> list[str]:
-    """Update it; returns the warnings. Ctrl-C stops it, and is raised then."""
+    """Update an algorithm, which Ctrl-C stops, and return its warnings."""
     errors, told = messages.update(algorithm)
     if errors:
         raise FilterError(errors[0])
@@ -327,13 +318,10 @@ def _warn(told: list[str]) -> list[str]:
 
 
 def _fields(data: Any, told: Sequence[str]) -> dict[str, Any]:
-    report: dict[str, Any] = {}
+    report: dict[str, Any] = {"Warnings": list(told)} if told else {}
     fields = data.GetFieldData()
-    for i in range(fields.GetNumberOfArrays()):
-        array = fields.GetAbstractArray(i)
+    for array in map(fields.GetAbstractArray, range(fields.GetNumberOfArrays())):
         values = (vtk_to_numpy(array).tolist() if array.IsA("vtkDataArray")
-                  else [array.GetValue(k) for k in range(array.GetNumberOfValues())])
+                  else list(map(array.GetValue, range(array.GetNumberOfValues()))))
         report[array.GetName()] = values[0] if len(values) == 1 else values
-    if told:
-        report["Warnings"] = list(told)
     return report
