@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the tests of the installed program share: the program, a folder, a volume with a ball.
 
-VOLUMIC_PROGRAM names the program, VOLUMIC_MANUAL its manual page.
 """
 
 import itertools
@@ -24,7 +23,6 @@ import medical_files
 from folder_test_case import FolderTestCase
 
 PROGRAM = os.environ["VOLUMIC_PROGRAM"]
-MANUAL = os.environ["VOLUMIC_MANUAL"]
 
 SIZE = np.array([26, 22, 18])  # voxels along x, y, z
 SPACING, ORIGIN = np.array([0.5, 0.75, 1.0]), np.array([-7.0, 8.0, 9.5])
