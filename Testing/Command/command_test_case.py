@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the tests of the installed program share: the program, a folder, a volume with a ball.
 
+VOLUMIC_PROGRAM names the program.
 """
 
 import itertools
