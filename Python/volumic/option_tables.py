@@ -12,8 +12,7 @@ from typing import Any, NamedTuple
 
 from .errors import UsageError
 from .messages import number_text
-from .option_values import (
-    box, depth, index, more_than_0, number, numbers, one_of, spacing, triangles, unit, whole)
+from .option_values import at_least, box, more_than_0, number, numbers, one_of, unit, whole
 
 # ---- Properties of the filters -----------------------------------------------------------------
 
@@ -23,32 +22,30 @@ SURFACE, PYRAMID, LABELS = "vtkDeformableSurface", "vtkImagePyramid", "vtkLabels
 class Property(NamedTuple):
     """An option that sets a property of a filter."""
     option: str
-    metavar: str  # empty: the option has no argument and gives the property `value`
-    cls: str
-    name: str  # of the property
+    metavar: str  # of an enumeration its words, in the order of the values, with | between;
+    name: str     # empty: the option has no argument and sets the property `name` to `value`
     help: str
+    cls: str = SURFACE
     value: Any = None
-    words: tuple[str, ...] = ()  # of an enumeration, in the order of its values
 
     def get(self, filters: Any) -> str:
         """The text of the value that the filter has."""
         value = getattr(filters.by_class(self.cls), "Get" + self.name)()
-        if self.words:
-            return self.words[value]
+        if "|" in self.metavar:
+            return self.metavar.split("|")[value]
         if isinstance(value, bool):
             return "on" if value else "off"
         return value if isinstance(value, str) else number_text(value)
 
     def set(self, filters: Any, text: str) -> None:
         """Set the property. Throw UsageError if the text is not a value of it."""
-        owner = filters.by_class(self.cls)
-        if not self.metavar:
-            value = self.value
-        elif self.words:
-            value = self.words.index(one_of(*self.words, separator="|")(text))
-        else:
+        owner, value = filters.by_class(self.cls), self.value
+        if "|" in self.metavar:
+            words = self.metavar.split("|")
+            value = words.index(one_of(*words, separator="|")(text))
+        elif self.metavar:
             kind = type(getattr(owner, "Get" + self.name)())
-            value = text if kind is str else whole(text) if kind is int else number(text)
+            value = {str: str, int: whole, float: number}[kind](text)
         getattr(owner, "Set" + self.name)(value)
         if getattr(owner, "Get" + self.name)() != value:
             raise UsageError(f"'{text}' is out of range")
@@ -70,10 +67,10 @@ class Filters:
 
     def share(self) -> None:
         """Give the other filters the properties that they have in common with the surface's."""
-        for name in SHARED_WITH_LABELS:
-            getattr(self.labels, "Set" + name)(getattr(self.surface, "Get" + name)())
-        for name in SHARED_WITH_PYRAMID:
-            getattr(self.pyramid, "Set" + name)(getattr(self.surface, "Get" + name)())
+        for owner, names in {self.labels: SHARED_WITH_LABELS,
+                             self.pyramid: SHARED_WITH_PYRAMID}.items():
+            for name in names:
+                getattr(owner, "Set" + name)(getattr(self.surface, "Get" + name)())
 
 
 SHARED_WITH_LABELS = ("Metric", "EdgeLength", "Tolerance", "MaximumEdgeLength", "Gradation",
@@ -82,124 +79,110 @@ SHARED_WITH_LABELS = ("Metric", "EdgeLength", "Tolerance", "MaximumEdgeLength", 
 SHARED_WITH_PYRAMID = ("SelectedComponent", "NaNIsBackground", "NumberOfThreads",
                        "ScratchDirectory")
 
-
-def _number(option: str, metavar: str, name: str, text: str, cls: str = SURFACE) -> Property:
-    return Property(option, metavar, cls, name, text)
-
-
-def _switch(option: str, name: str, value: bool, text: str, cls: str = SURFACE) -> Property:
-    return Property(option, "", cls, name, text, value)
-
-
-def _menu(option: str, name: str, words: str, text: str, cls: str = SURFACE) -> Property:
-    return Property(option, words, cls, name, text, None, tuple(words.split("|")))
-
-
 PROPERTIES = (
-    _number("iso", "VALUE", "IsoValue",
-            "value of the image at the surface (default: Otsu's threshold, which is reported)"),
-    _number("upper", "VALUE", "UpperValue",
-            "the object is where the image lies between --iso and this value"),
-    _switch("dark", "ObjectIsBright", False,
-            "the object is where the image is below --iso, or, with --upper, not between the two"),
-    _number("component", "N", "SelectedComponent",
-            "component of voxels that have several, counted from 0; -1: their magnitude"),
-    _switch("refuse-nan", "NaNIsBackground", False,
-            "refuse voxels that are NaN; without this option they are background"),
-    _number("levels", "N", "NumberOfLevels", "levels of the pyramid, the image included; "
-            "0: as many as --minimum-level-size allows", PYRAMID),
-    _number("reduction-factor", "T", "ReductionFactor",
-            "reduction factor between two levels along each axis, 1 < T < 2", PYRAMID),
-    _number("minimum-level-size", "N", "MinimumLevelSize", "least number of voxels of a level "
-            "along its smallest axis, unless --levels requests more levels", PYRAMID),
-    _number("coarsest", "LEVEL", "CoarsestLevel", "level to start with; -1: the coarsest"),
-    _number("finest", "LEVEL", "FinestLevel",
-            "level to end with; 0: the image; -1: one level finer than the image"),
-    _switch("preview", "Preview", True,
-            "end at the finest level of at most a million voxels, to try a value of --iso"),
-    _menu("initialization", "Initialization", "icosahedron|seeds|iso-surface|input-surface",
-          "initial surface: a rounded box around the image; seeds at --seed-position and --seeds, "
-          "or on a grid; the isosurface of the coarsest level; or --initial-surface"),
-    _number("seed-radius", "LENGTH", "SeedRadius", "radius of the seeds in world units; 0: 1.2 "
-            "times the shortest edge of the coarsest level"),
-    _menu("recovery", "Recovery", "none|objects|objects-and-cavities",
-          "which features missed by coarser levels to recover"),
-    _number("minimum-part-size", "N", "MinimumPartSize",
-            "least number of voxels of a part that is recovered"),
-    _menu("border", "BorderValue", "background|replicate", "values outside the image: background, "
-          "so that surfaces close at the border, or the nearest voxel"),
-    _menu("metric", "Metric", "voxels|world", "lengths that are uniform where voxels are not "
-          "cubes: those in voxels, or those in the world"),
-    _number("edge-length", "LENGTH", "EdgeLength",
-            "mean edge length in world units; 0: one voxel of the finest level"),
-    _number("tolerance", "LENGTH", "Tolerance", "longer edges where the surface stays within this "
-            "distance of the isosurface, in world units; 0: uniform edges"),
-    _number("maximum-edge-length", "LENGTH", "MaximumEdgeLength", "with --tolerance: longest edge "
-            "in world units, at most five times the uniform one; 0: automatic"),
-    _number("gradation", "SLOPE", "Gradation", "with --tolerance or --thin-parts: growth of the "
-            "edge length per length along the surface, at most 0.3"),
-    _switch("thin-parts", "ThinParts", True, "shorter edges where the object, or the space in it, "
-            "is thinner than two voxels"),
-    _number("sampling-ratio", "RATIO", "SamplingRatio",
-            "shortest edge in voxels of the level, 0.693 to 1; the longest is 2.5 times as long"),
-    _number("tension", "WEIGHT", "TensionWeight",
-            "weight of the force towards the barycentre of a vertex's neighbours"),
-    _number("elasticity", "WEIGHT", "ElasticityWeight", "weight of the springs along the edges"),
-    _number("isopotential", "WEIGHT", "IsopotentialWeight",
-            "weight of the force along the normal towards --iso"),
-    _number("gradient", "WEIGHT", "GradientWeight",
-            "weight of the force along the gradient of the image"),
-    _number("point-attraction", "WEIGHT", "PointAttractionWeight",
-            "strength of the --attracting-points; 0: none"),
-    _number("edge-attraction", "WEIGHT", "EdgeAttractionWeight", "strength of the map --edges; "
-            "0: none; above --isopotential its edges stop the surface"),
-    _number("friction", "VALUE", "Friction", "friction of the motion, more than 0"),
-    _switch("no-topology-changes", "TopologyChanges", False,
-            "no merges and cuts: contacts stop the surface"),
-    _number("iterations", "N", "MaximumNumberOfIterations", "most iterations per level"),
-    _number("convergence", "SHARE", "ConvergenceTolerance",
-            "a level has converged when the enclosed volume changes by less than this share"),
-    _switch("no-freeze", "FreezeMotionlessVertices", False, "update converged vertices too (slower)"),
-    _switch("no-snap", "SnapToIsoValue", False,
-            "do not move vertices onto the isosurface at the end of a level"),
-    _menu("keep", "KeepComponents", "all|largest|at-points|large|not-at-seeds",
-          "components to write: all; the one of the largest area; those at seeds or attracting "
-          "points; those of --minimum-component-volume; or all but those at seeds"),
-    _number("minimum-component-volume", "VOLUME", "MinimumComponentVolume",
-            "with --keep large: least enclosed volume in world units cubed"),
-    _number("time-limit", "SECONDS", "TimeLimit",
-            "write the surface, or the finished labels, after so many seconds; 0: no limit"),
-    _number("scratch", "DIR", "ScratchDirectory",
-            "folder for memory-mapped files of large arrays; they vanish with the process"),
-    _number("threads", "N", "NumberOfThreads",
-            "number of threads; 0: all; the result does not depend on it"),
-    _switch("profile", "Profile", True, "add columns to --history that show where the time goes"),
-    _number("snapshot-interval", "N", "SnapshotInterval",
-            "iterations between two --snapshots; 0: none"),
-    _number("background", "LABEL", "BackgroundLabel",
-            "with --labels: label that denotes background", LABELS),
-    _switch("merge", "Merge", True, "with --labels: one surface around all of them", LABELS),
-    _number("smoothing", "VOXELS", "Smoothing", "with --labels: smoothing distance in smallest "
-            "voxel distances; 0: none", LABELS),
-    _number("voxel-tolerance", "VOXELS", "VoxelTolerance", "with --labels: how far a voxel centre "
-            "may lie on the wrong side, in smallest voxel distances; 0: every centre on its side",
-            LABELS),
-    _switch("shared-interfaces", "SharedInterfaces", True, "with --labels: one conforming mesh "
-            "whose labels share their interfaces; implied by .vtu .inp .msh .smesh .poly", LABELS),
-    _menu("box-faces", "BoxFaces", "rounded|flat|periodic", "with --labels as one mesh: shape at "
-          "the border of the volume; flat: in its planes, with edges and corners; periodic: also "
-          "equal triangles on opposite sides", LABELS),
+    Property("iso", "VALUE", "IsoValue", "value of the image at the surface (default: Otsu's "
+             "threshold, which is reported)"),
+    Property("upper", "VALUE", "UpperValue", "the object is where the image lies between --iso "
+             "and this value"),
+    Property("dark", "", "ObjectIsBright", "the object is where the image is below --iso, or, "
+             "with --upper, not between the two", value=False),
+    Property("component", "N", "SelectedComponent", "component of voxels that have several, "
+             "counted from 0; -1: their magnitude"),
+    Property("refuse-nan", "", "NaNIsBackground", "refuse voxels that are NaN; without this "
+             "option they are background", value=False),
+    Property("levels", "N", "NumberOfLevels", "levels of the pyramid, the image included; 0: as "
+             "many as --minimum-level-size allows", PYRAMID),
+    Property("reduction-factor", "T", "ReductionFactor", "reduction factor between two levels "
+             "along each axis, 1 < T < 2", PYRAMID),
+    Property("minimum-level-size", "N", "MinimumLevelSize", "least number of voxels of a level "
+             "along its smallest axis, unless --levels requests more levels", PYRAMID),
+    Property("coarsest", "LEVEL", "CoarsestLevel", "level to start with; -1: the coarsest"),
+    Property("finest", "LEVEL", "FinestLevel", "level to end with; 0: the image; -1: one level "
+             "finer than the image"),
+    Property("preview", "", "Preview", "end at the finest level of at most a million voxels, to "
+             "try a value of --iso", value=True),
+    Property("initialization", "icosahedron|seeds|iso-surface|input-surface", "Initialization",
+             "initial surface: a rounded box around the image; seeds at --seed-position and "
+             "--seeds, or on a grid; the isosurface of the coarsest level; or --initial-surface"),
+    Property("seed-radius", "LENGTH", "SeedRadius", "radius of the seeds in world units; 0: 1.2 "
+             "times the shortest edge of the coarsest level"),
+    Property("recovery", "none|objects|objects-and-cavities", "Recovery", "which features missed "
+             "by coarser levels to recover"),
+    Property("minimum-part-size", "N", "MinimumPartSize", "least number of voxels of a part that "
+             "is recovered"),
+    Property("border", "background|replicate", "BorderValue", "values outside the image: "
+             "background, so that surfaces close at the border, or the nearest voxel"),
+    Property("metric", "voxels|world", "Metric", "lengths that are uniform where voxels are not "
+             "cubes: those in voxels, or those in the world"),
+    Property("edge-length", "LENGTH", "EdgeLength", "mean edge length in world units; 0: one "
+             "voxel of the finest level"),
+    Property("tolerance", "LENGTH", "Tolerance", "longer edges where the surface stays within "
+             "this distance of the isosurface, in world units; 0: uniform edges"),
+    Property("maximum-edge-length", "LENGTH", "MaximumEdgeLength", "with --tolerance: longest "
+             "edge in world units, at most five times the uniform one; 0: automatic"),
+    Property("gradation", "SLOPE", "Gradation", "with --tolerance or --thin-parts: growth of the "
+             "edge length per length along the surface, at most 0.3"),
+    Property("thin-parts", "", "ThinParts", "shorter edges where the object, or the space in it, "
+             "is thinner than two voxels", value=True),
+    Property("sampling-ratio", "RATIO", "SamplingRatio", "shortest edge in voxels of the level, "
+             "0.693 to 1; the longest is 2.5 times as long"),
+    Property("tension", "WEIGHT", "TensionWeight", "weight of the force towards the barycentre of "
+             "a vertex's neighbours"),
+    Property("elasticity", "WEIGHT", "ElasticityWeight", "weight of the springs along the edges"),
+    Property("isopotential", "WEIGHT", "IsopotentialWeight", "weight of the force along the "
+             "normal towards --iso"),
+    Property("gradient", "WEIGHT", "GradientWeight", "weight of the force along the gradient of "
+             "the image"),
+    Property("point-attraction", "WEIGHT", "PointAttractionWeight", "strength of the "
+             "--attracting-points; 0: none"),
+    Property("edge-attraction", "WEIGHT", "EdgeAttractionWeight", "strength of the map --edges; "
+             "0: none; above --isopotential its edges stop the surface"),
+    Property("friction", "VALUE", "Friction", "friction of the motion, more than 0"),
+    Property("no-topology-changes", "", "TopologyChanges", "no merges and cuts: contacts stop the "
+             "surface", value=False),
+    Property("iterations", "N", "MaximumNumberOfIterations", "most iterations per level"),
+    Property("convergence", "SHARE", "ConvergenceTolerance", "a level has converged when the "
+             "enclosed volume changes by less than this share"),
+    Property("no-freeze", "", "FreezeMotionlessVertices", "update converged vertices too (slower)",
+             value=False),
+    Property("no-snap", "", "SnapToIsoValue", "do not move vertices onto the isosurface at the "
+             "end of a level", value=False),
+    Property("keep", "all|largest|at-points|large|not-at-seeds", "KeepComponents", "components to "
+             "write: all; the one of the largest area; those at seeds or attracting points; those "
+             "of --minimum-component-volume; or all but those at seeds"),
+    Property("minimum-component-volume", "VOLUME", "MinimumComponentVolume", "with --keep large: "
+             "least enclosed volume in world units cubed"),
+    Property("time-limit", "SECONDS", "TimeLimit", "write the surface, or the finished labels, "
+             "after so many seconds; 0: no limit"),
+    Property("scratch", "DIR", "ScratchDirectory", "folder for memory-mapped files of large "
+             "arrays; they vanish with the process"),
+    Property("threads", "N", "NumberOfThreads", "number of threads; 0: all; the result does not "
+             "depend on it"),
+    Property("profile", "", "Profile", "add columns to --history that show where the time goes",
+             value=True),
+    Property("snapshot-interval", "N", "SnapshotInterval", "iterations between two --snapshots; "
+             "0: none"),
+    Property("background", "LABEL", "BackgroundLabel", "with --labels: label that denotes "
+             "background", LABELS),
+    Property("merge", "", "Merge", "with --labels: one surface around all of them",
+             LABELS, value=True),
+    Property("smoothing", "VOXELS", "Smoothing", "with --labels: smoothing distance in smallest "
+             "voxel distances; 0: none", LABELS),
+    Property("voxel-tolerance", "VOXELS", "VoxelTolerance", "with --labels: how far a voxel "
+             "centre may lie on the wrong side, in smallest voxel distances; 0: every centre on "
+             "its side", LABELS),
+    Property("shared-interfaces", "", "SharedInterfaces", "with --labels: one conforming mesh "
+             "whose labels share their interfaces; implied by .vtu .inp .msh .smesh .poly",
+             LABELS, value=True),
+    Property("box-faces", "rounded|flat|periodic", "BoxFaces", "with --labels as one mesh: shape "
+             "at the border of the volume; flat: in its planes, with edges and corners; periodic: "
+             "also equal triangles on opposite sides", LABELS),
 )
-
-
-def is_of_labels_only(item: Property) -> bool:
-    """Whether only label maps have this property."""
-    return item.cls == LABELS
 
 
 def is_of_labels(item: Property) -> bool:
     """Whether label maps have this property. Their component is selected before the filter."""
-    return is_of_labels_only(item) or item.name in (*SHARED_WITH_LABELS, "SelectedComponent")
+    return item.cls == LABELS or item.name in (*SHARED_WITH_LABELS, "SelectedComponent")
 
 
 # ---- All other options -------------------------------------------------------------------------
@@ -216,13 +199,13 @@ class Option(NamedTuple):
 INPUT = (
     Option("array", "NAME", "array of the volume to use (default: the active scalars)"),
     Option("spacing", "X,Y,Z", "voxel distances along the axes instead of the file's, in its unit",
-           spacing),
+           numbers(3, more_than_0)),
     Option("region", "I0,I1,J0,J1,K0,K1", "use only these voxels: first and last along each axis, "
            "as --list-labels counts them; surfaces close at the border of the region", box(whole)),
     Option("region-box", "X0,X1,Y0,Y1,Z0,Z1",
            "the same as a box in world coordinates: all voxels that it touches", box(number)),
     Option("resample", "X,Y,Z", "resample the volume to these voxel distances: linearly, a label "
-           "map to the nearest voxel", spacing),
+           "map to the nearest voxel", numbers(3, more_than_0)),
     Option("isotropic", "", "resample the volume to the smallest of its three voxel distances"),
     Option("scale", "FACTOR", "multiply all lengths and positions of the volume by this factor",
            more_than_0),
@@ -235,8 +218,8 @@ INPUT = (
     Option("list-series", "", "print the DICOM series of the volume: number, description, kind, "
            "date, slices, UID"),
     Option("time", "N", "which of several volumes in one file (times, phases, masks) to read, "
-           "counted from 0", index),
-    Option("phase", "N", "the same as --time", index),
+           "counted from 0", at_least(0)),
+    Option("phase", "N", "the same as --time", at_least(0)),
     Option("raw", "X,Y,Z,TYPE[,big]", "the file has no header: sizes and type of its voxels, such "
            "as 512,512,400,uint16; x fastest, least significant byte first"),
     Option("no-resampling", "", "refuse volumes that are no regular grid (missing slices, gantry "
@@ -258,11 +241,11 @@ INPUT = (
            "(default); marked: cut in a plane and closed by flat caps that the cell array Cap "
            "numbers; open: cut and left open, for flow", one_of("closed", "marked", "open")),
     Option("triangles", "N", "find the --tolerance, or the --edge-length, with which the surface "
-           "has about so many triangles, a tenth more or less", triangles),
+           "has about so many triangles, a tenth more or less", at_least(20)),
     Option("probe", "FILE", "give vertices the values of this volume as an array named as the "
            "file; it may have a grid, a space and a unit of its own; may be repeated", str, True),
     Option("probe-depth", "LENGTH", "with --probe: mean of the values from the surface so far "
-           "inward, in world units", depth),
+           "inward, in world units", at_least(0, number)),
     Option("labels", "all|LIST", "the volume is a label map: make a surface of each of these "
            "labels: numbers, ranges and names with commas between, such as 1,7-9,liver,lung_*",
            str, True),

@@ -11,6 +11,9 @@ from typing import Any
 
 from .errors import UsageError
 
+Parse = Callable[[str], Any]
+
+
 def number(text: str) -> float:
     """A finite number."""
     if not re.fullmatch(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", text) \
@@ -26,14 +29,13 @@ def whole(text: str) -> int:
     return int(text)
 
 
-def numbers(count: int) -> Callable[[str], tuple[float, ...]]:
-    """So many numbers with commas between."""
-    def parse(text: str) -> tuple[float, ...]:
-        found = tuple(number(part.strip()) for part in text.split(","))
-        if len(found) != count:
-            raise UsageError(f"'{text}' are {len(found)} numbers, not {count}")
-        return found
-    return parse
+def at_least(least: int, parse: Parse = whole) -> Parse:
+    """A number that is not less than a bound."""
+    def parse_limited(text: str) -> Any:
+        if parse(text) < least:
+            raise UsageError(f"{text} is less than {least}")
+        return parse(text)
+    return parse_limited
 
 
 def more_than_0(text: str) -> float:
@@ -43,18 +45,24 @@ def more_than_0(text: str) -> float:
     return number(text)
 
 
-def depth(text: str) -> float:
-    """A length of 0 or more."""
-    if number(text) < 0:
-        raise UsageError("a depth is not less than 0")
-    return number(text)
+def numbers(count: int, parse: Parse = number) -> Callable[[str], tuple[Any, ...]]:
+    """So many numbers with commas between."""
+    def parse_all(text: str) -> tuple[Any, ...]:
+        parts = text.split(",")
+        if len(parts) != count:
+            raise UsageError(f"'{text}' are {len(parts)} numbers, not {count}")
+        return tuple(parse(part.strip()) for part in parts)
+    return parse_all
 
 
-def index(text: str) -> int:
-    """A whole number from 0."""
-    if whole(text) < 0:
-        raise UsageError(f"{text} is less than 0; the first one is 0")
-    return whole(text)
+def box(parse: Parse) -> Callable[[str], tuple[Any, ...]]:
+    """From and to along each axis."""
+    def parse_box(text: str) -> tuple[Any, ...]:
+        found = numbers(6, parse)(text)
+        if any(found[i] > found[i + 1] for i in (0, 2, 4)):
+            raise UsageError(f"'{text}' ends before it begins")
+        return found
+    return parse_box
 
 
 def one_of(*words: str, separator: str = ", ") -> Callable[[str], str]:
@@ -66,36 +74,7 @@ def one_of(*words: str, separator: str = ", ") -> Callable[[str], str]:
     return parse
 
 
-def spacing(text: str) -> tuple[float, ...]:
-    """Three positive lengths."""
-    found = numbers(3)(text)
-    if min(found) <= 0:
-        raise UsageError("voxel distances must be more than 0")
-    return found
-
-
-def box(kind: Callable[[str], Any]) -> Callable[[str], tuple[Any, ...]]:
-    """From and to along each axis."""
-    def parse(text: str) -> tuple[Any, ...]:
-        found = numbers(6)(text)
-        if kind is whole and any(value != int(value) for value in found):
-            raise UsageError("voxels are counted in whole numbers")
-        if any(found[i] > found[i + 1] for i in (0, 2, 4)):
-            raise UsageError(f"'{text}' ends before it begins")
-        return tuple(int(value) for value in found) if kind is whole else found
-    return parse
-
-
 def unit(text: str) -> str:
     """A unit of length."""
-    from .reading.volume import unit_of
-    if not unit_of(text):
-        raise UsageError(f"'{text}' is none of m, cm, mm, um, nm, A")
-    return unit_of(text)
-
-
-def triangles(text: str) -> int:
-    """A number of triangles."""
-    if whole(text) < 20:
-        raise UsageError("a surface has 20 triangles at least")
-    return whole(text)
+    from .reading.volume import METERS, unit_of
+    return unit_of(text) or one_of(*METERS)(text)

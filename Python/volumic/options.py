@@ -12,7 +12,7 @@ from typing import Any
 
 from .errors import UsageError
 from .option_tables import (
-    INPUT, OUTPUT, PROPERTIES, Filters, Property, is_of_labels, is_of_labels_only)
+    INPUT, LABELS, OUTPUT, PROPERTIES, Filters, Option, Property, is_of_labels)
 from .reading.volume import Choice
 from .writing import is_of_solids
 
@@ -34,107 +34,78 @@ ENDED = {"resume": "a run is not resumed any more; start it again",
 
 # ---- The command line --------------------------------------------------------------------------
 
-class Parser(argparse.ArgumentParser):
-    """Throws UsageError."""
-
-    def error(self, message: str) -> Any:
-        raise UsageError(message)
-
-
-def make_parser(filters: Filters | None = None) -> Parser:
-    """The parser; with filters the help has the defaults of their properties."""
-    parser = Parser(
+def make_parser(filters: Filters | None = None) -> argparse.ArgumentParser:
+    """Return the parser for --help and completion; with filters the help has the defaults of their
+    properties."""
+    parser = argparse.ArgumentParser(
         prog="volumic", usage="volumic [OPTION]... VOLUME SURFACE...", add_help=False,
-        allow_abbrev=False, formatter_class=lambda prog: argparse.HelpFormatter(prog, 2, 26, 80),
+        formatter_class=lambda prog: argparse.HelpFormatter(prog, 2, 26, 80),
         description="Finds the surface of an object in a 3D image with a closed, deformable "
         "surface that descends a pyramid of the image from coarse to fine, and writes it.",
         epilog="Exit codes: 0 done; 1 something failed; 2 wrong usage; 3 stopped by Ctrl-C, "
         "--time-limit or --iterations: the surface as it was then is written.")
-    parser.add_argument("volume", metavar="VOLUME", nargs="?", default="",
+    parser.add_argument("volume", metavar="VOLUME", nargs="?",
                         help="a file, a folder of DICOM slices, pictures or masks, an OME-Zarr "
                         "group, or a pattern such as 'slice%%03d.png' or '*.tif'")
     parser.add_argument("surfaces", metavar="SURFACE", nargs="*",
                         help=".vtp .vtk .stl .ply .obj .glb .3mf; filled with tetrahedra .vtu "
                         ".inp and what meshio writes; for meshers .msh .smesh .poly; with "
                         "--labels also a folder for a file per label, OUT/, or .vtm")
-
-    def add(group: Any, item: Any, text: str, **more: Any) -> None:
-        names = [f"--{item.option}"] + {"quiet": ["-q"]}.get(item.option, [])
-        more = more if item.metavar else {**more, "nargs": 0}
-        group.add_argument(*names, metavar=item.metavar or None,
-                           help=text.replace("%", "%%"), **more)
-
     for title, options in (("Input", INPUT), ("Segmentation", PROPERTIES), ("Output", OUTPUT)):
         group = parser.add_argument_group(title)
         for item in options:
-            if isinstance(item, Property):
-                default = item.get(filters) if filters and item.metavar else ""
-                text = item.help + (f" (default: {default})" if default not in ("", "nan", "inf") else "")
-                add(group, item, text, action=_Keep, const=item, dest="properties", default=[])
-            else:
-                add(group, item, item.help, action=_Store, const=item,
-                    default=[] if item.several else None if item.metavar else False)
+            text, default = item.help, item.get(filters) if (
+                filters and isinstance(item, Property) and item.metavar) else ""
+            if default not in ("", "nan", "inf"):
+                text += f" (default: {default})"
+            names = (["-q"] if item.option == "quiet" else []) + [f"--{item.option}"]
+            group.add_argument(*names, help=text.replace("%", "%%"), **(
+                {"metavar": item.metavar} if item.metavar else {"action": "store_true"}))
     group.add_argument("-h", "--help", action="store_true", help="print this text")
     group.add_argument("--version", action="store_true",
                        help="print the versions of Volumic and VTK")
     return parser
 
 
-class _Keep(argparse.Action):
-    """Keeps a property and its text."""
-
-    def __call__(self, parser: Any, namespace: Any, values: Any, option: str | None = None) -> None:
-        namespace.properties = [*namespace.properties, (self.const, values or "")]
-
-
-class _Store(argparse.Action):
-    """Parses the value of an option."""
-
-    def __call__(self, parser: Any, namespace: Any, values: Any, option: str | None = None) -> None:
-        try:
-            value = self.const.parse(values) if self.const.metavar else True
-        except UsageError as error:
-            raise UsageError(f"--{self.const.option}: {error}") from None
-        if self.const.several:
-            value = [*getattr(namespace, self.dest), value]
-        setattr(namespace, self.dest, value)
-
-
 def parse(words: Sequence[str]) -> argparse.Namespace:
-    """The options of a command line, with `given`, the names of those that it has, `properties`,
-    pairs of a Property and its text, and `choice`, what of the volume is read.
+    """Return the options of a command line, with `given`, the names of those that it has,
+    `properties`, pairs of a Property and its text, and `choice`, what of the volume is read.
 
     Throw UsageError if the words are not understood, exclude each other or lack something.
     """
-    arguments, plain, given = [], [], []
     known = {item.option: item for item in (*INPUT, *PROPERTIES, *OUTPUT)}
-    short = {"-h": "--help", "-q": "--quiet"}
-    rest = list(words)
+    values = {item.option: [] if item.several else None if item.metavar else False
+              for item in (*INPUT, *OUTPUT)}
+    values.update(help=False, version=False, ends="closed", properties=[])
+    values["probe-depth"] = 0.0
+    plain, given, rest = [], set(), list(words)
     while rest:
         word = rest.pop(0)
-        word = short.get(word, word)
+        word = {"-h": "--help", "-q": "--quiet"}.get(word, word)
         if word == "--":
-            plain += rest
-            break
-        if len(word) < 2 or word[0] != "-":
+            plain, rest = plain + rest, []
+        elif len(word) < 2 or word[0] != "-":
             plain.append(word)
-            continue
-        name, equals, text = word[2:].partition("=")
-        if word[:2] != "--" or name not in {*known, "help", "version"}:
-            _unknown(word.partition("=")[0], known)
-        takes = name in known and known[name].metavar
-        if equals and not takes:
-            raise UsageError(f"--{name} takes no argument")
-        if takes and not equals:
-            if not rest:
+        else:
+            name, equals, text = word[2:].partition("=")
+            if word[:2] != "--" or name not in {*known, "help", "version"}:
+                _unknown(word.partition("=")[0], known)
+            given.add(name)
+            item = known.get(name)
+            takes = item is not None and bool(item.metavar)
+            if equals and not takes:
+                raise UsageError(f"--{name} takes no argument")
+            if takes and not equals and not rest:
                 raise UsageError(f"--{name} needs an argument")
-            text = rest.pop(0)
-        arguments.append(f"--{name}={text}" if takes else word)
-        given.append(name)
-    options = make_parser().parse_args([*arguments, "--", *plain])
-    options.given = set(given)
-    options.probe_depth = options.probe_depth or 0.0
-    options.ends = options.ends or "closed"
+            text = rest.pop(0) if takes and not equals else text
+            if isinstance(item, Property):
+                values["properties"].append((item, text))
+            else:
+                value = _parsed(item, text) if takes else True
+                values[name] = [*values[name], value] if takes and item.several else value
+    options = argparse.Namespace(
+        **{name.replace("-", "_"): value for name, value in values.items()}, given=given,
+        volume="".join(plain[:1]), surfaces=plain[1:])
     if options.list_labels and not options.labels:
         options.labels = ["all"]
     options.choice = Choice(
@@ -143,6 +114,13 @@ def parse(words: Sequence[str]) -> argparse.Namespace:
         resampling=not options.no_resampling, array=options.array)
     check(options)
     return options
+
+
+def _parsed(item: Option, text: str) -> Any:
+    try:
+        return item.parse(text)
+    except UsageError as error:
+        raise UsageError(f"--{item.option}: {error}") from None
 
 
 def _unknown(word: str, known: dict[str, Any]) -> None:
@@ -215,7 +193,7 @@ def check(options: argparse.Namespace) -> None:
 
 def _check_without_labels(options: argparse.Namespace) -> None:
     for item, _ in options.properties:
-        if is_of_labels_only(item):
+        if item.cls == LABELS:
             raise UsageError(f"--{item.option} needs --labels")
     if options.format:
         raise UsageError("--format needs --labels")
@@ -244,41 +222,33 @@ def _check_with_labels(options: argparse.Namespace) -> None:
     check_outputs(options)
 
 
+# ---- Messages of filters -----------------------------------------------------------------------
+
 def in_words_of_options(message: str) -> str:
-    """A message of a filter, which names properties as ParaView's panel does, in the words of the
-    command line: `Iso Value` becomes --iso."""
-    return _PHRASES.sub(lambda match: _TEXTS[match.group()], message)
+    """Return a message of a filter, which names properties as ParaView's panel does, in the terms
+    of the command line: `Iso Value` becomes --iso."""
+    return _PHRASES.sub(_in_words, message)
 
 
-def _label(name: str) -> str:
-    return re.sub(r"(?<=.)(?=[A-Z][a-z])", " ", name)
+def _in_words(match: re.Match[str]) -> str:
+    switch, label, verb, state = match.groups("")
+    option, value = _LABELS[label]
+    if value is None or (value and not state):
+        return match.group().replace(label, option)
+    is_given = (state == "on") == value
+    if switch:
+        word = "give" if is_given else "leave out"
+        return f"{word.capitalize() if switch[0] == 'S' else word} {option}"
+    return f"{option} is {'' if is_given else 'not '}given" if verb else match.group()
 
 
-def _phrases() -> dict[str, str]:
-    texts = {"Initial Surface (input port 1)": "--initial-surface", "Edge Map": "--edges",
-             "Attracting Points (input port 2)": "--attracting-points",
-             "Input port 0": "the volume", "Seed Positions": "--seed-position",
-             "Attracting Positions": "--attracting-position"}
-    for item in PROPERTIES:
-        label, name = _label(item.name), f"--{item.option}"
-        if item.metavar:
-            texts[label] = name
-            continue
-        given, absent = ("on", "off") if item.value else ("off", "on")
-        texts.update({f"{label} was {absent} and is {given}": f"{name} was not given and is",
-                      f"{label} was {given} and is {absent}": f"{name} was given and is not",
-                      f"{label} is {given}": f"{name} is given",
-                      f"{label} is {absent}": f"{name} is not given"})
-        for change, leave, give in (("switch", "leave", "give"), ("Switch", "Leave", "Give")):
-            texts[f"{change} {label} {absent}"] = f"{leave} {name} away"
-            texts[f"{change} {label} {given}"] = f"{give} {name}"
-        if item.value:
-            texts[label] = name
-    return texts
-
-
-_TEXTS = _phrases()
-# Neither within a word nor within the name of a file; the longest phrase first.
-_PHRASES = re.compile(r"(?:(?<=^)|(?<=[ (]))(?:" + "|".join(
-    re.escape(text) for text in sorted(_TEXTS, key=len, reverse=True))
-    + r")(?=$|[ )]|[.,;:](?:$| ))")
+_LABELS = {re.sub(r"(?<=.)(?=[A-Z][a-z])", " ", item.name): (
+    f"--{item.option}", None if item.metavar else item.value) for item in PROPERTIES}
+_LABELS.update({name: (text, None) for name, text in {
+    "Initial Surface (input port 1)": "--initial-surface", "Edge Map": "--edges",
+    "Attracting Points (input port 2)": "--attracting-points", "Input port 0": "the volume",
+    "Seed Positions": "--seed-position", "Attracting Positions": "--attracting-position"}.items()})
+# Neither within a word nor within the name of a file; the longest name first.
+_PHRASES = re.compile(r"(?:(?<=^)|(?<=[ (]))([Ss]witch )?(" + "|".join(
+    re.escape(name) for name in sorted(_LABELS, key=len, reverse=True))
+    + r")(?:( is)? (on|off))?(?=$|[ )]|[.,;:](?:$| ))")

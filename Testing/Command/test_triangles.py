@@ -61,7 +61,7 @@ class TrianglesTest(CommandTestCase):
     def test_what_is_refused(self):
         for reason, *options in (
                 ("--triangles and --tolerance exclude each other", "9999", "--tolerance", ".1"),
-                ("--triangles: a surface has 20 triangles at least", "19")):
+                ("--triangles: 19 is less than 20", "19")):
             self.refused(reason, self.ball_file(), self.path("a.vtp"), "--triangles", *options,
                          status=2)
 
