@@ -14,6 +14,10 @@ from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 
 from command_test_case import (
     ISO, ORIGIN, SPACING, TURNED, CommandTestCase, make_image, medical_files)
+from volumic import options
+from volumic.errors import Failure, UsageError
+from volumic.label_map import KnownLabel, choose
+from volumic.option_tables import SHARED_WITH_LABELS, Filters
 from vtk_files import read, read_blocks
 
 # Centres and half axes in voxels along x, y, z; 1 and 2 touch each other.
@@ -78,46 +82,33 @@ class OutputsTest(LabelsTest):
             np.testing.assert_allclose(surface.GetBounds(), self.bounds_of(label), atol=0.75)
             self.assertAlmostEqual(row["volume"] / (row["voxels"] * SPACING.prod()), 1, delta=.06)
 
-    def test_formats(self):
-        volume, names = self.map_file(), self.names_file()
-        for suffix in ("stl", "ply", "obj", "vtk"):
-            out = self.path(suffix)  # not there, without a suffix or slash
-            self.run_command(volume, out, "--labels", "1,2", "--format",
-                          "." * (suffix == "ply") + suffix, "--label-names", names)
-            self.assertEqual(sorted(os.listdir(out)), [f"Left_lung.{suffix}", f"liver.{suffix}"])
-        self.assertGreater(read(self.path("stl/liver.stl")).GetNumberOfPolys(), 100)
-        self.assertIn(b"liver", self.content("stl/liver.stl")[:80])
-
-    def test_files_of_earlier_runs_are_reported(self):
-        volume, folder = self.map_file(), self.path("o/")
-        self.run_command(volume, folder, "--labels", "1,2,7")
+    def test_formats_and_files_of_earlier_runs(self):
+        volume, names, folder = self.map_file(), self.names_file(), self.path("o")
+        # The folder is not there, and has neither a suffix nor a slash.
+        options_ = ("--labels", "1,2,7", "--label-names", names)
+        self.run_command(volume, folder, "--format", "stl", *options_)
+        self.assertGreater(read(self.path("o/liver.stl")).GetNumberOfPolys(), 100)
+        self.assertIn(b"liver", self.content("o/liver.stl")[:80])
         self.write_bytes("o/notes.txt", b"")
-        process = self.run_command(volume, folder, "--labels", "1")
-        self.assertRegex(process.stderr, "warning: .*o/: files of an earlier run are there: "
-                         "label-2.vtp, label-7.vtp; delete what is old")
-        self.assertEqual(len(os.listdir(folder)), 4)
-        process = self.run_command(volume, folder, "--labels", "1,2", "--format", "stl")
-        self.assertNotIn("warning", process.stderr)
+        for suffix, warning in (("stl", "warning: .*o: files of an earlier run are there: "
+                                 "label-2.stl; delete what is old"), (".ply", "^((?!warning).)*$")):
+            os.rename(self.path("o/liver.stl"), self.path("o/label-2.stl"))
+            process = self.run_command(volume, folder, "--format", suffix, *options_)
+            self.assertRegex(process.stderr.replace("\n", " "), warning)
+            self.assertEqual({name.partition(".")[0] for name in os.listdir(folder)},
+                             {"Left_lung", "label-2", "liver", "notes", "spleen_x"})
 
-    def test_blocks(self):
+    def test_blocks_and_merged_surfaces(self):
         names = self.write_bytes("n.csv", b'label,name\n1,"a<b & ""c"""\n2,two\n')
-        self.run_command(self.map_file(), self.path("out.vtm"), "--labels", "1,2", "--label-names",
-                      names)
-        blocks = read_blocks(self.path("out.vtm"))
-        self.assertEqual(list(blocks), ['a<b & "c"', "two"])
-        labels = vtk_to_numpy(blocks["two"].GetCellData().GetArray("Label"))
-        self.assertEqual(set(labels), {2})
-
-    def test_merged_into_one_file(self):
-        volume = self.map_file()
-        report = self.report(volume, self.path("both.vtp"), "--labels", "1,2", "--merge")
+        for options_, labels in (((), {'a<b & "c"': {1}, "two": {2}}),
+                                 (("--merge",), {"Labels 1, 2": {1, 2}})):
+            report = self.report(self.map_file(), self.path("out.vtm"), "--labels", "1,2",
+                                 "--label-names", names, *options_)
+            blocks = read_blocks(self.path("out.vtm"))
+            self.assertEqual({name: set(vtk_to_numpy(block.GetCellData().GetArray("Label")))
+                              for name, block in blocks.items()}, labels)
         row, = report["labels"]
-        self.assertEqual((row["labels"], row["name"], row["components"]),
-                         ([1, 2], "Labels 1, 2", 1))
-        labels = vtk_to_numpy(read(self.path("both.vtp")).GetCellData().GetArray("Label"))
-        self.assertEqual(set(labels), {1, 2})
-        self.run_command(volume, self.path("both.vtm"), "--labels", "1,2", "--merge")
-        self.assertEqual(list(read_blocks(self.path("both.vtm"))), ["Labels 1, 2"])
+        self.assertEqual((row["labels"], row["components"]), ([1, 2], 1))
 
     def test_one_label_goes_into_one_file(self):
         volume = self.map_file()
@@ -129,19 +120,18 @@ class OutputsTest(LabelsTest):
         self.assertFalse(os.path.exists(self.path("b.stl")))
 
     def test_names_of_files_are_safe_and_different(self):
-        names = {1: "../Up", 2: "up", 7: "..", -3: "C:\\con?*\u00e9 1"}
-        file = self.write_bytes("n.json", json.dumps(names).encode())
-        self.run_command(self.map_file(), self.path("o/"), "--labels", "all", "--label-names", file)
-        # Of two that differ in nothing but the case of letters each has its number.
-        self.assertEqual(sorted(os.listdir(self.path("o"))),
-                         ["C__con__\u00e9_1.vtp", "Up-1.vtp",
-                          "label-7.vtp", "up-2.vtp"])
-        same = self.write_bytes("s.json", json.dumps({n: "x" * 300 for n in BLOBS}).encode())
-        self.run_command(self.map_file(), self.path("p/"), "--labels", "1,2", "--label-names", same)
-        self.assertEqual(sorted(os.listdir(self.path("p"))),
-                         ["x" * 120 + "-1.vtp", "x" * 120 + "-2.vtp"])
+        # Of two that differ only in the case of letters each has its number.
+        for folder, names, files in (
+                ("o/", {1: "../Up", 2: "up", 7: "..", -3: "C:\\con?*\u00e9 1"},
+                 ["C__con__\u00e9_1.vtp", "Up-1.vtp", "label-7.vtp", "up-2.vtp"]),
+                ("p/", {1: "x" * 300, 2: "x" * 300, 7: "con", -3: "x-1"},
+                 ["con_.vtp", "x" * 120 + "-1.vtp", "x" * 120 + "-2.vtp", "x-1.vtp"])):
+            file = self.write_bytes("n.json", json.dumps(names).encode())
+            self.run_command(self.map_file(), self.path(folder), "--labels", "all",
+                             "--label-names", file)
+            self.assertEqual(sorted(os.listdir(self.path(folder))), sorted(files))
 
-    def test_the_inputs_are_not_replaced(self):
+    def test_what_cannot_be_written(self):
         volume = self.map_file("label-1.vti")
         os.rename(volume, self.path("label-1.vtp"))
         for name in (self.folder, self.path("label-1.vtp")):
@@ -149,70 +139,48 @@ class OutputsTest(LabelsTest):
         names = self.names_file()
         self.refused("names.json: cannot be written: it is the input", self.map_file(),
                      "--labels", "1", "--label-names", names, "--report", names)
-
-    def test_a_folder_that_cannot_be_made(self):
-        self.write_bytes("file", b"")
-        self.refused("file.*is no folder", self.map_file(), self.path("file/out/"), "--labels",
-                     "1")
-        self.no_surfaces("there is no label '9'", self.map_file(), "--labels", "9")
+        self.refused("names.json.*is no folder", self.map_file(), self.path("names.json/out/"),
+                     "--labels", "1")
 
 
-class ChoiceTest(LabelsTest):
-    def chosen(self, *arguments, volume=None):
-        return sorted(self.rows(volume or self.map_file(), "--label-names", self.names_file(),
-                                "--list-labels", *arguments))
+class ChoiceTest(unittest.TestCase):
+    known = [KnownLabel(-3, "Label -3"), KnownLabel(0, "Label 0"), KnownLabel(1, "liver"),
+             KnownLabel(2, "Left lung"), KnownLabel(7, "spleen/x"), KnownLabel(8, "a, b"),
+             KnownLabel(9, "a[1]")]
 
     def test_numbers_ranges_and_names(self):
         for text, labels in (
-                ("all", [-3, 1, 2, 7]), ("ALL", [-3, 1, 2, 7]), ("1", [1]), ("7,1,1", [1, 7]),
-                ("2-9", [2, 7]), ("-5--1,7", [-3, 7]), ("-3-1", [-3, 1]), ("liver", [1]),
-                ("LIVER, left lung", [1, 2]), ("l*", [1, 2]), ("*", [1, 2, 7]),
-                ("Label -3", [-3]), ("spleen/x,0", [0, 7])):
+                ("all", [-3, 1, 2, 7, 8, 9]), ("ALL", [-3, 1, 2, 7, 8, 9]), ("1", [1]),
+                ("7,1,1", [1, 7]), ("2-8", [2, 7, 8]), ("-5--1,7", [-3, 7]), ("-3-1", [-3, 1]),
+                ("liver", [1]), ("LIVER, left lung", [1, 2]), ("l*", [1, 2]),
+                ("*", [1, 2, 7, 8, 9]), ("Label -3", [-3]), ("spleen/x,0", [0, 7]),
+                ("a, b", [8]), ("a[*", [9]), ("a[1],0", [0, 9])):
             with self.subTest(text):
-                self.assertEqual(self.chosen("--labels", text), sorted(labels))
-        self.assertEqual(self.chosen("--labels", "1", "--labels", "7"), [1, 7])
-
-    def test_a_name_with_commas_or_brackets(self):
-        file = self.write_bytes("n.json", b'{"1": "lung, left", "2": "a[1]", "7": "a1"}')
-        for text, label in (("lung, left", 1), ("a[*", 2), ("a[1]", 2)):
-            rows = self.rows(self.map_file(), "--list-labels", "--labels", text, "--label-names",
-                             file)
-            self.assertEqual(list(rows), [label])
+                self.assertEqual([label.label for label in choose([text], self.known, 0)], labels)
+        self.assertEqual(len(choose(["1", "7"], self.known, 0)), 2)
 
     def test_those_that_are_not_there(self):
-        volume = self.map_file()
-        for text in ("9", "10-20", "1,kidney", "", "k*"):
-            with self.subTest(text):
-                self.no_surfaces(
-                    r"map.vti: there is no label '[^,]*' \(--labels\); there are -3, 0, "
-                    "1 liver, 2 Left lung, 7 spleen/x$", volume, "--labels", text,
-                    "--label-names", self.names_file())
+        for text in ("99", "10-20", "1,kidney", "", "k*"):
+            with self.subTest(text), self.assertRaisesRegex(Failure, (
+                    r"there is no label '[^,]*' \(--labels\); there are -3, 0, 1 liver, "
+                    "2 Left lung, 7 spleen/x")):
+                choose([text], self.known, 0)
 
 
 class WhatIsReadTest(LabelsTest):
     def test_types_of_voxels(self):
-        surfaces = {}
-        for dtype in ("i2", "i1", "i8", "f4"):
-            volume = self.map_file(f"{dtype}.vti", label_image(label_voxels(dtype)))
-            process = self.run_command(volume, self.path(dtype), "--labels", "all")
-            surfaces[dtype] = self.content(f"{dtype}/label--3.vtp")
-            told = re.search("warning: .*integers", process.stderr)
-            self.assertEqual(bool(told), dtype[0] == "f", process.stderr)
-        self.assertEqual(len(set(surfaces.values())), 1)
-
-    def test_labels_that_were_resampled(self):
-        """Whole but for a little, and one is NaN: they are those of before, and that is told."""
-        voxels = label_voxels("f4")
-        self.run_command(self.map_file("a.vti", label_image(voxels)), self.path("a"), "--labels",
-                         "all")
-        self.assertEqual(voxels[0, 0, 0], 0)
-        voxels[voxels == 7] = 6.995
-        voxels[0, 0, 0] = np.nan
-        process = self.run_command(self.map_file("b.vti", label_image(voxels)), self.path("b"),
-                                "--labels", "all")
-        self.assertRegex(process.stderr,
-                         r"warning: .*within 0.00\d+ of integers, .*; NaN, at 1 voxel, is")
-        self.assertEqual(self.content("a/label-7.vtp"), self.content("b/label-7.vtp"))
+        resampled = label_voxels("f4")
+        resampled[resampled == 7], resampled[0, 0, 0] = 6.995, np.nan
+        surfaces = set()
+        for name, voxels, warning in (
+                ("i8", label_voxels("i8"), "^((?!warning).)*$"),
+                ("f4", label_voxels("f4"), "warning: .*integers"),
+                ("near", resampled, r"within 0.00\d+ of integers, .*; NaN, at 1 voxel, is")):
+            process = self.run_command(self.map_file(image=label_image(voxels)), self.path(name),
+                                       "--labels", "7")
+            self.assertRegex(process.stderr.replace("\n", " "), warning)
+            surfaces.add(self.content(f"{name}/label-7.vtp"))
+        self.assertEqual(len(surfaces), 1)
 
     def test_labels_that_no_int_holds(self):
         """They are chosen, and files are named, by the numbers that the volume has."""
@@ -223,88 +191,34 @@ class WhatIsReadTest(LabelsTest):
         self.assertEqual(sorted(os.listdir(self.path("o"))), ["4294967294.vtp", "label-1.vtp"])
         self.assertRegex(process.stderr,
                          "warning: .*numbered anew.*: 4294967293 is 3, 4294967294 is 4")
-        rows = self.report(volume, "--list-labels")["labels"]
-        self.assertEqual([row["name"] for row in rows if row["label"] > 2],
-                         ["4294967293", "4294967294"])
-
-    def masks(self, folder, **masks):
-        os.mkdir(self.path(folder))
-        for name, mask in masks.items():
-            self.write_bytes(f"{folder}/{name}.nii.gz", gzip.compress(
-                medical_files.nifti(mask.astype("i2"), SPACING, offset=ORIGIN)))
-        return self.path(folder)
 
     def test_a_folder_of_masks(self):
         """As TotalSegmentator writes them; each has the surface of a map of it alone."""
         voxels = label_voxels()
-        folder = self.masks("organs", liver=255 * (voxels == 1), lung_left=voxels == 2,
-                            kidney=voxels == 7, absent=voxels == 99)
-        self.write_bytes("organs/statistics.json", b"{}")
-        process = self.run_command(folder, self.path("o/"), "--labels", "all", "--report",
-                                self.path("r.json"))
-        self.assertEqual(sorted(os.listdir(self.path("o"))),
-                         ["kidney.vtp", "liver.vtp", "lung_left.vtp"])
-        self.assertIn("masks without a voxel: absent", process.stderr)
-        self.assertNotIn("in two masks", process.stderr)
-        rows = {row["name"]: row for row in json.loads(self.content("r.json"))["labels"]}
-        self.assertEqual({name: row["voxels"] for name, row in rows.items()},
-                         {"kidney": (voxels == 7).sum(), "liver": (voxels == 1).sum(),
-                          "lung_left": (voxels == 2).sum()})
-        written = self.path("w.vti")
-        self.run_command(self.path("organs/*.nii.gz"), "--write-volume", written, "--labels", "all")
-        listed = self.report(written, "--list-labels")["labels"]
-        self.assertEqual([row["name"] for row in listed if row["label"] > 0],
-                         ["kidney", "liver", "lung_left"])
-
-    def test_masks_that_overlap(self):
-        """Each has its whole surface; in one mesh a voxel belongs to the smallest mask."""
-        voxels = label_voxels()
         part = np.zeros_like(voxels)
         part[6:9, 6:9, 6:9] = 1
-        count = (voxels == 1).sum()
-        folder = self.masks("m", whole=voxels == 1, part=part, zone=(voxels == 1) & (part == 0))
-        rows = {row["name"]: row for row in
-                self.report(folder, self.path("o/"), "--labels", "all")["labels"]}
-        self.assertEqual({name: row["voxels"] for name, row in rows.items()},
-                         {"whole": count, "part": 27, "zone": count - 27})
-        for row in rows.values():
-            self.assertAlmostEqual(row["volume"] / (row["voxels"] * SPACING.prod()), 1, delta=.06)
-        listed = self.report(folder, "--list-labels")["labels"]
-        self.assertEqual({row["name"]: row["voxels"] for row in listed if row["label"]},
-                         {name: row["voxels"] for name, row in rows.items()})
-        process = self.run_command(folder, self.path("a.vtp"), "--labels", "all", "--report",
-                                   self.path("r.json"), "--shared-interfaces")
-        self.assertRegex(process.stderr, r"warning: .*in two masks \(part and whole 27, whole and "
-                         rf"zone {count - 27}\): the smaller mask has it")
-        self.assertEqual({row["name"]: row["voxels"]
-                          for row in json.loads(self.content("r.json"))["labels"]},
-                         {"part": 27, "zone": count - 27})
-
-    def test_masks_behind_each_other_in_one_file(self):
-        voxels = label_voxels()
-        masks = np.stack([voxels == 1, voxels == 2, voxels == 7])
-        file = self.write_bytes("onehot.nii", medical_files.nifti(masks.astype("i2"), SPACING))
-        process = self.run_command(file, "--list-labels", "--report", self.path("r.json"))
-        self.assertIn("3 volumes, one behind the other, are taken for masks of labels 1 to 3",
-                      process.stderr)
-        sizes = [(row["label"], row["voxels"])
-                 for row in json.loads(self.content("r.json"))["labels"] if row["label"]]
-        self.assertEqual(sizes, [(n + 1, mask.sum()) for n, mask in enumerate(masks)])
-        one = self.report(file, "--list-labels", "--time", "2")["labels"]
-        self.assertEqual([row["voxels"] for row in one if row["label"] == 1], [masks[2].sum()])
-        self.refused("choose one with --time", file, self.path("a.stl"), "--iso", "0.5")
-        file = self.write_bytes("times.nii", medical_files.nifti(
-            np.stack([voxels, voxels]).astype("i2"), SPACING))
-        self.refused("volume 0: has the values 1 and 2: a mask has 0 and one other value", file,
-                     self.path("o/"), "--labels", "all")
-
-    def test_what_is_no_folder_of_masks(self):
-        voxels = label_voxels()
-        for name, volume, reason in (
-                ("a", voxels, "map.nii.gz: has the values .* a mask has 0 and one other"),
-                ("b", voxels[1:] == 1, "map.nii.gz: its voxels are not those of .*liver.nii.gz")):
-            folder = self.masks(name, liver=voxels == 1, map=volume)
-            self.no_surfaces(reason, folder, "--labels", "all")
+        masks = {"liver": 255 * (voxels == 1), "lung_left": voxels == 2, "part": part,
+                 "absent": voxels == 99}
+        os.mkdir(self.path("organs"))
+        for name, mask in masks.items():
+            self.write_bytes(f"organs/{name}.nii.gz", gzip.compress(
+                medical_files.nifti(mask.astype("i2"), SPACING, offset=ORIGIN)))
+        self.write_bytes("organs/statistics.json", b"{}")
+        voxels_of = {name: np.count_nonzero(mask) for name, mask in masks.items() if mask.any()}
+        rows = self.report(self.path("organs"), self.path("o/"), "--labels", "all")["labels"]
+        self.assertEqual({row["name"]: row["voxels"] for row in rows}, voxels_of)
+        self.assertEqual(sorted(os.listdir(self.path("o"))),
+                         ["liver.vtp", "lung_left.vtp", "part.vtp"])
+        # In one mesh a voxel belongs to the smallest mask.
+        written = self.path("w.vti")
+        process = self.run_command(self.path("organs/*.nii.gz"), self.path("a.vtp"), "--labels",
+                                   "all", "--shared-interfaces", "--write-volume", written)
+        self.assertRegex(process.stderr, r"warning: .*in two masks \(liver and part 27\): the ")
+        self.assertIn("masks without a voxel: absent", process.stderr)
+        listed = self.report(written, "--list-labels")["labels"]
+        voxels_of["liver"] -= 27
+        self.assertEqual({row["name"]: row["voxels"] for row in listed if row["label"] > 0},
+                         voxels_of)
 
     def test_values_that_are_no_labels(self):
         voxels = label_voxels("f4")
@@ -317,6 +231,7 @@ class WhatIsReadTest(LabelsTest):
                 ("map.vti: .*has no label 99999", many, "7,99999"),
                 ("map.vti: it has no label but the background, 0; .*--background",
                  np.zeros((9, 9, 9), "u1"), "all"),
+                ("map.vti: there is no label '9'", label_voxels(), "9"),
                 ("one slice", label_voxels()[8:9], "all")):
             with self.subTest(reason):
                 self.no_surfaces(reason, self.map_file(image=label_image(voxels)), "--labels",
@@ -328,93 +243,59 @@ class WhatIsReadTest(LabelsTest):
 
     def test_directions_and_spacing(self):
         turned = self.map_file("turned.vti", label_image(direction=TURNED))
-        self.run_command(turned, self.path("t/"), "--labels", "7")
-        self.run_command(self.map_file(), self.path("s/"), "--labels", "7", "--spacing", "1,1.5,2")
-        places = np.argwhere(label_voxels() == 7)[:, ::-1] * SPACING
-        for path, world in (("t", places @ TURNED.T), ("s", 2 * places)):
-            bounds = read(self.path(f"{path}/label-7.vtp")).GetBounds()
-            expected = np.ravel(list(zip(world.min(0), world.max(0)))) + np.repeat(ORIGIN, 2)
-            np.testing.assert_allclose(bounds, expected, atol=1.5)
+        self.run_command(turned, self.path("t.vtp"), "--labels", "7", "--spacing", "1,1.5,2")
+        world = 2 * (np.argwhere(label_voxels() == 7)[:, ::-1] * SPACING) @ TURNED.T
+        expected = np.ravel(list(zip(world.min(0), world.max(0)))) + np.repeat(ORIGIN, 2)
+        np.testing.assert_allclose(read(self.path("t.vtp")).GetBounds(), expected, atol=1.5)
 
 
 class OptionsTest(LabelsTest):
-    def test_every_property_of_labels_is_set(self):
-        volume = self.map_file()
-        before = self.report(volume, "--labels", "2")["properties"]
-        groups = (
-            {"BackgroundLabel": "--background 1", "Smoothing": "--smoothing 0.5",
-             "VoxelTolerance": "--voxel-tolerance 0.25", "Metric": "--metric voxels",
-             "Tolerance": "--tolerance 0.1", "Gradation": "--gradation 0.3",
-             "MaximumEdgeLength": "--maximum-edge-length 9", "FinestLevel": "--finest 1",
-             "KeepComponents": "--keep large", "TimeLimit": "--time-limit 600",
-             "MinimumComponentVolume": "--minimum-component-volume 2", "Merge": "--merge",
-             "NumberOfThreads": "--threads 1", "ScratchDirectory": f"--scratch {self.folder}",
-             "SelectedComponent": "--component 0"},
-            {"EdgeLength": "--edge-length 1.2"}, {"ThinParts": "--thin-parts"},
-            {"SharedInterfaces": "--shared-interfaces", "BoxFaces": "--box-faces flat"})
-        self.assertEqual(set(before), {name for group in groups for name in group})
-        for group in groups:
-            words = " ".join(group.values()).split()
-            after = self.report(volume, "--labels", "2", *words)["properties"]
-            self.assertEqual(after, {**before, **{
-                name: (text.split() + ["on"])[1] for name, text in group.items()}})
-
-    def test_properties_reach_the_filter(self):
-        """What is in common with vtkDeformableSurface is set there first."""
-        volume = self.map_file()
-
-        def volume_of(*options):
-            return self.rows(volume, "--labels", "1,2", *options)[1]
-
-        plain = volume_of()
-        strict = volume_of("--voxel-tolerance", "0")
-        self.assertNotEqual(strict["area"], plain["area"])
-        self.assertEqual(strict["wrong_voxels"], strict["missed_voxels"])
-        self.assertLess(volume_of("--edge-length", "1.2")["vertices"], 0.6 * plain["vertices"])
-        voxels = label_voxels(blobs={1: ((8, 8, 8), (6, 5, 5)), 2: ((20, 20, 9), (4, 3, 3))})
-        volume = self.map_file("parts.vti", label_image((voxels > 0).astype("u1")))
-        parts = self.rows(volume, "--labels", "1")[1]["component_features"]
-        between = (parts[0]["volume"] + parts[1]["volume"]) / 2
-        for options in (("--keep", "largest"),
-                        ("--keep", "large", "--minimum-component-volume", between)):
-            self.assertEqual(self.rows(volume, "--labels", "1", *options)[1]["components"], 1)
+    def test_every_property_reaches_the_filter(self):
+        words = {
+            "BackgroundLabel": "--background 1", "Smoothing": "--smoothing 0.5",
+            "VoxelTolerance": "--voxel-tolerance 0.25", "Metric": "--metric voxels",
+            "Tolerance": "--tolerance 0.1", "Gradation": "--gradation 0.25",
+            "MaximumEdgeLength": "--maximum-edge-length 9", "FinestLevel": "--finest 1",
+            "KeepComponents": "--keep large", "TimeLimit": "--time-limit 600",
+            "MinimumComponentVolume": "--minimum-component-volume 2", "Merge": "--merge",
+            "NumberOfThreads": "--threads 1", "ScratchDirectory": f"--scratch {self.folder}",
+            "SelectedComponent": "--component 0", "EdgeLength": "--edge-length 1.2",
+            "ThinParts": "--thin-parts", "SharedInterfaces": "--shared-interfaces",
+            "BoxFaces": "--box-faces flat"}
+        report = self.report(self.map_file(), "--labels", "2", *words["Smoothing"].split())
+        self.assertEqual(set(report["properties"]), set(words))
+        self.assertEqual(report["properties"]["Smoothing"], "0.5")
+        for name, text in words.items():
+            filters, before = Filters(), Filters()
+            options.apply(options.parse(["a.vti", "o.vtp", "--labels", "1", *text.split()]),
+                          filters)
+            changed = {each for each in {*SHARED_WITH_LABELS, *words} - {"SelectedComponent"}
+                       if getattr(filters.labels, "Get" + each)()
+                       != getattr(before.labels, "Get" + each)()}
+            self.assertEqual(changed, {name} - {"SelectedComponent"})
 
     def test_what_excludes_what(self):
-        for option, *value in (
-                ("--iso", "3"), ("--dark",), ("--seeds", "a.txt"), ("--history", "h.csv"),
-                ("--seed-position", "1,2,3"), ("--levels", "2"), ("--keep", "at-points"),
-                ("--profile",)):
-            with self.subTest(option, value=value):
-                self.refused(f"(--labels and {option}|{option}( .*)? and --labels) exclude each "
-                             "other", "a.vti", "out/", "--labels", "1", option, *value, status=2)
-        for option, *value in (
-                ("--merge",), ("--box-faces", "flat"), ("--format", "stl"),
-                ("--label-names", "n")):
-            with self.subTest(option):
-                self.refused(f"{option} needs --labels", "a.vti", "out.stl", option, *value,
-                             status=2)
-        for reason, arguments in (
-                ("no surface format", ["o/", "--format", "dwg"]),
-                ("'2' is not the name of a file; write a list of labels with commas",
-                 ["o.vtp", "2", "3"]),
-                ("'2-3' is not the name of a file; write .*--labels 1,2-3.*", ["2-3"]),
-                ("'liver' is not the name of a file; .* a folder with a slash", ["o.vtp", "liver"]),
-                ("--format is that of the files in a folder", ["o.stl", "--format", "stl"]),
-                ("o.v1: no surface format", ["o.v1"]),
-                ("the standard output", ["-"]), ("no file to write", []),
-                ("--merge makes one surface; give a file", ["o/", "--merge"]),
-                ("--smoothing: 'x' is not a number", ["o/", "--smoothing", "x"])):
-            with self.subTest(reason):
-                self.refused(reason, "a.vti", "--labels", "1", *arguments, status=2)
+        refused = [(f"(--labels and {option}|{option}( .*)? and --labels) exclude each other",
+                    "out/ --labels 1", option, *value) for option, *value in (
+                        ("--iso", "3"), ("--dark",), ("--seeds", "a.txt"), ("--history", "h.csv"),
+                        ("--seed-position", "1,2,3"), ("--levels", "2"), ("--keep", "at-points"),
+                        ("--profile",))]
+        refused += [(f"{option} needs --labels", "out.stl", option, *value) for option, *value in (
+            ("--merge",), ("--box-faces", "flat"), ("--format", "stl"), ("--label-names", "n"))]
+        for reason, line in (
+                ("no surface format", "o/ --format dwg"), ("o.v1: no surface format", "o.v1"),
+                ("'2' is not the name of a file; write a list of labels with commas", "o.vtp 2 3"),
+                ("'2-3' is not the name of a file; write .*--labels 1,2-3.*", "2-3"),
+                ("'liver' is not the name of a file; .* a folder with a slash", "o.vtp liver"),
+                ("--format is that of the files in a folder", "o.stl --format stl"),
+                ("the standard output", "-"), ("no file to write", ""),
+                ("--merge makes one surface; give a file", "o/ --merge")):
+            refused.append((reason, "--labels 1 " + line))
+        for reason, line, *more in refused:
+            with self.subTest(line, more=more), self.assertRaisesRegex(UsageError, reason):
+                options.parse(["a.vti", *line.split(), *more])
 
-    def test_what_the_filter_refuses(self):
-        for reason, *options in (
-                ("map.vti: --smoothing is -1", "--smoothing", "-1"),
-                ("--voxel-tolerance is 2 voxels; it must be at most 1", "--voxel-tolerance", "2")):
-            with self.subTest(reason):
-                self.no_surfaces(reason, self.map_file(), "--labels", "1", *options)
-
-    def test_labels_that_are_lost_are_told(self):
+    def test_labels_that_are_lost_are_reported(self):
         voxels = label_voxels()
         voxels[2, 2, 26] = 9
         volume = self.map_file("dot.vti", label_image(voxels))
@@ -423,28 +304,27 @@ class OptionsTest(LabelsTest):
         self.assertNotIn("warning", process.stderr)
         self.assertEqual(sorted(os.listdir(self.path("h"))), ["label-1.vtp", "label-9.vtp"])
         process = self.run_command(volume, self.path("o/"), "--labels", "1,9", "--finest", "1",
-                                "--report", self.path("r.json"))
+                                   "--report", self.path("r.json"))
         self.assertRegex(process.stderr, "warning: .*Label 9")
         self.assertEqual(os.listdir(self.path("o")), ["label-1.vtp"])
         report = json.loads(self.content("r.json"))
         row = [row for row in report["labels"] if row["label"] == 9][0]
         self.assertEqual((row["triangles"], row["files"], row["voxels"]), (0, [], 1))
         self.assertIn("Label 9", report["warnings"][0])
-        self.no_surfaces("none of the labels has a surface", volume, "--labels", "9", "--finest",
-                         "1")
+        for reason, *more in (("none of the labels has a surface", "--finest", "1"),
+                              ("dot.vti: --smoothing is -1", "--smoothing", "-1")):
+            self.no_surfaces(reason, volume, "--labels", "9", *more)
 
 
 class RunTest(LabelsTest):
-    def test_an_isopotential_of_a_label_map_is_told(self):
-        volume = self.map_file()
-        for more in ((), ("--edge-length", "1.2")):
-            process = self.run_command(volume, self.path("a.stl"), "--iso", "0.5", *more)
-            told = re.findall("warning: .*looks like a label map", process.stderr)
-            self.assertEqual(len(told), 1, process.stderr)
-        process = self.run_command(volume, self.path("o/"), "--labels", "1")
-        self.assertNotIn("looks like", process.stderr)
-        process = self.run_command(self.ball_file(), self.path("a.stl"), "--iso", ISO)
-        self.assertNotIn("looks like", process.stderr)
+    def test_an_isosurface_of_a_label_map_is_reported(self):
+        for count, volume, *more in (
+                (1, self.map_file(), self.path("a.stl"), "--iso", "0.5"),
+                (1, self.map_file(), self.path("a.stl"), "--iso", "0.5", "--edge-length", "1.2"),
+                (0, self.map_file(), self.path("o/"), "--labels", "1"),
+                (0, self.ball_file(), self.path("a.stl"), "--iso", ISO)):
+            process = self.run_command(volume, *more)
+            self.assertEqual(process.stderr.count("looks like a label map"), count, process.stderr)
 
     def test_interrupt_keeps_what_is_finished(self):
         # Some of 64; fields were the first 10 %.
