@@ -106,6 +106,15 @@ class TiffTest(MicroscopyTestCase):
         self.check(volume, np.stack([BYTES] * 3))
         self.assertEqual(volume.components, "color")
 
+    def test_pages_in_a_ring(self):
+        self.written(metadata=None)
+        with tifffile.TiffFile(self.path("a.tif")) as file:
+            first, last = file.pages[0].offset, file.pages[-1].offset
+        content = bytearray(self.content("a.tif"))
+        tags, = struct.unpack_from("<H", content, last)
+        struct.pack_into("<I", content, last + 2 + 12 * tags, first)
+        self.refused("a.tif", "its pages form a ring", bytes(content))
+
     def test_imagej(self):
         volume = self.written(imagej=True, resolution=(2, 2),
                               metadata={"axes": "ZYX", "spacing": 2.5, "unit": "um"})

@@ -72,6 +72,7 @@ def read_tiff(path, choice):
     logging.getLogger("tifffile").addHandler(handler)
     try:
         with tifffile.TiffFile(path) as file:
+            _check_chain(file.filehandle, file.tiff)
             is_plain = not (file.is_ome or file.is_imagej or file.is_lsm)
             kinds = [page.hash for page in file.pages if not page.is_reduced] if is_plain else []
             series = file.series[0]
@@ -86,6 +87,22 @@ def read_tiff(path, choice):
         raise VolumeError("the file is cut off or damaged: %s" % error) from None
     finally:
         logging.getLogger("tifffile").removeHandler(handler)
+
+
+def _check_chain(handle, form):
+    """Throw IndexError if the directories of pages form a ring, in which tifffile walks forever."""
+    at, seen = form.offsetsize if form.offsetsize == 8 else 4, set()
+    while True:
+        handle.seek(at)
+        offset, = struct.unpack(form.offsetformat, handle.read(form.offsetsize))
+        if not offset:
+            return
+        if offset in seen:
+            raise IndexError("its pages form a ring")
+        seen.add(offset)
+        handle.seek(offset)
+        tags, = struct.unpack(form.tagnoformat, handle.read(form.tagnosize))
+        at = offset + form.tagnosize + tags * form.tagsize
 
 
 def _check_pages(file, series, is_plain):
