@@ -123,8 +123,9 @@ class LoadedVolume:
     image: Any            # vtkImageData of one component, with facts and names as field data
     volume: Volume        # with all its components
     world: World
-    component: int | None  # that was taken; None: of one, -1: the magnitude
-    range: tuple[float, float] = (math.inf, -math.inf)
+    component: int | None  # of several that was chosen; -1: the magnitude
+    range: tuple[float, float]
+    text: str             # sizes, spacing and type
 
 
 def image_of(volume: Volume, array: np.ndarray) -> Any:
@@ -158,26 +159,29 @@ def load_volume(options: Namespace, filters: Filters, teller: Teller,
         world = place_in_world(volume, options)
         crop(volume, options)
         is_whole = options.labels or (component is None and not wants_surface(options))
-        values = volume.array if is_whole else volume.scalars(component)
-        image = resample(image_of(volume, values), options, teller)
+        part = dataclasses.replace(
+            volume, array=volume.array if is_whole else volume.scalars(component))
+        resample(part, options, teller)
+        image = image_of(part, part.array)
     except Failure as error:
         raise VolumeError(f"{path}: {error}") from None
     count = 1 if volume.array.ndim == 3 else len(volume.array)
     taken = None if count == 1 else -1 if component is None else component
     scalars = image.GetPointData().GetScalars()
     least, most = scalars.GetRange(0 if scalars.GetNumberOfComponents() == 1 else -1)
+    text = f"{describe(part)}, {image.GetScalarTypeAsString()}"
     if announce:
-        part = "magnitude" if taken == -1 else f"component {taken}"
-        teller.say(f"{path}: {describe(image)}, {image.GetScalarTypeAsString()}"
-                   + (f", {part} of {count} components (--component)" if count > 1 else "")
+        what = "magnitude" if taken == -1 else f"component {taken}"
+        teller.say(f"{path}: {text}" + (f", {what} of {count} components (--component)"
+                                        if count > 1 else "")
                    + f", {number_text(least)} to {number_text(most)}{world.text()}")
-    return LoadedVolume(image, volume, world, taken, (least, most))
+    return LoadedVolume(image, volume, world, taken, (least, most), text)
 
 
-def describe(image: Any) -> str:
+def describe(volume: Volume) -> str:
     """"64 x 64 x 32 voxels of 0.5 x 0.5 x 1"."""
-    return (" x ".join(map(str, image.GetDimensions())) + " voxels of "
-            + " x ".join(number_text(round(length, 6)) for length in image.GetSpacing()))
+    return (" x ".join(map(str, volume.array.shape[:-4:-1])) + " voxels of "
+            + " x ".join(number_text(round(length, 6)) for length in volume.spacing))
 
 
 def crop(volume: Volume, options: Namespace) -> None:
@@ -201,9 +205,11 @@ def crop(volume: Volume, options: Namespace) -> None:
     volume.array, volume.start = volume.array[..., z, y, x], tuple(first.tolist())
 
 
-def resample(image: Any, options: Namespace, teller: Teller) -> Any:
-    """Resample to --resample or --isotropic, or, for a surface, to 8 voxels along thin axes."""
-    before, sizes = np.array(image.GetSpacing()), np.array(image.GetDimensions())
+def resample(volume: Volume, options: Namespace, teller: Teller) -> None:
+    """Resample to --resample or --isotropic, or, for a surface, to 8 voxels along thin axes. The
+    box of the voxels remains. Values are linear, labels are those of the nearest voxel."""
+    from vtkmodules.vtkImagingCore import vtkImageReslice
+    before, sizes = np.array(volume.spacing), np.array(volume.array.shape[:-4:-1])
     wanted = np.array(options.resample or before, float)
     if options.isotropic:
         wanted[:] = before.min()
@@ -212,48 +218,32 @@ def resample(image: Any, options: Namespace, teller: Teller) -> Any:
         thin = (sizes > 1) & (np.maximum(sizes, np.rint(sizes * before / wanted)) < LEAST_VOXELS)
         wanted[thin] = (sizes * before / LEAST_VOXELS)[thin]
     if (wanted == before).all():
-        return image
+        return
     count = np.prod(np.maximum(1.0, sizes * before / wanted))
     if not count < MOST_VOXELS:
         raise VolumeError(f"resampled it would have {count:.0f} voxels")
-    text = f"resampled from {describe(image)}" + ": a surface needs 8 voxels along each axis" * (
+    text = f"resampled from {describe(volume)}" + ": a surface needs 8 voxels along each axis" * (
         not options.resample and not options.isotropic)
-    image = _resampled(image, wanted, bool(options.labels))
-    set_fact(image, "Resampling", "; ".join(filter(None, (fact(image, "Resampling"), text))))
-    teller.say(f"{options.volume}: {text}")
-    return image
-
-
-def _resampled(image: Any, spacing: np.ndarray, labels: bool) -> Any:
-    """Return the image with other voxel distances in the same box: linear, or, for labels, the
-    nearest voxel."""
-    from vtkmodules.vtkCommonDataModel import vtkImageData
-    from vtkmodules.vtkImagingCore import vtkImageReslice
-    before, sizes = np.array(image.GetSpacing()), np.array(image.GetDimensions())
-    new_sizes = np.maximum(1, np.floor(sizes * before / spacing + 0.5)).astype(int)
-    first = 0.5 * ((sizes - 1) * before - (new_sizes - 1) * spacing)
-    plain, reslice = vtkImageData(), vtkImageReslice()
-    plain.ShallowCopy(image)  # VTK's versions differ in where they put an image that is turned.
-    plain.SetDimensions(sizes.tolist())
-    plain.SetOrigin(0, 0, 0)
-    plain.SetDirectionMatrix(np.eye(3).ravel())
-    reslice.SetInputData(plain)
-    reslice.SetOutputSpacing(spacing.tolist())
-    reslice.SetOutputOrigin(first.tolist())
+    new_sizes = np.maximum(1, np.floor(sizes * before / wanted + 0.5)).astype(int)
+    first = 0.5 * ((sizes - 1) - (new_sizes - 1) * wanted / before)  # index of the first voxel
+    is_plain, reslice = volume.array.ndim == 3, vtkImageReslice()
+    reslice.SetInputData(make_image(
+        volume.array if is_plain else np.moveaxis(volume.array, 0, -1), before, (0, 0, 0), None))
+    reslice.SetOutputSpacing(wanted.tolist())
+    reslice.SetOutputOrigin((first * before).tolist())
     reslice.SetOutputExtent([int(n) for size in new_sizes for n in (0, size - 1)])
     reslice.BorderOn()  # values reach out to the faces of the outer voxels
-    if not labels:
+    if not options.labels:
         reslice.SetInterpolationModeToLinear()
-        reslice.SetOutputScalarType(11 if image.GetScalarType() == 11 else 10)  # double, float
+        reslice.SetOutputScalarType(11 if volume.array.dtype == float else 10)  # double, float
     reslice.Update()
-    made, origin = reslice.GetOutput(), [0.0] * 3
-    made.GetPointData().GetScalars().SetName(image.GetPointData().GetScalars().GetName())
-    image.TransformContinuousIndexToPhysicalPoint(
-        (np.array(image.GetExtent()[::2]) + first / before).tolist(), origin)
-    made.SetOrigin(origin)
-    made.SetDirectionMatrix(image.GetDirectionMatrix())
-    made.GetFieldData().ShallowCopy(image.GetFieldData())
-    return made
+    values = vtk_to_numpy(reslice.GetOutput().GetPointData().GetScalars())
+    values = values.reshape(*new_sizes[::-1], -1)
+    volume.array = values[..., 0] if is_plain else np.moveaxis(values, -1, 0)
+    volume.origin = tuple(volume.origin + volume.direction @ (before * (volume.start + first)))
+    volume.spacing, volume.start = tuple(wanted.tolist()), (0, 0, 0)
+    volume.resampling = "; ".join(filter(None, (volume.resampling, text)))
+    teller.say(f"{options.volume}: {text}")
 
 
 # ---- Values of other volumes -------------------------------------------------------------------

@@ -101,8 +101,7 @@ class LabelRun:
             self.layers = layers_of(loaded.image, names, component)
             known, self.warnings = known_labels(self.layers, names, options, teller)
             count, layers = sum(label.label != background for label in known), len(self.layers)
-            teller.say(f"{options.volume}: {geometry.describe(loaded.image)}, "
-                       f"{loaded.image.GetScalarTypeAsString()}, {count} label{'s' * (count != 1)}"
+            teller.say(f"{options.volume}: {loaded.text}, {count} label{'s' * (count != 1)}"
                        + f" in {layers} layers" * (layers > 1) + loaded.world.text())
             self.chosen = choose(options.labels, known, background)
 
