@@ -44,7 +44,7 @@ class Surface:
         The field data by name: `Area`, `Volume`, `StopReason`, ...; `Warnings` of the filter.
     """
 
-    def __init__(self, polydata: Any, told: Sequence[str] = ()) -> None:
+    def __init__(self, polydata: Any, notes: Sequence[str] = ()) -> None:
         self._polydata = polydata
         points = polydata.GetPoints()
         self.points = vtk_to_numpy(points.GetData()) if points else np.zeros((0, 3))
@@ -52,7 +52,7 @@ class Surface:
         self.arrays = {data.GetArrayName(i): vtk_to_numpy(data.GetArray(i))
                        for data in (polydata.GetPointData(), polydata.GetCellData())
                        for i in range(data.GetNumberOfArrays())}
-        self.report = _fields(polydata, told)
+        self.report = _fields(polydata, notes)
 
     def __repr__(self) -> str:
         facts = {"components": "NumberOfComponents", "genus": "Genus", "volume": "Volume"}
@@ -84,12 +84,12 @@ class Surface:
 class Surfaces(dict[int, Surface]):
     """The surface of each label, in the order of their values; `report` is that of the whole."""
 
-    def __init__(self, blocks: Any, told: Sequence[str] = ()) -> None:
+    def __init__(self, blocks: Any, notes: Sequence[str] = ()) -> None:
         surfaces = [Surface(blocks.GetBlock(i)) for i in range(blocks.GetNumberOfBlocks())]
         super().__init__((int(np.ravel(surface.report["Label"])[0]), surface)
                          for surface in surfaces)
         self._blocks = blocks
-        self.report = _fields(blocks, told)
+        self.report = _fields(blocks, notes)
 
     def __reduce__(self) -> Any:
         return _unpickled, (Surfaces, _serialized(self._blocks), self.report.get("Warnings", ()))
@@ -117,12 +117,12 @@ def _serialized(data: Any) -> bytes:
     return bytes(memoryview(vtk_to_numpy(buffer)))
 
 
-def _unpickled(kind: Any, content: bytes, told: Sequence[str]) -> Any:
+def _unpickled(kind: Any, content: bytes, notes: Sequence[str]) -> Any:
     from vtkmodules.vtkParallelCore import vtkCommunicator
     buffer = numpy_to_vtk(np.frombuffer(content, np.int8), deep=True, array_type=2)  # char
     data = vtkMultiBlockDataSet() if kind is Surfaces else vtkPolyData()
     vtkCommunicator.UnMarshalDataObject(buffer, data)
-    return kind(data, told)
+    return kind(data, notes)
 
 
 def surface(array: Any, iso: float | None = None, *, spacing: Sequence[float] | None = None,
@@ -170,17 +170,17 @@ def surface(array: Any, iso: float | None = None, *, spacing: Sequence[float] | 
     if iso is not None and not math.isfinite(iso):
         raise ValueError(f"iso is {iso}; it must be a finite number")
     algorithm.SetInputData(_input(array, spacing, origin, direction, start))
-    told = []
+    notes = []
     if iso is None and "UpperValue" not in properties:
         otsu = filters.vtkOtsuThreshold()
         otsu.SetInputDataObject(algorithm.GetInputDataObject(0, 0))
         _run(otsu)
         iso = otsu.GetThreshold()
-        told.append(f"The iso-value is {iso:g}, a guess by Otsu's threshold.")
+        notes.append(f"The iso-value is {iso:g}, a guess by Otsu's threshold.")
     if iso is not None:
         algorithm.SetIsoValue(iso)
-    told += _run(algorithm)
-    return Surface(algorithm.GetOutput(), _warn(told))
+    notes += _run(algorithm)
+    return Surface(algorithm.GetOutput(), _warn(notes))
 
 
 def labels(array: Any, only: Sequence[int] = (), *, spacing: Sequence[float] | None = None,
@@ -209,8 +209,8 @@ def labels(array: Any, only: Sequence[int] = (), *, spacing: Sequence[float] | N
     for label in only:
         algorithm.AddLabel(int(label))
     algorithm.SetInputData(_input(array, spacing, origin, direction, start))
-    told = _run(algorithm)
-    return Surfaces(algorithm.GetOutput(), _warn(told))
+    notes = _run(algorithm)
+    return Surfaces(algorithm.GetOutput(), _warn(notes))
 
 
 def label_boxes(array: Any, start: Sequence[int] = (0, 0, 0)) -> dict[int, list[int]]:
@@ -305,20 +305,20 @@ def _input(array: Any, spacing: Any, origin: Any, direction: Any, start: Any) ->
 
 def _run(algorithm: Any) -> list[str]:
     """Update an algorithm, which Ctrl-C stops, and return its warnings."""
-    errors, told = messages.update(algorithm)
+    errors, notes = messages.update(algorithm)
     if errors:
         raise FilterError(errors[0])
-    return told
+    return notes
 
 
-def _warn(told: list[str]) -> list[str]:
-    for text in told:
+def _warn(notes: list[str]) -> list[str]:
+    for text in notes:
         warnings.warn(text, stacklevel=3)
-    return told
+    return notes
 
 
-def _fields(data: Any, told: Sequence[str]) -> dict[str, Any]:
-    report: dict[str, Any] = {"Warnings": list(told)} if told else {}
+def _fields(data: Any, notes: Sequence[str]) -> dict[str, Any]:
+    report: dict[str, Any] = {"Warnings": list(notes)} if notes else {}
     fields = data.GetFieldData()
     for array in map(fields.GetAbstractArray, range(fields.GetNumberOfArrays())):
         values = (vtk_to_numpy(array).tolist() if array.IsA("vtkDataArray")

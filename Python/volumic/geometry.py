@@ -188,16 +188,16 @@ def crop(volume: Volume, options: Namespace) -> None:
     """Leave the voxels of --region or --region-box only, in place: no voxel is copied."""
     sizes, start = np.array(volume.array.shape[:-4:-1]), np.array(volume.start)
     if options.region:
-        wanted = np.reshape(options.region, (3, 2)).T
+        limits = np.reshape(options.region, (3, 2)).T
     elif options.region_box:
         corners = np.stack(np.meshgrid(*np.reshape(options.region_box, (3, 2))), -1).reshape(-1, 3)
         # The origin is the position of index 0, whatever the index of the first voxel.
         indices = (corners - volume.origin) @ volume.direction / volume.spacing
-        wanted = np.clip([np.floor(indices.min(0) + 1e-6), np.ceil(indices.max(0) - 1e-6)],
+        limits = np.clip([np.floor(indices.min(0) + 1e-6), np.ceil(indices.max(0) - 1e-6)],
                          -1e9, 1e9).astype(int)
     else:
         return
-    first, last = np.maximum(wanted[0], start), np.minimum(wanted[1], start + sizes - 1)
+    first, last = np.maximum(limits[0], start), np.minimum(limits[1], start + sizes - 1)
     for axis in np.flatnonzero(first > last):
         raise VolumeError(f"the region lies beside the volume, which has voxels {'ijk'[axis]} "
                           f"{start[axis]} to {start[axis] + sizes[axis] - 1}")
@@ -210,26 +210,26 @@ def resample(volume: Volume, options: Namespace, teller: Teller) -> None:
     box of the voxels remains. Values are linear, labels are those of the nearest voxel."""
     from vtkmodules.vtkImagingCore import vtkImageReslice
     before, sizes = np.array(volume.spacing), np.array(volume.array.shape[:-4:-1])
-    wanted = np.array(options.resample or before, float)
+    after = np.array(options.resample or before, float)
     if options.isotropic:
-        wanted[:] = before.min()
+        after[:] = before.min()
     if not (options.resample or options.labels or options.edges) and wants_surface(options) \
             and options.choice.resampling:
-        thin = (sizes > 1) & (np.maximum(sizes, np.rint(sizes * before / wanted)) < LEAST_VOXELS)
-        wanted[thin] = (sizes * before / LEAST_VOXELS)[thin]
-    if (wanted == before).all():
+        thin = (sizes > 1) & (np.maximum(sizes, np.rint(sizes * before / after)) < LEAST_VOXELS)
+        after[thin] = (sizes * before / LEAST_VOXELS)[thin]
+    if (after == before).all():
         return
-    count = np.prod(np.maximum(1.0, sizes * before / wanted))
+    count = np.prod(np.maximum(1.0, sizes * before / after))
     if not count < MOST_VOXELS:
         raise VolumeError(f"resampled it would have {count:.0f} voxels")
     text = f"resampled from {describe(volume)}" + ": a surface needs 8 voxels along each axis" * (
         not options.resample and not options.isotropic)
-    new_sizes = np.maximum(1, np.floor(sizes * before / wanted + 0.5)).astype(int)
-    first = 0.5 * ((sizes - 1) - (new_sizes - 1) * wanted / before)  # index of the first voxel
+    new_sizes = np.maximum(1, np.floor(sizes * before / after + 0.5)).astype(int)
+    first = 0.5 * ((sizes - 1) - (new_sizes - 1) * after / before)  # index of the first voxel
     is_plain, reslice = volume.array.ndim == 3, vtkImageReslice()
     reslice.SetInputData(make_image(
         volume.array if is_plain else np.moveaxis(volume.array, 0, -1), before, (0, 0, 0), None))
-    reslice.SetOutputSpacing(wanted.tolist())
+    reslice.SetOutputSpacing(after.tolist())
     reslice.SetOutputOrigin((first * before).tolist())
     reslice.SetOutputExtent([int(n) for size in new_sizes for n in (0, size - 1)])
     reslice.BorderOn()  # values reach out to the faces of the outer voxels
@@ -241,7 +241,7 @@ def resample(volume: Volume, options: Namespace, teller: Teller) -> None:
     values = values.reshape(*new_sizes[::-1], -1)
     volume.array = values[..., 0] if is_plain else np.moveaxis(values, -1, 0)
     volume.origin = tuple(volume.origin + volume.direction @ (before * (volume.start + first)))
-    volume.spacing, volume.start = tuple(wanted.tolist()), (0, 0, 0)
+    volume.spacing, volume.start = tuple(after.tolist()), (0, 0, 0)
     volume.resampling = "; ".join(filter(None, (volume.resampling, text)))
     teller.say(f"{options.volume}: {text}")
 

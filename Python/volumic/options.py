@@ -203,16 +203,16 @@ def _check_without_labels(options: argparse.Namespace) -> None:
 
 def _check_with_labels(options: argparse.Namespace) -> None:
     from .label_outputs import check_outputs, shares_interfaces
-    asked = "list-labels" if options.list_labels else "labels"
+    mode = "list-labels" if options.list_labels else "labels"
     if options.list_labels and options.surfaces:
         raise UsageError(f"{options.surfaces[0]}: --list-labels makes no surfaces; leave out the "
                          "file or the option")
-    exclude(options, asked, NOT_WITH_LABELS)
+    exclude(options, mode, NOT_WITH_LABELS)
     exclude(options, "list-labels", ("format", "triangles"))
     listed = ("SelectedComponent", "BackgroundLabel", "NumberOfThreads", "ScratchDirectory")
     for item, text in options.properties:
         if not (item.name in listed if options.list_labels else is_of_labels(item)):
-            raise UsageError(f"--{item.option} and --{asked} exclude each other")
+            raise UsageError(f"--{item.option} and --{mode} exclude each other")
         if item.name == "KeepComponents" and text in ("at-points", "not-at-seeds"):
             raise UsageError(f"--keep {text} and --labels exclude each other")
     if shares_interfaces(options):

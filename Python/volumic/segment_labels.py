@@ -279,21 +279,19 @@ class LabelRun:
         """Whether nothing stopped any surface."""
         return not any(each.unfinished for each in self.surfaces)
 
-    def tell_end(self) -> None:
+    def print_end(self) -> None:
         """Print what was made and what is missing."""
         there = [each for each in self.surfaces if each.is_there]
         wrong = sum(each.count("WrongVoxels") for each in self.surfaces)
         vertices = sum(each.surface.GetNumberOfPoints() for each in there)
         self.teller.say(f"{len(there)} surface{'s' * (len(there) != 1)}, {vertices} vertices"
-                        + f"; {wrong} voxel centres are on the wrong side" * (wrong > 0))
+                        + f"; {wrong} misclassified voxels" * (wrong > 0))
         stopped = [each for each in self.surfaces if each.unfinished]
         if stopped:
             missing = ", ".join(each.name for each in stopped if not each.is_there)
-            partial = ", ".join(each.name for each in stopped if each.is_there)
             self.teller.error(
                 f"unfinished ({stopped[-1].unfinished}); what is finished was written"
-                + (f"; there is no surface of {missing}" if missing else "")
-                + (f"; as they were then, those of {partial}" if partial else ""))
+                + (f"; there is no surface of {missing}" if missing else ""))
         self.teller.say(report.text_of_print(
             prints(self.options, self.options.surfaces), [each.surface for each in there],
             self.loaded.world.unit))
@@ -323,5 +321,5 @@ def segment_labels(options: Namespace, filters: Filters, teller: Teller) -> int:
     run.make()
     run.finish()
     run.write()
-    run.tell_end()
+    run.print_end()
     return DONE if run.is_finished else UNFINISHED
