@@ -9,8 +9,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-SNAP = 0.3    # in edge lengths: vertices that are nearer to a plane are moved onto it
-SHORT = 0.5   # in edge lengths: shorter edges at a cap are collapsed
+SNAP = 0.35  # in edge lengths: vertices that are nearer to a plane are moved onto it
+SHORT = 0.6   # in edge lengths: shorter edges at a cap are collapsed
 LONG = 1.5    # in edge lengths: longer edges between two caps are divided
 TURNED = 0.7  # least cosine between normals before and after
 ROUNDS = 12
@@ -321,7 +321,8 @@ def _least_angles(points: np.ndarray, triangles: np.ndarray) -> np.ndarray:
     corners, least = points[triangles], np.full(len(triangles), np.inf)
     for i in range(3):
         a, b = corners[:, i - 1] - corners[:, i], corners[:, i - 2] - corners[:, i]
-        least = np.minimum(least, np.arctan2(np.linalg.norm(np.cross(a, b), axis=1), (a * b).sum(1)))
+        across = np.linalg.norm(np.cross(a, b), axis=1)
+        least = np.minimum(least, np.arctan2(across, (a * b).sum(1)))
     return np.degrees(least)
 
 

@@ -6,7 +6,7 @@ outermost voxels, and closed there by flat caps or left open."""
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -16,7 +16,7 @@ from .errors import Failure
 TRIES = 24        # cuts that are tried
 FURTHER = 0.02    # in edge lengths: how much further inward each next one is
 SMOOTHINGS = 3    # of the points within a cap
-CLEARANCE = 0.7   # in edge lengths: of these points from the rim
+CLEARANCE = 0.6   # in edge lengths: of these points from the rim
 
 
 def with_ends(surface: Any, image: Any, ends: str, warnings: list[str]) -> Any:
@@ -38,7 +38,8 @@ def with_ends(surface: Any, image: Any, ends: str, warnings: list[str]) -> Any:
         sides = cell_array(surface, "BoundaryLabels")
         kinds = box.astype(int) if sides is None else box + 8 * sides.max(axis=1).astype(int)
         return _made(surface, triangles, source, {"Cap": _numbered(triangles, kinds * (box > 0))})
-    found, sides = _ended(surface, triangles, image, ends == "marked"), np.zeros(len(triangles), int)
+    found = _ended(surface, triangles, image, ends == "marked")
+    sides = np.zeros(len(triangles), int)
     if found is None:
         warnings.append("its ends cannot be made flat: they stay as they are, and are not marked; "
                         "choose another part with --region"
@@ -129,96 +130,104 @@ def _ended(surface: Any, triangles: np.ndarray, image: Any, closed: bool
 def _closed(cutter: Cutter) -> tuple[np.ndarray, np.ndarray]:
     """All triangles with those of flat caps, and the side that each is in. Edges of rims that a
     Delaunay triangulation lacks are split."""
+    from scipy.spatial import cKDTree
+    caps: dict[int, tuple[int, _Cap]] = {}  # with the number of edges when it was made
     for _ in range(TRIES):
-        caps = [(plane, *_cap(cutter, plane)) for plane in cutter.planes
-                if (cutter.faces == plane.face).any()]
-        missing = [lacks for _, _, _, lacks in caps if len(lacks)]
-        if not missing:
+        missing = [np.zeros((0, 2), int)]
+        for plane in cutter.planes:
+            rims = cutter.rims[cutter.faces == plane.face]
+            if len(rims) and caps.get(plane.face, (0,))[0] != len(rims):
+                caps[plane.face] = len(rims), _cap(cutter, plane, rims)
+                missing.append(caps[plane.face][1].missing)
+        if not any(map(len, missing)):
             break
         cutter.split(np.concatenate(missing))
     else:
         raise NotFlat
-    size = len(cutter.points)
     triangles, faces = [cutter.triangles], [np.zeros(len(cutter.triangles), int)]
-    for plane, inner, corners, _ in caps:
-        rim = np.flatnonzero(cutter.faces == plane.face)
+    for face, (_, cap) in caps.items():
         added = len(cutter.points)
-        near = cutter.rims[rim[_nearest(cutter.points[cutter.rims[rim, 0]], inner)], 0]
+        near = cap.rim[cKDTree(cutter.points[cap.rim]).query(cap.inner)[1]]
         cutter.add_points(near, near, np.zeros(len(near)))
-        cutter.points[added:] = inner
-        triangles.append(np.where(corners < size, corners, corners + added - size))
-        faces.append(np.full(len(corners), plane.face))
-        cutter.source = np.append(cutter.source, np.full(len(corners), -1))
+        cutter.points[added:] = cap.inner
+        triangles.append(np.append(cap.rim, added + np.arange(len(near)))[cap.triangles])
+        faces.append(np.full(len(cap.triangles), face))
+        cutter.source = np.append(cutter.source, np.full(len(cap.triangles), -1))
     result = np.concatenate(triangles)
     if unmatched(edges_of(result)).any():
         raise NotFlat
     return result, np.concatenate(faces)
 
 
-def _nearest(points: np.ndarray, to: np.ndarray) -> np.ndarray:
-    from scipy.spatial import cKDTree
-    return cKDTree(points).query(to)[1] if len(to) else np.zeros(0, int)
+class _Cap(NamedTuple):
+    """The caps in a plane, or the edges of their rims that triangles lack."""
+    rim: np.ndarray        # numbers of vertices
+    inner: np.ndarray      # positions of further points
+    triangles: np.ndarray  # of the rim, then the inner points
+    missing: np.ndarray
 
 
-def _cap(cutter: Cutter, plane: Plane) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """The caps in a plane: points within them, triangles, in which these points come behind all
-    others of the cutter, and the edges of rims that are missing."""
+def _cap(cutter: Cutter, plane: Plane, rims: np.ndarray) -> _Cap:
+    """Fill rims with triangles that have edges as long as the surface."""
     from scipy.spatial import cKDTree
-    rims = cutter.rims[cutter.faces == plane.face]
     across = [(plane.axis + 1) % 3, (plane.axis + 2) % 3][::plane.sign]
     used, edges = np.unique(rims, return_inverse=True)
     edges, rim, step = edges.reshape(-1, 2), cutter.points[used][:, across], cutter.length
-    (low_x, low_y), (high_x, high_y) = rim.min(0), rim.max(0)
-    x, y = np.meshgrid(np.arange(low_x - step, high_x + step, step),
-                       np.arange(low_y - step, high_y + step, step * 0.75 ** 0.5))
-    x[1::2] += step / 2
-    inner = np.stack([x.ravel(), y.ravel()], axis=1)
-    tree = cKDTree(np.concatenate([rim, rim[edges].mean(axis=1)]))
-    inner = inner[tree.query(inner)[0] > CLEARANCE * step]
-    for smoothing in range(SMOOTHINGS + 1):
-        triangles, missing = _fill(rim, edges, inner)
-        if len(missing):
-            return inner, triangles, rims[missing]
+    inner = np.zeros((0, 2))
+    triangles, missing, inside = _fill(rim, edges, inner)
+    if inside:
+        (low_x, low_y), (high_x, high_y) = rim.min(0), rim.max(0)
+        x, y = np.meshgrid(np.arange(low_x, high_x, step),
+                           np.arange(low_y, high_y, step * 0.75 ** 0.5))
+        x[1::2] += step / 2
+        inner = np.stack([x.ravel(), y.ravel()], axis=1)
+        inner = inner[inside(inner)]
+        far = cKDTree(np.concatenate([rim, rim[edges].mean(axis=1)])).query(inner)[0]
+        inner = inner[far > CLEARANCE * step]
+    for smoothing in range(SMOOTHINGS + 1 if len(inner) else 0):
+        triangles, missing, inside = _fill(rim, edges, inner)
+        if not inside:
+            break
         kept = np.unique(triangles)
         kept = kept[kept >= len(rim)]
         numbers = np.append(np.arange(len(rim)), np.zeros(len(inner), int))
         numbers[kept] = len(rim) + np.arange(len(kept))
         triangles, inner = numbers[triangles], inner[kept - len(rim)]
-        if smoothing < SMOOTHINGS and len(inner):
+        if smoothing < SMOOTHINGS:
             places, own = np.concatenate([rim, inner]), edges_of(triangles)
             sums = [np.bincount(own[:, 0], values[own[:, 1]]) for values in places.T]
             inner = (np.stack(sums, axis=1) / np.bincount(own[:, 0])[:, None])[len(rim):]
     points = np.full((len(inner), 3), plane.position)
     points[:, across] = inner
-    numbers = np.append(used, len(cutter.points) + np.arange(len(inner)))
-    return points, numbers[triangles], np.zeros((0, 2), int)
+    return _Cap(used, points, triangles, rims[missing])
 
 
-def _fill(rim: np.ndarray, edges: np.ndarray, inner: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The Delaunay triangles of points within polygons, which lie to the left of their edges; or
-    the numbers of the edges that are missing."""
+def _fill(rim: np.ndarray, edges: np.ndarray, inner: np.ndarray
+          ) -> tuple[np.ndarray, np.ndarray, Callable[[np.ndarray], np.ndarray] | None]:
+    """The Delaunay triangles of points within polygons, which lie to the left of their edges; the
+    numbers of edges that are missing; and, if none is, a function whether points are inside."""
     from scipy.spatial import Delaunay
     low, high = rim.min(0), rim.max(0)
     turn = np.linspace(0, 2 * np.pi, 16, endpoint=False)
     frame = 2 * np.linalg.norm(high - low) * np.stack([np.cos(turn), np.sin(turn)], 1)
     places = np.concatenate([rim, inner, frame + (low + high) / 2]) - low
-    triangles = Delaunay(places, qhull_options="QJ Qbb Q12").simplices.astype(int)
-    own, size = edges_of(triangles), len(places)
+    delaunay = Delaunay(places, qhull_options="QJ Qbb Q12")
+    triangles, size = delaunay.simplices.astype(int), len(places)
+    own = edges_of(triangles)
     keys, back, wanted = own @ (size, 1), own @ (1, size), edges @ (size, 1)
     missing = np.flatnonzero(~np.isin(wanted, keys))
     if len(missing):
-        return triangles, missing
+        return triangles, missing, None
+    of_rim, opposite = np.isin(keys, wanted), np.isin(back, wanted)
     order = np.argsort(keys)
     at = order[np.minimum(np.searchsorted(keys[order], back), len(keys) - 1)]
-    free = np.flatnonzero((keys[at] == back) & ~np.isin(keys, wanted) & ~np.isin(back, wanted))
-    part = _parts(np.append(free // 3, len(triangles) - 1), np.append(at[free] // 3,
-                                                                      len(triangles) - 1))
-    inside, outside = (np.unique(part[np.flatnonzero(np.isin(ways, wanted)) // 3])
-                       for ways in (keys, back))
-    triangles = triangles[np.isin(part, inside)]
-    if len(np.intersect1d(inside, outside)) or triangles.max() >= len(rim) + len(inner):
+    free = np.flatnonzero((keys[at] == back) & ~of_rim & ~opposite)
+    last = len(triangles) - 1
+    part = _parts(np.append(free // 3, last), np.append(at[free] // 3, last))
+    chosen = np.isin(part, part[np.flatnonzero(of_rim) // 3])
+    if chosen[np.flatnonzero(opposite) // 3].any() or triangles[chosen].max() >= size - len(frame):
         raise NotFlat
-    return triangles, missing
+    return triangles[chosen], missing, lambda points: chosen[delaunay.find_simplex(points - low)]
 
 
 def _crosses(points: np.ndarray, triangles: np.ndarray, changed: np.ndarray) -> bool:
@@ -311,7 +320,8 @@ def recount(surface: Any) -> None:
     triangles = triangles_of(surface)
     edges = edges_of(triangles)
     part = _parts(*edges.T)
-    area = np.bincount(part[triangles[:, 0]], np.linalg.norm(normals_of(points, triangles), axis=1) / 2)
+    double = np.linalg.norm(normals_of(points, triangles), axis=1)
+    area = np.bincount(part[triangles[:, 0]], double / 2)
     order = np.argsort(-area, kind="stable")
     part = np.argsort(order)[part]
     of, count = part[triangles[:, 0]], len(area)
@@ -326,10 +336,12 @@ def recount(surface: Any) -> None:
     volume = np.bincount(of, six / 6)
     sums = np.stack([np.bincount(of, six * column / 24) for column in (a + b + c).T], axis=1)
     center = sums / volume[:, None]
-    outer = [np.bincount(of, six / 120 * ((a + b + c)[:, i] * (a + b + c)[:, j] + sum(
-        p[:, i] * p[:, j] for p in (a, b, c)))) - volume * center[:, i] * center[:, j]
-        for i, j in ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2))]
-    trace = outer[0] + outer[1] + outer[2]
+    # Second moments about the centroid: xx, yy, zz, xy, yz, xz.
+    moments = np.stack([np.bincount(of, six / 120 * sum(
+        p[:, i] * p[:, j] for p in (a, b, c, a + b + c))) - volume * center[:, i] * center[:, j]
+        for i, j in ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2))], axis=1)
+    inertia = -moments
+    inertia[:, :3] += moments[:, :3].sum(axis=1, keepdims=True)
     owner = np.arange(count)
     if len(rims) == 0 and (volume < 0).any():
         try:
@@ -343,7 +355,7 @@ def recount(surface: Any) -> None:
              "Genus": [genus.sum()], "Area": [area.sum()], "Volume": [volume.sum()],
              "ComponentArea": area[order], "ComponentVolume": volume, "ComponentGenus": genus,
              "ComponentOwner": owner, "ComponentCentroid": center + points.mean(0),
-             "ComponentInertia": np.stack([*(trace - o for o in outer[:3]), *(-o for o in outer[3:])], 1)}
+             "ComponentInertia": inertia}
     solid = ("Volume", "ComponentVolume", "ComponentOwner", "ComponentCentroid", "ComponentInertia")
     cells = {"Component": of, **{name: np.asarray(whole[name])[of] for name in (
         "ComponentArea", "ComponentVolume", "ComponentGenus")}}

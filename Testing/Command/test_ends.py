@@ -16,7 +16,7 @@ from vtk_files import points_of, read, triangles_of
 
 
 class EndsTest(CommandTestCase):
-    """A tube of radius 5 through the image along z, whose axes are turned, with voxels of .5, .5, 1."""
+    """A tube of radius 5 along z through an image with turned axes and voxels of .5, .5, 1."""
     SPACING, ORIGIN = np.array([.5, .5, 1.]), np.array([3., 4., 5.])
 
     def tube(self, name="tube.vti", level=0):
@@ -78,7 +78,8 @@ class EndsTest(CommandTestCase):
         self.assertEqual(set(edges.values()), {1})
         self.assertTrue(all((b, a) in edges for a, b in edges))
         self.assertEqual(len(np.unique(triangles)), len(points))
-        caps, faces = (vtk_to_numpy(surface.GetCellData().GetArray(name)) for name in ("Cap", "BoxFace"))
+        caps, faces = (vtk_to_numpy(surface.GetCellData().GetArray(name))
+                       for name in ("Cap", "BoxFace"))
         np.testing.assert_array_equal(caps > 0, faces > 0)
         self.assertEqual(set(caps.tolist()), set(range(caps.max() + 1)))
         for side in set(faces.tolist()) - {0}:
@@ -90,7 +91,7 @@ class EndsTest(CommandTestCase):
         return caps, faces
 
     def test_caps_that_meet(self):
-        """A ball about a corner of the volume, and what leaves it on all sides, with holes in caps."""
+        """A ball about a corner of the volume, and what leaves it on all sides, with holes."""
         z, y, x = np.indices((20, 22, 24)).astype("f4")
         for values, sides in ((7 - np.sqrt(x ** 2 + y ** 2 + z ** 2), {0, 1, 3, 5}),
                               (2 - abs(4 - np.hypot(x - 12, y - 11)), {0, 5, 6}),
@@ -98,13 +99,15 @@ class EndsTest(CommandTestCase):
                                + np.cos(z / 3) * np.sin(x / 3), set(range(7)))):
             volume = self.write(vtkXMLImageDataWriter(), "leaving.vti",
                                 make_image(values, (1, 1, 1), (0, 0, 0)))
-            surface, points, triangles = self.surface("--iso", "0", "--ends", "marked", volume=volume)
+            surface, points, triangles = self.surface("--iso", "0", "--ends", "marked",
+                                                      volume=volume)
             _, faces = self.check_caps(surface, points, triangles)
             self.assertEqual(set(faces.tolist()), sides)
             for side in sides - {0}:
                 axis, last = divmod(side - 1, 2)
                 plane = values.shape[2 - axis] - 2 if last else 1
-                self.assertLess(abs(points[triangles[faces == side]][..., axis] - plane).max(), 1e-12)
+                places = points[triangles[faces == side]][..., axis]
+                self.assertLess(abs(places - plane).max(), 1e-12)
 
     def sponge(self):
         """Smooth noise."""
@@ -115,8 +118,8 @@ class EndsTest(CommandTestCase):
                           make_image((values / values.std()).astype("f4"), (1, 1, 1), (0, 0, 0)))
 
     def test_caps_with_many_holes(self):
-        """What is told of the surface is true of the file, and tetrahedra are as good at the caps as
-        elsewhere."""
+        """What is told of the surface is true of the file, and tetrahedra are as good at the caps
+        as elsewhere."""
         files = [self.path("a.vtp")] + [self.path("a.vtu")] * bool(shutil.which("tetgen"))
         report = self.report(self.sponge(), *files, "--iso", "0", "--ends", "marked")
         surface = read(self.path("a.vtp"))
@@ -139,7 +142,8 @@ class EndsTest(CommandTestCase):
         connect.Update()
         self.assertEqual((report["vertices"], report["triangles"], report["components"]),
                          (len(points), len(triangles), connect.GetNumberOfExtractedRegions()))
-        self.assertAlmostEqual(report["area"], np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2, 6)
+        double = np.linalg.norm(np.cross(b - a, c - a), axis=1).sum()
+        self.assertAlmostEqual(report["area"], double / 2, 6)
         fields = surface.GetFieldData()
         self.assertEqual(fields.GetArray("NumberOfComponents").GetValue(0), report["components"])
         self.assertEqual(fields.GetArray("Area").GetValue(0), report["area"])
@@ -158,7 +162,8 @@ class EndsTest(CommandTestCase):
 
     def test_what_lies_at_the_border_alone_stays(self):
         values = 1.2 - np.hypot(*np.indices((20, 22, 24))[:2]).astype("f4")
-        volume = self.write(vtkXMLImageDataWriter(), "rod.vti", make_image(values, (1, 1, 1), (0, 0, 0)))
+        volume = self.write(vtkXMLImageDataWriter(), "rod.vti",
+                            make_image(values, (1, 1, 1), (0, 0, 0)))
         whole, _, _ = self.surface("--iso", "0", volume=volume)
         for ends in ("open", "marked"):
             surface, _, _ = self.surface("--iso", "0", "--ends", ends, volume=volume)
@@ -178,8 +183,8 @@ class EndsTest(CommandTestCase):
         for reason, name, *options in (
                 ("'none' is none of closed, marked, open", "a.vtp", "--ends", "none"),
                 ("--ends open and files of solids, which are closed", "a.smesh", "--ends", "open"),
-                ("--ends and shared interfaces exclude", "a.vtp", "--ends", "open", "--labels", "all",
-                 "--shared-interfaces")):
+                ("--ends and shared interfaces exclude", "a.vtp", "--ends", "open", "--labels",
+                 "all", "--shared-interfaces")):
             self.refused(reason, volume, self.path(name), *options, status=2)
 
 

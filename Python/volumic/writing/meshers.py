@@ -74,12 +74,10 @@ class SetNames(NamedTuple):
 def cap_names(surface: Any) -> dict[int, str]:
     """{number in the cell array Cap: name} of the caps of --ends marked; `cap_1` and so on, unless
     a label has that name."""
-    names = DistinctNames("_", str)
-    for label in surface_labels(surface):
-        names.take(label.name)
     caps = cell_array(surface, "Cap")
-    return {int(cap): names.take(f"cap_{cap}") for cap in np.unique(caps if caps is not None else [])
-            if cap > 0}
+    names = DistinctNames("_", str, [label.name for label in surface_labels(surface)])
+    return {} if caps is None else {
+        cap: names.take(f"cap_{cap}") for cap in np.unique(caps).tolist() if cap > 0}
 
 
 def parts_of(surface: Any) -> np.ndarray:
@@ -98,6 +96,7 @@ def rows(form: str, *columns: Any) -> str:
 
 
 def write_lines(path: str, *parts: str) -> None:
+    """Write a file of these parts."""
     with open(path, "w", encoding="utf-8", newline="\n") as file:
         for part in parts:
             file.write(part)

@@ -99,8 +99,8 @@ def write_solid_msh(solid: Any, path: str, remark: str = "") -> None:
     """MSH 2.2, which most importers read. A face is in one physical surface only: in that of its
     cap, otherwise of its side of a box, otherwise of the two labels."""
     faces = faces_of(solid)
-    part = faces.part
-    kinds = np.stack([part, *(np.where(part > 0, 0, end) for end in (faces.first, faces.second))], 1)
+    part, plain = faces.part, faces.part == 0
+    kinds = np.stack([part, faces.first * plain, faces.second * plain], axis=1)
     found, group = np.unique(kinds, axis=0, return_inverse=True)
     order = np.argsort(group.ravel(), kind="stable")
     marks = 1 + group.ravel()[order]
@@ -207,14 +207,14 @@ def write_by_meshio(solid: Any, path: str, _remark: str = "") -> None:
                                   for i, kind in enumerate(kinds)}
                 mesh.cell_tags.update({-label: [name] for label, name in names.labels.items()})
             if form == "xdmf":
+                values = {"Label": solid.labels, **solid.cell_values}
                 mesh = meshio.Mesh(solid.points, [("tetra", solid.cells)], solid.point_values,
-                                   {"Label": [solid.labels], **{
-                                       name: [values] for name, values in solid.cell_values.items()}})
+                                   {name: [array] for name, array in values.items()})
             if form == "exodus":
                 mesh = meshio.Mesh(
                     solid.points, [("tetra", solid.cells[solid.labels == n]) for n in names.labels],
-                    solid.point_values,
-                    point_sets={name: np.unique(faces.corners[which]) for name, which in sets.items()})
+                    solid.point_values, point_sets={
+                        name: np.unique(faces.corners[which]) for name, which in sets.items()})
             meshio.write(path, mesh, form, **({"data_format": "XML"} if form == "xdmf" else {}))
             if form == "exodus":
                 _name_blocks(path, names.labels)
