@@ -202,7 +202,7 @@ def _check_without_labels(options: argparse.Namespace) -> None:
 
 
 def _check_with_labels(options: argparse.Namespace) -> None:
-    from .label_outputs import check_outputs, shares_interfaces
+    from .segment_labels import check_outputs, shares_interfaces
     mode = "list-labels" if options.list_labels else "labels"
     if options.list_labels and options.surfaces:
         raise UsageError(f"{options.surfaces[0]}: --list-labels makes no surfaces; leave out the "
