@@ -5,7 +5,6 @@
 import gzip
 import json
 import os
-import re
 import unittest
 
 import numpy as np
