@@ -216,9 +216,9 @@ def _check_with_labels(options: argparse.Namespace) -> None:
         if item.name == "KeepComponents" and text in ("at-points", "not-at-seeds"):
             raise UsageError(f"--keep {text} and --labels exclude each other")
     if shares_interfaces(options):
-        for option, why in (("probe-depth", ", which have no normals,"), ("ends", "")):
-            if option in options.given:
-                raise UsageError(f"--{option} and shared interfaces{why} exclude each other")
+        if "probe-depth" in options.given:
+            raise UsageError("--probe-depth and shared interfaces, which have no normals, exclude "
+                             "each other")
     check_outputs(options)
 
 

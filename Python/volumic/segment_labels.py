@@ -273,7 +273,9 @@ class LabelRun:
             each.surface = with_ends(each.surface, self.loaded.image, self.options.ends, warnings)
             for text in warnings:
                 self.warn(f"{each.name}: {text}")
-        surfaces = [*(each.surface for each in self.surfaces), self.filter.GetInterfaces()]
+        self.interfaces = with_ends(self.filter.GetInterfaces(), self.loaded.image,
+                                    self.options.ends, [])
+        surfaces = [*(each.surface for each in self.surfaces), self.interfaces]
         probes.add_to(*surfaces)
         for surface in surfaces:
             geometry.mark_space(surface, self.loaded.world)
@@ -298,7 +300,7 @@ class LabelRun:
     def write_together(self, name: str, form: str, progress: messages.Progress) -> None:
         """Write all surfaces to one file."""
         if form == "interfaces":  # All are made at once: they are as finished as the first.
-            writing.write_surface(self.filter.GetInterfaces(), name, self.surfaces[0].remark,
+            writing.write_surface(self.interfaces, name, self.surfaces[0].remark,
                                   self.solids, self.teller.warn, progress)
         elif writing.is_scene(name):
             writing.write_scene([(each.name, each.surface) for each in self.surfaces], name,
@@ -367,6 +369,8 @@ def segment_labels(options: Namespace, filters: Filters, teller: Teller) -> int:
     """Do what the command line requests of a label map; return the exit code."""
     shared = shares_interfaces(options)
     filters.labels.SetSharedInterfaces(shared)
+    if shared and options.ends != "closed" and not has_property(options, "BoxFaces"):
+        filters.labels.SetBoxFacesToFlat()  # the planes of the caps
     # Masks that overlap stay whole where each has a surface of its own.
     options.choice.layers = not shared and not filters.labels.GetMerge()
     check_files(options)

@@ -182,9 +182,7 @@ class EndsTest(CommandTestCase):
         volume = self.ball_file()
         for reason, name, *options in (
                 ("'none' is none of closed, marked, open", "a.vtp", "--ends", "none"),
-                ("--ends open and files of solids, which are closed", "a.smesh", "--ends", "open"),
-                ("--ends and shared interfaces exclude", "a.vtp", "--ends", "open", "--labels",
-                 "all", "--shared-interfaces")):
+                ("--ends open and files of solids, which are closed", "a.smesh", "--ends", "open")):
             self.refused(reason, volume, self.path(name), *options, status=2)
 
 

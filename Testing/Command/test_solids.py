@@ -219,6 +219,24 @@ class MesherTest(SolidsTest):
             self.assertEqual(re.findall(r"^solid (\w+)", self.content("a.stl").decode(), re.M),
                              ["wall", "cap_1", "cap_2"])
 
+    def test_caps_of_labels(self):
+        """Each connected part of a label in a side of the volume."""
+        found = np.zeros((10, 12, 26), "u1")
+        found[:, 3:9, 3:9] = found[:, 3:9, 16:22] = 1
+        found[:, 3:9, 9:12] = 2
+        self.run_command(self.map_of(found), self.path("a.vtp"), self.path("a.inp"), "--labels",
+                         "all", "--ends", "marked", "--label-names",
+                         self.write_bytes("caps.json", b'{"1": "blood", "2": "cap_1"}'))
+        surface = read(self.path("a.vtp"))
+        caps, sides, labels = (vtk_to_numpy(surface.GetCellData().GetArray(name))
+                               for name in ("Cap", "BoxFace", "BoundaryLabels"))
+        entries = set(zip(caps.tolist(), sides.tolist(), labels.max(axis=1).tolist()))
+        self.assertEqual(sorted(entry for entry in entries if entry[0]), [
+            (1, 5, 1), (2, 5, 1), (3, 6, 1), (4, 6, 1), (5, 5, 2), (6, 6, 2)])
+        mesh = inp_mesh(self.path("a.inp"))
+        for cap, name in enumerate(["cap_1_2", *(f"cap_{n}" for n in range(2, 7))], 1):
+            self.assertEqual(len(mesh.surfaces[name]), np.count_nonzero(caps == cap))
+
     def test_caps_without_a_mesher(self):
         self.run_command(self.outlets(), self.path("a.msh"), self.path("a.smesh"), "--iso", "0",
                          "--ends", "marked")
