@@ -44,15 +44,6 @@ function (volumic_wrap_python)
 endfunction ()
 
 volumic_wrap_python()
-set(volumic_wrapper vtkFiltersVolumicPython)
-if (TARGET "Py${volumic_wrapper}") # from VTK 9.7 on
-  string(PREPEND volumic_wrapper "Py")
-endif ()
-# All of it at once, and with little optimization: it only passes calls on.
-set_target_properties("${volumic_wrapper}" PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
-if (CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
-  target_compile_options("${volumic_wrapper}" PRIVATE "$<$<CONFIG:Release>:-O1>")
-endif ()
 
 # What helps where the package does not find the VTK that it was built for.
 if (VOLUMIC_BUILD_PARAVIEW_PLUGIN)
@@ -117,6 +108,10 @@ if (volumic_stubs_obstacle)
 else ()
   set(volumic_stubs "${volumic_python_package}/vtkFiltersVolumic.pyi"
     "${volumic_python_package}/__init__.pyi" "${volumic_python_package}/py.typed")
+  set(volumic_wrapper vtkFiltersVolumicPython)
+  if (TARGET "Py${volumic_wrapper}") # from VTK 9.7 on
+    string(PREPEND volumic_wrapper "Py")
+  endif ()
   set(volumic_stubs_script "${CMAKE_CURRENT_LIST_DIR}/write_stubs.py")
   add_custom_command(OUTPUT ${volumic_stubs}
     COMMAND ${volumic_stubs_command} "${volumic_stubs_script}" "${volumic_python_package}"

@@ -99,7 +99,7 @@ configure_copy()
   cmake -S "$copy/sources" -B "$copy/build" -G Ninja \
     -DCMAKE_BUILD_TYPE=None -DCMAKE_CXX_FLAGS=-O1 -DVOLUMIC_BUILD_PARAVIEW_PLUGIN=OFF \
     -DVOLUMIC_BUILD_TESTING=ON -DVOLUMIC_BUILD_EXAMPLES=OFF -DVOLUMIC_WRAP_PYTHON=OFF \
-    -DCMAKE_UNITY_BUILD=OFF "${vtk_options[@]}"
+    "${vtk_options[@]}"
 }
 
 build_copy() { cmake --build "$copy/build" --target TestCore -j "$(job_count)"; }

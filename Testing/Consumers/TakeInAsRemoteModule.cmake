@@ -29,8 +29,7 @@ if (newer) # VTK 9.7
   set(module vtkFiltersVolumic)
 endif ()
 foreach (source IN ITEMS
-    VolumicCore.dir/Core/Image/Field.cxx
-    VolumicCore.dir/Unity/unity_Mesh_cxx.cxx
+    VolumicCore.dir/Core/Mesh/SurfaceMesh.cxx
     ${module}.dir/Run/RunFingerprint.cxx
     ${module}.dir/Unity/unity_0_cxx.cxx)
   list(APPEND objects "Remote/Volumic/Filters/CMakeFiles/${source}.o")
