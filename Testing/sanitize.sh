@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# Builds the C++ tests and the command twice more, for VTK, and runs them: with AddressSanitizer and
+# Builds the C++ tests twice more, for VTK, and runs them: with AddressSanitizer and
 # UndefinedBehaviorSanitizer, and with ThreadSanitizer. What they find makes tests fail. Flags,
 # environment and selection are those of the presets `asan` and `tsan` in CMakePresets.json.
 
