@@ -146,8 +146,8 @@ class Filters:
 
 
 SHARED_WITH_LABELS = ("Metric", "EdgeLength", "Tolerance", "MaximumEdgeLength", "Gradation",
-                      "ThinParts", "FinestLevel", "KeepComponents", "MinimumComponentVolume",
-                      "TimeLimit", "NumberOfThreads", "ScratchDirectory")
+                      "FinestLevel", "KeepComponents", "MinimumComponentVolume", "TimeLimit",
+                      "NumberOfThreads", "ScratchDirectory")
 SHARED_WITH_PYRAMID = ("SelectedComponent", "NaNIsBackground", "NumberOfThreads",
                        "ScratchDirectory")
 
@@ -243,12 +243,11 @@ PROPERTIES = (
     Property("voxel-tolerance", "VOXELS", "VoxelTolerance", "with --labels: how far a voxel "
              "centre may lie on the wrong side, in smallest voxel distances; 0: every centre on "
              "its side", LABELS),
-    Property("shared-interfaces", "", "SharedInterfaces", "with --labels: one conforming mesh "
-             "whose labels share their interfaces; implied by .vtu .inp .msh .smesh .poly",
-             LABELS, value=True),
-    Property("box-faces", "rounded|flat|periodic", "BoxFaces", "with --labels as one mesh: shape "
-             "at the border of the volume; flat: in its planes, with edges and corners; periodic: "
-             "also equal triangles on opposite sides", LABELS),
+    Property("box-faces", "rounded|flat|periodic", "BoxFaces", "with --labels: shape at the "
+             "border of the volume; flat: in its planes, with edges and corners; periodic: also "
+             "equal triangles on opposite sides", LABELS),
+    Property("shared-interfaces", "", "SharedInterfaces", "no effect: labels always share their "
+             "interfaces", LABELS, value=True),
 )
 
 

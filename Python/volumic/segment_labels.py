@@ -32,23 +32,20 @@ LEAST_TIME = 1e-3  # seconds of a layer where the others have used the time limi
 
 # ---- Names of files ------------------------------------------------------------------------------
 
-def shares_interfaces(options: Namespace) -> bool:
-    """Whether one mesh of all labels is requested, or a file that needs it."""
-    return has_property(options, "SharedInterfaces") or (
-        not has_property(options, "Merge") and any(map(writing.is_of_solids, options.surfaces)))
-
-
-def form_of(options: Namespace, name: str) -> str:
-    """What a name requests: a `folder` of files, `blocks` or a scene of all surfaces, the
-    `interfaces` of all labels as one mesh, or a `file` of one surface."""
+def form_of(name: str) -> str:
+    """What a name requests: a `folder` of files, `blocks` or a scene of all surfaces, a `mesh` of
+    all labels, or a `file` of one surface."""
     suffix = os.path.splitext(name)[1].lower()
     if name.endswith("/") or not suffix or os.path.isdir(name):
         return "folder"
     if suffix == ".vtm" or writing.is_scene(name):
         return "blocks"
-    is_mesh = suffix in (".vtp", ".vtk") or (
-        writing.is_of_solids(name) and not has_property(options, "Merge"))
-    return "interfaces" if is_mesh and shares_interfaces(options) else "file"
+    return "mesh" if suffix in (".vtp", ".vtk") or writing.is_of_solids(name) else "file"
+
+
+def makes_mesh(options: Namespace) -> bool:
+    """Whether a file of the mesh of all labels is requested."""
+    return not has_property(options, "Merge") and "mesh" in map(form_of, options.surfaces)
 
 
 def suffix_in_folder(options: Namespace) -> str:
@@ -59,7 +56,7 @@ def suffix_in_folder(options: Namespace) -> str:
 def check_outputs(options: Namespace) -> None:
     """Throw UsageError if surfaces of labels cannot be written to the names of the options."""
     names = options.surfaces
-    forms = [form_of(options, name) for name in names]
+    forms = [form_of(name) for name in names]
     for name, form in zip(names, forms):
         is_new = form == "folder" and name[-1] not in "-/" and not os.path.isdir(name)
         if is_new and (len(names) > 1 or re.fullmatch("[+-]?[0-9]+(-[+-]?[0-9]+)?", name)):
@@ -70,9 +67,9 @@ def check_outputs(options: Namespace) -> None:
             raise UsageError("surfaces of labels are not written to the standard output")
         if form == "folder" and has_property(options, "Merge"):
             raise UsageError(f"{name}: --merge makes one surface; give a file, not a folder")
-        if form in ("folder", "file"):
+        if form != "blocks":
             writing.check_surface_name(
-                name if form == "file" else "labels" + suffix_in_folder(options))
+                "labels" + suffix_in_folder(options) if form == "folder" else name)
     if options.format and names and "folder" not in forms:
         raise UsageError("--format is that of the files in a folder; the format of "
                          f"{names[0]} is its suffix")
@@ -88,7 +85,7 @@ def check_files(options: Namespace) -> None:
     """Throw Failure or UsageError if something is wrong with the files before the work begins."""
     if options.write_volume:
         writing.check_volume_name(options.write_volume)
-    files.check_outputs([output_of(name, form_of(options, name)) for name in options.surfaces]
+    files.check_outputs([output_of(name, form_of(name)) for name in options.surfaces]
                         + other_outputs(options), inputs_of(options))
     if makes_tetrahedra(options):
         find_mesher(options.mesher)
@@ -103,7 +100,6 @@ class LabelSurface:
     name: str
     surface: Any = dataclasses.field(default_factory=vtkPolyData)  # empty: there is none
     files: list[str] = dataclasses.field(default_factory=list)  # that were written of it alone
-    seconds: float = 0.0
 
     def __post_init__(self) -> None:
         geometry.set_fact(self.surface, "StopReason", "cancelled")  # until its turn comes
@@ -136,7 +132,7 @@ class LabelSurface:
             "labels": [label.label for label in self.labels], "name": self.name,
             "color": first.color, "layer": first.layer,
             "voxels": self.count("LabelVoxels", sum(label.voxels for label in self.labels)),
-            "files": self.files, "seconds": self.seconds, **report.surface_facts(self.surface),
+            "files": self.files, **report.surface_facts(self.surface),
             "component_features": report.component_features(self.surface)}
 
 
@@ -157,6 +153,7 @@ class LabelRun:
         self.options, self.loaded, self.teller = options, loaded, teller
         self.filters, self.filter = filters, filters.labels
         self.surfaces: list[LabelSurface] = []
+        self.meshes: list[Any] = []  # of the labels of each layer, with interfaces once
         self.seconds, self.reader_memory = 0.0, report.peak_memory()
         component = (filters.surface.GetSelectedComponent()
                      if has_property(options, "SelectedComponent") else None)
@@ -192,19 +189,22 @@ class LabelRun:
                 f"{options.volume}: it has no label but the background, "
                 f"{self.filter.GetBackgroundLabel()}; choose another one with --background")
         is_merged = self.filter.GetMerge()
-        if (is_merged or shares_interfaces(options)) and len({each.layer for each in chosen}) > 1:
-            raise Failure(f"{'--merge' if is_merged else '--shared-interfaces'}: the labels lie in "
-                          "several layers of the file; choose one layer with --component")
+        if (is_merged or makes_mesh(options)) and len({each.layer for each in chosen}) > 1:
+            raise Failure("the labels lie in several layers of the file, which one mesh cannot "
+                          "hold; choose one layer with --component, or give a folder (OUT/)")
         self.surfaces = [LabelSurface(group, group[0].name) for group in (
             [chosen] if is_merged else [[label] for label in chosen])]
+        if "probe-depth" in options.given and makes_mesh(options) and len(chosen) > 1:
+            raise Failure("--probe-depth: the mesh of several labels has no normals; give a "
+                          "folder (OUT/)")
         for name in options.surfaces:
-            form, (stem, suffix) = form_of(options, name), os.path.splitext(name)
+            form, (stem, suffix) = form_of(name), os.path.splitext(name)
             if form == "file" and len(self.surfaces) > 1:
                 raise Failure(
                     f"{name}: {len(self.surfaces)} labels have as many surfaces: give a folder "
                     f"({stem}/ --format {suffix[1:].lower()}) or blocks ({stem}.vtm, {stem}.glb, "
-                    f"{stem}.3mf), or make one surface of them with --merge, or one mesh of all "
-                    f"with --shared-interfaces ({stem}.vtp, .vtk, .vtu, .inp, .msh, .smesh, .poly)")
+                    f"{stem}.3mf), one mesh of all ({stem}.vtp, .vtk, .vtu, .inp, .msh, .smesh, "
+                    ".poly), or one surface around all with --merge")
             outputs += [output_of(path, "file") for path in self.paths(name, form)
                         if form != "folder" or os.path.isdir(name)]
         files.check_outputs(outputs + other_outputs(options), inputs_of(options))
@@ -227,22 +227,21 @@ class LabelRun:
             if reasons:
                 raise Interrupted(("the time limit came" if "time limit" in reasons
                                    else "interrupted") + " before " + NOTHING)
-            raise Failure(f"{self.options.volume}: none of the labels has a surface; smaller "
-                          "triangles may hold them (--finest, --edge-length)")
+            raise Failure(f"{self.options.volume}: none of the labels has a surface "
+                          "(--keep, --minimum-component-volume)")
 
     def make_with(self, edge_length: float, tolerance: float) -> tuple[int, float]:
-        """Make the surfaces; return their triangles, each of shared ones once, and their area."""
+        """Make the surfaces; return the triangles of the files to write, and their area."""
         self.filter.SetEdgeLength(edge_length)
         self.filter.SetTolerance(tolerance)
         self.make_layers()
-        whole = ([self.filter.GetInterfaces()] if self.filter.GetSharedInterfaces()
-                 else [each.surface for each in self.surfaces])
+        whole = self.meshes if self.writes_mesh else [each.surface for each in self.surfaces]
         return (sum(surface.GetNumberOfPolys() for surface in whole),
                 sum(each.count("Area") for each in self.surfaces))
 
     def make_layers(self) -> None:
         """Make the surfaces, layer by layer."""
-        limit = self.filter.GetTimeLimit()
+        limit, self.meshes = self.filter.GetTimeLimit(), []
         for number, layer in enumerate(self.layers):
             own = [each for each in self.surfaces if each.labels[0].layer == number]
             if not own or messages.was_interrupted():
@@ -260,8 +259,10 @@ class LabelRun:
             lost = in_words_of_options(geometry.fact(blocks, "LostLabels"))
             for text in [*run.warnings] + [lost] * (lost not in " ".join(run.warnings)):
                 self.warn(text)
+            self.meshes.append(vtkPolyData())
+            self.meshes[-1].ShallowCopy(self.filter.GetInterfaces())
             for i, each in enumerate(own[:blocks.GetNumberOfBlocks()]):
-                each.seconds, each.surface = self.filter.GetSeconds(i), blocks.GetBlock(i)
+                each.surface = blocks.GetBlock(i)
                 each.name = blocks.GetMetaData(i).Get(blocks.NAME()) or each.name
 
     def finish(self) -> None:
@@ -273,9 +274,11 @@ class LabelRun:
             each.surface = with_ends(each.surface, self.loaded.image, self.options.ends, warnings)
             for text in warnings:
                 self.warn(f"{each.name}: {text}")
-        self.interfaces = with_ends(self.filter.GetInterfaces(), self.loaded.image,
-                                    self.options.ends, [])
-        surfaces = [*(each.surface for each in self.surfaces), self.interfaces]
+        surfaces = [each.surface for each in self.surfaces]
+        if self.writes_mesh:
+            self.meshes = [with_ends(mesh, self.loaded.image, self.options.ends, [])
+                           for mesh in self.meshes]
+            surfaces += self.meshes
         probes.add_to(*surfaces)
         for surface in surfaces:
             geometry.mark_space(surface, self.loaded.world)
@@ -285,9 +288,9 @@ class LabelRun:
         """Write surfaces and report. Throw Failure if not all could be written."""
         failures = files.Failures()
         for name in self.options.surfaces:
-            form = form_of(self.options, name)
+            form = form_of(name)
             with self.teller.progress(f"Writing {name}") as progress:
-                if form in ("folder", "file"):
+                if form in ("folder", "file") or (form == "mesh" and not self.writes_mesh):
                     self.write_files(name, form, failures, progress)
                     continue
                 with failures.collect():
@@ -299,8 +302,8 @@ class LabelRun:
 
     def write_together(self, name: str, form: str, progress: messages.Progress) -> None:
         """Write all surfaces to one file."""
-        if form == "interfaces":  # All are made at once: they are as finished as the first.
-            writing.write_surface(self.interfaces, name, self.surfaces[0].remark,
+        if form == "mesh":  # All are made at once: they are as finished as the first.
+            writing.write_surface(self.meshes[0], name, self.surfaces[0].remark,
                                   self.solids, self.teller.warn, progress)
         elif writing.is_scene(name):
             writing.write_scene([(each.name, each.surface) for each in self.surfaces], name,
@@ -330,15 +333,25 @@ class LabelRun:
 
     def report_text(self) -> str:
         """The report as JSON, `labels` with an object for each surface."""
-        is_shared = shares_interfaces(self.options)
+        mesh = self.meshes[0] if len(self.meshes) == 1 else vtkPolyData()
         return report.ended({
             "input": report.input_facts(self.options.volume, self.loaded),
             "finished": self.is_finished, "labels": [each.facts() for each in self.surfaces],
-            **report.facts_of(self.filter.GetInterfaces(), report.INTERFACE_FACTS),
-            **(report.solid_facts(self.solids.last) if is_shared else {}),
+            **report.facts_of(mesh, report.INTERFACE_FACTS),
+            **report.solid_facts(self.solid),
             "seconds": {"surface": self.seconds},
             "memory": {"reader": self.reader_memory, "peak": report.peak_memory()},
             "properties": report.property_values(self.filters, is_of_labels)}, self.warnings)
+
+    @property
+    def writes_mesh(self) -> bool:
+        """Whether a file gets the mesh of several labels."""
+        return makes_mesh(self.options) and len(self.surfaces) > 1
+
+    @property
+    def solid(self) -> Any:
+        """The tetrahedra of a file of their own, if there are any."""
+        return self.solids.last if "mesh" in map(form_of, self.options.surfaces) else None
 
     @property
     def is_finished(self) -> bool:
@@ -356,23 +369,20 @@ class LabelRun:
         if stopped:
             missing = ", ".join(each.name for each in stopped if not each.is_there)
             self.teller.error(
-                f"unfinished ({stopped[-1].unfinished}); what is finished was written"
+                f"unfinished ({stopped[-1].unfinished}); the surfaces as they are were written"
                 + (f"; there is no surface of {missing}" if missing else ""))
         self.teller.say(report.text_of_print(
             prints(self.options, self.options.surfaces), [each.surface for each in there],
             self.loaded.world.unit))
-        if shares_interfaces(self.options):
-            self.teller.say(report.text_of_solid(self.solids.last))
+        self.teller.say(report.text_of_solid(self.solid))
 
 
 def segment_labels(options: Namespace, filters: Filters, teller: Teller) -> int:
     """Do what the command line requests of a label map; return the exit code."""
-    shared = shares_interfaces(options)
-    filters.labels.SetSharedInterfaces(shared)
-    if shared and options.ends != "closed" and not has_property(options, "BoxFaces"):
+    if options.ends != "closed" and not has_property(options, "BoxFaces"):
         filters.labels.SetBoxFacesToFlat()  # the planes of the caps
     # Masks that overlap stay whole where each has a surface of its own.
-    options.choice.layers = not shared and not filters.labels.GetMerge()
+    options.choice.layers = not makes_mesh(options) and not filters.labels.GetMerge()
     check_files(options)
     loaded = geometry.load_volume(options, filters, teller, announce=False)
     names = name_labels(options, loaded.volume, loaded.image, teller)

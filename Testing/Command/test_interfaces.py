@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""`volumic --shared-interfaces`, and files for meshers of solids: .msh, .smesh, .poly."""
+"""`volumic --labels`: one mesh of all labels, also for meshers of solids: .msh, .smesh, .poly."""
 
 import json
 import os
@@ -63,8 +63,7 @@ class InterfacesTest(LabelsTest):
 class OneMeshTest(InterfacesTest):
     def test_each_triangle_is_there_once(self):
         """The contents of the files; C++ tests check the mesh itself."""
-        self.make(sectors(), "a.vtp", "a.vtk", "a.vtm", options=[
-            "--shared-interfaces", "--report", self.path("r.json")])
+        self.make(sectors(), "a.vtp", "a.vtk", "a.vtm", options=["--report", self.path("r.json")])
         mesh = read(self.path("a.vtp"))
         lines = vtk_to_numpy(mesh.GetLines().GetConnectivityArray()).reshape(-1, 2)
         triangles = triangles_of(mesh)
@@ -94,32 +93,33 @@ class OneMeshTest(InterfacesTest):
         self.assertEqual(report["small_contacts"], 0)
 
     def test_merged(self):
-        self.make(sectors(), "a.vtp", "a.smesh", options=["--merge", "--shared-interfaces"])
+        self.make(sectors(), "a.vtp", "a.smesh", options=["--merge"])
         self.assertIn(b"# region 1: liver, left kidney, a 'b' ... x", self.content("a.smesh"))
-        mesh = read(self.path("a.vtp"))
-        self.assertEqual(mesh.GetNumberOfLines(), 0)
-        sides = vtk_to_numpy(mesh.GetCellData().GetArray("BoundaryLabels"))
-        self.assertEqual(set(map(tuple, sides.tolist())), {(1, 0), (2, 0), (4, 0), (9, 0)})
+        labels = vtk_to_numpy(read(self.path("a.vtp")).GetCellData().GetArray("Label"))
+        self.assertEqual(set(labels.tolist()), {1, 2, 4, 9})
 
-    def test_files_that_imply_it(self):
+    def test_files_of_one_label_and_of_several(self):
         volume = self.map_of(sectors())
-        for name, shared in (("a.msh", "on"), ("a.poly", "on"), ("a.vtp", "off"), ("o/", "off")):
-            labels = "1" if name == "a.vtp" else "1,2"
+        for name, labels in (("a.msh", "1,2"), ("a.vtp", "1"), ("b.vtp", "1,2"), ("o/", "1,2")):
             report = self.report(volume, self.path(name), "--labels", labels,
                                  *["--format", "msh"] * (name == "o/"))
-            self.assertEqual(report["properties"]["SharedInterfaces"], shared)
-            self.assertEqual("worst_angle" in report, shared == "on")
+            self.assertIn("worst_angle", report)
             self.assertTrue(os.path.getsize(self.path(name)))
         self.assertEqual(sorted(os.listdir(self.path("o"))), ["label-1.msh", "label-2.msh"])
-        self.assertFalse(read(self.path("a.vtp")).GetCellData().HasArray("BoundaryLabels"))
+        for name, mesh in (("a.vtp", False), ("b.vtp", True)):
+            cells = read(self.path(name)).GetCellData()
+            self.assertEqual((cells.HasArray("BoundaryLabels"), cells.HasArray("Label")),
+                             (mesh, not mesh))
 
-    def test_what_does_not_go_with_it(self):
-        volume = self.map_of(sectors())
-        self.refused(r"a.stl: 4 labels .* --merge, or one mesh of all with --shared-interfaces "
-                     r"\(.*a.vtp, .vtk, .vtu, .inp, .msh, .smesh, .poly\)", volume,
-                     self.path("a.stl"), "--labels", "all", "--shared-interfaces")
-        self.refused("map.vti: .*--shared-interfaces", volume, self.path("a.msh"), "--labels",
-                     "all", "--thin-parts")
+    def test_the_former_option_has_no_effect(self):
+        volume, files = self.map_of(sectors()), set()
+        for number, more in enumerate(((), ("--shared-interfaces",))):
+            process = self.run_command(volume, self.path(f"{number}.vtp"), "--labels", "all", *more)
+            self.assertNotIn("warning", process.stderr)
+            files.add(self.content(f"{number}.vtp"))
+        self.assertEqual(len(files), 1)
+
+    def test_labels_in_layers(self):
         layers = "".join(f"Segment{i}_{key}:={value}\n" for i in range(2) for key, value in (
             ("LabelValue", 1), ("Layer", i), ("Name", f"s{i}")))
         head = ("NRRD0004\ntype: uint8\ndimension: 4\nsizes: 2 9 9 9\nkinds: list domain domain "
@@ -128,27 +128,28 @@ class OneMeshTest(InterfacesTest):
         voxels = np.zeros((9, 9, 9, 2), "u1")
         voxels[2:7, 2:7, 2:7, 0] = voxels[3:8, 3:8, 3:8, 1] = 1
         file = self.write_bytes("two.seg.nrrd", head.encode() + voxels.tobytes())
-        self.refused("--shared-interfaces: the labels lie in several layers .* --component", file,
+        self.refused("the labels lie in several layers .* --component, or give a folder", file,
                      self.path("a.msh"), "--labels", "all")
         self.run_command(file, self.path("a.msh"), "--labels", "s1")
+        rows = self.report(file, self.path("o/"), "--labels", "all")["labels"]
+        self.assertEqual([row["voxels"] for row in rows], [125, 125])
 
     def test_the_box(self):
         file = self.map_file("map.vti", make_image(period(), SPACING, ORIGIN, TURNED))
-        self.run_command(file, self.path("a.vtp"), "--labels", "all", "--shared-interfaces",
-                         "--box-faces", "periodic")
+        self.run_command(file, self.path("a.vtp"), "--labels", "all", "--box-faces",
+                         "periodic")
         mesh = read(self.path("a.vtp"))
         points = (points_of(mesh) - ORIGIN) @ np.linalg.inv(TURNED).T / SPACING
         faces = vtk_to_numpy(mesh.GetCellData().GetArray("BoxFace"))[mesh.GetNumberOfLines():]
         self.assertEqual(set(faces), set(range(7)))
         at = points[triangles_of(mesh)[faces == 2]][..., 0]
         self.assertLess(np.abs(at - (period().shape[2] - 0.5)).max(), 1e-12)
-        for voxels, said, *options in (
-                (period()[:, :12], r"not along y: .* differs from it in \d+ % of the voxels, .* "
-                 "Set --box-faces to flat", "o.msh", "--box-faces", "periodic"),
-                (period(), "--box-faces are to be flat.*Give --shared-interfaces", "o/",
-                 "--box-faces", "flat")):
-            self.refused(said, self.map_of(voxels), self.path(options[0]), "--labels", "all",
-                         *options[1:])
+        self.refused(r"not along y: .* differs from it in \d+ % of the voxels, .* Set --box-faces "
+                     "to flat", self.map_of(period()[:, :12]), self.path("o.msh"), "--labels",
+                     "all", "--box-faces", "periodic")
+        self.run_command(file, self.path("o/"), "--labels", "2,3", "--box-faces", "flat")
+        faces = read(self.path("o/label-2.vtp")).GetCellData().GetArray("BoxFace")
+        self.assertGreater(faces.GetRange()[1], 0)
 
 
 def sections_of(path):

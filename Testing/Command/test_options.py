@@ -30,8 +30,7 @@ NOT_OPTIONS = {"vtkDeformableSurface": {"InitialSurfaceConnection", "InitialSurf
                                         "AttractingPointsConnection", "AttractingPointsData",
                                         "Controller", "ShowLevels", "UseUpperValue", "MemoryLimit",
                                         "Resume"},
-               "vtkLabelsToSurfaces": {"Controller", "Gap", "LabelColor", "LabelName",
-                                       "MemoryLimit"},
+               "vtkLabelsToSurfaces": {"Controller", "LabelColor", "LabelName", "MemoryLimit"},
                "vtkImagePyramid": {"Controller", "MemoryLimit"}}
 
 

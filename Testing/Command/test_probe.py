@@ -104,9 +104,14 @@ class ProbeTest(CommandTestCase):
         self.run_command(labels, self.path("o/"), "--labels", "all", "--probe", self.other())
         surface = read(self.path("o/label-1.vtp"))
         self.assertTrue(surface.GetPointData().HasArray("pet"))
-        self.refused("--probe-depth and shared interfaces, which have no normals, exclude", labels,
-                     self.path("a.vtp"), "--labels", "all", "--shared-interfaces", "--probe",
-                     self.other(), "--probe-depth", "1", status=2)
+        self.run_command(labels, self.path("a.vtp"), "--labels", "all", "--probe", self.other(),
+                         "--probe-depth", "1")
+        self.assertTrue(read(self.path("a.vtp")).GetPointData().HasArray("pet"))
+        halves = self.write(vtkXMLImageDataWriter(), "two.vti",
+                            make_image(np.where(self.twice_x() < 0, 3, 7).astype("u1")))
+        self.refused("--probe-depth: the mesh of several labels has no normals", halves,
+                     self.path("a.vtp"), "--labels", "all", "--probe", self.other(),
+                     "--probe-depth", "1")
 
 
 if __name__ == "__main__":

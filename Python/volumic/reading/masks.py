@@ -111,8 +111,8 @@ def _warnings(shared, counts, called):
     warnings = []
     if shared:
         pairs = ["%s and %s %d" % (called[a], called[b], n) for (a, b), n in sorted(shared.items())]
-        warnings.append("%d times a voxel is in two masks (%s): the smaller mask has it; surfaces "
-                        "that are made separately (without --shared-interfaces) can have both"
+        warnings.append("%d times a voxel is in two masks (%s): the smaller mask has it; a folder "
+                        "(OUT/) has a file for each mask as a whole"
                         % (sum(shared.values()), ", ".join(pairs[:5]) + ", ..." * (len(pairs) > 5)))
     empty = [name for name, count in zip(called[1:], counts[1:]) if not count]
     return warnings + ["masks without a voxel: " + ", ".join(empty)] * bool(empty)

@@ -52,8 +52,8 @@ def is_scene(name: str) -> bool:
 
 
 def is_of_solids(name: str) -> bool:
-    """Return whether a file of this name holds tetrahedra or is for meshers: of labels it needs
-    shared interfaces."""
+    """Return whether a file of this name holds tetrahedra or is for meshers: of several labels it
+    holds one mesh."""
     return suffix_of(name) in (*TETRAHEDRA, *FOR_MESHERS)
 
 
