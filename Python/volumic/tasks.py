@@ -11,11 +11,13 @@
 task leaves its result in the folder and returns nothing. A job that was killed resumes there, and a
 task that runs twice finds its result.
 
-Surfaces are bit-identical to those that vtkLabelsToSurfaces makes of the whole map. The surface of
-a label depends on the voxels in the bricks of 4 x 4 x 4 voxels, from voxel 0 of the map on, that
-contain the label, and in those up to three further. Labels in bricks up to two further may claim
-positions where three labels meet. The crop contains all voxels of these labels. Settings that
-couple labels beyond that are refused: Gap, Merge, SharedInterfaces.
+Labels that lie near each other are a bundle, one task of `make`: a crop of the map with a margin
+about the labels, of which one mesh is made, as of a map of its own. All labels in the crop are in
+the mesh, so that the surfaces of the bundle fit to their neighbours; those of its own labels are
+written. Results are bit-identical for any number of workers and after kills, and whichever labels
+are made. Surfaces of different bundles are made of the same voxels, but do not share triangles.
+Where voxels of a label meet at edges only, how they connect depends on the labels' numbers of
+voxels in the crop.
 """
 
 from __future__ import annotations
@@ -34,18 +36,17 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.lib.stride_tricks import sliding_window_view
 
 from . import arrays, neuroglancer
+from . import vtkFiltersVolumic as filters
 from .arrays import Surface
 from .writing.files import HIDDEN, replace_file
 from .writing.surfaces import FORMATS
 
-BRICK = 4  # voxels, LabelBricks::Side
-MARGIN = 3  # bricks: those beside the label's, and those within LabelBricks' reach of them
-CLAIMS = 2  # bricks beside the label's in which the fields of other labels may be
+MARGIN = 4, 6  # of crops: so many standard deviations of the smoothing, and edge lengths
 BLOCK = 256  # voxels along each axis that are counted at a time, at most
 DETAILS = (1, 2, 3)  # FinestLevel of the coarser levels of detail: edges sqrt(3) times as long
+PERIODIC = 2  # BoxFaces
 Box = list[tuple[int, int]]  # [begin, end) of x, y and z
 
 
@@ -70,10 +71,11 @@ class Job:
     nanometers : float, optional
         Length of a world unit, for Neuroglancer (default: that of `source`, or 1).
     bundle : int, optional
-        Voxels of a crop up to which labels that lie near each other are one task.
+        Voxels of a crop up to which labels that lie near each other are one task. Another number
+        makes other bundles, and other triangles.
     most : int, optional
-        Voxels of the largest crop, which bounds the memory: a worker takes about 20 bytes for each
-        voxel of a crop, plus its surfaces. A label that needs a larger crop is refused.
+        Voxels of the largest crop, which bounds the memory. A label that needs a larger crop is
+        refused.
     **properties
         Those of vtkLabelsToSurfaces. Workers with several tasks at a time share the processors by
         NumberOfThreads.
@@ -85,10 +87,9 @@ class Job:
                  formats: Sequence[str] = (".vtp",), nanometers: float | None = None,
                  bundle: int = 1 << 24, most: int = 1 << 29, **properties: Any) -> None:
         arrays.check_properties("vtkLabelsToSurfaces", properties)
-        for name in ("Gap", "Merge", "SharedInterfaces"):
-            if properties.get(name):
-                raise ValueError(f"{name}={properties[name]} couples labels all over the map; "
-                                 "apply volumic.labels to the whole map")
+        if properties.get("Merge") or properties.get("BoxFaces") == PERIODIC:
+            raise ValueError("Merge and periodic BoxFaces couple labels all over the map; apply "
+                             "volumic.labels to the whole map")
         if properties.get("TimeLimit"):
             raise ValueError("TimeLimit would leave labels unfinished; end the job and restart it")
         for name in formats:
@@ -110,7 +111,7 @@ class Job:
         self.only = sorted({int(label) for label in only})
         self.formats = list(formats)
         self.nanometers = float(given(nanometers, "nanometers", 1))
-        self.bundle, self.most, self.properties = bundle, most, properties
+        self.bundle, self.most, self.properties = min(bundle, most), most, properties
         self._begin()
 
     def _begin(self) -> None:
@@ -120,7 +121,7 @@ class Job:
         free = ("NumberOfThreads", "MemoryLimit", "ScratchDirectory")  # without effect on results
         ours = {"shape": list(self.source.shape), "type": str(self.source.dtype),
                 "spacing": self.spacing, "origin": self.origin, "direction": self.direction,
-                "formats": self.formats, "nanometers": self.nanometers,
+                "formats": self.formats, "nanometers": self.nanometers, "bundle": self.bundle,
                 "properties": {name: value for name, value in sorted(self.properties.items())
                                if name not in free}}
         path = self._path("settings.json")
@@ -204,44 +205,32 @@ class Job:
     def bundles(self, part: int = 0, parts: int = 1) -> list[list[int]]:
         """Return the tasks for `make` that are not done, or the share of one of `parts`. Those with
         the largest crops come first."""
-        bundles: list[tuple[Box, list[int]]] = []
-        for label in sorted(self.labels(), key=self._order):
-            box = self._about([label])
-            together = _around(box, bundles[-1][0]) if bundles else box
-            if bundles and _count(together) <= self.bundle:
-                bundles[-1] = (together, bundles[-1][1] + [label])
-            else:
-                bundles.append((box, [label]))
-        bundles.sort(key=lambda bundle: -_count(bundle[0]))
-        due = [[label for label in labels if not self.is_done(label)]
-               for _, labels in bundles[part::parts]]
-        for label in itertools.chain(*due):
-            self._check([label], self._about([label]))
-        return [labels for labels in due if labels]
+        wanted, due = set(self.labels()), []
+        for box, labels in self._plan()[part::parts]:
+            labels = [label for label in labels if label in wanted and not self.is_done(label)]
+            if labels and _count(box) > self.most:
+                size = " x ".join(str(end - begin) for begin, end in box)
+                raise ValueError(f"label {labels[0]} and its margin are {size} voxels, more than "
+                                 f"most={self.most}: allow more, or exclude the label by `only`")
+            due += [labels] * bool(labels)
+        return due
 
     def make(self, labels: Sequence[int]) -> None:
-        """Make the surfaces of labels, in a crop with all that they depend on."""
-        due = [label for label in labels if not self.is_done(label)]
-        if not due:
-            return
-        box = self._about(due)
+        """Make the surfaces of labels, in the crops of their bundles."""
+        for box, bundle in self._plan():
+            due = [label for label in bundle if label in labels and not self.is_done(label)]
+            if due:
+                self._make(due, box, bundle)
+
+    def _make(self, due: Sequence[int], box: Box, bundle: Sequence[int]) -> None:
         voxels = self._read(box)
-        whole = self._with_claimants(due, box, voxels)
-        if len(due) > 1 and _count(whole) > max(self.bundle, 2 * _count(box)):
-            del voxels
-            self.make(due[:len(due) // 2])
-            self.make(due[len(due) // 2:])
-            return
-        if whole != box:
-            self._check(due, whole)
-            voxels = self._read(whole)
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # rows and field data have them
             made = [arrays.labels(
-                voxels, due, spacing=self.spacing, origin=self.origin, direction=self.direction,
-                start=[begin for begin, _ in whole], **{**self.properties, **settings})
+                voxels, bundle, spacing=self.spacing, origin=self.origin, direction=self.direction,
+                start=[begin for begin, _ in box], **{**self.properties, **settings})
                 for settings in self._details()]
-        for label in made[0]:
+        for label in due:
             self._write(label, [level[label] for level in made])
             row = _json(self._row(label, made[0][label]))
             replace_file(self._path("rows", f"{label}.json"), row)  # Now it is done.
@@ -276,34 +265,41 @@ class Job:
 
     # ---- Crops ---------------------------------------------------------------------------------
 
-    def _about(self, labels: Sequence[int], margin: int = MARGIN) -> Box:
-        """The bricks with these labels, and more of them about these."""
-        found = np.array([self.boxes()[label][1:] for label in labels]) // BRICK
-        low, high = found[:, ::2].min(axis=0) - margin, found[:, 1::2].max(axis=0) + 1 + margin
-        return [(max(0, begin * BRICK), min(size, end * BRICK))
-                for begin, end, size in zip(low.tolist(), high.tolist(), self.source.shape[::-1])]
+    def _plan(self) -> list[tuple[Box, list[int]]]:
+        """Return the crop and the labels of each bundle, the largest crops first, also of labels
+        that are not chosen. The background is the last bundle."""
+        path = self._path("bundles.json")
+        if not os.path.exists(path):
+            background, margin = self.properties.get("BackgroundLabel", 0), self._margin()
+            bundles: list[tuple[Box, list[int]]] = []
+            for label in sorted(self.boxes(), key=lambda label: (
+                    label == background, self._order(label))):
+                box = self._about(label, margin)
+                together = _around(box, bundles[-1][0]) if bundles else box
+                if bundles and label != background and _count(together) <= self.bundle:
+                    bundles[-1] = (together, bundles[-1][1] + [label])
+                else:
+                    bundles.append((box, [label]))
+            bundles.sort(key=lambda bundle: (bundle[1] == [background], -_count(bundle[0])))
+            replace_file(path, _json(bundles))
+        return _bundles(path, os.stat(path).st_mtime_ns)
 
-    def _with_claimants(self, labels: Sequence[int], box: Box, voxels: np.ndarray) -> Box:
-        """The box, grown by all of the other labels that may claim positions about these."""
-        near = np.isin(voxels, labels)
-        for axis, size in enumerate(voxels.shape):
-            near = np.logical_or.reduceat(near, np.arange(0, size, BRICK), axis)
-        near = np.pad(near, CLAIMS)
-        for axis in range(3):
-            near = sliding_window_view(near, 2 * CLAIMS + 1, axis).any(axis=-1)
-        for axis, size in enumerate(voxels.shape):
-            near = near.repeat(BRICK, axis).take(np.arange(size), axis)
-        found = voxels[near]
-        found = np.unique(found[np.flatnonzero(np.diff(found, prepend=~found[:1]))])
-        others = set(found.tolist()) - {self.properties.get("BackgroundLabel", 0), *labels}
-        return _around(box, self._about([int(label) for label in others], 0)) if others else box
+    def _margin(self) -> list[int]:
+        """Voxels along each axis beyond which others do not matter to a surface."""
+        filter_, smallest = filters.vtkLabelsToSurfaces(), min(self.spacing)
+        deviation = max(smallest * self.properties.get("Smoothing", filter_.GetSmoothing()),
+                        0.625 * max(self.spacing))
+        details = [{**self.properties, **settings} for settings in self._details()]
+        edge = max(each.get("EdgeLength", 0) or smallest * 3 ** (each.get("FinestLevel", 0) / 2)
+                   for each in details)
+        reach = MARGIN[0] * deviation + MARGIN[1] * edge
+        return [math.ceil(reach / length) for length in self.spacing]
 
-    def _check(self, labels: Sequence[int], box: Box) -> None:
-        if _count(box) > self.most:
-            size = " x ".join(str(end - begin) for begin, end in box)
-            raise ValueError(f"label {labels[0]} and what it depends on are in {size} voxels, more "
-                             f"than most={self.most}: allow more, exclude the label by `only`, or "
-                             "choose a label about it as BackgroundLabel")
+    def _about(self, label: int, margin: Sequence[int]) -> Box:
+        """The voxels of a label, and a margin of them."""
+        _, *box = self.boxes()[label]
+        return [(max(0, first - more), min(size, last + 1 + more)) for first, last, more, size in
+                zip(box[::2], box[1::2], margin, self.source.shape[::-1])]
 
     def _order(self, label: int) -> int:
         """Morton order of the centers: labels that follow each other lie near each other."""
@@ -370,3 +366,8 @@ def _read(path: str) -> Any:
 @functools.lru_cache(maxsize=4)
 def _boxes(path: str, _time: int) -> dict[int, list[int]]:
     return {int(label): box for label, box in _read(path).items()}
+
+
+@functools.lru_cache(maxsize=4)
+def _bundles(path: str, _time: int) -> list[tuple[Box, list[int]]]:
+    return [([(begin, end) for begin, end in box], labels) for box, labels in _read(path)]

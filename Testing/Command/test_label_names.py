@@ -269,7 +269,7 @@ class HeadersTest(NamesTest):
                                (("all", "--component", "1"), {"tumour", "vessel"})):
             report = self.report(volume, "--labels", *options)
             self.assertEqual({row["name"] for row in report["labels"]}, names)
-        self.refused("--merge: the labels lie in several layers", volume, self.path("o.stl"),
+        self.refused("the labels lie in several layers", volume, self.path("o.stl"),
                      "--labels", "1", "--merge")
         self.run_command(volume, self.path("o.stl"), "--labels", "1,2", "--merge", "--component", 1)
         unnamed = self.nrrd(layers)

@@ -72,6 +72,14 @@ def job_of(voxels, folder, **settings):
     return tasks.Job(voxels, folder, **{"spacing": SPACING, "origin": ORIGIN, **settings})
 
 
+def bundle_of(job, voxels, label, **settings):
+    """{label: surface} of the crop of a bundle, by itself."""
+    box, labels = next(bundle for bundle in job._plan() if label in bundle[1])
+    x, y, z = (slice(*ends) for ends in box)
+    return volumic.labels(voxels[z, y, x], labels, spacing=SPACING, origin=ORIGIN,
+                          start=[begin for begin, _ in box], **settings)
+
+
 def die_once(folder, job, labels):
     """Makes them, but the first time with label 3 the process ends, with a hidden folder beside."""
     if 3 in labels:
@@ -127,54 +135,65 @@ def multilod_meshes(folder, label):
 
 
 class SameBitsTest(SharedFolderTestCase):
+    """Of bundles of some labels: those of one worker are the reference."""
+
+    BUNDLE = 40 ** 3
+
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
-        cls.whole = volumic.labels(cells(), spacing=SPACING, origin=ORIGIN)
+        cls.job = job_of(Chunked(cells()), cls.path("reference"), bundle=cls.BUNDLE)
+        cls.job.run()
 
-    def check_files(self, folder, whole=None):
-        for label, surface in (whole or self.whole).items():
-            with open(os.path.join(folder, f"label-{label}.vtp"), "rb") as file:
-                self.assertTrue(file.read() == surface.to_bytes(".vtp"), f"label {label}")
+    def check_files(self, folder):
+        for label in self.job.labels():
+            name = f"label-{label}.vtp"
+            self.assertTrue(self.content(os.path.join(folder, name))
+                            == self.content(f"reference/{name}"), name)
 
-    def test_labels_that_touch(self):
-        for name, bundle in (("small", 1), ("large", 1 << 40)):
-            source = Chunked(cells())
-            rows = job_of(source, self.path(name), bundle=bundle).run()
-            self.check_files(self.path(name))
-            self.assertEqual([row["Label"] for row in rows], list(self.whole))
+    def test_a_bundle_is_a_crop_meshed_as_one(self):
+        plan = self.job._plan()
+        self.assertGreater(len(plan), 2)
+        self.assertEqual(sorted(sum((labels for _, labels in plan), [])),
+                         [0, *self.job.labels()])
+        for _, labels in plan[:-1]:
+            for label, surface in bundle_of(self.job, cells(), labels[0]).items():
+                self.assertEqual(self.content(f"reference/label-{label}.vtp"),
+                                 surface.to_bytes(".vtp"))
+                self.assertEqual(surface.report["LabelVoxels"], (cells() == label).sum())
 
-    def test_a_crop_that_is_cut_off_makes_others(self):
-        """Else the test above would say nothing."""
-        different = 0
-        for label in list(self.whole)[:6]:
-            job = job_of(cells(), self.path(f"cut{label}"), only=[label], bundle=1)
-            job._with_claimants = lambda labels, box, voxels: box
-            job.run()
-            with open(self.path(f"cut{label}/label-{label}.vtp"), "rb") as file:
-                different += file.read() != self.whole[label].to_bytes(".vtp")
-        self.assertGreater(different, 0)
+    def test_one_bundle_is_the_whole_map(self):
+        job_of(cells(), self.path("whole")).run()
+        for label, surface in volumic.labels(cells(), spacing=SPACING, origin=ORIGIN).items():
+            self.assertTrue(self.content(f"whole/label-{label}.vtp") == surface.to_bytes(".vtp"))
+
+    def test_of_some_labels(self):
+        """Each as if all were made, also those that a killed worker left of a bundle."""
+        job = job_of(cells(), self.path("some"), only=[5], bundle=self.BUNDLE)
+        self.assertEqual([row["Label"] for row in job.run()], [5])
+        rest = job_of(cells(), self.path("some"), bundle=self.BUNDLE)
+        rest.run()
+        self.check_files("some")
 
     def test_labels_apart_take_small_crops(self):
         source = Chunked(balls())
-        job = job_of(source, self.path("balls"), bundle=1, Tolerance=0.05, FinestLevel=0)
+        job = job_of(source, self.path("balls"), bundle=1)
         for block in job.blocks():
             job.count(block)
         source.largest = 0
         job.run()
         self.assertLess(source.largest, 0.25 * source.voxels.size)
-        self.check_files(self.path("balls"), volumic.labels(
-            source.voxels, spacing=SPACING, origin=ORIGIN, Tolerance=0.05, FinestLevel=0))
 
     def test_in_processes(self):
         context = multiprocessing.get_context("spawn")
         with concurrent.futures.ProcessPoolExecutor(2, context) as executor:
-            job_of(cells(), self.path("pool"), NumberOfThreads=1).run(executor.map)
-        self.check_files(self.path("pool"))
+            job_of(cells(), self.path("pool"), bundle=self.BUNDLE,
+                   NumberOfThreads=1).run(executor.map)
+        self.check_files("pool")
 
     @unittest.skipUnless(distributed, "no distributed (Debian: python3-distributed)")
     def test_dask_with_a_killed_worker(self):
-        job = job_of(cells(), self.path("dask"), bundle=1, NumberOfThreads=1)
+        job = job_of(cells(), self.path("dask"), bundle=self.BUNDLE, NumberOfThreads=1)
         with distributed.LocalCluster(2, threads_per_worker=1, dashboard_address=None,
                                       host="127.0.0.1") as cluster, \
                 distributed.Client(cluster) as client:
@@ -185,13 +204,13 @@ class SameBitsTest(SharedFolderTestCase):
         self.assertTrue(os.path.isdir(self.path("died")))
         self.assertTrue(os.path.exists(os.path.join(job.folder, HIDDEN + "half")))
         job.finish()
-        self.check_files(self.path("dask"))
+        self.check_files("dask")
         left = [name for _, names, _ in os.walk(job.folder) for name in names
                 if name.startswith(HIDDEN)]
         self.assertEqual(left, [])
         with open(self.path("made"), encoding="utf-8") as file:
             made = [int(line) for line in file]
-        self.assertEqual(sorted(made), sorted(self.whole))  # none of them twice
+        self.assertEqual(sorted(made), self.job.labels())  # none of them twice
 
 
 class JobTest(FolderTestCase):
@@ -216,7 +235,7 @@ class JobTest(FolderTestCase):
         again.run()
         again.make([3])
         self.assertEqual(os.stat(self.path("meshes/label-3.vtp")).st_mtime_ns, before)
-        self.assertEqual(self.job().bundles(), [])
+        self.assertEqual(self.job(bundle=1).bundles(), [])
 
     def test_boxes_of_blocks_are_those_of_the_whole(self):
         for shape in ((96, 96, 96), (33, 65, 17)):
@@ -232,47 +251,37 @@ class JobTest(FolderTestCase):
 
     def test_refused(self):
         for words, settings in (
-                ("no property gap; did you mean Gap", {"gap": 1}),
-                ("Gap=0.5 couples labels all over", {"Gap": 0.5}),
-                ("Merge=True couples", {"Merge": True}),
-                ("SharedInterfaces=True couples", {"SharedInterfaces": True}),
+                ("no property smoothing; did you mean Smoothing", {"smoothing": 1}),
+                ("Merge and periodic BoxFaces couple labels all over", {"Merge": True}),
+                ("Merge and periodic BoxFaces couple labels all over", {"BoxFaces": 2}),
                 ("TimeLimit would leave labels unfinished", {"TimeLimit": 3}),
                 ("'.off' is no format; there are .vtp.*multilod_draco", {"formats": [".off"]})):
             with self.subTest(words), self.assertRaisesRegex((TypeError, ValueError), words):
                 self.job(**settings)
         with self.assertRaisesRegex(ValueError, "the map has no label 9"):
             self.job(only=[9]).run()
-        with self.assertRaisesRegex(ValueError, "label 1 .* in 40 x 40 x 40 voxels, more than most"):
-            self.job(most=1000).run()
+        with self.assertRaisesRegex(ValueError, r"label 3 .* are 46 x 46 x 40 voxels, more than most"):
+            job_of(balls(3), self.path("small"), most=1000).run()
         with self.assertRaisesRegex(ValueError, "is of a job with properties {}, not .*Smoothing"):
             self.job(Smoothing=1)
         with self.assertRaisesRegex(arrays.FilterError, "Smoothing is 99"):
             tasks.Job(balls(1), self.path("other"), Smoothing=99).run()
 
-    def test_claimants_are_in_the_crop_as_a_whole(self):
-        voxels = np.zeros((24, 24, 80), "u2")
-        voxels[8:16, 8:16, 8:16] = 1  # bricks 2 and 3 along x
-        for first, is_near in ((16, True), (20, True), (24, False)):
-            voxels[8:16, 8:16, 16:] = 0
-            voxels[8:16, 8:16, first:70] = 2
-            job = tasks.Job(voxels, self.path(f"meshes{first}"))
-            job.count(0)
-            box = job._about([1])
-            self.assertEqual(box, [(0, 28), (0, 24), (0, 24)])
-            grown = job._with_claimants([1], box, job._read(box))
-            self.assertEqual(grown, [(0, 72), (0, 24), (0, 24)] if is_near else box)
-
-    def test_a_claimant_that_is_too_large(self):
-        job = tasks.Job(cells(), self.path("cells"), only=[4])
+    def test_margins_of_crops(self):
+        job = tasks.Job(balls(), self.path("meshes"), spacing=(1, 1, 2), bundle=1, Smoothing=0.5)
+        self.assertEqual(job._margin(), [11, 11, 6])  # 4 x 5/8 x 2 + 6 x 1
         job.count(0)
-        job.most = int(np.prod([end - begin for begin, end in job._about([4])]))
-        self.assertEqual(job.bundles(), [[4]])  # Alone it is not.
-        with self.assertRaisesRegex(ValueError, "label 4 and what it depends on are in"):
-            job.run()
+        box = next(box for box, labels in job._plan() if labels == [1])
+        self.assertEqual(box, [(7, 43), (7, 43), (12, 38)])  # 18 to 31
+        for margin, settings in ((14, {}), (22, {"FinestLevel": 2, "Smoothing": 1}),
+                                 (28, {"EdgeLength": 4, "Smoothing": 1})):
+            self.assertEqual(tasks.Job(balls(), self.path(f"m{margin}"), **settings)._margin(),
+                             [margin] * 3)
 
     def test_tables_and_meshes_of_viewers(self):
         job = self.job(formats=["precomputed", ".stl"], nanometers=1000)
         rows = job.run()
+        surface = bundle_of(job, balls(3), 2)[2]
         with open(self.path("meshes/labels.csv"), encoding="utf-8", newline="") as file:
             table = list(csv.DictReader(file))
         self.assertEqual([row["Label"] for row in table], ["1", "2", "3"])
@@ -290,22 +299,21 @@ class JobTest(FolderTestCase):
         count, = struct.unpack_from("<I", content)
         points = np.frombuffer(content, "<f4", 3 * count, 4).reshape(-1, 3)
         triangles = np.frombuffer(content, "<u4", -1, 4 + 12 * count).reshape(-1, 3)
-        surface = volumic.labels(balls(3), [2], spacing=SPACING, origin=ORIGIN)[2]
         np.testing.assert_allclose(points, 1000 * surface.points, rtol=1e-6)
         np.testing.assert_array_equal(triangles, surface.triangles)
 
     @unittest.skipUnless(shutil.which("draco_encoder"), "no draco_encoder (Debian: draco)")
     def test_levels_of_detail_for_neuroglancer(self):
-        job_of(balls(), self.path("meshes"), only=[8], formats=["multilod_draco"],
-               nanometers=1000).run()
+        job = job_of(balls(), self.path("meshes"), only=[8], formats=["multilod_draco"],
+                     nanometers=1000, bundle=1)
+        job.run()
         with open(self.path("meshes/multilod_draco/info"), encoding="utf-8") as file:
             self.assertEqual(json.load(file)["@type"], "neuroglancer_multilod_draco")
         meshes = multilod_meshes(self.path("meshes/multilod_draco"), 8)
         self.assertEqual(len(meshes), 4)
         for scale, level, (points, triangles) in zip(meshes.scales, range(4), meshes):
             with self.subTest(level=level):
-                surface = volumic.labels(balls(), [8], spacing=SPACING, origin=ORIGIN,
-                                         FinestLevel=level)[8]
+                surface = bundle_of(job, balls(), 8, FinestLevel=level)[8]
                 self.assertEqual(len(triangles), len(surface.triangles))
                 edges = triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)  # closed and oriented:
                 self.assertEqual(len(set(map(tuple, edges))), len(edges))
