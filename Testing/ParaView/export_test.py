@@ -49,7 +49,6 @@ class ExportTest(testing.PluginTestCase):
 
     def test_interfaces_for_meshers_of_solids(self):
         source = self.labels()
-        source.SharedInterfaces = 1
         interfaces = testing.fetch(source, 1)
         for suffix in ("msh", "smesh"):
             writer = servermanager.writers.ExportSurfaces(

@@ -108,31 +108,10 @@ class LabelsTest(LabelsTestCase):
         filter_ = simple.LabelstoSurfaces(testing.produce(label_maps.image()))
         algorithm = filter_.GetClientSideObject()
         # As the cross beside the progress bar does.
-        tag = algorithm.AddObserver("ProgressEvent", lambda caller, _: caller.SetAbortExecute(
-            (caller.GetProgressText() or "").startswith("fields: ")))
+        tag = algorithm.AddObserver("ProgressEvent", lambda caller, _: caller.SetAbortExecute(1))
         stopped = testing.levels(testing.fetch(filter_))
         reasons = [testing.field(surface, "StopReason") for surface in stopped]
         self.assertEqual(reasons, ["cancelled"] * 3)
-        algorithm.RemoveObserver(tag)
-        texts = []
-        tag = algorithm.AddObserver("ProgressEvent", lambda caller, _: (
-            texts.append(caller.GetProgressText()),
-            caller.SetAbortExecute(int((texts[-1] or "").startswith("1 of 2, ")))))
-        # One of these is so large that they come one after the other.
-        filter_.Labels = [3, 7]
-        filter_.NumberOfThreads = 2
-        testing.fetch(filter_)
-        algorithm.RemoveObserver(tag)
-        self.assertEqual({text.split(", ")[1] for text in texts if " of 2, " in (text or "")},
-                         {"Label 3", "Label 7"})
-        # As Apply does then.
-        filter_.SMProxy.InvokeCommand("GoOn")
-        tag = algorithm.AddObserver("ProgressEvent", lambda caller, _: texts.append(
-            caller.GetProgressText()))
-        for label, surface in zip((3, 7), self.blocks(filter_).values()):
-            self.check_ball(surface, label)
-        self.assertIn("0 of 1", texts)
-        filter_.Labels = []
         algorithm.RemoveObserver(tag)
         filter_.Smoothing = 1.9
         for label, surface in zip(BALLS, self.blocks(filter_).values()):
@@ -146,12 +125,10 @@ class LabelErrorsTest(LabelsTestCase):
             self.assertIn(word, said)
         self.assertEqual(output.GetNumberOfBlocks(), 0)
 
-    def test_shared_interfaces(self):
+    def test_interfaces(self):
         filter_ = simple.LabelstoSurfaces(testing.produce(label_maps.image()), FinestLevel=1)
-        self.assertEqual(testing.fetch(filter_, 1).GetNumberOfPoints(), 0)
         self.assertEqual([filter_.SMProxy.GetOutputPortName(port) for port in (0, 1)],
                          ["Surfaces", "Interfaces"])
-        filter_.SharedInterfaces = 1
         blocks = self.blocks(filter_)
         self.assertEqual(list(blocks), ["Label 3", "Label 7", "Label 12"])
         interfaces = testing.fetch(filter_, 1)
@@ -163,19 +140,39 @@ class LabelErrorsTest(LabelsTestCase):
             numpy.testing.assert_allclose(testing.points(block),
                                           testing.points(interfaces)[numbers], atol=1e-6)
             self.assertEqual(block.GetNumberOfPolys(), (sides == label).any(1).sum())
-        with testing.CapturedMessages() as messages:
-            filter_.Gap = 1.0
-            filter_.UpdatePipeline()
-        self.assertIn("Shared Interfaces", messages.text)
+        # One surface alone: the mesh is that of all labels, and what is not chosen is outside.
+        filter_.Labels = [7]
+        one = self.blocks(filter_)["Label 7"]
+        numpy.testing.assert_array_equal(testing.points(one), testing.points(blocks["Label 7"]))
+        sides = vtk_to_numpy(testing.fetch(filter_, 1).GetCellData().GetArray("BoundaryLabels"))
+        self.assertEqual({tuple(sorted(pair)) for pair in sides.tolist()}, {(0, 0), (0, 7)})
+
+    def test_a_state_of_an_earlier_version(self):
+        """It has properties that are gone, and some that have no effect."""
+        reader = simple.XMLImageDataReader(FileName=testing.write_volume(
+            "labels-earlier.vti", label_maps.image()))
+        simple.LabelstoSurfaces(reader, registrationName="Earlier", FinestLevel=1)
+        path = testing.output_path("labels-earlier.pvsm")
+        simple.SaveState(path)
+        with open(path, encoding="utf-8") as file:
+            state = file.read()
+        here = state.index('<Property name="SharedInterfaces"')
+        gone = "".join(f"""<Property name="{name}" id="1.{name}" number_of_elements="1">
+            <Element index="0" value="1"/></Property>""" for name in ("Gap", "ThinParts", "GoOn"))
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(state[:here] + gone + state[here:])
+        self.tearDown()
+        simple.LoadState(path)
+        filter_ = simple.FindSource("Earlier")
+        self.assertEqual((len(self.blocks(filter_)), filter_.FinestLevel), (3, 1))
 
     def test_good_bad_good(self):
         filter_ = simple.LabelstoSurfaces(testing.produce(label_maps.image()), FinestLevel=1)
         self.assertEqual(len(self.blocks(filter_)), 3)
         for name, bad, good, words in (
                 ("Labels", [3, 9], [], ("9", "3", "7", "12")),
-                ("Gap", -1.0, 0.0, ("-1",)),
-                ("Gap", math.nan, 0.0, ("nan",)),
                 ("Smoothing", -0.5, 2.0, ("-0.5",)),
+                ("Smoothing", math.nan, 2.0, ("nan",)),
                 ("VoxelTolerance", 1.5, 0.0, ("1.5", "at most 1")),
                 ("EdgeLength", -1.0, 0.0, ("-1",)),
                 ("Tolerance", -1.0, 0.0, ("Tolerance", "-1")),

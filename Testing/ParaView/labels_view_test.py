@@ -117,10 +117,10 @@ class LabelsViewTest(testing.PluginTestCase):
     def test_error_first_and_then_a_good_run(self):
         source = testing.produce(label_maps.add_names(label_maps.image()))
         with testing.CapturedMessages() as messages:
-            self.show(source, Gap=-1.0)
+            self.show(source, Smoothing=-1.0)
             self.assertEqual(views.drawn(self.picture("bad")), 0)
         self.assertEqual(messages.text.count("ERROR: "), 1, messages.text)
-        self.filter.Gap = 0.0
+        self.filter.Smoothing = 2.0
         self.filter.UpdatePipeline()
         simple.ResetCamera(self.view)
         self.assertEqual(hues(self.picture("good")), {"red", "green", "blue"})
