@@ -117,7 +117,7 @@ def faults_of_edges(verdict, told, words):
     """Of a level that has ended, by the deltas of the file, which are lengths in the world."""
     outside = verdict["short"] + verdict["long"]
     if (told.get("StopReason") in FINISHED
-            and not {"--metric", "--shared-interfaces"}.intersection(words)
+            and not {"--metric", "--labels"}.intersection(words)
             and outside > MOST_EDGES_OUTSIDE * verdict["edges"]):
         yield f"{outside:g} of {verdict['edges']:g} edges are too short or too long"
 

@@ -56,7 +56,7 @@ class RandomRun:
             *self.now_and_then(.3, "--metric", "voxels"),
             *self.now_and_then(.3, "--finest", str(self.rng.choice((-1, 1, 2)))),
             *self.now_and_then(.1, "--edge-length", f"{smallest * self.rng.uniform(.7, 6):.6g}"),
-            *self.now_and_then(.2, "--keep", "largest"), *self.grading()]
+            *self.now_and_then(.2, "--keep", "largest"), *self.tolerance()]
 
     def write_labels(self, labels):
         self.labels, self.size = labels, np.array(labels.shape[::-1])
@@ -75,11 +75,10 @@ class RandomRun:
             *self.now_and_then(.3, "--keep", "largest")]
         tolerance = self.now_and_then(.3, "--voxel-tolerance", self.number(0, 1))
         merge = self.chance(.05)
-        shared = [] if merge else self.now_and_then(.5, "--shared-interfaces")
-        self.is_default = not (other or tolerance or shared) and smoothing[1:] != ["0"]
+        self.is_default = not (other or tolerance) and smoothing[1:] != ["0"]
         return [
             "labels.vtp" if merge else "labels", "--labels", "all", *["--merge"] * merge,
-            *smoothing, *other, *shared, *self.now_and_then(.3, "--metric", "voxels"),
+            *smoothing, *other, *self.now_and_then(.3, "--metric", "voxels"),
             *tolerance]
 
     # ---- The surface of an object ----
@@ -169,12 +168,14 @@ class RandomRun:
             *self.now_and_then(.1, "--keep", "largest")]
 
     def grading(self):
-        """Of any tolerance, from none that can be kept to one of some voxels; thin parts."""
-        thin = self.now_and_then(.2, "--thin-parts")
+        return [*self.now_and_then(.2, "--thin-parts"), *self.tolerance()]
+
+    def tolerance(self):
+        """Any, from one that cannot be kept to one of some voxels."""
         if not self.chance(.3):
-            return thin
+            return []
         smallest = self.spacing.min()
-        return [*thin, "--tolerance", f"{smallest * 10 ** self.rng.uniform(-2, .7):.3g}",
+        return ["--tolerance", f"{smallest * 10 ** self.rng.uniform(-2, .7):.3g}",
                 *self.now_and_then(.3, "--gradation", self.number(.02, .3)),
                 *self.now_and_then(.3, "--maximum-edge-length",
                                    f"{smallest * self.rng.uniform(1, 12):.3g}")]

@@ -76,7 +76,7 @@ class OptionTableTest(CommandTestCase):
                 options.apply(options.parse(line), filters)
                 after = report.property_values(filters, lambda item: True)
                 self.assertEqual({n for n in after if after[n] != before[n]},
-                                 {item.name} - {"SharedInterfaces"})
+                                 {item.name} - {"SharedInterfaces"})  # it is on
                 if item.metavar:
                     self.assertEqual(after[item.name], text)
 

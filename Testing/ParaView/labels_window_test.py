@@ -118,6 +118,7 @@ class LabelsWindowTest(window.WindowTestCase):
         self.assertEqual(self.blocks_of(path), ([], list(NAMES.values())))
 
     def test_summary(self):
+        testing.load_plugin()
         filter_ = simple.LabelstoSurfaces(simple.OpenDataFile(self.path), FinestLevel=2)
         vertices = testing.fetch(filter_).GetNumberOfPoints()
         self.play(opened(self.path) + [
