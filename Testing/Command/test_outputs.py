@@ -62,9 +62,11 @@ class FullDiskTest(OutputsTest):
                 self.assertEqual((self.content(name), self.hidden_files()), (OLD, []))
 
     def test_a_folder_that_stays_empty_is_removed(self):
-        for arguments in (["--levels-output", self.path("l"), "--iso", ISO],
-                          ["--labels", "all", self.path("l/")]):
-            process = self.run_command(self.volume, *arguments, status=1,
+        labels = self.write(vtkXMLImageDataWriter(), "labels.vti",
+                            make_image((ball() > ISO).astype("u1")))
+        for arguments in ([self.volume, "--levels-output", self.path("l"), "--iso", ISO],
+                          [labels, "--labels", "all", self.path("l/")]):
+            process = self.run_command(*arguments, status=1,
                                        preexec_fn=largest_file(1000))
             self.assertRegex(process.stderr, r"/l.*: cannot be written \(File too large\)")
             self.assertFalse(os.path.exists(self.path("l")), arguments)
