@@ -139,7 +139,7 @@ def ended(report: dict[str, Any], warnings: Sequence[str]) -> str:
 
 
 def text_of_print(printed: bool, surfaces: Sequence[Any], unit: str) -> str:
-    """For .3mf: the size of the print, and its thinnest wall where --thin-parts measured it."""
+    """For .3mf: the size of the print, and its thinnest wall if --thin-parts measured it."""
     surfaces = [surface for surface in surfaces if surface.GetNumberOfPoints() > 0]
     if not printed or not surfaces:
         return ""
@@ -148,8 +148,7 @@ def text_of_print(printed: bool, surfaces: Sequence[Any], unit: str) -> str:
     walls = [surface.GetPointData().GetArray("Thickness") for surface in surfaces]
     walls = [wall.GetRange()[0] for wall in walls if wall is not None]
     return ("the print is " + " x ".join(f"{length:.4g}" for length in lengths)
-            + f" {unit or 'mm'}; " + (f"its thinnest wall has {min(walls):.4g}" if walls
-                                      else "--thin-parts measures its walls"))
+            + f" {unit or 'mm'}" + (f"; its thinnest wall has {min(walls):.4g}" if walls else ""))
 
 
 def of_volume(volume_name: str, loaded: LoadedVolume, filters: Filters, surface: Any,

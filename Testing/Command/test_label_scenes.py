@@ -142,7 +142,7 @@ class ScenesTest(LabelsTest):
         said = self.run_command(self.map_file(), self.path("a.3mf"), "--labels", "all").stderr
         low, high = np.transpose([np.reshape(self.bounds_of(label), (3, 2)) for label in BLOBS],
                                  (2, 0, 1))
-        size = re.search(r"the print is (\S+) x (\S+) x (\S+) mm; --thin-parts measures", said)
+        size = re.search(r"the print is (\S+) x (\S+) x (\S+) mm\n", said)
         np.testing.assert_allclose([float(n) for n in size.groups()],
                                    high.max(0) - low.min(0), atol=1.5)
         said = self.run_command(self.ball_file(), self.path("b.3mf"), self.path("b.vtp"), "--iso",
