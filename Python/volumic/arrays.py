@@ -186,14 +186,16 @@ def surface(array: Any, iso: float | None = None, *, spacing: Sequence[float] | 
 def labels(array: Any, only: Sequence[int] = (), *, spacing: Sequence[float] | None = None,
            origin: Sequence[float] | None = None, direction: Any = None,
            start: Sequence[int] | None = None, **properties: Any) -> Surfaces:
-    """A smooth closed surface around each label of a label map, by vtkLabelsToSurfaces.
+    """A smooth closed surface around each label of a label map, by vtkLabelsToSurfaces: neighbours
+    share their interfaces.
 
     Parameters
     ----------
     array : array_like of integers or Volume
         Labels [z, y, x], or what `volumic.read` returns. What is contiguous is not copied.
     only : sequence of ints, optional
-        Labels that get a surface; by default all but BackgroundLabel.
+        Labels that get a surface; by default all but BackgroundLabel. A surface does not depend on
+        the others.
     spacing, origin, direction, start
         As in `volumic.surface`, which raises the same exceptions.
     **properties

@@ -50,16 +50,12 @@ def other_outputs(options: Namespace) -> list[files.OutputName]:
     for name in (options.write_volume, options.history,
                  None if options.report == "-" else options.report):
         if name:
-            outputs.append(files.OutputName(name, "file", ""))
+            outputs.append(files.OutputName(name))
     return outputs
 
 
-def check_files(options: Namespace) -> None:
+def check_files(options: Namespace, outputs: list[files.OutputName]) -> None:
     """Throw Failure or UsageError if something is wrong with the files before the work begins."""
-    outputs = []
-    for name in options.surfaces:
-        writing.check_surface_name(name)
-        outputs.append(files.OutputName(name, "file", ""))
     if options.write_volume:
         writing.check_volume_name(options.write_volume)
     files.check_outputs(outputs + other_outputs(options), inputs_of(options))
@@ -255,7 +251,9 @@ def level_of(surface: Any) -> int:
 
 def segment_volume(options: Namespace, filters: Filters, teller: Teller) -> int:
     """Do what the command line requests; return the exit code."""
-    check_files(options)
+    for name in options.surfaces:
+        writing.check_surface_name(name)
+    check_files(options, [files.OutputName(name) for name in options.surfaces])
     loaded = geometry.load_volume(options, filters, teller)
     reader_memory = report.peak_memory()
     surface = filters.surface

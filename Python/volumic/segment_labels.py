@@ -21,13 +21,14 @@ from .label_map import (
     KnownLabel, choose, known_labels, layers_of, list_rows, name_labels, table_of)
 from .messages import Teller
 from .option_tables import Filters, is_of_labels
-from .options import has_property, in_words_of_options, makes_tetrahedra, wants_surface
+from .options import has_property, in_words_of_options, wants_surface
 from .reading.volume import Label
-from .segment import DONE, NOTHING, UNFINISHED, inputs_of, make_solids, other_outputs, prints
+from .segment import (
+    DONE, NOTHING, UNFINISHED, check_files, inputs_of, make_solids, other_outputs, prints)
 from .triangles import find_triangles
 from .writing import files
-from .writing.tetrahedra import find_mesher
 
+STOPPED = "time limit", "cancelled"  # values of StopReason
 LEAST_TIME = 1e-3  # seconds of a layer where the others have used the time limit up
 
 # ---- Names of files ------------------------------------------------------------------------------
@@ -75,20 +76,10 @@ def check_outputs(options: Namespace) -> None:
                          f"{names[0]} is its suffix")
 
 
-def output_of(name: str, form: str) -> files.OutputName:
-    """What is known about a file before it is written."""
-    kind = "place" if form == "folder" else "blocks" if name.lower().endswith(".vtm") else "file"
-    return files.OutputName(name, kind, "")
-
-
-def check_files(options: Namespace) -> None:
-    """Throw Failure or UsageError if something is wrong with the files before the work begins."""
-    if options.write_volume:
-        writing.check_volume_name(options.write_volume)
-    files.check_outputs([output_of(name, form_of(name)) for name in options.surfaces]
-                        + other_outputs(options), inputs_of(options))
-    if makes_tetrahedra(options):
-        find_mesher(options.mesher)
+def output_of(name: str) -> files.OutputName:
+    """What is known about an output before the volume is read."""
+    return files.OutputName(name, "place" if form_of(name) == "folder" else
+                            "blocks" if name.lower().endswith(".vtm") else "file")
 
 
 # ---- The run -------------------------------------------------------------------------------------
@@ -103,17 +94,6 @@ class LabelSurface:
 
     def __post_init__(self) -> None:
         geometry.set_fact(self.surface, "StopReason", "cancelled")  # until its turn comes
-
-    @property
-    def unfinished(self) -> str:
-        """What stopped it on its way, or before it began; empty if nothing did."""
-        reason = report.stop_reason(self.surface)
-        return reason if reason in ("cancelled", "time limit", "iteration limit") else ""
-
-    @property
-    def remark(self) -> str:
-        """For the heads of files."""
-        return f", UNFINISHED: {self.unfinished}" if self.unfinished else ""
 
     @property
     def is_there(self) -> bool:
@@ -205,7 +185,7 @@ class LabelRun:
                     f"({stem}/ --format {suffix[1:].lower()}) or blocks ({stem}.vtm, {stem}.glb, "
                     f"{stem}.3mf), one mesh of all ({stem}.vtp, .vtk, .vtu, .inp, .msh, .smesh, "
                     ".poly), or one surface around all with --merge")
-            outputs += [output_of(path, "file") for path in self.paths(name, form)
+            outputs += [files.OutputName(path) for path in self.paths(name, form)
                         if form != "folder" or os.path.isdir(name)]
         files.check_outputs(outputs + other_outputs(options), inputs_of(options))
 
@@ -223,9 +203,8 @@ class LabelRun:
         else:
             self.make_layers()
         if not any(each.is_there for each in self.surfaces):
-            reasons = {each.unfinished for each in self.surfaces} - {""}
-            if reasons:
-                raise Interrupted(("the time limit came" if "time limit" in reasons
+            if self.unfinished:
+                raise Interrupted(("the time limit came" if self.unfinished == "time limit"
                                    else "interrupted") + " before " + NOTHING)
             raise Failure(f"{self.options.volume}: none of the labels has a surface "
                           "(--keep, --minimum-component-volume)")
@@ -302,9 +281,9 @@ class LabelRun:
 
     def write_together(self, name: str, form: str, progress: messages.Progress) -> None:
         """Write all surfaces to one file."""
-        if form == "mesh":  # All are made at once: they are as finished as the first.
-            writing.write_surface(self.meshes[0], name, self.surfaces[0].remark,
-                                  self.solids, self.teller.warn, progress)
+        if form == "mesh":
+            writing.write_surface(self.meshes[0], name, self.remark, self.solids, self.teller.warn,
+                                  progress)
         elif writing.is_scene(name):
             writing.write_scene([(each.name, each.surface) for each in self.surfaces], name,
                                 self.teller.warn, progress)
@@ -324,7 +303,7 @@ class LabelRun:
                 progress(i / len(paths), path)
                 if each.is_there:
                     with failures.collect():
-                        writing.write_surface(each.surface, path, f"{each.remark}, {each.name}",
+                        writing.write_surface(each.surface, path, f"{self.remark}, {each.name}",
                                               self.solids, self.teller.warn)
                         each.files.append(path)
         if form == "folder":
@@ -336,7 +315,7 @@ class LabelRun:
         mesh = self.meshes[0] if len(self.meshes) == 1 else vtkPolyData()
         return report.ended({
             "input": report.input_facts(self.options.volume, self.loaded),
-            "finished": self.is_finished, "labels": [each.facts() for each in self.surfaces],
+            "finished": not self.unfinished, "labels": [each.facts() for each in self.surfaces],
             **report.facts_of(mesh, report.INTERFACE_FACTS),
             **report.solid_facts(self.solid),
             "seconds": {"surface": self.seconds},
@@ -354,23 +333,26 @@ class LabelRun:
         return self.solids.last if "mesh" in map(form_of, self.options.surfaces) else None
 
     @property
-    def is_finished(self) -> bool:
-        """Whether nothing stopped any surface."""
-        return not any(each.unfinished for each in self.surfaces)
+    def unfinished(self) -> str:
+        """What stopped the run; empty if nothing did."""
+        reasons = [report.stop_reason(each.surface) for each in self.surfaces]
+        return next((reason for reason in STOPPED if reason in reasons), "")
+
+    @property
+    def remark(self) -> str:
+        """For the heads of files."""
+        return f", UNFINISHED: {self.unfinished}" if self.unfinished else ""
 
     def print_end(self) -> None:
-        """Print what was made and what is missing."""
+        """Print what was made."""
         there = [each for each in self.surfaces if each.is_there]
         wrong = sum(each.count("WrongVoxels") for each in self.surfaces)
         vertices = sum(each.surface.GetNumberOfPoints() for each in there)
         self.teller.say(f"{len(there)} surface{'s' * (len(there) != 1)}, {vertices} vertices"
                         + f"; {wrong} misclassified voxels" * (wrong > 0))
-        stopped = [each for each in self.surfaces if each.unfinished]
-        if stopped:
-            missing = ", ".join(each.name for each in stopped if not each.is_there)
-            self.teller.error(
-                f"unfinished ({stopped[-1].unfinished}); the surfaces as they are were written"
-                + (f"; there is no surface of {missing}" if missing else ""))
+        if self.unfinished:
+            self.teller.error(f"unfinished ({self.unfinished}); the surfaces as they are were "
+                              "written")
         self.teller.say(report.text_of_print(
             prints(self.options, self.options.surfaces), [each.surface for each in there],
             self.loaded.world.unit))
@@ -383,7 +365,7 @@ def segment_labels(options: Namespace, filters: Filters, teller: Teller) -> int:
         filters.labels.SetBoxFacesToFlat()  # the planes of the caps
     # Masks that overlap stay whole where each has a surface of its own.
     options.choice.layers = not makes_mesh(options) and not filters.labels.GetMerge()
-    check_files(options)
+    check_files(options, [output_of(name) for name in options.surfaces])
     loaded = geometry.load_volume(options, filters, teller, announce=False)
     names = name_labels(options, loaded.volume, loaded.image, teller)
     if options.write_volume:
@@ -400,4 +382,4 @@ def segment_labels(options: Namespace, filters: Filters, teller: Teller) -> int:
     run.finish()
     run.write()
     run.print_end()
-    return DONE if run.is_finished else UNFINISHED
+    return UNFINISHED if run.unfinished else DONE
