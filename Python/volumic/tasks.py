@@ -217,8 +217,9 @@ class Job:
 
     def make(self, labels: Sequence[int]) -> None:
         """Make the surfaces of labels, in the crops of their bundles."""
+        wanted = set(labels)
         for box, bundle in self._plan():
-            due = [label for label in bundle if label in labels and not self.is_done(label)]
+            due = [label for label in bundle if label in wanted and not self.is_done(label)]
             if due:
                 self._make(due, box, bundle)
 
@@ -340,7 +341,7 @@ class Job:
     def _row(self, label: int, surface: Surface) -> dict[str, Any]:
         names = ("Voxels", "FirstX", "LastX", "FirstY", "LastY", "FirstZ", "LastZ")
         facts = ("Volume", "Area", "NumberOfComponents", "Genus", "VolumeError", "WrongVoxels",
-                 "MissedVoxels", "Level", "StopReason")
+                 "MissedVoxels", "StopReason")
         return {"Label": label, **dict(zip(names, self.boxes()[label])),
                 "Points": len(surface.points), "Triangles": len(surface.triangles),
                 **{name: surface.report.get(name) for name in facts}, **arrays.quality(surface)}

@@ -18,10 +18,12 @@ import unittest.mock
 
 import numpy as np
 import volumic
+from scipy.spatial import cKDTree
 from volumic import arrays, tasks
 from volumic.writing.files import HIDDEN
 
 from folder_test_case import FolderTestCase, SharedFolderTestCase
+from vtk_files import points_of, read
 
 try:
     import distributed
@@ -166,6 +168,9 @@ class SameBitsTest(SharedFolderTestCase):
         job_of(cells(), self.path("whole")).run()
         for label, surface in volumic.labels(cells(), spacing=SPACING, origin=ORIGIN).items():
             self.assertTrue(self.content(f"whole/label-{label}.vtp") == surface.to_bytes(".vtp"))
+            # Others are so near it that none gapes at its neighbours.
+            points = points_of(read(self.path(f"reference/label-{label}.vtp")))
+            self.assertLess(cKDTree(points).query(surface.points)[0].max(), max(SPACING))
 
     def test_of_some_labels(self):
         """Each as if all were made, also those that a killed worker left of a bundle."""
