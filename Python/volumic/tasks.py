@@ -44,6 +44,7 @@ from .writing.files import HIDDEN, replace_file
 from .writing.surfaces import FORMATS
 
 MARGIN = 4, 6  # of crops: so many standard deviations of the smoothing, and edge lengths
+MOST = 4096  # labels of a bundle, as vtkLabelsToSurfaces makes at most
 BLOCK = 256  # voxels along each axis that are counted at a time, at most
 DETAILS = (1, 2, 3)  # FinestLevel of the coarser levels of detail: edges sqrt(3) times as long
 PERIODIC = 2  # BoxFaces
@@ -277,7 +278,8 @@ class Job:
                     label == background, self._order(label))):
                 box = self._about(label, margin)
                 together = _around(box, bundles[-1][0]) if bundles else box
-                if bundles and label != background and _count(together) <= self.bundle:
+                if (bundles and label != background and _count(together) <= self.bundle
+                        and len(bundles[-1][1]) < MOST):
                     bundles[-1] = (together, bundles[-1][1] + [label])
                 else:
                     bundles.append((box, [label]))
