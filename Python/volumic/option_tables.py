@@ -224,8 +224,8 @@ PROPERTIES = (
              "of --minimum-component-volume; or all but those at seeds"),
     Property("minimum-component-volume", "VOLUME", "MinimumComponentVolume", "with --keep large: "
              "least enclosed volume in world units cubed"),
-    Property("time-limit", "SECONDS", "TimeLimit", "write the surface, or the finished labels, "
-             "after so many seconds; 0: no limit"),
+    Property("time-limit", "SECONDS", "TimeLimit", "write the surface, or the mesh of labels, as "
+             "it is after so many seconds; 0: no limit"),
     Property("scratch", "DIR", "ScratchDirectory", "folder for memory-mapped files of large "
              "arrays; they vanish with the process"),
     Property("threads", "N", "NumberOfThreads", "number of threads; 0: all; the result does not "

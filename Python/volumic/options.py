@@ -52,7 +52,8 @@ def make_parser(filters: Filters | None = None) -> argparse.ArgumentParser:
     parser.add_argument("surfaces", metavar="SURFACE", nargs="*",
                         help=".vtp .vtk .stl .ply .obj .glb .3mf; filled with tetrahedra .vtu "
                         ".inp and what meshio writes; for meshers .msh .smesh .poly; with "
-                        "--labels also a folder for a file per label, OUT/, or .vtm")
+                        "--labels also a folder for a file per label, OUT/, or .vtm; .vtp .vtk "
+                        "and those for tetrahedra hold one mesh of several labels")
     for title, options in (("Input", INPUT), ("Segmentation", PROPERTIES), ("Output", OUTPUT)):
         group = parser.add_argument_group(title)
         for item in options:
