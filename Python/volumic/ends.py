@@ -32,10 +32,18 @@ def with_ends(surface: Any, image: Any, ends: str, warnings: list[str]) -> Any:
     from .writing.regions import cell_array, triangles_of
     triangles, box = triangles_of(surface), cell_array(surface, "BoxFace")
     if box is not None:
-        source = np.arange(len(triangles))
+        source, sides = np.arange(len(triangles)), cell_array(surface, "BoundaryLabels")
         if ends == "open":
-            return _made(surface, triangles[box == 0], source[box == 0])
-        sides = cell_array(surface, "BoundaryLabels")
+            made = _made(surface, triangles[box == 0], source[box == 0])
+            if sides is None and (box == 0).any():
+                from vtkmodules.vtkFiltersCore import vtkCleanPolyData
+                clean = vtkCleanPolyData()  # leaves out points that no triangle has
+                clean.PointMergingOff()
+                clean.SetInputData(made)
+                clean.Update()
+                made = clean.GetOutput()
+                recount(made)
+            return made
         kinds = box.astype(int) if sides is None else box + 8 * sides.max(axis=1).astype(int)
         return _made(surface, triangles, source, {"Cap": _numbered(triangles, kinds * (box > 0))})
     found = _ended(surface, triangles, image, ends == "marked")

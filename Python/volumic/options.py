@@ -25,8 +25,6 @@ EXCLUSIONS = {
 # Surfaces of labels have no evolution to choose and watch.
 NOT_WITH_LABELS = ("seeds", "seed-position", "initial-surface", "attracting-points",
                    "attracting-position", "edges", "history", "levels-output", "snapshots")
-NO_THIN_PARTS = ("--thin-parts and --labels exclude each other; --edge-length or --finest -1 makes "
-                 "the edges of labels shorter")
 NEEDS = {"edge-attraction": "edges", "probe-depth": "probe"}
 ENDED = {"resume": "a run is not resumed any more; start it again",
          "memory": "limit the memory by systemd-run -p MemoryMax=, and give --scratch DIR",
@@ -214,10 +212,9 @@ def _check_with_labels(options: argparse.Namespace) -> None:
     exclude(options, "list-labels", ("format", "triangles"))
     listed = ("SelectedComponent", "BackgroundLabel", "NumberOfThreads", "ScratchDirectory")
     for item, text in options.properties:
-        if item.name == "ThinParts" and not options.list_labels:
-            raise UsageError(NO_THIN_PARTS)
         if not (item.name in listed if options.list_labels else is_of_labels(item)):
-            raise UsageError(f"--{item.option} and --{mode} exclude each other")
+            raise UsageError(f"--{item.option} and --{mode} exclude each other"
+                             + "; --edge-length makes edges shorter" * (item.name == "ThinParts"))
         if item.name == "KeepComponents" and text in ("at-points", "not-at-seeds"):
             raise UsageError(f"--keep {text} and --labels exclude each other")
     check_outputs(options)

@@ -14,10 +14,9 @@ task that runs twice finds its result.
 Labels that lie near each other are a bundle, one task of `make`: a crop of the map with a margin
 about the labels, of which one mesh is made, as of a map of its own. All labels in the crop are in
 the mesh, so that the surfaces of the bundle fit to their neighbours; those of its own labels are
-written. Results are bit-identical for any number of workers and after kills, and whichever labels
-are made. Surfaces of different bundles are made of the same voxels, but do not share triangles.
-Where voxels of a label meet at edges only, how they connect depends on the labels' numbers of
-voxels in the crop.
+written. Results are bit-identical for any number of workers, after kills, and whichever labels are
+made. Surfaces of different bundles are made of the same voxels, but do not share triangles. How
+voxels connect that meet at edges only depends on the labels' numbers of voxels in the crop.
 """
 
 from __future__ import annotations
@@ -180,8 +179,8 @@ class Job:
                     box[0] += found[0]
                     box[1::2] = map(min, box[1::2], found[1::2])
                     box[2::2] = map(max, box[2::2], found[2::2])
-            replace_file(path, _json(dict(sorted(whole.items(), key=lambda item: int(item[0])))))
-        return _boxes(path, os.stat(path).st_mtime_ns)
+            replace_file(path, _json(sorted((int(label), box) for label, box in whole.items())))
+        return _parsed(path, os.stat(path).st_mtime_ns)
 
     def _check_done(self, due: Sequence[int], tasks: Sequence[int], what: str, done: str) -> None:
         if due:
@@ -284,8 +283,8 @@ class Job:
                 else:
                     bundles.append((box, [label]))
             bundles.sort(key=lambda bundle: (bundle[1] == [background], -_count(bundle[0])))
-            replace_file(path, _json(bundles))
-        return _bundles(path, os.stat(path).st_mtime_ns)
+            replace_file(path, _json(list(enumerate(bundles))))
+        return list(_parsed(path, os.stat(path).st_mtime_ns).values())
 
     def _margin(self) -> list[int]:
         """Voxels along each axis beyond which others do not matter to a surface."""
@@ -366,11 +365,6 @@ def _read(path: str) -> Any:
         return json.load(file)
 
 
-@functools.lru_cache(maxsize=4)
-def _boxes(path: str, _time: int) -> dict[int, list[int]]:
-    return {int(label): box for label, box in _read(path).items()}
-
-
-@functools.lru_cache(maxsize=4)
-def _bundles(path: str, _time: int) -> list[tuple[Box, list[int]]]:
-    return [([(begin, end) for begin, end in box], labels) for box, labels in _read(path)]
+@functools.lru_cache(maxsize=8)
+def _parsed(path: str, _time: int) -> dict[int, Any]:
+    return dict(_read(path))

@@ -277,7 +277,7 @@ class JobTest(FolderTestCase):
         self.assertEqual(job._margin(), [11, 11, 6])  # 4 x 5/8 x 2 + 6 x 1
         job.count(0)
         box = next(box for box, labels in job._plan() if labels == [1])
-        self.assertEqual(box, [(7, 43), (7, 43), (12, 38)])  # 18 to 31
+        self.assertEqual(box, [[7, 43], [7, 43], [12, 38]])  # 18 to 31
         for margin, settings in ((14, {}), (22, {"FinestLevel": 2, "Smoothing": 1}),
                                  (28, {"EdgeLength": 4, "Smoothing": 1})):
             self.assertEqual(tasks.Job(balls(), self.path(f"m{margin}"), **settings)._margin(),
