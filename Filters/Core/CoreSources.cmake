@@ -59,19 +59,19 @@ set(volumic_core_sources
   Mesh/TriangleTree.cxx
   Mesh/VertexGrid.cxx
   Mesh/VertexRemoval.cxx
+  Interfaces/CellPattern.cxx
+  Interfaces/DualMesh.cxx
   Interfaces/FaceCubes.cxx
   Interfaces/InterfaceClearance.cxx
   Interfaces/InterfaceFields.cxx
   Interfaces/InterfaceFit.cxx
-  Interfaces/InterfaceLattice.cxx
   Interfaces/InterfaceMesh.cxx
   Interfaces/InterfaceMotion.cxx
   Interfaces/InterfaceEdits.cxx
   Interfaces/InterfaceRemesher.cxx
   Interfaces/InterfaceSizes.cxx
   Interfaces/InterfaceSlivers.cxx
-  Interfaces/LatticeCutter.cxx
-  Interfaces/LatticeSides.cxx
+  Interfaces/InterfaceStart.cxx
   Interfaces/LineWedges.cxx
   Interfaces/MakeInterfaces.cxx
   Interfaces/NarrowPlaces.cxx
@@ -191,17 +191,18 @@ set(volumic_core_headers
   Mesh/TriangleTree.h
   Mesh/VertexGrid.h
   Mesh/VertexRemoval.h
+  Interfaces/CellPattern.h
+  Interfaces/DualMesh.h
   Interfaces/FaceCubes.h
   Interfaces/InterfaceClearance.h
   Interfaces/InterfaceFields.h
   Interfaces/InterfaceFit.h
-  Interfaces/InterfaceLattice.h
   Interfaces/InterfaceMesh.h
   Interfaces/InterfaceMotion.h
   Interfaces/InterfaceEdits.h
   Interfaces/InterfaceRemesher.h
   Interfaces/InterfaceSizes.h
-  Interfaces/LatticeCutter.h
+  Interfaces/InterfaceStart.h
   Interfaces/LineWedges.h
   Interfaces/MakeInterfaces.h
   Interfaces/NarrowPlaces.h

@@ -3,7 +3,7 @@
 #include "Core/Interfaces/MakeInterfaces.h"
 
 #include "Core/Interfaces/InterfaceFit.h"
-#include "Core/Interfaces/InterfaceLattice.h"
+#include "Core/Interfaces/InterfaceStart.h"
 #include "Core/Interfaces/InterfaceMotion.h"
 #include "Core/Interfaces/InterfaceRemesher.h"
 #include "Core/Interfaces/InterfaceSizes.h"
@@ -80,7 +80,7 @@ InterfaceMesh MakeInterfaces(InterfaceFields& fields, const InterfaceOptions& op
     isGraded ? std::min(options.Tolerance, MostStraightening) : MostStraightening;
   double share = 0.;
   const auto mayGoOn = [&] { return goOn(share); };
-  InterfaceMesh mesh = InterfaceLattice(fields, options.Edge, executor).Start(executor);
+  InterfaceMesh mesh = StartInterfaces(fields, executor);
   std::size_t wrong = 0;
   for (int round = 0; round < rounds && mayGoOn(); ++round)
   {
