@@ -186,6 +186,11 @@ private:
 
   // ---- Points ----
 
+  bool IsOutside(Number label) const
+  {
+    return this->Grid.Outside >= 0 && label == this->Grid.Outside;
+  }
+
   /** Along an axis the only plane in which a cell may have points, at the side of a box. */
   bool IsAtSide(const std::array<int, 3>& cell, int axis) const
   {
@@ -273,6 +278,26 @@ private:
       });
   }
 
+  /** Whether a cell is at the side of a box, with this one of its own sides within the box. */
+  bool IsOppositeToSide(const std::array<int, 3>& cell, int side) const
+  {
+    return this->IsAtSide(cell, side / 2) && ((side & 1) == 1) == (cell[side / 2] == 0);
+  }
+
+  /**
+   * Of a point of the rim of an opened sheet, in its copy; all of which is in the plane at the side
+   * of a box: what comes from the opposite side of the cell within the rest.
+   */
+  Place PlaceOfCopy(const std::array<int, 3>& cell, const Place& rim) const
+  {
+    double size = Copied;
+    for (int side = 0; side < CellPattern::Sides; ++side)
+    {
+      size *= this->IsOppositeToSide(cell, side) && rim[side / 2] == (side & 1) ? 0.5 : 1.;
+    }
+    return Between({ 0.5, 0.5, 0.5 }, rim, size);
+  }
+
   void AddPointsOfSpecials(std::size_t number)
   {
     Slab& slab = this->Slabs[number];
@@ -302,7 +327,6 @@ private:
             : -1;
         }
       }
-      const Place middle = { 0.5, 0.5, 0.5 };
       for (int edge = 0; edge < CellPattern::Edges; ++edge)
       {
         special.InnerArc[edge] = -1;
@@ -311,16 +335,18 @@ private:
         {
           continue;
         }
-        special.InnerArc[edge] = add(Between(middle, PlaceOfArc(edge), Copied));
+        Place arc = PlaceOfArc(edge);
         const auto sides = CellPattern::SidesOf(edge);
         for (int n = 0; n < 2; ++n)
         {
           const int strand = pattern.StrandOf[edge][n];
+          const Place place = PlaceOfStrand(pattern, sides[n], strand);
           int& inner = special.InnerStrand[sides[n]][strand];
-          inner = inner >= 0
-            ? inner
-            : add(Between(middle, PlaceOfStrand(pattern, sides[n], strand), Copied));
+          inner = inner >= 0 ? inner : add(this->PlaceOfCopy(special.At, place));
+          // In the plane of a box's side a cap would be flat if this were in line with others.
+          arc = this->IsOppositeToSide(special.At, sides[n]) ? Between(arc, place, 0.5) : arc;
         }
+        special.InnerArc[edge] = add(this->PlaceOfCopy(special.At, arc));
       }
     }
   }
@@ -432,18 +458,17 @@ private:
   void AddTriangle(
     Slab& slab, const std::array<int, 3>& vertices, Number behind, Number front, int side) const
   {
-    const auto outside = static_cast<Number>(this->Grid.Outside);
-    const auto isOutside = [&](Number label) { return this->Grid.Outside >= 0 && label == outside; };
     InterfaceMesh::Face face = { vertices, behind, front };
-    if (isOutside(behind) || isOutside(front))
+    if (this->IsOutside(behind) || this->IsOutside(front))
     {
-      const Number inside = isOutside(behind) ? front : behind;
+      const Number inside = this->IsOutside(behind) ? front : behind;
       if (inside == 0)
       {
         return;
       }
-      face.Behind = isOutside(behind) ? static_cast<Number>(outside + side) : behind;
-      face.Front = isOutside(front) ? static_cast<Number>(outside + side) : front;
+      const auto number = static_cast<Number>(this->Grid.Outside + side);
+      face.Behind = this->IsOutside(behind) ? number : behind;
+      face.Front = this->IsOutside(front) ? number : front;
     }
     if (face.Behind > face.Front)
     {
@@ -478,8 +503,11 @@ private:
     const int side = 2 * axis + (voxel[axis] == 0 ? 0 : 1);
     if (arePlain)
     {
-      // Diagonals alternate, alike in opposite sides of a box.
-      const int turn = (voxel[across[0]] + voxel[across[1]]) & 1;
+      // All diagonals are of cells of one parity, or safe distances would be shorter; alike in
+      // opposite sides of a box.
+      const bool isInSide = this->IsOutside(behind) || this->IsOutside(front);
+      const int turn =
+        (voxel[across[0]] + voxel[across[1]] + (isInSide ? 0 : voxel[axis])) & 1;
       for (int half = 0; half < 2; ++half)
       {
         std::array<int, 3> vertices;
