@@ -284,20 +284,6 @@ private:
     return this->IsAtSide(cell, side / 2) && ((side & 1) == 1) == (cell[side / 2] == 0);
   }
 
-  /**
-   * Of a point of the rim of an opened sheet, in its copy; all of which is in the plane at the side
-   * of a box: what comes from the opposite side of the cell within the rest.
-   */
-  Place PlaceOfCopy(const std::array<int, 3>& cell, const Place& rim) const
-  {
-    double size = Copied;
-    for (int side = 0; side < CellPattern::Sides; ++side)
-    {
-      size *= this->IsOppositeToSide(cell, side) && rim[side / 2] == (side & 1) ? 0.5 : 1.;
-    }
-    return Between({ 0.5, 0.5, 0.5 }, rim, size);
-  }
-
   void AddPointsOfSpecials(std::size_t number)
   {
     Slab& slab = this->Slabs[number];
@@ -327,6 +313,7 @@ private:
             : -1;
         }
       }
+      const Place middle = { 0.5, 0.5, 0.5 };
       for (int edge = 0; edge < CellPattern::Edges; ++edge)
       {
         special.InnerArc[edge] = -1;
@@ -342,11 +329,11 @@ private:
           const int strand = pattern.StrandOf[edge][n];
           const Place place = PlaceOfStrand(pattern, sides[n], strand);
           int& inner = special.InnerStrand[sides[n]][strand];
-          inner = inner >= 0 ? inner : add(this->PlaceOfCopy(special.At, place));
-          // In the plane of a box's side a cap would be flat if this were in line with others.
+          inner = inner >= 0 ? inner : add(Between(middle, place, Copied));
+          // In the plane of a box's side the copies of this and of others would coincide.
           arc = this->IsOppositeToSide(special.At, sides[n]) ? Between(arc, place, 0.5) : arc;
         }
-        special.InnerArc[edge] = add(this->PlaceOfCopy(special.At, arc));
+        special.InnerArc[edge] = add(Between(middle, arc, Copied));
       }
     }
   }
