@@ -97,6 +97,7 @@ std::vector<float> SafeDistances(const VoxelScene& scene, const InterfaceMesh& m
     const bool isInMiddle = p.X == at[0] + .5f && p.Y == at[1] + .5f && p.Z == at[2] + .5f;
     isPlain.push_back(isInMiddle && CellPattern(octants, scene.RankOf).IsPlain());
   }
+  const float least = scene.Outside < 0 ? .02f : .01f;
   std::vector<float> safe(mesh.Position.size(), .24f);
   for (const InterfaceMesh::Face& face : mesh.Faces)
   {
@@ -104,7 +105,7 @@ std::vector<float> SafeDistances(const VoxelScene& scene, const InterfaceMesh& m
     {
       const auto v = static_cast<std::size_t>(face.Vertex[k % 3]);
       const auto w = static_cast<std::size_t>(face.Vertex[k / 3]);
-      safe[v] = !isPlain[v] ? .02f : !isPlain[w] ? std::min(safe[v], .1f) : safe[v];
+      safe[v] = !isPlain[v] ? least : !isPlain[w] ? std::min(safe[v], .1f) : safe[v];
     }
   }
   return safe;
@@ -232,14 +233,21 @@ TEST(DualMesh, DoesNotIntersectAnywhereInItsSafeBoxes)
 {
   std::mt19937 random(1);
   for (const VoxelScene& scene : { NoiseScene(10, 2, 1), NoiseScene(10, 3, 2),
-         NoiseScene(10, 10, 3), GrainScene(20, 30, 1, 4), GrainScene(20, 12, 0, 5) })
+         NoiseScene(10, 10, 3), GrainScene(20, 30, 1, 4), GrainScene(20, 12, 0, 5),
+         NoiseScene(10, 2, 6, true), NoiseScene(10, 5, 7, true), GrainScene(20, 30, 1, 8, 31) })
   {
     InterfaceMesh mesh = scene.Mesh();
     const std::vector<float> safe = SafeDistances(scene, mesh);
     for (std::size_t v = 0; v < safe.size(); ++v)
     {
-      const auto step = [&] { return random() % 2 == 0 ? safe[v] : -safe[v]; };
-      mesh.Position[v] += Vector(step(), step(), step());
+      const auto move = [&](float& at, std::size_t axis)
+      {
+        const float step = random() % 2 == 0 ? safe[v] : -safe[v];
+        at += at == mesh.Planes[2 * axis] || at == mesh.Planes[2 * axis + 1] ? 0.f : step;
+      };
+      move(mesh.Position[v].X, 0);
+      move(mesh.Position[v].Y, 1);
+      move(mesh.Position[v].Z, 2);
     }
     EXPECT_EQ(CountSelfIntersections(TrianglesOf(mesh)), 0);
   }
@@ -262,16 +270,8 @@ TEST(DualMesh, IsTheSameForAnyNumberOfThreads)
 
 TEST(DualMesh, EndsInThePlanesOfABox)
 {
-  const auto noise = [](int labels)
-  {
-    std::mt19937 random(7);
-    return VoxelScene(
-      { 9, 8, 7 },
-      [=](int, int, int) mutable
-      { return static_cast<int>(random() % static_cast<unsigned>(labels)); },
-      labels);
-  };
-  for (VoxelScene scene : { noise(2), noise(4), noise(9), GrainScene(12, 15, 1, 1, 16) })
+  for (VoxelScene scene : { NoiseScene(8, 2, 1, true), NoiseScene(8, 4, 2, true),
+         NoiseScene(8, 9, 3, true), GrainScene(12, 15, 1, 1, 16) })
   {
     scene.Spacing = { 1., 1., 3. };
     const InterfaceMesh mesh = scene.Mesh();

@@ -175,12 +175,14 @@ inline void ExpectSound(const VoxelScene& scene, const InterfaceMesh& mesh)
   EXPECT_EQ(CountSelfIntersections(TrianglesOf(mesh)), 0);
 }
 
-/** Labels from 0 to before `labels` at random. */
-inline VoxelScene NoiseScene(int side, int labels, unsigned seed)
+/** Labels from 0 to before `labels` at random, in a box or in background. */
+inline VoxelScene NoiseScene(int side, int labels, unsigned seed, bool isInBox = false)
 {
   std::mt19937 random(seed);
-  return VoxelScene({ side, side, side },
-    [&](int, int, int) { return static_cast<int>(random() % static_cast<unsigned>(labels)); });
+  return VoxelScene(
+    { side, side, side },
+    [&](int, int, int) { return static_cast<int>(random() % static_cast<unsigned>(labels)); },
+    isInBox ? labels : -1);
 }
 
 /** Cells of seeds at random, numbered from `first`. */

@@ -37,7 +37,7 @@ inline std::ostream& operator<<(std::ostream& stream, const BlockTopology& topol
 }
 
 /**
- * A box of labels with one layer of Beyond about it. A label is connected through voxel faces, and
+ * Labels of a box of voxels. A label is connected through voxel faces, and
  * across a voxel edge where its two voxels are opposite and the two others are of two different
  * labels, or both of one label of later rank.
  */
@@ -48,10 +48,12 @@ public:
 
   /** @param labels x fastest @param rankOf each label */
   VoxelTopology(const Voxel& size, const std::vector<int>& labels, std::vector<int> rankOf)
-    : RankOf(std::move(rankOf)), Size({ size[0] + 2, size[1] + 2, size[2] + 2 }),
+    : RankOf(std::move(rankOf)), Beyond(static_cast<int>(this->RankOf.size())),
+      Size({ size[0] + 2, size[1] + 2, size[2] + 2 }),
       Stride({ 1, size[0] + 2, (size[0] + 2) * (size[1] + 2) }),
-      Labels(static_cast<std::size_t>(this->Stride[2] * this->Size[2]), Beyond)
+      Labels(static_cast<std::size_t>(this->Stride[2] * this->Size[2]), this->Beyond)
   {
+    this->RankOf.push_back(INT_MAX);
     auto label = labels.begin();
     this->ForBox({ 1, 1, 1 }, { size[0] + 1, size[1] + 1, size[2] + 1 },
       [&](int v) { this->Labels[static_cast<std::size_t>(v)] = *label++; });
@@ -67,18 +69,22 @@ public:
     this->ForBox({ 0, 0, 0 }, end,
       [&](int v)
       {
-        const Octants octants = this->OctantsAt(v);
+        Octants voxels;
+        for (int o = 0; o < 8; ++o)
+        {
+          voxels[o] = v + this->NumberOf(o & 1, o >> 1 & 1, o >> 2);
+        }
+        const Octants octants = this->LabelsOf(voxels);
         const Octants regions = this->RegionsOf(octants);
         for (int o = 0; o < 8; ++o)
         {
-          parts.Join(this->Octant(v, o), this->Octant(v, regions[o]));
+          parts.Join(voxels[o], voxels[regions[o]]);
           counts[octants[o]].Euler += regions[o] == o ? 1 : 0;
         }
         for (int axis = 0; axis < 3; ++axis) // faces and edges at the first octant
         {
           counts[octants[0]].Euler += octants[0] == octants[1 << axis] ? 3 : 0;
-          const Ring ring = this->RingAt(v, axis);
-          const Ring four = this->LabelsOf(ring);
+          const Ring four = this->LabelsOf(this->RingAt(v, axis));
           const int d = this->JoinedDiagonal(four);
           counts[four[0]].Euler -= std::count(four.begin(), four.end(), four[0]) == 4 ? 1 : 0;
           counts[four[d < 0 ? 0 : d]].Euler += d < 0 ? 0 : 1;
@@ -99,7 +105,7 @@ public:
           box[1][axis] = std::max(box[1][axis], at[axis] + 2);
         }
       });
-    counts.erase(Beyond);
+    counts.erase(this->Beyond);
     for (auto& [label, topology] : counts)
     {
       topology.Cavities = this->PartsWithout(label, boxes[label][0], boxes[label][1]) - 1;
@@ -108,7 +114,6 @@ public:
   }
 
 private:
-  static constexpr int Beyond = -1;
   using Ring = std::array<int, 4>;    ///< about an edge, in cyclic order
   using Octants = std::array<int, 8>; ///< about a corner; bit 0 of the index is along x
 
@@ -119,7 +124,7 @@ private:
     { return ring[d] == ring[d + 2] && ring[d] != ring[1 - d] && ring[d] != ring[3 - d]; };
     if (isSplit(0) && isSplit(1))
     {
-      return this->IsBefore(ring[0], ring[1]) ? 0 : 1;
+      return this->Rank(ring[0]) < this->Rank(ring[1]) ? 0 : 1;
     }
     return isSplit(0) ? 0 : isSplit(1) ? 1 : -1;
   }
@@ -162,8 +167,8 @@ private:
     if (std::equal(octants.begin(), octants.end(), octants.rbegin()) &&
       std::set<int>(octants.begin(), octants.end()).size() == 4)
     {
-      const auto first = std::min_element(
-        octants.begin(), octants.end(), [&](int a, int b) { return this->IsBefore(a, b); });
+      const auto first = std::min_element(octants.begin(), octants.end(),
+        [&](int a, int b) { return this->Rank(a) < this->Rank(b); });
       const auto o = static_cast<int>(first - octants.begin());
       join(o, 7 - o);
     }
@@ -171,22 +176,16 @@ private:
   }
 
   int NumberOf(int i, int j, int k) const { return i + j * this->Stride[1] + k * this->Stride[2]; }
-  int Octant(int v, int o) const { return v + this->NumberOf(o & 1, o >> 1 & 1, o >> 2); }
-  bool IsBefore(int a, int b) const
-  {
-    const auto rank = [this](int label)
-    { return label == Beyond ? INT_MAX : this->RankOf[static_cast<std::size_t>(label)]; };
-    return rank(a) < rank(b);
-  }
+  int Rank(int label) const { return this->RankOf[static_cast<std::size_t>(label)]; }
   int LabelOf(int v) const { return this->Labels[static_cast<std::size_t>(v)]; }
-  Octants OctantsAt(int v) const
+  template <typename Voxels>
+  Voxels LabelsOf(Voxels voxels) const
   {
-    Octants octants;
-    for (int o = 0; o < 8; ++o)
+    for (int& v : voxels)
     {
-      octants[o] = this->LabelOf(this->Octant(v, o));
+      v = this->LabelOf(v);
     }
-    return octants;
+    return voxels;
   }
   static Ring RingAt(int first, int b, int c)
   {
@@ -196,11 +195,6 @@ private:
   Ring RingAt(int v, int axis) const
   {
     return RingAt(v, this->Stride[(axis + 1) % 3], this->Stride[(axis + 2) % 3]);
-  }
-  Ring LabelsOf(const Ring& ring) const
-  {
-    return { this->LabelOf(ring[0]), this->LabelOf(ring[1]), this->LabelOf(ring[2]),
-      this->LabelOf(ring[3]) };
   }
 
   /** Components in a box of what is not of a label, by the complementary connectivity. */
@@ -258,6 +252,7 @@ private:
   }
 
   std::vector<int> RankOf;
+  int Beyond; ///< what is about the box, of the last rank
   Voxel Size;
   Voxel Stride;
   std::vector<int> Labels;
