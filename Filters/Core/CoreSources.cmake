@@ -67,6 +67,7 @@ set(volumic_core_sources
   Interfaces/InterfaceFit.cxx
   Interfaces/InterfaceMesh.cxx
   Interfaces/InterfaceMotion.cxx
+  Interfaces/InterfaceCrossings.cxx
   Interfaces/InterfaceEdits.cxx
   Interfaces/InterfaceRemesher.cxx
   Interfaces/InterfaceSizes.cxx
@@ -74,6 +75,7 @@ set(volumic_core_sources
   Interfaces/InterfaceStart.cxx
   Interfaces/LineWedges.cxx
   Interfaces/MakeInterfaces.cxx
+  Interfaces/MismatchedVoxels.cxx
   Interfaces/NarrowPlaces.cxx
   Interfaces/PeriodicImages.cxx
   Interfaces/VertexTargets.cxx
@@ -199,12 +201,14 @@ set(volumic_core_headers
   Interfaces/InterfaceFit.h
   Interfaces/InterfaceMesh.h
   Interfaces/InterfaceMotion.h
+  Interfaces/InterfaceCrossings.h
   Interfaces/InterfaceEdits.h
   Interfaces/InterfaceRemesher.h
   Interfaces/InterfaceSizes.h
   Interfaces/InterfaceStart.h
   Interfaces/LineWedges.h
   Interfaces/MakeInterfaces.h
+  Interfaces/MismatchedVoxels.h
   Interfaces/NarrowPlaces.h
   Interfaces/TriangleShape.h
   Interfaces/VertexTargets.h
