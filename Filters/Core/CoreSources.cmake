@@ -24,7 +24,7 @@ set(volumic_core_sources
   Image/ValidReduction.cxx
   Image/VoxelHash.cxx
   Labels/BoundaryGaussian.cxx
-  Labels/BoundaryRows.cxx
+  Labels/VoxelBits.cxx
   Labels/DrawBack.cxx
   Labels/LabelBricks.cxx
   Labels/LabelClaims.cxx
@@ -157,7 +157,7 @@ set(volumic_core_headers
   Image/VoxelValues.h
   Image/WayToZero.h
   Labels/BoundaryGaussian.h
-  Labels/BoundaryRows.h
+  Labels/VoxelBits.h
   Labels/DrawBack.h
   Labels/LabelBricks.h
   Labels/LabelClaims.h

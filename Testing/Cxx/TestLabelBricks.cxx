@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Common/StandardThreads.h"
-#include "Core/Labels/BoundaryRows.h"
+#include "Core/Labels/LabelSides.h"
 #include "Core/Labels/SmallParts.h"
 #include "LabelTestTools.h"
 
@@ -72,11 +72,11 @@ TEST(LabelBricks, AreContestedWhereThreeMeet)
   EXPECT_FALSE(LabelBricks(BallMap(32, 10.), OnThisThread()).HasContested());
 }
 
-TEST(BoundaryRows, AreWhatIsNearTheBoundaryAndNothingElse)
+TEST(LabelSides, FindWhatIsNearTheBoundaryAndNothingElse)
 {
   const LabelMap map = BallMap(48, 18.);
   const LabelBricks bricks(map, OnThisThread());
-  const BoundaryRows rows(bricks, 1);
+  const VoxelBits rows = LabelSides(bricks, 1).NearBoundary({ 4, 4, 4 });
   std::vector<char> isThere(static_cast<std::size_t>(rows.Box().Count()), 0);
   int count = 0;
   rows.For(OnThisThread(),
@@ -105,7 +105,7 @@ TEST(BoundaryRows, AreWhatIsNearTheBoundaryAndNothingElse)
           std::hypot(rows.Box().First[0] + x - middle, j - middle, k - middle) - 18.);
         near += distance < 4.;
         ASSERT_TRUE(times == 1 || distance >= 4.);
-        ASSERT_TRUE(times == 0 || distance < 16.) << "two bricks and their diagonals at most";
+        ASSERT_TRUE(times == 0 || distance < 10.) << "four voxels, their diagonals and fours";
       }
     });
   EXPECT_GT(near, 10000);

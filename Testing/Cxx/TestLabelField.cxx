@@ -3,6 +3,7 @@
 #include "Core/Labels/BoundaryGaussian.h"
 #include "Core/Labels/LabelClaims.h"
 #include "Core/Labels/LabelHold.h"
+#include "Core/Labels/LabelSides.h"
 #include "LabelTestTools.h"
 #include "ThreadTestTools.h"
 
@@ -34,11 +35,10 @@ TEST(BoundaryGaussian, IsTheSumOfItsWeights)
   LabelMap map = MakeLabelMap({ 24, 24, 24 }, 1,
     [](int i, int j, int k) { return i > 7 && j > 9 && k > 11 && i < 17 ? 1 : 0; });
   const LabelBricks bricks(map, OnThisThread());
-  const BoundaryRows rows(bricks, 1);
+  const VoxelBits rows = LabelSides(bricks, 1).NearBoundary({ 4, 4, 4 });
   const std::array<double, 3> sigma = { 1., 1.5, 0.5 };
-  BoundaryGaussian gaussian(rows, sigma);
-  LargeVector<float> smooth(static_cast<std::size_t>(rows.Box().Count()));
-  gaussian.Smooth(
+  std::vector<float> smooth(static_cast<std::size_t>(rows.Box().Count()));
+  BoundaryGaussian().Smooth(rows, sigma,
     [&](int i, int j, int k, int count, float* values)
     {
       for (int x = 0; x < count; ++x)
@@ -46,7 +46,9 @@ TEST(BoundaryGaussian, IsTheSumOfItsWeights)
         values[x] = map.At(i + x, j, k) == 1 ? 1.f : 0.f;
       }
     },
-    smooth, OnThisThread());
+    [&](int i, int j, int k, int count, const float* values)
+    { std::copy_n(values, count, smooth.begin() + rows.Box().NumberOf(i, j, k)); },
+    OnThisThread());
   const auto along = [](double s, int n) { return std::exp(-0.5 * n * n / (s * s)); };
   int tested = 0;
   int inside = 0;

@@ -2,11 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Labels/LabelField.h"
 
+#include "Core/Common/Lanes.h"
 #include "Core/Common/Spans.h"
-#include "Core/Labels/BoundaryRows.h"
 #include "Core/Labels/LabelDistance.h"
 #include "Core/Labels/LabelHold.h"
 #include "Core/Labels/LabelSides.h"
+#include "Core/Labels/VoxelBits.h"
 
 #include <algorithm>
 #include <array>
@@ -44,20 +45,22 @@ public:
   }
   FieldMaker(const LabelBricks& bricks, int object, const LabelFieldOptions& options,
     Executor& executor, const VoxelBox& within)
-    : Map(bricks.Map()), Object(object), Sides(bricks.Map(), object), Options(options),
-      Threads(executor), Rows(bricks, object, within)
+    : Map(bricks.Map()), Sides(bricks, object, within), Options(options), Threads(executor),
+      Rows(this->Sides.NearBoundary(
+        LabelSides::ReachOfFields(options.Sigma, bricks.Map().Spacing)))
   {
   }
 
   LabelField Make()
   {
-    this->Field.Box = this->Rows.Box();
+    this->Field.Box = this->Sides.Box();
     this->Field.Values.resize(static_cast<std::size_t>(this->Field.Box.Count()));
     this->FillFarVoxels();
+    this->Field.Rows = this->Rows;
     if (this->Options.Sigma > 0.)
     {
-      MakeLabelDistance(
-        this->Map, this->Object, this->Rows, this->Options, this->Field, this->Threads);
+      MakeLabelDistance(this->Sides, this->Rows, this->Map.Spacing, this->Options, this->Field,
+        this->Threads);
       this->CorrectBends(this->Options.ChordCorrection);
       this->Hold({});
     }
@@ -190,17 +193,11 @@ private:
     return square > LeastSlope * LeastSlope ? laplacian - across / square : 0.f;
   }
 
-  /** Within a tolerance nothing is held for being thin. */
-  bool IsThin(int i, int j, int k) const
-  {
-    return this->IsStrict(i, j, k) && this->Sides.IsThin(i, j, k);
-  }
-
   void Hold(const std::vector<HeldVoxel>& held)
   {
-    if (this->HasTolerance())
+    if (this->HasTolerance() && !(this->Field.IsStrict.Box() == this->Field.Box))
     {
-      this->Field.IsStrict.resize(this->Field.Values.size(), 0);
+      this->Field.IsStrict = VoxelBits(this->Field.Box);
     }
     HoldToLabels(this->Field, this->Map.Spacing, this->FindConstraints(held));
     for (int round = 0; this->HasTolerance() && round < MostRescues && this->FindLost(); ++round)
@@ -229,45 +226,24 @@ private:
 
   bool IsStrict(int i, int j, int k) const
   {
-    const VoxelBox& box = this->Field.Box;
-    return !this->HasTolerance() ||
-      (box.Contains({ i, j, k }) &&
-        this->Field.IsStrict[static_cast<std::size_t>(box.NumberOf(i, j, k))] != 0);
+    return !this->HasTolerance() || this->Field.IsStrict.Has(i, j, k);
   }
 
   /** Has those be strict that are wrong, as are all of their side beside them. @return any new */
   bool FindLost()
   {
-    std::vector<unsigned char> ofLayers(static_cast<std::size_t>(this->Rows.NumberOfLayers()), 0);
-    ForSpans(this->Threads, ofLayers.size(), 1,
-      [&](std::size_t layer, std::size_t, std::size_t)
-      {
-        this->Rows.ForLayer(static_cast<int>(layer),
-          [&](int i, int j, int k, int count)
-          {
-            unsigned char* strict = this->Field.IsStrict.data() + this->Field.Box.NumberOf(i, j, k);
-            for (int x = 0; x < count; ++x)
-            {
-              if (strict[x] == 0 && this->Sides.IsLost(this->Field, i + x, j, k))
-              {
-                strict[x] = 1;
-                ofLayers[layer] = 1;
-              }
-            }
-          });
-      });
-    return std::count(ofLayers.begin(), ofLayers.end(), 1) > 0;
+    const VoxelBits lost =
+      this->Sides.FindLost(this->Field, this->Rows, this->Threads) - this->Field.IsStrict;
+    this->Field.IsStrict |= lost;
+    return !lost.IsEmpty();
   }
-
-  /** Whether one of the other side beside it is: it must not take all of the way between. */
-  bool IsBesideThin(int i, int j, int k) const { return this->WayToThin(i, j, k) > 0.; }
 
   /** To the nearest of the other side beside it that is thin; 0: there is none. */
   double WayToThin(int i, int j, int k) const
   {
     const bool side = this->Sides.IsObject(i, j, k);
     const auto isThinOther = [&](int a, int b, int c)
-    { return this->Sides.IsObject(a, b, c) != side && this->IsThin(a, b, c); };
+    { return this->Sides.IsObject(a, b, c) != side && this->Thin.Has(a, b, c); };
     const std::array<double, 3>& way = this->Map.Spacing;
     double least = 0.;
     const auto take = [&least](bool isThere, double length)
@@ -280,20 +256,55 @@ private:
 
   double MarginAt(int i, int j, int k) const
   {
-    return this->IsThin(i, j, k)    ? this->Options.ThinMargin
-      : this->IsBesideThin(i, j, k) ? this->Options.MarginBesideThin
-      : this->IsStrict(i, j, k)     ? this->Options.Margin
-                                    : this->Options.Margin - this->Options.Tolerance;
+    return this->Thin.Has(i, j, k)     ? this->Options.ThinMargin
+      : this->BesideThin.Has(i, j, k) ? this->Options.MarginBesideThin
+      : this->IsStrict(i, j, k)       ? this->Options.Margin
+                                      : this->Options.Margin - this->Options.Tolerance;
+  }
+
+  /** The voxels whose constraints may not be met, or that one which is not met may change. */
+  VoxelBits FindChanging()
+  {
+    VoxelBits changing = this->BesideThin;
+    const auto least = static_cast<float>(this->Options.Margin - this->Options.Tolerance);
+    const auto most = static_cast<float>(this->Options.ThinMargin);
+    this->Rows.For(this->Threads,
+      [&](int i, int j, int k, int count)
+      {
+        const float* values = this->RowAt(i, j, k);
+        for (int x = 0; x < count; x += Lanes::Count)
+        {
+          const bool isHeld = !this->HasTolerance() ||
+            this->Field.IsStrict.FourAt(i + x, j, k) != 0 ||
+            this->BesideThin.FourAt(i + x, j, k) != 0;
+          const float margin = isHeld ? most : least;
+          const Lanes four = Lanes::Load(values + x);
+          const unsigned members = this->Sides.FourAt(i + x, j, k);
+          changing.AddFour(i + x, j, k,
+            (LessBits(four, Lanes(margin)) & members) |
+              (LessBits(Lanes(-margin), four) & ~members & 15u));
+        }
+      });
+    constexpr int reach = 2 * ReachOfHold;
+    return this->Rows & changing.Grown({ reach, reach, reach });
   }
 
   std::vector<VoxelConstraint> FindConstraints(const std::vector<HeldVoxel>& held)
   {
+    // Within a tolerance nothing is held for being thin.
+    this->Thin = this->Sides.FindThin();
+    if (this->HasTolerance())
+    {
+      this->Thin &= this->Field.IsStrict;
+    }
+    this->BesideThin = this->Sides.FindBeside(this->Thin);
+    const VoxelBits rows = held.empty() ? this->FindChanging() : this->Rows;
     std::vector<std::vector<VoxelConstraint>> ofLayers(
       static_cast<std::size_t>(this->Rows.NumberOfLayers()));
     ForSpans(this->Threads, ofLayers.size(), 1,
       [&](std::size_t layer, std::size_t, std::size_t)
       {
-        this->Rows.ForLayer(static_cast<int>(layer),
+        rows.ForLayer(static_cast<int>(layer),
           [&](int i, int j, int k, int count)
           { this->FindConstraintsOfRow(i, j, k, count, held, ofLayers[layer]); });
       });
@@ -307,7 +318,7 @@ private:
     for (int x = 0; x < count; ++x)
     {
       const float side = this->Sides.Of(i + x, j, k);
-      if (side * values[x] > 1.f && !this->IsThin(i + x, j, k))
+      if (side * values[x] > 1.f && !this->Thin.Has(i + x, j, k))
       {
         const double way = this->WayToThin(i + x, j, k);
         if (way > 0. && side * values[x] > way)
@@ -335,11 +346,12 @@ private:
   }
 
   const LabelMap& Map;
-  int Object;
   LabelSides Sides;
   LabelFieldOptions Options;
   Executor& Threads;
-  BoundaryRows Rows;
+  VoxelBits Rows;       ///< where values are computed
+  VoxelBits Thin;       ///< strict ones whose neighbors along an axis are on the other side
+  VoxelBits BesideThin; ///< those with one of these beside them: they must not take all the way
   LabelField Field;
 };
 }

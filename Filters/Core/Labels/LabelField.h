@@ -7,6 +7,7 @@
 #include "Core/Common/ScratchMemory.h"
 #include "Core/Image/VoxelBox.h"
 #include "Core/Labels/LabelBricks.h"
+#include "Core/Labels/VoxelBits.h"
 
 #include <cstdint>
 #include <vector>
@@ -67,8 +68,10 @@ struct LabelField
 
   VoxelBox Box;
   LargeVector<float> Values; ///< positive inside; x fastest
+  /** The voxels whose values are computed. */
+  VoxelBits Rows;
   /** With a tolerance: the voxels without one, as no voxel beside them is where it belongs. */
-  LargeVector<unsigned char> IsStrict;
+  VoxelBits IsStrict;
 };
 
 /**
