@@ -81,7 +81,6 @@ std::string ReasonsOfLoss(const LabelSettings& settings)
 {
   std::string reasons = ": too small, scattered, or too thin for the triangles";
   reasons += settings.KeepComponents != 0 ? ", or left out by Keep Components" : "";
-  reasons += settings.Gap > 0.0 ? ", or taken away by Gap" : "";
   reasons += ".";
   if (settings.EdgeLength > 0.0)
   {
@@ -94,11 +93,13 @@ std::string ReasonsOfLoss(const LabelSettings& settings)
   return reasons;
 }
 
-/** Whether its volume is not that of the voxels, and nobody asked for what brings that about. */
+/** Whether the volume of a label of so many voxels is off, and no setting brings that about. */
 bool HasWrongVolume(const LabelSurface& surface, vtkIdType voxels, const LabelSettings& settings)
 {
+  constexpr vtkIdType least = 100;
+  constexpr double most = 0.03;
   const bool hasLargeTriangles = settings.FinestLevel > 0 || settings.EdgeLength > 0.0;
-  return surface.IsVolumeOff(voxels) && !hasLargeTriangles && settings.Gap == 0.0 &&
+  return voxels >= least && std::abs(surface.VolumeError) > most && !hasLargeTriangles &&
     settings.KeepComponents == 0;
 }
 
@@ -165,7 +166,6 @@ std::string FillBlocks(const LabelChoice& choice, const LabelImage& image,
 {
   std::vector<std::string> empty;
   std::vector<std::string> lost;
-  std::vector<std::string> touching;
   std::vector<std::string> wrongVolumes;
   double sought = 0.0;  // voxels of all labels
   double missing = 0.0; // those without a surface that nobody has chosen to be without
@@ -216,10 +216,6 @@ std::string FillBlocks(const LabelChoice& choice, const LabelImage& image,
       wrongVolumes.push_back(name + " (" + ToPercent(surfaces[i].VolumeError) + ")");
       missing += std::abs(surfaces[i].VolumeError) * static_cast<double>(voxels);
     }
-    if (surfaces[i].TouchingFaces > 0)
-    {
-      touching.push_back(name + " (" + std::to_string(surfaces[i].TouchingFaces) + ")");
-    }
   }
   std::vector<std::string> losses;
   if (!empty.empty())
@@ -236,7 +232,6 @@ std::string FillBlocks(const LabelChoice& choice, const LabelImage& image,
     losses.push_back("The volume is not that of the voxels of " + Listed(wrongVolumes) +
       ReasonsOfLoss(settings));
   }
-  std::vector<std::string> warnings;
   if (!losses.empty())
   {
     vtkNew<vtkStringArray> told;
@@ -244,18 +239,7 @@ std::string FillBlocks(const LabelChoice& choice, const LabelImage& image,
     told->InsertNextValue(JoinedBy(" ", losses));
     output->GetFieldData()->AddArray(told);
   }
-  if (missing > NotableShare * sought)
-  {
-    warnings = losses;
-  }
-  if (!touching.empty())
-  {
-    warnings.push_back(
-      "Triangles still touch the surfaces of neighbours, or lie within them, in spite "
-      "of the Gap: " +
-      Listed(touching) + ". Try a larger Gap.");
-  }
-  return JoinedBy(" ", warnings);
+  return missing > NotableShare * sought ? JoinedBy(" ", losses) : "";
 }
 
 void AddLabelFields(const LabelChoice& choice, const LabelImage& image, vtkPolyData* surface)

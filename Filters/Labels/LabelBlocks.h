@@ -5,6 +5,7 @@
 
 #include "Labels/LabelImage.h"
 #include "Labels/LabelNames.h"
+#include "Labels/LabelSettings.h"
 #include "Labels/LabelSurface.h"
 
 #include <cstddef>
@@ -34,8 +35,8 @@ struct LabelChoice
 /**
  * Makes a block of each surface, with the arrays of labels.
  * @param stopped the `StopReason` of what is not finished
- * @return what the user should know: labels that have no surface, or lose most of their voxels, or
- *         meet neighbours in spite of a gap, and what may help; empty: nothing
+ * @return a warning: labels that have no surface, lose most of their voxels, or have another volume,
+ *         and what may help; empty: none
  */
 std::string FillBlocks(const LabelChoice& choice, const LabelImage& image,
   const LabelSettings& settings, const std::vector<LabelSurface>& surfaces,

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Labels/LabelImage.h"
 
+#include "Core/Common/Join.h"
 #include "Core/Common/Refuse.h"
 #include "Core/Common/Spans.h"
 #include "Input/ImageVoxels.h"
@@ -18,7 +19,9 @@
 #include <vtkPolyData.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <mutex>
 #include <type_traits>
@@ -186,25 +189,26 @@ std::vector<int> LabelImage::Choose(const std::vector<int>& wanted, int backgrou
   return labels;
 }
 
-LabelMap LabelImage::MakeMap(
-  const std::vector<int>& labels, bool merge, int background, Executor& executor) const
+LabelMap LabelImage::MakeMap(const std::vector<int>& selected, bool merge, int background,
+  std::vector<int>& objects, Executor& executor) const
 {
+  constexpr int beyond = 8; // numbers behind all objects that others have
   const int* size = this->Geometry->GetDimensions();
   LabelMap map({ size[0], size[1], size[2] });
   map.Spacing = Workspace(this->Geometry, Metric::World).Step();
-  std::unordered_map<int, LabelMap::Number> objects;
-  for (const int label : labels)
+  std::unordered_map<int, LabelMap::Number> numbers;
+  int room = std::numeric_limits<LabelMap::Number>::max() - beyond - static_cast<int>(selected.size());
+  for (const auto& [label, voxels] : this->Counts)
   {
-    const int last = map.NumberOfObjects;
-    map.NumberOfObjects = merge ? 1 : last + 1;
-    objects[label] = static_cast<LabelMap::Number>(map.NumberOfObjects);
-  }
-  for (const auto& entry : this->Counts)
-  {
-    if (entry.first != background && objects.count(entry.first) == 0 &&
-      map.NumberOfObjects < std::numeric_limits<LabelMap::Number>::max())
+    const bool isSelected = std::binary_search(selected.begin(), selected.end(), label);
+    if (isSelected && merge && !objects.empty())
     {
-      objects[entry.first] = static_cast<LabelMap::Number>(++map.NumberOfObjects);
+      numbers[label] = static_cast<LabelMap::Number>(objects.front());
+    }
+    else if (isSelected || (label != background && room-- > 0))
+    {
+      numbers[label] = static_cast<LabelMap::Number>(++map.NumberOfObjects);
+      objects.insert(objects.end(), isSelected ? 1 : 0, map.NumberOfObjects);
     }
   }
   VisitVoxels(this->Voxels,
@@ -214,22 +218,70 @@ LabelMap LabelImage::MakeMap(
         [&](std::size_t layer, std::size_t, std::size_t)
         {
           const VoxelBox box = map.Layer(static_cast<int>(layer));
-          std::vector<LabelMap::Number> numbers(static_cast<std::size_t>(box.Count()));
+          std::vector<LabelMap::Number> slices(static_cast<std::size_t>(box.Count()));
           const auto* from = voxels + VoxelBox::Of(map.Size()).NumberOf(0, 0, box.First[2]);
-          for (std::size_t i = 0; i < numbers.size();)
+          for (std::size_t i = 0; i < slices.size();)
           {
             const auto value = from[i];
-            const auto found = objects.find(static_cast<int>(value));
-            const LabelMap::Number object = found == objects.end() ? 0 : found->second;
-            for (; i < numbers.size() && from[i] == value; ++i)
+            const auto found = numbers.find(static_cast<int>(value));
+            const LabelMap::Number object = found == numbers.end() ? 0 : found->second;
+            for (; i < slices.size() && from[i] == value; ++i)
             {
-              numbers[i] = object;
+              slices[i] = object;
             }
           }
-          map.PutLayer(static_cast<int>(layer), numbers.data());
+          map.PutLayer(static_cast<int>(layer), slices.data());
         });
     });
   return map;
+}
+
+std::string LabelImage::ScanWarning(int background, Executor& executor) const
+{
+  constexpr std::size_t mostLabels = 256;
+  constexpr double mostDiffering = 1.0 / 3.0;
+  const std::size_t labels = this->Counts.size() - this->Counts.count(background);
+  if (labels <= mostLabels)
+  {
+    return "";
+  }
+  const int* size = this->Geometry->GetDimensions();
+  const VoxelBox all = VoxelBox::Of({ size[0], size[1], size[2] });
+  std::atomic<std::int64_t> pairs{ 0 };
+  std::atomic<std::int64_t> differing{ 0 };
+  VisitVoxels(this->Voxels,
+    [&](const auto* voxels)
+    {
+      ForSpans(executor, static_cast<std::size_t>(size[2]), 1,
+        [&](std::size_t slice, std::size_t, std::size_t)
+        {
+          const int k = static_cast<int>(slice);
+          std::int64_t of[2] = { 0, 0 };
+          for (int j = 0; j < size[1]; ++j)
+          {
+            for (int i = 0; i < size[0]; ++i)
+            {
+              const auto* at = voxels + all.NumberOf(i, j, k);
+              for (const auto& [isThere, step] : { std::pair(i > 0, std::int64_t(1)),
+                     std::pair(j > 0, std::int64_t(size[0])),
+                     std::pair(k > 0, std::int64_t(size[0]) * size[1]) })
+              {
+                of[0] += isThere ? 1 : 0;
+                of[1] += isThere && at[-step] != *at ? 1 : 0;
+              }
+            }
+          }
+          pairs += of[0];
+          differing += of[1];
+        });
+    });
+  const double share = static_cast<double>(differing) / static_cast<double>(pairs);
+  return share <= mostDiffering
+    ? ""
+    : Join(NameOf(this->Voxels), " has ", labels, " labels, and ", std::lround(100.0 * share),
+        " % of neighbouring voxels have different ones: it looks like a scan, not like a label map. "
+        "For an isosurface of a scan apply Volume to Surface (vtkVolumeToSurface) or Deformable "
+        "Surface (vtkDeformableSurface), or run volumic with --iso.");
 }
 
 void LabelImage::FindNearest(
@@ -288,7 +340,7 @@ void LabelImage::FindNearest(
           }
         }
       });
-    found->SetValue(cells->GetCurrentCellId(), nearest);
+    found->SetValue(surface->GetNumberOfLines() + cells->GetCurrentCellId(), nearest);
   }
 }
 }

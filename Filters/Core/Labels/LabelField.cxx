@@ -24,8 +24,6 @@ constexpr float MostWrong = 1.5f;
 constexpr float MostCurvature = 0.35f;
 /** What the field has at a voxel at least, where not all constraints can be met. */
 constexpr float LeastSize = 0.05f;
-/** No shift brings the field nearer to 0 at a voxel. */
-constexpr float LeastShifted = 0.2f;
 /** Times which it is looked for what a tolerance would lose. */
 constexpr int MostRescues = 4;
 /** Where the field is flatter it is a ridge, and has no bend. */
@@ -37,11 +35,6 @@ constexpr float MostBent = 2.5f;
 class FieldMaker
 {
 public:
-  FieldMaker(
-    const LabelBricks& bricks, int object, const LabelFieldOptions& options, Executor& executor)
-    : FieldMaker(bricks, object, options, executor, VoxelBox::Of(bricks.Size()))
-  {
-  }
   FieldMaker(const LabelBricks& bricks, int object, const LabelFieldOptions& options,
     Executor& executor, const VoxelBox& within)
     : Map(bricks.Map()), Object(object), Sides(bricks.Map(), object), Options(options),
@@ -58,43 +51,10 @@ public:
     {
       MakeLabelDistance(
         this->Map, this->Object, this->Rows, this->Options, this->Field, this->Threads);
-      this->CorrectBends(this->Options.ChordCorrection);
-      this->Hold({});
+      this->CorrectBends();
+      this->Hold();
     }
     return std::move(this->Field);
-  }
-
-  void CorrectBendsOf(LabelField& field, double amount)
-  {
-    this->Field = std::move(field);
-    this->CorrectBends(amount);
-    field = std::move(this->Field);
-  }
-
-  void HoldFurther(LabelField& field, const std::vector<HeldVoxel>& held)
-  {
-    this->Field = std::move(field);
-    this->Hold(held);
-    field = std::move(this->Field);
-  }
-
-  void Shift(LabelField& field, float by)
-  {
-    this->Field = std::move(field);
-    this->Rows.For(this->Threads,
-      [&](int i, int j, int k, int count)
-      {
-        float* values = this->RowAt(i, j, k);
-        for (int x = 0; x < count; ++x)
-        {
-          const float side = this->Sides.Of(i + x, j, k);
-          const float least =
-            this->IsStrict(i + x, j, k) ? LeastShifted : this->LeastAt(i + x, j, k);
-          values[x] = side *
-            std::clamp(side * (values[x] - by), std::min(least, side * values[x]), LabelField::Far);
-        }
-      });
-    field = std::move(this->Field);
   }
 
 private:
@@ -126,11 +86,11 @@ private:
       });
   }
 
-  void CorrectBends(double amount)
+  void CorrectBends()
   {
     const VoxelBox& box = this->Field.Box;
     const LargeVector<float> before = this->Field.Values;
-    const auto correction = static_cast<float>(amount);
+    const auto correction = static_cast<float>(this->Options.ChordCorrection);
     this->Rows.For(this->Threads,
       [&](int i, int j, int k, int count)
       {
@@ -196,16 +156,16 @@ private:
     return this->IsStrict(i, j, k) && this->Sides.IsThin(i, j, k);
   }
 
-  void Hold(const std::vector<HeldVoxel>& held)
+  void Hold()
   {
     if (this->HasTolerance())
     {
-      this->Field.IsStrict.resize(this->Field.Values.size(), 0);
+      this->Strict.resize(this->Field.Values.size(), 0);
     }
-    HoldToLabels(this->Field, this->Map.Spacing, this->FindConstraints(held));
+    HoldToLabels(this->Field, this->Map.Spacing, this->FindConstraints());
     for (int round = 0; this->HasTolerance() && round < MostRescues && this->FindLost(); ++round)
     {
-      HoldToLabels(this->Field, this->Map.Spacing, this->FindConstraints(held));
+      HoldToLabels(this->Field, this->Map.Spacing, this->FindConstraints());
     }
     this->Rows.For(this->Threads,
       [&](int i, int j, int k, int count)
@@ -232,7 +192,7 @@ private:
     const VoxelBox& box = this->Field.Box;
     return !this->HasTolerance() ||
       (box.Contains({ i, j, k }) &&
-        this->Field.IsStrict[static_cast<std::size_t>(box.NumberOf(i, j, k))] != 0);
+        this->Strict[static_cast<std::size_t>(box.NumberOf(i, j, k))] != 0);
   }
 
   /** Has those be strict that are wrong, as are all of their side beside them. @return any new */
@@ -245,7 +205,7 @@ private:
         this->Rows.ForLayer(static_cast<int>(layer),
           [&](int i, int j, int k, int count)
           {
-            unsigned char* strict = this->Field.IsStrict.data() + this->Field.Box.NumberOf(i, j, k);
+            unsigned char* strict = this->Strict.data() + this->Field.Box.NumberOf(i, j, k);
             for (int x = 0; x < count; ++x)
             {
               if (strict[x] == 0 && this->Sides.IsLost(this->Field, i + x, j, k))
@@ -286,7 +246,7 @@ private:
                                     : this->Options.Margin - this->Options.Tolerance;
   }
 
-  std::vector<VoxelConstraint> FindConstraints(const std::vector<HeldVoxel>& held)
+  std::vector<VoxelConstraint> FindConstraints()
   {
     std::vector<std::vector<VoxelConstraint>> ofLayers(
       static_cast<std::size_t>(this->Rows.NumberOfLayers()));
@@ -295,13 +255,13 @@ private:
       {
         this->Rows.ForLayer(static_cast<int>(layer),
           [&](int i, int j, int k, int count)
-          { this->FindConstraintsOfRow(i, j, k, count, held, ofLayers[layer]); });
+          { this->FindConstraintsOfRow(i, j, k, count, ofLayers[layer]); });
       });
     return Joined(this->Threads, ofLayers);
   }
 
-  void FindConstraintsOfRow(int i, int j, int k, int count, const std::vector<HeldVoxel>& held,
-    std::vector<VoxelConstraint>& constraints)
+  void FindConstraintsOfRow(
+    int i, int j, int k, int count, std::vector<VoxelConstraint>& constraints)
   {
     const float* values = this->RowAt(i, j, k);
     for (int x = 0; x < count; ++x)
@@ -316,21 +276,11 @@ private:
             static_cast<float>(-this->Options.MostBesideThin * way) });
         }
       }
-      if (side * values[x] >= MostWrong)
+      if (side * values[x] < MostWrong)
       {
-        continue;
+        constraints.push_back({ this->Field.Box.NumberOf(i + x, j, k), side,
+          static_cast<float>(this->MarginAt(i + x, j, k)) });
       }
-      auto margin = static_cast<float>(this->MarginAt(i + x, j, k));
-      const VoxelBox all = VoxelBox::Of(this->Map.Size());
-      const std::int64_t voxel =
-        all.Contains({ i + x, j, k }) ? all.NumberOf(i + x, j, k) : std::int64_t(-1);
-      const auto found = std::lower_bound(held.begin(), held.end(), voxel,
-        [](const HeldVoxel& one, std::int64_t number) { return one.Voxel < number; });
-      if (found != held.end() && found->Voxel == voxel)
-      {
-        margin = std::max(margin, found->Margin);
-      }
-      constraints.push_back({ this->Field.Box.NumberOf(i + x, j, k), side, margin });
     }
   }
 
@@ -341,36 +291,20 @@ private:
   Executor& Threads;
   BoundaryRows Rows;
   LabelField Field;
+  /** With a tolerance: the voxels without one, as no voxel beside them is where it belongs. */
+  LargeVector<unsigned char> Strict;
 };
 }
 
 LabelField MakeLabelField(
   const LabelBricks& bricks, int object, const LabelFieldOptions& options, Executor& executor)
 {
-  return FieldMaker(bricks, object, options, executor).Make();
+  return MakeLabelField(bricks, object, options, executor, VoxelBox::Of(bricks.Size()));
 }
 
 LabelField MakeLabelField(const LabelBricks& bricks, int object, const LabelFieldOptions& options,
   Executor& executor, const VoxelBox& within)
 {
   return FieldMaker(bricks, object, options, executor, within).Make();
-}
-
-void CorrectBends(
-  LabelField& field, const LabelBricks& bricks, int object, double amount, Executor& executor)
-{
-  FieldMaker(bricks, object, LabelFieldOptions(), executor).CorrectBendsOf(field, amount);
-}
-
-void ShiftField(LabelField& field, const LabelBricks& bricks, int object,
-  const LabelFieldOptions& options, double by, Executor& executor)
-{
-  FieldMaker(bricks, object, options, executor).Shift(field, static_cast<float>(by));
-}
-
-void HoldFurther(LabelField& field, const LabelBricks& bricks, int object,
-  const LabelFieldOptions& options, const std::vector<HeldVoxel>& held, Executor& executor)
-{
-  FieldMaker(bricks, object, options, executor).HoldFurther(field, held);
 }
 }

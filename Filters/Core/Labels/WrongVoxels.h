@@ -31,20 +31,6 @@ inline std::vector<std::int64_t> FindWrongVoxels(
  */
 std::vector<std::int64_t> FindMissedVoxels(const LabelMap& map,
   const std::vector<std::int64_t>& wrong, const IndexedSurface& surface, double tolerance);
-
-/**
- * The wrong voxels of a part of an object that its surface has left out, or of a gap that it has
- * closed. Those beside a voxel of the same side that is right don't count: what is cut off along a
- * ridge is no part.
- * @param wrong what FindWrongVoxels() has found
- * @param isObject of the object, else of what is about it
- */
-std::vector<std::int64_t> FindLostVoxels(
-  const LabelMap& map, int object, const std::vector<std::int64_t>& wrong, bool isObject);
-
-/** The number of FindLostVoxels() in the largest part of the object, joined by faces. */
-std::int64_t SizeOfLargestLostPart(
-  const LabelMap& map, int object, const std::vector<std::int64_t>& wrong);
 }
 
 #endif
