@@ -15,7 +15,6 @@
 #include "Labels/LabelImage.h"
 #include "Labels/LabelInterfaces.h"
 #include "Labels/LabelNames.h"
-#include "Labels/LabelSurface.h"
 #include "Output/SurfaceOutput.h"
 #include "Ranks/Ranks.h"
 #include "Settings/PropertyTable.h"
@@ -283,20 +282,19 @@ void vtkLabelsToSurfaces::MakeSurfaces(volumic::Ranks& ranks, const volumic::Fil
     "Input port 0: ", [&] { return ranks.TakeImages(0); });
   const volumic::LabelChoice choice =
     internals.Read(input, this->GetInputArrayInformation(0), image, threads);
-  volumic::LabelMap map;
-  std::vector<int> objects;
-  std::string aboutScans;
-  threads.Run(
-    [&]
-    {
-      aboutScans = image->ScanWarning(internals.BackgroundLabel, threads);
-      map = image->MakeMap(
-        choice.Labels, choice.IsMerged, internals.BackgroundLabel, objects, threads);
-    });
+  const std::string aboutScans = image->ScanWarning(internals.BackgroundLabel);
   if (!aboutScans.empty()) // Now: the mesh may take very long.
   {
     vtkWarningMacro("Input port 0: " << aboutScans);
   }
+  volumic::LabelMap map;
+  std::vector<int> objects;
+  threads.Run(
+    [&]
+    {
+      map = image->MakeMap(
+        choice.Labels, choice.IsMerged, internals.BackgroundLabel, objects, threads);
+    });
   volumic::LabelInterfaceMaker maker(
     std::move(map), objects, image->Image(), internals.Settings, threads);
   maker.Make(threads,

@@ -4,9 +4,9 @@
 #define volumicLabelBlocks_h
 
 #include "Labels/LabelImage.h"
+#include "Labels/LabelInterfaces.h"
 #include "Labels/LabelNames.h"
 #include "Labels/LabelSettings.h"
-#include "Labels/LabelSurface.h"
 
 #include <cstddef>
 #include <string>

@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Labels/LabelImage.h"
 
-#include "Core/Common/Join.h"
 #include "Core/Common/Refuse.h"
 #include "Core/Common/Spans.h"
 #include "Input/ImageVoxels.h"
 #include "Input/InputImage.h"
+#include "Input/LabelValues.h"
+#include "Input/ValueHints.h"
 #include "Input/Workspace.h"
-#include "Labels/LabelValues.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellArrayIterator.h>
@@ -17,11 +17,10 @@
 #include <vtkInformation.h>
 #include <vtkIntArray.h>
 #include <vtkPolyData.h>
+#include <vtkTriangle.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <mutex>
 #include <type_traits>
@@ -236,52 +235,10 @@ LabelMap LabelImage::MakeMap(const std::vector<int>& selected, bool merge, int b
   return map;
 }
 
-std::string LabelImage::ScanWarning(int background, Executor& executor) const
+std::string LabelImage::ScanWarning(int background) const
 {
-  constexpr std::size_t mostLabels = 256;
-  constexpr double mostDiffering = 1.0 / 3.0;
-  const std::size_t labels = this->Counts.size() - this->Counts.count(background);
-  if (labels <= mostLabels)
-  {
-    return "";
-  }
-  const int* size = this->Geometry->GetDimensions();
-  const VoxelBox all = VoxelBox::Of({ size[0], size[1], size[2] });
-  std::atomic<std::int64_t> pairs{ 0 };
-  std::atomic<std::int64_t> differing{ 0 };
-  VisitVoxels(this->Voxels,
-    [&](const auto* voxels)
-    {
-      ForSpans(executor, static_cast<std::size_t>(size[2]), 1,
-        [&](std::size_t slice, std::size_t, std::size_t)
-        {
-          const int k = static_cast<int>(slice);
-          std::int64_t of[2] = { 0, 0 };
-          for (int j = 0; j < size[1]; ++j)
-          {
-            for (int i = 0; i < size[0]; ++i)
-            {
-              const auto* at = voxels + all.NumberOf(i, j, k);
-              for (const auto& [isThere, step] : { std::pair(i > 0, std::int64_t(1)),
-                     std::pair(j > 0, std::int64_t(size[0])),
-                     std::pair(k > 0, std::int64_t(size[0]) * size[1]) })
-              {
-                of[0] += isThere ? 1 : 0;
-                of[1] += isThere && at[-step] != *at ? 1 : 0;
-              }
-            }
-          }
-          pairs += of[0];
-          differing += of[1];
-        });
-    });
-  const double share = static_cast<double>(differing) / static_cast<double>(pairs);
-  return share <= mostDiffering
-    ? ""
-    : Join(NameOf(this->Voxels), " has ", labels, " labels, and ", std::lround(100.0 * share),
-        " % of neighbouring voxels have different ones: it looks like a scan, not like a label map. "
-        "For an isosurface of a scan apply Volume to Surface (vtkVolumeToSurface) or Deformable "
-        "Surface (vtkDeformableSurface), or run volumic with --iso.");
+  return HintAtScan(this->Voxels, this->Geometry->GetDimensions(),
+    this->Counts.size() - this->Counts.count(background));
 }
 
 void LabelImage::FindNearest(
@@ -289,57 +246,47 @@ void LabelImage::FindNearest(
 {
   const Workspace space(this->Geometry, Metric::Voxels);
   const Point step = Workspace(this->Geometry, Metric::World).Step();
-  const std::array<int, 3> size = { this->Geometry->GetDimensions()[0],
-    this->Geometry->GetDimensions()[1], this->Geometry->GetDimensions()[2] };
-  const VoxelBox all = VoxelBox::Of(size);
+  const int* size = this->Geometry->GetDimensions();
+  const VoxelBox all = VoxelBox::Of({ size[0], size[1], size[2] });
   auto cells = vtk::TakeSmartPointer(surface->GetPolys()->NewIterator());
   for (cells->GoToFirstCell(); !cells->IsDoneWithTraversal(); cells->GoToNextCell())
   {
     vtkIdType count = 0;
     const vtkIdType* corners = nullptr;
     cells->GetCurrentCell(count, corners);
-    Point centroid = { 0.0, 0.0, 0.0 };
-    for (vtkIdType c = 0; c < count; ++c)
+    double of[3][3];
+    for (int c = 0; c < 3; ++c)
     {
-      Point corner;
-      surface->GetPoint(corners[c], corner.data());
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        centroid[axis] += corner[axis] / static_cast<double>(count);
-      }
+      surface->GetPoint(corners[c], of[c]);
     }
+    Point centroid;
+    vtkTriangle::TriangleCenter(of[0], of[1], of[2], centroid.data());
     const Point place = space.ToWorkspace(centroid);
-    std::array<int, 3> first;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      first[axis] = static_cast<int>(std::floor(place[axis]));
-    }
     int nearest = labels.front();
     double least = std::numeric_limits<double>::max();
-    // A surface has voxels of its own within this reach.
-    const VoxelBox about = VoxelBox{ { first[0] - 1, first[1] - 1, first[2] - 1 },
-      { first[0] + 3, first[1] + 3, first[2] + 3 } }.CommonWith(all);
-    ForRowsOf(about, all,
-      [&](std::int64_t begin, std::int64_t length)
+    // A surface has voxels of its own among the 4 x 4 x 4 about each place.
+    for (int n = 0; n < 64; ++n)
+    {
+      const std::array<int, 3> offset = { n % 4 - 1, n / 4 % 4 - 1, n / 16 - 1 };
+      std::array<int, 3> at;
+      double square = 0.0;
+      for (int axis = 0; axis < 3; ++axis)
       {
-        for (std::int64_t v = begin; v < begin + length; ++v)
-        {
-          const int label = static_cast<int>(this->Voxels->GetComponent(v, 0));
-          const std::array<std::int64_t, 3> at = { v % size[0], v / size[0] % size[1],
-            v / size[0] / size[1] };
-          double square = 0.0;
-          for (int axis = 0; axis < 3; ++axis)
-          {
-            const double distance = (static_cast<double>(at[axis]) - place[axis]) * step[axis];
-            square += distance * distance;
-          }
-          if (square < least && std::binary_search(labels.begin(), labels.end(), label))
-          {
-            least = square;
-            nearest = label;
-          }
-        }
-      });
+        at[axis] = static_cast<int>(std::floor(place[axis])) + offset[axis];
+        square += std::pow((at[axis] - place[axis]) * step[axis], 2.0);
+      }
+      if (square >= least || !all.Contains(at))
+      {
+        continue;
+      }
+      const int label =
+        static_cast<int>(this->Voxels->GetComponent(all.NumberOf(at[0], at[1], at[2]), 0));
+      if (std::binary_search(labels.begin(), labels.end(), label))
+      {
+        least = square;
+        nearest = label;
+      }
+    }
     found->SetValue(surface->GetNumberOfLines() + cells->GetCurrentCellId(), nearest);
   }
 }

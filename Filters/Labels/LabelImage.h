@@ -75,7 +75,7 @@ public:
     std::vector<int>& objects, Executor& executor) const;
 
   /** Return a warning if the voxels look like those of a scan, else nothing. */
-  std::string ScanWarning(int background, Executor& executor) const;
+  std::string ScanWarning(int background) const;
 
   /** For each triangle the label of the voxel nearest to its centroid, of those given, sorted. */
   void FindNearest(vtkPolyData* surface, const std::vector<int>& labels, vtkIntArray* found) const;

@@ -204,9 +204,10 @@ std::vector<LabelSurface> LabelInterfaceMaker::Surfaces(HostThreads& threads) co
   return surfaces;
 }
 
-void LabelInterfaceMaker::AddLineFields(const InterfaceMesh& shown, vtkPolyData* interfaces) const
+void LabelInterfaceMaker::AddLineFields(
+  const std::vector<std::array<int, 2>>& lines, vtkPolyData* interfaces) const
 {
-  const LineWedge worst = NarrowestWedge(shown);
+  const LineWedge worst = NarrowestWedge(this->Mesh, lines);
   if (worst.Edge[0] < 0)
   {
     return;
@@ -219,23 +220,24 @@ void LabelInterfaceMaker::AddLineFields(const InterfaceMesh& shown, vtkPolyData*
   position->InsertNextTuple3(
     0.5 * (first[0] + second[0]), 0.5 * (first[1] + second[1]), 0.5 * (first[2] + second[2]));
   const auto contacts = NewArray<vtkIntArray>("SmallContacts");
-  contacts->InsertNextValue(CountContactsOfOneTriangle(shown));
+  contacts->InsertNextValue(CountContactsOfOneTriangle(this->Mesh, lines));
   interfaces->GetFieldData()->AddArray(angle);
   interfaces->GetFieldData()->AddArray(position);
   interfaces->GetFieldData()->AddArray(contacts);
 }
 
-InterfaceMesh LabelInterfaceMaker::ShownPart() const
+std::vector<std::array<int, 2>> LabelInterfaceMaker::ShownLines() const
 {
-  InterfaceMesh shown = this->Mesh;
-  for (std::size_t f = 0; f < shown.Faces.size(); ++f)
+  std::vector<std::array<int, 2>> lines = this->Mesh.FindLines();
+  std::vector<int> faces;
+  const auto isHidden = [&](const std::array<int, 2>& ends)
   {
-    if (!this->IsShown(shown.Faces[f]))
-    {
-      shown.RemoveFace(static_cast<int>(f));
-    }
-  }
-  return shown;
+    this->Mesh.FindFaces(ends[0], ends[1], faces);
+    return std::none_of(faces.begin(), faces.end(),
+      [this](int f) { return this->IsShown(this->Mesh.Faces[static_cast<std::size_t>(f)]); });
+  };
+  lines.erase(std::remove_if(lines.begin(), lines.end(), isHidden), lines.end());
+  return lines;
 }
 
 vtkSmartPointer<vtkPolyData> LabelInterfaceMaker::Interfaces(
@@ -260,10 +262,8 @@ vtkSmartPointer<vtkPolyData> LabelInterfaceMaker::Interfaces(
   vtkNew<vtkCellArray> lines;
   vtkNew<vtkCellArray> triangles;
   const auto idOf = [&](int v) { return this->IdOf[static_cast<std::size_t>(v)]; };
-  const bool hasAll = static_cast<int>(this->Selected.size()) == this->Map.NumberOfObjects;
-  const InterfaceMesh part = hasAll ? InterfaceMesh() : this->ShownPart();
-  const InterfaceMesh& shown = hasAll ? this->Mesh : part;
-  for (const std::array<int, 2>& ends : shown.FindLines())
+  const std::vector<std::array<int, 2>> shownLines = this->ShownLines();
+  for (const std::array<int, 2>& ends : shownLines)
   {
     lines->InsertNextCell({ idOf(ends[0]), idOf(ends[1]) });
     const int nothing[2] = { outside, outside };
@@ -275,9 +275,9 @@ vtkSmartPointer<vtkPolyData> LabelInterfaceMaker::Interfaces(
     const int selection = this->SelectionOf(object);
     return selection < 0 ? outside : labels[static_cast<std::size_t>(selection)];
   };
-  for (const InterfaceMesh::Face& face : shown.Faces)
+  for (const InterfaceMesh::Face& face : this->Mesh.Faces)
   {
-    if (face.IsThere())
+    if (this->IsShown(face))
     {
       // The normal points away from what is selected.
       const bool isTurned = this->SelectionOf(face.Behind) < 0;
@@ -304,7 +304,7 @@ vtkSmartPointer<vtkPolyData> LabelInterfaceMaker::Interfaces(
   {
     interfaces->GetPointData()->AddArray(sizes);
   }
-  this->AddLineFields(shown, interfaces);
+  this->AddLineFields(shownLines, interfaces);
   return interfaces;
 }
 }

@@ -13,9 +13,9 @@
 #include "Host/HostThreads.h"
 #include "Input/Workspace.h"
 #include "Labels/LabelSettings.h"
-#include "Labels/LabelSurface.h"
 
 #include <vtkSmartPointer.h>
+#include <vtkType.h>
 
 #include <array>
 #include <functional>
@@ -28,6 +28,16 @@ class vtkPolyData;
 
 namespace volumic
 {
+/** The surface of one object of a label map. */
+struct LabelSurface
+{
+  vtkSmartPointer<vtkPolyData> Surface; ///< null: the run was stopped before there was one
+  vtkIdType WrongVoxels = 0;            ///< misclassified voxels
+  vtkIdType MissedVoxels = 0; ///< misclassified voxels further from the surface than the tolerances
+  double VolumeError = 0.0;   ///< enclosed volume over the voxels' volume, less 1
+  bool IsFinished = false;    ///< The run was not stopped.
+};
+
 /** Makes one mesh of all objects of a label map, and the surfaces of those that are selected. */
 class LabelInterfaceMaker
 {
@@ -80,10 +90,11 @@ private:
   }
   /** Return the mean edge length in the workspace. */
   double EdgeLength() const;
-  /** Return the mesh without the faces that Interfaces() leaves out; its vertices are the same. */
-  InterfaceMesh ShownPart() const;
+  /** Return the edges of junction lines at which there are faces of Interfaces(). */
+  std::vector<std::array<int, 2>> ShownLines() const;
   /** Add the field data of junction lines, if there are any. */
-  void AddLineFields(const InterfaceMesh& shown, vtkPolyData* interfaces) const;
+  void AddLineFields(
+    const std::vector<std::array<int, 2>>& lines, vtkPolyData* interfaces) const;
   LabelSurface SurfaceOf(int object, const std::vector<int>& faces) const;
   SurfaceResult ResultOf(int object, const std::vector<int>& faces, const IndexedSurface& ofMesh,
     const std::vector<int>& vertices) const;
