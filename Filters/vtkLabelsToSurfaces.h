@@ -73,9 +73,9 @@
  * memory grow with the interfaces of all labels.
  *
  * @par Errors:
- * As vtkDeformableSurface: on error the filter invokes `ErrorEvent`, produces empty outputs and sets
- * GetErrorCode(). A map with more than 256 labels whose neighbouring voxels differ in more than a
- * third of the pairs looks like a scan: the filter warns before it meshes it.
+ * As vtkDeformableSurface: on error the filter invokes `ErrorEvent`, produces empty outputs and
+ * sets GetErrorCode(). A map looks like a scan if it has more than 256 labels and more than a third
+ * of the neighbouring voxels along the axes differ. The filter warns of it before meshing begins.
  *
  * @par Cancelling:
  * The filter tests AbortExecute several times a second. It then outputs the mesh as it is, whose
@@ -173,8 +173,8 @@ public:
   ///@{
   /**
    * Distance by which the centre of a voxel may be on the wrong side of the surface, in smallest
-   * voxel spacings, at most 1. With .5 steps of one voxel, as of noise and of resampled maps, become
-   * smooth. 0: none is, as far as triangles can. Default: .5.
+   * voxel spacings, at most 1. With .5 the steps that noise and resampling leave become
+   * smooth. With 0 no centre is, as far as triangles can. Default: .5.
    */
   void SetVoxelTolerance(double voxels);
   double GetVoxelTolerance();
@@ -195,9 +195,9 @@ public:
    * Shape of surfaces where labels reach the border of the image. Rounded, the default: closed as
    * elsewhere, about half a voxel beyond the outermost centres. Flat: exactly in the planes there.
    * Cell data `BoxFace` gives the plane, edges of the box and boundary loops of its faces are lines
-   * of the interfaces, and corners are points of Junction 2. Periodic: flat, and opposite sides have
-   * the same triangles, with bit-identical coordinates. The image is then one period of a map, and
-   * the filter reports an error if labels do not continue on the other side.
+   * of the interfaces, and corners are points of Junction 2. Periodic: flat, and opposite sides
+   * have the same triangles, with bit-identical coordinates. The image is then one period of a map,
+   * and the filter reports an error if labels do not continue on the other side.
    */
   void SetBoxFaces(int value);
   int GetBoxFaces();

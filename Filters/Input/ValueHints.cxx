@@ -286,7 +286,8 @@ double ShareOfUnequal(const T* voxels, const int size[3])
 {
   const vtkIdType rows = static_cast<vtkIdType>(size[1]) * size[2];
   const vtkIdType step = std::max<vtkIdType>(1, rows * size[0] / MostVoxels);
-  const std::array<vtkIdType, 3> strides = { 1, size[0], static_cast<vtkIdType>(size[0]) * size[1] };
+  const std::array<vtkIdType, 3> strides = { 1, size[0],
+    static_cast<vtkIdType>(size[0]) * size[1] };
   vtkIdType pairs = 0;
   vtkIdType unequal = 0;
   for (vtkIdType row = 0; row < rows; row += step)
@@ -317,7 +318,8 @@ std::string HintAtScan(vtkDataArray* voxels, const int size[3], std::size_t labe
   }
   return share > mostUnequal
     ? Join(NameOf(voxels), " has ", labels, " labels, and ", std::lround(100.0 * share),
-        " % of neighbouring voxels have different ones: it looks like a scan, not like a label map. "
+        " % of neighbouring voxels have different ones: it looks like a scan, not like a label "
+        "map. "
         "For an isosurface of a scan apply Volume to Surface (vtkVolumeToSurface) or Deformable "
         "Surface (vtkDeformableSurface), or run volumic with --iso.")
     : std::string();

@@ -32,8 +32,8 @@ constexpr std::size_t MostNamed = 10;
 constexpr double NotableShare = 0.05;
 
 template <typename Array, typename Value>
-void AddField(vtkPolyData* surface, const char* name, const std::vector<Value>& values,
-  int components = 1)
+void AddField(
+  vtkPolyData* surface, const char* name, const std::vector<Value>& values, int components = 1)
 {
   vtkNew<Array> array;
   array->SetName(name);
@@ -75,19 +75,6 @@ void AddNames(vtkPolyData* surface, const std::vector<int>& labels, const LabelN
   }
   AddField<vtkStringArray>(surface, "LabelName", texts);
   AddField<vtkDoubleArray>(surface, "LabelColor", colors, 3);
-}
-
-/** `liver, kidney and 3 others` */
-std::string Listed(const std::vector<std::string>& texts)
-{
-  std::string list;
-  for (std::size_t i = 0; i < std::min(texts.size(), MostNamed); ++i)
-  {
-    list += (i == 0 ? "" : ", ") + texts[i];
-  }
-  return texts.size() > MostNamed
-    ? Join(list, " and ", texts.size() - MostNamed, " others")
-    : list;
 }
 
 /** What surfaces lack of their labels. */
@@ -133,7 +120,7 @@ public:
     {
       if (!names.empty())
       {
-        text += Join(text.empty() ? "" : " ", what, Listed(names), this->Reasons());
+        text += Join(text.empty() ? "" : " ", what, Listed(names, MostNamed), this->Reasons());
       }
     };
     add("No surface is left of ", this->Empty);
@@ -174,31 +161,6 @@ private:
   double Voxels = 0.0;
   double Missing = 0.0;
 };
-}
-
-std::vector<int> LabelChoice::LabelsOf(std::size_t surface) const
-{
-  return this->IsMerged ? this->Labels : std::vector<int>{ this->Labels[surface] };
-}
-
-std::vector<int> LabelChoice::FirstLabels() const
-{
-  std::vector<int> labels;
-  for (std::size_t i = 0; i < this->NumberOfSurfaces(); ++i)
-  {
-    labels.push_back(this->LabelsOf(i).front());
-  }
-  return labels;
-}
-
-std::vector<std::string> LabelChoice::SurfaceNames() const
-{
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < this->NumberOfSurfaces(); ++i)
-  {
-    names.push_back(this->Names.NameOf(this->LabelsOf(i)));
-  }
-  return names;
 }
 
 std::string FillBlocks(const LabelChoice& choice, const LabelImage& image,

@@ -9,6 +9,7 @@
 #include "Input/LabelValues.h"
 #include "Input/ValueHints.h"
 #include "Input/Workspace.h"
+#include "Labels/LabelNames.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellArrayIterator.h>
@@ -56,24 +57,6 @@ LabelVoxels RunOf(const int* extent, vtkIdType first, vtkIdType last)
   run.Extent[4] = extent[4] + index(first / slice);
   run.Extent[5] = extent[4] + index(last / slice);
   return run;
-}
-
-/** `0, 1, 3, 4 and 112 others`. */
-std::string ListOf(const std::map<int, LabelVoxels>& counts)
-{
-  constexpr std::size_t most = 20;
-  std::string text;
-  std::size_t listed = 0;
-  for (const auto& entry : counts)
-  {
-    if (listed == most && counts.size() > most + 1)
-    {
-      return text + " and " + std::to_string(counts.size() - most) + " others";
-    }
-    text += (listed == 0 ? "" : ", ") + std::to_string(entry.first);
-    ++listed;
-  }
-  return text;
 }
 }
 
@@ -181,8 +164,14 @@ std::vector<int> LabelImage::Choose(const std::vector<int>& wanted, int backgrou
   {
     if (this->Counts.find(label) == this->Counts.end())
     {
+      constexpr std::size_t mostListed = 20;
+      std::vector<std::string> there;
+      for (const auto& entry : this->Counts)
+      {
+        there.push_back(std::to_string(entry.first));
+      }
       Refuse("Labels: ", NameOf(this->Voxels), " has no label ", label, "; it has ",
-        ListOf(this->Counts), ".");
+        Listed(there, mostListed), ".");
     }
   }
   return labels;
@@ -196,7 +185,8 @@ LabelMap LabelImage::MakeMap(const std::vector<int>& selected, bool merge, int b
   LabelMap map({ size[0], size[1], size[2] });
   map.Spacing = Workspace(this->Geometry, Metric::World).Step();
   std::unordered_map<int, LabelMap::Number> numbers;
-  int room = std::numeric_limits<LabelMap::Number>::max() - beyond - static_cast<int>(selected.size());
+  int room =
+    std::numeric_limits<LabelMap::Number>::max() - beyond - static_cast<int>(selected.size());
   for (const auto& [label, voxels] : this->Counts)
   {
     const bool isSelected = std::binary_search(selected.begin(), selected.end(), label);

@@ -121,8 +121,7 @@ SurfaceResult LabelInterfaceMaker::ResultOf(int object, const std::vector<int>& 
   return surface;
 }
 
-void LabelInterfaceMaker::CountVoxels(
-  int object, IndexedSurface inVoxels, LabelSurface& made) const
+void LabelInterfaceMaker::CountVoxels(int object, IndexedSurface inVoxels, LabelSurface& made) const
 {
   for (Point& p : inVoxels.Points)
   {

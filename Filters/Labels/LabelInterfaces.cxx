@@ -37,56 +37,22 @@ constexpr double LeastPeriod = 4.;
 
 /** Of the whole work. */
 constexpr double FieldShare = 0.4;
-}
 
-VoxelBox LabelInterfaceMaker::BoxOf(const LabelMap& map)
+/** Return the box of all objects, or of the whole map, in whole bricks. */
+VoxelBox BoxOf(const LabelMap& map, bool isWhole)
 {
-  VoxelBox box;
+  constexpr int side = LabelBricks::Side;
+  VoxelBox box = isWhole ? VoxelBox::Of(map.Size()) : VoxelBox();
   map.ForParts(VoxelBox::Of(map.Size()),
     [&](const VoxelBox& part, LabelMap::Number object)
     { box = object > 0 ? box.With(part) : box; });
-  for (int& first : box.First)
+  for (int axis = 0; axis < 3; ++axis)
   {
-    first -= first % LabelBricks::Side; // Whole bricks, so that what is about does not matter.
+    box.First[axis] -= box.First[axis] % side; // What is about does not matter.
+    box.End[axis] += (side - box.Length(axis) % side) % side;
   }
   return box;
 }
-
-LabelMap LabelInterfaceMaker::Padded(const LabelMap& map, const VoxelBox& box, int margin)
-{
-  constexpr int side = LabelBricks::Side;
-  std::array<int, 3> size;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    size[axis] = (box.Length(axis) + side - 1) / side * side + 2 * margin;
-  }
-  LabelMap padded(size);
-  padded.Spacing = map.Spacing;
-  padded.NumberOfObjects = map.NumberOfObjects;
-  std::vector<LabelMap::Number> voxels;
-  for (int layer = 0; layer < padded.NumberOfLayers(); ++layer)
-  {
-    const VoxelBox slices = padded.Layer(layer);
-    voxels.assign(static_cast<std::size_t>(slices.Count()), 0);
-    VoxelBox source = box;
-    source.First[2] = std::max(box.First[2], slices.First[2] + box.First[2] - margin);
-    source.End[2] = std::min(box.End[2], slices.End[2] + box.First[2] - margin);
-    map.ForParts(source,
-      [&](const VoxelBox& part, LabelMap::Number object)
-      {
-        VoxelBox to;
-        for (int axis = 0; axis < 3; ++axis)
-        {
-          to.First[axis] = part.First[axis] - box.First[axis] + margin;
-          to.End[axis] = part.End[axis] - box.First[axis] + margin;
-        }
-        ForRowsOf(to, slices,
-          [&](std::int64_t first, std::int64_t count)
-          { std::fill_n(voxels.begin() + first, count, object); });
-      });
-    padded.PutLayer(layer, voxels.data());
-  }
-  return padded;
 }
 
 LabelInterfaceMaker::LabelInterfaceMaker(LabelMap map, std::vector<int> selected,
@@ -95,11 +61,10 @@ LabelInterfaceMaker::LabelInterfaceMaker(LabelMap map, std::vector<int> selected
     Space(image, static_cast<Metric>(settings.Metric))
 {
   const bool isFlat = settings.HasFlatBox();
-  const VoxelBox box = settings.IsPeriodic() ? VoxelBox::Of(map.Size()) : BoxOf(map);
   // With flat faces fields are those of labels that go on beyond them, for the whole Gaussian.
   const int margin = MarginFor(settings.FieldOptions(map).Sigma) + (isFlat ? LabelBricks::Side : 0);
-  std::transform(box.First.begin(), box.First.end(), this->First.begin(),
-    [margin](int first) { return first - margin; });
+  const VoxelBox box = BoxOf(map, settings.IsPeriodic()).Grown(margin);
+  this->First = box.First;
   const auto keep = static_cast<KeepComponentsType>(settings.KeepComponents);
   if (keep != KeepComponentsType::AllComponents)
   {
@@ -107,12 +72,12 @@ LabelInterfaceMaker::LabelInterfaceMaker(LabelMap map, std::vector<int> selected
       map.Spacing[0] * map.Spacing[1] * map.Spacing[2] * std::pow(this->Space.WorldUnit(), 3.0);
     const double least = std::min(std::ceil(settings.MinimumComponentVolume / ofVoxel),
       static_cast<double>(VoxelBox::Of(map.Size()).Count()) + 1.0);
-    this->WholeMap = Padded(map, box, margin);
+    this->WholeMap = map.Part(box);
     threads.Run([&] { this->WholeBricks.emplace(this->WholeMap, threads); });
     GiveAwaySmallParts(map, this->Selected, static_cast<std::int64_t>(least),
       keep == KeepComponentsType::LargestComponent);
   }
-  this->Map = Padded(map, box, margin);
+  this->Map = map.Part(box);
   for (int axis = 0; axis < 3; ++axis)
   {
     this->InImage.First[axis] = std::max(-this->First[axis], 0);
@@ -154,10 +119,9 @@ void LabelInterfaceMaker::CheckPeriod() const
 
 double LabelInterfaceMaker::EdgeLength() const
 {
-  return this->Settings.EdgeLength != 0.0
-    ? this->Settings.EdgeLength / this->Space.WorldUnit()
-    : SizingField::RestLengthInDelta * SurfaceOptions().SamplingRatio *
-      std::pow(std::sqrt(3.0), this->Settings.FinestLevel);
+  return this->Settings.EdgeLength != 0.0 ? this->Settings.EdgeLength / this->Space.WorldUnit()
+                                          : SizingField::RestLengthInDelta *
+      SurfaceOptions().SamplingRatio * std::pow(std::sqrt(3.0), this->Settings.FinestLevel);
 }
 
 InterfaceOptions LabelInterfaceMaker::Options() const

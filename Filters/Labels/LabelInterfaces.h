@@ -70,10 +70,6 @@ public:
   vtkSmartPointer<vtkPolyData> Interfaces(const std::vector<int>& labels, int outside) const;
 
 private:
-  /** Return the box of all objects, from the first voxel of a brick on. */
-  static VoxelBox BoxOf(const LabelMap& map);
-  /** Return that part of the map with a margin of 0. */
-  static LabelMap Padded(const LabelMap& map, const VoxelBox& box, int margin);
   /** @throws std::invalid_argument if the map is not periodic, or too short. */
   void CheckPeriod() const;
   InterfaceOptions Options() const;
@@ -93,8 +89,7 @@ private:
   /** Return the edges of junction lines at which there are faces of Interfaces(). */
   std::vector<std::array<int, 2>> ShownLines() const;
   /** Add the field data of junction lines, if there are any. */
-  void AddLineFields(
-    const std::vector<std::array<int, 2>>& lines, vtkPolyData* interfaces) const;
+  void AddLineFields(const std::vector<std::array<int, 2>>& lines, vtkPolyData* interfaces) const;
   LabelSurface SurfaceOf(int object, const std::vector<int>& faces) const;
   SurfaceResult ResultOf(int object, const std::vector<int>& faces, const IndexedSurface& ofMesh,
     const std::vector<int>& vertices) const;
@@ -112,7 +107,7 @@ private:
   }
 
   const LabelSettings& Settings;
-  std::vector<int> Selected; ///< objects, sorted
+  std::vector<int> Selected;              ///< objects, sorted
   std::array<int, 3> First = { 0, 0, 0 }; ///< voxel of the image that is that of Map
   LabelMap Map;                           ///< of the box, with its margin
   LabelMap WholeMap; ///< the same with the parts that Keep Components leaves out, if it does

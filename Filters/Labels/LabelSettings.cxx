@@ -92,8 +92,7 @@ void LabelSettings::Check(vtkImageData* image) const
 
 LabelFieldOptions LabelSettings::FieldOptions(const LabelMap& map) const
 {
-  const double longest =
-    ShareOfLongest * *std::max_element(map.Spacing.begin(), map.Spacing.end());
+  const double longest = ShareOfLongest * *std::max_element(map.Spacing.begin(), map.Spacing.end());
   LabelFieldOptions options;
   options.Sigma = std::min(
     this->Smoothing * std::max(1.0, longest), std::max(this->Smoothing * MostBeyondVoxel, longest));

@@ -125,7 +125,8 @@ TEST(RankLabels, OthersHearOfTheProgress)
 {
   std::vector<std::set<std::string>> texts(2);
   const Slowness slowness;
-  OnMap(2, [](vtkLabelsToSurfaces*) {},
+  OnMap(
+    2, [](vtkLabelsToSurfaces*) {},
     [&](vtkLabelsToSurfaces* filter, RankController* controller)
     {
       const ProgressListener listener(filter);
@@ -146,7 +147,8 @@ TEST(RankLabels, StopWhereAnyRankIsAskedToAndStartAnew)
   for (const int asked : { 0, 1 })
   {
     const Slowness slowness;
-    const std::vector<Filter> ranks = OnMap(2, [](vtkLabelsToSurfaces*) {},
+    const std::vector<Filter> ranks = OnMap(
+      2, [](vtkLabelsToSurfaces*) {},
       [asked](vtkLabelsToSurfaces* filter, RankController* controller)
       {
         const int rank = controller->GetLocalProcessId();
@@ -170,7 +172,8 @@ TEST(RankLabels, EndOnAllRanksWithTheErrorOfOneAndWorkAgain)
 {
   const std::vector<Filter> one = Update(1, [](vtkLabelsToSurfaces*) {});
   const Slowness slowness;
-  const std::vector<Filter> ranks = OnMap(3, [](vtkLabelsToSurfaces*) {},
+  const std::vector<Filter> ranks = OnMap(
+    3, [](vtkLabelsToSurfaces*) {},
     [](vtkLabelsToSurfaces* filter, RankController* controller)
     {
       bool isBad = controller->GetLocalProcessId() == 2;

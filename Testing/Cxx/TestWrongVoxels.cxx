@@ -25,8 +25,10 @@ TEST(FindMissedVoxels, FindsThoseThatAreFurtherFromTheSurfaceInTheWorld)
 
 TEST(FindWrongVoxels, FindsThoseOutsideAndThoseInside)
 {
-  LabelMap map = MakeLabelMap({ 32, 32, 32 }, 1, [](int i, int j, int k)
-    { return std::min({ i, j, k }) >= 8 && std::max({ i, j, k }) <= 20 ? 1 : 0; });
+  LabelMap map = MakeLabelMap({ 32, 32, 32 }, 1,
+    [](int i, int j, int k) {
+      return std::min({ i, j, k }) >= 8 && std::max({ i, j, k }) <= 20 ? 1 : 0;
+    });
   const IndexedSurface cube = Cuboid({ 7.5, 7.5, 7.5 }, { 20.5, 20.5, 20.5 });
   EXPECT_TRUE(FindWrongVoxels(LabelBricks(map, OnThisThread()), 1, cube).empty());
   const auto place = [&](int i, int j, int k)
@@ -38,7 +40,7 @@ TEST(FindWrongVoxels, FindsThoseOutsideAndThoseInside)
       static_cast<std::int64_t>(place(15, 15, 27)) }));
   const std::vector<std::int64_t> all =
     FindWrongVoxels(LabelBricks(map, OnThisThread()), 1, IndexedSurface());
-  EXPECT_EQ(static_cast<std::int64_t>(all.size()),
-    LabelBricks(map, OnThisThread()).ExtentOf(1).Voxels)
+  EXPECT_EQ(
+    static_cast<std::int64_t>(all.size()), LabelBricks(map, OnThisThread()).ExtentOf(1).Voxels)
     << "without a surface all are outside";
 }

@@ -169,12 +169,11 @@ void Give(LabelMap& map, const LabelPart& part, Number object)
 }
 }
 
-void GiveAwaySmallParts(LabelMap& map, const std::vector<int>& objects, std::int64_t leastVoxels,
-  bool keepsLargest)
+void GiveAwaySmallParts(
+  LabelMap& map, const std::vector<int>& objects, std::int64_t leastVoxels, bool keepsLargest)
 {
   const std::vector<LabelPart> parts = PartFinder(map, objects).Find();
-  std::vector<std::size_t> largest(
-    static_cast<std::size_t>(map.NumberOfObjects) + 1, parts.size());
+  std::vector<std::size_t> largest(static_cast<std::size_t>(map.NumberOfObjects) + 1, parts.size());
   for (std::size_t n = 0; n < parts.size(); ++n)
   {
     std::size_t& of = largest[parts[n].Object];

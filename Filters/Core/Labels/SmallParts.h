@@ -17,8 +17,8 @@ namespace volumic
  * @param leastVoxels  parts of fewer voxels are given away
  * @param keepsLargest all parts of an object but its largest, too
  */
-void GiveAwaySmallParts(LabelMap& map, const std::vector<int>& objects, std::int64_t leastVoxels,
-  bool keepsLargest);
+void GiveAwaySmallParts(
+  LabelMap& map, const std::vector<int>& objects, std::int64_t leastVoxels, bool keepsLargest);
 }
 
 #endif
