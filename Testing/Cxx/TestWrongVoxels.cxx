@@ -29,17 +29,19 @@ TEST(FindWrongVoxels, FindsThoseOutsideAndThoseInside)
     [](int i, int j, int k) {
       return std::min({ i, j, k }) >= 8 && std::max({ i, j, k }) <= 20 ? 1 : 0;
     });
+  const auto wrongOf = [&map](const IndexedSurface& surface) {
+    return FindWrongVoxels(LabelBricks(map, OnThisThread()), 1, surface, VoxelBox::Of(map.Size()));
+  };
   const IndexedSurface cube = Cuboid({ 7.5, 7.5, 7.5 }, { 20.5, 20.5, 20.5 });
-  EXPECT_TRUE(FindWrongVoxels(LabelBricks(map, OnThisThread()), 1, cube).empty());
+  EXPECT_TRUE(wrongOf(cube).empty());
   const auto place = [&](int i, int j, int k)
   { return static_cast<std::size_t>(VoxelBox::Of(map.Size()).NumberOf(i, j, k)); };
   map.Set(15, 15, 15, 0);
   map.Set(15, 15, 27, 1);
-  EXPECT_EQ(FindWrongVoxels(LabelBricks(map, OnThisThread()), 1, cube),
+  EXPECT_EQ(wrongOf(cube),
     (std::vector<std::int64_t>{ static_cast<std::int64_t>(place(15, 15, 15)),
       static_cast<std::int64_t>(place(15, 15, 27)) }));
-  const std::vector<std::int64_t> all =
-    FindWrongVoxels(LabelBricks(map, OnThisThread()), 1, IndexedSurface());
+  const std::vector<std::int64_t> all = wrongOf(IndexedSurface());
   EXPECT_EQ(
     static_cast<std::int64_t>(all.size()), LabelBricks(map, OnThisThread()).ExtentOf(1).Voxels)
     << "without a surface all are outside";

@@ -146,6 +146,7 @@ LevelOutcome EvolveOnLevel(
   e.State.ForgetMotion(); // So that there is room for the result.
   GiveBackFreeMemory();
   outcome.Surface = e.Result();
+  outcome.Reason = e.Stopped ? StopReason::Cancelled : outcome.Reason;
   outcome.Iterations = e.History.Iterations();
   outcome.Lost = e.Lost;
   outcome.Verified = e.Verified;

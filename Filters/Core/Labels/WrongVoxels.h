@@ -19,11 +19,6 @@ namespace volumic
  */
 std::vector<std::int64_t> FindWrongVoxels(
   const LabelBricks& bricks, int object, const IndexedSurface& surface, const VoxelBox& within);
-inline std::vector<std::int64_t> FindWrongVoxels(
-  const LabelBricks& bricks, int object, const IndexedSurface& surface)
-{
-  return FindWrongVoxels(bricks, object, surface, VoxelBox::Of(bricks.Map().Size()));
-}
 
 /**
  * Those of the wrong voxels that are further than a tolerance from the surface, in smallest
