@@ -25,9 +25,7 @@ set(volumic_core_sources
   Image/VoxelHash.cxx
   Labels/BoundaryGaussian.cxx
   Labels/VoxelBits.cxx
-  Labels/DrawBack.cxx
   Labels/LabelBricks.cxx
-  Labels/LabelClaims.cxx
   Labels/LabelDistance.cxx
   Labels/LabelField.cxx
   Labels/LabelHold.cxx
@@ -35,7 +33,6 @@ set(volumic_core_sources
   Labels/LabelSides.cxx
   Labels/MapBeyond.cxx
   Labels/SmallParts.cxx
-  Labels/TouchingSurfaces.cxx
   Labels/WrongVoxels.cxx
   Mesh/CellSurface.cxx
   Mesh/CycleCut.cxx
@@ -158,16 +155,13 @@ set(volumic_core_headers
   Image/WayToZero.h
   Labels/BoundaryGaussian.h
   Labels/VoxelBits.h
-  Labels/DrawBack.h
   Labels/LabelBricks.h
-  Labels/LabelClaims.h
   Labels/LabelDistance.h
   Labels/LabelField.h
   Labels/LabelHold.h
   Labels/LabelMap.h
   Labels/LabelSides.h
   Labels/SmallParts.h
-  Labels/TouchingSurfaces.h
   Labels/WrongVoxels.h
   Mesh/CellSurface.h
   Mesh/CycleCut.h

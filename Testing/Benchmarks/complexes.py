@@ -3,7 +3,7 @@
 """Figures of surfaces and of label complexes, whoever made them, with NumPy, VTK and JudgeFiles.
 
 A Complex is any set of triangles between two labels each: the port `Interfaces` of
-vtkLabelsToSurfaces, the output of vtkSurfaceNets3D, or surfaces of single labels side by side.
+vtkLabelsToSurfaces, or the output of vtkSurfaceNets3D.
 """
 
 import os
@@ -72,15 +72,6 @@ def complex_of_output(surface):
     """Of a vtkPolyData as that of port 1: lines first, then triangles; `BoundaryLabels`."""
     sides = vtk_to_numpy(surface.GetCellData().GetArray("BoundaryLabels"))
     return Complex(*arrays_of(surface), sides[surface.GetNumberOfLines():], True)
-
-
-def complex_of_surfaces(surfaces):
-    """Of (label, points, triangles) side by side, which share nothing."""
-    starts = np.cumsum([0] + [len(points) for _, points, _ in surfaces])
-    return Complex(np.vstack([points for _, points, _ in surfaces]),
-                   np.vstack([faces + start for (_, _, faces), start in zip(surfaces, starts)]),
-                   np.vstack([np.full((len(faces), 2), (label, BACKGROUND))
-                              for label, _, faces in surfaces]))
 
 
 def complex_of_twins(points, triangles, labels):

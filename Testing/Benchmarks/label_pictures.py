@@ -81,7 +81,6 @@ def interface_picture(width):
     """Two panels, each so many pixels wide: all grains, and those behind the nearest ones."""
     surfaces = volumic.vtkLabelsToSurfaces()
     surfaces.SetInputData(grains())
-    surfaces.SharedInterfacesOn()
     surfaces.Update()
     frame, mesh = render.Frame(), surfaces.GetInterfaces()
     towards = frame.vector("LLAS")

@@ -25,8 +25,6 @@ constexpr float MostWrong = 1.5f;
 constexpr float MostCurvature = 0.35f;
 /** What the field has at a voxel at least, where not all constraints can be met. */
 constexpr float LeastSize = 0.05f;
-/** No shift brings the field nearer to 0 at a voxel. */
-constexpr float LeastShifted = 0.2f;
 /** Times which it is looked for what a tolerance would lose. */
 constexpr int MostRescues = 4;
 /** Where the field is flatter it is a ridge, and has no bend. */
@@ -38,11 +36,6 @@ constexpr float MostBent = 2.5f;
 class FieldMaker
 {
 public:
-  FieldMaker(
-    const LabelBricks& bricks, int object, const LabelFieldOptions& options, Executor& executor)
-    : FieldMaker(bricks, object, options, executor, VoxelBox::Of(bricks.Size()))
-  {
-  }
   FieldMaker(const LabelBricks& bricks, int object, const LabelFieldOptions& options,
     Executor& executor, const VoxelBox& within)
     : Map(bricks.Map()), Sides(bricks, object, within), Options(options), Threads(executor),
@@ -61,43 +54,10 @@ public:
     {
       MakeLabelDistance(this->Sides, this->Rows, this->Map.Spacing, this->Options, this->Field,
         this->Threads);
-      this->CorrectBends(this->Options.ChordCorrection);
-      this->Hold({});
+      this->CorrectBends();
+      this->Hold();
     }
     return std::move(this->Field);
-  }
-
-  void CorrectBendsOf(LabelField& field, double amount)
-  {
-    this->Field = std::move(field);
-    this->CorrectBends(amount);
-    field = std::move(this->Field);
-  }
-
-  void HoldFurther(LabelField& field, const std::vector<HeldVoxel>& held)
-  {
-    this->Field = std::move(field);
-    this->Hold(held);
-    field = std::move(this->Field);
-  }
-
-  void Shift(LabelField& field, float by)
-  {
-    this->Field = std::move(field);
-    this->Rows.For(this->Threads,
-      [&](int i, int j, int k, int count)
-      {
-        float* values = this->RowAt(i, j, k);
-        for (int x = 0; x < count; ++x)
-        {
-          const float side = this->Sides.Of(i + x, j, k);
-          const float least =
-            this->IsStrict(i + x, j, k) ? LeastShifted : this->LeastAt(i + x, j, k);
-          values[x] = side *
-            std::clamp(side * (values[x] - by), std::min(least, side * values[x]), LabelField::Far);
-        }
-      });
-    field = std::move(this->Field);
   }
 
 private:
@@ -129,11 +89,11 @@ private:
       });
   }
 
-  void CorrectBends(double amount)
+  void CorrectBends()
   {
     const VoxelBox& box = this->Field.Box;
     const LargeVector<float> before = this->Field.Values;
-    const auto correction = static_cast<float>(amount);
+    const auto correction = static_cast<float>(this->Options.ChordCorrection);
     this->Rows.For(this->Threads,
       [&](int i, int j, int k, int count)
       {
@@ -193,16 +153,16 @@ private:
     return square > LeastSlope * LeastSlope ? laplacian - across / square : 0.f;
   }
 
-  void Hold(const std::vector<HeldVoxel>& held)
+  void Hold()
   {
     if (this->HasTolerance() && !(this->Field.IsStrict.Box() == this->Field.Box))
     {
       this->Field.IsStrict = VoxelBits(this->Field.Box);
     }
-    HoldToLabels(this->Field, this->Map.Spacing, this->FindConstraints(held));
+    HoldToLabels(this->Field, this->Map.Spacing, this->FindConstraints());
     for (int round = 0; this->HasTolerance() && round < MostRescues && this->FindLost(); ++round)
     {
-      HoldToLabels(this->Field, this->Map.Spacing, this->FindConstraints(held));
+      HoldToLabels(this->Field, this->Map.Spacing, this->FindConstraints());
     }
     this->Rows.For(this->Threads,
       [&](int i, int j, int k, int count)
@@ -289,7 +249,7 @@ private:
     return this->Rows & changing.Grown({ reach, reach, reach });
   }
 
-  std::vector<VoxelConstraint> FindConstraints(const std::vector<HeldVoxel>& held)
+  std::vector<VoxelConstraint> FindConstraints()
   {
     // Within a tolerance nothing is held for being thin.
     this->Thin = this->Sides.FindThin();
@@ -298,7 +258,7 @@ private:
       this->Thin &= this->Field.IsStrict;
     }
     this->BesideThin = this->Sides.FindBeside(this->Thin);
-    const VoxelBits rows = held.empty() ? this->FindChanging() : this->Rows;
+    const VoxelBits rows = this->FindChanging();
     std::vector<std::vector<VoxelConstraint>> ofLayers(
       static_cast<std::size_t>(this->Rows.NumberOfLayers()));
     ForSpans(this->Threads, ofLayers.size(), 1,
@@ -306,13 +266,13 @@ private:
       {
         rows.ForLayer(static_cast<int>(layer),
           [&](int i, int j, int k, int count)
-          { this->FindConstraintsOfRow(i, j, k, count, held, ofLayers[layer]); });
+          { this->FindConstraintsOfRow(i, j, k, count, ofLayers[layer]); });
       });
     return Joined(this->Threads, ofLayers);
   }
 
-  void FindConstraintsOfRow(int i, int j, int k, int count, const std::vector<HeldVoxel>& held,
-    std::vector<VoxelConstraint>& constraints)
+  void FindConstraintsOfRow(
+    int i, int j, int k, int count, std::vector<VoxelConstraint>& constraints)
   {
     const float* values = this->RowAt(i, j, k);
     for (int x = 0; x < count; ++x)
@@ -327,21 +287,11 @@ private:
             static_cast<float>(-this->Options.MostBesideThin * way) });
         }
       }
-      if (side * values[x] >= MostWrong)
+      if (side * values[x] < MostWrong)
       {
-        continue;
+        constraints.push_back({ this->Field.Box.NumberOf(i + x, j, k), side,
+          static_cast<float>(this->MarginAt(i + x, j, k)) });
       }
-      auto margin = static_cast<float>(this->MarginAt(i + x, j, k));
-      const VoxelBox all = VoxelBox::Of(this->Map.Size());
-      const std::int64_t voxel =
-        all.Contains({ i + x, j, k }) ? all.NumberOf(i + x, j, k) : std::int64_t(-1);
-      const auto found = std::lower_bound(held.begin(), held.end(), voxel,
-        [](const HeldVoxel& one, std::int64_t number) { return one.Voxel < number; });
-      if (found != held.end() && found->Voxel == voxel)
-      {
-        margin = std::max(margin, found->Margin);
-      }
-      constraints.push_back({ this->Field.Box.NumberOf(i + x, j, k), side, margin });
     }
   }
 
@@ -359,30 +309,12 @@ private:
 LabelField MakeLabelField(
   const LabelBricks& bricks, int object, const LabelFieldOptions& options, Executor& executor)
 {
-  return FieldMaker(bricks, object, options, executor).Make();
+  return MakeLabelField(bricks, object, options, executor, VoxelBox::Of(bricks.Size()));
 }
 
 LabelField MakeLabelField(const LabelBricks& bricks, int object, const LabelFieldOptions& options,
   Executor& executor, const VoxelBox& within)
 {
   return FieldMaker(bricks, object, options, executor, within).Make();
-}
-
-void CorrectBends(
-  LabelField& field, const LabelBricks& bricks, int object, double amount, Executor& executor)
-{
-  FieldMaker(bricks, object, LabelFieldOptions(), executor).CorrectBendsOf(field, amount);
-}
-
-void ShiftField(LabelField& field, const LabelBricks& bricks, int object,
-  const LabelFieldOptions& options, double by, Executor& executor)
-{
-  FieldMaker(bricks, object, options, executor).Shift(field, static_cast<float>(by));
-}
-
-void HoldFurther(LabelField& field, const LabelBricks& bricks, int object,
-  const LabelFieldOptions& options, const std::vector<HeldVoxel>& held, Executor& executor)
-{
-  FieldMaker(bricks, object, options, executor).HoldFurther(field, held);
 }
 }
