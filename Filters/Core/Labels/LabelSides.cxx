@@ -13,7 +13,7 @@ namespace volumic
 namespace
 {
 /** Vertices of surfaces stay within that many voxels of the boundary between voxels. */
-constexpr int LeastReach = 3;
+constexpr int LeastReach = 2;
 /** A Gaussian moves the boundary at a cube's corner by .82 sigma along each axis. */
 constexpr double ReachInSigmas = 0.85;
 
