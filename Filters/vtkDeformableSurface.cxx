@@ -238,7 +238,7 @@ int vtkDeformableSurface::RequestData(
       internals.Settings.End.MemoryLimit, internals.Settings.End.ScratchDirectory);
     internals.RunOrGoOn(call);
   };
-  work.OfOthers = [&](volumic::RankQuestion, volumic::RankMessage&)
+  work.OfOthers = [&](volumic::RankMessage&)
   {
     volumic::RankMessage answer;
     answer << internals.Cache.IsValidFor(this, ranks.Count());

@@ -12,15 +12,11 @@
 #include "Input/InputImage.h"
 #include "Input/Workspace.h"
 #include "Labels/LabelBlocks.h"
-#include "Labels/LabelHelper.h"
 #include "Labels/LabelImage.h"
 #include "Labels/LabelInterfaces.h"
 #include "Labels/LabelNames.h"
-#include "Labels/LabelSurface.h"
-#include "Labels/LabelSurfaces.h"
 #include "Output/SurfaceOutput.h"
 #include "Ranks/Ranks.h"
-#include "Run/SegmentationCache.h"
 #include "Settings/PropertyTable.h"
 
 #include <vtkCellData.h>
@@ -54,6 +50,7 @@ public:
   std::vector<int> Labels;
   int BackgroundLabel = 0;
   bool Merge = false;
+  bool SharedInterfaces = true; ///< has no effect
   int NumberOfThreads = 0;
   double TimeLimit = 0.0; ///< seconds; 0: none
   volumic::Deadline Limit; ///< of the run that is under way
@@ -63,15 +60,10 @@ public:
   vtkSmartPointer<vtkMultiProcessController> Controller;
   volumic::LimitedMemory Memory;
   bool IsRunning = false;
-  std::vector<double> Seconds; ///< of each block
-  /** Of a run that was stopped, for one of the same filter and the same input; else empty. */
-  std::vector<volumic::LabelSurface> Stopped;
-  vtkMTimeType StoppedTime = 0;
-  volumic::SegmentationCache::Inputs StoppedInputs;
 
-  /** Errors are thrown. */
-  volumic::LabelMap Read(vtkDataObject* input, vtkInformation* selection,
-    volumic::LabelChoice& choice, std::optional<volumic::LabelImage>& image) const;
+  /** Choose the labels, and check the properties. Errors are thrown. */
+  volumic::LabelChoice Read(vtkDataObject* input, vtkInformation* selection,
+    std::optional<volumic::LabelImage>& image, volumic::HostThreads& threads) const;
 };
 
 //------------------------------------------------------------------------------
@@ -93,19 +85,17 @@ vtkLabelsToSurfaces::~vtkLabelsToSurfaces() = default;
   MADE(Merge, bool, Merge)                                              \
   MADE(Smoothing, double, Settings.Smoothing)                           \
   MADE(VoxelTolerance, double, Settings.VoxelTolerance)                 \
-  MADE(Gap, double, Settings.Gap)                                       \
-  MADE(SharedInterfaces, bool, Settings.SharedInterfaces)               \
+  MADE(SharedInterfaces, bool, SharedInterfaces)                        \
   MADE(BoxFaces, int, Settings.BoxFaces)                                \
   MADE(Metric, int, Settings.Metric)                                    \
   MADE(EdgeLength, double, Settings.EdgeLength)                         \
   MADE(Tolerance, double, Settings.Grading.Tolerance)                   \
   MADE(MaximumEdgeLength, double, Settings.Grading.MaximumEdgeLength)   \
   MADE(Gradation, double, Settings.Grading.Gradation)                   \
-  MADE(ThinParts, bool, Settings.Grading.ThinParts)                     \
   MADE(FinestLevel, int, Settings.FinestLevel)                          \
   MADE(KeepComponents, int, Settings.KeepComponents)                    \
   MADE(MinimumComponentVolume, double, Settings.MinimumComponentVolume) \
-  WRITTEN(TimeLimit, double, TimeLimit)                                 \
+  MADE(TimeLimit, double, TimeLimit)                                    \
   WRITTEN(NumberOfThreads, int, NumberOfThreads)                        \
   MADE(MemoryLimit, int, MemoryLimit)                                   \
   MADE(ScratchDirectory, const char*, ScratchDirectory)
@@ -114,20 +104,6 @@ vtkLabelsToSurfaces::~vtkLabelsToSurfaces() = default;
   VOLUMIC_SET_AND_GET(vtkLabelsToSurfaces, name, type, Internals->field, this->Modified())
 #define VolumicWritten(name, type, field)
 VOLUMIC_LABEL_PROPERTIES(VolumicSetting, VolumicWritten)
-
-double vtkLabelsToSurfaces::GetTimeLimit()
-{
-  return this->Internals->TimeLimit;
-}
-
-void vtkLabelsToSurfaces::SetTimeLimit(double seconds)
-{
-  if (this->Internals->TimeLimit != seconds)
-  {
-    this->Internals->TimeLimit = seconds;
-    this->GoOn(); // No surface that is finished depends on it.
-  }
-}
 
 int vtkLabelsToSurfaces::GetNumberOfThreads()
 {
@@ -187,15 +163,6 @@ int vtkLabelsToSurfaces::GetLabel(int index)
 }
 
 //------------------------------------------------------------------------------
-double vtkLabelsToSurfaces::GetSeconds(int block)
-{
-  const std::vector<double>& seconds = this->Internals->Seconds;
-  return block >= 0 && block < static_cast<int>(seconds.size())
-    ? seconds[static_cast<std::size_t>(block)]
-    : 0.0;
-}
-
-//------------------------------------------------------------------------------
 void vtkLabelsToSurfaces::SetLabelName(int label, const char* name)
 {
   if (name && *name)
@@ -234,13 +201,6 @@ void vtkLabelsToSurfaces::ClearLabelColors()
 }
 
 //------------------------------------------------------------------------------
-void vtkLabelsToSurfaces::GoOn()
-{
-  const bool isSame = this->Internals->StoppedTime == this->GetMTime();
-  this->Modified();
-  this->Internals->StoppedTime = isSame ? this->GetMTime() : 0;
-}
-
 void vtkLabelsToSurfaces::SetAbortExecute(vtkTypeBool abort)
 {
   this->AbortExecute = abort && this->Internals->IsRunning; // See vtkDeformableSurface.
@@ -274,11 +234,11 @@ int vtkLabelsToSurfaces::RequestUpdateExtent(
 }
 
 //------------------------------------------------------------------------------
-volumic::LabelMap vtkLabelsToSurfaces::vtkInternals::Read(vtkDataObject* input,
-  vtkInformation* selection, volumic::LabelChoice& choice,
-  std::optional<volumic::LabelImage>& image) const
+volumic::LabelChoice vtkLabelsToSurfaces::vtkInternals::Read(vtkDataObject* input,
+  vtkInformation* selection, std::optional<volumic::LabelImage>& image,
+  volumic::HostThreads& threads) const
 {
-  volumic::HostThreads threads(this->NumberOfThreads);
+  volumic::LabelChoice choice;
   volumic::PrefixErrors("Input port 0: ",
     [&]
     {
@@ -291,12 +251,8 @@ volumic::LabelMap vtkLabelsToSurfaces::vtkInternals::Read(vtkDataObject* input,
       choice.IsMerged = this->Merge;
       return 0;
     });
-  this->Settings.Check(
-    volumic::Workspace(image->Image(), volumic::Metric::World).WorldUnit());
-  volumic::LabelMap map;
-  threads.Run(
-    [&] { map = image->MakeMap(choice.Labels, this->Merge, this->BackgroundLabel, threads); });
-  return map;
+  this->Settings.Check(image->Image());
+  return choice;
 }
 
 //------------------------------------------------------------------------------
@@ -319,59 +275,47 @@ void vtkLabelsToSurfaces::MakeSurfaces(volumic::Ranks& ranks, const volumic::Fil
   }
   this->Internals->Limit = volumic::Deadline(volumic::Deadline::Clock::now(), internals.TimeLimit);
   this->Internals->Memory.Set(internals.MemoryLimit, internals.ScratchDirectory);
-  const auto show = [this](double share, const std::string& text)
-  { return this->ShowProgress(share, text); };
-  show(0.0, "Reading the labels");
-  volumic::LabelChoice choice;
+  this->ShowProgress(0.0, "Reading the labels");
+  volumic::HostThreads threads(internals.NumberOfThreads);
   std::optional<volumic::LabelImage> image;
   const vtkSmartPointer<vtkDataObject> input = volumic::PrefixErrors(
     "Input port 0: ", [&] { return ranks.TakeImages(0); });
-  const volumic::LabelMap map =
-    internals.Read(input, this->GetInputArrayInformation(0), choice, image);
-  const std::vector<std::string> names = choice.SurfaceNames();
-  volumic::HostThreads threads(internals.NumberOfThreads);
-  std::vector<volumic::LabelSurface> surfaces;
-  bool mayKeep = false;
-  if (!internals.Settings.SharedInterfaces)
+  const volumic::LabelChoice choice =
+    internals.Read(input, this->GetInputArrayInformation(0), image, threads);
+  const std::string aboutScans = image->ScanWarning(internals.BackgroundLabel);
+  if (!aboutScans.empty()) // Now: the mesh may take very long.
   {
-    std::optional<volumic::LabelBricks> bricks;
-    threads.Run([&] { bricks.emplace(map, threads); });
-    volumic::LabelSurfaceMaker maker(*bricks, image->Image(), internals.Settings);
-    surfaces = volumic::MakeLabelSurfaces(ranks, maker, *bricks, image->Image(), names,
-      internals.NumberOfThreads, threads, show, std::move(this->Internals->Stopped));
-    mayKeep = !maker.KeepsApart();
+    vtkWarningMacro("Input port 0: " << aboutScans);
   }
-  else
-  {
-    volumic::LabelInterfaceMaker maker(
-      map, static_cast<int>(names.size()), image->Image(), internals.Settings, threads);
-    maker.Make(threads,
-      [&ranks](double share, const std::string& text) { return ranks.GoOn(share, text); });
-    surfaces = maker.Surfaces(threads);
-    interfaces->ShallowCopy(maker.Interfaces(choice.FirstLabels(), internals.BackgroundLabel));
-    volumic::AddLabelFields(choice, *image, interfaces);
-    if (choice.IsMerged)
+  volumic::LabelMap map;
+  std::vector<int> objects;
+  threads.Run(
+    [&]
     {
-      vtkNew<vtkIntArray> nearest;
-      nearest->SetNumberOfTuples(interfaces->GetNumberOfCells());
-      image->FindNearest(interfaces, choice.Labels, nearest);
-      interfaces->GetCellData()->GetArray("BoundaryLabels")->CopyComponent(0, nearest, 0);
-    }
-  }
-  for (const volumic::LabelSurface& surface : surfaces)
+      map = image->MakeMap(
+        choice.Labels, choice.IsMerged, internals.BackgroundLabel, objects, threads);
+    });
+  volumic::LabelInterfaceMaker maker(
+    std::move(map), objects, image->Image(), internals.Settings, threads);
+  maker.Make(threads,
+    [&ranks](double share, const std::string& text) { return ranks.GoOn(share, text); });
+  interfaces->ShallowCopy(maker.Interfaces(choice.FirstLabels(), internals.BackgroundLabel));
+  volumic::AddLabelFields(choice, *image, interfaces);
+  if (choice.IsMerged)
   {
-    this->Internals->Seconds.push_back(surface.Seconds);
-  }
-  const bool isFinished = std::all_of(surfaces.begin(), surfaces.end(),
-    [](const volumic::LabelSurface& surface) { return surface.IsFinished; });
-  if (!isFinished && mayKeep && volumic::SegmentationCache::MayKeep(this))
-  {
-    this->Internals->Stopped = surfaces;
+    vtkDataArray* sides = interfaces->GetCellData()->GetArray("BoundaryLabels");
+    vtkNew<vtkIntArray> nearest;
+    nearest->SetNumberOfTuples(interfaces->GetNumberOfCells());
+    nearest->CopyComponent(0, sides, 0);
+    image->FindNearest(interfaces, choice.Labels, nearest);
+    sides->CopyComponent(0, nearest, 0);
   }
   // Another process may have stopped it, too.
   const bool isLate = internals.Limit.IsOver() && !volumic::IsAbortRequested(this);
-  const std::string warning = volumic::FillBlocks(choice, *image, internals.Settings, surfaces,
-    output, isLate ? volumic::TimeLimitReason : Describe(volumic::StopReason::Cancelled));
+  const std::string stopped =
+    isLate ? volumic::TimeLimitReason : Describe(volumic::StopReason::Cancelled);
+  const std::string warning = volumic::FillBlocks(
+    choice, *image, internals.Settings, maker.Surfaces(threads), output, stopped);
   // At the end: ParaView's message box would cover the progress bar.
   if (!image->Warning().empty())
   {
@@ -397,15 +341,8 @@ int vtkLabelsToSurfaces::RequestData(
     return 1;
   }
   this->Internals->IsRunning = true;
-  this->Internals->Seconds.clear();
-  const volumic::SegmentationCache::Inputs inputs = volumic::SegmentationCache::InputsOf(this);
-  if (this->Internals->StoppedTime != this->GetMTime() || this->Internals->StoppedInputs != inputs)
-  {
-    this->Internals->Stopped.clear();
-  }
   // ParaView leaves the flag of an earlier run as it is.
   volumic::ForgetAbort(this);
-  std::optional<volumic::LabelHelper> helper;
   volumic::RankWork work;
   work.Deals = volumic::Dealing::FirstHasAll;
   work.OfFirst = [&]
@@ -415,14 +352,6 @@ int vtkLabelsToSurfaces::RequestData(
     {
       vtkWarningMacro(<< warning);
     }
-  };
-  work.OfOthers = [&](volumic::RankQuestion, volumic::RankMessage& message)
-  {
-    if (!helper)
-    {
-      helper.emplace(this->Internals->Settings, this->Internals->NumberOfThreads, show);
-    }
-    return helper->Answer(message);
   };
   const volumic::AlgorithmError error = ranks.Run(
     []
@@ -439,8 +368,6 @@ int vtkLabelsToSurfaces::RequestData(
   volumic::ForgetAbort(this);
   this->Internals->Limit = volumic::Deadline();
   this->Internals->IsRunning = false;
-  this->Internals->StoppedTime = this->Internals->Stopped.empty() ? 0 : this->GetMTime();
-  this->Internals->StoppedInputs = inputs;
   volumic::GiveBackFreeMemory();
   return 1;
 }

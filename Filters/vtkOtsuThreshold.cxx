@@ -110,7 +110,7 @@ int vtkOtsuThreshold::RequestData(
     message << found.Threshold << histogram;
     ranks.AskAll(volumic::RankQuestion::Own, message);
   };
-  work.OfOthers = [&keep](volumic::RankQuestion, volumic::RankMessage& message)
+  work.OfOthers = [&keep](volumic::RankMessage& message)
   {
     double threshold = 0.0;
     std::vector<double> histogram;

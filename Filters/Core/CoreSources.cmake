@@ -24,10 +24,8 @@ set(volumic_core_sources
   Image/ValidReduction.cxx
   Image/VoxelHash.cxx
   Labels/BoundaryGaussian.cxx
-  Labels/BoundaryRows.cxx
-  Labels/DrawBack.cxx
+  Labels/VoxelBits.cxx
   Labels/LabelBricks.cxx
-  Labels/LabelClaims.cxx
   Labels/LabelDistance.cxx
   Labels/LabelField.cxx
   Labels/LabelHold.cxx
@@ -35,7 +33,6 @@ set(volumic_core_sources
   Labels/LabelSides.cxx
   Labels/MapBeyond.cxx
   Labels/SmallParts.cxx
-  Labels/TouchingSurfaces.cxx
   Labels/WrongVoxels.cxx
   Mesh/CellSurface.cxx
   Mesh/CycleCut.cxx
@@ -59,21 +56,23 @@ set(volumic_core_sources
   Mesh/TriangleTree.cxx
   Mesh/VertexGrid.cxx
   Mesh/VertexRemoval.cxx
+  Interfaces/CellPattern.cxx
+  Interfaces/DualMesh.cxx
   Interfaces/FaceCubes.cxx
   Interfaces/InterfaceClearance.cxx
   Interfaces/InterfaceFields.cxx
   Interfaces/InterfaceFit.cxx
-  Interfaces/InterfaceLattice.cxx
   Interfaces/InterfaceMesh.cxx
   Interfaces/InterfaceMotion.cxx
+  Interfaces/InterfaceCrossings.cxx
   Interfaces/InterfaceEdits.cxx
   Interfaces/InterfaceRemesher.cxx
   Interfaces/InterfaceSizes.cxx
   Interfaces/InterfaceSlivers.cxx
-  Interfaces/LatticeCutter.cxx
-  Interfaces/LatticeSides.cxx
+  Interfaces/InterfaceStart.cxx
   Interfaces/LineWedges.cxx
   Interfaces/MakeInterfaces.cxx
+  Interfaces/MismatchedVoxels.cxx
   Interfaces/NarrowPlaces.cxx
   Interfaces/PeriodicImages.cxx
   Interfaces/VertexTargets.cxx
@@ -155,17 +154,14 @@ set(volumic_core_headers
   Image/VoxelValues.h
   Image/WayToZero.h
   Labels/BoundaryGaussian.h
-  Labels/BoundaryRows.h
-  Labels/DrawBack.h
+  Labels/VoxelBits.h
   Labels/LabelBricks.h
-  Labels/LabelClaims.h
   Labels/LabelDistance.h
   Labels/LabelField.h
   Labels/LabelHold.h
   Labels/LabelMap.h
   Labels/LabelSides.h
   Labels/SmallParts.h
-  Labels/TouchingSurfaces.h
   Labels/WrongVoxels.h
   Mesh/CellSurface.h
   Mesh/CycleCut.h
@@ -191,19 +187,22 @@ set(volumic_core_headers
   Mesh/TriangleTree.h
   Mesh/VertexGrid.h
   Mesh/VertexRemoval.h
+  Interfaces/CellPattern.h
+  Interfaces/DualMesh.h
   Interfaces/FaceCubes.h
   Interfaces/InterfaceClearance.h
   Interfaces/InterfaceFields.h
   Interfaces/InterfaceFit.h
-  Interfaces/InterfaceLattice.h
   Interfaces/InterfaceMesh.h
   Interfaces/InterfaceMotion.h
+  Interfaces/InterfaceCrossings.h
   Interfaces/InterfaceEdits.h
   Interfaces/InterfaceRemesher.h
   Interfaces/InterfaceSizes.h
-  Interfaces/LatticeCutter.h
+  Interfaces/InterfaceStart.h
   Interfaces/LineWedges.h
   Interfaces/MakeInterfaces.h
+  Interfaces/MismatchedVoxels.h
   Interfaces/NarrowPlaces.h
   Interfaces/TriangleShape.h
   Interfaces/VertexTargets.h

@@ -277,4 +277,51 @@ std::string HintAtLabels(vtkDataArray* voxels, const int size[3])
         "each label; here an isopotential between them is searched.")
     : std::string();
 }
+
+namespace
+{
+/** The share of neighbours along the axes that differ. */
+template <typename T>
+double ShareOfUnequal(const T* voxels, const int size[3])
+{
+  const vtkIdType rows = static_cast<vtkIdType>(size[1]) * size[2];
+  const vtkIdType step = std::max<vtkIdType>(1, rows * size[0] / MostVoxels);
+  const std::array<vtkIdType, 3> strides = { 1, size[0],
+    static_cast<vtkIdType>(size[0]) * size[1] };
+  vtkIdType pairs = 0;
+  vtkIdType unequal = 0;
+  for (vtkIdType row = 0; row < rows; row += step)
+  {
+    for (int i = 0; i < size[0]; ++i)
+    {
+      const T* voxel = voxels + row * size[0] + i;
+      const std::array<vtkIdType, 3> at = { i, row % size[1], row / size[1] };
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        pairs += at[axis] > 0;
+        unequal += at[axis] > 0 && voxel[-strides[axis]] != *voxel;
+      }
+    }
+  }
+  return static_cast<double>(unequal) / static_cast<double>(std::max<vtkIdType>(pairs, 1));
+}
+}
+
+std::string HintAtScan(vtkDataArray* voxels, const int size[3], std::size_t labels)
+{
+  constexpr std::size_t mostLabels = 256;
+  constexpr double mostUnequal = 1.0 / 3.0;
+  double share = 0.0;
+  if (labels > mostLabels)
+  {
+    VisitVoxels(voxels, [&](const auto* values) { share = ShareOfUnequal(values, size); });
+  }
+  return share > mostUnequal
+    ? Join(NameOf(voxels), " has ", labels, " labels, and ", std::lround(100.0 * share),
+        " % of neighbouring voxels have different ones: it looks like a scan, not like a label "
+        "map. "
+        "For an isosurface of a scan apply Volume to Surface (vtkVolumeToSurface) or Deformable "
+        "Surface (vtkDeformableSurface), or run volumic with --iso.")
+    : std::string();
+}
 }

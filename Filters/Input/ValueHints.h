@@ -6,6 +6,7 @@
 #include <vtkType.h>
 
 #include <array>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,12 @@ VoxelHistogram FindOtsuThreshold(
  * @param size voxels along each axis
  */
 std::string HintAtLabels(vtkDataArray* voxels, const int size[3]);
+
+/**
+ * Return a warning for a label map that looks like a scan, else nothing: it has more than 256
+ * labels, and more than a third of the neighbours along the axes differ. Some rows are tested.
+ */
+std::string HintAtScan(vtkDataArray* voxels, const int size[3], std::size_t labels);
 }
 
 #endif

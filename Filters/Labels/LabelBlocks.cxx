@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Labels/LabelBlocks.h"
 
+#include "Core/Common/Join.h"
 #include "Output/SurfaceOutput.h"
 
 #include <vtkCellData.h>
@@ -24,15 +25,15 @@ namespace volumic
 {
 namespace
 {
-/** How many labels or messages a warning names. */
+/** How many labels a warning names. */
 constexpr std::size_t MostNamed = 10;
 
-/** Of all voxels, those without a surface that are worth a warning; less is told as field data. */
+/** Share of missing voxels that is worth a warning; less is field data only. */
 constexpr double NotableShare = 0.05;
 
 template <typename Array, typename Value>
-void AddField(vtkPolyData* surface, const char* name, const std::vector<Value>& values,
-  int components = 1)
+void AddField(
+  vtkPolyData* surface, const char* name, const std::vector<Value>& values, int components = 1)
 {
   vtkNew<Array> array;
   array->SetName(name);
@@ -76,102 +77,101 @@ void AddNames(vtkPolyData* surface, const std::vector<int>& labels, const LabelN
   AddField<vtkDoubleArray>(surface, "LabelColor", colors, 3);
 }
 
-/** Why what is there may not be in a surface, and what helps, if anything does. */
-std::string ReasonsOfLoss(const LabelSettings& settings)
+/** What surfaces lack of their labels. */
+class Losses
 {
-  std::string reasons = ": too small, scattered, or too thin for the triangles";
-  reasons += settings.KeepComponents != 0 ? ", or left out by Keep Components" : "";
-  reasons += settings.Gap > 0.0 ? ", or taken away by Gap" : "";
-  reasons += ".";
-  if (settings.EdgeLength > 0.0)
-  {
-    reasons += " A shorter Edge Length makes these smaller.";
-  }
-  else if (settings.FinestLevel > 0)
-  {
-    reasons += " A lower Finest Level makes these smaller.";
-  }
-  return reasons;
-}
+public:
+  explicit Losses(const LabelSettings& settings) : Settings(settings) {}
 
-/** Whether its volume is not that of the voxels, and nobody asked for what brings that about. */
-bool HasWrongVolume(const LabelSurface& surface, vtkIdType voxels, const LabelSettings& settings)
-{
-  const bool hasLargeTriangles = settings.FinestLevel > 0 || settings.EdgeLength > 0.0;
-  return surface.IsVolumeOff(voxels) && !hasLargeTriangles && settings.Gap == 0.0 &&
-    settings.KeepComponents == 0;
-}
-
-std::string ToPercent(double share)
-{
-  const int percent = static_cast<int>(std::lround(100.0 * share));
-  return (percent > 0 ? "+" : "") + std::to_string(percent) + " %";
-}
-
-std::string JoinedBy(const char* separator, const std::vector<std::string>& texts)
-{
-  std::string all;
-  for (const std::string& text : texts)
+  /** @param isEmpty whether the surface has no triangles */
+  void Add(const std::string& name, const LabelSurface& surface, vtkIdType voxels, bool isEmpty)
   {
-    all += (all.empty() ? "" : separator) + text;
+    const auto count = static_cast<double>(voxels);
+    this->Voxels += count;
+    if (!surface.IsFinished)
+    {
+      return;
+    }
+    if (isEmpty)
+    {
+      this->Empty.push_back(name);
+      this->Missing += count;
+    }
+    else if (2 * surface.MissedVoxels > voxels)
+    {
+      this->Missed.push_back(name);
+      this->Missing += this->Settings.KeepComponents == 0 ? surface.MissedVoxels : 0.0;
+    }
+    else if (this->HasWrongVolume(surface, voxels))
+    {
+      const long percent = std::lround(100.0 * surface.VolumeError);
+      this->WrongVolumes.push_back(Join(name, percent > 0 ? " (+" : " (", percent, " %)"));
+      this->Missing += std::abs(surface.VolumeError) * count;
+    }
   }
-  return all;
-}
 
-/** Text after text, as many as a warning names. */
-std::string Listed(const std::vector<std::string>& texts)
-{
-  std::string list;
-  for (std::size_t i = 0; i < std::min(texts.size(), MostNamed); ++i)
-  {
-    list += (i == 0 ? "" : ", ") + texts[i];
-  }
-  if (texts.size() > MostNamed)
-  {
-    list += " and " + std::to_string(texts.size() - MostNamed) + " others";
-  }
-  return list;
-}
-}
+  /** Whether they are worth a warning. */
+  bool AreNotable() const { return this->Missing > NotableShare * this->Voxels; }
 
-std::vector<int> LabelChoice::LabelsOf(std::size_t surface) const
-{
-  return this->IsMerged ? this->Labels : std::vector<int>{ this->Labels[surface] };
-}
-
-std::vector<int> LabelChoice::FirstLabels() const
-{
-  std::vector<int> labels;
-  for (std::size_t i = 0; i < this->NumberOfSurfaces(); ++i)
+  std::string Text() const
   {
-    labels.push_back(this->LabelsOf(i).front());
+    std::string text;
+    const auto add = [&](const char* what, const std::vector<std::string>& names)
+    {
+      if (!names.empty())
+      {
+        text += Join(text.empty() ? "" : " ", what, Listed(names, MostNamed), this->Reasons());
+      }
+    };
+    add("No surface is left of ", this->Empty);
+    add("More voxels than half are on the wrong side of the surface of ", this->Missed);
+    add("The volume is not that of the voxels of ", this->WrongVolumes);
+    return text;
   }
-  return labels;
-}
 
-std::vector<std::string> LabelChoice::SurfaceNames() const
-{
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < this->NumberOfSurfaces(); ++i)
+private:
+  bool HasLargeTriangles() const
   {
-    names.push_back(this->Names.NameOf(this->LabelsOf(i)));
+    return this->Settings.FinestLevel > 0 || this->Settings.EdgeLength > 0.0;
   }
-  return names;
+
+  /** Whether the volume is off, and no setting brings that about. */
+  bool HasWrongVolume(const LabelSurface& surface, vtkIdType voxels) const
+  {
+    constexpr vtkIdType least = 100;
+    constexpr double most = 0.03;
+    return voxels >= least && std::abs(surface.VolumeError) > most && !this->HasLargeTriangles() &&
+      this->Settings.KeepComponents == 0;
+  }
+
+  /** Possible reasons, and the way out. */
+  std::string Reasons() const
+  {
+    return Join(": too small, scattered, or too thin for the triangles",
+      this->Settings.KeepComponents != 0 ? ", or left out by Keep Components." : ".",
+      !this->HasLargeTriangles()         ? ""
+        : this->Settings.EdgeLength > 0. ? " A shorter Edge Length makes these smaller."
+                                         : " A lower Finest Level makes these smaller.");
+  }
+
+  const LabelSettings& Settings;
+  std::vector<std::string> Empty;
+  std::vector<std::string> Missed;
+  std::vector<std::string> WrongVolumes;
+  double Voxels = 0.0;
+  double Missing = 0.0;
+};
 }
 
 std::string FillBlocks(const LabelChoice& choice, const LabelImage& image,
   const LabelSettings& settings, const std::vector<LabelSurface>& surfaces,
   vtkMultiBlockDataSet* output, const std::string& stopped)
 {
-  std::vector<std::string> empty;
-  std::vector<std::string> lost;
-  std::vector<std::string> touching;
-  std::vector<std::string> wrongVolumes;
-  double sought = 0.0;  // voxels of all labels
-  double missing = 0.0; // those without a surface that nobody has chosen to be without
+  Losses losses(settings);
   output->SetNumberOfBlocks(static_cast<unsigned int>(surfaces.size()));
   for (std::size_t i = 0; i < surfaces.size(); ++i)
   {
+    const LabelSurface& made = surfaces[i];
     const std::vector<int> labels = choice.LabelsOf(i);
     vtkIdType voxels = 0;
     for (const int label : labels)
@@ -180,82 +180,32 @@ std::string FillBlocks(const LabelChoice& choice, const LabelImage& image,
     }
     const std::string name = choice.Names.NameOf(labels);
     vtkNew<vtkPolyData> surface;
-    const bool isThere = surfaces[i].Surface != nullptr;
-    surface->ShallowCopy(isThere ? surfaces[i].Surface : MakeStopped(0, stopped));
-    if (!surfaces[i].IsFinished)
+    surface->ShallowCopy(made.Surface ? made.Surface : MakeStopped(0, stopped));
+    if (!made.IsFinished)
     {
       SetStopReason(surface, stopped);
     }
     AddLabels(surface, labels, image);
     AddField<vtkIntArray>(surface, "Label", labels);
     AddNames(surface, labels, choice.Names);
-    AddField<vtkIdTypeArray>(surface, "LabelVoxels", std::vector<vtkIdType>{ voxels });
-    AddField<vtkIdTypeArray>(
-      surface, "WrongVoxels", std::vector<vtkIdType>{ surfaces[i].WrongVoxels });
-    AddField<vtkIdTypeArray>(
-      surface, "MissedVoxels", std::vector<vtkIdType>{ surfaces[i].MissedVoxels });
-    AddField<vtkDoubleArray>(
-      surface, "VolumeError", std::vector<double>{ surfaces[i].VolumeError });
+    AddField<vtkIdTypeArray, vtkIdType>(surface, "LabelVoxels", { voxels });
+    AddField<vtkIdTypeArray, vtkIdType>(surface, "WrongVoxels", { made.WrongVoxels });
+    AddField<vtkIdTypeArray, vtkIdType>(surface, "MissedVoxels", { made.MissedVoxels });
+    AddField<vtkDoubleArray, double>(surface, "VolumeError", { made.VolumeError });
     const auto block = static_cast<unsigned int>(i);
     output->SetBlock(block, surface);
     output->GetMetaData(block)->Set(vtkCompositeDataSet::NAME(), name.c_str());
-    sought += static_cast<double>(voxels);
-    // What is not finished may still come.
-    if (surfaces[i].IsFinished && surface->GetNumberOfCells() == 0)
-    {
-      empty.push_back(name);
-      missing += static_cast<double>(voxels);
-    }
-    else if (surfaces[i].IsFinished && 2 * surfaces[i].MissedVoxels > voxels)
-    {
-      lost.push_back(name);
-      missing += settings.KeepComponents == 0 ? static_cast<double>(surfaces[i].MissedVoxels) : 0.0;
-    }
-    else if (surfaces[i].IsFinished && HasWrongVolume(surfaces[i], voxels, settings))
-    {
-      wrongVolumes.push_back(name + " (" + ToPercent(surfaces[i].VolumeError) + ")");
-      missing += std::abs(surfaces[i].VolumeError) * static_cast<double>(voxels);
-    }
-    if (surfaces[i].TouchingFaces > 0)
-    {
-      touching.push_back(name + " (" + std::to_string(surfaces[i].TouchingFaces) + ")");
-    }
+    losses.Add(name, made, voxels, surface->GetNumberOfCells() == 0);
   }
-  std::vector<std::string> losses;
-  if (!empty.empty())
+  const std::string text = losses.Text();
+  if (!text.empty())
   {
-    losses.push_back("No surface is left of " + Listed(empty) + ReasonsOfLoss(settings));
+    vtkNew<vtkStringArray> lost;
+    lost->SetName("LostLabels");
+    lost->InsertNextValue(text);
+    output->GetFieldData()->AddArray(lost);
   }
-  if (!lost.empty())
-  {
-    losses.push_back("More voxels than half are on the wrong side of the surface of " +
-      Listed(lost) + ReasonsOfLoss(settings));
-  }
-  if (!wrongVolumes.empty())
-  {
-    losses.push_back("The volume is not that of the voxels of " + Listed(wrongVolumes) +
-      ReasonsOfLoss(settings));
-  }
-  std::vector<std::string> warnings;
-  if (!losses.empty())
-  {
-    vtkNew<vtkStringArray> told;
-    told->SetName("LostLabels");
-    told->InsertNextValue(JoinedBy(" ", losses));
-    output->GetFieldData()->AddArray(told);
-  }
-  if (missing > NotableShare * sought)
-  {
-    warnings = losses;
-  }
-  if (!touching.empty())
-  {
-    warnings.push_back(
-      "Triangles still touch the surfaces of neighbours, or lie within them, in spite "
-      "of the Gap: " +
-      Listed(touching) + ". Try a larger Gap.");
-  }
-  return JoinedBy(" ", warnings);
+  return losses.AreNotable() ? text : "";
 }
 
 void AddLabelFields(const LabelChoice& choice, const LabelImage& image, vtkPolyData* surface)

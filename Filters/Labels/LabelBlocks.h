@@ -4,8 +4,9 @@
 #define volumicLabelBlocks_h
 
 #include "Labels/LabelImage.h"
+#include "Labels/LabelInterfaces.h"
 #include "Labels/LabelNames.h"
-#include "Labels/LabelSurface.h"
+#include "Labels/LabelSettings.h"
 
 #include <cstddef>
 #include <string>
@@ -22,20 +23,23 @@ struct LabelChoice
   bool IsMerged = false;   ///< one surface about all
   LabelNames Names;
 
-  std::size_t NumberOfSurfaces() const { return this->IsMerged ? 1 : this->Labels.size(); }
-  /** Of a surface. */
-  std::vector<int> LabelsOf(std::size_t surface) const;
+  /** The labels of a surface. */
+  std::vector<int> LabelsOf(std::size_t surface) const
+  {
+    return this->IsMerged ? this->Labels : std::vector<int>{ this->Labels[surface] };
+  }
   /** The first label of each surface. */
-  std::vector<int> FirstLabels() const;
-  /** The names of all surfaces. */
-  std::vector<std::string> SurfaceNames() const;
+  std::vector<int> FirstLabels() const
+  {
+    return this->IsMerged ? std::vector<int>{ this->Labels.front() } : this->Labels;
+  }
 };
 
 /**
  * Makes a block of each surface, with the arrays of labels.
  * @param stopped the `StopReason` of what is not finished
- * @return what the user should know: labels that have no surface, or lose most of their voxels, or
- *         meet neighbours in spite of a gap, and what may help; empty: nothing
+ * @return a warning: labels that have no surface, lose most of their voxels, or have another
+ * volume, and what may help; empty: none
  */
 std::string FillBlocks(const LabelChoice& choice, const LabelImage& image,
   const LabelSettings& settings, const std::vector<LabelSurface>& surfaces,

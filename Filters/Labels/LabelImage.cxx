@@ -6,8 +6,10 @@
 #include "Core/Common/Spans.h"
 #include "Input/ImageVoxels.h"
 #include "Input/InputImage.h"
+#include "Input/LabelValues.h"
+#include "Input/ValueHints.h"
 #include "Input/Workspace.h"
-#include "Labels/LabelValues.h"
+#include "Labels/LabelNames.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellArrayIterator.h>
@@ -16,6 +18,7 @@
 #include <vtkInformation.h>
 #include <vtkIntArray.h>
 #include <vtkPolyData.h>
+#include <vtkTriangle.h>
 
 #include <algorithm>
 #include <cmath>
@@ -54,24 +57,6 @@ LabelVoxels RunOf(const int* extent, vtkIdType first, vtkIdType last)
   run.Extent[4] = extent[4] + index(first / slice);
   run.Extent[5] = extent[4] + index(last / slice);
   return run;
-}
-
-/** `0, 1, 3, 4 and 112 others`. */
-std::string ListOf(const std::map<int, LabelVoxels>& counts)
-{
-  constexpr std::size_t most = 20;
-  std::string text;
-  std::size_t listed = 0;
-  for (const auto& entry : counts)
-  {
-    if (listed == most && counts.size() > most + 1)
-    {
-      return text + " and " + std::to_string(counts.size() - most) + " others";
-    }
-    text += (listed == 0 ? "" : ", ") + std::to_string(entry.first);
-    ++listed;
-  }
-  return text;
 }
 }
 
@@ -179,32 +164,40 @@ std::vector<int> LabelImage::Choose(const std::vector<int>& wanted, int backgrou
   {
     if (this->Counts.find(label) == this->Counts.end())
     {
+      constexpr std::size_t mostListed = 20;
+      std::vector<std::string> there;
+      for (const auto& entry : this->Counts)
+      {
+        there.push_back(std::to_string(entry.first));
+      }
       Refuse("Labels: ", NameOf(this->Voxels), " has no label ", label, "; it has ",
-        ListOf(this->Counts), ".");
+        Listed(there, mostListed), ".");
     }
   }
   return labels;
 }
 
-LabelMap LabelImage::MakeMap(
-  const std::vector<int>& labels, bool merge, int background, Executor& executor) const
+LabelMap LabelImage::MakeMap(const std::vector<int>& selected, bool merge, int background,
+  std::vector<int>& objects, Executor& executor) const
 {
+  constexpr int beyond = 8; // numbers behind all objects that others have
   const int* size = this->Geometry->GetDimensions();
   LabelMap map({ size[0], size[1], size[2] });
   map.Spacing = Workspace(this->Geometry, Metric::World).Step();
-  std::unordered_map<int, LabelMap::Number> objects;
-  for (const int label : labels)
+  std::unordered_map<int, LabelMap::Number> numbers;
+  int room =
+    std::numeric_limits<LabelMap::Number>::max() - beyond - static_cast<int>(selected.size());
+  for (const auto& [label, voxels] : this->Counts)
   {
-    const int last = map.NumberOfObjects;
-    map.NumberOfObjects = merge ? 1 : last + 1;
-    objects[label] = static_cast<LabelMap::Number>(map.NumberOfObjects);
-  }
-  for (const auto& entry : this->Counts)
-  {
-    if (entry.first != background && objects.count(entry.first) == 0 &&
-      map.NumberOfObjects < std::numeric_limits<LabelMap::Number>::max())
+    const bool isSelected = std::binary_search(selected.begin(), selected.end(), label);
+    if (isSelected && merge && !objects.empty())
     {
-      objects[entry.first] = static_cast<LabelMap::Number>(++map.NumberOfObjects);
+      numbers[label] = static_cast<LabelMap::Number>(objects.front());
+    }
+    else if (isSelected || (label != background && room-- > 0))
+    {
+      numbers[label] = static_cast<LabelMap::Number>(++map.NumberOfObjects);
+      objects.insert(objects.end(), isSelected ? 1 : 0, map.NumberOfObjects);
     }
   }
   VisitVoxels(this->Voxels,
@@ -214,22 +207,28 @@ LabelMap LabelImage::MakeMap(
         [&](std::size_t layer, std::size_t, std::size_t)
         {
           const VoxelBox box = map.Layer(static_cast<int>(layer));
-          std::vector<LabelMap::Number> numbers(static_cast<std::size_t>(box.Count()));
+          std::vector<LabelMap::Number> slices(static_cast<std::size_t>(box.Count()));
           const auto* from = voxels + VoxelBox::Of(map.Size()).NumberOf(0, 0, box.First[2]);
-          for (std::size_t i = 0; i < numbers.size();)
+          for (std::size_t i = 0; i < slices.size();)
           {
             const auto value = from[i];
-            const auto found = objects.find(static_cast<int>(value));
-            const LabelMap::Number object = found == objects.end() ? 0 : found->second;
-            for (; i < numbers.size() && from[i] == value; ++i)
+            const auto found = numbers.find(static_cast<int>(value));
+            const LabelMap::Number object = found == numbers.end() ? 0 : found->second;
+            for (; i < slices.size() && from[i] == value; ++i)
             {
-              numbers[i] = object;
+              slices[i] = object;
             }
           }
-          map.PutLayer(static_cast<int>(layer), numbers.data());
+          map.PutLayer(static_cast<int>(layer), slices.data());
         });
     });
   return map;
+}
+
+std::string LabelImage::ScanWarning(int background) const
+{
+  return HintAtScan(this->Voxels, this->Geometry->GetDimensions(),
+    this->Counts.size() - this->Counts.count(background));
 }
 
 void LabelImage::FindNearest(
@@ -237,58 +236,48 @@ void LabelImage::FindNearest(
 {
   const Workspace space(this->Geometry, Metric::Voxels);
   const Point step = Workspace(this->Geometry, Metric::World).Step();
-  const std::array<int, 3> size = { this->Geometry->GetDimensions()[0],
-    this->Geometry->GetDimensions()[1], this->Geometry->GetDimensions()[2] };
-  const VoxelBox all = VoxelBox::Of(size);
+  const int* size = this->Geometry->GetDimensions();
+  const VoxelBox all = VoxelBox::Of({ size[0], size[1], size[2] });
   auto cells = vtk::TakeSmartPointer(surface->GetPolys()->NewIterator());
   for (cells->GoToFirstCell(); !cells->IsDoneWithTraversal(); cells->GoToNextCell())
   {
     vtkIdType count = 0;
     const vtkIdType* corners = nullptr;
     cells->GetCurrentCell(count, corners);
-    Point centroid = { 0.0, 0.0, 0.0 };
-    for (vtkIdType c = 0; c < count; ++c)
+    double of[3][3];
+    for (int c = 0; c < 3; ++c)
     {
-      Point corner;
-      surface->GetPoint(corners[c], corner.data());
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        centroid[axis] += corner[axis] / static_cast<double>(count);
-      }
+      surface->GetPoint(corners[c], of[c]);
     }
+    Point centroid;
+    vtkTriangle::TriangleCenter(of[0], of[1], of[2], centroid.data());
     const Point place = space.ToWorkspace(centroid);
-    std::array<int, 3> first;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      first[axis] = static_cast<int>(std::floor(place[axis]));
-    }
     int nearest = labels.front();
     double least = std::numeric_limits<double>::max();
-    // A surface has voxels of its own within this reach.
-    const VoxelBox about = VoxelBox{ { first[0] - 1, first[1] - 1, first[2] - 1 },
-      { first[0] + 3, first[1] + 3, first[2] + 3 } }.CommonWith(all);
-    ForRowsOf(about, all,
-      [&](std::int64_t begin, std::int64_t length)
+    // A surface has voxels of its own among the 4 x 4 x 4 about each place.
+    for (int n = 0; n < 64; ++n)
+    {
+      const std::array<int, 3> offset = { n % 4 - 1, n / 4 % 4 - 1, n / 16 - 1 };
+      std::array<int, 3> at;
+      double square = 0.0;
+      for (int axis = 0; axis < 3; ++axis)
       {
-        for (std::int64_t v = begin; v < begin + length; ++v)
-        {
-          const int label = static_cast<int>(this->Voxels->GetComponent(v, 0));
-          const std::array<std::int64_t, 3> at = { v % size[0], v / size[0] % size[1],
-            v / size[0] / size[1] };
-          double square = 0.0;
-          for (int axis = 0; axis < 3; ++axis)
-          {
-            const double distance = (static_cast<double>(at[axis]) - place[axis]) * step[axis];
-            square += distance * distance;
-          }
-          if (square < least && std::binary_search(labels.begin(), labels.end(), label))
-          {
-            least = square;
-            nearest = label;
-          }
-        }
-      });
-    found->SetValue(cells->GetCurrentCellId(), nearest);
+        at[axis] = static_cast<int>(std::floor(place[axis])) + offset[axis];
+        square += std::pow((at[axis] - place[axis]) * step[axis], 2.0);
+      }
+      if (square >= least || !all.Contains(at))
+      {
+        continue;
+      }
+      const int label =
+        static_cast<int>(this->Voxels->GetComponent(all.NumberOf(at[0], at[1], at[2]), 0));
+      if (std::binary_search(labels.begin(), labels.end(), label))
+      {
+        least = square;
+        nearest = label;
+      }
+    }
+    found->SetValue(surface->GetNumberOfLines() + cells->GetCurrentCellId(), nearest);
   }
 }
 }

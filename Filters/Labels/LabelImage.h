@@ -65,11 +65,17 @@ public:
   std::vector<int> Choose(const std::vector<int>& wanted, int background) const;
 
   /**
-   * Objects are labels in this order, from 1, or one object of all of them; then those that nobody
-   * asks for, but for the background, as they have their share of the places between.
+   * Return a map whose objects are all labels but the background, in the order of their values, so
+   * that numbers do not depend on the selection. Merged labels are one object. Where there are more
+   * labels than numbers, the last that are not selected are background.
+   * @param selected the labels that get surfaces, sorted
+   * @param objects  set to theirs
    */
-  LabelMap MakeMap(
-    const std::vector<int>& labels, bool merge, int background, Executor& executor) const;
+  LabelMap MakeMap(const std::vector<int>& selected, bool merge, int background,
+    std::vector<int>& objects, Executor& executor) const;
+
+  /** Return a warning if the voxels look like those of a scan, else nothing. */
+  std::string ScanWarning(int background) const;
 
   /** For each triangle the label of the voxel nearest to its centroid, of those given, sorted. */
   void FindNearest(vtkPolyData* surface, const std::vector<int>& labels, vtkIntArray* found) const;

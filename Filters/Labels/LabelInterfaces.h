@@ -3,6 +3,7 @@
 #ifndef volumicLabelInterfaces_h
 #define volumicLabelInterfaces_h
 
+#include "Core/Evolution/SurfaceResult.h"
 #include "Core/Image/VoxelBox.h"
 #include "Core/Interfaces/InterfaceFields.h"
 #include "Core/Interfaces/InterfaceMesh.h"
@@ -12,12 +13,14 @@
 #include "Host/HostThreads.h"
 #include "Input/Workspace.h"
 #include "Labels/LabelSettings.h"
-#include "Labels/LabelSurface.h"
 
 #include <vtkSmartPointer.h>
+#include <vtkType.h>
 
 #include <array>
+#include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 class vtkImageData;
@@ -25,54 +28,78 @@ class vtkPolyData;
 
 namespace volumic
 {
-/** Makes the surfaces of all labels with what they share, as one mesh. */
+/** The surface of one object of a label map. */
+struct LabelSurface
+{
+  vtkSmartPointer<vtkPolyData> Surface; ///< null: the run was stopped before there was one
+  vtkIdType WrongVoxels = 0;            ///< misclassified voxels
+  vtkIdType MissedVoxels = 0; ///< misclassified voxels further from the surface than the tolerances
+  double VolumeError = 0.0;   ///< enclosed volume over the voxels' volume, less 1
+  bool IsFinished = false;    ///< The run was not stopped.
+};
+
+/** Makes one mesh of all objects of a label map, and the surfaces of those that are selected. */
 class LabelInterfaceMaker
 {
 public:
+  /** Called with the share that is done, on the calling thread; false requests to stop. */
+  using Progress = std::function<bool(double share, const std::string& text)>;
+
   /**
-   * @param map     objects up to `objects` are the labels', others are outside
-   * @param image   its geometry is the map's
+   * @param map      with all objects, so that a surface does not depend on which are selected
+   * @param selected the objects that get surfaces, sorted
+   * @param image    its geometry is the map's
    * Settings must outlive it.
-   * @throws std::invalid_argument as LabelSurfaceMaker.
+   * @throws std::invalid_argument if BoxFaces are periodic, and the map is not, or is too short.
    */
-  LabelInterfaceMaker(LabelMap map, int objects, vtkImageData* image, const LabelSettings& settings,
-    HostThreads& threads);
+  LabelInterfaceMaker(LabelMap map, std::vector<int> selected, vtkImageData* image,
+    const LabelSettings& settings, HostThreads& threads);
 
-  /** @param progress as LabelSurfaceMaker's; after false what there is is not finished. */
-  void Make(HostThreads& threads, const LabelSurfaceMaker::Progress& progress);
+  /** After progress has returned false the mesh is what there is by then, and not finished. */
+  void Make(HostThreads& threads, const Progress& progress);
 
-  /** A surface per label, whose points are those of the interfaces: `GlobalIds`. */
+  /** Return a surface per selected object, whose `GlobalIds` are points of Interfaces(). */
   std::vector<LabelSurface> Surfaces(HostThreads& threads) const;
 
   /**
-   * All interfaces, each once, with `BoundaryLabels` and `Junction`, with a tolerance `EdgeSize`,
-   * with flat faces of the box `BoxFace`, and the lines where they meet, with `WorstAngle`
-   * and `SmallContacts`.
-   * @param labels of the objects, from 1 on
-   * @param outside the value outside
+   * Return the interfaces with a selected object on a side, each once, and the lines where they
+   * meet, with the arrays that vtkLabelsToSurfaces documents.
+   * @param labels  of the selected objects
+   * @param outside the value of all else
    */
   vtkSmartPointer<vtkPolyData> Interfaces(const std::vector<int>& labels, int outside) const;
 
 private:
-  /** What is about all objects, from the first voxel of a brick on. */
-  static VoxelBox BoxOf(const LabelMap& map, int objects);
-  /** That part of the map with a margin, and 0 for all that is no object of a label. */
-  static LabelMap Padded(const LabelMap& map, int objects, const VoxelBox& box, int margin);
-  /** @throws std::invalid_argument where the map is not periodic, or too short. */
+  /** @throws std::invalid_argument if the map is not periodic, or too short. */
   void CheckPeriod() const;
-  InterfaceOptions Options() const; ///< as the settings ask for
-  /** What voxels are counted in. */
+  InterfaceOptions Options() const;
+  /** The bricks in which voxels are counted. */
   const LabelBricks& Counted() const
   {
     return this->WholeBricks ? *this->WholeBricks : *this->Bricks;
   }
-  /** Adds the field data of lines, where there are some. */
-  void TellOfLines(vtkPolyData* interfaces) const;
+  /** Return the place of an object among those that are selected; -1: it is not. */
+  int SelectionOf(int object) const;
+  bool IsShown(const InterfaceMesh::Face& face) const
+  {
+    return this->SelectionOf(face.Behind) >= 0 || this->SelectionOf(face.Front) >= 0;
+  }
+  /** Return the mean edge length in the workspace. */
+  double EdgeLength() const;
+  /** Return the edges of junction lines at which there are faces of Interfaces(). */
+  std::vector<std::array<int, 2>> ShownLines() const;
+  /** Add the field data of junction lines, if there are any. */
+  void AddLineFields(const std::vector<std::array<int, 2>>& lines, vtkPolyData* interfaces) const;
   LabelSurface SurfaceOf(int object, const std::vector<int>& faces) const;
-  Point InWorkspace(const Vector& place) const;
-  /** Of a vertex in the workspace, at flat faces of the box to the last bit. */
-  Point PlaceOf(int v) const;
-  /** At which side of the image a face is, 1 to 6: x-min, x-max, y-min ...; 0: none. */
+  SurfaceResult ResultOf(int object, const std::vector<int>& faces, const IndexedSurface& ofMesh,
+    const std::vector<int>& vertices) const;
+  /** Compare a surface in the mesh's coordinates with the voxels: all numbers of `made`. */
+  void CountVoxels(int object, IndexedSurface inVoxels, LabelSurface& made) const;
+  /** Return how far the fields have the interface from a vertex of an object, world units. */
+  float ResidualAt(int v, int object) const;
+  /** Return the position of a vertex in the workspace, exact in flat faces of the box. */
+  Point PositionOf(int v) const;
+  /** Return the side of the image that a face lies in, 1 to 6: x-min, x-max ...; 0: none. */
   unsigned char BoxFaceOf(const InterfaceMesh::Face& face) const
   {
     return static_cast<unsigned char>(
@@ -80,6 +107,7 @@ private:
   }
 
   const LabelSettings& Settings;
+  std::vector<int> Selected;              ///< objects, sorted
   std::array<int, 3> First = { 0, 0, 0 }; ///< voxel of the image that is that of Map
   LabelMap Map;                           ///< of the box, with its margin
   LabelMap WholeMap; ///< the same with the parts that Keep Components leaves out, if it does
@@ -89,6 +117,7 @@ private:
   std::optional<LabelBricks> WholeBricks; ///< of WholeMap
   std::optional<InterfaceFields> Fields;
   InterfaceMesh Mesh;
+  std::vector<int> IdOf; ///< of each vertex its point in Interfaces(), -1: it has none
   bool IsFinished = false;
 };
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Labels/LabelNames.h"
 
+#include "Core/Common/Join.h"
 #include "Core/Common/Refuse.h"
 
 #include <vtkDataArray.h>
@@ -11,6 +12,7 @@
 #include <vtkStringArray.h>
 #include <vtkType.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace volumic
@@ -98,8 +100,8 @@ LabelNames::Color LabelNames::ColorOf(int label) const
   {
     return found->second;
   }
-  // Of numbers chosen so that the first 30 labels differ by 17 (CIE 1976), the first 120 by 7.4, and
-  // that those of maps with one object, 1 and 255, are light enough to show its relief.
+  // Of numbers chosen so that the first 30 labels differ by 17 (CIE 1976), the first 120 by 7.4,
+  // and that those of maps with one object, 1 and 255, are light enough to show its relief.
   const auto spread = [label](double step) { return step * label - std::floor(step * label); };
   constexpr double goldenRatio = 0.6180339887498949;
   const double hue = std::fmod(0.68 + spread(goldenRatio), 1.0);
@@ -108,5 +110,15 @@ LabelNames::Color LabelNames::ColorOf(int label) const
   Color color;
   vtkMath::HSVToRGB(hue, saturation, value, &color[0], &color[1], &color[2]);
   return color;
+}
+
+std::string Listed(const std::vector<std::string>& texts, std::size_t most)
+{
+  std::string list;
+  for (std::size_t i = 0; i < std::min(texts.size(), most); ++i)
+  {
+    list += (i == 0 ? "" : ", ") + texts[i];
+  }
+  return texts.size() > most ? Join(list, " and ", texts.size() - most, " others") : list;
 }
 }

@@ -4,6 +4,7 @@
 #define volumicLabelNames_h
 
 #include <array>
+#include <cstddef>
 #include <map>
 #include <string>
 #include <vector>
@@ -37,6 +38,9 @@ struct LabelNames
   /** Its colour, or one of a fixed palette. */
   Color ColorOf(int label) const;
 };
+
+/** Return the first texts as a list: `liver, kidney and 3 others`. */
+std::string Listed(const std::vector<std::string>& texts, std::size_t most);
 }
 
 #endif

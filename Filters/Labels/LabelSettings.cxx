@@ -3,9 +3,14 @@
 #include "Labels/LabelSettings.h"
 
 #include "Core/Common/Refuse.h"
-#include "Core/Labels/LabelField.h"
+#include "Core/Evolution/SurfaceOptions.h"
+#include "Pyramid/PyramidBlocks.h"
 #include "Settings/SegmentationSettings.h"
 
+#include <vtkImageData.h>
+#include <vtkNew.h>
+
+#include <algorithm>
 #include <cmath>
 
 namespace volumic
@@ -15,8 +20,14 @@ namespace
 /** In smallest distances of voxels: signs are held a voxel and a half from boundaries. */
 constexpr double MostTolerance = 1.0;
 
-/** Twice what fields reach, in smallest distances of voxels. */
-constexpr double MostGap = 2.0 * LabelField::Far;
+/**
+ * The Gaussian is at least this share of the longest distance of voxels: stairs are as high as
+ * voxels are long. A larger share makes parts bulge that are thin along other axes.
+ */
+constexpr double ShareOfLongest = 0.625;
+
+/** For more than this many times Smoothing that share is enough: thick slices are few. */
+constexpr double MostBeyondVoxel = 2.5;
 
 void CheckNumber(const char* name, double value)
 {
@@ -25,9 +36,20 @@ void CheckNumber(const char* name, double value)
     Refuse(name, " is ", value, "; it must be 0 (none) or more.");
   }
 }
+
+/** @throws std::invalid_argument naming the lengths that are possible */
+void CheckEdgeLength(double length, vtkImageData* image)
+{
+  constexpr int enough = 1 << 12; // The size of the image does not matter.
+  vtkNew<vtkImageData> frame;
+  frame->SetDimensions(enough, enough, enough);
+  frame->SetSpacing(image->GetSpacing());
+  PyramidOptions pyramid;
+  PlanEdgeLength(length, SurfaceOptions().SamplingRatio, frame, pyramid);
+}
 }
 
-void LabelSettings::Check(double unit) const
+void LabelSettings::Check(vtkImageData* image) const
 {
   CheckNumber("Smoothing", this->Smoothing);
   if (this->Smoothing > 10.0)
@@ -40,33 +62,9 @@ void LabelSettings::Check(double unit) const
     Refuse("Voxel Tolerance is ", this->VoxelTolerance, " voxels; it must be at most ",
       MostTolerance, ".");
   }
-  CheckNumber("Gap", this->Gap);
-  if (this->Gap > MostGap * unit)
-  {
-    Refuse("Gap is ", this->Gap, "; it must be at most ", MostGap * unit,
-      ", eight times the smallest distance of voxels: fields of labels reach no further.");
-  }
-  if (this->SharedInterfaces && this->Gap > 0.0)
-  {
-    Refuse("Shared Interfaces are asked for and a Gap of ", this->Gap,
-      ": neighbours have the same triangles, or space between them. Set Gap to 0, or switch "
-      "Shared Interfaces off (files for meshers of solids, .msh, .smesh and .poly, need them).");
-  }
-  if (this->SharedInterfaces && this->Grading.ThinParts)
-  {
-    Refuse(
-      "Thin Parts are asked for and Shared Interfaces, which have no smaller triangles where "
-      "labels are thin. Switch Thin Parts off, or Shared Interfaces (files for meshers of solids, "
-      ".msh, .smesh and .poly, need them); a shorter Edge Length makes all triangles smaller.");
-  }
   if (this->BoxFaces < 0 || this->BoxFaces > 2)
   {
     Refuse("Box Faces is ", this->BoxFaces, "; it must be 0 (rounded), 1 (flat) or 2 (periodic).");
-  }
-  if (this->HasFlatBox() && !this->SharedInterfaces)
-  {
-    Refuse("Box Faces are to be flat, as only Shared Interfaces can have them. Switch Shared "
-           "Interfaces on, or set Box Faces to rounded.");
   }
   CheckNumber("Edge Length", this->EdgeLength);
   CheckGrading(this->Grading, this->EdgeLength);
@@ -86,5 +84,19 @@ void LabelSettings::Check(double unit) const
     Refuse("Keep Components is ", this->KeepComponents,
       "; for labels it must be 0 (all), 1 (the largest) or 3 (large ones).");
   }
+  if (this->EdgeLength > 0.0)
+  {
+    CheckEdgeLength(this->EdgeLength, image);
+  }
+}
+
+LabelFieldOptions LabelSettings::FieldOptions(const LabelMap& map) const
+{
+  const double longest = ShareOfLongest * *std::max_element(map.Spacing.begin(), map.Spacing.end());
+  LabelFieldOptions options;
+  options.Sigma = std::min(
+    this->Smoothing * std::max(1.0, longest), std::max(this->Smoothing * MostBeyondVoxel, longest));
+  options.Tolerance = this->VoxelTolerance;
+  return options;
 }
 }

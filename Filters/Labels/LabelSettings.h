@@ -4,16 +4,18 @@
 #define volumicLabelSettings_h
 
 #include "Core/Common/Grading.h"
+#include "Core/Labels/LabelField.h"
+#include "Core/Labels/LabelMap.h"
+
+class vtkImageData;
 
 namespace volumic
 {
-/** What vtkLabelsToSurfaces is asked for, but for which labels. Numbers may be out of range. */
+/** Properties of vtkLabelsToSurfaces, except the choice of labels. Numbers may be out of range. */
 struct LabelSettings
 {
   double Smoothing = 2.0;      ///< smallest distances of voxels, or 5/8 of the longest
   double VoxelTolerance = 0.5; ///< smallest distances of voxels
-  double Gap = 0.0;            ///< world units
-  bool SharedInterfaces = false;
   int BoxFaces = 0; ///< where labels reach the border of the image: 0 rounded, 1 flat, 2 periodic
   int Metric = 1;
   double EdgeLength = 0.0;
@@ -26,12 +28,14 @@ struct LabelSettings
   bool IsPeriodic() const { return this->BoxFaces == 2; }
 
   /**
-   * @param unit the smallest distance of voxels, world units
+   * @param image its geometry is the map's
    * @throws std::invalid_argument naming the property that is out of range.
    */
-  void Check(double unit) const;
-};
+  void Check(vtkImageData* image) const;
 
+  /** How the fields of the objects of a map are made. */
+  LabelFieldOptions FieldOptions(const LabelMap& map) const;
+};
 }
 
 #endif

@@ -183,7 +183,7 @@ void Ranks::Serve(const std::function<std::string()>& aboutMemory, const RankWor
       CatchError(aboutMemory, [&] { own = this->Answer(question, message, work); });
     const bool hasFailed = error.Code != 0;
     (hasFailed ? MessageOf(error) : own).Send(this->Controller, 0, hasFailed ? Failed : word);
-    if (question == RankQuestion::Progress || question == RankQuestion::OwnProgress)
+    if (question == RankQuestion::Progress)
     {
       std::this_thread::sleep_for(Nap);
     }
@@ -196,8 +196,7 @@ RankMessage Ranks::Answer(RankQuestion question, RankMessage& message, const Ran
   switch (question)
   {
     case RankQuestion::Own:
-    case RankQuestion::OwnProgress:
-      return work.OfOthers(question, message);
+      return work.OfOthers(message);
     case RankQuestion::Output:
     {
       int port = 0;

@@ -38,9 +38,8 @@ enum class RankQuestion : int
   Frames,   ///< Of which images are there parts?
   Part,
   Points,
-  Output,     ///< Take this.
-  Own,        ///< What the filter has made up itself.
-  OwnProgress ///< Likewise, while the others work. As after Progress, they sleep for a while.
+  Output, ///< Take this.
+  Own ///< What the filter has made up itself.
 };
 
 /** What becomes of the outputs that the first rank has made. */
@@ -56,7 +55,7 @@ struct RankWork
   /** Takes the inputs, fills the outputs. */
   std::function<void()> OfFirst;
   /** Answers RankQuestion::Own; may be empty, and may throw. */
-  std::function<RankMessage(RankQuestion question, RankMessage& message)> OfOthers;
+  std::function<RankMessage(RankMessage& message)> OfOthers;
   Dealing Deals = Dealing::InPieces;
 };
 

@@ -36,11 +36,6 @@ namespace
 LevelChoice LevelsAsSet(const PyramidLevels& pyramid, const SegmentationSettings& settings)
 {
   LevelChoice choice;
-  if (settings.BeginsBelowImage)
-  {
-    choice.Coarsest = choice.Last = -1;
-    return choice;
-  }
   const int last = pyramid.NumberOfLevels() - 1;
   choice.Coarsest = settings.CoarsestLevel;
   if (settings.CoarsestLevel == -1)
@@ -186,7 +181,7 @@ LevelChoice ChooseLevels(const SegmentationLevels& levels, const SegmentationSet
   choice.Preview = std::min(choice.Preview, there);
   choice.Last = settings.End.Preview ? std::max(settings.End.FinestLevel, choice.Preview)
                                      : settings.End.FinestLevel;
-  if (levels.HasPoints() || settings.BeginsBelowImage)
+  if (levels.HasPoints())
   {
     return choice;
   }

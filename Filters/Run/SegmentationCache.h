@@ -44,11 +44,11 @@ public:
   /** Whether neither the filter nor its inputs have changed otherwise, nor the number of ranks. */
   bool IsValidFor(vtkAlgorithm* filter, int ranks) const;
 
+private:
   /** What comes to a filter, and when it was changed last. */
   using Inputs = std::vector<std::pair<vtkDataObject*, vtkMTimeType>>;
   static Inputs InputsOf(vtkAlgorithm* filter);
 
-private:
   std::unique_ptr<SurfaceSegmentation> Kept;
   vtkMTimeType Time = 0; ///< 0: nothing is kept
   int Ranks = 1;

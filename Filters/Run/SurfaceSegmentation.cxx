@@ -213,10 +213,6 @@ LevelTask SurfaceSegmentation::TaskOf(int level, const LevelImage& image)
   }
   task.Look = [this, level](int iteration, const std::function<SurfaceResult()>& take)
   { this->TakeSnapshot(level, iteration, take); };
-  if (level == this->Choice.Last && level <= 0)
-  {
-    task.Revise = this->Request.Revise;
-  }
   return task;
 }
 

@@ -119,8 +119,7 @@ struct SegmentationSettings
   volumic::Grading Grading; ///< at the finest level, world units
   double EdgeLength = 0.0;  ///< mean at the finest level, world units; 0: as FinestLevel has it
   InitializationType Initialization = InitializationType::EnclosingIcosahedron;
-  int CoarsestLevel = -1;        ///< -1: the last that serves
-  bool BeginsBelowImage = false; ///< at level -1, whatever CoarsestLevel is; FinestLevel is -1
+  int CoarsestLevel = -1; ///< -1: the last that serves
   std::vector<Point> AttractingPositions; ///< world, beside those of input port 2
   RecoveryType Recovery = RecoveryType::RecoverObjects;
   bool Profile = false;     ///< columns of the seconds of each phase in the history
@@ -157,7 +156,6 @@ struct SegmentationSettings
 };
 
 class SegmentationCheckpoint;
-struct SurfaceResult;
 
 /** What a run is asked for: settings, inputs, and whom it tells. */
 struct SegmentationRequest
@@ -185,8 +183,6 @@ struct SegmentationRequest
   std::function<void(const std::string& text)> Warn; ///< an empty text is no warning
   /** Given the run's checkpoint, once it has been looked at; null where it has none. */
   std::function<void(const std::shared_ptr<SegmentationCheckpoint>& checkpoint)> Prepared;
-  /** See LevelTask::Revise; of the last level, where this is 0 or -1. */
-  std::function<bool(const SurfaceResult& surface)> Revise;
 };
 }
 

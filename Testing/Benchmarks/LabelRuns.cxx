@@ -47,7 +47,6 @@ struct Subject
 struct LabelSurface
 {
   int Label;
-  double Delta = 0.0;               ///< world; 0: there are no bounds to hold
   support::TriangleSurface Surface; ///< world
 };
 
@@ -128,8 +127,8 @@ std::vector<LabelSurface> OurSurfaces(
   for (unsigned int b = 0; b < blocks->GetNumberOfBlocks(); ++b)
   {
     auto* block = vtkPolyData::SafeDownCast(blocks->GetBlock(b));
-    surfaces.push_back({ static_cast<int>(Field(block, "Label")), Field(block, "Delta"),
-      support::ToTriangleSurface(block) });
+    surfaces.push_back(
+      { static_cast<int>(Field(block, "Label")), support::ToTriangleSurface(block) });
   }
   return surfaces;
 }
@@ -172,7 +171,7 @@ LabelSurface PeerSurface(const std::string& run, const Subject& subject, int lab
   const auto image = support::ToImage(CropToLabel(subject.Map, label, margin));
   const Job job = PeerJob(run, image, label, edgeLength);
   Measure(job.Work, options.Integer("repetitions", 1), figures);
-  LabelSurface made = { label, 0.0, job.Result() };
+  LabelSurface made = { label, job.Result() };
   // Which way peers turn their triangles is nothing that they are judged by.
   if (support::JudgeTopology(made.Surface).Volume < 0.0)
   {
@@ -191,7 +190,7 @@ double SetLabelVerdict(const LabelSurface& of, const Subject& subject, Figures& 
   const double unit = subject.Map.ShortestSpacing();
   const auto set = [&figures](const char* name, auto value)
   { figures.Set(name, static_cast<double>(value)); };
-  const support::SurfaceVerdict verdict = SetVerdict(of.Surface, of.Delta, "", figures);
+  const support::SurfaceVerdict verdict = SetVerdict(of.Surface, 0.0, "", figures);
   set("RatioLeast", verdict.Shapes.Least);
   set("Ratio01", verdict.Shapes.Quantile01);
   set("RatioMean", verdict.Shapes.Mean);

@@ -95,7 +95,6 @@ def target_rows(rows, summaries):
         worst("truth", "angle of normals", "NormalAngle", "<=", 3),
         worst("Q1", "open, not manifold, not oriented", "Faults", "<=", 0),
         worst("Q1", "self-intersections", "SelfIntersections", "<=", 0),
-        worst("Q2", "edges outside [delta, 2.5 delta]", "EdgesOutside", "<=", 0),
         worst("Q3", "radius ratio, mean", "RatioMean", ">=", .97),
         worst("Q3", "radius ratio, 1 %", "Ratio01", ">=", .8)]
 

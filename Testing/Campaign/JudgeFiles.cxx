@@ -12,11 +12,10 @@
  * are radius ratios.
  *
  * With a map the files are surfaces of its labels, which their field data `Label` names: they are
- * judged against its voxels and against each other, too, and the numbers of the wrong voxels, x
+ * judged against its voxels and all together, too, and the numbers of the wrong voxels, x
  * fastest, end the line.
  */
 
-#include "LabelJudge.h"
 #include "SupportVtkConversions.h"
 #include "SurfaceJudge.h"
 #include "WrongVoxels.h"
@@ -30,9 +29,12 @@
 #include <vtkXMLImageDataReader.h>
 #include <vtkXMLPolyDataReader.h>
 
+#include <algorithm>
+#include <array>
 #include <exception>
 #include <iomanip>
 #include <iostream>
+#include <map>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -47,8 +49,7 @@ struct NamedSurface : TriangleSurface
 {
   std::set<double> Labels;
   std::vector<double> Deltas; ///< of the points; none where the file tells of none
-  std::size_t TouchingPairs = 0;  ///< of triangles with all other files
-  std::size_t VerticesInside = 0; ///< of the one inside the other, both ways
+  std::size_t Crossing = 0;   ///< intersections of all surfaces together
   std::vector<std::size_t> WrongVoxels;
 };
 
@@ -98,23 +99,47 @@ void FindWrongVoxels(NamedSurface& surface, vtkImageData* map)
   }
 }
 
+/** All triangles, those that two surfaces share once. */
+TriangleSurface Together(const std::vector<NamedSurface>& surfaces)
+{
+  TriangleSurface all;
+  std::map<std::array<double, 3>, int> points;
+  std::set<std::array<int, 3>> triangles; // by sorted corners
+  for (const NamedSurface& surface : surfaces)
+  {
+    for (std::array<int, 3> triangle : surface.Triangles)
+    {
+      for (int& corner : triangle)
+      {
+        const auto& point = surface.Points[static_cast<std::size_t>(corner)];
+        const auto added = points.emplace(point, static_cast<int>(all.Points.size()));
+        if (added.second)
+        {
+          all.Points.push_back(point);
+        }
+        corner = added.first->second;
+      }
+      std::array<int, 3> sorted = triangle;
+      std::sort(sorted.begin(), sorted.end());
+      if (triangles.insert(sorted).second)
+      {
+        all.Triangles.push_back(triangle);
+      }
+    }
+  }
+  return all;
+}
+
 void JudgeLabels(std::vector<NamedSurface>& surfaces, const std::string& mapFile)
 {
   vtkNew<vtkXMLImageDataReader> reader;
   reader->SetFileName(mapFile.c_str());
   reader->Update();
-  for (std::size_t i = 0; i < surfaces.size(); ++i)
+  const std::size_t crossing = JudgeIntersections(Together(surfaces)).Pairs;
+  for (NamedSurface& surface : surfaces)
   {
-    FindWrongVoxels(surfaces[i], reader->GetOutput());
-    for (std::size_t other = 0; other < i; ++other)
-    {
-      const OverlapVerdict overlap = JudgeOverlap(surfaces[i], surfaces[other]);
-      for (const std::size_t one : { i, other })
-      {
-        surfaces[one].TouchingPairs += overlap.IntersectingPairs;
-        surfaces[one].VerticesInside += overlap.VerticesInside;
-      }
-    }
+    FindWrongVoxels(surface, reader->GetOutput());
+    surface.Crossing = crossing;
   }
 }
 
@@ -122,6 +147,8 @@ void Judge(const NamedSurface& surface)
 {
   const TopologyVerdict topology = JudgeTopology(surface);
   const IntersectionVerdict intersections = JudgeIntersections(surface);
+  const auto cavities = std::count_if(topology.Components.begin(), topology.Components.end(),
+    [](const ComponentVerdict& component) { return component.Volume < 0.; });
   std::cout << surface.Points.size() << ' ' << surface.Triangles.size() << ' ' << topology.Closed
             << ' ' << topology.Manifold << ' ' << topology.Oriented << ' ' << topology.Outward
             << ' ' << intersections.Pairs << ' ' << intersections.FlatTriangles << ' '
@@ -135,13 +162,12 @@ void Judge(const NamedSurface& surface)
   else
   {
     const LengthVerdict lengths = JudgeLengths(surface, surface.Deltas);
-    std::cout << ' ' << lengths.Edges << ' ' << lengths.EdgesTooShort << ' '
-              << lengths.EdgesTooLong << ' ' << lengths.NearPairs;
+    std::cout << ' ' << lengths.Edges << ' ' << lengths.EdgesTooShort << ' ' << lengths.EdgesTooLong
+              << ' ' << lengths.NearPairs;
   }
   const ShapeVerdict shapes = JudgeShapes(surface);
   std::cout << ' ' << shapes.Mean << ' ' << shapes.Quantile01 << ' ' << shapes.Least << ' '
-            << surface.TouchingPairs << ' ' << surface.VerticesInside << ' '
-            << surface.WrongVoxels.size();
+            << cavities << ' ' << surface.Crossing << ' ' << surface.WrongVoxels.size();
   for (const std::size_t voxel : surface.WrongVoxels)
   {
     std::cout << ' ' << voxel;
@@ -156,7 +182,7 @@ int main(int count, char** words)
   {
     std::cout << "points triangles closed manifold oriented outward intersections flat unused "
                  "components euler genus area volume edges short long near ratio ratio01 "
-                 "ratiomin touching overlapping wrong\n";
+                 "ratiomin cavities crossing wrong\n";
     return 0;
   }
   std::cout << std::setprecision(17);

@@ -45,7 +45,8 @@ class Outcome:
         self.exceptions = []
         self.told = []  # of labels: what is exceptional, but for a warning about it
         self.wrong = {}  # of labels: numbers of voxels
-        self.labels = []  # of 100 voxels or more by default: (error of volume, wrong voxels, text)
+        self.labels = []  # of 8 voxels or more by default: (error of volume, wrong voxels, text)
+        self.small_labels = []  # of these, those of less than 60
 
     def refusal(self):
         """Why there is no surface, without names and numbers."""
@@ -130,6 +131,8 @@ def judge(program, names, files, outcome):
                             capture_output=True, text=True, check=False)
     if judged.returncode:
         outcome.exceptions.append(f"judge: {judged.stderr.strip()}")
+    topology = (outcome.run.topology() if outcome.run.is_of_labels and
+                "--keep" not in outcome.run.words and outcome.status == 0 else {})
     for path, line in zip(files, judged.stdout.splitlines()):
         words = line.split()
         verdict = dict(zip(names, map(float, words)))
@@ -142,27 +145,33 @@ def judge(program, names, files, outcome):
             continue
         found = [*faults(verdict, told), *faults_of_edges(verdict, told, outcome.run.words)]
         if outcome.run.is_of_labels:
-            found += faults_of_label(verdict, told, outcome)
+            found += [*faults_of_label(verdict, told, outcome),
+                      *faults_of_topology(verdict, topology.get(told["Label"]))]
             for label in told["Labels"]:
                 outcome.wrong[label] = np.array(words[len(names):], int)
         outcome.exceptions += [f"{path} ({told.get('StopReason', 'on its way')}): {fault}"
                                for fault in found]
-
-
-def warned(outcome, start, label):
-    """Whether a warning that starts with these words names the label."""
-    listed = re.search(start + "([^:]*)(:|. Try)", outcome.words)
-    return listed and re.search(rf" {label}\b| others", listed[1])
+    if outcome.run.is_of_labels and verdict["crossing"]:
+        outcome.exceptions.append(f"{verdict['crossing']:g} intersections of all surfaces together")
 
 
 def faults_of_label(verdict, told, outcome):
     run, label, voxels = outcome.run, told["Label"], told["LabelVoxels"]
-    if run.is_default and voxels >= 100:
-        outcome.labels.append((100 * (told["Volume"] / voxels / run.spacing.prod() - 1),
-                               100 * verdict["wrong"] / voxels,
-                               f"seed {outcome.seed} ({run.kind}), {label}: {voxels} voxels"))
+    if run.is_default and voxels >= 8:
+        labels = outcome.labels if voxels >= 60 else outcome.small_labels
+        labels.append((100 * (told["Volume"] / voxels / run.spacing.prod() - 1),
+                       100 * verdict["wrong"] / voxels,
+                       f"seed {outcome.seed} ({run.kind}), {label}: {voxels} voxels"))
     if verdict["wrong"] != told["WrongVoxels"]:
         yield f"WrongVoxels {told['WrongVoxels']}, which is {verdict['wrong']:g}"
+
+
+def faults_of_topology(verdict, expected):
+    """By that of the voxels."""
+    found = (verdict["euler"] / 2, verdict["components"] - verdict["cavities"], verdict["cavities"])
+    if expected and found != expected:
+        yield ("Euler characteristic, components, cavities: "
+               f"{found[0]:g} {found[1]:g} {found[2]:g}, of the voxels {expected}")
 
 
 def parts_of(labels):
@@ -178,22 +187,20 @@ def parts_of(labels):
 
 
 def check_labels(outcome):
-    """None is lost without a warning, and by default none at all, nor any large part."""
+    """None is lost; parts are reported."""
     labels = outcome.run.labels.ravel()
     part = parts_of(outcome.run.labels)
     sizes = np.bincount(part)
-    for label in set(labels) - {0}:
+    for label in (set(labels) - {0}).intersection(outcome.run.selected or labels):
+        if label not in outcome.wrong:
+            outcome.exceptions.append(f"there is no surface of label {label}")
+            continue
         own = np.flatnonzero(labels == label)
-        lost = np.setdiff1d(part[own], part[np.setdiff1d(own, outcome.wrong.get(label, own))])
+        lost = np.setdiff1d(part[own], part[np.setdiff1d(own, outcome.wrong[label])])
         largest, voxels = sizes[lost].max(initial=0), sizes[part[own]].max()
-        text = f"of label {label} the largest part lost is of {largest}, the largest of {voxels}"
-        is_missing, is_default = label not in outcome.wrong, outcome.run.is_default
-        start = "No surface is left of" if is_missing else "on the wrong side of the surface of"
-        if ((is_missing or (is_default and largest == voxels > 1))
-                and not warned(outcome, start, label)):
-            outcome.exceptions.append(text)
-        elif is_default and largest > 1 and (largest == voxels or largest >= 8):
-            outcome.told.append(text)
+        if outcome.run.is_default and (largest == voxels > 1 or largest >= 8):
+            outcome.told.append(f"all voxels of a part of {largest} of label {label} are on the "
+                                f"wrong side; its largest part is of {voxels}")
 
 
 def check_status(outcome, folder):
@@ -234,6 +241,17 @@ def try_seed(seed, arguments, names):
     return outcome
 
 
+def tell_labels(which_labels, labels):
+    for which, name in enumerate(("volume less that of the voxels", "wrong voxels")[:len(labels)]):
+        labels.sort(key=lambda label: -abs(label[which]))
+        values = np.array([label[which] for label in labels])
+        print(f"{name} of {len(labels)} labels {which_labels} by default: "
+              f"{np.median(values):.2f} % in the median, 1 in 20 more than "
+              f"{np.quantile(abs(values), .95):.1f} %, the most")
+        for label in labels[:5]:
+            print(f"    {label[which]:.1f} %: {label[2]}")
+
+
 def tell(outcomes):
     count = collections.Counter(outcome.status for outcome in outcomes)
     print(f"{len(outcomes)} seeds: {count[0]} finished, {count[3]} stopped, {count[1]} refused")
@@ -243,15 +261,8 @@ def tell(outcomes):
     for outcome in outcomes:
         if outcome.told:
             print(f"    told by seed {outcome.seed}, {outcome.run.kind}: {'; '.join(outcome.told)}")
-    labels = [label for outcome in outcomes for label in outcome.labels]
-    for which, name in enumerate(("volume less that of the voxels", "wrong voxels")[:len(labels)]):
-        labels.sort(key=lambda label: -abs(label[which]))
-        values = np.array([label[which] for label in labels])
-        print(f"{name} of {len(labels)} labels of 100 voxels or more by default: "
-              f"{np.median(values):.2f} % in the median, 1 in 20 more than "
-              f"{np.quantile(abs(values), .95):.1f} %, the most")
-        for label in labels[:5]:
-            print(f"    {label[which]:.1f} %: {label[2]}")
+    tell_labels("of 60 voxels or more", [one for o in outcomes for one in o.labels])
+    tell_labels("of 8 to 59 voxels", [one for o in outcomes for one in o.small_labels])
     slow = [o.seconds for o in outcomes if o.seconds > SLOW_SECONDS]
     print(f"{sum(o.surfaces for o in outcomes)} surfaces of "
           f"{sum(o.triangles for o in outcomes)} triangles judged; processor time "

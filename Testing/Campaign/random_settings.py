@@ -12,6 +12,7 @@ from vtkmodules.vtkCommonTransforms import vtkTransform
 from vtkmodules.vtkIOXML import vtkXMLImageDataWriter, vtkXMLPolyDataWriter
 
 import random_volumes
+from voxel_topology import topology_of
 
 
 def write(writer, data, folder, name):
@@ -27,7 +28,8 @@ class RandomRun:
     def __init__(self, seed, folder, only_labels):
         self.rng = np.random.default_rng(seed)
         self.folder = folder
-        self.is_default = False  # of labels: none may be lost
+        self.is_default = False  # of labels
+        self.selected = None  # of labels: None: all
         most_voxels = 150000 if self.chance(.05) else 25000
         self.size, self.spacing = random_volumes.size_and_spacing(self.rng, most_voxels)
         self.is_of_labels = only_labels or self.chance(.15)
@@ -75,11 +77,22 @@ class RandomRun:
             *self.now_and_then(.3, "--keep", "largest")]
         tolerance = self.now_and_then(.3, "--voxel-tolerance", self.number(0, 1))
         merge = self.chance(.05)
-        self.is_default = not (other or tolerance) and smoothing[1:] != ["0"]
+        box = [] if merge else self.now_and_then(.15, "--box-faces", "flat")
+        self.is_default = not (other or tolerance or box) and smoothing[1:] != ["0"]
+        self.selected = set(np.unique(labels)) - {0}
+        chosen = "all"
+        if not merge and len(self.selected) > 1 and self.chance(.1):
+            some = self.rng.choice(sorted(self.selected), len(self.selected) // 2, replace=False)
+            self.selected, chosen = set(some), ",".join(map(str, some))
         return [
-            "labels.vtp" if merge else "labels", "--labels", "all", *["--merge"] * merge,
-            *smoothing, *other, *self.now_and_then(.3, "--metric", "voxels"),
-            *tolerance]
+            "labels.vtp" if merge else "labels", "--labels", chosen, *["--merge"] * merge,
+            *smoothing, *other, *box, *self.now_and_then(.3, "--metric", "voxels"), *tolerance]
+
+    def topology(self):
+        """By the voxels: of each label; of the first one if all are merged."""
+        first = self.labels[self.labels > 0].min()
+        labels = np.where(self.labels > 0, first, 0) if "--merge" in self.words else self.labels
+        return topology_of(labels, "flat" in self.words)
 
     # ---- The surface of an object ----
 

@@ -174,12 +174,12 @@ def random_labels(rng, size, spacing):
 
 
 class LabelMaps(Shapes):
-    """Small maps of labels, integers [z, y, x] of which 0 is the background."""
+    """Small maps of up to 40 labels, integers [z, y, x] of which 0 is the background."""
 
     def __init__(self, rng, size, spacing):
         super().__init__(rng, size, spacing, rng.random() < .5)
         self.labels = np.zeros(self.shape, int)
-        self.count = int(rng.integers(1, 10))
+        self.count = int(rng.integers(10, 41) if rng.random() < .2 else rng.integers(1, 10))
         self.some_places = rng.random((self.count, 3)) * self.extent
 
     def touching_blobs(self):
@@ -206,6 +206,21 @@ class LabelMaps(Shapes):
             height = np.abs((self.places - place) @ normal)
             self.labels[height < self.rng.uniform(.5, 1.5)] = label
 
+    def mixture(self):
+        """Of any grain: from single voxels to smooth parts."""
+        sigma = 10 ** self.rng.uniform(-1, .6) / self.steps
+        fields = [smoothed(self.rng.random(self.shape), sigma) for _ in range(self.count + 1)]
+        self.labels = np.argmax(fields, 0)
+
+    def slices(self):
+        """Stacks of plates with a few empty slices between, or none."""
+        axis, ends = self.rng.integers(3), np.cumsum(self.rng.integers(0, 4, 2 * self.count + 1))
+        part = np.digitize(np.arange(self.shape[axis]), ends)
+        label = np.where(part % 2 == 1, (part + 1) // 2, 0) % (self.count + 1)
+        steps = [n // step for n, step in zip(np.indices(self.shape), self.rng.integers(2, 40, 3))]
+        steps[axis] = np.indices(self.shape)[axis]
+        self.labels = label[sum(steps) % self.shape[axis]]
+
     def rods(self):
         """Of a voxel or two, along axes and diagonals; voxels may have but corners in common."""
         for label in range(1, self.count + 1):
@@ -229,15 +244,20 @@ class LabelMaps(Shapes):
 
 
 def random_small_labels(rng):
-    """A map, its voxels' distances, up to 1 : 5, and its name."""
+    """A map, its voxels' distances, up to 1 : 20, and its name."""
     size = np.exp(rng.uniform(np.log(8), np.log(36), 3)).astype(int)
-    spacing = np.exp(rng.uniform(0, np.log(5), 3)) if rng.random() < .5 else np.ones(3)
+    spacing = np.exp(rng.uniform(0, np.log(20), 3)) if rng.random() < .5 else np.ones(3)
+    long = (spacing / spacing.min()).prod()  # there are as many more triangles
+    size = np.maximum(size * min(1, 1e5 / (long * size.prod())) ** (1 / 3), 5).astype(int)
     factor = 1 + int(rng.random() < .15)
     maps, names = LabelMaps(rng, -(-size // factor), spacing), []
+    kinds = {"touching_blobs": .15, "grains": .15, "layers": .1, "plates": .1, "slices": .1,
+             "rods": .1, "dust": .1, "mixture": .15, "nested": .05}
     while not maps.labels.any() or rng.random() < .25:
-        names.append(str(rng.choice(("touching_blobs", "grains", "layers", "plates", "rods", "dust",
-                                     "nested"), p=(.2, .15, .15, .15, .15, .1, .1))))
+        before, names = maps.labels, names + [str(rng.choice(list(kinds), p=list(kinds.values())))]
         getattr(maps, names[-1])()
+        if rng.random() < .5:
+            maps.labels = np.where(maps.labels, maps.labels, before)
     labels = np.kron(maps.labels, np.ones((factor,) * 3, int))
     return labels, spacing * 10 ** rng.uniform(-2, 1), "+".join(names + ["twice"] * (factor - 1))
 

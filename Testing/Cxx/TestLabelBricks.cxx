@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Common/StandardThreads.h"
-#include "Core/Labels/BoundaryRows.h"
+#include "Core/Labels/LabelSides.h"
 #include "Core/Labels/SmallParts.h"
 #include "LabelTestTools.h"
 
@@ -56,27 +56,11 @@ TEST(LabelBricks, TellWhereAnObjectIsAndHowLarge)
   EXPECT_EQ(bricks.ExtentOf(0).Voxels, 20 * 20 * 20 - 12);
 }
 
-TEST(LabelBricks, AreContestedWhereThreeMeet)
-{
-  // Two halves of a slab that fills the map but for its upper part.
-  const auto slab = [](int i, int, int k) { return k >= 16 ? 0 : i < 16 ? 1 : 2; };
-  const LabelMap map = MakeLabelMap({ 48, 48, 48 }, 2,
-    [&](int i, int j, int k) { return slab(i - 8, j, k - 16); });
-  const LabelBricks bricks(map, OnThisThread());
-  EXPECT_TRUE(bricks.HasContested());
-  EXPECT_TRUE(bricks.IsContested(5, 6, 7));
-  EXPECT_TRUE(bricks.IsContested(6, 6, 9));
-  EXPECT_FALSE(bricks.IsContested(5, 6, 5)) << "only the two, and nothing outside near";
-  EXPECT_TRUE(bricks.IsContested(5, 6, 1)) << "the two, and the outside";
-  EXPECT_FALSE(bricks.IsContested(2, 6, 7)) << "one object, and what is none";
-  EXPECT_FALSE(LabelBricks(BallMap(32, 10.), OnThisThread()).HasContested());
-}
-
-TEST(BoundaryRows, AreWhatIsNearTheBoundaryAndNothingElse)
+TEST(LabelSides, FindWhatIsNearTheBoundaryAndNothingElse)
 {
   const LabelMap map = BallMap(48, 18.);
   const LabelBricks bricks(map, OnThisThread());
-  const BoundaryRows rows(bricks, 1);
+  const VoxelBits rows = LabelSides(bricks, 1).NearBoundary({ 4, 4, 4 });
   std::vector<char> isThere(static_cast<std::size_t>(rows.Box().Count()), 0);
   int count = 0;
   rows.For(OnThisThread(),
@@ -105,22 +89,10 @@ TEST(BoundaryRows, AreWhatIsNearTheBoundaryAndNothingElse)
           std::hypot(rows.Box().First[0] + x - middle, j - middle, k - middle) - 18.);
         near += distance < 4.;
         ASSERT_TRUE(times == 1 || distance >= 4.);
-        ASSERT_TRUE(times == 0 || distance < 16.) << "two bricks and their diagonals at most";
+        ASSERT_TRUE(times == 0 || distance < 10.) << "four voxels, their diagonals and fours";
       }
     });
   EXPECT_GT(near, 10000);
-}
-
-TEST(LabelBricks, KnowWhoMeetsWhomWithAThird)
-{
-  // Three slabs on one another, 1 to 3, and 4 far from them.
-  const LabelMap map = MakeLabelMap({ 80, 24, 48 }, 4,
-    [](int i, int, int k) { return i > 70 ? 4 : i > 24 ? 0 : 1 + k / 16; });
-  const LabelBricks bricks(map, OnThisThread());
-  EXPECT_EQ(bricks.NeighboursOf(1), (std::vector<int>{ 2 }));
-  EXPECT_EQ(bricks.NeighboursOf(2), (std::vector<int>{ 3 }));
-  EXPECT_TRUE(bricks.NeighboursOf(3).empty());
-  EXPECT_TRUE(bricks.NeighboursOf(4).empty());
 }
 
 namespace
@@ -155,17 +127,17 @@ long VoxelsOf(const LabelMap& map, int object)
 TEST(SmallParts, GoToWhatIsAboutThem)
 {
   LabelMap map = Parts();
-  GiveAwaySmallParts(map, 3, 3, false);
+  GiveAwaySmallParts(map, { 1, 2, 3 }, 3, false);
   EXPECT_EQ(map.At(8, 4, 4), 2);
   EXPECT_EQ(map.At(9, 4, 4), 2);
   EXPECT_EQ(map.At(11, 2, 2), 0); // More faces of it are at the outside than at 2.
   EXPECT_EQ(VoxelsOf(map, 1), 64);
   map = Parts();
-  GiveAwaySmallParts(map, 3, 2, false);
+  GiveAwaySmallParts(map, { 1, 2, 3 }, 2, false);
   EXPECT_EQ(map.At(8, 4, 4), 1) << "of the largest size";
   EXPECT_EQ(VoxelsOf(map, 3), 0);
   map = Parts();
-  GiveAwaySmallParts(map, 3, 0, true); // All but the largest.
+  GiveAwaySmallParts(map, { 1, 2, 3 }, 0, true); // All but the largest.
   EXPECT_EQ(VoxelsOf(map, 1), 64);
   EXPECT_EQ(VoxelsOf(map, 3), 1); // It is the largest of its object.
 }
@@ -173,7 +145,7 @@ TEST(SmallParts, GoToWhatIsAboutThem)
 TEST(SmallParts, GoToNothingThatGoes)
 {
   LabelMap map = Parts();
-  GiveAwaySmallParts(map, 3, 1000000, false);
+  GiveAwaySmallParts(map, { 1, 2, 3 }, 1000000, false);
   EXPECT_EQ(VoxelsOf(map, 0), static_cast<long>(VoxelBox::Of(map.Size()).Count()));
   // Two voxels of 1 in some of 3 in 2: all of it is 2 then.
   map = MakeLabelMap({ 9, 9, 9 }, 3,
@@ -182,7 +154,7 @@ TEST(SmallParts, GoToNothingThatGoes)
       const bool isNear = std::abs(i - 4) < 2 && std::abs(j - 4) < 2 && std::abs(k - 4) < 2;
       return i == 4 && j == 4 && k > 3 && k < 6 ? 1 : isNear ? 3 : 2;
     });
-  GiveAwaySmallParts(map, 3, 100, false);
+  GiveAwaySmallParts(map, { 1, 2, 3 }, 100, false);
   EXPECT_EQ(VoxelsOf(map, 2), 729);
 }
 
@@ -194,9 +166,18 @@ TEST(SmallParts, JoinedByACornerAreOne)
     LabelMap map = MakeLabelMap({ 6, 6, 6 }, 1,
       [=](int i, int j, int k)
       { return j == k && j > 0 && j < 5 && i == (sign > 0 ? j : 5 - j) ? 1 : 0; });
-    GiveAwaySmallParts(map, 1, 4, false);
+    GiveAwaySmallParts(map, { 1 }, 4, false);
     EXPECT_EQ(VoxelsOf(map, 1), 4) << sign;
   }
+}
+
+TEST(SmallParts, OfObjectsThatAreNotSelectedStayAndGetOthers)
+{
+  LabelMap map = Parts();
+  GiveAwaySmallParts(map, { 1 }, 3, true);
+  EXPECT_EQ(map.At(8, 4, 4), 2);
+  EXPECT_EQ(VoxelsOf(map, 3), 1);
+  EXPECT_EQ(VoxelsOf(map, 1), 64);
 }
 
 namespace
@@ -229,7 +210,7 @@ TEST(SmallParts, OthersStayAsTheyAre)
   {
     const LabelMap noise = NoisyLabelMap({ 11, 13, 17 }, 9, seed);
     LabelMap map = noise;
-    GiveAwaySmallParts(map, 9, 4, false);
+    GiveAwaySmallParts(map, { 1, 2, 3, 4, 5, 6, 7, 8, 9 }, 4, false);
     int given = 0;
     ForVoxels(map.Size(),
       [&](int i, int j, int k)

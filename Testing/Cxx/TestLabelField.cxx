@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Labels/BoundaryGaussian.h"
-#include "Core/Labels/LabelClaims.h"
 #include "Core/Labels/LabelHold.h"
+#include "Core/Labels/LabelSides.h"
 #include "LabelTestTools.h"
 #include "ThreadTestTools.h"
 
@@ -34,11 +34,10 @@ TEST(BoundaryGaussian, IsTheSumOfItsWeights)
   LabelMap map = MakeLabelMap({ 24, 24, 24 }, 1,
     [](int i, int j, int k) { return i > 7 && j > 9 && k > 11 && i < 17 ? 1 : 0; });
   const LabelBricks bricks(map, OnThisThread());
-  const BoundaryRows rows(bricks, 1);
+  const VoxelBits rows = LabelSides(bricks, 1).NearBoundary({ 4, 4, 4 });
   const std::array<double, 3> sigma = { 1., 1.5, 0.5 };
-  BoundaryGaussian gaussian(rows, sigma);
-  LargeVector<float> smooth(static_cast<std::size_t>(rows.Box().Count()));
-  gaussian.Smooth(
+  std::vector<float> smooth(static_cast<std::size_t>(rows.Box().Count()));
+  BoundaryGaussian().Smooth(rows, sigma,
     [&](int i, int j, int k, int count, float* values)
     {
       for (int x = 0; x < count; ++x)
@@ -46,7 +45,9 @@ TEST(BoundaryGaussian, IsTheSumOfItsWeights)
         values[x] = map.At(i + x, j, k) == 1 ? 1.f : 0.f;
       }
     },
-    smooth, OnThisThread());
+    [&](int i, int j, int k, int count, const float* values)
+    { std::copy_n(values, count, smooth.begin() + rows.Box().NumberOf(i, j, k)); },
+    OnThisThread());
   const auto along = [](double s, int n) { return std::exp(-0.5 * n * n / (s * s)); };
   int tested = 0;
   int inside = 0;
@@ -178,24 +179,6 @@ TEST(VoxelBox, PartsAreTheWhole)
   EXPECT_EQ(static_cast<std::int64_t>(found.size()), box.Count());
 }
 
-TEST(LabelField, HoldsVoxelsFurther)
-{
-  const LabelMap map = BallMap(32, 11.3);
-  const LabelBricks bricks(map, OnThisThread());
-  const LabelFieldOptions options;
-  LabelField field = MakeLabelField(bricks, 1, options, OnThisThread());
-  int i = 16;
-  while (map.At(i + 1, 16, 16) == 1)
-  {
-    ++i;
-  }
-  ASSERT_LT(ValueAt(field, i, 16, 16), 0.85f);
-  HoldFurther(field, bricks, 1, options, { { VoxelBox::Of(map.Size()).NumberOf(i, 16, 16), 0.9f } },
-    OnThisThread());
-  EXPECT_GE(ValueAt(field, i, 16, 16), 0.88f);
-  EXPECT_EQ(CountWrongSigns(map, 1, field), 0);
-}
-
 TEST(HoldToLabels, MeetsItsConstraintsAndLeavesTheRest)
 {
   LabelField field;
@@ -221,51 +204,6 @@ TEST(HoldToLabels, MeetsItsConstraintsAndLeavesTheRest)
   LabelField again = before;
   HoldToLabels(again, { 1., 1., 1. }, { { field.Box.NumberOf(3, 3, 3), 1.f, 0.2f } });
   EXPECT_EQ(again.Values, before.Values);
-}
-
-TEST(LabelClaims, SettledFieldsAreNeverPositiveTogether)
-{
-  // Three sectors about a line, and a fourth object that is a voxel thin along it.
-  const auto sectors = [](int i, int j, int)
-  {
-    const double angle = std::atan2(j - 17.3, i - 16.6);
-    return i == 17 && j == 17 ? 4 : angle < -1. ? 1 : angle < 1.2 ? 2 : 3;
-  };
-  const LabelMap map = MakeLabelMap({ 34, 34, 20 }, 4, sectors);
-  const LabelBricks bricks(map, OnThisThread());
-  LabelClaims claims(bricks);
-  std::vector<LabelField> fields;
-  double before = -1.;
-  for (int object = 1; object <= 4; ++object)
-  {
-    fields.push_back(FieldOf(map, object));
-    claims.Add(object, fields.back());
-  }
-  const auto mostTogether = [&]
-  {
-    double most = -8.;
-    ForVoxels({ 34, 34, 20 },
-      [&](int i, int j, int k)
-      {
-        std::vector<float> values;
-        for (const LabelField& field : fields)
-        {
-          const bool isIn = field.Box.Contains({ i, j, k });
-          values.push_back(isIn ? ValueAt(field, i, j, k) : -LabelField::Far);
-        }
-        std::sort(values.begin(), values.end());
-        most = std::max<double>(most, values[2] + values[3]);
-      });
-    return most;
-  };
-  before = mostTogether();
-  EXPECT_GT(before, 0.1) << "there is something to settle";
-  for (int object = 1; object <= 4; ++object)
-  {
-    claims.Settle(object, fields[static_cast<std::size_t>(object - 1)]);
-    EXPECT_EQ(CountWrongSigns(map, object, fields[static_cast<std::size_t>(object - 1)]), 0);
-  }
-  EXPECT_LE(mostTogether(), 0.02);
 }
 
 namespace

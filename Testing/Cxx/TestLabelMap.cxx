@@ -100,3 +100,16 @@ TEST(LabelMap, VoxelsMayBecomeAlikeAndDifferAgain)
   EXPECT_EQ(map.At(0, 0, 8), 7);
   EXPECT_EQ(map.At(0, 0, 7), 5);
 }
+
+TEST(LabelMap, PartsMayReachBeyondIt)
+{
+  LabelMap map = NoisyLabelMap({ 13, 9, 11 }, 3, 4);
+  map.Spacing = { 1., 1., 2. };
+  const VoxelBox box = { { -5, 2, 3 }, { 6, 8, 21 } };
+  const LabelMap part = map.Part(box);
+  EXPECT_EQ(part.Size(), box.Size());
+  EXPECT_EQ(part.Spacing, map.Spacing);
+  EXPECT_EQ(part.NumberOfObjects, 3);
+  ForVoxels(part.Size(),
+    [&](int i, int j, int k) { EXPECT_EQ(part.At(i, j, k), map.At(i - 5, j + 2, k + 3)); });
+}

@@ -47,7 +47,7 @@ TEST_P(LabelPromises, AreKept)
     SCOPED_TRACE("label " + std::to_string(shape.Label));
     vtkPolyData* block = BlockOf(filter, static_cast<unsigned int>(s));
     ASSERT_EQ(FieldOf(block, "Label"), shape.Label);
-    ExpectGoodTriangles(block, promise.Stretch > 1.0 ? 0.77 : 0.8);
+    ExpectGoodTriangles(block);
     const TriangleSurface surface = ToTriangleSurface(block);
     const WrongVoxelVerdict voxels = JudgeVoxels(surface, shapes.Map, shape.Label);
     EXPECT_EQ(FieldOf(block, "LabelVoxels"), voxels.Label);
@@ -71,8 +71,8 @@ INSTANTIATE_TEST_SUITE_P(Of, LabelPromises,
     Promise{ LabelShapeKind::Torus, 64, 1.0, 2.0, 0.1, 3.1, 0.002, 3e-4 },
     Promise{ LabelShapeKind::Torus, 112, 1.0, 2.0, 0.1, 3.0, 0.002, 1e-4 },
     Promise{ LabelShapeKind::Gyroid, 64, 1.0, 2.0, 0.1, 4.8, 0.002, 1e-3 },
-    Promise{ LabelShapeKind::TouchingBalls, 64, 1.0, 2.0, 0.1, 3.0, 0.005, 3e-4 },
-    Promise{ LabelShapeKind::CutBall, 64, 1.0, 2.0, 0.1, 3.5, 0.015, 3e-3 },
+    Promise{ LabelShapeKind::TouchingBalls, 64, 1.0, 2.0, 0.1, 3.0, 0.005, 5e-4 },
+    Promise{ LabelShapeKind::CutBall, 64, 1.0, 2.0, 0.1, 4.5, 0.015, 3e-3 },
     Promise{ LabelShapeKind::Sphere, 64, 3.0, 2.0, 0.1, 3.0, 0.012, 6e-4 },
     Promise{ LabelShapeKind::Torus, 64, 3.0, 2.0, 0.11, 4.5, 0.02, 1e-3 }),
   [](const testing::TestParamInfo<Promise>& info)
@@ -97,54 +97,6 @@ TEST(LabelSurfaces, AreNearerToTheTruthByDefaultThanWithEachVoxel)
   EXPECT_LT(byDefault.MeanAngle, 0.8 * strict.MeanAngle);
   EXPECT_LT(byDefault.MeanAtVertices, strict.MeanAtVertices);
   EXPECT_LT(std::abs(byDefault.VolumeError), 0.002);
-}
-
-TEST(LabelNeighbours, HardlyOverlap)
-{
-  const DigitisedShapes shapes = Digitise(LabelShapeKind::CutBall, 64);
-  const Filter filter = FilterOf(ToImage(shapes.Map));
-  double sum = 0.0, count = 0.0;
-  for (unsigned int a = 0; a < 4; ++a)
-  {
-    for (unsigned int b = a + 1; b < 4; ++b)
-    {
-      const OverlapVerdict verdict =
-        JudgeOverlap(ToTriangleSurface(BlockOf(filter, a)), ToTriangleSurface(BlockOf(filter, b)));
-      sum += verdict.MeanDepth * static_cast<double>(verdict.VerticesInside);
-      count += static_cast<double>(verdict.VerticesInside);
-    }
-  }
-  ASSERT_GT(count, 100.0); // they are in contact
-  EXPECT_LT(sum / count, 0.05);
-}
-
-TEST(LabelNeighbours, AreApartWithAGap)
-{
-  DigitisedShapes shapes = Digitise(LabelShapeKind::CutBall, 64);
-  shapes.Map.Spacing = { 0.4, 0.4, 0.4 }; // Gap is one of world units
-  const Filter filter = FilterOf(ToImage(shapes.Map));
-  filter->SetGap(0.3 * 0.4);
-  for (unsigned int a = 0; a < 4; ++a)
-  {
-    ExpectGoodTriangles(BlockOf(filter, a));
-    for (unsigned int b = a + 1; b < 4; ++b)
-    {
-      const OverlapVerdict verdict =
-        JudgeOverlap(ToTriangleSurface(BlockOf(filter, a)), ToTriangleSurface(BlockOf(filter, b)));
-      EXPECT_EQ(verdict.VerticesInside, 0u) << a << " and " << b;
-      EXPECT_EQ(verdict.IntersectingPairs, 0u) << a << " and " << b;
-    }
-  }
-}
-
-TEST(LabelNeighbours, AreDrawnBackByHalfTheGap)
-{
-  DigitisedShapes shapes = Digitise(LabelShapeKind::Sphere, 64);
-  shapes.Map.Spacing = { 0.4, 0.4, 0.4 };
-  const Filter filter = FilterOf(ToImage(shapes.Map));
-  const double before = FieldOf(BlockOf(filter), "Volume");
-  filter->SetGap(0.4);
-  EXPECT_NEAR(FieldOf(BlockOf(filter), "Volume") / before, std::pow(19.5 / 20.0, 3.0), 0.004);
 }
 
 namespace
@@ -184,11 +136,10 @@ LabelMap RandomBlobs(int size, int labels, unsigned seed)
 } // namespace
 
 // Of the image alone, and with the parts that KeepComponents leaves out.
-TEST(LabelCounts, AreThoseOfTheMapWithSharedInterfaces)
+TEST(LabelCounts, AreThoseOfTheMap)
 {
   const LabelMap map = RandomBlobs(24, 4, 3);
   const Filter filter = FilterOf(ToImage(map));
-  filter->SharedInterfacesOn();
   filter->SetTolerance(1.0);      // has triangles reach beyond the image
   for (const int keep : { 0, 1 }) // all, the largest
   {
@@ -203,77 +154,6 @@ TEST(LabelCounts, AreThoseOfTheMapWithSharedInterfaces)
     }
   }
 }
-
-class LabelGaps : public testing::TestWithParam<double>
-{
-};
-
-// Triangles cut corners that fields do not have in common: an exact test between neighbours tells.
-TEST_P(LabelGaps, OfAnySizeKeepNeighboursApart)
-{
-  for (const int level : { 0, 1 })
-  {
-    for (unsigned seed = 1; seed <= 4; ++seed)
-    {
-      const Filter filter = FilterOf(ToImage(RandomBlobs(28, 5, seed)));
-      filter->SetGap(GetParam());
-      filter->SetFinestLevel(level);
-      filter->Update();
-      for (unsigned int a = 0; a < 5; ++a)
-      {
-        for (unsigned int b = a + 1; b < 5; ++b)
-        {
-          EXPECT_EQ(JudgeOverlap(
-                      ToTriangleSurface(BlockOf(filter, a)), ToTriangleSurface(BlockOf(filter, b)))
-                      .IntersectingPairs,
-            0u)
-            << "level " << level << ", seed " << seed << ", blocks " << a << ", " << b;
-        }
-      }
-    }
-  }
-}
-
-// Labels that are made again cut other corners: five times those of label 2 touched others anew.
-TEST(LabelNeighbours, AreApartThoughEachRoundCutsOtherCorners)
-{
-  const Filter filter = FilterOf(ToImage(RandomBlobs(20, 8, 6)));
-  filter->SetGap(0.02);
-  filter->SetSmoothing(0.0);
-  for (unsigned int a = 0; a < 8; ++a)
-  {
-    for (unsigned int b = a + 1; b < 8; ++b)
-    {
-      const OverlapVerdict verdict =
-        JudgeOverlap(ToTriangleSurface(BlockOf(filter, a)), ToTriangleSurface(BlockOf(filter, b)));
-      EXPECT_EQ(verdict.VerticesInside, 0u) << a << " and " << b;
-      EXPECT_EQ(verdict.IntersectingPairs, 0u) << a << " and " << b;
-    }
-  }
-}
-
-// No triangles touch there: the larger one has closed the room for the other.
-TEST_P(LabelGaps, OfAnySizeKeepALabelOfAVoxelOutOfTheOneAboutIt)
-{
-  LabelMap map;
-  map.Size = { 17, 17, 17 };
-  for (int v = 0; v < 17 * 17 * 17; ++v)
-  {
-    const int far =
-      std::max({ std::abs(v % 17 - 8), std::abs(v / 17 % 17 - 8), std::abs(v / 17 / 17 - 8) });
-    map.Values.push_back(static_cast<std::int16_t>(far == 0 ? 2 : far < 5 ? 1 : 0));
-  }
-  const Filter filter = FilterOf(ToImage(map));
-  filter->SetGap(0.4 * GetParam());
-  const TriangleSurface about = ToTriangleSurface(BlockOf(filter, 0));
-  const TriangleSurface within = ToTriangleSurface(BlockOf(filter, 1));
-  EXPECT_FALSE(within.Triangles.empty());
-  EXPECT_EQ(JudgeOverlap(about, within).VerticesInside, 0u);
-}
-
-INSTANTIATE_TEST_SUITE_P(Of, LabelGaps, testing::Values(0.05, 0.5),
-  [](const testing::TestParamInfo<double>& info)
-  { return std::to_string(static_cast<int>(std::round(100.0 * info.param))) + "Percent"; });
 
 namespace
 {
@@ -307,7 +187,7 @@ std::vector<std::pair<std::string, LabelMap>> ThinLabels()
 }
 } // namespace
 
-TEST(ThinLabels, HaveSurfacesByDefault)
+TEST(ThinLabels, HaveClosedSurfaces)
 {
   for (const auto& [name, map] : ThinLabels())
   {
@@ -315,49 +195,8 @@ TEST(ThinLabels, HaveSurfacesByDefault)
     const Filter filter = FilterOf(ToImage(map));
     vtkPolyData* block = BlockOf(filter);
     ASSERT_GT(block->GetNumberOfCells(), 0);
-    EXPECT_LT(FieldOf(block, "WrongVoxels"), 0.25 * FieldOf(block, "LabelVoxels"));
-  }
-}
-
-TEST(ThinLabels, LoseNoVoxelWithTheFinestTriangles)
-{
-  for (const auto& [name, map] : ThinLabels())
-  {
-    SCOPED_TRACE(name);
-    const Filter filter = FilterOf(ToImage(map));
-    filter->SetFinestLevel(-1);
-    filter->SetVoxelTolerance(0.0);
-    vtkPolyData* block = BlockOf(filter);
     const SurfaceVerdict verdict = JudgeSurface(ToTriangleSurface(block), FieldOf(block, "Delta"));
-    EXPECT_TRUE(verdict.Topology.Closed && verdict.Topology.Outward);
+    EXPECT_TRUE(verdict.Topology.Closed && verdict.Topology.Manifold && verdict.Topology.Outward);
     EXPECT_EQ(verdict.Intersections.Pairs, 0u);
-    const WrongVoxelVerdict voxels = JudgeVoxels(ToTriangleSurface(block), map, 1);
-    EXPECT_EQ(voxels.Wrong(), 0) << voxels.Outside << " outside, " << voxels.Inside << " inside";
   }
-}
-
-TEST(ThinLabels, StayWithTheDefaultToleranceToo)
-{
-  for (const auto& [name, map] : ThinLabels())
-  {
-    SCOPED_TRACE(name);
-    const Filter filter = FilterOf(ToImage(map));
-    vtkPolyData* block = BlockOf(filter);
-    ASSERT_GT(block->GetNumberOfCells(), 0);
-    EXPECT_LE(FieldOf(block, "MissedVoxels"), 0.15 * FieldOf(block, "LabelVoxels"));
-  }
-}
-
-// One that is lost on its way makes the triangles of its label smaller, not those of others.
-TEST(ThinLabels, LeaveOtherLabelsAsTheyAre)
-{
-  const auto isBall = [](int i, int j, int k)
-  { return std::hypot(i - 16.0, j - 8.0, k - 16.0) < 6.0; };
-  const auto isTip = [](int i, int j, int k) { return i == 16 && j > 12 && j < 26 && k == 16; };
-  const Filter ball = FilterOf(ToImage(MapOf(32, isBall)));
-  const Filter both = FilterOf(
-    ToImage(MapOf(32, [&](int i, int j, int k) { return isBall(i, j, k) || isTip(i, j, k); })));
-  EXPECT_EQ(FieldOf(BlockOf(ball), "Level"), 0);
-  EXPECT_EQ(FieldOf(BlockOf(both), "Level"), -1);
-  EXPECT_LE(FieldOf(BlockOf(both), "MissedVoxels"), 2);
 }

@@ -125,21 +125,6 @@ TEST_P(LabelVolumes, AreSoWithoutAVoxelTolerance)
   this->ExpectVolume([](vtkLabelsToSurfaces* filter) { filter->SetVoxelTolerance(0.0); });
 }
 
-TEST_P(LabelVolumes, AreSoWithSharedInterfaces)
-{
-  this->ExpectVolume([](vtkLabelsToSurfaces* filter) { filter->SharedInterfacesOn(); });
-}
-
-TEST_P(LabelVolumes, AreSoWithSharedInterfacesWithoutAVoxelTolerance)
-{
-  this->ExpectVolume(
-    [](vtkLabelsToSurfaces* filter)
-    {
-      filter->SharedInterfacesOn();
-      filter->SetVoxelTolerance(0.0);
-    });
-}
-
 INSTANTIATE_TEST_SUITE_P(Of, LabelVolumes,
   testing::Values(VolumeScene{ "Ball1To4", { 1.0, 1.0, 4.0 }, { 12.0, 12.0, 12.0 }, Ball(12.0) },
     VolumeScene{ "Ball1To8", { 1.0, 1.0, 8.0 }, { 19.0, 19.0, 19.0 }, Ball(19.0) },

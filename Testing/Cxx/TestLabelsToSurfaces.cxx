@@ -142,15 +142,35 @@ TEST(LabelsToSurfaces, MakesThoseThatAreChosen)
 TEST(LabelsToSurfaces, ALabelHasTheSameSurfaceWhicheverOthersAreMade)
 {
   const auto sectors = [](int i, int j, int k) {
-    return k < 8 ? 9 : std::atan2(j - 15.3, i - 15.6) < -1. ? 1 : i < 16 ? 2 : 3;
+    return k < 8 ? 9 : std::atan2(j - 15.3, i - 15.6) < -1. ? 1 : i < 16 ? 2 : k < 20 ? 3 : 0;
   };
   const auto image = LabelImageOf(32, 32, 24, sectors);
   const auto all = LabelSurfacesOf(image);
-  for (const int label : { 1, 2, 3, 9 })
+  const std::array<int, 4> labels = { 1, 2, 3, 9 };
+  for (const std::vector<unsigned int>& blocks :
+    { std::vector<unsigned int>{ 0 }, { 2 }, { 3 }, { 1, 3 } })
   {
-    const auto one = LabelSurfacesOf(image, [&](vtkLabelsToSurfaces* f) { f->AddLabel(label); });
-    ExpectSameSurfaces(
-      BlockOf(one, 0), BlockOf(all, static_cast<unsigned int>(label == 9 ? 3 : label - 1)));
+    const auto some = LabelSurfacesOf(image,
+      [&](vtkLabelsToSurfaces* f)
+      {
+        for (const unsigned int block : blocks)
+        {
+          f->AddLabel(labels[block]);
+        }
+      });
+    for (std::size_t n = 0; n < blocks.size(); ++n)
+    {
+      vtkPolyData* one = BlockOf(some, static_cast<unsigned int>(n));
+      vtkPolyData* same = BlockOf(all, blocks[n]);
+      EXPECT_NE(one->GetPointData()->GetGlobalIds()->GetRange()[1],
+        same->GetPointData()->GetGlobalIds()->GetRange()[1])
+        << "points of port 1 are others";
+      one->GetPointData()->RemoveArray("GlobalIds");
+      vtkNew<vtkPolyData> copy;
+      copy->ShallowCopy(same);
+      copy->GetPointData()->RemoveArray("GlobalIds");
+      ExpectSameSurfaces(one, copy);
+    }
   }
 }
 

@@ -22,7 +22,7 @@ protected:
     this->Filter->ClearLabels();
     this->Filter->SetBackgroundLabel(0);
     this->Filter->SetSmoothing(2.);
-    this->Filter->SetGap(0.);
+    this->Filter->SetTimeLimit(0.);
     this->Filter->SetMetric(1);
     this->Filter->SetEdgeLength(0.);
     this->Filter->SetFinestLevel(0);
@@ -99,8 +99,37 @@ TEST_F(LabelsToSurfacesErrors, MoreLabelsThanALabelMapHas)
     LabelImageOf(17, 17, 17, [](int i, int j, int k) { return i + 17 * (j + 17 * k); }, VTK_INT));
   // Some of them can be chosen.
   this->Filter->AddLabel(100);
+  this->Filter->SetTimeLimit(1e-9); // not to mesh the others
   this->Filter->Update();
   EXPECT_EQ(this->Filter->GetErrorCode(), vtkErrorCode::NoError);
+}
+
+TEST_F(LabelsToSurfacesErrors, AMapThatLooksLikeAScanIsReportedBeforeItIsMeshed)
+{
+  const auto warningOf = [this](const std::function<double(int, int, int)>& at)
+  {
+    this->Filter->SetInputData(LabelImageOf(28, 28, 28, at));
+    this->Filter->SetTimeLimit(1e-9);
+    const MessagesOf warnings(this->Filter, vtkCommand::WarningEvent);
+    bool isFirst = false;
+    const ProgressHook hook(this->Filter,
+      [&](vtkAlgorithm*, const std::string& text, double)
+      { isFirst = isFirst || (text.find("Fields") == 0 && !warnings.Get().empty()); });
+    this->Filter->Update();
+    EXPECT_TRUE(warnings.Get().empty() || isFirst);
+    return warnings.Get();
+  };
+  const std::string noisy = warningOf([](int i, int j, int k)
+    { return (7919 * (i + 28 * (j + 28 * k))) % 301; });
+  EXPECT_TRUE(Has(noisy, "'Labels' has 300 labels"));
+  EXPECT_TRUE(Has(noisy, "looks like a scan"));
+  EXPECT_TRUE(Has(noisy, "--iso"));
+  EXPECT_EQ(warningOf([](int i, int j, int k)
+              { return (7919 * (i + 28 * (j + 28 * k))) % 250; }),
+    "")
+    << "not many labels";
+  EXPECT_EQ(warningOf([](int i, int j, int k) { return i / 4 + 7 * (j / 4 + 7 * (k / 4)); }), "")
+    << "blocks of 4 x 4 x 4 voxels";
 }
 
 TEST_F(LabelsToSurfacesErrors, AnArrayThatIsNotThere)
@@ -127,8 +156,6 @@ TEST_F(LabelsToSurfacesErrors, PropertiesOutOfRange)
   expect(&Labels::SetSmoothing, 2., std::nan(""), { "Smoothing is nan" });
   expect(&Labels::SetVoxelTolerance, 0., -0.5, { "Voxel Tolerance is -0.5" });
   expect(&Labels::SetVoxelTolerance, 0., 1.5, { "Voxel Tolerance is 1.5 voxels", "at most 1" });
-  expect(&Labels::SetGap, 0., -0.5, { "Gap is -0.5" });
-  expect(&Labels::SetGap, 0., 8.01, { "Gap is 8.01", "at most 8" });
   expect(&Labels::SetMetric, 0, 2, { "Metric is 2" });
   expect(&Labels::SetEdgeLength, 0., -2., { "Edge Length is -2" });
   expect(&Labels::SetEdgeLength, 0., 1e-3, { "Edge Length is 0.001" });
@@ -159,20 +186,13 @@ TEST_F(LabelsToSurfacesErrors, NamesThatAreNotAsManyAsLabels)
   this->ExpectError({ "'LabelColors' has 1 components", "3" });
 }
 
-TEST_F(LabelsToSurfacesErrors, MemoryThatEndsWhileSurfacesAreMadeSideBySide)
+TEST_F(LabelsToSurfacesErrors, MemoryThatEndsWhileTheMeshIsMade)
 {
-  // Enough of them, and large enough, that progress is told while threads work.
-  this->Filter->SetInputData(LabelImageOf(64, 64, 64,
-    [](int i, int j, int k)
-    {
-      const bool isInside = i % 16 > 2 && j % 16 > 2 && k % 16 > 2;
-      return isInside ? 1. + i / 16 + 4 * (j / 16) + 16 * (k / 16) : 0.;
-    }));
   bool hasThrown = false;
   const ProgressHook hook(this->Filter,
     [&hasThrown](vtkAlgorithm*, const std::string& text, double)
     {
-      if (!hasThrown && text.find(" of 64, ") != std::string::npos)
+      if (!hasThrown && text == "Interfaces of the labels")
       {
         hasThrown = true;
         throw std::bad_alloc();
@@ -186,12 +206,13 @@ TEST_F(LabelsToSurfacesErrors, MemoryThatEndsWhileSurfacesAreMadeSideBySide)
   EXPECT_EQ(this->Filter->GetErrorCode(), vtkErrorCode::UnknownError);
 }
 
-TEST_F(LabelsToSurfacesErrors, LabelsTooSmallForTrianglesAreNamedAndTheOthersMade)
+TEST_F(LabelsToSurfacesErrors, LabelsLeftOutByKeepComponentsAreNamed)
 {
   const auto speck = [](int i, int j, int k)
   { return i == 30 && j == 3 && k == 3 ? 9. : TwoBalls(i, j, k); };
   this->Filter->SetInputData(LabelImageOf(34, 28, 28, speck));
-  this->Filter->SetFinestLevel(2);
+  this->Filter->SetKeepComponents(3);
+  this->Filter->SetMinimumComponentVolume(2.);
   const MessagesOf warnings(this->Filter, vtkCommand::WarningEvent);
   this->Filter->Update();
   EXPECT_EQ(this->Filter->GetErrorCode(), vtkErrorCode::NoError);
@@ -202,62 +223,6 @@ TEST_F(LabelsToSurfacesErrors, LabelsTooSmallForTrianglesAreNamedAndTheOthersMad
   EXPECT_EQ(StopReason(BlockOf(this->Filter, 2)), "vanished");
   EXPECT_EQ(FieldOf(BlockOf(this->Filter, 2), "WrongVoxels"), 1.);
   EXPECT_TRUE(Has(this->LostLabels(), "No surface is left of Label 9"));
-  EXPECT_EQ(warnings.Get(), "") << "a speck among balls is a fact";
-}
-
-TEST_F(LabelsToSurfacesErrors, LabelsOfDustAreNamed)
-{
-  const auto dust = [](int i, int j, int k)
-  {
-    const bool isDust = k < 5 && i % 4 == 0 && j % 4 == 0 && k % 4 == 0;
-    const bool isSolid = std::hypot(i - 5., j - 5., k - 24.) < 2.6;
-    return isDust || isSolid ? 9. : TwoBalls(i, j, k);
-  };
-  this->Filter->SetInputData(LabelImageOf(34, 28, 28, dust));
-  this->Filter->SetFinestLevel(1); // of level 0, and below, voxels that are alone have surfaces
-  const MessagesOf warnings(this->Filter, vtkCommand::WarningEvent);
-  this->Filter->Update();
-  EXPECT_GT(BlockOf(this->Filter, 2)->GetNumberOfCells(), 10) << "of the solid part";
-  const std::string lost = this->LostLabels();
-  EXPECT_TRUE(Has(lost, "More voxels than half are on the wrong side of the surface of Label 9"));
-  EXPECT_FALSE(Has(lost, "Label 3"));
-}
-
-namespace
-{
-/** A row of voxels, label 1, and one that is alone, label 2. */
-double RowAndVoxel(int i, int j, int k)
-{
-  return i > 5 && i < 26 && j == 8 && k == 8 ? 1. : i == 16 && j == 16 && k == 16 ? 2. : 0.;
-}
-}
-
-TEST_F(LabelsToSurfacesErrors, WhatIsLostIsToldWithAnySettingsAndWithTheWayOut)
-{
-  this->Filter->SetInputData(LabelImageOf(32, 24, 24, RowAndVoxel));
-  const auto warned = [this]
-  {
-    const MessagesOf warnings(this->Filter, vtkCommand::WarningEvent);
-    this->Filter->Update();
-    return warnings.Get();
-  };
-  EXPECT_EQ(warned(), "");
-  this->Filter->SetFinestLevel(1);
-  std::string warning = warned();
-  EXPECT_TRUE(Has(warning, "No surface is left of Label 1, Label 2"));
-  EXPECT_TRUE(Has(warning, "A lower Finest Level"));
-  this->Filter->SetFinestLevel(0);
-  this->Filter->SetEdgeLength(3.);
-  warning = warned();
-  EXPECT_TRUE(Has(warning, "A shorter Edge Length"));
-  this->Filter->SetEdgeLength(0.);
-  this->Filter->SetGap(2.);
-  warning = warned();
-  EXPECT_TRUE(Has(warning, "taken away by Gap"));
-  EXPECT_FALSE(Has(warning, "Finest Level")) << "it does not help";
-  this->Filter->SetGap(0.);
-  this->Filter->SetKeepComponents(3);
-  this->Filter->SetMinimumComponentVolume(1000.);
-  warning = warned();
-  EXPECT_TRUE(Has(warning, "left out by Keep Components"));
+  EXPECT_TRUE(Has(this->LostLabels(), "left out by Keep Components"));
+  EXPECT_EQ(warnings.Get(), "") << "a speck beside balls is no warning";
 }

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SameOutputs.h"
-#include "vtkLabelsToSurfaces.h"
 #include "vtkVolumeToSurface.h"
 
 using namespace volumic;
@@ -136,38 +135,4 @@ TEST(ThinParts, AreTheSameOnAnyThreadsAndWithLittleMemory)
   const auto limited = Made(true, [](vtkVolumeToSurface* f) { f->SetMemoryLimit(LittleMemory); });
   ExpectSameSurfaces(one->GetOutput(), three->GetOutput());
   EXPECT_TRUE(AreSameSurfaces(one->GetOutput(), limited->GetOutput()));
-}
-
-TEST(ThinParts, AreOfLabelsToo)
-{
-  // A thick block, and a shell of a voxel.
-  vtkNew<vtkImageData> map;
-  map->SetDimensions(40, 40, 40);
-  map->AllocateScalars(VTK_UNSIGNED_CHAR, 1);
-  ForVoxels({ 40, 40, 40 },
-    [&](int i, int j, int k)
-    {
-      const bool isBlock = std::max({ std::abs(i - 10), std::abs(j - 20), std::abs(k - 20) }) < 8;
-      const double r = std::hypot(i - 28.3, j - 19.8, k - 20.1);
-      map->SetScalarComponentFromDouble(i, j, k, 0, isBlock ? 1. : r > 7.5 && r < 8.5 ? 2. : 0.);
-    });
-  vtkNew<vtkLabelsToSurfaces> filter;
-  filter->SetInputData(map);
-  filter->SetVoxelTolerance(0.0);
-  const auto surface = [&filter](unsigned int block)
-  { return vtkPolyData::SafeDownCast(filter->GetOutput()->GetBlock(block)); };
-  filter->Update();
-  const vtkIdType ofBlock = surface(0)->GetNumberOfPoints();
-  const vtkIdType ofShell = surface(1)->GetNumberOfPoints();
-  const double wrong = FieldOf(surface(1), "WrongVoxels");
-  filter->ThinPartsOn();
-  filter->Update();
-  EXPECT_LT(surface(0)->GetNumberOfPoints(), 1.3 * ofBlock);
-  EXPECT_GT(surface(1)->GetNumberOfPoints(), 1.5 * ofShell);
-  EXPECT_LT(FieldOf(surface(1), "WrongVoxels"), 0.5 * wrong);
-  for (const unsigned int block : { 0u, 1u })
-  {
-    EXPECT_TRUE(HasThickness(surface(block)));
-    EXPECT_EQ(OpenOrNonManifoldEdges(surface(block)), 0);
-  }
 }

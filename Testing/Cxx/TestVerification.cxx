@@ -140,22 +140,25 @@ TEST(Verification, TheEndOfALevelIsMended)
 TEST(Verification, WhatCannotBeMendedIsTold)
 {
   const TestVolume volume = BallVolume(32, 10);
-  Monitor silent;
-  TestEvolution evolution(IsoHalf(), Threads, silent);
-  evolution.StartEnclosing(volume.Image, 0);
-  evolution.Run();
-  EXPECT_EQ(evolution.Verified().Found, 0);
-  SurfaceState& state = evolution.Now->State;
-  for (int v = 0; v < state.Mesh.Size(); ++v)
+  Intruder intruder;
+  intruder.GoesOn = false;
+  TestEvolution evolution(TwentyIterations(), Threads, intruder);
+  evolution.AfterSweep = [&]
   {
-    if (state.Mesh.IsAlive(v))
+    intruder.HasPierced = true;
+    SurfaceState& state = evolution.Now->State;
+    for (int v = 0; v < state.Mesh.Size(); ++v)
     {
-      Vector p = state.Mesh.Position[v];
-      p.Z = 16;
-      state.MoveTo(v, p);
+      if (state.Mesh.IsAlive(v))
+      {
+        Vector p = state.Mesh.Position[v];
+        p.Z = 16;
+        state.MoveTo(v, p);
+      }
     }
-  }
-  volumic::Revise(*evolution.Now);
+  };
+  evolution.StartEnclosing(volume.Image, 0);
+  EXPECT_EQ(evolution.Run(), StopReason::Cancelled);
   EXPECT_GT(evolution.Verified().Found, 0);
   EXPECT_EQ(evolution.Verified().Left, evolution.Verified().Found);
   EXPECT_TRUE(Has(evolution.Verified().Describe(0), "could not be mended"));

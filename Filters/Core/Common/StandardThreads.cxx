@@ -90,18 +90,17 @@ void StandardThreads::Wait()
   }
 }
 
-void StandardThreads::BeginJob(std::size_t n, std::size_t chunk, bool isOfItems,
+void StandardThreads::BeginJob(std::size_t n, std::size_t chunk,
   const std::function<void(std::size_t, std::size_t)>& body)
 {
   const std::lock_guard<std::mutex> lock(this->Mutex);
   this->Body = &body;
   this->End = n;
   this->Chunk = chunk;
-  this->IsOfItems = isOfItems;
   this->Next = 0;
   ++this->Jobs;
   // No more than find something to do beside the calling thread.
-  const std::size_t wanted = (n + chunk - 1) / chunk - (isOfItems ? 0 : 1);
+  const std::size_t wanted = (n + chunk - 1) / chunk - 1;
   for (std::size_t i = 0; i < std::min(wanted, static_cast<std::size_t>(this->Asleep)); ++i)
   {
     this->HasWork.notify_one();
@@ -112,24 +111,19 @@ void StandardThreads::Help()
 {
   for (std::size_t begin; (begin = this->Next.fetch_add(this->Chunk)) < this->End;)
   {
-    isInBody = !this->IsOfItems;
+    isInBody = true;
     try
     {
       (*this->Body)(begin, std::min(begin + this->Chunk, this->End));
     }
     catch (...)
     {
-      this->Fail(std::current_exception());
+      const std::lock_guard<std::mutex> lock(this->Mutex);
+      this->Next = this->End; // Nothing more is begun.
+      this->Exception = this->Exception ? this->Exception : std::current_exception();
     }
     isInBody = false;
   }
-}
-
-void StandardThreads::Fail(std::exception_ptr exception)
-{
-  const std::lock_guard<std::mutex> lock(this->Mutex);
-  this->Next = this->End;
-  this->Exception = this->Exception ? this->Exception : exception;
 }
 
 void StandardThreads::For(
@@ -145,48 +139,16 @@ void StandardThreads::For(
     return;
   }
   const std::size_t chunks = ChunksPerThread * (this->Threads.size() + 1);
-  this->BeginJob(n, std::max({ grain, n / chunks, std::size_t(1) }), false, body);
+  this->BeginJob(n, std::max({ grain, n / chunks, std::size_t(1) }), body);
   this->Help();
   LookOutFor([this] { return this->Helpers == 0; });
-  this->EndJob();
-}
-
-void StandardThreads::ForEach(std::size_t n, const std::function<void(std::size_t item)>& work,
-  const std::function<void()>& tell)
-{
-  const std::function<void(std::size_t, std::size_t)> body = [&work](std::size_t item, std::size_t)
-  { work(item); };
-  this->BeginJob(n, 1, true, body);
-  if (this->Threads.empty())
-  {
-    this->Help();
-  }
-  std::unique_lock<std::mutex> lock(this->Mutex);
-  while (!this->IsIdle.wait_for(lock, Pause, [this] { return this->IsDone(); }))
-  {
-    lock.unlock();
-    try
-    {
-      tell();
-    }
-    catch (...)
-    {
-      this->Fail(std::current_exception());
-      break;
-    }
-    lock.lock();
-  }
-  if (lock)
-  {
-    lock.unlock();
-  }
   this->EndJob();
 }
 
 void StandardThreads::EndJob()
 {
   std::unique_lock<std::mutex> lock(this->Mutex);
-  this->IsIdle.wait(lock, [this] { return this->IsDone(); });
+  this->IsIdle.wait(lock, [this] { return this->Next >= this->End && this->Helpers == 0; });
   const std::exception_ptr exception = std::exchange(this->Exception, nullptr);
   lock.unlock();
   if (exception)

@@ -6,7 +6,6 @@
 #include "Core/Common/Executor.h"
 
 #include <atomic>
-#include <chrono>
 #include <condition_variable>
 #include <cstddef>
 #include <exception>
@@ -41,26 +40,11 @@ public:
   void For(std::size_t n, std::size_t grain,
     const std::function<void(std::size_t, std::size_t)>& body) override;
 
-  /** How often ForEach() tells how it goes. */
-  static constexpr std::chrono::milliseconds Pause{ 50 };
-
-  /**
-   * Calls work(item) for 0 to n - 1, in this order, each item on one of the threads beside the
-   * calling one, which calls tell() every Pause meanwhile; where there are no others it does all
-   * the work, and tells nothing. An item may use other executors, but not this one. After an
-   * exception of either no further item is begun; it is thrown again when those under way are done.
-   */
-  void ForEach(std::size_t n, const std::function<void(std::size_t item)>& work,
-    const std::function<void()>& tell);
-
 private:
-  void BeginJob(std::size_t n, std::size_t chunk, bool isOfItems,
+  void BeginJob(std::size_t n, std::size_t chunk,
     const std::function<void(std::size_t, std::size_t)>& body);
   void Wait();
   void Help();
-  /** What goes wrong outside of bodies, or in them: nothing more is begun. */
-  void Fail(std::exception_ptr exception);
-  bool IsDone() const { return this->Next >= this->End && this->Helpers == 0; }
   /** Waits until the job is done. What it has thrown is thrown again. */
   void EndJob();
 
@@ -73,7 +57,6 @@ private:
   std::size_t End = 0;                ///< Of the job: as the next ones, written while none helps.
   std::size_t Chunk = 1;
   const std::function<void(std::size_t, std::size_t)>* Body = nullptr;
-  bool IsOfItems = false; ///< ForEach(): a body may have threads of its own.
   std::exception_ptr Exception;
   int Asleep = 0;
   bool IsEnding = false;

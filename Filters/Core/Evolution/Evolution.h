@@ -147,8 +147,6 @@ bool ActivateWhereOff(Evolution& evolution, float least);
  * and then what ends a level, also after a stop: nothing inside out or unverified stays.
  */
 StopReason RunLevel(Evolution& evolution);
-/** Goes where the field has changed. */
-void Revise(Evolution& evolution);
 }
 
 #endif

@@ -25,8 +25,6 @@ constexpr double PassesShare = 0.6;
 /** Sweeps of the regularisation, and passes in each block. */
 constexpr int RegularisingSweeps = 3;
 constexpr int SweptPasses = 4;
-/** Residual, in delta, over which a vertex is off the isopotential that has changed. */
-constexpr float LeastOff = 0.03f;
 /** Vertices that one thread looks at at a time. */
 constexpr std::size_t VertexGrain = 2048;
 
@@ -143,8 +141,7 @@ void RunPasses(Evolution& e)
   }
 }
 
-template <typename IsWanted>
-void Polish(Evolution& e, const IsWanted& isWanted)
+void Polish(Evolution& e)
 {
   SurfaceState& s = e.State;
   const SurfaceOptions& options = e.Task.Options;
@@ -158,7 +155,7 @@ void Polish(Evolution& e, const IsWanted& isWanted)
       std::vector<int> wanted;
       for (int v = visit.First; v < visit.End(); ++v)
       {
-        if (s.Mesh.IsAlive(v) && isWanted(v))
+        if (s.Mesh.IsAlive(v))
         {
           wanted.push_back(v);
         }
@@ -188,7 +185,7 @@ void Regularise(Evolution& e)
     });
   ActivateAll(e);
   RunPasses(e);
-  Polish(e, [](int) { return true; });
+  Polish(e);
   ForAll(e,
     [&s](int v)
     {
@@ -320,28 +317,5 @@ StopReason RunLevel(Evolution& e)
     return StopReason::Cancelled;
   }
   return e.State.Mesh.NumberOfVertices() > 0 ? reason : StopReason::Vanished;
-}
-
-void Revise(Evolution& e)
-{
-  SurfaceState& s = e.State;
-  e.MakeField();
-  const bool isAny = ActivateWhereOff(e, LeastOff);
-  ForAll(e,
-    [&s](int v)
-    {
-      s.Velocity[v] = Vector();
-      s.WasActive[v] = s.Active[v];
-    });
-  if (!isAny)
-  {
-    return;
-  }
-  MakeBlocks(e);
-  RunPasses(e);
-  Polish(e, [&s](int v) { return s.WasActive[v] != 0; });
-  DeleteThoseInsideOut(e);
-  Verify(e);
-  ForgetBlocks(e);
 }
 }

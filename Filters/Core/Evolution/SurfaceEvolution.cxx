@@ -143,18 +143,9 @@ LevelOutcome EvolveOnLevel(
   GiveBackFreeMemory();
   e.LookAt();
   outcome.Reason = RunLevel(e);
-  if (!task.Revise || outcome.Reason == StopReason::Cancelled)
-  {
-    e.State.ForgetMotion(); // So that there is room for the result.
-  }
+  e.State.ForgetMotion(); // So that there is room for the result.
   GiveBackFreeMemory();
   outcome.Surface = e.Result();
-  while (
-    task.Revise && !e.Stopped && !outcome.Surface.Points.empty() && task.Revise(outcome.Surface))
-  {
-    Revise(e);
-    outcome.Surface = e.Result();
-  }
   outcome.Reason = e.Stopped ? StopReason::Cancelled : outcome.Reason;
   outcome.Iterations = e.History.Iterations();
   outcome.Lost = e.Lost;

@@ -76,11 +76,6 @@ struct LevelTask
   volumic::Grading Grading;
   /** Called when the surface has come to the level, and after each sweep; take() hands it out. */
   std::function<void(int iteration, const std::function<SurfaceResult()>& take)> Look;
-  /**
-   * Asked when the surface rests: whether it has changed voxels of the level, in a few places and not
-   * by much. Then what is off the isopotential goes there, all else stays, and it is asked again.
-   */
-  std::function<bool(const SurfaceResult& surface)> Revise;
 };
 
 /** Lost parts that were found when a surface came to a level, and how many of them it encloses. */

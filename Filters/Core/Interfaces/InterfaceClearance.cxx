@@ -3,6 +3,7 @@
 #include "Core/Interfaces/InterfaceClearance.h"
 
 #include "Core/Common/Spans.h"
+#include "Core/Interfaces/TriangleShape.h"
 
 #include <algorithm>
 #include <cmath>
@@ -287,12 +288,28 @@ bool InterfaceClearance::AreClear(const std::vector<PlacedFace>& faces,
     boxes.back().Low -= Vector(thick, thick, thick);
     boxes.back().High += Vector(thick, thick, thick);
   }
+  for (const int face : replaced)
+  {
+    all.Add(this->Boxes[static_cast<std::size_t>(face)]);
+  }
   this->FindNear(all.Low, all.High, 0, near);
+  const std::vector<Sheet> sheets = this->FindSheets(faces, near);
+  if (sheets.size() == 1 && sheets.front().IsOne && sheets.front().IsAlone)
+  {
+    return true;
+  }
+  std::vector<const Sheet*> sheetOf;
+  std::transform(faces.begin(), faces.end(), std::back_inserter(sheetOf),
+    [&](const PlacedFace& face) -> const Sheet* {
+      return &*std::find_if(
+        sheets.begin(), sheets.end(), [&](const Sheet& sheet) { return sheet.Has(face); });
+    });
   for (std::size_t n = 0; n < faces.size(); ++n)
   {
     for (std::size_t m = n + 1; m < faces.size(); ++m)
     {
-      if (TrianglesIntersect(faces[n], faces[m], this->Tolerance))
+      if (!(sheetOf[n] == sheetOf[m] && sheetOf[n]->IsOne) &&
+        TrianglesIntersect(faces[n], faces[m], this->Tolerance))
       {
         return false;
       }
@@ -311,18 +328,65 @@ bool InterfaceClearance::AreClear(const std::vector<PlacedFace>& faces,
     {
       others.push_back(face);
     }
-    const std::array<int, 3>& v = this->Mesh.Faces[static_cast<std::size_t>(face)].Vertex;
+    const InterfaceMesh::Face& there = this->Mesh.Faces[static_cast<std::size_t>(face)];
     const TriangleBox& box = this->Boxes[static_cast<std::size_t>(face)];
     for (std::size_t n = 0; n < faces.size(); ++n)
     {
-      if (!box.IsApart(boxes[n].Low, boxes[n].High) &&
-        TrianglesIntersect(faces[n], TriangleOf(this->Mesh, v), this->Tolerance))
+      if (!(sheetOf[n]->IsOne && sheetOf[n]->Has(there)) &&
+        !box.IsApart(boxes[n].Low, boxes[n].High) &&
+        TrianglesIntersect(faces[n], TriangleOf(this->Mesh, there.Vertex), this->Tolerance))
       {
         return false;
       }
     }
   }
   return (!isAtLine || this->AreInOrderAtLines(faces, others)) && !this->PassAny(faces, replaced);
+}
+
+std::vector<InterfaceClearance::Sheet> InterfaceClearance::FindSheets(
+  const std::vector<PlacedFace>& faces, const std::vector<int>& near) const
+{
+  std::vector<Sheet> sheets;
+  const auto sheetOf = [&](const auto& face)
+  {
+    return std::find_if(
+      sheets.begin(), sheets.end(), [&](const Sheet& sheet) { return sheet.Has(face); });
+  };
+  for (const PlacedFace& face : faces)
+  {
+    auto sheet = sheetOf(face);
+    if (sheet == sheets.end())
+    {
+      sheet = sheets.insert(sheet, Sheet{ face.Behind, face.Front, VectorD() });
+    }
+    sheet->Along += NormalOf(face);
+  }
+  for (Sheet& sheet : sheets)
+  {
+    sheet.Along = Normalized(sheet.Along);
+  }
+  const auto look = [](Sheet& sheet, const VectorD& normal)
+  {
+    sheet.IsOne = sheet.IsOne && Dot(normal, sheet.Along) > LeastSheetCosine * Length(normal);
+  };
+  for (const PlacedFace& face : faces)
+  {
+    look(*sheetOf(face), NormalOf(face));
+  }
+  for (const int f : near)
+  {
+    const InterfaceMesh::Face& face = this->Mesh.Faces[static_cast<std::size_t>(f)];
+    const auto sheet = sheetOf(face);
+    if (sheet != sheets.end())
+    {
+      look(*sheet, this->Mesh.NormalOf(face));
+    }
+    else
+    {
+      sheets.front().IsAlone = false;
+    }
+  }
+  return sheets;
 }
 
 bool InterfaceClearance::PassAny(

@@ -14,6 +14,9 @@
 
 namespace volumic
 {
+/** Of the angle between the normals of one sheet and their mean: less than 84 degrees. */
+constexpr double LeastSheetCosine = 0.1;
+
 /** Corners of a triangle that there is not yet, and the vertices that they are. */
 MeshTriangle TriangleOf(const InterfaceMesh& mesh, const std::array<int, 3>& vertices);
 
@@ -101,6 +104,23 @@ public:
     std::vector<int>& near) const;
 
 private:
+  /** Faces between two objects that may come, and those near, also those that would go. */
+  struct Sheet
+  {
+    LabelMap::Number Behind;
+    LabelMap::Number Front;
+    VectorD Along;
+    bool IsOne = true;   ///< They all face about one way, see FindCrossings: none intersects others.
+    bool IsAlone = true; ///< None near is between other objects.
+
+    template <typename AnyFace>
+    bool Has(const AnyFace& face) const
+    {
+      return face.Behind == this->Behind && face.Front == this->Front;
+    }
+  };
+  std::vector<Sheet> FindSheets(
+    const std::vector<PlacedFace>& faces, const std::vector<int>& near) const;
   /** Whether one of its edges may be of a junction line. */
   bool IsAtLine(const PlacedFace& face) const;
   /** @param others faces that stay, among them all that share an edge with these */

@@ -3,13 +3,14 @@
 #include "Core/Interfaces/InterfaceFields.h"
 
 #include "Core/Common/Spans.h"
-#include "Core/Labels/BoundaryRows.h"
+#include "Core/Labels/VoxelBits.h"
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <numeric>
+#include <utility>
 
 namespace volumic
 {
@@ -21,40 +22,40 @@ constexpr std::int64_t LargePart = 8;
 /** Bricks beyond a part in which its field is made, too: further than the Gaussian reaches. */
 constexpr int PartMargin = 6;
 
-/**
- * Calls visit(brick, first voxel) for the bricks of the map about the boundary of an object, and
- * within some.
- */
+/** Calls visit(i, j, k) for the bricks within some that have voxels of a set. */
 template <typename Visitor>
-void ForBricks(const LabelBricks& map, int object, const VoxelBox& within, Visitor&& visit)
+void ForBricks(const VoxelBits& voxels, const VoxelBox& within, Visitor&& visit)
 {
   constexpr int side = LabelBricks::Side;
-  const BoundaryRows rows(map, object, within.Grown(1));
-  const std::array<int, 3>& first = rows.Box().First;
-  const VoxelBox all = VoxelBox::Of(map.Size());
-  for (int k = 0; k < rows.Box().Length(2) / side; ++k)
+  const auto hasVoxels = [&](int i, int j, int k)
   {
-    for (int j = 0; j < rows.Box().Length(1) / side; ++j)
+    unsigned any = 0;
+    for (int row = 0; row < side * side; ++row)
     {
-      for (int i = 0; i < rows.Box().Length(0) / side; ++i)
+      any |= voxels.FourAt(i * side, j * side + row % side, k * side + row / side);
+    }
+    return any != 0;
+  };
+  VoxelBox box = voxels.Box();
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    box.First[axis] /= side;
+    box.End[axis] /= side;
+  }
+  const VoxelBox all = box.CommonWith(within);
+  for (int k = all.First[2]; k < all.End[2]; ++k)
+  {
+    for (int j = all.First[1]; j < all.End[1]; ++j)
+    {
+      for (int i = all.First[0]; i < all.End[0]; ++i)
       {
-        const std::array<int, 3> at = { first[0] / side + i, first[1] / side + j,
-          first[2] / side + k };
-        if (all.Contains(at) && within.Contains(at) && rows.Has(i, j, k))
+        if (hasVoxels(i, j, k))
         {
-          visit(static_cast<std::size_t>(all.NumberOf(at[0], at[1], at[2])),
-            std::array<int, 3>{ at[0] * side, at[1] * side, at[2] * side });
+          visit(i, j, k);
         }
       }
     }
   }
-}
-
-bool HasBricks(const LabelBricks& map, int object, const VoxelBox& within)
-{
-  bool has = false;
-  ForBricks(map, object, within, [&](std::size_t, const std::array<int, 3>&) { has = true; });
-  return has;
 }
 }
 
@@ -71,7 +72,7 @@ InterfaceFields::InterfaceFields(const LabelBricks& bricks, const LabelFieldOpti
     [&](int a, int b)
     { return bricks.ExtentOf(a).Bricks.Count() > bricks.ExtentOf(b).Bricks.Count(); });
   this->Shifts.assign(count, 0.f);
-  this->FindBricks(executor);
+  std::vector<std::vector<Part>> parts(count);
   std::atomic<std::size_t> done{ 0 };
   std::atomic<bool> goesOn{ true };
   const std::int64_t most = 8 * static_cast<std::int64_t>(std::pow(options.PartSize, 3));
@@ -80,14 +81,13 @@ InterfaceFields::InterfaceFields(const LabelBricks& bricks, const LabelFieldOpti
     if (goesOn && bricks.ExtentOf(object).Voxels > 0)
     {
       const VoxelBox box = bricks.ExtentOf(object).Bricks.Grown(1);
-      const std::vector<VoxelBox> parts =
-        box.Count() > most ? box.Parts(options.PartSize) : std::vector<VoxelBox>{ box };
-      for (const VoxelBox& part : parts)
+      for (const VoxelBox& within :
+        box.Count() > most ? box.Parts(options.PartSize) : std::vector<VoxelBox>{ box })
       {
-        if (goesOn && (parts.size() == 1 || HasBricks(bricks, object, part)))
+        if (goesOn)
         {
-          this->Take(object, part,
-            MakeLabelField(bricks, object, options, threads, part.Grown(PartMargin)));
+          parts[static_cast<std::size_t>(object)].push_back(this->PartOf(within,
+            MakeLabelField(bricks, object, options, threads, within.Grown(PartMargin))));
         }
       }
     }
@@ -110,65 +110,69 @@ InterfaceFields::InterfaceFields(const LabelBricks& bricks, const LabelFieldOpti
   }
   ForSpans(executor, count - first, 1,
     [&](std::size_t n, std::size_t, std::size_t) { make(order[first + n], OnThisThread()); });
+  this->Join(parts);
 }
 
-void InterfaceFields::FindBricks(Executor& executor)
+InterfaceFields::Part InterfaceFields::PartOf(const VoxelBox& within, const LabelField& field) const
 {
-  std::vector<std::vector<std::size_t>> ofObjects(this->Shifts.size());
-  ForSpans(executor, ofObjects.size(), 1,
-    [&](std::size_t object, std::size_t, std::size_t)
+  Part part;
+  const VoxelBox inMap = VoxelBox::Of(this->Map.Size()).CommonWith(within);
+  ForBricks(field.Rows, inMap,
+    [&](int i, int j, int k) { part.Bricks.push_back(this->NumberOfBrick(i, j, k)); });
+  part.Values.reserve(part.Bricks.size() * VoxelsOfBrick);
+  ForBricks(field.Rows, inMap,
+    [&](int i, int j, int k)
     {
-      if (this->Map.ExtentOf(static_cast<int>(object)).Voxels > 0)
+      for (int z = k * Side; z < (k + 1) * Side; ++z)
       {
-        ForBricks(this->Map, static_cast<int>(object), VoxelBox::Of(this->Map.Size()),
-          [&](std::size_t brick, const std::array<int, 3>&)
-          { ofObjects[object].push_back(brick); });
-      }
-    });
-  this->First.assign(static_cast<std::size_t>(VoxelBox::Of(this->Map.Size()).Count()) + 1, 0);
-  for (const std::vector<std::size_t>& found : ofObjects)
-  {
-    for (const std::size_t brick : found)
-    {
-      ++this->First[brick + 1];
-    }
-  }
-  std::partial_sum(this->First.begin(), this->First.end(), this->First.begin());
-  this->Objects.resize(this->First.back());
-  std::vector<std::size_t> next(this->First.begin(), this->First.end() - 1);
-  for (std::size_t object = 0; object < ofObjects.size(); ++object)
-  {
-    for (const std::size_t brick : ofObjects[object])
-    {
-      this->Objects[next[brick]++] = static_cast<LabelMap::Number>(object);
-    }
-  }
-  MakeZeroed(this->Values, this->First.back() * VoxelsOfBrick);
-}
-
-void InterfaceFields::Take(int object, const VoxelBox& part, const LabelField& field)
-{
-  ForBricks(this->Map, object, part,
-    [&](std::size_t brick, const std::array<int, 3>& at)
-    {
-      float* to = this->Values.data() + (this->ValuesIn(brick, object) - this->Values.data());
-      for (int z = at[2]; z < at[2] + Side; ++z)
-      {
-        for (int y = at[1]; y < at[1] + Side; ++y)
+        for (int y = j * Side; y < (j + 1) * Side; ++y)
         {
-          to = std::copy_n(field.Values.data() + field.Box.NumberOf(at[0], y, z), Side, to);
+          const float* row = field.Values.data() + field.Box.NumberOf(i * Side, y, z);
+          part.Values.insert(part.Values.end(), row, row + Side);
         }
       }
     });
+  return part;
 }
 
-const float* InterfaceFields::ValuesIn(std::size_t brick, int object) const
+void InterfaceFields::Join(std::vector<std::vector<Part>>& parts)
+{
+  this->First.assign(static_cast<std::size_t>(VoxelBox::Of(this->Map.Size()).Count()) + 1, 0);
+  for (const std::vector<Part>& ofObject : parts)
+  {
+    for (const Part& part : ofObject)
+    {
+      for (const std::size_t brick : part.Bricks)
+      {
+        ++this->First[brick + 1];
+      }
+    }
+  }
+  std::partial_sum(this->First.begin(), this->First.end(), this->First.begin());
+  this->OfBricks.resize(this->First.back());
+  std::vector<std::size_t> next(this->First.begin(), this->First.end() - 1);
+  for (std::size_t object = 0; object < parts.size(); ++object)
+  {
+    for (Part& part : parts[object])
+    {
+      this->Values.push_back(std::move(part.Values));
+      float* values = this->Values.back().data();
+      for (const std::size_t brick : part.Bricks)
+      {
+        this->OfBricks[next[brick]++] = { values, static_cast<LabelMap::Number>(object) };
+        values += VoxelsOfBrick;
+      }
+    }
+  }
+}
+
+float* InterfaceFields::ValuesIn(std::size_t brick, int object) const
 {
   for (std::size_t n = this->First[brick]; n < this->First[brick + 1]; ++n)
   {
-    if (this->Objects[n] == object)
+    if (this->OfBricks[n].Object == object)
     {
-      return this->Values.data() + n * VoxelsOfBrick;
+      return this->OfBricks[n].Values;
     }
   }
   return nullptr;
@@ -185,23 +189,6 @@ float InterfaceFields::At(int object, int x, int y, int z) const
   return values[PlaceInBrick(i, j, k)];
 }
 
-LabelMap::Number InterfaceFields::LargestAt(int i, int j, int k) const
-{
-  const std::size_t brick = this->NumberOfBrick(i / Side, j / Side, k / Side);
-  LabelMap::Number best = this->Map.Map().At(i, j, k);
-  float most = this->At(best, i, j, k);
-  for (std::size_t n = this->First[brick]; n < this->First[brick + 1]; ++n)
-  {
-    const float value = this->Values[n * VoxelsOfBrick + PlaceInBrick(i, j, k)];
-    if (value > most)
-    {
-      best = this->Objects[n];
-      most = value;
-    }
-  }
-  return best;
-}
-
 void InterfaceFields::Push(int object, const std::array<int, 3>& voxel, float by)
 {
   const LabelMap& map = this->Map.Map();
@@ -210,10 +197,9 @@ void InterfaceFields::Push(int object, const std::array<int, 3>& voxel, float by
   {
     const std::array<int, 3> at = this->SourceOf(place);
     const std::size_t brick = this->NumberOfBrick(at[0] / Side, at[1] / Side, at[2] / Side);
-    if (const float* values = this->ValuesIn(brick, object))
+    if (float* values = this->ValuesIn(brick, object))
     {
-      this->Values[static_cast<std::size_t>(values - this->Values.data()) +
-        PlaceInBrick(at[0], at[1], at[2])] += own == object ? size : -size;
+      values[PlaceInBrick(at[0], at[1], at[2])] += own == object ? size : -size;
     }
   };
   add(voxel, by);

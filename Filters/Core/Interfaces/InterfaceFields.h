@@ -51,13 +51,6 @@ public:
     return voxel;
   }
 
-  /** Whether there is more than one object in a brick, or beside it. */
-  bool HasInterfaces(int i, int j, int k) const
-  {
-    const std::size_t brick = this->NumberOfBrick(i, j, k);
-    return this->First[brick + 1] > this->First[brick];
-  }
-
   /** The field of an object at a voxel of the map; far from its boundary +-LabelField::Far. */
   float At(int object, int i, int j, int k) const;
 
@@ -98,9 +91,6 @@ public:
     shift = std::clamp(shift + by, -most, most);
   }
 
-  /** The object whose field is the largest at a voxel. */
-  LabelMap::Number LargestAt(int i, int j, int k) const;
-
 private:
   static constexpr float MostShift = 3.f; ///< smallest distances of voxels
   static constexpr int Side = LabelBricks::Side;
@@ -114,20 +104,31 @@ private:
   {
     return static_cast<std::size_t>(((k % Side) * Side + j % Side) * Side + i % Side);
   }
-  /** Finds the bricks of all objects, and makes room for their values. */
-  void FindBricks(Executor& executor);
-  /** The values of an object in some bricks. */
-  void Take(int object, const VoxelBox& part, const LabelField& field);
+  /** The bricks that a part of a map has of an object, and their values, x fastest. */
+  struct Part
+  {
+    std::vector<std::size_t> Bricks;
+    LargeVector<float> Values;
+  };
+  Part PartOf(const VoxelBox& within, const LabelField& field) const;
+  /** Sorts the parts of each object by bricks. */
+  void Join(std::vector<std::vector<Part>>& parts);
   /** The values of a brick, x fastest; null: it has none of this object. */
-  const float* ValuesIn(std::size_t brick, int object) const;
+  float* ValuesIn(std::size_t brick, int object) const;
+
+  struct Brick
+  {
+    float* Values;
+    LabelMap::Number Object;
+  };
 
   const LabelBricks& Map;
   std::array<double, 3> Lengths;
   bool IsPeriodic;
-  std::vector<std::size_t> First;        ///< of each brick, in Objects
-  std::vector<LabelMap::Number> Objects; ///< those of a brick sorted
-  LargeVector<float> Values;             ///< a brick of each
-  std::vector<float> Shifts;             ///< of each object
+  std::vector<std::size_t> First;         ///< of each brick, in OfBricks
+  std::vector<Brick> OfBricks;            ///< those of a brick sorted by object
+  std::vector<LargeVector<float>> Values; ///< of all parts
+  std::vector<float> Shifts;              ///< of each object
 };
 }
 

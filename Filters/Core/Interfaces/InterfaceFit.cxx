@@ -3,12 +3,10 @@
 #include "Core/Interfaces/InterfaceFit.h"
 
 #include "Core/Common/Spans.h"
-#include "Core/Image/VoxelNumbers.h"
-#include "Core/Labels/WrongVoxels.h"
+#include "Core/Interfaces/MismatchedVoxels.h"
 
 #include <algorithm>
 #include <array>
-#include <cstdint>
 #include <map>
 #include <vector>
 
@@ -82,39 +80,6 @@ SumsOfPairs SumFaces(const InterfaceMesh& mesh, const InterfaceFields& fields, E
   return all;
 }
 
-/** Of each object but 0 the voxels that its surface has on the wrong side. */
-std::vector<std::vector<std::int64_t>> FindWrong(const InterfaceMesh& mesh,
-  const InterfaceFields& fields, double tolerance, Executor& executor)
-{
-  const LabelBricks& bricks = fields.Bricks();
-  std::vector<std::vector<int>> faces = mesh.FindFacesOfObjects();
-  std::vector<std::vector<std::int64_t>> wrong(
-    static_cast<std::size_t>(bricks.Map().NumberOfObjects) + 1);
-  faces.resize(wrong.size());
-  ForSpans(executor, wrong.size(), 1,
-    [&](std::size_t object, std::size_t, std::size_t)
-    {
-      if (object == 0)
-      {
-        return; // It has no end.
-      }
-      std::vector<int> vertices;
-      IndexedSurface surface = mesh.SurfaceOf(static_cast<int>(object), faces[object], vertices);
-      for (Point& p : surface.Points)
-      {
-        for (int axis = 0; axis < 3; ++axis)
-        {
-          p[axis] /= fields.Step()[axis];
-        }
-      }
-      wrong[object] = FindWrongVoxels(bricks, static_cast<int>(object), surface, bricks.Inside());
-      if (tolerance > 0.)
-      {
-        wrong[object] = FindMissedVoxels(bricks.Map(), wrong[object], surface, tolerance);
-      }
-    });
-  return wrong;
-}
 }
 
 void CorrectVolumes(
@@ -172,24 +137,13 @@ void CorrectVolumes(
 std::size_t PushWrongVoxels(const InterfaceMesh& mesh, InterfaceFields& fields, double tolerance,
   Executor& executor)
 {
-  const LabelMap& map = fields.Bricks().Map();
-  const VoxelNumbers numbers(map.Size());
-  const std::vector<std::vector<std::int64_t>> wrong =
-    FindWrong(mesh, fields, tolerance, executor);
-  std::size_t count = 0;
-  for (std::size_t object = 1; object < wrong.size(); ++object)
+  const std::vector<MismatchedVoxel> wrong =
+    FindMismatchedVoxels(mesh, fields.Bricks(), fields.Step(), tolerance, executor);
+  for (const MismatchedVoxel& voxel : wrong)
   {
-    for (const std::int64_t voxel : wrong[object])
-    {
-      const std::array<int, 3> place = numbers.PlaceOf(voxel);
-      fields.Push(static_cast<int>(object), place, PushOfWrong);
-      if (map.At(place[0], place[1], place[2]) == 0)
-      {
-        fields.Push(0, place, PushOfWrong);
-      }
-    }
-    count += wrong[object].size();
+    fields.Push(voxel.OfMap, voxel.At, PushOfWrong);
+    fields.Push(voxel.OfMesh, voxel.At, PushOfWrong);
   }
-  return count;
+  return wrong.size();
 }
 }

@@ -12,6 +12,25 @@
 
 namespace volumic
 {
+void InterfaceMesh::Assign(LargeVector<Vector> positions, LargeVector<Face> faces)
+{
+  this->Position = std::move(positions);
+  this->Faces = std::move(faces);
+  this->StratumOf.assign(this->Position.size(), Stratum::Interface);
+  this->Size.assign(this->Position.size(), 1.f);
+  this->Head.assign(this->Position.size(), -1);
+  this->NextImage.resize(this->Position.size());
+  std::iota(this->NextImage.begin(), this->NextImage.end(), 0);
+  this->Next.resize(3 * this->Faces.size());
+  for (std::size_t f = 0; f < this->Faces.size(); ++f)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      this->Link(static_cast<int>(3 * f) + k, this->Faces[f].Vertex[k]);
+    }
+  }
+}
+
 int InterfaceMesh::AddVertex(const Vector& position, Stratum stratum, float size)
 {
   this->Position.push_back(position);
@@ -178,11 +197,30 @@ void InterfaceMesh::FindObjects(int v, std::vector<int>& objects) const
   objects.erase(std::unique(objects.begin(), objects.end()), objects.end());
 }
 
+bool InterfaceMesh::HasOnePair(int v) const
+{
+  const Face* first = nullptr;
+  bool isOne = true;
+  this->ForFaces(v,
+    [&](int f)
+    {
+      const Face& face = this->Faces[static_cast<std::size_t>(f)];
+      first = first ? first : &face;
+      isOne = isOne && face.Behind == first->Behind && face.Front == first->Front;
+    });
+  return isOne;
+}
+
 void InterfaceMesh::FindStrata()
 {
   std::vector<int> neighbours;
   for (int v = 0; v < static_cast<int>(this->Position.size()); ++v)
   {
+    if (this->HasOnePair(v))
+    {
+      this->StratumOf[static_cast<std::size_t>(v)] = Stratum::Interface;
+      continue;
+    }
     this->FindNeighbours(v, neighbours);
     int lines = 0;
     for (std::size_t n = 0; n < neighbours.size();)

@@ -91,6 +91,8 @@ public:
   /** Makes a ring of vertices that are images of each other. */
   void JoinImages(const std::vector<int>& images);
 
+  /** Takes these, in place of what it has, all sizes 1; strata are to be found. */
+  void Assign(LargeVector<Vector> positions, LargeVector<Face> faces);
   int AddVertex(const Vector& position, Stratum stratum, float size = 1.f);
   int AddFace(const Face& face);
   void RemoveFace(int face);
@@ -151,6 +153,8 @@ public:
 private:
   static constexpr float Infinite = std::numeric_limits<float>::infinity();
 
+  /** Whether all faces of a vertex are between the same objects. */
+  bool HasOnePair(int v) const;
   void Link(int corner, int v);
   void Unlink(int corner, int v);
 

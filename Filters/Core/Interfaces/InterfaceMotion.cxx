@@ -4,6 +4,7 @@
 
 #include "Core/Common/Spans.h"
 #include "Core/Interfaces/InterfaceClearance.h"
+#include "Core/Interfaces/InterfaceCrossings.h"
 #include "Core/Interfaces/TriangleShape.h"
 
 #include <algorithm>
@@ -24,40 +25,38 @@ class Verification
 public:
   Verification(InterfaceMesh& mesh, const LargeVector<Vector>& before, double tolerance,
     double leastAngle, Executor& executor)
-    : Mesh(mesh), Before(before), Clearance(mesh, tolerance), LeastAngle(leastAngle),
-      Threads(executor), IsBack(mesh.Position.size(), 0)
+    : Mesh(mesh), Before(before), Clearance(mesh, tolerance), Tolerance(tolerance),
+      LeastAngle(leastAngle), Threads(executor), IsBack(mesh.Position.size(), 0)
   {
   }
 
   void Run()
   {
-    std::vector<int> faces;
-    for (int f = 0; f < static_cast<int>(this->Mesh.Faces.size()); ++f)
-    {
-      if (this->Mesh.Faces[static_cast<std::size_t>(f)].IsThere())
-      {
-        faces.push_back(f);
-      }
-    }
     std::vector<int> back;
-    for (const int f : faces)
+    this->TakeBackTurned(this->FindTurned(), back);
+    const InterfaceCrossings crossings = FindCrossings(this->Mesh, this->Tolerance, this->Threads);
+    this->TakeBackPairs(crossings.Pairs, back);
+    this->TakeBackPairs(this->FindPassed(crossings.Doubtful), back);
+    if (back.empty())
     {
-      this->TakeBackTurned(f, back);
+      return;
     }
     this->Clearance.Reset(this->Threads);
     // Each round takes back a vertex more, or is the last one.
-    for (bool isFirst = true; isFirst || !faces.empty(); isFirst = false)
+    while (!back.empty())
     {
-      this->TakeBackIntersecting(faces, isFirst, back);
-      this->FindFacesOf(back, faces);
+      std::vector<int> faces = this->FindFacesOf(back);
       back.clear();
-      for (const int f : faces)
-      {
-        this->TakeBackTurned(f, back);
-      }
-      std::vector<int> more;
-      this->FindFacesOf(back, more);
+      this->TakeBackTurned(faces, back);
+      const std::vector<int> more = this->FindFacesOf(back);
       faces.insert(faces.end(), more.begin(), more.end());
+      this->Follow(back);
+      const std::vector<std::array<int, 2>> pairs = this->FindIntersecting(faces);
+      std::vector<int> now;
+      this->TakeBackPairs(pairs, now);
+      this->TakeBackPairs(this->FindPassed(faces), now);
+      this->Follow(now);
+      back.insert(back.end(), now.begin(), now.end());
     }
   }
 
@@ -74,7 +73,7 @@ private:
     }
   }
 
-  void TakeBackTurned(int f, std::vector<int>& back)
+  bool HasTurned(int f) const
   {
     const InterfaceMesh::Face& face = this->Mesh.Faces[static_cast<std::size_t>(f)];
     const auto at = [&](int k)
@@ -86,51 +85,91 @@ private:
       const double angle = SmallestAngle(TriangleOf(this->Mesh, face.Vertex));
       return angle < this->LeastAngle && angle < SmallestAngle(at(0), at(1), at(2));
     };
-    if ((this->LeastAngle > 0. && isSpoilt()) ||
-      Dot(before, after) < LeastTurnCosine * Length(before) * Length(after))
-    {
-      for (const int v : face.Vertex)
+    return (this->LeastAngle > 0. && isSpoilt()) ||
+      Dot(before, after) < LeastTurnCosine * Length(before) * Length(after);
+  }
+
+  std::vector<int> FindTurned() const
+  {
+    std::vector<std::vector<int>> ofSpans((this->Mesh.Faces.size() + SpanSize - 1) / SpanSize);
+    ForSpans(this->Threads, this->Mesh.Faces.size(), SpanSize,
+      [&](std::size_t span, std::size_t begin, std::size_t end)
       {
-        this->TakeBack(v, back);
+        for (std::size_t f = begin; f < end; ++f)
+        {
+          if (this->Mesh.Faces[f].IsThere() && this->HasTurned(static_cast<int>(f)))
+          {
+            ofSpans[span].push_back(static_cast<int>(f));
+          }
+        }
+      });
+    return Joined(this->Threads, ofSpans);
+  }
+
+  void TakeBackTurned(const std::vector<int>& faces, std::vector<int>& back)
+  {
+    for (const int f : faces)
+    {
+      if (this->HasTurned(f))
+      {
+        this->TakeBackFace(f, back);
       }
     }
   }
 
-  void TakeBackIntersecting(const std::vector<int>& faces, bool isFirst, std::vector<int>& back)
+  void TakeBackFace(int f, std::vector<int>& back)
   {
-    this->Follow(back);
+    for (const int v : this->Mesh.Faces[static_cast<std::size_t>(f)].Vertex)
+    {
+      this->TakeBack(v, back);
+    }
+  }
+
+  void TakeBackPairs(const std::vector<std::array<int, 2>>& pairs, std::vector<int>& back)
+  {
+    for (const std::array<int, 2>& pair : pairs)
+    {
+      this->TakeBackFace(pair[0], back);
+      this->TakeBackFace(pair[1], back);
+    }
+  }
+
+  /** Of each of some faces one that other(face, room) finds, if it finds one. */
+  template <typename Other>
+  std::vector<std::array<int, 2>> FindPairs(const std::vector<int>& faces, const Other& other) const
+  {
     std::vector<std::vector<std::array<int, 2>>> ofSpans((faces.size() + SpanSize - 1) / SpanSize);
     ForSpans(this->Threads, faces.size(), SpanSize,
       [&](std::size_t span, std::size_t begin, std::size_t end)
       {
-        std::vector<int> near;
+        std::vector<int> room;
         for (std::size_t n = begin; n < end; ++n)
         {
-          const int first = isFirst ? faces[n] : 0;
-          int other = this->Clearance.FindIntersecting(faces[n], first, near);
-          other = other >= 0 ? other : this->FindPassed(faces[n], first, near);
-          if (other >= 0)
+          const int found = other(faces[n], room);
+          if (found >= 0)
           {
-            ofSpans[span].push_back({ faces[n], other });
+            ofSpans[span].push_back({ faces[n], found });
           }
         }
       });
-    for (const std::array<int, 2>& pair : Joined(this->Threads, ofSpans))
-    {
-      for (const int f : pair)
-      {
-        for (const int v : this->Mesh.Faces[static_cast<std::size_t>(f)].Vertex)
-        {
-          this->TakeBack(v, back);
-        }
-      }
-    }
-    this->Follow(back);
+    return Joined(this->Threads, ofSpans);
   }
 
-  /** One of those from `first` on with an edge of this face that it has been turned past; -1: none.
-   */
-  int FindPassed(int face, int first, std::vector<int>& about) const
+  std::vector<std::array<int, 2>> FindIntersecting(const std::vector<int>& faces) const
+  {
+    return this->FindPairs(faces,
+      [this](int face, std::vector<int>& near)
+      { return this->Clearance.FindIntersecting(face, 0, near); });
+  }
+
+  std::vector<std::array<int, 2>> FindPassed(const std::vector<int>& faces) const
+  {
+    return this->FindPairs(faces,
+      [this](int face, std::vector<int>& about) { return this->FindPassed(face, about); });
+  }
+
+  /** One with an edge of this face that it has been turned past; -1: none. */
+  int FindPassed(int face, std::vector<int>& about) const
   {
     const std::array<int, 3>& corners = this->Mesh.Faces[static_cast<std::size_t>(face)].Vertex;
     for (int k = 0; k < 3; ++k)
@@ -140,7 +179,7 @@ private:
       this->Mesh.FindFaces(u, v, about);
       for (const int other : about)
       {
-        if (other != face && other >= first &&
+        if (other != face &&
           HavePassed(u, v, { this->FaceBefore(face), this->FaceBefore(other) },
             { TriangleOf(this->Mesh, corners),
               TriangleOf(this->Mesh, this->Mesh.Faces[static_cast<std::size_t>(other)].Vertex) }))
@@ -173,20 +212,22 @@ private:
     }
   }
 
-  void FindFacesOf(const std::vector<int>& vertices, std::vector<int>& faces) const
+  std::vector<int> FindFacesOf(const std::vector<int>& vertices) const
   {
-    faces.clear();
+    std::vector<int> faces;
     for (const int v : vertices)
     {
       this->Mesh.ForFaces(v, [&](int f) { faces.push_back(f); });
     }
     std::sort(faces.begin(), faces.end());
     faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+    return faces;
   }
 
   InterfaceMesh& Mesh;
   const LargeVector<Vector>& Before;
   InterfaceClearance Clearance;
+  double Tolerance;
   double LeastAngle;
   Executor& Threads;
   std::vector<unsigned char> IsBack;

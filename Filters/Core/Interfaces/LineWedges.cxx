@@ -39,11 +39,11 @@ LineWedge NarrowestWedgeAt(
   return narrowest;
 }
 
-LineWedge NarrowestWedge(const InterfaceMesh& mesh)
+LineWedge NarrowestWedge(const InterfaceMesh& mesh, const std::vector<std::array<int, 2>>& lines)
 {
   LineWedge narrowest;
   std::vector<int> faces;
-  for (const std::array<int, 2>& edge : mesh.FindLines())
+  for (const std::array<int, 2>& edge : lines)
   {
     mesh.FindFaces(edge[0], edge[1], faces);
     const LineWedge wedge = NarrowestWedgeAt(mesh, edge, faces);
@@ -52,12 +52,13 @@ LineWedge NarrowestWedge(const InterfaceMesh& mesh)
   return narrowest;
 }
 
-int CountContactsOfOneTriangle(const InterfaceMesh& mesh)
+int CountContactsOfOneTriangle(
+  const InterfaceMesh& mesh, const std::vector<std::array<int, 2>>& lines)
 {
   std::vector<unsigned char> sides(mesh.Faces.size(), 0);
   std::vector<int> faces;
   int count = 0;
-  for (const std::array<int, 2>& edge : mesh.FindLines())
+  for (const std::array<int, 2>& edge : lines)
   {
     mesh.FindFaces(edge[0], edge[1], faces);
     for (const int f : faces)

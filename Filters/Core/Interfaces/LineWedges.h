@@ -24,11 +24,16 @@ struct LineWedge
 LineWedge NarrowestWedgeAt(
   const InterfaceMesh& mesh, const std::array<int, 2>& edge, const std::vector<int>& faces);
 
-/** That of all lines; without an edge where there are none. */
-LineWedge NarrowestWedge(const InterfaceMesh& mesh);
+/** The narrowest wedge of some edges of lines; without an edge where there are none. */
+LineWedge NarrowestWedge(const InterfaceMesh& mesh, const std::vector<std::array<int, 2>>& lines);
+inline LineWedge NarrowestWedge(const InterfaceMesh& mesh)
+{
+  return NarrowestWedge(mesh, mesh.FindLines());
+}
 
-/** How many triangles have junction lines on all sides: two objects touch there by one alone. */
-int CountContactsOfOneTriangle(const InterfaceMesh& mesh);
+/** Return how many triangles have such edges on all sides: two objects touch there by one alone. */
+int CountContactsOfOneTriangle(
+  const InterfaceMesh& mesh, const std::vector<std::array<int, 2>>& lines);
 }
 
 #endif

@@ -3,7 +3,7 @@
 #include "Core/Interfaces/MakeInterfaces.h"
 
 #include "Core/Interfaces/InterfaceFit.h"
-#include "Core/Interfaces/InterfaceLattice.h"
+#include "Core/Interfaces/InterfaceStart.h"
 #include "Core/Interfaces/InterfaceMotion.h"
 #include "Core/Interfaces/InterfaceRemesher.h"
 #include "Core/Interfaces/InterfaceSizes.h"
@@ -19,16 +19,16 @@ namespace volumic
 namespace
 {
 /** Rounds in which short edges are collapsed, */
-constexpr int Rounds = 5;
+constexpr int Rounds = 3;
 /** then those of splits, flips and steps alone, at least and at most: */
-constexpr int LeastLastRounds = 2;
-constexpr int MostLastRounds = 5;
+constexpr int LeastLastRounds = 1;
+constexpr int MostLastRounds = 2;
 /** while more voxels are on the wrong side than this share of the vertices. */
 constexpr double FewWrong = 0.01;
 /** With a tolerance there are other last rounds; by what factor sizes may grow in each of them. */
 constexpr std::array<double, 3> Growths = { 2.5, 1.5, 1.1 };
 /** The round from which on vertices are so near to their places that fields are changed. */
-constexpr int FirstFit = 2;
+constexpr int FirstFit = 1;
 /** Rounds of slivers' repair at the end: one makes some anew. */
 constexpr int LastSliverRounds = 3;
 /** Steps of vertices in a round; the first one has too many of them. */
@@ -80,7 +80,7 @@ InterfaceMesh MakeInterfaces(InterfaceFields& fields, const InterfaceOptions& op
     isGraded ? std::min(options.Tolerance, MostStraightening) : MostStraightening;
   double share = 0.;
   const auto mayGoOn = [&] { return goOn(share); };
-  InterfaceMesh mesh = InterfaceLattice(fields, options.Edge, executor).Start(executor);
+  InterfaceMesh mesh = StartInterfaces(fields, executor);
   std::size_t wrong = 0;
   for (int round = 0; round < rounds && mayGoOn(); ++round)
   {
@@ -117,19 +117,14 @@ InterfaceMesh MakeInterfaces(InterfaceFields& fields, const InterfaceOptions& op
   // Of the last steps some slivers are left; without them volumes are a little different again.
   Edit(mesh, options.Edge, false, LastSliverRounds, executor, mayGoOn);
   mesh.Compact();
-  const auto openNarrowPlaces = [&]
-  {
-    NarrowPlaces(mesh, fields, options.Edge, ToleranceOfEdge * options.Edge,
-      options.VoxelTolerance + options.Tolerance)
-      .Open(executor, mayGoOn);
-  };
   if (mayGoOn())
   {
-    openNarrowPlaces(); // For the volumes, as it will be done again.
     CorrectVolumes(mesh, fields, options.Tolerance, executor);
     MoveInterfaces(mesh, fields, 1, 0., LeastShare * options.Edge, ToleranceOfEdge * options.Edge,
       SliverAngle, executor, straightening);
-    openNarrowPlaces();
+    NarrowPlaces(mesh, fields, options.Edge, ToleranceOfEdge * options.Edge,
+      options.VoxelTolerance + options.Tolerance)
+      .Open(executor, mayGoOn);
   }
   if (fields.ArePeriodic())
   {

@@ -30,7 +30,7 @@ struct InterfaceOptions
  * The interfaces of all objects of a label map, as one conforming mesh without intersections. Not
  * the paper's: what evolves is no closed surface, and does not change its topology.
  *
- * 1. The start is cut out of a lattice (InterfaceLattice).
+ * 1. The start has the topology of the voxels (StartInterfaces).
  * 2. Rounds of edits (InterfaceRemesher) bring its edges to one length, while its vertices go to
  *    where the fields of the objects beside them are the same (MoveInterfaces).
  * 3. Meanwhile fields are shifted so that each object keeps the volume of its voxels, and changed

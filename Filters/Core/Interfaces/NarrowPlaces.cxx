@@ -3,6 +3,7 @@
 #include "Core/Interfaces/NarrowPlaces.h"
 
 #include "Core/Common/Spans.h"
+#include "Core/Interfaces/InterfaceCrossings.h"
 #include "Core/Interfaces/LineWedges.h"
 #include "Core/Interfaces/TriangleShape.h"
 #include "Core/Mesh/TriangleDistance.h"
@@ -96,29 +97,40 @@ void NarrowPlaces::Open(Executor& executor, const std::function<bool()>& goOn)
 std::vector<int> NarrowPlaces::FindVertices(Executor& executor)
 {
   const LargeVector<InterfaceMesh::Face>& faces = this->Mesh.Faces;
+  // In one sheet there are no gaps, up to the margin, which is less than the cubes' width.
+  const std::vector<int> doubtful =
+    FindCrossings(this->Mesh, NarrowGap * this->Edge, executor).Doubtful;
   std::vector<std::vector<int>> ofSpans((faces.size() + SpanSize - 1) / SpanSize);
   ForSpans(executor, faces.size(), SpanSize,
     [&](std::size_t span, std::size_t begin, std::size_t end)
     {
-      std::vector<int> near;
       const auto add = [&](const InterfaceMesh::Face& face)
       { ofSpans[span].insert(ofSpans[span].end(), face.Vertex.begin(), face.Vertex.end()); };
       for (std::size_t f = begin; f < end; ++f)
       {
-        if (!faces[f].IsThere())
-        {
-          continue;
-        }
-        bool isNarrow = SmallestAngle(TriangleOf(this->Mesh, faces[f].Vertex)) < NarrowAngle;
-        this->ForGapsAt(
-          static_cast<int>(f), near, [&](double) { isNarrow = true; }); // Both find it.
-        if (isNarrow)
+        if (faces[f].IsThere() &&
+          SmallestAngle(TriangleOf(this->Mesh, faces[f].Vertex)) < NarrowAngle)
         {
           add(faces[f]);
         }
       }
     });
+  std::vector<std::vector<int>> ofGaps((doubtful.size() + SpanSize - 1) / SpanSize);
+  ForSpans(executor, doubtful.size(), SpanSize,
+    [&](std::size_t span, std::size_t begin, std::size_t end)
+    {
+      std::vector<int> near;
+      for (std::size_t n = begin; n < end; ++n)
+      {
+        bool isNarrow = false;
+        this->ForGapsAt(doubtful[n], near, [&](double) { isNarrow = true; }); // Both find it.
+        const std::array<int, 3>& v = faces[static_cast<std::size_t>(doubtful[n])].Vertex;
+        ofGaps[span].insert(ofGaps[span].end(), v.begin(), isNarrow ? v.end() : v.begin());
+      }
+    });
   std::vector<int> vertices = Joined(executor, ofSpans);
+  const std::vector<int> atGaps = Joined(executor, ofGaps);
+  vertices.insert(vertices.end(), atGaps.begin(), atGaps.end());
   for (const std::array<int, 2>& edge : this->Mesh.FindLines())
   {
     this->Mesh.FindFaces(edge[0], edge[1], this->AtEdge);

@@ -2,121 +2,126 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Labels/BoundaryGaussian.h"
 
+#include "Core/Common/Lanes.h"
+
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace volumic
 {
 namespace
 {
-/** Those of one side, which with their mirror images add up to 1. */
-std::vector<float> WeightsOf(double sigma)
+/** One side of a Gaussian, from the middle on, which with its mirror image adds up to 1. */
+class Weights
 {
-  const int reach = static_cast<int>(std::ceil(3. * sigma));
-  std::vector<double> weights = { 1. };
-  double sum = 1.;
-  for (int n = 1; n <= reach; ++n)
+public:
+  explicit Weights(double sigma)
   {
-    weights.push_back(std::exp(-0.5 * n * n / (sigma * sigma)));
-    sum += 2. * weights.back();
+    const int reach = static_cast<int>(std::ceil(3. * sigma));
+    std::vector<double> weights = { 1. };
+    double sum = 1.;
+    for (int n = 1; n <= reach; ++n)
+    {
+      weights.push_back(std::exp(-0.5 * n * n / (sigma * sigma)));
+      sum += 2. * weights.back();
+    }
+    std::transform(weights.begin(), weights.end(), std::back_inserter(this->Values),
+      [sum](double weight) { return static_cast<float>(weight / sum); });
   }
-  std::vector<float> all;
-  std::transform(weights.begin(), weights.end(), std::back_inserter(all),
-    [sum](double weight) { return static_cast<float>(weight / sum); });
-  return all;
+
+  int Reach() const { return static_cast<int>(this->Values.size()) - 1; }
+
+  /**
+   * Writes `count` sums, a multiple of 4, of values that are `stride` apart, of which there are
+   * `before` and `after` the middle.
+   */
+  void Sum(const float* from, std::ptrdiff_t stride, int before, int after, int count,
+    float* sums) const
+  {
+    const int both = std::min({ before, after, this->Reach() });
+    const int most = std::min(std::max(before, after), this->Reach());
+    const std::ptrdiff_t longer = before < after ? stride : -stride;
+    for (int x = 0; x < count; x += Lanes::Count)
+    {
+      const float* at = from + x;
+      Lanes sum = Lanes(this->Values[0]) * Lanes::Load(at);
+      for (int n = 1; n <= both; ++n)
+      {
+        sum += Lanes(this->Values[static_cast<std::size_t>(n)]) *
+          (Lanes::Load(at - n * stride) + Lanes::Load(at + n * stride));
+      }
+      for (int n = both + 1; n <= most; ++n)
+      {
+        sum += Lanes(this->Values[static_cast<std::size_t>(n)]) * Lanes::Load(at + n * longer);
+      }
+      sum.Store(sums + x);
+    }
+  }
+
+private:
+  std::vector<float> Values;
+};
 }
 
-int ReachOf(const std::vector<float>& weights)
+void BoundaryGaussian::Smooth(const VoxelBits& rows, const std::array<double, 3>& sigma,
+  const Source& source, const Receiver& receive, Executor& executor)
 {
-  return static_cast<int>(weights.size()) - 1;
-}
-}
-
-BoundaryGaussian::BoundaryGaussian(const BoundaryRows& rows, const std::array<double, 3>& sigma)
-  : Rows(&rows)
-  , BeforeZ(rows.Grown(2, static_cast<int>(std::ceil(3. * sigma[2]))))
-  , BeforeY(this->BeforeZ.Grown(1, static_cast<int>(std::ceil(3. * sigma[1]))))
-  , Weights{ WeightsOf(sigma[0]), WeightsOf(sigma[1]), WeightsOf(sigma[2]) }
-  , AlongX(static_cast<std::size_t>(rows.Box().Count()))
-  , AlongY(static_cast<std::size_t>(rows.Box().Count()))
-{
-}
-
-void BoundaryGaussian::Smooth(
-  const Source& source, LargeVector<float>& result, Executor& executor)
-{
-  this->SmoothAlongX(source, executor);
-  this->SmoothAcross(1, this->BeforeZ, this->AlongX, this->AlongY, executor);
-  this->SmoothAcross(2, *this->Rows, this->AlongY, result, executor);
-}
-
-void BoundaryGaussian::SmoothAlongX(const Source& source, Executor& executor)
-{
-  const std::vector<float>& weights = this->Weights[0];
-  const int reach = ReachOf(weights);
-  const VoxelBox& box = this->Rows->Box();
-  executor.For(static_cast<std::size_t>(this->BeforeY.NumberOfLayers()), 1,
+  const VoxelBox& box = rows.Box();
+  const std::array<Weights, 3> weights = { Weights(sigma[0]), Weights(sigma[1]),
+    Weights(sigma[2]) };
+  const VoxelBits beforeZ = rows.Grown(2, weights[2].Reach());
+  const VoxelBits beforeY = beforeZ.Grown(1, weights[1].Reach());
+  const auto count = static_cast<std::size_t>(box.Count());
+  if (this->AlongXY.size() < count)
+  {
+    MakeZeroed(this->AlongXY, count);
+  }
+  const auto lengthX = static_cast<std::size_t>(box.Length(0));
+  const std::size_t layer = lengthX * static_cast<std::size_t>(box.Length(1));
+  const auto layers = static_cast<std::size_t>(box.Length(2));
+  executor.For(layers, 1,
     [&](std::size_t begin, std::size_t end)
     {
-      std::vector<float> row(static_cast<std::size_t>(box.Length(0) + 2 * reach));
-      for (std::size_t layer = begin; layer < end; ++layer)
+      // A whole group of four beyond the reach, as sources may be read in groups.
+      const int reach = (weights[0].Reach() + 3) & ~3;
+      std::vector<float> row(lengthX + 2 * static_cast<std::size_t>(reach), 0.f);
+      std::vector<float> alongX(layer);
+      for (std::size_t n = begin; n < end; ++n)
       {
-        this->BeforeY.ForLayer(static_cast<int>(layer),
-          [&](int i, int j, int k, int count)
+        const auto smoothX = [&](int i, int j, int k, int length)
+        {
+          const int first = std::max(box.First[0], i - reach);
+          const int last = std::min(box.End[0], i + length + reach);
+          float* values = row.data() + reach - box.First[0];
+          source(first, j, k, last - first, values + first);
+          weights[0].Sum(values + i, 1, reach, reach, length,
+            alongX.data() + box.NumberOf(i, j, box.First[2]));
+        };
+        beforeY.ForLayer(static_cast<int>(n), smoothX);
+        beforeZ.ForLayer(static_cast<int>(n),
+          [&](int i, int j, int k, int length)
           {
-            source(i - reach, j, k, count + 2 * reach, row.data());
-            float* to = this->AlongX.data() + box.NumberOf(i, j, k);
-            const float* from = row.data() + reach;
-            for (int x = 0; x < count; ++x)
-            {
-              to[x] = weights[0] * from[x];
-            }
-            for (int n = 1; n <= reach; ++n)
-            {
-              const float weight = weights[static_cast<std::size_t>(n)];
-              for (int x = 0; x < count; ++x)
-              {
-                to[x] += weight * (from[x - n] + from[x + n]);
-              }
-            }
+            weights[1].Sum(alongX.data() + box.NumberOf(i, j, box.First[2]),
+              static_cast<std::ptrdiff_t>(lengthX), j - box.First[1], box.End[1] - 1 - j, length,
+              this->AlongXY.data() + box.NumberOf(i, j, k));
           });
       }
     });
-}
-
-void BoundaryGaussian::SmoothAcross(int axis, const BoundaryRows& rows,
-  const LargeVector<float>& from, LargeVector<float>& to, Executor& executor) const
-{
-  const std::vector<float>& weights = this->Weights[static_cast<std::size_t>(axis)];
-  const int reach = ReachOf(weights);
-  const VoxelBox& box = this->Rows->Box();
-  rows.For(executor,
-    [&](int i, int j, int k, int count)
+  executor.For(layers, 1,
+    [&](std::size_t begin, std::size_t end)
     {
-      float* sum = to.data() + box.NumberOf(i, j, k);
-      std::array<int, 3> at = { i, j, k };
-      const int middle = at[axis];
-      const float* centre = from.data() + box.NumberOf(i, j, k);
-      for (int x = 0; x < count; ++x)
+      std::vector<float> sums(lengthX);
+      for (std::size_t n = begin; n < end; ++n)
       {
-        sum[x] = weights[0] * centre[x];
-      }
-      for (int n = 1; n <= reach; ++n)
-      {
-        for (const int other : { middle - n, middle + n })
-        {
-          if (other < box.First[axis] || other >= box.End[axis])
+        rows.ForLayer(static_cast<int>(n),
+          [&](int i, int j, int k, int length)
           {
-            continue; // Nothing of the object is there.
-          }
-          at[axis] = other;
-          const float* row = from.data() + box.NumberOf(at[0], at[1], at[2]);
-          const float weight = weights[static_cast<std::size_t>(n)];
-          for (int x = 0; x < count; ++x)
-          {
-            sum[x] += weight * row[x];
-          }
-        }
+            weights[2].Sum(this->AlongXY.data() + box.NumberOf(i, j, k),
+              static_cast<std::ptrdiff_t>(layer), k - box.First[2], box.End[2] - 1 - k, length,
+              sums.data());
+            receive(i, j, k, length, sums.data());
+          });
       }
     });
 }

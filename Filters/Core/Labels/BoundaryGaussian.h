@@ -5,38 +5,32 @@
 
 #include "Core/Common/Executor.h"
 #include "Core/Common/ScratchMemory.h"
-#include "Core/Labels/BoundaryRows.h"
+#include "Core/Labels/VoxelBits.h"
 
 #include <array>
 #include <functional>
-#include <vector>
 
 namespace volumic
 {
-/** A Gaussian over the voxels about a boundary, one axis after another, cut off at 3 sigma. */
+/** A Gaussian at some voxels of a box, one axis after another, cut off at 3 sigma. */
 class BoundaryGaussian
 {
 public:
-  /** Writes `count` values from voxel (i, j, k) on along x; any place, 0 outside the box. */
+  /** Writes `count` values from voxel (i, j, k) on along x, all of them within the box. */
   using Source = std::function<void(int i, int j, int k, int count, float* values)>;
+  /** Gets the smoothed values of a run of voxels. */
+  using Receiver = std::function<void(int i, int j, int k, int count, const float* values)>;
 
-  /** @param sigma in voxels of each axis; 0: none. The rows must outlive it. */
-  BoundaryGaussian(const BoundaryRows& rows, const std::array<double, 3>& sigma);
-
-  /** @param result over the box of the rows; its other voxels are not written. */
-  void Smooth(const Source& source, LargeVector<float>& result, Executor& executor);
+  /**
+   * Smooth a source that is 0 outside the box; runs of a layer along z are received on one thread.
+   * @param rows  whole groups of four voxels along x, as the length of their box
+   * @param sigma in voxels of each axis
+   */
+  void Smooth(const VoxelBits& rows, const std::array<double, 3>& sigma, const Source& source,
+    const Receiver& receive, Executor& executor);
 
 private:
-  void SmoothAlongX(const Source& source, Executor& executor);
-  void SmoothAcross(int axis, const BoundaryRows& rows, const LargeVector<float>& from,
-    LargeVector<float>& to, Executor& executor) const;
-
-  const BoundaryRows* Rows;
-  BoundaryRows BeforeZ; ///< what the pass along z reads
-  BoundaryRows BeforeY; ///< what the pass along y reads
-  std::array<std::vector<float>, 3> Weights; ///< from the middle on
-  LargeVector<float> AlongX;
-  LargeVector<float> AlongY;
+  LargeVector<float> AlongXY; ///< a member, as its memory is used again
 };
 }
 

@@ -22,50 +22,6 @@ void AddTo(std::vector<LabelMap::Number>& objects, LabelMap::Number object)
   }
 }
 
-/** Bricks in which objects matter to a brick, along each axis. */
-constexpr int Reach = 2;
-
-/** Different objects: which, of one or two; of more only that they are. */
-struct FewObjects
-{
-  int Count = 0;
-  LabelMap::Number First = 0;
-  LabelMap::Number Second = 0;
-
-  void Add(LabelMap::Number object)
-  {
-    if (this->Count == 0)
-    {
-      this->First = object;
-      this->Count = 1;
-    }
-    else if (this->Count == 1 && object != this->First)
-    {
-      this->Second = object;
-      this->Count = 2;
-    }
-    else if (this->Count == 2 && object != this->First && object != this->Second)
-    {
-      this->Count = 3;
-    }
-  }
-  void Add(const FewObjects& others)
-  {
-    if (others.Count == 3)
-    {
-      this->Count = 3;
-    }
-    if (others.Count > 0)
-    {
-      this->Add(others.First);
-    }
-    if (others.Count > 1)
-    {
-      this->Add(others.Second);
-    }
-  }
-};
-
 /** The objects of the voxels [first, end) of a brick, which may reach beyond the map. */
 void FindObjectsIn(const LabelMap& map, const std::array<int, 3>& first,
   std::vector<LabelMap::Number>& objects)
@@ -98,7 +54,6 @@ LabelBricks::LabelBricks(const LabelMap& map, Executor& executor, const VoxelBox
   }
   this->FindObjects(executor);
   this->FindExtents(executor);
-  this->FindContested(executor);
 }
 
 LabelBricks::Range LabelBricks::ObjectsIn(int i, int j, int k) const
@@ -106,64 +61,6 @@ LabelBricks::Range LabelBricks::ObjectsIn(int i, int j, int k) const
   const auto brick = static_cast<std::size_t>(VoxelBox::Of(this->Count).NumberOf(i, j, k));
   return { this->Objects.data() + this->First[brick],
     this->Objects.data() + this->First[brick + 1] };
-}
-
-std::vector<int> LabelBricks::NeighboursOf(int last) const
-{
-  std::vector<bool> isNeighbour(this->Extents.size(), false);
-  const VoxelBox all = VoxelBox::Of(this->Count);
-  for (int object = 1; object <= last && last + 1 < static_cast<int>(this->Extents.size());
-       ++object)
-  {
-    const VoxelBox& box = this->Extents[static_cast<std::size_t>(object)].Bricks;
-    ForRowsOf(box, all,
-      [&](std::int64_t first, std::int64_t count)
-      {
-        for (std::int64_t brick = first; brick < first + count; ++brick)
-        {
-          const std::array<int, 3> at = { static_cast<int>(brick % this->Count[0]),
-            static_cast<int>(brick / this->Count[0] % this->Count[1]),
-            static_cast<int>(brick / this->Count[0] / this->Count[1]) };
-          if (this->IsContested(at[0], at[1], at[2]) &&
-            this->ObjectsIn(at[0], at[1], at[2]).Has(static_cast<LabelMap::Number>(object)))
-          {
-            this->MarkNear(at, isNeighbour);
-          }
-        }
-      });
-  }
-  std::vector<int> neighbours;
-  for (int object = last + 1; object < static_cast<int>(isNeighbour.size()); ++object)
-  {
-    if (isNeighbour[static_cast<std::size_t>(object)])
-    {
-      neighbours.push_back(object);
-    }
-  }
-  return neighbours;
-}
-
-void LabelBricks::MarkNear(const std::array<int, 3>& brick, std::vector<bool>& objects) const
-{
-  VoxelBox about;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    about.First[axis] = std::max(0, brick[axis] - Reach);
-    about.End[axis] = std::min(this->Count[axis], brick[axis] + Reach + 1);
-  }
-  for (int k = about.First[2]; k < about.End[2]; ++k)
-  {
-    for (int j = about.First[1]; j < about.End[1]; ++j)
-    {
-      for (int i = about.First[0]; i < about.End[0]; ++i)
-      {
-        for (const LabelMap::Number object : this->ObjectsIn(i, j, k))
-        {
-          objects[object] = true;
-        }
-      }
-    }
-  }
 }
 
 void LabelBricks::FindObjects(Executor& executor)
@@ -229,56 +126,5 @@ void LabelBricks::FindExtents(Executor& executor)
         this->Extents[object].Bricks = this->Extents[object].Bricks.With(own[object].Bricks);
       }
     });
-}
-
-void LabelBricks::FindContested(Executor& executor)
-{
-  const VoxelBox all = VoxelBox::Of(this->Count);
-  std::vector<FewObjects> met(static_cast<std::size_t>(all.Count()));
-  const auto layers = static_cast<std::size_t>(this->Count[2]);
-  const auto forBricks = [&](const auto& visit)
-  {
-    ForSpans(executor, layers, 1,
-      [&](std::size_t layer, std::size_t, std::size_t)
-      {
-        const int k = static_cast<int>(layer);
-        for (int j = 0; j < this->Count[1]; ++j)
-        {
-          for (int i = 0; i < this->Count[0]; ++i)
-          {
-            visit(std::array<int, 3>{ i, j, k }, static_cast<std::size_t>(all.NumberOf(i, j, k)));
-          }
-        }
-      });
-  };
-  forBricks(
-    [&](const std::array<int, 3>& at, std::size_t brick)
-    {
-      for (LabelMap::Number object : this->ObjectsIn(at[0], at[1], at[2]))
-      {
-        met[brick].Add(object);
-      }
-    });
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const std::vector<FewObjects> before = met;
-    forBricks(
-      [&](std::array<int, 3> at, std::size_t brick)
-      {
-        const int middle = at[axis];
-        for (at[axis] = middle - Reach; at[axis] <= middle + Reach; ++at[axis])
-        {
-          // Outside the map there is no object.
-          met[brick].Add(all.Contains(at)
-              ? before[static_cast<std::size_t>(all.NumberOf(at[0], at[1], at[2]))]
-              : FewObjects{ 1, 0, 0 });
-        }
-      });
-  }
-  this->Contested.resize(met.size());
-  std::transform(met.begin(), met.end(), this->Contested.begin(),
-    [](const FewObjects& few) { return static_cast<unsigned char>(few.Count == 3 ? 1 : 0); });
-  this->AnyContested =
-    std::find(this->Contested.begin(), this->Contested.end(), 1) != this->Contested.end();
 }
 }

@@ -57,25 +57,9 @@ public:
   /** Of a brick within the map. */
   Range ObjectsIn(int i, int j, int k) const;
 
-  /**
-   * Whether at least three objects, 0 among them, meet within two bricks: as far as one of them
-   * changes the fields of the others.
-   */
-  bool IsContested(int i, int j, int k) const
-  {
-    return this->Contested[static_cast<std::size_t>(
-             VoxelBox::Of(this->Count).NumberOf(i, j, k))] != 0;
-  }
-  /** The objects beyond `last` that meet some of those up to it, and a third one, sorted. */
-  std::vector<int> NeighboursOf(int last) const;
-  bool HasContested() const { return this->AnyContested; }
-
 private:
-  /** Marks the objects that matter to a brick. */
-  void MarkNear(const std::array<int, 3>& brick, std::vector<bool>& objects) const;
   void FindObjects(Executor& executor);
   void FindExtents(Executor& executor);
-  void FindContested(Executor& executor);
 
   const LabelMap* Labels;
   VoxelBox Counted;
@@ -83,8 +67,6 @@ private:
   std::vector<std::size_t> First; ///< of each brick, in Objects
   std::vector<LabelMap::Number> Objects;
   std::vector<LabelExtent> Extents;
-  std::vector<unsigned char> Contested;
-  bool AnyContested = false;
 };
 }
 

@@ -3,11 +3,9 @@
 #include "Core/Labels/LabelDistance.h"
 
 #include "Core/Labels/BoundaryGaussian.h"
-#include "Core/Labels/LabelSides.h"
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -67,9 +65,9 @@ private:
 class DistanceMaker
 {
 public:
-  DistanceMaker(const LabelMap& map, int object, const BoundaryRows& rows, LabelField& field,
+  DistanceMaker(const LabelSides& sides, const std::array<double, 3>& spacing, LabelField& field,
     Executor& executor)
-    : Map(map), Sides(map, object), Rows(rows), Field(field), Threads(executor)
+    : Sides(sides), Spacing(spacing), Field(field), Threads(executor)
   {
   }
 
@@ -77,18 +75,21 @@ public:
    * With less smoothing where voxels would be lost: for what is held to all voxels once the volume
    * has been made up for, else before, as a thin part may be made too thick by that.
    */
-  void Make(double sigma, bool isHeld)
+  void Make(const VoxelBits& rows, double sigma, bool isHeld)
   {
-    this->MakeWith(sigma, isHeld);
-    LargeVector<unsigned char> lost(this->Field.Values.size(), 0);
-    for (double narrower = sigma * NarrowerBy; narrower > LeastSigma && this->FindLost(lost);
-         narrower *= NarrowerBy)
+    this->MakeWith(rows, rows, sigma, isHeld);
+    for (double narrower = sigma * NarrowerBy; narrower > LeastSigma; narrower *= NarrowerBy)
     {
-      this->MakeNarrower(narrower, isHeld, lost);
+      const VoxelBits lost = this->Sides.FindLost(this->Field, rows, this->Threads);
+      if (lost.IsEmpty())
+      {
+        break;
+      }
+      this->MakeNarrower(rows, lost, narrower, isHeld);
     }
     if (!isHeld)
     {
-      this->CorrectVolume(sigma, false);
+      this->CorrectVolume(rows, sigma, false);
     }
   }
 
@@ -98,166 +99,156 @@ private:
     std::array<double, 3> inVoxels;
     for (int axis = 0; axis < 3; ++axis)
     {
-      inVoxels[axis] = sigma / this->Map.Spacing[axis];
+      inVoxels[axis] = sigma / this->Spacing[axis];
     }
     return inVoxels;
   }
 
-  void MakeWith(double ofGaussian, bool isCorrected)
+  std::array<int, 3> ReachOf(double sigma) const
+  {
+    std::array<int, 3> reach;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      reach[axis] = static_cast<int>(std::ceil(3. * sigma / this->Spacing[axis]));
+    }
+    return reach;
+  }
+
+  float* At(LargeVector<float>& values, int i, int j, int k) const
+  {
+    return values.data() + this->Field.Box.NumberOf(i, j, k);
+  }
+
+  /** @param corrected where the volume is made up for, if it is: some of the rows */
+  void MakeWith(
+    const VoxelBits& rows, const VoxelBits& corrected, double ofGaussian, bool isCorrected)
   {
     const auto sigma = static_cast<float>(ofGaussian);
-    BoundaryGaussian gaussian(this->Rows, this->InVoxels(ofGaussian));
-    LargeVector<float> smooth(this->Field.Values.size());
-    gaussian.Smooth([this](int i, int j, int k, int count, float* values)
+    const NormalQuantile& quantiles = NormalQuantile::Table();
+    this->Gaussian.Smooth(rows, this->InVoxels(ofGaussian),
+      [this](int i, int j, int k, int count, float* values)
       { this->Sides.CopyMembership(i, j, k, count, values); },
-      smooth, this->Threads);
-    this->ForValues(smooth,
-      [sigma](float& value, float share)
+      [&](int i, int j, int k, int count, const float* shares)
       {
-        value =
-          std::clamp(sigma * NormalQuantile::Table().At(share), -LabelField::Far, LabelField::Far);
-      });
+        float* values = this->At(this->Field.Values, i, j, k);
+        for (int x = 0; x < count; ++x)
+        {
+          values[x] = std::clamp(
+            sigma * quantiles.At(shares[x]), -LabelField::Far, LabelField::Far);
+        }
+      },
+      this->Threads);
     if (isCorrected)
     {
-      this->CorrectVolume(ofGaussian, true);
+      this->CorrectVolume(corrected, ofGaussian, true);
     }
   }
 
   /** Step 2. @param isHeld as in Make(): what makes a thin part too thick is taken back */
-  void CorrectVolume(double ofGaussian, bool isHeld)
+  void CorrectVolume(const VoxelBits& rows, double ofGaussian, bool isHeld)
   {
-    const auto sigma = static_cast<float>(ofGaussian);
-    BoundaryGaussian gaussian(this->Rows, this->InVoxels(ofGaussian));
-    LargeVector<float> missing(this->Field.Values.size());
-    gaussian.Smooth([this](int i, int j, int k, int count, float* values)
+    const float perShare = static_cast<float>(ofGaussian) * 2.5066283f; // sqrt(2 pi)
+    this->Others.resize(this->Field.Values.size());
+    this->Gaussian.Smooth(rows, this->InVoxels(ofGaussian),
+      [this](int i, int j, int k, int count, float* values)
       { this->CopyMissingVolume(i, j, k, count, values); },
-      missing, this->Threads);
-    const float perShare = sigma * 2.5066283f; // sqrt(2 pi)
-    LargeVector<float> boundary(isHeld ? 0 : missing.size());
-    if (!isHeld)
+      [&](int i, int j, int k, int count, const float* missing)
+      {
+        float* more = this->At(this->Others, i, j, k);
+        std::transform(
+          missing, missing + count, more, [perShare](float share) { return share * perShare; });
+      },
+      this->Threads);
+    const auto add = [&](int i, int j, int k, int count, const float* boundary)
     {
-      gaussian.Smooth([this](int i, int j, int k, int count, float* values)
-        { this->CopyBoundary(i, j, k, count, values); },
-        boundary, this->Threads);
-    }
-    for (std::size_t v = 0; v < missing.size(); ++v)
+      float* values = this->At(this->Field.Values, i, j, k);
+      const float* more = this->At(this->Others, i, j, k);
+      for (int x = 0; x < count; ++x)
+      {
+        const float less = boundary ? std::max(1.f, boundary[x] * perShare) : 1.f;
+        values[x] = std::clamp(values[x] + more[x] / less, -LabelField::Far, LabelField::Far);
+      }
+    };
+    if (isHeld)
     {
-      const bool isThin = !isHeld && boundary[v] * perShare > 1.f;
-      missing[v] *= isThin ? 1.f / boundary[v] : perShare;
+      rows.For(this->Threads,
+        [&](int i, int j, int k, int count) { add(i, j, k, count, nullptr); });
+      return;
     }
-    this->ForValues(missing,
-      [](float& value, float more)
-      { value = std::clamp(value + more, -LabelField::Far, LabelField::Far); });
+    this->Gaussian.Smooth(rows, this->InVoxels(ofGaussian),
+      [this](int i, int j, int k, int count, float* values)
+      { this->CopyBoundary(i, j, k, count, values); },
+      add, this->Threads);
   }
 
   /** 1 where a small change of the field changes the volume that it has inside. */
   void CopyBoundary(int i, int j, int k, int count, float* values) const
   {
-    std::fill(values, values + count, 0.f);
-    this->ForField(i, j, k, count, values,
-      [](float& value, float field) { value = std::abs(field) < 0.5f ? 1.f : 0.f; });
+    const float* field = this->At(this->Field.Values, i, j, k);
+    for (int x = 0; x < count; ++x)
+    {
+      values[x] = std::abs(field[x]) < 0.5f ? 1.f : 0.f;
+    }
   }
 
   /** The membership less what of each voxel is inside by the field; off the rows there is none. */
   void CopyMissingVolume(int i, int j, int k, int count, float* values) const
   {
     this->Sides.CopyMembership(i, j, k, count, values);
-    this->ForField(i, j, k, count, values,
-      [](float& value, float field) { value -= std::clamp(field + 0.5f, 0.f, 1.f); });
+    const float* field = this->At(this->Field.Values, i, j, k);
+    for (int x = 0; x < count; ++x)
+    {
+      values[x] -= std::clamp(field[x] + 0.5f, 0.f, 1.f);
+    }
   }
 
   /** About the voxels that are lost, fading into what there is. */
-  void MakeNarrower(double sigma, bool isCorrected, const LargeVector<unsigned char>& lost)
+  void MakeNarrower(
+    const VoxelBits& rows, const VoxelBits& lost, double sigma, bool isCorrected)
   {
-    const VoxelBox& box = this->Field.Box;
-    LargeVector<float> fading(this->Field.Values.size());
-    BoundaryGaussian(this->Rows, this->InVoxels(FadingSigma))
-      .Smooth(
-        [&](int i, int j, int k, int count, float* values)
-        {
-          for (int x = 0; x < count; ++x)
-          {
-            const bool isLost = box.Contains({ i + x, j, k }) &&
-              lost[static_cast<std::size_t>(box.NumberOf(i + x, j, k))] != 0;
-            values[x] = isLost ? 1.f : 0.f;
-          }
-        },
-        fading, this->Threads);
     const double cubed = FadingSigma * FadingSigma * FadingSigma;
-    const double voxel = this->Map.Spacing[0] * this->Map.Spacing[1] * this->Map.Spacing[2];
+    const double voxel = this->Spacing[0] * this->Spacing[1] * this->Spacing[2];
     const auto perShare =
       static_cast<float>(15.749610 * cubed / voxel); // (2 pi)^1.5: 1 at one alone
-    const LargeVector<float> before = this->Field.Values;
-    this->MakeWith(sigma, isCorrected);
-    for (std::size_t v = 0; v < before.size(); ++v)
-    {
-      const float share = std::min(1.f, perShare * fading[v]);
-      this->Field.Values[v] = before[v] + share * (this->Field.Values[v] - before[v]);
-    }
-  }
-
-  /** @return whether there are any */
-  bool FindLost(LargeVector<unsigned char>& lost) const
-  {
-    std::atomic<bool> isAny{ false };
-    this->Rows.For(this->Threads,
-      [&](int i, int j, int k, int count)
+    const VoxelBits near = rows & lost.Grown(this->ReachOf(FadingSigma)).InFours();
+    LargeVector<float> values = this->Field.Values;
+    this->MakeWith(isCorrected ? rows & near.Grown(this->ReachOf(sigma)).InFours() : near, near,
+      sigma, isCorrected);
+    values.swap(this->Field.Values);
+    this->Gaussian.Smooth(near, this->InVoxels(FadingSigma),
+      [&](int i, int j, int k, int count, float* shares)
       {
-        unsigned char* row = lost.data() + this->Field.Box.NumberOf(i, j, k);
         for (int x = 0; x < count; ++x)
         {
-          row[x] = this->Sides.IsLost(this->Field, i + x, j, k) ? 1 : 0;
-          if (row[x] != 0)
-          {
-            isAny = true;
-          }
+          shares[x] = lost.Has(i + x, j, k) ? 1.f : 0.f;
         }
-      });
-    return isAny;
-  }
-
-  /** Calls change(value, other) for each voxel of the rows. */
-  template <typename Change>
-  void ForValues(const LargeVector<float>& others, Change&& change)
-  {
-    this->Rows.For(this->Threads,
-      [&](int i, int j, int k, int count)
+      },
+      [&](int i, int j, int k, int count, const float* shares)
       {
-        const std::int64_t first = this->Field.Box.NumberOf(i, j, k);
-        float* values = this->Field.Values.data() + first;
-        const float* other = others.data() + first;
+        float* to = this->At(this->Field.Values, i, j, k);
+        const float* narrow = this->At(values, i, j, k);
         for (int x = 0; x < count; ++x)
         {
-          change(values[x], other[x]);
+          to[x] += std::min(1.f, perShare * shares[x]) * (narrow[x] - to[x]);
         }
-      });
+      },
+      this->Threads);
   }
 
-  /** Calls change(value, field) for those of `count` values that are in the box. */
-  template <typename Change>
-  void ForField(int i, int j, int k, int count, float* values, Change&& change) const
-  {
-    const VoxelBox& box = this->Field.Box;
-    const int first = std::max(i, box.First[0]);
-    const int end = std::min(i + count, box.End[0]);
-    const float* row = this->Field.Values.data() + box.NumberOf(first, j, k);
-    for (int x = first; x < end; ++x)
-    {
-      change(values[x - i], row[x - first]);
-    }
-  }
-
-  const LabelMap& Map;
-  LabelSides Sides;
-  const BoundaryRows& Rows;
+  const LabelSides& Sides;
+  const std::array<double, 3> Spacing;
   LabelField& Field;
   Executor& Threads;
+  BoundaryGaussian Gaussian;
+  LargeVector<float> Others; ///< what volume is missing
 };
 }
 
-void MakeLabelDistance(const LabelMap& map, int object, const BoundaryRows& rows,
-  const LabelFieldOptions& options, LabelField& field, Executor& executor)
+void MakeLabelDistance(const LabelSides& sides, const VoxelBits& rows,
+  const std::array<double, 3>& spacing, const LabelFieldOptions& options, LabelField& field,
+  Executor& executor)
 {
-  DistanceMaker(map, object, rows, field, executor).Make(options.Sigma, options.Tolerance == 0.);
+  DistanceMaker(sides, spacing, field, executor)
+    .Make(rows, options.Sigma, options.Tolerance == 0.);
 }
 }

@@ -4,9 +4,11 @@
 #define volumicLabelDistance_h
 
 #include "Core/Common/Executor.h"
-#include "Core/Labels/BoundaryRows.h"
 #include "Core/Labels/LabelField.h"
-#include "Core/Labels/LabelMap.h"
+#include "Core/Labels/LabelSides.h"
+#include "Core/Labels/VoxelBits.h"
+
+#include <array>
 
 namespace volumic
 {
@@ -14,8 +16,9 @@ namespace volumic
  * Steps 1 and 2 of MakeLabelField(): a smooth distance to the boundary of an object.
  * @param rows of the object; the field has their box, and only their voxels are written
  */
-void MakeLabelDistance(const LabelMap& map, int object, const BoundaryRows& rows,
-  const LabelFieldOptions& options, LabelField& field, Executor& executor);
+void MakeLabelDistance(const LabelSides& sides, const VoxelBits& rows,
+  const std::array<double, 3>& spacing, const LabelFieldOptions& options, LabelField& field,
+  Executor& executor);
 }
 
 #endif

@@ -2,11 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Labels/LabelField.h"
 
+#include "Core/Common/Lanes.h"
 #include "Core/Common/Spans.h"
-#include "Core/Labels/BoundaryRows.h"
 #include "Core/Labels/LabelDistance.h"
 #include "Core/Labels/LabelHold.h"
 #include "Core/Labels/LabelSides.h"
+#include "Core/Labels/VoxelBits.h"
 
 #include <algorithm>
 #include <array>
@@ -24,8 +25,6 @@ constexpr float MostWrong = 1.5f;
 constexpr float MostCurvature = 0.35f;
 /** What the field has at a voxel at least, where not all constraints can be met. */
 constexpr float LeastSize = 0.05f;
-/** No shift brings the field nearer to 0 at a voxel. */
-constexpr float LeastShifted = 0.2f;
 /** Times which it is looked for what a tolerance would lose. */
 constexpr int MostRescues = 4;
 /** Where the field is flatter it is a ridge, and has no bend. */
@@ -37,64 +36,28 @@ constexpr float MostBent = 2.5f;
 class FieldMaker
 {
 public:
-  FieldMaker(
-    const LabelBricks& bricks, int object, const LabelFieldOptions& options, Executor& executor)
-    : FieldMaker(bricks, object, options, executor, VoxelBox::Of(bricks.Size()))
-  {
-  }
   FieldMaker(const LabelBricks& bricks, int object, const LabelFieldOptions& options,
     Executor& executor, const VoxelBox& within)
-    : Map(bricks.Map()), Object(object), Sides(bricks.Map(), object), Options(options),
-      Threads(executor), Rows(bricks, object, within)
+    : Map(bricks.Map()), Sides(bricks, object, within), Options(options), Threads(executor),
+      Rows(this->Sides.NearBoundary(
+        LabelSides::ReachOfFields(options.Sigma, bricks.Map().Spacing)))
   {
   }
 
   LabelField Make()
   {
-    this->Field.Box = this->Rows.Box();
+    this->Field.Box = this->Sides.Box();
     this->Field.Values.resize(static_cast<std::size_t>(this->Field.Box.Count()));
     this->FillFarVoxels();
+    this->Field.Rows = this->Rows;
     if (this->Options.Sigma > 0.)
     {
-      MakeLabelDistance(
-        this->Map, this->Object, this->Rows, this->Options, this->Field, this->Threads);
-      this->CorrectBends(this->Options.ChordCorrection);
-      this->Hold({});
+      MakeLabelDistance(this->Sides, this->Rows, this->Map.Spacing, this->Options, this->Field,
+        this->Threads);
+      this->CorrectBends();
+      this->Hold();
     }
     return std::move(this->Field);
-  }
-
-  void CorrectBendsOf(LabelField& field, double amount)
-  {
-    this->Field = std::move(field);
-    this->CorrectBends(amount);
-    field = std::move(this->Field);
-  }
-
-  void HoldFurther(LabelField& field, const std::vector<HeldVoxel>& held)
-  {
-    this->Field = std::move(field);
-    this->Hold(held);
-    field = std::move(this->Field);
-  }
-
-  void Shift(LabelField& field, float by)
-  {
-    this->Field = std::move(field);
-    this->Rows.For(this->Threads,
-      [&](int i, int j, int k, int count)
-      {
-        float* values = this->RowAt(i, j, k);
-        for (int x = 0; x < count; ++x)
-        {
-          const float side = this->Sides.Of(i + x, j, k);
-          const float least =
-            this->IsStrict(i + x, j, k) ? LeastShifted : this->LeastAt(i + x, j, k);
-          values[x] = side *
-            std::clamp(side * (values[x] - by), std::min(least, side * values[x]), LabelField::Far);
-        }
-      });
-    field = std::move(this->Field);
   }
 
 private:
@@ -126,11 +89,11 @@ private:
       });
   }
 
-  void CorrectBends(double amount)
+  void CorrectBends()
   {
     const VoxelBox& box = this->Field.Box;
     const LargeVector<float> before = this->Field.Values;
-    const auto correction = static_cast<float>(amount);
+    const auto correction = static_cast<float>(this->Options.ChordCorrection);
     this->Rows.For(this->Threads,
       [&](int i, int j, int k, int count)
       {
@@ -190,22 +153,16 @@ private:
     return square > LeastSlope * LeastSlope ? laplacian - across / square : 0.f;
   }
 
-  /** Within a tolerance nothing is held for being thin. */
-  bool IsThin(int i, int j, int k) const
+  void Hold()
   {
-    return this->IsStrict(i, j, k) && this->Sides.IsThin(i, j, k);
-  }
-
-  void Hold(const std::vector<HeldVoxel>& held)
-  {
-    if (this->HasTolerance())
+    if (this->HasTolerance() && !(this->Field.IsStrict.Box() == this->Field.Box))
     {
-      this->Field.IsStrict.resize(this->Field.Values.size(), 0);
+      this->Field.IsStrict = VoxelBits(this->Field.Box);
     }
-    HoldToLabels(this->Field, this->Map.Spacing, this->FindConstraints(held));
+    HoldToLabels(this->Field, this->Map.Spacing, this->FindConstraints());
     for (int round = 0; this->HasTolerance() && round < MostRescues && this->FindLost(); ++round)
     {
-      HoldToLabels(this->Field, this->Map.Spacing, this->FindConstraints(held));
+      HoldToLabels(this->Field, this->Map.Spacing, this->FindConstraints());
     }
     this->Rows.For(this->Threads,
       [&](int i, int j, int k, int count)
@@ -229,45 +186,24 @@ private:
 
   bool IsStrict(int i, int j, int k) const
   {
-    const VoxelBox& box = this->Field.Box;
-    return !this->HasTolerance() ||
-      (box.Contains({ i, j, k }) &&
-        this->Field.IsStrict[static_cast<std::size_t>(box.NumberOf(i, j, k))] != 0);
+    return !this->HasTolerance() || this->Field.IsStrict.Has(i, j, k);
   }
 
   /** Has those be strict that are wrong, as are all of their side beside them. @return any new */
   bool FindLost()
   {
-    std::vector<unsigned char> ofLayers(static_cast<std::size_t>(this->Rows.NumberOfLayers()), 0);
-    ForSpans(this->Threads, ofLayers.size(), 1,
-      [&](std::size_t layer, std::size_t, std::size_t)
-      {
-        this->Rows.ForLayer(static_cast<int>(layer),
-          [&](int i, int j, int k, int count)
-          {
-            unsigned char* strict = this->Field.IsStrict.data() + this->Field.Box.NumberOf(i, j, k);
-            for (int x = 0; x < count; ++x)
-            {
-              if (strict[x] == 0 && this->Sides.IsLost(this->Field, i + x, j, k))
-              {
-                strict[x] = 1;
-                ofLayers[layer] = 1;
-              }
-            }
-          });
-      });
-    return std::count(ofLayers.begin(), ofLayers.end(), 1) > 0;
+    const VoxelBits lost =
+      this->Sides.FindLost(this->Field, this->Rows, this->Threads) - this->Field.IsStrict;
+    this->Field.IsStrict |= lost;
+    return !lost.IsEmpty();
   }
-
-  /** Whether one of the other side beside it is: it must not take all of the way between. */
-  bool IsBesideThin(int i, int j, int k) const { return this->WayToThin(i, j, k) > 0.; }
 
   /** To the nearest of the other side beside it that is thin; 0: there is none. */
   double WayToThin(int i, int j, int k) const
   {
     const bool side = this->Sides.IsObject(i, j, k);
     const auto isThinOther = [&](int a, int b, int c)
-    { return this->Sides.IsObject(a, b, c) != side && this->IsThin(a, b, c); };
+    { return this->Sides.IsObject(a, b, c) != side && this->Thin.Has(a, b, c); };
     const std::array<double, 3>& way = this->Map.Spacing;
     double least = 0.;
     const auto take = [&least](bool isThere, double length)
@@ -280,34 +216,69 @@ private:
 
   double MarginAt(int i, int j, int k) const
   {
-    return this->IsThin(i, j, k)    ? this->Options.ThinMargin
-      : this->IsBesideThin(i, j, k) ? this->Options.MarginBesideThin
-      : this->IsStrict(i, j, k)     ? this->Options.Margin
-                                    : this->Options.Margin - this->Options.Tolerance;
+    return this->Thin.Has(i, j, k)     ? this->Options.ThinMargin
+      : this->BesideThin.Has(i, j, k) ? this->Options.MarginBesideThin
+      : this->IsStrict(i, j, k)       ? this->Options.Margin
+                                      : this->Options.Margin - this->Options.Tolerance;
   }
 
-  std::vector<VoxelConstraint> FindConstraints(const std::vector<HeldVoxel>& held)
+  /** The voxels whose constraints may not be met, or that one which is not met may change. */
+  VoxelBits FindChanging()
   {
+    VoxelBits changing = this->BesideThin;
+    const auto least = static_cast<float>(this->Options.Margin - this->Options.Tolerance);
+    const auto most = static_cast<float>(this->Options.ThinMargin);
+    this->Rows.For(this->Threads,
+      [&](int i, int j, int k, int count)
+      {
+        const float* values = this->RowAt(i, j, k);
+        for (int x = 0; x < count; x += Lanes::Count)
+        {
+          const bool isHeld = !this->HasTolerance() ||
+            this->Field.IsStrict.FourAt(i + x, j, k) != 0 ||
+            this->BesideThin.FourAt(i + x, j, k) != 0;
+          const float margin = isHeld ? most : least;
+          const Lanes four = Lanes::Load(values + x);
+          const unsigned members = this->Sides.FourAt(i + x, j, k);
+          changing.AddFour(i + x, j, k,
+            (LessBits(four, Lanes(margin)) & members) |
+              (LessBits(Lanes(-margin), four) & ~members & 15u));
+        }
+      });
+    constexpr int reach = 2 * ReachOfHold;
+    return this->Rows & changing.Grown({ reach, reach, reach });
+  }
+
+  std::vector<VoxelConstraint> FindConstraints()
+  {
+    // Within a tolerance nothing is held for being thin.
+    this->Thin = this->Sides.FindThin();
+    if (this->HasTolerance())
+    {
+      this->Thin &= this->Field.IsStrict;
+    }
+    this->BesideThin = this->Sides.FindBeside(this->Thin);
+    const VoxelBits rows = this->FindChanging();
     std::vector<std::vector<VoxelConstraint>> ofLayers(
       static_cast<std::size_t>(this->Rows.NumberOfLayers()));
     ForSpans(this->Threads, ofLayers.size(), 1,
       [&](std::size_t layer, std::size_t, std::size_t)
       {
-        this->Rows.ForLayer(static_cast<int>(layer),
+        rows.ForLayer(static_cast<int>(layer),
           [&](int i, int j, int k, int count)
-          { this->FindConstraintsOfRow(i, j, k, count, held, ofLayers[layer]); });
+          { this->FindConstraintsOfRow(i, j, k, count, ofLayers[layer]); });
       });
     return Joined(this->Threads, ofLayers);
   }
 
-  void FindConstraintsOfRow(int i, int j, int k, int count, const std::vector<HeldVoxel>& held,
-    std::vector<VoxelConstraint>& constraints)
+  void FindConstraintsOfRow(
+    int i, int j, int k, int count, std::vector<VoxelConstraint>& constraints)
   {
     const float* values = this->RowAt(i, j, k);
     for (int x = 0; x < count; ++x)
     {
       const float side = this->Sides.Of(i + x, j, k);
-      if (side * values[x] > 1.f && !this->IsThin(i + x, j, k))
+      if (side * values[x] > 1.f && !this->Thin.Has(i + x, j, k))
       {
         const double way = this->WayToThin(i + x, j, k);
         if (way > 0. && side * values[x] > way)
@@ -316,30 +287,21 @@ private:
             static_cast<float>(-this->Options.MostBesideThin * way) });
         }
       }
-      if (side * values[x] >= MostWrong)
+      if (side * values[x] < MostWrong)
       {
-        continue;
+        constraints.push_back({ this->Field.Box.NumberOf(i + x, j, k), side,
+          static_cast<float>(this->MarginAt(i + x, j, k)) });
       }
-      auto margin = static_cast<float>(this->MarginAt(i + x, j, k));
-      const VoxelBox all = VoxelBox::Of(this->Map.Size());
-      const std::int64_t voxel =
-        all.Contains({ i + x, j, k }) ? all.NumberOf(i + x, j, k) : std::int64_t(-1);
-      const auto found = std::lower_bound(held.begin(), held.end(), voxel,
-        [](const HeldVoxel& one, std::int64_t number) { return one.Voxel < number; });
-      if (found != held.end() && found->Voxel == voxel)
-      {
-        margin = std::max(margin, found->Margin);
-      }
-      constraints.push_back({ this->Field.Box.NumberOf(i + x, j, k), side, margin });
     }
   }
 
   const LabelMap& Map;
-  int Object;
   LabelSides Sides;
   LabelFieldOptions Options;
   Executor& Threads;
-  BoundaryRows Rows;
+  VoxelBits Rows;       ///< where values are computed
+  VoxelBits Thin;       ///< strict ones whose neighbors along an axis are on the other side
+  VoxelBits BesideThin; ///< those with one of these beside them: they must not take all the way
   LabelField Field;
 };
 }
@@ -347,30 +309,12 @@ private:
 LabelField MakeLabelField(
   const LabelBricks& bricks, int object, const LabelFieldOptions& options, Executor& executor)
 {
-  return FieldMaker(bricks, object, options, executor).Make();
+  return MakeLabelField(bricks, object, options, executor, VoxelBox::Of(bricks.Size()));
 }
 
 LabelField MakeLabelField(const LabelBricks& bricks, int object, const LabelFieldOptions& options,
   Executor& executor, const VoxelBox& within)
 {
   return FieldMaker(bricks, object, options, executor, within).Make();
-}
-
-void CorrectBends(
-  LabelField& field, const LabelBricks& bricks, int object, double amount, Executor& executor)
-{
-  FieldMaker(bricks, object, LabelFieldOptions(), executor).CorrectBendsOf(field, amount);
-}
-
-void ShiftField(LabelField& field, const LabelBricks& bricks, int object,
-  const LabelFieldOptions& options, double by, Executor& executor)
-{
-  FieldMaker(bricks, object, options, executor).Shift(field, static_cast<float>(by));
-}
-
-void HoldFurther(LabelField& field, const LabelBricks& bricks, int object,
-  const LabelFieldOptions& options, const std::vector<HeldVoxel>& held, Executor& executor)
-{
-  FieldMaker(bricks, object, options, executor).HoldFurther(field, held);
 }
 }

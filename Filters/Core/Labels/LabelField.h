@@ -7,6 +7,7 @@
 #include "Core/Common/ScratchMemory.h"
 #include "Core/Image/VoxelBox.h"
 #include "Core/Labels/LabelBricks.h"
+#include "Core/Labels/VoxelBits.h"
 
 #include <cstdint>
 #include <vector>
@@ -52,13 +53,6 @@ struct LabelFieldOptions
   int PartSize = 48;
 };
 
-/** A voxel that must be further inside, or outside, than the options ask for. */
-struct HeldVoxel
-{
-  std::int64_t Voxel; ///< of the map, x fastest
-  float Margin;
-};
-
 /** A field over the voxels of a box, which may reach beyond the map. */
 struct LabelField
 {
@@ -67,8 +61,10 @@ struct LabelField
 
   VoxelBox Box;
   LargeVector<float> Values; ///< positive inside; x fastest
+  /** The voxels whose values are computed. */
+  VoxelBits Rows;
   /** With a tolerance: the voxels without one, as no voxel beside them is where it belongs. */
-  LargeVector<unsigned char> IsStrict;
+  VoxelBits IsStrict;
 };
 
 /**
@@ -98,32 +94,12 @@ struct LabelField
 LabelField MakeLabelField(const LabelBricks& bricks, int object, const LabelFieldOptions& options,
   Executor& executor);
 /**
- * In some bricks only, and one beyond them: for large objects, in parts. The reach of the Gaussian
- * from the ends of these it is that of the whole object, but for what step 4 carries further.
+ * Make the field in a box of bricks, and one brick beyond it: for large objects, in parts. The
+ * values are those of the whole object further from the ends of the box than the Gaussian reaches,
+ * except for what step 4 carries over.
  */
 LabelField MakeLabelField(const LabelBricks& bricks, int object, const LabelFieldOptions& options,
   Executor& executor, const VoxelBox& within);
-
-/**
- * For surfaces of a coarser level: takes so much of its Laplacian off the field, as step 3 does.
- * Signs at voxel centres are not held afterwards.
- */
-void CorrectBends(LabelField& field, const LabelBricks& bricks, int object, double amount,
-  Executor& executor);
-
-/**
- * Takes a number off the field, so that the object gets smaller; but no voxel's centre comes to the
- * other side, or further there than with a Tolerance it may.
- */
-void ShiftField(LabelField& field, const LabelBricks& bricks, int object,
-  const LabelFieldOptions& options, double by, Executor& executor);
-
-/**
- * Step 4 again, from the field as it is, with larger margins for some voxels.
- * @param held sorted by Voxel
- */
-void HoldFurther(LabelField& field, const LabelBricks& bricks, int object,
-  const LabelFieldOptions& options, const std::vector<HeldVoxel>& held, Executor& executor);
 }
 
 #endif

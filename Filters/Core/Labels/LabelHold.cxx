@@ -14,8 +14,6 @@ constexpr double WideSigma = 1.5;
 constexpr double NarrowSigma = 0.6;
 /** Share of the narrow one: it keeps the problem well-posed where signs change at each voxel. */
 constexpr double NarrowShare = 0.3;
-/** No further than this many voxels along an axis. */
-constexpr int MostReach = 3;
 constexpr int MostSweeps = 40;
 /** A constraint that is met but for this is met. */
 constexpr float Tolerance = 0.01f;
@@ -29,7 +27,7 @@ public:
     for (int axis = 0; axis < 3; ++axis)
     {
       this->Reach[axis] =
-        std::clamp(static_cast<int>(3. * WideSigma / spacing[axis]), 1, MostReach);
+        std::clamp(static_cast<int>(3. * WideSigma / spacing[axis]), 1, ReachOfHold);
     }
     for (int k = -this->Reach[2]; k <= this->Reach[2]; ++k)
     {

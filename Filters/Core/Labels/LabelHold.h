@@ -11,6 +11,9 @@
 
 namespace volumic
 {
+/** A constraint changes the field no further than this many voxels along an axis. */
+constexpr int ReachOfHold = 3;
+
 /** What the field must be at a voxel: at least Margin, times Side. */
 struct VoxelConstraint
 {

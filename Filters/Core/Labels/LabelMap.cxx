@@ -86,4 +86,35 @@ void LabelMap::CopyLayer(int layer, Number* voxels) const
         { std::fill_n(voxels + first, count, object); });
     });
 }
+
+LabelMap LabelMap::Part(const VoxelBox& box) const
+{
+  const auto moved = [](VoxelBox by, const std::array<int, 3>& way, int sign)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      by.First[axis] += sign * way[axis];
+      by.End[axis] += sign * way[axis];
+    }
+    return by;
+  };
+  LabelMap part(box.Size());
+  part.Spacing = this->Spacing;
+  part.NumberOfObjects = this->NumberOfObjects;
+  std::vector<Number> voxels;
+  for (int layer = 0; layer < part.NumberOfLayers(); ++layer)
+  {
+    const VoxelBox slices = part.Layer(layer);
+    voxels.assign(static_cast<std::size_t>(slices.Count()), 0);
+    this->ForParts(moved(slices, box.First, 1).CommonWith(VoxelBox::Of(this->Voxels)),
+      [&](const VoxelBox& alike, Number object)
+      {
+        ForRowsOf(moved(alike, box.First, -1), slices,
+          [&](std::int64_t first, std::int64_t count)
+          { std::fill_n(voxels.begin() + first, count, object); });
+      });
+    part.PutLayer(layer, voxels.data());
+  }
+  return part;
+}
 }

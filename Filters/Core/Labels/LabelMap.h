@@ -15,8 +15,8 @@
 namespace volumic
 {
 /**
- * Which object each voxel belongs to. Objects are numbered from 1, 0 is none of them: labels that
- * nobody asks for, and what is outside the map.
+ * Which object each voxel belongs to. Objects are numbered from 1, 0 is none of them: background,
+ * and what is outside the map.
  *
  * Memory grows with the boundaries of the objects, as a part of 8 x 8 x 8 voxels that are all of
  * one object takes only a number. Voxels in different layers of parts may be written at once.
@@ -51,6 +51,8 @@ public:
   void CopyLayer(int layer, Number* voxels) const;
   /** The slices of a layer, and all of their voxels. */
   VoxelBox Layer(int layer) const;
+  /** Return a map of a box, which may reach beyond this one: there are voxels of 0. */
+  LabelMap Part(const VoxelBox& box) const;
 
   /**
    * Calls visit(box, object) for boxes of voxels of one object that together are those of a box

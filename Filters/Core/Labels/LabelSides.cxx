@@ -2,48 +2,133 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Labels/LabelSides.h"
 
+#include "Core/Common/Lanes.h"
+
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <cstddef>
 
 namespace volumic
 {
-void LabelSides::CopyMembership(int i, int j, int k, int count, float* values) const
+namespace
 {
-  std::fill(values, values + count, this->Object == 0 ? 1.f : 0.f); // Outside the map all is 0.
-  const VoxelBox row{ { i, j, k }, { i + count, j + 1, k + 1 } };
-  this->Map->ForParts(row.CommonWith(VoxelBox::Of(this->Map->Size())),
-    [&](const VoxelBox& part, LabelMap::Number object)
+/** Vertices of surfaces stay within that many voxels of the boundary between voxels. */
+constexpr int LeastReach = 2;
+/** A Gaussian moves the boundary at a cube's corner by .82 sigma along each axis. */
+constexpr double ReachInSigmas = 0.85;
+
+/** Calls visit(neighbors) with the voxels whose neighbor is in the set, for each direction. */
+template <typename Visitor>
+void ForNeighbors(const VoxelBits& bits, Visitor&& visit)
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    for (const bool isNext : { false, true })
     {
-      std::fill(values + (part.First[0] - i), values + (part.End[0] - i),
-        object == this->Object ? 1.f : 0.f);
+      visit(axis, isNext, bits.Neighbored(axis, isNext));
+    }
+  }
+}
+}
+
+LabelSides::LabelSides(const LabelBricks& bricks, int object, const VoxelBox& within)
+{
+  constexpr int side = LabelBricks::Side;
+  VoxelBox box = bricks.ExtentOf(object).Bricks.CommonWith(within).Grown(1);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    box.First[axis] *= side;
+    box.End[axis] *= side;
+  }
+  this->Members = VoxelBits(box);
+  const VoxelBox inMap = box.CommonWith(VoxelBox::Of(bricks.Map().Size()));
+  for (const VoxelBox& part : object == 0 ? box.Without(inMap) : std::vector<VoxelBox>())
+  {
+    this->Members.Add(part); // Outside the map all is 0.
+  }
+  bricks.Map().ForParts(inMap,
+    [&](const VoxelBox& part, LabelMap::Number other)
+    {
+      if (other == object)
+      {
+        this->Members.Add(part);
+      }
     });
 }
 
-bool LabelSides::IsRight(const LabelField& field, int i, int j, int k) const
+void LabelSides::CopyMembership(int i, int j, int k, int count, float* values) const
 {
-  return !field.Box.Contains({ i, j, k }) ||
-    this->Of(i, j, k) * field.Values[static_cast<std::size_t>(field.Box.NumberOf(i, j, k))] > 0.f;
-}
-
-bool LabelSides::IsLost(const LabelField& field, int i, int j, int k) const
-{
-  if (this->IsRight(field, i, j, k))
+  for (int x = 0; x < count; x += Lanes::Count)
   {
-    return false;
+    const unsigned four = this->Members.FourAt(i + x, j, k);
+    for (int n = 0; n < Lanes::Count; ++n)
+    {
+      values[x + n] = static_cast<float>(four >> n & 1u);
+    }
   }
-  const bool side = this->IsObject(i, j, k);
-  const auto isRight = [&](int a, int b, int c)
-  { return this->IsObject(a, b, c) == side && this->IsRight(field, a, b, c); };
-  return !isRight(i - 1, j, k) && !isRight(i + 1, j, k) && !isRight(i, j - 1, k) &&
-    !isRight(i, j + 1, k) && !isRight(i, j, k - 1) && !isRight(i, j, k + 1);
 }
 
-bool LabelSides::IsThin(int i, int j, int k) const
+VoxelBits LabelSides::NearBoundary(const std::array<int, 3>& reach) const
 {
-  const bool side = this->IsObject(i, j, k);
-  return (this->IsObject(i - 1, j, k) != side && this->IsObject(i + 1, j, k) != side) ||
-    (this->IsObject(i, j - 1, k) != side && this->IsObject(i, j + 1, k) != side) ||
-    (this->IsObject(i, j, k - 1) != side && this->IsObject(i, j, k + 1) != side);
+  const VoxelBits others = VoxelBits(this->Box(), true) - this->Members;
+  return (this->Members.Grown(reach) & others.Grown(reach)).InFours();
+}
+
+std::array<int, 3> LabelSides::ReachOfFields(double sigma, const std::array<double, 3>& spacing)
+{
+  std::array<int, 3> reach;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const int moved = static_cast<int>(std::ceil(ReachInSigmas * sigma / spacing[axis]));
+    reach[axis] = std::max(LeastReach, moved);
+  }
+  return reach;
+}
+
+VoxelBits LabelSides::FindThin() const
+{
+  VoxelBits thin(this->Box());
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    thin |= (this->Members ^ this->Members.Neighbored(axis, false)) &
+      (this->Members ^ this->Members.Neighbored(axis, true));
+  }
+  return thin;
+}
+
+VoxelBits LabelSides::FindBeside(const VoxelBits& others) const
+{
+  VoxelBits beside(this->Box());
+  ForNeighbors(this->Members,
+    [&](int axis, bool isNext, VoxelBits neighbors)
+    { beside |= (neighbors ^= this->Members) &= others.Neighbored(axis, isNext); });
+  return beside;
+}
+
+VoxelBits LabelSides::FindLost(
+  const LabelField& field, const VoxelBits& rows, Executor& executor) const
+{
+  VoxelBits wrong(this->Box());
+  rows.For(executor,
+    [&](int i, int j, int k, int count)
+    {
+      const float* values = field.Values.data() + field.Box.NumberOf(i, j, k);
+      for (int x = 0; x < count; x += Lanes::Count)
+      {
+        const Lanes four = Lanes::Load(values + x);
+        const unsigned members = this->Members.FourAt(i + x, j, k);
+        const unsigned right = (LessBits(Lanes(0.f), four) & members) |
+          (LessBits(four, Lanes(0.f)) & ~members);
+        wrong.AddFour(i + x, j, k, ~right & 15u);
+      }
+    });
+  if (!wrong.IsEmpty())
+  {
+    const VoxelBits right = VoxelBits(this->Box(), true) - wrong;
+    ForNeighbors(this->Members,
+      [&](int axis, bool isNext, VoxelBits neighbors)
+      { wrong -= right.Neighbored(axis, isNext) - (neighbors ^= this->Members); });
+  }
+  return wrong;
 }
 }

@@ -3,40 +3,61 @@
 #ifndef volumicLabelSides_h
 #define volumicLabelSides_h
 
+#include "Core/Labels/LabelBricks.h"
 #include "Core/Labels/LabelField.h"
-#include "Core/Labels/LabelMap.h"
+#include "Core/Labels/VoxelBits.h"
+
+#include <array>
 
 namespace volumic
 {
-/** Which voxels are of an object, and whether its field says so. Voxels may be beyond the map. */
+/**
+ * Which voxels belong to an object, in a box about it that may reach beyond the map by a brick.
+ * The lengths of the box are multiples of 4.
+ */
 class LabelSides
 {
 public:
-  /** The map must outlive it. */
-  LabelSides(const LabelMap& map, int object)
-    : Map(&map), Object(static_cast<LabelMap::Number>(object))
+  /** @param within bricks: the box ends one brick beyond them at most */
+  LabelSides(const LabelBricks& bricks, int object, const VoxelBox& within);
+  LabelSides(const LabelBricks& bricks, int object)
+    : LabelSides(bricks, object, VoxelBox::Of(bricks.Size()))
   {
   }
 
-  bool IsObject(int i, int j, int k) const { return this->Map->At(i, j, k) == this->Object; }
-  /** The side of a voxel: 1 in the object, -1 elsewhere. */
+  const VoxelBox& Box() const { return this->Members.Box(); }
+  bool IsObject(int i, int j, int k) const { return this->Members.Has(i, j, k); }
+  /** Return the side of a voxel: 1 in the object, -1 elsewhere. */
   float Of(int i, int j, int k) const { return this->IsObject(i, j, k) ? 1.f : -1.f; }
 
-  /** Writes for each of `count` voxels along x: 1 in the object, 0 elsewhere. */
+  /** @see VoxelBits::FourAt */
+  unsigned FourAt(int i, int j, int k) const { return this->Members.FourAt(i, j, k); }
+
+  /** Write 1 in the object, 0 elsewhere, for each of `count` voxels along x, all within the box. */
   void CopyMembership(int i, int j, int k, int count, float* values) const;
 
-  /** Whether the field has the right sign there; beyond its box it has. */
-  bool IsRight(const LabelField& field, int i, int j, int k) const;
+  /**
+   * Return the voxels that have one of the other side at most so many voxels away along each axis,
+   * the diagonals included, in whole groups of four along x.
+   */
+  VoxelBits NearBoundary(const std::array<int, 3>& reach) const;
+  /** Return how far fields are computed from the boundary along each axis: for NearBoundary(). */
+  static std::array<int, 3> ReachOfFields(double sigma, const std::array<double, 3>& spacing);
 
-  /** Whether it has the wrong one, and so it has at all voxels of the same side beside this one. */
-  bool IsLost(const LabelField& field, int i, int j, int k) const;
+  /** Return the voxels whose two neighbors along an axis are both on the other side. */
+  VoxelBits FindThin() const;
+  /** Return the voxels that have one of these beside them, on the other side. */
+  VoxelBits FindBeside(const VoxelBits& others) const;
 
-  /** Whether both neighbours along an axis are on the other side. */
-  bool IsThin(int i, int j, int k) const;
+  /**
+   * Return the voxels at which the field, in the same box, has the wrong sign, or 0, and so it has
+   * at all voxels of the same side beside them.
+   * @param rows where it may have
+   */
+  VoxelBits FindLost(const LabelField& field, const VoxelBits& rows, Executor& executor) const;
 
 private:
-  const LabelMap* Map;
-  LabelMap::Number Object;
+  VoxelBits Members;
 };
 }
 

@@ -34,11 +34,12 @@ struct LabelPart
   std::vector<Run> Runs;
 };
 
-/** All parts of objects from one number to another, in the order of their first voxels. */
+/** All parts of some objects, in the order of their first voxels. */
 class PartFinder
 {
 public:
-  PartFinder(const LabelMap& map, int first, int last)
+  /** @param objects sorted */
+  PartFinder(const LabelMap& map, const std::vector<int>& objects)
     : Rows(VoxelBox::Of({ 1, map.Size()[1], map.Size()[2] })), FirstOfRow(1, 0)
   {
     std::vector<Number> voxels;
@@ -58,7 +59,7 @@ public:
             i = static_cast<int>(std::find_if(row + i, row + box.End[0],
                                    [&](Number object) { return object != row[begin]; }) -
               row);
-            if (row[begin] >= first && row[begin] <= last)
+            if (std::binary_search(objects.begin(), objects.end(), row[begin]))
             {
               this->Runs.push_back({ { begin, j, k }, i - begin, row[begin] });
             }
@@ -128,7 +129,7 @@ private:
  * What it shares most faces with, of objects that have voxels yet, or 0, the outside; of several
  * the one with the smallest number.
  */
-Number NeighbourOf(const LabelPart& part, const LabelMap& map, int objects)
+Number NeighbourOf(const LabelPart& part, const LabelMap& map)
 {
   std::map<Number, std::int64_t> faces;
   for (const Run& run : part.Runs)
@@ -145,7 +146,7 @@ Number NeighbourOf(const LabelPart& part, const LabelMap& map, int objects)
           const Number other = map.At(near[0], near[1], near[2]);
           if (other != part.Object)
           {
-            ++faces[other > objects ? Number(0) : other];
+            ++faces[other];
           }
         }
       }
@@ -168,10 +169,11 @@ void Give(LabelMap& map, const LabelPart& part, Number object)
 }
 }
 
-void GiveAwaySmallParts(LabelMap& map, int objects, std::int64_t leastVoxels, bool keepsLargest)
+void GiveAwaySmallParts(
+  LabelMap& map, const std::vector<int>& objects, std::int64_t leastVoxels, bool keepsLargest)
 {
-  const std::vector<LabelPart> parts = PartFinder(map, 1, objects).Find();
-  std::vector<std::size_t> largest(static_cast<std::size_t>(objects) + 1, parts.size());
+  const std::vector<LabelPart> parts = PartFinder(map, objects).Find();
+  std::vector<std::size_t> largest(static_cast<std::size_t>(map.NumberOfObjects) + 1, parts.size());
   for (std::size_t n = 0; n < parts.size(); ++n)
   {
     std::size_t& of = largest[parts[n].Object];
@@ -190,11 +192,11 @@ void GiveAwaySmallParts(LabelMap& map, int objects, std::int64_t leastVoxels, bo
       Give(map, parts[n], nobodys);
     }
   }
-  const std::vector<LabelPart> given = PartFinder(map, nobodys, nobodys).Find();
+  const std::vector<LabelPart> given = PartFinder(map, { nobodys }).Find();
   std::vector<Number> to;
   for (const LabelPart& part : given)
   {
-    to.push_back(NeighbourOf(part, map, objects));
+    to.push_back(NeighbourOf(part, map));
   }
   for (std::size_t n = 0; n < given.size(); ++n)
   {

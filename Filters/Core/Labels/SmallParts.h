@@ -6,18 +6,19 @@
 #include "Core/Labels/LabelMap.h"
 
 #include <cstdint>
+#include <vector>
 
 namespace volumic
 {
 /**
- * Gives parts of objects, voxels joined by faces, edges or corners, to the object, or the outside,
+ * Give parts of objects, voxels joined by faces, edges or corners, to the object, or the outside,
  * that they share most faces with, of those that are left.
- * @param objects      those up to this number have parts; others are outside
+ * @param objects      whose parts these are, sorted; other objects keep theirs
  * @param leastVoxels  parts of fewer voxels are given away
  * @param keepsLargest all parts of an object but its largest, too
  */
 void GiveAwaySmallParts(
-  LabelMap& map, int objects, std::int64_t leastVoxels, bool keepsLargest);
+  LabelMap& map, const std::vector<int>& objects, std::int64_t leastVoxels, bool keepsLargest);
 }
 
 #endif

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Labels/WrongVoxels.h"
 
-#include "Core/Common/DisjointSets.h"
 #include "Core/Image/VoxelNumbers.h"
 #include "Core/Mesh/RowCrossing.h"
 #include "Core/Mesh/TriangleTree.h"
@@ -122,58 +121,5 @@ std::vector<std::int64_t> FindMissedVoxels(const LabelMap& map,
     }
   }
   return missed;
-}
-
-std::vector<std::int64_t> FindLostVoxels(
-  const LabelMap& map, int object, const std::vector<std::int64_t>& wrong, bool isObject)
-{
-  const VoxelBox all = VoxelBox::Of(map.Size());
-  const auto isWrong = [&](std::int64_t voxel)
-  { return std::binary_search(wrong.begin(), wrong.end(), voxel); };
-  const auto isOfSide = [&](int i, int j, int k)
-  { return (map.At(i, j, k) == object) == isObject; };
-  const auto isKept = [&](int i, int j, int k) {
-    return isOfSide(i, j, k) && !(all.Contains({ i, j, k }) && isWrong(all.NumberOf(i, j, k)));
-  };
-  const VoxelNumbers numbers(map.Size());
-  std::vector<std::int64_t> lost;
-  for (const std::int64_t voxel : wrong)
-  {
-    const auto [i, j, k] = numbers.PlaceOf(voxel);
-    if (isOfSide(i, j, k) && !isKept(i - 1, j, k) && !isKept(i + 1, j, k) && !isKept(i, j - 1, k) &&
-      !isKept(i, j + 1, k) && !isKept(i, j, k - 1) && !isKept(i, j, k + 1))
-    {
-      lost.push_back(voxel);
-    }
-  }
-  return lost;
-}
-
-std::int64_t SizeOfLargestLostPart(
-  const LabelMap& map, int object, const std::vector<std::int64_t>& wrong)
-{
-  const std::vector<std::int64_t> lost = FindLostVoxels(map, object, wrong, true);
-  const VoxelNumbers numbers(map.Size());
-  DisjointSets parts(lost.size());
-  for (std::size_t n = 0; n < lost.size(); ++n)
-  {
-    const std::array<int, 3> place = numbers.PlaceOf(lost[n]);
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      const std::int64_t before = lost[n] - numbers.Stride(axis);
-      const auto found = std::lower_bound(lost.begin(), lost.end(), before);
-      if (place[axis] > 0 && *found == before)
-      {
-        parts.Join(static_cast<int>(n), static_cast<int>(found - lost.begin()));
-      }
-    }
-  }
-  std::vector<std::int64_t> sizes(lost.size(), 0);
-  std::int64_t largest = 0;
-  for (std::size_t n = 0; n < lost.size(); ++n)
-  {
-    largest = std::max(largest, ++sizes[static_cast<std::size_t>(parts.Find(static_cast<int>(n)))]);
-  }
-  return largest;
 }
 }

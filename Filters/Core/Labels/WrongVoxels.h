@@ -19,11 +19,6 @@ namespace volumic
  */
 std::vector<std::int64_t> FindWrongVoxels(
   const LabelBricks& bricks, int object, const IndexedSurface& surface, const VoxelBox& within);
-inline std::vector<std::int64_t> FindWrongVoxels(
-  const LabelBricks& bricks, int object, const IndexedSurface& surface)
-{
-  return FindWrongVoxels(bricks, object, surface, VoxelBox::Of(bricks.Map().Size()));
-}
 
 /**
  * Those of the wrong voxels that are further than a tolerance from the surface, in smallest
@@ -31,20 +26,6 @@ inline std::vector<std::int64_t> FindWrongVoxels(
  */
 std::vector<std::int64_t> FindMissedVoxels(const LabelMap& map,
   const std::vector<std::int64_t>& wrong, const IndexedSurface& surface, double tolerance);
-
-/**
- * The wrong voxels of a part of an object that its surface has left out, or of a gap that it has
- * closed. Those beside a voxel of the same side that is right don't count: what is cut off along a
- * ridge is no part.
- * @param wrong what FindWrongVoxels() has found
- * @param isObject of the object, else of what is about it
- */
-std::vector<std::int64_t> FindLostVoxels(
-  const LabelMap& map, int object, const std::vector<std::int64_t>& wrong, bool isObject);
-
-/** The number of FindLostVoxels() in the largest part of the object, joined by faces. */
-std::int64_t SizeOfLargestLostPart(
-  const LabelMap& map, int object, const std::vector<std::int64_t>& wrong);
 }
 
 #endif

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// vtkLabelsToSurfaces with SharedInterfaces.
+// The mesh of all labels that vtkLabelsToSurfaces makes, and what blocks have of it.
 
 #include "LabelImages.h"
 #include "SameOutputs.h"
@@ -34,7 +34,6 @@ vtkSmartPointer<vtkLabelsToSurfaces> FilterOf(vtkImageData* image)
 {
   auto filter = vtkSmartPointer<vtkLabelsToSurfaces>::New();
   filter->SetInputData(image);
-  filter->SharedInterfacesOn();
   return filter;
 }
 
@@ -75,7 +74,7 @@ std::string ErrorOf(vtkLabelsToSurfaces* filter)
 }
 }
 
-TEST(SharedInterfaces, AreThereOnceEach)
+TEST(LabelInterfaces, AreThereOnceEach)
 {
   const auto filter = FilterOf(BlocksImage());
   filter->Update();
@@ -91,7 +90,7 @@ TEST(SharedInterfaces, AreThereOnceEach)
   EXPECT_EQ(interfaces->GetFieldData()->GetAbstractArray("LabelName")->GetNumberOfTuples(), 3);
 }
 
-TEST(SharedInterfaces, AreWhatBlocksAreMadeOf)
+TEST(LabelInterfaces, AreWhatBlocksAreMadeOf)
 {
   const auto filter = FilterOf(BlocksImage());
   filter->Update();
@@ -126,18 +125,51 @@ TEST(SharedInterfaces, AreWhatBlocksAreMadeOf)
   EXPECT_EQ(triangles, interfaces->GetNumberOfPolys() + twice);
 }
 
-TEST(SharedInterfaces, HaveWhatIsNotChosenOutside)
+TEST(LabelInterfaces, HaveNoTrianglesWithoutASelectedLabel)
 {
   const auto filter = FilterOf(BlocksImage());
   filter->AddLabel(5);
   filter->AddLabel(7);
-  filter->SetBackgroundLabel(-1);
+  filter->SetBackgroundLabel(-1); // The voxels of 0 are a label then.
   filter->Update();
-  EXPECT_EQ(AllSides(filter->GetInterfaces()), (std::set<Sides>{ { 5, -1 }, { 7, -1 } }));
-  EXPECT_EQ(filter->GetInterfaces()->GetNumberOfLines(), 0);
+  vtkPolyData* interfaces = filter->GetInterfaces();
+  EXPECT_EQ(AllSides(interfaces), (std::set<Sides>{ { 5, -1 }, { 7, -1 } }));
+  EXPECT_EQ(interfaces->GetNumberOfPolys(),
+    BlockOf(filter, 0)->GetNumberOfPolys() + BlockOf(filter, 1)->GetNumberOfPolys());
+  EXPECT_EQ(interfaces->GetNumberOfPoints(),
+    BlockOf(filter, 0)->GetNumberOfPoints() + BlockOf(filter, 1)->GetNumberOfPoints());
+  EXPECT_GT(interfaces->GetNumberOfLines(), 10) << "where 7, 3 and 0 meet";
+  EXPECT_TRUE(interfaces->GetFieldData()->GetArray("WorstAngle"));
+  for (unsigned int block = 0; block < 2; ++block)
+  {
+    vtkPolyData* surface = BlockOf(filter, block);
+    vtkDataArray* ids = surface->GetPointData()->GetGlobalIds();
+    for (vtkIdType p = 0; p < surface->GetNumberOfPoints(); ++p)
+    {
+      std::array<double, 3> own;
+      std::array<double, 3> shared;
+      surface->GetPoint(p, own.data());
+      interfaces->GetPoint(static_cast<vtkIdType>(ids->GetComponent(p, 0)), shared.data());
+      ASSERT_EQ(own, shared);
+    }
+    // Normals point away from the selected label.
+    vtkNew<vtkPolyData> part;
+    part->SetPoints(interfaces->GetPoints());
+    vtkNew<vtkCellArray> triangles;
+    for (vtkIdType cell = interfaces->GetNumberOfLines(); cell < interfaces->GetNumberOfCells();
+         ++cell)
+    {
+      if (SidesOf(interfaces, cell)[0] == (block == 0 ? 5 : 7))
+      {
+        triangles->InsertNextCell(interfaces->GetCell(cell));
+      }
+    }
+    part->SetPolys(triangles);
+    EXPECT_NEAR(EnclosedVolume(part), EnclosedVolume(surface), 1e-6 * EnclosedVolume(surface));
+  }
 }
 
-TEST(SharedInterfaces, AreTheWholeOutlineOfMergedLabels)
+TEST(LabelInterfaces, AreTheWholeOutlineOfMergedLabels)
 {
   const auto filter = FilterOf(BlocksImage());
   filter->MergeOn();
@@ -146,7 +178,21 @@ TEST(SharedInterfaces, AreTheWholeOutlineOfMergedLabels)
   EXPECT_EQ(filter->GetInterfaces()->GetNumberOfPolys(), BlockOf(filter, 0)->GetNumberOfPolys());
 }
 
-TEST(SharedInterfaces, LeaveOutSmallParts)
+TEST(LabelInterfaces, OfMergedLabelsHaveLinesWhereOthersMeetThem)
+{
+  const auto filter = FilterOf(BlocksImage());
+  filter->AddLabel(3);
+  filter->AddLabel(5);
+  filter->MergeOn();
+  filter->Update();
+  vtkPolyData* interfaces = filter->GetInterfaces();
+  EXPECT_EQ(AllSides(interfaces), (std::set<Sides>{ { 3, 0 } })) << "5 is inside";
+  ASSERT_GT(interfaces->GetNumberOfLines(), 10) << "where 3, 7 and 0 meet";
+  EXPECT_EQ(SidesOf(interfaces, 0), (Sides{ 0, 0 }));
+  EXPECT_EQ(interfaces->GetNumberOfPolys(), BlockOf(filter, 0)->GetNumberOfPolys());
+}
+
+TEST(LabelInterfaces, LeaveOutSmallParts)
 {
   const auto filter = FilterOf(BlocksImage());
   filter->Update();
@@ -163,7 +209,7 @@ TEST(SharedInterfaces, LeaveOutSmallParts)
   EXPECT_EQ(FieldOf(BlockOf(filter, 2), "NumberOfComponents"), 1.);
 }
 
-TEST(SharedInterfaces, AreInTheWorld)
+TEST(LabelInterfaces, AreInTheWorld)
 {
   const auto image = BlocksImage();
   image->SetSpacing(0.5, 0.5, 1.);
@@ -185,7 +231,7 @@ TEST(SharedInterfaces, AreInTheWorld)
   EXPECT_NEAR(bounds[4], 7. + 2.5, 0.4);
 }
 
-TEST(SharedInterfaces, AreCoarserWithATolerance)
+TEST(LabelInterfaces, AreCoarserWithATolerance)
 {
   const auto filter = FilterOf(BlocksImage());
   filter->Update();
@@ -218,7 +264,7 @@ TEST(SharedInterfaces, AreCoarserWithATolerance)
   }
 }
 
-TEST(SharedInterfaces, HaveNoLongerEdgesThanTheMaximum)
+TEST(LabelInterfaces, HaveNoLongerEdgesThanTheMaximum)
 {
   const auto image = BlocksImage();
   image->SetSpacing(0.5, 0.5, 0.5);
@@ -244,7 +290,7 @@ TEST(SharedInterfaces, HaveNoLongerEdgesThanTheMaximum)
   EXPECT_LT(longest, 1.5);
 }
 
-TEST(SharedInterfaces, AreTheSameWithThreads)
+TEST(LabelInterfaces, AreTheSameWithThreads)
 {
   const auto one = FilterOf(BlocksImage());
   one->SetNumberOfThreads(1);
@@ -256,7 +302,7 @@ TEST(SharedInterfaces, AreTheSameWithThreads)
   ExpectSameBlocks(one->GetOutput(), all->GetOutput());
 }
 
-TEST(SharedInterfaces, AreFlatAtTheBorderOfTheImage)
+TEST(LabelInterfaces, AreFlatAtTheBorderOfTheImage)
 {
   const auto filter =
     FilterOf(LabelImageOf(12, 10, 9, [](int i, int, int) { return i < 5 ? 3. : 7.; }));
@@ -296,46 +342,25 @@ TEST(SharedInterfaces, AreFlatAtTheBorderOfTheImage)
   EXPECT_TRUE(Has(ErrorOf(filter), "not along x"));
   filter->SetBoxFaces(3);
   EXPECT_TRUE(Has(ErrorOf(filter), "Box Faces is 3"));
-  filter->SetBoxFacesToFlat();
-  filter->SharedInterfacesOff();
-  EXPECT_TRUE(Has(ErrorOf(filter), "Switch Shared Interfaces on"));
 }
 
-TEST(SharedInterfaces, AreNoneWhereNobodyAsksForThem)
-{
-  const auto filter = LabelSurfacesOf(BlocksImage());
-  EXPECT_EQ(filter->GetInterfaces()->GetNumberOfCells(), 0);
-  filter->SharedInterfacesOn();
-  filter->Update();
-  EXPECT_GT(filter->GetInterfaces()->GetNumberOfCells(), 0);
-  filter->SharedInterfacesOff();
-  filter->Update();
-  EXPECT_EQ(filter->GetInterfaces()->GetNumberOfCells(), 0);
-}
-
-TEST(SharedInterfaces, NameTheWayOutOfWhatTheyCannotDo)
+TEST(LabelInterfaces, DoNotDependOnTheOldProperty)
 {
   const auto filter = FilterOf(BlocksImage());
-  for (const bool hasGap : { true, false })
-  {
-    filter->SetGap(hasGap ? 0.5 : 0.);
-    filter->SetThinParts(!hasGap);
-    const std::string error = ErrorOf(filter);
-    EXPECT_TRUE(Has(error, hasGap ? "Set Gap to 0" : "Switch Thin Parts off"));
-    EXPECT_TRUE(Has(error, "Shared Interfaces"));
-    EXPECT_EQ(filter->GetOutput()->GetNumberOfBlocks(), 0u);
-    EXPECT_EQ(filter->GetInterfaces()->GetNumberOfCells(), 0);
-  }
-  filter->ThinPartsOff();
-  EXPECT_EQ(ErrorOf(filter), "");
-  EXPECT_EQ(filter->GetOutput()->GetNumberOfBlocks(), 3u);
+  EXPECT_TRUE(filter->GetSharedInterfaces());
+  filter->SharedInterfacesOff();
+  EXPECT_FALSE(filter->GetSharedInterfaces());
+  filter->Update();
+  const auto other = FilterOf(BlocksImage());
+  other->Update();
+  ExpectSameSurfaces(filter->GetInterfaces(), other->GetInterfaces());
 }
 
-class StoppedSharedInterfaces : public testing::TestWithParam<double>
+class StoppedLabelInterfaces : public testing::TestWithParam<double>
 {
 };
 
-TEST_P(StoppedSharedInterfaces, AreMarkedAndMadeAnewThen)
+TEST_P(StoppedLabelInterfaces, AreMarkedAndMadeAnewThen)
 {
   const auto filter = FilterOf(BlocksImage());
   ProgressListener listener(filter);
@@ -351,11 +376,11 @@ TEST_P(StoppedSharedInterfaces, AreMarkedAndMadeAnewThen)
     }
   }
   listener.StopAt = 2.0;
-  filter->GoOn();
+  filter->Modified();
   filter->Update();
   const auto other = FilterOf(BlocksImage());
   other->Update();
   ExpectSameSurfaces(filter->GetInterfaces(), other->GetInterfaces());
 }
 
-INSTANTIATE_TEST_SUITE_P(At, StoppedSharedInterfaces, testing::Values(0.01, 0.5));
+INSTANTIATE_TEST_SUITE_P(At, StoppedLabelInterfaces, testing::Values(0.01, 0.5));

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Labels/LabelValues.h"
+#include "Input/LabelValues.h"
 
 #include "Core/Common/Refuse.h"
 #include "Core/Common/Spans.h"

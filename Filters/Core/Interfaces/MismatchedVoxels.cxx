@@ -1,0 +1,207 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Interfaces/MismatchedVoxels.h"
+
+#include "Core/Common/Spans.h"
+#include "Core/Interfaces/InterfaceClearance.h"
+#include "Core/Mesh/RowCrossing.h"
+#include "Core/Mesh/TriangleDistance.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <tuple>
+#include <utility>
+
+namespace volumic
+{
+namespace
+{
+using Number = LabelMap::Number;
+
+/** Faces, or voxels, that a thread looks at at a time. */
+constexpr std::size_t SpanSize = 4096;
+
+/** Where a row of voxel centres along x crosses a face. */
+struct FaceCrossing
+{
+  std::int64_t Row;
+  double X; ///< voxels
+  int Winding;
+  int Face;
+
+  bool operator<(const FaceCrossing& other) const
+  {
+    return std::tie(this->Row, this->X, this->Face) <
+      std::tie(other.Row, other.X, other.Face);
+  }
+};
+
+class MismatchFinder
+{
+public:
+  MismatchFinder(const InterfaceMesh& mesh, const LabelBricks& bricks,
+    const std::array<double, 3>& step, Executor& executor)
+    : Mesh(mesh), Bricks(bricks), Step(step), Threads(executor)
+  {
+    const std::array<int, 3>& size = bricks.Map().Size();
+    std::copy(size.begin(), size.end(), this->Rows.End.begin());
+  }
+
+  std::vector<MismatchedVoxel> Find()
+  {
+    this->FindCrossings();
+    const VoxelBox& box = this->Bricks.Inside();
+    std::vector<std::vector<MismatchedVoxel>> ofSlices(
+      static_cast<std::size_t>(std::max(0, box.Length(2))));
+    ForSpans(this->Threads, ofSlices.size(), 1,
+      [&](std::size_t slice, std::size_t, std::size_t)
+      {
+        const int k = box.First[2] + static_cast<int>(slice);
+        for (int j = box.First[1]; j < box.End[1]; ++j)
+        {
+          this->FollowRow(j, k, ofSlices[slice]);
+        }
+      });
+    return Joined(this->Threads, ofSlices);
+  }
+
+private:
+  void FindCrossings()
+  {
+    std::vector<std::vector<FaceCrossing>> ofSpans(
+      (this->Mesh.Faces.size() + SpanSize - 1) / SpanSize);
+    ForSpans(this->Threads, this->Mesh.Faces.size(), SpanSize,
+      [&](std::size_t span, std::size_t begin, std::size_t end)
+      {
+        std::vector<RowGrid::Crossing> some;
+        for (std::size_t f = begin; f < end; ++f)
+        {
+          const InterfaceMesh::Face& face = this->Mesh.Faces[f];
+          if (!face.IsThere())
+          {
+            continue;
+          }
+          std::array<Point, 3> corners;
+          for (int c = 0; c < 3; ++c)
+          {
+            const Vector& p = this->Mesh.Position[static_cast<std::size_t>(face.Vertex[c])];
+            corners[c] = { p.X / this->Step[0], p.Y / this->Step[1], p.Z / this->Step[2] };
+          }
+          some.clear();
+          this->Rows.AddCrossings(corners, some);
+          for (const RowGrid::Crossing& crossing : some)
+          {
+            ofSpans[span].push_back({ crossing.Row, crossing.Where.X, crossing.Where.Winding,
+              static_cast<int>(f) });
+          }
+        }
+      });
+    this->Crossings = Joined(this->Threads, ofSpans);
+    SortInSpans(this->Threads, this->Crossings);
+  }
+
+  void FollowRow(int j, int k, std::vector<MismatchedVoxel>& found) const
+  {
+    constexpr int side = LabelBricks::Side;
+    const VoxelBox& box = this->Bricks.Inside();
+    const std::int64_t row = this->Rows.RowOf(j, k);
+    auto next = std::lower_bound(this->Crossings.begin(), this->Crossings.end(), row,
+      [](const FaceCrossing& crossing, std::int64_t number) { return crossing.Row < number; });
+    std::vector<std::pair<Number, int>> windings; // of the objects that the row is in
+    const auto add = [&](Number object, int winding)
+    {
+      auto at = std::find_if(windings.begin(), windings.end(),
+        [object](const auto& entry) { return entry.first == object; });
+      at = at == windings.end() ? windings.insert(at, { object, 0 }) : at;
+      at->second += winding;
+      if (at->second == 0)
+      {
+        windings.erase(at);
+      }
+    };
+    for (int i = box.First[0]; i < box.End[0];)
+    {
+      const int end = std::min((i / side + 1) * side, box.End[0]);
+      const LabelBricks::Range objects = this->Bricks.ObjectsIn(i / side, j / side, k / side);
+      if (objects.end() - objects.begin() == 1 &&
+        (next == this->Crossings.end() || next->Row != row || next->X >= end))
+      {
+        i = end; // All of it is of one object, and far from the others.
+        continue;
+      }
+      for (; i < end; ++i)
+      {
+        for (; next != this->Crossings.end() && next->Row == row && next->X < i; ++next)
+        {
+          const InterfaceMesh::Face& face = this->Mesh.Faces[static_cast<std::size_t>(next->Face)];
+          add(face.Behind, next->Winding);
+          if (!this->Mesh.IsSide(face.Front))
+          {
+            add(face.Front, -next->Winding);
+          }
+        }
+        const auto inside = std::find_if(windings.begin(), windings.end(),
+          [](const auto& entry) { return entry.first != 0 && entry.second > 0; });
+        const Number ofMesh = inside == windings.end() ? Number(0) : inside->first;
+        const Number ofMap = this->Bricks.Map().At(i, j, k);
+        if (ofMap != ofMesh)
+        {
+          found.push_back({ { i, j, k }, ofMap, ofMesh });
+        }
+      }
+    }
+  }
+
+  const InterfaceMesh& Mesh;
+  const LabelBricks& Bricks;
+  const std::array<double, 3>& Step;
+  Executor& Threads;
+  RowGrid Rows;
+  std::vector<FaceCrossing> Crossings;
+};
+}
+
+std::vector<MismatchedVoxel> FindMismatchedVoxels(const InterfaceMesh& mesh,
+  const LabelBricks& bricks, const std::array<double, 3>& step, double tolerance,
+  Executor& executor)
+{
+  std::vector<MismatchedVoxel> found = MismatchFinder(mesh, bricks, step, executor).Find();
+  if (tolerance <= 0. || found.empty())
+  {
+    return found;
+  }
+  InterfaceClearance clearance(mesh, tolerance);
+  clearance.Reset(executor);
+  std::vector<unsigned char> isNear(found.size(), 0);
+  ForSpans(executor, found.size(), SpanSize,
+    [&](std::size_t, std::size_t begin, std::size_t end)
+    {
+      std::vector<int> near;
+      for (std::size_t n = begin; n < end; ++n)
+      {
+        const std::array<int, 3>& at = found[n].At;
+        const VectorD centre(at[0] * step[0], at[1] * step[1], at[2] * step[2]);
+        clearance.FindNear(Vector(centre), Vector(centre), 0, near);
+        for (const int f : near)
+        {
+          const MeshTriangle face =
+            TriangleOf(mesh, mesh.Faces[static_cast<std::size_t>(f)].Vertex);
+          isNear[n] = isNear[n] != 0 ||
+              SquaredDistanceToTriangle(centre, face.Corner) <= tolerance * tolerance
+            ? 1
+            : 0;
+        }
+      }
+    });
+  std::size_t kept = 0;
+  for (std::size_t n = 0; n < found.size(); ++n)
+  {
+    if (isNear[n] == 0)
+    {
+      found[kept++] = found[n];
+    }
+  }
+  found.resize(kept);
+  return found;
+}
+}

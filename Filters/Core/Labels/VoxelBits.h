@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicVoxelBits_h
+#define volumicVoxelBits_h
+
+#include "Core/Common/Executor.h"
+#include "Core/Image/VoxelBox.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace volumic
+{
+/** A set of voxels of a box: one bit per voxel. Voxels outside the box are not in the set. */
+class VoxelBits
+{
+public:
+  VoxelBits() = default;
+  /** All voxels of the box, or none of them. */
+  explicit VoxelBits(const VoxelBox& box, bool all = false);
+
+  const VoxelBox& Box() const { return this->Voxels; }
+
+  bool Has(int i, int j, int k) const
+  {
+    const int x = i - this->Voxels.First[0];
+    return this->Voxels.Contains({ i, j, k }) &&
+      (this->RowAt(j, k)[x / WordSize] >> x % WordSize & 1u) != 0;
+  }
+  /** Return bit n for each of four voxels i + n; i is a multiple of 4 from the box on. */
+  unsigned FourAt(int i, int j, int k) const
+  {
+    const int x = i - this->Voxels.First[0];
+    return this->RowAt(j, k)[x / WordSize] >> x % WordSize & 15u;
+  }
+  bool IsEmpty() const;
+
+  /** Add the voxels of a box, which is within that of the set. */
+  void Add(const VoxelBox& part);
+  /** Add some of four voxels: bit n for the voxel i + n; i is as for FourAt(). */
+  void AddFour(int i, int j, int k, unsigned bits)
+  {
+    const int x = i - this->Voxels.First[0];
+    this->RowAt(j, k)[x / WordSize] |= bits << x % WordSize;
+  }
+
+  /** Operations on two sets of the same box. */
+  VoxelBits& operator&=(const VoxelBits& other);
+  VoxelBits& operator|=(const VoxelBits& other);
+  VoxelBits& operator^=(const VoxelBits& other);
+  VoxelBits& operator-=(const VoxelBits& other);
+  friend VoxelBits operator&(VoxelBits a, const VoxelBits& b) { return a &= b; }
+  friend VoxelBits operator^(VoxelBits a, const VoxelBits& b) { return a ^= b; }
+  friend VoxelBits operator-(VoxelBits a, const VoxelBits& b) { return a -= b; }
+
+  /** Return the voxels whose neighbor is in the set: the next one along an axis, or that before. */
+  VoxelBits Neighbored(int axis, bool isNext) const;
+  /** Return the set with all voxels up to a number of voxels away along an axis. */
+  VoxelBits Grown(int axis, int voxels) const;
+  VoxelBits Grown(const std::array<int, 3>& voxels) const
+  {
+    return this->Grown(0, voxels[0]).Grown(1, voxels[1]).Grown(2, voxels[2]);
+  }
+  /** Return whole groups of four voxels along x that have voxels of the set. */
+  VoxelBits InFours() const;
+
+  /**
+   * Call visit(i, j, k, count) for each run of voxels along x: its first voxel and their number.
+   * The runs of a layer along z are visited on one thread, in their order.
+   */
+  template <typename Visitor>
+  void For(Executor& executor, Visitor&& visit) const
+  {
+    ForSpans(executor, static_cast<std::size_t>(this->NumberOfLayers()), 1,
+      [&](std::size_t layer, std::size_t, std::size_t)
+      { this->ForLayer(static_cast<int>(layer), visit); });
+  }
+
+  int NumberOfLayers() const { return this->Voxels.Length(2); }
+
+  /** Visit the runs of one layer. */
+  template <typename Visitor>
+  void ForLayer(int layer, Visitor&& visit) const
+  {
+    const int k = this->Voxels.First[2] + layer;
+    const int count = this->Voxels.Length(0);
+    for (int j = this->Voxels.First[1]; j < this->Voxels.End[1]; ++j)
+    {
+      const Word* row = this->RowAt(j, k);
+      for (int x = FindBit(row, 0, count, 0); x < count;)
+      {
+        const int end = FindBit(row, x, count, ~Word(0));
+        visit(this->Voxels.First[0] + x, j, k, end - x);
+        x = FindBit(row, end, count, 0);
+      }
+    }
+  }
+
+private:
+  using Word = std::uint32_t;
+  static constexpr int WordSize = 32;
+
+  Word* RowAt(int j, int k)
+  {
+    return this->Bits.data() +
+      static_cast<std::size_t>(this->Words) *
+      (j - this->Voxels.First[1] +
+        static_cast<std::size_t>(this->Voxels.Length(1)) * (k - this->Voxels.First[2]));
+  }
+  const Word* RowAt(int j, int k) const { return const_cast<VoxelBits*>(this)->RowAt(j, k); }
+  /** Return the first bit, from x on, that is set in row ^ inversion; `count` if there is none. */
+  static int FindBit(const Word* row, int x, int count, Word inversion);
+  /** Call combine(word, other) for the words of two rows, `by` rows apart along y or z. */
+  template <typename Combine>
+  void CombineRows(int axis, int by, const VoxelBits& others, Combine&& combine);
+
+  VoxelBox Voxels;
+  int Words = 0; ///< per row
+  std::vector<Word> Bits;
+};
+}
+
+#endif

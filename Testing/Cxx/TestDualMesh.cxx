@@ -1,0 +1,303 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Interfaces/CellPattern.h"
+#include "ThreadTestTools.h"
+#include "VoxelScenes.h"
+
+using namespace volumic;
+
+namespace
+{
+/** All partitions of the octants of a cell into labels, which are numbered as they come. */
+std::vector<std::array<int, 8>> AllPatterns()
+{
+  std::vector<std::array<int, 8>> patterns;
+  std::array<int, 8> pattern = {};
+  const std::function<void(int, int)> add = [&](int octant, int labels)
+  {
+    if (octant == 8)
+    {
+      patterns.push_back(pattern);
+      return;
+    }
+    for (int label = 0; label <= labels; ++label)
+    {
+      pattern[static_cast<std::size_t>(octant)] = label;
+      add(octant + 1, std::max(labels, label + 1));
+    }
+  };
+  add(0, 0);
+  return patterns;
+}
+
+/**
+ * All patterns in one map, each of labels of its own with background about it.
+ * @param isWithBackground one label of each is the background
+ */
+void ExpectSoundPatterns(bool isWithBackground, unsigned seed)
+{
+  std::mt19937 random(seed);
+  const std::vector<std::array<int, 8>> patterns = AllPatterns();
+  ASSERT_EQ(patterns.size(), 4140u);
+  std::vector<std::array<int, 8>> blocks;
+  std::vector<std::size_t> blockOf = { 0 };
+  for (const std::array<int, 8>& pattern : patterns)
+  {
+    const int labels = 1 + *std::max_element(pattern.begin(), pattern.end());
+    const int background = isWithBackground ? static_cast<int>(random() % labels) : -1;
+    const int first = static_cast<int>(blockOf.size());
+    blocks.push_back(pattern);
+    for (int& label : blocks.back())
+    {
+      label = label == background ? 0 : first + label;
+    }
+    blockOf.resize(blockOf.size() + static_cast<std::size_t>(labels), blocks.size() - 1);
+  }
+  const Voxel counts = { 17, 16, 16 };
+  VoxelScene scene({ 3 * counts[0], 3 * counts[1], 3 * counts[2] },
+    [&](int i, int j, int k)
+    {
+      const int n = i / 3 + counts[0] * (j / 3 + counts[1] * (k / 3));
+      return i % 3 == 2 || j % 3 == 2 || k % 3 == 2 || n >= static_cast<int>(blocks.size())
+        ? 0
+        : blocks[static_cast<std::size_t>(n)]
+                [static_cast<std::size_t>(i % 3 + 2 * (j % 3) + 4 * (k % 3))];
+    });
+  scene.RankAtRandom(seed);
+  const InterfaceMesh mesh = scene.Mesh();
+  if (seed == 1) // which takes most of the time
+  {
+    EXPECT_EQ(CountSelfIntersections(TrianglesOf(mesh)), 0);
+  }
+  ExpectVoxelTopology(scene, mesh,
+    [&](int label)
+    {
+      std::ostringstream text("; octants (rank):", std::ios::ate);
+      for (const int octant : blocks[blockOf[static_cast<std::size_t>(label)]])
+      {
+        text << ' ' << octant << " (" << scene.RankOf[static_cast<std::size_t>(octant)] << ')';
+      }
+      return text.str();
+    });
+}
+
+/** How far each vertex may move along each axis, in voxels: measured. */
+std::vector<float> SafeDistances(const VoxelScene& scene, const InterfaceMesh& mesh)
+{
+  std::vector<char> isPlain;
+  for (const Vector& p : mesh.Position)
+  {
+    const Voxel at = { static_cast<int>(p.X), static_cast<int>(p.Y), static_cast<int>(p.Z) };
+    std::array<LabelMap::Number, 8> octants;
+    for (int o = 0; o < 8; ++o)
+    {
+      octants[o] = static_cast<LabelMap::Number>(
+        scene.At(at[0] + (o & 1), at[1] + (o >> 1 & 1), at[2] + (o >> 2)));
+    }
+    const bool isInMiddle = p.X == at[0] + .5f && p.Y == at[1] + .5f && p.Z == at[2] + .5f;
+    isPlain.push_back(isInMiddle && CellPattern(octants, scene.RankOf).IsPlain());
+  }
+  const float least = scene.Outside < 0 ? .02f : .01f;
+  std::vector<float> safe(mesh.Position.size(), .24f);
+  for (const InterfaceMesh::Face& face : mesh.Faces)
+  {
+    for (int k = 0; k < 9; ++k)
+    {
+      const auto v = static_cast<std::size_t>(face.Vertex[k % 3]);
+      const auto w = static_cast<std::size_t>(face.Vertex[k / 3]);
+      safe[v] = !isPlain[v] ? least : !isPlain[w] ? std::min(safe[v], .1f) : safe[v];
+    }
+  }
+  return safe;
+}
+
+/** Of a label alone, by the voxels; the mesh agrees. */
+void ExpectBlock(const VoxelScene& scene, int label, const BlockTopology& expected)
+{
+  EXPECT_EQ(scene.Voxels().Count().at(label), expected);
+  ExpectSound(scene, scene.Mesh());
+}
+}
+
+TEST(DualMesh, HasTheTopologyOfEveryPattern)
+{
+  for (const unsigned seed : { 1, 2, 3 })
+  {
+    ExpectSoundPatterns(false, seed);
+  }
+}
+
+TEST(DualMesh, HasTheTopologyOfEveryPatternWithBackground)
+{
+  for (const unsigned seed : { 1, 2, 3 })
+  {
+    ExpectSoundPatterns(true, seed);
+  }
+}
+
+TEST(DualMesh, HasTheTopologyOfNoise)
+{
+  for (const int labels : { 2, 3, 5, 10 })
+  {
+    SCOPED_TRACE(labels);
+    VoxelScene scene = NoiseScene(12, labels, 10u + static_cast<unsigned>(labels));
+    ExpectSound(scene, scene.Mesh());
+    scene.RankAtRandom(static_cast<unsigned>(labels));
+    scene.Spacing = { 1., 2.5, 20. };
+    ExpectSound(scene, scene.Mesh());
+  }
+}
+
+TEST(DualMesh, SurroundsAVoxelByTwelveTriangles)
+{
+  VoxelScene scene({ 1, 1, 1 }, [](int, int, int) { return 1; });
+  scene.Spacing = { 1., 3., 20. };
+  const InterfaceMesh mesh = scene.Mesh();
+  EXPECT_EQ(mesh.Position.size(), 8u);
+  EXPECT_EQ(mesh.Faces.size(), 12u);
+  EXPECT_EQ(SurfacesOf(mesh).at(1).Volume, 60.);
+}
+
+TEST(DualMesh, KeepsPlatesApartAtAnySpacing)
+{
+  for (const double spacing : { 1., 1.5, 5., 20. })
+  {
+    SCOPED_TRACE(spacing);
+    VoxelScene scene({ 14, 14, 9 },
+      [](int i, int j, int k)
+      {
+        const int slice = k + (i + 2 * j) / 7; // stairs
+        return slice == 3 || slice == 4 ? 1 : slice == 6 || slice == 7 ? 2 : 0;
+      });
+    scene.Spacing[2] = spacing;
+    const InterfaceMesh mesh = scene.Mesh();
+    ExpectSound(scene, mesh);
+    for (const InterfaceMesh::Face& face : mesh.Faces)
+    {
+      ASSERT_EQ(face.Behind, 0);
+    }
+  }
+}
+
+TEST(DualMesh, KeepsTiltedSheetsOfOneVoxelWhole)
+{
+  for (const Voxel& normal :
+    { Voxel{ 1, 0, 0 }, Voxel{ 1, 1, 0 }, Voxel{ 1, 1, 1 }, Voxel{ 3, 2, 1 } })
+  {
+    SCOPED_TRACE(::testing::PrintToString(normal));
+    const int least = 7 * (normal[0] + normal[1] + normal[2]);
+    const VoxelScene scene({ 15, 15, 15 },
+      [&](int i, int j, int k)
+      {
+        const int height = normal[0] * i + normal[1] * j + normal[2] * k;
+        return height < least ? 2 : height < least + normal[0] ? 1 : 3;
+      });
+    ExpectBlock(scene, 1, { 1, 1, 0 });
+  }
+}
+
+TEST(DualMesh, KeepsAShellOfOneVoxelClosed)
+{
+  const VoxelScene scene({ 29, 29, 29 },
+    [](int i, int j, int k)
+    {
+      const double far = std::hypot(i - 14, j - 14, k - 14);
+      return far >= 12.5 && far < 13.5 ? 1 : 0;
+    });
+  ExpectBlock(scene, 1, { 2, 1, 1 });
+}
+
+TEST(DualMesh, KeepsVoxelsThatAreAloneOrMeetAtEdgesAndCorners)
+{
+  std::mt19937 random(1);
+  int labels = 0;
+  const VoxelScene dust(
+    { 16, 16, 16 }, [&](int, int, int) { return random() % 4 == 0 ? ++labels : 0; });
+  ExpectSound(dust, dust.Mesh());
+  for (int other = 1; other <= 2; ++other)
+  {
+    const auto pair = [&](const Voxel& place)
+    {
+      return VoxelScene({ 4, 4, 4 },
+        [=](int i, int j, int k) {
+          return Voxel{ i, j, k } == Voxel{ 1, 1, 1 } ? 1 : Voxel{ i, j, k } == place ? other : 0;
+        });
+    };
+    const int parts = other == 1 ? 2 : 1;
+    ExpectBlock(pair({ 2, 2, 1 }), 1, { 1, 1, 0 });
+    ExpectBlock(pair({ 2, 2, 2 }), 1, { parts, parts, 0 });
+  }
+}
+
+TEST(DualMesh, DoesNotIntersectAnywhereInItsSafeBoxes)
+{
+  std::mt19937 random(1);
+  for (const VoxelScene& scene : { NoiseScene(10, 2, 1), NoiseScene(10, 3, 2),
+         NoiseScene(10, 10, 3), GrainScene(20, 30, 1, 4), GrainScene(20, 12, 0, 5),
+         NoiseScene(10, 2, 6, true), NoiseScene(10, 5, 7, true), GrainScene(20, 30, 1, 8, 31) })
+  {
+    InterfaceMesh mesh = scene.Mesh();
+    const std::vector<float> safe = SafeDistances(scene, mesh);
+    for (std::size_t v = 0; v < safe.size(); ++v)
+    {
+      const auto move = [&](float& at, std::size_t axis)
+      {
+        const float step = random() % 2 == 0 ? safe[v] : -safe[v];
+        at += at == mesh.Planes[2 * axis] || at == mesh.Planes[2 * axis + 1] ? 0.f : step;
+      };
+      move(mesh.Position[v].X, 0);
+      move(mesh.Position[v].Y, 1);
+      move(mesh.Position[v].Z, 2);
+    }
+    EXPECT_EQ(CountSelfIntersections(TrianglesOf(mesh)), 0);
+  }
+}
+
+TEST(DualMesh, IsTheSameForAnyNumberOfThreads)
+{
+  for (const VoxelScene& scene : { NoiseScene(20, 4, 1), GrainScene(40, 20, 0, 2) })
+  {
+    std::set<std::uint64_t> hashes;
+    for (const int threads : { 1, 2, 3 })
+    {
+      DelayedThreads executor(threads, 1, 200);
+      const InterfaceMesh mesh = MakeDualMesh(scene.Grid(), executor);
+      hashes.insert(HashOf(mesh.Faces, HashOf(mesh.Position)));
+    }
+    EXPECT_EQ(hashes.size(), 1u);
+  }
+}
+
+TEST(DualMesh, EndsInThePlanesOfABox)
+{
+  for (VoxelScene scene : { NoiseScene(8, 2, 1, true), NoiseScene(8, 4, 2, true),
+         NoiseScene(8, 9, 3, true), GrainScene(12, 15, 1, 1, 16) })
+  {
+    scene.Spacing = { 1., 1., 3. };
+    const InterfaceMesh mesh = scene.Mesh();
+    ExpectSound(scene, mesh);
+    std::array<int, 6> counts = {};
+    for (const InterfaceMesh::Face& face : mesh.Faces)
+    {
+      for (const int v : face.Vertex)
+      {
+        const Vector& p = mesh.Position[static_cast<std::size_t>(v)];
+        const std::array<float, 3> at = { p.X, p.Y, p.Z };
+        for (int side = 0; side < 6; ++side)
+        {
+          const float plane = mesh.Planes[static_cast<std::size_t>(side)];
+          EXPECT_GE((at[side / 2] - plane) * (side % 2 == 0 ? 1 : -1), 0.f);
+          counts[side] += face.Front == mesh.FirstSide + side;
+          EXPECT_TRUE(face.Front != mesh.FirstSide + side || at[side / 2] == plane);
+        }
+      }
+    }
+    EXPECT_GT(*std::min_element(counts.begin(), counts.end()), 0);
+  }
+  double volume = 0.;
+  for (const auto& surface : SurfacesOf(GrainScene(12, 15, 1, 1, 16).Mesh()))
+  {
+    volume += surface.second.Volume;
+  }
+  EXPECT_NEAR(volume, 12. * 12. * 12., 1e-3);
+}

@@ -1,0 +1,262 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicVoxelTopology_h
+#define volumicVoxelTopology_h
+
+#include "Core/Common/DisjointSets.h"
+#include "ForVoxels.h"
+#include "TestPrelude.h"
+
+#include <climits>
+#include <ostream>
+
+/**
+ * The topology of labels, counted from the voxels alone by the stated connectivity. No code is
+ * shared with DualMesh.
+ */
+namespace volumic
+{
+/** Topology of a label's block, a compact solid. */
+struct BlockTopology
+{
+  long long Euler = 0;
+  int Components = 0;
+  int Cavities = 0;
+
+  bool operator==(const BlockTopology& o) const
+  {
+    return this->Euler == o.Euler && this->Components == o.Components &&
+      this->Cavities == o.Cavities;
+  }
+};
+
+inline std::ostream& operator<<(std::ostream& stream, const BlockTopology& topology)
+{
+  return stream << "chi " << topology.Euler << ", " << topology.Components << " components, "
+                << topology.Cavities << " cavities";
+}
+
+/**
+ * Labels of a box of voxels. A label is connected through voxel faces, and
+ * across a voxel edge where its two voxels are opposite and the two others are of two different
+ * labels, or both of one label of later rank.
+ */
+class VoxelTopology
+{
+public:
+  using Voxel = std::array<int, 3>;
+
+  /** @param labels x fastest @param rankOf each label */
+  VoxelTopology(const Voxel& size, const std::vector<int>& labels, std::vector<int> rankOf)
+    : RankOf(std::move(rankOf)), Beyond(static_cast<int>(this->RankOf.size())),
+      Size({ size[0] + 2, size[1] + 2, size[2] + 2 }),
+      Stride({ 1, size[0] + 2, (size[0] + 2) * (size[1] + 2) }),
+      Labels(static_cast<std::size_t>(this->Stride[2] * this->Size[2]), this->Beyond)
+  {
+    this->RankOf.push_back(INT_MAX);
+    auto label = labels.begin();
+    this->ForBox({ 1, 1, 1 }, { size[0] + 1, size[1] + 1, size[2] + 1 },
+      [&](int v) { this->Labels[static_cast<std::size_t>(v)] = *label++; });
+  }
+
+  /** Of all labels that there are. */
+  std::map<int, BlockTopology> Count() const
+  {
+    std::map<int, BlockTopology> counts;
+    std::map<int, std::array<Voxel, 2>> boxes; // with one voxel about the label
+    DisjointSets parts(this->Labels.size());
+    const Voxel end = { this->Size[0] - 1, this->Size[1] - 1, this->Size[2] - 1 };
+    this->ForBox({ 0, 0, 0 }, end,
+      [&](int v)
+      {
+        Octants voxels;
+        for (int o = 0; o < 8; ++o)
+        {
+          voxels[o] = v + this->NumberOf(o & 1, o >> 1 & 1, o >> 2);
+        }
+        const Octants octants = this->LabelsOf(voxels);
+        const Octants regions = this->RegionsOf(octants);
+        for (int o = 0; o < 8; ++o)
+        {
+          parts.Join(voxels[o], voxels[regions[o]]);
+          counts[octants[o]].Euler += regions[o] == o ? 1 : 0;
+        }
+        for (int axis = 0; axis < 3; ++axis) // faces and edges at the first octant
+        {
+          counts[octants[0]].Euler += octants[0] == octants[1 << axis] ? 3 : 0;
+          const Ring four = this->LabelsOf(this->RingAt(v, axis));
+          const int d = this->JoinedDiagonal(four);
+          counts[four[0]].Euler -= std::count(four.begin(), four.end(), four[0]) == 4 ? 1 : 0;
+          counts[four[d < 0 ? 0 : d]].Euler += d < 0 ? 0 : 1;
+        }
+      });
+    this->ForBox({ 1, 1, 1 }, end,
+      [&](int v)
+      {
+        const int label = this->LabelOf(v);
+        counts[label].Euler -= 7;
+        counts[label].Components += parts.Find(v) == v ? 1 : 0;
+        auto& box = boxes.emplace(label, std::array<Voxel, 2>{ this->Size }).first->second;
+        const Voxel at = { v % this->Stride[1], v / this->Stride[1] % this->Size[1],
+          v / this->Stride[2] };
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          box[0][axis] = std::min(box[0][axis], at[axis] - 1);
+          box[1][axis] = std::max(box[1][axis], at[axis] + 2);
+        }
+      });
+    counts.erase(this->Beyond);
+    for (auto& [label, topology] : counts)
+    {
+      topology.Cavities = this->PartsWithout(label, boxes[label][0], boxes[label][1]) - 1;
+    }
+    return counts;
+  }
+
+private:
+  using Ring = std::array<int, 4>;    ///< about an edge, in cyclic order
+  using Octants = std::array<int, 8>; ///< about a corner; bit 0 of the index is along x
+
+  /** The diagonal of four labels that is joined; -1: neither. */
+  int JoinedDiagonal(const Ring& ring) const
+  {
+    const auto isSplit = [&](int d)
+    { return ring[d] == ring[d + 2] && ring[d] != ring[1 - d] && ring[d] != ring[3 - d]; };
+    if (isSplit(0) && isSplit(1))
+    {
+      return this->Rank(ring[0]) < this->Rank(ring[1]) ? 0 : 1;
+    }
+    return isSplit(0) ? 0 : isSplit(1) ? 1 : -1;
+  }
+
+  /** Of each octant the first one that is connected with it within the cell about the corner. */
+  Octants RegionsOf(const Octants& octants) const
+  {
+    if (std::count(octants.begin(), octants.end(), octants[0]) == 8)
+    {
+      return {};
+    }
+    Octants regions = { 0, 1, 2, 3, 4, 5, 6, 7 };
+    const auto join = [&](int a, int b)
+    {
+      const auto [low, high] = std::minmax({ regions[a], regions[b] });
+      std::replace(regions.begin(), regions.end(), high, low);
+    };
+    for (int o = 0; o < 8; ++o)
+    {
+      for (const int bit : { 1, 2, 4 })
+      {
+        if ((o & bit) == 0 && octants[o] == octants[o | bit])
+        {
+          join(o, o | bit);
+        }
+      }
+    }
+    for (int side = 0; side < 6; ++side)
+    {
+      const int axis = side / 2;
+      const Ring ring = RingAt((side & 1) << axis, 1 << (axis + 1) % 3, 1 << (axis + 2) % 3);
+      const int d = this->JoinedDiagonal(
+        { octants[ring[0]], octants[ring[1]], octants[ring[2]], octants[ring[3]] });
+      if (d >= 0)
+      {
+        join(ring[d], ring[d + 2]);
+      }
+    }
+    // ABCDDCBA: no label may take the centre, so that of first rank is joined through it.
+    if (std::equal(octants.begin(), octants.end(), octants.rbegin()) &&
+      std::set<int>(octants.begin(), octants.end()).size() == 4)
+    {
+      const auto first = std::min_element(octants.begin(), octants.end(),
+        [&](int a, int b) { return this->Rank(a) < this->Rank(b); });
+      const auto o = static_cast<int>(first - octants.begin());
+      join(o, 7 - o);
+    }
+    return regions;
+  }
+
+  int NumberOf(int i, int j, int k) const { return i + j * this->Stride[1] + k * this->Stride[2]; }
+  int Rank(int label) const { return this->RankOf[static_cast<std::size_t>(label)]; }
+  int LabelOf(int v) const { return this->Labels[static_cast<std::size_t>(v)]; }
+  template <typename Voxels>
+  Voxels LabelsOf(Voxels voxels) const
+  {
+    for (int& v : voxels)
+    {
+      v = this->LabelOf(v);
+    }
+    return voxels;
+  }
+  static Ring RingAt(int first, int b, int c)
+  {
+    return { first, first + b, first + b + c, first + c };
+  }
+  /** The voxels about an edge along an axis. */
+  Ring RingAt(int v, int axis) const
+  {
+    return RingAt(v, this->Stride[(axis + 1) % 3], this->Stride[(axis + 2) % 3]);
+  }
+
+  /** Components in a box of what is not of a label, by the complementary connectivity. */
+  int PartsWithout(int label, const Voxel& first, const Voxel& end) const
+  {
+    const Voxel size = { end[0] - first[0], end[1] - first[1], end[2] - first[2] };
+    const Voxel stride = { 1, size[0], size[0] * size[1] };
+    DisjointSets parts(static_cast<std::size_t>(stride[2] * size[2]));
+    const auto isOther = [&](int v) { return this->LabelOf(v) != label; };
+    int local = -1; // number in the box
+    this->ForBox(first, end,
+      [&](int v)
+      {
+        ++local;
+        const Voxel at = { local % size[0], local / stride[1] % size[1], local / stride[2] };
+        for (int a = 0; a < 3; ++a)
+        {
+          const int b = (a + 1) % 3;
+          const int c = (a + 2) % 3;
+          if (at[a] + 1 < size[a] && isOther(v) && isOther(v + this->Stride[a]))
+          {
+            parts.Join(local, local + stride[a]);
+          }
+          if (at[b] + 1 == size[b] || at[c] + 1 == size[c])
+          {
+            continue;
+          }
+          const Ring ring = this->RingAt(v, a);
+          const int joined = this->JoinedDiagonal(this->LabelsOf(ring));
+          if (joined != 1 && isOther(ring[0]) && isOther(ring[2]))
+          {
+            parts.Join(local, local + stride[b] + stride[c]);
+          }
+          if (joined != 0 && isOther(ring[1]) && isOther(ring[3]))
+          {
+            parts.Join(local + stride[b], local + stride[c]);
+          }
+        }
+      });
+    int count = 0;
+    local = -1;
+    this->ForBox(first, end,
+      [&](int v)
+      {
+        ++local;
+        count += isOther(v) && parts.Find(local) == local ? 1 : 0;
+      });
+    return count;
+  }
+
+  template <typename Visit>
+  void ForBox(const Voxel& first, const Voxel& end, Visit&& visit) const
+  {
+    volumic::ForBox(first, end, [&](int i, int j, int k) { visit(this->NumberOf(i, j, k)); });
+  }
+
+  std::vector<int> RankOf;
+  int Beyond; ///< what is about the box, of the last rank
+  Voxel Size;
+  Voxel Stride;
+  std::vector<int> Labels;
+};
+}
+
+#endif
