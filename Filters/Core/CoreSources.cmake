@@ -33,7 +33,6 @@ set(volumic_core_sources
   Labels/LabelSides.cxx
   Labels/MapBeyond.cxx
   Labels/SmallParts.cxx
-  Labels/WrongVoxels.cxx
   Mesh/CellSurface.cxx
   Mesh/CycleCut.cxx
   Mesh/Division.cxx
@@ -162,7 +161,6 @@ set(volumic_core_headers
   Labels/LabelMap.h
   Labels/LabelSides.h
   Labels/SmallParts.h
-  Labels/WrongVoxels.h
   Mesh/CellSurface.h
   Mesh/CycleCut.h
   Mesh/Division.h

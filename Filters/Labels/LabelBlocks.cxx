@@ -108,6 +108,10 @@ public:
       this->WrongVolumes.push_back(Join(name, percent > 0 ? " (+" : " (", percent, " %)"));
       this->Missing += std::abs(surface.VolumeError) * count;
     }
+    if (surface.WrongParts > 0)
+    {
+      this->WrongParts.push_back(Join(name, " (", surface.WrongParts, " of ", surface.Parts, ")"));
+    }
   }
 
   /** Whether they are worth a warning. */
@@ -126,6 +130,7 @@ public:
     add("No surface is left of ", this->Empty);
     add("More voxels than half are on the wrong side of the surface of ", this->Missed);
     add("The volume is not that of the voxels of ", this->WrongVolumes);
+    add("Parts have another volume than their voxels, of ", this->WrongParts);
     return text;
   }
 
@@ -158,6 +163,7 @@ private:
   std::vector<std::string> Empty;
   std::vector<std::string> Missed;
   std::vector<std::string> WrongVolumes;
+  std::vector<std::string> WrongParts;
   double Voxels = 0.0;
   double Missing = 0.0;
 };
@@ -192,6 +198,8 @@ std::string FillBlocks(const LabelChoice& choice, const LabelImage& image,
     AddField<vtkIdTypeArray, vtkIdType>(surface, "WrongVoxels", { made.WrongVoxels });
     AddField<vtkIdTypeArray, vtkIdType>(surface, "MissedVoxels", { made.MissedVoxels });
     AddField<vtkDoubleArray, double>(surface, "VolumeError", { made.VolumeError });
+    AddField<vtkIdTypeArray, vtkIdType>(surface, "Parts", { made.Parts });
+    AddField<vtkIdTypeArray, vtkIdType>(surface, "WrongParts", { made.WrongParts });
     const auto block = static_cast<unsigned int>(i);
     output->SetBlock(block, surface);
     output->GetMetaData(block)->Set(vtkCompositeDataSet::NAME(), name.c_str());

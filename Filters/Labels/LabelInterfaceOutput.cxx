@@ -7,8 +7,6 @@
 
 #include "Core/Interfaces/InterfaceSizes.h"
 #include "Core/Interfaces/LineWedges.h"
-#include "Core/Labels/WrongVoxels.h"
-#include "Core/Mesh/SurfaceFeatures.h"
 #include "Output/SurfaceOutput.h"
 
 #include <vtkCellArray.h>
@@ -69,13 +67,15 @@ float LabelInterfaceMaker::ResidualAt(int v, int object) const
   const Vector& position = this->Mesh.Position[static_cast<std::size_t>(v)];
   std::vector<int> objects;
   this->Mesh.FindObjects(v, objects);
-  const float own = this->Fields->ValueAt(object, position);
+  const int part = *std::find_if(objects.begin(), objects.end(),
+    [&](int other) { return this->Map.Whole(other) == object; });
+  const float own = this->Fields->ValueAt(part, position);
   // Where there are only sides of the box beside it, it is where it should be.
   float others =
     objects.size() == 1 || this->Mesh.IsSide(objects[1]) ? own : -2.f * LabelField::Far;
   for (const int other : objects)
   {
-    others = other == object || this->Mesh.IsSide(other)
+    others = other == part || this->Mesh.IsSide(other)
       ? others
       : std::max(others, this->Fields->ValueAt(other, position));
   }
@@ -91,7 +91,7 @@ SurfaceResult LabelInterfaceMaker::ResultOf(int object, const std::vector<int>& 
   for (std::size_t n = 0; n < faces.size(); ++n)
   {
     const InterfaceMesh::Face& face = this->Mesh.Faces[static_cast<std::size_t>(faces[n])];
-    const VectorD across = this->Mesh.NormalOf(face) * (face.Behind == object ? 1.0 : -1.0);
+    const VectorD across = this->Mesh.NormalOf(face) * (this->Map.Whole(face.Behind) == object ? 1.0 : -1.0);
     for (const int corner : surface.Triangles[n])
     {
       normals[static_cast<std::size_t>(corner)] += across;
@@ -121,31 +121,9 @@ SurfaceResult LabelInterfaceMaker::ResultOf(int object, const std::vector<int>& 
   return surface;
 }
 
-void LabelInterfaceMaker::CountVoxels(int object, IndexedSurface inVoxels, LabelSurface& made) const
-{
-  for (Point& p : inVoxels.Points)
-  {
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      p[axis] /= this->Space.Step()[axis];
-    }
-  }
-  const std::vector<std::int64_t> wrong =
-    FindWrongVoxels(this->Counted(), object, inVoxels, this->InImage);
-  const double allowed = this->Settings.VoxelTolerance + this->Options().Tolerance;
-  made.WrongVoxels = static_cast<vtkIdType>(wrong.size());
-  made.MissedVoxels =
-    static_cast<vtkIdType>(FindMissedVoxels(this->Map, wrong, inVoxels, allowed).size());
-  made.VolumeError = ComputeFeatures(inVoxels).Volume /
-      static_cast<double>(this->Counted().ExtentOf(object).Voxels) -
-    1.0;
-}
-
 LabelSurface LabelInterfaceMaker::SurfaceOf(int object, const std::vector<int>& faces) const
 {
-  LabelSurface made;
-  made.IsFinished = this->IsFinished;
-  made.WrongVoxels = made.MissedVoxels = this->Counted().ExtentOf(object).Voxels;
+  LabelSurface made = this->Counts[static_cast<std::size_t>(object)];
   if (faces.empty())
   {
     if (this->IsFinished)
@@ -155,8 +133,7 @@ LabelSurface LabelInterfaceMaker::SurfaceOf(int object, const std::vector<int>& 
     return made;
   }
   std::vector<int> vertices;
-  const IndexedSurface surface = this->Mesh.SurfaceOf(object, faces, vertices);
-  this->CountVoxels(object, surface, made);
+  const IndexedSurface surface = this->Mesh.SurfaceOf(object, faces, vertices, this->Map);
   SurfaceDescription description;
   description.Level = this->Settings.FinestLevel;
   description.Unit = this->Space.WorldUnit() * std::pow(std::sqrt(3.0), this->Settings.FinestLevel);
@@ -187,6 +164,14 @@ std::vector<LabelSurface> LabelInterfaceMaker::Surfaces(HostThreads& threads) co
   std::vector<LabelSurface> surfaces(this->Selected.size());
   std::vector<std::vector<int>> faces = this->Mesh.FindFacesOfObjects();
   faces.resize(static_cast<std::size_t>(this->Map.NumberOfObjects) + 1);
+  for (std::size_t object = 1; object < faces.size(); ++object)
+  {
+    std::vector<int>& whole = faces[this->Map.Whole(static_cast<int>(object))];
+    if (&whole != &faces[object])
+    {
+      whole.insert(whole.end(), faces[object].begin(), faces[object].end());
+    }
+  }
   threads.Run(
     [&]
     {

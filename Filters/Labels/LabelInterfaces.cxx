@@ -4,6 +4,7 @@
 
 #include "Core/Common/Refuse.h"
 #include "Core/Evolution/SurfaceOptions.h"
+#include "Core/Interfaces/MismatchedVoxels.h"
 #include "Core/Labels/MapBeyond.h"
 #include "Core/Labels/SmallParts.h"
 #include "Core/Surface/SizingField.h"
@@ -34,6 +35,9 @@ int MarginFor(double sigma)
 
 /** A period, at least, in wanted edges: what is at its two ends is far from each other. */
 constexpr double LeastPeriod = 4.;
+
+/** Share by which a part's volume is wrong. */
+constexpr double MostOff = 0.25;
 
 /** Of the whole work. */
 constexpr double FieldShare = 0.4;
@@ -87,6 +91,10 @@ LabelInterfaceMaker::LabelInterfaceMaker(LabelMap map, std::vector<int> selected
   if (settings.IsPeriodic())
   {
     this->CheckPeriod();
+  }
+  if (!settings.IsPeriodic()) // There what is cut off by a side goes on at the other one.
+  {
+    SeparateParts(this->Map);
   }
   if (isFlat)
   {
@@ -164,6 +172,7 @@ void LabelInterfaceMaker::Make(HostThreads& threads, const Progress& progress)
       }
     });
   this->IsFinished = goesOn;
+  this->CountVoxels(threads);
   this->IdOf.assign(this->Mesh.Position.size(), -1);
   for (const InterfaceMesh::Face& face : this->Mesh.Faces)
   {
@@ -180,10 +189,68 @@ void LabelInterfaceMaker::Make(HostThreads& threads, const Progress& progress)
   }
 }
 
+void LabelInterfaceMaker::CountVoxels(HostThreads& threads)
+{
+  const LabelMap& map = this->Map;
+  std::vector<double> volumes(static_cast<std::size_t>(map.NumberOfObjects) + 1, 0.);
+  const std::array<double, 3>& step = this->Space.Step();
+  const double ofVoxel = step[0] * step[1] * step[2];
+  for (const InterfaceMesh::Face& face : this->Mesh.Faces)
+  {
+    const VectorD corner(this->Mesh.Position[static_cast<std::size_t>(face.Vertex[0])]);
+    const double volume = Dot(this->Mesh.NormalOf(face), corner) / (6. * ofVoxel);
+    volumes[face.Behind] += volume;
+    if (!this->Mesh.IsSide(face.Front))
+    {
+      volumes[face.Front] -= volume;
+    }
+  }
+  const auto isOff = [](double volume, double voxels, double most)
+  { return std::abs(volume - voxels) > most * voxels; };
+  this->Counts.assign(volumes.size(), LabelSurface());
+  std::vector<double> ofWhole(volumes.size(), 0.);
+  std::vector<double> voxelsOfWhole = ofWhole;
+  for (std::size_t object = 1; object < volumes.size(); ++object)
+  {
+    const auto whole = static_cast<std::size_t>(map.Whole(static_cast<int>(object)));
+    const auto voxels =
+      static_cast<double>(this->Bricks->ExtentOf(static_cast<int>(object)).Voxels);
+    ofWhole[whole] += volumes[object];
+    voxelsOfWhole[whole] += voxels;
+    this->Counts[whole].Parts += voxels > 0. ? 1 : 0;
+    this->Counts[whole].WrongParts += isOff(volumes[object], voxels, MostOff) ? 1 : 0;
+  }
+  std::vector<MismatchedVoxel> mismatched;
+  threads.Run(
+    [&]
+    {
+      mismatched = FindMismatchedVoxels(this->Mesh, this->Counted(), this->InImage, step,
+        this->Settings.VoxelTolerance + this->Options().Tolerance, threads);
+    });
+  for (const MismatchedVoxel& voxel : mismatched)
+  {
+    const LabelMap::Number of[2] = { map.Whole(voxel.OfMap), map.Whole(voxel.OfMesh) };
+    for (const LabelMap::Number object : of)
+    {
+      this->Counts[object].WrongVoxels += of[0] != of[1] ? 1 : 0;
+      this->Counts[object].MissedVoxels += of[0] != of[1] && voxel.IsFar ? 1 : 0;
+    }
+  }
+  for (std::size_t object = 1; object < volumes.size(); ++object)
+  {
+    const double voxels = this->WholeBricks
+      ? static_cast<double>(this->WholeBricks->ExtentOf(static_cast<int>(object)).Voxels)
+      : voxelsOfWhole[object];
+    this->Counts[object].VolumeError = voxels > 0. ? ofWhole[object] / voxels - 1. : 0.;
+    this->Counts[object].IsFinished = this->IsFinished;
+  }
+}
+
 int LabelInterfaceMaker::SelectionOf(int object) const
 {
-  const auto found = std::lower_bound(this->Selected.begin(), this->Selected.end(), object);
-  return found != this->Selected.end() && *found == object
+  const int whole = this->Map.Whole(object);
+  const auto found = std::lower_bound(this->Selected.begin(), this->Selected.end(), whole);
+  return found != this->Selected.end() && *found == whole
     ? static_cast<int>(found - this->Selected.begin())
     : -1;
 }

@@ -35,6 +35,8 @@ struct LabelSurface
   vtkIdType WrongVoxels = 0;            ///< misclassified voxels
   vtkIdType MissedVoxels = 0; ///< misclassified voxels further from the surface than the tolerances
   double VolumeError = 0.0;   ///< enclosed volume over the voxels' volume, less 1
+  vtkIdType Parts = 0;        ///< of voxels joined by faces, edges or corners
+  vtkIdType WrongParts = 0;   ///< those whose volume is off by more than a quarter
   bool IsFinished = false;    ///< The run was not stopped.
 };
 
@@ -93,8 +95,8 @@ private:
   LabelSurface SurfaceOf(int object, const std::vector<int>& faces) const;
   SurfaceResult ResultOf(int object, const std::vector<int>& faces, const IndexedSurface& ofMesh,
     const std::vector<int>& vertices) const;
-  /** Compare a surface in the mesh's coordinates with the voxels: all numbers of `made`. */
-  void CountVoxels(int object, IndexedSurface inVoxels, LabelSurface& made) const;
+  /** Compare all objects with their voxels. */
+  void CountVoxels(HostThreads& threads);
   /** Return how far the fields have the interface from a vertex of an object, world units. */
   float ResidualAt(int v, int object) const;
   /** Return the position of a vertex in the workspace, exact in flat faces of the box. */
@@ -117,6 +119,7 @@ private:
   std::optional<LabelBricks> WholeBricks; ///< of WholeMap
   std::optional<InterfaceFields> Fields;
   InterfaceMesh Mesh;
+  std::vector<LabelSurface> Counts; ///< numbers of each object, parts aside, without a surface
   std::vector<int> IdOf; ///< of each vertex its point in Interfaces(), -1: it has none
   bool IsFinished = false;
 };

@@ -3,7 +3,7 @@
 #include "Core/Interfaces/FaceCubes.h"
 
 #include "Core/Common/StandardThreads.h"
-#include "Core/Interfaces/InterfaceLattice.h"
+#include "Core/Interfaces/InterfaceStart.h"
 #include "Core/Interfaces/InterfaceRemesher.h"
 #include "InterfaceTestTools.h"
 
@@ -36,7 +36,7 @@ public:
 
 InterfaceMesh StartOf(const InterfaceScene& scene)
 {
-  return InterfaceLattice(*scene.Fields, 1.36, OnThisThread()).Start(OnThisThread());
+  return StartInterfaces(*scene.Fields, OnThisThread());
 }
 
 /** After collapses and flips. */

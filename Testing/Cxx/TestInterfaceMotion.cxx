@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Interfaces/InterfaceLattice.h"
+#include "Core/Interfaces/InterfaceStart.h"
 #include "Core/Interfaces/InterfaceMotion.h"
 #include "Core/Interfaces/InterfaceRemesher.h"
 #include "Core/Interfaces/TriangleShape.h"
@@ -35,7 +35,7 @@ double MeanDifference(const InterfaceMesh& mesh, const InterfaceFields& fields)
 InterfaceMesh RoughMesh(const InterfaceScene& scene)
 {
   InterfaceMesh mesh =
-    InterfaceLattice(*scene.Fields, 1.36, OnThisThread()).Start(OnThisThread());
+    StartInterfaces(*scene.Fields, OnThisThread());
   InterfaceRemesher remesher(mesh, 1.1, 1.8, 1e-3, OnThisThread(), [] { return true; });
   remesher.CollapseShortEdges();
   remesher.FlipEdges();
@@ -124,7 +124,7 @@ protected:
   void SetUp() override
   {
     this->Scene.emplace(ManyCells(22, 2 + 3 * GetParam(), static_cast<unsigned>(GetParam())));
-    this->Mesh = InterfaceLattice(*this->Scene->Fields, 1., OnThisThread()).Start(OnThisThread());
+    this->Mesh = StartInterfaces(*this->Scene->Fields, OnThisThread());
     ExpectSound(this->Mesh);
     this->Euler = EulerCharacteristicOf(this->Mesh);
   }

@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdint>
 #include <map>
 #include <vector>
 
@@ -18,6 +20,9 @@ namespace
 constexpr int VolumeSweeps = 200;
 /** By how much fields are changed at a voxel on the wrong side, in smallest distances of voxels. */
 constexpr float PushOfWrong = 0.25f;
+
+/** Of objects of fewer voxels less is expected. */
+constexpr std::int64_t LeastVoxels = 8;
 
 /** Where fields differ less from place to place nothing is said by how much. */
 constexpr double LeastSlope = 0.3;
@@ -82,7 +87,7 @@ SumsOfPairs SumFaces(const InterfaceMesh& mesh, const InterfaceFields& fields, E
 
 }
 
-void CorrectVolumes(
+double CorrectVolumes(
   const InterfaceMesh& mesh, InterfaceFields& fields, double tolerance, Executor& executor)
 {
   const LabelBricks& bricks = fields.Bricks();
@@ -103,6 +108,15 @@ void CorrectVolumes(
     {
       missing[objects[1]] += sums.Volume;
       areas[objects] = sums.Area;
+    }
+  }
+  double worst = 0.;
+  for (std::size_t object = 1; object < count; ++object)
+  {
+    const std::int64_t voxels = bricks.ExtentOf(static_cast<int>(object)).Voxels;
+    if (voxels >= LeastVoxels)
+    {
+      worst = std::max(worst, std::abs(missing[object]) / (ofVoxel * static_cast<double>(voxels)));
     }
   }
   std::vector<double> shifts(count, 0.);
@@ -132,18 +146,24 @@ void CorrectVolumes(
     fields.Shift(static_cast<int>(object), static_cast<float>(shifts[object]),
       static_cast<float>(tolerance));
   }
+  return worst;
 }
 
 std::size_t PushWrongVoxels(const InterfaceMesh& mesh, InterfaceFields& fields, double tolerance,
   Executor& executor)
 {
-  const std::vector<MismatchedVoxel> wrong =
-    FindMismatchedVoxels(mesh, fields.Bricks(), fields.Step(), tolerance, executor);
-  for (const MismatchedVoxel& voxel : wrong)
+  std::size_t count = 0;
+  for (const MismatchedVoxel& voxel :
+    FindMismatchedVoxels(
+      mesh, fields.Bricks(), fields.Bricks().Inside(), fields.Step(), tolerance, executor))
   {
-    fields.Push(voxel.OfMap, voxel.At, PushOfWrong);
-    fields.Push(voxel.OfMesh, voxel.At, PushOfWrong);
+    if (voxel.IsFar)
+    {
+      fields.Push(voxel.OfMap, voxel.At, PushOfWrong);
+      fields.Push(voxel.OfMesh, voxel.At, PushOfWrong);
+      ++count;
+    }
   }
-  return wrong.size();
+  return count;
 }
 }

@@ -17,8 +17,9 @@ namespace volumic
  * shifted by, over the slope of half of their difference. The equations, one per object, are a
  * Laplacian whose weights are the areas between two objects.
  * @param tolerance how far faces may be from the interfaces of the fields; workspace
+ * @return by which share of its voxels' volume that of an object of 8 or more is off, at most
  */
-void CorrectVolumes(
+double CorrectVolumes(
   const InterfaceMesh& mesh, InterfaceFields& fields, double tolerance, Executor& executor);
 
 /**

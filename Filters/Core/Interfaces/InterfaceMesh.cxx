@@ -278,8 +278,8 @@ std::vector<std::vector<int>> InterfaceMesh::FindFacesOfObjects() const
   return faces;
 }
 
-IndexedSurface InterfaceMesh::SurfaceOf(
-  int object, const std::vector<int>& faces, std::vector<int>& vertices) const
+IndexedSurface InterfaceMesh::SurfaceOf(int object, const std::vector<int>& faces,
+  std::vector<int>& vertices, const LabelMap& map) const
 {
   vertices.clear();
   for (const int f : faces)
@@ -304,7 +304,7 @@ IndexedSurface InterfaceMesh::SurfaceOf(
       triangle[k] = static_cast<int>(
         std::lower_bound(vertices.begin(), vertices.end(), face.Vertex[k]) - vertices.begin());
     }
-    if (face.Front == object)
+    if (!this->IsSide(face.Front) && map.Whole(face.Front) == object)
     {
       std::swap(triangle[1], triangle[2]);
     }

@@ -133,9 +133,12 @@ public:
 
   /** Of each object, from 0 on, its faces. */
   std::vector<std::vector<int>> FindFacesOfObjects() const;
-  /** The closed surface of an object, of its faces; vertices[n] is point n of it. */
-  IndexedSurface SurfaceOf(
-    int object, const std::vector<int>& faces, std::vector<int>& vertices) const;
+  /**
+   * The closed surface of an object, or of all parts of one by a map, of its faces; vertices[n] is
+   * point n of it.
+   */
+  IndexedSurface SurfaceOf(int object, const std::vector<int>& faces, std::vector<int>& vertices,
+    const LabelMap& map = LabelMap()) const;
 
   /** Of an edge (u, v), which need not be there yet. */
   float SizeOf(int u, int v) const

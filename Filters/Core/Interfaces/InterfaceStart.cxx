@@ -53,21 +53,33 @@ std::vector<LayerOfGrid> LayersAlong(const InterfaceFields& fields, int axis)
   return layers;
 }
 
-/** Objects by their voxels, then by their numbers; 0, and then what is about the box. */
+/** Objects by the voxels of all their parts, then by their numbers; 0, and then what is about the box. */
 std::vector<int> RanksOf(const LabelBricks& bricks)
 {
-  const int count = bricks.Map().NumberOfObjects;
-  std::vector<int> order(static_cast<std::size_t>(count));
+  const LabelMap& map = bricks.Map();
+  const auto count = static_cast<std::size_t>(map.NumberOfObjects);
+  std::vector<std::int64_t> voxels(count + 1, 0);
+  for (std::size_t object = 1; object <= count; ++object)
+  {
+    voxels[map.Whole(static_cast<int>(object))] +=
+      bricks.ExtentOf(static_cast<int>(object)).Voxels;
+  }
+  std::vector<int> order(count);
   std::iota(order.begin(), order.end(), 1);
   std::stable_sort(order.begin(), order.end(),
-    [&](int a, int b) { return bricks.ExtentOf(a).Voxels < bricks.ExtentOf(b).Voxels; });
-  std::vector<int> ranks(static_cast<std::size_t>(count) + 2);
-  for (int n = 0; n < count; ++n)
+    [&](int a, int b) { return voxels[static_cast<std::size_t>(a)] < voxels[static_cast<std::size_t>(b)]; });
+  std::vector<int> ranks(count + 2);
+  for (std::size_t n = 0; n < count; ++n)
   {
-    ranks[static_cast<std::size_t>(order[static_cast<std::size_t>(n)])] = n;
+    ranks[static_cast<std::size_t>(order[n])] = static_cast<int>(n);
   }
-  ranks.front() = count;
-  ranks.back() = count + 1;
+  // Parts of one object do not meet.
+  for (std::size_t object = 1; object <= count; ++object)
+  {
+    ranks[object] = ranks[map.Whole(static_cast<int>(object))];
+  }
+  ranks.front() = static_cast<int>(count);
+  ranks.back() = static_cast<int>(count) + 1;
   return ranks;
 }
 

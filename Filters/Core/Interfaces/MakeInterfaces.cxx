@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 namespace volumic
@@ -22,9 +23,11 @@ namespace
 constexpr int Rounds = 3;
 /** then those of splits, flips and steps alone, at least and at most: */
 constexpr int LeastLastRounds = 1;
-constexpr int MostLastRounds = 2;
-/** while more voxels are on the wrong side than this share of the vertices. */
+constexpr int MostLastRounds = 6;
+/** while more voxels are on the wrong side than this share of the vertices, */
 constexpr double FewWrong = 0.01;
+/** or the volume of an object is off by more than this share. */
+constexpr double FairVolume = 0.005;
 /** With a tolerance there are other last rounds; by what factor sizes may grow in each of them. */
 constexpr std::array<double, 3> Growths = { 2.5, 1.5, 1.1 };
 /** The round from which on vertices are so near to their places that fields are changed. */
@@ -46,6 +49,37 @@ constexpr double LeastShare = 0.5;
 constexpr double ToleranceOfEdge = 1e-3;
 /** How far vertices go to the middle of their neighbours. */
 constexpr double StepShare = 0.7;
+
+/** Edges about a part of an object, at most, in the radius of a ball of its volume, */
+constexpr double EdgeInRadius = 0.8;
+/** and at least, in the wanted edge. */
+constexpr double LeastSize = 0.35;
+
+/** Small objects get shorter edges, to be round and keep their volumes. */
+void ShortenEdgesOfSmall(InterfaceMesh& mesh, const InterfaceFields& fields, double edge)
+{
+  const std::array<double, 3>& step = fields.Step();
+  const double ofVoxel = step[0] * step[1] * step[2];
+  for (const InterfaceMesh::Face& face : mesh.Faces)
+  {
+    for (const int object : { static_cast<int>(face.Behind), static_cast<int>(face.Front) })
+    {
+      if (object == 0 || mesh.IsSide(object))
+      {
+        continue;
+      }
+      const auto voxels = static_cast<double>(fields.Bricks().ExtentOf(object).Voxels);
+      const double radius = std::cbrt(voxels * ofVoxel * 0.2387324); // 3 / (4 pi)
+      const auto size =
+        static_cast<float>(std::clamp(EdgeInRadius * radius / edge, LeastSize, 1.));
+      for (const int v : face.Vertex)
+      {
+        float& of = mesh.Size[static_cast<std::size_t>(v)];
+        of = std::min(of, size);
+      }
+    }
+  }
+}
 
 /** A round's edits. @param hasCollapses else edges are split that steps have drawn out */
 void Edit(InterfaceMesh& mesh, double wanted, bool hasCollapses, int sliverRounds,
@@ -81,13 +115,16 @@ InterfaceMesh MakeInterfaces(InterfaceFields& fields, const InterfaceOptions& op
   double share = 0.;
   const auto mayGoOn = [&] { return goOn(share); };
   InterfaceMesh mesh = StartInterfaces(fields, executor);
+  ShortenEdgesOfSmall(mesh, fields, options.Edge);
   std::size_t wrong = 0;
+  double worstVolume = 0.;
   for (int round = 0; round < rounds && mayGoOn(); ++round)
   {
     const bool hasFewWrong =
       static_cast<double>(wrong) <= FewWrong * static_cast<double>(mesh.Position.size());
     const bool isLast = round >= Rounds;
-    if (!isGraded && round >= Rounds + LeastLastRounds && hasFewWrong)
+    if (!isGraded && round >= Rounds + LeastLastRounds && hasFewWrong &&
+      worstVolume < FairVolume)
     {
       break;
     }
@@ -106,7 +143,7 @@ InterfaceMesh MakeInterfaces(InterfaceFields& fields, const InterfaceOptions& op
     }
     if (round >= FirstFit)
     {
-      CorrectVolumes(mesh, fields, options.Tolerance, executor);
+      worstVolume = CorrectVolumes(mesh, fields, options.Tolerance, executor);
       wrong = PushWrongVoxels(
         mesh, fields, options.VoxelTolerance + (isLast ? options.Tolerance : 0.), executor);
     }

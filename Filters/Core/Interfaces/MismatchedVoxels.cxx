@@ -39,9 +39,9 @@ struct FaceCrossing
 class MismatchFinder
 {
 public:
-  MismatchFinder(const InterfaceMesh& mesh, const LabelBricks& bricks,
+  MismatchFinder(const InterfaceMesh& mesh, const LabelBricks& bricks, const VoxelBox& box,
     const std::array<double, 3>& step, Executor& executor)
-    : Mesh(mesh), Bricks(bricks), Step(step), Threads(executor)
+    : Mesh(mesh), Bricks(bricks), Box(box), Step(step), Threads(executor)
   {
     const std::array<int, 3>& size = bricks.Map().Size();
     std::copy(size.begin(), size.end(), this->Rows.End.begin());
@@ -50,7 +50,7 @@ public:
   std::vector<MismatchedVoxel> Find()
   {
     this->FindCrossings();
-    const VoxelBox& box = this->Bricks.Inside();
+    const VoxelBox& box = this->Box;
     std::vector<std::vector<MismatchedVoxel>> ofSlices(
       static_cast<std::size_t>(std::max(0, box.Length(2))));
     ForSpans(this->Threads, ofSlices.size(), 1,
@@ -103,7 +103,7 @@ private:
   void FollowRow(int j, int k, std::vector<MismatchedVoxel>& found) const
   {
     constexpr int side = LabelBricks::Side;
-    const VoxelBox& box = this->Bricks.Inside();
+    const VoxelBox& box = this->Box;
     const std::int64_t row = this->Rows.RowOf(j, k);
     auto next = std::lower_bound(this->Crossings.begin(), this->Crossings.end(), row,
       [](const FaceCrossing& crossing, std::int64_t number) { return crossing.Row < number; });
@@ -154,6 +154,7 @@ private:
 
   const InterfaceMesh& Mesh;
   const LabelBricks& Bricks;
+  const VoxelBox Box;
   const std::array<double, 3>& Step;
   Executor& Threads;
   RowGrid Rows;
@@ -162,17 +163,16 @@ private:
 }
 
 std::vector<MismatchedVoxel> FindMismatchedVoxels(const InterfaceMesh& mesh,
-  const LabelBricks& bricks, const std::array<double, 3>& step, double tolerance,
-  Executor& executor)
+  const LabelBricks& bricks, const VoxelBox& box, const std::array<double, 3>& step,
+  double tolerance, Executor& executor)
 {
-  std::vector<MismatchedVoxel> found = MismatchFinder(mesh, bricks, step, executor).Find();
+  std::vector<MismatchedVoxel> found = MismatchFinder(mesh, bricks, box, step, executor).Find();
   if (tolerance <= 0. || found.empty())
   {
     return found;
   }
   InterfaceClearance clearance(mesh, tolerance);
   clearance.Reset(executor);
-  std::vector<unsigned char> isNear(found.size(), 0);
   ForSpans(executor, found.size(), SpanSize,
     [&](std::size_t, std::size_t begin, std::size_t end)
     {
@@ -182,26 +182,15 @@ std::vector<MismatchedVoxel> FindMismatchedVoxels(const InterfaceMesh& mesh,
         const std::array<int, 3>& at = found[n].At;
         const VectorD centre(at[0] * step[0], at[1] * step[1], at[2] * step[2]);
         clearance.FindNear(Vector(centre), Vector(centre), 0, near);
-        for (const int f : near)
-        {
-          const MeshTriangle face =
-            TriangleOf(mesh, mesh.Faces[static_cast<std::size_t>(f)].Vertex);
-          isNear[n] = isNear[n] != 0 ||
-              SquaredDistanceToTriangle(centre, face.Corner) <= tolerance * tolerance
-            ? 1
-            : 0;
-        }
+        found[n].IsFar = std::none_of(near.begin(), near.end(),
+          [&](int f)
+          {
+            const MeshTriangle face =
+              TriangleOf(mesh, mesh.Faces[static_cast<std::size_t>(f)].Vertex);
+            return SquaredDistanceToTriangle(centre, face.Corner) <= tolerance * tolerance;
+          });
       }
     });
-  std::size_t kept = 0;
-  for (std::size_t n = 0; n < found.size(); ++n)
-  {
-    if (isNear[n] == 0)
-    {
-      found[kept++] = found[n];
-    }
-  }
-  found.resize(kept);
   return found;
 }
 }

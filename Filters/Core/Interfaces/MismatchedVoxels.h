@@ -18,17 +18,17 @@ struct MismatchedVoxel
   std::array<int, 3> At;
   LabelMap::Number OfMap;
   LabelMap::Number OfMesh;
+  bool IsFar = true; ///< further from the interfaces than the tolerance
 };
 
 /**
- * The voxels with their centres on the wrong side of interfaces, in the order of the map, in which
- * voxels are counted (LabelBricks::Inside).
+ * The voxels of a box with their centres on the wrong side of interfaces, in their order.
  * @param step      lengths of a voxel in the workspace
- * @param tolerance those no further from the interfaces than that are left out; workspace
+ * @param tolerance workspace
  */
 std::vector<MismatchedVoxel> FindMismatchedVoxels(const InterfaceMesh& mesh,
-  const LabelBricks& bricks, const std::array<double, 3>& step, double tolerance,
-  Executor& executor);
+  const LabelBricks& bricks, const VoxelBox& box, const std::array<double, 3>& step,
+  double tolerance, Executor& executor);
 }
 
 #endif

@@ -28,7 +28,7 @@ constexpr double FlatCosine = 0.5;
 /** Faces that a thread looks at at a time. */
 constexpr std::size_t SpanSize = 1024;
 /** How often what is narrow is visited. */
-constexpr int Rounds = 12;
+constexpr int Rounds = 4;
 /** How far a vertex goes at a time, in its wanted edge, at first and at least. */
 constexpr double LargestStep = 0.15;
 constexpr double SmallestStep = 0.015;
@@ -46,6 +46,19 @@ double SquaredLack(double angle, double wanted)
 {
   const double lack = 1. - angle / wanted;
   return lack > 0. ? lack * lack : 0.;
+}
+
+/** Whether a plane of one has the other one further away, up to corners that they share. */
+bool AreApart(const MeshTriangle& f, const MeshTriangle& g, double by)
+{
+  const auto isBeyond = [by](const MeshTriangle& plane, const MeshTriangle& other)
+  {
+    const VectorD normal = Normalized(NormalOf(plane));
+    const auto along = [&](int k) { return Dot(normal, other.Corner[k] - plane.Corner[0]); };
+    const auto [low, high] = std::minmax({ along(0), along(1), along(2) });
+    return low > by || high < -by;
+  };
+  return isBeyond(f, g) || isBeyond(g, f);
 }
 
 /** Each once. */
@@ -169,6 +182,10 @@ void NarrowPlaces::ForGapsAt(int face, std::vector<int>& near, Visitor&& visit) 
     if (isBeside && CosineOf(normal, NormalOf(facing)) > FlatCosine)
     {
       continue; // Or it itself. What is narrow there is one of the triangles.
+    }
+    if (AreApart(triangle, facing, wanted))
+    {
+      continue;
     }
     const double squared = SquaredGapBetween(triangle, facing);
     if (squared < wanted * wanted)

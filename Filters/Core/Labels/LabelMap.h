@@ -37,6 +37,14 @@ public:
   /** Distances of voxels along the axes, in the smallest of them, as all lengths of the fields. */
   std::array<double, 3> Spacing = { 1., 1., 1. };
   int NumberOfObjects = 0; ///< the largest number that a voxel may have
+  /** Of each object that of which it is a part (SeparateParts), of 0 too; empty: each is whole. */
+  std::vector<Number> WholeOf;
+  Number Whole(int object) const
+  {
+    return static_cast<std::size_t>(object) < this->WholeOf.size()
+      ? this->WholeOf[static_cast<std::size_t>(object)]
+      : static_cast<Number>(object);
+  }
 
   Number At(int i, int j, int k) const
   {

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <vector>
 
 namespace volumic
@@ -17,6 +18,9 @@ namespace volumic
 namespace
 {
 using Number = LabelMap::Number;
+
+/** Sides of a box have numbers, too. */
+constexpr int MostObjects = std::numeric_limits<Number>::max() - 8;
 
 /** Voxels of one object in a row, from one on. */
 struct Run
@@ -167,12 +171,10 @@ void Give(LabelMap& map, const LabelPart& part, Number object)
     }
   }
 }
-}
 
-void GiveAwaySmallParts(
-  LabelMap& map, const std::vector<int>& objects, std::int64_t leastVoxels, bool keepsLargest)
+/** The number of the largest part of each object, that of all parts where it has none. */
+std::vector<std::size_t> LargestOf(const std::vector<LabelPart>& parts, const LabelMap& map)
 {
-  const std::vector<LabelPart> parts = PartFinder(map, objects).Find();
   std::vector<std::size_t> largest(static_cast<std::size_t>(map.NumberOfObjects) + 1, parts.size());
   for (std::size_t n = 0; n < parts.size(); ++n)
   {
@@ -182,6 +184,15 @@ void GiveAwaySmallParts(
       of = n;
     }
   }
+  return largest;
+}
+}
+
+void GiveAwaySmallParts(
+  LabelMap& map, const std::vector<int>& objects, std::int64_t leastVoxels, bool keepsLargest)
+{
+  const std::vector<LabelPart> parts = PartFinder(map, objects).Find();
+  const std::vector<std::size_t> largest = LargestOf(parts, map);
   // All at once, so that none is given to one that goes, too.
   constexpr Number nobodys = std::numeric_limits<Number>::max();
   for (std::size_t n = 0; n < parts.size(); ++n)
@@ -202,5 +213,33 @@ void GiveAwaySmallParts(
   {
     Give(map, given[n], to[n]);
   }
+}
+
+void SeparateParts(LabelMap& map)
+{
+  std::vector<int> objects(static_cast<std::size_t>(map.NumberOfObjects));
+  std::iota(objects.begin(), objects.end(), 1);
+  const std::vector<LabelPart> parts = PartFinder(map, objects).Find();
+  const std::vector<std::size_t> largest = LargestOf(parts, map);
+  std::vector<std::size_t> others;
+  for (std::size_t n = 0; n < parts.size(); ++n)
+  {
+    if (largest[parts[n].Object] != n)
+    {
+      others.push_back(n);
+    }
+  }
+  std::stable_sort(others.begin(), others.end(),
+    [&](std::size_t a, std::size_t b) { return parts[a].Voxels > parts[b].Voxels; });
+  const auto room = static_cast<std::size_t>(MostObjects - std::min(MostObjects, map.NumberOfObjects));
+  others.resize(std::min(others.size(), room));
+  map.WholeOf.resize(static_cast<std::size_t>(map.NumberOfObjects) + 1);
+  std::iota(map.WholeOf.begin(), map.WholeOf.end(), Number(0));
+  for (const std::size_t part : others)
+  {
+    Give(map, parts[part], static_cast<Number>(map.WholeOf.size()));
+    map.WholeOf.push_back(parts[part].Object);
+  }
+  map.NumberOfObjects = static_cast<int>(map.WholeOf.size()) - 1;
 }
 }

@@ -19,6 +19,13 @@ namespace volumic
  */
 void GiveAwaySmallParts(
   LabelMap& map, const std::vector<int>& objects, std::int64_t leastVoxels, bool keepsLargest);
+
+/**
+ * Make each part of an object, joined as above, an object of its own, so that each keeps its
+ * volume: the largest part keeps the number, others get numbers above all objects, larger parts
+ * first, while there are numbers left; what is left stays with the object. LabelMap::WholeOf tells.
+ */
+void SeparateParts(LabelMap& map);
 }
 
 #endif
