@@ -59,8 +59,8 @@ public:
     this->Field.Rows = this->Rows;
     if (this->Options.Sigma > 0.)
     {
-      MakeLabelDistance(this->Sides, this->Rows, this->Map.Spacing, this->Options, this->Field,
-        this->Threads);
+      MakeLabelDistance(
+        this->Sides, this->Map.Spacing, this->Options, this->Field, this->Threads);
       this->CorrectBends(this->Options.ChordCorrection);
       this->Hold({});
     }
@@ -211,11 +211,24 @@ private:
         float* values = this->RowAt(i, j, k);
         for (int x = 0; x < count; ++x)
         {
+          if (x % Lanes::Count == 0 && this->FindLess(i + x, j, k, LeastSize) == 0)
+          {
+            x += Lanes::Count - 1;
+            continue;
+          }
           const float side = this->Sides.Of(i + x, j, k);
-          const float least = this->LeastAt(i + x, j, k);
-          values[x] = side * std::clamp(side * values[x], least, LabelField::Far);
+          values[x] = side * std::max(side * values[x], this->LeastAt(i + x, j, k));
         }
       });
+  }
+
+  /** The bits of those of four voxels that are less on their side than a number. */
+  unsigned FindLess(int i, int j, int k, float least)
+  {
+    const Lanes four = Lanes::Load(this->RowAt(i, j, k));
+    const unsigned members = this->Sides.FourAt(i, j, k);
+    return (LessBits(four, Lanes(least)) & members) |
+      (LessBits(Lanes(-least), four) & ~members & 15u);
   }
 
   float LeastAt(int i, int j, int k) const
@@ -271,18 +284,13 @@ private:
     this->Rows.For(this->Threads,
       [&](int i, int j, int k, int count)
       {
-        const float* values = this->RowAt(i, j, k);
         for (int x = 0; x < count; x += Lanes::Count)
         {
           const bool isHeld = !this->HasTolerance() ||
             this->Field.IsStrict.FourAt(i + x, j, k) != 0 ||
             this->BesideThin.FourAt(i + x, j, k) != 0;
-          const float margin = isHeld ? most : least;
-          const Lanes four = Lanes::Load(values + x);
-          const unsigned members = this->Sides.FourAt(i + x, j, k);
-          changing.AddFour(i + x, j, k,
-            (LessBits(four, Lanes(margin)) & members) |
-              (LessBits(Lanes(-margin), four) & ~members & 15u));
+          changing.AddFour(
+            i + x, j, k, this->FindLess(i + x, j, k, isHeld ? most : least));
         }
       });
     constexpr int reach = 2 * ReachOfHold;

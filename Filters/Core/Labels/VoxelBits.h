@@ -4,8 +4,10 @@
 #define volumicVoxelBits_h
 
 #include "Core/Common/Executor.h"
+#include "Core/Common/Lanes.h"
 #include "Core/Image/VoxelBox.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -111,10 +113,21 @@ private:
   }
   const Word* RowAt(int j, int k) const { return const_cast<VoxelBits*>(this)->RowAt(j, k); }
   /** Return the first bit, from x on, that is set in row ^ inversion; `count` if there is none. */
-  static int FindBit(const Word* row, int x, int count, Word inversion);
-  /** Call combine(word, other) for the words of two rows, `by` rows apart along y or z. */
-  template <typename Combine>
-  void CombineRows(int axis, int by, const VoxelBits& others, Combine&& combine);
+  static int FindBit(const Word* row, int x, int count, Word inversion)
+  {
+    while (x < count)
+    {
+      const Word rest = (row[x / WordSize] ^ inversion) >> x % WordSize;
+      if (rest != 0)
+      {
+        return std::min(count, x + LowestBit(rest));
+      }
+      x = (x / WordSize + 1) * WordSize;
+    }
+    return count;
+  }
+  /** Add the voxels whose neighbor, `by` voxels further along an axis, is in another set. */
+  void AddShifted(const VoxelBits& others, int axis, int by);
 
   VoxelBox Voxels;
   int Words = 0; ///< per row
