@@ -39,27 +39,53 @@ public:
   void Sum(const float* from, std::ptrdiff_t stride, int before, int after, int count,
     float* sums) const
   {
-    const int both = std::min({ before, after, this->Reach() });
-    const int most = std::min(std::max(before, after), this->Reach());
-    const std::ptrdiff_t longer = before < after ? stride : -stride;
-    for (int x = 0; x < count; x += Lanes::Count)
+    int x = 0;
+    for (; x + 2 * Lanes::Count <= count; x += 2 * Lanes::Count)
     {
-      const float* at = from + x;
-      Lanes sum = Lanes(this->Values[0]) * Lanes::Load(at);
-      for (int n = 1; n <= both; ++n)
-      {
-        sum += Lanes(this->Values[static_cast<std::size_t>(n)]) *
-          (Lanes::Load(at - n * stride) + Lanes::Load(at + n * stride));
-      }
-      for (int n = both + 1; n <= most; ++n)
-      {
-        sum += Lanes(this->Values[static_cast<std::size_t>(n)]) * Lanes::Load(at + n * longer);
-      }
-      sum.Store(sums + x);
+      this->SumGroups<2>(from + x, stride, before, after, sums + x);
+    }
+    if (x < count)
+    {
+      this->SumGroups<1>(from + x, stride, before, after, sums + x);
     }
   }
 
 private:
+  template <int Groups>
+  void SumGroups(
+    const float* from, std::ptrdiff_t stride, int before, int after, float* sums) const
+  {
+    const int both = std::min({ before, after, this->Reach() });
+    const int most = std::min(std::max(before, after), this->Reach());
+    std::array<Lanes, Groups> sum;
+    for (int g = 0; g < Groups; ++g)
+    {
+      sum[g] = Lanes(this->Values[0]) * Lanes::Load(from + g * Lanes::Count);
+    }
+    for (int n = 1; n <= both; ++n)
+    {
+      const Lanes weight(this->Values[static_cast<std::size_t>(n)]);
+      for (int g = 0; g < Groups; ++g)
+      {
+        const float* at = from + g * Lanes::Count;
+        sum[g] += weight * (Lanes::Load(at - n * stride) + Lanes::Load(at + n * stride));
+      }
+    }
+    const std::ptrdiff_t longer = before < after ? stride : -stride;
+    for (int n = both + 1; n <= most; ++n)
+    {
+      const Lanes weight(this->Values[static_cast<std::size_t>(n)]);
+      for (int g = 0; g < Groups; ++g)
+      {
+        sum[g] += weight * Lanes::Load(from + g * Lanes::Count + n * longer);
+      }
+    }
+    for (int g = 0; g < Groups; ++g)
+    {
+      sum[g].Store(sums + g * Lanes::Count);
+    }
+  }
+
   std::vector<float> Values;
 };
 }
