@@ -251,19 +251,24 @@ private:
     return !lost.IsEmpty();
   }
 
-  /** To the nearest of the other side beside it that is thin; 0: there is none. */
+  /** Of a voxel beside one of the other side that is thin: how far the nearest one is. */
   double WayToThin(int i, int j, int k) const
   {
     const bool side = this->Sides.IsObject(i, j, k);
-    const auto isThinOther = [&](int a, int b, int c)
-    { return this->Sides.IsObject(a, b, c) != side && this->Thin.Has(a, b, c); };
-    const std::array<double, 3>& way = this->Map.Spacing;
     double least = 0.;
-    const auto take = [&least](bool isThere, double length)
-    { least = isThere && (least == 0. || length < least) ? length : least; };
-    take(isThinOther(i - 1, j, k) || isThinOther(i + 1, j, k), way[0]);
-    take(isThinOther(i, j - 1, k) || isThinOther(i, j + 1, k), way[1]);
-    take(isThinOther(i, j, k - 1) || isThinOther(i, j, k + 1), way[2]);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      for (const int step : { -1, 1 })
+      {
+        std::array<int, 3> at = { i, j, k };
+        at[axis] += step;
+        if (this->Thin.Has(at[0], at[1], at[2]) &&
+          this->Sides.IsObject(at[0], at[1], at[2]) != side)
+        {
+          least = least > 0. ? std::min(least, this->Map.Spacing[axis]) : this->Map.Spacing[axis];
+        }
+      }
+    }
     return least;
   }
 
@@ -326,10 +331,11 @@ private:
     for (int x = 0; x < count; ++x)
     {
       const float side = this->Sides.Of(i + x, j, k);
-      if (side * values[x] > 1.f && !this->Thin.Has(i + x, j, k))
+      if (side * values[x] > 1.f && this->BesideThin.Has(i + x, j, k) &&
+        !this->Thin.Has(i + x, j, k))
       {
         const double way = this->WayToThin(i + x, j, k);
-        if (way > 0. && side * values[x] > way)
+        if (side * values[x] > way)
         {
           constraints.push_back({ this->Field.Box.NumberOf(i + x, j, k), -side,
             static_cast<float>(-this->Options.MostBesideThin * way) });

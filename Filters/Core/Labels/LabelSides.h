@@ -45,7 +45,10 @@ public:
   static std::array<int, 3> ReachOfFields(double sigma, const std::array<double, 3>& spacing);
 
   /** Return the voxels whose next one along an axis is on the other side. */
-  VoxelBits FindChanges(int axis) const { return this->Members ^ this->Members.Neighbored(axis, true); }
+  VoxelBits FindChanges(int axis) const
+  {
+    return this->Members ^ this->Members.Neighbored(axis, true);
+  }
 
   /** Return the voxels whose two neighbors along an axis are both on the other side. */
   VoxelBits FindThin() const;

@@ -43,34 +43,6 @@ void VoxelBits::Add(const VoxelBox& part)
   }
 }
 
-VoxelBits& VoxelBits::operator&=(const VoxelBits& other)
-{
-  std::transform(this->Bits.begin(), this->Bits.end(), other.Bits.begin(), this->Bits.begin(),
-    [](Word a, Word b) { return a & b; });
-  return *this;
-}
-
-VoxelBits& VoxelBits::operator|=(const VoxelBits& other)
-{
-  std::transform(this->Bits.begin(), this->Bits.end(), other.Bits.begin(), this->Bits.begin(),
-    [](Word a, Word b) { return a | b; });
-  return *this;
-}
-
-VoxelBits& VoxelBits::operator^=(const VoxelBits& other)
-{
-  std::transform(this->Bits.begin(), this->Bits.end(), other.Bits.begin(), this->Bits.begin(),
-    [](Word a, Word b) { return a ^ b; });
-  return *this;
-}
-
-VoxelBits& VoxelBits::operator-=(const VoxelBits& other)
-{
-  std::transform(this->Bits.begin(), this->Bits.end(), other.Bits.begin(), this->Bits.begin(),
-    [](Word a, Word b) { return a & ~b; });
-  return *this;
-}
-
 void VoxelBits::AddShifted(const VoxelBits& others, int axis, int by)
 {
   const auto words = static_cast<std::size_t>(this->Words);

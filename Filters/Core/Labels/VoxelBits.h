@@ -18,6 +18,9 @@ namespace volumic
 /** A set of voxels of a box: one bit per voxel. Voxels outside the box are not in the set. */
 class VoxelBits
 {
+  using Word = std::uint32_t;
+  static constexpr int WordSize = 32;
+
 public:
   VoxelBits() = default;
   /** All voxels of the box, or none of them. */
@@ -49,10 +52,22 @@ public:
   }
 
   /** Operations on two sets of the same box. */
-  VoxelBits& operator&=(const VoxelBits& other);
-  VoxelBits& operator|=(const VoxelBits& other);
-  VoxelBits& operator^=(const VoxelBits& other);
-  VoxelBits& operator-=(const VoxelBits& other);
+  VoxelBits& operator&=(const VoxelBits& other)
+  {
+    return this->Combine(other, [](Word a, Word b) { return a & b; });
+  }
+  VoxelBits& operator|=(const VoxelBits& other)
+  {
+    return this->Combine(other, [](Word a, Word b) { return a | b; });
+  }
+  VoxelBits& operator^=(const VoxelBits& other)
+  {
+    return this->Combine(other, [](Word a, Word b) { return a ^ b; });
+  }
+  VoxelBits& operator-=(const VoxelBits& other)
+  {
+    return this->Combine(other, [](Word a, Word b) { return a & ~b; });
+  }
   friend VoxelBits operator&(VoxelBits a, const VoxelBits& b) { return a &= b; }
   friend VoxelBits operator^(VoxelBits a, const VoxelBits& b) { return a ^= b; }
   friend VoxelBits operator-(VoxelBits a, const VoxelBits& b) { return a -= b; }
@@ -101,9 +116,13 @@ public:
   }
 
 private:
-  using Word = std::uint32_t;
-  static constexpr int WordSize = 32;
-
+  template <typename Operation>
+  VoxelBits& Combine(const VoxelBits& other, Operation&& combine)
+  {
+    std::transform(this->Bits.begin(), this->Bits.end(), other.Bits.begin(), this->Bits.begin(),
+      combine);
+    return *this;
+  }
   Word* RowAt(int j, int k)
   {
     return this->Bits.data() +
