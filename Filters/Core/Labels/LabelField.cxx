@@ -7,7 +7,6 @@
 #include "Core/Labels/LabelDistance.h"
 #include "Core/Labels/LabelHold.h"
 #include "Core/Labels/LabelSides.h"
-#include "Core/Labels/VoxelBits.h"
 
 #include <algorithm>
 #include <array>

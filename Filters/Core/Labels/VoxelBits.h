@@ -34,7 +34,7 @@ public:
     return this->Voxels.Contains({ i, j, k }) &&
       (this->RowAt(j, k)[x / WordSize] >> x % WordSize & 1u) != 0;
   }
-  /** Return bit n for each of four voxels i + n; i is a multiple of 4 from the box on. */
+  /** Return bit n for voxel i + n, of four; i is a multiple of 4 from the first of the box. */
   unsigned FourAt(int i, int j, int k) const
   {
     const int x = i - this->Voxels.First[0];
