@@ -19,6 +19,8 @@ constexpr double LeastFlatCosine = 0.85;
 constexpr double LeastRatio = 0.3;
 /** Those are slivers, by the same. */
 constexpr double MostSliver = 0.15;
+/** Triangles with no smaller angle are good enough, radian. */
+constexpr double MostFlipped = 0.8;
 /** By how much a flip must make the smallest angle larger, radian. */
 constexpr double LeastGain = 0.02;
 }
@@ -332,6 +334,10 @@ void InterfaceEdits::Collapse(const Vector& place, int kept, int removed)
 int InterfaceEdits::FlipAt(int face)
 {
   const std::array<int, 3> v = this->Mesh.Faces[static_cast<std::size_t>(face)].Vertex;
+  if (SmallestAngle(TriangleOf(this->Mesh, v)) > MostFlipped)
+  {
+    return 0; // From the worse one of two it is tried, if one is bad.
+  }
   for (int k = 0; k < 3; ++k)
   {
     if (this->TryFlip(v[k], v[(k + 1) % 3], LeastFlatCosine))

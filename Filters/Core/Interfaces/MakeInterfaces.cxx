@@ -20,7 +20,7 @@ namespace volumic
 namespace
 {
 /** Rounds in which short edges are collapsed, */
-constexpr int Rounds = 3;
+constexpr int Rounds = 2;
 /** then those of splits, flips and steps alone, at least and at most: */
 constexpr int LeastLastRounds = 1;
 constexpr int MostLastRounds = 6;
