@@ -135,8 +135,15 @@ bool InterfaceEdits::MayCollapse(int u, int v)
 
 bool InterfaceEdits::ShareObjects(int u, int v)
 {
-  this->Mesh.FindObjects(u, this->First);
-  this->Mesh.FindObjects(v, this->Second);
+  const auto findWhole = [this](int w, std::vector<int>& objects)
+  {
+    this->Mesh.FindObjects(w, objects);
+    std::transform(objects.begin(), objects.end(), objects.begin(),
+      [this](int object) { return this->Mesh.Whole(object); });
+    std::sort(objects.begin(), objects.end());
+  };
+  findWhole(u, this->First);
+  findWhole(v, this->Second);
   this->Common.clear();
   std::set_intersection(this->First.begin(), this->First.end(), this->Second.begin(),
     this->Second.end(), std::back_inserter(this->Common));
@@ -147,7 +154,7 @@ bool InterfaceEdits::ShareObjects(int u, int v)
         [&](int f)
         {
           const InterfaceMesh::Face& face = this->Mesh.Faces[static_cast<std::size_t>(f)];
-          return face.Behind == object || face.Front == object;
+          return this->Mesh.Whole(face.Behind) == object || this->Mesh.Whole(face.Front) == object;
         });
     });
 }
