@@ -119,14 +119,21 @@ private:
         windings.erase(at);
       }
     };
+    const auto ofMeshHere = [&]
+    {
+      const auto inside = std::find_if(windings.begin(), windings.end(),
+        [](const auto& entry) { return entry.first != 0 && entry.second > 0; });
+      return inside == windings.end() ? Number(0) : inside->first;
+    };
     for (int i = box.First[0]; i < box.End[0];)
     {
       const int end = std::min((i / side + 1) * side, box.End[0]);
       const LabelBricks::Range objects = this->Bricks.ObjectsIn(i / side, j / side, k / side);
       if (objects.end() - objects.begin() == 1 &&
-        (next == this->Crossings.end() || next->Row != row || next->X >= end))
+        (next == this->Crossings.end() || next->Row != row || next->X >= end) &&
+        *objects.begin() == ofMeshHere())
       {
-        i = end; // All of it is of one object, and far from the others.
+        i = end; // All of it is of one object, in the mesh too.
         continue;
       }
       for (; i < end; ++i)
@@ -140,9 +147,7 @@ private:
             add(face.Front, -next->Winding);
           }
         }
-        const auto inside = std::find_if(windings.begin(), windings.end(),
-          [](const auto& entry) { return entry.first != 0 && entry.second > 0; });
-        const Number ofMesh = inside == windings.end() ? Number(0) : inside->first;
+        const Number ofMesh = ofMeshHere();
         const Number ofMap = this->Bricks.Map().At(i, j, k);
         if (ofMap != ofMesh)
         {
