@@ -53,8 +53,8 @@ constexpr double StepShare = 0.7;
 
 /** Edges about a part of an object, at most, in the radius of a ball of its volume, */
 constexpr double EdgeInRadius = 0.8;
-/** and at least, in the wanted edge. */
-constexpr double LeastSize = 0.35;
+/** and at least; workspace: for a single voxel. */
+constexpr double LeastEdge = 0.48;
 
 /** Small objects get shorter edges, to be round and keep their volumes. */
 void ShortenEdgesOfSmall(InterfaceMesh& mesh, const InterfaceFields& fields, double edge)
@@ -72,11 +72,11 @@ void ShortenEdgesOfSmall(InterfaceMesh& mesh, const InterfaceFields& fields, dou
       const auto voxels = static_cast<double>(fields.Bricks().ExtentOf(object).Voxels);
       const double radius = std::cbrt(voxels * ofVoxel * 0.2387324); // 3 / (4 pi)
       const auto size =
-        static_cast<float>(std::clamp(EdgeInRadius * radius / edge, LeastSize, 1.));
+        static_cast<float>(std::max(EdgeInRadius * radius, LeastEdge) / edge);
       for (const int v : face.Vertex)
       {
         float& of = mesh.Size[static_cast<std::size_t>(v)];
-        of = std::min(of, size);
+        of = size < 1.f ? std::min(of, size) : of;
       }
     }
   }
@@ -136,6 +136,7 @@ void Work(InterfaceMesh& mesh, InterfaceFields& fields, const InterfaceOptions& 
         { options.Tolerance, Growths[static_cast<std::size_t>(round - Rounds)], options.MostSize,
           options.Gradation },
         executor);
+      ShortenEdgesOfSmall(mesh, fields, options.Edge);
     }
     Edit(mesh, options.Edge, isGraded || !isLast, round >= FirstFit ? 1 : 0, executor, mayGoOn);
     mesh.Compact();
