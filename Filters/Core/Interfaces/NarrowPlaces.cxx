@@ -27,6 +27,8 @@ constexpr double NarrowGap = 0.15;
 constexpr double FlatCosine = 0.5;
 /** Faces that a thread looks at at a time. */
 constexpr std::size_t SpanSize = 1024;
+/** The same of gaps, which take longer. */
+constexpr std::size_t GapSpanSize = 64;
 /** Vertices between two questions whether to go on. */
 constexpr std::size_t VerticesPerQuestion = 256;
 /** How often what is narrow is visited. */
@@ -135,8 +137,8 @@ std::vector<int> NarrowPlaces::FindVertices(Executor& executor)
         }
       }
     });
-  std::vector<std::vector<int>> ofGaps((doubtful.size() + SpanSize - 1) / SpanSize);
-  ForSpans(executor, doubtful.size(), SpanSize,
+  std::vector<std::vector<int>> ofGaps((doubtful.size() + GapSpanSize - 1) / GapSpanSize);
+  ForSpans(executor, doubtful.size(), GapSpanSize,
     [&](std::size_t span, std::size_t begin, std::size_t end)
     {
       std::vector<int> near;
