@@ -37,11 +37,14 @@
  * - `MissedVoxels` (vtkIdType): those of them that are further from the surface than VoxelTolerance
  *   and Tolerance together
  * - `VolumeError` (double): enclosed volume over the voxels' volume, less 1
+ * - `Parts` (vtkIdType): parts of the label, voxels joined by faces, edges or corners, each of which
+ *   is to keep its volume; with periodic BoxFaces the label as a whole is
+ * - `WrongParts` (vtkIdType): those whose enclosed volume is off by more than a quarter
  *
  * Field data of the whole, only where there is anything to report:
  * - `LostLabels` (string): labels without a surface, labels with more than half of their voxels
- *   missed, and labels of 100 voxels or more whose VolumeError exceeds .03. It is a warning, too,
- *   where these are more than 5 % of the labels' voxels.
+ *   missed, labels of 100 voxels or more whose VolumeError exceeds .03, and labels with WrongParts.
+ *   It is a warning, too, where the first three are more than 5 % of the labels' voxels.
  *
  * Port 1, `Interfaces`: a vtkPolyData, each triangle once. Its cells are the segments of junction
  * lines, where three labels or more meet (background is one of them), then the triangles.
@@ -164,7 +167,8 @@ public:
   /**
    * Standard deviation of the Gaussian that smooths the labels, the same length along all axes, in
    * smallest voxel spacings, or, where that is more, in 5/8 of the largest. 0: none, stairs stay.
-   * At most 10. Topology and volumes do not depend on it. Default: 2.
+   * At most 10. Topology and volumes do not depend on it. More than 3 changes little unless
+   * boundaries are rough. Default: 2.
    */
   void SetSmoothing(double voxels);
   double GetSmoothing();
@@ -174,7 +178,8 @@ public:
   /**
    * Distance by which the centre of a voxel may be on the wrong side of the surface, in smallest
    * voxel spacings, at most 1. With .5 the steps that noise and resampling leave become
-   * smooth. With 0 no centre is, as far as triangles can. Default: .5.
+   * smooth. With 0 no centre is, as far as triangles can. -1, the default: a quarter of Smoothing,
+   * at most 1.
    */
   void SetVoxelTolerance(double voxels);
   double GetVoxelTolerance();

@@ -136,7 +136,7 @@ InterfaceOptions LabelInterfaceMaker::Options() const
 {
   InterfaceOptions options;
   options.Edge = this->EdgeLength();
-  options.VoxelTolerance = this->Settings.VoxelTolerance;
+  options.VoxelTolerance = this->Settings.VoxelToleranceInUse();
   Grading grading = this->Settings.Grading;
   grading.MaximumEdgeLength /= this->Space.WorldUnit();
   options.Tolerance = grading.Tolerance / this->Space.WorldUnit();
@@ -225,7 +225,7 @@ void LabelInterfaceMaker::CountVoxels(HostThreads& threads)
     [&]
     {
       mismatched = FindMismatchedVoxels(this->Mesh, this->Counted(), this->InImage, step,
-        this->Settings.VoxelTolerance + this->Options().Tolerance, threads);
+        this->Settings.VoxelToleranceInUse() + this->Options().Tolerance, threads);
     });
   for (const MismatchedVoxel& voxel : mismatched)
   {

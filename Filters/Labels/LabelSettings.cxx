@@ -56,11 +56,11 @@ void LabelSettings::Check(vtkImageData* image) const
   {
     Refuse("Smoothing is ", this->Smoothing, " voxels; it must be at most 10.");
   }
-  CheckNumber("Voxel Tolerance", this->VoxelTolerance);
-  if (this->VoxelTolerance > MostTolerance)
+  const bool isOfSmoothing = this->VoxelTolerance == -1.0;
+  if (!isOfSmoothing && !(this->VoxelTolerance >= 0.0 && this->VoxelTolerance <= MostTolerance))
   {
-    Refuse("Voxel Tolerance is ", this->VoxelTolerance, " voxels; it must be at most ",
-      MostTolerance, ".");
+    Refuse("Voxel Tolerance is ", this->VoxelTolerance, "; it must be from 0 (none) to ",
+      MostTolerance, " voxels, or -1 (a quarter of Smoothing).");
   }
   if (this->BoxFaces < 0 || this->BoxFaces > 2)
   {
@@ -96,7 +96,7 @@ LabelFieldOptions LabelSettings::FieldOptions(const LabelMap& map) const
   LabelFieldOptions options;
   options.Sigma = std::min(
     this->Smoothing * std::max(1.0, longest), std::max(this->Smoothing * MostBeyondVoxel, longest));
-  options.Tolerance = this->VoxelTolerance;
+  options.Tolerance = this->VoxelToleranceInUse();
   return options;
 }
 }

@@ -9,13 +9,16 @@
 
 class vtkImageData;
 
+#include <algorithm>
+
 namespace volumic
 {
 /** Properties of vtkLabelsToSurfaces, except the choice of labels. Numbers may be out of range. */
 struct LabelSettings
 {
   double Smoothing = 2.0;      ///< smallest distances of voxels, or 5/8 of the longest
-  double VoxelTolerance = 0.5; ///< smallest distances of voxels
+  /** Smallest distances of voxels; -1: a quarter of Smoothing, at most 1. */
+  double VoxelTolerance = -1.0;
   int BoxFaces = 0; ///< where labels reach the border of the image: 0 rounded, 1 flat, 2 periodic
   int Metric = 1;
   double EdgeLength = 0.0;
@@ -25,6 +28,11 @@ struct LabelSettings
   double MinimumComponentVolume = 0.0;
 
   bool HasFlatBox() const { return this->BoxFaces != 0; }
+  double VoxelToleranceInUse() const
+  {
+    return this->VoxelTolerance == -1.0 ? std::min(1.0, 0.25 * this->Smoothing)
+                                        : this->VoxelTolerance;
+  }
   bool IsPeriodic() const { return this->BoxFaces == 2; }
 
   /**

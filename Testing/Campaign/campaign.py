@@ -30,6 +30,7 @@ from random_settings import RandomRun
 
 SLOW_SECONDS, MOST_SECONDS = 20, 150  # of processor time
 MOST_EDGES_OUTSIDE = 1e-4  # share of them
+MOST_CENTRES_ON_SURFACE = 2  # of voxels of a label: they are on either side
 FINISHED, STOPPED = ("converged", "limit cycle"), ("iteration limit", "time limit", "cancelled")
 
 
@@ -162,7 +163,7 @@ def faults_of_label(verdict, told, outcome):
         labels.append((100 * (told["Volume"] / voxels / run.spacing.prod() - 1),
                        100 * verdict["wrong"] / voxels,
                        f"seed {outcome.seed} ({run.kind}), {label}: {voxels} voxels"))
-    if verdict["wrong"] != told["WrongVoxels"]:
+    if abs(verdict["wrong"] - told["WrongVoxels"]) > MOST_CENTRES_ON_SURFACE:
         yield f"WrongVoxels {told['WrongVoxels']}, which is {verdict['wrong']:g}"
 
 

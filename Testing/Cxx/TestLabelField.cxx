@@ -37,7 +37,7 @@ TEST(BoundaryGaussian, IsTheSumOfItsWeights)
   const VoxelBits rows = LabelSides(bricks, 1).NearBoundary({ 4, 4, 4 });
   const std::array<double, 3> sigma = { 1., 1.5, 0.5 };
   std::vector<float> smooth(static_cast<std::size_t>(rows.Box().Count()));
-  BoundaryGaussian().Smooth(rows, sigma,
+  BoundaryGaussian().Smooth(rows, rows, sigma,
     [&](int i, int j, int k, int count, float* values)
     {
       for (int x = 0; x < count; ++x)

@@ -92,7 +92,7 @@ TEST(LabelSurfaces, AreNearerToTheTruthByDefaultThanWithEachVoxel)
     return JudgeTruth(ToTriangleSurface(BlockOf(filter, 0)), shapes.Shapes[0]);
   };
   const TruthVerdict byDefault =
-    judged(vtkSmartPointer<vtkLabelsToSurfaces>::New()->GetVoxelTolerance());
+    judged(0.5);
   const TruthVerdict strict = judged(0.0);
   EXPECT_LT(byDefault.MeanAngle, 0.8 * strict.MeanAngle);
   EXPECT_LT(byDefault.MeanAtVertices, strict.MeanAtVertices);

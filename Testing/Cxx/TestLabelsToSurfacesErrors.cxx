@@ -155,7 +155,7 @@ TEST_F(LabelsToSurfacesErrors, PropertiesOutOfRange)
   expect(&Labels::SetSmoothing, 2., 11., { "Smoothing is 11", "at most 10" });
   expect(&Labels::SetSmoothing, 2., std::nan(""), { "Smoothing is nan" });
   expect(&Labels::SetVoxelTolerance, 0., -0.5, { "Voxel Tolerance is -0.5" });
-  expect(&Labels::SetVoxelTolerance, 0., 1.5, { "Voxel Tolerance is 1.5 voxels", "at most 1" });
+  expect(&Labels::SetVoxelTolerance, 0., 1.5, { "Voxel Tolerance is 1.5", "to 1 voxels" });
   expect(&Labels::SetMetric, 0, 2, { "Metric is 2" });
   expect(&Labels::SetEdgeLength, 0., -2., { "Edge Length is -2" });
   expect(&Labels::SetEdgeLength, 0., 1e-3, { "Edge Length is 0.001" });

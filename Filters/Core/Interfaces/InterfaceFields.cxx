@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Interfaces/InterfaceFields.h"
 
-#include "Core/Common/Spans.h"
 #include "Core/Labels/VoxelBits.h"
 
 #include <algorithm>

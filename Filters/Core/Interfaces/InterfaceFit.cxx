@@ -21,6 +21,8 @@ constexpr int VolumeSweeps = 200;
 /** By how much fields are changed at a voxel on the wrong side, in smallest distances of voxels. */
 constexpr float PushOfWrong = 0.25f;
 
+/** Where objects fill a box only differences count: all shifts would run away together. */
+constexpr double PullToZero = 1e-3;
 /** Of objects of fewer voxels less is expected. */
 constexpr std::int64_t LeastVoxels = 8;
 
@@ -138,7 +140,8 @@ double CorrectVolumes(
     }
     for (std::size_t object = 1; object < count; ++object)
     {
-      shifts[object] = weights[object] > 0. ? sums[object] / weights[object] : 0.;
+      shifts[object] =
+        weights[object] > 0. ? sums[object] / (weights[object] * (1. + PullToZero)) : 0.;
     }
   }
   for (std::size_t object = 1; object < count; ++object)

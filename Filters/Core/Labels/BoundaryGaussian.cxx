@@ -39,39 +39,67 @@ public:
   void Sum(const float* from, std::ptrdiff_t stride, int before, int after, int count,
     float* sums) const
   {
-    const int both = std::min({ before, after, this->Reach() });
-    const int most = std::min(std::max(before, after), this->Reach());
-    const std::ptrdiff_t longer = before < after ? stride : -stride;
-    for (int x = 0; x < count; x += Lanes::Count)
+    int x = 0;
+    for (; x + 2 * Lanes::Count <= count; x += 2 * Lanes::Count)
     {
-      const float* at = from + x;
-      Lanes sum = Lanes(this->Values[0]) * Lanes::Load(at);
-      for (int n = 1; n <= both; ++n)
-      {
-        sum += Lanes(this->Values[static_cast<std::size_t>(n)]) *
-          (Lanes::Load(at - n * stride) + Lanes::Load(at + n * stride));
-      }
-      for (int n = both + 1; n <= most; ++n)
-      {
-        sum += Lanes(this->Values[static_cast<std::size_t>(n)]) * Lanes::Load(at + n * longer);
-      }
-      sum.Store(sums + x);
+      this->SumGroups<2>(from + x, stride, before, after, sums + x);
+    }
+    if (x < count)
+    {
+      this->SumGroups<1>(from + x, stride, before, after, sums + x);
     }
   }
 
 private:
+  template <int Groups>
+  void SumGroups(
+    const float* from, std::ptrdiff_t stride, int before, int after, float* sums) const
+  {
+    const int both = std::min({ before, after, this->Reach() });
+    const int most = std::min(std::max(before, after), this->Reach());
+    std::array<Lanes, Groups> sum;
+    for (int g = 0; g < Groups; ++g)
+    {
+      sum[g] = Lanes(this->Values[0]) * Lanes::Load(from + g * Lanes::Count);
+    }
+    for (int n = 1; n <= both; ++n)
+    {
+      const Lanes weight(this->Values[static_cast<std::size_t>(n)]);
+      for (int g = 0; g < Groups; ++g)
+      {
+        const float* at = from + g * Lanes::Count;
+        sum[g] += weight * (Lanes::Load(at - n * stride) + Lanes::Load(at + n * stride));
+      }
+    }
+    const std::ptrdiff_t longer = before < after ? stride : -stride;
+    for (int n = both + 1; n <= most; ++n)
+    {
+      const Lanes weight(this->Values[static_cast<std::size_t>(n)]);
+      for (int g = 0; g < Groups; ++g)
+      {
+        sum[g] += weight * Lanes::Load(from + g * Lanes::Count + n * longer);
+      }
+    }
+    for (int g = 0; g < Groups; ++g)
+    {
+      sum[g].Store(sums + g * Lanes::Count);
+    }
+  }
+
   std::vector<float> Values;
 };
 }
 
-void BoundaryGaussian::Smooth(const VoxelBits& rows, const std::array<double, 3>& sigma,
-  const Source& source, const Receiver& receive, Executor& executor)
+void BoundaryGaussian::Smooth(const VoxelBits& rows, const VoxelBits& varying,
+  const std::array<double, 3>& sigma, const Source& source, const Receiver& receive,
+  Executor& executor)
 {
   const VoxelBox& box = rows.Box();
   const std::array<Weights, 3> weights = { Weights(sigma[0]), Weights(sigma[1]),
     Weights(sigma[2]) };
   const VoxelBits beforeZ = rows.Grown(2, weights[2].Reach());
   const VoxelBits beforeY = beforeZ.Grown(1, weights[1].Reach());
+  const VoxelBits changed = beforeY & varying.Grown(0, weights[0].Reach()).InFours();
   const auto count = static_cast<std::size_t>(box.Count());
   if (this->AlongXY.size() < count)
   {
@@ -83,22 +111,33 @@ void BoundaryGaussian::Smooth(const VoxelBits& rows, const std::array<double, 3>
   executor.For(layers, 1,
     [&](std::size_t begin, std::size_t end)
     {
-      // A whole group of four beyond the reach, as sources may be read in groups.
-      const int reach = (weights[0].Reach() + 3) & ~3;
-      std::vector<float> row(lengthX + 2 * static_cast<std::size_t>(reach), 0.f);
       std::vector<float> alongX(layer);
+      // Rows with what is beyond the box: 0.
+      const int margin = (weights[0].Reach() + Lanes::Count - 1) / Lanes::Count * Lanes::Count;
+      const std::size_t width = lengthX + 2 * static_cast<std::size_t>(margin);
+      std::vector<float> sources(width * static_cast<std::size_t>(box.Length(1)), 0.f);
+      const auto sourceAt = [&](int i, int j)
+      {
+        return sources.data() + margin + i - box.First[0] +
+          width * static_cast<std::size_t>(j - box.First[1]);
+      };
       for (std::size_t n = begin; n < end; ++n)
       {
-        const auto smoothX = [&](int i, int j, int k, int length)
-        {
-          const int first = std::max(box.First[0], i - reach);
-          const int last = std::min(box.End[0], i + length + reach);
-          float* values = row.data() + reach - box.First[0];
-          source(first, j, k, last - first, values + first);
-          weights[0].Sum(values + i, 1, reach, reach, length,
-            alongX.data() + box.NumberOf(i, j, box.First[2]));
-        };
-        beforeY.ForLayer(static_cast<int>(n), smoothX);
+        beforeY.ForLayer(static_cast<int>(n),
+          [&](int i, int j, int k, int length)
+          {
+            const int first = std::max(box.First[0], i - margin);
+            source(first, j, k, std::min(box.End[0], i + length + margin) - first,
+              sourceAt(first, j));
+            std::copy_n(
+              sourceAt(i, j), length, alongX.data() + box.NumberOf(i, j, box.First[2]));
+          });
+        changed.ForLayer(static_cast<int>(n),
+          [&](int i, int j, int, int length)
+          {
+            weights[0].Sum(sourceAt(i, j), 1, margin, margin, length,
+              alongX.data() + box.NumberOf(i, j, box.First[2]));
+          });
         beforeZ.ForLayer(static_cast<int>(n),
           [&](int i, int j, int k, int length)
           {

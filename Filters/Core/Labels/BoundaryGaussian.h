@@ -23,11 +23,12 @@ public:
 
   /**
    * Smooth a source that is 0 outside the box; runs of a layer along z are received on one thread.
-   * @param rows  whole groups of four voxels along x, as the length of their box
-   * @param sigma in voxels of each axis
+   * @param rows    whole groups of four voxels along x, as the length of their box
+   * @param varying elsewhere each voxel has the value of the next one along x
+   * @param sigma   in voxels of each axis
    */
-  void Smooth(const VoxelBits& rows, const std::array<double, 3>& sigma, const Source& source,
-    const Receiver& receive, Executor& executor);
+  void Smooth(const VoxelBits& rows, const VoxelBits& varying, const std::array<double, 3>& sigma,
+    const Source& source, const Receiver& receive, Executor& executor);
 
 private:
   LargeVector<float> AlongXY; ///< a member, as its memory is used again

@@ -67,7 +67,8 @@ class DistanceMaker
 public:
   DistanceMaker(const LabelSides& sides, const std::array<double, 3>& spacing, LabelField& field,
     Executor& executor)
-    : Sides(sides), Spacing(spacing), Field(field), Threads(executor)
+    : Sides(sides), Varying(sides.FindChanges(0)), Spacing(spacing), Field(field),
+      Threads(executor)
   {
   }
 
@@ -75,8 +76,9 @@ public:
    * With less smoothing where voxels would be lost: for what is held to all voxels once the volume
    * has been made up for, else before, as a thin part may be made too thick by that.
    */
-  void Make(const VoxelBits& rows, double sigma, bool isHeld)
+  void Make(double sigma, bool isHeld)
   {
+    const VoxelBits& rows = this->Field.Rows;
     this->MakeWith(rows, rows, sigma, isHeld);
     for (double narrower = sigma * NarrowerBy; narrower > LeastSigma; narrower *= NarrowerBy)
     {
@@ -125,7 +127,7 @@ private:
   {
     const auto sigma = static_cast<float>(ofGaussian);
     const NormalQuantile& quantiles = NormalQuantile::Table();
-    this->Gaussian.Smooth(rows, this->InVoxels(ofGaussian),
+    this->Gaussian.Smooth(rows, this->Varying, this->InVoxels(ofGaussian),
       [this](int i, int j, int k, int count, float* values)
       { this->Sides.CopyMembership(i, j, k, count, values); },
       [&](int i, int j, int k, int count, const float* shares)
@@ -149,7 +151,7 @@ private:
   {
     const float perShare = static_cast<float>(ofGaussian) * 2.5066283f; // sqrt(2 pi)
     this->Others.resize(this->Field.Values.size());
-    this->Gaussian.Smooth(rows, this->InVoxels(ofGaussian),
+    this->Gaussian.Smooth(rows, this->Field.Rows, this->InVoxels(ofGaussian),
       [this](int i, int j, int k, int count, float* values)
       { this->CopyMissingVolume(i, j, k, count, values); },
       [&](int i, int j, int k, int count, const float* missing)
@@ -175,7 +177,7 @@ private:
         [&](int i, int j, int k, int count) { add(i, j, k, count, nullptr); });
       return;
     }
-    this->Gaussian.Smooth(rows, this->InVoxels(ofGaussian),
+    this->Gaussian.Smooth(rows, this->Field.Rows, this->InVoxels(ofGaussian),
       [this](int i, int j, int k, int count, float* values)
       { this->CopyBoundary(i, j, k, count, values); },
       add, this->Threads);
@@ -215,7 +217,7 @@ private:
     this->MakeWith(isCorrected ? rows & near.Grown(this->ReachOf(sigma)).InFours() : near, near,
       sigma, isCorrected);
     values.swap(this->Field.Values);
-    this->Gaussian.Smooth(near, this->InVoxels(FadingSigma),
+    this->Gaussian.Smooth(near, lost.Grown(0, 1), this->InVoxels(FadingSigma),
       [&](int i, int j, int k, int count, float* shares)
       {
         for (int x = 0; x < count; ++x)
@@ -236,6 +238,7 @@ private:
   }
 
   const LabelSides& Sides;
+  const VoxelBits Varying; ///< where the membership does, along x
   const std::array<double, 3> Spacing;
   LabelField& Field;
   Executor& Threads;
@@ -244,11 +247,9 @@ private:
 };
 }
 
-void MakeLabelDistance(const LabelSides& sides, const VoxelBits& rows,
-  const std::array<double, 3>& spacing, const LabelFieldOptions& options, LabelField& field,
-  Executor& executor)
+void MakeLabelDistance(const LabelSides& sides, const std::array<double, 3>& spacing,
+  const LabelFieldOptions& options, LabelField& field, Executor& executor)
 {
-  DistanceMaker(sides, spacing, field, executor)
-    .Make(rows, options.Sigma, options.Tolerance == 0.);
+  DistanceMaker(sides, spacing, field, executor).Make(options.Sigma, options.Tolerance == 0.);
 }
 }

@@ -6,7 +6,6 @@
 #include "Core/Common/Executor.h"
 #include "Core/Labels/LabelField.h"
 #include "Core/Labels/LabelSides.h"
-#include "Core/Labels/VoxelBits.h"
 
 #include <array>
 
@@ -14,11 +13,10 @@ namespace volumic
 {
 /**
  * Steps 1 and 2 of MakeLabelField(): a smooth distance to the boundary of an object.
- * @param rows of the object; the field has their box, and only their voxels are written
+ * @param field has the box of the sides; only the voxels of its Rows are written
  */
-void MakeLabelDistance(const LabelSides& sides, const VoxelBits& rows,
-  const std::array<double, 3>& spacing, const LabelFieldOptions& options, LabelField& field,
-  Executor& executor);
+void MakeLabelDistance(const LabelSides& sides, const std::array<double, 3>& spacing,
+  const LabelFieldOptions& options, LabelField& field, Executor& executor);
 }
 
 #endif

@@ -7,7 +7,6 @@
 #include "Core/Labels/LabelDistance.h"
 #include "Core/Labels/LabelHold.h"
 #include "Core/Labels/LabelSides.h"
-#include "Core/Labels/VoxelBits.h"
 
 #include <algorithm>
 #include <array>
@@ -52,8 +51,8 @@ public:
     this->Field.Rows = this->Rows;
     if (this->Options.Sigma > 0.)
     {
-      MakeLabelDistance(this->Sides, this->Rows, this->Map.Spacing, this->Options, this->Field,
-        this->Threads);
+      MakeLabelDistance(
+        this->Sides, this->Map.Spacing, this->Options, this->Field, this->Threads);
       this->CorrectBends();
       this->Hold();
     }
@@ -171,11 +170,24 @@ private:
         float* values = this->RowAt(i, j, k);
         for (int x = 0; x < count; ++x)
         {
+          if (x % Lanes::Count == 0 && this->FindLess(i + x, j, k, LeastSize) == 0)
+          {
+            x += Lanes::Count - 1;
+            continue;
+          }
           const float side = this->Sides.Of(i + x, j, k);
-          const float least = this->LeastAt(i + x, j, k);
-          values[x] = side * std::clamp(side * values[x], least, LabelField::Far);
+          values[x] = side * std::max(side * values[x], this->LeastAt(i + x, j, k));
         }
       });
+  }
+
+  /** The bits of those of four voxels that are less on their side than a number. */
+  unsigned FindLess(int i, int j, int k, float least)
+  {
+    const Lanes four = Lanes::Load(this->RowAt(i, j, k));
+    const unsigned members = this->Sides.FourAt(i, j, k);
+    return (LessBits(four, Lanes(least)) & members) |
+      (LessBits(Lanes(-least), four) & ~members & 15u);
   }
 
   float LeastAt(int i, int j, int k) const
@@ -198,19 +210,24 @@ private:
     return !lost.IsEmpty();
   }
 
-  /** To the nearest of the other side beside it that is thin; 0: there is none. */
+  /** Of a voxel beside one of the other side that is thin: how far the nearest one is. */
   double WayToThin(int i, int j, int k) const
   {
     const bool side = this->Sides.IsObject(i, j, k);
-    const auto isThinOther = [&](int a, int b, int c)
-    { return this->Sides.IsObject(a, b, c) != side && this->Thin.Has(a, b, c); };
-    const std::array<double, 3>& way = this->Map.Spacing;
     double least = 0.;
-    const auto take = [&least](bool isThere, double length)
-    { least = isThere && (least == 0. || length < least) ? length : least; };
-    take(isThinOther(i - 1, j, k) || isThinOther(i + 1, j, k), way[0]);
-    take(isThinOther(i, j - 1, k) || isThinOther(i, j + 1, k), way[1]);
-    take(isThinOther(i, j, k - 1) || isThinOther(i, j, k + 1), way[2]);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      for (const int step : { -1, 1 })
+      {
+        std::array<int, 3> at = { i, j, k };
+        at[axis] += step;
+        if (this->Thin.Has(at[0], at[1], at[2]) &&
+          this->Sides.IsObject(at[0], at[1], at[2]) != side)
+        {
+          least = least > 0. ? std::min(least, this->Map.Spacing[axis]) : this->Map.Spacing[axis];
+        }
+      }
+    }
     return least;
   }
 
@@ -231,18 +248,13 @@ private:
     this->Rows.For(this->Threads,
       [&](int i, int j, int k, int count)
       {
-        const float* values = this->RowAt(i, j, k);
         for (int x = 0; x < count; x += Lanes::Count)
         {
           const bool isHeld = !this->HasTolerance() ||
             this->Field.IsStrict.FourAt(i + x, j, k) != 0 ||
             this->BesideThin.FourAt(i + x, j, k) != 0;
-          const float margin = isHeld ? most : least;
-          const Lanes four = Lanes::Load(values + x);
-          const unsigned members = this->Sides.FourAt(i + x, j, k);
-          changing.AddFour(i + x, j, k,
-            (LessBits(four, Lanes(margin)) & members) |
-              (LessBits(Lanes(-margin), four) & ~members & 15u));
+          changing.AddFour(
+            i + x, j, k, this->FindLess(i + x, j, k, isHeld ? most : least));
         }
       });
     constexpr int reach = 2 * ReachOfHold;
@@ -278,10 +290,11 @@ private:
     for (int x = 0; x < count; ++x)
     {
       const float side = this->Sides.Of(i + x, j, k);
-      if (side * values[x] > 1.f && !this->Thin.Has(i + x, j, k))
+      if (side * values[x] > 1.f && this->BesideThin.Has(i + x, j, k) &&
+        !this->Thin.Has(i + x, j, k))
       {
         const double way = this->WayToThin(i + x, j, k);
-        if (way > 0. && side * values[x] > way)
+        if (side * values[x] > way)
         {
           constraints.push_back({ this->Field.Box.NumberOf(i + x, j, k), -side,
             static_cast<float>(-this->Options.MostBesideThin * way) });

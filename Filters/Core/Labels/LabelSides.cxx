@@ -58,13 +58,21 @@ LabelSides::LabelSides(const LabelBricks& bricks, int object, const VoxelBox& wi
 
 void LabelSides::CopyMembership(int i, int j, int k, int count, float* values) const
 {
+  static const auto fours = []
+  {
+    std::array<std::array<float, Lanes::Count>, 16> all;
+    for (unsigned bits = 0; bits < all.size(); ++bits)
+    {
+      for (unsigned n = 0; n < Lanes::Count; ++n)
+      {
+        all[bits][n] = static_cast<float>(bits >> n & 1u);
+      }
+    }
+    return all;
+  }();
   for (int x = 0; x < count; x += Lanes::Count)
   {
-    const unsigned four = this->Members.FourAt(i + x, j, k);
-    for (int n = 0; n < Lanes::Count; ++n)
-    {
-      values[x + n] = static_cast<float>(four >> n & 1u);
-    }
+    Lanes::Load(fours[this->Members.FourAt(i + x, j, k)].data()).Store(values + x);
   }
 }
 

@@ -44,6 +44,12 @@ public:
   /** Return how far fields are computed from the boundary along each axis: for NearBoundary(). */
   static std::array<int, 3> ReachOfFields(double sigma, const std::array<double, 3>& spacing);
 
+  /** Return the voxels whose next one along an axis is on the other side. */
+  VoxelBits FindChanges(int axis) const
+  {
+    return this->Members ^ this->Members.Neighbored(axis, true);
+  }
+
   /** Return the voxels whose two neighbors along an axis are both on the other side. */
   VoxelBits FindThin() const;
   /** Return the voxels that have one of these beside them, on the other side. */

@@ -2,9 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Labels/VoxelBits.h"
 
-#include "Core/Common/Lanes.h"
-
 #include <algorithm>
+#include <cstdlib>
 
 namespace volumic
 {
@@ -44,107 +43,60 @@ void VoxelBits::Add(const VoxelBox& part)
   }
 }
 
-VoxelBits& VoxelBits::operator&=(const VoxelBits& other)
+void VoxelBits::AddShifted(const VoxelBits& others, int axis, int by)
 {
-  std::transform(this->Bits.begin(), this->Bits.end(), other.Bits.begin(), this->Bits.begin(),
-    [](Word a, Word b) { return a & b; });
-  return *this;
-}
-
-VoxelBits& VoxelBits::operator|=(const VoxelBits& other)
-{
-  std::transform(this->Bits.begin(), this->Bits.end(), other.Bits.begin(), this->Bits.begin(),
-    [](Word a, Word b) { return a | b; });
-  return *this;
-}
-
-VoxelBits& VoxelBits::operator^=(const VoxelBits& other)
-{
-  std::transform(this->Bits.begin(), this->Bits.end(), other.Bits.begin(), this->Bits.begin(),
-    [](Word a, Word b) { return a ^ b; });
-  return *this;
-}
-
-VoxelBits& VoxelBits::operator-=(const VoxelBits& other)
-{
-  std::transform(this->Bits.begin(), this->Bits.end(), other.Bits.begin(), this->Bits.begin(),
-    [](Word a, Word b) { return a & ~b; });
-  return *this;
-}
-
-int VoxelBits::FindBit(const Word* row, int x, int count, Word inversion)
-{
-  while (x < count)
+  const auto words = static_cast<std::size_t>(this->Words);
+  const auto length = static_cast<std::size_t>(std::abs(by));
+  if (axis > 0)
   {
-    const Word rest = (row[x / WordSize] ^ inversion) >> x % WordSize;
-    if (rest != 0)
+    // Rows follow each other along y, then along z: parts of a layer, or of the box.
+    const std::size_t step =
+      words * (axis == 1 ? 1 : static_cast<std::size_t>(this->Voxels.Length(1)));
+    const std::size_t block = step * static_cast<std::size_t>(this->Voxels.Length(axis));
+    for (std::size_t first = 0; first < this->Bits.size() && length * step < block; first += block)
     {
-      return std::min(count, x + LowestBit(rest));
+      Word* to = this->Bits.data() + first + (by < 0 ? length * step : 0);
+      const Word* from = others.Bits.data() + first + (by < 0 ? 0 : length * step);
+      for (std::size_t w = 0; w < block - length * step; ++w)
+      {
+        to[w] |= from[w];
+      }
     }
-    x = (x / WordSize + 1) * WordSize;
+    return;
   }
-  return count;
-}
-
-template <typename Combine>
-void VoxelBits::CombineRows(int axis, int by, const VoxelBits& others, Combine&& combine)
-{
-  // Rows follow each other along y, then along z: what is combined is all of a layer, or of a box.
-  const std::size_t step =
-    static_cast<std::size_t>(this->Words) * (axis == 1 ? 1 : this->Voxels.Length(1));
-  const std::size_t block = step * static_cast<std::size_t>(this->Voxels.Length(axis));
-  const std::size_t length = step * static_cast<std::size_t>(std::abs(by));
-  for (std::size_t first = 0; first < this->Bits.size() && length < block; first += block)
+  const Word inLast = ~Word(0) >> (this->Words * WordSize - this->Voxels.Length(0));
+  for (std::size_t first = 0; first < this->Bits.size(); first += words)
   {
-    Word* to = this->Bits.data() + first + (by < 0 ? length : 0);
-    const Word* from = others.Bits.data() + first + (by < 0 ? 0 : length);
-    for (std::size_t w = 0; w < block - length; ++w)
+    const Word* from = others.Bits.data() + first;
+    Word* to = this->Bits.data() + first;
+    for (std::size_t w = 0; w < words; ++w)
     {
-      to[w] = combine(to[w], from[w]);
+      to[w] |= by > 0
+        ? from[w] >> length | (w + 1 < words ? from[w + 1] << (WordSize - length) : 0)
+        : from[w] << length | (w > 0 ? from[w - 1] >> (WordSize - length) : 0);
     }
+    to[words - 1] &= inLast;
   }
 }
 
 VoxelBits VoxelBits::Neighbored(int axis, bool isNext) const
 {
   VoxelBits neighbored(this->Voxels);
-  if (axis > 0)
-  {
-    neighbored.CombineRows(axis, isNext ? 1 : -1, *this, [](Word, Word other) { return other; });
-    return neighbored;
-  }
-  const auto words = static_cast<std::size_t>(this->Words);
-  const Word inLast = ~Word(0) >> (this->Words * WordSize - this->Voxels.Length(0));
-  for (std::size_t first = 0; first < this->Bits.size(); first += words)
-  {
-    const Word* row = this->Bits.data() + first;
-    Word* to = neighbored.Bits.data() + first;
-    for (std::size_t w = 0; w < words; ++w)
-    {
-      const Word before = w > 0 ? row[w - 1] >> (WordSize - 1) : 0;
-      const Word after = w + 1 < words ? row[w + 1] << (WordSize - 1) : 0;
-      to[w] = isNext ? row[w] >> 1 | after : row[w] << 1 | before;
-    }
-    to[words - 1] &= inLast;
-  }
+  neighbored.AddShifted(*this, axis, isNext ? 1 : -1);
   return neighbored;
 }
 
 VoxelBits VoxelBits::Grown(int axis, int voxels) const
 {
   VoxelBits grown = *this;
-  for (int n = 1; n <= voxels; ++n)
+  for (int done = 0; done < voxels;)
   {
-    if (axis == 0)
-    {
-      const VoxelBits before = grown;
-      grown |= before.Neighbored(0, false);
-      grown |= before.Neighbored(0, true);
-      continue;
-    }
-    const auto both = [](Word word, Word other) { return word | other; };
-    grown.CombineRows(axis, n, *this, both);
-    grown.CombineRows(axis, -n, *this, both);
+    // What has been grown by n leaves no gaps in two copies that are 2 n + 1 further.
+    const int step = std::min({ 2 * done + 1, voxels - done, WordSize - 1 });
+    const VoxelBits before = grown;
+    grown.AddShifted(before, axis, step);
+    grown.AddShifted(before, axis, -step);
+    done += step;
   }
   return grown;
 }

@@ -4,8 +4,10 @@
 #define volumicVoxelBits_h
 
 #include "Core/Common/Executor.h"
+#include "Core/Common/Lanes.h"
 #include "Core/Image/VoxelBox.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -16,6 +18,9 @@ namespace volumic
 /** A set of voxels of a box: one bit per voxel. Voxels outside the box are not in the set. */
 class VoxelBits
 {
+  using Word = std::uint32_t;
+  static constexpr int WordSize = 32;
+
 public:
   VoxelBits() = default;
   /** All voxels of the box, or none of them. */
@@ -29,7 +34,7 @@ public:
     return this->Voxels.Contains({ i, j, k }) &&
       (this->RowAt(j, k)[x / WordSize] >> x % WordSize & 1u) != 0;
   }
-  /** Return bit n for each of four voxels i + n; i is a multiple of 4 from the box on. */
+  /** Return bit n for voxel i + n, of four; i is a multiple of 4 from the first of the box. */
   unsigned FourAt(int i, int j, int k) const
   {
     const int x = i - this->Voxels.First[0];
@@ -47,10 +52,22 @@ public:
   }
 
   /** Operations on two sets of the same box. */
-  VoxelBits& operator&=(const VoxelBits& other);
-  VoxelBits& operator|=(const VoxelBits& other);
-  VoxelBits& operator^=(const VoxelBits& other);
-  VoxelBits& operator-=(const VoxelBits& other);
+  VoxelBits& operator&=(const VoxelBits& other)
+  {
+    return this->Combine(other, [](Word a, Word b) { return a & b; });
+  }
+  VoxelBits& operator|=(const VoxelBits& other)
+  {
+    return this->Combine(other, [](Word a, Word b) { return a | b; });
+  }
+  VoxelBits& operator^=(const VoxelBits& other)
+  {
+    return this->Combine(other, [](Word a, Word b) { return a ^ b; });
+  }
+  VoxelBits& operator-=(const VoxelBits& other)
+  {
+    return this->Combine(other, [](Word a, Word b) { return a & ~b; });
+  }
   friend VoxelBits operator&(VoxelBits a, const VoxelBits& b) { return a &= b; }
   friend VoxelBits operator^(VoxelBits a, const VoxelBits& b) { return a ^= b; }
   friend VoxelBits operator-(VoxelBits a, const VoxelBits& b) { return a -= b; }
@@ -99,9 +116,13 @@ public:
   }
 
 private:
-  using Word = std::uint32_t;
-  static constexpr int WordSize = 32;
-
+  template <typename Operation>
+  VoxelBits& Combine(const VoxelBits& other, Operation&& combine)
+  {
+    std::transform(this->Bits.begin(), this->Bits.end(), other.Bits.begin(), this->Bits.begin(),
+      combine);
+    return *this;
+  }
   Word* RowAt(int j, int k)
   {
     return this->Bits.data() +
@@ -111,10 +132,21 @@ private:
   }
   const Word* RowAt(int j, int k) const { return const_cast<VoxelBits*>(this)->RowAt(j, k); }
   /** Return the first bit, from x on, that is set in row ^ inversion; `count` if there is none. */
-  static int FindBit(const Word* row, int x, int count, Word inversion);
-  /** Call combine(word, other) for the words of two rows, `by` rows apart along y or z. */
-  template <typename Combine>
-  void CombineRows(int axis, int by, const VoxelBits& others, Combine&& combine);
+  static int FindBit(const Word* row, int x, int count, Word inversion)
+  {
+    while (x < count)
+    {
+      const Word rest = (row[x / WordSize] ^ inversion) >> x % WordSize;
+      if (rest != 0)
+      {
+        return std::min(count, x + LowestBit(rest));
+      }
+      x = (x / WordSize + 1) * WordSize;
+    }
+    return count;
+  }
+  /** Add the voxels whose neighbor, `by` voxels further along an axis, is in another set. */
+  void AddShifted(const VoxelBits& others, int axis, int by);
 
   VoxelBox Voxels;
   int Words = 0; ///< per row
