@@ -113,7 +113,7 @@ class LabelsTest(LabelsTestCase):
         reasons = [testing.field(surface, "StopReason") for surface in stopped]
         self.assertEqual(reasons, ["cancelled"] * 3)
         algorithm.RemoveObserver(tag)
-        filter_.Smoothing = 1.9
+        filter_.SMProxy.InvokeCommand("GoOn")
         for label, surface in zip(BALLS, self.blocks(filter_).values()):
             self.check_ball(surface, label)
 
@@ -173,7 +173,7 @@ class LabelErrorsTest(LabelsTestCase):
                 ("Labels", [3, 9], [], ("9", "3", "7", "12")),
                 ("Smoothing", -0.5, 2.0, ("-0.5",)),
                 ("Smoothing", math.nan, 2.0, ("nan",)),
-                ("VoxelTolerance", 1.5, 0.0, ("1.5", "at most 1")),
+                ("VoxelTolerance", 1.5, -1.0, ("1.5", "at most 1")),
                 ("EdgeLength", -1.0, 0.0, ("-1",)),
                 ("Tolerance", -1.0, 0.0, ("Tolerance", "-1")),
                 ("Gradation", 0.6, 0.2, ("Gradation", "0.6", "at most 0.3")),
