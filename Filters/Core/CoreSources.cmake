@@ -112,6 +112,7 @@ set(volumic_core_sources
   Evolution/SurfaceResult.cxx)
 set(volumic_core_headers
   Common/Box.h
+  Common/AskingExecutor.h
   Common/CheckedFile.h
   Common/ContentHash.h
   Common/DisjointSets.h

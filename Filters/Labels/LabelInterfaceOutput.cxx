@@ -133,7 +133,7 @@ LabelSurface LabelInterfaceMaker::SurfaceOf(int object, const std::vector<int>& 
     return made;
   }
   std::vector<int> vertices;
-  const IndexedSurface surface = this->Mesh.SurfaceOf(object, faces, vertices, this->Map);
+  const IndexedSurface surface = this->Mesh.SurfaceOf(object, faces, vertices);
   SurfaceDescription description;
   description.Level = this->Settings.FinestLevel;
   description.Unit = this->Space.WorldUnit() * std::pow(std::sqrt(3.0), this->Settings.FinestLevel);

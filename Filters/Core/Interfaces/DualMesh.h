@@ -38,7 +38,7 @@ struct DualGrid
  * and the two others are of two labels, or of one of later rank; never through a voxel corner
  * alone, but for one pattern: four labels, each at two opposite corners of a cell, of which that of
  * first rank is connected. Each label's surface is closed, and a manifold, and no triangles
- * intersect; they do not either if vertices are moved by less than LeastSafe.
+ * intersect.
  *
  * An opened sheet (CellPattern::IsOpened): its rim on the cell's sides is copied at half the size
  * about the cell's centre; polygons reach from the one to the other, and each region but that which

@@ -7,8 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <tuple>
+#include <cstddef>
+#include <numeric>
 
 namespace volumic
 {
@@ -18,21 +18,8 @@ namespace
 constexpr std::size_t SpanSize = 2048;
 /** How wide cubes are, in the mean width of faces. */
 constexpr float CubeInFaces = 2.f;
-/** Bits of a cube's number along an axis. */
-constexpr int Bits = 20;
-constexpr int Last = (1 << Bits) - 1;
-
-/** A face and one of the cubes that its box is in. */
-struct Place
-{
-  std::uint64_t Cube;
-  int Face;
-
-  bool operator<(const Place& other) const
-  {
-    return std::tie(this->Cube, this->Face) < std::tie(other.Cube, other.Face);
-  }
-};
+/** Cubes along an axis, at most. */
+constexpr int MostCubes = 1 << 20;
 
 class CrossingFinder
 {
@@ -45,29 +32,12 @@ public:
   InterfaceCrossings Find()
   {
     this->LayCubes();
-    std::vector<Place> places = this->FindPlaces();
-    SortInSpans(this->Threads, places);
-    std::vector<std::vector<std::array<int, 2>>> pairs((places.size() + SpanSize - 1) / SpanSize);
+    const std::vector<std::vector<int>> layers = this->FindFacesOfLayers();
+    std::vector<std::vector<std::array<int, 2>>> pairs(layers.size());
     std::vector<std::vector<int>> doubtful(pairs.size());
-    ForSpans(this->Threads, places.size(), SpanSize,
-      [&](std::size_t span, std::size_t begin, std::size_t end)
-      {
-        // Cubes that begin in the span.
-        while (begin > 0 && begin < end && places[begin].Cube == places[begin - 1].Cube)
-        {
-          ++begin;
-        }
-        while (begin < end)
-        {
-          std::size_t next = begin;
-          while (next < places.size() && places[next].Cube == places[begin].Cube)
-          {
-            ++next;
-          }
-          this->LookAt(places.data() + begin, places.data() + next, pairs[span], doubtful[span]);
-          begin = next;
-        }
-      });
+    ForSpans(this->Threads, layers.size(), 1,
+      [&](std::size_t layer, std::size_t, std::size_t)
+      { this->LookAtLayer(static_cast<int>(layer), layers[layer], pairs[layer], doubtful[layer]); });
     InterfaceCrossings found;
     found.Pairs = Joined(this->Threads, pairs);
     found.Doubtful = Joined(this->Threads, doubtful);
@@ -127,69 +97,105 @@ private:
     const Vector sides = all.High - all.Low;
     this->PerCube = 1.f /
       std::max({ 1e-6f, CubeInFaces * static_cast<float>(width / std::max<std::size_t>(there, 1)),
-        std::max({ sides.X, sides.Y, sides.Z }) / static_cast<float>(Last) });
+        std::max({ sides.X, sides.Y, sides.Z }) / static_cast<float>(MostCubes) });
+    const std::array<int, 3> last = this->CubeOf(all.High);
+    this->Count = { last[0] + 1, last[1] + 1, last[2] + 1 };
   }
 
   /** The cube of a place, along each axis. */
   std::array<int, 3> CubeOf(const Vector& place) const
   {
     const Vector from = (place - this->Low) * this->PerCube;
-    return { std::clamp(static_cast<int>(from.X), 0, Last),
-      std::clamp(static_cast<int>(from.Y), 0, Last), std::clamp(static_cast<int>(from.Z), 0, Last) };
-  }
-  static std::uint64_t NumberOf(const std::array<int, 3>& cube)
-  {
-    return (static_cast<std::uint64_t>(cube[2]) << Bits | static_cast<std::uint64_t>(cube[1]))
-      << Bits |
-      static_cast<std::uint64_t>(cube[0]);
+    return { std::max(static_cast<int>(from.X), 0), std::max(static_cast<int>(from.Y), 0),
+      std::max(static_cast<int>(from.Z), 0) };
   }
 
-  std::vector<Place> FindPlaces() const
+  /** The faces in each layer of cubes along z, sorted. */
+  std::vector<std::vector<int>> FindFacesOfLayers() const
   {
-    std::vector<std::vector<Place>> ofSpans((this->Mesh.Faces.size() + SpanSize - 1) / SpanSize);
+    const std::size_t spans = (this->Mesh.Faces.size() + SpanSize - 1) / SpanSize;
+    std::vector<std::vector<std::array<int, 2>>> ofSpans(spans); // layers of each face
     ForSpans(this->Threads, this->Mesh.Faces.size(), SpanSize,
       [&](std::size_t span, std::size_t begin, std::size_t end)
       {
         for (std::size_t f = begin; f < end; ++f)
         {
-          if (!this->Mesh.Faces[f].IsThere())
+          std::array<int, 2> layers = { 0, -1 };
+          if (this->Mesh.Faces[f].IsThere())
           {
-            continue;
+            const TriangleBox box = this->BoxOf(static_cast<int>(f));
+            layers = { this->CubeOf(box.Low)[2], this->CubeOf(box.High)[2] };
           }
-          const TriangleBox box = this->BoxOf(static_cast<int>(f));
-          const std::array<int, 3> low = this->CubeOf(box.Low);
-          const std::array<int, 3> high = this->CubeOf(box.High);
-          for (int k = low[2]; k <= high[2]; ++k)
-          {
-            for (int j = low[1]; j <= high[1]; ++j)
-            {
-              for (int i = low[0]; i <= high[0]; ++i)
-              {
-                ofSpans[span].push_back({ NumberOf({ i, j, k }), static_cast<int>(f) });
-              }
-            }
-          }
+          ofSpans[span].push_back(layers);
         }
       });
-    return Joined(this->Threads, ofSpans);
+    std::vector<std::vector<int>> faces(static_cast<std::size_t>(this->Count[2]));
+    for (std::size_t span = 0; span < spans; ++span)
+    {
+      for (std::size_t n = 0; n < ofSpans[span].size(); ++n)
+      {
+        for (int k = ofSpans[span][n][0]; k <= ofSpans[span][n][1]; ++k)
+        {
+          faces[static_cast<std::size_t>(k)].push_back(static_cast<int>(span * SpanSize + n));
+        }
+      }
+    }
+    return faces;
+  }
+
+  void LookAtLayer(int layer, const std::vector<int>& faces, std::vector<std::array<int, 2>>& pairs,
+    std::vector<int>& doubtful) const
+  {
+    // The faces of each cube, in one list: counted, then put there.
+    std::vector<std::size_t> first(static_cast<std::size_t>(this->Count[0]) * this->Count[1] + 1, 0);
+    const auto forCubes = [&](const auto& visit)
+    {
+      for (const int f : faces)
+      {
+        const TriangleBox box = this->BoxOf(f);
+        const std::array<int, 3> low = this->CubeOf(box.Low);
+        const std::array<int, 3> high = this->CubeOf(box.High);
+        for (int j = low[1]; j <= high[1]; ++j)
+        {
+          for (int i = low[0]; i <= high[0]; ++i)
+          {
+            visit(static_cast<std::size_t>(j) * this->Count[0] + i, f);
+          }
+        }
+      }
+    };
+    forCubes([&](std::size_t cube, int) { ++first[cube + 1]; });
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    std::vector<int> inCubes(first.back());
+    std::vector<std::size_t> next(first.begin(), first.end() - 1);
+    forCubes([&](std::size_t cube, int f) { inCubes[next[cube]++] = f; });
+    for (std::size_t cube = 0; cube + 1 < first.size(); ++cube)
+    {
+      if (first[cube + 1] > first[cube])
+      {
+        const int along = static_cast<int>(cube);
+        this->LookAt({ along % this->Count[0], along / this->Count[0], layer },
+          inCubes.data() + first[cube], inCubes.data() + first[cube + 1], pairs, doubtful);
+      }
+    }
   }
 
   /** The faces of a cube. */
-  void LookAt(const Place* first, const Place* last, std::vector<std::array<int, 2>>& pairs,
-    std::vector<int>& doubtful) const
+  void LookAt(const std::array<int, 3>& cube, const int* first, const int* last,
+    std::vector<std::array<int, 2>>& pairs, std::vector<int>& doubtful) const
   {
     if (this->AreOneSheet(first, last))
     {
       return;
     }
-    for (const Place* f = first; f != last; ++f)
+    for (const int* f = first; f != last; ++f)
     {
-      doubtful.push_back(f->Face);
-      const TriangleBox box = this->BoxOf(f->Face);
-      const MeshTriangle triangle = this->TriangleAt(f->Face);
-      for (const Place* g = f + 1; g != last; ++g)
+      doubtful.push_back(*f);
+      const TriangleBox box = this->BoxOf(*f);
+      const MeshTriangle triangle = this->TriangleAt(*f);
+      for (const int* g = f + 1; g != last; ++g)
       {
-        const TriangleBox other = this->BoxOf(g->Face);
+        const TriangleBox other = this->BoxOf(*g);
         if (box.IsApart(other.Low, other.High))
         {
           continue;
@@ -197,10 +203,10 @@ private:
         // In the first cube that both are in.
         const Vector low(std::max(box.Low.X, other.Low.X), std::max(box.Low.Y, other.Low.Y),
           std::max(box.Low.Z, other.Low.Z));
-        if (NumberOf(this->CubeOf(low)) == f->Cube &&
-          TrianglesIntersect(triangle, this->TriangleAt(g->Face), this->Tolerance))
+        if (this->CubeOf(low) == cube &&
+          TrianglesIntersect(triangle, this->TriangleAt(*g), this->Tolerance))
         {
-          pairs.push_back({ f->Face, g->Face });
+          pairs.push_back({ *f, *g });
         }
       }
     }
@@ -211,13 +217,13 @@ private:
     return TriangleOf(this->Mesh, this->Mesh.Faces[static_cast<std::size_t>(face)].Vertex);
   }
 
-  bool AreOneSheet(const Place* first, const Place* last) const
+  bool AreOneSheet(const int* first, const int* last) const
   {
-    const auto faceOf = [this](const Place& place) -> const InterfaceMesh::Face&
-    { return this->Mesh.Faces[static_cast<std::size_t>(place.Face)]; };
+    const auto faceOf = [this](int face) -> const InterfaceMesh::Face&
+    { return this->Mesh.Faces[static_cast<std::size_t>(face)]; };
     const InterfaceMesh::Face& one = faceOf(*first);
     VectorD sum;
-    for (const Place* f = first; f != last; ++f)
+    for (const int* f = first; f != last; ++f)
     {
       const InterfaceMesh::Face& face = faceOf(*f);
       if (face.Behind != one.Behind || face.Front != one.Front)
@@ -228,9 +234,9 @@ private:
     }
     const VectorD along = Normalized(sum);
     return std::all_of(first, last,
-      [&](const Place& place)
+      [&](int face)
       {
-        const VectorD normal = this->Mesh.NormalOf(faceOf(place));
+        const VectorD normal = this->Mesh.NormalOf(faceOf(face));
         return Dot(normal, along) > LeastSheetCosine * Length(normal);
       });
   }
@@ -240,6 +246,7 @@ private:
   Executor& Threads;
   Vector Low;
   float PerCube = 1.f;
+  std::array<int, 3> Count = { 1, 1, 1 }; ///< cubes along each axis
 };
 }
 

@@ -19,6 +19,8 @@ constexpr double LeastFlatCosine = 0.85;
 constexpr double LeastRatio = 0.3;
 /** Those are slivers, by the same. */
 constexpr double MostSliver = 0.15;
+/** Triangles with no smaller angle are good enough, radian. */
+constexpr double MostFlipped = 0.8;
 /** By how much a flip must make the smallest angle larger, radian. */
 constexpr double LeastGain = 0.02;
 }
@@ -133,8 +135,15 @@ bool InterfaceEdits::MayCollapse(int u, int v)
 
 bool InterfaceEdits::ShareObjects(int u, int v)
 {
-  this->Mesh.FindObjects(u, this->First);
-  this->Mesh.FindObjects(v, this->Second);
+  const auto findWhole = [this](int w, std::vector<int>& objects)
+  {
+    this->Mesh.FindObjects(w, objects);
+    std::transform(objects.begin(), objects.end(), objects.begin(),
+      [this](int object) { return this->Mesh.Whole(object); });
+    std::sort(objects.begin(), objects.end());
+  };
+  findWhole(u, this->First);
+  findWhole(v, this->Second);
   this->Common.clear();
   std::set_intersection(this->First.begin(), this->First.end(), this->Second.begin(),
     this->Second.end(), std::back_inserter(this->Common));
@@ -145,7 +154,7 @@ bool InterfaceEdits::ShareObjects(int u, int v)
         [&](int f)
         {
           const InterfaceMesh::Face& face = this->Mesh.Faces[static_cast<std::size_t>(f)];
-          return face.Behind == object || face.Front == object;
+          return this->Mesh.Whole(face.Behind) == object || this->Mesh.Whole(face.Front) == object;
         });
     });
 }
@@ -332,6 +341,10 @@ void InterfaceEdits::Collapse(const Vector& place, int kept, int removed)
 int InterfaceEdits::FlipAt(int face)
 {
   const std::array<int, 3> v = this->Mesh.Faces[static_cast<std::size_t>(face)].Vertex;
+  if (SmallestAngle(TriangleOf(this->Mesh, v)) > MostFlipped)
+  {
+    return 0; // From the worse one of two it is tried, if one is bad.
+  }
   for (int k = 0; k < 3; ++k)
   {
     if (this->TryFlip(v[k], v[(k + 1) % 3], LeastFlatCosine))

@@ -278,8 +278,8 @@ std::vector<std::vector<int>> InterfaceMesh::FindFacesOfObjects() const
   return faces;
 }
 
-IndexedSurface InterfaceMesh::SurfaceOf(int object, const std::vector<int>& faces,
-  std::vector<int>& vertices, const LabelMap& map) const
+IndexedSurface InterfaceMesh::SurfaceOf(
+  int object, const std::vector<int>& faces, std::vector<int>& vertices) const
 {
   vertices.clear();
   for (const int f : faces)
@@ -304,7 +304,7 @@ IndexedSurface InterfaceMesh::SurfaceOf(int object, const std::vector<int>& face
       triangle[k] = static_cast<int>(
         std::lower_bound(vertices.begin(), vertices.end(), face.Vertex[k]) - vertices.begin());
     }
-    if (!this->IsSide(face.Front) && map.Whole(face.Front) == object)
+    if (this->Whole(face.Front) == object)
     {
       std::swap(triangle[1], triangle[2]);
     }
@@ -353,6 +353,7 @@ void InterfaceMesh::Compact(bool isSorted)
   }
   InterfaceMesh kept;
   kept.FirstSide = this->FirstSide;
+  kept.WholeOf = this->WholeOf;
   kept.Planes = this->Planes;
   std::vector<int> number(this->Position.size(), -1);
   for (const int vertex : order)

@@ -62,6 +62,14 @@ public:
   /** By how much longer edges are wanted about a vertex than where they are shortest. */
   LargeVector<float> Size;
   LargeVector<Face> Faces;
+  /** As LabelMap::WholeOf: parts of one object never get a vertex in common. */
+  std::vector<LabelMap::Number> WholeOf;
+  int Whole(int object) const
+  {
+    return static_cast<std::size_t>(object) < this->WholeOf.size()
+      ? this->WholeOf[static_cast<std::size_t>(object)]
+      : object;
+  }
   /** The number of x-min. */
   int FirstSide = std::numeric_limits<int>::max();
   /** The planes of the sides. */
@@ -134,11 +142,11 @@ public:
   /** Of each object, from 0 on, its faces. */
   std::vector<std::vector<int>> FindFacesOfObjects() const;
   /**
-   * The closed surface of an object, or of all parts of one by a map, of its faces; vertices[n] is
-   * point n of it.
+   * The closed surface of an object, with all its parts, of its faces; vertices[n] is point n of
+   * it.
    */
-  IndexedSurface SurfaceOf(int object, const std::vector<int>& faces, std::vector<int>& vertices,
-    const LabelMap& map = LabelMap()) const;
+  IndexedSurface SurfaceOf(
+    int object, const std::vector<int>& faces, std::vector<int>& vertices) const;
 
   /** Of an edge (u, v), which need not be there yet. */
   float SizeOf(int u, int v) const

@@ -264,23 +264,31 @@ void MoveInterfaces(InterfaceMesh& mesh, const InterfaceFields& fields, int step
 {
   const LargeVector<Vector> before = mesh.Position;
   LargeVector<Vector> after = before;
-  for (int step = 0; step < steps; ++step)
+  try
   {
-    ForSpans(executor, before.size(), SpanSize,
-      [&](std::size_t, std::size_t begin, std::size_t end)
-      {
-        VertexTargets targets(mesh, fields, share, shortest, straightening);
-        for (std::size_t v = begin; v < end; ++v)
+    for (int step = 0; step < steps; ++step)
+    {
+      ForSpans(executor, before.size(), SpanSize,
+        [&](std::size_t, std::size_t begin, std::size_t end)
         {
-          if (mesh.IsVertex(static_cast<int>(v)))
+          VertexTargets targets(mesh, fields, share, shortest, straightening);
+          for (std::size_t v = begin; v < end; ++v)
           {
-            after[v] = targets.Of(static_cast<int>(v));
+            if (mesh.IsVertex(static_cast<int>(v)))
+            {
+              after[v] = targets.Of(static_cast<int>(v));
+            }
           }
-        }
-      });
-    MoveImagesAlike(mesh, after);
-    mesh.Position.swap(after);
+        });
+      MoveImagesAlike(mesh, after);
+      mesh.Position.swap(after);
+    }
+    Verification(mesh, before, tolerance, leastAngle, executor).Run();
   }
-  Verification(mesh, before, tolerance, leastAngle, executor).Run();
+  catch (...)
+  {
+    mesh.Position = before; // Some steps are not verified.
+    throw;
+  }
 }
 }

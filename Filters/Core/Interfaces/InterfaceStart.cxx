@@ -211,6 +211,7 @@ private:
 InterfaceMesh StartInterfaces(const InterfaceFields& fields, Executor& executor)
 {
   InterfaceMesh mesh = MakeDualMesh(GridMaker(fields).Make(), executor);
+  mesh.WholeOf = fields.Bricks().Map().WholeOf;
   if (fields.ArePeriodic())
   {
     mesh.MatchSides();

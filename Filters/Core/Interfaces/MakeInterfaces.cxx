@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Interfaces/MakeInterfaces.h"
 
+#include "Core/Common/AskingExecutor.h"
 #include "Core/Interfaces/InterfaceFit.h"
 #include "Core/Interfaces/InterfaceStart.h"
 #include "Core/Interfaces/InterfaceMotion.h"
@@ -20,7 +21,7 @@ namespace volumic
 namespace
 {
 /** Rounds in which short edges are collapsed, */
-constexpr int Rounds = 3;
+constexpr int Rounds = 2;
 /** then those of splits, flips and steps alone, at least and at most: */
 constexpr int LeastLastRounds = 1;
 constexpr int MostLastRounds = 6;
@@ -101,10 +102,9 @@ void Edit(InterfaceMesh& mesh, double wanted, bool hasCollapses, int sliverRound
     remesher.RemoveSlivers();
   }
 }
-}
-
-InterfaceMesh MakeInterfaces(InterfaceFields& fields, const InterfaceOptions& options,
-  Executor& executor, const std::function<bool(double share)>& goOn)
+/** All rounds. @param goOn as MakeInterfaces(); throws StoppedWork, with the mesh safe */
+void Work(InterfaceMesh& mesh, InterfaceFields& fields, const InterfaceOptions& options,
+  Executor& executor, double& share, const std::function<bool()>& mayGoOn)
 {
   // The first round is as much work as all others, as the start has many short edges.
   constexpr int all = 2 * (Rounds + LeastLastRounds);
@@ -112,19 +112,21 @@ InterfaceMesh MakeInterfaces(InterfaceFields& fields, const InterfaceOptions& op
   const int rounds = Rounds + (isGraded ? static_cast<int>(Growths.size()) : MostLastRounds);
   const double straightening =
     isGraded ? std::min(options.Tolerance, MostStraightening) : MostStraightening;
-  double share = 0.;
-  const auto mayGoOn = [&] { return goOn(share); };
-  InterfaceMesh mesh = StartInterfaces(fields, executor);
+  const auto move = [&](int steps, double stepShare, double leastAngle)
+  {
+    MoveInterfaces(mesh, fields, steps, stepShare, LeastShare * options.Edge,
+      ToleranceOfEdge * options.Edge, leastAngle, executor, straightening);
+  };
+  mesh = StartInterfaces(fields, executor);
   ShortenEdgesOfSmall(mesh, fields, options.Edge);
   std::size_t wrong = 0;
   double worstVolume = 0.;
-  for (int round = 0; round < rounds && mayGoOn(); ++round)
+  for (int round = 0; round < rounds; ++round)
   {
     const bool hasFewWrong =
       static_cast<double>(wrong) <= FewWrong * static_cast<double>(mesh.Position.size());
     const bool isLast = round >= Rounds;
-    if (!isGraded && round >= Rounds + LeastLastRounds && hasFewWrong &&
-      worstVolume < FairVolume)
+    if (!isGraded && round >= Rounds + LeastLastRounds && hasFewWrong && worstVolume < FairVolume)
     {
       break;
     }
@@ -137,37 +139,47 @@ InterfaceMesh MakeInterfaces(InterfaceFields& fields, const InterfaceOptions& op
     }
     Edit(mesh, options.Edge, isGraded || !isLast, round >= FirstFit ? 1 : 0, executor, mayGoOn);
     mesh.Compact();
-    if (!mayGoOn())
-    {
-      break; // All steps of a round are safe together only.
-    }
     if (round >= FirstFit)
     {
       worstVolume = CorrectVolumes(mesh, fields, options.Tolerance, executor);
       wrong = PushWrongVoxels(
         mesh, fields, options.VoxelTolerance + (isLast ? options.Tolerance : 0.), executor);
     }
-    MoveInterfaces(mesh, fields, round == 0 ? 1 : Steps, StepShare, LeastShare * options.Edge,
-      ToleranceOfEdge * options.Edge, 0., executor, straightening);
+    move(round == 0 ? 1 : Steps, StepShare, 0.);
     share = std::min(1., static_cast<double>(all / 2 + round) / all);
   }
   // Of the last steps some slivers are left; without them volumes are a little different again.
   Edit(mesh, options.Edge, false, LastSliverRounds, executor, mayGoOn);
   mesh.Compact();
-  if (mayGoOn())
+  CorrectVolumes(mesh, fields, options.Tolerance, executor);
+  move(1, 0., SliverAngle);
+  NarrowPlaces(mesh, fields, options.Edge, ToleranceOfEdge * options.Edge,
+    options.VoxelTolerance + options.Tolerance)
+    .Open(executor, mayGoOn);
+}
+}
+
+InterfaceMesh MakeInterfaces(InterfaceFields& fields, const InterfaceOptions& options,
+  Executor& executor, const std::function<bool(double share)>& goOn)
+{
+  double share = 0.;
+  const auto mayGoOn = [&] { return goOn(share); };
+  AskingExecutor asking(executor, mayGoOn);
+  InterfaceMesh mesh;
+  try
   {
-    CorrectVolumes(mesh, fields, options.Tolerance, executor);
-    MoveInterfaces(mesh, fields, 1, 0., LeastShare * options.Edge, ToleranceOfEdge * options.Edge,
-      SliverAngle, executor, straightening);
-    NarrowPlaces(mesh, fields, options.Edge, ToleranceOfEdge * options.Edge,
-      options.VoxelTolerance + options.Tolerance)
-      .Open(executor, mayGoOn);
+    Work(mesh, fields, options, asking, share, mayGoOn);
+    share = 1.;
+  }
+  catch (const StoppedWork&)
+  {
+    mesh.Compact(); // What is removed is not handed out.
   }
   if (fields.ArePeriodic())
   {
     mesh.Compact(true); // In both of two opposite sides vertices are numbered in the same order.
   }
-  goOn(1.);
+  mayGoOn();
   return mesh;
 }
 }

@@ -39,8 +39,8 @@ struct InterfaceOptions
  * 5. At the end narrow triangles, wedges and gaps are opened (NarrowPlaces).
  *
  * @param fields   are changed, see 3
- * @param goOn     told the share that is done, on the calling thread; after false the mesh is what
- *                 there is by then: safe, but rough
+ * @param goOn     told the share that is done, on the calling thread, several times a second; after
+ *                 false the mesh is what there is by then: safe, but rough, or still empty
  */
 InterfaceMesh MakeInterfaces(InterfaceFields& fields, const InterfaceOptions& options,
   Executor& executor, const std::function<bool(double share)>& goOn);

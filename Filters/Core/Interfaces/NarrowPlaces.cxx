@@ -27,6 +27,8 @@ constexpr double NarrowGap = 0.15;
 constexpr double FlatCosine = 0.5;
 /** Faces that a thread looks at at a time. */
 constexpr std::size_t SpanSize = 1024;
+/** Vertices between two questions whether to go on. */
+constexpr std::size_t VerticesPerQuestion = 256;
 /** How often what is narrow is visited. */
 constexpr int Rounds = 4;
 /** How far a vertex goes at a time, in its wanted edge, at first and at least. */
@@ -92,8 +94,13 @@ void NarrowPlaces::Open(Executor& executor, const std::function<bool()>& goOn)
   {
     // Where nothing has moved nothing more will.
     std::vector<int> next;
+    std::size_t visited = 0;
     for (const int v : vertices)
     {
+      if (++visited % VerticesPerQuestion == 0 && !goOn())
+      {
+        return;
+      }
       if (this->TryMove(v))
       {
         for (const int f : this->Changed)
