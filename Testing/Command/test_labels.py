@@ -76,9 +76,9 @@ class OutputsTest(LabelsTest):
             self.assertEqual(row["voxels"], (label_voxels() == label).sum())
             self.assertEqual(row["triangles"], surface.GetNumberOfPolys())
             self.assertEqual(surface.GetFieldData().GetArray("Label").GetValue(0), label)
-            # Half a voxel beyond the centres.
             np.testing.assert_allclose(surface.GetBounds(), self.bounds_of(label), atol=0.75)
-            self.assertAlmostEqual(row["volume"] / (row["voxels"] * SPACING.prod()), 1, delta=.06)
+            self.assertAlmostEqual(row["volume"] / (row["voxels"] * SPACING.prod()), 1, delta=.01)
+            self.assertEqual((row["parts"], row["wrong_parts"]), (1, 0))
 
     def test_formats_and_files_of_earlier_runs(self):
         volume, names, folder = self.map_file(), self.names_file(), self.path("o")
