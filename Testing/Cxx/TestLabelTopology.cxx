@@ -70,6 +70,26 @@ InterfaceMesh MeshOf(vtkLabelsToSurfaces* filter)
   return mesh;
 }
 
+/** Labels share triangles only where their voxels share faces. */
+void ExpectContactsOfVoxels(const VoxelScene& scene, const InterfaceMesh& mesh)
+{
+  std::set<std::pair<int, int>> contacts;
+  ForBox({ 1, 1, 1 }, scene.Size,
+    [&](int i, int j, int k)
+    {
+      for (const int other : { scene.At(i - 1, j, k), scene.At(i, j - 1, k), scene.At(i, j, k - 1) })
+      {
+        contacts.insert(std::minmax(other, scene.At(i, j, k)));
+      }
+    });
+  for (const InterfaceMesh::Face& face : mesh.Faces)
+  {
+    const std::pair<int, int> labels = std::minmax(int(face.Behind), int(face.Front));
+    ASSERT_TRUE(labels.first == 0 || contacts.count(labels) > 0)
+      << labels.first << " and " << labels.second;
+  }
+}
+
 /** 1 % of 60 voxels or more, 5 % of 8 or more, 25 % of fewer. */
 double MostOff(double voxels)
 {
@@ -245,7 +265,9 @@ TEST_P(LabelTopology, IsThatOfTheVoxelsWithTheirVolumes)
 {
   const VoxelScene& scene = GetParam().Voxels;
   const auto filter = LabelSurfacesOf(ImageOf(scene), GetParam().Settings);
-  ExpectSound(scene, MeshOf(filter));
+  const InterfaceMesh mesh = MeshOf(filter);
+  ExpectSound(scene, mesh);
+  ExpectContactsOfVoxels(scene, mesh);
   ExpectVolumes(filter, GetParam());
 }
 
