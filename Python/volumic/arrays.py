@@ -186,8 +186,7 @@ def surface(array: Any, iso: float | None = None, *, spacing: Sequence[float] | 
 def labels(array: Any, only: Sequence[int] = (), *, spacing: Sequence[float] | None = None,
            origin: Sequence[float] | None = None, direction: Any = None,
            start: Sequence[int] | None = None, **properties: Any) -> Surfaces:
-    """A smooth closed surface around each label of a label map, by vtkLabelsToSurfaces: neighbours
-    share their interfaces.
+    """A closed surface around each label of a map, by vtkLabelsToSurfaces; neighbours share it.
 
     Parameters
     ----------

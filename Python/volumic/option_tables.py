@@ -241,8 +241,8 @@ PROPERTIES = (
     Property("smoothing", "VOXELS", "Smoothing", "with --labels: smoothing distance in smallest "
              "voxel distances; 0: none", LABELS),
     Property("voxel-tolerance", "VOXELS", "VoxelTolerance", "with --labels: how far a voxel "
-             "centre may lie on the wrong side, in smallest voxel distances; 0: every centre on "
-             "its side", LABELS),
+             "centre may lie on the wrong side, in smallest voxel distances, at most 1; 0: every "
+             "centre on its side; -1: a quarter of --smoothing, at most 1", LABELS),
     Property("box-faces", "rounded|flat|periodic", "BoxFaces", "with --labels: shape at the "
              "border of the volume; flat: in its planes, with edges and corners; periodic: also "
              "equal triangles on opposite sides", LABELS),

@@ -25,7 +25,8 @@ SURFACE_FACTS = {
     "lost_parts": "LostParts", "recovered_parts": "RecoveredParts",
     "lost_cavities": "LostCavities", "recovered_cavities": "RecoveredCavities",
     "missing_parts": "MissingParts", "missing_boundary": "MissingBoundary",
-    "wrong_voxels": "WrongVoxels", "volume_error": "VolumeError", "missed_voxels": "MissedVoxels"}
+    "wrong_voxels": "WrongVoxels", "volume_error": "VolumeError", "missed_voxels": "MissedVoxels",
+    "parts": "Parts", "wrong_parts": "WrongParts"}
 INTERFACE_FACTS = {"small_contacts": "SmallContacts", "worst_angle": "WorstAngle",
                    "worst_angle_position": "WorstAnglePosition"}
 COMPONENT_FACTS = {"area": "ComponentArea", "volume": "ComponentVolume", "genus": "ComponentGenus",

@@ -6,6 +6,7 @@ import numpy as np
 import scan_runs  # noqa: F401, which finds the modules of Examples/Python
 import render
 import volumic
+from interfaces import image_of, polycrystal
 from pictures import blocks_of
 from volumic.arrays import make_image
 from vtkmodules.vtkCommonDataModel import vtkPolyData
@@ -69,18 +70,10 @@ def label_picture(path, width):
     return render.compose([panels], [captions])
 
 
-def grains():
-    """A label map: each voxel has the number of the nearest of some random points."""
-    points = np.random.default_rng(3).random((GRAINS, 3)) * SIZE
-    voxels = np.moveaxis(np.indices((SIZE, SIZE, SIZE)), 0, -1)[..., np.newaxis, :]
-    labels = 1 + ((voxels - points) ** 2).sum(axis=-1).argmin(axis=-1)
-    return make_image(labels.astype(np.int32), (1, 1, 1), (0, 0, 0), None)
-
-
 def interface_picture(width):
     """Two panels, each so many pixels wide: all grains, and those behind the nearest ones."""
     surfaces = volumic.vtkLabelsToSurfaces()
-    surfaces.SetInputData(grains())
+    surfaces.SetInputData(image_of(polycrystal(SIZE, GRAINS)))
     surfaces.Update()
     frame, mesh = render.Frame(), surfaces.GetInterfaces()
     towards = frame.vector("LLAS")

@@ -12,8 +12,8 @@
  * are radius ratios.
  *
  * With a map the files are surfaces of its labels, which their field data `Label` names: they are
- * judged against its voxels and all together, too, and the numbers of the wrong voxels, x
- * fastest, end the line.
+ * judged against its voxels and all together, too: voxels whose centres are on the surface, which
+ * are on either side, are told, and the numbers of the wrong voxels, x fastest, end the line.
  */
 
 #include "SupportVtkConversions.h"
@@ -50,6 +50,7 @@ struct NamedSurface : TriangleSurface
   std::set<double> Labels;
   std::vector<double> Deltas; ///< of the points; none where the file tells of none
   std::size_t Crossing = 0;   ///< intersections of all surfaces together
+  std::size_t CentresOn = 0;  ///< voxels
   std::vector<std::size_t> WrongVoxels;
 };
 
@@ -78,6 +79,31 @@ NamedSurface ReadSurface(const std::string& file)
   return surface;
 }
 
+/** How many centres of voxels are inside or outside by how the surface is shifted a little. */
+std::size_t CountCentresOn(const TriangleSurface& inIndices, const std::array<int, 3>& size)
+{
+  constexpr double little = 1e-5;
+  constexpr int directions[4][3] = { { 1, 1, 1 }, { 1, -1, -1 }, { -1, 1, -1 }, { -1, -1, 1 } };
+  std::vector<int> times;
+  for (const auto& direction : directions)
+  {
+    TriangleSurface shifted = inIndices;
+    for (auto& point : shifted.Points)
+    {
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        point[axis] += little * direction[axis];
+      }
+    }
+    const std::vector<char> enclosed = EnclosedVoxels(shifted, size);
+    times.resize(enclosed.size(), 0);
+    std::transform(enclosed.begin(), enclosed.end(), times.begin(), times.begin(),
+      [](char is, int before) { return before + is; });
+  }
+  return static_cast<std::size_t>(
+    std::count_if(times.begin(), times.end(), [](int n) { return n > 0 && n < 4; }));
+}
+
 void FindWrongVoxels(NamedSurface& surface, vtkImageData* map)
 {
   TriangleSurface inIndices = surface;
@@ -88,6 +114,7 @@ void FindWrongVoxels(NamedSurface& surface, vtkImageData* map)
   }
   std::array<int, 3> size;
   map->GetDimensions(size.data());
+  surface.CentresOn = CountCentresOn(inIndices, size);
   const std::vector<char> enclosed = EnclosedVoxels(inIndices, size);
   for (std::size_t v = 0; v < enclosed.size(); ++v)
   {
@@ -167,7 +194,8 @@ void Judge(const NamedSurface& surface)
   }
   const ShapeVerdict shapes = JudgeShapes(surface);
   std::cout << ' ' << shapes.Mean << ' ' << shapes.Quantile01 << ' ' << shapes.Least << ' '
-            << cavities << ' ' << surface.Crossing << ' ' << surface.WrongVoxels.size();
+            << cavities << ' ' << surface.Crossing << ' ' << surface.CentresOn << ' '
+            << surface.WrongVoxels.size();
   for (const std::size_t voxel : surface.WrongVoxels)
   {
     std::cout << ' ' << voxel;
@@ -182,7 +210,7 @@ int main(int count, char** words)
   {
     std::cout << "points triangles closed manifold oriented outward intersections flat unused "
                  "components euler genus area volume edges short long near ratio ratio01 "
-                 "ratiomin cavities crossing wrong\n";
+                 "ratiomin cavities crossing on wrong\n";
     return 0;
   }
   std::cout << std::setprecision(17);

@@ -25,7 +25,7 @@ def write(writer, data, folder, name):
 class RandomRun:
     """Words of the command line, for files in `folder`, where the run is to be started."""
 
-    def __init__(self, seed, folder, only_labels):
+    def __init__(self, seed, folder, only_labels, most_voxels_of_labels=1e5):
         self.rng = np.random.default_rng(seed)
         self.folder = folder
         self.is_default = False  # of labels
@@ -33,7 +33,7 @@ class RandomRun:
         most_voxels = 150000 if self.chance(.05) else 25000
         self.size, self.spacing = random_volumes.size_and_spacing(self.rng, most_voxels)
         self.is_of_labels = only_labels or self.chance(.15)
-        self.words = (self.of_small_labels() if only_labels else
+        self.words = (self.of_small_labels(most_voxels_of_labels) if only_labels else
                       self.of_labels() if self.is_of_labels else self.of_surface())
         self.words = [self.volume, *self.words, "--threads", str(self.rng.integers(1, 3))]
 
@@ -65,8 +65,9 @@ class RandomRun:
         image = random_volumes.make_image(self.rng, labels.astype("u1"), self.spacing)
         self.volume = write(vtkXMLImageDataWriter(), image, self.folder, "volume.vti")
 
-    def of_small_labels(self):
-        labels, self.spacing, self.kind = random_volumes.random_small_labels(self.rng)
+    def of_small_labels(self, most_voxels):
+        labels, self.spacing, self.kind = random_volumes.random_small_labels(self.rng,
+                                                                             most_voxels)
         self.write_labels(labels)
         smallest = self.spacing.min()
         smoothing = self.now_and_then(.4, "--smoothing", self.rng.choice(("0", self.number(.1, 4)),

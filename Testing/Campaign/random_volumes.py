@@ -243,12 +243,15 @@ class LabelMaps(Shapes):
             self.labels[tuple(map(slice, low.clip(0), high.clip(0)))] = label
 
 
-def random_small_labels(rng):
-    """A map, its voxels' distances, up to 1 : 20, and its name."""
+def random_small_labels(rng, most_voxels=1e5):
+    """A map, its voxels' distances, up to 1 : 20, and its name.
+
+    most_voxels: as many as there would be if all distances were the smallest one.
+    """
     size = np.exp(rng.uniform(np.log(8), np.log(36), 3)).astype(int)
     spacing = np.exp(rng.uniform(0, np.log(20), 3)) if rng.random() < .5 else np.ones(3)
     long = (spacing / spacing.min()).prod()  # there are as many more triangles
-    size = np.maximum(size * min(1, 1e5 / (long * size.prod())) ** (1 / 3), 5).astype(int)
+    size = np.maximum(size * min(1, most_voxels / (long * size.prod())) ** (1 / 3), 5).astype(int)
     factor = 1 + int(rng.random() < .15)
     maps, names = LabelMaps(rng, -(-size // factor), spacing), []
     kinds = {"touching_blobs": .15, "grains": .15, "layers": .1, "plates": .1, "slices": .1,

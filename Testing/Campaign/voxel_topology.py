@@ -49,6 +49,20 @@ def roots_of(count, pairs):
             root = root[root]
 
 
+def whole_parts(voxels):
+    """A number from 0 for each voxel, the same where those of a label are joined by faces, edges or
+    corners: the parts that keep their volumes."""
+    number = np.arange(voxels.size).reshape(voxels.shape)
+    links = []
+    for step in itertools.product((-1, 0, 1), repeat=3):
+        if step > (0, 0, 0):
+            here = tuple(slice(max(-s, 0), n - max(s, 0)) for s, n in zip(step, voxels.shape))
+            there = tuple(slice(max(s, 0), n - max(-s, 0)) for s, n in zip(step, voxels.shape))
+            where = voxels[here] == voxels[there]
+            links.append(np.stack([number[here][where], number[there][where]]))
+    return np.unique(roots_of(voxels.size, links), return_inverse=True)[1].reshape(voxels.shape)
+
+
 def parts_without(label, voxels, rank):
     """Components of what is not of a label, by the complementary connectivity."""
     cells, number = octants_of(voxels), octants_of(np.arange(voxels.size).reshape(voxels.shape))

@@ -119,21 +119,6 @@ class OneMeshTest(InterfacesTest):
             files.add(self.content(f"{number}.vtp"))
         self.assertEqual(len(files), 1)
 
-    def test_labels_in_layers(self):
-        layers = "".join(f"Segment{i}_{key}:={value}\n" for i in range(2) for key, value in (
-            ("LabelValue", 1), ("Layer", i), ("Name", f"s{i}")))
-        head = ("NRRD0004\ntype: uint8\ndimension: 4\nsizes: 2 9 9 9\nkinds: list domain domain "
-                "domain\nspace: left-posterior-superior\nspace directions: none (1,0,0) (0,1,0) "
-                f"(0,0,1)\nspace origin: (0,0,0)\nencoding: raw\n{layers}\n")
-        voxels = np.zeros((9, 9, 9, 2), "u1")
-        voxels[2:7, 2:7, 2:7, 0] = voxels[3:8, 3:8, 3:8, 1] = 1
-        file = self.write_bytes("two.seg.nrrd", head.encode() + voxels.tobytes())
-        self.refused("the labels lie in several layers .* --component, or give a folder", file,
-                     self.path("a.msh"), "--labels", "all")
-        self.run_command(file, self.path("a.msh"), "--labels", "s1")
-        rows = self.report(file, self.path("o/"), "--labels", "all")["labels"]
-        self.assertEqual([row["voxels"] for row in rows], [125, 125])
-
     def test_the_box(self):
         file = self.map_file("map.vti", make_image(period(), SPACING, ORIGIN, TURNED))
         self.run_command(file, self.path("a.vtp"), "--labels", "all", "--box-faces",

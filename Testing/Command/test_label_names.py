@@ -269,8 +269,9 @@ class HeadersTest(NamesTest):
                                (("all", "--component", "1"), {"tumour", "vessel"})):
             report = self.report(volume, "--labels", *options)
             self.assertEqual({row["name"] for row in report["labels"]}, names)
-        self.refused("the labels lie in several layers", volume, self.path("o.stl"),
-                     "--labels", "1", "--merge")
+        for name, *more in ("o.stl", "--merge"), ("o.msh",):
+            self.refused("the labels lie in several layers .* --component, or give a folder",
+                         volume, self.path(name), "--labels", "1", *more)
         self.run_command(volume, self.path("o.stl"), "--labels", "1,2", "--merge", "--component", 1)
         unnamed = self.nrrd(layers)
         for reason, *options in (("2 components; choose the one that is a label with --component",),

@@ -76,9 +76,9 @@ class OutputsTest(LabelsTest):
             self.assertEqual(row["voxels"], (label_voxels() == label).sum())
             self.assertEqual(row["triangles"], surface.GetNumberOfPolys())
             self.assertEqual(surface.GetFieldData().GetArray("Label").GetValue(0), label)
-            # Half a voxel beyond the centres.
             np.testing.assert_allclose(surface.GetBounds(), self.bounds_of(label), atol=0.75)
-            self.assertAlmostEqual(row["volume"] / (row["voxels"] * SPACING.prod()), 1, delta=.06)
+            self.assertAlmostEqual(row["volume"] / (row["voxels"] * SPACING.prod()), 1, delta=.01)
+            self.assertEqual((row["parts"], row["wrong_parts"]), (1, 0))
 
     def test_formats_and_files_of_earlier_runs(self):
         volume, names, folder = self.map_file(), self.names_file(), self.path("o")
@@ -328,18 +328,8 @@ class RunTest(LabelsTest):
         self.assertEqual({self.path("o/") + name for name in os.listdir(self.path("o"))}, written)
 
     def test_a_time_limit(self):
-        volume = self.many_labels(4)
-        self.no_surfaces("the time limit came before there was a surface", volume, "--labels",
-                         "all", "--time-limit", "1e-9")
-        seconds, status = 0.1, 1
-        while status == 1:  # until there is a mesh
-            process = self.run_command(
-                volume, self.path("o/"), "--labels", "all", "--finest", "-1", "--threads", "1",
-                "--time-limit", seconds, status=None)
-            seconds, status = 1.3 * seconds, process.returncode
-        self.assertEqual(status, 3, process.stderr)
-        self.assertIn("unfinished (time limit); the surfaces as they are were", process.stderr)
-        self.assertTrue(0 < len(os.listdir(self.path("o"))) <= 64)
+        self.no_surfaces("the time limit came before there was a surface", self.many_labels(4),
+                         "--labels", "all", "--time-limit", "1e-9")
 
 
 if __name__ == "__main__":

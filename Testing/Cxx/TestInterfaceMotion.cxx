@@ -77,7 +77,7 @@ TEST(InterfaceMotion, TakesBackWhatWouldIntersect)
 
 TEST(InterfaceMotion, TakesBackWhatWouldBeNarrow)
 {
-  constexpr double least = 0.5;
+  constexpr double least = 0.7;
   const InterfaceScene scene(ManyCells(28, 7, 3));
   InterfaceMesh mesh = RoughMesh(scene);
   const LargeVector<Vector> before = mesh.Position;

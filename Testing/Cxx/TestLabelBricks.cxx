@@ -204,6 +204,27 @@ std::set<std::array<int, 3>> PartAbout(const LabelMap& map, const std::array<int
 }
 }
 
+TEST(SmallParts, BecomeObjectsOfTheirOwn)
+{
+  LabelMap map = MakeLabelMap({ 12, 5, 5 }, 2,
+    [](int i, int j, int k)
+    {
+      const bool isInRow = j == 2 && k == 2;
+      return isInRow && i < 2 ? 1 : isInRow && i > 2 && i < 6 ? 1 : isInRow && i == 7 ? 2
+        : i == 8 && j == 3 && k == 3                         ? 2
+        : i == 11 && j == 0 && k == 4                        ? 1
+                                                             : 0;
+    });
+  SeparateParts(map);
+  EXPECT_EQ(map.NumberOfObjects, 4);
+  EXPECT_EQ(map.WholeOf, (std::vector<LabelMap::Number>{ 0, 1, 2, 1, 1 }));
+  EXPECT_EQ(map.At(3, 2, 2), 1) << "the largest part";
+  EXPECT_EQ(map.At(0, 2, 2), 3);
+  EXPECT_EQ(map.At(11, 0, 4), 4) << "the smallest one comes last";
+  EXPECT_EQ(map.At(7, 2, 2), 2);
+  EXPECT_EQ(map.At(8, 3, 3), 2) << "joined by a corner";
+}
+
 TEST(SmallParts, OthersStayAsTheyAre)
 {
   for (unsigned seed = 1; seed < 6; ++seed)

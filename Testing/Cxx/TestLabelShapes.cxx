@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What vtkLabelsToSurfaces promises, on shapes that are known by formula, of neighbours and of what
-// is a voxel thin, by the judge that shares no code with it.
+// What vtkLabelsToSurfaces promises, on shapes that are known by formula, of neighbours,
+// by the judge that shares no code with it.
 #include "JudgedLabels.h"
 
 #include <ostream>
@@ -152,51 +152,5 @@ TEST(LabelCounts, AreThoseOfTheMap)
       EXPECT_EQ(FieldOf(surface, "WrongVoxels"), verdict.Wrong()) << label << ", keep " << keep;
       EXPECT_LE(FieldOf(surface, "MissedVoxels"), verdict.Wrong());
     }
-  }
-}
-
-namespace
-{
-/** A label map of one label. */
-LabelMap MapOf(int size, const std::function<bool(int, int, int)>& isLabel)
-{
-  LabelMap map;
-  map.Size = { size, size, size };
-  for (int v = 0; v < size * size * size; ++v)
-  {
-    map.Values.push_back(isLabel(v % size, v / size % size, v / size / size) ? 1 : 0);
-  }
-  return map;
-}
-
-/** Thin labels of 32^3 voxels, by name. */
-std::vector<std::pair<std::string, LabelMap>> ThinLabels()
-{
-  const auto along = [](int i) { return i >= 6 && i < 26; };
-  const auto isRow = [&](int i, int j, int k) { return along(i) && j == 16 && k == 16; };
-  const auto isPairs = [&](int i, int j, int k)
-  { return along(i) && j == 16 && (k == 16 || k == 17); };
-  const auto isDiagonal = [&](int i, int j, int k) { return along(i) && i == j && i == k; };
-  const auto isStair = [&](int i, int j, int k)
-  { return along(i) && ((i == j && (i == k || i + 1 == k)) || (i + 1 == j && i + 1 == k)); };
-  const auto isPlate = [&](int i, int j, int k) { return along(i) && along(j) && k == 16; };
-  const auto isTwo = [](int i, int j, int k) { return (i == 16 || i == 17) && j == 16 && k == 16; };
-  return { { "row", MapOf(32, isRow) }, { "row of pairs", MapOf(32, isPairs) },
-    { "diagonal of voxels", MapOf(32, isDiagonal) }, { "stair", MapOf(32, isStair) },
-    { "plate", MapOf(32, isPlate) }, { "two voxels", MapOf(32, isTwo) } };
-}
-} // namespace
-
-TEST(ThinLabels, HaveClosedSurfaces)
-{
-  for (const auto& [name, map] : ThinLabels())
-  {
-    SCOPED_TRACE(name);
-    const Filter filter = FilterOf(ToImage(map));
-    vtkPolyData* block = BlockOf(filter);
-    ASSERT_GT(block->GetNumberOfCells(), 0);
-    const SurfaceVerdict verdict = JudgeSurface(ToTriangleSurface(block), FieldOf(block, "Delta"));
-    EXPECT_TRUE(verdict.Topology.Closed && verdict.Topology.Manifold && verdict.Topology.Outward);
-    EXPECT_EQ(verdict.Intersections.Pairs, 0u);
   }
 }

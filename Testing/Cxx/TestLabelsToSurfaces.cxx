@@ -103,17 +103,33 @@ TEST(LabelsToSurfaces, NumbersAnewWhatNoIntHolds)
 TEST(LabelsToSurfaces, AreTheSameBitsOnAnyNumberOfThreadsAndAgain)
 {
   // Many that meet by threes, and large ones.
-  const auto cells = [](int i, int j, int k) {
-    return i < 20 ? 1 + i / 10 + 2 * (j / 14) + 4 * (k / 14) : j < 14 ? 20 : 0;
-  };
-  const auto image = LabelImageOf(40, 28, 28, cells);
-  const auto one = LabelSurfacesOf(image, [](vtkLabelsToSurfaces* f) { f->SetNumberOfThreads(1); });
-  EXPECT_EQ(one->GetOutput()->GetNumberOfBlocks(), 9u);
-  for (const int threads : { 2, 3, 0 })
+  const auto cells = [](int i, int j, int k)
   {
-    const auto more =
-      LabelSurfacesOf(image, [&](vtkLabelsToSurfaces* f) { f->SetNumberOfThreads(threads); });
-    ExpectSameBlocks(more->GetOutput(), one->GetOutput());
+    const int x = (i + 4) % 32; // opposite sides have the same labels
+    const int y = (j + 5) % 20;
+    return x < 16 ? 1 + x / 8 + 2 * (y / 10) + 4 * ((k + 5) % 20 / 10) : y < 10 ? 20 : 0;
+  };
+  const auto image = LabelImageOf(32, 20, 20, cells);
+  for (int faces = 0; faces < 3; ++faces) // rounded, flat, periodic
+  {
+    SCOPED_TRACE(faces);
+    const auto madeOn = [&](int threads)
+    {
+      return LabelSurfacesOf(image,
+        [&](vtkLabelsToSurfaces* f)
+        {
+          f->SetNumberOfThreads(threads);
+          f->SetBoxFaces(faces);
+        });
+    };
+    const auto one = madeOn(1);
+    EXPECT_EQ(one->GetOutput()->GetNumberOfBlocks(), 9u);
+    for (const int threads : { 2, 3 })
+    {
+      const auto more = madeOn(threads);
+      ExpectSameBlocks(more->GetOutput(), one->GetOutput());
+      ExpectSameSurfaces(more->GetInterfaces(), one->GetInterfaces());
+    }
   }
 }
 
@@ -145,23 +161,30 @@ TEST(LabelsToSurfaces, ALabelHasTheSameSurfaceWhicheverOthersAreMade)
     return k < 8 ? 9 : std::atan2(j - 15.3, i - 15.6) < -1. ? 1 : i < 16 ? 2 : k < 20 ? 3 : 0;
   };
   const auto image = LabelImageOf(32, 32, 24, sectors);
-  const auto all = LabelSurfacesOf(image);
   const std::array<int, 4> labels = { 1, 2, 3, 9 };
-  for (const std::vector<unsigned int>& blocks :
-    { std::vector<unsigned int>{ 0 }, { 2 }, { 3 }, { 1, 3 } })
+  vtkSmartPointer<vtkLabelsToSurfaces> all;
+  for (int n = 0; n < 4; ++n)
   {
+    SCOPED_TRACE(n);
+    const int faces = n / 2; // rounded, flat
+    all = n % 2 != 0
+      ? all
+      : LabelSurfacesOf(image, [&](vtkLabelsToSurfaces* f) { f->SetBoxFaces(faces); });
+    const std::vector<unsigned int> blocks =
+      n % 2 == 0 ? std::vector<unsigned int>{ 2 } : std::vector<unsigned int>{ 1, 3 };
     const auto some = LabelSurfacesOf(image,
       [&](vtkLabelsToSurfaces* f)
       {
+        f->SetBoxFaces(faces);
         for (const unsigned int block : blocks)
         {
           f->AddLabel(labels[block]);
         }
       });
-    for (std::size_t n = 0; n < blocks.size(); ++n)
+    for (std::size_t b = 0; b < blocks.size(); ++b)
     {
-      vtkPolyData* one = BlockOf(some, static_cast<unsigned int>(n));
-      vtkPolyData* same = BlockOf(all, blocks[n]);
+      vtkPolyData* one = BlockOf(some, static_cast<unsigned int>(b));
+      vtkPolyData* same = BlockOf(all, blocks[b]);
       EXPECT_NE(one->GetPointData()->GetGlobalIds()->GetRange()[1],
         same->GetPointData()->GetGlobalIds()->GetRange()[1])
         << "points of port 1 are others";

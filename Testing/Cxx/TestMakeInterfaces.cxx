@@ -133,7 +133,7 @@ TEST(MakeInterfaces, HasNoNarrowGaps)
         least = std::min(least, SquaredGapBetween(face, TriangleOf(mesh, mesh.Faces[g].Vertex)));
       }
     }
-    EXPECT_GT(std::sqrt(least), 0.13); // a tenth of an edge
+    EXPECT_GT(std::sqrt(least), 0.12); // .09 of an edge
   }
 }
 

@@ -117,18 +117,6 @@ class LabelsWindowTest(window.WindowTestCase):
             *save, gui.pause(500)], "labels-undone")
         self.assertEqual(self.blocks_of(path), ([], list(NAMES.values())))
 
-    def test_summary(self):
-        testing.load_plugin()
-        filter_ = simple.LabelstoSurfaces(simple.OpenDataFile(self.path), FinestLevel=2)
-        vertices = testing.fetch(filter_).GetNumberOfPoints()
-        self.play(opened(self.path) + [
-            FILTER, gui.pause(500), window.shown("Tolerance/Summary", False),
-            gui.event(f"{PROPERTIES}/FinestLevel/IntRangeWidget/LineEdit", "set_string", "2"),
-            APPLY, gui.pause(500), window.shown("Tolerance/Summary", True),
-            gui.check(f"{PROPERTIES}/Tolerance/Summary", "text",
-                      f"<b>Surfaces</b>: {vertices} vertices<br>no self-intersections")],
-                  "labels-summary")
-
     def test_background(self):
         path, save = self.saved_state("labels-background.pvsm")
         background = f"{PROPERTIES}/BackgroundLabel/LineEdit0"
