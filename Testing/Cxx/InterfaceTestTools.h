@@ -197,53 +197,6 @@ inline std::map<std::array<int, 2>, int> FacesAtEdges(const InterfaceMesh& mesh)
   return edges;
 }
 
-/** How often a closed surface goes round a place: 1 inside. */
-inline double WindingAbout(const IndexedSurface& surface, const VectorD& place)
-{
-  double sum = 0.;
-  for (const Triangle& t : surface.Triangles)
-  {
-    VectorD to[3];
-    double far[3];
-    for (int k = 0; k < 3; ++k)
-    {
-      const Point& p = surface.Points[static_cast<std::size_t>(t[k])];
-      to[k] = VectorD(p[0], p[1], p[2]) - place;
-      far[k] = Length(to[k]);
-    }
-    sum += 2. *
-      std::atan2(Dot(to[0], Cross(to[1], to[2])),
-        far[0] * far[1] * far[2] + Dot(to[0], to[1]) * far[2] + Dot(to[1], to[2]) * far[0] +
-          Dot(to[2], to[0]) * far[1]);
-  }
-  return sum / (4. * 3.14159265358979);
-}
-
-/** Behind its triangles it is inside, in front of them outside: no part of it is inside out. */
-inline void ExpectTheRightSidesOut(const IndexedSurface& surface)
-{
-  constexpr double beside = 1e-5;
-  std::vector<char> isSeen(surface.Points.size(), 0); // A triangle for each vertex is enough.
-  for (const Triangle& t : surface.Triangles)
-  {
-    VectorD at[3];
-    for (int k = 0; k < 3; ++k)
-    {
-      const Point& p = surface.Points[static_cast<std::size_t>(t[k])];
-      at[k] = VectorD(p[0], p[1], p[2]);
-    }
-    const VectorD across = Cross(at[1] - at[0], at[2] - at[0]);
-    char& first = isSeen[static_cast<std::size_t>(t[0])];
-    if (std::exchange(first, 1) == 0 && Length(across) > 1e-2)
-    {
-      const VectorD middle = (at[0] + at[1] + at[2]) * (1. / 3.);
-      const VectorD way = Normalized(across) * beside;
-      ASSERT_NEAR(WindingAbout(surface, middle - way), 1., 0.01) << middle.X;
-      ASSERT_NEAR(WindingAbout(surface, middle + way), 0., 0.01) << middle.X;
-    }
-  }
-}
-
 /**
  * The invariants of interfaces: the surface of each object but 0 is closed, oriented and manifold,
  * and encloses something; nothing intersects; strata are those of the faces at the edges, which are

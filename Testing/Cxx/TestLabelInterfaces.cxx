@@ -65,6 +65,22 @@ void ExpectClosedSurface(vtkPolyData* surface)
   EXPECT_GT(EnclosedVolume(surface), 0.);
 }
 
+/** By their ids. */
+void ExpectPointsOf(vtkPolyData* surface, vtkPolyData* interfaces)
+{
+  vtkDataArray* ids = surface->GetPointData()->GetGlobalIds();
+  ASSERT_TRUE(ids);
+  EXPECT_STREQ(ids->GetName(), "GlobalIds");
+  for (vtkIdType p = 0; p < surface->GetNumberOfPoints(); ++p)
+  {
+    std::array<double, 3> own;
+    std::array<double, 3> shared;
+    surface->GetPoint(p, own.data());
+    interfaces->GetPoint(static_cast<vtkIdType>(ids->GetComponent(p, 0)), shared.data());
+    ASSERT_EQ(own, shared);
+  }
+}
+
 /** What the filter says while it is updated; empty: it has no error. */
 std::string ErrorOf(vtkLabelsToSurfaces* filter)
 {
@@ -101,17 +117,7 @@ TEST(LabelInterfaces, AreWhatBlocksAreMadeOf)
     SCOPED_TRACE(block);
     vtkPolyData* surface = BlockOf(filter, block);
     ExpectClosedSurface(surface);
-    vtkDataArray* ids = surface->GetPointData()->GetGlobalIds();
-    ASSERT_TRUE(ids);
-    EXPECT_STREQ(ids->GetName(), "GlobalIds");
-    for (vtkIdType p = 0; p < surface->GetNumberOfPoints(); ++p)
-    {
-      std::array<double, 3> own;
-      std::array<double, 3> shared;
-      surface->GetPoint(p, own.data());
-      interfaces->GetPoint(static_cast<vtkIdType>(ids->GetComponent(p, 0)), shared.data());
-      ASSERT_EQ(own, shared);
-    }
+    ExpectPointsOf(surface, interfaces);
     EXPECT_EQ(StopReason(surface), "converged");
     EXPECT_NEAR(FieldOf(surface, "Volume") / FieldOf(surface, "LabelVoxels"), 1., 4e-3);
     triangles += surface->GetNumberOfPolys();
@@ -143,15 +149,7 @@ TEST(LabelInterfaces, HaveNoTrianglesWithoutASelectedLabel)
   for (unsigned int block = 0; block < 2; ++block)
   {
     vtkPolyData* surface = BlockOf(filter, block);
-    vtkDataArray* ids = surface->GetPointData()->GetGlobalIds();
-    for (vtkIdType p = 0; p < surface->GetNumberOfPoints(); ++p)
-    {
-      std::array<double, 3> own;
-      std::array<double, 3> shared;
-      surface->GetPoint(p, own.data());
-      interfaces->GetPoint(static_cast<vtkIdType>(ids->GetComponent(p, 0)), shared.data());
-      ASSERT_EQ(own, shared);
-    }
+    ExpectPointsOf(surface, interfaces);
     // Normals point away from the selected label.
     vtkNew<vtkPolyData> part;
     part->SetPoints(interfaces->GetPoints());
@@ -190,23 +188,6 @@ TEST(LabelInterfaces, OfMergedLabelsHaveLinesWhereOthersMeetThem)
   ASSERT_GT(interfaces->GetNumberOfLines(), 10) << "where 3, 7 and 0 meet";
   EXPECT_EQ(SidesOf(interfaces, 0), (Sides{ 0, 0 }));
   EXPECT_EQ(interfaces->GetNumberOfPolys(), BlockOf(filter, 0)->GetNumberOfPolys());
-}
-
-TEST(LabelInterfaces, LeaveOutSmallParts)
-{
-  const auto filter = FilterOf(BlocksImage());
-  filter->Update();
-  EXPECT_EQ(FieldOf(BlockOf(filter, 2), "NumberOfComponents"), 2.);
-  filter->SetKeepComponents(1);
-  filter->Update();
-  EXPECT_EQ(FieldOf(BlockOf(filter, 2), "NumberOfComponents"), 1.);
-  filter->SetKeepComponents(3);
-  filter->SetMinimumComponentVolume(1.);
-  filter->Update();
-  EXPECT_EQ(FieldOf(BlockOf(filter, 2), "NumberOfComponents"), 2.);
-  filter->SetMinimumComponentVolume(1.5);
-  filter->Update();
-  EXPECT_EQ(FieldOf(BlockOf(filter, 2), "NumberOfComponents"), 1.);
 }
 
 TEST(LabelInterfaces, AreInTheWorld)
@@ -288,18 +269,6 @@ TEST(LabelInterfaces, HaveNoLongerEdgesThanTheMaximum)
     }
   }
   EXPECT_LT(longest, 1.5);
-}
-
-TEST(LabelInterfaces, AreTheSameWithThreads)
-{
-  const auto one = FilterOf(BlocksImage());
-  one->SetNumberOfThreads(1);
-  one->Update();
-  const auto all = FilterOf(BlocksImage());
-  all->SetNumberOfThreads(0);
-  all->Update();
-  ExpectSameSurfaces(one->GetInterfaces(), all->GetInterfaces());
-  ExpectSameBlocks(one->GetOutput(), all->GetOutput());
 }
 
 TEST(LabelInterfaces, AreFlatAtTheBorderOfTheImage)
