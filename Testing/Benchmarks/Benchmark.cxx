@@ -6,10 +6,9 @@
  * program, makes the tables.
  *
  *     Benchmark surface run=NAME volume=FILE.vti iso=VALUE [NAME=VALUE]...
- *     Benchmark labels [map=FILE | size=N stretch=S] runs=LIST [NAME=VALUE]...
  *     Benchmark pyramid volume=FILE.vti [repetitions=N] [peak=THREADS]
  *
- * See SurfaceRuns.cxx, LabelRuns.cxx, PyramidRuns.cxx.
+ * See SurfaceRuns.cxx, PyramidRuns.cxx.
  */
 
 #include "Benchmark.h"
@@ -186,11 +185,11 @@ int main(int count, char** words)
 {
   using namespace volumic::bench;
   const std::map<std::string, void (*)(const Options&)> commands = { { "surface", RunSurface },
-    { "labels", RunLabels }, { "pyramid", RunPyramid } };
+    { "pyramid", RunPyramid } };
   const auto command = count > 1 ? commands.find(words[1]) : commands.end();
   if (command == commands.end())
   {
-    std::cerr << "Benchmark: surface, labels or pyramid; benchmark.py starts it" << std::endl;
+    std::cerr << "Benchmark: surface or pyramid; benchmark.py starts it" << std::endl;
     return 2;
   }
   try

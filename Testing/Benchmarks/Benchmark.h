@@ -106,7 +106,6 @@ void RunItkPyramid(vtkImageData* volume, const std::vector<std::array<int, 3>>& 
 #endif
 
 void RunSurface(const Options& options);
-void RunLabels(const Options& options);
 void RunPyramid(const Options& options);
 
 } // namespace volumic::bench

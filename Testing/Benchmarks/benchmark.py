@@ -16,8 +16,7 @@ TABLES = {
     "surface": "vtkDeformableSurface and its peers",
     "command": "volumic with sizes and threads",
     "graded": "graded triangles",
-    "labels": "surfaces of labels, of shapes or of a map",
-    "interfaces": "surfaces of labels that share their interfaces"}
+    "interfaces": "one mesh of all labels of a map, and its peers"}
 
 
 def main():

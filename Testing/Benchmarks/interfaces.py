@@ -9,7 +9,9 @@ Tolerance of a fifth of a voxel. Requires Volumic's Python package.
 `open` are edges where the boundary of a label is not closed, oriented and manifold.
 `vol %` is the largest error of a label's volume, of labels of over 1000 voxels. `angle` is the least
 one, degrees, of triangles without a vertex on a junction line, and of all; `rough` that between two
-segments of a junction line, 95 % of them; `wrong` are voxels with their centres on the wrong side."""
+segments of a junction line, 95 % of them; `wrong` are voxels with their centres on the wrong side,
+`dihedral` the angle between triangles of the same labels, 95 % of them, `distance` that of triangles
+to the true planes between grains, voxels, the mean."""
 
 import math
 import os
@@ -34,7 +36,7 @@ COLUMNS = {
     "Seconds": "s", "Time": "time", "Vertices": "vertices", "PerSecond": "triangles / s",
     "Intersections": "crossing", "WrongEdges": "open",
     "LostLabels": "lost", "VolumeLargest": "vol %", "RatioMean": "q", "AngleInner": "angle",
-    "AngleLeast": "of all", "Roughness": "rough", "WrongVoxels": "wrong"}
+    "AngleLeast": "of all", "Dihedral": "dihedral", "Truth": "distance", "Roughness": "rough", "WrongVoxels": "wrong"}
 TEMPLATES = "/usr/share/mricron/templates"
 
 
@@ -71,7 +73,20 @@ def polycrystal(size, grains):
                    + ((at - x) ** 2)[None, None, :])
         values[squared < nearest] = grain
         np.minimum(nearest, squared, out=nearest)
-    return LabelVoxels(values)
+    voxels = LabelVoxels(values)
+    voxels.places = places
+    return voxels
+
+
+def distance_to_truth(shape, voxels):
+    """Of the middles of triangles to the planes between grains, the mean."""
+    if not hasattr(voxels, "places"):
+        return math.nan
+    inner = (shape.sides != BACKGROUND).all(axis=1)
+    middles = shape.points[shape.triangles[inner]].mean(axis=1)
+    first, second = (voxels.places[shape.sides[inner, side] - 1] for side in (0, 1))
+    differences = ((middles - first) ** 2).sum(axis=1) - ((middles - second) ** 2).sum(axis=1)
+    return np.mean(np.abs(differences) / (2 * np.linalg.norm(first - second, axis=1)))
 
 
 def tooth(size, step=1):
@@ -218,6 +233,7 @@ def measure_map(options, name, voxels):
             seconds = statistics.median(each[0] for each in repetitions)
             figures = Figures(figures_of(repetitions[-1][1], voxels, options.judge), Seconds=seconds)
             figures["PerSecond"] = figures["Triangles"] / seconds
+            figures["Truth"] = distance_to_truth(repetitions[-1][1], voxels)
             measured[run_name] = figures
     for figures in measured.values():
         figures["Time"] = ratio(figures["Seconds"], measured.get("windowed", Figures())["Seconds"])

@@ -13,8 +13,7 @@ usage()
   cat << 'USAGE'
 Usage: bash Testing/Benchmarks/run.sh [--peers] [TABLE [OPTION]...]
   TABLE   pyramid, surface, command, graded: of the skull CT of Debian's invesalius-examples
-          labels: digitised shapes, and the label maps of Debian's mricron-data
-          interfaces: of maps that are made, and two of those; all without a TABLE
+          interfaces: of maps that are made, and two of Debian's mricron-data; all without a TABLE
   OPTION  instead, of that table: benchmark.py TABLE --help tells; the skull is
           build/benchmarks/skull.vti, its iso-value 226.5
   --peers install ITK and OpenVDB (large), to be compared with too; used anyway where they are there
@@ -27,7 +26,7 @@ if [ "$1" = --peers ]; then
   packages+=(libinsighttoolkit5-dev libopenvdb-dev)
   shift
 fi
-tables=(pyramid surface command graded labels interfaces)
+tables=(pyramid surface command graded interfaces)
 case " ${tables[*]} " in
   *" ${1:-all} "*)
     tables=("$1")
@@ -70,14 +69,6 @@ for table in "${tables[@]}"; do
     0surface) measure surface "$skull" --iso 226.5 ;;
     0command) measure command "$skull" --iso 226.5 --sizes 0,512 --repetitions 5 ;;
     0graded) measure graded "$skull" --iso 226.5 --thin ;;
-    0labels)
-      measure labels --repetitions 3
-      measure labels --stretch 3 --shapes Sphere
-      for map in aal JHU-WhiteMatter-labels-1mm inia19-NeuroMaps; do
-        measure labels --map "/usr/share/mricron/templates/$map.nii.gz" --runs us,strict,windowed
-      done
-      measure labels --map /usr/share/mricron/templates/ch2bet.nii.gz --mask 1
-      ;;
     0interfaces) measure interfaces ;;
   esac
 done
