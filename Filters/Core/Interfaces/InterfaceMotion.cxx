@@ -260,7 +260,8 @@ void MoveImagesAlike(const InterfaceMesh& mesh, LargeVector<Vector>& after)
 }
 
 void MoveInterfaces(InterfaceMesh& mesh, const InterfaceFields& fields, int steps, double share,
-  double shortest, double tolerance, double leastAngle, Executor& executor, double straightening)
+  double shortest, double tolerance, double leastAngle, Executor& executor, double straightening,
+  double mostOfEdge)
 {
   const LargeVector<Vector> before = mesh.Position;
   LargeVector<Vector> after = before;
@@ -271,7 +272,7 @@ void MoveInterfaces(InterfaceMesh& mesh, const InterfaceFields& fields, int step
       ForSpans(executor, before.size(), SpanSize,
         [&](std::size_t, std::size_t begin, std::size_t end)
         {
-          VertexTargets targets(mesh, fields, share, shortest, straightening);
+          VertexTargets targets(mesh, fields, share, shortest, straightening, mostOfEdge);
           for (std::size_t v = begin; v < end; ++v)
           {
             if (mesh.IsVertex(static_cast<int>(v)))

@@ -13,7 +13,7 @@ namespace volumic
 /**
  * Steps of all vertices at once: along their interface or junction line to the middle of their
  * neighbours, by this share of the way, then to where the fields of all objects about them are the
- * same (Newton). No vertex goes further than half of its shortest edge in a step. Those whose triangles
+ * same (Newton). No vertex goes further than `mostOfEdge` of its shortest edge in a step. Those whose triangles
  * intersect after the last one, have turned too far, or have become too narrow, are taken back to
  * where they were before the first, which is safe as all was safe then.
  *
@@ -24,7 +24,7 @@ namespace volumic
  */
 void MoveInterfaces(InterfaceMesh& mesh, const InterfaceFields& fields, int steps, double share,
   double shortest, double tolerance, double leastAngle, Executor& executor,
-  double straightening = MostStraightening);
+  double straightening = MostStraightening, double mostOfEdge = MostOfEdge);
 }
 
 #endif

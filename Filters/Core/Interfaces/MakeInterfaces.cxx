@@ -37,6 +37,10 @@ constexpr int FirstFit = 1;
 constexpr int LastSliverRounds = 3;
 /** Steps of vertices in a round; the first one has too many of them. */
 constexpr int Steps = 2;
+/** First steps where edges are wanted that are shorter than this, and how long they are. */
+constexpr double LeastCollapsed = 1.25;
+constexpr int StepsOfFine = 6;
+constexpr double FineStep = 0.2;
 /** Edges that are split and collapsed, in the mean length. */
 constexpr double LongestShare = 4. / 3.;
 constexpr double ShortestShare = 4. / 5.;
@@ -119,6 +123,13 @@ void Work(InterfaceMesh& mesh, InterfaceFields& fields, const InterfaceOptions& 
   };
   mesh = StartInterfaces(fields, executor);
   ShortenEdgesOfSmall(mesh, fields, options.Edge);
+  // Short edges are not collapsed, so that steps alone have to make stairs flat, by and by: what
+  // turns too far at once is taken back.
+  for (int step = 0; step < StepsOfFine && options.Edge < LeastCollapsed; ++step)
+  {
+    MoveInterfaces(mesh, fields, 1, StepShare, 0., ToleranceOfEdge * options.Edge, 0., executor,
+      straightening, FineStep);
+  }
   std::size_t wrong = 0;
   double worstVolume = 0.;
   for (int round = 0; round < rounds; ++round)

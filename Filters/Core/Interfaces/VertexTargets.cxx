@@ -9,8 +9,6 @@ namespace volumic
 {
 namespace
 {
-/** Of the shortest edge, what a vertex may go. */
-constexpr float MostOfEdge = 0.5f;
 /** Shorter steps are none. */
 constexpr float LeastPart = 0.1f;
 /**
@@ -45,7 +43,7 @@ Vector VertexTargets::Of(int v)
   }
   const Vector way = this->Mesh.OnSides(v, target) - place;
   const float length = Length(way);
-  const float most = MostOfEdge * std::sqrt(shortest);
+  const float most = this->Most * std::sqrt(shortest);
   float part = length > most ? most / length : 1.f;
   while (part > LeastPart && this->Shortens(place, place + way * part))
   {

@@ -12,13 +12,16 @@
 
 namespace volumic
 {
+/** How far a vertex may go in a step, in its shortest edge. */
+constexpr double MostOfEdge = 0.5;
+
 /** How far vertices of junction lines go from where the fields have them; workspace. */
 constexpr double MostStraightening = 0.3;
 
 /**
  * Where the vertices of interfaces go in a step: along their interface or junction line to the
  * middle of their neighbours, by a share of the way, then to where the fields of all objects about
- * them are the same (Newton), and no further than half of their shortest edge.
+ * them are the same (Newton), and no further than a share of their shortest edge.
  */
 class VertexTargets
 {
@@ -29,8 +32,9 @@ public:
    *                      workspace
    */
   VertexTargets(const InterfaceMesh& mesh, const InterfaceFields& fields, double share,
-    double shortest, double straightening = MostStraightening)
+    double shortest, double straightening = MostStraightening, double mostOfEdge = MostOfEdge)
     : Mesh(mesh), Fields(fields), Share(static_cast<float>(share)),
+      Most(static_cast<float>(mostOfEdge)),
       Shortest(static_cast<float>(shortest)), Straightest(static_cast<float>(straightening))
   {
   }
@@ -66,6 +70,7 @@ private:
   const InterfaceMesh& Mesh;
   const InterfaceFields& Fields;
   float Share;
+  float Most; ///< of its shortest edge, what a vertex may go
   float Shortest;
   float Straightest;
   std::vector<int> Neighbours; ///< of the vertex that is looked at
