@@ -56,6 +56,7 @@ set(volumic_core_sources
   Mesh/VertexGrid.cxx
   Mesh/VertexRemoval.cxx
   Interfaces/CellPattern.cxx
+  Interfaces/DualCells.cxx
   Interfaces/DualMesh.cxx
   Interfaces/FaceCubes.cxx
   Interfaces/InterfaceClearance.cxx
@@ -187,6 +188,7 @@ set(volumic_core_headers
   Mesh/VertexGrid.h
   Mesh/VertexRemoval.h
   Interfaces/CellPattern.h
+  Interfaces/DualCells.h
   Interfaces/DualMesh.h
   Interfaces/FaceCubes.h
   Interfaces/InterfaceClearance.h

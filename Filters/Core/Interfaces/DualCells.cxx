@@ -1,0 +1,276 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Interfaces/DualCells.h"
+
+#include "Core/Common/Spans.h"
+
+#include <algorithm>
+
+namespace volumic
+{
+namespace
+{
+using Place = std::array<double, 3>; ///< in a cell, from 0 to 1
+
+/** How far vertices of a cell or side with several go from its middle to their arcs. */
+constexpr double Apart = 0.5;
+/** The size of the copy of an opened sheet's rim. */
+constexpr double Copied = 0.5;
+
+Place PlaceOfArc(int edge)
+{
+  Place place;
+  place[edge / 4] = 0.5;
+  place[(edge / 4 + 1) % 3] = edge & 1;
+  place[(edge / 4 + 2) % 3] = edge >> 1 & 1;
+  return place;
+}
+
+Place Between(const Place& middle, const Place& end, double share)
+{
+  return { middle[0] + share * (end[0] - middle[0]), middle[1] + share * (end[1] - middle[1]),
+    middle[2] + share * (end[2] - middle[2]) };
+}
+
+/** From a middle so far to the arcs of which use(edge) is true. */
+template <typename Use>
+Place TowardsArcs(const Place& middle, const Use& use)
+{
+  Place sum = { 0., 0., 0. };
+  double count = 0.;
+  for (int edge = 0; edge < CellPattern::Edges; ++edge)
+  {
+    if (use(edge))
+    {
+      const Place arc = PlaceOfArc(edge);
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        sum[axis] += arc[axis];
+      }
+      count += 1.;
+    }
+  }
+  return Between(middle, { sum[0] / count, sum[1] / count, sum[2] / count }, Apart);
+}
+
+Place PlaceOfApex(const CellPattern& pattern, int sheet)
+{
+  const Place middle = { 0.5, 0.5, 0.5 };
+  return pattern.Sheets == 1
+    ? middle
+    : TowardsArcs(middle, [&](int edge) { return pattern.SheetOf[edge] == sheet; });
+}
+
+Place PlaceOfStrand(const CellPattern& pattern, int side, int strand)
+{
+  Place middle = { 0.5, 0.5, 0.5 };
+  middle[side / 2] = side & 1;
+  if (pattern.StrandsOn[side] == 1)
+  {
+    return middle;
+  }
+  return TowardsArcs(middle,
+    [&](int edge)
+    {
+      const auto sides = CellPattern::SidesOf(edge);
+      const int n = sides[0] == side ? 0 : sides[1] == side ? 1 : -1;
+      return n >= 0 && pattern.SheetOf[edge] >= 0 && pattern.StrandOf[edge][n] == strand;
+    });
+}
+}
+
+DualCells::DualCells(const DualGrid& grid) : Grid(grid), Rows(grid.Size[1] - 1)
+{
+  for (unsigned bits = 0; bits < 256; ++bits)
+  {
+    std::array<Number, 8> labels;
+    for (unsigned octant = 0; octant < 8; ++octant)
+    {
+      labels[octant] = static_cast<Number>(1 - (bits >> octant & 1));
+    }
+    this->IsPlain[bits] = CellPattern(labels, { 0, 1 }).IsPlain();
+  }
+}
+
+void DualCells::Make(Executor& executor)
+{
+  const int layers = this->Grid.Size[2] - 1;
+  for (int first = 0; first < layers; first += SlabSize)
+  {
+    this->Slabs.emplace_back();
+    this->Slabs.back().First = first;
+    this->Slabs.back().End = std::min(first + SlabSize, layers);
+  }
+  ForSpans(executor, this->Slabs.size(), 1,
+    [&](std::size_t slab, std::size_t, std::size_t) { this->FindCells(this->Slabs[slab]); });
+  ForSpans(executor, this->Slabs.size(), 1,
+    [&](std::size_t slab, std::size_t, std::size_t)
+    { this->AddPointsOfSpecials(this->Slabs[slab]); });
+}
+
+void DualCells::FindCells(DualSlab& slab) const
+{
+  std::vector<Number> low(this->SliceSize());
+  std::vector<Number> high(this->SliceSize());
+  this->Grid.CopySlice(slab.First, high.data());
+  for (int k = slab.First; k < slab.End; ++k)
+  {
+    low.swap(high);
+    this->Grid.CopySlice(k + 1, high.data());
+    for (int j = 0; j < this->Rows; ++j)
+    {
+      slab.Row.push_back(slab.X.size());
+      const std::size_t row = static_cast<std::size_t>(j) * this->Grid.Size[0];
+      const std::size_t next = row + static_cast<std::size_t>(this->Grid.Size[0]);
+      const std::array<const Number*, 4> rows = { &low[row], &low[next], &high[row],
+        &high[next] };
+      this->FindCellsOfRow(slab, rows, j, k);
+    }
+  }
+  slab.Row.push_back(slab.X.size());
+}
+
+void DualCells::FindCellsOfRow(
+  DualSlab& slab, const std::array<const Number*, 4>& rows, int j, int k) const
+{
+  for (int i = 0; i + 1 < this->Grid.Size[0]; ++i)
+  {
+    std::array<Number, 8> labels;
+    unsigned others = 0; // than the first one, bits of octants
+    for (unsigned n = 0; n < 4; ++n)
+    {
+      labels[2 * n] = rows[n][i];
+      labels[2 * n + 1] = rows[n][i + 1];
+      others |= (labels[2 * n] != labels[0] ? 1u : 0u) << 2 * n |
+        (labels[2 * n + 1] != labels[0] ? 2u : 0u) << 2 * n;
+    }
+    if (others == 0)
+    {
+      continue;
+    }
+    slab.X.push_back(i);
+    if (this->IsPlainCell(labels, others))
+    {
+      slab.Has.push_back(static_cast<int>(slab.Points.size()));
+      slab.Points.push_back(this->PlaceOf({ i, j, k }, { 0.5, 0.5, 0.5 }));
+      continue;
+    }
+    SpecialCell special = {};
+    special.Pattern = CellPattern(labels, this->Grid.RankOf);
+    if (special.Pattern.IsPlain())
+    {
+      slab.Has.push_back(static_cast<int>(slab.Points.size()));
+      slab.Points.push_back(this->PlaceOf({ i, j, k }, { 0.5, 0.5, 0.5 }));
+      continue;
+    }
+    special.Labels = labels;
+    special.At = { i, j, k };
+    slab.Has.push_back(-1 - static_cast<int>(slab.Special.size()));
+    slab.Special.push_back(special);
+  }
+}
+
+bool DualCells::IsPlainCell(const std::array<Number, 8>& labels, unsigned others) const
+{
+  unsigned first = 0;
+  while ((others >> first & 1) == 0)
+  {
+    ++first;
+  }
+  unsigned same = 0;
+  for (unsigned octant = first; octant < 8; ++octant)
+  {
+    same |= (labels[octant] == labels[first] ? 1u : 0u) << octant;
+  }
+  const bool isEarlier =
+    this->Grid.RankOf[labels[first]] < this->Grid.RankOf[labels[0]];
+  return same == others && this->IsPlain[isEarlier ? same : 255u ^ same];
+}
+
+float DualCells::CoordinateOf(const std::array<int, 3>& cell, int axis, double at) const
+{
+  const int n = cell[axis];
+  const float plane = this->Grid.Planes[axis][n];
+  const bool isFirst = n == 0;
+  if (this->IsAtSide(cell, axis) && (isFirst ? at < 1. : at > 0.))
+  {
+    return plane; // Labels meet what is outside there; but those of the side opposite to it do not.
+  }
+  const double end = this->Grid.Centres[axis][at < 0.5 ? n : n + 1];
+  return static_cast<float>(plane + (end - plane) * (at < 0.5 ? 1. - 2. * at : 2. * at - 1.));
+}
+
+Vector DualCells::PlaceOf(const std::array<int, 3>& cell, const Place& at) const
+{
+  return { this->CoordinateOf(cell, 0, at[0]), this->CoordinateOf(cell, 1, at[1]),
+    this->CoordinateOf(cell, 2, at[2]) };
+}
+
+void DualCells::AddPointsOfSpecials(DualSlab& slab) const
+{
+  for (SpecialCell& special : slab.Special)
+  {
+    const auto add = [&](const Place& at)
+    {
+      slab.Points.push_back(this->PlaceOf(special.At, at));
+      return static_cast<int>(slab.Points.size()) - 1;
+    };
+    const CellPattern& pattern = special.Pattern;
+    for (int sheet = 0; sheet < pattern.Sheets; ++sheet)
+    {
+      special.Apex[sheet] =
+        pattern.IsOpened(sheet) ? -1 : add(PlaceOfApex(pattern, sheet));
+    }
+    for (int side = 0; side < CellPattern::Sides; ++side)
+    {
+      std::array<int, 3> below = special.At;
+      --below[side / 2];
+      const bool isOwn = (side & 1) == 1 || !this->IsSpecial(below);
+      for (int strand = 0; strand < 2; ++strand)
+      {
+        special.InnerStrand[side][strand] = -1;
+        special.Strand[side][strand] = isOwn && strand < pattern.StrandsOn[side]
+          ? add(PlaceOfStrand(pattern, side, strand))
+          : -1;
+      }
+    }
+    const Place middle = { 0.5, 0.5, 0.5 };
+    for (int edge = 0; edge < CellPattern::Edges; ++edge)
+    {
+      special.InnerArc[edge] = -1;
+      const int sheet = pattern.SheetOf[edge];
+      if (sheet < 0 || !pattern.IsOpened(sheet))
+      {
+        continue;
+      }
+      Place arc = PlaceOfArc(edge);
+      const auto sides = CellPattern::SidesOf(edge);
+      for (int n = 0; n < 2; ++n)
+      {
+        const int strand = pattern.StrandOf[edge][n];
+        const Place place = PlaceOfStrand(pattern, sides[n], strand);
+        int& inner = special.InnerStrand[sides[n]][strand];
+        inner = inner >= 0 ? inner : add(Between(middle, place, Copied));
+        // In the plane of a box's side the copies of this and of others would coincide.
+        arc = this->IsOppositeToSide(special.At, sides[n]) ? Between(arc, place, 0.5) : arc;
+      }
+      special.InnerArc[edge] = add(Between(middle, arc, Copied));
+    }
+  }
+}
+
+bool DualCells::IsSpecial(const std::array<int, 3>& cell) const
+{
+  if (cell[0] < 0 || cell[1] < 0 || cell[2] < 0)
+  {
+    return false;
+  }
+  const DualSlab& slab = this->Slabs[static_cast<std::size_t>(cell[2] / SlabSize)];
+  const std::size_t row = static_cast<std::size_t>(cell[2] - slab.First) * this->Rows + cell[1];
+  const auto first = slab.X.begin() + static_cast<std::ptrdiff_t>(slab.Row[row]);
+  const auto end = slab.X.begin() + static_cast<std::ptrdiff_t>(slab.Row[row + 1]);
+  const auto at = std::lower_bound(first, end, cell[0]);
+  return at != end && *at == cell[0] &&
+    slab.Has[static_cast<std::size_t>(at - slab.X.begin())] < 0;
+}
+}
