@@ -25,12 +25,15 @@
 #include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
+#include <vtkPoints.h>
 #include <vtkPolyData.h>
+#include <vtkTriangle.h>
 #include <vtkXMLImageDataReader.h>
 #include <vtkXMLPolyDataReader.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <exception>
 #include <iomanip>
 #include <iostream>
@@ -79,29 +82,46 @@ NamedSurface ReadSurface(const std::string& file)
   return surface;
 }
 
-/** How many centres of voxels are inside or outside by how the surface is shifted a little. */
+/** How many voxels have their centres on the surface. */
 std::size_t CountCentresOn(const TriangleSurface& inIndices, const std::array<int, 3>& size)
 {
   constexpr double little = 1e-5;
-  constexpr int directions[4][3] = { { 1, 1, 1 }, { 1, -1, -1 }, { -1, 1, -1 }, { -1, -1, 1 } };
-  std::vector<int> times;
-  for (const auto& direction : directions)
+  std::set<std::array<int, 3>> found;
+  vtkNew<vtkTriangle> triangle;
+  for (const std::array<int, 3>& corners : inIndices.Triangles)
   {
-    TriangleSurface shifted = inIndices;
-    for (auto& point : shifted.Points)
+    std::array<int, 3> low;
+    std::array<int, 3> high;
+    for (int axis = 0; axis < 3; ++axis)
     {
-      for (int axis = 0; axis < 3; ++axis)
+      const auto at = [&](int c) { return inIndices.Points[corners[c]][axis]; };
+      const auto [least, most] = std::minmax({ at(0), at(1), at(2) });
+      low[axis] = std::max(0, static_cast<int>(std::ceil(least - little)));
+      high[axis] = std::min(size[axis] - 1, static_cast<int>(std::floor(most + little)));
+      triangle->GetPoints()->SetPoint(axis, inIndices.Points[corners[axis]].data());
+    }
+    for (std::array<int, 3> v = low; v[2] <= high[2]; ++v[2])
+    {
+      for (v[1] = low[1]; v[1] <= high[1]; ++v[1])
       {
-        point[axis] += little * direction[axis];
+        for (v[0] = low[0]; v[0] <= high[0]; ++v[0])
+        {
+          const double centre[3] = { double(v[0]), double(v[1]), double(v[2]) };
+          double nearest[3];
+          double place[3];
+          double weights[3];
+          double squared = 1.;
+          int part = 0;
+          triangle->EvaluatePosition(centre, nearest, part, place, squared, weights);
+          if (squared <= little * little)
+          {
+            found.insert(v);
+          }
+        }
       }
     }
-    const std::vector<char> enclosed = EnclosedVoxels(shifted, size);
-    times.resize(enclosed.size(), 0);
-    std::transform(enclosed.begin(), enclosed.end(), times.begin(), times.begin(),
-      [](char is, int before) { return before + is; });
   }
-  return static_cast<std::size_t>(
-    std::count_if(times.begin(), times.end(), [](int n) { return n > 0 && n < 4; }));
+  return found.size();
 }
 
 void FindWrongVoxels(NamedSurface& surface, vtkImageData* map)
