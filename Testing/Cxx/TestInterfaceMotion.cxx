@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Interfaces/InterfaceStart.h"
 #include "Core/Interfaces/InterfaceMotion.h"
 #include "Core/Interfaces/InterfaceRemesher.h"
+#include "Core/Interfaces/InterfaceStart.h"
+#include "Core/Interfaces/MismatchedVoxels.h"
 #include "Core/Interfaces/TriangleShape.h"
 #include "Core/Interfaces/VertexTargets.h"
 #include "InterfaceTestTools.h"
@@ -173,3 +174,26 @@ TEST_P(Edits, FarTooLargeKeepWhatMeetsWhere)
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, Edits, testing::Range(1, 4));
+
+TEST(MismatchedVoxels, AreThoseThatAMovedMeshHasElsewhere)
+{
+  const LabelMap map = MakeLabelMap({ 32, 16, 16 }, 1,
+    [](int i, int j, int k) { return i / 4 == 2 && j / 4 == 1 && k / 4 == 1; });
+  const InterfaceScene scene(map);
+  const auto countAfter = [&](float way, double tolerance, bool isFar)
+  {
+    InterfaceMesh mesh = StartInterfaces(*scene.Fields, OnThisThread());
+    for (Vector& place : mesh.Position)
+    {
+      place += Vector(way, 0.f, 0.f);
+    }
+    const auto found = FindMismatchedVoxels(mesh, *scene.Bricks, VoxelBox::Of(map.Size()),
+      map.Spacing, tolerance, OnThisThread());
+    return std::count_if(found.begin(), found.end(),
+      [&](const MismatchedVoxel& voxel) { return voxel.IsFar == isFar; });
+  };
+  EXPECT_EQ(countAfter(0.f, 0., true), 0);
+  EXPECT_EQ(countAfter(1.f, 0.4, true), 2 * 16);
+  EXPECT_EQ(countAfter(1.f, 0.6, false), 2 * 16);
+  EXPECT_EQ(countAfter(8.f, 0., true), 2 * 64) << "whole bricks, too";
+}

@@ -115,24 +115,6 @@ TEST(VoxelTolerance, IsTheFurthestThatACentreIsWrongAndWhatIsFurtherIsTold)
   }
 }
 
-TEST(VoxelTolerance, ChangesLittleWithoutSmoothing)
-{
-  LabelMap map;
-  map.Size = { 12, 9, 8 };
-  for (int v = 0; v < 12 * 9 * 8; ++v)
-  {
-    const double x = v % 12 - 6.0;
-    const double z = v / (12 * 9) - 3.5;
-    map.Values.push_back(static_cast<std::int16_t>(x * x + z * z < 7.0 ? 0 : 1)); // a block with a hole
-  }
-  const Filter filter = FilterOf(ToImage(map));
-  filter->SetSmoothing(0.0);
-  const double volume = VolumeByVoxels(BlockOf(filter), map);
-  filter->SetVoxelTolerance(0.3);
-  vtkPolyData* block = BlockOf(filter);
-  EXPECT_NEAR(VolumeByVoxels(block, map), volume, 1e-3);
-}
-
 TEST(LabelSmoothing, MoreOfItIsNotRougher)
 {
   const Filter filter = FilterOf(ToImage(RoughBall()));
