@@ -57,7 +57,9 @@ constexpr double StepShare = 0.7;
 
 /** Edges about a part of an object, at most, in the radius of a ball of its volume, */
 constexpr double EdgeInRadius = 0.8;
-/** and at least; workspace: for a single voxel. */
+/** and at least, in the wanted edge: much shorter ones make searches near long ones slow, */
+constexpr double LeastSize = 0.35;
+/** and in the workspace: a single voxel needs no shorter ones. */
 constexpr double LeastEdge = 0.48;
 
 /** Small objects get shorter edges, to be round and keep their volumes. */
@@ -76,7 +78,8 @@ void ShortenEdgesOfSmall(InterfaceMesh& mesh, const InterfaceFields& fields, dou
       const auto voxels = static_cast<double>(fields.Bricks().ExtentOf(object).Voxels);
       const double radius = std::cbrt(voxels * ofVoxel * 0.2387324); // 3 / (4 pi)
       const auto size =
-        static_cast<float>(std::max(EdgeInRadius * radius, LeastEdge) / edge);
+        static_cast<float>(
+          std::max({ EdgeInRadius * radius / edge, LeastEdge / edge, LeastSize }));
       for (const int v : face.Vertex)
       {
         float& of = mesh.Size[static_cast<std::size_t>(v)];
