@@ -182,15 +182,15 @@ TEST(InterfaceClearance, FollowsFacesThatChange)
   InterfaceClearance clearance(mesh, 1e-3);
   clearance.Reset(OnThisThread());
   std::vector<int> near;
-  EXPECT_EQ(clearance.FindIntersecting(0, 0, near), -1);
+  EXPECT_EQ(clearance.FindIntersecting(0, near), -1);
   mesh.Position[6] = Vector(0.2f, 0.2f, -1.f);
   mesh.Position[7] = Vector(0.2f, 0.2f, 1.f);
   mesh.Position[8] = Vector(40.f, -9.f, 0.f);
   clearance.Change(2);
-  EXPECT_EQ(clearance.FindIntersecting(0, 0, near), 2) << "longer than any face before";
-  EXPECT_EQ(clearance.FindIntersecting(2, 0, near), 0);
-  EXPECT_EQ(clearance.FindIntersecting(1, 0, near), -1);
+  EXPECT_EQ(clearance.FindIntersecting(0, near), 2) << "longer than any face before";
+  EXPECT_EQ(clearance.FindIntersecting(2, near), 0);
+  EXPECT_EQ(clearance.FindIntersecting(1, near), -1);
   mesh.RemoveFace(2);
   clearance.Change(2);
-  EXPECT_EQ(clearance.FindIntersecting(0, 0, near), -1) << "it is no more";
+  EXPECT_EQ(clearance.FindIntersecting(0, near), -1) << "it is no more";
 }

@@ -234,7 +234,7 @@ void InterfaceClearance::Change(int face)
 }
 
 void InterfaceClearance::FindNear(
-  const Vector& low, const Vector& high, int first, std::vector<int>& near) const
+  const Vector& low, const Vector& high, std::vector<int>& near) const
 {
   near.clear();
   const float tolerance = static_cast<float>(this->Tolerance);
@@ -245,19 +245,19 @@ void InterfaceClearance::FindNear(
   this->Grid.VisitBox(from - margin, to + margin,
     [&](int face)
     {
-      if (face >= first && !this->Boxes[static_cast<std::size_t>(face)].IsApart(from, to))
+      if (!this->Boxes[static_cast<std::size_t>(face)].IsApart(from, to))
       {
         near.push_back(face);
       }
     });
 }
 
-int InterfaceClearance::FindIntersecting(int face, int first, std::vector<int>& near) const
+int InterfaceClearance::FindIntersecting(int face, std::vector<int>& near) const
 {
   const MeshTriangle triangle =
     TriangleOf(this->Mesh, this->Mesh.Faces[static_cast<std::size_t>(face)].Vertex);
   const TriangleBox& box = this->Boxes[static_cast<std::size_t>(face)];
-  this->FindNear(box.Low, box.High, first, near);
+  this->FindNear(box.Low, box.High, near);
   for (const int other : near)
   {
     if (other != face &&
@@ -292,7 +292,7 @@ bool InterfaceClearance::AreClear(const std::vector<PlacedFace>& faces,
   {
     all.Add(this->Boxes[static_cast<std::size_t>(face)]);
   }
-  this->FindNear(all.Low, all.High, 0, near);
+  this->FindNear(all.Low, all.High, near);
   const std::vector<Sheet> sheets = this->FindSheets(faces, near);
   if (sheets.size() == 1 && sheets.front().IsOne && sheets.front().IsAlone)
   {

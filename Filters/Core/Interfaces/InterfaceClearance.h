@@ -91,11 +91,10 @@ public:
   /** Of all faces when the grid was laid. */
   const TriangleBox& Bounds() const { return this->All; }
 
-  /** Faces from `first` on whose boxes come near a box. */
-  void FindNear(const Vector& low, const Vector& high, int first, std::vector<int>& near) const;
-  /** A face that this one intersects, of those from `first` on; -1: none. @param near room for it
-   */
-  int FindIntersecting(int face, int first, std::vector<int>& near) const;
+  /** Faces whose boxes come near a box. */
+  void FindNear(const Vector& low, const Vector& high, std::vector<int>& near) const;
+  /** A face that this one intersects; -1: none. @param near room for it */
+  int FindIntersecting(int face, std::vector<int>& near) const;
   /**
    * Whether faces may take the place of some: they intersect nothing else, nor each other, are in
    * order at junction lines, and pass nothing that they share an edge with. @param near room for it

@@ -159,7 +159,7 @@ private:
   {
     return this->FindPairs(faces,
       [this](int face, std::vector<int>& near)
-      { return this->Clearance.FindIntersecting(face, 0, near); });
+      { return this->Clearance.FindIntersecting(face, near); });
   }
 
   std::vector<std::array<int, 2>> FindPassed(const std::vector<int>& faces) const

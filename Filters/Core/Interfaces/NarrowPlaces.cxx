@@ -181,7 +181,7 @@ void NarrowPlaces::ForGapsAt(int face, std::vector<int>& near, Visitor&& visit) 
   const TriangleBox box{ Vector(triangle.Corner[0]), Vector(triangle.Corner[1]),
     Vector(triangle.Corner[2]) };
   const Vector thick(margin, margin, margin);
-  this->Clearance.FindNear(box.Low - thick, box.High + thick, 0, near);
+  this->Clearance.FindNear(box.Low - thick, box.High + thick, near);
   for (const int other : near)
   {
     const InterfaceMesh::Face& there = this->Mesh.Faces[static_cast<std::size_t>(other)];
