@@ -37,9 +37,11 @@ constexpr int FirstFit = 1;
 constexpr int LastSliverRounds = 3;
 /** Steps of vertices in a round; the first one has too many of them. */
 constexpr int Steps = 2;
-/** First steps where edges are wanted that are shorter than this, and how long they are. */
+/** Shorter edge lengths get additional first steps, */
 constexpr double LeastCollapsed = 1.25;
+/** of this number, */
 constexpr int StepsOfFine = 6;
+/** each at most this long, in the shortest edge of a vertex. */
 constexpr double FineStep = 0.2;
 /** Edges that are split and collapsed, in the mean length. */
 constexpr double LongestShare = 4. / 3.;
