@@ -35,8 +35,7 @@ double MeanDifference(const InterfaceMesh& mesh, const InterfaceFields& fields)
 
 InterfaceMesh RoughMesh(const InterfaceScene& scene)
 {
-  InterfaceMesh mesh =
-    StartInterfaces(*scene.Fields, OnThisThread());
+  InterfaceMesh mesh = StartInterfaces(*scene.Fields, OnThisThread());
   InterfaceRemesher remesher(mesh, 1.1, 1.8, 1e-3, OnThisThread(), [] { return true; });
   remesher.CollapseShortEdges();
   remesher.FlipEdges();

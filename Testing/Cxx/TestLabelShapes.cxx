@@ -91,8 +91,7 @@ TEST(LabelSurfaces, AreNearerToTheTruthByDefaultThanWithEachVoxel)
     filter->SetVoxelTolerance(tolerance);
     return JudgeTruth(ToTriangleSurface(BlockOf(filter, 0)), shapes.Shapes[0]);
   };
-  const TruthVerdict byDefault =
-    judged(0.5);
+  const TruthVerdict byDefault = judged(-1.0);
   const TruthVerdict strict = judged(0.0);
   EXPECT_LT(byDefault.MeanAngle, 0.8 * strict.MeanAngle);
   EXPECT_LT(byDefault.MeanAtVertices, strict.MeanAtVertices);
