@@ -33,7 +33,6 @@ set(volumic_core_sources
   Labels/LabelSides.cxx
   Labels/MapBeyond.cxx
   Labels/SmallParts.cxx
-  Mesh/CellSurface.cxx
   Mesh/CycleCut.cxx
   Mesh/Division.cxx
   Mesh/EdgeCollapse.cxx
@@ -41,6 +40,7 @@ set(volumic_core_sources
   Mesh/EdgeSplit.cxx
   Mesh/LatticeInside.cxx
   Mesh/LatticeSurface.cxx
+  Mesh/LegalEdges.cxx
   Mesh/LongEdges.cxx
   Mesh/RingRelief.cxx
   Mesh/RowCrossing.cxx
@@ -56,6 +56,7 @@ set(volumic_core_sources
   Mesh/VertexGrid.cxx
   Mesh/VertexRemoval.cxx
   Interfaces/CellPattern.cxx
+  Interfaces/DistanceLattice.cxx
   Interfaces/DualCells.cxx
   Interfaces/DualMesh.cxx
   Interfaces/FaceCubes.cxx
@@ -163,7 +164,6 @@ set(volumic_core_headers
   Labels/LabelMap.h
   Labels/LabelSides.h
   Labels/SmallParts.h
-  Mesh/CellSurface.h
   Mesh/CycleCut.h
   Mesh/Division.h
   Mesh/EdgeCollapse.h
@@ -172,6 +172,7 @@ set(volumic_core_headers
   Mesh/LatticeInside.h
   Mesh/LatticeSurface.h
   Mesh/LimitedSizes.h
+  Mesh/LegalEdges.h
   Mesh/LongEdges.h
   Mesh/ObliqueRotation.h
   Mesh/RingRelief.h
@@ -188,6 +189,7 @@ set(volumic_core_headers
   Mesh/VertexGrid.h
   Mesh/VertexRemoval.h
   Interfaces/CellPattern.h
+  Interfaces/DistanceLattice.h
   Interfaces/DualCells.h
   Interfaces/DualMesh.h
   Interfaces/FaceCubes.h
