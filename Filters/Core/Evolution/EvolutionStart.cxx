@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Common/Box.h"
+#include "Core/Common/Refuse.h"
 #include "Core/Common/Select.h"
 #include "Core/Common/Spans.h"
 #include "Core/Evolution/Evolution.h"
@@ -110,6 +111,28 @@ void Recover(Evolution& e)
   }
 }
 
+/** Encloses all of the object, near to its boundary; the rest of the way are passes. */
+void EncloseObject(Evolution& e)
+{
+  Renumber(e);
+  LostPartCover cover = FindLostParts(e.State, *e.TheField, PartKind::Object, 1, e.Threads,
+    e.QuestionOf(Monitor::Activity::Starting));
+  if (e.Stopped)
+  {
+    return;
+  }
+  if (cover.Covered == 0)
+  {
+    Refuse("there is no iso-surface to start from: no voxel of this level lies in the object. Choose "
+           "another Iso Value, a finer Coarsest Level, or another Initialization.");
+  }
+  e.Blocks->Append(std::move(cover.Surface), e.Threads);
+  ++e.Unchecked;
+  e.HasDescended = true;
+  ActivateWhereOff(e, Dynamics::LeftOff);
+  LabelComponents(e);
+}
+
 void PlaceSeeds(Evolution& e, const std::vector<Point>& centres)
 {
   const double delta = e.State.Sizing.OfLevel();
@@ -125,10 +148,7 @@ void PlaceSeeds(Evolution& e, const std::vector<Point>& centres)
 void Start(Evolution& e, const SurfaceStart& start)
 {
   using Kind = SurfaceStart::Kind;
-  // Of an object that has no iso-surface there is the message of a given one that is empty.
-  const bool isIso = start.From == Kind::IsoSurface && !start.Surface.Triangles.empty();
-  const bool isGiven = start.From == Kind::Surface || start.From == Kind::IsoSurface;
-  if (isGiven && !isIso)
+  if (start.From == Kind::Surface)
   {
     CheckInitialSurface(start.Surface);
     CheckOverlapsImage(start.Surface, e.Task.Image);
@@ -142,9 +162,13 @@ void Start(Evolution& e, const SurfaceStart& start)
     watch.Lap(Phase::Recovery);
   }
   const bool isEnclosed = e.Lost.Enclosed > 0 || (start.From == Kind::EnclosingParts && e.Stopped);
-  if (isGiven)
+  if (start.From == Kind::Surface)
   {
-    TakeGiven(e, start.Surface, isIso);
+    TakeGiven(e, start.Surface);
+  }
+  else if (start.From == Kind::IsoSurface)
+  {
+    EncloseObject(e);
   }
   else if (start.From == Kind::Seeds)
   {

@@ -5,12 +5,9 @@
 #include "Core/Evolution/Evolution.h"
 #include "Core/Evolution/InitialSurface.h"
 #include "Core/Mesh/LatticeSurface.h"
-#include "Core/Mesh/LongEdges.h"
 #include "Core/Mesh/ObliqueRotation.h"
-#include "Core/Mesh/RingRelief.h"
 #include "Core/Mesh/SelfIntersections.h"
 #include "Core/Mesh/SurfaceFeatures.h"
-#include "Core/Surface/NewFaces.h"
 
 #include <algorithm>
 #include <cmath>
@@ -215,25 +212,16 @@ void Adapt(Evolution& e)
 }
 }
 
-void TakeGiven(Evolution& e, const IndexedSurface& given, bool isSound)
+void TakeGiven(Evolution& e, const IndexedSurface& given)
 {
   IndexedSurface surface = WithoutUnusedPoints(given);
   // A mesh that is near to the constraints is brought within them as it is, by the edits of an
   // iteration. They rely on edges that are not too long and rings that have room; where long edges,
-  // slivers or fans deny them that, the same surface gets another mesh first. An iso-surface, whose
-  // edges are as long as voxels, needs no other than its own, divided.
-  const SurfaceState& s = e.State;
-  const float delta = s.Sizing.OfLevel();
-  const double longest = SizingField::LongestEdgeInDelta * delta;
-  EdgeLengths lengths = LengthsOf(surface);
-  if (isSound && lengths.Longest > longest)
-  {
-    CheckNumberOfVertices(ComputeFeatures(surface).Area, e.Task.Image, delta);
-    HalveLongEdges(surface, longest);
-    lengths = LengthsOf(surface);
-  }
-  if (lengths.Longest <= longest &&
-    (isSound ? RelieveRings(surface) : FitsRings(surface) && !IsTooDense(surface, delta)))
+  // slivers or fans deny them that, the same surface gets another mesh first.
+  const float delta = e.State.Sizing.OfLevel();
+  const EdgeLengths lengths = LengthsOf(surface);
+  if (lengths.Longest <= SizingField::LongestEdgeInDelta * delta && FitsRings(surface) &&
+    !IsTooDense(surface, delta))
   {
     Begin(e, surface);
     if (Proximity::FindIntersections(e.State, AliveVertices(e), e.Threads).empty())
@@ -243,8 +231,7 @@ void TakeGiven(Evolution& e, const IndexedSurface& given, bool isSound)
         Adapt(e);
       }
       // Edits of what does not intersect itself are verified.
-      if (e.Stopped || (isSound ? CountIntersecting(s, e.Threads) == 0
-                                : IsSound(s.Mesh.ToIndexed(), delta)))
+      if (e.Stopped || IsSound(e.State.Mesh.ToIndexed(), delta))
       {
         return;
       }

@@ -60,7 +60,10 @@ public:
    */
   void MakeWellComposed(const std::function<bool(const Point& place)>& mayComeIn);
 
-  /** Closed, a manifold, free of intersections where it is well composed, outward. */
+  /**
+   * Closed, outward, and a manifold where it is well composed. Where sheets are two points apart it
+   * hardly ever intersects itself, which must be asked.
+   */
   IndexedSurface Boundary(Executor& executor) const;
 
 private:

@@ -260,8 +260,22 @@ void SurfaceBlocks::FindOrder()
 
 void SurfaceBlocks::Append(IndexedSurface&& surface, Executor& executor)
 {
-  this->State.Append(surface, executor);
+  SurfaceState& s = this->State;
+  const int first = s.Mesh.Size();
+  s.Append(surface, executor);
   surface = IndexedSurface(); // What comes takes the most memory that a level takes.
+  std::vector<int> added(static_cast<std::size_t>(s.Mesh.Size() - first));
+  std::iota(added.begin(), added.end(), first);
+  for (const Proximity::FacePair& pair : Proximity::FindIntersections(s, added, executor))
+  {
+    for (const int v : { pair.First[0], pair.Second[0] })
+    {
+      if (v >= first && s.Mesh.IsAlive(v))
+      {
+        s.RemoveComponent(v);
+      }
+    }
+  }
   this->Reorder(executor, true);
 }
 

@@ -115,8 +115,8 @@ public:
   /** Between sweeps, while no visit is open: numbers the vertices anew where that is needed. */
   void Prepare(Executor& executor);
   /**
-   * Adds a closed surface, and gives its vertices to their blocks. Between sweeps, while none is
-   * open.
+   * Adds a closed surface, but for those of its components that intersect something, and gives its
+   * vertices to their blocks. Between sweeps, while none is open.
    */
   void Append(IndexedSurface&& surface, Executor& executor);
 
