@@ -35,7 +35,7 @@ TEST(StartIsoSurface, HasEvenTheSmallestParts)
   const TestVolume volume = MakeVolume(32,
     [](double x, double y, double z)
     {
-      const bool isAlone = Distance(x, y, z, 3.5, 4.5, 5.5) < .6;
+      const bool isAlone = x == 3. && y == 4. && z == 5.;
       return isAlone ? 1. : std::clamp(6. - Distance(x, y, z, 16., 16., 16.), -1., 1.);
     });
   TestEvolution evolution(SurfaceOptions(), Threads, Silent);

@@ -61,10 +61,11 @@ public:
   void MakeWellComposed(const std::function<bool(const Point& place)>& mayComeIn);
 
   /**
-   * Closed, outward, and a manifold where it is well composed. Where sheets are two points apart it
-   * hardly ever intersects itself, which must be asked.
+   * Closed, outward, and a manifold where it is well composed.
+   * @param isEven squares are cut along their shorter diagonals; then it may intersect itself, which
+   *               is rare and must be asked
    */
-  IndexedSurface Boundary(Executor& executor) const;
+  IndexedSurface Boundary(bool isEven, Executor& executor) const;
 
 private:
   static constexpr int PointsOfBrick = BrickSide * BrickSide * BrickSide;

@@ -248,7 +248,7 @@ private:
         { return this->Cells.Slabs[number - (isBefore[p] ? 1 : 0)].Points[has[p]]; };
         return SquaredDistance(place(q), place(q + 2));
       };
-      const int turn = this->Grid.CopyValues
+      const int turn = this->Grid.HasShortDiagonals
         ? (squared(1) < squared(0) ? 1 : 0)
         : (voxel[across[0]] + voxel[across[1]] + (isInSide ? 0 : voxel[axis])) & 1;
       for (int half = 0; half < 2; ++half)
