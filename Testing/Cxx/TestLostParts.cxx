@@ -1,8 +1,11 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Evolution/LostParts.h"
+#include "Core/Mesh/SelfIntersections.h"
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "EvolutionTestTools.h"
+
+#include <random>
 
 using namespace volumic;
 
@@ -50,7 +53,8 @@ struct KnownBall
 
   LostPartCover Find(PartKind kind, int minimumSize) const
   {
-    return FindLostParts(this->State, this->Image, kind, minimumSize, Threads);
+    return FindLostParts(
+      this->State, this->Image, kind, minimumSize, CoverShape::Even, Threads);
   }
 };
 
@@ -61,6 +65,12 @@ int VoxelsOfTheLostBall(const Field& field)
   ForBox({ 34, 0, 0 }, { 48, 48, 48 },
     [&](int i, int j, int k) { count += field.Voxel(i, j, k) > 0; });
   return count;
+}
+
+LostPartCover FindAll(
+  const SurfaceState& state, const Field& field, PartKind kind, CoverShape shape)
+{
+  return FindLostParts(state, field, kind, 20, shape, Threads);
 }
 
 double NearestVertex(const SurfaceState& state, const IndexedSurface& surface)
@@ -131,10 +141,47 @@ TEST(LostParts, FindsAllWithoutAnySurface)
   SurfaceState state;
   state.Sizing = SizingField(Delta);
   state.Reset(Vector(-2, -2, -2), Vector(50, 50, 50));
-  const LostPartCover cover = FindLostParts(state, field, PartKind::Object, 20, Threads);
+  const LostPartCover cover = FindAll(state, field, PartKind::Object, CoverShape::Even);
   EXPECT_EQ(cover.Found, 2);
   EXPECT_EQ(cover.Covered, 2);
-  EXPECT_EQ(FindLostParts(state, field, PartKind::Cavity, 20, Threads).Found, 0);
+  EXPECT_EQ(FindAll(state, field, PartKind::Cavity, CoverShape::Even).Found, 0);
+}
+
+TEST(LostParts, SafeCoversOfNoiseDoNotIntersect)
+{
+  std::mt19937 random(3);
+  for (int round = 0; round < 4; ++round)
+  {
+    // Waves of all directions: sheets, tunnels and specks as wide as the lattice's cubes.
+    std::uniform_real_distribution<double> phase(0., 6.28), wave(-1.5, 1.5);
+    std::array<std::array<double, 4>, 12> waves;
+    for (std::array<double, 4>& w : waves)
+    {
+      w = { wave(random), wave(random), wave(random), phase(random) };
+    }
+    const TestVolume volume = MakeVolume(28,
+      [&waves](double x, double y, double z)
+      {
+        double sum = 0.;
+        for (const std::array<double, 4>& w : waves)
+        {
+          sum += std::sin(w[0] * x + w[1] * y + w[2] * z + w[3]);
+        }
+        return Soft(1.5 - sum);
+      });
+    const Field field(volume.Image, IsoHalf(), Threads);
+    SurfaceState state;
+    state.Sizing = SizingField(Delta);
+    state.Reset(Vector(-2, -2, -2), Vector(30, 30, 30));
+    for (const CoverShape shape : { CoverShape::Safe, CoverShape::Even })
+    {
+      const LostPartCover cover = FindAll(state, field, PartKind::Object, shape);
+      EXPECT_GT(cover.Covered, 0);
+      EXPECT_EQ(cover.Covered, cover.Found);
+      EXPECT_NO_THROW(SurfaceMesh().Append(cover.Surface)); // Closed, a manifold, oriented.
+      EXPECT_LE(CountSelfIntersections(cover.Surface), shape == CoverShape::Safe ? 0 : 4);
+    }
+  }
 }
 
 TEST(LostParts, BoundaryIsMissedWhereNoVertexIsNear)

@@ -254,7 +254,7 @@ TEST(SurfaceBlocks, TakeWhatIsAppended)
   const int vertices = state.Mesh.NumberOfVertices();
   const int characteristic = state.EulerCharacteristic;
   const IndexedSurface added = DividedIcosahedron({ 20, 0, 0 }, 1., 1.5);
-  blocks.Append(IndexedSurface(added), Thread);
+  EXPECT_TRUE(blocks.Append(added, false, Thread));
   EXPECT_EQ(state.Mesh.NumberOfVertices(), vertices + static_cast<int>(added.Points.size()));
   EXPECT_EQ(state.EulerCharacteristic, characteristic + 2);
   EXPECT_EQ(state.EulerCharacteristic, state.Mesh.CountEulerCharacteristic());
@@ -333,4 +333,27 @@ TEST(SurfaceBlocks, AreAsWideAsAskedAndShareTheRestAtBothEnds)
       EXPECT_TRUE(first >= 12. && first <= 24.) << extent << ": " << first;
     }
   }
+}
+
+TEST(SurfaceBlocks, LeaveOutWhatIntersects)
+{
+  SurfaceState state;
+  state.Sizing = SizingField(1.f);
+  state.Mesh = Balls(2);
+  const SurfaceBlocks::Frame frame = FrameAbout(state.Mesh, 10.f);
+  state.Reset(Vector(-20, -20, -20), Vector(40, 40, 40));
+  SurfaceBlocks blocks(state, frame, Thread);
+  const int before = state.Mesh.NumberOfVertices();
+  // One through the second ball, one beside both.
+  SurfaceMesh added;
+  added.Append(DividedIcosahedron({ 14., 0., 0. }, 3., 1.5));
+  const int through = added.NumberOfVertices();
+  added.Append(DividedIcosahedron({ 0., 15., 0. }, 4., 1.5));
+  const int beside = added.NumberOfVertices() - through;
+  EXPECT_FALSE(blocks.Append(added.ToIndexed(), false, Thread));
+  EXPECT_EQ(state.Mesh.NumberOfVertices(), before);
+  EXPECT_EQ(state.EulerCharacteristic, 4);
+  EXPECT_FALSE(blocks.Append(added.ToIndexed(), true, Thread));
+  EXPECT_EQ(state.Mesh.NumberOfVertices(), before + beside);
+  EXPECT_EQ(state.EulerCharacteristic, 6);
 }

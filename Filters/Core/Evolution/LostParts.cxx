@@ -75,7 +75,7 @@ constexpr float ShortestEdge = 1.3f;
 constexpr float LongestEdge = 2.45f;
 /** How far the cover lies from a lost voxel at most, and beyond its isopotential, in units. */
 constexpr double Farthest = 1.4;
-constexpr double Margin = 0.4;
+constexpr double Margin = 0.5;
 /** A voxel that is so deep inside, in units, is nearest to no point outside. */
 constexpr double Deep = 1.;
 /** How far it lies at least from the vertices of the surface that is there, in delta. */
