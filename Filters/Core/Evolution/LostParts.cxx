@@ -140,7 +140,7 @@ public:
     const auto isClear = [this](const Point& place)
     { return this->NearestRoom(place) > 0.f; };
     covered = this->TakeSmallParts(isClear);
-    this->Lattice.MakeWellComposed(isClear);
+    this->Lattice.MakeWellComposed(isClear, executor);
     const float delta = this->State.Sizing.OfLevel();
     const bool isEven = shape == CoverShape::Even;
     return WithLegalEdges(this->Lattice.Boundary(isEven, executor),
@@ -220,28 +220,28 @@ private:
 
   void AddBall(const Point& centre, double radius, double far, int firstLayer, int endLayer)
   {
-    std::array<int, 3> from;
-    std::array<int, 3> to;
-    for (int axis = 0; axis < 3; ++axis)
+    const int firstK = std::max(this->Lattice.FirstFrom(centre[2] - far, 2), firstLayer);
+    const int endK = std::min(this->Lattice.FirstFrom(centre[2] + far, 2), endLayer);
+    const int endJ = this->Lattice.FirstFrom(centre[1] + far, 1);
+    for (int k = firstK; k < endK; ++k)
     {
-      from[axis] = this->Lattice.FirstFrom(centre[axis] - far, axis);
-      to[axis] = this->Lattice.FirstFrom(centre[axis] + far, axis);
-    }
-    for (int k = std::max(from[2], firstLayer); k < std::min(to[2], endLayer); ++k)
-    {
-      for (int j = from[1]; j < to[1]; ++j)
+      for (int j = this->Lattice.FirstFrom(centre[1] - far, 1); j < endJ; ++j)
       {
-        for (int i = from[0]; i < to[0]; ++i)
+        const Point row = this->Lattice.PlaceOf(0, j, k);
+        const double beside = (row[1] - centre[1]) * (row[1] - centre[1]) +
+          (row[2] - centre[2]) * (row[2] - centre[2]);
+        if (beside >= far * far)
         {
-          const Point p = this->Lattice.PlaceOf(i, j, k);
-          const double squared = (p[0] - centre[0]) * (p[0] - centre[0]) +
-            (p[1] - centre[1]) * (p[1] - centre[1]) + (p[2] - centre[2]) * (p[2] - centre[2]);
-          if (squared < far * far)
-          {
-            float& distance = this->Lattice.Write(i, j, k);
-            distance =
-              std::min(distance, static_cast<float>(std::sqrt(squared) - radius));
-          }
+          continue;
+        }
+        const double half = std::sqrt(far * far - beside);
+        const int endI = this->Lattice.FirstFrom(centre[0] + half, 0);
+        for (int i = this->Lattice.FirstFrom(centre[0] - half, 0); i < endI; ++i)
+        {
+          const double along = row[0] + this->Lattice.Pitch() * i - centre[0];
+          float& distance = this->Lattice.Write(i, j, k);
+          distance = std::min(
+            distance, static_cast<float>(std::sqrt(beside + along * along) - radius));
         }
       }
     }

@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Interfaces/DistanceLattice.h"
 
+#include "Core/Common/Spans.h"
 #include "Core/Interfaces/DualCells.h"
 #include "Core/Interfaces/DualMesh.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 namespace volumic
@@ -141,25 +143,74 @@ void DistanceLattice::Compose(const LatticePoint& cube, bool mayAdd,
   changed.push_back(p);
 }
 
-void DistanceLattice::MakeWellComposed(
-  const std::function<bool(const Point& place)>& mayComeIn)
+template <typename Visitor>
+void DistanceLattice::ForSlice(int k, const Visitor& write) const
+{
+  const Layer& layer = this->Layers[static_cast<std::size_t>(k / BrickSide)];
+  std::size_t at = 0;
+  for (int j = 0; j < this->Points[1]; ++j)
+  {
+    for (int i = 0; i < this->Points[0]; i += BrickSide)
+    {
+      const int first =
+        layer.First[static_cast<std::size_t>(j / BrickSide) * this->Bricks[0] + i / BrickSide];
+      const int count = std::min(BrickSide, this->Points[0] - i);
+      const int from = first + BrickSide * (j % BrickSide + BrickSide * (k % BrickSide));
+      for (int n = 0; n < count; ++n)
+      {
+        write(at++,
+          first < 0 ? static_cast<float>(this->Distance)
+                    : layer.Values[static_cast<std::size_t>(from + n)]);
+      }
+    }
+  }
+}
+
+std::vector<LatticePoint> DistanceLattice::FindIllComposed(int layer) const
 {
   std::vector<LatticePoint> cubes;
-  for (int layer = 0; layer < this->NumberOfLayers(); ++layer)
+  const auto size = static_cast<std::size_t>(this->Points[0]);
+  std::vector<std::uint8_t> low(size * this->Points[1]); // whether points are inside
+  std::vector<std::uint8_t> high(low.size());
+  const auto copy = [this](int k, std::vector<std::uint8_t>& inside)
   {
-    this->ForPoints(layer,
-      [&](const LatticePoint& p, float value)
+    this->ForSlice(
+      k, [&inside](std::size_t at, float value) { inside[at] = value < 0.f ? 1 : 0; });
+  };
+  const int first = layer * BrickSide;
+  copy(first, high);
+  for (int k = first; k < std::min(first + BrickSide, this->Points[2] - 1); ++k)
+  {
+    low.swap(high);
+    copy(k + 1, high);
+    for (int j = 0; j + 1 < this->Points[1]; ++j)
+    {
+      const std::size_t row = static_cast<std::size_t>(j) * size;
+      const std::array<const std::uint8_t*, 4> rows = { &low[row], &low[row + size], &high[row],
+        &high[row + size] };
+      const auto column = [&rows](int i)
+      { return rows[0][i] | rows[1][i] << 2 | rows[2][i] << 4 | rows[3][i] << 6; };
+      for (int i = 0; i + 1 < this->Points[0]; ++i)
       {
-        if (value < 0.f)
+        const auto inside = static_cast<unsigned>(column(i) | column(i + 1) << 1);
+        if (inside != 0 && inside != 255 && !DualCells::IsPlainPattern(inside))
         {
-          for (int corner = 0; corner < 8; ++corner)
-          {
-            cubes.push_back(
-              { p[0] - (corner & 1), p[1] - (corner >> 1 & 1), p[2] - (corner >> 2) });
-          }
+          cubes.push_back({ i, j, k });
         }
-      });
+      }
+    }
   }
+  return cubes;
+}
+
+void DistanceLattice::MakeWellComposed(
+  const std::function<bool(const Point& place)>& mayComeIn, Executor& executor)
+{
+  std::vector<std::vector<LatticePoint>> ofLayers(this->Layers.size());
+  ForSpans(executor, ofLayers.size(), 1,
+    [&](std::size_t layer, std::size_t, std::size_t)
+    { ofLayers[layer] = this->FindIllComposed(static_cast<int>(layer)); });
+  std::vector<LatticePoint> cubes = Joined(executor, ofLayers);
   for (int round = 0; !cubes.empty(); ++round)
   {
     std::sort(cubes.begin(), cubes.end());
@@ -196,31 +247,10 @@ IndexedSurface DistanceLattice::Boundary(bool isEven, Executor& executor) const
     }
     grid.Planes[axis].pop_back();
   }
-  const auto forSlice = [this](int k, const auto& write)
-  {
-    const Layer& layer = this->Layers[static_cast<std::size_t>(k / BrickSide)];
-    std::size_t at = 0;
-    for (int j = 0; j < this->Points[1]; ++j)
-    {
-      for (int i = 0; i < this->Points[0]; i += BrickSide)
-      {
-        const int first = layer.First[static_cast<std::size_t>(j / BrickSide) * this->Bricks[0] +
-          i / BrickSide];
-        const int count = std::min(BrickSide, this->Points[0] - i);
-        const int from = first + BrickSide * (j % BrickSide + BrickSide * (k % BrickSide));
-        for (int n = 0; n < count; ++n)
-        {
-          write(at++,
-            first < 0 ? static_cast<float>(this->Distance)
-                      : layer.Values[static_cast<std::size_t>(from + n)]);
-        }
-      }
-    }
-  };
   grid.CopyValues = [&](int k, float* values)
-  { forSlice(k, [values](std::size_t at, float value) { values[at] = value; }); };
+  { this->ForSlice(k, [values](std::size_t at, float value) { values[at] = value; }); };
   grid.CopySlice = [&](int k, LabelMap::Number* labels)
-  { forSlice(k, [labels](std::size_t at, float value) { labels[at] = value < 0.f ? 1 : 0; }); };
+  { this->ForSlice(k, [labels](std::size_t at, float value) { labels[at] = value < 0.f ? 1 : 0; }); };
   LargeVector<Vector> points;
   LargeVector<InterfaceMesh::Face> faces;
   MakeDualFaces(grid, executor, points, faces);

@@ -58,7 +58,8 @@ public:
    * side meet in an edge or a corner of a cube alone, what is nearest to the surface comes in, if it
    * may, and else what is least deep goes out.
    */
-  void MakeWellComposed(const std::function<bool(const Point& place)>& mayComeIn);
+  void MakeWellComposed(
+    const std::function<bool(const Point& place)>& mayComeIn, Executor& executor);
 
   /**
    * Closed, outward, and a manifold where it is well composed.
@@ -75,6 +76,11 @@ private:
     std::vector<float> Values; ///< of bricks, x fastest
   };
 
+  /** Calls write(n, value) for the points of a slice, x fastest. */
+  template <typename Visitor>
+  void ForSlice(int k, const Visitor& write) const;
+  /** The cubes that begin in a layer of bricks. */
+  std::vector<LatticePoint> FindIllComposed(int layer) const;
   /** The values of the corners of a cube. */
   std::array<float, 8> CornersOf(const LatticePoint& cube) const;
   void Compose(const LatticePoint& cube, bool mayAdd,

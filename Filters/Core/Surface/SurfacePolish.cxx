@@ -27,7 +27,7 @@ std::vector<int> SurfacePolish::AliveOnes() const
 {
   const SurfaceState& s = this->State;
   std::vector<int> alive;
-  std::copy_if(this->Within->begin(), this->Within->end(), std::back_inserter(alive),
+  std::copy_if(this->Within.begin(), this->Within.end(), std::back_inserter(alive),
     [&s](int v) { return s.Mesh.IsAlive(v); });
   for (int v = this->FirstNew; v < this->EndOfNew(); ++v)
   {
@@ -67,6 +67,7 @@ int SurfacePolish::ImproveAll(float good, bool mayCut)
   { return s.Mesh.IsAlive(v) ? StarScore(s, v, s.Mesh.Position[v]) : 1.f; };
   const int characteristic = this->Editor.EulerCharacteristic();
   std::vector<int> list = this->AliveOnes();
+  std::vector<int> poor;
   for (int round = 0; round < Rounds && !list.empty(); ++round)
   {
     const auto edited = static_cast<std::ptrdiff_t>(this->Editor.Changed().size());
@@ -74,6 +75,10 @@ int SurfacePolish::ImproveAll(float good, bool mayCut)
     for (const int v : list)
     {
       const float now = score(v);
+      if (now < GoodStar)
+      {
+        poor.push_back(v);
+      }
       if (now < good && !StarImprovement(s, this->Editor, this->SnapTo, mayCut).Improve(v) &&
         now < BadStar)
       {
@@ -85,12 +90,19 @@ int SurfacePolish::ImproveAll(float good, bool mayCut)
     SortUnique(again);
     list.swap(again);
   }
+  // Other stars stay good: they score as before until they are changed.
+  poor.insert(poor.end(), this->Editor.Changed().begin(), this->Editor.Changed().end());
+  SortUnique(poor);
+  std::vector<int> within;
+  std::set_intersection(this->Within.begin(), this->Within.end(), poor.begin(), poor.end(),
+    std::back_inserter(within));
+  this->Within.swap(within);
   return (this->Editor.EulerCharacteristic() - characteristic) / 2;
 }
 
 void SurfacePolish::Run(const std::vector<int>& vertices)
 {
-  this->Within = &vertices;
+  this->Within = vertices;
   this->FirstNew = this->EndOfNew();
   // A collapse may bring together what is far apart on the surface, and what is pushed apart may
   // get ill-shaped faces.
@@ -104,6 +116,5 @@ void SurfacePolish::Run(const std::vector<int>& vertices)
     this->SeparateAll(); // The two sides of a cut are near each other.
     this->ImproveAll(BadStar, this->TopologyChanges);
   }
-  this->Within = nullptr;
 }
 }

@@ -36,7 +36,7 @@ public:
   {
   }
 
-  /** Of the stars of a list, and of those that cuts make. Normals must be up to date. */
+  /** Of the stars of a list, in order, and of those that cuts make. Normals must be up to date. */
   void Run(const std::vector<int>& vertices);
 
   /** Changed vertices of all its edits, in order; some may be named often. */
@@ -53,7 +53,7 @@ private:
   const EditShare* Share;
   SurfaceEditor Editor;
   int FirstNew = 0;                         ///< What is made after Run() has begun follows it.
-  const std::vector<int>* Within = nullptr; ///< Whose stars are looked at.
+  std::vector<int> Within;                  ///< Whose stars may be poor.
   const Field* SnapTo;
   bool TopologyChanges;
 };
