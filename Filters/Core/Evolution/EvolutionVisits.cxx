@@ -27,7 +27,7 @@ constexpr int InsideOutSweeps = 2;
 /** Way in a pass, in delta, under which a vertex is left where it is: of small surfaces, and of
  * those with so many vertices, of which the mean counts. */
 constexpr float SmallestMove = 0.015f;
-constexpr float SmallestMoveOfLarge = 0.04f;
+constexpr float SmallestMoveOfLarge = 0.06f;
 constexpr int LargeSurface = 20000;
 
 /** What went some way in the last pass stays active, with its neighbours, and what was edited. */
