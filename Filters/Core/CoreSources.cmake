@@ -118,7 +118,6 @@ set(volumic_core_headers
   Common/CheckedFile.h
   Common/ContentHash.h
   Common/DisjointSets.h
-  Common/ExactSum.h
   Common/Executor.h
   Common/FreeMemory.h
   Common/Grading.h

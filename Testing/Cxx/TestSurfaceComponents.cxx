@@ -342,3 +342,40 @@ TEST(ComponentWatch, KeepsASmallOneOnTheRightSide)
   }
   EXPECT_TRUE(watch.DeleteDegenerate(state));
 }
+
+TEST(ComponentWatch, NeedsNoTestOfComponentsThatAreCertainToBeLarge)
+{
+  SurfaceState state;
+  const IndexedSurface large = Ball({ 0, 0, 0 }, 12);
+  Fill(state, { large, Ball({ 30, 0, 0 }, 0.8) });
+  const int size = static_cast<int>(large.Points.size());
+  SurfaceComponents components;
+  EXPECT_FALSE(components.Large().Has(state.Component[0])) << "not labelled yet";
+  components.Label(state, OnThisThread());
+  EXPECT_TRUE(components.Large().Has(0));
+  EXPECT_FALSE(components.Large().Has(1));
+  EXPECT_FALSE(components.Large().Has(2));
+  EXPECT_FALSE(components.Large().Has(NoVertex));
+  EXPECT_FALSE(components.Large().Has(SurfaceState::Unlabelled));
+  state.FieldValue.Fill(-1.f);
+  ComponentWatch watch;
+  watch.LabelSmall(state, 0, state.Mesh.Size(), Everywhere, components.Large());
+  EXPECT_TRUE(watch.DeleteDegenerate(state));
+  EXPECT_EQ(state.Mesh.NumberOfVertices(), size);
+
+  EditCounts edits;
+  edits.Merges = 20;
+  edits.Collapses = size - ComponentWatch::SmallSize - 1 - 2 * edits.Merges;
+  EXPECT_TRUE(components.Large().After(edits).Has(0));
+  components.Note(edits);
+  EXPECT_TRUE(components.Large().Has(0));
+  EditCounts more;
+  more.Collapses = 1;
+  EXPECT_FALSE(components.Large().After(more).Has(0)) << "all collapses may be its own";
+  components.Label(state, OnThisThread());
+  EXPECT_TRUE(components.Large().Has(0));
+  EditCounts cut;
+  cut.Cuts = 1;
+  components.Note(cut);
+  EXPECT_FALSE(components.Large().Has(0)) << "it may be in two";
+}

@@ -90,11 +90,16 @@ void VisitBlocks(
     e.Blocks->Prefetch(block);
     BlockVisit opened = e.Blocks->Open(block);
     opened.Idle = &idle;
+    {
+      const std::lock_guard<std::mutex> lock(counting);
+      opened.Large = e.Components.Large();
+    }
     visit(opened);
     const EditCounts counts = opened.Share.Counts;
     e.Blocks->Close(std::move(opened));
     const std::lock_guard<std::mutex> lock(counting);
     e.State.Counts += counts;
+    e.Components.Note(counts);
     e.Unchecked += counts.Cuts + counts.Removed;
   };
   e.Status.Blocks = e.Blocks->NumberOfBlocks();

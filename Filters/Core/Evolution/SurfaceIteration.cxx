@@ -58,7 +58,7 @@ SurfaceIteration::SurfaceIteration(
   }
   this->Near.Examine(s, this->Suspects, *visit.Idle);
   this->Near.AddPairs(s, crowded);
-  this->Watch.LabelSmall(s, visit.First, visit.End(), visit.Written);
+  this->Watch.LabelSmall(s, visit.First, visit.End(), visit.Written, visit.Large);
   this->Labelled = visit.Share.Counts;
 }
 
@@ -288,8 +288,8 @@ void SurfaceIteration::WatchComponents()
   if (share.Counts.Merges + share.Counts.Cuts > then.Merges + then.Cuts ||
     share.Counts.Collapses > then.Collapses + SuspiciousCollapses)
   {
-    this->Watch.LabelSmall(
-      this->State, this->Visit.First, this->Visit.End(), this->Visit.Written);
+    this->Watch.LabelSmall(this->State, this->Visit.First, this->Visit.End(),
+      this->Visit.Written, this->Visit.Large.After(share.Counts));
     this->Labelled = share.Counts;
   }
   this->Watch.DeleteDegenerate(this->State, &share);

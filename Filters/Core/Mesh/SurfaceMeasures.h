@@ -20,7 +20,7 @@ public:
   /** The origin may be any point; one of the surface costs no digits. */
   explicit SignedVolume(const Vector& origin = Vector()) : Origin(origin) {}
 
-  /** Adds the share of an alive vertex. */
+  /** Adds the share of a vertex; that of one that is not alive is 0. */
   void Add(const SurfaceMesh& mesh, int v)
   {
     this->Eighteenfold += OfVertex(mesh, this->Origin, v);
@@ -60,7 +60,7 @@ double EnclosedVolume(const SurfaceMesh& mesh, Executor& executor);
 /** What the vertices lie in, workspace; a box about the origin where there are none. */
 Box BoundsOf(const SurfaceMesh& mesh, Executor& executor);
 
-/** A third of the area of the faces about an alive vertex. */
+/** A third of the area of the faces about a vertex; 0 if it is not alive. */
 double AreaShare(const SurfaceMesh& mesh, int v);
 }
 

@@ -19,7 +19,7 @@ constexpr int VanishedSize = 5;
 /** In the place of a label: of what DeleteDegenerate has seen. */
 constexpr int Seen = -2;
 /** The labels that LabelSmall gives lie above those of all others. */
-constexpr int FirstOwnLabel = 1 << 30;
+constexpr int FirstOwnLabel = SurfaceState::Unlabelled + 1;
 
 bool IsVolumePositive(const SurfaceMesh& mesh, const std::vector<int>& vertices)
 {
@@ -32,24 +32,29 @@ bool IsVolumePositive(const SurfaceMesh& mesh, const std::vector<int>& vertices)
 }
 }
 
-bool ComponentWatch::IsSmall(SurfaceState& state, int v, const Box& within)
+bool ComponentWatch::IsSmall(
+  SurfaceState& state, int v, const Box& within, const LargeComponents& large)
 {
   const SurfaceMesh& mesh = state.Mesh;
   this->Stack.assign(1, v);
+  this->Pending.assign(1, v);
   state.Marks[v] |= IsSeen;
-  bool isSmall = true;
-  for (std::size_t i = 0; i < this->Stack.size() && isSmall; ++i)
+  bool isSmall = within.Contains(mesh.Position[v]);
+  while (isSmall && !this->Pending.empty())
   {
-    const Ring& ring = mesh.Rings[this->Stack[i]];
-    isSmall = within.Contains(mesh.Position[this->Stack[i]]);
+    // Depth first, which soon leads out of the box.
+    const Ring& ring = mesh.Rings[this->Pending.back()];
+    this->Pending.pop_back();
     for (int k = 0; k < ring.Count && isSmall; ++k)
     {
       const int w = ring.Item[k];
-      isSmall = !(state.Marks[w] & IsOfLarge) && within.Contains(mesh.Position[w]);
+      isSmall = !(state.Marks[w] & IsOfLarge) && !large.Has(state.Component[w]) &&
+        within.Contains(mesh.Position[w]);
       if (isSmall && !(state.Marks[w] & IsSeen))
       {
         state.Marks[w] |= IsSeen;
         this->Stack.push_back(w);
+        this->Pending.push_back(w);
       }
     }
     isSmall = isSmall && this->Stack.size() <= SmallSize;
@@ -65,12 +70,28 @@ bool ComponentWatch::IsSmall(SurfaceState& state, int v, const Box& within)
   return isSmall;
 }
 
-void ComponentWatch::LabelSmall(SurfaceState& state, int begin, int end, const Box& within)
+void ComponentWatch::LabelSmall(
+  SurfaceState& state, int begin, int end, const Box& within, const LargeComponents& large)
 {
   this->Watched.clear();
+  const auto isBesideLarge = [&state](int v)
+  {
+    const Ring& ring = state.Mesh.Rings[v];
+    return std::any_of(ring.Item, ring.Item + ring.Count,
+      [&state](int w) { return (state.Marks[w] & IsOfLarge) != 0; });
+  };
   for (int v = begin; v < end; ++v)
   {
-    if (!state.Mesh.IsAlive(v) || (state.Marks[v] & IsSeen) || !this->IsSmall(state, v, within))
+    if (large.Has(state.Component[v]) || (state.Marks[v] & IsSeen))
+    {
+      continue;
+    }
+    if (isBesideLarge(v))
+    {
+      state.Marks[v] |= IsSeen | IsOfLarge;
+      continue;
+    }
+    if (!state.Mesh.IsAlive(v) || !this->IsSmall(state, v, within, large))
     {
       continue;
     }
@@ -85,9 +106,12 @@ void ComponentWatch::LabelSmall(SurfaceState& state, int begin, int end, const B
       state.Component[w] = small.Label;
     }
   }
-  for (const int v : this->AllSeen)
+  const auto forget = [&state](int v)
+  { state.Marks[v] &= static_cast<std::uint8_t>(~(IsSeen | IsOfLarge)); };
+  std::for_each(this->AllSeen.begin(), this->AllSeen.end(), forget);
+  for (int v = begin; v < end; ++v)
   {
-    state.Marks[v] &= static_cast<std::uint8_t>(~(IsSeen | IsOfLarge));
+    forget(v);
   }
   this->AllSeen.clear();
 }

@@ -306,7 +306,7 @@ double SurfaceBlocks::SumUp(const std::function<double(int v)>& ofVertex, Execut
       double sum = 0.;
       for (int v = this->All[block].First; v < this->All[block].Next; ++v)
       {
-        sum += this->State.Mesh.IsAlive(v) ? ofVertex(v) : 0.;
+        sum += ofVertex(v);
       }
       return sum;
     });

@@ -5,6 +5,7 @@
 
 #include "Core/Common/Box.h"
 #include "Core/Common/VisitSchedule.h"
+#include "Core/Surface/ComponentWatch.h"
 #include "Core/Surface/SurfaceEditor.h"
 #include "Core/Surface/SurfaceState.h"
 
@@ -30,6 +31,7 @@ struct BlockVisit
   EditShare Share;
   /** Threads that may share in loops that write to their own vertex only, and read nothing such. */
   Executor* Idle = &OnThisThread();
+  LargeComponents Large; ///< At its begin.
 
   /** Some places of the range may be without a vertex. */
   int End() const { return this->Share.Room.Next; }
@@ -131,7 +133,9 @@ public:
   std::vector<int> NeighboursOf(int block) const;
   const Frame& GetFrame() const { return this->TheFrame; }
 
-  /** The sum of ofVertex(v) over the vertices of a block, in order of index, then over the blocks.
+  /**
+   * The sum of ofVertex(v) over the vertices of a block, in order of index, then over the blocks.
+   * It is 0 where there is no vertex.
    */
   double SumUp(const std::function<double(int v)>& ofVertex, Executor& executor) const;
 

@@ -4,7 +4,6 @@
 
 #include "Core/Common/Box.h"
 #include "Core/Common/DisjointSets.h"
-#include "Core/Common/ExactSum.h"
 #include "Core/Common/IndexedSurface.h"
 #include "Core/Common/Select.h"
 #include "Core/Common/Spans.h"
@@ -50,8 +49,8 @@ void JoinNeighbours(const SurfaceMesh& mesh, DisjointSets& joined, Executor& exe
 }
 
 /**
- * Labels alive vertices by the sets that edges join, from 0, in the order of their smallest ones.
- * O(vertices). @return by label: its smallest vertex
+ * Labels alive vertices by the sets that edges join, from 0, in the order of their smallest ones;
+ * the others get NoVertex. O(vertices). @return by label: its smallest vertex
  */
 std::vector<int> LabelConnected(
   const SurfaceMesh& mesh, LargeVector<int>& labels, Executor& executor)
@@ -74,10 +73,10 @@ std::vector<int> LabelConnected(
     {
       for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
       {
-        const int root = mesh.IsAlive(v) ? joined.Find(v) : v;
+        const int root = mesh.IsAlive(v) ? joined.Find(v) : NoVertex;
         if (v != root) // Others read the root's.
         {
-          labels[v] = labels[root];
+          labels[v] = root == NoVertex ? NoVertex : labels[root];
         }
       }
     });
@@ -102,7 +101,7 @@ struct ComponentRay
 };
 
 /** Faces of one label in a span. */
-using PartialVolume = std::pair<int, ExactSum>;
+using PartialVolume = std::pair<int, double>;
 
 /** Of the faces whose smallest vertex is in a range, by label. */
 std::vector<PartialVolume> VolumesOf(const SurfaceMesh& mesh, const LargeVector<int>& labels,
@@ -121,16 +120,16 @@ std::vector<PartialVolume> VolumesOf(const SurfaceMesh& mesh, const LargeVector<
         place = found.first->second;
         if (found.second)
         {
-          volumes.emplace_back(label, ExactSum());
+          volumes.emplace_back(label, 0.);
         }
       }
-      volumes[place].second.Add(SignedVolume::OfFace(mesh, VectorD(origins[label]), a, b, c));
+      volumes[place].second += SignedVolume::OfFace(mesh, VectorD(origins[label]), a, b, c);
     });
   return volumes;
 }
 
 /** The volumes of all labels; each seen from a place of its own. */
-std::vector<ExactSum> VolumesOfFaces(const SurfaceMesh& mesh, const LargeVector<int>& labels,
+std::vector<double> VolumesOfFaces(const SurfaceMesh& mesh, const LargeVector<int>& labels,
   const std::vector<Vector>& origins, Executor& executor)
 {
   const std::size_t n = mesh.Rings.size();
@@ -138,12 +137,12 @@ std::vector<ExactSum> VolumesOfFaces(const SurfaceMesh& mesh, const LargeVector<
   ForSpans(executor, n, CrossedSpan,
     [&](std::size_t b, std::size_t begin, std::size_t end)
     { spans[b] = VolumesOf(mesh, labels, origins, begin, end); });
-  std::vector<ExactSum> volumes(origins.size());
+  std::vector<double> volumes(origins.size(), 0.);
   for (const std::vector<PartialVolume>& ofSpan : spans)
   {
     for (const PartialVolume& volume : ofSpan)
     {
-      volumes[volume.first].Add(volume.second);
+      volumes[volume.first] += volume.second;
     }
   }
   return volumes;
@@ -158,12 +157,12 @@ std::vector<ComponentRay> CastRays(const SurfaceMesh& mesh, const LargeVector<in
   {
     places.push_back(mesh.Position[root]);
   }
-  const std::vector<ExactSum> volumes = VolumesOfFaces(mesh, labels, places, executor);
+  const std::vector<double> volumes = VolumesOfFaces(mesh, labels, places, executor);
   std::vector<ComponentRay> rays;
   for (std::size_t label = 0; label < roots.size(); ++label)
   {
     rays.push_back({ roots[label], static_cast<int>(label), PointAt(places[label]),
-      volumes[label].Value() < 0. });
+      volumes[label] < 0. });
   }
   std::sort(rays.begin(), rays.end(),
     [](const ComponentRay& a, const ComponentRay& b)
@@ -224,7 +223,17 @@ std::vector<int> FindInsideOut(const SurfaceMesh& mesh, const LargeVector<int>& 
 
 void SurfaceComponents::Label(SurfaceState& state, Executor& executor)
 {
-  this->Roots = LabelConnected(state.Mesh, state.Component.AsVector(), executor);
+  LargeVector<int>& labels = state.Component.AsVector();
+  this->Roots = LabelConnected(state.Mesh, labels, executor);
+  this->Sizes.assign(this->Roots.size(), 0);
+  for (const int label : labels)
+  {
+    if (label != NoVertex)
+    {
+      ++this->Sizes[label];
+    }
+  }
+  this->Edits = EditCounts();
 }
 
 bool SurfaceComponents::DeleteDegenerate(SurfaceState& state, Executor& executor)

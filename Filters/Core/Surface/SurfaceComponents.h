@@ -4,7 +4,7 @@
 #define volumicSurfaceComponents_h
 
 #include "Core/Common/Executor.h"
-#include "Core/Surface/SurfaceState.h"
+#include "Core/Surface/ComponentWatch.h"
 
 #include <vector>
 
@@ -26,6 +26,14 @@ public:
   /** How many there were when they were last labelled. */
   int NumberOfComponents() const { return static_cast<int>(this->Roots.size()); }
 
+  /** Add edits to those since the labelling. */
+  void Note(const EditCounts& edits) { this->Edits += edits; }
+  /** Return the components that are certain to be large after these edits. */
+  LargeComponents Large() const
+  {
+    return LargeComponents{ &this->Sizes, ComponentWatch::SmallSize + 1 }.After(this->Edits);
+  }
+
   /**
    * Deletes the small components that must go (ComponentWatch::DeleteDegenerate).
    * @return whether anything was deleted; labels are fresh then
@@ -43,6 +51,8 @@ public:
 
 private:
   std::vector<int> Roots; ///< By label: its smallest vertex.
+  std::vector<int> Sizes; ///< By label: its vertices at the labelling.
+  EditCounts Edits;       ///< Since the labelling.
 };
 }
 

@@ -149,8 +149,9 @@ public:
 
   VertexProperty<std::uint8_t> Marks{ this->Properties, 0, 0 }; ///< Bits of VertexMark.
 
-  VertexProperty<int> Component{ this->Properties, 0 }; ///< Label: ComponentWatch.
+  VertexProperty<int> Component{ this->Properties, Unlabelled }; ///< ComponentWatch.
 
+  static constexpr int Unlabelled = 1 << 30; ///< More than any label of SurfaceComponents.
   static constexpr float NotExamined = 1e6f; ///< More than any slack.
 
   /** Lets go of all that only iterations need: a reset must come before others. */
