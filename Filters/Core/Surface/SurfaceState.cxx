@@ -71,10 +71,22 @@ void SurfaceState::Prefetch(int first, int last) const
 }
 
 void SurfaceState::Reorder(
-  const std::vector<int>& order, LargeVector<Ring>& spare, Executor& executor)
+  const std::vector<int>& order, VertexSpares& spares, Executor& executor)
 {
-  this->Mesh.Reorder(order, spare, executor);
-  this->Properties.Reorder(order, spare, executor);
+  // What means nothing between visits lends its memory.
+  const auto swapSpares = [&]
+  {
+    this->PreviousPosition.AsVector().swap(spares.Spare<Vector>::Values);
+    this->Displacement.AsVector().swap(spares.Spare<float>::Values);
+    this->Marks.AsVector().swap(spares.Spare<std::uint8_t>::Values);
+  };
+  swapSpares();
+  this->Mesh.Reorder(order, spares, executor);
+  this->Properties.Reorder(order, spares, executor);
+  swapSpares();
+  this->PreviousPosition.Reset(order.size());
+  this->Displacement.Reset(order.size());
+  this->Marks.Reset(order.size());
   this->Grid.Clear();
   this->FillGrid(executor);
 }

@@ -164,8 +164,11 @@ public:
 
   /** What is known of the vertices of [first, last) will be read soon: see PrefetchLarge. */
   void Prefetch(int first, int last) const;
-  /** SurfaceMesh::Reorder, with all that is known of the vertices. */
-  void Reorder(const std::vector<int>& order, LargeVector<Ring>& spare, Executor& executor);
+  /**
+   * SurfaceMesh::Reorder, with all that is known of the vertices. Values that are only of use while
+   * a block is visited are reset: their memory is that of the copies.
+   */
+  void Reorder(const std::vector<int>& order, VertexSpares& spares, Executor& executor);
   /** Adds a closed surface. Its vertices follow the last ones, as after Reset(), with their shapes.
    */
   void Append(const IndexedSurface& surface, Executor& executor);
