@@ -35,7 +35,8 @@ void Enter(Evolution& e)
   e.History.BeginLevel(e.Task.Level);
 }
 
-Box BoxOfGrid(const Evolution& e)
+/** Lays an empty grid over the surface and the image. */
+void EmptyGrid(Evolution& e)
 {
   const SurfaceMesh& mesh = e.State.Mesh;
   const LevelImage& image = e.Task.Image;
@@ -52,9 +53,10 @@ Box BoxOfGrid(const Evolution& e)
         boxes[span] = boxes[span].With({ mesh.Position[v], mesh.Position[v] });
       }
     });
-  const Box all = std::accumulate(
-    boxes.begin(), boxes.end(), ofImage, [](const Box& a, const Box& b) { return a.With(b); });
-  return all.Grown(2 * e.State.Sizing.Largest());
+  const Box box = std::accumulate(boxes.begin(), boxes.end(), ofImage,
+    [](const Box& a, const Box& b) { return a.With(b); })
+                    .Grown(2 * e.State.Sizing.Largest());
+  e.State.Grid.Reset(box.Low, box.High, e.State.Sizing.SmallestReach());
 }
 
 LostPartCover FindParts(Evolution& e, PartKind kind, CoverShape shape, double from, double to)
@@ -252,8 +254,14 @@ void Renumber(Evolution& e)
 void LayOut(Evolution& e)
 {
   ForgetBlocks(e);
-  LayGrid(e);
-  MakeBlocks(e);
+  ResetState(e);
+  LayBlocks(e);
+}
+
+void LayBlocks(Evolution& e)
+{
+  EmptyGrid(e);
+  MakeBlocks(e); // Which fills the grid.
   Sweep sweep;
   sweep.IsAsked = false;
   SplitLongEdges(e, sweep);
@@ -262,9 +270,20 @@ void LayOut(Evolution& e)
 
 void LayGrid(Evolution& e)
 {
-  const Box box = BoxOfGrid(e);
-  e.State.Reset(box.Low, box.High, e.Threads);
+  ResetState(e);
+  FillGrid(e);
+}
+
+void ResetState(Evolution& e)
+{
+  e.State.Reset(e.Threads);
   e.State.UpdateShape(AliveVertices(e), e.Threads);
+}
+
+void FillGrid(Evolution& e)
+{
+  EmptyGrid(e);
+  e.State.FillGrid(e.Threads);
 }
 
 std::vector<int> AliveVertices(const Evolution& e)

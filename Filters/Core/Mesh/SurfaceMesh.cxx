@@ -313,16 +313,15 @@ int SurfaceMesh::Append(const IndexedSurface& surface, Executor& executor)
 
 void SurfaceMesh::Reorder(const std::vector<int>& order, Executor& executor)
 {
-  LargeVector<Ring> spare;
-  this->Reorder(order, spare, executor);
+  VertexSpares spares;
+  this->Reorder(order, spares, executor);
 }
 
-void SurfaceMesh::Reorder(
-  const std::vector<int>& order, LargeVector<Ring>& spare, Executor& executor)
+void SurfaceMesh::Reorder(const std::vector<int>& order, VertexSpares& spares, Executor& executor)
 {
   const std::size_t n = order.size();
   this->Empty = static_cast<int>(std::count(order.begin(), order.end(), NoVertex));
-  volumic::Reorder(this->Position, order, spare, executor);
+  volumic::Reorder(this->Position, order, spares, executor);
   LargeVector<int> place;
   MakeZeroed(place, this->Rings.size());
   ForSpans(executor, n, VertexSpan,
@@ -336,13 +335,15 @@ void SurfaceMesh::Reorder(
         }
       }
     });
-  spare.resize(n);
+  LargeVector<Ring>& rings = spares.Spare<Ring>::Values;
+  MakeRoom(rings, n);
+  rings.resize(n);
   ForSpans(executor, n, VertexSpan,
     [&](std::size_t, std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end; ++i)
       {
-        Ring& ring = spare[i];
+        Ring& ring = rings[i];
         ring.Count = 0;
         if (order[i] != NoVertex)
         {
@@ -353,7 +354,7 @@ void SurfaceMesh::Reorder(
         }
       }
     });
-  this->Rings.swap(spare);
+  this->Rings.swap(rings);
 }
 
 void SurfaceMesh::Remake(std::size_t n)

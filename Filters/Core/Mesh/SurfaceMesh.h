@@ -89,6 +89,16 @@ struct VertexRoom
 /** In an order of vertices: a place without one. */
 constexpr int NoVertex = -1;
 
+/** Memory for values of vertices that are reordered; arrays of other types go through the rings'. */
+template <typename T>
+struct Spare
+{
+  LargeVector<T> Values;
+};
+struct VertexSpares : Spare<Ring>, Spare<Vector>, Spare<float>, Spare<std::uint8_t>
+{
+};
+
 /**
  * A closed oriented triangulated mesh, possibly of several components.
  *
@@ -176,10 +186,9 @@ public:
   /**
    * Renumbers: vertex i of the result is order[i] of before, none where that is NoVertex; all alive
    * ones must occur once.
-   * @param spare any memory; taken along from one time to the next it need not be made again, which
-   *              would take longer than all that is copied
+   * @param spares kept from one call to the next, as new memory takes longer than all that is copied
    */
-  void Reorder(const std::vector<int>& order, LargeVector<Ring>& spare, Executor& executor);
+  void Reorder(const std::vector<int>& order, VertexSpares& spares, Executor& executor);
   void Reorder(const std::vector<int>& order, Executor& executor = OnThisThread());
 
   void Clear();
@@ -192,17 +201,20 @@ private:
 
 /**
  * Brings values of vertices into a new order, see SurfaceMesh::Reorder; where there is no vertex
- * they are zero. @param spare memory that they go through
+ * they are zero. The old values become the spare ones.
  */
 template <typename T>
-void Reorder(LargeVector<T>& values, const std::vector<int>& order, LargeVector<Ring>& spare,
+void Reorder(LargeVector<T>& values, const std::vector<int>& order, VertexSpares& spares,
   Executor& executor)
 {
-  static_assert(std::is_trivially_copyable_v<T> && sizeof(T) <= sizeof(Ring));
+  constexpr bool isSwapped = std::is_base_of_v<Spare<T>, VertexSpares>;
+  using OfSpare = std::conditional_t<isSwapped, T, Ring>;
+  static_assert(std::is_trivially_copyable_v<T> && sizeof(T) <= sizeof(OfSpare));
   constexpr std::size_t span = 16384;
   const std::size_t n = order.size();
+  LargeVector<OfSpare>& spare = static_cast<Spare<OfSpare>&>(spares).Values;
   MakeRoom(spare, n);
-  spare.resize(std::max(n, spare.size()));
+  spare.resize(n);
   T* const ordered = reinterpret_cast<T*>(spare.data());
   ForSpans(executor, n, span,
     [&](std::size_t, std::size_t begin, std::size_t end)
@@ -212,10 +224,14 @@ void Reorder(LargeVector<T>& values, const std::vector<int>& order, LargeVector<
         ordered[i] = order[i] != NoVertex ? values[order[i]] : T{};
       }
     });
-  values.resize(n);
-  ForSpans(executor, n, span,
-    [&](std::size_t, std::size_t begin, std::size_t end)
-    { std::copy(ordered + begin, ordered + end, values.data() + begin); });
+  if constexpr (isSwapped)
+  {
+    values.swap(spare);
+  }
+  else
+  {
+    values.assign(ordered, ordered + n);
+  }
 }
 
 /** The alive vertices along a Z-order (Morton) curve with cells of side `cell`, those of one by

@@ -220,7 +220,8 @@ void SurfaceBlocks::Reorder(Executor& executor, bool isNew)
       order[this->All[blocks[v]].Next++] = static_cast<int>(v);
     }
   }
-  this->State.Reorder(order, this->Spare, executor);
+  blocks = {};
+  this->State.Reorder(order, this->Spares, executor);
 }
 
 void SurfaceBlocks::Prepare(Executor& executor)

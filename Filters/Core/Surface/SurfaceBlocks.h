@@ -156,7 +156,7 @@ private:
   SurfaceState& State;
   Frame TheFrame;
   std::vector<OfBlock> All;
-  LargeVector<Ring> Spare; ///< See SurfaceMesh::Reorder.
+  VertexSpares Spares; ///< See SurfaceMesh::Reorder.
   std::unique_ptr<VisitSchedule> Visits;
   mutable std::mutex Closing; ///< Held while a visit changes what all visits share.
 };

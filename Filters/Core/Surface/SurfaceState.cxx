@@ -18,20 +18,11 @@ constexpr std::size_t ShapeGrain = 128;
 constexpr std::size_t AliveGrain = 1 << 14;
 }
 
-void SurfaceState::Reset(const Vector& low, const Vector& high)
-{
-  SequentialExecutor thread;
-  this->Reset(low, high, thread);
-}
-
-void SurfaceState::Reset(const Vector& low, const Vector& high, Executor& executor)
+void SurfaceState::Reset(Executor& executor)
 {
   this->Properties.Reset(this->Mesh.Rings.size(), executor);
   this->PreviousPosition.Assign(this->Mesh.Position);
   this->Anchor.Assign(this->Mesh.Position);
-  this->Grid.Reset(low, high, this->Sizing.SmallestReach());
-  this->Grid.InsertAll(
-    this->Mesh.Position, 0, [this](int v) { return this->Mesh.IsAlive(v); }, executor);
   executor.For(static_cast<std::size_t>(this->Mesh.Size()), AliveGrain,
     [this](std::size_t begin, std::size_t end)
     {
@@ -41,6 +32,20 @@ void SurfaceState::Reset(const Vector& low, const Vector& high, Executor& execut
       }
     });
   this->EulerCharacteristic = this->Mesh.CountEulerCharacteristic(executor);
+}
+
+void SurfaceState::FillGrid(Executor& executor)
+{
+  this->Grid.InsertAll(
+    this->Mesh.Position, 0, [this](int v) { return this->Mesh.IsAlive(v); }, executor);
+}
+
+void SurfaceState::Reset(const Vector& low, const Vector& high)
+{
+  SequentialExecutor thread;
+  this->Reset(thread);
+  this->Grid.Reset(low, high, this->Sizing.SmallestReach());
+  this->FillGrid(thread);
 }
 
 void SurfaceState::ForgetMotion()
@@ -66,13 +71,24 @@ void SurfaceState::Prefetch(int first, int last) const
 }
 
 void SurfaceState::Reorder(
-  const std::vector<int>& order, LargeVector<Ring>& spare, Executor& executor)
+  const std::vector<int>& order, VertexSpares& spares, Executor& executor)
 {
-  this->Mesh.Reorder(order, spare, executor);
-  this->Properties.Reorder(order, spare, executor);
+  // What means nothing between visits lends its memory.
+  const auto swapSpares = [&]
+  {
+    this->PreviousPosition.AsVector().swap(spares.Spare<Vector>::Values);
+    this->Displacement.AsVector().swap(spares.Spare<float>::Values);
+    this->Marks.AsVector().swap(spares.Spare<std::uint8_t>::Values);
+  };
+  swapSpares();
+  this->Mesh.Reorder(order, spares, executor);
+  this->Properties.Reorder(order, spares, executor);
+  swapSpares();
+  this->PreviousPosition.Reset(order.size());
+  this->Displacement.Reset(order.size());
+  this->Marks.Reset(order.size());
   this->Grid.Clear();
-  this->Grid.InsertAll(
-    this->Mesh.Position, 0, [&order](int v) { return order[v] != NoVertex; }, executor);
+  this->FillGrid(executor);
 }
 
 void SurfaceState::Append(const IndexedSurface& surface, Executor& executor)

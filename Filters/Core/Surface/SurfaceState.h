@@ -156,14 +156,20 @@ public:
 
   /** Lets go of all that only iterations need: a reset must come before others. */
   void ForgetMotion();
-  /** Resets all properties to those of a mesh that is new, lays the grid over the box. */
-  void Reset(const Vector& low, const Vector& high, Executor& executor);
+  /** Resets all properties to those of a mesh that is new; the grid is the caller's to lay. */
+  void Reset(Executor& executor);
+  /** The same, and lays the grid over the box. */
   void Reset(const Vector& low, const Vector& high);
+  /** Inserts all vertices into an empty grid. */
+  void FillGrid(Executor& executor);
 
   /** What is known of the vertices of [first, last) will be read soon: see PrefetchLarge. */
   void Prefetch(int first, int last) const;
-  /** SurfaceMesh::Reorder, with all that is known of the vertices. */
-  void Reorder(const std::vector<int>& order, LargeVector<Ring>& spare, Executor& executor);
+  /**
+   * SurfaceMesh::Reorder, with all that is known of the vertices. Values that are only of use while
+   * a block is visited are reset: their memory is that of the copies.
+   */
+  void Reorder(const std::vector<int>& order, VertexSpares& spares, Executor& executor);
   /** Adds a closed surface. Its vertices follow the last ones, as after Reset(), with their shapes.
    */
   void Append(const IndexedSurface& surface, Executor& executor);

@@ -28,7 +28,7 @@ public:
   virtual void Forget() = 0;
   /** See SurfaceMesh::Reorder; where there is no vertex the value is zero. */
   virtual void Reorder(
-    const std::vector<int>& order, LargeVector<Ring>& spare, Executor& executor) = 0;
+    const std::vector<int>& order, VertexSpares& spares, Executor& executor) = 0;
   /** A value for a new vertex, `v`, which comes of another one. */
   virtual void Add(std::size_t v, std::size_t parent) = 0;
   /** The values of [first, last), which there are, will be read soon: see PrefetchLarge. */
@@ -59,11 +59,11 @@ public:
       property->Resize(n);
     }
   }
-  void Reorder(const std::vector<int>& order, LargeVector<Ring>& spare, Executor& executor)
+  void Reorder(const std::vector<int>& order, VertexSpares& spares, Executor& executor)
   {
     for (VertexPropertyBase* property : this->All)
     {
-      property->Reorder(order, spare, executor);
+      property->Reorder(order, spares, executor);
     }
   }
   void Forget()
@@ -127,9 +127,12 @@ public:
   }
   void Resize(std::size_t n) override { Grow(this->Values, n, this->Initial); }
   void Forget() override { this->Values = {}; }
-  void Reorder(const std::vector<int>& order, LargeVector<Ring>& spare, Executor& executor) override
+  void Reorder(const std::vector<int>& order, VertexSpares& spares, Executor& executor) override
   {
-    volumic::Reorder(this->Values, order, spare, executor);
+    if (!this->Values.empty())
+    {
+      volumic::Reorder(this->Values, order, spares, executor);
+    }
   }
   void Prefetch(std::size_t first, std::size_t last) const override
   {
