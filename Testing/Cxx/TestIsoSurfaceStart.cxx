@@ -28,20 +28,3 @@ TEST(StartIsoSurface, IsTheStartFromAGivenSurfaceWithoutItsTests)
   EXPECT_EQ(known.Result().Triangles, tested.Result().Triangles);
   EXPECT_THROW(known.StartIsoSurface(volume.Image, 0, IndexedSurface()), std::invalid_argument);
 }
-
-TEST(StartIsoSurface, WithEdgesThatAreTooLongKeepsItsPoints)
-{
-  // As where voxels are long: a lattice in its place would have other points, and costs more.
-  const TestVolume volume = DistanceToBall(9.2);
-  const IndexedSurface coarse = DividedIcosahedron(Middle, 9.2, 5.);
-  TestEvolution evolution(SurfaceOptions(), Threads, Silent);
-  evolution.StartIsoSurface(volume.Image, 0, coarse);
-  const SurfaceResult start = evolution.Result();
-  EXPECT_GT(start.Points.size(), 2 * coarse.Points.size());
-  for (const Point& p : coarse.Points)
-  {
-    const bool isThere = std::any_of(start.Points.begin(), start.Points.end(), [&p](const Point& q)
-      { return Distance(p[0], p[1], p[2], q[0], q[1], q[2]) < 1e-4; });
-    EXPECT_TRUE(isThere) << p[0] << ' ' << p[1] << ' ' << p[2];
-  }
-}

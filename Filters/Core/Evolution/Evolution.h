@@ -74,8 +74,8 @@ std::vector<int> AliveVertices(const Evolution& evolution);
 
 // GivenSurface.cxx: makes a given surface ready.
 
-/** @param isSound it has been made well: its edges need not be legal already */
-void TakeGiven(Evolution& evolution, const IndexedSurface& surface, bool isSound);
+/** Whatever its triangles. */
+void TakeGiven(Evolution& evolution, const IndexedSurface& surface);
 /** Another mesh of it. */
 void TakeRemeshed(Evolution& evolution, const IndexedSurface& surface);
 

@@ -144,7 +144,7 @@ void Start(Evolution& e, const SurfaceStart& start)
   const bool isEnclosed = e.Lost.Enclosed > 0 || (start.From == Kind::EnclosingParts && e.Stopped);
   if (isGiven)
   {
-    TakeGiven(e, start.Surface, isIso);
+    TakeGiven(e, start.Surface);
   }
   else if (start.From == Kind::Seeds)
   {
@@ -152,7 +152,7 @@ void Start(Evolution& e, const SurfaceStart& start)
   }
   else if (!isEnclosed)
   {
-    e.State.Mesh.Append(EnclosingSurface(e.Task.Image, e.State.Sizing.OfLevel()));
+    e.State.Mesh.Append(EnclosingSurface(e.Task.Image, e.State.Sizing.OfLevel(), e.Threads));
     Renumber(e);
     e.GoOn(Monitor::Activity::Starting, 1.);
   }

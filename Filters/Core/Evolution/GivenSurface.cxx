@@ -4,10 +4,8 @@
 #include "Core/Common/Refuse.h"
 #include "Core/Evolution/Evolution.h"
 #include "Core/Evolution/InitialSurface.h"
-#include "Core/Mesh/LatticeSurface.h"
-#include "Core/Mesh/LongEdges.h"
-#include "Core/Mesh/ObliqueRotation.h"
-#include "Core/Mesh/RingRelief.h"
+#include "Core/Evolution/LatticeSurface.h"
+#include "Core/Mesh/LegalEdges.h"
 #include "Core/Mesh/SelfIntersections.h"
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "Core/Surface/NewFaces.h"
@@ -31,10 +29,11 @@ constexpr int MaximumPerCell = 60;
 /** What edges may be over their bound by: positions are rounded to float. */
 constexpr double Rounding = 1.0001;
 /** Pitches of the lattices that are tried, in delta, the coarsest first. */
-constexpr double Pitches[ObliqueRotation::Count] = { 1.5, 1.4, 1.25, 1.1, 0.8 };
-/** Of large surfaces: the coarsest that still shows parts of two edges; in delta. */
-constexpr double CoarsePitch = 2.;
-/** Area from which on a surface is large, in delta^2. */
+constexpr double Pitches[] = { 1.6, 1.5, 1.3, 1.1, 0.8 };
+/** Edges of the remeshed surface: shorter ones are collapsed, longer ones halved; in delta. */
+constexpr float ShortestEdge = 1.3f;
+constexpr float LongestEdge = 2.45f;
+/** Area from which on a surface is large, in delta^2: only the first pitch is tried. */
 constexpr double LargeArea = 100000.;
 /** Share of the volume that the remeshed surface must still have. */
 constexpr double LeastShareOfVolume = 0.5;
@@ -153,16 +152,14 @@ IndexedSurface Remesh(Evolution& e, const IndexedSurface& surface)
 {
   // What is thin, or thins out to an edge, may be torn on one lattice and not on another: take the
   // mesh that has the components and tunnels of what was given, or else the nearest to it.
-  // Large surfaces get a coarse one at once, for the sake of time.
   const double delta = e.State.Sizing.OfLevel();
   const Topology wanted = Topology::Of(surface);
   const bool isLarge = wanted.Area > LargeArea * delta * delta;
   IndexedSurface best;
   int least = std::numeric_limits<int>::max();
-  for (int attempt = 0; attempt < ObliqueRotation::Count && least > 0; ++attempt)
+  for (const double pitch : Pitches)
   {
-    const double pitch = delta * (isLarge ? CoarsePitch : Pitches[attempt]);
-    IndexedSurface mesh = RemeshOnLattice(surface, pitch, attempt, e.Threads,
+    IndexedSurface mesh = RemeshOnLattice(surface, pitch * delta, e.Threads,
       e.QuestionOf(Monitor::Activity::Starting, 0., ShareOfRemeshing));
     if (e.Stopped)
     {
@@ -176,12 +173,14 @@ IndexedSurface Remesh(Evolution& e, const IndexedSurface& surface)
       least = difference;
       best = std::move(mesh);
     }
-    if (isLarge)
+    if (isLarge || least == 0)
     {
       break;
     }
   }
-  return best;
+  IndexedSurface legal =
+    WithLegalEdges(best, ShortestEdge * delta, LongestEdge * delta, e.Threads);
+  return CountSelfIntersections(legal, 1) == 0 ? legal : best;
 }
 
 void Begin(Evolution& e, const IndexedSurface& surface)
@@ -215,25 +214,16 @@ void Adapt(Evolution& e)
 }
 }
 
-void TakeGiven(Evolution& e, const IndexedSurface& given, bool isSound)
+void TakeGiven(Evolution& e, const IndexedSurface& given)
 {
-  IndexedSurface surface = WithoutUnusedPoints(given);
-  // A mesh that is near to the constraints is brought within them as it is, by the edits of an
-  // iteration. They rely on edges that are not too long and rings that have room; where long edges,
-  // slivers or fans deny them that, the same surface gets another mesh first. An iso-surface, whose
-  // edges are as long as voxels, needs no other than its own, divided.
+  const IndexedSurface surface = WithoutUnusedPoints(given);
+  // The edits of an iteration bring a mesh that is near to the constraints within them. They need
+  // edges that are not too long and rings with room. Long edges, slivers and fans are remeshed first.
   const SurfaceState& s = e.State;
   const float delta = s.Sizing.OfLevel();
-  const double longest = SizingField::LongestEdgeInDelta * delta;
-  EdgeLengths lengths = LengthsOf(surface);
-  if (isSound && lengths.Longest > longest)
-  {
-    CheckNumberOfVertices(ComputeFeatures(surface).Area, e.Task.Image, delta);
-    HalveLongEdges(surface, longest);
-    lengths = LengthsOf(surface);
-  }
-  if (lengths.Longest <= longest &&
-    (isSound ? RelieveRings(surface) : FitsRings(surface) && !IsTooDense(surface, delta)))
+  const EdgeLengths lengths = LengthsOf(surface);
+  if (lengths.Longest <= SizingField::LongestEdgeInDelta * delta && FitsRings(surface) &&
+    !IsTooDense(surface, delta))
   {
     Begin(e, surface);
     if (Proximity::FindIntersections(e.State, AliveVertices(e), e.Threads).empty())
@@ -243,8 +233,7 @@ void TakeGiven(Evolution& e, const IndexedSurface& given, bool isSound)
         Adapt(e);
       }
       // Edits of what does not intersect itself are verified.
-      if (e.Stopped || (isSound ? CountIntersecting(s, e.Threads) == 0
-                                : IsSound(s.Mesh.ToIndexed(), delta)))
+      if (e.Stopped || IsSound(s.Mesh.ToIndexed(), delta))
       {
         return;
       }
@@ -272,7 +261,11 @@ void TakeRemeshed(Evolution& e, const IndexedSurface& surface)
     }
   }
   Begin(e, fine);
-  Adapt(e);
+  const EdgeLengths lengths = LengthsOf(fine);
+  if (lengths.Shortest < delta || lengths.Longest > SizingField::LongestEdgeInDelta * delta)
+  {
+    Adapt(e);
+  }
   if (!e.Stopped && s.Mesh.NumberOfVertices() == 0)
   {
     Refuse("The initial surface is too small for this level, whose triangles have edges of about ",

@@ -3,6 +3,7 @@
 #ifndef volumicInitialSurface_h
 #define volumicInitialSurface_h
 
+#include "Core/Common/Executor.h"
 #include "Core/Image/Field.h"
 #include "Core/Image/LevelImage.h"
 #include "Core/Mesh/SurfaceMesh.h"
@@ -24,7 +25,7 @@ IndexedSurface DividedIcosahedron(const Point& centre, double radius, double mea
  * have nothing to do before the forces have. It is near the image, and has a short way to go.
  * @throws std::invalid_argument as CheckNumberOfVertices.
  */
-IndexedSurface EnclosingSurface(const LevelImage& image, double delta);
+IndexedSurface EnclosingSurface(const LevelImage& image, double delta, Executor& executor);
 
 /** Refuses a surface of an area (workspace) that would have too many vertices for any memory. */
 void CheckNumberOfVertices(double area, const LevelImage& image, double delta);
