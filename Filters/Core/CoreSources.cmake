@@ -33,12 +33,12 @@ set(volumic_core_sources
   Labels/LabelSides.cxx
   Labels/MapBeyond.cxx
   Labels/SmallParts.cxx
-  Mesh/CellSurface.cxx
   Mesh/CycleCut.cxx
   Mesh/Division.cxx
   Mesh/EdgeCollapse.cxx
   Mesh/EdgeFlip.cxx
   Mesh/EdgeSplit.cxx
+  Mesh/LegalEdges.cxx
   Mesh/RowCrossing.cxx
   Mesh/SelfIntersections.cxx
   Mesh/StarMerge.cxx
@@ -52,6 +52,7 @@ set(volumic_core_sources
   Mesh/VertexGrid.cxx
   Mesh/VertexRemoval.cxx
   Interfaces/CellPattern.cxx
+  Interfaces/DistanceLattice.cxx
   Interfaces/DualCells.cxx
   Interfaces/DualMesh.cxx
   Interfaces/FaceCubes.cxx
@@ -160,12 +161,12 @@ set(volumic_core_headers
   Labels/LabelMap.h
   Labels/LabelSides.h
   Labels/SmallParts.h
-  Mesh/CellSurface.h
   Mesh/CycleCut.h
   Mesh/Division.h
   Mesh/EdgeCollapse.h
   Mesh/EdgeFlip.h
   Mesh/EdgeSplit.h
+  Mesh/LegalEdges.h
   Mesh/LimitedSizes.h
   Mesh/ObliqueRotation.h
   Mesh/RowCrossing.h
@@ -181,6 +182,7 @@ set(volumic_core_headers
   Mesh/VertexGrid.h
   Mesh/VertexRemoval.h
   Interfaces/CellPattern.h
+  Interfaces/DistanceLattice.h
   Interfaces/DualCells.h
   Interfaces/DualMesh.h
   Interfaces/FaceCubes.h

@@ -5,12 +5,15 @@
 #include "Core/Common/Spans.h"
 #include "Core/Evolution/LostVoxels.h"
 #include "Core/Image/VoxelNumbers.h"
-#include "Core/Mesh/CellSurface.h"
+#include "Core/Interfaces/DistanceLattice.h"
+#include "Core/Mesh/LegalEdges.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -19,16 +22,12 @@ namespace volumic
 namespace
 {
 /**
- * The longest voxel that is looked at by its middle alone, in units of the level: cells of the
- * cover are longer.
+ * The longest voxel that is looked at by its middle alone, in units of the level.
  */
 constexpr double LongestSampled = 1.5;
-/** Spans of runs between two questions whether to go on. */
-constexpr std::size_t SpansPerBatch = 32;
-
 /** Shares of the whole work that are done after its steps, as the questions tell them. */
 constexpr double AfterLost = 0.7;
-constexpr double AfterCells = 0.9;
+constexpr double AfterDistances = 0.9;
 
 /** The places that stand for a voxel. */
 class VoxelSamples
@@ -69,54 +68,18 @@ private:
   std::array<int, 3> Samples; ///< Of a voxel along each axis.
 };
 
-/**
- * Edge length of the cells, in delta. Edges are then 1.7 and 2.4 delta long, within eq. (1), and
- * corners that no edge joins keep 1.7 delta, over lambda.
- */
-constexpr double CellEdge = 1.7;
-
-/** A cell that holds voxels of a part. */
-struct PartCell
-{
-  CellLattice::Cell Cell;
-  int Part;
-  bool operator==(const PartCell& other) const
-  {
-    return this->Cell == other.Cell && this->Part == other.Part;
-  }
-  bool operator<(const PartCell& other) const
-  {
-    return this->Cell != other.Cell ? this->Cell < other.Cell : this->Part < other.Part;
-  }
-};
-
-/** Those of the runs from one to another, each once. */
-std::vector<PartCell> CellsOf(const std::vector<VoxelRun>& runs, std::size_t begin,
-  std::size_t end, const VoxelNumbers& numbers, const VoxelSamples& samples,
-  const CellLattice& lattice)
-{
-  std::vector<PartCell> cells;
-  for (std::size_t r = begin; r < end; ++r)
-  {
-    const VoxelRun& run = runs[r];
-    std::array<int, 3> voxel = numbers.PlaceOf(run.First);
-    for (int i = 0; i < run.Length; ++i, ++voxel[0])
-    {
-      samples.VisitAll(voxel,
-        [&](const Point& place)
-        {
-          const PartCell cell = { lattice.CellAt(place), run.Part };
-          if (cells.empty() || !(cells.back() == cell))
-          {
-            cells.push_back(cell);
-          }
-        });
-    }
-  }
-  std::sort(cells.begin(), cells.end());
-  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
-  return cells;
-}
+/** Distance of the points of the cover's lattice, in delta. */
+constexpr double Pitch = 1.6;
+/** Lengths of the cover's edges, in delta: shorter ones are collapsed, longer ones halved. */
+constexpr float ShortestEdge = 1.3f;
+constexpr float LongestEdge = 2.45f;
+/** How far the cover lies from a lost voxel at most, and beyond its isopotential, in units. */
+constexpr double Farthest = 1.4;
+constexpr double Margin = 0.4;
+/** A voxel that is so deep inside, in units, is nearest to no point outside. */
+constexpr double Deep = 1.;
+/** How far it lies at least from the vertices of the surface that is there, in delta. */
+constexpr float Clear = 1.9f;
 
 /** Two triangles that intersect, one of them about v, have corners nearer than this. */
 float ReachAbout(const SurfaceState& state, int v)
@@ -140,99 +103,221 @@ float ReachAbout(const SurfaceState& state, int v)
     std::sqrt(squared) * (SizingField::ReachInDelta / SizingField::LongestEdgeInDelta));
 }
 
-/** Whether no triangle of the surface can reach the cell. */
-bool IsClearOfSurface(
-  const SurfaceState& state, const CellLattice& lattice, const CellLattice::Cell& cell)
+/** The cover of lost voxels: where the distance to the nearest one, less a radius, is zero. */
+class CoverMaker
 {
-  const auto hasWithin = [&state](const Point& p, float more)
+public:
+  CoverMaker(const SurfaceState& state, const Field& field, const LostVoxels& lost)
+    : State(state)
+    , TheField(field)
+    , Lost(lost)
+    , Numbers(field.Image().Size)
+    , Samples(field.Image())
+    , Unit(field.Image().Unit)
+    , Lattice(this->BoxOfVoxels(), Pitch * state.Sizing.OfLevel())
+  {
+  }
+
+  /** @param covered how many parts it has @return empty where it is asked to stop */
+  IndexedSurface Make(Executor& executor, int& covered, const ProgressQuestion& goOn)
+  {
+    const auto layers = static_cast<std::size_t>(this->Lattice.NumberOfLayers());
+    for (std::size_t first = 0; first < layers; first += LayersPerBatch)
+    {
+      const std::size_t count = std::min(LayersPerBatch, layers - first);
+      ForSpans(executor, count, 1,
+        [&](std::size_t layer, std::size_t, std::size_t)
+        {
+          this->Measure(static_cast<int>(first + layer));
+          this->KeepClear(static_cast<int>(first + layer));
+        });
+      if (!goOn(static_cast<double>(first + count) / static_cast<double>(layers)))
+      {
+        return {};
+      }
+    }
+    const auto isClear = [this](const Point& place)
+    { return this->NearestRoom(place) > 0.f; };
+    covered = this->TakeSmallParts(isClear);
+    this->Lattice.MakeWellComposed(isClear);
+    const float delta = this->State.Sizing.OfLevel();
+    return WithLegalEdges(
+      this->Lattice.Boundary(executor), ShortestEdge * delta, LongestEdge * delta, executor);
+  }
+
+private:
+  /** Layers of bricks between two questions whether to go on. */
+  static constexpr std::size_t LayersPerBatch = 16;
+
+  /** Calls visit(voxel, part) for those of some runs. */
+  template <typename Visitor>
+  void ForVoxels(std::size_t begin, std::size_t end, const Visitor& visit) const
+  {
+    for (std::size_t r = begin; r < end; ++r)
+    {
+      const VoxelRun& run = this->Lost.Runs[r];
+      std::array<int, 3> voxel = this->Numbers.PlaceOf(run.First);
+      for (int i = 0; i < run.Length; ++i, ++voxel[0])
+      {
+        visit(voxel, run.Part);
+      }
+    }
+  }
+
+  Bounds BoxOfVoxels() const
+  {
+    Bounds box;
+    this->ForVoxels(0, this->Lost.Runs.size(),
+      [&](const std::array<int, 3>& voxel, int)
+      { this->Samples.VisitAll(voxel, [&box](const Point& p) { box.Add(p); }); });
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      box.Low[axis] -= Farthest * this->Unit;
+      box.High[axis] += Farthest * this->Unit;
+    }
+    return box;
+  }
+
+  /** The runs whose voxels may be as near to a layer along z. */
+  std::array<std::size_t, 2> RunsNear(double low, double high) const
+  {
+    const double step = this->TheField.Image().Step[2];
+    const auto firstOf = [&](double z)
+    {
+      const auto slice = static_cast<std::int64_t>(std::max(0., std::floor(z / step)));
+      const std::int64_t number = slice * this->Numbers.Stride(2);
+      return static_cast<std::size_t>(
+        std::lower_bound(this->Lost.Runs.begin(), this->Lost.Runs.end(), number,
+          [](const VoxelRun& run, std::int64_t least) { return run.First < least; }) -
+        this->Lost.Runs.begin());
+    };
+    return { firstOf(low - step), firstOf(high + 2. * step) };
+  }
+
+  /** Writes the distances of the points in a layer of bricks. */
+  void Measure(int layer)
+  {
+    const int firstLayer = layer * DistanceLattice::BrickSide;
+    const int endLayer =
+      std::min(firstLayer + DistanceLattice::BrickSide, this->Lattice.Size()[2]);
+    const double reach = Farthest * this->Unit + this->Lattice.Pitch();
+    const auto [begin, end] = this->RunsNear(this->Lattice.PlaceOf(0, 0, firstLayer)[2] - reach,
+      this->Lattice.PlaceOf(0, 0, endLayer)[2] + reach);
+    const double slope = this->TheField.TypicalSlope();
+    this->ForVoxels(begin, end,
+      [&](const std::array<int, 3>& voxel, int)
+      {
+        const double depth =
+          std::abs(this->TheField.Voxel(voxel[0], voxel[1], voxel[2])) / slope / this->Unit;
+        const double radius = this->Unit * std::min(Farthest, std::min(depth, 1.) + Margin);
+        const double far = radius + (depth < Deep ? this->Lattice.Pitch() : 0.);
+        this->Samples.VisitAll(voxel,
+          [&](const Point& centre) { this->AddBall(centre, radius, far, firstLayer, endLayer); });
+      });
+  }
+
+  void AddBall(const Point& centre, double radius, double far, int firstLayer, int endLayer)
+  {
+    std::array<int, 3> from;
+    std::array<int, 3> to;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      from[axis] = this->Lattice.FirstFrom(centre[axis] - far, axis);
+      to[axis] = this->Lattice.FirstFrom(centre[axis] + far, axis);
+    }
+    for (int k = std::max(from[2], firstLayer); k < std::min(to[2], endLayer); ++k)
+    {
+      for (int j = from[1]; j < to[1]; ++j)
+      {
+        for (int i = from[0]; i < to[0]; ++i)
+        {
+          const Point p = this->Lattice.PlaceOf(i, j, k);
+          const double squared = (p[0] - centre[0]) * (p[0] - centre[0]) +
+            (p[1] - centre[1]) * (p[1] - centre[1]) + (p[2] - centre[2]) * (p[2] - centre[2]);
+          if (squared < far * far)
+          {
+            float& distance = this->Lattice.Write(i, j, k);
+            distance =
+              std::min(distance, static_cast<float>(std::sqrt(squared) - radius));
+          }
+        }
+      }
+    }
+  }
+
+  /** How much further from the surface that is there a place is than the cover may be. */
+  float NearestRoom(const Point& p) const
   {
     const Vector place(
       static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2]));
-    bool found = false;
-    state.Grid.Visit(place, state.Sizing.LargestReach() + more,
+    const SizingField& sizing = this->State.Sizing;
+    const float delta = sizing.OfLevel();
+    const float more = Clear * delta - sizing.SmallestReach();
+    float room = static_cast<float>(0.5 * this->Lattice.Pitch());
+    this->State.Grid.Visit(place, sizing.LargestReach() + more + room,
       [&](int v)
       {
-        const float reach = ReachAbout(state, v) + more;
-        found = found || SquaredDistance(place, state.Mesh.Position[v]) <= reach * reach;
+        const float far = Length(place - this->State.Mesh.Position[v]);
+        room = std::min(room, far - ReachAbout(this->State, v) - more);
       });
-    return found;
-  };
-  const float radius =
-    static_cast<float>(CellLattice::Circumradius * CellEdge) * state.Sizing.OfLevel();
-  if (!hasWithin(lattice.Centre(cell), radius))
-  {
-    return true;
+    return room;
   }
-  for (int i = 0; i < CellLattice::NumberOfCorners; ++i)
-  {
-    if (hasWithin(lattice.Corner(cell, i), 0.f))
-    {
-      return false;
-    }
-  }
-  return true;
-}
 
-/** Leaves those that no triangle of the surface can reach. */
-void LeaveClear(
-  std::vector<PartCell>& cells, const SurfaceState& state, const CellLattice& lattice)
-{
-  const auto isTaken = [&](const PartCell& cell)
-  { return !IsClearOfSurface(state, lattice, cell.Cell); };
-  cells.erase(std::remove_if(cells.begin(), cells.end(), isTaken), cells.end());
-}
-
-/**
- * The cells that hold lost voxels and are clear of the surface. Asked to stop it returns none.
- */
-std::vector<PartCell> FindPartCells(const SurfaceState& state, const Field& field,
-  const LostVoxels& lost, const CellLattice& lattice, Executor& executor,
-  const ProgressQuestion& goOn)
-{
-  const VoxelNumbers numbers(field.Image().Size);
-  const VoxelSamples samples(field.Image());
-  const std::size_t n = lost.Runs.size();
-  constexpr std::size_t batch = SpansPerBatch * LostVoxels::RunSpan;
-  std::vector<std::vector<PartCell>> spans((n + LostVoxels::RunSpan - 1) / LostVoxels::RunSpan);
-  for (std::size_t first = 0; first < n; first += batch)
+  /** Has distances be at least what keeps the cover clear of the surface that is there. */
+  void KeepClear(int layer)
   {
-    const std::size_t count = std::min(batch, n - first);
-    ForSpans(executor, count, LostVoxels::RunSpan,
-      [&](std::size_t span, std::size_t begin, std::size_t end)
+    const float far = static_cast<float>(0.9 * this->Lattice.Pitch());
+    this->Lattice.ForPoints(layer,
+      [&](const LatticePoint& p, float& distance)
       {
-        std::vector<PartCell>& cells = spans[first / LostVoxels::RunSpan + span];
-        cells = CellsOf(lost.Runs, first + begin, first + end, numbers, samples, lattice);
-        LeaveClear(cells, state, lattice);
+        if (distance < far)
+        {
+          distance =
+            std::max(distance, -this->NearestRoom(this->Lattice.PlaceOf(p[0], p[1], p[2])));
+        }
       });
-    if (!goOn(static_cast<double>(first + count) / static_cast<double>(n)))
-    {
-      return {};
-    }
   }
-  std::vector<PartCell> all = Joined(executor, spans);
-  SortInSpans(executor, all);
-  all.erase(std::unique(all.begin(), all.end()), all.end());
-  return all;
-}
 
-/** Each cell once. @param cells sorted @param parts how many parts have one */
-std::vector<CellLattice::Cell> CellsOfParts(
-  const std::vector<PartCell>& cells, int numberOfParts, int& parts)
-{
-  std::vector<char> isCovered(static_cast<std::size_t>(numberOfParts), 0);
-  std::vector<CellLattice::Cell> all;
-  for (const PartCell& cell : cells)
+  /** Parts that have no point of the lattice get the nearest to one of theirs. @return how many
+   * parts have one */
+  int TakeSmallParts(const std::function<bool(const Point& place)>& isClear)
   {
-    isCovered[static_cast<std::size_t>(cell.Part)] = 1;
-    if (all.empty() || all.back() != cell.Cell)
+    std::vector<char> isCovered(static_cast<std::size_t>(this->Lost.Parts), 0);
+    const auto forPlaces = [&](const auto& visit)
     {
-      all.push_back(cell.Cell);
-    }
+      this->ForVoxels(0, this->Lost.Runs.size(),
+        [&](const std::array<int, 3>& voxel, int part)
+        {
+          if (!isCovered[static_cast<std::size_t>(part)])
+          {
+            this->Samples.VisitAll(voxel,
+              [&](const Point& p)
+              { visit(this->Lattice.NearestTo(p), isCovered[static_cast<std::size_t>(part)]); });
+          }
+        });
+    };
+    forPlaces([this](const LatticePoint& p, char& isPartCovered)
+      { isPartCovered |= this->Lattice.IsInside(p[0], p[1], p[2]) ? 1 : 0; });
+    forPlaces(
+      [&](const LatticePoint& p, char& isPartCovered)
+      {
+        if (isClear(this->Lattice.PlaceOf(p[0], p[1], p[2])))
+        {
+          this->Lattice.Write(p[0], p[1], p[2]) = -0.5f * static_cast<float>(Margin * this->Unit);
+          isPartCovered = 1;
+        }
+      });
+    return static_cast<int>(std::count(isCovered.begin(), isCovered.end(), 1));
   }
-  parts = static_cast<int>(std::count(isCovered.begin(), isCovered.end(), 1));
-  return all;
-}
 
+  const SurfaceState& State;
+  const Field& TheField;
+  const LostVoxels& Lost;
+  VoxelNumbers Numbers;
+  VoxelSamples Samples;
+  double Unit;
+  DistanceLattice Lattice;
+};
 }
 
 LostPartCover FindLostParts(const SurfaceState& state, const Field& field, PartKind kind,
@@ -249,19 +334,20 @@ LostPartCover FindLostParts(const SurfaceState& state, const Field& field, PartK
   LostPartCover result;
   result.Found = lost.Parts;
   result.Boundary.Add(lost, field, kind, executor);
-  const CellLattice lattice(CellEdge * state.Sizing.OfLevel());
   bool goesOn = true;
-  const std::vector<PartCell> cells = FindPartCells(state, field, lost, lattice, executor,
-    [&](double share)
-    {
-      goesOn = goOn(AfterLost + (AfterCells - AfterLost) * share);
-      return goesOn;
-    });
+  if (!lost.Runs.empty())
+  {
+    result.Surface = CoverMaker(state, field, lost).Make(executor, result.Covered,
+      [&](double share)
+      {
+        goesOn = goOn(AfterLost + (AfterDistances - AfterLost) * share);
+        return goesOn;
+      });
+  }
   if (!goesOn)
   {
     return stopped;
   }
-  result.Surface = lattice.Boundary(CellsOfParts(cells, result.Found, result.Covered), executor);
   if (kind == PartKind::Cavity)
   {
     for (Triangle& triangle : result.Surface.Triangles)

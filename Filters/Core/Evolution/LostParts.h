@@ -26,10 +26,10 @@ struct LostPartCover
  * inside it, all farther than two units of the level from any vertex; and encloses them with a new
  * surface, which then shrinks onto them as the first one did onto the object.
  *
- * It is the boundary of the truncated octahedra (CellLattice) that hold voxels of such parts and
- * keep clear of the surface as it is, with edges and distances that respect eq. (1). Seeds inside
- * the parts, as the paper starts from, would have to grow through places that are too thin for
- * them, and merge with holes left between them.
+ * It lies about .4 voxel beyond the isopotential, and keeps clear of the surface as it is
+ * (DistanceLattice), with edges that respect eq. (1). Seeds inside the parts, as the paper starts
+ * from, would have to grow through places that are too thin for them, and merge with holes left
+ * between them.
  *
  * Inside is found by parity along rows of voxels, so the cost is O(voxels + triangles). The grid
  * of the state must be up to date, and no edge longer than 2.5 delta.

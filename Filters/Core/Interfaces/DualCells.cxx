@@ -32,6 +32,36 @@ Place Between(const Place& middle, const Place& end, double share)
     middle[2] + share * (end[2] - middle[2]) };
 }
 
+/** Of a function on the edges of a cell; kept near the middle, where the mesh is free of
+ * intersections. */
+Place MeanOfZeros(const std::array<float, 8>& values)
+{
+  constexpr double most = 0.24; // from the middle
+  Place sum = { 0., 0., 0. };
+  int count = 0;
+  for (int edge = 0; edge < CellPattern::Edges; ++edge)
+  {
+    const auto [low, high] = CellPattern::OctantsOf(edge);
+    const double from = values[low];
+    const double to = values[high];
+    if ((from < 0.) != (to < 0.))
+    {
+      Place zero = PlaceOfArc(edge);
+      zero[edge / 4] = from / (from - to);
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        sum[axis] += zero[axis];
+      }
+      ++count;
+    }
+  }
+  for (double& at : sum)
+  {
+    at = std::clamp(at / count, 0.5 - most, 0.5 + most);
+  }
+  return sum;
+}
+
 /** From a middle so far to the arcs of which use(edge) is true. */
 template <typename Use>
 Place TowardsArcs(const Place& middle, const Use& use)
@@ -79,17 +109,33 @@ Place PlaceOfStrand(const CellPattern& pattern, int side, int strand)
 }
 }
 
-DualCells::DualCells(const DualGrid& grid) : Grid(grid), Rows(grid.Size[1] - 1)
+DualCells::DualCells(const DualGrid& grid) : Grid(grid), Rows(grid.Size[1] - 1) {}
+
+bool DualCells::IsPlainPattern(unsigned bits)
 {
-  for (unsigned bits = 0; bits < 256; ++bits)
+  static const std::array<bool, 256> isPlain = []
   {
-    std::array<Number, 8> labels;
-    for (unsigned octant = 0; octant < 8; ++octant)
+    std::array<bool, 256> table;
+    for (unsigned pattern = 0; pattern < 256; ++pattern)
     {
-      labels[octant] = static_cast<Number>(1 - (bits >> octant & 1));
+      std::array<Number, 8> labels;
+      for (unsigned octant = 0; octant < 8; ++octant)
+      {
+        labels[octant] = static_cast<Number>(1 - (pattern >> octant & 1));
+      }
+      table[pattern] = CellPattern(labels, { 0, 1 }).IsPlain();
     }
-    this->IsPlain[bits] = CellPattern(labels, { 0, 1 }).IsPlain();
-  }
+    return table;
+  }();
+  return isPlain[bits];
+}
+
+bool DualCells::AreUniform(std::initializer_list<const Number*> rows, int length)
+{
+  const Number label = **rows.begin();
+  return std::all_of(rows.begin(), rows.end(),
+    [&](const Number* row)
+    { return row[0] == label && std::equal(row + 1, row + length, row); });
 }
 
 void DualCells::Make(Executor& executor)
@@ -102,7 +148,14 @@ void DualCells::Make(Executor& executor)
     this->Slabs.back().End = std::min(first + SlabSize, layers);
   }
   ForSpans(executor, this->Slabs.size(), 1,
-    [&](std::size_t slab, std::size_t, std::size_t) { this->FindCells(this->Slabs[slab]); });
+    [&](std::size_t slab, std::size_t, std::size_t)
+    {
+      this->FindCells(this->Slabs[slab]);
+      if (this->Grid.CopyValues)
+      {
+        this->MoveToZeros(this->Slabs[slab]);
+      }
+    });
   ForSpans(executor, this->Slabs.size(), 1,
     [&](std::size_t slab, std::size_t, std::size_t)
     { this->AddPointsOfSpecials(this->Slabs[slab]); });
@@ -124,7 +177,10 @@ void DualCells::FindCells(DualSlab& slab) const
       const std::size_t next = row + static_cast<std::size_t>(this->Grid.Size[0]);
       const std::array<const Number*, 4> rows = { &low[row], &low[next], &high[row],
         &high[next] };
-      this->FindCellsOfRow(slab, rows, j, k);
+      if (!AreUniform({ rows[0], rows[1], rows[2], rows[3] }, this->Grid.Size[0]))
+      {
+        this->FindCellsOfRow(slab, rows, j, k);
+      }
     }
   }
   slab.Row.push_back(slab.X.size());
@@ -170,6 +226,39 @@ void DualCells::FindCellsOfRow(
   }
 }
 
+void DualCells::MoveToZeros(DualSlab& slab) const
+{
+  std::vector<float> low(this->SliceSize());
+  std::vector<float> high(this->SliceSize());
+  this->Grid.CopyValues(slab.First, high.data());
+  for (int k = slab.First; k < slab.End; ++k)
+  {
+    low.swap(high);
+    this->Grid.CopyValues(k + 1, high.data());
+    for (int j = 0; j < this->Rows; ++j)
+    {
+      const std::size_t row = static_cast<std::size_t>(k - slab.First) * this->Rows + j;
+      for (std::size_t n = slab.Row[row]; n < slab.Row[row + 1]; ++n)
+      {
+        if (slab.Has[n] < 0)
+        {
+          continue;
+        }
+        const std::array<int, 3> cell = { slab.X[n], j, k };
+        std::array<float, 8> values;
+        for (int octant = 0; octant < 8; ++octant)
+        {
+          values[octant] =
+            (octant & 4 ? high : low)[static_cast<std::size_t>(j + (octant >> 1 & 1)) *
+                this->Grid.Size[0] +
+              cell[0] + (octant & 1)];
+        }
+        slab.Points[slab.Has[n]] = this->PlaceOf(cell, MeanOfZeros(values));
+      }
+    }
+  }
+}
+
 bool DualCells::IsPlainCell(const std::array<Number, 8>& labels, unsigned others) const
 {
   unsigned first = 0;
@@ -184,7 +273,7 @@ bool DualCells::IsPlainCell(const std::array<Number, 8>& labels, unsigned others
   }
   const bool isEarlier =
     this->Grid.RankOf[labels[first]] < this->Grid.RankOf[labels[0]];
-  return same == others && this->IsPlain[isEarlier ? same : 255u ^ same];
+  return same == others && IsPlainPattern(isEarlier ? same : 255u ^ same);
 }
 
 float DualCells::CoordinateOf(const std::array<int, 3>& cell, int axis, double at) const

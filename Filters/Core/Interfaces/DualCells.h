@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstddef>
+#include <initializer_list>
 #include <vector>
 
 namespace volumic
@@ -52,6 +53,11 @@ public:
   /** Finds the cells, and makes the points in them. */
   void Make(Executor& executor);
 
+  /** Whether all labels of some rows of this length are the same. */
+  static bool AreUniform(std::initializer_list<const LabelMap::Number*> rows, int length);
+  /** Whether a pattern of two labels, bits of the octants of earlier rank, is plain. */
+  static bool IsPlainPattern(unsigned bits);
+
   const DualGrid& Grid;
   const int Rows; ///< of cells in a layer
   std::vector<DualSlab> Slabs;
@@ -75,6 +81,8 @@ private:
   using Place = std::array<double, 3>; ///< in a cell, from 0 to 1
 
   void FindCells(DualSlab& slab) const;
+  /** Moves the points of plain cells to where the values have their zeros. */
+  void MoveToZeros(DualSlab& slab) const;
   void FindCellsOfRow(
     DualSlab& slab, const std::array<const Number*, 4>& rows, int j, int k) const;
   /** Whether it has two labels, and a pattern that is plain. */
@@ -88,8 +96,6 @@ private:
   }
   void AddPointsOfSpecials(DualSlab& slab) const;
   bool IsSpecial(const std::array<int, 3>& cell) const;
-
-  std::array<bool, 256> IsPlain; ///< of the patterns of two labels, bits of octants of earlier rank
 };
 }
 

@@ -31,12 +31,13 @@ class DualMesher
 public:
   explicit DualMesher(const DualGrid& grid) : Grid(grid), Cells(grid) {}
 
-  InterfaceMesh Make(Executor& executor)
+  void Make(
+    Executor& executor, LargeVector<Vector>& points, LargeVector<InterfaceMesh::Face>& faces)
   {
     this->Cells.Make(executor);
     ForSpans(executor, this->Cells.Slabs.size(), 1,
       [&](std::size_t slab, std::size_t, std::size_t) { this->AddFaces(slab); });
-    return this->Joined(executor);
+    this->Join(executor, points, faces);
   }
 
 private:
@@ -94,6 +95,13 @@ private:
       for (int j = 0; j + 1 < this->Grid.Size[1]; ++j)
       {
         const std::size_t row = static_cast<std::size_t>(j) * this->Grid.Size[0];
+        if (DualCells::AreUniform({ &slice[row],
+                                    &slice[row + static_cast<std::size_t>(this->Grid.Size[0])],
+                                    &next[row] },
+              this->Grid.Size[0]))
+        {
+          continue;
+        }
         for (int i = 0; i + 1 < this->Grid.Size[0]; ++i)
         {
           const std::size_t at = row + static_cast<std::size_t>(i);
@@ -344,7 +352,8 @@ private:
 
   // ---- The mesh ----
 
-  InterfaceMesh Joined(Executor& executor)
+  void Join(
+    Executor& executor, LargeVector<Vector>& points, LargeVector<InterfaceMesh::Face>& faces)
   {
     std::vector<std::size_t> first(this->Cells.Slabs.size() + 1, 0);
     std::vector<std::size_t> firstFace = first;
@@ -353,8 +362,8 @@ private:
       first[s + 1] = first[s] + this->Cells.Slabs[s].Points.size();
       firstFace[s + 1] = firstFace[s] + this->Cells.Slabs[s].Faces.size();
     }
-    LargeVector<Vector> points(first.back());
-    LargeVector<InterfaceMesh::Face> faces(firstFace.back());
+    points.resize(first.back());
+    faces.resize(firstFace.back());
     ForSpans(executor, this->Cells.Slabs.size(), 1,
       [&](std::size_t s, std::size_t, std::size_t)
       {
@@ -372,19 +381,6 @@ private:
         }
         slab = Slab();
       });
-    InterfaceMesh mesh;
-    if (this->Grid.Outside >= 0)
-    {
-      mesh.FirstSide = this->Grid.Outside;
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        mesh.Planes[2 * axis] = this->Grid.Planes[axis].front();
-        mesh.Planes[2 * axis + 1] = this->Grid.Planes[axis].back();
-      }
-    }
-    mesh.Assign(std::move(points), std::move(faces));
-    mesh.FindStrata();
-    return mesh;
   }
 
   const DualGrid& Grid;
@@ -392,8 +388,29 @@ private:
 };
 }
 
+void MakeDualFaces(const DualGrid& grid, Executor& executor, LargeVector<Vector>& points,
+  LargeVector<InterfaceMesh::Face>& faces)
+{
+  DualMesher(grid).Make(executor, points, faces);
+}
+
 InterfaceMesh MakeDualMesh(const DualGrid& grid, Executor& executor)
 {
-  return DualMesher(grid).Make(executor);
+  LargeVector<Vector> points;
+  LargeVector<InterfaceMesh::Face> faces;
+  MakeDualFaces(grid, executor, points, faces);
+  InterfaceMesh mesh;
+  if (grid.Outside >= 0)
+  {
+    mesh.FirstSide = grid.Outside;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      mesh.Planes[2 * axis] = grid.Planes[axis].front();
+      mesh.Planes[2 * axis + 1] = grid.Planes[axis].back();
+    }
+  }
+  mesh.Assign(std::move(points), std::move(faces));
+  mesh.FindStrata();
+  return mesh;
 }
 }

@@ -25,6 +25,11 @@ struct DualGrid
   int Outside = -1;
   /** Writes the labels of a slice, x fastest; called by threads. */
   std::function<void(int k, LabelMap::Number* labels)> CopySlice;
+  /**
+   * Where labels are the signs of a function, its values. The vertices of plain cells are then at
+   * the mean of its zeros on their edges, in place of the middle, but at most .24 from it.
+   */
+  std::function<void(int k, float* values)> CopyValues;
 };
 
 /**
@@ -47,6 +52,10 @@ struct DualGrid
  * At the sides of a box vertices are in their planes.
  */
 InterfaceMesh MakeDualMesh(const DualGrid& grid, Executor& executor);
+
+/** The triangles alone. */
+void MakeDualFaces(const DualGrid& grid, Executor& executor, LargeVector<Vector>& points,
+  LargeVector<InterfaceMesh::Face>& faces);
 }
 
 #endif
