@@ -29,7 +29,7 @@ constexpr int MaximumPerCell = 60;
 /** What edges may be over their bound by: positions are rounded to float. */
 constexpr double Rounding = 1.0001;
 /** Pitches of the lattices that are tried, in delta, the coarsest first. */
-constexpr double Pitches[] = { 1.6, 1.5, 1.3, 1.1, 0.8 };
+constexpr double Pitches[] = { 1.1, 1., 0.9, 0.8, 0.7 };
 /** Edges of the remeshed surface: shorter ones are collapsed, longer ones halved; in delta. */
 constexpr float ShortestEdge = 1.3f;
 constexpr float LongestEdge = 2.45f;
@@ -261,11 +261,7 @@ void TakeRemeshed(Evolution& e, const IndexedSurface& surface)
     }
   }
   Begin(e, fine);
-  const EdgeLengths lengths = LengthsOf(fine);
-  if (lengths.Shortest < delta || lengths.Longest > SizingField::LongestEdgeInDelta * delta)
-  {
-    Adapt(e);
-  }
+  Adapt(e);
   if (!e.Stopped && s.Mesh.NumberOfVertices() == 0)
   {
     Refuse("The initial surface is too small for this level, whose triangles have edges of about ",
