@@ -2,23 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Run/RunStart.h"
 
-#include "Core/Common/Executor.h"
 #include "Core/Common/Refuse.h"
-#include "Core/Image/Field.h"
 #include "Input/InputPoints.h"
 #include "Input/Workspace.h"
 #include "Pyramid/PyramidLevels.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellArrayIterator.h>
-#include <vtkFloatArray.h>
-#include <vtkFlyingEdges3D.h>
 #include <vtkIdList.h>
-#include <vtkImageData.h>
 #include <vtkNew.h>
-#include <vtkPointData.h>
 #include <vtkPolyData.h>
-#include <vtkSmartPointer.h>
 #include <vtkTriangleFilter.h>
 
 #include <algorithm>
@@ -228,38 +221,6 @@ IndexedSurface Triangles(vtkPolyData* polyData)
   return surface;
 }
 
-/** The level with a voxel of background on all sides. */
-vtkSmartPointer<vtkImageData> PadByBackground(
-  const LevelImage& image, const SurfaceOptions& options)
-{
-  auto padded = vtkSmartPointer<vtkImageData>::New();
-  padded->SetExtent(-1, image.Size[0], -1, image.Size[1], -1, image.Size[2]);
-  padded->SetSpacing(image.Step.data());
-  padded->AllocateScalars(VTK_FLOAT, 1);
-  auto* values = static_cast<float*>(padded->GetScalarPointer());
-  // The background that the field has there: an image may have none within.
-  SequentialExecutor thread;
-  const Field field(image, options, thread);
-  std::fill(values, values + padded->GetNumberOfPoints(), field.Background());
-  // Through a voxel at the iso-value itself the triangles would be of no size: such voxels are
-  // moved a little to the side of the background. The surface finds its place anyway.
-  const float iso = static_cast<float>(options.IsoValue - image.Base);
-  const float room = 0.01f * std::max(field.Highest(), -field.Lowest());
-  const float beside = options.ObjectIsBright ? iso - room : iso + room;
-  const auto clear = [&](float value) { return std::abs(value - iso) < room ? beside : value; };
-  for (int k = 0; k < image.Size[2]; ++k)
-  {
-    for (int j = 0; j < image.Size[1]; ++j)
-    {
-      auto* row = static_cast<float*>(padded->GetScalarPointer(0, j, k));
-      image.Values.Copy(
-        (static_cast<std::ptrdiff_t>(k) * image.Size[1] + j) * image.Size[0], image.Size[0], row);
-      std::transform(row, row + image.Size[0], row, clear);
-    }
-  }
-  return padded;
-}
-
 IndexedSurface SurfaceOf(vtkPolyData* polyData, const Workspace& space)
 {
   if (!polyData || polyData->GetNumberOfPolys() + polyData->GetNumberOfStrips() == 0)
@@ -278,28 +239,10 @@ IndexedSurface SurfaceOf(vtkPolyData* polyData, const Workspace& space)
   triangulate->Update();
   return ToWorkspace(Triangles(triangulate->GetOutput()), space);
 }
-
-IndexedSurface ClosedIsoSurface(const LevelImage& image, const SurfaceOptions& options)
-{
-  vtkNew<vtkFlyingEdges3D> contour;
-  contour->SetInputData(PadByBackground(image, options));
-  contour->SetValue(0, options.IsoValue - image.Base);
-  contour->ComputeNormalsOff();
-  contour->ComputeGradientsOff();
-  contour->ComputeScalarsOff();
-  contour->Update();
-  IndexedSurface surface = Triangles(contour->GetOutput());
-  // VTK orients iso-surfaces towards low values.
-  if (!options.ObjectIsBright)
-  {
-    FlipOrientation(surface);
-  }
-  return surface;
-}
 }
 
 SurfaceStart StartOf(const SegmentationRequest& request, const Workspace& space,
-  const std::vector<Point>& seeds, const LevelImage& image)
+  const std::vector<Point>& seeds)
 {
   vtkPolyData* given = request.InitialSurface;
   SurfaceStart start;
@@ -312,7 +255,6 @@ SurfaceStart StartOf(const SegmentationRequest& request, const Workspace& space,
       break;
     case InitializationType::IsoSurface:
       start.From = SurfaceStart::Kind::IsoSurface;
-      start.Surface = ClosedIsoSurface(image, request.Settings.Options);
       break;
     case InitializationType::InputSurface:
       start.From = SurfaceStart::Kind::Surface;

@@ -36,12 +36,11 @@ LevelChoice ChooseLevels(const SegmentationLevels& levels, const SegmentationSet
 
 /**
  * What the surface begins with on the coarsest level, as Initialization says: of the polygons of
- * the initial surface, triangulated, its points and those of `seeds` (workspace), or the
- * iso-surface of the level, closed at the border of the image by background.
+ * the initial surface, triangulated, or its points and those of `seeds` (workspace).
  * @throws std::invalid_argument for an initial surface that cannot be read
  */
 SurfaceStart StartOf(const SegmentationRequest& request, const Workspace& space,
-  const std::vector<Point>& seeds, const LevelImage& image);
+  const std::vector<Point>& seeds);
 }
 
 #endif

@@ -236,7 +236,7 @@ LevelOutcome SurfaceSegmentation::Evolve(LevelTask& task)
   return PrefixErrors(place,
     [&]
     {
-      SurfaceStart start = StartOf(this->Request, this->Levels.GetWorkspace(), seeds, task.Image);
+      SurfaceStart start = StartOf(this->Request, this->Levels.GetWorkspace(), seeds);
       if (start.From == SurfaceStart::Kind::Enclosing && this->Choice.StartsAtParts)
       {
         start.From = SurfaceStart::Kind::EnclosingParts;

@@ -82,9 +82,9 @@ public:
   {
     this->Start(image, level, { SurfaceStart::Kind::Surface, {}, surface });
   }
-  void StartIsoSurface(const LevelImage& image, int level, const IndexedSurface& surface)
+  void StartIsoSurface(const LevelImage& image, int level)
   {
-    this->Start(image, level, { SurfaceStart::Kind::IsoSurface, {}, surface });
+    this->Start(image, level, { SurfaceStart::Kind::IsoSurface, {}, {} });
   }
   /** @return false where it was stopped before: then it is on the level before. */
   bool Divide(const LevelImage& image, int level)

@@ -21,12 +21,8 @@ inline std::uint64_t LatticeKey(std::int64_t i, std::int64_t j, std::int64_t k)
     static_cast<std::uint64_t>(j & mask) << bits | static_cast<std::uint64_t>(k & mask);
 }
 
+/** Indices of a point of a cubic lattice. */
 using LatticePoint = std::array<int, 3>;
-
-inline std::uint64_t LatticeKey(const LatticePoint& p)
-{
-  return LatticeKey(p[0], p[1], p[2]);
-}
 }
 
 #endif

@@ -18,6 +18,9 @@ constexpr float VisibleAlongNormal = 0.03f;
 constexpr float VisibleIfLeft = 0.08f;
 /** The same in any direction: sliding along the surface changes nothing, and is left to the end. */
 constexpr float Visible = 0.3f;
+/** Where what is missing is left to the regularisation, what is so near to the isopotential, in
+ * delta, rests at once; but what is near another part of the surface, which contacts hold off. */
+constexpr float RestsWithin = 0.25f;
 /** Iterations without visible motion after which a vertex is motionless. */
 constexpr int RestingIterations = 3;
 
@@ -348,9 +351,14 @@ void Dynamics::Freeze(
     const bool moved = (state.Marks[v] & HasMoved) ||
       std::any_of(ring.Item, ring.Item + ring.Count,
         [&state](int w) { return (state.Marks[w] & HasMoved) != 0; });
-    if (moved &&
-      (state.Active[v] || !this->Leaves ||
-        this->TheField.IsOff(state.Mesh.Position[v], LeftOff * state.Sizing.At(v))))
+    const auto isOff = [&](float least)
+    { return this->TheField.IsOff(state.Mesh.Position[v], least * state.Sizing.At(v)); };
+    if (this->Leaves && state.Active[v] && !state.NearOthers[v] && !isOff(RestsWithin))
+    {
+      state.Active[v] = 0;
+      state.Velocity[v] = Vector();
+    }
+    else if (moved && (state.Active[v] || !this->Leaves || isOff(LeftOff)))
     {
       state.Activate(v);
     }

@@ -74,7 +74,6 @@ std::vector<int> AliveVertices(const Evolution& evolution);
 
 // GivenSurface.cxx: makes a given surface ready.
 
-/** Whatever its triangles. */
 void TakeGiven(Evolution& evolution, const IndexedSurface& surface);
 /** Another mesh of it. */
 void TakeRemeshed(Evolution& evolution, const IndexedSurface& surface);

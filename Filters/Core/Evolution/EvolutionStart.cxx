@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Common/Box.h"
+#include "Core/Common/Refuse.h"
 #include "Core/Common/Select.h"
 #include "Core/Common/Spans.h"
 #include "Core/Evolution/Evolution.h"
@@ -56,12 +57,12 @@ Box BoxOfGrid(const Evolution& e)
   return all.Grown(2 * e.State.Sizing.Largest());
 }
 
-LostPartCover FindParts(Evolution& e, PartKind kind, double from, double to)
+LostPartCover FindParts(Evolution& e, PartKind kind, CoverShape shape, double from, double to)
 {
   const auto look = [&]
   {
-    return FindLostParts(e.State, *e.TheField, kind, e.Task.Options.MinimumPartSize, e.Threads,
-      e.QuestionOf(Monitor::Activity::Recovering, from, to));
+    return FindLostParts(e.State, *e.TheField, kind, e.Task.Options.MinimumPartSize, shape,
+      e.Threads, e.QuestionOf(Monitor::Activity::Recovering, from, to));
   };
   LostPartCover cover = look();
   if (cover.Found > 0 && e.Task.Options.RecoverLostParts && e.State.Sizing.IsGraded())
@@ -70,6 +71,21 @@ LostPartCover FindParts(Evolution& e, PartKind kind, double from, double to)
     cover = look();
   }
   return cover;
+}
+
+/** Adds a cover, or, where it intersects something, what is free of that of a safe one. */
+template <typename MakeSafe>
+void Enclose(Evolution& e, const IndexedSurface& even, const MakeSafe& makeSafe)
+{
+  if (!e.Blocks->Append(even, false, e.Threads))
+  {
+    const IndexedSurface safe = makeSafe();
+    if (!e.Stopped)
+    {
+      e.Blocks->Append(safe, true, e.Threads);
+    }
+  }
+  ++e.Unchecked;
 }
 
 /** Encloses what the surface has lost. */
@@ -83,11 +99,11 @@ void Recover(Evolution& e)
   }
   const bool recovers = options.RecoverLostParts;
   const double objectShare = recovers && options.RecoverCavities ? 0.5 : 1.;
-  LostPartCover objects = FindParts(e, PartKind::Object, 0., objectShare);
+  LostPartCover objects = FindParts(e, PartKind::Object, CoverShape::Even, 0., objectShare);
   LostPartCover cavities;
   if (recovers && options.RecoverCavities && !e.Stopped)
   {
-    cavities = FindParts(e, PartKind::Cavity, objectShare, 1.);
+    cavities = FindParts(e, PartKind::Cavity, CoverShape::Even, objectShare, 1.);
   }
   if (e.Stopped)
   {
@@ -100,14 +116,40 @@ void Recover(Evolution& e)
   e.Boundary.Add(objects.Boundary);
   e.Boundary.Add(cavities.Boundary);
   e.History.Pending.Recovered = e.Lost.Enclosed + e.Lost.EnclosedCavities;
-  for (LostPartCover* cover : { &objects, &cavities })
+  for (const PartKind kind : { PartKind::Object, PartKind::Cavity })
   {
-    if (recovers && cover->Covered > 0)
+    const LostPartCover& cover = kind == PartKind::Object ? objects : cavities;
+    if (recovers && cover.Covered > 0)
     {
-      e.Blocks->Append(std::move(cover->Surface), e.Threads);
-      ++e.Unchecked;
+      Enclose(e, cover.Surface,
+        [&e, kind] { return FindParts(e, kind, CoverShape::Safe, 1., 1.).Surface; });
     }
   }
+}
+
+/** Encloses all of the object, near to its boundary; the rest of the way are passes. */
+void EncloseObject(Evolution& e)
+{
+  Renumber(e);
+  const auto make = [&e](CoverShape shape)
+  {
+    return FindLostParts(e.State, *e.TheField, PartKind::Object, 1, shape, e.Threads,
+      e.QuestionOf(Monitor::Activity::Starting));
+  };
+  const LostPartCover cover = make(CoverShape::Even);
+  if (e.Stopped)
+  {
+    return;
+  }
+  if (cover.Covered == 0)
+  {
+    Refuse("there is no iso-surface to start from: no voxel of this level lies in the object. Choose "
+           "another Iso Value, a finer Coarsest Level, or another Initialization.");
+  }
+  Enclose(e, cover.Surface, [&make] { return make(CoverShape::Safe).Surface; });
+  e.HasDescended = true;
+  ActivateWhereOff(e, Dynamics::LeftOff);
+  LabelComponents(e);
 }
 
 void PlaceSeeds(Evolution& e, const std::vector<Point>& centres)
@@ -125,10 +167,7 @@ void PlaceSeeds(Evolution& e, const std::vector<Point>& centres)
 void Start(Evolution& e, const SurfaceStart& start)
 {
   using Kind = SurfaceStart::Kind;
-  // Of an object that has no iso-surface there is the message of a given one that is empty.
-  const bool isIso = start.From == Kind::IsoSurface && !start.Surface.Triangles.empty();
-  const bool isGiven = start.From == Kind::Surface || start.From == Kind::IsoSurface;
-  if (isGiven && !isIso)
+  if (start.From == Kind::Surface)
   {
     CheckInitialSurface(start.Surface);
     CheckOverlapsImage(start.Surface, e.Task.Image);
@@ -142,9 +181,13 @@ void Start(Evolution& e, const SurfaceStart& start)
     watch.Lap(Phase::Recovery);
   }
   const bool isEnclosed = e.Lost.Enclosed > 0 || (start.From == Kind::EnclosingParts && e.Stopped);
-  if (isGiven)
+  if (start.From == Kind::Surface)
   {
     TakeGiven(e, start.Surface);
+  }
+  else if (start.From == Kind::IsoSurface)
+  {
+    EncloseObject(e);
   }
   else if (start.From == Kind::Seeds)
   {

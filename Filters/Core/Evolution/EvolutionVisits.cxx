@@ -24,15 +24,18 @@ namespace
 constexpr int SweptIterations = RestCriterion::Interval;
 /** Sweeps between two looks for components that are inside out. */
 constexpr int InsideOutSweeps = 2;
-/** Way in a pass, in delta, under which a vertex is left where it is. */
+/** Way in a pass, in delta, under which a vertex is left where it is: of small surfaces, and of
+ * those with so many vertices, of which the mean counts. */
 constexpr float SmallestMove = 0.015f;
+constexpr float SmallestMoveOfLarge = 0.04f;
+constexpr int LargeSurface = 20000;
 
 /** What went some way in the last pass stays active, with its neighbours, and what was edited. */
-void KeepActiveIfMoving(SurfaceState& s, const SurfaceIteration& iteration)
+void KeepActiveIfMoving(SurfaceState& s, const SurfaceIteration& iteration, float smallestMove)
 {
-  const auto moves = [&s](int v)
+  const auto moves = [&s, smallestMove](int v)
   {
-    const float least = SmallestMove * s.Sizing.At(v);
+    const float least = smallestMove * s.Sizing.At(v);
     return s.Mesh.IsAlive(v) && SquaredLength(s.Velocity[v]) > least * least;
   };
   const std::vector<int>& last = iteration.ActiveVertices();
@@ -146,6 +149,8 @@ void RunSweep(Evolution& e)
 void Relax(Evolution& e, SurfaceIteration::Mode mode, int iterations, const Sweep& sweep)
 {
   SurfaceState& s = e.State;
+  const float smallestMove =
+    s.Mesh.NumberOfVertices() < LargeSurface ? SmallestMove : SmallestMoveOfLarge;
   VisitBlocks(e, sweep,
     [&](BlockVisit& visit)
     {
@@ -159,7 +164,7 @@ void Relax(Evolution& e, SurfaceIteration::Mode mode, int iterations, const Swee
         iteration.Run(*e.Motion, mode);
         if (mode != SurfaceIteration::Mode::Adapt)
         {
-          KeepActiveIfMoving(s, iteration); // Also beyond the block, for the visits to come.
+          KeepActiveIfMoving(s, iteration, smallestMove); // Also beyond the block, for the visits to come.
         }
       }
       for (int v = visit.First; v < visit.End(); ++v)

@@ -8,7 +8,6 @@
 #include "Core/Mesh/LegalEdges.h"
 #include "Core/Mesh/SelfIntersections.h"
 #include "Core/Mesh/SurfaceFeatures.h"
-#include "Core/Surface/NewFaces.h"
 
 #include <algorithm>
 #include <cmath>

@@ -119,7 +119,8 @@ public:
   }
 
   /** @param covered how many parts it has @return empty where it is asked to stop */
-  IndexedSurface Make(Executor& executor, int& covered, const ProgressQuestion& goOn)
+  IndexedSurface Make(
+    CoverShape shape, Executor& executor, int& covered, const ProgressQuestion& goOn)
   {
     const auto layers = static_cast<std::size_t>(this->Lattice.NumberOfLayers());
     for (std::size_t first = 0; first < layers; first += LayersPerBatch)
@@ -141,8 +142,9 @@ public:
     covered = this->TakeSmallParts(isClear);
     this->Lattice.MakeWellComposed(isClear);
     const float delta = this->State.Sizing.OfLevel();
-    return WithLegalEdges(
-      this->Lattice.Boundary(executor), ShortestEdge * delta, LongestEdge * delta, executor);
+    const bool isEven = shape == CoverShape::Even;
+    return WithLegalEdges(this->Lattice.Boundary(isEven, executor),
+      isEven ? ShortestEdge * delta : 0.f, LongestEdge * delta, executor);
   }
 
 private:
@@ -321,7 +323,7 @@ private:
 }
 
 LostPartCover FindLostParts(const SurfaceState& state, const Field& field, PartKind kind,
-  int minimumSize, Executor& executor, const ProgressQuestion& goOn)
+  int minimumSize, CoverShape shape, Executor& executor, const ProgressQuestion& goOn)
 {
   LostPartCover stopped;
   stopped.IsStopped = true;
@@ -337,7 +339,7 @@ LostPartCover FindLostParts(const SurfaceState& state, const Field& field, PartK
   bool goesOn = true;
   if (!lost.Runs.empty())
   {
-    result.Surface = CoverMaker(state, field, lost).Make(executor, result.Covered,
+    result.Surface = CoverMaker(state, field, lost).Make(shape, executor, result.Covered,
       [&](double share)
       {
         goesOn = goOn(AfterLost + (AfterDistances - AfterLost) * share);

@@ -10,6 +10,12 @@
 
 namespace volumic
 {
+enum class CoverShape
+{
+  Even, ///< With even triangles; that it does not intersect itself must be asked.
+  Safe  ///< Free of intersections; edges may be shorter than eq. (1) allows.
+};
+
 /** Result of FindLostParts. */
 struct LostPartCover
 {
@@ -35,7 +41,7 @@ struct LostPartCover
  * of the state must be up to date, and no edge longer than 2.5 delta.
  */
 LostPartCover FindLostParts(const SurfaceState& state, const Field& field, PartKind kind,
-  int minimumSize, Executor& executor, const ProgressQuestion& goOn = NeverStop);
+  int minimumSize, CoverShape shape, Executor& executor, const ProgressQuestion& goOn = NeverStop);
 }
 
 #endif

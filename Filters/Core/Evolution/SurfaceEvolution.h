@@ -50,7 +50,7 @@ struct SurfaceStart
      * intersects, which is tested.
      */
     Surface,
-    IsoSurface ///< Surface, which is the iso-surface of the level, closed, as VTK makes it.
+    IsoSurface ///< What encloses all of the object, however small its parts are, on any level.
   };
   Kind From = Kind::Enclosing;
   std::vector<Point> Seeds;

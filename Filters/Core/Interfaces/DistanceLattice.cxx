@@ -180,11 +180,12 @@ void DistanceLattice::MakeWellComposed(
   }
 }
 
-IndexedSurface DistanceLattice::Boundary(Executor& executor) const
+IndexedSurface DistanceLattice::Boundary(bool isEven, Executor& executor) const
 {
   DualGrid grid;
   grid.Size = this->Points;
   grid.RankOf = { 1, 0 }; // Of outside, and inside.
+  grid.HasShortDiagonals = isEven;
   for (int axis = 0; axis < 3; ++axis)
   {
     for (int i = 0; i < this->Points[axis]; ++i)

@@ -60,8 +60,12 @@ public:
    */
   void MakeWellComposed(const std::function<bool(const Point& place)>& mayComeIn);
 
-  /** Closed, a manifold, free of intersections where it is well composed, outward. */
-  IndexedSurface Boundary(Executor& executor) const;
+  /**
+   * Closed, outward, and a manifold where it is well composed.
+   * @param isEven squares are cut along their shorter diagonals; then it may intersect itself, which
+   *               is rare and must be asked
+   */
+  IndexedSurface Boundary(bool isEven, Executor& executor) const;
 
 private:
   static constexpr int PointsOfBrick = BrickSide * BrickSide * BrickSide;

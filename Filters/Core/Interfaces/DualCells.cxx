@@ -32,8 +32,8 @@ Place Between(const Place& middle, const Place& end, double share)
     middle[2] + share * (end[2] - middle[2]) };
 }
 
-/** Of a function on the edges of a cell; kept near the middle, where the mesh is free of
- * intersections. */
+/** Of a function on the edges of a cell; each is kept near the middle of its edge, for the sake of
+ * even triangles. */
 Place MeanOfZeros(const std::array<float, 8>& values)
 {
   constexpr double most = 0.24; // from the middle
@@ -47,7 +47,7 @@ Place MeanOfZeros(const std::array<float, 8>& values)
     if ((from < 0.) != (to < 0.))
     {
       Place zero = PlaceOfArc(edge);
-      zero[edge / 4] = from / (from - to);
+      zero[edge / 4] = std::clamp(from / (from - to), 0.5 - most, 0.5 + most);
       for (int axis = 0; axis < 3; ++axis)
       {
         sum[axis] += zero[axis];
@@ -57,7 +57,7 @@ Place MeanOfZeros(const std::array<float, 8>& values)
   }
   for (double& at : sum)
   {
-    at = std::clamp(at / count, 0.5 - most, 0.5 + most);
+    at /= count;
   }
   return sum;
 }

@@ -242,8 +242,15 @@ private:
       // All diagonals are of cells of one parity, or safe distances would be shorter; alike in
       // opposite sides of a box.
       const bool isInSide = this->Cells.IsOutside(behind) || this->Cells.IsOutside(front);
-      const int turn =
-        (voxel[across[0]] + voxel[across[1]] + (isInSide ? 0 : voxel[axis])) & 1;
+      const auto squared = [&](int q)
+      {
+        const auto place = [&](int p)
+        { return this->Cells.Slabs[number - (isBefore[p] ? 1 : 0)].Points[has[p]]; };
+        return SquaredDistance(place(q), place(q + 2));
+      };
+      const int turn = this->Grid.HasShortDiagonals
+        ? (squared(1) < squared(0) ? 1 : 0)
+        : (voxel[across[0]] + voxel[across[1]] + (isInSide ? 0 : voxel[axis])) & 1;
       for (int half = 0; half < 2; ++half)
       {
         std::array<int, 3> vertices;

@@ -27,9 +27,11 @@ struct DualGrid
   std::function<void(int k, LabelMap::Number* labels)> CopySlice;
   /**
    * Where labels are the signs of a function, its values. The vertices of plain cells are then at
-   * the mean of its zeros on their edges, in place of the middle, but at most .24 from it.
+   * the mean of its zeros on their edges, in place of the middle.
    */
   std::function<void(int k, float* values)> CopyValues;
+  /** Voxel faces are cut along the shorter diagonal; triangles may intersect then. */
+  bool HasShortDiagonals = false;
 };
 
 /**

@@ -258,11 +258,29 @@ void SurfaceBlocks::FindOrder()
     std::move(order), [this](int block) { return this->NeighboursOf(block); });
 }
 
-void SurfaceBlocks::Append(IndexedSurface&& surface, Executor& executor)
+bool SurfaceBlocks::Append(const IndexedSurface& surface, bool isInParts, Executor& executor)
 {
-  this->State.Append(surface, executor);
-  surface = IndexedSurface(); // What comes takes the most memory that a level takes.
+  SurfaceState& s = this->State;
+  const int first = s.Mesh.Size();
+  s.Append(surface, executor);
+  std::vector<int> added(static_cast<std::size_t>(s.Mesh.Size() - first));
+  std::iota(added.begin(), added.end(), first);
+  const std::vector<Proximity::FacePair> found =
+    Proximity::FindIntersections(s, added, executor);
+  std::vector<int> wrong;
+  for (const Proximity::FacePair& pair : found)
+  {
+    wrong.insert(wrong.end(), { pair.First[0], pair.Second[0] });
+  }
+  for (const int v : isInParts || found.empty() ? wrong : added)
+  {
+    if (v >= first && s.Mesh.IsAlive(v))
+    {
+      s.RemoveComponent(v);
+    }
+  }
   this->Reorder(executor, true);
+  return found.empty();
 }
 
 BlockVisit SurfaceBlocks::Open(int block)

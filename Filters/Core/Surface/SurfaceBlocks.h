@@ -115,10 +115,12 @@ public:
   /** Between sweeps, while no visit is open: numbers the vertices anew where that is needed. */
   void Prepare(Executor& executor);
   /**
-   * Adds a closed surface, and gives its vertices to their blocks. Between sweeps, while none is
-   * open.
+   * Adds a closed surface, and gives its vertices to their blocks, unless it intersects something.
+   * Between sweeps, while no visit is open.
+   * @param isInParts then only the components that intersect something are left out
+   * @return whether all of it was added
    */
-  void Append(IndexedSurface&& surface, Executor& executor);
+  bool Append(const IndexedSurface& surface, bool isInParts, Executor& executor);
 
   int BlockAt(const Vector& position) const;
   /** The box that a block fills; at the border of the frame it goes on without end. */
