@@ -213,7 +213,7 @@ TEST(LatticeSurface, IsLegalForAnyLattice)
   {
     SCOPED_TRACE(pitch);
     const IndexedSurface mesh =
-      RemeshOnLattice(given, pitch, Threads, [](double) { return true; });
+      RemeshOnLattice(given, pitch, 0.f, 10.f, Threads, [](double) { return true; });
     EXPECT_EQ(CountSelfIntersections(mesh), 0);
     SurfaceMesh rings;
     rings.Append(mesh);

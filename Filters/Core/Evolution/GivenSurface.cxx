@@ -5,7 +5,6 @@
 #include "Core/Evolution/Evolution.h"
 #include "Core/Evolution/InitialSurface.h"
 #include "Core/Evolution/LatticeSurface.h"
-#include "Core/Mesh/LegalEdges.h"
 #include "Core/Mesh/SelfIntersections.h"
 #include "Core/Mesh/SurfaceFeatures.h"
 
@@ -28,11 +27,13 @@ constexpr int MaximumPerCell = 60;
 /** What edges may be over their bound by: positions are rounded to float. */
 constexpr double Rounding = 1.0001;
 /** Pitches of the lattices that are tried, in delta, the coarsest first. */
-constexpr double Pitches[] = { 1.1, 1., 0.9, 0.8, 0.7 };
+constexpr float Pitches[] = { 1.1f, 0.9f, 0.7f };
+/** That of large surfaces, for the sake of time. */
+constexpr float CoarsePitch = 1.6f;
 /** Edges of the remeshed surface: shorter ones are collapsed, longer ones halved; in delta. */
 constexpr float ShortestEdge = 1.3f;
 constexpr float LongestEdge = 2.45f;
-/** Area from which on a surface is large, in delta^2: only the first pitch is tried. */
+/** Area from which on a surface is large, in delta^2. */
 constexpr double LargeArea = 100000.;
 /** Share of the volume that the remeshed surface must still have. */
 constexpr double LeastShareOfVolume = 0.5;
@@ -151,14 +152,15 @@ IndexedSurface Remesh(Evolution& e, const IndexedSurface& surface)
 {
   // What is thin, or thins out to an edge, may be torn on one lattice and not on another: take the
   // mesh that has the components and tunnels of what was given, or else the nearest to it.
-  const double delta = e.State.Sizing.OfLevel();
+  const float delta = e.State.Sizing.OfLevel();
   const Topology wanted = Topology::Of(surface);
   const bool isLarge = wanted.Area > LargeArea * delta * delta;
   IndexedSurface best;
   int least = std::numeric_limits<int>::max();
-  for (const double pitch : Pitches)
+  for (const float pitch : Pitches)
   {
-    IndexedSurface mesh = RemeshOnLattice(surface, pitch * delta, e.Threads,
+    IndexedSurface mesh = RemeshOnLattice(surface, (isLarge ? CoarsePitch : pitch) * delta,
+      ShortestEdge * delta, LongestEdge * delta, e.Threads,
       e.QuestionOf(Monitor::Activity::Starting, 0., ShareOfRemeshing));
     if (e.Stopped)
     {
@@ -177,9 +179,7 @@ IndexedSurface Remesh(Evolution& e, const IndexedSurface& surface)
       break;
     }
   }
-  IndexedSurface legal =
-    WithLegalEdges(best, ShortestEdge * delta, LongestEdge * delta, e.Threads);
-  return CountSelfIntersections(legal, 1) == 0 ? legal : best;
+  return best;
 }
 
 void Begin(Evolution& e, const IndexedSurface& surface)

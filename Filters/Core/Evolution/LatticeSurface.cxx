@@ -4,7 +4,9 @@
 
 #include "Core/Common/Spans.h"
 #include "Core/Interfaces/DistanceLattice.h"
+#include "Core/Mesh/LegalEdges.h"
 #include "Core/Mesh/RowCrossing.h"
+#include "Core/Mesh/SelfIntersections.h"
 #include "Core/Mesh/TriangleTree.h"
 
 #include <algorithm>
@@ -105,8 +107,8 @@ void MarkNear(Layer& layer, Layer& next, std::size_t width)
 }
 }
 
-IndexedSurface RemeshOnLattice(const IndexedSurface& surface, double pitch, Executor& executor,
-  const std::function<bool(double share)>& goOn)
+IndexedSurface RemeshOnLattice(const IndexedSurface& surface, double pitch, float shortest,
+  float longest, Executor& executor, const std::function<bool(double share)>& goOn)
 {
   Bounds box = Bounds::Of(surface);
   for (int axis = 0; axis < 3; ++axis)
@@ -163,7 +165,12 @@ IndexedSurface RemeshOnLattice(const IndexedSurface& surface, double pitch, Exec
     layer.swap(next);
   }
   lattice.MakeWellComposed([](const Point&) { return true; });
-  IndexedSurface result = lattice.Boundary(executor);
+  IndexedSurface result =
+    WithLegalEdges(lattice.Boundary(true, executor), shortest, longest, executor);
+  if (CountSelfIntersections(result, 1) > 0)
+  {
+    result = lattice.Boundary(false, executor);
+  }
   return goOn(1.) ? result : IndexedSurface();
 }
 }

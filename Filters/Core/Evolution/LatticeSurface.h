@@ -15,17 +15,19 @@ namespace volumic
  * slivers, fans of any valence, triangles of any size. Lattice points with a positive winding
  * number are inside.
  *
- * Vertices lie near the surface where it is smooth, and nowhere further from it than the pitch.
+ * The result is a closed manifold without intersections. Vertices lie near the surface where it is smooth, and nowhere further from it than the pitch.
  * Parts thinner than the pitch may be lost or torn, and narrower gaps closed. Sharp edges are cut
  * off by up to half of the pitch.
  *
  * @param pitch distance of the lattice points, in the unit of the surface's points.
+ * @param shortest length below which edges are collapsed where that is possible.
+ * @param longest length above which edges are halved.
  * @param goOn receives the finished share now and then; if it returns false, the result is empty.
  * @return a surface without triangles if the lattice resolves no part of it.
  * `surface` must be closed and oriented.
  */
-IndexedSurface RemeshOnLattice(const IndexedSurface& surface, double pitch, Executor& executor,
-  const std::function<bool(double share)>& goOn);
+IndexedSurface RemeshOnLattice(const IndexedSurface& surface, double pitch, float shortest,
+  float longest, Executor& executor, const std::function<bool(double share)>& goOn);
 }
 
 #endif
