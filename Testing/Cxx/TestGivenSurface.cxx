@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Evolution/LatticeSurface.h"
 #include "Core/Mesh/Division.h"
+#include "Core/Mesh/ObliqueRotation.h"
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "Core/Surface/Remesher.h"
 #include "EvolutionTestTools.h"
@@ -209,26 +210,29 @@ TEST(LatticeSurface, IsLegalForAnyLattice)
 {
   const IndexedSurface given = Cylinder(9, 14, 50);
   const SurfaceFeatures wanted = ComputeFeatures(given);
-  for (double pitch : { 0.8, 1.1, 1.3, 2., 4. })
+  for (double pitch : { 0.8, 1.3, 4. })
   {
-    SCOPED_TRACE(pitch);
-    const IndexedSurface mesh =
-      RemeshOnLattice(given, pitch, 0.f, 10.f, Threads, [](double) { return true; });
-    EXPECT_EQ(CountSelfIntersections(mesh), 0);
-    SurfaceMesh rings;
-    rings.Append(mesh);
-    EXPECT_EQ(DescribeBrokenInvariant(rings), "");
-    const SurfaceFeatures features = ComputeFeatures(mesh);
-    EXPECT_EQ(features.EulerCharacteristic, 2);
-    EXPECT_NEAR(features.Volume / wanted.Volume, 1., 0.01 * pitch * pitch);
-    for (int k = 0; k < 3; ++k)
+    for (int attempt = 0; attempt < ObliqueRotation::Count; ++attempt)
     {
-      EXPECT_NEAR(
-        features.Components[0].Centroid[k], wanted.Components[0].Centroid[k], 0.1 * pitch);
+      const IndexedSurface mesh =
+        RemeshOnLattice(given, pitch, attempt, Threads, [](double) { return true; });
+      EXPECT_EQ(CountSelfIntersections(mesh), 0);
+      SurfaceMesh rings;
+      rings.Append(mesh);
+      EXPECT_EQ(DescribeBrokenInvariant(rings), "");
+      const SurfaceFeatures features = ComputeFeatures(mesh);
+      EXPECT_EQ(features.EulerCharacteristic, 2);
+      EXPECT_NEAR(features.Volume / wanted.Volume, 1., 0.02 * pitch * pitch);
+      for (int k = 0; k < 3; ++k)
+      {
+        EXPECT_NEAR(
+          features.Components[0].Centroid[k], wanted.Components[0].Centroid[k], 0.1 * pitch)
+          << "turned back";
+      }
+      const std::vector<double> lengths = EdgeLengths(mesh);
+      EXPECT_LT(*std::max_element(lengths.begin(), lengths.end()), 2. * pitch);
+      EXPECT_GT(*std::min_element(lengths.begin(), lengths.end()), 0.1 * pitch);
     }
-    const std::vector<double> lengths = EdgeLengths(mesh);
-    EXPECT_LT(*std::max_element(lengths.begin(), lengths.end()), 2. * pitch);
-    EXPECT_GT(*std::min_element(lengths.begin(), lengths.end()), 0.25 * pitch);
   }
 }
 

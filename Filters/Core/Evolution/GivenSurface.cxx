@@ -30,9 +30,6 @@ constexpr double Rounding = 1.0001;
 constexpr float Pitches[] = { 1.1f, 0.9f, 0.7f };
 /** That of large surfaces, for the sake of time. */
 constexpr float CoarsePitch = 1.6f;
-/** Edges of the remeshed surface: shorter ones are collapsed, longer ones halved; in delta. */
-constexpr float ShortestEdge = 1.3f;
-constexpr float LongestEdge = 2.45f;
 /** Area from which on a surface is large, in delta^2. */
 constexpr double LargeArea = 100000.;
 /** Share of the volume that the remeshed surface must still have. */
@@ -131,12 +128,13 @@ struct Topology
   int Components = 0;
   int EulerCharacteristic = 0;
   double Area = 0.;
+  double Volume = 0.;
 
   static Topology Of(const IndexedSurface& surface)
   {
     const SurfaceFeatures features = ComputeFeatures(surface);
     return { static_cast<int>(features.Components.size()), features.EulerCharacteristic,
-      features.Area };
+      features.Area, features.Volume };
   }
 };
 
@@ -157,18 +155,19 @@ IndexedSurface Remesh(Evolution& e, const IndexedSurface& surface)
   const bool isLarge = wanted.Area > LargeArea * delta * delta;
   IndexedSurface best;
   int least = std::numeric_limits<int>::max();
+  int attempt = 0;
   for (const float pitch : Pitches)
   {
     IndexedSurface mesh = RemeshOnLattice(surface, (isLarge ? CoarsePitch : pitch) * delta,
-      ShortestEdge * delta, LongestEdge * delta, e.Threads,
-      e.QuestionOf(Monitor::Activity::Starting, 0., ShareOfRemeshing));
+      attempt++, e.Threads, e.QuestionOf(Monitor::Activity::Starting, 0., ShareOfRemeshing));
     if (e.Stopped)
     {
       return {};
     }
     const Topology found = Topology::Of(mesh);
     const int difference = std::abs(found.Components - wanted.Components) +
-      std::abs(found.EulerCharacteristic - wanted.EulerCharacteristic);
+      std::abs(found.EulerCharacteristic - wanted.EulerCharacteristic) +
+      (found.Volume > LeastShareOfVolume * wanted.Volume ? 0 : 1);
     if (difference < least)
     {
       least = difference;

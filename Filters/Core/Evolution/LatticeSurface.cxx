@@ -4,7 +4,7 @@
 
 #include "Core/Common/Spans.h"
 #include "Core/Interfaces/DistanceLattice.h"
-#include "Core/Mesh/LegalEdges.h"
+#include "Core/Mesh/ObliqueRotation.h"
 #include "Core/Mesh/RowCrossing.h"
 #include "Core/Mesh/SelfIntersections.h"
 #include "Core/Mesh/TriangleTree.h"
@@ -20,11 +20,6 @@ namespace volumic
 {
 namespace
 {
-/**
- * Offset of the lattice from the bounding box, in pitches, so that rows hit no corner on round
- * coordinates: sqrt 2 - 1, (3 - sqrt 5) / 2 and sqrt 5 - 2.
- */
-constexpr double Offset[3] = { 0.4142135623, 0.3819660113, 0.2360679775 };
 /** Smallest distance of a lattice point that is stored, in pitches: its sign is the side. */
 constexpr double LeastDistance = 1e-6;
 /** Number of points below which a thread does not pay. */
@@ -107,15 +102,16 @@ void MarkNear(Layer& layer, Layer& next, std::size_t width)
 }
 }
 
-IndexedSurface RemeshOnLattice(const IndexedSurface& surface, double pitch, float shortest,
-  float longest, Executor& executor, const std::function<bool(double share)>& goOn)
+IndexedSurface RemeshOnLattice(const IndexedSurface& given, double pitch, int attempt,
+  Executor& executor, const std::function<bool(double share)>& goOn)
 {
-  Bounds box = Bounds::Of(surface);
-  for (int axis = 0; axis < 3; ++axis)
+  const ObliqueRotation rotation(attempt);
+  IndexedSurface surface = given;
+  for (Point& p : surface.Points)
   {
-    box.Low[axis] -= Offset[axis] * pitch;
+    p = rotation.Apply(p);
   }
-  DistanceLattice lattice(box, pitch);
+  DistanceLattice lattice(Bounds::Of(surface), pitch);
   const std::array<int, 3>& size = lattice.Size();
   RowFollower rows(surface, lattice, executor);
   const TriangleTree tree(surface);
@@ -164,12 +160,15 @@ IndexedSurface RemeshOnLattice(const IndexedSurface& surface, double pitch, floa
     }
     layer.swap(next);
   }
-  lattice.MakeWellComposed([](const Point&) { return true; });
-  IndexedSurface result =
-    WithLegalEdges(lattice.Boundary(true, executor), shortest, longest, executor);
+  lattice.MakeWellComposed([](const Point&) { return false; });
+  IndexedSurface result = lattice.Boundary(true, executor);
   if (CountSelfIntersections(result, 1) > 0)
   {
     result = lattice.Boundary(false, executor);
+  }
+  for (Point& p : result.Points)
+  {
+    p = rotation.Undo(p);
   }
   return goOn(1.) ? result : IndexedSurface();
 }

@@ -20,14 +20,13 @@ namespace volumic
  * off by up to half of the pitch.
  *
  * @param pitch distance of the lattice points, in the unit of the surface's points.
- * @param shortest length below which edges are collapsed where that is possible.
- * @param longest length above which edges are halved.
+ * @param attempt number of the lattice's direction (ObliqueRotation): what one tears, another may not.
  * @param goOn receives the finished share now and then; if it returns false, the result is empty.
  * @return a surface without triangles if the lattice resolves no part of it.
  * `surface` must be closed and oriented.
  */
-IndexedSurface RemeshOnLattice(const IndexedSurface& surface, double pitch, float shortest,
-  float longest, Executor& executor, const std::function<bool(double share)>& goOn);
+IndexedSurface RemeshOnLattice(const IndexedSurface& surface, double pitch, int attempt,
+  Executor& executor, const std::function<bool(double share)>& goOn);
 }
 
 #endif
