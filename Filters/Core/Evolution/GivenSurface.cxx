@@ -5,6 +5,7 @@
 #include "Core/Evolution/Evolution.h"
 #include "Core/Evolution/InitialSurface.h"
 #include "Core/Evolution/LatticeSurface.h"
+#include "Core/Mesh/LegalEdges.h"
 #include "Core/Mesh/SelfIntersections.h"
 #include "Core/Mesh/SurfaceFeatures.h"
 
@@ -30,6 +31,11 @@ constexpr double Rounding = 1.0001;
 constexpr float Pitches[] = { 1.1f, 0.9f, 0.7f };
 /** That of large surfaces, for the sake of time. */
 constexpr float CoarsePitch = 1.6f;
+/** Edges of the remeshed surface: shorter ones are collapsed, longer ones halved; in delta. */
+constexpr float ShortestEdge = 1.3f;
+constexpr float LongestEdge = 2.45f;
+/** Share of its volume that each component must keep in these collapses. */
+constexpr double KeptByCollapses = 0.9;
 /** Area from which on a surface is large, in delta^2. */
 constexpr double LargeArea = 100000.;
 /** Share of the volume that the remeshed surface must still have. */
@@ -146,6 +152,29 @@ bool IsSound(const IndexedSurface& surface, double delta)
     CountSelfIntersections(surface, 1) == 0;
 }
 
+std::vector<double> VolumesOf(const IndexedSurface& surface)
+{
+  std::vector<double> volumes;
+  for (const ComponentFeatures& component : ComputeFeatures(surface).Components)
+  {
+    volumes.push_back(std::abs(component.Volume));
+  }
+  std::sort(volumes.begin(), volumes.end());
+  return volumes;
+}
+
+/** Brings most edges within their bounds, unless small components or intersections forbid it. */
+IndexedSurface WithFewerEdges(const IndexedSurface& surface, float delta, Executor& executor)
+{
+  IndexedSurface result =
+    WithLegalEdges(surface, ShortestEdge * delta, LongestEdge * delta, executor);
+  const std::vector<double> before = VolumesOf(surface);
+  const std::vector<double> after = VolumesOf(result);
+  const bool isKept = std::equal(before.begin(), before.end(), after.begin(), after.end(),
+    [](double a, double b) { return b > KeptByCollapses * a; });
+  return isKept && CountSelfIntersections(result, 1) == 0 ? result : surface;
+}
+
 IndexedSurface Remesh(Evolution& e, const IndexedSurface& surface)
 {
   // What is thin, or thins out to an edge, may be torn on one lattice and not on another: take the
@@ -178,7 +207,7 @@ IndexedSurface Remesh(Evolution& e, const IndexedSurface& surface)
       break;
     }
   }
-  return best;
+  return WithFewerEdges(best, delta, e.Threads);
 }
 
 void Begin(Evolution& e, const IndexedSurface& surface)
