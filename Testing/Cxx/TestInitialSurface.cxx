@@ -45,7 +45,7 @@ TEST(InitialSurface, EnclosingSurfaceHasLegalEdgesWhateverTheBox)
       EXPECT_EQ(CountSelfIntersections(box), 0);
       EXPECT_GT(ComputeFeatures(box).Volume, 0.) << "outward oriented";
       const std::vector<double> lengths = EdgeLengths(box);
-      EXPECT_GE(*std::min_element(lengths.begin(), lengths.end()), 1.1 * delta);
+      EXPECT_GE(*std::min_element(lengths.begin(), lengths.end()), 1.39 * delta);
       EXPECT_LE(*std::max_element(lengths.begin(), lengths.end()), 2. * delta);
       SurfaceMesh mesh;
       mesh.Append(box);

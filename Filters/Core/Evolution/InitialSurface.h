@@ -20,9 +20,8 @@ IndexedSurface Icosahedron(const Point& centre, double radius);
 IndexedSurface DividedIcosahedron(const Point& centre, double radius, double meanEdge);
 
 /**
- * A box with edges and corners cut off that encloses the image and a voxel about it. Whatever the
- * image's proportions, its edges are 1.1 to 2 delta long, legal by eq. (1): collapses and splits
- * have nothing to do before the forces have. It is near the image, and has a short way to go.
+ * A box that encloses the image and a voxel about it. Whatever the image's proportions, its edges are
+ * 1.4 to 2 delta long, legal by eq. (1). It is near the image, and has a short way to go.
  * @throws std::invalid_argument as CheckNumberOfVertices.
  */
 IndexedSurface EnclosingSurface(const LevelImage& image, double delta, Executor& executor);
