@@ -281,7 +281,7 @@ public:
 
   ///@{
   /**
-   * What the surface starts from. EnclosingIcosahedron (default): a box about the image, in
+   * What the surface starts from. EnclosingIcosahedron (default): a rounded box about the image, in
    * the place of the paper's icosahedron. Seeds: icosahedra inside the object, at the SeedPositions
    * and the points of port 1, or on a grid if there are neither. IsoSurface: what encloses all of
    * the object on the coarsest level, .4 voxel beyond its closed isosurface, with even triangles.

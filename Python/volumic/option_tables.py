@@ -174,7 +174,7 @@ PROPERTIES = (
     Property("preview", "", "Preview", "end at the finest level of at most a million voxels, to "
              "try a value of --iso", value=True),
     Property("initialization", "icosahedron|seeds|iso-surface|input-surface", "Initialization",
-             "initial surface: a box around the image; seeds at --seed-position and "
+             "initial surface: a rounded box around the image; seeds at --seed-position and "
              "--seeds, or on a grid; the isosurface of the coarsest level; or --initial-surface"),
     Property("seed-radius", "LENGTH", "SeedRadius", "radius of the seeds in world units; 0: 1.2 "
              "times the shortest edge of the coarsest level"),

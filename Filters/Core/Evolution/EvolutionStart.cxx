@@ -195,7 +195,7 @@ void Start(Evolution& e, const SurfaceStart& start)
   }
   else if (!isEnclosed)
   {
-    e.State.Mesh.Append(EnclosingSurface(e.Task.Image, e.State.Sizing.OfLevel(), e.Threads));
+    e.State.Mesh.Append(EnclosingSurface(e.Task.Image, e.State.Sizing.OfLevel()));
     Renumber(e);
     e.GoOn(Monitor::Activity::Starting, 1.);
   }

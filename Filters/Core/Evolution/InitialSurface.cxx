@@ -3,13 +3,17 @@
 #include "Core/Evolution/InitialSurface.h"
 
 #include "Core/Common/Join.h"
+#include "Core/Common/Lattice.h"
 #include "Core/Common/Refuse.h"
-#include "Core/Interfaces/DualMesh.h"
 #include "Core/Mesh/Division.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <string>
+#include <unordered_map>
+#include <utility>
 
 namespace volumic
 {
@@ -80,13 +84,117 @@ IndexedSurface DividedIcosahedron(const Point& centre, double radius, double mea
 
 namespace
 {
-/** Edges of the enclosing surface, in delta; diagonals are sqrt 2 times as long. */
+/** Edges of the enclosing surface along its sides, in delta; across them they are sqrt 2 as long. */
 constexpr double EnclosingEdge = 1.4;
+/** Radius of its rounding for such an edge: the chord of 45 degrees, 1 / (2 sin(pi / 8)). */
+constexpr double RoundingOfEdge = 1.3065629648763766;
 /** So many vertices take more memory than there is; images of 2000^3 voxels need 12 million. */
 constexpr double MostVertices = 3e7;
+
+/** A box with edges and corners cut off, as a lattice of quadrangles on its surface. */
+class RoundedBox
+{
+public:
+  /** About a box of half the widths `half`. */
+  RoundedBox(const Point& centre, const Point& half, double edge)
+    : Centre(centre)
+    , Edge(edge)
+    , Radius(RoundingOfEdge * edge)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      // The ball that rounds its corner reaches that of the box.
+      const double core = std::max(half[k] - this->Radius / std::sqrt(3.), 0.);
+      this->Last[k] = static_cast<int>(std::ceil(2. * core / edge)) + 2;
+    }
+  }
+
+  IndexedSurface Surface()
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      this->AddSide(axis, 0);
+      this->AddSide(axis, this->Last[axis]);
+    }
+    return std::move(this->Result);
+  }
+
+private:
+  using Place = std::array<int, 3>; ///< On the lattice, 0 to Last.
+
+  void AddSide(int axis, int at)
+  {
+    const int i = (axis + 1) % 3;
+    const int j = (axis + 2) % 3;
+    Place p;
+    p[axis] = at;
+    for (p[i] = 0; p[i] < this->Last[i]; ++p[i])
+    {
+      for (p[j] = 0; p[j] < this->Last[j]; ++p[j])
+      {
+        Place corner[4] = { p, p, p, p }; // In turn, outward where at > 0.
+        ++corner[1][i];
+        ++corner[2][i];
+        ++corner[2][j];
+        ++corner[3][j];
+        int index[4];
+        for (int k = 0; k < 4; ++k)
+        {
+          index[k] = this->IndexOf(corner[k]);
+        }
+        // At a corner of the box the diagonal ends there, which leaves no vertex of valence 3.
+        const int first = (p[i] == 0) == (p[j] == 0) ? 0 : 1;
+        this->AddTriangle(index[first], index[first + 1], index[first + 2], at > 0);
+        this->AddTriangle(index[first], index[first + 2], index[(first + 3) % 4], at > 0);
+      }
+    }
+  }
+
+  void AddTriangle(int a, int b, int c, bool isOutward)
+  {
+    this->Result.Triangles.push_back({ a, isOutward ? b : c, isOutward ? c : b });
+  }
+
+  int IndexOf(const Place& place)
+  {
+    const auto found = this->Index.emplace(
+      LatticeKey(place[0], place[1], place[2]), static_cast<int>(this->Result.Points.size()));
+    if (found.second)
+    {
+      this->Result.Points.push_back(this->PointAt(place));
+    }
+    return found.first->second;
+  }
+
+  Point PointAt(const Place& place) const
+  {
+    // The core's nearest point, and the direction from there.
+    Point p = this->Centre;
+    Point out;
+    for (int k = 0; k < 3; ++k)
+    {
+      const int onCore = std::clamp(place[k], 1, this->Last[k] - 1);
+      p[k] += (onCore - 0.5 * this->Last[k]) * this->Edge;
+      out[k] = place[k] - onCore;
+    }
+    const double scale = this->Radius / std::hypot(out[0], out[1], out[2]);
+    for (int k = 0; k < 3; ++k)
+    {
+      p[k] += scale * out[k];
+    }
+    return p;
+  }
+
+  Point Centre;
+  double Edge;
+  double Radius;
+  Place Last;
+  IndexedSurface Result;
+  std::unordered_map<std::uint64_t, int> Index; ///< Of the points, by place.
+};
 }
 
-IndexedSurface EnclosingSurface(const LevelImage& image, double delta, Executor& executor)
+IndexedSurface EnclosingSurface(const LevelImage& image, double delta)
 {
   Point centre;
   Point half;
@@ -98,34 +206,7 @@ IndexedSurface EnclosingSurface(const LevelImage& image, double delta, Executor&
   }
   CheckNumberOfVertices(
     8. * (half[0] * half[1] + half[1] * half[2] + half[2] * half[0]), image, delta);
-  const double edge = EnclosingEdge * delta;
-  DualGrid grid;
-  grid.RankOf = { 1, 0 };
-  for (int k = 0; k < 3; ++k)
-  {
-    // Vertices lie on the planes. As their number is odd, a diagonal ends at each corner of the box,
-    // which leaves no vertex of valence 3.
-    const int planes = 2 * static_cast<int>(std::ceil(half[k] / edge)) + 1;
-    grid.Size[k] = planes + 1;
-    for (int i = 0; i <= planes; ++i)
-    {
-      const double plane = centre[k] + edge * (i - 0.5 * (planes - 1));
-      grid.Centres[k].push_back(static_cast<float>(plane - 0.5 * edge));
-      grid.Planes[k].push_back(static_cast<float>(plane));
-    }
-    grid.Planes[k].pop_back();
-  }
-  grid.CopySlice = [&size = grid.Size](int k, LabelMap::Number* labels)
-  {
-    std::fill_n(labels, static_cast<std::size_t>(size[0]) * size[1], LabelMap::Number(0));
-    for (int j = 1; j + 1 < size[1] && k > 0 && k + 1 < size[2]; ++j)
-    {
-      std::fill_n(labels + static_cast<std::size_t>(size[0]) * j + 1, size[0] - 2, 1);
-    }
-  };
-  const InterfaceMesh mesh = MakeDualMesh(grid, executor);
-  std::vector<int> unused;
-  return mesh.SurfaceOf(1, mesh.FindFacesOfObjects()[1], unused);
+  return RoundedBox(centre, half, EnclosingEdge * delta).Surface();
 }
 
 void CheckNumberOfVertices(double area, const LevelImage& image, double delta)

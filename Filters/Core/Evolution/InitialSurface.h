@@ -3,7 +3,6 @@
 #ifndef volumicInitialSurface_h
 #define volumicInitialSurface_h
 
-#include "Core/Common/Executor.h"
 #include "Core/Image/Field.h"
 #include "Core/Image/LevelImage.h"
 #include "Core/Mesh/SurfaceMesh.h"
@@ -20,11 +19,12 @@ IndexedSurface Icosahedron(const Point& centre, double radius);
 IndexedSurface DividedIcosahedron(const Point& centre, double radius, double meanEdge);
 
 /**
- * A box that encloses the image and a voxel about it. Whatever the image's proportions, its edges are
- * 1.4 to 2 delta long, legal by eq. (1). It is near the image, and has a short way to go.
+ * A box with edges and corners cut off that encloses the image and a voxel about it. Whatever the
+ * image's proportions, its edges are 1.1 to 2 delta long, legal by eq. (1): collapses and splits
+ * have nothing to do before the forces have. It is near the image, and has a short way to go.
  * @throws std::invalid_argument as CheckNumberOfVertices.
  */
-IndexedSurface EnclosingSurface(const LevelImage& image, double delta, Executor& executor);
+IndexedSurface EnclosingSurface(const LevelImage& image, double delta);
 
 /** Refuses a surface of an area (workspace) that would have too many vertices for any memory. */
 void CheckNumberOfVertices(double area, const LevelImage& image, double delta);

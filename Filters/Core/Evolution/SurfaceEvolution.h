@@ -35,7 +35,7 @@ struct SurfaceStart
 {
   enum class Kind
   {
-    Enclosing, ///< A box about the image, see EnclosingSurface.
+    Enclosing, ///< A rounded box about the image, see EnclosingSurface.
     /**
      * What encloses the parts of the object of at least MinimumPartSize voxels, as where all of it
      * has been lost (FindLostParts): near to them, where the way from a box takes hundreds of
