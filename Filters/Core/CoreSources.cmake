@@ -38,11 +38,7 @@ set(volumic_core_sources
   Mesh/EdgeCollapse.cxx
   Mesh/EdgeFlip.cxx
   Mesh/EdgeSplit.cxx
-  Mesh/LatticeInside.cxx
-  Mesh/LatticeSurface.cxx
   Mesh/LegalEdges.cxx
-  Mesh/LongEdges.cxx
-  Mesh/RingRelief.cxx
   Mesh/RowCrossing.cxx
   Mesh/SelfIntersections.cxx
   Mesh/StarMerge.cxx
@@ -104,6 +100,7 @@ set(volumic_core_sources
   Evolution/GivenSurface.cxx
   Evolution/GradedSizes.cxx
   Evolution/InitialSurface.cxx
+  Evolution/LatticeSurface.cxx
   Evolution/LostBoundary.cxx
   Evolution/LostParts.cxx
   Evolution/LostVoxels.cxx
@@ -168,13 +165,9 @@ set(volumic_core_headers
   Mesh/EdgeCollapse.h
   Mesh/EdgeFlip.h
   Mesh/EdgeSplit.h
-  Mesh/LatticeInside.h
-  Mesh/LatticeSurface.h
-  Mesh/LimitedSizes.h
   Mesh/LegalEdges.h
-  Mesh/LongEdges.h
+  Mesh/LimitedSizes.h
   Mesh/ObliqueRotation.h
-  Mesh/RingRelief.h
   Mesh/RowCrossing.h
   Mesh/SelfIntersections.h
   Mesh/StarMerge.h
@@ -234,6 +227,7 @@ set(volumic_core_headers
   Evolution/EvolutionHistory.h
   Evolution/GradedSizes.h
   Evolution/InitialSurface.h
+  Evolution/LatticeSurface.h
   Evolution/LostBoundary.h
   Evolution/LostParts.h
   Evolution/LostVoxels.h

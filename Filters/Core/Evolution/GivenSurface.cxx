@@ -4,8 +4,8 @@
 #include "Core/Common/Refuse.h"
 #include "Core/Evolution/Evolution.h"
 #include "Core/Evolution/InitialSurface.h"
-#include "Core/Mesh/LatticeSurface.h"
-#include "Core/Mesh/ObliqueRotation.h"
+#include "Core/Evolution/LatticeSurface.h"
+#include "Core/Mesh/LegalEdges.h"
 #include "Core/Mesh/SelfIntersections.h"
 #include "Core/Mesh/SurfaceFeatures.h"
 
@@ -28,9 +28,14 @@ constexpr int MaximumPerCell = 60;
 /** What edges may be over their bound by: positions are rounded to float. */
 constexpr double Rounding = 1.0001;
 /** Pitches of the lattices that are tried, in delta, the coarsest first. */
-constexpr double Pitches[ObliqueRotation::Count] = { 1.5, 1.4, 1.25, 1.1, 0.8 };
-/** Of large surfaces: the coarsest that still shows parts of two edges; in delta. */
-constexpr double CoarsePitch = 2.;
+constexpr float Pitches[] = { 1.1f, 0.9f, 0.7f };
+/** That of large surfaces, for the sake of time. */
+constexpr float CoarsePitch = 1.6f;
+/** Edges of the remeshed surface: shorter ones are collapsed, longer ones halved; in delta. */
+constexpr float ShortestEdge = 1.3f;
+constexpr float LongestEdge = 2.45f;
+/** Share of its volume that each component must keep in these collapses. */
+constexpr double KeptByCollapses = 0.9;
 /** Area from which on a surface is large, in delta^2. */
 constexpr double LargeArea = 100000.;
 /** Share of the volume that the remeshed surface must still have. */
@@ -129,12 +134,13 @@ struct Topology
   int Components = 0;
   int EulerCharacteristic = 0;
   double Area = 0.;
+  double Volume = 0.;
 
   static Topology Of(const IndexedSurface& surface)
   {
     const SurfaceFeatures features = ComputeFeatures(surface);
     return { static_cast<int>(features.Components.size()), features.EulerCharacteristic,
-      features.Area };
+      features.Area, features.Volume };
   }
 };
 
@@ -146,39 +152,62 @@ bool IsSound(const IndexedSurface& surface, double delta)
     CountSelfIntersections(surface, 1) == 0;
 }
 
+std::vector<double> VolumesOf(const IndexedSurface& surface)
+{
+  std::vector<double> volumes;
+  for (const ComponentFeatures& component : ComputeFeatures(surface).Components)
+  {
+    volumes.push_back(std::abs(component.Volume));
+  }
+  std::sort(volumes.begin(), volumes.end());
+  return volumes;
+}
+
+/** Brings most edges within their bounds, unless small components or intersections forbid it. */
+IndexedSurface WithFewerEdges(const IndexedSurface& surface, float delta, Executor& executor)
+{
+  IndexedSurface result =
+    WithLegalEdges(surface, ShortestEdge * delta, LongestEdge * delta, executor);
+  const std::vector<double> before = VolumesOf(surface);
+  const std::vector<double> after = VolumesOf(result);
+  const bool isKept = std::equal(before.begin(), before.end(), after.begin(), after.end(),
+    [](double a, double b) { return b > KeptByCollapses * a; });
+  return isKept && CountSelfIntersections(result, 1) == 0 ? result : surface;
+}
+
 IndexedSurface Remesh(Evolution& e, const IndexedSurface& surface)
 {
   // What is thin, or thins out to an edge, may be torn on one lattice and not on another: take the
   // mesh that has the components and tunnels of what was given, or else the nearest to it.
-  // Large surfaces get a coarse one at once, for the sake of time.
-  const double delta = e.State.Sizing.OfLevel();
+  const float delta = e.State.Sizing.OfLevel();
   const Topology wanted = Topology::Of(surface);
   const bool isLarge = wanted.Area > LargeArea * delta * delta;
   IndexedSurface best;
   int least = std::numeric_limits<int>::max();
-  for (int attempt = 0; attempt < ObliqueRotation::Count && least > 0; ++attempt)
+  int attempt = 0;
+  for (const float pitch : Pitches)
   {
-    const double pitch = delta * (isLarge ? CoarsePitch : Pitches[attempt]);
-    IndexedSurface mesh = RemeshOnLattice(surface, pitch, attempt, e.Threads,
-      e.QuestionOf(Monitor::Activity::Starting, 0., ShareOfRemeshing));
+    IndexedSurface mesh = RemeshOnLattice(surface, (isLarge ? CoarsePitch : pitch) * delta,
+      attempt++, e.Threads, e.QuestionOf(Monitor::Activity::Starting, 0., ShareOfRemeshing));
     if (e.Stopped)
     {
       return {};
     }
     const Topology found = Topology::Of(mesh);
     const int difference = std::abs(found.Components - wanted.Components) +
-      std::abs(found.EulerCharacteristic - wanted.EulerCharacteristic);
+      std::abs(found.EulerCharacteristic - wanted.EulerCharacteristic) +
+      (found.Volume > LeastShareOfVolume * wanted.Volume ? 0 : 1);
     if (difference < least)
     {
       least = difference;
       best = std::move(mesh);
     }
-    if (isLarge)
+    if (isLarge || least == 0)
     {
       break;
     }
   }
-  return best;
+  return WithFewerEdges(best, delta, e.Threads);
 }
 
 void Begin(Evolution& e, const IndexedSurface& surface)
@@ -214,11 +243,11 @@ void Adapt(Evolution& e)
 
 void TakeGiven(Evolution& e, const IndexedSurface& given)
 {
-  IndexedSurface surface = WithoutUnusedPoints(given);
-  // A mesh that is near to the constraints is brought within them as it is, by the edits of an
-  // iteration. They rely on edges that are not too long and rings that have room; where long edges,
-  // slivers or fans deny them that, the same surface gets another mesh first.
-  const float delta = e.State.Sizing.OfLevel();
+  const IndexedSurface surface = WithoutUnusedPoints(given);
+  // The edits of an iteration bring a mesh that is near to the constraints within them. They need
+  // edges that are not too long and rings with room. Long edges, slivers and fans are remeshed first.
+  const SurfaceState& s = e.State;
+  const float delta = s.Sizing.OfLevel();
   const EdgeLengths lengths = LengthsOf(surface);
   if (lengths.Longest <= SizingField::LongestEdgeInDelta * delta && FitsRings(surface) &&
     !IsTooDense(surface, delta))
@@ -231,7 +260,7 @@ void TakeGiven(Evolution& e, const IndexedSurface& given)
         Adapt(e);
       }
       // Edits of what does not intersect itself are verified.
-      if (e.Stopped || IsSound(e.State.Mesh.ToIndexed(), delta))
+      if (e.Stopped || IsSound(s.Mesh.ToIndexed(), delta))
       {
         return;
       }

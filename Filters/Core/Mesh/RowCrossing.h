@@ -99,11 +99,10 @@ struct RowGrid
   std::array<std::int64_t, 3> End = { 0, 0, 0 };
   Point Origin = { 0., 0., 0. };
   double Pitch = 1.;
-  double Shift = 0.; ///< pitches
 
   double Coordinate(int axis, std::int64_t i) const
   {
-    return this->Origin[axis] + this->Pitch * (static_cast<double>(i) + this->Shift);
+    return this->Origin[axis] + this->Pitch * static_cast<double>(i);
   }
   std::int64_t RowOf(std::int64_t j, std::int64_t k) const
   {
