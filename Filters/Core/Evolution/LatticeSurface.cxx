@@ -160,7 +160,7 @@ IndexedSurface RemeshOnLattice(const IndexedSurface& given, double pitch, int at
     }
     layer.swap(next);
   }
-  lattice.MakeWellComposed([](const Point&) { return false; });
+  lattice.MakeWellComposed([](const Point&) { return false; }, executor);
   IndexedSurface result = lattice.Boundary(true, executor);
   if (CountSelfIntersections(result, 1) > 0)
   {
