@@ -85,6 +85,23 @@ public:
   template <typename Visitor>
   void VisitBox(const Vector& low, const Vector& high, Visitor&& visit) const
   {
+    this->VisitGroups(low, high,
+      [&](const int* group, int count)
+      {
+        for (int i = 0; i < count; ++i)
+        {
+          visit(group[i]);
+        }
+      });
+  }
+
+  /**
+   * Calls visit(group, count) for groups of such vertices, in the same order; up to LargestGroup of
+   * them, and as many can be read.
+   */
+  template <typename Visitor>
+  void VisitGroups(const Vector& low, const Vector& high, Visitor&& visit) const
+  {
     const int x0 = this->Along(low.X, 0);
     const int x1 = this->Along(high.X, 0);
     const int y0 = this->Along(low.Y, 1);
@@ -101,6 +118,7 @@ public:
     }
     this->VisitChains(firsts, visit);
   }
+  static constexpr int LargestGroup = 64;
 
   /** Bricks that there are, for tests of what it costs. */
   std::size_t NumberOfBricks() const { return this->NumberMade; }
@@ -129,8 +147,7 @@ private:
   /** Of cells that are not empty: collected first, as their vertices are fetched faster then. */
   struct FirstVertices
   {
-    static constexpr int Capacity = 64;
-    int Item[Capacity];
+    int Item[LargestGroup];
     int Count = 0;
   };
   /** All chains side by side, a vertex of each in turn: none waits for the one before it. */
@@ -139,14 +156,13 @@ private:
   {
     while (firsts.Count > 0)
     {
+      visit(static_cast<const int*>(firsts.Item), firsts.Count);
       int count = 0; // No branches: of what has ended the place is written over.
       for (int i = 0; i < firsts.Count; ++i)
       {
-        const int w = firsts.Item[i];
-        const int next = this->Next[w];
+        const int next = this->Next[firsts.Item[i]];
         firsts.Item[count] = next;
         count += next >= 0 ? 1 : 0;
-        visit(w);
       }
       firsts.Count = count;
     }
@@ -165,7 +181,7 @@ private:
         x = end + 1;
         continue;
       }
-      if (firsts.Count + Mask + 1 > FirstVertices::Capacity)
+      if (firsts.Count + Mask + 1 > LargestGroup)
       {
         this->VisitChains(firsts, visit);
       }

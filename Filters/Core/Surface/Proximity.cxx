@@ -287,59 +287,80 @@ public:
   void Examine(int v, Proximity::Findings& found);
 
 private:
-  /** Fills Near with the pairs of a vertex within a radius. */
-  void FindNear(int v, float radius);
+  /** Makes Near the vertices within a radius of the place of one. @return how many */
+  std::size_t FindNear(const Vector& place, float radius);
+
+  /** Room that a group of visited vertices needs, filled up to whole lanes. */
+  static constexpr std::size_t GroupRoom = VertexGrid::LargestGroup + Lanes::Count;
 
   SurfaceState& State;
-  std::vector<int> Visited; ///< Vertices in the cells about one.
-  std::vector<Proximity::ClosePair> Near;
+  std::vector<int> Near = std::vector<int>(GroupRoom);
+  std::vector<float> Squared = std::vector<float>(GroupRoom); ///< Their distances, squared.
 };
 
-void Search::FindNear(int v, float radius)
+std::size_t Search::FindNear(const Vector& place, float radius)
 {
-  const LargeVector<Vector>& place = this->State.Mesh.Position;
-  const Vector p = place[v];
-  std::vector<int>& visited = this->Visited;
-  visited.clear();
-  this->State.Grid.Visit(p, radius, [&](int w) { visited.push_back(w); });
-  visited.resize((visited.size() + Lanes::Count - 1) / Lanes::Count * Lanes::Count, v);
-  this->Near.clear();
-  const VectorLanes from = AllLanes(p);
-  const Lanes most(radius * radius);
-  for (std::size_t i = 0; i < visited.size(); i += Lanes::Count)
-  {
-    const int* w = visited.data() + i;
-    const Lanes squared =
-      SquaredLength(Gather(place[w[0]], place[w[1]], place[w[2]], place[w[3]]) - from);
-    unsigned within = ~LessBits(most, squared) & 15u;
-    float distance[Lanes::Count];
-    squared.Store(distance);
-    for (; within != 0; within &= within - 1)
+  std::size_t visited = 0;
+  const Vector margin(radius, radius, radius);
+  this->State.Grid.VisitGroups(place - margin, place + margin,
+    [&](const int* group, int count)
     {
-      const int k = LowestBit(within);
-      if (w[k] != v)
+      if (this->Near.size() < visited + GroupRoom)
       {
-        this->Near.push_back({ v, w[k], distance[k] });
+        this->Near.resize(2 * visited + GroupRoom);
+        this->Squared.resize(this->Near.size());
       }
+      for (int i = 0; i < count; i += Lanes::Count)
+      {
+        std::copy(group + i, group + i + Lanes::Count, this->Near.data() + visited + i);
+      }
+      visited += static_cast<std::size_t>(count);
+    });
+  int* const near = this->Near.data();
+  float* const squared = this->Squared.data();
+  std::fill_n(near + visited, Lanes::Count, near[0]);
+  const Vector* const places = this->State.Mesh.Position.data();
+  const VectorLanes from = AllLanes(place);
+  const Lanes most(radius * radius);
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < visited; i += Lanes::Count)
+  {
+    const int four[Lanes::Count] = { near[i], near[i + 1], near[i + 2], near[i + 3] };
+    float distance[Lanes::Count];
+    const Lanes lanes = SquaredLength(
+      Gather(places[four[0]], places[four[1]], places[four[2]], places[four[3]]) - from);
+    lanes.Store(distance);
+    const unsigned beyond =
+      LessBits(most, lanes) | ~0u << std::min<std::size_t>(visited - i, Lanes::Count);
+    for (int k = 0; k < Lanes::Count; ++k) // No branches: what is beyond is written over.
+    {
+      near[count] = four[k];
+      squared[count] = distance[k];
+      count += ~beyond >> k & 1u;
     }
   }
+  return count;
 }
 
 template <typename Visitor>
 void Search::VisitOpposed(int v, float radius, const Visitor& visit)
 {
-  this->FindNear(v, radius);
-  for (std::size_t i = 0; i < this->Near.size(); i += Lanes::Count)
+  const std::size_t count = this->FindNear(this->State.Mesh.Position[v], radius);
+  const int* const near = this->Near.data();
+  const NormalCone* const cones = this->State.Normal.AsVector().data();
+  for (std::size_t i = 0; i < count; i += Lanes::Count)
   {
-    const auto cone = [&](std::size_t k) -> const NormalCone&
-    { return this->State.Normal[this->Near[std::min(k, this->Near.size() - 1)].W]; };
-    unsigned opposed = OpposedBits(
-      this->State.Normal[v], cone(i), cone(i + 1), cone(i + 2), cone(i + 3));
-    opposed &= (1u << std::min<std::size_t>(this->Near.size() - i, Lanes::Count)) - 1;
+    const int* w = near + i; // After the last follow others, or filling.
+    unsigned opposed =
+      OpposedBits(cones[v], cones[w[0]], cones[w[1]], cones[w[2]], cones[w[3]]);
+    opposed &= ~(~0u << std::min<std::size_t>(count - i, Lanes::Count));
     for (; opposed != 0; opposed &= opposed - 1)
     {
-      const Proximity::ClosePair& near = this->Near[i + LowestBit(opposed)];
-      visit(near.W, near.Squared);
+      const int k = LowestBit(opposed);
+      if (w[k] != v)
+      {
+        visit(w[k], this->Squared[i + k]);
+      }
     }
   }
 }
