@@ -89,6 +89,12 @@ struct NewFace
   bool HasNormal; ///< It is no sliver, whose normal in floats says nothing.
 };
 
+/** The faces of a star, as bits, of which both neighbours are among those of some bits. */
+unsigned FacesOf(const Ring& ring, unsigned neighbours)
+{
+  return neighbours & (neighbours >> 1 | (neighbours & 1u) << (ring.Count - 1));
+}
+
 bool Intersect(
   const SurfaceState& state, const MeshTriangle& one, const MeshTriangle& other)
 {
@@ -168,16 +174,19 @@ bool NewFacesIntersect(
       {
         return;
       }
+      // A face is tested from the smallest of its corners that are visited.
       const Ring& ring = mesh.Rings[w];
-      for (int i = 0; i < ring.Count && !intersects; ++i)
+      unsigned tested = 0;
+      for (int i = 0; i < ring.Count; ++i)
       {
         const int u = ring.Item[i];
+        tested |= (u > w || !isVisited(u) ? 1u : 0u) << i;
+      }
+      for (unsigned faces = FacesOf(ring, tested); faces != 0 && !intersects; faces &= faces - 1)
+      {
+        const int i = LowestBit(faces);
+        const int u = ring.Item[i];
         const int v = ring.Next(i);
-        // A face is tested from the smallest of its corners that are visited.
-        if ((u < w && isVisited(u)) || (v < w && isVisited(v)))
-        {
-          continue;
-        }
         const Box bounds = Box::Of(mesh.Position[w], mesh.Position[u], mesh.Position[v]);
         intersects = !bounds.IsApartFrom(all) && !removed.Contains({ w, u, v }) &&
           IntersectFace(state, news, w, u, v, bounds);
@@ -243,14 +252,15 @@ private:
   void VisitFaces(int v, const Visit& visit) const
   {
     const Ring& ring = this->State.Mesh.Rings[v];
+    unsigned after = 0;
     for (int i = 0; i < ring.Count; ++i)
     {
-      const int a = ring.Item[i];
-      const int b = ring.Next(i);
-      if (a > v && b > v)
-      {
-        visit(a, b);
-      }
+      after |= (ring.Item[i] > v ? 1u : 0u) << i;
+    }
+    for (unsigned faces = FacesOf(ring, after); faces != 0; faces &= faces - 1)
+    {
+      const int i = LowestBit(faces);
+      visit(ring.Item[i], ring.Next(i));
     }
   }
 

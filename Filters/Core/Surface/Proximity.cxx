@@ -56,12 +56,9 @@ float RoomAlong(const StarRim& first, const StarRim& second, const Vector& direc
   return LeastOf(lowest) - GreatestOf(highest);
 }
 
+/** The same along the better of two directions, of stars without a common vertex. */
 float RoomBetween(const SurfaceState& state, const StarRim& first, const StarRim& second)
 {
-  if (first.Shares(second))
-  {
-    return 0;
-  }
   const Vector across = second.Place - first.Place;
   Vector direction = state.Normal[first.Centre].Axis() - state.Normal[second.Centre].Axis();
   if (Dot(direction, across) < 0)
@@ -231,6 +228,8 @@ float TestStars(const SurfaceState& state, const StarFaces& first, const StarFac
   const float someRoom = SomeRoom * state.Sizing.At(v);
   const FacesBeside besideFirst(first, second, FloatRounding * someRoom);
   std::optional<FacesBeside> besideSecond; // Few need it.
+  std::array<unsigned, Ring::Capacity> firstBeside;
+  unsigned known = 0; // Those of its faces for which that is made.
   float room = someRoom;
   for (int i = 0; i < first.Count; ++i)
   {
@@ -244,7 +243,12 @@ float TestStars(const SurfaceState& state, const StarFaces& first, const StarFac
       {
         besideSecond.emplace(second, first, FloatRounding * someRoom);
       }
-      if (besideSecond->Of(j) >> i & 1)
+      if (!(known >> j & 1))
+      {
+        known |= 1u << j;
+        firstBeside[j] = besideSecond->Of(j);
+      }
+      if (firstBeside[j] >> i & 1)
       {
         continue;
       }
@@ -408,21 +412,20 @@ void Search::Examine(int v, Proximity::Findings& found)
         found.Pairs.push_back({ v, w, squared });
       }
       const StarFaces& first = star();
-      const StarFaces second(mesh, w);
-      const float room = RoomBetween(state, first, second);
-      if (room >= LeastRoom * delta)
-      {
-        slack = std::min(slack, room);
-      }
-      else if (v < w || !(state.Marks[w] & IsListed) ||
-        squared > state.Sizing.Reach(w) * state.Sizing.Reach(w)) // Which does not look as far.
-      {
-        slack = std::min(slack, TestStars(state, first, second, found));
-      }
-      else
+      const bool share = first.Shares(w, mesh.Rings[w]);
+      const bool tests = v < w || !(state.Marks[w] & IsListed) ||
+        squared > state.Sizing.Reach(w) * state.Sizing.Reach(w); // Which does not look as far.
+      if (share && !tests)
       {
         slack = std::min(slack, SomeRoom * delta);
+        return;
       }
+      const StarFaces second(mesh, w);
+      const float room = share ? 0.f : RoomBetween(state, first, second);
+      slack = std::min(slack,
+        room >= LeastRoom * delta ? room
+          : tests                 ? TestStars(state, first, second, found)
+                                  : SomeRoom * delta);
     });
   state.NearOthers[v] = anything;
   state.Slack[v] = slack;
