@@ -117,10 +117,6 @@ void SurfaceState::UpdateShape(int v)
   {
     const auto ofEdges = [&](auto&& of)
     {
-      if (!this->Sizing.IsGraded())
-      {
-        return Lanes(of(v));
-      }
       float four[Lanes::Count];
       for (int k = 0; k < Lanes::Count; ++k)
       {
