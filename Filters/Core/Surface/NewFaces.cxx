@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <optional>
 
 namespace volumic
 {
@@ -273,32 +272,21 @@ private:
   {
     const LargeVector<Vector>& place = this->State.Mesh.Position;
     const Box bounds = Box::Of(place[w], place[a], place[b]);
-    if (bounds.IsApartFrom(all))
+    const auto isNear = [&](const NewFace& face) { return !bounds.IsApartFrom(face.Bounds); };
+    if (bounds.IsApartFrom(all) || std::none_of(this->News.begin(), this->News.end(), isNear))
     {
       return false;
     }
-    std::optional<MeshTriangle> triangle; // Few need it.
-    std::optional<NewFace> other;
-    for (const NewFace& face : this->News)
-    {
-      if (bounds.IsApartFrom(face.Bounds))
+    const float delta = this->State.Sizing.At(w);
+    const float room = RoomBesidePlane * delta;
+    const MeshTriangle triangle = TriangleOf(this->State.Mesh, w, a, b);
+    const NewFace other(triangle, delta);
+    return std::any_of(this->News.begin(), this->News.end(),
+      [&](const NewFace& face)
       {
-        continue;
-      }
-      const float delta = this->State.Sizing.At(w);
-      if (!other)
-      {
-        triangle = TriangleOf(this->State.Mesh, w, a, b);
-        other.emplace(*triangle, delta);
-      }
-      const float room = RoomBesidePlane * delta;
-      if (!face.IsClearOf(*other, room) && !other->IsClearOf(face, room) &&
-        volumic::Intersect(this->State, face.Exact, *triangle))
-      {
-        return true;
-      }
-    }
-    return false;
+        return isNear(face) && !face.IsClearOf(other, room) && !other.IsClearOf(face, room) &&
+          volumic::Intersect(this->State, face.Exact, triangle);
+      });
   }
 
   const SurfaceState& State;

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <optional>
 #include <utility>
 
 namespace volumic
@@ -227,7 +226,7 @@ float TestStars(const SurfaceState& state, const StarFaces& first, const StarFac
   const FirstPair pair(state, v, second.Centre);
   const float someRoom = SomeRoom * state.Sizing.At(v);
   const FacesBeside besideFirst(first, second, FloatRounding * someRoom);
-  std::optional<FacesBeside> besideSecond; // Few need it.
+  const FacesBeside besideSecond(second, first, FloatRounding * someRoom);
   std::array<unsigned, Ring::Capacity> firstBeside;
   unsigned known = 0; // Those of its faces for which that is made.
   float room = someRoom;
@@ -239,14 +238,10 @@ float TestStars(const SurfaceState& state, const StarFaces& first, const StarFac
     for (; near != 0; near &= near - 1)
     {
       const int j = LowestBit(near);
-      if (!besideSecond)
-      {
-        besideSecond.emplace(second, first, FloatRounding * someRoom);
-      }
       if (!(known >> j & 1))
       {
         known |= 1u << j;
-        firstBeside[j] = besideSecond->Of(j);
+        firstBeside[j] = besideSecond.Of(j);
       }
       if (firstBeside[j] >> i & 1)
       {
@@ -300,6 +295,8 @@ private:
   SurfaceState& State;
   std::vector<int> Near = std::vector<int>(GroupRoom);
   std::vector<float> Squared = std::vector<float>(GroupRoom); ///< Their distances, squared.
+  /** The star of the vertex, or none: few need it, those that do need it often. */
+  std::vector<StarFaces> Own;
 };
 
 std::size_t Search::FindNear(const Vector& place, float radius)
@@ -352,11 +349,12 @@ void Search::VisitOpposed(int v, float radius, const Visitor& visit)
   const std::size_t count = this->FindNear(this->State.Mesh.Position[v], radius);
   const int* const near = this->Near.data();
   const NormalCone* const cones = this->State.Normal.AsVector().data();
+  const NormalCone cone = cones[v];
   for (std::size_t i = 0; i < count; i += Lanes::Count)
   {
     const int* w = near + i; // After the last follow others, or filling.
     unsigned opposed =
-      OpposedBits(cones[v], cones[w[0]], cones[w[1]], cones[w[2]], cones[w[3]]);
+      OpposedBits(cone, cones[w[0]], cones[w[1]], cones[w[2]], cones[w[3]]);
     opposed &= ~(~0u << std::min<std::size_t>(count - i, Lanes::Count));
     for (; opposed != 0; opposed &= opposed - 1)
     {
@@ -379,14 +377,14 @@ void Search::Examine(int v, Proximity::Findings& found)
   const float further = most + (state.IsSlow[v] ? Proximity::FurtherReachInDelta * delta : 0.f);
   const float near = PairReach * delta;
   const float least = ReachSlack * delta;
-  std::optional<StarFaces> own; // Few vertices need it, those that do need it often.
+  this->Own.clear();
   const auto star = [&]() -> const StarFaces&
   {
-    if (!own)
+    if (this->Own.empty())
     {
-      own.emplace(mesh, v);
+      this->Own.emplace_back(mesh, v);
     }
-    return *own;
+    return this->Own.front();
   };
   bool anything = false;
   float slack = further - most + least;
