@@ -140,10 +140,6 @@ private:
       this->BricksAlong[0] +
       (x >> Bits);
   }
-  const Brick* BrickAt(int x, int y, int z) const
-  {
-    return this->Bricks[this->NumberOfBrick(x, y, z)].load(std::memory_order_acquire);
-  }
   /** Of cells that are not empty: collected first, as their vertices are fetched faster then. */
   struct FirstVertices
   {
@@ -171,28 +167,29 @@ private:
   template <typename Visitor>
   void AddRow(int x0, int x1, int y, int z, FirstVertices& firsts, Visitor&& visit) const
   {
+    const auto* bricks = this->Bricks.data() + this->NumberOfBrick(0, y, z);
+    const std::size_t row = PlaceInBrick(0, y, z);
     for (int x = x0; x <= x1;)
     {
       // The part of the row that lies in one brick.
-      const int end = std::min(x1, x | Mask);
-      const Brick* brick = this->BrickAt(x, y, z);
-      if (!brick)
+      const int count = std::min(x1, x | Mask) + 1 - x;
+      const Brick* brick = bricks[x >> Bits].load(std::memory_order_acquire);
+      if (brick)
       {
-        x = end + 1;
-        continue;
+        if (firsts.Count + Mask + 1 > LargestGroup)
+        {
+          this->VisitChains(firsts, visit);
+        }
+        const int* heads = brick->data() + row + (x & Mask);
+        int found = firsts.Count; // No branches: what is empty is written over.
+        for (int i = 0; i < count; ++i)
+        {
+          firsts.Item[found] = heads[i];
+          found += heads[i] >= 0 ? 1 : 0;
+        }
+        firsts.Count = found;
       }
-      if (firsts.Count + Mask + 1 > LargestGroup)
-      {
-        this->VisitChains(firsts, visit);
-      }
-      const int* heads = brick->data() + PlaceInBrick(0, y, z);
-      int count = firsts.Count; // No branches: what is empty is written over.
-      for (; x <= end; ++x)
-      {
-        firsts.Item[count] = heads[x & Mask];
-        count += heads[x & Mask] >= 0 ? 1 : 0;
-      }
-      firsts.Count = count;
+      x += count;
     }
   }
 
