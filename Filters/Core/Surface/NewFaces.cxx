@@ -42,15 +42,6 @@ struct NewFace
     this->HasNormal = Length(normal) > LeastArea * delta * delta;
   }
 
-  /** Whether all three points lie on one side of its plane, with some room. */
-  bool IsBeside(const Vector& p, const Vector& q, const Vector& r, float room) const
-  {
-    const float heights[3] = { Dot(this->Normal, p - this->Place),
-      Dot(this->Normal, q - this->Place), Dot(this->Normal, r - this->Place) };
-    return std::min({ heights[0], heights[1], heights[2] }) > room ||
-      std::max({ heights[0], heights[1], heights[2] }) < -room;
-  }
-
   /**
    * Whether another face, less a corner that both have, lies on one side of the plane, with some
    * room; or, if they have an edge, is far from folded onto this one. They don't intersect then.
@@ -121,19 +112,21 @@ bool IntersectEachOther(const SurfaceState& state, const std::vector<NewFace>& f
 bool IntersectFace(const SurfaceState& state, const std::vector<NewFace>& news, int w, int u, int v,
   const Box& bounds)
 {
-  const Vector& p = state.Mesh.Position[w];
-  const Vector& q = state.Mesh.Position[u];
-  const Vector& r = state.Mesh.Position[v];
-  const float room = RoomBesidePlane * state.Sizing.At(w);
-  for (const NewFace& face : news)
+  const auto isNear = [&](const NewFace& face) { return !bounds.IsApartFrom(face.Bounds); };
+  if (std::none_of(news.begin(), news.end(), isNear))
   {
-    if (!bounds.IsApartFrom(face.Bounds) && !face.IsBeside(p, q, r, room) &&
-      Intersect(state, face.Exact, TriangleOf(state.Mesh, w, u, v)))
-    {
-      return true;
-    }
+    return false;
   }
-  return false;
+  const float delta = state.Sizing.At(w);
+  const float room = RoomBesidePlane * delta;
+  const MeshTriangle triangle = TriangleOf(state.Mesh, w, u, v);
+  const NewFace other(triangle, delta);
+  return std::any_of(news.begin(), news.end(),
+    [&](const NewFace& face)
+    {
+      return isNear(face) && !face.IsClearOf(other, room) && !other.IsClearOf(face, room) &&
+        Intersect(state, face.Exact, triangle);
+    });
 }
 }
 
@@ -272,21 +265,7 @@ private:
   {
     const LargeVector<Vector>& place = this->State.Mesh.Position;
     const Box bounds = Box::Of(place[w], place[a], place[b]);
-    const auto isNear = [&](const NewFace& face) { return !bounds.IsApartFrom(face.Bounds); };
-    if (bounds.IsApartFrom(all) || std::none_of(this->News.begin(), this->News.end(), isNear))
-    {
-      return false;
-    }
-    const float delta = this->State.Sizing.At(w);
-    const float room = RoomBesidePlane * delta;
-    const MeshTriangle triangle = TriangleOf(this->State.Mesh, w, a, b);
-    const NewFace other(triangle, delta);
-    return std::any_of(this->News.begin(), this->News.end(),
-      [&](const NewFace& face)
-      {
-        return isNear(face) && !face.IsClearOf(other, room) && !other.IsClearOf(face, room) &&
-          volumic::Intersect(this->State, face.Exact, triangle);
-      });
+    return !bounds.IsApartFrom(all) && IntersectFace(this->State, this->News, w, a, b, bounds);
   }
 
   const SurfaceState& State;

@@ -159,38 +159,6 @@ unsigned FacesNear(const StarFaces& from, int i, const StarFaces& other, float m
   return ~apart & other.All();
 }
 
-/**
- * Whether two faces with one common corner lie on either side of a plane through it, far enough for
- * TrianglesIntersect() to return false with a tolerance of `room`. What that takes for the
- * intersection of an edge with a face is at most 3 sqrt 3 tolerances from the face in its plane,
- * where its tip is sharp and its box the only bound, and one tolerance from the plane.
- */
-bool ArePartedAtCorner(
-  const SurfaceMesh& mesh, const std::array<int, 3>& f, const std::array<int, 3>& g, float room)
-{
-  constexpr float leastInRooms = 8.f;
-  for (int k = 0; k < 9; ++k)
-  {
-    const int i = k / 3;
-    const int j = k % 3;
-    if (f[i] == g[j])
-    {
-      const Vector corner = mesh.Position[f[i]];
-      const Vector a = mesh.Position[f[(i + 1) % 3]] - corner;
-      const Vector b = mesh.Position[f[(i + 2) % 3]] - corner;
-      const Vector c = mesh.Position[g[(j + 1) % 3]] - corner;
-      const Vector d = mesh.Position[g[(j + 2) % 3]] - corner;
-      const Vector across = Normalized(a + b - c - d);
-      const float least = leastInRooms * room;
-      const float area = least * least; // Less is a sliver, whose plane is uncertain.
-      return std::min(Dot(across, a), Dot(across, b)) > least &&
-        std::max(Dot(across, c), Dot(across, d)) < -least &&
-        SquaredLength(Cross(a, b)) > area * area && SquaredLength(Cross(c, d)) > area * area;
-    }
-  }
-  return false;
-}
-
 bool SameFace(const std::array<int, 3>& f, const std::array<int, 3>& g)
 {
   const auto has = [&g](int v) { return g[0] == v || g[1] == v || g[2] == v; };
@@ -199,7 +167,7 @@ bool SameFace(const std::array<int, 3>& f, const std::array<int, 3>& g)
 
 /**
  * Two faces are found from up to nine pairs of their corners. Only the first pair, in order of
- * index, that an examination would look at tests them.
+ * index, that an examination would look at counts.
  */
 class FirstPair
 {
@@ -281,14 +249,14 @@ float TestStars(const SurfaceState& state, const StarFaces& first, const StarFac
       }
       const std::array<int, 3> f = first.Face(i);
       const std::array<int, 3> g = second.Face(j);
-      if (SameFace(f, g) || ArePartedAtCorner(state.Mesh, f, g, someRoom) ||
-        !pair.IsFirstOf(f, g))
+      if (SameFace(f, g))
       {
-        continue; // Tested from the first pair; see Tight for what that finds.
+        continue;
       }
       const MeshTriangle one = TriangleOf(state.Mesh, f[0], f[1], f[2]);
       const MeshTriangle other = TriangleOf(state.Mesh, g[0], g[1], g[2]);
-      if (TrianglesIntersect(one, other, someRoom))
+      // What is found from the first pair is so for all; see Tight.
+      if (TrianglesIntersect(one, other, someRoom) && pair.IsFirstOf(f, g))
       {
         room = 0;
         found.Tight.insert(found.Tight.end(), f.begin(), f.end());
