@@ -19,7 +19,7 @@ inline Vector Maximum(const Vector& a, const Vector& b)
   Maximum(Lanes::Load(&a.X), Lanes::Load(&b.X)).Store(&greatest.X);
   return greatest;
 }
-/** Bits 0 to 2: whether the coordinate along that axis is less. */
+/** Return a bit for each axis: set if the coordinate of a is less. */
 inline unsigned LessBits(const Vector& a, const Vector& b)
 {
   return LessBits(Lanes::Load(&a.X), Lanes::Load(&b.X)) & 7u;

@@ -141,10 +141,11 @@ bool SegmentIntersects(
 }
 
 /**
- * Whether the two edges opposite to a common corner lie on either side of a plane through it, too
- * far apart for any test below to let one meet the other triangle. The tests count as inside what is
- * up to a tolerance from a triangle's plane and, where a tip is sharp and only its box bounds it, 3
- * sqrt 3 tolerances from it in the plane. False for slivers, whose planes rounding may turn.
+ * Whether a plane through the common corner of two triangles separates the edges opposite to it by
+ * so much that none of the tests below can find an intersection. Those tests accept points up to
+ * one tolerance from the plane of a triangle. In that plane they accept points up to 3 sqrt 3
+ * tolerances from the triangle, at a sharp corner, where only the bounding box limits them.
+ * Returns false for slivers, whose normals are unreliable.
  */
 bool PartedAtCorner(
   const VectorD& corner, const VectorD* endsF, const VectorD* endsG, double tolerance)
@@ -183,7 +184,7 @@ bool OnOneSide(const VectorD* points, int count, const VectorD& origin, const Pl
   return above || below;
 }
 
-/** The test for triangles with the corner i of one, j of the other in common. */
+/** Test two triangles that have corner i of the first and corner j of the second in common. */
 bool IntersectBeyondCorner(const VectorD* f, int i, const VectorD* g, int j, double tolerance)
 {
   const VectorD endsF[2] = { f[(i + 1) % 3], f[(i + 2) % 3] };

@@ -96,8 +96,8 @@ public:
   }
 
   /**
-   * Calls visit(group, count) for groups of such vertices, in the same order; up to LargestGroup of
-   * them, and as many can be read.
+   * Call visit(group, count) for groups of the same vertices in the same order. A group has at most
+   * LargestGroup vertices, and its array always has room for that many.
    */
   template <typename Visitor>
   void VisitGroups(const Vector& low, const Vector& high, Visitor&& visit) const

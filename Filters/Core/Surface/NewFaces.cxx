@@ -79,7 +79,7 @@ struct NewFace
   bool HasNormal; ///< It is no sliver, whose normal in floats says nothing.
 };
 
-/** The faces of a star, as bits, of which both neighbours are among those of some bits. */
+/** Return the faces of a star, as bits, both of whose neighbours are in a set of bits. */
 unsigned FacesOf(const Ring& ring, unsigned neighbours)
 {
   return neighbours & (neighbours >> 1 | (neighbours & 1u) << (ring.Count - 1));

@@ -55,7 +55,7 @@ float RoomAlong(const StarRim& first, const StarRim& second, const Vector& direc
   return LeastOf(lowest) - GreatestOf(highest);
 }
 
-/** The same along the better of two directions, of stars without a common vertex. */
+/** The larger room along two directions. The stars must not have a common vertex. */
 float RoomBetween(const SurfaceState& state, const StarRim& first, const StarRim& second)
 {
   const Vector across = second.Place - first.Place;
@@ -228,7 +228,7 @@ float TestStars(const SurfaceState& state, const StarFaces& first, const StarFac
   const FacesBeside besideFirst(first, second, FloatRounding * someRoom);
   const FacesBeside besideSecond(second, first, FloatRounding * someRoom);
   std::array<unsigned, Ring::Capacity> firstBeside;
-  unsigned known = 0; // Those of its faces for which that is made.
+  unsigned known = 0; // The faces of the second star for which it has been computed.
   float room = someRoom;
   for (int i = 0; i < first.Count; ++i)
   {
@@ -255,7 +255,7 @@ float TestStars(const SurfaceState& state, const StarFaces& first, const StarFac
       }
       const MeshTriangle one = TriangleOf(state.Mesh, f[0], f[1], f[2]);
       const MeshTriangle other = TriangleOf(state.Mesh, g[0], g[1], g[2]);
-      // What is found from the first pair is so for all; see Tight.
+      // Only the first pair reports the intersection; see Tight.
       if (TrianglesIntersect(one, other, someRoom) && pair.IsFirstOf(f, g))
       {
         room = 0;
@@ -287,16 +287,16 @@ public:
   void Examine(int v, Proximity::Findings& found);
 
 private:
-  /** Makes Near the vertices within a radius of the place of one. @return how many */
+  /** Fill Near with the vertices within a radius of a position. Return their number. */
   std::size_t FindNear(const Vector& place, float radius);
 
-  /** Room that a group of visited vertices needs, filled up to whole lanes. */
+  /** Capacity for one more group of visited vertices, rounded up to whole lanes. */
   static constexpr std::size_t GroupRoom = VertexGrid::LargestGroup + Lanes::Count;
 
   SurfaceState& State;
   std::vector<int> Near = std::vector<int>(GroupRoom);
   std::vector<float> Squared = std::vector<float>(GroupRoom); ///< Their distances, squared.
-  /** The star of the vertex, or none: few need it, those that do need it often. */
+  /** The star of the examined vertex, built on first use: most vertices do not need it. */
   std::vector<StarFaces> Own;
 };
 
@@ -334,7 +334,7 @@ std::size_t Search::FindNear(const Vector& place, float radius)
     lanes.Store(distance);
     const unsigned beyond =
       LessBits(most, lanes) | ~0u << std::min<std::size_t>(visited - i, Lanes::Count);
-    for (int k = 0; k < Lanes::Count; ++k) // No branches: what is beyond is written over.
+    for (int k = 0; k < Lanes::Count; ++k) // Without branches: vertices beyond are overwritten.
     {
       near[count] = four[k];
       squared[count] = distance[k];
@@ -353,7 +353,7 @@ void Search::VisitOpposed(int v, float radius, const Visitor& visit)
   const NormalCone cone = cones[v];
   for (std::size_t i = 0; i < count; i += Lanes::Count)
   {
-    const int* w = near + i; // After the last follow others, or filling.
+    const int* w = near + i; // Valid indices follow after the last one.
     unsigned opposed =
       OpposedBits(cone, cones[w[0]], cones[w[1]], cones[w[2]], cones[w[3]]);
     opposed &= ~(~0u << std::min<std::size_t>(count - i, Lanes::Count));

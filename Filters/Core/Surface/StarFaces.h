@@ -90,7 +90,7 @@ struct StarRim
     }
     return bits & this->All();
   }
-  /** Whether a vertex is also one of the star of another one, which has this ring. */
+  /** Whether this star and the star of another vertex, with this ring, have a common vertex. */
   bool Shares(int other, const Ring& ring) const
   {
     unsigned shared = this->Matching(other);
