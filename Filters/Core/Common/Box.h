@@ -3,19 +3,26 @@
 #ifndef volumicBox_h
 #define volumicBox_h
 
-#include "Core/Common/Vector.h"
-
-#include <algorithm>
+#include "Core/Common/Lanes.h"
 
 namespace volumic
 {
 inline Vector Minimum(const Vector& a, const Vector& b)
 {
-  return Vector(std::min(a.X, b.X), std::min(a.Y, b.Y), std::min(a.Z, b.Z));
+  Vector least;
+  Minimum(Lanes::Load(&a.X), Lanes::Load(&b.X)).Store(&least.X);
+  return least;
 }
 inline Vector Maximum(const Vector& a, const Vector& b)
 {
-  return Vector(std::max(a.X, b.X), std::max(a.Y, b.Y), std::max(a.Z, b.Z));
+  Vector greatest;
+  Maximum(Lanes::Load(&a.X), Lanes::Load(&b.X)).Store(&greatest.X);
+  return greatest;
+}
+/** Return a bit for each axis: set if the coordinate of a is less. */
+inline unsigned LessBits(const Vector& a, const Vector& b)
+{
+  return LessBits(Lanes::Load(&a.X), Lanes::Load(&b.X)) & 7u;
 }
 
 /** A box along the axes. */
@@ -49,13 +56,11 @@ struct Box
 
   bool Contains(const Vector& p) const
   {
-    return p.X >= this->Low.X && p.X <= this->High.X && p.Y >= this->Low.Y &&
-      p.Y <= this->High.Y && p.Z >= this->Low.Z && p.Z <= this->High.Z;
+    return (LessBits(p, this->Low) | LessBits(this->High, p)) == 0;
   }
   bool IsApartFrom(const Box& b) const
   {
-    return this->Low.X > b.High.X || b.Low.X > this->High.X || this->Low.Y > b.High.Y ||
-      b.Low.Y > this->High.Y || this->Low.Z > b.High.Z || b.Low.Z > this->High.Z;
+    return (LessBits(b.High, this->Low) | LessBits(this->High, b.Low)) != 0;
   }
 };
 }

@@ -140,6 +140,35 @@ bool SegmentIntersects(
   return true;
 }
 
+/**
+ * Whether a plane through the common corner of two triangles separates the edges opposite to it by
+ * so much that none of the tests below can find an intersection. Those tests accept points up to
+ * one tolerance from the plane of a triangle. In that plane they accept points up to 3 sqrt 3
+ * tolerances from the triangle, at a sharp corner, where only the bounding box limits them.
+ * Returns false for slivers, whose normals are unreliable.
+ */
+bool PartedAtCorner(
+  const VectorD& corner, const VectorD* endsF, const VectorD* endsG, double tolerance)
+{
+  constexpr double leastTolerances = 8;
+  constexpr double leastShare = 1e-3;
+  constexpr double leastSine = 1e-6;
+  const VectorD a = endsF[0] - corner;
+  const VectorD b = endsF[1] - corner;
+  const VectorD c = endsG[0] - corner;
+  const VectorD d = endsG[1] - corner;
+  const VectorD across = a + b - c - d;
+  const double length = Length(across);
+  const double least = length * (leastTolerances * tolerance + leastShare * length);
+  const auto isSliver = [](const VectorD& p, const VectorD& q)
+  {
+    const VectorD normal = Cross(p, q);
+    return !(Dot(normal, normal) > leastSine * leastSine * Dot(p, p) * Dot(q, q));
+  };
+  return Dot(across, a) > least && Dot(across, b) > least && Dot(across, c) < -least &&
+    Dot(across, d) < -least && !isSliver(a, b) && !isSliver(c, d);
+}
+
 bool OnOneSide(const VectorD* points, int count, const VectorD& origin, const Plane& plane,
   double tolerance)
 {
@@ -153,6 +182,29 @@ bool OnOneSide(const VectorD* points, int count, const VectorD& origin, const Pl
     below = below && d < -thick;
   }
   return above || below;
+}
+
+/** Test two triangles that have corner i of the first and corner j of the second in common. */
+bool IntersectBeyondCorner(const VectorD* f, int i, const VectorD* g, int j, double tolerance)
+{
+  const VectorD endsF[2] = { f[(i + 1) % 3], f[(i + 2) % 3] };
+  const VectorD endsG[2] = { g[(j + 1) % 3], g[(j + 2) % 3] };
+  if (PartedAtCorner(f[i], endsF, endsG, tolerance))
+  {
+    return false;
+  }
+  const Plane planeF = PlaneOf(f);
+  if (OnOneSide(endsG, 2, f[0], planeF, tolerance))
+  {
+    return false;
+  }
+  const Plane planeG = PlaneOf(g);
+  if (OnOneSide(endsF, 2, g[0], planeG, tolerance))
+  {
+    return false;
+  }
+  return SegmentIntersects(endsF[0], endsF[1], g, planeG, tolerance) ||
+    SegmentIntersects(endsG[0], endsG[1], f, planeF, tolerance);
 }
 }
 
@@ -186,6 +238,10 @@ bool TrianglesIntersect(const MeshTriangle& f, const MeshTriangle& g, double tol
   {
     return false;
   }
+  if (shared == 1)
+  {
+    return IntersectBeyondCorner(f.Corner, inF[0], g.Corner, inG[0], tolerance);
+  }
   const Plane planeF = PlaneOf(f.Corner);
   if (shared == 2)
   {
@@ -195,22 +251,6 @@ bool TrianglesIntersect(const MeshTriangle& f, const MeshTriangle& g, double tol
     const bool isForwardInG = (inG[1] - inG[0] + 3) % 3 == 1;
     const double side = isForwardInF != isForwardInG ? 1. : -1.;
     return side * Dot(planeF.Normal, planeG.Normal) < FoldedCosine * planeF.Size * planeG.Size;
-  }
-  if (shared == 1)
-  {
-    const VectorD endsF[2] = { f.Corner[(inF[0] + 1) % 3], f.Corner[(inF[0] + 2) % 3] };
-    const VectorD endsG[2] = { g.Corner[(inG[0] + 1) % 3], g.Corner[(inG[0] + 2) % 3] };
-    if (OnOneSide(endsG, 2, f.Corner[0], planeF, tolerance))
-    {
-      return false;
-    }
-    const Plane planeG = PlaneOf(g.Corner);
-    if (OnOneSide(endsF, 2, g.Corner[0], planeG, tolerance))
-    {
-      return false;
-    }
-    return SegmentIntersects(endsF[0], endsF[1], g.Corner, planeG, tolerance) ||
-      SegmentIntersects(endsG[0], endsG[1], f.Corner, planeF, tolerance);
   }
   if (OnOneSide(g.Corner, 3, f.Corner[0], planeF, tolerance))
   {

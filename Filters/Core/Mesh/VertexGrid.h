@@ -85,6 +85,23 @@ public:
   template <typename Visitor>
   void VisitBox(const Vector& low, const Vector& high, Visitor&& visit) const
   {
+    this->VisitGroups(low, high,
+      [&](const int* group, int count)
+      {
+        for (int i = 0; i < count; ++i)
+        {
+          visit(group[i]);
+        }
+      });
+  }
+
+  /**
+   * Call visit(group, count) for groups of the same vertices in the same order. A group has at most
+   * LargestGroup vertices, and its array always has room for that many.
+   */
+  template <typename Visitor>
+  void VisitGroups(const Vector& low, const Vector& high, Visitor&& visit) const
+  {
     const int x0 = this->Along(low.X, 0);
     const int x1 = this->Along(high.X, 0);
     const int y0 = this->Along(low.Y, 1);
@@ -101,6 +118,7 @@ public:
     }
     this->VisitChains(firsts, visit);
   }
+  static constexpr int LargestGroup = 64;
 
   /** Bricks that there are, for tests of what it costs. */
   std::size_t NumberOfBricks() const { return this->NumberMade; }
@@ -122,15 +140,10 @@ private:
       this->BricksAlong[0] +
       (x >> Bits);
   }
-  const Brick* BrickAt(int x, int y, int z) const
-  {
-    return this->Bricks[this->NumberOfBrick(x, y, z)].load(std::memory_order_acquire);
-  }
   /** Of cells that are not empty: collected first, as their vertices are fetched faster then. */
   struct FirstVertices
   {
-    static constexpr int Capacity = 64;
-    int Item[Capacity];
+    int Item[LargestGroup];
     int Count = 0;
   };
   /** All chains side by side, a vertex of each in turn: none waits for the one before it. */
@@ -139,14 +152,13 @@ private:
   {
     while (firsts.Count > 0)
     {
+      visit(static_cast<const int*>(firsts.Item), firsts.Count);
       int count = 0; // No branches: of what has ended the place is written over.
       for (int i = 0; i < firsts.Count; ++i)
       {
-        const int w = firsts.Item[i];
-        const int next = this->Next[w];
+        const int next = this->Next[firsts.Item[i]];
         firsts.Item[count] = next;
         count += next >= 0 ? 1 : 0;
-        visit(w);
       }
       firsts.Count = count;
     }
@@ -155,28 +167,29 @@ private:
   template <typename Visitor>
   void AddRow(int x0, int x1, int y, int z, FirstVertices& firsts, Visitor&& visit) const
   {
+    const auto* bricks = this->Bricks.data() + this->NumberOfBrick(0, y, z);
+    const std::size_t row = PlaceInBrick(0, y, z);
     for (int x = x0; x <= x1;)
     {
       // The part of the row that lies in one brick.
-      const int end = std::min(x1, x | Mask);
-      const Brick* brick = this->BrickAt(x, y, z);
-      if (!brick)
+      const int count = std::min(x1, x | Mask) + 1 - x;
+      const Brick* brick = bricks[x >> Bits].load(std::memory_order_acquire);
+      if (brick)
       {
-        x = end + 1;
-        continue;
+        if (firsts.Count + Mask + 1 > LargestGroup)
+        {
+          this->VisitChains(firsts, visit);
+        }
+        const int* heads = brick->data() + row + (x & Mask);
+        int found = firsts.Count; // No branches: what is empty is written over.
+        for (int i = 0; i < count; ++i)
+        {
+          firsts.Item[found] = heads[i];
+          found += heads[i] >= 0 ? 1 : 0;
+        }
+        firsts.Count = found;
       }
-      if (firsts.Count + Mask + 1 > FirstVertices::Capacity)
-      {
-        this->VisitChains(firsts, visit);
-      }
-      const int* heads = brick->data() + PlaceInBrick(0, y, z);
-      int count = firsts.Count; // No branches: what is empty is written over.
-      for (; x <= end; ++x)
-      {
-        firsts.Item[count] = heads[x & Mask];
-        count += heads[x & Mask] >= 0 ? 1 : 0;
-      }
-      firsts.Count = count;
+      x += count;
     }
   }
 

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <optional>
 
 namespace volumic
 {
@@ -41,15 +40,6 @@ struct NewFace
       Cross(Vector(face.Corner[1]) - this->Place, Vector(face.Corner[2]) - this->Place);
     this->Normal = Normalized(normal);
     this->HasNormal = Length(normal) > LeastArea * delta * delta;
-  }
-
-  /** Whether all three points lie on one side of its plane, with some room. */
-  bool IsBeside(const Vector& p, const Vector& q, const Vector& r, float room) const
-  {
-    const float heights[3] = { Dot(this->Normal, p - this->Place),
-      Dot(this->Normal, q - this->Place), Dot(this->Normal, r - this->Place) };
-    return std::min({ heights[0], heights[1], heights[2] }) > room ||
-      std::max({ heights[0], heights[1], heights[2] }) < -room;
   }
 
   /**
@@ -89,6 +79,12 @@ struct NewFace
   bool HasNormal; ///< It is no sliver, whose normal in floats says nothing.
 };
 
+/** Return the faces of a star, as bits, both of whose neighbours are in a set of bits. */
+unsigned FacesOf(const Ring& ring, unsigned neighbours)
+{
+  return neighbours & (neighbours >> 1 | (neighbours & 1u) << (ring.Count - 1));
+}
+
 bool Intersect(
   const SurfaceState& state, const MeshTriangle& one, const MeshTriangle& other)
 {
@@ -116,19 +112,21 @@ bool IntersectEachOther(const SurfaceState& state, const std::vector<NewFace>& f
 bool IntersectFace(const SurfaceState& state, const std::vector<NewFace>& news, int w, int u, int v,
   const Box& bounds)
 {
-  const Vector& p = state.Mesh.Position[w];
-  const Vector& q = state.Mesh.Position[u];
-  const Vector& r = state.Mesh.Position[v];
-  const float room = RoomBesidePlane * state.Sizing.At(w);
-  for (const NewFace& face : news)
+  const auto isNear = [&](const NewFace& face) { return !bounds.IsApartFrom(face.Bounds); };
+  if (std::none_of(news.begin(), news.end(), isNear))
   {
-    if (!bounds.IsApartFrom(face.Bounds) && !face.IsBeside(p, q, r, room) &&
-      Intersect(state, face.Exact, TriangleOf(state.Mesh, w, u, v)))
-    {
-      return true;
-    }
+    return false;
   }
-  return false;
+  const float delta = state.Sizing.At(w);
+  const float room = RoomBesidePlane * delta;
+  const MeshTriangle triangle = TriangleOf(state.Mesh, w, u, v);
+  const NewFace other(triangle, delta);
+  return std::any_of(news.begin(), news.end(),
+    [&](const NewFace& face)
+    {
+      return isNear(face) && !face.IsClearOf(other, room) && !other.IsClearOf(face, room) &&
+        Intersect(state, face.Exact, triangle);
+    });
 }
 }
 
@@ -168,16 +166,19 @@ bool NewFacesIntersect(
       {
         return;
       }
+      // A face is tested from the smallest of its corners that are visited.
       const Ring& ring = mesh.Rings[w];
-      for (int i = 0; i < ring.Count && !intersects; ++i)
+      unsigned tested = 0;
+      for (int i = 0; i < ring.Count; ++i)
       {
         const int u = ring.Item[i];
+        tested |= (u > w || !isVisited(u) ? 1u : 0u) << i;
+      }
+      for (unsigned faces = FacesOf(ring, tested); faces != 0 && !intersects; faces &= faces - 1)
+      {
+        const int i = LowestBit(faces);
+        const int u = ring.Item[i];
         const int v = ring.Next(i);
-        // A face is tested from the smallest of its corners that are visited.
-        if ((u < w && isVisited(u)) || (v < w && isVisited(v)))
-        {
-          continue;
-        }
         const Box bounds = Box::Of(mesh.Position[w], mesh.Position[u], mesh.Position[v]);
         intersects = !bounds.IsApartFrom(all) && !removed.Contains({ w, u, v }) &&
           IntersectFace(state, news, w, u, v, bounds);
@@ -243,14 +244,15 @@ private:
   void VisitFaces(int v, const Visit& visit) const
   {
     const Ring& ring = this->State.Mesh.Rings[v];
+    unsigned after = 0;
     for (int i = 0; i < ring.Count; ++i)
     {
-      const int a = ring.Item[i];
-      const int b = ring.Next(i);
-      if (a > v && b > v)
-      {
-        visit(a, b);
-      }
+      after |= (ring.Item[i] > v ? 1u : 0u) << i;
+    }
+    for (unsigned faces = FacesOf(ring, after); faces != 0; faces &= faces - 1)
+    {
+      const int i = LowestBit(faces);
+      visit(ring.Item[i], ring.Next(i));
     }
   }
 
@@ -263,32 +265,7 @@ private:
   {
     const LargeVector<Vector>& place = this->State.Mesh.Position;
     const Box bounds = Box::Of(place[w], place[a], place[b]);
-    if (bounds.IsApartFrom(all))
-    {
-      return false;
-    }
-    std::optional<MeshTriangle> triangle; // Few need it.
-    std::optional<NewFace> other;
-    for (const NewFace& face : this->News)
-    {
-      if (bounds.IsApartFrom(face.Bounds))
-      {
-        continue;
-      }
-      const float delta = this->State.Sizing.At(w);
-      if (!other)
-      {
-        triangle = TriangleOf(this->State.Mesh, w, a, b);
-        other.emplace(*triangle, delta);
-      }
-      const float room = RoomBesidePlane * delta;
-      if (!face.IsClearOf(*other, room) && !other->IsClearOf(face, room) &&
-        volumic::Intersect(this->State, face.Exact, *triangle))
-      {
-        return true;
-      }
-    }
-    return false;
+    return !bounds.IsApartFrom(all) && IntersectFace(this->State, this->News, w, a, b, bounds);
   }
 
   const SurfaceState& State;

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <optional>
 #include <utility>
 
 namespace volumic
@@ -56,12 +55,9 @@ float RoomAlong(const StarRim& first, const StarRim& second, const Vector& direc
   return LeastOf(lowest) - GreatestOf(highest);
 }
 
+/** The larger room along two directions. The stars must not have a common vertex. */
 float RoomBetween(const SurfaceState& state, const StarRim& first, const StarRim& second)
 {
-  if (first.Shares(second))
-  {
-    return 0;
-  }
   const Vector across = second.Place - first.Place;
   Vector direction = state.Normal[first.Centre].Axis() - state.Normal[second.Centre].Axis();
   if (Dot(direction, across) < 0)
@@ -171,7 +167,7 @@ bool SameFace(const std::array<int, 3>& f, const std::array<int, 3>& g)
 
 /**
  * Two faces are found from up to nine pairs of their corners. Only the first pair, in order of
- * index, that an examination would look at tests them.
+ * index, that an examination would look at counts.
  */
 class FirstPair
 {
@@ -230,7 +226,9 @@ float TestStars(const SurfaceState& state, const StarFaces& first, const StarFac
   const FirstPair pair(state, v, second.Centre);
   const float someRoom = SomeRoom * state.Sizing.At(v);
   const FacesBeside besideFirst(first, second, FloatRounding * someRoom);
-  std::optional<FacesBeside> besideSecond; // Few need it.
+  const FacesBeside besideSecond(second, first, FloatRounding * someRoom);
+  std::array<unsigned, Ring::Capacity> firstBeside;
+  unsigned known = 0; // The faces of the second star for which it has been computed.
   float room = someRoom;
   for (int i = 0; i < first.Count; ++i)
   {
@@ -240,23 +238,25 @@ float TestStars(const SurfaceState& state, const StarFaces& first, const StarFac
     for (; near != 0; near &= near - 1)
     {
       const int j = LowestBit(near);
-      if (!besideSecond)
+      if (!(known >> j & 1))
       {
-        besideSecond.emplace(second, first, FloatRounding * someRoom);
+        known |= 1u << j;
+        firstBeside[j] = besideSecond.Of(j);
       }
-      if (besideSecond->Of(j) >> i & 1)
+      if (firstBeside[j] >> i & 1)
       {
         continue;
       }
       const std::array<int, 3> f = first.Face(i);
       const std::array<int, 3> g = second.Face(j);
-      if (SameFace(f, g) || !pair.IsFirstOf(f, g))
+      if (SameFace(f, g))
       {
-        continue; // Tested from the first pair; see Tight for what that finds.
+        continue;
       }
       const MeshTriangle one = TriangleOf(state.Mesh, f[0], f[1], f[2]);
       const MeshTriangle other = TriangleOf(state.Mesh, g[0], g[1], g[2]);
-      if (TrianglesIntersect(one, other, someRoom))
+      // Only the first pair reports the intersection; see Tight.
+      if (TrianglesIntersect(one, other, someRoom) && pair.IsFirstOf(f, g))
       {
         room = 0;
         found.Tight.insert(found.Tight.end(), f.begin(), f.end());
@@ -287,59 +287,83 @@ public:
   void Examine(int v, Proximity::Findings& found);
 
 private:
-  /** Fills Near with the pairs of a vertex within a radius. */
-  void FindNear(int v, float radius);
+  /** Fill Near with the vertices within a radius of a position. Return their number. */
+  std::size_t FindNear(const Vector& place, float radius);
+
+  /** Capacity for one more group of visited vertices, rounded up to whole lanes. */
+  static constexpr std::size_t GroupRoom = VertexGrid::LargestGroup + Lanes::Count;
 
   SurfaceState& State;
-  std::vector<int> Visited; ///< Vertices in the cells about one.
-  std::vector<Proximity::ClosePair> Near;
+  std::vector<int> Near = std::vector<int>(GroupRoom);
+  std::vector<float> Squared = std::vector<float>(GroupRoom); ///< Their distances, squared.
+  /** The star of the examined vertex, built on first use: most vertices do not need it. */
+  std::vector<StarFaces> Own;
 };
 
-void Search::FindNear(int v, float radius)
+std::size_t Search::FindNear(const Vector& place, float radius)
 {
-  const LargeVector<Vector>& place = this->State.Mesh.Position;
-  const Vector p = place[v];
-  std::vector<int>& visited = this->Visited;
-  visited.clear();
-  this->State.Grid.Visit(p, radius, [&](int w) { visited.push_back(w); });
-  visited.resize((visited.size() + Lanes::Count - 1) / Lanes::Count * Lanes::Count, v);
-  this->Near.clear();
-  const VectorLanes from = AllLanes(p);
-  const Lanes most(radius * radius);
-  for (std::size_t i = 0; i < visited.size(); i += Lanes::Count)
-  {
-    const int* w = visited.data() + i;
-    const Lanes squared =
-      SquaredLength(Gather(place[w[0]], place[w[1]], place[w[2]], place[w[3]]) - from);
-    unsigned within = ~LessBits(most, squared) & 15u;
-    float distance[Lanes::Count];
-    squared.Store(distance);
-    for (; within != 0; within &= within - 1)
+  std::size_t visited = 0;
+  const Vector margin(radius, radius, radius);
+  this->State.Grid.VisitGroups(place - margin, place + margin,
+    [&](const int* group, int count)
     {
-      const int k = LowestBit(within);
-      if (w[k] != v)
+      if (this->Near.size() < visited + GroupRoom)
       {
-        this->Near.push_back({ v, w[k], distance[k] });
+        this->Near.resize(2 * visited + GroupRoom);
+        this->Squared.resize(this->Near.size());
       }
+      for (int i = 0; i < count; i += Lanes::Count)
+      {
+        std::copy(group + i, group + i + Lanes::Count, this->Near.data() + visited + i);
+      }
+      visited += static_cast<std::size_t>(count);
+    });
+  int* const near = this->Near.data();
+  float* const squared = this->Squared.data();
+  std::fill_n(near + visited, Lanes::Count, near[0]);
+  const Vector* const places = this->State.Mesh.Position.data();
+  const VectorLanes from = AllLanes(place);
+  const Lanes most(radius * radius);
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < visited; i += Lanes::Count)
+  {
+    const int four[Lanes::Count] = { near[i], near[i + 1], near[i + 2], near[i + 3] };
+    float distance[Lanes::Count];
+    const Lanes lanes = SquaredLength(
+      Gather(places[four[0]], places[four[1]], places[four[2]], places[four[3]]) - from);
+    lanes.Store(distance);
+    const unsigned beyond =
+      LessBits(most, lanes) | ~0u << std::min<std::size_t>(visited - i, Lanes::Count);
+    for (int k = 0; k < Lanes::Count; ++k) // Without branches: vertices beyond are overwritten.
+    {
+      near[count] = four[k];
+      squared[count] = distance[k];
+      count += ~beyond >> k & 1u;
     }
   }
+  return count;
 }
 
 template <typename Visitor>
 void Search::VisitOpposed(int v, float radius, const Visitor& visit)
 {
-  this->FindNear(v, radius);
-  for (std::size_t i = 0; i < this->Near.size(); i += Lanes::Count)
+  const std::size_t count = this->FindNear(this->State.Mesh.Position[v], radius);
+  const int* const near = this->Near.data();
+  const NormalCone* const cones = this->State.Normal.AsVector().data();
+  const NormalCone cone = cones[v];
+  for (std::size_t i = 0; i < count; i += Lanes::Count)
   {
-    const auto cone = [&](std::size_t k) -> const NormalCone&
-    { return this->State.Normal[this->Near[std::min(k, this->Near.size() - 1)].W]; };
-    unsigned opposed = OpposedBits(
-      this->State.Normal[v], cone(i), cone(i + 1), cone(i + 2), cone(i + 3));
-    opposed &= (1u << std::min<std::size_t>(this->Near.size() - i, Lanes::Count)) - 1;
+    const int* w = near + i; // Valid indices follow after the last one.
+    unsigned opposed =
+      OpposedBits(cone, cones[w[0]], cones[w[1]], cones[w[2]], cones[w[3]]);
+    opposed &= ~(~0u << std::min<std::size_t>(count - i, Lanes::Count));
     for (; opposed != 0; opposed &= opposed - 1)
     {
-      const Proximity::ClosePair& near = this->Near[i + LowestBit(opposed)];
-      visit(near.W, near.Squared);
+      const int k = LowestBit(opposed);
+      if (w[k] != v)
+      {
+        visit(w[k], this->Squared[i + k]);
+      }
     }
   }
 }
@@ -354,14 +378,14 @@ void Search::Examine(int v, Proximity::Findings& found)
   const float further = most + (state.IsSlow[v] ? Proximity::FurtherReachInDelta * delta : 0.f);
   const float near = PairReach * delta;
   const float least = ReachSlack * delta;
-  std::optional<StarFaces> own; // Few vertices need it, those that do need it often.
+  this->Own.clear();
   const auto star = [&]() -> const StarFaces&
   {
-    if (!own)
+    if (this->Own.empty())
     {
-      own.emplace(mesh, v);
+      this->Own.emplace_back(mesh, v);
     }
-    return *own;
+    return this->Own.front();
   };
   bool anything = false;
   float slack = further - most + least;
@@ -387,21 +411,20 @@ void Search::Examine(int v, Proximity::Findings& found)
         found.Pairs.push_back({ v, w, squared });
       }
       const StarFaces& first = star();
-      const StarFaces second(mesh, w);
-      const float room = RoomBetween(state, first, second);
-      if (room >= LeastRoom * delta)
-      {
-        slack = std::min(slack, room);
-      }
-      else if (v < w || !(state.Marks[w] & IsListed) ||
-        squared > state.Sizing.Reach(w) * state.Sizing.Reach(w)) // Which does not look as far.
-      {
-        slack = std::min(slack, TestStars(state, first, second, found));
-      }
-      else
+      const bool share = first.Shares(w, mesh.Rings[w]);
+      const bool tests = v < w || !(state.Marks[w] & IsListed) ||
+        squared > state.Sizing.Reach(w) * state.Sizing.Reach(w); // Which does not look as far.
+      if (share && !tests)
       {
         slack = std::min(slack, SomeRoom * delta);
+        return;
       }
+      const StarFaces second(mesh, w);
+      const float room = share ? 0.f : RoomBetween(state, first, second);
+      slack = std::min(slack,
+        room >= LeastRoom * delta ? room
+          : tests                 ? TestStars(state, first, second, found)
+                                  : SomeRoom * delta);
     });
   state.NearOthers[v] = anything;
   state.Slack[v] = slack;

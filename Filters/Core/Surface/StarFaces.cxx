@@ -22,16 +22,6 @@ StarRim::StarRim(const SurfaceMesh& mesh, int v)
   this->Rim.Close(this->Count);
 }
 
-bool StarRim::Shares(const StarRim& other) const
-{
-  unsigned shared = other.Matching(this->Centre);
-  for (int i = 0; i < this->Count && shared == 0; ++i)
-  {
-    shared = other.Matching(this->Item[i]);
-  }
-  return shared != 0 || this->Matching(other.Centre) != 0 || this->Centre == other.Centre;
-}
-
 StarFaces::StarFaces(const SurfaceMesh& mesh, int v)
   : StarRim(mesh, v)
 {

@@ -90,8 +90,16 @@ struct StarRim
     }
     return bits & this->All();
   }
-  /** Whether a vertex is one of both stars. */
-  bool Shares(const StarRim& other) const;
+  /** Whether this star and the star of another vertex, with this ring, have a common vertex. */
+  bool Shares(int other, const Ring& ring) const
+  {
+    unsigned shared = this->Matching(other);
+    for (int i = 0; i < ring.Count && shared == 0; ++i)
+    {
+      shared = this->Matching(ring.Item[i]);
+    }
+    return shared != 0;
+  }
 
   int Centre;
   int Count;
