@@ -60,7 +60,45 @@ TEST(CycleCriterion, IsNotMetByWhatGetsSomewhere)
   }
 }
 
-TEST(EndlessRuns, NoiseThatMergesAndCutsInTurnIsALimitCycle)
+namespace
+{
+/** Return the iteration at which the criterion is met, 0 if it is not within 1000 iterations. */
+template <typename Edits>
+int ReachesResolutionLimit(const Edits& edits)
+{
+  ResolutionCriterion resolution;
+  for (int i = 1; i <= 1000; ++i)
+  {
+    const std::array<int, 3> row = edits(i); // Vertices, splits, collapses.
+    resolution.Add(row[0], row[1], row[2]);
+    if (resolution.IsMet())
+    {
+      return i;
+    }
+  }
+  return 0;
+}
+}
+
+TEST(ResolutionCriterion, IsMetWhenHalfOfTheMeshIsReplacedAndThatContinues)
+{
+  using Row = std::array<int, 3>;
+  EXPECT_EQ(ReachesResolutionLimit([](int) { return Row{ 1000, 10, 12 }; }), 51);
+  EXPECT_EQ(ReachesResolutionLimit([](int) { return Row{ 1000, 400, 400 }; }), 40);
+  // The largest number of vertices counts, also if few are left.
+  EXPECT_EQ(ReachesResolutionLimit([](int i) { return Row{ i < 30 ? 2000 : 1000, 12, 10 }; }), 101);
+}
+
+TEST(ResolutionCriterion, IsNotMetByWhatMovesFarOrConverges)
+{
+  using Row = std::array<int, 3>;
+  EXPECT_EQ(ReachesResolutionLimit([](int i) { return Row{ 1000 + 50 * i, 50, 0 }; }), 0);
+  EXPECT_EQ(ReachesResolutionLimit([](int i) { return Row{ 100000 - 50 * i, 0, 50 }; }), 0);
+  EXPECT_EQ(ReachesResolutionLimit([](int) { return Row{ 1000, 2, 2 }; }), 0);
+  EXPECT_EQ(ReachesResolutionLimit([](int i) { return Row{ 1000, 100, i <= 20 ? 49 : 2 }; }), 0);
+}
+
+TEST(EndlessRuns, NoiseThatMergesAndCutsInTurnReachesTheResolutionLimit)
 {
   const TestVolume volume = Noise(20, 5);
   SurfaceOptions options = IsoHalf();
@@ -69,9 +107,9 @@ TEST(EndlessRuns, NoiseThatMergesAndCutsInTurnIsALimitCycle)
   TestEvolution evolution(options, Threads, Silent);
   evolution.StartEnclosing(volume.Image, 0);
   const StopReason reason = evolution.Run();
-  EXPECT_EQ(reason, StopReason::LimitCycle) << Describe(reason);
-  EXPECT_STREQ(Describe(reason), "limit cycle");
-  EXPECT_LT(evolution.Iterations(), 400);
+  EXPECT_EQ(reason, StopReason::ResolutionLimit) << Describe(reason);
+  EXPECT_STREQ(Describe(reason), "resolution limit");
+  EXPECT_LT(evolution.Iterations(), 100);
   const SurfaceResult surface = evolution.Result();
   EXPECT_EQ(CountSelfIntersections(surface, 1), 0);
   // It is finished like a level that rests: within the constraints.

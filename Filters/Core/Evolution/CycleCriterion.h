@@ -61,6 +61,42 @@ private:
   };
   std::vector<double> Volumes;
 };
+
+/**
+ * Detects a level that cannot resolve the object: its mesh is replaced and does not converge.
+ *
+ * A collapse and a split in the same iteration replace a vertex. From iteration 40 on the criterion
+ * is met when the replaced vertices exceed half of the largest number of vertices, and those of the
+ * last 20 iterations a twentieth of the present number. A surface that moves far collapses or
+ * splits edges, but rarely both at the same rate: levels of scans replace up to 0.28 of theirs.
+ */
+class ResolutionCriterion
+{
+public:
+  /** Add an iteration. */
+  void Add(int vertices, int splits, int collapses)
+  {
+    this->Vertices = vertices;
+    this->Most = std::max(this->Most, vertices);
+    this->Replaced.push_back(this->Replaced.back() + std::min(splits, collapses));
+  }
+
+  bool IsMet() const
+  {
+    const std::size_t n = this->Replaced.size();
+    return n > 2 * Recent && this->Replaced[n - 1] > MostReplaced * this->Most &&
+      this->Replaced[n - 1] - this->Replaced[n - 1 - Recent] > StillReplaced * this->Vertices;
+  }
+
+private:
+  static constexpr std::size_t Recent = 20; ///< Iterations.
+  static constexpr double MostReplaced = 0.5;
+  static constexpr double StillReplaced = 0.05;
+
+  int Vertices = 0;
+  int Most = 0;
+  std::vector<double> Replaced{ 0. }; ///< Vertices, until each iteration.
+};
 }
 
 #endif
