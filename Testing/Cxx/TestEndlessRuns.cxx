@@ -84,7 +84,7 @@ TEST(ResolutionCriterion, IsMetWhenHalfOfTheMeshIsReplacedAndThatContinues)
 {
   using Row = std::array<int, 3>;
   EXPECT_EQ(ReachesResolutionLimit([](int) { return Row{ 1000, 10, 12 }; }), 51);
-  EXPECT_EQ(ReachesResolutionLimit([](int) { return Row{ 1000, 400, 400 }; }), 40);
+  EXPECT_EQ(ReachesResolutionLimit([](int) { return Row{ 1000, 400, 400 }; }), 20);
   // The largest number of vertices counts, also if few are left.
   EXPECT_EQ(ReachesResolutionLimit([](int i) { return Row{ i < 30 ? 2000 : 1000, 12, 10 }; }), 101);
 }
@@ -95,7 +95,7 @@ TEST(ResolutionCriterion, IsNotMetByWhatMovesFarOrConverges)
   EXPECT_EQ(ReachesResolutionLimit([](int i) { return Row{ 1000 + 50 * i, 50, 0 }; }), 0);
   EXPECT_EQ(ReachesResolutionLimit([](int i) { return Row{ 100000 - 50 * i, 0, 50 }; }), 0);
   EXPECT_EQ(ReachesResolutionLimit([](int) { return Row{ 1000, 2, 2 }; }), 0);
-  EXPECT_EQ(ReachesResolutionLimit([](int i) { return Row{ 1000, 100, i <= 20 ? 49 : 2 }; }), 0);
+  EXPECT_EQ(ReachesResolutionLimit([](int i) { return Row{ 1000, 100, i <= 10 ? 99 : 2 }; }), 0);
 }
 
 TEST(EndlessRuns, NoiseThatMergesAndCutsInTurnReachesTheResolutionLimit)

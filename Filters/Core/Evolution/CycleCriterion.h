@@ -65,10 +65,10 @@ private:
 /**
  * Detects a level that cannot resolve the object: its mesh is replaced and does not converge.
  *
- * A collapse and a split in the same iteration replace a vertex. From iteration 40 on the criterion
+ * A collapse and a split in the same iteration replace a vertex. From iteration 20 on the criterion
  * is met when the replaced vertices exceed half of the largest number of vertices, and those of the
- * last 20 iterations a twentieth of the present number. A surface that moves far collapses or
- * splits edges, but rarely both at the same rate: levels of scans replace up to 0.28 of theirs.
+ * last 10 iterations a fortieth of the present number. A surface that moves far collapses or splits
+ * edges, but rarely both at the same rate: levels of scans replace up to 0.28 of their vertices.
  */
 class ResolutionCriterion
 {
@@ -89,9 +89,9 @@ public:
   }
 
 private:
-  static constexpr std::size_t Recent = 20; ///< Iterations.
+  static constexpr std::size_t Recent = 10; ///< Iterations.
   static constexpr double MostReplaced = 0.5;
-  static constexpr double StillReplaced = 0.05;
+  static constexpr double StillReplaced = 0.025;
 
   int Vertices = 0;
   int Most = 0;
