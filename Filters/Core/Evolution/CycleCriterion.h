@@ -23,7 +23,6 @@ namespace volumic
 class CycleCriterion
 {
 public:
-  void Reset() { this->Volumes.clear(); }
   void Add(double volume) { this->Volumes.push_back(volume); }
 
   bool IsMet(double limit) const
@@ -80,19 +79,14 @@ public:
     this->Most = std::max(this->Most, vertices);
     this->Replaced.push_back(this->Replaced.back() + std::min(splits, collapses));
   }
-
   bool IsMet() const
   {
-    const std::size_t n = this->Replaced.size();
-    return n > 2 * Recent && this->Replaced[n - 1] > MostReplaced * this->Most &&
-      this->Replaced[n - 1] - this->Replaced[n - 1 - Recent] > StillReplaced * this->Vertices;
+    const auto now = this->Replaced.end() - 1;
+    return this->Replaced.size() > 20 && *now > 0.5 * this->Most &&
+      *now - *(now - 10) > 0.025 * this->Vertices;
   }
 
 private:
-  static constexpr std::size_t Recent = 10; ///< Iterations.
-  static constexpr double MostReplaced = 0.5;
-  static constexpr double StillReplaced = 0.025;
-
   int Vertices = 0;
   int Most = 0;
   std::vector<double> Replaced{ 0. }; ///< Vertices, until each iteration.
