@@ -35,7 +35,8 @@ from voxel_topology import whole_parts
 
 SLOW_SECONDS, MOST_SECONDS = 20, 150  # of processor time
 MOST_EDGES_OUTSIDE = 1e-4  # share of them
-FINISHED, STOPPED = ("converged", "limit cycle"), ("iteration limit", "time limit", "cancelled")
+FINISHED = "converged", "limit cycle", "resolution limit"
+STOPPED = "iteration limit", "time limit", "cancelled"
 
 
 class Outcome:

@@ -23,7 +23,6 @@ namespace volumic
 class CycleCriterion
 {
 public:
-  void Reset() { this->Volumes.clear(); }
   void Add(double volume) { this->Volumes.push_back(volume); }
 
   bool IsMet(double limit) const
@@ -60,6 +59,37 @@ private:
     }
   };
   std::vector<double> Volumes;
+};
+
+/**
+ * Detects a level that cannot resolve the object: its mesh is replaced and does not converge.
+ *
+ * A collapse and a split in the same iteration replace a vertex. From iteration 20 on the criterion
+ * is met when the replaced vertices exceed half of the largest number of vertices, and those of the
+ * last 10 iterations a fortieth of the present number. A surface that moves far collapses or splits
+ * edges, but rarely both at the same rate: levels of scans replace up to 0.28 of their vertices.
+ */
+class ResolutionCriterion
+{
+public:
+  /** Add an iteration. */
+  void Add(int vertices, int splits, int collapses)
+  {
+    this->Vertices = vertices;
+    this->Most = std::max(this->Most, vertices);
+    this->Replaced.push_back(this->Replaced.back() + std::min(splits, collapses));
+  }
+  bool IsMet() const
+  {
+    const auto now = this->Replaced.end() - 1;
+    return this->Replaced.size() > 20 && *now > 0.5 * this->Most &&
+      *now - *(now - 10) > 0.025 * this->Vertices;
+  }
+
+private:
+  int Vertices = 0;
+  int Most = 0;
+  std::vector<double> Replaced{ 0. }; ///< Vertices, until each iteration.
 };
 }
 

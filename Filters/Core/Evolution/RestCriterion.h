@@ -18,7 +18,6 @@ class RestCriterion
 public:
   static constexpr int Interval = 5; ///< Iterations between samples.
 
-  void Reset() { this->Volumes.clear(); }
   void Add(double volume) { this->Volumes.push_back(volume); }
 
   bool IsMet(double limit) const

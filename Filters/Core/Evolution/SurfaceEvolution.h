@@ -21,13 +21,14 @@ namespace volumic
 enum class StopReason
 {
   Converged,
-  LimitCycle, ///< It goes to and fro without getting anywhere, see CycleCriterion.
+  LimitCycle,      ///< It goes to and fro without getting anywhere, see CycleCriterion.
+  ResolutionLimit, ///< The level cannot resolve the object, see ResolutionCriterion.
   IterationLimit,
   Cancelled,
   Vanished ///< No component is left.
 };
 
-/** As in the output's field data: converged, limit cycle, iteration limit, cancelled, vanished. */
+/** Return the text in the output's field data: "converged", "resolution limit", "vanished", ... */
 const char* Describe(StopReason reason);
 
 /** What a surface begins with on the coarsest level; lengths are those of the workspace. */

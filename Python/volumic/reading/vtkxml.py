@@ -14,9 +14,8 @@ import numpy as np
 
 from ..errors import VolumeError
 
-_TYPES = {kind + size: kind[0].lower() + str(int(size) // 8)
-          for kind in ("Int", "UInt", "Float") for size in ("8", "16", "32", "64")}
-_TYPES["String"] = "i1"
+_TYPES = {"String": "i1", **{kind + str(8 * size): kind[0].lower() + str(size)
+                             for kind in ("Int", "UInt", "Float") for size in (1, 2, 4, 8)}}
 
 
 class XmlFile:
@@ -114,10 +113,9 @@ class XmlFile:
         sizes = np.frombuffer(_decoded(data, is_base64, start), self.header)[3:].tolist()
         head = _encoded(start, is_base64)  # base64 encodes sizes and blocks one after the other
         plain = _decoded(data[head:], is_base64, sum(sizes))
-        result, at, unpack = bytearray(), 0, _unpacker(packed)
-        for number, length in enumerate(sizes):
-            expected = last if last and number == blocks - 1 else size
-            block = unpack(plain[at:at + length], expected)
+        result, at = bytearray(), 0
+        for length, expected in zip(sizes, [size] * (blocks - 1) + [last or size]):
+            block = _unpack(packed, plain[at:at + length], expected)
             if len(block) != expected:
                 raise ValueError("a block of %d bytes has %d" % (expected, len(block)))
             result += block
@@ -140,19 +138,21 @@ def _decoded(data, is_base64, size):
     return plain[:size]
 
 
-def _unpacker(name):
-    """Return the function that unpacks a block of at most `size` bytes."""
-    def unpack(data, size):
-        if name == "vtkLZ4DataCompressor":
-            from vtkmodules.vtkIOCore import vtkLZ4DataCompressor
-            machine, block = vtkLZ4DataCompressor(), np.empty(size, np.uint8)
-            machine.AddObserver("ErrorEvent", lambda *_: None)  # it prints otherwise
-            size = machine.Uncompress(np.frombuffer(data, "u1"), len(data), block, size)
-            return block[:size].tobytes()
-        machine = {"vtkZLibDataCompressor": zlib.decompressobj,
-                   "vtkLZMADataCompressor": lzma.LZMADecompressor}[name]()
-        block = machine.decompress(data, size + 1)
-        if not machine.eof:
+def _unpack(name, data, size):
+    """Return the at most `size` bytes of a packed block."""
+    if name == "vtkLZ4DataCompressor":
+        from vtkmodules.vtkIOCore import vtkLZ4DataCompressor
+        machine = vtkLZ4DataCompressor()
+        machine.AddObserver("ErrorEvent", lambda *_: None)  # it prints otherwise
+        array = machine.Uncompress(bytes(data), len(data), size)  # others than bytes are slow
+        if array is None:
             raise EOFError
+        block = bytes(array)
+        array.Initialize()  # VTK 9.1 leaks the array, but not its memory then
         return block
-    return unpack
+    machine = {"vtkZLibDataCompressor": zlib.decompressobj,
+               "vtkLZMADataCompressor": lzma.LZMADecompressor}[name]()
+    block = machine.decompress(data, size + 1)
+    if not machine.eof:
+        raise EOFError
+    return block
