@@ -84,7 +84,7 @@ bool StarImprovement::CollapseEdge(int u, int v, float before)
     {
       const Vector x = p + (q - p) * along;
       const Vector place = this->Snapped(u, x + (middle - x) * inward);
-      const float score = CollapseScore(this->State, u, v, place);
+      const float score = CollapseScore(this->State, u, v, place, before + Gain);
       if (score > before + Gain)
       {
         this->Candidates.push_back({ score, place });
@@ -183,7 +183,7 @@ bool StarImprovement::Slide(int v)
       for (int lift = bad ? -1 : 0; lift <= (bad ? 1 : 0); ++lift)
       {
         const Vector x = p + (slide + n * static_cast<float>(lift)) * (step * s.Sizing.At(v));
-        const float score = StarScore(this->State, v, x);
+        const float score = StarScore(this->State, v, x, best.Score);
         if (score > best.Score)
         {
           best = { score, x };
@@ -200,7 +200,7 @@ bool StarImprovement::Slide(int v)
   for (const Candidate& candidate : this->Candidates)
   {
     const Vector place = bad ? candidate.Position : this->Snapped(v, candidate.Position);
-    if (StarScore(this->State, v, place) > before + Gain &&
+    if (StarScore(this->State, v, place, before + Gain) > before + Gain &&
       (bad || !(this->Strays(v, place) || this->Approaches(v, place))) &&
       this->Editor.Move(v, place, EditTolerance::Smooth))
     {

@@ -27,12 +27,12 @@ float EdgeScore(const SizingField& sizing, int u, int v, float squared)
   return over > 0 ? -over : 1.f;
 }
 
-float StarScore(const SurfaceState& state, int v, const Vector& position)
+float StarScore(const SurfaceState& state, int v, const Vector& position, float bound)
 {
   const SurfaceMesh& mesh = state.Mesh;
   const Ring& ring = mesh.Rings[v];
   float worst = 1;
-  for (int i = 0; i < ring.Count; ++i)
+  for (int i = 0; i < ring.Count && worst > bound; ++i)
   {
     const int w = ring.Item[i];
     const Vector& a = mesh.Position[w];
@@ -42,7 +42,8 @@ float StarScore(const SurfaceState& state, int v, const Vector& position)
   return worst;
 }
 
-float CollapseScore(const SurfaceState& state, int u, int v, const Vector& position)
+float CollapseScore(
+  const SurfaceState& state, int u, int v, const Vector& position, float bound)
 {
   const SurfaceMesh& mesh = state.Mesh;
   float worst = 1;
@@ -50,7 +51,7 @@ float CollapseScore(const SurfaceState& state, int u, int v, const Vector& posit
   {
     const int other = end == u ? v : u;
     const Ring& ring = mesh.Rings[end];
-    for (int i = 0; i < ring.Count; ++i)
+    for (int i = 0; i < ring.Count && worst > bound; ++i)
     {
       const int b = ring.Item[i];
       const int c = ring.Next(i);

@@ -19,11 +19,15 @@ float FaceScore(const Vector& a, const Vector& b, const Vector& c);
 /** 1 for a length that eq. (1) allows, else negative: worse than any face. */
 float EdgeScore(const SizingField& sizing, int u, int v, float squaredLength);
 
-/** The worst of the faces and edges about a vertex, if it were at the position. */
-float StarScore(const SurfaceState& state, int v, const Vector& position);
+/**
+ * The worst of the faces and edges about a vertex, if it were at the position. @param bound what
+ * scores no more than this may be told as anything up to it, which takes less
+ */
+float StarScore(const SurfaceState& state, int v, const Vector& position, float bound = -2.f);
 
-/** The worst of those about what an edge collapses to. */
-float CollapseScore(const SurfaceState& state, int u, int v, const Vector& position);
+/** The worst of those about what an edge collapses to. @param bound as above */
+float CollapseScore(
+  const SurfaceState& state, int u, int v, const Vector& position, float bound = -2.f);
 }
 
 #endif
