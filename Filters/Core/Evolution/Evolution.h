@@ -68,14 +68,7 @@ bool ComeToLevel(Evolution& evolution, SurfaceAtRest& rest);
 void Renumber(Evolution& evolution);
 /** Makes grid, blocks and labels of a mesh of which nothing else is known; splits long edges. */
 void LayOut(Evolution& evolution);
-/** The same of a mesh of which the properties and shapes are known. */
-void LayBlocks(Evolution& evolution);
-/** Makes the grid of a mesh of which nothing else is known. */
 void LayGrid(Evolution& evolution);
-/** Resets the properties of the mesh, and computes its shapes. */
-void ResetState(Evolution& evolution);
-/** Lays the grid anew and fills it. */
-void FillGrid(Evolution& evolution);
 void ActivateAll(Evolution& evolution);
 std::vector<int> AliveVertices(const Evolution& evolution);
 

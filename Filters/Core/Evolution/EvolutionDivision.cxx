@@ -185,19 +185,16 @@ float LongestEdge(const Evolution& e)
     [](float most, float ofSpan) { return std::max(most, ofSpan); }));
 }
 
-/** Leaves the properties as new, but for the shapes. */
 std::vector<Proximity::FacePair> FindIntersections(Evolution& e)
 {
-  SurfaceState& s = e.State;
-  ResetState(e);
   // A division leaves some edges longer than verification may rely on; it looks further for them.
+  SurfaceState& s = e.State;
   const SizingField sizing = s.Sizing;
   s.Sizing = sizing.ForEdgesOf(LongestEdge(e));
-  FillGrid(e);
+  LayGrid(e);
   const std::vector<Proximity::FacePair> found =
     Proximity::FindIntersections(s, AliveVertices(e), e.Threads);
   s.Sizing = sizing;
-  s.NearOthers.Fill(1); // What is near by shorter edges is examined anew.
   return found;
 }
 
@@ -255,7 +252,7 @@ bool DivideAll(Evolution& e, int divisions)
   }
   if (divisions > 0)
   {
-    LayBlocks(e);
+    LayOut(e);
   }
   else
   {

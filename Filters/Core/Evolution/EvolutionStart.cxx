@@ -35,8 +35,7 @@ void Enter(Evolution& e)
   e.History.BeginLevel(e.Task.Level);
 }
 
-/** Lays an empty grid over the surface and the image. */
-void EmptyGrid(Evolution& e)
+Box BoxOfGrid(const Evolution& e)
 {
   const SurfaceMesh& mesh = e.State.Mesh;
   const LevelImage& image = e.Task.Image;
@@ -53,10 +52,9 @@ void EmptyGrid(Evolution& e)
         boxes[span] = boxes[span].With({ mesh.Position[v], mesh.Position[v] });
       }
     });
-  const Box box = std::accumulate(boxes.begin(), boxes.end(), ofImage,
-    [](const Box& a, const Box& b) { return a.With(b); })
-                    .Grown(2 * e.State.Sizing.Largest());
-  e.State.Grid.Reset(box.Low, box.High, e.State.Sizing.SmallestReach());
+  const Box all = std::accumulate(
+    boxes.begin(), boxes.end(), ofImage, [](const Box& a, const Box& b) { return a.With(b); });
+  return all.Grown(2 * e.State.Sizing.Largest());
 }
 
 LostPartCover FindParts(Evolution& e, PartKind kind, CoverShape shape, double from, double to)
@@ -254,14 +252,8 @@ void Renumber(Evolution& e)
 void LayOut(Evolution& e)
 {
   ForgetBlocks(e);
-  ResetState(e);
-  LayBlocks(e);
-}
-
-void LayBlocks(Evolution& e)
-{
-  EmptyGrid(e);
-  MakeBlocks(e); // Which fills the grid.
+  LayGrid(e);
+  MakeBlocks(e);
   Sweep sweep;
   sweep.IsAsked = false;
   SplitLongEdges(e, sweep);
@@ -270,20 +262,9 @@ void LayBlocks(Evolution& e)
 
 void LayGrid(Evolution& e)
 {
-  ResetState(e);
-  FillGrid(e);
-}
-
-void ResetState(Evolution& e)
-{
-  e.State.Reset(e.Threads);
+  const Box box = BoxOfGrid(e);
+  e.State.Reset(box.Low, box.High, e.Threads);
   e.State.UpdateShape(AliveVertices(e), e.Threads);
-}
-
-void FillGrid(Evolution& e)
-{
-  EmptyGrid(e);
-  e.State.FillGrid(e.Threads);
 }
 
 std::vector<int> AliveVertices(const Evolution& e)

@@ -18,11 +18,20 @@ constexpr std::size_t ShapeGrain = 128;
 constexpr std::size_t AliveGrain = 1 << 14;
 }
 
-void SurfaceState::Reset(Executor& executor)
+void SurfaceState::Reset(const Vector& low, const Vector& high)
+{
+  SequentialExecutor thread;
+  this->Reset(low, high, thread);
+}
+
+void SurfaceState::Reset(const Vector& low, const Vector& high, Executor& executor)
 {
   this->Properties.Reset(this->Mesh.Rings.size(), executor);
   this->PreviousPosition.Assign(this->Mesh.Position);
   this->Anchor.Assign(this->Mesh.Position);
+  this->Grid.Reset(low, high, this->Sizing.SmallestReach());
+  this->Grid.InsertAll(
+    this->Mesh.Position, 0, [this](int v) { return this->Mesh.IsAlive(v); }, executor);
   executor.For(static_cast<std::size_t>(this->Mesh.Size()), AliveGrain,
     [this](std::size_t begin, std::size_t end)
     {
@@ -32,20 +41,6 @@ void SurfaceState::Reset(Executor& executor)
       }
     });
   this->EulerCharacteristic = this->Mesh.CountEulerCharacteristic(executor);
-}
-
-void SurfaceState::FillGrid(Executor& executor)
-{
-  this->Grid.InsertAll(
-    this->Mesh.Position, 0, [this](int v) { return this->Mesh.IsAlive(v); }, executor);
-}
-
-void SurfaceState::Reset(const Vector& low, const Vector& high)
-{
-  SequentialExecutor thread;
-  this->Reset(thread);
-  this->Grid.Reset(low, high, this->Sizing.SmallestReach());
-  this->FillGrid(thread);
 }
 
 void SurfaceState::ForgetMotion()
@@ -88,7 +83,8 @@ void SurfaceState::Reorder(
   this->Displacement.Reset(order.size());
   this->Marks.Reset(order.size());
   this->Grid.Clear();
-  this->FillGrid(executor);
+  this->Grid.InsertAll(
+    this->Mesh.Position, 0, [&order](int v) { return order[v] != NoVertex; }, executor);
 }
 
 void SurfaceState::Append(const IndexedSurface& surface, Executor& executor)

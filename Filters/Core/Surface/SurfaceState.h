@@ -156,12 +156,9 @@ public:
 
   /** Lets go of all that only iterations need: a reset must come before others. */
   void ForgetMotion();
-  /** Resets all properties to those of a mesh that is new; the grid is the caller's to lay. */
-  void Reset(Executor& executor);
-  /** The same, and lays the grid over the box. */
+  /** Resets all properties to those of a mesh that is new, lays the grid over the box. */
+  void Reset(const Vector& low, const Vector& high, Executor& executor);
   void Reset(const Vector& low, const Vector& high);
-  /** Inserts all vertices into an empty grid. */
-  void FillGrid(Executor& executor);
 
   /** What is known of the vertices of [first, last) will be read soon: see PrefetchLarge. */
   void Prefetch(int first, int last) const;
