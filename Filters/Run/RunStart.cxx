@@ -192,31 +192,22 @@ LevelChoice ChooseLevels(const SegmentationLevels& levels, const SegmentationSet
 
 namespace
 {
-/** Points that no triangle uses are left out. */
 IndexedSurface Triangles(vtkPolyData* polyData)
 {
   IndexedSurface surface;
-  std::vector<int> index(static_cast<std::size_t>(polyData->GetNumberOfPoints()), -1);
+  surface.Points.resize(static_cast<std::size_t>(polyData->GetNumberOfPoints()));
+  for (std::size_t i = 0; i < surface.Points.size(); ++i)
+  {
+    polyData->GetPoint(static_cast<vtkIdType>(i), surface.Points[i].data());
+  }
   auto cells = vtk::TakeSmartPointer(polyData->GetPolys()->NewIterator());
   for (cells->GoToFirstCell(); !cells->IsDoneWithTraversal(); cells->GoToNextCell())
   {
     vtkIdType size;
     const vtkIdType* ids;
     cells->GetCurrentCell(size, ids);
-    Triangle triangle;
-    for (int corner = 0; corner < 3; ++corner)
-    {
-      int& place = index[ids[corner]];
-      if (place < 0)
-      {
-        place = static_cast<int>(surface.Points.size());
-        Point point;
-        polyData->GetPoint(ids[corner], point.data());
-        surface.Points.push_back(point);
-      }
-      triangle[corner] = place;
-    }
-    surface.Triangles.push_back(triangle);
+    surface.Triangles.push_back(
+      { static_cast<int>(ids[0]), static_cast<int>(ids[1]), static_cast<int>(ids[2]) });
   }
   return surface;
 }

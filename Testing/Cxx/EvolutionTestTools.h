@@ -85,6 +85,7 @@ public:
   void StartIsoSurface(const LevelImage& image, int level)
   {
     this->Start(image, level, { SurfaceStart::Kind::IsoSurface, {}, {} });
+    LabelComponents(*this->Now);
   }
   /** @return false where it was stopped before: then it is on the level before. */
   bool Divide(const LevelImage& image, int level)

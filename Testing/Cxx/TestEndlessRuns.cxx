@@ -75,9 +75,9 @@ TEST(ResolutionCriterion, IsMetByAMeshThatIsReplacedButNotByOneThatMovesFarOrCon
     }
     return 0;
   };
-  EXPECT_EQ(at([](int) { return Row{ 1000, 10, 12 }; }), 51);
+  EXPECT_EQ(at([](int) { return Row{ 1000, 10, 12 }; }), 201);
   EXPECT_EQ(at([](int) { return Row{ 1000, 400, 400 }; }), 20);
-  EXPECT_EQ(at([](int i) { return Row{ i < 30 ? 2000 : 1000, 12, 10 }; }), 101);
+  EXPECT_EQ(at([](int i) { return Row{ i < 30 ? 2000 : 1000, 12, 10 }; }), 401);
   EXPECT_EQ(at([](int i) { return Row{ 1000 + 50 * i, 50, 0 }; }), 0);
   EXPECT_EQ(at([](int i) { return Row{ 100000 - 50 * i, 0, 50 }; }), 0);
   EXPECT_EQ(at([](int) { return Row{ 1000, 2, 2 }; }), 0);
@@ -95,7 +95,7 @@ TEST(EndlessRuns, NoiseThatMergesAndCutsInTurnReachesTheResolutionLimit)
   const StopReason reason = evolution.Run();
   EXPECT_EQ(reason, StopReason::ResolutionLimit) << Describe(reason);
   EXPECT_STREQ(Describe(reason), "resolution limit");
-  EXPECT_LT(evolution.Iterations(), 100);
+  EXPECT_LT(evolution.Iterations(), 200);
   const SurfaceResult surface = evolution.Result();
   EXPECT_EQ(CountSelfIntersections(surface, 1), 0);
   // It is finished like a level that rests: within the constraints.

@@ -57,12 +57,13 @@ Box BoxOfGrid(const Evolution& e)
   return all.Grown(2 * e.State.Sizing.Largest());
 }
 
-LostPartCover FindParts(Evolution& e, PartKind kind, CoverShape shape, double from, double to)
+LostPartCover FindParts(
+  Evolution& e, PartKind kind, int minimumSize, CoverShape shape, double from, double to)
 {
   const auto look = [&]
   {
-    return FindLostParts(e.State, *e.TheField, kind, e.Task.Options.MinimumPartSize, shape,
-      e.Threads, e.QuestionOf(Monitor::Activity::Recovering, from, to));
+    return FindLostParts(e.State, *e.TheField, kind, minimumSize, shape, e.Threads,
+      e.QuestionOf(Monitor::Activity::Recovering, from, to));
   };
   LostPartCover cover = look();
   if (cover.Found > 0 && e.Task.Options.RecoverLostParts && e.State.Sizing.IsGraded())
@@ -88,22 +89,24 @@ void Enclose(Evolution& e, const IndexedSurface& even, const MakeSafe& makeSafe)
   ++e.Unchecked;
 }
 
-/** Encloses what the surface has lost. */
-void Recover(Evolution& e)
+/** Encloses what the surface has lost. @param isStart all of the object, however small its parts */
+void Recover(Evolution& e, bool isStart = false)
 {
   const SurfaceOptions& options = e.Task.Options;
   // Without an isopotential there is no object's side to look for.
-  if (!(options.IsopotentialWeight > 0.))
+  if (!(options.IsopotentialWeight > 0. || isStart))
   {
     return;
   }
-  const bool recovers = options.RecoverLostParts;
-  const double objectShare = recovers && options.RecoverCavities ? 0.5 : 1.;
-  LostPartCover objects = FindParts(e, PartKind::Object, CoverShape::Even, 0., objectShare);
+  const bool recovers = options.RecoverLostParts || isStart;
+  const bool hasCavities = options.RecoverLostParts && options.RecoverCavities && !isStart;
+  const int size = isStart ? 1 : options.MinimumPartSize;
+  const double objectShare = hasCavities ? 0.5 : 1.;
+  LostPartCover objects = FindParts(e, PartKind::Object, size, CoverShape::Even, 0., objectShare);
   LostPartCover cavities;
-  if (recovers && options.RecoverCavities && !e.Stopped)
+  if (hasCavities && !e.Stopped)
   {
-    cavities = FindParts(e, PartKind::Cavity, CoverShape::Even, objectShare, 1.);
+    cavities = FindParts(e, PartKind::Cavity, size, CoverShape::Even, objectShare, 1.);
   }
   if (e.Stopped)
   {
@@ -115,41 +118,16 @@ void Recover(Evolution& e)
   e.Lost.EnclosedCavities = cavities.Covered;
   e.Boundary.Add(objects.Boundary);
   e.Boundary.Add(cavities.Boundary);
-  e.History.Pending.Recovered = e.Lost.Enclosed + e.Lost.EnclosedCavities;
+  e.History.Pending.Recovered = isStart ? 0 : e.Lost.Enclosed + e.Lost.EnclosedCavities;
   for (const PartKind kind : { PartKind::Object, PartKind::Cavity })
   {
     const LostPartCover& cover = kind == PartKind::Object ? objects : cavities;
     if (recovers && cover.Covered > 0)
     {
       Enclose(e, cover.Surface,
-        [&e, kind] { return FindParts(e, kind, CoverShape::Safe, 1., 1.).Surface; });
+        [&] { return FindParts(e, kind, size, CoverShape::Safe, 1., 1.).Surface; });
     }
   }
-}
-
-/** Encloses all of the object, near to its boundary; the rest of the way are passes. */
-void EncloseObject(Evolution& e)
-{
-  Renumber(e);
-  const auto make = [&e](CoverShape shape)
-  {
-    return FindLostParts(e.State, *e.TheField, PartKind::Object, 1, shape, e.Threads,
-      e.QuestionOf(Monitor::Activity::Starting));
-  };
-  const LostPartCover cover = make(CoverShape::Even);
-  if (e.Stopped)
-  {
-    return;
-  }
-  if (cover.Covered == 0)
-  {
-    Refuse("there is no iso-surface to start from: no voxel of this level lies in the object. Choose "
-           "another Iso Value, a finer Coarsest Level, or another Initialization.");
-  }
-  Enclose(e, cover.Surface, [&make] { return make(CoverShape::Safe).Surface; });
-  e.HasDescended = true;
-  ActivateWhereOff(e, Dynamics::LeftOff);
-  LabelComponents(e);
 }
 
 void PlaceSeeds(Evolution& e, const std::vector<Point>& centres)
@@ -174,10 +152,11 @@ void Start(Evolution& e, const SurfaceStart& start)
   }
   Stopwatch watch(e.History.Pending);
   Enter(e);
-  if (start.From == Kind::EnclosingParts)
+  const bool isIso = start.From == Kind::IsoSurface;
+  if (start.From == Kind::EnclosingParts || isIso)
   {
     Renumber(e);
-    Recover(e);
+    Recover(e, isIso);
     watch.Lap(Phase::Recovery);
   }
   const bool isEnclosed = e.Lost.Enclosed > 0 || (start.From == Kind::EnclosingParts && e.Stopped);
@@ -185,15 +164,21 @@ void Start(Evolution& e, const SurfaceStart& start)
   {
     TakeGiven(e, start.Surface);
   }
-  else if (start.From == Kind::IsoSurface)
+  else if (isIso && !e.Stopped)
   {
-    EncloseObject(e);
+    if (!isEnclosed)
+    {
+      Refuse("there is no isosurface to start from: no voxel of this level lies in the object. "
+             "Choose another Iso Value, a finer Coarsest Level, or another Initialization.");
+    }
+    e.HasDescended = true;
+    ActivateWhereOff(e, Dynamics::LeftOff);
   }
   else if (start.From == Kind::Seeds)
   {
     PlaceSeeds(e, start.Seeds);
   }
-  else if (!isEnclosed)
+  else if (!isEnclosed && !isIso)
   {
     e.State.Mesh.Append(EnclosingSurface(e.Task.Image, e.State.Sizing.OfLevel()));
     Renumber(e);

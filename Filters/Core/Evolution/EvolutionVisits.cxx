@@ -24,8 +24,7 @@ namespace
 constexpr int SweptIterations = RestCriterion::Interval;
 /** Sweeps between two looks for components that are inside out. */
 constexpr int InsideOutSweeps = 2;
-/** Way in a pass, in delta, under which a vertex is left where it is: of small surfaces, and of
- * those with so many vertices, of which the mean counts. */
+/** Way in a pass, in delta, under which a vertex is left where it is; and of large surfaces. */
 constexpr float SmallestMove = 0.015f;
 constexpr float SmallestMoveOfLarge = 0.06f;
 constexpr int LargeSurface = 20000;

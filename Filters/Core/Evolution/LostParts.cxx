@@ -21,9 +21,7 @@ namespace volumic
 {
 namespace
 {
-/**
- * The longest voxel that is looked at by its middle alone, in units of the level.
- */
+/** The longest voxel that is looked at by its middle alone, in units of the level. */
 constexpr double LongestSampled = 1.5;
 /** Shares of the whole work that are done after its steps, as the questions tell them. */
 constexpr double AfterLost = 0.7;
@@ -280,8 +278,7 @@ private:
       });
   }
 
-  /** Parts that have no point of the lattice get the nearest to one of theirs. @return how many
-   * parts have one */
+  /** Parts without a point of the lattice get the nearest to one of theirs. @return how many have */
   int TakeSmallParts(const std::function<bool(const Point& place)>& isClear)
   {
     std::vector<char> isCovered(static_cast<std::size_t>(this->Lost.Parts), 0);
@@ -298,15 +295,15 @@ private:
           }
         });
     };
-    forPlaces([this](const LatticePoint& p, char& isPartCovered)
-      { isPartCovered |= this->Lattice.IsInside(p[0], p[1], p[2]) ? 1 : 0; });
+    forPlaces([this](const LatticePoint& p, char& has)
+      { has |= this->Lattice.IsInside(p[0], p[1], p[2]) ? 1 : 0; });
     forPlaces(
-      [&](const LatticePoint& p, char& isPartCovered)
+      [&](const LatticePoint& p, char& has)
       {
         if (isClear(this->Lattice.PlaceOf(p[0], p[1], p[2])))
         {
           this->Lattice.Write(p[0], p[1], p[2]) = -0.5f * static_cast<float>(Margin * this->Unit);
-          isPartCovered = 1;
+          has = 1;
         }
       });
     return static_cast<int>(std::count(isCovered.begin(), isCovered.end(), 1));

@@ -17,8 +17,7 @@ namespace
 {
 /** Points of the lattice beyond the box on each side. */
 constexpr int Beside = 2;
-/** Rounds in which points may come in; in those after them they only go out, which ends. */
-constexpr int AddingRounds = 20;
+constexpr int AddingRounds = 20; ///< After them points only go out, which ends.
 /** Values of what comes in or goes out, in pitches. */
 constexpr float ComesIn = -0.15f;
 constexpr float GoesOut = 0.3f;

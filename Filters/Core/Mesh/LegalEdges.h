@@ -10,9 +10,8 @@ namespace volumic
 {
 /**
  * A closed manifold with its edges brought within bounds: longer ones are halved, which leaves the
- * surface where it is; of shorter ones those are collapsed about which faces turn little. Of a
- * smooth surface, whose sheets are further apart than the shorter bound, the result is free of
- * intersections; of others this must be asked afterwards.
+ * surface where it is; of shorter ones those are collapsed about which faces turn little. That
+ * nothing intersects must be asked afterwards.
  * @throws std::invalid_argument as SurfaceMesh::Append
  */
 IndexedSurface WithLegalEdges(
