@@ -283,9 +283,9 @@ public:
   /**
    * What the surface starts from. EnclosingIcosahedron (default): a rounded box about the image, in
    * the place of the paper's icosahedron. Seeds: icosahedra inside the object, at the SeedPositions
-   * and the points of port 1, or on a grid if there are neither. IsoSurface: what encloses all of
-   * the object on the coarsest level, .4 voxel beyond its closed isosurface, with even triangles.
-   * InputSurface: the polygons of port 1.
+   * and the points of port 1, or on a grid if there are neither. IsoSurface: a closed surface with
+   * even triangles around all of the object, half a voxel outside the isosurface of the coarsest
+   * level. InputSurface: the polygons of port 1.
    */
   virtual void SetInitialization(int value);
   virtual int GetInitialization();

@@ -51,7 +51,7 @@ struct SurfaceStart
      * intersects, which is tested.
      */
     Surface,
-    IsoSurface ///< What encloses all of the object, however small its parts are, on any level.
+    IsoSurface ///< The same for all of the object, however small its parts are.
   };
   Kind From = Kind::Enclosing;
   std::vector<Point> Seeds;
