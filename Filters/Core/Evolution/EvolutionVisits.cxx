@@ -26,7 +26,7 @@ constexpr int SweptIterations = RestCriterion::Interval;
 constexpr int InsideOutSweeps = 2;
 /** Way in a pass, in delta, under which a vertex is left where it is; and of large surfaces. */
 constexpr float SmallestMove = 0.015f;
-constexpr float SmallestMoveOfLarge = 0.06f;
+constexpr float SmallestMoveOfLarge = 0.04f;
 constexpr int LargeSurface = 20000;
 
 /** What went some way in the last pass stays active, with its neighbours, and what was edited. */
