@@ -59,7 +59,7 @@
  * - `Delta`, `Unit` (double): the smallest length of an edge, and U of the level
  * - `NumberOfComponents`, `EulerCharacteristic`, `Genus` (int): of the whole surface
  * - `Area`, `Volume` (double): of the whole surface
- * - `StopReason` (string): `converged`; `limit cycle` or `resolution limit`, which end like it;
+ * - `StopReason` (string): `converged`; `limit cycle`, which is finished like one that rests;
  *   `iteration limit`; `cancelled`; `time limit`; `vanished`
  * - `ContactVertices` (int): those with `Contact`
  * - `RemainingContacts` (int): pairs of vertices that are too near to each other

@@ -306,7 +306,7 @@ bool SurfaceSegmentation::KeepLevel(int level, LevelOutcome outcome)
   this->Rest.History.EndLevel();
   // With recovery a finer level may find again what has vanished.
   return reason == StopReason::Converged || reason == StopReason::LimitCycle ||
-    reason == StopReason::ResolutionLimit || reason == StopReason::IterationLimit ||
+    reason == StopReason::IterationLimit ||
     (reason == StopReason::Vanished && this->Settings.Options.RecoverLostParts);
 }
 

@@ -291,7 +291,7 @@ def segment_volume(options: Namespace, filters: Filters, teller: Teller) -> int:
     run.warnings += ended
     probes.add_to(written)
     reason = report.stop_reason(surface.GetOutput())
-    finished = reason in ("converged", "limit cycle", "resolution limit")
+    finished = reason in ("converged", "limit cycle")
     solids = make_solids(options, filters, probes, sum(run.seconds))
     write_outputs(run, written, finished, solids, reader_memory)
     _tell_end(run, written, solids, reason, finished)

@@ -35,7 +35,7 @@ from voxel_topology import whole_parts
 
 SLOW_SECONDS, MOST_SECONDS = 20, 150  # of processor time
 MOST_EDGES_OUTSIDE = 1e-4  # share of them
-FINISHED = "converged", "limit cycle", "resolution limit"
+FINISHED = "converged", "limit cycle"
 STOPPED = "iteration limit", "time limit", "cancelled"
 
 

@@ -60,37 +60,6 @@ private:
   };
   std::vector<double> Volumes;
 };
-
-/**
- * Detects a level that cannot resolve the object: its mesh is replaced and does not converge.
- *
- * A collapse and a split in the same iteration replace a vertex. From iteration 20 on the criterion
- * is met when the replaced vertices exceed twice the largest number of vertices, and those of the
- * last 10 iterations a fortieth of the present number. Levels of scans replace up to .28 of their
- * vertices, a thin shell with holes, shrunk from a box on level 0, .9.
- */
-class ResolutionCriterion
-{
-public:
-  /** Add an iteration. */
-  void Add(int vertices, int splits, int collapses)
-  {
-    this->Vertices = vertices;
-    this->Most = std::max(this->Most, vertices);
-    this->Replaced.push_back(this->Replaced.back() + std::min(splits, collapses));
-  }
-  bool IsMet() const
-  {
-    const auto now = this->Replaced.end() - 1;
-    return this->Replaced.size() > 20 && *now > 2. * this->Most &&
-      *now - *(now - 10) > 0.025 * this->Vertices;
-  }
-
-private:
-  int Vertices = 0;
-  int Most = 0;
-  std::vector<double> Replaced{ 0. }; ///< Vertices, until each iteration.
-};
 }
 
 #endif

@@ -52,7 +52,6 @@ StopReason Evolve(Evolution& e)
   const SurfaceMesh& mesh = e.State.Mesh;
   RestCriterion rest;
   CycleCriterion cycle;
-  ResolutionCriterion resolution;
   if (e.HasDescended)
   {
     e.Motion->LeaveToRegularisation();
@@ -68,13 +67,7 @@ StopReason Evolve(Evolution& e)
     {
       return StopReason::IterationLimit;
     }
-    const std::size_t before = e.History.Rows.size();
     RunSweep(e);
-    for (std::size_t i = before; i < e.History.Rows.size(); ++i)
-    {
-      const HistoryRow& row = e.History.Rows[i];
-      resolution.Add(row.Vertices, row.Splits, row.Collapses);
-    }
     e.LookAt();
     if (!e.GoOn(Monitor::Activity::Iterating, 0.) || mesh.NumberOfVertices() == 0)
     {
@@ -97,10 +90,6 @@ StopReason Evolve(Evolution& e)
       if (cycle.IsMet(limit))
       {
         return StopReason::LimitCycle;
-      }
-      if (resolution.IsMet())
-      {
-        return StopReason::ResolutionLimit;
       }
     }
   }

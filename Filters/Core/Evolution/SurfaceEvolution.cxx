@@ -58,8 +58,6 @@ const char* Describe(StopReason reason)
       return "converged";
     case StopReason::LimitCycle:
       return "limit cycle";
-    case StopReason::ResolutionLimit:
-      return "resolution limit";
     case StopReason::IterationLimit:
       return "iteration limit";
     case StopReason::Cancelled:

@@ -21,14 +21,13 @@ namespace volumic
 enum class StopReason
 {
   Converged,
-  LimitCycle,      ///< It goes to and fro without getting anywhere, see CycleCriterion.
-  ResolutionLimit, ///< The level cannot resolve the object, see ResolutionCriterion.
+  LimitCycle, ///< It goes to and fro without getting anywhere, see CycleCriterion.
   IterationLimit,
   Cancelled,
   Vanished ///< No component is left.
 };
 
-/** Return the text in the output's field data: "converged", "resolution limit", "vanished", ... */
+/** Return the text in the output's field data: "converged", "limit cycle", "vanished", ... */
 const char* Describe(StopReason reason);
 
 /** What a surface begins with on the coarsest level; lengths are those of the workspace. */
