@@ -41,7 +41,7 @@ public:
   }
   /** The first point at or beyond a coordinate along an axis. */
   int FirstFrom(double coordinate, int axis) const;
-  /** The point next to a place. */
+  /** The point nearest to a place. */
   LatticePoint NearestTo(const Point& place) const;
 
   /** The value of a point; of the pitch where none has been written near it. */

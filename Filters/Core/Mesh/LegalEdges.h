@@ -11,7 +11,7 @@ namespace volumic
 /**
  * A closed manifold with its edges brought within bounds: longer ones are halved, which leaves the
  * surface where it is; of shorter ones those are collapsed about which faces turn little. That
- * nothing intersects must be asked afterwards.
+ * nothing intersects must be asked afterwards. Lengths: that of the points.
  * @throws std::invalid_argument as SurfaceMesh::Append
  */
 IndexedSurface WithLegalEdges(
