@@ -3,7 +3,6 @@
 #include "vtkDeformableSurface.h"
 
 #include "Host/Pipeline.h"
-#include "Input/SlabInput.h"
 #include "Ranks/Ranks.h"
 #include "vtkDeformableSurfaceInternals.h"
 
@@ -31,7 +30,6 @@ vtkDeformableSurface::vtkDeformableSurface() : Internals(std::make_unique<vtkInt
   this->SetNumberOfOutputPorts(4);
   this->SetInputArrayToProcess(
     0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS);
-  this->Internals->Controller = vtkMultiProcessController::GetGlobalController();
 }
 
 vtkDeformableSurface::~vtkDeformableSurface() = default;
@@ -98,21 +96,6 @@ vtkMultiBlockDataSet* vtkDeformableSurface::GetSnapshots()
 }
 
 //------------------------------------------------------------------------------
-void vtkDeformableSurface::SetController(vtkMultiProcessController* controller)
-{
-  if (this->Internals->Controller != controller)
-  {
-    this->Internals->Controller = controller;
-    this->Modified();
-  }
-}
-
-vtkMultiProcessController* vtkDeformableSurface::GetController()
-{
-  return this->Internals->Controller;
-}
-
-//------------------------------------------------------------------------------
 bool vtkDeformableSurface::GetNeedsUpdate()
 {
   vtkInternals& internals = *this->Internals;
@@ -123,7 +106,7 @@ bool vtkDeformableSurface::GetNeedsUpdate()
   }
   internals.IsOnTheWay = false;
   // The run of level 0 is not kept: level -1 is not reached from there.
-  internals.GoesToTheEnd = !internals.Cache.Run() || !internals.Cache.Run()->CanGoOn();
+  internals.GoesToTheEnd = !internals.Kept || !internals.Kept->CanGoOn();
   this->GoOn();
   return true;
 }
@@ -132,45 +115,17 @@ void vtkDeformableSurface::SetAbortExecute(vtkTypeBool abort)
 {
   // Who presses twice may be heard after the run has ended: that neither makes the filter run again
   // nor others stop.
-  this->AbortExecute = abort && this->Internals->All;
+  this->AbortExecute = abort && this->Internals->IsRunning;
 }
 
 void vtkDeformableSurface::GoOn()
 {
-  const vtkMTimeType before = this->GetMTime();
-  this->Modified();
-  this->Internals->Cache.IgnoreChange(before, this->GetMTime());
+  this->Internals->Modify(false);
 }
 
 void vtkDeformableSurface::ForgetRun()
 {
-  this->Internals->Cache.Drop();
-}
-
-//------------------------------------------------------------------------------
-void vtkDeformableSurface::LeaveCheckpoints()
-{
-  this->Internals->LeavesCheckpoints = true;
-}
-
-void vtkDeformableSurface::RemoveCheckpoint()
-{
-  if (this->Internals->Checkpoint)
-  {
-    this->Internals->Checkpoint->Remove();
-  }
-}
-
-std::string vtkDeformableSurface::GetCheckpointFolder()
-{
-  return this->Internals->Checkpoint ? this->Internals->Checkpoint->FolderInUse() : "";
-}
-
-int vtkDeformableSurface::GetResumedLevel()
-{
-  constexpr int none = -2;
-  return this->Internals->Checkpoint ? this->Internals->Checkpoint->ResumedLevel().value_or(none)
-                                     : none;
+  this->Internals->ForgetRun();
 }
 
 //------------------------------------------------------------------------------
@@ -196,16 +151,7 @@ int vtkDeformableSurface::RequestInformation(
 int vtkDeformableSurface::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
 {
-  const vtkInternals& internals = *this->Internals;
-  const volumic::Ranks ranks(internals.Controller, { this, request, input, output });
-  ranks.AskForInputs();
-  if (!ranks.AreMany() && internals.Settings.End.MemoryLimit > 0 &&
-    volumic::IsFirstProcess(request, output))
-  {
-    volumic::SlabInput(this).Ask(
-      volumic::LimitedMemory::BytesOf(internals.Settings.End.MemoryLimit),
-      !internals.Cache.IsValidFor(this, 1));
-  }
+  volumic::Ranks(nullptr, { this, request, input, output }).AskForInputs();
   return 1;
 }
 
@@ -213,57 +159,32 @@ int vtkDeformableSurface::RequestUpdateExtent(
 int vtkDeformableSurface::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  vtkInternals& internals = *this->Internals;
-  const auto show = [this](double share, const std::string& text)
-  {
-    this->SetProgressText(text.c_str());
-    this->UpdateProgress(share);
-    return !volumic::IsAbortRequested(this);
-  };
-  const volumic::FilterCall call{ this, request, inputVector, outputVector };
-  internals.All = std::make_unique<volumic::Ranks>(internals.Controller, call, show);
-  volumic::Ranks& ranks = *internals.All;
   this->SetErrorCode(vtkErrorCode::NoError);
-  if (!ranks.AreMany() && !volumic::IsFirstProcess(request, outputVector))
+  if (!volumic::IsFirstProcess(request, outputVector))
   {
-    internals.All.reset();
     return 1;
   }
+  vtkInternals& internals = *this->Internals;
   // ParaView leaves the flag of an earlier run as it is.
   volumic::ForgetAbort(this);
-  volumic::RankWork work;
-  work.OfFirst = [&]
-  {
-    internals.Memory.Set(
-      internals.Settings.End.MemoryLimit, internals.Settings.End.ScratchDirectory);
-    internals.RunOrGoOn(call);
-  };
-  work.OfOthers = [&](volumic::RankMessage&)
-  {
-    volumic::RankMessage answer;
-    answer << internals.Cache.IsValidFor(this, ranks.Count());
-    return answer;
-  };
-  const volumic::AlgorithmError error = ranks.Run(
+  internals.IsRunning = true;
+  const volumic::AlgorithmError error = volumic::RunAlgorithm(
+    outputVector,
     []
     {
       return "Input port 0: the memory does not suffice for the surface. Set Finest Level to a "
              "coarser level, or crop the image.";
     },
-    work);
-  if (error.Code == vtkErrorCode::NoError && !ranks.IsFirst())
-  {
-    internals.Cache.Keep(nullptr, this, ranks.Count());
-  }
+    [&]
+    {
+      volumic::RunObserver observer(this, internals.Settings.End.TimeLimit, internals.Warnings);
+      internals.Update(inputVector, outputVector, observer);
+    });
   if (error.Code != vtkErrorCode::NoError)
   {
     this->ForgetRun();
     this->SetErrorCode(error.Code);
     vtkErrorMacro(<< error.Text);
-  }
-  for (const std::string& text : internals.Memory.TakeWarnings())
-  {
-    internals.Warn(text);
   }
   // Not while another run is still to come.
   for (const std::string& text :
@@ -272,6 +193,6 @@ int vtkDeformableSurface::RequestData(
     vtkWarningMacro(<< text);
   }
   volumic::ForgetAbort(this);
-  internals.All.reset();
+  internals.IsRunning = false;
   return 1;
 }

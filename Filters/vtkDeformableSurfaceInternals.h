@@ -3,18 +3,13 @@
 #ifndef vtkDeformableSurfaceInternals_h
 #define vtkDeformableSurfaceInternals_h
 
-#include "Host/LimitedMemory.h"
-#include "Ranks/Ranks.h"
-#include "Run/SegmentationCache.h"
-#include "Run/SegmentationCheckpoint.h"
+#include "Host/RunObserver.h"
+#include "Run/InputTimes.h"
+#include "Run/SegmentationRun.h"
 #include "Settings/SegmentationSettings.h"
 #include "vtkDeformableSurface.h"
 
-#include <vtkMultiProcessController.h>
-#include <vtkSmartPointer.h>
-
 #include <memory>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -22,6 +17,10 @@
  * What vtkDeformableSurface holds, beside what all algorithms do, and what RequestData() does.
  * All is called on the thread that updates the filter. Errors are thrown, std::invalid_argument
  * where something given is wrong.
+ *
+ * The last run is kept for one that differs from it by where it ends: it has the levels at rest, to
+ * show any of them at once, and can go on where it has ended above level 0. At level 0 it holds no
+ * more than these, as the rest takes the memory of the whole volume.
  */
 class vtkDeformableSurface::vtkInternals
 {
@@ -29,42 +28,36 @@ public:
   explicit vtkInternals(vtkDeformableSurface& filter) : Filter(filter) {}
 
   /**
-   * At the first rank, once All is set: shows what is kept, or goes on with the last run, or makes
-   * another one, until it is over or told to stop. Afterwards the outputs are filled, and the run
-   * is kept.
+   * Shows what is kept, or goes on with the last run, or makes another one, until it is over or told
+   * to stop; fills the outputs.
    */
-  void RunOrGoOn(const volumic::FilterCall& call);
-  /** Told at the end of the run, once: ParaView's message box would cover the progress bar. */
-  void Warn(const std::string& text);
+  void Update(vtkInformationVector** inputs, vtkInformationVector* outputs,
+    volumic::RunObserver& observer);
+
+  /** The filter has changed. @param needsRun whether what is kept of the last run serves no more */
+  void Modify(bool needsRun);
+  void ForgetRun() { this->Kept.reset(); }
 
   volumic::SegmentationSettings Settings; ///< the properties
-  volumic::LimitedMemory Memory;          ///< as the last run had it; outlives what is kept
-  volumic::SegmentationCache Cache;       ///< of the last run
-  std::shared_ptr<volumic::SegmentationCheckpoint> Checkpoint; ///< of the last run; null: none
-  vtkSmartPointer<vtkMultiProcessController> Controller;
-  std::unique_ptr<volumic::Ranks> All; ///< of the run that is under way; else null
-  std::vector<std::string> Warnings;   ///< to be told at the end
-  std::set<std::string> WarnedOf;      ///< what is told once in the filter's life
-  bool LeavesCheckpoints = false; ///< also of runs that have come to their end
+  std::unique_ptr<volumic::SegmentationRun> Kept; ///< the last run; null: none
+  std::vector<std::string> Warnings; ///< to be told once nothing is on the way
+  bool HasHinted = false;    ///< at labels, as is done once in the filter's life
+  bool IsRunning = false;
   bool IsWatched = false;    ///< Someone asks whether a finer level is still to come.
   bool IsOnTheWay = false;   ///< One is, and nobody has asked yet.
   bool GoesToTheEnd = false; ///< The next run shows no level before.
 
 private:
-  /**
-   * What a run is asked for by the properties and the inputs. From now on the run's time counts.
-   */
-  volumic::SegmentationRequest RequestAsSet(const volumic::FilterCall& call);
-  /**
-   * With ShowLevels: makes it a request for the next level to be shown, if it is not the last.
-   * @param kept may be null
-   */
-  void ChooseStep(
-    volumic::SegmentationRequest& request, const volumic::SurfaceSegmentation* kept);
+  volumic::SegmentationRequest RequestAsSet(vtkInformationVector** inputs);
+  /** With ShowLevels: makes it a request for the next level to be shown, if it is not the last. */
+  void ChooseStep(volumic::SegmentationRequest& request);
   /** Makes the levels, and of them a run that has not begun. Null where that was stopped. */
-  std::unique_ptr<volumic::SurfaceSegmentation> NewRun(volumic::SegmentationRequest request);
+  std::unique_ptr<volumic::SegmentationRun> NewRun(
+    volumic::SegmentationRequest request, volumic::RunObserver& observer);
 
   vtkDeformableSurface& Filter;
+  vtkMTimeType TimeOfKept = 0; ///< the filter's
+  volumic::InputTimes InputsOfKept;
 };
 
 #endif

@@ -46,24 +46,6 @@ static_assert(AreEqual(Class::AllComponents, KeepComponentsType::AllComponents) 
   AreEqual(Class::LargeComponents, KeepComponentsType::LargeComponents) &&
   AreEqual(Class::ComponentsNotAtSeeds, KeepComponentsType::ComponentsNotAtSeeds));
 
-/** What a property decides on, see PropertyTable.h. */
-enum class Change
-{
-  Run,
-  End
-};
-
-/** The filter has changed. What is kept of its last run stays where only the end of one has. */
-void Modify(vtkDeformableSurface* filter, volumic::SegmentationCache& cache, Change what)
-{
-  const vtkMTimeType before = filter->GetMTime();
-  filter->Modified();
-  if (what == Change::End)
-  {
-    cache.IgnoreChange(before, filter->GetMTime());
-  }
-}
-
 void CopyPosition(const std::vector<volumic::Point>& positions, int index, double position[3])
 {
   if (index >= 0 && index < static_cast<int>(positions.size()))
@@ -76,10 +58,10 @@ void CopyPosition(const std::vector<volumic::Point>& positions, int index, doubl
 }
 
 //------------------------------------------------------------------------------
-#define VolumicSetting(name, type, field, change, kind)                                            \
-  VOLUMIC_SET_AND_GET(vtkDeformableSurface, name, type, Internals->Settings.field,                            \
-    Modify(this, this->Internals->Cache, Change::change))
-#define VolumicWritten(name, type, field, change, kind)
+#define VolumicSetting(name, type, field, needsRun)                                                \
+  VOLUMIC_SET_AND_GET(vtkDeformableSurface, name, type, Internals->Settings.field,                 \
+    this->Internals->Modify(needsRun))
+#define VolumicWritten(name, type, field, needsRun)
 VOLUMIC_SURFACE_PROPERTIES(VolumicSetting, VolumicWritten)
 
 int vtkDeformableSurface::GetNumberOfThreads()
@@ -93,22 +75,22 @@ void vtkDeformableSurface::SetNumberOfThreads(int number)
   if (threads != std::max(number, 0))
   {
     threads = std::max(number, 0);
-    Modify(this, this->Internals->Cache, Change::End);
+    this->Internals->Modify(false);
   }
 }
 
 //------------------------------------------------------------------------------
-// A list of positions: names of one and of all, where it is, and what it decides on.
-#define VolumicPositions(one, all, field, change)                                                  \
+// A list of positions: names of one and of all, where it is, and whether it needs a run.
+#define VolumicPositions(one, all, field, needsRun)                                                  \
   void vtkDeformableSurface::Add##one(double x, double y, double z)                                \
   {                                                                                                \
     this->Internals->Settings.field.push_back({ x, y, z });                                        \
-    Modify(this, this->Internals->Cache, change);                                                  \
+    this->Internals->Modify(needsRun);                                                \
   }                                                                                                \
   void vtkDeformableSurface::Clear##all()                                                          \
   {                                                                                                \
     this->Internals->Settings.field.clear();                                                       \
-    Modify(this, this->Internals->Cache, change);                                                  \
+    this->Internals->Modify(needsRun);                                                \
   }                                                                                                \
   int vtkDeformableSurface::GetNumberOf##all()                                                     \
   {                                                                                                \
@@ -119,14 +101,14 @@ void vtkDeformableSurface::SetNumberOfThreads(int number)
     CopyPosition(this->Internals->Settings.field, index, position);                                \
   }
 VolumicPositions(SeedPosition, SeedPositions, End.SeedPositions,
-  this->GetInitialization() == Seeds ? Change::Run : Change::End)
-VolumicPositions(AttractingPosition, AttractingPositions, AttractingPositions, Change::Run)
+  this->GetInitialization() == Seeds)
+VolumicPositions(AttractingPosition, AttractingPositions, AttractingPositions, true)
 
 //------------------------------------------------------------------------------
 void vtkDeformableSurface::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-#define VolumicPrint(name, type, field, change, kind)                                              \
+#define VolumicPrint(name, type, field, needsRun)                                                  \
   volumic::PrintSetting(os << indent << #name ": ", this->Internals->Settings.field);              \
   os << endl;
   VOLUMIC_SURFACE_PROPERTIES(VolumicPrint, VolumicPrint)

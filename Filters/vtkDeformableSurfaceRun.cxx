@@ -5,181 +5,161 @@
 // the last run goes on or another one begins.
 
 #include "Core/Common/FreeMemory.h"
-#include "Core/Common/Refuse.h"
-#include "Host/Errors.h"
 #include "Host/Pipeline.h"
-#include "Output/SurfaceOutput.h"
-#include "Run/SegmentationLevels.h"
 #include "vtkDeformableSurfaceInternals.h"
 
 #include <vtkDataObject.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkPolyData.h>
 
 #include <algorithm>
-#include <memory>
-#include <string>
 #include <utility>
 
 namespace
 {
 /** Share of the progress that the pyramid takes where it is built here. */
 constexpr double PyramidShare = 0.02;
+
+bool IsImage(const volumic::SegmentationRequest& request)
+{
+  return vtkMultiBlockDataSet::SafeDownCast(request.Volume) == nullptr;
+}
 }
 
 //------------------------------------------------------------------------------
-void vtkDeformableSurface::vtkInternals::Warn(const std::string& text)
+void vtkDeformableSurface::vtkInternals::Modify(bool needsRun)
 {
-  if (!text.empty() &&
-    std::find(this->Warnings.begin(), this->Warnings.end(), text) == this->Warnings.end())
+  const vtkMTimeType before = this->Filter.GetMTime();
+  this->Filter.Modified();
+  if (!needsRun && this->TimeOfKept == before)
   {
-    this->Warnings.push_back(text);
+    this->TimeOfKept = this->Filter.GetMTime();
   }
 }
 
 //------------------------------------------------------------------------------
 volumic::SegmentationRequest vtkDeformableSurface::vtkInternals::RequestAsSet(
-  const volumic::FilterCall& call)
+  vtkInformationVector** inputs)
 {
   volumic::SegmentationRequest request;
   request.Settings = this->Settings;
-  volumic::SegmentationEnd& end = request.Settings.End;
-  end.FinestLevel = this->Settings.LastLevel();
-  if (!(end.TimeLimit >= 0.0))
-  {
-    volumic::Refuse("Time Limit is ", end.TimeLimit, "; it must be 0 (none) or more.");
-  }
-  request.Limit = volumic::Deadline(request.Started, end.TimeLimit);
+  request.Settings.End.FinestLevel = this->Settings.LastLevel();
+  request.Volume = vtkDataObject::GetData(inputs[0]);
+  request.InitialSurface = vtkPolyData::GetData(inputs[1]);
+  request.AttractingPoints = vtkPolyData::GetData(inputs[2]);
   request.Selection = this->Filter.GetInputArrayInformation(0);
-  request.InitialSurface = this->All->TakePoints(1);
-  request.AttractingPoints = this->All->TakePoints(2);
   request.EdgeSelection = this->Filter.GetInputArrayInformation(1);
-  request.MayGoOn = volumic::SegmentationCache::MayKeep(&this->Filter);
+  request.MayGoOn = volumic::MayKeepRun(&this->Filter);
   // Whoever watches may choose others; else, and where memory is short, it would be held in vain.
-  request.KeepsAll = this->IsWatched && !end.LeavesCheckpoints();
-  request.CheckpointStays = this->LeavesCheckpoints;
-  request.Prepared = [this](const auto& checkpoint) { this->Checkpoint = checkpoint; };
-  const bool makesLevels = volumic::IsImage(vtkDataObject::GetData(call.Inputs[0]));
-  request.Progress = [this, before = makesLevels ? PyramidShare : 0.0](
-                       double share, const std::string& text)
-  { return this->All->GoOn(before + (1.0 - before) * share, text); };
-  request.Warn = [this](const std::string& text) { this->Warn(text); };
+  request.KeepsAll = this->IsWatched && this->Settings.End.ScratchDirectory.empty();
   return request;
 }
 
 //------------------------------------------------------------------------------
-void vtkDeformableSurface::vtkInternals::ChooseStep(
-  volumic::SegmentationRequest& request, const volumic::SurfaceSegmentation* kept)
+void vtkDeformableSurface::vtkInternals::ChooseStep(volumic::SegmentationRequest& request)
 {
-  const volumic::SegmentationSettings& settings = this->Settings;
-  // Whoever asks whether a finer level is still to come asks one rank only: the others would not
-  // run again.
-  const bool isWatched = settings.End.ShowLevels && this->IsWatched && !this->All->AreMany();
+  volumic::SegmentationEnd& end = request.Settings.End;
+  const bool isWatched = end.ShowLevels && this->IsWatched;
   if (!isWatched || std::exchange(this->GoesToTheEnd, false))
   {
     return;
   }
-  if (!kept || !kept->CanGoOn())
+  if (!this->Kept || !this->Kept->CanGoOn())
   {
-    request.Settings.End.Preview = true;
-    request.IsStep = !settings.End.Preview;
+    request.IsStep = !end.Preview;
+    end.Preview = true;
     return;
   }
-  const int next = kept->NextLevel();
-  if (settings.End.Preview || settings.EdgeLength != 0.0 || settings.Grading.IsWanted() ||
-    next <= std::max(settings.End.FinestLevel, 0))
+  const int next = this->Kept->NextLevel();
+  if (!end.Preview && request.Settings.EdgeLength == 0.0 &&
+    !request.Settings.Grading.IsWanted() && next > std::max(end.FinestLevel, 0))
   {
-    return;
+    end.FinestLevel = next;
+    request.IsStep = true;
   }
-  request.Settings.End.FinestLevel = next;
-  request.IsStep = true;
 }
 
 //------------------------------------------------------------------------------
-std::unique_ptr<volumic::SurfaceSegmentation> vtkDeformableSurface::vtkInternals::NewRun(
-  volumic::SegmentationRequest request)
+std::unique_ptr<volumic::SegmentationRun> vtkDeformableSurface::vtkInternals::NewRun(
+  volumic::SegmentationRequest request, volumic::RunObserver& observer)
 {
-  const vtkSmartPointer<vtkDataObject> input =
-    volumic::PrefixErrors("Input port 0: ", [&] { return this->All->TakeImages(0); });
-  volumic::VoxelSource source;
-  source.Filter = &this->Filter;
-  // What ranks had in pieces is in scratch memory already.
-  source.MemoryLimit = this->All->AreMany() ? 0 : this->Memory.Limit();
-  source.GoOn = [&](double share, const char* text)
-  { return this->All->GoOn(PyramidShare * share, text) && !request.Limit.IsOver(); };
-  source.WarnOnce = [this](const char* what, const std::string& text)
+  const auto progress = [&observer](double share, const std::string&)
+  { return observer.GoOn(PyramidShare * share, "Building the pyramid"); };
+  if (IsImage(request))
   {
-    if (!text.empty() && this->WarnedOf.insert(what).second)
-    {
-      this->Warn("Input port 0: " + text);
-    }
-  };
-  if (volumic::IsImage(input))
-  {
-    source.GoOn(0.0, "Building the pyramid"); // Whether to stop is asked when there is more to do.
+    progress(0.0, ""); // Whether to stop is asked when there is more to do.
   }
-  volumic::SetLevels(request, input, source);
-  if (!request.Levels)
+  const volumic::Volume volume = volumic::ReadVolume(request, progress);
+  if (!volume.HintAtLabels.empty() && !std::exchange(this->HasHinted, true))
+  {
+    observer.Warn(volumic::PlaceOfVoxels + volume.HintAtLabels);
+  }
+  if (!volume.IsComplete())
   {
     return nullptr;
   }
-  auto run = std::make_unique<volumic::SurfaceSegmentation>(request);
-  if (!request.LevelsAreOwn && volumic::AreReleased(&this->Filter, 0))
+  auto run = std::make_unique<volumic::SegmentationRun>(request, volume);
+  if (!volume.Voxels.AboutNaNs.empty())
   {
-    input->ReleaseData(); // Now: the run lets go of each level when it has left it.
+    observer.Warn(volumic::PlaceOfVoxels + volume.Voxels.AboutNaNs);
+  }
+  if (!volume.IsOfImage && volumic::AreReleased(&this->Filter, 0))
+  {
+    request.Volume->ReleaseData(); // Now: the run lets go of each level when it has left it.
   }
   return run;
 }
 
 //------------------------------------------------------------------------------
-void vtkDeformableSurface::vtkInternals::RunOrGoOn(const volumic::FilterCall& call)
+void vtkDeformableSurface::vtkInternals::Update(
+  vtkInformationVector** inputs, vtkInformationVector* outputs, volumic::RunObserver& observer)
 {
-  const volumic::SegmentationSettings& settings = this->Settings;
-  bool isKept = this->Cache.IsValidFor(&this->Filter, this->All->Count());
-  // What has changed on one rank has changed for all.
-  for (volumic::RankMessage& other : this->All->AskAll(volumic::RankQuestion::Own))
-  {
-    bool isKeptThere = false;
-    other >> isKeptThere;
-    isKept = isKept && isKeptThere;
-  }
-  volumic::SegmentationRequest request = this->RequestAsSet(call);
+  volumic::SegmentationRequest request = this->RequestAsSet(inputs);
+  const bool wantsAllParts = request.Settings.WantsAllParts();
   this->IsOnTheWay = false;
-  volumic::SurfaceSegmentation* kept = isKept ? this->Cache.Run() : nullptr;
-  kept = kept && kept->GradesFor(request) ? kept : nullptr;
-  if (kept && kept->HasAll(request))
+  if (this->TimeOfKept != this->Filter.GetMTime() ||
+    this->InputsOfKept != volumic::InputTimesOf(&this->Filter) ||
+    (this->Kept && !this->Kept->GradesFor(request)))
   {
-    kept->Results().FillOutputs(kept->EndOf(request), call.Outputs);
-    request.Warn(kept->Results().WarningOf(kept->EndOf(request), settings.WantsAllParts()));
-    return;
+    this->ForgetRun();
   }
-  this->ChooseStep(request, kept);
-  std::unique_ptr<volumic::SurfaceSegmentation> run = this->Cache.TakeRun();
-  this->Checkpoint.reset();
-  if (!kept || !kept->CanGoOn() || !kept->Renew(request))
+  if (!this->Kept || !this->Kept->HasAll(request))
+  {
+    this->ChooseStep(request);
+  }
+  std::unique_ptr<volumic::SegmentationRun> run = std::move(this->Kept);
+  if (!run || !run->Renew(request))
   {
     run.reset(); // Not the levels of both at a time.
-    run = this->NewRun(request);
+    run = this->NewRun(request, observer);
   }
-  const auto isStopped = [this]
-  { return volumic::IsAbortRequested(&this->Filter) || this->All->IsStoppedByOthers(); };
   if (!run)
   {
-    const bool isLate = request.Limit.IsOver() && !isStopped();
-    volumic::SegmentationResults nothing(settings.Profile);
-    nothing.SetStoppedSurface(volumic::MakeStopped(
-      0, isLate ? volumic::TimeLimitReason : Describe(volumic::StopReason::Cancelled)));
-    nothing.FillOutputs(0, call.Outputs);
+    volumic::FinishedLevels nothing;
+    nothing.SetStopped(observer.StopReason());
+    nothing.FillOutputs(0, outputs);
     return;
   }
-  run->Run();
-  run->Results().FillOutputs(run->EndsAt(), call.Outputs);
-  const bool isFinest = run->EndsAt() <= settings.LastLevel() && settings.EdgeLength == 0.0;
-  if (request.IsStep && isFinest)
+  run->Run(observer, IsImage(request) ? PyramidShare : 0.0);
+  run->FillOutputs(outputs);
+  const bool isFinest =
+    run->EndsAt() <= this->Settings.LastLevel() && this->Settings.EdgeLength == 0.0;
+  if (!request.IsStep || isFinest)
   {
-    request.Warn(run->Results().WarningOf(run->EndsAt(), settings.WantsAllParts()));
+    observer.Warn(run->Warning(wantsAllParts));
   }
-  this->IsOnTheWay = request.IsStep && !request.Limit.IsOver() && !isStopped() && !isFinest;
-  this->Cache.Keep(std::move(run), &this->Filter, this->All->Count());
+  this->IsOnTheWay = request.IsStep && !isFinest && !observer.IsStopped();
+  if (volumic::MayKeepRun(&this->Filter))
+  {
+    this->TimeOfKept = this->Filter.GetMTime();
+    this->InputsOfKept = volumic::InputTimesOf(&this->Filter);
+    if (!run->CanGoOn())
+    {
+      run->LetGo();
+    }
+    this->Kept = std::move(run);
+  }
   volumic::GiveBackFreeMemory();
 }

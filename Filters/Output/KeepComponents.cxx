@@ -29,16 +29,17 @@ constexpr std::size_t SpanSize = 16384;
  * not count.
  */
 std::vector<int> InnermostAbout(const std::vector<Point>& places, const std::vector<int>& own,
-  const IndexedSurface& surface, const SurfaceFeatures& features, Executor& executor)
+  const LargeVector<Point>& points, const LargeVector<Triangle>& triangles,
+  const SurfaceFeatures& features, Executor& executor)
 {
   const std::vector<std::vector<int>> about = ComponentsAbout(
-    places, own, surface.Triangles.size(),
+    places, own, triangles.size(),
     [&](std::size_t begin, std::size_t end, const auto& visit)
     {
       for (std::size_t t = begin; t < end; ++t)
       {
-        const Triangle& triangle = surface.Triangles[t];
-        visit(surface.Points[triangle[0]], surface.Points[triangle[1]], surface.Points[triangle[2]],
+        const Triangle& triangle = triangles[t];
+        visit(points[triangle[0]], points[triangle[1]], points[triangle[2]],
           features.ComponentOfTriangle[t]);
       }
     },
@@ -60,8 +61,8 @@ std::vector<int> InnermostAbout(const std::vector<Point>& places, const std::vec
   return innermost;
 }
 
-/** Leaves the components that are kept. */
-void LeaveKept(
+/** Leaves the points and triangles of the components that are kept. */
+void LeaveShape(
   SurfaceResult& surface, const SurfaceFeatures& features, const std::vector<bool>& isKept)
 {
   LargeVector<int> index(surface.Points.size(), -1);
@@ -115,30 +116,69 @@ void LeaveKept(
   }
 }
 
-void MarkTouching(const SurfaceResult& surface, const SurfaceFeatures& features,
-  const std::vector<Point>& places, const std::vector<int>& owners, std::vector<bool>& isKept,
-  Executor& executor)
+/** Of the features those of the components that are kept. */
+void LeaveFeatures(
+  SurfaceFeatures& features, std::vector<int>& owners, const std::vector<bool>& isKept)
 {
-  for (const int component : InnermostAbout(places, {}, surface, features, executor))
+  SurfaceFeatures kept;
+  std::vector<int> number(isKept.size(), -1);
+  for (std::size_t c = 0; c < isKept.size(); ++c)
   {
-    if (component >= 0 && features.Components[component].Volume > 0)
+    if (isKept[c])
+    {
+      number[c] = static_cast<int>(kept.Components.size());
+      const ComponentFeatures& component = features.Components[c];
+      kept.Components.push_back(component);
+      kept.Area += component.Area;
+      kept.Volume += component.Volume;
+      kept.EulerCharacteristic += 2 - 2 * component.Genus;
+      kept.Genus += component.Genus;
+    }
+  }
+  std::vector<int> keptOwners;
+  for (std::size_t c = 0; c < isKept.size(); ++c)
+  {
+    if (isKept[c])
+    {
+      keptOwners.push_back(number[owners[c]]);
+    }
+  }
+  for (const int component : features.ComponentOfTriangle)
+  {
+    if (isKept[component])
+    {
+      kept.ComponentOfTriangle.push_back(number[component]);
+    }
+  }
+  features = std::move(kept);
+  owners = std::move(keptOwners);
+}
+
+/** Marks the owners of the components that touch a place. @param points workspace, as the places */
+void MarkTouching(const LargeVector<Point>& points, const DescribedSurface& surface,
+  const std::vector<Point>& places, std::vector<bool>& isKept, Executor& executor)
+{
+  const LargeVector<Triangle>& triangles = surface.Shape.Triangles;
+  for (const int component :
+    InnermostAbout(places, {}, points, triangles, surface.Features, executor))
+  {
+    if (component >= 0 && surface.Features.Components[component].Volume > 0)
     {
       isKept[component] = true;
     }
   }
   const SortedPlaces sorted(places);
-  const double reach = SizingField::LongestEdgeInDelta * surface.Delta;
-  const std::size_t n = surface.Triangles.size();
-  std::vector<std::vector<int>> touching((n + SpanSize - 1) / SpanSize);
-  ForSpans(executor, n, SpanSize,
+  const double reach = SizingField::LongestEdgeInDelta * surface.Shape.Delta;
+  std::vector<std::vector<int>> touching((triangles.size() + SpanSize - 1) / SpanSize);
+  ForSpans(executor, triangles.size(), SpanSize,
     [&](std::size_t span, std::size_t begin, std::size_t end)
     {
       for (std::size_t t = begin; t < end; ++t)
       {
-        const int owner = owners[features.ComponentOfTriangle[t]];
-        for (const int corner : surface.Triangles[t])
+        const int owner = surface.Owners[surface.Features.ComponentOfTriangle[t]];
+        for (const int corner : triangles[t])
         {
-          const Point& p = surface.Points[corner];
+          const Point& p = points[corner];
           sorted.Visit(p[1] - reach, p[1] + reach,
             [&](int i)
             {
@@ -158,8 +198,11 @@ void MarkTouching(const SurfaceResult& surface, const SurfaceFeatures& features,
     isKept[owner] = true;
   }
 }
-}
 
+/**
+ * The component that each one belongs to: itself or, for a cavity (negative volume), the solid one
+ * that encloses it most closely; -1: none does. Where there are no cavities, at no cost.
+ */
 std::vector<int> OwnersOf(
   const IndexedSurface& surface, const SurfaceFeatures& features, Executor& executor)
 {
@@ -184,13 +227,15 @@ std::vector<int> OwnersOf(
     }
     isDone[component] = true;
   }
-  const std::vector<int> about = InnermostAbout(places, cavities, surface, features, executor);
+  const std::vector<int> about = InnermostAbout(
+    places, cavities, surface.Points, surface.Triangles, features, executor);
   for (std::size_t i = 0; i < cavities.size(); ++i)
   {
     const bool isSolid = about[i] >= 0 && features.Components[about[i]].Volume > 0;
     owners[cavities[i]] = isSolid ? about[i] : -1;
   }
   return owners;
+}
 }
 
 ComponentChoice ChoiceOf(
@@ -231,33 +276,39 @@ ComponentChoice ChoiceOf(
   return choice;
 }
 
-SurfaceResult KeepChosen(
-  SurfaceResult surface, const ComponentChoice& choice, const Workspace& space, Executor& executor)
+DescribedSurface DescribeSurface(
+  SurfaceResult surface, const Workspace& space, const ComponentChoice& choice, Executor& executor)
 {
-  if (choice.Mode == KeepComponentsType::AllComponents)
+  using Mode = KeepComponentsType;
+  const bool dropsMarked = choice.Mode == Mode::ComponentsNotAtSeeds;
+  const bool marks = dropsMarked || choice.Mode == Mode::ComponentsAtPoints;
+  const LargeVector<Point> points = marks ? surface.Points : LargeVector<Point>();
+  DescribedSurface described;
+  described.Shape = std::move(surface);
+  IndexedSurface& shape = described.Shape;
+  shape = ToWorld(std::move(shape), space, executor);
+  described.Features = ComputeFeatures(shape, executor);
+  described.Owners = OwnersOf(shape, described.Features, executor);
+  if (choice.Mode == Mode::AllComponents)
   {
-    return surface;
+    return described;
   }
-  // Components are numbered by their areas, which differ in the world where voxels are no cubes.
-  const SurfaceFeatures features = ComputeFeatures(ToWorld(surface, space, executor), executor);
-  const std::size_t n = features.Components.size();
-  const std::vector<int> owners = OwnersOf(surface, features, executor);
+  const std::size_t n = described.Features.Components.size();
   std::vector<bool> isKept(n, false);
   bool hasLargest = false;
   for (std::size_t c = 0; c < n; ++c)
   {
-    const double volume = features.Components[c].Volume;
+    const double volume = described.Features.Components[c].Volume;
     const bool isSolid = volume > 0;
     isKept[c] = isSolid &&
-      (choice.Mode == KeepComponentsType::LargeComponents
+      (choice.Mode == Mode::LargeComponents
           ? volume >= choice.MinimumVolume
-          : choice.Mode == KeepComponentsType::LargestComponent && !hasLargest);
+          : choice.Mode == Mode::LargestComponent && !hasLargest);
     hasLargest = hasLargest || isSolid;
   }
-  const bool dropsMarked = choice.Mode == KeepComponentsType::ComponentsNotAtSeeds;
-  if (dropsMarked || choice.Mode == KeepComponentsType::ComponentsAtPoints)
+  if (marks)
   {
-    MarkTouching(surface, features, choice.Places, owners, isKept, executor);
+    MarkTouching(points, described, choice.Places, isKept, executor);
   }
   if (dropsMarked)
   {
@@ -265,9 +316,10 @@ SurfaceResult KeepChosen(
   }
   for (std::size_t c = 0; c < n; ++c)
   {
-    isKept[c] = owners[c] >= 0 && isKept[owners[c]];
+    isKept[c] = described.Owners[c] >= 0 && isKept[described.Owners[c]];
   }
-  LeaveKept(surface, features, isKept);
-  return surface;
+  LeaveShape(described.Shape, described.Features, isKept);
+  LeaveFeatures(described.Features, described.Owners, isKept);
+  return described;
 }
 }

@@ -29,12 +29,17 @@ struct ComponentChoice
   }
 };
 
-/**
- * The component that each one belongs to: itself or, for a cavity (negative volume), the solid one
- * that encloses it most closely; -1: none does. Where there are no cavities, at no cost.
- */
-std::vector<int> OwnersOf(const IndexedSurface& surface, const SurfaceFeatures& features,
-  Executor& executor = OnThisThread());
+/** A surface as the outputs hold it. */
+struct DescribedSurface
+{
+  SurfaceResult Shape; ///< points and triangles in world coordinates, the rest in the workspace's
+  SurfaceFeatures Features; ///< world units
+  /**
+   * The component that each one belongs to: itself or, for a cavity (negative volume), the solid one
+   * that encloses it most closely; -1: none does.
+   */
+  std::vector<int> Owners;
+};
 
 /**
  * As the settings have it, and the inputs, in the workspace of an image.
@@ -46,13 +51,13 @@ ComponentChoice ChoiceOf(
   const SegmentationRequest& request, const Workspace& space, const std::array<int, 3>& size);
 
 /**
- * The part of a closed surface that is chosen. A cavity is kept with its owner. A component touches
- * a place if it is the innermost that encloses it, and no cavity, or if a vertex of it or of its
- * cavities is not farther than 2.5 delta. Cost: O(n log n) of triangles and places; where all are
- * kept and the surface is given up, none.
+ * The part of a closed surface that is chosen, in the world, and its features. A cavity is kept with
+ * its owner. A component touches a place if it is the innermost that encloses it, and no cavity, or
+ * if a vertex of it or of its cavities is not farther than 2.5 delta. The arrays of a surface that
+ * is given up are used. Cost: O(n log n) of triangles and places.
  */
-SurfaceResult KeepChosen(SurfaceResult surface, const ComponentChoice& choice,
-  const Workspace& space, Executor& executor = OnThisThread());
+DescribedSurface DescribeSurface(SurfaceResult surface, const Workspace& space,
+  const ComponentChoice& choice, Executor& executor);
 }
 
 #endif

@@ -6,7 +6,6 @@
 #include "Core/Surface/SizingField.h"
 #include "Host/LimitedMemory.h"
 #include "Input/Workspace.h"
-#include "Output/KeepComponents.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -292,16 +291,15 @@ void SetFeatures(vtkPolyData* polyData, const SurfaceFeatures& features,
 
 }
 
-vtkSmartPointer<vtkPolyData> MakePolyData(SurfaceResult surface,
-  const SurfaceDescription& description, const Workspace& space, Executor& executor)
+vtkSmartPointer<vtkPolyData> MakePolyData(SurfaceResult given,
+  const SurfaceDescription& description, const Workspace& space, const ComponentChoice& choice,
+  Executor& executor)
 {
   auto polyData = vtkSmartPointer<vtkPolyData>::New();
-  IndexedSurface& shape = surface;
-  shape = ToWorld(std::move(shape), space, executor);
-  const SurfaceFeatures features = ComputeFeatures(shape, executor);
-  const std::vector<int> owners = OwnersOf(shape, features, executor);
-  TakePoints(polyData, shape.Points, executor);
-  TakeTriangles(polyData, shape.Triangles, executor);
+  DescribedSurface described = DescribeSurface(std::move(given), space, choice, executor);
+  SurfaceResult& surface = described.Shape;
+  TakePoints(polyData, surface.Points, executor);
+  TakeTriangles(polyData, surface.Triangles, executor);
   TakePointArrays(polyData, surface, space, executor);
   AddField<vtkIntArray>(polyData, "Level", description.Level);
   AddField<vtkDoubleArray>(polyData, "Delta", surface.Delta * space.WorldUnit());
@@ -332,7 +330,7 @@ vtkSmartPointer<vtkPolyData> MakePolyData(SurfaceResult surface,
   {
     AddField<vtkStringArray>(polyData, "StopReason", description.StopReason.c_str());
   }
-  SetFeatures(polyData, features, owners, executor);
+  SetFeatures(polyData, described.Features, described.Owners, executor);
   return polyData;
 }
 

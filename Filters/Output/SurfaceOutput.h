@@ -6,6 +6,7 @@
 #include "Core/Common/Executor.h"
 #include "Core/Evolution/SurfaceEvolution.h"
 #include "Input/Workspace.h"
+#include "Output/KeepComponents.h"
 
 #include <vtkSmartPointer.h>
 
@@ -27,18 +28,15 @@ struct SurfaceDescription
 };
 
 /**
- * The surface in world coordinates with all arrays that vtkDeformableSurface documents. Where it is
- * given up, each of its arrays is freed once it is in VTK's.
+ * The chosen components of a surface in world coordinates, with all arrays that vtkDeformableSurface
+ * documents. Where it is given up, each of its arrays is freed once it is in VTK's.
  */
-vtkSmartPointer<vtkPolyData> MakePolyData(SurfaceResult surface,
+vtkSmartPointer<vtkPolyData> MakePolyData(SurfaceResult given,
   const SurfaceDescription& description, const Workspace& space,
-  Executor& executor = OnThisThread());
+  const ComponentChoice& choice = ComponentChoice(), Executor& executor = OnThisThread());
 
 /** Sets `StopReason` instead of the one that it has; what it was copied from keeps its own. */
 void SetStopReason(vtkPolyData* surface, const std::string& reason);
-
-/** `StopReason` of what a run hands over that has come to the end of its time. */
-constexpr const char* TimeLimitReason = "time limit";
 
 /** The surface of a run that was stopped before it had one: empty, with all its arrays. */
 vtkSmartPointer<vtkPolyData> MakeStopped(int level, const std::string& reason);

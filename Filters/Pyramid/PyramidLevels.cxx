@@ -2,18 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Pyramid/PyramidLevels.h"
 
-#include "Core/Common/ContentHash.h"
 #include "Core/Common/Refuse.h"
-#include "Core/Image/VoxelHash.h"
 #include "Core/Image/VoxelNumbers.h"
 #include "Host/Errors.h"
 #include "Input/ImageVoxels.h"
 #include "Input/InputImage.h"
 
 #include <vtkDataArray.h>
-#include <vtkFieldData.h>
 #include <vtkImageData.h>
-#include <vtkMultiBlockDataSet.h>
 
 #include <algorithm>
 #include <cmath>
@@ -36,25 +32,6 @@ void CheckSize(vtkImageData* image, const std::string& what, const char* wayOut)
     Refuse(what, " has ", SizeOf(image), " voxels; at least ", PyramidLevels::MinimumSize,
       " are needed along each axis. ", wayOut);
   }
-}
-
-/** U_h / U_0: what the pyramid wrote down, or else what the spacings tell. */
-double UnitInWorkspace(vtkImageData* level0, vtkImageData* image)
-{
-  vtkDataArray* unit0 = level0->GetFieldData()->GetArray("Unit");
-  vtkDataArray* unit = image->GetFieldData()->GetArray("Unit");
-  if (unit0 && unit && unit0->GetNumberOfTuples() == 1 && unit->GetNumberOfTuples() == 1 &&
-    unit0->GetTuple1(0) > 0 && unit->GetTuple1(0) > 0)
-  {
-    return unit->GetTuple1(0) / unit0->GetTuple1(0);
-  }
-  double ratio = 0.0;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const double step = image->GetSpacing()[axis] / level0->GetSpacing()[axis];
-    ratio = axis == 0 ? step : std::min(ratio, step);
-  }
-  return ratio;
 }
 
 /**
@@ -91,60 +68,33 @@ void FillInvalid(const LevelImage& image, const LargeVector<std::uint8_t>& marks
 }
 }
 
-PyramidLevels::PyramidLevels(
-  vtkMultiBlockDataSet* blocks, vtkInformation* selection, Metric metric, bool nanIsBackground)
-  : NaNIsBackground(nanIsBackground)
+PyramidLevels::PyramidLevels(const ImageLevels& levels, Metric metric, bool nanIsBackground)
+  : Levels(levels.Levels), FactorBelow(levels.FactorBelow), NaNIsBackground(nanIsBackground)
 {
-  if (blocks->GetNumberOfBlocks() == 0)
+  CheckSize(this->Levels[0].Image, "the image",
+    "Resample it more finely (vtkImageResize; ParaView: Resample To Image).");
+  this->Space = Workspace(this->Levels[0].Image, metric);
+  for (const ImageLevel& level : this->Levels)
   {
-    Refuse("there is no level: the input has no blocks, as after an error of Image Pyramid.",
-      LevelsWayOut);
-  }
-  for (unsigned int h = 0; h < blocks->GetNumberOfBlocks(); ++h)
-  {
-    vtkDataObject* block = blocks->GetBlock(h);
-    auto* image = vtkImageData::SafeDownCast(block);
-    if (!image)
-    {
-      Refuse("block ", h, " is ", block ? block->GetClassName() : "empty", ", not an image.",
-        LevelsWayOut);
-    }
-    this->Voxels.emplace_back(
-      PrefixErrors(Join("level ", h, ": "), [&] { return ChooseVoxels(selection, image); }));
-    if (h == 0)
-    {
-      CheckSize(image, "the image",
-        "Resample it more finely (vtkImageResize; ParaView: Resample To Image).");
-      this->Space = Workspace(image, metric);
-    }
-    else
-    {
-      CheckPlace(this->Images[0], this->Images.back(), image, h);
-    }
-    this->Images.emplace_back(image);
-    const int* size = image->GetDimensions();
+    const int* size = level.Image->GetDimensions();
     this->Sizes.push_back({ size[0], size[1], size[2] });
-    this->Units.push_back(UnitInWorkspace(this->Images[0], image));
   }
-  this->Ranges.resize(this->Images.size());
 }
-
-PyramidLevels::~PyramidLevels() = default;
-PyramidLevels::PyramidLevels(PyramidLevels&&) noexcept = default;
 
 ValidVoxels PyramidLevels::ValidAt(int level, Executor& executor) const
 {
   return PrefixErrors(Join("level ", level, ": "),
     [&]
     {
-      return FindValidVoxels(this->Voxels[level], ContiguousVoxels(this->Voxels[level]),
-        this->Images[level], this->NaNIsBackground, executor);
+      const ImageLevel& at = this->Levels[level];
+      return FindValidVoxels(
+        at.Voxels, ContiguousVoxels(at.Voxels), at.Image, this->NaNIsBackground, executor);
     });
 }
 
 bool PyramidLevels::HasRoom(int level) const
 {
-  const Size& size = this->Sizes[level];
+  const std::array<int, 3>& size = this->Sizes[level];
   return *std::min_element(size.begin(), size.end()) >= MinimumSize;
 }
 
@@ -153,19 +103,9 @@ std::int64_t PyramidLevels::NumberOfVoxels(int level) const
   return VoxelNumbers(this->Sizes[level]).Count();
 }
 
-std::array<int, 3> PyramidLevels::SizeOfLevel0() const
-{
-  return this->Sizes[0];
-}
-
-double PyramidLevels::UnitInWorld(int level) const
-{
-  return this->UnitOf(level) * this->Space.WorldUnit();
-}
-
 double PyramidLevels::UnitOf(int level) const
 {
-  return level < 0 ? this->Units[0] / this->FactorBelowLevel0 : this->Units[level];
+  return level < 0 ? 1.0 / this->FactorBelow : this->Levels[level].Unit / this->Levels[0].Unit;
 }
 
 bool PyramidLevels::HoldsPart(
@@ -173,7 +113,7 @@ bool PyramidLevels::HoldsPart(
 {
   SequentialExecutor thread;
   const ValidVoxels valid = this->ValidAt(level, thread);
-  const vtkSmartPointer<vtkDataArray> voxels = ContiguousVoxels(this->Voxels[level]);
+  const vtkSmartPointer<vtkDataArray> voxels = ContiguousVoxels(this->Levels[level].Voxels);
   bool holds = false;
   VisitVoxels(voxels,
     [&](const auto* values)
@@ -191,43 +131,26 @@ bool PyramidLevels::HoldsPart(
 
 std::array<double, 2> PyramidLevels::Range(int level) const
 {
-  std::optional<std::array<double, 2>>& range = this->Ranges[level];
-  if (!range)
+  const auto found = this->Ranges.find(level);
+  if (found != this->Ranges.end())
   {
-    SequentialExecutor thread;
-    const ValidVoxels valid = this->ValidAt(level, thread);
-    if (level == 0)
-    {
-      CheckAnyIsValid(this->Voxels[0], valid);
-    }
-    range = RangeOf(ContiguousVoxels(this->Voxels[level]), valid);
+    return found->second;
   }
-  return *range;
-}
-
-std::string PyramidLevels::DescribeNaNsOfLevel0() const
-{
   SequentialExecutor thread;
-  const ValidVoxels valid = this->ValidAt(0, thread);
-  return valid.NaNs > 0 ? DescribeNaNs(this->Voxels[0], this->Images[0], valid) : std::string();
-}
-
-std::uint64_t PyramidLevels::HashOfVoxels(int level, Executor& executor) const
-{
-  const vtkSmartPointer<vtkDataArray> voxels = ContiguousVoxels(this->Voxels[level]);
-  const VoxelBox all = VoxelBox::Of(this->Sizes[level]);
-  return CombineHashes(static_cast<std::uint64_t>(voxels->GetDataType()),
-    volumic::HashOfVoxels(voxels->GetVoidPointer(0),
-      static_cast<std::size_t>(voxels->GetDataTypeSize()), all, all, all, executor));
+  const ValidVoxels valid = this->ValidAt(level, thread);
+  if (level == 0)
+  {
+    CheckAnyIsValid(this->Levels[0].Voxels, valid);
+  }
+  return this->Ranges[level] = RangeOf(ContiguousVoxels(this->Levels[level].Voxels), valid);
 }
 
 LevelImage PyramidLevels::Load(int wanted, double base, double background, Executor& executor)
 {
   const int level = std::max(wanted, 0);
-  vtkImageData* image = this->Images[level];
-  const std::string name = "level " + std::to_string(level);
-  CheckSize(image, name, "Set Coarsest Level to a finer level.");
-  const vtkSmartPointer<vtkDataArray> voxels = ContiguousVoxels(this->Voxels[level]);
+  const std::string name = Join("level ", level);
+  CheckSize(this->Levels[level].Image, name, "Set Coarsest Level to a finer level.");
+  const vtkSmartPointer<vtkDataArray> voxels = ContiguousVoxels(this->Levels[level].Voxels);
   const ValidVoxels valid = this->ValidAt(level, executor);
   // Sums and differences of voxels must not overflow either.
   constexpr double largest = 1e37;
@@ -235,8 +158,9 @@ LevelImage PyramidLevels::Load(int wanted, double base, double background, Execu
   const double size = std::max(std::abs(range[0]), std::abs(range[1]));
   if (size > largest)
   {
-    Refuse(name, ": ", NameOf(this->Voxels[level]), " has values of ", size, " in size; at most ",
-      largest, " can be used, since the surface computes in single precision. Scale the image.");
+    Refuse(name, ": ", NameOf(this->Levels[level].Voxels), " has values of ", size,
+      " in size; at most ", largest,
+      " can be used, since the surface computes in single precision. Scale the image.");
   }
 
   this->Loaded = voxels;
@@ -265,8 +189,8 @@ void PyramidLevels::ReleaseCoarserThan(int level)
   this->Filled = LargeVector<float>();
   for (int h = level == AllLevels ? 0 : std::max(level, 0) + 1; h < this->NumberOfLevels(); ++h)
   {
-    this->Images[h] = nullptr;
-    this->Voxels[h] = nullptr;
+    this->Levels[h].Image = nullptr;
+    this->Levels[h].Voxels = nullptr;
   }
 }
 }

@@ -11,26 +11,17 @@
 #include "Core/Image/VoxelValues.h"
 #include "Input/ValidVoxels.h"
 #include "Input/Workspace.h"
-
-#include <vtkSmartPointer.h>
+#include "Pyramid/ImageLevels.h"
 
 #include <array>
 #include <cstdint>
-#include <optional>
-#include <string>
-#include <vector>
-
-class vtkDataArray;
-class vtkImageData;
-class vtkInformation;
-class vtkMultiBlockDataSet;
+#include <map>
 
 namespace volumic
 {
 /**
- * The blocks of vtkImagePyramid's output as the levels that the core wants.
- *
- * Errors are std::invalid_argument; messages name the block and the way out.
+ * The levels of an image as the core wants them. Errors are std::invalid_argument; messages name
+ * the level and the way out.
  */
 class PyramidLevels
 {
@@ -39,36 +30,25 @@ public:
   static constexpr int MinimumSize = 8;
 
   /**
-   * @param blocks    block h is the vtkImageData of level h
-   * @param selection says which array holds the voxels (GetInputArrayInformation)
-   * @param metric    which lengths the workspace has
+   * @param metric          which lengths the workspace has
    * @param nanIsBackground off: Load() refuses voxels that are NaN
-   * @throws if a block is not an image, has no such array, or its size or place are not those of a
-   *         level of a pyramid; if the image is 2D or under MinimumSize along an axis.
+   * @throws if the image is 2D or under MinimumSize along an axis.
    */
-  PyramidLevels(vtkMultiBlockDataSet* blocks, vtkInformation* selection, Metric metric,
-    bool nanIsBackground = true);
-  ~PyramidLevels();
-  PyramidLevels(PyramidLevels&&) noexcept;
+  PyramidLevels(const ImageLevels& levels, Metric metric, bool nanIsBackground = true);
 
-  int NumberOfLevels() const { return static_cast<int>(this->Images.size()); }
+  int NumberOfLevels() const { return static_cast<int>(this->Levels.size()); }
   const Workspace& GetWorkspace() const { return this->Space; }
 
   /** Whether a surface can evolve on the level: MinimumSize along each axis. Level 0 has it. */
   bool HasRoom(int level) const;
 
+  /** Voxels of a level along each axis. */
+  const std::array<int, 3>& SizeOf(int level) const { return this->Sizes[level]; }
   std::int64_t NumberOfVoxels(int level) const;
 
-  /** Voxels of the finest level along each axis. */
-  std::array<int, 3> SizeOfLevel0() const;
-
-  /**
-   * U_h in world units. Level -1, finer than the image, has U_0 / T, with sqrt 3 for T unless told.
-   */
-  double UnitInWorld(int level) const;
-  /** Voxels of a level along each axis. */
-  std::array<int, 3> SizeOf(int level) const { return this->Sizes[level]; }
-  void SetFactorBelowLevel0(double t) { this->FactorBelowLevel0 = t; }
+  /** U_h in world units. Level -1, finer than the image, has U_0 / T. */
+  double UnitInWorld(int level) const { return this->UnitOf(level) * this->Space.WorldUnit(); }
+  void SetFactorBelowLevel0(double t) { this->FactorBelow = t; }
 
   /**
    * Whether a part of the object, which is above the value (bright) or below, is at least that
@@ -81,12 +61,6 @@ public:
    * the larger one if none is.
    */
   std::array<double, 2> Range(int level) const;
-
-  /** What DescribeNaNs() says of level 0; nothing if there are none. */
-  std::string DescribeNaNsOfLevel0() const;
-
-  /** 64 bits that tell voxels apart (VoxelHash.h), of their type and the values as they came. */
-  std::uint64_t HashOfVoxels(int level, Executor& executor) const;
 
   /**
    * The voxels of a level, of level 0 for level -1; they stay valid until the next call. They are
@@ -108,24 +82,20 @@ public:
    */
   void ReleaseCoarserThan(int level);
   /** Whether the voxels of a level are still there. */
-  bool HasVoxels(int level) const { return this->Voxels[level] != nullptr; }
+  bool HasVoxels(int level) const { return this->Levels[level].Image != nullptr; }
 
 private:
-  using Size = std::array<int, 3>;
   double UnitOf(int level) const;
   ValidVoxels ValidAt(int level, Executor& executor) const;
 
-  /** Keeps them alive: a shallow copy of the blocks would have other images, from VTK 9.2 on. */
-  std::vector<vtkSmartPointer<vtkImageData>> Images; ///< null where they were let go, as Voxels
-  std::vector<vtkSmartPointer<vtkDataArray>> Voxels;
-  std::vector<Size> Sizes;
-  std::vector<double> Units; ///< workspace
-  double FactorBelowLevel0 = 1.7320508075688772;
+  std::vector<ImageLevel> Levels; ///< without image and voxels where these were let go
+  std::vector<std::array<int, 3>> Sizes;
+  double FactorBelow; ///< U_0 over the unit of level -1
   Workspace Space;
   vtkSmartPointer<vtkDataArray> Loaded; ///< what the result of the last Load() refers to
   LargeVector<float> Filled;            ///< or this
   bool NaNIsBackground;
-  mutable std::vector<std::optional<std::array<double, 2>>> Ranges; ///< by level, once asked for
+  mutable std::map<int, std::array<double, 2>> Ranges; ///< by level, once asked for
 };
 }
 

@@ -6,21 +6,14 @@
 #include "Core/Common/Executor.h"
 #include "Core/Image/LevelImage.h"
 #include "Core/Image/PointAttraction.h"
-#include "Input/Workspace.h"
 #include "Pyramid/PyramidLevels.h"
+#include "Run/ReadVolume.h"
 #include "Settings/SegmentationSettings.h"
 
 #include <array>
-#include <cstddef>
-#include <cstdint>
-#include <functional>
 #include <map>
 #include <memory>
-#include <string>
 #include <vector>
-
-class vtkAlgorithm;
-class vtkDataObject;
 
 namespace volumic
 {
@@ -34,19 +27,15 @@ namespace volumic
 class SegmentationLevels
 {
 public:
-  /** @throws if the blocks are not the levels of a pyramid, or there is no such Metric. */
-  explicit SegmentationLevels(const SegmentationRequest& request);
-  ~SegmentationLevels();
+  /**
+   * Takes the points that the settings give a weight, too.
+   * @throws if a surface cannot evolve on them, or there is no such Metric.
+   */
+  SegmentationLevels(const SegmentationRequest& request, const Volume& volume);
 
-  /** Once, before Load(): takes the points and the map of edges that the settings give a weight. */
-  void ReadAttraction(const SegmentationRequest& request);
   bool HasPoints() const { return this->Points != nullptr; }
-
   const PyramidLevels& Pyramid() const { return this->Voxels; }
   const Workspace& GetWorkspace() const { return this->Voxels.GetWorkspace(); }
-
-  /** U_h in world units. */
-  double UnitInWorld(int level) const { return this->Voxels.UnitInWorld(level); }
   void SetFactorBelowLevel0(double factor) { this->Voxels.SetFactorBelowLevel0(factor); }
 
   /** Smallest and largest voxel of a level; the first is the larger one if none is valid. */
@@ -59,60 +48,26 @@ public:
    */
   bool HoldsObject(int level, const SurfaceOptions& options) const;
 
-  /** What is to be reported of the NaN voxels of level 0; empty: nothing, or it has been. */
-  std::string DescribeUnreportedNaNs() const;
-
   /** The field of a level, whose voxels must be here still; valid until the next call. */
   LevelImage Load(int level, const SurfaceOptions& options, Executor& threads);
 
   /**
-   * Lets go of the voxels of coarser levels (AllLevels: of all), and of what Load() gave last: what
-   * was asked of them stays known.
+   * Lets go of the voxels of coarser levels (PyramidLevels::AllLevels: of all), and of what Load()
+   * gave last: what was asked of them stays known.
    */
   void ReleaseCoarserThan(int level);
-  bool HasVoxels(int level) const { return this->Voxels.HasVoxels(level); }
-
-  /** PyramidLevels::HashOfVoxels() of the map of edges, all levels; 0: there is none. */
-  std::uint64_t HashOfEdges(Executor& threads) const;
 
 private:
+  void ReadPoints(const SegmentationRequest& request);
   /** For LevelImage::Edges. @throws where the level has not the size of the voxels'. */
   VoxelValues LoadEdges(int level, const std::array<int, 3>& size, Executor& threads);
 
-  bool MayHaveUnreportedNaNs;
   PyramidLevels Voxels;
   std::unique_ptr<PointAttraction> Points; ///< null: none
-  /**
-   * Of the map of edges. Where all blocks carry the array these are taken; else the pyramid of the
-   * array of block 0 is made, by the factor that the blocks tell. Null: none, or after a stop.
-   */
-  std::unique_ptr<PyramidLevels> Edges;
-  std::vector<float> Bent;           ///< the level's voxels as the points bend them
-  mutable std::map<int, bool> Holds; ///< what HoldsObject() has found
+  std::unique_ptr<PyramidLevels> Edges;    ///< of the map of edges; null: none
+  std::vector<float> Bent;                 ///< the level's voxels as the points bend them
+  mutable std::map<int, bool> Holds;       ///< what HoldsObject() has found
 };
-
-/** Where the voxels of a run come from, and whom their reading tells. */
-struct VoxelSource
-{
-  vtkAlgorithm* Filter = nullptr; ///< to whose input port 0 they come
-  std::size_t MemoryLimit = 0;    ///< bytes; 0: none, or it is kept already
-  /** Told the share that is done, and what is being done; false asks to stop. */
-  std::function<bool(double share, const char* text)> GoOn;
-  /** Told what is worth a warning of port 0 once in a filter's life, or nothing; `what` says which.
-   */
-  std::function<void(const char* what, const std::string& text)> WarnOnce;
-};
-
-/** Whether the data of input port 0 are an image, of which the levels are still to be made. */
-bool IsImage(vtkDataObject* input);
-
-/**
- * Sets the levels of a request, of the data of input port 0, and what its settings find for them:
- * an image comes in slabs where the memory is limited and its source can. After a stop they are
- * null.
- * @throws std::invalid_argument naming the port or the property
- */
-void SetLevels(SegmentationRequest& request, vtkDataObject* input, const VoxelSource& source);
 }
 
 #endif

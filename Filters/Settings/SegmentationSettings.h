@@ -8,18 +8,15 @@
 #include "Core/Common/Refuse.h"
 #include "Core/Evolution/SurfaceOptions.h"
 #include "Core/Image/PyramidGeometry.h"
-#include "Host/ProgressMonitor.h"
 #include "Input/ImageVoxels.h"
 #include "Input/Workspace.h"
 
+#include <vtkDataObject.h>
 #include <vtkInformation.h>
-#include <vtkMultiBlockDataSet.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 
-#include <functional>
 #include <limits>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -71,8 +68,8 @@ enum class KeepComponentsType
 };
 
 /**
- * Where a run ends, what of its surfaces is put out, and how much time, memory and how many threads
- * it has. A run can go on from where one has ended that differs from it by these only (by seeds, if
+ * Where a run ends, what of its surfaces is put out, and how much time and how many threads it
+ * has. A run can go on from where one has ended that differs from it by these only (by seeds, if
  * it does not start from them).
  */
 struct SegmentationEnd
@@ -85,15 +82,7 @@ struct SegmentationEnd
   bool Preview = false;                ///< End at a level of few voxels.
   bool ShowLevels = false;
   int NumberOfThreads = 0;      ///< 0: all
-  int MemoryLimit = 0;          ///< of the process, MiB; 0: none
-  std::string ScratchDirectory; ///< for what memory does not hold; empty: the system's
-  bool Resume = false;          ///< Go on from a checkpoint, where there is one.
-
-  /** A limit of memory, or a folder, says that the run is long. */
-  bool LeavesCheckpoints() const
-  {
-    return this->MemoryLimit > 0 || !this->ScratchDirectory.empty() || this->Resume;
-  }
+  std::string ScratchDirectory; ///< for large arrays; empty: they are in memory
 };
 
 /**
@@ -122,7 +111,6 @@ struct SegmentationSettings
   int CoarsestLevel = -1; ///< -1: the last that serves
   std::vector<Point> AttractingPositions; ///< world, beside those of input port 2
   RecoveryType Recovery = RecoveryType::RecoverObjects;
-  bool Profile = false;     ///< columns of the seconds of each phase in the history
   int SnapshotInterval = 0; ///< iterations; 0: no snapshots
 
   /** The values of the object, where they have an upper end, too. @throws as Check() of it */
@@ -155,34 +143,21 @@ struct SegmentationSettings
   }
 };
 
-class SegmentationCheckpoint;
-
-/** What a run is asked for: settings, inputs, and whom it tells. */
+/** What a run is asked for: settings and inputs. */
 struct SegmentationRequest
 {
   /** As set, but for what was found for the image, and where a step on the way ends. */
   SegmentationSettings Settings;
 
-  vtkSmartPointer<vtkMultiBlockDataSet> Levels;  ///< null where their making was stopped
-  vtkSmartPointer<vtkInformation> Selection;     ///< of the voxels, as GetInputArrayInformation()
-  double FactorBelowLevel0 = 1.7320508075688772; ///< U_0 over the unit of level -1
-  /** Made for this run, by EdgeLength if there is one; nobody was told of their NaN voxels. */
-  bool LevelsAreOwn = false;
+  vtkSmartPointer<vtkDataObject> Volume;         ///< input port 0
   vtkSmartPointer<vtkPolyData> InitialSurface;   ///< input port 1, may be missing
   vtkSmartPointer<vtkPolyData> AttractingPoints; ///< input port 2, may be missing
-  vtkInformation* EdgeSelection = nullptr; ///< of the map of edges; without effect at weight 0
+  vtkSmartPointer<vtkInformation> Selection; ///< of the voxels, as GetInputArrayInformation()
+  vtkInformation* EdgeSelection = nullptr;   ///< of the map of edges; without effect at weight 0
 
-  bool IsStep = false;  ///< Another run goes on from it: what is wrong with the surface may change.
-  bool MayGoOn = false; ///< After a stop, too: what rests stays while a finer level is under way.
-  bool KeepsAll = false;        ///< All components stay, for who may choose others.
-  bool CheckpointStays = false; ///< It is not removed at the end, whose own is left, too.
-  Deadline Limit;
-  /** When the run began: what came before counts to the seconds of its first level. */
-  Deadline::Clock::time_point Started = Deadline::Clock::now();
-  ProgressMonitor::Callback Progress;
-  std::function<void(const std::string& text)> Warn; ///< an empty text is no warning
-  /** Given the run's checkpoint, once it has been looked at; null where it has none. */
-  std::function<void(const std::shared_ptr<SegmentationCheckpoint>& checkpoint)> Prepared;
+  bool IsStep = false;   ///< Another run goes on from it: what is wrong with the surface may change.
+  bool MayGoOn = false;  ///< After a stop, too: what rests stays while a finer level is under way.
+  bool KeepsAll = false; ///< All components stay, for who may choose others.
 };
 }
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Pyramid/PyramidBlocks.h"
+#include "Pyramid/ImageLevels.h"
 
 #include "Core/Common/Join.h"
 #include "Core/Common/Refuse.h"
@@ -9,7 +9,7 @@
 #include "Host/Errors.h"
 #include "Host/HostThreads.h"
 #include "Host/LimitedMemory.h"
-#include "Input/ImageVoxels.h"
+#include "Input/InputImage.h"
 #include "Input/ValidVoxels.h"
 
 #include <vtkCompositeDataSet.h>
@@ -18,7 +18,6 @@
 #include <vtkFieldData.h>
 #include <vtkFloatArray.h>
 #include <vtkIdTypeArray.h>
-#include <vtkImageData.h>
 #include <vtkInformation.h>
 #include <vtkIntArray.h>
 #include <vtkMatrix3x3.h>
@@ -31,6 +30,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <new>
 #include <stdexcept>
 #include <string>
@@ -41,6 +41,8 @@ namespace volumic
 {
 namespace
 {
+using Progress = std::function<bool(double share, const std::string& text)>;
+
 /** vtkFloatArray or vtkDoubleArray. */
 template <typename Real>
 using ArrayOf = std::conditional_t<std::is_same_v<Real, float>, vtkFloatArray, vtkDoubleArray>;
@@ -57,7 +59,7 @@ vtkSmartPointer<ArrayOf<Real>> NewArray(std::int64_t n, int level)
   {
     throw std::runtime_error(Join("the memory does not suffice for level ", level, ", which takes ",
       static_cast<double>(n) * sizeof(Real) / (1024. * 1024.),
-      " MB. Set Memory Limit, ask for fewer levels, or crop the image."));
+      " MB. Set Scratch Directory, ask for fewer levels, or crop the image."));
   }
 }
 
@@ -115,9 +117,8 @@ class LevelMaker
 public:
   using Real = typename RealOf<T>::Type;
 
-  LevelMaker(
-    const std::vector<LevelGeometry>& levels, Executor& executor, const PyramidProgress& progress)
-    : Levels(levels), Threads(executor), Progress(progress), Before(ShareDoneBefore(levels))
+  LevelMaker(const std::vector<LevelGeometry>& levels, Executor& executor, const Progress& progress)
+    : Levels(levels), Threads(executor), Tell(progress), Before(ShareDoneBefore(levels))
   {
   }
 
@@ -156,7 +157,7 @@ private:
     const double before = this->Before[h - 1];
     const double share = this->Before[h] - before;
     const LevelProgress progress = [&](double done)
-    { return this->Progress(before + done * share, text); };
+    { return this->Tell(before + done * share, text); };
     if (!progress(0.0))
     {
       return false;
@@ -169,7 +170,7 @@ private:
 
   const std::vector<LevelGeometry>& Levels;
   Executor& Threads;
-  const PyramidProgress& Progress;
+  const Progress& Tell;
   std::vector<double> Before;
 };
 /**
@@ -180,7 +181,7 @@ private:
  */
 std::vector<vtkSmartPointer<vtkDataArray>> MakeLevelVoxels(vtkDataArray* voxels,
   const ValidVoxels& valid, const std::vector<LevelGeometry>& levels, Executor& executor,
-  const PyramidProgress& progress)
+  const Progress& progress)
 {
   const vtkSmartPointer<vtkDataArray> source = SourceVoxels(voxels, valid, executor);
   std::vector<vtkSmartPointer<vtkDataArray>> made;
@@ -201,32 +202,6 @@ std::vector<LevelGeometry> Plan(vtkImageData* image, const PyramidOptions& optio
     { size[0], size[1], size[2] }, { spacing[0], spacing[1], spacing[2] }, options);
 }
 
-void AddLevelFieldData(vtkImageData* image, int level, double unit)
-{
-  vtkNew<vtkIntArray> levelArray;
-  levelArray->SetName("Level");
-  levelArray->InsertNextValue(level);
-  vtkNew<vtkDoubleArray> unitArray;
-  unitArray->SetName("Unit");
-  unitArray->InsertNextValue(unit);
-  // Not into the input's own field data, which a shallow copy may share.
-  vtkNew<vtkFieldData> fieldData;
-  fieldData->ShallowCopy(image->GetFieldData());
-  fieldData->AddArray(levelArray);
-  fieldData->AddArray(unitArray);
-  image->SetFieldData(fieldData);
-}
-
-void AddLevel(vtkMultiBlockDataSet* pyramid, std::size_t level, vtkImageData* image, double unit)
-{
-  AddLevelFieldData(image, static_cast<int>(level), unit);
-  const auto block = static_cast<unsigned int>(level);
-  pyramid->SetNumberOfBlocks(block + 1);
-  pyramid->SetBlock(block, image);
-  pyramid->GetMetaData(block)->Set(
-    vtkCompositeDataSet::NAME(), ("Level " + std::to_string(level)).c_str());
-}
-
 vtkSmartPointer<vtkImageData> MakeImage(
   vtkImageData* frame, const char* name, vtkDataArray* voxels, const LevelGeometry& geometry)
 {
@@ -245,64 +220,171 @@ vtkSmartPointer<vtkImageData> MakeImage(
   return image;
 }
 
-void AddFacts(vtkMultiBlockDataSet* pyramid, bool isComplete, std::int64_t numberOfNaNs)
+/** U_h / U_0 of a block: what the pyramid wrote down, or else what the spacings tell. */
+double UnitOfBlock(vtkImageData* level0, vtkImageData* image)
 {
-  vtkNew<vtkIdTypeArray> nans;
-  nans->SetName("NaNVoxels");
-  nans->InsertNextValue(static_cast<vtkIdType>(numberOfNaNs));
-  pyramid->GetFieldData()->AddArray(nans);
-  vtkNew<vtkStringArray> reason;
-  reason->SetName("StopReason");
-  reason->InsertNextValue(isComplete ? "complete" : "cancelled");
-  pyramid->GetFieldData()->AddArray(reason);
+  const auto written = [](vtkImageData* block)
+  {
+    vtkDataArray* unit = block->GetFieldData()->GetArray("Unit");
+    return unit && unit->GetNumberOfTuples() == 1 ? std::max(unit->GetTuple1(0), 0.0) : 0.0;
+  };
+  if (written(level0) > 0.0 && written(image) > 0.0)
+  {
+    return written(image) / written(level0);
+  }
+  double ratio = std::numeric_limits<double>::infinity();
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    ratio = std::min(ratio, image->GetSpacing()[axis] / level0->GetSpacing()[axis]);
+  }
+  return ratio;
+}
+
+template <typename Array, typename Value>
+void AddField(vtkFieldData* fieldData, const char* name, Value value)
+{
+  vtkNew<Array> array;
+  array->SetName(name);
+  array->InsertNextValue(value);
+  fieldData->AddArray(array);
 }
 }
 
-PyramidBlocks MakePyramidBlocks(
-  vtkImageData* image, vtkDataArray* voxels, const PyramidRequest& request)
+PyramidOptions ImageLevels::Options() const
 {
-  const std::vector<LevelGeometry> levels = Plan(image, request.Levels);
+  const double factor =
+    this->Levels.size() > 1 ? this->Levels[1].Unit / this->Levels[0].Unit : 0.0;
+  PyramidOptions options;
+  options.NumberOfLevels = static_cast<int>(this->Levels.size());
+  options.ReductionFactor = factor > 1.0 && factor < 2.0 ? factor : std::sqrt(3.0);
+  return options;
+}
+
+ImageLevels MakeImageLevels(vtkImageData* image, vtkDataArray* voxels,
+  const LevelsOptions& options, const Progress& progress)
+{
+  const std::vector<LevelGeometry> plan = Plan(image, options.Pyramid);
   std::vector<vtkSmartPointer<vtkDataArray>> made;
   ValidVoxels valid;
   vtkSmartPointer<vtkDataArray> finest = voxels;
-  HostThreads threads(request.NumberOfThreads);
+  HostThreads threads(options.NumberOfThreads);
   threads.Run(
     [&]
     {
       vtkSmartPointer<vtkDataArray> contiguous = ContiguousVoxels(voxels);
-      if (request.Range.IsUsed())
+      if (options.Range.IsUsed())
       {
-        finest = contiguous = FoldVoxels(contiguous, request.Range, threads);
+        finest = contiguous = FoldVoxels(contiguous, options.Range, threads);
       }
-      valid = FindValidVoxels(voxels, contiguous, image, request.NaNIsBackground, threads);
+      valid = FindValidVoxels(voxels, contiguous, image, options.NaNIsBackground, threads);
       CheckAnyIsValid(voxels, valid);
-      made = MakeLevelVoxels(contiguous, valid, levels, threads, request.Progress);
+      made = MakeLevelVoxels(contiguous, valid, plan, threads, progress);
     });
 
-  PyramidBlocks pyramid;
-  pyramid.Blocks = vtkSmartPointer<vtkMultiBlockDataSet>::New();
+  ImageLevels levels;
   // No voxel is copied, but where they were folded, or one component was selected: then the new
   // array takes the place of theirs.
-  AddLevel(pyramid.Blocks, 0, WithVoxels(image, finest), levels[0].Unit);
+  levels.Levels.push_back({ WithVoxels(image, finest), finest, plan[0].Unit });
   for (std::size_t h = 1; h <= made.size(); ++h)
   {
-    AddLevel(pyramid.Blocks, h, MakeImage(image, voxels->GetName(), made[h - 1], levels[h]),
-      levels[h].Unit);
+    levels.Levels.push_back(
+      { MakeImage(image, voxels->GetName(), made[h - 1], plan[h]), made[h - 1], plan[h].Unit });
   }
-  AddFacts(pyramid.Blocks, made.size() + 1 == levels.size(), valid.NaNs);
-  if (valid.NaNs > 0)
-  {
-    pyramid.AboutNaNs = DescribeNaNs(voxels, image, valid);
-  }
-  return pyramid;
+  levels.IsComplete = levels.Levels.size() == plan.size();
+  levels.NaNs = valid.NaNs;
+  levels.AboutNaNs = valid.NaNs > 0 ? DescribeNaNs(voxels, image, valid) : std::string();
+  return levels;
 }
 
-PyramidBlocks StoppedPyramidBlocks()
+ImageLevels LevelsOfBlocks(
+  vtkMultiBlockDataSet* blocks, vtkInformation* selection, bool nanIsBackground)
 {
-  PyramidBlocks pyramid;
-  pyramid.Blocks = vtkSmartPointer<vtkMultiBlockDataSet>::New();
-  AddFacts(pyramid.Blocks, false, 0);
-  return pyramid;
+  if (blocks->GetNumberOfBlocks() == 0)
+  {
+    Refuse("there is no level: the input has no blocks, as after an error of Image Pyramid.",
+      LevelsWayOut);
+  }
+  ImageLevels levels;
+  for (unsigned int h = 0; h < blocks->GetNumberOfBlocks(); ++h)
+  {
+    vtkDataObject* block = blocks->GetBlock(h);
+    auto* image = vtkImageData::SafeDownCast(block);
+    if (!image)
+    {
+      Refuse("block ", h, " is ", block ? block->GetClassName() : "empty", ", not an image.",
+        LevelsWayOut);
+    }
+    const vtkSmartPointer<vtkDataArray> voxels =
+      PrefixErrors(Join("level ", h, ": "), [&] { return ChooseVoxels(selection, image); });
+    if (h > 0)
+    {
+      CheckPlace(levels.Levels[0].Image, levels.Levels.back().Image, image, h);
+    }
+    levels.Levels.push_back({ image, voxels, 1.0 });
+    levels.Levels.back().Unit = UnitOfBlock(levels.Levels[0].Image, image);
+  }
+  // Image Pyramid has counted them, and told of them.
+  if (!blocks->GetFieldData()->HasArray("NaNVoxels"))
+  {
+    const ImageLevel& finest = levels.Levels[0];
+    SequentialExecutor thread;
+    const ValidVoxels valid = PrefixErrors("level 0: ",
+      [&]
+      {
+        return FindValidVoxels(finest.Voxels, ContiguousVoxels(finest.Voxels), finest.Image,
+          nanIsBackground, thread);
+      });
+    levels.AboutNaNs =
+      valid.NaNs > 0 ? DescribeNaNs(finest.Voxels, finest.Image, valid) : std::string();
+  }
+  return levels;
+}
+
+ImageLevels LevelsOfArray(const ImageLevels& levels, vtkInformation* selection,
+  int numberOfThreads, const Progress& progress)
+{
+  vtkDataArray* voxels = ChooseVoxels(selection, levels.Levels[0].Image);
+  const std::string name = ChosenName(selection);
+  const bool isEverywhere = !name.empty() &&
+    std::all_of(levels.Levels.begin(), levels.Levels.end(), [&name](const ImageLevel& level)
+      { return level.Image->GetPointData()->HasArray(name.c_str()); });
+  if (!isEverywhere && levels.Levels.size() > 1)
+  {
+    LevelsOptions options;
+    options.Pyramid = levels.Options();
+    options.NumberOfThreads = numberOfThreads;
+    return MakeImageLevels(levels.Levels[0].Image, voxels, options, progress);
+  }
+  ImageLevels own = levels;
+  for (std::size_t h = 0; h < own.Levels.size(); ++h)
+  {
+    own.Levels[h].Voxels = PrefixErrors(
+      Join("level ", h, ": "), [&] { return ChooseVoxels(selection, own.Levels[h].Image); });
+  }
+  return own;
+}
+
+vtkSmartPointer<vtkMultiBlockDataSet> BlocksOf(const ImageLevels& levels)
+{
+  auto blocks = vtkSmartPointer<vtkMultiBlockDataSet>::New();
+  for (std::size_t h = 0; h < levels.Levels.size(); ++h)
+  {
+    vtkImageData* image = levels.Levels[h].Image;
+    // Not into the input's own field data, which a shallow copy may share.
+    vtkNew<vtkFieldData> fieldData;
+    fieldData->ShallowCopy(image->GetFieldData());
+    AddField<vtkIntArray>(fieldData, "Level", static_cast<int>(h));
+    AddField<vtkDoubleArray>(fieldData, "Unit", levels.Levels[h].Unit);
+    image->SetFieldData(fieldData);
+    const auto block = static_cast<unsigned int>(h);
+    blocks->SetBlock(block, image);
+    blocks->GetMetaData(block)->Set(vtkCompositeDataSet::NAME(), Join("Level ", h).c_str());
+  }
+  AddField<vtkIdTypeArray>(
+    blocks->GetFieldData(), "NaNVoxels", static_cast<vtkIdType>(levels.NaNs));
+  AddField<vtkStringArray>(
+    blocks->GetFieldData(), "StopReason", levels.IsComplete ? "complete" : "cancelled");
+  return blocks;
 }
 
 EdgeLengthPlan PlanEdgeLength(
@@ -314,39 +396,5 @@ EdgeLengthPlan PlanEdgeLength(
     { spacing[0], spacing[1], spacing[2] }, EdgeLengthPreferences{ pyramid, samplingRatio });
   pyramid.ReductionFactor = plan.ReductionFactor;
   return plan;
-}
-
-vtkSmartPointer<vtkMultiBlockDataSet> BuildPyramid(
-  vtkImageData* image, vtkInformation* selection, int component, const PyramidRequest& request)
-{
-  return PrefixErrors("Input port 0: ",
-    [&]
-    {
-      bool isStopped = false;
-      PyramidRequest watched = request;
-      watched.Progress = [&](double share, const std::string& text)
-      {
-        isStopped = isStopped || !request.Progress(share, text);
-        return !isStopped;
-      };
-      const PyramidBlocks made = MakePyramidBlocks(
-        image, SelectComponent(ChooseArray(selection, image), component), watched);
-      return isStopped ? nullptr : made.Blocks;
-    });
-}
-
-PyramidOptions LevelsAs(vtkMultiBlockDataSet* blocks)
-{
-  const auto unit = [blocks](unsigned int h)
-  {
-    auto* image = vtkImageData::SafeDownCast(blocks->GetBlock(h));
-    vtkDataArray* array = image ? image->GetFieldData()->GetArray("Unit") : nullptr;
-    return array && array->GetNumberOfTuples() == 1 ? array->GetTuple1(0) : 0.0;
-  };
-  const double factor = blocks->GetNumberOfBlocks() > 1 ? unit(1) / unit(0) : 0.0;
-  PyramidOptions levels;
-  levels.NumberOfLevels = static_cast<int>(blocks->GetNumberOfBlocks());
-  levels.ReductionFactor = factor > 1.0 && factor < 2.0 ? factor : std::sqrt(3.0);
-  return levels;
 }
 }

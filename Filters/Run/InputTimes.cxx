@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Run/SegmentationCache.h"
+#include "Run/InputTimes.h"
 
 #include "Host/Pipeline.h"
 
@@ -12,7 +12,6 @@
 #include <vtkSmartPointer.h>
 
 #include <algorithm>
-#include <utility>
 
 namespace volumic
 {
@@ -49,9 +48,9 @@ vtkMTimeType TimeOf(vtkDataObject* data)
 }
 }
 
-SegmentationCache::Inputs SegmentationCache::InputsOf(vtkAlgorithm* filter)
+InputTimes InputTimesOf(vtkAlgorithm* filter)
 {
-  Inputs inputs;
+  InputTimes inputs;
   for (int port = 0; port < filter->GetNumberOfInputPorts(); ++port)
   {
     for (int i = 0; i < filter->GetNumberOfInputConnections(port); ++i)
@@ -64,7 +63,7 @@ SegmentationCache::Inputs SegmentationCache::InputsOf(vtkAlgorithm* filter)
   return inputs;
 }
 
-bool SegmentationCache::MayKeep(vtkAlgorithm* filter)
+bool MayKeepRun(vtkAlgorithm* filter)
 {
   bool areReleased = filter->GetReleaseDataFlag() != 0;
   for (int port = 0; port < filter->GetNumberOfInputPorts(); ++port)
@@ -72,51 +71,5 @@ bool SegmentationCache::MayKeep(vtkAlgorithm* filter)
     areReleased = areReleased || AreReleased(filter, port);
   }
   return !areReleased; // They must not stay because of us.
-}
-
-void SegmentationCache::Keep(
-  std::unique_ptr<SurfaceSegmentation> run, vtkAlgorithm* filter, int ranks)
-{
-  this->Drop();
-  if (!MayKeep(filter))
-  {
-    return;
-  }
-  this->Time = filter->GetMTime();
-  this->Ranks = ranks;
-  this->InputsOfRun = InputsOf(filter);
-  if (run && !run->CanGoOn())
-  {
-    run->LetGo();
-  }
-  this->Kept = std::move(run);
-}
-
-void SegmentationCache::Drop()
-{
-  this->Kept.reset();
-  this->InputsOfRun.clear();
-  this->Time = 0;
-}
-
-std::unique_ptr<SurfaceSegmentation> SegmentationCache::TakeRun()
-{
-  std::unique_ptr<SurfaceSegmentation> run = std::move(this->Kept);
-  this->Drop();
-  return run;
-}
-
-void SegmentationCache::IgnoreChange(vtkMTimeType before, vtkMTimeType after)
-{
-  if (this->Time != 0 && this->Time == before)
-  {
-    this->Time = after;
-  }
-}
-
-bool SegmentationCache::IsValidFor(vtkAlgorithm* filter, int ranks) const
-{
-  return this->Time != 0 && this->Time == filter->GetMTime() && this->Ranks == ranks &&
-    this->InputsOfRun == InputsOf(filter);
 }
 }

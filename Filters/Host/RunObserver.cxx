@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Host/RunObserver.h"
+
+#include "Core/Common/Refuse.h"
+#include "Host/Pipeline.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace volumic
+{
+namespace
+{
+/** Blocks from which on a sweep may take so long that one wants to know how far it is. */
+constexpr int ManyBlocks = 500;
+
+std::string BlocksOf(const Monitor::Status& status)
+{
+  return status.Block > 0 && status.Blocks >= ManyBlocks
+    ? Join(", block ", status.Block, " of ", status.Blocks)
+    : "";
+}
+
+std::string TextOf(const Monitor::Status& status)
+{
+  switch (status.Doing)
+  {
+    case Monitor::Activity::Starting:
+      return "start";
+    case Monitor::Activity::Dividing:
+      return "division";
+    case Monitor::Activity::Recovering:
+      return "search for lost parts";
+    case Monitor::Activity::Iterating:
+      return Join("iteration ", status.Iteration, BlocksOf(status));
+    default:
+      return "regularisation" + BlocksOf(status);
+  }
+}
+}
+
+RunObserver::RunObserver(
+  vtkAlgorithm* filter, double timeLimit, std::vector<std::string>& warnings)
+  : Filter(filter), TimeLimit(timeLimit), Untold(warnings)
+{
+  if (!(timeLimit >= 0.0))
+  {
+    Refuse("Time Limit is ", timeLimit, "; it must be 0 (none) or more.");
+  }
+}
+
+bool RunObserver::GoOn(double share, const std::string& text)
+{
+  this->Filter->SetProgressText(text.c_str());
+  this->Filter->UpdateProgress(share);
+  return !this->IsStopped();
+}
+
+bool RunObserver::IsStopped()
+{
+  this->IsAborted = this->IsAborted || IsAbortRequested(this->Filter);
+  const std::chrono::duration<double> taken = Clock::now() - this->Started;
+  this->IsOutOfTime = this->IsOutOfTime ||
+    (!this->IsAborted && this->TimeLimit > 0.0 && taken.count() >= this->TimeLimit);
+  return this->IsAborted || this->IsOutOfTime;
+}
+
+std::string RunObserver::StopReason() const
+{
+  return this->IsOutOfTime ? TimeLimitReason : "cancelled";
+}
+
+void RunObserver::Warn(const std::string& text)
+{
+  std::vector<std::string>& untold = this->Untold;
+  if (!text.empty() && std::find(untold.begin(), untold.end(), text) == untold.end())
+  {
+    untold.push_back(text);
+  }
+}
+
+bool LevelMonitor::GoOn(const Status& status)
+{
+  return this->Report(status.Level, status.Fraction,
+    Join("Level ", status.Level, ", ", TextOf(status), ", ", status.Vertices, " vertices"));
+}
+
+bool LevelMonitor::BeginLevel(int level)
+{
+  // Who stops at the name of a level expects to get the surface of that level.
+  return this->Report(level, 0.0,
+    level == this->Coarsest ? Join("Level ", level, ", voxels")
+                            : Join("Level ", level + 1, " is done"));
+}
+
+bool LevelMonitor::Report(int level, double fraction, const std::string& text)
+{
+  double done = 0.0;
+  double total = 0.0;
+  for (int other = this->Coarsest; other >= this->Finest; --other)
+  {
+    const double weight = std::pow(3.0, this->Coarsest - other);
+    done += other > level ? weight : 0.0;
+    total += weight;
+  }
+  done += std::pow(3.0, this->Coarsest - level) * std::clamp(fraction, 0.0, 1.0);
+  return this->Observer.GoOn(this->Before + (1.0 - this->Before) * done / total, text);
+}
+}

@@ -1,0 +1,176 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Output/FinishedLevels.h"
+
+#include "Core/Common/Join.h"
+#include "Output/HistoryTable.h"
+
+#include <vtkCompositeDataSet.h>
+#include <vtkInformation.h>
+#include <vtkInformationVector.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkNew.h>
+#include <vtkTable.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace volumic
+{
+namespace
+{
+/** A copy: what its reader adds or takes away does not change what is kept; arrays are shared. */
+void SetBlock(
+  vtkMultiBlockDataSet* blocks, unsigned int block, const std::string& name, vtkPolyData* surface)
+{
+  vtkNew<vtkPolyData> copy;
+  if (surface)
+  {
+    copy->ShallowCopy(surface);
+  }
+  blocks->SetBlock(block, surface ? copy.GetPointer() : nullptr);
+  blocks->GetMetaData(block)->Set(vtkCompositeDataSet::NAME(), name.c_str());
+}
+}
+
+bool FinishedLevels::Choose(const ComponentChoice& choice, Executor& threads)
+{
+  if (choice == this->Choice)
+  {
+    return true;
+  }
+  if (std::any_of(this->Levels.begin(), this->Levels.end(),
+        [](const auto& level) { return !level.second.All; }))
+  {
+    return false;
+  }
+  this->Choice = choice;
+  for (auto& level : this->Levels)
+  {
+    this->MakeSurface(level.second, *level.second.All, threads);
+  }
+  return true;
+}
+
+void FinishedLevels::Add(
+  FinishedLevel level, SurfaceResult surface, bool keepsAll, Executor& threads)
+{
+  if (keepsAll)
+  {
+    level.All = std::make_shared<const SurfaceResult>(surface);
+  }
+  this->MakeSurface(level, std::move(surface), threads);
+  this->Levels[level.About.Level] = std::move(level);
+}
+
+void FinishedLevels::MakeSurface(
+  FinishedLevel& level, SurfaceResult surface, Executor& threads) const
+{
+  const bool isAny = !surface.Points.empty();
+  level.Surface =
+    MakePolyData(std::move(surface), level.About, this->Space, this->Choice, threads);
+  level.KeepsNone = isAny && level.Surface->GetNumberOfPoints() == 0;
+}
+
+void FinishedLevels::Forget(int level)
+{
+  this->Levels.erase(level);
+  this->Snapshots.erase(std::remove_if(this->Snapshots.begin(), this->Snapshots.end(),
+                          [level](const auto& snapshot) { return snapshot.first == level; }),
+    this->Snapshots.end());
+}
+
+bool FinishedLevels::HasAtRest(int level) const
+{
+  const auto found = this->Levels.find(level);
+  return found != this->Levels.end() && found->second.IsAtRest;
+}
+
+vtkSmartPointer<vtkPolyData> FinishedLevels::Outcome(int last) const
+{
+  const auto finest = this->Levels.lower_bound(last);
+  if (finest == this->Levels.end())
+  {
+    return this->StopReason.empty() ? nullptr : MakeStopped(this->Coarsest, this->StopReason);
+  }
+  auto surface = vtkSmartPointer<vtkPolyData>::New();
+  surface->ShallowCopy(finest->second.Surface);
+  if (!this->StopReason.empty())
+  {
+    SetStopReason(surface, this->StopReason);
+  }
+  return surface;
+}
+
+void FinishedLevels::FillOutputs(int last, vtkInformationVector* outputs) const
+{
+  vtkNew<vtkMultiBlockDataSet> levels;
+  for (int level = this->NumberOfLevels - 1; level >= std::min(last, 0); --level)
+  {
+    const auto found = this->Levels.find(level);
+    const bool isThere = level >= last && found != this->Levels.end();
+    // That of level -1 comes after those of the pyramid.
+    SetBlock(levels, static_cast<unsigned int>(level < 0 ? this->NumberOfLevels : level),
+      Join("Level ", level), isThere ? found->second.Surface.GetPointer() : nullptr);
+  }
+  if (const vtkSmartPointer<vtkPolyData> finest = this->Outcome(last))
+  {
+    vtkPolyData::GetData(outputs, 0)->ShallowCopy(finest);
+  }
+  vtkMultiBlockDataSet::GetData(outputs, 1)->ShallowCopy(levels);
+  vtkTable::GetData(outputs, 2)
+    ->ShallowCopy(MakeHistoryTable(this->Rows, last, this->Space.WorldUnit()));
+
+  vtkNew<vtkMultiBlockDataSet> snapshots;
+  for (const auto& [level, snapshot] : this->Snapshots)
+  {
+    if (level >= last)
+    {
+      SetBlock(snapshots, snapshots->GetNumberOfBlocks(), snapshot.first, snapshot.second);
+    }
+  }
+  vtkMultiBlockDataSet::GetData(outputs, 3)->ShallowCopy(snapshots);
+}
+
+std::string FinishedLevels::WarningOf(int last, bool wantsAll) const
+{
+  // The field data tell the rest; what is worth a warning needs another choice to be made.
+  const auto end = this->Levels.lower_bound(last);
+  if (end == this->Levels.end() || !end->second.IsAtRest)
+  {
+    return "";
+  }
+  const SurfaceDescription& about = end->second.About;
+  if (about.StopReason == Describe(StopReason::Vanished))
+  {
+    return Join("Nothing is left of the surface at level ", about.Level,
+      ": the object is too thin for it. ",
+      this->Coarsest > 0
+        ? "Set Coarsest Level to a finer level."
+        : "No level is finer: check Iso Value and Object Is Bright, or resample the image.");
+  }
+  if (end->second.KeepsNone)
+  {
+    return Join("Level ", about.Level, ": Keep Components leaves none of the components.");
+  }
+  if (about.Lost.MissingBoundary > NotableShare && wantsAll)
+  {
+    const int lost = about.Lost.Found + about.Lost.FoundCavities;
+    const std::string parts =
+      Join(lost, lost == 1 ? " part" : " parts", " that coarser levels had lost");
+    const std::string what = about.Lost.Missing == 0 ? "thin ends of " + parts
+      : about.Lost.Missing == lost
+      ? "all of " + parts
+      : Join(about.Lost.Missing, " of ", parts, ", and thin ends of others");
+    return Join(std::lround(100.0 * about.Lost.MissingBoundary),
+      " % of the object's boundary at level ", about.Level, " is not on the surface: ", what,
+      ", too thin for triangles of this size or too near to the rest. ",
+      about.Level > 0
+        ? "Set Finest Level to a finer level."
+        : (about.Level == 0
+              ? "Set Finest Level to -1, which has smaller ones, or resample the image."
+              : "Resample the image more finely."));
+  }
+  return "";
+}
+}

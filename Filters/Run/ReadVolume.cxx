@@ -1,0 +1,145 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Run/ReadVolume.h"
+
+#include "Core/Common/Refuse.h"
+#include "Host/Errors.h"
+#include "Input/ImageVoxels.h"
+#include "Input/InputImage.h"
+#include "Input/ValueHints.h"
+
+#include <vtkDataArray.h>
+#include <vtkImageData.h>
+#include <vtkMultiBlockDataSet.h>
+
+#include <cmath>
+
+namespace volumic
+{
+namespace
+{
+LevelsOptions OptionsAsSet(const SegmentationSettings& settings)
+{
+  LevelsOptions options;
+  options.Pyramid = settings.Pyramid;
+  options.Range = settings.Range();
+  options.NaNIsBackground = settings.NaNIsBackground;
+  options.NumberOfThreads = settings.End.NumberOfThreads;
+  return options;
+}
+
+/** Takes cells as points, and finds an iso-value that is not set. */
+vtkSmartPointer<vtkImageData> CompleteImage(
+  SegmentationRequest& request, vtkImageData* image, Volume& volume)
+{
+  SegmentationSettings& settings = request.Settings;
+  const PointVoxels voxels = TakeCellsAsPoints(image, request.Selection);
+  request.Selection = voxels.Selection;
+  if (std::isnan(settings.Options.IsoValue))
+  {
+    settings.Options.IsoValue =
+      PrefixErrors("Iso Value is not set, and can't be found: Input port 0: ",
+        [&]
+        {
+          return FindOtsuThreshold(voxels.Image, voxels.Selection, settings.SelectedComponent,
+            settings.End.NumberOfThreads)
+            .Threshold;
+        });
+  }
+  vtkDataArray* values =
+    PrefixErrors(PlaceOfVoxels, [&] { return ChooseArray(voxels.Selection, voxels.Image); });
+  if (values->GetNumberOfComponents() == 1 && values->HasStandardMemoryLayout())
+  {
+    volume.HintAtLabels = HintAtLabels(values, voxels.Image->GetDimensions());
+  }
+  return voxels.Image;
+}
+
+void ReadImage(Volume& volume, SegmentationRequest& request, const Progress& progress)
+{
+  SegmentationSettings& settings = request.Settings;
+  vtkSmartPointer<vtkImageData> image =
+    PrefixErrors(PlaceOfVoxels, [&] { return ImageOf(request.Volume); });
+  if (settings.OfImages)
+  {
+    image = CompleteImage(request, image, volume);
+  }
+  LevelsOptions options = OptionsAsSet(settings);
+  double factorBelow = volume.Voxels.FactorBelow;
+  if (settings.EdgeLength != 0.0)
+  {
+    const EdgeLengthPlan plan =
+      PlanEdgeLength(settings.EdgeLength, settings.Options.SamplingRatio, image, options.Pyramid);
+    settings.End.FinestLevel = plan.FinestLevel;
+    settings.Options.SamplingRatio = plan.SamplingRatio;
+    factorBelow = plan.ReductionFactor;
+  }
+  volume.IsOfImage = true;
+  volume.Voxels = PrefixErrors(PlaceOfVoxels,
+    [&]
+    {
+      vtkDataArray* array = ChooseArray(request.Selection, image);
+      return MakeImageLevels(
+        image, SelectComponent(array, settings.SelectedComponent), options, progress);
+    });
+  volume.Voxels.FactorBelow = factorBelow;
+}
+
+ImageLevels ReadBlocks(const SegmentationRequest& request, const Progress& progress)
+{
+  const SegmentationSettings& settings = request.Settings;
+  ImageLevels levels = LevelsOfBlocks(vtkMultiBlockDataSet::SafeDownCast(request.Volume),
+    request.Selection, settings.NaNIsBackground);
+  // Means of folded voxels are not the folded means.
+  if (settings.Range().IsUsed())
+  {
+    LevelsOptions options = OptionsAsSet(settings);
+    options.Pyramid = levels.Options();
+    levels =
+      MakeImageLevels(levels.Levels[0].Image, levels.Levels[0].Voxels, options, progress);
+    levels.AboutNaNs.clear(); // Image Pyramid has told of them.
+  }
+  return levels;
+}
+
+void ReadEdges(Volume& volume, const SegmentationRequest& request, const Progress& progress)
+{
+  vtkInformation* selection = request.EdgeSelection;
+  const bool isChosen = selection &&
+    (selection->Has(vtkDataObject::FIELD_NAME()) ||
+      selection->Has(vtkDataObject::FIELD_ATTRIBUTE_TYPE()));
+  if (!isChosen)
+  {
+    Refuse("Edge Attraction Weight is not 0, but there is no map of edges: choose a second point "
+           "array of the image as Edge Map (SetInputArrayToProcess(1, ...)), such as its gradient "
+           "magnitude.");
+  }
+  PrefixErrors(PlaceOfEdges,
+    [&]
+    {
+      volume.Edges = LevelsOfArray(volume.Voxels, selection,
+        request.Settings.End.NumberOfThreads,
+        [&progress](double, const std::string& text) { return progress(1.0, text); });
+    });
+}
+}
+
+Volume ReadVolume(SegmentationRequest& request, const Progress& progress)
+{
+  request.Settings.Range(); // Refused before anything is read.
+  Volume volume;
+  if (vtkMultiBlockDataSet::SafeDownCast(request.Volume) && !request.Settings.OfImages)
+  {
+    volume.Voxels = PrefixErrors(PlaceOfVoxels, [&] { return ReadBlocks(request, progress); });
+  }
+  else
+  {
+    ReadImage(volume, request, progress);
+  }
+  if (request.Settings.Options.EdgeAttractionWeight > 0.0 && volume.Voxels.IsComplete)
+  {
+    ReadEdges(volume, request, progress);
+  }
+  return volume;
+}
+}

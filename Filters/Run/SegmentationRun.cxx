@@ -1,0 +1,310 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Run/SegmentationRun.h"
+
+#include "Core/Common/Join.h"
+#include "Core/Evolution/EdgeLengthPlan.h"
+#include "Host/Errors.h"
+#include "Input/InputPoints.h"
+#include "Output/SurfaceOutput.h"
+
+#include <algorithm>
+#include <memory>
+#include <new>
+#include <utility>
+#include <vector>
+
+namespace volumic
+{
+namespace
+{
+/** Null where the memory does not suffice for it: a run can do without. */
+std::unique_ptr<SurfaceAtRest> CopyIfRoom(const SurfaceAtRest& rest)
+{
+  try
+  {
+    return std::make_unique<SurfaceAtRest>(rest);
+  }
+  catch (const std::bad_alloc&)
+  {
+    return nullptr;
+  }
+}
+}
+
+SegmentationRun::SegmentationRun(const SegmentationRequest& request, const Volume& volume)
+  : Request(request), Levels(request, volume)
+{
+  this->Settings.Check();
+  SurfaceOptions& options = this->Settings.Options;
+  options.RecoverLostParts = this->Settings.Recovery != RecoveryType::NoRecovery;
+  // What is above a range is more often within the object than not.
+  options.RecoverCavities = options.RecoverLostParts &&
+    (this->Settings.Recovery == RecoveryType::RecoverObjectsAndCavities ||
+      this->Settings.Range().IsUsed());
+  options.SeedRadius /= this->Levels.GetWorkspace().WorldUnit();
+  if (this->Settings.EdgeLength != 0.0 && !volume.IsOfImage)
+  {
+    this->ChooseEdgeLength();
+  }
+  this->Request.Volume = nullptr; // Each level is let go when the surface has left it.
+}
+
+void SegmentationRun::ChooseEdgeLength()
+{
+  std::vector<double> units;
+  for (int level = 0; level < this->Levels.Pyramid().NumberOfLevels(); ++level)
+  {
+    units.push_back(this->Levels.Pyramid().UnitInWorld(level));
+  }
+  EdgeLengthPreferences preferences;
+  preferences.SamplingRatio = this->Settings.Options.SamplingRatio;
+  const EdgeLengthPlan plan = PlanEdgeLength(this->Settings.EdgeLength, units, preferences);
+  this->Settings.End.FinestLevel = plan.FinestLevel;
+  this->Settings.Options.SamplingRatio = plan.SamplingRatio;
+  this->Levels.SetFactorBelowLevel0(plan.ReductionFactor);
+}
+
+int SegmentationRun::EndOf(const SegmentationEnd& end) const
+{
+  const int finest =
+    this->Settings.EdgeLength != 0.0 ? this->Settings.End.FinestLevel : end.FinestLevel;
+  return end.Preview ? std::max(finest, this->Choice.Preview) : finest;
+}
+
+bool SegmentationRun::Renew(const SegmentationRequest& request)
+{
+  const bool hasAll = this->HasAll(request);
+  if (!hasAll && !this->CanGoOn())
+  {
+    return false;
+  }
+  const int finest = this->Settings.End.FinestLevel;
+  SegmentationSettings settings = this->Settings;
+  settings.End = request.Settings.End;
+  settings.End.FinestLevel = settings.EdgeLength != 0.0 ? finest : settings.End.FinestLevel;
+  this->Request = request;
+  this->Request.Volume = nullptr;
+  this->Settings = settings;
+  if (hasAll)
+  {
+    this->Choice.Last = this->EndOf(settings.End);
+  }
+  else
+  {
+    const int before = std::exchange(this->Choice, ChooseLevels(this->Levels, settings)).Coarsest;
+    // Where a run begins may depend on where it is to end; then nothing of the last one serves.
+    if (this->Choice.Coarsest != before)
+    {
+      if (!this->Levels.Pyramid().HasVoxels(this->Choice.Coarsest))
+      {
+        return false;
+      }
+      this->Begin();
+    }
+  }
+  return this->ChooseComponents(request);
+}
+
+bool SegmentationRun::ChooseComponents(const SegmentationRequest& request)
+{
+  const ComponentChoice choice =
+    ChoiceOf(request, this->Levels.GetWorkspace(), this->Levels.Pyramid().SizeOf(0));
+  HostThreads threads(request.Settings.End.NumberOfThreads);
+  bool hasChosen = false;
+  threads.Run([&] { hasChosen = this->Finished.Choose(choice, threads); });
+  return hasChosen;
+}
+
+void SegmentationRun::Begin()
+{
+  this->Finished = FinishedLevels(this->Levels.Pyramid().NumberOfLevels(), this->Choice.Coarsest,
+    this->Levels.GetWorkspace());
+  this->Rest = SurfaceAtRest();
+  this->Reached = this->Choice.Coarsest + 1;
+  this->GoesOn = true;
+}
+
+void SegmentationRun::Run(RunObserver& observer, double before)
+{
+  if (!std::exchange(this->HasBegun, true))
+  {
+    this->Choice = ChooseLevels(this->Levels, this->Settings);
+    this->Begin();
+    this->ChooseComponents(this->Request);
+    CheckOptions(this->Settings.Options);
+  }
+  this->Finished.SetStopped("");
+  if (!this->HasCome())
+  {
+    HostThreads threads(this->Settings.End.NumberOfThreads);
+    LevelMonitor monitor(observer, before, this->Choice.Coarsest, this->EndsAt());
+    this->Rest.History.StartClock(observer.Start());
+    threads.Run(
+      [&]
+      {
+        while (this->GoesOn && this->Reached > this->EndsAt() &&
+          this->Next(observer, monitor, threads))
+        {
+        }
+      });
+  }
+  this->Request.InitialSurface = this->Request.AttractingPoints = nullptr;
+}
+
+bool SegmentationRun::Next(RunObserver& observer, LevelMonitor& monitor, HostThreads& threads)
+{
+  const int level = this->Reached - 1;
+  // What rests stays while a finer level is under way, which may be stopped.
+  const std::unique_ptr<SurfaceAtRest> before =
+    this->Request.MayGoOn && level < this->Choice.Coarsest ? CopyIfRoom(this->Rest) : nullptr;
+  LevelOutcome outcome;
+  if (monitor.BeginLevel(level))
+  {
+    this->Finished.Forget(level); // Of a run that was stopped there.
+    this->Levels.ReleaseCoarserThan(level);
+    const LevelImage image = this->Levels.Load(level, this->Settings.Options, threads);
+    LevelTask task = this->TaskOf(level, image, threads);
+    outcome = this->Evolve(task, monitor, threads);
+  }
+  const bool isStopped = outcome.Reason == StopReason::Cancelled;
+  if (outcome.HasCome)
+  {
+    this->KeepLevel(level, std::move(outcome), observer, threads);
+    if (level == this->EndsAt() && this->PreviewMissesParts(level))
+    {
+      this->Choice.Last = this->Choice.Preview = level - 1;
+      monitor.GoOnTo(level - 1);
+    }
+  }
+  else
+  {
+    this->Finished.SetStopped(observer.StopReason());
+  }
+  this->Finished.SetRows(this->Rest.History.Rows);
+  if (isStopped && before)
+  {
+    this->Rest = std::move(*before);
+    this->Reached = level + 1;
+    this->GoesOn = true;
+  }
+  return !isStopped;
+}
+
+LevelTask SegmentationRun::TaskOf(int level, const LevelImage& image, HostThreads& threads)
+{
+  const double unit = this->Levels.GetWorkspace().WorldUnit();
+  LevelTask task;
+  task.Options = this->Settings.Options;
+  task.Image = image;
+  task.Level = level;
+  if (level == this->Settings.End.FinestLevel)
+  {
+    task.MeanEdgeLength = this->Settings.EdgeLength / unit;
+    task.Grading = this->Settings.Grading;
+    task.Grading.ThinParts = task.Grading.ThinParts && level < 0;
+    task.Grading.Tolerance /= unit;
+    task.Grading.MaximumEdgeLength /= unit;
+  }
+  task.Look = [this, level, &threads](int iteration, const std::function<SurfaceResult()>& take)
+  { this->TakeSnapshot(level, iteration, take, threads); };
+  return task;
+}
+
+LevelOutcome SegmentationRun::Evolve(LevelTask& task, LevelMonitor& monitor, HostThreads& threads)
+{
+  if (task.Level < this->Choice.Coarsest)
+  {
+    return EvolveOnLevel(task, this->Rest, threads, monitor);
+  }
+  const InitializationType type = this->Settings.Initialization;
+  const std::vector<Point> seeds = type == InitializationType::Seeds
+    ? PositionsOf(this->Settings.End.SeedPositions, "Seed Positions", this->Levels.GetWorkspace(),
+        this->Levels.Pyramid().SizeOf(0))
+    : std::vector<Point>();
+  const bool ofPositions = !seeds.empty() && !this->Request.InitialSurface;
+  const bool isGiven =
+    type == InitializationType::InputSurface || type == InitializationType::Seeds;
+  const char* place = ofPositions ? "Seed Positions: "
+    : isGiven                     ? "Input port 1 (Initial Surface): "
+                                  : "";
+  return PrefixErrors(place,
+    [&]
+    {
+      SurfaceStart start = StartOf(this->Request, this->Levels.GetWorkspace(), seeds);
+      if (start.From == SurfaceStart::Kind::Enclosing && this->Choice.StartsAtParts)
+      {
+        start.From = SurfaceStart::Kind::EnclosingParts;
+      }
+      task.Start = &start;
+      return EvolveOnLevel(task, this->Rest, threads, monitor);
+    });
+}
+
+void SegmentationRun::TakeSnapshot(
+  int level, int iteration, const std::function<SurfaceResult()>& take, HostThreads& threads)
+{
+  const int interval = this->Settings.SnapshotInterval;
+  if (interval == 0)
+  {
+    return;
+  }
+  // Iterations come in sweeps: the end of that in which one is due.
+  const bool isDue = iteration == 0 || iteration / interval > this->SnapshotLook / interval;
+  this->SnapshotLook = iteration;
+  SurfaceResult surface = isDue ? take() : SurfaceResult();
+  if (!surface.Points.empty())
+  {
+    SurfaceDescription about;
+    about.Level = level;
+    about.Unit = this->Levels.Pyramid().UnitInWorld(level);
+    about.Iterations = iteration;
+    about.TotalIterations = static_cast<int>(this->Rest.History.Rows.size());
+    this->Finished.AddSnapshot(level, Join("Level ", level, ", iteration ", iteration),
+      MakePolyData(
+        std::move(surface), about, this->Levels.GetWorkspace(), ComponentChoice(), threads));
+  }
+}
+
+void SegmentationRun::KeepLevel(
+  int level, LevelOutcome outcome, RunObserver& observer, HostThreads& threads)
+{
+  const StopReason reason = outcome.Reason;
+  FinishedLevel finished;
+  finished.IsAtRest = reason != StopReason::Cancelled;
+  finished.About.Level = level;
+  finished.About.Unit = this->Levels.Pyramid().UnitInWorld(level);
+  finished.About.Iterations = outcome.Iterations;
+  finished.About.StopReason = finished.IsAtRest ? Describe(reason) : observer.StopReason();
+  if (level < this->Choice.Coarsest || this->Choice.StartsAtParts)
+  {
+    finished.About.Lost = outcome.Lost;
+  }
+  if (outcome.Verified.Found > 0)
+  {
+    observer.Warn(outcome.Verified.Describe(level));
+  }
+  this->Finished.Add(
+    std::move(finished), std::move(outcome.Surface), this->Request.KeepsAll, threads);
+  this->Rest.History.EndLevel();
+  this->Reached = level;
+  // With recovery a finer level may find again what has vanished.
+  this->GoesOn = reason == StopReason::Converged || reason == StopReason::LimitCycle ||
+    reason == StopReason::IterationLimit ||
+    (reason == StopReason::Vanished && this->Settings.Options.RecoverLostParts);
+}
+
+bool SegmentationRun::PreviewMissesParts(int level) const
+{
+  return this->Settings.End.Preview && this->GoesOn &&
+    level > std::max(this->Settings.End.FinestLevel, 0) &&
+    this->Settings.Recovery != RecoveryType::NoRecovery &&
+    this->Finished.About(level).Lost.MissingBoundary > FinishedLevels::NotableShare;
+}
+
+void SegmentationRun::LetGo()
+{
+  this->Levels.ReleaseCoarserThan(PyramidLevels::AllLevels);
+  this->Rest = SurfaceAtRest();
+}
+}
