@@ -6,7 +6,6 @@
 #include "Host/LimitedMemory.h"
 #include "Ranks/Ranks.h"
 #include "Run/SegmentationCache.h"
-#include "Run/SegmentationCheckpoint.h"
 #include "Settings/SegmentationSettings.h"
 #include "vtkDeformableSurface.h"
 
@@ -40,12 +39,11 @@ public:
   volumic::SegmentationSettings Settings; ///< the properties
   volumic::LimitedMemory Memory;          ///< as the last run had it; outlives what is kept
   volumic::SegmentationCache Cache;       ///< of the last run
-  std::shared_ptr<volumic::SegmentationCheckpoint> Checkpoint; ///< of the last run; null: none
   vtkSmartPointer<vtkMultiProcessController> Controller;
   std::unique_ptr<volumic::Ranks> All; ///< of the run that is under way; else null
   std::vector<std::string> Warnings;   ///< to be told at the end
   std::set<std::string> WarnedOf;      ///< what is told once in the filter's life
-  bool LeavesCheckpoints = false; ///< also of runs that have come to their end
+  bool Resume = false;                 ///< has no effect
   bool IsWatched = false;    ///< Someone asks whether a finer level is still to come.
   bool IsOnTheWay = false;   ///< One is, and nobody has asked yet.
   bool GoesToTheEnd = false; ///< The next run shows no level before.

@@ -76,10 +76,10 @@ void CopyPosition(const std::vector<volumic::Point>& positions, int index, doubl
 }
 
 //------------------------------------------------------------------------------
-#define VolumicSetting(name, type, field, change, kind)                                            \
+#define VolumicSetting(name, type, field, change)                                                  \
   VOLUMIC_SET_AND_GET(vtkDeformableSurface, name, type, Internals->Settings.field,                            \
     Modify(this, this->Internals->Cache, Change::change))
-#define VolumicWritten(name, type, field, change, kind)
+#define VolumicWritten(name, type, field, change)
 VOLUMIC_SURFACE_PROPERTIES(VolumicSetting, VolumicWritten)
 
 int vtkDeformableSurface::GetNumberOfThreads()
@@ -95,6 +95,21 @@ void vtkDeformableSurface::SetNumberOfThreads(int number)
     threads = std::max(number, 0);
     Modify(this, this->Internals->Cache, Change::End);
   }
+}
+
+//------------------------------------------------------------------------------
+bool vtkDeformableSurface::GetResume()
+{
+  return this->Internals->Resume;
+}
+
+void vtkDeformableSurface::SetResume(bool resume)
+{
+  if (resume && !this->Internals->Resume)
+  {
+    vtkWarningMacro("Resume is deprecated and has no effect: no run resumes one of another process.");
+  }
+  this->Internals->Resume = resume;
 }
 
 //------------------------------------------------------------------------------
@@ -126,10 +141,11 @@ VolumicPositions(AttractingPosition, AttractingPositions, AttractingPositions, C
 void vtkDeformableSurface::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-#define VolumicPrint(name, type, field, change, kind)                                              \
+#define VolumicPrint(name, type, field, change)                                                    \
   volumic::PrintSetting(os << indent << #name ": ", this->Internals->Settings.field);              \
   os << endl;
   VOLUMIC_SURFACE_PROPERTIES(VolumicPrint, VolumicPrint)
+  os << indent << "Resume: " << this->Internals->Resume << endl;
 }
 
 // Files may be compiled together.

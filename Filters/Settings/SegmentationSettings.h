@@ -19,7 +19,6 @@
 
 #include <functional>
 #include <limits>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -87,13 +86,6 @@ struct SegmentationEnd
   int NumberOfThreads = 0;      ///< 0: all
   int MemoryLimit = 0;          ///< of the process, MiB; 0: none
   std::string ScratchDirectory; ///< for what memory does not hold; empty: the system's
-  bool Resume = false;          ///< Go on from a checkpoint, where there is one.
-
-  /** A limit of memory, or a folder, says that the run is long. */
-  bool LeavesCheckpoints() const
-  {
-    return this->MemoryLimit > 0 || !this->ScratchDirectory.empty() || this->Resume;
-  }
 };
 
 /**
@@ -155,8 +147,6 @@ struct SegmentationSettings
   }
 };
 
-class SegmentationCheckpoint;
-
 /** What a run is asked for: settings, inputs, and whom it tells. */
 struct SegmentationRequest
 {
@@ -174,15 +164,12 @@ struct SegmentationRequest
 
   bool IsStep = false;  ///< Another run goes on from it: what is wrong with the surface may change.
   bool MayGoOn = false; ///< After a stop, too: what rests stays while a finer level is under way.
-  bool KeepsAll = false;        ///< All components stay, for who may choose others.
-  bool CheckpointStays = false; ///< It is not removed at the end, whose own is left, too.
+  bool KeepsAll = false; ///< All components stay, for who may choose others.
   Deadline Limit;
   /** When the run began: what came before counts to the seconds of its first level. */
   Deadline::Clock::time_point Started = Deadline::Clock::now();
   ProgressMonitor::Callback Progress;
   std::function<void(const std::string& text)> Warn; ///< an empty text is no warning
-  /** Given the run's checkpoint, once it has been looked at; null where it has none. */
-  std::function<void(const std::shared_ptr<SegmentationCheckpoint>& checkpoint)> Prepared;
 };
 }
 
