@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDeformableSurface.h"
 
+#include "Core/Common/ScratchMemory.h"
 #include "Host/Pipeline.h"
-#include "Input/SlabInput.h"
 #include "Ranks/Ranks.h"
 #include "vtkDeformableSurfaceInternals.h"
 
@@ -196,16 +196,7 @@ int vtkDeformableSurface::RequestInformation(
 int vtkDeformableSurface::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
 {
-  const vtkInternals& internals = *this->Internals;
-  const volumic::Ranks ranks(internals.Controller, { this, request, input, output });
-  ranks.AskForInputs();
-  if (!ranks.AreMany() && internals.Settings.End.MemoryLimit > 0 &&
-    volumic::IsFirstProcess(request, output))
-  {
-    volumic::SlabInput(this).Ask(
-      volumic::LimitedMemory::BytesOf(internals.Settings.End.MemoryLimit),
-      !internals.Cache.IsValidFor(this, 1));
-  }
+  volumic::Ranks(this->Internals->Controller, { this, request, input, output }).AskForInputs();
   return 1;
 }
 
@@ -234,8 +225,7 @@ int vtkDeformableSurface::RequestData(
   volumic::RankWork work;
   work.OfFirst = [&]
   {
-    internals.Memory.Set(
-      internals.Settings.End.MemoryLimit, internals.Settings.End.ScratchDirectory);
+    const volumic::ScratchMemory scratch(internals.Settings.End.ScratchDirectory);
     internals.RunOrGoOn(call);
   };
   work.OfOthers = [&](volumic::RankMessage&)
@@ -260,10 +250,6 @@ int vtkDeformableSurface::RequestData(
     this->ForgetRun();
     this->SetErrorCode(error.Code);
     vtkErrorMacro(<< error.Text);
-  }
-  for (const std::string& text : internals.Memory.TakeWarnings())
-  {
-    internals.Warn(text);
   }
   // Not while another run is still to come.
   for (const std::string& text :

@@ -3,7 +3,6 @@
 #ifndef vtkDeformableSurfaceInternals_h
 #define vtkDeformableSurfaceInternals_h
 
-#include "Host/LimitedMemory.h"
 #include "Ranks/Ranks.h"
 #include "Run/SegmentationCache.h"
 #include "Run/SegmentationCheckpoint.h"
@@ -38,7 +37,6 @@ public:
   void Warn(const std::string& text);
 
   volumic::SegmentationSettings Settings; ///< the properties
-  volumic::LimitedMemory Memory;          ///< as the last run had it; outlives what is kept
   volumic::SegmentationCache Cache;       ///< of the last run
   std::shared_ptr<volumic::SegmentationCheckpoint> Checkpoint; ///< of the last run; null: none
   vtkSmartPointer<vtkMultiProcessController> Controller;

@@ -6,6 +6,7 @@
 
 #include "vtkDeformableSurface.h"
 
+#include "Host/LargeArrays.h"
 #include "Settings/PropertyTable.h"
 #include "vtkDeformableSurfaceInternals.h"
 
@@ -95,6 +96,21 @@ void vtkDeformableSurface::SetNumberOfThreads(int number)
     threads = std::max(number, 0);
     Modify(this, this->Internals->Cache, Change::End);
   }
+}
+
+int vtkDeformableSurface::GetMemoryLimit()
+{
+  return this->Internals->Settings.End.MemoryLimit;
+}
+
+void vtkDeformableSurface::SetMemoryLimit(int mebibytes)
+{
+  int& limit = this->Internals->Settings.End.MemoryLimit;
+  if (mebibytes != 0 && limit == 0)
+  {
+    vtkWarningMacro(<< volumic::MemoryLimitHasNoEffect);
+  }
+  limit = mebibytes;
 }
 
 //------------------------------------------------------------------------------

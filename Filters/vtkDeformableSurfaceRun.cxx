@@ -102,9 +102,6 @@ std::unique_ptr<volumic::SurfaceSegmentation> vtkDeformableSurface::vtkInternals
   const vtkSmartPointer<vtkDataObject> input =
     volumic::PrefixErrors("Input port 0: ", [&] { return this->All->TakeImages(0); });
   volumic::VoxelSource source;
-  source.Filter = &this->Filter;
-  // What ranks had in pieces is in scratch memory already.
-  source.MemoryLimit = this->All->AreMany() ? 0 : this->Memory.Limit();
   source.GoOn = [&](double share, const char* text)
   { return this->All->GoOn(PyramidShare * share, text) && !request.Limit.IsOver(); };
   source.WarnOnce = [this](const char* what, const std::string& text)

@@ -9,9 +9,7 @@ set(volumic_core_sources
   Common/CheckedFile.cxx
   Common/ContentHash.cxx
   Common/FreeMemory.cxx
-  Common/ScratchFile.cxx
   Common/ScratchMemory.cxx
-  Common/ScratchStore.cxx
   Common/StandardThreads.cxx
   Common/VisitSchedule.cxx
   Image/AxisOperator.cxx
@@ -125,9 +123,7 @@ set(volumic_core_headers
   Common/Lattice.h
   Common/Monitor.h
   Common/Refuse.h
-  Common/ScratchFile.h
   Common/ScratchMemory.h
-  Common/ScratchStore.h
   Common/Select.h
   Common/Spans.h
   Common/StandardThreads.h

@@ -8,7 +8,7 @@
 #include "Core/Image/ValidReduction.h"
 #include "Host/Errors.h"
 #include "Host/HostThreads.h"
-#include "Host/LimitedMemory.h"
+#include "Host/LargeArrays.h"
 #include "Input/ImageVoxels.h"
 #include "Input/ValidVoxels.h"
 
@@ -57,7 +57,7 @@ vtkSmartPointer<ArrayOf<Real>> NewArray(std::int64_t n, int level)
   {
     throw std::runtime_error(Join("the memory does not suffice for level ", level, ", which takes ",
       static_cast<double>(n) * sizeof(Real) / (1024. * 1024.),
-      " MB. Set Memory Limit, ask for fewer levels, or crop the image."));
+      " MB. Set Scratch Directory, ask for fewer levels, or crop the image."));
   }
 }
 
@@ -294,14 +294,6 @@ PyramidBlocks MakePyramidBlocks(
   {
     pyramid.AboutNaNs = DescribeNaNs(voxels, image, valid);
   }
-  return pyramid;
-}
-
-PyramidBlocks StoppedPyramidBlocks()
-{
-  PyramidBlocks pyramid;
-  pyramid.Blocks = vtkSmartPointer<vtkMultiBlockDataSet>::New();
-  AddFacts(pyramid.Blocks, false, 0);
   return pyramid;
 }
 

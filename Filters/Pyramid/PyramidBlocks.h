@@ -50,9 +50,6 @@ struct PyramidBlocks
 PyramidBlocks MakePyramidBlocks(
   vtkImageData* image, vtkDataArray* voxels, const PyramidRequest& request);
 
-/** Those where the work was stopped before there was an image. */
-PyramidBlocks StoppedPyramidBlocks();
-
 /**
  * What gives edges of a mean length (world units) at the finest level; sets the factor of the
  * pyramid, which is not made yet, to the plan's.

@@ -9,7 +9,6 @@
 #include "Input/ImageVoxels.h"
 #include "Input/InputImage.h"
 #include "Input/InputPoints.h"
-#include "Input/SlabInput.h"
 #include "Input/ValueHints.h"
 #include "Pyramid/PyramidBlocks.h"
 #include "Pyramid/PyramidLevels.h"
@@ -228,36 +227,6 @@ void SegmentationLevels::ReleaseCoarserThan(int level)
 
 namespace
 {
-/** Share of the work that the reading takes where the image comes in slabs. */
-constexpr double ReadingShare = 0.5;
-
-/** The data of input port 0, whole. Null after a stop. */
-vtkSmartPointer<vtkDataObject> ReadInput(
-  SegmentationRequest& request, vtkDataObject* input, const VoxelSource& source)
-{
-  if (source.MemoryLimit == 0)
-  {
-    return input;
-  }
-  const SlabInput slabs(source.Filter);
-  SlabInput::Request wanted;
-  wanted.Limit = source.MemoryLimit;
-  wanted.Selection = request.Selection;
-  wanted.SelectedComponent = request.Settings.SelectedComponent;
-  wanted.TakesCells = request.Settings.OfImages;
-  wanted.GoOn = [&source](double share)
-  { return source.GoOn(ReadingShare * share, "Reading the image"); };
-  const SlabInput::Result read = PrefixErrors(Port0, [&] { return slabs.Read(wanted); });
-  source.WarnOnce("whole", slabs.DescribeWhole());
-  if (read.IsStopped || !read.Image)
-  {
-    return read.IsStopped ? nullptr : input;
-  }
-  request.Selection = read.Selection;
-  request.Settings.SelectedComponent = -1; // It has been selected.
-  return read.Image;
-}
-
 PyramidRequest PyramidAsSet(const SegmentationSettings& settings, const VoxelSource& source)
 {
   PyramidRequest pyramid;
@@ -325,16 +294,12 @@ void SetLevels(SegmentationRequest& request, vtkDataObject* input, const VoxelSo
   const ValueRange range = settings.Range(); // Refused before anything is read.
   if (IsImage(input) || settings.OfImages)
   {
-    const vtkSmartPointer<vtkDataObject> read = ReadInput(request, input, source);
-    if (read)
+    vtkSmartPointer<vtkImageData> image = PrefixErrors(Port0, [&] { return ImageOf(input); });
+    if (settings.OfImages)
     {
-      vtkSmartPointer<vtkImageData> image = PrefixErrors(Port0, [&] { return ImageOf(read); });
-      if (settings.OfImages)
-      {
-        image = CompleteImage(request, image, source);
-      }
-      MakeLevels(request, image, source);
+      image = CompleteImage(request, image, source);
     }
+    MakeLevels(request, image, source);
     return;
   }
   request.Levels = vtkMultiBlockDataSet::SafeDownCast(input);

@@ -19,7 +19,6 @@
 #include <string>
 #include <vector>
 
-class vtkAlgorithm;
 class vtkDataObject;
 
 namespace volumic
@@ -91,11 +90,9 @@ private:
   mutable std::map<int, bool> Holds; ///< what HoldsObject() has found
 };
 
-/** Where the voxels of a run come from, and whom their reading tells. */
+/** Whom the making of the levels tells. */
 struct VoxelSource
 {
-  vtkAlgorithm* Filter = nullptr; ///< to whose input port 0 they come
-  std::size_t MemoryLimit = 0;    ///< bytes; 0: none, or it is kept already
   /** Told the share that is done, and what is being done; false asks to stop. */
   std::function<bool(double share, const char* text)> GoOn;
   /** Told what is worth a warning of port 0 once in a filter's life, or nothing; `what` says which.
@@ -107,9 +104,8 @@ struct VoxelSource
 bool IsImage(vtkDataObject* input);
 
 /**
- * Sets the levels of a request, of the data of input port 0, and what its settings find for them:
- * an image comes in slabs where the memory is limited and its source can. After a stop they are
- * null.
+ * Sets the levels of a request, of the data of input port 0, and what its settings find for them.
+ * After a stop they are null.
  * @throws std::invalid_argument naming the port or the property
  */
 void SetLevels(SegmentationRequest& request, vtkDataObject* input, const VoxelSource& source);

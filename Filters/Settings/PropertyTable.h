@@ -61,7 +61,7 @@
   MADE(FreezeMotionlessVertices, bool, Options.FreezeMotionlessVertices, Run, Told)  \
   MADE(SnapToIsoValue, bool, Options.SnapToIsoValue, Run, Told)                      \
   WRITTEN(NumberOfThreads, int, End.NumberOfThreads, End, Free)                      \
-  MADE(MemoryLimit, int, End.MemoryLimit, End, Free)                                 \
+  WRITTEN(MemoryLimit, int, End.MemoryLimit, End, Free)                              \
   MADE(ScratchDirectory, const char*, End.ScratchDirectory, End, Free)               \
   MADE(Resume, bool, End.Resume, End, Free)                                          \
   MADE(TimeLimit, double, End.TimeLimit, End, Free)                                  \

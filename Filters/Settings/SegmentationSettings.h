@@ -85,14 +85,14 @@ struct SegmentationEnd
   bool Preview = false;                ///< End at a level of few voxels.
   bool ShowLevels = false;
   int NumberOfThreads = 0;      ///< 0: all
-  int MemoryLimit = 0;          ///< of the process, MiB; 0: none
-  std::string ScratchDirectory; ///< for what memory does not hold; empty: the system's
+  int MemoryLimit = 0;          ///< has no effect
+  std::string ScratchDirectory; ///< of large arrays; empty: they lie in memory
   bool Resume = false;          ///< Go on from a checkpoint, where there is one.
 
-  /** A limit of memory, or a folder, says that the run is long. */
+  /** A folder says that the run is long. */
   bool LeavesCheckpoints() const
   {
-    return this->MemoryLimit > 0 || !this->ScratchDirectory.empty() || this->Resume;
+    return !this->ScratchDirectory.empty() || this->Resume;
   }
 };
 
