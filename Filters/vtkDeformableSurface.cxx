@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDeformableSurface.h"
 
+#include "Core/Common/ScratchMemory.h"
+#include "Host/Errors.h"
 #include "Host/Pipeline.h"
 #include "Ranks/Ranks.h"
 #include "vtkDeformableSurfaceInternals.h"
@@ -177,6 +179,7 @@ int vtkDeformableSurface::RequestData(
     },
     [&]
     {
+      const volumic::ScratchMemory scratch(internals.Settings.End.ScratchDirectory);
       volumic::RunObserver observer(this, internals.Settings.End.TimeLimit, internals.Warnings);
       internals.Update(inputVector, outputVector, observer);
     });

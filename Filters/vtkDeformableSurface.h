@@ -98,8 +98,8 @@
  * @par
  * Warnings come at the end of a run: if nothing is left, or KeepComponents leaves nothing; if
  * `MissingBoundary` is more than 0.05 at the finest level, with Recovery, without Preview and where
- * KeepComponents leaves out none; the number of voxels that are NaN; where MemoryLimit cannot be
- * kept. All else is told by the field data only.
+ * KeepComponents leaves out none; the number of voxels that are NaN. All else is told by the field
+ * data only.
  *
  * @par Cancelling:
  * AbortExecute is looked at several times a second, with each progress event: the surface as it is
@@ -109,15 +109,17 @@
  *
  * @par Going on:
  * After a run the filter keeps what a run that ends elsewhere can use: with another FinestLevel,
- * Preview, ShowLevels, TimeLimit, MemoryLimit, ScratchDirectory or NumberOfThreads, and nothing
+ * Preview, ShowLevels, TimeLimit, ScratchDirectory or NumberOfThreads, and nothing
  * else changed, a level at which the surface has rested is shown at once, and a finer one reached
  * from where the last run has ended, if that is level 1 or above; the bits are those of a run from
  * the start. ForgetRun() frees what is kept; so do errors and the release of data.
  *
  * @par Memory:
- * Voxels are read in the type that they have. With MemoryLimit, voxels and meshes live in files of
- * ScratchDirectory, without a name; as much of them is in memory as the limit allows, which is one
- * of the whole process. The smallest limit of all filters counts.
+ * The filter reads voxels in the type that they have, and does not copy those of the input. With
+ * ScratchDirectory, large arrays lie in files there without a name, mapped into memory, and the
+ * kernel moves their pages between memory and disk. Output arrays stay there until they are freed.
+ * To limit the memory of a process use its cgroup, for example
+ * `systemd-run --user --scope -p MemoryMax=2G`. A full disk is an error.
  *
  * @par Processes:
  * Where the controller has several processes, and each asks for the piece of its own number of as
@@ -483,14 +485,17 @@ public:
 
   ///@{
   /**
-   * Resident memory that the process may have, MiB (2^20 bytes); 0, the default: no limit. See
-   * Memory. Results do not depend on it.
+   * Deprecated: has no effect. Set ScratchDirectory, and limit the memory of the process by its
+   * cgroup.
    */
   void SetMemoryLimit(int mebibytes);
   virtual int GetMemoryLimit();
+  ///@}
+
+  ///@{
   /**
-   * The folder for what does not fit, on a disk with room for all of it; empty, the default: TMPDIR
-   * of the environment, or /var/tmp.
+   * Folder on a disk for large arrays, see Memory; empty (the default): arrays lie in memory.
+   * Results do not depend on it.
    */
   void SetScratchDirectory(const char* directory);
   virtual const char* GetScratchDirectory();

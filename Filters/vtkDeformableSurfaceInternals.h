@@ -41,6 +41,9 @@ public:
   volumic::SegmentationSettings Settings; ///< the properties
   std::unique_ptr<volumic::SegmentationRun> Kept; ///< the last run; null: none
   std::vector<std::string> Warnings; ///< to be told once nothing is on the way
+  int MemoryLimit = 0; ///< The three deprecated properties.
+  bool Resume = false;
+  bool Profile = false;
   bool HasHinted = false;    ///< at labels, as is done once in the filter's life
   bool IsRunning = false;
   bool IsWatched = false;    ///< Someone asks whether a finer level is still to come.

@@ -6,6 +6,7 @@
 
 #include "vtkDeformableSurface.h"
 
+#include "Host/LargeArrays.h"
 #include "Settings/PropertyTable.h"
 #include "vtkDeformableSurfaceInternals.h"
 
@@ -80,17 +81,22 @@ void vtkDeformableSurface::SetNumberOfThreads(int number)
 }
 
 //------------------------------------------------------------------------------
+VOLUMIC_DEPRECATED(vtkDeformableSurface, MemoryLimit, int, VOLUMIC_ABOUT_MEMORY)
+VOLUMIC_DEPRECATED(vtkDeformableSurface, Resume, bool, "Runs begin anew.")
+VOLUMIC_DEPRECATED(vtkDeformableSurface, Profile, bool, "The history has no more columns.")
+
+//------------------------------------------------------------------------------
 // A list of positions: names of one and of all, where it is, and whether it needs a run.
-#define VolumicPositions(one, all, field, needsRun)                                                  \
+#define VolumicPositions(one, all, field, needsRun)                                                \
   void vtkDeformableSurface::Add##one(double x, double y, double z)                                \
   {                                                                                                \
     this->Internals->Settings.field.push_back({ x, y, z });                                        \
-    this->Internals->Modify(needsRun);                                                \
+    this->Internals->Modify(needsRun);                                                             \
   }                                                                                                \
   void vtkDeformableSurface::Clear##all()                                                          \
   {                                                                                                \
     this->Internals->Settings.field.clear();                                                       \
-    this->Internals->Modify(needsRun);                                                \
+    this->Internals->Modify(needsRun);                                                             \
   }                                                                                                \
   int vtkDeformableSurface::GetNumberOf##all()                                                     \
   {                                                                                                \

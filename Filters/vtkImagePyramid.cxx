@@ -5,11 +5,10 @@
 #include "Core/Common/Join.h"
 #include "Core/Image/PyramidGeometry.h"
 #include "Host/Errors.h"
-#include "Host/LimitedMemory.h"
+#include "Host/LargeArrays.h"
 #include "Host/Pipeline.h"
 #include "Input/ImageVoxels.h"
 #include "Input/InputImage.h"
-#include "Input/SlabInput.h"
 #include "Pyramid/PyramidBlocks.h"
 #include "Ranks/Ranks.h"
 
@@ -58,8 +57,6 @@ class vtkImagePyramid::vtkInternals
 public:
   vtkSmartPointer<vtkMultiProcessController> Controller;
   std::string ScratchDirectory;
-  volumic::LimitedMemory Memory; ///< as the last run had it
-  bool HasToldOfWhole = false;
 
   /**
    * The pieces of the last run on several ranks. Some filters (vtkCleanPolyData) ask all ranks but
@@ -127,6 +124,16 @@ vtkMultiBlockDataSet* vtkImagePyramid::GetOutput()
 vtkMultiBlockDataSet* vtkImagePyramid::GetOutput(int port)
 {
   return vtkMultiBlockDataSet::SafeDownCast(this->GetOutputDataObject(port));
+}
+
+//------------------------------------------------------------------------------
+void vtkImagePyramid::SetMemoryLimit(int mebibytes)
+{
+  if (mebibytes != 0 && this->MemoryLimit == 0)
+  {
+    vtkWarningMacro("MemoryLimit is deprecated and has no effect. " VOLUMIC_ABOUT_MEMORY);
+  }
+  this->MemoryLimit = mebibytes;
 }
 
 //------------------------------------------------------------------------------
@@ -225,58 +232,19 @@ int vtkImagePyramid::RequestInformation(
 int vtkImagePyramid::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
 {
-  const volumic::Ranks ranks(this->Internals->Controller, { this, request, input, output });
-  ranks.AskForInputs();
-  if (!ranks.AreMany() && this->MemoryLimit > 0 && volumic::IsFirstProcess(request, output))
-  {
-    volumic::SlabInput(this).Ask(volumic::LimitedMemory::BytesOf(this->MemoryLimit), true);
-  }
+  volumic::Ranks(this->Internals->Controller, { this, request, input, output }).AskForInputs();
   return 1;
-}
-
-//------------------------------------------------------------------------------
-vtkSmartPointer<vtkImageData> vtkImagePyramid::ReadInput(
-  volumic::Ranks& ranks, int& component)
-{
-  volumic::LimitedMemory& memory = this->Internals->Memory;
-  memory.Set(this->MemoryLimit, this->Internals->ScratchDirectory);
-  component = this->SelectedComponent;
-  const vtkSmartPointer<vtkDataObject> input = ranks.TakeImages(0);
-  volumic::SlabInput::Result slabs;
-  if (memory.Limit() > 0 && !ranks.AreMany())
-  {
-    volumic::SlabInput::Request request;
-    request.Limit = memory.Limit();
-    request.Selection = this->GetInputArrayInformation(0);
-    request.SelectedComponent = component;
-    request.GoOn = [&ranks](double share) { return ranks.GoOn(share, "Reading the image"); };
-    slabs = volumic::SlabInput(this).Read(request);
-    const std::string whole = volumic::SlabInput(this).DescribeWhole();
-    if (!whole.empty() && !std::exchange(this->Internals->HasToldOfWhole, true))
-    {
-      vtkWarningMacro("Input port 0: " << whole);
-    }
-  }
-  if (slabs.IsStopped)
-  {
-    return nullptr;
-  }
-  component = slabs.Image ? -1 : component; // It has been selected.
-  return slabs.Image ? slabs.Image : vtkSmartPointer<vtkImageData>(volumic::ImageOf(input));
 }
 
 //------------------------------------------------------------------------------
 volumic::PyramidBlocks vtkImagePyramid::MakeBlocks(
   volumic::Ranks& ranks, vtkSmartPointer<vtkImageData>& image)
 {
-  int component = this->SelectedComponent;
-  image = this->ReadInput(ranks, component);
-  if (!image)
-  {
-    return volumic::StoppedPyramidBlocks();
-  }
+  const volumic::ScratchMemory scratch(this->Internals->ScratchDirectory);
+  const vtkSmartPointer<vtkDataObject> input = ranks.TakeImages(0);
+  image = volumic::ImageOf(input);
   const vtkSmartPointer<vtkDataArray> voxels = volumic::SelectComponent(
-    volumic::ChooseArray(this->GetInputArrayInformation(0), image), component);
+    volumic::ChooseArray(this->GetInputArrayInformation(0), image), this->SelectedComponent);
   volumic::PyramidRequest request;
   request.Levels =
     OptionsOf(this->ReductionFactor, this->NumberOfLevels, this->MinimumLevelSize);
@@ -324,10 +292,6 @@ int vtkImagePyramid::RequestData(
     if (!pyramid.AboutNaNs.empty())
     {
       vtkWarningMacro("Input port 0: " << pyramid.AboutNaNs);
-    }
-    for (const std::string& warning : internals.Memory.TakeWarnings())
-    {
-      vtkWarningMacro(<< warning);
     }
   };
   const volumic::AlgorithmError error = ranks.Run(

@@ -176,17 +176,17 @@ public:
 
   ///@{
   /**
-   * Resident memory that the process may have, MiB (2^20 bytes); 0, the default: no limit. See
-   * Memory. Results do not depend on it.
+   * Deprecated: has no effect. Set ScratchDirectory, and limit the memory of the process by its
+   * cgroup.
    */
-  vtkSetMacro(MemoryLimit, int);
+  void SetMemoryLimit(int mebibytes);
   vtkGetMacro(MemoryLimit, int);
   ///@}
 
   ///@{
   /**
-   * With MemoryLimit: the folder for what does not fit, on a disk with room for all of it. Empty,
-   * the default: TMPDIR of the environment, or /var/tmp.
+   * Folder on a disk for large arrays, which are then mapped from files without a name; empty (the
+   * default): arrays lie in memory. Results do not depend on it.
    */
   void SetScratchDirectory(const char* directory);
   const char* GetScratchDirectory();
@@ -237,10 +237,6 @@ private:
 
   int RequestDataObject(vtkInformationVector* output);
 
-  /// The image, whole or put together of slabs, and the component of it that is meant; null after a
-  /// stop.
-  vtkSmartPointer<vtkImageData> ReadInput(
-    volumic::Ranks& ranks, int& component);
   /// @param image gets the image, once it is there
   volumic::PyramidBlocks MakeBlocks(volumic::Ranks& ranks,
     vtkSmartPointer<vtkImageData>& image);

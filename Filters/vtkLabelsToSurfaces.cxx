@@ -6,7 +6,7 @@
 #include "Core/Common/Refuse.h"
 #include "Host/Errors.h"
 #include "Host/HostThreads.h"
-#include "Host/LimitedMemory.h"
+#include "Host/LargeArrays.h"
 #include "Host/Pipeline.h"
 #include "Host/ProgressMonitor.h"
 #include "Input/InputImage.h"
@@ -54,11 +54,10 @@ public:
   int NumberOfThreads = 0;
   double TimeLimit = 0.0; ///< seconds; 0: none
   volumic::Deadline Limit; ///< of the run that is under way
-  int MemoryLimit = 0;
+  int MemoryLimit = 0; ///< has no effect
   std::string ScratchDirectory;
   volumic::LabelNames Names;
   vtkSmartPointer<vtkMultiProcessController> Controller;
-  volumic::LimitedMemory Memory;
   bool IsRunning = false;
 
   /** Choose the labels, and check the properties. Errors are thrown. */
@@ -97,7 +96,6 @@ vtkLabelsToSurfaces::~vtkLabelsToSurfaces() = default;
   MADE(MinimumComponentVolume, double, Settings.MinimumComponentVolume) \
   MADE(TimeLimit, double, TimeLimit)                                    \
   WRITTEN(NumberOfThreads, int, NumberOfThreads)                        \
-  MADE(MemoryLimit, int, MemoryLimit)                                   \
   MADE(ScratchDirectory, const char*, ScratchDirectory)
 
 #define VolumicSetting(name, type, field)                                                          \
@@ -118,6 +116,8 @@ void vtkLabelsToSurfaces::SetNumberOfThreads(int number)
     this->Modified();
   }
 }
+
+VOLUMIC_DEPRECATED(vtkLabelsToSurfaces, MemoryLimit, int, VOLUMIC_ABOUT_MEMORY)
 
 //------------------------------------------------------------------------------
 void vtkLabelsToSurfaces::SetController(vtkMultiProcessController* controller)
@@ -274,7 +274,7 @@ void vtkLabelsToSurfaces::MakeSurfaces(volumic::Ranks& ranks, const volumic::Fil
     volumic::Refuse("Time Limit is ", internals.TimeLimit, "; it must be 0 (none) or more.");
   }
   this->Internals->Limit = volumic::Deadline(volumic::Deadline::Clock::now(), internals.TimeLimit);
-  this->Internals->Memory.Set(internals.MemoryLimit, internals.ScratchDirectory);
+  const volumic::ScratchMemory scratch(internals.ScratchDirectory);
   this->ShowProgress(0.0, "Reading the labels");
   volumic::HostThreads threads(internals.NumberOfThreads);
   std::optional<volumic::LabelImage> image;
@@ -345,14 +345,7 @@ int vtkLabelsToSurfaces::RequestData(
   volumic::ForgetAbort(this);
   volumic::RankWork work;
   work.Deals = volumic::Dealing::FirstHasAll;
-  work.OfFirst = [&]
-  {
-    this->MakeSurfaces(ranks, call);
-    for (const std::string& warning : this->Internals->Memory.TakeWarnings())
-    {
-      vtkWarningMacro(<< warning);
-    }
-  };
+  work.OfFirst = [&] { this->MakeSurfaces(ranks, call); };
   const volumic::AlgorithmError error = ranks.Run(
     []
     {

@@ -280,13 +280,13 @@ public:
   ///@}
 
   ///@{
-  /** As vtkDeformableSurface: resident memory, MiB; 0, the default: no limit. */
+  /** Deprecated, as vtkDeformableSurface::SetMemoryLimit(): has no effect. */
   void SetMemoryLimit(int mebibytes);
   int GetMemoryLimit();
   ///@}
 
   ///@{
-  /** As vtkDeformableSurface: with MemoryLimit, the folder for what does not fit. */
+  /** As vtkDeformableSurface: folder on a disk for large arrays; empty (the default): none. */
   void SetScratchDirectory(const char* directory);
   const char* GetScratchDirectory();
   ///@}

@@ -7,9 +7,7 @@
 
 set(volumic_core_sources
   Common/FreeMemory.cxx
-  Common/ScratchFile.cxx
   Common/ScratchMemory.cxx
-  Common/ScratchStore.cxx
   Common/StandardThreads.cxx
   Common/VisitSchedule.cxx
   Image/AxisOperator.cxx
@@ -119,9 +117,7 @@ set(volumic_core_headers
   Common/Lattice.h
   Common/Monitor.h
   Common/Refuse.h
-  Common/ScratchFile.h
   Common/ScratchMemory.h
-  Common/ScratchStore.h
   Common/Select.h
   Common/Spans.h
   Common/StandardThreads.h

@@ -39,10 +39,7 @@ public:
   /** Runs `work`, within which there are the threads that For() may use. May be within another. */
   void Run(const std::function<void()>& work);
 
-  /**
-   * @see Executor. Outside Run() everything is done on the calling thread. With a limit of memory
-   * (ScratchMemory) in smaller steps, between which it is kept.
-   */
+  /** @see Executor. Outside Run() everything is done on the calling thread. */
   void For(std::size_t n, std::size_t grain,
     const std::function<void(std::size_t, std::size_t)>& body) override;
 

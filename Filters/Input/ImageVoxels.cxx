@@ -3,7 +3,7 @@
 #include "Input/ImageVoxels.h"
 
 #include "Core/Common/Refuse.h"
-#include "Host/LimitedMemory.h"
+#include "Host/LargeArrays.h"
 
 #include <vtkAbstractArray.h>
 #include <vtkAlgorithm.h>

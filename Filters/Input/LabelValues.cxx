@@ -4,7 +4,7 @@
 
 #include "Core/Common/Refuse.h"
 #include "Core/Common/Spans.h"
-#include "Host/LimitedMemory.h"
+#include "Host/LargeArrays.h"
 #include "Input/ImageVoxels.h"
 
 #include <vtkDataArray.h>

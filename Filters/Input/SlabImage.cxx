@@ -4,7 +4,6 @@
 
 #include "Core/Common/Refuse.h"
 #include "Core/Image/VoxelBox.h"
-#include "Host/LimitedMemory.h"
 #include "Input/ImageVoxels.h"
 
 #include <vtkAbstractArray.h>
@@ -32,6 +31,15 @@ using Extent = std::array<int, 6>;
 bool IsBetween(const int* slab, const Extent& whole, int axis)
 {
   return slab[2 * axis + 1] > slab[2 * axis] || whole[2 * axis + 1] == whole[2 * axis];
+}
+
+vtkSmartPointer<vtkDataArray> ArrayLike(vtkDataArray* like, vtkIdType tuples)
+{
+  vtkSmartPointer<vtkDataArray> array;
+  array.TakeReference(vtkDataArray::CreateDataArray(like->GetDataType()));
+  array->SetNumberOfComponents(like->GetNumberOfComponents());
+  array->SetNumberOfTuples(tuples);
+  return array;
 }
 
 /** Copies the tuples of a part to where they belong; of points, or of the cells between them. */
@@ -132,7 +140,7 @@ void SlabImage::Begin(vtkImageData* slab)
                      vtkDataArray* scalars, vtkDataSetAttributes* attributes, Arrays& arrays)
   {
     const vtkSmartPointer<vtkDataArray> numbers = NumbersOf(array, ofSlab);
-    arrays.emplace_back(numbers ? NewLargeArrayLike(numbers, ofWhole) : nullptr);
+    arrays.emplace_back(numbers ? ArrayLike(numbers, ofWhole) : nullptr);
     if (numbers)
     {
       arrays.back()->SetName(array->GetName());

@@ -4,7 +4,7 @@
 
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "Core/Surface/SizingField.h"
-#include "Host/LimitedMemory.h"
+#include "Host/LargeArrays.h"
 #include "Input/Workspace.h"
 
 #include <vtkCellArray.h>

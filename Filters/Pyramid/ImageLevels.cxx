@@ -8,7 +8,7 @@
 #include "Core/Image/ValidReduction.h"
 #include "Host/Errors.h"
 #include "Host/HostThreads.h"
-#include "Host/LimitedMemory.h"
+#include "Host/LargeArrays.h"
 #include "Input/InputImage.h"
 #include "Input/ValidVoxels.h"
 

@@ -133,4 +133,19 @@ void PrintSetting(std::ostream& os, const Setting& setting)
     }                                                                            \
   }
 
+// A property that is deprecated and has no effect: one warning where it is set to more than nothing.
+#define VOLUMIC_DEPRECATED(Class, name, type, text)                 \
+  type Class::Get##name()                                           \
+  {                                                                 \
+    return this->Internals->name;                                   \
+  }                                                                 \
+  void Class::Set##name(type value)                                 \
+  {                                                                 \
+    if (value != type() && this->Internals->name == type())         \
+    {                                                               \
+      vtkWarningMacro(#name " is deprecated and has no effect. " text); \
+    }                                                               \
+    this->Internals->name = value;                                  \
+  }
+
 #endif

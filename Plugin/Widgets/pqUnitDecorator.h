@@ -9,7 +9,7 @@
  * Shows the unit of a number beside its widget. Not in the property's label, of which ParaView makes
  * its name in Python.
  *
- *   <PropertyWidgetDecorator type="Unit" text="MiB"/>
+ *   <PropertyWidgetDecorator type="Unit" text="s"/>
  */
 class pqUnitDecorator : public pqPropertyWidgetDecorator
 {

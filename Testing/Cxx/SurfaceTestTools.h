@@ -16,13 +16,6 @@
 /** What the tests of vtkDeformableSurface share. */
 namespace volumic
 {
-/** About as few MiB as a process of tests can do with. */
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr int LittleMemory = 1000;
-#else
-constexpr int LittleMemory = 200;
-#endif
-
 /** What a test sets of a filter; of which filter a call says, as it cannot be deduced. */
 template <typename Filter>
 struct ChoiceFor

@@ -174,44 +174,6 @@ TEST(Processors, MayBeAQuotaOfAGroup)
   EXPECT_EQ(QuotaOfProcessors(root.Path()), 1) << "of the container";
 }
 
-TEST(HostThreads, WaitForRoomEveryFewItemsHoweverManyThereAre)
-{
-  constexpr std::size_t grain = 2048; // As of vertices.
-  constexpr std::size_t most = std::size_t(1) << 20;
-  for (const int number : { 1, 2 })
-  {
-    HostThreads threads(number);
-    const auto largestPiece = [&threads](std::size_t n)
-    {
-      std::mutex mutex;
-      std::size_t largest = 0;
-      std::size_t items = 0;
-      threads.Run(
-        [&]
-        {
-          threads.For(n, grain,
-            [&](std::size_t begin, std::size_t end)
-            {
-              const std::lock_guard<std::mutex> lock(mutex);
-              largest = std::max(largest, end - begin);
-              items += end - begin;
-            });
-        });
-      EXPECT_EQ(items, n);
-      return largest;
-    };
-    EXPECT_GE(largestPiece(most), grain) << "there is nothing to wait for";
-    vtkNew<vtkImagePyramid> limited; // Until its end there is a limit.
-    limited->SetInputData(BallImage(16, 16, 16));
-    limited->SetMemoryLimit(4000);
-    limited->Update();
-    // Each may look at voxels of its own, which bring in 16 pages: 64 KiB.
-    constexpr std::size_t ofAnItem = std::size_t(64) << 10;
-    EXPECT_LE(largestPiece(most) * ofAnItem, std::size_t(16) << 20);
-    EXPECT_LE(largestPiece(grain) * ofAnItem, std::size_t(16) << 20);
-  }
-}
-
 TEST_F(HostThreadsInstead, DoesAllThatFiltersHaveToShare)
 {
   const vtkSmartPointer<vtkImageData> ball = BallImage(32, 32, 32);

@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Common/ScratchMemory.h"
 #include "Core/Interfaces/LineWedges.h"
 #include "InterfaceTestTools.h"
 
@@ -27,28 +26,6 @@ InterfaceMesh TwoTetrahedra()
   mesh.FindStrata();
   return mesh;
 }
-}
-
-TEST(InterfaceMesh, LiesInFilesWhereMemoryIsLimited)
-{
-  ScratchOptions options;
-  options.Limit = std::size_t(8) << 30;
-  const ScratchMemory scratch(options);
-  InterfaceMesh mesh;
-  const int count = 1 << 18;
-  for (int v = 0; v < count; ++v)
-  {
-    mesh.AddVertex(Vector(static_cast<float>(v), 0.f, 0.f), Stratum::Interface);
-    if (v >= 2)
-    {
-      mesh.AddFace({ { v - 2, v - 1, v }, 0, 1 });
-    }
-  }
-  mesh.Compact();
-  // Places, faces, and of both what has which corner.
-  const std::size_t ofVertex = sizeof(Vector) + sizeof(int);
-  const std::size_t ofFace = sizeof(InterfaceMesh::Face) + 3 * sizeof(int);
-  EXPECT_GE(scratch.Statistics().Mapped, (count - 2) * (ofVertex + ofFace));
 }
 
 TEST(InterfaceMesh, HasLinesWhereThreeFacesMeet)

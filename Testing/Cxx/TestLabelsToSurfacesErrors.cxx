@@ -28,7 +28,6 @@ protected:
     this->Filter->SetFinestLevel(0);
     this->Filter->SetKeepComponents(0);
     this->Filter->SetMinimumComponentVolume(0.);
-    this->Filter->SetMemoryLimit(0);
     this->Filter->Update();
     EXPECT_EQ(this->Filter->GetErrorCode(), vtkErrorCode::NoError);
     ASSERT_EQ(this->Filter->GetOutput()->GetNumberOfBlocks(), 2u) << "works again";
@@ -162,7 +161,6 @@ TEST_F(LabelsToSurfacesErrors, PropertiesOutOfRange)
   expect(&Labels::SetFinestLevel, 0, -2, { "Finest Level is -2" });
   expect(&Labels::SetKeepComponents, 0, 2, { "Keep Components is 2" });
   expect(&Labels::SetMinimumComponentVolume, 0., infinite, { "Minimum Component Volume is inf" });
-  expect(&Labels::SetMemoryLimit, 0, -1, { "Memory Limit is -1" });
 }
 
 TEST_F(LabelsToSurfacesErrors, NamesThatAreNotAsManyAsLabels)

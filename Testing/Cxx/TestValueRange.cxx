@@ -113,7 +113,6 @@ TEST(ValueRange, IsTheSameBitsHoweverTheImageComes)
   const auto expectSame = [&](vtkDeformableSurface* filter)
   { ExpectSameSurfaces(one->GetOutput(), filter->GetOutput()); };
   expectSame(InRange(image, [](vtkDeformableSurface* f) { f->SetNumberOfThreads(3); }));
-  expectSame(InRange(image, [](vtkDeformableSurface* f) { f->SetMemoryLimit(LittleMemory); }));
   expectSame(InRange(PyramidOf(image)->GetOutput()));
   expectSame(SurfaceOf<vtkVolumeToSurface>(image, SetRange));
 }

@@ -20,7 +20,7 @@ TABLE = f"{PROPERTIES}/Labels"
 BASIC = ("SetInputArrayToProcess", "Labels", "Smoothing", "EdgeLength", "FinestLevel", "Tolerance",
          "BoxFaces", "Merge", "VoxelTolerance", "BackgroundLabel")
 ADVANCED = ("MaximumEdgeLength", "Gradation", "KeepComponents", "Metric", "TimeLimit",
-            "NumberOfThreads", "MemoryLimit", "ScratchDirectory")
+            "NumberOfThreads", "ScratchDirectory")
 CHECKED, UNCHECKED = 2, 0
 
 TELL = """

@@ -24,7 +24,7 @@ BASIC = ("SetInputArrayToProcess", "IsoValue", "UseUpperValue", "ObjectIsBright"
 ADVANCED = ("MaximumEdgeLength", "Gradation", "CoarsestLevel", "MinimumPartSize",
             "BorderValue", "NumberOfLevels",
             "MinimumLevelSize", "ReductionFactor", "Initialization", "Friction", "TimeLimit",
-            "MemoryLimit", "ScratchDirectory", "SnapshotInterval")
+            "ScratchDirectory", "SnapshotInterval")
 
 # Runs in the window: from the first filter that is made, whoever makes it, its first run is
 # stopped where its progress tells WHERE; what each run does is told.
@@ -83,7 +83,7 @@ class VolumeWindowTest(window.WindowTestCase):
     def test_menu_panel_and_apply(self):
         path, save = self.saved_state("volume.pvsm")
         levels = f"{PROPERTIES}/NumberOfLevels/IntRangeWidget/LineEdit"
-        units = {"TimeLimit": "s", "MemoryLimit": "MiB", "EdgeLength": "world units",
+        units = {"TimeLimit": "s", "EdgeLength": "world units",
                  "Tolerance": "world units", "MaximumEdgeLength": "world units",
                  "SeedRadius": "world units", "MinimumPartSize": "voxels"}
         self.play(VOLUME + [

@@ -3,27 +3,65 @@
 #include "Core/Common/ScratchMemory.h"
 
 #include "Core/Common/Refuse.h"
-#include "Core/Common/ScratchFile.h"
-#include "Core/Common/ScratchStore.h"
 
 #include <algorithm>
+#include <cerrno>
+#include <cstddef>
 #include <cstdlib>
 #include <cstring>
+#include <mutex>
 #include <new>
+#include <string>
+#include <system_error>
+#include <vector>
 
 #ifdef _WIN32
 #include <malloc.h>
+#endif
+
+#if defined(__linux__) && defined(__LP64__)
+#define VOLUMIC_MAPS_FILES
+#include <fcntl.h>
+#include <linux/fs.h>
+#include <sys/ioctl.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <sys/statvfs.h>
+#include <unistd.h>
+#endif
+
+#ifdef __SANITIZE_ADDRESS__
+#include <sanitizer/allocator_interface.h>
 #endif
 
 namespace volumic
 {
 namespace
 {
+std::mutex theMutex;
+std::vector<std::string> theDirectories; ///< Of all objects that exist; the last one is used.
+
+std::string DirectoryInUse()
+{
+  const std::lock_guard<std::mutex> lock(theMutex);
+  return theDirectories.empty() ? std::string() : theDirectories.back();
+}
+
 #ifdef __SANITIZE_ADDRESS__
 // It guards what is about an array of the heap, not what is about a mapping.
 constexpr bool HeapIsGuarded = true;
+
+bool IsOnGuardedHeap(const void* memory)
+{
+  return __sanitizer_get_ownership(memory) != 0;
+}
 #else
 constexpr bool HeapIsGuarded = false;
+
+bool IsOnGuardedHeap(const void*)
+{
+  return false;
+}
 #endif
 
 void* AllocateOnHeap(std::size_t bytes, std::size_t alignment)
@@ -52,72 +90,138 @@ void FreeOnHeap(void* memory) noexcept
 #endif
 }
 
+#ifdef VOLUMIC_MAPS_FILES
+/** A file that no directory shows. */
+class ScratchFile
+{
+public:
+  explicit ScratchFile(const std::string& directory)
+    : Descriptor(open(directory.c_str(), O_TMPFILE | O_EXCL | O_RDWR | O_CLOEXEC, 0600))
+  {
+    if (this->Descriptor < 0) // The file system may lack such files.
+    {
+      std::string name = directory + "/volumic-XXXXXX";
+      this->Descriptor = mkostemp(name.data(), O_CLOEXEC);
+      if (this->Descriptor < 0)
+      {
+        Refuse("Scratch Directory ", directory, " cannot be used: ",
+          std::generic_category().message(errno),
+          ". Choose a directory that exists and in which you may create files.");
+      }
+      unlink(name.c_str());
+    }
+  }
+  ScratchFile(const ScratchFile&) = delete;
+  ScratchFile& operator=(const ScratchFile&) = delete;
+  ~ScratchFile() { close(this->Descriptor); }
+
+  /** Take space on the disk. @return an error number, 0 for none. */
+  int Reserve(std::size_t bytes) const
+  {
+    int flags = 0;
+    if (ioctl(this->Descriptor, FS_IOC_GETFLAGS, &flags) == 0)
+    {
+      flags |= FS_NOCOW_FL; // Otherwise btrfs takes new space for each page that is written again.
+      ioctl(this->Descriptor, FS_IOC_SETFLAGS, &flags);
+    }
+    rlimit limit{};
+    if (getrlimit(RLIMIT_FSIZE, &limit) == 0 && bytes > limit.rlim_cur)
+    {
+      return EFBIG; // The system would end the process by SIGXFSZ.
+    }
+    struct statvfs system{};
+    if (fstatvfs(this->Descriptor, &system) == 0 && system.f_blocks > 0 &&
+      bytes / system.f_frsize >= system.f_bavail)
+    {
+      return ENOSPC; // Trying would take all space for a moment.
+    }
+    int error = EINTR;
+    while (error == EINTR)
+    {
+      error = posix_fallocate(this->Descriptor, 0, static_cast<off_t>(bytes));
+    }
+    return error;
+  }
+
+  int Get() const { return this->Descriptor; }
+
+private:
+  int Descriptor;
+};
+
+void* Map(const std::string& directory, std::size_t bytes)
+{
+  constexpr int access = PROT_READ | PROT_WRITE;
+  void* memory = MAP_FAILED;
+  if (directory.empty())
+  {
+    memory = mmap(nullptr, bytes, access, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  }
+  else
+  {
+    const ScratchFile file(directory);
+    const int error = file.Reserve(bytes);
+    if (error != 0)
+    {
+      throw ScratchFull(Join("Scratch Directory ", directory, " lacks space for a file of ",
+        (bytes >> 20) + 1, " MiB: ", std::generic_category().message(error),
+        error == EFBIG ? ". Allow larger files (ulimit -f), or choose another directory."
+                       : ". Free space there, or choose another directory."));
+    }
+    memory = mmap(nullptr, bytes, access, MAP_SHARED, file.Get(), 0);
+  }
+  if (memory == MAP_FAILED)
+  {
+    throw std::bad_alloc();
+  }
+  madvise(memory, bytes, MADV_NOHUGEPAGE); // Otherwise each byte may take 2 MiB.
+  return memory;
+}
+#endif
+
 }
 
-ScratchMemory::ScratchMemory(const ScratchOptions& options)
+ScratchMemory::ScratchMemory(const std::string& directory) : Directory(directory)
 {
-  if (options.Limit == 0)
+  if (directory.empty())
   {
     return;
   }
-  if (!ScratchIsPossible)
-  {
-    Refuse("Memory Limit is ", Mebibytes(options.Limit),
-      " MiB, but memory can only be limited on "
-      "Linux of 64 bits. Set it to 0, which is no limit.");
-  }
-  auto self = std::make_unique<ScratchLimit>();
-  self->Options = options;
-  self->Options.Directory = CheckedScratchDirectory(options.Directory);
-  self->DirectoryIsMemory = IsMemory(self->Options.Directory);
-  ScratchStore::Instance().Add(*self);
-  this->Self = std::move(self);
+#ifdef VOLUMIC_MAPS_FILES
+  munmap(Map(directory, 1), 1); // Report errors before anything is computed.
+#else
+  Refuse("Scratch Directory is ", directory,
+    ", but arrays can be mapped to files on Linux with 64 bits only. Clear Scratch Directory.");
+#endif
+  const std::lock_guard<std::mutex> lock(theMutex);
+  theDirectories.push_back(directory);
 }
 
 ScratchMemory::~ScratchMemory()
 {
-  if (this->Self)
+  if (!this->Directory.empty())
   {
-    ScratchStore::Instance().Remove(*this->Self);
+    const std::lock_guard<std::mutex> lock(theMutex);
+    theDirectories.erase(
+      std::find(theDirectories.begin(), theDirectories.end(), this->Directory));
   }
 }
 
-ScratchStatistics ScratchMemory::Statistics() const
+bool ScratchMemory::IsUsed()
 {
-  return this->Self ? ScratchStore::Instance().StatisticsOf(*this->Self) : ScratchStatistics();
-}
-
-std::vector<std::string> ScratchMemory::Warnings() const
-{
-  std::vector<std::string> warnings;
-  if (!this->Self)
-  {
-    return warnings;
-  }
-  const ScratchOptions& options = this->Self->Options;
-  if (this->Self->DirectoryIsMemory)
-  {
-    warnings.push_back(Join("Scratch Directory ", options.Directory,
-      " is memory itself (tmpfs): "
-      "what is put there still takes memory. Choose one on a disk."));
-  }
-  const ScratchStatistics statistics = this->Statistics();
-  if (statistics.MostResident > options.Limit)
-  {
-    warnings.push_back(Join("Memory Limit is ", Mebibytes(options.Limit), " MiB, but up to ",
-      Mebibytes(statistics.MostResident), " MiB were resident, of which ",
-      Mebibytes(statistics.MostAnonymous), " MiB cannot be put into files."));
-  }
-  return warnings;
+  return !DirectoryInUse().empty();
 }
 
 void* AllocateLarge(std::size_t bytes, std::size_t alignment)
 {
   const bool isLarge = bytes >= ScratchMemory::LargeBytes;
-  if (ScratchIsPossible && isLarge && (!HeapIsGuarded || HasMemoryLimit()))
+#ifdef VOLUMIC_MAPS_FILES
+  const std::string directory = isLarge ? DirectoryInUse() : std::string();
+  if (isLarge && (!HeapIsGuarded || !directory.empty()))
   {
-    return ScratchStore::Instance().Map(bytes);
+    return Map(directory, bytes);
   }
+#endif
   void* memory = AllocateOnHeap(bytes, alignment);
   if (isLarge || ZeroedAllocations::AreOn())
   {
@@ -126,33 +230,16 @@ void* AllocateLarge(std::size_t bytes, std::size_t alignment)
   return memory;
 }
 
-void FreeLarge(void* memory) noexcept
+void FreeLarge(void* memory, std::size_t bytes) noexcept
 {
-  if (memory && !ScratchStore::Instance().Unmap(memory))
+#ifdef VOLUMIC_MAPS_FILES
+  if (memory && bytes >= ScratchMemory::LargeBytes && !IsOnGuardedHeap(memory))
   {
-    FreeOnHeap(memory);
+    munmap(memory, bytes);
+    return;
   }
-}
-
-bool HasMemoryLimit()
-{
-  return ScratchStore::Instance().HasLimit();
-}
-
-void KeepMemoryLimit()
-{
-  if (ScratchStore::Instance().HasLimit())
-  {
-    ScratchStore::Instance().KeepIfDue();
-  }
-}
-
-void PrefetchLarge(const void* begin, std::size_t bytes)
-{
-  if (ScratchStore::Instance().HasLimit())
-  {
-    ScratchStore::Instance().KeepIfDue();
-    ReadPagesAhead(begin, bytes);
-  }
+#endif
+  static_cast<void>(bytes);
+  FreeOnHeap(memory);
 }
 }

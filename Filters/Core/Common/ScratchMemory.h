@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <memory>
 #include <new>
 #include <stdexcept>
 #include <string>
@@ -15,93 +14,53 @@
 
 namespace volumic
 {
-/** What a run may hold in memory, and where the rest goes. */
-struct ScratchOptions
-{
-  /** Resident memory of the process, bytes; 0: no limit, and nothing leaves memory. */
-  std::size_t Limit = 0;
-  /** Where files are made; empty: TMPDIR, or else /var/tmp. */
-  std::string Directory;
-};
-
-/** The scratch directory has no room for what is asked for. */
+/** The scratch directory lacks space. */
 struct ScratchFull : std::runtime_error
 {
   using std::runtime_error::runtime_error;
 };
 
-struct ScratchLimit;
-
-/** What became of a limit since it was set; all in bytes. */
-struct ScratchStatistics
-{
-  std::size_t MostResident = 0;  ///< The most memory that the whole process has had.
-  std::size_t MostAnonymous = 0; ///< The most of it that no file held, and that could not leave.
-  std::size_t Mapped = 0;        ///< What arrays in files take now.
-  std::size_t Dropped = 0;       ///< What was taken out of memory, counted again each time.
-};
-
 /**
- * While one with a limit is alive, large arrays (LargeVector, AllocateLarge) live in files of the
- * scratch directory, mapped into memory; of their pages as many are resident as the limit allows.
- * The files have no name, so that nothing of them is left behind, however the process ends. Arrays
- * may outlive it. With a limit of 0 it does nothing.
+ * While an object with a directory exists, new large arrays (LargeVector, AllocateLarge) of the
+ * process lie in files of that directory, mapped into memory: the kernel writes pages to the disk
+ * and reads them as it needs memory. Files have no name, so they vanish with their arrays or with
+ * the process, however it ends. Space is reserved beforehand, so that writing to an array cannot
+ * fail. Arrays may outlive the object. A forked process shares the arrays with its parent.
  *
- * The limit is that of the process. Where several are alive, the smallest limit counts, and new
- * arrays go to the directory of the last one. A thread looks at the resident memory of the
- * process every few ms, and so do threads that work (KeepMemoryLimit); they drop pages from 3/5
- * of it on, or from 1 GiB below it, one array after another, round and round; the system keeps
- * them in its cache while it can, so that most come back without the disk.
- * What is no large array cannot be dropped: where that alone passes the limit, or threads fill it
- * faster than it is emptied, the run goes on beyond it, and Warnings() says so.
- *
- * A process that is forked off can read the arrays, and free them, but not write them, which its
- * parent would see; its own are on the heap until it sets a limit itself.
+ * If several exist, the directory of the last one is used. Any thread may call anything.
  */
 class ScratchMemory
 {
 public:
-  /** Arrays of fewer bytes are on the heap in any case. */
+  /** Smaller arrays are always on the heap. */
   static constexpr std::size_t LargeBytes = std::size_t(1) << 20;
-  /** What a limit must at least leave beyond that which cannot be dropped when it is set. */
-  static constexpr std::size_t LeastBytes = std::size_t(128) << 20;
 
   /**
-   * @throws std::invalid_argument where the directory cannot be used, or the limit not be kept, or
-   *         the system has no such memory (Linux of 64 bits has); ScratchFull.
+   * @param directory empty: arrays lie in memory
+   * @throws std::invalid_argument if no file can be created there, or the system is not Linux with
+   *         64 bits; ScratchFull.
    */
-  explicit ScratchMemory(const ScratchOptions& options);
+  explicit ScratchMemory(const std::string& directory);
   ~ScratchMemory();
   ScratchMemory(const ScratchMemory&) = delete;
   ScratchMemory& operator=(const ScratchMemory&) = delete;
 
-  ScratchStatistics Statistics() const;
-  /** What the user should know by now, a sentence or two each: of the directory, and the limit. */
-  std::vector<std::string> Warnings() const;
+  /** Whether new large arrays lie in files. */
+  static bool IsUsed();
 
 private:
-  std::unique_ptr<ScratchLimit> Self; ///< Null: no limit.
+  std::string Directory;
 };
 
 /**
- * Memory for an array. Where it is large, it is zero, and takes none before it is written; while a
- * limit is set it is in a file. Otherwise it is on the heap, with any content. The address is a
- * multiple of `alignment`, a power of 2 of 64 at most.
+ * Memory for an array. A large one is zero, and its pages take no memory before they are written.
+ * Others are on the heap, with any content. The address is a multiple of `alignment`, a power of 2
+ * of 64 at most.
  * @throws std::bad_alloc, ScratchFull.
  */
 void* AllocateLarge(std::size_t bytes, std::size_t alignment = 64);
-/** Null is nothing. */
-void FreeLarge(void* memory) noexcept;
-/** It will be needed soon: room is made below the limit, and what is on disk is read ahead. */
-void PrefetchLarge(const void* begin, std::size_t bytes);
-
-/** Whether a limit is set, by anyone. */
-bool HasMemoryLimit();
-/**
- * For threads that go through much memory, every few MB: drops pages where it is time to, as the
- * governor's turn may come late on a busy machine. Nothing without a limit.
- */
-void KeepMemoryLimit();
+/** Free what AllocateLarge() returned for as many bytes. Null is nothing. */
+void FreeLarge(void* memory, std::size_t bytes) noexcept;
 
 /**
  * While one is alive, arrays that this thread allocates are all zero, and the values that it adds
@@ -131,7 +90,7 @@ struct LargeAllocator
   {
   }
   T* allocate(std::size_t n) { return static_cast<T*>(AllocateLarge(n * sizeof(T), alignof(T))); }
-  void deallocate(T* memory, std::size_t) noexcept { FreeLarge(memory); }
+  void deallocate(T* memory, std::size_t n) noexcept { FreeLarge(memory, n * sizeof(T)); }
   /** Writes nothing where the memory is zero already. */
   template <typename U>
   void construct(U* place)
@@ -159,14 +118,13 @@ struct LargeAllocator
   }
 };
 
-/** A vector that may live in scratch memory. */
+/** A vector that may lie in a scratch file. */
 template <typename T>
 using LargeVector = std::vector<T, LargeAllocator<T>>;
 
 /**
  * Empties it where it has no room for n values, and gives it room for more: address space costs
- * nothing where no limit is set, and new pages take longer than all that is done with them; in a
- * file room is counted.
+ * nothing, and new pages take longer than all that is done with them. In a file space is reserved.
  */
 template <typename T>
 void MakeRoom(LargeVector<T>& values, std::size_t n)
@@ -174,7 +132,7 @@ void MakeRoom(LargeVector<T>& values, std::size_t n)
   if (values.capacity() < n)
   {
     values = LargeVector<T>();
-    values.reserve(HasMemoryLimit() ? n + n / 4 : 3 * n);
+    values.reserve(ScratchMemory::IsUsed() ? n + n / 4 : 3 * n);
   }
 }
 

@@ -86,7 +86,6 @@ void VisitBlocks(
     {
       return;
     }
-    e.Blocks->Prefetch(block);
     BlockVisit opened = e.Blocks->Open(block);
     opened.Idle = &idle;
     {

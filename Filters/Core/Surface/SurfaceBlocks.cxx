@@ -329,14 +329,6 @@ void SurfaceBlocks::Close(BlockVisit&& visit)
   s.EulerCharacteristic += visit.Share.EulerCharacteristic;
 }
 
-void SurfaceBlocks::Prefetch(int block) const
-{
-  if (HasMemoryLimit())
-  {
-    this->State.Prefetch(this->All[block].First, this->All[block].Next);
-  }
-}
-
 bool SurfaceBlocks::HasActive(int block) const
 {
   const OfBlock& own = this->All[block];

@@ -109,9 +109,6 @@ public:
    */
   void Close(BlockVisit&& visit);
 
-  /** Before a visit: has the memory fetch what the block's vertices know. */
-  void Prefetch(int block) const;
-
   /** Whether a vertex of the block may move. */
   bool HasActive(int block) const;
   /** Between sweeps, while no visit is open: numbers the vertices anew where that is needed. */

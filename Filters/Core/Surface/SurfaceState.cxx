@@ -57,14 +57,6 @@ void SurfaceState::ForgetMotion()
   }
 }
 
-void SurfaceState::Prefetch(int first, int last) const
-{
-  const auto count = static_cast<std::size_t>(last - first);
-  PrefetchLarge(this->Mesh.Position.data() + first, count * sizeof(Vector));
-  PrefetchLarge(this->Mesh.Rings.data() + first, count * sizeof(Ring));
-  this->Properties.Prefetch(static_cast<std::size_t>(first), static_cast<std::size_t>(last));
-}
-
 void SurfaceState::Reorder(
   const std::vector<int>& order, VertexSpares& spares, Executor& executor)
 {

@@ -160,8 +160,6 @@ public:
   void Reset(const Vector& low, const Vector& high, Executor& executor);
   void Reset(const Vector& low, const Vector& high);
 
-  /** What is known of the vertices of [first, last) will be read soon: see PrefetchLarge. */
-  void Prefetch(int first, int last) const;
   /**
    * SurfaceMesh::Reorder, with all that is known of the vertices. Values that are only of use while
    * a block is visited are reset: their memory is that of the copies.

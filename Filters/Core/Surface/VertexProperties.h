@@ -31,8 +31,6 @@ public:
     const std::vector<int>& order, VertexSpares& spares, Executor& executor) = 0;
   /** A value for a new vertex, `v`, which comes of another one. */
   virtual void Add(std::size_t v, std::size_t parent) = 0;
-  /** The values of [first, last), which there are, will be read soon: see PrefetchLarge. */
-  virtual void Prefetch(std::size_t first, std::size_t last) const = 0;
 };
 
 /**
@@ -71,13 +69,6 @@ public:
     for (VertexPropertyBase* property : this->All)
     {
       property->Forget();
-    }
-  }
-  void Prefetch(std::size_t first, std::size_t last) const
-  {
-    for (const VertexPropertyBase* property : this->All)
-    {
-      property->Prefetch(first, last);
     }
   }
   /** Threads may do so at the same time where there is room for the vertices. */
@@ -133,10 +124,6 @@ public:
     {
       volumic::Reorder(this->Values, order, spares, executor);
     }
-  }
-  void Prefetch(std::size_t first, std::size_t last) const override
-  {
-    PrefetchLarge(this->Values.data() + first, (last - first) * sizeof(T));
   }
   void Add(std::size_t v, std::size_t parent) override
   {

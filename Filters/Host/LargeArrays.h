@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicLargeArrays_h
+#define volumicLargeArrays_h
+
+#include "Core/Common/ScratchMemory.h"
+
+#include <vtkAbstractArray.h>
+#include <vtkSmartPointer.h>
+#include <vtkType.h>
+
+#include <cstddef>
+#include <cstring>
+
+/** What the filters' deprecated property MemoryLimit warns of. */
+#define VOLUMIC_ABOUT_MEMORY                                                                       \
+  "Set ScratchDirectory to a folder on a disk, where large arrays are then mapped from files, and " \
+  "limit the memory of the process by its cgroup, as with `systemd-run --user --scope -p "          \
+  "MemoryMax=2G`."
+
+namespace volumic
+{
+/**
+ * A VTK array (vtkFloatArray, ...) whose values are allocated by AllocateLarge() and not set.
+ * @throws std::bad_alloc, ScratchFull.
+ */
+template <typename Array>
+vtkSmartPointer<Array> NewLargeArray(std::size_t tuples, int components = 1)
+{
+  using Value = typename Array::ValueType;
+  const std::size_t n = tuples * static_cast<std::size_t>(components);
+  // The number of bytes comes first: the free function gets the address only.
+  constexpr std::size_t header = 64;
+  const std::size_t bytes = header + n * sizeof(Value);
+  char* memory = static_cast<char*>(AllocateLarge(bytes));
+  std::memcpy(memory, &bytes, sizeof bytes);
+  auto array = vtkSmartPointer<Array>::New();
+  array->SetNumberOfComponents(components);
+  array->SetArray(reinterpret_cast<Value*>(memory + header), static_cast<vtkIdType>(n), 0,
+    vtkAbstractArray::VTK_DATA_ARRAY_USER_DEFINED);
+  array->SetArrayFreeFunction(
+    [](void* values)
+    {
+      char* begin = static_cast<char*>(values) - header;
+      std::size_t allocated = 0;
+      std::memcpy(&allocated, begin, sizeof allocated);
+      FreeLarge(begin, allocated);
+    });
+  return array;
+}
+}
+
+#endif
