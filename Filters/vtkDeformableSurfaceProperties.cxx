@@ -82,6 +82,20 @@ void CopyPosition(const std::vector<volumic::Point>& positions, int index, doubl
 #define VolumicWritten(name, type, field, change, kind)
 VOLUMIC_SURFACE_PROPERTIES(VolumicSetting, VolumicWritten)
 
+bool vtkDeformableSurface::GetProfile()
+{
+  return this->Internals->Settings.Profile;
+}
+
+void vtkDeformableSurface::SetProfile(bool value)
+{
+  if (value && !this->Internals->Settings.Profile)
+  {
+    vtkWarningMacro(<< "Profile is deprecated and has no effect.");
+  }
+  this->Internals->Settings.Profile = value;
+}
+
 int vtkDeformableSurface::GetNumberOfThreads()
 {
   return this->Internals->Settings.End.NumberOfThreads;

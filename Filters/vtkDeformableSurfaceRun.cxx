@@ -166,7 +166,7 @@ void vtkDeformableSurface::vtkInternals::RunOrGoOn(const volumic::FilterCall& ca
   if (!run)
   {
     const bool isLate = request.Limit.IsOver() && !isStopped();
-    volumic::SegmentationResults nothing(settings.Profile);
+    volumic::SegmentationResults nothing;
     nothing.SetStoppedSurface(volumic::MakeStopped(
       0, isLate ? volumic::TimeLimitReason : Describe(volumic::StopReason::Cancelled)));
     nothing.FillOutputs(0, call.Outputs);

@@ -27,25 +27,6 @@ namespace volumic
 {
 namespace
 {
-/** What one column of seconds is the sum of. */
-struct PhaseColumn
-{
-  const char* Name;
-  std::vector<Phase> Phases;
-};
-
-const PhaseColumn PhaseColumns[] = {
-  { "Forces", { Phase::Forces } },
-  { "Contact", { Phase::Contact } },
-  { "Proximity", { Phase::Proximity } },
-  { "Verification", { Phase::Verification } },
-  { "Remeshing", { Phase::Remeshing } },
-  { "Topology", { Phase::Topology } },
-  { "Division", { Phase::Division, Phase::Recovery, Phase::Regularisation } },
-  { "Recovery", { Phase::Recovery } },
-  { "Regularisation", { Phase::Regularisation } },
-};
-
 /** A column of the values that `get` gives of each row. */
 template <typename Get>
 void AddColumn(
@@ -62,27 +43,19 @@ void AddColumn(
   table->AddColumn(column);
 }
 
-/**
- * A row per iteration, the columns that vtkDeformableSurface documents; those of the phases too,
- * if asked for.
- */
-vtkSmartPointer<vtkTable> MakeHistory(
-  const std::vector<HistoryRow>& rows, const Workspace& space, bool withPhases)
+/** Return a row per iteration, with the columns that vtkDeformableSurface documents. */
+vtkSmartPointer<vtkTable> MakeHistory(const std::vector<HistoryRow>& rows, const Workspace& space)
 {
   using Row = HistoryRow;
   auto table = vtkSmartPointer<vtkTable>::New();
   const auto add = [&](const char* name, auto member)
   { AddColumn(table, name, rows, [member](const Row& row) { return row.*member; }); };
-  const auto addLength = [&](const char* name, double Row::*member)
-  {
-    AddColumn(table, name, rows,
-      [member, unit = space.WorldUnit()](const Row& row) { return row.*member * unit; });
-  };
   add("Iteration", &Row::Iteration);
   add("Level", &Row::Level);
   add("Vertices", &Row::Vertices);
   add("KineticEnergy", &Row::KineticEnergy);
-  addLength("MeanEdgeLength", &Row::MeanEdgeLength);
+  AddColumn(table, "MeanEdgeLength", rows,
+    [unit = space.WorldUnit()](const Row& row) { return row.MeanEdgeLength * unit; });
   add("Seconds", &Row::Seconds);
   add("TimeStep", &Row::TimeStep);
   add("ActiveVertices", &Row::ActiveVertices);
@@ -93,34 +66,6 @@ vtkSmartPointer<vtkTable> MakeHistory(
   add("Flips", &Row::Flips);
   add("EulerCharacteristic", &Row::EulerCharacteristic);
   add("Components", &Row::Components);
-  add("RecoveredParts", &Row::Recovered);
-  add("Deletions", &Row::Deletions);
-  add("DeletedGenus", &Row::DeletedGenus);
-  add("AddedEulerCharacteristic", &Row::AddedEulerCharacteristic);
-  add("IterationVertices", &Row::IterationVertices);
-  addLength("IterationMeanEdgeLength", &Row::IterationMeanEdgeLength);
-  add("IterationEulerCharacteristic", &Row::IterationEulerCharacteristic);
-  add("IterationComponents", &Row::IterationComponents);
-  add("RegularisationCuts", &Row::RegularisationCuts);
-  add("RegularisationDeletions", &Row::RegularisationDeletions);
-  add("SecondsBefore", &Row::SecondsBefore);
-  add("SecondsAfter", &Row::SecondsAfter);
-  for (const PhaseColumn& phases : PhaseColumns)
-  {
-    if (withPhases)
-    {
-      AddColumn(table, std::string(phases.Name) + "Seconds", rows,
-        [&phases](const Row& row)
-        {
-          double sum = 0.0;
-          for (const Phase phase : phases.Phases)
-          {
-            sum += row.PhaseSeconds[static_cast<std::size_t>(phase)];
-          }
-          return sum;
-        });
-    }
-  }
   return table;
 }
 
@@ -140,10 +85,9 @@ vtkSmartPointer<vtkPolyData> ShallowCopyOf(vtkPolyData* surface)
 }
 }
 
-SegmentationResults::SegmentationResults(bool withPhases, int numberOfLevels, int coarsest,
-  const Workspace& space, const std::array<int, 3>& size)
-  : NumberOfLevels(numberOfLevels), Coarsest(coarsest), Space(space), Size(size),
-    WithPhases(withPhases)
+SegmentationResults::SegmentationResults(
+  int numberOfLevels, int coarsest, const Workspace& space, const std::array<int, 3>& size)
+  : NumberOfLevels(numberOfLevels), Coarsest(coarsest), Space(space), Size(size)
 {
 }
 
@@ -230,7 +174,7 @@ void SegmentationResults::FillOutputs(int last, vtkInformationVector* outputs) c
   std::vector<HistoryRow> rows;
   std::copy_if(this->Rows.begin(), this->Rows.end(), std::back_inserter(rows),
     [last](const HistoryRow& row) { return row.Level >= last; });
-  vtkTable::GetData(outputs, 2)->ShallowCopy(MakeHistory(rows, this->Space, this->WithPhases));
+  vtkTable::GetData(outputs, 2)->ShallowCopy(MakeHistory(rows, this->Space));
 
   auto snapshots = vtkSmartPointer<vtkMultiBlockDataSet>::New();
   for (const Snapshot& snapshot : this->Snapshots)

@@ -49,7 +49,7 @@ public:
   };
 
   /** @param size voxels of level 0 along each axis */
-  explicit SegmentationResults(bool withPhases = false, int numberOfLevels = 0, int coarsest = 0,
+  explicit SegmentationResults(int numberOfLevels = 0, int coarsest = 0,
     const Workspace& space = Workspace(), const std::array<int, 3>& size = { 0, 0, 0 });
 
   /** The finest level that a preview visits. */
@@ -97,7 +97,6 @@ private:
   Workspace Space;
   std::array<int, 3> Size = { 0, 0, 0 };
   ComponentChoice Choice;
-  bool WithPhases = false;
   std::map<int, Level> ByLevel;
   std::vector<HistoryRow> Rows;
   std::vector<Snapshot> Snapshots;

@@ -131,8 +131,8 @@ void SurfaceSegmentation::Run()
 void SurfaceSegmentation::Begin()
 {
   this->HasBegun = false;
-  this->Found = SegmentationResults(this->Settings.Profile, this->Levels.Pyramid().NumberOfLevels(),
-    this->Choice.Coarsest, this->Levels.GetWorkspace(), this->Levels.Pyramid().SizeOfLevel0());
+  this->Found = SegmentationResults(this->Levels.Pyramid().NumberOfLevels(), this->Choice.Coarsest,
+    this->Levels.GetWorkspace(), this->Levels.Pyramid().SizeOfLevel0());
   this->Choose(this->Request);
   this->Found.SetPreviewLevel(this->Choice.Preview);
 }

@@ -67,7 +67,7 @@
   MADE(TimeLimit, double, End.TimeLimit, End, Free)                                  \
   MADE(Preview, bool, End.Preview, End, Free)                                        \
   MADE(ShowLevels, bool, End.ShowLevels, End, Free)                                  \
-  MADE(Profile, bool, Profile, Run, Free)                                            \
+  WRITTEN(Profile, bool, Profile, End, Free)                                         \
   MADE(SnapshotInterval, int, SnapshotInterval, Run, Told)
 
 namespace volumic

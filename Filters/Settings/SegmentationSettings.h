@@ -122,7 +122,7 @@ struct SegmentationSettings
   int CoarsestLevel = -1; ///< -1: the last that serves
   std::vector<Point> AttractingPositions; ///< world, beside those of input port 2
   RecoveryType Recovery = RecoveryType::RecoverObjects;
-  bool Profile = false;     ///< columns of the seconds of each phase in the history
+  bool Profile = false;     ///< has no effect
   int SnapshotInterval = 0; ///< iterations; 0: no snapshots
 
   /** The values of the object, where they have an upper end, too. @throws as Check() of it */

@@ -43,12 +43,11 @@ TEST_F(Checkpoints, AreLeftByARunThatHasGoneOn)
   ExpectSameOutputs(again, this->Uninterrupted(snapshots));
 }
 
-TEST_F(Checkpoints, ServeOtherEndsThreadsAndProfiles)
+TEST_F(Checkpoints, ServeOtherEndsAndThreads)
 {
   const Choice others[] = { [](vtkDeformableSurface* filter) { filter->SetFinestLevel(1); },
     [](vtkDeformableSurface* filter) { filter->SetFinestLevel(-1); },
     [](vtkDeformableSurface* filter) { filter->SetNumberOfThreads(1); },
-    [](vtkDeformableSurface* filter) { filter->SetProfile(true); },
     [](vtkDeformableSurface* filter) { filter->SetTimeLimit(1e6); },
     [](vtkDeformableSurface* filter) { filter->SetPreview(true); } };
   int number = 0;

@@ -170,7 +170,6 @@ void Polish(Evolution& e)
     LabelComponents(e);
     e.Components.DeleteDegenerate(s, e.Threads);
   }
-  e.History.CountAfterwards(s.Counts);
 }
 
 void Regularise(Evolution& e)
@@ -196,12 +195,10 @@ void Regularise(Evolution& e)
 
 void DeleteThoseInsideOut(Evolution& e)
 {
-  e.State.Counts = EditCounts();
   if (e.Unchecked > 0)
   {
     DeleteInsideOut(e);
   }
-  e.History.CountAfterwards(e.State.Counts);
 }
 
 void FindMissing(Evolution& e)
@@ -246,8 +243,6 @@ void Verify(Evolution& e)
 /** What ends a level at which the surface rests. */
 void Finish(Evolution& e)
 {
-  HistoryRow none;
-  Stopwatch watch(e.History.Iterations() > 0 ? e.History.Rows.back() : none);
   if (e.Task.MeanEdgeLength > 0.)
   {
     FitMeanEdge(e);
@@ -263,13 +258,11 @@ void Finish(Evolution& e)
   DeleteThoseInsideOut(e); // The polish may have cut.
   Verify(e);
   e.History.Finish(NumbersOf(e));
-  watch.Lap(Phase::Regularisation);
   if (!isGraded)
   {
     FindMissing(e);
   }
   ForgetBlocks(e);
-  watch.Lap(Phase::Recovery);
 }
 }
 

@@ -136,7 +136,6 @@ void RunSweep(Evolution& e)
 
   const EditCounts& counts = s.Counts;
   const bool hasChanged = e.Status.Sweep == 1 || counts.Merges + counts.Cuts + counts.Removed > 0;
-  s.Counts = EditCounts();
   if (e.Status.Sweep % InsideOutSweeps == 0 && e.Unchecked > 0)
   {
     DeleteInsideOut(e);
@@ -145,7 +144,6 @@ void RunSweep(Evolution& e)
   {
     LabelComponents(e);
   }
-  swept.Rows.back().Add(s.Counts);
   e.Status.ActiveVertices = swept.Rows.back().ActiveVertices;
   e.History.EndSweep(swept, NumbersOf(e));
 }
@@ -176,7 +174,6 @@ void Relax(Evolution& e, SurfaceIteration::Mode mode, int iterations, const Swee
         s.Velocity[v] = Vector();
       }
     });
-  e.History.CountAfterwards(s.Counts);
 }
 
 void SplitLongEdges(Evolution& e, Sweep sweep)

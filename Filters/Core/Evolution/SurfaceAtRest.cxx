@@ -136,7 +136,6 @@ void SurfaceAtRest::Save(CheckedWriter& file) const
 {
   file.Put<std::uint64_t>(sizeof(HistoryRow));
   file.PutList(this->History.Rows);
-  file.Put(this->History.Pending);
   file.Put(this->Level);
   file.Put(this->Delta);
   file.Put(this->Unchecked);
@@ -150,7 +149,6 @@ void SurfaceAtRest::Load(CheckedReader& file)
     file.Refuse("was written by another version of Volumic");
   }
   file.GetList(this->History.Rows);
-  this->History.Pending = file.Get<HistoryRow>();
   this->Level = file.Get<int>();
   this->Delta = file.Get<float>();
   this->Unchecked = file.Get<int>();

@@ -79,7 +79,7 @@ public:
 
 private:
   /** Displaces the active vertices, verifies that, and rolls back. */
-  void Move(const Dynamics& dynamics, Mode mode, Stopwatch& watch);
+  void Move(const Dynamics& dynamics, Mode mode);
   void CollectActive();
   void CollectWorking();
   void AddUnmoved(int v);
