@@ -160,8 +160,9 @@ void Polish(Evolution& e)
           wanted.push_back(v);
         }
       }
-      SurfacePolish polish(s, options.SnapsToIsoValue() ? e.TheField.get() : nullptr,
-        options.TopologyChanges, &visit.Share);
+      const bool snaps = options.Drive().SnapsTo == SurfaceDrive::Goal::IsoValue;
+      SurfacePolish polish(
+        s, snaps ? e.TheField.get() : nullptr, options.TopologyChanges, &visit.Share);
       polish.Run(wanted);
       SurfaceIteration::UpdateChanged(s, polish.TakeChanged());
     });

@@ -94,7 +94,7 @@ void Recover(Evolution& e, bool isStart = false)
 {
   const SurfaceOptions& options = e.Task.Options;
   // Without an isopotential there is no object's side to look for.
-  if (!(options.IsopotentialWeight > 0. || isStart))
+  if (!options.Drive().HasObject && !isStart)
   {
     return;
   }
@@ -196,7 +196,7 @@ void Divide(Evolution& e, const SurfaceAtRest& rest)
   const bool isGraded = e.Task.Grading.IsWanted();
   // What is too thin for the undivided mesh is lost in a descent, and must be found again. Beyond
   // the image the field is that of the level before.
-  const bool descends = e.Task.Options.FollowsFieldAlone() && e.Task.Options.RecoverLostParts;
+  const bool descends = e.Task.Options.Drive().IsPredictable && e.Task.Options.RecoverLostParts;
   if (descends && !isGraded && divisions > 0 && e.Task.Level >= 0)
   {
     DescendField(e, coarse);

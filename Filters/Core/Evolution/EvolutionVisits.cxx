@@ -118,7 +118,7 @@ void RunSweep(Evolution& e)
   const SurfaceOptions& options = e.Task.Options;
   const int iterations =
     std::min(SweptIterations, options.MaximumNumberOfIterations - e.History.Iterations());
-  const Field* evidence = options.IsopotentialWeight > 0. ? e.TheField.get() : nullptr;
+  const Field* evidence = options.Drive().HasObject ? e.TheField.get() : nullptr;
   SweptRows swept(iterations, e.Blocks->NumberOfBlocks());
   e.History.BeginSweep(s.Mesh.NumberOfVertices(), s.EulerCharacteristic);
   ++e.Status.Sweep;
