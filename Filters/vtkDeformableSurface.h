@@ -7,8 +7,9 @@
  * vtkDeformableSurface searches the boundary of an object in a 3D image: the isopotential, the
  * surface of equal value IsoValue of the interpolated image. A closed triangulated surface is
  * moved and bent by forces, merges with itself and comes apart as the object demands, first at the
- * coarsest level of an image pyramid, then, each time divided, at the finer ones. At any moment it
- * is closed, oriented, manifold and free of self-intersections. At the end of a level edges are
+ * coarsest level of an image pyramid, then, each time divided, at the finer ones. Each surface of an
+ * output is closed, oriented, manifold and free of self-intersections, also of a run that was
+ * stopped, and is tested for that. At the end of a level edges are
  * between delta and 2.5 delta long, where delta is about one voxel of the level.
  *
  * Here is what goes in and comes out, with units and errors. Documentation/reference.md of the

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Common/Refuse.h"
 #include "Core/Common/Spans.h"
 #include "Core/Evolution/CycleCriterion.h"
 #include "Core/Evolution/Evolution.h"
@@ -12,7 +13,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
-#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -229,7 +229,7 @@ void Verify(Evolution& e)
   {
     TakeRemeshed(e, before.ToIndexed(e.Threads));
   }
-  catch (const std::invalid_argument&)
+  catch (const Refusal&) // The mended surface is too thin or too small for the level.
   {
     e.State.Mesh = before;
     LayGrid(e);

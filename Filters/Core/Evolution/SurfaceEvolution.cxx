@@ -5,6 +5,7 @@
 #include "Core/Common/FreeMemory.h"
 #include "Core/Common/Refuse.h"
 #include "Core/Evolution/Evolution.h"
+#include "Core/Surface/NewFaces.h"
 
 #include <algorithm>
 #include <cmath>
@@ -113,7 +114,9 @@ void Evolution::LookAt()
 {
   if (this->Task.Look)
   {
-    this->Task.Look(this->History.Iterations(), [this] { return this->Result(); });
+    const auto take = [this]
+    { return CountIntersecting(this->State, this->Threads) == 0 ? this->Result() : SurfaceResult(); };
+    this->Task.Look(this->History.Iterations(), take);
   }
 }
 
