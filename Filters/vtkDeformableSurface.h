@@ -7,12 +7,13 @@
  * vtkDeformableSurface searches the boundary of an object in a 3D image: the isopotential, the
  * surface of equal value IsoValue of the interpolated image. A closed triangulated surface is
  * moved and bent by forces, merges with itself and comes apart as the object demands, first at the
- * coarsest level of an image pyramid, then, each time divided, at the finer ones. At any moment it
- * is closed, oriented, manifold and free of self-intersections. At the end of a level edges are
+ * coarsest level of an image pyramid, then, each time divided, at the finer ones. Each surface of an
+ * output is closed, oriented, manifold and free of self-intersections, also of a run that was
+ * stopped, and is tested for that. At the end of a level edges are
  * between delta and 2.5 delta long, where delta is about one voxel of the level.
  *
  * Here is what goes in and comes out, with units and errors. Documentation/reference.md of the
- * sources has it at length, and what only Profile gives.
+ * sources has it at length.
  *
  * @par Input:
  * - Port 0: a vtkMultiBlockDataSet from vtkImagePyramid, or a vtkImageData, for which the pyramid
@@ -77,16 +78,11 @@
  * - `Level`: that of the iteration
  * - `Vertices`, `EulerCharacteristic`: of the surface after it
  * - `Components`, `MeanEdgeLength`: of that at the end of the sweep of several iterations it is in
- * - `IterationVertices`, `IterationComponents`, `IterationEulerCharacteristic`,
- *   `IterationMeanEdgeLength`: the same, but in the last row of a level before its regularisation
- * - `RegularisationCuts`, `RegularisationDeletions`: what the regularisation changed of them
+ * - In the last row of a level these four describe the surface of the level.
  * - `KineticEnergy`: the mean over the vertices, along the normals
  * - `TimeStep`: the longest of all blocks; `ActiveVertices`: those that are not at rest
  * - `Merges`, `Cuts`, `Splits`, `Collapses`, `Flips`: how many there were
- * - `Deletions`, `DeletedGenus`: components that were deleted, and the sum of their genera
- * - `RecoveredParts`: those that were found before this iteration
- * - `AddedEulerCharacteristic`: of what was added before it
- * - `Seconds`, `SecondsBefore`, `SecondsAfter`: they add up to the run
+ * - `Seconds`: since the row before; in the last row of a level until the level is done
  *
  * @par Errors:
  * A message names the port, the array or the value, and the way out; the outputs are empty.
@@ -557,7 +553,7 @@ public:
   void ForgetRun();
 
   ///@{
-  /** More columns in the history, which tell where the time goes. Default: off. */
+  /** Has no effect; deprecated. Default: off. */
   virtual void SetProfile(bool value);
   virtual bool GetProfile();
   vtkBooleanMacro(Profile, bool);

@@ -3,6 +3,7 @@
 #include "vtkImagePyramid.h"
 
 #include "Core/Common/Join.h"
+#include "Core/Common/Refuse.h"
 #include "Core/Image/PyramidGeometry.h"
 #include "Host/Errors.h"
 #include "Host/LargeArrays.h"
@@ -30,7 +31,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -176,7 +176,7 @@ int vtkImagePyramid::CountLevels(int sizeX, int sizeY, int sizeZ) const
       OptionsOf(this->ReductionFactor, this->NumberOfLevels, this->MinimumLevelSize))
         .size());
   }
-  catch (const std::invalid_argument&)
+  catch (const volumic::Refusal&)
   {
     return 0;
   }

@@ -57,7 +57,7 @@ AlgorithmError CatchError(
   {
     return { vtkErrorCode::UnknownError, aboutMemory() };
   }
-  catch (const std::invalid_argument& refused)
+  catch (const Refusal& refused)
   {
     return { vtkErrorCode::UserError, refused.what() };
   }

@@ -37,7 +37,7 @@ struct ToldError : std::runtime_error
 /**
  * Does some work.
  * @param aboutMemory what to say where the memory does not suffice
- * @return what it throws: vtkErrorCode::UserError for std::invalid_argument (what was given is
+ * @return what it throws: vtkErrorCode::UserError for a Refusal (what was given is
  *         wrong), else vtkErrorCode::UnknownError (memory); a ToldError as it was told.
  */
 AlgorithmError CatchError(
@@ -64,7 +64,7 @@ auto PrefixErrors(const std::string& place, const Work& work) -> decltype(work()
   {
     return work();
   }
-  catch (const std::invalid_argument& error)
+  catch (const Refusal& error)
   {
     Refuse(place, error.what());
   }

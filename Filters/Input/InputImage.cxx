@@ -25,7 +25,6 @@
 #include <cmath>
 #include <cstddef>
 #include <initializer_list>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -113,7 +112,7 @@ vtkImageData* Level0OfPyramid(vtkMultiBlockDataSet* blocks)
       CheckPlace(images[0], images[h - 1], images[h], h);
     }
   }
-  catch (const std::invalid_argument&)
+  catch (const Refusal&)
   {
     return nullptr;
   }

@@ -124,7 +124,7 @@ void BeginWhereHeld(
 {
   const int last = std::exchange(choice.Coarsest, there);
   // With recovery a surface that has vanished comes again, and the way on the last level is short.
-  if (!options.IsDrivenByFieldAlone() || (options.RecoverLostParts && there == last))
+  if (!options.Drive().IsFieldAlone || (options.RecoverLostParts && there == last))
   {
     return;
   }

@@ -65,8 +65,7 @@ void SegmentationSettings::Check() const
     Refuse("Seed Radius is ", options.SeedRadius, "; it must be 0 (automatic) or more.");
   }
   CheckGrading(this->Grading, this->EdgeLength);
-  if (this->Grading.IsWanted() &&
-    (!(options.IsopotentialWeight > options.EdgeAttractionWeight) || !options.SnapToIsoValue))
+  if (this->Grading.IsWanted() && !options.Drive().LiesAtIsoValue)
   {
     Refuse(WhatGrades(this->Grading), ", but ",
       options.SnapToIsoValue ? "Isopotential Weight is not more than Edge Attraction Weight"

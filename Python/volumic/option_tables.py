@@ -230,8 +230,6 @@ PROPERTIES = (
              "arrays; they vanish with the process"),
     Property("threads", "N", "NumberOfThreads", "number of threads; 0: all; the result does not "
              "depend on it"),
-    Property("profile", "", "Profile", "add columns to --history that show where the time goes",
-             value=True),
     Property("snapshot-interval", "N", "SnapshotInterval", "iterations between two --snapshots; "
              "0: none"),
     Property("background", "LABEL", "BackgroundLabel", "with --labels: label that denotes "

@@ -29,7 +29,8 @@ NEEDS = {"edge-attraction": "edges", "probe-depth": "probe"}
 ENDED = {"resume": "a run is not resumed any more; start it again",
          "memory": "limit the memory by systemd-run -p MemoryMax=, and give --scratch DIR",
          "gap": "labels that touch share their interface",
-         "piece-size": "surfaces are not written in pieces any more"}
+         "piece-size": "surfaces are not written in pieces any more",
+         "profile": "the history has no columns of phases"}
 
 
 # ---- The command line --------------------------------------------------------------------------

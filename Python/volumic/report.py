@@ -121,12 +121,12 @@ def level_facts(surface: Any) -> list[dict[str, Any]]:
     """The member `levels`: the visited levels of the filter, from the coarsest to the finest."""
     rows, blocks, levels = surface.GetHistory().GetRowData(), surface.GetLevels(), []
     has_rows = surface.GetHistory().GetNumberOfRows() > 0
-    level, *seconds = (vtk_to_numpy(rows.GetArray(name)) if has_rows else np.zeros(0)
-                       for name in ("Level", "SecondsBefore", "Seconds", "SecondsAfter"))
+    level, seconds = (vtk_to_numpy(rows.GetArray(name)) if has_rows else np.zeros(0)
+                      for name in ("Level", "Seconds"))
     for block in map(blocks.GetBlock, range(blocks.GetNumberOfBlocks())):
         if block is not None:
             facts = surface_facts(block)
-            levels.append({**facts, "seconds": float(sum(seconds)[level == facts["level"]].sum())})
+            levels.append({**facts, "seconds": float(seconds[level == facts["level"]].sum())})
     return sorted(levels, key=lambda facts: -facts["level"])
 
 

@@ -271,8 +271,7 @@ class OptionsTest(LabelsTest):
         refused = [(f"(--labels and {option}|{option}( .*)? and --labels) exclude each other",
                     "out/ --labels 1", option, *value) for option, *value in (
                         ("--iso", "3"), ("--dark",), ("--seeds", "a.txt"), ("--history", "h.csv"),
-                        ("--seed-position", "1,2,3"), ("--levels", "2"), ("--keep", "at-points"),
-                        ("--profile",))]
+                        ("--seed-position", "1,2,3"), ("--levels", "2"), ("--keep", "at-points"))]
         refused += [(f"{option} needs --labels", "out.stl", option, *value) for option, *value in (
             ("--merge",), ("--box-faces", "flat"), ("--format", "stl"), ("--label-names", "n"))]
         for reason, line in (

@@ -158,17 +158,16 @@ TEST(SurfaceEvolutionInvalid, RefusesEveryOptionOutsideItsRange)
     double TooHigh;
   };
   const double none = std::numeric_limits<double>::quiet_NaN();
-  for (const Case& c : { Case{ "Sampling Ratio", &SurfaceOptions::SamplingRatio, 0.6, 1.01 },
-         Case{ "Tension Weight", &SurfaceOptions::TensionWeight, -0.1, 1e7 },
-         Case{ "Elasticity Weight", &SurfaceOptions::ElasticityWeight, -0.1, 1e7 },
-         Case{ "Isopotential Weight", &SurfaceOptions::IsopotentialWeight, -0.1, 1e7 },
-         Case{ "Gradient Weight", &SurfaceOptions::GradientWeight, -0.1, 1e7 },
-         Case{ "Point Attraction Weight", &SurfaceOptions::PointAttractionWeight, -0.1, 1e7 },
-         Case{ "Edge Attraction Weight", &SurfaceOptions::EdgeAttractionWeight, -0.1, 1e7 },
-         Case{ "Friction", &SurfaceOptions::Friction, 0., 1e7 },
-         Case{ "Seed Radius", &SurfaceOptions::SeedRadius, -1., 1e10 },
-         Case{ "Convergence Tolerance", &SurfaceOptions::ConvergenceTolerance, -1e-9, 1.1 },
-         Case{ "MaximumStep", &SurfaceOptions::MaximumStep, 0., 0.51 } })
+  std::vector<Case> cases = { { "Sampling Ratio", &SurfaceOptions::SamplingRatio, 0.6, 1.01 },
+    { "Friction", &SurfaceOptions::Friction, 0., 1e7 },
+    { "Seed Radius", &SurfaceOptions::SeedRadius, -1., 1e10 },
+    { "Convergence Tolerance", &SurfaceOptions::ConvergenceTolerance, -1e-9, 1.1 },
+    { "MaximumStep", &SurfaceOptions::MaximumStep, 0., 0.51 } };
+  for (const WeightOfForce& weight : WeightsOfForces)
+  {
+    cases.push_back({ weight.Name, weight.Value, -0.1, 1e7 });
+  }
+  for (const Case& c : cases)
   {
     for (const double value : { c.TooLow, c.TooHigh, none })
     {

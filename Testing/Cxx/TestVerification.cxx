@@ -137,6 +137,27 @@ TEST(Verification, TheEndOfALevelIsMended)
   }
 }
 
+TEST(Verification, NoSnapshotIntersectsItself)
+{
+  const TestVolume volume = BallVolume(32, 10);
+  Monitor silent;
+  TestEvolution evolution(TwentyIterations(), Threads, silent);
+  std::vector<std::size_t> points;
+  evolution.Task.Look = [&](int iteration, const std::function<SurfaceResult()>& take)
+  {
+    if (iteration == 20)
+    {
+      Pierce(evolution.Now->State);
+    }
+    points.push_back(take().Points.size());
+  };
+  evolution.StartEnclosing(volume.Image, 0);
+  evolution.Run();
+  ASSERT_EQ(points.size(), 4u);
+  EXPECT_GT(*std::min_element(points.begin(), points.end() - 1), 0u);
+  EXPECT_EQ(points.back(), 0u) << "it is left out";
+}
+
 TEST(Verification, WhatCannotBeMendedIsTold)
 {
   const TestVolume volume = BallVolume(32, 10);

@@ -13,7 +13,7 @@ import view_testing as views
 SURFACE, LEVELS, HISTORY, SNAPSHOTS = range(4)
 FOUR_CURVES = ["Seconds", "KineticEnergy", "MeanEdgeLength", "Vertices"]
 # On the logarithmic axis, most of them 0 in some row.
-MORE_CURVES = ["Merges", "Cuts", "EulerCharacteristic", "Collapses", "Deletions", "TimeStep"]
+MORE_CURVES = ["Merges", "Cuts", "EulerCharacteristic", "Collapses", "Flips", "TimeStep"]
 
 
 def ball(size, radius, centre=0.0):

@@ -108,10 +108,6 @@ class VolumeToSurfaceTest(testing.PluginTestCase):
         self.assertTrue(chart.LeftAxisLogScale)
         # Where no curve of a run from coarse to fine is.
         self.assertEqual(chart.LegendLocation, "BottomRight")
-        # Also with the columns of the profile.
-        filter_.Profile = 1
-        filter_.UpdatePipeline()
-        self.assertEqual(set(display.SeriesVisibility), FOUR_CURVES)
 
     def check_abort_and_the_next_apply(self, abort):
         filter_ = simple.VolumetoSurface(self.ball)

@@ -72,7 +72,6 @@ class ReferenceTest(unittest.TestCase):
         cls.surface = volumic.vtkDeformableSurface()
         cls.surface.SetInputConnection(cls.pyramid.GetOutputPort())
         cls.surface.SetIsoValue(RING_ISO)
-        cls.surface.ProfileOn()
         cls.surface.SetSnapshotInterval(20)
         cls.surface.Update()
 
@@ -176,17 +175,8 @@ class SurfaceTest(ReferenceTest):
             self.assertEqual(arrays_of(snapshot.GetFieldData()), expected)
 
     def test_history(self):
-        with_profile = {**self.tables["Columns of the history"],
-                        **self.tables["Columns of the history with Profile"]}
-        self.assertEqual(arrays_of(self.surface.GetHistory().GetRowData()), with_profile)
-
-    def test_history_without_profile(self):
-        surface = volumic.vtkDeformableSurface()
-        surface.SetInputConnection(self.pyramid.GetOutputPort())
-        surface.SetIsoValue(RING_ISO)
-        surface.SetMaximumNumberOfIterations(5)
-        surface.Update()
-        self.compare("Columns of the history", arrays_of(surface.GetHistory().GetRowData()))
+        self.compare("Columns of the history",
+                     arrays_of(self.surface.GetHistory().GetRowData()))
 
 
 class ThresholdTest(ReferenceTest):

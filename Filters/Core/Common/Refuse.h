@@ -9,11 +9,18 @@
 
 namespace volumic
 {
-/** Throws std::invalid_argument with the parts as its message: what is wrong, and the way out. */
+/** An input or an option that cannot be used. Other exceptions are errors of the program. */
+class Refusal : public std::invalid_argument
+{
+public:
+  using std::invalid_argument::invalid_argument;
+};
+
+/** Throws a Refusal with the parts as its message: what is wrong, and the way out. */
 template <typename... Parts>
 [[noreturn]] void Refuse(const Parts&... parts)
 {
-  throw std::invalid_argument(Join(parts...));
+  throw Refusal(Join(parts...));
 }
 }
 

@@ -9,7 +9,7 @@ namespace volumic
 {
 /**
  * A point or vector of the workspace. Stored in float (a quarter of a cache line with the fourth,
- * unused lane); exact tests widen it to double, in which differences of floats are exact.
+ * unused lane); tests of triangles widen it to double, in which most differences of floats are exact.
  */
 template <typename T>
 struct alignas(16) Vector3

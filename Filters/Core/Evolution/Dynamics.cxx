@@ -48,6 +48,7 @@ float Clamp(float x)
 Dynamics::Dynamics(const Field& field, const SurfaceOptions& options, Executor& executor)
   : TheField(field)
   , Options(options)
+  , SnapsTo(options.Drive().SnapsTo)
 {
   if (options.EdgeAttractionWeight > 0 && field.Image().Edges)
   {
@@ -189,12 +190,12 @@ Vector Dynamics::RelaxationOf(
   Vector pull = state.Laplacian[v];
   pull.Padding = 0;
   Vector move = (pull - n * Dot(pull, n)) * relaxation.Smoothing;
-  if (relaxation.Snap && this->Options.SnapsToIsoValue())
+  if (relaxation.Snap && this->SnapsTo == SurfaceDrive::Goal::IsoValue)
   {
     const Field::Sample sample = this->TheField.At(state.Mesh.Position[v]);
     move += n * this->TheField.StepToIso(sample, n, longest);
   }
-  if (this->Edges && this->Options.SnapsToEdges())
+  if (this->Edges && this->SnapsTo == SurfaceDrive::Goal::Edges)
   {
     const float share = this->TheField.Margin().DepthAt(state.Mesh.Position[v]).Share;
     move += n * ((1 - share) * longest * this->Edges->Along(state.Mesh.Position[v], n));

@@ -93,7 +93,7 @@ public:
 
   /**
    * Instead of Accelerate: velocities that even the mesh out tangentially and, on request, lead onto
-   * the isopotential (Newton's step along the normal), or, by SurfaceOptions::SnapsToEdges(), up to
+   * the isopotential (Newton's step along the normal), or, by SurfaceDrive::SnapsTo, up to
    * the ridge of the map of edges, never towards a contact.
    */
   void Relax(SurfaceState& state, const std::vector<int>& vertices,
@@ -132,6 +132,7 @@ private:
 
   const Field& TheField;
   const SurfaceOptions& Options;
+  const SurfaceDrive::Goal SnapsTo;
   std::unique_ptr<EdgeAttraction> Edges; ///< Null where there is none.
   bool Leaves = false;  ///< See LeaveToRegularisation.
   float Drag = 0;       ///< Friction as it acts.

@@ -24,31 +24,30 @@ struct EdgeLengthPlan
   double SamplingRatio = 0.;   ///< delta_h / U_h, in [sqrt(3)/2.5, 1]
 };
 
-/** What a plan should come near to, and what it must keep to. */
+/** Preferred factor and ratio; the other options of the pyramid are kept. */
 struct EdgeLengthPreferences
 {
-  PyramidOptions Pyramid; ///< of the factor as much as the length allows; the rest to the letter
+  PyramidOptions Pyramid;
   double SamplingRatio = 0.85;
 };
 
 /**
- * For an image of which the pyramid is still to be made. delta is T^h SamplingRatio U_0; of all
- * levels h, factors T and ratios that give it, those with the least weighted sum of squares of the
- * logarithms of T and the ratio over what is preferred. T stays within what one sqrt 3 division can
- * follow.
+ * Plan for an image whose pyramid does not exist yet. delta is SamplingRatio T^h U_0. The level h is
+ * the nearest one at the preferred T and ratio. Where these do not give delta exactly the ratio
+ * differs from the preferred one, as far as eq. (7) allows, and beyond that T differs. T stays
+ * within what one sqrt 3 division can follow.
  *
  * @param edgeLength mean length of the edges, in the unit of `spacing`, more than 0
- * @throws std::invalid_argument naming the lengths that are possible, if this one is not.
+ * @throws std::invalid_argument naming the possible lengths if this one is not among them.
  */
 EdgeLengthPlan PlanEdgeLength(double edgeLength, const LevelSize& size,
   const std::array<double, 3>& spacing, const EdgeLengthPreferences& preferences);
 
 /**
- * For levels that are there: their units are given, so only the level and the ratio can be chosen
- * (and, finer than the image, how much finer).
+ * Plan for existing levels: only the level and the ratio can be chosen, and the factor of level -1.
  *
  * @param units U_h of each level, level 0 first, in the unit of edgeLength
- * @throws std::invalid_argument naming the lengths that are possible, if this one is not.
+ * @throws std::invalid_argument naming the possible lengths if this one is not among them.
  */
 EdgeLengthPlan PlanEdgeLength(
   double edgeLength, const std::vector<double>& units, const EdgeLengthPreferences& preferences);

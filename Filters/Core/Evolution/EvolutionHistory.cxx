@@ -16,22 +16,15 @@ void HistoryRow::Add(const EditCounts& counts)
   this->Splits += counts.Splits;
   this->Collapses += counts.Collapses;
   this->Flips += counts.Flips;
-  this->Deletions += counts.Removed;
-  this->DeletedGenus += counts.RemovedGenus;
 }
 
 void HistoryRow::Add(const HistoryRow& row)
 {
-  this->Add(EditCounts{
-    row.Merges, row.Cuts, row.Splits, row.Collapses, row.Flips, row.Deletions, row.DeletedGenus });
+  this->Add(EditCounts{ row.Merges, row.Cuts, row.Splits, row.Collapses, row.Flips });
   this->Vertices += row.Vertices;
   this->EulerCharacteristic += row.EulerCharacteristic;
   this->ActiveVertices += row.ActiveVertices;
   this->TimeStep = std::max(this->TimeStep, row.TimeStep);
-  for (std::size_t i = 0; i < this->PhaseSeconds.size(); ++i)
-  {
-    this->PhaseSeconds[i] += row.PhaseSeconds[i];
-  }
 }
 
 SweptRows::SweptRows(int iterations, int blocks)
@@ -60,8 +53,6 @@ void EvolutionHistory::BeginLevel(int level)
 {
   this->Level = level;
   this->OfLevel = 0;
-  this->Pending.Recovered = 0;
-  this->Afterwards = EditCounts();
 }
 
 void EvolutionHistory::BeginSweep(int vertices, int eulerCharacteristic)
@@ -73,18 +64,8 @@ void EvolutionHistory::BeginSweep(int vertices, int eulerCharacteristic)
 
 void EvolutionHistory::EndSweep(SweptRows& swept, const SurfaceNumbers& after)
 {
-  // As if all blocks had been in the same iteration: what has changed in each, added up. The
-  // seconds are shared out as the threads that make the visits have spent them.
-  const double seconds = this->Lap();
-  HistoryRow& first = swept.Rows.front();
-  first.SecondsBefore = this->SecondsBefore;
-  first.AddedEulerCharacteristic =
-    this->EulerCharacteristic - (this->Rows.empty() ? 0 : this->Rows.back().EulerCharacteristic);
-  double spent = 0.;
-  for (const HistoryRow& row : swept.Rows)
-  {
-    spent = std::accumulate(row.PhaseSeconds.begin(), row.PhaseSeconds.end(), spent);
-  }
+  // As if all blocks had been in the same iteration: what has changed in each, added up.
+  const double seconds = this->Lap() / static_cast<double>(swept.Rows.size());
   for (std::size_t i = 0; i < swept.Rows.size(); ++i)
   {
     HistoryRow& row = swept.Rows[i];
@@ -95,30 +76,17 @@ void EvolutionHistory::EndSweep(SweptRows& swept, const SurfaceNumbers& after)
       row.Vertices = after.Vertices; // Components may have been deleted after the last visit.
       row.EulerCharacteristic = after.EulerCharacteristic;
     }
-    row.IterationVertices = row.Vertices;
-    row.IterationEulerCharacteristic = row.EulerCharacteristic;
     row.Iteration = static_cast<int>(this->Rows.size()) + 1;
     row.Level = this->Level;
-    row.Components = row.IterationComponents = after.Components;
-    row.MeanEdgeLength = row.IterationMeanEdgeLength = after.MeanEdgeLength;
+    row.Components = after.Components;
+    row.MeanEdgeLength = after.MeanEdgeLength;
     const std::vector<double>& energy = swept.KineticEnergy[i];
     row.KineticEnergy =
       std::accumulate(energy.begin(), energy.end(), 0.) / std::max(row.Vertices, 1);
-    row.Seconds = spent > 0. ? 0. : seconds / static_cast<double>(swept.Rows.size());
-    for (double& ofPhase : row.PhaseSeconds)
-    {
-      ofPhase *= spent > 0. ? seconds / spent : 0.;
-      row.Seconds += ofPhase;
-    }
-    if (this->OfLevel++ == 0)
-    {
-      row.Add(this->Pending);
-      row.Recovered = this->Pending.Recovered;
-      this->Pending = HistoryRow();
-    }
+    row.Seconds = seconds + std::exchange(this->SecondsBefore, 0.);
     this->Rows.push_back(row);
   }
-  this->Afterwards = EditCounts();
+  this->OfLevel += static_cast<int>(swept.Rows.size());
 }
 
 void EvolutionHistory::Finish(const SurfaceNumbers& regularised)
@@ -130,17 +98,14 @@ void EvolutionHistory::Finish(const SurfaceNumbers& regularised)
     last.EulerCharacteristic = regularised.EulerCharacteristic;
     last.Components = regularised.Components;
     last.MeanEdgeLength = regularised.MeanEdgeLength;
-    last.RegularisationCuts = this->Afterwards.Cuts;
-    last.RegularisationDeletions = this->Afterwards.Removed;
   }
 }
 
 void EvolutionHistory::EndLevel()
 {
-  const double seconds = this->Lap();
   if (this->OfLevel > 0)
   {
-    this->Rows.back().SecondsAfter += seconds;
+    this->Rows.back().Seconds += this->Lap();
   }
 }
 }

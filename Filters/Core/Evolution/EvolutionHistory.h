@@ -5,45 +5,17 @@
 
 #include "Core/Surface/SurfaceState.h"
 
-#include <array>
 #include <chrono>
 #include <mutex>
 #include <vector>
 
 namespace volumic
 {
-/** Parts of an iteration, and of what lies between two, in the order of HistoryRow::PhaseSeconds.
- */
-enum class Phase
-{
-  Forces,
-  Contact,
-  Proximity,
-  Verification,
-  Remeshing,
-  Topology,
-  Division,       ///< Division, start.
-  Recovery,       ///< Of lost parts.
-  Regularisation, ///< The final one.
-  Count
-};
-
 /**
- * One iteration, and what comes before the first and after the last one of a level. Lengths are
- * those of the workspace.
- *
- * What happens to the Euler characteristic is explained row by row:
- *
- *   IterationEulerCharacteristic = EulerCharacteristic of the row before, 0 in the first,
- *     + AddedEulerCharacteristic + 2 (Cuts - Merges - Deletions + DeletedGenus)
- *   EulerCharacteristic = IterationEulerCharacteristic
- *     + 2 (RegularisationCuts - RegularisationDeletions)
- *
- * (and, if a regularisation should ever delete a component with handles, twice their number).
- * SecondsBefore, Seconds and SecondsAfter of all rows follow each other without a gap. Iterations
- * are made in sweeps of five over the blocks (SurfaceBlocks): a row adds up what all blocks did in
- * the same one; MeanEdgeLength and Components are those at the end of the sweep, TimeStep the
- * longest.
+ * An iteration. Lengths are those of the workspace. Iterations are made in sweeps of five over the
+ * blocks (SurfaceBlocks): a row adds up what all blocks did in the same one. MeanEdgeLength and
+ * Components are those at the end of the sweep. In the last row of a level Vertices, MeanEdgeLength,
+ * EulerCharacteristic and Components are those of the surface that the level hands over.
  */
 struct HistoryRow
 {
@@ -52,35 +24,19 @@ struct HistoryRow
   int Vertices = 0;
   double KineticEnergy = 0.; ///< Mean over vertices of half the squared speed along the normal.
   double MeanEdgeLength = 0.;
-  double Seconds = 0.; ///< Of those of its sweep, what was spent in this iteration.
-  double TimeStep = 0.;
+  double Seconds = 0.; ///< Since the row before; see EvolutionHistory::EndSweep() and EndLevel().
+  double TimeStep = 0.; ///< The longest of all blocks.
   int ActiveVertices = 0;
   int Merges = 0;
   int Cuts = 0;
   int Splits = 0;
   int Collapses = 0;
   int Flips = 0;
-  /** Like Vertices, MeanEdgeLength, Components: in the last row of a level as regularised. */
   int EulerCharacteristic = 0;
   int Components = 0;
-  int Recovered = 0;    ///< Lost parts and cavities enclosed again before the first of a level.
-  int Deletions = 0;    ///< Components deleted.
-  int DeletedGenus = 0; ///< Sum of their genera.
-  /** Of what came new before this iteration: the start, what encloses lost parts. */
-  int AddedEulerCharacteristic = 0;
-  /** What the iteration itself has left: the same but for the last one of a level. */
-  int IterationVertices = 0;
-  double IterationMeanEdgeLength = 0.;
-  int IterationEulerCharacteristic = 0;
-  int IterationComponents = 0;
-  int RegularisationCuts = 0;
-  int RegularisationDeletions = 0;
-  double SecondsBefore = 0.; ///< Between the row before, or the start of the clock, and this one.
-  double SecondsAfter = 0.;  ///< After the last iteration of a level, until EndLevel().
-  std::array<double, static_cast<int>(Phase::Count)> PhaseSeconds{};
 
   void Add(const EditCounts& counts);
-  /** What another block did in the same iteration; the longer of the two time steps. */
+  /** Add what another block did in the same iteration. */
   void Add(const HistoryRow& row);
 };
 
@@ -111,15 +67,13 @@ struct SurfaceNumbers
   double MeanEdgeLength = 0.;
 };
 
-/** Looks on as a surface evolves: a row for each iteration of all levels, and clocks. */
+/** Looks on as a surface evolves: a row for each iteration of all levels. */
 class EvolutionHistory
 {
 public:
   using Clock = std::chrono::steady_clock;
 
   std::vector<HistoryRow> Rows;
-  /** What comes before a level's first iteration: its phases, and what is recovered. */
-  HistoryRow Pending;
 
   /** When the time begins that counts to the next row. */
   void StartClock(Clock::time_point start) { this->LastLap = start; }
@@ -129,14 +83,13 @@ public:
   int Iterations() const { return this->OfLevel; }
 
   void BeginSweep(int vertices, int eulerCharacteristic);
-  /** Takes the rows of a sweep that is over. */
+  /** Takes the rows of a sweep that is over; they share its seconds, and the first has those before.
+   */
   void EndSweep(SweptRows& swept, const SurfaceNumbers& after);
-  /** What the regularisation, and all that comes after the last sweep, has edited. */
-  void CountAfterwards(const EditCounts& edits) { this->Afterwards += edits; }
   /** After that the last row tells of the surface as it is handed over. */
   void Finish(const SurfaceNumbers& regularised);
 
-  /** To be called when all is done with the surface of a level: the seconds until now are its. */
+  /** Add the seconds until now to the last row, when all is done with the surface of a level. */
   void EndLevel();
 
 private:
@@ -146,29 +99,8 @@ private:
   int OfLevel = 0;
   int Vertices = 0;            ///< Before the last sweep.
   int EulerCharacteristic = 0; ///< Likewise.
-  EditCounts Afterwards;
-  double SecondsBefore = 0.; ///< The last sweep.
+  double SecondsBefore = 0.;   ///< The last sweep.
   Clock::time_point LastLap = Clock::now();
-};
-
-/** Adds the time since it was made, or since the last call, to a phase. */
-class Stopwatch
-{
-public:
-  /** The row must outlive the object. */
-  explicit Stopwatch(HistoryRow& row) : Row(row), Last(EvolutionHistory::Clock::now()) {}
-
-  void Lap(Phase phase)
-  {
-    const auto now = EvolutionHistory::Clock::now();
-    this->Row.PhaseSeconds[static_cast<int>(phase)] +=
-      std::chrono::duration<double>(now - this->Last).count();
-    this->Last = now;
-  }
-
-private:
-  HistoryRow& Row;
-  EvolutionHistory::Clock::time_point Last;
 };
 }
 

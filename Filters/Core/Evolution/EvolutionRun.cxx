@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Common/Refuse.h"
 #include "Core/Common/Spans.h"
 #include "Core/Evolution/CycleCriterion.h"
 #include "Core/Evolution/Evolution.h"
@@ -12,7 +13,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
-#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -160,8 +160,9 @@ void Polish(Evolution& e)
           wanted.push_back(v);
         }
       }
-      SurfacePolish polish(s, options.SnapsToIsoValue() ? e.TheField.get() : nullptr,
-        options.TopologyChanges, &visit.Share);
+      const bool snaps = options.Drive().SnapsTo == SurfaceDrive::Goal::IsoValue;
+      SurfacePolish polish(
+        s, snaps ? e.TheField.get() : nullptr, options.TopologyChanges, &visit.Share);
       polish.Run(wanted);
       SurfaceIteration::UpdateChanged(s, polish.TakeChanged());
     });
@@ -170,7 +171,6 @@ void Polish(Evolution& e)
     LabelComponents(e);
     e.Components.DeleteDegenerate(s, e.Threads);
   }
-  e.History.CountAfterwards(s.Counts);
 }
 
 void Regularise(Evolution& e)
@@ -196,12 +196,10 @@ void Regularise(Evolution& e)
 
 void DeleteThoseInsideOut(Evolution& e)
 {
-  e.State.Counts = EditCounts();
   if (e.Unchecked > 0)
   {
     DeleteInsideOut(e);
   }
-  e.History.CountAfterwards(e.State.Counts);
 }
 
 void FindMissing(Evolution& e)
@@ -231,7 +229,7 @@ void Verify(Evolution& e)
   {
     TakeRemeshed(e, before.ToIndexed(e.Threads));
   }
-  catch (const std::invalid_argument&)
+  catch (const Refusal&) // The mended surface is too thin or too small for the level.
   {
     e.State.Mesh = before;
     LayGrid(e);
@@ -246,8 +244,6 @@ void Verify(Evolution& e)
 /** What ends a level at which the surface rests. */
 void Finish(Evolution& e)
 {
-  HistoryRow none;
-  Stopwatch watch(e.History.Iterations() > 0 ? e.History.Rows.back() : none);
   if (e.Task.MeanEdgeLength > 0.)
   {
     FitMeanEdge(e);
@@ -263,13 +259,11 @@ void Finish(Evolution& e)
   DeleteThoseInsideOut(e); // The polish may have cut.
   Verify(e);
   e.History.Finish(NumbersOf(e));
-  watch.Lap(Phase::Regularisation);
   if (!isGraded)
   {
     FindMissing(e);
   }
   ForgetBlocks(e);
-  watch.Lap(Phase::Recovery);
 }
 }
 

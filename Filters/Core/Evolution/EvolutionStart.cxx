@@ -94,7 +94,7 @@ void Recover(Evolution& e, bool isStart = false)
 {
   const SurfaceOptions& options = e.Task.Options;
   // Without an isopotential there is no object's side to look for.
-  if (!(options.IsopotentialWeight > 0. || isStart))
+  if (!options.Drive().HasObject && !isStart)
   {
     return;
   }
@@ -118,7 +118,6 @@ void Recover(Evolution& e, bool isStart = false)
   e.Lost.EnclosedCavities = cavities.Covered;
   e.Boundary.Add(objects.Boundary);
   e.Boundary.Add(cavities.Boundary);
-  e.History.Pending.Recovered = isStart ? 0 : e.Lost.Enclosed + e.Lost.EnclosedCavities;
   for (const PartKind kind : { PartKind::Object, PartKind::Cavity })
   {
     const LostPartCover& cover = kind == PartKind::Object ? objects : cavities;
@@ -150,14 +149,12 @@ void Start(Evolution& e, const SurfaceStart& start)
     CheckInitialSurface(start.Surface);
     CheckOverlapsImage(start.Surface, e.Task.Image);
   }
-  Stopwatch watch(e.History.Pending);
   Enter(e);
   const bool isIso = start.From == Kind::IsoSurface;
   if (start.From == Kind::EnclosingParts || isIso)
   {
     Renumber(e);
     Recover(e, isIso);
-    watch.Lap(Phase::Recovery);
   }
   const bool isEnclosed = e.Lost.Enclosed > 0 || (start.From == Kind::EnclosingParts && e.Stopped);
   if (start.From == Kind::Surface)
@@ -184,12 +181,10 @@ void Start(Evolution& e, const SurfaceStart& start)
     Renumber(e);
     e.GoOn(Monitor::Activity::Starting, 1.);
   }
-  watch.Lap(Phase::Division);
 }
 
 void Divide(Evolution& e, const SurfaceAtRest& rest)
 {
-  Stopwatch watch(e.History.Pending);
   e.Unchecked = rest.Unchecked;
   const double coarse = rest.Delta;
   Enter(e);
@@ -201,7 +196,7 @@ void Divide(Evolution& e, const SurfaceAtRest& rest)
   const bool isGraded = e.Task.Grading.IsWanted();
   // What is too thin for the undivided mesh is lost in a descent, and must be found again. Beyond
   // the image the field is that of the level before.
-  const bool descends = e.Task.Options.FollowsFieldAlone() && e.Task.Options.RecoverLostParts;
+  const bool descends = e.Task.Options.Drive().IsPredictable && e.Task.Options.RecoverLostParts;
   if (descends && !isGraded && divisions > 0 && e.Task.Level >= 0)
   {
     DescendField(e, coarse);
@@ -211,7 +206,6 @@ void Divide(Evolution& e, const SurfaceAtRest& rest)
   {
     goesOn = DivideAll(e, divisions);
   }
-  watch.Lap(Phase::Division);
   goesOn = e.GoOn(Monitor::Activity::Dividing, 1.) && goesOn;
   if (goesOn)
   {
@@ -221,7 +215,6 @@ void Divide(Evolution& e, const SurfaceAtRest& rest)
   {
     ActivateWhereOff(e, Dynamics::LeftOff);
   }
-  watch.Lap(Phase::Recovery);
   e.GoOn(Monitor::Activity::Recovering, 1.);
 }
 }

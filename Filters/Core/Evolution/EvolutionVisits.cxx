@@ -117,7 +117,7 @@ void RunSweep(Evolution& e)
   const SurfaceOptions& options = e.Task.Options;
   const int iterations =
     std::min(SweptIterations, options.MaximumNumberOfIterations - e.History.Iterations());
-  const Field* evidence = options.IsopotentialWeight > 0. ? e.TheField.get() : nullptr;
+  const Field* evidence = options.Drive().HasObject ? e.TheField.get() : nullptr;
   SweptRows swept(iterations, e.Blocks->NumberOfBlocks());
   e.History.BeginSweep(s.Mesh.NumberOfVertices(), s.EulerCharacteristic);
   ++e.Status.Sweep;
@@ -135,7 +135,6 @@ void RunSweep(Evolution& e)
 
   const EditCounts& counts = s.Counts;
   const bool hasChanged = e.Status.Sweep == 1 || counts.Merges + counts.Cuts + counts.Removed > 0;
-  s.Counts = EditCounts();
   if (e.Status.Sweep % InsideOutSweeps == 0 && e.Unchecked > 0)
   {
     DeleteInsideOut(e);
@@ -144,7 +143,6 @@ void RunSweep(Evolution& e)
   {
     LabelComponents(e);
   }
-  swept.Rows.back().Add(s.Counts);
   e.Status.ActiveVertices = swept.Rows.back().ActiveVertices;
   e.History.EndSweep(swept, NumbersOf(e));
 }
@@ -175,7 +173,6 @@ void Relax(Evolution& e, SurfaceIteration::Mode mode, int iterations, const Swee
         s.Velocity[v] = Vector();
       }
     });
-  e.History.CountAfterwards(s.Counts);
 }
 
 void SplitLongEdges(Evolution& e, Sweep sweep)

@@ -5,6 +5,7 @@
 #include "Core/Common/FreeMemory.h"
 #include "Core/Common/Refuse.h"
 #include "Core/Evolution/Evolution.h"
+#include "Core/Surface/NewFaces.h"
 
 #include <algorithm>
 #include <cmath>
@@ -79,12 +80,10 @@ std::string Verdict::Describe(int level) const
 void CheckOptions(const SurfaceOptions& options)
 {
   CheckRange("Sampling Ratio", options.SamplingRatio, SizingField::LeastSamplingRatio - 1e-6, 1.);
-  CheckRange("Tension Weight", options.TensionWeight, 0., 1e6);
-  CheckRange("Elasticity Weight", options.ElasticityWeight, 0., 1e6);
-  CheckRange("Isopotential Weight", options.IsopotentialWeight, 0., 1e6);
-  CheckRange("Gradient Weight", options.GradientWeight, 0., 1e6);
-  CheckRange("Point Attraction Weight", options.PointAttractionWeight, 0., 1e6);
-  CheckRange("Edge Attraction Weight", options.EdgeAttractionWeight, 0., 1e6);
+  for (const WeightOfForce& weight : WeightsOfForces)
+  {
+    CheckRange(weight.Name, options.*weight.Value, 0., 1e6);
+  }
   CheckRange("Friction", options.Friction, 1e-6, 1e6);
   CheckRange("Seed Radius", options.SeedRadius, 0., 1e9);
   CheckRange("Convergence Tolerance", options.ConvergenceTolerance, 0., 1.);
@@ -115,7 +114,9 @@ void Evolution::LookAt()
 {
   if (this->Task.Look)
   {
-    this->Task.Look(this->History.Iterations(), [this] { return this->Result(); });
+    const auto take = [this]
+    { return CountIntersecting(this->State, this->Threads) == 0 ? this->Result() : SurfaceResult(); };
+    this->Task.Look(this->History.Iterations(), take);
   }
 }
 

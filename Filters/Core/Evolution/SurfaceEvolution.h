@@ -74,7 +74,10 @@ struct LevelTask
    * edges become longer where it rests, as far as it stays within that of the isopotential.
    */
   volumic::Grading Grading;
-  /** Called when the surface has come to the level, and after each sweep; take() hands it out. */
+  /**
+   * Called when the surface has come to the level, and after each sweep. take() returns the surface,
+   * or an empty one if a test of all faces finds an intersection.
+   */
   std::function<void(int iteration, const std::function<SurfaceResult()>& take)> Look;
 };
 
@@ -90,7 +93,7 @@ struct LostParts
 };
 
 /**
- * What the exact tests of all faces have found at the end: vertices whose faces intersected others,
+ * What the tests of all faces have found at the end: vertices whose faces intersected others,
  * 0 but for an error of Volumic, and how many are left after the surface has got another mesh.
  */
 struct Verdict
@@ -122,7 +125,7 @@ void CheckOptions(const SurfaceOptions& options);
  * until it rests, cycles, has had its iterations, nothing is left or the monitor has said stop, after
  * which this is not asked again.
  *
- * Whenever it is looked at, and at the end, it is closed, oriented, manifold and free of
+ * Whenever it is taken, and at the end, it is closed, oriented, manifold and verified to be free of
  * self-intersections; at the end no component is inside out. Bit-identical for any executor.
  *
  * @param rest what the level before has left; afterwards what this one leaves, which must have come

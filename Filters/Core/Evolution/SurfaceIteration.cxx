@@ -315,24 +315,20 @@ HistoryRow SurfaceIteration::Run(const Dynamics& dynamics, Mode mode)
   const int added = share.Room.Added;
   const int characteristic = share.EulerCharacteristic;
   HistoryRow row;
-  Stopwatch watch(row);
   this->CollectActive();
   row.ActiveVertices = static_cast<int>(this->Active.size());
-  this->Move(dynamics, mode, watch);
+  this->Move(dynamics, mode);
   row.TimeStep = this->Step.Time;
 
   if (mode == Mode::Evolve)
   {
     this->Edits.Merge(this->Near.Pairs());
   }
-  watch.Lap(Phase::Topology);
   this->RestoreConstraints();
-  watch.Lap(Phase::Remeshing);
   this->WatchComponents();
   assert(std::all_of(this->Working.begin(), this->Working.end(),
     [this, &s](int v)
     { return !s.Mesh.IsAlive(v) || this->Visit.Written.Contains(s.Mesh.Position[v]); }));
-  watch.Lap(Phase::Topology);
 
   row.Add(share.Counts - counts);
   row.Vertices = share.Room.Added - added;
@@ -341,7 +337,7 @@ HistoryRow SurfaceIteration::Run(const Dynamics& dynamics, Mode mode)
   return row;
 }
 
-void SurfaceIteration::Move(const Dynamics& dynamics, Mode mode, Stopwatch& watch)
+void SurfaceIteration::Move(const Dynamics& dynamics, Mode mode)
 {
   SurfaceState& s = this->State;
   Executor& idle = *this->Visit.Idle;
@@ -355,24 +351,19 @@ void SurfaceIteration::Move(const Dynamics& dynamics, Mode mode, Stopwatch& watc
     dynamics.Relax(
       s, this->Active, this->Near.Pairs(), RelaxationOf(mode), this->Step, idle);
   }
-  watch.Lap(Phase::Forces);
 
   dynamics.Displace(s, this->Active, this->Step);
   this->CollectWorking();
   s.UpdateShape(this->Working, idle);
-  watch.Lap(Phase::Contact);
 
   this->SplitBeforeVerification();
-  watch.Lap(Phase::Remeshing);
 
   this->CollectSuspects();
   this->Near.Examine(s, this->Suspects, idle);
-  watch.Lap(Phase::Proximity);
   this->RollBack();
   if (evolves)
   {
     dynamics.Freeze(s, this->Active, this->Working);
   }
-  watch.Lap(Phase::Verification);
 }
 }

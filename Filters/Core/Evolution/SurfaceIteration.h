@@ -19,16 +19,16 @@ namespace volumic
  * The iterations of a visit: velocities, displacement, splits, verification with roll back, merges
  * and cuts, the other edits, components that must go. It keeps what one iteration tells the next:
  * which pairs of vertices are close, which components are small. Before and after each call the
- * surface is closed, oriented, manifold and free of intersections. Sequential, but for forces,
+ * surface is closed, oriented, manifold and, under the bound below, free of intersections. Sequential, but for forces,
  * shapes and the search for what is near, in which idle threads share (BlockVisit::Idle); others may
  * be at work in visits of blocks that do not touch this one.
  *
  * Why it stays free of them, by what changes the mesh:
  * - Splits change no place of the surface, but for rounding, less than SizingField::Contact. They
  *   come first and last, so that no edge is longer than eq. (1) allows when anything is looked for.
- * - Collapses, flips, removals, moves, merges and cuts: SurfaceEditor tests each new face exactly
+ * - Collapses, flips, removals, moves, merges and cuts: SurfaceEditor tests each new face
  *   against all that it can reach (NewFacesIntersect), before it edits; none is left out.
- * - Displacements: Proximity tests exactly what is within reach and faces the other way, or is a
+ * - Displacements: Proximity tests what is within reach and faces the other way, or is a
  *   star that may be folded. Where two parts of a surface first meet in the course of it, each lies
  *   on its own side of the surface, so a plane touches both and parts them: a normal of one is the
  *   opposite of one of the other, if those of an edge or a corner are all between those of its
@@ -37,10 +37,10 @@ namespace volumic
  *   half a delta at most. What intersects is rolled back, and more about it, in the last round all:
  *   that is the mesh of before, which needs no test.
  * - Deletions take whole components away.
- * Divisions are tested like displacements. That normals do not turn by more is what was found, not
- * what is enforced: a level therefore tests all faces against all others, whatever their
- * normals are, at the end of a level, or of a run that was stopped, and in a given start
- * (CountIntersecting).
+ * Divisions are tested like displacements. The tests are conservative (TrianglesIntersect). The bound
+ * of 30 degrees is an observation: so all faces are tested against all others, whatever their normals
+ * are, wherever a surface is handed out: a given start, a snapshot, the end of a level and a run that
+ * was stopped (CountIntersecting).
  */
 class SurfaceIteration
 {
@@ -79,7 +79,7 @@ public:
 
 private:
   /** Displaces the active vertices, verifies that, and rolls back. */
-  void Move(const Dynamics& dynamics, Mode mode, Stopwatch& watch);
+  void Move(const Dynamics& dynamics, Mode mode);
   void CollectActive();
   void CollectWorking();
   void AddUnmoved(int v);

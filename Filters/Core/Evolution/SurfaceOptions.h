@@ -9,6 +9,29 @@
 
 namespace volumic
 {
+/** What drives the surface: all that depends on which forces act. See SurfaceOptions::Drive(). */
+struct SurfaceDrive
+{
+  enum class Goal
+  {
+    None,
+    IsoValue,
+    Edges ///< The ridges of LevelImage::Edges.
+  };
+
+  /** The values of voxels determine what the object is: parts can be missing, and merges right. */
+  bool HasObject = false;
+  /** No force beside the isopotential force can stop the surface off the isopotential. */
+  bool IsFieldAlone = false;
+  /** The final position is known before a level begins: the surface may descend the field first. */
+  bool IsPredictable = false;
+  /** The surface of a level lies at the iso-value, from which tolerance and thickness are measured.
+   */
+  bool LiesAtIsoValue = false;
+  /** What vertices snap to at the end of a level. */
+  Goal SnapsTo = Goal::None;
+};
+
 /**
  * All properties of the deformable surface, with their only defaults.
  * Weights are relative to a mass of 1 per vertex; forces are measured in delta, so that one set
@@ -45,8 +68,6 @@ struct SurfaceOptions : FieldOptions
    * the surface may rest at edges that are not at the iso-value, onto the edges near them instead.
    */
   bool SnapToIsoValue = true;
-  bool SnapsToEdges() const { return this->SnapToIsoValue && this->EdgeAttractionWeight > 0.; }
-  bool SnapsToIsoValue() const { return this->SnapToIsoValue && !this->SnapsToEdges(); }
 
   /**
    * After a division, parts of the object that the coarser level did not resolve, and that the
@@ -63,17 +84,36 @@ struct SurfaceOptions : FieldOptions
    */
   double BlockSide = 0.;
 
-  /** Whether no other force stops the surface: the object is what the values of voxels tell. */
-  bool IsDrivenByFieldAlone() const
+  /** Return what drives the surface. The only place that derives it from the weights. */
+  SurfaceDrive Drive() const
   {
-    return this->IsopotentialWeight > 0. && !(this->GradientWeight > 0.) &&
-      !(this->EdgeAttractionWeight > 0.);
+    using Goal = SurfaceDrive::Goal;
+    const bool hasEdges = this->EdgeAttractionWeight > 0.;
+    SurfaceDrive drive;
+    drive.HasObject = this->IsopotentialWeight > 0.;
+    drive.IsFieldAlone = drive.HasObject && !hasEdges && !(this->GradientWeight > 0.);
+    drive.IsPredictable =
+      drive.IsFieldAlone && this->SnapToIsoValue && this->FreezeMotionlessVertices;
+    drive.LiesAtIsoValue =
+      this->SnapToIsoValue && this->IsopotentialWeight > this->EdgeAttractionWeight;
+    drive.SnapsTo = !this->SnapToIsoValue ? Goal::None : hasEdges ? Goal::Edges : Goal::IsoValue;
+    return drive;
   }
-  /** Whether, so, where it is to lie is known before a level begins. */
-  bool FollowsFieldAlone() const
-  {
-    return this->IsDrivenByFieldAlone() && this->SnapToIsoValue && this->FreezeMotionlessVertices;
-  }
+};
+
+/** Weight of a force, 0 or more, with the label of its property. */
+struct WeightOfForce
+{
+  const char* Name;
+  double SurfaceOptions::*Value;
+};
+inline constexpr WeightOfForce WeightsOfForces[] = {
+  { "Tension Weight", &SurfaceOptions::TensionWeight },
+  { "Elasticity Weight", &SurfaceOptions::ElasticityWeight },
+  { "Isopotential Weight", &SurfaceOptions::IsopotentialWeight },
+  { "Gradient Weight", &SurfaceOptions::GradientWeight },
+  { "Point Attraction Weight", &SurfaceOptions::PointAttractionWeight },
+  { "Edge Attraction Weight", &SurfaceOptions::EdgeAttractionWeight },
 };
 }
 

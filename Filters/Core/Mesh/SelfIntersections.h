@@ -19,8 +19,8 @@ struct IntersectionWork
 };
 
 /**
- * Number of intersecting pairs of triangles, neighbours included, by exact tests of the points
- * rounded to float. Triangles of all sizes may be mixed: the time is that of n log n boxes, and of
+ * Number of intersecting pairs of triangles, neighbours included, by conservative tests
+ * (TrianglesIntersect) of the points rounded to float. Triangles of all sizes may be mixed: the time is that of n log n boxes, and of
  * the pairs whose boxes overlap. Stops counting at `limit` (0: never).
  */
 int CountSelfIntersections(

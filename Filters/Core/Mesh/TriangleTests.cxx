@@ -31,7 +31,7 @@ double Side(const double* a, const double* b, const double* c)
   return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
 
-/** In the plane, without tolerance: products of differences of floats are exact in double. */
+/** In the plane, without tolerance, rounded in double. */
 bool SegmentsCross(const double* p, const double* q, const double* a, const double* b)
 {
   const double sp = Side(a, b, p);

@@ -22,7 +22,7 @@ MeshTriangle TriangleOf(const SurfaceMesh& mesh, int a, int b, int c);
 /**
  * Whether two triangles of one mesh intersect anywhere but in the corners or the edge they share.
  *
- * Coordinates must come from floats. The test errs on the safe side: triangles that come nearer
+ * Coordinates must come from floats. The test is conservative: triangles that come nearer
  * than about `tolerance` (a length) count as intersecting, so a "no" also survives the rounding of
  * a later map to world coordinates. Two that share an edge intersect when they are folded onto each
  * other to within about a degree.

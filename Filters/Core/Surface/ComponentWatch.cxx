@@ -176,7 +176,6 @@ bool ComponentWatch::DeleteDegenerate(SurfaceState& state, EditShare* share)
           state.TakeComponentAway(small.Vertices.front(), &share->Room);
         share->EulerCharacteristic -= removed.EulerCharacteristic;
         ++share->Counts.Removed;
-        share->Counts.RemovedGenus += 1 - removed.EulerCharacteristic / 2;
       }
       else
       {

@@ -13,7 +13,7 @@ namespace volumic
 {
 namespace
 {
-/** Room, in delta, on one side of a plane that tells two faces apart without an exact test. */
+/** Room, in delta, on one side of a plane that tells two faces apart without a test of triangles. */
 constexpr float RoomBesidePlane = 0.01f;
 /** Least cosine between two faces at an edge that are certainly not folded onto each other. */
 constexpr float Unfolded = -0.99f;
@@ -32,7 +32,7 @@ constexpr std::size_t TestedSpan = 512;
 struct NewFace
 {
   NewFace(const MeshTriangle& face, float delta)
-    : Exact(face)
+    : Corners(face)
     , Place(face.Corner[0])
     , Bounds(Box::Of(this->Place, Vector(face.Corner[1]), Vector(face.Corner[2])))
   {
@@ -52,19 +52,19 @@ struct NewFace
     {
       return false;
     }
-    const int* name = this->Exact.Vertex;
+    const int* name = this->Corners.Vertex;
     int shared = 0;
     bool above = true;
     bool below = true;
     for (int k = 0; k < 3; ++k)
     {
-      const int corner = other.Exact.Vertex[k];
+      const int corner = other.Corners.Vertex[k];
       if (corner == name[0] || corner == name[1] || corner == name[2])
       {
         ++shared;
         continue;
       }
-      const float height = Dot(this->Normal, Vector(other.Exact.Corner[k]) - this->Place);
+      const float height = Dot(this->Normal, Vector(other.Corners.Corner[k]) - this->Place);
       above = above && height > room;
       below = below && height < -room;
     }
@@ -72,7 +72,7 @@ struct NewFace
                       : shared == 2 && Dot(this->Normal, other.Normal) > Unfolded;
   }
 
-  const MeshTriangle& Exact;
+  const MeshTriangle& Corners;
   Vector Place;
   Box Bounds;
   Vector Normal; ///< Unit.
@@ -93,13 +93,13 @@ bool Intersect(
 
 bool IntersectEachOther(const SurfaceState& state, const std::vector<NewFace>& faces)
 {
-  const float room = RoomBesidePlane * state.Sizing.At(faces[0].Exact.Vertex[0]);
+  const float room = RoomBesidePlane * state.Sizing.At(faces[0].Corners.Vertex[0]);
   for (std::size_t i = 0; i < faces.size(); ++i)
   {
     for (std::size_t j = i + 1; j < faces.size(); ++j)
     {
       if (!faces[i].IsClearOf(faces[j], room) && !faces[j].IsClearOf(faces[i], room) &&
-        Intersect(state, faces[i].Exact, faces[j].Exact))
+        Intersect(state, faces[i].Corners, faces[j].Corners))
       {
         return true;
       }
@@ -125,7 +125,7 @@ bool IntersectFace(const SurfaceState& state, const std::vector<NewFace>& news, 
     [&](const NewFace& face)
     {
       return isNear(face) && !face.IsClearOf(other, room) && !other.IsClearOf(face, room) &&
-        Intersect(state, face.Exact, triangle);
+        Intersect(state, face.Corners, triangle);
     });
 }
 }

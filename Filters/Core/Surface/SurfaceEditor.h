@@ -47,8 +47,8 @@ struct EditShare
 
 /**
  * Verified edits of the live surface: each checks the mesh (manifold), the constraints (lengths,
- * normals that turn little) and, by exact tests of the faces that it would make, that none will
- * intersect another; only then it edits and keeps grid, properties, chi and counts in step. A split
+ * normals that turn little) and, by conservative tests of the faces that it would make, that none
+ * will intersect another; only then it edits and keeps grid, properties, chi and counts in step. A split
  * changes no geometry and needs no test.
  * Sequential, in the order called; others may edit elsewhere at the same time, see EditShare.
  */

@@ -207,7 +207,6 @@ int SurfaceState::RemoveComponent(int v)
   const RemovedComponent removed = this->TakeComponentAway(v, nullptr);
   this->EulerCharacteristic -= removed.EulerCharacteristic;
   ++this->Counts.Removed;
-  this->Counts.RemovedGenus += 1 - removed.EulerCharacteristic / 2;
   return removed.Vertices;
 }
 }

@@ -24,15 +24,14 @@ struct EditCounts
   int Splits = 0;
   int Collapses = 0;
   int Flips = 0;
-  int Removed = 0;      ///< Components deleted.
-  int RemovedGenus = 0; ///< Sum of their genera.
+  int Removed = 0; ///< Components deleted.
 
   EditCounts operator-(const EditCounts& less) const
   {
     EditCounts counts = less;
     for (int EditCounts::*count :
       { &EditCounts::Merges, &EditCounts::Cuts, &EditCounts::Splits, &EditCounts::Collapses,
-        &EditCounts::Flips, &EditCounts::Removed, &EditCounts::RemovedGenus })
+        &EditCounts::Flips, &EditCounts::Removed })
     {
       counts.*count = this->*count - less.*count;
     }
@@ -46,7 +45,6 @@ struct EditCounts
     this->Collapses += more.Collapses;
     this->Flips += more.Flips;
     this->Removed += more.Removed;
-    this->RemovedGenus += more.RemovedGenus;
     return *this;
   }
 };
