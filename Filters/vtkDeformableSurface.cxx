@@ -5,7 +5,6 @@
 #include "Core/Common/ScratchMemory.h"
 #include "Host/Errors.h"
 #include "Host/Pipeline.h"
-#include "Ranks/Ranks.h"
 #include "vtkDeformableSurfaceInternals.h"
 
 #include <vtkDataObject.h>
@@ -153,7 +152,7 @@ int vtkDeformableSurface::RequestInformation(
 int vtkDeformableSurface::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
 {
-  volumic::Ranks(nullptr, { this, request, input, output }).AskForInputs();
+  volumic::RequestInputs(this, request, input, output);
   return 1;
 }
 

@@ -145,7 +145,6 @@ class vtkAlgorithmOutput;
 class vtkDataObject;
 class vtkInformation;
 class vtkMultiBlockDataSet;
-class vtkMultiProcessController;
 class vtkTable;
 
 class VTKFILTERSVOLUMIC_EXPORT vtkDeformableSurface : public vtkPolyDataAlgorithm
@@ -560,12 +559,6 @@ public:
   /** Iterations from one of the Snapshots to the next; 0, the default: none. */
   virtual void SetSnapshotInterval(int value);
   virtual int GetSnapshotInterval();
-  ///@}
-
-  ///@{
-  /** See Processes. Default: the global controller of the program, null where it has none. */
-  virtual void SetController(vtkMultiProcessController* controller);
-  virtual vtkMultiProcessController* GetController();
   ///@}
 
   ///@{

@@ -5,7 +5,9 @@
 // the last run goes on or another one begins.
 
 #include "Core/Common/FreeMemory.h"
+#include "Host/Errors.h"
 #include "Host/Pipeline.h"
+#include "Input/InputImage.h"
 #include "vtkDeformableSurfaceInternals.h"
 
 #include <vtkDataObject.h>
@@ -46,7 +48,8 @@ volumic::SegmentationRequest vtkDeformableSurface::vtkInternals::RequestAsSet(
   volumic::SegmentationRequest request;
   request.Settings = this->Settings;
   request.Settings.End.FinestLevel = this->Settings.LastLevel();
-  request.Volume = vtkDataObject::GetData(inputs[0]);
+  request.Volume =
+    volumic::PrefixErrors("Input port 0: ", [&] { return volumic::WholeInput(inputs[0]); });
   request.InitialSurface = vtkPolyData::GetData(inputs[1]);
   request.AttractingPoints = vtkPolyData::GetData(inputs[2]);
   request.Selection = this->Filter.GetInputArrayInformation(0);

@@ -95,11 +95,10 @@
 class vtkDataObject;
 class vtkImageData;
 class vtkMultiBlockDataSet;
-class vtkMultiProcessController;
 namespace volumic
 {
-class Ranks;
-struct PyramidBlocks;
+class RunObserver;
+struct ImageLevels;
 }
 
 class VTKFILTERSVOLUMIC_EXPORT vtkImagePyramid : public vtkImageAlgorithm
@@ -192,15 +191,6 @@ public:
   const char* GetScratchDirectory();
   ///@}
 
-  ///@{
-  /**
-   * The processes that make a pyramid together, see Processes. Default: the global controller of
-   * the program, null where it has none.
-   */
-  void SetController(vtkMultiProcessController* controller);
-  vtkMultiProcessController* GetController();
-  ///@}
-
   /**
    * How many levels the pyramid of an image of so many voxels has, with these settings; 0 where
    * they don't go together, which Update() tells by an error.
@@ -238,8 +228,8 @@ private:
   int RequestDataObject(vtkInformationVector* output);
 
   /// @param image gets the image, once it is there
-  volumic::PyramidBlocks MakeBlocks(volumic::Ranks& ranks,
-    vtkSmartPointer<vtkImageData>& image);
+  volumic::ImageLevels MakeLevels(vtkDataObject* input, vtkSmartPointer<vtkImageData>& image,
+    volumic::RunObserver& observer);
 
   class vtkInternals;
   std::unique_ptr<vtkInternals> Internals;

@@ -8,7 +8,7 @@
 #include "Host/HostThreads.h"
 #include "Host/LargeArrays.h"
 #include "Host/Pipeline.h"
-#include "Host/ProgressMonitor.h"
+#include "Host/RunObserver.h"
 #include "Input/InputImage.h"
 #include "Input/Workspace.h"
 #include "Labels/LabelBlocks.h"
@@ -16,7 +16,6 @@
 #include "Labels/LabelInterfaces.h"
 #include "Labels/LabelNames.h"
 #include "Output/SurfaceOutput.h"
-#include "Ranks/Ranks.h"
 #include "Settings/PropertyTable.h"
 
 #include <vtkCellData.h>
@@ -28,7 +27,6 @@
 #include <vtkInformationVector.h>
 #include <vtkIntArray.h>
 #include <vtkMultiBlockDataSet.h>
-#include <vtkMultiProcessController.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkPolyData.h>
@@ -53,11 +51,9 @@ public:
   bool SharedInterfaces = true; ///< has no effect
   int NumberOfThreads = 0;
   double TimeLimit = 0.0; ///< seconds; 0: none
-  volumic::Deadline Limit; ///< of the run that is under way
   int MemoryLimit = 0; ///< has no effect
   std::string ScratchDirectory;
   volumic::LabelNames Names;
-  vtkSmartPointer<vtkMultiProcessController> Controller;
   bool IsRunning = false;
 
   /** Choose the labels, and check the properties. Errors are thrown. */
@@ -71,7 +67,6 @@ vtkLabelsToSurfaces::vtkLabelsToSurfaces() : Internals(std::make_unique<vtkInter
   this->SetNumberOfOutputPorts(2);
   this->SetInputArrayToProcess(
     0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS);
-  this->Internals->Controller = vtkMultiProcessController::GetGlobalController();
 }
 
 vtkLabelsToSurfaces::~vtkLabelsToSurfaces() = default;
@@ -118,21 +113,6 @@ void vtkLabelsToSurfaces::SetNumberOfThreads(int number)
 }
 
 VOLUMIC_DEPRECATED(vtkLabelsToSurfaces, MemoryLimit, int, VOLUMIC_ABOUT_MEMORY)
-
-//------------------------------------------------------------------------------
-void vtkLabelsToSurfaces::SetController(vtkMultiProcessController* controller)
-{
-  if (this->Internals->Controller != controller)
-  {
-    this->Internals->Controller = controller;
-    this->Modified();
-  }
-}
-
-vtkMultiProcessController* vtkLabelsToSurfaces::GetController()
-{
-  return this->Internals->Controller;
-}
 
 //------------------------------------------------------------------------------
 void vtkLabelsToSurfaces::AddLabel(int label)
@@ -229,7 +209,7 @@ vtkPolyData* vtkLabelsToSurfaces::GetInterfaces()
 int vtkLabelsToSurfaces::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
 {
-  volumic::Ranks(this->Internals->Controller, { this, request, input, output }).AskForInputs();
+  volumic::RequestInputs(this, request, input, output);
   return 1;
 }
 
@@ -256,30 +236,16 @@ volumic::LabelChoice vtkLabelsToSurfaces::vtkInternals::Read(vtkDataObject* inpu
 }
 
 //------------------------------------------------------------------------------
-bool vtkLabelsToSurfaces::ShowProgress(double share, const std::string& text)
+void vtkLabelsToSurfaces::MakeSurfaces(
+  vtkDataObject* input, vtkInformationVector* outputs, volumic::RunObserver& observer)
 {
-  this->SetProgressText(text.c_str());
-  this->UpdateProgress(share);
-  return !volumic::IsAbortRequested(this) && !this->Internals->Limit.IsOver();
-}
-
-//------------------------------------------------------------------------------
-void vtkLabelsToSurfaces::MakeSurfaces(volumic::Ranks& ranks, const volumic::FilterCall& call)
-{
-  auto* output = vtkMultiBlockDataSet::GetData(call.Outputs, 0);
-  auto* interfaces = vtkPolyData::GetData(call.Outputs, 1);
+  auto* output = vtkMultiBlockDataSet::GetData(outputs, 0);
+  auto* interfaces = vtkPolyData::GetData(outputs, 1);
   const vtkInternals& internals = *this->Internals;
-  if (!(internals.TimeLimit >= 0.0))
-  {
-    volumic::Refuse("Time Limit is ", internals.TimeLimit, "; it must be 0 (none) or more.");
-  }
-  this->Internals->Limit = volumic::Deadline(volumic::Deadline::Clock::now(), internals.TimeLimit);
   const volumic::ScratchMemory scratch(internals.ScratchDirectory);
-  this->ShowProgress(0.0, "Reading the labels");
+  observer.GoOn(0.0, "Reading the labels");
   volumic::HostThreads threads(internals.NumberOfThreads);
   std::optional<volumic::LabelImage> image;
-  const vtkSmartPointer<vtkDataObject> input = volumic::PrefixErrors(
-    "Input port 0: ", [&] { return ranks.TakeImages(0); });
   const volumic::LabelChoice choice =
     internals.Read(input, this->GetInputArrayInformation(0), image, threads);
   const std::string aboutScans = image->ScanWarning(internals.BackgroundLabel);
@@ -298,7 +264,7 @@ void vtkLabelsToSurfaces::MakeSurfaces(volumic::Ranks& ranks, const volumic::Fil
   volumic::LabelInterfaceMaker maker(
     std::move(map), objects, image->Image(), internals.Settings, threads);
   maker.Make(threads,
-    [&ranks](double share, const std::string& text) { return ranks.GoOn(share, text); });
+    [&observer](double share, const std::string& text) { return observer.GoOn(share, text); });
   interfaces->ShallowCopy(maker.Interfaces(choice.FirstLabels(), internals.BackgroundLabel));
   volumic::AddLabelFields(choice, *image, interfaces);
   if (choice.IsMerged)
@@ -310,20 +276,11 @@ void vtkLabelsToSurfaces::MakeSurfaces(volumic::Ranks& ranks, const volumic::Fil
     image->FindNearest(interfaces, choice.Labels, nearest);
     sides->CopyComponent(0, nearest, 0);
   }
-  // Another process may have stopped it, too.
-  const bool isLate = internals.Limit.IsOver() && !volumic::IsAbortRequested(this);
-  const std::string stopped =
-    isLate ? volumic::TimeLimitReason : Describe(volumic::StopReason::Cancelled);
-  const std::string warning = volumic::FillBlocks(
-    choice, *image, internals.Settings, maker.Surfaces(threads), output, stopped);
-  // At the end: ParaView's message box would cover the progress bar.
+  observer.Warn(volumic::FillBlocks(choice, *image, internals.Settings, maker.Surfaces(threads),
+    output, observer.StopReason()));
   if (!image->Warning().empty())
   {
-    vtkWarningMacro("Input port 0: " << image->Warning());
-  }
-  if (!warning.empty())
-  {
-    vtkWarningMacro(<< warning);
+    observer.Warn("Input port 0: " + image->Warning());
   }
 }
 
@@ -332,34 +289,38 @@ int vtkLabelsToSurfaces::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   this->SetErrorCode(vtkErrorCode::NoError);
-  const auto show = [this](double share, const std::string& text)
-  { return this->ShowProgress(share, text); };
-  const volumic::FilterCall call{ this, request, inputVector, outputVector };
-  volumic::Ranks ranks(this->Internals->Controller, call, show);
-  if (!ranks.AreMany() && !volumic::IsFirstProcess(request, outputVector))
+  if (!volumic::IsFirstProcess(request, outputVector))
   {
     return 1;
   }
   this->Internals->IsRunning = true;
   // ParaView leaves the flag of an earlier run as it is.
   volumic::ForgetAbort(this);
-  volumic::RankWork work;
-  work.Deals = volumic::Dealing::FirstHasAll;
-  work.OfFirst = [&] { this->MakeSurfaces(ranks, call); };
-  const volumic::AlgorithmError error = ranks.Run(
+  std::vector<std::string> warnings;
+  const volumic::AlgorithmError error = volumic::RunAlgorithm(
+    outputVector,
     []
     {
       return "Input port 0: the memory does not suffice for the surfaces. Set Finest Level to a "
              "coarser level, or choose fewer Labels.";
     },
-    work);
+    [&]
+    {
+      volumic::RunObserver observer(this, this->Internals->TimeLimit, warnings);
+      vtkDataObject* input = volumic::PrefixErrors(
+        "Input port 0: ", [&] { return volumic::WholeInput(inputVector[0]); });
+      this->MakeSurfaces(input, outputVector, observer);
+    });
   if (error.Code != vtkErrorCode::NoError)
   {
     this->SetErrorCode(error.Code);
     vtkErrorMacro(<< error.Text);
   }
+  for (const std::string& text : warnings)
+  {
+    vtkWarningMacro(<< text);
+  }
   volumic::ForgetAbort(this);
-  this->Internals->Limit = volumic::Deadline();
   this->Internals->IsRunning = false;
   volumic::GiveBackFreeMemory();
   return 1;

@@ -104,12 +104,10 @@
 
 class vtkDataObject;
 class vtkMultiBlockDataSet;
-class vtkMultiProcessController;
 class vtkPolyData;
 namespace volumic
 {
-class Ranks;
-struct FilterCall;
+class RunObserver;
 }
 
 class VTKFILTERSVOLUMIC_EXPORT vtkLabelsToSurfaces : public vtkMultiBlockDataSetAlgorithm
@@ -308,12 +306,6 @@ public:
   void ClearLabelColors();
   ///@}
 
-  ///@{
-  /** As vtkDeformableSurface: the processes that make the surfaces together, see Processes. */
-  void SetController(vtkMultiProcessController* controller);
-  vtkMultiProcessController* GetController();
-  ///@}
-
   /** Return output port 1. */
   vtkPolyData* GetInterfaces();
 
@@ -335,9 +327,9 @@ protected:
 
 private:
   class vtkInternals;
-  bool ShowProgress(double share, const std::string& text);
   /** Errors are thrown. */
-  void MakeSurfaces(volumic::Ranks& ranks, const volumic::FilterCall& call);
+  void MakeSurfaces(
+    vtkDataObject* input, vtkInformationVector* outputs, volumic::RunObserver& observer);
   std::unique_ptr<vtkInternals> Internals; ///< the properties
 
   vtkLabelsToSurfaces(const vtkLabelsToSurfaces&) = delete;

@@ -4,7 +4,7 @@
 
 #include "Core/Common/Refuse.h"
 #include "Core/Evolution/SurfaceOptions.h"
-#include "Pyramid/PyramidBlocks.h"
+#include "Pyramid/ImageLevels.h"
 #include "Settings/SegmentationSettings.h"
 
 #include <vtkImageData.h>
