@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDeformableSurface.h"
 
+#include "Host/Errors.h"
 #include "Host/Pipeline.h"
 #include "Input/SlabInput.h"
-#include "Ranks/Ranks.h"
 #include "vtkDeformableSurfaceInternals.h"
 
 #include <vtkDataObject.h>
@@ -31,7 +31,6 @@ vtkDeformableSurface::vtkDeformableSurface() : Internals(std::make_unique<vtkInt
   this->SetNumberOfOutputPorts(4);
   this->SetInputArrayToProcess(
     0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS);
-  this->Internals->Controller = vtkMultiProcessController::GetGlobalController();
 }
 
 vtkDeformableSurface::~vtkDeformableSurface() = default;
@@ -98,21 +97,6 @@ vtkMultiBlockDataSet* vtkDeformableSurface::GetSnapshots()
 }
 
 //------------------------------------------------------------------------------
-void vtkDeformableSurface::SetController(vtkMultiProcessController* controller)
-{
-  if (this->Internals->Controller != controller)
-  {
-    this->Internals->Controller = controller;
-    this->Modified();
-  }
-}
-
-vtkMultiProcessController* vtkDeformableSurface::GetController()
-{
-  return this->Internals->Controller;
-}
-
-//------------------------------------------------------------------------------
 bool vtkDeformableSurface::GetNeedsUpdate()
 {
   vtkInternals& internals = *this->Internals;
@@ -132,7 +116,7 @@ void vtkDeformableSurface::SetAbortExecute(vtkTypeBool abort)
 {
   // Who presses twice may be heard after the run has ended: that neither makes the filter run again
   // nor others stop.
-  this->AbortExecute = abort && this->Internals->All;
+  this->AbortExecute = abort && this->Internals->IsRunning;
 }
 
 void vtkDeformableSurface::GoOn()
@@ -174,37 +158,17 @@ int vtkDeformableSurface::GetResumedLevel()
 }
 
 //------------------------------------------------------------------------------
-int vtkDeformableSurface::RequestInformation(
-  vtkInformation*, vtkInformationVector**, vtkInformationVector* output)
-{
-  // Of what comes from an image ParaView asks for ghosts only where a filter needs them. It knows
-  // that by the extent, which a pyramid has not.
-  using Pipeline = vtkStreamingDemandDrivenPipeline;
-  for (int port = 0; port < output->GetNumberOfInformationObjects(); ++port)
-  {
-    vtkInformation* info = output->GetInformationObject(port);
-    if (!info->Has(Pipeline::WHOLE_EXTENT()))
-    {
-      const int none[6] = { 0, -1, 0, -1, 0, -1 };
-      info->Set(Pipeline::WHOLE_EXTENT(), none, 6);
-    }
-  }
-  return 1;
-}
-
-//------------------------------------------------------------------------------
 int vtkDeformableSurface::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
 {
   const vtkInternals& internals = *this->Internals;
-  const volumic::Ranks ranks(internals.Controller, { this, request, input, output });
-  ranks.AskForInputs();
-  if (!ranks.AreMany() && internals.Settings.End.MemoryLimit > 0 &&
+  volumic::RequestInputs(this, request, input, output);
+  if (internals.Settings.End.MemoryLimit > 0 &&
     volumic::IsFirstProcess(request, output))
   {
     volumic::SlabInput(this).Ask(
       volumic::LimitedMemory::BytesOf(internals.Settings.End.MemoryLimit),
-      !internals.Cache.IsValidFor(this, 1));
+      !internals.Cache.IsValidFor(this));
   }
   return 1;
 }
@@ -214,47 +178,28 @@ int vtkDeformableSurface::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkInternals& internals = *this->Internals;
-  const auto show = [this](double share, const std::string& text)
-  {
-    this->SetProgressText(text.c_str());
-    this->UpdateProgress(share);
-    return !volumic::IsAbortRequested(this);
-  };
-  const volumic::FilterCall call{ this, request, inputVector, outputVector };
-  internals.All = std::make_unique<volumic::Ranks>(internals.Controller, call, show);
-  volumic::Ranks& ranks = *internals.All;
   this->SetErrorCode(vtkErrorCode::NoError);
-  if (!ranks.AreMany() && !volumic::IsFirstProcess(request, outputVector))
+  if (!volumic::IsFirstProcess(request, outputVector))
   {
-    internals.All.reset();
     return 1;
   }
+  internals.IsRunning = true;
+  internals.IsOnlyProcess = volumic::IsOnlyProcess(request, outputVector);
   // ParaView leaves the flag of an earlier run as it is.
   volumic::ForgetAbort(this);
-  volumic::RankWork work;
-  work.OfFirst = [&]
+  const auto work = [&]
   {
     internals.Memory.Set(
       internals.Settings.End.MemoryLimit, internals.Settings.End.ScratchDirectory);
-    internals.RunOrGoOn(call);
+    internals.RunOrGoOn(inputVector, outputVector);
   };
-  work.OfOthers = [&](volumic::RankMessage&)
-  {
-    volumic::RankMessage answer;
-    answer << internals.Cache.IsValidFor(this, ranks.Count());
-    return answer;
-  };
-  const volumic::AlgorithmError error = ranks.Run(
+  const volumic::AlgorithmError error = volumic::RunAlgorithm(outputVector,
     []
     {
       return "Input port 0: the memory does not suffice for the surface. Set Finest Level to a "
              "coarser level, or crop the image.";
     },
     work);
-  if (error.Code == vtkErrorCode::NoError && !ranks.IsFirst())
-  {
-    internals.Cache.Keep(nullptr, this, ranks.Count());
-  }
   if (error.Code != vtkErrorCode::NoError)
   {
     this->ForgetRun();
@@ -272,6 +217,6 @@ int vtkDeformableSurface::RequestData(
     vtkWarningMacro(<< text);
   }
   volumic::ForgetAbort(this);
-  internals.All.reset();
+  internals.IsRunning = false;
   return 1;
 }

@@ -11,7 +11,6 @@
 #include "Input/InputImage.h"
 #include "Input/SlabInput.h"
 #include "Pyramid/PyramidBlocks.h"
-#include "Ranks/Ranks.h"
 
 #include <vtkDataArray.h>
 #include <vtkDataObject.h>
@@ -23,7 +22,6 @@
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
 #include <vtkMultiBlockDataSet.h>
-#include <vtkMultiProcessController.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkSmartPointer.h>
@@ -56,48 +54,9 @@ volumic::PyramidOptions OptionsOf(
 class vtkImagePyramid::vtkInternals
 {
 public:
-  vtkSmartPointer<vtkMultiProcessController> Controller;
   std::string ScratchDirectory;
   volumic::LimitedMemory Memory; ///< as the last run had it
   bool HasToldOfWhole = false;
-
-  /**
-   * The pieces of the last run on several ranks. Some filters (vtkCleanPolyData) ask all ranks but
-   * the first one for nothing in between; when those are asked for their pieces again, the first
-   * one still has its own, makes nothing, and would not answer.
-   */
-  vtkSmartPointer<vtkMultiBlockDataSet> Kept;
-  vtkMTimeType TimeOfKept = 0;
-  int RanksOfKept = 0;
-  int GhostLevelsOfKept = 0;
-
-  void Keep(vtkImagePyramid* filter, const volumic::Ranks& ranks, int ghostLevels,
-    vtkMultiBlockDataSet* pyramid)
-  {
-    const bool isReleased = vtkDataObject::GetGlobalReleaseDataFlag() != 0 ||
-      filter->GetExecutive()->GetOutputInformation(0)->Get(vtkDemandDrivenPipeline::RELEASE_DATA());
-    this->Kept = nullptr;
-    if (ranks.AreMany() && !isReleased)
-    {
-      this->Kept = vtkSmartPointer<vtkMultiBlockDataSet>::New();
-      this->Kept->ShallowCopy(pyramid);
-    }
-    this->TimeOfKept = TimeOf(filter);
-    this->RanksOfKept = ranks.Count();
-    this->GhostLevelsOfKept = ghostLevels;
-  }
-  bool Has(vtkImagePyramid* filter, const volumic::Ranks& ranks, int ghostLevels) const
-  {
-    return this->Kept && this->TimeOfKept == TimeOf(filter) &&
-      this->RanksOfKept == ranks.Count() && this->GhostLevelsOfKept >= ghostLevels;
-  }
-
-private:
-  /** When the filter, or what comes before it, was changed last. */
-  static vtkMTimeType TimeOf(vtkImagePyramid* filter)
-  {
-    return vtkDemandDrivenPipeline::SafeDownCast(filter->GetExecutive())->GetPipelineMTime();
-  }
 };
 
 //------------------------------------------------------------------------------
@@ -113,7 +72,6 @@ vtkImagePyramid::vtkImagePyramid() : Internals(std::make_unique<vtkInternals>())
   this->MemoryLimit = 0;
   this->SetInputArrayToProcess(
     0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS);
-  this->Internals->Controller = vtkMultiProcessController::GetGlobalController();
 }
 
 vtkImagePyramid::~vtkImagePyramid() = default;
@@ -143,21 +101,6 @@ void vtkImagePyramid::SetScratchDirectory(const char* directory)
 const char* vtkImagePyramid::GetScratchDirectory()
 {
   return this->Internals->ScratchDirectory.c_str();
-}
-
-//------------------------------------------------------------------------------
-void vtkImagePyramid::SetController(vtkMultiProcessController* controller)
-{
-  if (this->Internals->Controller != controller)
-  {
-    this->Internals->Controller = controller;
-    this->Modified();
-  }
-}
-
-vtkMultiProcessController* vtkImagePyramid::GetController()
-{
-  return this->Internals->Controller;
 }
 
 //------------------------------------------------------------------------------
@@ -225,9 +168,8 @@ int vtkImagePyramid::RequestInformation(
 int vtkImagePyramid::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
 {
-  const volumic::Ranks ranks(this->Internals->Controller, { this, request, input, output });
-  ranks.AskForInputs();
-  if (!ranks.AreMany() && this->MemoryLimit > 0 && volumic::IsFirstProcess(request, output))
+  volumic::RequestInputs(this, request, input, output);
+  if (this->MemoryLimit > 0 && volumic::IsFirstProcess(request, output))
   {
     volumic::SlabInput(this).Ask(volumic::LimitedMemory::BytesOf(this->MemoryLimit), true);
   }
@@ -236,20 +178,20 @@ int vtkImagePyramid::RequestUpdateExtent(
 
 //------------------------------------------------------------------------------
 vtkSmartPointer<vtkImageData> vtkImagePyramid::ReadInput(
-  volumic::Ranks& ranks, int& component)
+  vtkInformationVector* input, int& component)
 {
   volumic::LimitedMemory& memory = this->Internals->Memory;
   memory.Set(this->MemoryLimit, this->Internals->ScratchDirectory);
   component = this->SelectedComponent;
-  const vtkSmartPointer<vtkDataObject> input = ranks.TakeImages(0);
+  vtkDataObject* data = volumic::WholeInput(input);
   volumic::SlabInput::Result slabs;
-  if (memory.Limit() > 0 && !ranks.AreMany())
+  if (memory.Limit() > 0)
   {
     volumic::SlabInput::Request request;
     request.Limit = memory.Limit();
     request.Selection = this->GetInputArrayInformation(0);
     request.SelectedComponent = component;
-    request.GoOn = [&ranks](double share) { return ranks.GoOn(share, "Reading the image"); };
+    request.GoOn = [this](double share) { return this->ShowProgress(share, "Reading the image"); };
     slabs = volumic::SlabInput(this).Read(request);
     const std::string whole = volumic::SlabInput(this).DescribeWhole();
     if (!whole.empty() && !std::exchange(this->Internals->HasToldOfWhole, true))
@@ -262,15 +204,15 @@ vtkSmartPointer<vtkImageData> vtkImagePyramid::ReadInput(
     return nullptr;
   }
   component = slabs.Image ? -1 : component; // It has been selected.
-  return slabs.Image ? slabs.Image : vtkSmartPointer<vtkImageData>(volumic::ImageOf(input));
+  return slabs.Image ? slabs.Image : vtkSmartPointer<vtkImageData>(volumic::ImageOf(data));
 }
 
 //------------------------------------------------------------------------------
 volumic::PyramidBlocks vtkImagePyramid::MakeBlocks(
-  volumic::Ranks& ranks, vtkSmartPointer<vtkImageData>& image)
+  vtkInformationVector* input, vtkSmartPointer<vtkImageData>& image)
 {
   int component = this->SelectedComponent;
-  image = this->ReadInput(ranks, component);
+  image = this->ReadInput(input, component);
   if (!image)
   {
     return volumic::StoppedPyramidBlocks();
@@ -282,9 +224,17 @@ volumic::PyramidBlocks vtkImagePyramid::MakeBlocks(
     OptionsOf(this->ReductionFactor, this->NumberOfLevels, this->MinimumLevelSize);
   request.NaNIsBackground = this->NaNIsBackground;
   request.NumberOfThreads = this->NumberOfThreads;
-  request.Progress = [&ranks](double share, const std::string& text)
-  { return ranks.GoOn(share, text); };
+  request.Progress = [this](double share, const std::string& text)
+  { return this->ShowProgress(share, text); };
   return volumic::MakePyramidBlocks(image, voxels, request);
+}
+
+//------------------------------------------------------------------------------
+bool vtkImagePyramid::ShowProgress(double share, const std::string& text)
+{
+  this->SetProgressText(text.c_str());
+  this->UpdateProgress(share);
+  return !volumic::IsAbortRequested(this);
 }
 
 //------------------------------------------------------------------------------
@@ -292,55 +242,33 @@ int vtkImagePyramid::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   this->SetErrorCode(vtkErrorCode::NoError);
-  const auto show = [this](double share, const std::string& text)
-  {
-    this->SetProgressText(text.c_str());
-    this->UpdateProgress(share);
-    return !volumic::IsAbortRequested(this);
-  };
-  vtkInternals& internals = *this->Internals;
-  volumic::Ranks ranks(internals.Controller, { this, request, inputVector, outputVector }, show);
-  // Of processes that don't work together the first one holds the pyramid; the others would only
-  // repeat it.
-  if (!ranks.AreMany() && !volumic::IsFirstProcess(request, outputVector))
+  if (!volumic::IsFirstProcess(request, outputVector))
   {
     return 1;
   }
-  const int ghostLevels = volumic::GhostLevelsAskedOf(request, outputVector);
-  if (ranks.AreMany() && internals.Has(this, ranks, ghostLevels))
-  {
-    vtkMultiBlockDataSet::GetData(outputVector)->ShallowCopy(internals.Kept);
-    return 1;
-  }
-  internals.Kept = nullptr;
   // ParaView leaves the flag of an earlier run as it is.
   volumic::ForgetAbort(this);
   vtkSmartPointer<vtkImageData> image;
-  volumic::RankWork work;
-  work.OfFirst = [&]
+  const auto work = [&]
   {
-    const volumic::PyramidBlocks pyramid = this->MakeBlocks(ranks, image);
+    const volumic::PyramidBlocks pyramid = this->MakeBlocks(inputVector[0], image);
     vtkMultiBlockDataSet::GetData(outputVector)->ShallowCopy(pyramid.Blocks);
     if (!pyramid.AboutNaNs.empty())
     {
       vtkWarningMacro("Input port 0: " << pyramid.AboutNaNs);
     }
-    for (const std::string& warning : internals.Memory.TakeWarnings())
+    for (const std::string& warning : this->Internals->Memory.TakeWarnings())
     {
       vtkWarningMacro(<< warning);
     }
   };
-  const volumic::AlgorithmError error = ranks.Run(
+  const volumic::AlgorithmError error = volumic::RunAlgorithm(outputVector,
     [&]
     {
       return volumic::Join("the memory does not suffice for the pyramid of an image of ",
         image ? volumic::SizeOf(image) : "?", " voxels.");
     },
     work);
-  if (error.Code == vtkErrorCode::NoError)
-  {
-    internals.Keep(this, ranks, ghostLevels, vtkMultiBlockDataSet::GetData(outputVector));
-  }
   if (error.Code != vtkErrorCode::NoError)
   {
     this->SetErrorCode(error.Code);
