@@ -14,7 +14,6 @@
 #include <vtkInformationVector.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkObjectFactory.h>
-#include <vtkStreamingDemandDrivenPipeline.h>
 #include <vtkTable.h>
 
 #include <memory>
@@ -130,25 +129,6 @@ void vtkDeformableSurface::ForgetRun()
 }
 
 //------------------------------------------------------------------------------
-int vtkDeformableSurface::RequestInformation(
-  vtkInformation*, vtkInformationVector**, vtkInformationVector* output)
-{
-  // Of what comes from an image ParaView asks for ghosts only where a filter needs them. It knows
-  // that by the extent, which a pyramid has not.
-  using Pipeline = vtkStreamingDemandDrivenPipeline;
-  for (int port = 0; port < output->GetNumberOfInformationObjects(); ++port)
-  {
-    vtkInformation* info = output->GetInformationObject(port);
-    if (!info->Has(Pipeline::WHOLE_EXTENT()))
-    {
-      const int none[6] = { 0, -1, 0, -1, 0, -1 };
-      info->Set(Pipeline::WHOLE_EXTENT(), none, 6);
-    }
-  }
-  return 1;
-}
-
-//------------------------------------------------------------------------------
 int vtkDeformableSurface::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
 {
@@ -166,27 +146,25 @@ int vtkDeformableSurface::RequestData(
     return 1;
   }
   vtkInternals& internals = *this->Internals;
-  // ParaView leaves the flag of an earlier run as it is.
-  volumic::ForgetAbort(this);
   internals.IsRunning = true;
-  const volumic::AlgorithmError error = volumic::RunAlgorithm(
-    outputVector,
+  internals.IsAlone = volumic::IsOnlyProcess(request, outputVector);
+  this->SetErrorCode(volumic::RunAlgorithm(
+    this, outputVector, "",
     []
     {
-      return "Input port 0: the memory does not suffice for the surface. Set Finest Level to a "
-             "coarser level, or crop the image.";
+      return "Input port 0: the memory does not suffice for the surface. Set Scratch Directory, set "
+             "Finest Level to a coarser level, or crop the image.";
     },
     [&]
     {
       const volumic::ScratchMemory scratch(internals.Settings.End.ScratchDirectory);
       volumic::RunObserver observer(this, internals.Settings.End.TimeLimit, internals.Warnings);
       internals.Update(inputVector, outputVector, observer);
-    });
-  if (error.Code != vtkErrorCode::NoError)
+    }));
+  internals.IsRunning = false;
+  if (this->GetErrorCode() != vtkErrorCode::NoError)
   {
     this->ForgetRun();
-    this->SetErrorCode(error.Code);
-    vtkErrorMacro(<< error.Text);
   }
   // Not while another run is still to come.
   for (const std::string& text :
@@ -194,7 +172,5 @@ int vtkDeformableSurface::RequestData(
   {
     vtkWarningMacro(<< text);
   }
-  volumic::ForgetAbort(this);
-  internals.IsRunning = false;
   return 1;
 }

@@ -46,6 +46,7 @@ public:
   bool Profile = false;
   bool HasHinted = false;    ///< at labels, as is done once in the filter's life
   bool IsRunning = false;
+  bool IsAlone = true;       ///< No other process asks whether a finer level is still to come.
   bool IsWatched = false;    ///< Someone asks whether a finer level is still to come.
   bool IsOnTheWay = false;   ///< One is, and nobody has asked yet.
   bool GoesToTheEnd = false; ///< The next run shows no level before.

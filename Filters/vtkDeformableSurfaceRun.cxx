@@ -64,7 +64,7 @@ volumic::SegmentationRequest vtkDeformableSurface::vtkInternals::RequestAsSet(
 void vtkDeformableSurface::vtkInternals::ChooseStep(volumic::SegmentationRequest& request)
 {
   volumic::SegmentationEnd& end = request.Settings.End;
-  const bool isWatched = end.ShowLevels && this->IsWatched;
+  const bool isWatched = end.ShowLevels && this->IsWatched && this->IsAlone;
   if (!isWatched || std::exchange(this->GoesToTheEnd, false))
   {
     return;

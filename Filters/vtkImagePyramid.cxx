@@ -206,12 +206,10 @@ int vtkImagePyramid::RequestData(
   {
     return 1;
   }
-  // ParaView leaves the flag of an earlier run as it is.
-  volumic::ForgetAbort(this);
   vtkSmartPointer<vtkImageData> image;
   std::vector<std::string> warnings;
-  const volumic::AlgorithmError error = volumic::RunAlgorithm(
-    outputVector,
+  this->SetErrorCode(volumic::RunAlgorithm(
+    this, outputVector, "Input port 0: ",
     [&]
     {
       return volumic::Join("the memory does not suffice for the pyramid of an image of ",
@@ -227,17 +225,11 @@ int vtkImagePyramid::RequestData(
       {
         observer.Warn("Input port 0: " + levels.AboutNaNs);
       }
-    });
-  if (error.Code != vtkErrorCode::NoError)
-  {
-    this->SetErrorCode(error.Code);
-    vtkErrorMacro("Input port 0: " << error.Text);
-  }
+    }));
   for (const std::string& text : warnings)
   {
     vtkWarningMacro(<< text);
   }
-  volumic::ForgetAbort(this);
   return 1;
 }
 

@@ -294,15 +294,13 @@ int vtkLabelsToSurfaces::RequestData(
     return 1;
   }
   this->Internals->IsRunning = true;
-  // ParaView leaves the flag of an earlier run as it is.
-  volumic::ForgetAbort(this);
   std::vector<std::string> warnings;
-  const volumic::AlgorithmError error = volumic::RunAlgorithm(
-    outputVector,
+  this->SetErrorCode(volumic::RunAlgorithm(
+    this, outputVector, "",
     []
     {
-      return "Input port 0: the memory does not suffice for the surfaces. Set Finest Level to a "
-             "coarser level, or choose fewer Labels.";
+      return "Input port 0: the memory does not suffice for the surfaces. Set Scratch Directory, set "
+             "Finest Level to a coarser level, or choose fewer Labels.";
     },
     [&]
     {
@@ -310,18 +308,12 @@ int vtkLabelsToSurfaces::RequestData(
       vtkDataObject* input = volumic::PrefixErrors(
         "Input port 0: ", [&] { return volumic::WholeInput(inputVector[0]); });
       this->MakeSurfaces(input, outputVector, observer);
-    });
-  if (error.Code != vtkErrorCode::NoError)
-  {
-    this->SetErrorCode(error.Code);
-    vtkErrorMacro(<< error.Text);
-  }
+    }));
+  this->Internals->IsRunning = false;
   for (const std::string& text : warnings)
   {
     vtkWarningMacro(<< text);
   }
-  volumic::ForgetAbort(this);
-  this->Internals->IsRunning = false;
   volumic::GiveBackFreeMemory();
   return 1;
 }

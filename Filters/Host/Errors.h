@@ -6,7 +6,6 @@
 #include "Core/Common/Refuse.h"
 
 #include <functional>
-#include <stdexcept>
 #include <string>
 
 class vtkAlgorithm;
@@ -15,47 +14,23 @@ class vtkInformationVector;
 namespace volumic
 {
 /**
- * What an algorithm, or its executive, reports as an error while something runs; it is not printed,
- * and is without the place in the source. Empty if all went well.
- */
-std::string CollectErrors(vtkAlgorithm* algorithm, const std::function<void()>& run);
-
-/** An error as SetErrorCode and vtkErrorMacro get it. */
-struct AlgorithmError
-{
-  unsigned long Code = 0; ///< 0: there is none
-  std::string Text;
-};
-
-/** One that was found elsewhere, and is told as it is. */
-struct ToldError : std::runtime_error
-{
-  explicit ToldError(const AlgorithmError& error) : std::runtime_error(error.Text), Error(error) {}
-  AlgorithmError Error;
-};
-
-/**
- * Does some work.
+ * Does the work of RequestData, and reports what it throws as an error of the filter. Then all
+ * outputs are left initialised: no data half made, and none of the field data that the pipeline has
+ * passed from the input. RequestData returns 1 all the same: after 0 the pipeline would print a
+ * second error, and ParaView's clients would keep what they had before.
+ * @param place       what messages begin with
  * @param aboutMemory what to say where the memory does not suffice
- * @return what it throws: vtkErrorCode::UserError for a Refusal (what was given is
- *         wrong), else vtkErrorCode::UnknownError (memory); a ToldError as it was told.
+ * @return for SetErrorCode(): vtkErrorCode::NoError; UserError for a Refusal (what was given is
+ *         wrong); else UnknownError (memory)
  */
-AlgorithmError CatchError(
-  const std::function<std::string()>& aboutMemory, const std::function<void()>& work);
-
-/**
- * Does the work of RequestData, likewise. Where it throws, all outputs are left initialised: no
- * data half made, and none of the field data that the pipeline has passed from the input.
- * RequestData then returns 1 all the same: after 0 the pipeline would print a second error, and
- * ParaView's clients would keep what they had before.
- */
-AlgorithmError RunAlgorithm(vtkInformationVector* outputs,
-  const std::function<std::string()>& aboutMemory, const std::function<void()>& work);
+unsigned long RunAlgorithm(vtkAlgorithm* filter, vtkInformationVector* outputs,
+  const std::string& place, const std::function<std::string()>& aboutMemory,
+  const std::function<void()>& work);
 
 /**
  * What the work gives; what it refuses (Refuse.h) is refused with the place in front, so that the
  * message names it: `Input port 0: `.
- * @throws std::invalid_argument as the work does; other exceptions pass as they are.
+ * @throws Refusal as the work does; other exceptions pass as they are.
  */
 template <typename Work>
 auto PrefixErrors(const std::string& place, const Work& work) -> decltype(work())
