@@ -49,8 +49,7 @@ set(CMAKE_ARCHIVE_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/${CMAKE_INSTALL_LIBDIR}"
 # What is wanted of VTK: the module's own dependencies, and the wrapper's. Tests, examples and
 # benchmarks ask for more themselves.
 set(volumic_vtk_components
-  CommonCore CommonDataModel CommonExecutionModel CommonMath FiltersCore
-  ParallelCore)
+  CommonCore CommonDataModel CommonExecutionModel CommonMath FiltersCore)
 if (VOLUMIC_WRAP_PYTHON)
   list(APPEND volumic_vtk_components Python WrappingPythonCore)
 endif ()

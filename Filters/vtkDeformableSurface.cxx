@@ -3,8 +3,8 @@
 #include "vtkDeformableSurface.h"
 
 #include "Core/Common/ScratchMemory.h"
+#include "Host/Errors.h"
 #include "Host/Pipeline.h"
-#include "Ranks/Ranks.h"
 #include "vtkDeformableSurfaceInternals.h"
 
 #include <vtkDataObject.h>
@@ -31,7 +31,6 @@ vtkDeformableSurface::vtkDeformableSurface() : Internals(std::make_unique<vtkInt
   this->SetNumberOfOutputPorts(4);
   this->SetInputArrayToProcess(
     0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS);
-  this->Internals->Controller = vtkMultiProcessController::GetGlobalController();
 }
 
 vtkDeformableSurface::~vtkDeformableSurface() = default;
@@ -98,21 +97,6 @@ vtkMultiBlockDataSet* vtkDeformableSurface::GetSnapshots()
 }
 
 //------------------------------------------------------------------------------
-void vtkDeformableSurface::SetController(vtkMultiProcessController* controller)
-{
-  if (this->Internals->Controller != controller)
-  {
-    this->Internals->Controller = controller;
-    this->Modified();
-  }
-}
-
-vtkMultiProcessController* vtkDeformableSurface::GetController()
-{
-  return this->Internals->Controller;
-}
-
-//------------------------------------------------------------------------------
 bool vtkDeformableSurface::GetNeedsUpdate()
 {
   vtkInternals& internals = *this->Internals;
@@ -132,7 +116,7 @@ void vtkDeformableSurface::SetAbortExecute(vtkTypeBool abort)
 {
   // Who presses twice may be heard after the run has ended: that neither makes the filter run again
   // nor others stop.
-  this->AbortExecute = abort && this->Internals->All;
+  this->AbortExecute = abort && this->Internals->IsRunning;
 }
 
 void vtkDeformableSurface::GoOn()
@@ -174,29 +158,10 @@ int vtkDeformableSurface::GetResumedLevel()
 }
 
 //------------------------------------------------------------------------------
-int vtkDeformableSurface::RequestInformation(
-  vtkInformation*, vtkInformationVector**, vtkInformationVector* output)
-{
-  // Of what comes from an image ParaView asks for ghosts only where a filter needs them. It knows
-  // that by the extent, which a pyramid has not.
-  using Pipeline = vtkStreamingDemandDrivenPipeline;
-  for (int port = 0; port < output->GetNumberOfInformationObjects(); ++port)
-  {
-    vtkInformation* info = output->GetInformationObject(port);
-    if (!info->Has(Pipeline::WHOLE_EXTENT()))
-    {
-      const int none[6] = { 0, -1, 0, -1, 0, -1 };
-      info->Set(Pipeline::WHOLE_EXTENT(), none, 6);
-    }
-  }
-  return 1;
-}
-
-//------------------------------------------------------------------------------
 int vtkDeformableSurface::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
 {
-  volumic::Ranks(this->Internals->Controller, { this, request, input, output }).AskForInputs();
+  volumic::RequestInputs(this, request, input, output);
   return 1;
 }
 
@@ -205,46 +170,27 @@ int vtkDeformableSurface::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkInternals& internals = *this->Internals;
-  const auto show = [this](double share, const std::string& text)
-  {
-    this->SetProgressText(text.c_str());
-    this->UpdateProgress(share);
-    return !volumic::IsAbortRequested(this);
-  };
-  const volumic::FilterCall call{ this, request, inputVector, outputVector };
-  internals.All = std::make_unique<volumic::Ranks>(internals.Controller, call, show);
-  volumic::Ranks& ranks = *internals.All;
   this->SetErrorCode(vtkErrorCode::NoError);
-  if (!ranks.AreMany() && !volumic::IsFirstProcess(request, outputVector))
+  if (!volumic::IsFirstProcess(request, outputVector))
   {
-    internals.All.reset();
     return 1;
   }
+  internals.IsRunning = true;
+  internals.IsOnlyProcess = volumic::IsOnlyProcess(request, outputVector);
   // ParaView leaves the flag of an earlier run as it is.
   volumic::ForgetAbort(this);
-  volumic::RankWork work;
-  work.OfFirst = [&]
+  const auto work = [&]
   {
     const volumic::ScratchMemory scratch(internals.Settings.End.ScratchDirectory);
-    internals.RunOrGoOn(call);
+    internals.RunOrGoOn(inputVector, outputVector);
   };
-  work.OfOthers = [&](volumic::RankMessage&)
-  {
-    volumic::RankMessage answer;
-    answer << internals.Cache.IsValidFor(this, ranks.Count());
-    return answer;
-  };
-  const volumic::AlgorithmError error = ranks.Run(
+  const volumic::AlgorithmError error = volumic::RunAlgorithm(outputVector,
     []
     {
       return "Input port 0: the memory does not suffice for the surface. Set Finest Level to a "
              "coarser level, or crop the image.";
     },
     work);
-  if (error.Code == vtkErrorCode::NoError && !ranks.IsFirst())
-  {
-    internals.Cache.Keep(nullptr, this, ranks.Count());
-  }
   if (error.Code != vtkErrorCode::NoError)
   {
     this->ForgetRun();
@@ -258,6 +204,6 @@ int vtkDeformableSurface::RequestData(
     vtkWarningMacro(<< text);
   }
   volumic::ForgetAbort(this);
-  internals.All.reset();
+  internals.IsRunning = false;
   return 1;
 }

@@ -130,12 +130,9 @@
  * written, is a warning.
  *
  * @par Processes:
- * Where the controller has several processes, and each asks for the piece of its own number of as
- * many pieces, as ParaView's do, the first one takes the pieces of the inputs together and makes the
- * surface, the same bits as one process; each gets a piece of it, of Levels and of Snapshots, with
- * `GlobalIds` (vtkIdType) of the points, and ghosts where these are asked for. Field data is whole in
- * every process; the first one has the rows of History. An error of one is reported by all;
- * AbortExecute of any stops all. Who asks for other pieces works alone.
+ * In a parallel run, as in pvserver and pvbatch, the first process (piece 0) requests the whole of all
+ * inputs and makes the whole surface. All outputs of the other processes are empty, and ShowLevels
+ * has no effect.
  *
  * @par Thanks:
  * J.-O. Lachaud and A. Montanvert, "Volumic Segmentation using Hierarchical Representation and
@@ -158,7 +155,6 @@ class vtkAlgorithmOutput;
 class vtkDataObject;
 class vtkInformation;
 class vtkMultiBlockDataSet;
-class vtkMultiProcessController;
 class vtkTable;
 
 class VTKFILTERSVOLUMIC_EXPORT vtkDeformableSurface : public vtkPolyDataAlgorithm
@@ -589,12 +585,6 @@ public:
   ///@}
 
   ///@{
-  /** See Processes. Default: the global controller of the program, null where it has none. */
-  virtual void SetController(vtkMultiProcessController* controller);
-  virtual vtkMultiProcessController* GetController();
-  ///@}
-
-  ///@{
   /** Port 1: the initial surface or the centres of the seeds. */
   void SetInitialSurfaceConnection(vtkAlgorithmOutput* output);
   /** The same as data that is no filter's output. */
@@ -621,8 +611,6 @@ protected:
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
-  int RequestInformation(
-    vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
   int RequestUpdateExtent(
     vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
   int RequestData(

@@ -3,14 +3,11 @@
 #ifndef vtkDeformableSurfaceInternals_h
 #define vtkDeformableSurfaceInternals_h
 
-#include "Ranks/Ranks.h"
 #include "Run/SegmentationCache.h"
 #include "Run/SegmentationCheckpoint.h"
 #include "Settings/SegmentationSettings.h"
 #include "vtkDeformableSurface.h"
 
-#include <vtkMultiProcessController.h>
-#include <vtkSmartPointer.h>
 
 #include <memory>
 #include <set>
@@ -28,19 +25,18 @@ public:
   explicit vtkInternals(vtkDeformableSurface& filter) : Filter(filter) {}
 
   /**
-   * At the first rank, once All is set: shows what is kept, or goes on with the last run, or makes
-   * another one, until it is over or told to stop. Afterwards the outputs are filled, and the run
-   * is kept.
+   * Shows what is kept, or goes on with the last run, or makes another one, until it is over or told
+   * to stop. Afterwards the outputs are filled, and the run is kept.
    */
-  void RunOrGoOn(const volumic::FilterCall& call);
+  void RunOrGoOn(vtkInformationVector** inputs, vtkInformationVector* outputs);
   /** Told at the end of the run, once: ParaView's message box would cover the progress bar. */
   void Warn(const std::string& text);
 
   volumic::SegmentationSettings Settings; ///< the properties
   volumic::SegmentationCache Cache;       ///< of the last run
   std::shared_ptr<volumic::SegmentationCheckpoint> Checkpoint; ///< of the last run; null: none
-  vtkSmartPointer<vtkMultiProcessController> Controller;
-  std::unique_ptr<volumic::Ranks> All; ///< of the run that is under way; else null
+  bool IsRunning = false;
+  bool IsOnlyProcess = true; ///< in the run that is under way
   std::vector<std::string> Warnings;   ///< to be told at the end
   std::set<std::string> WarnedOf;      ///< what is told once in the filter's life
   bool LeavesCheckpoints = false; ///< also of runs that have come to their end
@@ -52,7 +48,7 @@ private:
   /**
    * What a run is asked for by the properties and the inputs. From now on the run's time counts.
    */
-  volumic::SegmentationRequest RequestAsSet(const volumic::FilterCall& call);
+  volumic::SegmentationRequest RequestAsSet(vtkInformationVector** inputs);
   /**
    * With ShowLevels: makes it a request for the next level to be shown, if it is not the last.
    * @param kept may be null
@@ -60,7 +56,10 @@ private:
   void ChooseStep(
     volumic::SegmentationRequest& request, const volumic::SurfaceSegmentation* kept);
   /** Makes the levels, and of them a run that has not begun. Null where that was stopped. */
-  std::unique_ptr<volumic::SurfaceSegmentation> NewRun(volumic::SegmentationRequest request);
+  std::unique_ptr<volumic::SurfaceSegmentation> NewRun(
+    volumic::SegmentationRequest request, vtkInformationVector* input);
+  /** Returns whether to continue. */
+  bool ShowProgress(double share, const std::string& text);
 
   vtkDeformableSurface& Filter;
 };

@@ -8,6 +8,7 @@
 #include "Core/Common/Refuse.h"
 #include "Host/Errors.h"
 #include "Host/Pipeline.h"
+#include "Input/InputImage.h"
 #include "Output/SurfaceOutput.h"
 #include "Run/SegmentationLevels.h"
 #include "vtkDeformableSurfaceInternals.h"
@@ -15,6 +16,7 @@
 #include <vtkDataObject.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
+#include <vtkPolyData.h>
 
 #include <algorithm>
 #include <memory>
@@ -38,8 +40,16 @@ void vtkDeformableSurface::vtkInternals::Warn(const std::string& text)
 }
 
 //------------------------------------------------------------------------------
+bool vtkDeformableSurface::vtkInternals::ShowProgress(double share, const std::string& text)
+{
+  this->Filter.SetProgressText(text.c_str());
+  this->Filter.UpdateProgress(share);
+  return !volumic::IsAbortRequested(&this->Filter);
+}
+
+//------------------------------------------------------------------------------
 volumic::SegmentationRequest vtkDeformableSurface::vtkInternals::RequestAsSet(
-  const volumic::FilterCall& call)
+  vtkInformationVector** inputs)
 {
   volumic::SegmentationRequest request;
   request.Settings = this->Settings;
@@ -51,18 +61,18 @@ volumic::SegmentationRequest vtkDeformableSurface::vtkInternals::RequestAsSet(
   }
   request.Limit = volumic::Deadline(request.Started, end.TimeLimit);
   request.Selection = this->Filter.GetInputArrayInformation(0);
-  request.InitialSurface = this->All->TakePoints(1);
-  request.AttractingPoints = this->All->TakePoints(2);
+  request.InitialSurface = vtkPolyData::GetData(inputs[1]);
+  request.AttractingPoints = vtkPolyData::GetData(inputs[2]);
   request.EdgeSelection = this->Filter.GetInputArrayInformation(1);
   request.MayGoOn = volumic::SegmentationCache::MayKeep(&this->Filter);
   // Whoever watches may choose others; else, and where memory is short, it would be held in vain.
   request.KeepsAll = this->IsWatched && !end.LeavesCheckpoints();
   request.CheckpointStays = this->LeavesCheckpoints;
   request.Prepared = [this](const auto& checkpoint) { this->Checkpoint = checkpoint; };
-  const bool makesLevels = volumic::IsImage(vtkDataObject::GetData(call.Inputs[0]));
+  const bool makesLevels = volumic::IsImage(vtkDataObject::GetData(inputs[0]));
   request.Progress = [this, before = makesLevels ? PyramidShare : 0.0](
                        double share, const std::string& text)
-  { return this->All->GoOn(before + (1.0 - before) * share, text); };
+  { return this->ShowProgress(before + (1.0 - before) * share, text); };
   request.Warn = [this](const std::string& text) { this->Warn(text); };
   return request;
 }
@@ -72,9 +82,8 @@ void vtkDeformableSurface::vtkInternals::ChooseStep(
   volumic::SegmentationRequest& request, const volumic::SurfaceSegmentation* kept)
 {
   const volumic::SegmentationSettings& settings = this->Settings;
-  // Whoever asks whether a finer level is still to come asks one rank only: the others would not
-  // run again.
-  const bool isWatched = settings.End.ShowLevels && this->IsWatched && !this->All->AreMany();
+  // GetNeedsUpdate() is called in one process only: the others would not update again.
+  const bool isWatched = settings.End.ShowLevels && this->IsWatched && this->IsOnlyProcess;
   if (!isWatched || std::exchange(this->GoesToTheEnd, false))
   {
     return;
@@ -97,13 +106,13 @@ void vtkDeformableSurface::vtkInternals::ChooseStep(
 
 //------------------------------------------------------------------------------
 std::unique_ptr<volumic::SurfaceSegmentation> vtkDeformableSurface::vtkInternals::NewRun(
-  volumic::SegmentationRequest request)
+  volumic::SegmentationRequest request, vtkInformationVector* inputVector)
 {
-  const vtkSmartPointer<vtkDataObject> input =
-    volumic::PrefixErrors("Input port 0: ", [&] { return this->All->TakeImages(0); });
+  vtkDataObject* input =
+    volumic::PrefixErrors("Input port 0: ", [&] { return volumic::WholeInput(inputVector); });
   volumic::VoxelSource source;
   source.GoOn = [&](double share, const char* text)
-  { return this->All->GoOn(PyramidShare * share, text) && !request.Limit.IsOver(); };
+  { return this->ShowProgress(PyramidShare * share, text) && !request.Limit.IsOver(); };
   source.WarnOnce = [this](const char* what, const std::string& text)
   {
     if (!text.empty() && this->WarnedOf.insert(what).second)
@@ -129,24 +138,18 @@ std::unique_ptr<volumic::SurfaceSegmentation> vtkDeformableSurface::vtkInternals
 }
 
 //------------------------------------------------------------------------------
-void vtkDeformableSurface::vtkInternals::RunOrGoOn(const volumic::FilterCall& call)
+void vtkDeformableSurface::vtkInternals::RunOrGoOn(
+  vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   const volumic::SegmentationSettings& settings = this->Settings;
-  bool isKept = this->Cache.IsValidFor(&this->Filter, this->All->Count());
-  // What has changed on one rank has changed for all.
-  for (volumic::RankMessage& other : this->All->AskAll(volumic::RankQuestion::Own))
-  {
-    bool isKeptThere = false;
-    other >> isKeptThere;
-    isKept = isKept && isKeptThere;
-  }
-  volumic::SegmentationRequest request = this->RequestAsSet(call);
+  volumic::SegmentationRequest request = this->RequestAsSet(inputs);
   this->IsOnTheWay = false;
-  volumic::SurfaceSegmentation* kept = isKept ? this->Cache.Run() : nullptr;
+  volumic::SurfaceSegmentation* kept =
+    this->Cache.IsValidFor(&this->Filter) ? this->Cache.Run() : nullptr;
   kept = kept && kept->GradesFor(request) ? kept : nullptr;
   if (kept && kept->HasAll(request))
   {
-    kept->Results().FillOutputs(kept->EndOf(request), call.Outputs);
+    kept->Results().FillOutputs(kept->EndOf(request), outputs);
     request.Warn(kept->Results().WarningOf(kept->EndOf(request), settings.WantsAllParts()));
     return;
   }
@@ -156,27 +159,26 @@ void vtkDeformableSurface::vtkInternals::RunOrGoOn(const volumic::FilterCall& ca
   if (!kept || !kept->CanGoOn() || !kept->Renew(request))
   {
     run.reset(); // Not the levels of both at a time.
-    run = this->NewRun(request);
+    run = this->NewRun(request, inputs[0]);
   }
-  const auto isStopped = [this]
-  { return volumic::IsAbortRequested(&this->Filter) || this->All->IsStoppedByOthers(); };
+  const auto isStopped = [this] { return volumic::IsAbortRequested(&this->Filter); };
   if (!run)
   {
     const bool isLate = request.Limit.IsOver() && !isStopped();
     volumic::SegmentationResults nothing(settings.Profile);
     nothing.SetStoppedSurface(volumic::MakeStopped(
       0, isLate ? volumic::TimeLimitReason : Describe(volumic::StopReason::Cancelled)));
-    nothing.FillOutputs(0, call.Outputs);
+    nothing.FillOutputs(0, outputs);
     return;
   }
   run->Run();
-  run->Results().FillOutputs(run->EndsAt(), call.Outputs);
+  run->Results().FillOutputs(run->EndsAt(), outputs);
   const bool isFinest = run->EndsAt() <= settings.LastLevel() && settings.EdgeLength == 0.0;
   if (request.IsStep && isFinest)
   {
     request.Warn(run->Results().WarningOf(run->EndsAt(), settings.WantsAllParts()));
   }
   this->IsOnTheWay = request.IsStep && !request.Limit.IsOver() && !isStopped() && !isFinest;
-  this->Cache.Keep(std::move(run), &this->Filter, this->All->Count());
+  this->Cache.Keep(std::move(run), &this->Filter);
   volumic::GiveBackFreeMemory();
 }

@@ -10,7 +10,6 @@
 #include "Input/ImageVoxels.h"
 #include "Input/InputImage.h"
 #include "Pyramid/PyramidBlocks.h"
-#include "Ranks/Ranks.h"
 
 #include <vtkDataArray.h>
 #include <vtkDataObject.h>
@@ -22,7 +21,6 @@
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
 #include <vtkMultiBlockDataSet.h>
-#include <vtkMultiProcessController.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkSmartPointer.h>
@@ -55,46 +53,7 @@ volumic::PyramidOptions OptionsOf(
 class vtkImagePyramid::vtkInternals
 {
 public:
-  vtkSmartPointer<vtkMultiProcessController> Controller;
   std::string ScratchDirectory;
-
-  /**
-   * The pieces of the last run on several ranks. Some filters (vtkCleanPolyData) ask all ranks but
-   * the first one for nothing in between; when those are asked for their pieces again, the first
-   * one still has its own, makes nothing, and would not answer.
-   */
-  vtkSmartPointer<vtkMultiBlockDataSet> Kept;
-  vtkMTimeType TimeOfKept = 0;
-  int RanksOfKept = 0;
-  int GhostLevelsOfKept = 0;
-
-  void Keep(vtkImagePyramid* filter, const volumic::Ranks& ranks, int ghostLevels,
-    vtkMultiBlockDataSet* pyramid)
-  {
-    const bool isReleased = vtkDataObject::GetGlobalReleaseDataFlag() != 0 ||
-      filter->GetExecutive()->GetOutputInformation(0)->Get(vtkDemandDrivenPipeline::RELEASE_DATA());
-    this->Kept = nullptr;
-    if (ranks.AreMany() && !isReleased)
-    {
-      this->Kept = vtkSmartPointer<vtkMultiBlockDataSet>::New();
-      this->Kept->ShallowCopy(pyramid);
-    }
-    this->TimeOfKept = TimeOf(filter);
-    this->RanksOfKept = ranks.Count();
-    this->GhostLevelsOfKept = ghostLevels;
-  }
-  bool Has(vtkImagePyramid* filter, const volumic::Ranks& ranks, int ghostLevels) const
-  {
-    return this->Kept && this->TimeOfKept == TimeOf(filter) &&
-      this->RanksOfKept == ranks.Count() && this->GhostLevelsOfKept >= ghostLevels;
-  }
-
-private:
-  /** When the filter, or what comes before it, was changed last. */
-  static vtkMTimeType TimeOf(vtkImagePyramid* filter)
-  {
-    return vtkDemandDrivenPipeline::SafeDownCast(filter->GetExecutive())->GetPipelineMTime();
-  }
 };
 
 //------------------------------------------------------------------------------
@@ -110,7 +69,6 @@ vtkImagePyramid::vtkImagePyramid() : Internals(std::make_unique<vtkInternals>())
   this->MemoryLimit = 0;
   this->SetInputArrayToProcess(
     0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS);
-  this->Internals->Controller = vtkMultiProcessController::GetGlobalController();
 }
 
 vtkImagePyramid::~vtkImagePyramid() = default;
@@ -150,21 +108,6 @@ void vtkImagePyramid::SetScratchDirectory(const char* directory)
 const char* vtkImagePyramid::GetScratchDirectory()
 {
   return this->Internals->ScratchDirectory.c_str();
-}
-
-//------------------------------------------------------------------------------
-void vtkImagePyramid::SetController(vtkMultiProcessController* controller)
-{
-  if (this->Internals->Controller != controller)
-  {
-    this->Internals->Controller = controller;
-    this->Modified();
-  }
-}
-
-vtkMultiProcessController* vtkImagePyramid::GetController()
-{
-  return this->Internals->Controller;
 }
 
 //------------------------------------------------------------------------------
@@ -232,17 +175,16 @@ int vtkImagePyramid::RequestInformation(
 int vtkImagePyramid::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
 {
-  volumic::Ranks(this->Internals->Controller, { this, request, input, output }).AskForInputs();
+  volumic::RequestInputs(this, request, input, output);
   return 1;
 }
 
 //------------------------------------------------------------------------------
 volumic::PyramidBlocks vtkImagePyramid::MakeBlocks(
-  volumic::Ranks& ranks, vtkSmartPointer<vtkImageData>& image)
+  vtkInformationVector* input, vtkSmartPointer<vtkImageData>& image)
 {
   const volumic::ScratchMemory scratch(this->Internals->ScratchDirectory);
-  const vtkSmartPointer<vtkDataObject> input = ranks.TakeImages(0);
-  image = volumic::ImageOf(input);
+  image = volumic::ImageOf(volumic::WholeInput(input));
   const vtkSmartPointer<vtkDataArray> voxels = volumic::SelectComponent(
     volumic::ChooseArray(this->GetInputArrayInformation(0), image), this->SelectedComponent);
   volumic::PyramidRequest request;
@@ -250,9 +192,17 @@ volumic::PyramidBlocks vtkImagePyramid::MakeBlocks(
     OptionsOf(this->ReductionFactor, this->NumberOfLevels, this->MinimumLevelSize);
   request.NaNIsBackground = this->NaNIsBackground;
   request.NumberOfThreads = this->NumberOfThreads;
-  request.Progress = [&ranks](double share, const std::string& text)
-  { return ranks.GoOn(share, text); };
+  request.Progress = [this](double share, const std::string& text)
+  { return this->ShowProgress(share, text); };
   return volumic::MakePyramidBlocks(image, voxels, request);
+}
+
+//------------------------------------------------------------------------------
+bool vtkImagePyramid::ShowProgress(double share, const std::string& text)
+{
+  this->SetProgressText(text.c_str());
+  this->UpdateProgress(share);
+  return !volumic::IsAbortRequested(this);
 }
 
 //------------------------------------------------------------------------------
@@ -260,51 +210,29 @@ int vtkImagePyramid::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   this->SetErrorCode(vtkErrorCode::NoError);
-  const auto show = [this](double share, const std::string& text)
-  {
-    this->SetProgressText(text.c_str());
-    this->UpdateProgress(share);
-    return !volumic::IsAbortRequested(this);
-  };
-  vtkInternals& internals = *this->Internals;
-  volumic::Ranks ranks(internals.Controller, { this, request, inputVector, outputVector }, show);
-  // Of processes that don't work together the first one holds the pyramid; the others would only
-  // repeat it.
-  if (!ranks.AreMany() && !volumic::IsFirstProcess(request, outputVector))
+  if (!volumic::IsFirstProcess(request, outputVector))
   {
     return 1;
   }
-  const int ghostLevels = volumic::GhostLevelsAskedOf(request, outputVector);
-  if (ranks.AreMany() && internals.Has(this, ranks, ghostLevels))
-  {
-    vtkMultiBlockDataSet::GetData(outputVector)->ShallowCopy(internals.Kept);
-    return 1;
-  }
-  internals.Kept = nullptr;
   // ParaView leaves the flag of an earlier run as it is.
   volumic::ForgetAbort(this);
   vtkSmartPointer<vtkImageData> image;
-  volumic::RankWork work;
-  work.OfFirst = [&]
+  const auto work = [&]
   {
-    const volumic::PyramidBlocks pyramid = this->MakeBlocks(ranks, image);
+    const volumic::PyramidBlocks pyramid = this->MakeBlocks(inputVector[0], image);
     vtkMultiBlockDataSet::GetData(outputVector)->ShallowCopy(pyramid.Blocks);
     if (!pyramid.AboutNaNs.empty())
     {
       vtkWarningMacro("Input port 0: " << pyramid.AboutNaNs);
     }
   };
-  const volumic::AlgorithmError error = ranks.Run(
+  const volumic::AlgorithmError error = volumic::RunAlgorithm(outputVector,
     [&]
     {
       return volumic::Join("the memory does not suffice for the pyramid of an image of ",
         image ? volumic::SizeOf(image) : "?", " voxels.");
     },
     work);
-  if (error.Code == vtkErrorCode::NoError)
-  {
-    internals.Keep(this, ranks, ghostLevels, vtkMultiBlockDataSet::GetData(outputVector));
-  }
   if (error.Code != vtkErrorCode::NoError)
   {
     this->SetErrorCode(error.Code);

@@ -52,12 +52,8 @@
  * half of the weight.
  *
  * @par Processes:
- * Where each process of an MPI run asks for the piece of its own number, as in pvserver and
- * pvbatch, the first one takes the image together, makes the levels, the same bits as one process,
- * and gives each its piece of each level. Pieces of neighbours share a layer of voxels, and have
- * further ones in their ghost arrays where ghost levels are asked for, as VTK cuts all images. A
- * block is null on processes for which its level has too few voxels. The field data of the whole are
- * the same on all; an error of one process is reported by all.
+ * In a parallel run, as in pvserver and pvbatch, the first process (piece 0) requests the whole image
+ * and makes all levels. The output of the other processes is empty.
  *
  * @par Errors:
  * A message names the port, the array or the value, and the output is empty, when: the input is no
@@ -94,11 +90,10 @@
 
 class vtkDataObject;
 class vtkImageData;
+class vtkInformationVector;
 class vtkMultiBlockDataSet;
-class vtkMultiProcessController;
 namespace volumic
 {
-class Ranks;
 struct PyramidBlocks;
 }
 
@@ -192,15 +187,6 @@ public:
   const char* GetScratchDirectory();
   ///@}
 
-  ///@{
-  /**
-   * The processes that make a pyramid together, see Processes. Default: the global controller of
-   * the program, null where it has none.
-   */
-  void SetController(vtkMultiProcessController* controller);
-  vtkMultiProcessController* GetController();
-  ///@}
-
   /**
    * How many levels the pyramid of an image of so many voxels has, with these settings; 0 where
    * they don't go together, which Update() tells by an error.
@@ -238,8 +224,10 @@ private:
   int RequestDataObject(vtkInformationVector* output);
 
   /// @param image gets the image, once it is there
-  volumic::PyramidBlocks MakeBlocks(volumic::Ranks& ranks,
-    vtkSmartPointer<vtkImageData>& image);
+  volumic::PyramidBlocks MakeBlocks(
+    vtkInformationVector* input, vtkSmartPointer<vtkImageData>& image);
+  /// Returns whether to continue.
+  bool ShowProgress(double share, const std::string& text);
 
   class vtkInternals;
   std::unique_ptr<vtkInternals> Internals;

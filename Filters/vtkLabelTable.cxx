@@ -8,7 +8,6 @@
 #include "Input/InputImage.h"
 #include "Labels/LabelImage.h"
 #include "Labels/LabelNames.h"
-#include "Ranks/Ranks.h"
 
 #include <vtkDataObject.h>
 #include <vtkDataSetAttributes.h>
@@ -18,7 +17,6 @@
 #include <vtkImageData.h>
 #include <vtkInformation.h>
 #include <vtkIntArray.h>
-#include <vtkMultiProcessController.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkStringArray.h>
@@ -49,9 +47,7 @@ int vtkLabelTable::FillInputPortInformation(int, vtkInformation* info)
 int vtkLabelTable::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
 {
-  volumic::Ranks(
-    vtkMultiProcessController::GetGlobalController(), { this, request, input, output })
-    .AskForInputs();
+  volumic::RequestInputs(this, request, input, output);
   return 1;
 }
 
@@ -60,9 +56,7 @@ int vtkLabelTable::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   this->SetErrorCode(vtkErrorCode::NoError);
-  volumic::Ranks ranks(vtkMultiProcessController::GetGlobalController(),
-    { this, request, inputVector, outputVector });
-  if (!ranks.AreMany() && !volumic::IsFirstProcess(request, outputVector))
+  if (!volumic::IsFirstProcess(request, outputVector))
   {
     return 1;
   }
@@ -78,10 +72,9 @@ int vtkLabelTable::RequestData(
   vtkNew<vtkDoubleArray> colors;
   colors->SetName("Color");
   colors->SetNumberOfComponents(3);
-  volumic::RankWork work;
-  work.OfFirst = [&]
+  const auto work = [&]
   {
-    const vtkSmartPointer<vtkDataObject> input = ranks.TakeImages(0);
+    vtkDataObject* input = volumic::WholeInput(inputVector[0]);
     volumic::HostThreads threads(0);
     std::optional<volumic::LabelImage> image;
     threads.Run([&] { image.emplace(input, this->GetInputArrayInformation(0), 0, threads); });
@@ -103,8 +96,8 @@ int vtkLabelTable::RequestData(
     table->AddColumn(extents);
     table->AddColumn(colors);
   };
-  const volumic::AlgorithmError error = ranks.Run(
-    [] { return "the memory does not suffice for the labels."; }, work);
+  const volumic::AlgorithmError error = volumic::RunAlgorithm(
+    outputVector, [] { return "the memory does not suffice for the labels."; }, work);
   if (error.Code != vtkErrorCode::NoError)
   {
     this->SetErrorCode(error.Code);

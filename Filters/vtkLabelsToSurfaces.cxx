@@ -16,7 +16,6 @@
 #include "Labels/LabelInterfaces.h"
 #include "Labels/LabelNames.h"
 #include "Output/SurfaceOutput.h"
-#include "Ranks/Ranks.h"
 #include "Settings/PropertyTable.h"
 
 #include <vtkCellData.h>
@@ -28,7 +27,6 @@
 #include <vtkInformationVector.h>
 #include <vtkIntArray.h>
 #include <vtkMultiBlockDataSet.h>
-#include <vtkMultiProcessController.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkPolyData.h>
@@ -57,7 +55,6 @@ public:
   int MemoryLimit = 0; ///< has no effect
   std::string ScratchDirectory;
   volumic::LabelNames Names;
-  vtkSmartPointer<vtkMultiProcessController> Controller;
   bool IsRunning = false;
 
   /** Choose the labels, and check the properties. Errors are thrown. */
@@ -71,7 +68,6 @@ vtkLabelsToSurfaces::vtkLabelsToSurfaces() : Internals(std::make_unique<vtkInter
   this->SetNumberOfOutputPorts(2);
   this->SetInputArrayToProcess(
     0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS);
-  this->Internals->Controller = vtkMultiProcessController::GetGlobalController();
 }
 
 vtkLabelsToSurfaces::~vtkLabelsToSurfaces() = default;
@@ -130,21 +126,6 @@ void vtkLabelsToSurfaces::SetMemoryLimit(int mebibytes)
     vtkWarningMacro(<< volumic::MemoryLimitHasNoEffect);
   }
   this->Internals->MemoryLimit = mebibytes;
-}
-
-//------------------------------------------------------------------------------
-void vtkLabelsToSurfaces::SetController(vtkMultiProcessController* controller)
-{
-  if (this->Internals->Controller != controller)
-  {
-    this->Internals->Controller = controller;
-    this->Modified();
-  }
-}
-
-vtkMultiProcessController* vtkLabelsToSurfaces::GetController()
-{
-  return this->Internals->Controller;
 }
 
 //------------------------------------------------------------------------------
@@ -242,7 +223,7 @@ vtkPolyData* vtkLabelsToSurfaces::GetInterfaces()
 int vtkLabelsToSurfaces::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
 {
-  volumic::Ranks(this->Internals->Controller, { this, request, input, output }).AskForInputs();
+  volumic::RequestInputs(this, request, input, output);
   return 1;
 }
 
@@ -277,10 +258,11 @@ bool vtkLabelsToSurfaces::ShowProgress(double share, const std::string& text)
 }
 
 //------------------------------------------------------------------------------
-void vtkLabelsToSurfaces::MakeSurfaces(volumic::Ranks& ranks, const volumic::FilterCall& call)
+void vtkLabelsToSurfaces::MakeSurfaces(
+  vtkInformationVector* inputVector, vtkInformationVector* outputVector)
 {
-  auto* output = vtkMultiBlockDataSet::GetData(call.Outputs, 0);
-  auto* interfaces = vtkPolyData::GetData(call.Outputs, 1);
+  auto* output = vtkMultiBlockDataSet::GetData(outputVector, 0);
+  auto* interfaces = vtkPolyData::GetData(outputVector, 1);
   const vtkInternals& internals = *this->Internals;
   if (!(internals.TimeLimit >= 0.0))
   {
@@ -291,8 +273,8 @@ void vtkLabelsToSurfaces::MakeSurfaces(volumic::Ranks& ranks, const volumic::Fil
   this->ShowProgress(0.0, "Reading the labels");
   volumic::HostThreads threads(internals.NumberOfThreads);
   std::optional<volumic::LabelImage> image;
-  const vtkSmartPointer<vtkDataObject> input = volumic::PrefixErrors(
-    "Input port 0: ", [&] { return ranks.TakeImages(0); });
+  vtkDataObject* input =
+    volumic::PrefixErrors("Input port 0: ", [&] { return volumic::WholeInput(inputVector); });
   const volumic::LabelChoice choice =
     internals.Read(input, this->GetInputArrayInformation(0), image, threads);
   const std::string aboutScans = image->ScanWarning(internals.BackgroundLabel);
@@ -311,7 +293,7 @@ void vtkLabelsToSurfaces::MakeSurfaces(volumic::Ranks& ranks, const volumic::Fil
   volumic::LabelInterfaceMaker maker(
     std::move(map), objects, image->Image(), internals.Settings, threads);
   maker.Make(threads,
-    [&ranks](double share, const std::string& text) { return ranks.GoOn(share, text); });
+    [this](double share, const std::string& text) { return this->ShowProgress(share, text); });
   interfaces->ShallowCopy(maker.Interfaces(choice.FirstLabels(), internals.BackgroundLabel));
   volumic::AddLabelFields(choice, *image, interfaces);
   if (choice.IsMerged)
@@ -323,7 +305,6 @@ void vtkLabelsToSurfaces::MakeSurfaces(volumic::Ranks& ranks, const volumic::Fil
     image->FindNearest(interfaces, choice.Labels, nearest);
     sides->CopyComponent(0, nearest, 0);
   }
-  // Another process may have stopped it, too.
   const bool isLate = internals.Limit.IsOver() && !volumic::IsAbortRequested(this);
   const std::string stopped =
     isLate ? volumic::TimeLimitReason : Describe(volumic::StopReason::Cancelled);
@@ -345,27 +326,20 @@ int vtkLabelsToSurfaces::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   this->SetErrorCode(vtkErrorCode::NoError);
-  const auto show = [this](double share, const std::string& text)
-  { return this->ShowProgress(share, text); };
-  const volumic::FilterCall call{ this, request, inputVector, outputVector };
-  volumic::Ranks ranks(this->Internals->Controller, call, show);
-  if (!ranks.AreMany() && !volumic::IsFirstProcess(request, outputVector))
+  if (!volumic::IsFirstProcess(request, outputVector))
   {
     return 1;
   }
   this->Internals->IsRunning = true;
   // ParaView leaves the flag of an earlier run as it is.
   volumic::ForgetAbort(this);
-  volumic::RankWork work;
-  work.Deals = volumic::Dealing::FirstHasAll;
-  work.OfFirst = [&] { this->MakeSurfaces(ranks, call); };
-  const volumic::AlgorithmError error = ranks.Run(
+  const volumic::AlgorithmError error = volumic::RunAlgorithm(outputVector,
     []
     {
       return "Input port 0: the memory does not suffice for the surfaces. Set Finest Level to a "
              "coarser level, or choose fewer Labels.";
     },
-    work);
+    [&] { this->MakeSurfaces(inputVector[0], outputVector); });
   if (error.Code != vtkErrorCode::NoError)
   {
     this->SetErrorCode(error.Code);

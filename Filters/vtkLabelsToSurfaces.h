@@ -86,10 +86,8 @@
  * TimeLimit ends a run in the same way. The next run starts anew.
  *
  * @par Processes:
- * If the controller has several processes, and each requests the piece of its own number of as many
- * pieces, as those of ParaView do, the first process collects the image and makes all surfaces. The
- * others have the same blocks, empty. All processes report an error of one, and AbortExecute of any
- * stops all. Requests for other pieces are executed serially.
+ * In a parallel run, as in pvserver and pvbatch, the first process (piece 0) requests the whole image
+ * and makes all surfaces. The outputs of the other processes are empty.
  *
  * @sa
  * vtkVolumeToSurface vtkLabelTable
@@ -104,13 +102,7 @@
 
 class vtkDataObject;
 class vtkMultiBlockDataSet;
-class vtkMultiProcessController;
 class vtkPolyData;
-namespace volumic
-{
-class Ranks;
-struct FilterCall;
-}
 
 class VTKFILTERSVOLUMIC_EXPORT vtkLabelsToSurfaces : public vtkMultiBlockDataSetAlgorithm
 {
@@ -308,12 +300,6 @@ public:
   void ClearLabelColors();
   ///@}
 
-  ///@{
-  /** As vtkDeformableSurface: the processes that make the surfaces together, see Processes. */
-  void SetController(vtkMultiProcessController* controller);
-  vtkMultiProcessController* GetController();
-  ///@}
-
   /** Return output port 1. */
   vtkPolyData* GetInterfaces();
 
@@ -337,7 +323,7 @@ private:
   class vtkInternals;
   bool ShowProgress(double share, const std::string& text);
   /** Errors are thrown. */
-  void MakeSurfaces(volumic::Ranks& ranks, const volumic::FilterCall& call);
+  void MakeSurfaces(vtkInformationVector* inputVector, vtkInformationVector* outputVector);
   std::unique_ptr<vtkInternals> Internals; ///< the properties
 
   vtkLabelsToSurfaces(const vtkLabelsToSurfaces&) = delete;

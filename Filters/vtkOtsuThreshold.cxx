@@ -6,7 +6,6 @@
 #include "Host/Pipeline.h"
 #include "Input/InputImage.h"
 #include "Input/ValueHints.h"
-#include "Ranks/Ranks.h"
 
 #include <vtkDataObject.h>
 #include <vtkDataSetAttributes.h>
@@ -14,40 +13,20 @@
 #include <vtkErrorCode.h>
 #include <vtkImageData.h>
 #include <vtkMath.h>
-#include <vtkMultiProcessController.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
-#include <vtkSmartPointer.h>
 #include <vtkTable.h>
-
-#include <vector>
 
 vtkStandardNewMacro(vtkOtsuThreshold);
 
 //------------------------------------------------------------------------------
 vtkOtsuThreshold::vtkOtsuThreshold() : SelectedComponent(-1), Threshold(vtkMath::Nan())
 {
-  this->Controller = vtkMultiProcessController::GetGlobalController();
   this->SetInputArrayToProcess(
     0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS);
 }
 
 vtkOtsuThreshold::~vtkOtsuThreshold() = default;
-
-//------------------------------------------------------------------------------
-void vtkOtsuThreshold::SetController(vtkMultiProcessController* controller)
-{
-  if (this->Controller != controller)
-  {
-    this->Controller = controller;
-    this->Modified();
-  }
-}
-
-vtkMultiProcessController* vtkOtsuThreshold::GetController()
-{
-  return this->Controller;
-}
 
 //------------------------------------------------------------------------------
 vtkDoubleArray* vtkOtsuThreshold::GetHistogram()
@@ -67,7 +46,7 @@ int vtkOtsuThreshold::FillInputPortInformation(int, vtkInformation* info)
 int vtkOtsuThreshold::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
 {
-  volumic::Ranks(this->Controller, { this, request, input, output }).AskForInputs();
+  volumic::RequestInputs(this, request, input, output);
   return 1;
 }
 
@@ -78,48 +57,30 @@ int vtkOtsuThreshold::RequestData(
   this->Threshold = vtkMath::Nan();
   this->Histogram->SetNumberOfTuples(0);
   this->SetErrorCode(vtkErrorCode::NoError);
-  volumic::Ranks ranks(this->Controller, { this, request, input, output });
-  if (!ranks.AreMany() && !volumic::IsFirstProcess(request, output))
+  if (!volumic::IsFirstProcess(request, output))
   {
     return 1;
   }
-  const auto keep = [this](double threshold, const std::vector<double>& histogram)
+  const auto work = [&]
   {
-    this->Threshold = threshold;
-    for (const double value : histogram)
-    {
-      this->Histogram->InsertNextValue(value);
-    }
-  };
-  volumic::RankWork work;
-  work.OfFirst = [&]
-  {
-    const vtkSmartPointer<vtkDataObject> data = ranks.TakeImages(0);
-    const volumic::PointVoxels voxels =
-      volumic::TakeCellsAsPoints(volumic::ImageOf(data), this->GetInputArrayInformation(0));
+    const volumic::PointVoxels voxels = volumic::TakeCellsAsPoints(
+      volumic::ImageOf(volumic::WholeInput(input[0])), this->GetInputArrayInformation(0));
     const volumic::VoxelHistogram found =
       volumic::FindOtsuThreshold(voxels.Image, voxels.Selection, this->SelectedComponent, 0);
     vtkNew<vtkDoubleArray> column;
     column->SetName("Threshold");
     column->InsertNextValue(found.Threshold);
     vtkTable::GetData(output)->AddColumn(column);
-    std::vector<double> histogram = { found.Range[0], found.Range[1] };
-    histogram.insert(histogram.end(), found.Counts.begin(), found.Counts.end());
-    keep(found.Threshold, histogram);
-    volumic::RankMessage message;
-    message << found.Threshold << histogram;
-    ranks.AskAll(volumic::RankQuestion::Own, message);
+    this->Threshold = found.Threshold;
+    this->Histogram->InsertNextValue(found.Range[0]);
+    this->Histogram->InsertNextValue(found.Range[1]);
+    for (const auto count : found.Counts)
+    {
+      this->Histogram->InsertNextValue(static_cast<double>(count));
+    }
   };
-  work.OfOthers = [&keep](volumic::RankMessage& message)
-  {
-    double threshold = 0.0;
-    std::vector<double> histogram;
-    message >> threshold >> histogram;
-    keep(threshold, histogram);
-    return volumic::RankMessage();
-  };
-  const volumic::AlgorithmError error = ranks.Run(
-    [] { return "the memory does not suffice for the threshold."; }, work);
+  const volumic::AlgorithmError error = volumic::RunAlgorithm(
+    output, [] { return "the memory does not suffice for the threshold."; }, work);
   if (error.Code != vtkErrorCode::NoError)
   {
     this->SetErrorCode(error.Code);

@@ -25,8 +25,8 @@
  * filter, and ParaView none of VTK's histograms.)
  *
  * @par Processes:
- * Where each process of an MPI run asks for the piece of its own number, the first one takes the
- * pieces of the image together, and all get its threshold; the row of the table is on the first.
+ * In a parallel run the first process (piece 0) requests the whole image. The others have an empty
+ * table and no threshold.
  *
  * @par Errors:
  * Voxels that are all equal, all NaN, or infinite, inputs that are no image, and images without
@@ -46,9 +46,7 @@
 #include "vtkTableAlgorithm.h"
 
 #include <vtkDoubleArray.h>
-#include <vtkMultiProcessController.h>
 #include <vtkNew.h>
-#include <vtkSmartPointer.h>
 
 class VTKFILTERSVOLUMIC_EXPORT vtkOtsuThreshold : public vtkTableAlgorithm
 {
@@ -64,15 +62,6 @@ public:
    */
   vtkSetMacro(SelectedComponent, int);
   vtkGetMacro(SelectedComponent, int);
-  ///@}
-
-  ///@{
-  /**
-   * The processes that look at an image together, see Processes. Default: the global controller of
-   * the program, null where it has none.
-   */
-  void SetController(vtkMultiProcessController* controller);
-  vtkMultiProcessController* GetController();
   ///@}
 
   /**
@@ -99,7 +88,6 @@ protected:
   int SelectedComponent;
   double Threshold;
   vtkNew<vtkDoubleArray> Histogram;
-  vtkSmartPointer<vtkMultiProcessController> Controller;
 
 private:
   vtkOtsuThreshold(const vtkOtsuThreshold&) = delete;

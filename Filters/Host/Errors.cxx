@@ -41,6 +41,8 @@ std::string CollectErrors(vtkAlgorithm* algorithm, const std::function<void()>& 
   return errors;
 }
 
+namespace
+{
 AlgorithmError CatchError(
   const std::function<std::string()>& aboutMemory, const std::function<void()>& work)
 {
@@ -48,10 +50,6 @@ AlgorithmError CatchError(
   {
     work();
     return {};
-  }
-  catch (const ToldError& told)
-  {
-    return told.Error;
   }
   catch (const std::bad_alloc&)
   {
@@ -65,6 +63,7 @@ AlgorithmError CatchError(
   {
     return { vtkErrorCode::UnknownError, other.what() };
   }
+}
 }
 
 AlgorithmError RunAlgorithm(vtkInformationVector* outputs,

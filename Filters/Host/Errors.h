@@ -27,27 +27,14 @@ struct AlgorithmError
   std::string Text;
 };
 
-/** One that was found elsewhere, and is told as it is. */
-struct ToldError : std::runtime_error
-{
-  explicit ToldError(const AlgorithmError& error) : std::runtime_error(error.Text), Error(error) {}
-  AlgorithmError Error;
-};
-
 /**
- * Does some work.
+ * Does the work of RequestData. Where it throws, all outputs are left initialised: no data half
+ * made, and none of the field data that the pipeline has passed from the input. RequestData then
+ * returns 1 all the same: after 0 the pipeline would print a second error, and ParaView's clients
+ * would keep what they had before.
  * @param aboutMemory what to say where the memory does not suffice
  * @return what it throws: vtkErrorCode::UserError for std::invalid_argument (what was given is
- *         wrong), else vtkErrorCode::UnknownError (memory); a ToldError as it was told.
- */
-AlgorithmError CatchError(
-  const std::function<std::string()>& aboutMemory, const std::function<void()>& work);
-
-/**
- * Does the work of RequestData, likewise. Where it throws, all outputs are left initialised: no
- * data half made, and none of the field data that the pipeline has passed from the input.
- * RequestData then returns 1 all the same: after 0 the pipeline would print a second error, and
- * ParaView's clients would keep what they had before.
+ *         wrong), else vtkErrorCode::UnknownError (memory).
  */
 AlgorithmError RunAlgorithm(vtkInformationVector* outputs,
   const std::function<std::string()>& aboutMemory, const std::function<void()>& work);

@@ -14,19 +14,20 @@
 #include <vtkVersionMacros.h>
 
 #include <algorithm>
+#include <array>
 
 namespace volumic
 {
-/** Of the output that someone asks for: the piece, and the ghost levels. */
+/** Return the information of the requested output, with the piece of the update request. */
 inline vtkInformation* AskedOutput(vtkInformation* request, vtkInformationVector* outputs)
 {
   return outputs->GetInformationObject(std::max(0, request->Get(vtkExecutive::FROM_OUTPUT_PORT())));
 }
 
 /**
- * Whether this is the first process of a parallel run, or the only one. It makes the whole
- * output; the others have none, as they would only repeat it. Some filters (vtkCleanPolyData) have
- * the others ask for one of no pieces.
+ * Return whether this is the first process of a parallel run, or the only one. It makes the whole
+ * output, and the outputs of all others are empty. Some filters (vtkCleanPolyData) request piece 0
+ * of 0 in the other processes.
  */
 inline bool IsFirstProcess(vtkInformation* request, vtkInformationVector* outputs)
 {
@@ -37,11 +38,43 @@ inline bool IsFirstProcess(vtkInformation* request, vtkInformationVector* output
   return !isOfNone && info->Get(Pipeline::UPDATE_PIECE_NUMBER()) <= 0;
 }
 
-/** How many layers beyond a piece someone asks for, of an output. */
-inline int GhostLevelsAskedOf(vtkInformation* request, vtkInformationVector* outputs)
+/** Return whether the run is not parallel. */
+inline bool IsOnlyProcess(vtkInformation* request, vtkInformationVector* outputs)
 {
   return AskedOutput(request, outputs)
-    ->Get(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS());
+           ->Get(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES()) <= 1;
+}
+
+/**
+ * RequestUpdateExtent of the filters: the first process requests the whole of all inputs, and the
+ * others request no voxels of images. Of data without a whole extent, such as surfaces, the others
+ * request the piece of their own number, which is small.
+ */
+inline void RequestInputs(vtkAlgorithm* filter, vtkInformation* request,
+  vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  const bool isFirst = IsFirstProcess(request, outputs);
+  for (int port = 0; port < filter->GetNumberOfInputPorts(); ++port)
+  {
+    for (int i = 0; i < inputs[port]->GetNumberOfInformationObjects(); ++i)
+    {
+      vtkInformation* info = inputs[port]->GetInformationObject(i);
+      const bool hasExtent = info->Has(Pipeline::WHOLE_EXTENT()) != 0;
+      if (hasExtent)
+      {
+        std::array<int, 6> extent = { 0, -1, 0, -1, 0, -1 };
+        isFirst ? info->Get(Pipeline::WHOLE_EXTENT(), extent.data()) : void();
+        info->Set(Pipeline::UPDATE_EXTENT(), extent.data(), 6);
+      }
+      if (isFirst || hasExtent)
+      {
+        info->Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
+        info->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
+        info->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+      }
+    }
+  }
 }
 
 /** Whether the data that come to a port are released once they have been used. */

@@ -14,11 +14,13 @@
 #include <vtkDataSetAttributes.h>
 #include <vtkImageData.h>
 #include <vtkInformation.h>
+#include <vtkInformationVector.h>
 #include <vtkMatrix3x3.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkSmartPointer.h>
+#include <vtkStreamingDemandDrivenPipeline.h>
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
@@ -209,6 +211,31 @@ void BlankAsCells(vtkImageData* cells, vtkImageData* points)
     });
   points->GetPointData()->AddArray(hidden);
 }
+}
+
+vtkDataObject* WholeInput(vtkInformationVector* port)
+{
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  vtkInformation* info = port->GetInformationObject(0);
+  auto* image = vtkImageData::GetData(info);
+  if (image && image->GetNumberOfPoints() > 0 && info->Has(Pipeline::UPDATE_EXTENT()))
+  {
+    int requested[6];
+    info->Get(Pipeline::UPDATE_EXTENT(), requested);
+    const int* given = image->GetExtent();
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      if (given[2 * axis] > requested[2 * axis] || given[2 * axis + 1] < requested[2 * axis + 1])
+      {
+        Refuse("the source gives only ", SizeOf(image), " of the image's ",
+          requested[1] - requested[0] + 1, " x ", requested[3] - requested[2] + 1, " x ",
+          requested[5] - requested[4] + 1,
+          " voxels, as one that is distributed over several processes does. The first process needs "
+          "the whole image. Save it as .pvti, and open that file instead.");
+      }
+    }
+  }
+  return vtkDataObject::GetData(info);
 }
 
 vtkImageData* ImageOf(vtkDataObject* input)

@@ -8,9 +8,17 @@
 class vtkDataObject;
 class vtkImageData;
 class vtkInformation;
+class vtkInformationVector;
 
 namespace volumic
 {
+/**
+ * Return the data at an input port; null if there are none.
+ * @throws std::invalid_argument if they are a part of the image that was requested: a source that is
+ *         distributed over processes cannot give one process the whole.
+ */
+vtkDataObject* WholeInput(vtkInformationVector* port);
+
 /**
  * The image that the input of a filter means: itself; the only image in a composite dataset; block
  * 0 of a pyramid.

@@ -74,8 +74,7 @@ bool SegmentationCache::MayKeep(vtkAlgorithm* filter)
   return !areReleased; // They must not stay because of us.
 }
 
-void SegmentationCache::Keep(
-  std::unique_ptr<SurfaceSegmentation> run, vtkAlgorithm* filter, int ranks)
+void SegmentationCache::Keep(std::unique_ptr<SurfaceSegmentation> run, vtkAlgorithm* filter)
 {
   this->Drop();
   if (!MayKeep(filter))
@@ -83,9 +82,8 @@ void SegmentationCache::Keep(
     return;
   }
   this->Time = filter->GetMTime();
-  this->Ranks = ranks;
   this->InputsOfRun = InputsOf(filter);
-  if (run && !run->CanGoOn())
+  if (!run->CanGoOn())
   {
     run->LetGo();
   }
@@ -114,9 +112,9 @@ void SegmentationCache::IgnoreChange(vtkMTimeType before, vtkMTimeType after)
   }
 }
 
-bool SegmentationCache::IsValidFor(vtkAlgorithm* filter, int ranks) const
+bool SegmentationCache::IsValidFor(vtkAlgorithm* filter) const
 {
-  return this->Time != 0 && this->Time == filter->GetMTime() && this->Ranks == ranks &&
+  return this->Time != 0 && this->Time == filter->GetMTime() &&
     this->InputsOfRun == InputsOf(filter);
 }
 }

@@ -27,11 +27,8 @@ public:
   /** Whether a run of this filter may be kept: not where data are released. */
   static bool MayKeep(vtkAlgorithm* filter);
 
-  /**
-   * It is valid until the filter, or one of its inputs, is modified.
-   * @param run null on ranks whose results another one has; these ask for IsValidFor() only
-   */
-  void Keep(std::unique_ptr<SurfaceSegmentation> run, vtkAlgorithm* filter, int ranks);
+  /** It is valid until the filter, or one of its inputs, is modified. */
+  void Keep(std::unique_ptr<SurfaceSegmentation> run, vtkAlgorithm* filter);
   void Drop();
   /** Null: none is kept. */
   SurfaceSegmentation* Run() const { return this->Kept.get(); }
@@ -41,8 +38,8 @@ public:
   /** The filter was modified, from one MTime to another, by what does not matter to the run. */
   void IgnoreChange(vtkMTimeType before, vtkMTimeType after);
 
-  /** Whether neither the filter nor its inputs have changed otherwise, nor the number of ranks. */
-  bool IsValidFor(vtkAlgorithm* filter, int ranks) const;
+  /** Whether neither the filter nor its inputs have changed otherwise. */
+  bool IsValidFor(vtkAlgorithm* filter) const;
 
 private:
   /** What comes to a filter, and when it was changed last. */
@@ -51,7 +48,6 @@ private:
 
   std::unique_ptr<SurfaceSegmentation> Kept;
   vtkMTimeType Time = 0; ///< 0: nothing is kept
-  int Ranks = 1;
   Inputs InputsOfRun;
 };
 }

@@ -28,10 +28,10 @@ from vtk_files import read
 # What is set in another way: inputs, and what of the pyramid is the surface's.
 NOT_OPTIONS = {"vtkDeformableSurface": {"InitialSurfaceConnection", "InitialSurfaceData",
                                         "AttractingPointsConnection", "AttractingPointsData",
-                                        "Controller", "ShowLevels", "UseUpperValue", "MemoryLimit",
+                                        "ShowLevels", "UseUpperValue", "MemoryLimit",
                                         "Resume"},
-               "vtkLabelsToSurfaces": {"Controller", "LabelColor", "LabelName", "MemoryLimit"},
-               "vtkImagePyramid": {"Controller", "MemoryLimit"}}
+               "vtkLabelsToSurfaces": {"LabelColor", "LabelName", "MemoryLimit"},
+               "vtkImagePyramid": {"MemoryLimit"}}
 
 
 def properties_of(filter_class, base_class):

@@ -23,8 +23,7 @@ MAY_CHANGE = {
     "FinestLevel": "where it ends", "Preview": "where it ends", "TimeLimit": "when it ends",
     "NumberOfThreads": "the same bits", "MemoryLimit": "the same bits",
     "ScratchDirectory": "where the checkpoint is", "Resume": "asks for it",
-    "ShowLevels": "what is shown of it", "Profile": "columns of seconds",
-    "Controller": "the same bits"}
+    "ShowLevels": "what is shown of it", "Profile": "columns of seconds"}
 # Where half as much again, or the next number, is no legal value, or none that is another one.
 VALUES = {"SamplingRatio": 0.9, "CoarsestLevel": 1, "EdgeLength": 1.2, "Tolerance": .1,
           "MaximumEdgeLength": 5., "Gradation": .1, "SeedRadius": 3., "NumberOfLevels": 2,
