@@ -132,32 +132,6 @@ void vtkDeformableSurface::ForgetRun()
 }
 
 //------------------------------------------------------------------------------
-void vtkDeformableSurface::LeaveCheckpoints()
-{
-  this->Internals->LeavesCheckpoints = true;
-}
-
-void vtkDeformableSurface::RemoveCheckpoint()
-{
-  if (this->Internals->Checkpoint)
-  {
-    this->Internals->Checkpoint->Remove();
-  }
-}
-
-std::string vtkDeformableSurface::GetCheckpointFolder()
-{
-  return this->Internals->Checkpoint ? this->Internals->Checkpoint->FolderInUse() : "";
-}
-
-int vtkDeformableSurface::GetResumedLevel()
-{
-  constexpr int none = -2;
-  return this->Internals->Checkpoint ? this->Internals->Checkpoint->ResumedLevel().value_or(none)
-                                     : none;
-}
-
-//------------------------------------------------------------------------------
 int vtkDeformableSurface::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
 {

@@ -98,8 +98,8 @@
  * @par
  * Warnings come at the end of a run: if nothing is left, or KeepComponents leaves nothing; if
  * `MissingBoundary` is more than 0.05 at the finest level, with Recovery, without Preview and where
- * KeepComponents leaves out none; the number of voxels that are NaN; where checkpoints cannot be
- * kept. All else is told by the field data only.
+ * KeepComponents leaves out none; the number of voxels that are NaN. All else is told by the field
+ * data only.
  *
  * @par Cancelling:
  * AbortExecute is looked at several times a second, with each progress event: the surface as it is
@@ -121,14 +121,6 @@
  * To limit the memory of a process use its cgroup, for example
  * `systemd-run --user --scope -p MemoryMax=2G`. A full disk is an error.
  *
- * @par Checkpoints:
- * With a ScratchDirectory or Resume, each level leaves at its end what another process
- * can go on from by Resume: a folder `volumic-<16 digits>` in the scratch directory, one for each
- * volume and choice of settings. It goes when the run is over; it stays where the process is
- * killed, or the run stopped or cut off by TimeLimit. Where there are only those of another volume
- * or other settings, Resume is an error, which names what differs; one that is in use, or cannot be
- * written, is a warning.
- *
  * @par Processes:
  * In a parallel run, as in pvserver and pvbatch, the first process (piece 0) requests the whole of all
  * inputs and makes the whole surface. All outputs of the other processes are empty, and ShowLevels
@@ -149,7 +141,6 @@
 #include "vtkPolyDataAlgorithm.h"
 
 #include <memory> // For what is hidden
-#include <string>
 
 class vtkAlgorithmOutput;
 class vtkDataObject;
@@ -507,23 +498,10 @@ public:
   ///@}
 
   ///@{
-  /** Go on from a checkpoint, see there, or begin anew where there is none. Default: off. */
+  /** Deprecated, has no effect: on is a warning. It leaves with the next release. Default: off. */
   void SetResume(bool resume);
   virtual bool GetResume();
   vtkBooleanMacro(Resume, bool);
-  ///@}
-
-  ///@{
-  /**
-   * For programs that write the surface. After LeaveCheckpoints() those of the runs to come stay
-   * when these are over, that of the last level included, until RemoveCheckpoint(). The folder is
-   * that of the last run, empty: none; the level is the one that it has gone on from by Resume, -2:
-   * it began anew.
-   */
-  void LeaveCheckpoints();
-  void RemoveCheckpoint();
-  std::string GetCheckpointFolder();
-  int GetResumedLevel();
   ///@}
 
   ///@{

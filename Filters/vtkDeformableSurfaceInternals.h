@@ -4,7 +4,6 @@
 #define vtkDeformableSurfaceInternals_h
 
 #include "Run/SegmentationCache.h"
-#include "Run/SegmentationCheckpoint.h"
 #include "Settings/SegmentationSettings.h"
 #include "vtkDeformableSurface.h"
 
@@ -34,12 +33,12 @@ public:
 
   volumic::SegmentationSettings Settings; ///< the properties
   volumic::SegmentationCache Cache;       ///< of the last run
-  std::shared_ptr<volumic::SegmentationCheckpoint> Checkpoint; ///< of the last run; null: none
   bool IsRunning = false;
   bool IsOnlyProcess = true; ///< in the run that is under way
   std::vector<std::string> Warnings;   ///< to be told at the end
   std::set<std::string> WarnedOf;      ///< what is told once in the filter's life
-  bool LeavesCheckpoints = false; ///< also of runs that have come to their end
+  int MemoryLimit = 0;                 ///< has no effect
+  bool Resume = false;                 ///< has no effect
   bool IsWatched = false;    ///< Someone asks whether a finer level is still to come.
   bool IsOnTheWay = false;   ///< One is, and nobody has asked yet.
   bool GoesToTheEnd = false; ///< The next run shows no level before.

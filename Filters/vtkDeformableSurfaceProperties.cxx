@@ -77,10 +77,10 @@ void CopyPosition(const std::vector<volumic::Point>& positions, int index, doubl
 }
 
 //------------------------------------------------------------------------------
-#define VolumicSetting(name, type, field, change, kind)                                            \
+#define VolumicSetting(name, type, field, change)                                                  \
   VOLUMIC_SET_AND_GET(vtkDeformableSurface, name, type, Internals->Settings.field,                            \
     Modify(this, this->Internals->Cache, Change::change))
-#define VolumicWritten(name, type, field, change, kind)
+#define VolumicWritten(name, type, field, change)
 VOLUMIC_SURFACE_PROPERTIES(VolumicSetting, VolumicWritten)
 
 int vtkDeformableSurface::GetNumberOfThreads()
@@ -100,17 +100,31 @@ void vtkDeformableSurface::SetNumberOfThreads(int number)
 
 int vtkDeformableSurface::GetMemoryLimit()
 {
-  return this->Internals->Settings.End.MemoryLimit;
+  return this->Internals->MemoryLimit;
 }
 
 void vtkDeformableSurface::SetMemoryLimit(int mebibytes)
 {
-  int& limit = this->Internals->Settings.End.MemoryLimit;
-  if (mebibytes != 0 && limit == 0)
+  if (mebibytes != 0 && this->Internals->MemoryLimit == 0)
   {
     vtkWarningMacro(<< volumic::MemoryLimitHasNoEffect);
   }
-  limit = mebibytes;
+  this->Internals->MemoryLimit = mebibytes;
+}
+
+//------------------------------------------------------------------------------
+bool vtkDeformableSurface::GetResume()
+{
+  return this->Internals->Resume;
+}
+
+void vtkDeformableSurface::SetResume(bool resume)
+{
+  if (resume && !this->Internals->Resume)
+  {
+    vtkWarningMacro("Resume is deprecated and has no effect: no run resumes one of another process.");
+  }
+  this->Internals->Resume = resume;
 }
 
 //------------------------------------------------------------------------------
@@ -142,10 +156,12 @@ VolumicPositions(AttractingPosition, AttractingPositions, AttractingPositions, C
 void vtkDeformableSurface::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-#define VolumicPrint(name, type, field, change, kind)                                              \
+#define VolumicPrint(name, type, field, change)                                                    \
   volumic::PrintSetting(os << indent << #name ": ", this->Internals->Settings.field);              \
   os << endl;
   VOLUMIC_SURFACE_PROPERTIES(VolumicPrint, VolumicPrint)
+  os << indent << "MemoryLimit: " << this->Internals->MemoryLimit << endl;
+  os << indent << "Resume: " << this->Internals->Resume << endl;
 }
 
 // Files may be compiled together.

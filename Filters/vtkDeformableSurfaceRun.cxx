@@ -65,10 +65,8 @@ volumic::SegmentationRequest vtkDeformableSurface::vtkInternals::RequestAsSet(
   request.AttractingPoints = vtkPolyData::GetData(inputs[2]);
   request.EdgeSelection = this->Filter.GetInputArrayInformation(1);
   request.MayGoOn = volumic::SegmentationCache::MayKeep(&this->Filter);
-  // Whoever watches may choose others; else, and where memory is short, it would be held in vain.
-  request.KeepsAll = this->IsWatched && !end.LeavesCheckpoints();
-  request.CheckpointStays = this->LeavesCheckpoints;
-  request.Prepared = [this](const auto& checkpoint) { this->Checkpoint = checkpoint; };
+  // Whoever watches may choose others; else it would be held in vain.
+  request.KeepsAll = this->IsWatched;
   const bool makesLevels = volumic::IsImage(vtkDataObject::GetData(inputs[0]));
   request.Progress = [this, before = makesLevels ? PyramidShare : 0.0](
                        double share, const std::string& text)
@@ -155,7 +153,6 @@ void vtkDeformableSurface::vtkInternals::RunOrGoOn(
   }
   this->ChooseStep(request, kept);
   std::unique_ptr<volumic::SurfaceSegmentation> run = this->Cache.TakeRun();
-  this->Checkpoint.reset();
   if (!kept || !kept->CanGoOn() || !kept->Renew(request))
   {
     run.reset(); // Not the levels of both at a time.

@@ -28,6 +28,8 @@
 #include "vtkDeformableSurface.h"
 #include "vtkFiltersVolumicModule.h" // For export macro
 
+#include <string>
+
 class vtkImageData;
 
 class VTKFILTERSVOLUMIC_EXPORT vtkVolumeToSurface : public vtkDeformableSurface

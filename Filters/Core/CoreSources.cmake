@@ -6,8 +6,6 @@
 # (Documentation/architecture.md).
 
 set(volumic_core_sources
-  Common/CheckedFile.cxx
-  Common/ContentHash.cxx
   Common/FreeMemory.cxx
   Common/ScratchMemory.cxx
   Common/StandardThreads.cxx
@@ -20,7 +18,6 @@ set(volumic_core_sources
   Image/PyramidGeometry.cxx
   Image/RowKernels.cxx
   Image/ValidReduction.cxx
-  Image/VoxelHash.cxx
   Labels/BoundaryGaussian.cxx
   Labels/VoxelBits.cxx
   Labels/LabelBricks.cxx
@@ -103,15 +100,12 @@ set(volumic_core_sources
   Evolution/LostParts.cxx
   Evolution/LostVoxels.cxx
   Evolution/SlabSearch.cxx
-  Evolution/SurfaceAtRest.cxx
   Evolution/SurfaceEvolution.cxx
   Evolution/SurfaceIteration.cxx
   Evolution/SurfaceResult.cxx)
 set(volumic_core_headers
   Common/Box.h
   Common/AskingExecutor.h
-  Common/CheckedFile.h
-  Common/ContentHash.h
   Common/DisjointSets.h
   Common/Executor.h
   Common/FreeMemory.h
@@ -142,7 +136,6 @@ set(volumic_core_headers
   Image/ThickPart.h
   Image/ValidReduction.h
   Image/VoxelBox.h
-  Image/VoxelHash.h
   Image/VoxelNumbers.h
   Image/VoxelRows.h
   Image/VoxelValues.h

@@ -88,7 +88,6 @@ public:
 
   /** All levels that were set. */
   const std::map<int, Level>& Levels() const { return this->ByLevel; }
-  const std::vector<Snapshot>& AllSnapshots() const { return this->Snapshots; }
 
 private:
   int NumberOfLevels = 0;

@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Pyramid/PyramidLevels.h"
 
-#include "Core/Common/ContentHash.h"
 #include "Core/Common/Refuse.h"
-#include "Core/Image/VoxelHash.h"
 #include "Core/Image/VoxelNumbers.h"
 #include "Host/Errors.h"
 #include "Input/ImageVoxels.h"
@@ -210,15 +208,6 @@ std::string PyramidLevels::DescribeNaNsOfLevel0() const
   SequentialExecutor thread;
   const ValidVoxels valid = this->ValidAt(0, thread);
   return valid.NaNs > 0 ? DescribeNaNs(this->Voxels[0], this->Images[0], valid) : std::string();
-}
-
-std::uint64_t PyramidLevels::HashOfVoxels(int level, Executor& executor) const
-{
-  const vtkSmartPointer<vtkDataArray> voxels = ContiguousVoxels(this->Voxels[level]);
-  const VoxelBox all = VoxelBox::Of(this->Sizes[level]);
-  return CombineHashes(static_cast<std::uint64_t>(voxels->GetDataType()),
-    volumic::HashOfVoxels(voxels->GetVoidPointer(0),
-      static_cast<std::size_t>(voxels->GetDataTypeSize()), all, all, all, executor));
 }
 
 LevelImage PyramidLevels::Load(int wanted, double base, double background, Executor& executor)

@@ -85,9 +85,6 @@ public:
   /** What DescribeNaNs() says of level 0; nothing if there are none. */
   std::string DescribeNaNsOfLevel0() const;
 
-  /** 64 bits that tell voxels apart (VoxelHash.h), of their type and the values as they came. */
-  std::uint64_t HashOfVoxels(int level, Executor& executor) const;
-
   /**
    * The voxels of a level, of level 0 for level -1; they stay valid until the next call. They are
    * shared, and read in their own type (VoxelValues), unless some of them are not valid: then they

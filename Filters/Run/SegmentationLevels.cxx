@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Run/SegmentationLevels.h"
 
-#include "Core/Common/ContentHash.h"
 #include "Core/Common/Refuse.h"
 #include "Core/Image/ThickPart.h"
 #include "Host/Errors.h"
@@ -203,16 +202,6 @@ VoxelValues SegmentationLevels::LoadEdges(
       }
       return loaded.Values;
     });
-}
-
-std::uint64_t SegmentationLevels::HashOfEdges(Executor& threads) const
-{
-  std::uint64_t hash = 0;
-  for (int level = 0; this->Edges && level < this->Edges->NumberOfLevels(); ++level)
-  {
-    hash = CombineHashes(hash, this->Edges->HashOfVoxels(level, threads));
-  }
-  return hash;
 }
 
 void SegmentationLevels::ReleaseCoarserThan(int level)

@@ -12,7 +12,6 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
@@ -70,9 +69,6 @@ public:
    */
   void ReleaseCoarserThan(int level);
   bool HasVoxels(int level) const { return this->Voxels.HasVoxels(level); }
-
-  /** PyramidLevels::HashOfVoxels() of the map of edges, all levels; 0: there is none. */
-  std::uint64_t HashOfEdges(Executor& threads) const;
 
 private:
   /** For LevelImage::Edges. @throws where the level has not the size of the voxels'. */

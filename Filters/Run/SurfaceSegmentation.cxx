@@ -95,31 +95,13 @@ void SurfaceSegmentation::Run()
     this->Begin();
   }
   this->Found.SetStoppedSurface(nullptr);
-  this->PrepareCheckpoint();
   if (!this->Found.HasAtRest(this->Choice.Last))
   {
     this->Threads.emplace(this->Settings.End.NumberOfThreads);
     this->Progress.emplace(
       this->Request.Progress, this->Choice.Coarsest, this->Choice.Last, this->Request.Limit);
-    try
-    {
-      this->Threads->Run([this] { this->RunLevels(); });
-    }
-    catch (const ScratchFull&)
-    {
-      // Whose disk is full wants nothing to be left on it.
-      if (this->Left)
-      {
-        this->Left->Remove();
-      }
-      throw;
-    }
+    this->Threads->Run([this] { this->RunLevels(); });
     this->Threads.reset();
-  }
-  const bool isOver = this->Found.HasAtRest(this->Choice.Last) && !this->Request.IsStep;
-  if (this->Left && isOver && !this->Request.CheckpointStays)
-  {
-    this->Left->Remove();
   }
   if (!this->Request.IsStep)
   {
@@ -145,7 +127,6 @@ void SurfaceSegmentation::RunLevels()
     this->Rest = SurfaceAtRest();
     this->Reached = this->Choice.Coarsest + 1;
     this->GoesOn = true;
-    this->Resume();
   }
   this->Rest.History.StartClock(this->Request.Started);
   bool isStopped = false;
@@ -180,7 +161,6 @@ bool SurfaceSegmentation::RunLevel(int level)
       this->Progress->GoOnTo(level - 1);
       this->Found.SetPreviewLevel(level - 1);
     }
-    this->LeaveCheckpoint(level);
   }
   else
   {

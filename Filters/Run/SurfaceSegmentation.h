@@ -9,12 +9,10 @@
 #include "Host/ProgressMonitor.h"
 #include "Output/SegmentationResults.h"
 #include "Run/RunStart.h"
-#include "Run/SegmentationCheckpoint.h"
 #include "Run/SegmentationLevels.h"
 #include "Settings/SegmentationSettings.h"
 
 #include <functional>
-#include <memory>
 #include <optional>
 #include <string>
 
@@ -88,8 +86,7 @@ private:
    * Within HostThreads::Run. Before: Choice is made, the results of levels at rest are in Found.
    * Brings the surface level by level to Choice.Last, as long as it is fit to go on and nobody asks
    * to stop. At the end of each pass of the loop the surface lies on level Reached, Found has it,
-   * and the history, and a checkpoint of it is left where these are wanted; after a stop it is back
-   * where it rested last, if that was kept.
+   * and the history; after a stop it is back where it rested last, if that was kept.
    */
   void RunLevels();
   /** A pass of that loop. @return false where it was stopped */
@@ -103,12 +100,6 @@ private:
   bool PreviewMissesParts(int level) const;
   /** Puts the surface of a level into Found. @return whether it is fit for a finer level */
   bool KeepLevel(int level, LevelOutcome outcome);
-  /** Once a Run(), before RunLevels(): finds out of which run a checkpoint would be. */
-  void PrepareCheckpoint();
-  /** Once a run, before its first level: goes on from a checkpoint, where that is asked for. */
-  void Resume();
-  /** After KeepLevel(), where checkpoints are left: what cannot be written is a warning. */
-  void LeaveCheckpoint(int level);
   /**
    * Where a run was stopped before it came to a level: what it shows is the surface of the last.
    */
@@ -127,7 +118,6 @@ private:
   int Reached = 0;
   bool GoesOn = false;  ///< It rests there, and is fit for a finer level.
   int SnapshotLook = 0; ///< Iteration of the level at which the last snapshot could be taken.
-  std::shared_ptr<SegmentationCheckpoint> Left; ///< null: none is left
 };
 }
 

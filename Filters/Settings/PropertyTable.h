@@ -13,62 +13,56 @@
 
 /**
  * The properties of vtkDeformableSurface, a line each: its name, its type for Set and Get, where
- * SegmentationSettings has it with its default, and
- * - what a Set changes: the Run, which must begin anew; or its End and its outputs only, so that
- *   what is kept of the last run serves;
- * - its part in the fingerprint of a run: Told with both values where another run had another one;
- *   Hidden, where such values would tell nobody anything; or Free to be another one when a run is
- *   resumed.
+ * SegmentationSettings has it with its default, and what a Set changes: the Run, which must begin
+ * anew; or its End and its outputs only, so that what is kept of the last run serves.
  *
- * Of the lines PrintSelf(), RunFingerprint and, but for those that are WRITTEN out, Set and Get are
- * MADE. That all Set methods have a line is tested (Testing/Python/test_reference.py).
+ * Of the lines PrintSelf() and, but for those that are WRITTEN out, Set and Get are MADE. That all
+ * Set methods have a line is tested (Testing/Python/test_reference.py).
  */
-#define VOLUMIC_SURFACE_PROPERTIES(MADE, WRITTEN)                                    \
-  MADE(SelectedComponent, int, SelectedComponent, Run, Free)                         \
-  MADE(NaNIsBackground, bool, NaNIsBackground, Run, Told)                            \
-  MADE(Metric, int, Metric, Run, Hidden)                                             \
-  MADE(EdgeLength, double, EdgeLength, Run, Told)                                    \
-  MADE(Tolerance, double, Grading.Tolerance, Run, Told)                              \
-  MADE(MaximumEdgeLength, double, Grading.MaximumEdgeLength, Run, Told)              \
-  MADE(Gradation, double, Grading.Gradation, Run, Told)                              \
-  MADE(ThinParts, bool, Grading.ThinParts, Run, Told)                                \
-  MADE(IsoValue, double, Options.IsoValue, Run, Told)                                \
-  MADE(UpperValue, double, UpperValue, Run, Told)                                    \
-  MADE(UseUpperValue, bool, UseUpperValue, Run, Told)                                \
-  MADE(ObjectIsBright, bool, Options.ObjectIsBright, Run, Told)                      \
-  MADE(Initialization, int, Initialization, Run, Hidden)                             \
-  WRITTEN(SeedPositions, list, End.SeedPositions, End, Hidden)                       \
-  MADE(SeedRadius, double, Options.SeedRadius, Run, Hidden)                          \
-  MADE(CoarsestLevel, int, CoarsestLevel, Run, Told)                                 \
-  MADE(FinestLevel, int, End.FinestLevel, End, Free)                                 \
-  MADE(SamplingRatio, double, Options.SamplingRatio, Run, Told)                      \
-  MADE(TensionWeight, double, Options.TensionWeight, Run, Told)                      \
-  MADE(ElasticityWeight, double, Options.ElasticityWeight, Run, Told)                \
-  MADE(IsopotentialWeight, double, Options.IsopotentialWeight, Run, Told)            \
-  MADE(GradientWeight, double, Options.GradientWeight, Run, Told)                    \
-  MADE(PointAttractionWeight, double, Options.PointAttractionWeight, Run, Told)      \
-  WRITTEN(AttractingPositions, list, AttractingPositions, Run, Hidden)               \
-  MADE(EdgeAttractionWeight, double, Options.EdgeAttractionWeight, Run, Told)        \
-  MADE(Friction, double, Options.Friction, Run, Told)                                \
-  MADE(BorderValue, int, Options.BorderValue, Run, Hidden)                           \
-  MADE(Recovery, int, Recovery, Run, Hidden)                                         \
-  MADE(MinimumPartSize, int, Options.MinimumPartSize, Run, Told)                     \
-  MADE(KeepComponents, int, End.KeepComponents, End, Hidden)                         \
-  MADE(MinimumComponentVolume, double, End.MinimumComponentVolume, End, Told)        \
-  MADE(TopologyChanges, bool, Options.TopologyChanges, Run, Told)                    \
-  MADE(MaximumNumberOfIterations, int, Options.MaximumNumberOfIterations, Run, Told) \
-  MADE(ConvergenceTolerance, double, Options.ConvergenceTolerance, Run, Told)        \
-  MADE(FreezeMotionlessVertices, bool, Options.FreezeMotionlessVertices, Run, Told)  \
-  MADE(SnapToIsoValue, bool, Options.SnapToIsoValue, Run, Told)                      \
-  WRITTEN(NumberOfThreads, int, End.NumberOfThreads, End, Free)                      \
-  WRITTEN(MemoryLimit, int, End.MemoryLimit, End, Free)                              \
-  MADE(ScratchDirectory, const char*, End.ScratchDirectory, End, Free)               \
-  MADE(Resume, bool, End.Resume, End, Free)                                          \
-  MADE(TimeLimit, double, End.TimeLimit, End, Free)                                  \
-  MADE(Preview, bool, End.Preview, End, Free)                                        \
-  MADE(ShowLevels, bool, End.ShowLevels, End, Free)                                  \
-  MADE(Profile, bool, Profile, Run, Free)                                            \
-  MADE(SnapshotInterval, int, SnapshotInterval, Run, Told)
+#define VOLUMIC_SURFACE_PROPERTIES(MADE, WRITTEN)                              \
+  MADE(SelectedComponent, int, SelectedComponent, Run)                         \
+  MADE(NaNIsBackground, bool, NaNIsBackground, Run)                            \
+  MADE(Metric, int, Metric, Run)                                               \
+  MADE(EdgeLength, double, EdgeLength, Run)                                    \
+  MADE(Tolerance, double, Grading.Tolerance, Run)                              \
+  MADE(MaximumEdgeLength, double, Grading.MaximumEdgeLength, Run)              \
+  MADE(Gradation, double, Grading.Gradation, Run)                              \
+  MADE(ThinParts, bool, Grading.ThinParts, Run)                                \
+  MADE(IsoValue, double, Options.IsoValue, Run)                                \
+  MADE(UpperValue, double, UpperValue, Run)                                    \
+  MADE(UseUpperValue, bool, UseUpperValue, Run)                                \
+  MADE(ObjectIsBright, bool, Options.ObjectIsBright, Run)                      \
+  MADE(Initialization, int, Initialization, Run)                               \
+  WRITTEN(SeedPositions, list, End.SeedPositions, End)                         \
+  MADE(SeedRadius, double, Options.SeedRadius, Run)                            \
+  MADE(CoarsestLevel, int, CoarsestLevel, Run)                                 \
+  MADE(FinestLevel, int, End.FinestLevel, End)                                 \
+  MADE(SamplingRatio, double, Options.SamplingRatio, Run)                      \
+  MADE(TensionWeight, double, Options.TensionWeight, Run)                      \
+  MADE(ElasticityWeight, double, Options.ElasticityWeight, Run)                \
+  MADE(IsopotentialWeight, double, Options.IsopotentialWeight, Run)            \
+  MADE(GradientWeight, double, Options.GradientWeight, Run)                    \
+  MADE(PointAttractionWeight, double, Options.PointAttractionWeight, Run)      \
+  WRITTEN(AttractingPositions, list, AttractingPositions, Run)                 \
+  MADE(EdgeAttractionWeight, double, Options.EdgeAttractionWeight, Run)        \
+  MADE(Friction, double, Options.Friction, Run)                                \
+  MADE(BorderValue, int, Options.BorderValue, Run)                             \
+  MADE(Recovery, int, Recovery, Run)                                           \
+  MADE(MinimumPartSize, int, Options.MinimumPartSize, Run)                     \
+  MADE(KeepComponents, int, End.KeepComponents, End)                           \
+  MADE(MinimumComponentVolume, double, End.MinimumComponentVolume, End)        \
+  MADE(TopologyChanges, bool, Options.TopologyChanges, Run)                    \
+  MADE(MaximumNumberOfIterations, int, Options.MaximumNumberOfIterations, Run) \
+  MADE(ConvergenceTolerance, double, Options.ConvergenceTolerance, Run)        \
+  MADE(FreezeMotionlessVertices, bool, Options.FreezeMotionlessVertices, Run)  \
+  MADE(SnapToIsoValue, bool, Options.SnapToIsoValue, Run)                      \
+  WRITTEN(NumberOfThreads, int, End.NumberOfThreads, End)                      \
+  MADE(ScratchDirectory, const char*, End.ScratchDirectory, End)               \
+  MADE(TimeLimit, double, End.TimeLimit, End)                                  \
+  MADE(Preview, bool, End.Preview, End)                                        \
+  MADE(ShowLevels, bool, End.ShowLevels, End)                                  \
+  MADE(Profile, bool, Profile, Run)                                            \
+  MADE(SnapshotInterval, int, SnapshotInterval, Run)
 
 namespace volumic
 {

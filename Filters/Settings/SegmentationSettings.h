@@ -19,7 +19,6 @@
 
 #include <functional>
 #include <limits>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -85,15 +84,7 @@ struct SegmentationEnd
   bool Preview = false;                ///< End at a level of few voxels.
   bool ShowLevels = false;
   int NumberOfThreads = 0;      ///< 0: all
-  int MemoryLimit = 0;          ///< has no effect
   std::string ScratchDirectory; ///< of large arrays; empty: they lie in memory
-  bool Resume = false;          ///< Go on from a checkpoint, where there is one.
-
-  /** A folder says that the run is long. */
-  bool LeavesCheckpoints() const
-  {
-    return !this->ScratchDirectory.empty() || this->Resume;
-  }
 };
 
 /**
@@ -155,8 +146,6 @@ struct SegmentationSettings
   }
 };
 
-class SegmentationCheckpoint;
-
 /** What a run is asked for: settings, inputs, and whom it tells. */
 struct SegmentationRequest
 {
@@ -174,15 +163,12 @@ struct SegmentationRequest
 
   bool IsStep = false;  ///< Another run goes on from it: what is wrong with the surface may change.
   bool MayGoOn = false; ///< After a stop, too: what rests stays while a finer level is under way.
-  bool KeepsAll = false;        ///< All components stay, for who may choose others.
-  bool CheckpointStays = false; ///< It is not removed at the end, whose own is left, too.
+  bool KeepsAll = false; ///< All components stay, for who may choose others.
   Deadline Limit;
   /** When the run began: what came before counts to the seconds of its first level. */
   Deadline::Clock::time_point Started = Deadline::Clock::now();
   ProgressMonitor::Callback Progress;
   std::function<void(const std::string& text)> Warn; ///< an empty text is no warning
-  /** Given the run's checkpoint, once it has been looked at; null where it has none. */
-  std::function<void(const std::shared_ptr<SegmentationCheckpoint>& checkpoint)> Prepared;
 };
 }
 

@@ -48,12 +48,6 @@ private:
   std::string Name;
 };
 
-inline std::string BytesOf(const std::string& name)
-{
-  std::ifstream file(name, std::ios::binary);
-  return { std::istreambuf_iterator<char>(file), {} };
-}
-
 /** While it lives no file of the process grows beyond so many bytes: as if the disk were full. */
 class LimitedFileSize
 {

@@ -260,6 +260,21 @@ TEST_F(GoingOn, BeginsAnewWhereABlockOfThePyramidHasChanged)
   EXPECT_TRUE(Reruns(this->Filter, 1));
 }
 
+TEST_F(GoingOn, IsNotChangedByResume)
+{
+  this->Filter->SetFinestLevel(1);
+  const MessagesOf warnings(this->Filter, vtkCommand::WarningEvent);
+  this->Filter->ResumeOff();
+  EXPECT_EQ(warnings.Get(), "");
+  this->Filter->ResumeOn();
+  const std::string once = warnings.Get();
+  EXPECT_TRUE(Has(once, "Resume is deprecated and has no effect"));
+  this->Filter->ResumeOn();
+  this->Filter->Update();
+  EXPECT_EQ(warnings.Get(), once);
+  ExpectSameOutputs(this->Filter, FromTheStart(this->Image, 1));
+}
+
 TEST_F(GoingOn, KeepsNothingAfterAnError)
 {
   this->Filter->SetFinestLevel(2);

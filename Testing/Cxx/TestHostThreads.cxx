@@ -14,6 +14,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <fstream>
 #include <mutex>
 #include <optional>
 #include <stdexcept>

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Objects that have the values between IsoValue and UpperValue.
-#include "CheckpointTestTools.h"
+#include "SameOutputs.h"
+#include "vtkVolumeToSurface.h"
 
 #include <vtkImageCast.h>
 
@@ -168,15 +169,4 @@ TEST(ValueRange, WhatIsSetWrongIsNamedWithTheWayOut)
       EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
     }
   }
-}
-
-TEST_F(Checkpoints, OfAnotherRangeAreRefusedByName)
-{
-  this->StopARun([](vtkDeformableSurface* f) { f->SetUpperValue(200.0); });
-  EXPECT_TRUE(
-    Has(this->ErrorOfResuming(), "is of other settings: Upper Value was 200 and is inf. Set"));
-  EXPECT_TRUE(Has(this->ErrorOfResuming([](vtkDeformableSurface* f) { f->SetUpperValue(300.0); }),
-    "is of other settings: Upper Value was 200 and is 300. Set"));
-  const auto resumed = this->Resume([](vtkDeformableSurface* f) { f->SetUpperValue(200.0); });
-  EXPECT_EQ(resumed->GetResumedLevel(), 1);
 }

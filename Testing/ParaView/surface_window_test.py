@@ -23,7 +23,7 @@ ADVANCED = ("Initialization", "CoarsestLevel", "FinestLevel", "MinimumPartSize",
             "GradientWeight", "PointAttractionWeight", "EdgeAttractionWeight", "Friction",
             "BorderValue", "TopologyChanges", "SnapToIsoValue", "AttractingPositions",
             "MaximumNumberOfIterations", "ConvergenceTolerance", "FreezeMotionlessVertices",
-            "NumberOfThreads", "TimeLimit", "ScratchDirectory", "Resume",
+            "NumberOfThreads", "TimeLimit", "ScratchDirectory",
             "SnapshotInterval", "Profile")
 
 COLOURS_OF_CURVES = ((0.1, 0.35, 0.7), (0.15, 0.6, 0.3), (0.85, 0.45, 0.05), (0.75, 0.1, 0.25))

@@ -24,7 +24,7 @@ BASIC = ("SetInputArrayToProcess", "IsoValue", "UseUpperValue", "ObjectIsBright"
 ADVANCED = ("MaximumEdgeLength", "Gradation", "CoarsestLevel", "MinimumPartSize",
             "BorderValue", "NumberOfLevels",
             "MinimumLevelSize", "ReductionFactor", "Initialization", "Friction", "TimeLimit",
-            "ScratchDirectory", "Resume", "SnapshotInterval")
+            "ScratchDirectory", "SnapshotInterval")
 
 # Runs in the window: from the first filter that is made, whoever makes it, its first run is
 # stopped where its progress tells WHERE; what each run does is told.

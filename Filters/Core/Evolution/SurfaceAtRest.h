@@ -3,16 +3,15 @@
 #ifndef volumicSurfaceAtRest_h
 #define volumicSurfaceAtRest_h
 
-#include "Core/Common/CheckedFile.h"
 #include "Core/Evolution/EvolutionHistory.h"
 #include "Core/Mesh/SurfaceMesh.h"
 
 namespace volumic
 {
 /**
- * A surface that rests on a level: all that a finer level needs, and, saved, all from which another
- * process goes on. A division lays grid, order, shapes and pairs anew: what is to come depends on
- * the positions of the vertices, their order, and their rings, from the first neighbour on.
+ * A surface that rests on a level: all that a finer level needs. A division lays grid, order,
+ * shapes and pairs anew: what is to come depends on the positions of the vertices, their order, and
+ * their rings, from the first neighbour on.
  */
 struct SurfaceAtRest
 {
@@ -21,11 +20,6 @@ struct SurfaceAtRest
   float Delta = 0.f;
   int Unchecked = 1; ///< Starts, cuts and deletions since components were judged from outside in.
   EvolutionHistory History; ///< Of all levels.
-
-  /** @throws FileError */
-  void Save(CheckedWriter& file) const;
-  /** @throws FileError, and then is of no use any more. */
-  void Load(CheckedReader& file);
 };
 }
 
