@@ -15,7 +15,7 @@ tool_packages=(g++ cmake ninja-build python3 libpython3-dev python3-numpy
   python3-scipy python3-nibabel python3-pydicom python3-gdcm python3-tifffile python3-mrcfile
   python3-zarr python3-h5py python3-meshio python3-pil)
 # Without doxygen, which brings 200 MB of LLVM: its test is disabled where it is missing.
-# mpi-default-bin: mpirun, without which the tests of several ranks are skipped.
+# mpi-default-bin: mpirun, without which the tests of several processes are skipped.
 # ccache: what is compiled for both flavours is compiled once.
 test_packages=(ccache dpkg-dev file locales libgtest-dev libcgal-dev xvfb xauth libgl1-mesa-dri
   libxtst6 mpi-default-bin)

@@ -162,6 +162,7 @@ inline void ExpectLegalEdges(const SurfaceResult& surface)
   EXPECT_GE(*std::min_element(lengths.begin(), lengths.end()), surface.Delta * (1 - 1e-5));
   EXPECT_LE(*std::max_element(lengths.begin(), lengths.end()), surface.Delta * 2.5 * (1 + 1e-5));
 }
+<<<<<<< HEAD
 
 /** All that rows tell, but for the seconds. */
 inline void ExpectSameHistory(const std::vector<HistoryRow>& a, const std::vector<HistoryRow>& b)
@@ -179,6 +180,8 @@ inline void ExpectSameHistory(const std::vector<HistoryRow>& a, const std::vecto
     ASSERT_EQ(numbers(a[i]), numbers(b[i])) << "row " << i;
   }
 }
+=======
+>>>>>>> h71c
 }
 
 #endif

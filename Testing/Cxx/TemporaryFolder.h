@@ -5,8 +5,11 @@
 
 #include "TestPrelude.h"
 
+#include <csignal>
 #include <filesystem>
+#include <fstream>
 #include <stdlib.h>
+#include <sys/resource.h>
 
 namespace volumic
 {
@@ -30,9 +33,42 @@ public:
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
 
   const std::string& Path() const { return this->Name; }
+  std::string File(const std::string& name) const { return this->Name + "/" + name; }
+  std::set<std::string> Names() const
+  {
+    std::set<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(this->Name))
+    {
+      names.insert(entry.path().filename().string());
+    }
+    return names;
+  }
 
 private:
   std::string Name;
+};
+
+/** While it lives no file of the process grows beyond so many bytes: as if the disk were full. */
+class LimitedFileSize
+{
+public:
+  explicit LimitedFileSize(rlim_t bytes) : Handler(std::signal(SIGXFSZ, SIG_IGN))
+  {
+    getrlimit(RLIMIT_FSIZE, &this->Before);
+    const rlimit limited = { bytes, this->Before.rlim_max };
+    setrlimit(RLIMIT_FSIZE, &limited);
+  }
+  ~LimitedFileSize()
+  {
+    setrlimit(RLIMIT_FSIZE, &this->Before);
+    std::signal(SIGXFSZ, this->Handler);
+  }
+  LimitedFileSize(const LimitedFileSize&) = delete;
+  LimitedFileSize& operator=(const LimitedFileSize&) = delete;
+
+private:
+  void (*Handler)(int);
+  rlimit Before{};
 };
 }
 

@@ -1,7 +1,10 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FilterTestTools.h"
+#include "SameOutputs.h"
 #include "vtkDeformableSurface.h"
+#include "vtkLabelTable.h"
+#include "vtkLabelsToSurfaces.h"
 #include "vtkOtsuThreshold.h"
 #include "vtkVolumeToSurface.h"
 
@@ -19,14 +22,15 @@ namespace
 {
 constexpr int Side = 24;
 
-/** Makes what it is asked for of a ball of Side^3 voxels, and keeps in mind how much that was. */
+/** Makes the requested part of a ball (100) in Side^3 voxels, and counts its voxels. */
 class CountingSource : public vtkImageAlgorithm
 {
 public:
   static CountingSource* New();
   vtkTypeMacro(CountingSource, vtkImageAlgorithm);
 
-  vtkIdType Made = -1; ///< voxels; -1: was not asked
+  vtkIdType Made = -1;        ///< voxels of the last run; -1: there was none
+  bool IsDistributed = false; ///< gives no more than the lower half
 
 protected:
   CountingSource() { this->SetNumberOfInputPorts(0); }
@@ -53,6 +57,7 @@ protected:
       EXPECT_LT(extent[2 * axis], Side);
       EXPECT_GE(extent[2 * axis + 1], extent[2 * axis] - 1);
     }
+    extent[5] = this->IsDistributed ? std::min(extent[5], Side / 2) : extent[5];
     const auto whole = BallImage(Side, Side, Side);
     vtkImageData* image = vtkImageData::GetData(output);
     image->SetExtent(extent);
@@ -60,8 +65,8 @@ protected:
     ForBox({ extent[0], extent[2], extent[4] }, { extent[1] + 1, extent[3] + 1, extent[5] + 1 },
       [&](int i, int j, int k)
       {
-        image->SetScalarComponentFromDouble(
-          i, j, k, 0, whole->GetScalarComponentAsDouble(i, j, k, 0));
+        const bool isInside = whole->GetScalarComponentAsDouble(i, j, k, 0) > 50.0;
+        image->SetScalarComponentFromDouble(i, j, k, 0, isInside ? 100.0 : 0.0);
       });
     this->Made = image->GetNumberOfPoints();
     return 1;
@@ -69,46 +74,100 @@ protected:
 };
 vtkStandardNewMacro(CountingSource);
 
-/** What the source made for one of two processes. */
-vtkIdType VoxelsFor(vtkAlgorithm* filter, int process)
+/** All filters, with what they need to make an output of the source. */
+class ParallelRequests : public testing::Test
 {
-  vtkNew<CountingSource> source;
-  filter->SetInputConnection(source->GetOutputPort());
-  const MessagesOf errors(filter);
-  filter->UpdatePiece(process, 2, 0);
-  EXPECT_EQ(errors.Get(), "");
-  return source->Made;
+protected:
+  ParallelRequests()
+  {
+    this->Surface->SetIsoValue(50.0);
+    this->VolumeToSurface->SetIsoValue(50.0);
+    this->Labels->AddLabel(100);
+    for (vtkAlgorithm* filter : this->Filters)
+    {
+      filter->SetInputConnection(this->Source->GetOutputPort());
+    }
+  }
+
+  vtkNew<CountingSource> Source;
+  vtkNew<vtkImagePyramid> Pyramid;
+  vtkNew<vtkDeformableSurface> Surface;
+  vtkNew<vtkVolumeToSurface> VolumeToSurface;
+  vtkNew<vtkLabelsToSurfaces> Labels;
+  vtkNew<vtkLabelTable> Table;
+  vtkNew<vtkOtsuThreshold> Otsu;
+  const std::vector<vtkAlgorithm*> Filters = { this->Pyramid, this->Surface, this->VolumeToSurface,
+    this->Labels, this->Table, this->Otsu };
+};
+
+/** Points, rows and blocks. */
+vtkIdType SizeOfOutput(vtkAlgorithm* filter, int port)
+{
+  vtkDataObject* output = filter->GetOutputDataObject(port);
+  auto* blocks = vtkMultiBlockDataSet::SafeDownCast(output);
+  return blocks ? blocks->GetNumberOfBlocks()
+                : output->GetNumberOfElements(vtkDataObject::POINT) +
+      output->GetNumberOfElements(vtkDataObject::ROW);
 }
 }
 
-TEST(ParallelRequests, OnlyTheProcessThatWorksHoldsTheImage)
+TEST_F(ParallelRequests, TheFirstProcessMakesTheWholeOutputAndTheOthersNone)
 {
-  vtkNew<vtkImagePyramid> pyramid;
-  vtkNew<vtkDeformableSurface> surface;
-  surface->SetIsoValue(50.0);
-  vtkNew<vtkVolumeToSurface> volumeToSurface;
-  vtkNew<vtkOtsuThreshold> otsu;
-  const std::vector<vtkAlgorithm*> filters = { pyramid, surface, volumeToSurface, otsu };
-  for (vtkAlgorithm* filter : filters)
+  for (vtkAlgorithm* filter : this->Filters)
   {
     SCOPED_TRACE(filter->GetClassName());
-    EXPECT_EQ(VoxelsFor(filter, 0), Side * Side * Side) << "all for the one that works";
-    EXPECT_LE(VoxelsFor(filter, 1), 0) << "none for the other";
+    const MessagesOf errors(filter);
+    this->Source->Made = -1;
+    filter->UpdatePiece(1, 2, 0);
+    EXPECT_LE(this->Source->Made, 0) << "no voxels for a process that makes nothing of them";
+    for (int port = 0; port < filter->GetNumberOfOutputPorts(); ++port)
+    {
+      vtkInformation* info = filter->GetOutputPortInformation(port);
+      ASSERT_TRUE(
+        filter->GetOutputDataObject(port)->IsA(info->Get(vtkDataObject::DATA_TYPE_NAME())));
+      EXPECT_EQ(SizeOfOutput(filter, port), 0) << port;
+    }
+    filter->UpdatePiece(0, 2, 1);
+    EXPECT_EQ(this->Source->Made, Side * Side * Side);
+    EXPECT_GT(SizeOfOutput(filter, 0), 0);
+    EXPECT_EQ(errors.Get(), "");
   }
 }
 
-TEST(ParallelRequests, OnlyTheProcessThatWorksHasAnOutput)
+TEST_F(ParallelRequests, HaveTheSurfaceOfOneProcess)
 {
-  vtkNew<CountingSource> source;
-  vtkNew<vtkImagePyramid> pyramid;
-  pyramid->SetInputConnection(source->GetOutputPort());
-  vtkNew<vtkDeformableSurface> surface;
-  surface->SetInputConnection(pyramid->GetOutputPort());
-  surface->SetIsoValue(50.0);
-  surface->UpdatePiece(1, 2, 0);
-  EXPECT_EQ(surface->GetOutput()->GetNumberOfPoints(), 0);
-  EXPECT_LE(source->Made, 0);
-  surface->UpdatePiece(0, 2, 0);
-  EXPECT_GT(surface->GetOutput()->GetNumberOfPoints(), 100);
-  EXPECT_EQ(source->Made, Side * Side * Side);
+  this->Surface->Update();
+  this->VolumeToSurface->UpdatePiece(0, 4, 0);
+  EXPECT_GT(this->Surface->GetOutput()->GetNumberOfPoints(), 100);
+  ExpectSameSurfaces(this->Surface->GetOutput(), this->VolumeToSurface->GetOutput());
+}
+
+TEST_F(ParallelRequests, ReachTheSourceThroughAPyramid)
+{
+  this->Surface->SetInputConnection(this->Pyramid->GetOutputPort());
+  this->Surface->UpdatePiece(1, 2, 0);
+  EXPECT_EQ(this->Surface->GetOutput()->GetNumberOfPoints(), 0);
+  EXPECT_LE(this->Source->Made, 0);
+  this->Surface->UpdatePiece(0, 2, 0);
+  EXPECT_GT(this->Surface->GetOutput()->GetNumberOfPoints(), 100);
+  EXPECT_EQ(this->Source->Made, Side * Side * Side);
+}
+
+TEST_F(ParallelRequests, AreRefusedWhereTheSourceGivesTheFirstProcessAPart)
+{
+  this->Source->IsDistributed = true;
+  for (vtkAlgorithm* filter : this->Filters)
+  {
+    SCOPED_TRACE(filter->GetClassName());
+    const MessagesOf errors(filter);
+    filter->UpdatePiece(0, 2, 0);
+    EXPECT_NE(errors.Get().find("Input port 0: the source gives only 24 x 24 x 13 of the image's "
+                                "24 x 24 x 24 voxels"),
+      std::string::npos)
+      << errors.Get();
+    EXPECT_NE(errors.Get().find("Save it as .pvti"), std::string::npos);
+    EXPECT_EQ(SizeOfOutput(filter, 0), 0);
+    filter->UpdatePiece(1, 2, 0);
+    EXPECT_EQ(SizeOfOutput(filter, 0), 0);
+  }
 }

@@ -96,8 +96,6 @@ class ProxyDefaultsTest(unittest.TestCase):
                 if not base.__module__.startswith("volumic"):
                     continue
                 for setter in (name for name in vars(base) if name.startswith("Set")):
-                    if setter == "SetController":
-                        continue  # ParaView's global one is the default.
                     if hasattr(class_, "Get" + setter[3:]):
                         with self.subTest(proxy=element.get("name"), setter=setter):
                             self.assertIn(setter, offered)
