@@ -107,7 +107,8 @@ void vtkDeformableSurface::SetResume(bool resume)
 {
   if (resume && !this->Internals->Resume)
   {
-    vtkWarningMacro("Resume is deprecated and has no effect: no run resumes one of another process.");
+    vtkWarningMacro(
+      "Resume is deprecated and has no effect: no run resumes one of another process.");
   }
   this->Internals->Resume = resume;
 }
