@@ -117,6 +117,7 @@ TEST_F(ParallelRequests, TheFirstProcessMakesTheWholeOutputAndTheOthersNone)
   {
     SCOPED_TRACE(filter->GetClassName());
     const MessagesOf errors(filter);
+    this->Source->Modified();
     this->Source->Made = -1;
     filter->UpdatePiece(1, 2, 0);
     EXPECT_LE(this->Source->Made, 0) << "no voxels for a process that makes nothing of them";
