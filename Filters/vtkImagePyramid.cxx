@@ -12,6 +12,7 @@
 #include "Input/SlabInput.h"
 #include "Pyramid/PyramidBlocks.h"
 
+#include <vtkCompositeDataSet.h>
 #include <vtkDataArray.h>
 #include <vtkDataObject.h>
 #include <vtkDataSetAttributes.h>
@@ -230,6 +231,22 @@ volumic::PyramidBlocks vtkImagePyramid::MakeBlocks(
 }
 
 //------------------------------------------------------------------------------
+void vtkImagePyramid::MakeEmptyBlocks(vtkInformationVector* input, vtkMultiBlockDataSet* output)
+{
+  int extent[6] = { 0, -1, 0, -1, 0, -1 };
+  input->GetInformationObject(0)->Get(
+    vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent);
+  const auto levels = static_cast<unsigned int>(this->CountLevels(
+    extent[1] - extent[0] + 1, extent[3] - extent[2] + 1, extent[5] - extent[4] + 1));
+  output->SetNumberOfBlocks(levels);
+  for (unsigned int h = 0; h < levels; ++h)
+  {
+    output->GetMetaData(h)->Set(
+      vtkCompositeDataSet::NAME(), volumic::Join("Level ", h).c_str());
+  }
+}
+
+//------------------------------------------------------------------------------
 bool vtkImagePyramid::ShowProgress(double share, const std::string& text)
 {
   this->SetProgressText(text.c_str());
@@ -244,6 +261,7 @@ int vtkImagePyramid::RequestData(
   this->SetErrorCode(vtkErrorCode::NoError);
   if (!volumic::IsFirstProcess(request, outputVector))
   {
+    this->MakeEmptyBlocks(inputVector[0], vtkMultiBlockDataSet::GetData(outputVector));
     return 1;
   }
   // ParaView leaves the flag of an earlier run as it is.

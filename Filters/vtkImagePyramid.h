@@ -53,7 +53,7 @@
  *
  * @par Processes:
  * In a parallel run, as in pvserver and pvbatch, the first process (piece 0) requests the whole image
- * and makes all levels. The output of the other processes is empty.
+ * and makes all levels. The other processes have the same blocks, without images.
  *
  * @par Errors:
  * A message names the port, the array or the value, and the output is empty, when: the input is no
@@ -230,6 +230,8 @@ private:
   /// @param image gets the image, once it is there
   volumic::PyramidBlocks MakeBlocks(
     vtkInformationVector* input, vtkSmartPointer<vtkImageData>& image);
+  /// Blocks without images: parallel writers need the same blocks in all processes.
+  void MakeEmptyBlocks(vtkInformationVector* input, vtkMultiBlockDataSet* output);
   /// Returns whether to continue.
   bool ShowProgress(double share, const std::string& text);
 
