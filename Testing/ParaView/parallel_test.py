@@ -153,13 +153,10 @@ class ParallelTest(unittest.TestCase):
         path = plugin_testing.write_volume("labels.vti", label_maps.image())
         filter_ = simple.LabelstoSurfaces(simple.XMLImageDataReader(FileName=[path]))
         filter_.UpdatePipeline()
-        self.assertGreater(filter_.GetDataInformation().GetNumberOfPoints(), 500)
-        saved = plugin_testing.output_path("labels.vtm")
-        simple.SaveData(saved, filter_)
-        with open(saved, encoding="utf-8") as file:
-            text = file.read()
         for label in label_maps.BALLS:
-            self.assertEqual(text.count(f'name="Label {label}"'), 1, text)
+            block = simple.ExtractBlock(filter_, Selectors=[f"/Root/Label{label}"])
+            block.UpdatePipeline()
+            self.assertGreater(block.GetDataInformation().GetNumberOfPoints(), 100)
 
     def test_an_error_and_then_a_good_run(self):
         surface = make_surface()
