@@ -13,6 +13,7 @@
 #include "Input/InputImage.h"
 #include "Pyramid/ImageLevels.h"
 
+#include <vtkCompositeDataSet.h>
 #include <vtkDataArray.h>
 #include <vtkDataObject.h>
 #include <vtkDataSetAttributes.h>
@@ -198,12 +199,29 @@ volumic::ImageLevels vtkImagePyramid::MakeLevels(
 }
 
 //------------------------------------------------------------------------------
+void vtkImagePyramid::MakeEmptyBlocks(vtkInformationVector* input, vtkMultiBlockDataSet* output)
+{
+  int extent[6] = { 0, -1, 0, -1, 0, -1 };
+  input->GetInformationObject(0)->Get(
+    vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent);
+  const auto levels = static_cast<unsigned int>(this->CountLevels(
+    extent[1] - extent[0] + 1, extent[3] - extent[2] + 1, extent[5] - extent[4] + 1));
+  output->SetNumberOfBlocks(levels);
+  for (unsigned int h = 0; h < levels; ++h)
+  {
+    output->GetMetaData(h)->Set(
+      vtkCompositeDataSet::NAME(), volumic::Join("Level ", h).c_str());
+  }
+}
+
+//------------------------------------------------------------------------------
 int vtkImagePyramid::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   this->SetErrorCode(vtkErrorCode::NoError);
   if (!volumic::IsFirstProcess(request, outputVector))
   {
+    this->MakeEmptyBlocks(inputVector[0], vtkMultiBlockDataSet::GetData(outputVector));
     return 1;
   }
   vtkSmartPointer<vtkImageData> image;

@@ -58,6 +58,8 @@
  * further ones in their ghost arrays where ghost levels are asked for, as VTK cuts all images. A
  * block is null on processes for which its level has too few voxels. The field data of the whole are
  * the same on all; an error of one process is reported by all.
+  /// Blocks without images: parallel writers need the same blocks in all processes.
+  void MakeEmptyBlocks(vtkInformationVector* input, vtkMultiBlockDataSet* output);
  *
  * @par Errors:
  * A message names the port, the array or the value, and the output is empty, when: the input is no
@@ -230,6 +232,8 @@ private:
   /// @param image gets the image, once it is there
   volumic::ImageLevels MakeLevels(vtkDataObject* input, vtkSmartPointer<vtkImageData>& image,
     volumic::RunObserver& observer);
+  /// Blocks without images: parallel writers need the same blocks in all processes.
+  void MakeEmptyBlocks(vtkInformationVector* input, vtkMultiBlockDataSet* output);
 
   class vtkInternals;
   std::unique_ptr<vtkInternals> Internals;

@@ -218,10 +218,10 @@ class SurfacesWriter(VTKPythonAlgorithmBase):
         from volumic.label_map import safe_name
         from volumic.writing.meshers import DistinctNames
         data = inputs[0].GetInformationObject(0).Get(vtkDataObject.DATA_OBJECT())
-        ranks = vtkMultiProcessController.GetGlobalController()
-        if ranks and ranks.GetNumberOfProcesses() > 1 and not data.IsA("vtkCompositeDataSet"):
-            raise Failure(f"{self._name}: each process has a part of the surface: use File > Save "
-                          "Data")
+        processes = vtkMultiProcessController.GetGlobalController()
+        if (processes and processes.GetNumberOfProcesses() > 1
+                and not data.IsA("vtkCompositeDataSet")):
+            raise Failure(f"{self._name}: not written by several processes: use File > Save Data")
         writing.check_surface_name(self._name)
         surfaces = _surfaces_of(data)
         if not surfaces:
