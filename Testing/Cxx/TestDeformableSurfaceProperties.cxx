@@ -74,9 +74,9 @@ std::vector<Property> AllProperties()
       all.push_back(MakeProperty(name, set, get));
     }
   };
-#define VOLUMIC_MADE(name, type, member, change, print)                                            \
+#define VOLUMIC_MADE(name, type, member, needsRun)                                                 \
   add(#name, &vtkDeformableSurface::Set##name, &vtkDeformableSurface::Get##name);
-#define VOLUMIC_WRITTEN(name, type, member, change, print)
+#define VOLUMIC_WRITTEN(name, type, member, needsRun)
   VOLUMIC_SURFACE_PROPERTIES(VOLUMIC_MADE, VOLUMIC_WRITTEN)
 #undef VOLUMIC_WRITTEN
 #undef VOLUMIC_MADE

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // With a ScratchDirectory the filters map large arrays from files, and their outputs are the same.
+#include "Core/Common/ScratchMemory.h"
 #include "LabelImages.h"
 #include "SameOutputs.h"
 #include "TemporaryFolder.h"
