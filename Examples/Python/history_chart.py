@@ -18,7 +18,7 @@ from vtkmodules.vtkRenderingCore import vtkRenderWindow
 from vtkmodules.vtkViewsContext2D import vtkContextView
 
 # Column of the history, title, factor, whether the axis is logarithmic.
-CURVES = (("Seconds", "Duration of an iteration, of a level's ends, too (ms)", 1000, True),
+CURVES = (("Seconds", "Time since the previous iteration (ms)", 1000, True),
           ("KineticEnergy", "Mean kinetic energy along the normals", 1, True),
           ("MeanEdgeLength", "Mean length of the edges (world units)", 1, False),
           ("Vertices", "Number of vertices", 1, False))

@@ -85,7 +85,7 @@ class Scan(pictures.Scan):
 
 
 def iterations(surface):
-    """(level, number of iterations, seconds of them) of a run, in the order of the levels."""
+    """(level, number of iterations, seconds of the level) of a run, in the order of the levels."""
     history = surface.GetHistory()
     levels, seconds = (vtk_to_numpy(history.GetColumnByName(name))
                        for name in ("Level", "Seconds"))

@@ -42,6 +42,9 @@ TEST(EdgeLengthPlan, LeavesNoGapBetweenTheLevels)
     EXPECT_LE(plan.SamplingRatio, 1. + 1e-9);
     EXPECT_GT(plan.ReductionFactor, 1.44);
     EXPECT_LT(plan.ReductionFactor, 2.);
+    PyramidOptions options;
+    options.ReductionFactor = plan.ReductionFactor;
+    EXPECT_LT(plan.FinestLevel, static_cast<int>(PlanPyramid(Size, Spacing, options).size()));
   }
 }
 

@@ -43,23 +43,26 @@ double RatioOf(const EdgeLengthPreferences& preferences)
 /** @param delta in U_0 @param last the coarsest level */
 EdgeLengthPlan PlanOf(double delta, int last, const EdgeLengthPreferences& preferences)
 {
-  const double factor = std::clamp(preferences.Pyramid.ReductionFactor, LeastFactor, MostFactor);
-  const auto levels = [](double ratio, double ofFactor) { return std::log(ratio) / std::log(ofFactor); };
+  const double preferred = preferences.Pyramid.ReductionFactor;
+  const double ratio = RatioOf(preferences);
+  const auto levels = [](double scale, double factor) { return std::log(scale) / std::log(factor); };
   int level = -1;
+  double most = MostFactor;
   if (delta >= LeastRatio)
   {
-    const double least = std::ceil(levels(delta / MostRatio, MostFactor));
-    const double most = std::floor(levels(delta / LeastRatio, LeastFactor));
-    const double nearest = std::round(levels(delta / RatioOf(preferences), factor));
-    level = static_cast<int>(std::max(least, std::min({ nearest, most, double(last) })));
+    const double finest = std::ceil(levels(delta / MostRatio, MostFactor));
+    const double coarsest = std::floor(levels(delta / LeastRatio, LeastFactor));
+    const double nearest =
+      std::round(levels(delta / ratio, std::clamp(preferred, LeastFactor, MostFactor)));
+    level = static_cast<int>(std::max(finest, std::min({ nearest, coarsest, double(last) })));
+    if (level == 0)
+    {
+      return { 0, preferred, delta };
+    }
+    // The image must be large enough for this level at another factor, too.
+    most = std::min(most, std::pow(preferred, static_cast<double>(last) / level));
   }
-  if (level == 0)
-  {
-    return { 0, preferences.Pyramid.ReductionFactor, delta };
-  }
-  const auto [low, high] = std::minmax(
-    { std::pow(delta / MostRatio, 1. / level), std::pow(delta / LeastRatio, 1. / level) });
-  const double t = std::clamp(factor, low, high);
+  const double t = std::min(std::max(std::pow(delta / ratio, 1. / level), LeastFactor), most);
   return { level, t, std::clamp(delta / std::pow(t, level), LeastRatio, MostRatio) };
 }
 }

@@ -33,9 +33,8 @@ struct EdgeLengthPreferences
 
 /**
  * Plan for an image whose pyramid does not exist yet. delta is SamplingRatio T^h U_0. The level h is
- * the nearest one at the preferred T and ratio. Where these do not give delta exactly the ratio
- * differs from the preferred one, as far as eq. (7) allows, and beyond that T differs. T stays
- * within what one sqrt 3 division can follow.
+ * the nearest one at the preferred T and ratio. T is what gives delta at this level and ratio, within
+ * what one sqrt 3 division can follow. Beyond that, and on level 0, the ratio differs.
  *
  * @param edgeLength mean length of the edges, in the unit of `spacing`, more than 0
  * @throws std::invalid_argument naming the possible lengths if this one is not among them.
