@@ -314,7 +314,7 @@ ReachVerdict JudgeReach(const TriangleSurface& surface, const JudgedVolume& volu
       ++verdict.ReachableVoxels;
       bool found = false;
       grid.ForEachWithin(map.Place(voxel), FoundRadius,
-        [&found](int, double)
+        [&found](int)
         {
           found = true;
           return false;
