@@ -196,24 +196,6 @@ TEST(BlankedVoxels, AreAsNaNWithoutAWord)
   }
 }
 
-TEST(BlankedVoxels, OfIntegers)
-{
-  vtkNew<vtkImageCast> cast;
-  cast->SetInputData(BallBlanked(Right, vtkDataSetAttributes::HIDDENPOINT));
-  cast->SetOutputScalarTypeToShort();
-  cast->Update();
-  vtkNew<vtkImageData> image;
-  image->ShallowCopy(cast->GetOutput());
-  vtkUnsignedCharArray* ghosts = AddGhosts(image->GetPointData(), image->GetNumberOfPoints());
-  ForEach(Right, [&](vtkIdType voxel) { ghosts->SetValue(voxel, 2); });
-  QuietSurface surface;
-  double bounds[6];
-  surface.Of(image)->GetBounds(bounds);
-  EXPECT_NEAR(bounds[0], BallCentre[0] - BallRadius, 0.5);
-  EXPECT_LT(bounds[1], 20.0);
-  EXPECT_GT(bounds[1], 19.0);
-}
-
 TEST(BlankedVoxels, DuplicatesAreNone)
 {
   QuietSurface wanted;

@@ -124,13 +124,6 @@ TEST(DualMesh, HasTheTopologyOfEveryPattern)
   for (const unsigned seed : { 1, 2, 3 })
   {
     ExpectSoundPatterns(false, seed);
-  }
-}
-
-TEST(DualMesh, HasTheTopologyOfEveryPatternWithBackground)
-{
-  for (const unsigned seed : { 1, 2, 3 })
-  {
     ExpectSoundPatterns(true, seed);
   }
 }
@@ -146,65 +139,6 @@ TEST(DualMesh, HasTheTopologyOfNoise)
     scene.Spacing = { 1., 2.5, 20. };
     ExpectSound(scene, scene.Mesh());
   }
-}
-
-TEST(DualMesh, SurroundsAVoxelByTwelveTriangles)
-{
-  VoxelScene scene({ 1, 1, 1 }, [](int, int, int) { return 1; });
-  scene.Spacing = { 1., 3., 20. };
-  const InterfaceMesh mesh = scene.Mesh();
-  EXPECT_EQ(mesh.Position.size(), 8u);
-  EXPECT_EQ(mesh.Faces.size(), 12u);
-  EXPECT_EQ(SurfacesOf(mesh).at(1).Volume, 60.);
-}
-
-TEST(DualMesh, KeepsPlatesApartAtAnySpacing)
-{
-  for (const double spacing : { 1., 1.5, 5., 20. })
-  {
-    SCOPED_TRACE(spacing);
-    VoxelScene scene({ 14, 14, 9 },
-      [](int i, int j, int k)
-      {
-        const int slice = k + (i + 2 * j) / 7; // stairs
-        return slice == 3 || slice == 4 ? 1 : slice == 6 || slice == 7 ? 2 : 0;
-      });
-    scene.Spacing[2] = spacing;
-    const InterfaceMesh mesh = scene.Mesh();
-    ExpectSound(scene, mesh);
-    for (const InterfaceMesh::Face& face : mesh.Faces)
-    {
-      ASSERT_EQ(face.Behind, 0);
-    }
-  }
-}
-
-TEST(DualMesh, KeepsTiltedSheetsOfOneVoxelWhole)
-{
-  for (const Voxel& normal :
-    { Voxel{ 1, 0, 0 }, Voxel{ 1, 1, 0 }, Voxel{ 1, 1, 1 }, Voxel{ 3, 2, 1 } })
-  {
-    SCOPED_TRACE(::testing::PrintToString(normal));
-    const int least = 7 * (normal[0] + normal[1] + normal[2]);
-    const VoxelScene scene({ 15, 15, 15 },
-      [&](int i, int j, int k)
-      {
-        const int height = normal[0] * i + normal[1] * j + normal[2] * k;
-        return height < least ? 2 : height < least + normal[0] ? 1 : 3;
-      });
-    ExpectBlock(scene, 1, { 1, 1, 0 });
-  }
-}
-
-TEST(DualMesh, KeepsAShellOfOneVoxelClosed)
-{
-  const VoxelScene scene({ 29, 29, 29 },
-    [](int i, int j, int k)
-    {
-      const double far = std::hypot(i - 14, j - 14, k - 14);
-      return far >= 12.5 && far < 13.5 ? 1 : 0;
-    });
-  ExpectBlock(scene, 1, { 2, 1, 1 });
 }
 
 TEST(DualMesh, KeepsVoxelsThatAreAloneOrMeetAtEdgesAndCorners)

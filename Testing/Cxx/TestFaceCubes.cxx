@@ -68,43 +68,6 @@ void ExpectSame(const InterfaceMesh& a, const InterfaceMesh& b)
 }
 }
 
-TEST(FaceCubes, HaveEachFaceOnceWhereItsMiddleIs)
-{
-  const InterfaceScene scene(ManyCells(30, 12, 1));
-  InterfaceMesh mesh = StartOf(scene);
-  mesh.RemoveFace(7);
-  InterfaceClearance clearance(mesh, 1e-3);
-  clearance.Reset(OnThisThread());
-  constexpr float side = 5.f;
-  const FaceCubes cubes(mesh, clearance, side, OnThisThread());
-  std::vector<int> all = cubes.Faces;
-  std::sort(all.begin(), all.end());
-  std::vector<int> wanted(mesh.Faces.size());
-  std::iota(wanted.begin(), wanted.end(), 0);
-  wanted.erase(wanted.begin() + 7);
-  EXPECT_EQ(all, wanted);
-  for (const std::vector<FaceCubes::Cube>& colour : cubes.OfColour)
-  {
-    EXPECT_GT(colour.size(), 4u);
-    for (const FaceCubes::Cube& cube : colour)
-    {
-      for (std::size_t n = cube.First; n < cube.Last; ++n)
-      {
-        const Vector middle = clearance.BoxOf(cubes.Faces[n]).Middle();
-        EXPECT_LE(Length(middle - cube.Box.Middle()), 0.5001f * side * std::sqrt(3.f));
-        EXPECT_TRUE(n == cube.First || cubes.Faces[n - 1] < cubes.Faces[n]);
-      }
-      // Between two of a colour there is another one.
-      for (const FaceCubes::Cube& other : colour)
-      {
-        const Vector way = other.Box.Low - cube.Box.Low;
-        EXPECT_TRUE(&other == &cube ||
-          std::max({ std::abs(way.X), std::abs(way.Y), std::abs(way.Z) }) > 1.99f * side);
-      }
-    }
-  }
-}
-
 TEST(InterfaceRemesher, MakesTheSameEditsInAnyOrderOfCubes)
 {
   const InterfaceScene scene(ManyCells(64, 60, 2));

@@ -27,22 +27,6 @@ Outside OutsidePlate(double thickness)
 }
 }
 
-TEST(GradedSizing, HasALengthForEachVertexWithinBounds)
-{
-  const LargeVector<float> sizes = { 0.5f, 1.f, 2.f, 9.f };
-  const SizingField sizing = SizingField(1.f).Graded(sizes, 4.f, 0.2f);
-  EXPECT_TRUE(sizing.IsGraded());
-  EXPECT_EQ(sizing.At(0), 1.f) << "no less than that of the level";
-  EXPECT_EQ(sizing.At(2), 2.f);
-  EXPECT_EQ(sizing.At(3), 4.f) << "no more than the most";
-  EXPECT_EQ(sizing.Smallest(), 1.f);
-  EXPECT_EQ(sizing.Largest(), 4.f);
-  EXPECT_EQ(sizing.ShortestEdge(1, 2), 1.5f);
-  EXPECT_EQ(sizing.LongestEdge(1, 2), 3.75f);
-  EXPECT_EQ(sizing.InDelta(1, 2, 3.f), 2.f);
-  EXPECT_EQ(sizing.Clearance(1, 3), SizingField(1.f).Clearance(0, 0)) << "that of the smaller one";
-}
-
 TEST(GradedSizing, LooksFurtherThanWhereAllAreAlike)
 {
   const LargeVector<float> sizes = { 1.f, 4.f };
@@ -66,22 +50,6 @@ TEST(GradedSizing, LooksFurtherThanWhereAllAreAlike)
   // While it evolves a part with the largest may come near to one with the least.
   const SizingField any = even.Graded(sizes, 4.f, 1.f);
   EXPECT_EQ(any.Reach(0), SizingField(4.f).Reach(0));
-}
-
-TEST(GradedSurface, HasFewerTrianglesWhereItIsFlatAndKeepsTheTolerance)
-{
-  const SurfaceResult even = SurfaceOf(OutsideBoxAndBall, Grading(), Alone);
-  EXPECT_TRUE(even.Size.empty());
-  const SurfaceResult graded = SurfaceOf(OutsideBoxAndBall, Within(Tolerance), Alone);
-  ASSERT_EQ(graded.Size.size(), graded.Points.size());
-  ExpectLegal(graded);
-  EXPECT_LT(1.8 * graded.Points.size(), even.Points.size());
-  EXPECT_GT(graded.FitToTolerance->WithinTolerance, 0.99);
-  const SurfaceFeatures before = ComputeFeatures(even);
-  const SurfaceFeatures after = ComputeFeatures(graded);
-  EXPECT_EQ(after.Components.size(), before.Components.size());
-  EXPECT_EQ(after.Genus, before.Genus);
-  EXPECT_NEAR(after.Volume, before.Volume, 0.005 * before.Volume);
 }
 
 TEST(GradedSurface, GrowsBySmallStepsUpToTheLongestEdge)
@@ -119,68 +87,5 @@ TEST(GradedSurface, KeepsThinWallsWithoutHoles)
     const auto large = std::count_if(plate.Size.begin(), plate.Size.end(),
       [thickness](float delta) { return delta > std::max(1., 0.5 * thickness); });
     EXPECT_LT(large, 0.15 * plate.Size.size()) << "all but those at the rim";
-  }
-}
-
-TEST(GradedSizes, MeasureByLookingForTheIsopotential)
-{
-  // All of the surface is five voxels inside a ball, where the image is flat and its slope tells
-  // nothing.
-  const TestVolume volume = BallVolume(48, 20.);
-  const Field field(volume.Image, IsoHalf(), Alone);
-  SurfaceState state;
-  state.Sizing = SizingField(0.85f);
-  state.Mesh.Append(DividedIcosahedron({ 24., 24., 24. }, 15., 1.4));
-  state.Reset(Vector(0, 0, 0), Vector(48, 48, 48));
-  std::vector<int> all(state.Mesh.Rings.size());
-  std::iota(all.begin(), all.end(), 0);
-  state.UpdateShape(all, Alone);
-  EXPECT_NEAR(GradedSizes(state, field, Within(3.), Alone).Measure().LargestDistance, 5., 0.2);
-  EXPECT_EQ(GradedSizes(state, field, Within(3.), Alone).Measure().WithinTolerance, 0.);
-  EXPECT_EQ(GradedSizes(state, field, Within(0.2), Alone).Measure().LargestDistance, 2.)
-    << "two units are as far as is looked then";
-}
-
-TEST(GradedSizes, AreTheLeastWhereTheFinerLevelShowsSomethingElse)
-{
-  const TestVolume volume = BallVolume(48, 20.);
-  const Field field(volume.Image, IsoHalf(), Alone);
-  Grading grading;
-  grading.ThinParts = true;
-  for (const double radius : { 20., 19.3 })
-  {
-    SCOPED_TRACE(radius);
-    SurfaceState state;
-    state.Sizing = SizingField(0.85f);
-    state.Mesh.Append(DividedIcosahedron({ 24., 24., 24. }, radius, 1.4));
-    state.Reset(Vector(0, 0, 0), Vector(48, 48, 48));
-    std::vector<int> all(state.Mesh.Rings.size());
-    std::iota(all.begin(), all.end(), 0);
-    state.UpdateShape(all, Alone);
-    GradedSizes sizes(state, field, grading, Alone);
-    sizes.Begin(1.47f);
-    const std::vector<int> changed = sizes.Refine();
-    EXPECT_EQ(changed.size(), radius == 20. ? 0u : all.size());
-    EXPECT_EQ(state.Sizing.At(0), radius == 20. ? 1.47f : 0.85f);
-  }
-}
-
-TEST(GradedSizes, HaveBoundsWhateverLengthIsAskedFor)
-{
-  const TestVolume volume = BallVolume(16, 5.);
-  const Field field(volume.Image, IsoHalf(), Alone);
-  Grading grading = Within(0.2);
-  // Lengths of edges; 2.5 delta are legal anywhere.
-  for (const auto& [length, most] : { std::array<double, 2>{ 0., 4. }, { 0.5, 1. }, { 5., 2. },
-         { 1e6, 5. }, { 1e300, 5. } })
-  {
-    SCOPED_TRACE(length);
-    SurfaceState state;
-    state.Sizing = SizingField(1.f);
-    grading.MaximumEdgeLength = length;
-    GradedSizes sizes(state, field, grading, Alone);
-    sizes.Begin(state.Sizing.OfLevel());
-    sizes.Widen();
-    EXPECT_FLOAT_EQ(state.Sizing.Largest(), static_cast<float>(most));
   }
 }

@@ -51,16 +51,6 @@ TEST_F(ImagePyramidErrors, NoInput)
   EXPECT_TRUE(errors.Has("has 0 connections")) << errors.Get();
 }
 
-TEST_F(ImagePyramidErrors, InputThatIsNoImage)
-{
-  vtkNew<vtkPolyData> surface;
-  this->Filter->SetInputDataObject(surface);
-  const MessagesOf errors(this->Filter);
-  this->Filter->Update();
-  EXPECT_TRUE(errors.Has("Input port 0: it is a vtkPolyData; an image (vtkImageData) is needed"))
-    << errors.Get();
-}
-
 TEST_F(ImagePyramidErrors, ImagesThatAreOfNoUse)
 {
   const double nan = std::numeric_limits<double>::quiet_NaN();

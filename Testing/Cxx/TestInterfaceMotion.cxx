@@ -94,26 +94,6 @@ TEST(InterfaceMotion, TakesBackWhatWouldBeNarrow)
   EXPECT_GT(narrow, 100);
 }
 
-TEST(VertexTargets, GoNoFurtherThanHalfOfAnEdge)
-{
-  const InterfaceScene scene(ManyCells(24, 5, 9));
-  const InterfaceMesh mesh = RoughMesh(scene);
-  VertexTargets targets(mesh, *scene.Fields, 1., 0.5);
-  std::vector<int> neighbours;
-  for (int v = 0; v < static_cast<int>(mesh.Position.size()); ++v)
-  {
-    const Vector& place = mesh.Position[static_cast<std::size_t>(v)];
-    mesh.FindNeighbours(v, neighbours);
-    float shortest = 1e9f;
-    for (const int w : neighbours)
-    {
-      shortest =
-        std::min(shortest, Length(mesh.Position[static_cast<std::size_t>(w)] - place));
-    }
-    EXPECT_LE(Length(targets.Of(v) - place), 0.5f * shortest * 1.001f);
-  }
-}
-
 namespace
 {
 constexpr double Tolerance = 1e-3;

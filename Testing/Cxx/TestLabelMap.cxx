@@ -84,32 +84,3 @@ TEST_P(LabelMapOfSizes, PartsOfABoxAreItsVoxels)
 INSTANTIATE_TEST_SUITE_P(Sizes, LabelMapOfSizes,
   testing::Values(std::array<int, 3>{ 8, 8, 8 }, std::array<int, 3>{ 17, 23, 31 },
     std::array<int, 3>{ 3, 40, 9 }));
-
-TEST(LabelMap, VoxelsMayBecomeAlikeAndDifferAgain)
-{
-  LabelMap map({ 20, 9, 9 });
-  map.Set(9, 1, 1, 3);
-  map.Set(9, 1, 1, 0);
-  EXPECT_EQ(VoxelsOf(map), Numbers(20 * 9 * 9, 0));
-  const Numbers all(20 * 9 * 8, 5);
-  map.PutLayer(0, all.data());
-  map.Set(19, 8, 7, 6);
-  map.Set(0, 0, 8, 7); // of another layer
-  EXPECT_EQ(map.At(19, 8, 7), 6);
-  EXPECT_EQ(map.At(18, 8, 7), 5);
-  EXPECT_EQ(map.At(0, 0, 8), 7);
-  EXPECT_EQ(map.At(0, 0, 7), 5);
-}
-
-TEST(LabelMap, PartsMayReachBeyondIt)
-{
-  LabelMap map = NoisyLabelMap({ 13, 9, 11 }, 3, 4);
-  map.Spacing = { 1., 1., 2. };
-  const VoxelBox box = { { -5, 2, 3 }, { 6, 8, 21 } };
-  const LabelMap part = map.Part(box);
-  EXPECT_EQ(part.Size(), box.Size());
-  EXPECT_EQ(part.Spacing, map.Spacing);
-  EXPECT_EQ(part.NumberOfObjects, 3);
-  ForVoxels(part.Size(),
-    [&](int i, int j, int k) { EXPECT_EQ(part.At(i, j, k), map.At(i - 5, j + 2, k + 3)); });
-}

@@ -120,6 +120,7 @@ TEST(LabelsToSurfaces, AreTheSameBitsOnAnyNumberOfThreadsAndAgain)
         {
           f->SetNumberOfThreads(threads);
           f->SetBoxFaces(faces);
+          f->SetTolerance(faces == 1 ? 0.3 : 0.);
         });
     };
     const auto one = madeOn(1);
@@ -300,19 +301,6 @@ TEST(LabelsToSurfaces, KeepsToOriginSpacingDirectionAndExtent)
   }
 }
 
-TEST(LabelsToSurfaces, CloseAtTheBorderOfTheImage)
-{
-  const auto filter =
-    LabelSurfacesOf(LabelImageOf(16, 16, 16, [](int i, int, int) { return i < 8 ? -5 : 2; }));
-  EXPECT_EQ(BlockNames(filter->GetOutput()), (Names{ "Label -5", "Label 2" }));
-  for (const unsigned int block : { 0u, 1u })
-  {
-    EXPECT_EQ(OpenOrNonManifoldEdges(BlockOf(filter, block)), 0);
-    EXPECT_NEAR(EnclosedVolume(BlockOf(filter, block)), 8 * 16 * 16, 0.03 * 8 * 16 * 16)
-      << "to where voxels end";
-  }
-}
-
 TEST(LabelsToSurfaces, TrianglesAreAsLargeAsAskedFor)
 {
   const auto image = BallsImage();
@@ -336,24 +324,4 @@ TEST(LabelsToSurfaces, TrianglesAreAsLargeAsAskedFor)
     [&sum](const auto& p, const auto& q)
     { sum += std::sqrt(vtkMath::Distance2BetweenPoints(p.data(), q.data())); });
   EXPECT_NEAR(sum / static_cast<double>(3 * surface->GetNumberOfCells()), 2.5, 0.3);
-}
-
-TEST(LabelsToSurfaces, KeepComponentsThatAreLarge)
-{
-  const auto islands = [](int i, int j, int k)
-  {
-    return std::hypot(i - 12., j - 12., k - 12.) < 8. || std::hypot(i - 26., j - 12., k - 12.) < 4.
-      ? 1
-      : 0;
-  };
-  const auto filter = LabelSurfacesOf(LabelImageOf(34, 24, 24, islands));
-  EXPECT_EQ(FieldOf(BlockOf(filter, 0), "NumberOfComponents"), 2.);
-  filter->SetKeepComponents(1);
-  filter->Update();
-  EXPECT_EQ(FieldOf(BlockOf(filter, 0), "NumberOfComponents"), 1.);
-  EXPECT_GT(FieldOf(BlockOf(filter, 0), "WrongVoxels"), 200.) << "those of what was not kept";
-  filter->SetKeepComponents(3);
-  filter->SetMinimumComponentVolume(100.);
-  filter->Update();
-  EXPECT_EQ(FieldOf(BlockOf(filter, 0), "NumberOfComponents"), 2.);
 }

@@ -92,30 +92,6 @@ TEST(Lanes, ComputeWhatOneFloatDoes)
   }
 }
 
-TEST(Lanes, TellOpposedConesAsOneByOne)
-{
-  Numbers numbers;
-  int opposed = 0;
-  const auto cone = [&numbers]
-  {
-    const Vector axis = Normalized(numbers.NextVector());
-    return NormalCone(axis, 0.8f + 0.2f * numbers.Next());
-  };
-  for (int round = 0; round < 1000; ++round)
-  {
-    const NormalCone n = cone();
-    const NormalCone m[4] = { cone(), cone(), cone(), round % 10 ? cone() : NormalCone() };
-    const unsigned bits = OpposedBits(n, m[0], m[1], m[2], m[3]);
-    for (int i = 0; i < 4; ++i)
-    {
-      EXPECT_EQ(bits >> i & 1, AreOpposed(n, m[i]) ? 1u : 0u);
-      opposed += AreOpposed(n, m[i]) ? 1 : 0;
-    }
-  }
-  EXPECT_GT(opposed, 1000); // Of 4000.
-  EXPECT_LT(opposed, 3000);
-}
-
 TEST(StarShape, IsWhatItsEdgesAndFacesAre)
 {
   const SurfaceMesh mesh = ShakenSphere(0.6f);
@@ -167,30 +143,4 @@ TEST(StarShape, IsWhatItsEdgesAndFacesAre)
   EXPECT_EQ(valences, 6); // 5 and 6.
   EXPECT_GT(delaunay, 20);
   EXPECT_LT(delaunay, mesh.Size() - 20);
-}
-
-TEST(StarFaces, KnowWhichVerticesAreShared)
-{
-  const SurfaceMesh mesh = ShakenSphere(0);
-  int shared = 0;
-  const StarRim first(mesh, 0);
-  for (int w = 1; w < mesh.Size(); ++w)
-  {
-    const auto star = [&mesh](int v)
-    {
-      std::vector<int> all(mesh.Rings[v].Item, mesh.Rings[v].Item + mesh.Rings[v].Count);
-      all.push_back(v);
-      return all;
-    };
-    const std::vector<int> one = star(0);
-    const std::vector<int> other = star(w);
-    const bool shares =
-      std::find_first_of(one.begin(), one.end(), other.begin(), other.end()) != one.end();
-    EXPECT_EQ(first.Shares(w, mesh.Rings[w]), shares) << w;
-    shared += shares ? 1 : 0;
-  }
-  EXPECT_GT(shared, 10);
-  EXPECT_LT(shared, 30);
-  EXPECT_EQ(first.Matching(first.Item[2]), 4u);
-  EXPECT_EQ(first.Following(1), 1u << (first.Count - 1));
 }

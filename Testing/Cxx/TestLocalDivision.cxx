@@ -61,13 +61,6 @@ Grading ThinParts()
   grading.ThinParts = true;
   return grading;
 }
-
-/** A thick box, and a plate of about a voxel that stands off from one of its sides. */
-double OutsideBoxAndPlate(double x, double y, double z)
-{
-  return std::min(OutsideBox(x - 16.2, y - 24.1, z - 24.3, { 9., 14., 14. }, 3.),
-    OutsideBox(x - 36.4, y - 24.1, z - 24.3, { 9., 9., 0.6 }, 0.5));
-}
 }
 
 TEST(LocalDivision, IsDividedOnlyWhereAToleranceAsksForIt)
@@ -95,48 +88,6 @@ TEST(LocalDivision, IsDividedEverywhereWhereNearlyAllOfItAsksForThat)
   const TwoLevels all = SurfaceOfTwoLevels(OutsideBoxAndBall, Within(1e-3));
   EXPECT_TRUE(all.Divided.Size.empty()) << "it is even until it rests";
   ExpectLegal(all.AtRest);
-}
-
-TEST(LocalDivision, FollowsThinPartsAloneWithShorterEdges)
-{
-  // Triangles of level 0 cannot hold the plate; those of the box are what they were.
-  const double below = 1. / std::sqrt(3.);
-  const TwoLevels levels = SurfaceOfTwoLevels(OutsideBoxAndPlate, ThinParts(), below);
-  const SurfaceResult& surface = levels.AtRest;
-  ExpectLegal(surface);
-  EXPECT_FALSE(surface.FitToTolerance);
-  const SurfaceFeatures features = ComputeFeatures(surface);
-  ASSERT_EQ(features.Components.size(), 2u);
-  EXPECT_EQ(features.Genus, 0);
-  EXPECT_EQ(levels.Lost.MissingBoundary, 0.);
-  ASSERT_EQ(surface.Thickness.size(), surface.Points.size());
-  const float delta = 0.85f;
-  std::size_t large = 0;
-  std::size_t ofBox = 0;
-  std::size_t ofPlate = 0;
-  std::size_t small = 0;
-  for (std::size_t p = 0; p < surface.Points.size(); ++p)
-  {
-    const bool isOfPlate = surface.Points[p][0] > 29.;
-    const bool isInside = surface.Points[p][0] < 43. && std::abs(surface.Points[p][1] - 24.1) < 7.;
-    const bool isFar = surface.Points[p][0] < 20.;
-    ofBox += isFar;
-    large += isFar && surface.Size[p] > 0.99f * delta;
-    ofPlate += isOfPlate && isInside;
-    small += isOfPlate && isInside && surface.Size[p] < 0.8f * delta;
-    if (isFar)
-    {
-      EXPECT_FLOAT_EQ(surface.Thickness[p], Grading::MostThickness * delta * static_cast<float>(below))
-        << "nothing is near";
-    }
-    if (isOfPlate && isInside)
-    {
-      EXPECT_NEAR(surface.Thickness[p], 1.2, 0.4) << "the plate's";
-    }
-  }
-  EXPECT_GT(large, 0.99 * ofBox);
-  EXPECT_GT(ofPlate, 200u);
-  EXPECT_GT(small, 0.95 * ofPlate);
 }
 
 TEST(LocalDivision, HoldsAnObliquePlateWithoutHoles)
@@ -191,27 +142,5 @@ TEST(LocalDivision, IsLeftWhereItIsStopped)
     EXPECT_EQ(evolution.Verified().Found, 0);
     EXPECT_EQ(CountSelfIntersections(evolution.Result()), 0);
     EXPECT_NO_THROW(CheckInitialSurface(evolution.Result()));
-  }
-}
-
-TEST(LocalDivision, OfTwoLevelsIsTheSameOnAnyThreads)
-{
-  const double below = 1. / std::sqrt(3.);
-  constexpr int size = 60;
-  Grading grading = Within(0.25);
-  grading.MaximumEdgeLength = 3.;
-  EXPECT_TRUE(HasSeveralBlocks(size, grading.MaximumEdgeLength / 2.5));
-  for (const bool thin : { false, true })
-  {
-    SCOPED_TRACE(thin);
-    const auto run = [&](Executor& executor)
-    {
-      return thin ? SurfaceOfTwoLevels(OutsideBoxAndPlate, ThinParts(), below, executor, size).AtRest
-                  : SurfaceOfTwoLevels(OutsideBoxAndBall, grading, 1., executor, size).AtRest;
-    };
-    const SurfaceResult one = run(Alone);
-    ExpectLegal(one);
-    DelayedThreads three(3, 5, 40, 7);
-    ExpectSame(one, run(three));
   }
 }

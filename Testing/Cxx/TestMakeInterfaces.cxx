@@ -302,18 +302,3 @@ TEST_P(StoppedInterfaces, AreSound)
 }
 
 INSTANTIATE_TEST_SUITE_P(AfterQuestions, StoppedInterfaces, testing::Values(1, 12, 40, 90));
-
-TEST(CorrectVolumes, ShiftsInterfacesToWhatIsMissing)
-{
-  InterfaceScene scene(FourBlocks(8));
-  InterfaceMesh mesh = Make(scene);
-  // Object 1 a little smaller: half a percent.
-  for (Vector& p : mesh.Position)
-  {
-    p.X += p.X < 10.f ? 0.04f : 0.f;
-  }
-  const Vector middle(11.5f, 8.f, 11.5f);
-  const float before = scene.Fields->ValueAt(1, middle) - scene.Fields->ValueAt(2, middle);
-  CorrectVolumes(mesh, *scene.Fields, 0., OnThisThread());
-  EXPECT_GT(scene.Fields->ValueAt(1, middle) - scene.Fields->ValueAt(2, middle), before);
-}

@@ -147,29 +147,3 @@ TEST(ComponentsAbout, AreThoseThatEncloseAPlaceButItsOwn)
     (Lists{ {}, { 0, 2 }, { 0 }, {}, {} }));
 }
 
-namespace
-{
-/** A ball far from the origin, of more than one block of vertices, with a cavity. */
-SurfaceMesh HollowBall()
-{
-  SurfaceMesh mesh;
-  mesh.Append(DividedIcosahedron({ 60, 50, 40 }, 12, 0.6));
-  mesh.Append(InsideOut(DividedIcosahedron({ 62, 50, 40 }, 6, 0.6)));
-  return mesh;
-}
-}
-
-TEST(SurfaceMeasures, AreThoseOfTheTriangles)
-{
-  SurfaceMesh mesh = HollowBall();
-  ASSERT_GT(mesh.Size(), 4096);
-  const SurfaceFeatures features = ComputeFeatures(mesh.ToIndexed());
-  SequentialExecutor sequential;
-  EXPECT_NEAR(EnclosedVolume(mesh, sequential), features.Volume, 1e-9 * features.Volume);
-  double area = 0.;
-  for (int v = 0; v < mesh.Size(); ++v)
-  {
-    area += AreaShare(mesh, v);
-  }
-  EXPECT_NEAR(area, features.Area, 1e-6 * features.Area);
-}

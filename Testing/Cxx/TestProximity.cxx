@@ -157,17 +157,6 @@ TEST(Proximity, KeepsPairsOfVerticesThatWereNotExaminedAnew)
   EXPECT_EQ(proximity.Pairs().size(), pairs);
 }
 
-TEST(Proximity, NeighboursAcrossACreaseAreNoPair)
-{
-  // Edges under lambda delta whose ends look in very different directions.
-  LiveSurface state(EvenOctahedron({ 0, 0, 0 }, 1.2));
-  ASSERT_TRUE(state.AreOpposed(0, 2));
-  Proximity proximity;
-  proximity.Examine(state, state.All(), OnThisThread());
-  EXPECT_TRUE(proximity.Pairs().empty());
-  EXPECT_EQ(state.NearOthers[0], 1) << "though something else is near";
-}
-
 TEST(Proximity, FindsAStarThatIsFoldedOntoItself)
 {
   // A vertex pushed through the faces on the far side of its own star.

@@ -69,15 +69,6 @@ struct BallsInOneBlock
   }
 };
 
-/** Those that the visit of a block would move. */
-std::vector<int> ActiveOnes(SurfaceState& state, SurfaceBlocks& blocks, int block)
-{
-  BlockVisit visit = blocks.Open(block);
-  std::vector<int> active = SurfaceIteration(state, visit, nullptr, true).ActiveVertices();
-  blocks.Close(std::move(visit));
-  return active;
-}
-
 bool Has(const std::vector<int>& vertices, int v)
 {
   return std::find(vertices.begin(), vertices.end(), v) != vertices.end();
@@ -106,62 +97,6 @@ TEST(SurfaceIteration, MovesNothingFarFromTheBlock)
     [&](int v) { return s.Mesh.Position[v].X == place.X && s.Mesh.Position[v].Y == 0.f; }))
     << "it is the neighbour's, which moves it";
   blocks.Close(std::move(visit));
-}
-
-TEST(SurfaceIteration, KeepsTheEndsOfHugeEdgesStill)
-{
-  BallsInBlocks balls;
-  SurfaceState& s = balls.State;
-  SurfaceBlocks blocks(s, BallsInBlocks::Frame(), balls.Thread);
-  const int v = blocks.Open(1).First;
-  const auto stretch = [&s, v](float factor)
-  {
-    const Vector centre(15, 0, 0);
-    s.MoveTo(v, centre + Normalized(s.Mesh.Position[v] - centre) * factor);
-    s.UpdateShape(v);
-    const Ring& ring = s.Mesh.Rings[v];
-    std::for_each(ring.Item, ring.Item + ring.Count, [&s](int w) { s.UpdateShape(w); });
-  };
-  stretch(6.3f); // Its edges are longer than 2.5 delta, but not than 1.4 times that.
-  ASSERT_TRUE(s.RemeshFlags[v] & HasLongEdge);
-  ASSERT_FALSE(s.RemeshFlags[v] & HasHugeEdge);
-  EXPECT_TRUE(Has(ActiveOnes(s, blocks, 1), v));
-  stretch(9.f);
-  const std::vector<int> active = ActiveOnes(s, blocks, 1);
-  EXPECT_TRUE(s.RemeshFlags[v] & HasHugeEdge);
-  EXPECT_FALSE(Has(active, v));
-  const Ring& ring = s.Mesh.Rings[v];
-  for (int i = 0; i < ring.Count; ++i)
-  {
-    EXPECT_FALSE(Has(active, ring.Item[i])) << i;
-  }
-  EXPECT_EQ(static_cast<int>(active.size()), s.Mesh.NumberOfVertices() / 3 - 1 - ring.Count);
-}
-
-TEST(SurfaceIteration, MakesWhatCannotBeSplitNoLonger)
-{
-  // A ball that grows, where no vertex can be added.
-  BallsInOneBlock balls({ DividedIcosahedron({ 20, 20, 20 }, 6., 1.5) });
-  SurfaceState& s = balls.State;
-  SurfaceBlocks& blocks = *balls.Blocks;
-  BlockVisit visit = blocks.Open(0);
-  visit.Share.Room.End = visit.Share.Room.Next;
-  auto iteration = std::make_unique<SurfaceIteration>(s, visit, &balls.TheField, true);
-  double longest = 0.;
-  for (int i = 0; i < 40; ++i)
-  {
-    iteration->Run(balls.Motion, SurfaceIteration::Mode::Evolve);
-    for (const double edge : EdgeLengths(s.Mesh.ToIndexed()))
-    {
-      longest = std::max(longest, edge);
-      ASSERT_LE(edge, 2.5001) << "iteration " << i;
-    }
-  }
-  iteration.reset();
-  EXPECT_EQ(visit.Share.Counts.Splits, 0);
-  EXPECT_GT(longest, 2.4) << "it has grown as far as it may";
-  blocks.Close(std::move(visit));
-  EXPECT_EQ(DescribeBrokenInvariant(s.Mesh), "");
 }
 
 TEST(SurfaceIteration, KnowsTheContactsThatAVisitBeforeHasFound)

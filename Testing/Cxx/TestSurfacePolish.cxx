@@ -155,27 +155,3 @@ TEST(SurfacePolish, StaysOnTheIsopotential)
     EXPECT_LT(worst[true], 0.7 * worst[false]) << "mean distance, seed " << seed;
   }
 }
-
-TEST(SurfacePolish, FlipsWhereThatIsAllThatIsNeeded)
-{
-  SurfaceMesh mesh = MakeSphere({ 0, 0, 0 }, 8, 1.7);
-  // Vertices are looked at in order of index: an end of the bad edge must be the first.
-  int u = 40;
-  EdgeFlip flip = EdgeFlip::Of(mesh, u, mesh.Rings[u].Item[0]);
-  while (std::min(flip.A, flip.B) > std::min(flip.U, flip.V))
-  {
-    ++u;
-    flip = EdgeFlip::Of(mesh, u, mesh.Rings[u].Item[0]);
-  }
-  const int v = flip.V;
-  flip.Apply(mesh);
-  ASSERT_FALSE(mesh.AreNeighbours(u, v));
-  CrowdedSurface state(mesh);
-  SurfacePolish(state, nullptr, true).Run(AliveOnes(state));
-  EXPECT_TRUE(state.Mesh.AreNeighbours(u, v));
-  EXPECT_EQ(state.Counts.Flips, 1);
-  for (int w = 0; w < mesh.Size(); ++w)
-  {
-    EXPECT_EQ(Length(state.Mesh.Position[w] - mesh.Position[w]), 0);
-  }
-}

@@ -23,23 +23,6 @@ SurfaceOptions InBlocksOf(double side)
   return options;
 }
 
-/** Hears all, and says stop after so many questions; 0: never. */
-class Listener final : public Monitor
-{
-public:
-  explicit Listener(int most = 0) : Most(most) {}
-  bool GoOn(const Status& status) override
-  {
-    this->Heard.push_back(status);
-    return static_cast<int>(this->Heard.size()) != this->Most;
-  }
-
-  std::vector<Status> Heard;
-
-private:
-  int Most;
-};
-
 struct SweptRun
 {
   SurfaceResult Surface;
@@ -270,45 +253,5 @@ TEST(Visits, DependOnNothingFarAway)
       ASSERT_EQ(SquaredDistance(one.State.Mesh.Position[v], other.State.Mesh.Position[v]), 0.f);
       ASSERT_EQ(one.State.Active[v], other.State.Active[v]);
     }
-  }
-}
-
-TEST(Visits, TellSweepAndBlock)
-{
-  SequentialExecutor thread;
-  Listener listener;
-  const SweptRun run(InBlocksOf(12.), thread, listener);
-  int sweeps = 0;
-  int visits = 0;
-  double last = 0.;
-  for (const Monitor::Status& status : listener.Heard)
-  {
-    const double fraction = 1. - status.Level + status.Fraction;
-    EXPECT_GE(fraction, last) << "sweep " << status.Sweep << " block " << status.Block;
-    last = std::max(last, fraction);
-    sweeps = std::max(sweeps, status.Sweep);
-    visits += status.Block > 0;
-    EXPECT_LE(status.Block, status.Blocks);
-  }
-  EXPECT_GE(sweeps, 5);
-  EXPECT_GT(visits, 50);
-}
-
-TEST(Visits, StopBetweenAnyTwoBlocks)
-{
-  SequentialExecutor thread;
-  Listener whole;
-  const SweptRun all(InBlocksOf(12.), thread, whole);
-  const int questions = static_cast<int>(whole.Heard.size());
-  ASSERT_GT(questions, 100);
-  for (int last = 7; last < questions; last += questions / 9)
-  {
-    SCOPED_TRACE("question " + std::to_string(last));
-    Listener listener(last);
-    const SweptRun run(InBlocksOf(12.), thread, listener);
-    EXPECT_EQ(static_cast<int>(listener.Heard.size()), last) << "not asked again";
-    const SurfaceMesh mesh = run.Mesh();
-    EXPECT_EQ(DescribeBrokenInvariant(mesh), "");
-    EXPECT_EQ(CountSelfIntersections(run.Surface), 0);
   }
 }
