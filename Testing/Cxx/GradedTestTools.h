@@ -58,12 +58,6 @@ inline SurfaceResult SurfaceOf(
   return evolution.Result();
 }
 
-/** Whether a volume of so many voxels is visited in several blocks, where this is the largest delta. */
-inline bool HasSeveralBlocks(double size, double delta)
-{
-  return SurfaceBlocks::FrameOf({ size, size, size }, SurfaceBlocks::SideInDelta * delta).Size[0] > 1;
-}
-
 /** Calls visit(u, v, length) for each edge, twice. */
 inline void VisitEdges(
   const IndexedSurface& surface, const std::function<void(int, int, double)>& visit)

@@ -73,14 +73,6 @@ TEST(Join, WritesNumbersAsEveryoneReadsThem)
   EXPECT_EQ(RefusalOf([] { Refuse("it is ", 1234.5, "."); }), "it is 1234.5.");
 }
 
-TEST(VoxelNumbers, CountMoreThanAnIntDoes)
-{
-  EXPECT_EQ(VoxelNumbers({ 1300, 1300, 1300 }).Count(), 2197000000);
-  EXPECT_EQ(VoxelNumbers({ 2048, 2048, 2048 }).Count(), std::int64_t(1) << 33);
-  // A slice alone.
-  EXPECT_EQ(VoxelNumbers({ 65536, 65536, 2 }).Count(), std::int64_t(1) << 33);
-}
-
 TEST(VoxelNumbers, ComeBackToTheirPlaces)
 {
   for (const std::array<int, 3>& size : { std::array<int, 3>{ 1300, 1300, 1300 },

@@ -101,26 +101,3 @@ TEST(EndlessRuns, StrongInnerForcesComeToRest)
   }
 }
 
-namespace
-{
-/** Whether a surface rests that has had these volumes, one every fifth iteration. */
-bool Rests(const std::vector<double>& volumes, double limit)
-{
-  RestCriterion rest;
-  for (double volume : volumes)
-  {
-    rest.Add(volume);
-  }
-  return rest.IsMet(limit);
-}
-}
-
-TEST(RestCriterion, LooksAtTheLastTenAndTheLastTwentyIterations)
-{
-  EXPECT_TRUE(Rests({ 10.5, 90, 10.5, 90, 10 }, 1.)) << "nothing but these is looked at";
-  EXPECT_FALSE(Rests({ 12, 10, 10, 10, 10 }, 1.)) << "it has shrunk before";
-  EXPECT_FALSE(Rests({ 8, 10, 10, 10, 10 }, 1.)) << "or grown";
-  EXPECT_FALSE(Rests({ 10, 10, 12, 10, 10 }, 1.)) << "it goes to and fro";
-  EXPECT_FALSE(Rests({ 10, 10, 8, 10, 10 }, 1.));
-  EXPECT_FALSE(Rests({ 0, 0, 0, 12, 10, 10, 10, 11 }, 1.)) << "less than the limit is asked for";
-}

@@ -79,18 +79,3 @@ TEST(InterfaceRemesher, MakesTheSameEditsInAnyOrderOfCubes)
   StandardThreads threads(3);
   ExpectSame(Edited(start, threads), forward);
 }
-
-TEST(InterfaceRemesher, StopsBetweenCubes)
-{
-  const InterfaceScene scene(ManyCells(30, 12, 1));
-  InterfaceMesh mesh = StartOf(scene);
-  int questions = 0;
-  InterfaceRemesher remesher(
-    mesh, 1.1, 1.8, 1e-3, OnThisThread(), [&] { return ++questions < 3; });
-  const int some = remesher.CollapseShortEdges();
-  EXPECT_GT(some, 0);
-  ExpectSound(mesh);
-  InterfaceMesh whole = StartOf(scene);
-  InterfaceRemesher other(whole, 1.1, 1.8, 1e-3, OnThisThread(), [] { return true; });
-  EXPECT_LT(some, other.CollapseShortEdges());
-}

@@ -101,40 +101,6 @@ TEST(GivenSurface, IsTakenAsItIsWhereItIsLegal)
   EXPECT_NEAR(ComputeFeatures(again).Volume, ComputeFeatures(rested).Volume, 1e-6);
 }
 
-namespace
-{
-class CancelAt final : public Monitor
-{
-public:
-  explicit CancelAt(int call) : Left(call) {}
-  bool GoOn(const Status&) override { return --this->Left >= 0; }
-  int Left;
-};
-}
-
-TEST(GivenSurface, CanBeCancelledWhileItIsMadeReady)
-{
-  const TestVolume volume = Ball();
-  CancelAt count(1000000);
-  {
-    TestEvolution evolution(IsoHalf(), Threads, count);
-    evolution.StartSurface(volume.Image, 0, Cylinder(13, 25.5, 12));
-  }
-  const int calls = 1000000 - count.Left;
-  ASSERT_GT(calls, 20) << "asked again and again";
-  for (int call = 0; call < calls; call += 7)
-  {
-    CancelAt monitor(call);
-    TestEvolution evolution(IsoHalf(), Threads, monitor);
-    evolution.StartSurface(volume.Image, 0, Cylinder(13, 25.5, 12));
-    EXPECT_EQ(monitor.Left, -1) << "not asked again";
-    const SurfaceResult state = evolution.Result();
-    EXPECT_EQ(CountSelfIntersections(state), 0);
-    EXPECT_EQ(evolution.Run(), StopReason::Cancelled);
-    EXPECT_EQ(evolution.Iterations(), 0);
-  }
-}
-
 TEST(GivenSurfaceInvalid, RefusesWrongUnitsAndNamesBothSizes)
 {
   const std::string text = RefusalOf(Cylinder(13000, 25500, 12));

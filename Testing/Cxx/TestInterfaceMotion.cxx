@@ -123,7 +123,7 @@ protected:
 
   std::optional<InterfaceScene> Scene;
   InterfaceMesh Mesh;
-  int Euler = 0;
+  double Euler = 0.;
 };
 }
 

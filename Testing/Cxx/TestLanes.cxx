@@ -39,25 +39,6 @@ float LaneOf(const Lanes& lanes, int i)
   return four[i];
 }
 
-void ExpectSame(const Vector& a, const Vector& b)
-{
-  EXPECT_EQ(a.X, b.X);
-  EXPECT_EQ(a.Y, b.Y);
-  EXPECT_EQ(a.Z, b.Z);
-}
-
-/** A sphere that is shaken: stars of all shapes, folded ones among them. */
-SurfaceMesh ShakenSphere(float by)
-{
-  SurfaceMesh mesh;
-  mesh.Append(DividedIcosahedron({ 100, 10, 10 }, 6, 1.6));
-  Numbers numbers;
-  for (Vector& p : mesh.Position)
-  {
-    p += numbers.NextVector() * by;
-  }
-  return mesh;
-}
 }
 
 TEST(Lanes, ComputeWhatOneFloatDoes)
@@ -90,57 +71,4 @@ TEST(Lanes, ComputeWhatOneFloatDoes)
     EXPECT_EQ(LeastOf(x), *std::min_element(a, a + 4));
     EXPECT_EQ(GreatestOf(x), *std::max_element(a, a + 4));
   }
-}
-
-TEST(StarShape, IsWhatItsEdgesAndFacesAre)
-{
-  const SurfaceMesh mesh = ShakenSphere(0.6f);
-  int valences = 0; // Of different remainders.
-  int delaunay = 0;
-  for (int v = 0; v < mesh.Size(); ++v)
-  {
-    const Ring& ring = mesh.Rings[v];
-    valences |= 1 << ring.Count % Lanes::Count;
-    const StarShape star(mesh, v);
-    const StarFaces faces(mesh, v);
-    Vector sum;
-    bool isDelaunay = true;
-    for (int i = 0; i < ring.Count; ++i)
-    {
-      const Vector& p = mesh.Position[v];
-      const Vector edge = mesh.Position[ring.Item[i]] - p;
-      const Vector next = mesh.Position[ring.Next(i)] - p;
-      const Vector before = mesh.Position[ring.Previous(i)] - p;
-      const Vector normal = Cross(edge, next);
-      ExpectSame(star.Edge[i], edge);
-      EXPECT_EQ(star.Length[i], Length(edge));
-      ExpectSame(star.Normal[i], normal);
-      EXPECT_EQ(star.Size[i], Length(normal));
-      ExpectSame(faces.Normal[i], Normalized(normal));
-      EXPECT_EQ(faces.Low[i].X,
-        std::min({ p.X, mesh.Position[ring.Item[i]].X, mesh.Position[ring.Next(i)].X }));
-      EXPECT_EQ(faces.High[i].Z,
-        std::max({ p.Z, mesh.Position[ring.Item[i]].Z, mesh.Position[ring.Next(i)].Z }));
-      sum += normal;
-      const float a = Length(before) * Length(before) - Dot(before, edge);
-      const float b = Length(next) * Length(next) - Dot(next, edge);
-      const float sizeA = Length(Cross(before, edge));
-      const float sizeB = Length(normal);
-      isDelaunay =
-        isDelaunay && !(a * sizeB + b * sizeA < LeastCotangentSum * sizeB * sizeA);
-    }
-    const Vector axis = Normalized(sum);
-    float cosine = 1;
-    for (int i = 0; i < ring.Count; ++i)
-    {
-      cosine = std::min(cosine, Dot(star.Normal[i], axis) / star.Size[i]);
-    }
-    ExpectSame(star.Cone().Axis(), axis);
-    EXPECT_EQ(star.Cone().Cosine, cosine);
-    EXPECT_EQ(star.IsDelaunay(), isDelaunay) << v;
-    delaunay += isDelaunay ? 1 : 0;
-  }
-  EXPECT_EQ(valences, 6); // 5 and 6.
-  EXPECT_GT(delaunay, 20);
-  EXPECT_LT(delaunay, mesh.Size() - 20);
 }

@@ -74,35 +74,6 @@ TYPED_TEST(LevelReductionOf, GivesWhatDoublesGiveWhateverAVectorLengthLeaves)
   }
 }
 
-TEST(ValidReduction, IsTheMeanOfTheVoxelsWithAValue)
-{
-  const auto levels = TwoLevels({ 30, 20, 24 });
-  SequentialExecutor executor;
-  // Some have none: the mean of the others is theirs, whatever stands at these places.
-  LargeVector<std::uint8_t> valid(levels[0].NumberOfVoxels());
-  std::vector<short> voxels(valid.size());
-  for (std::size_t i = 0; i < valid.size(); ++i)
-  {
-    valid[i] = i % 7 == 0 ? 0 : 1;
-    voxels[i] = i % 7 == 0 ? -9999 : 40;
-  }
-  std::vector<float> out(levels[1].NumberOfVoxels());
-  std::vector<double> shares;
-  EXPECT_TRUE(ReduceValidVoxels(voxels.data(), valid, levels[0], out.data(), levels[1], executor,
-    [&](double share)
-    {
-      shares.push_back(share);
-      return true;
-    }));
-  for (const float value : out)
-  {
-    ASSERT_NEAR(value, 40.f, 1e-4f);
-  }
-  EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
-  EXPECT_EQ(shares.back(), 1.0);
-  EXPECT_EQ(MarkNumbers(out.data(), 3), LargeVector<std::uint8_t>(3, 1));
-}
-
 TEST(ValidReduction, HasNoValueWhereHalfOfTheWeightHasNone)
 {
   const auto levels = TwoLevels({ 30, 20, 24 });

@@ -4,7 +4,6 @@
 
 #include "Core/Interfaces/InterfaceFit.h"
 #include "Core/Interfaces/LineWedges.h"
-#include "Core/Interfaces/NarrowPlaces.h"
 #include "Core/Interfaces/TriangleShape.h"
 #include "Core/Mesh/TriangleDistance.h"
 #include "InterfaceTestTools.h"
@@ -137,56 +136,6 @@ TEST(MakeInterfaces, HasNoNarrowGaps)
     EXPECT_GT(std::sqrt(least), 0.12); // .09 of an edge
   }
 }
-
-class NarrowPlacesOfBalls : public testing::TestWithParam<double>
-{
-};
-
-TEST_P(NarrowPlacesOfBalls, AreOpenedWithinTheVoxels)
-{
-  InterfaceScene scene(ThreeBalls());
-  InterfaceMesh mesh = Make(scene);
-  unsigned seed = 1;
-  for (std::size_t v = 0; v < mesh.Position.size(); ++v)
-  {
-    Vector& p = mesh.Position[v];
-    for (float* at : { &p.X, &p.Y, &p.Z })
-    {
-      if (mesh.StratumOf[v] != Stratum::Interface)
-      {
-        continue; // What meets there would intersect.
-      }
-      seed = seed * 1664525u + 1013904223u;
-      *at += 0.7f * (static_cast<float>(seed >> 8) / (1u << 24) - 0.5f);
-    }
-  }
-  ASSERT_EQ(CountSelfIntersections(AllFaces(mesh)), 0);
-  const InterfaceMesh before = mesh;
-  ASSERT_LT(LeastAngle(before) * 57.2958, 18.);
-  const auto wrongOf = [&](const InterfaceMesh& of)
-  { return PushWrongVoxels(of, *scene.Fields, GetParam(), OnThisThread()); };
-  const std::size_t wrong = wrongOf(before);
-  NarrowPlaces(mesh, *scene.Fields, 1.36, 1e-3, GetParam())
-    .Open(OnThisThread(), [] { return true; });
-  ExpectSound(mesh);
-  EXPECT_LE(wrongOf(mesh), wrong);
-  EXPECT_GT(LeastAngle(mesh), LeastAngle(before));
-  for (std::size_t v = 0; v < mesh.Position.size(); ++v)
-  {
-    EXPECT_LE(Length(mesh.Position[v] - before.Position[v]), 0.5001f);
-  }
-  for (int object = 1; object <= 3; ++object)
-  {
-    EXPECT_NEAR(VolumeOf(mesh, object), VolumeOf(before, object), 2.05) << object;
-  }
-  // As soon as it is told to stop nothing is moved.
-  InterfaceMesh stopped = before;
-  NarrowPlaces(stopped, *scene.Fields, 1.36, 1e-3, GetParam())
-    .Open(OnThisThread(), [] { return false; });
-  EXPECT_EQ(LeastAngle(stopped), LeastAngle(before));
-}
-
-INSTANTIATE_TEST_SUITE_P(Tolerances, NarrowPlacesOfBalls, testing::Values(0., 0.5));
 
 TEST(MakeInterfaces, TurnsNoPartInsideOut)
 {

@@ -30,22 +30,6 @@ std::vector<RowCrossing> CrossingsOf(const IndexedSurface& surface, double y, do
 }
 }
 
-TEST(RowCrossing, TellsWhereALineEntersAndLeaves)
-{
-  const IndexedSurface surface = Octahedron({ 0, 0, 0 }, 4, 4, 4);
-  for (const double y : { 1., -0.5 })
-  {
-    const std::vector<RowCrossing> crossings = CrossingsOf(surface, y, 0.25);
-    ASSERT_EQ(crossings.size(), 2u);
-    for (const RowCrossing& crossing : crossings)
-    {
-      EXPECT_EQ(crossing.Winding, crossing.X < 0 ? 1 : -1);
-      EXPECT_NEAR(std::abs(crossing.X), 4 - std::abs(y) - 0.25, 1e-12);
-    }
-  }
-  EXPECT_TRUE(CrossingsOf(surface, 3, 1.5).empty());
-}
-
 TEST(RowCrossing, CountsOnceAtEdgesAndCorners)
 {
   const IndexedSurface surface = Octahedron({ 0, 0, 0 }, 4, 4, 4);

@@ -102,13 +102,6 @@ TEST(Metric, RecoversWhatLiesAcrossSlicesFarApart)
   EXPECT_NEAR(bounds[4], 1.5 * stretch, 0.6 * stretch);
 }
 
-TEST(Metric, MustBeOneThatThereIs)
-{
-  const auto filter = FilterOf(BallImage(40, 40, 40));
-  filter->SetMetric(2);
-  EXPECT_TRUE(Has(ErrorOf(filter), "Metric is 2; it must be 0 to 1"));
-}
-
 TEST(EdgeLength, IsMetFromFinerThanTheImageToSeveralLevelsUp)
 {
   const auto image = BallImage(64, 64, 64);

@@ -7,22 +7,6 @@
 
 using namespace volumic;
 
-namespace
-{
-/** All vertices fly outward at a speed, with no force. */
-struct Flying : Stage
-{
-  explicit Flying(float speed)
-    : Stage(DividedIcosahedron({ 16, 16, 16 }, 8, 1.6), 1)
-  {
-    for (int v : this->All)
-    {
-      this->State.Velocity[v] = this->OutwardAt(v) * speed;
-    }
-  }
-};
-}
-
 TEST(Motion, ForceAndFrictionBalanceAtTheFinalSpeed)
 {
   for (const double friction : { 1.5, 3., 8. })
@@ -40,29 +24,6 @@ TEST(Motion, ForceAndFrictionBalanceAtTheFinalSpeed)
     }
     EXPECT_NEAR(stage.MeanSpeedOutward(), -1 / friction, 0.02 / friction);
     EXPECT_NEAR(step, 0.5 * friction, 1e-5) << "in a step, the largest displacement";
-  }
-}
-
-TEST(Motion, TheStepIsShortenedSoThatNoVertexGoesTooFar)
-{
-  // One vertex is torn at: all wait for it, so that the surface keeps its shape in time.
-  for (const double largest : { 0.5, 0.2 })
-  {
-    Stage stage(8.);
-    stage.Options.MaximumStep = largest;
-    stage.Options.ElasticityWeight = 20;
-    stage.State.Mesh.Position[0] += stage.OutwardAt(0) * 3.f;
-    stage.UpdateShape();
-    const double step = stage.Push();
-    EXPECT_LT(step, 0.5 * largest * stage.Options.Friction);
-    EXPECT_GT(step, 0);
-    EXPECT_LE(step * stage.FastestSpeed(), largest + 1e-4);
-    // By how much: as the speed at the end of the longest step asks for.
-    Flying flying(100.f);
-    flying.Options.MaximumStep = largest;
-    const double longest = largest * flying.Options.Friction / 0.5;
-    const double speed = 100. / (1 + flying.Options.Friction * longest);
-    EXPECT_NEAR(flying.Push(), largest / speed, 1e-3 * largest / speed);
   }
 }
 

@@ -99,21 +99,6 @@ TEST(SurfaceComponents, LabelsComponentsByTheirFirstVerticesInAnySpans)
   }
 }
 
-TEST(SurfaceComponents, WatchesSmallComponentsInAllSpans)
-{
-  SurfaceState state;
-  Fill(state,
-    { DividedIcosahedron({ 0, 0, 0 }, 10, 0.2), Icosahedron({ 30, 0, 0 }, 1),
-      Icosahedron({ 40, 0, 0 }, 1) });
-  ASSERT_GT(state.Mesh.Size(), 2 * 16384);
-  state.FieldValue.Fill(-1.f);
-  StandardThreads threads(3);
-  SurfaceComponents components;
-  components.Label(state, threads);
-  EXPECT_TRUE(components.DeleteDegenerate(state, OnThisThread())) << "both are on the wrong side";
-  EXPECT_EQ(components.NumberOfComponents(), 1);
-}
-
 TEST(SurfaceComponents, KnowsACavityByItsWholeVolume)
 {
   // A ring that has what faces its first vertex, and alone has the other sign, in the last spans.
@@ -139,27 +124,6 @@ TEST(SurfaceComponents, KnowsACavityByItsWholeVolume)
     SurfaceComponents components;
     EXPECT_EQ(components.DeleteInsideOut(state, threads), isCavity);
   }
-}
-
-TEST(SurfaceComponents, DeletesSmallOnesAndKeepsCount)
-{
-  SurfaceState state;
-  Fill(state, { Ball({ 0, 0, 0 }, 10), Ball({ 30, 0, 0 }, 1) });
-  SurfaceComponents components;
-  components.Label(state, OnThisThread());
-  ASSERT_EQ(components.NumberOfComponents(), 2);
-  EXPECT_FALSE(components.DeleteDegenerate(state, OnThisThread())) << "no reason yet";
-  // Wholly in the background, and tiny.
-  for (int v = 0; v < state.Mesh.Size(); ++v)
-  {
-    state.FieldValue[v] = state.Mesh.Position[v].X > 20 ? -1.f : 0.f;
-  }
-  const bool deleted = components.DeleteDegenerate(state, OnThisThread());
-  EXPECT_TRUE(deleted);
-  EXPECT_EQ(components.NumberOfComponents(), 1);
-  components.Label(state, OnThisThread());
-  EXPECT_EQ(components.NumberOfComponents(), 1) << "counted afresh";
-  EXPECT_EQ(DescribeBrokenInvariant(state.Mesh), "");
 }
 
 namespace
@@ -252,22 +216,6 @@ TEST(ComponentWatch, WatchesTheSmallOnesOfARangeOnly)
   EXPECT_TRUE(state.Mesh.IsAlive(first + size)) << "not in the range";
   EXPECT_FALSE(watch.DeleteDegenerate(state));
   watch.LabelSmall(state, first + size, first + size + 1, Everywhere);
-  EXPECT_TRUE(watch.DeleteDegenerate(state));
-}
-
-TEST(ComponentWatch, KeepsASmallOneOnTheRightSide)
-{
-  SurfaceState state;
-  Fill(state, { Ball({ 0, 0, 0 }, 0.8) });
-  state.FieldValue.Fill(1.f);
-  ComponentWatch watch;
-  watch.LabelSmall(state, 0, 1, Everywhere);
-  EXPECT_FALSE(watch.DeleteDegenerate(state));
-  // Turned inside out since: its volume has changed its sign.
-  for (int v = 0; v < state.Mesh.Size(); ++v)
-  {
-    state.Mesh.Position[v] = state.Mesh.Position[v] * -1.f;
-  }
   EXPECT_TRUE(watch.DeleteDegenerate(state));
 }
 

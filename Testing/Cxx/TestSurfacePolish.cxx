@@ -124,34 +124,3 @@ TEST(SurfacePolish, PushesApartWhatIsFarApartOnTheSurface)
   EXPECT_EQ(CountSelfIntersections(state.Mesh.ToIndexed()), 0);
   EXPECT_EQ(state.Mesh.CountEulerCharacteristic(), 4);
 }
-
-TEST(SurfacePolish, StaysOnTheIsopotential)
-{
-  for (unsigned seed = 1; seed <= 3; ++seed)
-  {
-    const TestVolume volume = MakeVolume(33, [](double x, double y, double z)
-      { return 8 - Distance(x, y, z, 16, 16, 16); });
-    SequentialExecutor executor;
-    const Field field(volume.Image, SurfaceOptions(), executor);
-    double worst[2] = { 0, 0 };
-    for (const bool snap : { false, true })
-    {
-      SurfaceMesh mesh = ShakenSphere(seed);
-      for (Vector& p : mesh.Position)
-      {
-        p += Vector(16, 16, 16);
-      }
-      LiveSurface state(mesh);
-      SurfacePolish(state, snap ? &field : nullptr, false).Run(AliveOnes(state));
-      EXPECT_EQ(ShapeOf(state).EdgesOutside, 0);
-      for (int v = 0; v < state.Mesh.Size(); ++v)
-      {
-        if (state.Mesh.IsAlive(v))
-        {
-          worst[snap] += std::abs(field.ValueAt(state.Mesh.Position[v])) / state.Mesh.Size();
-        }
-      }
-    }
-    EXPECT_LT(worst[true], 0.7 * worst[false]) << "mean distance, seed " << seed;
-  }
-}

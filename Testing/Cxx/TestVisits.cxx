@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Surfaces that are worked on in visits of blocks: whole runs of small scenes.
-#include "BarTestScene.h"
 #include "Core/Evolution/SurfaceIteration.h"
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "Core/Mesh/SurfaceMeasures.h"
@@ -13,6 +12,19 @@ using namespace volumic;
 
 namespace
 {
+/** A lattice of bars, thick and thin: merges, cuts, lost parts and cavities. */
+double Bars(double x, double y, double z)
+{
+  const auto distance = [](double t) { return std::abs(std::remainder(t, 14.)); };
+  const double u = distance(x - 3);
+  const double v = distance(y - 3);
+  const double w = distance(z - 3);
+  const double thick = std::min({ std::hypot(u, v), std::hypot(v, w), std::hypot(u, w) });
+  const double hollow = 2.6 - Distance(x, y, z, 24, 24, 24);
+  const double outside = std::max({ std::abs(x - 24), std::abs(y - 24), std::abs(z - 24) }) - 20;
+  return std::max({ thick - 2.1 - 0.8 * std::sin(0.3 * x), hollow, outside });
+}
+
 /** Both levels of the bars in blocks of so many delta; 0: as usual. */
 SurfaceOptions InBlocksOf(double side)
 {
@@ -31,11 +43,10 @@ struct SweptRun
 
   SweptRun(const SurfaceOptions& options, Executor& executor, Monitor& monitor)
   {
-    const TestVolume fine = FineBars();
-    const TestVolume coarse = CoarseBars();
+    const LevelPair scene(48, Bars, Bars);
     TestEvolution evolution(options, executor, monitor);
-    evolution.StartEnclosing(coarse.Image, 1);
-    if (evolution.Run() != StopReason::Cancelled && evolution.Divide(fine.Image, 0))
+    evolution.StartEnclosing(scene.Coarse.Image, 1);
+    if (evolution.Run() != StopReason::Cancelled && evolution.Divide(scene.Fine.Image, 0))
     {
       this->Enclosed = evolution.Lost().Enclosed + evolution.Lost().EnclosedCavities;
       evolution.Run();
