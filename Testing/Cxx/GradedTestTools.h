@@ -38,19 +38,18 @@ inline double OutsideBoxAndBall(double x, double y, double z)
 using Outside = std::function<double(double x, double y, double z)>;
 
 /** What is nearer than 0 to something is more than half. */
-inline TestVolume VolumeOf(const Outside& outside, int size = 48)
+inline TestVolume VolumeOf(const Outside& outside)
 {
-  return MakeVolume(size, [&outside](double x, double y, double z)
+  return MakeVolume(48, [&outside](double x, double y, double z)
     { return std::clamp(0.5 - 0.25 * outside(x, y, z), 0., 1.); });
 }
 
 /** The surface of something, on one level. */
-inline SurfaceResult SurfaceOf(
-  const Outside& outside, const Grading& grading, Executor& executor, int size = 48)
+inline SurfaceResult SurfaceOf(const Outside& outside, const Grading& grading)
 {
-  const TestVolume volume = VolumeOf(outside, size);
+  const TestVolume volume = VolumeOf(outside);
   Monitor silent;
-  TestEvolution evolution(IsoHalf(), executor, silent);
+  TestEvolution evolution(IsoHalf(), Threads, silent);
   evolution.Task.Grading = grading;
   evolution.StartEnclosing(volume.Image, 0);
   EXPECT_EQ(evolution.Run(), StopReason::Converged);
@@ -71,14 +70,6 @@ inline void VisitEdges(
       visit(t[k], t[(k + 1) % 3], Distance(a[0], a[1], a[2], b[0], b[1], b[2]));
     }
   }
-}
-
-inline void ExpectSame(const SurfaceResult& one, const SurfaceResult& other)
-{
-  EXPECT_EQ(one.Points, other.Points);
-  EXPECT_EQ(one.Triangles, other.Triangles);
-  EXPECT_EQ(one.Size, other.Size);
-  EXPECT_EQ(one.Thickness, other.Thickness);
 }
 
 inline void ExpectLegal(const SurfaceResult& surface)

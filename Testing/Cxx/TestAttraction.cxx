@@ -3,7 +3,6 @@
 #include "Core/Common/StandardThreads.h"
 #include "Core/Evolution/SurfaceOptions.h"
 #include "Core/Image/EdgeAttraction.h"
-#include "Core/Image/Field.h"
 #include "Core/Image/PointAttraction.h"
 #include "CoreTestTools.h"
 

@@ -5,7 +5,6 @@
 
 #include <vtkCellData.h>
 #include <vtkDataSetAttributes.h>
-#include <vtkImageCast.h>
 #include <vtkUnsignedCharArray.h>
 
 using namespace volumic;

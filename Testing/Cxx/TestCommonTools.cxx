@@ -4,6 +4,7 @@
 // Small tools of the core that know no surface.
 #include "Core/Common/DisjointSets.h"
 #include "Core/Common/FreeMemory.h"
+#include "Core/Common/Lanes.h"
 #include "Core/Common/Refuse.h"
 #include "Core/Common/StandardThreads.h"
 #include "Core/Image/VoxelNumbers.h"
@@ -59,6 +60,45 @@ TEST(DisjointSets, AreTheSameWhoeverJoinsThemAtOnce)
     {
       ASSERT_EQ(shared.Find(i), alone.Find(i));
     }
+  }
+}
+
+TEST(Lanes, ComputeWhatOneFloatDoes)
+{
+  const auto laneOf = [](const Lanes& lanes, int i)
+  {
+    float four[Lanes::Count];
+    lanes.Store(four);
+    return four[i];
+  };
+  std::mt19937 random(1);
+  const auto next = [&random] { return static_cast<float>(random() >> 8) / (1 << 23) - 1.f; };
+  for (int round = 0; round < 100; ++round)
+  {
+    float a[4];
+    float b[4];
+    for (int i = 0; i < 4; ++i)
+    {
+      a[i] = next();
+      b[i] = i == round % 7 ? a[i] : next();
+    }
+    const Lanes x = Lanes::Load(a);
+    const Lanes y = Lanes::Load(b);
+    const unsigned less = LessBits(x, y);
+    for (int i = 0; i < 4; ++i)
+    {
+      EXPECT_EQ(laneOf(x + y, i), a[i] + b[i]);
+      EXPECT_EQ(laneOf(x - y, i), a[i] - b[i]);
+      EXPECT_EQ(laneOf(x * y, i), a[i] * b[i]);
+      EXPECT_EQ(laneOf(x / y, i), a[i] / b[i]);
+      EXPECT_EQ(laneOf(Minimum(x, y), i), std::min(a[i], b[i]));
+      EXPECT_EQ(laneOf(Maximum(x, y), i), std::max(a[i], b[i]));
+      EXPECT_EQ(laneOf(SquareRoot(x * x), i), std::sqrt(a[i] * a[i]));
+      EXPECT_EQ(laneOf(WhereLess(x, y, x), i), a[i] < b[i] ? a[i] : 0.f);
+      EXPECT_EQ(less >> i & 1, a[i] < b[i] ? 1u : 0u);
+    }
+    EXPECT_EQ(LeastOf(x), *std::min_element(a, a + 4));
+    EXPECT_EQ(GreatestOf(x), *std::max_element(a, a + 4));
   }
 }
 

@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Surface/SurfaceEditor.h"
 #include "DynamicsTestTools.h"
 
 using namespace volumic;

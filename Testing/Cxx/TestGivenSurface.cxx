@@ -1,10 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Evolution/LatticeSurface.h"
-#include "Core/Mesh/Division.h"
 #include "Core/Mesh/ObliqueRotation.h"
 #include "Core/Mesh/SurfaceFeatures.h"
-#include "Core/Surface/Remesher.h"
 #include "EvolutionTestTools.h"
 
 using namespace volumic;

@@ -5,7 +5,6 @@
 #include "Core/Interfaces/InterfaceStart.h"
 #include "Core/Interfaces/MismatchedVoxels.h"
 #include "Core/Interfaces/TriangleShape.h"
-#include "Core/Interfaces/VertexTargets.h"
 #include "InterfaceTestTools.h"
 
 using namespace volumic;

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Interfaces/InterfaceSizes.h"
 
-#include "Core/Common/StandardThreads.h"
-#include "Core/Interfaces/InterfaceRemesher.h"
 #include "Core/Interfaces/MakeInterfaces.h"
 #include "Core/Interfaces/TriangleShape.h"
 #include "InterfaceTestTools.h"

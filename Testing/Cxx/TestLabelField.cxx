@@ -1,10 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Labels/BoundaryGaussian.h"
-#include "Core/Labels/LabelHold.h"
-#include "Core/Labels/LabelSides.h"
 #include "LabelTestTools.h"
-#include "ThreadTestTools.h"
 
 using namespace volumic;
 

@@ -8,7 +8,6 @@
 
 #include <vtkCell.h>
 #include <vtkCellArray.h>
-#include <vtkMatrix3x3.h>
 
 using namespace volumic;
 

@@ -5,7 +5,6 @@
 #include "ForVoxels.h"
 #include "TestPrelude.h"
 
-#include <cstring>
 #include <type_traits>
 
 using namespace volumic;

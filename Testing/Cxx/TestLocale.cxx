@@ -4,9 +4,7 @@
 // In programs of countries that write 1.234,5: what the filters write must be read by scripts.
 #include "CommaLocale.h"
 #include "SurfaceTestTools.h"
-#include "vtkOtsuThreshold.h"
 
-#include <vtkReverseSense.h>
 
 #include <clocale>
 #include <cstdio>

@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Common/Box.h"
 #include "Core/Common/StandardThreads.h"
 #include "Core/Mesh/EdgeCollapse.h"
 #include "Core/Mesh/EdgeFlip.h"

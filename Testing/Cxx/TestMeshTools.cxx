@@ -1,14 +1,10 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Small tools of meshes: rows through triangles, volumes and areas.
+// Small tools of meshes: rows through triangles.
 #include "Core/Common/StandardThreads.h"
 #include "Core/Mesh/RowCrossing.h"
-#include "Core/Mesh/SelfIntersections.h"
-#include "Core/Mesh/SurfaceFeatures.h"
-#include "Core/Mesh/SurfaceMeasures.h"
-#include "EvolutionTestTools.h"
-#include "RemeshTestTools.h"
+#include "CoreTestTools.h"
 
 using namespace volumic;
 

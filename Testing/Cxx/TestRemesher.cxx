@@ -4,7 +4,6 @@
 // Which edges are split, collapsed and flipped; lengths in delta.
 #include "Core/Mesh/EdgeFlip.h"
 #include "Core/Mesh/EdgeSplit.h"
-#include "Core/Mesh/SurfaceFeatures.h"
 #include "Core/Surface/Remesher.h"
 #include "RemeshTestTools.h"
 
@@ -12,8 +11,6 @@ using namespace volumic;
 
 namespace
 {
-SequentialExecutor Threads;
-
 /** A sphere with edges of 1.1 to 1.25. */
 IndexedSurface FineSphere()
 {

@@ -1,11 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Common/StandardThreads.h"
-#include "Core/Labels/LabelSides.h"
 #include "Core/Labels/SmallParts.h"
 #include "LabelTestTools.h"
 
-#include <cstdlib>
 
 using namespace volumic;
 

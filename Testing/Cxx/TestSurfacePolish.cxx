@@ -1,8 +1,5 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Common/Executor.h"
-#include "Core/Evolution/SurfaceOptions.h"
-#include "Core/Mesh/EdgeFlip.h"
 #include "Core/Surface/SurfacePolish.h"
 #include "LiveSurface.h"
 

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Common/StandardThreads.h"
 #include "Core/Mesh/VertexGrid.h"
-#include "Core/Surface/VertexProperties.h"
 #include "CoreTestTools.h"
 
 using namespace volumic;

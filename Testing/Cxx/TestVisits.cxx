@@ -3,7 +3,6 @@
 
 // Surfaces that are worked on in visits of blocks: whole runs of small scenes.
 #include "Core/Evolution/SurfaceIteration.h"
-#include "Core/Mesh/SurfaceFeatures.h"
 #include "Core/Mesh/SurfaceMeasures.h"
 #include "EvolutionTestTools.h"
 #include "ThreadTestTools.h"
