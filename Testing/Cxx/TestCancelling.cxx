@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "GradedTestTools.h"
+#include "EvolutionTestTools.h"
 
 using namespace volumic;
 
@@ -71,7 +71,7 @@ StopReason RunIn(const LevelPair& scene, TestEvolution& evolution, bool isGivenA
     evolution.StartEnclosing(scene.Coarse.Image, 1);
   }
   const StopReason reason = evolution.Run();
-  evolution.Task.Grading = isGivenAndGraded ? Within(0.25) : Grading();
+  evolution.Task.Grading.Tolerance = isGivenAndGraded ? 0.25 : 0.;
   if (reason == StopReason::Cancelled || !evolution.Divide(scene.Fine.Image, 0))
   {
     return reason;

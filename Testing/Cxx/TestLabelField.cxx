@@ -46,55 +46,6 @@ TEST(LabelField, KeepsWhatIsAVoxelThin)
   EXPECT_GE(ValueAt(field, 5, 12, 9), 0.35f);
 }
 
-TEST(LabelField, IsTheDistanceToASphere)
-{
-  const double radius = 14.;
-  const LabelMap map = BallMap(40, radius);
-  const LabelField field = FieldOf(map, 1);
-  double sum = 0.;
-  double most = 0.;
-  int count = 0;
-  ForVoxelsOf(field,
-    [&](int i, int j, int k, float value)
-    {
-      const double distance = radius - std::hypot(i - 19.6, j - 19.6, k - 19.6);
-      if (std::abs(distance) < 1.)
-      {
-        const double off = std::abs(value - distance);
-        sum += off;
-        most = std::max(most, off);
-        ++count;
-      }
-    });
-  ASSERT_GT(count, 3000);
-  EXPECT_LT(sum / count, 0.08);
-  EXPECT_LT(most, 0.6);
-}
-
-TEST(LabelField, IsInLengthsOfTheWorldWhereVoxelsAreLong)
-{
-  LabelMap map = MakeLabelMap({ 48, 48, 16 }, 1,
-    [](int i, int j, int k)
-    { return std::hypot(i - 23.4, j - 23.7, 3. * (k - 7.6)) < 15. ? 1 : 0; });
-  map.Spacing = { 1., 1., 3. };
-  const LabelField field = FieldOf(map, 1, 6.);
-  double sum = 0.;
-  int count = 0;
-  ForVoxelsOf(field,
-    [&](int i, int j, int k, float value)
-    {
-      const double distance = 15. - std::hypot(i - 23.4, j - 23.7, 3. * (k - 7.6));
-      if (std::abs(distance) < 1.)
-      {
-        sum += std::abs(value - distance);
-        ++count;
-      }
-    });
-  ASSERT_GT(count, 500);
-  EXPECT_LT(sum / count, 0.21);
-  EXPECT_EQ(CountWrongSigns(map, 1, field), 0);
-}
-
 namespace
 {
 /** Where between the centres of a voxel inside and one outside the field is 0. */

@@ -3,6 +3,7 @@
 #include "Core/Interfaces/MakeInterfaces.h"
 
 #include "Core/Interfaces/InterfaceFit.h"
+#include "Core/Interfaces/InterfaceSizes.h"
 #include "Core/Interfaces/LineWedges.h"
 #include "Core/Interfaces/TriangleShape.h"
 #include "Core/Mesh/TriangleDistance.h"
@@ -21,9 +22,11 @@ bool IsOffLines(const InterfaceMesh& mesh, const InterfaceMesh::Face& face)
 
 InterfaceMesh Make(
   InterfaceScene& scene, Executor& executor = OnThisThread(),
-  const std::function<bool(double)>& goOn = [](double) { return true; })
+  const std::function<bool(double)>& goOn = [](double) { return true; }, double tolerance = 0.)
 {
-  return MakeInterfaces(*scene.Fields, InterfaceOptions(), executor, goOn);
+  InterfaceOptions options;
+  options.Tolerance = tolerance;
+  return MakeInterfaces(*scene.Fields, options, executor, goOn);
 }
 
 /** Three balls that are pressed together a little. */
@@ -52,6 +55,26 @@ double LeastAngle(const InterfaceMesh& mesh)
 double VoxelsOf(const InterfaceScene& scene, int object)
 {
   return static_cast<double>(scene.Bricks->ExtentOf(object).Voxels);
+}
+
+float LargestSize(const InterfaceMesh& mesh)
+{
+  return *std::max_element(mesh.Size.begin(), mesh.Size.end());
+}
+
+/** By how much sizes grow per length at most, between any two vertices. */
+double SteepestSize(const InterfaceMesh& mesh)
+{
+  double steepest = 0.;
+  for (std::size_t v = 0; v < mesh.Size.size(); ++v)
+  {
+    for (std::size_t w = 0; w < v; ++w)
+    {
+      const double way = Length(mesh.Position[v] - mesh.Position[w]);
+      steepest = std::max(steepest, std::abs(mesh.Size[v] - mesh.Size[w]) / way);
+    }
+  }
+  return steepest;
 }
 }
 
@@ -251,3 +274,36 @@ TEST_P(StoppedInterfaces, AreSound)
 }
 
 INSTANTIATE_TEST_SUITE_P(AfterQuestions, StoppedInterfaces, testing::Values(1, 12, 40, 90));
+
+TEST(InterfaceSizes, GrowWhereInterfacesAreFlatAndKeepTheGradation)
+{
+  InterfaceScene scene(FourBlocks(10));
+  InterfaceMesh mesh = Make(scene);
+  EXPECT_EQ(LargestSize(mesh), 1.f);
+  const SizeBounds bounds = { 0.1, 2.5, 1.8, 0.2 };
+  InterfaceMesh off = mesh;
+  for (Vector& p : off.Position)
+  {
+    p += Vector(0.2f, 0.2f, 0.2f); // on purpose, as junction lines are, to be straight
+  }
+  AdjustSizes(off, *scene.Fields, bounds, OnThisThread());
+  EXPECT_EQ(LargestSize(off), 1.8f);
+  AdjustSizes(mesh, *scene.Fields, bounds, OnThisThread());
+  EXPECT_LT(SteepestSize(mesh), 1.001 * bounds.Gradation);
+  EXPECT_EQ(LargestSize(mesh), 1.8f);
+  EXPECT_EQ(*std::min_element(mesh.Size.begin(), mesh.Size.end()), 1.f); // at edges of the cube
+}
+
+class GradedInterfaces : public testing::TestWithParam<int>
+{
+};
+
+TEST_P(GradedInterfaces, AreSoundWhateverTheMap)
+{
+  const auto seed = static_cast<unsigned>(GetParam());
+  InterfaceScene scene(ManyCells(26, 3 + 4 * GetParam(), seed));
+  const InterfaceMesh mesh = Make(scene, OnThisThread(), [](double) { return true; }, 0.1 * (1 + GetParam()));
+  ExpectSound(mesh);
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, GradedInterfaces, testing::Range(1, 4));

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Evolution/SurfaceIteration.h"
 #include "Core/Mesh/SurfaceMeasures.h"
 #include "Core/Surface/SurfaceBlocks.h"
 #include "Core/Surface/SurfaceEditor.h"
@@ -238,4 +239,29 @@ TEST(SurfaceBlocks, LeaveOutWhatIntersects)
   EXPECT_FALSE(blocks.Append(added.ToIndexed(), true, Thread));
   EXPECT_EQ(state.Mesh.NumberOfVertices(), before + beside);
   EXPECT_EQ(state.EulerCharacteristic, 6);
+}
+
+TEST(SurfaceIteration, MovesNothingFarFromTheBlock)
+{
+  LiveSurface s(Balls(3));
+  SurfaceBlocks blocks(s, FrameAbout(s.Mesh, 10.f), Thread);
+  const auto movedIn = [&](BlockVisit& visit, const Vector& place)
+  {
+    const std::vector<int> active = SurfaceIteration(s, visit, nullptr, true).ActiveVertices();
+    return std::any_of(active.begin(), active.end(),
+      [&](int v) { return SquaredDistance(s.Mesh.Position[v], place) == 0.f; });
+  };
+  BlockVisit visit = blocks.Open(1);
+  const float end = blocks.BoxOf(1).High.X;
+  const Vector near(end + 0.9f * SurfaceBlocks::MovingInDelta, 0, 0);
+  const Vector far(end + 1.1f * SurfaceBlocks::MovingInDelta, 0, 0);
+  s.MoveTo(visit.First, near);
+  s.MoveTo(visit.First + 1, far);
+  EXPECT_TRUE(movedIn(visit, near));
+  EXPECT_FALSE(movedIn(visit, far));
+  blocks.Close(std::move(visit));
+  blocks.Prepare(Thread);
+  visit = blocks.Open(2);
+  EXPECT_TRUE(movedIn(visit, far)) << "it is the neighbour's, which moves it";
+  blocks.Close(std::move(visit));
 }

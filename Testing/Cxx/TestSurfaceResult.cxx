@@ -67,17 +67,6 @@ TEST(SurfaceResult, LiesOnTheEdgesWhereTheyAreGiven)
   EXPECT_NEAR(radius, 7, 0.08);
 }
 
-TEST(SurfaceStart, SeedsKeepClearOfEachOther)
-{
-  const TestVolume volume = BallVolume(40, 16);
-  TestEvolution evolution(IsoHalf(), Threads, Silent);
-  // The second is too near to the first one, the last one lies in the background.
-  const std::vector<Point> places = { { 20, 20, 20 }, { 22, 20, 20 }, { 26, 20, 20 }, { 2, 2, 2 } };
-  EXPECT_EQ(evolution.StartSeeds(volume.Image, 0, places), 2);
-  EXPECT_EQ(ComputeFeatures(evolution.Result()).Components.size(), 2u);
-  ExpectLegalEdges(evolution.Result());
-}
-
 TEST(SurfaceStart, SeedsAreOfTheirRadiusButNeverTooSmallForTheEdges)
 {
   const TestVolume volume = BallVolume(40, 16);
