@@ -67,6 +67,17 @@ inline void ExpectErrorOf(vtkAlgorithm* filter, const std::vector<std::string>& 
   EXPECT_EQ(filter->GetErrorCode(), static_cast<unsigned long>(vtkErrorCode::UserError));
 }
 
+/** How often a text has a part. */
+inline int CountOf(const std::string& text, const std::string& part)
+{
+  int count = 0;
+  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
+  {
+    ++count;
+  }
+  return count;
+}
+
 /** Level h of a pyramid. */
 inline vtkImageData* Level(vtkMultiBlockDataSet* pyramid, unsigned int h)
 {

@@ -54,16 +54,6 @@ TEST(Field, GradientIsPerLengthOfTheWorkspace)
   EXPECT_NEAR(sample.Gradient.Z, 0.25, 1e-5);
 }
 
-TEST(Field, TurnsTheSignForDarkObjects)
-{
-  const TestVolume volume = MakeVolume(8, [](double x, double, double) { return x; });
-  SurfaceOptions options = WithIso(3.);
-  options.ObjectIsBright = false;
-  const Field field(volume.Image, options, Threads);
-  EXPECT_FLOAT_EQ(field.ValueAt(Vector(1, 4, 4)), 2);
-  EXPECT_FLOAT_EQ(field.At(Vector(4, 4, 4)).Gradient.X, -1);
-}
-
 TEST(Field, FallsToTheBackgroundWithinAVoxelOfTheBorder)
 {
   for (const bool bright : { true, false })

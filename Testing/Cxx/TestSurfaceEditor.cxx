@@ -63,17 +63,6 @@ TEST(SurfaceEditor, SplitsHalfWayAndKeepsTheMotion)
   EXPECT_LT(Length(s.PreviousPosition[m] - Vector(2, 2, 2)), 1e-6) << "where a roll back leads it";
 }
 
-TEST(SurfaceEditor, CollapseMakesNoLongEdges)
-{
-  Workbench fine(Fine);
-  EXPECT_TRUE(fine.Editor.Collapse(fine.V, fine.W, EditTolerance::Smooth));
-  EXPECT_TRUE(fine.IsSound());
-  Workbench coarse(Coarse);
-  EXPECT_FALSE(coarse.Editor.CollapseTo(
-    coarse.V, coarse.W, (coarse.At(coarse.V) + coarse.At(coarse.W)) * 0.5f, EditTolerance::Loose));
-  EXPECT_EQ(coarse.State.Counts.Collapses, 0);
-}
-
 TEST(SurfaceEditor, CollapseTurnsFacesLittle)
 {
   for (const float height : { 0.15f, 1.1f })
@@ -110,15 +99,6 @@ TEST(SurfaceEditor, CollapseAndMoveKeepClearOfWhatIsNear)
       }
     }
   }
-}
-
-TEST(SurfaceEditor, SmoothFlipKeepsToLegalLengths)
-{
-  Workbench fine(Fine);
-  EXPECT_TRUE(fine.Editor.Flip(fine.V, fine.W, EditTolerance::Smooth));
-  Workbench coarse(Coarse);
-  EXPECT_FALSE(coarse.Editor.Flip(coarse.V, coarse.W, EditTolerance::Smooth))
-    << "its edge would be 3.5 delta";
 }
 
 TEST(SurfaceEditor, FlipsKeepClearOfWhatIsNear)

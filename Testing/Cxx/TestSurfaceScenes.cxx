@@ -4,30 +4,22 @@
 // The acceptance of the deformable surface: scenes whose components and genus are known, segmented
 // through the VTK class, judged by the judge that shares no code with it.
 #include "SupportVtkConversions.h"
-#include "TestPrelude.h"
-#include "vtkDeformableSurface.h"
+#include "SurfaceTestTools.h"
 
-#include <vtkMultiBlockDataSet.h>
-#include <vtkStringArray.h>
 
 #include <tuple>
 
+using namespace volumic;
 using namespace volumic::support;
 
 namespace
 {
 vtkSmartPointer<vtkDeformableSurface> Segment(vtkImageData* image, const Scene& scene)
 {
-  auto filter = vtkSmartPointer<vtkDeformableSurface>::New();
-  filter->SetInputData(image);
+  const auto filter = FilterOf(image);
   filter->SetIsoValue(scene.IsoValue);
   filter->SetObjectIsBright(scene.ObjectIsBright);
   return filter;
-}
-
-double FieldOf(vtkPolyData* surface, const char* name)
-{
-  return surface->GetFieldData()->GetArray(name)->GetComponent(0, 0);
 }
 
 /** In the space that the constraints speak of: the world, or index coordinates. */
@@ -80,10 +72,7 @@ void ExpectTopology(vtkDeformableSurface* filter, const Scene& scene)
   EXPECT_EQ(FieldOf(surface, "Level"), 0);
   EXPECT_EQ(FieldOf(surface, "NumberOfComponents"), scene.ComponentsFromOutside);
   EXPECT_EQ(FieldOf(surface, "Genus"), scene.GenusFromOutside);
-  auto* reason =
-    vtkStringArray::SafeDownCast(surface->GetFieldData()->GetAbstractArray("StopReason"));
-  ASSERT_TRUE(reason);
-  EXPECT_EQ(reason->GetValue(0), "converged");
+  EXPECT_EQ(StopReason(surface), "converged");
 }
 
 /** How a scene is sampled and segmented. */
@@ -138,19 +127,12 @@ TEST(SurfaceScenes, SeedsMergeToOneSurface)
   {
     const Scene scene = MakeScene(kind);
     const auto image = ToImage(scene);
-    vtkNew<vtkPoints> points;
-    for (const auto& seed : scene.Seeds)
-    {
-      points->InsertNextPoint(seed.data());
-    }
-    ASSERT_GE(points->GetNumberOfPoints(), 2);
-    vtkNew<vtkPolyData> seeds;
-    seeds->SetPoints(points);
+    ASSERT_GE(scene.Seeds.size(), 2u);
     const auto filter = Segment(image, scene);
     filter->SetCoarsestLevel(0);
     filter->SetInitializationToSeeds();
     filter->SetSeedRadius(scene.SeedRadius);
-    filter->SetInitialSurfaceData(seeds);
+    filter->SetInitialSurfaceData(PointsAt(scene.Seeds));
     filter->Update();
     ExpectTopology(filter, scene);
     ExpectInvariantsAtEveryLevel(filter, image);
