@@ -32,16 +32,14 @@ public:
     this->Command->SetClientData(&this->Text);
     this->Command->SetCallback([](vtkObject*, unsigned long, void* client, void* message)
       { *static_cast<std::string*>(client) += static_cast<const char*>(message); });
-    this->Observe(speaker, event, this->Command);
+    this->Speaker = speaker;
+    this->Tag = speaker->AddObserver(event, this->Command);
   }
   ~MessagesOf()
   {
-    for (const auto& observed : this->Observed)
+    if (this->Speaker)
     {
-      if (observed.first)
-      {
-        observed.first->RemoveObserver(observed.second);
-      }
+      this->Speaker->RemoveObserver(this->Tag);
     }
   }
   MessagesOf(const MessagesOf&) = delete;
@@ -51,14 +49,10 @@ public:
   bool Has(const std::string& part) const { return this->Text.find(part) != std::string::npos; }
 
 private:
-  void Observe(vtkObject* speaker, unsigned long event, vtkCommand* command)
-  {
-    this->Observed.emplace_back(speaker, speaker->AddObserver(event, command));
-  }
-
   std::string Text;
   vtkNew<vtkCallbackCommand> Command;
-  std::vector<std::pair<vtkWeakPointer<vtkObject>, unsigned long>> Observed;
+  vtkWeakPointer<vtkObject> Speaker;
+  unsigned long Tag = 0;
 };
 
 /** Updates a filter, which is to fail, and to tell so in a message with these parts. */
@@ -71,6 +65,17 @@ inline void ExpectErrorOf(vtkAlgorithm* filter, const std::vector<std::string>& 
     EXPECT_TRUE(Has(errors.Get(), part));
   }
   EXPECT_EQ(filter->GetErrorCode(), static_cast<unsigned long>(vtkErrorCode::UserError));
+}
+
+/** How often a text has a part. */
+inline int CountOf(const std::string& text, const std::string& part)
+{
+  int count = 0;
+  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
+  {
+    ++count;
+  }
+  return count;
 }
 
 /** Level h of a pyramid. */

@@ -9,21 +9,10 @@
 #include "Core/Interfaces/InterfaceMesh.h"
 #include "Core/Labels/MapBeyond.h"
 #include "Core/Mesh/SelfIntersections.h"
-#include "Core/Mesh/SurfaceCheck.h"
-#include "Core/Mesh/SurfaceFeatures.h"
 #include "LabelTestTools.h"
+#include "SurfaceTopology.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstddef>
-#include <map>
 #include <optional>
-#include <set>
-#include <utility>
-#include <vector>
 
 /** What tests of interfaces share. */
 namespace volumic
@@ -163,24 +152,6 @@ inline LabelMap ScatteredVoxels(int side, int objects, unsigned seed)
     });
 }
 
-/** All triangles, as they are. */
-inline IndexedSurface AllFaces(const InterfaceMesh& mesh)
-{
-  IndexedSurface all;
-  for (const Vector& p : mesh.Position)
-  {
-    all.Points.push_back({ p.X, p.Y, p.Z });
-  }
-  for (const InterfaceMesh::Face& face : mesh.Faces)
-  {
-    if (face.IsThere())
-    {
-      all.Triangles.push_back(face.Vertex);
-    }
-  }
-  return all;
-}
-
 /** What each edge has about it. */
 inline std::map<std::array<int, 2>, int> FacesAtEdges(const InterfaceMesh& mesh)
 {
@@ -204,18 +175,10 @@ inline std::map<std::array<int, 2>, int> FacesAtEdges(const InterfaceMesh& mesh)
  */
 inline void ExpectSound(const InterfaceMesh& mesh)
 {
-  const std::vector<std::vector<int>> faces = mesh.FindFacesOfObjects();
-  for (std::size_t object = 1; object < faces.size(); ++object)
+  for (const auto& [object, surface] : SurfacesOf(mesh))
   {
-    if (faces[object].empty() || mesh.IsSide(static_cast<int>(object)))
-    {
-      continue;
-    }
-    std::vector<int> vertices;
-    const IndexedSurface surface =
-      mesh.SurfaceOf(static_cast<int>(object), faces[object], vertices);
-    EXPECT_NO_THROW(CheckInitialSurface(surface)) << "object " << object;
-    EXPECT_GT(ComputeFeatures(surface).Volume, 0.) << "object " << object;
+    EXPECT_EQ(surface.BadLinks, 0) << "object " << object;
+    EXPECT_TRUE(object == 0 || surface.Volume > 0.) << "object " << object;
   }
   EXPECT_EQ(CountSelfIntersections(AllFaces(mesh)), 0);
   InterfaceMesh anew = mesh;
@@ -319,22 +282,16 @@ inline void ExpectMatchingSides(const InterfaceMesh& mesh)
 /** Of an object, in voxels if these are cubes of side 1. */
 inline double VolumeOf(const InterfaceMesh& mesh, int object)
 {
-  std::vector<int> vertices;
-  const std::vector<std::vector<int>> faces = mesh.FindFacesOfObjects();
-  return ComputeFeatures(mesh.SurfaceOf(object, faces[static_cast<std::size_t>(object)], vertices))
-    .Volume;
+  return SurfacesOf(mesh).at(object).Volume;
 }
 
-/** Sum over the objects but 0. */
-inline int EulerCharacteristicOf(const InterfaceMesh& mesh)
+/** Half of the sum over the surfaces of the objects but 0. */
+inline double EulerCharacteristicOf(const InterfaceMesh& mesh)
 {
-  int sum = 0;
-  const std::vector<std::vector<int>> faces = mesh.FindFacesOfObjects();
-  for (std::size_t object = 1; object < faces.size(); ++object)
+  double sum = 0.;
+  for (const auto& [object, surface] : SurfacesOf(mesh))
   {
-    std::vector<int> vertices;
-    sum += ComputeFeatures(mesh.SurfaceOf(static_cast<int>(object), faces[object], vertices))
-             .EulerCharacteristic;
+    sum += object == 0 ? 0. : surface.Euler();
   }
   return sum;
 }

@@ -36,14 +36,6 @@ inline LabelMap NoisyLabelMap(const std::array<int, 3>& size, int objects, unsig
     });
 }
 
-/** 1 in a ball about the middle of a cube of n voxels. */
-inline LabelMap BallMap(int n, double radius)
-{
-  const double middle = 0.5 * (n - 1) + 0.1;
-  return MakeLabelMap({ n, n, n }, 1, [=](int i, int j, int k)
-    { return std::hypot(i - middle, j - middle, k - middle) < radius ? 1 : 0; });
-}
-
 inline float ValueAt(const LabelField& field, int i, int j, int k)
 {
   return field.Values[static_cast<std::size_t>(field.Box.NumberOf(i, j, k))];

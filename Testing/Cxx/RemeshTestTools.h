@@ -71,21 +71,6 @@ struct Bench
     return *std::min_element(edges.begin(), edges.end());
   }
 
-  /** Of the vertices [from, to). */
-  int Nearest(const Vector& place, int from, int to) const
-  {
-    const LargeVector<Vector>& position = this->State.Mesh.Position;
-    int best = from;
-    for (int v = from; v < to; ++v)
-    {
-      if (SquaredDistance(position[v], place) < SquaredDistance(position[best], place))
-      {
-        best = v;
-      }
-    }
-    return best;
-  }
-
   /** What must hold after any edits. */
   bool IsSound() const
   {

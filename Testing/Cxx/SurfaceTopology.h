@@ -26,6 +26,24 @@ struct SurfaceTopology
   double Euler() const { return 0.5 * (this->Vertices - 0.5 * this->Faces); }
 };
 
+/** All triangles, as they are. */
+inline IndexedSurface AllFaces(const InterfaceMesh& mesh)
+{
+  IndexedSurface all;
+  for (const Vector& p : mesh.Position)
+  {
+    all.Points.push_back({ p.X, p.Y, p.Z });
+  }
+  for (const InterfaceMesh::Face& face : mesh.Faces)
+  {
+    if (face.IsThere())
+    {
+      all.Triangles.push_back(face.Vertex);
+    }
+  }
+  return all;
+}
+
 /** Of all objects that have faces, but not of sides. */
 inline std::map<int, SurfaceTopology> SurfacesOf(const InterfaceMesh& mesh)
 {
@@ -89,6 +107,10 @@ inline std::map<int, SurfaceTopology> SurfacesOf(const InterfaceMesh& mesh)
   for (std::size_t f = 0; f < mesh.Faces.size(); ++f)
   {
     const InterfaceMesh::Face& face = mesh.Faces[f];
+    if (!face.IsThere())
+    {
+      continue;
+    }
     const auto at = [&](int k)
     { return VectorD(mesh.Position[static_cast<std::size_t>(face.Vertex[k])]); };
     const double volume = Dot(at(0), Cross(at(1), at(2))) / 6.;

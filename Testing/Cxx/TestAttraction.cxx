@@ -3,7 +3,6 @@
 #include "Core/Common/StandardThreads.h"
 #include "Core/Evolution/SurfaceOptions.h"
 #include "Core/Image/EdgeAttraction.h"
-#include "Core/Image/Field.h"
 #include "Core/Image/PointAttraction.h"
 #include "CoreTestTools.h"
 
@@ -25,25 +24,6 @@ SurfaceOptions HalfOptions(double iso)
   options.IsoValue = iso;
   return options;
 }
-
-/** Distance from `centre` along +x at which the bent field leaves the object; 0: never in it. */
-double RadiusOf(const TestVolume& volume, const SurfaceOptions& options,
-  const std::vector<AttractingPoint>& points, double weight, const Point& centre)
-{
-  const std::vector<float> bent =
-    PointAttraction(points, weight).Bend(volume.Image, options, Threads);
-  LevelImage image = volume.Image;
-  image.Values = bent.data();
-  const Field field(image, options, Threads);
-  double radius = 0;
-  while (radius < 10 &&
-    field.ValueAt(Vector(static_cast<float>(centre[0] + radius), static_cast<float>(centre[1]),
-      static_cast<float>(centre[2]))) > 0)
-  {
-    radius += 0.02;
-  }
-  return radius;
-}
 }
 
 TEST(PointAttraction, TurnsHalfOfTheFieldRoundAtItsRadius)
@@ -57,43 +37,6 @@ TEST(PointAttraction, TurnsHalfOfTheFieldRoundAtItsRadius)
   {
     EXPECT_NEAR(bent[voxel[0] + 33 * (voxel[1] + 33 * voxel[2])], 50 - 50 + 0.5 * 112.5, 0.05);
   }
-}
-
-TEST(PointAttraction, AddsWeights)
-{
-  const TestVolume volume = Half();
-  const Point place = { 20, 16, 16 };
-  const SurfaceOptions options = HalfOptions(50);
-  const double one = RadiusOf(volume, options, { { place, 1., 4. } }, 1., place);
-  EXPECT_GT(one, 3.);
-  EXPECT_NEAR(RadiusOf(volume, options, { { place, 2., 4. } }, 0.5, place), one, 1e-6);
-  EXPECT_NEAR(
-    RadiusOf(volume, options, { { place, 0.5, 4. }, { place, 0.5, 4. } }, 1., place), one, 0.03);
-  EXPECT_GT(RadiusOf(volume, options, { { place, 3., 4. } }, 1., place), one + 0.3);
-  EXPECT_EQ(RadiusOf(volume, options, { { place, 0.15, 4. } }, 1., place), 0.);
-}
-
-TEST(PointAttraction, HasARadiusThatTheLevelCanHold)
-{
-  TestVolume volume = Half();
-  volume.Image.Unit = 2.;
-  const Point place = { 20, 16, 16 };
-  EXPECT_NEAR(RadiusOf(volume, HalfOptions(50), { { place, 1., 0. } }, 1., place), 4., 0.8);
-}
-
-TEST(PointAttraction, ServesDarkObjectsToo)
-{
-  TestVolume volume = Half();
-  for (float& value : volume.Values)
-  {
-    value = -value;
-  }
-  SurfaceOptions options = HalfOptions(-50);
-  options.ObjectIsBright = false;
-  const Point place = { 20, 16, 16 };
-  const double dark = RadiusOf(volume, options, { { place, 1., 4. } }, 1., place);
-  EXPECT_NEAR(dark,
-    RadiusOf(Half(), HalfOptions(50), { { place, 1., 4. } }, 1., place), 1e-6);
 }
 
 TEST(PointAttraction, LeavesWhatIsFarAsItIsAndDoesNotDependOnTheExecutor)
@@ -133,25 +76,4 @@ TEST(EdgeAttraction, LeadsToTheRidgeFromBothSidesWhateverTheScale)
     EXPECT_NEAR(edges.Along(Vector(14.5f, 16, 16), Vector(0, 1, 0)), 0.f, 1e-4f);
     EXPECT_NEAR(edges.Along(Vector(5, 16, 16), out), 0.f, 1e-4f);
   }
-}
-
-TEST(EdgeAttraction, IsFullAtHalfTheTypicalSlopeOfTheEdges)
-{
-  // Slopes of 2 in a slab, flat elsewhere: flat places do not count in what is typical.
-  for (const double width : { 5., 12. })
-  {
-    TestVolume volume = MakeVolume(33, [width](double, double, double z)
-      { return 2 * std::min(std::max(z - 10, 0.), width); });
-    volume.Image.Edges = volume.Values.data();
-    const EdgeAttraction edges(volume.Image, Threads);
-    const auto at = [&edges](float cosine) {
-      return edges.Along(Vector(16, 16, 12.5f), Vector(0, std::sqrt(1 - cosine * cosine), cosine));
-    };
-    EXPECT_FLOAT_EQ(at(1), 1) << "bounded";
-    EXPECT_FLOAT_EQ(at(-1), -1);
-    EXPECT_NEAR(at(0.25f), 0.5, 0.08);
-  }
-  TestVolume flat = MakeVolume(17, [](double, double, double) { return 7.; });
-  flat.Image.Edges = flat.Values.data();
-  EXPECT_EQ(EdgeAttraction(flat.Image, Threads).Along(Vector(8, 8, 8), Vector(1, 0, 0)), 0.f);
 }

@@ -4,16 +4,13 @@
 // What the iso-value alone can't do: a few points close a gap in a wall, a map of edges finds a
 // boundary that no iso-value gives.
 #include "SupportVtkConversions.h"
-#include "TestPrelude.h"
+#include "SurfaceTestTools.h"
 #include "WrongVoxels.h"
-#include "vtkDeformableSurface.h"
-#include "vtkImagePyramid.h"
 
 #include <vtkDoubleArray.h>
 #include <vtkImageGradientMagnitude.h>
-#include <vtkMultiBlockDataSet.h>
-#include <vtkPoints.h>
 
+using namespace volumic;
 using namespace volumic::support;
 
 namespace
@@ -64,33 +61,28 @@ vtkSmartPointer<vtkPolyData> PointsInTheOpening(const Scene& scene)
   return polyData;
 }
 
-vtkSmartPointer<vtkDeformableSurface> FilterOf(vtkDataObject* input, double isoValue)
+vtkSmartPointer<vtkDeformableSurface> FilterAt(vtkDataObject* input, double isoValue)
 {
-  auto filter = vtkSmartPointer<vtkDeformableSurface>::New();
-  filter->SetInputDataObject(input);
-  filter->SetIsoValue(isoValue);
-  return filter;
+  return FilterOf(input, [=](vtkDeformableSurface* filter) { filter->SetIsoValue(isoValue); });
 }
 
 SurfaceVerdict JudgeOutput(vtkDeformableSurface* filter)
 {
   filter->Update();
   vtkPolyData* surface = filter->GetOutput();
-  const SurfaceVerdict verdict = JudgeSurface(ToTriangleSurface(surface),
-    surface->GetFieldData()->GetArray("Delta")->GetComponent(0, 0));
+  const SurfaceVerdict verdict =
+    JudgeSurface(ToTriangleSurface(surface), FieldOf(surface, "Delta"));
   EXPECT_TRUE(verdict.Topology.Outward);
   EXPECT_EQ(verdict.Intersections.Pairs, 0u);
   EXPECT_EQ(verdict.Lengths.EdgesTooShort + verdict.Lengths.EdgesTooLong, 0u);
   EXPECT_EQ(verdict.Lengths.NearPairs, 0u);
-  EXPECT_STREQ(
-    surface->GetFieldData()->GetAbstractArray("StopReason")->GetVariantValue(0).ToString().c_str(),
-    "converged");
+  EXPECT_EQ(StopReason(surface), "converged");
   return verdict;
 }
 
 double VolumeOf(vtkDeformableSurface* filter)
 {
-  return filter->GetOutput()->GetFieldData()->GetArray("Volume")->GetComponent(0, 0);
+  return FieldOf(filter->GetOutput(), "Volume");
 }
 
 vtkSmartPointer<vtkImageData> GradientMagnitude(vtkImageData* image)
@@ -121,7 +113,7 @@ vtkSmartPointer<vtkImageData> WithEdges(const Scene& scene)
 vtkSmartPointer<vtkDeformableSurface> EdgeFilterOf(vtkDataObject* input, const Scene& scene)
 {
   const double brightest = *std::max_element(scene.Values.begin(), scene.Values.end());
-  auto filter = FilterOf(input, 0.5 * (scene.IsoValue + brightest));
+  auto filter = FilterAt(input, 0.5 * (scene.IsoValue + brightest));
   filter->SetEdgeAttractionWeight(2.0);
   filter->SetInputArrayToProcess(1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Edges");
   return filter;
@@ -132,11 +124,11 @@ TEST(PointAttractionScene, AFewPointsCloseTheGapThroughWhichTheSurfaceLeaks)
 {
   const Scene scene = MakeScene(SceneKind::ShellWithOpening);
   const auto image = ToImage(scene);
-  const auto leaking = FilterOf(image, scene.IsoValue);
+  const auto leaking = FilterAt(image, scene.IsoValue);
   JudgeOutput(leaking);
   EXPECT_LT(VolumeOf(leaking), 0.7 * BallVolume(OuterRadius)) << "the scene must need points";
 
-  const auto closed = FilterOf(image, scene.IsoValue);
+  const auto closed = FilterAt(image, scene.IsoValue);
   closed->SetAttractingPointsData(PointsInTheOpening(scene));
   const SurfaceVerdict verdict = JudgeOutput(closed);
   EXPECT_EQ(verdict.Topology.Components.size(), 1u);
@@ -179,7 +171,7 @@ TEST(GradientForce, SegmentsWhatNoIsoValueDoes)
   }
   values->Modified();
   // The isopotential brings the surface to the edge's foot, from where the gradient takes it down.
-  const auto filter = FilterOf(potential, 0.3 * potential->GetScalarRange()[0]);
+  const auto filter = FilterAt(potential, 0.3 * potential->GetScalarRange()[0]);
   filter->ObjectIsBrightOff();
   filter->SetIsopotentialWeight(0.3);
   filter->SetGradientWeight(2.0);

@@ -5,7 +5,6 @@
 
 #include <vtkCellData.h>
 #include <vtkDataSetAttributes.h>
-#include <vtkImageCast.h>
 #include <vtkUnsignedCharArray.h>
 
 using namespace volumic;
@@ -66,28 +65,6 @@ vtkSmartPointer<vtkImageData> BallBlanked(const Where& where, unsigned char ghos
   vtkUnsignedCharArray* ghosts = AddGhosts(image->GetPointData(), image->GetNumberOfPoints());
   ForEach(where, [&](vtkIdType voxel) { ghosts->SetValue(voxel, ghost); });
   return image;
-}
-
-void ExpectSamePoints(vtkPolyData* a, vtkPolyData* b)
-{
-  ASSERT_GT(a->GetNumberOfPoints(), 100);
-  ASSERT_EQ(a->GetNumberOfPoints(), b->GetNumberOfPoints());
-  for (vtkIdType i = 0; i < a->GetNumberOfPoints(); ++i)
-  {
-    ASSERT_EQ(a->GetPoint(i)[0], b->GetPoint(i)[0]);
-    ASSERT_EQ(a->GetPoint(i)[1], b->GetPoint(i)[1]);
-    ASSERT_EQ(a->GetPoint(i)[2], b->GetPoint(i)[2]);
-  }
-}
-
-int CountOf(const std::string& text, const std::string& part)
-{
-  int count = 0;
-  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
-  {
-    ++count;
-  }
-  return count;
 }
 
 /** With what it warns of unprinted. */
@@ -185,33 +162,15 @@ TEST(BlankedVoxels, AreAsNaNWithoutAWord)
   ForEach(Right,
     [&](vtkIdType voxel) { ghosts->SetValue(voxel, vtkDataSetAttributes::HIDDENCELL); });
   QuietSurface wanted;
-  wanted.Of(BallWith(NaN, Right));
+  ASSERT_GT(wanted.Of(BallWith(NaN, Right))->GetNumberOfPoints(), 100);
   for (const auto& image :
     { BallBlanked(Right, vtkDataSetAttributes::HIDDENPOINT), amongCells, cells })
   {
     QuietSurface surface;
     surface.Filter->SetNumberOfThreads(2);
-    ExpectSamePoints(surface.Of(image), wanted.Filter->GetOutput());
+    EXPECT_TRUE(AreSameSurfaces(surface.Of(image), wanted.Filter->GetOutput()));
     EXPECT_EQ(surface.Warnings.Get(), "");
   }
-}
-
-TEST(BlankedVoxels, OfIntegers)
-{
-  vtkNew<vtkImageCast> cast;
-  cast->SetInputData(BallBlanked(Right, vtkDataSetAttributes::HIDDENPOINT));
-  cast->SetOutputScalarTypeToShort();
-  cast->Update();
-  vtkNew<vtkImageData> image;
-  image->ShallowCopy(cast->GetOutput());
-  vtkUnsignedCharArray* ghosts = AddGhosts(image->GetPointData(), image->GetNumberOfPoints());
-  ForEach(Right, [&](vtkIdType voxel) { ghosts->SetValue(voxel, 2); });
-  QuietSurface surface;
-  double bounds[6];
-  surface.Of(image)->GetBounds(bounds);
-  EXPECT_NEAR(bounds[0], BallCentre[0] - BallRadius, 0.5);
-  EXPECT_LT(bounds[1], 20.0);
-  EXPECT_GT(bounds[1], 19.0);
 }
 
 TEST(BlankedVoxels, DuplicatesAreNone)
@@ -219,6 +178,7 @@ TEST(BlankedVoxels, DuplicatesAreNone)
   QuietSurface wanted;
   wanted.Of(BallImage(Size, Size, Size));
   QuietSurface surface;
-  ExpectSamePoints(surface.Of(BallBlanked(Right, vtkDataSetAttributes::DUPLICATEPOINT)),
-    wanted.Filter->GetOutput());
+  EXPECT_TRUE(
+    AreSameSurfaces(surface.Of(BallBlanked(Right, vtkDataSetAttributes::DUPLICATEPOINT)),
+      wanted.Filter->GetOutput()));
 }

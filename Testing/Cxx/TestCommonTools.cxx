@@ -4,6 +4,7 @@
 // Small tools of the core that know no surface.
 #include "Core/Common/DisjointSets.h"
 #include "Core/Common/FreeMemory.h"
+#include "Core/Common/Lanes.h"
 #include "Core/Common/Refuse.h"
 #include "Core/Common/StandardThreads.h"
 #include "Core/Image/VoxelNumbers.h"
@@ -62,6 +63,45 @@ TEST(DisjointSets, AreTheSameWhoeverJoinsThemAtOnce)
   }
 }
 
+TEST(Lanes, ComputeWhatOneFloatDoes)
+{
+  const auto laneOf = [](const Lanes& lanes, int i)
+  {
+    float four[Lanes::Count];
+    lanes.Store(four);
+    return four[i];
+  };
+  std::mt19937 random(1);
+  const auto next = [&random] { return static_cast<float>(random() >> 8) / (1 << 23) - 1.f; };
+  for (int round = 0; round < 100; ++round)
+  {
+    float a[4];
+    float b[4];
+    for (int i = 0; i < 4; ++i)
+    {
+      a[i] = next();
+      b[i] = i == round % 7 ? a[i] : next();
+    }
+    const Lanes x = Lanes::Load(a);
+    const Lanes y = Lanes::Load(b);
+    const unsigned less = LessBits(x, y);
+    for (int i = 0; i < 4; ++i)
+    {
+      EXPECT_EQ(laneOf(x + y, i), a[i] + b[i]);
+      EXPECT_EQ(laneOf(x - y, i), a[i] - b[i]);
+      EXPECT_EQ(laneOf(x * y, i), a[i] * b[i]);
+      EXPECT_EQ(laneOf(x / y, i), a[i] / b[i]);
+      EXPECT_EQ(laneOf(Minimum(x, y), i), std::min(a[i], b[i]));
+      EXPECT_EQ(laneOf(Maximum(x, y), i), std::max(a[i], b[i]));
+      EXPECT_EQ(laneOf(SquareRoot(x * x), i), std::sqrt(a[i] * a[i]));
+      EXPECT_EQ(laneOf(WhereLess(x, y, x), i), a[i] < b[i] ? a[i] : 0.f);
+      EXPECT_EQ(less >> i & 1, a[i] < b[i] ? 1u : 0u);
+    }
+    EXPECT_EQ(LeastOf(x), *std::min_element(a, a + 4));
+    EXPECT_EQ(GreatestOf(x), *std::max_element(a, a + 4));
+  }
+}
+
 TEST(Join, WritesNumbersAsEveryoneReadsThem)
 {
   const CommaLocale locale;
@@ -71,14 +111,6 @@ TEST(Join, WritesNumbersAsEveryoneReadsThem)
   EXPECT_EQ(Join("level ", 1000, ", ", std::int64_t(1234567), " voxels of ", 0.5f),
     "level 1000, 1234567 voxels of 0.5");
   EXPECT_EQ(RefusalOf([] { Refuse("it is ", 1234.5, "."); }), "it is 1234.5.");
-}
-
-TEST(VoxelNumbers, CountMoreThanAnIntDoes)
-{
-  EXPECT_EQ(VoxelNumbers({ 1300, 1300, 1300 }).Count(), 2197000000);
-  EXPECT_EQ(VoxelNumbers({ 2048, 2048, 2048 }).Count(), std::int64_t(1) << 33);
-  // A slice alone.
-  EXPECT_EQ(VoxelNumbers({ 65536, 65536, 2 }).Count(), std::int64_t(1) << 33);
 }
 
 TEST(VoxelNumbers, ComeBackToTheirPlaces)

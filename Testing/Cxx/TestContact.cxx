@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Surface/SurfaceEditor.h"
 #include "DynamicsTestTools.h"
 
 using namespace volumic;
@@ -42,17 +41,6 @@ TEST(Contact, StopsWhatComesNear)
   EXPECT_NEAR(stage.State.Velocity[Facing::Left].X, 0, 1e-5);
   EXPECT_NEAR(stage.State.Velocity[Facing::Right].X, 0, 1e-5);
   EXPECT_GT(stage.State.Velocity[Facing::Left].Y, 0.01) << "sliding by is allowed";
-}
-
-TEST(Contact, IsNotElastic)
-{
-  // The faster one pushes the slower one along: both go on together.
-  Facing stage(1.2);
-  stage.State.Velocity[Facing::Left] = Vector(0.2f, 0, 0);
-  stage.Push(stage.Pairs());
-  const float left = stage.State.Velocity[Facing::Left].X;
-  EXPECT_GT(left, 0.01);
-  EXPECT_NEAR(stage.State.Velocity[Facing::Right].X, left, 1e-5);
 }
 
 TEST(Contact, AtAFrozenVertexStopsAltogether)
@@ -203,16 +191,6 @@ TEST_F(Freezing, TakesThreeIterationsOfRest)
   EXPECT_EQ(Length(this->Actors.State.Velocity[7]), 0) << "what is motionless has no velocity";
 }
 
-TEST_F(Freezing, IsLeftOutOnRequest)
-{
-  this->Actors.Options.FreezeMotionlessVertices = false;
-  for (int i = 0; i < 10; ++i)
-  {
-    this->Iterate();
-  }
-  EXPECT_EQ(this->CountActive(), static_cast<int>(this->Actors.All.size()));
-}
-
 TEST_F(Freezing, LeavesWhatMovesAndItsNeighboursActive)
 {
   for (int i = 0; i < 10; ++i)
@@ -252,45 +230,4 @@ TEST_F(Freezing, SlowMotionIsMotion)
     this->Iterate(this->Actors.OutwardAt(Mover) * 0.01f);
   }
   EXPECT_TRUE(this->IsActive(Mover));
-}
-
-TEST_F(Freezing, OneMotionDoesNotKeepAVertexActiveForEver)
-{
-  this->Iterate(this->Actors.OutwardAt(Mover) * 0.2f);
-  for (int i = 0; i < 3; ++i)
-  {
-    EXPECT_TRUE(this->IsActive(Mover));
-    this->Iterate();
-  }
-  EXPECT_FALSE(this->IsActive(Mover));
-}
-
-TEST_F(Freezing, SlidingAlongTheSurfaceCountsOnlyWhenItLeadsFar)
-{
-  const Vector along = Normalized(Cross(this->Actors.OutwardAt(Mover), Vector(1, 0, 0)));
-  Stage& stage = this->Actors;
-  const Vector start = stage.State.Mesh.Position[Mover];
-  for (int i = 0; i < 6; ++i)
-  {
-    this->Iterate(along * (i % 2 == 0 ? 0.1f : -0.1f));
-  }
-  EXPECT_FALSE(this->IsActive(Mover)) << "to and fro";
-  ASSERT_LT(Length(stage.State.Mesh.Position[Mover] - start), 1e-5);
-  stage.State.Active[Mover] = 1;
-  this->Iterate(along * 0.4f);
-  EXPECT_TRUE(this->IsActive(this->Neighbour));
-}
-
-TEST_F(Freezing, EditsActivate)
-{
-  for (int i = 0; i < 5; ++i)
-  {
-    this->Iterate();
-  }
-  ASSERT_FALSE(this->IsActive(Mover));
-  const Vector place = this->Actors.State.Mesh.Position[Mover];
-  SurfaceEditor editor(this->Actors.State);
-  ASSERT_TRUE(editor.Move(Mover, place * 1.001f, EditTolerance::Smooth));
-  EXPECT_TRUE(this->IsActive(Mover));
-  EXPECT_TRUE(this->IsActive(this->Neighbour));
 }

@@ -51,30 +51,6 @@ struct TwoBalls : Bench
 };
 }
 
-TEST(ContactCount, ArePairsNearerThanLambdaDeltaAndFarAlongTheSurface)
-{
-  for (const double gap : { 1.0, 1.3, 1.5 })
-  {
-    TwoBalls balls(gap);
-    const RemainingContacts found = balls.Find(-0.5);
-    LargeVector<std::array<int, 2>> expected;
-    const SurfaceMesh& mesh = balls.State.Mesh;
-    for (int v = 0; v < mesh.Size(); ++v)
-    {
-      for (int w = v + 1; w < mesh.Size(); ++w)
-      {
-        const bool isFar = mesh.AreFarApart(v, w);
-        if (isFar && SquaredDistance(mesh.Position[v], mesh.Position[w]) < 1.44337f * 1.44337f)
-        {
-          expected.push_back({ v, w });
-        }
-      }
-    }
-    EXPECT_EQ(found.Pairs, expected) << gap;
-    EXPECT_EQ(found.Pairs.empty(), gap > 1.45);
-  }
-}
-
 TEST(ContactCount, AVertexIsHeldWhereItHasNotArrivedAndFacesAnother)
 {
   // Up to 1.15 lambda delta = 1.66; the floor of the slope is .15, a tenth of it .015.

@@ -94,16 +94,6 @@ TEST_F(DeformableSurfaceAttraction, VerticesCountWhereThereAreSome)
   EXPECT_GT(bounds[5], 15.5 + 9.6 + 1.4);
 }
 
-TEST_F(DeformableSurfaceAttraction, LinesWithoutVerticesAreRefused)
-{
-  this->Points->GetPoints()->InsertNextPoint(26.5, 15.5, 15.5);
-  this->Points->GetPoints()->InsertNextPoint(15.5, 15.5, 26.5);
-  this->Points->SetLines(vtkNew<vtkCellArray>());
-  const vtkIdType ids[2] = { 0, 1 };
-  this->Points->GetLines()->InsertNextCell(2, ids);
-  this->ExpectError({ "Input port 2", "no vertices", "vtkVertexGlyphFilter" });
-}
-
 TEST_F(DeformableSurfaceAttraction, PointsThatMakeNoSenseAreRefused)
 {
   this->Points->GetPoints()->InsertNextPoint(16, 16, 40);

@@ -197,13 +197,6 @@ TEST_F(DeformableSurfaceComponents, SeedsDropWhatTheyMark)
   ExpectVolumes(this->Volumes(), { this->Inner });
 }
 
-TEST_F(DeformableSurfaceComponents, PointsKnownToBelongToTheObjectChooseToo)
-{
-  this->Filter->SetKeepComponentsToComponentsAtPoints();
-  this->Filter->SetAttractingPointsData(PointsAt({ { 38, 16, 16 }, { 16, 16, 17 } }));
-  ExpectVolumes(this->Volumes(), { this->Beside, this->Inner });
-}
-
 TEST_F(DeformableSurfaceComponents, LinesAreNoSeeds)
 {
   const auto line = PointsAt({ { 38, 16, 16 }, { 16, 16, 17 } });

@@ -100,17 +100,6 @@ TEST(DeformableSurfaceStart, FindsCavitiesOnRequest)
   }
 }
 
-TEST(DeformableSurfaceStart, BeginsWhereTheObjectIsStillThere)
-{
-  // The rod alone, which the coarsest levels do not show at all.
-  const auto image = BallAndRod();
-  FillBox(image, { 11, 0, 0 }, { 64, 64, 64 }, 0.0);
-  const auto filter = SurfaceOf(image);
-  EXPECT_EQ(FieldOf(filter->GetOutput(), "NumberOfComponents"), 1);
-  const unsigned int last = filter->GetLevels()->GetNumberOfBlocks() - 1;
-  EXPECT_FALSE(filter->GetLevels()->GetBlock(last)) << "not visited";
-}
-
 TEST(DeformableSurfaceStart, BeginsAboutThePartsThatComeInSightFirst)
 {
   // A shell that coarse levels do not show: from a box the way to it would be long.
@@ -137,17 +126,6 @@ TEST(DeformableSurfaceStart, BeginsAboutThePartsThatComeInSightFirst)
   filter->Update();
   EXPECT_EQ(FieldOf(SurfaceAt(filter, first), "LostParts"), 0);
   EXPECT_GE(FieldOf(SurfaceAt(filter, first), "Iterations"), 2 * iterations);
-}
-
-TEST(DeformableSurfaceStart, LeavesOutLargeLevelsThatShowSpecksOnly)
-{
-  // Level 1 has 73^3 voxels: about its specks nothing could be enclosed, and from a box the way
-  // would be long.
-  const auto filter = SurfaceOf(RodWithBrightMiddle(126, 2),
-    [](vtkDeformableSurface* f) { f->SetIsoValue(50.5); });
-  EXPECT_EQ(FirstLevelOf(filter), 0u);
-  EXPECT_EQ(FieldOf(filter->GetOutput(), "RecoveredParts"), 1);
-  EXPECT_EQ(FieldOf(filter->GetOutput(), "NumberOfComponents"), 1);
 }
 
 TEST(DeformableSurfaceStart, LeavesOutLevelsThatShowSpecksOnly)

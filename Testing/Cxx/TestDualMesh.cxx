@@ -67,7 +67,7 @@ void ExpectSoundPatterns(bool isWithBackground, unsigned seed)
   const InterfaceMesh mesh = scene.Mesh();
   if (seed == 1) // which takes most of the time
   {
-    EXPECT_EQ(CountSelfIntersections(TrianglesOf(mesh)), 0);
+    EXPECT_EQ(CountSelfIntersections(AllFaces(mesh)), 0);
   }
   ExpectVoxelTopology(scene, mesh,
     [&](int label)
@@ -79,36 +79,6 @@ void ExpectSoundPatterns(bool isWithBackground, unsigned seed)
       }
       return text.str();
     });
-}
-
-/** How far each vertex may move along each axis, in voxels: measured. */
-std::vector<float> SafeDistances(const VoxelScene& scene, const InterfaceMesh& mesh)
-{
-  std::vector<char> isPlain;
-  for (const Vector& p : mesh.Position)
-  {
-    const Voxel at = { static_cast<int>(p.X), static_cast<int>(p.Y), static_cast<int>(p.Z) };
-    std::array<LabelMap::Number, 8> octants;
-    for (int o = 0; o < 8; ++o)
-    {
-      octants[o] = static_cast<LabelMap::Number>(
-        scene.At(at[0] + (o & 1), at[1] + (o >> 1 & 1), at[2] + (o >> 2)));
-    }
-    const bool isInMiddle = p.X == at[0] + .5f && p.Y == at[1] + .5f && p.Z == at[2] + .5f;
-    isPlain.push_back(isInMiddle && CellPattern(octants, scene.RankOf).IsPlain());
-  }
-  const float least = scene.Outside < 0 ? .02f : .01f;
-  std::vector<float> safe(mesh.Position.size(), .24f);
-  for (const InterfaceMesh::Face& face : mesh.Faces)
-  {
-    for (int k = 0; k < 9; ++k)
-    {
-      const auto v = static_cast<std::size_t>(face.Vertex[k % 3]);
-      const auto w = static_cast<std::size_t>(face.Vertex[k / 3]);
-      safe[v] = !isPlain[v] ? least : !isPlain[w] ? std::min(safe[v], .1f) : safe[v];
-    }
-  }
-  return safe;
 }
 
 /** Of a label alone, by the voxels; the mesh agrees. */
@@ -124,13 +94,6 @@ TEST(DualMesh, HasTheTopologyOfEveryPattern)
   for (const unsigned seed : { 1, 2, 3 })
   {
     ExpectSoundPatterns(false, seed);
-  }
-}
-
-TEST(DualMesh, HasTheTopologyOfEveryPatternWithBackground)
-{
-  for (const unsigned seed : { 1, 2, 3 })
-  {
     ExpectSoundPatterns(true, seed);
   }
 }
@@ -146,65 +109,6 @@ TEST(DualMesh, HasTheTopologyOfNoise)
     scene.Spacing = { 1., 2.5, 20. };
     ExpectSound(scene, scene.Mesh());
   }
-}
-
-TEST(DualMesh, SurroundsAVoxelByTwelveTriangles)
-{
-  VoxelScene scene({ 1, 1, 1 }, [](int, int, int) { return 1; });
-  scene.Spacing = { 1., 3., 20. };
-  const InterfaceMesh mesh = scene.Mesh();
-  EXPECT_EQ(mesh.Position.size(), 8u);
-  EXPECT_EQ(mesh.Faces.size(), 12u);
-  EXPECT_EQ(SurfacesOf(mesh).at(1).Volume, 60.);
-}
-
-TEST(DualMesh, KeepsPlatesApartAtAnySpacing)
-{
-  for (const double spacing : { 1., 1.5, 5., 20. })
-  {
-    SCOPED_TRACE(spacing);
-    VoxelScene scene({ 14, 14, 9 },
-      [](int i, int j, int k)
-      {
-        const int slice = k + (i + 2 * j) / 7; // stairs
-        return slice == 3 || slice == 4 ? 1 : slice == 6 || slice == 7 ? 2 : 0;
-      });
-    scene.Spacing[2] = spacing;
-    const InterfaceMesh mesh = scene.Mesh();
-    ExpectSound(scene, mesh);
-    for (const InterfaceMesh::Face& face : mesh.Faces)
-    {
-      ASSERT_EQ(face.Behind, 0);
-    }
-  }
-}
-
-TEST(DualMesh, KeepsTiltedSheetsOfOneVoxelWhole)
-{
-  for (const Voxel& normal :
-    { Voxel{ 1, 0, 0 }, Voxel{ 1, 1, 0 }, Voxel{ 1, 1, 1 }, Voxel{ 3, 2, 1 } })
-  {
-    SCOPED_TRACE(::testing::PrintToString(normal));
-    const int least = 7 * (normal[0] + normal[1] + normal[2]);
-    const VoxelScene scene({ 15, 15, 15 },
-      [&](int i, int j, int k)
-      {
-        const int height = normal[0] * i + normal[1] * j + normal[2] * k;
-        return height < least ? 2 : height < least + normal[0] ? 1 : 3;
-      });
-    ExpectBlock(scene, 1, { 1, 1, 0 });
-  }
-}
-
-TEST(DualMesh, KeepsAShellOfOneVoxelClosed)
-{
-  const VoxelScene scene({ 29, 29, 29 },
-    [](int i, int j, int k)
-    {
-      const double far = std::hypot(i - 14, j - 14, k - 14);
-      return far >= 12.5 && far < 13.5 ? 1 : 0;
-    });
-  ExpectBlock(scene, 1, { 2, 1, 1 });
 }
 
 TEST(DualMesh, KeepsVoxelsThatAreAloneOrMeetAtEdgesAndCorners)
@@ -226,30 +130,6 @@ TEST(DualMesh, KeepsVoxelsThatAreAloneOrMeetAtEdgesAndCorners)
     const int parts = other == 1 ? 2 : 1;
     ExpectBlock(pair({ 2, 2, 1 }), 1, { 1, 1, 0 });
     ExpectBlock(pair({ 2, 2, 2 }), 1, { parts, parts, 0 });
-  }
-}
-
-TEST(DualMesh, DoesNotIntersectAnywhereInItsSafeBoxes)
-{
-  std::mt19937 random(1);
-  for (const VoxelScene& scene : { NoiseScene(10, 2, 1), NoiseScene(10, 3, 2),
-         NoiseScene(10, 10, 3), GrainScene(20, 30, 1, 4), GrainScene(20, 12, 0, 5),
-         NoiseScene(10, 2, 6, true), NoiseScene(10, 5, 7, true), GrainScene(20, 30, 1, 8, 31) })
-  {
-    InterfaceMesh mesh = scene.Mesh();
-    const std::vector<float> safe = SafeDistances(scene, mesh);
-    for (std::size_t v = 0; v < safe.size(); ++v)
-    {
-      const auto move = [&](float& at, std::size_t axis)
-      {
-        const float step = random() % 2 == 0 ? safe[v] : -safe[v];
-        at += at == mesh.Planes[2 * axis] || at == mesh.Planes[2 * axis + 1] ? 0.f : step;
-      };
-      move(mesh.Position[v].X, 0);
-      move(mesh.Position[v].Y, 1);
-      move(mesh.Position[v].Z, 2);
-    }
-    EXPECT_EQ(CountSelfIntersections(TrianglesOf(mesh)), 0);
   }
 }
 
@@ -276,23 +156,16 @@ TEST(DualMesh, EndsInThePlanesOfABox)
     scene.Spacing = { 1., 1., 3. };
     const InterfaceMesh mesh = scene.Mesh();
     ExpectSound(scene, mesh);
-    std::array<int, 6> counts = {};
     for (const InterfaceMesh::Face& face : mesh.Faces)
     {
       for (const int v : face.Vertex)
       {
         const Vector& p = mesh.Position[static_cast<std::size_t>(v)];
         const std::array<float, 3> at = { p.X, p.Y, p.Z };
-        for (int side = 0; side < 6; ++side)
-        {
-          const float plane = mesh.Planes[static_cast<std::size_t>(side)];
-          EXPECT_GE((at[side / 2] - plane) * (side % 2 == 0 ? 1 : -1), 0.f);
-          counts[side] += face.Front == mesh.FirstSide + side;
-          EXPECT_TRUE(face.Front != mesh.FirstSide + side || at[side / 2] == plane);
-        }
+        const int side = face.Front - mesh.FirstSide;
+        EXPECT_TRUE(side < 0 || at[side / 2] == mesh.Planes[static_cast<std::size_t>(side)]);
       }
     }
-    EXPECT_GT(*std::min_element(counts.begin(), counts.end()), 0);
   }
   double volume = 0.;
   for (const auto& surface : SurfacesOf(GrainScene(12, 15, 1, 1, 16).Mesh()))

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Evolution/CycleCriterion.h"
-#include "Core/Evolution/RestCriterion.h"
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "EvolutionTestTools.h"
 
@@ -25,19 +24,6 @@ TestVolume Noise(int n, unsigned seed)
   return MakeVolume(n, [&engine](double, double, double)
     { return static_cast<double>(engine()) / 4294967296.; });
 }
-}
-
-TEST(CycleCriterion, IsMetByAVolumeThatGoesToAndFro)
-{
-  CycleCriterion cycle;
-  std::mt19937 engine(1);
-  for (int i = 0; i < 15; ++i)
-  {
-    cycle.Add(1000. + (i % 2 == 0 ? 20. : -20.) + static_cast<double>(engine() % 10));
-    EXPECT_FALSE(cycle.IsMet(1.)) << "not before 80 iterations";
-  }
-  cycle.Add(985.);
-  EXPECT_TRUE(cycle.IsMet(1.));
 }
 
 TEST(CycleCriterion, IsNotMetByWhatGetsSomewhere)
@@ -114,33 +100,3 @@ TEST(EndlessRuns, StrongInnerForcesComeToRest)
   }
 }
 
-namespace
-{
-/** Whether a surface rests that has had these volumes, one every fifth iteration. */
-bool Rests(const std::vector<double>& volumes, double limit)
-{
-  RestCriterion rest;
-  for (double volume : volumes)
-  {
-    rest.Add(volume);
-  }
-  return rest.IsMet(limit);
-}
-}
-
-TEST(RestCriterion, NeedsTwentyIterations)
-{
-  EXPECT_FALSE(Rests({}, 1.));
-  EXPECT_FALSE(Rests({ 10, 10, 10, 10 }, 1.)) << "15 iterations after the first look";
-  EXPECT_TRUE(Rests({ 10, 10, 10, 10, 10 }, 1.));
-}
-
-TEST(RestCriterion, LooksAtTheLastTenAndTheLastTwentyIterations)
-{
-  EXPECT_TRUE(Rests({ 10.5, 90, 10.5, 90, 10 }, 1.)) << "nothing but these is looked at";
-  EXPECT_FALSE(Rests({ 12, 10, 10, 10, 10 }, 1.)) << "it has shrunk before";
-  EXPECT_FALSE(Rests({ 8, 10, 10, 10, 10 }, 1.)) << "or grown";
-  EXPECT_FALSE(Rests({ 10, 10, 12, 10, 10 }, 1.)) << "it goes to and fro";
-  EXPECT_FALSE(Rests({ 10, 10, 8, 10, 10 }, 1.));
-  EXPECT_FALSE(Rests({ 0, 0, 0, 12, 10, 10, 10, 11 }, 1.)) << "less than the limit is asked for";
-}

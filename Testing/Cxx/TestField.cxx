@@ -54,16 +54,6 @@ TEST(Field, GradientIsPerLengthOfTheWorkspace)
   EXPECT_NEAR(sample.Gradient.Z, 0.25, 1e-5);
 }
 
-TEST(Field, TurnsTheSignForDarkObjects)
-{
-  const TestVolume volume = MakeVolume(8, [](double x, double, double) { return x; });
-  SurfaceOptions options = WithIso(3.);
-  options.ObjectIsBright = false;
-  const Field field(volume.Image, options, Threads);
-  EXPECT_FLOAT_EQ(field.ValueAt(Vector(1, 4, 4)), 2);
-  EXPECT_FLOAT_EQ(field.At(Vector(4, 4, 4)).Gradient.X, -1);
-}
-
 TEST(Field, FallsToTheBackgroundWithinAVoxelOfTheBorder)
 {
   for (const bool bright : { true, false })
@@ -111,26 +101,6 @@ TEST(Field, ReplicatesWithinAMarginOfTwoUnitsOnly)
   }
 }
 
-TEST(Field, ReplicatesOnEverySide)
-{
-  const TestVolume volume = MakeVolume(8, [](double x, double y, double z)
-    { return x + 10 * y + 100 * z; });
-  SurfaceOptions options = WithIso(0.);
-  options.BorderValue = Border::Replicate;
-  const Field field(volume.Image, options, Threads);
-  const float far[3] = { -2, 4, 9 };
-  const float near[3] = { 0, 4, 7 };
-  for (int i = 0; i < 27; ++i)
-  {
-    const int x = i % 3;
-    const int y = i / 3 % 3;
-    const int z = i / 9;
-    const float value = near[x] + 10 * near[y] + 100 * near[z];
-    EXPECT_FLOAT_EQ(field.ValueAt(Vector(far[x], far[y], far[z])), value);
-    EXPECT_FLOAT_EQ(field.At(Vector(far[x], far[y], far[z])).Value, value);
-  }
-}
-
 TEST(Field, IsAtLeastAsMuchBackgroundOutsideAsAnywhereInside)
 {
   // The object lies as far above the iso-value as the background below it, or less, or more.
@@ -143,22 +113,6 @@ TEST(Field, IsAtLeastAsMuchBackgroundOutsideAsAnywhereInside)
     EXPECT_FLOAT_EQ(field.ValueAt(Vector(4, 4, 20)), expected);
     EXPECT_FLOAT_EQ(field.ValueAt(Vector(-1, 4, 4)), expected);
     EXPECT_FLOAT_EQ(field.At(Vector(4, -20, 4)).Value, expected);
-  }
-}
-
-TEST(Field, KnowsHowSteepTheSurfaceIsAlongEveryAxis)
-{
-  const std::function<double(double, double, double)> ramps[3] = {
-    [](double x, double, double) { return 3 * x; },
-    [](double, double y, double) { return 3 * y; },
-    [](double, double, double z) { return 3 * z; },
-  };
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    TestVolume volume = MakeVolume(16, ramps[axis]);
-    volume.Image.Step[axis] = 2.;
-    const Field field(volume.Image, WithIso(20.), Threads);
-    EXPECT_NEAR(field.TypicalSlope(), 1.5, 1e-4) << "axis " << axis;
   }
 }
 
@@ -178,9 +132,4 @@ TEST(Field, KnowsHowSteepTheSurfaceIsWhereItLies)
     EXPECT_NEAR(field.TypicalSlope(), 2, 1e-4) << "along axis " << axis;
     EXPECT_FLOAT_EQ(field.Lowest(), -17);
   }
-}
-
-TEST(FieldInvalid, RefusesAnImageWithoutVoxels)
-{
-  EXPECT_THROW(Field(LevelImage(), WithIso(0.), Threads), std::invalid_argument);
 }

@@ -1,10 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Evolution/LatticeSurface.h"
-#include "Core/Mesh/Division.h"
 #include "Core/Mesh/ObliqueRotation.h"
 #include "Core/Mesh/SurfaceFeatures.h"
-#include "Core/Surface/Remesher.h"
 #include "EvolutionTestTools.h"
 
 using namespace volumic;
@@ -63,36 +61,6 @@ std::string RefusalOf(const IndexedSurface& surface)
 }
 }
 
-TEST(GivenSurface, IsLegalBeforeTheFirstIterationWhateverItsTriangles)
-{
-  const TestVolume volume = Ball();
-  struct Case
-  {
-    const char* Name;
-    IndexedSurface Surface;
-  };
-  for (const Case& given : { Case{ "coarse cylinder", Cylinder(13, 25.5, 12) },
-         Case{ "cylinder of 42 points", Cylinder(14, 30, 21) },
-         Case{ "fans of 300", Cylinder(12, 20, 300) }, Case{ "prism", Cylinder(15, 8, 3) },
-         Case{ "flat box", Cuboid({ 4, 4, 17 }, { 35, 35, 22 }) },
-         Case{ "cube", Cuboid({ 6, 6, 6 }, { 33, 33, 33 }) } })
-  {
-    SCOPED_TRACE(given.Name);
-    TestEvolution evolution(IsoHalf(), Threads, Silent);
-    evolution.StartSurface(volume.Image, 0, given.Surface);
-    const SurfaceResult start = evolution.Result();
-    ExpectLegal(start, start.Delta);
-    const SurfaceFeatures wanted = ComputeFeatures(given.Surface);
-    const SurfaceFeatures found = ComputeFeatures(start);
-    EXPECT_EQ(found.EulerCharacteristic, 2);
-    EXPECT_NEAR(found.Volume / wanted.Volume, 1., 0.06) << "where it was given";
-    EXPECT_EQ(evolution.Run(), StopReason::Converged);
-    const SurfaceResult end = evolution.Result();
-    ExpectLegal(end, end.Delta);
-    EXPECT_NEAR(ComputeFeatures(end).Volume, 4. / 3. * 3.14159 * 1728., 150.);
-  }
-}
-
 TEST(GivenSurface, KeepsItsComponentsCavitiesAndTunnels)
 {
   // A torus, a thick-walled box, both of large triangles, and a ball of many small ones.
@@ -129,40 +97,6 @@ TEST(GivenSurface, IsTakenAsItIsWhereItIsLegal)
   const SurfaceResult again = second.Result();
   ASSERT_EQ(again.Points.size(), rested.Points.size());
   EXPECT_NEAR(ComputeFeatures(again).Volume, ComputeFeatures(rested).Volume, 1e-6);
-}
-
-namespace
-{
-class CancelAt final : public Monitor
-{
-public:
-  explicit CancelAt(int call) : Left(call) {}
-  bool GoOn(const Status&) override { return --this->Left >= 0; }
-  int Left;
-};
-}
-
-TEST(GivenSurface, CanBeCancelledWhileItIsMadeReady)
-{
-  const TestVolume volume = Ball();
-  CancelAt count(1000000);
-  {
-    TestEvolution evolution(IsoHalf(), Threads, count);
-    evolution.StartSurface(volume.Image, 0, Cylinder(13, 25.5, 12));
-  }
-  const int calls = 1000000 - count.Left;
-  ASSERT_GT(calls, 20) << "asked again and again";
-  for (int call = 0; call < calls; call += 7)
-  {
-    CancelAt monitor(call);
-    TestEvolution evolution(IsoHalf(), Threads, monitor);
-    evolution.StartSurface(volume.Image, 0, Cylinder(13, 25.5, 12));
-    EXPECT_EQ(monitor.Left, -1) << "not asked again";
-    const SurfaceResult state = evolution.Result();
-    EXPECT_EQ(CountSelfIntersections(state), 0);
-    EXPECT_EQ(evolution.Run(), StopReason::Cancelled);
-    EXPECT_EQ(evolution.Iterations(), 0);
-  }
 }
 
 TEST(GivenSurfaceInvalid, RefusesWrongUnitsAndNamesBothSizes)
@@ -234,46 +168,4 @@ TEST(LatticeSurface, IsLegalForAnyLattice)
       EXPECT_GT(*std::min_element(lengths.begin(), lengths.end()), 0.1 * pitch);
     }
   }
-}
-
-TEST(Remesher, SplitsLongEdgesBetweenFullRings)
-{
-  // A double cone on a polygon of 15 sides, one of them long: both vertices opposite to it are
-  // full.
-  IndexedSurface cone;
-  cone.Points = { { 0, 0, 0.8 }, { 0, 0, -0.8 } };
-  constexpr int sides = Ring::Capacity;
-  for (int i = 0; i < sides; ++i)
-  {
-    const double a = 0.85 + (2 * 3.14159265358979 - 1.7) * i / (sides - 1);
-    cone.Points.push_back({ 2 * std::cos(a), 2 * std::sin(a), 0 });
-  }
-  for (int i = 0; i < sides; ++i)
-  {
-    const int next = 2 + (i + 1) % sides;
-    cone.Triangles.push_back({ 0, 2 + i, next });
-    cone.Triangles.push_back({ 1, next, 2 + i });
-  }
-  SurfaceState state;
-  state.Mesh.Append(cone);
-  state.Reset(Vector(-3, -3, -3), Vector(3, 3, 3));
-  std::vector<int> all;
-  for (int v = 0; v < state.Mesh.Size(); ++v)
-  {
-    all.push_back(v);
-  }
-  state.UpdateShape(all, Threads);
-  Remesher(state, nullptr, false).Split(all);
-  EXPECT_EQ(DescribeBrokenInvariant(state.Mesh), "");
-  EXPECT_GT(state.Counts.Splits, 1);
-  for (int v = 0; v < state.Mesh.Size(); ++v)
-  {
-    for (int i = 0; i < state.Mesh.Rings[v].Count; ++i)
-    {
-      const Vector& q = state.Mesh.Position[state.Mesh.Rings[v].Item[i]];
-      EXPECT_LE(SquaredDistance(state.Mesh.Position[v], q), 6.2501f);
-    }
-  }
-  EXPECT_NEAR(ComputeFeatures(state.Mesh.ToIndexed()).Volume, ComputeFeatures(cone).Volume, 1e-4)
-    << "no geometry is changed";
 }

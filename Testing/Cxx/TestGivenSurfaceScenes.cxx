@@ -180,13 +180,13 @@ TriangleSurface Judged(const IndexedSurface& surface)
 void ExpectLegal(const SurfaceResult& surface, const char* when)
 {
   const SurfaceVerdict verdict = JudgeSurface(Judged(surface), surface.Delta);
-  EXPECT_TRUE(verdict.Topology.Outward) << when << "\n" << Describe(verdict);
-  EXPECT_EQ(verdict.Intersections.Pairs, 0u) << when << "\n" << Describe(verdict);
-  EXPECT_EQ(verdict.Intersections.FlatTriangles, 0u) << when << "\n" << Describe(verdict);
-  EXPECT_LE(verdict.Lengths.Longest, 2.5001 * surface.Delta) << when << "\n" << Describe(verdict);
-  EXPECT_GE(verdict.Lengths.Shortest, 0.2 * surface.Delta) << when << "\n" << Describe(verdict);
-  EXPECT_LE(verdict.Lengths.EdgesTooShort, verdict.Lengths.Edges / 50 + 3) << when << "\n"
-                                                                           << Describe(verdict);
+  SCOPED_TRACE(std::string(when) + "\n" + Describe(verdict));
+  EXPECT_TRUE(verdict.Topology.Outward);
+  EXPECT_EQ(verdict.Intersections.Pairs, 0u);
+  EXPECT_EQ(verdict.Intersections.FlatTriangles, 0u);
+  EXPECT_LE(verdict.Lengths.Longest, 2.5001 * surface.Delta);
+  EXPECT_GE(verdict.Lengths.Shortest, 0.2 * surface.Delta);
+  EXPECT_LE(verdict.Lengths.EdgesTooShort, verdict.Lengths.Edges / 50 + 3);
 }
 }
 
@@ -196,18 +196,8 @@ class GivenSurfaces : public ::testing::TestWithParam<const char*>
 
 TEST_P(GivenSurfaces, AreLegalBeforeTheFirstIterationAndAtTheEnd)
 {
-  std::vector<float> values;
-  for (int voxel = 0; voxel < Size * Size * Size; ++voxel)
-  {
-    const double r = std::hypot(
-      voxel % Size - Middle, voxel / Size % Size - Middle, voxel / (Size * Size) - Middle);
-    values.push_back(static_cast<float>(std::clamp(0.5 + 0.5 * (12.0 - r), 0.0, 1.0)));
-  }
-  LevelImage image;
-  image.Values = values.data();
-  image.Size = { Size, Size, Size };
-  SequentialExecutor executor;
-  Monitor silent;
+  const TestVolume volume = MakeVolume(Size, [](double x, double y, double z)
+    { return Soft(Distance(x, y, z, Middle, Middle, Middle) - 12.0); });
   int accepted = 0;
   constexpr int rounds = 10;
   for (unsigned int seed = 1; seed <= rounds; ++seed)
@@ -215,12 +205,10 @@ TEST_P(GivenSurfaces, AreLegalBeforeTheFirstIterationAndAtTheEnd)
     SCOPED_TRACE(seed);
     Dice dice(seed);
     const IndexedSurface given = Placed(MakeShape(GetParam(), dice), dice);
-    SurfaceOptions options;
-    options.IsoValue = 0.5;
-    TestEvolution evolution(options, executor, silent);
+    TestEvolution evolution(IsoHalf(), Threads, Silent);
     try
     {
-      evolution.StartSurface(image, 0, given);
+      evolution.StartSurface(volume.Image, 0, given);
     }
     catch (const std::invalid_argument& error)
     {

@@ -1,17 +1,89 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Evolution/GradedSizes.h"
-#include "Core/Image/Field.h"
+#include "Core/Mesh/SelfIntersections.h"
+#include "Core/Mesh/SurfaceCheck.h"
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "Core/Surface/SizingField.h"
-#include "GradedTestTools.h"
+#include "EvolutionTestTools.h"
 
 using namespace volumic;
 
 namespace
 {
-SequentialExecutor Alone;
-constexpr double Tolerance = 0.2;
+Grading Within(double tolerance)
+{
+  Grading grading;
+  grading.Tolerance = tolerance;
+  return grading;
+}
+
+/** How far outside a box with rounded edges. */
+double OutsideBox(double x, double y, double z, const std::array<double, 3>& half, double radius)
+{
+  const double a = std::max(std::abs(x) - half[0] + radius, 0.);
+  const double b = std::max(std::abs(y) - half[1] + radius, 0.);
+  const double c = std::max(std::abs(z) - half[2] + radius, 0.);
+  return std::sqrt(a * a + b * b + c * c) - radius;
+}
+
+/** Large flat sides, edges with a radius of three voxels, and a ball beside it. */
+double OutsideBoxAndBall(double x, double y, double z)
+{
+  const double box = OutsideBox(x - 20.3, y - 19.6, z - 18.2, { 13., 12., 9. }, 3.);
+  return std::min(box, Distance(x, y, z, 20., 20., 38.) - 5.5);
+}
+
+/** How far a place is outside of something. */
+using Outside = std::function<double(double x, double y, double z)>;
+
+/** What is nearer than 0 to something is more than half. */
+TestVolume VolumeOf(const Outside& outside)
+{
+  return MakeVolume(48, [&outside](double x, double y, double z)
+    { return std::clamp(0.5 - 0.25 * outside(x, y, z), 0., 1.); });
+}
+
+/** The surface of something, on one level. */
+SurfaceResult SurfaceOf(const Outside& outside, const Grading& grading)
+{
+  const TestVolume volume = VolumeOf(outside);
+  Monitor silent;
+  TestEvolution evolution(IsoHalf(), Threads, silent);
+  evolution.Task.Grading = grading;
+  evolution.StartEnclosing(volume.Image, 0);
+  EXPECT_EQ(evolution.Run(), StopReason::Converged);
+  EXPECT_EQ(evolution.Verified().Found, 0);
+  return evolution.Result();
+}
+
+/** Calls visit(u, v, length) for each edge, twice. */
+void VisitEdges(
+  const IndexedSurface& surface, const std::function<void(int, int, double)>& visit)
+{
+  for (const Triangle& t : surface.Triangles)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      const Point& a = surface.Points[t[k]];
+      const Point& b = surface.Points[t[(k + 1) % 3]];
+      visit(t[k], t[(k + 1) % 3], Distance(a[0], a[1], a[2], b[0], b[1], b[2]));
+    }
+  }
+}
+
+void ExpectLegal(const SurfaceResult& surface)
+{
+  EXPECT_EQ(CountSelfIntersections(surface), 0);
+  EXPECT_NO_THROW(CheckInitialSurface(surface)) << "closed, oriented, manifold";
+  int outside = 0;
+  VisitEdges(surface,
+    [&](int u, int v, double length)
+    {
+      const double delta = 0.5 * (surface.Size[u] + surface.Size[v]);
+      outside += length < 0.999 * delta || length > 2.501 * delta;
+    });
+  EXPECT_EQ(outside, 0);
+}
 
 /** A plate of some voxels' thickness, turned about two axes. */
 Outside OutsidePlate(double thickness)
@@ -25,22 +97,57 @@ Outside OutsidePlate(double thickness)
       std::min(1., 0.5 * thickness));
   };
 }
+
+/** A plate, turned about two axes, as a scanner shows it: all of it fades over a third of a voxel. */
+Outside OutsideBlurredPlate(double thickness)
+{
+  return [thickness](double x, double y, double z)
+  {
+    const double u = 0.8 * (x - 24.) + 0.6 * (y - 24.);
+    const double v = -0.6 * (x - 24.) + 0.8 * (y - 24.);
+    const double across = 0.96 * (z - 24.) + 0.28 * u;
+    const double along = 0.96 * u - 0.28 * (z - 24.);
+    const double rim = std::max(std::abs(along) - 16., std::abs(v) - 15.);
+    return std::max(3. * (std::abs(across) - 0.5 * thickness), rim);
+  };
 }
 
-TEST(GradedSizing, HasALengthForEachVertexWithinBounds)
+/** The same from a level of sqrt 3 times the edges, on the same voxels. */
+struct TwoLevels
 {
-  const LargeVector<float> sizes = { 0.5f, 1.f, 2.f, 9.f };
-  const SizingField sizing = SizingField(1.f).Graded(sizes, 4.f, 0.2f);
-  EXPECT_TRUE(sizing.IsGraded());
-  EXPECT_EQ(sizing.At(0), 1.f) << "no less than that of the level";
-  EXPECT_EQ(sizing.At(2), 2.f);
-  EXPECT_EQ(sizing.At(3), 4.f) << "no more than the most";
-  EXPECT_EQ(sizing.Smallest(), 1.f);
-  EXPECT_EQ(sizing.Largest(), 4.f);
-  EXPECT_EQ(sizing.ShortestEdge(1, 2), 1.5f);
-  EXPECT_EQ(sizing.LongestEdge(1, 2), 3.75f);
-  EXPECT_EQ(sizing.InDelta(1, 2, 3.f), 2.f);
-  EXPECT_EQ(sizing.Clearance(1, 3), SizingField(1.f).Clearance(0, 0)) << "that of the smaller one";
+  SurfaceResult Divided; ///< As it comes to the finer level,
+  SurfaceResult AtRest;  ///< and when it rests there.
+  LostParts Lost;
+};
+TwoLevels SurfaceOfTwoLevels(const Outside& outside, const Grading& grading, double fineUnit = 1.)
+{
+  const TestVolume volume = VolumeOf(outside);
+  LevelImage coarse = volume.Image;
+  coarse.Unit = fineUnit * std::sqrt(3.);
+  LevelImage fine = volume.Image;
+  fine.Unit = fineUnit;
+  Monitor silent;
+  TestEvolution evolution(IsoHalf(), Threads, silent);
+  evolution.StartEnclosing(coarse, 1);
+  EXPECT_EQ(evolution.Run(), StopReason::Converged);
+  evolution.Task.Grading = grading;
+  TwoLevels result;
+  EXPECT_TRUE(evolution.Divide(fine, 0));
+  result.Divided = evolution.Result();
+  const StopReason reason = evolution.Run();
+  EXPECT_TRUE(reason == StopReason::Converged || reason == StopReason::LimitCycle);
+  EXPECT_EQ(evolution.Verified().Found, 0);
+  result.AtRest = evolution.Result();
+  result.Lost = evolution.Lost();
+  return result;
+}
+
+Grading ThinParts()
+{
+  Grading grading;
+  grading.ThinParts = true;
+  return grading;
+}
 }
 
 TEST(GradedSizing, LooksFurtherThanWhereAllAreAlike)
@@ -68,27 +175,11 @@ TEST(GradedSizing, LooksFurtherThanWhereAllAreAlike)
   EXPECT_EQ(any.Reach(0), SizingField(4.f).Reach(0));
 }
 
-TEST(GradedSurface, HasFewerTrianglesWhereItIsFlatAndKeepsTheTolerance)
-{
-  const SurfaceResult even = SurfaceOf(OutsideBoxAndBall, Grading(), Alone);
-  EXPECT_TRUE(even.Size.empty());
-  const SurfaceResult graded = SurfaceOf(OutsideBoxAndBall, Within(Tolerance), Alone);
-  ASSERT_EQ(graded.Size.size(), graded.Points.size());
-  ExpectLegal(graded);
-  EXPECT_LT(1.8 * graded.Points.size(), even.Points.size());
-  EXPECT_GT(graded.FitToTolerance->WithinTolerance, 0.99);
-  const SurfaceFeatures before = ComputeFeatures(even);
-  const SurfaceFeatures after = ComputeFeatures(graded);
-  EXPECT_EQ(after.Components.size(), before.Components.size());
-  EXPECT_EQ(after.Genus, before.Genus);
-  EXPECT_NEAR(after.Volume, before.Volume, 0.005 * before.Volume);
-}
-
 TEST(GradedSurface, GrowsBySmallStepsUpToTheLongestEdge)
 {
   Grading grading = Within(2.);
   grading.MaximumEdgeLength = 5.;
-  const SurfaceResult surface = SurfaceOf(OutsideBoxAndBall, grading, Alone);
+  const SurfaceResult surface = SurfaceOf(OutsideBoxAndBall, grading);
   ExpectLegal(surface);
   double longest = 0.;
   double steepest = 0.;
@@ -110,7 +201,7 @@ TEST(GradedSurface, KeepsThinWallsWithoutHoles)
   for (const double thickness : { 1.5, 2.5, 4. })
   {
     SCOPED_TRACE(thickness);
-    const SurfaceResult plate = SurfaceOf(OutsidePlate(thickness), Within(1.), Alone);
+    const SurfaceResult plate = SurfaceOf(OutsidePlate(thickness), Within(1.));
     ExpectLegal(plate);
     const SurfaceFeatures features = ComputeFeatures(plate);
     EXPECT_EQ(features.Components.size(), 1u);
@@ -122,65 +213,40 @@ TEST(GradedSurface, KeepsThinWallsWithoutHoles)
   }
 }
 
-TEST(GradedSizes, MeasureByLookingForTheIsopotential)
+TEST(LocalDivision, IsDividedOnlyWhereAToleranceAsksForIt)
 {
-  // All of the surface is five voxels inside a ball, where the image is flat and its slope tells
-  // nothing.
-  const TestVolume volume = BallVolume(48, 20.);
-  const Field field(volume.Image, IsoHalf(), Alone);
-  SurfaceState state;
-  state.Sizing = SizingField(0.85f);
-  state.Mesh.Append(DividedIcosahedron({ 24., 24., 24. }, 15., 1.4));
-  state.Reset(Vector(0, 0, 0), Vector(48, 48, 48));
-  std::vector<int> all(state.Mesh.Rings.size());
-  std::iota(all.begin(), all.end(), 0);
-  state.UpdateShape(all, Alone);
-  EXPECT_NEAR(GradedSizes(state, field, Within(3.), Alone).Measure().LargestDistance, 5., 0.2);
-  EXPECT_EQ(GradedSizes(state, field, Within(3.), Alone).Measure().WithinTolerance, 0.);
-  EXPECT_EQ(GradedSizes(state, field, Within(0.2), Alone).Measure().LargestDistance, 2.)
-    << "two units are as far as is looked then";
+  const SurfaceResult coarse = SurfaceOfTwoLevels(OutsideBoxAndBall, Within(100.)).Divided;
+  ExpectLegal(coarse);
+  EXPECT_GT(*std::min_element(coarse.Size.begin(), coarse.Size.end()), 1.4f * 0.85f)
+    << "a tolerance that all of it keeps divides nothing";
+  constexpr double tolerance = 0.25;
+  const TwoLevels some = SurfaceOfTwoLevels(OutsideBoxAndBall, Within(tolerance));
+  ExpectLegal(some.AtRest);
+  EXPECT_GT(some.Divided.Points.size(), 1.03 * coarse.Points.size());
+  EXPECT_LT(some.Divided.Points.size(), 2 * coarse.Points.size());
+  // It is as good as one that was divided everywhere.
+  const SurfaceResult whole = SurfaceOf(OutsideBoxAndBall, Within(tolerance));
+  EXPECT_GT(some.AtRest.FitToTolerance->WithinTolerance,
+    whole.FitToTolerance->WithinTolerance - 0.005);
+  EXPECT_LT(some.AtRest.Points.size(), 1.1 * whole.Points.size());
+  EXPECT_NEAR(ComputeFeatures(some.AtRest).Volume, ComputeFeatures(whole).Volume,
+    0.002 * ComputeFeatures(whole).Volume);
 }
 
-TEST(GradedSizes, AreTheLeastWhereTheFinerLevelShowsSomethingElse)
+TEST(LocalDivision, IsDividedEverywhereWhereNearlyAllOfItAsksForThat)
 {
-  const TestVolume volume = BallVolume(48, 20.);
-  const Field field(volume.Image, IsoHalf(), Alone);
-  Grading grading;
-  grading.ThinParts = true;
-  for (const double radius : { 20., 19.3 })
-  {
-    SCOPED_TRACE(radius);
-    SurfaceState state;
-    state.Sizing = SizingField(0.85f);
-    state.Mesh.Append(DividedIcosahedron({ 24., 24., 24. }, radius, 1.4));
-    state.Reset(Vector(0, 0, 0), Vector(48, 48, 48));
-    std::vector<int> all(state.Mesh.Rings.size());
-    std::iota(all.begin(), all.end(), 0);
-    state.UpdateShape(all, Alone);
-    GradedSizes sizes(state, field, grading, Alone);
-    sizes.Begin(1.47f);
-    const std::vector<int> changed = sizes.Refine();
-    EXPECT_EQ(changed.size(), radius == 20. ? 0u : all.size());
-    EXPECT_EQ(state.Sizing.At(0), radius == 20. ? 1.47f : 0.85f);
-  }
+  const TwoLevels all = SurfaceOfTwoLevels(OutsideBoxAndBall, Within(1e-3));
+  EXPECT_TRUE(all.Divided.Size.empty()) << "it is even until it rests";
+  ExpectLegal(all.AtRest);
 }
 
-TEST(GradedSizes, HaveBoundsWhateverLengthIsAskedFor)
+TEST(LocalDivision, HoldsAnObliquePlateWithoutHoles)
 {
-  const TestVolume volume = BallVolume(16, 5.);
-  const Field field(volume.Image, IsoHalf(), Alone);
-  Grading grading = Within(0.2);
-  // Lengths of edges; 2.5 delta are legal anywhere.
-  for (const auto& [length, most] : { std::array<double, 2>{ 0., 4. }, { 0.5, 1. }, { 5., 2. },
-         { 1e6, 5. }, { 1e300, 5. } })
-  {
-    SCOPED_TRACE(length);
-    SurfaceState state;
-    state.Sizing = SizingField(1.f);
-    grading.MaximumEdgeLength = length;
-    GradedSizes sizes(state, field, grading, Alone);
-    sizes.Begin(state.Sizing.OfLevel());
-    sizes.Widen();
-    EXPECT_FLOAT_EQ(state.Sizing.Largest(), static_cast<float>(most));
-  }
+  const TwoLevels levels =
+    SurfaceOfTwoLevels(OutsideBlurredPlate(1.), ThinParts(), 1. / std::sqrt(3.));
+  ExpectLegal(levels.AtRest);
+  const SurfaceFeatures features = ComputeFeatures(levels.AtRest);
+  EXPECT_EQ(features.Components.size(), 1u);
+  EXPECT_EQ(features.Genus, 0);
+  EXPECT_EQ(levels.Lost.MissingBoundary, 0.);
 }

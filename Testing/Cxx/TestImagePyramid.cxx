@@ -236,13 +236,6 @@ TEST_F(ImagePyramidProgress, GrowsWithinALevelAndNamesIt)
   EXPECT_TRUE(this->Listener.Texts.count("Level 2 of 2"));
 }
 
-TEST_F(ImagePyramidProgress, CancellingWithinALevelHandsOverTheLevelsBefore)
-{
-  this->Run(0.2); // within level 1
-  ASSERT_EQ(this->Filter->GetOutput()->GetNumberOfBlocks(), 1u);
-  EXPECT_EQ(StopReason(this->Filter->GetOutput()), "cancelled");
-}
-
 TEST_F(ImagePyramidProgress, CancellingBetweenLevelsKeepsTheFinishedOnes)
 {
   this->Run(0.83); // level 1 is 0.84 of the work

@@ -23,12 +23,6 @@ LevelImage ImageOf(const std::array<int, 3>& size, const Point& step)
   image.Step = step;
   return image;
 }
-
-VectorD CornerOf(const IndexedSurface& surface, int i)
-{
-  const Point& p = surface.Points[i];
-  return VectorD(p[0], p[1], p[2]);
-}
 }
 
 TEST(InitialSurface, EnclosingSurfaceHasLegalEdgesWhateverTheBox)
@@ -75,35 +69,6 @@ TEST(InitialSurface, RefusesAnAreaOfTooManyVertices)
   EXPECT_THROW(CheckNumberOfVertices(1e8, image, 1.), std::invalid_argument);
 }
 
-TEST(InitialSurface, EnclosingSurfaceIsJustOutsideTheImage)
-{
-  const double delta = 0.85;
-  const LevelImage image = ImageOf({ 30, 20, 10 }, { 1, 1, 2 });
-  const IndexedSurface box = EnclosingSurface(image, delta);
-  // A voxel beyond the outermost ones lie the corners of a box that has to be inside.
-  const double low[3] = { -1., -1., -2. };
-  const double high[3] = { 30., 20., 20. };
-  for (const Triangle& t : box.Triangles)
-  {
-    const VectorD a = CornerOf(box, t[0]);
-    const VectorD normal = Cross(CornerOf(box, t[1]) - a, CornerOf(box, t[2]) - a);
-    for (int corner = 0; corner < 8; ++corner)
-    {
-      const VectorD p(corner & 1 ? high[0] : low[0], corner & 2 ? high[1] : low[1],
-        corner & 4 ? high[2] : low[2]);
-      EXPECT_LE(Dot(normal, p - a), 1e-9) << "corner " << corner << " is beyond a face";
-    }
-  }
-  for (const Point& p : box.Points)
-  {
-    for (int k = 0; k < 3; ++k)
-    {
-      EXPECT_GT(p[k], low[k] - 2. * delta);
-      EXPECT_LT(p[k], high[k] + 2. * delta);
-    }
-  }
-}
-
 TEST(InitialSurface, SeedsLieInTheObjectAndApart)
 {
   const TestVolume volume = Half();
@@ -127,4 +92,20 @@ TEST(InitialSurface, WithoutPlacesSeedsAreAGridInTheObject)
   {
     EXPECT_LT(p[0], 10);
   }
+}
+
+TEST(InitialSurface, AnIsoSurfaceHasEvenTheSmallestParts)
+{
+  // A voxel, beside a ball.
+  const TestVolume volume = MakeVolume(32,
+    [](double x, double y, double z)
+    {
+      const bool isAlone = x == 3. && y == 4. && z == 5.;
+      return isAlone ? 1. : std::clamp(6. - Distance(x, y, z, 16., 16., 16.), -1., 1.);
+    });
+  TestEvolution evolution(SurfaceOptions(), Threads, Silent);
+  evolution.StartIsoSurface(volume.Image, 0);
+  EXPECT_EQ(evolution.Now->Components.NumberOfComponents(), 2);
+  const TestVolume nothing = MakeVolume(16, [](double, double, double) { return -1.; });
+  EXPECT_THROW(evolution.StartIsoSurface(nothing.Image, 0), std::invalid_argument);
 }

@@ -185,19 +185,6 @@ TEST(SelectedComponent, OfAllTypes)
   }
 }
 
-TEST(SelectedComponent, VoxelsOfOneComponentAreShared)
-{
-  const auto image = RandomImage(20, 20, 20);
-  for (const int component : { -1, 0 })
-  {
-    vtkNew<vtkImagePyramid> pyramid;
-    pyramid->SetInputData(image);
-    pyramid->SetSelectedComponent(component);
-    pyramid->Update();
-    EXPECT_EQ(Voxels(Level(pyramid->GetOutput(), 0)), Voxels(image));
-  }
-}
-
 TEST(SelectedComponent, LevelsMadeByHandHaveOne)
 {
   const auto pyramid = PyramidOf(BallImage(32, 32, 32), 2);

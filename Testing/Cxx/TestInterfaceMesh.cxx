@@ -38,27 +38,6 @@ TEST(InterfaceMesh, HasLinesWhereThreeFacesMeet)
   ExpectSound(mesh);
 }
 
-TEST(InterfaceMesh, CompactsWhatIsRemoved)
-{
-  InterfaceMesh mesh = TwoTetrahedra();
-  const int added = mesh.AddVertex(Vector(0.3f, 0.3f, -2.f), Stratum::Interface);
-  std::vector<int> faces;
-  mesh.ForFaces(3, [&](int face) { faces.push_back(face); });
-  for (const int face : faces)
-  {
-    mesh.ReplaceVertex(face, 3, added);
-  }
-  EXPECT_FALSE(mesh.IsVertex(3));
-  EXPECT_TRUE(mesh.IsVertex(added));
-  mesh.Compact();
-  EXPECT_EQ(mesh.Position.size(), 5u);
-  ExpectSound(mesh);
-  EXPECT_NEAR(VolumeOf(mesh, 1), 2. / 6., 1e-6);
-  mesh.RemoveFace(0);
-  mesh.Compact();
-  EXPECT_EQ(mesh.Faces.size(), 6u);
-}
-
 namespace
 {
 /** Four faces about an edge along z, at angles of degrees, between objects 1, 2, 3 and 4. */
@@ -81,16 +60,6 @@ InterfaceMesh FacesAt(const std::array<double, 4>& angles)
   }
   return mesh;
 }
-
-bool AreInOrderAbout(const InterfaceMesh& mesh, int u, int v)
-{
-  std::vector<PlacedFace> faces;
-  for (const InterfaceMesh::Face& face : mesh.Faces)
-  {
-    faces.push_back(PlacedFaceOf(mesh, face));
-  }
-  return AreInOrder(u, v, faces);
-}
 }
 
 TEST(LineWedges, AreBetweenFacesThatAreNextToEachOther)
@@ -102,15 +71,6 @@ TEST(LineWedges, AreBetweenFacesThatAreNextToEachOther)
   EXPECT_EQ(across.Edge, (std::array<int, 2>{ 0, 1 }));
   EXPECT_EQ(across.Faces, (std::array<int, 2>{ 3, 0 }));
   EXPECT_EQ(NarrowestWedge(InterfaceMesh()).Edge[0], -1) << "there are no lines";
-}
-
-TEST(InterfaceClearance, KnowsFacesThatAreTurnedPastOthers)
-{
-  EXPECT_TRUE(AreInOrderAbout(FacesAt({ 0., 90., 180., 270. }), 0, 1));
-  EXPECT_TRUE(AreInOrderAbout(FacesAt({ 0., 90., 180., 270. }), 1, 0));
-  EXPECT_TRUE(AreInOrderAbout(FacesAt({ 300., 20., 30., 299. }), 0, 1));
-  EXPECT_FALSE(AreInOrderAbout(FacesAt({ 0., 181., 180., 270. }), 0, 1));
-  EXPECT_FALSE(AreInOrderAbout(FacesAt({ 0., 90., 180., 10. }), 1, 0));
 }
 
 TEST(InterfaceClearance, LetsNoFaceBeTurnedPastAnother)
@@ -142,32 +102,4 @@ TEST(InterfaceClearance, LetsNoFaceIntersectThoseThatStay)
   made.front().Corner[0] = VectorD(0.4, -0.2, 0.5); // Through the face at 0 degrees.
   EXPECT_FALSE(clearance.AreClear(made, { beside }, near));
   EXPECT_TRUE(clearance.AreClear(made, { 0, beside }, near)) << "that one goes, too";
-}
-
-TEST(InterfaceClearance, FollowsFacesThatChange)
-{
-  // Two small faces far from each other, and a third one that is stretched between them.
-  InterfaceMesh mesh;
-  for (int n = 0; n < 3; ++n)
-  {
-    const float x = 20.f * static_cast<float>(n);
-    const int first = mesh.AddVertex(Vector(x, 0.f, 0.f), Stratum::Interface);
-    mesh.AddVertex(Vector(x + 1.f, 0.f, 0.f), Stratum::Interface);
-    mesh.AddVertex(Vector(x, 1.f, 0.f), Stratum::Interface);
-    mesh.AddFace({ { first, first + 1, first + 2 }, 1, 2 });
-  }
-  InterfaceClearance clearance(mesh, 1e-3);
-  clearance.Reset(OnThisThread());
-  std::vector<int> near;
-  EXPECT_EQ(clearance.FindIntersecting(0, near), -1);
-  mesh.Position[6] = Vector(0.2f, 0.2f, -1.f);
-  mesh.Position[7] = Vector(0.2f, 0.2f, 1.f);
-  mesh.Position[8] = Vector(40.f, -9.f, 0.f);
-  clearance.Change(2);
-  EXPECT_EQ(clearance.FindIntersecting(0, near), 2) << "longer than any face before";
-  EXPECT_EQ(clearance.FindIntersecting(2, near), 0);
-  EXPECT_EQ(clearance.FindIntersecting(1, near), -1);
-  mesh.RemoveFace(2);
-  clearance.Change(2);
-  EXPECT_EQ(clearance.FindIntersecting(0, near), -1) << "it is no more";
 }

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Interfaces/InterfaceMotion.h"
+#include "Core/Common/StandardThreads.h"
 #include "Core/Interfaces/InterfaceRemesher.h"
 #include "Core/Interfaces/InterfaceStart.h"
 #include "Core/Interfaces/MismatchedVoxels.h"
 #include "Core/Interfaces/TriangleShape.h"
-#include "Core/Interfaces/VertexTargets.h"
 #include "InterfaceTestTools.h"
 
 using namespace volumic;
@@ -42,6 +42,65 @@ InterfaceMesh RoughMesh(const InterfaceScene& scene)
   mesh.Compact();
   return mesh;
 }
+
+/** Begins with what is last. */
+class BackwardExecutor final : public Executor
+{
+public:
+  void For(std::size_t n, std::size_t,
+    const std::function<void(std::size_t begin, std::size_t end)>& body) override
+  {
+    for (; n > 0; --n)
+    {
+      body(n - 1, n);
+    }
+  }
+};
+
+InterfaceMesh StartOf(const InterfaceScene& scene)
+{
+  return StartInterfaces(*scene.Fields, OnThisThread());
+}
+
+/** After collapses and flips. */
+InterfaceMesh Edited(InterfaceMesh mesh, Executor& executor)
+{
+  InterfaceRemesher remesher(mesh, 1.1, 1.8, 1e-3, executor, [] { return true; });
+  EXPECT_GT(remesher.CollapseShortEdges(), 1000);
+  EXPECT_GT(remesher.FlipEdges(), 100);
+  return mesh;
+}
+
+void ExpectSame(const InterfaceMesh& a, const InterfaceMesh& b)
+{
+  ASSERT_EQ(a.Position.size(), b.Position.size());
+  ASSERT_EQ(a.Faces.size(), b.Faces.size());
+  std::size_t others = 0;
+  for (std::size_t v = 0; v < a.Position.size(); ++v)
+  {
+    others += a.IsVertex(static_cast<int>(v)) != b.IsVertex(static_cast<int>(v)) ||
+        SquaredDistance(a.Position[v], b.Position[v]) > 0.f
+      ? 1
+      : 0;
+  }
+  for (std::size_t f = 0; f < a.Faces.size(); ++f)
+  {
+    others += a.Faces[f].Vertex != b.Faces[f].Vertex ? 1 : 0;
+  }
+  EXPECT_EQ(others, 0u);
+}
+}
+
+TEST(InterfaceRemesher, MakesTheSameEditsInAnyOrderOfCubes)
+{
+  const InterfaceScene scene(ManyCells(64, 60, 2));
+  const InterfaceMesh start = StartOf(scene);
+  const InterfaceMesh forward = Edited(start, OnThisThread());
+  ExpectSound(forward);
+  BackwardExecutor backward;
+  ExpectSame(Edited(start, backward), forward);
+  StandardThreads threads(3);
+  ExpectSame(Edited(start, threads), forward);
 }
 
 TEST(InterfaceMotion, BringsVerticesToWhereFieldsAreTheSame)
@@ -94,26 +153,6 @@ TEST(InterfaceMotion, TakesBackWhatWouldBeNarrow)
   EXPECT_GT(narrow, 100);
 }
 
-TEST(VertexTargets, GoNoFurtherThanHalfOfAnEdge)
-{
-  const InterfaceScene scene(ManyCells(24, 5, 9));
-  const InterfaceMesh mesh = RoughMesh(scene);
-  VertexTargets targets(mesh, *scene.Fields, 1., 0.5);
-  std::vector<int> neighbours;
-  for (int v = 0; v < static_cast<int>(mesh.Position.size()); ++v)
-  {
-    const Vector& place = mesh.Position[static_cast<std::size_t>(v)];
-    mesh.FindNeighbours(v, neighbours);
-    float shortest = 1e9f;
-    for (const int w : neighbours)
-    {
-      shortest =
-        std::min(shortest, Length(mesh.Position[static_cast<std::size_t>(w)] - place));
-    }
-    EXPECT_LE(Length(targets.Of(v) - place), 0.5f * shortest * 1.001f);
-  }
-}
-
 namespace
 {
 constexpr double Tolerance = 1e-3;
@@ -143,7 +182,7 @@ protected:
 
   std::optional<InterfaceScene> Scene;
   InterfaceMesh Mesh;
-  int Euler = 0;
+  double Euler = 0.;
 };
 }
 

@@ -8,7 +8,6 @@
 
 #include <vtkCell.h>
 #include <vtkCellArray.h>
-#include <vtkMatrix3x3.h>
 
 using namespace volumic;
 
@@ -167,15 +166,6 @@ TEST(LabelInterfaces, HaveNoTrianglesWithoutASelectedLabel)
   }
 }
 
-TEST(LabelInterfaces, AreTheWholeOutlineOfMergedLabels)
-{
-  const auto filter = FilterOf(BlocksImage());
-  filter->MergeOn();
-  filter->Update();
-  EXPECT_EQ(AllSides(filter->GetInterfaces()), (std::set<Sides>{ { 3, 0 }, { 7, 0 } }));
-  EXPECT_EQ(filter->GetInterfaces()->GetNumberOfPolys(), BlockOf(filter, 0)->GetNumberOfPolys());
-}
-
 TEST(LabelInterfaces, OfMergedLabelsHaveLinesWhereOthersMeetThem)
 {
   const auto filter = FilterOf(BlocksImage());
@@ -188,28 +178,6 @@ TEST(LabelInterfaces, OfMergedLabelsHaveLinesWhereOthersMeetThem)
   ASSERT_GT(interfaces->GetNumberOfLines(), 10) << "where 3, 7 and 0 meet";
   EXPECT_EQ(SidesOf(interfaces, 0), (Sides{ 0, 0 }));
   EXPECT_EQ(interfaces->GetNumberOfPolys(), BlockOf(filter, 0)->GetNumberOfPolys());
-}
-
-TEST(LabelInterfaces, AreInTheWorld)
-{
-  const auto image = BlocksImage();
-  image->SetSpacing(0.5, 0.5, 1.);
-  image->SetOrigin(100., -20., 7.);
-  vtkNew<vtkMatrix3x3> mirror;
-  mirror->SetElement(0, 0, -1.);
-  image->SetDirectionMatrix(mirror);
-  const auto filter = FilterOf(image);
-  filter->Update();
-  for (unsigned int block = 0; block < 3; ++block)
-  {
-    vtkPolyData* surface = BlockOf(filter, block);
-    ExpectClosedSurface(surface);
-    EXPECT_NEAR(FieldOf(surface, "Volume"), 0.25 * FieldOf(surface, "LabelVoxels"),
-      0.002 * FieldOf(surface, "LabelVoxels"));
-  }
-  const double* bounds = BlockOf(filter, 0)->GetBounds();
-  EXPECT_NEAR(bounds[1], 100. - 0.5 * 2.5, 0.25);
-  EXPECT_NEAR(bounds[4], 7. + 2.5, 0.4);
 }
 
 TEST(LabelInterfaces, AreCoarserWithATolerance)

@@ -3,6 +3,7 @@
 
 // The volume that surfaces of labels enclose is that of their voxels, however far apart slices are,
 // however thin the label, and whatever the smoothing; by the judge that shares no code with it.
+#include "ForVoxels.h"
 #include "JudgedLabels.h"
 
 #include <cmath>
@@ -43,18 +44,13 @@ LabelMap MapOf(const VolumeScene& scene)
     half[axis] = static_cast<int>(std::ceil(scene.HalfSize[axis] / scene.Spacing[axis])) + margin;
     map.Size[axis] = 2 * half[axis] + 1;
   }
-  for (int k = -half[2]; k <= half[2]; ++k)
-  {
-    for (int j = -half[1]; j <= half[1]; ++j)
+  volumic::ForBox({ -half[0], -half[1], -half[2] }, { half[0] + 1, half[1] + 1, half[2] + 1 },
+    [&](int i, int j, int k)
     {
-      for (int i = -half[0]; i <= half[0]; ++i)
-      {
-        const bool isInside = scene.IsInside((i + off[0]) * map.Spacing[0],
-          (j + off[1]) * map.Spacing[1], (k + off[2]) * map.Spacing[2]);
-        map.Values.push_back(isInside ? 1 : 0);
-      }
-    }
-  }
+      const bool isInside = scene.IsInside((i + off[0]) * map.Spacing[0],
+        (j + off[1]) * map.Spacing[1], (k + off[2]) * map.Spacing[2]);
+      map.Values.push_back(isInside ? 1 : 0);
+    });
   return map;
 }
 
@@ -86,43 +82,32 @@ bool IsInRib(double x, double y, double z)
 
 class LabelVolumes : public testing::TestWithParam<VolumeScene>
 {
-protected:
-  /** Of the default, and of what the test has set. */
-  void ExpectVolume(const std::function<void(vtkLabelsToSurfaces*)>& set)
-  {
-    const LabelMap map = MapOf(this->GetParam());
-    const Filter filter = FilterOf(ToImage(map));
-    set(filter);
-    vtkPolyData* block = BlockOf(filter);
-    const SurfaceVerdict verdict = JudgeSurface(ToTriangleSurface(block), FieldOf(block, "Delta"));
-    EXPECT_EQ(verdict.Intersections.Pairs, 0u);
-    const double voxels = FieldOf(block, "LabelVoxels") * map.Spacing[0] * map.Spacing[1] *
-      map.Spacing[2];
-    const double error = verdict.Topology.Volume / voxels - 1.0;
-    EXPECT_NEAR(error, 0.0, 0.03);
-    EXPECT_NEAR(FieldOf(block, "VolumeError"), error, 1e-3);
-  }
 };
 } // namespace
 
-TEST_P(LabelVolumes, AreThoseOfTheVoxels)
+TEST_P(LabelVolumes, AreThoseOfTheVoxelsWhateverTheSmoothing)
 {
-  this->ExpectVolume([](vtkLabelsToSurfaces*) {});
-}
-
-TEST_P(LabelVolumes, AreSoWithLittleSmoothing)
-{
-  this->ExpectVolume([](vtkLabelsToSurfaces* filter) { filter->SetSmoothing(1.0); });
-}
-
-TEST_P(LabelVolumes, AreSoWithMuchSmoothing)
-{
-  this->ExpectVolume([](vtkLabelsToSurfaces* filter) { filter->SetSmoothing(8.0); });
-}
-
-TEST_P(LabelVolumes, AreSoWithoutAVoxelTolerance)
-{
-  this->ExpectVolume([](vtkLabelsToSurfaces* filter) { filter->SetVoxelTolerance(0.0); });
+  const LabelMap map = MapOf(this->GetParam());
+  struct Settings
+  {
+    double Smoothing;
+    double VoxelTolerance; ///< -1: a quarter of that
+  };
+  for (const Settings& set : { Settings{ 2.0, -1.0 }, { 1.0, -1.0 }, { 8.0, -1.0 }, { 2.0, 0.0 } })
+  {
+    SCOPED_TRACE(testing::Message() << set.Smoothing << ", " << set.VoxelTolerance);
+    const Filter filter = FilterOf(ToImage(map));
+    filter->SetSmoothing(set.Smoothing);
+    filter->SetVoxelTolerance(set.VoxelTolerance);
+    vtkPolyData* block = BlockOf(filter);
+    const TriangleSurface surface = ToTriangleSurface(block);
+    EXPECT_EQ(JudgeIntersections(surface).Pairs, 0u);
+    const double voxels = FieldOf(block, "LabelVoxels") * map.Spacing[0] * map.Spacing[1] *
+      map.Spacing[2];
+    const double error = JudgeTopology(surface).Volume / voxels - 1.0;
+    EXPECT_NEAR(error, 0.0, 0.03);
+    EXPECT_NEAR(FieldOf(block, "VolumeError"), error, 1e-3);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, LabelVolumes,

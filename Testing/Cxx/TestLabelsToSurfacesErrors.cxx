@@ -156,6 +156,7 @@ TEST_F(LabelsToSurfacesErrors, PropertiesOutOfRange)
   expect(&Labels::SetVoxelTolerance, 0., -0.5, { "Voxel Tolerance is -0.5" });
   expect(&Labels::SetVoxelTolerance, 0., 1.5, { "Voxel Tolerance is 1.5", "to 1 voxels" });
   expect(&Labels::SetMetric, 0, 2, { "Metric is 2" });
+  expect(&Labels::SetGradation, 0.2, 0.7, { "Gradation is 0.7" });
   expect(&Labels::SetEdgeLength, 0., -2., { "Edge Length is -2" });
   expect(&Labels::SetEdgeLength, 0., 1e-3, { "Edge Length is 0.001" });
   expect(&Labels::SetFinestLevel, 0, -2, { "Finest Level is -2" });

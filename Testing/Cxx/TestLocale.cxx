@@ -4,9 +4,7 @@
 // In programs of countries that write 1.234,5: what the filters write must be read by scripts.
 #include "CommaLocale.h"
 #include "SurfaceTestTools.h"
-#include "vtkOtsuThreshold.h"
 
-#include <vtkReverseSense.h>
 
 #include <clocale>
 #include <cstdio>
@@ -99,36 +97,6 @@ TEST_P(FilterLocale, PlacesOutsideTheImage)
     "Seed 0 lies outside the image: 1234.5 voxel distances along axis 2, the image has 40");
   this->Filter->SetAttractingPointsData(seeds);
   this->ExpectError("point 0 (20, 20, 1234.5) lies outside the image");
-}
-
-TEST_P(FilterLocale, SurfacesThatAreRefused)
-{
-  vtkNew<vtkSphereSource> sphere;
-  sphere->SetCenter(1234.5, 20, 20);
-  this->Filter->SetInitializationToInputSurface();
-  this->Filter->SetInitialSurfaceConnection(sphere->GetOutputPort());
-  this->ExpectError("along axis 0 it runs from 1234.01 to 1234.99 voxel distances");
-  sphere->SetCenter(20, 20, 20);
-  sphere->SetRadius(12);
-  vtkNew<vtkReverseSense> reverse;
-  reverse->SetInputConnection(sphere->GetOutputPort());
-  this->Filter->SetInitialSurfaceConnection(reverse->GetOutputPort());
-  this->ExpectError("is inside out: it encloses a volume of -6194.02.");
-}
-
-TEST_P(FilterLocale, VoxelsThatAreRefused)
-{
-  const auto image = BallImage(1100, 8, 8);
-  Voxels(image)->SetComponent(1050, 0, std::numeric_limits<double>::infinity());
-  this->Filter->SetInputDataObject(image);
-  this->ExpectError("the first at (1050, 0, 0)");
-  vtkNew<vtkOtsuThreshold> otsu;
-  const auto flat = BallImage(8, 8, 8);
-  Voxels(flat)->Fill(1234.5);
-  otsu->SetInputData(flat);
-  const MessagesOf errors(otsu);
-  otsu->Update();
-  EXPECT_TRUE(errors.Has("ranges from 1234.5 to 1234.5")) << errors.Get();
 }
 
 TEST_P(FilterLocale, Progress)

@@ -134,19 +134,6 @@ TEST(LostParts, WhatLiesAtTheSurfaceIsNotLost)
   }
 }
 
-TEST(LostParts, FindsAllWithoutAnySurface)
-{
-  const TestVolume volume = Scene();
-  const Field field(volume.Image, IsoHalf(), Threads);
-  SurfaceState state;
-  state.Sizing = SizingField(Delta);
-  state.Reset(Vector(-2, -2, -2), Vector(50, 50, 50));
-  const LostPartCover cover = FindAll(state, field, PartKind::Object, CoverShape::Even);
-  EXPECT_EQ(cover.Found, 2);
-  EXPECT_EQ(cover.Covered, 2);
-  EXPECT_EQ(FindAll(state, field, PartKind::Cavity, CoverShape::Even).Found, 0);
-}
-
 TEST(LostParts, CoversOfNoiseAreManifoldsThatDoNotIntersect)
 {
   std::mt19937 random(3);

@@ -3,8 +3,8 @@
 #include "Core/Interfaces/MakeInterfaces.h"
 
 #include "Core/Interfaces/InterfaceFit.h"
+#include "Core/Interfaces/InterfaceSizes.h"
 #include "Core/Interfaces/LineWedges.h"
-#include "Core/Interfaces/NarrowPlaces.h"
 #include "Core/Interfaces/TriangleShape.h"
 #include "Core/Mesh/TriangleDistance.h"
 #include "InterfaceTestTools.h"
@@ -22,9 +22,11 @@ bool IsOffLines(const InterfaceMesh& mesh, const InterfaceMesh::Face& face)
 
 InterfaceMesh Make(
   InterfaceScene& scene, Executor& executor = OnThisThread(),
-  const std::function<bool(double)>& goOn = [](double) { return true; })
+  const std::function<bool(double)>& goOn = [](double) { return true; }, double tolerance = 0.)
 {
-  return MakeInterfaces(*scene.Fields, InterfaceOptions(), executor, goOn);
+  InterfaceOptions options;
+  options.Tolerance = tolerance;
+  return MakeInterfaces(*scene.Fields, options, executor, goOn);
 }
 
 /** Three balls that are pressed together a little. */
@@ -53,6 +55,26 @@ double LeastAngle(const InterfaceMesh& mesh)
 double VoxelsOf(const InterfaceScene& scene, int object)
 {
   return static_cast<double>(scene.Bricks->ExtentOf(object).Voxels);
+}
+
+float LargestSize(const InterfaceMesh& mesh)
+{
+  return *std::max_element(mesh.Size.begin(), mesh.Size.end());
+}
+
+/** By how much sizes grow per length at most, between any two vertices. */
+double SteepestSize(const InterfaceMesh& mesh)
+{
+  double steepest = 0.;
+  for (std::size_t v = 0; v < mesh.Size.size(); ++v)
+  {
+    for (std::size_t w = 0; w < v; ++w)
+    {
+      const double way = Length(mesh.Position[v] - mesh.Position[w]);
+      steepest = std::max(steepest, std::abs(mesh.Size[v] - mesh.Size[w]) / way);
+    }
+  }
+  return steepest;
 }
 }
 
@@ -137,56 +159,6 @@ TEST(MakeInterfaces, HasNoNarrowGaps)
     EXPECT_GT(std::sqrt(least), 0.12); // .09 of an edge
   }
 }
-
-class NarrowPlacesOfBalls : public testing::TestWithParam<double>
-{
-};
-
-TEST_P(NarrowPlacesOfBalls, AreOpenedWithinTheVoxels)
-{
-  InterfaceScene scene(ThreeBalls());
-  InterfaceMesh mesh = Make(scene);
-  unsigned seed = 1;
-  for (std::size_t v = 0; v < mesh.Position.size(); ++v)
-  {
-    Vector& p = mesh.Position[v];
-    for (float* at : { &p.X, &p.Y, &p.Z })
-    {
-      if (mesh.StratumOf[v] != Stratum::Interface)
-      {
-        continue; // What meets there would intersect.
-      }
-      seed = seed * 1664525u + 1013904223u;
-      *at += 0.7f * (static_cast<float>(seed >> 8) / (1u << 24) - 0.5f);
-    }
-  }
-  ASSERT_EQ(CountSelfIntersections(AllFaces(mesh)), 0);
-  const InterfaceMesh before = mesh;
-  ASSERT_LT(LeastAngle(before) * 57.2958, 18.);
-  const auto wrongOf = [&](const InterfaceMesh& of)
-  { return PushWrongVoxels(of, *scene.Fields, GetParam(), OnThisThread()); };
-  const std::size_t wrong = wrongOf(before);
-  NarrowPlaces(mesh, *scene.Fields, 1.36, 1e-3, GetParam())
-    .Open(OnThisThread(), [] { return true; });
-  ExpectSound(mesh);
-  EXPECT_LE(wrongOf(mesh), wrong);
-  EXPECT_GT(LeastAngle(mesh), LeastAngle(before));
-  for (std::size_t v = 0; v < mesh.Position.size(); ++v)
-  {
-    EXPECT_LE(Length(mesh.Position[v] - before.Position[v]), 0.5001f);
-  }
-  for (int object = 1; object <= 3; ++object)
-  {
-    EXPECT_NEAR(VolumeOf(mesh, object), VolumeOf(before, object), 2.05) << object;
-  }
-  // As soon as it is told to stop nothing is moved.
-  InterfaceMesh stopped = before;
-  NarrowPlaces(stopped, *scene.Fields, 1.36, 1e-3, GetParam())
-    .Open(OnThisThread(), [] { return false; });
-  EXPECT_EQ(LeastAngle(stopped), LeastAngle(before));
-}
-
-INSTANTIATE_TEST_SUITE_P(Tolerances, NarrowPlacesOfBalls, testing::Values(0., 0.5));
 
 TEST(MakeInterfaces, TurnsNoPartInsideOut)
 {
@@ -303,17 +275,35 @@ TEST_P(StoppedInterfaces, AreSound)
 
 INSTANTIATE_TEST_SUITE_P(AfterQuestions, StoppedInterfaces, testing::Values(1, 12, 40, 90));
 
-TEST(CorrectVolumes, ShiftsInterfacesToWhatIsMissing)
+TEST(InterfaceSizes, GrowWhereInterfacesAreFlatAndKeepTheGradation)
 {
-  InterfaceScene scene(FourBlocks(8));
+  InterfaceScene scene(FourBlocks(10));
   InterfaceMesh mesh = Make(scene);
-  // Object 1 a little smaller: half a percent.
-  for (Vector& p : mesh.Position)
+  EXPECT_EQ(LargestSize(mesh), 1.f);
+  const SizeBounds bounds = { 0.1, 2.5, 1.8, 0.2 };
+  InterfaceMesh off = mesh;
+  for (Vector& p : off.Position)
   {
-    p.X += p.X < 10.f ? 0.04f : 0.f;
+    p += Vector(0.2f, 0.2f, 0.2f); // on purpose, as junction lines are, to be straight
   }
-  const Vector middle(11.5f, 8.f, 11.5f);
-  const float before = scene.Fields->ValueAt(1, middle) - scene.Fields->ValueAt(2, middle);
-  CorrectVolumes(mesh, *scene.Fields, 0., OnThisThread());
-  EXPECT_GT(scene.Fields->ValueAt(1, middle) - scene.Fields->ValueAt(2, middle), before);
+  AdjustSizes(off, *scene.Fields, bounds, OnThisThread());
+  EXPECT_EQ(LargestSize(off), 1.8f);
+  AdjustSizes(mesh, *scene.Fields, bounds, OnThisThread());
+  EXPECT_LT(SteepestSize(mesh), 1.001 * bounds.Gradation);
+  EXPECT_EQ(LargestSize(mesh), 1.8f);
+  EXPECT_EQ(*std::min_element(mesh.Size.begin(), mesh.Size.end()), 1.f); // at edges of the cube
 }
+
+class GradedInterfaces : public testing::TestWithParam<int>
+{
+};
+
+TEST_P(GradedInterfaces, AreSoundWhateverTheMap)
+{
+  const auto seed = static_cast<unsigned>(GetParam());
+  InterfaceScene scene(ManyCells(26, 3 + 4 * GetParam(), seed));
+  const InterfaceMesh mesh = Make(scene, OnThisThread(), [](double) { return true; }, 0.1 * (1 + GetParam()));
+  ExpectSound(mesh);
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, GradedInterfaces, testing::Range(1, 4));

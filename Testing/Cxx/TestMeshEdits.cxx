@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Common/Box.h"
 #include "Core/Common/StandardThreads.h"
 #include "Core/Mesh/EdgeCollapse.h"
 #include "Core/Mesh/EdgeFlip.h"
@@ -50,92 +49,6 @@ TEST(SurfaceMesh, AppendsTheSameOnThreads)
   }
 }
 
-namespace
-{
-/** More vertices than threads look at at a time, and many places without one before them. */
-SurfaceMesh LargeMesh()
-{
-  SurfaceMesh mesh;
-  mesh.Append(DividedIcosahedron({ 0, 0, 0 }, 10, 0.5));
-  const int removed = mesh.Size();
-  mesh.Append(DividedIcosahedron({ 3, -40, 2 }, 20, 0.4));
-  for (int v = 0; v < removed; ++v)
-  {
-    mesh.RemoveVertex(v);
-  }
-  return mesh;
-}
-
-bool IsBefore(const std::array<unsigned, 3>& a, const std::array<unsigned, 3>& b)
-{
-  // Along the curve: the axis that differs in the highest bit decides, the last one of several.
-  int axis = 2;
-  for (const int other : { 1, 0 })
-  {
-    const unsigned most = a[axis] ^ b[axis];
-    const unsigned here = a[other] ^ b[other];
-    axis = most < here && most < (most ^ here) ? other : axis;
-  }
-  return a[axis] < b[axis];
-}
-}
-
-TEST(SurfaceMesh, IsOneListWhicheverSpansItWasMadeIn)
-{
-  const SurfaceMesh mesh = LargeMesh();
-  StandardThreads threads(3);
-  ASSERT_GT(mesh.NumberOfVertices(), 20000);
-  const IndexedSurface surface = mesh.ToIndexed(threads);
-  std::vector<int> place(mesh.Rings.size(), -1);
-  LargeVector<Point> points;
-  for (int v = 0; v < mesh.Size(); ++v)
-  {
-    if (mesh.IsAlive(v))
-    {
-      place[v] = static_cast<int>(points.size());
-      points.push_back({ mesh.Position[v].X, mesh.Position[v].Y, mesh.Position[v].Z });
-    }
-  }
-  EXPECT_EQ(surface.Points, points);
-  LargeVector<Triangle> triangles;
-  mesh.VisitFaces(
-    [&](int a, int b, int c) {
-      triangles.push_back({ place[a], place[b], place[c] });
-    });
-  EXPECT_EQ(surface.Triangles, triangles);
-  EXPECT_EQ(mesh.NumberOfFaces(threads), static_cast<std::int64_t>(triangles.size()));
-  EXPECT_EQ(mesh.CountEulerCharacteristic(threads), 2);
-}
-
-TEST(SurfaceMesh, IsOrderedAlongTheCurveAsAWhole)
-{
-  SurfaceMesh mesh = LargeMesh();
-  StandardThreads threads(3);
-  const double cell = 0.7;
-  const std::vector<int> order = SpaceFillingOrder(mesh, cell, threads);
-  ASSERT_EQ(order.size(), static_cast<std::size_t>(mesh.NumberOfVertices()));
-  Vector low(1e9f, 1e9f, 1e9f);
-  for (const int v : order)
-  {
-    low = Minimum(low, mesh.Position[v]);
-  }
-  const auto cellOf = [&](int v)
-  {
-    const Vector p = mesh.Position[v] - low;
-    return std::array<unsigned, 3>{ static_cast<unsigned>(p.X / cell),
-      static_cast<unsigned>(p.Y / cell), static_cast<unsigned>(p.Z / cell) };
-  };
-  EXPECT_TRUE(std::is_sorted(order.begin(), order.end(),
-    [&](int v, int w) { return cellOf(v) != cellOf(w) ? IsBefore(cellOf(v), cellOf(w)) : v < w; }));
-  const LargeVector<Vector> before = mesh.Position;
-  mesh.Reorder(order, threads);
-  EXPECT_SOUND(mesh, 2);
-  for (std::size_t i = 0; i < order.size(); ++i)
-  {
-    ASSERT_EQ(Length(mesh.Position[i] - before[order[i]]), 0.f);
-  }
-}
-
 TEST(SurfaceMesh, KnowsWhoIsFarAlongTheSurface)
 {
   SurfaceMesh mesh = MakeSphere({ 0, 0, 0 }, 6, 1.5);
@@ -166,18 +79,6 @@ TEST(SurfaceMesh, KnowsWhoIsFarAlongTheSurface)
       }
     }
   }
-}
-
-TEST(SurfaceMesh, UsesThePlacesOfRemovedVerticesAgain)
-{
-  SurfaceMesh mesh = MakeSphere({ 0, 0, 0 }, 6, 1.5);
-  const int size = mesh.Size();
-  EdgeCollapse{ 30, mesh.Rings[30].Item[0] }.Apply(mesh);
-  EXPECT_EQ(mesh.NumberOfVertices(), size - 1);
-  EXPECT_EQ(EdgeSplit({ 50, mesh.Rings[50].Item[0] }).Apply(mesh, Vector(0, 0, 7)), size);
-  EXPECT_EQ(mesh.NumberOfVertices(), size);
-  EXPECT_EQ(mesh.Size(), size + 1);
-  EXPECT_EQ(DescribeBrokenInvariant(mesh), "");
 }
 
 TEST(SurfaceMesh, HasRoomBetweenItsVertices)
@@ -277,44 +178,4 @@ TEST(EdgeCollapse, IsBlockedByAThirdCommonNeighbour)
   const EdgeCollapse collapse{ 0, 1 };
   EXPECT_EQ(collapse.ThirdCommonNeighbour(mesh), 2);
   EXPECT_FALSE(collapse.IsLegal(mesh));
-}
-
-TEST(EdgeCollapse, NamesTheShortestOfSeveralCyclesOfThree)
-{
-  // Flat rings of three about an edge: a third common neighbour far off, and one near.
-  for (const bool nearFirst : { true, false })
-  {
-    SurfaceMesh mesh;
-    mesh.Position = { Vector(0, 0, 0), Vector(1, 0, 0), Vector(0, 1, 0), Vector(0, -1, 0),
-      nearFirst ? Vector(0.5f, 0, 2) : Vector(0.5f, 0, 5),
-      nearFirst ? Vector(0.5f, 0, 5) : Vector(0.5f, 0, 2) };
-    mesh.Rings.resize(6);
-    const auto fill = [&mesh](int v, std::initializer_list<int> neighbours)
-    {
-      for (int w : neighbours)
-      {
-        mesh.Rings[v].Item[mesh.Rings[v].Count++] = w;
-      }
-    };
-    fill(0, { 1, 2, 4, 5, 3 });
-    fill(1, { 0, 3, 5, 4, 2 });
-    EXPECT_EQ((EdgeCollapse{ 0, 1 }).ThirdCommonNeighbour(mesh), nearFirst ? 4 : 5);
-  }
-}
-
-TEST(EdgeCollapse, NeverLeavesTwoNeighboursToAVertex)
-{
-  // The vertex opposite to the edge has three.
-  SurfaceMesh mesh = MakeSphere({ 0, 0, 0 }, 2, 0.5);
-  const int u = 3;
-  const int v = mesh.Rings[u].Item[1];
-  const int m = EdgeSplit{ u, v }.Apply(mesh, Vector(0, 0, 0));
-  EdgeFlip::Of(mesh, m, u).Apply(mesh);
-  ASSERT_EQ(mesh.Rings[m].Count, 3);
-  const Ring ring = mesh.Rings[m];
-  for (int i = 0; i < 3; ++i)
-  {
-    EXPECT_FALSE((EdgeCollapse{ ring.Item[i], ring.Next(i) }).IsLegal(mesh));
-    EXPECT_FALSE((EdgeCollapse{ ring.Next(i), ring.Item[i] }).IsLegal(mesh));
-  }
 }

@@ -1,14 +1,10 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Small tools of meshes: rows through triangles, volumes and areas.
+// Small tools of meshes: rows through triangles.
 #include "Core/Common/StandardThreads.h"
 #include "Core/Mesh/RowCrossing.h"
-#include "Core/Mesh/SelfIntersections.h"
-#include "Core/Mesh/SurfaceFeatures.h"
-#include "Core/Mesh/SurfaceMeasures.h"
-#include "EvolutionTestTools.h"
-#include "RemeshTestTools.h"
+#include "CoreTestTools.h"
 
 using namespace volumic;
 
@@ -28,22 +24,6 @@ std::vector<RowCrossing> CrossingsOf(const IndexedSurface& surface, double y, do
   }
   return crossings;
 }
-}
-
-TEST(RowCrossing, TellsWhereALineEntersAndLeaves)
-{
-  const IndexedSurface surface = Octahedron({ 0, 0, 0 }, 4, 4, 4);
-  for (const double y : { 1., -0.5 })
-  {
-    const std::vector<RowCrossing> crossings = CrossingsOf(surface, y, 0.25);
-    ASSERT_EQ(crossings.size(), 2u);
-    for (const RowCrossing& crossing : crossings)
-    {
-      EXPECT_EQ(crossing.Winding, crossing.X < 0 ? 1 : -1);
-      EXPECT_NEAR(std::abs(crossing.X), 4 - std::abs(y) - 0.25, 1e-12);
-    }
-  }
-  EXPECT_TRUE(CrossingsOf(surface, 3, 1.5).empty());
 }
 
 TEST(RowCrossing, CountsOnceAtEdgesAndCorners)
@@ -147,29 +127,3 @@ TEST(ComponentsAbout, AreThoseThatEncloseAPlaceButItsOwn)
     (Lists{ {}, { 0, 2 }, { 0 }, {}, {} }));
 }
 
-namespace
-{
-/** A ball far from the origin, of more than one block of vertices, with a cavity. */
-SurfaceMesh HollowBall()
-{
-  SurfaceMesh mesh;
-  mesh.Append(DividedIcosahedron({ 60, 50, 40 }, 12, 0.6));
-  mesh.Append(InsideOut(DividedIcosahedron({ 62, 50, 40 }, 6, 0.6)));
-  return mesh;
-}
-}
-
-TEST(SurfaceMeasures, AreThoseOfTheTriangles)
-{
-  SurfaceMesh mesh = HollowBall();
-  ASSERT_GT(mesh.Size(), 4096);
-  const SurfaceFeatures features = ComputeFeatures(mesh.ToIndexed());
-  SequentialExecutor sequential;
-  EXPECT_NEAR(EnclosedVolume(mesh, sequential), features.Volume, 1e-9 * features.Volume);
-  double area = 0.;
-  for (int v = 0; v < mesh.Size(); ++v)
-  {
-    area += AreaShare(mesh, v);
-  }
-  EXPECT_NEAR(area, features.Area, 1e-6 * features.Area);
-}

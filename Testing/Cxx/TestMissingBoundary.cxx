@@ -28,16 +28,6 @@ std::string WarningsOf(vtkDeformableSurface* filter, vtkImageData* image)
   filter->Update();
   return warnings.Get();
 }
-
-int TimesIn(const std::string& text, const std::string& part)
-{
-  int times = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
-  {
-    ++times;
-  }
-  return times;
-}
 }
 
 TEST(MissingBoundary, IsNoneWhereTheSurfaceHasAll)
@@ -61,9 +51,9 @@ TEST(MissingBoundary, TellsTheShareOfWhatIsTooThin)
   const double sheets = 2 * (2 * 44 * 44 + 4 * 44) / 1.5;
   const double expected = sheets / (sheets + FieldOf(surface, "Area"));
   EXPECT_NEAR(FieldOf(surface, "MissingBoundary"), expected, 1e-3);
-  EXPECT_EQ(TimesIn(warnings, "of the object's boundary at level 0 is not on the surface"), 1)
+  EXPECT_EQ(CountOf(warnings, "of the object's boundary at level 0 is not on the surface"), 1)
     << warnings;
-  EXPECT_EQ(TimesIn(warnings, "Warning: In "), 1) << "once for the whole run: " << warnings;
+  EXPECT_EQ(CountOf(warnings, "Warning: In "), 1) << "once for the whole run: " << warnings;
   EXPECT_TRUE(Has(warnings, "all of 2 parts that coarser levels had lost, too thin"));
   EXPECT_TRUE(Has(warnings, "Set Finest Level to -1"));
 }

@@ -7,22 +7,6 @@
 
 using namespace volumic;
 
-namespace
-{
-/** All vertices fly outward at a speed, with no force. */
-struct Flying : Stage
-{
-  explicit Flying(float speed)
-    : Stage(DividedIcosahedron({ 16, 16, 16 }, 8, 1.6), 1)
-  {
-    for (int v : this->All)
-    {
-      this->State.Velocity[v] = this->OutwardAt(v) * speed;
-    }
-  }
-};
-}
-
 TEST(Motion, ForceAndFrictionBalanceAtTheFinalSpeed)
 {
   for (const double friction : { 1.5, 3., 8. })
@@ -40,42 +24,6 @@ TEST(Motion, ForceAndFrictionBalanceAtTheFinalSpeed)
     }
     EXPECT_NEAR(stage.MeanSpeedOutward(), -1 / friction, 0.02 / friction);
     EXPECT_NEAR(step, 0.5 * friction, 1e-5) << "in a step, the largest displacement";
-  }
-}
-
-TEST(Motion, TheStepFollowsTheForcesThatDrive)
-{
-  for (const double weight : { 1., 4. })
-  {
-    Stage stage(15.);
-    stage.Options.TensionWeight = 0;
-    stage.Options.ElasticityWeight = 0;
-    stage.Options.IsopotentialWeight = weight;
-    // Friction grows with the square root of what drives.
-    EXPECT_NEAR(stage.Push(), 0.5 * 3 / std::sqrt(weight), 0.01);
-  }
-}
-
-TEST(Motion, TheStepIsShortenedSoThatNoVertexGoesTooFar)
-{
-  // One vertex is torn at: all wait for it, so that the surface keeps its shape in time.
-  for (const double largest : { 0.5, 0.2 })
-  {
-    Stage stage(8.);
-    stage.Options.MaximumStep = largest;
-    stage.Options.ElasticityWeight = 20;
-    stage.State.Mesh.Position[0] += stage.OutwardAt(0) * 3.f;
-    stage.UpdateShape();
-    const double step = stage.Push();
-    EXPECT_LT(step, 0.5 * largest * stage.Options.Friction);
-    EXPECT_GT(step, 0);
-    EXPECT_LE(step * stage.FastestSpeed(), largest + 1e-4);
-    // By how much: as the speed at the end of the longest step asks for.
-    Flying flying(100.f);
-    flying.Options.MaximumStep = largest;
-    const double longest = largest * flying.Options.Friction / 0.5;
-    const double speed = 100. / (1 + flying.Options.Friction * longest);
-    EXPECT_NEAR(flying.Push(), largest / speed, 1e-3 * largest / speed);
   }
 }
 
@@ -140,81 +88,4 @@ TEST(Smoothing, GoesAlongTheSurfaceToTheBarycentre)
     EXPECT_LE(Length(move), 0.15 + 1e-5) << "little enough to stay free of intersections";
   }
   EXPECT_GT(along / static_cast<double>(stage.All.size()), 0.002);
-}
-
-TEST(Smoothing, IsBounded)
-{
-  Stage stage(8.);
-  stage.State.Mesh.Position[0] += Vector(0, 0, 2.5f);
-  stage.State.Mesh.Position[5] += Vector(2.5f, 0, 0);
-  stage.UpdateShape();
-  stage.Relax(true);
-  EXPECT_NEAR(stage.FastestSpeed(), 0.15, 1e-5);
-}
-
-TEST(Smoothing, LeadsOntoTheIsopotentialOnRequest)
-{
-  for (const double way : { -0.1, 0.1, 1. })
-  {
-    Stage stage(8 + way);
-    stage.Relax(true);
-    const double step = -std::min(way, 0.15);
-    EXPECT_NEAR(stage.MeanSpeedOutward(), step, 0.02);
-    stage.Relax(false);
-    EXPECT_NEAR(stage.MeanSpeedOutward(), 0, 0.005);
-  }
-}
-
-TEST(Smoothing, LeavesVerticesWhoseNormalIsNotThatOfTheImage)
-{
-  // The field falls along x: for most of the sphere a step along the normal leads far astray.
-  Stage stage(8.);
-  stage.Volume = MakeVolume(33, [](double x, double, double) { return 20 - x; });
-  stage.Relax(true);
-  for (int v : stage.All)
-  {
-    const double cosine = stage.OutwardAt(v).X;
-    if (std::abs(cosine - 0.5) > 0.05)
-    {
-      const bool led = std::abs(Dot(stage.State.Velocity[v], stage.OutwardAt(v))) > 0.05;
-      EXPECT_EQ(led, cosine > 0.5) << cosine;
-    }
-  }
-}
-
-TEST(Smoothing, LeavesVerticesWhereTheImageIsFlat)
-{
-  // A twentieth of the slope that boundaries have.
-  Stage stage(8.);
-  stage.Volume = MakeVolume(33,
-    [](double x, double y, double z)
-    {
-      const double r = Distance(x, y, z, 16, 16, 16);
-      return r < 12 ? 20. - 0.05 * r : 0.;
-    });
-  stage.Options.IsoValue = 10;
-  stage.Relax(true);
-  EXPECT_NEAR(stage.MeanSpeedOutward(), 0, 0.005);
-}
-
-TEST(Smoothing, LeadsOntoTheEdgesOnRequest)
-{
-  const TestVolume map = MakeVolume(33,
-    [](double x, double y, double z)
-    {
-      const double way = Distance(x, y, z, 16, 16, 16) - 8;
-      return std::exp(-0.5 * way * way);
-    });
-  for (const double radius : { 7.2, 8.8 })
-  {
-    for (const bool snap : { true, false })
-    {
-      Stage stage(radius);
-      stage.Volume.Image.Edges = map.Values.data();
-      stage.Options.EdgeAttractionWeight = 1;
-      stage.Options.SnapToIsoValue = snap;
-      stage.Relax(false);
-      EXPECT_NEAR(stage.MeanSpeedOutward(), snap ? (radius < 8 ? 0.14 : -0.14) : 0, 0.03);
-    }
-  }
 }

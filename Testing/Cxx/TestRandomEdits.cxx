@@ -168,58 +168,48 @@ TEST(RandomEdits, OfTheConnectivityKeepEveryInvariantAndCountChi)
       const int v = dice.Vertex();
       const int w = dice.Neighbour(v);
       const int kind = dice.Number(6);
+      const auto isDone = [&mesh](auto edit, auto... place)
+      {
+        const bool isLegal = edit.IsLegal(mesh);
+        if (isLegal)
+        {
+          edit.Apply(mesh, place...);
+        }
+        return isLegal;
+      };
       bool legal = false;
-      if (kind == 0)
+      switch (kind)
       {
-        const EdgeFlip flip = EdgeFlip::Of(mesh, v, w);
-        if ((legal = flip.IsLegal(mesh)))
+        case 0:
+          legal = isDone(EdgeFlip::Of(mesh, v, w));
+          break;
+        case 1:
+          legal = isDone(EdgeSplit{ v, w }, (mesh.Position[v] + mesh.Position[w]) * 0.5f);
+          break;
+        case 2:
+          legal = isDone(EdgeCollapse{ v, w });
+          break;
+        case 3:
+          legal = isDone(VertexRemoval{ v });
+          break;
+        case 4:
         {
-          flip.Apply(mesh);
+          StarMerge merge;
+          merge.U = v;
+          merge.V = dice.Vertex();
+          legal = merge.U != merge.V && step % 20 == 0 && merge.Plan(mesh);
+          if (legal)
+          {
+            merge.Apply(mesh);
+            chi -= 2;
+          }
+          break;
         }
-      }
-      else if (kind == 1)
-      {
-        const EdgeSplit split{ v, w };
-        if ((legal = split.IsLegal(mesh)))
+        default:
         {
-          split.Apply(mesh, (mesh.Position[v] + mesh.Position[w]) * 0.5f);
-        }
-      }
-      else if (kind == 2)
-      {
-        const EdgeCollapse collapse{ v, w };
-        if ((legal = collapse.IsLegal(mesh)))
-        {
-          collapse.Apply(mesh);
-        }
-      }
-      else if (kind == 3)
-      {
-        const VertexRemoval removal{ v };
-        if ((legal = removal.IsLegal(mesh)))
-        {
-          removal.Apply(mesh);
-        }
-      }
-      else if (kind == 4)
-      {
-        StarMerge merge;
-        merge.U = v;
-        merge.V = dice.Vertex();
-        if ((legal = merge.U != merge.V && step % 20 == 0 && merge.Plan(mesh)))
-        {
-          merge.Apply(mesh);
-          chi -= 2;
-        }
-      }
-      else
-      {
-        const int c = EdgeCollapse{ v, w }.ThirdCommonNeighbour(mesh);
-        const CycleCut cut{ v, w, c };
-        if ((legal = c >= 0 && cut.IsLegal(mesh)))
-        {
-          cut.Apply(mesh);
-          chi += 2;
+          const int c = EdgeCollapse{ v, w }.ThirdCommonNeighbour(mesh);
+          legal = c >= 0 && isDone(CycleCut{ v, w, c });
+          chi += legal ? 2 : 0;
         }
       }
       done[kind] += legal;

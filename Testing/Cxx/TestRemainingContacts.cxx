@@ -4,20 +4,14 @@
 // Walls that are too thin are told of, and held by FinestLevel -1: by the filter's counts and the
 // judge's.
 #include "SupportVtkConversions.h"
-#include "TestPrelude.h"
-#include "vtkDeformableSurface.h"
+#include "SurfaceTestTools.h"
 
-#include <vtkMultiBlockDataSet.h>
 
+using namespace volumic;
 using namespace volumic::support;
 
 namespace
 {
-double FieldOf(vtkPolyData* surface, const char* name)
-{
-  return surface->GetFieldData()->GetArray(name)->GetComponent(0, 0);
-}
-
 /** A hollow ball of radius 18, open on one side, with a wall as thick as is said. */
 Scene HollowBall(double wall)
 {

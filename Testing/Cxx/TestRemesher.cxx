@@ -4,7 +4,6 @@
 // Which edges are split, collapsed and flipped; lengths in delta.
 #include "Core/Mesh/EdgeFlip.h"
 #include "Core/Mesh/EdgeSplit.h"
-#include "Core/Mesh/SurfaceFeatures.h"
 #include "Core/Surface/Remesher.h"
 #include "RemeshTestTools.h"
 
@@ -12,8 +11,6 @@ using namespace volumic;
 
 namespace
 {
-SequentialExecutor Threads;
-
 /** A sphere with edges of 1.1 to 1.25. */
 IndexedSurface FineSphere()
 {
@@ -35,22 +32,6 @@ int SetIntoAFace(SurfaceState& s, int u)
 }
 }
 
-TEST(Remesher, SplitsUntilNoEdgeIsLongerThanTwoAndAHalfDelta)
-{
-  for (const double edge : { 2.6, 12. })
-  {
-    Bench bench(EvenOctahedron({ 0, 0, 0 }, edge));
-    std::vector<int> all = bench.All();
-    Remesher(bench.State, nullptr, true).Split(all);
-    EXPECT_LE(bench.Longest(), 2.5f) << "from edges of " << edge;
-    EXPECT_TRUE(bench.IsSound());
-    EXPECT_EQ(bench.State.Counts.Splits, bench.State.Mesh.NumberOfVertices() - 6);
-    EXPECT_EQ(all.size(), bench.All().size()) << "the new ones are listed";
-    const double volume = edge * edge * edge * std::sqrt(2.) / 3;
-    EXPECT_NEAR(ComputeFeatures(bench.State.Mesh.ToIndexed()).Volume, volume, 1e-4 * volume);
-  }
-}
-
 TEST(Remesher, DoesNotSplitIntoNeedles)
 {
   // A tetrahedron with one edge that is too long; a corner opposite to it is near to its middle.
@@ -65,31 +46,6 @@ TEST(Remesher, DoesNotSplitIntoNeedles)
     EXPECT_EQ(bench.State.Counts.Splits, height > 0.02 ? 1 : 0);
     EXPECT_EQ((bench.State.RemeshFlags[0] & HasLongEdge) != 0, height < 0.02) << "tried again";
   }
-}
-
-TEST(Remesher, CollapsesEdgesShorterThanDelta)
-{
-  Bench bench(FineSphere());
-  const int w = bench.State.Mesh.Rings[40].Item[0];
-  const Vector p = bench.State.Mesh.Position[40];
-  bench.MoveTo(w, p + (bench.State.Mesh.Position[w] - p) * 0.4f);
-  ASSERT_LT(bench.Shortest(), 1);
-  const int before = bench.State.Mesh.NumberOfVertices();
-  Remesher(bench.State, nullptr, true).Collapse(bench.All());
-  EXPECT_EQ(bench.State.Counts.Collapses, before - bench.State.Mesh.NumberOfVertices());
-  EXPECT_EQ(bench.State.Counts.Collapses, 1);
-  EXPECT_GE(bench.Shortest(), 1);
-  EXPECT_TRUE(bench.IsSound());
-}
-
-TEST(Remesher, LeavesEdgesOfDeltaAndMore)
-{
-  Bench bench(FineSphere());
-  ASSERT_GT(bench.Shortest(), 1.f);
-  ASSERT_LT(bench.Shortest(), 1.2f);
-  bench.State.RemeshFlags.Fill(HasShortEdge);
-  Remesher(bench.State, nullptr, true).Collapse(bench.All());
-  EXPECT_EQ(bench.State.Counts.Collapses, 0);
 }
 
 TEST(Remesher, TakesAwayVerticesOfValenceThreeWithoutMovingOthers)

@@ -79,19 +79,6 @@ TEST(SelfIntersections, AreThoseOfAllPairs)
   }
 }
 
-TEST(SelfIntersections, TakeNoLongerForLargeTrianglesBesideSmallOnes)
-{
-  // Cells of the size of a mean edge would have to be 10^11 for the cube.
-  IndexedSurface surface = DividedIcosahedron({ 0, 0, 0 }, 1, 0.02);
-  const std::size_t dense = surface.Triangles.size();
-  ASSERT_GT(dense, 20000u);
-  AddSurface(surface, TurnedCube({ 300, 0, 0 }, 100));
-  IntersectionWork work;
-  EXPECT_EQ(CountSelfIntersections(surface, 0, &work), 0);
-  EXPECT_LT(work.Boxes, 400ll * static_cast<long long>(dense));
-  EXPECT_LT(work.Pairs, 40ll * static_cast<long long>(dense));
-}
-
 TEST(SelfIntersections, OfLargeTrianglesAboutSmallOnesAreLookedForWhereTheyPass)
 {
   // The boxes of these triangles hold the whole sphere, their planes pass it by.

@@ -87,27 +87,6 @@ TEST(SharedVisits, EachPartIsMadeOnceAndBeforeTheVisitGoesOn)
   }
 }
 
-TEST(SharedVisits, WhatIsSmallStaysWithTheVisit)
-{
-  StandardThreads threads(4);
-  std::atomic<int> others{ 0 };
-  ChainsOf(1).Run(threads,
-    [&](int, std::size_t, Executor& idle)
-    {
-      const std::thread::id own = std::this_thread::get_id();
-      for (int time = 0; time < 200; ++time)
-      {
-        idle.For(64, 64,
-          [&](std::size_t begin, std::size_t end)
-          { others += std::this_thread::get_id() != own || begin != 0 || end != 64; });
-        idle.For(0, 64, [&](std::size_t, std::size_t) { ++others; });
-        std::this_thread::sleep_for(std::chrono::microseconds(20));
-      }
-    },
-    Always);
-  EXPECT_EQ(others, 0);
-}
-
 TEST(SharedVisits, WhatAPartThrowsLeavesTheVisit)
 {
   for (const int count : { 1, 3 })

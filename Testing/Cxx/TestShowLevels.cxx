@@ -75,19 +75,6 @@ TEST(ShowLevels, HasNoEffectWhereNobodyAsks)
   EXPECT_FALSE(filter->GetNeedsUpdate());
 }
 
-TEST(ShowLevels, KeepsToTheEdgeLength)
-{
-  const auto image = BallImage(128, 110, 110);
-  const auto filter = ShowingFilterOf(image);
-  filter->SetEdgeLength(1.7);
-  EXPECT_EQ(LevelsShown(filter), (std::vector<int>{ 1, 0 }));
-  const auto atOnce = ShowingFilterOf(image);
-  atOnce->ShowLevelsOff();
-  atOnce->SetEdgeLength(1.7);
-  atOnce->Update();
-  EXPECT_TRUE(AreSameSurfaces(filter->GetOutput(), atOnce->GetOutput()));
-}
-
 TEST(ShowLevels, WarnsAtTheEndOnly)
 {
   const auto image = LargeBall();

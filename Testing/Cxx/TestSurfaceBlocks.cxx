@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Evolution/SurfaceIteration.h"
 #include "Core/Mesh/SurfaceMeasures.h"
 #include "Core/Surface/SurfaceBlocks.h"
 #include "Core/Surface/SurfaceEditor.h"
@@ -73,55 +74,6 @@ int VertexOf(SurfaceBlocks& blocks, const SurfaceMesh& mesh, int block)
 {
   return VerticesOf(blocks, mesh, block).front();
 }
-}
-
-TEST(SurfaceBlocks, HaveEachVertexOnce)
-{
-  LiveSurface state(MakeSphere({ 0, 0, 0 }, 20, 1.5));
-  SurfaceBlocks blocks(state, FrameAbout(state.Mesh, 9.f), Thread);
-  EXPECT_EQ(blocks.Schedule().Order().size(), 125u);
-  std::set<int> seen;
-  int count = 0;
-  for (const int block : blocks.Schedule().Order())
-  {
-    for (const int v : VerticesOf(blocks, state.Mesh, block))
-    {
-      EXPECT_EQ(blocks.BlockAt(state.Mesh.Position[v]), block);
-      seen.insert(v);
-      ++count;
-    }
-  }
-  EXPECT_EQ(count, state.Mesh.NumberOfVertices());
-  EXPECT_EQ(static_cast<int>(seen.size()), count);
-  EXPECT_EQ(DescribeBrokenInvariant(state.Mesh), "");
-}
-
-TEST(SurfaceBlocks, ComeBeforeTheirNeighboursOfOddPlace)
-{
-  LiveSurface state(Balls(6));
-  SurfaceBlocks row(state, FrameAbout(state.Mesh, 10.f), Thread);
-  EXPECT_EQ(row.Schedule().Order(), (std::vector<int>{ 0, 2, 1, 4, 3, 5 }));
-  LiveSurface cube(MakeSphere({ 0, 0, 0 }, 20, 1.5));
-  SurfaceBlocks blocks(cube, FrameAbout(cube.Mesh, 9.f), Thread);
-  std::vector<int> turn(125);
-  for (int i = 0; i < 125; ++i)
-  {
-    turn[blocks.Schedule().Order()[i]] = i;
-  }
-  const auto colour = [](int block)
-  { return (block % 5 & 1) | (block / 5 % 5 & 1) << 1 | (block / 25 & 1) << 2; };
-  for (int a = 0; a < 125; ++a)
-  {
-    for (int b = 0; b < 125; ++b)
-    {
-      const bool touch = std::abs(a % 5 - b % 5) <= 1 && std::abs(a / 5 % 5 - b / 5 % 5) <= 1 &&
-        std::abs(a / 25 - b / 25) <= 1;
-      if (touch && colour(a) < colour(b))
-      {
-        EXPECT_LT(turn[a], turn[b]) << a << " " << b;
-      }
-    }
-  }
 }
 
 TEST(SurfaceBlocks, HandOverWhatLeavesThemBetweenSweeps)
@@ -204,23 +156,6 @@ TEST(SurfaceBlocks, OwnTheNewVerticesOfTheirVisits)
   EXPECT_EQ(DescribeBrokenInvariant(state.Mesh), "");
 }
 
-TEST(SurfaceBlocks, CountWhatTheirVisitsRemoveElsewhere)
-{
-  LiveSurface state(Balls(3));
-  SurfaceBlocks blocks(state, FrameAbout(state.Mesh, 10.f), Thread);
-  const int vertices = state.Mesh.NumberOfVertices();
-  const int v = VertexOf(blocks, state.Mesh, 0);
-  const std::size_t ofFirst = VerticesOf(blocks, state.Mesh, 0).size();
-  BlockVisit other = blocks.Open(2);
-  other.Share.Region = other.Share.Region.Grown(1000.f);
-  SurfaceEditor editor(state, &other.Share);
-  ASSERT_TRUE(editor.Collapse(v, state.Mesh.Rings[v].Item[0], EditTolerance::Loose).IsDone);
-  EXPECT_EQ(state.Mesh.NumberOfVertices(), vertices) << "counted when the visit ends";
-  blocks.Close(std::move(other));
-  EXPECT_EQ(state.Mesh.NumberOfVertices(), vertices - 1);
-  EXPECT_EQ(VerticesOf(blocks, state.Mesh, 0).size(), ofFirst - 1);
-}
-
 TEST(SurfaceBlocks, GetMoreRoomWhereTheyHaveTakenIt)
 {
   LiveSurface state(Balls(3));
@@ -245,23 +180,6 @@ TEST(SurfaceBlocks, GetMoreRoomWhereTheyHaveTakenIt)
   blocks.Prepare(Thread);
   EXPECT_GT(takeAll(), first) << "more where it was taken";
   EXPECT_EQ(DescribeBrokenInvariant(state.Mesh), "");
-}
-
-TEST(SurfaceBlocks, TakeWhatIsAppended)
-{
-  LiveSurface state(Balls(3));
-  SurfaceBlocks blocks(state, FrameAbout(state.Mesh, 10.f), Thread);
-  const int vertices = state.Mesh.NumberOfVertices();
-  const int characteristic = state.EulerCharacteristic;
-  const IndexedSurface added = DividedIcosahedron({ 20, 0, 0 }, 1., 1.5);
-  EXPECT_TRUE(blocks.Append(added, false, Thread));
-  EXPECT_EQ(state.Mesh.NumberOfVertices(), vertices + static_cast<int>(added.Points.size()));
-  EXPECT_EQ(state.EulerCharacteristic, characteristic + 2);
-  EXPECT_EQ(state.EulerCharacteristic, state.Mesh.CountEulerCharacteristic());
-  const Point& p = added.Points.front();
-  EXPECT_EQ(BlockWith(blocks, state.Mesh,
-              Vector(static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2]))),
-    2);
 }
 
 TEST(SurfaceBlocks, AreEditedNoFurtherThanTheirRegion)
@@ -300,41 +218,6 @@ TEST(SurfaceBlocks, AreEditedNoFurtherThanTheirRegion)
   blocks.Close(std::move(visit));
 }
 
-TEST(SurfaceBlocks, KnowWhetherAnythingMoves)
-{
-  LiveSurface state(Balls(3));
-  SurfaceBlocks blocks(state, FrameAbout(state.Mesh, 10.f), Thread);
-  state.Active.Fill(0);
-  EXPECT_FALSE(blocks.HasActive(1));
-  BlockVisit visit = blocks.Open(1);
-  state.Active[visit.First] = 1;
-  blocks.Close(std::move(visit));
-  EXPECT_TRUE(blocks.HasActive(1));
-  EXPECT_FALSE(blocks.HasActive(0));
-}
-
-TEST(SurfaceBlocks, AreAsWideAsAskedAndShareTheRestAtBothEnds)
-{
-  SurfaceState state;
-  for (const double extent : { 5., 47., 48.5, 71., 72.5, 100. })
-  {
-    const SurfaceBlocks::Frame frame = SurfaceBlocks::FrameOf({ extent, 5., 5. }, 24.);
-    const SurfaceBlocks blocks(state, frame, Thread);
-    const int last = blocks.NumberOfBlocks() - 1;
-    EXPECT_EQ(last > 0, extent > 48.) << extent;
-    for (int block = 1; block < last; ++block)
-    {
-      EXPECT_NEAR(blocks.BoxOf(block).High.X - blocks.BoxOf(block).Low.X, 24., 1e-4) << extent;
-    }
-    if (last > 0)
-    {
-      const double first = blocks.BoxOf(0).High.X;
-      EXPECT_NEAR(first, extent - blocks.BoxOf(last).Low.X, 1e-4) << extent;
-      EXPECT_TRUE(first >= 12. && first <= 24.) << extent << ": " << first;
-    }
-  }
-}
-
 TEST(SurfaceBlocks, LeaveOutWhatIntersects)
 {
   SurfaceState state;
@@ -356,4 +239,29 @@ TEST(SurfaceBlocks, LeaveOutWhatIntersects)
   EXPECT_FALSE(blocks.Append(added.ToIndexed(), true, Thread));
   EXPECT_EQ(state.Mesh.NumberOfVertices(), before + beside);
   EXPECT_EQ(state.EulerCharacteristic, 6);
+}
+
+TEST(SurfaceIteration, MovesNothingFarFromTheBlock)
+{
+  LiveSurface s(Balls(3));
+  SurfaceBlocks blocks(s, FrameAbout(s.Mesh, 10.f), Thread);
+  const auto movedIn = [&](BlockVisit& visit, const Vector& place)
+  {
+    const std::vector<int> active = SurfaceIteration(s, visit, nullptr, true).ActiveVertices();
+    return std::any_of(active.begin(), active.end(),
+      [&](int v) { return SquaredDistance(s.Mesh.Position[v], place) == 0.f; });
+  };
+  BlockVisit visit = blocks.Open(1);
+  const float end = blocks.BoxOf(1).High.X;
+  const Vector near(end + 0.9f * SurfaceBlocks::MovingInDelta, 0, 0);
+  const Vector far(end + 1.1f * SurfaceBlocks::MovingInDelta, 0, 0);
+  s.MoveTo(visit.First, near);
+  s.MoveTo(visit.First + 1, far);
+  EXPECT_TRUE(movedIn(visit, near));
+  EXPECT_FALSE(movedIn(visit, far));
+  blocks.Close(std::move(visit));
+  blocks.Prepare(Thread);
+  visit = blocks.Open(2);
+  EXPECT_TRUE(movedIn(visit, far)) << "it is the neighbour's, which moves it";
+  blocks.Close(std::move(visit));
 }

@@ -31,15 +31,42 @@ void Fill(SurfaceState& state, const std::vector<IndexedSurface>& components)
 }
 }
 
-TEST(SurfaceComponents, KeepsCavitiesInsideAndIslandsInThem)
+TEST(SurfaceComponents, DeletesWhatIsInsideOutWhereItLies)
 {
-  SurfaceState state;
-  Fill(state,
-    { Ball({ 0, 0, 0 }, 15), Ball({ 0, 0, 0 }, 10, true), Ball({ 1, 0, 0 }, 4),
-      Ball({ 30, 0, 0 }, 5) });
-  SurfaceComponents components;
-  EXPECT_FALSE(components.DeleteInsideOut(state, OnThisThread()));
-  EXPECT_EQ(components.NumberOfComponents(), 4);
+  const auto ball = [](double x, double radius) { return Ball({ x, 0, 0 }, radius); };
+  const auto cavity = [](double x, double radius) { return Ball({ x, 1, 0 }, radius, true); };
+  struct Case
+  {
+    const char* Name;
+    std::vector<IndexedSurface> Components;
+    std::vector<int> Kept;
+  };
+  for (const Case& test :
+    { Case{ "a cavity, an island in it, one beside it",
+        { ball(0, 15), cavity(0, 10), ball(1, 4), ball(30, 5) }, { 0, 1, 2, 3 } },
+      Case{ "cavities in the open", { ball(0, 10), cavity(20, 3), cavity(-20, 3) }, { 0 } },
+      Case{ "an island within the object", { ball(0, 15), ball(2, 4) }, { 0 } },
+      Case{ "good ones in an inverted one", { cavity(0, 15), ball(1, 9), cavity(1, 4) }, { 1, 2 } },
+      Case{ "a cavity that is in the object without its island",
+        { ball(0, 15), ball(0, 10), cavity(0, 5), cavity(0, 2) }, { 0, 2 } },
+      Case{ "the only one", { cavity(0, 8) }, {} } })
+  {
+    SCOPED_TRACE(test.Name);
+    SurfaceState state;
+    Fill(state, test.Components);
+    SurfaceComponents components;
+    const bool isAny = test.Kept.size() < test.Components.size();
+    EXPECT_EQ(components.DeleteInsideOut(state, OnThisThread()), isAny);
+    EXPECT_EQ(components.NumberOfComponents(), static_cast<int>(test.Kept.size()));
+    std::size_t vertices = 0;
+    for (const int kept : test.Kept)
+    {
+      vertices += test.Components[static_cast<std::size_t>(kept)].Points.size();
+    }
+    EXPECT_EQ(state.Mesh.NumberOfVertices(), static_cast<int>(vertices));
+    EXPECT_EQ(DescribeBrokenInvariant(state.Mesh), "");
+    EXPECT_FALSE(components.DeleteInsideOut(state, OnThisThread())) << "nothing wrong is left";
+  }
 }
 
 TEST(SurfaceComponents, LabelsComponentsByTheirFirstVerticesInAnySpans)
@@ -72,21 +99,6 @@ TEST(SurfaceComponents, LabelsComponentsByTheirFirstVerticesInAnySpans)
   }
 }
 
-TEST(SurfaceComponents, WatchesSmallComponentsInAllSpans)
-{
-  SurfaceState state;
-  Fill(state,
-    { DividedIcosahedron({ 0, 0, 0 }, 10, 0.2), Icosahedron({ 30, 0, 0 }, 1),
-      Icosahedron({ 40, 0, 0 }, 1) });
-  ASSERT_GT(state.Mesh.Size(), 2 * 16384);
-  state.FieldValue.Fill(-1.f);
-  StandardThreads threads(3);
-  SurfaceComponents components;
-  components.Label(state, threads);
-  EXPECT_TRUE(components.DeleteDegenerate(state, OnThisThread())) << "both are on the wrong side";
-  EXPECT_EQ(components.NumberOfComponents(), 1);
-}
-
 TEST(SurfaceComponents, KnowsACavityByItsWholeVolume)
 {
   // A ring that has what faces its first vertex, and alone has the other sign, in the last spans.
@@ -112,108 +124,6 @@ TEST(SurfaceComponents, KnowsACavityByItsWholeVolume)
     SurfaceComponents components;
     EXPECT_EQ(components.DeleteInsideOut(state, threads), isCavity);
   }
-}
-
-TEST(SurfaceComponents, DeletesACavityInTheOpen)
-{
-  SurfaceState state;
-  const IndexedSurface ball = Ball({ 0, 0, 0 }, 10);
-  Fill(state, { ball, Ball({ 20, 0, 0 }, 3, true), Ball({ -20, 3, 1 }, 3, true) });
-  SurfaceComponents components;
-  EXPECT_TRUE(components.DeleteInsideOut(state, OnThisThread()));
-  EXPECT_EQ(components.NumberOfComponents(), 1);
-  EXPECT_EQ(state.Mesh.NumberOfVertices(), static_cast<int>(ball.Points.size()));
-  EXPECT_EQ(DescribeBrokenInvariant(state.Mesh), "");
-}
-
-TEST(SurfaceComponents, DeletesAnIslandWithinTheObject)
-{
-  SurfaceState state;
-  Fill(state, { Ball({ 0, 0, 0 }, 15), Ball({ 2, 1, 3 }, 4) });
-  SurfaceComponents components;
-  EXPECT_TRUE(components.DeleteInsideOut(state, OnThisThread()));
-  EXPECT_EQ(components.NumberOfComponents(), 1);
-}
-
-TEST(SurfaceComponents, KeepsTheGoodThatLieInTheInverted)
-{
-  // From outside in: a ball inside out, in it a ball with a cavity in it. Only the first is wrong.
-  SurfaceState state;
-  const IndexedSurface good = Ball({ 1, 0, 0 }, 9);
-  const IndexedSurface cavity = Ball({ 1, 1, 0 }, 4, true);
-  Fill(state, { Ball({ 0, 0, 0 }, 15, true), good, cavity });
-  SurfaceComponents components;
-  EXPECT_TRUE(components.DeleteInsideOut(state, OnThisThread()));
-  EXPECT_EQ(components.NumberOfComponents(), 2);
-  EXPECT_EQ(
-    state.Mesh.NumberOfVertices(), static_cast<int>(good.Points.size() + cavity.Points.size()));
-  EXPECT_FALSE(components.DeleteInsideOut(state, OnThisThread())) << "nothing wrong is left";
-}
-
-TEST(SurfaceComponents, JudgesAfreshWhatLosesItsIsland)
-{
-  // In the object an island, which is wrong; in the island a cavity, which is then in the object.
-  SurfaceState state;
-  Fill(state,
-    { Ball({ 0, 0, 0 }, 15), Ball({ 0, 0, 0 }, 10), Ball({ 0, 1, 0 }, 5, true),
-      Ball({ 0, 1, 0 }, 2, true) });
-  SurfaceComponents components;
-  EXPECT_TRUE(components.DeleteInsideOut(state, OnThisThread()));
-  EXPECT_EQ(components.NumberOfComponents(), 2) << "the outermost and the larger cavity";
-  EXPECT_FALSE(components.DeleteInsideOut(state, OnThisThread()));
-}
-
-TEST(SurfaceComponents, DeletesTheOnlyComponentIfItIsInsideOut)
-{
-  SurfaceState state;
-  Fill(state, { Ball({ 0, 0, 0 }, 8, true) });
-  SurfaceComponents components;
-  EXPECT_TRUE(components.DeleteInsideOut(state, OnThisThread()));
-  EXPECT_EQ(state.Mesh.NumberOfVertices(), 0);
-}
-
-TEST(SurfaceComponents, LooksThroughEdgesAndCorners)
-{
-  // The rays of the inner components run exactly through corners and edges of the outer one.
-  IndexedSurface octahedron;
-  octahedron.Points = { { 9, 0, 0 }, { -9, 0, 0 }, { 0, 9, 0 }, { 0, -9, 0 }, { 0, 0, 9 },
-    { 0, 0, -9 } };
-  octahedron.Triangles = { { 0, 2, 4 }, { 2, 1, 4 }, { 1, 3, 4 }, { 3, 0, 4 }, { 2, 0, 5 },
-    { 1, 2, 5 }, { 3, 1, 5 }, { 0, 3, 5 } };
-  for (const double shift : { 0., 1. })
-  {
-    IndexedSurface cavity = InsideOut(octahedron);
-    for (Point& p : cavity.Points)
-    {
-      p = { p[0] / 9., p[1] / 9. + shift, p[2] / 9. };
-    }
-    SurfaceState state;
-    Fill(state, { octahedron, cavity });
-    SurfaceComponents components;
-    EXPECT_FALSE(components.DeleteInsideOut(state, OnThisThread())) << shift;
-    EXPECT_EQ(components.NumberOfComponents(), 2);
-  }
-}
-
-TEST(SurfaceComponents, DeletesSmallOnesAndKeepsCount)
-{
-  SurfaceState state;
-  Fill(state, { Ball({ 0, 0, 0 }, 10), Ball({ 30, 0, 0 }, 1) });
-  SurfaceComponents components;
-  components.Label(state, OnThisThread());
-  ASSERT_EQ(components.NumberOfComponents(), 2);
-  EXPECT_FALSE(components.DeleteDegenerate(state, OnThisThread())) << "no reason yet";
-  // Wholly in the background, and tiny.
-  for (int v = 0; v < state.Mesh.Size(); ++v)
-  {
-    state.FieldValue[v] = state.Mesh.Position[v].X > 20 ? -1.f : 0.f;
-  }
-  const bool deleted = components.DeleteDegenerate(state, OnThisThread());
-  EXPECT_TRUE(deleted);
-  EXPECT_EQ(components.NumberOfComponents(), 1);
-  components.Label(state, OnThisThread());
-  EXPECT_EQ(components.NumberOfComponents(), 1) << "counted afresh";
-  EXPECT_EQ(DescribeBrokenInvariant(state.Mesh), "");
 }
 
 namespace
@@ -263,24 +173,6 @@ TEST(SurfaceComponents, DeletesWhatHasHardlyAnyVertices)
   EXPECT_EQ(components.NumberOfComponents(), 1);
 }
 
-TEST(SurfaceComponents, LabelsComponentsOfManySpans)
-{
-  // Vertices are labelled in spans side by side; these components lie across several.
-  SurfaceState state;
-  state.Mesh.Append(DividedIcosahedron({ 0, 0, 0 }, 10, 0.3));
-  state.Mesh.Append(DividedIcosahedron({ 30, 0, 0 }, 10, 0.3));
-  ASSERT_GT(state.Mesh.Size(), 40000);
-  state.Sizing = SizingField(1);
-  state.Reset(Vector(-40, -40, -40), Vector(60, 40, 40));
-  SurfaceComponents components;
-  components.Label(state, OnThisThread());
-  EXPECT_EQ(components.NumberOfComponents(), 2);
-  for (int v = 0; v < state.Mesh.Size(); ++v)
-  {
-    ASSERT_EQ(state.Component[v], state.Mesh.Position[v].X < 15 ? 0 : 1);
-  }
-}
-
 TEST(ComponentWatch, DeletesWhatHasPassedThroughItself)
 {
   SurfaceState state;
@@ -324,22 +216,6 @@ TEST(ComponentWatch, WatchesTheSmallOnesOfARangeOnly)
   EXPECT_TRUE(state.Mesh.IsAlive(first + size)) << "not in the range";
   EXPECT_FALSE(watch.DeleteDegenerate(state));
   watch.LabelSmall(state, first + size, first + size + 1, Everywhere);
-  EXPECT_TRUE(watch.DeleteDegenerate(state));
-}
-
-TEST(ComponentWatch, KeepsASmallOneOnTheRightSide)
-{
-  SurfaceState state;
-  Fill(state, { Ball({ 0, 0, 0 }, 0.8) });
-  state.FieldValue.Fill(1.f);
-  ComponentWatch watch;
-  watch.LabelSmall(state, 0, 1, Everywhere);
-  EXPECT_FALSE(watch.DeleteDegenerate(state));
-  // Turned inside out since: its volume has changed its sign.
-  for (int v = 0; v < state.Mesh.Size(); ++v)
-  {
-    state.Mesh.Position[v] = state.Mesh.Position[v] * -1.f;
-  }
   EXPECT_TRUE(watch.DeleteDegenerate(state));
 }
 

@@ -12,7 +12,6 @@ using namespace volumic;
 
 namespace
 {
-
 /** A sphere, and something small near a place of it, perhaps. */
 struct Workbench : Bench
 {
@@ -64,30 +63,6 @@ TEST(SurfaceEditor, SplitsHalfWayAndKeepsTheMotion)
   EXPECT_LT(Length(s.PreviousPosition[m] - Vector(2, 2, 2)), 1e-6) << "where a roll back leads it";
 }
 
-TEST(SurfaceEditor, SplitTakesNoOldPlaceOfWhatKeepsStill)
-{
-  Workbench bench(Coarse);
-  SurfaceState& s = bench.State;
-  s.PreviousPosition[bench.V] = Vector(1, 2, 3);
-  s.PreviousPosition[bench.W] = Vector(30, 20, 10); // Of a displacement long ago.
-  s.Marks[bench.V] = IsWorking;
-  const Vector middle = (Vector(1, 2, 3) + bench.At(bench.W)) * 0.5f;
-  const int m = bench.Editor.Split(bench.V, bench.W).Vertex;
-  ASSERT_GE(m, 0);
-  EXPECT_LT(Length(s.PreviousPosition[m] - middle), 1e-6);
-}
-
-TEST(SurfaceEditor, CollapseMakesNoLongEdges)
-{
-  Workbench fine(Fine);
-  EXPECT_TRUE(fine.Editor.Collapse(fine.V, fine.W, EditTolerance::Smooth));
-  EXPECT_TRUE(fine.IsSound());
-  Workbench coarse(Coarse);
-  EXPECT_FALSE(coarse.Editor.CollapseTo(
-    coarse.V, coarse.W, (coarse.At(coarse.V) + coarse.At(coarse.W)) * 0.5f, EditTolerance::Loose));
-  EXPECT_EQ(coarse.State.Counts.Collapses, 0);
-}
-
 TEST(SurfaceEditor, CollapseTurnsFacesLittle)
 {
   for (const float height : { 0.15f, 1.1f })
@@ -99,19 +74,6 @@ TEST(SurfaceEditor, CollapseTurnsFacesLittle)
       height < 0.5f);
     EXPECT_TRUE(bench.IsSound());
   }
-}
-
-TEST(SurfaceEditor, CollapseMakesNoSlivers)
-{
-  // Nearly onto an edge of the rim.
-  Workbench bench(0.7);
-  const Ring& ring = bench.State.Mesh.Rings[bench.V];
-  const Vector rim = (bench.At(ring.Item[2]) + bench.At(ring.Item[3])) * 0.5f;
-  const Vector inward = bench.At(bench.V) - rim;
-  ASSERT_FALSE(
-    bench.Editor.CollapseTo(bench.V, bench.W, rim + inward * 0.03f, EditTolerance::Smooth));
-  EXPECT_TRUE(
-    bench.Editor.CollapseTo(bench.V, bench.W, rim + inward * 0.3f, EditTolerance::Smooth));
 }
 
 TEST(SurfaceEditor, CollapseAndMoveKeepClearOfWhatIsNear)
@@ -137,23 +99,6 @@ TEST(SurfaceEditor, CollapseAndMoveKeepClearOfWhatIsNear)
       }
     }
   }
-}
-
-TEST(SurfaceEditor, SmoothFlipKeepsToLegalLengths)
-{
-  Workbench fine(Fine);
-  EXPECT_TRUE(fine.Editor.Flip(fine.V, fine.W, EditTolerance::Smooth));
-  Workbench coarse(Coarse);
-  EXPECT_FALSE(coarse.Editor.Flip(coarse.V, coarse.W, EditTolerance::Smooth))
-    << "its edge would be 3.5 delta";
-}
-
-TEST(SurfaceEditor, SmoothFlipLeavesCreases)
-{
-  Bench bench(Octahedron({ 0, 0, 0 }, 1.2, 1.2, 1.2));
-  EXPECT_FALSE(SurfaceEditor(bench.State).Flip(0, 2, EditTolerance::Smooth));
-  EXPECT_TRUE(SurfaceEditor(bench.State).Flip(0, 2, EditTolerance::Loose))
-    << "though it is possible";
 }
 
 TEST(SurfaceEditor, FlipsKeepClearOfWhatIsNear)
@@ -277,62 +222,3 @@ TEST(SurfaceEditor, CutThatIsRefusedLeavesAllAsItWas)
   }
 }
 
-namespace
-{
-/** Of two meshes, the vertices whose ring or position differ, those removed left out. */
-std::set<int> Differing(const SurfaceMesh& before, const SurfaceMesh& after)
-{
-  std::set<int> found;
-  for (int v = 0; v < after.Size(); ++v)
-  {
-    const bool isNew = v >= before.Size() || !before.IsAlive(v);
-    const Ring& now = after.Rings[v];
-    if (after.IsAlive(v) &&
-      (isNew || Length(after.Position[v] - before.Position[v]) > 0 ||
-        now.Count != before.Rings[v].Count ||
-        !std::is_permutation(now.Item, now.Item + now.Count, before.Rings[v].Item)))
-    {
-      found.insert(v);
-    }
-  }
-  return found;
-}
-}
-
-TEST(SurfaceEditor, RecordsNameAllThatHasChanged)
-{
-  using Operation = std::function<Edit(Workbench&)>;
-  const std::pair<const char*, Operation> operations[] = {
-    { "split", [](Workbench& b) { return b.Editor.Split(b.V, b.W); } },
-    { "collapse", [](Workbench& b) { return b.Editor.Collapse(b.V, b.W, EditTolerance::Smooth); } },
-    { "smooth flip", [](Workbench& b) { return b.Editor.Flip(b.V, b.W, EditTolerance::Smooth); } },
-    { "loose flip", [](Workbench& b) { return b.Editor.Flip(b.V, b.W, EditTolerance::Loose); } },
-    { "move",
-      [](Workbench& b)
-      {
-        return b.Editor.Move(
-          b.V, b.At(b.V) + b.Outward(b.V) * 0.1f, EditTolerance::Smooth);
-      } }
-  };
-  for (const auto& operation : operations)
-  {
-    SCOPED_TRACE(operation.first);
-    Workbench bench(Fine);
-    bench.State.Disturbed.Fill(0);
-    const SurfaceMesh before = bench.State.Mesh;
-    const Edit edit = operation.second(bench);
-    ASSERT_TRUE(edit);
-    const std::set<int> named(edit.Changed.begin(), edit.Changed.end());
-    for (int v : Differing(before, bench.State.Mesh))
-    {
-      EXPECT_EQ(named.count(v), 1u) << v;
-    }
-    const std::vector<int> changed = bench.Editor.TakeChanged();
-    EXPECT_EQ(std::set<int>(changed.begin(), changed.end()), named);
-    EXPECT_TRUE(bench.Editor.Changed().empty()) << "taken";
-    for (int v : named)
-    {
-      EXPECT_EQ(bench.State.Disturbed[v], operation.first != std::string("smooth flip")) << v;
-    }
-  }
-}

@@ -81,39 +81,6 @@ TEST(SurfaceEvolution, IsSoundAfterEverySweep)
   EXPECT_EQ(features.Components[0].Genus, 1);
 }
 
-TEST(SurfaceEvolution, FindsAgainWhatTheCoarseLevelLost)
-{
-  // Two balls, of which the coarse image holds only one.
-  const auto large = [](double x, double y, double z)
-  { return Distance(x, y, z, 12, 16, 16) - 8.; };
-  const LevelPair scene(32, [&](double x, double y, double z)
-    { return std::min(large(x, y, z), Distance(x, y, z, 26, 16, 16) - 3.); }, large);
-  for (const bool recover : { true, false })
-  {
-    SurfaceOptions options = IsoHalf();
-    options.RecoverLostParts = recover;
-    TestEvolution evolution(options, Threads, Silent);
-    evolution.StartEnclosing(scene.Coarse.Image, 1);
-    evolution.Run();
-    EXPECT_EQ(ComputeFeatures(evolution.Result()).Components.size(), 1u);
-    evolution.Divide(scene.Fine.Image, 0);
-    EXPECT_EQ(evolution.Lost().Found, 1) << "told also where it is not recovered";
-    EXPECT_EQ(evolution.Lost().Enclosed, recover ? 1 : 0);
-    evolution.Run();
-    ExpectSound(evolution);
-    EXPECT_EQ(ComputeFeatures(evolution.Result()).Components.size(), recover ? 2u : 1u);
-  }
-}
-
-TEST(SurfaceEvolution, SaysWhenNothingIsLeft)
-{
-  const TestVolume volume = MakeVolume(24, [](double, double, double) { return 0.; });
-  TestEvolution evolution(IsoHalf(), Threads, Silent);
-  evolution.StartEnclosing(volume.Image, 0);
-  EXPECT_EQ(evolution.Run(), StopReason::Vanished);
-  EXPECT_TRUE(evolution.Result().Points.empty());
-}
-
 TEST(SurfaceEvolution, KeepsItsTopologyOnRequest)
 {
   // Two balls: without cuts the enclosing surface stays one component.
@@ -130,13 +97,4 @@ TEST(SurfaceEvolution, KeepsItsTopologyOnRequest)
   evolution.Run();
   EXPECT_EQ(ComputeFeatures(evolution.Result()).Components.size(), 1u);
   EXPECT_EQ(CountSelfIntersections(evolution.Result()), 0);
-}
-
-TEST(SurfaceEvolutionInvalid, RefusesSeedsItCannotUse)
-{
-  const TestVolume volume = BallVolume(32, 10);
-  TestEvolution evolution(IsoHalf(), Threads, Silent);
-  EXPECT_THROW(
-    evolution.StartSeeds(volume.Image, 0, { { 16, 16, 50 } }), std::invalid_argument);
-  EXPECT_THROW(evolution.StartSeeds(volume.Image, 0, { { 1, 1, 1 } }), std::invalid_argument);
 }

@@ -1,8 +1,5 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Common/Executor.h"
-#include "Core/Evolution/SurfaceOptions.h"
-#include "Core/Mesh/EdgeFlip.h"
 #include "Core/Surface/SurfacePolish.h"
 #include "LiveSurface.h"
 
@@ -123,59 +120,4 @@ TEST(SurfacePolish, PushesApartWhatIsFarApartOnTheSurface)
   EXPECT_GT(nearest(), 1.42); // lambda = 1.443
   EXPECT_EQ(CountSelfIntersections(state.Mesh.ToIndexed()), 0);
   EXPECT_EQ(state.Mesh.CountEulerCharacteristic(), 4);
-}
-
-TEST(SurfacePolish, StaysOnTheIsopotential)
-{
-  for (unsigned seed = 1; seed <= 3; ++seed)
-  {
-    const TestVolume volume = MakeVolume(33, [](double x, double y, double z)
-      { return 8 - Distance(x, y, z, 16, 16, 16); });
-    SequentialExecutor executor;
-    const Field field(volume.Image, SurfaceOptions(), executor);
-    double worst[2] = { 0, 0 };
-    for (const bool snap : { false, true })
-    {
-      SurfaceMesh mesh = ShakenSphere(seed);
-      for (Vector& p : mesh.Position)
-      {
-        p += Vector(16, 16, 16);
-      }
-      LiveSurface state(mesh);
-      SurfacePolish(state, snap ? &field : nullptr, false).Run(AliveOnes(state));
-      EXPECT_EQ(ShapeOf(state).EdgesOutside, 0);
-      for (int v = 0; v < state.Mesh.Size(); ++v)
-      {
-        if (state.Mesh.IsAlive(v))
-        {
-          worst[snap] += std::abs(field.ValueAt(state.Mesh.Position[v])) / state.Mesh.Size();
-        }
-      }
-    }
-    EXPECT_LT(worst[true], 0.7 * worst[false]) << "mean distance, seed " << seed;
-  }
-}
-
-TEST(SurfacePolish, FlipsWhereThatIsAllThatIsNeeded)
-{
-  SurfaceMesh mesh = MakeSphere({ 0, 0, 0 }, 8, 1.7);
-  // Vertices are looked at in order of index: an end of the bad edge must be the first.
-  int u = 40;
-  EdgeFlip flip = EdgeFlip::Of(mesh, u, mesh.Rings[u].Item[0]);
-  while (std::min(flip.A, flip.B) > std::min(flip.U, flip.V))
-  {
-    ++u;
-    flip = EdgeFlip::Of(mesh, u, mesh.Rings[u].Item[0]);
-  }
-  const int v = flip.V;
-  flip.Apply(mesh);
-  ASSERT_FALSE(mesh.AreNeighbours(u, v));
-  CrowdedSurface state(mesh);
-  SurfacePolish(state, nullptr, true).Run(AliveOnes(state));
-  EXPECT_TRUE(state.Mesh.AreNeighbours(u, v));
-  EXPECT_EQ(state.Counts.Flips, 1);
-  for (int w = 0; w < mesh.Size(); ++w)
-  {
-    EXPECT_EQ(Length(state.Mesh.Position[w] - mesh.Position[w]), 0);
-  }
 }

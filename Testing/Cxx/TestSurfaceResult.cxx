@@ -20,40 +20,6 @@ double MeanResidual(const SurfaceResult& surface)
 }
 }
 
-TEST(SurfaceResult, HasOutwardUnitNormalsAndTheFieldAtItsPoints)
-{
-  // The residual is that of the image, whichever side the object is on.
-  for (const bool bright : { true, false })
-  {
-    TestVolume volume = BallVolume(28, 8);
-    for (float& x : volume.Values)
-    {
-      x = bright ? x : 1 - x;
-    }
-    SurfaceOptions options = IsoHalf();
-    options.ObjectIsBright = bright;
-    options.SnapToIsoValue = false;
-    options.MaximumNumberOfIterations = 25;
-    TestEvolution evolution(options, Threads, Silent);
-    evolution.StartEnclosing(volume.Image, 0);
-    evolution.Run();
-    const SurfaceResult surface = evolution.Result();
-    ASSERT_EQ(surface.Normals.size(), surface.Points.size());
-    ASSERT_EQ(surface.Residual.size(), surface.Points.size());
-    ASSERT_GT(MeanResidual(surface), 0.01) << "it has not arrived";
-    for (std::size_t i = 0; i < surface.Points.size(); ++i)
-    {
-      const Point& p = surface.Points[i];
-      const auto& n = surface.Normals[i];
-      const double r = Distance(p[0], p[1], p[2], 14, 14, 14);
-      EXPECT_NEAR(n[0] * n[0] + n[1] * n[1] + n[2] * n[2], 1, 1e-4);
-      EXPECT_GT((n[0] * (p[0] - 14) + n[1] * (p[1] - 14) + n[2] * (p[2] - 14)) / r, 0.5);
-      const double field = Soft(r - 8) - 0.5;
-      EXPECT_NEAR(surface.Residual[i], bright ? field : -field, 0.15);
-    }
-  }
-}
-
 TEST(SurfaceResult, LiesOnTheIsopotentialMoreExactlyWhereItIsSnapped)
 {
   const TestVolume volume = BallVolume(28, 8);
@@ -99,35 +65,6 @@ TEST(SurfaceResult, LiesOnTheEdgesWhereTheyAreGiven)
     radius += Distance(p[0], p[1], p[2], 14, 14, 14) / static_cast<double>(surface.Points.size());
   }
   EXPECT_NEAR(radius, 7, 0.08);
-}
-
-TEST(SurfaceStart, DivisionMakesThreeTimesTheTriangles)
-{
-  const auto ball = [](double x, double y, double z)
-  { return Distance(x, y, z, 16, 16, 16) - 10.; };
-  const LevelPair scene(32, ball, ball);
-  TestEvolution evolution(IsoHalf(), Threads, Silent);
-  evolution.StartEnclosing(scene.Coarse.Image, 1);
-  evolution.Run();
-  const SurfaceResult before = evolution.Result();
-  evolution.Divide(scene.Fine.Image, 0);
-  const SurfaceResult after = evolution.Result();
-  // Hardly an edge has to be split besides.
-  const double share =
-    static_cast<double>(after.Triangles.size()) / static_cast<double>(before.Triangles.size());
-  EXPECT_NEAR(share, 3, 0.05);
-  EXPECT_NEAR(before.Delta / after.Delta, std::sqrt(3.), 1e-6);
-}
-
-TEST(SurfaceStart, SeedsKeepClearOfEachOther)
-{
-  const TestVolume volume = BallVolume(40, 16);
-  TestEvolution evolution(IsoHalf(), Threads, Silent);
-  // The second is too near to the first one, the last one lies in the background.
-  const std::vector<Point> places = { { 20, 20, 20 }, { 22, 20, 20 }, { 26, 20, 20 }, { 2, 2, 2 } };
-  EXPECT_EQ(evolution.StartSeeds(volume.Image, 0, places), 2);
-  EXPECT_EQ(ComputeFeatures(evolution.Result()).Components.size(), 2u);
-  ExpectLegalEdges(evolution.Result());
 }
 
 TEST(SurfaceStart, SeedsAreOfTheirRadiusButNeverTooSmallForTheEdges)

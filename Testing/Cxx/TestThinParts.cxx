@@ -87,13 +87,6 @@ TEST(ThinParts, LeaveLevel0AsItIs)
   EXPECT_EQ(thin->GetFinestLevel(), 0) << "what was set stays what it is";
 }
 
-TEST(ThinParts, AreThoseOfFinestLevelMinusOneToo)
-{
-  const auto one = Made(true);
-  const auto other = Made(true, [](vtkVolumeToSurface* f) { f->SetFinestLevel(-1); });
-  ExpectSameSurfaces(one->GetOutput(), other->GetOutput());
-}
-
 TEST(ThinParts, GiveWhatARunFromTheStartGivesInWhateverOrder)
 {
   const auto filter = Filter(false);

@@ -103,20 +103,6 @@ TEST_F(TimeLimit, HandsOverAValidSurface)
   }
 }
 
-TEST_F(TimeLimit, GivesAnEmptySurfaceWhereThereIsNoneYet)
-{
-  for (const char* part : { "Building the pyramid", "Level 2, voxels" })
-  {
-    SCOPED_TRACE(part);
-    RunOutOfTime(this->Filter, part, 1);
-    EXPECT_EQ(this->Filter->GetErrorCode(), vtkErrorCode::NoError);
-    EXPECT_EQ(this->Filter->GetOutput()->GetNumberOfPoints(), 0);
-    EXPECT_EQ(StopReason(this->Filter->GetOutput()), "time limit");
-    EXPECT_EQ(this->Filter->GetHistory()->GetNumberOfRows(), 0);
-    EXPECT_EQ(this->Filter->GetHistory()->GetNumberOfColumns(), 27);
-  }
-}
-
 TEST_F(TimeLimit, ChangesNothingWhereItIsNotReached)
 {
   this->Filter->SetTimeLimit(1e4);

@@ -26,12 +26,6 @@ TEST(TriangleTests, CountsWhatComesNearerThanTheTolerance)
   EXPECT_TRUE(TrianglesIntersect(Corner, g, 1e-2));
 }
 
-TEST(TriangleTests, TellsCoplanarTrianglesApart)
-{
-  EXPECT_TRUE(TrianglesIntersect(Corner, Named(3, { 1, 1, 0 }, { 5, 1, 0 }, { 1, 5, 0 }), 1e-9));
-  EXPECT_FALSE(TrianglesIntersect(Corner, Named(3, { 5, 5, 0 }, { 9, 5, 0 }, { 5, 9, 0 }), 1e-9));
-}
-
 TEST(TriangleTests, DoesNotStretchANeedleBeyondItsTips)
 {
   // The other triangle shares a tip and lies on its far side: set off by the tolerance, the lines
@@ -125,36 +119,4 @@ TEST(NewFacesIntersect, SeesNewFacesThatMeetEachOther)
   const MeshTriangle beside = Named(2000, { 10.5, 0.5, 1 }, { 10.5, 0.5, 2 }, { 11, 0.5, 2 });
   EXPECT_TRUE(NewFacesIntersect(state, { flat, across }, RemovedFaces()));
   EXPECT_FALSE(NewFacesIntersect(state, { flat, beside }, RemovedFaces()));
-}
-
-TEST(NewFacesIntersect, SeesTheMiddleOfTheLargestLegalTriangle)
-{
-  // All its corners are lambda delta away from where a needle passes through it.
-  IndexedSurface surface;
-  const double lambda = SizingField::LambdaInDelta;
-  for (int i = 0; i < 3; ++i)
-  {
-    const double a = 2 * 3.14159265358979 * i / 3;
-    surface.Points.push_back({ lambda * std::cos(a), lambda * std::sin(a), 0 });
-  }
-  surface.Points.push_back({ 0, 0, -2 });
-  surface.Triangles = { { 0, 1, 2 }, { 0, 3, 1 }, { 1, 3, 2 }, { 2, 3, 0 } };
-  const LiveSurface state(surface);
-  const std::vector<MeshTriangle> needle = { Named(
-    1000, { 0, 0, 0.3 }, { 0, 0, -0.3 }, { 0.02, 0.02, 0.3 }) };
-  EXPECT_TRUE(NewFacesIntersect(state, needle, RemovedFaces()));
-  const std::vector<MeshTriangle> above = { Named(
-    1000, { 0, 0, 0.3 }, { 0, 0, 0.1 }, { 0.02, 0.02, 0.3 }) };
-  EXPECT_FALSE(NewFacesIntersect(state, above, RemovedFaces()));
-}
-
-TEST(NewFacesIntersect, OfAnEdgeTakesAwayTheTwoFacesOnly)
-{
-  RemovedFaces edge{ { 4, 5 }, 2, true };
-  EXPECT_TRUE(edge.Contains({ 4, 5, 6 }));
-  EXPECT_TRUE(edge.Contains({ 5, 9, 4 }));
-  EXPECT_FALSE(edge.Contains({ 4, 6, 7 }));
-  RemovedFaces stars{ { 4, 5 }, 2, false };
-  EXPECT_TRUE(stars.Contains({ 4, 6, 7 }));
-  EXPECT_FALSE(stars.Contains({ 8, 6, 7 }));
 }

@@ -68,14 +68,6 @@ TEST(Verification, FindsSheetsThatFaceTheSameWay)
   EXPECT_GT(CountIn(bench), 0u);
 }
 
-TEST(Verification, FindsIntersectionsFarFromAllCorners)
-{
-  Bench bench(DividedIcosahedron({ 0, 0, 0 }, 10, 1.6));
-  const Vector p = bench.State.Mesh.Position[0];
-  bench.MoveTo(0, p * -1.5f);
-  EXPECT_GT(CountIn(bench), 0u);
-}
-
 TEST(Verification, AgreesWithTheTreeOfTriangles)
 {
   // From places where nothing intersects to such where much does.

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Common/StandardThreads.h"
 #include "Core/Mesh/VertexGrid.h"
-#include "Core/Surface/VertexProperties.h"
 #include "CoreTestTools.h"
 
 using namespace volumic;
@@ -60,20 +59,6 @@ TEST(VertexGrid, CostsNoMemoryWithoutLimit)
   EXPECT_EQ(found, 1);
 }
 
-TEST(VertexGrid, TakesMemoryOnlyWhereVerticesAre)
-{
-  const SurfaceMesh mesh = MakeSphere({ 60, 60, 60 }, 50, 2);
-  VertexGrid grid;
-  grid.Reset(Vector(0, 0, 0), Vector(120, 120, 120), 0.5f); // 30^3 bricks.
-  for (int v = 0; v < mesh.Size(); ++v)
-  {
-    grid.Insert(v, mesh.Position[v]);
-  }
-  // A sphere of 12.5 bricks' radius passes through some four bricks for each of its own area.
-  EXPECT_GT(grid.NumberOfBricks(), 1000u);
-  EXPECT_LT(grid.NumberOfBricks(), 6000u);
-}
-
 TEST(VertexGrid, VisitsInTheSameOrderHoweverTheVerticesHaveCome)
 {
   SurfaceMesh mesh = MakeSphere({ 20, 20, 20 }, 15, 0.7);
@@ -118,45 +103,3 @@ TEST(VertexGrid, VisitsInTheSameOrderHoweverTheVerticesHaveCome)
   EXPECT_EQ(visited(one), visited(all));
 }
 
-namespace
-{
-struct TwoProperties
-{
-  SequentialExecutor Thread;
-  VertexProperties All;
-  VertexProperty<int> Inherited{ this->All, 1 };
-  VertexProperty<float> Own{ this->All, 2.f, 3.f };
-};
-}
-
-TEST(VertexProperties, AreResetTogether)
-{
-  TwoProperties p;
-  p.All.Reset(3, p.Thread);
-  p.Inherited[1] = 7;
-  p.Own[2] = 7.f;
-  p.All.Reset(4, p.Thread);
-  ASSERT_EQ(p.Inherited.Size(), 4u);
-  ASSERT_EQ(p.Own.Size(), 4u);
-  for (int v = 0; v < 4; ++v)
-  {
-    EXPECT_EQ(p.Inherited[v], 1);
-    EXPECT_EQ(p.Own[v], 2.f);
-  }
-}
-
-TEST(VertexProperties, GrowTogetherOrTakeThePlacesOfRemovedVertices)
-{
-  TwoProperties p;
-  p.All.Reset(3, p.Thread);
-  p.Inherited[1] = 7;
-  p.Own[1] = 7.f;
-  for (const int place : { 3, 1 })
-  {
-    p.All.Add(place, place == 3 ? 1 : 0);
-    ASSERT_EQ(p.Inherited.Size(), 4u);
-    ASSERT_EQ(p.Own.Size(), 4u);
-    EXPECT_EQ(p.Inherited[place], place == 3 ? 7 : 1) << "its parent's";
-    EXPECT_EQ(p.Own[place], 3.f) << "that of new vertices";
-  }
-}

@@ -9,28 +9,6 @@
 
 using namespace volumic;
 
-TEST(VisitSchedule, AsksWhereOthersHaveMadeAllTheVisits)
-{
-  // The calling thread comes when all is done.
-  ToldExecutor late(
-    [](std::size_t n, const Body& body)
-    {
-      OnAnotherThread(1, body);
-      body(1, n);
-    });
-  std::atomic<std::size_t> visits{ 0 };
-  std::vector<std::size_t> asked; // More than once only where the machine is slow.
-  const auto goOn = [&](std::size_t done)
-  {
-    EXPECT_EQ(done, visits);
-    asked.push_back(done);
-    return true;
-  };
-  EXPECT_TRUE(Apart(9).Run(late, [&](int, std::size_t, Executor&) { ++visits; }, goOn));
-  ASSERT_FALSE(asked.empty());
-  EXPECT_EQ(asked.back(), 9u);
-}
-
 TEST(VisitSchedule, AsksWhileOthersAreInLongVisits)
 {
   // Another thread makes the one visit that there is, until the host has been asked twice.
@@ -53,27 +31,6 @@ TEST(VisitSchedule, AsksWhileOthersAreInLongVisits)
     },
     [&](std::size_t) { return ++questions > 0; }));
   EXPECT_TRUE(areAsked);
-}
-
-TEST(VisitSchedule, EndsWhereItIsTold)
-{
-  const VisitSchedule schedule = Apart(50);
-  SequentialExecutor thread;
-  for (const std::size_t last : { 1, 7, 49 })
-  {
-    std::size_t visits = 0;
-    std::vector<std::size_t> asked;
-    EXPECT_FALSE(schedule.Run(thread, [&visits](int, std::size_t, Executor&) { ++visits; },
-      [&](std::size_t done)
-      {
-        asked.push_back(done);
-        return done != last;
-      }));
-    EXPECT_EQ(visits, last);
-    std::vector<std::size_t> each(last);
-    std::iota(each.begin(), each.end(), std::size_t(1));
-    EXPECT_EQ(asked, each) << "once after each visit, and not again";
-  }
 }
 
 TEST(VisitSchedule, EndsSoonWhereItIsToldOnThreads)

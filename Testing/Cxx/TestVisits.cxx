@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Surfaces that are worked on in visits of blocks: whole runs of small scenes.
-#include "BarTestScene.h"
 #include "Core/Evolution/SurfaceIteration.h"
-#include "Core/Mesh/SurfaceFeatures.h"
 #include "Core/Mesh/SurfaceMeasures.h"
 #include "EvolutionTestTools.h"
 #include "ThreadTestTools.h"
@@ -13,6 +11,19 @@ using namespace volumic;
 
 namespace
 {
+/** A lattice of bars, thick and thin: merges, cuts, lost parts and cavities. */
+double Bars(double x, double y, double z)
+{
+  const auto distance = [](double t) { return std::abs(std::remainder(t, 14.)); };
+  const double u = distance(x - 3);
+  const double v = distance(y - 3);
+  const double w = distance(z - 3);
+  const double thick = std::min({ std::hypot(u, v), std::hypot(v, w), std::hypot(u, w) });
+  const double hollow = 2.6 - Distance(x, y, z, 24, 24, 24);
+  const double outside = std::max({ std::abs(x - 24), std::abs(y - 24), std::abs(z - 24) }) - 20;
+  return std::max({ thick - 2.1 - 0.8 * std::sin(0.3 * x), hollow, outside });
+}
+
 /** Both levels of the bars in blocks of so many delta; 0: as usual. */
 SurfaceOptions InBlocksOf(double side)
 {
@@ -23,23 +34,6 @@ SurfaceOptions InBlocksOf(double side)
   return options;
 }
 
-/** Hears all, and says stop after so many questions; 0: never. */
-class Listener final : public Monitor
-{
-public:
-  explicit Listener(int most = 0) : Most(most) {}
-  bool GoOn(const Status& status) override
-  {
-    this->Heard.push_back(status);
-    return static_cast<int>(this->Heard.size()) != this->Most;
-  }
-
-  std::vector<Status> Heard;
-
-private:
-  int Most;
-};
-
 struct SweptRun
 {
   SurfaceResult Surface;
@@ -48,11 +42,10 @@ struct SweptRun
 
   SweptRun(const SurfaceOptions& options, Executor& executor, Monitor& monitor)
   {
-    const TestVolume fine = FineBars();
-    const TestVolume coarse = CoarseBars();
+    const LevelPair scene(48, Bars, Bars);
     TestEvolution evolution(options, executor, monitor);
-    evolution.StartEnclosing(coarse.Image, 1);
-    if (evolution.Run() != StopReason::Cancelled && evolution.Divide(fine.Image, 0))
+    evolution.StartEnclosing(scene.Coarse.Image, 1);
+    if (evolution.Run() != StopReason::Cancelled && evolution.Divide(scene.Fine.Image, 0))
     {
       this->Enclosed = evolution.Lost().Enclosed + evolution.Lost().EnclosedCavities;
       evolution.Run();
@@ -270,45 +263,5 @@ TEST(Visits, DependOnNothingFarAway)
       ASSERT_EQ(SquaredDistance(one.State.Mesh.Position[v], other.State.Mesh.Position[v]), 0.f);
       ASSERT_EQ(one.State.Active[v], other.State.Active[v]);
     }
-  }
-}
-
-TEST(Visits, TellSweepAndBlock)
-{
-  SequentialExecutor thread;
-  Listener listener;
-  const SweptRun run(InBlocksOf(12.), thread, listener);
-  int sweeps = 0;
-  int visits = 0;
-  double last = 0.;
-  for (const Monitor::Status& status : listener.Heard)
-  {
-    const double fraction = 1. - status.Level + status.Fraction;
-    EXPECT_GE(fraction, last) << "sweep " << status.Sweep << " block " << status.Block;
-    last = std::max(last, fraction);
-    sweeps = std::max(sweeps, status.Sweep);
-    visits += status.Block > 0;
-    EXPECT_LE(status.Block, status.Blocks);
-  }
-  EXPECT_GE(sweeps, 5);
-  EXPECT_GT(visits, 50);
-}
-
-TEST(Visits, StopBetweenAnyTwoBlocks)
-{
-  SequentialExecutor thread;
-  Listener whole;
-  const SweptRun all(InBlocksOf(12.), thread, whole);
-  const int questions = static_cast<int>(whole.Heard.size());
-  ASSERT_GT(questions, 100);
-  for (int last = 7; last < questions; last += questions / 9)
-  {
-    SCOPED_TRACE("question " + std::to_string(last));
-    Listener listener(last);
-    const SweptRun run(InBlocksOf(12.), thread, listener);
-    EXPECT_EQ(static_cast<int>(listener.Heard.size()), last) << "not asked again";
-    const SurfaceMesh mesh = run.Mesh();
-    EXPECT_EQ(DescribeBrokenInvariant(mesh), "");
-    EXPECT_EQ(CountSelfIntersections(run.Surface), 0);
   }
 }

@@ -112,20 +112,6 @@ struct VoxelScene
   InterfaceMesh Mesh() const { return MakeDualMesh(this->Grid(), OnThisThread()); }
 };
 
-inline IndexedSurface TrianglesOf(const InterfaceMesh& mesh)
-{
-  IndexedSurface surface;
-  for (const Vector& p : mesh.Position)
-  {
-    surface.Points.push_back({ p.X, p.Y, p.Z });
-  }
-  for (const InterfaceMesh::Face& face : mesh.Faces)
-  {
-    surface.Triangles.push_back(face.Vertex);
-  }
-  return surface;
-}
-
 /** What is wrong with the surface of a label; nothing: empty. */
 inline std::string FaultsOf(const SurfaceTopology& surface, BlockTopology voxels, bool isUnbounded)
 {
@@ -172,7 +158,7 @@ inline void ExpectVoxelTopology(
 inline void ExpectSound(const VoxelScene& scene, const InterfaceMesh& mesh)
 {
   ExpectVoxelTopology(scene, mesh);
-  EXPECT_EQ(CountSelfIntersections(TrianglesOf(mesh)), 0);
+  EXPECT_EQ(CountSelfIntersections(AllFaces(mesh)), 0);
 }
 
 /** Labels from 0 to before `labels` at random, in a box or in background. */

@@ -44,15 +44,6 @@ std::vector<std::pair<int, int>> UniqueEdges(const TriangleSurface& surface);
 
 /** `share` of the values lie under the result; reorders them. 0 without values. */
 double Quantile(std::vector<double>& values, double share);
-
-/**
- * For every component the number of others around it. `component` holds the number of each
- * triangle's component; those that are not `sound` (closed, manifold, oriented) surround nothing.
- */
-std::vector<int> NestingDepths(const std::vector<std::array<double, 3>>& places,
-  const std::vector<std::array<int, 3>>& triangles, const std::vector<int>& component,
-  const std::vector<char>& sound);
-
 } // namespace volumic::support
 
 #endif

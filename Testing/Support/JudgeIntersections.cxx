@@ -1,15 +1,13 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// CGAL takes a while to compile: only this file and JudgeOverlap.cxx include it.
+// CGAL takes a while to compile: only this file and JudgeTopology.cxx include it.
 
 #include "SurfaceJudge.h"
 
 #include "JudgeInternals.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Polygon_mesh_processing/self_intersections.h>
-#include <CGAL/Surface_mesh.h>
 #include <CGAL/box_intersection_d.h>
 
 #include <utility>
@@ -20,7 +18,6 @@ namespace
 {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::size_t>;
 
 Kernel::Point_3 CgalPoint(const std::array<double, 3>& p)
@@ -28,34 +25,7 @@ Kernel::Point_3 CgalPoint(const std::array<double, 3>& p)
   return { p[0], p[1], p[2] };
 }
 
-/**
- * False where the triangles are no halfedge mesh (edges shared by three, or run through twice in
- * the same direction, or vertices where fans touch).
- */
-bool BuildMesh(const TriangleSurface& surface, Mesh& mesh)
-{
-  mesh.reserve(surface.Points.size(), 3 * surface.Triangles.size() / 2, surface.Triangles.size());
-  for (const auto& p : surface.Points)
-  {
-    mesh.add_vertex(CgalPoint(p));
-  }
-  for (const auto& t : surface.Triangles)
-  {
-    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0])
-    {
-      return false;
-    }
-    const auto face =
-      mesh.add_face(Mesh::Vertex_index(t[0]), Mesh::Vertex_index(t[1]), Mesh::Vertex_index(t[2]));
-    if (face == Mesh::null_face())
-    {
-      return false;
-    }
-  }
-  return true;
-}
-
-/** The test that CGAL makes on a pair of faces, for triangles that are no halfedge mesh. */
+/** The test that CGAL makes on a pair of faces, for triangles that need not be a mesh. */
 class SoupTest
 {
 public:
@@ -121,8 +91,13 @@ private:
   const TriangleSurface& Surface;
 };
 
-IntersectionVerdict JudgeSoup(const TriangleSurface& surface)
+} // namespace
+
+//------------------------------------------------------------------------------
+
+IntersectionVerdict JudgeIntersections(const TriangleSurface& surface)
 {
+  CheckSurface(surface);
   const SoupTest test(surface);
   IntersectionVerdict verdict;
   std::vector<Box> boxes;
@@ -141,27 +116,4 @@ IntersectionVerdict JudgeSoup(const TriangleSurface& surface)
     [&](const Box& a, const Box& b) { verdict.Pairs += test.Intersect(a.info(), b.info()); });
   return verdict;
 }
-
-} // namespace
-
-//------------------------------------------------------------------------------
-IntersectionVerdict JudgeIntersections(const TriangleSurface& surface)
-{
-  CheckSurface(surface);
-  Mesh mesh;
-  if (!BuildMesh(surface, mesh))
-  {
-    return JudgeSoup(surface);
-  }
-  std::vector<std::pair<Mesh::Face_index, Mesh::Face_index>> pairs;
-  CGAL::Polygon_mesh_processing::self_intersections(mesh, std::back_inserter(pairs));
-  IntersectionVerdict verdict;
-  for (const auto& pair : pairs)
-  {
-    // CGAL reports a triangle without area as a pair with itself.
-    ++(pair.first == pair.second ? verdict.FlatTriangles : verdict.Pairs);
-  }
-  return verdict;
-}
-
 } // namespace volumic::support

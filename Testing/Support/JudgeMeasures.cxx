@@ -23,50 +23,27 @@ constexpr double LongestEdge = 2.5;
 /** From so many edges apart on, vertices are a pair that eq. 1 keeps apart. */
 constexpr int EdgesThatMakeAPair = 4;
 
-/** Neighbours of all vertices, one list behind the other. */
-struct Neighbours
-{
-  std::vector<int> Start;
-  std::vector<int> Members;
-
-  Neighbours(std::size_t numberOfPoints, const std::vector<std::pair<int, int>>& edges)
-    : Start(numberOfPoints + 1, 0), Members(2 * edges.size())
-  {
-    for (const auto& e : edges)
-    {
-      ++this->Start[e.first + 1];
-      ++this->Start[e.second + 1];
-    }
-    for (std::size_t v = 0; v < numberOfPoints; ++v)
-    {
-      this->Start[v + 1] += this->Start[v];
-    }
-    std::vector<int> next(this->Start.begin(), this->Start.end() - 1);
-    for (const auto& e : edges)
-    {
-      this->Members[next[e.first]++] = e.second;
-      this->Members[next[e.second]++] = e.first;
-    }
-  }
-};
-
 /** How near the vertices of a pair may be, in delta: the circumradius of the largest triangle. */
 const double NearestInDelta = LongestEdge / std::sqrt(3.0);
 
 void JudgePairs(const TriangleSurface& surface, const std::vector<std::pair<int, int>>& edges,
   const std::vector<double>& deltas, LengthVerdict& verdict)
 {
-  const Neighbours neighbours(surface.Points.size(), edges);
+  std::vector<std::vector<int>> neighbours(surface.Points.size());
+  for (const auto& e : edges)
+  {
+    neighbours[e.first].push_back(e.second);
+    neighbours[e.second].push_back(e.first);
+  }
   const double largest = deltas.empty() ? 0.0 : *std::max_element(deltas.begin(), deltas.end());
   const PointGrid grid(surface.Points, NearestInDelta * largest);
   // near[v] == i: v is at most EdgesThatMakeAPair - 1 edges from i.
   std::vector<int> near(surface.Points.size(), -1);
   std::vector<int> queue;
-  double nearestSquared = std::numeric_limits<double>::infinity();
   for (std::size_t p = 0; p < surface.Points.size(); ++p)
   {
     const int vertex = static_cast<int>(p);
-    if (neighbours.Start[p] == neighbours.Start[p + 1])
+    if (neighbours[p].empty())
     {
       continue; // no vertex of the surface
     }
@@ -76,9 +53,8 @@ void JudgePairs(const TriangleSurface& surface, const std::vector<std::pair<int,
     {
       for (const std::size_t end = queue.size(); done < end; ++done)
       {
-        for (int m = neighbours.Start[queue[done]]; m < neighbours.Start[queue[done] + 1]; ++m)
+        for (const int other : neighbours[queue[done]])
         {
-          const int other = neighbours.Members[m];
           if (near[other] != vertex)
           {
             near[other] = vertex;
@@ -89,20 +65,14 @@ void JudgePairs(const TriangleSurface& surface, const std::vector<std::pair<int,
     }
     // A pair is looked for from the one of the smaller delta, and once where both are the same.
     grid.ForEachWithin(surface.Points[p], NearestInDelta * deltas[p] * (1.0 - Rounding),
-      [&](int other, double squared)
+      [&](int other)
       {
         const bool isMine =
           deltas[other] > deltas[p] || (deltas[other] == deltas[p] && other > vertex);
-        if (isMine && near[other] != vertex &&
-          neighbours.Start[other] != neighbours.Start[other + 1])
-        {
-          ++verdict.NearPairs;
-          nearestSquared = std::min(nearestSquared, squared);
-        }
+        verdict.NearPairs += isMine && near[other] != vertex && !neighbours[other].empty();
         return true;
       });
   }
-  verdict.NearestPair = std::sqrt(nearestSquared);
 }
 
 } // namespace
@@ -139,8 +109,6 @@ LengthVerdict JudgeLengths(const TriangleSurface& surface, const std::vector<dou
   if (!edges.empty())
   {
     verdict.Mean = sum / edges.size();
-    verdict.ShareOutside =
-      static_cast<double>(verdict.EdgesTooShort + verdict.EdgesTooLong) / edges.size();
   }
   JudgePairs(surface, edges, deltas, verdict);
   return verdict;

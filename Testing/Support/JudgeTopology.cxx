@@ -1,337 +1,151 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// CGAL takes a while to compile: only this file and JudgeIntersections.cxx include it.
+
 #include "SurfaceJudge.h"
 
 #include "JudgeInternals.h"
 
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polygon_mesh_processing/connected_components.h>
+#include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
+#include <CGAL/Polygon_mesh_processing/orientation.h>
+#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
+#include <CGAL/Polygon_mesh_processing/repair_polygon_soup.h>
+#include <CGAL/Surface_mesh.h>
+
 #include <algorithm>
-#include <utility>
+
+namespace PMP = CGAL::Polygon_mesh_processing;
 
 namespace volumic::support
 {
 namespace
 {
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 
-using Point = std::array<double, 3>;
-
-class DisjointSets
+struct Soup
 {
-public:
-  explicit DisjointSets(std::size_t size)
-  {
-    this->Parent.reserve(size);
-    for (std::size_t i = 0; i < size; ++i)
-    {
-      this->Parent.push_back(static_cast<int>(i));
-    }
-  }
-
-  int Root(int i)
-  {
-    while (this->Parent[i] != i)
-    {
-      this->Parent[i] = this->Parent[this->Parent[i]];
-      i = this->Parent[i];
-    }
-    return i;
-  }
-
-  void Join(int i, int j) { this->Parent[this->Root(i)] = this->Root(j); }
-
-private:
-  std::vector<int> Parent;
+  std::vector<Kernel::Point_3> Points;
+  std::vector<std::vector<std::size_t>> Triangles;
 };
 
-/** One side of a triangle, between its corners `Corner` and the next. */
-struct Side
+/** The triangles that have three corners, and the points that they use. */
+Soup SoupOf(const TriangleSurface& surface, TopologyVerdict& verdict)
 {
-  int Low;
-  int High;
-  int Triangle;
-  int Corner;
-  bool Forward; ///< the triangle runs from Low to High
-};
-
-std::vector<Side> SortedSides(const std::vector<std::array<int, 3>>& triangles)
-{
-  std::vector<Side> sides;
-  sides.reserve(3 * triangles.size());
-  for (std::size_t t = 0; t < triangles.size(); ++t)
+  Soup soup;
+  for (const auto& p : surface.Points)
   {
-    for (int c = 0; c < 3; ++c)
-    {
-      const int from = triangles[t][c];
-      const int to = triangles[t][(c + 1) % 3];
-      sides.push_back(
-        { std::min(from, to), std::max(from, to), static_cast<int>(t), c, from < to });
-    }
+    soup.Points.emplace_back(p[0], p[1], p[2]);
   }
-  std::sort(sides.begin(), sides.end(),
-    [](const Side& a, const Side& b)
-    {
-      return a.Low != b.Low ? a.Low < b.Low
-                            : (a.High != b.High ? a.High < b.High : a.Triangle < b.Triangle);
-    });
-  return sides;
-}
-
-/**
- * Corner of the side's triangle at which `point` lies, as a number of its own: 3 triangle +
- * corner.
- */
-int CornerAt(const Side& side, bool low)
-{
-  const int corner = low == side.Forward ? side.Corner : (side.Corner + 1) % 3;
-  return 3 * side.Triangle + corner;
-}
-
-struct ComponentParts
-{
-  std::vector<int> Triangles;
-  std::size_t Edges = 0;
-  bool Sound = true; ///< closed, manifold, oriented
-};
-
-/** A judgement of topology at work, step by step; each step needs those before it. */
-class TopologyJudge
-{
-public:
-  explicit TopologyJudge(const TriangleSurface& surface) : Surface(surface) {}
-
-  TopologyVerdict Judge()
-  {
-    this->LeaveOutDegenerateTriangles();
-    this->JudgeEdges();
-    this->JudgeVertices();
-    this->FindComponents();
-    this->MeasureComponents();
-    this->JudgeOrientation();
-    this->Sum();
-    return std::move(this->Verdict);
-  }
-
-private:
-  void LeaveOutDegenerateTriangles();
-  void JudgeEdges();
-  void JudgeVertices();
-  void FindComponents();
-  void MeasureComponents();
-  void Measure(std::size_t number, std::vector<std::size_t>& counted);
-  void JudgeOrientation();
-  void Sum();
-
-  ComponentParts& PartOf(int triangle)
-  {
-    return this->Parts[this->NumberOfRoot[this->Joined.Root(triangle)]];
-  }
-
-  const TriangleSurface& Surface;
-  TopologyVerdict Verdict;
-  std::vector<std::array<int, 3>> Triangles;
-  DisjointSets Joined{ 0 };         ///< triangles that share an edge
-  DisjointSets Fans{ 0 };           ///< corners of triangles that share an edge at their vertex
-  std::vector<int> Unsound;         ///< a triangle at each edge that is not as it should be
-  std::vector<int> EdgeOwner;       ///< a triangle at each edge
-  std::vector<char> HasSeveralFans; ///< by vertex
-  std::vector<int> NumberOfRoot;    ///< of the component of a root of Joined
-  std::vector<ComponentParts> Parts;
-};
-
-void TopologyJudge::LeaveOutDegenerateTriangles()
-{
-  this->Triangles.reserve(this->Surface.Triangles.size());
-  std::vector<char> used(this->Surface.Points.size(), 0);
-  for (const auto& t : this->Surface.Triangles)
+  for (const auto& t : surface.Triangles)
   {
     if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0])
     {
-      ++this->Verdict.DegenerateTriangles;
+      ++verdict.Faults;
       continue;
     }
-    this->Triangles.push_back(t);
-    used[t[0]] = used[t[1]] = used[t[2]] = 1;
+    soup.Triangles.emplace_back(t.begin(), t.end());
   }
-  this->Verdict.UnusedPoints =
-    static_cast<std::size_t>(std::count(used.begin(), used.end(), static_cast<char>(0)));
+  verdict.UnusedPoints =
+    PMP::remove_isolated_points_in_polygon_soup(soup.Points, soup.Triangles);
+  return soup;
 }
 
-void TopologyJudge::JudgeEdges()
+void JudgeEdges(const Soup& soup, TopologyVerdict& verdict)
 {
-  const std::vector<Side> sides = SortedSides(this->Triangles);
-  this->Joined = DisjointSets(this->Triangles.size());
-  this->Fans = DisjointSets(3 * this->Triangles.size());
-  for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end)
-  {
-    while (end < sides.size() && sides[end].Low == sides[begin].Low &&
-      sides[end].High == sides[begin].High)
-    {
-      ++end;
-    }
-    this->EdgeOwner.push_back(sides[begin].Triangle);
-    for (std::size_t s = begin + 1; s < end; ++s)
-    {
-      this->Joined.Join(sides[begin].Triangle, sides[s].Triangle);
-      this->Fans.Join(CornerAt(sides[begin], true), CornerAt(sides[s], true));
-      this->Fans.Join(CornerAt(sides[begin], false), CornerAt(sides[s], false));
-    }
-    const bool open = end - begin == 1;
-    const bool crowded = end - begin > 2;
-    const bool misoriented = end - begin == 2 && sides[begin].Forward == sides[begin + 1].Forward;
-    this->Verdict.OpenEdges += open;
-    this->Verdict.NonManifoldEdges += crowded;
-    this->Verdict.MisorientedEdges += misoriented;
-    if (open || crowded || misoriented)
-    {
-      this->Unsound.push_back(sides[begin].Triangle);
-    }
-  }
-}
-
-/** A vertex is manifold when all corners at it belong to one fan. */
-void TopologyJudge::JudgeVertices()
-{
-  std::vector<int> fanOfVertex(this->Surface.Points.size(), -1);
-  this->HasSeveralFans.assign(this->Surface.Points.size(), 0);
-  for (std::size_t t = 0; t < this->Triangles.size(); ++t)
+  std::vector<std::array<std::size_t, 3>> sides; // both ends, and the direction
+  for (const auto& t : soup.Triangles)
   {
     for (int c = 0; c < 3; ++c)
     {
-      const int v = this->Triangles[t][c];
-      const int fan = this->Fans.Root(static_cast<int>(3 * t) + c);
-      if (fanOfVertex[v] >= 0 && fanOfVertex[v] != fan)
-      {
-        this->HasSeveralFans[v] = 1;
-      }
-      fanOfVertex[v] = fan;
+      const auto [low, high] = std::minmax(t[c], t[(c + 1) % 3]);
+      sides.push_back({ low, high, t[c] == low });
     }
   }
-  this->Verdict.NonManifoldVertices = static_cast<std::size_t>(
-    std::count(this->HasSeveralFans.begin(), this->HasSeveralFans.end(), static_cast<char>(1)));
+  std::sort(sides.begin(), sides.end());
+  bool hasOpen = false;
+  for (auto side = sides.begin(); side != sides.end();)
+  {
+    const auto end = std::find_if(side, sides.end(),
+      [side](const auto& s) { return s[0] != (*side)[0] || s[1] != (*side)[1]; });
+    const auto count = end - side;
+    const bool isMisoriented = count == 2 && side[0][2] == side[1][2];
+    hasOpen = hasOpen || count == 1;
+    verdict.Manifold = verdict.Manifold && count <= 2;
+    verdict.Oriented = verdict.Oriented && !isMisoriented;
+    verdict.Faults += count != 2 || isMisoriented;
+    side = end;
+  }
+  verdict.Closed = !hasOpen;
 }
 
-void TopologyJudge::FindComponents()
+void JudgeComponents(Mesh& mesh, TopologyVerdict& verdict)
 {
-  this->NumberOfRoot.assign(this->Triangles.size(), -1);
-  for (std::size_t t = 0; t < this->Triangles.size(); ++t)
+  const auto component = mesh.add_property_map<Mesh::Face_index, std::size_t>("f:component").first;
+  verdict.Components.resize(PMP::connected_components(mesh, component));
+  const auto componentAt = [&](Mesh::Halfedge_index h) -> ComponentVerdict&
+  { return verdict.Components[component[mesh.face(mesh.is_border(h) ? mesh.opposite(h) : h)]]; };
+  const Kernel::Point_3 origin = mesh.point(*mesh.vertices().begin());
+  for (const auto face : mesh.faces())
   {
-    int& number = this->NumberOfRoot[this->Joined.Root(static_cast<int>(t))];
-    if (number < 0)
-    {
-      number = static_cast<int>(this->Parts.size());
-      this->Parts.emplace_back();
-    }
-    ComponentParts& part = this->Parts[number];
-    part.Triangles.push_back(static_cast<int>(t));
-    for (const int v : this->Triangles[t])
-    {
-      part.Sound = part.Sound && !this->HasSeveralFans[v];
-    }
+    const auto h = mesh.halfedge(face);
+    const Kernel::Vector_3 a = mesh.point(mesh.source(h)) - origin;
+    const Kernel::Vector_3 b = mesh.point(mesh.target(h)) - origin;
+    const Kernel::Vector_3 c = mesh.point(mesh.target(mesh.next(h))) - origin;
+    ComponentVerdict& of = componentAt(h);
+    of.Area += 0.5 * std::sqrt(CGAL::cross_product(b - a, c - a).squared_length());
+    of.Volume += a * CGAL::cross_product(b, c) / 6.0;
+    ++of.EulerCharacteristic;
   }
-  for (const int t : this->Unsound)
+  for (const auto vertex : mesh.vertices())
   {
-    this->PartOf(t).Sound = false;
+    ++componentAt(mesh.halfedge(vertex)).EulerCharacteristic;
   }
-  for (const int t : this->EdgeOwner)
+  for (const auto edge : mesh.edges())
   {
-    ++this->PartOf(t).Edges;
+    --componentAt(mesh.halfedge(edge)).EulerCharacteristic;
   }
-}
-
-void TopologyJudge::MeasureComponents()
-{
-  this->Verdict.Components.resize(this->Parts.size());
-  std::vector<std::size_t> counted(this->Surface.Points.size(), this->Parts.size());
-  for (std::size_t c = 0; c < this->Parts.size(); ++c)
+  for (const ComponentVerdict& of : verdict.Components)
   {
-    this->Measure(c, counted);
+    verdict.EulerCharacteristic += of.EulerCharacteristic;
+    verdict.Area += of.Area;
+    verdict.Volume += of.Volume;
   }
 }
-
-/** Area, volume and vertices of a component. `counted`: the last component to count each vertex. */
-void TopologyJudge::Measure(std::size_t number, std::vector<std::size_t>& counted)
-{
-  const ComponentParts& part = this->Parts[number];
-  ComponentVerdict& component = this->Verdict.Components[number];
-  component.Triangles = part.Triangles.size();
-  // Relative to a point of the component, so that far-away coordinates cost no digits.
-  const Point origin = this->Surface.Points[this->Triangles[part.Triangles[0]][0]];
-  for (const int t : part.Triangles)
-  {
-    Point corner[3];
-    for (int c = 0; c < 3; ++c)
-    {
-      const int v = this->Triangles[t][c];
-      corner[c] = Difference(this->Surface.Points[v], origin);
-      if (counted[v] != number)
-      {
-        counted[v] = number;
-        ++component.Vertices;
-      }
-    }
-    const Point normal = Cross(Difference(corner[1], corner[0]), Difference(corner[2], corner[0]));
-    component.Area += 0.5 * Norm(normal);
-    component.Volume += Dot(corner[0], Cross(corner[1], corner[2])) / 6.0;
-  }
-  component.EulerCharacteristic = static_cast<int>(component.Vertices) -
-    static_cast<int>(part.Edges) + static_cast<int>(component.Triangles);
-  component.Genus = part.Sound ? (2 - component.EulerCharacteristic) / 2 : -1;
-}
-
-/** Outward means that the volume is positive, or negative for the boundary of a cavity. */
-void TopologyJudge::JudgeOrientation()
-{
-  std::vector<int> componentOf(this->Triangles.size());
-  std::vector<char> sound(this->Parts.size());
-  for (std::size_t c = 0; c < this->Parts.size(); ++c)
-  {
-    sound[c] = this->Parts[c].Sound;
-    for (const int t : this->Parts[c].Triangles)
-    {
-      componentOf[t] = static_cast<int>(c);
-    }
-  }
-  const std::vector<int> depths =
-    NestingDepths(this->Surface.Points, this->Triangles, componentOf, sound);
-  for (std::size_t c = 0; c < this->Parts.size(); ++c)
-  {
-    ComponentVerdict& component = this->Verdict.Components[c];
-    component.Depth = depths[c];
-    component.Outward = this->Parts[c].Sound &&
-      (component.Depth % 2 == 0 ? component.Volume > 0.0 : component.Volume < 0.0);
-  }
-}
-
-/** What the components come to, which get their final order. */
-void TopologyJudge::Sum()
-{
-  TopologyVerdict& verdict = this->Verdict;
-  std::stable_sort(verdict.Components.begin(), verdict.Components.end(),
-    [](const ComponentVerdict& a, const ComponentVerdict& b) { return a.Area > b.Area; });
-  const bool isEmpty = this->Triangles.empty();
-  verdict.Closed = !isEmpty && verdict.OpenEdges == 0;
-  verdict.Manifold = !isEmpty && verdict.NonManifoldEdges == 0 &&
-    verdict.NonManifoldVertices == 0 && verdict.DegenerateTriangles == 0;
-  verdict.Oriented = !isEmpty && verdict.MisorientedEdges == 0;
-  verdict.Outward = verdict.Closed && verdict.Manifold && verdict.Oriented;
-  verdict.Genus = verdict.Components.empty() ? -1 : 0;
-  for (const ComponentVerdict& component : verdict.Components)
-  {
-    verdict.EulerCharacteristic += component.EulerCharacteristic;
-    verdict.Area += component.Area;
-    verdict.Volume += component.Volume;
-    verdict.Outward = verdict.Outward && component.Outward;
-    verdict.Genus = component.Genus < 0 || verdict.Genus < 0 ? -1 : verdict.Genus + component.Genus;
-  }
-}
-
 } // namespace
 
 //------------------------------------------------------------------------------
+
 TopologyVerdict JudgeTopology(const TriangleSurface& surface)
 {
   CheckSurface(surface);
-  return TopologyJudge(surface).Judge();
+  TopologyVerdict verdict;
+  Soup soup = SoupOf(surface, verdict);
+  if (soup.Triangles.empty())
+  {
+    return verdict;
+  }
+  verdict.Manifold = verdict.Faults == 0;
+  verdict.Oriented = true;
+  JudgeEdges(soup, verdict);
+  if (!PMP::is_polygon_soup_a_polygon_mesh(soup.Triangles))
+  {
+    const std::size_t before = soup.Points.size();
+    PMP::orient_polygon_soup(soup.Points, soup.Triangles); // doubles the points where fans touch
+    verdict.Faults += soup.Points.size() - before;
+    verdict.Manifold = verdict.Manifold && soup.Points.size() == before;
+  }
+  Mesh mesh;
+  PMP::polygon_soup_to_polygon_mesh(soup.Points, soup.Triangles, mesh);
+  JudgeComponents(mesh, verdict);
+  if (verdict.Closed && verdict.Manifold && verdict.Oriented)
+  {
+    verdict.Genus = static_cast<int>(verdict.Components.size()) - verdict.EulerCharacteristic / 2;
+    verdict.Outward = PMP::does_bound_a_volume(mesh) && PMP::is_outward_oriented(mesh);
+  }
+  return verdict;
 }
-
 } // namespace volumic::support

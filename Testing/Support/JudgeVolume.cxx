@@ -8,7 +8,6 @@
 #include "PointGrid.h"
 
 #include <algorithm>
-#include <cstdint>
 #include <stdexcept>
 
 namespace volumic::support
@@ -99,46 +98,44 @@ double DistanceAt(
 }
 
 //------------------------------------------------------------------------------
-/** The volume with a border of air, as flags. */
-class AirMap
+/** The volume with a border of air, which has room for a ball of air and its neighbours. */
+struct AirMap
 {
-public:
   enum Flag : unsigned char
   {
     Object = 1,
     Clear = 2, ///< a ball of air fits around it
     Reached = 4
   };
-
-  // Object voxels at the border of the volume must leave room for a ball of air and its neighbours.
   static constexpr int Border = 5;
+
+  std::array<int, 3> Size;
+  std::vector<unsigned char> Flags;
 
   explicit AirMap(const JudgedVolume& volume)
   {
-    std::size_t count = 1;
     for (int a = 0; a < 3; ++a)
     {
       this->Size[a] = volume.Size[a] + 2 * Border;
-      count *= static_cast<std::size_t>(this->Size[a]);
     }
-    this->Flags.assign(count, 0);
+    this->Flags.assign(static_cast<std::size_t>(this->Offset(0, 0, this->Size[2])), 0);
     const float* value = volume.Values;
-    for (int k = 0; k < volume.Size[2]; ++k)
-    {
-      for (int j = 0; j < volume.Size[1]; ++j)
+    ForVoxels(volume.Size,
+      [&](int i, int j, int k)
       {
-        unsigned char* row = &this->Flags[this->Index(Border, j + Border, k + Border)];
-        for (int i = 0; i < volume.Size[0]; ++i, ++value)
-        {
-          row[i] = (*value > volume.IsoValue) == volume.ObjectIsBright && *value != volume.IsoValue
-            ? Object
-            : 0;
-        }
-      }
-    }
+        const bool isObject = volume.ObjectIsBright ? *value > volume.IsoValue
+                                                    : *value < volume.IsoValue;
+        this->Flags[this->Offset(i + Border, j + Border, k + Border)] = isObject ? Object : 0;
+        ++value;
+      });
   }
 
-  /** Offsets, as differences of indices, of all voxels within a radius of at most Border. */
+  std::ptrdiff_t Offset(int i, int j, int k) const
+  {
+    return (static_cast<std::ptrdiff_t>(k) * this->Size[1] + j) * this->Size[0] + i;
+  }
+
+  /** To all voxels within a radius of at most Border. */
   std::vector<std::ptrdiff_t> Ball(double radius) const
   {
     std::vector<std::ptrdiff_t> offsets;
@@ -153,20 +150,38 @@ public:
     return offsets;
   }
 
+  /** How many of the voxels at these offsets have a flag. */
+  std::size_t Count(
+    std::ptrdiff_t voxel, const std::vector<std::ptrdiff_t>& offsets, Flag flag) const
+  {
+    return static_cast<std::size_t>(std::count_if(offsets.begin(), offsets.end(),
+      [&](std::ptrdiff_t offset) { return (this->Flags[voxel + offset] & flag) != 0; }));
+  }
+
+  /** Calls visit(index, place in the volume) for all voxels but the two outermost layers. */
+  template <typename Visitor>
+  void ForEachInner(Visitor visit)
+  {
+    ForBox({ 2, 2, 2 }, { this->Size[0] - 2, this->Size[1] - 2, this->Size[2] - 2 },
+      [&](int i, int j, int k)
+      {
+        visit(this->Offset(i, j, k),
+          std::array<double, 3>{ double(i - Border), double(j - Border), double(k - Border) });
+      });
+  }
+
   /** Marks where a ball of air fits, then where it gets to from outside. */
   void Flood(double radius)
   {
     const std::vector<std::ptrdiff_t> ball = this->Ball(radius);
-    // The outermost voxels are no centres: their balls would leave the map.
-    this->ForEachInner([&](std::size_t voxel)
-      { this->Flags[voxel] |= this->NoneIs(voxel, ball, Object) ? Clear : 0; });
-    const std::size_t start = this->Index(2, 2, 2);
+    this->ForEachInner([&](std::ptrdiff_t voxel, const auto&)
+      { this->Flags[voxel] |= this->Count(voxel, ball, Object) == 0 ? Clear : 0; });
     const std::vector<std::ptrdiff_t> faces = this->Ball(1.0);
-    std::vector<std::size_t> stack(1, start);
-    this->Flags[start] |= Reached;
+    std::vector<std::ptrdiff_t> stack(1, this->Offset(2, 2, 2));
+    this->Flags[stack.back()] |= Reached;
     while (!stack.empty())
     {
-      const std::size_t voxel = stack.back();
+      const std::ptrdiff_t voxel = stack.back();
       stack.pop_back();
       for (const std::ptrdiff_t offset : faces)
       {
@@ -178,72 +193,6 @@ public:
       }
     }
   }
-
-  bool NoneIs(std::size_t voxel, const std::vector<std::ptrdiff_t>& offsets, Flag flag) const
-  {
-    for (const std::ptrdiff_t offset : offsets)
-    {
-      if (this->Flags[voxel + offset] & flag)
-      {
-        return false;
-      }
-    }
-    return true;
-  }
-
-  bool NoneIsAir(std::size_t voxel, const std::vector<std::ptrdiff_t>& offsets) const
-  {
-    for (const std::ptrdiff_t offset : offsets)
-    {
-      if (!(this->Flags[voxel + offset] & Object))
-      {
-        return false;
-      }
-    }
-    return true;
-  }
-
-  bool Is(std::size_t voxel, Flag flag) const { return (this->Flags[voxel] & flag) != 0; }
-
-  /** All voxels but the two outermost layers, by index. */
-  template <typename Visitor>
-  void ForEachInner(Visitor visit)
-  {
-    for (int k = 2; k < this->Size[2] - 2; ++k)
-    {
-      for (int j = 2; j < this->Size[1] - 2; ++j)
-      {
-        const std::size_t row = this->Index(0, j, k);
-        for (int i = 2; i < this->Size[0] - 2; ++i)
-        {
-          visit(row + i);
-        }
-      }
-    }
-  }
-
-  /** Index coordinates in the volume, without the border. */
-  std::array<double, 3> Place(std::size_t voxel) const
-  {
-    const std::size_t row = voxel / this->Size[0];
-    return { static_cast<double>(voxel % this->Size[0]) - Border,
-      static_cast<double>(row % this->Size[1]) - Border,
-      static_cast<double>(row / this->Size[1]) - Border };
-  }
-
-private:
-  std::ptrdiff_t Offset(int i, int j, int k) const
-  {
-    return (static_cast<std::ptrdiff_t>(k) * this->Size[1] + j) * this->Size[0] + i;
-  }
-
-  std::size_t Index(int i, int j, int k) const
-  {
-    return static_cast<std::size_t>(this->Offset(i, j, k));
-  }
-
-  std::array<int, 3> Size;
-  std::vector<unsigned char> Flags;
 };
 
 } // namespace
@@ -304,17 +253,19 @@ ReachVerdict JudgeReach(const TriangleSurface& surface, const JudgedVolume& volu
   const PointGrid grid(surface.Points, FoundRadius);
   ReachVerdict verdict;
   map.ForEachInner(
-    [&](std::size_t voxel)
+    [&](std::ptrdiff_t voxel, const std::array<double, 3>& place)
     {
-      if (!map.Is(voxel, AirMap::Object) || map.NoneIsAir(voxel, faces) ||
-        map.NoneIs(voxel, touched, AirMap::Reached))
+      const std::size_t objects = map.Count(voxel, faces, AirMap::Object);
+      const bool isObject = (map.Flags[voxel] & AirMap::Object) != 0;
+      if (!isObject || objects == faces.size() ||
+        map.Count(voxel, touched, AirMap::Reached) == 0)
       {
         return;
       }
       ++verdict.ReachableVoxels;
       bool found = false;
-      grid.ForEachWithin(map.Place(voxel), FoundRadius,
-        [&found](int, double)
+      grid.ForEachWithin(place, FoundRadius,
+        [&found](int)
         {
           found = true;
           return false;

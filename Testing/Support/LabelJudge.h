@@ -3,8 +3,8 @@
 
 /**
  * What SurfaceJudge.h does not ask, for surfaces of labels: how near a surface is to the shape that
- * was digitised, how smooth it is, whether it loses voxels, and how neighbours get along. All
- * functions throw what those of SurfaceJudge.h throw.
+ * was digitised, how smooth it is, and whether it loses voxels. All functions throw what those of
+ * SurfaceJudge.h throw.
  */
 
 #ifndef volumicLabelJudge_h
@@ -53,17 +53,6 @@ struct WrongVoxelVerdict
 
 /** The surface is in the world of the map. */
 WrongVoxelVerdict JudgeVoxels(const TriangleSurface& surface, const LabelMap& map, int label);
-
-/** Two closed surfaces that should be side by side; in the units of their points. */
-struct OverlapVerdict
-{
-  std::size_t VerticesInside = 0;    ///< of the one inside the other, both ways
-  double MeanDepth = 0.0;            ///< of these, to the other surface; 0 without any
-  double LargestDepth = 0.0;
-  std::size_t IntersectingPairs = 0; ///< of triangles, by exact predicates
-};
-
-OverlapVerdict JudgeOverlap(const TriangleSurface& a, const TriangleSurface& b);
 
 } // namespace volumic::support
 

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 #include <stdexcept>
 
 namespace volumic::support
@@ -93,10 +92,8 @@ std::vector<ReferenceShape> CutBallShapes()
   return shapes;
 }
 
-/** `voxel`: in reference units. */
-std::vector<ReferenceShape> ShapesOf(LabelShapeKind kind, double voxel)
+std::vector<ReferenceShape> ShapesOf(LabelShapeKind kind)
 {
-  const double outer = 25.3, wall = 1.6 * voxel;
   const Vector axis = { 0.3 / 0.9981, 0.5 / 0.9981, 0.81 / 0.9981 };
   const auto along = [&axis](double t) { return Vector{ axis[0] * t, axis[1] * t, axis[2] * t }; };
   switch (kind)
@@ -108,11 +105,6 @@ std::vector<ReferenceShape> ShapesOf(LabelShapeKind kind, double voxel)
         2.0 * Pi * Pi * 17.0 * 7.5 * 7.5 } };
     case LabelShapeKind::Gyroid:
       return { { 1, GyroidInBall, 0.0 } };
-    case LabelShapeKind::ThinShell:
-      return { { 1,
-        [=, middle = Ball({ 0.3, 0.2, -0.4 }, outer - 0.5 * wall)](const Vector& p)
-        { return std::abs(middle(p)) - 0.5 * wall; },
-        BallVolume(outer) - BallVolume(outer - wall) } };
     case LabelShapeKind::TouchingBalls:
     {
       // As far apart as both radii together, but for the rounding of the axis.
@@ -146,38 +138,7 @@ double MeasuredVolume(const Implicit& distance)
   return static_cast<double>(inside) * step * step * step;
 }
 
-/** Gives `label` to the voxels with negative `value`, within a ball of `reach`; units: voxels. */
-void Paint(LabelMap& map, int label, const Vector& centre, double reach, const Implicit& value)
-{
-  std::array<int, 3> from, to;
-  for (int a = 0; a < 3; ++a)
-  {
-    from[a] = std::max(0, static_cast<int>(std::floor(centre[a] - reach)));
-    to[a] = std::min(map.Size[a] - 1, static_cast<int>(std::ceil(centre[a] + reach)));
-  }
-  ForBox(from, { to[0] + 1, to[1] + 1, to[2] + 1 },
-    [&](int i, int j, int k)
-    {
-      if (value({ i - centre[0], j - centre[1], k - centre[2] }) < 0.0)
-      {
-        map.Values[(static_cast<std::size_t>(k) * map.Size[1] + j) * map.Size[0] + i] =
-          static_cast<std::int16_t>(label);
-      }
-    });
-}
-
 } // namespace
-
-double LabelMap::ShortestSpacing() const
-{
-  return *std::min_element(this->Spacing.begin(), this->Spacing.end());
-}
-
-std::vector<LabelShapeKind> AllLabelShapeKinds()
-{
-  return { LabelShapeKind::Sphere, LabelShapeKind::Torus, LabelShapeKind::Gyroid,
-    LabelShapeKind::ThinShell, LabelShapeKind::TouchingBalls, LabelShapeKind::CutBall };
-}
 
 std::string LabelShapeName(LabelShapeKind kind)
 {
@@ -189,8 +150,6 @@ std::string LabelShapeName(LabelShapeKind kind)
       return "Torus";
     case LabelShapeKind::Gyroid:
       return "Gyroid";
-    case LabelShapeKind::ThinShell:
-      return "ThinShell";
     case LabelShapeKind::TouchingBalls:
       return "TouchingBalls";
     case LabelShapeKind::CutBall:
@@ -218,7 +177,7 @@ DigitisedShapes Digitise(LabelShapeKind kind, int size, double stretch)
     centre[a] = 0.5 * (map.Size[a] - 1) * map.Spacing[a];
   }
   const double unit = size / ReferenceSize;
-  for (const ReferenceShape& shape : ShapesOf(kind, 1.0 / unit))
+  for (const ReferenceShape& shape : ShapesOf(kind))
   {
     const Implicit distance = [=](const Vector& p)
     {
@@ -248,48 +207,4 @@ DigitisedShapes Digitise(LabelShapeKind kind, int size, double stretch)
   }
   return result;
 }
-
-//------------------------------------------------------------------------------
-LabelMap MakeBodyMap(const std::array<int, 3>& size, int labels)
-{
-  LabelMap map;
-  map.Size = size;
-  map.Spacing = { 1.5, 1.5, 1.5 };
-  map.Values.resize(static_cast<std::size_t>(size[0]) * size[1] * size[2]);
-  std::mt19937 generator(17);
-  const auto random = [&generator](double from, double to)
-  { return from + (to - from) * (generator() / 4294967296.0); };
-  const double shortest = *std::min_element(size.begin(), size.end());
-  for (int label = 1; label <= labels; ++label)
-  {
-    Vector centre;
-    for (int a = 0; a < 3; ++a)
-    {
-      centre[a] = random(0.25, 0.75) * size[a];
-    }
-    // Many small ones, a few large ones.
-    const double radius = shortest * 0.02 * std::pow(7.0, std::pow(random(0.0, 1.0), 2.0));
-    if (label % 3 != 0)
-    {
-      const Vector half = { radius * random(0.6, 1.4), radius * random(0.6, 1.4),
-        radius * random(0.6, 1.4) };
-      Paint(map, label, centre, 1.5 * radius,
-        [half](const Vector& p)
-        { return Length({ p[0] / half[0], p[1] / half[1], p[2] / half[2] }) - 1.0; });
-      continue;
-    }
-    // A vessel or a rib: a ring of which one side is left out.
-    const double thin = std::max(1.6, 0.25 * radius), turn = random(0.0, 2.0 * Pi);
-    Paint(map, label, centre, 3.0 * radius + thin,
-      [=](const Vector& p)
-      {
-        const double u = std::cos(turn) * p[0] + std::sin(turn) * p[1];
-        const double v = std::cos(turn) * p[1] - std::sin(turn) * p[0];
-        const double ring = std::hypot(std::hypot(u, p[2]) - 3.0 * radius, v) - thin;
-        return std::max(ring, u - 1.5 * radius);
-      });
-  }
-  return map;
-}
-
 } // namespace volumic::support

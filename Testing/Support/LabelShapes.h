@@ -25,8 +25,6 @@ struct LabelMap
   std::array<double, 3> Spacing = { 1.0, 1.0, 1.0 };
   std::array<double, 3> Origin = { 0.0, 0.0, 0.0 };
   std::vector<std::int16_t> Values; ///< x fastest
-
-  double ShortestSpacing() const;
 };
 
 /** What a label is the digitisation of. */
@@ -46,12 +44,9 @@ enum class LabelShapeKind
   Sphere,
   Torus,         ///< tilted
   Gyroid,        ///< one sheet's inside within a ball, its rims rounded: of high genus
-  ThinShell,     ///< a hollow ball, its wall 1.6 voxels at all sizes
   TouchingBalls, ///< labels 1 and 2, which touch at a point
   CutBall        ///< labels 1 to 3: a ball cut in three like a cake; 4: a smooth ball in its middle
 };
-
-std::vector<LabelShapeKind> AllLabelShapeKinds();
 
 /** Letters only. */
 std::string LabelShapeName(LabelShapeKind kind);
@@ -68,13 +63,6 @@ struct DigitisedShapes
  * along z as many as fill the same length, `stretch` units apart. Throws std::invalid_argument.
  */
 DigitisedShapes Digitise(LabelShapeKind kind, int size, double stretch = 1.0);
-
-/**
- * A map like that of a network that segments the whole body: `labels` of ellipsoids and curved
- * tubes of many sizes, partly in contact, where later ones cover earlier ones, in a body that is
- * background. Spacing 1.5. The same for the same arguments on all machines.
- */
-LabelMap MakeBodyMap(const std::array<int, 3>& size, int labels);
 
 } // namespace volumic::support
 

@@ -87,28 +87,19 @@ std::string Describe(const SurfaceVerdict& verdict)
   const TopologyVerdict& topology = verdict.Topology;
   std::ostringstream text;
   text.precision(4);
-  std::size_t vertices = 0, triangles = 0;
-  for (const ComponentVerdict& component : topology.Components)
-  {
-    vertices += component.Vertices;
-    triangles += component.Triangles;
-  }
-  text << vertices << " vertices, " << triangles << " triangles, " << topology.Components.size()
-       << " components, chi " << topology.EulerCharacteristic << ", genus " << topology.Genus
+  text << topology.Components.size() << " components, chi " << topology.EulerCharacteristic << ", genus " << topology.Genus
        << ", area " << topology.Area << ", volume " << topology.Volume << "\n"
        << (topology.Closed ? "closed" : "NOT CLOSED") << ", "
        << (topology.Manifold ? "manifold" : "NOT MANIFOLD") << ", "
        << (topology.Oriented ? "oriented" : "NOT ORIENTED") << ", "
-       << (topology.Outward ? "outward" : "NOT OUTWARD") << " (open edges " << topology.OpenEdges
-       << ", non-manifold edges " << topology.NonManifoldEdges << ", vertices "
-       << topology.NonManifoldVertices << ", misoriented edges " << topology.MisorientedEdges
-       << ", degenerate triangles " << topology.DegenerateTriangles << ")\n"
+       << (topology.Outward ? "outward" : "NOT OUTWARD") << " (" << topology.Faults
+       << " faults)\n"
        << "self-intersecting pairs " << verdict.Intersections.Pairs << ", flat triangles "
        << verdict.Intersections.FlatTriangles << "\n"
        << "edges " << verdict.Lengths.Shortest << " / " << verdict.Lengths.Mean << " / "
        << verdict.Lengths.Longest << ", too short " << verdict.Lengths.EdgesTooShort
        << ", too long " << verdict.Lengths.EdgesTooLong << ", pairs too near "
-       << verdict.Lengths.NearPairs << " (nearest " << verdict.Lengths.NearestPair << ")\n"
+       << verdict.Lengths.NearPairs << "\n"
        << "radius ratio least " << verdict.Shapes.Least << ", 1 % quantile "
        << verdict.Shapes.Quantile01 << ", mean " << verdict.Shapes.Mean << "\n";
   if (verdict.HasVolume)

@@ -30,37 +30,33 @@ namespace volumic::support
 /** One component: triangles connected across edges. */
 struct ComponentVerdict
 {
-  std::size_t Vertices = 0;
-  std::size_t Triangles = 0;
   int EulerCharacteristic = 0;
-  int Genus = -1; ///< -1 where the component is not closed, manifold and consistently oriented
   double Area = 0.0;
-  double Volume = 0.0;  ///< signed: negative for the boundary of a cavity
-  int Depth = 0;        ///< number of components around it
-  bool Outward = false; ///< volume positive at even depth, negative at odd depth
+  double Volume = 0.0; ///< signed: negative for the boundary of a cavity
 };
 
 struct TopologyVerdict
 {
-  std::size_t OpenEdges = 0;           ///< with one triangle
-  std::size_t NonManifoldEdges = 0;    ///< with more than two
-  std::size_t NonManifoldVertices = 0; ///< whose triangles form several fans
-  std::size_t MisorientedEdges = 0;    ///< run through in the same direction by both triangles
-  std::size_t DegenerateTriangles = 0; ///< with a repeated corner; all other counts leave them out
+  /**
+   * Edges that do not have two triangles in opposite directions, vertices at which fans touch, and
+   * triangles with a repeated corner, which all else leaves out.
+   */
+  std::size_t Faults = 0;
   std::size_t UnusedPoints = 0;
 
-  bool Closed = false;   ///< not empty, no open edge
-  bool Manifold = false; ///< neither kind of non-manifold, no degenerate triangle
+  bool Closed = false;   ///< not empty, no edge with one triangle
+  bool Manifold = false; ///< no edge with three, no fans that touch, no degenerate triangle
   bool Oriented = false; ///< consistently
-  bool Outward = false;  ///< closed, manifold, oriented, and every component outward
+  bool Outward = false;  ///< all of that, positive volumes, and negative ones for cavities
 
   int EulerCharacteristic = 0;
-  int Genus = -1; ///< sum over the components, -1 where one has none
+  int Genus = -1; ///< sum over the components, -1 unless closed, manifold and oriented
   double Area = 0.0;
-  double Volume = 0.0;                      ///< sum of the signed volumes
-  std::vector<ComponentVerdict> Components; ///< largest area first
+  double Volume = 0.0; ///< sum of the signed volumes
+  std::vector<ComponentVerdict> Components;
 };
 
+/** By CGAL's polygon mesh processing. */
 TopologyVerdict JudgeTopology(const TriangleSurface& surface);
 
 //------------------------------------------------------------------------------
@@ -72,10 +68,7 @@ struct IntersectionVerdict
   std::size_t FlatTriangles = 0;
 };
 
-/**
- * With CGAL's exact predicates; its own self_intersections() where the surface is a halfedge mesh,
- * else the same test on the pairs of triangles whose boxes overlap.
- */
+/** With CGAL's exact predicates. */
 IntersectionVerdict JudgeIntersections(const TriangleSurface& surface);
 
 //------------------------------------------------------------------------------
@@ -87,14 +80,11 @@ struct LengthVerdict
   double Longest = 0.0;
   std::size_t EdgesTooShort = 0; ///< under delta
   std::size_t EdgesTooLong = 0;  ///< over 2.5 delta
-  double ShareOutside = 0.0;     ///< of edges outside [delta, 2.5 delta]
-
   /**
    * Pairs of vertices at least 4 edges apart along the surface (or on different components) and
-   * nearer than (2.5 / sqrt 3) delta; the least distance of such a pair, infinite without any.
+   * nearer than (2.5 / sqrt 3) delta.
    */
   std::size_t NearPairs = 0;
-  double NearestPair = 0.0;
 };
 
 /**

@@ -23,25 +23,6 @@ constexpr double ReferenceSize = 64.0;
 // the rest is for the sheets being triangles, not planes.
 constexpr double ThinWall = 2.0;
 
-void CheckOptions(const SceneOptions& options)
-{
-  for (int a = 0; a < 3; ++a)
-  {
-    if (options.Size[a] < 16)
-    {
-      throw std::invalid_argument("MakeScene: at least 16 voxels are needed along every axis");
-    }
-    if (!(options.Spacing[a] > 0.0))
-    {
-      throw std::invalid_argument("MakeScene: the spacing must be positive");
-    }
-  }
-  if (!(options.EdgeWidth > 0.0) || !(options.NoiseShare >= 0.0))
-  {
-    throw std::invalid_argument("MakeScene: edge width must be positive, noise not negative");
-  }
-}
-
 /** std::normal_distribution gives other numbers with other standard libraries; this does not. */
 class GaussianNoise
 {
@@ -70,19 +51,8 @@ double Shading(double x)
 //------------------------------------------------------------------------------
 Scene MakeScene(SceneKind kind, const SceneOptions& options)
 {
-  CheckOptions(options);
-
-  // Places are measured in voxels, or in the shortest side of a voxel where shapes are to be round
-  // in the world; the smallest extent then gives the size of a reference unit.
-  const double shortest = *std::min_element(options.Spacing.begin(), options.Spacing.end());
-  std::array<double, 3> step = { 1.0, 1.0, 1.0 };
-  double smallestExtent = 1e30;
-  for (int a = 0; a < 3; ++a)
-  {
-    step[a] = options.RoundInWorld ? options.Spacing[a] / shortest : 1.0;
-    smallestExtent = std::min(smallestExtent, options.Size[a] * step[a]);
-  }
-  const double scale = smallestExtent / ReferenceSize;
+  const double scale =
+    *std::min_element(options.Size.begin(), options.Size.end()) / ReferenceSize;
   const SceneShape shape = MakeSceneShape(kind, ThinWall / scale);
 
   Scene scene;
@@ -102,7 +72,7 @@ Scene MakeScene(SceneKind kind, const SceneOptions& options)
     std::array<double, 3> index;
     for (int a = 0; a < 3; ++a)
     {
-      index[a] = 0.5 * (options.Size[a] - 1) + seed[a] * scale / step[a];
+      index[a] = 0.5 * (options.Size[a] - 1) + seed[a] * scale;
     }
     scene.Seeds.push_back(index);
   }
@@ -127,7 +97,7 @@ Scene MakeScene(SceneKind kind, const SceneOptions& options)
       std::array<double, 3> place;
       for (int a = 0; a < 3; ++a)
       {
-        place[a] = (index[a] - 0.5 * (options.Size[a] - 1)) * step[a] / scale;
+        place[a] = (index[a] - 0.5 * (options.Size[a] - 1)) / scale;
       }
       const double distance = shape.Distance(place) * scale;
       const double occupied = 0.5 * std::erfc(distance * blur);
@@ -179,23 +149,10 @@ std::string SceneName(SceneKind kind)
   throw std::invalid_argument("SceneName: unknown kind of scene");
 }
 
-std::vector<SceneKind> AllSceneKinds()
-{
-  return { SceneKind::Sphere, SceneKind::TwoSpheres, SceneKind::Torus, SceneKind::BoxWithTwoTunnels,
-    SceneKind::ShellWithOpening, SceneKind::NestedBalls, SceneKind::ClosedNestedBalls,
-    SceneKind::ThinShellWithEightHoles, SceneKind::FourBubbles, SceneKind::TorusOfTwoBubbles,
-    SceneKind::ShadedEllipsoid };
-}
-
 std::vector<SceneKind> SceneKindsReachableFromOutside()
 {
-  std::vector<SceneKind> kinds = AllSceneKinds();
-  kinds.erase(std::remove_if(kinds.begin(), kinds.end(),
-                [](SceneKind kind) {
-                  return kind == SceneKind::ClosedNestedBalls || kind == SceneKind::ShadedEllipsoid;
-                }),
-    kinds.end());
-  return kinds;
+  return { SceneKind::Sphere, SceneKind::TwoSpheres, SceneKind::Torus, SceneKind::BoxWithTwoTunnels,
+    SceneKind::ShellWithOpening, SceneKind::NestedBalls, SceneKind::ThinShellWithEightHoles,
+    SceneKind::FourBubbles, SceneKind::TorusOfTwoBubbles };
 }
-
 } // namespace volumic::support

@@ -51,12 +51,6 @@ struct SceneOptions
   /** World units per voxel. */
   std::array<double, 3> Spacing = { 1.0, 1.0, 1.0 };
 
-  /**
-   * Off: round shapes are round in index coordinates, thus keep their topology whatever the
-   * spacing is. On: they are round in the world, thus flattened along the longer side of a voxel.
-   */
-  bool RoundInWorld = false;
-
   /** The object is bright on a dark background, or the other way round. */
   bool ObjectIsBright = true;
 
@@ -113,17 +107,11 @@ struct Scene
   int CoarsestFaithfulLevel = 0;
 };
 
-/**
- * Makes a scene. Throws std::invalid_argument for a size under 16 voxels along an axis, a spacing
- * or an edge width that is not positive, or a negative share of noise.
- */
+/** Makes a scene. */
 Scene MakeScene(SceneKind kind, const SceneOptions& options = SceneOptions());
 
 /** The name that MakeScene gives, usable in the name of a test (letters only). */
 std::string SceneName(SceneKind kind);
-
-/** All kinds, in the order of the enumeration. */
-std::vector<SceneKind> AllSceneKinds();
 
 /**
  * Without the shaded one and the one with a closed cavity: those that a surface which starts

@@ -1,99 +1,10 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Common/StandardThreads.h"
-#include "Core/Labels/LabelSides.h"
 #include "Core/Labels/SmallParts.h"
 #include "LabelTestTools.h"
 
-#include <cstdlib>
 
 using namespace volumic;
-
-namespace
-{
-std::vector<int> ObjectsOf(const LabelBricks& bricks, int i, int j, int k)
-{
-  const LabelBricks::Range range = bricks.ObjectsIn(i, j, k);
-  return { range.begin(), range.end() };
-}
-}
-
-TEST(LabelBricks, KnowTheObjectsOfEachBrick)
-{
-  const LabelMap map = NoisyLabelMap({ 9, 10, 11 }, 3, 5);
-  StandardThreads threads(3);
-  const LabelBricks bricks(map, threads);
-  EXPECT_EQ(bricks.Size(), (std::array<int, 3>{ 3, 3, 3 }));
-  ForVoxels({ 3, 3, 3 },
-    [&](int i, int j, int k)
-    {
-      std::set<int> wanted;
-      for (int v = 0; v < 64; ++v)
-      {
-        wanted.insert(map.At(4 * i + v % 4, 4 * j + v / 4 % 4, 4 * k + v / 16));
-      }
-      EXPECT_EQ(ObjectsOf(bricks, i, j, k), std::vector<int>(wanted.begin(), wanted.end()));
-    });
-}
-
-TEST(LabelBricks, BricksThatEndOutsideHaveWhatIsNoObject)
-{
-  const LabelMap map = MakeLabelMap({ 8, 8, 9 }, 1, [](int, int, int) { return 1; });
-  const LabelBricks bricks(map, OnThisThread());
-  EXPECT_EQ(ObjectsOf(bricks, 0, 0, 0), (std::vector<int>{ 1 }));
-  EXPECT_EQ(ObjectsOf(bricks, 0, 0, 2), (std::vector<int>{ 0, 1 }));
-}
-
-TEST(LabelBricks, TellWhereAnObjectIsAndHowLarge)
-{
-  const LabelMap map = MakeLabelMap({ 20, 20, 20 }, 2,
-    [](int i, int j, int k) { return i >= 5 && i < 9 && j == 12 && k > 2 && k < 6 ? 2 : 0; });
-  const LabelBricks bricks(map, OnThisThread());
-  EXPECT_EQ(bricks.ExtentOf(2).Voxels, 12);
-  EXPECT_EQ(bricks.ExtentOf(2).Bricks, (VoxelBox{ { 1, 3, 0 }, { 3, 4, 2 } }));
-  EXPECT_EQ(bricks.ExtentOf(1).Voxels, 0);
-  EXPECT_TRUE(bricks.ExtentOf(1).Bricks.IsEmpty());
-  EXPECT_EQ(bricks.ExtentOf(0).Voxels, 20 * 20 * 20 - 12);
-}
-
-TEST(LabelSides, FindWhatIsNearTheBoundaryAndNothingElse)
-{
-  const LabelMap map = BallMap(48, 18.);
-  const LabelBricks bricks(map, OnThisThread());
-  const VoxelBits rows = LabelSides(bricks, 1).NearBoundary({ 4, 4, 4 });
-  std::vector<char> isThere(static_cast<std::size_t>(rows.Box().Count()), 0);
-  int count = 0;
-  rows.For(OnThisThread(),
-    [&](int i, int j, int k, int length)
-    {
-      for (int x = 0; x < length; ++x)
-      {
-        ++isThere[static_cast<std::size_t>(rows.Box().NumberOf(i + x, j, k))];
-        ++count;
-      }
-    });
-  EXPECT_LT(count, rows.Box().Count() * 9 / 10);
-  const double middle = 23.6;
-  int near = 0;
-  ForRowsOf(rows.Box(), rows.Box(),
-    [&](std::int64_t first, std::int64_t length)
-    {
-      const int row = static_cast<int>(first / rows.Box().Length(0));
-      const int j = rows.Box().First[1] + row % rows.Box().Length(1);
-      const int k = rows.Box().First[2] + row / rows.Box().Length(1);
-      for (int x = 0; x < length; ++x)
-      {
-        const char times = isThere[static_cast<std::size_t>(first + x)];
-        ASSERT_LE(times, 1) << "each once";
-        const double distance = std::abs(
-          std::hypot(rows.Box().First[0] + x - middle, j - middle, k - middle) - 18.);
-        near += distance < 4.;
-        ASSERT_TRUE(times == 1 || distance >= 4.);
-        ASSERT_TRUE(times == 0 || distance < 10.) << "four voxels, their diagonals and fours";
-      }
-    });
-  EXPECT_GT(near, 10000);
-}
 
 namespace
 {
