@@ -91,11 +91,6 @@ Job RemeshingJob(const std::function<vtkSmartPointer<vtkPolyData>()>& make, doub
     component. */
 Job MesherJob(vtkImageData* image, vtkPolyData* largest, double isoValue, double radius);
 
-#if defined(VOLUMIC_BENCHMARK_OPENVDB)
-/** OpenVDB's volumeToMesh, without adaptivity. */
-Job OpenVdbJob(vtkImageData* image, double isoValue);
-#endif
-
 #if defined(VOLUMIC_BENCHMARK_ITK)
 /** itk::ThresholdSegmentationLevelSetImageFilter from the border inward, to an RMS change of 0.02
     or 1200 iterations, then vtkFlyingEdges3D. One thread. */

@@ -3,9 +3,9 @@
 
 // One run of vtkDeformableSurface or of a peer on a volume, measured and judged:
 //
-//     run=us | flat | flying | smoothed | decimated | remeshed | mesher | openvdb | levelset
+//     run=us | flat | flying | smoothed | remeshed | mesher | levelset
 //     volume=FILE.vti iso=VALUE metric=0|1 threads=N repetitions=N
-//     edge=LENGTH vertices=N radius=R    what peers are told of ours
+//     edge=LENGTH radius=R    what peers are told of ours
 //
 // Peers get the volume with a voxel of air around it. The object is bright. Lengths are those of
 // the metric (of level 0, where a level is spoken of) with the smallest distance of two voxels as
@@ -21,7 +21,6 @@
 #include <vtkImagePyramid.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkPolyDataConnectivityFilter.h>
-#include <vtkQuadricDecimation.h>
 #include <vtkSMPTools.h>
 #include <vtkTable.h>
 #include <vtkVariant.h>
@@ -138,32 +137,15 @@ vtkSmartPointer<vtkPolyData> Smoothed(vtkImageData* image, double isoValue)
   return smooth->GetOutput();
 }
 
-vtkSmartPointer<vtkPolyData> Decimated(vtkImageData* image, double isoValue, double vertices)
-{
-  const vtkSmartPointer<vtkPolyData> smoothed = Smoothed(image, isoValue);
-  // Two triangles per vertex. (Points are no measure: those of the other components are there.)
-  const double share = 2.0 * vertices / static_cast<double>(smoothed->GetNumberOfPolys());
-  vtkNew<vtkQuadricDecimation> decimate;
-  decimate->SetInputData(smoothed);
-  decimate->SetTargetReduction(std::max(0.0, 1.0 - share));
-  decimate->Update();
-  return decimate->GetOutput();
-}
-
 Job PeerJob(const Options& options, vtkImageData* image, double iso)
 {
-  const double edge = options.Number("edge", 1.35), vertices = options.Number("vertices", 1e5);
+  const double edge = options.Number("edge", 1.35);
   const double radius = options.Number("radius", 0.8 * edge);
   const std::map<std::string, std::function<Job()>> jobs = {
     { "flying", [=]() { return PolyDataJob([=]() { return FlyingEdges(image, iso); }); } },
     { "smoothed", [=]() { return PolyDataJob([=]() { return Smoothed(image, iso); }); } },
-    { "decimated",
-      [=]() { return PolyDataJob([=]() { return Decimated(image, iso, vertices); }); } },
     { "remeshed", [=]() { return RemeshingJob([=]() { return Smoothed(image, iso); }, edge); } },
     { "mesher", [=]() { return MesherJob(image, LargestComponent(image, iso), iso, radius); } },
-#if defined(VOLUMIC_BENCHMARK_OPENVDB)
-    { "openvdb", [=]() { return OpenVdbJob(image, iso); } },
-#endif
 #if defined(VOLUMIC_BENCHMARK_ITK)
     { "levelset", [=]() { return LevelSetJob(image, iso); } },
 #endif

@@ -21,10 +21,8 @@ RUNS = {
     "flat": "the same, one thread, without the pyramid",
     "flying": "vtkFlyingEdges3D",
     "smoothed": "the same, largest component, vtkWindowedSincPolyDataFilter",
-    "decimated": "the same, vtkQuadricDecimation to as many vertices as ours",
     "remeshed": "smoothed, CGAL isotropic_remeshing to our mean edge",
     "mesher": "CGAL make_surface_mesh to about as many vertices as ours",
-    "openvdb": "OpenVDB volumeToMesh",
     "levelset": "ITK threshold segmentation level set: takes minutes"}
 COLUMNS = {
     "Seconds": "seconds", "ProcessorSeconds": "processor seconds", "PeakMegabytes": "MB at the peak",
@@ -66,15 +64,14 @@ def run(options, name, **named):
 
 def like(options, name, us):
     """A peer that is told how fine ours is."""
-    named = {"edge": us["EdgeMean"], "vertices": us["Vertices"]}
-    figures = run(options, name, **named)
+    figures = run(options, name, edge=us["EdgeMean"])
     radius = .8 * us["EdgeMean"]
     for _ in range(2 if name == "mesher" else 0):
         share = figures["Vertices"] / us["Vertices"]
         if not share > 0 or abs(share - 1) <= .05:
             break
         radius *= math.sqrt(share)  # the number goes with the inverse square
-        figures = run(options, name, radius=radius, **named)
+        figures = run(options, name, radius=radius)
     return figures
 
 
@@ -120,9 +117,9 @@ def measure(options):
     runs = {}
     for name in names:
         us = runs.get("us", Figures())
-        if name in ("decimated", "remeshed", "mesher") and "EdgeMean" not in us:
+        if name in ("remeshed", "mesher") and "EdgeMean" not in us:
             runs[name] = Figures(Failure="follows us, which has not run")
-        elif name in ("decimated", "remeshed", "mesher"):
+        elif name in ("remeshed", "mesher"):
             runs[name] = like(options, name, us)
         else:
             runs[name] = run(options, name)
