@@ -164,12 +164,6 @@ support::TriangleSurface TrianglesOf(vtkPolyData* surface)
   return support::ToTriangleSurface(clean->GetOutput());
 }
 
-double Field(vtkPolyData* surface, const char* name)
-{
-  vtkDataArray* array = surface->GetFieldData()->GetArray(name);
-  return array && array->GetNumberOfTuples() > 0 ? array->GetComponent(0, 0) : 0.0;
-}
-
 Job PolyDataJob(const std::function<vtkSmartPointer<vtkPolyData>()>& make)
 {
   const auto made = std::make_shared<vtkSmartPointer<vtkPolyData>>();

@@ -3,7 +3,7 @@
 
 // One run of vtkDeformableSurface or of a peer on a volume, measured and judged:
 //
-//     run=us | flat | flying | smoothed | remeshed | mesher | levelset
+//     run=us | flat | flying | smoothed | remeshed | mesher
 //     volume=FILE.vti iso=VALUE metric=0|1 threads=N repetitions=N
 //     edge=LENGTH radius=R    what peers are told of ours
 //
@@ -91,6 +91,49 @@ vtkSmartPointer<vtkImageData> InSteps(vtkImageData* image, const Steps& steps)
 }
 
 //------------------------------------------------------------------------------
+/** A number of its field data; 0 where there is none. */
+double Field(vtkPolyData* surface, const char* name)
+{
+  vtkDataArray* array = surface->GetFieldData()->GetArray(name);
+  return array && array->GetNumberOfTuples() > 0 ? array->GetComponent(0, 0) : 0.0;
+}
+
+vtkImageData* LevelOf(vtkImagePyramid* pyramid, unsigned int level)
+{
+  return vtkImageData::SafeDownCast(pyramid->GetOutput()->GetBlock(level));
+}
+
+/** Sets what the surface is by itself, in its units. @param delta 0 where there are no bounds to
+    hold */
+void SetVerdict(
+  const TriangleSurface& surface, double delta, const std::string& prefix, Figures& figures)
+{
+  const auto set = [&](const char* name, auto value)
+  { figures.Set(prefix + name, static_cast<double>(value)); };
+  const support::SurfaceVerdict verdict =
+    support::JudgeSurface(surface, delta > 0.0 ? delta : 0.85);
+  const support::TopologyVerdict& topology = verdict.Topology;
+  set("Vertices", surface.Points.size() - topology.UnusedPoints);
+  set("Triangles", surface.Triangles.size());
+  set("Components", topology.Components.size());
+  if (topology.Genus >= 0)
+  {
+    set("Genus", topology.Genus);
+  }
+  set("Faults",
+    topology.OpenEdges + topology.NonManifoldEdges + topology.NonManifoldVertices +
+      topology.DegenerateTriangles + topology.MisorientedEdges);
+  set("SelfIntersections", verdict.Intersections.Pairs);
+  set("EdgeShortest", verdict.Lengths.Shortest);
+  set("EdgeMean", verdict.Lengths.Mean);
+  set("EdgeLongest", verdict.Lengths.Longest);
+  if (delta > 0.0)
+  {
+    set("EdgesOutside", verdict.Lengths.EdgesTooShort + verdict.Lengths.EdgesTooLong);
+    set("NearPairs", verdict.Lengths.NearPairs);
+  }
+}
+
 /** How it fits the image in air, in whose index coordinates it is, in both metrics. */
 void SetFit(const TriangleSurface& surface, vtkImageData* inAir, double isoValue,
   const std::string& prefix, Figures& figures)
@@ -146,9 +189,6 @@ Job PeerJob(const Options& options, vtkImageData* image, double iso)
     { "smoothed", [=]() { return PolyDataJob([=]() { return Smoothed(image, iso); }); } },
     { "remeshed", [=]() { return RemeshingJob([=]() { return Smoothed(image, iso); }, edge); } },
     { "mesher", [=]() { return MesherJob(image, LargestComponent(image, iso), iso, radius); } },
-#if defined(VOLUMIC_BENCHMARK_ITK)
-    { "levelset", [=]() { return LevelSetJob(image, iso); } },
-#endif
   };
   const auto found = jobs.find(options.Text("run"));
   if (found == jobs.end())
@@ -267,36 +307,6 @@ void MeasureOurs(const Volume& volume, const Options& options, Figures& figures)
 }
 
 } // namespace
-
-support::SurfaceVerdict SetVerdict(
-  const TriangleSurface& surface, double delta, const std::string& prefix, Figures& figures)
-{
-  const auto set = [&](const char* name, auto value)
-  { figures.Set(prefix + name, static_cast<double>(value)); };
-  const support::SurfaceVerdict verdict =
-    support::JudgeSurface(surface, delta > 0.0 ? delta : 0.85);
-  const support::TopologyVerdict& topology = verdict.Topology;
-  set("Vertices", surface.Points.size() - topology.UnusedPoints);
-  set("Triangles", surface.Triangles.size());
-  set("Components", topology.Components.size());
-  if (topology.Genus >= 0)
-  {
-    set("Genus", topology.Genus);
-  }
-  set("Faults",
-    topology.OpenEdges + topology.NonManifoldEdges + topology.NonManifoldVertices +
-      topology.DegenerateTriangles + topology.MisorientedEdges);
-  set("SelfIntersections", verdict.Intersections.Pairs);
-  set("EdgeShortest", verdict.Lengths.Shortest);
-  set("EdgeMean", verdict.Lengths.Mean);
-  set("EdgeLongest", verdict.Lengths.Longest);
-  if (delta > 0.0)
-  {
-    set("EdgesOutside", verdict.Lengths.EdgesTooShort + verdict.Lengths.EdgesTooLong);
-    set("NearPairs", verdict.Lengths.NearPairs);
-  }
-  return verdict;
-}
 
 void RunSurface(const Options& options)
 {

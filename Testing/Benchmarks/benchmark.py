@@ -12,7 +12,7 @@ import importlib
 import sys
 
 TABLES = {
-    "pyramid": "vtkImagePyramid and its peers",
+    "pyramid": "vtkImagePyramid and its peer",
     "surface": "vtkDeformableSurface and its peers",
     "command": "volumic with sizes and threads",
     "interfaces": "one mesh of all labels of a map, and its peers"}

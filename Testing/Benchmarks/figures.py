@@ -6,8 +6,8 @@ make, all with one command:
 
     xvfb-run -a /usr/bin/python3 Testing/Benchmarks/figures.py --vessels aneurism.vti 100.5
 
-    levels     the surface at the end of each level                          Cranium.inv3
     graded     triangles, and fewer of them within a tolerance               Cranium.inv3, --graded
+    thin       triangles, and more of them where it is thin                  Cranium.inv3
     history    the curves of the paper's figure 5, with and without pyramid, Cranium.inv3
                with the paper's settings and with the defaults
     evolution  the paper's figures 3 and 4, and the same with the defaults   Cranium.inv3
@@ -50,6 +50,7 @@ SKULL = os.environ.get(
     "VOLUMIC_CRANIUM", "/usr/share/doc/invesalius-examples/examples/Cranium.inv3")
 SKULL_ISO = 226.5
 PAPERS_COARSEST = 3  # the paper starts at G3, the fourth of its levels
+EDGE_OF_THE_REST = .3, .5, .5  # of the head, a thin sheet behind the skull; shares of the bounds
 STARTS_ONLY = 10 ** 6  # iterations between snapshots: none but the one at each level's start
 ROW_WIDTH = 1240  # pixels of a whole picture, about as wide as a page of a repository is shown
 GAP = 10  # between panels, that of render.compose
@@ -126,30 +127,22 @@ def panel_width(columns):
     return (ROW_WIDTH - GAP) // columns - GAP
 
 
-def level_row(surface, frame, columns, bounds, **options):
-    """Panels and captions of the surfaces of the visited levels."""
-    surfaces = [(f"Level {level}", block) for level, block in visited_levels(surface.GetLevels())]
-    return surface_row(surfaces, frame, bounds, panel_width(columns), **options)
-
-
-def levels(skull):
-    surface = skull.run()
-    # As large as the skull allows: the head rest of the finest level passes the panel's border.
-    shown, _ = main_component(surface.GetOutput())
-    row, captions = level_row(surface, skull.frame, len(visited_levels(surface.GetLevels())),
-                              shown.GetBounds())
-    return render.compose([row], [captions])
-
-
 def graded(scan, tolerance=0.5, unit=" mm"):
-    """Beside the surface whose edges have one length."""
+    return beside_even(scan, f"Within a tolerance of {tolerance:g}{unit}", {"Tolerance": tolerance})
+
+
+def thin(skull):
+    return beside_even(skull, "Thin parts", {"ThinParts": True}, towards="P", at=EDGE_OF_THE_REST)
+
+
+def beside_even(scan, name, properties, **view):
+    """The triangles of a run beside those whose edges have one length."""
     width, even = panel_width(2), scan.run().GetOutput()
-    surfaces = even, scan.run(Tolerance=tolerance).GetOutput()
+    surfaces = {"All edges of one length": even, name: scan.run(**properties).GetOutput()}
     row = [close_view(main_component(surface)[0], scan.frame, (width, width * 3 // 10),
-                      delta=number(even, "Delta")) for surface in surfaces]
-    names = "All edges of one length", f"Within a tolerance of {tolerance:g}{unit}"
+                      delta=number(even, "Delta"), **view) for surface in surfaces.values()]
     return render.compose([row], [[(f"{name}: {surface.GetNumberOfPoints()} vertices",)
-                                   for name, surface in zip(names, surfaces)]])
+                                   for name, surface in surfaces.items()]])
 
 
 def without_pyramid(skull):
@@ -261,7 +254,7 @@ def compact(picture):
     return rounded
 
 
-SKULL_PICTURES = (levels, graded, history, evolution)
+SKULL_PICTURES = (graded, thin, history, evolution)
 
 
 def further_name(picture, path):

@@ -11,21 +11,16 @@ set -eo pipefail
 usage()
 {
   cat << 'USAGE'
-Usage: bash Testing/Benchmarks/run.sh [--peers] [TABLE [OPTION]...]
+Usage: bash Testing/Benchmarks/run.sh [TABLE [OPTION]...]
   TABLE   pyramid, surface, command: of the skull CT of Debian's invesalius-examples
           interfaces: of maps that are made, and two of Debian's mricron-data; all without a TABLE
   OPTION  instead, of that table: benchmark.py TABLE --help tells; the skull is
           build/benchmarks/skull.vti, its iso-value 226.5
-  --peers install ITK (large), to be compared with too; used anyway where it is there
 Tables are printed; all figures are left in build/benchmarks/*.csv.
 USAGE
 }
 
 packages=("${tool_packages[@]}" libcgal-dev mricron-data)
-if [ "$1" = --peers ]; then
-  packages+=(libinsighttoolkit5-dev)
-  shift
-fi
 tables=(pyramid surface command interfaces)
 case " ${tables[*]} " in
   *" ${1:-all} "*)
