@@ -1,26 +1,14 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Inputs of all kinds in ParaView's window: what is greyed out, and the choice of a component."""
+"""The choice of an array and of its component in ParaView's window."""
 
 import gui_session as gui
 import plugin_testing as testing
 import window_testing as window
 from paraview import simple
-from window_testing import APPLY, ISO_VALUE, PROPERTIES, choose, filter_of_the_menu, source
+from window_testing import APPLY, ISO_VALUE, PROPERTIES, choose, filter_of_the_menu
 
-FILTERS = ("ImagePyramid", "DeformableSurface", "VolumeToSurface", "LabelsToSurfaces")
-
-# Run in the window: an image without arrays; one whose second array has several components.
-NO_ARRAY = """
-from paraview import simple
-from vtkmodules.vtkCommonDataModel import vtkImageData
-image = vtkImageData()
-image.SetDimensions(20, 20, 20)
-bare = simple.TrivialProducer(registrationName="Bare")
-bare.GetClientSideObject().SetOutput(image)
-bare.UpdatePipeline()
-simple.SetActiveSource(bare)
-"""
+# Runs in the window: an image whose second array has several components.
 VECTOR = """
 from paraview import simple
 vector = simple.Calculator(simple.Wavelet())
@@ -46,16 +34,6 @@ def iso_values():
 
 
 class InputsWindowTest(window.WindowTestCase):
-    def test_not_offered_for_what_is_no_volume(self):
-        """The menus' entries are there, but greyed out, and do nothing."""
-        path, save = self.saved_state("not-offered.pvsm")
-        tried = [gui.pause(300), *map(filter_of_the_menu, FILTERS)]
-        self.play([*source("SphereSource"), *tried, *source("AMRGaussianPulseSource"), *tried,
-                   self.session.add_code(NO_ARRAY), *tried, *save], "not-offered")
-        state = window.proxies_of(path)
-        for name in ("SphereSource", "AMRGaussianPulseSource", "TrivialProducer"):
-            self.assertIn(name, state)
-        self.assertFalse(set(FILTERS) & set(state))
 
     def test_component(self):
         of_scalar, of_magnitude, of_y = iso_values()

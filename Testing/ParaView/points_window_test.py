@@ -174,15 +174,3 @@ class PointsWindowTest(window.WindowTestCase):
         low, high = (float(n) for n in re.search(r"surface: (\S+) (\S+)", told).groups())
         self.assertGreater(low, 30.0)
         self.assertGreater(high, 50.0)
-
-    def test_known_points(self):
-        path, save = self.saved_state("points-known.pvsm")
-        pixels = self.play(a_slice_of(two_balls()) + [
-            filter_of_the_menu("VolumeToSurface"), SHOW_ADVANCED, gui.pause(500),
-            gui.event(f"{ATTRACTING}/Add", "activate"), gui.pause(500), rows(ATTRACTING, 1),
-            APPLY, gui.pause(500), *save], "points-known")
-        self.assertFalse(self.is_marked(pixels, *CENTRE), "handles only where they are asked for")
-        filter_, surface = self.saved(path)
-        self.assertEqual(list(filter_.AttractingPositions), [30.0, 20.0, 20.0])
-        # A ball of its own about the point between the two.
-        self.assertEqual(testing.field(surface, "NumberOfComponents"), 3)

@@ -11,7 +11,6 @@ from paraview import smtrace
 
 import gui_session as gui
 import plugin_testing as testing
-import view_testing as views
 import window_testing as window
 
 # What Documentation/paraview.md tells to write below the import.
