@@ -14,7 +14,6 @@ import argparse
 import collections
 import concurrent.futures
 import glob
-import itertools
 import os
 import re
 import resource
@@ -223,22 +222,10 @@ def faults_of_topology(verdict, expected):
                f"{found[0]:g} {found[1]:g} {found[2]:g}, of the voxels {expected}")
 
 
-def parts_of(labels):
-    """A number for each voxel, the same for all of a part that is connected by faces."""
-    part, before = np.arange(labels.size).reshape(labels.shape), None
-    while not np.array_equal(part, before):
-        before = part.copy()
-        for axis, step in itertools.product(range(3), (1, -1)):
-            a, b = np.moveaxis(part, axis, 0)[::step], np.moveaxis(labels, axis, 0)[::step]
-            for i in range(1, len(a)):
-                a[i] = np.where(b[i] == b[i - 1], np.maximum(a[i], a[i - 1]), a[i])
-    return part.ravel()
-
-
 def check_labels(outcome):
     """None is lost; parts are reported."""
     labels = outcome.run.labels.ravel()
-    part = parts_of(outcome.run.labels)
+    part = whole_parts(outcome.run.labels, 1).ravel()
     sizes = np.bincount(part)
     for label in (set(labels) - {0}).intersection(outcome.run.selected or labels):
         if label not in outcome.wrong:

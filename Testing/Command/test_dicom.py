@@ -15,7 +15,6 @@ from command_test_case import ISO, ORIGIN, SIZE, SPACING, TURNED, CommandTestCas
 import medical_files
 
 PIXELS = struct.pack("<HH", 0x7FE0, 0x10)
-RLE = "1.2.840.10008.1.2.5"
 
 
 def item(content):
@@ -33,25 +32,6 @@ def element(group, number, kind, value):
 
 def position(k, aside=0.0):
     return (0x20, 0x32, "DS", medical_files.decimal(ORIGIN + [0, aside, k]))
-
-
-def run_lengths(pixels):
-    """Pack pixels as DICOM does: high and low bytes apart, all literal."""
-    parts = []
-    for high in (1, 0):
-        data = pixels.astype("<u2").tobytes()[high::2]
-        runs = b"".join(bytes([len(data[at:at + 128]) - 1]) + data[at:at + 128]
-                        for at in range(0, len(data), 128))
-        parts.append(runs + bytes(len(runs) % 2))
-    return struct.pack("<16I", 2, 64, 64 + len(parts[0]), *[0] * 13) + b"".join(parts)
-
-
-def packed_slice(k, syntax, data):
-    """A slice whose pixels are one fragment."""
-    content = dicom_slice(k, syntax=syntax, data=item(b"") + item(data) + struct.pack(
-        "<HHI", 0xFFFE, 0xE0DD, 0))
-    at = content.rindex(PIXELS) + 8
-    return content[:at] + b"\xff" * 4 + content[at + 4:]
 
 
 class DicomTest(CommandTestCase):
@@ -291,19 +271,6 @@ class FramesTest(DicomTest):
         volume = self.read(layers=True)
         for label, mask in zip(volume.labels, masks):
             np.testing.assert_array_equal(volume.array[label.layer] == label.value, mask)
-
-
-class PackedTest(DicomTest):
-    def test_run_lengths(self):
-        for k in range(SIZE[2]):
-            self.write_bytes(f"a/IM{k:02}", packed_slice(k, RLE, run_lengths(ball()[k])))
-        self.check()
-        content = self.content("a/IM17")
-        damaged = bytearray(content)
-        damaged[content.rindex(PIXELS) + 12 + 8 + 8 + 4] = 0xff  # where its second part begins
-        for broken in (bytes(damaged), content[:-8], content[:-600]):
-            self.write_bytes("a/IM17", broken)
-            self.refused("IM17: .*(cannot be unpacked|no pixels|too long|fewer)")
 
 
 class DamageTest(DicomTest):
