@@ -3,7 +3,6 @@
 """MRC, TIFF, pictures and OME-Zarr: voxels, positions and units; what is left out of a stack of
 pictures and what is missing is reported."""
 
-import gzip
 import importlib.util
 import os
 import struct
