@@ -163,13 +163,6 @@ class EndsTest(CommandTestCase):
             surface, _, _ = self.surface("--iso", "0", "--ends", ends, volume=volume)
             np.testing.assert_array_equal(triangles_of(surface), triangles_of(whole))
 
-    def test_what_is_refused(self):
-        volume = self.ball_file()
-        for reason, name, *options in (
-                ("'none' is none of closed, marked, open", "a.vtp", "--ends", "none"),
-                ("--ends open and files of solids, which are closed", "a.smesh", "--ends", "open")):
-            self.refused(reason, volume, self.path(name), *options, status=2)
-
 
 if __name__ == "__main__":
     unittest.main()

@@ -77,18 +77,6 @@ class ListTest(LabelsTest):
         self.refused("more than 4096", self.map_file("many.vti", label_image(many)),
                      "--list-labels", "--labels", "7")
 
-    def test_what_excludes_what(self):
-        for reason, arguments in (
-                ("out.stl: --list-labels makes no surfaces", ["out.stl"]),
-                ("--merge and --list-labels exclude each other", ["--merge"]),
-                ("--list-labels and --format exclude", ["--format", "stl"]),
-                ("--iso and --list-labels exclude", ["--iso", "3"]),
-                ("--finest and --list-labels exclude", ["--finest", "1"]),
-                ("--list-labels and --seeds exclude", ["--seeds", "a.txt"])):
-            with self.subTest(reason):
-                self.refused(reason, "a.vti", "--list-labels", *arguments, status=2)
-        self.refused("no volume is given", "--list-labels", status=2)
-
 
 if __name__ == "__main__":
     unittest.main()

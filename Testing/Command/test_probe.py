@@ -56,8 +56,6 @@ class ProbeTest(CommandTestCase):
         self.assertTrue(np.isnan(vtk_to_numpy(surface.GetPointData().GetArray("far"))).all())
         self.refused("none.vti: no such file", self.ball_file(), self.path("a.vtp"), "--probe",
                      self.path("none.vti"))
-        self.refused("--probe-depth needs --probe", self.ball_file(), self.path("a.vtp"),
-                     "--probe-depth", "1", status=2)
         os.symlink(far, self.path("link.vtp"))
         self.refused("is the input", self.ball_file(), self.path("link.vtp"), "--probe", far)
 

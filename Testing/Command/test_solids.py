@@ -324,13 +324,6 @@ class OptionsTest(SolidsTest):
                 self.refused(said, self.path("missing.vti"), self.path(name), *options,
                              env=environment)
 
-    def test_options_that_mean_nothing(self):
-        for options, said in ((("--mesher", "netgen"), "'netgen' is none of tetgen, gmsh"),
-                              (("--mesher", "gmsh"), "--mesher needs a file of tetrahedra"),
-                              (("--maximum-volume", "2"), "needs a file of tetrahedra"),
-                              (("--maximum-volume", "0"), "0 must be more than 0")):
-            self.refused(said, self.path("missing.vti"), self.path("a.stl"), *options, status=2)
-
 
 @unittest.skipUnless(MESHERS, "no mesher is installed")
 class SolverTest(SolidsTest):

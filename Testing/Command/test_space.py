@@ -136,14 +136,6 @@ class SpaceTest(CommandTestCase):
         extras = json.loads(content[20:20 + length])["nodes"][1]["extras"]
         self.assertEqual((extras["SPACE"], extras["LengthUnit"]), ("RAS", "mm"))
 
-    def test_wrong_usage(self):
-        for reason, line in (
-                ("--scale: 0 must be more than 0", "a b.stl --scale 0"),
-                ("--unit: 'inch' is none of m, cm, mm", "a b.stl --unit inch"),
-                ("--space: 'XYZ' is none of LPS, RAS, as-file", "a b.stl --space XYZ"),
-                ("--scale and --unit exclude", "a b.stl --scale 2 --unit mm")):
-            self.refused(reason, *line.split(), status=2)
-
 
 if __name__ == "__main__":
     unittest.main()
