@@ -90,28 +90,11 @@ class Hand(x_input.Input):
         self._x11.XSync(self._display, 0)
 
 
-def middle_of(mask, least):
-    """Of the pixels that are set: (x, y), or None where there are less than that."""
-    rows, columns = mask.nonzero()
-    return (int(numpy.median(columns)), int(numpy.median(rows))) if len(rows) >= least else None
-
-
-def colours(pixels, part):
-    return (pixels[part][..., colour].astype(int) for colour in range(3))
-
-
 def abort_button(pixels):
     """Its red cross, lit up, at the window's lower edge."""
-    red, green, blue = colours(pixels, numpy.s_[-40:])
-    place = middle_of((red > 150) & (green < 60) & (blue < 60), 20)
+    red, green, blue = window.colours(pixels, numpy.s_[-40:])
+    place = window.middle_of((red > 150) & (green < 60) & (blue < 60), 20)
     return place and (place[0], place[1] + pixels.shape[0] - 40)
-
-
-def apply_button(pixels):
-    """Lit up: greener than all else in the left third."""
-    red, green, blue = colours(pixels, numpy.s_[200:-60, : pixels.shape[1] // 3])
-    place = middle_of((green > 120) & (green > red + 20) & (green > blue + 20), 500)
-    return place and (place[0], place[1] + 200)
 
 
 @unittest.skipUnless(x_input.Input.is_there(), "libXtst was not found")
@@ -170,7 +153,7 @@ class AbortWindowTest(window.WindowTestCase):
         self.hand.move(700, 500)
         self.hand.focus()
         self.session.wait_for_rest(least=2)
-        return self.wait_for(apply_button, "made")
+        return self.wait_for(window.apply_button, "made")
 
     def test_stops_a_run_and_shows_the_surface_as_it_is(self):
         apply = self.make_filter()
@@ -205,6 +188,6 @@ class AbortWindowTest(window.WindowTestCase):
         self.assertEqual(self.facts("View: "), (2, self.whole[1]))
         self.session.wait_for_rest()
         pixels = self.picture("untouched")
-        self.assertIsNone(apply_button(pixels), "nothing is to be applied")
+        self.assertIsNone(window.apply_button(pixels), "nothing is to be applied")
         for part in (numpy.s_[:20, :400], numpy.s_[25:50, 10:100]):  # menus; first icons
             self.assertTrue((pixels[part] == before[part]).all(), "neither menu nor dialog")
