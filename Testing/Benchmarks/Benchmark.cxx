@@ -13,7 +13,6 @@
 #include "Benchmark.h"
 
 #include <vtkDataArray.h>
-#include <vtkNIFTIImageReader.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkXMLImageDataReader.h>
@@ -135,20 +134,14 @@ void Measure(const std::function<void()>& work, int repetitions, Figures& figure
 
 vtkSmartPointer<vtkImageData> ReadImage(const std::string& file)
 {
-  const auto read = [&file](auto* reader)
+  vtkNew<vtkXMLImageDataReader> reader;
+  if (!reader->CanReadFile(file.c_str()))
   {
-    if (!reader->CanReadFile(file.c_str()))
-    {
-      throw std::runtime_error(file + ": not a readable volume");
-    }
-    reader->SetFileName(file.c_str());
-    reader->Update();
-    return vtkSmartPointer<vtkImageData>(reader->GetOutput());
-  };
-  const bool isVti = file.size() > 4 && file.compare(file.size() - 4, 4, ".vti") == 0;
-  const vtkSmartPointer<vtkImageData> image = isVti
-    ? read(vtkNew<vtkXMLImageDataReader>().GetPointer())
-    : read(vtkNew<vtkNIFTIImageReader>().GetPointer());
+    throw std::runtime_error(file + ": not a readable volume");
+  }
+  reader->SetFileName(file.c_str());
+  reader->Update();
+  const vtkSmartPointer<vtkImageData> image = reader->GetOutput();
   vtkPointData* points = image->GetPointData();
   if (!points->GetScalars() && points->GetNumberOfArrays() > 0)
   {

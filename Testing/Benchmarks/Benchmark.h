@@ -50,7 +50,7 @@ private:
     process had resident at most. */
 void Measure(const std::function<void()>& work, int repetitions, Figures& figures);
 
-/** A .vti, .nii or .nii.gz with scalars of one component. */
+/** A .vti with scalars of one component. */
 vtkSmartPointer<vtkImageData> ReadImage(const std::string& file);
 
 /** What a peer does, which is measured, and then what it made. The image has to live as long. */
