@@ -5,16 +5,14 @@
  * Runs us and what else there is, measures and judges both; benchmark.py, which starts this
  * program, makes the tables.
  *
- *     Benchmark surface run=NAME volume=FILE.vti iso=VALUE [NAME=VALUE]...
- *     Benchmark pyramid volume=FILE.vti [repetitions=N] [peak=THREADS]
+ *     Benchmark run=NAME volume=FILE.vti iso=VALUE [NAME=VALUE]...
  *
- * See SurfaceRuns.cxx, PyramidRuns.cxx.
+ * See SurfaceRuns.cxx.
  */
 
 #include "Benchmark.h"
 
 #include <vtkDataArray.h>
-#include <vtkNIFTIImageReader.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkXMLImageDataReader.h>
@@ -37,23 +35,20 @@ namespace volumic::bench
 namespace
 {
 
-/** A line of /proc/self/status, in bytes; -1 without it. */
-long long StatusBytes(const std::string& name)
+double PeakMegabytes()
 {
   std::ifstream status("/proc/self/status");
-  for (std::string word; status >> word;)
+  std::string word;
+  double kilobytes = 0.0;
+  while (status >> word && word != "VmHWM:")
   {
-    if (word == name + ":")
-    {
-      long long kilobytes = -1;
-      return status >> kilobytes ? kilobytes * 1024 : -1;
-    }
   }
-  return -1;
+  status >> kilobytes;
+  return 1024e-6 * kilobytes;
 }
 
-/** The peak starts again from what is resident now, which is returned; -1 where it cannot. */
-long long StartPeakAgain()
+/** The peak starts again from what is resident now; false where it cannot. */
+bool StartPeakAgain()
 {
 #if defined(__GLIBC__)
   malloc_trim(0); // memory that was freed before must not serve what is measured
@@ -61,7 +56,7 @@ long long StartPeakAgain()
   std::ofstream refs("/proc/self/clear_refs");
   refs << "5";
   refs.flush();
-  return refs ? StatusBytes("VmRSS") : -1;
+  return static_cast<bool>(refs);
 }
 
 } // namespace
@@ -80,10 +75,10 @@ Options::Options(const std::vector<std::string>& words)
   }
 }
 
-std::string Options::Text(const std::string& name, const std::string& otherwise) const
+std::string Options::Text(const std::string& name) const
 {
   const auto found = this->Values.find(name);
-  return found == this->Values.end() ? otherwise : found->second;
+  return found == this->Values.end() ? std::string() : found->second;
 }
 
 double Options::Number(const std::string& name, double otherwise) const
@@ -95,17 +90,6 @@ double Options::Number(const std::string& name, double otherwise) const
 int Options::Integer(const std::string& name, int otherwise) const
 {
   return static_cast<int>(this->Number(name, otherwise));
-}
-
-std::vector<std::string> Options::List(const std::string& name, const std::string& otherwise) const
-{
-  std::vector<std::string> list;
-  std::istringstream words(this->Text(name, otherwise));
-  for (std::string word; std::getline(words, word, ',');)
-  {
-    list.push_back(word);
-  }
-  return list;
 }
 
 void Figures::Set(const std::string& name, double value)
@@ -125,12 +109,11 @@ void Figures::Write() const
   std::cout.flush();
 }
 
-void Measure(
-  const std::function<void()>& work, int repetitions, Figures& figures, std::size_t things)
+void Measure(const std::function<void()>& work, int repetitions, Figures& figures)
 {
   double seconds = std::numeric_limits<double>::infinity();
   double processor = seconds;
-  const long long before = StartPeakAgain();
+  const bool hasPeak = StartPeakAgain();
   for (int i = 0; i < repetitions; ++i)
   {
     const auto begin = std::chrono::steady_clock::now();
@@ -141,32 +124,24 @@ void Measure(
     seconds = std::min(
       seconds, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
   }
-  figures.Set("Seconds", seconds / static_cast<double>(things));
-  figures.Set("ProcessorSeconds", processor / static_cast<double>(things));
-  const auto peak = static_cast<double>(StatusBytes("VmHWM"));
-  if (before >= 0)
+  figures.Set("Seconds", seconds);
+  figures.Set("ProcessorSeconds", processor);
+  if (hasPeak)
   {
-    figures.Set("PeakMegabytes", 1e-6 * peak);
-    figures.Set("GrownBytes", peak - static_cast<double>(before));
+    figures.Set("PeakMegabytes", PeakMegabytes());
   }
 }
 
 vtkSmartPointer<vtkImageData> ReadImage(const std::string& file)
 {
-  const auto read = [&file](auto* reader)
+  vtkNew<vtkXMLImageDataReader> reader;
+  if (!reader->CanReadFile(file.c_str()))
   {
-    if (!reader->CanReadFile(file.c_str()))
-    {
-      throw std::runtime_error(file + ": not a readable volume");
-    }
-    reader->SetFileName(file.c_str());
-    reader->Update();
-    return vtkSmartPointer<vtkImageData>(reader->GetOutput());
-  };
-  const bool isVti = file.size() > 4 && file.compare(file.size() - 4, 4, ".vti") == 0;
-  const vtkSmartPointer<vtkImageData> image = isVti
-    ? read(vtkNew<vtkXMLImageDataReader>().GetPointer())
-    : read(vtkNew<vtkNIFTIImageReader>().GetPointer());
+    throw std::runtime_error(file + ": not a readable volume");
+  }
+  reader->SetFileName(file.c_str());
+  reader->Update();
+  const vtkSmartPointer<vtkImageData> image = reader->GetOutput();
   vtkPointData* points = image->GetPointData();
   if (!points->GetScalars() && points->GetNumberOfArrays() > 0)
   {
@@ -184,17 +159,9 @@ vtkSmartPointer<vtkImageData> ReadImage(const std::string& file)
 int main(int count, char** words)
 {
   using namespace volumic::bench;
-  const std::map<std::string, void (*)(const Options&)> commands = { { "surface", RunSurface },
-    { "pyramid", RunPyramid } };
-  const auto command = count > 1 ? commands.find(words[1]) : commands.end();
-  if (command == commands.end())
-  {
-    std::cerr << "Benchmark: surface or pyramid; benchmark.py starts it" << std::endl;
-    return 2;
-  }
   try
   {
-    command->second(Options(std::vector<std::string>(words + 2, words + count)));
+    RunSurface(Options(std::vector<std::string>(words + 1, words + count)));
     return 0;
   }
   catch (const std::exception& error)

@@ -17,8 +17,6 @@
 #include <string>
 #include <vector>
 
-class vtkImagePyramid;
-
 namespace volumic::bench
 {
 
@@ -28,10 +26,9 @@ class Options
 public:
   explicit Options(const std::vector<std::string>& words);
 
-  std::string Text(const std::string& name, const std::string& otherwise = "") const;
+  std::string Text(const std::string& name) const;
   double Number(const std::string& name, double otherwise) const;
   int Integer(const std::string& name, int otherwise) const;
-  std::vector<std::string> List(const std::string& name, const std::string& otherwise) const;
 
 private:
   std::map<std::string, std::string> Values;
@@ -49,13 +46,11 @@ private:
   std::map<std::string, std::string> Values;
 };
 
-/** Sets Seconds and ProcessorSeconds, the fastest of the repetitions, for each of so many things
-   that it makes, PeakMegabytes, what the process had resident at most, and GrownBytes, how much
-   more than before. */
-void Measure(
-  const std::function<void()>& work, int repetitions, Figures& figures, std::size_t things = 1);
+/** Sets Seconds and ProcessorSeconds, the fastest of the repetitions, and PeakMegabytes, what the
+    process had resident at most. */
+void Measure(const std::function<void()>& work, int repetitions, Figures& figures);
 
-/** A .vti, .nii or .nii.gz with scalars of one component. */
+/** A .vti with scalars of one component. */
 vtkSmartPointer<vtkImageData> ReadImage(const std::string& file);
 
 /** What a peer does, which is measured, and then what it made. The image has to live as long. */
@@ -67,16 +62,6 @@ struct Job
 
 /** Its triangles without points that no triangle has: they must not count as reached. */
 support::TriangleSurface TrianglesOf(vtkPolyData* surface);
-
-vtkImageData* LevelOf(vtkImagePyramid* pyramid, unsigned int level);
-
-/** A number of its field data; 0 where there is none. */
-double Field(vtkPolyData* surface, const char* name);
-
-/** Sets what the surface is by itself, in its units. @param delta 0 where there are no bounds to
-    hold */
-support::SurfaceVerdict SetVerdict(const support::TriangleSurface& surface, double delta,
-  const std::string& prefix, Figures& figures);
 
 /** A job whose work makes a poly data. */
 Job PolyDataJob(const std::function<vtkSmartPointer<vtkPolyData>()>& make);
@@ -91,22 +76,7 @@ Job RemeshingJob(const std::function<vtkSmartPointer<vtkPolyData>()>& make, doub
     component. */
 Job MesherJob(vtkImageData* image, vtkPolyData* largest, double isoValue, double radius);
 
-#if defined(VOLUMIC_BENCHMARK_OPENVDB)
-/** OpenVDB's volumeToMesh, without adaptivity. */
-Job OpenVdbJob(vtkImageData* image, double isoValue);
-#endif
-
-#if defined(VOLUMIC_BENCHMARK_ITK)
-/** itk::ThresholdSegmentationLevelSetImageFilter from the border inward, to an RMS change of 0.02
-    or 1200 iterations, then vtkFlyingEdges3D. One thread. */
-Job LevelSetJob(vtkImageData* image, double isoValue);
-
-/** ITK's Gaussian and resampling to each of the sizes, one after the other, of int16 voxels. */
-void RunItkPyramid(vtkImageData* volume, const std::vector<std::array<int, 3>>& sizes, int threads);
-#endif
-
 void RunSurface(const Options& options);
-void RunPyramid(const Options& options);
 
 } // namespace volumic::bench
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What VTK, CGAL and OpenVDB make surfaces with.
+// What VTK and CGAL make surfaces with.
 
 #include "Benchmark.h"
 
@@ -20,12 +20,6 @@
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/Surface_mesh_default_triangulation_3.h>
 #include <CGAL/make_surface_mesh.h>
-
-#if defined(VOLUMIC_BENCHMARK_OPENVDB)
-#include <openvdb/openvdb.h>
-#include <openvdb/tools/Dense.h>
-#include <openvdb/tools/VolumeToMesh.h>
-#endif
 
 #include <cmath>
 #include <memory>
@@ -170,12 +164,6 @@ support::TriangleSurface TrianglesOf(vtkPolyData* surface)
   return support::ToTriangleSurface(clean->GetOutput());
 }
 
-double Field(vtkPolyData* surface, const char* name)
-{
-  vtkDataArray* array = surface->GetFieldData()->GetArray(name);
-  return array && array->GetNumberOfTuples() > 0 ? array->GetComponent(0, 0) : 0.0;
-}
-
 Job PolyDataJob(const std::function<vtkSmartPointer<vtkPolyData>()>& make)
 {
   const auto made = std::make_shared<vtkSmartPointer<vtkPolyData>>();
@@ -233,49 +221,5 @@ Job MesherJob(vtkImageData* image, vtkPolyData* largest, double isoValue, double
   };
   return { work, [mesh]() { return ToSurface(*mesh); } };
 }
-
-#if defined(VOLUMIC_BENCHMARK_OPENVDB)
-Job OpenVdbJob(vtkImageData* image, double isoValue)
-{
-  const auto made = std::make_shared<support::TriangleSurface>();
-  const auto work = [=]()
-  {
-    const int* size = image->GetDimensions();
-    const auto grid = openvdb::FloatGrid::create(static_cast<float>(image->GetScalarRange()[0]));
-    // OpenVDB's own layout has z fastest.
-    openvdb::tools::Dense<float, openvdb::tools::LayoutXYZ> dense(
-      openvdb::CoordBBox(0, 0, 0, size[0] - 1, size[1] - 1, size[2] - 1));
-    vtkDataArray* voxels = image->GetPointData()->GetScalars();
-    for (vtkIdType v = 0; v < voxels->GetNumberOfTuples(); ++v)
-    {
-      dense.data()[v] = static_cast<float>(voxels->GetComponent(v, 0));
-    }
-    openvdb::tools::copyFromDense(dense, *grid, 0.0f);
-    std::vector<openvdb::Vec3s> points;
-    std::vector<openvdb::Vec3I> triangles;
-    std::vector<openvdb::Vec4I> quads;
-    openvdb::tools::volumeToMesh(*grid, points, triangles, quads, isoValue);
-    *made = support::TriangleSurface();
-    const double* step = image->GetSpacing();
-    for (const openvdb::Vec3s& p : points)
-    {
-      made->Points.push_back({ p[0] * step[0], p[1] * step[1], p[2] * step[2] });
-    }
-    const auto add = [&](auto a, auto b, auto c) {
-      made->Triangles.push_back({ static_cast<int>(a), static_cast<int>(b), static_cast<int>(c) });
-    };
-    for (const openvdb::Vec3I& t : triangles)
-    {
-      add(t[0], t[1], t[2]);
-    }
-    for (const openvdb::Vec4I& q : quads)
-    {
-      add(q[0], q[1], q[2]);
-      add(q[0], q[2], q[3]);
-    }
-  };
-  return { work, [made]() { return *made; } };
-}
-#endif
 
 } // namespace volumic::bench

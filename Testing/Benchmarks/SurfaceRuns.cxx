@@ -3,9 +3,9 @@
 
 // One run of vtkDeformableSurface or of a peer on a volume, measured and judged:
 //
-//     run=us | flat | flying | smoothed | decimated | remeshed | mesher | openvdb | levelset
+//     run=us | flat | flying | smoothed | remeshed | mesher
 //     volume=FILE.vti iso=VALUE metric=0|1 threads=N repetitions=N
-//     edge=LENGTH vertices=N radius=R    what peers are told of ours
+//     edge=LENGTH radius=R    what peers are told of ours
 //
 // Peers get the volume with a voxel of air around it. The object is bright. Lengths are those of
 // the metric (of level 0, where a level is spoken of) with the smallest distance of two voxels as
@@ -21,7 +21,6 @@
 #include <vtkImagePyramid.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkPolyDataConnectivityFilter.h>
-#include <vtkQuadricDecimation.h>
 #include <vtkSMPTools.h>
 #include <vtkTable.h>
 #include <vtkVariant.h>
@@ -92,6 +91,49 @@ vtkSmartPointer<vtkImageData> InSteps(vtkImageData* image, const Steps& steps)
 }
 
 //------------------------------------------------------------------------------
+/** A number of its field data; 0 where there is none. */
+double Field(vtkPolyData* surface, const char* name)
+{
+  vtkDataArray* array = surface->GetFieldData()->GetArray(name);
+  return array && array->GetNumberOfTuples() > 0 ? array->GetComponent(0, 0) : 0.0;
+}
+
+vtkImageData* LevelOf(vtkImagePyramid* pyramid, unsigned int level)
+{
+  return vtkImageData::SafeDownCast(pyramid->GetOutput()->GetBlock(level));
+}
+
+/** Sets what the surface is by itself, in its units. @param delta 0 where there are no bounds to
+    hold */
+void SetVerdict(
+  const TriangleSurface& surface, double delta, const std::string& prefix, Figures& figures)
+{
+  const auto set = [&](const char* name, auto value)
+  { figures.Set(prefix + name, static_cast<double>(value)); };
+  const support::SurfaceVerdict verdict =
+    support::JudgeSurface(surface, delta > 0.0 ? delta : 0.85);
+  const support::TopologyVerdict& topology = verdict.Topology;
+  set("Vertices", surface.Points.size() - topology.UnusedPoints);
+  set("Triangles", surface.Triangles.size());
+  set("Components", topology.Components.size());
+  if (topology.Genus >= 0)
+  {
+    set("Genus", topology.Genus);
+  }
+  set("Faults",
+    topology.OpenEdges + topology.NonManifoldEdges + topology.NonManifoldVertices +
+      topology.DegenerateTriangles + topology.MisorientedEdges);
+  set("SelfIntersections", verdict.Intersections.Pairs);
+  set("EdgeShortest", verdict.Lengths.Shortest);
+  set("EdgeMean", verdict.Lengths.Mean);
+  set("EdgeLongest", verdict.Lengths.Longest);
+  if (delta > 0.0)
+  {
+    set("EdgesOutside", verdict.Lengths.EdgesTooShort + verdict.Lengths.EdgesTooLong);
+    set("NearPairs", verdict.Lengths.NearPairs);
+  }
+}
+
 /** How it fits the image in air, in whose index coordinates it is, in both metrics. */
 void SetFit(const TriangleSurface& surface, vtkImageData* inAir, double isoValue,
   const std::string& prefix, Figures& figures)
@@ -138,35 +180,15 @@ vtkSmartPointer<vtkPolyData> Smoothed(vtkImageData* image, double isoValue)
   return smooth->GetOutput();
 }
 
-vtkSmartPointer<vtkPolyData> Decimated(vtkImageData* image, double isoValue, double vertices)
-{
-  const vtkSmartPointer<vtkPolyData> smoothed = Smoothed(image, isoValue);
-  // Two triangles per vertex. (Points are no measure: those of the other components are there.)
-  const double share = 2.0 * vertices / static_cast<double>(smoothed->GetNumberOfPolys());
-  vtkNew<vtkQuadricDecimation> decimate;
-  decimate->SetInputData(smoothed);
-  decimate->SetTargetReduction(std::max(0.0, 1.0 - share));
-  decimate->Update();
-  return decimate->GetOutput();
-}
-
 Job PeerJob(const Options& options, vtkImageData* image, double iso)
 {
-  const double edge = options.Number("edge", 1.35), vertices = options.Number("vertices", 1e5);
+  const double edge = options.Number("edge", 1.35);
   const double radius = options.Number("radius", 0.8 * edge);
   const std::map<std::string, std::function<Job()>> jobs = {
     { "flying", [=]() { return PolyDataJob([=]() { return FlyingEdges(image, iso); }); } },
     { "smoothed", [=]() { return PolyDataJob([=]() { return Smoothed(image, iso); }); } },
-    { "decimated",
-      [=]() { return PolyDataJob([=]() { return Decimated(image, iso, vertices); }); } },
     { "remeshed", [=]() { return RemeshingJob([=]() { return Smoothed(image, iso); }, edge); } },
     { "mesher", [=]() { return MesherJob(image, LargestComponent(image, iso), iso, radius); } },
-#if defined(VOLUMIC_BENCHMARK_OPENVDB)
-    { "openvdb", [=]() { return OpenVdbJob(image, iso); } },
-#endif
-#if defined(VOLUMIC_BENCHMARK_ITK)
-    { "levelset", [=]() { return LevelSetJob(image, iso); } },
-#endif
   };
   const auto found = jobs.find(options.Text("run"));
   if (found == jobs.end())
@@ -286,6 +308,7 @@ void MeasureOurs(const Volume& volume, const Options& options, Figures& figures)
 
 } // namespace
 
+<<<<<<< HEAD
 support::SurfaceVerdict SetVerdict(
   const TriangleSurface& surface, double delta, const std::string& prefix, Figures& figures)
 {
@@ -314,6 +337,8 @@ support::SurfaceVerdict SetVerdict(
   return verdict;
 }
 
+=======
+>>>>>>> h71u
 void RunSurface(const Options& options)
 {
   const Volume volume = { ReadImage(options.Text("volume")),

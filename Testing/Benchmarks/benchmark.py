@@ -12,10 +12,9 @@ import importlib
 import sys
 
 TABLES = {
-    "pyramid": "vtkImagePyramid and its peers",
+    "pyramid": "vtkImagePyramid and its peer",
     "surface": "vtkDeformableSurface and its peers",
     "command": "volumic with sizes and threads",
-    "graded": "graded triangles",
     "interfaces": "one mesh of all labels of a map, and its peers"}
 
 
@@ -32,7 +31,7 @@ def main():
     parser.add_argument("--csv", metavar="FILE.csv", help="all figures")
     table.add_options(parser)
     options, options.rest = parser.parse_known_args(sys.argv[2:])
-    if options.rest and name not in ("command", "graded"):
+    if options.rest and name != "command":
         parser.error("unknown: " + " ".join(options.rest))
     return table.measure(options)
 

@@ -15,7 +15,6 @@ from vtkmodules.util.numpy_support import (
     numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy)
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
-from vtkmodules.vtkImagingStencil import vtkImageStencilToImage, vtkPolyDataToImageStencil
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 
 BACKGROUND = 0
@@ -164,52 +163,20 @@ class LabelVoxels:
                        if label != BACKGROUND}
         self.voxel = self.spacing.prod()
 
-    def box_of(self, label, places):
-        """(least, largest) numbers x, y, z of a box with the label's voxels and the places in it."""
-        inside = self.values == label
-        box = [[], []]
-        for axis in range(3):
-            numbers = np.flatnonzero(inside.any(axis=tuple({0, 1, 2} - {2 - axis})))
-            at = np.append(numbers, places[:, axis] / self.spacing[axis])
-            box[0].append(max(0, int(np.floor(at.min()))))
-            box[1].append(min(self.values.shape[2 - axis] - 1, int(np.ceil(at.max()))))
-        return box
-
-    def wrong_centres(self, label, points, faces):
-        """Voxels of the label with their centres outside of its boundary, and others' inside."""
-        if len(faces) == 0:
-            return self.counts[label]
-        least, largest = self.box_of(label, points[np.unique(faces)])
-        extent = [number for pair in zip(least, largest) for number in pair]
-        stencil, to_image = vtkPolyDataToImageStencil(), vtkImageStencilToImage()
-        stencil.SetInputData(surface_of(points, faces))
-        stencil.SetOutputSpacing(*self.spacing)
-        stencil.SetOutputWholeExtent(*extent)
-        stencil.SetTolerance(0)
-        to_image.SetInputConnection(stencil.GetOutputPort())
-        to_image.SetInsideValue(1)
-        to_image.SetOutputScalarTypeToUnsignedChar()
-        to_image.Update()
-        scalars = to_image.GetOutput().GetPointData().GetScalars()
-        box = tuple(slice(a, b + 1) for a, b in zip(least[::-1], largest[::-1]))
-        of_label = self.values[box] == label
-        return int((vtk_to_numpy(scalars).reshape(of_label.shape) != of_label).sum())
-
 
 # ---- All of it -----------------------------------------------------------------------------------
 
 def label_figures(shape, voxels, large):
     """Sums over the labels, and errors of the volumes of those of more than `large` voxels."""
-    edges = wrong = lost = 0
+    edges = lost = 0
     errors = []
     for label, count in voxels.counts.items():
         faces = shape.faces_of(label)
         edges += wrong_edges(faces)
         lost += len(faces) == 0
-        wrong += voxels.wrong_centres(label, shape.points, faces)
         if count > large:
             errors.append(abs(100 * (volume_of(shape.points, faces) / voxels.voxel / count - 1)))
-    return {"WrongEdges": edges, "WrongVoxels": wrong, "LostLabels": lost,
+    return {"WrongEdges": edges, "LostLabels": lost,
             "VolumeLargest": max(errors, default=np.nan)}
 
 
@@ -239,13 +206,11 @@ def figures_of(shape, voxels, judge, large=1000):
                          shape.triangles), path)
         told = judged(judge, path)
     lines = edges_of_many(shape)
-    angles, least = line_angles(shape.points, lines), least_angles(shape)
-    at_junction = np.zeros(len(shape.points), bool)
-    at_junction[lines] = True
-    inner = least[~at_junction[shape.triangles].any(axis=1)]
+    angles = line_angles(shape.points, lines)
     return {
         "Vertices": len(np.unique(shape.triangles)), "Triangles": len(shape.triangles),
         "Intersections": told["intersections"], "Flat": told["flat"],
-        "RatioMean": told["ratio"], "AngleInner": inner.min() if len(inner) else np.nan,
-        "AngleLeast": least.min(), "Dihedral": np.quantile(dihedral_angles(shape), .95), "Roughness": np.quantile(angles, .95) if len(angles) else np.nan,
+        "RatioMean": told["ratio"], "AngleLeast": least_angles(shape).min(),
+        "Dihedral": np.quantile(dihedral_angles(shape), .95),
+        "Roughness": np.quantile(angles, .95) if len(angles) else np.nan,
         **label_figures(shape, voxels, large)}

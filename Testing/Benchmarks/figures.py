@@ -1,16 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Makes the pictures of data in README.md and Documentation/, all with one command:
+"""Makes the pictures of data in README.md and Documentation/ that Examples/quickstart.sh does not
+make, all with one command:
 
     xvfb-run -a /usr/bin/python3 Testing/Benchmarks/figures.py --vessels aneurism.vti 100.5
 
-    pyramid    slices and iso-surfaces of the images of all levels           Cranium.inv3
-    levels     the surface at the end of each level                          Cranium.inv3
-    views      the finest surface from outside, and cut open                 Cranium.inv3
-    triangles  its triangles, and its contour on slices                      Cranium.inv3
-    graded     its triangles, and fewer of them within a tolerance           Cranium.inv3, --graded
-    thin       its triangles, and more of them where it is thin              Cranium.inv3
+    graded     triangles, and fewer of them within a tolerance               Cranium.inv3, --graded
+    thin       triangles, and more of them where it is thin                  Cranium.inv3
     history    the curves of the paper's figure 5, with and without pyramid, Cranium.inv3
                with the paper's settings and with the defaults
     evolution  the paper's figures 3 and 4, and the same with the defaults   Cranium.inv3
@@ -30,100 +27,122 @@ of labels. Each picture is less than 300 kB.
 """
 
 import argparse
+import functools
 import os
 import sys
-from functools import partial
 
 import numpy as np
-
-from scan_runs import SKULL, SKULL_ISO, Scan, field, iterations, starts
-from label_pictures import interface_picture, label_picture
-import render
-import history_chart
-from pictures import (
-    INSIDE, blocks_of, close_view, contour_on_slice, cut_open, main_component, number,
-    pyramid_picture, surface_row, visited_levels)
+import volumic
 from volumic.errors import Failure
+from volumic.messages import update
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "Examples",
+                                "Python"))
+# pylint: disable=wrong-import-position
+import history_chart
+import pictures
+import render
+from label_pictures import interface_picture, label_picture
+from pictures import blocks_of, close_view, main_component, number, surface_row, visited_levels
+
+SKULL = os.environ.get(
+    "VOLUMIC_CRANIUM", "/usr/share/doc/invesalius-examples/examples/Cranium.inv3")
+SKULL_ISO = 226.5
+PAPERS_COARSEST = 3  # the paper starts at G3, the fourth of its levels
+EDGE_OF_THE_REST = .3, .5, .5  # of the head, a thin sheet behind the skull; shares of the bounds
+STARTS_ONLY = 10 ** 6  # iterations between snapshots: none but the one at each level's start
 ROW_WIDTH = 1240  # pixels of a whole picture, about as wide as a page of a repository is shown
 GAP = 10  # between panels, that of render.compose
 LARGEST = 300000  # bytes of a picture
 GREY_STEP = 5  # colours are rounded to multiples: half the size, and hardly visible
 SNAPSHOTS = (0, 50, 100, 250)  # iterations that are shown, and the surface at rest
 START_ZOOM = 1.25  # a rounded box does not reach the corners of its bounds
-EDGE_OF_THE_REST = .3, .5, .5  # of the head, a thin sheet behind the skull; shares of the bounds
 AS_PAPER = "As in the paper: {} levels, no recovery"
+
+
+class Scan(pictures.Scan):
+    """A volume, its pyramid and the runs on it, each made when it is first used."""
+
+    def __init__(self, path, iso):
+        super().__init__(volumic.read(path), iso)
+        self.pyramid = volumic.vtkImagePyramid()
+        self.pyramid.SetInputData(self.image)
+
+    @functools.cache
+    def run(self, **properties):
+        """The filter after its run, with the properties that differ from their defaults.
+
+        Its snapshots hold at least the start of every level.
+        """
+        print(f"  {', '.join(f'{n} {v}' for n, v in properties.items()) or 'default properties'}")
+        surface = volumic.vtkDeformableSurface()
+        surface.SetInputConnection(self.pyramid.GetOutputPort())
+        surface.SetIsoValue(self.iso)
+        for name, value in {"SnapshotInterval": STARTS_ONLY, **properties}.items():
+            getattr(surface, "Set" + name)(value)
+        errors, _ = update(surface)
+        if errors or surface.GetOutput().GetNumberOfPolys() == 0:
+            raise Failure(errors[0] if errors else f"no surface at the iso-value {self.iso:g}")
+        return surface
+
+    def coarsest(self):
+        """The coarsest level where a voxel is above the iso-value."""
+        self.pyramid.Update()
+        return max(h for h, image in enumerate(pictures.blocks_of(self.pyramid.GetOutput()))
+                   if image.GetScalarRange()[1] > self.iso)
+
+    @functools.cache
+    def run_as_paper(self):
+        """Without recovery, from level 3 or else the first at which something is left; that level.
+        """
+        for level in range(min(PAPERS_COARSEST, self.coarsest()), 0, -1):
+            try:
+                return self.run(Recovery=0, Metric=0, CoarsestLevel=level), level
+            except Failure as error:
+                print(f"  from level {level}: {error}")
+        return self.run(Recovery=0, Metric=0, CoarsestLevel=0), 0
+
+
+def iterations(surface):
+    """(level, number of iterations, seconds of them) of a run, in the order of the levels."""
+    history = surface.GetHistory()
+    levels, seconds = (vtk_to_numpy(history.GetColumnByName(name))
+                       for name in ("Level", "Seconds"))
+    return [(int(level), int((levels == level).sum()), float(seconds[levels == level].sum()))
+            for level in dict.fromkeys(levels.tolist())]
+
+
+def starts(surface):
+    """The surface before the first iteration of each level, by level."""
+    return {field(block, "Level"): block for block in pictures.blocks_of(surface.GetSnapshots())
+            if field(block, "Iterations") == 0}
+
+
+def field(surface, name):
+    return int(pictures.number(surface, name))
 
 
 def panel_width(columns):
     return (ROW_WIDTH - GAP) // columns - GAP
 
 
-def pyramid(skull):
-    skull.pyramid.Update()
-    levels = skull.pyramid.GetOutput()
-    return pyramid_picture(levels, skull, "Pyramid of a skull CT",
-                           panel_width(levels.GetNumberOfBlocks()))
-
-
-def level_row(surface, frame, columns, bounds, **options):
-    """Panels and captions of the surfaces of the visited levels."""
-    surfaces = [(f"Level {level}", block) for level, block in visited_levels(surface.GetLevels())]
-    return surface_row(surfaces, frame, bounds, panel_width(columns), **options)
-
-
-def levels(skull):
-    surface = skull.run()
-    # As large as the skull allows: the head rest of the finest level passes the panel's border.
-    shown, _ = main_component(surface.GetOutput())
-    row, captions = level_row(surface, skull.frame, len(visited_levels(surface.GetLevels())),
-                              shown.GetBounds())
-    return render.compose([row], [captions])
-
-
-def views(skull):
-    shown, _ = main_component(skull.run().GetOutput())
-    bounds, frame = shown.GetBounds(), skull.frame
-    width, outside = panel_width(4), (("L", "S"), ("I", "A"))
-    size = width, render.fitting_height(width, frame, outside, bounds)
-    row = [render.draw([render.surface_actor(shown)], size, frame, *view, bounds)
-           for view in outside]
-    row += [render.draw([cut_open(shown, -frame.vector(view[0]))], size, frame, *view, bounds)
-            for view in INSIDE]
-    names = ("From the side", "From below", "Cut open, from the side", "Cut open, from above")
-    return render.compose([row], [[(name,) for name in names]])
-
-
-def triangles(skull):
-    surface, width = skull.run().GetOutput(), panel_width(3)
-    size = width, render.fitting_height(width, skull.indices, [("L", "S")], skull.bounds())
-    row = [close_view(main_component(surface)[0], skull.frame, size)]
-    row += [contour_on_slice(surface, skull, view, size) for view in (("A", "S"), ("L", "S"))]
-    names = ("The triangles of level 0", "Their contour on a coronal slice",
-             "and on a sagittal slice")
-    return render.compose([row], [[(name,) for name in names]])
-
-
 def graded(scan, tolerance=0.5, unit=" mm"):
-    surfaces = scan.run().GetOutput(), scan.run(Tolerance=tolerance).GetOutput()
-    return beside_even(scan, surfaces, [main_component(surface)[0] for surface in surfaces],
-                       f"Within a tolerance of {tolerance:g}{unit}")
+    return beside_even(scan, f"Within a tolerance of {tolerance:g}{unit}", {"Tolerance": tolerance})
 
 
 def thin(skull):
-    surfaces = skull.run().GetOutput(), skull.run(ThinParts=True).GetOutput()
-    return beside_even(skull, surfaces, surfaces, "Thin parts", towards="P", at=EDGE_OF_THE_REST)
+    return beside_even(skull, "Thin parts", {"ThinParts": True}, towards="P", at=EDGE_OF_THE_REST)
 
 
-def beside_even(skull, surfaces, shown, name, **view):
-    """Two surfaces' triangles, of which the first has edges of one length."""
-    width = panel_width(2)
-    row = [close_view(surface, skull.frame, (width, width * 3 // 10),
-                      delta=number(surfaces[0], "Delta"), **view) for surface in shown]
+def beside_even(scan, name, properties, **view):
+    """The triangles of a run beside those whose edges have one length."""
+    width, even = panel_width(2), scan.run().GetOutput()
+    surfaces = {"All edges of one length": even, name: scan.run(**properties).GetOutput()}
+    row = [close_view(main_component(surface)[0], scan.frame, (width, width * 3 // 10),
+                      delta=number(even, "Delta"), **view) for surface in surfaces.values()]
     return render.compose([row], [[(f"{name}: {surface.GetNumberOfPoints()} vertices",)
-                                   for name, surface in zip(("All edges of one length", name),
-                                                            surfaces)]])
+                                   for name, surface in surfaces.items()]])
 
 
 def without_pyramid(skull):
@@ -235,7 +254,7 @@ def compact(picture):
     return rounded
 
 
-SKULL_PICTURES = (pyramid, levels, views, triangles, graded, thin, history, evolution)
+SKULL_PICTURES = (graded, thin, history, evolution)
 
 
 def further_name(picture, path):
@@ -280,8 +299,9 @@ def main():
             write_picture(vessels, Scan(path, float(iso)), arguments.output,
                           further_name("vessels", path) if place else "vessels")
         for path, iso, tolerance in arguments.graded if "graded" in arguments.only else []:
-            write_picture(partial(graded, tolerance=float(tolerance), unit=""), Scan(path, float(iso)),
-                          arguments.output, further_name("graded", path))
+            draw = functools.partial(graded, tolerance=float(tolerance), unit="")
+            write_picture(draw, Scan(path, float(iso)), arguments.output,
+                          further_name("graded", path))
         if "labels" in arguments.only and arguments.label_map:
             write_picture(labels, arguments.label_map, arguments.output)
         if "interfaces" in arguments.only:

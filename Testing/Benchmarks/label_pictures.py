@@ -3,7 +3,6 @@
 """Pictures of labels: surfaces of an atlas beside those of VTK's filters, and one mesh of grains."""
 
 import numpy as np
-import scan_runs  # noqa: F401, which finds the modules of Examples/Python
 import render
 import volumic
 from interfaces import image_of, polycrystal

@@ -11,22 +11,17 @@ set -eo pipefail
 usage()
 {
   cat << 'USAGE'
-Usage: bash Testing/Benchmarks/run.sh [--peers] [TABLE [OPTION]...]
-  TABLE   pyramid, surface, command, graded: of the skull CT of Debian's invesalius-examples
+Usage: bash Testing/Benchmarks/run.sh [TABLE [OPTION]...]
+  TABLE   pyramid, surface, command: of the skull CT of Debian's invesalius-examples
           interfaces: of maps that are made, and two of Debian's mricron-data; all without a TABLE
   OPTION  instead, of that table: benchmark.py TABLE --help tells; the skull is
           build/benchmarks/skull.vti, its iso-value 226.5
-  --peers install ITK and OpenVDB (large), to be compared with too; used anyway where they are there
 Tables are printed; all figures are left in build/benchmarks/*.csv.
 USAGE
 }
 
 packages=("${tool_packages[@]}" libcgal-dev mricron-data)
-if [ "$1" = --peers ]; then
-  packages+=(libinsighttoolkit5-dev libopenvdb-dev)
-  shift
-fi
-tables=(pyramid surface command graded interfaces)
+tables=(pyramid surface command interfaces)
 case " ${tables[*]} " in
   *" ${1:-all} "*)
     tables=("$1")
@@ -68,7 +63,6 @@ for table in "${tables[@]}"; do
     0pyramid) measure pyramid "$skull" ;;
     0surface) measure surface "$skull" --iso 226.5 ;;
     0command) measure command "$skull" --iso 226.5 --sizes 0,512 --repetitions 5 ;;
-    0graded) measure graded "$skull" --iso 226.5 --thin ;;
     0interfaces) measure interfaces ;;
   esac
 done

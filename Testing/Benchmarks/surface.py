@@ -21,11 +21,8 @@ RUNS = {
     "flat": "the same, one thread, without the pyramid",
     "flying": "vtkFlyingEdges3D",
     "smoothed": "the same, largest component, vtkWindowedSincPolyDataFilter",
-    "decimated": "the same, vtkQuadricDecimation to as many vertices as ours",
     "remeshed": "smoothed, CGAL isotropic_remeshing to our mean edge",
-    "mesher": "CGAL make_surface_mesh to about as many vertices as ours",
-    "openvdb": "OpenVDB volumeToMesh",
-    "levelset": "ITK threshold segmentation level set: takes minutes"}
+    "mesher": "CGAL make_surface_mesh to about as many vertices as ours"}
 COLUMNS = {
     "Seconds": "seconds", "ProcessorSeconds": "processor seconds", "PeakMegabytes": "MB at the peak",
     "Vertices": "vertices", "Components": "components", "Genus": "genus",
@@ -47,7 +44,7 @@ def add_options(parser):
     parser.add_argument("volume", help=".vti")
     parser.add_argument("--iso", required=True, help="best one that no voxel equals: 226.5")
     parser.add_argument("--metric", type=int, choices=(0, 1), default=1, help="0 voxels, 1 world")
-    parser.add_argument("--runs", metavar="LIST", help="default: all but levelset: " + ", ".join(
+    parser.add_argument("--runs", metavar="LIST", help="default: all: " + ", ".join(
         RUNS) + ", and us-N with N threads")
     parser.add_argument("--repetitions", type=int, default=1, help="of each run, the fastest counts")
 
@@ -56,7 +53,7 @@ def run(options, name, **named):
     say(f"{options.volume}: {name}")
     ours, _, threads = name.partition("-")
     figures = benchmark(
-        options.program, "surface", run=ours, threads=threads or None, volume=options.volume,
+        options.program, run=ours, threads=threads or None, volume=options.volume,
         iso=options.iso, metric=options.metric, repetitions=options.repetitions, **named)
     if "Levels" in figures:
         figures.update({name: figures[f"level.0.{name}"] for name in COLUMNS
@@ -66,15 +63,14 @@ def run(options, name, **named):
 
 def like(options, name, us):
     """A peer that is told how fine ours is."""
-    named = {"edge": us["EdgeMean"], "vertices": us["Vertices"]}
-    figures = run(options, name, **named)
+    figures = run(options, name, edge=us["EdgeMean"])
     radius = .8 * us["EdgeMean"]
     for _ in range(2 if name == "mesher" else 0):
         share = figures["Vertices"] / us["Vertices"]
         if not share > 0 or abs(share - 1) <= .05:
             break
         radius *= math.sqrt(share)  # the number goes with the inverse square
-        figures = run(options, name, radius=radius, **named)
+        figures = run(options, name, radius=radius)
     return figures
 
 
@@ -94,7 +90,6 @@ def target_rows(runs, metric):
     rows = [
         ("S1", "us / remeshed, processor seconds", over("remeshed"), "<=", .5),
         ("S2", "us / mesher", over("mesher"), "<=", .6),
-        ("S3", "us / levelset", over("levelset"), "<=", .05),
         ("S4", "seconds for a million vertices",
          1e6 * ratio(us["ProcessorSeconds"], us["Vertices"]), "<=", 12),
         ("S4", "visits of a vertex on level 0",
@@ -116,13 +111,13 @@ def target_rows(runs, metric):
 
 
 def measure(options):
-    names = options.runs.split(",") if options.runs else [name for name in RUNS if name != "levelset"]
+    names = options.runs.split(",") if options.runs else list(RUNS)
     runs = {}
     for name in names:
         us = runs.get("us", Figures())
-        if name in ("decimated", "remeshed", "mesher") and "EdgeMean" not in us:
+        if name in ("remeshed", "mesher") and "EdgeMean" not in us:
             runs[name] = Figures(Failure="follows us, which has not run")
-        elif name in ("decimated", "remeshed", "mesher"):
+        elif name in ("remeshed", "mesher"):
             runs[name] = like(options, name, us)
         else:
             runs[name] = run(options, name)

@@ -32,9 +32,9 @@ def words_of(named):
     return [f"{name}={value}" for name, value in named.items() if value is not None]
 
 
-def benchmark(program, what, **named):
+def benchmark(program, **named):
     """What `Benchmark` tells of a run in a process of its own."""
-    process = subprocess.run([program, what, *words_of(named)], stdout=subprocess.PIPE, text=True,
+    process = subprocess.run([program, *words_of(named)], stdout=subprocess.PIPE, text=True,
                              check=False)
     figures = Figures()
     for line in process.stdout.splitlines():

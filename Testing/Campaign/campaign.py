@@ -14,7 +14,6 @@ import argparse
 import collections
 import concurrent.futures
 import glob
-import itertools
 import os
 import re
 import resource
@@ -51,9 +50,9 @@ class Outcome:
         self.exceptions = []
         self.told = []  # of labels: what is exceptional, but for a warning about it
         self.wrong = {}  # of labels: numbers of voxels
-        self.labels = []  # of 8 voxels or more by default: (error of volume, wrong voxels, text)
-        self.small_labels = []  # of these, those of less than 60
-        self.parts = []  # of labels by default: (error of volume, voxels, text)
+        # Of labels of 8 voxels or more, and of parts of labels, with the default settings: (voxels,
+        # error of the volume, wrong voxels, text); errors in percent.
+        self.labels, self.parts = [], []
 
     def refusal(self):
         """Why there is no surface, without names and numbers."""
@@ -202,13 +201,12 @@ def volumes_of_parts(outcome, path, labels):
 def faults_of_label(verdict, told, outcome, path):
     run, label, voxels = outcome.run, told["Label"], told["LabelVoxels"]
     if run.is_default and voxels >= 8:
-        labels = outcome.labels if voxels >= 60 else outcome.small_labels
-        labels.append((100 * (told["Volume"] / voxels / run.spacing.prod() - 1),
-                       100 * verdict["wrong"] / voxels,
-                       f"seed {outcome.seed} ({run.kind}), {label}: {voxels} voxels"))
+        outcome.labels.append((voxels, 100 * (told["Volume"] / voxels / run.spacing.prod() - 1),
+                               100 * verdict["wrong"] / voxels,
+                               f"seed {outcome.seed} ({run.kind}), {label}: {voxels} voxels"))
     if run.is_default:
         outcome.parts += [
-            (100 * (volume / size - 1), size,
+            (size, 100 * (volume / size - 1), 0,
              f"seed {outcome.seed} ({run.kind}), {label}: a part of {size} voxels")
             for size, volume in volumes_of_parts(outcome, path, told["Labels"])]
     if abs(verdict["wrong"] - told["WrongVoxels"]) > verdict["on"]:
@@ -223,22 +221,10 @@ def faults_of_topology(verdict, expected):
                f"{found[0]:g} {found[1]:g} {found[2]:g}, of the voxels {expected}")
 
 
-def parts_of(labels):
-    """A number for each voxel, the same for all of a part that is connected by faces."""
-    part, before = np.arange(labels.size).reshape(labels.shape), None
-    while not np.array_equal(part, before):
-        before = part.copy()
-        for axis, step in itertools.product(range(3), (1, -1)):
-            a, b = np.moveaxis(part, axis, 0)[::step], np.moveaxis(labels, axis, 0)[::step]
-            for i in range(1, len(a)):
-                a[i] = np.where(b[i] == b[i - 1], np.maximum(a[i], a[i - 1]), a[i])
-    return part.ravel()
-
-
 def check_labels(outcome):
     """None is lost; parts are reported."""
     labels = outcome.run.labels.ravel()
-    part = parts_of(outcome.run.labels)
+    part = whole_parts(outcome.run.labels, 1).ravel()
     sizes = np.bincount(part)
     for label in (set(labels) - {0}).intersection(outcome.run.selected or labels):
         if label not in outcome.wrong:
@@ -292,27 +278,15 @@ def try_seed(seed, arguments, names):
     return outcome
 
 
-def tell_labels(which_labels, labels):
-    for which, name in enumerate(("volume less that of the voxels", "wrong voxels")[:len(labels)]):
-        labels.sort(key=lambda label: -abs(label[which]))
-        values = np.array([label[which] for label in labels])
-        print(f"{name} of {len(labels)} labels {which_labels} by default: "
-              f"{np.median(values):.2f} % in the median, 1 in 20 more than "
-              f"{np.quantile(abs(values), .95):.1f} %, the most")
-        for label in labels[:5]:
-            print(f"    {label[which]:.1f} %: {label[2]}")
-
-
-def tell_parts(parts):
-    for low, high in ((60, 1e9), (8, 59), (1, 7)):
-        some = sorted((p for p in parts if low <= p[1] <= high), key=lambda p: -abs(p[0]))
-        if some:
-            errors = np.abs([part[0] for part in some])
-            print(f"volume of {len(some)} parts of {low} to {high:g} voxels by default: off by "
-                  f"{np.median(errors):.2f} % in the median, 1 in 20 by more than "
-                  f"{np.quantile(errors, .95):.1f} %, {(errors > 25).sum()} by more than 25 %")
-            for part in some[:5]:
-                print(f"    {part[0]:.1f} %: {part[2]}")
+def tell_errors(what, found):
+    """found: of each (percent, text)."""
+    if found:
+        found = sorted(found, key=lambda one: -abs(one[0]))
+        sizes = np.abs([one[0] for one in found])
+        print(f"{what} of {len(found)} by default: {np.median(sizes):.2f} % in the median, 1 in 20 "
+              f"more than {np.quantile(sizes, .95):.1f} %, {(sizes > 25).sum()} more than 25 %")
+        for one in found[:5]:
+            print(f"    {one[0]:.1f} %: {one[1]}")
 
 
 def tell(outcomes):
@@ -324,9 +298,13 @@ def tell(outcomes):
     for outcome in outcomes:
         if outcome.told:
             print(f"    told by seed {outcome.seed}, {outcome.run.kind}: {'; '.join(outcome.told)}")
-    tell_labels("of 60 voxels or more", [one for o in outcomes for one in o.labels])
-    tell_labels("of 8 to 59 voxels", [one for o in outcomes for one in o.small_labels])
-    tell_parts([one for o in outcomes for one in o.parts])
+    for low, high in ((60, 1e9), (8, 59), (1, 7)):
+        for kind in ("labels", "parts"):
+            some = [one for o in outcomes for one in getattr(o, kind) if low <= one[0] <= high]
+            which = f"{kind} of {low} to {high:g} voxels"
+            tell_errors(f"Errors of the volumes of {which}", [(one[1], one[3]) for one in some])
+            if kind == "labels":
+                tell_errors(f"Wrong voxels of {which}", [one[2:] for one in some])
     slow = [o.seconds for o in outcomes if o.seconds > SLOW_SECONDS]
     print(f"{sum(o.surfaces for o in outcomes)} surfaces of "
           f"{sum(o.triangles for o in outcomes)} triangles judged; processor time "

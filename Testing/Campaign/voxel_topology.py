@@ -49,13 +49,13 @@ def roots_of(count, pairs):
             root = root[root]
 
 
-def whole_parts(voxels):
+def whole_parts(voxels, most=3):
     """A number from 0 for each voxel, the same where those of a label are joined by faces, edges or
-    corners: the parts that keep their volumes."""
+    corners: the parts that keep their volumes. most: 1 for faces alone."""
     number = np.arange(voxels.size).reshape(voxels.shape)
     links = []
     for step in itertools.product((-1, 0, 1), repeat=3):
-        if step > (0, 0, 0):
+        if step > (0, 0, 0) and np.count_nonzero(step) <= most:
             here = tuple(slice(max(-s, 0), n - max(s, 0)) for s, n in zip(step, voxels.shape))
             there = tuple(slice(max(s, 0), n - max(-s, 0)) for s, n in zip(step, voxels.shape))
             where = voxels[here] == voxels[there]

@@ -20,6 +20,12 @@ from volumic import reading
 SECONDS, MEMORY = 20, 1 << 30  # of the processor; above what the process has
 
 
+def noisy_ball(dtype="i2"):
+    """Noise does not pack well: damage in packed voxels is seldom damage of the packing."""
+    noise = np.random.default_rng(5).integers(0, 4, ball().shape)
+    return (ball() + noise).astype(dtype)
+
+
 class ReadingTestCase(FolderTestCase):
     def read(self, name, content=None, **choice):
         """The volume of a file in the folder of the test, that is written first if it has content."""

@@ -3,24 +3,29 @@
 """Damaged pictures, slices, maps and meshes are refused in one line that names the file; so does
 the command, whatever the format. (Formats of one file: test_reading.py.)"""
 
+import contextlib
 import gzip
 import os
 import resource
+import signal
 import struct
+import subprocess
+import sys
+import time
 import unittest
-import zlib
 
 import numpy as np
 from vtkmodules.vtkIOImage import (
     vtkBMPWriter, vtkJPEGWriter, vtkPNGWriter, vtkPNMWriter, vtkTIFFWriter)
 
 from command_test_case import (
-    ISO, META, SIZE, SPACING, CommandTestCase, ball, make_image, nrrd_header)
-from reading_test_case import ReadingTestCase
-from test_reading import noisy_ball
+    ISO, META, SPACING, CommandTestCase, ball, make_image, nrrd_header)
+from reading_test_case import ReadingTestCase, noisy_ball
 from volumic.reading import VolumeError, points
+from volumic.reading.worker import in_worker
 
 import medical_files
+
 
 class SlicesTest(ReadingTestCase):
     def test_pictures(self):
@@ -93,15 +98,64 @@ class MeshesTest(ReadingTestCase):
         self.refused_mesh("a.vtp", b"<VTKFile/>")
 
     def test_texts(self):
-        for text, reason in ((b"x,y,z\n1,2,3\n1,2\n", "line 3: not three"), (b"# none\n", "no points"),
-                             (b"1 2 nan\n", "line 1: 'nan' is not a number"),
-                             (b"1 2 x\n", "line 1: 'x' is not a number")):
-            self.refused_mesh("a.csv", text, reason)
+        """No line is dropped without a word."""
+        for heading in (b"x,y,z\n", b"X Y Z\n", b'"x","y","z"\r\n', b"# seeds\n\nx, y, z # mm\n",
+                        b"\xef\xbb\xbfx,y,z\n", b"\xef\xbb\xbf", b"\n"):
+            self.write_bytes("a.csv", heading + b"1.5,2,-3\n")
+            self.assertEqual(points.read_seeds(self.path("a.csv")).GetPoint(0), (1.5, 2, -3))
+        for text, reason in (
+                (b"x,y,z\n1,2,3\n1,2\n", "line 3: not three"), (b"# none\n", "no points"),
+                (b"1 2 nan\n", "line 1: 'nan' is not a number"), (b"inf 1 2\n", "line 1: 'inf'"),
+                (b"1 2 x\n1 2 3\n", "line 1: 'x' is not a number"), (b"x,y,z\n", "no points"),
+                (b"1;2;3\n1 2 3\n", "line 1: '1;2;3' is not"), (b"1.5.2 2 3\n", "line 1: '1.5.2' is"),
+                (b"1,5 2,0 3,5\n1 2 3\n", "line 1: not three"),
+                (b"x,y,z\nx,y,z\n1 2 3\n", "line 2: 'x' is not"),
+                (b"x,y,z\n1,2,three\n", "line 2: 'three'")):
+            with self.subTest(text):
+                self.refused_mesh("a.csv", text, reason)
         self.write_bytes("a.csv", b"\xef\xbb\xbfx,y,z,Weight,Radius\n1,2,3\n4,5,6,7,8 # a\n")
         found = points.read_attracting_points(self.path("a.csv"))
         self.assertEqual(found.GetPoint(1), (4, 5, 6))
         self.assertEqual([found.GetPointData().GetArray(n).GetTuple1(1) for n in ("Weight", "Radius")],
                          [7, 8])
+
+
+class WorkerTest(unittest.TestCase):
+    def test_what_a_worker_returns(self):
+        array = in_worker("numpy:arange", 1000000)
+        np.testing.assert_array_equal(array, np.arange(1000000))
+        self.assertIsNotNone(array.base)  # mapped
+        for function, reason in (("os:abort", "crashed: the file is damaged"),
+                                 ("nowhere:abort", "install the Python package nowhere"),
+                                 ("numpy:reshape", "cannot be read: ")):
+            with self.assertRaisesRegex(VolumeError, reason):
+                in_worker(function)
+        with self.assertRaises(ChildProcessError):
+            os.waitpid(-1, os.WNOHANG)  # no zombie
+
+    def test_it_ends_with_its_caller(self):
+        code = "from volumic.reading.worker import in_worker; in_worker('time:sleep', 60)"
+        for number in (signal.SIGINT, signal.SIGKILL):
+            with subprocess.Popen([sys.executable, "-c", code], stderr=subprocess.DEVNULL,
+                                  start_new_session=True) as process:
+                deadline = time.monotonic() + 60
+                while len(self.group(process.pid)) < 2 and time.monotonic() < deadline:
+                    time.sleep(0.1)
+                (os.killpg if number == signal.SIGINT else os.kill)(process.pid, number)
+                process.wait(60)
+            while self.group(process.pid) and time.monotonic() < deadline:
+                time.sleep(0.1)
+            self.assertEqual(self.group(process.pid), [])
+
+    @staticmethod
+    def group(number):
+        """The running processes of a group."""
+        found = []
+        for name in filter(str.isdigit, os.listdir("/proc")):
+            with contextlib.suppress(OSError), open(f"/proc/{name}/stat", encoding="ascii") as file:
+                state, _, group = file.read().rpartition(")")[2].split()[:3]
+                found += [name] if int(group) == number and state != "Z" else []
+        return found
 
 
 class CommandTest(CommandTestCase):
@@ -140,13 +194,6 @@ class CommandTest(CommandTestCase):
                              self.path("x.stl"), option, self.path(name),
                              *(["--labels", "all"] if option == "--label-names" else []))
         self.refused("a pipe or a device", "/dev/null", self.path("x.stl"))
-
-    def test_what_may_not_be_read(self):
-        self.write_bytes("a.mha", META + ball().tobytes())
-        os.chmod(self.path("a.mha"), 0)
-        os.chmod(self.folder, 0o755)
-        if os.geteuid() != 0:
-            self.refused("a.mha: Permission denied", self.path("a.mha"), self.path("a.stl"))
 
     def test_too_little_memory(self):
         file = self.write_bytes("large.mha", META.replace(b"26 22 18", b"1024 1024 1024"))

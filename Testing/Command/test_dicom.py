@@ -3,7 +3,6 @@
 """DICOM as scanners, networks and programs write it: irregular slices are resampled, one of several
 volumes is chosen, what is left out is reported, and a slice that is cut off is named."""
 
-import importlib.util
 import os
 import struct
 import unittest
@@ -15,9 +14,7 @@ from command_test_case import ISO, ORIGIN, SIZE, SPACING, TURNED, CommandTestCas
 
 import medical_files
 
-NOISY = ball() + np.random.default_rng(5).integers(0, 4, ball().shape).astype("i2")
 PIXELS = struct.pack("<HH", 0x7FE0, 0x10)
-JPEG_LOSSLESS, RLE = "1.2.840.10008.1.2.4.70", "1.2.840.10008.1.2.5"
 
 
 def item(content):
@@ -35,25 +32,6 @@ def element(group, number, kind, value):
 
 def position(k, aside=0.0):
     return (0x20, 0x32, "DS", medical_files.decimal(ORIGIN + [0, aside, k]))
-
-
-def run_lengths(pixels):
-    """Pack pixels as DICOM does: high and low bytes apart, all literal."""
-    parts = []
-    for high in (1, 0):
-        data = pixels.astype("<u2").tobytes()[high::2]
-        runs = b"".join(bytes([len(data[at:at + 128]) - 1]) + data[at:at + 128]
-                        for at in range(0, len(data), 128))
-        parts.append(runs + bytes(len(runs) % 2))
-    return struct.pack("<16I", 2, 64, 64 + len(parts[0]), *[0] * 13) + b"".join(parts)
-
-
-def packed_slice(k, syntax, data):
-    """A slice whose pixels are one fragment."""
-    content = dicom_slice(k, syntax=syntax, data=item(b"") + item(data) + struct.pack(
-        "<HHI", 0xFFFE, 0xE0DD, 0))
-    at = content.rindex(PIXELS) + 8
-    return content[:at] + b"\xff" * 4 + content[at + 4:]
 
 
 class DicomTest(CommandTestCase):
@@ -216,11 +194,6 @@ class SlicesTest(DicomTest):
         np.testing.assert_array_equal(volume.array, ball())
         self.assertRegex(volume.warnings[0], "18 slices have no positions; .* 1 mm apart")
 
-    def test_places_that_come_twice(self):
-        self.series(direction=TURNED)
-        self.write_bytes("a/IM05", medical_files.dicom_slice(ball()[0], 1, SPACING, ORIGIN, TURNED))
-        self.refused("IM05 lies where IM01 does|IM01 lies where")
-
     def test_without_pixel_spacing(self):
         for k in range(SIZE[2]):
             content = dicom_slice(k)
@@ -267,10 +240,6 @@ class FramesTest(DicomTest):
         self.frames(shared=shared, own=own[1:], voxels=(ball() + 100)[order])
         self.refused("many.dcm: the file is too long")
 
-    def test_frames_without_places(self):
-        self.frames(more=((0x18, 0x88, "DS", "1"),))
-        self.check(told="18 slices have no positions; .* 1 mm apart")
-
     def segmentation(self, masks):
         """A file with a frame of bits for each slice of two masks."""
         red = struct.pack("<3H", 34885, 53485, 50171)  # of CIELab
@@ -302,46 +271,6 @@ class FramesTest(DicomTest):
         volume = self.read(layers=True)
         for label, mask in zip(volume.labels, masks):
             np.testing.assert_array_equal(volume.array[label.layer] == label.value, mask)
-
-
-class PackedTest(DicomTest):
-    def test_run_lengths(self):
-        for k in range(SIZE[2]):
-            self.write_bytes(f"a/IM{k:02}", packed_slice(k, RLE, run_lengths(ball()[k])))
-        self.check()
-        content = self.content("a/IM17")
-        damaged = bytearray(content)
-        damaged[content.rindex(PIXELS) + 12 + 8 + 8 + 4] = 0xff  # where its second part begins
-        for broken in (bytes(damaged), content[:-8], content[:-600]):
-            self.write_bytes("a/IM17", broken)
-            self.refused("IM17: .*(cannot be unpacked|no pixels|too long|fewer)")
-
-    @unittest.skipUnless(importlib.util.find_spec("gdcm"), "no GDCM (Debian: python3-gdcm)")
-    def test_jpeg_that_ends_early(self):
-        import gdcm
-        gdcm.Trace.WarningOff()
-        self.series(voxels=NOISY)
-        for k in range(SIZE[2]):
-            reader, change = gdcm.ImageReader(), gdcm.ImageChangeTransferSyntax()
-            reader.SetFileName(self.path(f"a/IM{k:02}"))
-            self.assertTrue(reader.Read())
-            change.SetTransferSyntax(gdcm.TransferSyntax(
-                gdcm.TransferSyntax.JPEGLosslessProcess14_1))
-            change.SetInput(reader.GetImage())
-            self.assertTrue(change.Change())
-            fragments = change.GetOutput().GetDataElement().GetSequenceOfFragments()
-            data = fragments.GetFragment(0).GetByteValue().GetBuffer().encode(
-                "utf-8", "surrogateescape")
-            self.write_bytes(f"a/IM{k:02}", packed_slice(k, JPEG_LOSSLESS, data))
-        self.check(voxels=NOISY)
-        end = data.rindex(b"\xff\xd9")  # its pixels end 60 bytes early, the file is whole
-        self.write_bytes("a/IM17", packed_slice(17, JPEG_LOSSLESS, data[:end - 60] + b"\xff\xd9"
-                                                + bytes(60 + len(data) - end - 2)))
-        self.refused("IM17: its pixels cannot be unpacked.*Corrupt JPEG data: premature end")
-
-    def test_deflated_data_that_are_none(self):
-        self.series()
-        self.refused_slice(3, dicom_slice(3, syntax="1.2.840.10008.1.2.1.99"), "header is damaged")
 
 
 class DamageTest(DicomTest):

@@ -11,7 +11,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkFiltersCore import vtkPolyDataConnectivityFilter
 from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 
-from command_test_case import ISO, TURNED, CommandTestCase, make_image
+from command_test_case import TURNED, CommandTestCase, make_image
 from vtk_files import points_of, read, triangles_of
 
 
@@ -154,12 +154,6 @@ class EndsTest(CommandTestCase):
         self.check_counts(report, surface, points_of(surface), triangles_of(surface))
         self.assertNotIn("volume", report)
 
-    def test_caps_of_a_label(self):
-        surface, points, triangles = self.surface("--labels", "1", "--ends", "marked",
-                                                  volume=self.tube("labels.vti", 1))
-        caps, _ = self.check_caps(surface, points, triangles)
-        self.assertEqual(caps.max(), 2)
-
     def test_what_lies_at_the_border_alone_stays(self):
         values = 1.2 - np.indices((20, 22, 24))[0].astype("f4")
         volume = self.write(vtkXMLImageDataWriter(), "sheet.vti",
@@ -168,22 +162,6 @@ class EndsTest(CommandTestCase):
         for ends in ("open", "marked"):
             surface, _, _ = self.surface("--iso", "0", "--ends", ends, volume=volume)
             np.testing.assert_array_equal(triangles_of(surface), triangles_of(whole))
-
-    def test_an_object_within_the_image_has_none(self):
-        volume = self.ball_file()
-        whole, _, _ = self.surface("--iso", ISO, volume=volume)
-        for ends in ("open", "marked"):
-            surface, _, _ = self.surface("--iso", ISO, "--ends", ends, volume=volume)
-            np.testing.assert_array_equal(points_of(surface), points_of(whole))
-            np.testing.assert_array_equal(triangles_of(surface), triangles_of(whole))
-        self.assertFalse(vtk_to_numpy(surface.GetCellData().GetArray("Cap")).any())
-
-    def test_what_is_refused(self):
-        volume = self.ball_file()
-        for reason, name, *options in (
-                ("'none' is none of closed, marked, open", "a.vtp", "--ends", "none"),
-                ("--ends open and files of solids, which are closed", "a.smesh", "--ends", "open")):
-            self.refused(reason, volume, self.path(name), *options, status=2)
 
 
 if __name__ == "__main__":

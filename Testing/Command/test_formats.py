@@ -6,7 +6,6 @@ test_microscopy.py, test_dicom.py.)"""
 
 import gzip
 import os
-import re
 import unittest
 
 import numpy as np
@@ -21,7 +20,6 @@ from vtkmodules.vtkFiltersCore import vtkCleanPolyData
 from command_test_case import (
     CENTRE, ISO, META, ORIGIN, RADIUS, SIZE, SPACING, TURNED, CommandTestCase, ball, dicom_slice,
     make_image)
-from volumic import reading
 
 import medical_files
 
@@ -61,16 +59,6 @@ class VolumesTest(CommandTestCase):
             self.check(self.path(name), "--spacing", ",".join(map(str, SPACING)), origin=np.zeros(3))
         self.check(self.path("one"))
 
-    def test_masks_that_overlap_stay_whole(self):
-        os.mkdir(self.path("masks"))
-        for name, least in (("organ", 300), ("part", 700)):
-            self.write_bytes(f"masks/{name}.nii", medical_files.nifti((ball() > least).astype("i2"),
-                                                                      SPACING))
-        report = self.report(self.path("masks"), self.path("lab/"), "--labels", "all")
-        for label, least in zip(report["labels"], (300, 700)):
-            volume = (ball() > least).sum() * np.prod(SPACING)
-            self.assertAlmostEqual(label["volume"] / volume, 1, delta=0.05)
-
     def test_a_component_or_the_magnitude(self):
         image = make_image(ball())
         vectors = numpy_to_vtk(np.stack([ball() * 0 + 3, ball()], axis=-1).reshape(-1, 2), deep=True)
@@ -96,24 +84,11 @@ class VolumesTest(CommandTestCase):
             self.assertEqual(told.count(f"{np.isnan(voxels).sum()} NaN voxels"), 1, told)
         self.refused("NaN voxels", file, self.path("b.stl"), "--refuse-nan", "--iso", ISO)
 
-    def test_volumes_without_a_surface(self):
+    def test_a_slice_alone(self):
         header = META.replace(b"NDims = 3", b"NDims = 2").replace(b"26 22 18", b"26 22").replace(
             b"1 0 0 0 1 0 0 0 1", b"1 0 0 1").replace(b"0.5 0.75 1.0", b"0.5 0.75").replace(b" 9.5", b"")
         self.refused("the volume: the image is 2D .26 x 22 x 1", self.write_bytes(
             "a.mha", header + ball()[8].tobytes()), self.path("a.stl"), "--iso", ISO)
-        self.refused("no value separates", self.write(
-            vtkXMLImageDataWriter(), "flat.vti", make_image(0 * ball())), self.path("a.stl"))
-        self.assertFalse(os.path.exists(self.path("a.stl")))
-
-
-class TableTest(unittest.TestCase):
-    def test_documented_suffixes_are_those_of_the_readers(self):
-        path = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "Documentation",
-                            "formats.md")
-        with open(path, encoding="utf-8") as file:
-            rows = re.findall(r"(?m)^\| (.*?) \|", file.read())
-        documented = {name for row in rows for name in re.findall(r"`(\.[a-z0-9.]+)`", row)}
-        self.assertEqual(documented - {".zarr"}, set(reading.SUFFIXES))
 
 
 class SurfacesTest(CommandTestCase):

@@ -65,27 +65,6 @@ class ListTest(LabelsTest):
         self.refused("map.vti: there is no label 'kidney'", volume, "--list-labels", "--labels",
                      "kidney")
 
-    def test_layers(self):
-        voxels = label_voxels()
-        layers = np.stack([voxels == 1, voxels == 7], -1).astype("u1")
-        head = ["NRRD0004", "type: uint8", "dimension: 4", "sizes: 2 28 28 18", "encoding: raw",
-                "kinds: list domain domain domain", "endian: little",
-                "space directions: none (1,0,0) (0,1,0) (0,0,1)"]
-        for i, name in enumerate(("Leber", "Milz")):
-            head += [f"Segment{i}_Name:={name}", f"Segment{i}_LabelValue:=1",
-                     f"Segment{i}_Layer:={i}"]
-        file = self.write_bytes("s.seg.nrrd", "\n".join(head).encode() + b"\n\n"
-                                + layers.tobytes())
-        rows = self.listed(file)
-        self.assertEqual([(row["label"], row["name"], row["layer"]) for row in rows],
-                         [(1, "Leber", 0), (1, "Milz", 1)])
-        self.assertEqual(rows[1]["box"], box_of(voxels, 7))
-        heading, *lines = self.run_command(file, "--list-labels").stdout.splitlines()
-        self.assertIn("layer", heading.split())
-        self.assertEqual([line.split()[3] for line in lines], ["0", "1"])
-        row, = self.listed(file, "--component", "1")
-        self.assertEqual(row["box"], box_of(voxels, 7))
-
     def test_floating_point_and_spacing(self):
         volume = self.map_file("f.vti", label_image(label_voxels("f4")))
         report = self.report(volume, "--list-labels", "--labels", "7", "--spacing", "1,1,3")
@@ -97,18 +76,6 @@ class ListTest(LabelsTest):
         many = np.arange(18 * 28 * 28).reshape(18, 28, 28).astype("i4")
         self.refused("more than 4096", self.map_file("many.vti", label_image(many)),
                      "--list-labels", "--labels", "7")
-
-    def test_what_excludes_what(self):
-        for reason, arguments in (
-                ("out.stl: --list-labels makes no surfaces", ["out.stl"]),
-                ("--merge and --list-labels exclude each other", ["--merge"]),
-                ("--list-labels and --format exclude", ["--format", "stl"]),
-                ("--iso and --list-labels exclude", ["--iso", "3"]),
-                ("--finest and --list-labels exclude", ["--finest", "1"]),
-                ("--list-labels and --seeds exclude", ["--seeds", "a.txt"])):
-            with self.subTest(reason):
-                self.refused(reason, "a.vti", "--list-labels", *arguments, status=2)
-        self.refused("no volume is given", "--list-labels", status=2)
 
 
 if __name__ == "__main__":

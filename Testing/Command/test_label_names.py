@@ -269,6 +269,9 @@ class HeadersTest(NamesTest):
                                (("all", "--component", "1"), {"tumour", "vessel"})):
             report = self.report(volume, "--labels", *options)
             self.assertEqual({row["name"] for row in report["labels"]}, names)
+        heading, *lines = self.run_command(volume, "--list-labels").stdout.splitlines()
+        self.assertIn("layer", heading.split())
+        self.assertEqual([line.split()[3] for line in lines], ["0"] * 3 + ["1"] * 2)
         for name, *more in ("o.stl", "--merge"), ("o.msh",):
             self.refused("the labels lie in several layers .* --component, or give a folder",
                          volume, self.path(name), "--labels", "1", *more)

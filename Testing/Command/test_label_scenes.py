@@ -3,7 +3,6 @@
 """`volumic --labels`: colors and names in .ply, .glb and .3mf, read by other programs."""
 
 import json
-import os
 import re
 import shutil
 import struct
@@ -157,19 +156,6 @@ class ScenesTest(LabelsTest):
         said = subprocess.run(["assimp", "info", self.path("a.3mf")], capture_output=True,
                               text=True, check=True).stdout
         self.assertRegex(said, rf"Faces: +{len(self.three_mf('a.3mf')[3])}\n")
-
-    @unittest.skipUnless(shutil.which("prusa-slicer"), "PrusaSlicer is not installed")
-    def test_labels_that_touch_are_sliced_together(self):
-        """Labels that are objects of their own would be moved apart, and fail if the lowest layer
-        of one is too small."""
-        self.run_command(self.map_file(), self.path("a.3mf"), "--labels", "all")
-        subprocess.run(["prusa-slicer", "--export-gcode", self.path("a.3mf"), "--output",
-                        self.path("a.gcode"), "--gcode-label-objects"], capture_output=True,
-                       check=True, env={**os.environ, "HOME": self.folder})
-        code = self.content("a.gcode").decode()
-        self.assertEqual(set(re.findall("; printing object (.*?) id:", code)), {"labels"})
-        heights = [float(z) for z in re.findall(r"(?m)^;Z:([0-9.]+)", code)]
-        self.assertAlmostEqual(max(heights), np.ptp(self.three_mf("a.3mf")[2][:, 2]), delta=0.5)
 
 
 if __name__ == "__main__":

@@ -107,7 +107,32 @@ class OptionTableTest(CommandTestCase):
                 ("--edge-attraction needs", "a b.stl --edge-attraction 1"),
                 ("exclude each other", "a b.stl --seeds c --initial-surface d"),
                 ("--seed-position: .* are 2 numbers", "a b.stl --seed-position 1,2"),
-                ("exclude each other", "a b.stl --seed-position 1,2,3 --initial-surface d")):
+                ("exclude each other", "a b.stl --seed-position 1,2,3 --initial-surface d"),
+                ("out.stl: --list-labels makes no surfaces", "a --list-labels out.stl"),
+                ("--merge and --list-labels exclude each other", "a --list-labels --merge"),
+                ("--list-labels and --format exclude", "a --list-labels --format stl"),
+                ("--iso and --list-labels exclude", "a --list-labels --iso 3"),
+                ("--list-labels and --seeds exclude", "a --list-labels --seeds a.txt"),
+                ("no volume is given", "--list-labels"),
+                ("--scale: 0 must be more than 0", "a b.stl --scale 0"),
+                ("--unit: 'inch' is none of m, cm, mm", "a b.stl --unit inch"),
+                ("--space: 'XYZ' is none of LPS, RAS, as-file", "a b.stl --space XYZ"),
+                ("--scale and --unit exclude", "a b.stl --scale 2 --unit mm"),
+                ("'none' is none of closed, marked, open", "a b.vtp --ends none"),
+                ("--ends open and files of solids, which are closed", "a b.smesh --ends open"),
+                ("'netgen' is none of tetgen, gmsh", "a b.stl --mesher netgen"),
+                ("--mesher needs a file of tetrahedra", "a b.stl --mesher gmsh"),
+                ("needs a file of tetrahedra", "a b.stl --maximum-volume 2"),
+                ("--triangles and --tolerance exclude", "a b.vtp --triangles 999 --tolerance .1"),
+                ("--triangles: 19 is less than 20", "a b.vtp --triangles 19"),
+                ("--region: .* ends before it begins", "a b.vtp --region 5,4,0,5,0,5"),
+                ("--region: '4.5' is not a whole number", "a b.vtp --region 0,4.5,0,5,0,5"),
+                ("--region and --region-box exclude",
+                 "a b.vtp --region 0,4,0,5,0,5 --region-box 0,1,0,1,0,1"),
+                ("--edges and --resample exclude", "a b.vtp --edges a --resample 1,1,1"),
+                ("--resample and --isotropic exclude", "a b.vtp --resample 1,1,1 --isotropic"),
+                ("--resample: 0 must be more than 0", "a b.vtp --resample 1,0,1"),
+                ("--probe-depth needs --probe", "a b.vtp --probe-depth 1")):
             with self.subTest(line), self.assertRaisesRegex(UsageError, reason):
                 options.apply(options.parse(line.split()), Filters())
         self.refused("suffix.*known are", "a", "b.xyz", status=2)

@@ -2,16 +2,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Files that `volumic` writes are complete or not there, and never replace an input."""
 
-import glob
 import json
 import os
-import random
 import re
 import shutil
 import signal
 import stat
 import subprocess
-import time
 import unittest
 import unittest.mock
 
@@ -92,31 +89,7 @@ class FullDiskTest(OutputsTest):
                 self.assertRegex(process.stderr, "the standard output.*No space left")
 
 
-class KilledTest(OutputsTest):
-    def test_the_old_file_or_the_new_one_is_there(self):
-        names = [f"{i}.{end}" for i in range(3) for end in ("obj", "vtp", "stl", "ply", "glb")]
-        paths = [self.path(name) for name in names]
-        self.segment(*paths)
-        new = {name: self.content(name) for name in names}
-        random.seed(1)
-        were_old = attempts = 0
-        while attempts < 5 or (were_old == 0 and attempts < 60):
-            attempts += 1
-            for name in names:
-                self.write_bytes(name, OLD)
-            with subprocess.Popen([PROGRAM, *self.words, *paths]) as process:
-                # The trial of the folder comes first, then a hidden folder for each file.
-                while process.poll() is None and not glob.glob(self.path(".volumic-*/*")):
-                    pass
-                time.sleep(random.uniform(0, 0.03))
-                process.kill()
-            for name in names:
-                self.assertIn(self.content(name), (OLD, new[name]), name)
-                were_old += self.content(name) == OLD
-            for name in self.hidden_files():
-                shutil.rmtree(self.path(name))
-            self.assertEqual(set(os.listdir(self.folder)), {*names, "ball.vti"})
-        self.assertGreater(were_old, 0, "all were killed after they had written")
+class ManyTest(OutputsTest):
 
     def test_runs_at_the_same_time(self):
         words = [PROGRAM, *self.words, self.path("a.obj"), "--levels-output", self.path("l.vtm"),

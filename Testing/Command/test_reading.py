@@ -1,45 +1,23 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""volumic.read() of NIfTI, MGH, MINC, NRRD, MetaImage, NumPy, InVesalius and files of VTK: voxels
-and positions are those of the file, and damaged files are refused in one line."""
+"""volumic.read() of NIfTI, MGH, MINC, NRRD, MetaImage, NumPy and InVesalius: voxels and
+positions are those of the file, and damaged files are refused in one line."""
 
-import base64
 import bz2
-import contextlib
 import gzip
-import io
-import itertools
 import os
 import plistlib
-import signal
 import struct
-import subprocess
-import sys
-import tarfile
-import time
 import unittest
 import zlib
 
 import numpy as np
-from vtkmodules.util.numpy_support import numpy_to_vtk
-from vtkmodules.vtkCommonCore import vtkStringArray
-from vtkmodules.vtkCommonDataModel import vtkRectilinearGrid
-from vtkmodules.vtkIOLegacy import vtkStructuredPointsWriter
-from vtkmodules.vtkIOXML import vtkXMLImageDataWriter, vtkXMLRectilinearGridWriter
 
-from command_test_case import META, ORIGIN, SIZE, SPACING, TURNED, ball, make_image, nrrd_header
-from reading_test_case import ReadingTestCase
+from command_test_case import META, ORIGIN, SIZE, SPACING, TURNED, ball, nrrd_header
+from reading_test_case import ReadingTestCase, noisy_ball
 from volumic import reading
-from volumic.errors import Failure
-from volumic.reading.tables import read_label_names
 
 import medical_files
-
-
-def noisy_ball(dtype="i2"):
-    """Noise does not pack well: damage in packed voxels is seldom damage of the packing."""
-    noise = np.random.default_rng(5).integers(0, 4, ball().shape)
-    return (ball() + noise).astype(dtype)
 
 
 def packed_meta(data):
@@ -324,13 +302,9 @@ class OtherFormatsTest(ReadingTestCase):
         for files, reason in (
                 ([voxels], "no main.plist in it"), ([plist()], "no matrix.dat in it"),
                 ([voxels, ("main.plist", b"<plist><dict>")], "damaged"),
-                ([voxels, ("main.plist", b"<plist>" + b"<array>" * 140000)], "damaged"),
                 ([voxels, ("main.plist", bytes(2 << 20))], "too large"),
                 ([voxels, plist(spacing=[1.0, 1.0])], "not those of a volume"),
-                ([voxels, plist(spacing=[1.0, 1.0, -1.0])], "1 x 1 x -1"),
-                ([voxels, plist(spacing=["a", "b", "c"])], "damaged"),
                 ([voxels, plist(matrix={"dtype": "object", "shape": shape})], "\"object\""),
-                ([voxels, plist(matrix={"dtype": "int16", "shape": [0, 4, 4]})], "0 x 4 x 4"),
                 ([voxels, plist(matrix={"dtype": "int16", "shape": [1 << 30] * 3})], "cut off"),
                 ([voxels, plist(matrix={"dtype": "uint8", "shape": shape})], "too long")):
             with self.subTest(reason):
@@ -344,135 +318,6 @@ class OtherFormatsTest(ReadingTestCase):
         self.refused("missing.vti", "no such file or folder")
         os.mkfifo(self.path("a.nii"))
         self.refused("a.nii", "a pipe or a device")
-
-
-class VtkTest(ReadingTestCase):
-    def test_each_encoding_whole_and_damaged(self):
-        """Cut off, and with a piece of the data missing or too much."""
-        image = make_image(noisy_ball(), direction=TURNED)
-        for mode, compressor, encodes in itertools.product((0, 1, 2), range(4), (0, 1)):
-            writer = vtkXMLImageDataWriter()
-            writer.SetDataMode(mode)
-            writer.SetCompressorType(compressor)
-            writer.SetEncodeAppendedData(encodes)
-            content = self.bytes_of(writer, "a.vti", image)
-            with self.subTest(mode, compressor=compressor, encodes=encodes):
-                volume = self.check(self.read("a.vti"), noisy_ball(), TURNED)
-                self.assertEqual(volume.name, "density")
-                self.cut("a.vti", content, rests=(0.2, 0.7, 0.9, -60, -12))
-                at = len(content) * 2 // 3
-                piece = 200 if mode == 0 else 12  # of a text parts of numbers may be missing
-                for rest in (at + piece, at - piece):
-                    self.refused("a.vti", "damaged|cut off", content[:at] + content[rest:])
-
-    def test_arrays_extents_and_cells(self):
-        image = make_image(ball())
-        image.SetExtent(3, 28, -2, 19, 5, 22)
-        for name, components in (("vectors", 2), ("other", 1)):
-            other = numpy_to_vtk(np.stack([ball("f4").ravel()] * components, -1), deep=True)
-            other.SetName(name)
-            image.GetPointData().AddArray(other)
-        self.write(vtkXMLImageDataWriter(), "a.vti", image)
-        volume = self.check(self.read("a.vti"))
-        self.assertEqual(volume.start, (3, -2, 5))
-        np.testing.assert_allclose(tuple(volume)[2], image.GetPoint(0))  # of the first voxel
-        volume = self.read("a.vti", array="vectors")
-        self.assertEqual((volume.array.shape, volume.components), ((2, *SIZE[::-1]), "vector"))
-        self.refused("a.vti", "no point array none; point arrays: density, vectors, other",
-                     array="none")
-        image.GetPointData().SetActiveScalars(None)
-        self.write(vtkXMLImageDataWriter(), "a.vti", image)
-        self.refused("a.vti", "no active scalars; point arrays: density, vectors, other")
-        cells = make_image(ball())
-        cells.SetDimensions(*SIZE + 1)
-        cells.GetCellData().SetScalars(cells.GetPointData().GetScalars())
-        cells.GetPointData().Initialize()
-        self.write(vtkXMLImageDataWriter(), "b.vti", cells)
-        self.check(self.read("b.vti"), origin=ORIGIN + SPACING / 2)
-
-    def test_field_data(self):
-        image, texts = make_image(ball()), {"Axes": ["RAS"], "LengthUnit": ["mm"],
-                                            "LabelNames": ["liver", "spleen é"]}
-        for name, values in texts.items():
-            array = vtkStringArray()
-            array.SetName(name)
-            for text in values:
-                array.InsertNextValue(text)
-            image.GetFieldData().AddArray(array)
-        for name, values in (("LabelValues", [1, 7]), ("LabelColors", [[1, 0, 0], [0, .5, 0]]),
-                             ("LabelLayers", [0, 1])):
-            array = numpy_to_vtk(np.array(values), deep=True)
-            array.SetName(name)
-            image.GetFieldData().AddArray(array)
-        self.write(vtkXMLImageDataWriter(), "a.vti", image)
-        volume = self.read("a.vti")
-        self.assertEqual((volume.space, volume.unit), ("RAS", "mm"))
-        self.assertEqual(volume.labels, [reading.Label(1, "liver", (1., 0., 0.), 0),
-                                         reading.Label(7, "spleen é", (0., .5, 0.), 1)])
-
-    def test_pieces(self):
-        pieces = [self.path(f"{k}.vti") for k in range(3)]
-        for k, name in enumerate(pieces):
-            image = make_image(ball()[6 * k:6 * k + 6], direction=TURNED)
-            image.SetExtent(0, 25, 0, 21, 6 * k, 6 * k + 5)
-            self.write(vtkXMLImageDataWriter(), name, image)
-        head = '<VTKFile type="PImageData"><PImageData WholeExtent="0 25 0 21 0 17" Spacing="{}" ' \
-            'Origin="{}">'.format(" ".join(map(str, SPACING)), " ".join(map(str, ORIGIN)))
-        self.write_text("a.pvti", head + "".join(
-            f'<Piece Extent="0 25 0 21 {6 * k} {6 * k + 5}" Source="{k}.vti"/>' for k in range(3))
-            + "</PImageData></VTKFile>")
-        self.check(self.read("a.pvti"), direction=TURNED)
-        self.assertEqual(reading.list_files(self.path("a.pvti"))[1:], pieces)
-        content = self.content(pieces[1])
-        self.write_bytes(pieces[1], content[:-99])
-        self.refused("a.pvti", "cut off")
-        self.write_bytes(pieces[1], self.content(pieces[2]))
-        self.refused("a.pvti", "do not cover the whole image")
-        os.remove(pieces[1])
-        self.refused("a.pvti", "No such file")
-
-    def test_legacy(self):
-        for binary in (True, False):
-            writer = vtkStructuredPointsWriter()
-            writer.SetFileType(2 if binary else 1)
-            content = self.bytes_of(writer, "a.vtk", make_image(noisy_ball()))
-            self.check(self.read("a.vtk"), noisy_ball())
-            self.cut("a.vtk", content, "VTK cannot read it", rests=(0.5, -10))
-        self.refused("b.vtk", "holds PolyData, and no image", b"# vtk DataFile Version 3.0\na\nASCII\n"
-                     b"DATASET POLYDATA\nPOINTS 1 float\n0 0 0\n")
-
-    def test_rectilinear_grids(self):
-        grid = vtkRectilinearGrid()
-        grid.SetDimensions(*SIZE)
-        grid.GetPointData().SetScalars(make_image(ball()).GetPointData().GetScalars())
-        for step in (1, 1.01):
-            for axis in range(3):
-                line = ORIGIN[axis] + SPACING[axis] * np.arange(SIZE[axis]) ** step
-                array = numpy_to_vtk(line, deep=True)
-                getattr(grid, f"Set{'XYZ'[axis]}Coordinates")(array)
-            self.write(vtkXMLRectilinearGridWriter(), "a.vtr", grid)
-            if step == 1:
-                self.check(self.read("a.vtr"))
-        self.refused("a.vtr", "uneven distances, and no image; resample it")
-
-    def test_headers_that_require_too_much(self):
-        head = (b'<VTKFile type="ImageData" version="1.0" byte_order="LittleEndian" header_type='
-                b'"UInt32" compressor="vtkZLibDataCompressor"><ImageData WholeExtent="0 1 0 1 0 1" '
-                b'Origin="0 0 0" Spacing="1 1 1"><Piece Extent="0 1 0 1 0 1"><PointData Scalars="a">'
-                b'<DataArray type="UInt8" Name="a" format="%s"%s</PointData></Piece></ImageData>')
-        for blocks, size, last in ((0xFFFFFFF0, 8, 0), (1 << 30, 8, 0), (1, 0, 0), (0, 0, 5),
-                                   (0, 8, 5), (1, 8, 9)):
-            words = struct.pack("<4I", blocks, size, last, 16) + bytes(20)
-            self.refused("a.vti", f"packed in {blocks} blocks of {size} bytes, the last one of {last}",
-                         head % (b"binary", b">" + base64.b64encode(words) + b"</DataArray>")
-                         + b"</VTKFile>")
-            self.refused("a.vti", "damaged|cut off", head % (b"appended", b' offset="0"/>') +
-                         b'<AppendedData encoding="raw">_' + words + b"</AppendedData></VTKFile>")
-        self.refused("a.vti", "too many elements within elements",
-                     b'<VTKFile type="ImageData">' + b"<a>" * 140000)
-        self.refused("a.pvti", "File name too long", b'<VTKFile type="PImageData"><PImageData '
-                     b'WholeExtent="0 1 0 1 0 1"><Piece Extent="0 1 0 1 0 1" Source="' + b"a" * 900000
-                     + b'"/></PImageData></VTKFile>')
 
 
 class HostileTest(ReadingTestCase):
@@ -497,121 +342,6 @@ class HostileTest(ReadingTestCase):
         twice = bz2.compress(bz2.compress(bz2.compress(b"") * 200000) * 20000)
         self.refused("a.nrrd", "more than the 1024 bytes",
                      head.format("8 8 8", "bzip2", "").encode() + twice)
-
-    def test_nifti_and_meta_image(self):
-        head = bytearray(medical_files.nifti(np.zeros((8, 8, 8), "i2"), SPACING))
-        bomb = gzip.compress(bytes(100 << 20), 9)
-        self.refused("a.nii.gz", "more than the 1376 bytes", gzip.compress(head) + bomb)
-        for mark in (b"<Label ", b'<Label Key="1">', b'<Label Key="1">&lt;', b"<![CDATA["):
-            text = (mark * (4 << 20))[:(4 << 20) - 16]
-            content = bytearray(head[:352])
-            struct.pack_into("<f", content, 108, 352 + (4 << 20))
-            content[348] = 1
-            content += struct.pack("<ii", 4 << 20, 0) + text.ljust((4 << 20) - 8, b"\0") + head[352:]
-            self.read("a.nii", content)
-        packed = packed_meta(bytes(100 << 20))
-        self.refused("a.mha", "more than the 20592 bytes", packed)
-        self.refused("a.mha", ".", packed.replace(b"26 22 18", b"65536 65536 4294967296"))
-
-    def test_archives(self):
-        def archive(member, data):
-            content = io.BytesIO()
-            plist = plistlib.dumps({"matrix": {"dtype": "int16", "shape": [4096, 4096, 2048]},
-                                    "spacing": SPACING.tolist()})
-            with tarfile.open(fileobj=content, mode="w", format=tarfile.PAX_FORMAT) as file:
-                head = tarfile.TarInfo("main.plist")
-                head.size = len(plist)
-                file.addfile(head, io.BytesIO(plist))
-                content.write(member.tobuf(tarfile.PAX_FORMAT) + data)
-            return content.getvalue()
-
-        large = tarfile.TarInfo("matrix.dat")
-        large.size = 2 * 4096 * 4096 * 2048
-        self.refused("a.inv3", "cut off|not enough memory|cannot be read", archive(large, b""))
-        holes = tarfile.TarInfo("matrix.dat")
-        holes.size = 1024
-        holes.pax_headers = {"GNU.sparse.major": "1", "GNU.sparse.minor": "0",
-                             "GNU.sparse.name": "matrix.dat", "GNU.sparse.realsize": str(large.size)}
-        self.refused("a.inv3", "no matrix.dat|cut off", archive(
-            holes, b"1\n0\n512\n".ljust(1024, b"\0")))
-
-
-    def test_tables_of_names(self):
-        most = 4 << 20
-        for content in (b"\r\n" * (most // 2), b"1 " + b"a" * most, b"a,b\n" + b" " * most,
-                        b'1,"' + b" " * most + b'"\n', b"1 a\r\n" * (most // 5),
-                        b"\n".join(b"%d a" % k for k in range(most // 10)), b"[" * most,
-                        b'{"a":' * (most // 5), b"[1," * (most // 10),
-                        b"{" + b",".join(b'"%d":1' % k for k in range(300000)) + b"}"):
-            used, name = time.process_time(), self.write_bytes("names.txt", content)
-            with self.subTest(content[:10]), contextlib.suppress(Failure):
-                read_label_names(name)
-            self.assertLess(time.process_time() - used, 20)
-
-
-class RandomDamageTest(ReadingTestCase):
-    def test_files_are_read_or_refused(self):
-        image = make_image(noisy_ball())
-        contents = {
-            "a.mha": META + noisy_ball().tobytes(), "b.mha": packed_meta(noisy_ball().tobytes()),
-            "a.nrrd": nrrd_header("gzip") + b"\n" + gzip.compress(noisy_ball().tobytes()),
-            "b.nrrd": nrrd_header() + b"\n" + noisy_ball().tobytes(),
-            "a.nii": medical_files.nifti(noisy_ball(), SPACING, NiftiTest.matrix),
-            "a.vti": self.bytes_of(vtkXMLImageDataWriter(), "a.vti", image),
-            "a.inv3": medical_files.inv3(noisy_ball(), SPACING)}
-        generator = np.random.default_rng(7)
-        for name, content in contents.items():
-            for number in range(40):
-                damaged = bytearray(content)
-                places = generator.integers(0, len(content) if number % 2 else 600, 4)
-                for place in places:
-                    damaged[place] = generator.integers(256)
-                if number % 3 == 0:
-                    del damaged[places[0]:places[0] + 7]
-                with self.subTest(name, number=number):
-                    try:
-                        self.read(name, damaged)
-                    except reading.VolumeError as error:
-                        self.assertNotIn("\n", str(error))
-
-
-class WorkerTest(unittest.TestCase):
-    def test_what_a_worker_returns(self):
-        from volumic.reading.worker import in_worker
-        array = in_worker("numpy:arange", 1000000)
-        np.testing.assert_array_equal(array, np.arange(1000000))
-        self.assertIsNotNone(array.base)  # mapped
-        for function, reason in (("os:abort", "crashed: the file is damaged"),
-                                 ("nowhere:abort", "install the Python package nowhere"),
-                                 ("numpy:reshape", "cannot be read: ")):
-            with self.assertRaisesRegex(reading.VolumeError, reason):
-                in_worker(function)
-        with self.assertRaises(ChildProcessError):
-            os.waitpid(-1, os.WNOHANG)  # no zombie
-
-    def test_it_ends_with_its_caller(self):
-        code = "from volumic.reading.worker import in_worker; in_worker('time:sleep', 60)"
-        for number in (signal.SIGINT, signal.SIGKILL):
-            with subprocess.Popen([sys.executable, "-c", code], stderr=subprocess.DEVNULL,
-                                  start_new_session=True) as process:
-                deadline = time.monotonic() + 60
-                while len(self.group(process.pid)) < 2 and time.monotonic() < deadline:
-                    time.sleep(0.1)
-                (os.killpg if number == signal.SIGINT else os.kill)(process.pid, number)
-                process.wait(60)
-            while self.group(process.pid) and time.monotonic() < deadline:
-                time.sleep(0.1)
-            self.assertEqual(self.group(process.pid), [])
-
-    @staticmethod
-    def group(number):
-        """The running processes of a group."""
-        found = []
-        for name in filter(str.isdigit, os.listdir("/proc")):
-            with contextlib.suppress(OSError), open(f"/proc/{name}/stat", encoding="ascii") as file:
-                state, _, group = file.read().rpartition(")")[2].split()[:3]
-                found += [name] if int(group) == number and state != "Z" else []
-        return found
 
 
 if __name__ == "__main__":

@@ -6,10 +6,8 @@ CalculiX solves where it is installed, and those of meshio."""
 import os
 import re
 import shutil
-import subprocess
 import unittest
 from collections import Counter
-from typing import NamedTuple
 
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
@@ -17,6 +15,8 @@ from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
 from test_interfaces import ORIGIN, SPACING, InterfacesTest, period, sections_of
 from command_test_case import ISO
+from solid_files import (
+    faces_between, inp_mesh, keywords_of, least_angles, msh, tetrahedra_of, volumes)
 from vtk_files import points_of, read, triangles_of
 
 try:
@@ -41,95 +41,6 @@ def voxels():
     found[7:13, 7:13, 28:34] = 1
     found[4:16, 18:30, 8:30] = 4
     return found
-
-
-def tetrahedra_of(grid):
-    corners = vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 4)
-    return corners, vtk_to_numpy(grid.GetCellData().GetArray("Label"))
-
-
-def volumes(points, corners):
-    a, b, c, d = (points[corners[:, i]] for i in range(4))
-    return np.einsum("ij,ij->i", np.cross(b - a, c - a), d - a) / 6
-
-
-def least_angles(points, corners):
-    """Between two faces, degrees: of each tetrahedron the least."""
-    normals = []
-    for i in range(4):
-        a, b, c = (points[corners[:, k]] for k in range(4) if k != i)
-        normal = np.cross(b - a, c - a)
-        outward = np.einsum("ij,ij->i", normal, points[corners[:, i]] - a) < 0
-        normal[~outward] *= -1
-        normals.append(normal / np.linalg.norm(normal, axis=1)[:, None])
-    cosines = [-np.einsum("ij,ij->i", m, n) for k, m in enumerate(normals) for n in normals[:k]]
-    return np.degrees(np.arccos(np.max(cosines, axis=0)))
-
-
-def faces_between(corners, labels):
-    """{(label, label): set of faces, each its corners in order}; 0 is the outside."""
-    labels_at = {}
-    for cell, label in zip(corners, labels):
-        for i in range(4):
-            labels_at.setdefault(frozenset(np.delete(cell, i).tolist()), []).append(int(label))
-    faces = {}
-    for face, beside in labels_at.items():
-        pair = tuple(sorted(beside)) if len(beside) == 2 else (beside[0], 0)
-        if pair[0] != pair[1]:
-            faces.setdefault(pair, set()).add(face)
-    return faces
-
-
-def keywords_of(path):
-    """(keyword with its parameters, rows of words) of each part of an .inp."""
-    parts = []
-    with open(path, encoding="utf-8") as file:
-        for line in file:
-            if line.startswith("*") and not line.startswith("**"):
-                parts.append((line.strip(), []))
-            elif parts:
-                parts[-1][1].append(line.strip().strip(",").split(", "))
-    return parts
-
-
-class InpMesh(NamedTuple):
-    nodes: dict     # {number: position}
-    cells: dict     # {number: numbers of nodes}
-    sets: dict      # {(keyword, name): set of numbers}
-    surfaces: dict  # {name: set of faces, each the numbers of its nodes}
-
-
-def inp_mesh(path):
-    """What an .inp has; sets that list names are left out."""
-    sides = {"S1": (1, 2, 3), "S2": (1, 4, 2), "S3": (2, 4, 3), "S4": (3, 4, 1)}  # of Abaqus
-    mesh = InpMesh({}, {}, {}, {})
-    for head, rows in keywords_of(path):
-        keyword, name = head.split(",")[0], re.search(r"(ELSET|NSET|NAME)=(\w+)", head).group(2)
-        if keyword == "*NODE":
-            mesh.nodes.update((int(row[0]), [float(word) for word in row[1:]]) for row in rows)
-        elif keyword == "*ELEMENT":
-            mesh.cells.update((int(row[0]), [int(word) for word in row[1:]]) for row in rows)
-            mesh.sets[keyword, name] = {int(row[0]) for row in rows}
-        elif keyword == "*SURFACE":
-            mesh.surfaces[name] = {frozenset(mesh.cells[int(cell)][i - 1] for i in sides[side])
-                                   for cell, side in rows}
-        elif keyword == "*NSET":
-            mesh.sets[keyword, name] = {int(word) for row in rows for word in row}
-    return mesh
-
-
-def msh(path):
-    """Of an MSH 2.2 the positions of nodes, rows of label and corners of tetrahedra, and {name:
-    corners of triangles}; corners from 0."""
-    sections = sections_of(path)
-    nodes = np.array([line.split()[1:] for line in sections["Nodes"][1:]], float)
-    rows = [list(map(int, line.split())) for line in sections["Elements"][1:]]
-    cells, triangles = (np.array([row[3:4] + row[5:] for row in rows if row[1] == kind])
-                        for kind in (4, 2))
-    cells[:, 1:] -= 1
-    names = re.findall(r'^2 (\d+) "(.*)"$', "".join(sections["PhysicalNames"]), re.M)
-    return nodes, cells, {name: triangles[triangles[:, 0] == int(number), 1:] - 1
-                          for number, name in names}
 
 
 class SolidsTest(InterfacesTest):
@@ -356,13 +267,6 @@ class MesherTest(SolidsTest):
         self.assertEqual({name: set(map(frozenset, found.tolist()))
                           for name, found in triangles.items()}, faces)
 
-    @unittest.skipUnless("gmsh" in MESHERS, "gmsh is not installed")
-    def test_gmsh_reads_its_msh(self):
-        report, _ = self.solid("a.vtu", "a.msh", options=("--mesher", "gmsh"))
-        said = subprocess.run(["gmsh", self.path("a.msh"), "-parse_and_exit", "-check", "-"],
-                              capture_output=True, text=True, check=True).stdout
-        self.assertIn(f"{report['solid']['nodes']} nodes", said)
-
     def run_script(self, script, *options, status=1):
         """What is said of a run whose TetGen is this script, and the files that it leaves."""
         for folder in ("bin", "out"):
@@ -410,13 +314,6 @@ class MesherTest(SolidsTest):
             said, _ = self.run_script(f"cat > solid.1.mesh <<.\n{mesh}\n.", status=0)
             self.assertRegex("".join(re.findall("warning: the least.*", said)), told)
 
-    def test_what_there_is_after_an_interrupt_is_filled(self):
-        rest = self.interrupted(r"Making surfaces: +[78]\d %", self.many_labels(4),
-                                self.path("many.vtu"), "--labels", "all")
-        self.assertIn("unfinished", rest)
-        grid = read(self.path("many.vtu"), vtkXMLUnstructuredGridReader())
-        self.assertGreater(grid.GetNumberOfCells(), 100)
-
 
 class OptionsTest(SolidsTest):
     def test_what_is_missing_is_told_before_the_work(self):
@@ -426,13 +323,6 @@ class OptionsTest(SolidsTest):
             for name in ("a.vtu", "a.inp"):
                 self.refused(said, self.path("missing.vti"), self.path(name), *options,
                              env=environment)
-
-    def test_options_that_mean_nothing(self):
-        for options, said in ((("--mesher", "netgen"), "'netgen' is none of tetgen, gmsh"),
-                              (("--mesher", "gmsh"), "--mesher needs a file of tetrahedra"),
-                              (("--maximum-volume", "2"), "needs a file of tetrahedra"),
-                              (("--maximum-volume", "0"), "0 must be more than 0")):
-            self.refused(said, self.path("missing.vti"), self.path("a.stl"), *options, status=2)
 
 
 @unittest.skipUnless(MESHERS, "no mesher is installed")
@@ -477,50 +367,6 @@ class SolverTest(SolidsTest):
         names = Counter(re.search("NSET=(.*)", head).group(1).lower() for head in heads
                         if head.startswith("*NSET"))
         self.assertEqual(max(names.values()), 1)
-
-    @unittest.skipUnless(shutil.which("ccx"), "CalculiX is not installed")
-    def test_calculix_solves_it(self):
-        """The force of a pressure is that of the supports; volumes are those of the surfaces."""
-        report, grid = self.solid("a.vtu", "a.inp")
-        self.write_bytes("job.inp", b"""*INCLUDE, INPUT=a.inp
-*MATERIAL, NAME=M
-*ELASTIC
-1000., .3
-*SOLID SECTION, ELSET=Eall, MATERIAL=M
-*BOUNDARY
-liver_to_outside, 1, 3
-*STEP
-*STATIC
-*DSLOAD
-a__b__to_outside, P, 2.
-*NODE PRINT, NSET=liver_to_outside, TOTALS=ONLY
-RF
-*EL PRINT, ELSET=left_kidney, TOTALS=ONLY
-EVOL
-*END STEP
-""")
-        subprocess.run(["ccx", "job"], cwd=self.folder, check=True, capture_output=True)
-        numbers = [list(map(float, line.split())) for line in
-                   self.content("job.dat").decode().splitlines()
-                   if re.match(r"^[-+ .0-9E]+$", line) and line.strip()]
-        force, volume = np.array(numbers[0]), numbers[1][0]
-        expected = next(row for row in report["labels"] if row["label"] == 2)["volume"]
-        self.assertAlmostEqual(volume / expected, 1, 4)
-        # The pressure on the outer face of label 4, against the normals. A third of that of a face
-        # acts on each corner; what acts on nodes that are held is in what is printed of these.
-        points, (corners, labels) = points_of(grid), tetrahedra_of(grid)
-        faces = faces_between(corners, labels)
-        held = set().union(*faces[1, 0])
-        total = np.zeros(3)
-        for cell in corners[labels == 4]:
-            for i in range(4):
-                face = np.delete(cell, i)
-                if frozenset(face.tolist()) in faces[4, 0]:
-                    a, b, c = points[face]
-                    normal = np.cross(b - a, c - a) / 2
-                    share = 1 - len(held.intersection(face.tolist())) / 3
-                    total += share * normal * (1 if np.dot(normal, a - points[cell[i]]) > 0 else -1)
-        np.testing.assert_allclose(force, 2 * total, atol=1e-4 * np.abs(total).max())
 
 
 if __name__ == "__main__":

@@ -136,23 +136,6 @@ class SpaceTest(CommandTestCase):
         extras = json.loads(content[20:20 + length])["nodes"][1]["extras"]
         self.assertEqual((extras["SPACE"], extras["LengthUnit"]), ("RAS", "mm"))
 
-    def test_obj_is_the_surface(self):
-        self.run_to("obj", self.nifti(2))
-        self.run_to("stl", self.nifti(2))
-        obj, stl = read(self.path("a.obj")), read(self.path("a.stl"))
-        self.assertEqual(obj.GetNumberOfPolys(), stl.GetNumberOfPolys())
-        self.assertEqual(obj.GetPointData().GetNormals().GetNumberOfTuples(),
-                         obj.GetNumberOfPoints())
-        np.testing.assert_allclose(obj.GetBounds(), stl.GetBounds(), rtol=1e-6)
-
-    def test_wrong_usage(self):
-        for reason, line in (
-                ("--scale: 0 must be more than 0", "a b.stl --scale 0"),
-                ("--unit: 'inch' is none of m, cm, mm", "a b.stl --unit inch"),
-                ("--space: 'XYZ' is none of LPS, RAS, as-file", "a b.stl --space XYZ"),
-                ("--scale and --unit exclude", "a b.stl --scale 2 --unit mm")):
-            self.refused(reason, *line.split(), status=2)
-
 
 if __name__ == "__main__":
     unittest.main()

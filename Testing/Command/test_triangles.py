@@ -58,13 +58,6 @@ class TrianglesTest(CommandTestCase):
         self.assertRegex(process.stderr, "no edge length gives about so many; the nearest")
         self.assertFalse(os.path.exists(self.path("a.vtp")))
 
-    def test_what_is_refused(self):
-        for reason, *options in (
-                ("--triangles and --tolerance exclude each other", "9999", "--tolerance", ".1"),
-                ("--triangles: 19 is less than 20", "19")):
-            self.refused(reason, self.ball_file(), self.path("a.vtp"), "--triangles", *options,
-                         status=2)
-
 
 if __name__ == "__main__":
     unittest.main()

@@ -137,19 +137,12 @@ class RegionTest(WritingTestCase):
         self.assertTrue(0.5 < half["volume"] / whole["volume"] < 0.75)
 
     def test_what_is_refused(self):
-        for reason, status, *options in (
-                ("the region lies beside the volume, which has voxels k 0 to 17", 1, "--region",
+        for reason, *options in (
+                ("the region lies beside the volume, which has voxels k 0 to 17", "--region",
                  "0,5,0,5,18,20"),
-                ("--region: '5,4,0,5,0,5' ends before it begins", 2, "--region", "5,4,0,5,0,5"),
-                ("--region: '4.5' is not a whole number", 2, "--region", "0,4.5,0,5,0,5"),
-                ("--region and --region-box exclude", 2, "--region", "0,4,0,5,0,5", "--region-box",
-                 "0,1,0,1,0,1"),
-                ("--edges and --resample exclude", 2, "--edges", "a", "--resample", "1,1,1"),
-                ("--resample and --isotropic exclude", 2, "--resample", "1,1,1", "--isotropic"),
-                ("--resample: 0 must be more than 0", 2, "--resample", "1,0,1"),
-                ("resampled it would have .* voxels", 1, "--resample", "1e-6,1e-6,1e-6")):
+                ("resampled it would have .* voxels", "--resample", "1e-6,1e-6,1e-6")):
             with self.subTest(reason):
-                self.refused(reason, self.ball_file(), self.path("a.vtp"), *options, status=status)
+                self.refused(reason, self.ball_file(), self.path("a.vtp"), *options)
 
 
 if __name__ == "__main__":

@@ -2,16 +2,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The abort button in the status bar of ParaView's window stops a run, and nothing else gets through.
 
-By real mouse and keys: while ParaView plays events, it takes none during a run. Where things are is
-seen in pictures of the window.
+By real mouse and keys: a window that plays events takes none during a run. Where things are is seen in
+pictures of the window.
 """
 
+import ast
 import contextlib
 import ctypes
 import os
 import re
-import subprocess
-import sys
 import time
 import unittest
 
@@ -23,80 +22,60 @@ import window_testing as window
 import x_input
 from paraview import simple
 
-EXTENT = [-60, 60] * 3  # Preview is of another level.
-FOLDER = "FOLDER"
+EXTENT = [-30, 30] * 3
 
-# Runs in the window: shows a volume, tells of each run of a filter, and answers what a file asks,
-# as soon as nothing else is done. A run that has begun to iterate does nothing but report while
-# there is a file to hold it: the hand has its time, however fast or slow the machine is.
-IN_THE_WINDOW = f"""
+# Runs in the window: tells of each run of a filter, and what the view shows when nothing else is
+# done. A run that has begun to iterate does nothing but report while there is the file HOLD: the hand
+# has its time, however fast or slow the machine is.
+TELL_OF_RUNS = window.WATCH_FILTERS + f"""
 import os
 import time
-from paraview import servermanager, simple
+from paraview import simple
 from vtkmodules.vtkFiltersCore import vtkFeatureEdges
 
 view = simple.GetActiveViewOrCreate("RenderView")
 simple.Show(simple.Wavelet(WholeExtent={EXTENT}))
 simple.ResetCamera()
-filters = []
+shown = []
 
-def tell(*words):
-    # Not by print(): newer ParaViews keep what is said till there is much of it.
-    os.write(1, (" ".join(map(str, words)) + "\\n").encode())
+def attend(proxy, algorithm):
+    told = set()
+    def progress(caller, event):
+        if ", iteration" in (caller.GetProgressText() or "") and not told:
+            told.add(1)
+            print("Iterations have begun.")
+            while os.path.exists(HOLD):
+                time.sleep(0.02)
+                caller.UpdateProgress(caller.GetProgress())
+                if caller.GetAbortExecute() and 2 not in told:
+                    told.add(2)
+                    print("It is asked to stop.")
+    def end(caller, event):
+        told.clear()
+        surface = caller.GetOutputDataObject(0)
+        reason = surface.GetFieldData().GetAbstractArray("StopReason")
+        edges = vtkFeatureEdges()
+        edges.SetInputData(surface)
+        edges.FeatureEdgesOff()
+        edges.Update()
+        print("Run ended:", (reason.GetValue(0) if reason else None, surface.GetNumberOfPoints(),
+                             surface.GetNumberOfPolys(), edges.GetOutput().GetNumberOfCells()))
+    algorithm.AddObserver("ProgressEvent", progress)
+    algorithm.AddObserver("EndEvent", end)
 
-def facts(surface):
-    reason = surface.GetFieldData().GetAbstractArray("StopReason")
-    edges = vtkFeatureEdges()
-    edges.SetInputData(surface)
-    edges.FeatureEdgesOff()
-    edges.Update()
-    return (reason.GetValue(0) if reason else None, surface.GetNumberOfPoints(),
-            surface.GetNumberOfPolys(), edges.GetOutput().GetNumberOfCells())
+def tell_of_the_view(*_):
+    if view.SMProxy.GetSession().GetPendingProgress():
+        return
+    now = [display.GetRepresentedDataInformation().GetNumberOfPoints()
+           for display in view.Representations
+           if display.GetXMLName() == "VolumicSurfaceRepresentation"]
+    if now and now != shown:
+        shown[:] = now
+        print("View:", (len(simple.GetSources()), *now))
 
-def watch(manager, event):
-    for proxy in simple.GetSources().values():
-        filter_ = proxy.GetClientSideObject()
-        if filter_ and filter_.IsA("vtkDeformableSurface") and filter_ not in filters:
-            filters.append(filter_)
-            told = set()
-            def progress(caller, event):
-                if ", iteration" in (caller.GetProgressText() or "") and not told:
-                    told.add(1)
-                    tell("Iterations have begun.")
-                    while os.path.exists(os.path.join({FOLDER!r}, "hold")):
-                        time.sleep(0.02)
-                        caller.UpdateProgress(caller.GetProgress())
-                        if caller.GetAbortExecute() and 2 not in told:
-                            told.add(2)
-                            tell("It is asked to stop.")
-            def end(caller, event):
-                told.clear()
-                tell("Run ended:", facts(caller.GetOutputDataObject(0)))
-            filter_.AddObserver("ProgressEvent", progress)
-            filter_.AddObserver("EndEvent", end)
-
-def points_in_view():
-    return [shown.GetRepresentedDataInformation().GetNumberOfPoints()
-            for shown in view.Representations
-            if shown.GetXMLName() == "VolumicSurfaceRepresentation"]
-
-def answer(*_):
-    path = os.path.join({FOLDER!r}, "ask.py")
-    if os.path.exists(path) and not view.SMProxy.GetSession().GetPendingProgress():
-        with open(path, encoding="utf-8") as file:
-            code = file.read()
-        os.remove(path)
-        try:
-            found = eval(code)
-        except Exception as error:  # It would only be shown in the window.
-            found = repr(error)
-        tell("Answer:", repr(found))
-
-servermanager.ProxyManager().SMProxyManager.AddObserver("RegisterEvent", watch)
-interactor = view.GetInteractor()
-interactor.AddObserver("TimerEvent", answer)
-interactor.CreateRepeatingTimer(100)
-tell("Window is ready.")
+view.GetInteractor().AddObserver("TimerEvent", tell_of_the_view)
+view.GetInteractor().CreateRepeatingTimer(100)
+print("Window is ready.")
 """
 
 
@@ -111,223 +90,113 @@ class Hand(x_input.Input):
             self._xtst.XTestFakeButtonEvent(self._display, 1, down, ctypes.c_ulong(0))
         self._x11.XSync(self._display, 0)
 
-    def scroll(self, place, notches):
-        """Down, with the wheel."""
-        self.move(*place)
-        for down in (1, 0) * notches:
-            self._xtst.XTestFakeButtonEvent(self._display, 5, down, ctypes.c_ulong(0))
-            self._flush()
-
-    def shortcut(self, name):
-        """With the control key."""
-        control = self._x11.XKeysymToKeycode(
-            self._display, ctypes.c_ulong(self._x11.XStringToKeysym(b"Control_L")))
-        self._xtst.XTestFakeKeyEvent(self._display, control, 1, ctypes.c_ulong(0))
-        self.key(name)
-        self._xtst.XTestFakeKeyEvent(self._display, control, 0, ctypes.c_ulong(0))
-        self._flush()
-
-
-class LiveSession(gui.Session):
-    """A window in which no events are played."""
-
-    def start(self, python):
-        folder = self._folder.name
-        # A module, since ParaView empties the names of a script at its end.
-        with open(os.path.join(folder, "in_the_window.py"), "w", encoding="utf-8") as file:
-            file.write(python.replace(FOLDER, folder))
-        script = os.path.join(folder, "start.py")
-        with open(script, "w", encoding="utf-8") as file:
-            file.write(f"import sys\nsys.path.insert(0, {folder!r})\nimport in_the_window\n")
-        self._window = subprocess.Popen(
-            [self._paraview, "--dr", f"--plugin-search-paths={os.path.dirname(self._plugin)}",
-             "--plugins=Volumic", f"--script={script}"],
-            env=self._environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT, preexec_fn=testing.end_with_parent)
-        self.output = ""
-        self.line_with("Window is ready")
-
-    def line_with(self, start, timeout=gui.PATIENCE):
-        """What the window says after that, to the end of the line: from now on, or lately."""
-        end = time.monotonic() + timeout
-        while not (found := re.search(f"{start}(.*)\n", self.output)):
-            if time.monotonic() > end:
-                raise AssertionError(f"The window did not say {start!r}, but:\n{self.output}")
-            self.output += self.wait_for("\n", 1)
-        self.output = self.output[found.end():]
-        return found[1]
-
-    @contextlib.contextmanager
-    def run_held(self):
-        """The next run stays where its iterations begin till the context is left."""
-        path = os.path.join(self._folder.name, "hold")
-        with open(path, "w", encoding="utf-8"):
-            pass
-        try:
-            yield
-        finally:
-            os.remove(path)
-
-    def next_run(self):
-        """StopReason, points, triangles and edges that are no good of a run, at its end."""
-        return eval(self.line_with("Run ended: "))
-
-    def ask(self, code):
-        """The value of an expression in the window, when it is at rest."""
-        path = os.path.join(self._folder.name, "ask.py")
-        with open(path + ".part", "w", encoding="utf-8") as file:
-            file.write(code)
-        os.rename(path + ".part", path)
-        return eval(self.line_with("Answer: "))
-
-
-def middle_of(mask, least):
-    """Of the pixels that are set: (x, y), or None where there are less than that."""
-    rows, columns = mask.nonzero()
-    return (int(numpy.median(columns)), int(numpy.median(rows))) if len(rows) >= least else None
-
-
-def colours(pixels, part):
-    return (pixels[part][..., colour].astype(int) for colour in range(3))
-
 
 def abort_button(pixels):
     """Its red cross, lit up, at the window's lower edge."""
-    red, green, blue = colours(pixels, numpy.s_[-40:])
-    place = middle_of((red > 150) & (green < 60) & (blue < 60), 20)
+    red, green, blue = window.colours(pixels, numpy.s_[-40:])
+    place = window.middle_of((red > 150) & (green < 60) & (blue < 60), 20)
     return place and (place[0], place[1] + pixels.shape[0] - 40)
 
 
-def apply_button(pixels):
-    """Lit up: greener than all else in the left third."""
-    red, green, blue = colours(pixels, numpy.s_[200:-60, : pixels.shape[1] // 3])
-    place = middle_of((green > 120) & (green > red + 20) & (green > blue + 20), 500)
-    return place and (place[0], place[1] + 200)
-
-
-def whole_run():
-    """StopReason, points, triangles and bad edges without a stop on the way."""
-    testing.load_plugin()
-    surface = testing.fetch(simple.VolumetoSurface(simple.Wavelet(WholeExtent=EXTENT)))
-    return (testing.field(surface, "StopReason"), surface.GetNumberOfPoints(),
-            surface.GetNumberOfPolys(), 0)
-
-
 @unittest.skipUnless(x_input.Input.is_there(), "libXtst was not found")
-class AbortWindowTest(unittest.TestCase):
+class AbortWindowTest(window.WindowTestCase):
     @classmethod
     def setUpClass(cls):
-        cls.session = LiveSession(testing.program("paraview"), testing.plugin_path(),
-                                  os.environ["VOLUMIC_XVFB"], plain=True)
-        cls.hand = Hand(cls.session.display)
-        cls.whole = whole_run()
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.session.close()
-
-    def tearDown(self):
-        self.session.close_window()
+        super().setUpClass()
+        cls.hold = testing.output_path("hold")
+        testing.load_plugin()
+        surface = testing.fetch(simple.VolumetoSurface(simple.Wavelet(WholeExtent=EXTENT)))
+        # Stop reason, points, triangles and bad edges without a stop on the way.
+        cls.whole = (testing.field(surface, "StopReason"), surface.GetNumberOfPoints(),
+                     surface.GetNumberOfPolys(), 0)
 
     def picture(self, name):
         return self.session.screenshot(testing.output_path(f"abort-{name}.png"))
 
-    def wait_for(self, find, name, timeout=gui.PATIENCE):
+    def wait_for(self, find, name):
         """The place that `find` finds in the window."""
-        end = time.monotonic() + timeout
+        end = time.monotonic() + gui.PATIENCE
         while not (place := find(self.picture(name))):
             if time.monotonic() > end:
                 self.fail(f"There is no {find.__name__}; see abort-{name}.png")
             time.sleep(0.1)
         return place
 
+    def line_with(self, start):
+        """What the window says after that, to the end of the line: from now on, or lately."""
+        end = time.monotonic() + gui.PATIENCE
+        while not (found := re.search(f"{start}(.*)\n", self.said)):
+            if time.monotonic() > end:
+                self.fail(f"The window did not say {start!r}, but:\n{self.said}")
+            self.said += self.session.wait_for("\n", 1)
+        self.said = self.said[found.end():]
+        return found[1]
+
+    def facts(self, start):
+        return ast.literal_eval(self.line_with(start))
+
+    @contextlib.contextmanager
+    def run_held(self):
+        """The next run stays where its iterations begin till the context is left."""
+        with open(self.hold, "w", encoding="utf-8"):
+            pass
+        try:
+            yield
+        finally:
+            os.remove(self.hold)
+
     def make_filter(self):
         """By the quick launch, for which no place need be known. Returns where Apply is."""
-        self.session.start(IN_THE_WINDOW)
+        self.said = ""
+        self.session.start(TELL_OF_RUNS.replace("HOLD", repr(self.hold)))
+        self.line_with("Window is ready")
+        self.hand = Hand(self.session.display)
         self.hand.move(700, 500)
         self.hand.focus()
         before = self.session.pixels()
-        self.hand.shortcut("space")
+        self.hand.key("Control_L", "space")
         self.session.wait_for_rest(before)
         for letter in "volume to surface":
             self.hand.key({" ": "space"}.get(letter, letter))
         self.session.wait_for_rest()
         self.hand.key("Return")
-        self.wait_for(apply_button, "made")
+        self.wait_for(window.apply_button, "made")
         self.session.wait_for_rest(least=2)
-        return self.wait_for(apply_button, "made")
-
-    def place_of_preview(self):
-        """Its box: what looks different when a script ticks it. It is below the histogram."""
-        self.hand.scroll((20, 640), 3)
-        self.session.wait_for_rest()
-        before = self.picture("box").astype(int)
-
-        def ticked_box(pixels):
-            changed = abs(pixels.astype(int) - before).max(axis=2) > 30
-            return middle_of(changed[:, : before.shape[1] // 3], 20)
-
-        def box_as_before(pixels):
-            return not ticked_box(pixels)
-
-        self.session.ask("setattr(simple.GetActiveSource(), 'Preview', 1)")
-        place = self.wait_for(ticked_box, "box")
-        self.session.ask("setattr(simple.GetActiveSource(), 'Preview', 0)")
-        self.wait_for(box_as_before, "box")
-        return place
-
-    def check_that_it_goes_on(self):
-        """Preview, and back: the latter is a run to the end."""
-        box = self.place_of_preview()
-        for name in ("preview", "again"):
-            self.hand.press(box)
-            self.hand.press(self.wait_for(apply_button, name))
-            end = self.session.next_run()
-            # Answered when the view is done, too: before, ParaView takes no presses.
-            self.assertEqual(self.session.ask("points_in_view()"), [end[1]])
-            self.session.wait_for_rest()
-        self.assertEqual(end, self.whole)
+        return self.wait_for(window.apply_button, "made")
 
     def test_stops_a_run_and_shows_the_surface_as_it_is(self):
         apply = self.make_filter()
-        with self.session.run_held():
+        with self.run_held():
             self.hand.press(apply)
-            self.session.line_with("Iterations have begun")
+            self.line_with("Iterations have begun")
             self.hand.press(self.wait_for(abort_button, "during"))
-            self.session.line_with("It is asked to stop")
-        reason, points, _, bad_edges = self.session.next_run()
+            self.line_with("It is asked to stop")
+        reason, points, _, bad_edges = self.facts("Run ended: ")
         self.assertEqual((reason, bad_edges), ("cancelled", 0))
-        self.assertGreater(points, 100)
-        self.assertLess(points, self.whole[1])
-        self.assertEqual(self.session.ask("points_in_view()"), [points])
+        self.assertTrue(100 < points < self.whole[1])
+        self.assertEqual(self.facts("View: "), (2, points))
         self.assertIsNone(abort_button(self.picture("after")), "grey again")
-        self.check_that_it_goes_on()
-        self.picture("end")
 
     def test_nothing_else_gets_through(self):
         x, y = self.make_filter()
-        box = self.place_of_preview()
         before = self.picture("before")
-        with self.session.run_held():
+        with self.run_held():
             self.hand.press((x, y))
-            self.session.line_with("Iterations have begun")
-            # Apply, Reset, Delete and Help; File; Preview.
-            others = [(x + 82 * n, y) for n in range(4)] + [(20, 8), box]
-            for place in others:
+            self.line_with("Iterations have begun")
+            # Apply, Reset, Delete and Help; File.
+            for place in [(x + 82 * n, y) for n in range(4)] + [(20, 8)]:
                 self.hand.press(place)
             place = self.wait_for(abort_button, "others")
             self.hand.press((place[0] + 60, place[1]))
             self.hand.press((x, y), times=2)
-            self.hand.shortcut("o")
+            self.hand.key("Control_L", "o")
             time.sleep(1)  # Nothing tells of presses that have no effect.
-            self.session.output += self.session.wait_for("\n", 0.1)
-            self.assertNotIn("Run ended", self.session.output, "all this was during the run")
-        self.assertEqual(self.session.next_run(), self.whole)
-        self.assertEqual(self.session.ask("(len(simple.GetSources()), "
-                                          "simple.GetActiveSource().Preview, points_in_view())"),
-                         (2, 0, [self.whole[1]]))
+            self.said += self.session.wait_for("\n", 0.1)
+            self.assertNotIn("Run ended", self.said, "all this was during the run")
+        self.assertEqual(self.facts("Run ended: "), self.whole)
+        self.assertEqual(self.facts("View: "), (2, self.whole[1]))
         self.session.wait_for_rest()
         pixels = self.picture("untouched")
-        self.assertIsNone(apply_button(pixels), "nothing is to be applied")
+        self.assertIsNone(window.apply_button(pixels), "nothing is to be applied")
         for part in (numpy.s_[:20, :400], numpy.s_[25:50, 10:100]):  # menus; first icons
             self.assertTrue((pixels[part] == before[part]).all(), "neither menu nor dialog")

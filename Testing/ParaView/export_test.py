@@ -75,25 +75,6 @@ class ExportTest(testing.PluginTestCase):
                 self.assertEqual(self.export("organs" + suffix, source),
                                  {name + suffix: count for name, count in wanted.items()})
 
-    def test_names_that_files_cannot_have(self):
-        source = self.labels(names={3: "a/b", 7: "A:b", 12: ".."})
-        self.assertEqual(list(self.export("x.stl", source)), ["x-.stl", "x-A_b-2.stl", "x-a_b.stl"])
-
-    def test_levels(self):
-        source = simple.VolumetoSurface(simple.Wavelet(), IsoValue=150.0)
-        blocks = testing.fetch(source, 1)
-        self.assertEqual(self.export("w.vtp", source, 1), {
-            f"w-Level_{i}.vtp": blocks.GetBlock(i).GetNumberOfPolys() for i in range(2)})
-
-    def test_components(self):
-        source = simple.VolumetoSurface(testing.produce(label_maps.image()), IsoValue=1.5)
-        surface = testing.fetch(source)
-        array = surface.GetCellData().GetArray("Component")
-        found = [int(array.GetValue(i)) for i in range(array.GetNumberOfTuples())]
-        self.assertGreater(max(found), 0)
-        self.assertEqual(self.export("w.stl", source), {
-            f"w-component-{i}.stl": found.count(i) for i in set(found)})
-
     def test_a_component_has_its_cavities(self):
         """A file is a solid: of a hollow ball, one in its cavity, and one beside, three of them."""
         z, y, x = numpy.mgrid[0:32, 0:32, 0:32]
@@ -157,8 +138,3 @@ class ExportTest(testing.PluginTestCase):
         names = {mesh["name"] for mesh in scene["meshes"]}
         self.assertEqual(names, set(label_maps.NAMES.values()))
         self.assertEqual(len(scene["materials"]), 3)
-
-    def test_a_folder_that_is_not_there(self):
-        with testing.CapturedMessages() as messages:
-            self.export("none/organs.stl", self.labels())
-        self.assertIn("none/organs", messages.text)

@@ -161,6 +161,14 @@ class Session:
             word in self.output for word in ("ERR|", "WARN|", "critical:", "warning:"))
         return succeeded
 
+    def start(self, python):
+        """A window of its own that plays no events, for real mouse and keys. The code runs there, and
+        prints what the caller waits for."""
+        self.close_window()
+        self._write("started", python)
+        self._start("--script=" + self._write("start.py", f"import sys\nsys.path.insert(0, {HERE!r})\n"
+                                              "import in_the_window\nin_the_window.run('started')\n"))
+
     def _start(self, *options):
         self._window = subprocess.Popen(
             [self._paraview, "--dr", f"--plugin-search-paths={os.path.dirname(self._plugin)}",

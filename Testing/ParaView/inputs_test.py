@@ -72,24 +72,6 @@ class InputsTest(testing.PluginTestCase):
                     self.assertGreater(testing.fetch(filter_).GetNumberOfPoints(), 500)
         self.assertTrue(100.0 < wanted < 200.0, wanted)
 
-    def test_data_that_become_others(self):
-        """Who shows the histogram hears of them, though their range is the same."""
-        values = numpy.zeros((8, 8, 8))
-        values[2:6, 2:6, 2:6] = 100.0
-        source = testing.produce(testing.make_image(values, name="v"))
-        filter_ = simple.VolumetoSurface(source)
-        domain = filter_.SMProxy.GetProperty("IsoValue").FindDomain("vtkSMOtsuThresholdDomain")
-        heard = []
-        domain.AddObserver("DomainModifiedEvent", lambda *_: heard.append(1))
-        source.UpdatePipeline()
-        values[1:3] = 50.0
-        source.GetClientSideObject().SetOutput(testing.make_image(values, name="v"))
-        source.GetClientSideObject().Modified()
-        source.MarkModified(source.SMProxy)
-        source.UpdatePipeline()
-        self.assertEqual(filter_.SMProxy.GetProperty("Input").GetNumberOfProxies(), 1)
-        self.assertGreater(len(heard), 0)
-
     def test_iso_value_follows_until_it_is_given(self):
         first = testing.produce(image(density=ball()))
         second = testing.produce(image(other=ball(1000, 2000), density=ball(0, 10)))
@@ -108,24 +90,6 @@ class InputsTest(testing.PluginTestCase):
                 self.assertEqual(filter_.IsoValue, 5.0)
                 filter_.Input = first
                 self.assertEqual(filter_.IsoValue, 5.0)
-
-    def test_array_of_a_new_input(self):
-        first = testing.produce(image(density=ball()))
-        second = testing.produce(image(other=ball(1000, 2000)))
-        for name in SURFACES:
-            with self.subTest(filter=name):
-                filter_ = getattr(simple, name)(first)
-                filter_.Input = second
-                self.assertEqual(list(filter_.Voxels), ["POINTS", "other"])
-                self.check_ball(filter_)
-                # One that someone has chosen stays, even if it is not there.
-                with testing.CapturedMessages() as messages:
-                    filter_.Voxels = ["POINTS", "absent"]
-                self.assertEqual(messages.text, "")
-                self.assertEqual(list(filter_.Voxels), ["POINTS", "absent"])
-                with testing.CapturedMessages() as messages:
-                    self.assertEqual(testing.fetch(filter_).GetNumberOfPoints(), 0)
-                self.assertIn("'absent'", messages.text)
 
     def test_what_is_offered(self):
         volume = image(density=ball())

@@ -86,13 +86,6 @@ class LabelsViewTest(testing.PluginTestCase):
         self.picture("many")
         self.assertFalse(self.legend_is_shown())
 
-    def test_merged_later(self):
-        self.show(Labels=[3, 7])
-        self.assertEqual(hues(self.picture("not-yet-merged")), {"red", "green"})
-        self.filter.Merge = 1
-        self.assertEqual(hues(self.picture("merged-later")), {"red", "green"})
-        self.check_legend([3, 7])
-
     def test_colors_follow_the_data(self):
         self.show(Labels=[3])
         self.assertEqual(hues(self.picture("one")), {"red"})

@@ -1,8 +1,11 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Labels to Surfaces in ParaView's window: the table of labels, Apply, errors, another input."""
+"""Labels to Surfaces in ParaView's window: the table of labels, Apply, errors, another input; and File >
+Export Surfaces, a file for each label that is shown."""
 
+import os
 import re
+import shutil
 
 import numpy
 
@@ -11,9 +14,8 @@ import label_maps
 import plugin_testing as testing
 import window_testing as window
 from label_maps import NAMES
-from paraview import simple
 from window_testing import (
-    APPLY, PROPERTIES, SHOW_ADVANCED, choose, edit, filter_of_the_menu, opened, source)
+    APPLY, PROPERTIES, SHOW_ADVANCED, choose, edit, filter_of_the_menu, opened)
 
 FILTER = filter_of_the_menu("LabelsToSurfaces")
 TABLE = f"{PROPERTIES}/Labels"
@@ -34,6 +36,23 @@ print("Told:", list(filter_.Labels), [blocks.GetMetaData(b).Get(blocks.NAME()).s
                                       for b in range(blocks.GetNumberOfBlocks())],
       list(legend)[1::2])
 """
+
+HIDE = """
+from paraview import simple
+display = simple.GetDisplayProperties(simple.GetActiveSource(), simple.GetActiveView())
+display.BlockSelectors = ["/Root/*[@label='liver']", "/Root/*[@label='spleen']"]
+simple.Render()
+"""
+CLIP = """
+from paraview import simple
+clip = simple.Clip(simple.GetActiveSource(), ClipType="Plane", Scalars=["POINTS", ""])
+clip.ClipType.Origin, clip.ClipType.Normal = (14, 16, 16), (1, 0, 0)
+simple.Show(clip)
+simple.SetActiveSource(clip)
+simple.Render()
+"""
+WRITTEN = "import os\nuntil(lambda: len(os.listdir({folder!r})) >= {count})"
+ENTRY = f"{gui.WINDOW}/menubar/menu_File"
 
 
 def note(text):
@@ -95,13 +114,19 @@ class LabelsWindowTest(window.WindowTestCase):
         chosen, save_chosen = self.saved_state("labels-chosen.pvsm")
         found, save_found = self.saved_state("labels-found.pvsm")
         all_, save_all = self.saved_state("labels-all.pvsm")
+        background = f"{PROPERTIES}/BackgroundLabel/LineEdit0"
         self.play(opened(self.path) + [
             FILTER, gui.pause(300), set_box(1, UNCHECKED), note("2 of 4 labels"),
             APPLY, *save_chosen, press("None"),
             note("<b>Note:</b> Where none is checked, all but the background get a surface."),
             search("KID"), press("All"), search(""), note("1 of 4 labels"), APPLY, *save_found,
             press("None"), set_box(2, CHECKED), APPLY, press("All"), note("3 of 4 labels"), APPLY,
-            *save_all], "labels-chosen")
+            *save_all,
+            # Another background; 5 is none of the labels.
+            gui.event(background, "set_string", "7"), gui.pause(300), note("3 of 4 labels"),
+            gui.event(background, "set_string", "5"), gui.pause(300), note("4 of 4 labels"),
+            gui.event(background, "set_string", "3"), gui.pause(300), set_box(0, UNCHECKED),
+            note("2 of 4 labels"), APPLY], "labels-chosen")
         self.assertEqual(self.blocks_of(chosen), ([7, 12], [NAMES[7], NAMES[12]]))
         self.assertEqual(self.blocks_of(found), ([7], [NAMES[7]]))
         # All again is the default.
@@ -116,24 +141,6 @@ class LabelsWindowTest(window.WindowTestCase):
             note("2 of 4 labels"), undo, undo, gui.pause(500), note("3 of 4 labels"),
             *save, gui.pause(500)], "labels-undone")
         self.assertEqual(self.blocks_of(path), ([], list(NAMES.values())))
-
-    def test_background(self):
-        path, save = self.saved_state("labels-background.pvsm")
-        background = f"{PROPERTIES}/BackgroundLabel/LineEdit0"
-        self.play(opened(self.path) + [
-            FILTER, gui.pause(500), gui.event(background, "set_string", "7"), gui.pause(300),
-            note("3 of 4 labels"), gui.event(background, "set_string", "5"), gui.pause(300),
-            note("4 of 4 labels"), gui.event(background, "set_string", "3"), gui.pause(300),
-            set_box(0, UNCHECKED), note("2 of 4 labels"),
-            APPLY, gui.pause(300), *save], "labels-background")
-        self.assertEqual(self.blocks_of(path), ([7, 12], [NAMES[7], NAMES[12]]))
-
-    def test_no_label_map(self):
-        # Without an error before Apply: the panel says it.
-        self.play(source("RTAnalyticSource") + [
-            FILTER, gui.pause(500), window.shown("Labels/Labels", False),
-            window.shown("Labels/Note", True), window.as_wide_as_the_panel()], "labels-none")
-        self.assertNotIn("Input port 0", self.session.output)
 
     def test_error_and_another_file(self):
         others = label_maps.image(balls={3: ((9, 10, 11), 6.3), 40: ((20, 20, 20), 6.3)})
@@ -161,3 +168,28 @@ class LabelsWindowTest(window.WindowTestCase):
             ("[3]", "[]"), ("[3]", "['liver']"), ("[]", "['liver', 'left kidney', 'spleen']")])
         self.assertEqual([run[2] for run in runs if run[1] != "[]"],
                          [run[1] for run in runs if run[1] != "[]"])
+
+
+class ExportWindowTest(window.WindowTestCase):
+    def test_what_is_shown_of_the_labels(self):
+        folder = testing.output_path("window-exported")
+        shutil.rmtree(folder, ignore_errors=True)
+        os.mkdir(folder)
+        path = testing.write_volume("export.vti", label_maps.add_names(label_maps.image()))
+        hide = self.session.add_code(HIDE)
+        half = os.path.join(folder, "half")
+        os.mkdir(half)
+        self.play(opened(path) + [
+            filter_of_the_menu("LabelsToSurfaces"), APPLY, hide,
+            *self.exported(os.path.join(folder, "organs.stl"), 3),
+            self.session.add_code(CLIP), gui.pause(1000),
+            *self.exported(os.path.join(half, "half.stl"), 2)], "export-labels")
+        self.assertEqual(sorted(os.listdir(folder)),
+                         ["half", "organs-liver.stl", "organs-spleen.stl"])
+        self.assertEqual(sorted(os.listdir(half)), ["half-liver.stl", "half-spleen.stl"])
+
+    def exported(self, file, count):
+        """Events that export to the file, till there are so many in its folder."""
+        return [gui.event(ENTRY, "activate", "actionExportSurfaces"),
+                gui.event(f"{gui.WINDOW}/ExportSurfacesDialog", "filesSelected", file),
+                self.session.add_code(WRITTEN.format(folder=os.path.dirname(file), count=count))]

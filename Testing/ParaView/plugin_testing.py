@@ -21,8 +21,6 @@ from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkStringOutputWindow
 from vtkmodules.vtkCommonDataModel import vtkImageData
 from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 
-SQRT3 = 3.0**0.5
-
 
 def plugin_path():
     return os.environ["VOLUMIC_PLUGIN"]
@@ -112,11 +110,7 @@ def points(surface):
     return vtk_to_numpy(surface.GetPoints().GetData())
 
 
-def triangles(surface):
-    return vtk_to_numpy(surface.GetPolys().GetConnectivityArray()).reshape(-1, 3)
-
-
-def stop_after_the_tenth(algorithm, abort=lambda algorithm: algorithm.SetAbortExecute(1)):
+def stop_after_the_tenth(algorithm):
     """Report of an iteration. Returns the observer that does so."""
     reports = []
 
@@ -124,7 +118,7 @@ def stop_after_the_tenth(algorithm, abort=lambda algorithm: algorithm.SetAbortEx
         if "iteration" in (algorithm.GetProgressText() or ""):
             reports.append(algorithm.GetProgressText())
         if len(reports) == 10:
-            abort(algorithm)
+            algorithm.SetAbortExecuteAndUpdateTime()
     return algorithm.AddObserver("ProgressEvent", progress)
 
 

@@ -63,11 +63,6 @@ def typed(cell, text):
 
 
 class PointsWindowTest(window.WindowTestCase):
-    def saved(self, path, name="VolumetoSurface1"):
-        """The filter of a state, and what it gives."""
-        filter_ = window.open_state(path, name)
-        return filter_, testing.fetch(filter_)
-
     def test_added_edited_and_removed_in_the_panel(self):
         path, save = self.saved_state("points-added.pvsm")
         add, remove = (gui.event(f"{SEEDS}/{name}", "activate") for name in ("Add", "Remove"))
@@ -97,7 +92,8 @@ class PointsWindowTest(window.WindowTestCase):
             gui.event(f"{SEEDS}/RemoveAll", "activate"), rows(SEEDS, 0), APPLY, gui.pause(300),
             edit("actionEditUndo"), gui.pause(500), rows(SEEDS, 1),
             edit("actionEditRedo"), gui.pause(500), rows(SEEDS, 0)], "points-applied")
-        filter_, surface = self.saved(path)
+        filter_ = window.open_state(path, "VolumetoSurface1")
+        surface = testing.fetch(filter_)
         self.assertEqual(list(filter_.SeedPositions), [46.5, 20.0, 20.0])
         self.assertEqual(testing.field(surface, "NumberOfComponents"), 1)
         self.assertGreater(surface.GetBounds()[0], 30.0)
@@ -107,13 +103,6 @@ class PointsWindowTest(window.WindowTestCase):
         """Whether a handle is drawn there: nothing else is magenta."""
         near = pixels[y - 12:y + 13, x - 12:x + 13].astype(int)
         return bool((near - (255, 0, 255) == 0).all(axis=2).any())
-
-    @staticmethod
-    def apply_button(pixels):
-        """Its middle: there is something to apply, so that it is green, as nothing else near."""
-        red, green, blue = numpy.moveaxis(pixels[380:480, :290].astype(int), 2, 0)
-        rows, columns = numpy.nonzero((green > red + 20) & (green > blue + 20))
-        return int(numpy.median(columns)), 380 + int(numpy.median(rows))
 
     def picture(self, name):
         return self.session.screenshot(testing.output_path(f"{name}.png"))
@@ -138,7 +127,7 @@ class PointsWindowTest(window.WindowTestCase):
 
     def applied(self, hand, pixels):
         """What is told of the run when Apply is pressed, which is where the picture has it."""
-        button = self.apply_button(pixels)
+        button = window.apply_button(pixels)
         hand.drag(button, button)
         return self.session.wait_for(" .\n")
 
@@ -174,15 +163,3 @@ class PointsWindowTest(window.WindowTestCase):
         low, high = (float(n) for n in re.search(r"surface: (\S+) (\S+)", told).groups())
         self.assertGreater(low, 30.0)
         self.assertGreater(high, 50.0)
-
-    def test_known_points(self):
-        path, save = self.saved_state("points-known.pvsm")
-        pixels = self.play(a_slice_of(two_balls()) + [
-            filter_of_the_menu("VolumeToSurface"), SHOW_ADVANCED, gui.pause(500),
-            gui.event(f"{ATTRACTING}/Add", "activate"), gui.pause(500), rows(ATTRACTING, 1),
-            APPLY, gui.pause(500), *save], "points-known")
-        self.assertFalse(self.is_marked(pixels, *CENTRE), "handles only where they are asked for")
-        filter_, surface = self.saved(path)
-        self.assertEqual(list(filter_.AttractingPositions), [30.0, 20.0, 20.0])
-        # A ball of its own about the point between the two.
-        self.assertEqual(testing.field(surface, "NumberOfComponents"), 3)

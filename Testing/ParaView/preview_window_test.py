@@ -9,7 +9,7 @@ import gui_session as gui
 import plugin_testing as testing
 import window_testing as window
 from window_testing import (
-    APPLY, PROPERTIES, SHOW_ADVANCED, choose, filter_of_the_menu, set_box, set_iso_value)
+    APPLY, SHOW_ADVANCED, choose, filter_of_the_menu, set_box, set_iso_value)
 from paraview import simple
 
 EXTENT = [-60, 60] * 3  # 1.8 million voxels: level 1 is the preview
@@ -109,19 +109,3 @@ class PreviewWindowTest(window.WindowTestCase):
                          [triangles_of(iso, FinestLevel=level)
                           for iso in (150.0, 140.0) for level in (1, 0)])
         self.assertEqual(runs[1][2], "[0]", "it goes on")
-
-    def test_levels_are_shown_down_to_one_finer_than_the_volume(self):
-        extent = [-20, 20] * 3
-        runs = self.runs([
-            set_iso_value(150),
-            gui.event(f"{PROPERTIES}/FinestLevel/IntRangeWidget/LineEdit", "set_string", "-1"),
-            set_box("ShowLevels", True), APPLY, self.run_(2)], "preview-levels-finer",
-            extent=extent)
-        # The preview is level 0 itself.
-        self.assertEqual([run[:2] for run in runs],
-                         [(level, triangles_of(150.0, extent, FinestLevel=level))
-                          for level in (0, -1)], self.session.output)
-
-    def test_levels_are_not_shown_where_nobody_watches(self):
-        extent = [-20, 20] * 3
-        self.assertEqual(triangles_of(150.0, extent, ShowLevels=1), triangles_of(150.0, extent))

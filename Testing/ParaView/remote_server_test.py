@@ -167,12 +167,3 @@ class RemoteServerTest(unittest.TestCase):
         servermanager.writers.ExportSurfaces(Input=surfaces, FileName=path).UpdatePipeline()
         with open(path, "rb") as file:
             self.assertIn(b"left kidney", file.read())
-
-    def test_displays_on_the_client(self):
-        filter_ = wavelet_to_surface()
-        view = simple.CreateView("RenderView")
-        red, _, blue = simple.Show(filter_, view).DiffuseColor
-        self.assertGreater(red, blue, "bone")
-        chart = simple.CreateView("VolumicHistoryView")
-        display = simple.Show(simple.OutputPort(filter_, 2), chart)
-        self.assertEqual(len(display.SeriesVisibility), 4)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Deformable Surface in ParaView's window, by its menu and its panel as a user does."""
+"""Image Pyramid and Deformable Surface in ParaView's window, by menu and panel as a user does."""
 
 import re
 
@@ -44,6 +44,52 @@ from paraview import simple
 display = simple.GetDisplayProperties(simple.GetActiveSource(), simple.GetActiveView())
 print("Colour:", [round(float(c), 3) for c in display.DiffuseColor])
 """
+
+
+# Runs in the window: an image whose second array has several components.
+VECTOR = """
+from paraview import simple
+vector = simple.Calculator(simple.Wavelet())
+vector.ResultArrayName = "vector"
+vector.Function = "3*RTData*iHat + 4*RTData*jHat"
+simple.Show(vector)
+simple.SetActiveSource(vector)
+"""
+
+
+def iso_values():
+    """What the panel says of the first array, and of the magnitude and of Y of the second."""
+    testing.load_plugin()
+    played = {}
+    exec(compile(VECTOR, "vector", "exec"), played)
+    filter_ = simple.VolumetoSurface(played["vector"])
+    values = [filter_.IsoValue]
+    filter_.Voxels = ["POINTS", "vector"]
+    for component in ("Magnitude", "Y"):
+        filter_.SelectedComponent = component
+        values.append(filter_.IsoValue)
+    return [repr(value) for value in values]
+
+
+class PyramidWindowTest(window.WindowTestCase):
+    def test_menu_panel_and_apply(self):
+        path, save = self.saved_state("pyramid.pvsm")
+        levels = f"{PROPERTIES}/NumberOfLevels/IntRangeWidget/LineEdit"
+        advanced = ("MinimumLevelSize", "ReductionFactor", "NumberOfThreads")
+        pixels = self.play(source("RTAnalyticSource") + [
+            filter_of_the_menu("ImagePyramid"),
+            gui.check(f"{PROPERTIES}/SetInputArrayToProcess/ComboBox", "currentText", "RTData"),
+            gui.check(levels, "text", "0"), *[window.shown(name, False) for name in advanced],
+            SHOW_ADVANCED, gui.pause(500), *[window.shown(name, True) for name in advanced],
+            gui.check(f"{PROPERTIES}/MinimumLevelSize/LineEdit0", "text", "10"),
+            gui.check(f"{PROPERTIES}/MinimumLevelSize", "enabled", "true"),
+            gui.event(levels, "set_string", "3"), APPLY, *save], "pyramid-applied")
+        self.assertGreater(pixels.std(), 10, "the window is drawn")
+        self.assertIn("ImagePyramid", window.proxies_of(path))
+        # A saved state opens in a script, and gives what the window showed.
+        pyramid = testing.fetch(window.open_state(path, "ImagePyramid1"))
+        self.assertEqual(pyramid.GetNumberOfBlocks(), 3)
+        self.assertEqual(pyramid.GetBlock(2).GetDimensions(), (6, 6, 6))
 
 
 class SurfaceWindowTest(window.WindowTestCase):
@@ -139,3 +185,29 @@ class SurfaceWindowTest(window.WindowTestCase):
             window.in_the_pipeline(0), *made("Contour")], "surface-clipped")
         self.assertEqual(re.findall(r"Colour: (\[.*\])", self.session.output),
                          ["[0.89, 0.85, 0.76]"] * 2 + ["[1.0, 1.0, 1.0]"])
+
+    def test_component(self):
+        of_scalar, of_magnitude, of_y = iso_values()
+        self.assertEqual(len({of_scalar, of_magnitude, of_y}), 3)
+        arrays = f"{PROPERTIES}/SetInputArrayToProcess/ComboBox"
+        for filter_ in ("VolumeToSurface", "DeformableSurface"):
+            with self.subTest(filter=filter_):
+                path, save = self.saved_state("component.pvsm")
+                self.play([
+                    gui.pause(300), filter_of_the_menu(filter_), gui.pause(300),
+                    gui.check(arrays, "currentText", "RTData"),
+                    window.shown("SelectedComponent", False),
+                    gui.check(ISO_VALUE, "text", of_scalar),
+                    gui.event(arrays, "set_string", "vector"), gui.pause(300),
+                    window.shown("SelectedComponent", True),
+                    gui.check(f"{PROPERTIES}/SelectedComponent/ComboBox", "currentText",
+                              "Magnitude"),
+                    # The preset follows, as nobody has typed another value.
+                    gui.check(ISO_VALUE, "text", of_magnitude),
+                    choose("SelectedComponent", "Y"), gui.pause(300),
+                    gui.check(ISO_VALUE, "text", of_y), APPLY, *save],
+                    f"component-{filter_}", python=VECTOR)
+                made = window.open_state(path, f"{filter_.replace('To', 'to')}1")
+                made.UpdatePipeline()
+                self.assertEqual(made.SelectedComponent, "Y")
+                self.assertGreater(made.GetDataInformation().GetNumberOfPoints(), 500)

@@ -60,22 +60,6 @@ class HistoryChartTest(testing.PluginTestCase):
                 # The table has its zeros.
                 numpy.testing.assert_array_equal(column(self.filter, "Vertices"), vertices)
 
-    def test_nothing_but_zeros(self):
-        self.filter = simple.VolumetoSurface(two_balls(), IsoValue=50.0, CoarsestLevel=0,
-                                             FinestLevel=0, MaximumNumberOfIterations=1)
-        with testing.CapturedMessages() as messages:
-            chart = self.chart("zeros", "Cuts", "Merges")
-            self.assertFalse(views.has_warning(chart))
-            # Without a row, too, and then with many.
-            self.filter.MaximumNumberOfIterations = 0
-            views.picture_of(self.view, "history-error.png")
-            self.filter.MaximumNumberOfIterations = 1000
-            chart = views.picture_of(self.view, "history-after-an-error.png")
-            self.assertFalse(views.has_warning(chart))
-            self.assertGreater(views.drawn(chart), 5000)
-        # The error of the run, and none of the chart.
-        self.assertEqual(messages.text.count("ERROR"), 1, messages.text)
-
     def blue(self, chart):
         """Rows of the chart (0: the lowest) where the curve of Vertices is."""
         near = numpy.abs(chart.astype(int) - (26, 89, 179)).max(axis=2) < 12
@@ -139,17 +123,6 @@ class ColoursTest(testing.PluginTestCase):
         self.display.RescaleTransferFunctionToDataRange(False, False)
         simple.Render(self.view)
         return self.display.LookupTable
-
-    def test_arrays_that_are_offered(self):
-        surface = testing.fetch(self.filter)
-        arrays = {data.GetArrayName(i) for data in (surface.GetPointData(), surface.GetCellData())
-                  for i in range(data.GetNumberOfArrays())}
-        for port in (SURFACE, LEVELS):
-            display = simple.Show(simple.OutputPort(self.filter, port), self.view)
-            property_ = display.SMProxy.GetProperty("ColorArrayName")
-            domain = property_.FindDomain("vtkSMArrayListDomain")
-            offered = [domain.GetString(i) for i in range(domain.GetNumberOfStrings())]
-            self.assertEqual(sorted(offered), sorted(arrays))
 
     def test_residual_diverges_from_zero(self):
         colours = self.coloured_by("Residual", "POINTS")

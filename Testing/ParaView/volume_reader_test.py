@@ -95,22 +95,12 @@ class VolumeReaderTest(testing.PluginTestCase):
         self.check(simple.VolumicDICOM(FileName=folder))
         self.check(simple.VolumicDICOM(FileName=os.path.join(folder, "007.dcm")))
 
-    def test_what_paraview_cannot_open_opens(self):
-        self.check(simple.OpenDataFile(nifti()))
-
     def test_names_and_colours_of_labels(self):
         surfaces = simple.LabelstoSurfaces(simple.VolumicVolume(FileNames=[segmentation()]))
         blocks = testing.fetch(surfaces)
         self.assertEqual(testing.names(blocks), ["liver", "left kidney", "spleen"])
         color = blocks.GetBlock(2).GetFieldData().GetArray("LabelColor").GetTuple3(0)
         numpy.testing.assert_allclose(color, (0.2, 0.2, 0.8))
-
-    def test_names_beside_the_file(self):
-        path = nifti("beside.nii.gz", label_maps.values())
-        write("beside.json", b'{"3": "liver", "7": "left kidney", "12": "spleen"}')
-        surfaces = simple.LabelstoSurfaces(simple.VolumicVolume(FileNames=[path]))
-        self.assertEqual(testing.names(testing.fetch(surfaces)),
-                         ["liver", "left kidney", "spleen"])
 
     def test_series_in_time(self):
         paths = [nifti(f"t{i}.nii.gz", voxels() + i) for i in range(3)]
@@ -122,16 +112,6 @@ class VolumeReaderTest(testing.PluginTestCase):
             image = source.GetDataInformation().GetPointDataInformation()
             self.assertEqual(image.GetArrayInformation(0).GetComponentRange(0),
                              (time, 12 + time))
-
-    def test_times_in_one_file(self):
-        path = nifti("times.nii.gz", numpy.stack([voxels(), voxels() + 1]))
-        source = simple.VolumicVolume(FileNames=[path])
-        source.UpdatePipelineInformation()
-        self.assertEqual(list(source.TimestepValues), [0, 1])
-        for time in (1, 0):
-            source.UpdatePipeline(time)
-            image = source.GetDataInformation().GetPointDataInformation()
-            self.assertEqual(image.GetArrayInformation(0).GetComponentRange(0), (time, 12 + time))
 
     def test_series_of_a_folder(self):
         folder = dicom("both")
@@ -166,16 +146,6 @@ class VolumeReaderTest(testing.PluginTestCase):
         self.assertEqual(list(times.TimestepValues), [0, 1])
         self.assertEqual(slices.Resampling, 0)
         self.check(slices)
-
-    def test_a_missing_slice(self):
-        folder = dicom("missing")
-        os.remove(os.path.join(folder, "005.dcm"))
-        source = simple.VolumicDICOM(FileName=folder)
-        self.assertEqual(testing.fetch(source).GetDimensions(), voxels().shape[::-1])
-        source.Resampling = 0
-        with testing.CapturedMessages() as messages:
-            source.UpdatePipeline()
-        self.assertIn("switch Resampling on, and they are resampled", messages.text)
 
     def test_a_warning_begins_with_its_sentence_and_comes_once(self):
         with testing.CapturedMessages() as messages:

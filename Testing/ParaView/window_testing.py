@@ -11,6 +11,8 @@ import os
 import unittest
 import xml.etree.ElementTree as ElementTree
 
+import numpy
+
 import gui_session as gui
 import plugin_testing as testing
 from paraview import servermanager
@@ -164,6 +166,23 @@ def open_state(path, name):
 def proxies_of(state):
     """Names of the proxies in a saved state."""
     return [proxy.get("type") for proxy in ElementTree.parse(state).iter("Proxy")]
+
+
+def middle_of(mask, least):
+    """Of the pixels that are set: (x, y), or None where there are less than that."""
+    rows, columns = mask.nonzero()
+    return (int(numpy.median(columns)), int(numpy.median(rows))) if len(rows) >= least else None
+
+
+def colours(pixels, part):
+    return (pixels[part][..., colour].astype(int) for colour in range(3))
+
+
+def apply_button(pixels):
+    """Lit up: greener than all else in the left third."""
+    red, green, blue = colours(pixels, numpy.s_[200:-60, : pixels.shape[1] // 3])
+    place = middle_of((green > 120) & (green > red + 20) & (green > blue + 20), 500)
+    return place and (place[0], place[1] + 200)
 
 
 @functools.cache

@@ -48,10 +48,12 @@ class Input:
         self._flush()
         time.sleep(1)
 
-    def key(self, name):
-        code = self._x11.XKeysymToKeycode(
+    def key(self, *names):
+        """Several are held together."""
+        codes = [self._x11.XKeysymToKeycode(
             self._display, ctypes.c_ulong(self._x11.XStringToKeysym(name.encode())))
-        for down in (1, 0):
+            for name in names]
+        for code, down in [(code, 1) for code in codes] + [(code, 0) for code in codes[::-1]]:
             self._xtst.XTestFakeKeyEvent(self._display, code, down, ctypes.c_ulong(0))
             self._flush()
 

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The scripts that make the documents' pictures and tables, and the example that makes a video of
-an evolution, on a small volume. Needs a display."""
+"""The script that makes the documents' pictures, and the example that makes a video of an evolution,
+on a small volume. Needs a display."""
 
 import os
 import subprocess
@@ -14,12 +14,7 @@ from sample_volumes import RING_ISO, RING_SPACING, ring_voxels, run_script, writ
 from vtk_files import read_pixels
 
 COMMAND = os.path.join(os.environ["VOLUMIC_TEST_INSTALL_PREFIX"], "bin", "volumic")
-FIGURES, TABLES = (f"Testing/Benchmarks/{name}.py" for name in ("figures", "paper_tables"))
-
-
-def cells_of(markdown):
-    return [[cell.strip() for cell in line.strip("|").split("|")]
-            for line in markdown.strip().splitlines()]
+FIGURES = "Testing/Benchmarks/figures.py"
 
 
 class ScriptTest(SharedFolderTestCase):
@@ -60,36 +55,7 @@ class FiguresTest(ScriptTest):
         output = ("--output", self.path("none"), "--only")
         self.refused(FIGURES, (2, "invalid choice", *output, "nothing"),
                      (1, "none.vti", *output, "vessels", "--vessels", "none.vti", "3"),
-                     (1, "Iso Value", *output, "levels", "--skull", self.ring, "9999"))
-
-
-class TablesTest(ScriptTest):
-    def test_every_table(self):
-        run = run_script(TABLES, "--skull", *self.scan, "--scan", *self.scan)
-        self.assertEqual(run.returncode, 0, run.stderr)
-        tables = [cells_of(text) for text in run.stdout.split("\n\n") if text]
-        self.assertEqual(len(tables), 6)
-        for lines in tables:
-            self.assertEqual({len(line) for line in lines}, {len(lines[0])})
-        levels, vessels, recovery, start, rest, sampling = (lines[2:] for lines in tables)
-        for row in levels[1:3]:  # as in the paper, and defaults
-            self.assertTrue(all(int(cell) > 0 for cell in row[1:4]), row)
-            self.assertEqual(row[-1], "1, 1")
-        for cell in vessels[0][1:]:
-            count, share = cell.split(", ")
-            self.assertGreater(int(count), 0)
-            self.assertGreater(float(share.removesuffix(" %")), 95)
-        self.assertTrue(recovery[0][-1].endswith(" %, from level 2"), recovery)
-        first, outside, iso = map(int, start[0][1:4])
-        self.assertEqual(first, 2)
-        self.assertLess(iso, outside)
-        self.assertGreaterEqual(int(rest[0][2]), 5)
-        counts = [int(row[1].replace(",", "")) for row in sampling]
-        self.assertEqual(counts, sorted(counts, reverse=True))
-
-    def test_refused(self):
-        self.refused(TABLES, (2, "invalid choice", "--only", "nothing"),
-                     (1, "none.vti", "--skull", "none.vti", "3"))
+                     (1, "Iso Value", *output, "graded", "--skull", self.ring, "9999"))
 
 
 class EvolutionTest(ScriptTest):

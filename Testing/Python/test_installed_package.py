@@ -3,6 +3,7 @@
 """The Python package `volumic` as it is installed: what a user's script relies on."""
 
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -12,9 +13,12 @@ import unittest
 import numpy as np
 import volumic
 import vtkmodules
+from vtkmodules.util.misc import calldata_type
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.util.vtkConstants import VTK_STRING
 from vtkmodules.vtkCommonDataModel import vtkImageData, vtkMultiBlockDataSet
-from volumic import vtkImagePyramid
+from vtkmodules.vtkCommonMisc import vtkErrorCode
+from volumic import vtkDeformableSurface, vtkImagePyramid, vtkVolumeToSurface
 
 PREFIX = os.environ["VOLUMIC_TEST_INSTALL_PREFIX"]
 
@@ -110,6 +114,71 @@ class PyramidTest(unittest.TestCase):
         self.assertEqual(coarse.shape, (13, 14, 15))
         self.assertLess(coarse.std(), voxels.std())
         self.assertGreater(coarse.std(), 0)
+
+
+class SurfaceTest(unittest.TestCase):
+    SIZE, RADIUS, ISO = 32, 9.0, 100.5
+
+    def setUp(self):
+        self.surface = vtkDeformableSurface()
+        self.errors = []
+
+        @calldata_type(VTK_STRING)
+        def keep(_caller, _event, text):
+            self.errors.append(text)
+
+        self.surface.AddObserver("ErrorEvent", keep)
+        self.surface.GetExecutive().AddObserver("ErrorEvent", keep)  # which has nothing to add
+        z, y, x = np.indices((self.SIZE,) * 3) - (self.SIZE - 1) / 2
+        inside = np.clip(self.RADIUS - np.sqrt(x * x + y * y + z * z) + 0.5, 0, 1)
+        self.surface.SetInputData(image_of((200 * inside).astype("f4")))
+        self.surface.SetIsoValue(self.ISO)
+
+    def area(self):
+        self.surface.Update()
+        return self.surface.GetOutput().GetFieldData().GetArray("Area").GetValue(0)
+
+    def test_help_explains_every_property(self):
+        for kind in (vtkDeformableSurface, vtkImagePyramid, vtkVolumeToSurface):
+            names = [name for name in vars(kind)
+                     if name.startswith("Set") and hasattr(kind, "Get" + name[3:])]
+            self.assertGreater(len(names), 2)
+            names += [n for n in vars(kind) if re.match("Set(InitialSurface|AttractingPoints)", n)]
+            for name in names:
+                signature, _, explanation = getattr(kind, name).__doc__.partition("\n\n")
+                self.assertTrue(explanation.strip(), signature)
+
+    def test_positions(self):
+        middle = [(self.SIZE - 1) / 2] * 3
+        self.surface.SetInitializationToSeeds()
+        self.surface.AddSeedPosition(*middle)
+        place = [0.0] * 3
+        self.surface.GetSeedPosition(0, place)
+        self.assertEqual(place, middle)
+        area = self.area()
+        self.assertAlmostEqual(area / (4 * np.pi * self.RADIUS ** 2), 1, delta=0.05)
+        # Just outside the ball: the surface comes out to it.
+        self.surface.AddAttractingPosition(middle[0] + self.RADIUS + 1.5, *middle[1:])
+        self.surface.Update()
+        self.assertEqual(self.surface.GetNumberOfAttractingPositions(), 1)
+        self.assertGreater(self.surface.GetOutput().GetBounds()[1], middle[0] + self.RADIUS + 1.0)
+        self.surface.ClearAttractingPositions()
+        self.assertEqual(self.area(), area)
+        self.assertEqual(self.errors, [])
+        self.surface.AddSeedPosition(-50, 0, 0)
+        self.surface.Update()
+        self.assertIn("Seed Positions: point 1 (-50, 0, 0) lies outside", self.errors[0])
+
+    def test_the_error_code_is_that_of_the_last_run(self):
+        for iso, code, blocks in ((self.ISO, 0, 3), (1000, vtkErrorCode.UserError, 0),
+                                  (self.ISO, 0, 3)):
+            self.surface.SetIsoValue(iso)
+            self.surface.Update()
+            self.assertEqual(self.surface.GetErrorCode(), code)
+            self.assertEqual(self.surface.GetOutput().GetNumberOfPoints() > 0, code == 0)
+            self.assertEqual(self.surface.GetLevels().GetNumberOfBlocks(), blocks)
+            self.assertEqual(self.surface.GetHistory().GetNumberOfRows() > 0, code == 0)
+        self.assertEqual(len(self.errors), 1, self.errors)
 
 
 if __name__ == "__main__":

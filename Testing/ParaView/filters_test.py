@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The Volume to Surface filter of the installed plugin, in scripts of pvbatch and pvpython."""
+"""Image Pyramid, Deformable Surface and Volume to Surface of the installed plugin, in scripts of
+pvbatch and pvpython."""
 
 import numpy
 from paraview import simple
@@ -11,6 +12,7 @@ from plugin_testing import points
 SURFACE, LEVELS, HISTORY, SNAPSHOTS = range(4)
 FOUR_CURVES = {"Seconds", "KineticEnergy", "MeanEdgeLength", "Vertices"}
 SIZE, RADIUS, DARK, BRIGHT = 32, 10.0, 20.0, 220.0
+CENTRE = numpy.full(3, (SIZE - 1) / 2)
 
 
 def ball_values():
@@ -28,7 +30,23 @@ def ball_of_cells():
     return image
 
 
-class VolumeToSurfaceTest(testing.PluginTestCase):
+class ImagePyramidTest(testing.PluginTestCase):
+    def test_levels_and_factor(self):
+        source = simple.Wavelet()
+        source.UpdatePipeline()
+        # 21 voxels, floor(21 / sqrt 3) = 12, and the next level would have 6, under the 10 allowed.
+        for properties, factor, sizes in (({}, 3**0.5, [21, 12]), (
+                {"NumberOfLevels": 4, "ReductionFactor": 1.5}, 1.5, [21, 14, 9, 6])):
+            pyramid = testing.fetch(simple.ImagePyramid(Input=source, **properties))
+            self.assertEqual(testing.names(pyramid), [f"Level {h}" for h in range(len(sizes))])
+            for h, (image, size) in enumerate(zip(testing.levels(pyramid), sizes)):
+                self.assertEqual(image.GetDimensions(), (size,) * 3)
+                self.assertEqual(testing.field(image, "Level"), h)
+                self.assertAlmostEqual(testing.field(image, "Unit"), factor**h, places=12)
+                self.assertIsNotNone(image.GetPointData().GetArray("RTData"))
+
+
+class SurfaceTest(testing.PluginTestCase):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
@@ -37,7 +55,7 @@ class VolumeToSurfaceTest(testing.PluginTestCase):
     def check_ball(self, surface, tolerance=0.5):
         self.assertEqual(testing.field(surface, "StopReason"), "converged")
         self.assertEqual(testing.field(surface, "NumberOfComponents"), 1)
-        distance = numpy.linalg.norm(points(surface) - (SIZE - 1) / 2, axis=1)
+        distance = numpy.linalg.norm(points(surface) - CENTRE, axis=1)
         self.assertLess(numpy.abs(distance - RADIUS).max(), tolerance)
 
     def test_iso_value_is_preset_and_apply_is_enough(self):
@@ -60,7 +78,7 @@ class VolumeToSurfaceTest(testing.PluginTestCase):
         filter_.UseUpperValue = 1
         surface = testing.fetch(filter_)
         self.assertEqual(testing.field(surface, "NumberOfComponents"), 2)
-        distance = numpy.linalg.norm(points(surface) - (SIZE - 1) / 2, axis=1)
+        distance = numpy.linalg.norm(points(surface) - CENTRE, axis=1)
         numpy.testing.assert_allclose((distance.min(), distance.max()), (5, RADIUS), atol=0.7)
 
     def test_voxels_in_cells(self):
@@ -70,16 +88,6 @@ class VolumeToSurfaceTest(testing.PluginTestCase):
         self.assertEqual(of_cells.IsoValue, of_points.IsoValue)
         self.assertEqual(points(testing.fetch(of_cells)).tobytes(),
                          points(testing.fetch(of_points)).tobytes())
-
-    def test_volume_without_a_boundary(self):
-        flat = testing.produce(testing.make_image(numpy.full((16,) * 3, 4.0, numpy.float32)))
-        with testing.CapturedMessages() as messages:
-            filter_ = simple.VolumetoSurface(flat)
-            self.assertEqual(filter_.IsoValue, 4.0)
-            surface = testing.fetch(filter_)
-        self.assertIn("ranges from 4 to 4", messages.text)
-        self.assertIn("all voxels are 4: no value parts an object", messages.text)
-        self.assertEqual(surface.GetNumberOfPoints(), 0)
 
     def test_displays_where_people_write_a_comma(self):
         """The numbers of the plugin's XML have points in every country."""
@@ -109,18 +117,50 @@ class VolumeToSurfaceTest(testing.PluginTestCase):
         # Where no curve of a run from coarse to fine is.
         self.assertEqual(chart.LegendLocation, "BottomRight")
 
-    def check_abort_and_the_next_apply(self, abort):
+    def test_abort_and_the_next_apply(self):
+        """By the button of newer ParaViews."""
         filter_ = simple.VolumetoSurface(self.ball)
         algorithm = filter_.GetClientSideObject()
-        tag = testing.stop_after_the_tenth(algorithm, abort)
+        executions = []
+        algorithm.AddObserver("StartEvent", lambda *_: executions.append(1))
+        tag = testing.stop_after_the_tenth(algorithm)
         surface = testing.fetch(filter_)
         self.assertEqual(testing.field(surface, "StopReason"), "cancelled")
         self.assertGreater(surface.GetNumberOfPolys(), 0)
+        # A sweep of five iterations reports once at least.
+        self.assertTrue(0 < testing.fetch(filter_, HISTORY).GetNumberOfRows() <= 50)
+        # ParaView keeps it, also for the filters after it, and does not start again by itself.
+        self.assertEqual(testing.fetch(simple.Elevation(filter_)).GetNumberOfPoints(),
+                         surface.GetNumberOfPoints())
+        self.assertEqual(len(executions), 1)
         algorithm.RemoveObserver(tag)
         # Nobody takes the request back; any change and Apply will do.
         filter_.Friction = 2.9
         self.check_ball(testing.fetch(filter_))
+        self.assertEqual(len(executions), 2)
 
-    def test_abort_by_the_button_of_newer_paraviews(self):
-        self.check_abort_and_the_next_apply(
-            lambda algorithm: algorithm.SetAbortExecuteAndUpdateTime())
+    def test_initial_surface(self):
+        sphere = simple.Sphere(Center=CENTRE, Radius=14.0, ThetaResolution=16, PhiResolution=16)
+        self.check_ball(testing.fetch(simple.DeformableSurface(
+            self.ball, IsoValue=120.0, InitialSurface=sphere, Initialization="Input Surface")))
+
+    def test_attracting_points(self):
+        place = CENTRE + (RADIUS + 3.0, 0.0, 0.0)
+        known = simple.PointSource(Center=place, NumberOfPoints=1, Radius=0.0)
+        for weight, passed in ((1.0, True), (0.0, False)):
+            surface = testing.fetch(simple.DeformableSurface(
+                self.ball, IsoValue=120.0, AttractingPoints=known, PointAttractionWeight=weight))
+            self.assertEqual(surface.GetBounds()[1] > place[0], passed)
+
+    def test_edge_map(self):
+        distance = testing.distances(SIZE)
+        image = testing.make_image((RADIUS - distance).astype(numpy.float32))
+        testing.add_array(image, numpy.exp(-(distance - 9.0)**2).astype(numpy.float32), "edges")
+        source = testing.produce(image)
+        # Alone, the value would lead the surface over the edges to the radius 5.
+        for weight, radius in ((0.0, 5.0), (2.0, 9.0)):
+            filter_ = simple.DeformableSurface(source, IsoValue=RADIUS - 5.0,
+                                               EdgeAttractionWeight=weight)
+            filter_.Voxels, filter_.EdgeMap = ["POINTS", "v"], ["POINTS", "edges"]
+            away = numpy.linalg.norm(points(testing.fetch(filter_)) - CENTRE, axis=1)
+            self.assertAlmostEqual(away.mean(), radius, delta=0.3)

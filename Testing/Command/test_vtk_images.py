@@ -1,0 +1,154 @@
+# SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+# SPDX-License-Identifier: BSD-3-Clause
+"""volumic.read() of images that VTK writes: voxels and positions are those of the file, and damaged
+files are refused in one line."""
+
+import base64
+import itertools
+import os
+import struct
+import unittest
+
+import numpy as np
+from vtkmodules.util.numpy_support import numpy_to_vtk
+from vtkmodules.vtkCommonCore import vtkStringArray
+from vtkmodules.vtkCommonDataModel import vtkRectilinearGrid
+from vtkmodules.vtkIOLegacy import vtkStructuredPointsWriter
+from vtkmodules.vtkIOXML import vtkXMLImageDataWriter, vtkXMLRectilinearGridWriter
+
+from command_test_case import ORIGIN, SIZE, SPACING, TURNED, ball, make_image
+from reading_test_case import ReadingTestCase, noisy_ball
+from volumic import reading
+
+
+class VtkTest(ReadingTestCase):
+    def test_each_encoding_whole_and_damaged(self):
+        """Cut off, and with a piece of the data missing or too much."""
+        image = make_image(noisy_ball(), direction=TURNED)
+        for mode, compressor, encodes in itertools.product((0, 1, 2), range(4), (0, 1)):
+            writer = vtkXMLImageDataWriter()
+            writer.SetDataMode(mode)
+            writer.SetCompressorType(compressor)
+            writer.SetEncodeAppendedData(encodes)
+            content = self.bytes_of(writer, "a.vti", image)
+            with self.subTest(mode, compressor=compressor, encodes=encodes):
+                volume = self.check(self.read("a.vti"), noisy_ball(), TURNED)
+                self.assertEqual(volume.name, "density")
+                self.cut("a.vti", content, rests=(0.2, 0.7, 0.9, -60, -12))
+                at = len(content) * 2 // 3
+                piece = 200 if mode == 0 else 12  # of a text parts of numbers may be missing
+                for rest in (at + piece, at - piece):
+                    self.refused("a.vti", "damaged|cut off", content[:at] + content[rest:])
+
+    def test_arrays_extents_and_cells(self):
+        image = make_image(ball())
+        image.SetExtent(3, 28, -2, 19, 5, 22)
+        for name, components in (("vectors", 2), ("other", 1)):
+            other = numpy_to_vtk(np.stack([ball("f4").ravel()] * components, -1), deep=True)
+            other.SetName(name)
+            image.GetPointData().AddArray(other)
+        self.write(vtkXMLImageDataWriter(), "a.vti", image)
+        volume = self.check(self.read("a.vti"))
+        self.assertEqual(volume.start, (3, -2, 5))
+        np.testing.assert_allclose(tuple(volume)[2], image.GetPoint(0))  # of the first voxel
+        volume = self.read("a.vti", array="vectors")
+        self.assertEqual((volume.array.shape, volume.components), ((2, *SIZE[::-1]), "vector"))
+        self.refused("a.vti", "no point array none; point arrays: density, vectors, other",
+                     array="none")
+        image.GetPointData().SetActiveScalars(None)
+        self.write(vtkXMLImageDataWriter(), "a.vti", image)
+        self.refused("a.vti", "no active scalars; point arrays: density, vectors, other")
+        cells = make_image(ball())
+        cells.SetDimensions(*SIZE + 1)
+        cells.GetCellData().SetScalars(cells.GetPointData().GetScalars())
+        cells.GetPointData().Initialize()
+        self.write(vtkXMLImageDataWriter(), "b.vti", cells)
+        self.check(self.read("b.vti"), origin=ORIGIN + SPACING / 2)
+
+    def test_field_data(self):
+        image, texts = make_image(ball()), {"Axes": ["RAS"], "LengthUnit": ["mm"],
+                                            "LabelNames": ["liver", "spleen é"]}
+        for name, values in texts.items():
+            array = vtkStringArray()
+            array.SetName(name)
+            for text in values:
+                array.InsertNextValue(text)
+            image.GetFieldData().AddArray(array)
+        for name, values in (("LabelValues", [1, 7]), ("LabelColors", [[1, 0, 0], [0, .5, 0]]),
+                             ("LabelLayers", [0, 1])):
+            array = numpy_to_vtk(np.array(values), deep=True)
+            array.SetName(name)
+            image.GetFieldData().AddArray(array)
+        self.write(vtkXMLImageDataWriter(), "a.vti", image)
+        volume = self.read("a.vti")
+        self.assertEqual((volume.space, volume.unit), ("RAS", "mm"))
+        self.assertEqual(volume.labels, [reading.Label(1, "liver", (1., 0., 0.), 0),
+                                         reading.Label(7, "spleen é", (0., .5, 0.), 1)])
+
+    def test_pieces(self):
+        pieces = [self.path(f"{k}.vti") for k in range(3)]
+        for k, name in enumerate(pieces):
+            image = make_image(ball()[6 * k:6 * k + 6], direction=TURNED)
+            image.SetExtent(0, 25, 0, 21, 6 * k, 6 * k + 5)
+            self.write(vtkXMLImageDataWriter(), name, image)
+        head = '<VTKFile type="PImageData"><PImageData WholeExtent="0 25 0 21 0 17" Spacing="{}" ' \
+            'Origin="{}">'.format(" ".join(map(str, SPACING)), " ".join(map(str, ORIGIN)))
+        self.write_text("a.pvti", head + "".join(
+            f'<Piece Extent="0 25 0 21 {6 * k} {6 * k + 5}" Source="{k}.vti"/>' for k in range(3))
+            + "</PImageData></VTKFile>")
+        self.check(self.read("a.pvti"), direction=TURNED)
+        self.assertEqual(reading.list_files(self.path("a.pvti"))[1:], pieces)
+        content = self.content(pieces[1])
+        self.write_bytes(pieces[1], content[:-99])
+        self.refused("a.pvti", "cut off")
+        self.write_bytes(pieces[1], self.content(pieces[2]))
+        self.refused("a.pvti", "do not cover the whole image")
+        os.remove(pieces[1])
+        self.refused("a.pvti", "No such file")
+
+    def test_legacy(self):
+        for binary in (True, False):
+            writer = vtkStructuredPointsWriter()
+            writer.SetFileType(2 if binary else 1)
+            content = self.bytes_of(writer, "a.vtk", make_image(noisy_ball()))
+            self.check(self.read("a.vtk"), noisy_ball())
+            self.cut("a.vtk", content, "VTK cannot read it", rests=(0.5, -10))
+        self.refused("b.vtk", "holds PolyData, and no image", b"# vtk DataFile Version 3.0\na\nASCII\n"
+                     b"DATASET POLYDATA\nPOINTS 1 float\n0 0 0\n")
+
+    def test_rectilinear_grids(self):
+        grid = vtkRectilinearGrid()
+        grid.SetDimensions(*SIZE)
+        grid.GetPointData().SetScalars(make_image(ball()).GetPointData().GetScalars())
+        for step in (1, 1.01):
+            for axis in range(3):
+                line = ORIGIN[axis] + SPACING[axis] * np.arange(SIZE[axis]) ** step
+                array = numpy_to_vtk(line, deep=True)
+                getattr(grid, f"Set{'XYZ'[axis]}Coordinates")(array)
+            self.write(vtkXMLRectilinearGridWriter(), "a.vtr", grid)
+            if step == 1:
+                self.check(self.read("a.vtr"))
+        self.refused("a.vtr", "uneven distances, and no image; resample it")
+
+    def test_headers_that_require_too_much(self):
+        head = (b'<VTKFile type="ImageData" version="1.0" byte_order="LittleEndian" header_type='
+                b'"UInt32" compressor="vtkZLibDataCompressor"><ImageData WholeExtent="0 1 0 1 0 1" '
+                b'Origin="0 0 0" Spacing="1 1 1"><Piece Extent="0 1 0 1 0 1"><PointData Scalars="a">'
+                b'<DataArray type="UInt8" Name="a" format="%s"%s</PointData></Piece></ImageData>')
+        for blocks, size, last in ((0xFFFFFFF0, 8, 0), (1 << 30, 8, 0), (1, 0, 0), (0, 0, 5),
+                                   (0, 8, 5), (1, 8, 9)):
+            words = struct.pack("<4I", blocks, size, last, 16) + bytes(20)
+            self.refused("a.vti", f"packed in {blocks} blocks of {size} bytes, the last one of {last}",
+                         head % (b"binary", b">" + base64.b64encode(words) + b"</DataArray>")
+                         + b"</VTKFile>")
+            self.refused("a.vti", "damaged|cut off", head % (b"appended", b' offset="0"/>') +
+                         b'<AppendedData encoding="raw">_' + words + b"</AppendedData></VTKFile>")
+        self.refused("a.vti", "too many elements within elements",
+                     b'<VTKFile type="ImageData">' + b"<a>" * 140000)
+        self.refused("a.pvti", "File name too long", b'<VTKFile type="PImageData"><PImageData '
+                     b'WholeExtent="0 1 0 1 0 1"><Piece Extent="0 1 0 1 0 1" Source="' + b"a" * 900000
+                     + b'"/></PImageData></VTKFile>')
+
+
+if __name__ == "__main__":
+    unittest.main()
