@@ -308,37 +308,6 @@ void MeasureOurs(const Volume& volume, const Options& options, Figures& figures)
 
 } // namespace
 
-<<<<<<< HEAD
-support::SurfaceVerdict SetVerdict(
-  const TriangleSurface& surface, double delta, const std::string& prefix, Figures& figures)
-{
-  const auto set = [&](const char* name, auto value)
-  { figures.Set(prefix + name, static_cast<double>(value)); };
-  const support::SurfaceVerdict verdict =
-    support::JudgeSurface(surface, delta > 0.0 ? delta : 0.85);
-  const support::TopologyVerdict& topology = verdict.Topology;
-  set("Vertices", surface.Points.size() - topology.UnusedPoints);
-  set("Triangles", surface.Triangles.size());
-  set("Components", topology.Components.size());
-  if (topology.Genus >= 0)
-  {
-    set("Genus", topology.Genus);
-  }
-  set("Faults", topology.Faults);
-  set("SelfIntersections", verdict.Intersections.Pairs);
-  set("EdgeShortest", verdict.Lengths.Shortest);
-  set("EdgeMean", verdict.Lengths.Mean);
-  set("EdgeLongest", verdict.Lengths.Longest);
-  if (delta > 0.0)
-  {
-    set("EdgesOutside", verdict.Lengths.EdgesTooShort + verdict.Lengths.EdgesTooLong);
-    set("NearPairs", verdict.Lengths.NearPairs);
-  }
-  return verdict;
-}
-
-=======
->>>>>>> h71u
 void RunSurface(const Options& options)
 {
   const Volume volume = { ReadImage(options.Text("volume")),
