@@ -28,17 +28,10 @@ from vtk_files import read
 # What is set in another way: inputs, and what of the pyramid is the surface's.
 NOT_OPTIONS = {"vtkDeformableSurface": {"InitialSurfaceConnection", "InitialSurfaceData",
                                         "AttractingPointsConnection", "AttractingPointsData",
-<<<<<<< HEAD
-                                        "Controller", "ShowLevels", "UseUpperValue", "MemoryLimit",
-                                        "Resume", "Profile"},
-               "vtkLabelsToSurfaces": {"Controller", "LabelColor", "LabelName", "MemoryLimit"},
-               "vtkImagePyramid": {"Controller", "MemoryLimit"}}
-=======
                                         "ShowLevels", "UseUpperValue", "MemoryLimit",
                                         "Resume", "Profile"},
                "vtkLabelsToSurfaces": {"LabelColor", "LabelName", "MemoryLimit"},
                "vtkImagePyramid": {"MemoryLimit"}}
->>>>>>> h71c
 
 
 def properties_of(filter_class, base_class):

@@ -162,26 +162,6 @@ inline void ExpectLegalEdges(const SurfaceResult& surface)
   EXPECT_GE(*std::min_element(lengths.begin(), lengths.end()), surface.Delta * (1 - 1e-5));
   EXPECT_LE(*std::max_element(lengths.begin(), lengths.end()), surface.Delta * 2.5 * (1 + 1e-5));
 }
-<<<<<<< HEAD
-
-/** All that rows tell, but for the seconds. */
-inline void ExpectSameHistory(const std::vector<HistoryRow>& a, const std::vector<HistoryRow>& b)
-{
-  ASSERT_EQ(a.size(), b.size());
-  for (std::size_t i = 0; i < a.size(); ++i)
-  {
-    const auto numbers = [](const HistoryRow& row)
-    {
-      return std::vector<double>{ double(row.Iteration), double(row.Level), double(row.Vertices),
-        row.KineticEnergy, row.MeanEdgeLength, row.TimeStep, double(row.ActiveVertices),
-        double(row.Merges), double(row.Cuts), double(row.Splits), double(row.Collapses),
-        double(row.Flips), double(row.EulerCharacteristic), double(row.Components) };
-    };
-    ASSERT_EQ(numbers(a[i]), numbers(b[i])) << "row " << i;
-  }
-}
-=======
->>>>>>> h71c
 }
 
 #endif

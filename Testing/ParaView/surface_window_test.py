@@ -24,11 +24,7 @@ ADVANCED = ("Initialization", "CoarsestLevel", "FinestLevel", "MinimumPartSize",
             "BorderValue", "TopologyChanges", "SnapToIsoValue", "AttractingPositions",
             "MaximumNumberOfIterations", "ConvergenceTolerance", "FreezeMotionlessVertices",
             "NumberOfThreads", "TimeLimit", "ScratchDirectory",
-<<<<<<< HEAD
             "SnapshotInterval")
-=======
-            "SnapshotInterval", "Profile")
->>>>>>> h71c
 
 COLOURS_OF_CURVES = ((0.1, 0.35, 0.7), (0.15, 0.6, 0.3), (0.85, 0.45, 0.05), (0.75, 0.1, 0.25))
 TELL_THE_ACTIVE_VIEW = """
