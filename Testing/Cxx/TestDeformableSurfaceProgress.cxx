@@ -91,6 +91,6 @@ TEST(DeformableSurfaceProgress, CancellingBeforeThereIsASurfaceHandsOverAnEmptyO
     EXPECT_EQ(surface->GetNumberOfPoints(), 0);
     EXPECT_EQ(FieldOf(surface, "NumberOfComponents"), 0);
     EXPECT_EQ(filter->GetHistory()->GetNumberOfRows(), 0);
-    EXPECT_EQ(filter->GetHistory()->GetNumberOfColumns(), 27);
+    EXPECT_EQ(filter->GetHistory()->GetNumberOfColumns(), 15);
   }
 }
