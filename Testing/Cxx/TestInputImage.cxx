@@ -4,7 +4,6 @@
 #include "vtkOtsuThreshold.h"
 #include "vtkVolumeToSurface.h"
 
-#include <vtkAMRBox.h>
 #include <vtkExecutive.h>
 #include <vtkFloatArray.h>
 #include <vtkOverlappingAMR.h>
@@ -12,8 +11,6 @@
 #include <vtkPartitionedDataSetCollection.h>
 #include <vtkRectilinearGrid.h>
 #include <vtkStructuredGrid.h>
-#include <vtkUniformGrid.h>
-#include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 
 using namespace volumic;
@@ -34,34 +31,12 @@ std::string ErrorOf(vtkAlgorithm* filter, vtkDataObject* input)
   return text;
 }
 
-vtkSmartPointer<vtkOverlappingAMR> TwoRefinedGrids()
-{
-  auto amr = vtkSmartPointer<vtkOverlappingAMR>::New();
-  const int grids[2] = { 1, 1 };
-  amr->Initialize(2, grids);
-  const double origin[3] = { 0, 0, 0 };
-  amr->SetOrigin(origin);
-  amr->SetGridDescription(VTK_XYZ_GRID);
-  for (unsigned int level = 0; level < 2; ++level)
-  {
-    double spacing[3] = { 1.0 / (level + 1), 1.0 / (level + 1), 1.0 / (level + 1) };
-    amr->SetSpacing(level, spacing);
-    const auto ball = BallImage(24, 24, 24);
-    vtkNew<vtkUniformGrid> grid;
-    grid->ShallowCopy(ball);
-    grid->SetSpacing(spacing);
-    amr->SetAMRBox(level, 0, vtkAMRBox(0, 0, 0, 22, 22, 22));
-    amr->SetDataSet(level, 0, grid);
-  }
-  return amr;
-}
-
 std::vector<vtkSmartPointer<vtkDataObject>> UnevenGrids()
 {
   vtkNew<vtkUnstructuredGrid> nested;
   vtkNew<vtkMultiBlockDataSet> blocks;
   blocks->SetBlock(0, nested);
-  return { TwoRefinedGrids(), vtkSmartPointer<vtkRectilinearGrid>::New(),
+  return { vtkSmartPointer<vtkOverlappingAMR>::New(), vtkSmartPointer<vtkRectilinearGrid>::New(),
     vtkSmartPointer<vtkStructuredGrid>::New(), vtkSmartPointer<vtkUnstructuredGrid>::New(),
     blocks };
 }

@@ -49,6 +49,35 @@ TEST(SurfaceMesh, AppendsTheSameOnThreads)
   }
 }
 
+TEST(SurfaceMesh, IsListedAndOrderedTheSameOnThreads)
+{
+  // More vertices than threads look at at a time, and many places without one before them.
+  SurfaceMesh mesh = MakeSphere({ 0, 0, 0 }, 10, 0.5);
+  const int removed = mesh.Size();
+  mesh.Append(DividedIcosahedron({ 3, -40, 2 }, 20, 0.4));
+  for (int v = 0; v < removed; ++v)
+  {
+    mesh.RemoveVertex(v);
+  }
+  ASSERT_GT(mesh.NumberOfVertices(), 20000);
+  StandardThreads threads(3);
+  const auto expectSame = [](const IndexedSurface& one, const IndexedSurface& other)
+  {
+    EXPECT_EQ(one.Points, other.Points);
+    EXPECT_EQ(one.Triangles, other.Triangles);
+  };
+  expectSame(mesh.ToIndexed(threads), mesh.ToIndexed());
+  EXPECT_EQ(mesh.NumberOfFaces(threads), mesh.NumberOfFaces());
+  EXPECT_EQ(mesh.CountEulerCharacteristic(threads), 2);
+  const std::vector<int> order = SpaceFillingOrder(mesh, 0.7, threads);
+  EXPECT_EQ(order, SpaceFillingOrder(mesh, 0.7));
+  SurfaceMesh other = mesh;
+  mesh.Reorder(order, threads);
+  other.Reorder(order);
+  EXPECT_SOUND(mesh, 2);
+  expectSame(mesh.ToIndexed(), other.ToIndexed());
+}
+
 TEST(SurfaceMesh, KnowsWhoIsFarAlongTheSurface)
 {
   SurfaceMesh mesh = MakeSphere({ 0, 0, 0 }, 6, 1.5);
