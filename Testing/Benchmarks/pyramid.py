@@ -1,8 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""vtkImagePyramid beside VTK's Gaussian and resize, on the same int16 voxels, the repetitions of both
-by turns: milliseconds with one thread are those of the processor, with two the time that passed;
-medians. Everything that is allocated and freed for the job counts."""
+"""Times of vtkImagePyramid and of VTK's Gaussian with resize, on the same int16 voxels, in turns.
+Milliseconds are medians: processor time with one thread, elapsed time with two. Allocations count."""
 
 import ctypes
 import statistics

@@ -91,6 +91,38 @@ class VolumesTest(CommandTestCase):
             "a.mha", header + ball()[8].tobytes()), self.path("a.stl"), "--iso", ISO)
 
 
+class ReportedTest(CommandTestCase):
+    def test_far_from_the_origin(self):
+        far = make_image(ball(), SPACING * 0.1, (500000, 4000000, 300))
+        volume = self.write(vtkXMLImageDataWriter(), "a.vti", far)
+        told = self.run_command(volume, self.path("b.vtk"), self.path("b.stl"), "--iso", ISO).stderr
+        self.assertRegex(told, r"warning: .*b.stl: coordinates up to 400000\d are rounded there by "
+                         r"steps of 0\.4")
+        self.assertNotIn("b.vtk: coordinates", told)
+
+    def test_padding_of_a_ct(self):
+        z, y, x = np.mgrid[0:24, 0:48, 0:48]
+        voxels = np.full(x.shape, -1000.0)
+        voxels[((x - 24) ** 2 + (y - 24) ** 2) / 169 + ((z - 12) / 9) ** 2 < 1] = 40
+        voxels += np.random.default_rng(2).normal(0, 12, x.shape)
+        voxels[(x - 23.5) ** 2 + (y - 23.5) ** 2 > 576] = -3024
+        self.write(vtkXMLImageDataWriter(), "a.vti", make_image(voxels.astype("i2"), (1, 1, 1)))
+        report = self.report(self.path("a.vti"))
+        self.assertTrue(-600 < report["iso_value"] < -300, report["iso_value"])
+        self.assertLess(report["volume"], 4 / 3 * np.pi * 13 * 13 * 9, "it is the head")
+        self.assertRegex(self.run_command(self.path("a.vti"), self.path("a.vtp")).stderr,
+                         "a guess by Otsu's .*voxels of -3024 are padding")
+
+    def test_values_that_no_surface_has(self):
+        self.write(vtkXMLImageDataWriter(), "flat.vti", make_image(np.full((12, 12, 12), 4, "u1")))
+        self.write(vtkXMLImageDataWriter(), "mask.vti", make_image((ball() > ISO).astype("u1")))
+        for name, reason, *options in (
+                ("flat.vti", "no value (separates|parts)"),
+                ("flat.vti", "no value (separates|parts)((?!set it between).)*$", "--iso", 4),
+                ("mask.vti", "at an end of the range", "--iso", 1)):
+            self.refused(reason, self.path(name), self.path("a.vtp"), *options)
+
+
 class SurfacesTest(CommandTestCase):
     READERS = {"vtp": vtkXMLPolyDataReader, "vtk": vtkPolyDataReader, "stl": vtkSTLReader,
                "ply": vtkPLYReader, "obj": vtkOBJReader}

@@ -27,34 +27,24 @@ class ListTest(LabelsTest):
     def listed(self, *arguments):
         return self.report("--list-labels", *arguments)["labels"]
 
-    def test_a_table(self):
-        lines = self.table(self.map_file(), "--label-names", self.names_file())
-        voxels = label_voxels()
-        self.assertEqual([int(line[0]) for line in lines], sorted(BLOBS))
-        for line in lines:
-            label = int(line[0])
-            name = NAMES.get(label, f"Label {label}")
-            count = (voxels == label).sum()
-            box = box_of(voxels, label)
-            self.assertEqual(int(line[1]), count)
-            self.assertAlmostEqual(float(line[2]), count * SPACING.prod(), delta=1e-3)
-            self.assertEqual(line[3:6], [f"{box[i]}..{box[i + 1]}" for i in (0, 2, 4)])
-            self.assertEqual(" ".join(line[6:]), name)
-
-    def test_as_json(self):
-        voxels = label_voxels()
-        rows = self.listed(self.map_file(), "--label-names", self.names_file())
+    def test_a_table_and_as_json(self):
+        voxels, options = label_voxels(), (self.map_file(), "--label-names", self.names_file())
+        lines, rows = self.table(*options), self.listed(*options)
+        surfaces = self.rows(self.map_file(), "--labels", "all")
         self.assertEqual([row["label"] for row in rows], sorted(BLOBS))
-        for row in rows:
+        for line, row in zip(lines, rows):
+            label, count, box = row["label"], row["voxels"], row["box"]
             self.assertEqual(list(row), ["label", "name", "color", "layer", "voxels", "volume",
                                          "box"])
-            self.assertEqual(row["name"], NAMES.get(row["label"], f"Label {row['label']}"))
-            self.assertEqual(row["box"], box_of(voxels, row["label"]))
-            self.assertEqual(row["layer"], 0)
-        surfaces = self.rows(self.map_file(), "--labels", "all")
-        for row in rows:
+            self.assertEqual(row["name"], NAMES.get(label, f"Label {label}"))
+            self.assertEqual((count, box, row["layer"]),
+                             ((voxels == label).sum(), box_of(voxels, label), 0))
+            self.assertEqual((int(line[0]), int(line[1]), " ".join(line[6:])),
+                             (label, count, row["name"]))
+            self.assertAlmostEqual(float(line[2]), count * SPACING.prod(), delta=1e-3)
+            self.assertEqual(line[3:6], [f"{box[i]}..{box[i + 1]}" for i in (0, 2, 4)])
             for name in ("voxels", "color", "layer"):
-                self.assertEqual(row[name], surfaces[row["label"]][name])
+                self.assertEqual(row[name], surfaces[label][name])
 
     def test_choice(self):
         volume, names = self.map_file(), self.names_file()

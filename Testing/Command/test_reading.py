@@ -344,5 +344,32 @@ class HostileTest(ReadingTestCase):
                      head.format("8 8 8", "bzip2", "").encode() + twice)
 
 
+class HeadersTest(ReadingTestCase):
+    """Headers that contradict themselves or mislead: positions and values that are used, warnings."""
+
+    def test_a_spacing_against_its_axis(self):
+        spacing = " ".join(map(str, SPACING)).encode()
+        volume = self.read("b.mha", META.replace(spacing, spacing.replace(b" 1", b" -1"))
+                           + ball().tobytes())
+        last = volume.origin + volume.direction @ (np.array(volume.spacing) * (SIZE - 1))
+        np.testing.assert_allclose(last, ORIGIN + SPACING * (SIZE - 1) * (1, 1, -1))
+
+    def test_nifti(self):
+        nan = float("nan")
+        signs = bytearray(medical_files.nifti(ball(), SPACING * (1, -1, 1), offset=ORIGIN))
+        struct.pack_into("<h", signs, 252, 0)
+        unit = bytearray(medical_files.nifti(ball(), SPACING, offset=ORIGIN))
+        unit[123] = 3
+        for content, warning in (
+                (signs, r"its header is corrected: pixdim\[1,2,3\] should be positive"),
+                (unit, "its unit is um, not mm; so is that of surfaces and lengths unless --unit "
+                 "gives another"),
+                (medical_files.nifti(ball(), SPACING, slope=nan, intercept=nan), "^$")):
+            volume = self.read("a.nii", content)
+            self.assertRegex(" ".join(volume.warnings), warning)
+            np.testing.assert_array_equal(volume.array, ball())
+            np.testing.assert_allclose(volume.spacing, SPACING)
+
+
 if __name__ == "__main__":
     unittest.main()

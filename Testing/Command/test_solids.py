@@ -3,6 +3,7 @@
 """Files of tetrahedra, by TetGen and gmsh where they are installed: .vtu, .msh, .inp, which
 CalculiX solves where it is installed, and those of meshio."""
 
+import json
 import os
 import re
 import shutil
@@ -352,18 +353,15 @@ class SolverTest(SolidsTest):
 
     def test_names_of_sets_are_words_and_differ(self):
         """Those of a file are Eall and Nall, whatever labels are called."""
-        names = b'{"1": "Liver, left", "2": "liver left", "4": "4th"}'
-        self.run_command(self.map_of(voxels()), self.path("a.inp"), "--labels", "all",
-                         "--label-names", self.write_bytes("words.json", names))
-        heads = [head for head, _ in keywords_of(self.path("a.inp"))]
-        elements = [re.search("ELSET=(.*)", head).group(1) for head in heads if "C3D4" in head]
-        self.assertEqual(elements, ["Liver__left", "liver_left", "L_4th"])
-        names = b'{"1": "Eall", "2": "a b", "4": "a.b"}'
-        self.run_command(self.map_of(voxels()), self.path("a.inp"), "--labels", "all",
-                         "--label-names", self.write_bytes("words.json", names))
-        heads = [head for head, _ in keywords_of(self.path("a.inp"))]
-        self.assertEqual([re.search("ELSET=(.*)", head).group(1) for head in heads
-                          if "C3D4" in head], ["Eall_2", "a_b", "a_b_2"])
+        for given, sets in ((("Liver, left", "liver left", "4th"),
+                             ["Liver__left", "liver_left", "L_4th"]),
+                            (("Eall", "a b", "a.b"), ["Eall_2", "a_b", "a_b_2"])):
+            names = json.dumps(dict(zip("124", given))).encode()
+            self.run_command(self.map_of(voxels()), self.path("a.inp"), "--labels", "all",
+                             "--label-names", self.write_bytes("words.json", names))
+            heads = [head for head, _ in keywords_of(self.path("a.inp"))]
+            self.assertEqual([re.search("ELSET=(.*)", head).group(1) for head in heads
+                              if "C3D4" in head], sets)
         names = Counter(re.search("NSET=(.*)", head).group(1).lower() for head in heads
                         if head.startswith("*NSET"))
         self.assertEqual(max(names.values()), 1)

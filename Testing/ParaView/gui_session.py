@@ -162,8 +162,8 @@ class Session:
         return succeeded
 
     def start(self, python):
-        """A window of its own that plays no events, for real mouse and keys. The code runs there, and
-        prints what the caller waits for."""
+        """Start a window that plays no events, for real mouse and keys. The code runs in it; the caller
+        waits for what it prints."""
         self.close_window()
         self._write("started", python)
         self._start("--script=" + self._write("start.py", f"import sys\nsys.path.insert(0, {HERE!r})\n"
