@@ -31,7 +31,7 @@
 #endif
 
 #ifdef __SANITIZE_ADDRESS__
-#include <sanitizer/allocator_interface.h>
+extern "C" int __sanitizer_get_ownership(const volatile void* memory); // GCC has no header for it.
 #endif
 
 namespace volumic
