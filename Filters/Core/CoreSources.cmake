@@ -8,11 +8,11 @@
 set(volumic_core_sources
   Common/CheckedFile.cxx
   Common/ContentHash.cxx
+  Common/Executor.cxx
   Common/FreeMemory.cxx
   Common/ScratchFile.cxx
   Common/ScratchMemory.cxx
   Common/ScratchStore.cxx
-  Common/StandardThreads.cxx
   Common/VisitSchedule.cxx
   Image/AxisOperator.cxx
   Image/EdgeAttraction.cxx
@@ -129,8 +129,8 @@ set(volumic_core_headers
   Common/ScratchMemory.h
   Common/ScratchStore.h
   Common/Select.h
+  Common/Sort.h
   Common/Spans.h
-  Common/StandardThreads.h
   Common/Vector.h
   Common/VisitSchedule.h
   Image/AxisOperator.h

@@ -2,9 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Host/HostThreads.h"
 
-#include "Core/Common/ScratchMemory.h"
-#include "Core/Common/StandardThreads.h"
-
 #include <vtkSMPTools.h>
 
 #include <algorithm>
@@ -23,9 +20,6 @@ namespace volumic
 {
 namespace
 {
-/** See HostThreads::UseInstead. */
-Executor* theInstead = nullptr;
-
 int NumberOf(int wanted)
 {
   int number = NumberOfProcessors();
@@ -46,51 +40,7 @@ int NumberOf(int wanted)
 }
 }
 
-HostThreads::HostThreads(int numberOfThreads) : Number(NumberOf(numberOfThreads)) {}
-
-void HostThreads::UseInstead(Executor* executor)
-{
-  theInstead = executor;
-}
-
-void HostThreads::Run(const std::function<void()>& work)
-{
-  if (this->Threads)
-  {
-    work();
-    return;
-  }
-  struct End
-  {
-    ~End() { this->Threads.reset(); }
-    std::unique_ptr<Executor>& Threads;
-  } const end{ this->Threads };
-  this->Threads = std::make_unique<StandardThreads>(this->Number);
-  work();
-}
-
-void HostThreads::For(
-  std::size_t n, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body)
-{
-  Executor& threads = !this->Threads ? OnThisThread() : theInstead ? *theInstead : *this->Threads;
-  if (!HasMemoryLimit())
-  {
-    threads.For(n, grain, body);
-    return;
-  }
-  // Room is waited for step by step, however large the level is: an item that looks at a voxel or
-  // two may bring in 16 pages with each, so that 12,000 of them are more than all that is free.
-  const std::size_t step = std::max(grain / 8, std::size_t(1));
-  threads.For(n, grain,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (; begin < end; begin += step)
-      {
-        KeepMemoryLimit();
-        body(begin, std::min(end, begin + step));
-      }
-    });
-}
+HostThreads::HostThreads(int numberOfThreads) : Executor(NumberOf(numberOfThreads)) {}
 
 namespace
 {

@@ -262,22 +262,18 @@ PyramidBlocks MakePyramidBlocks(
   vtkImageData* image, vtkDataArray* voxels, const PyramidRequest& request)
 {
   const std::vector<LevelGeometry> levels = Plan(image, request.Levels);
-  std::vector<vtkSmartPointer<vtkDataArray>> made;
-  ValidVoxels valid;
   vtkSmartPointer<vtkDataArray> finest = voxels;
   HostThreads threads(request.NumberOfThreads);
-  threads.Run(
-    [&]
-    {
-      vtkSmartPointer<vtkDataArray> contiguous = ContiguousVoxels(voxels);
-      if (request.Range.IsUsed())
-      {
-        finest = contiguous = FoldVoxels(contiguous, request.Range, threads);
-      }
-      valid = FindValidVoxels(voxels, contiguous, image, request.NaNIsBackground, threads);
-      CheckAnyIsValid(voxels, valid);
-      made = MakeLevelVoxels(contiguous, valid, levels, threads, request.Progress);
-    });
+  vtkSmartPointer<vtkDataArray> contiguous = ContiguousVoxels(voxels);
+  if (request.Range.IsUsed())
+  {
+    finest = contiguous = FoldVoxels(contiguous, request.Range, threads);
+  }
+  const ValidVoxels valid =
+    FindValidVoxels(voxels, contiguous, image, request.NaNIsBackground, threads);
+  CheckAnyIsValid(voxels, valid);
+  const std::vector<vtkSmartPointer<vtkDataArray>> made =
+    MakeLevelVoxels(contiguous, valid, levels, threads, request.Progress);
 
   PyramidBlocks pyramid;
   pyramid.Blocks = vtkSmartPointer<vtkMultiBlockDataSet>::New();

@@ -171,7 +171,7 @@ double PyramidLevels::UnitOf(int level) const
 bool PyramidLevels::HoldsPart(
   int level, const PartSize& least, double isoValue, bool objectIsBright) const
 {
-  SequentialExecutor thread;
+  Executor thread;
   const ValidVoxels valid = this->ValidAt(level, thread);
   const vtkSmartPointer<vtkDataArray> voxels = ContiguousVoxels(this->Voxels[level]);
   bool holds = false;
@@ -194,7 +194,7 @@ std::array<double, 2> PyramidLevels::Range(int level) const
   std::optional<std::array<double, 2>>& range = this->Ranges[level];
   if (!range)
   {
-    SequentialExecutor thread;
+    Executor thread;
     const ValidVoxels valid = this->ValidAt(level, thread);
     if (level == 0)
     {
@@ -207,7 +207,7 @@ std::array<double, 2> PyramidLevels::Range(int level) const
 
 std::string PyramidLevels::DescribeNaNsOfLevel0() const
 {
-  SequentialExecutor thread;
+  Executor thread;
   const ValidVoxels valid = this->ValidAt(0, thread);
   return valid.NaNs > 0 ? DescribeNaNs(this->Voxels[0], this->Images[0], valid) : std::string();
 }

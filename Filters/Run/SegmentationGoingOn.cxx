@@ -16,9 +16,7 @@ namespace volumic
 bool SurfaceSegmentation::Choose(const SegmentationRequest& request)
 {
   HostThreads threads(request.Settings.End.NumberOfThreads);
-  bool hasChosen = false;
-  threads.Run([&] { hasChosen = this->Found.Choose(request, threads); });
-  return hasChosen;
+  return this->Found.Choose(request, threads);
 }
 
 int SurfaceSegmentation::EndOf(const SegmentationRequest& request) const
@@ -82,14 +80,10 @@ void SurfaceSegmentation::PrepareCheckpoint()
   else
   {
     HostThreads threads(this->Settings.End.NumberOfThreads);
-    threads.Run(
-      [&]
-      {
-        SegmentationSettings settings = this->Settings;
-        settings.CoarsestLevel = this->Choice.Coarsest;
-        this->Left = std::make_shared<SegmentationCheckpoint>(settings.End.ScratchDirectory,
-          RunFingerprint(settings, this->Request, this->Levels, threads));
-      });
+    SegmentationSettings settings = this->Settings;
+    settings.CoarsestLevel = this->Choice.Coarsest;
+    this->Left = std::make_shared<SegmentationCheckpoint>(settings.End.ScratchDirectory,
+      RunFingerprint(settings, this->Request, this->Levels, threads));
   }
 }
 

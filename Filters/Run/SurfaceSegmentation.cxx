@@ -103,7 +103,7 @@ void SurfaceSegmentation::Run()
       this->Request.Progress, this->Choice.Coarsest, this->Choice.Last, this->Request.Limit);
     try
     {
-      this->Threads->Run([this] { this->RunLevels(); });
+      this->RunLevels();
     }
     catch (const ScratchFull&)
     {

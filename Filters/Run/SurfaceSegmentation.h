@@ -85,7 +85,7 @@ private:
   /** Forgets the last run, its results included; the next level is the coarsest one. */
   void Begin();
   /**
-   * Within HostThreads::Run. Before: Choice is made, the results of levels at rest are in Found.
+   * Before: Choice is made, the results of levels at rest are in Found.
    * Brings the surface level by level to Choice.Last, as long as it is fit to go on and nobody asks
    * to stop. At the end of each pass of the loop the surface lies on level Reached, Found has it,
    * and the history, and a checkpoint of it is left where these are wanted; after a stop it is back

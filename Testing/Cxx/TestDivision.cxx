@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Common/StandardThreads.h"
+#include "Core/Common/Executor.h"
 #include "Core/Mesh/Division.h"
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "EvolutionTestTools.h"
@@ -32,7 +32,7 @@ TEST(Division, NumbersNewVerticesAsTheFacesAndEdgesThatTheyComeOf)
   {
     kept.Keep(v, old.Rings[v].Item[0]);
   }
-  StandardThreads threads(3);
+  Executor threads(3);
   mesh = Divide(old, &kept, threads);
   EXPECT_EQ(DescribeBrokenInvariant(mesh), "");
   EXPECT_EQ(mesh.CountEulerCharacteristic(), 2);

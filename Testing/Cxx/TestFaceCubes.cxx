@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Interfaces/FaceCubes.h"
 
-#include "Core/Common/StandardThreads.h"
+#include "Core/Common/Executor.h"
 #include "Core/Interfaces/InterfaceStart.h"
 #include "Core/Interfaces/InterfaceRemesher.h"
 #include "InterfaceTestTools.h"
@@ -20,20 +20,6 @@ using namespace volumic;
 
 namespace
 {
-/** Begins with what is last. */
-class BackwardExecutor final : public Executor
-{
-public:
-  void For(std::size_t n, std::size_t,
-    const std::function<void(std::size_t begin, std::size_t end)>& body) override
-  {
-    for (; n > 0; --n)
-    {
-      body(n - 1, n);
-    }
-  }
-};
-
 InterfaceMesh StartOf(const InterfaceScene& scene)
 {
   return StartInterfaces(*scene.Fields, OnThisThread());
@@ -111,9 +97,9 @@ TEST(InterfaceRemesher, MakesTheSameEditsInAnyOrderOfCubes)
   const InterfaceMesh start = StartOf(scene);
   const InterfaceMesh forward = Edited(start, OnThisThread());
   ExpectSound(forward);
-  BackwardExecutor backward;
+  ScrambledExecutor backward(1);
   ExpectSame(Edited(start, backward), forward);
-  StandardThreads threads(3);
+  Executor threads(3);
   ExpectSame(Edited(start, threads), forward);
 }
 

@@ -206,7 +206,7 @@ TEST_P(GivenSurfaces, AreLegalBeforeTheFirstIterationAndAtTheEnd)
   LevelImage image;
   image.Values = values.data();
   image.Size = { Size, Size, Size };
-  SequentialExecutor executor;
+  Executor executor;
   Monitor silent;
   int accepted = 0;
   constexpr int rounds = 10;

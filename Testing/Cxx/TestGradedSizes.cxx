@@ -10,7 +10,7 @@ using namespace volumic;
 
 namespace
 {
-SequentialExecutor Alone;
+Executor Alone;
 constexpr double Tolerance = 0.2;
 
 /** A plate of some voxels' thickness, turned about two axes. */

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Interfaces/InterfaceSizes.h"
 
-#include "Core/Common/StandardThreads.h"
+#include "Core/Common/Executor.h"
 #include "Core/Interfaces/InterfaceRemesher.h"
 #include "Core/Interfaces/MakeInterfaces.h"
 #include "Core/Interfaces/TriangleShape.h"
@@ -168,7 +168,7 @@ TEST(InterfaceSizes, GiveTheSameBitsWithThreads)
   InterfaceScene one(ManyCells(32, 8, 6));
   InterfaceScene other(ManyCells(32, 8, 6));
   const InterfaceMesh mesh = Make(one, Tolerance);
-  StandardThreads threads(3);
+  Executor threads(3);
   const InterfaceMesh same = Make(other, Tolerance, threads);
   ASSERT_EQ(same.Position.size(), mesh.Position.size());
   ASSERT_EQ(same.Faces.size(), mesh.Faces.size());

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Common/StandardThreads.h"
+#include "Core/Common/Executor.h"
 #include "Core/Labels/LabelSides.h"
 #include "Core/Labels/SmallParts.h"
 #include "LabelTestTools.h"
@@ -21,7 +21,7 @@ std::vector<int> ObjectsOf(const LabelBricks& bricks, int i, int j, int k)
 TEST(LabelBricks, KnowTheObjectsOfEachBrick)
 {
   const LabelMap map = NoisyLabelMap({ 9, 10, 11 }, 3, 5);
-  StandardThreads threads(3);
+  Executor threads(3);
   const LabelBricks bricks(map, threads);
   EXPECT_EQ(bricks.Size(), (std::array<int, 3>{ 3, 3, 3 }));
   ForVoxels({ 3, 3, 3 },

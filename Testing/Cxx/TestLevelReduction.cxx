@@ -15,26 +15,6 @@ namespace
 {
 const LevelProgress GoOn = [](double) { return true; };
 
-/** Hands out ranges as scheduling might: short ones, last first. */
-class ScrambledExecutor : public Executor
-{
-public:
-  explicit ScrambledExecutor(std::size_t chunk) : Chunk(chunk) {}
-  void For(
-    std::size_t n, std::size_t, const std::function<void(std::size_t, std::size_t)>& body) override
-  {
-    for (std::size_t end = n; end > 0;)
-    {
-      const std::size_t begin = end > this->Chunk ? end - this->Chunk : 0;
-      body(begin, end);
-      end = begin;
-    }
-  }
-
-private:
-  std::size_t Chunk;
-};
-
 template <typename T>
 std::vector<T> RandomVoxels(std::int64_t n)
 {
@@ -71,7 +51,7 @@ TEST(LevelReduction, IsTheSameBitsForAnyChunks)
   // Long enough along y for several tiles; sizes that no vector length divides.
   const auto levels = TwoLevels({ 61, 203, 23 }, { 1, 1, 2.5 });
   const auto voxels = RandomVoxels<float>(levels[0].NumberOfVoxels());
-  SequentialExecutor sequential;
+  Executor sequential;
   const auto expected = Reduce(voxels, levels, sequential);
   for (const std::size_t chunk : { 1, 3, 7 })
   {
@@ -88,7 +68,7 @@ TEST(LevelReduction, IsTheProductOfTheOperatorsAlongTheAxes)
   // is less than a voxel where voxels are longer.
   const auto levels = TwoLevels({ 13, 11, 9 }, { 1, 1.3, 2.5 });
   const auto voxels = RandomVoxels<double>(levels[0].NumberOfVoxels());
-  SequentialExecutor executor;
+  Executor executor;
   const auto found = Reduce(voxels, levels, executor);
   const LevelSize& in = levels[0].Size;
   const LevelSize& out = levels[1].Size;
@@ -124,7 +104,7 @@ TYPED_TEST(LevelReductionOf, GivesWhatDoublesGiveWhateverAVectorLengthLeaves)
   using Real = typename RealOf<TypeParam>::Type;
   const bool isDouble = std::is_same<TypeParam, double>::value;
   EXPECT_EQ((std::is_same<Real, double>::value), isDouble);
-  SequentialExecutor executor;
+  Executor executor;
   for (std::int64_t width = 1; width <= 40; ++width)
   {
     const auto levels = TwoLevels({ width, 11, 5 }, { 1, 1.3, 2.5 });
@@ -146,7 +126,7 @@ TEST(LevelReduction, StopsWhenAsked)
   const auto levels = TwoLevels({ 256, 256, 200 });
   const std::vector<unsigned char> voxels(levels[0].NumberOfVoxels(), 1);
   std::vector<float> out(levels[1].NumberOfVoxels(), -1.f);
-  SequentialExecutor executor;
+  Executor executor;
   int reports = 0;
   const auto stop = [&](double share)
   {
@@ -162,7 +142,7 @@ TEST(LevelReduction, StopsWhenAsked)
 TEST(FindNotFiniteVoxels, CountsAndFindsTheFirst)
 {
   std::vector<float> voxels(300000, 1.f);
-  SequentialExecutor executor;
+  Executor executor;
   EXPECT_EQ(FindNotFiniteVoxels(voxels.data(), 300000, executor).Count, 0);
   EXPECT_EQ(FindNotFiniteVoxels(voxels.data(), 300000, executor).First, -1);
   voxels[299999] = std::numeric_limits<float>::quiet_NaN();
@@ -180,7 +160,7 @@ TEST(FindNotFiniteVoxels, CountsAndFindsTheFirst)
 TEST(ValidReduction, IsTheMeanOfTheVoxelsWithAValue)
 {
   const auto levels = TwoLevels({ 30, 20, 24 });
-  SequentialExecutor executor;
+  Executor executor;
   // Some have none: the mean of the others is theirs, whatever stands at these places.
   LargeVector<std::uint8_t> valid(levels[0].NumberOfVoxels());
   std::vector<short> voxels(valid.size());
@@ -209,7 +189,7 @@ TEST(ValidReduction, IsTheMeanOfTheVoxelsWithAValue)
 TEST(ValidReduction, HasNoValueWhereHalfOfTheWeightHasNone)
 {
   const auto levels = TwoLevels({ 30, 20, 24 });
-  SequentialExecutor executor;
+  Executor executor;
   LargeVector<std::uint8_t> valid(levels[0].NumberOfVoxels());
   for (std::size_t i = 0; i < valid.size(); ++i)
   {

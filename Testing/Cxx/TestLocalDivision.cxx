@@ -8,7 +8,7 @@ using namespace volumic;
 
 namespace
 {
-SequentialExecutor Alone;
+Executor Alone;
 
 /** A plate, turned about two axes, as a scanner shows it: all of it fades over a third of a voxel. */
 Outside OutsideBlurredPlate(double thickness)

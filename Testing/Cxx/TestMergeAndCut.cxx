@@ -377,7 +377,7 @@ TEST(Merging, AnEvolutionAsksTheImage)
       return Soft(
         std::min(Distance(x, y, z, 8.5, 16, 16) - 7, Distance(x, y, z, 23.6, 16, 16) - 7));
     });
-  SequentialExecutor threads;
+  Executor threads;
   Monitor silent;
   SurfaceOptions options;
   options.IsoValue = 0.5;

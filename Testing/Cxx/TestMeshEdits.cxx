@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Common/Box.h"
-#include "Core/Common/StandardThreads.h"
+#include "Core/Common/Executor.h"
 #include "Core/Mesh/EdgeCollapse.h"
 #include "Core/Mesh/EdgeFlip.h"
 #include "Core/Mesh/EdgeSplit.h"
@@ -34,7 +34,7 @@ TEST(SurfaceMesh, AppendsTheSameOnThreads)
   SurfaceMesh one;
   one.Append(surface);
   EXPECT_SOUND(one, 2);
-  StandardThreads threads(3);
+  Executor threads(3);
   for (int run = 0; run < 5; ++run)
   {
     SurfaceMesh other;
@@ -83,7 +83,7 @@ bool IsBefore(const std::array<unsigned, 3>& a, const std::array<unsigned, 3>& b
 TEST(SurfaceMesh, IsOneListWhicheverSpansItWasMadeIn)
 {
   const SurfaceMesh mesh = LargeMesh();
-  StandardThreads threads(3);
+  Executor threads(3);
   ASSERT_GT(mesh.NumberOfVertices(), 20000);
   const IndexedSurface surface = mesh.ToIndexed(threads);
   std::vector<int> place(mesh.Rings.size(), -1);
@@ -110,7 +110,7 @@ TEST(SurfaceMesh, IsOneListWhicheverSpansItWasMadeIn)
 TEST(SurfaceMesh, IsOrderedAlongTheCurveAsAWhole)
 {
   SurfaceMesh mesh = LargeMesh();
-  StandardThreads threads(3);
+  Executor threads(3);
   const double cell = 0.7;
   const std::vector<int> order = SpaceFillingOrder(mesh, cell, threads);
   ASSERT_EQ(order.size(), static_cast<std::size_t>(mesh.NumberOfVertices()));

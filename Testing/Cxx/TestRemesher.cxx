@@ -12,7 +12,7 @@ using namespace volumic;
 
 namespace
 {
-SequentialExecutor Threads;
+Executor Threads;
 
 /** A sphere with edges of 1.1 to 1.25. */
 IndexedSurface FineSphere()

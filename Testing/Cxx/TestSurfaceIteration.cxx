@@ -13,7 +13,7 @@ namespace
 /** Delta is 1. Three balls along x, one in each block of side 10. */
 struct BallsInBlocks
 {
-  SequentialExecutor Thread;
+  Executor Thread;
   SurfaceState State;
 
   BallsInBlocks()
@@ -45,7 +45,7 @@ struct BallsInOneBlock
 {
   TestVolume Volume = BallVolume(40, 16.);
   SurfaceOptions Options = IsoHalf();
-  SequentialExecutor Thread;
+  Executor Thread;
   Field TheField{ this->Volume.Image, this->Options, this->Thread };
   Dynamics Motion{ this->TheField, this->Options, this->Thread };
   SurfaceState State;

@@ -131,7 +131,7 @@ TEST(SurfacePolish, StaysOnTheIsopotential)
   {
     const TestVolume volume = MakeVolume(33, [](double x, double y, double z)
       { return 8 - Distance(x, y, z, 16, 16, 16); });
-    SequentialExecutor executor;
+    Executor executor;
     const Field field(volume.Image, SurfaceOptions(), executor);
     double worst[2] = { 0, 0 };
     for (const bool snap : { false, true })

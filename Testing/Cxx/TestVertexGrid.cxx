@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Common/StandardThreads.h"
+#include "Core/Common/Executor.h"
 #include "Core/Mesh/VertexGrid.h"
 #include "Core/Surface/VertexProperties.h"
 #include "CoreTestTools.h"
@@ -85,7 +85,7 @@ TEST(VertexGrid, VisitsInTheSameOrderHoweverTheVerticesHaveCome)
   };
   VertexGrid all;
   all.Reset(Vector(0, 0, 0), Vector(40, 40, 40), 1.3f);
-  StandardThreads threads(3);
+  Executor threads(3);
   // Some are not there; the last third comes to a grid that is not empty.
   const auto isThere = [](int v) { return v % 5 != 2; };
   const int third = mesh.Size() / 3;
@@ -122,7 +122,7 @@ namespace
 {
 struct TwoProperties
 {
-  SequentialExecutor Thread;
+  Executor Thread;
   VertexProperties All;
   VertexProperty<int> Inherited{ this->All, 1 };
   VertexProperty<float> Own{ this->All, 2.f, 3.f };

@@ -81,7 +81,7 @@ void ExpectSound(const SweptRun& run)
 
 TEST(Visits, MakeTheSurfaceOfOneBlock)
 {
-  SequentialExecutor thread;
+  Executor thread;
   Monitor monitor;
   const SweptRun expected(InBlocksOf(1000.), thread, monitor);
   const double volume = EnclosedVolume(expected.Mesh(), thread);
@@ -129,7 +129,7 @@ TEST(Visits, MakeTheSameRunOnThreadsThatAreHeldUp)
     EXPECT_GT(run.Enclosed, 0);
     return hash;
   };
-  SequentialExecutor thread;
+  Executor thread;
   const std::uint64_t alone = made(thread);
   for (const int threads : { 2, 3, 7 })
   {
@@ -150,7 +150,7 @@ struct Wilderness
         0.02 * std::abs(x - 55.);
     });
   SurfaceOptions Options = IsoHalf();
-  SequentialExecutor Thread;
+  Executor Thread;
   Field TheField{ this->Volume.Image, this->Options, this->Thread };
   Dynamics Motion{ this->TheField, this->Options, this->Thread };
   SurfaceState State;
@@ -275,7 +275,7 @@ TEST(Visits, DependOnNothingFarAway)
 
 TEST(Visits, TellSweepAndBlock)
 {
-  SequentialExecutor thread;
+  Executor thread;
   Listener listener;
   const SweptRun run(InBlocksOf(12.), thread, listener);
   int sweeps = 0;
@@ -296,7 +296,7 @@ TEST(Visits, TellSweepAndBlock)
 
 TEST(Visits, StopBetweenAnyTwoBlocks)
 {
-  SequentialExecutor thread;
+  Executor thread;
   Listener whole;
   const SweptRun all(InBlocksOf(12.), thread, whole);
   const int questions = static_cast<int>(whole.Heard.size());

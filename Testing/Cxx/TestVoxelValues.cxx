@@ -11,7 +11,7 @@ using namespace volumic;
 
 namespace
 {
-SequentialExecutor Threads;
+Executor Threads;
 
 /** Bases that are floats, and bases that are not. */
 constexpr double Bases[] = { 0., 226.5, -1024., 1. / 3., 1150.1, 4e-5, 1e-30, 70000.0000001,

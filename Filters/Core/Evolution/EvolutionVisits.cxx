@@ -80,7 +80,7 @@ void VisitBlocks(
   e.State.Counts = EditCounts();
   e.Blocks->Prepare(e.Threads);
   std::mutex counting;
-  const auto visitBlock = [&](int block, std::size_t, Executor& idle)
+  const auto visitBlock = [&](int block)
   {
     if (sweep.OnlyActive && !e.Blocks->HasActive(block))
     {
@@ -88,7 +88,6 @@ void VisitBlocks(
     }
     e.Blocks->Prefetch(block);
     BlockVisit opened = e.Blocks->Open(block);
-    opened.Idle = &idle;
     {
       const std::lock_guard<std::mutex> lock(counting);
       opened.Large = e.Components.Large();
@@ -125,7 +124,7 @@ void RunSweep(Evolution& e)
   VisitBlocks(e, { Monitor::Activity::Iterating, 0., static_cast<double>(iterations) },
     [&](BlockVisit& visit)
     {
-      SurfaceIteration iteration(s, visit, evidence, options.TopologyChanges);
+      SurfaceIteration iteration(s, visit, evidence, options.TopologyChanges, e.Threads);
       std::vector<HistoryRow> rows;
       for (int i = 0; i < iterations; ++i)
       {
@@ -158,7 +157,7 @@ void Relax(Evolution& e, SurfaceIteration::Mode mode, int iterations, const Swee
   VisitBlocks(e, sweep,
     [&](BlockVisit& visit)
     {
-      SurfaceIteration iteration(s, visit, e.TheField.get(), false);
+      SurfaceIteration iteration(s, visit, e.TheField.get(), false, e.Threads);
       for (int i = 0; i < iterations; ++i)
       {
         for (int v = visit.First; v < visit.End(); ++v)
