@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Interfaces/FaceCubes.h"
 
-#include "Core/Common/Executor.h"
 #include "Core/Interfaces/InterfaceStart.h"
 #include "Core/Interfaces/InterfaceRemesher.h"
 #include "InterfaceTestTools.h"
+#include "ThreadTestTools.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include "Core/Image/LevelReduction.h"
 #include "Core/Image/ValidReduction.h"
 #include "ForVoxels.h"
-#include "TestPrelude.h"
+#include "ThreadTestTools.h"
 
 #include <cstring>
 #include <type_traits>
