@@ -10,6 +10,7 @@ set(VOLUMIC_WRAP_PYTHON ON)
 # pip shows the end of CMake's output only: a message of our own, with the way out.
 find_package(Python3 QUIET COMPONENTS Interpreter Development.Module)
 find_package(VTK 9.1 QUIET COMPONENTS Python WrappingPythonCore)
+find_package(TBB QUIET)
 set(missing "")
 if (NOT Python3_FOUND OR NOT EXISTS "${Python3_INCLUDE_DIR}/Python.h")
   string(APPEND missing "\n  the header files of ${Python3_EXECUTABLE} (Debian: libpython3-dev)")
@@ -17,6 +18,9 @@ endif ()
 if (NOT VTK_FOUND)
   string(APPEND missing "\n  VTK 9.1 or later, with its header files, CMake files and Python "
     "package (Debian: libvtk9-dev python3-vtk9)")
+endif ()
+if (NOT TBB_FOUND)
+  string(APPEND missing "\n  oneTBB, with its header files (Debian: libtbb-dev)")
 endif ()
 if (missing)
   message(FATAL_ERROR "volumic is compiled for the VTK of this machine. Missing:"

@@ -11,7 +11,7 @@
 
 # The second line and the third: for formats of files, 41 MB to download beside the 600 MB of VTK
 # and the compiler. The command names the package where one is missing; the skull needs NumPy only.
-tool_packages=(g++ cmake ninja-build python3 libpython3-dev python3-numpy
+tool_packages=(g++ cmake ninja-build libtbb-dev python3 libpython3-dev python3-numpy
   python3-scipy python3-nibabel python3-pydicom python3-gdcm python3-tifffile python3-mrcfile
   python3-zarr python3-h5py python3-meshio python3-pil)
 # Without doxygen, which brings 200 MB of LLVM: its test is disabled where it is missing.

@@ -22,7 +22,6 @@
 #include <vtkStringArray.h>
 #include <vtkTable.h>
 
-#include <optional>
 
 vtkStandardNewMacro(vtkLabelTable);
 
@@ -76,12 +75,11 @@ int vtkLabelTable::RequestData(
   {
     vtkDataObject* input = volumic::WholeInput(inputVector[0]);
     volumic::HostThreads threads(0);
-    std::optional<volumic::LabelImage> image;
-    threads.Run([&] { image.emplace(input, this->GetInputArrayInformation(0), 0, threads); });
+    volumic::LabelImage image(input, this->GetInputArrayInformation(0), 0, threads);
     auto known = volumic::LabelNames::Of(volumic::ImageOf(input));
-    known.Complete({ image->RenumberedLabels(), {} });
-    image->CheckNumberOfLabels();
-    for (const auto& entry : image->Labels())
+    known.Complete({ image.RenumberedLabels(), {} });
+    image.CheckNumberOfLabels();
+    for (const auto& entry : image.Labels())
     {
       labels->InsertNextValue(entry.first);
       names->InsertNextValue(known.NameOf(entry.first));

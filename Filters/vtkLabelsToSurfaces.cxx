@@ -222,8 +222,7 @@ volumic::LabelChoice vtkLabelsToSurfaces::vtkInternals::Read(vtkDataObject* inpu
   volumic::PrefixErrors("Input port 0: ",
     [&]
     {
-      threads.Run([&]
-        { image.emplace(input, selection, this->BackgroundLabel, threads); });
+      image.emplace(input, selection, this->BackgroundLabel, threads);
       choice.Labels = image->Choose(this->Labels, this->BackgroundLabel);
       choice.Names = this->Names;
       choice.Names.Complete(volumic::LabelNames::Of(volumic::ImageOf(input)));
@@ -253,14 +252,9 @@ void vtkLabelsToSurfaces::MakeSurfaces(
   {
     vtkWarningMacro("Input port 0: " << aboutScans);
   }
-  volumic::LabelMap map;
   std::vector<int> objects;
-  threads.Run(
-    [&]
-    {
-      map = image->MakeMap(
-        choice.Labels, choice.IsMerged, internals.BackgroundLabel, objects, threads);
-    });
+  volumic::LabelMap map = image->MakeMap(
+    choice.Labels, choice.IsMerged, internals.BackgroundLabel, objects, threads);
   volumic::LabelInterfaceMaker maker(
     std::move(map), objects, image->Image(), internals.Settings, threads);
   maker.Make(threads,

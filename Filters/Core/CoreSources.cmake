@@ -6,9 +6,9 @@
 # (Documentation/architecture.md).
 
 set(volumic_core_sources
+  Common/Executor.cxx
   Common/FreeMemory.cxx
   Common/ScratchMemory.cxx
-  Common/StandardThreads.cxx
   Common/VisitSchedule.cxx
   Image/AxisOperator.cxx
   Image/EdgeAttraction.cxx
@@ -119,8 +119,8 @@ set(volumic_core_headers
   Common/Refuse.h
   Common/ScratchMemory.h
   Common/Select.h
+  Common/Sort.h
   Common/Spans.h
-  Common/StandardThreads.h
   Common/Vector.h
   Common/VisitSchedule.h
   Image/AxisOperator.h

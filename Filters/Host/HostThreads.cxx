@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Host/HostThreads.h"
 
-#include "Core/Common/StandardThreads.h"
-
 #include <vtkSMPTools.h>
 
 #include <algorithm>
@@ -22,9 +20,6 @@ namespace volumic
 {
 namespace
 {
-/** See HostThreads::UseInstead. */
-Executor* theInstead = nullptr;
-
 int NumberOf(int wanted)
 {
   int number = NumberOfProcessors();
@@ -45,35 +40,7 @@ int NumberOf(int wanted)
 }
 }
 
-HostThreads::HostThreads(int numberOfThreads) : Number(NumberOf(numberOfThreads)) {}
-
-void HostThreads::UseInstead(Executor* executor)
-{
-  theInstead = executor;
-}
-
-void HostThreads::Run(const std::function<void()>& work)
-{
-  if (this->Threads)
-  {
-    work();
-    return;
-  }
-  struct End
-  {
-    ~End() { this->Threads.reset(); }
-    std::unique_ptr<Executor>& Threads;
-  } const end{ this->Threads };
-  this->Threads = std::make_unique<StandardThreads>(this->Number);
-  work();
-}
-
-void HostThreads::For(
-  std::size_t n, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body)
-{
-  Executor& threads = !this->Threads ? OnThisThread() : theInstead ? *theInstead : *this->Threads;
-  threads.For(n, grain, body);
-}
+HostThreads::HostThreads(int numberOfThreads) : Executor(NumberOf(numberOfThreads)) {}
 
 namespace
 {

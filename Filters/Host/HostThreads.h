@@ -6,46 +6,20 @@
 #include "Core/Common/Executor.h"
 #include "vtkFiltersVolumicModule.h" // for the export macro
 
-#include <functional>
-#include <memory>
 #include <string>
 
 namespace volumic
 {
-/**
- * The threads of a filter, for the core: its own, as many as the host program and the machine mean
- * it to have. VTK's (vtkSMPTools) are left alone: those of VTK 9.1 forget how many they should be,
- * end the program where the system denies them one, or are none, as in Debian's ParaView.
- */
+/** The threads of a filter: as many as the host program and the machine allow. */
 class VTKFILTERSVOLUMIC_EXPORT HostThreads final : public Executor
 {
 public:
   /**
-   * @param numberOfThreads at most, no more than there are processors to run on (affinity). 0 = as
-   *        many as these, where none of the following says fewer: VTK_SMP_MAX_THREADS, the number
-   *        that the host has given to vtkSMPTools, the quota of the process's cgroup.
+   * @param numberOfThreads upper limit. The affinity of the process is a further limit. 0: all
+   *        processors of the affinity, limited by VTK_SMP_MAX_THREADS, by the number that the host
+   *        has given to vtkSMPTools and by the quota of the process's cgroup.
    */
   explicit HostThreads(int numberOfThreads);
-
-  /** How many work within Run(), the calling one included. */
-  int NumberOfThreads() const { return this->Number; }
-
-  /**
-   * For tests: what For() is to do within Run() goes to this executor; null, as at first: to the
-   * threads. Not while a filter runs.
-   */
-  static void UseInstead(Executor* executor);
-
-  /** Runs `work`, within which there are the threads that For() may use. May be within another. */
-  void Run(const std::function<void()>& work);
-
-  /** @see Executor. Outside Run() everything is done on the calling thread. */
-  void For(std::size_t n, std::size_t grain,
-    const std::function<void(std::size_t, std::size_t)>& body) override;
-
-private:
-  int Number;
-  std::unique_ptr<Executor> Threads; ///< Within Run().
 };
 
 /** Those that the process may run on (its affinity); at least one. */

@@ -184,12 +184,7 @@ VoxelHistogram FindOtsuThreshold(
   VoxelHistogram found{ range, {}, 0.0 };
   VisitVoxels(voxels,
     [&](const auto* values)
-    {
-      threads.Run(
-        [&] {
-          found.Counts = CountVoxels(values, voxels->GetNumberOfTuples(), valid, range, threads);
-        });
-    });
+    { found.Counts = CountVoxels(values, voxels->GetNumberOfTuples(), valid, range, threads); });
   const double value = range[0] + BestSplit(found.Counts) * size / Bins;
   std::array<double, 2> neighbours = range;
   VisitVoxels(voxels,

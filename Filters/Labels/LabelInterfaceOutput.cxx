@@ -172,18 +172,14 @@ std::vector<LabelSurface> LabelInterfaceMaker::Surfaces(HostThreads& threads) co
       whole.insert(whole.end(), faces[object].begin(), faces[object].end());
     }
   }
-  threads.Run(
-    [&]
+  threads.For(surfaces.size(), 1,
+    [&](std::size_t begin, std::size_t end)
     {
-      threads.For(surfaces.size(), 1,
-        [&](std::size_t begin, std::size_t end)
-        {
-          for (std::size_t n = begin; n < end; ++n)
-          {
-            const int object = this->Selected[n];
-            surfaces[n] = this->SurfaceOf(object, faces[static_cast<std::size_t>(object)]);
-          }
-        });
+      for (std::size_t n = begin; n < end; ++n)
+      {
+        const int object = this->Selected[n];
+        surfaces[n] = this->SurfaceOf(object, faces[static_cast<std::size_t>(object)]);
+      }
     });
   return surfaces;
 }

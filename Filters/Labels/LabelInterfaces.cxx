@@ -77,7 +77,7 @@ LabelInterfaceMaker::LabelInterfaceMaker(LabelMap map, std::vector<int> selected
     const double least = std::min(std::ceil(settings.MinimumComponentVolume / ofVoxel),
       static_cast<double>(VoxelBox::Of(map.Size()).Count()) + 1.0);
     this->WholeMap = map.Part(box);
-    threads.Run([&] { this->WholeBricks.emplace(this->WholeMap, threads); });
+    this->WholeBricks.emplace(this->WholeMap, threads);
     GiveAwaySmallParts(map, this->Selected, static_cast<std::int64_t>(least),
       keep == KeepComponentsType::LargestComponent);
   }
@@ -100,12 +100,8 @@ LabelInterfaceMaker::LabelInterfaceMaker(LabelMap map, std::vector<int> selected
   {
     GoOnBeyond(this->Map, this->InImage, settings.IsPeriodic());
   }
-  threads.Run(
-    [&]
-    {
-      this->Bricks.emplace(
-        this->Map, threads, isFlat ? this->InImage : VoxelBox::Of(this->Map.Size()));
-    });
+  this->Bricks.emplace(
+    this->Map, threads, isFlat ? this->InImage : VoxelBox::Of(this->Map.Size()));
 }
 
 void LabelInterfaceMaker::CheckPeriod() const
@@ -157,20 +153,16 @@ void LabelInterfaceMaker::Make(HostThreads& threads, const Progress& progress)
     }
     return goesOn.load();
   };
-  threads.Run(
-    [&]
-    {
-      this->Fields.emplace(
-        *this->Bricks, this->Settings.FieldOptions(this->Map), this->Space.Step(), threads,
-        [&](double share) { return tell(FieldShare * share, "Fields of the labels"); },
-        this->Settings.IsPeriodic());
-      if (goesOn)
-      {
-        this->Mesh = MakeInterfaces(*this->Fields, this->Options(), threads,
-          [&](double share)
-          { return tell(FieldShare + (1.0 - FieldShare) * share, "Interfaces of the labels"); });
-      }
-    });
+  this->Fields.emplace(
+    *this->Bricks, this->Settings.FieldOptions(this->Map), this->Space.Step(), threads,
+    [&](double share) { return tell(FieldShare * share, "Fields of the labels"); },
+    this->Settings.IsPeriodic());
+  if (goesOn)
+  {
+    this->Mesh = MakeInterfaces(*this->Fields, this->Options(), threads,
+      [&](double share)
+      { return tell(FieldShare + (1.0 - FieldShare) * share, "Interfaces of the labels"); });
+  }
   this->IsFinished = goesOn;
   this->CountVoxels(threads);
   this->IdOf.assign(this->Mesh.Position.size(), -1);
@@ -220,13 +212,8 @@ void LabelInterfaceMaker::CountVoxels(HostThreads& threads)
     this->Counts[whole].Parts += voxels > 0. ? 1 : 0;
     this->Counts[whole].WrongParts += isOff(volumes[object], voxels, MostOff) ? 1 : 0;
   }
-  std::vector<MismatchedVoxel> mismatched;
-  threads.Run(
-    [&]
-    {
-      mismatched = FindMismatchedVoxels(this->Mesh, this->Counted(), this->InImage, step,
-        this->Settings.VoxelToleranceInUse() + this->Options().Tolerance, threads);
-    });
+  const std::vector<MismatchedVoxel> mismatched = FindMismatchedVoxels(this->Mesh, this->Counted(),
+    this->InImage, step, this->Settings.VoxelToleranceInUse() + this->Options().Tolerance, threads);
   for (const MismatchedVoxel& voxel : mismatched)
   {
     const LabelMap::Number of[2] = { map.Whole(voxel.OfMap), map.Whole(voxel.OfMesh) };

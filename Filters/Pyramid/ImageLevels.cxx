@@ -264,22 +264,18 @@ ImageLevels MakeImageLevels(vtkImageData* image, vtkDataArray* voxels,
   const LevelsOptions& options, const Progress& progress)
 {
   const std::vector<LevelGeometry> plan = Plan(image, options.Pyramid);
-  std::vector<vtkSmartPointer<vtkDataArray>> made;
-  ValidVoxels valid;
   vtkSmartPointer<vtkDataArray> finest = voxels;
   HostThreads threads(options.NumberOfThreads);
-  threads.Run(
-    [&]
-    {
-      vtkSmartPointer<vtkDataArray> contiguous = ContiguousVoxels(voxels);
-      if (options.Range.IsUsed())
-      {
-        finest = contiguous = FoldVoxels(contiguous, options.Range, threads);
-      }
-      valid = FindValidVoxels(voxels, contiguous, image, options.NaNIsBackground, threads);
-      CheckAnyIsValid(voxels, valid);
-      made = MakeLevelVoxels(contiguous, valid, plan, threads, progress);
-    });
+  vtkSmartPointer<vtkDataArray> contiguous = ContiguousVoxels(voxels);
+  if (options.Range.IsUsed())
+  {
+    finest = contiguous = FoldVoxels(contiguous, options.Range, threads);
+  }
+  const ValidVoxels valid =
+    FindValidVoxels(voxels, contiguous, image, options.NaNIsBackground, threads);
+  CheckAnyIsValid(voxels, valid);
+  const std::vector<vtkSmartPointer<vtkDataArray>> made =
+    MakeLevelVoxels(contiguous, valid, plan, threads, progress);
 
   ImageLevels levels;
   // No voxel is copied, but where they were folded, or one component was selected: then the new
@@ -327,7 +323,7 @@ ImageLevels LevelsOfBlocks(
   if (!blocks->GetFieldData()->HasArray("NaNVoxels"))
   {
     const ImageLevel& finest = levels.Levels[0];
-    SequentialExecutor thread;
+    Executor thread;
     const ValidVoxels valid = PrefixErrors("level 0: ",
       [&]
       {

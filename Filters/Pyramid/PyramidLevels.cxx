@@ -111,7 +111,7 @@ double PyramidLevels::UnitOf(int level) const
 bool PyramidLevels::HoldsPart(
   int level, const PartSize& least, double isoValue, bool objectIsBright) const
 {
-  SequentialExecutor thread;
+  Executor thread;
   const ValidVoxels valid = this->ValidAt(level, thread);
   const vtkSmartPointer<vtkDataArray> voxels = ContiguousVoxels(this->Levels[level].Voxels);
   bool holds = false;
@@ -136,7 +136,7 @@ std::array<double, 2> PyramidLevels::Range(int level) const
   {
     return found->second;
   }
-  SequentialExecutor thread;
+  Executor thread;
   const ValidVoxels valid = this->ValidAt(level, thread);
   if (level == 0)
   {

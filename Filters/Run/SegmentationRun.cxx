@@ -111,9 +111,7 @@ bool SegmentationRun::ChooseComponents(const SegmentationRequest& request)
   const ComponentChoice choice =
     ChoiceOf(request, this->Levels.GetWorkspace(), this->Levels.Pyramid().SizeOf(0));
   HostThreads threads(request.Settings.End.NumberOfThreads);
-  bool hasChosen = false;
-  threads.Run([&] { hasChosen = this->Finished.Choose(choice, threads); });
-  return hasChosen;
+  return this->Finished.Choose(choice, threads);
 }
 
 void SegmentationRun::Begin()
@@ -140,14 +138,10 @@ void SegmentationRun::Run(RunObserver& observer, double before)
     HostThreads threads(this->Settings.End.NumberOfThreads);
     LevelMonitor monitor(observer, before, this->Choice.Coarsest, this->EndsAt());
     this->Rest.History.StartClock(observer.Start());
-    threads.Run(
-      [&]
-      {
-        while (this->GoesOn && this->Reached > this->EndsAt() &&
-          this->Next(observer, monitor, threads))
-        {
-        }
-      });
+    while (
+      this->GoesOn && this->Reached > this->EndsAt() && this->Next(observer, monitor, threads))
+    {
+    }
   }
   this->Request.InitialSurface = this->Request.AttractingPoints = nullptr;
 }

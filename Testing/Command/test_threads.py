@@ -7,6 +7,7 @@ VOLUMIC_FAKE_PROCESSORS names the library that makes the program believe in them
 
 import glob
 import os
+import statistics
 import subprocess
 import time
 import unittest
@@ -18,31 +19,34 @@ from command_test_case import PROGRAM, CommandTestCase, make_image
 FAKE = os.environ["VOLUMIC_FAKE_PROCESSORS"]
 
 
-def working_threads(process):
-    """How many of its threads that are there have had time of a processor."""
-    working = 0
+def runnable_threads(process):
+    """The number of its threads that run or wait for a processor."""
+    runnable = 0
     for file in glob.glob(f"/proc/{process.pid}/task/*/stat"):
         try:
             with open(file, encoding="utf-8") as stat:
-                fields = stat.read().rpartition(")")[2].split()
+                runnable += stat.read().rpartition(")")[2].split()[0] == "R"
         except OSError:
             continue  # It has ended.
-        working += int(fields[11]) + int(fields[12]) > 0  # user and system time
-    return working
+    return runnable
 
 
 class ThreadsTest(CommandTestCase):
-    def most_threads(self, *arguments, **environment):
-        """At a time, during a run that must succeed."""
+    def threads_at_work(self, *arguments, **environment):
+        """The most frequent number of runnable threads in the parallel part of a run.
+
+        TBB may wake a thread while another one is on its way to sleep: it limits those that work.
+        """
         command = [PROGRAM, *map(str, arguments)]
-        most = 0
+        samples = []
         with subprocess.Popen(command, stderr=subprocess.PIPE, text=True,
                               env={**os.environ, "LD_PRELOAD": FAKE, **environment}) as process:
             while process.poll() is None:
-                most = max(most, working_threads(process))
+                samples.append(runnable_threads(process))
                 time.sleep(0.005)
             self.assertEqual(process.returncode, 0, process.stderr.read())
-        return most
+        parallel = [number for number in samples if number > 1]
+        return statistics.mode(parallel) if len(parallel) > len(samples) / 10 else 1
 
     def test_a_surface_has_as_many_as_are_asked_for(self):
         """The pyramid and the surface, and Otsu's threshold before them."""
@@ -52,18 +56,18 @@ class ThreadsTest(CommandTestCase):
                             make_image(waves.astype("f4"), (1, 1, 1)))
         for asked in 1, 2, 3:
             self.assertEqual(
-                self.most_threads(volume, self.path("a.stl"), "--threads", asked), asked)
+                self.threads_at_work(volume, self.path("a.stl"), "--threads", asked), asked)
         for backend in "TBB", "STDThread", "Sequential":  # of VTK
             self.assertEqual(
-                self.most_threads(volume, self.path("a.stl"), VTK_SMP_MAX_THREADS="2",
-                                  VTK_SMP_BACKEND_IN_USE=backend), 2, backend)
+                self.threads_at_work(volume, self.path("a.stl"), VTK_SMP_MAX_THREADS="2",
+                                     VTK_SMP_BACKEND_IN_USE=backend), 2, backend)
 
     def test_labels_have_as_many_as_are_asked_for_and_one_that_tells(self):
         volume = self.many_labels(3)
         for asked in 1, 3:
-            most = self.most_threads(volume, self.path(f"labels{asked}"), "--labels", "all",
-                                     "--threads", asked)
-            self.assertIn(most, (asked, asked + 1))
+            at_work = self.threads_at_work(volume, self.path(f"labels{asked}"), "--labels", "all",
+                                           "--threads", asked)
+            self.assertIn(at_work, (asked, asked + 1))
 
 
 if __name__ == "__main__":

@@ -19,7 +19,7 @@ struct Stage
   SurfaceOptions Options;
   SurfaceState State;
   std::vector<int> All;
-  SequentialExecutor Threads;
+  Executor Threads;
 
   /** A surface in an image that the test fills in later, or that does not matter: no forces. */
   Stage(const IndexedSurface& surface, float delta)

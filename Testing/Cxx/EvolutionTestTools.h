@@ -46,7 +46,7 @@ inline SurfaceOptions IsoHalf()
 }
 
 /** What most evolutions of tests run on, and who watches them: this thread, and nobody. */
-inline SequentialExecutor Threads;
+inline Executor Threads;
 inline Monitor Silent;
 
 /** The steps of EvolveOnLevel(), one by one, level after level. */

@@ -15,7 +15,7 @@ namespace volumic
 struct Bench
 {
   SurfaceState State;
-  SequentialExecutor Threads;
+  Executor Threads;
 
   explicit Bench(const IndexedSurface& surface)
   {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Common/StandardThreads.h"
+#include "Core/Common/Executor.h"
 #include "Core/Evolution/SurfaceOptions.h"
 #include "Core/Image/EdgeAttraction.h"
 #include "Core/Image/PointAttraction.h"
@@ -10,7 +10,7 @@ using namespace volumic;
 
 namespace
 {
-SequentialExecutor Threads;
+Executor Threads;
 
 /** 100 below the plane x = 6, 0 above, falling over two voxels; the points act far from it. */
 TestVolume Half()
@@ -45,7 +45,7 @@ TEST(PointAttraction, LeavesWhatIsFarAsItIsAndDoesNotDependOnTheExecutor)
   const PointAttraction attraction({ { { 20, 16, 16 }, 1., 3. }, { { 22, 17, 15 }, 2., 4. } }, 1.);
   const SurfaceOptions options = HalfOptions(50);
   const std::vector<float> bent = attraction.Bend(volume.Image, options, Threads);
-  StandardThreads threads(3);
+  Executor threads(3);
   EXPECT_EQ(bent, attraction.Bend(volume.Image, options, threads));
   int changed = 0;
   std::size_t i = 0;

@@ -6,7 +6,7 @@
 #include "Core/Common/FreeMemory.h"
 #include "Core/Common/Lanes.h"
 #include "Core/Common/Refuse.h"
-#include "Core/Common/StandardThreads.h"
+#include "Core/Common/Executor.h"
 #include "Core/Image/VoxelNumbers.h"
 #include "CommaLocale.h"
 #include "TestPrelude.h"
@@ -34,7 +34,7 @@ TEST(DisjointSets, AreTheSameWhoeverJoinsThemAtOnce)
 {
   constexpr int n = 3000;
   std::mt19937 random(7);
-  StandardThreads threads(4);
+  Executor threads(4);
   for (int round = 0; round < 20; ++round)
   {
     std::vector<std::pair<int, int>> pairs;

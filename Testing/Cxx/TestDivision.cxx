@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Common/StandardThreads.h"
+#include "Core/Common/Executor.h"
 #include "Core/Mesh/Division.h"
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "EvolutionTestTools.h"
@@ -32,7 +32,7 @@ TEST(Division, IsTheSameOnThreads)
   {
     kept.Keep(v, old.Rings[v].Item[0]);
   }
-  StandardThreads threads(3);
+  Executor threads(3);
   const IndexedSurface divided = Divide(old, &kept, threads).ToIndexed();
   const IndexedSurface alone = Divide(old, &kept).ToIndexed();
   EXPECT_EQ(divided.Points, alone.Points);

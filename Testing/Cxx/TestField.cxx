@@ -8,7 +8,7 @@ using namespace volumic;
 
 namespace
 {
-SequentialExecutor Threads;
+Executor Threads;
 
 SurfaceOptions WithIso(double iso)
 {

@@ -1,13 +1,11 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// How many threads there are, and another executor in their place, for measurements.
-#include "FilterTestTools.h"
+// How many threads there are.
 #include "Host/HostThreads.h"
 #include "TemporaryFolder.h"
-#include "vtkDeformableSurface.h"
+#include "TestPrelude.h"
 
-#include <vtkPolyData.h>
 #include <vtkSMPTools.h>
 
 #include <chrono>
@@ -16,27 +14,12 @@
 #include <fstream>
 #include <mutex>
 #include <optional>
-#include <stdexcept>
 #include <thread>
 
 using namespace volumic;
 
 namespace
 {
-/** Sequential; counts the calls. */
-class CountingExecutor final : public Executor
-{
-public:
-  void For(std::size_t n, std::size_t,
-    const std::function<void(std::size_t begin, std::size_t end)>& body) override
-  {
-    ++this->Calls;
-    body(0, n);
-  }
-
-  int Calls = 0;
-};
-
 /** How many threads work, where each waits for those that should. */
 std::size_t ThreadsAtWork(int numberOfThreads)
 {
@@ -56,7 +39,7 @@ std::size_t ThreadsAtWork(int numberOfThreads)
       lock.lock();
     }
   };
-  threads.Run([&] { threads.For(200, 1, work); });
+  threads.For(200, 1, work);
   return ids.size();
 }
 
@@ -80,13 +63,6 @@ public:
 private:
   const char* Name;
   std::optional<std::string> Before;
-};
-
-/** Gives the threads back whatever happens. */
-class HostThreadsInstead : public testing::Test
-{
-protected:
-  ~HostThreadsInstead() override { HostThreads::UseInstead(nullptr); }
 };
 }
 
@@ -130,20 +106,6 @@ TEST(HostThreads, AreNoMoreThanTheHostGivesToVtk)
   vtkSMPTools::Initialize(before);
 }
 
-TEST(HostThreads, MayBeTheSameWithin)
-{
-  HostThreads threads(2);
-  int items = 0;
-  threads.Run(
-    [&]
-    {
-      threads.Run([] {});
-      EXPECT_THROW(threads.Run([] { throw std::runtime_error("within"); }), std::runtime_error);
-      threads.For(10, 20, [&](std::size_t begin, std::size_t end) { items += int(end - begin); });
-    });
-  EXPECT_EQ(items, 10);
-}
-
 TEST(Processors, MayBeAQuotaOfAGroup)
 {
   const TemporaryFolder root;
@@ -171,55 +133,4 @@ TEST(Processors, MayBeAQuotaOfAGroup)
   EXPECT_EQ(QuotaOfProcessors(root.Path()), 3) << "version 1";
   write("/sys/fs/cgroup/cpu/cpu.cfs_quota_us", "40000\n");
   EXPECT_EQ(QuotaOfProcessors(root.Path()), 1) << "of the container";
-}
-
-TEST_F(HostThreadsInstead, DoesAllThatFiltersHaveToShare)
-{
-  const vtkSmartPointer<vtkImageData> ball = BallImage(32, 32, 32);
-  const auto run = [&ball](int threads)
-  {
-    auto filter = vtkSmartPointer<vtkDeformableSurface>::New();
-    filter->SetInputData(ball);
-    filter->SetIsoValue(50.0);
-    filter->SetNumberOfThreads(threads);
-    filter->Update();
-    return filter->GetOutput()->GetNumberOfPoints();
-  };
-  const vtkIdType points = run(0);
-  CountingExecutor counting;
-  HostThreads::UseInstead(&counting);
-  for (const int threads : { 0, 1 })
-  {
-    SCOPED_TRACE(threads);
-    counting = CountingExecutor();
-    EXPECT_EQ(run(threads), points);
-    EXPECT_GT(counting.Calls, 100);
-    vtkNew<vtkImagePyramid> pyramid;
-    pyramid->SetInputData(ball);
-    pyramid->SetNumberOfThreads(threads);
-    counting = CountingExecutor();
-    pyramid->Update();
-    EXPECT_GT(counting.Calls, 0);
-  }
-  counting = CountingExecutor();
-  HostThreads::UseInstead(nullptr);
-  EXPECT_EQ(run(0), points);
-  EXPECT_EQ(counting.Calls, 0);
-}
-
-TEST_F(HostThreadsInstead, IsLeftAloneOutsideOfRun)
-{
-  CountingExecutor counting;
-  HostThreads::UseInstead(&counting);
-  HostThreads threads(0);
-  int items = 0;
-  const auto count = [&items](std::size_t begin, std::size_t end)
-  { items += static_cast<int>(end - begin); };
-  threads.For(10, 1, count);
-  EXPECT_EQ(counting.Calls, 0);
-  threads.Run([&] { threads.For(10, 1, count); });
-  EXPECT_EQ(counting.Calls, 1);
-  threads.For(10, 1, count);
-  EXPECT_EQ(counting.Calls, 1);
-  EXPECT_EQ(items, 30);
 }

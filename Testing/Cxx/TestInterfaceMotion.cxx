@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Interfaces/InterfaceMotion.h"
-#include "Core/Common/StandardThreads.h"
+#include "Core/Common/Executor.h"
 #include "Core/Interfaces/InterfaceRemesher.h"
 #include "Core/Interfaces/InterfaceStart.h"
 #include "Core/Interfaces/MismatchedVoxels.h"
@@ -99,7 +99,7 @@ TEST(InterfaceRemesher, MakesTheSameEditsInAnyOrderOfCubes)
   ExpectSound(forward);
   BackwardExecutor backward;
   ExpectSame(Edited(start, backward), forward);
-  StandardThreads threads(3);
+  Executor threads(3);
   ExpectSame(Edited(start, threads), forward);
 }
 

@@ -57,7 +57,7 @@ TYPED_TEST(LevelReductionOf, GivesWhatDoublesGiveWhateverAVectorLengthLeaves)
   using Real = typename RealOf<TypeParam>::Type;
   const bool isDouble = std::is_same<TypeParam, double>::value;
   EXPECT_EQ((std::is_same<Real, double>::value), isDouble);
-  SequentialExecutor executor;
+  Executor executor;
   for (std::int64_t width = 1; width <= 40; ++width)
   {
     const auto levels = TwoLevels({ width, 11, 5 }, { 1, 1.3, 2.5 });
@@ -76,7 +76,7 @@ TYPED_TEST(LevelReductionOf, GivesWhatDoublesGiveWhateverAVectorLengthLeaves)
 TEST(ValidReduction, HasNoValueWhereHalfOfTheWeightHasNone)
 {
   const auto levels = TwoLevels({ 30, 20, 24 });
-  SequentialExecutor executor;
+  Executor executor;
   LargeVector<std::uint8_t> valid(levels[0].NumberOfVoxels());
   for (std::size_t i = 0; i < valid.size(); ++i)
   {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Common/StandardThreads.h"
+#include "Core/Common/Executor.h"
 #include "Core/Evolution/LostVoxels.h"
 #include "Core/Image/VoxelNumbers.h"
 #include "EvolutionTestTools.h"
@@ -119,8 +119,8 @@ TEST(LostVoxels, AreThoseOfTheWholeImageInTheSameParts)
 {
   SurfaceState state;
   Fill(state);
-  SequentialExecutor alone;
-  StandardThreads threads(3);
+  Executor alone;
+  Executor threads(3);
   const std::array<Executor*, 2> executors = { &alone, &threads };
   for (const unsigned int percent : { 3u, 28u, 34u, 60u, 97u })
   {
@@ -149,7 +149,7 @@ TEST(LostVoxels, FormPartsThroughOtherSlabs)
   const TestVolume volume = MakeVolume(Size,
     [](double x, double y, double z)
     { return y == 3 && x < 68 && (z == Size - 1 || static_cast<int>(x) % 4 == 0) ? 1. : 0.; });
-  SequentialExecutor executor;
+  Executor executor;
   const Field field(volume.Image, IsoHalf(), executor);
   SurfaceState state;
   state.Sizing = SizingField(0.85f);

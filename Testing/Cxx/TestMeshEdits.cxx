@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Common/StandardThreads.h"
+#include "Core/Common/Executor.h"
 #include "Core/Mesh/EdgeCollapse.h"
 #include "Core/Mesh/EdgeFlip.h"
 #include "Core/Mesh/EdgeSplit.h"
@@ -33,7 +33,7 @@ TEST(SurfaceMesh, AppendsTheSameOnThreads)
   SurfaceMesh one;
   one.Append(surface);
   EXPECT_SOUND(one, 2);
-  StandardThreads threads(3);
+  Executor threads(3);
   for (int run = 0; run < 5; ++run)
   {
     SurfaceMesh other;
@@ -60,7 +60,7 @@ TEST(SurfaceMesh, IsListedAndOrderedTheSameOnThreads)
     mesh.RemoveVertex(v);
   }
   ASSERT_GT(mesh.NumberOfVertices(), 20000);
-  StandardThreads threads(3);
+  Executor threads(3);
   const auto expectSame = [](const IndexedSurface& one, const IndexedSurface& other)
   {
     EXPECT_EQ(one.Points, other.Points);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Small tools of meshes: rows through triangles.
-#include "Core/Common/StandardThreads.h"
+#include "Core/Common/Executor.h"
 #include "Core/Mesh/RowCrossing.h"
 #include "CoreTestTools.h"
 
@@ -120,7 +120,7 @@ TEST(ComponentsAbout, AreThoseThatEncloseAPlaceButItsOwn)
   const std::vector<Point> places = { { 3.5, 0.1, 0.1 }, { 0, 0, 0 }, { -2.5, 0.1, 0 },
     { -9, 0.1, 0.1 }, { 0, 5, 0 } };
   using Lists = std::vector<std::vector<int>>;
-  StandardThreads threads(3);
+  Executor threads(3);
   EXPECT_EQ(ComponentsAbout(places, {}, nested.size(), facesOf, threads),
     (Lists{ { 0 }, { 0, 1, 2 }, { 0, 1 }, {}, {} }));
   EXPECT_EQ(ComponentsAbout(places, { 0, 1, 1, -1, 2 }, nested.size(), facesOf, threads),

@@ -11,7 +11,7 @@ using namespace volumic;
 
 namespace
 {
-SequentialExecutor Thread;
+Executor Thread;
 
 /** A row of balls along x, 10 apart: one in each block of side 10. */
 SurfaceMesh Balls(int n)

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Common/IndexedSurface.h"
-#include "Core/Common/StandardThreads.h"
+#include "Core/Common/Executor.h"
 #include "Core/Mesh/SurfaceMeasures.h"
 #include "Core/Surface/ComponentWatch.h"
 #include "Core/Surface/SurfaceComponents.h"
@@ -89,7 +89,7 @@ TEST(SurfaceComponents, LabelsComponentsByTheirFirstVerticesInAnySpans)
   state.Mesh.Reorder(order);
   state.Reset(Vector(-40, -40, -40), Vector(60, 40, 40));
   state.FieldValue.Fill(-1.f);
-  StandardThreads threads(3);
+  Executor threads(3);
   SurfaceComponents components;
   components.Label(state, threads);
   EXPECT_EQ(components.NumberOfComponents(), 4);
@@ -120,7 +120,7 @@ TEST(SurfaceComponents, KnowsACavityByItsWholeVolume)
     ASSERT_GT(order.end() - last, 8192 + 1);
     state.Mesh.Reorder(order);
     state.Reset(Vector(-40, -40, -40), Vector(60, 40, 40));
-    StandardThreads threads(3);
+    Executor threads(3);
     SurfaceComponents components;
     EXPECT_EQ(components.DeleteInsideOut(state, threads), isCavity);
   }

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Common/StandardThreads.h"
+#include "Core/Common/Executor.h"
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "CoreTestTools.h"
-#include "VisitTestTools.h"
+#include "ThreadTestTools.h"
 
 using namespace volumic;
 
@@ -68,15 +68,8 @@ TEST(SurfaceFeatures, AreTheSameOnThreads)
   const SurfaceFeatures one = ComputeFeatures(surface);
   ASSERT_EQ(one.Components.size(), static_cast<std::size_t>(count));
   EXPECT_EQ(one.ComponentOfTriangle.front(), 0) << "in the order of their first triangles";
-  StandardThreads threads(3);
-  ToldExecutor backwards(
-    [](std::size_t n, const Body& body)
-    {
-      for (std::size_t i = n; i > 0; --i)
-      {
-        body(i - 1, i);
-      }
-    });
+  Executor threads(3);
+  ScrambledExecutor backwards(1);
   for (Executor* executor : { static_cast<Executor*>(&threads), static_cast<Executor*>(&backwards) })
   {
     const SurfaceFeatures other = ComputeFeatures(surface, *executor);

@@ -14,7 +14,7 @@ namespace
 {
 std::size_t CountIn(const Bench& bench)
 {
-  SequentialExecutor threads;
+  Executor threads;
   return CountIntersecting(bench.State, threads);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Common/StandardThreads.h"
+#include "Core/Common/Executor.h"
 #include "Core/Mesh/VertexGrid.h"
 #include "CoreTestTools.h"
 
@@ -70,7 +70,7 @@ TEST(VertexGrid, VisitsInTheSameOrderHoweverTheVerticesHaveCome)
   };
   VertexGrid all;
   all.Reset(Vector(0, 0, 0), Vector(40, 40, 40), 1.3f);
-  StandardThreads threads(3);
+  Executor threads(3);
   // Some are not there; the last third comes to a grid that is not empty.
   const auto isThere = [](int v) { return v % 5 != 2; };
   const int third = mesh.Size() / 3;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Common/VisitSchedule.h"
 #include "ThreadTestTools.h"
-#include "VisitTestTools.h"
 
 #include <cstdlib>
 #include <mutex>
@@ -11,6 +11,44 @@ using namespace volumic;
 namespace
 {
 using Neighbours = std::vector<std::vector<int>>;
+
+/** From 0 on. */
+std::vector<int> InOrder(int n)
+{
+  std::vector<int> order(static_cast<std::size_t>(n));
+  std::iota(order.begin(), order.end(), 0);
+  return order;
+}
+
+/** Items that do not touch. */
+VisitSchedule Apart(int n)
+{
+  return VisitSchedule(InOrder(n), [](int) { return std::vector<int>(); });
+}
+
+/** Each touches the one before it. */
+VisitSchedule ChainOf(int n)
+{
+  return VisitSchedule(InOrder(n),
+    [n](int item)
+    {
+      std::vector<int> touched;
+      if (item > 0)
+      {
+        touched.push_back(item - 1);
+      }
+      if (item + 1 < n)
+      {
+        touched.push_back(item + 1);
+      }
+      return touched;
+    });
+}
+
+bool Always(std::size_t)
+{
+  return true;
+}
 
 /** Cells of a box of this size: those that have a corner in common touch, but for some left out. */
 Neighbours GridOf(const std::array<int, 3>& size, double share, std::mt19937& random)
@@ -67,10 +105,10 @@ public:
     }
   }
 
-  void Begin(int item, std::size_t place)
+  void Begin(int item)
   {
+    const std::size_t place = this->Place[item];
     const std::lock_guard<std::mutex> lock(this->Mutex);
-    this->Check(place == this->Place[item], item, "another place was told");
     this->Check(++this->Begun[item] == 1, item, "visited again");
     for (const int other : this->Touching[item])
     {
@@ -121,7 +159,7 @@ TEST(VisitSchedule, VisitsEachOnceAndNeverWhatTouchesAtTheSameTime)
   std::mt19937 random(20);
   for (const int threads : { 1, 2, 5 })
   {
-    StandardThreads executor(threads);
+    Executor executor(threads);
     for (int grid = 0; grid < 12; ++grid)
     {
       SCOPED_TRACE(std::to_string(threads) + " threads, grid " + std::to_string(grid));
@@ -135,9 +173,9 @@ TEST(VisitSchedule, VisitsEachOnceAndNeverWhatTouchesAtTheSameTime)
         delays.begin(), delays.end(), [&random] { return static_cast<int>(random() % 200); });
       Book book(order, neighbours);
       const bool areAllDone = ScheduleOf(order, neighbours).Run(executor,
-        [&](int item, std::size_t place, Executor&)
+        [&](int item)
         {
-          book.Begin(item, place);
+          book.Begin(item);
           std::this_thread::sleep_for(std::chrono::microseconds(delays[item]));
           book.End(item);
         },
@@ -160,7 +198,7 @@ TEST(VisitSchedule, MakesWhatOneThreadWouldMake)
   {
     std::vector<std::uint64_t> values(order.size(), 1);
     schedule.Run(executor,
-      [&](int item, std::size_t, Executor&)
+      [&](int item)
       {
         for (const int other : neighbours[item])
         {
@@ -170,7 +208,7 @@ TEST(VisitSchedule, MakesWhatOneThreadWouldMake)
       Always);
     return values;
   };
-  SequentialExecutor thread;
+  Executor thread;
   const std::vector<std::uint64_t> expected = madeBy(thread);
   for (const int threads : { 2, 3, 7 })
   {
@@ -187,22 +225,11 @@ TEST(VisitSchedule, KeepsTheOrderOnOneThread)
   std::mt19937 random(5);
   const Neighbours neighbours = GridOf({ 5, 4, 3 }, 0.7, random);
   const std::vector<int> order = Shuffled(60, random);
-  const VisitSchedule schedule = ScheduleOf(order, neighbours);
-  SequentialExecutor sequential;
-  StandardThreads alone(1);
-  ToldExecutor elsewhere(OnAnotherThread);
-  for (Executor* executor : std::initializer_list<Executor*>{ &sequential, &alone, &elsewhere })
-  {
-    std::vector<int> visited;
-    EXPECT_TRUE(schedule.Run(*executor,
-      [&visited](int item, std::size_t place, Executor&)
-      {
-        EXPECT_EQ(place, visited.size());
-        visited.push_back(item);
-      },
-      Always));
-    EXPECT_EQ(visited, order);
-  }
+  Executor thread;
+  std::vector<int> visited;
+  EXPECT_TRUE(ScheduleOf(order, neighbours)
+                .Run(thread, [&visited](int item) { visited.push_back(item); }, Always));
+  EXPECT_EQ(visited, order);
 }
 
 TEST(VisitSchedule, WaitsForNoMoreThanWhatItTouches)
@@ -212,11 +239,11 @@ TEST(VisitSchedule, WaitsForNoMoreThanWhatItTouches)
   const VisitSchedule schedule(InOrder(n),
     [](int item)
     { return item == 0 ? std::vector<int>{ 1 } : std::vector<int>(item == 1 ? 1 : 0, 0); });
-  StandardThreads threads(2);
+  Executor threads(2);
   std::atomic<int> others{ 0 };
   std::atomic<bool> isFree{ false };
   schedule.Run(threads,
-    [&](int item, std::size_t, Executor&)
+    [&](int item)
     {
       others += item > 1;
       isFree = isFree || (item == 0 && HasCome([&] { return others == n - 2; }));
@@ -228,26 +255,12 @@ TEST(VisitSchedule, WaitsForNoMoreThanWhatItTouches)
 
 TEST(VisitSchedule, HandsOnWhatAVisitThrows)
 {
-  // Each is before the next one, or none touches another: others wait, or are at work, or both.
   constexpr int n = 5000; // More than can be made before others hear of it, on a machine however slow.
-  const VisitSchedule chain(InOrder(n),
-    [](int item)
-    {
-      std::vector<int> beside;
-      if (item > 0)
-      {
-        beside.push_back(item - 1);
-      }
-      if (item + 1 < n)
-      {
-        beside.push_back(item + 1);
-      }
-      return beside;
-    });
+  const VisitSchedule chain = ChainOf(n);
   const VisitSchedule apart = Apart(n);
-  SequentialExecutor sequential;
-  StandardThreads three(3);
-  StandardThreads five(5);
+  Executor sequential;
+  Executor three(3);
+  Executor five(5);
   for (const VisitSchedule* schedule : { &chain, &apart })
   {
     for (Executor* executor : std::initializer_list<Executor*>{ &sequential, &three, &five })
@@ -259,7 +272,7 @@ TEST(VisitSchedule, HandsOnWhatAVisitThrows)
         try
         {
           schedule->Run(*executor,
-            [&](int item, std::size_t, Executor&)
+            [&](int item)
             {
               ++begun;
               ++underWay;
@@ -283,4 +296,98 @@ TEST(VisitSchedule, HandsOnWhatAVisitThrows)
       }
     }
   }
+}
+
+TEST(VisitSchedule, IdleThreadsShareTheLoopsOfAVisit)
+{
+  Executor threads(3);
+  std::set<std::thread::id> seen;
+  std::mutex mutex;
+  const auto count = [&]
+  {
+    const std::lock_guard<std::mutex> lock(mutex);
+    seen.insert(std::this_thread::get_id());
+    return seen.size();
+  };
+  ChainOf(3).Run(threads,
+    [&](int)
+    {
+      threads.For(30, 1, [&](std::size_t, std::size_t) { HasCome([&] { return count() == 3; }); });
+    },
+    Always);
+  EXPECT_EQ(seen.size(), 3u);
+}
+
+TEST(VisitSchedule, CompletesTheLoopsOfVisitsUnderWayWhenAnotherFails)
+{
+  Executor threads(3);
+  std::atomic<bool> isInLoop{ false };
+  std::atomic<int> done{ 0 };
+  EXPECT_THROW(Apart(2).Run(threads,
+                 [&](int item)
+                 {
+                   if (item == 0)
+                   {
+                     HasCome([&] { return isInLoop.load(); });
+                     throw std::runtime_error("bad");
+                   }
+                   threads.For(400, 1,
+                     [&](std::size_t begin, std::size_t end)
+                     {
+                       isInLoop = true;
+                       std::this_thread::sleep_for(std::chrono::microseconds(200));
+                       done += static_cast<int>(end - begin);
+                     });
+                 },
+                 Always),
+    std::runtime_error);
+  EXPECT_EQ(done, 400);
+}
+
+TEST(VisitSchedule, CancelsAfterTheVisitAtWhichItIsRequested)
+{
+  const VisitSchedule schedule = Apart(50);
+  Executor thread;
+  for (const std::size_t last : { 1, 7, 49 })
+  {
+    std::size_t visits = 0;
+    std::vector<std::size_t> asked;
+    EXPECT_FALSE(schedule.Run(thread, [&visits](int) { ++visits; },
+      [&](std::size_t done)
+      {
+        asked.push_back(done);
+        return done != last;
+      }));
+    EXPECT_EQ(visits, last);
+    std::vector<std::size_t> each(last);
+    std::iota(each.begin(), each.end(), std::size_t(1));
+    EXPECT_EQ(asked, each) << "once after each visit, and not again";
+  }
+}
+
+TEST(VisitSchedule, CancelsOnThreads)
+{
+  constexpr int n = 50000; // More than can be made before the request, on a machine however slow.
+  Executor threads(4);
+  const std::thread::id caller = std::this_thread::get_id();
+  std::atomic<int> visits{ 0 };
+  std::atomic<int> underWay{ 0 };
+  int asked = 0;
+  EXPECT_FALSE(Apart(n).Run(threads,
+    [&](int)
+    {
+      ++visits;
+      ++underWay;
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      --underWay;
+    },
+    [&](std::size_t)
+    {
+      EXPECT_EQ(std::this_thread::get_id(), caller);
+      return ++asked < 3;
+    }));
+  EXPECT_EQ(asked, 3) << "not asked again";
+  EXPECT_EQ(underWay, 0);
+  EXPECT_GE(visits, 3);
+  EXPECT_LT(visits, n);
 }

@@ -74,7 +74,7 @@ void ExpectSound(const SweptRun& run)
 
 TEST(Visits, MakeTheSurfaceOfOneBlock)
 {
-  SequentialExecutor thread;
+  Executor thread;
   Monitor monitor;
   const SweptRun expected(InBlocksOf(1000.), thread, monitor);
   const double volume = EnclosedVolume(expected.Mesh(), thread);
@@ -122,7 +122,7 @@ TEST(Visits, MakeTheSameRunOnThreadsThatAreHeldUp)
     EXPECT_GT(run.Enclosed, 0);
     return hash;
   };
-  SequentialExecutor thread;
+  Executor thread;
   const std::uint64_t alone = made(thread);
   for (const int threads : { 2, 3, 7 })
   {
@@ -143,7 +143,7 @@ struct Wilderness
         0.02 * std::abs(x - 55.);
     });
   SurfaceOptions Options = IsoHalf();
-  SequentialExecutor Thread;
+  Executor Thread;
   Field TheField{ this->Volume.Image, this->Options, this->Thread };
   Dynamics Motion{ this->TheField, this->Options, this->Thread };
   SurfaceState State;

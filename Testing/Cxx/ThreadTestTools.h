@@ -3,8 +3,10 @@
 #ifndef volumicThreadTestTools_h
 #define volumicThreadTestTools_h
 
-#include "Core/Common/StandardThreads.h"
+#include "Core/Common/Executor.h"
 #include "TestPrelude.h"
+
+#include <tbb/global_control.h>
 
 #include <atomic>
 #include <chrono>
@@ -12,6 +14,25 @@
 
 namespace volumic
 {
+/** Tests use more threads than the machine may have processors. */
+inline const tbb::global_control ManyThreads(tbb::global_control::max_allowed_parallelism, 8);
+
+/** Waits for something that is sure to come; @return whether it has, on a machine however slow. */
+template <typename Condition>
+bool HasCome(const Condition& condition)
+{
+  const auto start = std::chrono::steady_clock::now();
+  while (!condition())
+  {
+    if (std::chrono::steady_clock::now() - start > std::chrono::seconds(20))
+    {
+      return false;
+    }
+    std::this_thread::yield();
+  }
+  return true;
+}
+
 /**
  * Threads that are held up by chance, before every item or now and then, so that what they do comes
  * in another order at each call.
@@ -21,7 +42,7 @@ class DelayedThreads final : public Executor
 public:
   /** @param longest delay in microseconds; one in `every` items is delayed. */
   DelayedThreads(int numberOfThreads, unsigned seed, unsigned longest, unsigned every = 1)
-    : Threads(numberOfThreads)
+    : Executor(numberOfThreads)
     , State(seed)
     , Longest(longest)
     , Every(every)
@@ -32,7 +53,7 @@ public:
     const std::function<void(std::size_t, std::size_t)>& body) override
   {
     // As many chunks as may be, whatever the grain.
-    this->Threads.For((n + grain - 1) / grain, 1,
+    this->Executor::For((n + grain - 1) / grain, 1,
       [&](std::size_t begin, std::size_t end)
       {
         for (std::size_t chunk = begin; chunk < end; ++chunk)
@@ -53,10 +74,29 @@ private:
     }
   }
 
-  StandardThreads Threads;
   std::atomic<std::uint32_t> State;
   unsigned Longest;
   unsigned Every;
+};
+
+/** Hands out ranges as scheduling might: short ones, last first. */
+class ScrambledExecutor final : public Executor
+{
+public:
+  explicit ScrambledExecutor(std::size_t chunk) : Chunk(chunk) {}
+  void For(
+    std::size_t n, std::size_t, const std::function<void(std::size_t, std::size_t)>& body) override
+  {
+    for (std::size_t end = n; end > 0;)
+    {
+      const std::size_t begin = end > this->Chunk ? end - this->Chunk : 0;
+      body(begin, end);
+      end = begin;
+    }
+  }
+
+private:
+  std::size_t Chunk;
 };
 
 /** FNV-1a of the bytes of some values. */

@@ -5,62 +5,73 @@
 
 #include "Core/Common/Executor.h"
 
-#include <algorithm>
+#include <atomic>
 #include <chrono>
-#include <cstddef>
-#include <functional>
+#include <thread>
 #include <utility>
 
 namespace volumic
 {
-/** What AskingExecutor throws: the run is to stop. */
+/** What AskingExecutor throws to cancel a run. */
 struct StoppedWork
 {
 };
 
 /**
- * Has another executor do its work bit by bit, and asks in between, on the calling thread, whether
- * to go on: several times a second, if the work is cut into enough parts. Else it throws
- * StoppedWork, with parts not done. Results do not depend on it.
+ * Check for cancellation within the loops of another executor, several times a second, on the thread
+ * that has constructed it. If `goOn` returns false, For() throws StoppedWork and skips what has not
+ * begun. Results do not depend on it.
  */
 class AskingExecutor final : public Executor
 {
 public:
   AskingExecutor(Executor& executor, std::function<bool()> goOn)
-    : Inner(executor), GoOn(std::move(goOn))
+    : Executor(executor)
+    , Inner(executor)
+    , GoOn(std::move(goOn))
   {
   }
 
   void For(std::size_t n, std::size_t grain,
     const std::function<void(std::size_t begin, std::size_t end)>& body) override
   {
-    for (std::size_t first = 0; first < n;)
-    {
-      const auto start = std::chrono::steady_clock::now();
-      const std::size_t count = std::min(this->Batch * std::max<std::size_t>(grain, 1), n - first);
-      this->Inner.For(count, grain,
-        [&](std::size_t begin, std::size_t end) { body(first + begin, first + end); });
-      first += count;
-      if (!this->GoOn())
+    ForSpans(this->Inner, n, std::max<std::size_t>(grain, 1),
+      [&](std::size_t, std::size_t begin, std::size_t end)
       {
-        throw StoppedWork();
-      }
-      const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
-      this->Batch = taken.count() < Least ? std::min(2 * this->Batch, ManyParts)
-        : taken.count() > Most            ? std::max<std::size_t>(this->Batch / 2, FewParts)
-                                          : this->Batch;
-    }
+        if (this->IsStopped)
+        {
+          return;
+        }
+        body(begin, end);
+        if (std::this_thread::get_id() == this->Caller)
+        {
+          this->Ask();
+        }
+      });
   }
 
 private:
-  static constexpr std::size_t FewParts = 16; ///< enough for threads to share
-  static constexpr std::size_t ManyParts = 1 << 20;
-  static constexpr double Least = 0.05;       ///< seconds
-  static constexpr double Most = 0.2;
+  using Clock = std::chrono::steady_clock;
+
+  void Ask()
+  {
+    const Clock::time_point now = Clock::now();
+    if (now - this->Last >= std::chrono::milliseconds(100))
+    {
+      this->Last = now;
+      if (!this->GoOn())
+      {
+        this->IsStopped = true;
+        throw StoppedWork();
+      }
+    }
+  }
 
   Executor& Inner;
   std::function<bool()> GoOn;
-  std::size_t Batch = FewParts;
+  std::thread::id Caller = std::this_thread::get_id();
+  Clock::time_point Last = Clock::now();
+  std::atomic<bool> IsStopped{ false };
 };
 }
 

@@ -6,48 +6,59 @@
 #include <algorithm>
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <numeric>
 #include <vector>
 
 namespace volumic
 {
 /**
- * A parallel for, so that the core needs no threading library of its own.
+ * Parallel loops on the threads of oneTBB, in an arena that limits how many work at the same time.
  *
- * Contract: For() calls `body(begin, end)` on ranges that cover [0, n) exactly once, in any
- * order, on any threads, and returns when all are done. The bodies that the core hands in write
- * to disjoint places only and reduce in fixed spans, so the chunks an implementation chooses
- * never change a result. For() may be called for small n: run those without threads.
- * An exception thrown by `body` must leave For() on the calling thread.
+ * The bodies write to disjoint locations and reduce in fixed spans. Results therefore do not depend
+ * on the chunks nor on the number of threads. Loops may be nested: threads without work of their own
+ * take chunks of any loop. A thread that waits for a loop takes chunks of that loop only.
  */
 class Executor
 {
 public:
-  virtual ~Executor() = default;
+  /**
+   * @param numberOfThreads includes the calling thread. With 1 no thread is created. TBB may supply
+   *        fewer, because it has one thread per processor for all arenas of a process.
+   */
+  explicit Executor(int numberOfThreads = 1);
+  virtual ~Executor();
 
-  /** @param grain the number of items under which a chunk is not worth a thread */
+  int NumberOfThreads() const { return this->Number; }
+
+  /**
+   * Call `body(begin, end)` on ranges that cover [0, n) exactly once, in any order, on any threads,
+   * and return when all calls have ended. The first exception of a body skips the ranges that have
+   * not begun and is rethrown on the calling thread.
+   * @param grain the number of items under which a chunk is not worth a thread
+   */
   virtual void For(std::size_t n, std::size_t grain,
-    const std::function<void(std::size_t begin, std::size_t end)>& body) = 0;
+    const std::function<void(std::size_t begin, std::size_t end)>& body);
+
+  /** Call `work` such that TBB's algorithms use these threads. Requires more than one thread. */
+  void Execute(const std::function<void()>& work);
+
+protected:
+  /** A copy shares the arena. */
+  Executor(const Executor& other) = default;
+  Executor& operator=(const Executor&) = delete;
+
+private:
+  class Arena;
+
+  int Number;
+  std::shared_ptr<Arena> Threads; ///< Null for a single thread.
 };
 
-/** The default: everything on the calling thread, in order. */
-class SequentialExecutor final : public Executor
-{
-public:
-  void For(std::size_t n, std::size_t,
-    const std::function<void(std::size_t begin, std::size_t end)>& body) override
-  {
-    if (n > 0)
-    {
-      body(0, n);
-    }
-  }
-};
-
-/** For work that is too small for threads, or has none to ask. */
+/** For work that is too small for threads. */
 inline Executor& OnThisThread()
 {
-  static SequentialExecutor executor;
+  static Executor executor;
   return executor;
 }
 

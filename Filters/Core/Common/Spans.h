@@ -66,69 +66,6 @@ std::vector<T> Joined(Executor& executor, std::vector<std::vector<T>>& lists)
   Concatenate(executor, lists, all);
   return all;
 }
-
-namespace detail
-{
-/**
- * How many of the first `count` items of two sorted ranges, merged, come from the left one; of
- * equal ones those on the left come first.
- */
-template <typename Iterator>
-std::ptrdiff_t CountOfLeft(Iterator left, std::ptrdiff_t lefts, Iterator right,
-  std::ptrdiff_t rights, std::ptrdiff_t count)
-{
-  std::ptrdiff_t low = std::max<std::ptrdiff_t>(0, count - rights);
-  std::ptrdiff_t high = std::min(count, lefts);
-  while (low < high)
-  {
-    const std::ptrdiff_t middle = low + (high - low) / 2;
-    if (right[count - middle - 1] < left[middle])
-    {
-      high = middle;
-    }
-    else
-    {
-      low = middle + 1;
-    }
-  }
-  return low;
-}
-}
-
-/**
- * std::sort by threads, for values of which equal ones are alike: sorted in spans, which are then
- * merged by twos. Needs as much memory again.
- */
-template <typename T, typename Allocator>
-void SortInSpans(
-  Executor& executor, std::vector<T, Allocator>& values, std::size_t size = 1 << 15)
-{
-  const std::size_t n = values.size();
-  const auto at = [](std::vector<T, Allocator>& list, std::size_t i)
-  { return list.begin() + static_cast<std::ptrdiff_t>(i); };
-  ForSpans(executor, n, size, [&](std::size_t, std::size_t begin, std::size_t end)
-    { std::sort(at(values, begin), at(values, end)); });
-  std::vector<T, Allocator> merged(n > size ? n : 0);
-  for (std::size_t width = size; width < n; width *= 2)
-  {
-    // Each span of what is merged is made of parts of two sorted ranges.
-    ForSpans(executor, n, size,
-      [&](std::size_t, std::size_t begin, std::size_t end)
-      {
-        const std::size_t first = begin / (2 * width) * (2 * width);
-        const auto left = at(values, first);
-        const auto right = at(values, std::min(first + width, n));
-        const auto last = at(values, std::min(first + 2 * width, n));
-        const auto from = static_cast<std::ptrdiff_t>(begin - first);
-        const auto to = static_cast<std::ptrdiff_t>(end - first);
-        const std::ptrdiff_t a = detail::CountOfLeft(left, right - left, right, last - right, from);
-        const std::ptrdiff_t b = detail::CountOfLeft(left, right - left, right, last - right, to);
-        std::merge(
-          left + a, left + b, right + (from - a), right + (to - b), at(merged, begin));
-      });
-    values.swap(merged);
-  }
-}
 }
 
 #endif

@@ -11,9 +11,6 @@
 
 namespace volumic
 {
-/** Makes the visit of an item, at its place in the order of a schedule: see VisitSchedule::Run. */
-using VisitBody = std::function<void(int item, std::size_t place, Executor& idle)>;
-
 /**
  * Items that are visited once each, where some touch: those that do are visited one after the other,
  * in a fixed order, all others at the same time. What comes of it is what one thread alone would
@@ -35,24 +32,19 @@ public:
   /** The items in their order. */
   const std::vector<int>& Order() const { return this->Items; }
   /**
-   * Calls visit(item, place in the order, idle) for all, on the threads of an executor, and returns
-   * when all are done. By `idle` a visit shares out what it has to do with the threads that find no
-   * visit to make at the time; where there are none it does all itself.
-   * An exception of a visit ends it; others that are under way are finished first.
-   * @param goOn asked with how many are done, by the calling thread: after each visit that it makes,
-   *             or several times a second; false ends it
-   * @return whether nothing asked to end it
+   * Call visit(item) for all items on the threads of an executor, and return when all calls have
+   * ended. The first exception of a visit is rethrown after the visits under way have ended.
+   * @param goOn called with the number of visits done, on the calling thread, after each visit that
+   *             this thread makes; false skips the visits that have not begun
+   * @return whether goOn has always returned true
    */
-  bool Run(Executor& executor, const VisitBody& visit,
+  bool Run(Executor& executor, const std::function<void(int item)>& visit,
     const std::function<bool(std::size_t done)>& goOn) const;
 
 private:
-  class Progress;
-
   std::vector<int> Items;
-  std::vector<int> Place;    ///< Of an item in the order.
-  std::vector<int> Earlier;  ///< Of an item: how many of those it touches come before it.
-  std::vector<std::vector<int>> Later; ///< Of an item: those that it touches and that come after.
+  std::vector<int> Earlier; ///< By place in the order: how many of those it touches come before it.
+  std::vector<std::vector<int>> Later; ///< By place: the places of those that come after it.
 };
 }
 

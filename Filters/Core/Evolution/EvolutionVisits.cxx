@@ -80,14 +80,13 @@ void VisitBlocks(
   e.State.Counts = EditCounts();
   e.Blocks->Prepare(e.Threads);
   std::mutex counting;
-  const auto visitBlock = [&](int block, std::size_t, Executor& idle)
+  const auto visitBlock = [&](int block)
   {
     if (sweep.OnlyActive && !e.Blocks->HasActive(block))
     {
       return;
     }
     BlockVisit opened = e.Blocks->Open(block);
-    opened.Idle = &idle;
     {
       const std::lock_guard<std::mutex> lock(counting);
       opened.Large = e.Components.Large();
@@ -124,7 +123,7 @@ void RunSweep(Evolution& e)
   VisitBlocks(e, { Monitor::Activity::Iterating, 0., static_cast<double>(iterations) },
     [&](BlockVisit& visit)
     {
-      SurfaceIteration iteration(s, visit, evidence, options.TopologyChanges);
+      SurfaceIteration iteration(s, visit, evidence, options.TopologyChanges, e.Threads);
       std::vector<HistoryRow> rows;
       for (int i = 0; i < iterations; ++i)
       {
@@ -155,7 +154,7 @@ void Relax(Evolution& e, SurfaceIteration::Mode mode, int iterations, const Swee
   VisitBlocks(e, sweep,
     [&](BlockVisit& visit)
     {
-      SurfaceIteration iteration(s, visit, e.TheField.get(), false);
+      SurfaceIteration iteration(s, visit, e.TheField.get(), false, e.Threads);
       for (int i = 0; i < iterations; ++i)
       {
         for (int v = visit.First; v < visit.End(); ++v)

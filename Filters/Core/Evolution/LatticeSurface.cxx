@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Evolution/LatticeSurface.h"
 
+#include "Core/Common/Sort.h"
 #include "Core/Common/Spans.h"
 #include "Core/Interfaces/DistanceLattice.h"
 #include "Core/Mesh/ObliqueRotation.h"
@@ -46,7 +47,7 @@ public:
       this->Rows.AddCrossings(
         { surface.Points[t[0]], surface.Points[t[1]], surface.Points[t[2]] }, this->Crossings);
     }
-    SortInSpans(executor, this->Crossings);
+    Sort(executor, this->Crossings);
   }
 
   /** Finds the inside points of a layer. Call it in order, from the layer 0 on. */

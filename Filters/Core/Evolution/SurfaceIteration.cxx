@@ -34,10 +34,11 @@ const Dynamics::Relaxation& RelaxationOf(SurfaceIteration::Mode mode)
 }
 }
 
-SurfaceIteration::SurfaceIteration(
-  SurfaceState& state, BlockVisit& visit, const Field* evidence, bool topologyChanges)
+SurfaceIteration::SurfaceIteration(SurfaceState& state, BlockVisit& visit, const Field* evidence,
+  bool topologyChanges, Executor& threads)
   : State(state)
   , Visit(visit)
+  , Threads(threads)
   , Edits(state, evidence, topologyChanges, &visit.Share)
 {
   SurfaceState& s = this->State;
@@ -56,7 +57,7 @@ SurfaceIteration::SurfaceIteration(
       crowded.push_back(v);
     }
   }
-  this->Near.Examine(s, this->Suspects, *visit.Idle);
+  this->Near.Examine(s, this->Suspects, threads);
   this->Near.AddPairs(s, crowded);
   this->Watch.LabelSmall(s, visit.First, visit.End(), visit.Written, visit.Large);
   this->Labelled = visit.Share.Counts;
@@ -340,26 +341,25 @@ HistoryRow SurfaceIteration::Run(const Dynamics& dynamics, Mode mode)
 void SurfaceIteration::Move(const Dynamics& dynamics, Mode mode)
 {
   SurfaceState& s = this->State;
-  Executor& idle = *this->Visit.Idle;
   const bool evolves = mode == Mode::Evolve;
   if (evolves)
   {
-    dynamics.Accelerate(s, this->Active, this->Near.Pairs(), this->Step, idle);
+    dynamics.Accelerate(s, this->Active, this->Near.Pairs(), this->Step, this->Threads);
   }
   else
   {
     dynamics.Relax(
-      s, this->Active, this->Near.Pairs(), RelaxationOf(mode), this->Step, idle);
+      s, this->Active, this->Near.Pairs(), RelaxationOf(mode), this->Step, this->Threads);
   }
 
   dynamics.Displace(s, this->Active, this->Step);
   this->CollectWorking();
-  s.UpdateShape(this->Working, idle);
+  s.UpdateShape(this->Working, this->Threads);
 
   this->SplitBeforeVerification();
 
   this->CollectSuspects();
-  this->Near.Examine(s, this->Suspects, idle);
+  this->Near.Examine(s, this->Suspects, this->Threads);
   this->RollBack();
   if (evolves)
   {

@@ -19,9 +19,9 @@ namespace volumic
  * The iterations of a visit: velocities, displacement, splits, verification with roll back, merges
  * and cuts, the other edits, components that must go. It keeps what one iteration tells the next:
  * which pairs of vertices are close, which components are small. Before and after each call the
- * surface is closed, oriented, manifold and, under the bound below, free of intersections. Sequential, but for forces,
- * shapes and the search for what is near, in which idle threads share (BlockVisit::Idle); others may
- * be at work in visits of blocks that do not touch this one.
+ * surface is closed, oriented, manifold and, under the bound below, free of intersections.
+ * Sequential, but for forces, shapes and the search for what is near, in which idle threads share;
+ * others may be at work in visits of blocks that do not touch this one.
  *
  * Why it stays free of them, by what changes the mesh:
  * - Splits change no place of the surface, but for rounding, less than SizingField::Contact. They
@@ -60,8 +60,8 @@ public:
    * may write.
    * @param evidence, topologyChanges see Remesher
    */
-  SurfaceIteration(
-    SurfaceState& state, BlockVisit& visit, const Field* evidence, bool topologyChanges);
+  SurfaceIteration(SurfaceState& state, BlockVisit& visit, const Field* evidence,
+    bool topologyChanges, Executor& threads = OnThisThread());
   ~SurfaceIteration();
   SurfaceIteration(const SurfaceIteration&) = delete;
   SurfaceIteration& operator=(const SurfaceIteration&) = delete;
@@ -94,6 +94,7 @@ private:
 
   SurfaceState& State;
   BlockVisit& Visit;
+  Executor& Threads;
   Remesher Edits;
   Proximity Near;    ///< Of all; keeps the pairs.
   Proximity Recheck; ///< Of what has been rolled back.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Interfaces/FaceCubes.h"
 
+#include "Core/Common/Sort.h"
 #include "Core/Common/Spans.h"
 
 #include <algorithm>
@@ -73,7 +74,7 @@ FaceCubes::FaceCubes(const InterfaceMesh& mesh, const InterfaceClearance& cleara
       }
     });
   std::vector<Place> places = Joined(executor, ofSpans);
-  SortInSpans(executor, places);
+  Sort(executor, places);
   this->Faces.reserve(places.size());
   for (std::size_t n = 0; n < places.size(); ++n)
   {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Interfaces/InterfaceCrossings.h"
 
+#include "Core/Common/Sort.h"
 #include "Core/Common/Spans.h"
 #include "Core/Interfaces/InterfaceClearance.h"
 
@@ -41,7 +42,7 @@ public:
     InterfaceCrossings found;
     found.Pairs = Joined(this->Threads, pairs);
     found.Doubtful = Joined(this->Threads, doubtful);
-    SortInSpans(this->Threads, found.Doubtful);
+    Sort(this->Threads, found.Doubtful);
     found.Doubtful.erase(
       std::unique(found.Doubtful.begin(), found.Doubtful.end()), found.Doubtful.end());
     return found;

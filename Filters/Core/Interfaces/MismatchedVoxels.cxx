@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Interfaces/MismatchedVoxels.h"
 
+#include "Core/Common/Sort.h"
 #include "Core/Common/Spans.h"
 #include "Core/Interfaces/InterfaceClearance.h"
 #include "Core/Mesh/RowCrossing.h"
@@ -97,7 +98,7 @@ private:
         }
       });
     this->Crossings = Joined(this->Threads, ofSpans);
-    SortInSpans(this->Threads, this->Crossings);
+    Sort(this->Threads, this->Crossings);
   }
 
   void FollowRow(int j, int k, std::vector<MismatchedVoxel>& found) const

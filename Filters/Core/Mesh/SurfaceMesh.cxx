@@ -5,6 +5,7 @@
 #include "Core/Common/Box.h"
 #include "Core/Common/Grow.h"
 #include "Core/Common/Refuse.h"
+#include "Core/Common/Sort.h"
 #include "Core/Common/Spans.h"
 
 #include <algorithm>
@@ -433,7 +434,7 @@ std::vector<int> SpaceFillingOrder(const SurfaceMesh& mesh, double cell, Executo
         }
       }
     });
-  SortInSpans(executor, keys);
+  Sort(executor, keys);
   std::vector<int> order(keys.size());
   ForSpans(executor, keys.size(), VertexSpan,
     [&](std::size_t, std::size_t begin, std::size_t end)

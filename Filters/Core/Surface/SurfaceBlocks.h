@@ -29,8 +29,6 @@ struct BlockVisit
   Box Moving;    ///< Vertices that lie in it may move; EditShare::Region is for edits.
   Box Written;   ///< Beyond it nothing is changed.
   EditShare Share;
-  /** Threads that may share in loops that write to their own vertex only, and read nothing such. */
-  Executor* Idle = &OnThisThread();
   LargeComponents Large; ///< At its begin.
 
   /** Some places of the range may be without a vertex. */

@@ -20,7 +20,7 @@ constexpr std::size_t AliveGrain = 1 << 14;
 
 void SurfaceState::Reset(const Vector& low, const Vector& high)
 {
-  SequentialExecutor thread;
+  Executor thread;
   this->Reset(low, high, thread);
 }
 

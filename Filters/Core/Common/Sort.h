@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef volumicSort_h
+#define volumicSort_h
+
+#include "Core/Common/Executor.h"
+
+#include <tbb/parallel_sort.h>
+
+namespace volumic
+{
+/** std::sort on threads, for values that are interchangeable if equal. Not within a loop's body. */
+template <typename Values>
+void Sort(Executor& executor, Values& values)
+{
+  if (executor.NumberOfThreads() == 1)
+  {
+    std::sort(values.begin(), values.end());
+    return;
+  }
+  executor.Execute([&values] { tbb::parallel_sort(values.begin(), values.end()); });
+}
+}
+
+#endif

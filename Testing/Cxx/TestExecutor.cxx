@@ -1,0 +1,150 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Common/AskingExecutor.h"
+#include "Core/Common/Sort.h"
+#include "ThreadTestTools.h"
+
+#include <mutex>
+#include <new>
+
+using namespace volumic;
+
+TEST(Executor, CoversEveryItemOnce)
+{
+  Executor threads(4);
+  ASSERT_EQ(threads.NumberOfThreads(), 4);
+  for (const std::size_t n : { 0, 1, 3, 100, 12345 })
+  {
+    for (const std::size_t grain : { 1, 7, 20000 })
+    {
+      std::vector<std::atomic<int>> done(n);
+      threads.For(n, grain,
+        [&](std::size_t begin, std::size_t end)
+        {
+          for (std::size_t i = begin; i < end; ++i)
+          {
+            ++done[i];
+          }
+        });
+      for (std::size_t i = 0; i < n; ++i)
+      {
+        ASSERT_EQ(done[i], 1) << i << " of " << n << ", grain " << grain;
+      }
+    }
+  }
+}
+
+TEST(Executor, UsesAsManyThreadsAsRequestedAndNoMore)
+{
+  for (const std::size_t number : { 1, 3 })
+  {
+    Executor threads(static_cast<int>(number));
+    std::mutex mutex;
+    std::set<std::thread::id> seen;
+    const auto count = [&]
+    {
+      const std::lock_guard<std::mutex> lock(mutex);
+      seen.insert(std::this_thread::get_id());
+      return seen.size();
+    };
+    // The first items wait for all threads.
+    threads.For(300, 1, [&](std::size_t, std::size_t) { HasCome([&] { return count() >= number; }); });
+    EXPECT_EQ(seen.size(), number);
+  }
+}
+
+TEST(Executor, RethrowsExceptionsAndContinues)
+{
+  Executor threads(3);
+  for (const std::size_t bad : { 0, 50, 99 })
+  {
+    const auto body = [bad](std::size_t begin, std::size_t end)
+    {
+      if (begin <= bad && bad < end)
+      {
+        throw std::runtime_error("bad " + std::to_string(bad));
+      }
+    };
+    try
+    {
+      threads.For(100, 1, body);
+      FAIL() << "no exception";
+    }
+    catch (const std::runtime_error& error)
+    {
+      EXPECT_EQ(error.what(), "bad " + std::to_string(bad));
+    }
+  }
+  const auto everywhere = [](std::size_t, std::size_t) { throw std::bad_alloc(); };
+  EXPECT_THROW(threads.For(100, 1, everywhere), std::bad_alloc);
+  std::atomic<int> done{ 0 };
+  threads.For(100, 1, [&](std::size_t begin, std::size_t end) { done += int(end - begin); });
+  EXPECT_EQ(done, 100);
+}
+
+TEST(Executor, CompletesLoopsWithinBodiesWhenAnotherBodyFails)
+{
+  Executor threads(3);
+  std::atomic<int> incomplete{ 0 };
+  EXPECT_THROW(threads.For(30, 1,
+                 [&](std::size_t begin, std::size_t)
+                 {
+                   if (begin == 2)
+                   {
+                     throw std::runtime_error("bad");
+                   }
+                   std::atomic<int> done{ 0 };
+                   threads.For(200, 1,
+                     [&](std::size_t first, std::size_t last)
+                     {
+                       std::this_thread::sleep_for(std::chrono::microseconds(50));
+                       done += int(last - first);
+                     });
+                   incomplete += done != 200;
+                 }),
+    std::runtime_error);
+  EXPECT_EQ(incomplete, 0);
+}
+
+TEST(Executor, Sorts)
+{
+  std::mt19937 random(3);
+  std::vector<std::uint32_t> values(100000);
+  std::generate(values.begin(), values.end(), std::ref(random));
+  std::vector<std::uint32_t> expected = values;
+  std::sort(expected.begin(), expected.end());
+  for (const int number : { 1, 3 })
+  {
+    Executor threads(number);
+    std::vector<std::uint32_t> sorted = values;
+    Sort(threads, sorted);
+    EXPECT_EQ(sorted, expected);
+  }
+}
+
+TEST(AskingExecutor, CancelsOnTheCallingThread)
+{
+  for (const int number : { 1, 3 })
+  {
+    Executor threads(number);
+    const std::thread::id caller = std::this_thread::get_id();
+    int asked = 0;
+    AskingExecutor asking(threads,
+      [&]
+      {
+        EXPECT_EQ(std::this_thread::get_id(), caller);
+        return ++asked < 3;
+      });
+    constexpr int n = 100000; // More than can be done in a test.
+    std::atomic<int> done{ 0 };
+    const auto body = [&](std::size_t begin, std::size_t end)
+    {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      done += int(end - begin);
+    };
+    EXPECT_THROW(asking.For(n, 1, body), StoppedWork);
+    EXPECT_EQ(asked, 3);
+    EXPECT_GT(done, 3);
+    EXPECT_LT(done, n);
+  }
+}
