@@ -105,12 +105,9 @@ class Scan(pictures.Scan):
 
 
 def iterations(surface):
-    """(level, number of iterations, seconds of them) of a run, in the order of the levels."""
-    history = surface.GetHistory()
-    levels, seconds = (vtk_to_numpy(history.GetColumnByName(name))
-                       for name in ("Level", "Seconds"))
-    return [(int(level), int((levels == level).sum()), float(seconds[levels == level].sum()))
-            for level in dict.fromkeys(levels.tolist())]
+    """(level, number of iterations) of a run, in the order of the levels."""
+    levels = vtk_to_numpy(surface.GetHistory().GetColumnByName("Level"))
+    return [(int(level), int((levels == level).sum())) for level in dict.fromkeys(levels.tolist())]
 
 
 def starts(surface):
@@ -203,7 +200,7 @@ def evolution(skull):
 def stages_by_level(surface):
     """The start, and the surface at rest on each level, with the iterations until then."""
     blocks = dict(visited_levels(surface.GetLevels()))
-    counts = [(level, count) for level, count, _ in iterations(surface)]
+    counts = iterations(surface)
     stages = [(f"Level {counts[0][0]}, iteration 0", starts(surface)[counts[0][0]])]
     total = 0
     for level, count in counts:
@@ -233,7 +230,7 @@ def interfaces(_):
 
 def all_levels_row(surface, coarsest, frame, bounds):
     """Panels and captions of all levels from the coarsest, empty where there is no surface."""
-    counts = {level: count for level, count, _ in iterations(surface)}
+    counts = dict(iterations(surface))
     there = {level: (f"Level {level}, {counts[level]} iterations", block)
              for level, block in visited_levels(surface.GetLevels())}
     panels, captions = surface_row(there.values(), frame, bounds, panel_width(coarsest + 1), zoom=1)

@@ -9,6 +9,7 @@ import itertools
 import json
 import os
 import re
+import resource
 import signal
 import subprocess
 import sys
@@ -67,6 +68,15 @@ def make_image(voxels, spacing=SPACING, origin=ORIGIN, direction=np.eye(3)):
     image.SetDirectionMatrix(np.ravel(direction))
     image.GetPointData().SetScalars(scalars)
     return image
+
+
+def largest_file(size):
+    """A preexec_fn of subprocess, which needs no rights: writing beyond the size is an error there, as
+    on a full disk."""
+    def limit():
+        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
+    return limit
 
 
 class CommandTestCase(FolderTestCase):

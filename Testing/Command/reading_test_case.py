@@ -1,10 +1,9 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
 """Tests of volumic.reading in this process: each file is read, or refused in one line that names
-it, in a few seconds and little memory."""
+it, in a few seconds."""
 
 import os
-import resource
 import sys
 import time
 import warnings
@@ -17,7 +16,7 @@ from command_test_case import ORIGIN, SPACING, ball
 from folder_test_case import FolderTestCase
 from volumic import reading
 
-SECONDS, MEMORY = 20, 1 << 30  # of the processor; above what the process has
+SECONDS = 20  # of the processor
 
 
 def noisy_ball(dtype="i2"):
@@ -81,11 +80,3 @@ class ReadingTestCase(FolderTestCase):
             damaged[place] ^= 1 << int(generator.integers(8))
             with self.subTest(name, place=place):
                 self.refused(name, "damaged|cut off|more than|too long|no main", damaged)
-
-    def little_memory(self):
-        """Limit the memory of this process for the rest of the test."""
-        with open("/proc/self/statm", encoding="ascii") as file:
-            used = int(file.read().split()[0]) * resource.getpagesize()
-        before = resource.getrlimit(resource.RLIMIT_AS)
-        resource.setrlimit(resource.RLIMIT_AS, (used + MEMORY, before[1]))
-        self.addCleanup(resource.setrlimit, resource.RLIMIT_AS, before)

@@ -19,8 +19,8 @@ from volumic import writing
 from volumic.errors import Failure
 from volumic.writing import files, surfaces
 
-from limited_files import largest_file
-from command_test_case import ISO, PROGRAM, CommandTestCase, ball, make_image
+from command_test_case import (
+    ISO, PROGRAM, CommandTestCase, ball, largest_file, make_image)
 from vtk_files import points_of, read, triangles_of
 
 SURFACES = ("vtk", "vtp", "stl", "ply", "obj", "glb", "3mf", "msh", "smesh", "poly")

@@ -10,9 +10,9 @@ import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 
-from limited_files import largest_file
 from command_test_case import (
-    ORIGIN, SIZE, SPACING, TURNED, CommandTestCase, ball, make_image, nrrd_header)
+    ORIGIN, SIZE, SPACING, TURNED, CommandTestCase, ball, largest_file, make_image,
+    nrrd_header)
 
 from vtk_files import read
 

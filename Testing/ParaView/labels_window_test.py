@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Labels to Surfaces in ParaView's window: the table of labels, Apply, errors, another input; and File >
-Export Surfaces, a file for each label that is shown."""
+"""Labels to Surfaces in ParaView's window: the table of labels, Apply, errors, another input; File >
+Export Surfaces, a file for each label that is shown; and File > Open by the readers of Volumic."""
 
 import os
 import re
@@ -12,6 +12,7 @@ import numpy
 import gui_session as gui
 import label_maps
 import plugin_testing as testing
+import volume_reader_test as files
 import window_testing as window
 from label_maps import NAMES
 from window_testing import (
@@ -193,3 +194,39 @@ class ExportWindowTest(window.WindowTestCase):
         return [gui.event(ENTRY, "activate", "actionExportSurfaces"),
                 gui.event(f"{gui.WINDOW}/ExportSurfacesDialog", "filesSelected", file),
                 self.session.add_code(WRITTEN.format(folder=os.path.dirname(file), count=count))]
+
+
+TELL_THE_READER = """
+from paraview import simple
+reader = simple.GetActiveSource()
+print("Reader:", reader.GetXMLName(), reader.GetDataInformation().GetExtent())
+"""
+# ParaView asks which of the readers for the file it is to take.
+DIALOG = f"{gui.WINDOW}/pqSelectReaderDialog"
+
+
+def choose_reader(row):
+    """In the order of the labels Volumic's is behind ParaView's own, of DICOM two."""
+    return [gui.event(f"{DIALOG}/listWidget", "mousePress", f"1,1,0,20,9,/{row}:0"),
+            gui.event(f"{DIALOG}/listWidget", "mouseRelease", f"1,0,0,20,9,/{row}:0"),
+            gui.event(f"{DIALOG}/okButton", "activate"), gui.pause(1000)]
+
+
+class VolumeReaderWindowTest(window.WindowTestCase):
+    def test_files_of_each_kind(self):
+        told = self.session.add_code(TELL_THE_READER)
+        self.play([
+            # Values that are no labels, which only Volumic reads.
+            *opened(files.nifti("ramp.nii.gz", files.ramp())), told,
+            filter_of_the_menu("VolumeToSurface"), APPLY,
+            # Segments have their names.
+            *opened(files.segmentation(), choose_reader(1)), told,
+            filter_of_the_menu("LabelsToSurfaces"),
+            gui.check(f"{PROPERTIES}/Labels/Note", "text", "3 of 4 labels"), APPLY,
+            # A slice opens its series.
+            *opened(os.path.join(files.dicom(), "003.dcm"), choose_reader(2)), told], "readers")
+        size = tuple(bound for n in files.voxels().shape[::-1] for bound in (0, n - 1))
+        found = re.findall(r"Reader: (\w+) (.*)", self.session.output)
+        self.assertEqual([name for name, _ in found],
+                         ["VolumicVolumeReader", "VolumicVolumeReader", "VolumicDICOMReader"])
+        self.assertEqual(found[2][1], str(size))
