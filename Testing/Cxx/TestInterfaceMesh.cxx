@@ -73,6 +73,25 @@ TEST(LineWedges, AreBetweenFacesThatAreNextToEachOther)
   EXPECT_EQ(NarrowestWedge(InterfaceMesh()).Edge[0], -1) << "there are no lines";
 }
 
+TEST(InterfaceClearance, KnowsFacesThatAreTurnedPastOthers)
+{
+  const auto areInOrder = [](const std::array<double, 4>& angles, int u, int v)
+  {
+    const InterfaceMesh mesh = FacesAt(angles);
+    std::vector<PlacedFace> faces;
+    for (const InterfaceMesh::Face& face : mesh.Faces)
+    {
+      faces.push_back(PlacedFaceOf(mesh, face));
+    }
+    return AreInOrder(u, v, faces);
+  };
+  EXPECT_TRUE(areInOrder({ 0., 90., 180., 270. }, 0, 1));
+  EXPECT_TRUE(areInOrder({ 0., 90., 180., 270. }, 1, 0));
+  EXPECT_TRUE(areInOrder({ 300., 20., 30., 299. }, 0, 1));
+  EXPECT_FALSE(areInOrder({ 0., 181., 180., 270. }, 0, 1));
+  EXPECT_FALSE(areInOrder({ 0., 90., 180., 10. }, 1, 0));
+}
+
 TEST(InterfaceClearance, LetsNoFaceBeTurnedPastAnother)
 {
   const InterfaceMesh mesh = FacesAt({ 0., 90., 180., 270. });

@@ -118,6 +118,33 @@ TEST(Proximity, KeepsPairsOfVerticesThatWereNotExaminedAnew)
   EXPECT_EQ(proximity.Pairs().size(), pairs);
 }
 
+TEST(NormalCone, IsOpposedToFourOthersAsToEach)
+{
+  std::mt19937 random(1);
+  const auto next = [&random] { return static_cast<float>(random() >> 8) / (1 << 23) - 1.f; };
+  const auto cone = [&next]
+  {
+    const Vector axis = Normalized(Vector(next(), next(), next()));
+    return NormalCone(axis, 0.8f + 0.2f * next());
+  };
+  int opposed = 0;
+  for (int round = 0; round < 1000; ++round)
+  {
+    const NormalCone n = cone();
+    // The last one is wider than a half space, and opposed to all.
+    const NormalCone m[4] = { cone(), cone(), cone(), NormalCone(cone().Axis(), -0.1f) };
+    const unsigned bits = OpposedBits(n, m[0], m[1], m[2], m[3]);
+    for (int i = 0; i < 4; ++i)
+    {
+      EXPECT_EQ(bits >> i & 1, AreOpposed(n, m[i]) ? 1u : 0u);
+      opposed += AreOpposed(n, m[i]) ? 1 : 0;
+    }
+    EXPECT_TRUE(AreOpposed(n, m[3]));
+  }
+  EXPECT_GT(opposed, 1200); // Of 4000.
+  EXPECT_LT(opposed, 3500);
+}
+
 TEST(Proximity, FindsAStarThatIsFoldedOntoItself)
 {
   // A vertex pushed through the faces on the far side of its own star.
