@@ -84,24 +84,18 @@ void LeaveShape(
   {
     i = i == 0 ? points++ : -1;
   }
-  const auto leave = [&](auto& values)
-  {
-    for (std::size_t p = 0; p < values.size(); ++p)
+  surface.VisitPoints(
+    [&](auto& values)
     {
-      if (index[p] >= 0)
+      for (std::size_t p = 0; p < values.size(); ++p)
       {
-        values[index[p]] = values[p];
+        if (index[p] >= 0)
+        {
+          values[index[p]] = values[p];
+        }
       }
-    }
-    values.resize(values.empty() ? 0 : points);
-  };
-  leave(surface.Points);
-  leave(surface.Normals);
-  leave(surface.Residual);
-  leave(surface.Motionless);
-  leave(surface.Held);
-  leave(surface.Size);
-  leave(surface.Thickness);
+      values.resize(values.empty() ? 0 : points);
+    });
   const auto isGone = [&](const std::array<int, 2>& pair)
   { return index[pair[0]] < 0 || index[pair[1]] < 0; };
   surface.Contacts.erase(std::remove_if(surface.Contacts.begin(), surface.Contacts.end(), isGone),

@@ -27,6 +27,19 @@ struct SurfaceResult : IndexedSurface
   LargeVector<float> Size;      ///< Of a graded surface delta per point, workspace; else empty.
   LargeVector<float> Thickness; ///< With thin parts, per point, workspace; else empty.
   std::optional<Fit> FitToTolerance; ///< With a tolerance, from the time on when it rested.
+
+  /** Calls visit(list) for each of the lists that have an entry per point, or are empty. */
+  template <typename Visit>
+  void VisitPoints(const Visit& visit)
+  {
+    visit(this->Points);
+    visit(this->Normals);
+    visit(this->Residual);
+    visit(this->Motionless);
+    visit(this->Held);
+    visit(this->Size);
+    visit(this->Thickness);
+  }
 };
 
 /** Of a surface between sweeps, whose grid is up to date. The same for any executor. */
