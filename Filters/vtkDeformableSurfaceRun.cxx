@@ -37,8 +37,7 @@ bool IsImage(const volumic::SegmentationRequest& request)
   return vtkMultiBlockDataSet::SafeDownCast(request.Volume) == nullptr;
 }
 
-/** The image that the pipeline announces, without voxels. @param ofCells whose points are its cells
- */
+/** Return the image that the pipeline announces, or that of its cells, without voxels. */
 vtkSmartPointer<vtkImageData> FrameOf(vtkInformation* info, bool ofCells)
 {
   std::array<int, 6> extent;

@@ -50,10 +50,26 @@ inline bool IsOnlyProcess(vtkInformation* request, vtkInformationVector* outputs
 }
 
 /**
+ * Return whether data come from Resample To Image. Its processes share the work: it ends them all
+ * unless they request the same extent.
+ */
+inline bool IsResampled(vtkAlgorithm* source)
+{
+  bool isResampled = source->IsA("vtkResampleToImage") != 0;
+  for (int port = 0; port < source->GetNumberOfInputPorts(); ++port)
+  {
+    for (int i = 0; i < source->GetNumberOfInputConnections(port); ++i)
+    {
+      isResampled = isResampled || IsResampled(source->GetInputAlgorithm(port, i));
+    }
+  }
+  return isResampled;
+}
+
+/**
  * RequestUpdateExtent of the filters: the first process requests the whole of all inputs. The others
- * request no voxels of an image whose source can make a part of it, and the whole of other images:
- * Resample To Image ends all processes unless they request the same. Of data without a whole extent,
- * such as surfaces, they request the piece of their own number, which is small.
+ * request no voxels of images, unless these are resampled. Of data without a whole extent, such as
+ * surfaces, they request the piece of their own number, which is small.
  * @param all whether all processes request the whole
  */
 inline void RequestInputs(vtkAlgorithm* filter, vtkInformation* request,
@@ -70,7 +86,7 @@ inline void RequestInputs(vtkAlgorithm* filter, vtkInformation* request,
       if (hasExtent)
       {
         std::array<int, 6> extent = { 0, -1, 0, -1, 0, -1 };
-        const bool isWhole = isFirst || !info->Has(vtkAlgorithm::CAN_PRODUCE_SUB_EXTENT());
+        const bool isWhole = isFirst || IsResampled(filter->GetInputAlgorithm(port, i));
         isWhole ? info->Get(Pipeline::WHOLE_EXTENT(), extent.data()) : void();
         info->Set(Pipeline::UPDATE_EXTENT(), extent.data(), 6);
       }

@@ -11,11 +11,16 @@
 #include <vtkCompositeDataSet.h>
 #include <vtkDataObject.h>
 #include <vtkImageAlgorithm.h>
+#include <vtkImageShiftScale.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
+#include <vtkMultiBlockDataSet.h>
 #include <vtkObjectFactory.h>
 #include <vtkPolyData.h>
+#include <vtkResampleToImage.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
+
+#include <array>
 
 using namespace volumic;
 
@@ -31,7 +36,6 @@ public:
   vtkTypeMacro(CountingSource, vtkImageAlgorithm);
 
   vtkIdType Made = -1;        ///< voxels of the last run; -1: there was none
-  bool MakesParts = true;     ///< else the whole, whatever is requested
   bool IsDistributed = false; ///< gives no more than the lower half
 
 protected:
@@ -43,8 +47,7 @@ protected:
     vtkInformation* info = output->GetInformationObject(0);
     const int whole[6] = { 0, Side - 1, 0, Side - 1, 0, Side - 1 };
     info->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), whole, 6);
-    this->MakesParts ? info->Set(vtkAlgorithm::CAN_PRODUCE_SUB_EXTENT(), 1)
-                     : info->Remove(vtkAlgorithm::CAN_PRODUCE_SUB_EXTENT());
+    info->Set(vtkAlgorithm::CAN_PRODUCE_SUB_EXTENT(), 1);
     vtkDataObject::SetPointDataActiveScalarInfo(info, VTK_FLOAT, 1);
     return 1;
   }
@@ -227,16 +230,22 @@ TEST_F(ParallelRequests, HaveTheSameBlocksAfterAnError)
   EXPECT_NE(others.Get(), "");
 }
 
-TEST_F(ParallelRequests, AreTheSameOfASourceThatMakesNoParts)
+TEST_F(ParallelRequests, AreTheSameInAllProcessesWhereAnImageIsResampled)
 {
-  this->Source->MakesParts = false;
-  for (vtkAlgorithm* filter : this->Filters)
+  vtkNew<vtkResampleToImage> resampled; // ParaView's ends all processes where they differ.
+  resampled->SetInputConnection(this->Source->GetOutputPort());
+  resampled->SetSamplingDimensions(Side, Side, Side);
+  vtkNew<vtkImageShiftScale> between;
+  between->SetInputConnection(resampled->GetOutputPort());
+  this->Surface->SetInputConnection(between->GetOutputPort());
+  for (const int process : { 1, 0 })
   {
-    SCOPED_TRACE(filter->GetClassName());
-    this->Source->Modified();
-    filter->UpdatePiece(1, 2, 0);
-    EXPECT_EQ(this->Source->Made, Side * Side * Side);
-    EXPECT_EQ(SizeOfOutput(filter, 0), 0);
+    this->Surface->UpdatePiece(process, 2, 0);
+    std::array<int, 6> extent;
+    resampled->GetOutputInformation(0)->Get(
+      vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(), extent.data());
+    EXPECT_EQ(extent, (std::array<int, 6>{ 0, Side - 1, 0, Side - 1, 0, Side - 1 })) << process;
+    EXPECT_EQ(SizeOfOutput(this->Surface, 0) > 0, process == 0);
   }
 }
 
