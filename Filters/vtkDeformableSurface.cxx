@@ -141,11 +141,13 @@ int vtkDeformableSurface::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   this->SetErrorCode(vtkErrorCode::NoError);
+  vtkInternals& internals = *this->Internals;
+  auto* levels = vtkMultiBlockDataSet::GetData(outputVector, 1);
   if (!volumic::IsFirstProcess(request, outputVector))
   {
+    internals.MakeEmptyLevels(inputVector[0], levels);
     return 1;
   }
-  vtkInternals& internals = *this->Internals;
   internals.IsRunning = true;
   internals.IsAlone = volumic::IsOnlyProcess(request, outputVector);
   this->SetErrorCode(volumic::RunAlgorithm(
@@ -162,6 +164,10 @@ int vtkDeformableSurface::RequestData(
       internals.Update(inputVector, outputVector, observer);
     }));
   internals.IsRunning = false;
+  if (!internals.IsAlone && levels->GetNumberOfBlocks() == 0) // After an error, or stopped early.
+  {
+    internals.MakeEmptyLevels(inputVector[0], levels);
+  }
   if (this->GetErrorCode() != vtkErrorCode::NoError)
   {
     this->ForgetRun();

@@ -119,8 +119,8 @@
  *
  * @par Processes:
  * In a parallel run, as in pvserver and pvbatch, the first process (piece 0) requests the whole of all
- * inputs and makes the whole surface. All outputs of the other processes are empty, and ShowLevels
- * has no effect.
+ * inputs and makes the whole surface. The other processes have the same levels without surfaces, all
+ * other outputs of theirs are empty, and ShowLevels has no effect.
  *
  * @par Thanks:
  * J.-O. Lachaud and A. Montanvert, "Volumic Segmentation using Hierarchical Representation and

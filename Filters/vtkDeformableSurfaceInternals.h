@@ -34,6 +34,12 @@ public:
   void Update(vtkInformationVector** inputs, vtkInformationVector* outputs,
     volumic::RunObserver& observer);
 
+  /**
+   * Makes null blocks of the levels of a run, as far as the pipeline's information of the image, or
+   * the number of the pyramid's blocks, tells them.
+   */
+  void MakeEmptyLevels(vtkInformationVector* input, vtkMultiBlockDataSet* levels) const;
+
   /** The filter has changed. @param needsRun whether what is kept of the last run serves no more */
   void Modify(bool needsRun);
   void ForgetRun() { this->Kept.reset(); }

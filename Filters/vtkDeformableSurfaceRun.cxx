@@ -5,18 +5,26 @@
 // the last run goes on or another one begins.
 
 #include "Core/Common/FreeMemory.h"
+#include "Core/Common/Refuse.h"
+#include "Core/Image/PyramidGeometry.h"
 #include "Host/Errors.h"
 #include "Host/Pipeline.h"
 #include "Input/InputImage.h"
+#include "Pyramid/ImageLevels.h"
 #include "vtkDeformableSurfaceInternals.h"
 
 #include <vtkDataObject.h>
+#include <vtkImageData.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+#include <vtkStreamingDemandDrivenPipeline.h>
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <utility>
 
 namespace
@@ -27,6 +35,24 @@ constexpr double PyramidShare = 0.02;
 bool IsImage(const volumic::SegmentationRequest& request)
 {
   return vtkMultiBlockDataSet::SafeDownCast(request.Volume) == nullptr;
+}
+
+/** Return the image that the pipeline announces, or that of its cells, without voxels. */
+vtkSmartPointer<vtkImageData> FrameOf(vtkInformation* info, bool ofCells)
+{
+  std::array<int, 6> extent;
+  info->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent.data());
+  for (std::size_t last = 1; ofCells && last < extent.size(); last += 2)
+  {
+    extent[last] = std::max(extent[last - 1], extent[last] - 1);
+  }
+  auto image = vtkSmartPointer<vtkImageData>::New();
+  image->SetExtent(extent.data());
+  if (info->Has(vtkDataObject::SPACING()))
+  {
+    image->SetSpacing(info->Get(vtkDataObject::SPACING()));
+  }
+  return image;
 }
 }
 
@@ -113,6 +139,42 @@ std::unique_ptr<volumic::SegmentationRun> vtkDeformableSurface::vtkInternals::Ne
     request.Volume->ReleaseData(); // Now: the run lets go of each level when it has left it.
   }
   return run;
+}
+
+//------------------------------------------------------------------------------
+void vtkDeformableSurface::vtkInternals::MakeEmptyLevels(
+  vtkInformationVector* input, vtkMultiBlockDataSet* levels) const
+{
+  vtkInformation* info = input->GetInformationObject(0);
+  auto* blocks = vtkMultiBlockDataSet::GetData(info);
+  int finest = this->Settings.LastLevel();
+  int count = blocks ? static_cast<int>(blocks->GetNumberOfBlocks()) : 0;
+  if (info->Has(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()))
+  {
+    vtkInformation* selection = this->Filter.GetInputArrayInformation(0);
+    const bool areCells = this->Settings.OfImages &&
+      selection->Get(vtkDataObject::FIELD_ASSOCIATION()) == vtkDataObject::FIELD_ASSOCIATION_CELLS;
+    const vtkSmartPointer<vtkImageData> image = FrameOf(info, areCells);
+    const int* size = image->GetDimensions();
+    volumic::PyramidOptions pyramid = this->Settings.Pyramid;
+    try
+    {
+      if (this->Settings.EdgeLength != 0.0)
+      {
+        finest = volumic::PlanEdgeLength(
+          this->Settings.EdgeLength, this->Settings.Options.SamplingRatio, image, pyramid)
+                   .FinestLevel;
+      }
+      count = static_cast<int>(
+        volumic::PlanPyramid({ size[0], size[1], size[2] }, { 1.0, 1.0, 1.0 }, pyramid).size());
+    }
+    catch (const volumic::Refusal&)
+    {
+      finest = count = 0; // The first process reports it.
+    }
+  }
+  volumic::MakeNullBlocks(
+    levels, volumic::LevelNames(count, this->Settings.End.Preview ? 0 : finest));
 }
 
 //------------------------------------------------------------------------------

@@ -13,7 +13,6 @@
 #include "Input/InputImage.h"
 #include "Pyramid/ImageLevels.h"
 
-#include <vtkCompositeDataSet.h>
 #include <vtkDataArray.h>
 #include <vtkDataObject.h>
 #include <vtkDataSetAttributes.h>
@@ -204,14 +203,9 @@ void vtkImagePyramid::MakeEmptyBlocks(vtkInformationVector* input, vtkMultiBlock
   int extent[6] = { 0, -1, 0, -1, 0, -1 };
   input->GetInformationObject(0)->Get(
     vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent);
-  const auto levels = static_cast<unsigned int>(this->CountLevels(
-    extent[1] - extent[0] + 1, extent[3] - extent[2] + 1, extent[5] - extent[4] + 1));
-  output->SetNumberOfBlocks(levels);
-  for (unsigned int h = 0; h < levels; ++h)
-  {
-    output->GetMetaData(h)->Set(
-      vtkCompositeDataSet::NAME(), volumic::Join("Level ", h).c_str());
-  }
+  volumic::MakeNullBlocks(output,
+    volumic::LevelNames(this->CountLevels(
+      extent[1] - extent[0] + 1, extent[3] - extent[2] + 1, extent[5] - extent[4] + 1)));
 }
 
 //------------------------------------------------------------------------------
@@ -244,6 +238,11 @@ int vtkImagePyramid::RequestData(
         observer.Warn("Input port 0: " + levels.AboutNaNs);
       }
     }));
+  if (this->GetErrorCode() != vtkErrorCode::NoError &&
+    !volumic::IsOnlyProcess(request, outputVector))
+  {
+    this->MakeEmptyBlocks(inputVector[0], vtkMultiBlockDataSet::GetData(outputVector));
+  }
   for (const std::string& text : warnings)
   {
     vtkWarningMacro(<< text);

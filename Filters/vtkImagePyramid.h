@@ -52,14 +52,8 @@
  * half of the weight.
  *
  * @par Processes:
- * Where each process of an MPI run asks for the piece of its own number, as in pvserver and
- * pvbatch, the first one takes the image together, makes the levels, the same bits as one process,
- * and gives each its piece of each level. Pieces of neighbours share a layer of voxels, and have
- * further ones in their ghost arrays where ghost levels are asked for, as VTK cuts all images. A
- * block is null on processes for which its level has too few voxels. The field data of the whole are
- * the same on all; an error of one process is reported by all.
-  /// Blocks without images: parallel writers need the same blocks in all processes.
-  void MakeEmptyBlocks(vtkInformationVector* input, vtkMultiBlockDataSet* output);
+ * In a parallel run, as in pvserver and pvbatch, the first process (piece 0) requests the whole image
+ * and makes all levels. The others have the same blocks without images.
  *
  * @par Errors:
  * A message names the port, the array or the value, and the output is empty, when: the input is no

@@ -33,6 +33,7 @@
 #include <vtkSmartPointer.h>
 
 #include <algorithm>
+#include <exception>
 #include <optional>
 #include <string>
 #include <utility>
@@ -209,7 +210,8 @@ vtkPolyData* vtkLabelsToSurfaces::GetInterfaces()
 int vtkLabelsToSurfaces::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
 {
-  volumic::RequestInputs(this, request, input, output);
+  // Of the voxels all processes make the names of the blocks.
+  volumic::RequestInputs(this, request, input, output, true);
   return 1;
 }
 
@@ -279,12 +281,31 @@ void vtkLabelsToSurfaces::MakeSurfaces(
 }
 
 //------------------------------------------------------------------------------
+void vtkLabelsToSurfaces::MakeEmptyBlocks(vtkInformationVector* input, vtkMultiBlockDataSet* output)
+{
+  try
+  {
+    volumic::HostThreads threads(this->Internals->NumberOfThreads);
+    std::optional<volumic::LabelImage> image;
+    const volumic::LabelChoice choice = this->Internals->Read(
+      volumic::WholeInput(input), this->GetInputArrayInformation(0), image, threads);
+    volumic::MakeNullBlocks(output, choice.BlockNames());
+  }
+  catch (const std::exception&)
+  {
+    output->Initialize(); // The first process reports it, and has no blocks either.
+  }
+}
+
+//------------------------------------------------------------------------------
 int vtkLabelsToSurfaces::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   this->SetErrorCode(vtkErrorCode::NoError);
+  auto* output = vtkMultiBlockDataSet::GetData(outputVector, 0);
   if (!volumic::IsFirstProcess(request, outputVector))
   {
+    this->MakeEmptyBlocks(inputVector[0], output);
     return 1;
   }
   this->Internals->IsRunning = true;
@@ -304,6 +325,11 @@ int vtkLabelsToSurfaces::RequestData(
       this->MakeSurfaces(input, outputVector, observer);
     }));
   this->Internals->IsRunning = false;
+  if (this->GetErrorCode() != vtkErrorCode::NoError &&
+    !volumic::IsOnlyProcess(request, outputVector))
+  {
+    this->MakeEmptyBlocks(inputVector[0], output);
+  }
   for (const std::string& text : warnings)
   {
     vtkWarningMacro(<< text);

@@ -86,10 +86,9 @@
  * TimeLimit ends a run in the same way. The next run starts anew.
  *
  * @par Processes:
- * If the controller has several processes, and each requests the piece of its own number of as many
- * pieces, as those of ParaView do, the first process collects the image and makes all surfaces. The
- * others have the same blocks, empty. All processes report an error of one, and AbortExecute of any
- * stops all. Requests for other pieces are executed serially.
+ * In a parallel run, as in pvserver and pvbatch, the first process (piece 0) makes all surfaces. The
+ * others read the whole label map, too, and have the same blocks without surfaces. The first process
+ * reports errors.
  *
  * @sa
  * vtkVolumeToSurface vtkLabelTable
@@ -330,6 +329,8 @@ private:
   /** Errors are thrown. */
   void MakeSurfaces(
     vtkDataObject* input, vtkInformationVector* outputs, volumic::RunObserver& observer);
+  /** The blocks of the first process without surfaces; none if the input is refused. */
+  void MakeEmptyBlocks(vtkInformationVector* input, vtkMultiBlockDataSet* output);
   std::unique_ptr<vtkInternals> Internals; ///< the properties
 
   vtkLabelsToSurfaces(const vtkLabelsToSurfaces&) = delete;

@@ -4,17 +4,21 @@
 #define volumicPipeline_h
 
 #include <vtkAlgorithm.h>
+#include <vtkCompositeDataSet.h>
 #include <vtkDataObject.h>
 #include <vtkDemandDrivenPipeline.h>
 #include <vtkExecutive.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
+#include <vtkMultiBlockDataSet.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
 #include <vtkVersion.h>
 #include <vtkVersionMacros.h>
 
 #include <algorithm>
 #include <array>
+#include <string>
+#include <vector>
 
 namespace volumic
 {
@@ -46,15 +50,33 @@ inline bool IsOnlyProcess(vtkInformation* request, vtkInformationVector* outputs
 }
 
 /**
- * RequestUpdateExtent of the filters: the first process requests the whole of all inputs, and the
- * others request no voxels of images. Of data without a whole extent, such as surfaces, the others
- * request the piece of their own number, which is small.
+ * Return whether data come from Resample To Image. Its processes share the work: it ends them all
+ * unless they request the same extent.
+ */
+inline bool IsResampled(vtkAlgorithm* source)
+{
+  bool isResampled = source->IsA("vtkResampleToImage") != 0;
+  for (int port = 0; port < source->GetNumberOfInputPorts(); ++port)
+  {
+    for (int i = 0; i < source->GetNumberOfInputConnections(port); ++i)
+    {
+      isResampled = isResampled || IsResampled(source->GetInputAlgorithm(port, i));
+    }
+  }
+  return isResampled;
+}
+
+/**
+ * RequestUpdateExtent of the filters: the first process requests the whole of all inputs. The others
+ * request no voxels of images, unless these are resampled. Of data without a whole extent, such as
+ * surfaces, they request the piece of their own number, which is small.
+ * @param all whether all processes request the whole
  */
 inline void RequestInputs(vtkAlgorithm* filter, vtkInformation* request,
-  vtkInformationVector** inputs, vtkInformationVector* outputs)
+  vtkInformationVector** inputs, vtkInformationVector* outputs, bool all = false)
 {
   using Pipeline = vtkStreamingDemandDrivenPipeline;
-  const bool isFirst = IsFirstProcess(request, outputs);
+  const bool isFirst = all || IsFirstProcess(request, outputs);
   for (int port = 0; port < filter->GetNumberOfInputPorts(); ++port)
   {
     for (int i = 0; i < inputs[port]->GetNumberOfInformationObjects(); ++i)
@@ -64,7 +86,8 @@ inline void RequestInputs(vtkAlgorithm* filter, vtkInformation* request,
       if (hasExtent)
       {
         std::array<int, 6> extent = { 0, -1, 0, -1, 0, -1 };
-        isFirst ? info->Get(Pipeline::WHOLE_EXTENT(), extent.data()) : void();
+        const bool isWhole = isFirst || IsResampled(filter->GetInputAlgorithm(port, i));
+        isWhole ? info->Get(Pipeline::WHOLE_EXTENT(), extent.data()) : void();
         info->Set(Pipeline::UPDATE_EXTENT(), extent.data(), 6);
       }
       if (isFirst || hasExtent)
@@ -74,6 +97,19 @@ inline void RequestInputs(vtkAlgorithm* filter, vtkInformation* request,
         info->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
       }
     }
+  }
+}
+
+/**
+ * Make null blocks of these names. ParaView's views and writers need the same blocks in all
+ * processes.
+ */
+inline void MakeNullBlocks(vtkMultiBlockDataSet* output, const std::vector<std::string>& names)
+{
+  output->SetNumberOfBlocks(static_cast<unsigned int>(names.size()));
+  for (unsigned int block = 0; block < output->GetNumberOfBlocks(); ++block)
+  {
+    output->GetMetaData(block)->Set(vtkCompositeDataSet::NAME(), names[block].c_str());
   }
 }
 

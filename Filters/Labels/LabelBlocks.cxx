@@ -3,15 +3,14 @@
 #include "Labels/LabelBlocks.h"
 
 #include "Core/Common/Join.h"
+#include "Host/Pipeline.h"
 #include "Output/SurfaceOutput.h"
 
 #include <vtkCellData.h>
-#include <vtkCompositeDataSet.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkIdTypeArray.h>
 #include <vtkImageData.h>
-#include <vtkInformation.h>
 #include <vtkIntArray.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
@@ -174,7 +173,8 @@ std::string FillBlocks(const LabelChoice& choice, const LabelImage& image,
   vtkMultiBlockDataSet* output, const std::string& stopped)
 {
   Losses losses(settings);
-  output->SetNumberOfBlocks(static_cast<unsigned int>(surfaces.size()));
+  const std::vector<std::string> names = choice.BlockNames();
+  MakeNullBlocks(output, names);
   for (std::size_t i = 0; i < surfaces.size(); ++i)
   {
     const LabelSurface& made = surfaces[i];
@@ -184,7 +184,6 @@ std::string FillBlocks(const LabelChoice& choice, const LabelImage& image,
     {
       voxels += image.Labels().at(label).Count;
     }
-    const std::string name = choice.Names.NameOf(labels);
     vtkNew<vtkPolyData> surface;
     surface->ShallowCopy(made.Surface ? made.Surface : MakeStopped(0, stopped));
     if (!made.IsFinished)
@@ -200,10 +199,8 @@ std::string FillBlocks(const LabelChoice& choice, const LabelImage& image,
     AddField<vtkDoubleArray, double>(surface, "VolumeError", { made.VolumeError });
     AddField<vtkIdTypeArray, vtkIdType>(surface, "Parts", { made.Parts });
     AddField<vtkIdTypeArray, vtkIdType>(surface, "WrongParts", { made.WrongParts });
-    const auto block = static_cast<unsigned int>(i);
-    output->SetBlock(block, surface);
-    output->GetMetaData(block)->Set(vtkCompositeDataSet::NAME(), name.c_str());
-    losses.Add(name, made, voxels, surface->GetNumberOfCells() == 0);
+    output->SetBlock(static_cast<unsigned int>(i), surface);
+    losses.Add(names[i], made, voxels, surface->GetNumberOfCells() == 0);
   }
   const std::string text = losses.Text();
   if (!text.empty())

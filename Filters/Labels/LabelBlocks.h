@@ -33,6 +33,16 @@ struct LabelChoice
   {
     return this->IsMerged ? std::vector<int>{ this->Labels.front() } : this->Labels;
   }
+  /** The name of each surface's block. */
+  std::vector<std::string> BlockNames() const
+  {
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < this->FirstLabels().size(); ++i)
+    {
+      names.push_back(this->Names.NameOf(this->LabelsOf(i)));
+    }
+    return names;
+  }
 };
 
 /**

@@ -360,6 +360,20 @@ ImageLevels LevelsOfArray(const ImageLevels& levels, vtkInformation* selection,
   return own;
 }
 
+std::vector<std::string> LevelNames(int numberOfLevels, int finest)
+{
+  std::vector<std::string> names;
+  for (int level = 0; level < numberOfLevels; ++level)
+  {
+    names.push_back(Join("Level ", level));
+  }
+  if (finest < 0)
+  {
+    names.emplace_back("Level -1");
+  }
+  return names;
+}
+
 vtkSmartPointer<vtkMultiBlockDataSet> BlocksOf(const ImageLevels& levels)
 {
   auto blocks = vtkSmartPointer<vtkMultiBlockDataSet>::New();

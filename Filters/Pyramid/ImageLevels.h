@@ -78,6 +78,9 @@ ImageLevels LevelsOfBlocks(
 ImageLevels LevelsOfArray(const ImageLevels& levels, vtkInformation* selection,
   int numberOfThreads, const std::function<bool(double, const std::string&)>& progress);
 
+/** Return the names of the blocks of a pyramid's levels, and of level -1 if that is the finest. */
+std::vector<std::string> LevelNames(int numberOfLevels, int finest = 0);
+
 /** The levels as the blocks of vtkImagePyramid's output, with its field data. */
 vtkSmartPointer<vtkMultiBlockDataSet> BlocksOf(const ImageLevels& levels);
 

@@ -11,11 +11,16 @@
 #include <vtkCompositeDataSet.h>
 #include <vtkDataObject.h>
 #include <vtkImageAlgorithm.h>
+#include <vtkImageShiftScale.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
+#include <vtkMultiBlockDataSet.h>
 #include <vtkObjectFactory.h>
 #include <vtkPolyData.h>
+#include <vtkResampleToImage.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
+
+#include <array>
 
 using namespace volumic;
 
@@ -101,6 +106,24 @@ protected:
     this->Labels, this->Table, this->Otsu };
 };
 
+/** The blocks of an output that another process has are named as the first one's, and null. */
+void ExpectSameBlocks(vtkAlgorithm* filter, int port)
+{
+  filter->UpdatePiece(1, 2, 0);
+  vtkNew<vtkMultiBlockDataSet> other;
+  other->ShallowCopy(filter->GetOutputDataObject(port));
+  filter->UpdatePiece(0, 2, 0);
+  auto* first = vtkMultiBlockDataSet::SafeDownCast(filter->GetOutputDataObject(port));
+  ASSERT_GT(first->GetNumberOfBlocks(), 0u);
+  ASSERT_EQ(other->GetNumberOfBlocks(), first->GetNumberOfBlocks());
+  for (unsigned int block = 0; block < first->GetNumberOfBlocks(); ++block)
+  {
+    EXPECT_EQ(other->GetBlock(block), nullptr);
+    EXPECT_STREQ(other->GetMetaData(block)->Get(vtkCompositeDataSet::NAME()),
+      first->GetMetaData(block)->Get(vtkCompositeDataSet::NAME()));
+  }
+}
+
 /** Points and rows. */
 vtkIdType SizeOfOutput(vtkAlgorithm* filter, int port)
 {
@@ -119,7 +142,10 @@ TEST_F(ParallelRequests, TheFirstProcessMakesTheWholeOutputAndTheOthersNone)
     this->Source->Modified();
     this->Source->Made = -1;
     filter->UpdatePiece(1, 2, 0);
-    EXPECT_LE(this->Source->Made, 0) << "no voxels for a process that makes nothing of them";
+    if (filter != this->Labels) // Their names are in the voxels.
+    {
+      EXPECT_LE(this->Source->Made, 0) << "no voxels for a process that makes nothing of them";
+    }
     for (int port = 0; port < filter->GetNumberOfOutputPorts(); ++port)
     {
       vtkInformation* info = filter->GetOutputPortInformation(port);
@@ -153,20 +179,73 @@ TEST_F(ParallelRequests, ReachTheSourceThroughAPyramid)
   EXPECT_EQ(this->Source->Made, Side * Side * Side);
 }
 
-TEST_F(ParallelRequests, HaveTheSameBlocksOfAPyramidWithoutImages)
+TEST_F(ParallelRequests, HaveTheSameBlocksInAllProcesses)
 {
-  this->Pyramid->UpdatePiece(1, 2, 0);
-  vtkNew<vtkMultiBlockDataSet> other;
-  other->ShallowCopy(this->Pyramid->GetOutput());
-  this->Pyramid->UpdatePiece(0, 2, 0);
-  vtkMultiBlockDataSet* first = this->Pyramid->GetOutput();
-  ASSERT_GT(first->GetNumberOfBlocks(), 1u);
-  ASSERT_EQ(other->GetNumberOfBlocks(), first->GetNumberOfBlocks());
-  for (unsigned int h = 0; h < first->GetNumberOfBlocks(); ++h)
+  ExpectSameBlocks(this->Pyramid, 0);
+  this->Labels->ClearLabels();
+  this->Labels->SetLabelName(100, "ball");
+  ExpectSameBlocks(this->Labels, 0);
+  this->Labels->SetMerge(true);
+  ExpectSameBlocks(this->Labels, 0);
+}
+
+TEST_F(ParallelRequests, HaveTheSameLevelsInAllProcesses)
+{
+  constexpr int levels = 1;
+  this->VolumeToSurface->SetNumberOfLevels(2);
+  this->Surface->SetFinestLevel(1);
+  for (vtkDeformableSurface* filter :
+    { this->Surface.Get(), static_cast<vtkDeformableSurface*>(this->VolumeToSurface.Get()) })
   {
-    EXPECT_EQ(other->GetBlock(h), nullptr);
-    EXPECT_STREQ(other->GetMetaData(h)->Get(vtkCompositeDataSet::NAME()),
-      first->GetMetaData(h)->Get(vtkCompositeDataSet::NAME()));
+    SCOPED_TRACE(filter->GetClassName());
+    ExpectSameBlocks(filter, levels);
+    filter->SetFinestLevel(-1);
+    ExpectSameBlocks(filter, levels);
+    filter->SetPreview(true);
+    ExpectSameBlocks(filter, levels);
+    filter->SetPreview(false);
+    for (const double length : { 0.8, 2.0 })
+    {
+      filter->SetEdgeLength(length);
+      ExpectSameBlocks(filter, levels);
+    }
+    filter->SetEdgeLength(0.0);
+    filter->SetFinestLevel(0);
+    filter->SetThinParts(true);
+    ExpectSameBlocks(filter, levels);
+  }
+  this->Surface->SetInputConnection(this->Pyramid->GetOutputPort());
+  ExpectSameBlocks(this->Surface, levels);
+}
+
+TEST_F(ParallelRequests, HaveTheSameBlocksAfterAnError)
+{
+  this->Surface->SetIsoValue(200.0);
+  const MessagesOf errors(this->Surface);
+  ExpectSameBlocks(this->Surface, 1);
+  EXPECT_NE(errors.Get().find("Iso Value is 200"), std::string::npos);
+  this->Pyramid->SetSelectedComponent(7);
+  const MessagesOf others(this->Pyramid);
+  ExpectSameBlocks(this->Pyramid, 0);
+  EXPECT_NE(others.Get(), "");
+}
+
+TEST_F(ParallelRequests, AreTheSameInAllProcessesWhereAnImageIsResampled)
+{
+  vtkNew<vtkResampleToImage> resampled; // ParaView's ends all processes where they differ.
+  resampled->SetInputConnection(this->Source->GetOutputPort());
+  resampled->SetSamplingDimensions(Side, Side, Side);
+  vtkNew<vtkImageShiftScale> between;
+  between->SetInputConnection(resampled->GetOutputPort());
+  this->Surface->SetInputConnection(between->GetOutputPort());
+  for (const int process : { 1, 0 })
+  {
+    this->Surface->UpdatePiece(process, 2, 0);
+    std::array<int, 6> extent;
+    resampled->GetOutputInformation(0)->Get(
+      vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(), extent.data());
+    EXPECT_EQ(extent, (std::array<int, 6>{ 0, Side - 1, 0, Side - 1, 0, Side - 1 })) << process;
+    EXPECT_EQ(SizeOfOutput(this->Surface, 0) > 0, process == 0);
   }
 }
 

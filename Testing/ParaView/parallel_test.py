@@ -6,6 +6,7 @@ All is compared with what the same filters give a process alone. With PROCESSES_
 script is a client, and starts a pvserver of so many processes; else it is run by pvbatch.
 """
 
+import faulthandler
 import os
 import socket
 import subprocess
@@ -24,10 +25,12 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import label_maps
 import plugin_testing
 from vtkmodules.vtkImagingCore import vtkRTAnalyticSource
+from vtkmodules.vtkParallelCore import vtkMultiProcessController
 
 SERVER = int(os.environ.get("PROCESSES_OF_SERVER", "0"))
 EXTENT = [-14, 14] * 3
 ISO_VALUE = 160.0
+SECONDS = 600  # for a test: one that hangs, as processes that wait for each other do, is shown
 
 
 def connect_to_server():
@@ -77,6 +80,8 @@ class ParallelTest(unittest.TestCase):
         if SERVER:
             cls.server = connect_to_server()
             plugin_testing.load_plugin(remote=True)
+        cls.count = (SERVER or
+                     vtkMultiProcessController.GetGlobalController().GetNumberOfProcesses())
         image = vtkRTAnalyticSource()
         image.SetWholeExtent(*EXTENT)
         alone = plugin_testing.load_package().vtkDeformableSurface()
@@ -93,8 +98,12 @@ class ParallelTest(unittest.TestCase):
             cls.server.terminate()
             cls.server.wait(30)
 
+    def setUp(self):
+        faulthandler.dump_traceback_later(SECONDS, exit=True, file=sys.__stderr__)
+
     def tearDown(self):
         plugin_testing.delete_sources()
+        faulthandler.cancel_dump_traceback_later()
 
     def check_surface(self, surface):
         """That it is the surface of one process, bit by bit."""
@@ -108,6 +117,22 @@ class ParallelTest(unittest.TestCase):
                 numpy.testing.assert_array_equal(numbers(data.GetArray(name)),
                                                  numbers(of.GetArray(name)), name)
             self.assertFalse(data.HasArray("vtkGhostType"))
+
+    def check_blocks(self, output, names):
+        """That all processes have these blocks: else views and files hang."""
+        with plugin_testing.CapturedMessages() as messages:
+            view = simple.CreateView("RenderView")
+            simple.Show(output, view)
+            if "DISPLAY" in os.environ:
+                simple.Render(view)
+            simple.Delete(view)
+            path = plugin_testing.output_path("blocks.vtm")
+            simple.SaveData(path, output)
+        self.assertEqual(messages.text, "")
+        with open(path, encoding="utf-8") as file:
+            text = file.read()
+        for name in names:
+            self.assertEqual(text.count(f'name="{name}"'), 1, text)
 
     def test_the_surface_of_an_image(self):
         surface = make_surface()
@@ -153,10 +178,36 @@ class ParallelTest(unittest.TestCase):
         path = plugin_testing.write_volume("labels.vti", label_maps.image())
         filter_ = simple.LabelstoSurfaces(simple.XMLImageDataReader(FileName=[path]))
         filter_.UpdatePipeline()
-        for label in label_maps.BALLS:
-            block = simple.ExtractBlock(filter_, Selectors=[f"/Root/Label{label}"])
-            block.UpdatePipeline()
-            self.assertGreater(block.GetDataInformation().GetNumberOfPoints(), 100)
+        self.assertGreater(filter_.GetDataInformation().GetNumberOfPoints(), 500)
+        self.check_blocks(filter_, [f"Label {label}" for label in label_maps.BALLS])
+
+    def test_levels(self):
+        names = [f"Level {level}" for level in range(self.alone.GetLevels().GetNumberOfBlocks())]
+        for filter_, finer in (
+                (make_surface(), []), (make_surface(FinestLevel=-1), ["Level -1"]),
+                (simple.DeformableSurface(simple.ImagePyramid(simple.Wavelet(WholeExtent=EXTENT)),
+                                          IsoValue=ISO_VALUE), [])):
+            filter_.UpdatePipeline()
+            self.check_blocks(simple.OutputPort(filter_, 1), names + finer)
+
+    def test_a_distributed_image(self):
+        image = simple.ResampleToImage(simple.Wavelet(WholeExtent=EXTENT),
+                                       SamplingDimensions=[29] * 3)
+        surface = simple.DeformableSurface(image, IsoValue=ISO_VALUE)
+        with plugin_testing.CapturedMessages() as messages:
+            surface.UpdatePipeline()
+        if self.count == 1:
+            self.assertEqual(messages.text, "")
+        elif not SERVER:
+            self.assertIn("Save it as .pvti", messages.text)
+        if self.count > 1:
+            self.assertEqual(surface.GetDataInformation().GetNumberOfCells(), 0)
+        path = plugin_testing.output_path("image.pvti")
+        simple.SaveData(path, image)
+        surface = simple.DeformableSurface(simple.XMLPartitionedImageDataReader(FileName=[path]),
+                                           IsoValue=ISO_VALUE)
+        surface.UpdatePipeline()
+        self.assertGreater(surface.GetDataInformation().GetNumberOfCells(), 1000)
 
     def test_an_error_and_then_a_good_run(self):
         surface = make_surface()
