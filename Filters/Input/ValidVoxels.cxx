@@ -7,13 +7,11 @@
 #include "Core/Image/LevelReduction.h"
 #include "Input/ImageVoxels.h"
 
-#include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkDataSetAttributes.h>
 #include <vtkIdList.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
-#include <vtkPointData.h>
 #include <vtkStructuredData.h>
 #include <vtkUnsignedCharArray.h>
 
@@ -27,10 +25,8 @@ namespace
 {
 /** The ghost array, or null where no bit of `hidden` is set in it. */
 const unsigned char* HidingGhosts(
-  vtkDataSetAttributes* attributes, vtkIdType count, unsigned char hidden)
+  vtkUnsignedCharArray* ghosts, vtkIdType count, unsigned char hidden)
 {
-  auto* ghosts = vtkUnsignedCharArray::SafeDownCast(
-    attributes->GetArray(vtkDataSetAttributes::GhostArrayName()));
   if (!ghosts || ghosts->GetNumberOfTuples() != count || ghosts->GetNumberOfComponents() != 1)
   {
     return nullptr;
@@ -44,14 +40,14 @@ const unsigned char* HidingGhosts(
 LargeVector<std::uint8_t> NotBlanked(vtkImageData* image)
 {
   LargeVector<std::uint8_t> marks;
-  const auto count = static_cast<std::size_t>(image->GetNumberOfPoints());
-  const unsigned char* cells =
-    HidingGhosts(image->GetCellData(), image->GetNumberOfCells(), vtkDataSetAttributes::HIDDENCELL);
-  const unsigned char* points = HidingGhosts(
-    image->GetPointData(), image->GetNumberOfPoints(), vtkDataSetAttributes::HIDDENPOINT);
+  const vtkIdType count = image->GetNumberOfPoints();
+  const unsigned char* cells = HidingGhosts(
+    image->GetCellGhostArray(), image->GetNumberOfCells(), vtkDataSetAttributes::HIDDENCELL);
+  const unsigned char* points =
+    HidingGhosts(image->GetPointGhostArray(), count, vtkDataSetAttributes::HIDDENPOINT);
   if (cells)
   {
-    marks.assign(count, 0);
+    marks.assign(static_cast<std::size_t>(count), 0);
     vtkNew<vtkIdList> corners;
     for (vtkIdType cell = 0; cell < image->GetNumberOfCells(); ++cell)
     {
@@ -67,7 +63,7 @@ LargeVector<std::uint8_t> NotBlanked(vtkImageData* image)
   }
   if (points)
   {
-    marks.resize(count, 1);
+    marks.resize(static_cast<std::size_t>(count), 1);
     std::transform(marks.begin(), marks.end(), points, marks.begin(),
       [](std::uint8_t mark, unsigned char ghost)
       { return ghost & vtkDataSetAttributes::HIDDENPOINT ? std::uint8_t(0) : mark; });
