@@ -241,6 +241,7 @@ vtkSmartPointer<vtkDataArray> ContiguousVoxels(vtkDataArray* voxels)
   copy.TakeReference(
     isPacked ? vtkUnsignedCharArray::New() : vtkDataArray::CreateDataArray(voxels->GetDataType()));
   copy->DeepCopy(voxels);
+  copy->SetName(voxels->GetName());
   return copy;
 }
 

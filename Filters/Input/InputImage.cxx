@@ -209,7 +209,7 @@ vtkImageData* ImageOf(vtkDataObject* input)
 
 PointVoxels TakeCellsAsPoints(vtkImageData* image, vtkInformation* selection)
 {
-  vtkDataArray* cells = image ? ChosenCells(image, selection) : nullptr;
+  vtkDataArray* cells = ChosenCells(image, selection);
   if (!cells)
   {
     return { image, selection };

@@ -3,7 +3,6 @@
 #include "Input/LabelValues.h"
 
 #include "Core/Common/Refuse.h"
-#include "Core/Common/Spans.h"
 #include "Host/LargeArrays.h"
 #include "Input/ImageVoxels.h"
 
@@ -14,7 +13,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <mutex>
 #include <set>
 #include <type_traits>
 
@@ -54,9 +52,16 @@ vtkSmartPointer<vtkDataArray> Rounded(vtkDataArray* voxels, int background, std:
             "Volume to Surface (vtkVolumeToSurface).");
         }
         missing += std::isnan(value);
-        farthest = std::max(farthest, std::isnan(value) ? 0.0 : off);
+        farthest = std::max(farthest, off);
       }
     });
+  told = Join(NameOf(voxels), " is of type ", voxels->GetDataTypeAsString(),
+    farthest > 0.0
+      ? Join("; its values are within ", farthest, " of integers, and are rounded to labels")
+      : std::string("; its values are integers and are taken as labels"),
+    missing > 0 ? Join("; NaN, at ", missing, missing == 1 ? " voxel" : " voxels",
+                    ", is background.")
+                : std::string("."));
   if (missing == 0 && farthest == 0.0)
   {
     return voxels;
@@ -74,49 +79,7 @@ vtkSmartPointer<vtkDataArray> Rounded(vtkDataArray* voxels, int background, std:
           return std::isnan(real) ? background : std::round(real);
         });
     });
-  told = Join(NameOf(voxels), " is of type ", voxels->GetDataTypeAsString(),
-    farthest > 0.0
-      ? Join("; its values are within ", farthest, " of integers, and are rounded to labels")
-      : std::string("; its values are integers, and taken for labels"),
-    missing > 0 ? Join("; NaN, at ", missing, missing == 1 ? " voxel" : " voxels",
-                    ", is background.")
-                : std::string("."));
   return rounded;
-}
-
-/** The labels that no int holds, and the largest of the others. */
-template <typename T>
-struct WideLabels
-{
-  std::set<T> Wide;
-  int Largest = 0;
-};
-
-template <typename T>
-WideLabels<T> FindWide(const T* voxels, std::size_t count, std::size_t most, Executor& threads)
-{
-  WideLabels<T> all;
-  std::mutex mutex;
-  ForSpans(threads, count, ValuesGrain,
-    [&](std::size_t, std::size_t begin, std::size_t end)
-    {
-      WideLabels<T> own;
-      for (std::size_t i = begin; i < end && own.Wide.size() <= most; ++i)
-      {
-        if (!IsInt(voxels[i]))
-        {
-          own.Wide.insert(voxels[i]);
-        }
-        else
-        {
-          own.Largest = std::max(own.Largest, static_cast<int>(voxels[i]));
-        }
-      }
-      const std::lock_guard<std::mutex> lock(mutex);
-      all.Wide.insert(own.Wide.begin(), own.Wide.end());
-      all.Largest = std::max(all.Largest, own.Largest);
-    });
-  return all;
 }
 
 /** The whole number as a file has it. */
@@ -137,29 +100,41 @@ template <typename T>
 void NumberAnew(
   const T* voxels, std::size_t count, std::size_t most, Executor& threads, LabelValues& values)
 {
-  const WideLabels<T> found = FindWide(voxels, count, most, threads);
-  if (found.Wide.empty())
+  std::set<T> wide;
+  int largest = 0;
+  for (std::size_t i = 0; i < count && wide.size() <= most; ++i)
   {
-    return;
+    if (!IsInt(voxels[i]))
+    {
+      wide.insert(voxels[i]);
+    }
+    else
+    {
+      largest = std::max(largest, static_cast<int>(voxels[i]));
+    }
   }
-  const auto room = static_cast<std::size_t>(std::numeric_limits<int>::max() - found.Largest);
-  if (found.Wide.size() > std::min(most, room))
+  const auto room = static_cast<std::size_t>(std::numeric_limits<int>::max() - largest);
+  if (wide.size() > std::min(most, room))
   {
     Refuse(NameOf(values.Voxels), " has more than ", std::min(most, room),
-      " different values that 32 bits don't hold, such as ", DigitsOf(*found.Wide.begin()),
+      " different values that 32 bits don't hold, such as ", DigitsOf(*wide.begin()),
       ": it is likely no label map. Number them anew if it is.");
+  }
+  if (wide.empty())
+  {
+    return;
   }
   std::map<T, int> numbers;
   constexpr std::size_t listed = 5;
   std::string list;
-  for (const T wide : found.Wide)
+  for (const T label : wide)
   {
-    const int number = found.Largest + 1 + static_cast<int>(numbers.size());
-    numbers[wide] = number;
-    values.Numbers[number] = DigitsOf(wide);
+    const int number = largest + 1 + static_cast<int>(numbers.size());
+    numbers[label] = number;
+    values.Numbers[number] = DigitsOf(label);
     list += numbers.size() > listed
       ? ""
-      : Join(numbers.size() > 1 ? ", " : "", DigitsOf(wide), " is ", number);
+      : Join(numbers.size() > 1 ? ", " : "", DigitsOf(label), " is ", number);
   }
   const auto labels = NewLargeArray<vtkIntArray>(count);
   labels->SetName(values.Voxels->GetName());
@@ -173,10 +148,10 @@ void NumberAnew(
       }
     });
   values.Told += Join(values.Told.empty() ? "" : " ", NameOf(values.Voxels), " has ",
-    found.Wide.size(), found.Wide.size() == 1 ? " label" : " labels",
+    wide.size(), wide.size() == 1 ? " label" : " labels",
     " that 32 bits don't hold; they are numbered anew, and named by what "
     "they were: ",
-    list, found.Wide.size() > listed ? " and so on." : ".");
+    list, wide.size() > listed ? " and so on." : ".");
   values.Voxels = labels;
 }
 }
@@ -188,8 +163,6 @@ LabelValues LabelValuesOf(vtkDataArray* voxels, int background, std::size_t most
   const int type = voxels->GetDataType();
   if (type == VTK_FLOAT || type == VTK_DOUBLE)
   {
-    values.Told = NameOf(voxels) + " is of type " + voxels->GetDataTypeAsString() +
-      "; its values are integers and are taken as labels.";
     values.Voxels = Rounded(voxels, background, values.Told);
   }
   if (voxels->GetDataTypeSize() >= 4 && type != VTK_INT)
