@@ -51,41 +51,6 @@ std::string ArraysOf(vtkImageData* image)
   return text;
 }
 
-/**
- * The array that the selection names, whatever its type; the reason in a message if there is none.
- */
-vtkAbstractArray* FindArray(vtkInformation* selection, vtkImageData* image)
-{
-  // What is not set is 0: points, and scalars.
-  const std::string name = ChosenName(selection);
-  const int association = selection->Get(vtkDataObject::FIELD_ASSOCIATION());
-  if (association == vtkDataObject::FIELD_ASSOCIATION_CELLS ||
-    association == vtkDataObject::FIELD_ASSOCIATION_NONE)
-  {
-    Refuse("the chosen array ", name.empty() ? name : Quote(name.c_str()) + " ",
-      "is not point data; voxels are points. Apply Cell Data to Point Data, or choose a point "
-      "array: ",
-      ArraysOf(image), ".");
-  }
-  if (!name.empty())
-  {
-    vtkAbstractArray* array = image->GetPointData()->GetAbstractArray(name.c_str());
-    if (!array)
-    {
-      Refuse("the image has no point array " + Quote(name.c_str()) + "; " + ArraysOf(image) + ".");
-    }
-    return array;
-  }
-  vtkAbstractArray* array = image->GetPointData()->GetAbstractAttribute(
-    selection->Get(vtkDataObject::FIELD_ATTRIBUTE_TYPE()));
-  if (!array)
-  {
-    Refuse("the image has no active point scalars; " + ArraysOf(image) +
-      ". Choose one as Voxels (SetInputArrayToProcess).");
-  }
-  return array;
-}
-
 /** A value for each tuple, of which `valueOf` is given the first component. */
 template <typename Array, typename ValueOf>
 vtkSmartPointer<vtkDataArray> Compute(
@@ -154,7 +119,30 @@ vtkDataArray* ChooseArray(vtkInformation* selection, vtkImageData* image)
   {
     Refuse("the image is empty: it has " + SizeOf(image) + " voxels.");
   }
-  vtkAbstractArray* found = FindArray(selection, image);
+  // What is not set is 0: points, and scalars.
+  const std::string name = ChosenName(selection);
+  const int association = selection->Get(vtkDataObject::FIELD_ASSOCIATION());
+  if (association == vtkDataObject::FIELD_ASSOCIATION_CELLS ||
+    association == vtkDataObject::FIELD_ASSOCIATION_NONE)
+  {
+    Refuse("the chosen array ", name.empty() ? name : Quote(name.c_str()) + " ",
+      "is not point data; voxels are points. Apply Cell Data to Point Data, or choose a point "
+      "array: ",
+      ArraysOf(image), ".");
+  }
+  vtkAbstractArray* found = name.empty()
+    ? image->GetPointData()->GetAbstractAttribute(
+        selection->Get(vtkDataObject::FIELD_ATTRIBUTE_TYPE()))
+    : image->GetPointData()->GetAbstractArray(name.c_str());
+  if (!found && name.empty())
+  {
+    Refuse("the image has no active point scalars; ", ArraysOf(image),
+      ". Choose one as Voxels (SetInputArrayToProcess).");
+  }
+  if (!found)
+  {
+    Refuse("the image has no point array ", Quote(name.c_str()), "; ", ArraysOf(image), ".");
+  }
   auto* array = vtkDataArray::SafeDownCast(found);
   if (!array)
   {

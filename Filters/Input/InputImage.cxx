@@ -15,7 +15,6 @@
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
 #include <vtkMatrix3x3.h>
-#include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
@@ -69,19 +68,9 @@ void CheckPlace(vtkImageData* level0, vtkImageData* below, vtkImageData* image, 
 
 namespace
 {
-/** Level 0 if the blocks are the levels of a pyramid (two at least), by size and place, else null.
- */
-vtkImageData* Level0OfPyramid(vtkMultiBlockDataSet* blocks)
+/** Whether images are the levels of a pyramid, by size and place. */
+bool AreLevels(const std::vector<vtkImageData*>& images)
 {
-  std::vector<vtkImageData*> images;
-  for (unsigned int h = 0; h < blocks->GetNumberOfBlocks(); ++h)
-  {
-    images.push_back(vtkImageData::SafeDownCast(blocks->GetBlock(h)));
-    if (!images[h] || images[h]->GetNumberOfPoints() == 0)
-    {
-      return nullptr;
-    }
-  }
   try
   {
     for (unsigned int h = 1; h < images.size(); ++h)
@@ -91,9 +80,9 @@ vtkImageData* Level0OfPyramid(vtkMultiBlockDataSet* blocks)
   }
   catch (const Refusal&)
   {
-    return nullptr;
+    return false;
   }
-  return images.size() > 1 ? images[0] : nullptr;
+  return true;
 }
 
 [[noreturn]] void RefuseType(vtkDataObject* data)
@@ -104,11 +93,13 @@ vtkImageData* Level0OfPyramid(vtkMultiBlockDataSet* blocks)
     isField ? " Apply Resample To Image (vtkResampleToImage) to it first." : "");
 }
 
-vtkImageData* OnlyImageIn(vtkDataObjectTree* composite)
+/** The only image, or level 0 of a pyramid. */
+vtkImageData* ImageIn(vtkDataObjectTree* composite)
 {
   const auto leaves = vtkCompositeDataSet::GetDataSets<vtkDataObject>(composite);
   const auto images = vtkCompositeDataSet::GetDataSets<vtkImageData>(composite);
-  if (images.size() == 1)
+  const bool isPyramid = images.size() == leaves.size() && AreLevels(images);
+  if (images.size() == 1 || (images.size() > 1 && isPyramid))
   {
     return images[0];
   }
@@ -191,18 +182,11 @@ vtkImageData* ImageOf(vtkDataObject* input)
   {
     return image;
   }
-  if (auto* blocks = vtkMultiBlockDataSet::SafeDownCast(input))
-  {
-    if (vtkImageData* image = Level0OfPyramid(blocks))
-    {
-      return image;
-    }
-  }
   // Refined grids are one dataset, though they are a tree of images from VTK 9.6 on.
   auto* composite = vtkDataObjectTree::SafeDownCast(input);
   if (composite && !input->IsA("vtkUniformGridAMR"))
   {
-    return OnlyImageIn(composite);
+    return ImageIn(composite);
   }
   RefuseType(input);
 }

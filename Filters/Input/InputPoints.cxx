@@ -112,8 +112,8 @@ bool IsSurfaceOnly(vtkPolyData* polyData)
     polyData->GetNumberOfVerts() == 0;
 }
 
-/** The array of that name, null if there is none. */
-vtkDataArray* NumbersOf(vtkPolyData* polyData, const char* name)
+/** The number that a point has in an array, if there is one of that name. */
+double NumberAt(vtkPolyData* polyData, const char* name, vtkIdType id, double missing)
 {
   vtkAbstractArray* found = polyData->GetPointData()->GetAbstractArray(name);
   auto* numbers = vtkDataArray::SafeDownCast(found);
@@ -121,15 +121,10 @@ vtkDataArray* NumbersOf(vtkPolyData* polyData, const char* name)
   {
     Refuse("the point array ", name, " must hold one number per point.");
   }
-  return numbers;
-}
-
-double NumberAt(vtkDataArray* numbers, vtkIdType id, double missing)
-{
   const double value = numbers ? numbers->GetComponent(id, 0) : missing;
   if (!(value >= 0.0) || !std::isfinite(value))
   {
-    Refuse(numbers->GetName(), " of point ", id, " is ", value, "; it must be 0 or more.");
+    Refuse(name, " of point ", id, " is ", value, "; it must be 0 or more.");
   }
   return value;
 }
@@ -149,19 +144,13 @@ std::vector<AttractingPoint> AttractingPointsOf(
   vtkPolyData* port2, const Workspace& space, const std::array<int, 3>& size)
 {
   std::vector<AttractingPoint> attracting;
-  if (!port2)
-  {
-    return attracting;
-  }
-  vtkDataArray* weights = NumbersOf(port2, "Weight");
-  vtkDataArray* radii = NumbersOf(port2, "Radius");
   for (const vtkIdType id : IdsMeantBy(port2))
   {
     AttractingPoint point;
     // There the field still ramps down to the background.
     point.Place = PlaceInside(WorldOf(port2, id), id, space, size, 0);
-    point.Weight = NumberAt(weights, id, 1.0);
-    point.Radius = NumberAt(radii, id, 0.0) / space.WorldUnit();
+    point.Weight = NumberAt(port2, "Weight", id, 1.0);
+    point.Radius = NumberAt(port2, "Radius", id, 0.0) / space.WorldUnit();
     attracting.push_back(point);
   }
   return attracting;

@@ -70,18 +70,11 @@ std::array<double, 2> FindNeighbours(
   T above = std::numeric_limits<T>::max();
   for (vtkIdType i = 0; i < count; ++i)
   {
-    const T voxel = voxels[i];
-    if (!valid.Has(i))
+    if (valid.Has(i))
     {
-      continue;
-    }
-    if (static_cast<double>(voxel) <= value)
-    {
-      below = std::max(below, voxel);
-    }
-    else
-    {
-      above = std::min(above, voxel);
+      const bool isBelow = static_cast<double>(voxels[i]) <= value;
+      below = isBelow ? std::max(below, voxels[i]) : below;
+      above = isBelow ? above : std::min(above, voxels[i]);
     }
   }
   return { static_cast<double>(below), static_cast<double>(above) };
