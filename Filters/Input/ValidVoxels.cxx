@@ -88,17 +88,6 @@ void CountNotFinite(const T* values, LargeVector<std::uint8_t>& marks, NotFinite
   }
 }
 
-template <typename T>
-void FindRange(const T* values, const LargeVector<std::uint8_t>& marks, double range[2])
-{
-  for (std::size_t i = 0; i < marks.size(); ++i)
-  {
-    const auto value = static_cast<double>(values[i]);
-    range[0] = marks[i] != 0 && value < range[0] ? value : range[0];
-    range[1] = marks[i] != 0 && value > range[1] ? value : range[1];
-  }
-}
-
 /** `array 'name' has 3 NaN voxels (1.5 %), the first at (i, j, k)` */
 std::string Describe(vtkDataArray* array, const char* kind, std::int64_t count,
   std::int64_t first, vtkImageData* image)
@@ -154,8 +143,16 @@ std::array<double, 2> RangeOf(vtkDataArray* contiguous, const ValidVoxels& valid
     contiguous->GetRange(range.data());
     return range;
   }
-  VisitVoxels(
-    contiguous, [&](const auto* values) { FindRange(values, valid.Marks, range.data()); });
+  VisitVoxels(contiguous,
+    [&](const auto* values)
+    {
+      for (std::size_t i = 0; i < valid.Marks.size(); ++i)
+      {
+        const auto value = static_cast<double>(values[i]);
+        range[0] = valid.Marks[i] != 0 ? std::min(range[0], value) : range[0];
+        range[1] = valid.Marks[i] != 0 ? std::max(range[1], value) : range[1];
+      }
+    });
   return range;
 }
 
