@@ -41,24 +41,6 @@ function (volumic_describe_package component package section summary)
   set("${prefix}_DESCRIPTION" "${description}" PARENT_SCOPE)
 endfunction ()
 
-# volumic_add_control_files(COMPONENT PACKAGE TEMPLATE...): files of CMake/debian, without their
-# suffix .in and prefix python- or library-.
-function (volumic_add_control_files component package)
-  string(TOUPPER "${component}" upper)
-  set(variable "CPACK_DEBIAN_${upper}_PACKAGE_CONTROL_EXTRA")
-  foreach (template IN LISTS ARGN)
-    string(REGEX REPLACE "^(python|library)-(.*)[.]in$" "\\2" name "${template}")
-    set(file "${CMAKE_BINARY_DIR}/debian/${package}/${name}")
-    configure_file("${volumic_debian}/${template}" "${file}" @ONLY)
-    list(APPEND "${variable}" "${file}")
-  endforeach ()
-  set("${variable}" "${${variable}}" PARENT_SCOPE)
-endfunction ()
-# Byte-compile at installation, and leave nothing behind.
-set(volumic_python_control python-postinst.in python-prerm.in)
-# Tell the linker and other packages of the library.
-set(volumic_library_control library-shlibs.in library-triggers.in)
-
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME volumic)
 set(CPACK_PACKAGE_VENDOR "Volumic contributors")
@@ -96,22 +78,25 @@ list(JOIN volumic_python_recommends ", " volumic_python_recommends)
 # One package of all that is not for development.
 set(CPACK_COMPONENTS_GROUPING ONE_PER_GROUP)
 set(CPACK_COMPONENTS_ALL runtime)
-set(control ${volumic_library_control})
+# Tell the linker and other packages of the library.
+set(control library-shlibs.in library-triggers.in)
 if (VOLUMIC_WRAP_PYTHON)
   list(APPEND CPACK_COMPONENTS_ALL python)
-  list(APPEND control ${volumic_python_control})
+  # Byte-compile at installation, and leave nothing behind.
+  list(APPEND control python-postinst.in python-prerm.in)
 endif ()
 if (VOLUMIC_BUILD_PARAVIEW_PLUGIN)
   list(APPEND CPACK_COMPONENTS_ALL plugin)
   set(group plugin)
+  set(package paraview-volumic)
   set(CPACK_DEBIAN_PLUGIN_PACKAGE_RECOMMENDS
     "python3-paraview, python3-numpy, ${volumic_python_recommends}")
   list(APPEND CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${VOLUMIC_PLUGIN_DIR}")
-  volumic_add_control_files(plugin paraview-volumic ${control})
   volumic_describe_package(plugin paraview-volumic science
     "trustworthy surfaces from 3D images, plugin for ParaView")
 else ()
   set(group runtime)
+  set(package volumic)
   if (VOLUMIC_WRAP_PYTHON)
     set(CPACK_DEBIAN_RUNTIME_PACKAGE_DEPENDS
       "python3-vtk9, python3-numpy, ${volumic_python_dependency}")
@@ -123,7 +108,6 @@ else ()
       set("CPACK_DEBIAN_RUNTIME_PACKAGE_${field}" python3-volumic)
     endforeach ()
   endif ()
-  volumic_add_control_files(runtime volumic ${control})
   volumic_describe_package(runtime volumic science
     "trustworthy surfaces from 3D images, command and Python package")
   volumic_describe_package(development volumic-dev libdevel
@@ -131,6 +115,13 @@ else ()
   set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
     "volumic (= ${volumic_debian_version}), libvtk9-dev (>= 9.1)")
 endif ()
+string(TOUPPER "${group}" upper)
+foreach (template IN LISTS control)
+  string(REGEX REPLACE "^(python|library)-(.*)[.]in$" "\\2" name "${template}")
+  set(file "${CMAKE_BINARY_DIR}/debian/${package}/${name}")
+  configure_file("${volumic_debian}/${template}" "${file}" @ONLY)
+  list(APPEND "CPACK_DEBIAN_${upper}_PACKAGE_CONTROL_EXTRA" "${file}")
+endforeach ()
 foreach (component IN LISTS CPACK_COMPONENTS_ALL)
   string(TOUPPER "${component}" upper)
   set("CPACK_COMPONENT_${upper}_GROUP" "${group}")

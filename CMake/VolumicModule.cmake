@@ -26,7 +26,6 @@ function (volumic_build_module)
     ENABLE_TESTS OFF)
   # The folder of vtk.module is the project's own, and so would be its binary folder: a folder
   # below serves, within this function.
-  set(library_destination "${CMAKE_INSTALL_LIBDIR}")
   set(version VERSION "${Volumic_VERSION}" SOVERSION "${Volumic_VERSION_MAJOR}")
   if (SKBUILD)
     set(version "") # a wheel has no links, so the library has one name only
@@ -41,11 +40,11 @@ function (volumic_build_module)
     ${version}
     ENABLE_WRAPPING ON
     HEADERS_DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/volumic"
-    LIBRARY_DESTINATION "${library_destination}"
-    ARCHIVE_DESTINATION "${library_destination}"
+    LIBRARY_DESTINATION "${CMAKE_INSTALL_LIBDIR}"
+    ARCHIVE_DESTINATION "${CMAKE_INSTALL_LIBDIR}"
     RUNTIME_DESTINATION "${CMAKE_INSTALL_BINDIR}"
     CMAKE_DESTINATION "${volumic_cmake_destination}"
-    HIERARCHY_DESTINATION "${library_destination}/vtk/hierarchy/Volumic${volumic_flavour_suffix}")
+    HIERARCHY_DESTINATION "${CMAKE_INSTALL_LIBDIR}/vtk/hierarchy/Volumic${volumic_flavour_suffix}")
   set(modules "${modules}" PARENT_SCOPE)
 endfunction ()
 

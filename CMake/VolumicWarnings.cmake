@@ -26,29 +26,22 @@ list(APPEND volumic_warnings -Wpedantic)
 # vertices and voxels have signed numbers, containers unsigned ones.
 set(volumic_conversion_warnings -Wconversion -Wno-sign-conversion)
 
-function (volumic_add_warnings)
-  cmake_parse_arguments(arg "" "" "TARGETS;WARNINGS" ${ARGN})
-  foreach (target IN LISTS arg_TARGETS)
+# volumic_add_warnings(WARNINGS TARGET...)
+function (volumic_add_warnings warnings)
+  foreach (target IN LISTS ARGN)
     if (TARGET "${target}")
       get_target_property(module "${target}" ALIASED_TARGET) # of VTK, which names it
       if (module)
         set(target "${module}")
       endif ()
-      target_compile_options("${target}" PRIVATE
-        "$<$<COMPILE_LANGUAGE:CXX>:${arg_WARNINGS}>")
+      target_compile_options("${target}" PRIVATE "$<$<COMPILE_LANGUAGE:CXX>:${warnings}>")
     endif ()
   endforeach ()
 endfunction ()
 
-volumic_add_warnings(
-  TARGETS VolumicCore
-  WARNINGS ${volumic_warnings} ${volumic_conversion_warnings})
-volumic_add_warnings(
-  TARGETS Volumic::FiltersVolumic Volumic::ServerManagerVolumic BuildPyramid Volumic
-  WARNINGS ${volumic_vtk_warnings} ${volumic_conversion_warnings})
-volumic_add_warnings(
-  TARGETS TestCore VolumicTestSupport
-  WARNINGS ${volumic_warnings})
-volumic_add_warnings(
-  TARGETS TestFilters TestRealScans TestScenes Benchmark VolumicBenchmarkItk
-  WARNINGS ${volumic_vtk_warnings})
+volumic_add_warnings("${volumic_warnings};${volumic_conversion_warnings}" VolumicCore)
+volumic_add_warnings("${volumic_vtk_warnings};${volumic_conversion_warnings}"
+  Volumic::FiltersVolumic Volumic::ServerManagerVolumic BuildPyramid Volumic)
+volumic_add_warnings("${volumic_warnings}" TestCore VolumicTestSupport)
+volumic_add_warnings("${volumic_vtk_warnings}"
+  TestFilters TestRealScans TestScenes Benchmark VolumicBenchmarkItk)

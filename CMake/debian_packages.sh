@@ -37,17 +37,9 @@ qt6_packages=(qt6-base-dev qt6-svg-dev qt6-5compat-dev qt6-tools-dev qt6-svg-plu
 
 # ---- Packages ----------------------------------------------------------------------------------
 
-# check_system: a word where nobody has tried, and package lists where there are none yet.
+# check_system: package lists where there are none yet.
 check_system()
 {
-  local system="another system"
-  if [ -r /etc/os-release ]; then
-    system=$(. /etc/os-release && echo "${PRETTY_NAME:-$ID}")
-    case $(. /etc/os-release && echo "$ID ${VERSION_CODENAME:-}") in
-      "debian bookworm" | "debian trixie" | "debian forky") ;;
-      *) say "Note: tried on Debian 12, 13 and forky; packages of $system may differ." ;;
-    esac
-  fi
   if command -v apt-get > /dev/null && [ -z "$(package_version libvtk9-dev)" ]; then
     if ! is_root_or_sudo; then
       fail "There are no package lists yet. Please run
@@ -56,7 +48,7 @@ and start this script again."
     fi
     "${privileged[@]}" apt-get update -q > "$logs/package-lists.log" 2>&1 < /dev/null \
       || fail "apt-get update failed. Its log: $logs/package-lists.log"
-    [ -n "$(package_version libvtk9-dev)" ] || fail "No package libvtk9-dev in $system's lists."
+    [ -n "$(package_version libvtk9-dev)" ] || fail "The package lists have no libvtk9-dev."
   fi
 }
 
@@ -112,16 +104,8 @@ and start this script again."
 
 apt_install()
 {
-  local simulation removed
   "${privileged[@]}" apt-get update -q
   echo "To install: $*"
-  simulation=$(LC_ALL=C apt-get install -s --no-install-recommends "$@")
-  removed=$(sed -n 's/^Remv \([^ ]*\).*/\1/p' <<< "$simulation" | tr '\n' ' ')
-  if [ -n "$removed" ]; then
-    echo "Installing these packages would remove others that are installed: $removed"
-    echo "That is not done here. Decide about them yourself, then start this script again."
-    return 1
-  fi
   "${privileged[@]}" env DEBIAN_FRONTEND=noninteractive \
     apt-get install -y -q -o DPkg::Lock::Timeout=300 --no-install-recommends --no-remove "$@"
 }

@@ -9,8 +9,8 @@
 #include "Labels/LabelImage.h"
 #include "Labels/LabelNames.h"
 
+#include <vtkAbstractArray.h>
 #include <vtkDataObject.h>
-#include <vtkDataSetAttributes.h>
 #include <vtkDoubleArray.h>
 #include <vtkErrorCode.h>
 #include <vtkIdTypeArray.h>
@@ -24,15 +24,6 @@
 
 
 vtkStandardNewMacro(vtkLabelTable);
-
-//------------------------------------------------------------------------------
-vtkLabelTable::vtkLabelTable()
-{
-  this->SetInputArrayToProcess(
-    0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS);
-}
-
-vtkLabelTable::~vtkLabelTable() = default;
 
 //------------------------------------------------------------------------------
 int vtkLabelTable::FillInputPortInformation(int, vtkInformation* info)
@@ -59,20 +50,24 @@ int vtkLabelTable::RequestData(
   {
     return 1;
   }
-  vtkNew<vtkIntArray> labels;
-  labels->SetName("Label");
-  vtkNew<vtkStringArray> names;
-  names->SetName("Name");
-  vtkNew<vtkIdTypeArray> voxels;
-  voxels->SetName("Voxels");
-  vtkNew<vtkIntArray> extents;
-  extents->SetName("Extent");
-  extents->SetNumberOfComponents(6);
-  vtkNew<vtkDoubleArray> colors;
-  colors->SetName("Color");
-  colors->SetNumberOfComponents(3);
   const auto work = [&]
   {
+    vtkNew<vtkIntArray> labels;
+    vtkNew<vtkStringArray> names;
+    vtkNew<vtkIdTypeArray> voxels;
+    vtkNew<vtkIntArray> extents;
+    vtkNew<vtkDoubleArray> colors;
+    const auto addColumn = [&](vtkAbstractArray* column, const char* name, int components)
+    {
+      column->SetName(name);
+      column->SetNumberOfComponents(components);
+      vtkTable::GetData(outputVector)->AddColumn(column);
+    };
+    addColumn(labels, "Label", 1);
+    addColumn(names, "Name", 1);
+    addColumn(voxels, "Voxels", 1);
+    addColumn(extents, "Extent", 6);
+    addColumn(colors, "Color", 3);
     vtkDataObject* input = volumic::WholeInput(inputVector[0]);
     volumic::HostThreads threads(0);
     volumic::LabelImage image(input, this->GetInputArrayInformation(0), 0, threads);
@@ -87,20 +82,8 @@ int vtkLabelTable::RequestData(
       extents->InsertNextTypedTuple(entry.second.Extent.data());
       colors->InsertNextTuple(known.ColorOf(entry.first).data());
     }
-    vtkTable* table = vtkTable::GetData(outputVector);
-    table->AddColumn(labels);
-    table->AddColumn(names);
-    table->AddColumn(voxels);
-    table->AddColumn(extents);
-    table->AddColumn(colors);
   };
   this->SetErrorCode(volumic::RunAlgorithm(
     this, outputVector, "Input port 0: ", [] { return "the memory does not suffice for the labels."; }, work));
   return 1;
-}
-
-//------------------------------------------------------------------------------
-void vtkLabelTable::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
 }

@@ -33,11 +33,10 @@ class VTKFILTERSVOLUMIC_EXPORT vtkLabelTable : public vtkTableAlgorithm
 public:
   static vtkLabelTable* New();
   vtkTypeMacro(vtkLabelTable, vtkTableAlgorithm);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
 
 protected:
-  vtkLabelTable();
-  ~vtkLabelTable() override;
+  vtkLabelTable() = default;
+  ~vtkLabelTable() override = default;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestUpdateExtent(

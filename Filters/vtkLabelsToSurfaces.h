@@ -78,7 +78,7 @@
  * @par Errors:
  * As vtkDeformableSurface: on error the filter invokes `ErrorEvent`, produces empty outputs and
  * sets GetErrorCode(). A map looks like a scan if it has more than 256 labels and more than a third
- * of the neighbouring voxels along the axes differ. The filter warns of it before meshing begins.
+ * of the neighbouring voxels along x differ. The filter warns of it before meshing begins.
  *
  * @par Cancelling:
  * The filter tests AbortExecute several times a second. It then outputs the mesh as it is, whose

@@ -7,8 +7,6 @@
 #include "Input/InputImage.h"
 #include "Input/ValueHints.h"
 
-#include <vtkDataObject.h>
-#include <vtkDataSetAttributes.h>
 #include <vtkDoubleArray.h>
 #include <vtkErrorCode.h>
 #include <vtkImageData.h>
@@ -20,13 +18,7 @@
 vtkStandardNewMacro(vtkOtsuThreshold);
 
 //------------------------------------------------------------------------------
-vtkOtsuThreshold::vtkOtsuThreshold() : SelectedComponent(-1), Threshold(vtkMath::Nan())
-{
-  this->SetInputArrayToProcess(
-    0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS);
-}
-
-vtkOtsuThreshold::~vtkOtsuThreshold() = default;
+vtkOtsuThreshold::vtkOtsuThreshold() : SelectedComponent(-1), Threshold(vtkMath::Nan()) {}
 
 //------------------------------------------------------------------------------
 vtkDoubleArray* vtkOtsuThreshold::GetHistogram()
@@ -66,7 +58,7 @@ int vtkOtsuThreshold::RequestData(
     const volumic::PointVoxels voxels = volumic::TakeCellsAsPoints(
       volumic::ImageOf(volumic::WholeInput(input[0])), this->GetInputArrayInformation(0));
     const volumic::VoxelHistogram found =
-      volumic::FindOtsuThreshold(voxels.Image, voxels.Selection, this->SelectedComponent, 0);
+      volumic::FindOtsuThreshold(voxels.Image, voxels.Selection, this->SelectedComponent);
     vtkNew<vtkDoubleArray> column;
     column->SetName("Threshold");
     column->InsertNextValue(found.Threshold);

@@ -77,7 +77,7 @@ public:
 
 protected:
   vtkOtsuThreshold();
-  ~vtkOtsuThreshold() override;
+  ~vtkOtsuThreshold() override = default;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestUpdateExtent(

@@ -6,7 +6,6 @@
 #include "Host/LargeArrays.h"
 
 #include <vtkAbstractArray.h>
-#include <vtkAlgorithm.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkDataObject.h>
@@ -21,8 +20,6 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <stdexcept>
-#include <type_traits>
 
 namespace volumic
 {
@@ -54,76 +51,47 @@ std::string ArraysOf(vtkImageData* image)
   return text;
 }
 
-/**
- * The array that the selection names, whatever its type; the reason in a message if there is none.
- */
-vtkAbstractArray* FindArray(vtkInformation* selection, vtkImageData* image)
+/** A value for each tuple, of which `valueOf` is given the first component. */
+template <typename Array, typename ValueOf>
+vtkSmartPointer<vtkDataArray> Compute(
+  vtkDataArray* tuples, Executor& threads, const ValueOf& valueOf)
 {
-  if (selection && selection->Has(vtkDataObject::FIELD_ASSOCIATION()))
-  {
-    const int association = selection->Get(vtkDataObject::FIELD_ASSOCIATION());
-    if (association == vtkDataObject::FIELD_ASSOCIATION_CELLS ||
-      association == vtkDataObject::FIELD_ASSOCIATION_NONE)
+  constexpr std::size_t grain = 1 << 16;
+  const auto count = static_cast<std::size_t>(tuples->GetNumberOfTuples());
+  const int components = tuples->GetNumberOfComponents();
+  const auto computed = NewLargeArray<Array>(count);
+  computed->SetName(tuples->GetName());
+  auto* to = computed->GetPointer(0);
+  VisitVoxels(tuples,
+    [&](const auto* from)
     {
-      const char* name = selection->Get(vtkDataObject::FIELD_NAME());
-      Refuse("the chosen array " + (name ? Quote(name) + " " : std::string()) +
-        "is not point data; voxels are points. Apply Cell Data to Point Data, or choose a point " +
-        "array: " + ArraysOf(image) + ".");
-    }
-  }
-  const std::string name = ChosenName(selection);
-  if (!name.empty())
-  {
-    vtkAbstractArray* array = image->GetPointData()->GetAbstractArray(name.c_str());
-    if (!array)
-    {
-      Refuse("the image has no point array " + Quote(name.c_str()) + "; " + ArraysOf(image) + ".");
-    }
-    return array;
-  }
-  const int attribute = selection && selection->Has(vtkDataObject::FIELD_ATTRIBUTE_TYPE())
-    ? selection->Get(vtkDataObject::FIELD_ATTRIBUTE_TYPE())
-    : static_cast<int>(vtkDataSetAttributes::SCALARS);
-  vtkAbstractArray* array = image->GetPointData()->GetAbstractAttribute(attribute);
-  if (!array)
-  {
-    Refuse("the image has no active point scalars; " + ArraysOf(image) +
-      ". Choose one as Voxels (SetInputArrayToProcess).");
-  }
-  return array;
+      threads.For(count, grain,
+        [&](std::size_t begin, std::size_t end)
+        {
+          for (std::size_t i = begin; i < end; ++i)
+          {
+            to[i] = static_cast<typename Array::ValueType>(valueOf(from + i * components));
+          }
+        });
+    });
+  return computed;
 }
 
-template <typename T>
-void CopyComponent(const T* values, int stride, vtkIdType count, T* selected)
+/** The same as float, or as double where the type has more digits than float. */
+template <typename ValueOf>
+vtkSmartPointer<vtkDataArray> ComputeReal(
+  vtkDataArray* tuples, Executor& threads, const ValueOf& valueOf)
 {
-  for (vtkIdType i = 0; i < count; ++i)
-  {
-    selected[i] = values[i * stride];
-  }
-}
-
-template <typename T, typename Real>
-void ComputeMagnitude(const T* values, int components, vtkIdType count, Real* magnitudes)
-{
-  for (vtkIdType i = 0; i < count; ++i)
-  {
-    double sum = 0.0;
-    for (int c = 0; c < components; ++c)
-    {
-      const auto value = static_cast<double>(values[i * components + c]);
-      sum += value * value;
-    }
-    magnitudes[i] = static_cast<Real>(std::sqrt(sum));
-  }
+  return tuples->GetDataType() == VTK_FLOAT || tuples->GetDataTypeSize() < 4
+    ? Compute<vtkFloatArray>(tuples, threads, valueOf)
+    : Compute<vtkDoubleArray>(tuples, threads, valueOf);
 }
 }
 
 std::string ChosenName(vtkInformation* selection)
 {
   // A ParaView script that never saw the data chooses the array without a name.
-  const char* name = selection && selection->Has(vtkDataObject::FIELD_NAME())
-    ? selection->Get(vtkDataObject::FIELD_NAME())
-    : nullptr;
+  const char* name = selection->Get(vtkDataObject::FIELD_NAME());
   return name ? name : "";
 }
 
@@ -151,7 +119,30 @@ vtkDataArray* ChooseArray(vtkInformation* selection, vtkImageData* image)
   {
     Refuse("the image is empty: it has " + SizeOf(image) + " voxels.");
   }
-  vtkAbstractArray* found = FindArray(selection, image);
+  // What is not set is 0: points, and scalars.
+  const std::string name = ChosenName(selection);
+  const int association = selection->Get(vtkDataObject::FIELD_ASSOCIATION());
+  if (association == vtkDataObject::FIELD_ASSOCIATION_CELLS ||
+    association == vtkDataObject::FIELD_ASSOCIATION_NONE)
+  {
+    Refuse("the chosen array ", name.empty() ? name : Quote(name.c_str()) + " ",
+      "is not point data; voxels are points. Apply Cell Data to Point Data, or choose a point "
+      "array: ",
+      ArraysOf(image), ".");
+  }
+  vtkAbstractArray* found = name.empty()
+    ? image->GetPointData()->GetAbstractAttribute(
+        selection->Get(vtkDataObject::FIELD_ATTRIBUTE_TYPE()))
+    : image->GetPointData()->GetAbstractArray(name.c_str());
+  if (!found && name.empty())
+  {
+    Refuse("the image has no active point scalars; ", ArraysOf(image),
+      ". Choose one as Voxels (SetInputArrayToProcess).");
+  }
+  if (!found)
+  {
+    Refuse("the image has no point array ", Quote(name.c_str()), "; ", ArraysOf(image), ".");
+  }
   auto* array = vtkDataArray::SafeDownCast(found);
   if (!array)
   {
@@ -193,34 +184,26 @@ vtkSmartPointer<vtkDataArray> SelectComponent(vtkDataArray* array, int component
     return array;
   }
   const vtkSmartPointer<vtkDataArray> tuples = ContiguousVoxels(array);
-  const int type = tuples->GetDataType();
-  const bool isSmall = type == VTK_FLOAT || tuples->GetDataTypeSize() < 4;
-  vtkSmartPointer<vtkDataArray> selected;
-  selected.TakeReference(
-    vtkDataArray::CreateDataArray(component >= 0 ? type : (isSmall ? VTK_FLOAT : VTK_DOUBLE)));
-  selected->SetName(array->GetName());
-  selected->SetNumberOfTuples(array->GetNumberOfTuples());
-  VisitVoxels(tuples,
-    [&](const auto* values)
+  if (component >= 0)
+  {
+    vtkSmartPointer<vtkDataArray> selected;
+    selected.TakeReference(tuples->NewInstance());
+    selected->SetName(array->GetName());
+    selected->SetNumberOfTuples(tuples->GetNumberOfTuples());
+    selected->CopyComponent(0, tuples, component);
+    return selected;
+  }
+  return ComputeReal(tuples, OnThisThread(),
+    [count](const auto* tuple)
     {
-      using Voxel = std::remove_cv_t<std::remove_pointer_t<decltype(values)>>;
-      if (component >= 0)
+      double sum = 0.0;
+      for (int c = 0; c < count; ++c)
       {
-        CopyComponent(values + component, count, selected->GetNumberOfTuples(),
-          static_cast<Voxel*>(selected->GetVoidPointer(0)));
+        const auto value = static_cast<double>(tuple[c]);
+        sum += value * value;
       }
-      else if (isSmall)
-      {
-        ComputeMagnitude(values, count, selected->GetNumberOfTuples(),
-          static_cast<float*>(selected->GetVoidPointer(0)));
-      }
-      else
-      {
-        ComputeMagnitude(values, count, selected->GetNumberOfTuples(),
-          static_cast<double*>(selected->GetVoidPointer(0)));
-      }
+      return std::sqrt(sum);
     });
-  return selected;
 }
 
 vtkSmartPointer<vtkImageData> WithVoxels(vtkImageData* image, vtkDataArray* voxels)
@@ -228,17 +211,10 @@ vtkSmartPointer<vtkImageData> WithVoxels(vtkImageData* image, vtkDataArray* voxe
   vtkSmartPointer<vtkImageData> with;
   with.TakeReference(image->NewInstance());
   with->ShallowCopy(image);
-  const char* name = voxels->GetName();
-  if (!name)
-  {
-    with->GetPointData()->SetScalars(voxels);
-    return with;
-  }
-  if (with->GetPointData()->GetArray(name) != voxels)
-  {
-    with->GetPointData()->AddArray(voxels);
-  }
-  with->GetPointData()->SetActiveScalars(name);
+  vtkPointData* arrays = with->GetPointData();
+  arrays->SetActiveAttribute(
+    voxels->GetName() ? arrays->AddArray(voxels) : arrays->SetScalars(voxels),
+    vtkDataSetAttributes::SCALARS);
   return with;
 }
 
@@ -253,33 +229,8 @@ vtkSmartPointer<vtkDataArray> ContiguousVoxels(vtkDataArray* voxels)
   copy.TakeReference(
     isPacked ? vtkUnsignedCharArray::New() : vtkDataArray::CreateDataArray(voxels->GetDataType()));
   copy->DeepCopy(voxels);
+  copy->SetName(voxels->GetName());
   return copy;
-}
-
-namespace
-{
-/** Voxels under which a thread is not worth it. */
-constexpr std::size_t FoldGrain = 1 << 16;
-
-template <typename Array, typename T>
-vtkSmartPointer<vtkDataArray> Fold(
-  const T* voxels, std::size_t count, const ValueRange& range, Executor& threads)
-{
-  const auto folded = NewLargeArray<Array>(count);
-  auto* to = folded->GetPointer(0);
-  const double sum = range.Lower + range.Upper;
-  threads.For(count, FoldGrain,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        const auto value = static_cast<double>(voxels[i]);
-        // In this order NaN stays NaN, and an infinite voxel infinite.
-        to[i] = static_cast<typename Array::ValueType>(std::min(value, sum - value));
-      }
-    });
-  return folded;
-}
 }
 
 void ValueRange::Check() const
@@ -287,12 +238,6 @@ void ValueRange::Check() const
   if (!this->IsUsed())
   {
     return;
-  }
-  if (!std::isfinite(this->Upper))
-  {
-    Refuse("Upper Value is ", this->Upper,
-      "; it must be a number above Iso Value, or infinite, where the object has all values above "
-      "that.");
   }
   if (!std::isfinite(this->Lower))
   {
@@ -311,16 +256,13 @@ void ValueRange::Check() const
 vtkSmartPointer<vtkDataArray> FoldVoxels(
   vtkDataArray* voxels, const ValueRange& range, Executor& threads)
 {
-  const auto count = static_cast<std::size_t>(voxels->GetNumberOfTuples());
-  const bool isSmall = voxels->GetDataType() == VTK_FLOAT || voxels->GetDataTypeSize() < 4;
-  vtkSmartPointer<vtkDataArray> folded;
-  VisitVoxels(voxels,
-    [&](const auto* values)
+  const double sum = range.Lower + range.Upper;
+  return ComputeReal(voxels, threads,
+    [sum](const auto* voxel)
     {
-      folded = isSmall ? Fold<vtkFloatArray>(values, count, range, threads)
-                       : Fold<vtkDoubleArray>(values, count, range, threads);
+      const auto value = static_cast<double>(*voxel);
+      // In this order NaN stays NaN, and an infinite voxel infinite.
+      return std::min(value, sum - value);
     });
-  folded->SetName(voxels->GetName());
-  return folded;
 }
 }

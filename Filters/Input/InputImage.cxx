@@ -6,7 +6,6 @@
 #include "Input/ImageVoxels.h"
 
 #include <vtkCellData.h>
-#include <vtkCompositeDataIterator.h>
 #include <vtkCompositeDataSet.h>
 #include <vtkDataArray.h>
 #include <vtkDataObject.h>
@@ -16,27 +15,22 @@
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
 #include <vtkMatrix3x3.h>
-#include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
-#include <vtkSmartPointer.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
-#include <initializer_list>
 #include <string>
 #include <vector>
 
 namespace volumic
 {
-namespace
+void CheckPlace(vtkImageData* level0, vtkImageData* below, vtkImageData* image, unsigned int h)
 {
-/** All levels have the place of the first voxel, the direction and the real size of level 0. */
-void CheckSizeAndOrigin(vtkImageData* level0, vtkImageData* image, unsigned int h)
-{
+  const auto refuse = [h](const auto&... parts)
+  { Refuse("block ", h, " is not a level of a pyramid: ", parts..., LevelsWayOut); };
   const int* extent0 = level0->GetExtent();
   const int* extent = image->GetExtent();
   double first0[3];
@@ -50,63 +44,33 @@ void CheckSizeAndOrigin(vtkImageData* level0, vtkImageData* image, unsigned int 
     const double tolerance = 1e-5 * std::abs(real0);
     if (std::abs(real - real0) > tolerance)
     {
-      Refuse("block ", h, " is not a level of a pyramid: its real size along ", "xyz"[axis], " is ",
-        real, ", that of block 0 is ", real0, ".", LevelsWayOut);
+      refuse("its real size along ", "xyz"[axis], " is ", real, ", that of block 0 is ", real0, ".");
     }
     if (std::abs(first[axis] - first0[axis]) > tolerance)
     {
-      Refuse("block ", h, " is not a level of a pyramid: its first voxel lies at ", first[axis],
-        " along ", "xyz"[axis], ", that of block 0 at ", first0[axis], ".", LevelsWayOut);
+      refuse("its first voxel lies at ", first[axis], " along ", "xyz"[axis],
+        ", that of block 0 at ", first0[axis], ".");
     }
-  }
-  for (int i = 0; i < 9; ++i)
-  {
-    const double difference =
-      image->GetDirectionMatrix()->GetData()[i] - level0->GetDirectionMatrix()->GetData()[i];
-    if (std::abs(difference) > 1e-6)
-    {
-      Refuse("block ", h, " is not a level of a pyramid: its direction differs from block 0's.",
-        LevelsWayOut);
-    }
-  }
-}
-
-void CheckShrinks(vtkImageData* below, vtkImageData* image, unsigned int h)
-{
-  for (int axis = 0; axis < 3; ++axis)
-  {
     // An axis of one voxel stays one while others shrink.
-    const bool isDone = below->GetDimensions()[axis] == 1 && image->GetDimensions()[axis] == 1;
-    if (!isDone && image->GetDimensions()[axis] >= below->GetDimensions()[axis])
+    if (image->GetDimensions()[axis] >= std::max(below->GetDimensions()[axis], 2))
     {
-      Refuse("block ", h, " is not a level of a pyramid: it has ", SizeOf(image),
-        " voxels, and block ", h - 1, " below it ", SizeOf(below), ".", LevelsWayOut);
+      refuse("it has ", SizeOf(image), " voxels, and block ", h - 1, " below it ", SizeOf(below),
+        ".");
     }
   }
-}
-}
-
-void CheckPlace(vtkImageData* level0, vtkImageData* below, vtkImageData* image, unsigned int h)
-{
-  CheckSizeAndOrigin(level0, image, h);
-  CheckShrinks(below, image, h);
+  const double* direction = image->GetDirectionMatrix()->GetData();
+  if (!std::equal(direction, direction + 9, level0->GetDirectionMatrix()->GetData(),
+        [](double a, double b) { return std::abs(a - b) <= 1e-6; }))
+  {
+    refuse("its direction differs from block 0's.");
+  }
 }
 
 namespace
 {
-/** Level 0 if the blocks are the levels of a pyramid (two at least), by size and place, else null.
- */
-vtkImageData* Level0OfPyramid(vtkMultiBlockDataSet* blocks)
+/** Whether images are the levels of a pyramid, by size and place. */
+bool AreLevels(const std::vector<vtkImageData*>& images)
 {
-  std::vector<vtkImageData*> images;
-  for (unsigned int h = 0; h < blocks->GetNumberOfBlocks(); ++h)
-  {
-    images.push_back(vtkImageData::SafeDownCast(blocks->GetBlock(h)));
-    if (!images[h] || images[h]->GetNumberOfPoints() == 0)
-    {
-      return nullptr;
-    }
-  }
   try
   {
     for (unsigned int h = 1; h < images.size(); ++h)
@@ -116,50 +80,26 @@ vtkImageData* Level0OfPyramid(vtkMultiBlockDataSet* blocks)
   }
   catch (const Refusal&)
   {
-    return nullptr;
+    return false;
   }
-  return images.size() > 1 ? images[0] : nullptr;
-}
-
-/** Whether the filter Resample To Image makes an image of it that shows the same. */
-bool CanBeResampled(vtkDataObject* data)
-{
-  for (const char* type : { "vtkRectilinearGrid", "vtkStructuredGrid", "vtkUnstructuredGridBase",
-         "vtkHyperTreeGrid", "vtkCompositeDataSet" })
-  {
-    if (data->IsA(type))
-    {
-      return true;
-    }
-  }
-  return false;
+  return true;
 }
 
 [[noreturn]] void RefuseType(vtkDataObject* data)
 {
-  if (CanBeResampled(data))
-  {
-    Refuse("it is a ", data->GetClassName(),
-      "; an image of evenly spaced voxels (vtkImageData) is "
-      "needed. Apply Resample To Image (vtkResampleToImage) to it first.");
-  }
-  Refuse("it is a ", data->GetClassName(), "; an image (vtkImageData) is needed.");
+  const bool isField = !data->IsA("vtkPolyData") && !data->IsA("vtkTable");
+  Refuse("it is a ", data->GetClassName(),
+    "; an image of evenly spaced voxels (vtkImageData) is needed.",
+    isField ? " Apply Resample To Image (vtkResampleToImage) to it first." : "");
 }
 
-vtkImageData* OnlyImageIn(vtkDataObjectTree* composite)
+/** The only image, or level 0 of a pyramid. */
+vtkImageData* ImageIn(vtkDataObjectTree* composite)
 {
-  std::vector<vtkDataObject*> leaves;
-  std::vector<vtkImageData*> images;
-  auto iterator = vtk::TakeSmartPointer(composite->NewIterator());
-  for (iterator->InitTraversal(); !iterator->IsDoneWithTraversal(); iterator->GoToNextItem())
-  {
-    leaves.push_back(iterator->GetCurrentDataObject());
-    if (auto* image = vtkImageData::SafeDownCast(leaves.back()))
-    {
-      images.push_back(image);
-    }
-  }
-  if (images.size() == 1)
+  const auto leaves = vtkCompositeDataSet::GetDataSets<vtkDataObject>(composite);
+  const auto images = vtkCompositeDataSet::GetDataSets<vtkImageData>(composite);
+  const bool isPyramid = images.size() == leaves.size() && AreLevels(images);
+  if (images.size() == 1 || (images.size() > 1 && isPyramid))
   {
     return images[0];
   }
@@ -180,35 +120,30 @@ vtkImageData* OnlyImageIn(vtkDataObjectTree* composite)
 vtkDataArray* ChosenCells(vtkImageData* image, vtkInformation* selection)
 {
   const std::string name = ChosenName(selection);
-  if (!name.empty())
+  if (name.empty())
   {
-    const bool areCells = selection->Has(vtkDataObject::FIELD_ASSOCIATION()) &&
-      selection->Get(vtkDataObject::FIELD_ASSOCIATION()) == vtkDataObject::FIELD_ASSOCIATION_CELLS;
-    return areCells ? image->GetCellData()->GetArray(name.c_str()) : nullptr;
+    return image->GetPointData()->GetScalars() ? nullptr : image->GetCellData()->GetScalars();
   }
-  return image->GetPointData()->GetScalars() ? nullptr : image->GetCellData()->GetScalars();
+  return selection->Get(vtkDataObject::FIELD_ASSOCIATION()) ==
+      vtkDataObject::FIELD_ASSOCIATION_CELLS
+    ? image->GetCellData()->GetArray(name.c_str())
+    : nullptr;
 }
 
 /** Hides the points that stand for hidden cells. */
 void BlankAsCells(vtkImageData* cells, vtkImageData* points)
 {
-  auto* ghosts = vtkUnsignedCharArray::SafeDownCast(
-    cells->GetCellData()->GetArray(vtkDataSetAttributes::GhostArrayName()));
-  if (!ghosts || ghosts->GetNumberOfTuples() != points->GetNumberOfPoints())
+  if (vtkUnsignedCharArray* ghosts = cells->GetCellGhostArray())
   {
-    return;
-  }
-  vtkNew<vtkUnsignedCharArray> hidden;
-  hidden->SetName(vtkDataSetAttributes::GhostArrayName());
-  hidden->SetNumberOfTuples(ghosts->GetNumberOfTuples());
-  std::transform(ghosts->GetPointer(0), ghosts->GetPointer(0) + ghosts->GetNumberOfTuples(),
-    hidden->GetPointer(0),
-    [](unsigned char ghost)
+    vtkNew<vtkUnsignedCharArray> hidden;
+    hidden->SetName(vtkDataSetAttributes::GhostArrayName());
+    for (vtkIdType cell = 0; cell < ghosts->GetNumberOfTuples(); ++cell)
     {
-      return static_cast<unsigned char>(
-        ghost & vtkDataSetAttributes::HIDDENCELL ? vtkDataSetAttributes::HIDDENPOINT : 0);
-    });
-  points->GetPointData()->AddArray(hidden);
+      const bool isHidden = (ghosts->GetValue(cell) & vtkDataSetAttributes::HIDDENCELL) != 0;
+      hidden->InsertNextValue(isHidden ? vtkDataSetAttributes::HIDDENPOINT : 0);
+    }
+    points->GetPointData()->AddArray(hidden);
+  }
 }
 }
 
@@ -247,33 +182,22 @@ vtkImageData* ImageOf(vtkDataObject* input)
   {
     return image;
   }
-  if (auto* blocks = vtkMultiBlockDataSet::SafeDownCast(input))
-  {
-    if (vtkImageData* image = Level0OfPyramid(blocks))
-    {
-      return image;
-    }
-  }
   // Refined grids are one dataset, though they are a tree of images from VTK 9.6 on.
   auto* composite = vtkDataObjectTree::SafeDownCast(input);
   if (composite && !input->IsA("vtkUniformGridAMR"))
   {
-    return OnlyImageIn(composite);
+    return ImageIn(composite);
   }
   RefuseType(input);
 }
 
 PointVoxels TakeCellsAsPoints(vtkImageData* image, vtkInformation* selection)
 {
-  PointVoxels voxels;
-  vtkDataArray* cells = image ? ChosenCells(image, selection) : nullptr;
+  vtkDataArray* cells = ChosenCells(image, selection);
   if (!cells)
   {
-    voxels.Image = image;
-    voxels.Selection = selection;
-    return voxels;
+    return { image, selection };
   }
-  voxels.Image = vtkSmartPointer<vtkImageData>::New();
   int extent[6];
   double first[3];
   double centre[3];
@@ -281,20 +205,18 @@ PointVoxels TakeCellsAsPoints(vtkImageData* image, vtkInformation* selection)
   for (int axis = 0; axis < 3; ++axis)
   {
     // An axis with one point has one cell.
-    extent[2 * axis + 1] = std::max(extent[2 * axis], extent[2 * axis + 1] - 1);
-    first[axis] = image->GetDimensions()[axis] > 1 ? 0.5 : 0.0;
+    const bool isFlat = image->GetDimensions()[axis] == 1;
+    extent[2 * axis + 1] -= isFlat ? 0 : 1;
+    first[axis] = isFlat ? 0.0 : 0.5;
   }
   image->TransformContinuousIndexToPhysicalPoint(first, centre);
-  voxels.Image->SetExtent(extent);
-  voxels.Image->SetOrigin(centre);
-  voxels.Image->SetSpacing(image->GetSpacing());
-  voxels.Image->SetDirectionMatrix(image->GetDirectionMatrix());
-  voxels.Image->GetPointData()->SetScalars(cells);
-  BlankAsCells(image, voxels.Image);
-  voxels.Selection = vtkSmartPointer<vtkInformation>::New();
-  voxels.Selection->Set(
-    vtkDataObject::FIELD_ASSOCIATION(), vtkDataObject::FIELD_ASSOCIATION_POINTS);
-  voxels.Selection->Set(vtkDataObject::FIELD_ATTRIBUTE_TYPE(), vtkDataSetAttributes::SCALARS);
-  return voxels;
+  auto points = vtkSmartPointer<vtkImageData>::New();
+  points->SetExtent(extent);
+  points->SetOrigin(centre);
+  points->SetSpacing(image->GetSpacing());
+  points->SetDirectionMatrix(image->GetDirectionMatrix());
+  points->GetPointData()->SetScalars(cells);
+  BlankAsCells(image, points);
+  return { points, vtkSmartPointer<vtkInformation>::New() };
 }
 }

@@ -48,8 +48,7 @@ struct PointVoxels
 /**
  * The image as it is where its voxels are points. Where a cell array is chosen, or none and only
  * cells have active scalars, an image whose points are the centres of the cells: it shares the
- * array, so that no value is blurred, as it would be by the way to the corners. Of no image it
- * makes none.
+ * array, so that no value is blurred, as it would be by the way to the corners.
  */
 PointVoxels TakeCellsAsPoints(vtkImageData* image, vtkInformation* selection);
 }

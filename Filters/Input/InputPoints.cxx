@@ -6,17 +6,14 @@
 #include "Host/Errors.h"
 
 #include <vtkCellArray.h>
-#include <vtkCellArrayIterator.h>
 #include <vtkDataArray.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
-#include <vtkSmartPointer.h>
 #include <vtkType.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
 #include <numeric>
 #include <string>
 
@@ -24,18 +21,21 @@ namespace volumic
 {
 namespace
 {
-/** A point of a poly data. */
-struct InputPoint
-{
-  vtkIdType Id;
-  Point World;
-  Point Place; ///< workspace
-};
-
+/**
+ * The points that are meant by a poly data where points are asked for, whatever for: those of its
+ * vertices (cells of the list Verts), each once, in their order; all its points where it has no
+ * cells at all; none if it is null. Other cells beside vertices do not count.
+ * @throws std::invalid_argument if it has cells, but no vertices: nothing says that the points of
+ *         a line or of a surface are meant.
+ */
 std::vector<vtkIdType> IdsMeantBy(vtkPolyData* polyData)
 {
-  const auto numberOfPoints = static_cast<std::size_t>(polyData->GetNumberOfPoints());
   std::vector<vtkIdType> ids;
+  if (!polyData)
+  {
+    return ids;
+  }
+  const auto numberOfPoints = static_cast<std::size_t>(polyData->GetNumberOfPoints());
   if (polyData->GetNumberOfCells() == 0)
   {
     ids.resize(numberOfPoints);
@@ -53,47 +53,56 @@ std::vector<vtkIdType> IdsMeantBy(vtkPolyData* polyData)
     Refuse("The data ", fault);
   }
   std::vector<bool> isTaken(numberOfPoints, false);
-  auto cells = vtk::TakeSmartPointer(polyData->GetVerts()->NewIterator());
-  for (cells->GoToFirstCell(); !cells->IsDoneWithTraversal(); cells->GoToNextCell())
+  vtkDataArray* corners = polyData->GetVerts()->GetConnectivityArray();
+  for (vtkIdType i = 0; i < corners->GetNumberOfTuples(); ++i)
   {
-    vtkIdType size;
-    const vtkIdType* points;
-    cells->GetCurrentCell(size, points);
-    for (vtkIdType i = 0; i < size; ++i)
+    const auto id = static_cast<vtkIdType>(corners->GetComponent(i, 0));
+    if (!isTaken[id])
     {
-      if (!isTaken[points[i]])
-      {
-        isTaken[points[i]] = true;
-        ids.push_back(points[i]);
-      }
+      isTaken[id] = true;
+      ids.push_back(id);
     }
   }
   return ids;
 }
 
-/**
- * The points that are meant by a poly data where points are asked for, whatever for: those of its
- * vertices (cells of the list Verts), each once, in their order; all its points where it has no
- * cells at all; none if it is null. Other cells beside vertices do not count.
- * @throws std::invalid_argument if it has cells, but no vertices: nothing says that the points of
- *         a line or of a surface are meant.
- */
-std::vector<InputPoint> PointsMeantBy(vtkPolyData* polyData, const Workspace& space)
+Point WorldOf(vtkPolyData* polyData, vtkIdType id)
 {
-  std::vector<InputPoint> points;
-  if (!polyData)
-  {
-    return points;
-  }
+  Point world;
+  polyData->GetPoint(id, world.data());
+  return world;
+}
+
+std::vector<Point> PlacesMeantBy(vtkPolyData* polyData, const Workspace& space)
+{
+  std::vector<Point> places;
   for (const vtkIdType id : IdsMeantBy(polyData))
   {
-    InputPoint point;
-    point.Id = id;
-    polyData->GetPoint(id, point.World.data());
-    point.Place = space.ToWorkspace(point.World);
-    points.push_back(point);
+    places.push_back(space.ToWorkspace(WorldOf(polyData, id)));
   }
-  return points;
+  return places;
+}
+
+/**
+ * A point in the workspace.
+ * @param beyond voxels that it may lie behind the end of the image; one is allowed before its begin
+ */
+Point PlaceInside(const Point& world, vtkIdType id, const Workspace& space,
+  const std::array<int, 3>& size, int beyond)
+{
+  const Point place = space.ToWorkspace(world);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double step = space.Step()[axis];
+    // Written so that NaN is refused too.
+    if (!(place[axis] >= -step && place[axis] <= step * (size[axis] + beyond)))
+    {
+      Refuse("point ", id, " (", world[0], ", ", world[1], ", ", world[2],
+        ") lies outside the image. Points are in world coordinates; move it into the image, or "
+        "remove it.");
+    }
+  }
+  return place;
 }
 
 /** Whether it has polygons and no vertices: then it is a surface, and no points are meant. */
@@ -103,16 +112,8 @@ bool IsSurfaceOnly(vtkPolyData* polyData)
     polyData->GetNumberOfVerts() == 0;
 }
 
-std::vector<Point> Places(const std::vector<InputPoint>& points)
-{
-  std::vector<Point> places;
-  std::transform(points.begin(), points.end(), std::back_inserter(places),
-    [](const InputPoint& point) { return point.Place; });
-  return places;
-}
-
-/** The array of that name, null if there is none. */
-vtkDataArray* NumbersOf(vtkPolyData* polyData, const char* name)
+/** The number that a point has in an array, if there is one of that name. */
+double NumberAt(vtkPolyData* polyData, const char* name, vtkIdType id, double missing)
 {
   vtkAbstractArray* found = polyData->GetPointData()->GetAbstractArray(name);
   auto* numbers = vtkDataArray::SafeDownCast(found);
@@ -120,15 +121,10 @@ vtkDataArray* NumbersOf(vtkPolyData* polyData, const char* name)
   {
     Refuse("the point array ", name, " must hold one number per point.");
   }
-  return numbers;
-}
-
-double NumberAt(vtkDataArray* numbers, vtkIdType id, double missing)
-{
   const double value = numbers ? numbers->GetComponent(id, 0) : missing;
   if (!(value >= 0.0) || !std::isfinite(value))
   {
-    Refuse(numbers->GetName(), " of point ", id, " is ", value, "; it must be 0 or more.");
+    Refuse(name, " of point ", id, " is ", value, "; it must be 0 or more.");
   }
   return value;
 }
@@ -141,35 +137,20 @@ std::vector<Point> SeedsOf(vtkPolyData* port1, const Workspace& space)
     Refuse("The seeds must be vertices or mere points, but the data is a surface. Give the centres "
            "of the seeds, or set Initialization to Input Surface.");
   }
-  return Places(PointsMeantBy(port1, space));
+  return PlacesMeantBy(port1, space);
 }
 
 std::vector<AttractingPoint> AttractingPointsOf(
   vtkPolyData* port2, const Workspace& space, const std::array<int, 3>& size)
 {
   std::vector<AttractingPoint> attracting;
-  if (!port2)
+  for (const vtkIdType id : IdsMeantBy(port2))
   {
-    return attracting;
-  }
-  vtkDataArray* weights = NumbersOf(port2, "Weight");
-  vtkDataArray* radii = NumbersOf(port2, "Radius");
-  for (const InputPoint& given : PointsMeantBy(port2, space))
-  {
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      // A voxel of tolerance: there the field still ramps down to the background.
-      const double step = space.Step()[axis];
-      if (!(given.Place[axis] >= -step && given.Place[axis] <= step * size[axis]))
-      {
-        Refuse("point ", given.Id, " (", given.World[0], ", ", given.World[1], ", ", given.World[2],
-          ") lies outside the image. Points are in world coordinates; leave it out.");
-      }
-    }
     AttractingPoint point;
-    point.Place = given.Place;
-    point.Weight = NumberAt(weights, given.Id, 1.0);
-    point.Radius = NumberAt(radii, given.Id, 0.0) / space.WorldUnit();
+    // There the field still ramps down to the background.
+    point.Place = PlaceInside(WorldOf(port2, id), id, space, size, 0);
+    point.Weight = NumberAt(port2, "Weight", id, 1.0);
+    point.Radius = NumberAt(port2, "Radius", id, 0.0) / space.WorldUnit();
     attracting.push_back(point);
   }
   return attracting;
@@ -177,41 +158,33 @@ std::vector<AttractingPoint> AttractingPointsOf(
 
 std::vector<Point> PlacesOf(vtkPolyData* port1, vtkPolyData* port2, const Workspace& space)
 {
-  std::vector<InputPoint> points;
+  std::vector<Point> places;
   if (port1 && !IsSurfaceOnly(port1))
   {
-    points =
-      PrefixErrors("Input port 1 (Initial Surface): ", [&] { return PointsMeantBy(port1, space); });
+    places =
+      PrefixErrors("Input port 1 (Initial Surface): ", [&] { return PlacesMeantBy(port1, space); });
   }
-  const std::vector<InputPoint> more =
-    PrefixErrors("Input port 2 (Attracting Points): ", [&] { return PointsMeantBy(port2, space); });
-  points.insert(points.end(), more.begin(), more.end());
-  return Places(points);
+  const std::vector<Point> more =
+    PrefixErrors("Input port 2 (Attracting Points): ", [&] { return PlacesMeantBy(port2, space); });
+  places.insert(places.end(), more.begin(), more.end());
+  return places;
 }
 
 std::vector<Point> PositionsOf(const std::vector<Point>& positions, const char* label,
   const Workspace& space, const std::array<int, 3>& size)
 {
   std::vector<Point> places;
-  for (std::size_t id = 0; id < positions.size(); ++id)
+  for (const Point& world : positions)
   {
-    const Point& world = positions[id];
-    Point place = space.ToWorkspace(world);
+    const auto id = static_cast<vtkIdType>(places.size());
+    places.push_back(PrefixErrors(
+      Join(label, ": "), [&] { return PlaceInside(world, id, space, size, 1); }));
     for (int axis = 0; axis < 3; ++axis)
     {
-      const double step = space.Step()[axis];
-      const double length = step * size[axis];
-      // Written so that NaN is refused too.
-      if (!(place[axis] >= -step && place[axis] <= length + step))
-      {
-        Refuse(label, ": point ", id, " (", world[0], ", ", world[1], ", ", world[2],
-          ") lies outside the image. Points are in world coordinates; move it into the image, or "
-          "remove it.");
-      }
       // Not the very end of the box, which the levels have rounded.
-      place[axis] = std::max(0.0, std::min((1.0 - 1e-9) * length, place[axis]));
+      const double end = (1.0 - 1e-9) * (space.Step()[axis] * size[axis]);
+      places.back()[axis] = std::max(0.0, std::min(end, places.back()[axis]));
     }
-    places.push_back(place);
   }
   return places;
 }

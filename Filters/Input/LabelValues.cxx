@@ -3,28 +3,21 @@
 #include "Input/LabelValues.h"
 
 #include "Core/Common/Refuse.h"
-#include "Core/Common/Spans.h"
 #include "Host/LargeArrays.h"
 #include "Input/ImageVoxels.h"
 
 #include <vtkDataArray.h>
-#include <vtkDoubleArray.h>
 #include <vtkIntArray.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <mutex>
-#include <set>
 #include <type_traits>
 
 namespace volumic
 {
 namespace
 {
-/** Voxels that a thread takes at a time. */
-constexpr std::size_t ValuesGrain = 1 << 18;
-
 /** Whether a whole number is an int. */
 template <typename T>
 bool IsInt(T value)
@@ -33,90 +26,14 @@ bool IsInt(T value)
   return real >= std::numeric_limits<int>::min() && real <= std::numeric_limits<int>::max();
 }
 
-/** What are labels but for what resampling or a scale leaves. @param told given what was done */
-vtkSmartPointer<vtkDataArray> Rounded(vtkDataArray* voxels, int background, std::string& told)
+template <typename T>
+T Rounded(T value)
 {
-  constexpr double most = 0.01;
-  const vtkIdType count = voxels->GetNumberOfTuples();
-  vtkIdType missing = 0;
-  double farthest = 0.0;
-  VisitVoxels(voxels,
-    [&](const auto* values)
-    {
-      for (vtkIdType i = 0; i < count; ++i)
-      {
-        const auto value = static_cast<double>(values[i]);
-        const double off = std::abs(value - std::round(value));
-        if (off > most || std::isinf(value))
-        {
-          Refuse(NameOf(voxels), " has the value ", value,
-            "; labels must be integers. For the surface of a volume that is no label map apply "
-            "Volume to Surface (vtkVolumeToSurface).");
-        }
-        missing += std::isnan(value);
-        farthest = std::max(farthest, std::isnan(value) ? 0.0 : off);
-      }
-    });
-  if (missing == 0 && farthest == 0.0)
+  if constexpr (std::is_floating_point_v<T>)
   {
-    return voxels;
+    return std::round(value);
   }
-  auto rounded = vtkSmartPointer<vtkDoubleArray>::New();
-  rounded->SetName(voxels->GetName());
-  rounded->SetNumberOfTuples(count);
-  VisitVoxels(voxels,
-    [&](const auto* values)
-    {
-      std::transform(values, values + count, rounded->GetPointer(0),
-        [background](auto value)
-        {
-          const auto real = static_cast<double>(value);
-          return std::isnan(real) ? background : std::round(real);
-        });
-    });
-  told = Join(NameOf(voxels), " is of type ", voxels->GetDataTypeAsString(),
-    farthest > 0.0
-      ? Join("; its values are within ", farthest, " of integers, and are rounded to labels")
-      : std::string("; its values are integers, and taken for labels"),
-    missing > 0 ? Join("; NaN, at ", missing, missing == 1 ? " voxel" : " voxels",
-                    ", is background.")
-                : std::string("."));
-  return rounded;
-}
-
-/** The labels that no int holds, and the largest of the others. */
-template <typename T>
-struct WideLabels
-{
-  std::set<T> Wide;
-  int Largest = 0;
-};
-
-template <typename T>
-WideLabels<T> FindWide(const T* voxels, std::size_t count, std::size_t most, Executor& threads)
-{
-  WideLabels<T> all;
-  std::mutex mutex;
-  ForSpans(threads, count, ValuesGrain,
-    [&](std::size_t, std::size_t begin, std::size_t end)
-    {
-      WideLabels<T> own;
-      for (std::size_t i = begin; i < end && own.Wide.size() <= most; ++i)
-      {
-        if (!IsInt(voxels[i]))
-        {
-          own.Wide.insert(voxels[i]);
-        }
-        else
-        {
-          own.Largest = std::max(own.Largest, static_cast<int>(voxels[i]));
-        }
-      }
-      const std::lock_guard<std::mutex> lock(mutex);
-      all.Wide.insert(own.Wide.begin(), own.Wide.end());
-      all.Largest = std::max(all.Largest, own.Largest);
-    });
-  return all;
+  return value;
 }
 
 /** The whole number as a file has it. */
@@ -133,50 +50,108 @@ std::string DigitsOf(T value)
   }
 }
 
+/** What the voxels of an array have beside labels that are ints. */
 template <typename T>
-void NumberAnew(
-  const T* voxels, std::size_t count, std::size_t most, Executor& threads, LabelValues& values)
+struct Others
 {
-  const WideLabels<T> found = FindWide(voxels, count, most, threads);
-  if (found.Wide.empty())
+  std::map<T, int> Wide;   ///< labels that no int holds, and their numbers
+  int Largest = 0;         ///< of the other labels
+  std::size_t Missing = 0; ///< NaN
+  double Farthest = 0.0;   ///< from a whole number
+};
+
+template <typename T>
+Others<T> FindOthers(const T* voxels, vtkDataArray* array, std::size_t most)
+{
+  constexpr double mostOff = 0.01;
+  const auto count = static_cast<std::size_t>(array->GetNumberOfTuples());
+  Others<T> found;
+  for (std::size_t i = 0; i < count && found.Wide.size() <= most; ++i)
   {
-    return;
+    const T whole = Rounded(voxels[i]);
+    const auto value = static_cast<double>(voxels[i]);
+    const double off = std::abs(value - static_cast<double>(whole));
+    if (off > mostOff || std::isinf(value))
+    {
+      Refuse(NameOf(array), " has the value ", value,
+        "; labels must be integers. For the surface of a volume that is no label map apply "
+        "Volume to Surface (vtkVolumeToSurface).");
+    }
+    found.Farthest = std::max(found.Farthest, off); // NaN is none.
+    if (std::isnan(value))
+    {
+      ++found.Missing;
+    }
+    else if (IsInt(whole))
+    {
+      found.Largest = std::max(found.Largest, static_cast<int>(whole));
+    }
+    else
+    {
+      found.Wide[whole] = 0;
+    }
   }
   const auto room = static_cast<std::size_t>(std::numeric_limits<int>::max() - found.Largest);
   if (found.Wide.size() > std::min(most, room))
   {
-    Refuse(NameOf(values.Voxels), " has more than ", std::min(most, room),
-      " different values that 32 bits don't hold, such as ", DigitsOf(*found.Wide.begin()),
+    Refuse(NameOf(array), " has more than ", std::min(most, room),
+      " different values that 32 bits don't hold, such as ", DigitsOf(found.Wide.begin()->first),
       ": it is likely no label map. Number them anew if it is.");
   }
-  std::map<T, int> numbers;
-  constexpr std::size_t listed = 5;
-  std::string list;
-  for (const T wide : found.Wide)
+  return found;
+}
+
+template <typename T>
+void MakeInts(
+  const T* voxels, int background, std::size_t most, Executor& threads, LabelValues& values)
+{
+  vtkDataArray* array = values.Voxels;
+  Others<T> found = FindOthers(voxels, array, most);
+  if (std::is_floating_point_v<T>)
   {
-    const int number = found.Largest + 1 + static_cast<int>(numbers.size());
-    numbers[wide] = number;
-    values.Numbers[number] = DigitsOf(wide);
-    list += numbers.size() > listed
-      ? ""
-      : Join(numbers.size() > 1 ? ", " : "", DigitsOf(wide), " is ", number);
+    values.Told = Join(NameOf(array), " is of type ", array->GetDataTypeAsString(),
+      found.Farthest > 0.0
+        ? Join("; its values are within ", found.Farthest, " of integers, and are rounded to labels")
+        : std::string("; its values are integers and are taken as labels"),
+      found.Missing > 0 ? Join("; NaN, at ", found.Missing,
+                            found.Missing == 1 ? " voxel" : " voxels", ", is background.")
+                        : std::string("."));
   }
+  if (found.Wide.empty() && found.Missing == 0 && found.Farthest == 0.0)
+  {
+    return;
+  }
+  constexpr std::size_t mostListed = 5;
+  std::string list;
+  for (auto& [label, number] : found.Wide)
+  {
+    number = ++found.Largest;
+    values.Numbers[number] = DigitsOf(label);
+    const std::size_t n = values.Numbers.size();
+    list += n > mostListed ? "" : Join(n > 1 ? ", " : "", DigitsOf(label), " is ", number);
+  }
+  if (const std::size_t n = found.Wide.size(); n > 0)
+  {
+    values.Told += Join(values.Told.empty() ? "" : " ", NameOf(array), " has ", n,
+      n == 1 ? " label" : " labels",
+      " that 32 bits don't hold; they are numbered anew, and named by what they were: ",
+      list, n > mostListed ? " and so on." : ".");
+  }
+  const auto count = static_cast<std::size_t>(array->GetNumberOfTuples());
   const auto labels = NewLargeArray<vtkIntArray>(count);
-  labels->SetName(values.Voxels->GetName());
+  labels->SetName(array->GetName());
   int* to = labels->GetPointer(0);
-  threads.For(count, ValuesGrain,
+  threads.For(count, 1 << 18,
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t i = begin; i < end; ++i)
       {
-        to[i] = IsInt(voxels[i]) ? static_cast<int>(voxels[i]) : numbers.at(voxels[i]);
+        const T whole = Rounded(voxels[i]);
+        to[i] = std::isnan(static_cast<double>(whole)) ? background
+          : IsInt(whole)                               ? static_cast<int>(whole)
+                                                       : found.Wide.at(whole);
       }
     });
-  values.Told += Join(values.Told.empty() ? "" : " ", NameOf(values.Voxels), " has ",
-    found.Wide.size(), found.Wide.size() == 1 ? " label" : " labels",
-    " that 32 bits don't hold; they are numbered anew, and named by what "
-    "they were: ",
-    list, found.Wide.size() > listed ? " and so on." : ".");
   values.Voxels = labels;
 }
 }
@@ -185,22 +160,10 @@ LabelValues LabelValuesOf(vtkDataArray* voxels, int background, std::size_t most
 {
   LabelValues values;
   values.Voxels = voxels;
-  const int type = voxels->GetDataType();
-  if (type == VTK_FLOAT || type == VTK_DOUBLE)
+  if (voxels->GetDataTypeSize() >= 4 && voxels->GetDataType() != VTK_INT)
   {
-    values.Told = NameOf(voxels) + " is of type " + voxels->GetDataTypeAsString() +
-      "; its values are integers and are taken as labels.";
-    values.Voxels = Rounded(voxels, background, values.Told);
-  }
-  if (voxels->GetDataTypeSize() >= 4 && type != VTK_INT)
-  {
-    const vtkSmartPointer<vtkDataArray> wide = values.Voxels;
-    VisitVoxels(wide,
-      [&](const auto* numbers)
-      {
-        NumberAnew(
-          numbers, static_cast<std::size_t>(wide->GetNumberOfTuples()), most, threads, values);
-      });
+    VisitVoxels(voxels,
+      [&](const auto* numbers) { MakeInts(numbers, background, most, threads, values); });
   }
   return values;
 }

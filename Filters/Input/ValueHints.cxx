@@ -4,7 +4,6 @@
 
 #include "Core/Common/Join.h"
 #include "Core/Common/Refuse.h"
-#include "Host/HostThreads.h"
 #include "Input/ImageVoxels.h"
 #include "Input/ValidVoxels.h"
 
@@ -17,11 +16,9 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
-#include <functional>
 #include <limits>
-#include <mutex>
 #include <set>
+#include <type_traits>
 #include <unordered_map>
 #include <vector>
 
@@ -31,36 +28,8 @@ namespace
 {
 constexpr int Bins = 1024;
 
-using Counts = std::vector<vtkIdType>;
-
-/** How many voxels each bin between the smallest and the largest voxel has. */
-template <typename T>
-Counts CountVoxels(const T* voxels, vtkIdType count, const ValidVoxels& valid,
-  const std::array<double, 2>& range, Executor& threads)
-{
-  const double scale = Bins / (range[1] - range[0]);
-  Counts all(Bins, 0);
-  std::mutex mutex;
-  threads.For(static_cast<std::size_t>(count), 1 << 18,
-    [&](std::size_t begin, std::size_t end)
-    {
-      Counts counts(Bins, 0);
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        if (valid.Has(static_cast<std::int64_t>(i)))
-        {
-          const double place = (static_cast<double>(voxels[i]) - range[0]) * scale;
-          ++counts[std::min(Bins - 1, static_cast<int>(place))];
-        }
-      }
-      const std::lock_guard<std::mutex> lock(mutex);
-      std::transform(all.begin(), all.end(), counts.begin(), all.begin(), std::plus<>());
-    });
-  return all;
-}
-
 /** The bins below the split with the largest variance between the classes. */
-int BestSplit(const Counts& counts)
+int BestSplit(const std::vector<vtkIdType>& counts)
 {
   // Bins stand for the values, which follow from them by a scale that changes no maximum.
   double all = 0.0;
@@ -101,18 +70,11 @@ std::array<double, 2> FindNeighbours(
   T above = std::numeric_limits<T>::max();
   for (vtkIdType i = 0; i < count; ++i)
   {
-    const T voxel = voxels[i];
-    if (!valid.Has(i))
+    if (valid.Has(i))
     {
-      continue;
-    }
-    if (static_cast<double>(voxel) <= value)
-    {
-      below = std::max(below, voxel);
-    }
-    else
-    {
-      above = std::min(above, voxel);
+      const bool isBelow = static_cast<double>(voxels[i]) <= value;
+      below = isBelow ? std::max(below, voxels[i]) : below;
+      above = isBelow ? above : std::min(above, voxels[i]);
     }
   }
   return { static_cast<double>(below), static_cast<double>(above) };
@@ -155,52 +117,54 @@ bool LeaveOutPadding(
   valid = isPadding ? without : valid;
   return isPadding;
 }
-}
 
-VoxelHistogram FindOtsuThreshold(
-  vtkImageData* image, vtkInformation* selection, int component, int numberOfThreads)
+template <typename T>
+VoxelHistogram SplitVoxels(const T* voxels, vtkDataArray* array, ValidVoxels& valid)
 {
-  const vtkSmartPointer<vtkDataArray> chosen =
-    SelectComponent(ChooseArray(selection, image), component);
-  const vtkSmartPointer<vtkDataArray> voxels = ContiguousVoxels(chosen);
-  HostThreads threads(numberOfThreads);
-  ValidVoxels valid = FindValidVoxels(chosen, voxels, image, true, threads);
-  CheckAnyIsValid(chosen, valid);
-  std::array<double, 2> range = RangeOf(voxels, valid);
-  VisitVoxels(voxels,
-    [&](const auto* values)
-    {
-      if (LeaveOutPadding(values, voxels->GetNumberOfTuples(), range, valid))
-      {
-        range = RangeOf(voxels, valid);
-      }
-    });
+  const vtkIdType count = array->GetNumberOfTuples();
+  std::array<double, 2> range = RangeOf(array, valid);
+  if (LeaveOutPadding(voxels, count, range, valid))
+  {
+    range = RangeOf(array, valid);
+  }
   const double size = range[1] - range[0];
   if (!(size > 0.0) || !std::isfinite(size))
   {
-    Refuse(NameOf(chosen), " ranges from ", range[0], " to ", range[1],
+    Refuse(NameOf(array), " ranges from ", range[0], " to ", range[1],
       ": no value separates its voxels.");
   }
-  VoxelHistogram found{ range, {}, 0.0 };
-  VisitVoxels(voxels,
-    [&](const auto* values)
-    { found.Counts = CountVoxels(values, voxels->GetNumberOfTuples(), valid, range, threads); });
+  VoxelHistogram found{ range, std::vector<vtkIdType>(Bins, 0), 0.0 };
+  const double scale = Bins / size;
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    if (valid.Has(i))
+    {
+      const double place = (static_cast<double>(voxels[i]) - range[0]) * scale;
+      ++found.Counts[std::min(Bins - 1, static_cast<int>(place))];
+    }
+  }
   const double value = range[0] + BestSplit(found.Counts) * size / Bins;
-  std::array<double, 2> neighbours = range;
-  VisitVoxels(voxels,
-    [&](const auto* values)
-    { neighbours = FindNeighbours(values, voxels->GetNumberOfTuples(), valid, value); });
+  const std::array<double, 2> neighbours = FindNeighbours(voxels, count, valid, value);
   const double middle = 0.5 * (neighbours[0] + neighbours[1]);
-  const bool areReal = voxels->GetDataType() == VTK_FLOAT || voxels->GetDataType() == VTK_DOUBLE;
-  found.Threshold = areReal ? middle : std::floor(middle) + 0.5;
+  found.Threshold = std::is_floating_point_v<T> ? middle : std::floor(middle) + 0.5;
+  return found;
+}
+}
+
+VoxelHistogram FindOtsuThreshold(vtkImageData* image, vtkInformation* selection, int component)
+{
+  const vtkSmartPointer<vtkDataArray> voxels =
+    ContiguousVoxels(SelectComponent(ChooseArray(selection, image), component));
+  ValidVoxels valid = FindValidVoxels(voxels, voxels, image, true, OnThisThread());
+  CheckAnyIsValid(voxels, valid);
+  VoxelHistogram found;
+  VisitVoxels(voxels, [&](const auto* values) { found = SplitVoxels(values, voxels, valid); });
   return found;
 }
 
 namespace
 {
-/** About as many voxels are looked at. */
-constexpr vtkIdType MostVoxels = 1 << 20;
-/** More different values in them are no labels. */
+/** More different values are no labels. */
 constexpr std::size_t MostValues = 1024;
 /**
  * Share of equal neighbours from which on voxels are labels. Of nine atlases the least is 0.82; of
@@ -210,112 +174,96 @@ constexpr double LeastShareOfEqual = 0.75;
 /** Fewer pairs of neighbours tell nothing. */
 constexpr vtkIdType LeastPairs = 50;
 
-/** Of one value. */
-struct Neighbours
+/** Calls `use` with the begins of rows of about a million voxels. */
+template <typename T, typename Use>
+void ForSomeRows(const T* voxels, const int size[3], const Use& use)
 {
-  vtkIdType Voxels = 0;
-  vtkIdType Equal = 0;   ///< pairs of this value
-  vtkIdType Unequal = 0; ///< pairs of it and another one
-};
-
-template <typename T>
-bool LookLikeLabels(const T* voxels, const int size[3], std::size_t& count)
-{
+  constexpr vtkIdType mostVoxels = 1 << 20;
   const vtkIdType rows = static_cast<vtkIdType>(size[1]) * size[2];
-  const vtkIdType step = std::max<vtkIdType>(1, rows * size[0] / MostVoxels);
-  std::unordered_map<double, Neighbours> found;
-  vtkIdType unequal = 0;
-  for (vtkIdType row = 0; row < rows; row += step)
+  for (vtkIdType row = 0; row < rows;
+       row += std::max<vtkIdType>(1, rows * size[0] / mostVoxels))
   {
-    const T* values = voxels + row * size[0];
-    for (int i = 0; i < size[0]; ++i)
+    use(voxels + row * size[0]);
+  }
+}
+
+/** The number of different values if they look like labels, else 0. */
+template <typename T>
+std::size_t CountLabels(const T* voxels, const int size[3])
+{
+  std::unordered_map<double, vtkIdType> counts;
+  bool areLabels = true;
+  ForSomeRows(voxels, size,
+    [&](const T* row)
     {
-      const auto value = static_cast<double>(values[i]);
-      if (!(value == std::floor(value)) || found.size() > MostValues)
+      for (int i = 0; i < size[0] && areLabels; ++i)
       {
-        return false;
+        const auto value = static_cast<double>(row[i]);
+        areLabels = value == std::floor(value) && counts.size() <= MostValues;
+        ++counts[value];
       }
-      Neighbours& own = found[value];
-      ++own.Voxels;
-      if (i > 0)
-      {
-        const bool isEqual = values[i - 1] == values[i];
-        own.Equal += isEqual;
-        own.Unequal += !isEqual;
-        unequal += !isEqual;
-        found[static_cast<double>(values[i - 1])].Unequal += !isEqual;
-      }
-    }
-  }
-  count = found.size();
-  const auto background = std::max_element(found.begin(), found.end(),
-    [](const auto& a, const auto& b) { return a.second.Voxels < b.second.Voxels; });
-  unequal -= background->second.Unequal;
-  vtkIdType equal = -background->second.Equal;
-  for (const auto& entry : found)
+    });
+  if (!areLabels || counts.empty())
   {
-    equal += entry.second.Equal;
+    return 0;
   }
-  return equal + unequal >= LeastPairs &&
-    static_cast<double>(equal) >= LeastShareOfEqual * static_cast<double>(equal + unequal);
+  const double background = std::max_element(counts.begin(), counts.end(),
+    [](const auto& a, const auto& b) { return a.second < b.second; })->first;
+  vtkIdType pairs = 0;
+  vtkIdType equal = 0;
+  ForSomeRows(voxels, size,
+    [&](const T* row)
+    {
+      for (int i = 1; i < size[0]; ++i)
+      {
+        const bool isPair = static_cast<double>(row[i - 1]) != background &&
+          static_cast<double>(row[i]) != background;
+        pairs += isPair;
+        equal += isPair && row[i - 1] == row[i];
+      }
+    });
+  return pairs >= LeastPairs &&
+      static_cast<double>(equal) >= LeastShareOfEqual * static_cast<double>(pairs)
+    ? counts.size()
+    : 0;
 }
 }
 
 std::string HintAtLabels(vtkDataArray* voxels, const int size[3])
 {
-  bool areLabels = false;
   std::size_t count = 0;
-  VisitVoxels(voxels, [&](const auto* values) { areLabels = LookLikeLabels(values, size, count); });
-  return areLabels
+  VisitVoxels(voxels, [&](const auto* values) { count = CountLabels(values, size); });
+  return count > 0
     ? Join(NameOf(voxels), " looks like a label map: ", count,
         " different integers. Labels to Surfaces (vtkLabelsToSurfaces) makes a smooth surface of "
         "each label; here an isopotential between them is searched.")
     : std::string();
 }
 
-namespace
-{
-/** The share of neighbours along the axes that differ. */
-template <typename T>
-double ShareOfUnequal(const T* voxels, const int size[3])
-{
-  const vtkIdType rows = static_cast<vtkIdType>(size[1]) * size[2];
-  const vtkIdType step = std::max<vtkIdType>(1, rows * size[0] / MostVoxels);
-  const std::array<vtkIdType, 3> strides = { 1, size[0],
-    static_cast<vtkIdType>(size[0]) * size[1] };
-  vtkIdType pairs = 0;
-  vtkIdType unequal = 0;
-  for (vtkIdType row = 0; row < rows; row += step)
-  {
-    for (int i = 0; i < size[0]; ++i)
-    {
-      const T* voxel = voxels + row * size[0] + i;
-      const std::array<vtkIdType, 3> at = { i, row % size[1], row / size[1] };
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        pairs += at[axis] > 0;
-        unequal += at[axis] > 0 && voxel[-strides[axis]] != *voxel;
-      }
-    }
-  }
-  return static_cast<double>(unequal) / static_cast<double>(std::max<vtkIdType>(pairs, 1));
-}
-}
-
 std::string HintAtScan(vtkDataArray* voxels, const int size[3], std::size_t labels)
 {
   constexpr std::size_t mostLabels = 256;
   constexpr double mostUnequal = 1.0 / 3.0;
-  double share = 0.0;
+  vtkIdType pairs = 0;
+  vtkIdType unequal = 0;
+  const auto count = [&](const auto* row)
+  {
+    for (int i = 1; i < size[0]; ++i)
+    {
+      ++pairs;
+      unequal += row[i - 1] != row[i];
+    }
+  };
   if (labels > mostLabels)
   {
-    VisitVoxels(voxels, [&](const auto* values) { share = ShareOfUnequal(values, size); });
+    VisitVoxels(voxels, [&](const auto* values) { ForSomeRows(values, size, count); });
   }
+  const double share =
+    static_cast<double>(unequal) / static_cast<double>(std::max<vtkIdType>(pairs, 1));
   return share > mostUnequal
     ? Join(NameOf(voxels), " has ", labels, " labels, and ", std::lround(100.0 * share),
-        " % of neighbouring voxels have different ones: it looks like a scan, not like a label "
-        "map. "
-        "For an isosurface of a scan apply Volume to Surface (vtkVolumeToSurface) or Deformable "
+        " % of the neighbours along x have different ones: it looks like a scan, not like a label "
+        "map. For an isosurface of a scan apply Volume to Surface (vtkVolumeToSurface) or Deformable "
         "Surface (vtkDeformableSurface), or run volumic with --iso.")
     : std::string();
 }

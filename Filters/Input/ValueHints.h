@@ -27,11 +27,9 @@ struct VoxelHistogram
 /**
  * What vtkOtsuThreshold finds.
  * @param selection of the voxels, as GetInputArrayInformation()
- * @param numberOfThreads as HostThreads
  * @throws std::invalid_argument where there is no such value.
  */
-VoxelHistogram FindOtsuThreshold(
-  vtkImageData* image, vtkInformation* selection, int component, int numberOfThreads);
+VoxelHistogram FindOtsuThreshold(vtkImageData* image, vtkInformation* selection, int component);
 
 /**
  * What someone should know who searches an isopotential in a label map: that there is a filter for
@@ -45,7 +43,7 @@ std::string HintAtLabels(vtkDataArray* voxels, const int size[3]);
 
 /**
  * Return a warning for a label map that looks like a scan, else nothing: it has more than 256
- * labels, and more than a third of the neighbours along the axes differ. Some rows are tested.
+ * labels, and more than a third of the neighbours along x differ. Some rows are tested.
  */
 std::string HintAtScan(vtkDataArray* voxels, const int size[3], std::size_t labels);
 }

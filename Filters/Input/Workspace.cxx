@@ -84,11 +84,12 @@ std::array<float, 3> Workspace::NormalToWorld(const std::array<float, 3>& normal
 
 namespace
 {
-/** Points and triangles that one thread transforms at a time. */
+/** Points that one thread transforms at a time. */
 constexpr std::size_t PointSpan = 16384;
 
 template <typename Map>
-void Transform(IndexedSurface& surface, bool isMirror, const Map& map, Executor& executor)
+IndexedSurface Transform(
+  IndexedSurface surface, const Workspace& space, Executor& executor, const Map& map)
 {
   ForSpans(executor, surface.Points.size(), PointSpan,
     [&](std::size_t, std::size_t begin, std::size_t end)
@@ -98,38 +99,26 @@ void Transform(IndexedSurface& surface, bool isMirror, const Map& map, Executor&
         surface.Points[p] = map(surface.Points[p]);
       }
     });
-  if (isMirror)
+  if (space.IsMirrored())
   {
-    FlipOrientation(surface, executor);
-  }
-}
-}
-
-void FlipOrientation(IndexedSurface& surface, Executor& executor)
-{
-  ForSpans(executor, surface.Triangles.size(), PointSpan,
-    [&](std::size_t, std::size_t begin, std::size_t end)
+    for (auto& triangle : surface.Triangles)
     {
-      for (std::size_t t = begin; t < end; ++t)
-      {
-        std::swap(surface.Triangles[t][1], surface.Triangles[t][2]);
-      }
-    });
+      std::swap(triangle[1], triangle[2]);
+    }
+  }
+  return surface;
+}
 }
 
 IndexedSurface ToWorld(IndexedSurface surface, const Workspace& space, Executor& executor)
 {
-  Transform(
-    surface, space.IsMirrored(), [&space](const Point& place) { return space.ToWorld(place); },
-    executor);
-  return surface;
+  return Transform(std::move(surface), space, executor,
+    [&space](const Point& place) { return space.ToWorld(place); });
 }
 
-IndexedSurface ToWorkspace(IndexedSurface surface, const Workspace& space, Executor& executor)
+IndexedSurface ToWorkspace(IndexedSurface surface, const Workspace& space)
 {
-  Transform(
-    surface, space.IsMirrored(), [&space](const Point& place) { return space.ToWorkspace(place); },
-    executor);
-  return surface;
+  return Transform(std::move(surface), space, OnThisThread(),
+    [&space](const Point& place) { return space.ToWorkspace(place); });
 }
 }

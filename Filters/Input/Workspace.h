@@ -65,16 +65,12 @@ private:
   double Unit = 1;
 };
 
-/** Makes outward what was inward. */
-void FlipOrientation(IndexedSurface& surface, Executor& executor = OnThisThread());
-
 /** The surface in world coordinates, outward oriented there; in its place if it is given up. */
 IndexedSurface ToWorld(
-  IndexedSurface surface, const Workspace& space, Executor& executor = OnThisThread());
+  IndexedSurface surface, const Workspace& space, Executor& executor);
 
 /** The surface in the workspace, outward oriented there; in its place if it is given up. */
-IndexedSurface ToWorkspace(
-  IndexedSurface surface, const Workspace& space, Executor& executor = OnThisThread());
+IndexedSurface ToWorkspace(IndexedSurface surface, const Workspace& space);
 }
 
 #endif

@@ -41,8 +41,8 @@ vtkSmartPointer<vtkImageData> CompleteImage(
       PrefixErrors("Iso Value is not set, and can't be found: Input port 0: ",
         [&]
         {
-          return FindOtsuThreshold(voxels.Image, voxels.Selection, settings.SelectedComponent,
-            settings.End.NumberOfThreads)
+          return FindOtsuThreshold(
+            voxels.Image, voxels.Selection, settings.SelectedComponent)
             .Threshold;
         });
   }
