@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -145,11 +146,15 @@ void LabelInterfaceMaker::Make(HostThreads& threads, const Progress& progress)
 {
   const std::thread::id caller = std::this_thread::get_id();
   std::atomic<bool> goesOn{ true };
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point last; // When the host was asked.
   const auto tell = [&](double share, const char* text)
   {
-    if (std::this_thread::get_id() == caller && !progress(share, text))
+    constexpr std::chrono::milliseconds interval(50);
+    if (std::this_thread::get_id() == caller && Clock::now() - last >= interval)
     {
-      goesOn = false;
+      goesOn = goesOn.load() && progress(share, text);
+      last = Clock::now();
     }
     return goesOn.load();
   };

@@ -6,7 +6,6 @@
 #include "Core/Common/Executor.h"
 
 #include <atomic>
-#include <chrono>
 #include <thread>
 #include <utility>
 
@@ -18,8 +17,8 @@ struct StoppedWork
 };
 
 /**
- * Check for cancellation within the loops of another executor, several times a second, on the thread
- * that has constructed it. If `goOn` returns false, For() throws StoppedWork and skips what has not
+ * Check for cancellation within the loops of another executor, after each chunk of the thread that
+ * has constructed it. If `goOn` returns false, For() throws StoppedWork and skips what has not
  * begun. Results do not depend on it.
  */
 class AskingExecutor final : public Executor
@@ -43,34 +42,18 @@ public:
           return;
         }
         body(begin, end);
-        if (std::this_thread::get_id() == this->Caller)
+        if (std::this_thread::get_id() == this->Caller && !this->GoOn())
         {
-          this->Ask();
+          this->IsStopped = true;
+          throw StoppedWork();
         }
       });
   }
 
 private:
-  using Clock = std::chrono::steady_clock;
-
-  void Ask()
-  {
-    const Clock::time_point now = Clock::now();
-    if (now - this->Last >= std::chrono::milliseconds(100))
-    {
-      this->Last = now;
-      if (!this->GoOn())
-      {
-        this->IsStopped = true;
-        throw StoppedWork();
-      }
-    }
-  }
-
   Executor& Inner;
   std::function<bool()> GoOn;
   std::thread::id Caller = std::this_thread::get_id();
-  Clock::time_point Last = Clock::now();
   std::atomic<bool> IsStopped{ false };
 };
 }
