@@ -224,8 +224,8 @@ void LabelInterfaceMaker::CountVoxels(HostThreads& threads)
   threads.Run(
     [&]
     {
-      mismatched = FindMismatchedVoxels(this->Mesh, this->Counted(), this->InImage, step,
-        this->Settings.VoxelToleranceInUse() + this->Options().Tolerance, threads);
+      mismatched = FindMismatchedVoxels(this->Mesh, this->WholeBricks ? this->WholeMap : map,
+        this->InImage, step, this->Settings.VoxelToleranceInUse() + this->Options().Tolerance, threads);
     });
   for (const MismatchedVoxel& voxel : mismatched)
   {

@@ -225,7 +225,7 @@ TEST(MismatchedVoxels, AreThoseThatAMovedMeshHasElsewhere)
     {
       place += Vector(way, 0.f, 0.f);
     }
-    const auto found = FindMismatchedVoxels(mesh, *scene.Bricks, VoxelBox::Of(map.Size()),
+    const auto found = FindMismatchedVoxels(mesh, map, VoxelBox::Of(map.Size()),
       map.Spacing, tolerance, OnThisThread());
     return std::count_if(found.begin(), found.end(),
       [&](const MismatchedVoxel& voxel) { return voxel.IsFar == isFar; });

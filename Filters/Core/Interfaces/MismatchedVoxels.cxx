@@ -39,12 +39,11 @@ struct FaceCrossing
 class MismatchFinder
 {
 public:
-  MismatchFinder(const InterfaceMesh& mesh, const LabelBricks& bricks, const VoxelBox& box,
+  MismatchFinder(const InterfaceMesh& mesh, const LabelMap& map, const VoxelBox& box,
     const std::array<double, 3>& step, Executor& executor)
-    : Mesh(mesh), Bricks(bricks), Box(box), Step(step), Threads(executor)
+    : Mesh(mesh), Map(map), Box(box), Step(step), Threads(executor)
   {
-    const std::array<int, 3>& size = bricks.Map().Size();
-    std::copy(size.begin(), size.end(), this->Rows.End.begin());
+    std::copy(map.Size().begin(), map.Size().end(), this->Rows.End.begin());
   }
 
   std::vector<MismatchedVoxel> Find()
@@ -102,8 +101,6 @@ private:
 
   void FollowRow(int j, int k, std::vector<MismatchedVoxel>& found) const
   {
-    constexpr int side = LabelBricks::Side;
-    const VoxelBox& box = this->Box;
     const std::int64_t row = this->Rows.RowOf(j, k);
     auto next = std::lower_bound(this->Crossings.begin(), this->Crossings.end(), row,
       [](const FaceCrossing& crossing, std::int64_t number) { return crossing.Row < number; });
@@ -125,40 +122,33 @@ private:
         [](const auto& entry) { return entry.first != 0 && entry.second > 0; });
       return inside == windings.end() ? Number(0) : inside->first;
     };
-    for (int i = box.First[0]; i < box.End[0];)
-    {
-      const int end = std::min((i / side + 1) * side, box.End[0]);
-      const LabelBricks::Range objects = this->Bricks.ObjectsIn(i / side, j / side, k / side);
-      if (objects.end() - objects.begin() == 1 &&
-        (next == this->Crossings.end() || next->Row != row || next->X >= end) &&
-        *objects.begin() == ofMeshHere())
+    const VoxelBox voxels = { { this->Box.First[0], j, k }, { this->Box.End[0], j + 1, k + 1 } };
+    this->Map.ForParts(voxels,
+      [&](const VoxelBox& part, Number ofMap)
       {
-        i = end; // All of it is of one object, in the mesh too.
-        continue;
-      }
-      for (; i < end; ++i)
-      {
-        for (; next != this->Crossings.end() && next->Row == row && next->X < i; ++next)
+        for (int i = part.First[0]; i < part.End[0]; ++i)
         {
-          const InterfaceMesh::Face& face = this->Mesh.Faces[static_cast<std::size_t>(next->Face)];
-          add(face.Behind, next->Winding);
-          if (!this->Mesh.IsSide(face.Front))
+          for (; next != this->Crossings.end() && next->Row == row && next->X < i; ++next)
           {
-            add(face.Front, -next->Winding);
+            const InterfaceMesh::Face& face =
+              this->Mesh.Faces[static_cast<std::size_t>(next->Face)];
+            add(face.Behind, next->Winding);
+            if (!this->Mesh.IsSide(face.Front))
+            {
+              add(face.Front, -next->Winding);
+            }
+          }
+          const Number ofMesh = ofMeshHere();
+          if (ofMap != ofMesh)
+          {
+            found.push_back({ { i, j, k }, ofMap, ofMesh });
           }
         }
-        const Number ofMesh = ofMeshHere();
-        const Number ofMap = this->Bricks.Map().At(i, j, k);
-        if (ofMap != ofMesh)
-        {
-          found.push_back({ { i, j, k }, ofMap, ofMesh });
-        }
-      }
-    }
+      });
   }
 
   const InterfaceMesh& Mesh;
-  const LabelBricks& Bricks;
+  const LabelMap& Map;
   const VoxelBox Box;
   const std::array<double, 3>& Step;
   Executor& Threads;
@@ -168,10 +158,10 @@ private:
 }
 
 std::vector<MismatchedVoxel> FindMismatchedVoxels(const InterfaceMesh& mesh,
-  const LabelBricks& bricks, const VoxelBox& box, const std::array<double, 3>& step,
-  double tolerance, Executor& executor)
+  const LabelMap& map, const VoxelBox& box, const std::array<double, 3>& step, double tolerance,
+  Executor& executor)
 {
-  std::vector<MismatchedVoxel> found = MismatchFinder(mesh, bricks, box, step, executor).Find();
+  std::vector<MismatchedVoxel> found = MismatchFinder(mesh, map, box, step, executor).Find();
   if (tolerance <= 0. || found.empty())
   {
     return found;

@@ -64,7 +64,7 @@ public:
 
   /**
    * Calls visit(box, object) for boxes of voxels of one object that together are those of a box
-   * within the map, in no order of use.
+   * within the map; those of a row follow each other.
    */
   template <typename Visitor>
   void ForParts(const VoxelBox& box, Visitor&& visit) const
