@@ -16,12 +16,7 @@ namespace
 /** Faces that a thread looks at at a time. */
 constexpr std::size_t SpanSize = 4096;
 
-TriangleBox BoxAbout(const MeshTriangle& t)
-{
-  return { Vector(t.Corner[0]), Vector(t.Corner[1]), Vector(t.Corner[2]) };
-}
-
-float LongestSide(const TriangleBox& box)
+float LongestSide(const Box& box)
 {
   const Vector sides = box.High - box.Low;
   return std::max({ sides.X, sides.Y, sides.Z });
@@ -78,18 +73,9 @@ bool HavePassed(int u, int v, const std::array<MeshTriangle, 2>& before,
     flat;
 }
 
-TriangleBox::TriangleBox(const Vector& a, const Vector& b, const Vector& c)
-  : Low(std::min({ a.X, b.X, c.X }), std::min({ a.Y, b.Y, c.Y }), std::min({ a.Z, b.Z, c.Z })),
-    High(std::max({ a.X, b.X, c.X }), std::max({ a.Y, b.Y, c.Y }), std::max({ a.Z, b.Z, c.Z }))
+Box BoxOf(const MeshTriangle& t)
 {
-}
-
-void TriangleBox::Add(const TriangleBox& other)
-{
-  this->Low = Vector(std::min(this->Low.X, other.Low.X), std::min(this->Low.Y, other.Low.Y),
-    std::min(this->Low.Z, other.Low.Z));
-  this->High = Vector(std::max(this->High.X, other.High.X), std::max(this->High.Y, other.High.Y),
-    std::max(this->High.Z, other.High.Z));
+  return Box::Of(Vector(t.Corner[0]), Vector(t.Corner[1]), Vector(t.Corner[2]));
 }
 
 PlacedFace PlacedFaceOf(const InterfaceMesh& mesh, const InterfaceMesh::Face& face)
@@ -167,7 +153,7 @@ void InterfaceClearance::Reset(Executor& executor)
   const Vector* at = this->Mesh.Position.data();
   struct Summary
   {
-    TriangleBox All;
+    Box All;
     float Longest = 0.f;
     double Sides = 0.;
     std::size_t Count = 0;
@@ -184,10 +170,9 @@ void InterfaceClearance::Reset(Executor& executor)
         if (faces[f].IsThere())
         {
           const std::array<int, 3>& v = faces[f].Vertex;
-          const TriangleBox& box = this->Boxes[f] = TriangleBox(at[v[0]], at[v[1]], at[v[2]]);
+          const Box& box = this->Boxes[f] = Box::Of(at[v[0]], at[v[1]], at[v[2]]);
           middles[f] = box.Middle();
-          summary.All = summary.Count == 0 ? box : summary.All;
-          summary.All.Add(box);
+          summary.All = summary.Count == 0 ? box : summary.All.With(box);
           summary.Longest = std::max(summary.Longest, LongestSide(box));
           summary.Sides += LongestSide(box);
           ++summary.Count;
@@ -199,8 +184,7 @@ void InterfaceClearance::Reset(Executor& executor)
   {
     if (summary.Count > 0)
     {
-      all.All = all.Count == 0 ? summary.All : all.All;
-      all.All.Add(summary.All);
+      all.All = all.Count == 0 ? summary.All : all.All.With(summary.All);
       all.Longest = std::max(all.Longest, summary.Longest);
       all.Sides += summary.Sides;
       all.Count += summary.Count;
@@ -224,8 +208,8 @@ void InterfaceClearance::Change(int face)
     return;
   }
   const Vector* at = this->Mesh.Position.data();
-  TriangleBox& box = this->Boxes[static_cast<std::size_t>(face)];
-  box = TriangleBox(at[v[0]], at[v[1]], at[v[2]]);
+  Box& box = this->Boxes[static_cast<std::size_t>(face)];
+  box = Box::Of(at[v[0]], at[v[1]], at[v[2]]);
   if (0.5f * LongestSide(box) > this->Reach)
   {
     this->Reach = 0.5f * LongestSide(box);
@@ -233,19 +217,15 @@ void InterfaceClearance::Change(int face)
   this->Grid.Move(face, box.Middle());
 }
 
-void InterfaceClearance::FindNear(
-  const Vector& low, const Vector& high, std::vector<int>& near) const
+void InterfaceClearance::FindNear(const Box& box, std::vector<int>& near) const
 {
   near.clear();
-  const float tolerance = static_cast<float>(this->Tolerance);
-  const Vector thick(tolerance, tolerance, tolerance);
-  const Vector from = low - thick;
-  const Vector to = high + thick;
-  const Vector margin(this->Reach, this->Reach, this->Reach);
-  this->Grid.VisitBox(from - margin, to + margin,
+  const Box thick = box.Grown(static_cast<float>(this->Tolerance));
+  const Box reached = thick.Grown(this->Reach);
+  this->Grid.VisitBox(reached.Low, reached.High,
     [&](int face)
     {
-      if (!this->Boxes[static_cast<std::size_t>(face)].IsApart(from, to))
+      if (!this->Boxes[static_cast<std::size_t>(face)].IsApartFrom(thick))
       {
         near.push_back(face);
       }
@@ -256,8 +236,7 @@ int InterfaceClearance::FindIntersecting(int face, std::vector<int>& near) const
 {
   const MeshTriangle triangle =
     TriangleOf(this->Mesh, this->Mesh.Faces[static_cast<std::size_t>(face)].Vertex);
-  const TriangleBox& box = this->Boxes[static_cast<std::size_t>(face)];
-  this->FindNear(box.Low, box.High, near);
+  this->FindNear(this->BoxOf(face), near);
   for (const int other : near)
   {
     if (other != face &&
@@ -278,21 +257,19 @@ bool InterfaceClearance::AreClear(const std::vector<PlacedFace>& faces,
   {
     return true;
   }
-  TriangleBox all = BoxAbout(faces.front());
-  std::vector<TriangleBox> boxes;
-  const float thick = static_cast<float>(this->Tolerance);
+  Box all = volumic::BoxOf(faces.front());
+  std::vector<Box> boxes;
   for (const PlacedFace& triangle : faces)
   {
-    boxes.push_back(BoxAbout(triangle));
-    all.Add(boxes.back());
-    boxes.back().Low -= Vector(thick, thick, thick);
-    boxes.back().High += Vector(thick, thick, thick);
+    const Box box = volumic::BoxOf(triangle);
+    all = all.With(box);
+    boxes.push_back(box.Grown(static_cast<float>(this->Tolerance)));
   }
   for (const int face : replaced)
   {
-    all.Add(this->Boxes[static_cast<std::size_t>(face)]);
+    all = all.With(this->BoxOf(face));
   }
-  this->FindNear(all.Low, all.High, near);
+  this->FindNear(all, near);
   const std::vector<Sheet> sheets = this->FindSheets(faces, near);
   if (sheets.size() == 1 && sheets.front().IsOne && sheets.front().IsAlone)
   {
@@ -329,11 +306,11 @@ bool InterfaceClearance::AreClear(const std::vector<PlacedFace>& faces,
       others.push_back(face);
     }
     const InterfaceMesh::Face& there = this->Mesh.Faces[static_cast<std::size_t>(face)];
-    const TriangleBox& box = this->Boxes[static_cast<std::size_t>(face)];
+    const Box& box = this->BoxOf(face);
     for (std::size_t n = 0; n < faces.size(); ++n)
     {
       if (!(sheetOf[n]->IsOne && sheetOf[n]->Has(there)) &&
-        !box.IsApart(boxes[n].Low, boxes[n].High) &&
+        !box.IsApartFrom(boxes[n]) &&
         TrianglesIntersect(faces[n], TriangleOf(this->Mesh, there.Vertex), this->Tolerance))
       {
         return false;

@@ -3,6 +3,7 @@
 #ifndef volumicInterfaceClearance_h
 #define volumicInterfaceClearance_h
 
+#include "Core/Common/Box.h"
 #include "Core/Common/Executor.h"
 #include "Core/Interfaces/InterfaceMesh.h"
 #include "Core/Mesh/TriangleTests.h"
@@ -20,28 +21,6 @@ constexpr double LeastSheetCosine = 0.1;
 /** Corners of a triangle that there is not yet, and the vertices that they are. */
 MeshTriangle TriangleOf(const InterfaceMesh& mesh, const std::array<int, 3>& vertices);
 
-/** What a triangle lies in. */
-struct TriangleBox
-{
-  Vector Low;
-  Vector High;
-
-  TriangleBox() = default;
-  TriangleBox(const Vector& a, const Vector& b, const Vector& c);
-  void Add(const TriangleBox& other);
-  Vector Middle() const { return (this->Low + this->High) * 0.5f; }
-  bool IsWithin(const TriangleBox& other) const
-  {
-    return this->Low.X >= other.Low.X && this->Low.Y >= other.Low.Y && this->Low.Z >= other.Low.Z &&
-      this->High.X <= other.High.X && this->High.Y <= other.High.Y && this->High.Z <= other.High.Z;
-  }
-  bool IsApart(const Vector& low, const Vector& high) const
-  {
-    return this->High.X < low.X || this->Low.X > high.X || this->High.Y < low.Y ||
-      this->Low.Y > high.Y || this->High.Z < low.Z || this->Low.Z > high.Z;
-  }
-};
-
 /** A face that there is, or may be. */
 struct PlacedFace : MeshTriangle
 {
@@ -49,6 +28,9 @@ struct PlacedFace : MeshTriangle
   LabelMap::Number Front;
 };
 PlacedFace PlacedFaceOf(const InterfaceMesh& mesh, const InterfaceMesh::Face& face);
+
+/** What a triangle lies in. */
+Box BoxOf(const MeshTriangle& triangle);
 
 /**
  * Whether faces that share an edge are about it in the order that their objects want: what one has
@@ -87,12 +69,12 @@ public:
   void ExpectEdges(float longest) { this->Reach = std::max(this->Reach, 0.5f * longest); }
 
   /** Of a face that is there. */
-  const TriangleBox& BoxOf(int face) const { return this->Boxes[static_cast<std::size_t>(face)]; }
+  const Box& BoxOf(int face) const { return this->Boxes[static_cast<std::size_t>(face)]; }
   /** Of all faces when the grid was laid. */
-  const TriangleBox& Bounds() const { return this->All; }
+  const Box& Bounds() const { return this->All; }
 
   /** Faces whose boxes come near a box. */
-  void FindNear(const Vector& low, const Vector& high, std::vector<int>& near) const;
+  void FindNear(const Box& box, std::vector<int>& near) const;
   /** A face that this one intersects; -1: none. @param near room for it */
   int FindIntersecting(int face, std::vector<int>& near) const;
   /**
@@ -131,8 +113,8 @@ private:
 
   const InterfaceMesh& Mesh;
   double Tolerance;
-  LargeVector<TriangleBox> Boxes; ///< of each face, which the grid has at its middle
-  TriangleBox All;                ///< of them when the grid was laid
+  LargeVector<Box> Boxes; ///< of each face, which the grid has at its middle
+  Box All;                ///< of them when the grid was laid
   float Reach = 0.f;              ///< half of the longest side of a box, at least
   VertexGrid Grid;
 };

@@ -48,11 +48,11 @@ public:
   }
 
 private:
-  TriangleBox BoxOf(int face) const
+  Box BoxOf(int face) const
   {
     const std::array<int, 3>& v = this->Mesh.Faces[static_cast<std::size_t>(face)].Vertex;
     const Vector* at = this->Mesh.Position.data();
-    TriangleBox box(at[v[0]], at[v[1]], at[v[2]]);
+    Box box = Box::Of(at[v[0]], at[v[1]], at[v[2]]);
     const auto thick = static_cast<float>(this->Tolerance);
     box.High += Vector(thick, thick, thick);
     return box;
@@ -61,7 +61,7 @@ private:
   void LayCubes()
   {
     const std::size_t count = this->Mesh.Faces.size();
-    std::vector<TriangleBox> boxes((count + SpanSize - 1) / SpanSize);
+    std::vector<Box> boxes((count + SpanSize - 1) / SpanSize);
     std::vector<double> widths(boxes.size(), 0.);
     std::vector<std::size_t> counts(boxes.size(), 0);
     ForSpans(this->Threads, count, SpanSize,
@@ -71,24 +71,22 @@ private:
         {
           if (this->Mesh.Faces[f].IsThere())
           {
-            const TriangleBox box = this->BoxOf(static_cast<int>(f));
-            boxes[span] = counts[span] == 0 ? box : boxes[span];
-            boxes[span].Add(box);
+            const Box box = this->BoxOf(static_cast<int>(f));
+            boxes[span] = counts[span] == 0 ? box : boxes[span].With(box);
             const Vector sides = box.High - box.Low;
             widths[span] += std::max({ sides.X, sides.Y, sides.Z });
             ++counts[span];
           }
         }
       });
-    TriangleBox all;
+    Box all;
     double width = 0.;
     std::size_t there = 0;
     for (std::size_t span = 0; span < boxes.size(); ++span)
     {
       if (counts[span] > 0)
       {
-        all = there == 0 ? boxes[span] : all;
-        all.Add(boxes[span]);
+        all = there == 0 ? boxes[span] : all.With(boxes[span]);
         width += widths[span];
         there += counts[span];
       }
@@ -123,7 +121,7 @@ private:
           std::array<int, 2> layers = { 0, -1 };
           if (this->Mesh.Faces[f].IsThere())
           {
-            const TriangleBox box = this->BoxOf(static_cast<int>(f));
+            const Box box = this->BoxOf(static_cast<int>(f));
             layers = { this->CubeOf(box.Low)[2], this->CubeOf(box.High)[2] };
           }
           ofSpans[span].push_back(layers);
@@ -152,7 +150,7 @@ private:
     {
       for (const int f : faces)
       {
-        const TriangleBox box = this->BoxOf(f);
+        const Box box = this->BoxOf(f);
         const std::array<int, 3> low = this->CubeOf(box.Low);
         const std::array<int, 3> high = this->CubeOf(box.High);
         for (int j = low[1]; j <= high[1]; ++j)
@@ -191,19 +189,17 @@ private:
     for (const int* f = first; f != last; ++f)
     {
       doubtful.push_back(*f);
-      const TriangleBox box = this->BoxOf(*f);
+      const Box box = this->BoxOf(*f);
       const MeshTriangle triangle = this->TriangleAt(*f);
       for (const int* g = f + 1; g != last; ++g)
       {
-        const TriangleBox other = this->BoxOf(*g);
-        if (box.IsApart(other.Low, other.High))
+        const Box other = this->BoxOf(*g);
+        if (box.IsApartFrom(other))
         {
           continue;
         }
         // In the first cube that both are in.
-        const Vector low(std::max(box.Low.X, other.Low.X), std::max(box.Low.Y, other.Low.Y),
-          std::max(box.Low.Z, other.Low.Z));
-        if (this->CubeOf(low) == cube &&
+        if (this->CubeOf(box.Within(other).Low) == cube &&
           TrianglesIntersect(triangle, this->TriangleAt(*g), this->Tolerance))
         {
           pairs.push_back({ *f, *g });

@@ -176,7 +176,7 @@ std::vector<MismatchedVoxel> FindMismatchedVoxels(const InterfaceMesh& mesh,
       {
         const std::array<int, 3>& at = found[n].At;
         const VectorD centre(at[0] * step[0], at[1] * step[1], at[2] * step[2]);
-        clearance.FindNear(Vector(centre), Vector(centre), near);
+        clearance.FindNear({ Vector(centre), Vector(centre) }, near);
         found[n].IsFar = std::none_of(near.begin(), near.end(),
           [&](int f)
           {

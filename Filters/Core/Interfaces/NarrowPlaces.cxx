@@ -177,11 +177,7 @@ void NarrowPlaces::ForGapsAt(int face, std::vector<int>& near, Visitor&& visit) 
   const MeshTriangle triangle = TriangleOf(this->Mesh, v);
   const VectorD normal = NormalOf(triangle);
   const double wanted = NarrowGap * this->Edge * this->Mesh.SizeOf(v[0], v[1]);
-  const auto margin = static_cast<float>(wanted);
-  const TriangleBox box{ Vector(triangle.Corner[0]), Vector(triangle.Corner[1]),
-    Vector(triangle.Corner[2]) };
-  const Vector thick(margin, margin, margin);
-  this->Clearance.FindNear(box.Low - thick, box.High + thick, near);
+  this->Clearance.FindNear(BoxOf(triangle).Grown(static_cast<float>(wanted)), near);
   for (const int other : near)
   {
     const InterfaceMesh::Face& there = this->Mesh.Faces[static_cast<std::size_t>(other)];
