@@ -50,7 +50,6 @@ set(volumic_core_sources
   Interfaces/DistanceLattice.cxx
   Interfaces/DualCells.cxx
   Interfaces/DualMesh.cxx
-  Interfaces/FaceCubes.cxx
   Interfaces/InterfaceClearance.cxx
   Interfaces/InterfaceFields.cxx
   Interfaces/InterfaceFit.cxx
@@ -173,7 +172,6 @@ set(volumic_core_headers
   Interfaces/DistanceLattice.h
   Interfaces/DualCells.h
   Interfaces/DualMesh.h
-  Interfaces/FaceCubes.h
   Interfaces/InterfaceClearance.h
   Interfaces/InterfaceFields.h
   Interfaces/InterfaceFit.h
