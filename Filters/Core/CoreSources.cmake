@@ -59,7 +59,6 @@ set(volumic_core_sources
   Interfaces/InterfaceEdits.cxx
   Interfaces/InterfaceRemesher.cxx
   Interfaces/InterfaceSizes.cxx
-  Interfaces/InterfaceSlivers.cxx
   Interfaces/InterfaceStart.cxx
   Interfaces/LineWedges.cxx
   Interfaces/MakeInterfaces.cxx
