@@ -91,19 +91,14 @@ private:
 
   std::vector<int> FindTurned() const
   {
-    std::vector<std::vector<int>> ofSpans((this->Mesh.Faces.size() + SpanSize - 1) / SpanSize);
-    ForSpans(this->Threads, this->Mesh.Faces.size(), SpanSize,
-      [&](std::size_t span, std::size_t begin, std::size_t end)
+    return CollectInSpans<int>(this->Threads, this->Mesh.Faces.size(), SpanSize,
+      [this](std::size_t f, std::vector<int>& turned)
       {
-        for (std::size_t f = begin; f < end; ++f)
+        if (this->Mesh.Faces[f].IsThere() && this->HasTurned(static_cast<int>(f)))
         {
-          if (this->Mesh.Faces[f].IsThere() && this->HasTurned(static_cast<int>(f)))
-          {
-            ofSpans[span].push_back(static_cast<int>(f));
-          }
+          turned.push_back(static_cast<int>(f));
         }
       });
-    return Joined(this->Threads, ofSpans);
   }
 
   void TakeBackTurned(const std::vector<int>& faces, std::vector<int>& back)
@@ -138,21 +133,16 @@ private:
   template <typename Other>
   std::vector<std::array<int, 2>> FindPairs(const std::vector<int>& faces, const Other& other) const
   {
-    std::vector<std::vector<std::array<int, 2>>> ofSpans((faces.size() + SpanSize - 1) / SpanSize);
-    ForSpans(this->Threads, faces.size(), SpanSize,
-      [&](std::size_t span, std::size_t begin, std::size_t end)
+    return CollectInSpans<std::array<int, 2>>(this->Threads, faces.size(), SpanSize,
+      [&](std::size_t n, std::vector<std::array<int, 2>>& pairs)
       {
         std::vector<int> room;
-        for (std::size_t n = begin; n < end; ++n)
+        const int found = other(faces[n], room);
+        if (found >= 0)
         {
-          const int found = other(faces[n], room);
-          if (found >= 0)
-          {
-            ofSpans[span].push_back({ faces[n], found });
-          }
+          pairs.push_back({ faces[n], found });
         }
       });
-    return Joined(this->Threads, ofSpans);
   }
 
   std::vector<std::array<int, 2>> FindIntersecting(const std::vector<int>& faces) const

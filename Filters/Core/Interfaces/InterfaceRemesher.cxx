@@ -206,21 +206,15 @@ int InterfaceRemesher::VisitInCubes(const Visit& visit)
   this->Clearance.ExpectEdges(longest);
   const float side = SideInEdges * longest;
   const Vector low = this->Clearance.Bounds().Low;
-  std::vector<std::vector<FaceInCube>> ofSpans((this->Mesh.Faces.size() + SpanSize - 1) / SpanSize);
-  ForSpans(this->Threads, this->Mesh.Faces.size(), SpanSize,
-    [&](std::size_t span, std::size_t begin, std::size_t end)
+  auto faces = CollectInSpans<FaceInCube>(this->Threads, this->Mesh.Faces.size(), SpanSize,
+    [&](std::size_t f, std::vector<FaceInCube>& some)
     {
-      for (std::size_t f = begin; f < end; ++f)
+      if (this->Mesh.Faces[f].IsThere())
       {
-        if (this->Mesh.Faces[f].IsThere())
-        {
-          const int face = static_cast<int>(f);
-          ofSpans[span].push_back(
-            PlaceOf(this->Clearance.BoxOf(face).Middle() - low, side, face));
-        }
+        const int face = static_cast<int>(f);
+        some.push_back(PlaceOf(this->Clearance.BoxOf(face).Middle() - low, side, face));
       }
     });
-  std::vector<FaceInCube> faces = Joined(this->Threads, ofSpans);
   SortInSpans(this->Threads, faces);
   std::vector<std::vector<int>> left;
   int count = 0;

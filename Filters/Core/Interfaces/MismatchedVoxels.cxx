@@ -50,52 +50,42 @@ public:
   {
     this->FindCrossings();
     const VoxelBox& box = this->Box;
-    std::vector<std::vector<MismatchedVoxel>> ofSlices(
-      static_cast<std::size_t>(std::max(0, box.Length(2))));
-    ForSpans(this->Threads, ofSlices.size(), 1,
-      [&](std::size_t slice, std::size_t, std::size_t)
+    return CollectInSpans<MismatchedVoxel>(this->Threads,
+      static_cast<std::size_t>(std::max(0, box.Length(2))), 1,
+      [&](std::size_t slice, std::vector<MismatchedVoxel>& found)
       {
-        const int k = box.First[2] + static_cast<int>(slice);
         for (int j = box.First[1]; j < box.End[1]; ++j)
         {
-          this->FollowRow(j, k, ofSlices[slice]);
+          this->FollowRow(j, box.First[2] + static_cast<int>(slice), found);
         }
       });
-    return Joined(this->Threads, ofSlices);
   }
 
 private:
   void FindCrossings()
   {
-    std::vector<std::vector<FaceCrossing>> ofSpans(
-      (this->Mesh.Faces.size() + SpanSize - 1) / SpanSize);
-    ForSpans(this->Threads, this->Mesh.Faces.size(), SpanSize,
-      [&](std::size_t span, std::size_t begin, std::size_t end)
+    this->Crossings = CollectInSpans<FaceCrossing>(this->Threads, this->Mesh.Faces.size(), SpanSize,
+      [this](std::size_t f, std::vector<FaceCrossing>& crossings)
       {
-        std::vector<RowGrid::Crossing> some;
-        for (std::size_t f = begin; f < end; ++f)
+        const InterfaceMesh::Face& face = this->Mesh.Faces[f];
+        if (!face.IsThere())
         {
-          const InterfaceMesh::Face& face = this->Mesh.Faces[f];
-          if (!face.IsThere())
-          {
-            continue;
-          }
-          std::array<Point, 3> corners;
-          for (int c = 0; c < 3; ++c)
-          {
-            const Vector& p = this->Mesh.Position[static_cast<std::size_t>(face.Vertex[c])];
-            corners[c] = { p.X / this->Step[0], p.Y / this->Step[1], p.Z / this->Step[2] };
-          }
-          some.clear();
-          this->Rows.AddCrossings(corners, some);
-          for (const RowGrid::Crossing& crossing : some)
-          {
-            ofSpans[span].push_back({ crossing.Row, crossing.Where.X, crossing.Where.Winding,
-              static_cast<int>(f) });
-          }
+          return;
+        }
+        std::array<Point, 3> corners;
+        for (int c = 0; c < 3; ++c)
+        {
+          const Vector& p = this->Mesh.Position[static_cast<std::size_t>(face.Vertex[c])];
+          corners[c] = { p.X / this->Step[0], p.Y / this->Step[1], p.Z / this->Step[2] };
+        }
+        std::vector<RowGrid::Crossing> some;
+        this->Rows.AddCrossings(corners, some);
+        for (const RowGrid::Crossing& crossing : some)
+        {
+          crossings.push_back(
+            { crossing.Row, crossing.Where.X, crossing.Where.Winding, static_cast<int>(f) });
         }
       });
-    this->Crossings = Joined(this->Threads, ofSpans);
     SortInSpans(this->Threads, this->Crossings);
   }
 

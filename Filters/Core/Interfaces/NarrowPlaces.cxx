@@ -122,36 +122,24 @@ std::vector<int> NarrowPlaces::FindVertices(Executor& executor)
   // In one sheet there are no gaps, up to the margin, which is less than the cubes' width.
   const std::vector<int> doubtful =
     FindCrossings(this->Mesh, NarrowGap * this->Edge, executor).Doubtful;
-  std::vector<std::vector<int>> ofSpans((faces.size() + SpanSize - 1) / SpanSize);
-  ForSpans(executor, faces.size(), SpanSize,
-    [&](std::size_t span, std::size_t begin, std::size_t end)
+  auto vertices = CollectInSpans<int>(executor, faces.size(), SpanSize,
+    [&](std::size_t f, std::vector<int>& some)
     {
-      const auto add = [&](const InterfaceMesh::Face& face)
-      { ofSpans[span].insert(ofSpans[span].end(), face.Vertex.begin(), face.Vertex.end()); };
-      for (std::size_t f = begin; f < end; ++f)
+      const std::array<int, 3>& v = faces[f].Vertex;
+      if (faces[f].IsThere() && SmallestAngle(TriangleOf(this->Mesh, v)) < NarrowAngle)
       {
-        if (faces[f].IsThere() &&
-          SmallestAngle(TriangleOf(this->Mesh, faces[f].Vertex)) < NarrowAngle)
-        {
-          add(faces[f]);
-        }
+        some.insert(some.end(), v.begin(), v.end());
       }
     });
-  std::vector<std::vector<int>> ofGaps((doubtful.size() + GapSpanSize - 1) / GapSpanSize);
-  ForSpans(executor, doubtful.size(), GapSpanSize,
-    [&](std::size_t span, std::size_t begin, std::size_t end)
+  const auto atGaps = CollectInSpans<int>(executor, doubtful.size(), GapSpanSize,
+    [&](std::size_t n, std::vector<int>& some)
     {
       std::vector<int> near;
-      for (std::size_t n = begin; n < end; ++n)
-      {
-        bool isNarrow = false;
-        this->ForGapsAt(doubtful[n], near, [&](double) { isNarrow = true; }); // Both find it.
-        const std::array<int, 3>& v = faces[static_cast<std::size_t>(doubtful[n])].Vertex;
-        ofGaps[span].insert(ofGaps[span].end(), v.begin(), isNarrow ? v.end() : v.begin());
-      }
+      bool isNarrow = false;
+      this->ForGapsAt(doubtful[n], near, [&](double) { isNarrow = true; }); // Both find it.
+      const std::array<int, 3>& v = faces[static_cast<std::size_t>(doubtful[n])].Vertex;
+      some.insert(some.end(), v.begin(), isNarrow ? v.end() : v.begin());
     });
-  std::vector<int> vertices = Joined(executor, ofSpans);
-  const std::vector<int> atGaps = Joined(executor, ofGaps);
   vertices.insert(vertices.end(), atGaps.begin(), atGaps.end());
   for (const std::array<int, 2>& edge : this->Mesh.FindLines())
   {

@@ -271,16 +271,14 @@ private:
     }
     this->BesideThin = this->Sides.FindBeside(this->Thin);
     const VoxelBits rows = this->FindChanging();
-    std::vector<std::vector<VoxelConstraint>> ofLayers(
-      static_cast<std::size_t>(this->Rows.NumberOfLayers()));
-    ForSpans(this->Threads, ofLayers.size(), 1,
-      [&](std::size_t layer, std::size_t, std::size_t)
+    return CollectInSpans<VoxelConstraint>(this->Threads,
+      static_cast<std::size_t>(rows.NumberOfLayers()), 1,
+      [&](std::size_t layer, std::vector<VoxelConstraint>& constraints)
       {
         rows.ForLayer(static_cast<int>(layer),
           [&](int i, int j, int k, int count)
-          { this->FindConstraintsOfRow(i, j, k, count, ofLayers[layer]); });
+          { this->FindConstraintsOfRow(i, j, k, count, constraints); });
       });
-    return Joined(this->Threads, ofLayers);
   }
 
   void FindConstraintsOfRow(
