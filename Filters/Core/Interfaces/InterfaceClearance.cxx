@@ -16,12 +16,6 @@ namespace
 /** Faces that a thread looks at at a time. */
 constexpr std::size_t SpanSize = 4096;
 
-float LongestSide(const Box& box)
-{
-  const Vector sides = box.High - box.Low;
-  return std::max({ sides.X, sides.Y, sides.Z });
-}
-
 bool Has(const MeshTriangle& face, int v)
 {
   return face.Vertex[0] == v || face.Vertex[1] == v || face.Vertex[2] == v;
@@ -71,6 +65,12 @@ bool HavePassed(int u, int v, const std::array<MeshTriangle, 2>& before,
   constexpr double flat = 3.14159265358979;
   return std::abs(std::atan2(from.Sine, from.Cosine)) + std::abs(std::atan2(to.Sine, to.Cosine)) <
     flat;
+}
+
+float LongestSide(const Box& box)
+{
+  const Vector sides = box.High - box.Low;
+  return std::max({ sides.X, sides.Y, sides.Z });
 }
 
 Box BoxOf(const MeshTriangle& t)
@@ -151,50 +151,22 @@ void InterfaceClearance::Reset(Executor& executor)
 {
   const LargeVector<InterfaceMesh::Face>& faces = this->Mesh.Faces;
   const Vector* at = this->Mesh.Position.data();
-  struct Summary
-  {
-    Box All;
-    float Longest = 0.f;
-    double Sides = 0.;
-    std::size_t Count = 0;
-  };
-  std::vector<Summary> summaries((faces.size() + SpanSize - 1) / SpanSize);
   LargeVector<Vector> middles(faces.size());
   this->Boxes.resize(faces.size());
-  ForSpans(executor, faces.size(), SpanSize,
-    [&](std::size_t span, std::size_t begin, std::size_t end)
+  const FaceBoxes boxes = FindBoxes(this->Mesh, SpanSize, executor,
+    [&](int face)
     {
-      Summary& summary = summaries[span];
-      for (std::size_t f = begin; f < end; ++f)
-      {
-        if (faces[f].IsThere())
-        {
-          const std::array<int, 3>& v = faces[f].Vertex;
-          const Box& box = this->Boxes[f] = Box::Of(at[v[0]], at[v[1]], at[v[2]]);
-          middles[f] = box.Middle();
-          summary.All = summary.Count == 0 ? box : summary.All.With(box);
-          summary.Longest = std::max(summary.Longest, LongestSide(box));
-          summary.Sides += LongestSide(box);
-          ++summary.Count;
-        }
-      }
+      const auto f = static_cast<std::size_t>(face);
+      const std::array<int, 3>& v = faces[f].Vertex;
+      this->Boxes[f] = Box::Of(at[v[0]], at[v[1]], at[v[2]]);
+      middles[f] = this->Boxes[f].Middle();
+      return this->Boxes[f];
     });
-  Summary all;
-  for (const Summary& summary : summaries)
-  {
-    if (summary.Count > 0)
-    {
-      all.All = all.Count == 0 ? summary.All : all.All.With(summary.All);
-      all.Longest = std::max(all.Longest, summary.Longest);
-      all.Sides += summary.Sides;
-      all.Count += summary.Count;
-    }
-  }
-  this->All = all.All;
-  this->Reach = 0.5f * all.Longest;
+  this->All = boxes.All;
+  this->Reach = 0.5f * boxes.Longest;
   // A cell is as wide as a box is long in the mean.
-  const double cell = all.Sides / static_cast<double>(std::max<std::size_t>(all.Count, 1));
-  this->Grid.Reset(all.All.Low, all.All.High, std::max(static_cast<float>(cell), 1e-6f));
+  this->Grid.Reset(
+    this->All.Low, this->All.High, std::max(static_cast<float>(boxes.MeanSide()), 1e-6f));
   this->Grid.InsertAll(
     middles, 0, [&](int f) { return faces[static_cast<std::size_t>(f)].IsThere(); }, executor);
 }

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <vector>
 
 namespace volumic
@@ -47,6 +48,59 @@ bool AreInOrder(int u, int v, const std::vector<PlacedFace>& faces);
  */
 bool HavePassed(int u, int v, const std::array<MeshTriangle, 2>& before,
   const std::array<MeshTriangle, 2>& after);
+
+/** What the boxes of faces are like. */
+struct FaceBoxes
+{
+  Box All;
+  float Longest = 0.f; ///< side of a box
+  double Sides = 0.;   ///< sum of the longest side of each
+  std::size_t Count = 0;
+
+  double MeanSide() const
+  {
+    return this->Sides / static_cast<double>(std::max<std::size_t>(this->Count, 1));
+  }
+  void Add(const FaceBoxes& others)
+  {
+    if (others.Count > 0)
+    {
+      this->All = this->Count == 0 ? others.All : this->All.With(others.All);
+      this->Longest = std::max(this->Longest, others.Longest);
+      this->Sides += others.Sides;
+      this->Count += others.Count;
+    }
+  }
+};
+
+float LongestSide(const Box& box);
+
+/** @param boxOf Box(int face), of each face that is there, called by threads */
+template <typename BoxOfFace>
+FaceBoxes FindBoxes(
+  const InterfaceMesh& mesh, std::size_t spanSize, Executor& executor, BoxOfFace&& boxOf)
+{
+  std::vector<FaceBoxes> ofSpans((mesh.Faces.size() + spanSize - 1) / spanSize);
+  ForSpans(executor, mesh.Faces.size(), spanSize,
+    [&](std::size_t span, std::size_t begin, std::size_t end)
+    {
+      for (std::size_t f = begin; f < end; ++f)
+      {
+        if (mesh.Faces[f].IsThere())
+        {
+          const Box box = boxOf(static_cast<int>(f));
+          const float side = LongestSide(box);
+          ofSpans[span].Add({ box, side, side, 1 });
+        }
+      }
+    });
+  FaceBoxes all;
+  for (const FaceBoxes& some : ofSpans)
+  {
+    all.Add(some);
+  }
+  return all;
+}
 
 /** Which triangles of interfaces are near others, and whether they intersect them. */
 class InterfaceClearance

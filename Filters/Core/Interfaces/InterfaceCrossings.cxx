@@ -60,43 +60,13 @@ private:
 
   void LayCubes()
   {
-    const std::size_t count = this->Mesh.Faces.size();
-    std::vector<Box> boxes((count + SpanSize - 1) / SpanSize);
-    std::vector<double> widths(boxes.size(), 0.);
-    std::vector<std::size_t> counts(boxes.size(), 0);
-    ForSpans(this->Threads, count, SpanSize,
-      [&](std::size_t span, std::size_t begin, std::size_t end)
-      {
-        for (std::size_t f = begin; f < end; ++f)
-        {
-          if (this->Mesh.Faces[f].IsThere())
-          {
-            const Box box = this->BoxOf(static_cast<int>(f));
-            boxes[span] = counts[span] == 0 ? box : boxes[span].With(box);
-            const Vector sides = box.High - box.Low;
-            widths[span] += std::max({ sides.X, sides.Y, sides.Z });
-            ++counts[span];
-          }
-        }
-      });
-    Box all;
-    double width = 0.;
-    std::size_t there = 0;
-    for (std::size_t span = 0; span < boxes.size(); ++span)
-    {
-      if (counts[span] > 0)
-      {
-        all = there == 0 ? boxes[span] : all.With(boxes[span]);
-        width += widths[span];
-        there += counts[span];
-      }
-    }
-    this->Low = all.Low;
-    const Vector sides = all.High - all.Low;
+    const FaceBoxes boxes = FindBoxes(
+      this->Mesh, SpanSize, this->Threads, [this](int face) { return this->BoxOf(face); });
+    this->Low = boxes.All.Low;
     this->PerCube = 1.f /
-      std::max({ 1e-6f, CubeInFaces * static_cast<float>(width / std::max<std::size_t>(there, 1)),
-        std::max({ sides.X, sides.Y, sides.Z }) / static_cast<float>(MostCubes) });
-    const std::array<int, 3> last = this->CubeOf(all.High);
+      std::max({ 1e-6f, CubeInFaces * static_cast<float>(boxes.MeanSide()),
+        LongestSide(boxes.All) / static_cast<float>(MostCubes) });
+    const std::array<int, 3> last = this->CubeOf(boxes.All.High);
     this->Count = { last[0] + 1, last[1] + 1, last[2] + 1 };
   }
 
@@ -111,30 +81,16 @@ private:
   /** The faces in each layer of cubes along z, sorted. */
   std::vector<std::vector<int>> FindFacesOfLayers() const
   {
-    const std::size_t spans = (this->Mesh.Faces.size() + SpanSize - 1) / SpanSize;
-    std::vector<std::vector<std::array<int, 2>>> ofSpans(spans); // layers of each face
-    ForSpans(this->Threads, this->Mesh.Faces.size(), SpanSize,
-      [&](std::size_t span, std::size_t begin, std::size_t end)
-      {
-        for (std::size_t f = begin; f < end; ++f)
-        {
-          std::array<int, 2> layers = { 0, -1 };
-          if (this->Mesh.Faces[f].IsThere())
-          {
-            const Box box = this->BoxOf(static_cast<int>(f));
-            layers = { this->CubeOf(box.Low)[2], this->CubeOf(box.High)[2] };
-          }
-          ofSpans[span].push_back(layers);
-        }
-      });
     std::vector<std::vector<int>> faces(static_cast<std::size_t>(this->Count[2]));
-    for (std::size_t span = 0; span < spans; ++span)
+    for (std::size_t f = 0; f < this->Mesh.Faces.size(); ++f)
     {
-      for (std::size_t n = 0; n < ofSpans[span].size(); ++n)
+      if (this->Mesh.Faces[f].IsThere())
       {
-        for (int k = ofSpans[span][n][0]; k <= ofSpans[span][n][1]; ++k)
+        const int face = static_cast<int>(f);
+        const Box box = this->BoxOf(face);
+        for (int k = this->CubeOf(box.Low)[2]; k <= this->CubeOf(box.High)[2]; ++k)
         {
-          faces[static_cast<std::size_t>(k)].push_back(static_cast<int>(span * SpanSize + n));
+          faces[static_cast<std::size_t>(k)].push_back(face);
         }
       }
     }
