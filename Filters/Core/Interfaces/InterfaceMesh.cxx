@@ -223,16 +223,7 @@ void InterfaceMesh::FindStrata()
     }
     this->FindNeighbours(v, neighbours);
     int lines = 0;
-    for (std::size_t n = 0; n < neighbours.size();)
-    {
-      std::size_t end = n;
-      while (end < neighbours.size() && neighbours[end] == neighbours[n])
-      {
-        ++end;
-      }
-      lines += end - n > 2 ? 1 : 0;
-      n = end;
-    }
+    ForLineNeighbours(neighbours, [&lines](int) { ++lines; });
     this->StratumOf[static_cast<std::size_t>(v)] = lines == 0 ? Stratum::Interface
       : lines == 2                                            ? Stratum::Line
                                                               : Stratum::Corner;
@@ -250,14 +241,14 @@ std::vector<std::array<int, 2>> InterfaceMesh::FindLines() const
       continue;
     }
     this->FindNeighbours(v, neighbours);
-    for (std::size_t n = 0; n + 2 < neighbours.size(); ++n)
-    {
-      const int w = neighbours[n];
-      if (v < w && neighbours[n + 2] == w && (n == 0 || neighbours[n - 1] != w))
+    ForLineNeighbours(neighbours,
+      [&](int w)
       {
-        lines.push_back({ v, w });
-      }
-    }
+        if (v < w)
+        {
+          lines.push_back({ v, w });
+        }
+      });
   }
   return lines;
 }
