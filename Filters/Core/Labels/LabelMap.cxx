@@ -75,18 +75,6 @@ void LabelMap::PutLayer(int layer, const Number* voxels)
   }
 }
 
-void LabelMap::CopyLayer(int layer, Number* voxels) const
-{
-  const VoxelBox all = this->Layer(layer);
-  this->ForParts(all,
-    [&](const VoxelBox& part, Number object)
-    {
-      ForRowsOf(part, all,
-        [&](std::int64_t first, std::int64_t count)
-        { std::fill_n(voxels + first, count, object); });
-    });
-}
-
 LabelMap LabelMap::Part(const VoxelBox& box) const
 {
   const auto moved = [](VoxelBox by, const std::array<int, 3>& way, int sign)

@@ -54,9 +54,8 @@ public:
   }
   void Set(int i, int j, int k, Number object);
 
-  /** The slices of a layer, in one array, x fastest. */
+  /** @param voxels the slices of a layer, x fastest */
   void PutLayer(int layer, const Number* voxels);
-  void CopyLayer(int layer, Number* voxels) const;
   /** The slices of a layer, and all of their voxels. */
   VoxelBox Layer(int layer) const;
   /** Return a map of a box, which may reach beyond this one: there are voxels of 0. */
