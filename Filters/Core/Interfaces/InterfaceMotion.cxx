@@ -75,15 +75,15 @@ private:
 
   bool HasTurned(int f) const
   {
-    const InterfaceMesh::Face& face = this->Mesh.Faces[static_cast<std::size_t>(f)];
-    const auto at = [&](int k)
-    { return VectorD(this->Before[static_cast<std::size_t>(face.Vertex[k])]); };
-    const VectorD before = Cross(at(1) - at(0), at(2) - at(0));
-    const VectorD after = this->Mesh.NormalOf(face);
+    const MeshTriangle old = this->FaceBefore(f);
+    const MeshTriangle now =
+      TriangleOf(this->Mesh, this->Mesh.Faces[static_cast<std::size_t>(f)].Vertex);
+    const VectorD before = NormalOf(old);
+    const VectorD after = NormalOf(now);
     const auto isSpoilt = [&]
     {
-      const double angle = SmallestAngle(TriangleOf(this->Mesh, face.Vertex));
-      return angle < this->LeastAngle && angle < SmallestAngle(at(0), at(1), at(2));
+      const double angle = SmallestAngle(now);
+      return angle < this->LeastAngle && angle < SmallestAngle(old);
     };
     return (this->LeastAngle > 0. && isSpoilt()) ||
       Dot(before, after) < LeastTurnCosine * Length(before) * Length(after);
