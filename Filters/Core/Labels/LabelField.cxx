@@ -317,12 +317,6 @@ private:
 };
 }
 
-LabelField MakeLabelField(
-  const LabelBricks& bricks, int object, const LabelFieldOptions& options, Executor& executor)
-{
-  return MakeLabelField(bricks, object, options, executor, VoxelBox::Of(bricks.Size()));
-}
-
 LabelField MakeLabelField(const LabelBricks& bricks, int object, const LabelFieldOptions& options,
   Executor& executor, const VoxelBox& within)
 {
