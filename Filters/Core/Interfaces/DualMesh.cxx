@@ -95,13 +95,6 @@ private:
       for (int j = 0; j + 1 < this->Grid.Size[1]; ++j)
       {
         const std::size_t row = static_cast<std::size_t>(j) * this->Grid.Size[0];
-        if (DualCells::AreUniform({ &slice[row],
-                                    &slice[row + static_cast<std::size_t>(this->Grid.Size[0])],
-                                    &next[row] },
-              this->Grid.Size[0]))
-        {
-          continue;
-        }
         for (int i = 0; i + 1 < this->Grid.Size[0]; ++i)
         {
           const std::size_t at = row + static_cast<std::size_t>(i);
