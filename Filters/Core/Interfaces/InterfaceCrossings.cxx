@@ -81,17 +81,24 @@ private:
   /** The faces in each layer of cubes along z, sorted. */
   std::vector<std::vector<int>> FindFacesOfLayers() const
   {
-    std::vector<std::vector<int>> faces(static_cast<std::size_t>(this->Count[2]));
-    for (std::size_t f = 0; f < this->Mesh.Faces.size(); ++f)
-    {
-      if (this->Mesh.Faces[f].IsThere())
+    using LayersOfFace = std::array<int, 3>;
+    const auto ofFaces = CollectInSpans<LayersOfFace>(this->Threads, this->Mesh.Faces.size(),
+      SpanSize,
+      [this](std::size_t f, std::vector<LayersOfFace>& some)
       {
-        const int face = static_cast<int>(f);
-        const Box box = this->BoxOf(face);
-        for (int k = this->CubeOf(box.Low)[2]; k <= this->CubeOf(box.High)[2]; ++k)
+        if (this->Mesh.Faces[f].IsThere())
         {
-          faces[static_cast<std::size_t>(k)].push_back(face);
+          const Box box = this->BoxOf(static_cast<int>(f));
+          some.push_back(
+            { static_cast<int>(f), this->CubeOf(box.Low)[2], this->CubeOf(box.High)[2] });
         }
+      });
+    std::vector<std::vector<int>> faces(static_cast<std::size_t>(this->Count[2]));
+    for (const auto& [face, low, high] : ofFaces)
+    {
+      for (int k = low; k <= high; ++k)
+      {
+        faces[static_cast<std::size_t>(k)].push_back(face);
       }
     }
     return faces;
