@@ -197,30 +197,11 @@ void InterfaceMesh::FindObjects(int v, std::vector<int>& objects) const
   objects.erase(std::unique(objects.begin(), objects.end()), objects.end());
 }
 
-bool InterfaceMesh::HasOnePair(int v) const
-{
-  const Face* first = nullptr;
-  bool isOne = true;
-  this->ForFaces(v,
-    [&](int f)
-    {
-      const Face& face = this->Faces[static_cast<std::size_t>(f)];
-      first = first ? first : &face;
-      isOne = isOne && face.Behind == first->Behind && face.Front == first->Front;
-    });
-  return isOne;
-}
-
 void InterfaceMesh::FindStrata()
 {
   std::vector<int> neighbours;
   for (int v = 0; v < static_cast<int>(this->Position.size()); ++v)
   {
-    if (this->HasOnePair(v))
-    {
-      this->StratumOf[static_cast<std::size_t>(v)] = Stratum::Interface;
-      continue;
-    }
     this->FindNeighbours(v, neighbours);
     int lines = 0;
     ForLineNeighbours(neighbours, [&lines](int) { ++lines; });

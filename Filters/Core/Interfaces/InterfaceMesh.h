@@ -177,8 +177,6 @@ public:
 private:
   static constexpr float Infinite = std::numeric_limits<float>::infinity();
 
-  /** Whether all faces of a vertex are between the same objects. */
-  bool HasOnePair(int v) const;
   void Link(int corner, int v);
   void Unlink(int corner, int v);
 
