@@ -12,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <utility>
 
 namespace volumic
@@ -315,20 +316,7 @@ bool NarrowPlaces::TryMoveTo(int v, const Vector& wanted)
 
 bool NarrowPlaces::TakeVolumes()
 {
-  std::vector<std::pair<int, double>> gains; // by object
-  const auto add = [&](int object, double volume)
-  {
-    const auto found = std::find_if(
-      gains.begin(), gains.end(), [object](const auto& gain) { return gain.first == object; });
-    if (found != gains.end())
-    {
-      found->second += volume;
-    }
-    else if (object > 0 && !this->Mesh.IsSide(object))
-    {
-      gains.emplace_back(object, volume);
-    }
-  };
+  std::map<int, double> gains; // by object
   const std::array<double, 3>& step = this->Fields.Step();
   for (std::size_t n = 0; n < this->Made.size(); ++n)
   {
@@ -342,9 +330,13 @@ bool NarrowPlaces::TakeVolumes()
         VolumeOf(old.Corner[k], old.Corner[(k + 1) % 3], old.Corner[(k + 2) % 3], face.Corner[k]);
     }
     volume /= 6. * step[0] * step[1] * step[2];
-    add(face.Behind, volume);
-    add(face.Front, -volume);
+    gains[face.Behind] += volume;
+    if (!this->Mesh.IsSide(face.Front))
+    {
+      gains[face.Front] -= volume;
+    }
   }
+  gains.erase(0);
   const auto isFair = [this](const auto& gain)
   {
     const double voxels = static_cast<double>(this->Fields.Bricks().ExtentOf(gain.first).Voxels);
