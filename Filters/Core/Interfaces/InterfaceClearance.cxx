@@ -26,17 +26,6 @@ const VectorD& CornerAt(const MeshTriangle& face, int v)
   return face.Corner[std::find(face.Vertex, face.Vertex + 3, v) - face.Vertex];
 }
 
-/** From the edge (u, v) to the third corner, across it. */
-VectorD AcrossEdge(const MeshTriangle& face, int u, int v)
-{
-  const int at = static_cast<int>(std::find_if(face.Vertex, face.Vertex + 3,
-    [&](int w) { return w != u && w != v; }) - face.Vertex);
-  const VectorD& from = CornerAt(face, u);
-  const VectorD axis = CornerAt(face, v) - from;
-  const VectorD way = face.Corner[at] - from;
-  return way * SquaredLength(axis) - axis * Dot(axis, way);
-}
-
 /** From one face to the other one about the edge: the angle's cosine and sine, times a length. */
 struct Turn
 {
@@ -51,6 +40,16 @@ Turn TurnAt(int u, int v, const std::array<MeshTriangle, 2>& faces)
   const VectorD axis = Normalized(CornerAt(faces[0], v) - CornerAt(faces[0], u));
   return { Dot(first, second), Dot(axis, Cross(first, second)) };
 }
+}
+
+VectorD AcrossEdge(const MeshTriangle& face, int u, int v)
+{
+  const int at = static_cast<int>(std::find_if(face.Vertex, face.Vertex + 3,
+    [&](int w) { return w != u && w != v; }) - face.Vertex);
+  const VectorD& from = CornerAt(face, u);
+  const VectorD axis = CornerAt(face, v) - from;
+  const VectorD way = face.Corner[at] - from;
+  return way * SquaredLength(axis) - axis * Dot(axis, way);
 }
 
 bool HavePassed(int u, int v, const std::array<MeshTriangle, 2>& before,

@@ -33,6 +33,9 @@ PlacedFace PlacedFaceOf(const InterfaceMesh& mesh, const InterfaceMesh::Face& fa
 /** What a triangle lies in. */
 Box BoxOf(const MeshTriangle& triangle);
 
+/** From the edge (u, v) of a triangle to its third corner, across the edge; no unit length. */
+VectorD AcrossEdge(const MeshTriangle& face, int u, int v);
+
 /**
  * Whether faces that share an edge are about it in the order that their objects want: what one has
  * on its one side the next one has on that side, too. Where one has been turned past another,
