@@ -51,7 +51,9 @@ public:
       const std::vector<int> more = this->FindFacesOf(back);
       faces.insert(faces.end(), more.begin(), more.end());
       this->Follow(back);
-      const std::vector<std::array<int, 2>> pairs = this->FindIntersecting(faces);
+      const std::vector<std::array<int, 2>> pairs = this->FindPairs(faces,
+        [this](int face, std::vector<int>& near)
+        { return this->Clearance.FindIntersecting(face, near); });
       std::vector<int> now;
       this->TakeBackPairs(pairs, now);
       this->TakeBackPairs(this->FindPassed(faces), now);
@@ -143,13 +145,6 @@ private:
           pairs.push_back({ faces[n], found });
         }
       });
-  }
-
-  std::vector<std::array<int, 2>> FindIntersecting(const std::vector<int>& faces) const
-  {
-    return this->FindPairs(faces,
-      [this](int face, std::vector<int>& near)
-      { return this->Clearance.FindIntersecting(face, near); });
   }
 
   std::vector<std::array<int, 2>> FindPassed(const std::vector<int>& faces) const
