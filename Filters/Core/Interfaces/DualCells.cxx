@@ -208,7 +208,11 @@ void DualCells::AddCell(DualSlab& slab, const std::array<int, 3>& at,
     return;
   }
   slab.Has.push_back(-1 - static_cast<int>(slab.Special.size()));
-  slab.Special.push_back({ pattern, labels, at });
+  SpecialCell special = {};
+  special.Pattern = pattern;
+  special.Labels = labels;
+  special.At = at;
+  slab.Special.push_back(special);
 }
 
 float DualCells::CoordinateOf(const std::array<int, 3>& cell, int axis, double at) const
