@@ -23,6 +23,12 @@ struct SpecialCell
   std::array<std::array<int, 2>, 6> Strand;      ///< where they are those of this cell
   std::array<std::array<int, 2>, 6> InnerStrand; ///< of opened sheets, the copies
   std::array<int, 12> InnerArc;
+
+  /** The copy of an arc's strand on one of its edge's two sides (CellPattern::SidesOf). */
+  int InnerStrandAt(int edge, int n) const
+  {
+    return this->InnerStrand[CellPattern::SidesOf(edge)[n]][this->Pattern.StrandOf[edge][n]];
+  }
 };
 
 /** Some layers of cells, and the voxel faces and special cells in them. */

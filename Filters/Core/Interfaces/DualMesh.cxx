@@ -186,14 +186,9 @@ private:
         ring.Point[ring.Count++] = Refer(here->Apex[sheet], isBefore[q]);
         continue;
       }
-      const auto inner = [&](int place)
-      {
-        return here->InnerStrand[CellPattern::SidesOf(edge)[place]]
-                                     [pattern.StrandOf[edge][place]];
-      };
-      ring.Point[ring.Count++] = Refer(inner(SideBefore[q]), isBefore[q]);
+      ring.Point[ring.Count++] = Refer(here->InnerStrandAt(edge, SideBefore[q]), isBefore[q]);
       ring.Point[ring.Count++] = Refer(here->InnerArc[edge], isBefore[q]);
-      ring.Point[ring.Count++] = Refer(inner(SideAfter[q]), isBefore[q]);
+      ring.Point[ring.Count++] = Refer(here->InnerStrandAt(edge, SideAfter[q]), isBefore[q]);
     }
     return ring;
   }
@@ -295,16 +290,11 @@ private:
         {
           ++q;
         }
-        const auto inner = [&](int place)
-        {
-          return special
-            .InnerStrand[CellPattern::SidesOf(edge)[place]][pattern.StrandOf[edge][place]];
-        };
         const int arc = special.InnerArc[edge];
-        const int first = isLow ? inner(SideAfter[q]) : inner(SideBefore[q]);
-        const int last = isLow ? inner(SideBefore[q]) : inner(SideAfter[q]);
-        rim.push_back({ first, arc });
-        rim.push_back({ arc, last });
+        rim.push_back(
+          { special.InnerStrandAt(edge, isLow ? SideAfter[q] : SideBefore[q]), arc });
+        rim.push_back(
+          { arc, special.InnerStrandAt(edge, isLow ? SideBefore[q] : SideAfter[q]) });
       }
       if (!rim.empty())
       {
