@@ -133,12 +133,8 @@ Vector InterfaceMesh::OnSides(int v, const Vector& place) const
       const int front = this->Faces[static_cast<std::size_t>(f)].Front;
       if (this->IsSide(front))
       {
-        const int axis = this->AxisOf(front);
-        (axis == 0      ? moved.X
-            : axis == 1 ? moved.Y
-                        : moved.Z) = axis == 0 ? own.X
-          : axis == 1                          ? own.Y
-                                               : own.Z;
+        float Vector::*const along[] = { &Vector::X, &Vector::Y, &Vector::Z };
+        moved.*along[this->AxisOf(front)] = own.*along[this->AxisOf(front)];
       }
     });
   return moved;
