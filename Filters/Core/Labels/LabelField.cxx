@@ -170,11 +170,6 @@ private:
         float* values = this->RowAt(i, j, k);
         for (int x = 0; x < count; ++x)
         {
-          if (x % Lanes::Count == 0 && this->FindLess(i + x, j, k, LeastSize) == 0)
-          {
-            x += Lanes::Count - 1;
-            continue;
-          }
           const float side = this->Sides.Of(i + x, j, k);
           values[x] = side * std::max(side * values[x], this->LeastAt(i + x, j, k));
         }
