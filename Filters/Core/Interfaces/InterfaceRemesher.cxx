@@ -18,8 +18,6 @@ namespace
 {
 /** Faces that a thread looks at at a time. */
 constexpr std::size_t SpanSize = 4096;
-/** Cubes between two questions whether to go on. */
-constexpr std::size_t CubesPerQuestion = 128;
 /**
  * In longest edges: how far faces may come out of their cube, and how wide a cube is. An edit
  * writes what is within an edge of its face, and the cells of the grid there, which are as wide as
@@ -220,7 +218,7 @@ int InterfaceRemesher::VisitInCubes(const Visit& visit)
   int count = 0;
   for (std::size_t n = 0; n < faces.size() && this->GoOn();)
   {
-    // Some cubes of one colour.
+    // The cubes of one colour.
     const std::uint64_t colour = faces[n].Colour;
     std::vector<CubeWork> works;
     std::vector<std::size_t> first;
@@ -228,10 +226,6 @@ int InterfaceRemesher::VisitInCubes(const Visit& visit)
     {
       if (first.empty() || faces[n].Cube != faces[n - 1].Cube)
       {
-        if (works.size() == CubesPerQuestion)
-        {
-          break;
-        }
         first.push_back(n);
         works.emplace_back(this->Mesh, this->Clearance,
           BoxOf(faces[n].Cube, low, side).Grown(MarginInEdges * longest));
