@@ -200,8 +200,8 @@ void DualCells::AddCell(DualSlab& slab, const std::array<int, 3>& at,
   const std::array<Number, 8>& labels, const Place& vertex) const
 {
   slab.X.push_back(at[0]);
-  const CellPattern pattern(labels, this->Grid.RankOf);
-  if (pattern.IsPlain())
+  CellPattern pattern;
+  if (this->IsPlainPair(labels) || (pattern = CellPattern(labels, this->Grid.RankOf)).IsPlain())
   {
     slab.Has.push_back(static_cast<int>(slab.Points.size()));
     slab.Points.push_back(this->PlaceOf(at, vertex));
@@ -213,6 +213,26 @@ void DualCells::AddCell(DualSlab& slab, const std::array<int, 3>& at,
   special.Labels = labels;
   special.At = at;
   slab.Special.push_back(special);
+}
+
+bool DualCells::IsPlainPair(const std::array<Number, 8>& labels) const
+{
+  unsigned others = 0; // than the first one, bits of octants
+  Number other = labels[0];
+  for (unsigned octant = 1; octant < 8; ++octant)
+  {
+    if (labels[octant] != labels[0])
+    {
+      if (others != 0 && labels[octant] != other)
+      {
+        return false;
+      }
+      other = labels[octant];
+      others |= 1u << octant;
+    }
+  }
+  const bool isEarlier = this->Grid.RankOf[other] < this->Grid.RankOf[labels[0]];
+  return IsPlainPattern(isEarlier ? others : 255u ^ others);
 }
 
 float DualCells::CoordinateOf(const std::array<int, 3>& cell, int axis, double at) const

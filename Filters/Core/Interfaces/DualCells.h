@@ -87,6 +87,8 @@ private:
   /** @param vertex where it is if the cell is plain */
   void AddCell(DualSlab& slab, const std::array<int, 3>& at, const std::array<Number, 8>& labels,
     const Place& vertex) const;
+  /** Whether there are two labels, in a pattern that is plain: most cells, and quickly found. */
+  bool IsPlainPair(const std::array<Number, 8>& labels) const;
   float CoordinateOf(const std::array<int, 3>& cell, int axis, double at) const;
   Vector PlaceOf(const std::array<int, 3>& cell, const Place& at) const;
   /** Whether a cell is at the side of a box, with this one of its own sides within the box. */
