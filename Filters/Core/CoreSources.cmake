@@ -50,7 +50,6 @@ set(volumic_core_sources
   Interfaces/DistanceLattice.cxx
   Interfaces/DualCells.cxx
   Interfaces/DualMesh.cxx
-  Interfaces/FaceCubes.cxx
   Interfaces/InterfaceClearance.cxx
   Interfaces/InterfaceFields.cxx
   Interfaces/InterfaceFit.cxx
@@ -60,7 +59,6 @@ set(volumic_core_sources
   Interfaces/InterfaceEdits.cxx
   Interfaces/InterfaceRemesher.cxx
   Interfaces/InterfaceSizes.cxx
-  Interfaces/InterfaceSlivers.cxx
   Interfaces/InterfaceStart.cxx
   Interfaces/LineWedges.cxx
   Interfaces/MakeInterfaces.cxx

@@ -217,8 +217,9 @@ void LabelInterfaceMaker::CountVoxels(HostThreads& threads)
     this->Counts[whole].Parts += voxels > 0. ? 1 : 0;
     this->Counts[whole].WrongParts += isOff(volumes[object], voxels, MostOff) ? 1 : 0;
   }
-  const std::vector<MismatchedVoxel> mismatched = FindMismatchedVoxels(this->Mesh, this->Counted(),
-    this->InImage, step, this->Settings.VoxelToleranceInUse() + this->Options().Tolerance, threads);
+  const std::vector<MismatchedVoxel> mismatched =
+    FindMismatchedVoxels(this->Mesh, this->WholeBricks ? this->WholeMap : map, this->InImage, step,
+      this->Settings.VoxelToleranceInUse() + this->Options().Tolerance, threads);
   for (const MismatchedVoxel& voxel : mismatched)
   {
     const LabelMap::Number of[2] = { map.Whole(voxel.OfMap), map.Whole(voxel.OfMesh) };

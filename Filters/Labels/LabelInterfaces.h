@@ -75,11 +75,6 @@ private:
   /** @throws std::invalid_argument if the map is not periodic, or too short. */
   void CheckPeriod() const;
   InterfaceOptions Options() const;
-  /** The bricks in which voxels are counted. */
-  const LabelBricks& Counted() const
-  {
-    return this->WholeBricks ? *this->WholeBricks : *this->Bricks;
-  }
   /** Return the place of an object among those that are selected; -1: it is not. */
   int SelectionOf(int object) const;
   bool IsShown(const InterfaceMesh::Face& face) const

@@ -144,9 +144,10 @@ TEST(InterfaceMotion, TakesBackWhatWouldBeNarrow)
   int narrow = 0;
   for (const InterfaceMesh::Face& face : mesh.Faces)
   {
-    const auto at = [&](int k)
-    { return VectorD(before[static_cast<std::size_t>(face.Vertex[k])]); };
-    const double angle = SmallestAngle(at(0), at(1), at(2));
+    MeshTriangle old = TriangleOf(mesh, face.Vertex);
+    std::transform(face.Vertex.begin(), face.Vertex.end(), old.Corner,
+      [&](int v) { return VectorD(before[static_cast<std::size_t>(v)]); });
+    const double angle = SmallestAngle(old);
     EXPECT_GE(SmallestAngle(TriangleOf(mesh, face.Vertex)), std::min(angle, least));
     narrow += angle < least ? 1 : 0;
   }
@@ -225,7 +226,7 @@ TEST(MismatchedVoxels, AreThoseThatAMovedMeshHasElsewhere)
     {
       place += Vector(way, 0.f, 0.f);
     }
-    const auto found = FindMismatchedVoxels(mesh, *scene.Bricks, VoxelBox::Of(map.Size()),
+    const auto found = FindMismatchedVoxels(mesh, map, VoxelBox::Of(map.Size()),
       map.Spacing, tolerance, OnThisThread());
     return std::count_if(found.begin(), found.end(),
       [&](const MismatchedVoxel& voxel) { return voxel.IsFar == isFar; });

@@ -11,7 +11,8 @@ LabelField FieldOf(
 {
   LabelFieldOptions options;
   options.Sigma = sigma;
-  return MakeLabelField(LabelBricks(map, executor), object, options, executor);
+  const LabelBricks bricks(map, executor);
+  return MakeLabelField(bricks, object, options, executor, VoxelBox::Of(bricks.Size()));
 }
 
 /** Voxel centres at which the field has the sign of the other side, or none. */
@@ -87,13 +88,14 @@ TEST(LabelFieldWithTolerance, HasBumpsAndPitsWrongByThatButLosesNothingThin)
   LabelFieldOptions options;
   options.Tolerance = 0.5;
   const LabelBricks bricks(map, OnThisThread());
-  const LabelField field = MakeLabelField(bricks, 1, options, OnThisThread());
+  const VoxelBox all = VoxelBox::Of(bricks.Size());
+  const LabelField field = MakeLabelField(bricks, 1, options, OnThisThread(), all);
   EXPECT_LT(ValueAt(field, 8, 8, 12), 0.f);
   EXPECT_GE(ValueAt(field, 8, 8, 12), -0.5f);
   EXPECT_GT(ValueAt(field, 20, 8, 11), 0.f);
   EXPECT_LE(ValueAt(field, 20, 8, 11), 0.5f);
   EXPECT_GT(ValueAt(field, 20, 28, 18), 0.3f);
-  const LabelField others = MakeLabelField(bricks, 2, options, OnThisThread());
+  const LabelField others = MakeLabelField(bricks, 2, options, OnThisThread(), all);
   EXPECT_NEAR(ValueAt(others, 8, 8, 12), -ValueAt(field, 8, 8, 12), 0.02);
   EXPECT_NEAR(ValueAt(others, 20, 8, 11), -ValueAt(field, 20, 8, 11), 0.02);
 }

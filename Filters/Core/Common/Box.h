@@ -48,6 +48,7 @@ struct Box
   {
     return { Minimum(this->Low, other.Low), Maximum(this->High, other.High) };
   }
+  Vector Middle() const { return (this->Low + this->High) * 0.5f; }
   /** What lies in both: a box with Low beyond High where they are apart. */
   Box Within(const Box& other) const
   {

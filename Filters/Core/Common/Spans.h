@@ -66,6 +66,22 @@ std::vector<T> Joined(Executor& executor, std::vector<std::vector<T>>& lists)
   Concatenate(executor, lists, all);
   return all;
 }
+
+/** Joins what add(i, list) adds for each i of [0, n), in their order. */
+template <typename T, typename Add>
+std::vector<T> CollectInSpans(Executor& executor, std::size_t n, std::size_t size, Add&& add)
+{
+  std::vector<std::vector<T>> lists((n + size - 1) / size);
+  ForSpans(executor, n, size,
+    [&](std::size_t span, std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        add(i, lists[span]);
+      }
+    });
+  return Joined(executor, lists);
+}
 }
 
 #endif

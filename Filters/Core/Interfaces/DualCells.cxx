@@ -62,6 +62,15 @@ Place MeanOfZeros(const std::array<float, 8>& values)
   return sum;
 }
 
+/** What two slices have at the octants of the cell that begins at a place. */
+template <typename T>
+std::array<T, 8> OctantsAt(
+  const std::vector<T>& low, const std::vector<T>& high, std::size_t at, std::size_t row)
+{
+  return { low[at], low[at + 1], low[at + row], low[at + row + 1], high[at], high[at + 1],
+    high[at + row], high[at + row + 1] };
+}
+
 /** From a middle so far to the arcs of which use(edge) is true. */
 template <typename Use>
 Place TowardsArcs(const Place& middle, const Use& use)
@@ -130,14 +139,6 @@ bool DualCells::IsPlainPattern(unsigned bits)
   return isPlain[bits];
 }
 
-bool DualCells::AreUniform(std::initializer_list<const Number*> rows, int length)
-{
-  const Number label = **rows.begin();
-  return std::all_of(rows.begin(), rows.end(),
-    [&](const Number* row)
-    { return row[0] == label && std::equal(row + 1, row + length, row); });
-}
-
 void DualCells::Make(Executor& executor)
 {
   const int layers = this->Grid.Size[2] - 1;
@@ -148,14 +149,7 @@ void DualCells::Make(Executor& executor)
     this->Slabs.back().End = std::min(first + SlabSize, layers);
   }
   ForSpans(executor, this->Slabs.size(), 1,
-    [&](std::size_t slab, std::size_t, std::size_t)
-    {
-      this->FindCells(this->Slabs[slab]);
-      if (this->Grid.CopyValues)
-      {
-        this->MoveToZeros(this->Slabs[slab]);
-      }
-    });
+    [&](std::size_t slab, std::size_t, std::size_t) { this->FindCells(this->Slabs[slab]); });
   ForSpans(executor, this->Slabs.size(), 1,
     [&](std::size_t slab, std::size_t, std::size_t)
     { this->AddPointsOfSpecials(this->Slabs[slab]); });
@@ -165,115 +159,80 @@ void DualCells::FindCells(DualSlab& slab) const
 {
   std::vector<Number> low(this->SliceSize());
   std::vector<Number> high(this->SliceSize());
-  this->Grid.CopySlice(slab.First, high.data());
-  for (int k = slab.First; k < slab.End; ++k)
+  std::vector<float> lowValues(this->Grid.CopyValues ? this->SliceSize() : 0);
+  std::vector<float> highValues(lowValues.size());
+  const auto copy = [&](int k)
   {
     low.swap(high);
-    this->Grid.CopySlice(k + 1, high.data());
+    this->Grid.CopySlice(k, high.data());
+    if (this->Grid.CopyValues)
+    {
+      lowValues.swap(highValues);
+      this->Grid.CopyValues(k, highValues.data());
+    }
+  };
+  copy(slab.First);
+  const auto row = static_cast<std::size_t>(this->Grid.Size[0]);
+  for (int k = slab.First; k < slab.End; ++k)
+  {
+    copy(k + 1);
     for (int j = 0; j < this->Rows; ++j)
     {
       slab.Row.push_back(slab.X.size());
-      const std::size_t row = static_cast<std::size_t>(j) * this->Grid.Size[0];
-      const std::size_t next = row + static_cast<std::size_t>(this->Grid.Size[0]);
-      const std::array<const Number*, 4> rows = { &low[row], &low[next], &high[row],
-        &high[next] };
-      if (!AreUniform({ rows[0], rows[1], rows[2], rows[3] }, this->Grid.Size[0]))
+      for (int i = 0; i + 1 < this->Grid.Size[0]; ++i)
       {
-        this->FindCellsOfRow(slab, rows, j, k);
+        const std::size_t at = static_cast<std::size_t>(j) * row + static_cast<std::size_t>(i);
+        const std::array<Number, 8> labels = OctantsAt(low, high, at, row);
+        if (std::any_of(labels.begin(), labels.end(),
+              [&labels](Number label) { return label != labels[0]; }))
+        {
+          this->AddCell(slab, { i, j, k }, labels,
+            this->Grid.CopyValues ? MeanOfZeros(OctantsAt(lowValues, highValues, at, row))
+                                  : Place{ 0.5, 0.5, 0.5 });
+        }
       }
     }
   }
   slab.Row.push_back(slab.X.size());
 }
 
-void DualCells::FindCellsOfRow(
-  DualSlab& slab, const std::array<const Number*, 4>& rows, int j, int k) const
+void DualCells::AddCell(DualSlab& slab, const std::array<int, 3>& at,
+  const std::array<Number, 8>& labels, const Place& vertex) const
 {
-  for (int i = 0; i + 1 < this->Grid.Size[0]; ++i)
+  slab.X.push_back(at[0]);
+  CellPattern pattern;
+  if (this->IsPlainPair(labels) || (pattern = CellPattern(labels, this->Grid.RankOf)).IsPlain())
   {
-    std::array<Number, 8> labels;
-    unsigned others = 0; // than the first one, bits of octants
-    for (unsigned n = 0; n < 4; ++n)
-    {
-      labels[2 * n] = rows[n][i];
-      labels[2 * n + 1] = rows[n][i + 1];
-      others |= (labels[2 * n] != labels[0] ? 1u : 0u) << 2 * n |
-        (labels[2 * n + 1] != labels[0] ? 2u : 0u) << 2 * n;
-    }
-    if (others == 0)
-    {
-      continue;
-    }
-    slab.X.push_back(i);
-    if (this->IsPlainCell(labels, others))
-    {
-      slab.Has.push_back(static_cast<int>(slab.Points.size()));
-      slab.Points.push_back(this->PlaceOf({ i, j, k }, { 0.5, 0.5, 0.5 }));
-      continue;
-    }
-    SpecialCell special = {};
-    special.Pattern = CellPattern(labels, this->Grid.RankOf);
-    if (special.Pattern.IsPlain())
-    {
-      slab.Has.push_back(static_cast<int>(slab.Points.size()));
-      slab.Points.push_back(this->PlaceOf({ i, j, k }, { 0.5, 0.5, 0.5 }));
-      continue;
-    }
-    special.Labels = labels;
-    special.At = { i, j, k };
-    slab.Has.push_back(-1 - static_cast<int>(slab.Special.size()));
-    slab.Special.push_back(special);
+    slab.Has.push_back(static_cast<int>(slab.Points.size()));
+    slab.Points.push_back(this->PlaceOf(at, vertex));
+    return;
   }
+  slab.Has.push_back(-1 - static_cast<int>(slab.Special.size()));
+  SpecialCell special = {};
+  special.Pattern = pattern;
+  special.Labels = labels;
+  special.At = at;
+  slab.Special.push_back(special);
 }
 
-void DualCells::MoveToZeros(DualSlab& slab) const
+bool DualCells::IsPlainPair(const std::array<Number, 8>& labels) const
 {
-  std::vector<float> low(this->SliceSize());
-  std::vector<float> high(this->SliceSize());
-  this->Grid.CopyValues(slab.First, high.data());
-  for (int k = slab.First; k < slab.End; ++k)
+  unsigned others = 0; // than the first one, bits of octants
+  Number other = labels[0];
+  for (unsigned octant = 1; octant < 8; ++octant)
   {
-    low.swap(high);
-    this->Grid.CopyValues(k + 1, high.data());
-    for (int j = 0; j < this->Rows; ++j)
+    if (labels[octant] != labels[0])
     {
-      const std::size_t row = static_cast<std::size_t>(k - slab.First) * this->Rows + j;
-      for (std::size_t n = slab.Row[row]; n < slab.Row[row + 1]; ++n)
+      if (others != 0 && labels[octant] != other)
       {
-        if (slab.Has[n] < 0)
-        {
-          continue;
-        }
-        const std::array<int, 3> cell = { slab.X[n], j, k };
-        std::array<float, 8> values;
-        for (int octant = 0; octant < 8; ++octant)
-        {
-          values[octant] =
-            (octant & 4 ? high : low)[static_cast<std::size_t>(j + (octant >> 1 & 1)) *
-                this->Grid.Size[0] +
-              cell[0] + (octant & 1)];
-        }
-        slab.Points[slab.Has[n]] = this->PlaceOf(cell, MeanOfZeros(values));
+        return false;
       }
+      other = labels[octant];
+      others |= 1u << octant;
     }
   }
-}
-
-bool DualCells::IsPlainCell(const std::array<Number, 8>& labels, unsigned others) const
-{
-  unsigned first = 0;
-  while ((others >> first & 1) == 0)
-  {
-    ++first;
-  }
-  unsigned same = 0;
-  for (unsigned octant = first; octant < 8; ++octant)
-  {
-    same |= (labels[octant] == labels[first] ? 1u : 0u) << octant;
-  }
-  const bool isEarlier =
-    this->Grid.RankOf[labels[first]] < this->Grid.RankOf[labels[0]];
-  return same == others && IsPlainPattern(isEarlier ? same : 255u ^ same);
+  const bool isEarlier = this->Grid.RankOf[other] < this->Grid.RankOf[labels[0]];
+  return IsPlainPattern(isEarlier ? others : 255u ^ others);
 }
 
 float DualCells::CoordinateOf(const std::array<int, 3>& cell, int axis, double at) const

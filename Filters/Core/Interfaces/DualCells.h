@@ -9,7 +9,6 @@
 
 #include <array>
 #include <cstddef>
-#include <initializer_list>
 #include <vector>
 
 namespace volumic
@@ -24,6 +23,12 @@ struct SpecialCell
   std::array<std::array<int, 2>, 6> Strand;      ///< where they are those of this cell
   std::array<std::array<int, 2>, 6> InnerStrand; ///< of opened sheets, the copies
   std::array<int, 12> InnerArc;
+
+  /** The copy of an arc's strand on one of its edge's two sides (CellPattern::SidesOf). */
+  int InnerStrandAt(int edge, int n) const
+  {
+    return this->InnerStrand[CellPattern::SidesOf(edge)[n]][this->Pattern.StrandOf[edge][n]];
+  }
 };
 
 /** Some layers of cells, and the voxel faces and special cells in them. */
@@ -53,8 +58,6 @@ public:
   /** Finds the cells, and makes the points in them. */
   void Make(Executor& executor);
 
-  /** Whether all labels of some rows of this length are the same. */
-  static bool AreUniform(std::initializer_list<const LabelMap::Number*> rows, int length);
   /** Whether a pattern of two labels, bits of the octants of earlier rank, is plain. */
   static bool IsPlainPattern(unsigned bits);
 
@@ -81,12 +84,11 @@ private:
   using Place = std::array<double, 3>; ///< in a cell, from 0 to 1
 
   void FindCells(DualSlab& slab) const;
-  /** Moves the points of plain cells to where the values have their zeros. */
-  void MoveToZeros(DualSlab& slab) const;
-  void FindCellsOfRow(
-    DualSlab& slab, const std::array<const Number*, 4>& rows, int j, int k) const;
-  /** Whether it has two labels, and a pattern that is plain. */
-  bool IsPlainCell(const std::array<Number, 8>& labels, unsigned others) const;
+  /** @param vertex where it is if the cell is plain */
+  void AddCell(DualSlab& slab, const std::array<int, 3>& at, const std::array<Number, 8>& labels,
+    const Place& vertex) const;
+  /** Whether there are two labels, in a pattern that is plain: most cells, and quickly found. */
+  bool IsPlainPair(const std::array<Number, 8>& labels) const;
   float CoordinateOf(const std::array<int, 3>& cell, int axis, double at) const;
   Vector PlaceOf(const std::array<int, 3>& cell, const Place& at) const;
   /** Whether a cell is at the side of a box, with this one of its own sides within the box. */

@@ -41,15 +41,6 @@ public:
   }
 
 private:
-  // ---- Faces ----
-
-  /** A special cell, if it is one, and its slab. */
-  struct Found
-  {
-    const SpecialCell* Cell = nullptr;
-    std::size_t Slab = 0;
-  };
-
   /** What the cells of two layers have, those of the voxel faces of a slice. */
   struct Layers
   {
@@ -95,13 +86,6 @@ private:
       for (int j = 0; j + 1 < this->Grid.Size[1]; ++j)
       {
         const std::size_t row = static_cast<std::size_t>(j) * this->Grid.Size[0];
-        if (DualCells::AreUniform({ &slice[row],
-                                    &slice[row + static_cast<std::size_t>(this->Grid.Size[0])],
-                                    &next[row] },
-              this->Grid.Size[0]))
-        {
-          continue;
-        }
         for (int i = 0; i + 1 < this->Grid.Size[0]; ++i)
         {
           const std::size_t at = row + static_cast<std::size_t>(i);
@@ -162,53 +146,49 @@ private:
 
   /**
    * Of a voxel face some of whose cells are special.
-   * @param has      of its cells, round about, as Slab::Has
+   * @param special  which of its cells, round about, are; null: plain
+   * @param has      of these cells, as Slab::Has
    * @param isBefore whether they are in the slab before
    */
-  static Ring RingAbout(const std::array<Found, 4>& special, const std::array<int, 4>& has,
+  static Ring RingAbout(const std::array<const SpecialCell*, 4>& special, const std::array<int, 4>& has,
     const std::array<bool, 4>& isBefore, int axis)
   {
     Ring ring;
     for (int q = 0; q < 4; ++q)
     {
       const int edge = CellPattern::EdgeAt(axis, CellsAbout[q][0], CellsAbout[q][1]);
-      const Found& here = special[q];
+      const SpecialCell* here = special[q];
       const int before = (q + 3) % 4;
-      if (here.Cell || special[before].Cell)
+      if (here || special[before])
       {
         // That cell of the two which is special, and if both are, the lower one, has the strand.
         const int place = SideBefore[q];
         const bool isHigh = CellsAbout[q][place] == 1; // of this cell
-        const bool isOfHere = here.Cell && (isHigh || !special[before].Cell);
+        const bool isOfHere = here && (isHigh || !special[before]);
         const int q0 = isOfHere ? q : before;
         const int edge0 = isOfHere
           ? edge
           : CellPattern::EdgeAt(axis, CellsAbout[before][0], CellsAbout[before][1]);
-        const int strand = special[q0].Cell->Pattern.StrandOf[edge0][place];
+        const int strand = special[q0]->Pattern.StrandOf[edge0][place];
         const int sideOfCell = CellPattern::SidesOf(edge0)[place];
         ring.Point[ring.Count++] =
-          Refer(special[q0].Cell->Strand[sideOfCell][strand], isBefore[q0]);
+          Refer(special[q0]->Strand[sideOfCell][strand], isBefore[q0]);
       }
-      if (!here.Cell)
+      if (!here)
       {
         ring.Point[ring.Count++] = Refer(has[q], isBefore[q]);
         continue;
       }
-      const CellPattern& pattern = here.Cell->Pattern;
+      const CellPattern& pattern = here->Pattern;
       const int sheet = pattern.SheetOf[edge];
       if (!pattern.IsOpened(sheet))
       {
-        ring.Point[ring.Count++] = Refer(here.Cell->Apex[sheet], isBefore[q]);
+        ring.Point[ring.Count++] = Refer(here->Apex[sheet], isBefore[q]);
         continue;
       }
-      const auto inner = [&](int place)
-      {
-        return here.Cell->InnerStrand[CellPattern::SidesOf(edge)[place]]
-                                     [pattern.StrandOf[edge][place]];
-      };
-      ring.Point[ring.Count++] = Refer(inner(SideBefore[q]), isBefore[q]);
-      ring.Point[ring.Count++] = Refer(here.Cell->InnerArc[edge], isBefore[q]);
-      ring.Point[ring.Count++] = Refer(inner(SideAfter[q]), isBefore[q]);
+      ring.Point[ring.Count++] = Refer(here->InnerStrandAt(edge, SideBefore[q]), isBefore[q]);
+      ring.Point[ring.Count++] = Refer(here->InnerArc[edge], isBefore[q]);
+      ring.Point[ring.Count++] = Refer(here->InnerStrandAt(edge, SideAfter[q]), isBefore[q]);
     }
     return ring;
   }
@@ -263,13 +243,11 @@ private:
       }
       return;
     }
-    std::array<Found, 4> special;
+    std::array<const SpecialCell*, 4> special;
     for (int q = 0; q < 4; ++q)
     {
-      special[q].Slab = number - (isBefore[q] ? 1 : 0);
-      special[q].Cell = has[q] < 0
-        ? &this->Cells.Slabs[special[q].Slab].Special[static_cast<std::size_t>(-1 - has[q])]
-        : nullptr;
+      const Slab& own = this->Cells.Slabs[number - (isBefore[q] ? 1 : 0)];
+      special[q] = has[q] < 0 ? &own.Special[static_cast<std::size_t>(-1 - has[q])] : nullptr;
     }
     const Ring ring = this->RingAbout(special, has, isBefore, axis);
     const int centre = static_cast<int>(slab.Points.size());
@@ -312,16 +290,11 @@ private:
         {
           ++q;
         }
-        const auto inner = [&](int place)
-        {
-          return special
-            .InnerStrand[CellPattern::SidesOf(edge)[place]][pattern.StrandOf[edge][place]];
-        };
         const int arc = special.InnerArc[edge];
-        const int first = isLow ? inner(SideAfter[q]) : inner(SideBefore[q]);
-        const int last = isLow ? inner(SideBefore[q]) : inner(SideAfter[q]);
-        rim.push_back({ first, arc });
-        rim.push_back({ arc, last });
+        rim.push_back(
+          { special.InnerStrandAt(edge, isLow ? SideAfter[q] : SideBefore[q]), arc });
+        rim.push_back(
+          { arc, special.InnerStrandAt(edge, isLow ? SideBefore[q] : SideAfter[q]) });
       }
       if (!rim.empty())
       {
@@ -356,8 +329,6 @@ private:
       this->AddTriangle(slab, { centre, piece[0], piece[1] }, inside, outside, side);
     }
   }
-
-  // ---- The mesh ----
 
   void Join(
     Executor& executor, LargeVector<Vector>& points, LargeVector<InterfaceMesh::Face>& faces)

@@ -16,17 +16,6 @@ namespace
 /** Faces that a thread looks at at a time. */
 constexpr std::size_t SpanSize = 4096;
 
-TriangleBox BoxAbout(const MeshTriangle& t)
-{
-  return { Vector(t.Corner[0]), Vector(t.Corner[1]), Vector(t.Corner[2]) };
-}
-
-float LongestSide(const TriangleBox& box)
-{
-  const Vector sides = box.High - box.Low;
-  return std::max({ sides.X, sides.Y, sides.Z });
-}
-
 bool Has(const MeshTriangle& face, int v)
 {
   return face.Vertex[0] == v || face.Vertex[1] == v || face.Vertex[2] == v;
@@ -35,17 +24,6 @@ bool Has(const MeshTriangle& face, int v)
 const VectorD& CornerAt(const MeshTriangle& face, int v)
 {
   return face.Corner[std::find(face.Vertex, face.Vertex + 3, v) - face.Vertex];
-}
-
-/** From the edge (u, v) to the third corner, across it. */
-VectorD AcrossEdge(const MeshTriangle& face, int u, int v)
-{
-  const int at = static_cast<int>(std::find_if(face.Vertex, face.Vertex + 3,
-    [&](int w) { return w != u && w != v; }) - face.Vertex);
-  const VectorD& from = CornerAt(face, u);
-  const VectorD axis = CornerAt(face, v) - from;
-  const VectorD way = face.Corner[at] - from;
-  return way * SquaredLength(axis) - axis * Dot(axis, way);
 }
 
 /** From one face to the other one about the edge: the angle's cosine and sine, times a length. */
@@ -64,6 +42,16 @@ Turn TurnAt(int u, int v, const std::array<MeshTriangle, 2>& faces)
 }
 }
 
+VectorD AcrossEdge(const MeshTriangle& face, int u, int v)
+{
+  const int at = static_cast<int>(std::find_if(face.Vertex, face.Vertex + 3,
+    [&](int w) { return w != u && w != v; }) - face.Vertex);
+  const VectorD& from = CornerAt(face, u);
+  const VectorD axis = CornerAt(face, v) - from;
+  const VectorD way = face.Corner[at] - from;
+  return way * SquaredLength(axis) - axis * Dot(axis, way);
+}
+
 bool HavePassed(int u, int v, const std::array<MeshTriangle, 2>& before,
   const std::array<MeshTriangle, 2>& after)
 {
@@ -78,18 +66,15 @@ bool HavePassed(int u, int v, const std::array<MeshTriangle, 2>& before,
     flat;
 }
 
-TriangleBox::TriangleBox(const Vector& a, const Vector& b, const Vector& c)
-  : Low(std::min({ a.X, b.X, c.X }), std::min({ a.Y, b.Y, c.Y }), std::min({ a.Z, b.Z, c.Z })),
-    High(std::max({ a.X, b.X, c.X }), std::max({ a.Y, b.Y, c.Y }), std::max({ a.Z, b.Z, c.Z }))
+float LongestSide(const Box& box)
 {
+  const Vector sides = box.High - box.Low;
+  return std::max({ sides.X, sides.Y, sides.Z });
 }
 
-void TriangleBox::Add(const TriangleBox& other)
+Box BoxOf(const MeshTriangle& t)
 {
-  this->Low = Vector(std::min(this->Low.X, other.Low.X), std::min(this->Low.Y, other.Low.Y),
-    std::min(this->Low.Z, other.Low.Z));
-  this->High = Vector(std::max(this->High.X, other.High.X), std::max(this->High.Y, other.High.Y),
-    std::max(this->High.Z, other.High.Z));
+  return Box::Of(Vector(t.Corner[0]), Vector(t.Corner[1]), Vector(t.Corner[2]));
 }
 
 PlacedFace PlacedFaceOf(const InterfaceMesh& mesh, const InterfaceMesh::Face& face)
@@ -165,52 +150,22 @@ void InterfaceClearance::Reset(Executor& executor)
 {
   const LargeVector<InterfaceMesh::Face>& faces = this->Mesh.Faces;
   const Vector* at = this->Mesh.Position.data();
-  struct Summary
-  {
-    TriangleBox All;
-    float Longest = 0.f;
-    double Sides = 0.;
-    std::size_t Count = 0;
-  };
-  std::vector<Summary> summaries((faces.size() + SpanSize - 1) / SpanSize);
   LargeVector<Vector> middles(faces.size());
   this->Boxes.resize(faces.size());
-  ForSpans(executor, faces.size(), SpanSize,
-    [&](std::size_t span, std::size_t begin, std::size_t end)
+  const FaceBoxes boxes = FindBoxes(this->Mesh, SpanSize, executor,
+    [&](int face)
     {
-      Summary& summary = summaries[span];
-      for (std::size_t f = begin; f < end; ++f)
-      {
-        if (faces[f].IsThere())
-        {
-          const std::array<int, 3>& v = faces[f].Vertex;
-          const TriangleBox& box = this->Boxes[f] = TriangleBox(at[v[0]], at[v[1]], at[v[2]]);
-          middles[f] = box.Middle();
-          summary.All = summary.Count == 0 ? box : summary.All;
-          summary.All.Add(box);
-          summary.Longest = std::max(summary.Longest, LongestSide(box));
-          summary.Sides += LongestSide(box);
-          ++summary.Count;
-        }
-      }
+      const auto f = static_cast<std::size_t>(face);
+      const std::array<int, 3>& v = faces[f].Vertex;
+      this->Boxes[f] = Box::Of(at[v[0]], at[v[1]], at[v[2]]);
+      middles[f] = this->Boxes[f].Middle();
+      return this->Boxes[f];
     });
-  Summary all;
-  for (const Summary& summary : summaries)
-  {
-    if (summary.Count > 0)
-    {
-      all.All = all.Count == 0 ? summary.All : all.All;
-      all.All.Add(summary.All);
-      all.Longest = std::max(all.Longest, summary.Longest);
-      all.Sides += summary.Sides;
-      all.Count += summary.Count;
-    }
-  }
-  this->All = all.All;
-  this->Reach = 0.5f * all.Longest;
+  this->All = boxes.All;
+  this->Reach = 0.5f * boxes.Longest;
   // A cell is as wide as a box is long in the mean.
-  const double cell = all.Sides / static_cast<double>(std::max<std::size_t>(all.Count, 1));
-  this->Grid.Reset(all.All.Low, all.All.High, std::max(static_cast<float>(cell), 1e-6f));
+  this->Grid.Reset(
+    this->All.Low, this->All.High, std::max(static_cast<float>(boxes.MeanSide()), 1e-6f));
   this->Grid.InsertAll(
     middles, 0, [&](int f) { return faces[static_cast<std::size_t>(f)].IsThere(); }, executor);
 }
@@ -224,8 +179,8 @@ void InterfaceClearance::Change(int face)
     return;
   }
   const Vector* at = this->Mesh.Position.data();
-  TriangleBox& box = this->Boxes[static_cast<std::size_t>(face)];
-  box = TriangleBox(at[v[0]], at[v[1]], at[v[2]]);
+  Box& box = this->Boxes[static_cast<std::size_t>(face)];
+  box = Box::Of(at[v[0]], at[v[1]], at[v[2]]);
   if (0.5f * LongestSide(box) > this->Reach)
   {
     this->Reach = 0.5f * LongestSide(box);
@@ -233,19 +188,15 @@ void InterfaceClearance::Change(int face)
   this->Grid.Move(face, box.Middle());
 }
 
-void InterfaceClearance::FindNear(
-  const Vector& low, const Vector& high, std::vector<int>& near) const
+void InterfaceClearance::FindNear(const Box& box, std::vector<int>& near) const
 {
   near.clear();
-  const float tolerance = static_cast<float>(this->Tolerance);
-  const Vector thick(tolerance, tolerance, tolerance);
-  const Vector from = low - thick;
-  const Vector to = high + thick;
-  const Vector margin(this->Reach, this->Reach, this->Reach);
-  this->Grid.VisitBox(from - margin, to + margin,
+  const Box thick = box.Grown(static_cast<float>(this->Tolerance));
+  const Box reached = thick.Grown(this->Reach);
+  this->Grid.VisitBox(reached.Low, reached.High,
     [&](int face)
     {
-      if (!this->Boxes[static_cast<std::size_t>(face)].IsApart(from, to))
+      if (!this->Boxes[static_cast<std::size_t>(face)].IsApartFrom(thick))
       {
         near.push_back(face);
       }
@@ -256,8 +207,7 @@ int InterfaceClearance::FindIntersecting(int face, std::vector<int>& near) const
 {
   const MeshTriangle triangle =
     TriangleOf(this->Mesh, this->Mesh.Faces[static_cast<std::size_t>(face)].Vertex);
-  const TriangleBox& box = this->Boxes[static_cast<std::size_t>(face)];
-  this->FindNear(box.Low, box.High, near);
+  this->FindNear(this->BoxOf(face), near);
   for (const int other : near)
   {
     if (other != face &&
@@ -278,21 +228,19 @@ bool InterfaceClearance::AreClear(const std::vector<PlacedFace>& faces,
   {
     return true;
   }
-  TriangleBox all = BoxAbout(faces.front());
-  std::vector<TriangleBox> boxes;
-  const float thick = static_cast<float>(this->Tolerance);
+  Box all = volumic::BoxOf(faces.front());
+  std::vector<Box> boxes;
   for (const PlacedFace& triangle : faces)
   {
-    boxes.push_back(BoxAbout(triangle));
-    all.Add(boxes.back());
-    boxes.back().Low -= Vector(thick, thick, thick);
-    boxes.back().High += Vector(thick, thick, thick);
+    const Box box = volumic::BoxOf(triangle);
+    all = all.With(box);
+    boxes.push_back(box.Grown(static_cast<float>(this->Tolerance)));
   }
   for (const int face : replaced)
   {
-    all.Add(this->Boxes[static_cast<std::size_t>(face)]);
+    all = all.With(this->BoxOf(face));
   }
-  this->FindNear(all.Low, all.High, near);
+  this->FindNear(all, near);
   const std::vector<Sheet> sheets = this->FindSheets(faces, near);
   if (sheets.size() == 1 && sheets.front().IsOne && sheets.front().IsAlone)
   {
@@ -329,11 +277,11 @@ bool InterfaceClearance::AreClear(const std::vector<PlacedFace>& faces,
       others.push_back(face);
     }
     const InterfaceMesh::Face& there = this->Mesh.Faces[static_cast<std::size_t>(face)];
-    const TriangleBox& box = this->Boxes[static_cast<std::size_t>(face)];
+    const Box& box = this->BoxOf(face);
     for (std::size_t n = 0; n < faces.size(); ++n)
     {
       if (!(sheetOf[n]->IsOne && sheetOf[n]->Has(there)) &&
-        !box.IsApart(boxes[n].Low, boxes[n].High) &&
+        !box.IsApartFrom(boxes[n]) &&
         TrianglesIntersect(faces[n], TriangleOf(this->Mesh, there.Vertex), this->Tolerance))
       {
         return false;

@@ -3,6 +3,7 @@
 #ifndef volumicInterfaceClearance_h
 #define volumicInterfaceClearance_h
 
+#include "Core/Common/Box.h"
 #include "Core/Common/Executor.h"
 #include "Core/Interfaces/InterfaceMesh.h"
 #include "Core/Mesh/TriangleTests.h"
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <vector>
 
 namespace volumic
@@ -20,28 +22,6 @@ constexpr double LeastSheetCosine = 0.1;
 /** Corners of a triangle that there is not yet, and the vertices that they are. */
 MeshTriangle TriangleOf(const InterfaceMesh& mesh, const std::array<int, 3>& vertices);
 
-/** What a triangle lies in. */
-struct TriangleBox
-{
-  Vector Low;
-  Vector High;
-
-  TriangleBox() = default;
-  TriangleBox(const Vector& a, const Vector& b, const Vector& c);
-  void Add(const TriangleBox& other);
-  Vector Middle() const { return (this->Low + this->High) * 0.5f; }
-  bool IsWithin(const TriangleBox& other) const
-  {
-    return this->Low.X >= other.Low.X && this->Low.Y >= other.Low.Y && this->Low.Z >= other.Low.Z &&
-      this->High.X <= other.High.X && this->High.Y <= other.High.Y && this->High.Z <= other.High.Z;
-  }
-  bool IsApart(const Vector& low, const Vector& high) const
-  {
-    return this->High.X < low.X || this->Low.X > high.X || this->High.Y < low.Y ||
-      this->Low.Y > high.Y || this->High.Z < low.Z || this->Low.Z > high.Z;
-  }
-};
-
 /** A face that there is, or may be. */
 struct PlacedFace : MeshTriangle
 {
@@ -49,6 +29,12 @@ struct PlacedFace : MeshTriangle
   LabelMap::Number Front;
 };
 PlacedFace PlacedFaceOf(const InterfaceMesh& mesh, const InterfaceMesh::Face& face);
+
+/** What a triangle lies in. */
+Box BoxOf(const MeshTriangle& triangle);
+
+/** From the edge (u, v) of a triangle to its third corner, across the edge; no unit length. */
+VectorD AcrossEdge(const MeshTriangle& face, int u, int v);
 
 /**
  * Whether faces that share an edge are about it in the order that their objects want: what one has
@@ -65,6 +51,59 @@ bool AreInOrder(int u, int v, const std::vector<PlacedFace>& faces);
  */
 bool HavePassed(int u, int v, const std::array<MeshTriangle, 2>& before,
   const std::array<MeshTriangle, 2>& after);
+
+/** What the boxes of faces are like. */
+struct FaceBoxes
+{
+  Box All;
+  float Longest = 0.f; ///< side of a box
+  double Sides = 0.;   ///< sum of the longest side of each
+  std::size_t Count = 0;
+
+  double MeanSide() const
+  {
+    return this->Sides / static_cast<double>(std::max<std::size_t>(this->Count, 1));
+  }
+  void Add(const FaceBoxes& others)
+  {
+    if (others.Count > 0)
+    {
+      this->All = this->Count == 0 ? others.All : this->All.With(others.All);
+      this->Longest = std::max(this->Longest, others.Longest);
+      this->Sides += others.Sides;
+      this->Count += others.Count;
+    }
+  }
+};
+
+float LongestSide(const Box& box);
+
+/** @param boxOf Box(int face), of each face that is there, called by threads */
+template <typename BoxOfFace>
+FaceBoxes FindBoxes(
+  const InterfaceMesh& mesh, std::size_t spanSize, Executor& executor, BoxOfFace&& boxOf)
+{
+  std::vector<FaceBoxes> ofSpans((mesh.Faces.size() + spanSize - 1) / spanSize);
+  ForSpans(executor, mesh.Faces.size(), spanSize,
+    [&](std::size_t span, std::size_t begin, std::size_t end)
+    {
+      for (std::size_t f = begin; f < end; ++f)
+      {
+        if (mesh.Faces[f].IsThere())
+        {
+          const Box box = boxOf(static_cast<int>(f));
+          const float side = LongestSide(box);
+          ofSpans[span].Add({ box, side, side, 1 });
+        }
+      }
+    });
+  FaceBoxes all;
+  for (const FaceBoxes& some : ofSpans)
+  {
+    all.Add(some);
+  }
+  return all;
+}
 
 /** Which triangles of interfaces are near others, and whether they intersect them. */
 class InterfaceClearance
@@ -87,12 +126,12 @@ public:
   void ExpectEdges(float longest) { this->Reach = std::max(this->Reach, 0.5f * longest); }
 
   /** Of a face that is there. */
-  const TriangleBox& BoxOf(int face) const { return this->Boxes[static_cast<std::size_t>(face)]; }
+  const Box& BoxOf(int face) const { return this->Boxes[static_cast<std::size_t>(face)]; }
   /** Of all faces when the grid was laid. */
-  const TriangleBox& Bounds() const { return this->All; }
+  const Box& Bounds() const { return this->All; }
 
   /** Faces whose boxes come near a box. */
-  void FindNear(const Vector& low, const Vector& high, std::vector<int>& near) const;
+  void FindNear(const Box& box, std::vector<int>& near) const;
   /** A face that this one intersects; -1: none. @param near room for it */
   int FindIntersecting(int face, std::vector<int>& near) const;
   /**
@@ -131,8 +170,8 @@ private:
 
   const InterfaceMesh& Mesh;
   double Tolerance;
-  LargeVector<TriangleBox> Boxes; ///< of each face, which the grid has at its middle
-  TriangleBox All;                ///< of them when the grid was laid
+  LargeVector<Box> Boxes; ///< of each face, which the grid has at its middle
+  Box All;                ///< of them when the grid was laid
   float Reach = 0.f;              ///< half of the longest side of a box, at least
   VertexGrid Grid;
 };

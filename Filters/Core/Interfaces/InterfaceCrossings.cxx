@@ -49,11 +49,11 @@ public:
   }
 
 private:
-  TriangleBox BoxOf(int face) const
+  Box BoxOf(int face) const
   {
     const std::array<int, 3>& v = this->Mesh.Faces[static_cast<std::size_t>(face)].Vertex;
     const Vector* at = this->Mesh.Position.data();
-    TriangleBox box(at[v[0]], at[v[1]], at[v[2]]);
+    Box box = Box::Of(at[v[0]], at[v[1]], at[v[2]]);
     const auto thick = static_cast<float>(this->Tolerance);
     box.High += Vector(thick, thick, thick);
     return box;
@@ -61,45 +61,13 @@ private:
 
   void LayCubes()
   {
-    const std::size_t count = this->Mesh.Faces.size();
-    std::vector<TriangleBox> boxes((count + SpanSize - 1) / SpanSize);
-    std::vector<double> widths(boxes.size(), 0.);
-    std::vector<std::size_t> counts(boxes.size(), 0);
-    ForSpans(this->Threads, count, SpanSize,
-      [&](std::size_t span, std::size_t begin, std::size_t end)
-      {
-        for (std::size_t f = begin; f < end; ++f)
-        {
-          if (this->Mesh.Faces[f].IsThere())
-          {
-            const TriangleBox box = this->BoxOf(static_cast<int>(f));
-            boxes[span] = counts[span] == 0 ? box : boxes[span];
-            boxes[span].Add(box);
-            const Vector sides = box.High - box.Low;
-            widths[span] += std::max({ sides.X, sides.Y, sides.Z });
-            ++counts[span];
-          }
-        }
-      });
-    TriangleBox all;
-    double width = 0.;
-    std::size_t there = 0;
-    for (std::size_t span = 0; span < boxes.size(); ++span)
-    {
-      if (counts[span] > 0)
-      {
-        all = there == 0 ? boxes[span] : all;
-        all.Add(boxes[span]);
-        width += widths[span];
-        there += counts[span];
-      }
-    }
-    this->Low = all.Low;
-    const Vector sides = all.High - all.Low;
+    const FaceBoxes boxes = FindBoxes(
+      this->Mesh, SpanSize, this->Threads, [this](int face) { return this->BoxOf(face); });
+    this->Low = boxes.All.Low;
     this->PerCube = 1.f /
-      std::max({ 1e-6f, CubeInFaces * static_cast<float>(width / std::max<std::size_t>(there, 1)),
-        std::max({ sides.X, sides.Y, sides.Z }) / static_cast<float>(MostCubes) });
-    const std::array<int, 3> last = this->CubeOf(all.High);
+      std::max({ 1e-6f, CubeInFaces * static_cast<float>(boxes.MeanSide()),
+        LongestSide(boxes.All) / static_cast<float>(MostCubes) });
+    const std::array<int, 3> last = this->CubeOf(boxes.All.High);
     this->Count = { last[0] + 1, last[1] + 1, last[2] + 1 };
   }
 
@@ -114,31 +82,24 @@ private:
   /** The faces in each layer of cubes along z, sorted. */
   std::vector<std::vector<int>> FindFacesOfLayers() const
   {
-    const std::size_t spans = (this->Mesh.Faces.size() + SpanSize - 1) / SpanSize;
-    std::vector<std::vector<std::array<int, 2>>> ofSpans(spans); // layers of each face
-    ForSpans(this->Threads, this->Mesh.Faces.size(), SpanSize,
-      [&](std::size_t span, std::size_t begin, std::size_t end)
+    using LayersOfFace = std::array<int, 3>;
+    const auto ofFaces = CollectInSpans<LayersOfFace>(this->Threads, this->Mesh.Faces.size(),
+      SpanSize,
+      [this](std::size_t f, std::vector<LayersOfFace>& some)
       {
-        for (std::size_t f = begin; f < end; ++f)
+        if (this->Mesh.Faces[f].IsThere())
         {
-          std::array<int, 2> layers = { 0, -1 };
-          if (this->Mesh.Faces[f].IsThere())
-          {
-            const TriangleBox box = this->BoxOf(static_cast<int>(f));
-            layers = { this->CubeOf(box.Low)[2], this->CubeOf(box.High)[2] };
-          }
-          ofSpans[span].push_back(layers);
+          const Box box = this->BoxOf(static_cast<int>(f));
+          some.push_back(
+            { static_cast<int>(f), this->CubeOf(box.Low)[2], this->CubeOf(box.High)[2] });
         }
       });
     std::vector<std::vector<int>> faces(static_cast<std::size_t>(this->Count[2]));
-    for (std::size_t span = 0; span < spans; ++span)
+    for (const auto& [face, low, high] : ofFaces)
     {
-      for (std::size_t n = 0; n < ofSpans[span].size(); ++n)
+      for (int k = low; k <= high; ++k)
       {
-        for (int k = ofSpans[span][n][0]; k <= ofSpans[span][n][1]; ++k)
-        {
-          faces[static_cast<std::size_t>(k)].push_back(static_cast<int>(span * SpanSize + n));
-        }
+        faces[static_cast<std::size_t>(k)].push_back(face);
       }
     }
     return faces;
@@ -153,7 +114,7 @@ private:
     {
       for (const int f : faces)
       {
-        const TriangleBox box = this->BoxOf(f);
+        const Box box = this->BoxOf(f);
         const std::array<int, 3> low = this->CubeOf(box.Low);
         const std::array<int, 3> high = this->CubeOf(box.High);
         for (int j = low[1]; j <= high[1]; ++j)
@@ -192,19 +153,17 @@ private:
     for (const int* f = first; f != last; ++f)
     {
       doubtful.push_back(*f);
-      const TriangleBox box = this->BoxOf(*f);
+      const Box box = this->BoxOf(*f);
       const MeshTriangle triangle = this->TriangleAt(*f);
       for (const int* g = f + 1; g != last; ++g)
       {
-        const TriangleBox other = this->BoxOf(*g);
-        if (box.IsApart(other.Low, other.High))
+        const Box other = this->BoxOf(*g);
+        if (box.IsApartFrom(other))
         {
           continue;
         }
         // In the first cube that both are in.
-        const Vector low(std::max(box.Low.X, other.Low.X), std::max(box.Low.Y, other.Low.Y),
-          std::max(box.Low.Z, other.Low.Z));
-        if (this->CubeOf(low) == cube &&
+        if (this->CubeOf(box.Within(other).Low) == cube &&
           TrianglesIntersect(triangle, this->TriangleAt(*g), this->Tolerance))
         {
           pairs.push_back({ *f, *g });

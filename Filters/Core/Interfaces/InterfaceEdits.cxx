@@ -15,6 +15,8 @@ namespace
 {
 /** Cosine of the angle between two faces whose edge is flipped. */
 constexpr double LeastFlatCosine = 0.85;
+/** The same of two faces of which one is a sliver. */
+constexpr double LeastSliverCosine = 0.5;
 /** Triangles worse than that, by RadiusRatio(), are made of worse ones only. */
 constexpr double LeastRatio = 0.3;
 /** Those are slivers, by the same. */
@@ -353,6 +355,24 @@ int InterfaceEdits::FlipAt(int face)
     }
   }
   return 0;
+}
+
+bool InterfaceEdits::RemoveSliver(int face)
+{
+  const std::array<int, 3> v = this->Mesh.Faces[static_cast<std::size_t>(face)].Vertex;
+  if (SmallestAngle(TriangleOf(this->Mesh, v)) >= SliverAngle)
+  {
+    return false;
+  }
+  std::array<int, 3> order = { 0, 1, 2 };
+  std::sort(order.begin(), order.end(),
+    [&](int a, int b) {
+      return this->SquaredEdge(v[a], v[(a + 1) % 3]) < this->SquaredEdge(v[b], v[(b + 1) % 3]);
+    });
+  const int shortest = order[0];
+  const int longest = order[2];
+  return this->TryFlip(v[longest], v[(longest + 1) % 3], LeastSliverCosine) ||
+    this->TryCollapse(v[shortest], v[(shortest + 1) % 3]);
 }
 
 bool InterfaceEdits::TryFlip(int u, int v, double flatness)

@@ -159,7 +159,7 @@ std::size_t PushWrongVoxels(const InterfaceMesh& mesh, InterfaceFields& fields, 
   std::size_t count = 0;
   for (const MismatchedVoxel& voxel :
     FindMismatchedVoxels(
-      mesh, fields.Bricks(), fields.Bricks().Inside(), fields.Step(), tolerance, executor))
+      mesh, fields.Bricks().Map(), fields.Bricks().Inside(), fields.Step(), tolerance, executor))
   {
     if (voxel.IsFar)
     {

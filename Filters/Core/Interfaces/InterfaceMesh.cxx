@@ -133,12 +133,8 @@ Vector InterfaceMesh::OnSides(int v, const Vector& place) const
       const int front = this->Faces[static_cast<std::size_t>(f)].Front;
       if (this->IsSide(front))
       {
-        const int axis = this->AxisOf(front);
-        (axis == 0      ? moved.X
-            : axis == 1 ? moved.Y
-                        : moved.Z) = axis == 0 ? own.X
-          : axis == 1                          ? own.Y
-                                               : own.Z;
+        float Vector::*const along[] = { &Vector::X, &Vector::Y, &Vector::Z };
+        moved.*along[this->AxisOf(front)] = own.*along[this->AxisOf(front)];
       }
     });
   return moved;
@@ -197,42 +193,14 @@ void InterfaceMesh::FindObjects(int v, std::vector<int>& objects) const
   objects.erase(std::unique(objects.begin(), objects.end()), objects.end());
 }
 
-bool InterfaceMesh::HasOnePair(int v) const
-{
-  const Face* first = nullptr;
-  bool isOne = true;
-  this->ForFaces(v,
-    [&](int f)
-    {
-      const Face& face = this->Faces[static_cast<std::size_t>(f)];
-      first = first ? first : &face;
-      isOne = isOne && face.Behind == first->Behind && face.Front == first->Front;
-    });
-  return isOne;
-}
-
 void InterfaceMesh::FindStrata()
 {
   std::vector<int> neighbours;
   for (int v = 0; v < static_cast<int>(this->Position.size()); ++v)
   {
-    if (this->HasOnePair(v))
-    {
-      this->StratumOf[static_cast<std::size_t>(v)] = Stratum::Interface;
-      continue;
-    }
     this->FindNeighbours(v, neighbours);
     int lines = 0;
-    for (std::size_t n = 0; n < neighbours.size();)
-    {
-      std::size_t end = n;
-      while (end < neighbours.size() && neighbours[end] == neighbours[n])
-      {
-        ++end;
-      }
-      lines += end - n > 2 ? 1 : 0;
-      n = end;
-    }
+    ForLineNeighbours(neighbours, [&lines](int) { ++lines; });
     this->StratumOf[static_cast<std::size_t>(v)] = lines == 0 ? Stratum::Interface
       : lines == 2                                            ? Stratum::Line
                                                               : Stratum::Corner;
@@ -250,14 +218,14 @@ std::vector<std::array<int, 2>> InterfaceMesh::FindLines() const
       continue;
     }
     this->FindNeighbours(v, neighbours);
-    for (std::size_t n = 0; n + 2 < neighbours.size(); ++n)
-    {
-      const int w = neighbours[n];
-      if (v < w && neighbours[n + 2] == w && (n == 0 || neighbours[n - 1] != w))
+    ForLineNeighbours(neighbours,
+      [&](int w)
       {
-        lines.push_back({ v, w });
-      }
-    }
+        if (v < w)
+        {
+          lines.push_back({ v, w });
+        }
+      });
   }
   return lines;
 }

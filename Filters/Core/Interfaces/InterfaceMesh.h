@@ -130,6 +130,19 @@ public:
    * but along lines at least three times.
    */
   void FindNeighbours(int v, std::vector<int>& neighbours) const;
+  /** Calls visit(w) for each of these neighbours that is one along a line, in their order. */
+  template <typename Visitor>
+  static void ForLineNeighbours(const std::vector<int>& neighbours, Visitor&& visit)
+  {
+    for (std::size_t n = 0; n + 2 < neighbours.size(); ++n)
+    {
+      const int w = neighbours[n];
+      if (neighbours[n + 2] == w && (n == 0 || neighbours[n - 1] != w))
+      {
+        visit(w);
+      }
+    }
+  }
   /** The objects about a vertex, sorted. */
   void FindObjects(int v, std::vector<int>& objects) const;
 
@@ -164,8 +177,6 @@ public:
 private:
   static constexpr float Infinite = std::numeric_limits<float>::infinity();
 
-  /** Whether all faces of a vertex are between the same objects. */
-  bool HasOnePair(int v) const;
   void Link(int corner, int v);
   void Unlink(int corner, int v);
 

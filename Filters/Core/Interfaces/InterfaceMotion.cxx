@@ -51,7 +51,9 @@ public:
       const std::vector<int> more = this->FindFacesOf(back);
       faces.insert(faces.end(), more.begin(), more.end());
       this->Follow(back);
-      const std::vector<std::array<int, 2>> pairs = this->FindIntersecting(faces);
+      const std::vector<std::array<int, 2>> pairs = this->FindPairs(faces,
+        [this](int face, std::vector<int>& near)
+        { return this->Clearance.FindIntersecting(face, near); });
       std::vector<int> now;
       this->TakeBackPairs(pairs, now);
       this->TakeBackPairs(this->FindPassed(faces), now);
@@ -75,15 +77,15 @@ private:
 
   bool HasTurned(int f) const
   {
-    const InterfaceMesh::Face& face = this->Mesh.Faces[static_cast<std::size_t>(f)];
-    const auto at = [&](int k)
-    { return VectorD(this->Before[static_cast<std::size_t>(face.Vertex[k])]); };
-    const VectorD before = Cross(at(1) - at(0), at(2) - at(0));
-    const VectorD after = this->Mesh.NormalOf(face);
+    const MeshTriangle old = this->FaceBefore(f);
+    const MeshTriangle now =
+      TriangleOf(this->Mesh, this->Mesh.Faces[static_cast<std::size_t>(f)].Vertex);
+    const VectorD before = NormalOf(old);
+    const VectorD after = NormalOf(now);
     const auto isSpoilt = [&]
     {
-      const double angle = SmallestAngle(TriangleOf(this->Mesh, face.Vertex));
-      return angle < this->LeastAngle && angle < SmallestAngle(at(0), at(1), at(2));
+      const double angle = SmallestAngle(now);
+      return angle < this->LeastAngle && angle < SmallestAngle(old);
     };
     return (this->LeastAngle > 0. && isSpoilt()) ||
       Dot(before, after) < LeastTurnCosine * Length(before) * Length(after);
@@ -91,19 +93,14 @@ private:
 
   std::vector<int> FindTurned() const
   {
-    std::vector<std::vector<int>> ofSpans((this->Mesh.Faces.size() + SpanSize - 1) / SpanSize);
-    ForSpans(this->Threads, this->Mesh.Faces.size(), SpanSize,
-      [&](std::size_t span, std::size_t begin, std::size_t end)
+    return CollectInSpans<int>(this->Threads, this->Mesh.Faces.size(), SpanSize,
+      [this](std::size_t f, std::vector<int>& turned)
       {
-        for (std::size_t f = begin; f < end; ++f)
+        if (this->Mesh.Faces[f].IsThere() && this->HasTurned(static_cast<int>(f)))
         {
-          if (this->Mesh.Faces[f].IsThere() && this->HasTurned(static_cast<int>(f)))
-          {
-            ofSpans[span].push_back(static_cast<int>(f));
-          }
+          turned.push_back(static_cast<int>(f));
         }
       });
-    return Joined(this->Threads, ofSpans);
   }
 
   void TakeBackTurned(const std::vector<int>& faces, std::vector<int>& back)
@@ -138,28 +135,16 @@ private:
   template <typename Other>
   std::vector<std::array<int, 2>> FindPairs(const std::vector<int>& faces, const Other& other) const
   {
-    std::vector<std::vector<std::array<int, 2>>> ofSpans((faces.size() + SpanSize - 1) / SpanSize);
-    ForSpans(this->Threads, faces.size(), SpanSize,
-      [&](std::size_t span, std::size_t begin, std::size_t end)
+    return CollectInSpans<std::array<int, 2>>(this->Threads, faces.size(), SpanSize,
+      [&](std::size_t n, std::vector<std::array<int, 2>>& pairs)
       {
         std::vector<int> room;
-        for (std::size_t n = begin; n < end; ++n)
+        const int found = other(faces[n], room);
+        if (found >= 0)
         {
-          const int found = other(faces[n], room);
-          if (found >= 0)
-          {
-            ofSpans[span].push_back({ faces[n], found });
-          }
+          pairs.push_back({ faces[n], found });
         }
       });
-    return Joined(this->Threads, ofSpans);
-  }
-
-  std::vector<std::array<int, 2>> FindIntersecting(const std::vector<int>& faces) const
-  {
-    return this->FindPairs(faces,
-      [this](int face, std::vector<int>& near)
-      { return this->Clearance.FindIntersecting(face, near); });
   }
 
   std::vector<std::array<int, 2>> FindPassed(const std::vector<int>& faces) const

@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Interfaces/InterfaceRemesher.h"
 
+#include "Core/Common/Sort.h"
 #include "Core/Common/Spans.h"
-#include "Core/Interfaces/FaceCubes.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -17,8 +19,6 @@ namespace
 {
 /** Faces that a thread looks at at a time. */
 constexpr std::size_t SpanSize = 4096;
-/** Cubes between two questions whether to go on. */
-constexpr std::size_t CubesPerQuestion = 128;
 /**
  * In longest edges: how far faces may come out of their cube, and how wide a cube is. An edit
  * writes what is within an edge of its face, and the cells of the grid there, which are as wide as
@@ -27,27 +27,62 @@ constexpr std::size_t CubesPerQuestion = 128;
  */
 constexpr float MarginInEdges = 1.f;
 constexpr float SideInEdges = 7.5f;
+/** Bits of a cube's number along an axis. */
+constexpr int Bits = 20;
+constexpr std::uint64_t Last = (std::uint64_t(1) << Bits) - 1;
+
+/** A cube and one of its faces, that whose middle is in it. */
+struct FaceInCube
+{
+  std::uint64_t Colour; ///< the cube's parities: between two of a colour there is another one
+  std::uint64_t Cube;   ///< its numbers along the axes
+  int Face;
+
+  bool operator<(const FaceInCube& other) const
+  {
+    return std::tie(this->Colour, this->Cube, this->Face) <
+      std::tie(other.Colour, other.Cube, other.Face);
+  }
+};
+
+FaceInCube PlaceOf(const Vector& fromLow, float side, int face)
+{
+  FaceInCube place = { 0, 0, face };
+  for (const float length : { fromLow.Z, fromLow.Y, fromLow.X })
+  {
+    const auto number = std::min(Last, static_cast<std::uint64_t>(std::max(0.f, length / side)));
+    place.Colour = place.Colour << 1 | (number & 1);
+    place.Cube = place.Cube << Bits | number;
+  }
+  return place;
+}
+
+Box BoxOf(std::uint64_t cube, const Vector& low, float side)
+{
+  const auto along = [&](int axis)
+  { return side * static_cast<float>(cube >> (Bits * axis) & Last); };
+  const Vector from = low + Vector(along(0), along(1), along(2));
+  return { from, from + Vector(side, side, side) };
+}
 
 /** What is to be done in a cube. */
 class CubeWork
 {
 public:
-  CubeWork(const InterfaceMesh& mesh, const InterfaceClearance& clearance,
-    const FaceCubes::Cube& cube, float margin)
-    : Mesh(mesh), Clearance(clearance), Cube(cube), Share(cube.Box)
+  /** @param share of space, in which edits are made */
+  CubeWork(const InterfaceMesh& mesh, const InterfaceClearance& clearance, const Box& share)
+    : Mesh(mesh), Clearance(clearance), Share(share)
   {
-    this->Share.Low -= Vector(margin, margin, margin);
-    this->Share.High += Vector(margin, margin, margin);
   }
 
-  /** @param faces of all cubes */
-  void FindFaces(const std::vector<int>& faces)
+  /** The faces in the cube. */
+  void FindFaces(const FaceInCube* first, const FaceInCube* last)
   {
-    for (std::size_t n = this->Cube.First; n < this->Cube.Last; ++n)
+    for (; first != last; ++first)
     {
-      if (this->Mesh.Faces[static_cast<std::size_t>(faces[n])].IsThere())
+      if (this->Mesh.Faces[static_cast<std::size_t>(first->Face)].IsThere())
       {
-        (this->IsNear(faces[n]) ? this->Faces : this->Left).push_back(faces[n]);
+        (this->IsNear(first->Face) ? this->Faces : this->Left).push_back(first->Face);
       }
     }
   }
@@ -80,14 +115,14 @@ private:
   bool IsNear(int face) const
   {
     const std::array<int, 3>& v = this->Mesh.Faces[static_cast<std::size_t>(face)].Vertex;
-    return this->Clearance.BoxOf(face).IsWithin(this->Share) &&
+    const Box& box = this->Clearance.BoxOf(face);
+    return this->Share.Contains(box.Low) && this->Share.Contains(box.High) &&
       std::none_of(v.begin(), v.end(), [this](int corner) { return this->Mesh.HasImages(corner); });
   }
 
   const InterfaceMesh& Mesh;
   const InterfaceClearance& Clearance;
-  const FaceCubes::Cube& Cube;
-  TriangleBox Share; ///< of space
+  Box Share;
   std::vector<int> Faces;
 };
 }
@@ -168,29 +203,46 @@ int InterfaceRemesher::VisitInCubes(const Visit& visit)
   this->LayGrid();
   const float longest = this->LongestEdge();
   this->Clearance.ExpectEdges(longest);
-  const FaceCubes cubes(this->Mesh, this->Clearance, SideInEdges * longest, this->Threads);
+  const float side = SideInEdges * longest;
+  const Vector low = this->Clearance.Bounds().Low;
+  auto faces = CollectInSpans<FaceInCube>(this->Threads, this->Mesh.Faces.size(), SpanSize,
+    [&](std::size_t f, std::vector<FaceInCube>& some)
+    {
+      if (this->Mesh.Faces[f].IsThere())
+      {
+        const int face = static_cast<int>(f);
+        some.push_back(PlaceOf(this->Clearance.BoxOf(face).Middle() - low, side, face));
+      }
+    });
+  Sort(this->Threads, faces);
   std::vector<std::vector<int>> left;
   int count = 0;
-  for (const std::vector<FaceCubes::Cube>& colour : cubes.OfColour)
+  for (std::size_t n = 0; n < faces.size() && this->GoOn();)
   {
-    for (std::size_t n = 0; n < colour.size() && this->GoOn(); n += CubesPerQuestion)
+    // The cubes of one colour.
+    const std::uint64_t colour = faces[n].Colour;
+    std::vector<CubeWork> works;
+    std::vector<std::size_t> first;
+    for (; n < faces.size() && faces[n].Colour == colour; ++n)
     {
-      const std::size_t end = std::min(n + CubesPerQuestion, colour.size());
-      std::vector<CubeWork> works;
-      for (std::size_t cube = n; cube < end; ++cube)
+      if (first.empty() || faces[n].Cube != faces[n - 1].Cube)
       {
-        works.emplace_back(this->Mesh, this->Clearance, colour[cube], MarginInEdges * longest);
+        first.push_back(n);
+        works.emplace_back(this->Mesh, this->Clearance,
+          BoxOf(faces[n].Cube, low, side).Grown(MarginInEdges * longest));
       }
-      // What comes out of its cube is found before the first one is edited.
-      ForSpans(this->Threads, works.size(), 1,
-        [&](std::size_t w, std::size_t, std::size_t) { works[w].FindFaces(cubes.Faces); });
-      ForSpans(this->Threads, works.size(), 1,
-        [&](std::size_t w, std::size_t, std::size_t) { works[w].Run(this->Edits(), visit); });
-      for (CubeWork& work : works)
-      {
-        count += work.Count;
-        left.push_back(std::move(work.Left));
-      }
+    }
+    first.push_back(n);
+    // What comes out of its cube is found before the first one is edited.
+    ForSpans(this->Threads, works.size(), 1,
+      [&](std::size_t w, std::size_t, std::size_t)
+      { works[w].FindFaces(faces.data() + first[w], faces.data() + first[w + 1]); });
+    ForSpans(this->Threads, works.size(), 1,
+      [&](std::size_t w, std::size_t, std::size_t) { works[w].Run(this->Edits(), visit); });
+    for (CubeWork& work : works)
+    {
+      count += work.Count;
+      left.push_back(std::move(work.Left));
     }
   }
   std::vector<int> rest = Joined(this->Threads, left);

@@ -17,10 +17,11 @@ namespace volumic
 /**
  * Passes of edits (InterfaceEdits) over all faces.
  *
- * Collapses and flips, which are most of the work, are made by threads in cubes (FaceCubes), the
- * eight colours one after another, and at the end what has come out of its cube, or has images. In
- * a cube faces follow each other in their order. Cubes are wider than edits reach, so that the
- * edits are the same by any number of threads.
+ * Collapses and flips, which are most of the work, are made by threads in cubes that space is cut
+ * into, each with the faces whose middles are in it. Cubes have eight colours, so that between two
+ * of a colour there is at least another one: the colours follow one another, and at the end what
+ * has come out of its cube, or has images. In a cube faces follow each other in their order. Cubes
+ * are wider than edits reach, so that the edits are the same by any number of threads.
  */
 class InterfaceRemesher
 {
@@ -52,7 +53,7 @@ private:
   /** Longer than this no edge is, nor becomes. */
   float LongestEdge() const;
   /**
-   * Visits all faces that are there, those of cubes of a colour (FaceCubes) by threads.
+   * Visits all faces that are there, those of cubes of a colour by threads.
    * @param visit int(InterfaceEdits&, int face): how many edits it has made
    * @return how many all have
    */

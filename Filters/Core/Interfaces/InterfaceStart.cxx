@@ -28,27 +28,19 @@ std::vector<LayerOfGrid> LayersAlong(const InterfaceFields& fields, int axis)
   const VoxelBox box = fields.HaveBox() ? fields.Bricks().Inside()
                                         : VoxelBox::Of(fields.Bricks().Map().Size());
   std::vector<LayerOfGrid> layers;
-  const auto add = [&](int voxel, bool isOutside, bool isHalf)
-  { layers.push_back({ voxel, isOutside, isHalf }); };
-  if (fields.HaveBox())
-  {
-    add(box.First[axis] - 1, true, false);
-  }
-  if (fields.ArePeriodic())
-  {
-    add(box.First[axis], false, true);
-  }
   for (int voxel = box.First[axis]; voxel < box.End[axis]; ++voxel)
   {
-    add(voxel, false, false);
+    layers.push_back({ voxel, false, false });
   }
   if (fields.ArePeriodic())
   {
-    add(box.End[axis], false, true);
+    layers.insert(layers.begin(), { box.First[axis], false, true });
+    layers.push_back({ box.End[axis], false, true });
   }
   if (fields.HaveBox())
   {
-    add(box.End[axis], true, false);
+    layers.insert(layers.begin(), { box.First[axis] - 1, true, false });
+    layers.push_back({ box.End[axis], true, false });
   }
   return layers;
 }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Interfaces/LineWedges.h"
 
-#include "Core/Common/Vector.h"
+#include "Core/Interfaces/InterfaceClearance.h"
 
 #include <cmath>
 #include <cstddef>
@@ -12,14 +12,10 @@ namespace volumic
 LineWedge NarrowestWedgeAt(
   const InterfaceMesh& mesh, const std::array<int, 2>& edge, const std::vector<int>& faces)
 {
-  const auto placeOf = [&](int v) { return VectorD(mesh.Position[static_cast<std::size_t>(v)]); };
-  const VectorD from = placeOf(edge[0]);
-  const VectorD axis = placeOf(edge[1]) - from;
   const auto across = [&](int f)
   {
-    const VectorD way =
-      placeOf(mesh.Faces[static_cast<std::size_t>(f)].Opposite(edge[0], edge[1])) - from;
-    return way * SquaredLength(axis) - axis * Dot(axis, way);
+    return AcrossEdge(
+      TriangleOf(mesh, mesh.Faces[static_cast<std::size_t>(f)].Vertex), edge[0], edge[1]);
   };
   // The nearest two of all are neighbours.
   LineWedge narrowest;

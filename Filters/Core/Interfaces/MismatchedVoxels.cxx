@@ -40,71 +40,58 @@ struct FaceCrossing
 class MismatchFinder
 {
 public:
-  MismatchFinder(const InterfaceMesh& mesh, const LabelBricks& bricks, const VoxelBox& box,
+  MismatchFinder(const InterfaceMesh& mesh, const LabelMap& map, const VoxelBox& box,
     const std::array<double, 3>& step, Executor& executor)
-    : Mesh(mesh), Bricks(bricks), Box(box), Step(step), Threads(executor)
+    : Mesh(mesh), Map(map), Box(box), Step(step), Threads(executor)
   {
-    const std::array<int, 3>& size = bricks.Map().Size();
-    std::copy(size.begin(), size.end(), this->Rows.End.begin());
+    std::copy(map.Size().begin(), map.Size().end(), this->Rows.End.begin());
   }
 
   std::vector<MismatchedVoxel> Find()
   {
     this->FindCrossings();
     const VoxelBox& box = this->Box;
-    std::vector<std::vector<MismatchedVoxel>> ofSlices(
-      static_cast<std::size_t>(std::max(0, box.Length(2))));
-    ForSpans(this->Threads, ofSlices.size(), 1,
-      [&](std::size_t slice, std::size_t, std::size_t)
+    return CollectInSpans<MismatchedVoxel>(this->Threads,
+      static_cast<std::size_t>(std::max(0, box.Length(2))), 1,
+      [&](std::size_t slice, std::vector<MismatchedVoxel>& found)
       {
-        const int k = box.First[2] + static_cast<int>(slice);
         for (int j = box.First[1]; j < box.End[1]; ++j)
         {
-          this->FollowRow(j, k, ofSlices[slice]);
+          this->FollowRow(j, box.First[2] + static_cast<int>(slice), found);
         }
       });
-    return Joined(this->Threads, ofSlices);
   }
 
 private:
   void FindCrossings()
   {
-    std::vector<std::vector<FaceCrossing>> ofSpans(
-      (this->Mesh.Faces.size() + SpanSize - 1) / SpanSize);
-    ForSpans(this->Threads, this->Mesh.Faces.size(), SpanSize,
-      [&](std::size_t span, std::size_t begin, std::size_t end)
+    this->Crossings = CollectInSpans<FaceCrossing>(this->Threads, this->Mesh.Faces.size(), SpanSize,
+      [this](std::size_t f, std::vector<FaceCrossing>& crossings)
       {
-        std::vector<RowGrid::Crossing> some;
-        for (std::size_t f = begin; f < end; ++f)
+        const InterfaceMesh::Face& face = this->Mesh.Faces[f];
+        if (!face.IsThere())
         {
-          const InterfaceMesh::Face& face = this->Mesh.Faces[f];
-          if (!face.IsThere())
-          {
-            continue;
-          }
-          std::array<Point, 3> corners;
-          for (int c = 0; c < 3; ++c)
-          {
-            const Vector& p = this->Mesh.Position[static_cast<std::size_t>(face.Vertex[c])];
-            corners[c] = { p.X / this->Step[0], p.Y / this->Step[1], p.Z / this->Step[2] };
-          }
-          some.clear();
-          this->Rows.AddCrossings(corners, some);
-          for (const RowGrid::Crossing& crossing : some)
-          {
-            ofSpans[span].push_back({ crossing.Row, crossing.Where.X, crossing.Where.Winding,
-              static_cast<int>(f) });
-          }
+          return;
+        }
+        std::array<Point, 3> corners;
+        for (int c = 0; c < 3; ++c)
+        {
+          const Vector& p = this->Mesh.Position[static_cast<std::size_t>(face.Vertex[c])];
+          corners[c] = { p.X / this->Step[0], p.Y / this->Step[1], p.Z / this->Step[2] };
+        }
+        std::vector<RowGrid::Crossing> some;
+        this->Rows.AddCrossings(corners, some);
+        for (const RowGrid::Crossing& crossing : some)
+        {
+          crossings.push_back(
+            { crossing.Row, crossing.Where.X, crossing.Where.Winding, static_cast<int>(f) });
         }
       });
-    this->Crossings = Joined(this->Threads, ofSpans);
     Sort(this->Threads, this->Crossings);
   }
 
   void FollowRow(int j, int k, std::vector<MismatchedVoxel>& found) const
   {
-    constexpr int side = LabelBricks::Side;
-    const VoxelBox& box = this->Box;
     const std::int64_t row = this->Rows.RowOf(j, k);
     auto next = std::lower_bound(this->Crossings.begin(), this->Crossings.end(), row,
       [](const FaceCrossing& crossing, std::int64_t number) { return crossing.Row < number; });
@@ -126,40 +113,33 @@ private:
         [](const auto& entry) { return entry.first != 0 && entry.second > 0; });
       return inside == windings.end() ? Number(0) : inside->first;
     };
-    for (int i = box.First[0]; i < box.End[0];)
-    {
-      const int end = std::min((i / side + 1) * side, box.End[0]);
-      const LabelBricks::Range objects = this->Bricks.ObjectsIn(i / side, j / side, k / side);
-      if (objects.end() - objects.begin() == 1 &&
-        (next == this->Crossings.end() || next->Row != row || next->X >= end) &&
-        *objects.begin() == ofMeshHere())
+    const VoxelBox voxels = { { this->Box.First[0], j, k }, { this->Box.End[0], j + 1, k + 1 } };
+    this->Map.ForParts(voxels,
+      [&](const VoxelBox& part, Number ofMap)
       {
-        i = end; // All of it is of one object, in the mesh too.
-        continue;
-      }
-      for (; i < end; ++i)
-      {
-        for (; next != this->Crossings.end() && next->Row == row && next->X < i; ++next)
+        for (int i = part.First[0]; i < part.End[0]; ++i)
         {
-          const InterfaceMesh::Face& face = this->Mesh.Faces[static_cast<std::size_t>(next->Face)];
-          add(face.Behind, next->Winding);
-          if (!this->Mesh.IsSide(face.Front))
+          for (; next != this->Crossings.end() && next->Row == row && next->X < i; ++next)
           {
-            add(face.Front, -next->Winding);
+            const InterfaceMesh::Face& face =
+              this->Mesh.Faces[static_cast<std::size_t>(next->Face)];
+            add(face.Behind, next->Winding);
+            if (!this->Mesh.IsSide(face.Front))
+            {
+              add(face.Front, -next->Winding);
+            }
+          }
+          const Number ofMesh = ofMeshHere();
+          if (ofMap != ofMesh)
+          {
+            found.push_back({ { i, j, k }, ofMap, ofMesh });
           }
         }
-        const Number ofMesh = ofMeshHere();
-        const Number ofMap = this->Bricks.Map().At(i, j, k);
-        if (ofMap != ofMesh)
-        {
-          found.push_back({ { i, j, k }, ofMap, ofMesh });
-        }
-      }
-    }
+      });
   }
 
   const InterfaceMesh& Mesh;
-  const LabelBricks& Bricks;
+  const LabelMap& Map;
   const VoxelBox Box;
   const std::array<double, 3>& Step;
   Executor& Threads;
@@ -169,10 +149,10 @@ private:
 }
 
 std::vector<MismatchedVoxel> FindMismatchedVoxels(const InterfaceMesh& mesh,
-  const LabelBricks& bricks, const VoxelBox& box, const std::array<double, 3>& step,
-  double tolerance, Executor& executor)
+  const LabelMap& map, const VoxelBox& box, const std::array<double, 3>& step, double tolerance,
+  Executor& executor)
 {
-  std::vector<MismatchedVoxel> found = MismatchFinder(mesh, bricks, box, step, executor).Find();
+  std::vector<MismatchedVoxel> found = MismatchFinder(mesh, map, box, step, executor).Find();
   if (tolerance <= 0. || found.empty())
   {
     return found;
@@ -187,7 +167,7 @@ std::vector<MismatchedVoxel> FindMismatchedVoxels(const InterfaceMesh& mesh,
       {
         const std::array<int, 3>& at = found[n].At;
         const VectorD centre(at[0] * step[0], at[1] * step[1], at[2] * step[2]);
-        clearance.FindNear(Vector(centre), Vector(centre), near);
+        clearance.FindNear({ Vector(centre), Vector(centre) }, near);
         found[n].IsFar = std::none_of(near.begin(), near.end(),
           [&](int f)
           {

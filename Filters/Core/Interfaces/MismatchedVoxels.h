@@ -5,7 +5,7 @@
 
 #include "Core/Common/Executor.h"
 #include "Core/Interfaces/InterfaceMesh.h"
-#include "Core/Labels/LabelBricks.h"
+#include "Core/Labels/LabelMap.h"
 
 #include <array>
 #include <vector>
@@ -27,8 +27,8 @@ struct MismatchedVoxel
  * @param tolerance workspace
  */
 std::vector<MismatchedVoxel> FindMismatchedVoxels(const InterfaceMesh& mesh,
-  const LabelBricks& bricks, const VoxelBox& box, const std::array<double, 3>& step,
-  double tolerance, Executor& executor);
+  const LabelMap& map, const VoxelBox& box, const std::array<double, 3>& step, double tolerance,
+  Executor& executor);
 }
 
 #endif

@@ -12,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <utility>
 
 namespace volumic
@@ -122,36 +123,24 @@ std::vector<int> NarrowPlaces::FindVertices(Executor& executor)
   // In one sheet there are no gaps, up to the margin, which is less than the cubes' width.
   const std::vector<int> doubtful =
     FindCrossings(this->Mesh, NarrowGap * this->Edge, executor).Doubtful;
-  std::vector<std::vector<int>> ofSpans((faces.size() + SpanSize - 1) / SpanSize);
-  ForSpans(executor, faces.size(), SpanSize,
-    [&](std::size_t span, std::size_t begin, std::size_t end)
+  auto vertices = CollectInSpans<int>(executor, faces.size(), SpanSize,
+    [&](std::size_t f, std::vector<int>& some)
     {
-      const auto add = [&](const InterfaceMesh::Face& face)
-      { ofSpans[span].insert(ofSpans[span].end(), face.Vertex.begin(), face.Vertex.end()); };
-      for (std::size_t f = begin; f < end; ++f)
+      const std::array<int, 3>& v = faces[f].Vertex;
+      if (faces[f].IsThere() && SmallestAngle(TriangleOf(this->Mesh, v)) < NarrowAngle)
       {
-        if (faces[f].IsThere() &&
-          SmallestAngle(TriangleOf(this->Mesh, faces[f].Vertex)) < NarrowAngle)
-        {
-          add(faces[f]);
-        }
+        some.insert(some.end(), v.begin(), v.end());
       }
     });
-  std::vector<std::vector<int>> ofGaps((doubtful.size() + GapSpanSize - 1) / GapSpanSize);
-  ForSpans(executor, doubtful.size(), GapSpanSize,
-    [&](std::size_t span, std::size_t begin, std::size_t end)
+  const auto atGaps = CollectInSpans<int>(executor, doubtful.size(), GapSpanSize,
+    [&](std::size_t n, std::vector<int>& some)
     {
       std::vector<int> near;
-      for (std::size_t n = begin; n < end; ++n)
-      {
-        bool isNarrow = false;
-        this->ForGapsAt(doubtful[n], near, [&](double) { isNarrow = true; }); // Both find it.
-        const std::array<int, 3>& v = faces[static_cast<std::size_t>(doubtful[n])].Vertex;
-        ofGaps[span].insert(ofGaps[span].end(), v.begin(), isNarrow ? v.end() : v.begin());
-      }
+      bool isNarrow = false;
+      this->ForGapsAt(doubtful[n], near, [&](double) { isNarrow = true; }); // Both find it.
+      const std::array<int, 3>& v = faces[static_cast<std::size_t>(doubtful[n])].Vertex;
+      some.insert(some.end(), v.begin(), isNarrow ? v.end() : v.begin());
     });
-  std::vector<int> vertices = Joined(executor, ofSpans);
-  const std::vector<int> atGaps = Joined(executor, ofGaps);
   vertices.insert(vertices.end(), atGaps.begin(), atGaps.end());
   for (const std::array<int, 2>& edge : this->Mesh.FindLines())
   {
@@ -177,11 +166,7 @@ void NarrowPlaces::ForGapsAt(int face, std::vector<int>& near, Visitor&& visit) 
   const MeshTriangle triangle = TriangleOf(this->Mesh, v);
   const VectorD normal = NormalOf(triangle);
   const double wanted = NarrowGap * this->Edge * this->Mesh.SizeOf(v[0], v[1]);
-  const auto margin = static_cast<float>(wanted);
-  const TriangleBox box{ Vector(triangle.Corner[0]), Vector(triangle.Corner[1]),
-    Vector(triangle.Corner[2]) };
-  const Vector thick(margin, margin, margin);
-  this->Clearance.FindNear(box.Low - thick, box.High + thick, near);
+  this->Clearance.FindNear(BoxOf(triangle).Grown(static_cast<float>(wanted)), near);
   for (const int other : near)
   {
     const InterfaceMesh::Face& there = this->Mesh.Faces[static_cast<std::size_t>(other)];
@@ -331,20 +316,7 @@ bool NarrowPlaces::TryMoveTo(int v, const Vector& wanted)
 
 bool NarrowPlaces::TakeVolumes()
 {
-  std::vector<std::pair<int, double>> gains; // by object
-  const auto add = [&](int object, double volume)
-  {
-    const auto found = std::find_if(
-      gains.begin(), gains.end(), [object](const auto& gain) { return gain.first == object; });
-    if (found != gains.end())
-    {
-      found->second += volume;
-    }
-    else if (object > 0 && !this->Mesh.IsSide(object))
-    {
-      gains.emplace_back(object, volume);
-    }
-  };
+  std::map<int, double> gains; // by object
   const std::array<double, 3>& step = this->Fields.Step();
   for (std::size_t n = 0; n < this->Made.size(); ++n)
   {
@@ -358,9 +330,13 @@ bool NarrowPlaces::TakeVolumes()
         VolumeOf(old.Corner[k], old.Corner[(k + 1) % 3], old.Corner[(k + 2) % 3], face.Corner[k]);
     }
     volume /= 6. * step[0] * step[1] * step[2];
-    add(face.Behind, volume);
-    add(face.Front, -volume);
+    gains[face.Behind] += volume;
+    if (!this->Mesh.IsSide(face.Front))
+    {
+      gains[face.Front] -= volume;
+    }
   }
+  gains.erase(0);
   const auto isFair = [this](const auto& gain)
   {
     const double voxels = static_cast<double>(this->Fields.Bricks().ExtentOf(gain.first).Voxels);

@@ -12,8 +12,11 @@
 namespace volumic
 {
 /** Twice the radius of the inner circle over that of the outer one: 1 of a regular triangle. */
-inline double RadiusRatio(const VectorD& a, const VectorD& b, const VectorD& c)
+inline double RadiusRatio(const MeshTriangle& t)
 {
+  const VectorD& a = t.Corner[0];
+  const VectorD& b = t.Corner[1];
+  const VectorD& c = t.Corner[2];
   const double ab = Length(b - a);
   const double bc = Length(c - b);
   const double ca = Length(a - c);
@@ -25,8 +28,11 @@ inline double RadiusRatio(const VectorD& a, const VectorD& b, const VectorD& c)
 constexpr double SliverAngle = 0.5;
 
 /** Radian: it is opposite the shortest edge. */
-inline double SmallestAngle(const VectorD& a, const VectorD& b, const VectorD& c)
+inline double SmallestAngle(const MeshTriangle& t)
 {
+  const VectorD& a = t.Corner[0];
+  const VectorD& b = t.Corner[1];
+  const VectorD& c = t.Corner[2];
   const double ab = SquaredDistance(a, b);
   const double bc = SquaredDistance(b, c);
   const double ca = SquaredDistance(c, a);
@@ -34,16 +40,6 @@ inline double SmallestAngle(const VectorD& a, const VectorD& b, const VectorD& c
   const VectorD first = (&at == &a ? b : a) - at;
   const VectorD second = (&at == &c ? b : c) - at;
   return std::atan2(Length(Cross(first, second)), Dot(first, second));
-}
-
-inline double RadiusRatio(const MeshTriangle& t)
-{
-  return RadiusRatio(t.Corner[0], t.Corner[1], t.Corner[2]);
-}
-
-inline double SmallestAngle(const MeshTriangle& t)
-{
-  return SmallestAngle(t.Corner[0], t.Corner[1], t.Corner[2]);
 }
 
 inline VectorD NormalOf(const MeshTriangle& t)

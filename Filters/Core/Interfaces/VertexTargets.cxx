@@ -146,15 +146,8 @@ Vector VertexTargets::MiddleOfEnds() const
 void VertexTargets::FindEnds()
 {
   this->Ends.clear();
-  for (std::size_t n = 0; n + 2 < this->Neighbours.size(); ++n)
-  {
-    const int w = this->Neighbours[n];
-    const bool isFirst = n == 0 || this->Neighbours[n - 1] != w;
-    if (isFirst && this->Neighbours[n + 2] == w)
-    {
-      this->Ends.push_back(this->Mesh.Position[static_cast<std::size_t>(w)]);
-    }
-  }
+  InterfaceMesh::ForLineNeighbours(this->Neighbours,
+    [this](int w) { this->Ends.push_back(this->Mesh.Position[static_cast<std::size_t>(w)]); });
 }
 
 Vector VertexTargets::ToInterfaces(const Vector& place) const

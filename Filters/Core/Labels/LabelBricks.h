@@ -21,9 +21,9 @@ struct LabelExtent
 };
 
 /**
- * A label map in bricks of 4 x 4 x 4 voxels, from voxel 0 on: which objects each of them has. What
- * is done about an object is done in the bricks about its boundary only, so that time grows with
- * the boundaries of the objects, and not with their number times the size of the map.
+ * A label map in bricks of 4 x 4 x 4 voxels, from voxel 0 on: in which of them each object is. What
+ * is done about an object is done in the bricks about it only, so that time does not grow with the
+ * number of objects times the size of the map. Bricks that end outside the map have object 0, too.
  */
 class LabelBricks
 {
@@ -45,27 +45,10 @@ public:
   const std::array<int, 3>& Size() const { return this->Count; }
   const LabelExtent& ExtentOf(int object) const { return this->Extents[object]; }
 
-  /** The objects of a brick, sorted; 0 is one of them where it has other voxels or ends outside. */
-  struct Range
-  {
-    const LabelMap::Number* First;
-    const LabelMap::Number* Last;
-    const LabelMap::Number* begin() const { return this->First; }
-    const LabelMap::Number* end() const { return this->Last; }
-    bool Has(LabelMap::Number object) const;
-  };
-  /** Of a brick within the map. */
-  Range ObjectsIn(int i, int j, int k) const;
-
 private:
-  void FindObjects(Executor& executor);
-  void FindExtents(Executor& executor);
-
   const LabelMap* Labels;
   VoxelBox Counted;
   std::array<int, 3> Count;
-  std::vector<std::size_t> First; ///< of each brick, in Objects
-  std::vector<LabelMap::Number> Objects;
   std::vector<LabelExtent> Extents;
 };
 }

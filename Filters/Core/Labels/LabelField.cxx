@@ -170,11 +170,6 @@ private:
         float* values = this->RowAt(i, j, k);
         for (int x = 0; x < count; ++x)
         {
-          if (x % Lanes::Count == 0 && this->FindLess(i + x, j, k, LeastSize) == 0)
-          {
-            x += Lanes::Count - 1;
-            continue;
-          }
           const float side = this->Sides.Of(i + x, j, k);
           values[x] = side * std::max(side * values[x], this->LeastAt(i + x, j, k));
         }
@@ -271,16 +266,14 @@ private:
     }
     this->BesideThin = this->Sides.FindBeside(this->Thin);
     const VoxelBits rows = this->FindChanging();
-    std::vector<std::vector<VoxelConstraint>> ofLayers(
-      static_cast<std::size_t>(this->Rows.NumberOfLayers()));
-    ForSpans(this->Threads, ofLayers.size(), 1,
-      [&](std::size_t layer, std::size_t, std::size_t)
+    return CollectInSpans<VoxelConstraint>(this->Threads,
+      static_cast<std::size_t>(rows.NumberOfLayers()), 1,
+      [&](std::size_t layer, std::vector<VoxelConstraint>& constraints)
       {
         rows.ForLayer(static_cast<int>(layer),
           [&](int i, int j, int k, int count)
-          { this->FindConstraintsOfRow(i, j, k, count, ofLayers[layer]); });
+          { this->FindConstraintsOfRow(i, j, k, count, constraints); });
       });
-    return Joined(this->Threads, ofLayers);
   }
 
   void FindConstraintsOfRow(
@@ -317,12 +310,6 @@ private:
   VoxelBits BesideThin; ///< those with one of these beside them: they must not take all the way
   LabelField Field;
 };
-}
-
-LabelField MakeLabelField(
-  const LabelBricks& bricks, int object, const LabelFieldOptions& options, Executor& executor)
-{
-  return MakeLabelField(bricks, object, options, executor, VoxelBox::Of(bricks.Size()));
 }
 
 LabelField MakeLabelField(const LabelBricks& bricks, int object, const LabelFieldOptions& options,

@@ -90,13 +90,10 @@ struct LabelField
  * Tried instead: the sign alone held (single voxels stick out as spikes), the thin plate energy of
  * d under the same constraints (twice the error of the normals), Gaussians of higher order instead
  * of 2 (up to .9 % of the volume is lost).
- */
-LabelField MakeLabelField(const LabelBricks& bricks, int object, const LabelFieldOptions& options,
-  Executor& executor);
-/**
- * Make the field in a box of bricks, and one brick beyond it: for large objects, in parts. The
- * values are those of the whole object further from the ends of the box than the Gaussian reaches,
- * except for what step 4 carries over.
+ *
+ * @param within bricks: the field is made in them, and one brick beyond them: of large objects in
+ *               parts. The values are those of the whole object further from the ends of the box
+ *               than the Gaussian reaches, except for what step 4 carries over.
  */
 LabelField MakeLabelField(const LabelBricks& bricks, int object, const LabelFieldOptions& options,
   Executor& executor, const VoxelBox& within);

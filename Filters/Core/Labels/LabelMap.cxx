@@ -18,8 +18,7 @@ void LabelMap::Set(int i, int j, int k, Number object)
   {
     return;
   }
-  std::uint32_t& part =
-    this->OfPart[this->NumberOfPart(i / LayerSize, j / LayerSize, k / LayerSize)];
+  std::uint32_t& part = this->OfPart[this->PartAt(i, j, k)];
   LargeVector<Number>& mixed = this->Mixed[static_cast<std::size_t>(k / LayerSize)];
   if ((part & IsMixed) == 0)
   {
@@ -65,7 +64,7 @@ void LabelMap::PutLayer(int layer, const Number* voxels)
           std::copy_n(row, box.Length(0), part.begin() + PlaceInPart(0, y, z));
         }
       }
-      this->OfPart[this->NumberOfPart(i, j, layer)] =
+      this->OfPart[this->PartAt(box.First[0], box.First[1], box.First[2])] =
         isMixed ? static_cast<std::uint32_t>(mixed.size() / VoxelsOfPart) | IsMixed : first;
       if (isMixed)
       {
@@ -73,18 +72,6 @@ void LabelMap::PutLayer(int layer, const Number* voxels)
       }
     }
   }
-}
-
-void LabelMap::CopyLayer(int layer, Number* voxels) const
-{
-  const VoxelBox all = this->Layer(layer);
-  this->ForParts(all,
-    [&](const VoxelBox& part, Number object)
-    {
-      ForRowsOf(part, all,
-        [&](std::int64_t first, std::int64_t count)
-        { std::fill_n(voxels + first, count, object); });
-    });
 }
 
 LabelMap LabelMap::Part(const VoxelBox& box) const

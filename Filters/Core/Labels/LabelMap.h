@@ -54,9 +54,8 @@ public:
   }
   void Set(int i, int j, int k, Number object);
 
-  /** The slices of a layer, in one array, x fastest. */
+  /** @param voxels the slices of a layer, x fastest */
   void PutLayer(int layer, const Number* voxels);
-  void CopyLayer(int layer, Number* voxels) const;
   /** The slices of a layer, and all of their voxels. */
   VoxelBox Layer(int layer) const;
   /** Return a map of a box, which may reach beyond this one: there are voxels of 0. */
@@ -64,7 +63,7 @@ public:
 
   /**
    * Calls visit(box, object) for boxes of voxels of one object that together are those of a box
-   * within the map, in no order of use.
+   * within the map; those of a row follow each other.
    */
   template <typename Visitor>
   void ForParts(const VoxelBox& box, Visitor&& visit) const
@@ -91,27 +90,25 @@ private:
   static constexpr std::size_t VoxelsOfPart =
     static_cast<std::size_t>(LayerSize) * LayerSize * LayerSize;
 
-  static std::size_t PlaceInPart(int i, int j, int k)
+  /** Of a voxel. Divisions without a sign are faster. */
+  static std::size_t PlaceInPart(unsigned i, unsigned j, unsigned k)
   {
-    return static_cast<std::size_t>(
-      (k % LayerSize * LayerSize + j % LayerSize) * LayerSize + i % LayerSize);
+    return (k % LayerSize * LayerSize + j % LayerSize) * LayerSize + i % LayerSize;
   }
-  std::size_t NumberOfPart(int i, int j, int k) const
+  /** The number of the part that a voxel is in. */
+  std::size_t PartAt(unsigned i, unsigned j, unsigned k) const
   {
-    return static_cast<std::size_t>(VoxelBox::Of(this->Parts).NumberOf(i, j, k));
+    return i / LayerSize +
+      static_cast<std::size_t>(this->Parts[0]) *
+      (j / LayerSize + static_cast<std::size_t>(this->Parts[1]) * (k / LayerSize));
   }
   Number Inside(int i, int j, int k) const
   {
-    const auto x = static_cast<unsigned>(i);
-    const auto y = static_cast<unsigned>(j);
-    const auto z = static_cast<unsigned>(k);
-    const std::uint32_t part = this->OfPart[x / LayerSize +
-      static_cast<std::size_t>(this->Parts[0]) *
-        (y / LayerSize + static_cast<std::size_t>(this->Parts[1]) * (z / LayerSize))];
+    const std::uint32_t part = this->OfPart[this->PartAt(i, j, k)];
     return (part & IsMixed) == 0
       ? static_cast<Number>(part)
-      : this->Mixed[z / LayerSize][(part & ~IsMixed) * VoxelsOfPart +
-          (z % LayerSize * LayerSize + y % LayerSize) * LayerSize + x % LayerSize];
+      : this->Mixed[static_cast<unsigned>(k) / LayerSize]
+                   [(part & ~IsMixed) * VoxelsOfPart + PlaceInPart(i, j, k)];
   }
 
   template <typename Visitor>
@@ -121,7 +118,7 @@ private:
       { i * LayerSize, j * LayerSize, k * LayerSize },
       { (i + 1) * LayerSize, (j + 1) * LayerSize, (k + 1) * LayerSize }
     }.CommonWith(box);
-    const std::uint32_t what = this->OfPart[this->NumberOfPart(i, j, k)];
+    const std::uint32_t what = this->OfPart[this->PartAt(i * LayerSize, j * LayerSize, k * LayerSize)];
     if ((what & IsMixed) == 0)
     {
       visit(part, static_cast<Number>(what));

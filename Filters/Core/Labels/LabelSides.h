@@ -20,10 +20,6 @@ class LabelSides
 public:
   /** @param within bricks: the box ends one brick beyond them at most */
   LabelSides(const LabelBricks& bricks, int object, const VoxelBox& within);
-  LabelSides(const LabelBricks& bricks, int object)
-    : LabelSides(bricks, object, VoxelBox::Of(bricks.Size()))
-  {
-  }
 
   const VoxelBox& Box() const { return this->Members.Box(); }
   bool IsObject(int i, int j, int k) const { return this->Members.Has(i, j, k); }

@@ -46,30 +46,19 @@ public:
   PartFinder(const LabelMap& map, const std::vector<int>& objects)
     : Rows(VoxelBox::Of({ 1, map.Size()[1], map.Size()[2] })), FirstOfRow(1, 0)
   {
-    std::vector<Number> voxels;
-    for (int layer = 0; layer < map.NumberOfLayers(); ++layer)
+    for (int k = 0; k < map.Size()[2]; ++k)
     {
-      const VoxelBox box = map.Layer(layer);
-      voxels.resize(static_cast<std::size_t>(box.Count()));
-      map.CopyLayer(layer, voxels.data());
-      for (int k = box.First[2]; k < box.End[2]; ++k)
+      for (int j = 0; j < map.Size()[1]; ++j)
       {
-        for (int j = 0; j < box.End[1]; ++j)
-        {
-          const Number* row = voxels.data() + box.NumberOf(0, j, k);
-          for (int i = 0; i < box.End[0];)
+        map.ForParts({ { 0, j, k }, { map.Size()[0], j + 1, k + 1 } },
+          [&](const VoxelBox& part, Number object)
           {
-            const int begin = i;
-            i = static_cast<int>(std::find_if(row + i, row + box.End[0],
-                                   [&](Number object) { return object != row[begin]; }) -
-              row);
-            if (std::binary_search(objects.begin(), objects.end(), row[begin]))
+            if (std::binary_search(objects.begin(), objects.end(), object))
             {
-              this->Runs.push_back({ { begin, j, k }, i - begin, row[begin] });
+              this->Add({ part.First, part.Length(0), object });
             }
-          }
-          this->FirstOfRow.push_back(this->Runs.size());
-        }
+          });
+        this->FirstOfRow.push_back(this->Runs.size());
       }
     }
   }
@@ -103,6 +92,21 @@ public:
   }
 
 private:
+  /** What follows the last run in its row is part of it. */
+  void Add(const Run& run)
+  {
+    const bool isFirst = this->Runs.size() == this->FirstOfRow.back();
+    if (!isFirst && this->Runs.back().Object == run.Object &&
+      this->Runs.back().First[0] + this->Runs.back().Length == run.First[0])
+    {
+      this->Runs.back().Length += run.Length;
+    }
+    else
+    {
+      this->Runs.push_back(run);
+    }
+  }
+
   /** With what touches it there, also by corners. */
   void JoinWithRow(std::size_t n, int j, int k, DisjointSets& sets) const
   {
