@@ -118,6 +118,9 @@ void vtkDeformableSurface::PrintSelf(ostream& os, vtkIndent indent)
   volumic::PrintSetting(os << indent << #name ": ", this->Internals->Settings.field);              \
   os << endl;
   VOLUMIC_SURFACE_PROPERTIES(VolumicPrint, VolumicPrint)
+  os << indent << "MemoryLimit: " << this->Internals->MemoryLimit << endl;
+  os << indent << "Resume: " << this->Internals->Resume << endl;
+  os << indent << "Profile: " << this->Internals->Profile << endl;
 }
 
 // Files may be compiled together.

@@ -352,6 +352,7 @@ void vtkLabelsToSurfaces::PrintSelf(ostream& os, vtkIndent indent)
   volumic::PrintSetting(os << indent << #name ": ", this->Internals->field);                       \
   os << endl;
   VOLUMIC_LABEL_PROPERTIES(VolumicPrint, VolumicPrint)
+  os << indent << "MemoryLimit: " << this->Internals->MemoryLimit << endl;
 }
 
 // Files may be compiled together.

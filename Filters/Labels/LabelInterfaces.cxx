@@ -147,12 +147,16 @@ void LabelInterfaceMaker::Make(HostThreads& threads, const Progress& progress)
   const std::thread::id caller = std::this_thread::get_id();
   std::atomic<bool> goesOn{ true };
   using Clock = std::chrono::steady_clock;
-  Clock::time_point last; // When the host was asked.
+  Clock::time_point last; // When the host was asked, and told what.
+  double told = 0.0;
   const auto tell = [&](double share, const char* text)
   {
     constexpr std::chrono::milliseconds interval(50);
-    if (std::this_thread::get_id() == caller && Clock::now() - last >= interval)
+    constexpr double step = 0.01;
+    if (std::this_thread::get_id() == caller &&
+      (share >= told + step || Clock::now() - last >= interval))
     {
+      told = share;
       goesOn = goesOn.load() && progress(share, text);
       last = Clock::now();
     }
