@@ -88,7 +88,7 @@ struct SegmentationEnd
 /**
  * The properties of vtkDeformableSurface, which documents them, with their only defaults: it writes
  * them here, and hands them to a run as they are. Numbers, also those of enumerations, may be out
- * of range: SurfaceSegmentation checks them.
+ * of range: SegmentationRun checks them.
  */
 struct SegmentationSettings
 {

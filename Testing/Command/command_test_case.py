@@ -130,21 +130,8 @@ class CommandTestCase(FolderTestCase):
         self.assertRegex(process.stderr, f"^volumic: .*{name}.*({reason})[^\n]*\n$")
         self.assertFalse(os.path.exists(self.path("out.stl")))
 
-    def refused_file(self, name, content, reason):
-        """One file of those in a folder that is the volume."""
-        self.write_bytes(name, content)
-        self.refused_volume(os.path.dirname(name), reason)
-
-    def refused_bytes(self, name, content, reason):
-        self.write_bytes(name, content)
-        self.refused_volume(name, reason)
-
     def accepted(self, name, *options):
         self.run_command(self.path(name), self.path("ok.stl"), "--iso", ISO, *options)
-
-    def accepted_bytes(self, name, content):
-        self.write_bytes(name, content)
-        self.accepted(name)
 
     def refused(self, reason, *arguments, status=1, **options):
         """The program ends with this status and says why, in one line that names itself."""
