@@ -30,7 +30,6 @@ if (newer) # VTK 9.7
 endif ()
 foreach (source IN ITEMS
     VolumicCore.dir/Core/Mesh/SurfaceMesh.cxx
-    ${module}.dir/Run/RunStart.cxx
     ${module}.dir/Unity/unity_0_cxx.cxx)
   list(APPEND objects "Remote/Volumic/Filters/CMakeFiles/${source}.o")
 endforeach ()

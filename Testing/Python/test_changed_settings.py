@@ -11,9 +11,9 @@ from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkImageData
 from volumic import vtkDeformableSurface, vtkVolumeToSurface
 
 SIZE = 28
-# The last run serves, or the filter resumes from it.
+# The last run serves, or goes on.
 SERVED = {"FinestLevel", "Preview", "TimeLimit", "NumberOfThreads", "MemoryLimit",
-          "ScratchDirectory", "Resume", "ShowLevels", "Controller"}
+          "ScratchDirectory", "Resume", "Profile", "ShowLevels"}
 # Where half as much again, or the next number, is no legal value, or none that is another one.
 VALUES = {"SamplingRatio": 0.9, "CoarsestLevel": 1, "EdgeLength": 1.2, "Tolerance": .1,
           "MaximumEdgeLength": 5., "Gradation": .1, "SeedRadius": 3., "NumberOfLevels": 2,
