@@ -120,9 +120,7 @@ void SetVerdict(
   {
     set("Genus", topology.Genus);
   }
-  set("Faults",
-    topology.OpenEdges + topology.NonManifoldEdges + topology.NonManifoldVertices +
-      topology.DegenerateTriangles + topology.MisorientedEdges);
+  set("Faults", topology.Faults);
   set("SelfIntersections", verdict.Intersections.Pairs);
   set("EdgeShortest", verdict.Lengths.Shortest);
   set("EdgeMean", verdict.Lengths.Mean);
