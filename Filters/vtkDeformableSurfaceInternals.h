@@ -14,23 +14,19 @@
 #include <vector>
 
 /**
- * What vtkDeformableSurface holds, beside what all algorithms do, and what RequestData() does.
- * All is called on the thread that updates the filter. Errors are thrown, std::invalid_argument
- * where something given is wrong.
+ * The members of vtkDeformableSurface and the work of RequestData(). Call all methods on the thread
+ * that updates the filter. Errors are exceptions, a Refusal for invalid input.
  *
- * The last run is kept for one that differs from it by where it ends: it has the levels at rest, to
- * show any of them at once, and can go on where it has ended above level 0. At level 0 it holds no
- * more than these, as the rest takes the memory of the whole volume.
+ * The filter keeps its last run for requests that differ in the finest level or the outputs only. The
+ * run returns any of its converged levels at once, and resumes if it has ended above level 0. On
+ * level 0 it keeps these levels only, because the voxels take too much memory.
  */
 class vtkDeformableSurface::vtkInternals
 {
 public:
   explicit vtkInternals(vtkDeformableSurface& filter) : Filter(filter) {}
 
-  /**
-   * Shows what is kept, or goes on with the last run, or makes another one, until it is over or told
-   * to stop; fills the outputs.
-   */
+  /** Reuse, resume or replace the kept run, and fill the outputs. */
   void Update(vtkInformationVector** inputs, vtkInformationVector* outputs,
     volumic::RunObserver& observer);
 
@@ -40,28 +36,28 @@ public:
    */
   void MakeEmptyLevels(vtkInformationVector* input, vtkMultiBlockDataSet* levels) const;
 
-  /** The filter has changed. @param needsRun whether what is kept of the last run serves no more */
+  /** Call Modified() of the filter. @param needsRun whether the kept run becomes invalid */
   void Modify(bool needsRun);
   void ForgetRun() { this->Kept.reset(); }
 
   volumic::SegmentationSettings Settings; ///< the properties
   std::unique_ptr<volumic::SegmentationRun> Kept; ///< the last run; null: none
-  std::vector<std::string> Warnings; ///< to be told once nothing is on the way
-  int MemoryLimit = 0; ///< The three deprecated properties.
+  std::vector<std::string> Warnings; ///< to report after the last of several steps
+  int MemoryLimit = 0; ///< deprecated, as the next two
   bool Resume = false;
   bool Profile = false;
-  bool HasHinted = false;    ///< at labels, as is done once in the filter's life
+  bool HasHinted = false;    ///< The hint at labels is reported once per filter.
   bool IsRunning = false;
-  bool IsAlone = true;       ///< No other process asks whether a finer level is still to come.
-  bool IsWatched = false;    ///< Someone asks whether a finer level is still to come.
-  bool IsOnTheWay = false;   ///< One is, and nobody has asked yet.
-  bool GoesToTheEnd = false; ///< The next run shows no level before.
+  bool IsAlone = true;       ///< The run is not parallel.
+  bool IsWatched = false;    ///< GetNeedsUpdate() is called, as by ParaView's window.
+  bool IsOnTheWay = false;   ///< A finer level follows at the next Update().
+  bool GoesToTheEnd = false; ///< The next run has no intermediate steps.
 
 private:
   volumic::SegmentationRequest RequestAsSet(vtkInformationVector** inputs);
-  /** With ShowLevels: makes it a request for the next level to be shown, if it is not the last. */
+  /** With ShowLevels: end the request at the next intermediate level. */
   void ChooseStep(volumic::SegmentationRequest& request);
-  /** Makes the levels, and of them a run that has not begun. Null where that was stopped. */
+  /** Read the volume and return a run that has not begun. Return null if this was stopped. */
   std::unique_ptr<volumic::SegmentationRun> NewRun(
     volumic::SegmentationRequest request, volumic::RunObserver& observer);
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What vtkDeformableSurface does at RequestData(): what is asked for, whether it is kept, whether
-// the last run goes on or another one begins.
+// The work of vtkDeformableSurface::RequestData(): read the request, then reuse, resume or replace
+// the kept run.
 
 #include "Core/Common/FreeMemory.h"
 #include "Core/Common/Refuse.h"
@@ -29,7 +29,7 @@
 
 namespace
 {
-/** Share of the progress that the pyramid takes where it is built here. */
+/** Share of the pyramid in the progress, if the input is an image. */
 constexpr double PyramidShare = 0.02;
 
 bool IsImage(const volumic::SegmentationRequest& request)
@@ -81,7 +81,7 @@ volumic::SegmentationRequest vtkDeformableSurface::vtkInternals::RequestAsSet(
   request.Selection = this->Filter.GetInputArrayInformation(0);
   request.EdgeSelection = this->Filter.GetInputArrayInformation(1);
   request.MayGoOn = volumic::MayKeepRun(&this->Filter);
-  // Whoever watches may choose others; else, and where memory is short, it would be held in vain.
+  // A user at a window may select other components. Else they would waste memory.
   request.KeepsAll = this->IsWatched && this->Settings.End.ScratchDirectory.empty();
   return request;
 }
@@ -118,7 +118,7 @@ std::unique_ptr<volumic::SegmentationRun> vtkDeformableSurface::vtkInternals::Ne
   { return observer.GoOn(PyramidShare * share, "Building the pyramid"); };
   if (IsImage(request))
   {
-    progress(0.0, ""); // Whether to stop is asked when there is more to do.
+    progress(0.0, ""); // A request to stop is checked later.
   }
   const volumic::Volume volume = volumic::ReadVolume(request, progress);
   if (!volume.HintAtLabels.empty() && !std::exchange(this->HasHinted, true))
@@ -136,7 +136,7 @@ std::unique_ptr<volumic::SegmentationRun> vtkDeformableSurface::vtkInternals::Ne
   }
   if (!volume.IsOfImage && volumic::AreReleased(&this->Filter, 0))
   {
-    request.Volume->ReleaseData(); // Now: the run lets go of each level when it has left it.
+    request.Volume->ReleaseData(); // The run releases each level after use.
   }
   return run;
 }

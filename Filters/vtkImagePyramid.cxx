@@ -12,6 +12,7 @@
 #include "Input/ImageVoxels.h"
 #include "Input/InputImage.h"
 #include "Pyramid/ImageLevels.h"
+#include "Settings/PropertyTable.h"
 
 #include <vtkDataArray.h>
 #include <vtkDataObject.h>
@@ -54,6 +55,7 @@ volumic::PyramidOptions OptionsOf(
 class vtkImagePyramid::vtkInternals
 {
 public:
+  int MemoryLimit = 0; ///< deprecated
   std::string ScratchDirectory;
 };
 
@@ -67,7 +69,6 @@ vtkImagePyramid::vtkImagePyramid() : Internals(std::make_unique<vtkInternals>())
   this->SelectedComponent = -1;
   this->NaNIsBackground = true;
   this->NumberOfThreads = 0;
-  this->MemoryLimit = 0;
   this->SetInputArrayToProcess(
     0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS);
 }
@@ -86,30 +87,9 @@ vtkMultiBlockDataSet* vtkImagePyramid::GetOutput(int port)
 }
 
 //------------------------------------------------------------------------------
-void vtkImagePyramid::SetMemoryLimit(int mebibytes)
-{
-  if (mebibytes != 0 && this->MemoryLimit == 0)
-  {
-    vtkWarningMacro("MemoryLimit is deprecated and has no effect. " VOLUMIC_ABOUT_MEMORY);
-  }
-  this->MemoryLimit = mebibytes;
-}
-
-//------------------------------------------------------------------------------
-void vtkImagePyramid::SetScratchDirectory(const char* directory)
-{
-  const std::string wanted = directory ? directory : "";
-  if (this->Internals->ScratchDirectory != wanted)
-  {
-    this->Internals->ScratchDirectory = wanted;
-    this->Modified();
-  }
-}
-
-const char* vtkImagePyramid::GetScratchDirectory()
-{
-  return this->Internals->ScratchDirectory.c_str();
-}
+VOLUMIC_DEPRECATED(vtkImagePyramid, MemoryLimit, int, VOLUMIC_ABOUT_MEMORY)
+VOLUMIC_SET_AND_GET(vtkImagePyramid, ScratchDirectory, const char*, Internals->ScratchDirectory,
+  this->Modified())
 
 //------------------------------------------------------------------------------
 int vtkImagePyramid::CountLevels(int sizeX, int sizeY, int sizeZ) const
@@ -260,6 +240,6 @@ void vtkImagePyramid::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "SelectedComponent: " << this->SelectedComponent << endl;
   os << indent << "NaNIsBackground: " << this->NaNIsBackground << endl;
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << endl;
-  os << indent << "MemoryLimit: " << this->MemoryLimit << endl;
+  os << indent << "MemoryLimit: " << this->Internals->MemoryLimit << endl;
   os << indent << "ScratchDirectory: " << this->Internals->ScratchDirectory << endl;
 }

@@ -175,7 +175,7 @@ public:
    * cgroup.
    */
   void SetMemoryLimit(int mebibytes);
-  vtkGetMacro(MemoryLimit, int);
+  int GetMemoryLimit();
   ///@}
 
   ///@{
@@ -215,7 +215,6 @@ protected:
   int SelectedComponent;
   bool NaNIsBackground;
   int NumberOfThreads;
-  int MemoryLimit;
 
 private:
   vtkImagePyramid(const vtkImagePyramid&) = delete;

@@ -14,23 +14,23 @@ class vtkInformationVector;
 namespace volumic
 {
 /**
- * Does the work of RequestData, and reports what it throws as an error of the filter. Then all
- * outputs are left initialised: no data half made, and none of the field data that the pipeline has
- * passed from the input. RequestData returns 1 all the same: after 0 the pipeline would print a
- * second error, and ParaView's clients would keep what they had before.
- * @param place       what messages begin with
- * @param aboutMemory what to say where the memory does not suffice
- * @return for SetErrorCode(): vtkErrorCode::NoError; UserError for a Refusal (what was given is
- *         wrong); else UnknownError (memory)
+ * Execute the work of RequestData, and report an exception as an error of the filter. All outputs
+ * are then initialized, without partial data and without the field data of the input.
+ *
+ * RequestData must return 1 after an error, too. After 0 the pipeline prints a second error, and
+ * the clients of ParaView keep the data of the run before.
+ * @param place       prefix of the message
+ * @param aboutMemory returns the message for std::bad_alloc
+ * @return the code for SetErrorCode(): vtkErrorCode::NoError, UserError for a Refusal (invalid
+ *         input or property), UnknownError for other exceptions
  */
 unsigned long RunAlgorithm(vtkAlgorithm* filter, vtkInformationVector* outputs,
   const std::string& place, const std::function<std::string()>& aboutMemory,
   const std::function<void()>& work);
 
 /**
- * What the work gives; what it refuses (Refuse.h) is refused with the place in front, so that the
- * message names it: `Input port 0: `.
- * @throws Refusal as the work does; other exceptions pass as they are.
+ * Return the result of the work. A Refusal gets the place as the prefix of its message, such as
+ * `Input port 0: `. Other exceptions are not changed.
  */
 template <typename Work>
 auto PrefixErrors(const std::string& place, const Work& work) -> decltype(work())

@@ -68,7 +68,7 @@ bool RunObserver::IsStopped()
 
 std::string RunObserver::StopReason() const
 {
-  return this->IsOutOfTime ? TimeLimitReason : "cancelled";
+  return this->IsOutOfTime ? "time limit" : "cancelled";
 }
 
 void RunObserver::Warn(const std::string& text)
@@ -88,7 +88,7 @@ bool LevelMonitor::GoOn(const Status& status)
 
 bool LevelMonitor::BeginLevel(int level)
 {
-  // Who stops at the name of a level expects to get the surface of that level.
+  // A user who stops at the name of a level expects the surface of that level.
   return this->Report(level, 0.0,
     level == this->Coarsest ? Join("Level ", level, ", voxels")
                             : Join("Level ", level + 1, " is done"));

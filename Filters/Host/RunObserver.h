@@ -14,17 +14,12 @@ class vtkAlgorithm;
 
 namespace volumic
 {
-/**
- * Told the share of some work that is done, in [0, 1], and what is being done; false asks to stop.
- */
+/** Report the finished share of the work, in [0, 1], and its current step. Return false to stop. */
 using Progress = std::function<bool(double share, const std::string& text)>;
 
-/** `StopReason` of what a run hands over that has come to the end of its time. */
-constexpr const char* TimeLimitReason = "time limit";
-
 /**
- * The filter that a run works for. It is the one place where the work tells how far it is and what
- * is worth a warning, and hears that it is to stop: as the host asks for it, or as time is over.
+ * Observes a run for its filter. All progress and all warnings of a run pass through it. It stops
+ * the run if the filter is aborted or the time limit is exceeded.
  */
 class RunObserver
 {
@@ -32,23 +27,26 @@ public:
   using Clock = std::chrono::steady_clock;
 
   /**
-   * The run begins now.
-   * @param timeLimit seconds from now on; 0: none
-   * @param warnings  takes what Warn() is told
-   * @throws std::invalid_argument if the limit is neither
+   * Start the clock of the run.
+   * @param timeLimit in seconds, from now on (0: none)
+   * @param warnings  receives the texts of Warn()
+   * @throws Refusal if the limit is negative or NaN
    */
   RunObserver(vtkAlgorithm* filter, double timeLimit, std::vector<std::string>& warnings);
 
-  /** Sets the progress of the filter. @return false: stop, from then on always */
+  /** Set the progress of the filter. Return false if the run must stop, from then on always. */
   bool GoOn(double share, const std::string& text);
-  /** Whether the work is to stop, now or before. */
+  /** Return whether the run must stop. */
   bool IsStopped();
-  /** `StopReason` after a stop: by the host, or by time. */
+  /** Return the `StopReason` of a stopped run: "time limit" or "cancelled". */
   std::string StopReason() const;
 
   Clock::time_point Start() const { return this->Started; }
 
-  /** For the end of the run, once: ParaView's message box would cover the progress bar. */
+  /**
+   * Collect a warning for the end of the run: ParaView's message box would cover the progress bar.
+   * Empty texts and repeated ones are ignored.
+   */
   void Warn(const std::string& text);
 
 private:
@@ -60,16 +58,14 @@ private:
   std::vector<std::string>& Untold;
 };
 
-/**
- * Tells an observer of the work on the levels, as a share of the whole that never becomes less.
- */
+/** Reports the progress of the core on the levels to an observer. The share never decreases. */
 class LevelMonitor final : public Monitor
 {
 public:
   /**
-   * From the level `coarsest` to the level `finest`. A level has about three times the vertices of
-   * the one above, and takes so much more of the work.
-   * @param before share of the work that was done before the first of them
+   * Monitor the levels from `coarsest` to `finest`. Each takes about three times the work of the
+   * next coarser level, as it has three times the vertices.
+   * @param before share of the work before the first of these levels
    */
   LevelMonitor(RunObserver& observer, double before, int coarsest, int finest)
     : Observer(observer), Before(before), Coarsest(coarsest), Finest(finest)
@@ -78,10 +74,10 @@ public:
 
   bool GoOn(const Status& status) override;
 
-  /** Before the voxels of a level are made ready; false asks to stop. */
+  /** Report that a level begins, before its voxels are loaded. Return false to stop. */
   bool BeginLevel(int level);
 
-  /** There is another level to come, after which the share that is done is less. */
+  /** Add the levels down to `finest`. */
   void GoOnTo(int finest) { this->Finest = finest; }
 
 private:

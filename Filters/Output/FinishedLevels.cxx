@@ -19,7 +19,7 @@ namespace volumic
 {
 namespace
 {
-/** A copy: what its reader adds or takes away does not change what is kept; arrays are shared. */
+/** Set a shallow copy, so that a reader cannot change the kept surface. */
 void SetBlock(
   vtkMultiBlockDataSet* blocks, unsigned int block, const std::string& name, vtkPolyData* surface)
 {

@@ -21,71 +21,69 @@ class vtkInformationVector;
 
 namespace volumic
 {
-/** A level at which the surface has come to rest, or was cut off. */
+/** A level with its final surface, converged or stopped. */
 struct FinishedLevel
 {
   SurfaceDescription About;
-  bool IsAtRest = false;                    ///< It was not cut off while it evolved.
-  vtkSmartPointer<vtkPolyData> Surface;     ///< the components that are chosen
-  std::shared_ptr<const SurfaceResult> All; ///< with all components; null: not kept
-  bool KeepsNone = false; ///< KeepComponents has left nothing of a surface that was there.
+  bool IsAtRest = false;                    ///< false: stopped while it evolved
+  vtkSmartPointer<vtkPolyData> Surface;     ///< the selected components
+  std::shared_ptr<const SurfaceResult> All; ///< all components; null: not kept
+  bool KeepsNone = false; ///< KeepComponents has removed all components.
 };
 
-/**
- * The levels that a run has finished. They give the outputs of vtkDeformableSurface as they are for
- * a run that ends at any level at which the surface rests, without another run.
- */
+/** The finished levels of a run. They fill the outputs for any of these as the finest level. */
 class FinishedLevels
 {
 public:
-  /** A share of the object's boundary: where more is missing it matters. */
+  /** Missing share of the boundary of the object above which a warning is reported. */
   static constexpr double NotableShare = 0.05;
 
   FinishedLevels() = default;
-  /** @param numberOfLevels of the pyramid */
+  /** @param numberOfLevels number of levels of the pyramid */
   FinishedLevels(int numberOfLevels, int coarsest, const Workspace& space)
     : NumberOfLevels(numberOfLevels), Coarsest(coarsest), Space(space)
   {
   }
 
-  /**
-   * Makes the surfaces those of the components that are wanted from now on.
-   * @return false where they cannot be, as those of all components were not kept
-   */
+  /** Select components in all levels. @return false if not all components were kept */
   bool Choose(const ComponentChoice& choice, Executor& threads);
 
-  /** A level with all components of its surface, which are kept on request. */
+  /**
+   * Add a level.
+   * @param surface  all components
+   * @param keepsAll whether to keep them for another selection
+   */
   void Add(FinishedLevel level, SurfaceResult surface, bool keepsAll, Executor& threads);
-  /** What there is of a level, its snapshots included. */
+  /** Remove a level and its snapshots. */
   void Forget(int level);
   void AddSnapshot(int level, const std::string& name, vtkPolyData* surface)
   {
     this->Snapshots.push_back({ level, { name, surface } });
   }
   /**
-   * Why a run was stopped before it came to a level, for output 0, which is the surface of the level
-   * before, or none; empty: it was not.
+   * Set the StopReason of output 0 for a run that was stopped before it reached the next level. The
+   * empty text resets it.
    */
   void SetStopped(const std::string& reason) { this->StopReason = reason; }
 
-  /** Whether the surface rests at a level. */
+  /** Return whether the surface of a level is converged. */
   bool HasAtRest(int level) const;
-  /** Of a level that was added. */
+  /** Return the description of an added level. */
   const SurfaceDescription& About(int level) const { return this->Levels.at(level).About; }
 
-  /** The history of all levels so far. */
+  /** Set the history of all levels. */
   void SetRows(const std::vector<HistoryRow>& rows) { this->Rows = rows; }
-  /** Fills them as those of a run that has ended at `last`. */
+  /** Fill the outputs of a run with `last` as its finest level. */
   void FillOutputs(int last, vtkInformationVector* outputs) const;
   /**
-   * What is worth a warning where a run has ended at a level; empty: nothing.
-   * @param wantsAll whether it matters if parts of the object are missing
+   * Return the warning of a run with `last` as its finest level, or an empty text.
+   * @param wantsAll whether to report missing parts of the object
    */
   std::string WarningOf(int last, bool wantsAll) const;
 
 private:
   void MakeSurface(FinishedLevel& level, SurfaceResult surface, Executor& threads) const;
-  /** The surface for output 0 of a run that has ended at `last`. */
+  /** Return output 0 of a run with `last` as its finest level. */
   vtkSmartPointer<vtkPolyData> Outcome(int last) const;
 
   int NumberOfLevels = 0;

@@ -14,8 +14,9 @@ class vtkTable;
 namespace volumic
 {
 /**
- * A row per iteration on the levels down to `last`, the columns that vtkDeformableSurface documents.
- * @param unit of the workspace, world units
+ * Return the History output of vtkDeformableSurface: a row per iteration on the levels down to
+ * `last`.
+ * @param unit length 1 of the computational space, in world units
  */
 vtkSmartPointer<vtkTable> MakeHistoryTable(
   const std::vector<HistoryRow>& rows, int last, double unit);

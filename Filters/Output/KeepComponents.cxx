@@ -61,7 +61,7 @@ std::vector<int> InnermostAbout(const std::vector<Point>& places, const std::vec
   return innermost;
 }
 
-/** Leaves the points and triangles of the components that are kept. */
+/** Remove the points and triangles of all other components. */
 void LeaveShape(
   SurfaceResult& surface, const SurfaceFeatures& features, const std::vector<bool>& isKept)
 {
@@ -110,7 +110,7 @@ void LeaveShape(
   }
 }
 
-/** Of the features those of the components that are kept. */
+/** Remove the features of all other components. */
 void LeaveFeatures(
   SurfaceFeatures& features, std::vector<int>& owners, const std::vector<bool>& isKept)
 {
@@ -148,7 +148,10 @@ void LeaveFeatures(
   owners = std::move(keptOwners);
 }
 
-/** Marks the owners of the components that touch a place. @param points workspace, as the places */
+/**
+ * Mark the owners of the components that touch a position.
+ * @param points in computational space, as the positions
+ */
 void MarkTouching(const LargeVector<Point>& points, const DescribedSurface& surface,
   const std::vector<Point>& places, std::vector<bool>& isKept, Executor& executor)
 {
@@ -193,10 +196,7 @@ void MarkTouching(const LargeVector<Point>& points, const DescribedSurface& surf
   }
 }
 
-/**
- * The component that each one belongs to: itself or, for a cavity (negative volume), the solid one
- * that encloses it most closely; -1: none does. Where there are no cavities, at no cost.
- */
+/** Return DescribedSurface::Owners. The cost is negligible without cavities. */
 std::vector<int> OwnersOf(
   const IndexedSurface& surface, const SurfaceFeatures& features, Executor& executor)
 {

@@ -29,15 +29,12 @@ struct ComponentChoice
   }
 };
 
-/** A surface as the outputs hold it. */
+/** The selected components of a surface with their features. */
 struct DescribedSurface
 {
-  SurfaceResult Shape; ///< points and triangles in world coordinates, the rest in the workspace's
+  SurfaceResult Shape; ///< points in world coordinates, normals and lengths in computational space
   SurfaceFeatures Features; ///< world units
-  /**
-   * The component that each one belongs to: itself or, for a cavity (negative volume), the solid one
-   * that encloses it most closely; -1: none does.
-   */
+  /** Owner per component: itself, or the innermost solid around a cavity (-1: none). */
   std::vector<int> Owners;
 };
 
@@ -51,10 +48,10 @@ ComponentChoice ChoiceOf(
   const SegmentationRequest& request, const Workspace& space, const std::array<int, 3>& size);
 
 /**
- * The part of a closed surface that is chosen, in the world, and its features. A cavity is kept with
- * its owner. A component touches a place if it is the innermost that encloses it, and no cavity, or
- * if a vertex of it or of its cavities is not farther than 2.5 delta. The arrays of a surface that
- * is given up are used. Cost: O(n log n) of triangles and places.
+ * Select the components of a closed surface, and compute their features. A cavity is kept with its
+ * owner. A component touches a position if it is the innermost component around it and not a
+ * cavity, or if a vertex of it or of its cavities is within 2.5 delta. Complexity: O(n log n) in the number
+ * of triangles and positions.
  */
 DescribedSurface DescribeSurface(SurfaceResult surface, const Workspace& space,
   const ComponentChoice& choice, Executor& executor);

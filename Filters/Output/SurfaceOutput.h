@@ -28,8 +28,8 @@ struct SurfaceDescription
 };
 
 /**
- * The chosen components of a surface in world coordinates, with all arrays that vtkDeformableSurface
- * documents. Where it is given up, each of its arrays is freed once it is in VTK's.
+ * Return the selected components in world coordinates with all arrays that vtkDeformableSurface
+ * documents. Each array of a moved surface is freed once it is copied.
  */
 vtkSmartPointer<vtkPolyData> MakePolyData(SurfaceResult given,
   const SurfaceDescription& description, const Workspace& space,

@@ -24,56 +24,56 @@ namespace volumic
 /** One level of an image. */
 struct ImageLevel
 {
-  vtkSmartPointer<vtkImageData> Image; ///< its place, and which of its voxels are blanked
+  vtkSmartPointer<vtkImageData> Image; ///< geometry and ghost array (blanked voxels)
   vtkSmartPointer<vtkDataArray> Voxels;
   double Unit = 0.0; ///< U_h, in the unit of the spacing
 };
 
-/** The levels of an image, level 0, the image itself, first. */
+/** The levels of an image. Level 0 is the image itself. */
 struct ImageLevels
 {
   std::vector<ImageLevel> Levels;
   double FactorBelow = 1.7320508075688772; ///< U_0 over the unit of level -1
-  bool IsComplete = true;                  ///< Else their making was stopped.
-  std::int64_t NaNs = 0;                   ///< voxels of level 0 that are NaN
-  std::string AboutNaNs;                   ///< what nobody has been told of them yet
+  bool IsComplete = true;                  ///< false: stopped before the last level
+  std::int64_t NaNs = 0;                   ///< number of NaN voxels of level 0
+  std::string AboutNaNs;                   ///< warning about them; empty if reported already
 
-  /** As many levels as these, by the same factor. */
+  /** Return the options for the same number of levels and the same reduction factor. */
   PyramidOptions Options() const;
 };
 
-/** How levels are made of an image. */
+/** How to compute the levels of an image. */
 struct LevelsOptions
 {
   PyramidOptions Pyramid;
-  ValueRange Range; ///< Levels, also level 0, are made of voxels folded by it (FoldVoxels).
+  ValueRange Range; ///< FoldVoxels() applies it to level 0 first.
   bool NaNIsBackground = true;
   int NumberOfThreads = 0;
 };
 
 /**
- * The levels as vtkImagePyramid has them. After a stop those that were finished are there.
+ * Compute the levels of an image, as vtkImagePyramid does. If `progress` returns false the levels
+ * that are finished are returned.
  * @param image    level 0; its arrays are shared
- * @param voxels   of it, one component
- * @param progress told the share that is done, and what is being done; false asks to stop
- * @throws std::invalid_argument as vtkImagePyramid reports.
+ * @param voxels   array of the image with one component
+ * @throws Refusal for invalid options or voxels
  */
 ImageLevels MakeImageLevels(vtkImageData* image, vtkDataArray* voxels,
   const LevelsOptions& options, const std::function<bool(double, const std::string&)>& progress);
 
 /**
- * The blocks of vtkImagePyramid's output as levels.
- * @param selection says which array holds the voxels (GetInputArrayInformation)
- * @throws std::invalid_argument naming a block that is not an image, has no such array, or whose
- *         size or place are not those of a level.
+ * Return the blocks of an output of vtkImagePyramid as levels.
+ * @param selection the array of the voxels (GetInputArrayInformation)
+ * @throws Refusal naming the block that is not an image, lacks the array, or has not the size or
+ *         position of a level
  */
 ImageLevels LevelsOfBlocks(
   vtkMultiBlockDataSet* blocks, vtkInformation* selection, bool nanIsBackground);
 
 /**
- * The levels of another array of the image: those of the levels' own arrays where all have one of
- * its name, else made of that of level 0.
- * @throws std::invalid_argument where there is no such array of one component
+ * Return the levels of another array of the image. They are computed from the array of level 0,
+ * unless all levels have an array of its name.
+ * @throws Refusal if level 0 has no such array with one component
  */
 ImageLevels LevelsOfArray(const ImageLevels& levels, vtkInformation* selection,
   int numberOfThreads, const std::function<bool(double, const std::string&)>& progress);
@@ -81,7 +81,7 @@ ImageLevels LevelsOfArray(const ImageLevels& levels, vtkInformation* selection,
 /** Return the names of the blocks of a pyramid's levels, and of level -1 if that is the finest. */
 std::vector<std::string> LevelNames(int numberOfLevels, int finest = 0);
 
-/** The levels as the blocks of vtkImagePyramid's output, with its field data. */
+/** Return the levels as the blocks of the output of vtkImagePyramid, with its field data. */
 vtkSmartPointer<vtkMultiBlockDataSet> BlocksOf(const ImageLevels& levels);
 
 /**

@@ -19,10 +19,7 @@
 
 namespace volumic
 {
-/**
- * The levels of an image as the core wants them. Errors are std::invalid_argument; messages name
- * the level and the way out.
- */
+/** The levels of an image for the core. All errors are a Refusal whose message names the level. */
 class PyramidLevels
 {
 public:
@@ -30,9 +27,9 @@ public:
   static constexpr int MinimumSize = 8;
 
   /**
-   * @param metric          which lengths the workspace has
-   * @param nanIsBackground off: Load() refuses voxels that are NaN
-   * @throws if the image is 2D or under MinimumSize along an axis.
+   * @param metric          metric of the computational space
+   * @param nanIsBackground false: Load() throws for NaN voxels
+   * @throws Refusal if the image is 2D or smaller than MinimumSize along an axis
    */
   PyramidLevels(const ImageLevels& levels, Metric metric, bool nanIsBackground = true);
 

@@ -13,11 +13,11 @@ class vtkDataObject;
 
 namespace volumic
 {
-/** What comes to a filter, and when it was changed last: the same as long as a run is valid. */
+/** The inputs of a filter with their modification times. A change invalidates the kept run. */
 using InputTimes = std::vector<std::pair<vtkDataObject*, vtkMTimeType>>;
 InputTimes InputTimesOf(vtkAlgorithm* filter);
 
-/** Whether what a filter has made of its inputs may be kept: not where data are released. */
+/** Return whether the filter may keep its run: not if data are released. */
 bool MayKeepRun(vtkAlgorithm* filter);
 }
 

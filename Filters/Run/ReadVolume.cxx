@@ -28,7 +28,7 @@ LevelsOptions OptionsAsSet(const SegmentationSettings& settings)
   return options;
 }
 
-/** Takes cells as points, and finds an iso-value that is not set. */
+/** Convert cell data to point data, and compute the iso-value if it is not set. */
 vtkSmartPointer<vtkImageData> CompleteImage(
   SegmentationRequest& request, vtkImageData* image, Volume& volume)
 {
@@ -90,14 +90,14 @@ ImageLevels ReadBlocks(const SegmentationRequest& request, const Progress& progr
   const SegmentationSettings& settings = request.Settings;
   ImageLevels levels = LevelsOfBlocks(vtkMultiBlockDataSet::SafeDownCast(request.Volume),
     request.Selection, settings.NaNIsBackground);
-  // Means of folded voxels are not the folded means.
+  // The mean of folded voxels differs from the folded mean.
   if (settings.Range().IsUsed())
   {
     LevelsOptions options = OptionsAsSet(settings);
     options.Pyramid = levels.Options();
     levels =
       MakeImageLevels(levels.Levels[0].Image, levels.Levels[0].Voxels, options, progress);
-    levels.AboutNaNs.clear(); // Image Pyramid has told of them.
+    levels.AboutNaNs.clear(); // Image Pyramid has reported them.
   }
   return levels;
 }
@@ -126,7 +126,7 @@ void ReadEdges(Volume& volume, const SegmentationRequest& request, const Progres
 
 Volume ReadVolume(SegmentationRequest& request, const Progress& progress)
 {
-  request.Settings.Range(); // Refused before anything is read.
+  request.Settings.Range(); // Check it before anything is read.
   Volume volume;
   if (vtkMultiBlockDataSet::SafeDownCast(request.Volume) && !request.Settings.OfImages)
   {

@@ -11,25 +11,26 @@
 
 namespace volumic
 {
-/** What messages about the voxels, and about the map of edges, begin with. */
+/** Prefixes of messages about the voxels and about the edge map. */
 constexpr const char* PlaceOfVoxels = "Input port 0: ";
 constexpr const char* PlaceOfEdges = "Input port 0, the map of edges: ";
 
-/** What input port 0 holds, as levels. */
+/** The data of input port 0 as levels. */
 struct Volume
 {
   ImageLevels Voxels;
-  ImageLevels Edges;        ///< of the map of edges, where the settings give it a weight
-  bool IsOfImage = false;   ///< The levels were made here, by EdgeLength if there is one.
-  std::string HintAtLabels; ///< what to tell if the voxels look like labels
+  ImageLevels Edges;        ///< of the edge map; none if its weight is 0
+  bool IsOfImage = false;   ///< The input was an image. EdgeLength is applied to the levels.
+  std::string HintAtLabels; ///< warning for voxels that look like labels; empty: none
 
   bool IsComplete() const { return this->Voxels.IsComplete && this->Edges.IsComplete; }
 };
 
 /**
- * Makes the levels of an image, or takes the blocks of a pyramid, and sets what the request's
- * settings find for them: the iso-value, the finest level. After a stop levels are missing.
- * @throws std::invalid_argument naming the port or the property
+ * Compute the levels of an image, or read the blocks of a pyramid. For an image set the automatic
+ * settings of the request: the iso-value, and the finest level of EdgeLength. The result is not
+ * complete if `progress` has returned false.
+ * @throws Refusal naming the port or the property
  */
 Volume ReadVolume(SegmentationRequest& request, const Progress& progress);
 }

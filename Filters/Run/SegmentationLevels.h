@@ -18,18 +18,19 @@
 namespace volumic
 {
 /**
- * The levels of a volume as a surface evolves on them: the voxels as attracting points bend them,
- * and the map of edges. Errors are std::invalid_argument; messages name the port or the property.
+ * The levels on which a surface evolves: the voxels, modified by attracting points, and the edge
+ * map.
+ * All errors are a Refusal whose message names the port or the property.
  *
- * A level is asked for from the coarsest on: what ReleaseCoarserThan() has let go of cannot be
- * loaded again. All is called on one thread; `threads` share the loops over voxels.
+ * Load the levels from the coarsest to the finest. Levels that ReleaseCoarserThan() has released
+ * cannot be loaded again. Call all methods on one thread.
  */
 class SegmentationLevels
 {
 public:
   /**
-   * Takes the points that the settings give a weight, too.
-   * @throws if a surface cannot evolve on them, or there is no such Metric.
+   * Read the attracting points, too.
+   * @throws Refusal if the volume is too small or a setting is out of range
    */
   SegmentationLevels(const SegmentationRequest& request, const Volume& volume);
 
@@ -38,35 +39,35 @@ public:
   const Workspace& GetWorkspace() const { return this->Voxels.GetWorkspace(); }
   void SetFactorBelowLevel0(double factor) { this->Voxels.SetFactorBelowLevel0(factor); }
 
-  /** Smallest and largest voxel of a level; the first is the larger one if none is valid. */
+  /** Return the range of the valid voxels of a level, in reverse order if none is valid. */
   std::array<double, 2> Range(int level) const;
 
   /**
-   * Whether a surface that starts at a level finds something that it is to hold there: with
-   * recovery a part that this would enclose, else one that is thick enough for it. Looks once at a
-   * level, so the options must be the same always.
+   * Return whether the object has a part at this level that a start can keep. With recovery it
+   * needs MinimumPartSize voxels, else it must be thick enough. The result of a level is cached, so the
+   * options must not change.
    */
   bool HoldsObject(int level, const SurfaceOptions& options) const;
 
-  /** The field of a level, whose voxels must be here still; valid until the next call. */
+  /** Return the field of a level that is not released. It is valid until the next call. */
   LevelImage Load(int level, const SurfaceOptions& options, Executor& threads);
 
   /**
-   * Lets go of the voxels of coarser levels (PyramidLevels::AllLevels: of all), and of what Load()
-   * gave last: what was asked of them stays known.
+   * Release the voxels of coarser levels (PyramidLevels::AllLevels: of all levels) and the field of
+   * the last Load(). Cached results remain.
    */
   void ReleaseCoarserThan(int level);
 
 private:
   void ReadPoints(const SegmentationRequest& request);
-  /** For LevelImage::Edges. @throws where the level has not the size of the voxels'. */
+  /** Return LevelImage::Edges. @throws Refusal if the sizes of edge map and voxels differ */
   VoxelValues LoadEdges(int level, const std::array<int, 3>& size, Executor& threads);
 
   PyramidLevels Voxels;
   std::unique_ptr<PointAttraction> Points; ///< null: none
-  std::unique_ptr<PyramidLevels> Edges;    ///< of the map of edges; null: none
-  std::vector<float> Bent;                 ///< the level's voxels as the points bend them
-  mutable std::map<int, bool> Holds;       ///< what HoldsObject() has found
+  std::unique_ptr<PyramidLevels> Edges;    ///< of the edge map; null: none
+  std::vector<float> Bent;                 ///< voxels of the level, modified by the points
+  mutable std::map<int, bool> Holds;       ///< cached results of HoldsObject()
 };
 }
 

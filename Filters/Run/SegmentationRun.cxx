@@ -18,7 +18,7 @@ namespace volumic
 {
 namespace
 {
-/** Null where the memory does not suffice for it: a run can do without. */
+/** Return null if memory is exhausted. The copy is optional. */
 std::unique_ptr<SurfaceAtRest> CopyIfRoom(const SurfaceAtRest& rest)
 {
   try
@@ -38,7 +38,7 @@ SegmentationRun::SegmentationRun(const SegmentationRequest& request, const Volum
   this->Settings.Check();
   SurfaceOptions& options = this->Settings.Options;
   options.RecoverLostParts = this->Settings.Recovery != RecoveryType::NoRecovery;
-  // What is above a range is more often within the object than not.
+  // Voxels above the range lie inside the object in most images.
   options.RecoverCavities = options.RecoverLostParts &&
     (this->Settings.Recovery == RecoveryType::RecoverObjectsAndCavities ||
       this->Settings.Range().IsUsed());
@@ -47,7 +47,7 @@ SegmentationRun::SegmentationRun(const SegmentationRequest& request, const Volum
   {
     this->ChooseEdgeLength();
   }
-  this->Request.Volume = nullptr; // Each level is let go when the surface has left it.
+  this->Request.Volume = nullptr; // A level is released after use.
 }
 
 void SegmentationRun::ChooseEdgeLength()
@@ -93,7 +93,7 @@ bool SegmentationRun::Renew(const SegmentationRequest& request)
   else
   {
     const int before = std::exchange(this->Choice, ChooseLevels(this->Levels, settings)).Coarsest;
-    // Where a run begins may depend on where it is to end; then nothing of the last one serves.
+    // The coarsest level may depend on the finest one. If it changes, restart.
     if (this->Choice.Coarsest != before)
     {
       if (!this->Levels.Pyramid().HasVoxels(this->Choice.Coarsest))
@@ -149,13 +149,13 @@ void SegmentationRun::Run(RunObserver& observer, double before)
 bool SegmentationRun::Next(RunObserver& observer, LevelMonitor& monitor, HostThreads& threads)
 {
   const int level = this->Reached - 1;
-  // What rests stays while a finer level is under way, which may be stopped.
+  // Kept in case the finer level is stopped.
   const std::unique_ptr<SurfaceAtRest> before =
     this->Request.MayGoOn && level < this->Choice.Coarsest ? CopyIfRoom(this->Rest) : nullptr;
   LevelOutcome outcome;
   if (monitor.BeginLevel(level))
   {
-    this->Finished.Forget(level); // Of a run that was stopped there.
+    this->Finished.Forget(level); // An earlier run may have been stopped there.
     this->Levels.ReleaseCoarserThan(level);
     const LevelImage image = this->Levels.Load(level, this->Settings.Options, threads);
     LevelTask task = this->TaskOf(level, image, threads);
@@ -243,7 +243,7 @@ void SegmentationRun::TakeSnapshot(
   {
     return;
   }
-  // Iterations come in sweeps: the end of that in which one is due.
+  // Surfaces exist at the end of a sweep of several iterations only.
   const bool isDue = iteration == 0 || iteration / interval > this->SnapshotLook / interval;
   this->SnapshotLook = iteration;
   SurfaceResult surface = isDue ? take() : SurfaceResult();
@@ -282,7 +282,7 @@ void SegmentationRun::KeepLevel(
     std::move(finished), std::move(outcome.Surface), this->Request.KeepsAll, threads);
   this->Rest.History.EndLevel();
   this->Reached = level;
-  // With recovery a finer level may find again what has vanished.
+  // With recovery a finer level may recover a vanished surface.
   this->GoesOn = reason == StopReason::Converged || reason == StopReason::LimitCycle ||
     reason == StopReason::IterationLimit ||
     (reason == StopReason::Vanished && this->Settings.Options.RecoverLostParts);

@@ -21,57 +21,54 @@ class vtkInformationVector;
 namespace volumic
 {
 /**
- * The run from the coarsest level to the finest: starts, evolves, divides. Its state is the list of
- * levels that it has finished, which give the outputs of vtkDeformableSurface. One that has ended at
- * a level can go on from there, as if it had never ended; one that was stopped, from the last level
- * at which the surface rested.
+ * The segmentation of a volume from the coarsest level to the finest. Its state is the list of
+ * finished levels, from which the outputs of vtkDeformableSurface are filled. A run that has ended
+ * can be resumed at the next finer level, and a stopped run at the last converged level. The result
+ * is the same as without interruption.
  *
- * One thread calls all of it, and is the one that tells the observer; others work within the loops
- * of HostThreads only.
+ * Call all methods on one thread. The observer is called on that thread, too.
  */
 class SegmentationRun
 {
 public:
-  /** @throws std::invalid_argument if the volume does not do or a setting is out of range. */
+  /** @throws Refusal if the volume is not suitable or a setting is out of range */
   SegmentationRun(const SegmentationRequest& request, const Volume& volume);
 
-  /** Whether it grades no level, or just the one at which another request ends. */
+  /** Return whether the graded level, if any, is the finest level of another request. */
   bool GradesFor(const SegmentationRequest& request) const
   {
     return !this->Settings.Grading.IsWanted() ||
       request.Settings.End.FinestLevel == this->Settings.End.FinestLevel;
   }
-  /** Whether what another one asks for needs no other level. */
+  /** Return whether the finished levels suffice for another request. */
   bool HasAll(const SegmentationRequest& request) const
   {
     return this->Finished.HasAtRest(this->EndOf(request.Settings.End));
   }
   /**
-   * For the next Run(), which is to end, and to put out, otherwise; with EdgeLength the finest
-   * level stays what was planned.
-   * @return whether that can be reached from here: of the finest level the image is not kept, and
-   *         levels that the surface has left are let go; else the run must be made anew
-   * @throws as ChoiceOf()
+   * Replace the request for the next Run(). With EdgeLength the planned finest level remains.
+   * @return false if a new run is necessary, because voxels or components that the request needs
+   *         are released
+   * @throws Refusal as ChoiceOf() does
    */
   bool Renew(const SegmentationRequest& request);
 
   /**
-   * Makes levels until that is there at which it is to end.
-   * After a stop the surface is what there is then, and marked so; it is empty where there is none
-   * yet. Another Run() takes up the level that was under way from its begin. After an exception the
-   * object is of no use any more.
-   * @param before share of the work that is done already
-   * @throws std::invalid_argument if settings and image do not fit, std::bad_alloc.
+   * Compute levels down to EndsAt(). A stopped run has the surface of that moment with its
+   * StopReason, or an empty one. Another Run() restarts the unfinished level. The object must not
+   * be used after an exception.
+   * @param before share of the work before this call
+   * @throws Refusal if settings and image do not match, std::bad_alloc, ScratchFull
    */
   void Run(RunObserver& observer, double before);
 
-  /** The level at which it is to end. */
+  /** Return the finest level of the request. */
   int EndsAt() const { return this->Choice.Last; }
-  /** The one after the finest at rest; where it was stopped before, the level to end at. */
+  /** Return the level after the finest converged one, or EndsAt() if that is not reached. */
   int NextLevel() const { return this->HasCome() ? this->Reached - 1 : this->EndsAt(); }
-  /** Whether Run() would go on from a level at rest: of the image itself only after a stop. */
+  /** Return whether Run() can compute a finer level. At level 0 only a stopped run can. */
   bool CanGoOn() const { return this->GoesOn && !(this->Reached <= 0 && this->HasCome()); }
-  /** Of one that cannot go on: all but the finished levels. */
+  /** Release everything but the finished levels, if CanGoOn() is false. */
   void LetGo();
 
   void FillOutputs(vtkInformationVector* outputs) const
@@ -86,39 +83,39 @@ public:
 
 private:
   bool HasCome() const { return this->Finished.HasAtRest(this->EndsAt()); }
-  /** The level at which a run ends that is to end so. */
+  /** Return the finest level of a request. */
   int EndOf(const SegmentationEnd& end) const;
-  /** With EdgeLength, of blocks: plans finest level, sampling ratio and factor below level 0. */
+  /** Apply EdgeLength to existing levels: finest level, sampling ratio, factor below level 0. */
   void ChooseEdgeLength();
-  /** Chooses the components that are put out. @return false where those were not all kept */
+  /** Select the components of the outputs. @return false if not all components were kept */
   bool ChooseComponents(const SegmentationRequest& request);
-  /** Forgets the finished levels; the next one is the coarsest. */
+  /** Discard the finished levels. The next one is the coarsest. */
   void Begin();
   /**
-   * Makes the level after that which the surface rests on. After a stop the surface is back there,
-   * if it was kept. @return false where it was stopped
+   * Compute the next level. If it is stopped, restore the surface of the level before if that was
+   * kept. @return false if it was stopped
    */
   bool Next(RunObserver& observer, LevelMonitor& monitor, HostThreads& threads);
-  /** What a level is to be; the image must outlive it. */
+  /** Return the task of a level. The image must outlive it. */
   LevelTask TaskOf(int level, const LevelImage& image, HostThreads& threads);
   LevelOutcome Evolve(LevelTask& task, LevelMonitor& monitor, HostThreads& threads);
-  /** With SnapshotInterval: keeps the surface at the end of the sweep in which one is due. */
+  /** Keep a snapshot at the end of a sweep, at the intervals of SnapshotInterval. */
   void TakeSnapshot(int level, int iteration, const std::function<SurfaceResult()>& take,
     HostThreads& threads);
   void KeepLevel(int level, LevelOutcome outcome, RunObserver& observer, HostThreads& threads);
-  /** Whether a preview that has come to this level must go on, as too much is missing. */
+  /** Return whether a preview must continue beyond a level because too much is missing. */
   bool PreviewMissesParts(int level) const;
 
-  SegmentationRequest Request; ///< Without the volume; SeedRadius in the workspace.
+  SegmentationRequest Request; ///< without the volume; SeedRadius in computational space
   SegmentationSettings& Settings = Request.Settings;
   SegmentationLevels Levels;
   LevelChoice Choice;
   bool HasBegun = false;
   FinishedLevels Finished;
-  SurfaceAtRest Rest; ///< at level Reached
+  SurfaceAtRest Rest; ///< converged surface of level Reached
   int Reached = 0;
-  bool GoesOn = false;  ///< It rests there, and is fit for a finer level.
-  int SnapshotLook = 0; ///< Iteration of the level at which the last snapshot could be taken.
+  bool GoesOn = false;  ///< A finer level can start from Rest.
+  int SnapshotLook = 0; ///< iteration of the last call of TakeSnapshot()
 };
 }
 

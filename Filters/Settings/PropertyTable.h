@@ -12,12 +12,12 @@
 #include <vector>
 
 /**
- * The properties of vtkDeformableSurface, a line each: its name, its type for Set and Get, where
- * SegmentationSettings has it with its default, and whether a Set needs a new run; else only where
- * the run ends changes, or its outputs, and what is kept of the last run serves.
+ * The properties of vtkDeformableSurface, one per line: name, type of Set and Get, member of
+ * SegmentationSettings with the default, and whether a change needs a new run. Other changes affect
+ * the finest level or the outputs only, and reuse the kept run.
  *
- * Of the lines PrintSelf() and, but for those that are WRITTEN out, Set and Get are MADE. That all
- * Set methods have a line is tested (Testing/Python/test_reference.py).
+ * PrintSelf() is generated from all lines, Set and Get from the lines with MADE.
+ * Testing/Python/test_reference.py checks that each Set method has a line.
  */
 #define VOLUMIC_SURFACE_PROPERTIES(MADE, WRITTEN)                               \
   MADE(SelectedComponent, int, SelectedComponent, true)                         \
@@ -133,19 +133,20 @@ void PrintSetting(std::ostream& os, const Setting& setting)
     }                                                                            \
   }
 
-// A property that is deprecated and has no effect: one warning where it is set to more than nothing.
-#define VOLUMIC_DEPRECATED(Class, name, type, text)                 \
-  type Class::Get##name()                                           \
-  {                                                                 \
-    return this->Internals->name;                                   \
-  }                                                                 \
-  void Class::Set##name(type value)                                 \
-  {                                                                 \
-    if (value != type() && this->Internals->name == type())         \
-    {                                                               \
+// Set and Get of a deprecated property without effect. Set reports a warning for another value than
+// the default.
+#define VOLUMIC_DEPRECATED(Class, name, type, text)                     \
+  type Class::Get##name()                                               \
+  {                                                                     \
+    return this->Internals->name;                                       \
+  }                                                                     \
+  void Class::Set##name(type value)                                     \
+  {                                                                     \
+    if (value != type() && this->Internals->name == type())             \
+    {                                                                   \
       vtkWarningMacro(#name " is deprecated and has no effect. " text); \
-    }                                                               \
-    this->Internals->name = value;                                  \
+    }                                                                   \
+    this->Internals->name = value;                                      \
   }
 
 #endif

@@ -143,21 +143,21 @@ struct SegmentationSettings
   }
 };
 
-/** What a run is asked for: settings and inputs. */
+/** The settings and inputs of a run. */
 struct SegmentationRequest
 {
-  /** As set, but for what was found for the image, and where a step on the way ends. */
+  /** The properties with automatic values resolved, and with the finest level of a step. */
   SegmentationSettings Settings;
 
   vtkSmartPointer<vtkDataObject> Volume;         ///< input port 0
   vtkSmartPointer<vtkPolyData> InitialSurface;   ///< input port 1, may be missing
   vtkSmartPointer<vtkPolyData> AttractingPoints; ///< input port 2, may be missing
   vtkSmartPointer<vtkInformation> Selection; ///< of the voxels, as GetInputArrayInformation()
-  vtkInformation* EdgeSelection = nullptr;   ///< of the map of edges; without effect at weight 0
+  vtkInformation* EdgeSelection = nullptr;   ///< of the edge map; ignored at weight 0
 
-  bool IsStep = false;   ///< Another run goes on from it: what is wrong with the surface may change.
-  bool MayGoOn = false;  ///< After a stop, too: what rests stays while a finer level is under way.
-  bool KeepsAll = false; ///< All components stay, for who may choose others.
+  bool IsStep = false;   ///< A finer level follows, so warnings about the surface would be early.
+  bool MayGoOn = false;  ///< Keep the converged surface while a finer level evolves.
+  bool KeepsAll = false; ///< Keep all components for another selection.
 };
 }
 

@@ -28,7 +28,7 @@ struct SurfaceResult : IndexedSurface
   LargeVector<float> Thickness; ///< With thin parts, per point, workspace; else empty.
   std::optional<Fit> FitToTolerance; ///< With a tolerance, from the time on when it rested.
 
-  /** Calls visit(list) for each of the lists that have an entry per point, or are empty. */
+  /** Call visit(list) for each list with one entry per point (some are empty). */
   template <typename Visit>
   void VisitPoints(const Visit& visit)
   {
