@@ -133,8 +133,7 @@ void PrintSetting(std::ostream& os, const Setting& setting)
     }                                                                            \
   }
 
-// Set and Get of a deprecated property without effect. Set reports a warning for another value than
-// the default.
+// Set and Get of a deprecated property without effect. Set reports a warning.
 #define VOLUMIC_DEPRECATED(Class, name, type, text)                     \
   type Class::Get##name()                                               \
   {                                                                     \
