@@ -129,6 +129,10 @@ TEST_P(RealScans, GiveATrustworthySurfaceAtEveryLevel)
   const TriangleSurface indexed = ToTriangleSurface(finest, padded);
   EXPECT_GT(JudgeReach(indexed, volume).Share, scan.LeastReach);
   EXPECT_LT(JudgeIsoDistance(indexed, volume).MeanAtVertices, scan.LargestDistance);
+  filter->SetFinestLevel(1);
+  filter->SetKeepComponentsToLargestComponent();
+  filter->Update();
+  EXPECT_EQ(FieldOf(filter->GetOutput(), "Genus"), FieldOf(filter->GetOutput(), "ComponentGenus"));
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, RealScans,
