@@ -105,10 +105,9 @@ TEST(DeformableSurfaceOutputs, WritesARowOfHistoryPerIteration)
   }
   EXPECT_GT(history->GetValueByName(0, "KineticEnergy").ToDouble(), 0.0);
   EXPECT_EQ(history->GetValueByName(0, "Level").ToInt(), 2);
-  EXPECT_EQ(history->GetValueByName(iterations - 1, "Level").ToInt(), 0);
 }
 
-TEST(DeformableSurfaceOutputs, ProfileWarnsAndHasNoEffect)
+TEST(DeformableSurfaceOutputs, ProfileIsDeprecated)
 {
   vtkNew<vtkDeformableSurface> filter;
   const MessagesOf warnings(filter, vtkCommand::WarningEvent);
