@@ -21,7 +21,6 @@ endfunction ()
 
 if (PARAVIEW_USE_QT)
   volumic_panel_widget(WIDGET_DECORATOR Summary pqSummaryDecorator)
-  volumic_panel_widget(WIDGET_DECORATOR Unit pqUnitDecorator)
   volumic_panel_widget(WIDGET_DECORATOR ValueRange pqValueRangeDecorator)
   volumic_panel_widget(WIDGET LabelTable pqLabelTablePropertyWidget)
   volumic_panel_widget(WIDGET PointList pqPointListPropertyWidget)

@@ -83,9 +83,6 @@ class VolumeWindowTest(window.WindowTestCase):
     def test_menu_panel_and_apply(self):
         path, save = self.saved_state("volume.pvsm")
         levels = f"{PROPERTIES}/NumberOfLevels/IntRangeWidget/LineEdit"
-        units = {"TimeLimit": "s", "EdgeLength": "world units",
-                 "Tolerance": "world units", "MaximumEdgeLength": "world units",
-                 "SeedRadius": "world units", "MinimumPartSize": "voxels"}
         self.play(VOLUME + [
             FILTER, gui.pause(300),
             gui.check(ISO_VALUE, "text", iso_of_the_wavelet()),
@@ -103,8 +100,6 @@ class VolumeWindowTest(window.WindowTestCase):
             window.as_wide_as_the_panel(),
             *[window.shown(name, True) for name in BASIC + ADVANCED],
             window.shown("SeedRadius", False),
-            *[gui.check(f"{PROPERTIES}/{name}/Unit", "text", unit)
-              for name, unit in units.items()],
             window.shown("ScratchDirectory/FileChooser", True),
             # Of 21 voxels along each axis: 12, and if that is allowed 6 and 3.
             window.last_level("CoarsestLevel", 1),
