@@ -24,7 +24,6 @@ if (PARAVIEW_USE_QT)
   volumic_panel_widget(WIDGET_DECORATOR ValueRange pqValueRangeDecorator)
   volumic_panel_widget(WIDGET LabelTable pqLabelTablePropertyWidget)
   volumic_panel_widget(WIDGET PointList pqPointListPropertyWidget)
-  volumic_panel_widget(WIDGET WideMenu pqWideMenuPropertyWidget)
   list(APPEND volumic_window_sources
     Widgets/HistogramWidget.cxx Widgets/HistogramWidget.h
     Widgets/LabelBelow.cxx Widgets/LabelBelow.h
