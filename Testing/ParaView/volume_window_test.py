@@ -89,7 +89,6 @@ class VolumeWindowTest(window.WindowTestCase):
             *[window.shown(name, True) for name in BASIC],
             *[window.shown(name, False) for name in ADVANCED],
             window.as_wide_as_the_panel(), window.value_range(*range_of_the_wavelet()),
-            window.last_level("FinestLevel", 1),
             # In the default panel as well.
             window.shown("MinimumComponentVolume", False),
             choose("KeepComponents", "Large Ones"), gui.pause(300),
@@ -101,13 +100,7 @@ class VolumeWindowTest(window.WindowTestCase):
             *[window.shown(name, True) for name in BASIC + ADVANCED],
             window.shown("SeedRadius", False),
             window.shown("ScratchDirectory/FileChooser", True),
-            # Of 21 voxels along each axis: 12, and if that is allowed 6 and 3.
-            window.last_level("CoarsestLevel", 1),
-            gui.event(f"{PROPERTIES}/MinimumLevelSize/LineEdit0", "set_string", "3"),
-            gui.pause(300), window.last_level("CoarsestLevel", 3),
-            window.last_level("FinestLevel", 3),
             gui.event(levels, "set_string", "3"), gui.pause(300),
-            window.last_level("CoarsestLevel", 2), window.last_level("FinestLevel", 2),
             window.shown("MinimumLevelSize", False)], "volume-applied")
         state = window.proxies_of(path)
         self.assertEqual(state.count("VolumicSurfaceRepresentation"), 1)

@@ -125,11 +125,6 @@ def shown(property_, yes):
     return gui.check(f"{PROPERTIES}/{property_}", "visible", "true" if yes else "false")
 
 
-def last_level(property_, level):
-    """Fails the session unless the slider of a property of levels ends there."""
-    return gui.check(f"{PROPERTIES}/{property_}/IntRangeWidget", "maximum", str(level))
-
-
 def value_range(low, high):
     """Fails the session unless this is the range below Iso Value."""
     return gui.check(f"{PROPERTIES}/IsoValue/ValueRange", "text",
