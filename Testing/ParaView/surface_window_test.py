@@ -31,6 +31,10 @@ from paraview import simple
 display = simple.GetDisplayProperties(simple.GetActiveSource(), simple.GetActiveView())
 print("Colour:", [round(float(c), 3) for c in display.DiffuseColor])
 """
+COLOUR_THE_SURFACE = """
+from paraview import simple
+simple.GetDisplayProperties().DiffuseColor = [0.5, 0.25, 0]
+"""
 
 
 # Runs in the window: an image whose second array has several components.
@@ -142,14 +146,15 @@ class SurfaceWindowTest(window.WindowTestCase):
 
     def test_what_is_made_of_it_keeps_its_colour(self):
         tell = self.session.add_code(TELL_THE_COLOUR)
+        colour = self.session.add_code(COLOUR_THE_SURFACE)
 
         def made(filter_):
             return [filter_of_the_menu(filter_, "Alphabetical"), APPLY, gui.pause(300), tell]
         self.play(VOLUME + [
-            SURFACE, APPLY, *made("Clip"), window.in_the_pipeline(0, 0), *made("Threshold"),
+            SURFACE, APPLY, colour, *made("Clip"), window.in_the_pipeline(0, 0), *made("Threshold"),
             window.in_the_pipeline(0), *made("Contour")], "surface-clipped")
         self.assertEqual(re.findall(r"Colour: (\[.*\])", self.session.output),
-                         ["[0.89, 0.85, 0.76]"] * 2 + ["[1.0, 1.0, 1.0]"])
+                         ["[0.5, 0.25, 0.0]"] * 2 + ["[1.0, 1.0, 1.0]"])
 
     def test_component(self):
         of_scalar, of_magnitude, of_y = iso_values()

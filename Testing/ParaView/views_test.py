@@ -8,7 +8,7 @@ from paraview import simple
 import plugin_testing as testing
 import view_testing as views
 
-SURFACE, LEVELS, HISTORY, SNAPSHOTS = range(4)
+LEVELS, SNAPSHOTS = 1, 3
 
 
 def ball(size, radius, centre=0.0):
@@ -37,26 +37,6 @@ class ColoursTest(testing.PluginTestCase):
         simple.Render(self.view)
         return self.display.LookupTable
 
-    def test_residual_diverges_from_zero(self):
-        colours = self.coloured_by("Residual", "POINTS")
-        quantile = self.filter.FieldData["ResidualQuantile"].GetRange()[0]
-        low, middle, high = colours.RGBPoints[0::4]
-        self.assertEqual((low, middle, high), (-quantile, 0.0, quantile))
-        self.assertGreater(quantile, 0.0)
-        self.assertEqual(colours.ColorSpace, "Diverging")
-        views.picture_of(self.view, "colours-residual.png")
-        # It follows the data...
-        self.filter.FinestLevel = 1
-        simple.Render(self.view)
-        coarse = self.filter.FieldData["ResidualQuantile"].GetRange()[0]
-        self.assertNotEqual(coarse, quantile)
-        self.assertEqual(list(colours.RGBPoints[0::4]), [-coarse, 0.0, coarse])
-        # ... until it is edited.
-        colours.RescaleTransferFunction(-7.0, 7.0)
-        self.filter.FinestLevel = 0
-        simple.Render(self.view)
-        self.assertEqual(colours.RGBPoints[0], -7.0)
-
     def test_components_have_a_colour_each(self):
         colours = self.coloured_by("Component", "CELLS")
         self.assertTrue(colours.InterpretValuesAsCategories)
@@ -82,12 +62,12 @@ class ColoursTest(testing.PluginTestCase):
         views.picture_of(self.view, "colours-many-components.png")
 
     def test_colours_of_others_stay_as_they_are(self):
-        other = simple.Calculator(simple.Wavelet(), ResultArrayName="Residual", Function="RTData")
+        other = simple.Calculator(simple.Wavelet(), ResultArrayName="Component", Function="RTData")
         display = simple.Show(other, self.view)
         display.SetRepresentationType("Surface")
-        simple.ColorBy(display, ("POINTS", "Residual"))
+        simple.ColorBy(display, ("POINTS", "Component"))
         before = list(display.LookupTable.RGBPoints)
-        self.coloured_by("Residual", "POINTS")
+        self.coloured_by("Component", "CELLS")
         self.assertNotEqual(display.LookupTable, self.display.LookupTable)
         self.assertEqual(list(display.LookupTable.RGBPoints), before)
 
@@ -136,37 +116,3 @@ class BlocksTest(testing.PluginTestCase):
         self.assertEqual(len(self.shown(display)), 1)
         self.assertRegex(self.shown(display)[0], r"Level 0, iteration \d+")
         self.assertGreater(views.drawn(views.picture_of(view, "snapshots-last.png")), 1000)
-
-
-class UnfinishedTest(testing.PluginTestCase):
-    """A surface that was stopped says so in the view, as long as it is shown."""
-
-    def text(self, name):
-        """How many pixels of the dark red behind the text there are in the upper left corner."""
-        simple.Render(self.view)
-        corner = views.picture_of(self.view, f"unfinished-{name}.png")[-60:, :400].astype(int)
-        return int(((corner[..., 0] > 110) & (corner[..., 1:].max(axis=2) < 70)).sum())
-
-    def test_text(self):
-        filter_ = simple.VolumetoSurface(simple.Wavelet(WholeExtent=[-20, 20] * 3), IsoValue=150.0)
-        self.view = views.new_view("RenderView", (600, 400))
-        algorithm = filter_.GetClientSideObject()
-        stop = algorithm.AddObserver("ProgressEvent", lambda caller, event: caller.SetAbortExecute(
-            int("Level 0, iteration" in (caller.GetProgressText() or ""))))
-        display = simple.Show(filter_, self.view)
-        simple.ResetCamera(self.view)
-        self.assertGreater(self.text("cancelled"), 500)
-        self.assertEqual(testing.field(testing.fetch(filter_), "StopReason"), "cancelled")
-        display.Visibility = 0
-        self.assertEqual(self.text("hidden"), 0)
-        display.Visibility = 1
-        self.assertGreater(self.text("shown"), 500)
-        algorithm.RemoveObserver(stop)
-        filter_.IsoValue = 151.0
-        self.assertEqual(self.text("finished"), 0)
-        filter_.TimeLimit = 1e-9
-        filter_.IsoValue = 152.0
-        self.assertGreater(self.text("none"), 500)
-        del display
-        simple.Delete(filter_)
-        self.assertEqual(self.text("deleted"), 0)
