@@ -9,28 +9,21 @@
 #include <algorithm>
 #include <cmath>
 
-namespace volumic
+namespace
 {
-//------------------------------------------------------------------------------
 void SetNumbers(vtkSMProxy* colors, const char* property, const std::vector<double>& values)
 {
   vtkSMPropertyHelper(colors, property, true)
     .Set(values.data(), static_cast<unsigned int>(values.size()));
 }
+}
 
+namespace volumic
+{
 //------------------------------------------------------------------------------
 bool HasGotItsRange(vtkSMProxy* colors)
 {
   return vtkSMPropertyHelper(colors, "ScalarRangeInitialized", true).GetAsInt() != 0;
-}
-
-//------------------------------------------------------------------------------
-void SetReady(vtkSMProxy* colors)
-{
-  vtkSMPropertyHelper(colors, "AutomaticRescaleRangeMode", true)
-    .Set(static_cast<int>(vtkSMTransferFunctionManager::NEVER));
-  vtkSMPropertyHelper(colors, "ScalarRangeInitialized", true).Set(1);
-  colors->UpdateVTKObjects();
 }
 
 //------------------------------------------------------------------------------
@@ -50,7 +43,11 @@ void SetCategories(vtkSMProxy* colors, const std::vector<ColorCategory>& categor
   SetNumbers(colors, "NanColor", { ColorOfOthers.begin(), ColorOfOthers.end() });
   vtkSMPropertyHelper(colors, "AnnotationsInitialized", true).Set(1);
   vtkSMPropertyHelper(colors, "IndexedLookup").Set(1);
-  SetReady(colors);
+  // ParaView neither rescales it at Apply nor looks for values by itself.
+  vtkSMPropertyHelper(colors, "AutomaticRescaleRangeMode", true)
+    .Set(static_cast<int>(vtkSMTransferFunctionManager::NEVER));
+  vtkSMPropertyHelper(colors, "ScalarRangeInitialized", true).Set(1);
+  colors->UpdateVTKObjects();
 }
 
 //------------------------------------------------------------------------------

@@ -20,13 +20,8 @@ struct ColorCategory
   std::array<double, 3> Color;
 };
 
-void SetNumbers(vtkSMProxy* colors, const char* property, const std::vector<double>& values);
-
 /** Whether somebody, here, in ParaView or at it, has given it a range or categories. */
 bool HasGotItsRange(vtkSMProxy* colors);
-
-/** ParaView shall neither rescale it at Apply nor look for values by itself. */
-void SetReady(vtkSMProxy* colors);
 
 constexpr std::array<double, 3> ColorOfOthers = { 0.5, 0.5, 0.5 };
 

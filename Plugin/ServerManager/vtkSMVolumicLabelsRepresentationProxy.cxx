@@ -55,13 +55,6 @@ vtkSMVolumicLabelsRepresentationProxy::vtkSMVolumicLabelsRepresentationProxy() =
 vtkSMVolumicLabelsRepresentationProxy::~vtkSMVolumicLabelsRepresentationProxy() = default;
 
 //------------------------------------------------------------------------------
-void vtkSMVolumicLabelsRepresentationProxy::StartPresets()
-{
-  this->Superclass::StartPresets();
-  this->IsWaitingForLabels = true;
-}
-
-//------------------------------------------------------------------------------
 void vtkSMVolumicLabelsRepresentationProxy::ViewUpdated(vtkSMProxy* view)
 {
   // Before this, what is known of the data is that of the run before.
@@ -102,20 +95,20 @@ void vtkSMVolumicLabelsRepresentationProxy::ChooseLabels(
     std::strcmp(array.GetInputArrayNameToProcess(), "Label") == 0 &&
     array.GetInputArrayAssociation() == vtkDataObject::FIELD;
   if (!data->GetArrayInformation("Label", vtkDataObject::CELL) ||
-    !(this->IsWaitingForLabels || isByBlock))
+    !(this->IsNew || isByBlock))
   {
     return;
   }
   const bool isMerged = this->IsMerged(data);
-  if (this->IsWaitingForLabels || isMerged)
+  if (this->IsNew || isMerged)
   {
     this->SetScalarColoring("Label", isMerged ? vtkDataObject::CELL : vtkDataObject::FIELD);
   }
-  if (this->IsWaitingForLabels && this->Wanted.size() <= MostInLegend)
+  if (this->IsNew && this->Wanted.size() <= MostInLegend)
   {
     this->SetScalarBarVisibility(view, true);
   }
-  this->IsWaitingForLabels = false;
+  this->IsNew = false;
 }
 
 //------------------------------------------------------------------------------
@@ -173,6 +166,5 @@ void vtkSMVolumicLabelsRepresentationProxy::GiveToOthers(
 void vtkSMVolumicLabelsRepresentationProxy::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "IsWaitingForLabels: " << this->IsWaitingForLabels << "\n";
   os << indent << "Given: " << this->Given.size() << " categories\n";
 }

@@ -29,7 +29,6 @@ public:
   vtkTypeMacro(vtkSMVolumicLabelsRepresentationProxy, vtkSMVolumicSurfaceRepresentationProxy);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  void StartPresets() override;
   void ViewUpdated(vtkSMProxy* view) override;
 
 protected:
@@ -54,7 +53,6 @@ private:
   void GiveCategories(vtkSMProxy* colors, std::vector<volumic::ColorCategory> wanted);
   void GiveToOthers(const std::vector<volumic::ColorCategory>& wanted);
 
-  bool IsWaitingForLabels = false;
   std::vector<volumic::ColorCategory> Wanted; ///< those of the data
   std::vector<volumic::ColorCategory> Given;         ///< what was set here last
   std::vector<volumic::ColorCategory> GivenToOthers; ///< likewise, of the map that is shared

@@ -18,7 +18,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstring>
 #include <string>
 #include <vector>
@@ -80,6 +79,10 @@ void vtkSMVolumicSurfaceRepresentationProxy::CreateVTKObjects()
   this->Superclass::CreateVTKObjects();
   if (isCreatedNow && this->ObjectsCreated)
   {
+    if (this->IsNew)
+    {
+      vtkSMPropertyHelper(this, "UseSeparateColorMap", true).Set(1);
+    }
     this->AddObserver(vtkCommand::PropertyModifiedEvent, this,
       &vtkSMVolumicSurfaceRepresentationProxy::OnPropertyModified);
   }
@@ -93,10 +96,6 @@ void vtkSMVolumicSurfaceRepresentationProxy::OnPropertyModified(
   {
     this->AdaptColors();
   }
-  else if (name && std::strcmp(static_cast<const char*>(name), "Visibility") == 0)
-  {
-    this->Text.Hide(); // until the view is up to date
-  }
 }
 
 //------------------------------------------------------------------------------
@@ -105,12 +104,14 @@ void vtkSMVolumicSurfaceRepresentationProxy::ViewUpdated(vtkSMProxy* view)
   this->Superclass::ViewUpdated(view);
   this->AdaptColors();
   this->ChooseBlock();
-  vtkPVDataInformation* data = this->GetInputInformation();
-  const bool isShown = data && vtkSMPropertyHelper(this, "Visibility").GetAsInt() != 0;
-  this->Text.Show(view,
-    isShown
-      ? volumic::TellUnfinished(data, vtkSMPropertyHelper(this, "Input", true).GetAsProxy())
-      : "");
+}
+
+//------------------------------------------------------------------------------
+int vtkSMVolumicSurfaceRepresentationProxy::LoadXMLState(
+  vtkPVXMLElement* element, vtkSMProxyLocator* locator)
+{
+  this->IsNew = false;
+  return this->Superclass::LoadXMLState(element, locator);
 }
 
 //------------------------------------------------------------------------------
@@ -151,43 +152,10 @@ void vtkSMVolumicSurfaceRepresentationProxy::AdaptColors()
 void vtkSMVolumicSurfaceRepresentationProxy::AdaptColorsOf(
   const std::string& array, vtkSMProxy* colors, vtkPVDataInformation* data)
 {
-  if (array == "Residual")
-  {
-    this->AdaptResidualColors(colors, data);
-  }
-  else if (array == "Component")
+  if (array == "Component")
   {
     this->AdaptComponentColors(colors, data);
   }
-  else if (array == "Contact" && !volumic::HasGotItsRange(colors))
-  {
-    volumic::SetCategories(
-      colors, { { "0", "none", ComponentColors[0] }, { "1", "contact", { 0.84, 0.15, 0.16 } } });
-  }
-}
-
-//------------------------------------------------------------------------------
-void vtkSMVolumicSurfaceRepresentationProxy::AdaptResidualColors(
-  vtkSMProxy* colors, vtkPVDataInformation* data)
-{
-  vtkPVArrayInformation* quantile =
-    data->GetArrayInformation("ResidualQuantile", vtkDataObject::FIELD);
-  double range = quantile ? quantile->GetComponentRange(0)[1] : 0.0;
-  range = std::isfinite(range) && range > 0.0 ? range : 1.0;
-  vtkSMPropertyHelper points(colors, "RGBPoints");
-  const unsigned int size = points.GetNumberOfElements();
-  const bool isOurs = size == 12 && points.GetAsDouble(0) == -this->ResidualRange &&
-    points.GetAsDouble(8) == this->ResidualRange;
-  if (range == this->ResidualRange || (volumic::HasGotItsRange(colors) && !isOurs))
-  {
-    return;
-  }
-  // Both ends of ParaView's own "Cool to Warm", and nothing at 0.
-  volumic::SetNumbers(colors, "RGBPoints",
-    { -range, 0.23, 0.30, 0.75, 0.0, 0.87, 0.87, 0.87, range, 0.71, 0.02, 0.15 });
-  vtkSMPropertyHelper(colors, "ColorSpace").Set("Diverging");
-  this->ResidualRange = range;
-  volumic::SetReady(colors);
 }
 
 //------------------------------------------------------------------------------
@@ -250,19 +218,12 @@ std::string vtkSMVolumicSurfaceRepresentationProxy::FindBlockToShow()
 }
 
 //------------------------------------------------------------------------------
-void vtkSMVolumicSurfaceRepresentationProxy::StartPresets()
-{
-  this->IsChoosingBlock = true;
-  this->ChooseBlock();
-}
-
-//------------------------------------------------------------------------------
 void vtkSMVolumicSurfaceRepresentationProxy::ChooseBlock()
 {
   vtkSMPropertyHelper selectors(this, "BlockSelectors", true);
   // Other blocks than those chosen here, or given by ParaView, are the user's choice.
   const std::string given = this->ChosenBlock.empty() ? "/" : this->ChosenBlock;
-  if (!this->IsChoosingBlock || selectors.GetNumberOfElements() != 1 ||
+  if (!this->IsNew || selectors.GetNumberOfElements() != 1 ||
     selectors.GetAsString(0) != given)
   {
     return;
@@ -280,7 +241,6 @@ void vtkSMVolumicSurfaceRepresentationProxy::ChooseBlock()
 void vtkSMVolumicSurfaceRepresentationProxy::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "ResidualRange: " << this->ResidualRange << "\n";
   os << indent << "LastComponent: " << this->LastComponent << "\n";
   os << indent << "ChosenBlock: " << this->ChosenBlock << "\n";
 }

@@ -3,7 +3,7 @@
 #include "pqSummaryDecorator.h"
 
 #include "LabelBelow.h"
-#include "UnfinishedText.h"
+#include "SurfaceSources.h"
 
 #include <pqApplicationCore.h>
 #include <pqPropertyWidget.h>

@@ -6,6 +6,9 @@
 #include <pqPipelineFilter.h>
 #include <pqPropertiesPanel.h>
 
+#include <vtkDataObject.h>
+#include <vtkPVArrayInformation.h>
+#include <vtkPVDataInformation.h>
 #include <vtkSMProxy.h>
 
 #include <QString>
@@ -25,6 +28,23 @@ bool IsOfSurface(pqPipelineSource* source)
   auto* filter = qobject_cast<pqPipelineFilter*>(source);
   return GivesSurfaces(source) ||
     (filter && filter->getInput(0) && IsOfSurface(filter->getInput(0)));
+}
+
+//------------------------------------------------------------------------------
+std::string WhyUnfinished(vtkPVDataInformation* surfaces)
+{
+  // Of blocks there is one each.
+  vtkPVArrayInformation* reasons =
+    surfaces->GetArrayInformation("StopReason", vtkDataObject::FIELD);
+  for (int i = 0; reasons && i < reasons->GetNumberOfStringValues(); ++i)
+  {
+    const std::string reason = reasons->GetStringValue(i);
+    if (reason == "cancelled" || reason == "time limit")
+    {
+      return reason;
+    }
+  }
+  return "";
 }
 
 //------------------------------------------------------------------------------

@@ -5,8 +5,11 @@
 
 #include <QList>
 
+#include <string>
+
 class pqPipelineSource;
 class pqPropertiesPanel;
+class vtkPVDataInformation;
 
 namespace volumic
 {
@@ -15,6 +18,9 @@ bool GivesSurfaces(pqPipelineSource* source);
 
 /** Whether it is one, or comes after one. */
 bool IsOfSurface(pqPipelineSource* source);
+
+/** The StopReason of surfaces whose run was stopped; empty for those of a finished run. */
+std::string WhyUnfinished(vtkPVDataInformation* surfaces);
 
 /** Those of the window, which has none yet when a plugin is loaded at the start. */
 QList<pqPropertiesPanel*> PropertiesPanels();

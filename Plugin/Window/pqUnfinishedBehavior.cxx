@@ -3,7 +3,6 @@
 #include "pqUnfinishedBehavior.h"
 
 #include "SurfaceSources.h"
-#include "UnfinishedText.h"
 
 #include <pqApplicationCore.h>
 #include <pqPropertiesPanel.h>

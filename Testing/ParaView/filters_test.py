@@ -10,7 +10,6 @@ import plugin_testing as testing
 from plugin_testing import points
 
 SURFACE, LEVELS, HISTORY, SNAPSHOTS = range(4)
-FOUR_CURVES = {"Seconds", "KineticEnergy", "MeanEdgeLength", "Vertices"}
 SIZE, RADIUS, DARK, BRIGHT = 32, 10.0, 20.0, 220.0
 CENTRE = numpy.full(3, (SIZE - 1) / 2)
 
@@ -89,33 +88,18 @@ class SurfaceTest(testing.PluginTestCase):
         self.assertEqual(points(testing.fetch(of_cells)).tobytes(),
                          points(testing.fetch(of_points)).tobytes())
 
-    def test_displays_where_people_write_a_comma(self):
-        """The numbers of the plugin's XML have points in every country."""
-        with testing.comma_locale() as found:
-            if not found:
-                self.skipTest("there is no locale with a comma, and localedef makes none")
-            view = simple.CreateView("RenderView")
-            display = simple.Show(simple.VolumetoSurface(self.ball), view)
-            numpy.testing.assert_allclose(display.DiffuseColor, (0.89, 0.85, 0.76))
-            self.assertAlmostEqual(display.Specular, 0.15)
-
     def test_displays(self):
         filter_ = simple.VolumetoSurface(self.ball)
         view = simple.CreateView("RenderView")
         for port in (SURFACE, LEVELS, SNAPSHOTS):
             display = simple.Show(simple.OutputPort(filter_, port), view)
             self.assertEqual(display.Representation, "Surface")
-            red, _, blue = display.DiffuseColor
-            self.assertGreater(red, blue, "bone")
+            self.assertTrue(display.UseSeparateColorMap)
             self.assertFalse(display.ColorArrayName[1])
-        chart = simple.CreateView("VolumicHistoryView")
-        display = simple.Show(simple.OutputPort(filter_, HISTORY), chart)
-        self.assertEqual(set(display.SeriesVisibility), FOUR_CURVES)
-        self.assertEqual(display.XArrayName, "Iteration")
-        self.assertFalse(display.UseIndexForXAxis)
-        self.assertTrue(chart.LeftAxisLogScale)
-        # Where no curve of a run from coarse to fine is.
-        self.assertEqual(chart.LegendLocation, "BottomRight")
+        # ParaView's own chart draws the table.
+        curves = simple.Show(simple.PlotData(simple.OutputPort(filter_, HISTORY)),
+                             simple.CreateView("XYChartView"))
+        self.assertIn("Vertices", curves.SeriesVisibility)
 
     def test_abort_and_the_next_apply(self):
         """By the button of newer ParaViews."""

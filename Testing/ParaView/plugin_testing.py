@@ -2,15 +2,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the tests of the plugin share: loading it, images to filter, and reading what came out."""
 
-import contextlib
 import ctypes
 import importlib
-import locale
 import os
 import signal
-import subprocess
 import sys
-import tempfile
 import unittest
 
 import numpy
@@ -190,25 +186,6 @@ class PluginTestCase(unittest.TestCase):
             output = fetch(filter_)
         self.assertEqual(messages.text.count("ERROR: "), 1, messages.text)
         return output, messages.text
-
-
-@contextlib.contextmanager
-def comma_locale():
-    """Within this, C and C++ write and read 0,5 for 0.5; gives False where that can't be had."""
-    with tempfile.TemporaryDirectory() as folder:
-        # The C library remembers what it has not found: all must be there when it is asked.
-        made = os.path.join(folder, "de_DE.UTF-8")
-        with contextlib.suppress(OSError):
-            subprocess.run(["localedef", "-i", "de_DE", "-f", "UTF-8", made], check=False,
-                           capture_output=True)
-        os.environ["LOCPATH"] = folder
-        with contextlib.suppress(locale.Error):
-            locale.setlocale(locale.LC_NUMERIC, "de_DE.UTF-8")
-        try:
-            yield locale.localeconv()["decimal_point"] == ","
-        finally:
-            locale.setlocale(locale.LC_NUMERIC, "C")
-            del os.environ["LOCPATH"]
 
 
 def main(*names):

@@ -20,7 +20,7 @@ import gui_session as gui
 import plugin_testing as testing
 import x_input
 from window_testing import (
-    APPLY, FILTERS, FROM_THE_FRONT, SHOW_ADVANCED, choose, eye_of, filter_of_the_menu,
+    APPLY, FILTERS, FROM_THE_FRONT, SHOW_ADVANCED, choose, filter_of_the_menu,
     open_menu_of_volumic, opened, set_iso_value)
 
 CAMERA = f"{gui.WINDOW}/cameraToolbar"
@@ -69,9 +69,6 @@ exec(compile(open({MACRO!r}).read(), "macro", "exec"), {{"__name__": "__main__"}
         "paraview-volume-to-surface.png": ("", start + [
             filter_of_the_menu("VolumeToSurface"), set_iso_value(iso_value), APPLY,
             gui.pause(1000), *FROM_THE_FRONT]),
-        "paraview-history.png": ("", start + [
-            filter_of_the_menu("VolumeToSurface"), set_iso_value(iso_value), APPLY,
-            gui.pause(1000), *FROM_THE_FRONT, *eye_of(0, 0, 2)]),
         "paraview-seeds.png": ("", on_a_slice(volume, iso_value)),
         "paraview-labels.png": ("", opened(label_map) + [
             filter_of_the_menu("LabelsToSurfaces"), gui.pause(500), APPLY, gui.pause(1000),

@@ -26,19 +26,14 @@ ADVANCED = ("Initialization", "CoarsestLevel", "FinestLevel", "MinimumPartSize",
             "NumberOfThreads", "TimeLimit", "ScratchDirectory",
             "SnapshotInterval")
 
-COLOURS_OF_CURVES = ((0.1, 0.35, 0.7), (0.15, 0.6, 0.3), (0.85, 0.45, 0.05), (0.75, 0.1, 0.25))
-TELL_THE_ACTIVE_VIEW = """
-from paraview import simple
-print("Active:", simple.GetActiveView().GetXMLName())
-"""
-ACTIVATE_THE_3D_VIEW = """
-from paraview import simple
-simple.SetActiveView(next(v for v in simple.GetViews() if v.GetXMLName() == "RenderView"))
-"""
 TELL_THE_COLOUR = """
 from paraview import simple
 display = simple.GetDisplayProperties(simple.GetActiveSource(), simple.GetActiveView())
 print("Colour:", [round(float(c), 3) for c in display.DiffuseColor])
+"""
+COLOUR_THE_SURFACE = """
+from paraview import simple
+simple.GetDisplayProperties().DiffuseColor = [0.5, 0.25, 0]
 """
 
 
@@ -108,7 +103,7 @@ class SurfaceWindowTest(window.WindowTestCase):
         self.assertIn("DeformableSurface", state)
         # The surface has the window for itself: no chart, no levels, no table.
         self.assertEqual(state.count("VolumicSurfaceRepresentation"), 1)
-        for other in ("VolumicHistoryView", "VolumicLevelsRepresentation", "SpreadSheetView"):
+        for other in ("XYChartView", "VolumicLevelsRepresentation", "SpreadSheetView"):
             self.assertNotIn(other, state)
 
         filter_ = window.open_state(path, "DeformableSurface1")
@@ -116,26 +111,6 @@ class SurfaceWindowTest(window.WindowTestCase):
         self.assertEqual(testing.field(testing.fetch(filter_), "StopReason"), "converged")
         displays = [d for d in simple.GetRepresentations().values() if d.Input == filter_]
         self.assertTrue(any(d.Visibility for d in displays), "the surface is shown")
-
-    def test_the_history_is_one_click_away(self):
-        path, save = self.saved_state("surface-history.pvsm")
-        told = self.session.add_code(TELL_THE_ACTIVE_VIEW)
-        to_3d = self.session.add_code(ACTIVATE_THE_3D_VIEW)
-        # Its entry in the pipeline browser: wavelet, filter, port.
-        history = window.eye_of(0, 0, 2)
-        pixels = self.play(VOLUME + [
-            SURFACE, APPLY, told, *history, told,
-            # The eye brings back the chart that there is.
-            to_3d, told, *history, told, *save], "surface-history")
-        state = window.proxies_of(path)
-        for name in ("VolumicHistoryView", "VolumicHistoryRepresentation", "RenderView"):
-            self.assertEqual(state.count(name), 1, name)
-        self.assertEqual(re.findall(r"Active: (\w+)", self.session.output),
-                         ["RenderView", "VolumicHistoryView"] * 2)
-        # In the panel's presence, too, each curve has its own colour.
-        for colour in COLOURS_OF_CURVES:
-            near = numpy.abs(pixels.astype(int) - numpy.rint(255 * numpy.array(colour)))
-            self.assertGreater((near.max(axis=2) < 16).sum(), 100, colour)
 
     def test_advanced_panel_after_image_pyramid(self):
         path, save = self.saved_state("pyramid-and-surface.pvsm")
@@ -171,14 +146,15 @@ class SurfaceWindowTest(window.WindowTestCase):
 
     def test_what_is_made_of_it_keeps_its_colour(self):
         tell = self.session.add_code(TELL_THE_COLOUR)
+        colour = self.session.add_code(COLOUR_THE_SURFACE)
 
         def made(filter_):
             return [filter_of_the_menu(filter_, "Alphabetical"), APPLY, gui.pause(300), tell]
         self.play(VOLUME + [
-            SURFACE, APPLY, *made("Clip"), window.in_the_pipeline(0, 0), *made("Threshold"),
+            SURFACE, APPLY, colour, *made("Clip"), window.in_the_pipeline(0, 0), *made("Threshold"),
             window.in_the_pipeline(0), *made("Contour")], "surface-clipped")
         self.assertEqual(re.findall(r"Colour: (\[.*\])", self.session.output),
-                         ["[0.89, 0.85, 0.76]"] * 2 + ["[1.0, 1.0, 1.0]"])
+                         ["[0.5, 0.25, 0.0]"] * 2 + ["[1.0, 1.0, 1.0]"])
 
     def test_component(self):
         of_scalar, of_magnitude, of_y = iso_values()

@@ -12,9 +12,6 @@ from paraview import simple
 from paraview.vtk.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOImage import vtkPNGReader
 
-# Of the box that ParaView hides a chart behind.
-WARNING_RED = (167, 40, 40)
-
 
 def open_screen():
     """For this process; without one, the test is skipped."""
@@ -50,8 +47,3 @@ def picture_of(view, name):
 def drawn(pixels):
     """How many pixels are not the background, which a corner has."""
     return int((numpy.abs(pixels.astype(int) - pixels[0, 0]).max(axis=2) > 8).sum())
-
-
-def has_warning(chart):
-    """Whether ParaView's red box lies over the chart."""
-    return int((chart == WARNING_RED).all(axis=2).sum()) > 100

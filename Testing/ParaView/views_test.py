@@ -1,19 +1,14 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""How the outputs look in views: the chart of the history, colours, the blocks that are shown."""
+"""How the outputs look in views: colours, the blocks that are shown."""
 
 import numpy
-from paraview import servermanager
 from paraview import simple
-from paraview.vtk.util.numpy_support import vtk_to_numpy
 
 import plugin_testing as testing
 import view_testing as views
 
-SURFACE, LEVELS, HISTORY, SNAPSHOTS = range(4)
-FOUR_CURVES = ["Seconds", "KineticEnergy", "MeanEdgeLength", "Vertices"]
-# On the logarithmic axis, most of them 0 in some row.
-MORE_CURVES = ["Merges", "Cuts", "EulerCharacteristic", "Collapses", "Flips", "TimeStep"]
+LEVELS, SNAPSHOTS = 1, 3
 
 
 def ball(size, radius, centre=0.0):
@@ -25,88 +20,6 @@ def two_balls():
     """One of radius 8 and one of radius 4."""
     return testing.produce(testing.make_image(
         numpy.maximum(ball(48, 8, 10), ball(48, 4, -12)), name="density"))
-
-
-def column(filter_, name):
-    filter_.UpdatePipeline()
-    table = servermanager.Fetch(filter_, idx=HISTORY)
-    return vtk_to_numpy(table.GetColumnByName(name))
-
-
-class HistoryChartTest(testing.PluginTestCase):
-    def chart(self, name, *curves, **properties):
-        """The picture of the chart of a filter, with more curves."""
-        self.view = views.new_view("VolumicHistoryView", (700, 500))
-        self.display = simple.Show(simple.OutputPort(self.filter, HISTORY), self.view)
-        if curves:
-            self.display.SeriesVisibility = [*FOUR_CURVES, *curves]
-        for property_, value in properties.items():
-            setattr(self.view, property_, value)
-        return views.picture_of(self.view, f"history-{name}.png")
-
-    def test_surface_that_vanishes(self):
-        thin = testing.produce(testing.make_image(ball(60, 2.5), name="density"))
-        # Alone, and with what is found again of it at the next level.
-        for recovery in ("Off", "Objects"):
-            with self.subTest(recovery=recovery), testing.CapturedMessages():
-                self.filter = simple.VolumetoSurface(thin, IsoValue=20.0, CoarsestLevel=2,
-                                                     Recovery=recovery)
-                vertices = column(self.filter, "Vertices")
-                self.assertTrue((vertices == 0).any() and (vertices > 0).any())
-                for name, curves in ((recovery, ()), (f"{recovery}-more", MORE_CURVES)):
-                    chart = self.chart(name, *curves)
-                    self.assertFalse(views.has_warning(chart))
-                    self.assertGreater(views.drawn(chart), 5000)
-                # The table has its zeros.
-                numpy.testing.assert_array_equal(column(self.filter, "Vertices"), vertices)
-
-    def blue(self, chart):
-        """Rows of the chart (0: the lowest) where the curve of Vertices is."""
-        near = numpy.abs(chart.astype(int) - (26, 89, 179)).max(axis=2) < 12
-        # Beside the legend, which is on the right.
-        return near[:, :chart.shape[1] // 2].any(axis=1).nonzero()[0]
-
-    def test_linear_axis_and_back(self):
-        """Zeros are drawn where there is a place for them; the axis may change at any time."""
-        thin = testing.produce(testing.make_image(ball(60, 2.5), name="density"))
-        with testing.CapturedMessages():
-            self.filter = simple.VolumetoSurface(thin, IsoValue=20.0, CoarsestLevel=2)
-            logarithmic = self.chart("logarithmic")
-        self.view.LeftAxisLogScale = 0
-        linear = views.picture_of(self.view, "history-linear.png")
-        self.view.LeftAxisLogScale = 1
-        again = views.picture_of(self.view, "history-again.png")
-        numpy.testing.assert_array_equal(again, logarithmic)
-        # Down to the axis at the bottom, as far as to be hidden by its line.
-        self.assertLess(self.blue(linear).min(), self.blue(logarithmic).min() - 100)
-
-
-class ChartBesideViewTest(testing.PluginTestCase):
-    def kinds(self):
-        return sorted(view.GetXMLName() for view in simple.GetViews())
-
-    def test_the_eye_opens_the_chart(self):
-        for kind in ("DeformableSurface", "VolumetoSurface"):
-            with self.subTest(filter=kind):
-                filter_ = getattr(simple, kind)(two_balls(), IsoValue=50.0)
-                view = views.new_view("RenderView")
-                simple.AssignViewToLayout(view)
-                simple.Show(filter_, view)
-                self.assertEqual(self.kinds(), ["RenderView"])
-                history = simple.OutputPort(filter_, HISTORY)
-                for _ in range(2):
-                    entry = simple.Show(history, view)
-                    self.assertEqual(self.kinds(), ["RenderView", "VolumicHistoryView"])
-                    self.assertFalse(entry.Visibility)
-                chart = next(v for v in simple.GetViews() if v.GetXMLName() != "RenderView")
-                self.assertEqual(simple.GetLayout(chart), simple.GetLayout(view))
-                display = simple.GetRepresentation(history, chart)
-                self.assertTrue(display.Visibility)
-                # Closed and opened again.
-                simple.Delete(chart)
-                simple.Show(history, view)
-                self.assertEqual(self.kinds(), ["RenderView", "VolumicHistoryView"])
-                self.tearDown()
 
 
 class ColoursTest(testing.PluginTestCase):
@@ -123,26 +36,6 @@ class ColoursTest(testing.PluginTestCase):
         self.display.RescaleTransferFunctionToDataRange(False, False)
         simple.Render(self.view)
         return self.display.LookupTable
-
-    def test_residual_diverges_from_zero(self):
-        colours = self.coloured_by("Residual", "POINTS")
-        quantile = self.filter.FieldData["ResidualQuantile"].GetRange()[0]
-        low, middle, high = colours.RGBPoints[0::4]
-        self.assertEqual((low, middle, high), (-quantile, 0.0, quantile))
-        self.assertGreater(quantile, 0.0)
-        self.assertEqual(colours.ColorSpace, "Diverging")
-        views.picture_of(self.view, "colours-residual.png")
-        # It follows the data...
-        self.filter.FinestLevel = 1
-        simple.Render(self.view)
-        coarse = self.filter.FieldData["ResidualQuantile"].GetRange()[0]
-        self.assertNotEqual(coarse, quantile)
-        self.assertEqual(list(colours.RGBPoints[0::4]), [-coarse, 0.0, coarse])
-        # ... until it is edited.
-        colours.RescaleTransferFunction(-7.0, 7.0)
-        self.filter.FinestLevel = 0
-        simple.Render(self.view)
-        self.assertEqual(colours.RGBPoints[0], -7.0)
 
     def test_components_have_a_colour_each(self):
         colours = self.coloured_by("Component", "CELLS")
@@ -169,12 +62,12 @@ class ColoursTest(testing.PluginTestCase):
         views.picture_of(self.view, "colours-many-components.png")
 
     def test_colours_of_others_stay_as_they_are(self):
-        other = simple.Calculator(simple.Wavelet(), ResultArrayName="Residual", Function="RTData")
+        other = simple.Calculator(simple.Wavelet(), ResultArrayName="Component", Function="RTData")
         display = simple.Show(other, self.view)
         display.SetRepresentationType("Surface")
-        simple.ColorBy(display, ("POINTS", "Residual"))
+        simple.ColorBy(display, ("POINTS", "Component"))
         before = list(display.LookupTable.RGBPoints)
-        self.coloured_by("Residual", "POINTS")
+        self.coloured_by("Component", "CELLS")
         self.assertNotEqual(display.LookupTable, self.display.LookupTable)
         self.assertEqual(list(display.LookupTable.RGBPoints), before)
 
@@ -223,37 +116,3 @@ class BlocksTest(testing.PluginTestCase):
         self.assertEqual(len(self.shown(display)), 1)
         self.assertRegex(self.shown(display)[0], r"Level 0, iteration \d+")
         self.assertGreater(views.drawn(views.picture_of(view, "snapshots-last.png")), 1000)
-
-
-class UnfinishedTest(testing.PluginTestCase):
-    """A surface that was stopped says so in the view, as long as it is shown."""
-
-    def text(self, name):
-        """How many pixels of the dark red behind the text there are in the upper left corner."""
-        simple.Render(self.view)
-        corner = views.picture_of(self.view, f"unfinished-{name}.png")[-60:, :400].astype(int)
-        return int(((corner[..., 0] > 110) & (corner[..., 1:].max(axis=2) < 70)).sum())
-
-    def test_text(self):
-        filter_ = simple.VolumetoSurface(simple.Wavelet(WholeExtent=[-20, 20] * 3), IsoValue=150.0)
-        self.view = views.new_view("RenderView", (600, 400))
-        algorithm = filter_.GetClientSideObject()
-        stop = algorithm.AddObserver("ProgressEvent", lambda caller, event: caller.SetAbortExecute(
-            int("Level 0, iteration" in (caller.GetProgressText() or ""))))
-        display = simple.Show(filter_, self.view)
-        simple.ResetCamera(self.view)
-        self.assertGreater(self.text("cancelled"), 500)
-        self.assertEqual(testing.field(testing.fetch(filter_), "StopReason"), "cancelled")
-        display.Visibility = 0
-        self.assertEqual(self.text("hidden"), 0)
-        display.Visibility = 1
-        self.assertGreater(self.text("shown"), 500)
-        algorithm.RemoveObserver(stop)
-        filter_.IsoValue = 151.0
-        self.assertEqual(self.text("finished"), 0)
-        filter_.TimeLimit = 1e-9
-        filter_.IsoValue = 152.0
-        self.assertGreater(self.text("none"), 500)
-        del display
-        simple.Delete(filter_)
-        self.assertEqual(self.text("deleted"), 0)

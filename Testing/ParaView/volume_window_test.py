@@ -104,8 +104,6 @@ class VolumeWindowTest(window.WindowTestCase):
             window.shown("MinimumLevelSize", False)], "volume-applied")
         state = window.proxies_of(path)
         self.assertEqual(state.count("VolumicSurfaceRepresentation"), 1)
-        # The surface has the window for itself.
-        self.assertNotIn("VolumicHistoryView", state)
         surface = testing.fetch(window.open_state(path, "VolumetoSurface1"))
         self.assertEqual(testing.field(surface, "StopReason"), "converged")
 

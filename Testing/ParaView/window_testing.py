@@ -112,14 +112,6 @@ def in_the_pipeline(*places):
                      f"{path}|0")
 
 
-def eye_of(*places):
-    """Click the eye of an entry of the pipeline browser; places as above, an output port last."""
-    browser = f"{gui.WINDOW}/pipelineBrowserDock/pipelineBrowser"
-    path = "".join(f"/{place}:0" for place in (0, *places[:-1])) + f"/{places[-1]}:1"
-    return [gui.event(browser, f"mouse{what}", f"1,{buttons},0,9,9,{path}")
-            for what, buttons in (("Press", 1), ("Release", 0))] + [gui.pause(1500)]
-
-
 def shown(property_, yes):
     """Fails the session unless the panel shows the property, or doesn't."""
     return gui.check(f"{PROPERTIES}/{property_}", "visible", "true" if yes else "false")
