@@ -20,7 +20,7 @@ function (volumic_panel_widget kind type class)
 endfunction ()
 
 if (PARAVIEW_USE_QT)
-  volumic_panel_widget(WIDGET_DECORATOR Summary pqSummaryDecorator)
+  volumic_panel_widget(WIDGET Summary pqSummaryPropertyWidget)
   volumic_panel_widget(WIDGET_DECORATOR ValueRange pqValueRangeDecorator)
   volumic_panel_widget(WIDGET LabelTable pqLabelTablePropertyWidget)
   volumic_panel_widget(WIDGET PointList pqPointListPropertyWidget)
