@@ -32,10 +32,7 @@ if (PARAVIEW_USE_QT)
     Window/SurfaceSources.cxx Window/SurfaceSources.h)
 
   set(volumic_behaviors
-    pqAbortButtonBehavior pqPanelWidthBehavior pqSurfaceColorBehavior pqUnfinishedBehavior)
-  if (VOLUMIC_WRAP_PYTHON) # in which the writer is
-    list(APPEND volumic_behaviors pqExportSurfacesBehavior)
-  endif ()
+    pqAbortButtonBehavior pqSurfaceColorBehavior pqUnfinishedBehavior)
   foreach (behavior IN LISTS volumic_behaviors)
     paraview_plugin_add_auto_start(
       CLASS_NAME "${behavior}"

@@ -120,7 +120,6 @@ class SurfaceWindowTest(window.WindowTestCase):
             APPLY, SURFACE, SHOW_ADVANCED, gui.pause(500),
             *[window.shown(name, True) for name in BASIC + ADVANCED],
             gui.check(f"{PROPERTIES}/Initialization/ComboBox", "currentText", "Enclosing Box"),
-            window.as_wide_as_the_panel(),
             window.value_range(*range_of_the_wavelet()),
             gui.check(ISO_VALUE, "text", iso_of_the_wavelet()), APPLY, *save,
             # Only of use for seeds.

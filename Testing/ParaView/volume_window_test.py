@@ -3,14 +3,12 @@
 """Volume to Surface in ParaView's window: its panel, undo and redo, and stopping it on its way."""
 
 import re
-import unittest
 
 import numpy
 
 import gui_session as gui
 import plugin_testing as testing
 import window_testing as window
-import x_input
 from window_testing import (
     APPLY, ISO_VALUE, PROPERTIES, SHOW_ADVANCED, choose, edit, filter_of_the_menu,
     iso_of_the_wavelet, opened, range_of_the_wavelet, set_iso_value, source)
@@ -64,14 +62,12 @@ def stop_the_first_run(where):
 
 
 class ThinPartsTest(window.WindowTestCase):
-    """The first one of this window, whose panel has the width that it begins with."""
-
     def test_thin_parts_after_a_run_without(self):
         path, save = self.saved_state("thin.pvsm")
         self.play(VOLUME + [
             FILTER, set_iso_value(230), APPLY, gui.pause(300), SHOW_ADVANCED, gui.pause(300),
-            window.set_box("ThinParts", True), APPLY, gui.pause(2000),
-            window.as_wide_as_the_panel(), *save], "volume-thin-parts")
+            window.set_box("ThinParts", True), APPLY, gui.pause(300), *save],
+            "volume-thin-parts")
         surface = testing.fetch(window.open_state(path, "VolumetoSurface1"))
         self.assertEqual(testing.field(surface, "Level"), -1)
         for name in ("EdgeSize", "Thickness"):
@@ -92,10 +88,7 @@ class VolumeWindowTest(window.WindowTestCase):
             window.shown("MinimumComponentVolume", False),
             choose("KeepComponents", "Large Ones"), gui.pause(300),
             window.shown("MinimumComponentVolume", True), choose("KeepComponents", "All"),
-            APPLY, *save, gui.pause(500),
-            # The display below wants more than the dock has at first, and so do these.
-            window.as_wide_as_the_panel(), SHOW_ADVANCED, gui.pause(500),
-            window.as_wide_as_the_panel(),
+            APPLY, *save, SHOW_ADVANCED, gui.pause(500),
             *[window.shown(name, True) for name in BASIC + ADVANCED],
             *[window.shown(name, False) for name in ("SeedRadius", "MaximumEdgeLength", "Gradation")],
             window.shown("ScratchDirectory/FileChooser", True),
@@ -242,26 +235,3 @@ class VolumeWindowTest(window.WindowTestCase):
         filter_ = window.open_state(path, "VolumetoSurface1")
         self.assertEqual(filter_.IsoValue, 140.0)
         self.assertGreater(testing.fetch(filter_).GetNumberOfPolys(), 0)
-
-
-class WidthOfThePanelTest(window.WindowTestCase):
-    """The last one of this window, whose panel stays as it leaves it."""
-
-    @staticmethod
-    def left_of_view(pixels):
-        """Where the blue frame of the view begins."""
-        row = pixels[600].astype(int)
-        return int(numpy.nonzero((row[:, 2] > 200) & (row[:, :2].max(axis=1) < 60))[0][0])
-
-    @unittest.skipUnless(x_input.Input.is_there(), "libXtst was not found")
-    def test_a_panel_that_is_made_narrower_stays_so(self):
-        before = self.left_of_view(self.play(VOLUME + [FILTER, gui.pause(500)], "volume-dock"))
-        wide = self.left_of_view(self.play(VOLUME + [FILTER, APPLY, gui.pause(500)],
-                                           "volume-dock-wide", live=True))
-        self.assertGreater(wide, before + 10)
-        before_it = self.session.pixels()
-        x_input.Input(self.session.display).drag((wide - 4, 650), (wide - 34, 650))
-        self.session.wait_for_rest(before_it, least=2)
-        narrow = self.left_of_view(
-            self.session.screenshot(testing.output_path("volume-dock-narrow.png")))
-        self.assertLess(narrow, wide - 4)  # or as far as the window lets it
