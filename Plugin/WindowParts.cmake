@@ -32,7 +32,7 @@ if (PARAVIEW_USE_QT)
     Window/SurfaceSources.cxx Window/SurfaceSources.h)
 
   set(volumic_behaviors
-    pqAbortButtonBehavior pqPanelWidthBehavior pqSurfaceColorBehavior pqUnfinishedBehavior)
+    pqAbortButtonBehavior pqPanelWidthBehavior pqLabelLegendBehavior pqUnfinishedBehavior)
   if (VOLUMIC_WRAP_PYTHON) # in which the writer is
     list(APPEND volumic_behaviors pqExportSurfacesBehavior)
   endif ()
