@@ -32,7 +32,7 @@ if (PARAVIEW_USE_QT)
     Window/SurfaceSources.cxx Window/SurfaceSources.h)
 
   set(volumic_behaviors
-    pqAbortButtonBehavior pqSurfaceColorBehavior pqUnfinishedBehavior)
+    pqAbortButtonBehavior pqLabelLegendBehavior pqUnfinishedBehavior)
   foreach (behavior IN LISTS volumic_behaviors)
     paraview_plugin_add_auto_start(
       CLASS_NAME "${behavior}"
