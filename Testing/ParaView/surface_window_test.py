@@ -3,7 +3,6 @@
 """Image Pyramid and Deformable Surface in ParaView's window, by menu and panel as a user does."""
 
 import gui_session as gui
-import numpy
 import plugin_testing as testing
 import window_testing as window
 from paraview import simple

@@ -77,7 +77,7 @@ class ThinPartsTest(window.WindowTestCase):
 class VolumeWindowTest(window.WindowTestCase):
     def test_menu_panel_and_apply(self):
         path, save = self.saved_state("volume.pvsm")
-        edge_length = f"{PROPERTIES}/EdgeLength/DoubleLineEdit"
+        edge_length = f"{PROPERTIES}/EdgeLength/DoubleLineEdit0"
         self.play(VOLUME + [
             FILTER, gui.pause(300),
             gui.check(ISO_VALUE, "text", iso_of_the_wavelet()),
