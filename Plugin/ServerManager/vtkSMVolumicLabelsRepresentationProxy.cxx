@@ -4,25 +4,56 @@
 
 #include "LabelRows.h"
 
+#include <vtkCommand.h>
 #include <vtkDataAssembly.h>
 #include <vtkDataObject.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkPVDataInformation.h>
 #include <vtkSMPropertyHelper.h>
+#include <vtkSMProxyIterator.h>
+#include <vtkSMProxyManager.h>
+#include <vtkSMSessionProxyManager.h>
 #include <vtkSMSourceProxy.h>
 #include <vtkSMTransferFunctionManager.h>
+#include <vtkSMViewProxy.h>
 
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
+#include <set>
 
 vtkStandardNewMacro(vtkSMVolumicLabelsRepresentationProxy);
 
 namespace
 {
-/** Labels of which the legend is shown by itself: as many as can be read. */
+/** The largest number of labels whose legend is shown automatically: more names are not readable. */
 constexpr std::size_t MostInLegend = 12;
+
+/** Add the filters Labels to Surfaces upstream of a proxy, itself included. */
+void AddLabelFilters(vtkSMProxy* proxy, std::set<vtkSMProxy*>& found)
+{
+  if (std::strcmp(proxy->GetXMLName(), "LabelsToSurfaces") == 0)
+  {
+    found.insert(proxy);
+    return;
+  }
+  for (unsigned int i = 0; i < proxy->GetNumberOfProducers(); ++i)
+  {
+    AddLabelFilters(proxy->GetProducerProxy(i), found);
+  }
+}
+
+bool IsColoredByLabel(vtkSMPVRepresentationProxy* display)
+{
+  return display->GetUsingScalarColoring() &&
+    std::strcmp(vtkSMPropertyHelper(display, "ColorArrayName").GetAsString(4), "Label") == 0;
+}
+
+bool HasOwnColors(vtkSMProxy* display)
+{
+  return vtkSMPropertyHelper(display, "UseSeparateColorMap", true).GetAsInt() != 0;
+}
 
 std::vector<volumic::ColorCategory> CategoriesOf(const volumic::LabelRows& labels)
 {
@@ -55,13 +86,108 @@ vtkSMVolumicLabelsRepresentationProxy::vtkSMVolumicLabelsRepresentationProxy() =
 vtkSMVolumicLabelsRepresentationProxy::~vtkSMVolumicLabelsRepresentationProxy() = default;
 
 //------------------------------------------------------------------------------
+void vtkSMVolumicLabelsRepresentationProxy::CreateVTKObjects()
+{
+  const bool isCreatedNow = !this->ObjectsCreated;
+  this->Superclass::CreateVTKObjects();
+  if (isCreatedNow && this->ObjectsCreated)
+  {
+    for (const vtkCommand::EventIds event :
+      { vtkCommand::RegisterEvent, vtkCommand::PropertyModifiedEvent })
+    {
+      this->GetSessionProxyManager()->AddObserver(
+        event, this, &vtkSMVolumicLabelsRepresentationProxy::OnSessionModified);
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkSMVolumicLabelsRepresentationProxy::OnSessionModified(
+  vtkObject*, unsigned long event, void* data)
+{
+  const char* name = event == vtkCommand::PropertyModifiedEvent
+    ? static_cast<vtkSMProxyManager::ModifiedPropertyInformation*>(data)->PropertyName
+    : "Representations";
+  for (const char* relevant : { "Input", "LookupTable", "Representations" })
+  {
+    if (std::strcmp(name, relevant) == 0)
+    {
+      this->ShareColors();
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
+vtkSMProxy* vtkSMVolumicLabelsRepresentationProxy::FindLabelColors()
+{
+  const std::string name =
+    std::string("Separate_") + this->GetGlobalIDAsString() + "_Label.PVLookupTable";
+  return HasOwnColors(this)
+    ? this->GetSessionProxyManager()->GetProxy("lookup_tables", name.c_str())
+    : nullptr;
+}
+
+//------------------------------------------------------------------------------
+void vtkSMVolumicLabelsRepresentationProxy::ShareColors()
+{
+  vtkSMProxy* own = this->FindLabelColors();
+  vtkSMProxy* source = vtkSMPropertyHelper(this, "Input", true).GetAsProxy();
+  if (!own || !source)
+  {
+    return;
+  }
+  vtkNew<vtkSMTransferFunctionManager> manager;
+  vtkSMSessionProxyManager* session = this->GetSessionProxyManager();
+  vtkSMProxy* common = manager->GetColorTransferFunction("Label", session);
+  vtkNew<vtkSMProxyIterator> displays;
+  displays->SetSessionProxyManager(session);
+  displays->SetModeToOneGroup();
+  for (displays->Begin("representations"); !displays->IsAtEnd(); displays->Next())
+  {
+    auto* display = vtkSMPVRepresentationProxy::SafeDownCast(displays->GetProxy());
+    if (!display || HasOwnColors(display) || !IsColoredByLabel(display))
+    {
+      continue;
+    }
+    std::set<vtkSMProxy*> filters;
+    AddLabelFilters(display, filters);
+    vtkSMProxy* present = vtkSMPropertyHelper(display, "LookupTable").GetAsProxy();
+    // The labels of two maps in one dataset can't be distinguished.
+    const bool isOfThis = filters == std::set<vtkSMProxy*>{ source };
+    vtkSMProxy* wanted = present;
+    if (isOfThis &&
+      (present == common || vtkSMViewProxy::FindView(this) == vtkSMViewProxy::FindView(display)))
+    {
+      wanted = own;
+    }
+    else if (!isOfThis && present == own)
+    {
+      wanted = common;
+    }
+    if (wanted != present)
+    {
+      vtkSMPropertyHelper(display, "LookupTable").Set(wanted);
+      vtkSMPropertyHelper(display, "ScalarOpacityFunction", true)
+        .Set(vtkSMPropertyHelper(wanted, "ScalarOpacityFunction").GetAsProxy());
+      display->UpdateVTKObjects();
+    }
+  }
+}
+
+//------------------------------------------------------------------------------
 void vtkSMVolumicLabelsRepresentationProxy::ViewUpdated(vtkSMProxy* view)
 {
   // Before this, what is known of the data is that of the run before.
   this->Superclass::ViewUpdated(view);
   if (vtkPVDataInformation* data = this->GetInputInformation())
   {
-    this->ChooseLabels(data, view);
+    const bool isNew = this->IsNew;
+    this->ChooseLabels(data);
+    if (vtkSMProxy* colors = this->FindLabelColors())
+    {
+      this->AdaptColorsOf("Label", colors, data);
+    }
+    this->UpdateLegend(view, isNew);
   }
 }
 
@@ -87,13 +213,11 @@ bool vtkSMVolumicLabelsRepresentationProxy::IsMerged(vtkPVDataInformation* data)
 }
 
 //------------------------------------------------------------------------------
-void vtkSMVolumicLabelsRepresentationProxy::ChooseLabels(
-  vtkPVDataInformation* data, vtkSMProxy* view)
+void vtkSMVolumicLabelsRepresentationProxy::ChooseLabels(vtkPVDataInformation* data)
 {
   vtkSMPropertyHelper array(this, "ColorArrayName");
-  const bool isByBlock = array.GetInputArrayNameToProcess() &&
-    std::strcmp(array.GetInputArrayNameToProcess(), "Label") == 0 &&
-    array.GetInputArrayAssociation() == vtkDataObject::FIELD;
+  const bool isByBlock =
+    IsColoredByLabel(this) && array.GetInputArrayAssociation() == vtkDataObject::FIELD;
   if (!data->GetArrayInformation("Label", vtkDataObject::CELL) ||
     !(this->IsNew || isByBlock))
   {
@@ -104,11 +228,29 @@ void vtkSMVolumicLabelsRepresentationProxy::ChooseLabels(
   {
     this->SetScalarColoring("Label", isMerged ? vtkDataObject::CELL : vtkDataObject::FIELD);
   }
-  if (this->IsNew && this->Wanted.size() <= MostInLegend)
-  {
-    this->SetScalarBarVisibility(view, true);
-  }
   this->IsNew = false;
+}
+
+//------------------------------------------------------------------------------
+void vtkSMVolumicLabelsRepresentationProxy::UpdateLegend(vtkSMProxy* view, bool isNew)
+{
+  const std::size_t count = this->Wanted.size();
+  if (count == 0 || !IsColoredByLabel(this))
+  {
+    return;
+  }
+  const bool isShort = count <= MostInLegend;
+  if (isNew ||
+    (this->CountInLegend > 0 && isShort != (this->CountInLegend <= MostInLegend)))
+  {
+    // A legend that was shown and hidden stays hidden when the display is shown again.
+    this->SetScalarBarVisibility(view, true);
+    if (!isShort)
+    {
+      this->SetScalarBarVisibility(view, false);
+    }
+  }
+  this->CountInLegend = count;
 }
 
 //------------------------------------------------------------------------------
@@ -125,7 +267,6 @@ void vtkSMVolumicLabelsRepresentationProxy::AdaptColorsOf(
   if (this->WantedTime != this->AdaptedTime && !this->Wanted.empty())
   {
     this->GiveCategories(colors, this->Wanted);
-    this->GiveToOthers(this->Wanted);
   }
   this->AdaptedTime = this->WantedTime;
 }
@@ -145,21 +286,6 @@ void vtkSMVolumicLabelsRepresentationProxy::GiveCategories(
     this->Given = wanted;
   }
   volumic::SetCategories(colors, wanted);
-}
-
-//------------------------------------------------------------------------------
-void vtkSMVolumicLabelsRepresentationProxy::GiveToOthers(
-  const std::vector<volumic::ColorCategory>& wanted)
-{
-  vtkNew<vtkSMTransferFunctionManager> manager;
-  vtkSMProxy* colors =
-    manager->GetColorTransferFunction("Label", this->GetSessionProxyManager());
-  if (colors && (!volumic::HasGotItsRange(colors) ||
-    volumic::AreSame(volumic::CategoriesOf(colors), this->GivenToOthers)))
-  {
-    volumic::SetCategories(colors, wanted);
-    this->GivenToOthers = wanted;
-  }
 }
 
 //------------------------------------------------------------------------------

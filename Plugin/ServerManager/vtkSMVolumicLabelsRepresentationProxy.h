@@ -11,8 +11,12 @@
  * edited the categories, they are those of the data; after that, labels that come anew get one in
  * addition. Field data are among the colours to choose from, as each block has its own.
  *
- * What is made of the surfaces, such as a clip, is coloured by the map that all displays of `Label`
- * share. It gets the same categories, unless others have given it a range or categories before.
+ * Displays of what is made of the surfaces, such as a clip, use this colour map, too, where they are
+ * coloured by `Label`: that of the display in the same view, or else of any one. Displays with a
+ * separate colour map, or made of the surfaces of several label maps, are left alone.
+ *
+ * The legend is shown by default for up to twelve labels. This is decided anew when the number of
+ * labels passes that limit.
  */
 #ifndef vtkSMVolumicLabelsRepresentationProxy_h
 #define vtkSMVolumicLabelsRepresentationProxy_h
@@ -35,6 +39,8 @@ protected:
   vtkSMVolumicLabelsRepresentationProxy();
   ~vtkSMVolumicLabelsRepresentationProxy() override;
 
+  void CreateVTKObjects() override;
+
   bool IsFieldDataOffered() const override { return true; }
   void AdaptColorsOf(
     const std::string& array, vtkSMProxy* colors, vtkPVDataInformation* data) override;
@@ -46,16 +52,22 @@ private:
   /** Brings Wanted up to date. */
   void FetchCategories(vtkPVDataInformation* data);
   /** Colours by the array `Label` that tells all labels, if it is this display's business. */
-  void ChooseLabels(vtkPVDataInformation* data, vtkSMProxy* view);
+  void ChooseLabels(vtkPVDataInformation* data);
   /** Whether a surface is about several labels. */
   bool IsMerged(vtkPVDataInformation* data);
   /** Sets the categories that the map has from here; completes what others have edited. */
   void GiveCategories(vtkSMProxy* colors, std::vector<volumic::ColorCategory> wanted);
-  void GiveToOthers(const std::vector<volumic::ColorCategory>& wanted);
+  void OnSessionModified(vtkObject* caller, unsigned long event, void* data);
+  /** Return this display's own colour map of `Label`, or null. */
+  vtkSMProxy* FindLabelColors();
+  /** Give the colour map to the displays of what is made of the surfaces. */
+  void ShareColors();
+  /** Show or hide the legend by the number of labels, where this was not decided before. */
+  void UpdateLegend(vtkSMProxy* view, bool isNew);
 
   std::vector<volumic::ColorCategory> Wanted; ///< those of the data
-  std::vector<volumic::ColorCategory> Given;         ///< what was set here last
-  std::vector<volumic::ColorCategory> GivenToOthers; ///< likewise, of the map that is shared
+  std::vector<volumic::ColorCategory> Given;  ///< what was set here last
+  std::size_t CountInLegend = 0; ///< labels when the legend was decided on
   vtkMTimeType WantedTime = 0;  ///< of what was known of the data then
   vtkMTimeType AdaptedTime = 0; ///< likewise, when the colour map was set
 };

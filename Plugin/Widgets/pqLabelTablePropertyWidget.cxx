@@ -19,12 +19,12 @@
 #include <QPixmap>
 #include <QPushButton>
 #include <QSet>
-#include <QSignalBlocker>
-#include <QTreeWidget>
+#include <QSortFilterProxyModel>
+#include <QStandardItemModel>
+#include <QTreeView>
 
 #include <algorithm>
 #include <array>
-#include <initializer_list>
 
 namespace
 {
@@ -35,41 +35,7 @@ enum Column
   Voxels,
   NumberOfColumns
 };
-
-/** Columns of numbers are sorted as numbers. */
-class Row : public QTreeWidgetItem
-{
-public:
-  Row(const QString& name, int label, qlonglong voxels)
-    : QTreeWidgetItem(Type)
-  {
-    this->setFlags(Qt::ItemIsEnabled | Qt::ItemIsSelectable | Qt::ItemIsUserCheckable);
-    this->setText(Column::Name, name);
-    this->setData(Column::Label, Qt::DisplayRole, label);
-    this->setData(Column::Voxels, Qt::DisplayRole, voxels);
-    for (int column : { Column::Label, Column::Voxels })
-    {
-      this->setTextAlignment(column, Qt::AlignRight | Qt::AlignVCenter);
-    }
-    this->setCheckState(Column::Name, Qt::Unchecked);
-  }
-
-  static constexpr int Type = QTreeWidgetItem::UserType;
-
-  bool operator<(const QTreeWidgetItem& other) const override
-  {
-    const int column = this->treeWidget()->sortColumn();
-    return column == Column::Name
-      ? this->text(column).localeAwareCompare(other.text(column)) < 0
-      : this->data(column, Qt::DisplayRole).toLongLong() <
-        other.data(column, Qt::DisplayRole).toLongLong();
-  }
-};
-
-int labelOf(const QTreeWidgetItem* row)
-{
-  return row->data(Column::Label, Qt::DisplayRole).toInt();
-}
+constexpr int SearchRole = Qt::UserRole;
 
 QIcon swatch(const std::array<double, 3>& color)
 {
@@ -78,28 +44,92 @@ QIcon swatch(const std::array<double, 3>& color)
   return QIcon(pixmap);
 }
 
-QList<QTreeWidgetItem*> rowsOf(const QTreeWidget* table)
+/** An item that is sorted by its number. */
+QStandardItem* numberItem(qlonglong number)
 {
-  QList<QTreeWidgetItem*> rows;
-  for (int i = 0; i < table->topLevelItemCount(); ++i)
-  {
-    rows << table->topLevelItem(i);
-  }
-  return rows;
+  auto* item = new QStandardItem;
+  item->setData(number, Qt::DisplayRole);
+  item->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
+  item->setEditable(false);
+  return item;
+}
+
+QList<QStandardItem*> newRow(const QString& name, int label, qlonglong voxels)
+{
+  auto* item = new QStandardItem(name);
+  item->setData(name + '\n' + QString::number(label), SearchRole);
+  item->setToolTip(name);
+  item->setEditable(false);
+  item->setCheckable(true);
+  return { item, numberItem(label), numberItem(voxels) };
 }
 }
 
 //------------------------------------------------------------------------------
 struct pqLabelTablePropertyWidget::Internals
 {
+  QStandardItemModel Rows;
+  QSortFilterProxyModel Shown; ///< what Search leaves of them
   QLineEdit* Filter = nullptr;
-  QTreeWidget* Table = nullptr;
+  QTreeView* Table = nullptr;
   QPushButton* All = nullptr;
-  QPushButton* None = nullptr;
+  QPushButton* OnlyThese = nullptr;
   QLabel* Note = nullptr;
   vtkSMLabelsDomain* Domain = nullptr;
   QList<QVariant> Labels;
   QString Problem; ///< why there are no labels
+
+  bool IsChecking = false; ///< boxes are set by this widget
+
+  int labelOf(int row) const
+  {
+    return this->Rows.item(row, Column::Label)->data(Qt::DisplayRole).toInt();
+  }
+
+  bool isInInput(int row) const
+  {
+    return this->Rows.item(row, Column::Voxels)->data(Qt::DisplayRole).toLongLong() > 0;
+  }
+
+  void check(int row, bool yes)
+  {
+    this->Rows.item(row)->setCheckState(yes ? Qt::Checked : Qt::Unchecked);
+  }
+
+  QList<int> checked() const
+  {
+    QList<int> labels;
+    for (int row = 0; row < this->Rows.rowCount(); ++row)
+    {
+      if (this->Rows.item(row)->checkState() == Qt::Checked)
+      {
+        labels << this->labelOf(row);
+      }
+    }
+    return labels;
+  }
+
+  /** Return the selected rows. */
+  QSet<int> selected() const
+  {
+    QSet<int> rows;
+    for (const QModelIndex& index : this->Table->selectionModel()->selectedRows())
+    {
+      rows << this->Shown.mapToSource(index).row();
+    }
+    return rows;
+  }
+
+  /** Return the rows that Search leaves. */
+  QSet<int> found() const
+  {
+    QSet<int> rows;
+    for (int i = 0; i < this->Shown.rowCount(); ++i)
+    {
+      rows << this->Shown.mapToSource(this->Shown.index(i, 0)).row();
+    }
+    return rows;
+  }
 };
 
 //------------------------------------------------------------------------------
@@ -116,13 +146,11 @@ pqLabelTablePropertyWidget::pqLabelTablePropertyWidget(
   this->fillTable();
   this->addPropertyLink(this, "labels", SIGNAL(labelsChanged()), property);
   pqCoreUtilities::connect(property, vtkCommand::DomainModifiedEvent, this, SLOT(fillTable()));
-  if (vtkSMProperty* background = proxy->GetProperty("BackgroundLabel"))
+  vtkSMProperty* background = proxy->GetProperty("BackgroundLabel");
+  for (const vtkCommand::EventIds event :
+    { vtkCommand::ModifiedEvent, vtkCommand::UncheckedPropertyModifiedEvent })
   {
-    for (const vtkCommand::EventIds event :
-      { vtkCommand::ModifiedEvent, vtkCommand::UncheckedPropertyModifiedEvent })
-    {
-      pqCoreUtilities::connect(background, event, this, SLOT(checkRows()));
-    }
+    pqCoreUtilities::connect(background, event, this, SLOT(checkRows()));
   }
 }
 
@@ -142,17 +170,18 @@ void pqLabelTablePropertyWidget::buildPanel()
   parts.Filter->setClearButtonEnabled(true);
   grid->addWidget(parts.Filter, 0, 1, 1, 2);
 
-  parts.Table = new QTreeWidget(this);
+  parts.Shown.setSourceModel(&parts.Rows);
+  parts.Shown.setFilterCaseSensitivity(Qt::CaseInsensitive);
+  parts.Shown.setFilterRole(SearchRole);
+  parts.Shown.setSortLocaleAware(true);
+  parts.Table = new QTreeView(this);
   parts.Table->setObjectName("Labels");
-  parts.Table->setColumnCount(Column::NumberOfColumns);
-  parts.Table->setHeaderLabels({ tr("Name"), tr("Label"), tr("Voxels") });
+  parts.Table->setModel(&parts.Shown);
   parts.Table->setRootIsDecorated(false);
   parts.Table->setUniformRowHeights(true);
+  parts.Table->setTextElideMode(Qt::ElideMiddle);
   parts.Table->setSelectionMode(QAbstractItemView::ExtendedSelection);
   parts.Table->header()->setStretchLastSection(false);
-  parts.Table->header()->setSectionResizeMode(Column::Name, QHeaderView::Stretch);
-  parts.Table->header()->setSectionResizeMode(Column::Label, QHeaderView::ResizeToContents);
-  parts.Table->header()->setSectionResizeMode(Column::Voxels, QHeaderView::ResizeToContents);
   parts.Table->sortByColumn(Column::Label, Qt::AscendingOrder);
   parts.Table->setSortingEnabled(true);
   parts.Table->setMinimumHeight(10 * parts.Table->fontMetrics().height());
@@ -161,119 +190,100 @@ void pqLabelTablePropertyWidget::buildPanel()
 
   parts.All = new QPushButton(tr("All"), this);
   parts.All->setObjectName("All");
-  parts.None = new QPushButton(tr("None"), this);
-  parts.None->setObjectName("None");
+  parts.All->setToolTip(tr("Check the rows that Search leaves, too."));
+  parts.OnlyThese = new QPushButton(tr("Only These"), this);
+  parts.OnlyThese->setObjectName("OnlyThese");
+  parts.OnlyThese->setToolTip(tr("Check only the selected rows, or else only the rows that Search "
+                                 "leaves. Select rows or type into Search first."));
   grid->addWidget(parts.All, 2, 0);
-  grid->addWidget(parts.None, 2, 1);
+  grid->addWidget(parts.OnlyThese, 2, 1);
   grid->setColumnStretch(2, 1);
   parts.Note = new QLabel(this);
   parts.Note->setObjectName("Note");
   parts.Note->setWordWrap(true);
   grid->addWidget(parts.Note, 3, 0, 1, -1);
 
-  this->connect(parts.Filter, SIGNAL(textChanged(const QString&)),
-    SLOT(filterRows(const QString&)));
-  this->connect(parts.Table, SIGNAL(itemChanged(QTreeWidgetItem*, int)),
-    SLOT(readRow(QTreeWidgetItem*, int)));
+  this->connect(parts.Filter, SIGNAL(textChanged(const QString&)), SLOT(search(const QString&)));
+  this->connect(parts.Table->selectionModel(),
+    SIGNAL(selectionChanged(const QItemSelection&, const QItemSelection&)), SLOT(showNote()));
+  this->connect(
+    &parts.Rows, SIGNAL(itemChanged(QStandardItem*)), SLOT(readRow(QStandardItem*)));
   this->connect(parts.All, SIGNAL(clicked()), SLOT(checkAll()));
-  this->connect(parts.None, SIGNAL(clicked()), SLOT(checkNone()));
+  this->connect(parts.OnlyThese, SIGNAL(clicked()), SLOT(checkOnlyThese()));
 }
 
 //------------------------------------------------------------------------------
 void pqLabelTablePropertyWidget::fillTable()
 {
   Internals& parts = *this->Parts;
-  const volumic::LabelRows labels =
-    parts.Domain ? parts.Domain->GetLabels() : volumic::LabelRows();
+  const volumic::LabelRows labels = parts.Domain->GetLabels();
   parts.Problem = QString::fromStdString(labels.Problem);
+  parts.Rows.clear();
+  parts.Rows.setHorizontalHeaderLabels({ tr("Name"), tr("Label"), tr("Voxels") });
+  for (const volumic::LabelRow& label : labels.Rows)
   {
-    const QSignalBlocker blocker(parts.Table);
-    parts.Table->setSortingEnabled(false);
-    parts.Table->clear();
-    for (const volumic::LabelRow& label : labels.Rows)
-    {
-      auto* row = new Row(QString::fromStdString(label.Name), label.Label, label.Voxels);
-      row->setIcon(Column::Name, swatch(label.Color));
-      row->setToolTip(Column::Name, row->text(Column::Name));
-      parts.Table->addTopLevelItem(row);
-    }
-    parts.Table->setSortingEnabled(true);
+    const auto row = newRow(QString::fromStdString(label.Name), label.Label, label.Voxels);
+    row[Column::Name]->setIcon(swatch(label.Color));
+    parts.Rows.appendRow(row);
   }
+  QHeaderView* header = parts.Table->header();
+  header->setSectionResizeMode(QHeaderView::ResizeToContents);
+  header->setSectionResizeMode(Column::Name, QHeaderView::Stretch);
   this->checkRows();
 }
 
 //------------------------------------------------------------------------------
 bool pqLabelTablePropertyWidget::isBackground(int label) const
 {
-  vtkSMProperty* background = this->proxy()->GetProperty("BackgroundLabel");
-  return background && vtkSMUncheckedPropertyHelper(background).GetAsInt() == label;
+  return vtkSMUncheckedPropertyHelper(this->proxy(), "BackgroundLabel").GetAsInt() == label;
 }
 
 //------------------------------------------------------------------------------
 void pqLabelTablePropertyWidget::checkRows()
 {
   Internals& parts = *this->Parts;
+  parts.IsChecking = true;
+  QSet<int> listed;
+  for (const QVariant& label : parts.Labels)
   {
-    const QSignalBlocker blocker(parts.Table);
-    QSet<int> listed;
-    for (const QVariant& label : parts.Labels)
-    {
-      listed << label.toInt();
-    }
-    QSet<int> known;
-    for (QTreeWidgetItem* row : rowsOf(parts.Table))
-    {
-      const int label = labelOf(row);
-      if (row->data(Column::Voxels, Qt::DisplayRole).toLongLong() == 0 && !listed.contains(label))
-      {
-        delete row; // One that the input has not, and nobody asks for any longer.
-        continue;
-      }
-      known << label;
-      const bool isChecked = listed.isEmpty() ? !this->isBackground(label) : listed.contains(label);
-      row->setCheckState(Column::Name, isChecked ? Qt::Checked : Qt::Unchecked);
-    }
-    for (int label : listed - known)
-    {
-      auto* row = new Row(tr("not in the input"), label, 0);
-      row->setCheckState(Column::Name, Qt::Checked);
-      parts.Table->addTopLevelItem(row);
-    }
+    listed << label.toInt();
   }
-  this->filterRows(parts.Filter->text());
+  QSet<int> unknown = listed;
+  for (int row = parts.Rows.rowCount() - 1; row >= 0; --row)
+  {
+    const int label = parts.labelOf(row);
+    if (!parts.isInInput(row) && !listed.contains(label))
+    {
+      parts.Rows.removeRow(row); // A label that the input does not have.
+      continue;
+    }
+    parts.check(row, listed.isEmpty() ? !this->isBackground(label) : listed.contains(label));
+    unknown.remove(label);
+  }
+  for (int label : unknown)
+  {
+    parts.Rows.appendRow(newRow(tr("not in the input"), label, 0));
+    parts.check(parts.Rows.rowCount() - 1, true);
+  }
+  parts.IsChecking = false;
   this->showNote();
-}
-
-//------------------------------------------------------------------------------
-void pqLabelTablePropertyWidget::filterRows(const QString& text)
-{
-  for (QTreeWidgetItem* row : rowsOf(this->Parts->Table))
-  {
-    row->setHidden(!row->text(Column::Name).contains(text, Qt::CaseInsensitive) &&
-      row->text(Column::Label) != text);
-  }
 }
 
 //------------------------------------------------------------------------------
 void pqLabelTablePropertyWidget::showNote()
 {
   const Internals& parts = *this->Parts;
-  int checked = 0;
-  for (const QTreeWidgetItem* row : rowsOf(parts.Table))
-  {
-    checked += row->checkState(Column::Name) == Qt::Checked ? 1 : 0;
-  }
-  const int count = parts.Table->topLevelItemCount();
-  for (QWidget* widget : std::initializer_list<QWidget*>{
-         parts.Filter, parts.Table, parts.All, parts.None })
+  const int count = parts.Rows.rowCount();
+  for (QWidget* widget : { static_cast<QWidget*>(parts.Filter), static_cast<QWidget*>(parts.Table),
+         static_cast<QWidget*>(parts.All), static_cast<QWidget*>(parts.OnlyThese) })
   {
     widget->setVisible(count > 0);
   }
-  parts.Note->setText(count == 0 ? parts.Problem
-      : checked == 0
-      ? tr("<b>Note:</b> Where none is checked, all but the background get a surface.")
-      : tr("%1 of %2 labels").arg(checked).arg(count));
+  parts.Note->setText(
+    count == 0 ? parts.Problem : tr("%1 of %2 labels").arg(parts.checked().size()).arg(count));
   parts.Note->setVisible(!parts.Note->text().isEmpty());
+  parts.OnlyThese->setEnabled(
+    !parts.Filter->text().isEmpty() || parts.Table->selectionModel()->hasSelection());
 }
 
 //------------------------------------------------------------------------------
@@ -295,16 +305,20 @@ void pqLabelTablePropertyWidget::setLabels(const QList<QVariant>& labels)
 //------------------------------------------------------------------------------
 void pqLabelTablePropertyWidget::readTable()
 {
-  QList<int> checked;
-  bool isDefault = true;
-  for (const QTreeWidgetItem* row : rowsOf(this->Parts->Table))
+  Internals& parts = *this->Parts;
+  QList<int> checked = parts.checked();
+  if (checked.isEmpty())
   {
-    const bool isChecked = row->checkState(Column::Name) == Qt::Checked;
-    isDefault = isDefault && isChecked != this->isBackground(labelOf(row));
-    if (isChecked)
-    {
-      checked << labelOf(row);
-    }
+    // An empty list means all.
+    this->checkRows();
+    parts.Note->setText(tr("<b>Note:</b> At least one label must be checked."));
+    return;
+  }
+  bool isDefault = true;
+  for (int row = 0; row < parts.Rows.rowCount(); ++row)
+  {
+    const int label = parts.labelOf(row);
+    isDefault = isDefault && checked.contains(label) != this->isBackground(label);
   }
   std::sort(checked.begin(), checked.end());
   QList<QVariant> labels;
@@ -313,54 +327,66 @@ void pqLabelTablePropertyWidget::readTable()
     labels << checked[i];
   }
   this->showNote();
-  if (labels != this->Parts->Labels)
+  if (labels != parts.Labels)
   {
-    this->Parts->Labels = labels;
+    parts.Labels = labels;
     Q_EMIT this->labelsChanged();
   }
 }
 
 //------------------------------------------------------------------------------
-void pqLabelTablePropertyWidget::checkShownRows(bool yes)
+void pqLabelTablePropertyWidget::search(const QString& text)
 {
-  {
-    const QSignalBlocker blocker(this->Parts->Table);
-    for (QTreeWidgetItem* row : rowsOf(this->Parts->Table))
-    {
-      if (!row->isHidden())
-      {
-        const bool isChecked = yes && !this->isBackground(labelOf(row));
-        row->setCheckState(Column::Name, isChecked ? Qt::Checked : Qt::Unchecked);
-      }
-    }
-  }
-  this->readTable();
-}
-
-void pqLabelTablePropertyWidget::checkAll()
-{
-  this->checkShownRows(true);
-}
-
-void pqLabelTablePropertyWidget::checkNone()
-{
-  this->checkShownRows(false);
+  this->Parts->Table->clearSelection();
+  this->Parts->Shown.setFilterFixedString(text);
+  this->showNote();
 }
 
 //------------------------------------------------------------------------------
-void pqLabelTablePropertyWidget::readRow(QTreeWidgetItem* row, int column)
+void pqLabelTablePropertyWidget::checkAll()
 {
-  if (column != Column::Name)
+  Internals& parts = *this->Parts;
+  parts.IsChecking = true;
+  for (int row : parts.found())
+  {
+    parts.check(row, !this->isBackground(parts.labelOf(row)));
+  }
+  parts.IsChecking = false;
+  this->readTable();
+}
+
+//------------------------------------------------------------------------------
+void pqLabelTablePropertyWidget::checkOnlyThese()
+{
+  Internals& parts = *this->Parts;
+  const QSet<int> these = parts.Table->selectionModel()->hasSelection()
+    ? parts.selected() : parts.found();
+  parts.IsChecking = true;
+  for (int row = 0; row < parts.Rows.rowCount(); ++row)
+  {
+    parts.check(row, these.contains(row));
+  }
+  parts.IsChecking = false;
+  this->readTable();
+}
+
+//------------------------------------------------------------------------------
+void pqLabelTablePropertyWidget::readRow(QStandardItem* item)
+{
+  Internals& parts = *this->Parts;
+  if (parts.IsChecking)
   {
     return;
   }
-  if (row->isSelected())
+  parts.IsChecking = true;
+  const QSet<int> selected = parts.selected();
+  if (selected.contains(item->row()))
   {
-    const QSignalBlocker blocker(this->Parts->Table);
-    for (QTreeWidgetItem* other : this->Parts->Table->selectedItems())
+    for (int row : selected)
     {
-      other->setCheckState(Column::Name, row->checkState(Column::Name));
+      parts.check(row, item->checkState() == Qt::Checked);
     }
   }
+  parts.IsChecking = false;
   this->readTable();
 }

@@ -10,14 +10,14 @@
 
 #include <memory>
 
-class QTreeWidgetItem;
+class QStandardItem;
 
 /**
- * A table of the labels of the input, for a property that lists some of them and, empty, means all
- * but the one that the property BackgroundLabel holds: name and colour, value, number of voxels,
- * each with a box to check. A click on a title sorts; what is typed above the table leaves the rows
- * that contain it, on which All and None act. The box of one of several selected rows checks all of
- * them.
+ * A table of the labels of the input, for a property that lists some of them; an empty list means all
+ * but the one that the property BackgroundLabel holds. A row has a box to check, the colour, the name,
+ * the value and the number of voxels. A click on a title sorts. Search hides the rows that do not
+ * contain its text. All checks the rows that are left, Only These unchecks all others. The box of one
+ * of several selected rows sets the boxes of all of them. At least one row stays checked.
  *
  *   <IntVectorProperty panel_widget="LabelTable" ...>
  *     <LabelsDomain .../>  <!-- tells the labels -->
@@ -44,19 +44,18 @@ private Q_SLOTS:
   void fillTable();
   /** Checks what the property lists. */
   void checkRows();
-  void filterRows(const QString& text);
+  void showNote();
+  void search(const QString& text);
   void checkAll();
-  void checkNone();
-  void readRow(QTreeWidgetItem* row, int column);
+  void checkOnlyThese();
+  void readRow(QStandardItem* item);
 
 private:
   Q_DISABLE_COPY(pqLabelTablePropertyWidget)
 
   void buildPanel();
-  /** Takes over what is checked, and tells of it. */
+  /** Set the property to what is checked. */
   void readTable();
-  void checkShownRows(bool yes);
-  void showNote();
   bool isBackground(int label) const;
 
   struct Internals;

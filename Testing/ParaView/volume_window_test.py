@@ -16,12 +16,11 @@ from paraview import simple
 
 VOLUME = source("RTAnalyticSource")
 FILTER = filter_of_the_menu("VolumeToSurface")
-BASIC = ("SetInputArrayToProcess", "IsoValue", "UseUpperValue", "ObjectIsBright", "Preview",
-         "FinestLevel",
-         "Recovery", "KeepComponents", "EdgeLength", "Tolerance", "ThinParts")
-ADVANCED = ("MaximumEdgeLength", "Gradation", "CoarsestLevel", "MinimumPartSize",
-            "BorderValue", "NumberOfLevels",
-            "MinimumLevelSize", "ReductionFactor", "Initialization", "Friction", "TimeLimit",
+BASIC = ("SetInputArrayToProcess", "IsoValue", "UseUpperValue", "Preview", "KeepComponents",
+         "Initialization", "EdgeLength", "Result")
+ADVANCED = ("ObjectIsBright", "BorderValue", "ShowLevels", "FinestLevel", "CoarsestLevel", "Recovery",
+            "Metric", "Tolerance", "ThinParts", "TopologyChanges", "TensionWeight",
+            "EdgeAttractionWeight", "AttractingPositions", "TimeLimit", "NumberOfThreads",
             "ScratchDirectory", "SnapshotInterval")
 
 # Runs in the window: from the first filter that is made, whoever makes it, its first run is
@@ -66,7 +65,7 @@ class ThinPartsTest(window.WindowTestCase):
     def test_thin_parts_after_a_run_without(self):
         path, save = self.saved_state("thin.pvsm")
         self.play(VOLUME + [
-            FILTER, set_iso_value(230), APPLY, gui.pause(300),
+            FILTER, set_iso_value(230), APPLY, gui.pause(300), SHOW_ADVANCED, gui.pause(300),
             window.set_box("ThinParts", True), APPLY, gui.pause(300), *save],
             "volume-thin-parts")
         surface = testing.fetch(window.open_state(path, "VolumetoSurface1"))
@@ -78,7 +77,7 @@ class ThinPartsTest(window.WindowTestCase):
 class VolumeWindowTest(window.WindowTestCase):
     def test_menu_panel_and_apply(self):
         path, save = self.saved_state("volume.pvsm")
-        levels = f"{PROPERTIES}/NumberOfLevels/IntRangeWidget/LineEdit"
+        edge_length = f"{PROPERTIES}/EdgeLength/DoubleLineEdit0"
         self.play(VOLUME + [
             FILTER, gui.pause(300),
             gui.check(ISO_VALUE, "text", iso_of_the_wavelet()),
@@ -91,10 +90,15 @@ class VolumeWindowTest(window.WindowTestCase):
             window.shown("MinimumComponentVolume", True), choose("KeepComponents", "All"),
             APPLY, *save, SHOW_ADVANCED, gui.pause(500),
             *[window.shown(name, True) for name in BASIC + ADVANCED],
-            window.shown("SeedRadius", False),
+            *[window.shown(name, False) for name in ("SeedRadius", "MaximumEdgeLength", "Gradation")],
             window.shown("ScratchDirectory/FileChooser", True),
-            gui.event(levels, "set_string", "3"), gui.pause(300),
-            window.shown("MinimumLevelSize", False)], "volume-applied")
+            # What a combination would refuse is grey.
+            gui.event(edge_length, "set_string", "2"), gui.pause(300),
+            *[gui.check(f"{PROPERTIES}/{name}", "enabled", "false")
+              for name in ("FinestLevel", "Tolerance", "ThinParts")],
+            gui.event(edge_length, "set_string", "0"), window.set_box("ThinParts", True),
+            gui.pause(300), window.shown("Gradation", True),
+            gui.check(f"{PROPERTIES}/EdgeLength", "enabled", "false")], "volume-applied")
         state = window.proxies_of(path)
         self.assertEqual(state.count("VolumicSurfaceRepresentation"), 1)
         surface = testing.fetch(window.open_state(path, "VolumetoSurface1"))
@@ -126,16 +130,19 @@ class VolumeWindowTest(window.WindowTestCase):
         area, volume = (surface.GetFieldData().GetArray(name).GetValue(0)
                         for name in ("Area", "Volume"))
         limit = f"{PROPERTIES}/TimeLimit/DoubleLineEdit0"
+        # So that these are the three digits that are shown.
+        self.assertTrue(1000 < area < 10000 and 1000 < volume < 10000, (area, volume))
         self.play(VOLUME + [
-            FILTER, gui.pause(500), window.shown("KeepComponents/Summary", False),
-            APPLY, gui.pause(500), window.shown("KeepComponents/Summary", True),
-            gui.check(f"{PROPERTIES}/KeepComponents/Summary", "text",
-                      f"<b>Surface</b> of level 0<br>{surface.GetNumberOfPoints()} vertices, "
-                      f"1 part, genus 0<br>area {area:g} world units²<br>volume {volume:g} world "
-                      "units³<br>0.0 % of the boundary missing<br>no self-intersections"),
+            FILTER, gui.pause(500), gui.check(f"{PROPERTIES}/Result/Summary", "text", "none yet"),
+            APPLY, gui.pause(500),
+            gui.check(f"{PROPERTIES}/Result/Summary", "text",
+                      f"<b>Surface</b> of level 0<br>{surface.GetNumberOfPoints():,} vertices, "
+                      f"1 component, genus 0<br>area {round(area, -1):,.0f} world units²<br>"
+                      f"volume {round(volume, -1):,.0f} world units³<br>"
+                      "0.0 % of the boundary missing<br>no self-intersections"),
             SHOW_ADVANCED, gui.pause(500), gui.event(limit, "set_string", "1e-9"),
             set_iso_value(140), APPLY,
-            gui.pause(500), gui.check(f"{PROPERTIES}/KeepComponents/Summary", "text",
+            gui.pause(500), gui.check(f"{PROPERTIES}/Result/Summary", "text",
                                        "<b>Unfinished</b> (time limit): no surface yet")],
             "volume-summary")
 
@@ -147,7 +154,7 @@ class VolumeWindowTest(window.WindowTestCase):
         stopped = VOLUME + [FILTER, gui.pause(300), APPLY, gui.pause(300),
                             gui.check(apply, "enabled", "true")]
         applied = [APPLY, gui.pause(300), gui.check(apply, "enabled", "false"),
-                   gui.check(f"{PROPERTIES}/KeepComponents/Summary", "visible", "true")]
+                   gui.check(f"{PROPERTIES}/Result/Summary", "visible", "true")]
         self.play(stopped + applied, "volume-goes-on", python=at_level_0)
         self.assertIn("Run 1 Level 1, iteration", self.session.output)
         self.assertRegex(self.session.output, r"Run 1 ended: cancelled with triangles: [1-9]")
