@@ -5,7 +5,6 @@
 #include "LabelRows.h"
 
 #include <vtkCommand.h>
-#include <vtkDataAssembly.h>
 #include <vtkDataObject.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
@@ -122,9 +121,7 @@ vtkSMProxy* vtkSMVolumicLabelsRepresentationProxy::FindLabelColors()
 {
   const std::string name =
     std::string("Separate_") + this->GetGlobalIDAsString() + "_Label.PVLookupTable";
-  return HasOwnColors(this)
-    ? this->GetSessionProxyManager()->GetProxy("lookup_tables", name.c_str())
-    : nullptr;
+  return this->GetSessionProxyManager()->GetProxy("lookup_tables", name.c_str());
 }
 
 //------------------------------------------------------------------------------
@@ -138,6 +135,7 @@ void vtkSMVolumicLabelsRepresentationProxy::ShareColors()
   }
   vtkNew<vtkSMTransferFunctionManager> manager;
   vtkSMSessionProxyManager* session = this->GetSessionProxyManager();
+  vtkSMViewProxy* view = vtkSMViewProxy::FindView(this);
   vtkSMProxy* common = manager->GetColorTransferFunction("Label", session);
   vtkNew<vtkSMProxyIterator> displays;
   displays->SetSessionProxyManager(session);
@@ -145,7 +143,7 @@ void vtkSMVolumicLabelsRepresentationProxy::ShareColors()
   for (displays->Begin("representations"); !displays->IsAtEnd(); displays->Next())
   {
     auto* display = vtkSMPVRepresentationProxy::SafeDownCast(displays->GetProxy());
-    if (!display || HasOwnColors(display) || !IsColoredByLabel(display))
+    if (!display || !IsColoredByLabel(display) || (display != this && HasOwnColors(display)))
     {
       continue;
     }
@@ -155,8 +153,7 @@ void vtkSMVolumicLabelsRepresentationProxy::ShareColors()
     // The labels of two maps in one dataset can't be distinguished.
     const bool isOfThis = filters == std::set<vtkSMProxy*>{ source };
     vtkSMProxy* wanted = present;
-    if (isOfThis &&
-      (present == common || vtkSMViewProxy::FindView(this) == vtkSMViewProxy::FindView(display)))
+    if (isOfThis && (present == common || (view && view == vtkSMViewProxy::FindView(display))))
     {
       wanted = own;
     }
@@ -181,76 +178,41 @@ void vtkSMVolumicLabelsRepresentationProxy::ViewUpdated(vtkSMProxy* view)
   this->Superclass::ViewUpdated(view);
   if (vtkPVDataInformation* data = this->GetInputInformation())
   {
-    const bool isNew = this->IsNew;
-    this->ChooseLabels(data);
+    const bool isFirst = this->IsNew && data->GetArrayInformation("Label", vtkDataObject::CELL);
+    if (isFirst)
+    {
+      this->SetScalarColoring("Label", vtkDataObject::CELL);
+      this->IsNew = false;
+    }
     if (vtkSMProxy* colors = this->FindLabelColors())
     {
       this->AdaptColorsOf("Label", colors, data);
     }
-    this->UpdateLegend(view, isNew);
+    this->UpdateLegend(view, isFirst);
   }
 }
 
 //------------------------------------------------------------------------------
-void vtkSMVolumicLabelsRepresentationProxy::FetchCategories(vtkPVDataInformation* data)
+void vtkSMVolumicLabelsRepresentationProxy::UpdateLegend(vtkSMProxy* view, bool isFirst)
 {
-  vtkSMPropertyHelper input(this, "Input", true);
-  auto* source = vtkSMSourceProxy::SafeDownCast(input.GetAsProxy());
-  if (source && data->GetMTime() != this->WantedTime)
-  {
-    this->Wanted = CategoriesOf(volumic::FetchLabelsOfSurfaces(source, input.GetOutputPort()));
-    this->WantedTime = data->GetMTime();
-  }
-}
-
-//------------------------------------------------------------------------------
-bool vtkSMVolumicLabelsRepresentationProxy::IsMerged(vtkPVDataInformation* data)
-{
-  this->FetchCategories(data);
-  vtkDataAssembly* hierarchy = data->GetHierarchy();
-  return hierarchy && this->Wanted.size() >
-    hierarchy->GetChildNodes(vtkDataAssembly::GetRootNode(), false).size();
-}
-
-//------------------------------------------------------------------------------
-void vtkSMVolumicLabelsRepresentationProxy::ChooseLabels(vtkPVDataInformation* data)
-{
-  vtkSMPropertyHelper array(this, "ColorArrayName");
-  const bool isByBlock =
-    IsColoredByLabel(this) && array.GetInputArrayAssociation() == vtkDataObject::FIELD;
-  if (!data->GetArrayInformation("Label", vtkDataObject::CELL) ||
-    !(this->IsNew || isByBlock))
-  {
-    return;
-  }
-  const bool isMerged = this->IsMerged(data);
-  if (this->IsNew || isMerged)
-  {
-    this->SetScalarColoring("Label", isMerged ? vtkDataObject::CELL : vtkDataObject::FIELD);
-  }
-  this->IsNew = false;
-}
-
-//------------------------------------------------------------------------------
-void vtkSMVolumicLabelsRepresentationProxy::UpdateLegend(vtkSMProxy* view, bool isNew)
-{
-  const std::size_t count = this->Wanted.size();
-  if (count == 0 || !IsColoredByLabel(this))
-  {
-    return;
-  }
-  const bool isShort = count <= MostInLegend;
-  if (isNew ||
-    (this->CountInLegend > 0 && isShort != (this->CountInLegend <= MostInLegend)))
+  const bool isShort = this->Count <= MostInLegend;
+  const bool wasShort = this->CountInLegend <= MostInLegend;
+  if (isFirst || (this->CountInLegend > 0 && isShort != wasShort && IsColoredByLabel(this)))
   {
     // A legend that was shown and hidden stays hidden when the display is shown again.
     this->SetScalarBarVisibility(view, true);
+    vtkNew<vtkSMTransferFunctionManager> manager;
+    vtkSMProxy* bar = manager->GetScalarBarRepresentation(
+      vtkSMPropertyHelper(this, "LookupTable").GetAsProxy(), view);
+    vtkSMPropertyHelper(bar, "ScalarBarLength")
+      .Set(std::max(0.33, 0.04 * std::min(this->Count, MostInLegend)));
+    bar->UpdateVTKObjects();
     if (!isShort)
     {
       this->SetScalarBarVisibility(view, false);
     }
   }
-  this->CountInLegend = count;
+  this->CountInLegend = this->Count;
 }
 
 //------------------------------------------------------------------------------
@@ -262,19 +224,20 @@ void vtkSMVolumicLabelsRepresentationProxy::AdaptColorsOf(
     this->Superclass::AdaptColorsOf(array, colors, data);
     return;
   }
-  this->FetchCategories(data);
-  // Of an error there are none: what is there serves again.
-  if (this->WantedTime != this->AdaptedTime && !this->Wanted.empty())
+  vtkSMPropertyHelper input(this, "Input");
+  auto* source = vtkSMSourceProxy::SafeDownCast(input.GetAsProxy());
+  if (data->GetMTime() == this->AdaptedTime)
   {
-    this->GiveCategories(colors, this->Wanted);
+    return;
   }
-  this->AdaptedTime = this->WantedTime;
-}
-
-//------------------------------------------------------------------------------
-void vtkSMVolumicLabelsRepresentationProxy::GiveCategories(
-  vtkSMProxy* colors, std::vector<volumic::ColorCategory> wanted)
-{
+  this->AdaptedTime = data->GetMTime();
+  std::vector<volumic::ColorCategory> wanted =
+    CategoriesOf(volumic::FetchLabelsOfSurfaces(source, input.GetOutputPort()));
+  if (wanted.empty())
+  {
+    return; // After an error the categories are those of the run before.
+  }
+  this->Count = wanted.size();
   std::vector<volumic::ColorCategory> present = volumic::CategoriesOf(colors);
   if (volumic::HasGotItsRange(colors) && !volumic::AreSame(present, this->Given))
   {
