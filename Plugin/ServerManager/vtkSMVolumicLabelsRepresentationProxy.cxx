@@ -176,43 +176,62 @@ void vtkSMVolumicLabelsRepresentationProxy::ViewUpdated(vtkSMProxy* view)
 {
   // Before this, what is known of the data is that of the run before.
   this->Superclass::ViewUpdated(view);
-  if (vtkPVDataInformation* data = this->GetInputInformation())
+  vtkSMProxy* source = vtkSMPropertyHelper(this, "Input", true).GetAsProxy();
+  vtkPVDataInformation* data = this->GetInputInformation();
+  if (!source || !data)
   {
-    const bool isFirst = this->IsNew && data->GetArrayInformation("Label", vtkDataObject::CELL);
-    if (isFirst)
-    {
-      this->SetScalarColoring("Label", vtkDataObject::CELL);
-      this->IsNew = false;
-    }
-    if (vtkSMProxy* colors = this->FindLabelColors())
-    {
-      this->AdaptColorsOf("Label", colors, data);
-    }
-    this->UpdateLegend(view, isFirst);
+    return;
   }
+  if (!this->IsFollowing)
+  {
+    // A hidden display is not updated with the view.
+    source->AddObserver(
+      vtkCommand::UpdateDataEvent, this, &vtkSMVolumicLabelsRepresentationProxy::FollowData);
+    this->IsFollowing = true;
+  }
+  if (this->IsNew && data->GetArrayInformation("Label", vtkDataObject::CELL))
+  {
+    this->IsNew = false;
+    this->SetScalarColoring("Label", vtkDataObject::CELL);
+    this->ShowLegend(view);
+  }
+  this->FollowData();
 }
 
 //------------------------------------------------------------------------------
-void vtkSMVolumicLabelsRepresentationProxy::UpdateLegend(vtkSMProxy* view, bool isFirst)
+void vtkSMVolumicLabelsRepresentationProxy::FollowData()
 {
-  const bool isShort = this->Count <= MostInLegend;
-  const bool wasShort = this->CountInLegend <= MostInLegend;
-  if (isFirst || (this->CountInLegend > 0 && isShort != wasShort && IsColoredByLabel(this)))
+  vtkSMProxy* colors = this->FindLabelColors();
+  vtkPVDataInformation* data = this->GetInputInformation();
+  if (!colors || !data)
   {
-    // A legend that was shown and hidden stays hidden when the display is shown again.
-    this->SetScalarBarVisibility(view, true);
-    vtkNew<vtkSMTransferFunctionManager> manager;
-    vtkSMProxy* bar = manager->GetScalarBarRepresentation(
-      vtkSMPropertyHelper(this, "LookupTable").GetAsProxy(), view);
-    vtkSMPropertyHelper(bar, "ScalarBarLength")
-      .Set(std::max(0.33, 0.04 * std::min(this->Count, MostInLegend)));
-    bar->UpdateVTKObjects();
-    if (!isShort)
-    {
-      this->SetScalarBarVisibility(view, false);
-    }
+    return;
+  }
+  this->AdaptColorsOf("Label", colors, data);
+  vtkSMProxy* view = vtkSMViewProxy::FindView(this);
+  if (view && this->CountInLegend > 0 && IsColoredByLabel(this) &&
+    (this->Count <= MostInLegend) != (this->CountInLegend <= MostInLegend))
+  {
+    this->ShowLegend(view);
   }
   this->CountInLegend = this->Count;
+}
+
+//------------------------------------------------------------------------------
+void vtkSMVolumicLabelsRepresentationProxy::ShowLegend(vtkSMProxy* view)
+{
+  // A legend that was shown and hidden stays hidden when the display is shown again.
+  this->SetScalarBarVisibility(view, true);
+  vtkNew<vtkSMTransferFunctionManager> manager;
+  vtkSMProxy* bar = manager->GetScalarBarRepresentation(
+    vtkSMPropertyHelper(this, "LookupTable").GetAsProxy(), view);
+  const std::size_t count = std::min(this->Count, MostInLegend);
+  vtkSMPropertyHelper(bar, "ScalarBarLength").Set(std::max(0.33, 0.04 * count));
+  bar->UpdateVTKObjects();
+  if (this->Count > MostInLegend)
+  {
+    this->SetScalarBarVisibility(view, false);
+  }
 }
 
 //------------------------------------------------------------------------------

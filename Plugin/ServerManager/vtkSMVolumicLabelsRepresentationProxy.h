@@ -51,9 +51,12 @@ private:
   vtkSMProxy* FindLabelColors();
   /** Give the colour map to the displays of what is made of the surfaces. */
   void ShareColors();
-  /** Show or hide the legend by the number of labels, where this was not decided before. */
-  void UpdateLegend(vtkSMProxy* view, bool isFirst);
+  /** Update colour map and legend after a run. */
+  void FollowData();
+  /** Show the legend, or hide it if the labels are too many. */
+  void ShowLegend(vtkSMProxy* view);
 
+  bool IsFollowing = false;
   std::vector<volumic::ColorCategory> Given; ///< what was set here last
   std::size_t Count = 0;                     ///< labels of the data
   std::size_t CountInLegend = 0;             ///< labels when the legend was decided on
