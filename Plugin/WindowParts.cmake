@@ -20,7 +20,7 @@ function (volumic_panel_widget kind type class)
 endfunction ()
 
 if (PARAVIEW_USE_QT)
-  volumic_panel_widget(WIDGET_DECORATOR Summary pqSummaryDecorator)
+  volumic_panel_widget(WIDGET Summary pqSummaryPropertyWidget)
   volumic_panel_widget(WIDGET_DECORATOR ValueRange pqValueRangeDecorator)
   volumic_panel_widget(WIDGET LabelTable pqLabelTablePropertyWidget)
   volumic_panel_widget(WIDGET PointList pqPointListPropertyWidget)
@@ -32,10 +32,7 @@ if (PARAVIEW_USE_QT)
     Window/SurfaceSources.cxx Window/SurfaceSources.h)
 
   set(volumic_behaviors
-    pqAbortButtonBehavior pqPanelWidthBehavior pqLabelLegendBehavior pqUnfinishedBehavior)
-  if (VOLUMIC_WRAP_PYTHON) # in which the writer is
-    list(APPEND volumic_behaviors pqExportSurfacesBehavior)
-  endif ()
+    pqAbortButtonBehavior pqLabelLegendBehavior pqUnfinishedBehavior)
   foreach (behavior IN LISTS volumic_behaviors)
     paraview_plugin_add_auto_start(
       CLASS_NAME "${behavior}"

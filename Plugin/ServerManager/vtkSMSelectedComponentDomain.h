@@ -2,31 +2,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkSMSelectedComponentDomain
- * @brief   the components of an array by their names, and its magnitude, which is -1
+ * @brief   the components of an array by their names, and the magnitude as -1
  *
- * The choices of a property of one integer, for the array that another property chooses: required
- * are the properties Input and ArraySelection, as for vtkSMArrayRangeDomain. (ParaView's
- * vtkSMNumberOfComponentsDomain counts the magnitude as the component after the last.)
+ * ParaView's own domain can't have -1, the default of the filters.
  */
 #ifndef vtkSMSelectedComponentDomain_h
 #define vtkSMSelectedComponentDomain_h
 
-#include "vtkSMEnumerationDomain.h"
+#include "vtkSMNumberOfComponentsDomain.h"
 #include "vtkServerManagerVolumicModule.h" // For export macro
 
-class VTKSERVERMANAGERVOLUMIC_EXPORT vtkSMSelectedComponentDomain : public vtkSMEnumerationDomain
+class VTKSERVERMANAGERVOLUMIC_EXPORT vtkSMSelectedComponentDomain
+  : public vtkSMNumberOfComponentsDomain
 {
 public:
   static vtkSMSelectedComponentDomain* New();
-  vtkTypeMacro(vtkSMSelectedComponentDomain, vtkSMEnumerationDomain);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
+  vtkTypeMacro(vtkSMSelectedComponentDomain, vtkSMNumberOfComponentsDomain);
 
   void Update(vtkSMProperty* requestingProperty) override;
-  int SetDefaultValues(vtkSMProperty* property, bool useUncheckedValues) override;
 
 protected:
-  vtkSMSelectedComponentDomain();
-  ~vtkSMSelectedComponentDomain() override;
+  vtkSMSelectedComponentDomain() = default;
+  ~vtkSMSelectedComponentDomain() override = default;
 
 private:
   vtkSMSelectedComponentDomain(const vtkSMSelectedComponentDomain&) = delete;

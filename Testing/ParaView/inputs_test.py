@@ -127,7 +127,7 @@ class InputsTest(testing.PluginTestCase):
                 filter_ = getattr(simple, name)(testing.produce(coloured()))
                 self.assertEqual(filter_.SelectedComponent, "Magnitude")
                 self.assertEqual(filter_.GetProperty("SelectedComponent").Available,
-                                 ["Magnitude", "Red", "Green", "Blue"])
+                                 ["Red", "Green", "Blue", "Magnitude"])
                 self.check_ball(filter_)
                 magnitude = filter_.IsoValue
                 filter_.SelectedComponent = "Green"

@@ -1,11 +1,10 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
 """Labels to Surfaces in ParaView's window: the table of labels, Apply, errors, another input; File >
-Export Surfaces, a file for each label that is shown; and File > Open by the readers of Volumic."""
+Save Data, a scene with names; and File > Open by the readers of Volumic."""
 
 import os
 import re
-import shutil
 
 import numpy
 
@@ -38,20 +37,6 @@ print("Told:", list(filter_.Labels), [blocks.GetMetaData(b).Get(blocks.NAME()).s
       list(legend)[1::2])
 """
 
-HIDE = """
-from paraview import simple
-display = simple.GetDisplayProperties(simple.GetActiveSource(), simple.GetActiveView())
-display.BlockSelectors = ["/Root/*[@label='liver']", "/Root/*[@label='spleen']"]
-simple.Render()
-"""
-CLIP = """
-from paraview import simple
-clip = simple.Clip(simple.GetActiveSource(), ClipType="Plane", Scalars=["POINTS", ""])
-clip.ClipType.Origin, clip.ClipType.Normal = (14, 16, 16), (1, 0, 0)
-simple.Show(clip)
-simple.SetActiveSource(clip)
-simple.Render()
-"""
 TELL_MAPS = """
 from paraview import simple
 view = simple.GetActiveView()
@@ -69,7 +54,6 @@ simple.Delete(simple.FindSource("LabelstoSurfaces1"))
 """
 CLIPPED = filter_of_the_menu("Clip", "Alphabetical") + "\n" + APPLY
 COLORED_BY = f"{gui.WINDOW}/variableToolbar/displayColor/Variables"
-WRITTEN = "import os\nuntil(lambda: len(os.listdir({folder!r})) >= {count})"
 ENTRY = f"{gui.WINDOW}/menubar/menu_File"
 
 
@@ -223,29 +207,21 @@ class LabelsWindowTest(window.WindowTestCase):
                          [run[1] for run in runs if run[1] != "[]"])
 
 
-class ExportWindowTest(window.WindowTestCase):
-    def test_what_is_shown_of_the_labels(self):
-        folder = testing.output_path("window-exported")
-        shutil.rmtree(folder, ignore_errors=True)
-        os.mkdir(folder)
-        path = testing.write_volume("export.vti", label_maps.add_names(label_maps.image()))
-        hide = self.session.add_code(HIDE)
-        half = os.path.join(folder, "half")
-        os.mkdir(half)
-        self.play(opened(path) + [
-            filter_of_the_menu("LabelsToSurfaces"), APPLY, hide,
-            *self.exported(os.path.join(folder, "organs.stl"), 3),
-            self.session.add_code(CLIP), gui.pause(1000),
-            *self.exported(os.path.join(half, "half.stl"), 2)], "export-labels")
-        self.assertEqual(sorted(os.listdir(folder)),
-                         ["half", "organs-liver.stl", "organs-spleen.stl"])
-        self.assertEqual(sorted(os.listdir(half)), ["half-liver.stl", "half-spleen.stl"])
-
-    def exported(self, file, count):
-        """Events that export to the file, till there are so many in its folder."""
-        return [gui.event(ENTRY, "activate", "actionExportSurfaces"),
-                gui.event(f"{gui.WINDOW}/ExportSurfacesDialog", "filesSelected", file),
-                self.session.add_code(WRITTEN.format(folder=os.path.dirname(file), count=count))]
+class SaveDataWindowTest(window.WindowTestCase):
+    def test_a_scene_with_names(self):
+        path = testing.output_path("organs.glb")
+        if os.path.exists(path):
+            os.remove(path)
+        volume = testing.write_volume("scene.vti", label_maps.add_names(label_maps.image()))
+        self.play(opened(volume) + [
+            filter_of_the_menu("LabelsToSurfaces"), APPLY,
+            gui.event(ENTRY, "activate", "actionFileSaveData"),
+            gui.event(f"{gui.WINDOW}/FileSaveDialog", "filesSelected", path),
+            gui.pause(500)], "save-labels")
+        with open(path, "rb") as file:
+            scene = file.read()
+        for name in NAMES.values():
+            self.assertIn(name.encode(), scene)
 
 
 TELL_THE_READER = """

@@ -121,6 +121,38 @@ class ProxyDefaultsTest(unittest.TestCase):
             return value + 1
         return value * 0.9 if value else 0.5
 
+    def test_panels_are_short(self):
+        """Rows before the gear is pressed, and with it; without what another value brings up."""
+        rows = {}
+        for name in ("VolumeToSurface", "LabelsToSurfaces"):
+            shown = [property_.GetPanelVisibility()
+                     for key, property_ in properties_of(self.new_proxy("filters", name))
+                     if not property_.IsA("vtkSMInputProperty") and key != "Result"
+                     and not self.is_hidden_at_first(property_)]
+            rows[name] = shown.count("default"), len(shown) - shown.count("never")
+        self.assertLessEqual(rows["VolumeToSurface"], (7, 25))
+        self.assertLessEqual(rows["LabelsToSurfaces"], (7, 22))
+
+    @staticmethod
+    def is_hidden_at_first(property_):
+        hints = property_.GetHints()
+        return hints is not None and any(
+            hints.GetNestedElement(i).GetAttribute("mode") == "visibility"
+            or hints.GetNestedElement(i).FindNestedElementByName("Expression") is not None
+            and hints.GetNestedElement(i).GetNestedElement(0).GetNestedElement(0)
+            .GetAttribute("mode") == "visibility"
+            for i in range(hints.GetNumberOfNestedElements()))
+
+    def test_tooltips_are_short(self):
+        """At most 30 words; a tooltip is the documentation of a property."""
+        long = {(element.get("name"), key): words
+                for group, element in self.elements
+                for key, property_ in properties_of(self.new_proxy(group, element.get("name")))
+                if property_.GetDocumentation()
+                for words in [len(property_.GetDocumentation().GetDescription().split())]
+                if words > 30}
+        self.assertEqual(long, {})
+
     def test_every_choice_of_the_class_is_offered(self):
         chosen = set()
         for group, element in self.elements:

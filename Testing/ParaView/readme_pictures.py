@@ -20,11 +20,10 @@ import gui_session as gui
 import plugin_testing as testing
 import x_input
 from window_testing import (
-    APPLY, FILTERS, FROM_THE_FRONT, SHOW_ADVANCED, choose, filter_of_the_menu,
+    APPLY, FROM_THE_FRONT, SHOW_ADVANCED, choose, filter_of_the_menu,
     open_menu_of_volumic, opened, set_iso_value)
 
 CAMERA = f"{gui.WINDOW}/cameraToolbar"
-KEY_DOWN = "6,16777237,0,,0,1"
 MACRO = os.path.abspath(os.path.join(os.path.dirname(os.path.abspath(__file__)),
                                      "../../Examples/ParaView/compare_levels.py"))
 
@@ -63,8 +62,7 @@ exec(compile(open({MACRO!r}).read(), "macro", "exec"), {{"__name__": "__main__"}
 """
     pictures = {
         # Two: the menu of a volume that has been opened.
-        "paraview-menu.png": ("", start + open_menu_of_volumic() + [gui.pause(500),
-            *[gui.event(f"{FILTERS}/Volumic", "keyEvent", KEY_DOWN)] * 3, gui.pause(1500)]),
+        "paraview-menu.png": ("", start + open_menu_of_volumic() + [gui.pause(1500)]),
         # Four: the surface.
         "paraview-volume-to-surface.png": ("", start + [
             filter_of_the_menu("VolumeToSurface"), set_iso_value(iso_value), APPLY,

@@ -2,10 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Image Pyramid and Deformable Surface in ParaView's window, by menu and panel as a user does."""
 
-import re
-
 import gui_session as gui
-import numpy
 import plugin_testing as testing
 import window_testing as window
 from paraview import simple
@@ -15,26 +12,14 @@ from window_testing import (
 
 VOLUME = source("RTAnalyticSource")
 SURFACE = filter_of_the_menu("DeformableSurface")
-BASIC = ("SetInputArrayToProcess", "IsoValue", "ObjectIsBright", "Preview", "Recovery",
-         "KeepComponents")
-ADVANCED = ("Initialization", "CoarsestLevel", "FinestLevel", "MinimumPartSize", "Tolerance",
-            "MaximumEdgeLength", "Gradation", "ThinParts", "SamplingRatio",
-            "TensionWeight", "ElasticityWeight", "IsopotentialWeight",
+BASIC = ("SetInputArrayToProcess", "IsoValue", "UseUpperValue", "Preview", "KeepComponents",
+         "Initialization", "EdgeLength", "Result")
+ADVANCED = ("ObjectIsBright", "CoarsestLevel", "FinestLevel", "Recovery", "Tolerance", "ThinParts",
+            "SamplingRatio", "TensionWeight", "ElasticityWeight", "IsopotentialWeight",
             "GradientWeight", "PointAttractionWeight", "EdgeAttractionWeight", "Friction",
             "BorderValue", "TopologyChanges", "SnapToIsoValue", "AttractingPositions",
-            "MaximumNumberOfIterations", "ConvergenceTolerance", "FreezeMotionlessVertices",
-            "NumberOfThreads", "TimeLimit", "ScratchDirectory",
-            "SnapshotInterval")
-
-TELL_THE_COLOUR = """
-from paraview import simple
-display = simple.GetDisplayProperties(simple.GetActiveSource(), simple.GetActiveView())
-print("Colour:", [round(float(c), 3) for c in display.DiffuseColor])
-"""
-COLOUR_THE_SURFACE = """
-from paraview import simple
-simple.GetDisplayProperties().DiffuseColor = [0.5, 0.25, 0]
-"""
+            "MaximumNumberOfIterations", "ConvergenceTolerance", "NumberOfThreads", "TimeLimit",
+            "ScratchDirectory", "SnapshotInterval")
 
 
 # Runs in the window: an image whose second array has several components.
@@ -90,7 +75,6 @@ class SurfaceWindowTest(window.WindowTestCase):
             SURFACE, gui.pause(300),
             gui.check(f"{PROPERTIES}/SetInputArrayToProcess/ComboBox", "currentText", "RTData"),
             gui.check(ISO_VALUE, "text", iso_of_the_wavelet()),
-            gui.check(f"{PROPERTIES}/ObjectIsBright/CheckBox", "checked", "true"),
             *[window.shown(name, True) for name in BASIC],
             *[window.shown(name, False) for name in ADVANCED],
             window.as_wide_as_the_panel(), window.value_range(*range_of_the_wavelet()),
@@ -120,7 +104,6 @@ class SurfaceWindowTest(window.WindowTestCase):
             APPLY, SURFACE, SHOW_ADVANCED, gui.pause(500),
             *[window.shown(name, True) for name in BASIC + ADVANCED],
             gui.check(f"{PROPERTIES}/Initialization/ComboBox", "currentText", "Enclosing Box"),
-            window.as_wide_as_the_panel(),
             window.value_range(*range_of_the_wavelet()),
             gui.check(ISO_VALUE, "text", iso_of_the_wavelet()), APPLY, *save,
             # Only of use for seeds.
@@ -133,28 +116,13 @@ class SurfaceWindowTest(window.WindowTestCase):
                       "set_string", "2"), gui.pause(300),
             window.shown("EdgeMap", True),
             gui.check(f"{PROPERTIES}/Recovery/ComboBox", "currentText", "Objects"),
-            # Only of use for parts that are looked for, for components of that volume.
-            window.shown("MinimumPartSize", True),
-            choose("Recovery", "Off"), gui.pause(300),
-            window.shown("MinimumPartSize", False),
+            # Only of use for components of that volume.
             window.shown("MinimumComponentVolume", False),
             choose("KeepComponents", "Large Ones"), gui.pause(300),
             window.shown("MinimumComponentVolume", True)], "surface-advanced")
         filter_ = window.open_state(path, "DeformableSurface1")
         self.assertEqual(filter_.Input.GetXMLName(), "ImagePyramid")
         self.assertGreater(testing.fetch(filter_).GetNumberOfCells(), 0)
-
-    def test_what_is_made_of_it_keeps_its_colour(self):
-        tell = self.session.add_code(TELL_THE_COLOUR)
-        colour = self.session.add_code(COLOUR_THE_SURFACE)
-
-        def made(filter_):
-            return [filter_of_the_menu(filter_, "Alphabetical"), APPLY, gui.pause(300), tell]
-        self.play(VOLUME + [
-            SURFACE, APPLY, colour, *made("Clip"), window.in_the_pipeline(0, 0), *made("Threshold"),
-            window.in_the_pipeline(0), *made("Contour")], "surface-clipped")
-        self.assertEqual(re.findall(r"Colour: (\[.*\])", self.session.output),
-                         ["[0.5, 0.25, 0.0]"] * 2 + ["[1.0, 1.0, 1.0]"])
 
     def test_component(self):
         of_scalar, of_magnitude, of_y = iso_values()

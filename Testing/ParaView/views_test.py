@@ -80,6 +80,7 @@ class BlocksTest(testing.PluginTestCase):
         filter_ = simple.VolumetoSurface(two_balls(), IsoValue=50.0)
         view = views.new_view("RenderView")
         display = simple.Show(simple.OutputPort(filter_, LEVELS), view)
+        simple.Render(view)
         self.assertEqual(self.shown(display), ["/Root/*[@label='Level 0']"])
         simple.ResetCamera(view)
         # As the surface itself looks.
