@@ -5,7 +5,6 @@
 #include "LabelRows.h"
 
 #include <vtkCommand.h>
-#include <vtkDataAssembly.h>
 #include <vtkDataObject.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
@@ -122,9 +121,7 @@ vtkSMProxy* vtkSMVolumicLabelsRepresentationProxy::FindLabelColors()
 {
   const std::string name =
     std::string("Separate_") + this->GetGlobalIDAsString() + "_Label.PVLookupTable";
-  return HasOwnColors(this)
-    ? this->GetSessionProxyManager()->GetProxy("lookup_tables", name.c_str())
-    : nullptr;
+  return this->GetSessionProxyManager()->GetProxy("lookup_tables", name.c_str());
 }
 
 //------------------------------------------------------------------------------
@@ -138,6 +135,7 @@ void vtkSMVolumicLabelsRepresentationProxy::ShareColors()
   }
   vtkNew<vtkSMTransferFunctionManager> manager;
   vtkSMSessionProxyManager* session = this->GetSessionProxyManager();
+  vtkSMViewProxy* view = vtkSMViewProxy::FindView(this);
   vtkSMProxy* common = manager->GetColorTransferFunction("Label", session);
   vtkNew<vtkSMProxyIterator> displays;
   displays->SetSessionProxyManager(session);
@@ -145,7 +143,7 @@ void vtkSMVolumicLabelsRepresentationProxy::ShareColors()
   for (displays->Begin("representations"); !displays->IsAtEnd(); displays->Next())
   {
     auto* display = vtkSMPVRepresentationProxy::SafeDownCast(displays->GetProxy());
-    if (!display || HasOwnColors(display) || !IsColoredByLabel(display))
+    if (!display || !IsColoredByLabel(display) || (display != this && HasOwnColors(display)))
     {
       continue;
     }
@@ -155,8 +153,7 @@ void vtkSMVolumicLabelsRepresentationProxy::ShareColors()
     // The labels of two maps in one dataset can't be distinguished.
     const bool isOfThis = filters == std::set<vtkSMProxy*>{ source };
     vtkSMProxy* wanted = present;
-    if (isOfThis &&
-      (present == common || vtkSMViewProxy::FindView(this) == vtkSMViewProxy::FindView(display)))
+    if (isOfThis && (present == common || (view && view == vtkSMViewProxy::FindView(display))))
     {
       wanted = own;
     }
@@ -179,78 +176,62 @@ void vtkSMVolumicLabelsRepresentationProxy::ViewUpdated(vtkSMProxy* view)
 {
   // Before this, what is known of the data is that of the run before.
   this->Superclass::ViewUpdated(view);
-  if (vtkPVDataInformation* data = this->GetInputInformation())
-  {
-    const bool isNew = this->IsNew;
-    this->ChooseLabels(data);
-    if (vtkSMProxy* colors = this->FindLabelColors())
-    {
-      this->AdaptColorsOf("Label", colors, data);
-    }
-    this->UpdateLegend(view, isNew);
-  }
-}
-
-//------------------------------------------------------------------------------
-void vtkSMVolumicLabelsRepresentationProxy::FetchCategories(vtkPVDataInformation* data)
-{
-  vtkSMPropertyHelper input(this, "Input", true);
-  auto* source = vtkSMSourceProxy::SafeDownCast(input.GetAsProxy());
-  if (source && data->GetMTime() != this->WantedTime)
-  {
-    this->Wanted = CategoriesOf(volumic::FetchLabelsOfSurfaces(source, input.GetOutputPort()));
-    this->WantedTime = data->GetMTime();
-  }
-}
-
-//------------------------------------------------------------------------------
-bool vtkSMVolumicLabelsRepresentationProxy::IsMerged(vtkPVDataInformation* data)
-{
-  this->FetchCategories(data);
-  vtkDataAssembly* hierarchy = data->GetHierarchy();
-  return hierarchy && this->Wanted.size() >
-    hierarchy->GetChildNodes(vtkDataAssembly::GetRootNode(), false).size();
-}
-
-//------------------------------------------------------------------------------
-void vtkSMVolumicLabelsRepresentationProxy::ChooseLabels(vtkPVDataInformation* data)
-{
-  vtkSMPropertyHelper array(this, "ColorArrayName");
-  const bool isByBlock =
-    IsColoredByLabel(this) && array.GetInputArrayAssociation() == vtkDataObject::FIELD;
-  if (!data->GetArrayInformation("Label", vtkDataObject::CELL) ||
-    !(this->IsNew || isByBlock))
+  vtkSMProxy* source = vtkSMPropertyHelper(this, "Input", true).GetAsProxy();
+  vtkPVDataInformation* data = this->GetInputInformation();
+  if (!source || !data)
   {
     return;
   }
-  const bool isMerged = this->IsMerged(data);
-  if (this->IsNew || isMerged)
+  if (!this->IsFollowing)
   {
-    this->SetScalarColoring("Label", isMerged ? vtkDataObject::CELL : vtkDataObject::FIELD);
+    // A hidden display is not updated with the view.
+    source->AddObserver(
+      vtkCommand::UpdateDataEvent, this, &vtkSMVolumicLabelsRepresentationProxy::FollowData);
+    this->IsFollowing = true;
   }
-  this->IsNew = false;
+  if (this->IsNew && data->GetArrayInformation("Label", vtkDataObject::CELL))
+  {
+    this->IsNew = false;
+    this->SetScalarColoring("Label", vtkDataObject::CELL);
+    this->ShowLegend(view);
+  }
+  this->FollowData();
 }
 
 //------------------------------------------------------------------------------
-void vtkSMVolumicLabelsRepresentationProxy::UpdateLegend(vtkSMProxy* view, bool isNew)
+void vtkSMVolumicLabelsRepresentationProxy::FollowData()
 {
-  const std::size_t count = this->Wanted.size();
-  if (count == 0 || !IsColoredByLabel(this))
+  vtkSMProxy* colors = this->FindLabelColors();
+  vtkPVDataInformation* data = this->GetInputInformation();
+  if (!colors || !data)
   {
     return;
   }
-  const bool isShort = count <= MostInLegend;
-  if (isNew ||
-    (this->CountInLegend > 0 && isShort != (this->CountInLegend <= MostInLegend)))
+  this->AdaptColorsOf("Label", colors, data);
+  vtkSMProxy* view = vtkSMViewProxy::FindView(this);
+  if (view && this->CountInLegend > 0 && IsColoredByLabel(this) &&
+    (this->Count <= MostInLegend) != (this->CountInLegend <= MostInLegend))
   {
-    // A legend that was shown and hidden stays hidden when the display is shown again.
-    this->SetScalarBarVisibility(view, true);
-    if (!isShort)
-    {
-      this->SetScalarBarVisibility(view, false);
-    }
+    this->ShowLegend(view);
   }
-  this->CountInLegend = count;
+  this->CountInLegend = this->Count;
+}
+
+//------------------------------------------------------------------------------
+void vtkSMVolumicLabelsRepresentationProxy::ShowLegend(vtkSMProxy* view)
+{
+  // A legend that was shown and hidden stays hidden when the display is shown again.
+  this->SetScalarBarVisibility(view, true);
+  vtkNew<vtkSMTransferFunctionManager> manager;
+  vtkSMProxy* bar = manager->GetScalarBarRepresentation(
+    vtkSMPropertyHelper(this, "LookupTable").GetAsProxy(), view);
+  const std::size_t count = std::min(this->Count, MostInLegend);
+  vtkSMPropertyHelper(bar, "ScalarBarLength").Set(std::max(0.33, 0.04 * count));
+  bar->UpdateVTKObjects();
+  if (this->Count > MostInLegend)
+  {
+    this->SetScalarBarVisibility(view, false);
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -262,19 +243,20 @@ void vtkSMVolumicLabelsRepresentationProxy::AdaptColorsOf(
     this->Superclass::AdaptColorsOf(array, colors, data);
     return;
   }
-  this->FetchCategories(data);
-  // Of an error there are none: what is there serves again.
-  if (this->WantedTime != this->AdaptedTime && !this->Wanted.empty())
+  vtkSMPropertyHelper input(this, "Input");
+  auto* source = vtkSMSourceProxy::SafeDownCast(input.GetAsProxy());
+  if (data->GetMTime() == this->AdaptedTime)
   {
-    this->GiveCategories(colors, this->Wanted);
+    return;
   }
-  this->AdaptedTime = this->WantedTime;
-}
-
-//------------------------------------------------------------------------------
-void vtkSMVolumicLabelsRepresentationProxy::GiveCategories(
-  vtkSMProxy* colors, std::vector<volumic::ColorCategory> wanted)
-{
+  this->AdaptedTime = data->GetMTime();
+  std::vector<volumic::ColorCategory> wanted =
+    CategoriesOf(volumic::FetchLabelsOfSurfaces(source, input.GetOutputPort()));
+  if (wanted.empty())
+  {
+    return; // After an error the categories are those of the run before.
+  }
+  this->Count = wanted.size();
   std::vector<volumic::ColorCategory> present = volumic::CategoriesOf(colors);
   if (volumic::HasGotItsRange(colors) && !volumic::AreSame(present, this->Given))
   {

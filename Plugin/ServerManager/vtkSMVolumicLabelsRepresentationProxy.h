@@ -4,12 +4,10 @@
  * @class   vtkSMVolumicLabelsRepresentationProxy
  * @brief   surfaces of labels, each in the colour of its label
  *
- * vtkSMVolumicSurfaceRepresentationProxy with a difference: a new display is coloured by `Label` as
- * soon as there are surfaces: by the field data, as ParaView takes seconds to look up each triangle
- * where labels are many; of a surface about several labels by the cell array. The colour map has a
- * category per label, with the name and the colour that the field data tell. As long as nobody has
- * edited the categories, they are those of the data; after that, labels that come anew get one in
- * addition. Field data are among the colours to choose from, as each block has its own.
+ * vtkSMVolumicSurfaceRepresentationProxy with a difference: a new display is coloured by the cell array
+ * `Label` as soon as there are surfaces. The colour map has a category per label, with the name and
+ * the colour of the field data. The categories follow the data until they are edited. After that only
+ * categories of new labels are added.
  *
  * Displays of what is made of the surfaces, such as a clip, use this colour map, too, where they are
  * coloured by `Label`: that of the display in the same view, or else of any one. Displays with a
@@ -41,7 +39,6 @@ protected:
 
   void CreateVTKObjects() override;
 
-  bool IsFieldDataOffered() const override { return true; }
   void AdaptColorsOf(
     const std::string& array, vtkSMProxy* colors, vtkPVDataInformation* data) override;
 
@@ -49,27 +46,21 @@ private:
   vtkSMVolumicLabelsRepresentationProxy(const vtkSMVolumicLabelsRepresentationProxy&) = delete;
   void operator=(const vtkSMVolumicLabelsRepresentationProxy&) = delete;
 
-  /** Brings Wanted up to date. */
-  void FetchCategories(vtkPVDataInformation* data);
-  /** Colours by the array `Label` that tells all labels, if it is this display's business. */
-  void ChooseLabels(vtkPVDataInformation* data);
-  /** Whether a surface is about several labels. */
-  bool IsMerged(vtkPVDataInformation* data);
-  /** Sets the categories that the map has from here; completes what others have edited. */
-  void GiveCategories(vtkSMProxy* colors, std::vector<volumic::ColorCategory> wanted);
   void OnSessionModified(vtkObject* caller, unsigned long event, void* data);
   /** Return this display's own colour map of `Label`, or null. */
   vtkSMProxy* FindLabelColors();
   /** Give the colour map to the displays of what is made of the surfaces. */
   void ShareColors();
-  /** Show or hide the legend by the number of labels, where this was not decided before. */
-  void UpdateLegend(vtkSMProxy* view, bool isNew);
+  /** Update colour map and legend after a run. */
+  void FollowData();
+  /** Show the legend, or hide it if the labels are too many. */
+  void ShowLegend(vtkSMProxy* view);
 
-  std::vector<volumic::ColorCategory> Wanted; ///< those of the data
-  std::vector<volumic::ColorCategory> Given;  ///< what was set here last
-  std::size_t CountInLegend = 0; ///< labels when the legend was decided on
-  vtkMTimeType WantedTime = 0;  ///< of what was known of the data then
-  vtkMTimeType AdaptedTime = 0; ///< likewise, when the colour map was set
+  bool IsFollowing = false;
+  std::vector<volumic::ColorCategory> Given; ///< what was set here last
+  std::size_t Count = 0;                     ///< labels of the data
+  std::size_t CountInLegend = 0;             ///< labels when the legend was decided on
+  vtkMTimeType AdaptedTime = 0;              ///< of the data, when the colour map was set
 };
 
 #endif

@@ -65,7 +65,7 @@ int vtkSMVolumicSurfaceRepresentationProxy::ReadXMLAttributes(
   vtkSMProperty* input = geometry ? geometry->GetProperty("Input") : nullptr;
   auto* domain = vtkSMInputArrayDomain::SafeDownCast(
     input ? input->GetDomain("input_array_any") : nullptr);
-  if (domain && !this->IsFieldDataOffered())
+  if (domain)
   {
     InputArrayDomain::LeaveOutFieldData(domain);
   }

@@ -43,8 +43,6 @@ protected:
   /** A new display gets presets, one of a saved state does not. */
   bool IsNew = true;
 
-  /** Whether arrays of field data are among the colours to choose from. */
-  virtual bool IsFieldDataOffered() const { return false; }
   /** Of a colour map that is this display's own, in use for the array. */
   virtual void AdaptColorsOf(
     const std::string& array, vtkSMProxy* colors, vtkPVDataInformation* data);

@@ -62,7 +62,7 @@ class LabelsViewTest(testing.PluginTestCase):
         self.show()
         # In the very first picture.
         self.assertEqual(hues(self.picture("first")), {"red", "green", "blue"})
-        self.assertEqual(list(self.display.ColorArrayName), ["FIELD", "Label"])
+        self.assertEqual(list(self.display.ColorArrayName), ["CELLS", "Label"])
         self.assertTrue(self.display.LookupTable.InterpretValuesAsCategories)
         self.check_legend([3, 7, 12])
 
@@ -70,20 +70,20 @@ class LabelsViewTest(testing.PluginTestCase):
         return self.display.IsScalarBarVisible(self.view)
 
     def test_legend_of_a_few(self):
-        self.show()
-        self.picture("with-legend")
-        self.assertTrue(self.legend_is_shown())
-        # Who hides it does so for good.
-        self.display.SetScalarBarVisibility(self.view, False)
-        self.filter.Labels = [3, 7]
-        self.picture("without-legend")
-        self.assertFalse(self.legend_is_shown())
-
-    def test_no_legend_of_many(self):
+        """Up to twelve labels, at each Apply."""
+        labels = list(range(1, 14))
         voxels = numpy.repeat(numpy.arange(14, dtype=numpy.int16), 4)[:, None, None]
         voxels = numpy.broadcast_to(voxels, (56, 12, 12)).copy()
         self.show(testing.produce(testing.make_image(voxels, name="labels")))
-        self.picture("many")
+        for chosen, is_shown in ((labels, False), (labels[:12], True), (labels, False),
+                                 (labels[:2], True)):
+            self.filter.Labels = chosen
+            self.picture(f"legend-of-{len(chosen)}")
+            self.assertEqual(self.legend_is_shown(), is_shown)
+        # A legend hidden by the user stays hidden.
+        self.display.SetScalarBarVisibility(self.view, False)
+        self.filter.Labels = labels[:3]
+        self.picture("without-legend")
         self.assertFalse(self.legend_is_shown())
 
     def test_colors_follow_the_data(self):
@@ -125,24 +125,47 @@ class LabelsViewTest(testing.PluginTestCase):
         self.filter.Labels = []
         self.check_same(self.picture("good-again"), good)
 
+    def clip(self, surfaces):
+        """The display of a clip that cuts off the spleen."""
+        clip = simple.Clip(surfaces)
+        clip.ClipType.Normal = [0.0, 0.0, 1.0]
+        clip.ClipType.Origin = [16.0, 16.0, 12.0]
+        display = simple.Show(clip, self.view)
+        simple.Hide(surfaces, self.view)
+        return display
+
     def test_what_is_made_of_the_surfaces(self):
-        """Has the same colours, by the map that all displays of this array share."""
+        """Has the names and colours of its own label map."""
         self.show()
         self.picture("to-be-clipped")
-        clip = simple.Clip(self.filter)
-        clip.ClipType.Normal = [0.0, 0.0, 1.0]
-        clip.ClipType.Origin = [16.0, 16.0, 12.0]  # Below the spleen.
-        display = simple.Show(clip, self.view)
-        simple.Hide(self.filter, self.view)
+        clipped = self.clip(self.filter)
+        self.display.SetScalarBarVisibility(self.view, False)
         self.assertEqual(hues(self.picture("clipped")), {"red", "green"})
-        self.check_legend([3, 7, 12], display=display)
-        self.assertFalse(display.UseSeparateColorMap)
-        # Another map of labels has colours of its own; those that are shared stay.
         other = label_maps.add_names(label_maps.image(), OTHER_NAMES, OTHER_COLORS)
         second = simple.LabelstoSurfaces(testing.produce(other), FinestLevel=1)
         simple.Show(second, self.view)
+        self.picture("another-map")
+        others = self.clip(second)
         self.picture("clipped-with-another")
-        self.check_legend([3, 7, 12], display=display)
+        self.check_legend([3, 7, 12], display=clipped)
+        self.check_legend([3, 7, 12], OTHER_NAMES, OTHER_COLORS, others)
+        # Changes of the input, of the names, of the array, and a second view.
+        clipped.Input.Input = second
+        self.check_legend([3, 7, 12], OTHER_NAMES, OTHER_COLORS, clipped)
+        clipped.Input.Input = self.filter
+        simple.ColorBy(self.display, None)
+        self.filter.LabelNames = ["3", "hepar"]
+        self.picture("renamed")
+        self.check_legend([3, 7, 12], {**NAMES, 3: "hepar"}, display=clipped)
+        simple.ColorBy(self.display, ("CELLS", "Label"))
+        self.check_legend([3, 7, 12], {**NAMES, 3: "hepar"})
+        elsewhere = simple.Show(others.Input, views.new_view("RenderView"))
+        simple.ColorBy(elsewhere, ("CELLS", "Label"))
+        self.check_legend([3, 7, 12], OTHER_NAMES, OTHER_COLORS, elsewhere)
+        # Label 3 of both can't have one name.
+        both = simple.Show(simple.GroupDatasets(Input=[self.filter, second]), self.view)
+        simple.ColorBy(both, ("CELLS", "Label"))
+        self.assertEqual(legend(both), {})
 
     def test_saved_state(self):
         path = testing.write_volume("labels-view.vti", label_maps.image())

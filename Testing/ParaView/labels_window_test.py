@@ -13,15 +13,15 @@ import label_maps
 import plugin_testing as testing
 import volume_reader_test as files
 import window_testing as window
+from paraview import simple
 from label_maps import NAMES
 from window_testing import (
     APPLY, PROPERTIES, SHOW_ADVANCED, choose, edit, filter_of_the_menu, opened)
 
 FILTER = filter_of_the_menu("LabelsToSurfaces")
 TABLE = f"{PROPERTIES}/Labels"
-BASIC = ("SetInputArrayToProcess", "Labels", "Smoothing", "EdgeLength", "FinestLevel", "Tolerance",
-         "BoxFaces", "Merge", "VoxelTolerance", "BackgroundLabel")
-ADVANCED = ("MaximumEdgeLength", "Gradation", "KeepComponents", "Metric", "TimeLimit",
+BASIC = ("SetInputArrayToProcess", "Labels", "Smoothing", "EdgeLength", "Tolerance", "Merge")
+ADVANCED = ("FinestLevel", "BoxFaces", "VoxelTolerance", "BackgroundLabel", "MaximumEdgeLength", "Gradation", "KeepComponents", "Metric", "TimeLimit",
             "NumberOfThreads", "ScratchDirectory")
 CHECKED, UNCHECKED = 2, 0
 
@@ -37,6 +37,23 @@ print("Told:", list(filter_.Labels), [blocks.GetMetaData(b).Get(blocks.NAME()).s
       list(legend)[1::2])
 """
 
+TELL_MAPS = """
+from paraview import simple
+view = simple.GetActiveView()
+for (name, _), source in sorted(simple.GetSources().items()):
+    display = next((each for each in view.Representations
+                    if getattr(each, "Input", None) == source), None)
+    if display and display.Visibility:
+        print("Shown:", name, list(display.LookupTable.Annotations)[1:6:2],
+              display.IsScalarBarVisible(view))
+"""
+DELETE = """
+from paraview import simple
+simple.Delete(simple.FindSource("Clip1"))
+simple.Delete(simple.FindSource("LabelstoSurfaces1"))
+"""
+CLIPPED = filter_of_the_menu("Clip", "Alphabetical") + "\n" + APPLY
+COLORED_BY = f"{gui.WINDOW}/variableToolbar/displayColor/Variables"
 ENTRY = f"{gui.WINDOW}/menubar/menu_File"
 
 
@@ -51,6 +68,10 @@ def rows(count):
 
 def press(button):
     return gui.event(f"{TABLE}/{button}", "activate") + "\n" + gui.pause(300)
+
+
+def only_these_is_enabled(yes):
+    return gui.check(f"{TABLE}/OnlyThese", "enabled", "true" if yes else "false")
 
 
 def search(text):
@@ -83,6 +104,9 @@ class LabelsWindowTest(window.WindowTestCase):
             *[window.shown(name, False) for name in ADVANCED], window.as_wide_as_the_panel(),
             SHOW_ADVANCED, gui.pause(300),
             *[window.shown(name, True) for name in BASIC + ADVANCED],
+            # Without a tolerance they have no effect.
+            *[gui.check(f"{PROPERTIES}/{name}", "enabled", "false")
+              for name in ("MaximumEdgeLength", "Gradation")],
             window.shown("MinimumComponentVolume", False),
             choose("KeepComponents", "Large Ones"), gui.pause(300),
             window.shown("MinimumComponentVolume", True), choose("KeepComponents", "All"),
@@ -102,11 +126,14 @@ class LabelsWindowTest(window.WindowTestCase):
         background = f"{PROPERTIES}/BackgroundLabel/LineEdit0"
         self.play(opened(self.path) + [
             FILTER, gui.pause(300), set_box(1, UNCHECKED), note("2 of 4 labels"),
-            APPLY, *save_chosen, press("None"),
-            note("<b>Note:</b> Where none is checked, all but the background get a surface."),
-            search("KID"), press("All"), search(""), note("1 of 4 labels"), APPLY, *save_found,
-            press("None"), set_box(2, CHECKED), APPLY, press("All"), note("3 of 4 labels"), APPLY,
-            *save_all,
+            APPLY, *save_chosen, only_these_is_enabled(False), search("KID"),
+            only_these_is_enabled(True), press("OnlyThese"), search(""), note("1 of 4 labels"), APPLY,
+            *save_found,
+            # An empty list would mean all.
+            set_box(2, UNCHECKED),
+            note("<b>Note:</b> At least one label must be checked."),
+            search("SP"), press("All"), note("2 of 4 labels"),
+            search(""), press("All"), note("3 of 4 labels"), APPLY, *save_all, SHOW_ADVANCED,
             # Another background; 5 is none of the labels.
             gui.event(background, "set_string", "7"), gui.pause(300), note("3 of 4 labels"),
             gui.event(background, "set_string", "5"), gui.pause(300), note("4 of 4 labels"),
@@ -116,6 +143,31 @@ class LabelsWindowTest(window.WindowTestCase):
         self.assertEqual(self.blocks_of(found), ([7], [NAMES[7]]))
         # All again is the default.
         self.assertEqual(self.blocks_of(all_), ([], list(NAMES.values())))
+
+    def test_maps_of_two_datasets(self):
+        """What is made of surfaces has the names and the legend of these."""
+        others = testing.write_volume("labels-two.vti", label_maps.add_names(
+            label_maps.image(), {3: "pelvis", 7: "femur", 12: "sacrum"}))
+        voxels = numpy.repeat(numpy.arange(14, dtype=numpy.int16), 4)[:, None, None]
+        many = testing.write_volume("labels-14.vti", testing.make_image(
+            numpy.broadcast_to(voxels, (56, 12, 12)).copy(), name="labels"))
+        state, save = self.saved_state("labels-two.pvsm")
+        told = self.session.add_code(TELL_MAPS)
+        self.play([
+            *opened(self.path), FILTER, APPLY, CLIPPED,
+            gui.check(COLORED_BY, "currentText", "Label"), *opened(others), FILTER, APPLY, CLIPPED,
+            gui.pause(300), told, *opened(many), FILTER, APPLY, CLIPPED, gui.pause(300),
+            self.session.add_code(DELETE), told, *save, gui.pause(300)], "labels-two-maps")
+        first, second = list(NAMES.values()), ["pelvis", "femur", "sacrum"]
+        third = [f"Label {label}" for label in (1, 2, 3)]
+        self.assertEqual(re.findall("Shown: (.*)", self.session.output), [
+            f"Clip1 {first} True", f"Clip2 {second} True",
+            f"Clip2 {second} True", f"Clip3 {third} False"])
+        window.open_state(state, "Clip2")
+        view = simple.GetViews()[0]
+        for name, names in (("Clip2", second), ("Clip3", third)):
+            display = simple.GetRepresentation(simple.FindSource(name), view)
+            self.assertEqual(list(display.LookupTable.Annotations)[1:6:2], names)
 
     def test_undo(self):
         path, save = self.saved_state("labels-undone.pvsm")
