@@ -79,7 +79,10 @@ class VolumeWindowTest(window.WindowTestCase):
         path, save = self.saved_state("volume.pvsm")
         edge_length = f"{PROPERTIES}/EdgeLength/DoubleLineEdit0"
         self.play(VOLUME + [
-            FILTER, gui.pause(300),
+            # The first of the menu.
+            *window.open_menu_of_volumic(), gui.pause(500),
+            gui.event(f"{window.FILTERS}/Volumic", "keyEvent", "6,16777220,0,,0,1"),
+            gui.pause(500),
             gui.check(ISO_VALUE, "text", iso_of_the_wavelet()),
             *[window.shown(name, True) for name in BASIC],
             *[window.shown(name, False) for name in ADVANCED],
