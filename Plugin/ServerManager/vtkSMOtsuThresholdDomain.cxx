@@ -42,6 +42,14 @@ vtkPVArrayInformation* ArrayOf(vtkPVDataInformation* data, const std::string arr
 {
   return data->GetArrayInformation(array[4].c_str(), std::atoi(array[3].c_str()));
 }
+
+/** Return whether all voxels are equal. The filter itself reports that as an error. */
+bool IsUniform(vtkPVArrayInformation* array, int component)
+{
+  const double* range =
+    array ? array->GetComponentRange(array->GetNumberOfComponents() == 1 ? 0 : component) : nullptr;
+  return range && range[0] == range[1];
+}
 }
 
 //------------------------------------------------------------------------------
@@ -103,7 +111,7 @@ const vtkSMOtsuThresholdDomain::Histogram& vtkSMOtsuThresholdDomain::FindHistogr
   this->Found = choice;
   this->FoundTime = data ? data->GetMTime() : 0;
   vtkSmartPointer<vtkSMSourceProxy> otsu;
-  if (data)
+  if (data && !IsUniform(ArrayOf(data, choice.Array), choice.Component))
   {
     otsu = volumic::NewHelper("OtsuThreshold", choice.Producer, choice.Port);
   }
