@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * The labels of a label map, or of surfaces, on ParaView's client: found where the data is, by the
- * helper proxies (internal_filters, LabelList) and (internal_filters, LabelLegend).
+ * helper proxy (internal_filters, LabelList).
  */
 #ifndef volumicLabelRows_h
 #define volumicLabelRows_h
@@ -19,7 +19,7 @@ struct LabelRow
 {
   int Label = 0;
   std::string Name;
-  long long Voxels = 0; ///< of surfaces: not known, 0
+  long long Voxels = 0;
   std::array<double, 3> Color = { { 0.0, 0.0, 0.0 } };
 };
 
@@ -29,12 +29,12 @@ struct LabelRows
   std::string Problem;        ///< why there are none
 };
 
-/** Of a label map. `array` is as SetInputArrayToProcess has it; empty: the active scalars. */
-LabelRows FetchLabelsOfMap(
-  vtkSMSourceProxy* producer, unsigned int port, const std::array<std::string, 5>& array);
-
-/** Of what the filter Labels to Surfaces puts out. */
-LabelRows FetchLabelsOfSurfaces(vtkSMSourceProxy* producer, unsigned int port);
+/**
+ * Of a label map, or of the output of Labels to Surfaces. `array` is as SetInputArrayToProcess has it;
+ * empty: the active scalars.
+ */
+LabelRows FetchLabels(
+  vtkSMSourceProxy* producer, unsigned int port, const std::array<std::string, 5>& array = {});
 }
 
 #endif

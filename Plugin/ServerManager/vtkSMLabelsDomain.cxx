@@ -4,7 +4,6 @@
 
 #include <vtkObjectFactory.h>
 #include <vtkPVDataInformation.h>
-#include <vtkSMProperty.h>
 #include <vtkSMSourceProxy.h>
 #include <vtkSMUncheckedPropertyHelper.h>
 
@@ -15,59 +14,44 @@ vtkSMLabelsDomain::vtkSMLabelsDomain() = default;
 vtkSMLabelsDomain::~vtkSMLabelsDomain() = default;
 
 //------------------------------------------------------------------------------
-bool vtkSMLabelsDomain::Choice::operator==(const Choice& other) const
-{
-  return this->Producer == other.Producer && this->Port == other.Port &&
-    this->Array == other.Array && this->Time == other.Time;
-}
-
-//------------------------------------------------------------------------------
 vtkSMLabelsDomain::Choice vtkSMLabelsDomain::CurrentChoice()
 {
-  Choice choice;
   vtkSMProperty* input = this->GetRequiredProperty("Input");
   vtkSMProperty* selection = this->GetRequiredProperty("ArraySelection");
   if (!input || !selection)
   {
-    return choice;
+    return {};
   }
   vtkSMUncheckedPropertyHelper source(input);
-  vtkSMUncheckedPropertyHelper chosen(selection);
-  if (source.GetNumberOfElements() > 0)
+  auto* producer = vtkSMSourceProxy::SafeDownCast(
+    source.GetNumberOfElements() > 0 ? source.GetAsProxy() : nullptr);
+  vtkPVDataInformation* data =
+    producer ? producer->GetDataInformation(source.GetOutputPort()) : nullptr;
+  if (!data)
   {
-    choice.Producer = vtkSMSourceProxy::SafeDownCast(source.GetAsProxy());
-    choice.Port = source.GetOutputPort();
+    return {}; // Of a producer that could not be made there is nothing to know.
   }
+  vtkSMUncheckedPropertyHelper chosen(selection);
+  std::array<std::string, 5> array;
   for (unsigned int i = 0; chosen.GetNumberOfElements() == 5 && i < 5; ++i)
   {
     const char* text = chosen.GetAsString(i);
-    choice.Array[i] = text ? text : "";
+    array[i] = text ? text : "";
   }
-  vtkPVDataInformation* data =
-    choice.Producer ? choice.Producer->GetDataInformation(choice.Port) : nullptr;
-  if (data)
-  {
-    choice.Time = data->GetMTime();
-  }
-  else
-  {
-    choice.Producer = nullptr; // Of one that could not be made there is nothing to know.
-  }
-  return choice;
+  return { producer, source.GetOutputPort(), array, data->GetMTime() };
 }
 
 //------------------------------------------------------------------------------
 const volumic::LabelRows& vtkSMLabelsDomain::GetLabels()
 {
-  Choice choice = this->CurrentChoice();
+  const Choice choice = this->CurrentChoice();
   if (this->IsCounting || choice == this->Counted)
   {
     return this->Labels;
   }
   this->IsCounting = true;
-  this->Labels = choice.Producer
-    ? volumic::FetchLabelsOfMap(choice.Producer, choice.Port, choice.Array)
-    : volumic::LabelRows();
+  const auto& [producer, port, array, time] = choice;
+  this->Labels = producer ? volumic::FetchLabels(producer, port, array) : volumic::LabelRows();
   this->Counted = this->CurrentChoice();
   this->IsCounting = false;
   return this->Labels;
@@ -76,7 +60,7 @@ const volumic::LabelRows& vtkSMLabelsDomain::GetLabels()
 //------------------------------------------------------------------------------
 void vtkSMLabelsDomain::Update(vtkSMProperty*)
 {
-  if (!this->IsCounting && !(this->CurrentChoice() == this->Counted))
+  if (!this->IsCounting && this->CurrentChoice() != this->Counted)
   {
     this->DomainModified();
   }
@@ -87,5 +71,4 @@ void vtkSMLabelsDomain::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Labels: " << this->Labels.Rows.size() << "\n";
-  os << indent << "Problem: " << this->Labels.Problem << "\n";
 }

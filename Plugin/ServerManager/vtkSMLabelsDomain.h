@@ -17,6 +17,8 @@
 #include "vtkSMDomain.h"
 #include "vtkServerManagerVolumicModule.h" // For export macro
 
+#include <tuple> // For the choice
+
 class VTKSERVERMANAGERVOLUMIC_EXPORT vtkSMLabelsDomain : public vtkSMDomain
 {
 public:
@@ -37,16 +39,9 @@ private:
   vtkSMLabelsDomain(const vtkSMLabelsDomain&) = delete;
   void operator=(const vtkSMLabelsDomain&) = delete;
 
-  /** What labels are counted of. */
-  struct Choice
-  {
-    vtkSMSourceProxy* Producer = nullptr;
-    unsigned int Port = 0;
-    std::array<std::string, 5> Array; ///< as SetInputArrayToProcess
-    vtkMTimeType Time = 0;            ///< of what is known about the data
-
-    bool operator==(const Choice& other) const;
-  };
+  /** Producer, port, array, and the time of its data: what labels are counted of. */
+  using Choice =
+    std::tuple<vtkSMSourceProxy*, unsigned int, std::array<std::string, 5>, vtkMTimeType>;
   Choice CurrentChoice();
 
   Choice Counted;

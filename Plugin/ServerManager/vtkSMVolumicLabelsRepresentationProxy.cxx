@@ -251,7 +251,7 @@ void vtkSMVolumicLabelsRepresentationProxy::AdaptColorsOf(
   }
   this->AdaptedTime = data->GetMTime();
   std::vector<volumic::ColorCategory> wanted =
-    CategoriesOf(volumic::FetchLabelsOfSurfaces(source, input.GetOutputPort()));
+    CategoriesOf(volumic::FetchLabels(source, input.GetOutputPort()));
   if (wanted.empty())
   {
     return; // After an error the categories are those of the run before.
