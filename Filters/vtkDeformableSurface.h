@@ -46,7 +46,7 @@
  * Point arrays of each surface:
  * - `Normals` (float, 3, active)
  * - `Residual` (float): the field minus IsoValue at the vertex
- * - `Motionless` (unsigned char): 1 for vertices at rest
+ * - `Motionless` (unsigned char): 1 for vertices at rest; with vtkAbstractArray::GUI_HIDE()
  * - `Contact` (unsigned char): 1 where walls or gaps are thinner than the triangles can hold
  * - `EdgeSize` (float): with Tolerance or ThinParts, the length of edges that is wanted there
  * - `Thickness` (float): with ThinParts, that of the object or of the air, whichever is thinner
@@ -57,6 +57,7 @@
  *
  * Field data:
  * - `Level`, `Iterations` (int): the level, and the iterations made there
+ * - `StartLevel` (int): the level at which the run started
  * - `Delta`, `Unit` (double): the smallest length of an edge, and U of the level
  * - `NumberOfComponents`, `EulerCharacteristic`, `Genus` (int): of the whole surface
  * - `Area`, `Volume` (double): of the whole surface
@@ -94,8 +95,8 @@
  * @par
  * Warnings come at the end of a run: if nothing is left, or KeepComponents leaves nothing; if
  * `MissingBoundary` is more than 0.05 at the finest level, with Recovery, without Preview and where
- * KeepComponents leaves out none; the number of voxels that are NaN. All else is told by the field
- * data only.
+ * neither KeepComponents nor seeds select components; the number of voxels that are NaN. All else is
+ * told by the field data only.
  *
  * @par Cancelling:
  * AbortExecute is looked at several times a second, with each progress event: the surface as it is
@@ -267,10 +268,9 @@ public:
   ///@{
   /**
    * What the surface starts from. EnclosingIcosahedron (default): a rounded box about the image, in
-   * the place of the paper's icosahedron. Seeds: icosahedra inside the object, at the SeedPositions
-   * and the points of port 1, or on a grid if there are neither. IsoSurface: a closed surface with
-   * even triangles around all of the object, half a voxel outside the isosurface of the coarsest
-   * level. InputSurface: the polygons of port 1.
+   * the place of the paper's icosahedron. Seeds: see AddSeedPosition(); icosahedra on a grid if there
+   * are none. IsoSurface: a closed surface with even triangles around all of the object, half a voxel
+   * outside the isosurface of the coarsest level. InputSurface: the polygons of port 1.
    */
   virtual void SetInitialization(int value);
   virtual int GetInitialization();
@@ -283,16 +283,26 @@ public:
   ///@{
   /**
    * Centres of seeds, in world coordinates, which add to the points of port 1. One that lies
-   * outside the image by more than a voxel is an error; those outside the object, or too near to
-   * another, are left out. An index that is none gives NaN.
+   * outside the image by more than a voxel is an error. Seeds are tested at level 0: those outside
+   * the object are ignored, and it is an error if all are. The run starts at the coarsest level
+   * that has all the others inside the object (`StartLevel`).
+   *
+   * With Initialization Seeds all outputs have only the components at these seeds: those that
+   * enclose a seed or, if none does, pass it within 2.5 Delta, with their cavities. KeepComponents
+   * selects among them. With Recovery, and if GradientWeight and EdgeAttractionWeight are 0, the
+   * surface starts from all of the object at that level, as with IsoSurface, and the components are
+   * selected at the end of each level. So they depend neither on the level nor on the places that
+   * seeds can grow through. Else icosahedra of SeedRadius grow, as in the paper.
+   *
+   * An index that is none gives NaN.
    */
   void AddSeedPosition(double x, double y, double z);
   void ClearSeedPositions();
   int GetNumberOfSeedPositions();
   void GetSeedPosition(int index, double position[3]);
   /**
-   * Of all seeds, world units, at least 0.96 delta; 0, the default: 1.2 delta of the coarsest
-   * level.
+   * Of all seeds that grow, world units, at least 0.96 delta; 0, the default: 1.2 delta of the
+   * coarsest level.
    */
   virtual void SetSeedRadius(double value);
   virtual double GetSeedRadius();
@@ -300,7 +310,8 @@ public:
 
   ///@{
   /**
-   * The level to start at. -1, the default: the last of the pyramid. Where that shows nothing of
+   * The level to start at. It is an error if the object is too thin there at all seeds or, without
+   * Recovery, at one. -1, the default: the last of the pyramid. Where that shows nothing of
    * the object: the last on which a part of it has MinimumPartSize voxels, and the surface starts
    * about these parts, as where it has lost them. Without Recovery: the last on which a surface
    * holds a part of it.

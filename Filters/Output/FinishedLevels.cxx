@@ -151,7 +151,11 @@ std::string FinishedLevels::WarningOf(int last, bool wantsAll) const
   }
   if (end->second.KeepsNone)
   {
-    return Join("Level ", about.Level, ": Keep Components leaves none of the components.");
+    return Join("Level ", about.Level,
+      this->Choice.Seeds.empty() || this->Choice.Mode != KeepComponentsType::AllComponents
+        ? ": Keep Components leaves none of the components."
+        : ": no component is at a seed, as the object is too thin there. Set Finest Level to a "
+          "finer level, or move the seeds.");
   }
   if (about.Lost.MissingBoundary > NotableShare && wantsAll)
   {

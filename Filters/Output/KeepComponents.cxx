@@ -149,21 +149,35 @@ void LeaveFeatures(
 }
 
 /**
- * Mark the owners of the components that touch a position.
+ * Mark the components that enclose a position.
  * @param points in computational space, as the positions
+ * @return the positions that none encloses
  */
-void MarkTouching(const LargeVector<Point>& points, const DescribedSurface& surface,
+std::vector<Point> MarkEnclosing(const LargeVector<Point>& points, const DescribedSurface& surface,
+  const std::vector<Point>& places, std::vector<bool>& isKept, Executor& executor)
+{
+  const std::vector<int> innermost = InnermostAbout(
+    places, {}, points, surface.Shape.Triangles, surface.Features, executor);
+  std::vector<Point> others;
+  for (std::size_t i = 0; i < places.size(); ++i)
+  {
+    if (innermost[i] >= 0 && surface.Features.Components[innermost[i]].Volume > 0)
+    {
+      isKept[innermost[i]] = true;
+    }
+    else
+    {
+      others.push_back(places[i]);
+    }
+  }
+  return others;
+}
+
+/** Mark the owners of the components that pass near a position. @see MarkEnclosing() */
+void MarkNear(const LargeVector<Point>& points, const DescribedSurface& surface,
   const std::vector<Point>& places, std::vector<bool>& isKept, Executor& executor)
 {
   const LargeVector<Triangle>& triangles = surface.Shape.Triangles;
-  for (const int component :
-    InnermostAbout(places, {}, points, triangles, surface.Features, executor))
-  {
-    if (component >= 0 && surface.Features.Components[component].Volume > 0)
-    {
-      isKept[component] = true;
-    }
-  }
   const SortedPlaces sorted(places);
   const double reach = SizingField::LongestEdgeInDelta * surface.Shape.Delta;
   std::vector<std::vector<int>> touching((triangles.size() + SpanSize - 1) / SpanSize);
@@ -276,33 +290,42 @@ DescribedSurface DescribeSurface(
   using Mode = KeepComponentsType;
   const bool dropsMarked = choice.Mode == Mode::ComponentsNotAtSeeds;
   const bool marks = dropsMarked || choice.Mode == Mode::ComponentsAtPoints;
-  const LargeVector<Point> points = marks ? surface.Points : LargeVector<Point>();
+  const bool hasSeeds = !choice.Seeds.empty();
+  const LargeVector<Point> points = marks || hasSeeds ? surface.Points : LargeVector<Point>();
   DescribedSurface described;
   described.Shape = std::move(surface);
   IndexedSurface& shape = described.Shape;
   shape = ToWorld(std::move(shape), space, executor);
   described.Features = ComputeFeatures(shape, executor);
   described.Owners = OwnersOf(shape, described.Features, executor);
-  if (choice.Mode == Mode::AllComponents)
+  if (choice.Mode == Mode::AllComponents && !hasSeeds)
   {
     return described;
   }
   const std::size_t n = described.Features.Components.size();
+  std::vector<bool> isAtSeed(n, !hasSeeds);
+  if (hasSeeds)
+  {
+    MarkNear(points, described,
+      MarkEnclosing(points, described, choice.Seeds, isAtSeed, executor), isAtSeed, executor);
+  }
   std::vector<bool> isKept(n, false);
   bool hasLargest = false;
   for (std::size_t c = 0; c < n; ++c)
   {
     const double volume = described.Features.Components[c].Volume;
-    const bool isSolid = volume > 0;
+    const bool isSolid = volume > 0 && isAtSeed[c];
     isKept[c] = isSolid &&
       (choice.Mode == Mode::LargeComponents
           ? volume >= choice.MinimumVolume
-          : choice.Mode == Mode::LargestComponent && !hasLargest);
+          : choice.Mode == Mode::AllComponents ||
+            (choice.Mode == Mode::LargestComponent && !hasLargest));
     hasLargest = hasLargest || isSolid;
   }
   if (marks)
   {
-    MarkTouching(points, described, choice.Places, isKept, executor);
+    MarkEnclosing(points, described, choice.Places, isKept, executor);
+    MarkNear(points, described, choice.Places, isKept, executor);
   }
   if (dropsMarked)
   {
@@ -310,7 +333,8 @@ DescribedSurface DescribeSurface(
   }
   for (std::size_t c = 0; c < n; ++c)
   {
-    isKept[c] = described.Owners[c] >= 0 && isKept[described.Owners[c]];
+    const int owner = described.Owners[c];
+    isKept[c] = owner >= 0 && isKept[owner] && isAtSeed[owner];
   }
   LeaveShape(described.Shape, described.Features, isKept);
   LeaveFeatures(described.Features, described.Owners, isKept);

@@ -21,11 +21,13 @@ struct ComponentChoice
   KeepComponentsType Mode = KeepComponentsType::AllComponents;
   double MinimumVolume = 0.0; ///< world units, cubed
   std::vector<Point> Places;  ///< workspace
+  /** Of Initialization Seeds, workspace: no other components than those at seeds are selected. */
+  std::vector<Point> Seeds;
 
   bool operator==(const ComponentChoice& other) const
   {
     return this->Mode == other.Mode && this->MinimumVolume == other.MinimumVolume &&
-      this->Places == other.Places;
+      this->Places == other.Places && this->Seeds == other.Seeds;
   }
 };
 
@@ -50,8 +52,9 @@ ComponentChoice ChoiceOf(
 /**
  * Select the components of a closed surface, and compute their features. A cavity is kept with its
  * owner. A component touches a position if it is the innermost component around it and not a
- * cavity, or if a vertex of it or of its cavities is within 2.5 delta. Complexity: O(n log n) in the number
- * of triangles and positions.
+ * cavity, or if a vertex of it or of its cavities is within 2.5 delta. A component is at a seed if
+ * it encloses it so, or, if none does, if it is as near. Complexity: O(n log n) in the number of
+ * triangles and positions.
  */
 DescribedSurface DescribeSurface(SurfaceResult surface, const Workspace& space,
   const ComponentChoice& choice, Executor& executor);

@@ -13,6 +13,8 @@
 #include <vtkFieldData.h>
 #include <vtkFloatArray.h>
 #include <vtkIdTypeArray.h>
+#include <vtkInformation.h>
+#include <vtkInformationIntegerKey.h>
 #include <vtkIntArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -301,7 +303,9 @@ vtkSmartPointer<vtkPolyData> MakePolyData(SurfaceResult given,
   TakePoints(polyData, surface.Points, executor);
   TakeTriangles(polyData, surface.Triangles, executor);
   TakePointArrays(polyData, surface, space, executor);
+  HideArrays(polyData, { "Motionless" });
   AddField<vtkIntArray>(polyData, "Level", description.Level);
+  AddField<vtkIntArray>(polyData, "StartLevel", description.StartLevel);
   AddField<vtkDoubleArray>(polyData, "Delta", surface.Delta * space.WorldUnit());
   AddField<vtkDoubleArray>(polyData, "Unit", description.Unit);
   AddField<vtkIntArray>(polyData, "Iterations", description.Iterations);
@@ -334,6 +338,15 @@ vtkSmartPointer<vtkPolyData> MakePolyData(SurfaceResult given,
   return polyData;
 }
 
+void HideArrays(vtkPolyData* surface, std::initializer_list<const char*> names)
+{
+  for (const char* name : names)
+  {
+    surface->GetPointData()->GetArray(name)->GetInformation()->Set(
+      vtkAbstractArray::GUI_HIDE(), 1);
+  }
+}
+
 void SetStopReason(vtkPolyData* surface, const std::string& reason)
 {
   // Not into field data that a shallow copy may share.
@@ -346,7 +359,7 @@ void SetStopReason(vtkPolyData* surface, const std::string& reason)
 vtkSmartPointer<vtkPolyData> MakeStopped(int level, const std::string& reason)
 {
   SurfaceDescription description;
-  description.Level = level;
+  description.Level = description.StartLevel = level;
   description.StopReason = reason;
   return MakePolyData(SurfaceResult(), description, Workspace());
 }

@@ -10,6 +10,7 @@
 
 #include <vtkSmartPointer.h>
 
+#include <initializer_list>
 #include <string>
 
 class vtkPolyData;
@@ -20,6 +21,7 @@ namespace volumic
 struct SurfaceDescription
 {
   int Level = 0;
+  int StartLevel = 0;       ///< of the run
   double Unit = 0.0;        ///< U_h, world units
   int Iterations = 0;       ///< at this level
   int TotalIterations = -1; ///< over all levels; field `Iteration`, -1: none
@@ -34,6 +36,9 @@ struct SurfaceDescription
 vtkSmartPointer<vtkPolyData> MakePolyData(SurfaceResult given,
   const SurfaceDescription& description, const Workspace& space,
   const ComponentChoice& choice = ComponentChoice(), Executor& executor = OnThisThread());
+
+/** Have ParaView not offer point arrays for a choice, as with vtkAbstractArray::GUI_HIDE(). */
+void HideArrays(vtkPolyData* surface, std::initializer_list<const char*> names);
 
 /** Sets `StopReason` instead of the one that it has; what it was copied from keeps its own. */
 void SetStopReason(vtkPolyData* surface, const std::string& reason);

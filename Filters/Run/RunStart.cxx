@@ -81,8 +81,8 @@ void CheckIsoValue(double iso, const std::array<double, 2>& range)
   if (!(range[0] < range[1]))
   {
     Refuse("all voxels are ", range[0],
-      ": no value parts an object from the background. Is it the right volume, array and "
-      "component?");
+      ": no value separates an object from the background. Choose another volume, array or "
+      "component.");
   }
   if (std::isnan(iso))
   {
@@ -158,15 +158,12 @@ void BeginWhereHeld(
 }
 }
 
-LevelChoice ChooseLevels(const SegmentationLevels& levels, const SegmentationSettings& settings)
+namespace
 {
-  LevelChoice choice = LevelsAsSet(levels.Pyramid(), settings);
-  const ValueRange range = settings.Range();
-  if (range.IsUsed())
-  {
-    CheckFolded(range, levels.Range(0));
-  }
-  CheckIsoValue(settings.Options.IsoValue, levels.Range(0));
+/** Starts at a level that has the object. */
+LevelChoice StartAtObject(LevelChoice choice, const SegmentationLevels& levels,
+  const SegmentationSettings& settings)
+{
   // Every level shows what points mark.
   const int there = levels.HasPoints()
     ? choice.Coarsest
@@ -186,6 +183,62 @@ LevelChoice ChooseLevels(const SegmentationLevels& levels, const SegmentationSet
   if (there != choice.Coarsest)
   {
     RefuseCoarsest(choice, settings, there);
+  }
+  return choice;
+}
+
+/** Starts at a level that has the object at the seeds. */
+void StartAtSeeds(
+  LevelChoice& choice, const SegmentationLevels& levels, const SegmentationSettings& settings)
+{
+  const std::size_t all = levels.Seeds().size();
+  int level = choice.Coarsest;
+  while (level > 0 && levels.SeedsInside(level) < all)
+  {
+    --level;
+  }
+  if (settings.CoarsestLevel == -1)
+  {
+    choice.Preview = std::min(choice.Preview, level);
+    choice.Last = settings.End.Preview ? std::max(settings.End.FinestLevel, choice.Preview)
+                                       : settings.End.FinestLevel;
+    choice.Coarsest = std::max(level, choice.Last);
+  }
+  // With recovery the objects of other seeds are recovered.
+  const std::size_t inside = levels.SeedsInside(choice.Coarsest);
+  if (inside == 0 || (inside < all && !settings.Options.RecoverLostParts))
+  {
+    const std::string where = Join(choice.Coarsest, ", where the object is too thin at ",
+      all - inside, " of ", all, " seeds. ");
+    if (settings.CoarsestLevel != -1)
+    {
+      Refuse("Coarsest Level is ", where, "Set it to ", level, " or less, or to -1 (automatic).");
+    }
+    if (settings.EdgeLength != 0.0)
+    {
+      Refuse("Edge Length is ", settings.EdgeLength, ", for which the finest level is ", where,
+        "Give a shorter Edge Length.");
+    }
+    Refuse("Finest Level is ", where, "Set it to ", level, " or less.");
+  }
+}
+}
+
+LevelChoice ChooseLevels(
+  SegmentationLevels& levels, const SegmentationSettings& settings, Executor& threads)
+{
+  LevelChoice choice = LevelsAsSet(levels.Pyramid(), settings);
+  const ValueRange range = settings.Range();
+  if (range.IsUsed())
+  {
+    CheckFolded(range, levels.Range(0));
+  }
+  CheckIsoValue(settings.Options.IsoValue, levels.Range(0));
+  levels.TestSeeds(settings, choice.Coarsest, threads);
+  choice = StartAtObject(choice, levels, settings);
+  if (!levels.Seeds().empty())
+  {
+    StartAtSeeds(choice, levels, settings);
   }
   return choice;
 }
@@ -240,9 +293,12 @@ SurfaceStart StartOf(const SegmentationRequest& request, const Workspace& space,
   switch (request.Settings.Initialization)
   {
     case InitializationType::Seeds:
-      start.From = SurfaceStart::Kind::Seeds;
-      start.Seeds = SeedsOf(given, space);
-      start.Seeds.insert(start.Seeds.end(), seeds.begin(), seeds.end());
+      // Seeds do not grow through thin places, so their extent would depend on the level.
+      start.From = !seeds.empty() && request.Settings.Options.RecoverLostParts &&
+          request.Settings.Options.Drive().IsFieldAlone
+        ? SurfaceStart::Kind::IsoSurface
+        : SurfaceStart::Kind::Seeds;
+      start.Seeds = seeds;
       break;
     case InitializationType::IsoSurface:
       start.From = SurfaceStart::Kind::IsoSurface;

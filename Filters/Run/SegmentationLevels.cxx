@@ -3,6 +3,8 @@
 #include "Run/SegmentationLevels.h"
 
 #include "Core/Common/Refuse.h"
+#include "Core/Evolution/InitialSurface.h"
+#include "Core/Image/Field.h"
 #include "Core/Image/ThickPart.h"
 #include "Host/Errors.h"
 #include "Input/InputPoints.h"
@@ -35,6 +37,7 @@ SegmentationLevels::SegmentationLevels(const SegmentationRequest& request, const
   : Voxels(LevelsOfVoxels(request, volume))
 {
   this->ReadPoints(request);
+  this->ReadSeeds(request);
   if (!volume.Edges.Levels.empty())
   {
     this->Edges = PrefixErrors(PlaceOfEdges,
@@ -61,6 +64,81 @@ void SegmentationLevels::ReadPoints(const SegmentationRequest& request)
   {
     this->Points = std::make_unique<PointAttraction>(
       std::move(points), settings.Options.PointAttractionWeight);
+  }
+}
+
+void SegmentationLevels::ReadSeeds(const SegmentationRequest& request)
+{
+  if (request.Settings.Initialization != InitializationType::Seeds)
+  {
+    return;
+  }
+  this->PlaceOfSeeds =
+    request.InitialSurface ? "Input port 1 (Initial Surface): " : "Seed Positions: ";
+  this->SeedPoints = PrefixErrors(
+    this->PlaceOfSeeds, [&] { return SeedsOf(request.InitialSurface, this->GetWorkspace()); });
+  const std::vector<Point> more = PositionsOf(request.Settings.End.SeedPositions, "Seed Positions",
+    this->GetWorkspace(), this->Voxels.SizeOf(0));
+  this->SeedPoints.insert(this->SeedPoints.end(), more.begin(), more.end());
+}
+
+namespace
+{
+/** @param highest value of the field at the seeds */
+[[noreturn]] void RefuseSeeds(
+  std::size_t seeds, float highest, const SegmentationSettings& settings)
+{
+  const bool isOne = seeds == 1;
+  const bool isBright = settings.Options.ObjectIsBright;
+  const ValueRange range = settings.Range();
+  const std::string which =
+    isOne ? "The seed does not lie" : Join("None of the ", seeds, " seeds lies");
+  const std::string what = Join(which, " inside the object, which has values ");
+  const std::string move = Join(". Move ", isOne ? "it" : "one", " into the object, or set ");
+  if (range.IsUsed())
+  {
+    Refuse(what, isBright ? "" : "not ", "between Iso Value ", range.Lower, " and Upper Value ",
+      range.Upper, move, "other values.");
+  }
+  const double value = range.Lower + static_cast<double>(isBright ? highest : -highest);
+  Refuse(what, isBright ? "above" : "below", " Iso Value ", range.Lower, ": the value there is ",
+    isOne ? "" : (isBright ? "at most " : "at least "), value, move,
+    isBright ? "a lower" : "a higher", " Iso Value.");
+}
+}
+
+void SegmentationLevels::TestSeeds(
+  const SegmentationSettings& settings, int coarsest, Executor& threads)
+{
+  if (this->SeedPoints.empty() || !this->Inside.empty())
+  {
+    return;
+  }
+  for (int level = 0; level <= coarsest; ++level)
+  {
+    const Field field(this->Load(level, settings.Options, threads), settings.Options, threads);
+    const std::vector<float> values = PrefixErrors(
+      this->PlaceOfSeeds, [&] { return ValuesAtSeeds(field, this->SeedPoints); });
+    if (level == 0)
+    {
+      const float highest = *std::max_element(values.begin(), values.end());
+      if (!(highest > 0))
+      {
+        PrefixErrors(
+          this->PlaceOfSeeds, [&] { RefuseSeeds(values.size(), highest, settings); });
+      }
+      std::vector<Point> inside;
+      for (std::size_t i = 0; i < values.size(); ++i)
+      {
+        if (values[i] > 0)
+        {
+          inside.push_back(this->SeedPoints[i]);
+        }
+      }
+      this->SeedPoints = std::move(inside);
+    }
+    this->Inside.push_back(static_cast<std::size_t>(
+      std::count_if(values.begin(), values.end(), [](float value) { return value > 0; })));
   }
 }
 

@@ -4,6 +4,7 @@
 #define volumicSegmentationLevels_h
 
 #include "Core/Common/Executor.h"
+#include "Core/Common/IndexedSurface.h"
 #include "Core/Image/LevelImage.h"
 #include "Core/Image/PointAttraction.h"
 #include "Pyramid/PyramidLevels.h"
@@ -11,6 +12,7 @@
 #include "Settings/SegmentationSettings.h"
 
 #include <array>
+#include <cstddef>
 #include <map>
 #include <memory>
 #include <vector>
@@ -29,7 +31,7 @@ class SegmentationLevels
 {
 public:
   /**
-   * Read the attracting points, too.
+   * Read the attracting points and the seeds, too.
    * @throws Refusal if the volume is too small or a setting is out of range
    */
   SegmentationLevels(const SegmentationRequest& request, const Volume& volume);
@@ -49,6 +51,17 @@ public:
    */
   bool HoldsObject(int level, const SurfaceOptions& options) const;
 
+  /**
+   * Remove the seeds outside the object at level 0, and test the others at all levels from
+   * `coarsest` on. Only the first call has an effect.
+   * @throws Refusal if a seed lies outside the image, or all lie outside the object
+   */
+  void TestSeeds(const SegmentationSettings& settings, int coarsest, Executor& threads);
+  /** Return the seeds in computational space. Empty: none are given. */
+  const std::vector<Point>& Seeds() const { return this->SeedPoints; }
+  /** Return how many seeds lie inside the object at a level that TestSeeds() has tested. */
+  std::size_t SeedsInside(int level) const { return this->Inside[static_cast<std::size_t>(level)]; }
+
   /** Return the field of a level that is not released. It is valid until the next call. */
   LevelImage Load(int level, const SurfaceOptions& options, Executor& threads);
 
@@ -60,6 +73,7 @@ public:
 
 private:
   void ReadPoints(const SegmentationRequest& request);
+  void ReadSeeds(const SegmentationRequest& request);
   /** Return LevelImage::Edges. @throws Refusal if the sizes of edge map and voxels differ */
   VoxelValues LoadEdges(int level, const std::array<int, 3>& size, Executor& threads);
 
@@ -68,6 +82,9 @@ private:
   std::unique_ptr<PyramidLevels> Edges;    ///< of the edge map; null: none
   std::vector<float> Bent;                 ///< voxels of the level, modified by the points
   mutable std::map<int, bool> Holds;       ///< cached results of HoldsObject()
+  std::vector<Point> SeedPoints;           ///< computational space
+  const char* PlaceOfSeeds = "";           ///< prefix of errors
+  std::vector<std::size_t> Inside;         ///< results of TestSeeds(), by level
 };
 }
 

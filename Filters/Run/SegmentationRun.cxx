@@ -92,7 +92,9 @@ bool SegmentationRun::Renew(const SegmentationRequest& request)
   }
   else
   {
-    const int before = std::exchange(this->Choice, ChooseLevels(this->Levels, settings)).Coarsest;
+    HostThreads threads(settings.End.NumberOfThreads);
+    const int before =
+      std::exchange(this->Choice, ChooseLevels(this->Levels, settings, threads)).Coarsest;
     // The coarsest level may depend on the finest one. If it changes, restart.
     if (this->Choice.Coarsest != before)
     {
@@ -108,8 +110,9 @@ bool SegmentationRun::Renew(const SegmentationRequest& request)
 
 bool SegmentationRun::ChooseComponents(const SegmentationRequest& request)
 {
-  const ComponentChoice choice =
+  ComponentChoice choice =
     ChoiceOf(request, this->Levels.GetWorkspace(), this->Levels.Pyramid().SizeOf(0));
+  choice.Seeds = this->Levels.Seeds();
   HostThreads threads(request.Settings.End.NumberOfThreads);
   return this->Finished.Choose(choice, threads);
 }
@@ -127,7 +130,8 @@ void SegmentationRun::Run(RunObserver& observer, double before)
 {
   if (!std::exchange(this->HasBegun, true))
   {
-    this->Choice = ChooseLevels(this->Levels, this->Settings);
+    HostThreads threads(this->Settings.End.NumberOfThreads);
+    this->Choice = ChooseLevels(this->Levels, this->Settings, threads);
     this->Begin();
     this->ChooseComponents(this->Request);
     CheckOptions(this->Settings.Options);
@@ -211,21 +215,12 @@ LevelOutcome SegmentationRun::Evolve(LevelTask& task, LevelMonitor& monitor, Hos
   {
     return EvolveOnLevel(task, this->Rest, threads, monitor);
   }
-  const InitializationType type = this->Settings.Initialization;
-  const std::vector<Point> seeds = type == InitializationType::Seeds
-    ? PositionsOf(this->Settings.End.SeedPositions, "Seed Positions", this->Levels.GetWorkspace(),
-        this->Levels.Pyramid().SizeOf(0))
-    : std::vector<Point>();
-  const bool ofPositions = !seeds.empty() && !this->Request.InitialSurface;
-  const bool isGiven =
-    type == InitializationType::InputSurface || type == InitializationType::Seeds;
-  const char* place = ofPositions ? "Seed Positions: "
-    : isGiven                     ? "Input port 1 (Initial Surface): "
-                                  : "";
-  return PrefixErrors(place,
+  const bool isGiven = this->Settings.Initialization == InitializationType::InputSurface;
+  return PrefixErrors(isGiven ? "Input port 1 (Initial Surface): " : "",
     [&]
     {
-      SurfaceStart start = StartOf(this->Request, this->Levels.GetWorkspace(), seeds);
+      SurfaceStart start =
+        StartOf(this->Request, this->Levels.GetWorkspace(), this->Levels.Seeds());
       if (start.From == SurfaceStart::Kind::Enclosing && this->Choice.StartsAtParts)
       {
         start.From = SurfaceStart::Kind::EnclosingParts;
@@ -251,12 +246,15 @@ void SegmentationRun::TakeSnapshot(
   {
     SurfaceDescription about;
     about.Level = level;
+    about.StartLevel = this->Choice.Coarsest;
     about.Unit = this->Levels.Pyramid().UnitInWorld(level);
     about.Iterations = iteration;
     about.TotalIterations = static_cast<int>(this->Rest.History.Rows.size());
+    ComponentChoice choice;
+    choice.Seeds = this->Levels.Seeds();
     this->Finished.AddSnapshot(level, Join("Level ", level, ", iteration ", iteration),
       MakePolyData(
-        std::move(surface), about, this->Levels.GetWorkspace(), ComponentChoice(), threads));
+        std::move(surface), about, this->Levels.GetWorkspace(), choice, threads));
   }
 }
 
@@ -267,6 +265,7 @@ void SegmentationRun::KeepLevel(
   FinishedLevel finished;
   finished.IsAtRest = reason != StopReason::Cancelled;
   finished.About.Level = level;
+  finished.About.StartLevel = this->Choice.Coarsest;
   finished.About.Unit = this->Levels.Pyramid().UnitInWorld(level);
   finished.About.Iterations = outcome.Iterations;
   finished.About.StopReason = finished.IsAtRest ? Describe(reason) : observer.StopReason();

@@ -78,7 +78,7 @@ public:
   /** See FinishedLevels::WarningOf(). */
   std::string Warning(bool wantsAll) const
   {
-    return this->Finished.WarningOf(this->EndsAt(), wantsAll);
+    return this->Finished.WarningOf(this->EndsAt(), wantsAll && this->Levels.Seeds().empty());
   }
 
 private:

@@ -90,7 +90,8 @@ QString SummaryOf(vtkPVDataInformation* data, const QString& unit)
   const bool isUnfinished = !why.isEmpty();
   const QString level = QString::number(NumberOf(data, "Level"));
   const QString head = isUnfinished ? QObject::tr("<b>Unfinished</b> (%1 at level %2)").arg(why, level)
-                                    : QObject::tr("<b>Surface</b> of level %1").arg(level);
+                                    : QObject::tr("<b>Surface</b> of level %1, started at level %2")
+                                        .arg(level, Count(NumberOf(data, "StartLevel")));
   if (data->GetNumberOfCells() == 0)
   {
     return isUnfinished ? QObject::tr("<b>Unfinished</b> (%1): no surface yet").arg(why)

@@ -15,16 +15,24 @@
 #include <vtkSMProxy.h>
 
 #include <QAbstractButton>
-#include <QCoreApplication>
+#include <QApplication>
 #include <QEvent>
+#include <QKeyEvent>
+#include <QMainWindow>
 #include <QMouseEvent>
-#include <QWidget>
+#include <QStatusBar>
+#include <QTimer>
 #include <QWindow>
+
+#include <algorithm>
 
 namespace
 {
-/** How often events are looked for, as in ParaView 6.1. */
-constexpr qint64 MillisecondsBetweenEvents = 100;
+/** Limits of the pause between two updates of the window: five texts per second can be read. */
+constexpr qint64 LeastPause = 200;
+constexpr qint64 MostPause = 1000;
+/** The pause is this many times the duration of the last update. */
+constexpr qint64 PausePerUpdate = 10;
 
 pqProgressManager* progressManager()
 {
@@ -32,7 +40,12 @@ pqProgressManager* progressManager()
   return core ? core->getProgressManager() : nullptr;
 }
 
-/** ParaView's own, which is the one thing that may be pressed while something runs. */
+QMainWindow* mainWindow()
+{
+  return qobject_cast<QMainWindow*>(pqCoreUtilities::mainWidget());
+}
+
+/** Return ParaView's abort button, the only widget that may be pressed during a run. */
 QAbstractButton* findAbortButton()
 {
   for (const QPointer<QObject>& object : progressManager()->nonBlockableObjects())
@@ -55,7 +68,8 @@ QPoint placeOf(const QMouseEvent* event)
 }
 
 /**
- * What a user does to the window. A button of the mouse may always be let go, and the mouse moved.
+ * Return whether the event is input of the user. Releases of mouse buttons and mere movements of the
+ * mouse are not: they start nothing.
  */
 bool isInput(const QEvent* event)
 {
@@ -74,6 +88,22 @@ bool isInput(const QEvent* event)
       return true;
     case QEvent::MouseMove:
       return static_cast<const QMouseEvent*>(event)->buttons() != Qt::NoButton;
+    default:
+      return false;
+  }
+}
+
+/** Return whether the user quits by the keyboard, or closes the main window. */
+bool isQuit(const QObject* object, QEvent* event)
+{
+  const QMainWindow* window = mainWindow();
+  switch (event->type())
+  {
+    case QEvent::KeyPress:
+    case QEvent::ShortcutOverride:
+      return static_cast<QKeyEvent*>(event)->matches(QKeySequence::Quit);
+    case QEvent::Close:
+      return window && (object == window || object == window->windowHandle());
     default:
       return false;
   }
@@ -134,7 +164,7 @@ void pqAbortButtonBehavior::onStart(vtkObject* filter)
 {
   this->Button = findAbortButton();
   pqServer* server = pqApplicationCore::instance()->getActiveServer();
-  // While tests are played, ParaView 6.1 doesn't look for events either.
+  // While tests are played, ParaView 6.1 doesn't process events either.
   if (!this->Button || !server || !server->isProgressPending() ||
     pqCoreConfiguration::instance()->testScriptCount() > 0)
   {
@@ -142,43 +172,91 @@ void pqAbortButtonBehavior::onStart(vtkObject* filter)
   }
   this->Running = vtkAlgorithm::SafeDownCast(filter);
   this->connect(this->Button, SIGNAL(pressed()), SLOT(stop()), Qt::UniqueConnection);
-  QCoreApplication::instance()->installEventFilter(this);
-  this->SinceEvents.start();
+  // With a window of the system's own, the progress bar is redrawn without the 3D views.
+  QWidget* bar = this->Button->parentWidget();
+  bar->setAttribute(Qt::WA_DontCreateNativeAncestors);
+  bar->setAttribute(Qt::WA_NativeWindow);
+  pqProgressManager* manager = progressManager();
   if (!this->Button->isEnabled())
   {
     this->IsLit = true;
-    progressManager()->setEnableAbort(true);
+    manager->setEnableAbort(true);
   }
+  // The manager ignores ParaView's own reports, which come more often.
+  manager->lockProgress(this);
+  this->connect(this, SIGNAL(progress(const QString&, int)), manager,
+    SLOT(setProgress(const QString&, int)), Qt::UniqueConnection);
+  QApplication::setOverrideCursor(Qt::BusyCursor);
+  QCoreApplication::instance()->installEventFilter(this);
+  this->Pause = LeastPause;
+  this->SinceUpdate.start();
 }
 
 //------------------------------------------------------------------------------
 void pqAbortButtonBehavior::onProgress()
 {
-  if (this->Running && this->IsLit && !this->IsLooking &&
-    this->SinceEvents.elapsed() >= MillisecondsBetweenEvents)
+  if (!this->Running || this->IsUpdating || this->SinceUpdate.elapsed() < this->Pause)
   {
-    this->IsLooking = true;
-    pqCoreUtilities::processEvents();
-    this->IsLooking = false;
-    this->SinceEvents.start();
+    return;
+  }
+  this->IsUpdating = true;
+  this->SinceUpdate.start();
+  Q_EMIT this->progress(
+    this->Running->GetProgressText(), static_cast<int>(100.0 * this->Running->GetProgress()));
+  pqCoreUtilities::processEvents();
+  this->Pause =
+    std::clamp(PausePerUpdate * this->SinceUpdate.restart(), LeastPause, MostPause);
+  this->IsUpdating = false;
+  if (this->IsQuitting)
+  {
+    this->stop();
   }
 }
 
 //------------------------------------------------------------------------------
 void pqAbortButtonBehavior::onEnd()
 {
-  QCoreApplication::instance()->removeEventFilter(this);
-  this->Running = nullptr;
-  pqProgressManager* manager = progressManager();
-  if (this->Button && manager)
+  if (!this->Running)
   {
-    manager->removeNonBlockableObject(this->Button->window()->windowHandle());
+    return;
+  }
+  QCoreApplication::instance()->removeEventFilter(this);
+  QApplication::restoreOverrideCursor();
+  this->Running = nullptr;
+  if (QMainWindow* window = mainWindow())
+  {
+    window->statusBar()->clearMessage();
+  }
+  if (pqProgressManager* manager = progressManager())
+  {
+    manager->unlockProgress(this);
+    if (this->Button)
+    {
+      manager->removeNonBlockableObject(this->Button->parentWidget()->windowHandle());
+    }
     if (this->IsLit)
     {
       manager->setEnableAbort(false);
     }
   }
   this->IsLit = false;
+  if (this->IsQuitting)
+  {
+    this->quit();
+  }
+}
+
+//------------------------------------------------------------------------------
+void pqAbortButtonBehavior::quit()
+{
+  pqServer* server = pqApplicationCore::instance()->getActiveServer();
+  if (server && server->isProgressPending())
+  {
+    QTimer::singleShot(LeastPause, this, SLOT(quit()));
+    return;
+  }
+  this->IsQuitting = false;
+  QApplication::closeAllWindows(); // as File > Exit does
 }
 
 //------------------------------------------------------------------------------
@@ -198,7 +276,7 @@ bool pqAbortButtonBehavior::isPressOfButton(QObject* object, QEvent* event) cons
     return false;
   }
   const QPoint place = this->Button->mapFromGlobal(placeOf(static_cast<QMouseEvent*>(event)));
-  return (object == this->Button || object == this->Button->window()->windowHandle()) &&
+  return (object == this->Button || object == this->Button->parentWidget()->windowHandle()) &&
     this->Button->rect().contains(place);
 }
 
@@ -217,10 +295,15 @@ bool pqAbortButtonBehavior::eventFilter(QObject* object, QEvent* event)
   {
     if (object != this->Button)
     {
-      // ParaView's own filter of events, which comes next, looks at this list.
+      // ParaView's own filter of events, which comes next, checks this list.
       progressManager()->addNonBlockableObject(object);
     }
     return false;
+  }
+  this->IsQuitting = this->IsQuitting || isQuit(object, event);
+  if (QMainWindow* window = mainWindow())
+  {
+    window->statusBar()->showMessage(tr("Running: press the cross to stop"));
   }
   event->ignore();
   return true;

@@ -18,15 +18,17 @@ class vtkObject;
 /**
  * Lets the abort button in the status bar stop a run of Volumic's filters.
  *
- * ParaView 6.1 lights the button up while something runs, and looks for events with each progress,
- * but swallows all presses of the mouse: a press comes to the window first, which hands it on to
- * the button, and of the two only the button is on ParaView's list of exceptions. Before 6.1 the
- * button does not light up, and nobody looks for events: this does both.
+ * During a run this object alone updates the progress bar and processes events, in pauses that are
+ * ten times the duration of the last update. ParaView 6.1 lights up the button, too, but rejects all
+ * presses of the mouse: a press reaches a window first, which passes it to the button, and only the
+ * button is on ParaView's list of exceptions. Earlier versions leave the button grey and process no
+ * events.
  *
- * While a filter runs the window takes nothing but a press of that button: what shortcuts and
- * timers start would come upon a pipeline at work.
+ * During a run the window accepts only a press of that button: what shortcuts and timers start would
+ * change a pipeline that is executing. To quit or to close the window stops the run. The window closes
+ * after it. Other input shows a message in the status bar.
  *
- * Of the built-in server only: others run where the window can't reach them.
+ * This works with the built-in server only. Other servers run outside the window's reach.
  */
 class pqAbortButtonBehavior : public QObject
 {
@@ -40,6 +42,10 @@ public:
   void startup();
   void shutdown();
 
+Q_SIGNALS:
+  /** Text and per cent for ParaView's progress bar. */
+  void progress(const QString& text, int percent);
+
 protected:
   bool eventFilter(QObject* object, QEvent* event) override;
 
@@ -49,16 +55,20 @@ private Q_SLOTS:
   void onProgress();
   void onEnd();
   void stop();
+  /** Close all windows as soon as the pipeline has finished. */
+  void quit();
 
 private:
-  /** Whether the event is a press of the button, on its way there. */
+  /** Return whether the event is a press of the button, on its way there. */
   bool isPressOfButton(QObject* object, QEvent* event) const;
 
   QPointer<QAbstractButton> Button;
   vtkWeakPointer<vtkAlgorithm> Running;
-  QElapsedTimer SinceEvents; ///< since events were looked for
-  bool IsLit = false;        ///< The button is, by this object.
-  bool IsLooking = false;    ///< for events
+  QElapsedTimer SinceUpdate; ///< since the window was updated
+  qint64 Pause = 0;          ///< until the next update, in milliseconds
+  bool IsLit = false;        ///< This object has lit up the button.
+  bool IsUpdating = false;
+  bool IsQuitting = false;
 
   Q_DISABLE_COPY(pqAbortButtonBehavior)
 };

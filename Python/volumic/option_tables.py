@@ -174,8 +174,8 @@ PROPERTIES = (
     Property("preview", "", "Preview", "end at the finest level of at most a million voxels, to "
              "try a value of --iso", value=True),
     Property("initialization", "icosahedron|seeds|iso-surface|input-surface", "Initialization",
-             "initial surface: a rounded box around the image; seeds at --seed-position and "
-             "--seeds, or on a grid; the isosurface of the coarsest level; or --initial-surface"),
+             "initial surface: a rounded box around the image; the parts at --seed-position "
+             "and --seeds, or seeds on a grid; the isosurface of the coarsest level; or --initial-surface"),
     Property("seed-radius", "LENGTH", "SeedRadius", "radius of the seeds in world units; 0: 1.2 "
              "times the shortest edge of the coarsest level"),
     Property("recovery", "none|objects|objects-and-cavities", "Recovery", "which features missed "
@@ -293,9 +293,9 @@ INPUT = (
            "as 512,512,400,uint16; x fastest, least significant byte first"),
     Option("no-resampling", "", "refuse volumes that are no regular grid (missing slices, gantry "
            "tilt, shear) instead of interpolating them linearly"),
-    Option("seeds", "FILE", "start from icosahedra at these points: those of a mesh file, or lines "
+    Option("seeds", "FILE", "surfaces of the parts at these points: those of a mesh file, or lines "
            "'x y z' of a .txt, .csv or .xyz file; world coordinates"),
-    Option("seed-position", "X,Y,Z", "start from an icosahedron at this point in the world; may be "
+    Option("seed-position", "X,Y,Z", "surface of the part at this point in the world; may be "
            "repeated", numbers(3), True),
     Option("initial-surface", "FILE", "start from this closed surface: .vtp, .vtk, .stl, .ply or "
            ".obj; world coordinates"),

@@ -79,6 +79,83 @@ TEST_F(DeformableSurfacePositions, SeedsGrowWhereTheyAreSet)
   EXPECT_GT(this->Filter->GetOutput()->GetBounds()[0], 125);
 }
 
+namespace
+{
+/** A ball of radius 16 about the middle, and two rods beside it, too thin for the coarse levels. */
+vtkSmartPointer<vtkImageData> BallAndRods()
+{
+  const auto image = BallImage(64, 64, 64, 0.25);
+  FillBox(image, { 6, 6, 8 }, { 9, 9, 56 });
+  FillBox(image, { 55, 55, 8 }, { 58, 58, 56 });
+  return image;
+}
+}
+
+TEST_F(DeformableSurfacePositions, SeedsAreTestedInTheVolumeItself)
+{
+  const double ofRod = 3 * 3 * 48;
+  this->Filter->SetInputDataObject(BallAndRods());
+  this->Filter->SetRecovery(vtkDeformableSurface::RecoverObjects);
+  this->Filter->SetInitializationToSeeds();
+  this->AddSeed({ 7, 7, 30 });
+  ASSERT_EQ(this->Components(), 1);
+  vtkPolyData* surface = this->Filter->GetOutput();
+  EXPECT_LT(surface->GetBounds()[1], 12) << "only what has a seed";
+  EXPECT_NEAR(FieldOf(surface, "Volume") / ofRod, 1.0, 0.2) << "its edges are rounded";
+  const int start = static_cast<int>(FieldOf(surface, "StartLevel"));
+  const int last = static_cast<int>(this->Filter->GetLevels()->GetNumberOfBlocks()) - 1;
+  ASSERT_LT(start, last);
+  EXPECT_FALSE(this->Filter->GetLevels()->GetBlock(static_cast<unsigned int>(start) + 1));
+  for (int level = 0; level <= start; ++level)
+  {
+    vtkPolyData* atLevel = SurfaceAt(this->Filter, static_cast<unsigned int>(level));
+    EXPECT_LT(atLevel->GetBounds()[1], 12) << level;
+  }
+  // Whichever level it starts at.
+  const double volume = FieldOf(surface, "Volume");
+  for (int level = 0; level <= start; ++level)
+  {
+    SCOPED_TRACE(level);
+    this->Filter->SetCoarsestLevel(level);
+    EXPECT_EQ(this->Components(), 1);
+    EXPECT_NEAR(FieldOf(surface, "Volume") / volume, 1.0, 0.03);
+    EXPECT_EQ(FieldOf(surface, "StartLevel"), level);
+  }
+  // With recovery one of the seeds suffices for a start; here the ball's.
+  this->Filter->SetCoarsestLevel(last);
+  this->ExpectError({ "Coarsest Level is " + std::to_string(last), "too thin at 1 of 1 seeds",
+    "Set it to " + std::to_string(start) + " or less" });
+  this->AddSeed({ 32, 32, 32 });
+  EXPECT_EQ(this->Components(), 2);
+  this->Filter->SetRecovery(vtkDeformableSurface::NoRecovery);
+  this->ExpectError({ "Coarsest Level", "too thin at 1 of 2 seeds" });
+  this->Filter->SetCoarsestLevel(-1);
+  this->Filter->SetFinestLevel(last);
+  this->ExpectError({ "Finest Level is " + std::to_string(last), "too thin at 1 of 2 seeds" });
+}
+
+TEST_F(DeformableSurfacePositions, SelectionsAreAmongThePartsAtSeeds)
+{
+  this->Filter->SetRecovery(vtkDeformableSurface::RecoverObjects);
+  this->Filter->SetInputDataObject(BallAndRods());
+  this->Filter->SetInitializationToSeeds();
+  this->AddSeed({ 7, 7, 30 });
+  this->AddSeed({ 56, 56, 30 });
+  this->Filter->SetSnapshotInterval(20);
+  this->Filter->SetKeepComponentsToLargestComponent();
+  EXPECT_EQ(this->Components(), 1) << "not the ball";
+  EXPECT_LT(FieldOf(this->Filter->GetOutput(), "Volume"), 1000);
+  vtkMultiBlockDataSet* snapshots = this->Filter->GetSnapshots();
+  for (unsigned int i = 0; i < snapshots->GetNumberOfBlocks(); ++i)
+  {
+    EXPECT_LE(FieldOf(vtkPolyData::SafeDownCast(snapshots->GetBlock(i)), "NumberOfComponents"), 2);
+  }
+  this->Filter->SetKeepComponentsToComponentsNotAtSeeds();
+  const MessagesOf warnings(this->Filter, vtkCommand::WarningEvent);
+  this->Filter->Update();
+  EXPECT_TRUE(warnings.Has("Keep Components leaves none")) << warnings.Get();
+}
+
 TEST_F(DeformableSurfacePositions, SeedsAreThoseOfThePortAndOfTheList)
 {
   this->Filter->SetInitializationToSeeds();
@@ -146,7 +223,8 @@ TEST_F(DeformableSurfacePositions, SeedsOutsideTheObjectAreNamedAsThePanelDoes)
 {
   this->Filter->SetInitializationToSeeds();
   this->Filter->AddSeedPosition(125, 2, 2);
-  this->ExpectError({ "Seed Positions: The seed does not lie inside the object" });
+  this->ExpectError({ "Seed Positions: The seed does not lie inside the object",
+    "above Iso Value 50", "the value there is 0. Move it" });
 }
 
 TEST_F(DeformableSurfacePositions, ListsAreKept)

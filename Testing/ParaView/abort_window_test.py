@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The abort button in the status bar of ParaView's window stops a run, and nothing else gets through.
+"""The abort button in the status bar of ParaView's window stops a run, and so does quitting. The window
+rejects all other input, and takes little of the time.
 
 By real mouse and keys: a window that plays events takes none during a run. Where things are is seen in
 pictures of the window.
@@ -52,6 +53,7 @@ def attend(proxy, algorithm):
                     print("It is asked to stop.")
     def end(caller, event):
         told.clear()
+        caller.SetProgressText("")
         surface = caller.GetOutputDataObject(0)
         reason = surface.GetFieldData().GetAbstractArray("StopReason")
         edges = vtkFeatureEdges()
@@ -76,6 +78,41 @@ def tell_of_the_view(*_):
 view.GetInteractor().AddObserver("TimerEvent", tell_of_the_view)
 view.GetInteractor().CreateRepeatingTimer(100)
 print("Window is ready.")
+"""
+
+
+# Runs in the window: reports the processor time of previews that the window does not notice, and of
+# the same ones that it shows.
+MEASURE = """
+import os
+from paraview import servermanager
+from paraview import simple
+
+volume = simple.Wavelet(WholeExtent=[-60, 60] * 3)
+simple.Show(volume)
+simple.Render()
+handler = servermanager.ActiveConnection.Session.GetProgressHandler()
+seen = simple.VolumetoSurface(volume, Preview=1)
+unseen = servermanager.filters.VolumetoSurface(Input=volume, Preview=1)  # no source of the pipeline
+used = {}
+
+def attend(proxy):
+    begin = []
+    def start(*_):
+        begin[:] = os.times()[:2]
+    def end(*_):
+        used.setdefault(proxy, []).append(sum(os.times()[:2]) - sum(begin))
+    proxy.GetClientSideObject().AddObserver("StartEvent", start)
+    proxy.GetClientSideObject().AddObserver("EndEvent", end)
+
+for proxy in (seen, unseen):
+    attend(proxy)
+for run in range(6):
+    for proxy, interval in ((unseen, 30), (seen, 0.1)):
+        handler.SetProgressInterval(interval)
+        proxy.IsoValue = 150 + run
+        proxy.UpdatePipeline()
+print("Used:", [used[proxy] for proxy in (seen, unseen)])
 """
 
 
@@ -176,6 +213,13 @@ class AbortWindowTest(window.WindowTestCase):
         self.assertTrue(100 < points < self.whole[1])
         self.assertEqual(self.facts("View: "), (2, points))
         self.assertIsNone(abort_button(self.picture("after")), "grey again")
+        self.session.wait_for_rest()
+        with self.run_held():
+            self.hand.press(self.wait_for(window.apply_button, "after"))
+            self.line_with("Iterations have begun")
+            self.hand.key("Control_L", "q")
+            self.line_with("It is asked to stop")
+        self.assertTrue(self.session.has_quit(), "The window closes after the run")
 
     def test_nothing_else_gets_through(self):
         x, y = self.make_filter()
@@ -193,6 +237,9 @@ class AbortWindowTest(window.WindowTestCase):
             time.sleep(1)  # Nothing tells of presses that have no effect.
             self.said += self.session.wait_for("\n", 0.1)
             self.assertNotIn("Run ended", self.said, "all this was during the run")
+            edge = numpy.s_[-20:, :250]
+            self.assertTrue((self.picture("message")[edge] != before[edge]).any(),
+                            "the status bar says that a filter is running")
         self.assertEqual(self.facts("Run ended: "), self.whole)
         self.assertEqual(self.facts("View: "), (2, self.whole[1]))
         self.session.wait_for_rest()
@@ -200,3 +247,10 @@ class AbortWindowTest(window.WindowTestCase):
         self.assertIsNone(window.apply_button(pixels), "nothing is to be applied")
         for part in (numpy.s_[:20, :400], numpy.s_[25:50, 10:100]):  # menus; first icons
             self.assertTrue((pixels[part] == before[part]).all(), "neither menu nor dialog")
+
+    def test_the_window_takes_little_of_the_time(self):
+        self.said = ""
+        self.session.start(MEASURE)
+        # The first runs prepare the window and the filter.
+        seen, unseen = (sum(times[1:]) for times in self.facts("Used: "))
+        self.assertLess(seen, 1.3 * unseen)

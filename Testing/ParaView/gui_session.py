@@ -238,6 +238,11 @@ class Session:
         writer.Write()
         return pixels
 
+    def has_quit(self):
+        """Wait for the end of the window. Returns whether it ended without an error."""
+        self.wait_for("\0")  # to the end of its output
+        return self._window.wait(PATIENCE) == 0
+
     def close_window(self):
         if self._window:
             self._window.kill()

@@ -136,7 +136,8 @@ class VolumeWindowTest(window.WindowTestCase):
             FILTER, gui.pause(500), gui.check(f"{PROPERTIES}/Result/Summary", "text", "none yet"),
             APPLY, gui.pause(500),
             gui.check(f"{PROPERTIES}/Result/Summary", "text",
-                      f"<b>Surface</b> of level 0<br>{surface.GetNumberOfPoints():,} vertices, "
+                      f"<b>Surface</b> of level 0, started at level "
+                      f"{testing.field(surface, 'StartLevel')}<br>{surface.GetNumberOfPoints():,} vertices, "
                       f"1 component, genus 0<br>area {round(area, -1):,.0f} world units²<br>"
                       f"volume {round(volume, -1):,.0f} world units³<br>"
                       "0.0 % of the boundary missing<br>no self-intersections"),

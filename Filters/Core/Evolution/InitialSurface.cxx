@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Evolution/InitialSurface.h"
 
-#include "Core/Common/Join.h"
 #include "Core/Common/Lattice.h"
 #include "Core/Common/Refuse.h"
 #include "Core/Mesh/Division.h"
@@ -252,39 +251,10 @@ void CheckOverlapsImage(const IndexedSurface& surface, const LevelImage& image)
 
 namespace
 {
-bool IsInside(const Field& field, const Point& p)
+float ValueAt(const Field& field, const Point& p)
 {
-  return field.ValueAt(Vector(static_cast<float>(p[0]), static_cast<float>(p[1]),
-           static_cast<float>(p[2]))) > 0;
-}
-
-/** Those of the centres that are inside the object and far enough from the ones before. */
-std::vector<Point> UsableSeeds(
-  const Field& field, const std::vector<Point>& centres, double spacing)
-{
-  const LevelImage& image = field.Image();
-  std::vector<Point> chosen;
-  for (std::size_t i = 0; i < centres.size(); ++i)
-  {
-    const Point& p = centres[i];
-    for (int k = 0; k < 3; ++k)
-    {
-      if (!(p[k] >= 0. && p[k] <= image.Size[k] * image.Step[k]))
-      {
-        Refuse("Seed ", i, " lies outside the image: ", p[k], " voxel distances along axis ", k,
-          ", the image has ", image.Size[k] * image.Step[k], ".");
-      }
-    }
-    const VectorD place(p[0], p[1], p[2]);
-    if (IsInside(field, p) &&
-      std::none_of(chosen.begin(), chosen.end(),
-        [&](const Point& q)
-        { return SquaredDistance(VectorD(q[0], q[1], q[2]), place) < spacing * spacing; }))
-    {
-      chosen.push_back(p);
-    }
-  }
-  return chosen;
+  return field.ValueAt(
+    Vector(static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])));
 }
 
 /** The points of a grid about the middle of the image that are inside the object. */
@@ -307,7 +277,7 @@ std::vector<Point> GridOfSeeds(const Field& field, double spacing)
       for (int x = 0; x < count[0]; ++x)
       {
         const Point p = { first[0] + x * spacing, first[1] + y * spacing, first[2] + z * spacing };
-        if (IsInside(field, p))
+        if (ValueAt(field, p) > 0)
         {
           chosen.push_back(p);
         }
@@ -318,25 +288,55 @@ std::vector<Point> GridOfSeeds(const Field& field, double spacing)
 }
 }
 
+std::vector<float> ValuesAtSeeds(const Field& field, const std::vector<Point>& centres)
+{
+  const LevelImage& image = field.Image();
+  std::vector<float> values;
+  for (std::size_t i = 0; i < centres.size(); ++i)
+  {
+    const Point& p = centres[i];
+    for (int k = 0; k < 3; ++k)
+    {
+      if (!(p[k] >= 0. && p[k] <= image.Size[k] * image.Step[k]))
+      {
+        Refuse("Seed ", i, " lies outside the image: ", p[k], " voxel distances along axis ", k,
+          ", the image has ", image.Size[k] * image.Step[k], ".");
+      }
+    }
+    values.push_back(ValueAt(field, p));
+  }
+  return values;
+}
+
 std::vector<Point> ChooseSeeds(
   const Field& field, const std::vector<Point>& centres, double spacing)
 {
   if (centres.empty())
   {
-    std::vector<Point> chosen = GridOfSeeds(field, spacing);
-    if (chosen.empty())
+    std::vector<Point> grid = GridOfSeeds(field, spacing);
+    if (grid.empty())
     {
-      Refuse("No point of the grid of seeds lies inside the object. Give a smaller Seed Radius or "
-             "another Iso Value.");
+      Refuse("No point of the grid of seeds lies inside the object. Set Seed Positions, a smaller "
+             "Seed Radius, a finer Coarsest Level or another Iso Value.");
     }
-    return chosen;
+    return grid;
   }
-  std::vector<Point> chosen = UsableSeeds(field, centres, spacing);
+  const std::vector<float> values = ValuesAtSeeds(field, centres);
+  std::vector<Point> chosen;
+  for (std::size_t i = 0; i < centres.size(); ++i)
+  {
+    const VectorD place(centres[i][0], centres[i][1], centres[i][2]);
+    if (values[i] > 0 &&
+      std::none_of(chosen.begin(), chosen.end(),
+        [&](const Point& q)
+        { return SquaredDistance(VectorD(q[0], q[1], q[2]), place) < spacing * spacing; }))
+    {
+      chosen.push_back(centres[i]);
+    }
+  }
   if (chosen.empty())
   {
-    const std::string which =
-      centres.size() == 1 ? "The seed does not lie" : Join("None of the ", centres.size(), " seeds lies");
-    Refuse(which, " inside the object. Choose other places, or check Iso Value and Object Is Bright.");
+    Refuse("No seed lies inside the object.");
   }
   return chosen;
 }

@@ -40,6 +40,12 @@ void CheckOverlapsImage(const IndexedSurface& surface, const LevelImage& image);
 constexpr double SmallestSeed = 0.96;
 
 /**
+ * Return the value of the field at each centre: positive inside the object.
+ * @throws std::invalid_argument if a centre lies outside the image.
+ */
+std::vector<float> ValuesAtSeeds(const Field& field, const std::vector<Point>& centres);
+
+/**
  * The centres that can be used: inside the object and at least `spacing` from those before. With
  * no centres given, points of a grid of that spacing.
  * @throws std::invalid_argument when a centre lies outside the image or none is left.
