@@ -38,7 +38,8 @@ void Append(vtkStringArray* rows, std::set<int>& known, vtkFieldData* data, cons
         counts->GetVariantValue(counts->GetNumberOfTuples() == count ? i : 0).ToString());
       for (int c = 0; c < 3; ++c)
       {
-        rows->InsertNextValue(colors->GetVariantValue(3 * i + c).ToString());
+        const vtkVariant part = colors->GetVariantValue(3 * i + c);
+        rows->InsertNextValue(part.ToString(vtkVariant::DEFAULT_FORMATTING, 17));
       }
     }
   }
