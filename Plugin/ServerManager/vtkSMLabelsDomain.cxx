@@ -2,10 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSMLabelsDomain.h"
 
+#include "Helpers.h"
+
 #include <vtkObjectFactory.h>
 #include <vtkPVDataInformation.h>
 #include <vtkSMSourceProxy.h>
 #include <vtkSMUncheckedPropertyHelper.h>
+#include <vtkSmartPointer.h>
+#include <vtkVariant.h>
 
 vtkStandardNewMacro(vtkSMLabelsDomain);
 
@@ -42,6 +46,37 @@ vtkSMLabelsDomain::Choice vtkSMLabelsDomain::CurrentChoice()
 }
 
 //------------------------------------------------------------------------------
+volumic::LabelRows vtkSMLabelsDomain::FetchLabels(
+  vtkSMSourceProxy* producer, unsigned int port, const std::array<std::string, 5>& array)
+{
+  volumic::LabelRows labels;
+  const auto helper = volumic::NewHelper("LabelList", producer, port);
+  if (!helper)
+  {
+    return labels;
+  }
+  if (!array[4].empty())
+  {
+    vtkSMPropertyHelper selection(helper, "SetInputArrayToProcess");
+    for (unsigned int i = 0; i < array.size(); ++i)
+    {
+      selection.Set(i, array[i].c_str());
+    }
+  }
+  volumic::RunHelper(helper, producer->GetDataInformation(port));
+  vtkSMPropertyHelper texts(helper, "Rows");
+  for (unsigned int i = 0; i + 6 <= texts.GetNumberOfElements(); i += 6)
+  {
+    const auto number = [&](unsigned int column)
+    { return vtkVariant(texts.GetAsString(i + column)).ToDouble(); };
+    labels.Rows.push_back({ static_cast<int>(number(0)), texts.GetAsString(i + 1),
+      static_cast<long long>(number(2)), { { number(3), number(4), number(5) } } });
+  }
+  labels.Problem = vtkSMPropertyHelper(helper, "Problem").GetAsString();
+  return labels;
+}
+
+//------------------------------------------------------------------------------
 const volumic::LabelRows& vtkSMLabelsDomain::GetLabels()
 {
   const Choice choice = this->CurrentChoice();
@@ -51,7 +86,7 @@ const volumic::LabelRows& vtkSMLabelsDomain::GetLabels()
   }
   this->IsCounting = true;
   const auto& [producer, port, array, time] = choice;
-  this->Labels = producer ? volumic::FetchLabels(producer, port, array) : volumic::LabelRows();
+  this->Labels = producer ? FetchLabels(producer, port, array) : volumic::LabelRows();
   this->Counted = this->CurrentChoice();
   this->IsCounting = false;
   return this->Labels;
