@@ -2,11 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSMLabelsDomain.h"
 
+#include "Helpers.h"
+
 #include <vtkObjectFactory.h>
 #include <vtkPVDataInformation.h>
-#include <vtkSMProperty.h>
 #include <vtkSMSourceProxy.h>
 #include <vtkSMUncheckedPropertyHelper.h>
+#include <vtkSmartPointer.h>
+#include <vtkVariant.h>
 
 vtkStandardNewMacro(vtkSMLabelsDomain);
 
@@ -15,59 +18,75 @@ vtkSMLabelsDomain::vtkSMLabelsDomain() = default;
 vtkSMLabelsDomain::~vtkSMLabelsDomain() = default;
 
 //------------------------------------------------------------------------------
-bool vtkSMLabelsDomain::Choice::operator==(const Choice& other) const
-{
-  return this->Producer == other.Producer && this->Port == other.Port &&
-    this->Array == other.Array && this->Time == other.Time;
-}
-
-//------------------------------------------------------------------------------
 vtkSMLabelsDomain::Choice vtkSMLabelsDomain::CurrentChoice()
 {
-  Choice choice;
   vtkSMProperty* input = this->GetRequiredProperty("Input");
   vtkSMProperty* selection = this->GetRequiredProperty("ArraySelection");
   if (!input || !selection)
   {
-    return choice;
+    return {};
   }
   vtkSMUncheckedPropertyHelper source(input);
-  vtkSMUncheckedPropertyHelper chosen(selection);
-  if (source.GetNumberOfElements() > 0)
+  auto* producer = vtkSMSourceProxy::SafeDownCast(
+    source.GetNumberOfElements() > 0 ? source.GetAsProxy() : nullptr);
+  vtkPVDataInformation* data =
+    producer ? producer->GetDataInformation(source.GetOutputPort()) : nullptr;
+  if (!data)
   {
-    choice.Producer = vtkSMSourceProxy::SafeDownCast(source.GetAsProxy());
-    choice.Port = source.GetOutputPort();
+    return {}; // Of a producer that could not be made there is nothing to know.
   }
+  vtkSMUncheckedPropertyHelper chosen(selection);
+  std::array<std::string, 5> array;
   for (unsigned int i = 0; chosen.GetNumberOfElements() == 5 && i < 5; ++i)
   {
     const char* text = chosen.GetAsString(i);
-    choice.Array[i] = text ? text : "";
+    array[i] = text ? text : "";
   }
-  vtkPVDataInformation* data =
-    choice.Producer ? choice.Producer->GetDataInformation(choice.Port) : nullptr;
-  if (data)
+  return { producer, source.GetOutputPort(), array, data->GetMTime() };
+}
+
+//------------------------------------------------------------------------------
+volumic::LabelRows vtkSMLabelsDomain::FetchLabels(
+  vtkSMSourceProxy* producer, unsigned int port, const std::array<std::string, 5>& array)
+{
+  volumic::LabelRows labels;
+  const auto helper = volumic::NewHelper("LabelList", producer, port);
+  if (!helper)
   {
-    choice.Time = data->GetMTime();
+    return labels;
   }
-  else
+  if (!array[4].empty())
   {
-    choice.Producer = nullptr; // Of one that could not be made there is nothing to know.
+    vtkSMPropertyHelper selection(helper, "SetInputArrayToProcess");
+    for (unsigned int i = 0; i < array.size(); ++i)
+    {
+      selection.Set(i, array[i].c_str());
+    }
   }
-  return choice;
+  volumic::RunHelper(helper, producer->GetDataInformation(port));
+  vtkSMPropertyHelper texts(helper, "Rows");
+  for (unsigned int i = 0; i + 6 <= texts.GetNumberOfElements(); i += 6)
+  {
+    const auto number = [&](unsigned int column)
+    { return vtkVariant(texts.GetAsString(i + column)).ToDouble(); };
+    labels.Rows.push_back({ static_cast<int>(number(0)), texts.GetAsString(i + 1),
+      static_cast<long long>(number(2)), { { number(3), number(4), number(5) } } });
+  }
+  labels.Problem = vtkSMPropertyHelper(helper, "Problem").GetAsString();
+  return labels;
 }
 
 //------------------------------------------------------------------------------
 const volumic::LabelRows& vtkSMLabelsDomain::GetLabels()
 {
-  Choice choice = this->CurrentChoice();
+  const Choice choice = this->CurrentChoice();
   if (this->IsCounting || choice == this->Counted)
   {
     return this->Labels;
   }
   this->IsCounting = true;
-  this->Labels = choice.Producer
-    ? volumic::FetchLabelsOfMap(choice.Producer, choice.Port, choice.Array)
-    : volumic::LabelRows();
+  const auto& [producer, port, array, time] = choice;
+  this->Labels = producer ? FetchLabels(producer, port, array) : volumic::LabelRows();
   this->Counted = this->CurrentChoice();
   this->IsCounting = false;
   return this->Labels;
@@ -76,7 +95,7 @@ const volumic::LabelRows& vtkSMLabelsDomain::GetLabels()
 //------------------------------------------------------------------------------
 void vtkSMLabelsDomain::Update(vtkSMProperty*)
 {
-  if (!this->IsCounting && !(this->CurrentChoice() == this->Counted))
+  if (!this->IsCounting && this->CurrentChoice() != this->Counted)
   {
     this->DomainModified();
   }
@@ -87,5 +106,4 @@ void vtkSMLabelsDomain::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Labels: " << this->Labels.Rows.size() << "\n";
-  os << indent << "Problem: " << this->Labels.Problem << "\n";
 }

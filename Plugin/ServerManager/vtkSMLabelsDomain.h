@@ -13,9 +13,32 @@
 #ifndef vtkSMLabelsDomain_h
 #define vtkSMLabelsDomain_h
 
-#include "LabelRows.h" // For what it gives
 #include "vtkSMDomain.h"
 #include "vtkServerManagerVolumicModule.h" // For export macro
+
+#include <array>  // For the rows
+#include <string> // For the rows
+#include <tuple>  // For the choice
+#include <vector> // For the rows
+
+class vtkSMSourceProxy;
+
+namespace volumic
+{
+struct LabelRow
+{
+  int Label = 0;
+  std::string Name;
+  long long Voxels = 0;
+  std::array<double, 3> Color = { { 0.0, 0.0, 0.0 } };
+};
+
+struct LabelRows
+{
+  std::vector<LabelRow> Rows; ///< of a label map by value, of surfaces in the order of their blocks
+  std::string Problem;        ///< why there are none
+};
+}
 
 class VTKSERVERMANAGERVOLUMIC_EXPORT vtkSMLabelsDomain : public vtkSMDomain
 {
@@ -26,7 +49,15 @@ public:
 
   void Update(vtkSMProperty* requestingProperty) override;
 
-  /** Those of the input as it is now, before Apply. */
+  /**
+   * Return the labels of a label map, or of the output of Labels to Surfaces, found where the data is
+   * by the helper proxy (internal_filters, LabelList). `array` is as SetInputArrayToProcess has it;
+   * empty: the active scalars.
+   */
+  static volumic::LabelRows FetchLabels(vtkSMSourceProxy* producer, unsigned int port,
+    const std::array<std::string, 5>& array = {});
+
+  /** Return the labels of the input as it is now, before Apply. */
   const volumic::LabelRows& GetLabels();
 
 protected:
@@ -37,16 +68,9 @@ private:
   vtkSMLabelsDomain(const vtkSMLabelsDomain&) = delete;
   void operator=(const vtkSMLabelsDomain&) = delete;
 
-  /** What labels are counted of. */
-  struct Choice
-  {
-    vtkSMSourceProxy* Producer = nullptr;
-    unsigned int Port = 0;
-    std::array<std::string, 5> Array; ///< as SetInputArrayToProcess
-    vtkMTimeType Time = 0;            ///< of what is known about the data
-
-    bool operator==(const Choice& other) const;
-  };
+  /** Producer, port, array, and the time of its data: what labels are counted of. */
+  using Choice =
+    std::tuple<vtkSMSourceProxy*, unsigned int, std::array<std::string, 5>, vtkMTimeType>;
   Choice CurrentChoice();
 
   Choice Counted;

@@ -2,13 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSMVolumicLabelsRepresentationProxy.h"
 
-#include "LabelRows.h"
-
 #include <vtkCommand.h>
 #include <vtkDataObject.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkPVDataInformation.h>
+#include <vtkSMLabelsDomain.h>
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMProxyIterator.h>
 #include <vtkSMProxyManager.h>
@@ -251,7 +250,7 @@ void vtkSMVolumicLabelsRepresentationProxy::AdaptColorsOf(
   }
   this->AdaptedTime = data->GetMTime();
   std::vector<volumic::ColorCategory> wanted =
-    CategoriesOf(volumic::FetchLabelsOfSurfaces(source, input.GetOutputPort()));
+    CategoriesOf(vtkSMLabelsDomain::FetchLabels(source, input.GetOutputPort()));
   if (wanted.empty())
   {
     return; // After an error the categories are those of the run before.

@@ -3,20 +3,46 @@
 #include "vtkVolumicLabelList.h"
 
 #include <vtkCommand.h>
-#include <vtkDoubleArray.h>
-#include <vtkIdTypeArray.h>
-#include <vtkIntArray.h>
+#include <vtkCompositeDataIterator.h>
+#include <vtkDataObject.h>
+#include <vtkFieldData.h>
+#include <vtkMultiBlockDataSet.h>
 #include <vtkObjectFactory.h>
+#include <vtkSmartPointer.h>
 #include <vtkStringArray.h>
 #include <vtkTable.h>
+#include <vtkVariant.h>
+
+#include <set>
 
 vtkStandardNewMacro(vtkVolumicLabelList);
 
 namespace
 {
-template <class Array> Array* Column(vtkTable* table, const char* name)
+/** Append the labels of a table or of field data that are not in the set of known ones. */
+void Append(vtkStringArray* rows, std::set<int>& known, vtkFieldData* data, const char* label,
+  const char* name, const char* voxels, const char* color)
 {
-  return table ? Array::SafeDownCast(table->GetColumnByName(name)) : nullptr;
+  vtkDataArray* labels = data->GetArray(label);
+  vtkAbstractArray* names = data->GetAbstractArray(name);
+  vtkDataArray* counts = data->GetArray(voxels);
+  vtkDataArray* colors = data->GetArray(color);
+  const vtkIdType count = labels && names && counts && colors ? labels->GetNumberOfTuples() : 0;
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    if (known.insert(static_cast<int>(labels->GetTuple1(i))).second)
+    {
+      rows->InsertNextValue(labels->GetVariantValue(i).ToString());
+      rows->InsertNextValue(names->GetVariantValue(i).ToString());
+      rows->InsertNextValue(
+        counts->GetVariantValue(counts->GetNumberOfTuples() == count ? i : 0).ToString());
+      for (int c = 0; c < 3; ++c)
+      {
+        const vtkVariant part = colors->GetVariantValue(3 * i + c);
+        rows->InsertNextValue(part.ToString(vtkVariant::DEFAULT_FORMATTING, 17));
+      }
+    }
+  }
 }
 
 /** Without what VTK writes about it: "ERROR: In FILE, line 1\nCLASS (0x1): TEXT\n\n". */
@@ -54,28 +80,29 @@ int vtkVolumicLabelList::RequestData(
   vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
 {
   this->Problem.clear();
-  return this->Superclass::RequestData(request, input, output);
+  this->Rows->Initialize();
+  std::set<int> known;
+  if (auto* blocks = vtkMultiBlockDataSet::GetData(input[0]))
+  {
+    auto leaf = vtkSmartPointer<vtkCompositeDataIterator>::Take(blocks->NewIterator());
+    for (leaf->InitTraversal(); !leaf->IsDoneWithTraversal(); leaf->GoToNextItem())
+    {
+      Append(this->Rows, known, leaf->GetCurrentDataObject()->GetFieldData(), "Label", "LabelName",
+        "LabelVoxels", "LabelColor");
+    }
+  }
+  if (known.empty() && this->Superclass::RequestData(request, input, output))
+  {
+    Append(this->Rows, known, vtkTable::GetData(output)->GetRowData(), "Label", "Name", "Voxels",
+      "Color");
+  }
+  return 1;
 }
 
 //------------------------------------------------------------------------------
-vtkIntArray* vtkVolumicLabelList::GetLabels()
+vtkStringArray* vtkVolumicLabelList::GetRows()
 {
-  return Column<vtkIntArray>(this->GetOutput(), "Label");
-}
-
-vtkStringArray* vtkVolumicLabelList::GetNames()
-{
-  return Column<vtkStringArray>(this->GetOutput(), "Name");
-}
-
-vtkIdTypeArray* vtkVolumicLabelList::GetVoxels()
-{
-  return Column<vtkIdTypeArray>(this->GetOutput(), "Voxels");
-}
-
-vtkDoubleArray* vtkVolumicLabelList::GetColors()
-{
-  return Column<vtkDoubleArray>(this->GetOutput(), "Color");
+  return this->Rows;
 }
 
 //------------------------------------------------------------------------------

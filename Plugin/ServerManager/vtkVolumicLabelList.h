@@ -4,20 +4,19 @@
  * @class   vtkVolumicLabelList
  * @brief   vtkLabelTable, for a client that cannot see its output
  *
- * The columns of the table as arrays. It is run for a panel, before anybody has asked for a
- * surface: what is wrong with the input is no error here, but a text.
+ * The input is a label map, or what vtkLabelsToSurfaces puts out: then the labels are those in the
+ * field data of the blocks. It is run for a panel, before a surface is requested: what is wrong with
+ * the input is no error here, but a text.
  */
 #ifndef vtkVolumicLabelList_h
 #define vtkVolumicLabelList_h
 
 #include "vtkLabelTable.h"
+#include "vtkNew.h"
 #include "vtkServerManagerVolumicModule.h" // For export macro
 
 #include <string> // For the problem
 
-class vtkDoubleArray;
-class vtkIdTypeArray;
-class vtkIntArray;
 class vtkStringArray;
 
 class VTKSERVERMANAGERVOLUMIC_EXPORT vtkVolumicLabelList : public vtkLabelTable
@@ -27,15 +26,10 @@ public:
   vtkTypeMacro(vtkVolumicLabelList, vtkLabelTable);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  ///@{
-  /** Of the last run, an entry (a colour: three) per label; null: there is none. */
-  vtkIntArray* GetLabels();
-  vtkStringArray* GetNames();
-  vtkIdTypeArray* GetVoxels();
-  vtkDoubleArray* GetColors();
-  ///@}
+  /** Return label, name, number of voxels, red, green and blue of each label of the last run. */
+  vtkStringArray* GetRows();
 
-  /** What was wrong with the input; empty: nothing. */
+  /** Return what was wrong with the input; empty: nothing. */
   const char* GetProblem();
 
 protected:
@@ -51,6 +45,7 @@ private:
 
   void OnMessage(vtkObject* caller, unsigned long event, void* text);
 
+  vtkNew<vtkStringArray> Rows;
   std::string Problem;
 };
 

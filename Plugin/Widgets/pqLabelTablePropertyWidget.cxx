@@ -36,6 +36,7 @@ enum Column
   NumberOfColumns
 };
 constexpr int SearchRole = Qt::UserRole;
+constexpr int InInputRole = Qt::UserRole + 1;
 
 QIcon swatch(const std::array<double, 3>& color)
 {
@@ -58,6 +59,7 @@ QList<QStandardItem*> newRow(const QString& name, int label, qlonglong voxels)
 {
   auto* item = new QStandardItem(name);
   item->setData(name + '\n' + QString::number(label), SearchRole);
+  item->setData(voxels > 0, InInputRole);
   item->setToolTip(name);
   item->setEditable(false);
   item->setCheckable(true);
@@ -86,22 +88,19 @@ struct pqLabelTablePropertyWidget::Internals
     return this->Rows.item(row, Column::Label)->data(Qt::DisplayRole).toInt();
   }
 
-  bool isInInput(int row) const
-  {
-    return this->Rows.item(row, Column::Voxels)->data(Qt::DisplayRole).toLongLong() > 0;
-  }
-
   void check(int row, bool yes)
   {
     this->Rows.item(row)->setCheckState(yes ? Qt::Checked : Qt::Unchecked);
   }
+
+  bool isChecked(int row) const { return this->Rows.item(row)->checkState() == Qt::Checked; }
 
   QList<int> checked() const
   {
     QList<int> labels;
     for (int row = 0; row < this->Rows.rowCount(); ++row)
     {
-      if (this->Rows.item(row)->checkState() == Qt::Checked)
+      if (this->isChecked(row))
       {
         labels << this->labelOf(row);
       }
@@ -109,26 +108,25 @@ struct pqLabelTablePropertyWidget::Internals
     return labels;
   }
 
-  /** Return the selected rows. */
-  QSet<int> selected() const
+  QModelIndexList selected() const { return this->Table->selectionModel()->selectedRows(); }
+
+  /** Return the rows that Search leaves. */
+  QModelIndexList found() const
   {
-    QSet<int> rows;
-    for (const QModelIndex& index : this->Table->selectionModel()->selectedRows())
+    QModelIndexList rows;
+    for (int row = 0; row < this->Shown.rowCount(); ++row)
     {
-      rows << this->Shown.mapToSource(index).row();
+      rows << this->Shown.index(row, Column::Name);
     }
     return rows;
   }
 
-  /** Return the rows that Search leaves. */
-  QSet<int> found() const
+  void check(const QModelIndexList& rows, Qt::CheckState state)
   {
-    QSet<int> rows;
-    for (int i = 0; i < this->Shown.rowCount(); ++i)
+    for (const QModelIndex& row : rows)
     {
-      rows << this->Shown.mapToSource(this->Shown.index(i, 0)).row();
+      this->Shown.setData(row, state, Qt::CheckStateRole);
     }
-    return rows;
   }
 };
 
@@ -170,6 +168,7 @@ void pqLabelTablePropertyWidget::buildPanel()
   parts.Filter->setClearButtonEnabled(true);
   grid->addWidget(parts.Filter, 0, 1, 1, 2);
 
+  parts.Rows.setHorizontalHeaderLabels({ tr("Name"), tr("Label"), tr("Voxels") });
   parts.Shown.setSourceModel(&parts.Rows);
   parts.Shown.setFilterCaseSensitivity(Qt::CaseInsensitive);
   parts.Shown.setFilterRole(SearchRole);
@@ -182,6 +181,8 @@ void pqLabelTablePropertyWidget::buildPanel()
   parts.Table->setTextElideMode(Qt::ElideMiddle);
   parts.Table->setSelectionMode(QAbstractItemView::ExtendedSelection);
   parts.Table->header()->setStretchLastSection(false);
+  parts.Table->header()->setSectionResizeMode(QHeaderView::ResizeToContents);
+  parts.Table->header()->setSectionResizeMode(Column::Name, QHeaderView::Stretch);
   parts.Table->sortByColumn(Column::Label, Qt::AscendingOrder);
   parts.Table->setSortingEnabled(true);
   parts.Table->setMinimumHeight(10 * parts.Table->fontMetrics().height());
@@ -218,17 +219,14 @@ void pqLabelTablePropertyWidget::fillTable()
   Internals& parts = *this->Parts;
   const volumic::LabelRows labels = parts.Domain->GetLabels();
   parts.Problem = QString::fromStdString(labels.Problem);
-  parts.Rows.clear();
-  parts.Rows.setHorizontalHeaderLabels({ tr("Name"), tr("Label"), tr("Voxels") });
+  parts.IsChecking = true;
+  parts.Rows.removeRows(0, parts.Rows.rowCount());
   for (const volumic::LabelRow& label : labels.Rows)
   {
     const auto row = newRow(QString::fromStdString(label.Name), label.Label, label.Voxels);
     row[Column::Name]->setIcon(swatch(label.Color));
     parts.Rows.appendRow(row);
   }
-  QHeaderView* header = parts.Table->header();
-  header->setSectionResizeMode(QHeaderView::ResizeToContents);
-  header->setSectionResizeMode(Column::Name, QHeaderView::Stretch);
   this->checkRows();
 }
 
@@ -252,7 +250,7 @@ void pqLabelTablePropertyWidget::checkRows()
   for (int row = parts.Rows.rowCount() - 1; row >= 0; --row)
   {
     const int label = parts.labelOf(row);
-    if (!parts.isInInput(row) && !listed.contains(label))
+    if (!parts.Rows.item(row)->data(InInputRole).toBool() && !listed.contains(label))
     {
       parts.Rows.removeRow(row); // A label that the input does not have.
       continue;
@@ -306,6 +304,7 @@ void pqLabelTablePropertyWidget::setLabels(const QList<QVariant>& labels)
 void pqLabelTablePropertyWidget::readTable()
 {
   Internals& parts = *this->Parts;
+  parts.IsChecking = false;
   QList<int> checked = parts.checked();
   if (checked.isEmpty())
   {
@@ -347,11 +346,11 @@ void pqLabelTablePropertyWidget::checkAll()
 {
   Internals& parts = *this->Parts;
   parts.IsChecking = true;
-  for (int row : parts.found())
+  for (const QModelIndex& index : parts.found())
   {
+    const int row = parts.Shown.mapToSource(index).row();
     parts.check(row, !this->isBackground(parts.labelOf(row)));
   }
-  parts.IsChecking = false;
   this->readTable();
 }
 
@@ -359,14 +358,12 @@ void pqLabelTablePropertyWidget::checkAll()
 void pqLabelTablePropertyWidget::checkOnlyThese()
 {
   Internals& parts = *this->Parts;
-  const QSet<int> these = parts.Table->selectionModel()->hasSelection()
-    ? parts.selected() : parts.found();
   parts.IsChecking = true;
   for (int row = 0; row < parts.Rows.rowCount(); ++row)
   {
-    parts.check(row, these.contains(row));
+    parts.check(row, false);
   }
-  parts.IsChecking = false;
+  parts.check(parts.selected().isEmpty() ? parts.found() : parts.selected(), Qt::Checked);
   this->readTable();
 }
 
@@ -374,19 +371,13 @@ void pqLabelTablePropertyWidget::checkOnlyThese()
 void pqLabelTablePropertyWidget::readRow(QStandardItem* item)
 {
   Internals& parts = *this->Parts;
-  if (parts.IsChecking)
+  if (!parts.IsChecking)
   {
-    return;
-  }
-  parts.IsChecking = true;
-  const QSet<int> selected = parts.selected();
-  if (selected.contains(item->row()))
-  {
-    for (int row : selected)
+    parts.IsChecking = true;
+    if (parts.selected().contains(parts.Shown.mapFromSource(item->index())))
     {
-      parts.check(row, item->checkState() == Qt::Checked);
+      parts.check(parts.selected(), item->checkState());
     }
+    this->readTable();
   }
-  parts.IsChecking = false;
-  this->readTable();
 }

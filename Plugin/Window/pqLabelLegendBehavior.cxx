@@ -19,10 +19,6 @@
 #include <QTimer>
 
 //------------------------------------------------------------------------------
-pqLabelLegendBehavior::pqLabelLegendBehavior() = default;
-pqLabelLegendBehavior::~pqLabelLegendBehavior() = default;
-
-//------------------------------------------------------------------------------
 void pqLabelLegendBehavior::startup()
 {
   this->connect(pqApplicationCore::instance()->getServerManagerModel(),
@@ -62,8 +58,8 @@ void pqLabelLegendBehavior::add(pqRepresentation* display)
   pqDataRepresentation* former = view && input && volumic::IsOfSurface(input->getSource())
     ? input->getRepresentation(view)
     : nullptr;
-  if (former && vtkSMPVRepresentationProxy::GetUsingScalarColoring(former->getProxy()) &&
-    !vtkSMPVRepresentationProxy::IsScalarBarVisible(former->getProxy(), view->getProxy()))
+  auto* proxy = vtkSMPVRepresentationProxy::SafeDownCast(former ? former->getProxy() : nullptr);
+  if (proxy && proxy->GetUsingScalarColoring() && !proxy->IsScalarBarVisible(view->getProxy()))
   {
     this->WithoutLegend.append(qobject_cast<pqDataRepresentation*>(display));
   }

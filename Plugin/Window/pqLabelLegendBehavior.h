@@ -19,9 +19,6 @@ class pqLabelLegendBehavior : public QObject
   Q_OBJECT
 
 public:
-  pqLabelLegendBehavior();
-  ~pqLabelLegendBehavior() override;
-
   /** Called by ParaView when it has loaded the plugin, and when it ends. */
   void startup();
   void shutdown();
@@ -33,8 +30,6 @@ private Q_SLOTS:
   void hideLegends();
 
 private:
-  Q_DISABLE_COPY(pqLabelLegendBehavior)
-
   QList<QPointer<pqDataRepresentation>> WithoutLegend; ///< since the last Apply
 };
 

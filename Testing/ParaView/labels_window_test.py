@@ -21,8 +21,9 @@ from window_testing import (
 FILTER = filter_of_the_menu("LabelsToSurfaces")
 TABLE = f"{PROPERTIES}/Labels"
 BASIC = ("SetInputArrayToProcess", "Labels", "Smoothing", "EdgeLength", "Tolerance", "Merge")
-ADVANCED = ("FinestLevel", "BoxFaces", "VoxelTolerance", "BackgroundLabel", "MaximumEdgeLength", "Gradation", "KeepComponents", "Metric", "TimeLimit",
-            "NumberOfThreads", "ScratchDirectory")
+ADVANCED = ("FinestLevel", "BoxFaces", "VoxelTolerance", "BackgroundLabel", "MaximumEdgeLength",
+            "Gradation", "KeepComponents", "Metric", "TimeLimit", "NumberOfThreads",
+            "ScratchDirectory")
 CHECKED, UNCHECKED = 2, 0
 
 TELL = """
@@ -132,8 +133,8 @@ class LabelsWindowTest(window.WindowTestCase):
             # An empty list would mean all.
             set_box(2, UNCHECKED),
             note("<b>Note:</b> At least one label must be checked."),
-            search("SP"), press("All"), note("2 of 4 labels"),
-            search(""), press("All"), note("3 of 4 labels"), APPLY, *save_all, SHOW_ADVANCED,
+            search("SP"), press("All"), note("2 of 4 labels"), search(""), press("All"),
+            note("3 of 4 labels"), APPLY, *save_all, SHOW_ADVANCED,
             # Another background; 5 is none of the labels.
             gui.event(background, "set_string", "7"), gui.pause(300), note("3 of 4 labels"),
             gui.event(background, "set_string", "5"), gui.pause(300), note("4 of 4 labels"),
