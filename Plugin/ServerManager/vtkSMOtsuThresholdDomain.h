@@ -39,16 +39,19 @@ public:
   void Update(vtkSMProperty* requestingProperty) override;
   int SetDefaultValues(vtkSMProperty* property, bool useUncheckedValues) override;
 
-  /** Of the voxels of an array; Threshold is NaN, and the rest empty, where there is none. */
+  /** Of the voxels of an array. Thresholds are NaN, and the rest empty, if there is none. */
   struct Histogram
   {
     double Low = 0.0; ///< smallest and largest voxel
     double High = 0.0;
     std::vector<double> Counts;
     double Threshold;
+    double BrightThreshold; ///< see vtkOtsuThreshold
   };
   /** Of what is chosen now; empty before its data are there. They are looked at once. */
   const Histogram& GetHistogram();
+  /** Return whether the input has several time steps. */
+  bool HasTimeSteps();
 
 protected:
   vtkSMOtsuThresholdDomain();

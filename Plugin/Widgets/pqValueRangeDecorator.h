@@ -14,7 +14,8 @@ class HistogramWidget;
 /**
  * Shows the range of a property of one number below its widget, as Contour does: "Value Range:
  * [0, 1300]". It is that of the property's domain, and follows it. Where it is that of Hounsfield
- * units, values of bone and skin are offered. The slider, if there is one, gets a row of its own,
+ * units, values of bone and skin are offered. Else a second threshold is offered, if the domain has
+ * one. The label reports that the value applies to all time steps, if there are several. The slider, if there is one, gets a row of its own,
  * below the histogram of the voxels, if the domain (vtkSMOtsuThresholdDomain) has one. Where the
  * proxy has Upper Value, and uses it, the histogram shows the range.
  *
