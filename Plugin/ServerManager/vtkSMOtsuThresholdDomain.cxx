@@ -107,7 +107,7 @@ const vtkSMOtsuThresholdDomain::Histogram& vtkSMOtsuThresholdDomain::FindHistogr
     return this->Voxels;
   }
   this->Voxels = Histogram();
-  this->Voxels.Threshold = vtkMath::Nan();
+  this->Voxels.Threshold = this->Voxels.BrightThreshold = vtkMath::Nan();
   this->Found = choice;
   this->FoundTime = data ? data->GetMTime() : 0;
   vtkSmartPointer<vtkSMSourceProxy> otsu;
@@ -127,6 +127,7 @@ const vtkSMOtsuThresholdDomain::Histogram& vtkSMOtsuThresholdDomain::FindHistogr
   vtkSMPropertyHelper(otsu, "SelectedComponent").Set(choice.Component);
   volumic::RunHelper(otsu, data);
   this->Voxels.Threshold = vtkSMPropertyHelper(otsu, "Threshold").GetAsDouble();
+  this->Voxels.BrightThreshold = vtkSMPropertyHelper(otsu, "BrightThreshold").GetAsDouble();
   const std::vector<double> values = vtkSMPropertyHelper(otsu, "Histogram").GetDoubleArray();
   if (values.size() > 2)
   {
@@ -145,6 +146,14 @@ const vtkSMOtsuThresholdDomain::Histogram& vtkSMOtsuThresholdDomain::GetHistogra
     choice.HasArray() ? choice.Producer->GetDataInformation(choice.Port) : nullptr;
   const bool isThere = data && data->GetNumberOfPoints() > 0 && ArrayOf(data, choice.Array);
   return this->FindHistogram(choice, isThere ? data : nullptr);
+}
+
+//------------------------------------------------------------------------------
+bool vtkSMOtsuThresholdDomain::HasTimeSteps()
+{
+  const Choice choice = this->CurrentChoice();
+  return choice.Producer &&
+    choice.Producer->GetDataInformation(choice.Port)->GetNumberOfTimeSteps() > 1;
 }
 
 //------------------------------------------------------------------------------
