@@ -111,6 +111,11 @@ bool vtkDeformableSurface::GetNeedsUpdate()
   return true;
 }
 
+vtkSmartPointer<vtkPolyData> vtkDeformableSurface::NewLeftOutComponents()
+{
+  return this->Internals->Kept ? this->Internals->Kept->LeftOut() : nullptr;
+}
+
 void vtkDeformableSurface::SetAbortExecute(vtkTypeBool abort)
 {
   // Who presses twice may be heard after the run has ended: that neither makes the filter run again

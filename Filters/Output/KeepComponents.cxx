@@ -255,9 +255,7 @@ ComponentChoice ChoiceOf(
     }
     if (choice.Places.empty())
     {
-      Refuse("Keep Components is \"At Points\", but there are none: add Seed Positions or "
-             "Attracting Positions, or give seeds to input port 1 (Initial Surface), or points "
-             "known to belong to the object to input port 2 (Attracting Points).");
+      choice.Mode = KeepComponentsType::AllComponents;
     }
   }
   else if (choice.Mode == KeepComponentsType::ComponentsNotAtSeeds)
@@ -304,7 +302,7 @@ DescribedSurface DescribeSurface(
   {
     MarkTouching(points, described, choice.Places, isKept, executor);
   }
-  if (dropsMarked)
+  if (dropsMarked != choice.IsInverted)
   {
     isKept.flip();
   }

@@ -21,6 +21,7 @@ struct ComponentChoice
   KeepComponentsType Mode = KeepComponentsType::AllComponents;
   double MinimumVolume = 0.0; ///< world units, cubed
   std::vector<Point> Places;  ///< workspace
+  bool IsInverted = false;    ///< All others. No effect on AllComponents.
 
   bool operator==(const ComponentChoice& other) const
   {
@@ -39,10 +40,10 @@ struct DescribedSurface
 };
 
 /**
- * As the settings have it, and the inputs, in the workspace of an image.
+ * As the settings have it, and the inputs, in the workspace of an image. AllComponents if there are
+ * no points to select by.
  * @param size voxels of level 0 along each axis
- * @throws std::invalid_argument if the settings are out of range, or points to choose by are
- * missing
+ * @throws std::invalid_argument if the settings are out of range
  */
 ComponentChoice ChoiceOf(
   const SegmentationRequest& request, const Workspace& space, const std::array<int, 3>& size);

@@ -75,6 +75,8 @@ public:
   {
     this->Finished.FillOutputs(this->EndsAt(), outputs);
   }
+  /** See FinishedLevels::LeftOut(). */
+  vtkSmartPointer<vtkPolyData> LeftOut() const;
   /** See FinishedLevels::WarningOf(). */
   std::string Warning(bool wantsAll) const
   {
