@@ -113,7 +113,8 @@ bool vtkDeformableSurface::GetNeedsUpdate()
 
 vtkSmartPointer<vtkPolyData> vtkDeformableSurface::NewLeftOutComponents()
 {
-  return this->Internals->Kept ? this->Internals->Kept->LeftOut() : nullptr;
+  volumic::HostThreads threads(this->GetNumberOfThreads());
+  return this->Internals->Kept ? this->Internals->Kept->LeftOut(threads) : nullptr;
 }
 
 void vtkDeformableSurface::SetAbortExecute(vtkTypeBool abort)

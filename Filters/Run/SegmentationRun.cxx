@@ -114,12 +114,6 @@ bool SegmentationRun::ChooseComponents(const SegmentationRequest& request)
   return this->Finished.Choose(choice, threads);
 }
 
-vtkSmartPointer<vtkPolyData> SegmentationRun::LeftOut() const
-{
-  HostThreads threads(this->Settings.End.NumberOfThreads);
-  return this->Finished.LeftOut(this->EndsAt(), threads);
-}
-
 void SegmentationRun::Begin()
 {
   this->Finished = FinishedLevels(this->Levels.Pyramid().NumberOfLevels(), this->Choice.Coarsest,
