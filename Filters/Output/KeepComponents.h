@@ -18,10 +18,10 @@ namespace volumic
 /** Which components of a surface go into an output. */
 struct ComponentChoice
 {
+  bool IsInverted = false; ///< all others; no effect on AllComponents
   KeepComponentsType Mode = KeepComponentsType::AllComponents;
   double MinimumVolume = 0.0; ///< world units, cubed
   std::vector<Point> Places;  ///< workspace
-  bool IsInverted = false;    ///< All others. No effect on AllComponents.
 
   bool operator==(const ComponentChoice& other) const
   {
