@@ -187,6 +187,10 @@ paraview_packages()
   else
     printf '%s\n' "${qt5_packages[@]}"
   fi
+  # From 6.1 on Debian's ParaView is built with Debian's VTK, whose headers its own package lacks.
+  if dependencies paraview | grep '^libvtk9' > /dev/null; then
+    echo libvtk9-dev
+  fi
 }
 
 # ---- Packages beside the system's --------------------------------------------------------------
