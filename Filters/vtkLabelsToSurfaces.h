@@ -25,11 +25,11 @@
  * `Labels 1, 3`. A label without a surface has an empty block.
  *
  * Arrays and field data of each block as of vtkDeformableSurface, and:
- * - cell data `Label` (int, active scalars): with Merge, that of the nearest voxel of the merged ones
+ * - cell data `Label` (int): with Merge, that of the nearest voxel of the merged ones
  * - point data `GlobalIds` (vtkIdType): the point of port 1
  *
- * `GlobalIds`, `Residual`, `Motionless` and `Contact` have vtkAbstractArray::GUI_HIDE(): ParaView does
- * not offer them.
+ * `GlobalIds`, `Residual`, `Motionless`, `Contact` and the cell arrays of components have
+ * vtkAbstractArray::GUI_HIDE(): ParaView does not offer them.
  *
  * and field data, with an entry for the label, with Merge for each merged one:
  * - `Label` (int), `LabelName` (string)

@@ -147,7 +147,9 @@ LabelSurface LabelInterfaceMaker::SurfaceOf(int object, const std::vector<int>& 
     ids->InsertNextValue(this->IdOf[static_cast<std::size_t>(v)]);
   }
   made.Surface->GetPointData()->SetGlobalIds(ids);
-  HideArrays(made.Surface, { "Residual", "Contact", "GlobalIds" });
+  HideArrays(made.Surface->GetPointData(), { "Residual", "Contact", "GlobalIds" });
+  HideArrays(made.Surface->GetCellData(),
+    { "Component", "ComponentArea", "ComponentVolume", "ComponentGenus" });
   if (this->Settings.HasFlatBox())
   {
     const auto boxFaces = NewArray<vtkUnsignedCharArray>("BoxFace");

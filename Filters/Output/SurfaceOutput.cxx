@@ -303,7 +303,7 @@ vtkSmartPointer<vtkPolyData> MakePolyData(SurfaceResult given,
   TakePoints(polyData, surface.Points, executor);
   TakeTriangles(polyData, surface.Triangles, executor);
   TakePointArrays(polyData, surface, space, executor);
-  HideArrays(polyData, { "Motionless" });
+  HideArrays(polyData->GetPointData(), { "Motionless" });
   AddField<vtkIntArray>(polyData, "Level", description.Level);
   AddField<vtkIntArray>(polyData, "StartLevel", description.StartLevel);
   AddField<vtkDoubleArray>(polyData, "Delta", surface.Delta * space.WorldUnit());
@@ -338,12 +338,11 @@ vtkSmartPointer<vtkPolyData> MakePolyData(SurfaceResult given,
   return polyData;
 }
 
-void HideArrays(vtkPolyData* surface, std::initializer_list<const char*> names)
+void HideArrays(vtkFieldData* arrays, std::initializer_list<const char*> names)
 {
   for (const char* name : names)
   {
-    surface->GetPointData()->GetArray(name)->GetInformation()->Set(
-      vtkAbstractArray::GUI_HIDE(), 1);
+    arrays->GetArray(name)->GetInformation()->Set(vtkAbstractArray::GUI_HIDE(), 1);
   }
 }
 

@@ -13,6 +13,7 @@
 #include <initializer_list>
 #include <string>
 
+class vtkFieldData;
 class vtkPolyData;
 
 namespace volumic
@@ -37,8 +38,8 @@ vtkSmartPointer<vtkPolyData> MakePolyData(SurfaceResult given,
   const SurfaceDescription& description, const Workspace& space,
   const ComponentChoice& choice = ComponentChoice(), Executor& executor = OnThisThread());
 
-/** Have ParaView not offer point arrays for a choice, as with vtkAbstractArray::GUI_HIDE(). */
-void HideArrays(vtkPolyData* surface, std::initializer_list<const char*> names);
+/** Set vtkAbstractArray::GUI_HIDE(): ParaView does not offer the arrays for a choice. */
+void HideArrays(vtkFieldData* arrays, std::initializer_list<const char*> names);
 
 /** Sets `StopReason` instead of the one that it has; what it was copied from keeps its own. */
 void SetStopReason(vtkPolyData* surface, const std::string& reason);
