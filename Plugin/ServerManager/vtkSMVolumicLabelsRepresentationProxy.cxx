@@ -31,7 +31,7 @@ constexpr std::size_t MostInLegend = 12;
 /** Add the filters Labels to Surfaces upstream of a proxy, itself included. */
 void AddLabelFilters(vtkSMProxy* proxy, std::set<vtkSMProxy*>& found)
 {
-  if (std::strcmp(proxy->GetXMLName(), "LabelsToSurfaces") == 0)
+  if (proxy->GetXMLName() && std::strcmp(proxy->GetXMLName(), "LabelsToSurfaces") == 0)
   {
     found.insert(proxy);
     return;
