@@ -111,6 +111,12 @@ bool vtkDeformableSurface::GetNeedsUpdate()
   return true;
 }
 
+vtkSmartPointer<vtkPolyData> vtkDeformableSurface::NewLeftOutComponents()
+{
+  volumic::HostThreads threads(this->GetNumberOfThreads());
+  return this->Internals->Kept ? this->Internals->Kept->LeftOut(threads) : nullptr;
+}
+
 void vtkDeformableSurface::SetAbortExecute(vtkTypeBool abort)
 {
   // Who presses twice may be heard after the run has ended: that neither makes the filter run again

@@ -137,12 +137,15 @@
 #include "vtkFiltersVolumicModule.h" // For export macro
 #include "vtkPolyDataAlgorithm.h"
 
+#include <vtkSmartPointer.h> // For NewLeftOutComponents()
+
 #include <memory> // For what is hidden
 
 class vtkAlgorithmOutput;
 class vtkDataObject;
 class vtkInformation;
 class vtkMultiBlockDataSet;
+class vtkPolyData;
 class vtkTable;
 
 class VTKFILTERSVOLUMIC_EXPORT vtkDeformableSurface : public vtkPolyDataAlgorithm
@@ -251,7 +254,8 @@ public:
    * LargestComponent: that of the largest area; ComponentsAtPoints: those that enclose, or pass
    * within 2.5 Delta, a point of port 1 or 2 or one of the positions below; LargeComponents: those
    * that enclose at least MinimumComponentVolume; ComponentsNotAtSeeds: all but those at points of
-   * port 1 and SeedPositions. Cavities go with the component about them.
+   * port 1 and SeedPositions. Cavities go with the component about them. Without any points
+   * ComponentsAtPoints and ComponentsNotAtSeeds hold all.
    */
   virtual void SetKeepComponents(int value);
   virtual int GetKeepComponents();
@@ -552,6 +556,12 @@ public:
   void GoOn();
 
 #ifndef __VTK_WRAP__ // It is no property of ours.
+  /**
+   * In ParaView's window: return the components that KeepComponents has left out of the last
+   * surface. Null with AllComponents, and where they are not kept: without a call of
+   * GetNeedsUpdate() before the run, or with ScratchDirectory.
+   */
+  vtkSmartPointer<vtkPolyData> NewLeftOutComponents();
   /** As of all algorithms; while no run is under way it asks for nothing, and changes nothing. */
   void SetAbortExecute(vtkTypeBool abort) override;
 #endif

@@ -18,7 +18,7 @@
 vtkStandardNewMacro(vtkOtsuThreshold);
 
 //------------------------------------------------------------------------------
-vtkOtsuThreshold::vtkOtsuThreshold() : SelectedComponent(-1), Threshold(vtkMath::Nan()) {}
+vtkOtsuThreshold::vtkOtsuThreshold() : SelectedComponent(-1), Threshold(vtkMath::Nan()), BrightThreshold(vtkMath::Nan()) {}
 
 //------------------------------------------------------------------------------
 vtkDoubleArray* vtkOtsuThreshold::GetHistogram()
@@ -46,7 +46,7 @@ int vtkOtsuThreshold::RequestUpdateExtent(
 int vtkOtsuThreshold::RequestData(
   vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
 {
-  this->Threshold = vtkMath::Nan();
+  this->Threshold = this->BrightThreshold = vtkMath::Nan();
   this->Histogram->SetNumberOfTuples(0);
   this->SetErrorCode(vtkErrorCode::NoError);
   if (!volumic::IsFirstProcess(request, output))
@@ -64,6 +64,7 @@ int vtkOtsuThreshold::RequestData(
     column->InsertNextValue(found.Threshold);
     vtkTable::GetData(output)->AddColumn(column);
     this->Threshold = found.Threshold;
+    this->BrightThreshold = found.BrightThreshold;
     this->Histogram->InsertNextValue(found.Range[0]);
     this->Histogram->InsertNextValue(found.Range[1]);
     for (const auto count : found.Counts)
@@ -82,4 +83,5 @@ void vtkOtsuThreshold::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "SelectedComponent: " << this->SelectedComponent << endl;
   os << indent << "Threshold: " << this->Threshold << endl;
+  os << indent << "BrightThreshold: " << this->BrightThreshold << endl;
 }

@@ -70,6 +70,13 @@ public:
   vtkGetMacro(Threshold, double);
 
   /**
+   * A second threshold, for a bright part of the object: Otsu's threshold of the voxels above Threshold,
+   * rounded to two digits. It separates bone in CT and vessels in MR, for example. NaN if the object has
+   * less than a tenth of the voxels, or the bright part a tenth or more.
+   */
+  vtkGetMacro(BrightThreshold, double);
+
+  /**
    * The histogram that it was found by: the smallest and the largest voxel, and how many voxels each
    * of the 1024 bins between them has; empty if there is none.
    */
@@ -87,6 +94,7 @@ protected:
 
   int SelectedComponent;
   double Threshold;
+  double BrightThreshold;
   vtkNew<vtkDoubleArray> Histogram;
 
 private:

@@ -27,8 +27,6 @@ if (PARAVIEW_USE_QT)
   list(APPEND volumic_window_sources
     Widgets/HistogramWidget.cxx Widgets/HistogramWidget.h
     Widgets/LabelBelow.cxx Widgets/LabelBelow.h
-    Widgets/PickOnSlices.cxx Widgets/PickOnSlices.h
-    Widgets/PointHandles.cxx Widgets/PointHandles.h
     Window/SurfaceSources.cxx Window/SurfaceSources.h)
 
   set(volumic_behaviors

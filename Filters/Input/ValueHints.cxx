@@ -17,6 +17,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numeric>
 #include <set>
 #include <type_traits>
 #include <unordered_map>
@@ -28,13 +29,13 @@ namespace
 {
 constexpr int Bins = 1024;
 
-/** The bins below the split with the largest variance between the classes. */
-int BestSplit(const std::vector<vtkIdType>& counts)
+/** Return the end of the lower class, for bins from `first` on, with the largest variance between the classes. */
+int BestSplit(const std::vector<vtkIdType>& counts, int first = 0)
 {
   // Bins stand for the values, which follow from them by a scale that changes no maximum.
   double all = 0.0;
   double sum = 0.0;
-  for (int bin = 0; bin < Bins; ++bin)
+  for (int bin = first; bin < Bins; ++bin)
   {
     all += static_cast<double>(counts[bin]);
     sum += static_cast<double>(counts[bin]) * bin;
@@ -42,7 +43,7 @@ int BestSplit(const std::vector<vtkIdType>& counts)
   std::vector<double> variance(Bins - 1, 0.0);
   double low = 0.0;
   double lowSum = 0.0;
-  for (int bin = 0; bin < Bins - 1; ++bin)
+  for (int bin = first; bin < Bins - 1; ++bin)
   {
     low += static_cast<double>(counts[bin]) / all;
     lowSum += static_cast<double>(counts[bin]) * bin / all;
@@ -51,7 +52,7 @@ int BestSplit(const std::vector<vtkIdType>& counts)
   }
   const double best = *std::max_element(variance.begin(), variance.end()) * (1.0 - 1e-12);
   std::vector<int> splits;
-  for (int bin = 0; bin < Bins - 1; ++bin)
+  for (int bin = first; bin < Bins - 1; ++bin)
   {
     if (variance[bin] >= best)
     {
@@ -59,6 +60,30 @@ int BestSplit(const std::vector<vtkIdType>& counts)
     }
   }
   return splits[splits.size() / 2];
+}
+
+/** Return BrightThreshold of a histogram with Otsu's split. */
+double FindBrightThreshold(const VoxelHistogram& found, int split)
+{
+  // Of 14 scans, seven have such a part: 0.9 % of the voxels (engine) to 6.2 % (tooth).
+  constexpr double leastObject = 0.1;
+  constexpr double mostBright = 0.1;
+  const auto above = [&](int bin)
+  { return std::accumulate(found.Counts.begin() + bin, found.Counts.end(), 0.0); };
+  const double all = above(0);
+  if (split >= Bins - 1 || above(split) < leastObject * all)
+  {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+  const int second = BestSplit(found.Counts, split);
+  const double bright = above(second);
+  const double value = found.Range[0] + second * (found.Range[1] - found.Range[0]) / Bins;
+  if (!(bright > 0.0 && bright < above(split) && bright < mostBright * all) || value == 0.0)
+  {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+  const double unit = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 1.0);
+  return std::round(value / unit) * unit;
 }
 
 /** The largest voxel up to a value, and the smallest one above that. */
@@ -133,7 +158,9 @@ VoxelHistogram SplitVoxels(const T* voxels, vtkDataArray* array, ValidVoxels& va
     Refuse(NameOf(array), " ranges from ", range[0], " to ", range[1],
       ": no value separates its voxels.");
   }
-  VoxelHistogram found{ range, std::vector<vtkIdType>(Bins, 0), 0.0 };
+  VoxelHistogram found;
+  found.Range = range;
+  found.Counts.assign(Bins, 0);
   const double scale = Bins / size;
   for (vtkIdType i = 0; i < count; ++i)
   {
@@ -143,10 +170,12 @@ VoxelHistogram SplitVoxels(const T* voxels, vtkDataArray* array, ValidVoxels& va
       ++found.Counts[std::min(Bins - 1, static_cast<int>(place))];
     }
   }
-  const double value = range[0] + BestSplit(found.Counts) * size / Bins;
+  const int split = BestSplit(found.Counts);
+  const double value = range[0] + split * size / Bins;
   const std::array<double, 2> neighbours = FindNeighbours(voxels, count, valid, value);
   const double middle = 0.5 * (neighbours[0] + neighbours[1]);
   found.Threshold = std::is_floating_point_v<T> ? middle : std::floor(middle) + 0.5;
+  found.BrightThreshold = FindBrightThreshold(found, split);
   return found;
 }
 }

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,11 @@ struct VoxelHistogram
   std::array<double, 2> Range = { 0.0, 0.0 }; ///< of the voxels, but for the padding of CT
   std::vector<vtkIdType> Counts;              ///< voxels of each bin of it
   double Threshold = 0.0;
+  /**
+   * Otsu's threshold of the voxels above the first threshold, rounded to two digits, if the object is
+   * large and has a small bright part, such as bone in CT or vessels in MR; else NaN.
+   */
+  double BrightThreshold = std::numeric_limits<double>::quiet_NaN();
 };
 
 /**

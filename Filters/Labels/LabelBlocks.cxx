@@ -58,7 +58,7 @@ void AddLabels(vtkPolyData* surface, const std::vector<int>& labels, const Label
   {
     image.FindNearest(surface, labels, array);
   }
-  surface->GetCellData()->AddArray(array);
+  surface->GetCellData()->SetScalars(array); // The first choice of ParaView's filters.
 }
 
 /** What each of the labels is called, and its colour. */

@@ -135,7 +135,7 @@ LabelSurface LabelInterfaceMaker::SurfaceOf(int object, const std::vector<int>& 
   std::vector<int> vertices;
   const IndexedSurface surface = this->Mesh.SurfaceOf(object, faces, vertices);
   SurfaceDescription description;
-  description.Level = this->Settings.FinestLevel;
+  description.Level = description.StartLevel = this->Settings.FinestLevel;
   description.Unit = this->Space.WorldUnit() * std::pow(std::sqrt(3.0), this->Settings.FinestLevel);
   description.StopReason =
     Describe(this->IsFinished ? StopReason::Converged : StopReason::Cancelled);
@@ -147,6 +147,7 @@ LabelSurface LabelInterfaceMaker::SurfaceOf(int object, const std::vector<int>& 
     ids->InsertNextValue(this->IdOf[static_cast<std::size_t>(v)]);
   }
   made.Surface->GetPointData()->SetGlobalIds(ids);
+  HideArrays(made.Surface, { "Residual", "Contact", "GlobalIds" });
   if (this->Settings.HasFlatBox())
   {
     const auto boxFaces = NewArray<vtkUnsignedCharArray>("BoxFace");

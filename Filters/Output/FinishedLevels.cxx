@@ -72,6 +72,20 @@ void FinishedLevels::MakeSurface(
   level.KeepsNone = isAny && level.Surface->GetNumberOfPoints() == 0;
 }
 
+vtkSmartPointer<vtkPolyData> FinishedLevels::LeftOut(int last, Executor& threads) const
+{
+  const auto found = this->Levels.lower_bound(last);
+  if (found == this->Levels.end() || !found->second.All ||
+    this->Choice.Mode == KeepComponentsType::AllComponents)
+  {
+    return nullptr;
+  }
+  const FinishedLevel& level = found->second;
+  ComponentChoice others = this->Choice;
+  others.IsInverted = true;
+  return MakePolyData(*level.All, level.About, this->Space, others, threads);
+}
+
 void FinishedLevels::Forget(int level)
 {
   this->Levels.erase(level);

@@ -68,6 +68,11 @@ public:
 
   /** Return whether the surface of a level is converged. */
   bool HasAtRest(int level) const;
+  /**
+   * Return the components that are left out of output 0 of a run with `last` as its finest level.
+   * Null with AllComponents, or if they are not kept.
+   */
+  vtkSmartPointer<vtkPolyData> LeftOut(int last, Executor& threads) const;
   /** Return the description of an added level. */
   const SurfaceDescription& About(int level) const { return this->Levels.at(level).About; }
 

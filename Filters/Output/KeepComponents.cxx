@@ -258,28 +258,20 @@ ComponentChoice ChoiceOf(
   ComponentChoice choice;
   choice.Mode = end.KeepComponents;
   choice.MinimumVolume = end.MinimumComponentVolume;
-  if (choice.Mode == KeepComponentsType::ComponentsAtPoints)
+  const bool isAtPoints = choice.Mode == KeepComponentsType::ComponentsAtPoints;
+  if (isAtPoints || choice.Mode == KeepComponentsType::ComponentsNotAtSeeds)
   {
-    choice.Places = PlacesOf(request.InitialSurface, request.AttractingPoints, space);
-    for (const std::vector<Point>& more :
-      { PositionsOf(end.SeedPositions, "Seed Positions", space, size),
-        PositionsOf(request.Settings.AttractingPositions, "Attracting Positions", space, size) })
+    // Points known to belong to the object mark nothing that is to go.
+    choice.Places =
+      PlacesOf(request.InitialSurface, isAtPoints ? request.AttractingPoints : nullptr, space);
+    const auto add = [&](const std::vector<Point>& more)
+    { choice.Places.insert(choice.Places.end(), more.begin(), more.end()); };
+    add(PositionsOf(end.SeedPositions, "Seed Positions", space, size));
+    if (isAtPoints)
     {
-      choice.Places.insert(choice.Places.end(), more.begin(), more.end());
+      add(PositionsOf(request.Settings.AttractingPositions, "Attracting Positions", space, size));
     }
-    if (choice.Places.empty())
-    {
-      Refuse("Keep Components is \"At Points\", but there are none: add Seed Positions or "
-             "Attracting Positions, or give seeds to input port 1 (Initial Surface), or points "
-             "known to belong to the object to input port 2 (Attracting Points).");
-    }
-  }
-  else if (choice.Mode == KeepComponentsType::ComponentsNotAtSeeds)
-  {
-    // Points known to belong to the object mark nothing that is to go; of no seeds nothing is.
-    choice.Places = PlacesOf(request.InitialSurface, nullptr, space);
-    const std::vector<Point> more = PositionsOf(end.SeedPositions, "Seed Positions", space, size);
-    choice.Places.insert(choice.Places.end(), more.begin(), more.end());
+    choice.Mode = choice.Places.empty() ? KeepComponentsType::AllComponents : choice.Mode;
   }
   return choice;
 }
@@ -327,7 +319,7 @@ DescribedSurface DescribeSurface(
     MarkEnclosing(points, described, choice.Places, isKept, executor);
     MarkNear(points, described, choice.Places, isKept, executor);
   }
-  if (dropsMarked)
+  if (dropsMarked != choice.IsInverted)
   {
     isKept.flip();
   }

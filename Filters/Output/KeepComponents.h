@@ -18,6 +18,7 @@ namespace volumic
 /** Which components of a surface go into an output. */
 struct ComponentChoice
 {
+  bool IsInverted = false; ///< all others; no effect on AllComponents
   KeepComponentsType Mode = KeepComponentsType::AllComponents;
   double MinimumVolume = 0.0; ///< world units, cubed
   std::vector<Point> Places;  ///< workspace
@@ -41,10 +42,10 @@ struct DescribedSurface
 };
 
 /**
- * As the settings have it, and the inputs, in the workspace of an image.
+ * As the settings have it, and the inputs, in the workspace of an image. AllComponents if there are
+ * no points to select by.
  * @param size voxels of level 0 along each axis
- * @throws std::invalid_argument if the settings are out of range, or points to choose by are
- * missing
+ * @throws std::invalid_argument if the settings are out of range
  */
 ComponentChoice ChoiceOf(
   const SegmentationRequest& request, const Workspace& space, const std::array<int, 3>& size);

@@ -75,6 +75,11 @@ public:
   {
     this->Finished.FillOutputs(this->EndsAt(), outputs);
   }
+  /** See FinishedLevels::LeftOut(). */
+  vtkSmartPointer<vtkPolyData> LeftOut(Executor& threads) const
+  {
+    return this->Finished.LeftOut(this->EndsAt(), threads);
+  }
   /** See FinishedLevels::WarningOf(). */
   std::string Warning(bool wantsAll) const
   {

@@ -33,7 +33,14 @@ from volumic.errors import Failure
 # Words for options in messages of the command, and those for properties.
 PROPERTIES = (("with --series N", "as Series"), ("(--series)", "(Series)"),
               ("with --time N", "as time step"), ("(--time)", "(time step)"),
-              ("without --no-resampling they are", "switch Resampling on, and they are"))
+              ("without --no-resampling they are", "switch Resampling on, and they are"),
+              (" unless --unit gives another", ""))
+
+
+def _words_of_properties(text: str) -> str:
+    for option, words in PROPERTIES:
+        text = text.replace(option, words)
+    return text
 
 
 def _reporting(method: Any) -> Any:
@@ -47,10 +54,10 @@ def _reporting(method: Any) -> Any:
         except ModuleNotFoundError as error:
             name = (error.name or "").split(".")[0]
             text = f"Python lacks the module {name}: install the package python3-{name}"
-        except Exception:  # pylint: disable=broad-except
-            text = traceback.format_exc()
-        for option, words in PROPERTIES:
-            text = text.replace(option, words)
+        except Exception as error:  # pylint: disable=broad-except
+            # ParaView's box shows the first line.
+            text = f"{type(error).__name__}: {error}\n{traceback.format_exc()}"
+        text = _words_of_properties(text)
         if "install" in text:
             text += f" (on {platform.node()})"
         vtkOutputWindow.GetInstance().DisplayErrorText(f"ERROR: {text}\n\n")
@@ -178,9 +185,9 @@ class VolumeReader(VTKPythonAlgorithmBase):
             self._volume = volume
         return self._volume
 
-
     def _warn(self, text: str, path: str) -> None:
-        """Show a warning once. ParaView cuts off the beginning of messages in VTK's form only."""
+        """Show a warning once. ParaView's box removes the beginning of messages in VTK's form only."""
+        text = _words_of_properties(text)
         text = f"{text[:1].upper()}{text[1:]} ({os.path.basename(path)})"
         if text not in self._warnings:
             self._warnings.add(text)

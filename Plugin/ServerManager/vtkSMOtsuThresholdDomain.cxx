@@ -42,6 +42,14 @@ vtkPVArrayInformation* ArrayOf(vtkPVDataInformation* data, const std::string arr
 {
   return data->GetArrayInformation(array[4].c_str(), std::atoi(array[3].c_str()));
 }
+
+/** Return whether all voxels are equal. The filter itself reports that as an error. */
+bool IsUniform(vtkPVArrayInformation* array, int component)
+{
+  const double* range =
+    array ? array->GetComponentRange(array->GetNumberOfComponents() == 1 ? 0 : component) : nullptr;
+  return range && range[0] == range[1];
+}
 }
 
 //------------------------------------------------------------------------------
@@ -99,11 +107,11 @@ const vtkSMOtsuThresholdDomain::Histogram& vtkSMOtsuThresholdDomain::FindHistogr
     return this->Voxels;
   }
   this->Voxels = Histogram();
-  this->Voxels.Threshold = vtkMath::Nan();
+  this->Voxels.Threshold = this->Voxels.BrightThreshold = vtkMath::Nan();
   this->Found = choice;
   this->FoundTime = data ? data->GetMTime() : 0;
   vtkSmartPointer<vtkSMSourceProxy> otsu;
-  if (data)
+  if (data && !IsUniform(ArrayOf(data, choice.Array), choice.Component))
   {
     otsu = volumic::NewHelper("OtsuThreshold", choice.Producer, choice.Port);
   }
@@ -119,6 +127,7 @@ const vtkSMOtsuThresholdDomain::Histogram& vtkSMOtsuThresholdDomain::FindHistogr
   vtkSMPropertyHelper(otsu, "SelectedComponent").Set(choice.Component);
   volumic::RunHelper(otsu, data);
   this->Voxels.Threshold = vtkSMPropertyHelper(otsu, "Threshold").GetAsDouble();
+  this->Voxels.BrightThreshold = vtkSMPropertyHelper(otsu, "BrightThreshold").GetAsDouble();
   const std::vector<double> values = vtkSMPropertyHelper(otsu, "Histogram").GetDoubleArray();
   if (values.size() > 2)
   {
@@ -137,6 +146,14 @@ const vtkSMOtsuThresholdDomain::Histogram& vtkSMOtsuThresholdDomain::GetHistogra
     choice.HasArray() ? choice.Producer->GetDataInformation(choice.Port) : nullptr;
   const bool isThere = data && data->GetNumberOfPoints() > 0 && ArrayOf(data, choice.Array);
   return this->FindHistogram(choice, isThere ? data : nullptr);
+}
+
+//------------------------------------------------------------------------------
+bool vtkSMOtsuThresholdDomain::HasTimeSteps()
+{
+  const Choice choice = this->CurrentChoice();
+  return choice.Producer &&
+    choice.Producer->GetDataInformation(choice.Port)->GetNumberOfTimeSteps() > 1;
 }
 
 //------------------------------------------------------------------------------

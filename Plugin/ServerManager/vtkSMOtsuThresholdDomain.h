@@ -15,7 +15,7 @@
  * the default, as of vtkSMArrayRangeDomain, whose required properties are those of this one: Input,
  * ArraySelection and ComponentSelection, of which -1 is the magnitude.
  *
- * The histogram that the threshold is found by is there for who shows it (GetHistogram()).
+ * Widgets show the histogram that the threshold is computed from (GetHistogram()).
  */
 #ifndef vtkSMOtsuThresholdDomain_h
 #define vtkSMOtsuThresholdDomain_h
@@ -39,16 +39,19 @@ public:
   void Update(vtkSMProperty* requestingProperty) override;
   int SetDefaultValues(vtkSMProperty* property, bool useUncheckedValues) override;
 
-  /** Of the voxels of an array; Threshold is NaN, and the rest empty, where there is none. */
+  /** Of the voxels of an array. Thresholds are NaN, and the rest empty, if there is none. */
   struct Histogram
   {
     double Low = 0.0; ///< smallest and largest voxel
     double High = 0.0;
     std::vector<double> Counts;
     double Threshold;
+    double BrightThreshold; ///< see vtkOtsuThreshold
   };
-  /** Of what is chosen now; empty before its data are there. They are looked at once. */
+  /** Return the histogram of the chosen array; empty before its data exist. It is computed once. */
   const Histogram& GetHistogram();
+  /** Return whether the input has several time steps. */
+  bool HasTimeSteps();
 
 protected:
   vtkSMOtsuThresholdDomain();

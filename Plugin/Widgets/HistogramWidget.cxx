@@ -16,7 +16,7 @@ namespace
 {
 constexpr int Height = 56;
 
-/** Their heights: as many as there is room for, or fewer, where integers leave bins empty. */
+/** Return the heights of bars: at most `most`, or fewer if integers leave bins empty. */
 std::vector<double> BarsOf(const std::vector<double>& counts, int most)
 {
   const auto bins = static_cast<int>(counts.size());
@@ -69,8 +69,8 @@ void HistogramWidget::SetCounts(
   this->High = high;
   this->Counts = counts;
   this->Threshold = threshold;
-  this->setToolTip(tr("How many voxels have which value, from %1 to %2 (logarithmic). Drag the line "
-                      "to choose Iso Value; the dotted one is Otsu's threshold, %3.")
+  this->setToolTip(tr("Number of voxels of each value, from %1 to %2 (logarithmic). Drag the line "
+                      "to set Iso Value. The dotted line is Otsu's threshold, %3.")
                      .arg(low)
                      .arg(high)
                      .arg(threshold));

@@ -12,8 +12,8 @@
 namespace volumic
 {
 /**
- * How many voxels have which value, as bars, with a line at one value that the mouse drags and a
- * dotted one at Otsu's threshold. Heights are logarithmic: background is most of a volume.
+ * Shows a histogram of voxels as bars. The mouse drags a line at one value. A dotted line is at Otsu's
+ * threshold. Heights are logarithmic, as background is most of a volume.
  */
 class HistogramWidget : public QWidget
 {
@@ -21,14 +21,14 @@ public:
   explicit HistogramWidget(QWidget* parent);
   ~HistogramWidget() override;
 
-  /** Of bins of the same width between two values; NaN: there is no threshold. */
+  /** Set the counts of bins of equal width between two values. A threshold of NaN is not shown. */
   void SetCounts(double low, double high, const std::vector<double>& counts, double threshold);
-  /** Where the line is. */
+  /** Set the position of the line. */
   void SetValue(double value);
-  /** Where the values that are chosen end, from the line on; NaN: nothing shows that. */
+  /** Set the upper end of the chosen values, which begin at the line (NaN: none). */
   void SetUpper(double value);
 
-  /** Called while the line is dragged, at last with true. */
+  /** Called while the line is dragged; isDone is true for the last call. */
   std::function<void(double value, bool isDone)> Dragged;
 
   QSize sizeHint() const override;

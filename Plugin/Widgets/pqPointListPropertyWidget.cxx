@@ -2,110 +2,169 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pqPointListPropertyWidget.h"
 
-#include "PickOnSlices.h"
-#include "PointHandles.h"
+#include "vtkDeformableSurface.h"
 
+#include <pqApplicationCore.h>
+#include <pqCoreUtilities.h>
+#include <pqKeySequences.h>
 #include <pqModalShortcut.h>
-#include <pqPointPickingHelper.h>
+#include <pqQVTKWidget.h>
 #include <pqRenderView.h>
-#include <pqUndoStack.h>
+#include <pqServerManagerModel.h>
+#include <pqShortcutDecorator.h>
 
-#include <vtkBoundingBox.h>
-#include <vtkPVDataInformation.h>
+#include <vtk3DWidgetRepresentation.h>
+#include <vtkActor.h>
+#include <vtkCamera.h>
+#include <vtkCommand.h>
+#include <vtkCurveRepresentation.h>
+#include <vtkNew.h>
 #include <vtkPVXMLElement.h>
-#include <vtkSMProperty.h>
-#include <vtkSMSourceProxy.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <vtkRenderWindowInteractor.h>
+#include <vtkRenderer.h>
+#include <vtkSMNewWidgetRepresentationProxy.h>
+#include <vtkSMPropertyGroup.h>
+#include <vtkSMPropertyHelper.h>
+#include <vtkSMRenderViewProxy.h>
 #include <vtkSMUncheckedPropertyHelper.h>
+#include <vtkWeakPointer.h>
 
 #include <QCheckBox>
+#include <QEvent>
 #include <QGridLayout>
 #include <QHeaderView>
 #include <QKeySequence>
 #include <QLabel>
+#include <QMainWindow>
 #include <QPushButton>
 #include <QSignalBlocker>
+#include <QStatusBar>
 #include <QTableWidget>
 
-#include <cstddef>
+#include <algorithm>
 #include <vector>
 
 namespace
 {
-/** Whether the handles are to be shown before the user says something. */
-bool AreHandlesShownFirst(vtkSMProperty* property)
+/** An attribute of the hint PointList of a property. */
+bool HintOf(vtkSMProperty* property, const char* name, int value)
 {
   vtkPVXMLElement* hints = property->GetHints();
   vtkPVXMLElement* list = hints ? hints->FindNestedElementByName("PointList") : nullptr;
-  int show = 1;
-  return !list || !list->GetScalarAttribute("show", &show) || show != 0;
+  if (list)
+  {
+    list->GetScalarAttribute(name, &value);
+  }
+  return value != 0;
 }
 
-/** Invalid where the input isn't known. */
-vtkBoundingBox BoundsOfInput(vtkSMProxy* filter)
+vtkCurveRepresentation* HandlesOf(vtkSMProxy* widget)
 {
-  vtkBoundingBox box;
-  vtkSMProperty* input = filter->GetProperty("Input");
-  if (input)
+  auto* made = vtk3DWidgetRepresentation::SafeDownCast(widget->GetClientSideObject());
+  return vtkCurveRepresentation::SafeDownCast(made->GetRepresentation());
+}
+
+/**
+ * Find the point under the mouse on what is drawn: surfaces and slices of volumes. Where a server
+ * renders, the depths are there, and only ParaView's picking is left, on surfaces.
+ */
+bool PickIn(vtkSMRenderViewProxy* view, double position[3])
+{
+  const int* mouse = view->GetInteractor()->GetEventPosition();
+  vtkRenderer* renderer = view->GetRenderer();
+  const double depth = renderer->GetZ(mouse[0], mouse[1]);
+  if (depth >= 1.0)
   {
-    vtkSMUncheckedPropertyHelper source(input);
-    auto* producer = vtkSMSourceProxy::SafeDownCast(
-      source.GetNumberOfElements() > 0 ? source.GetAsProxy() : nullptr);
-    if (producer)
-    {
-      box.SetBounds(producer->GetDataInformation(source.GetOutputPort())->GetBounds());
-    }
+    double normal[3];
+    return view->ConvertDisplayToPointOnSurface(mouse, position, normal, false);
   }
-  return box;
+  renderer->SetDisplayPoint(mouse[0], mouse[1], depth);
+  renderer->DisplayToWorld();
+  const double* world = renderer->GetWorldPoint();
+  std::transform(world, world + 3, position, [&](double x) { return x / world[3]; });
+  return true;
 }
 }
 
 //------------------------------------------------------------------------------
 struct pqPointListPropertyWidget::Internals
 {
-  explicit Internals(pqPointListPropertyWidget* widget)
-    : Handles([widget](std::size_t index, const PointHandles::Position& position)
-        { widget->followHandle(static_cast<int>(index), position.data()); },
-        [widget] { Q_EMIT widget->changeFinished(); })
-  {
-  }
-
+  QLabel* Title = nullptr;
+  QLabel* Note = nullptr;
   QTableWidget* Table = nullptr;
   QCheckBox* Show = nullptr;
   QPushButton* Remove = nullptr;
-  QPushButton* RemoveAll = nullptr;
   QList<QVariant> Coordinates;
-  PointHandles Handles; ///< one per point
+  int Row = -1; ///< of the panel, where there are no components to select
+  vtkNew<vtkPolyDataMapper> LeftOut;
+  vtkNew<vtkActor> LeftOutActor;
+  vtkWeakPointer<vtkRenderer> Renderer; ///< which has that
 };
 
 //------------------------------------------------------------------------------
 pqPointListPropertyWidget::pqPointListPropertyWidget(
   vtkSMProxy* proxy, vtkSMProperty* property, QWidget* parent)
-  : Superclass(proxy, parent)
-  , Parts(new Internals(this))
+  : Superclass("representations", "PolyLineWidgetRepresentation", proxy,
+      vtkNew<vtkSMPropertyGroup>(), parent)
+  , Parts(new Internals)
 {
   this->setProperty(property);
   this->setShowLabel(false);
   this->setChangeAvailableAsChangeFinished(false);
   this->buildPanel();
+
+  vtkCurveRepresentation* handles = HandlesOf(this->widgetProxy());
+  handles->SetDirectional(false);
+  for (vtkProperty* line : { handles->GetLineProperty(), handles->GetSelectedLineProperty() })
+  {
+    line->SetOpacity(0.0); // It cannot be grabbed then, either.
+  }
+  for (vtkProperty* look : { handles->GetHandleProperty(), handles->GetSelectedHandleProperty() })
+  {
+    look->SetColor(1.0, 0.0, 1.0); // Slices have all others.
+    look->LightingOff();
+  }
+  this->connect(this, SIGNAL(interaction()), SLOT(readHandles()));
   this->addPropertyLink(this, "coordinates", SIGNAL(coordinatesChanged()), property);
-  for (const bool onMesh : { false, true })
+  this->placeHandles();
+
+  // The components that are left out: faint, but with depths to pick.
+  this->Parts->LeftOut->ScalarVisibilityOff();
+  this->Parts->LeftOutActor->SetMapper(this->Parts->LeftOut);
+  this->Parts->LeftOutActor->GetProperty()->SetOpacity(0.3);
+  this->Parts->LeftOutActor->GetProperty()->BackfaceCullingOn();
+  this->Parts->LeftOutActor->ForceOpaqueOn();
+  this->Parts->LeftOutActor->PickableOff();
+  if (HintOf(property, "selects", 0))
   {
-    auto* picking =
-      new pqPointPickingHelper(QKeySequence(onMesh ? tr("Ctrl+P") : tr("P")), onMesh, this);
-    picking->connect(this, SIGNAL(viewChanged(pqView*)), SLOT(setView(pqView*)));
-    this->connect(picking, SIGNAL(pick(double, double, double)),
-      SLOT(addPoint(double, double, double)));
+    pqCoreUtilities::connect(proxy->GetProperty("KeepComponents"),
+      vtkCommand::UncheckedPropertyModifiedEvent, this, SLOT(updateRow()));
+    this->connect(pqApplicationCore::instance()->getServerManagerModel(),
+      SIGNAL(dataUpdated(pqPipelineSource*)), SLOT(forgetLeftOut()));
   }
-  for (pqModalShortcut* key : this->findChildren<pqModalShortcut*>())
-  {
-    this->connect(key, SIGNAL(activated()), SLOT(addPointOfSlice()));
-  }
+
+  pqModalShortcut* key =
+    pqKeySequences::instance().addModalShortcut(QKeySequence(tr("P")), nullptr, this);
+  (new pqShortcutDecorator(this))->addShortcut(key);
+  this->connect(key, SIGNAL(activated()), SLOT(pick()));
+  QObject::connect(this, &pqPropertyWidget::viewChanged, key,
+    [this, key](pqView* view)
+    {
+      if (auto* area = qobject_cast<pqQVTKWidget*>(view ? view->widget() : nullptr))
+      {
+        key->setContextWidget(area);
+        area->renderWidget()->installEventFilter(this);
+      }
+    });
 }
 
 pqPointListPropertyWidget::~pqPointListPropertyWidget()
 {
-  this->Parts->Coordinates.clear();
-  this->placeHandles();
+  this->showLeftOut(false);
 }
 
 //------------------------------------------------------------------------------
@@ -115,45 +174,39 @@ void pqPointListPropertyWidget::buildPanel()
   auto* grid = new QGridLayout(this);
   grid->setContentsMargins(0, 0, 0, 0);
   grid->setVerticalSpacing(3);
-  grid->addWidget(new QLabel(this->property()->GetXMLLabel(), this), 0, 0, 1, -1);
+  parts.Title = new QLabel(this->property()->GetXMLLabel(), this);
+  parts.Title->setObjectName("Title");
+  grid->addWidget(parts.Title, 0, 0, 1, -1);
 
   parts.Table = new QTableWidget(0, 3, this);
   parts.Table->setObjectName("Points");
   parts.Table->setHorizontalHeaderLabels({ "X", "Y", "Z" });
   parts.Table->horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);
   parts.Table->setSelectionBehavior(QAbstractItemView::SelectRows);
-  parts.Table->setMinimumHeight(5 * parts.Table->verticalHeader()->defaultSectionSize());
-  parts.Table->setMaximumHeight(parts.Table->minimumHeight());
+  parts.Table->setFixedHeight(4 * parts.Table->verticalHeader()->defaultSectionSize());
   grid->addWidget(parts.Table, 1, 0, 1, -1);
 
-  const auto button = [&](const char* name, const QString& text, int column)
-  {
-    auto* made = new QPushButton(text, this);
-    made->setObjectName(name);
-    grid->addWidget(made, 2, column);
-    return made;
-  };
-  this->connect(
-    button("Add", tr("Add"), 0), SIGNAL(clicked()), SLOT(addPointInTheCentre()));
-  parts.Remove = button("Remove", tr("Remove"), 1);
-  this->connect(parts.Remove, SIGNAL(clicked()), SLOT(removeSelectedPoints()));
-  parts.RemoveAll = button("RemoveAll", tr("Remove All"), 2);
-  this->connect(parts.RemoveAll, SIGNAL(clicked()), SLOT(removeAllPoints()));
+  auto* add = new QPushButton(tr("Add"), this);
+  add->setObjectName("Add");
+  grid->addWidget(add, 2, 0);
+  parts.Remove = new QPushButton(tr("Remove"), this);
+  parts.Remove->setObjectName("Remove");
+  grid->addWidget(parts.Remove, 2, 1);
 
   parts.Show = new QCheckBox(tr("Show Points"), this);
   parts.Show->setObjectName("ShowPoints");
-  parts.Show->setChecked(AreHandlesShownFirst(this->property()));
+  parts.Show->setChecked(HintOf(this->property(), "show", 1));
   grid->addWidget(parts.Show, 3, 0, 1, -1);
-  auto* note = new QLabel(
-    tr("<b>Note:</b> While they are shown, <b>P</b> adds the point under the mouse (Ctrl+P: the "
-       "nearest point of the mesh), on a slice or a surface; drag a point to move it."),
-    this);
-  note->setWordWrap(true);
-  grid->addWidget(note, 4, 0, 1, -1);
+  parts.Note = new QLabel(this);
+  parts.Note->setObjectName("Note");
+  parts.Note->setWordWrap(true);
+  grid->addWidget(parts.Note, 4, 0, 1, -1);
 
+  this->connect(add, SIGNAL(clicked()), SLOT(addPointInTheCentre()));
+  this->connect(parts.Remove, SIGNAL(clicked()), SLOT(removeSelectedPoints()));
   this->connect(parts.Table, SIGNAL(itemChanged(QTableWidgetItem*)),
     SLOT(readCell(QTableWidgetItem*)));
-  this->connect(parts.Show, SIGNAL(toggled(bool)), SLOT(updateVisibility()));
+  this->connect(parts.Show, SIGNAL(toggled(bool)), SLOT(setWidgetVisible(bool)));
   this->fillTable();
 }
 
@@ -176,7 +229,6 @@ void pqPointListPropertyWidget::change(const QList<QVariant>& coordinates)
   this->Parts->Coordinates = coordinates;
   this->fillTable();
   this->placeHandles();
-  this->render();
   Q_EMIT this->coordinatesChanged();
 }
 
@@ -197,48 +249,40 @@ void pqPointListPropertyWidget::fillTable()
     }
   }
   parts.Remove->setEnabled(n > 0);
-  parts.RemoveAll->setEnabled(n > 0);
+  this->updateRow();
 }
 
 //------------------------------------------------------------------------------
-void pqPointListPropertyWidget::addPoint(double x, double y, double z)
+void pqPointListPropertyWidget::addPoint(const double position[3])
 {
-  this->change(QList<QVariant>(this->Parts->Coordinates) << x << y << z);
+  this->change(
+    QList<QVariant>(this->Parts->Coordinates) << position[0] << position[1] << position[2]);
   this->Parts->Table->setCurrentCell(this->Parts->Table->rowCount() - 1, 0);
   Q_EMIT this->changeFinished();
 }
 
-void pqPointListPropertyWidget::addPointOfSlice()
+void pqPointListPropertyWidget::pick()
 {
-  double place[3];
-  if (PickOnSlices(qobject_cast<pqRenderView*>(this->view()), place))
+  double position[3];
+  auto* view = qobject_cast<pqRenderView*>(this->view());
+  if (view && PickIn(view->getRenderViewProxy(), position))
   {
-    this->addPoint(place[0], place[1], place[2]);
+    this->addPoint(position);
+  }
+  else if (auto* window = qobject_cast<QMainWindow*>(pqCoreUtilities::mainWidget()))
+  {
+    window->statusBar()->showMessage(tr("No surface or slice under the mouse"), 5000);
   }
 }
 
 void pqPointListPropertyWidget::addPointInTheCentre()
 {
-  const vtkBoundingBox box = BoundsOfInput(this->proxy());
-  double place[3] = { 0.0, 0.0, 0.0 };
-  double step = 1.0;
-  if (box.IsValid())
+  double centre[3] = { 0.0, 0.0, 0.0 };
+  if (auto* view = qobject_cast<pqRenderView*>(this->view()))
   {
-    box.GetCenter(place);
-    step = 0.05 * box.GetDiagonalLength();
+    view->getRenderViewProxy()->GetActiveCamera()->GetFocalPoint(centre);
   }
-  // Beside those that have been added before.
-  const QList<QVariant>& taken = this->Parts->Coordinates;
-  for (int i = 0; i + 2 < taken.size(); i += 3)
-  {
-    if (taken[i].toDouble() == place[0] && taken[i + 1].toDouble() == place[1] &&
-      taken[i + 2].toDouble() == place[2])
-    {
-      place[0] += step;
-      i = -3;
-    }
-  }
-  this->addPoint(place[0], place[1], place[2]);
+  this->addPoint(centre);
 }
 
 void pqPointListPropertyWidget::removeSelectedPoints()
@@ -253,12 +297,6 @@ void pqPointListPropertyWidget::removeSelectedPoints()
     }
   }
   this->change(kept);
-  Q_EMIT this->changeFinished();
-}
-
-void pqPointListPropertyWidget::removeAllPoints()
-{
-  this->change({});
   Q_EMIT this->changeFinished();
 }
 
@@ -278,84 +316,138 @@ void pqPointListPropertyWidget::readCell(QTableWidgetItem* item)
 //------------------------------------------------------------------------------
 void pqPointListPropertyWidget::placeHandles()
 {
-  SCOPED_UNDO_EXCLUDE();
-  const QList<QVariant>& coordinates = this->Parts->Coordinates;
-  auto* view = qobject_cast<pqRenderView*>(this->view());
-  std::vector<PointHandles::Position> positions;
-  for (int i = 0; view && i + 2 < coordinates.size(); i += 3)
+  std::vector<double> positions;
+  for (const QVariant& x : this->Parts->Coordinates)
   {
-    positions.push_back({ coordinates[i].toDouble(), coordinates[i + 1].toDouble(),
-      coordinates[i + 2].toDouble() });
+    positions.push_back(x.toDouble());
   }
-  this->Parts->Handles.Place(view, positions);
-  this->updateVisibility();
+  // A poly line has one point at least: it is neither seen nor grabbed if there is none here.
+  vtkCurveRepresentation* handles = HandlesOf(this->widgetProxy());
+  handles->GetHandleProperty()->SetOpacity(positions.empty() ? 0.0 : 1.0);
+  if (!positions.empty())
+  {
+    vtkSMPropertyHelper(this->widgetProxy(), "HandlePositions")
+      .Set(positions.data(), static_cast<unsigned int>(positions.size()));
+    this->widgetProxy()->UpdateVTKObjects();
+  }
+  this->render();
 }
 
-void pqPointListPropertyWidget::followHandle(int index, const double position[3])
+void pqPointListPropertyWidget::readHandles()
 {
-  for (int axis = 0; axis < 3; ++axis)
+  vtkCurveRepresentation* handles = HandlesOf(this->widgetProxy());
+  QList<QVariant> coordinates;
+  for (int i = 0; i < handles->GetNumberOfHandles(); ++i)
   {
-    this->Parts->Coordinates[3 * index + axis] = position[axis];
+    const double* position = handles->GetHandlePosition(i);
+    coordinates << position[0] << position[1] << position[2];
   }
+  this->Parts->Coordinates = coordinates;
   this->fillTable();
   Q_EMIT this->coordinatesChanged();
 }
 
 //------------------------------------------------------------------------------
-void pqPointListPropertyWidget::setView(pqView* view)
+bool pqPointListPropertyWidget::selectsComponents() const
 {
-  if (view == this->view())
+  if (!HintOf(this->property(), "selects", 0))
+  {
+    return false;
+  }
+  const int keep = vtkSMUncheckedPropertyHelper(this->proxy(), "KeepComponents").GetAsInt();
+  return keep == vtkDeformableSurface::ComponentsAtPoints ||
+    keep == vtkDeformableSurface::ComponentsNotAtSeeds;
+}
+
+void pqPointListPropertyWidget::updateRow()
+{
+  Internals& parts = *this->Parts;
+  const bool selects = this->selectsComponents();
+  parts.Title->setText(selects ? tr("Points") : tr(this->property()->GetXMLLabel()));
+  parts.Note->setText((selects && parts.Coordinates.empty()
+                          ? tr("<b>No points: all components are kept.</b> ")
+                          : QString()) +
+    tr("<b>P</b> adds the point under the mouse, on a surface or a slice, while points are shown. "
+       "Drag a point to move it."));
+  auto* grid = qobject_cast<QGridLayout*>(
+    this->parentWidget() ? this->parentWidget()->layout() : nullptr);
+  QWidget* place = selects ? this->parentWidget()->findChild<QWidget*>("MinimumComponentVolume")
+                           : nullptr;
+  if (!grid || grid->indexOf(this) < 0)
   {
     return;
   }
-  // The handles of the former view go, and come again in the new one.
-  const QList<QVariant> coordinates = this->Parts->Coordinates;
-  this->Parts->Coordinates.clear();
-  this->placeHandles();
-  this->render();
-  this->Superclass::setView(view);
-  this->Parts->Coordinates = coordinates;
-  this->placeHandles();
-  this->render();
-}
-
-void pqPointListPropertyWidget::select()
-{
-  this->Superclass::select();
-  this->updateVisibility();
-}
-
-void pqPointListPropertyWidget::deselect()
-{
-  this->Superclass::deselect();
-  this->updateVisibility();
-}
-
-void pqPointListPropertyWidget::showEvent(QShowEvent* event)
-{
-  this->Superclass::showEvent(event);
-  this->updateVisibility();
-}
-
-void pqPointListPropertyWidget::hideEvent(QHideEvent* event)
-{
-  this->Superclass::hideEvent(event);
-  this->updateVisibility();
-}
-
-void pqPointListPropertyWidget::updateVisibility()
-{
-  const bool isShown =
-    this->isSelected() && this->isVisible() && this->view() && this->Parts->Show->isChecked();
-  this->Parts->Handles.SetVisible(isShown);
-  this->render();
-  Q_EMIT this->widgetVisibilityUpdated(isShown);
-}
-
-void pqPointListPropertyWidget::render()
-{
-  if (this->view())
+  const auto rowOf = [grid](QWidget* widget)
   {
-    this->view()->render();
+    int row, column, spans[2];
+    grid->getItemPosition(grid->indexOf(widget), &row, &column, &spans[0], &spans[1]);
+    return row;
+  };
+  parts.Row = parts.Row < 0 ? rowOf(this) : parts.Row;
+  grid->removeWidget(this);
+  grid->addWidget(this, place ? rowOf(place) : parts.Row, 0, 1, -1);
+  this->updateWidgetVisibility();
+}
+
+//------------------------------------------------------------------------------
+void pqPointListPropertyWidget::showEvent(QShowEvent*)
+{
+  this->updateRow();
+  this->setWidgetVisible(this->Parts->Show->isChecked());
+}
+
+void pqPointListPropertyWidget::hideEvent(QHideEvent*)
+{
+  this->setWidgetVisible(false);
+}
+
+bool pqPointListPropertyWidget::eventFilter(QObject* object, QEvent* event)
+{
+  if (event->type() == QEvent::Enter && this->isWidgetVisible())
+  {
+    static_cast<QWidget*>(object)->setFocus(); // The key is for it, also after a click on Apply.
   }
+  return this->Superclass::eventFilter(object, event);
+}
+
+void pqPointListPropertyWidget::updateWidgetVisibility()
+{
+  this->Superclass::updateWidgetVisibility();
+  this->showLeftOut(
+    this->isSelected() && this->isWidgetVisible() && this->view() && this->selectsComponents());
+  this->render();
+}
+
+void pqPointListPropertyWidget::forgetLeftOut()
+{
+  this->Parts->LeftOut->SetInputData(nullptr);
+  this->updateWidgetVisibility();
+}
+
+void pqPointListPropertyWidget::showLeftOut(bool isShown)
+{
+  Internals& parts = *this->Parts;
+  if (parts.Renderer)
+  {
+    parts.Renderer->RemoveActor(parts.LeftOutActor);
+  }
+  auto* view = qobject_cast<pqRenderView*>(this->view());
+  // On a remote server they are out of reach.
+  auto* filter = vtkDeformableSurface::SafeDownCast(this->proxy()->GetClientSideObject());
+  if (!isShown || !view || !filter)
+  {
+    return;
+  }
+  if (!parts.LeftOut->GetInput())
+  {
+    vtkNew<vtkPolyData> shape;
+    if (const vtkSmartPointer<vtkPolyData> leftOut = filter->NewLeftOutComponents())
+    {
+      shape->CopyStructure(leftOut);
+      shape->GetPointData()->SetNormals(leftOut->GetPointData()->GetNormals());
+    }
+    parts.LeftOut->SetInputData(shape);
+  }
+  parts.Renderer = view->getRenderViewProxy()->GetRenderer();
+  parts.Renderer->AddActor(parts.LeftOutActor);
 }

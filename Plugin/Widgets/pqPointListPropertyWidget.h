@@ -3,7 +3,7 @@
 #ifndef pqPointListPropertyWidget_h
 #define pqPointListPropertyWidget_h
 
-#include <pqPropertyWidget.h>
+#include <pqInteractivePropertyWidget.h>
 
 #include <QList>
 #include <QVariant>
@@ -13,21 +13,25 @@
 class QTableWidgetItem;
 
 /**
- * A list of points for a repeatable property of three numbers each: a table, and in the view a
- * handle of ParaView's per point. `P` adds the point of a surface or slice under the mouse, Ctrl+P
- * the mesh's point that is nearest to it; a handle can be dragged. A new point of the button Add
- * lies in the centre of the input.
+ * A list of points for a repeatable property of three numbers each: a table, and in the view the
+ * handles of ParaView's poly line, without the line. `P` adds the point under the mouse, on a
+ * surface or a slice. A handle can be dragged.
  *
  *   <DoubleVectorProperty panel_widget="PointList" ...>
  *     <Hints>
- *       <PointList show="0"/>  <!-- handles only where Show Points is checked; default: 1 -->
+ *       <PointList show="0" selects="1"/>
+ *
+ * show: whether Show Points is checked at first (default: 1). selects: the points select
+ * components, too, if the property KeepComponents says so. Then the list is named Points and takes
+ * the row of MinimumComponentVolume. While it is shown, the view has a faint surface of all other
+ * components.
  */
-class pqPointListPropertyWidget : public pqPropertyWidget
+class pqPointListPropertyWidget : public pqInteractivePropertyWidget
 {
   Q_OBJECT
   /** x, y and z of each point. */
   Q_PROPERTY(QList<QVariant> coordinates READ coordinates WRITE setCoordinates)
-  using Superclass = pqPropertyWidget;
+  using Superclass = pqInteractivePropertyWidget;
 
 public:
   pqPointListPropertyWidget(
@@ -37,41 +41,39 @@ public:
   QList<QVariant> coordinates() const;
   void setCoordinates(const QList<QVariant>& coordinates);
 
-  void select() override;
-  void deselect() override;
-
-public Q_SLOTS:
-  void setView(pqView* view) override;
+  void showEvent(QShowEvent* event) override;
+  void hideEvent(QHideEvent* event) override;
+  bool eventFilter(QObject* object, QEvent* event) override;
 
 Q_SIGNALS:
   void coordinatesChanged();
-  /** Whether the handles are shown; ParaView's keys for picking follow it. */
-  void widgetVisibilityUpdated(bool);
 
-protected:
-  void showEvent(QShowEvent* event) override;
-  void hideEvent(QHideEvent* event) override;
+protected Q_SLOTS:
+  void placeWidget() override {}
+  void updateWidgetVisibility() override;
 
 private Q_SLOTS:
-  void addPoint(double x, double y, double z);
-  void addPointOfSlice();
+  void pick();
   void addPointInTheCentre();
   void removeSelectedPoints();
-  void removeAllPoints();
   void readCell(QTableWidgetItem* item);
-  void updateVisibility();
+  /** Take the positions of the handles, one of which is dragged. */
+  void readHandles();
+  void updateRow();
+  /** The components that are left out have changed. */
+  void forgetLeftOut();
 
 private:
   Q_DISABLE_COPY(pqPointListPropertyWidget)
 
   void buildPanel();
-  /** Takes over new coordinates, in the table and the handles, and tells of them. */
+  void addPoint(const double position[3]);
+  /** Take over new coordinates, in the table and the handles, and signal them. */
   void change(const QList<QVariant>& coordinates);
   void fillTable();
   void placeHandles();
-  /** Takes over the position to which a handle is dragged. */
-  void followHandle(int index, const double position[3]);
-  void render();
+  bool selectsComponents() const;
+  void showLeftOut(bool isShown);
 
   struct Internals;
   std::unique_ptr<Internals> Parts;

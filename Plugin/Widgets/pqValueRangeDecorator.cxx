@@ -19,6 +19,7 @@
 #include <QLabel>
 #include <QSlider>
 
+#include <cmath>
 #include <limits>
 
 namespace
@@ -71,17 +72,28 @@ void pqValueRangeDecorator::showRange()
 {
   auto* range = this->parentWidget()->property()->FindDomain<vtkSMDoubleRangeDomain>();
   const bool isKnown = range && range->GetMinimumExists(0) && range->GetMaximumExists(0);
+  auto* voxels = this->parentWidget()->property()->FindDomain<vtkSMOtsuThresholdDomain>();
   this->Label->setVisible(isKnown);
   if (isKnown)
   {
     const double low = range->GetMinimum(0);
     const double high = range->GetMaximum(0);
-    this->Label->setText(tr("<b>Value Range:</b> [%1, %2]").arg(low).arg(high) +
-      (areHounsfieldUnits(low, high)
-          ? tr("<br>CT: <a href='226'>bone 226</a>, <a href='-300'>skin -300</a>")
-          : QString()));
+    QString text = tr("<b>Value Range:</b> [%1, %2]").arg(low).arg(high);
+    if (areHounsfieldUnits(low, high))
+    {
+      text += tr("<br>CT: <a href='226'>bone 226</a>, <a href='-300'>skin -300</a>");
+    }
+    else if (voxels && !std::isnan(voxels->GetHistogram().BrightThreshold))
+    {
+      text += tr("<br>Small part: <a href='%1'>bright %1</a>")
+                .arg(voxels->GetHistogram().BrightThreshold);
+    }
+    if (voxels && voxels->HasTimeSteps())
+    {
+      text += tr("<br>One value for all time steps");
+    }
+    this->Label->setText(text);
   }
-  auto* voxels = this->parentWidget()->property()->FindDomain<vtkSMOtsuThresholdDomain>();
   if (voxels)
   {
     const vtkSMOtsuThresholdDomain::Histogram& histogram = voxels->GetHistogram();

@@ -12,11 +12,12 @@ class HistogramWidget;
 }
 
 /**
- * Shows the range of a property of one number below its widget, as Contour does: "Value Range:
- * [0, 1300]". It is that of the property's domain, and follows it. Where it is that of Hounsfield
- * units, values of bone and skin are offered. The slider, if there is one, gets a row of its own,
- * below the histogram of the voxels, if the domain (vtkSMOtsuThresholdDomain) has one. Where the
- * proxy has Upper Value, and uses it, the histogram shows the range.
+ * Shows the range of the domain of a property of one number below its widget, as Contour does: "Value
+ * Range: [0, 1300]". If it is that of Hounsfield units, values of bone and skin are offered. Else a
+ * second threshold is offered if the domain has one. With several time steps, the label reports that
+ * all have one value. The slider gets a row of its own below the histogram of the voxels, if the
+ * domain (vtkSMOtsuThresholdDomain) has one. The histogram shows the range to Upper Value if the proxy
+ * uses it.
  *
  *   <PropertyWidgetDecorator type="ValueRange"/>
  */
@@ -37,7 +38,7 @@ private Q_SLOTS:
 private:
   Q_DISABLE_COPY(pqValueRangeDecorator)
 
-  /** To the panel; done: for Auto Apply, too. */
+  /** Set the value in the panel; with isDone also for Auto Apply. */
   void give(double value, bool isDone);
 
   QLabel* Label; ///< the property's widget owns both

@@ -182,8 +182,9 @@ void pqAbortButtonBehavior::onStart(vtkObject* filter)
     this->IsLit = true;
     manager->setEnableAbort(true);
   }
-  // The manager ignores ParaView's own reports, which come more often.
+  // The manager ignores ParaView's own reports, which come more often, and leaves input to this object.
   manager->lockProgress(this);
+  manager->unblockEvents(true);
   this->connect(this, SIGNAL(progress(const QString&, int)), manager,
     SLOT(setProgress(const QString&, int)), Qt::UniqueConnection);
   QApplication::setOverrideCursor(Qt::BusyCursor);
@@ -230,10 +231,7 @@ void pqAbortButtonBehavior::onEnd()
   if (pqProgressManager* manager = progressManager())
   {
     manager->unlockProgress(this);
-    if (this->Button)
-    {
-      manager->removeNonBlockableObject(this->Button->parentWidget()->windowHandle());
-    }
+    manager->unblockEvents(false);
     if (this->IsLit)
     {
       manager->setEnableAbort(false);
@@ -252,7 +250,7 @@ void pqAbortButtonBehavior::quit()
   pqServer* server = pqApplicationCore::instance()->getActiveServer();
   if (server && server->isProgressPending())
   {
-    QTimer::singleShot(LeastPause, this, SLOT(quit()));
+    QTimer::singleShot(static_cast<int>(LeastPause), this, SLOT(quit()));
     return;
   }
   this->IsQuitting = false;
@@ -287,17 +285,8 @@ bool pqAbortButtonBehavior::eventFilter(QObject* object, QEvent* event)
   {
     return true;
   }
-  if (!isInput(event))
+  if (!isInput(event) || this->isPressOfButton(object, event))
   {
-    return this->QObject::eventFilter(object, event);
-  }
-  if (this->isPressOfButton(object, event))
-  {
-    if (object != this->Button)
-    {
-      // ParaView's own filter of events, which comes next, checks this list.
-      progressManager()->addNonBlockableObject(object);
-    }
     return false;
   }
   this->IsQuitting = this->IsQuitting || isQuit(object, event);

@@ -20,9 +20,7 @@ class vtkObject;
  *
  * During a run this object alone updates the progress bar and processes events, in pauses that are
  * ten times the duration of the last update. ParaView 6.1 lights up the button, too, but rejects all
- * presses of the mouse: a press reaches a window first, which passes it to the button, and only the
- * button is on ParaView's list of exceptions. Earlier versions leave the button grey and process no
- * events.
+ * presses of the mouse. Earlier versions leave the button grey and process no events.
  *
  * During a run the window accepts only a press of that button: what shortcuts and timers start would
  * change a pipeline that is executing. To quit or to close the window stops the run. The window closes

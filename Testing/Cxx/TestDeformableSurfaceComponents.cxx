@@ -252,10 +252,6 @@ TEST_F(DeformableSurfaceComponents, WrongChoicesAreRefused)
   };
   this->Filter->SetKeepComponents(5);
   refused("Keep Components is 5");
-  this->Filter->SetKeepComponentsToComponentsAtPoints();
-  refused("input port 1");
-  this->Filter->SetInitialSurfaceData(SphereAt({ 16, 16, 16 }, 5));
-  refused("Keep Components is \"At Points\", but there are none");
   this->Filter->SetKeepComponentsToLargeComponents();
   this->Filter->SetMinimumComponentVolume(-1.0);
   refused("Minimum Component Volume is -1");

@@ -136,10 +136,18 @@ TEST_F(GoingOn, ChoosesComponentsOfWhatIsThereWhereSomeoneWatches)
     { std::for_each(choices, choices + i + 1, [&](const Choice& choose) { choose(filter); }); };
     ExpectSameOutputs(this->Filter, FromTheStart(this->Image, 0, allSoFar));
   }
+  EXPECT_FALSE(this->Filter->NewLeftOutComponents()) << "there are none";
   this->Filter->SetKeepComponentsToLargestComponent();
+  this->Filter->Update();
+  const auto leftOut = this->Filter->NewLeftOutComponents();
+  ASSERT_TRUE(leftOut);
+  EXPECT_EQ(FieldOf(leftOut, "NumberOfComponents"), 1);
+  EXPECT_LT(FieldOf(leftOut, "Area"), FieldOf(this->Filter->GetOutput(), "Area"));
   this->Filter->SetFinestLevel(1);
   EXPECT_TRUE(ShowsAtOnce(this->Filter));
-  ExpectSameOutputs(this->Filter, FromTheStart(this->Image, 1, choices[0]));
+  const auto largest = FromTheStart(this->Image, 1, choices[0]);
+  ExpectSameOutputs(this->Filter, largest);
+  EXPECT_FALSE(largest->NewLeftOutComponents()) << "nobody watches";
 }
 
 TEST_F(GoingOn, GoesOnFromTheLastLevelAtRestAfterAStop)

@@ -89,6 +89,24 @@ TEST(OtsuThreshold, HasTheHistogramThatItIsFoundBy)
   EXPECT_EQ(otsu->GetHistogram()->GetNumberOfTuples(), 0);
 }
 
+TEST(OtsuThreshold, HasASecondOneForASmallBrightPart)
+{
+  const auto brightOf = [](std::size_t dark, std::size_t medium, std::size_t bright)
+  {
+    std::vector<int> values(dark, 0);
+    values.insert(values.end(), medium, 200);
+    values.insert(values.end(), bright, 500);
+    vtkNew<vtkOtsuThreshold> otsu;
+    otsu->SetInputData(RowOf<vtkIntArray>(values));
+    otsu->Update();
+    EXPECT_EQ(otsu->GetThreshold(), 100.5);
+    return otsu->GetBrightThreshold();
+  };
+  EXPECT_EQ(brightOf(50, 44, 6), 350.0);
+  EXPECT_TRUE(std::isnan(brightOf(50, 39, 11))) << "not small";
+  EXPECT_TRUE(std::isnan(brightOf(92, 7, 1))) << "the object is small already";
+}
+
 TEST(OtsuThreshold, LeavesOutNaN)
 {
   const double nan = std::numeric_limits<double>::quiet_NaN();

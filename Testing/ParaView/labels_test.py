@@ -132,6 +132,14 @@ class LabelErrorsTest(LabelsTestCase):
             numpy.testing.assert_allclose(testing.points(block),
                                           testing.points(interfaces)[numbers], atol=1e-6)
             self.assertEqual(block.GetNumberOfPolys(), (sides == label).any(1).sum())
+        # ParaView's filters offer what users need, Label first.
+        threshold = simple.Threshold(filter_)
+        arrays = threshold.SMProxy.GetProperty("SelectInputScalars").FindDomain(
+            "vtkSMArrayListDomain")
+        self.assertEqual([arrays.GetString(i) for i in range(arrays.GetNumberOfStrings())],
+                         ["Component", "ComponentArea", "ComponentGenus", "ComponentVolume",
+                          "Label"])
+        self.assertEqual(list(threshold.Scalars), ["CELLS", "Label"])
         # One surface alone: the mesh is that of all labels, and what is not chosen is outside.
         filter_.Labels = [7]
         one = self.blocks(filter_)["Label 7"]

@@ -138,6 +138,9 @@ class ParallelTest(unittest.TestCase):
         surface = make_surface()
         fetched = plugin_testing.fetch(surface)
         self.check_surface(fetched)
+        # The numbers of the panel.
+        data = surface.GetDataInformation()
+        self.assertEqual(data.GetNumberOfPoints(), self.whole.GetNumberOfPoints())
         for name in ("Area", "EulerCharacteristic"):
             self.assertEqual(plugin_testing.field(fetched, name),
                              plugin_testing.field(self.whole, name))

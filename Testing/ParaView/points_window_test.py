@@ -22,12 +22,17 @@ REPRESENTATION = f"{gui.WINDOW}/representationToolbar/displayRepresentation/comb
 # Places of the screen in the picture of `two_balls`, whose centre is that of the view.
 LEFT_BALL, BETWEEN, CENTRE = (645, 463), (725, 540), (725, 463)
 
-# Runs in the window: tells each run's seeds, and between which x its surface lies.
+# As well: of `five_balls`, and beside these.
+LOWER_LEFT, LOWER_RIGHT, BESIDE = (627, 523), (847, 523), (737, 620)
+
+# Runs in the window: tells each run's seeds, its components, and between which x its surface lies.
 TELL_OF_RUNS = window.WATCH_FILTERS + """
 def attend(proxy, algorithm):
     def end(caller, event):
-        bounds = caller.GetOutputDataObject(0).GetBounds()
-        print("Run:", *proxy.SeedPositions, "surface:", *bounds[:2], ".")
+        surface = caller.GetOutputDataObject(0)
+        parts = surface.GetFieldData().GetArray("NumberOfComponents").GetValue(0)
+        print("Run:", *proxy.SeedPositions, "parts:", parts,
+              "surface:", *surface.GetBounds()[:2], ".")
     algorithm.AddObserver("EndEvent", end)
 """
 
@@ -38,6 +43,15 @@ def two_balls():
     distance = numpy.hypot(numpy.abs(x - 30.0) - 16.0, numpy.hypot(y - 20.0, z - 20.1)) - 9.0
     return testing.write_volume(
         "two-balls.vti", testing.make_image(numpy.clip(50.0 - 50.0 * distance, 0.0, 100.0)))
+
+
+def five_balls():
+    """Path of a volume: balls of radius 6, three below two."""
+    z, y, x = numpy.mgrid[0:41, 0:41, 0:61].astype(float)
+    distance = numpy.min([numpy.hypot(numpy.hypot(x - cx, y - cy), z - 20.1) for cx, cy in
+                          ((12, 10), (30, 10), (48, 10), (21, 30), (39, 30))], axis=0) - 6.0
+    return testing.write_volume(
+        "five-balls.vti", testing.make_image(numpy.clip(50.0 - 50.0 * distance, 0.0, 100.0)))
 
 
 def a_slice_of(volume):
@@ -72,11 +86,13 @@ class PointsWindowTest(window.WindowTestCase):
             window.shown("SeedPositions", False), window.shown("AttractingPositions", False),
             # Of use without advanced properties as well.
             choose("KeepComponents", "At Points"), gui.pause(300),
-            window.shown("SeedPositions", True), choose("KeepComponents", "All"),
+            window.shown("SeedPositions", True), gui.check(f"{SEEDS}/Title", "text", "Points"),
+            choose("KeepComponents", "All"),
             gui.pause(300), window.shown("SeedPositions", False),
             SHOW_ADVANCED, choose("Initialization", "Seeds"), gui.pause(300),
             choose("Recovery", "Off"), gui.pause(300),
             window.shown("SeedPositions", True), window.shown("AttractingPositions", True),
+            gui.check(f"{SEEDS}/Title", "text", "Seed Positions"),
             gui.check(f"{SEEDS}/ShowPoints", "checked", "true"),
             gui.check(f"{ATTRACTING}/ShowPoints", "checked", "false"),
             gui.check(f"{SEEDS}/Remove", "enabled", "false"),
@@ -89,7 +105,7 @@ class PointsWindowTest(window.WindowTestCase):
         self.assertTrue(self.is_marked(pixels, *CENTRE), "a handle in the middle")
         self.play(a_slice_of(two_balls()) + FROM_SEEDS + [
             add, *typed("0.0", "46.5"), gui.pause(300), APPLY, gui.pause(300), *save,
-            gui.event(f"{SEEDS}/RemoveAll", "activate"), rows(SEEDS, 0), APPLY, gui.pause(300),
+            remove, rows(SEEDS, 0), APPLY, gui.pause(300),
             edit("actionEditUndo"), gui.pause(500), rows(SEEDS, 1),
             edit("actionEditRedo"), gui.pause(500), rows(SEEDS, 0)], "points-applied")
         filter_ = window.open_state(path, "VolumetoSurface1")
@@ -142,8 +158,8 @@ class PointsWindowTest(window.WindowTestCase):
         self.assertFalse(self.is_marked(dragged, *BETWEEN))
         told = self.applied(hand, dragged)
         self.assertIn("Run:", told, "nothing was applied")
-        x, y, z, low, high = [float(n) for n in
-                              re.search(r"Run: (\S+) (\S+) (\S+) surface: (\S+) (\S+)", told).groups()]
+        x, y, z, low, high = [float(n) for n in re.search(
+            r"Run: (\S+) (\S+) (\S+) .*surface: (\S+) (\S+)", told).groups()]
         # On the slice that was shown, where it was dragged to; the surface grew from there.
         self.assertLess(abs(x - 15.0), 4.0)  # panels are as wide as the version has them
         self.assertLess(abs(y - 20.0), 2.0)
@@ -153,13 +169,29 @@ class PointsWindowTest(window.WindowTestCase):
         self.picture("points-picked-applied")
 
     @unittest.skipUnless(x_input.Input.is_there(), "libXtst was not found")
-    def test_a_component_is_dropped_in_the_view(self):
-        self.play(a_slice_of(two_balls()) + [
+    def test_components_are_picked_one_after_the_other(self):
+        self.play(opened(five_balls()) + [
             filter_of_the_menu("VolumeToSurface"), APPLY, gui.pause(500),
-            choose("KeepComponents", "Not At Seeds"), gui.pause(500)], "points-components",
-            python=TELL_OF_RUNS, live=True)
-        told = self.applied(*self.pick(LEFT_BALL, "points-component-picked"))
-        self.picture("points-component-dropped")
+            choose("KeepComponents", "At Points"), gui.pause(500), APPLY, gui.pause(500)],
+            "points-components", python=TELL_OF_RUNS, live=True)
+        self.assertRegex(self.session.output, "Run: parts: 5 [^R]*Run: parts: 5 ", "no points")
+        told = self.applied(*self.pick(LOWER_LEFT, "points-component-picked"))
+        self.assertIn(" parts: 1 ", told)
+        self.session.wait_for_rest()
+        # The others are faint, and can be picked.
+        hand, picked = self.pick(LOWER_RIGHT, "points-faint-component-picked")
+        x, y = LOWER_RIGHT
+        self.assertGreater(abs(picked[y - 20, x].astype(int) - picked[y + 60, x]).max(), 5)
+        told = self.applied(hand, picked)
+        self.assertIn(" parts: 2 ", told)
         low, high = (float(n) for n in re.search(r"surface: (\S+) (\S+)", told).groups())
-        self.assertGreater(low, 30.0)
+        self.assertLess(low, 10.0)
         self.assertGreater(high, 50.0)
+        before = self.picture("points-components-applied")
+        hand.move(*BESIDE)
+        hand.focus()
+        hand.key("p")
+        self.session.wait_for_rest(before)
+        after = self.picture("points-beside")
+        self.assertFalse(self.is_marked(after, *BESIDE))
+        self.assertTrue((before[-25:, :300] != after[-25:, :300]).any(), "the status bar says so")

@@ -11,7 +11,7 @@ import os
 import unittest
 import xml.etree.ElementTree as ElementTree
 
-from paraview import servermanager
+from paraview import servermanager, simple
 
 import plugin_testing as testing
 
@@ -172,6 +172,30 @@ class ProxyDefaultsTest(unittest.TestCase):
                     chosen.add(name)
         self.assertEqual(chosen, {"BorderValue", "BoxFaces", "Initialization", "KeepComponents",
                                   "Metric", "Recovery"})
+
+    def test_arrays_are_those_of_the_input_that_is_given(self):
+        """Not those of the active source, which paraview.simple connects first."""
+        volume = simple.Wavelet()
+        active = simple.Elevation(simple.Sphere())
+        active.UpdatePipeline()
+        for name in ("DeformableSurface", "ImagePyramid", "LabelstoSurfaces", "VolumetoSurface"):
+            simple.SetActiveSource(active)
+            filter_ = getattr(simple, name)(Input=volume)
+            for property_ in ("SetInputArrayToProcess", "EdgeMap"):
+                held = filter_.SMProxy.GetProperty(property_)
+                with self.subTest(filter=name, property=property_):
+                    self.assertEqual(held.GetElement(4) if held else "RTData", "RTData")
+        testing.delete_sources()
+
+    def test_a_uniform_volume_is_one_error(self):
+        volume = simple.Calculator(simple.Wavelet(), ResultArrayName="Three", Function="3")
+        with testing.CapturedMessages() as messages:
+            simple.VolumetoSurface(simple.PassArrays(volume, PointDataArrays=["Three"]))
+            self.assertEqual(messages.text, "")
+            simple.GetActiveSource().UpdatePipeline()
+        self.assertEqual(messages.text.count("ERROR: "), 1, messages.text)
+        self.assertIn("all voxels are 3: no value separates", messages.text)
+        testing.delete_sources()
 
     def test_lists_of_positions_reach_the_object(self):
         for name in ("DeformableSurface", "VolumeToSurface"):

@@ -28,6 +28,13 @@ SEGMENTS = ("Segment0_ID:=a", "Segment0_Name:=liver", "Segment0_LabelValue:=3",
             "Segment2_Name:=left kidney", "Segment2_LabelValue:=7", "Segment2_Color:=0.2 0.8 0.2")
 
 
+def shown_of(message):
+    """What ParaView's box of messages shows of one: of VTK's what comes after the class, if that is in
+    one line; else the first line."""
+    of_vtk = re.fullmatch(r"(?:error|warning): In .*, line \d+\n[^:]*: ?(.*)", message.strip(), re.I)
+    return of_vtk[1] if of_vtk else message.strip().splitlines()[0]
+
+
 def write(name, content):
     path = testing.output_path(name)
     os.makedirs(os.path.dirname(path), exist_ok=True)
@@ -152,9 +159,20 @@ class VolumeReaderTest(testing.PluginTestCase):
             source = simple.VolumicVolume(FileNames=[nifti(), nifti("turned.nii")])
             for time in (0, 1, 0):
                 source.UpdatePipeline(time)
-        self.assertEqual(re.findall("Its .*", messages.text), [
+        self.assertEqual([shown_of(text) for text in messages.text.strip().split("\n\n")], [
             f"Its sform, which is used, and its qform differ ({name})"
             for name in ("turned.nii.gz", "turned.nii")])
+
+    def test_the_box_shows_what_is_wrong(self):
+        def library(*_, **_more):
+            raise ValueError("the library fails")
+        with unittest.mock.patch("volumic.reading.read", library), \
+                testing.CapturedMessages() as of_library:
+            simple.VolumicVolume(FileNames=[nifti()]).UpdatePipeline()
+        with testing.CapturedMessages() as of_filter:
+            simple.VolumetoSurface(simple.Wavelet(), TimeLimit=-1).UpdatePipeline()
+        self.assertEqual(shown_of(of_library.text), "ERROR: ValueError: the library fails")
+        self.assertEqual(shown_of(of_filter.text), "Time Limit is -1; it must be 0 (none) or more.")
 
     def test_a_folder_of_ome_zarr(self):
         zarr = importlib.import_module("zarr")

@@ -79,7 +79,10 @@ class VolumeWindowTest(window.WindowTestCase):
         path, save = self.saved_state("volume.pvsm")
         edge_length = f"{PROPERTIES}/EdgeLength/DoubleLineEdit0"
         self.play(VOLUME + [
-            FILTER, gui.pause(300),
+            # The first of the menu.
+            *window.open_menu_of_volumic(), gui.pause(500),
+            gui.event(f"{window.FILTERS}/Volumic", "keyEvent", "6,16777220,0,,0,1"),
+            gui.pause(500),
             gui.check(ISO_VALUE, "text", iso_of_the_wavelet()),
             *[window.shown(name, True) for name in BASIC],
             *[window.shown(name, False) for name in ADVANCED],
@@ -122,7 +125,23 @@ class VolumeWindowTest(window.WindowTestCase):
             # A magnetic resonance image, though some of its voxels are below 0.
             *opened(testing.write_volume("mr.vti", testing.make_image(
                 numpy.maximum(voxels, -610), name="MR"))),
-            FILTER, gui.pause(300), window.value_range(-610, 1500)], "volume-ct")
+            FILTER, gui.pause(300), window.value_range(-610, 1500),
+            # Vessels in tissue, twice.
+            *opened(self.series("vessels", numpy.select([distance < 5, distance < 17], [500, 200]))),
+            FILTER, gui.pause(300),
+            gui.check(label, "text", "<b>Value Range:</b> [0, 500]<br>Small part: "
+                      "<a href='350'>bright 350</a><br>One value for all time steps")], "volume-ct")
+
+    @staticmethod
+    def series(name, voxels):
+        """Path of a file with the volume at two times."""
+        testing.write_volume(f"{name}.vti", testing.make_image(voxels.astype("u2")))
+        path = testing.output_path(f"{name}.pvd")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write('<VTKFile type="Collection"><Collection>' + "".join(
+                f'<DataSet timestep="{time}" file="{name}.vti"/>' for time in range(2))
+                + "</Collection></VTKFile>")
+        return path
 
     def test_summary(self):
         testing.load_plugin()
