@@ -31,7 +31,7 @@ constexpr std::size_t MostInLegend = 12;
 /** Add the filters Labels to Surfaces upstream of a proxy, itself included. */
 void AddLabelFilters(vtkSMProxy* proxy, std::set<vtkSMProxy*>& found)
 {
-  if (std::strcmp(proxy->GetXMLName(), "LabelsToSurfaces") == 0)
+  if (proxy->GetXMLName() && std::strcmp(proxy->GetXMLName(), "LabelsToSurfaces") == 0)
   {
     found.insert(proxy);
     return;
@@ -191,8 +191,12 @@ void vtkSMVolumicLabelsRepresentationProxy::ViewUpdated(vtkSMProxy* view)
   if (this->IsNew && data->GetArrayInformation("Label", vtkDataObject::CELL))
   {
     this->IsNew = false;
+    vtkSMProxy* common = vtkSMPropertyHelper(this, "LookupTable").GetAsProxy();
     this->SetScalarColoring("Label", vtkDataObject::CELL);
+    this->FollowData();
     this->ShowLegend(view);
+    vtkNew<vtkSMTransferFunctionManager> manager;
+    manager->HideScalarBarIfNotNeeded(common, view);
   }
   this->FollowData();
 }
@@ -244,7 +248,8 @@ void vtkSMVolumicLabelsRepresentationProxy::AdaptColorsOf(
   }
   vtkSMPropertyHelper input(this, "Input");
   auto* source = vtkSMSourceProxy::SafeDownCast(input.GetAsProxy());
-  if (data->GetMTime() == this->AdaptedTime)
+  // ParaView sets the common colour map at first.
+  if (data->GetMTime() == this->AdaptedTime || colors != this->FindLabelColors())
   {
     return;
   }
