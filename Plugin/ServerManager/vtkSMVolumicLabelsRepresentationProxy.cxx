@@ -194,9 +194,9 @@ void vtkSMVolumicLabelsRepresentationProxy::ViewUpdated(vtkSMProxy* view)
     vtkSMProxy* common = vtkSMPropertyHelper(this, "LookupTable").GetAsProxy();
     this->SetScalarColoring("Label", vtkDataObject::CELL);
     this->FollowData();
-    this->ShowLegend(view);
     vtkNew<vtkSMTransferFunctionManager> manager;
     manager->HideScalarBarIfNotNeeded(common, view);
+    this->ShowLegend(view);
   }
   this->FollowData();
 }
