@@ -189,7 +189,7 @@ paraview_packages()
   fi
   # From 6.1 on Debian's ParaView is built with Debian's VTK, whose headers its own package lacks.
   if dependencies paraview | grep '^libvtk9' > /dev/null; then
-    echo libvtk9-dev
+    printf '%s\n' libvtk9-dev libvtk9-qt-dev
   fi
 }
 
