@@ -20,7 +20,7 @@ import gui_session as gui
 import plugin_testing as testing
 import x_input
 from window_testing import (
-    APPLY, FROM_THE_FRONT, SHOW_ADVANCED, choose, filter_of_the_menu,
+    APPLY, FROM_THE_FRONT, choose, filter_of_the_menu,
     open_menu_of_volumic, opened, set_iso_value)
 
 CAMERA = f"{gui.WINDOW}/cameraToolbar"
@@ -33,10 +33,10 @@ def on_a_slice(volume, iso_value):
     representation = f"{gui.WINDOW}/representationToolbar/displayRepresentation/comboBox"
     return opened(volume) + [
         gui.event(representation, "set_string", "Slice"), gui.pause(1500),
-        filter_of_the_menu("VolumeToSurface"), SHOW_ADVANCED, gui.pause(500),
+        filter_of_the_menu("VolumeToSurface"), gui.pause(500),
         set_iso_value(iso_value), choose("Initialization", "Seeds"), gui.pause(500),
         gui.event(f"{gui.PANEL}/scrollArea/qt_scrollarea_vcontainer/1QScrollBar0", "set_int",
-                  "600"), gui.pause(500)]
+                  "250"), gui.pause(500)]
 
 
 def pick(session, places):
