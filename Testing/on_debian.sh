@@ -133,14 +133,15 @@ copy_network_settings()
     > "$1/etc/apt/apt.conf.d/90machine"
 }
 
-# copy_checkout DIR: this checkout as it is, without what git ignores; DIR/build stays.
+# copy_checkout DIR: this checkout as it is, without what git ignores; DIR/build stays. Files are as
+# new as the copy: one that was changed before a build of an earlier copy ended would look built.
 copy_checkout()
 {
   mkdir -p "$1"
   find "$1" -mindepth 1 -maxdepth 1 ! -name build -exec rm -rf {} +
   (cd "$root" && git -c safe.directory="$root" ls-files -z --cached --others --exclude-standard \
     | while IFS= read -r -d '' file; do [ ! -e "$file" ] || printf '%s\0' "$file"; done \
-    | tar -c --null -T -) | tar -x --no-same-owner -C "$1"
+    | tar -c --null -T -) | tar -x --no-same-owner --touch -C "$1"
 }
 
 # The namespace's first process: SYSTEM SHARED BIND... -- COMMAND...
