@@ -337,7 +337,7 @@ public:
   ///@}
 
   ///@{
-  /** Weight of the force to the barycentre of the neighbours, at least 0 as all weights. Default: 0.2. */
+  /** Weight of the force to the barycentre of the neighbours. At least 0, default: 0.2. */
   virtual void SetTensionWeight(double value);
   virtual double GetTensionWeight();
   /** Weight of the springs along the edges. Default: 0.1. */
@@ -497,14 +497,16 @@ public:
   void ForgetRun();
 
   ///@{
-  /** Set port 1, the initial surface or the seeds, as a connection or as data. */
+  /** Set port 1: the initial surface or the seeds. */
   void SetInitialSurfaceConnection(vtkAlgorithmOutput* output);
+  /** Set the data of port 1 without a connection. */
   void SetInitialSurfaceData(vtkDataObject* data);
   ///@}
 
   ///@{
-  /** Set port 2, the points known to belong to the object, as a connection or as data. */
+  /** Set port 2: the points known to belong to the object. */
   void SetAttractingPointsConnection(vtkAlgorithmOutput* output);
+  /** Set the data of port 2 without a connection. */
   void SetAttractingPointsData(vtkDataObject* data);
   ///@}
 

@@ -72,7 +72,7 @@ vtkMultiBlockDataSet* vtkImagePyramid::GetOutput(int port)
 VOLUMIC_DEPRECATED(vtkImagePyramid, MemoryLimit, int, VOLUMIC_ABOUT_MEMORY)
 
 // The properties, a line each: name, type for Set and Get, and where vtkInternals has it.
-#define VOLUMIC_PYRAMID_FILTER_PROPERTIES(MADE)            \
+#define VOLUMIC_PYRAMID_FILTER_PROPERTIES(MADE)                    \
   MADE(ReductionFactor, double, Options.Pyramid.ReductionFactor)   \
   MADE(NumberOfLevels, int, Options.Pyramid.NumberOfLevels)        \
   MADE(MinimumLevelSize, int, Options.Pyramid.MinimumLevelSize)    \

@@ -38,8 +38,8 @@
  * Equations 3 to 5 of the paper: voxel i of level h lies at i times the level's spacing. The samples
  * of the kernel are U_h apart along each axis, also where voxels are longer, with U_h = T^h U_0
  * (eq. 4). Beyond the border the nearest voxel counts. Kernel and interpolation are one banded
- * operator per axis. Axes of one voxel stay one voxel. Voxels of coarser levels are the weighted means
- * of those that are neither NaN nor blanked, and NaN where these have less than half of the weight.
+ * operator per axis. Axes of one voxel stay one voxel. Voxels of coarser levels are the weighted
+ * means of valid voxels, neither NaN nor blanked, and NaN where these have under half of the weight.
  * Results are bit-identical for any number of threads.
  *
  * @par Processes:

@@ -39,7 +39,7 @@ vtkDataArray* ChooseVoxels(vtkInformation* selection, vtkImageData* image);
  */
 vtkSmartPointer<vtkDataArray> SelectComponent(vtkDataArray* array, int component);
 
-/** Return a shallow copy of the image with these active scalars, which replace those of their name. */
+/** Return a shallow copy with these active scalars, which replace an array of the same name. */
 vtkSmartPointer<vtkImageData> WithVoxels(vtkImageData* image, vtkDataArray* voxels);
 
 /** Return the values contiguous in memory: the array itself if it is contiguous. */
