@@ -65,21 +65,6 @@ void CopyPosition(const std::vector<volumic::Point>& positions, int index, doubl
 #define VolumicWritten(name, type, field, needsRun)
 VOLUMIC_SURFACE_PROPERTIES(VolumicSetting, VolumicWritten)
 
-int vtkDeformableSurface::GetNumberOfThreads()
-{
-  return this->Internals->Settings.End.NumberOfThreads;
-}
-
-void vtkDeformableSurface::SetNumberOfThreads(int number)
-{
-  int& threads = this->Internals->Settings.End.NumberOfThreads;
-  if (threads != std::max(number, 0))
-  {
-    threads = std::max(number, 0);
-    this->Internals->Modify(false);
-  }
-}
-
 //------------------------------------------------------------------------------
 VOLUMIC_DEPRECATED(vtkDeformableSurface, MemoryLimit, int, VOLUMIC_ABOUT_MEMORY)
 VOLUMIC_DEPRECATED(vtkDeformableSurface, Resume, bool, "Runs begin anew.")

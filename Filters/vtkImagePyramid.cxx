@@ -37,24 +37,13 @@
 
 vtkStandardNewMacro(vtkImagePyramid);
 
-namespace
-{
-volumic::PyramidOptions OptionsOf(
-  double reductionFactor, int numberOfLevels, int minimumLevelSize)
-{
-  volumic::PyramidOptions options;
-  options.ReductionFactor = reductionFactor;
-  options.NumberOfLevels = numberOfLevels;
-  options.MinimumLevelSize = minimumLevelSize;
-  return options;
-}
-}
-
 //------------------------------------------------------------------------------
 /** What the filter holds beside what all algorithms do. */
 class vtkImagePyramid::vtkInternals
 {
 public:
+  volumic::LevelsOptions Options;
+  int SelectedComponent = -1;
   int MemoryLimit = 0; ///< deprecated
   std::string ScratchDirectory;
 };
@@ -62,13 +51,6 @@ public:
 //------------------------------------------------------------------------------
 vtkImagePyramid::vtkImagePyramid() : Internals(std::make_unique<vtkInternals>())
 {
-  const volumic::PyramidOptions defaults;
-  this->ReductionFactor = defaults.ReductionFactor;
-  this->NumberOfLevels = defaults.NumberOfLevels;
-  this->MinimumLevelSize = defaults.MinimumLevelSize;
-  this->SelectedComponent = -1;
-  this->NaNIsBackground = true;
-  this->NumberOfThreads = 0;
   this->SetInputArrayToProcess(
     0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, vtkDataSetAttributes::SCALARS);
 }
@@ -88,8 +70,20 @@ vtkMultiBlockDataSet* vtkImagePyramid::GetOutput(int port)
 
 //------------------------------------------------------------------------------
 VOLUMIC_DEPRECATED(vtkImagePyramid, MemoryLimit, int, VOLUMIC_ABOUT_MEMORY)
-VOLUMIC_SET_AND_GET(vtkImagePyramid, ScratchDirectory, const char*, Internals->ScratchDirectory,
-  this->Modified())
+
+// The properties, a line each: name, type for Set and Get, and where vtkInternals has it.
+#define VOLUMIC_PYRAMID_FILTER_PROPERTIES(MADE)                    \
+  MADE(ReductionFactor, double, Options.Pyramid.ReductionFactor)   \
+  MADE(NumberOfLevels, int, Options.Pyramid.NumberOfLevels)        \
+  MADE(MinimumLevelSize, int, Options.Pyramid.MinimumLevelSize)    \
+  MADE(SelectedComponent, int, SelectedComponent)                  \
+  MADE(NaNIsBackground, bool, Options.NaNIsBackground)             \
+  MADE(NumberOfThreads, int, Options.NumberOfThreads)              \
+  MADE(ScratchDirectory, const char*, ScratchDirectory)
+
+#define VolumicSetting(name, type, field) \
+  VOLUMIC_SET_AND_GET(vtkImagePyramid, name, type, Internals->field, this->Modified())
+VOLUMIC_PYRAMID_FILTER_PROPERTIES(VolumicSetting)
 
 //------------------------------------------------------------------------------
 int vtkImagePyramid::CountLevels(int sizeX, int sizeY, int sizeZ) const
@@ -97,8 +91,7 @@ int vtkImagePyramid::CountLevels(int sizeX, int sizeY, int sizeZ) const
   try
   {
     return static_cast<int>(volumic::PlanPyramid({ sizeX, sizeY, sizeZ }, { 1.0, 1.0, 1.0 },
-      OptionsOf(this->ReductionFactor, this->NumberOfLevels, this->MinimumLevelSize))
-        .size());
+      this->Internals->Options.Pyramid).size());
   }
   catch (const volumic::Refusal&)
   {
@@ -167,13 +160,9 @@ volumic::ImageLevels vtkImagePyramid::MakeLevels(
   const volumic::ScratchMemory scratch(this->Internals->ScratchDirectory);
   image = volumic::ImageOf(input);
   const vtkSmartPointer<vtkDataArray> voxels = volumic::SelectComponent(
-    volumic::ChooseArray(this->GetInputArrayInformation(0), image), this->SelectedComponent);
-  volumic::LevelsOptions options;
-  options.Pyramid =
-    OptionsOf(this->ReductionFactor, this->NumberOfLevels, this->MinimumLevelSize);
-  options.NaNIsBackground = this->NaNIsBackground;
-  options.NumberOfThreads = this->NumberOfThreads;
-  return volumic::MakeImageLevels(image, voxels, options,
+    volumic::ChooseArray(this->GetInputArrayInformation(0), image),
+    this->Internals->SelectedComponent);
+  return volumic::MakeImageLevels(image, voxels, this->Internals->Options,
     [&observer](double share, const std::string& text) { return observer.GoOn(share, text); });
 }
 
@@ -234,12 +223,13 @@ int vtkImagePyramid::RequestData(
 void vtkImagePyramid::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "ReductionFactor: " << this->ReductionFactor << endl;
-  os << indent << "NumberOfLevels: " << this->NumberOfLevels << endl;
-  os << indent << "MinimumLevelSize: " << this->MinimumLevelSize << endl;
-  os << indent << "SelectedComponent: " << this->SelectedComponent << endl;
-  os << indent << "NaNIsBackground: " << this->NaNIsBackground << endl;
-  os << indent << "NumberOfThreads: " << this->NumberOfThreads << endl;
+#define VolumicPrint(name, type, field)                                      \
+  volumic::PrintSetting(os << indent << #name ": ", this->Internals->field); \
+  os << endl;
+  VOLUMIC_PYRAMID_FILTER_PROPERTIES(VolumicPrint)
   os << indent << "MemoryLimit: " << this->Internals->MemoryLimit << endl;
-  os << indent << "ScratchDirectory: " << this->Internals->ScratchDirectory << endl;
 }
+
+// Files may be compiled together.
+#undef VolumicSetting
+#undef VolumicPrint

@@ -4,71 +4,58 @@
  * @class   vtkImagePyramid
  * @brief   images of one scene at decreasing resolutions, with any reduction factor under two
  *
- * vtkImagePyramid makes level after level of a pyramid from a 2D or 3D image: each level is
- * smoothed by a Gaussian kernel of five voxels and holds T times fewer voxels along every axis
- * than the one below it, where T, the reduction factor, may be any number between 1 and 2. The
- * default sqrt(3) is the factor by which vtkDeformableSurface divides its mesh.
+ * vtkImagePyramid computes a pyramid from a 2D or 3D image. Each level is smoothed by a Gaussian
+ * kernel of five voxels and has T times fewer voxels along each axis than the level below, with
+ * 1 < T < 2. The default sqrt(3) is the factor by which vtkDeformableSurface subdivides its mesh.
  *
  * @par Input:
- * Port 0: a vtkImageData of any extent, origin, spacing and direction, with point data; or a
- * composite dataset with one image in it, or a pyramid, whose level 0 is taken. The array is chosen
- * by SetInputArrayToProcess(); by default it is the active point scalars. It may be of any numeric
- * type; of several components SelectedComponent chooses one. NaN voxels are background, see
- * NaNIsBackground, and so are blanked ones, without a word: points that the ghost array hides
- * (vtkDataSetAttributes::HIDDENPOINT), or all of whose cells it hides (HIDDENCELL). Infinite voxels
- * are refused.
+ * Port 0: a vtkImageData with point data, a composite dataset with one image, or a pyramid, whose
+ * level 0 is used. SetInputArrayToProcess() chooses the array (default: active point scalars), of any
+ * numeric type. Blanked voxels are background: points hidden by the ghost array
+ * (vtkDataSetAttributes::HIDDENPOINT), or whose cells are all hidden (HIDDENCELL). Infinite voxels
+ * are an error.
  *
  * @par Output:
- * Port 0: a vtkMultiBlockDataSet. Block h is the vtkImageData of level h, named `Level h`; block 0
- * is the input itself, whose arrays are shared, not copied (of several components the array holds
- * the selected one, under the same name). All levels have the origin (the place of the first
- * voxel), the direction and the real size of the input; the spacing of level h is
- * spacing * size / size of level h, in world units, and its extent starts at 0.
+ * Port 0: a vtkMultiBlockDataSet. Block h is the vtkImageData of level h, named `Level h`. Block 0
+ * is the input, whose arrays are shared (of several components the array has the selected one).
+ * All levels have the position of the first voxel, the direction and the real size of the input. The
+ * spacing of level h is spacing * size / size of level h, and its extent starts at 0.
  *
  * Point data of each level from 1 on:
- * - one array, under the name that it has on the input: double if that is double, or integers of 32
- *   or 64 bits whose differences single precision would lose (their size is over 168 times their
- *   range: 10^9 to 10^9 + 50), else float
+ * - one array with the name of the input's: double if that is double, or integers of 32 or 64 bits
+ *   over 168 times as large as their range (10^9 to 10^9 + 50), else float
  *
- * Field data of every level:
+ * Field data of each level:
  * - `Level` (int)
- * - `Unit` (double): the U_h of the paper, the distance that stands for one voxel at that level,
- *   world units
+ * - `Unit` (double): U_h, the distance that one voxel represents at the level, world units
  *
- * Field data of the whole:
- * - `StopReason` (string): `complete` or, after AbortExecute, `cancelled`: then the levels that were
- *   finished are there, and count as up to date; to run anew call Modified() before Update()
- * - `NaNVoxels` (vtkIdType): the number of NaN voxels of level 0
+ * Field data of the output:
+ * - `StopReason` (string): `complete`, or `cancelled` after AbortExecute. The output then has the
+ *   finished levels, and counts as up to date. Call Modified() to restart.
+ * - `NaNVoxels` (vtkIdType): number of NaN voxels of level 0
  *
  * @par Algorithm:
- * Equations 3 to 5 of the paper, with all places as there: voxel i of level h lies at i times the
- * level's spacing. The offset between two places of the kernel is U_h along every axis, also where
- * voxels are longer: the kernel is cubic in the real space. Past the border the nearest voxel
- * counts. Kernel and interpolation are folded into one banded operator per axis, which gives the
- * same numbers to rounding. U_h is T^h U_0 (eq. 4); the minimum over the axes that the paper also
- * states would differ from it, as sizes are rounded down. Axes of one voxel stay one voxel.
- * Results are the same bits for any number of threads. Where voxels are NaN or blanked, those of
- * the coarser levels are the weighted means of the others alone, and NaN where these have less than
- * half of the weight.
+ * Equations 3 to 5 of the paper: voxel i of level h lies at i times the level's spacing. The samples
+ * of the kernel are U_h apart along each axis, also where voxels are longer, with U_h = T^h U_0
+ * (eq. 4). Beyond the border the nearest voxel counts. Kernel and interpolation are one banded
+ * operator per axis. Axes of one voxel stay one voxel. Voxels of coarser levels are the weighted
+ * means of valid voxels, neither NaN nor blanked, and NaN where these have under half of the weight.
+ * Results are bit-identical for any number of threads.
  *
  * @par Processes:
  * In a parallel run, as in pvserver and pvbatch, the first process (piece 0) requests the whole image
  * and makes all levels. The others have the same blocks without images.
  *
  * @par Errors:
- * A message names the port, the array or the value, and the output is empty, when: the input is no
- * image (apply vtkResampleToImage to an AMR, rectilinear, structured or unstructured grid first),
- * or holds several that are no pyramid; the image is empty; there is no such array, or it is cell
- * data or not numeric, or has not the component selected; it has infinite voxels, or NaN without
- * NaNIsBackground, or no others; ReductionFactor is not between 1 and 2; more levels are asked for
- * than the image can give; the memory does not suffice. A warning tells the number of NaN voxels.
- * @par
- * Update() goes on after an error, so that whatever follows in the pipeline gets the empty output.
- * A program asks GetErrorCode() after Update(): 0 (vtkErrorCode::NoError) after a good run,
- * vtkErrorCode::UserError where something given is wrong, vtkErrorCode::UnknownError where the
- * memory does not suffice. Each run sets it anew. The message comes with ErrorEvent; without an
- * observer VTK prints it. A missing input is refused by the pipeline before a run: by ErrorEvent of
- * GetExecutive() only.
+ * On error the filter invokes `ErrorEvent` with a message that names the port, array or value. The
+ * output is empty. GetErrorCode() returns vtkErrorCode::UserError for an invalid input or property,
+ * vtkErrorCode::UnknownError if memory does not suffice, and 0 after a good run. The pipeline itself
+ * reports a missing input by `ErrorEvent` of GetExecutive(). Invalid are:
+ * - an input that is not an image (apply vtkResampleToImage to other grids first), is empty, or has
+ *   several images that are not a pyramid
+ * - an array that does not exist, is cell data, is not numeric, or lacks the selected component
+ * - infinite voxels, NaN voxels without NaNIsBackground, and no other voxels than NaN or blanked
+ * - a ReductionFactor outside 1 to 2, and more levels than the image can have
  *
  * @par Thanks:
  * J.-O. Lachaud and A. Montanvert, "Volumic Segmentation using Hierarchical Representation and
@@ -119,8 +106,8 @@ public:
    * T: how many times fewer voxels a level has along each axis than the level below it. Between 1
    * and 2, both excluded. Default: sqrt(3).
    */
-  vtkSetMacro(ReductionFactor, double);
-  vtkGetMacro(ReductionFactor, double);
+  virtual void SetReductionFactor(double value);
+  virtual double GetReductionFactor();
   ///@}
 
   ///@{
@@ -128,8 +115,8 @@ public:
    * Number of levels, level 0 (the input) included. 0, the default: as many as MinimumLevelSize
    * allows.
    */
-  vtkSetMacro(NumberOfLevels, int);
-  vtkGetMacro(NumberOfLevels, int);
+  virtual void SetNumberOfLevels(int value);
+  virtual int GetNumberOfLevels();
   ///@}
 
   ///@{
@@ -137,8 +124,8 @@ public:
    * With NumberOfLevels 0: no level after level 0 has an axis of fewer voxels than this. Axes
    * along which the input has one voxel do not count. Default: 10.
    */
-  vtkSetMacro(MinimumLevelSize, int);
-  vtkGetMacro(MinimumLevelSize, int);
+  virtual void SetMinimumLevelSize(int value);
+  virtual int GetMinimumLevelSize();
   ///@}
 
   ///@{
@@ -146,8 +133,8 @@ public:
    * Which component of an array of several is taken: 0 for the first one; -1, the default: the
    * magnitude. An array of one component is taken as it is with either.
    */
-  vtkSetMacro(SelectedComponent, int);
-  vtkGetMacro(SelectedComponent, int);
+  virtual void SetSelectedComponent(int value);
+  virtual int GetSelectedComponent();
   ///@}
 
   ///@{
@@ -155,8 +142,8 @@ public:
    * Voxels that are NaN are background, and a warning tells how many there are. Off: they are
    * refused. Default: on.
    */
-  vtkSetMacro(NaNIsBackground, bool);
-  vtkGetMacro(NaNIsBackground, bool);
+  virtual void SetNaNIsBackground(bool value);
+  virtual bool GetNaNIsBackground();
   vtkBooleanMacro(NaNIsBackground, bool);
   ///@}
 
@@ -165,8 +152,8 @@ public:
    * Number of threads; 0, the default: as many as the process may have processors, or as the host
    * says (VTK_SMP_MAX_THREADS, vtkSMPTools::Initialize). Results do not depend on it.
    */
-  vtkSetClampMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
-  vtkGetMacro(NumberOfThreads, int);
+  virtual void SetNumberOfThreads(int value);
+  virtual int GetNumberOfThreads();
   ///@}
 
   ///@{
@@ -208,13 +195,6 @@ protected:
     vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
   int RequestData(
     vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
-
-  double ReductionFactor;
-  int NumberOfLevels;
-  int MinimumLevelSize;
-  int SelectedComponent;
-  bool NaNIsBackground;
-  int NumberOfThreads;
 
 private:
   vtkImagePyramid(const vtkImagePyramid&) = delete;

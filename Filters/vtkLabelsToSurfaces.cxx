@@ -50,7 +50,7 @@ public:
   int BackgroundLabel = 0;
   bool Merge = false;
   bool SharedInterfaces = true; ///< has no effect
-  int NumberOfThreads = 0;
+  unsigned NumberOfThreads = 0;
   double TimeLimit = 0.0; ///< seconds; 0: none
   int MemoryLimit = 0; ///< has no effect
   std::string ScratchDirectory;
@@ -73,9 +73,9 @@ vtkLabelsToSurfaces::vtkLabelsToSurfaces() : Internals(std::make_unique<vtkInter
 vtkLabelsToSurfaces::~vtkLabelsToSurfaces() = default;
 
 //------------------------------------------------------------------------------
-// The properties, a line each: name, type for Set and Get, where vtkInternals has it. Set and Get
-// are made of them but for those that are written out, and all of PrintSelf().
-#define VOLUMIC_LABEL_PROPERTIES(MADE, WRITTEN)                         \
+// The properties, a line each: name, type for Set and Get, where vtkInternals has it. Set, Get
+// and PrintSelf() are made of them.
+#define VOLUMIC_LABEL_PROPERTIES(MADE)                                  \
   MADE(BackgroundLabel, int, BackgroundLabel)                           \
   MADE(Merge, bool, Merge)                                              \
   MADE(Smoothing, double, Settings.Smoothing)                           \
@@ -91,27 +91,12 @@ vtkLabelsToSurfaces::~vtkLabelsToSurfaces() = default;
   MADE(KeepComponents, int, Settings.KeepComponents)                    \
   MADE(MinimumComponentVolume, double, Settings.MinimumComponentVolume) \
   MADE(TimeLimit, double, TimeLimit)                                    \
-  WRITTEN(NumberOfThreads, int, NumberOfThreads)                        \
+  MADE(NumberOfThreads, int, NumberOfThreads)                           \
   MADE(ScratchDirectory, const char*, ScratchDirectory)
 
 #define VolumicSetting(name, type, field)                                                          \
   VOLUMIC_SET_AND_GET(vtkLabelsToSurfaces, name, type, Internals->field, this->Modified())
-#define VolumicWritten(name, type, field)
-VOLUMIC_LABEL_PROPERTIES(VolumicSetting, VolumicWritten)
-
-int vtkLabelsToSurfaces::GetNumberOfThreads()
-{
-  return this->Internals->NumberOfThreads;
-}
-
-void vtkLabelsToSurfaces::SetNumberOfThreads(int number)
-{
-  if (this->Internals->NumberOfThreads != std::max(number, 0))
-  {
-    this->Internals->NumberOfThreads = std::max(number, 0);
-    this->Modified();
-  }
-}
+VOLUMIC_LABEL_PROPERTIES(VolumicSetting)
 
 VOLUMIC_DEPRECATED(vtkLabelsToSurfaces, MemoryLimit, int, VOLUMIC_ABOUT_MEMORY)
 
@@ -351,11 +336,10 @@ void vtkLabelsToSurfaces::PrintSelf(ostream& os, vtkIndent indent)
 #define VolumicPrint(name, type, field)                                                            \
   volumic::PrintSetting(os << indent << #name ": ", this->Internals->field);                       \
   os << endl;
-  VOLUMIC_LABEL_PROPERTIES(VolumicPrint, VolumicPrint)
+  VOLUMIC_LABEL_PROPERTIES(VolumicPrint)
   os << indent << "MemoryLimit: " << this->Internals->MemoryLimit << endl;
 }
 
 // Files may be compiled together.
 #undef VolumicSetting
-#undef VolumicWritten
 #undef VolumicPrint

@@ -45,28 +45,16 @@ HostThreads::HostThreads(int numberOfThreads) : Executor(NumberOf(numberOfThread
 namespace
 {
 /** Of one group; 0: it has none. "max" and -1, which stand for no limit, are no numbers above 0. */
-int QuotaOf(double quota, double period)
-{
-  return quota > 0. && period > 0. ? static_cast<int>(std::min(std::ceil(quota / period), 1e6)) : 0;
-}
-
-double FirstNumberOf(const std::string& file)
-{
-  double number = 0.;
-  std::ifstream(file) >> number;
-  return number;
-}
-
 int QuotaOfFolder(const std::string& folder)
 {
   double quota = 0.;
   double period = 0.;
-  if (std::ifstream file(folder + "/cpu.max"); file >> quota >> period)
+  if (std::ifstream file(folder + "/cpu.max"); !(file >> quota >> period))
   {
-    return QuotaOf(quota, period);
+    std::ifstream(folder + "/cpu.cfs_quota_us") >> quota;
+    std::ifstream(folder + "/cpu.cfs_period_us") >> period;
   }
-  return QuotaOf(
-    FirstNumberOf(folder + "/cpu.cfs_quota_us"), FirstNumberOf(folder + "/cpu.cfs_period_us"));
+  return quota > 0. && period > 0. ? static_cast<int>(std::min(std::ceil(quota / period), 1e6)) : 0;
 }
 }
 

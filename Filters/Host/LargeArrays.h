@@ -6,6 +6,8 @@
 #include "Core/Common/ScratchMemory.h"
 
 #include <vtkAbstractArray.h>
+#include <vtkFieldData.h>
+#include <vtkNew.h>
 #include <vtkSmartPointer.h>
 #include <vtkType.h>
 
@@ -47,6 +49,16 @@ vtkSmartPointer<Array> NewLargeArray(std::size_t tuples, int components = 1)
       FreeLarge(begin, allocated);
     });
   return array;
+}
+
+/** Add an array with one value to field data. */
+template <typename Array, typename Value>
+void AddField(vtkFieldData* fieldData, const char* name, Value value)
+{
+  vtkNew<Array> array;
+  array->SetName(name);
+  array->InsertNextValue(value);
+  fieldData->AddArray(array);
 }
 }
 

@@ -73,10 +73,10 @@ std::string RunObserver::StopReason() const
 
 void RunObserver::Warn(const std::string& text)
 {
-  std::vector<std::string>& untold = this->Untold;
-  if (!text.empty() && std::find(untold.begin(), untold.end(), text) == untold.end())
+  if (!text.empty() &&
+    std::find(this->Untold.begin(), this->Untold.end(), text) == this->Untold.end())
   {
-    untold.push_back(text);
+    this->Untold.push_back(text);
   }
 }
 

@@ -107,6 +107,14 @@ std::string NameOf(vtkDataArray* array)
   return "array " + Quote(array->GetName());
 }
 
+Point FirstVoxelOf(vtkImageData* image)
+{
+  Point first;
+  const int* extent = image->GetExtent();
+  image->TransformIndexToPhysicalPoint(extent[0], extent[2], extent[4], first.data());
+  return first;
+}
+
 std::string SizeOf(vtkImageData* image)
 {
   const int* size = image->GetDimensions();

@@ -4,6 +4,7 @@
 #define volumicImageVoxels_h
 
 #include "Core/Common/Executor.h"
+#include "Core/Common/IndexedSurface.h"
 
 #include <vtkDataArray.h>
 #include <vtkSmartPointer.h>
@@ -14,43 +15,34 @@
 class vtkImageData;
 class vtkInformation;
 
-/**
- * What the filters ask of an image before they believe it. Errors are std::invalid_argument with
- * a message that names the array and the way out.
- */
+// Arrays of images as voxels. Errors are a Refusal naming the array and how to fix it.
 
 namespace volumic
 {
-/** The name of the array that a selection means; empty: none, as for the active scalars. */
+/** Return the name of the selected array; empty: none, as for the active scalars. */
 std::string ChosenName(vtkInformation* selection);
 
 /**
- * The array of voxels that was chosen: `selection` is GetInputArrayInformation(0) of the filter.
- * @throws if the image has no voxels, or there is no such array, or it is not numeric point data
- *         with a value for every voxel.
+ * Return the selected array of voxels.
+ * @param selection GetInputArrayInformation(0) of the filter
+ * @throws Refusal if it is not numeric point data with a value for every voxel
  */
 vtkDataArray* ChooseArray(vtkInformation* selection, vtkImageData* image);
 
-/**
- * The same, of one component.
- * @throws also if it has several.
- */
+/** The same. @throws Refusal also if it has several components */
 vtkDataArray* ChooseVoxels(vtkInformation* selection, vtkImageData* image);
 
 /**
- * One component of an array: the array itself where it has no other; else a copy of that component,
- * of the same type, or, for component -1, the magnitude of all, as real numbers. The name is kept.
- * @throws if there is no such component.
+ * Return the array itself if it has one component. Else return a copy of a component, or, for -1, the
+ * magnitude of all as real numbers, with the same name.
+ * @throws Refusal if there is no such component
  */
 vtkSmartPointer<vtkDataArray> SelectComponent(vtkDataArray* array, int component);
 
-/**
- * A copy of the image, whose arrays are shared, with these voxels as its active scalars: they take
- * the place of an array of their name.
- */
+/** Return a shallow copy with these active scalars, which replace an array of the same name. */
 vtkSmartPointer<vtkImageData> WithVoxels(vtkImageData* image, vtkDataArray* voxels);
 
-/** The same values plain and contiguous in memory: the array itself where it is one already. */
+/** Return the values contiguous in memory: the array itself if it is contiguous. */
 vtkSmartPointer<vtkDataArray> ContiguousVoxels(vtkDataArray* voxels);
 
 /** Calls `work` with the voxels, contiguous in memory, in the type that they have. */
@@ -63,14 +55,14 @@ void VisitVoxels(vtkDataArray* voxels, const Work& work)
   }
 }
 
-/**
- * Whether single precision keeps the differences of voxels of this range: rounding changes them by
- * less than 1e-5 of the range.
- */
+/** Return whether rounding to float changes differences by less than 1e-5 of the range. */
 bool FloatHolds(double smallest, double largest);
 
 /** `array 'name'`, for messages. */
 std::string NameOf(vtkDataArray* array);
+
+/** Return the world coordinates of the first voxel. */
+Point FirstVoxelOf(vtkImageData* image);
 
 /** `256 x 256 x 108`, for messages. */
 std::string SizeOf(vtkImageData* image);
@@ -87,12 +79,10 @@ struct ValueRange
 };
 
 /**
- * The voxels folded at the middle of the range, min(v, Lower + Upper - v): they are above Lower
- * where v is within the range, by min(v - Lower, Upper - v), so that Lower is the iso-value of the
- * object, and all that asks for voxels needs to know of no range. As float, or as double where the
- * type has more digits than float; of the same name.
+ * Return min(v, Lower + Upper - v), which is above Lower where v is within the range. The result is
+ * float, or double if the type has more digits than float, with the same name.
  * @param voxels contiguous in memory, one component
- * @throws std::bad_alloc, ScratchFull.
+ * @throws std::bad_alloc, ScratchFull
  */
 vtkSmartPointer<vtkDataArray> FoldVoxels(
   vtkDataArray* voxels, const ValueRange& range, Executor& threads);

@@ -31,12 +31,8 @@ void CheckPlace(vtkImageData* level0, vtkImageData* below, vtkImageData* image, 
 {
   const auto refuse = [h](const auto&... parts)
   { Refuse("block ", h, " is not a level of a pyramid: ", parts..., LevelsWayOut); };
-  const int* extent0 = level0->GetExtent();
-  const int* extent = image->GetExtent();
-  double first0[3];
-  double first[3];
-  level0->TransformIndexToPhysicalPoint(extent0[0], extent0[2], extent0[4], first0);
-  image->TransformIndexToPhysicalPoint(extent[0], extent[2], extent[4], first);
+  const Point first0 = FirstVoxelOf(level0);
+  const Point first = FirstVoxelOf(image);
   for (int axis = 0; axis < 3; ++axis)
   {
     const double real0 = level0->GetSpacing()[axis] * level0->GetDimensions()[axis];

@@ -22,11 +22,10 @@ namespace volumic
 namespace
 {
 /**
- * The points that are meant by a poly data where points are asked for, whatever for: those of its
- * vertices (cells of the list Verts), each once, in their order; all its points where it has no
- * cells at all; none if it is null. Other cells beside vertices do not count.
- * @throws std::invalid_argument if it has cells, but no vertices: nothing says that the points of
- *         a line or of a surface are meant.
+ * Return the points of the vertex cells, each once, in their order. Return all points if there are
+ * no cells.
+ * @param polyData may be null: no points
+ * @throws Refusal if it has cells, but no vertices
  */
 std::vector<vtkIdType> IdsMeantBy(vtkPolyData* polyData)
 {

@@ -29,7 +29,7 @@ namespace
 {
 constexpr int Bins = 1024;
 
-/** Return the end of the lower class, for bins from `first` on, with the largest variance between the classes. */
+/** Return where to split the bins from `first` on for the largest variance between the classes. */
 int BestSplit(const std::vector<vtkIdType>& counts, int first = 0)
 {
   // Bins stand for the values, which follow from them by a scale that changes no maximum.
@@ -70,20 +70,14 @@ double FindBrightThreshold(const VoxelHistogram& found, int split)
   constexpr double mostBright = 0.1;
   const auto above = [&](int bin)
   { return std::accumulate(found.Counts.begin() + bin, found.Counts.end(), 0.0); };
-  const double all = above(0);
-  if (split >= Bins - 1 || above(split) < leastObject * all)
-  {
-    return std::numeric_limits<double>::quiet_NaN();
-  }
-  const int second = BestSplit(found.Counts, split);
+  const double object = above(split);
+  const int second = split < Bins - 1 ? BestSplit(found.Counts, split) : split;
   const double bright = above(second);
   const double value = found.Range[0] + second * (found.Range[1] - found.Range[0]) / Bins;
-  if (!(bright > 0.0 && bright < above(split) && bright < mostBright * all) || value == 0.0)
-  {
-    return std::numeric_limits<double>::quiet_NaN();
-  }
+  const bool hasPart = object >= leastObject * above(0) && bright > 0.0 && bright < object &&
+    bright < mostBright * above(0) && value != 0.0;
   const double unit = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 1.0);
-  return std::round(value / unit) * unit;
+  return hasPart ? std::round(value / unit) * unit : std::numeric_limits<double>::quiet_NaN();
 }
 
 /** The largest voxel up to a value, and the smallest one above that. */

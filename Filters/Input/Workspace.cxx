@@ -3,6 +3,7 @@
 #include "Input/Workspace.h"
 
 #include "Core/Common/Refuse.h"
+#include "Input/ImageVoxels.h"
 
 #include <vtkImageData.h>
 #include <vtkMath.h>
@@ -40,8 +41,7 @@ Workspace::Workspace(vtkImageData* level0, Metric metric)
   }
   vtkMatrix3x3::Invert(this->Forward.data(), this->Backward.data());
   this->Mirrored = determinant < 0.0;
-  const int* extent = level0->GetExtent();
-  level0->TransformIndexToPhysicalPoint(extent[0], extent[2], extent[4], this->Origin.data());
+  this->Origin = FirstVoxelOf(level0);
 }
 
 Point Workspace::ToWorld(const Point& place) const

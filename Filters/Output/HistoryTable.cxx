@@ -8,43 +8,62 @@
 #include <vtkTable.h>
 
 #include <type_traits>
+#include <variant>
 
 namespace volumic
 {
-vtkSmartPointer<vtkTable> MakeHistoryTable(
-  const std::vector<HistoryRow>& rows, int last, double unit)
+namespace
 {
-  using Row = HistoryRow;
+/** A column: its name, and the number that a row has in it. */
+struct Column
+{
+  const char* Name;
+  std::variant<int HistoryRow::*, double HistoryRow::*> Member;
+};
+
+const Column Columns[] = { { "Iteration", &HistoryRow::Iteration },
+  { "Level", &HistoryRow::Level },
+  { "Vertices", &HistoryRow::Vertices },
+  { "KineticEnergy", &HistoryRow::KineticEnergy },
+  { "MeanEdgeLength", &HistoryRow::MeanEdgeLength },
+  { "Seconds", &HistoryRow::Seconds },
+  { "TimeStep", &HistoryRow::TimeStep },
+  { "ActiveVertices", &HistoryRow::ActiveVertices },
+  { "Merges", &HistoryRow::Merges },
+  { "Cuts", &HistoryRow::Cuts },
+  { "Splits", &HistoryRow::Splits },
+  { "Collapses", &HistoryRow::Collapses },
+  { "Flips", &HistoryRow::Flips },
+  { "EulerCharacteristic", &HistoryRow::EulerCharacteristic },
+  { "Components", &HistoryRow::Components } };
+}
+
+vtkSmartPointer<vtkTable> MakeHistoryTable(
+  std::vector<HistoryRow> rows, int last, double unit)
+{
   auto table = vtkSmartPointer<vtkTable>::New();
-  const auto add = [&](const char* name, auto member, auto factor)
+  const auto add = [&](const char* name, auto member)
   {
-    using Value = std::decay_t<decltype(Row().*member)>;
+    using Value = std::decay_t<decltype(HistoryRow().*member)>;
     vtkNew<std::conditional_t<std::is_same_v<Value, int>, vtkIntArray, vtkDoubleArray>> column;
     column->SetName(name);
-    for (const Row& row : rows)
+    for (const HistoryRow& row : rows)
     {
       if (row.Level >= last)
       {
-        column->InsertNextValue(row.*member * factor);
+        column->InsertNextValue(row.*member);
       }
     }
     table->AddColumn(column);
   };
-  add("Iteration", &Row::Iteration, 1);
-  add("Level", &Row::Level, 1);
-  add("Vertices", &Row::Vertices, 1);
-  add("KineticEnergy", &Row::KineticEnergy, 1);
-  add("MeanEdgeLength", &Row::MeanEdgeLength, unit);
-  add("Seconds", &Row::Seconds, 1);
-  add("TimeStep", &Row::TimeStep, 1);
-  add("ActiveVertices", &Row::ActiveVertices, 1);
-  add("Merges", &Row::Merges, 1);
-  add("Cuts", &Row::Cuts, 1);
-  add("Splits", &Row::Splits, 1);
-  add("Collapses", &Row::Collapses, 1);
-  add("Flips", &Row::Flips, 1);
-  add("EulerCharacteristic", &Row::EulerCharacteristic, 1);
-  add("Components", &Row::Components, 1);
+  for (HistoryRow& row : rows)
+  {
+    row.MeanEdgeLength *= unit;
+  }
+  for (const Column& column : Columns)
+  {
+    std::visit([&](auto member) { add(column.Name, member); }, column.Member);
+  }
   return table;
 }
 }

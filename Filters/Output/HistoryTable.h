@@ -18,8 +18,7 @@ namespace volumic
  * `last`.
  * @param unit length 1 of the computational space, in world units
  */
-vtkSmartPointer<vtkTable> MakeHistoryTable(
-  const std::vector<HistoryRow>& rows, int last, double unit);
+vtkSmartPointer<vtkTable> MakeHistoryTable(std::vector<HistoryRow> rows, int last, double unit);
 }
 
 #endif

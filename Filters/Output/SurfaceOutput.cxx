@@ -27,40 +27,45 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
-#include <cstring>
-#include <functional>
-#include <numeric>
+#include <initializer_list>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace volumic
 {
 namespace
 {
-template <typename Array, typename Value>
-void AddField(vtkPolyData* polyData, const char* name, Value value)
+/** Add an entry of field data for each name, with an integer or a real value. */
+void AddFields(vtkPolyData* polyData,
+  std::initializer_list<std::pair<const char*, std::variant<int, double>>> fields)
 {
-  vtkNew<Array> array;
-  array->SetName(name);
-  array->InsertNextValue(value);
-  polyData->GetFieldData()->AddArray(array);
+  for (const auto& [name, value] : fields)
+  {
+    if (const int* number = std::get_if<int>(&value))
+    {
+      AddField<vtkIntArray>(polyData->GetFieldData(), name, *number);
+    }
+    else
+    {
+      AddField<vtkDoubleArray>(polyData->GetFieldData(), name, std::get<double>(value));
+    }
+  }
 }
 
-/** An array with an entry per component, of as many values as `get` gives. */
+/** Add field data with an entry of N values per component, get(component, i). */
 template <typename Array, int N, typename Get>
-void AddComponentField(
-  vtkPolyData* polyData, const char* name, const SurfaceFeatures& features, const Get& get)
+void AddComponentField(vtkPolyData* polyData, const char* name, std::size_t count, const Get& get)
 {
   vtkNew<Array> array;
   array->SetName(name);
   array->SetNumberOfComponents(N);
-  array->SetNumberOfTuples(static_cast<vtkIdType>(features.Components.size()));
-  for (std::size_t c = 0; c < features.Components.size(); ++c)
+  array->SetNumberOfTuples(static_cast<vtkIdType>(count));
+  for (std::size_t c = 0; c < count; ++c)
   {
     for (int i = 0; i < N; ++i)
     {
-      array->SetTypedComponent(static_cast<vtkIdType>(c), i, get(features.Components[c], i));
+      array->SetTypedComponent(static_cast<vtkIdType>(c), i, get(c, i));
     }
   }
   polyData->GetFieldData()->AddArray(array);
@@ -95,60 +100,34 @@ void AddComponentOfCells(vtkPolyData* polyData, const char* name, const SurfaceF
     {
       for (std::size_t t = begin; t < end; ++t)
       {
-        const int component = features.ComponentOfTriangle[t];
-        values[t] = static_cast<Value>(get(features.Components[component], component));
+        values[t] = static_cast<Value>(get(features.ComponentOfTriangle[t]));
       }
     });
   polyData->GetCellData()->AddArray(array);
 }
 
-/** Sizes are in the order of their bits. */
-std::uint32_t BitsOfSize(float value)
+/** Add a member of the features of each component to its cells, and as field data. */
+template <typename CellArray, typename FieldArray, typename Value>
+void AddFeature(vtkPolyData* polyData, const char* name, const SurfaceFeatures& features,
+  Executor& executor, Value ComponentFeatures::*member)
 {
-  value = std::abs(value);
-  std::uint32_t bits;
-  std::memcpy(&bits, &value, sizeof(bits));
-  return bits;
+  const auto get = [&](auto c, int = 0) { return features.Components[c].*member; };
+  AddComponentOfCells<CellArray>(polyData, name, features, executor, get);
+  AddComponentField<FieldArray, 1>(polyData, name, features.Components.size(), get);
 }
 
-/** The size that 98 % of the residuals of the whole don't exceed; 0 for none. */
-double ResidualQuantile(const LargeVector<float>& residuals)
+/** Return the size that 98 % of the residuals do not exceed, 0 for none. Their order changes. */
+double ResidualQuantile(LargeVector<float>& residuals)
 {
-  // Byte by byte, the first one first: how many have each, of those that have what is found so far.
-  constexpr int bytes = 4;
-  using Counts = std::array<std::int64_t, 256>;
-  std::uint32_t found = 0;
-  std::int64_t place = 0; // Among these, in order.
-  for (int byte = bytes - 1; byte >= 0; --byte)
+  if (residuals.empty())
   {
-    Counts counts{};
-    for (const float residual : residuals)
-    {
-      const std::uint64_t bits = BitsOfSize(residual) >> (8 * byte);
-      if (bits >> 8 == found)
-      {
-        ++counts[bits & 255];
-      }
-    }
-    if (byte == bytes - 1)
-    {
-      const std::int64_t all = std::accumulate(counts.begin(), counts.end(), std::int64_t(0));
-      if (all == 0)
-      {
-        return 0.0;
-      }
-      place = static_cast<std::int64_t>(0.98 * static_cast<double>(all - 1));
-    }
-    std::uint32_t next = 0;
-    while (place >= counts[next])
-    {
-      place -= counts[next++];
-    }
-    found = found << 8 | next;
+    return 0.0;
   }
-  float size;
-  std::memcpy(&size, &found, sizeof(size));
-  return size;
+  const auto place = residuals.begin() +
+    static_cast<std::ptrdiff_t>(0.98 * static_cast<double>(residuals.size() - 1));
+  std::nth_element(residuals.begin(), place, residuals.end(),
+    [](float a, float b) { return std::abs(a) < std::abs(b); });
+  return std::abs(*place);
 }
 
 void TakePoints(vtkPolyData* polyData, LargeVector<Point>& places, Executor& executor)
@@ -200,6 +179,19 @@ int CountContacts(vtkPolyData* polyData)
   return static_cast<int>(std::count(values, values + contact->GetNumberOfValues(), 1));
 }
 
+/** Add the values as a point array of n entries. */
+template <typename Array, typename T>
+vtkSmartPointer<Array> AddPointArray(vtkPolyData* polyData, const char* name, std::size_t n,
+  const LargeVector<T>& values, double factor = 1.0)
+{
+  const auto array = NewLargeArray<Array>(n);
+  array->SetName(name);
+  std::transform(values.begin(), values.end(), array->GetPointer(0),
+    [factor](T value) { return static_cast<typename Array::ValueType>(factor * value); });
+  polyData->GetPointData()->AddArray(array);
+  return array;
+}
+
 /** Takes what the surface knows of its points, but for the residuals. */
 void TakePointArrays(
   vtkPolyData* polyData, SurfaceResult& surface, const Workspace& space, Executor& executor)
@@ -218,18 +210,11 @@ void TakePointArrays(
       }
     });
   Free(surface.Normals);
-  const auto residual = NewLargeArray<vtkFloatArray>(n);
-  residual->SetName("Residual");
-  std::copy(surface.Residual.begin(), surface.Residual.end(), residual->GetPointer(0));
-  const auto motionless = NewLargeArray<vtkUnsignedCharArray>(n);
-  motionless->SetName("Motionless");
-  std::copy(surface.Motionless.begin(), surface.Motionless.end(), motionless->GetPointer(0));
   polyData->GetPointData()->SetNormals(normals);
-  polyData->GetPointData()->AddArray(residual);
-  polyData->GetPointData()->AddArray(motionless);
-  const auto contact = NewLargeArray<vtkUnsignedCharArray>(n);
-  contact->SetName("Contact");
-  std::copy(surface.Held.begin(), surface.Held.end(), contact->GetPointer(0));
+  AddPointArray<vtkFloatArray>(polyData, "Residual", n, surface.Residual);
+  AddPointArray<vtkUnsignedCharArray>(polyData, "Motionless", n, surface.Motionless);
+  const auto contact =
+    AddPointArray<vtkUnsignedCharArray>(polyData, "Contact", n, surface.Held);
   for (const std::array<int, 2>& pair : surface.Contacts)
   {
     for (const int p : pair)
@@ -237,60 +222,43 @@ void TakePointArrays(
       contact->SetValue(p, 1);
     }
   }
-  polyData->GetPointData()->AddArray(contact);
-  const auto addLengths = [&](const char* name, const LargeVector<float>& lengths, double factor)
+  if (!surface.Size.empty())
   {
-    if (!lengths.empty())
-    {
-      const auto array = NewLargeArray<vtkFloatArray>(n);
-      array->SetName(name);
-      std::transform(lengths.begin(), lengths.end(), array->GetPointer(0),
-        [factor](float length) { return static_cast<float>(factor * length); });
-      polyData->GetPointData()->AddArray(array);
-    }
-  };
-  addLengths("EdgeSize", surface.Size, SizingField::RestLengthInDelta * space.WorldUnit());
-  addLengths("Thickness", surface.Thickness, space.WorldUnit());
+    AddPointArray<vtkFloatArray>(polyData, "EdgeSize", n, surface.Size,
+      SizingField::RestLengthInDelta * space.WorldUnit());
+  }
+  if (!surface.Thickness.empty())
+  {
+    AddPointArray<vtkFloatArray>(polyData, "Thickness", n, surface.Thickness, space.WorldUnit());
+  }
 }
 
 void SetFeatures(vtkPolyData* polyData, const SurfaceFeatures& features,
   const std::vector<int>& owners, Executor& executor)
 {
-  using Component = ComponentFeatures;
+  const auto& components = features.Components;
+  const std::size_t n = components.size();
+  AddFields(polyData,
+    { { "NumberOfComponents", static_cast<int>(n) },
+      { "EulerCharacteristic", features.EulerCharacteristic },
+      { "Genus", features.Genus },
+      { "Area", features.Area },
+      { "Volume", features.Volume } });
   AddComponentOfCells<vtkIntArray>(
-    polyData, "Component", features, executor, [](const Component&, int c) { return c; });
-  AddComponentOfCells<vtkFloatArray>(
-    polyData, "ComponentArea", features, executor, [](const Component& c, int) { return c.Area; });
-  AddComponentOfCells<vtkFloatArray>(polyData, "ComponentVolume", features, executor,
-    [](const Component& c, int) { return c.Volume; });
-  AddComponentOfCells<vtkIntArray>(polyData, "ComponentGenus", features, executor,
-    [](const Component& c, int) { return c.Genus; });
-
-  AddField<vtkIntArray>(
-    polyData, "NumberOfComponents", static_cast<int>(features.Components.size()));
-  AddField<vtkIntArray>(polyData, "EulerCharacteristic", features.EulerCharacteristic);
-  AddField<vtkIntArray>(polyData, "Genus", features.Genus);
-  AddField<vtkDoubleArray>(polyData, "Area", features.Area);
-  AddField<vtkDoubleArray>(polyData, "Volume", features.Volume);
-  AddComponentField<vtkDoubleArray, 1>(
-    polyData, "ComponentArea", features, [](const Component& c, int) { return c.Area; });
-  AddComponentField<vtkDoubleArray, 1>(
-    polyData, "ComponentVolume", features, [](const Component& c, int) { return c.Volume; });
+    polyData, "Component", features, executor, [](int c) { return c; });
+  AddFeature<vtkFloatArray, vtkDoubleArray>(
+    polyData, "ComponentArea", features, executor, &ComponentFeatures::Area);
+  AddFeature<vtkFloatArray, vtkDoubleArray>(
+    polyData, "ComponentVolume", features, executor, &ComponentFeatures::Volume);
+  AddFeature<vtkIntArray, vtkIntArray>(
+    polyData, "ComponentGenus", features, executor, &ComponentFeatures::Genus);
   AddComponentField<vtkIntArray, 1>(
-    polyData, "ComponentGenus", features, [](const Component& c, int) { return c.Genus; });
-  vtkNew<vtkIntArray> owner;
-  owner->SetName("ComponentOwner");
-  for (const int component : owners)
-  {
-    owner->InsertNextValue(component);
-  }
-  polyData->GetFieldData()->AddArray(owner);
-  AddComponentField<vtkDoubleArray, 3>(polyData, "ComponentCentroid", features,
-    [](const Component& c, int i) { return c.Centroid[i]; });
-  AddComponentField<vtkDoubleArray, 6>(
-    polyData, "ComponentInertia", features, [](const Component& c, int i) { return c.Inertia[i]; });
+    polyData, "ComponentOwner", n, [&](std::size_t c, int) { return owners[c]; });
+  AddComponentField<vtkDoubleArray, 3>(polyData, "ComponentCentroid", n,
+    [&](std::size_t c, int i) { return components[c].Centroid[i]; });
+  AddComponentField<vtkDoubleArray, 6>(polyData, "ComponentInertia", n,
+    [&](std::size_t c, int i) { return components[c].Inertia[i]; });
 }
-
 }
 
 vtkSmartPointer<vtkPolyData> MakePolyData(SurfaceResult given,
@@ -304,35 +272,38 @@ vtkSmartPointer<vtkPolyData> MakePolyData(SurfaceResult given,
   TakeTriangles(polyData, surface.Triangles, executor);
   TakePointArrays(polyData, surface, space, executor);
   HideArrays(polyData->GetPointData(), { "Motionless" });
-  AddField<vtkIntArray>(polyData, "Level", description.Level);
-  AddField<vtkIntArray>(polyData, "StartLevel", description.StartLevel);
-  AddField<vtkDoubleArray>(polyData, "Delta", surface.Delta * space.WorldUnit());
-  AddField<vtkDoubleArray>(polyData, "Unit", description.Unit);
-  AddField<vtkIntArray>(polyData, "Iterations", description.Iterations);
-  AddField<vtkIntArray>(polyData, "RemainingContacts", static_cast<int>(surface.Contacts.size()));
-  AddField<vtkIntArray>(polyData, "ContactVertices", CountContacts(polyData));
-  AddField<vtkDoubleArray>(polyData, "ResidualQuantile", ResidualQuantile(surface.Residual));
+  AddFields(polyData,
+    { { "Level", description.Level },
+      { "StartLevel", description.StartLevel },
+      { "Delta", surface.Delta * space.WorldUnit() },
+      { "Unit", description.Unit },
+      { "Iterations", description.Iterations },
+      { "RemainingContacts", static_cast<int>(surface.Contacts.size()) },
+      { "ContactVertices", CountContacts(polyData) },
+      { "ResidualQuantile", ResidualQuantile(surface.Residual) } });
   Free(surface.Residual);
-  if (surface.FitToTolerance)
+  if (const auto& fit = surface.FitToTolerance)
   {
-    AddField<vtkDoubleArray>(
-      polyData, "LargestDistance", surface.FitToTolerance->LargestDistance * space.WorldUnit());
-    AddField<vtkDoubleArray>(polyData, "WithinTolerance", surface.FitToTolerance->WithinTolerance);
+    AddFields(polyData,
+      { { "LargestDistance", fit->LargestDistance * space.WorldUnit() },
+        { "WithinTolerance", fit->WithinTolerance } });
   }
   const LostParts& lost = description.Lost;
-  AddField<vtkIntArray>(polyData, "LostParts", lost.Found);
-  AddField<vtkIntArray>(polyData, "RecoveredParts", lost.Enclosed);
-  AddField<vtkIntArray>(polyData, "MissingParts", lost.Missing);
-  AddField<vtkDoubleArray>(polyData, "MissingBoundary", lost.MissingBoundary);
-  AddField<vtkIntArray>(polyData, "LostCavities", lost.FoundCavities);
-  AddField<vtkIntArray>(polyData, "RecoveredCavities", lost.EnclosedCavities);
+  AddFields(polyData,
+    { { "LostParts", lost.Found },
+      { "RecoveredParts", lost.Enclosed },
+      { "MissingParts", lost.Missing },
+      { "MissingBoundary", lost.MissingBoundary },
+      { "LostCavities", lost.FoundCavities },
+      { "RecoveredCavities", lost.EnclosedCavities } });
   if (description.TotalIterations >= 0)
   {
-    AddField<vtkIntArray>(polyData, "Iteration", description.TotalIterations);
+    AddFields(polyData, { { "Iteration", description.TotalIterations } });
   }
   if (!description.StopReason.empty())
   {
-    AddField<vtkStringArray>(polyData, "StopReason", description.StopReason.c_str());
+    AddField<vtkStringArray>(
+      polyData->GetFieldData(), "StopReason", description.StopReason.c_str());
   }
   SetFeatures(polyData, described.Features, described.Owners, executor);
   return polyData;
@@ -352,7 +323,7 @@ void SetStopReason(vtkPolyData* surface, const std::string& reason)
   vtkNew<vtkFieldData> fieldData;
   fieldData->ShallowCopy(surface->GetFieldData());
   surface->SetFieldData(fieldData);
-  AddField<vtkStringArray>(surface, "StopReason", reason.c_str());
+  AddField<vtkStringArray>(fieldData, "StopReason", reason.c_str());
 }
 
 vtkSmartPointer<vtkPolyData> MakeStopped(int level, const std::string& reason)

@@ -41,8 +41,6 @@ namespace volumic
 {
 namespace
 {
-using Progress = std::function<bool(double share, const std::string& text)>;
-
 /** vtkFloatArray or vtkDoubleArray. */
 template <typename Real>
 using ArrayOf = std::conditional_t<std::is_same_v<Real, float>, vtkFloatArray, vtkDoubleArray>;
@@ -110,87 +108,52 @@ std::vector<double> ShareDoneBefore(const std::vector<LevelGeometry>& levels)
   return share;
 }
 
-/** Makes the levels above level 0, one after the other. */
-template <typename T>
-class LevelMaker
-{
-public:
-  using Real = typename RealOf<T>::Type;
-
-  LevelMaker(const std::vector<LevelGeometry>& levels, Executor& executor, const Progress& progress)
-    : Levels(levels), Threads(executor), Tell(progress), Before(ShareDoneBefore(levels))
-  {
-  }
-
-  std::vector<vtkSmartPointer<vtkDataArray>> Make(
-    const T* level0, const LargeVector<std::uint8_t>& valid)
-  {
-    std::vector<vtkSmartPointer<vtkDataArray>> made;
-    LargeVector<std::uint8_t> marks;
-    for (std::size_t h = 1; h < this->Levels.size(); ++h)
-    {
-      const auto array = NewArray<Real>(
-        static_cast<std::int64_t>(this->Levels[h].NumberOfVoxels()), static_cast<int>(h));
-      Real* values = array->GetPointer(0);
-      const bool isFinished = h == 1
-        ? this->Reduce(h, level0, valid, values)
-        : this->Reduce(h, static_cast<const Real*>(made.back()->GetVoidPointer(0)), marks, values);
-      if (!isFinished)
-      {
-        break;
-      }
-      if (!valid.empty())
-      {
-        marks = MarkNumbers(values, array->GetNumberOfTuples());
-      }
-      made.emplace_back(array);
-    }
-    return made;
-  }
-
-private:
-  /** Level h from the one below it. */
-  template <typename Below>
-  bool Reduce(std::size_t h, const Below* below, const LargeVector<std::uint8_t>& marks, Real* made)
-  {
-    const std::string text = Join("Level ", h, " of ", this->Levels.size() - 1);
-    const double before = this->Before[h - 1];
-    const double share = this->Before[h] - before;
-    const LevelProgress progress = [&](double done)
-    { return this->Tell(before + done * share, text); };
-    if (!progress(0.0))
-    {
-      return false;
-    }
-    const LevelGeometry& geometry = this->Levels[h - 1];
-    return marks.empty()
-      ? ReduceLevel(below, geometry, made, this->Levels[h], this->Threads, progress)
-      : ReduceValidVoxels(below, marks, geometry, made, this->Levels[h], this->Threads, progress);
-  }
-
-  const std::vector<LevelGeometry>& Levels;
-  Executor& Threads;
-  const Progress& Tell;
-  std::vector<double> Before;
-};
 /**
  * The voxels of the levels above level 0, as far as they were finished before `progress` said stop.
  * Where not all voxels of level 0 are valid, those of the other levels are NaN whose neighbourhood
  * has more voxels without a value than with one.
- * @param voxels of level 0, contiguous in memory (ContiguousVoxels)
+ * @param level0 contiguous voxels
  */
-std::vector<vtkSmartPointer<vtkDataArray>> MakeLevelVoxels(vtkDataArray* voxels,
-  const ValidVoxels& valid, const std::vector<LevelGeometry>& levels, Executor& executor,
-  const Progress& progress)
+template <typename T>
+std::vector<vtkSmartPointer<vtkDataArray>> MakeLevelVoxels(const T* level0,
+  const LargeVector<std::uint8_t>& valid, const std::vector<LevelGeometry>& levels,
+  Executor& executor, const Progress& progress)
 {
-  const vtkSmartPointer<vtkDataArray> source = SourceVoxels(voxels, valid, executor);
-  std::vector<vtkSmartPointer<vtkDataArray>> made;
-  VisitVoxels(source,
-    [&](const auto* level0)
+  using Real = typename RealOf<T>::Type;
+  const std::vector<double> before = ShareDoneBefore(levels);
+  const auto reduce = [&](std::size_t h, const auto* below, const auto& marks, Real* made)
+  {
+    const std::string text = Join("Level ", h, " of ", levels.size() - 1);
+    const LevelProgress report = [&](double done)
+    { return progress(before[h - 1] + done * (before[h] - before[h - 1]), text); };
+    if (!report(0.0))
     {
-      using Voxel = std::remove_cv_t<std::remove_pointer_t<decltype(level0)>>;
-      made = LevelMaker<Voxel>(levels, executor, progress).Make(level0, valid.Marks);
-    });
+      return false;
+    }
+    return marks.empty()
+      ? ReduceLevel(below, levels[h - 1], made, levels[h], executor, report)
+      : ReduceValidVoxels(below, marks, levels[h - 1], made, levels[h], executor, report);
+  };
+  std::vector<vtkSmartPointer<vtkDataArray>> made;
+  LargeVector<std::uint8_t> marks;
+  for (std::size_t h = 1; h < levels.size(); ++h)
+  {
+    const auto array = NewArray<Real>(
+      static_cast<std::int64_t>(levels[h].NumberOfVoxels()), static_cast<int>(h));
+    Real* values = array->GetPointer(0);
+    const bool isFinished = h == 1
+      ? reduce(h, level0, valid, values)
+      : reduce(h, static_cast<const Real*>(made.back()->GetVoidPointer(0)), marks, values);
+    if (!isFinished)
+    {
+      break;
+    }
+    if (!valid.empty())
+    {
+      marks = MarkNumbers(values, array->GetNumberOfTuples());
+    }
+    made.emplace_back(array);
+  }
   return made;
 }
 
@@ -211,10 +174,7 @@ vtkSmartPointer<vtkImageData> MakeImage(
     static_cast<int>(size[0]), static_cast<int>(size[1]), static_cast<int>(size[2]));
   image->SetSpacing(geometry.Spacing.data());
   image->SetDirectionMatrix(frame->GetDirectionMatrix());
-  const int* extent = frame->GetExtent();
-  double origin[3];
-  frame->TransformIndexToPhysicalPoint(extent[0], extent[2], extent[4], origin);
-  image->SetOrigin(origin);
+  image->SetOrigin(FirstVoxelOf(frame).data());
   voxels->SetName(name);
   image->GetPointData()->SetScalars(voxels);
   return image;
@@ -238,15 +198,6 @@ double UnitOfBlock(vtkImageData* level0, vtkImageData* image)
     ratio = std::min(ratio, image->GetSpacing()[axis] / level0->GetSpacing()[axis]);
   }
   return ratio;
-}
-
-template <typename Array, typename Value>
-void AddField(vtkFieldData* fieldData, const char* name, Value value)
-{
-  vtkNew<Array> array;
-  array->SetName(name);
-  array->InsertNextValue(value);
-  fieldData->AddArray(array);
 }
 }
 
@@ -274,8 +225,10 @@ ImageLevels MakeImageLevels(vtkImageData* image, vtkDataArray* voxels,
   const ValidVoxels valid =
     FindValidVoxels(voxels, contiguous, image, options.NaNIsBackground, threads);
   CheckAnyIsValid(voxels, valid);
-  const std::vector<vtkSmartPointer<vtkDataArray>> made =
-    MakeLevelVoxels(contiguous, valid, plan, threads, progress);
+  const vtkSmartPointer<vtkDataArray> source = SourceVoxels(contiguous, valid, threads);
+  std::vector<vtkSmartPointer<vtkDataArray>> made;
+  VisitVoxels(source, [&](const auto* level0)
+    { made = MakeLevelVoxels(level0, valid.Marks, plan, threads, progress); });
 
   ImageLevels levels;
   // No voxel is copied, but where they were folded, or one component was selected: then the new

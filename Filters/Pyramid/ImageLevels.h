@@ -5,6 +5,7 @@
 
 #include "Core/Evolution/EdgeLengthPlan.h"
 #include "Core/Image/PyramidGeometry.h"
+#include "Host/RunObserver.h"
 #include "Input/ImageVoxels.h"
 
 #include <vtkDataArray.h>
@@ -12,7 +13,6 @@
 #include <vtkSmartPointer.h>
 
 #include <cstdint>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -48,7 +48,7 @@ struct LevelsOptions
   PyramidOptions Pyramid;
   ValueRange Range; ///< FoldVoxels() applies it to level 0 first.
   bool NaNIsBackground = true;
-  int NumberOfThreads = 0;
+  unsigned NumberOfThreads = 0; ///< 0: all
 };
 
 /**
@@ -59,7 +59,7 @@ struct LevelsOptions
  * @throws Refusal for invalid options or voxels
  */
 ImageLevels MakeImageLevels(vtkImageData* image, vtkDataArray* voxels,
-  const LevelsOptions& options, const std::function<bool(double, const std::string&)>& progress);
+  const LevelsOptions& options, const Progress& progress);
 
 /**
  * Return the blocks of an output of vtkImagePyramid as levels.
@@ -76,7 +76,7 @@ ImageLevels LevelsOfBlocks(
  * @throws Refusal if level 0 has no such array with one component
  */
 ImageLevels LevelsOfArray(const ImageLevels& levels, vtkInformation* selection,
-  int numberOfThreads, const std::function<bool(double, const std::string&)>& progress);
+  int numberOfThreads, const Progress& progress);
 
 /** Return the names of the blocks of a pyramid's levels, and of level -1 if that is the finest. */
 std::vector<std::string> LevelNames(int numberOfLevels, int finest = 0);

@@ -156,13 +156,10 @@ void BeginWhereHeld(
     where, " there. It is too thin for that level; set Coarsest Level to ", there,
     ", where it is still there, or less.");
 }
-}
 
-namespace
-{
 /** Starts at a level that has the object. */
-LevelChoice StartAtObject(LevelChoice choice, const SegmentationLevels& levels,
-  const SegmentationSettings& settings)
+void StartAtObject(
+  LevelChoice& choice, const SegmentationLevels& levels, const SegmentationSettings& settings)
 {
   // Every level shows what points mark.
   const int there = levels.HasPoints()
@@ -171,20 +168,14 @@ LevelChoice StartAtObject(LevelChoice choice, const SegmentationLevels& levels,
   choice.Preview = std::min(choice.Preview, there);
   choice.Last = settings.End.Preview ? std::max(settings.End.FinestLevel, choice.Preview)
                                      : settings.End.FinestLevel;
-  if (levels.HasPoints())
-  {
-    return choice;
-  }
-  if (settings.CoarsestLevel == -1 && there >= choice.Last)
+  if (!levels.HasPoints() && settings.CoarsestLevel == -1 && there >= choice.Last)
   {
     BeginWhereHeld(choice, there, levels, settings.Options);
-    return choice;
   }
-  if (there != choice.Coarsest)
+  else if (there != choice.Coarsest)
   {
     RefuseCoarsest(choice, settings, there);
   }
-  return choice;
 }
 
 /** Starts at a level that has the object at the seeds. */
@@ -235,7 +226,7 @@ LevelChoice ChooseLevels(
   }
   CheckIsoValue(settings.Options.IsoValue, levels.Range(0));
   levels.TestSeeds(settings, choice.Coarsest, threads);
-  choice = StartAtObject(choice, levels, settings);
+  StartAtObject(choice, levels, settings);
   if (!levels.Seeds().empty())
   {
     StartAtSeeds(choice, levels, settings);
@@ -288,27 +279,25 @@ IndexedSurface SurfaceOf(vtkPolyData* polyData, const Workspace& space)
 SurfaceStart StartOf(const SegmentationRequest& request, const Workspace& space,
   const std::vector<Point>& seeds)
 {
-  vtkPolyData* given = request.InitialSurface;
+  const SegmentationSettings& settings = request.Settings;
+  const bool hasSeeds = settings.Initialization == InitializationType::Seeds;
+  // Seeds do not grow through thin places, so their extent would depend on the level.
+  const bool selectsLater = hasSeeds && !seeds.empty() && settings.Options.RecoverLostParts &&
+    settings.Options.Drive().IsFieldAlone;
   SurfaceStart start;
-  switch (request.Settings.Initialization)
+  start.Seeds = seeds;
+  if (settings.Initialization == InitializationType::IsoSurface || selectsLater)
   {
-    case InitializationType::Seeds:
-      // Seeds do not grow through thin places, so their extent would depend on the level.
-      start.From = !seeds.empty() && request.Settings.Options.RecoverLostParts &&
-          request.Settings.Options.Drive().IsFieldAlone
-        ? SurfaceStart::Kind::IsoSurface
-        : SurfaceStart::Kind::Seeds;
-      start.Seeds = seeds;
-      break;
-    case InitializationType::IsoSurface:
-      start.From = SurfaceStart::Kind::IsoSurface;
-      break;
-    case InitializationType::InputSurface:
-      start.From = SurfaceStart::Kind::Surface;
-      start.Surface = SurfaceOf(given, space);
-      break;
-    case InitializationType::EnclosingIcosahedron:
-      break;
+    start.From = SurfaceStart::Kind::IsoSurface;
+  }
+  else if (hasSeeds)
+  {
+    start.From = SurfaceStart::Kind::Seeds;
+  }
+  else if (settings.Initialization == InitializationType::InputSurface)
+  {
+    start.From = SurfaceStart::Kind::Surface;
+    start.Surface = SurfaceOf(request.InitialSurface, space);
   }
   return start;
 }

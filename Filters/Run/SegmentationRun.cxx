@@ -74,6 +74,7 @@ int SegmentationRun::EndOf(const SegmentationEnd& end) const
 
 bool SegmentationRun::Renew(const SegmentationRequest& request)
 {
+  HostThreads threads(request.Settings.End.NumberOfThreads);
   const bool hasAll = this->HasAll(request);
   if (!hasAll && !this->CanGoOn())
   {
@@ -92,7 +93,6 @@ bool SegmentationRun::Renew(const SegmentationRequest& request)
   }
   else
   {
-    HostThreads threads(settings.End.NumberOfThreads);
     const int before =
       std::exchange(this->Choice, ChooseLevels(this->Levels, settings, threads)).Coarsest;
     // The coarsest level may depend on the finest one. If it changes, restart.
@@ -105,15 +105,14 @@ bool SegmentationRun::Renew(const SegmentationRequest& request)
       this->Begin();
     }
   }
-  return this->ChooseComponents(request);
+  return this->ChooseComponents(request, threads);
 }
 
-bool SegmentationRun::ChooseComponents(const SegmentationRequest& request)
+bool SegmentationRun::ChooseComponents(const SegmentationRequest& request, Executor& threads)
 {
   ComponentChoice choice =
     ChoiceOf(request, this->Levels.GetWorkspace(), this->Levels.Pyramid().SizeOf(0));
   choice.Seeds = this->Levels.Seeds();
-  HostThreads threads(request.Settings.End.NumberOfThreads);
   return this->Finished.Choose(choice, threads);
 }
 
@@ -128,18 +127,17 @@ void SegmentationRun::Begin()
 
 void SegmentationRun::Run(RunObserver& observer, double before)
 {
+  HostThreads threads(this->Settings.End.NumberOfThreads);
   if (!std::exchange(this->HasBegun, true))
   {
-    HostThreads threads(this->Settings.End.NumberOfThreads);
     this->Choice = ChooseLevels(this->Levels, this->Settings, threads);
     this->Begin();
-    this->ChooseComponents(this->Request);
+    this->ChooseComponents(this->Request, threads);
     CheckOptions(this->Settings.Options);
   }
   this->Finished.SetStopped("");
   if (!this->HasCome())
   {
-    HostThreads threads(this->Settings.End.NumberOfThreads);
     LevelMonitor monitor(observer, before, this->Choice.Coarsest, this->EndsAt());
     this->Rest.History.StartClock(observer.Start());
     while (

@@ -93,7 +93,7 @@ private:
   /** Apply EdgeLength to existing levels: finest level, sampling ratio, factor below level 0. */
   void ChooseEdgeLength();
   /** Select the components of the outputs. @return false if not all components were kept */
-  bool ChooseComponents(const SegmentationRequest& request);
+  bool ChooseComponents(const SegmentationRequest& request, Executor& threads);
   /** Discard the finished levels. The next one is the coarsest. */
   void Begin();
   /**

@@ -6,6 +6,7 @@
 #include "Core/Common/IndexedSurface.h"
 #include "Settings/SegmentationSettings.h"
 
+#include <algorithm>
 #include <ostream>
 #include <string>
 #include <type_traits>
@@ -56,7 +57,7 @@
   MADE(ConvergenceTolerance, double, Options.ConvergenceTolerance, true)        \
   MADE(FreezeMotionlessVertices, bool, Options.FreezeMotionlessVertices, true)  \
   MADE(SnapToIsoValue, bool, Options.SnapToIsoValue, true)                      \
-  WRITTEN(NumberOfThreads, int, End.NumberOfThreads, false)                     \
+  MADE(NumberOfThreads, int, End.NumberOfThreads, false)                        \
   MADE(ScratchDirectory, const char*, End.ScratchDirectory, false)              \
   MADE(TimeLimit, double, End.TimeLimit, false)                                 \
   MADE(Preview, bool, End.Preview, false)                                       \
@@ -65,13 +66,20 @@
 
 namespace volumic
 {
-/** What a setting has of a value that Set gets: an int may stand for an enumeration. */
+/**
+ * What a setting has of a value that Set gets: an int may stand for an enumeration. An unsigned
+ * setting is 0 for negative values.
+ */
 template <typename Setting, typename Value>
 Setting SettingOf(Value value)
 {
   if constexpr (std::is_same_v<Setting, std::string>)
   {
     return value ? value : "";
+  }
+  else if constexpr (std::is_same_v<Setting, unsigned>)
+  {
+    return static_cast<unsigned>(std::max(value, 0));
   }
   else
   {

@@ -19,17 +19,15 @@ std::string WhatGrades(const Grading& grading)
 
 void CheckGrading(const Grading& grading, double edgeLength)
 {
-  const auto isLength = [](double value) { return value >= 0.0 && std::isfinite(value); };
-  if (!isLength(grading.Tolerance))
+  const auto checkLength = [](const char* name, double value, const char* zero)
   {
-    Refuse("Tolerance is ", grading.Tolerance,
-      "; it must be 0 (edges of one length) or more, in world units.");
-  }
-  if (!isLength(grading.MaximumEdgeLength))
-  {
-    Refuse("Maximum Edge Length is ", grading.MaximumEdgeLength,
-      "; it must be 0 (automatic) or more, in world units.");
-  }
+    if (!(value >= 0.0 && std::isfinite(value)))
+    {
+      Refuse(name, " is ", value, "; it must be 0 (", zero, ") or more, in world units.");
+    }
+  };
+  checkLength("Tolerance", grading.Tolerance, "edges of one length");
+  checkLength("Maximum Edge Length", grading.MaximumEdgeLength, "automatic");
   if (!(grading.Gradation > 0.0) || grading.Gradation > Grading::MostGradation)
   {
     Refuse("Gradation is ", grading.Gradation, "; it must be more than 0 and at most ",

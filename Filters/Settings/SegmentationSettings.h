@@ -22,11 +22,7 @@
 
 namespace volumic
 {
-/**
- * Properties of VTK classes give enumerations as any int: this refuses what is none of them.
- * @param name of the property, for the message
- * @param last the largest of the enumeration, which begins at 0 and leaves none out
- */
+/** Throw a Refusal naming the property unless the value is one of 0 to `last`. */
 template <typename Enumeration>
 void CheckEnumeration(const char* name, Enumeration value, Enumeration last)
 {
@@ -37,7 +33,7 @@ void CheckEnumeration(const char* name, Enumeration value, Enumeration last)
   }
 }
 
-/** @throws std::invalid_argument naming the property that is out of range. */
+/** @throws Refusal naming the property that is out of range */
 void CheckGrading(const Grading& grading, double edgeLength);
 
 /** What the surface starts from. */
@@ -49,7 +45,7 @@ enum class InitializationType
   InputSurface = 3
 };
 
-/** What is done about parts of the object that a coarser level has lost. */
+/** Features missed by coarser levels to recover. */
 enum class RecoveryType
 {
   NoRecovery = 0,
@@ -57,7 +53,7 @@ enum class RecoveryType
   RecoverObjectsAndCavities = 2
 };
 
-/** Which components of the surfaces the outputs hold. */
+/** Components in the outputs. */
 enum class KeepComponentsType
 {
   AllComponents = 0,
@@ -68,9 +64,8 @@ enum class KeepComponentsType
 };
 
 /**
- * Where a run ends, what of its surfaces is put out, and how much time and how many threads it
- * has. A run can go on from where one has ended that differs from it by these only (by seeds, if
- * it does not start from them).
+ * The settings of a run that do not affect its converged levels. A run that differs from the kept
+ * one by these only resumes it. (Seeds affect them if the run starts from seeds.)
  */
 struct SegmentationEnd
 {
@@ -81,14 +76,13 @@ struct SegmentationEnd
   double TimeLimit = 0.0;              ///< seconds; 0: none
   bool Preview = false;                ///< End at a level of few voxels.
   bool ShowLevels = false;
-  int NumberOfThreads = 0;      ///< 0: all
+  unsigned NumberOfThreads = 0; ///< 0: all
   std::string ScratchDirectory; ///< for large arrays; empty: they are in memory
 };
 
 /**
- * The properties of vtkDeformableSurface, which documents them, with their only defaults: it writes
- * them here, and hands them to a run as they are. Numbers, also those of enumerations, may be out
- * of range: SegmentationRun checks them.
+ * The properties of vtkDeformableSurface with their only defaults. Values, also those of
+ * enumerations, may be out of range: SegmentationRun checks them.
  */
 struct SegmentationSettings
 {
@@ -122,20 +116,14 @@ struct SegmentationSettings
     range.Check();
     return range;
   }
-  /**
-   * @throws std::invalid_argument naming the first property of those that the levels don't look at
-   *         which is out of range, or does not go with others.
-   */
+  /** @throws Refusal naming a property that is out of range or does not match others */
   void Check() const;
-  /** The level that a run ends at: -1 where thin parts are followed beyond level 0. */
+  /** Return the level at which a run ends: -1 if thin parts are followed beyond level 0. */
   int LastLevel() const
   {
     return this->Grading.ThinParts && this->End.FinestLevel == 0 ? -1 : this->End.FinestLevel;
   }
-  /**
-   * Whether parts of the object that no surface has are worth a warning. Of parts that are not
-   * there nobody can say whether they would have been kept.
-   */
+  /** Return whether to warn of missing parts. It is unknown whether a selection would keep them. */
   bool WantsAllParts() const
   {
     return this->Recovery != RecoveryType::NoRecovery && !this->End.Preview &&
