@@ -110,14 +110,10 @@ namespace
 std::vector<std::size_t> FirstAlive(const SurfaceMesh& mesh, Executor& executor)
 {
   return FirstOfSpans(executor, mesh.Rings.size(), VertexSpan,
-    [&mesh](std::size_t begin, std::size_t end)
+    [rings = mesh.Rings.data()](std::size_t begin, std::size_t end)
     {
-      std::size_t count = 0;
-      for (std::size_t v = begin; v < end; ++v)
-      {
-        count += mesh.IsAlive(static_cast<int>(v));
-      }
-      return count;
+      return std::count_if(
+        rings + begin, rings + end, [](const Ring& ring) { return ring.Count > 0; });
     });
 }
 }
