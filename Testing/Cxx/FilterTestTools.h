@@ -55,15 +55,32 @@ private:
   unsigned long Tag = 0;
 };
 
-/** Updates a filter, which is to fail, and to tell so in a message with these parts. */
+/** Update a filter and return its messages of an event. */
+inline std::string MessagesOfUpdate(
+  vtkAlgorithm* filter, unsigned long event = vtkCommand::ErrorEvent)
+{
+  const MessagesOf messages(filter, event);
+  filter->Update();
+  return messages.Get();
+}
+
+/** Return the number of points and rows. */
+inline vtkIdType SizeOfOutput(vtkAlgorithm* filter, int port = 0)
+{
+  vtkDataObject* output = filter->GetOutputDataObject(port);
+  return output->GetNumberOfElements(vtkDataObject::POINT) +
+    output->GetNumberOfElements(vtkDataObject::ROW);
+}
+
+/** Update a filter and expect an error that has these parts, and an empty output. */
 inline void ExpectErrorOf(vtkAlgorithm* filter, const std::vector<std::string>& parts)
 {
-  const MessagesOf errors(filter);
-  filter->Update();
+  const std::string errors = MessagesOfUpdate(filter);
   for (const std::string& part : parts)
   {
-    EXPECT_TRUE(Has(errors.Get(), part));
+    EXPECT_TRUE(Has(errors, part));
   }
+  EXPECT_EQ(SizeOfOutput(filter), 0) << "no output half made";
   EXPECT_EQ(filter->GetErrorCode(), static_cast<unsigned long>(vtkErrorCode::UserError));
 }
 
@@ -96,14 +113,33 @@ inline double UnitOf(vtkImageData* level)
   return level->GetFieldData()->GetArray("Unit")->GetComponent(0, 0);
 }
 
-/** The updated filter. */
+/** What a test sets of a filter; of which filter a call says, as it cannot be deduced. */
+template <typename Filter>
+struct ChoiceFor
+{
+  using Type = std::function<void(Filter*)>;
+};
+template <typename Filter>
+using ChoiceOf = typename ChoiceFor<Filter>::Type;
+
+/** Return an updated filter with these settings. */
+template <typename Filter>
+vtkSmartPointer<Filter> Updated(vtkDataObject* input, const ChoiceOf<Filter>& choose = {})
+{
+  auto filter = vtkSmartPointer<Filter>::New();
+  filter->SetInputDataObject(input);
+  if (choose)
+  {
+    choose(filter);
+  }
+  filter->Update();
+  return filter;
+}
+
 inline vtkSmartPointer<vtkImagePyramid> PyramidOf(vtkImageData* image, int levels = 0)
 {
-  auto pyramid = vtkSmartPointer<vtkImagePyramid>::New();
-  pyramid->SetInputData(image);
-  pyramid->SetNumberOfLevels(levels);
-  pyramid->Update();
-  return pyramid;
+  return Updated<vtkImagePyramid>(
+    image, [levels](vtkImagePyramid* pyramid) { pyramid->SetNumberOfLevels(levels); });
 }
 
 /** Calls back at each progress of an algorithm, as long as it is in scope. */
@@ -193,21 +229,27 @@ struct StopAtText
   ProgressHook Hook;
 };
 
-/** An image with random voxels in [0, 100], named `Voxels`, first voxel at extent 0. */
-inline vtkSmartPointer<vtkImageData> RandomImage(int nx, int ny, int nz, int scalarType = VTK_FLOAT)
+/** Return an image with valueAt(i, j, k) at each voxel, first voxel at extent 0. */
+inline vtkSmartPointer<vtkImageData> ImageOf(const std::array<int, 3>& size,
+  const std::function<double(int, int, int)>& valueAt, int scalarType = VTK_FLOAT,
+  const char* name = "Voxels")
 {
   auto image = vtkSmartPointer<vtkImageData>::New();
-  image->SetDimensions(nx, ny, nz);
+  image->SetDimensions(size.data());
   image->AllocateScalars(scalarType, 1);
-  vtkDataArray* voxels = image->GetPointData()->GetScalars();
-  voxels->SetName("Voxels");
+  Voxels(image)->SetName(name);
+  vtkIdType index = 0;
+  ForVoxels(size,
+    [&](int i, int j, int k) { Voxels(image)->SetComponent(index++, 0, valueAt(i, j, k)); });
+  return image;
+}
+
+/** An image with random voxels in [0, 100]. */
+inline vtkSmartPointer<vtkImageData> RandomImage(int nx, int ny, int nz, int scalarType = VTK_FLOAT)
+{
   std::mt19937 generator(3);
   std::uniform_real_distribution<double> value(0.0, 100.0);
-  for (vtkIdType i = 0; i < voxels->GetNumberOfTuples(); ++i)
-  {
-    voxels->SetComponent(i, 0, value(generator));
-  }
-  return image;
+  return ImageOf({ nx, ny, nz }, [&](int, int, int) { return value(generator); }, scalarType);
 }
 
 /**
@@ -216,24 +258,16 @@ inline vtkSmartPointer<vtkImageData> RandomImage(int nx, int ny, int nz, int sca
  */
 inline vtkSmartPointer<vtkImageData> BallImage(int nx, int ny, int nz, double radiusShare = 0.3)
 {
-  auto image = vtkSmartPointer<vtkImageData>::New();
-  image->SetDimensions(nx, ny, nz);
-  image->AllocateScalars(VTK_FLOAT, 1);
-  vtkDataArray* voxels = image->GetPointData()->GetScalars();
-  voxels->SetName("Voxels");
   const double radius = radiusShare * std::min({ nx, ny, nz });
-  vtkIdType index = 0;
-  ForVoxels({ nx, ny, nz },
-    [&](int i, int j, int k)
+  return ImageOf({ nx, ny, nz },
+    [=](int i, int j, int k)
     {
       const double x = i - 0.5 * (nx - 1);
       const double y = j - 0.5 * (ny - 1);
       const double z = k - 0.5 * (nz - 1);
       const double inside = radius - std::sqrt(x * x + y * y + z * z);
-      voxels->SetComponent(index, 0, 100.0 * std::clamp(0.5 + 0.4 * inside, 0.0, 1.0));
-      ++index;
+      return 100.0 * std::clamp(0.5 + 0.4 * inside, 0.0, 1.0);
     });
-  return image;
 }
 
 /** Sets the voxels from first to before end of an image that begins at 0. */

@@ -20,19 +20,7 @@ namespace volumic
 inline vtkSmartPointer<vtkImageData> LabelImageOf(int nx, int ny, int nz,
   const std::function<double(int, int, int)>& labelAt, int scalarType = VTK_SHORT)
 {
-  auto image = vtkSmartPointer<vtkImageData>::New();
-  image->SetDimensions(nx, ny, nz);
-  image->AllocateScalars(scalarType, 1);
-  vtkDataArray* voxels = image->GetPointData()->GetScalars();
-  voxels->SetName("Labels");
-  vtkIdType index = 0;
-  ForVoxels({ nx, ny, nz },
-    [&](int i, int j, int k)
-    {
-      voxels->SetComponent(index, 0, labelAt(i, j, k));
-      ++index;
-    });
-  return image;
+  return ImageOf({ nx, ny, nz }, labelAt, scalarType, "Labels");
 }
 
 /** Two balls side by side that touch, labels 3 and 7, the first of radius 8 about (11, 14, 14). */
@@ -69,18 +57,10 @@ inline void AddNames(vtkImageData* image)
   image->GetFieldData()->AddArray(colors);
 }
 
-/** The updated filter, with what is chosen. */
 inline vtkSmartPointer<vtkLabelsToSurfaces> LabelSurfacesOf(
   vtkDataObject* input, const std::function<void(vtkLabelsToSurfaces*)>& choose = {})
 {
-  auto filter = vtkSmartPointer<vtkLabelsToSurfaces>::New();
-  filter->SetInputDataObject(input);
-  if (choose)
-  {
-    choose(filter);
-  }
-  filter->Update();
-  return filter;
+  return Updated<vtkLabelsToSurfaces>(input, choose);
 }
 
 inline vtkPolyData* BlockOf(vtkLabelsToSurfaces* filter, unsigned int block)

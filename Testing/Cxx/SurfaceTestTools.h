@@ -16,14 +16,6 @@
 /** What the tests of vtkDeformableSurface share. */
 namespace volumic
 {
-/** What a test sets of a filter; of which filter a call says, as it cannot be deduced. */
-template <typename Filter>
-struct ChoiceFor
-{
-  using Type = std::function<void(Filter*)>;
-};
-template <typename Filter>
-using ChoiceOf = typename ChoiceFor<Filter>::Type;
 using Choice = ChoiceOf<vtkDeformableSurface>;
 
 /** A filter for the objects of FilterTestTools.h, with what is chosen; not updated yet. */

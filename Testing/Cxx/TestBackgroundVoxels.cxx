@@ -102,8 +102,7 @@ TEST(NaNVoxels, CutTheObject)
   vtkPolyData* half = surface.Of(BallWith(NaN, Right));
   ASSERT_GT(half->GetNumberOfPoints(), 500);
   EXPECT_NEAR(EnclosedVolume(half), 2.0 / 3.0 * std::acos(-1.0) * std::pow(BallRadius, 3), 120.0);
-  double bounds[6];
-  half->GetBounds(bounds);
+  const double* bounds = half->GetBounds();
   EXPECT_NEAR(bounds[0], BallCentre[0] - BallRadius, 0.5);
   EXPECT_LT(bounds[1], 20.0);
   EXPECT_GT(bounds[1], 19.0);
@@ -134,12 +133,9 @@ TEST(NaNVoxels, AreToldOnceWithTheirNumber)
     {
       blocks->GetFieldData()->RemoveArray("NaNVoxels");
     }
-    vtkNew<vtkDeformableSurface> filter;
-    const MessagesOf said(filter, vtkCommand::WarningEvent);
-    filter->SetIsoValue(50.0);
-    filter->SetInputDataObject(blocks);
-    filter->Update();
-    EXPECT_EQ(CountOf(said.Get(), "32000 NaN voxels"), isByHand ? 1 : 0) << said.Get();
+    const auto filter = FilterOf(blocks);
+    const std::string said = MessagesOfUpdate(filter, vtkCommand::WarningEvent);
+    EXPECT_EQ(CountOf(said, "32000 NaN voxels"), isByHand ? 1 : 0) << said;
     EXPECT_GT(filter->GetOutput()->GetNumberOfPoints(), 100);
   }
 }

@@ -35,12 +35,9 @@ TEST(DeformableSurface, ComesBackToWorldCoordinates)
 
 TEST(DeformableSurface, ClosesAtTheBorderOfTheImage)
 {
-  const auto image = BallImage(40, 40, 40, 0.6);
-  const auto filter = SurfaceOf(image);
-  vtkPolyData* surface = filter->GetOutput();
-  EXPECT_EQ(OpenOrNonManifoldEdges(surface), 0);
-  double bounds[6];
-  surface->GetBounds(bounds);
+  const auto filter = SurfaceOf(BallImage(40, 40, 40, 0.6));
+  EXPECT_EQ(OpenOrNonManifoldEdges(filter->GetOutput()), 0);
+  const double* bounds = filter->GetOutput()->GetBounds();
   for (int axis = 0; axis < 3; ++axis)
   {
     EXPECT_NEAR(bounds[2 * axis], -0.5, 0.6);

@@ -16,8 +16,6 @@ class DeformableSurfaceAttraction : public ::testing::Test
 protected:
   void SetUp() override
   {
-    this->Filter->SetInputDataObject(this->Image);
-    this->Filter->SetIsoValue(50.0);
     this->Points->SetPoints(vtkNew<vtkPoints>());
     this->Filter->SetAttractingPointsData(this->Points);
   }
@@ -38,22 +36,17 @@ protected:
   double Bump()
   {
     this->Filter->Update();
-    vtkPolyData* surface = this->Filter->GetOutput();
-    double bounds[6];
-    surface->GetBounds(bounds);
-    return bounds[1] - (15.5 + 9.6);
+    return this->Filter->GetOutput()->GetBounds()[1] - (15.5 + 9.6);
   }
 
   void ExpectError(const std::vector<std::string>& parts)
   {
     this->Filter->Modified();
     ExpectErrorOf(this->Filter, parts);
-    EXPECT_EQ(this->Filter->GetOutput()->GetNumberOfPoints(), 0);
   }
 
-  vtkSmartPointer<vtkImageData> Image = BallImage(32, 32, 32);
   vtkNew<vtkPolyData> Points;
-  vtkNew<vtkDeformableSurface> Filter;
+  const vtkSmartPointer<vtkDeformableSurface> Filter = FilterOf(BallImage(32, 32, 32));
 };
 }
 
@@ -89,9 +82,7 @@ TEST_F(DeformableSurfaceAttraction, VerticesCountWhereThereAreSome)
   const vtkIdType id = 1;
   this->Points->GetVerts()->InsertNextCell(1, &id);
   EXPECT_NEAR(this->Bump(), 0.0, 0.3);
-  double bounds[6];
-  this->Filter->GetOutput()->GetBounds(bounds);
-  EXPECT_GT(bounds[5], 15.5 + 9.6 + 1.4);
+  EXPECT_GT(this->Filter->GetOutput()->GetBounds()[5], 15.5 + 9.6 + 1.4);
 }
 
 TEST_F(DeformableSurfaceAttraction, PointsThatMakeNoSenseAreRefused)

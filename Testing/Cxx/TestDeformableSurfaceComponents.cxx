@@ -22,24 +22,15 @@ double BallVolume(double radius)
  */
 vtkSmartPointer<vtkImageData> HollowBallAndBall()
 {
-  auto image = vtkSmartPointer<vtkImageData>::New();
-  image->SetDimensions(50, 32, 32);
-  image->AllocateScalars(VTK_FLOAT, 1);
-  image->GetPointData()->GetScalars()->SetName("Voxels");
-  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
-  {
-    const double* p = image->GetPoint(i);
-    const auto ball = [p](double x, double radius)
+  return ImageOf({ 50, 32, 32 },
+    [](int i, int j, int k)
     {
-      const double centre[3] = { x + 0.13, 16.07, 15.91 }; // no voxel has the iso-value
-      return std::sqrt(vtkMath::Distance2BetweenPoints(p, centre)) - radius;
-    };
-    const double distance =
-      std::min({ std::max(ball(16, 12), -ball(16, 8)), ball(16, 4), ball(38, 6) });
-    image->GetPointData()->GetScalars()->SetComponent(
-      i, 0, std::clamp(50.0 - 50.0 * distance, 0.0, 100.0));
-  }
-  return image;
+      const auto ball = [=](double x, double radius) // no voxel has the iso-value
+      { return std::hypot(i - x - 0.13, j - 16.07, k - 15.91) - radius; };
+      const double distance =
+        std::min({ std::max(ball(16, 12), -ball(16, 8)), ball(16, 4), ball(38, 6) });
+      return std::clamp(50.0 - 50.0 * distance, 0.0, 100.0);
+    });
 }
 
 class DeformableSurfaceComponents : public ::testing::Test
@@ -47,8 +38,6 @@ class DeformableSurfaceComponents : public ::testing::Test
 protected:
   void SetUp() override
   {
-    this->Filter->SetInputDataObject(HollowBallAndBall());
-    this->Filter->SetIsoValue(50.0);
     this->Filter->SetCoarsestLevel(0);
     this->Filter->SetInitializationToIsoSurface();
   }
@@ -83,8 +72,7 @@ protected:
         surface->GetPointData()->GetNormals()->GetNumberOfTuples(), surface->GetNumberOfPoints());
       EXPECT_NEAR(EnclosedVolume(surface), sum, 1e-6 * std::abs(sum));
     }
-    auto* level = vtkPolyData::SafeDownCast(this->Filter->GetLevels()->GetBlock(0));
-    EXPECT_EQ(level->GetNumberOfPoints(), surface->GetNumberOfPoints());
+    EXPECT_EQ(SurfaceAt(this->Filter, 0)->GetNumberOfPoints(), surface->GetNumberOfPoints());
     return volumes;
   }
 
@@ -124,7 +112,7 @@ protected:
     this->Filter->SetInitialSurfaceData(PointsAt({ { x, y, z } }));
   }
 
-  vtkNew<vtkDeformableSurface> Filter;
+  const vtkSmartPointer<vtkDeformableSurface> Filter = FilterOf(HollowBallAndBall());
   const double Outside = BallVolume(12);
   const double Cavity = -BallVolume(8);
   const double Beside = BallVolume(6);
@@ -209,10 +197,7 @@ TEST_F(DeformableSurfaceComponents, LinesAreNoSeeds)
   {
     this->Filter->SetInitialization(startsFromSeeds ? vtkDeformableSurface::Seeds : 0);
     this->Filter->SetKeepComponents(startsFromSeeds ? 0 : 2);
-    MessagesOf errors(this->Filter);
-    this->Filter->Update();
-    EXPECT_TRUE(errors.Has("Input port 1 (Initial Surface): ")) << errors.Get();
-    EXPECT_TRUE(errors.Has("no vertices")) << errors.Get();
+    ExpectErrorOf(this->Filter, { "Input port 1 (Initial Surface): ", "no vertices" });
   }
 }
 
@@ -244,15 +229,9 @@ TEST_F(DeformableSurfaceComponents, SizesAndPlacesAreThoseOfTheWorld)
 
 TEST_F(DeformableSurfaceComponents, WrongChoicesAreRefused)
 {
-  const auto refused = [this](const char* part)
-  {
-    MessagesOf errors(this->Filter);
-    this->Filter->Update();
-    EXPECT_TRUE(errors.Has(part)) << errors.Get();
-  };
   this->Filter->SetKeepComponents(5);
-  refused("Keep Components is 5");
+  ExpectErrorOf(this->Filter, { "Keep Components is 5" });
   this->Filter->SetKeepComponentsToLargeComponents();
   this->Filter->SetMinimumComponentVolume(-1.0);
-  refused("Minimum Component Volume is -1");
+  ExpectErrorOf(this->Filter, { "Minimum Component Volume is -1" });
 }

@@ -12,20 +12,19 @@ using namespace volumic;
 
 namespace
 {
+vtkSmartPointer<vtkImageData> OneVoxel(double value)
+{
+  return ImageOf({ 40, 40, 40 },
+    [value](int i, int j, int k) { return i == 20 && j == 20 && k == 20 ? value : 0.0; });
+}
+
 /** A filter that would work: each test spoils one thing, and expects to be told. */
 class DeformableSurfaceErrors : public ::testing::Test
 {
 protected:
-  void SetUp() override
-  {
-    this->Filter->SetInputDataObject(BallImage(32, 32, 32));
-    this->Filter->SetIsoValue(50.0);
-  }
-
   void ExpectError(const std::vector<std::string>& parts)
   {
     ExpectErrorOf(this->Filter, parts);
-    EXPECT_EQ(this->Filter->GetOutput()->GetNumberOfPoints(), 0) << "no output half made";
     EXPECT_EQ(this->Filter->GetLevels()->GetNumberOfBlocks(), 0u);
     EXPECT_EQ(this->Filter->GetHistory()->GetNumberOfRows(), 0);
   }
@@ -38,7 +37,7 @@ protected:
     return blocks;
   }
 
-  vtkNew<vtkDeformableSurface> Filter;
+  const vtkSmartPointer<vtkDeformableSurface> Filter = FilterOf(BallImage(32, 32, 32));
 };
 }
 
@@ -47,7 +46,7 @@ TEST_F(DeformableSurfaceErrors, NoInput)
   this->Filter->RemoveAllInputConnections(0);
   const MessagesOf errors(this->Filter->GetExecutive());
   this->Filter->Update();
-  EXPECT_TRUE(errors.Has("Input port 0")) << errors.Get();
+  EXPECT_TRUE(Has(errors.Get(), "Input port 0"));
 }
 
 TEST_F(DeformableSurfaceErrors, WhatIsSetWrongIsNamedWithTheWayOut)
@@ -116,18 +115,13 @@ TEST_F(DeformableSurfaceErrors, WhatIsSetWrongIsNamedWithTheWayOut)
   for (const Case& test : cases)
   {
     SCOPED_TRACE(test.Parts.front());
-    const auto filter = FilterOf(BallImage(32, 32, 32), test.Spoil);
-    ExpectErrorOf(filter, test.Parts);
-    EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
+    ExpectErrorOf(FilterOf(BallImage(32, 32, 32), test.Spoil), test.Parts);
   }
 }
 
 TEST_F(DeformableSurfaceErrors, ObjectThatVanishesAtTheCoarsestLevel)
 {
-  const auto image = BallImage(40, 40, 40);
-  image->GetPointData()->GetScalars()->FillComponent(0, 0.0);
-  image->SetScalarComponentFromDouble(20, 20, 20, 0, 100.0);
-  this->Filter->SetInputDataObject(image);
+  this->Filter->SetInputDataObject(OneVoxel(100.0));
   this->Filter->SetCoarsestLevel(2);
   this->ExpectError({ "vanished at level 2", "above Iso Value 50", "set Coarsest Level to 0" });
 }
@@ -135,18 +129,14 @@ TEST_F(DeformableSurfaceErrors, ObjectThatVanishesAtTheCoarsestLevel)
 TEST_F(DeformableSurfaceErrors, WhatVanishesGetsAWayOutThatThereIs)
 {
   // Thin enough to slip through the surface, even at level 0.
-  const auto image = BallImage(40, 40, 40);
-  image->GetPointData()->GetScalars()->FillComponent(0, 0.0);
-  image->SetScalarComponentFromDouble(20, 20, 20, 0, 51.0);
-  this->Filter->SetInputDataObject(image);
+  this->Filter->SetInputDataObject(OneVoxel(51.0));
   this->Filter->SetRecovery(vtkDeformableSurface::NoRecovery);
   this->Filter->SetCoarsestLevel(0);
-  const MessagesOf warnings(this->Filter, vtkCommand::WarningEvent);
-  this->Filter->Update();
+  const std::string warnings = MessagesOfUpdate(this->Filter, vtkCommand::WarningEvent);
   EXPECT_EQ(this->Filter->GetOutput()->GetNumberOfPoints(), 0);
-  EXPECT_TRUE(warnings.Has("Nothing is left of the surface at level 0")) << warnings.Get();
-  EXPECT_TRUE(warnings.Has("No level is finer: check Iso Value")) << warnings.Get();
-  EXPECT_FALSE(warnings.Has("Set CoarsestLevel")) << warnings.Get();
+  EXPECT_TRUE(Has(warnings, "Nothing is left of the surface at level 0"));
+  EXPECT_TRUE(Has(warnings, "No level is finer: check Iso Value"));
+  EXPECT_FALSE(Has(warnings, "Set CoarsestLevel"));
 }
 
 TEST_F(DeformableSurfaceErrors, WhatThePyramidRefusesIsToldOnce)
@@ -161,14 +151,13 @@ TEST_F(DeformableSurfaceErrors, WhatThePyramidRefusesIsToldOnce)
 TEST_F(DeformableSurfaceErrors, NotFiniteVoxelsInABlock)
 {
   const auto blocks = this->Pyramid();
-  auto* level1 = vtkImageData::SafeDownCast(blocks->GetBlock(1));
-  level1->GetPointData()->GetScalars()->SetComponent(2, 0, std::nan(""));
+  vtkImageData* level1 = Level(blocks, 1);
+  Voxels(level1)->SetComponent(2, 0, std::nan(""));
   this->Filter->SetInputDataObject(blocks);
   this->Filter->NaNIsBackgroundOff();
   this->ExpectError({ "Input port 0: level 1", "NaN", "(2, 0, 0)" });
   this->Filter->NaNIsBackgroundOn();
-  level1->GetPointData()->GetScalars()->SetComponent(
-    2, 0, std::numeric_limits<double>::infinity());
+  Voxels(level1)->SetComponent(2, 0, std::numeric_limits<double>::infinity());
   level1->Modified();
   this->ExpectError({ "Input port 0: level 1", "1 infinite voxel", "(2, 0, 0)" });
 }
@@ -197,28 +186,22 @@ TEST_F(DeformableSurfaceErrors, BlocksThatAreNoPyramid)
     std::function<void(vtkMultiBlockDataSet*)> What;
     std::vector<std::string> Parts;
   };
-  const auto level1 = [](vtkMultiBlockDataSet* blocks)
-  { return vtkImageData::SafeDownCast(blocks->GetBlock(1)); };
   const std::vector<Spoil> spoils = {
     { [](vtkMultiBlockDataSet* b) { b->SetNumberOfBlocks(0); }, { "no level" } },
     { [](vtkMultiBlockDataSet* b) { b->SetBlock(1, nullptr); }, { "block 1 is empty" } },
     { [](vtkMultiBlockDataSet* b) { b->SetBlock(1, vtkNew<vtkPolyData>()); },
       { "block 1 is vtkPolyData" } },
-    { [&](vtkMultiBlockDataSet* b) { level1(b)->SetSpacing(1, 1, 1); },
+    { [](vtkMultiBlockDataSet* b) { Level(b, 1)->SetSpacing(1, 1, 1); },
       { "block 1", "real size along x is 18", "block 0 is 32" } },
-    { [&](vtkMultiBlockDataSet* b) { level1(b)->SetOrigin(0, 3, 0); },
+    { [](vtkMultiBlockDataSet* b) { Level(b, 1)->SetOrigin(0, 3, 0); },
       { "block 1", "first voxel lies at 3 along y" } },
-    { [&](vtkMultiBlockDataSet* b)
+    { [](vtkMultiBlockDataSet* b)
       {
         const double turned[9] = { 0, 1, 0, -1, 0, 0, 0, 0, 1 };
-        level1(b)->SetDirectionMatrix(turned);
+        Level(b, 1)->SetDirectionMatrix(turned);
       },
       { "block 1", "direction differs" } },
-    { [&](vtkMultiBlockDataSet* b)
-      {
-        vtkSmartPointer<vtkDataObject> level0 = b->GetBlock(0);
-        b->SetBlock(1, level0);
-      },
+    { [](vtkMultiBlockDataSet* b) { b->SetBlock(1, b->GetBlock(0)); },
       { "block 1", "32 x 32 x 32 voxels, and block 0 below it 32 x 32 x 32" } },
   };
   for (const Spoil& spoil : spoils)

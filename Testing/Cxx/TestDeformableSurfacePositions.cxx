@@ -6,23 +6,20 @@ using namespace volumic;
 
 namespace
 {
-using Places = std::vector<std::array<double, 3>>;
-
 /**
  * Two balls of radius 7.5 about (12.5, 12.5, 12.5) and (37.5, 12.5, 12.5), spacing 1, from (100, 0,
  * 0) on.
  */
 vtkSmartPointer<vtkImageData> TwoBalls()
 {
-  auto image = BallImage(50, 25, 25);
+  auto image = ImageOf({ 50, 25, 25 },
+    [](int i, int j, int k)
+    {
+      const double distance =
+        std::hypot(std::abs(i - 25.0) - 12.5, j - 12.5, k - 12.6) - 7.5;
+      return std::clamp(50.0 - 50.0 * distance, 0.0, 100.0);
+    });
   image->SetOrigin(100, 0, 0);
-  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
-  {
-    const double* p = image->GetPoint(i);
-    const double x = std::abs(p[0] - 125.0) - 12.5;
-    const double distance = std::hypot(x, p[1] - 12.5, p[2] - 12.6) - 7.5;
-    Voxels(image)->SetComponent(i, 0, std::max(0.0, std::min(100.0, 50.0 - 50.0 * distance)));
-  }
   return image;
 }
 
@@ -32,13 +29,10 @@ const std::array<double, 3> InRight = { 138, 13, 12 };
 class DeformableSurfacePositions : public ::testing::Test
 {
 protected:
-  void SetUp() override { this->Reset(this->Filter); }
-
-  static void Reset(vtkDeformableSurface* filter)
+  static vtkSmartPointer<vtkDeformableSurface> NewFilter()
   {
-    filter->SetInputDataObject(TwoBalls());
-    filter->SetIsoValue(50.0);
-    filter->SetRecovery(vtkDeformableSurface::NoRecovery);
+    return FilterOf(TwoBalls(),
+      [](vtkDeformableSurface* f) { f->SetRecovery(vtkDeformableSurface::NoRecovery); });
   }
 
   void AddSeed(const std::array<double, 3>& p)
@@ -56,11 +50,10 @@ protected:
   {
     this->Filter->Modified();
     ExpectErrorOf(this->Filter, parts);
-    EXPECT_EQ(this->Filter->GetOutput()->GetNumberOfPoints(), 0);
   }
 
-  vtkNew<vtkDeformableSurface> Filter;
-  vtkNew<vtkDeformableSurface> Other;
+  const vtkSmartPointer<vtkDeformableSurface> Filter = NewFilter();
+  const vtkSmartPointer<vtkDeformableSurface> Other = NewFilter();
 };
 }
 
@@ -108,8 +101,7 @@ TEST_F(DeformableSurfacePositions, SeedsAreTestedInTheVolumeItself)
   EXPECT_FALSE(this->Filter->GetLevels()->GetBlock(static_cast<unsigned int>(start) + 1));
   for (int level = 0; level <= start; ++level)
   {
-    vtkPolyData* atLevel = SurfaceAt(this->Filter, static_cast<unsigned int>(level));
-    EXPECT_LT(atLevel->GetBounds()[1], 12) << level;
+    EXPECT_LT(SurfaceAt(this->Filter, level)->GetBounds()[1], 12) << level;
   }
   // Whichever level it starts at.
   const double volume = FieldOf(surface, "Volume");
@@ -151,9 +143,8 @@ TEST_F(DeformableSurfacePositions, SelectionsAreAmongThePartsAtSeeds)
     EXPECT_LE(FieldOf(vtkPolyData::SafeDownCast(snapshots->GetBlock(i)), "NumberOfComponents"), 2);
   }
   this->Filter->SetKeepComponentsToComponentsNotAtSeeds();
-  const MessagesOf warnings(this->Filter, vtkCommand::WarningEvent);
-  this->Filter->Update();
-  EXPECT_TRUE(warnings.Has("Keep Components leaves none")) << warnings.Get();
+  EXPECT_TRUE(Has(MessagesOfUpdate(this->Filter, vtkCommand::WarningEvent),
+    "Keep Components leaves none"));
 }
 
 TEST_F(DeformableSurfacePositions, SeedsAreThoseOfThePortAndOfTheList)
@@ -162,7 +153,6 @@ TEST_F(DeformableSurfacePositions, SeedsAreThoseOfThePortAndOfTheList)
   this->Filter->SetInitialSurfaceData(PointsAt({ InLeft }));
   this->AddSeed(InRight);
   EXPECT_EQ(this->Components(), 2);
-  this->Reset(this->Other);
   this->Other->SetInitializationToSeeds();
   this->Other->SetInitialSurfaceData(PointsAt({ InLeft, InRight }));
   this->Other->Update();
@@ -177,7 +167,6 @@ TEST_F(DeformableSurfacePositions, PointsAttractAsThoseOfThePortDo)
   this->Filter->AddAttractingPosition(beside[0], beside[1], beside[2]);
   this->Filter->Update();
   EXPECT_GT(this->Filter->GetOutput()->GetBounds()[3], top + 1);
-  this->Reset(this->Other);
   this->Other->SetAttractingPointsData(PointsAt({ beside }));
   this->Other->Update();
   EXPECT_TRUE(AreSameSurfaces(this->Filter->GetOutput(), this->Other->GetOutput()));
@@ -197,7 +186,7 @@ TEST_F(DeformableSurfacePositions, BothListsChooseComponents)
   EXPECT_EQ(this->Components(), 2);
 }
 
-TEST_F(DeformableSurfacePositions, OnesOutsideTheImageAreRefused)
+TEST_F(DeformableSurfacePositions, OnesOutsideTheImageOrTheObjectAreRefused)
 {
   this->Filter->SetInitializationToSeeds();
   this->AddSeed(InLeft);
@@ -206,6 +195,10 @@ TEST_F(DeformableSurfacePositions, OnesOutsideTheImageAreRefused)
   this->Filter->ClearSeedPositions();
   this->Filter->AddSeedPosition(std::numeric_limits<double>::quiet_NaN(), 12, 13);
   this->ExpectError({ "Seed Positions: point 0" });
+  this->Filter->ClearSeedPositions();
+  this->Filter->AddSeedPosition(125, 2, 2);
+  this->ExpectError({ "Seed Positions: The seed does not lie inside the object",
+    "above Iso Value 50", "the value there is 0. Move it" });
   this->Filter->ClearSeedPositions();
   this->Filter->AddAttractingPosition(12, 12, 13);
   this->ExpectError({ "Attracting Positions: point 0 (12, 12, 13) lies outside the image" });
@@ -217,14 +210,6 @@ TEST_F(DeformableSurfacePositions, OnesPickedOnTheBorderAreInside)
   this->AddSeed(InLeft);
   this->Filter->AddSeedPosition(100 - 1e-6, 25 + 1e-6, 12);
   EXPECT_EQ(this->Components(), 1) << "the other is left out, as it is not in the object";
-}
-
-TEST_F(DeformableSurfacePositions, SeedsOutsideTheObjectAreNamedAsThePanelDoes)
-{
-  this->Filter->SetInitializationToSeeds();
-  this->Filter->AddSeedPosition(125, 2, 2);
-  this->ExpectError({ "Seed Positions: The seed does not lie inside the object",
-    "above Iso Value 50", "the value there is 0. Move it" });
 }
 
 TEST_F(DeformableSurfacePositions, ListsAreKept)

@@ -28,15 +28,11 @@ namespace
 {
 vtkSmartPointer<vtkDeformableSurface> Cancelled(const std::string& part, int n)
 {
-  auto filter = vtkSmartPointer<vtkDeformableSurface>::New();
-  filter->SetInputData(BallImage(40, 40, 40));
-  filter->SetIsoValue(50.0);
+  const auto filter = FilterOf(BallImage(40, 40, 40));
   const StopAtText stop(filter, part, n);
-  const MessagesOf errors(filter);
-  filter->Update();
+  EXPECT_EQ(MessagesOfUpdate(filter), "");
   EXPECT_LE(stop.Left, 0) << "heard nothing of " << part;
   EXPECT_LE(stop.After, 1) << "it stops at once, or as soon as the pyramid asks";
-  EXPECT_EQ(errors.Get(), "");
   EXPECT_EQ(StopReason(filter->GetOutput()), "cancelled");
   return filter;
 }
@@ -64,7 +60,7 @@ TEST(DeformableSurfaceProgress, CancellingInAnyPartHandsOverAValidSurface)
     ASSERT_GT(surface->GetNumberOfPoints(), 0);
     EXPECT_EQ(OpenOrNonManifoldEdges(surface), 0);
     EXPECT_GT(EnclosedVolume(surface), 0.0);
-    auto* block = vtkPolyData::SafeDownCast(filter->GetLevels()->GetBlock(test.Level));
+    vtkPolyData* block = SurfaceAt(filter, test.Level);
     ASSERT_TRUE(block);
     EXPECT_EQ(block->GetNumberOfPoints(), surface->GetNumberOfPoints());
     const bool isBetween = std::string(test.Part).find("is done") != std::string::npos;

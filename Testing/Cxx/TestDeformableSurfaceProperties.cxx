@@ -17,19 +17,14 @@ namespace
 vtkSmartPointer<vtkDeformableSurface> SurfaceWith(
   const std::function<void(vtkDeformableSurface&)>& change)
 {
-  auto filter = vtkSmartPointer<vtkDeformableSurface>::New();
-  filter->SetInputDataObject(BallImage(30, 30, 30));
-  filter->SetIsoValue(50.0);
+  const auto filter = FilterOf(BallImage(30, 30, 30));
   filter->SetCoarsestLevel(0);
   change(*filter);
   filter->Update();
   EXPECT_GT(filter->GetOutput()->GetNumberOfPoints(), 100);
   return filter;
 }
-}
 
-namespace
-{
 /** A property as a number, and a value that is not its default. */
 struct Property
 {

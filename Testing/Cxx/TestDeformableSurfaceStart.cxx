@@ -42,6 +42,16 @@ vtkSmartPointer<vtkImageData> RodWithBrightMiddle(int size, int width)
   return image;
 }
 
+double SumOverLevels(vtkDeformableSurface* filter, const char* field)
+{
+  double sum = 0;
+  for (unsigned int h = 0; h < filter->GetLevels()->GetNumberOfBlocks(); ++h)
+  {
+    sum += FieldOf(SurfaceAt(filter, h), field);
+  }
+  return sum;
+}
+
 /** The coarsest level that has a surface. */
 unsigned int FirstLevelOf(vtkDeformableSurface* filter)
 {
@@ -57,17 +67,9 @@ unsigned int FirstLevelOf(vtkDeformableSurface* filter)
 TEST(DeformableSurfaceStart, FindsAgainWhatCoarseLevelsLose)
 {
   const auto filter = FilterOf(BallAndRod());
-  const MessagesOf warnings(filter, vtkCommand::WarningEvent);
-  filter->Update();
+  EXPECT_EQ(MessagesOfUpdate(filter, vtkCommand::WarningEvent), "");
   EXPECT_EQ(FieldOf(filter->GetOutput(), "NumberOfComponents"), 2);
-  double recovered = 0;
-  for (unsigned int h = 0; h < filter->GetLevels()->GetNumberOfBlocks(); ++h)
-  {
-    recovered +=
-      FieldOf(SurfaceAt(filter, h), "RecoveredParts");
-  }
-  EXPECT_GE(recovered, 1);
-  EXPECT_EQ(warnings.Get(), "");
+  EXPECT_GE(SumOverLevels(filter, "RecoveredParts"), 1);
 }
 
 TEST(DeformableSurfaceStart, FindsCavitiesOnRequest)
@@ -87,15 +89,8 @@ TEST(DeformableSurfaceStart, FindsCavitiesOnRequest)
     EXPECT_EQ(FieldOf(surface, "Genus"), 0);
     if (wanted)
     {
-      double cavities = 0;
-      for (unsigned int h = 0; h < filter->GetLevels()->GetNumberOfBlocks(); ++h)
-      {
-        cavities +=
-          FieldOf(SurfaceAt(filter, h), "RecoveredCavities");
-      }
-      EXPECT_EQ(cavities, 1);
-      vtkDataArray* volumes = surface->GetFieldData()->GetArray("ComponentVolume");
-      EXPECT_NEAR(volumes->GetComponent(1, 0) / std::pow(-15.0, 3), 1.0, 0.08);
+      EXPECT_EQ(SumOverLevels(filter, "RecoveredCavities"), 1);
+      EXPECT_NEAR(FieldOf(surface, "ComponentVolume", 1) / std::pow(-15.0, 3), 1.0, 0.08);
     }
   }
 }
@@ -103,14 +98,11 @@ TEST(DeformableSurfaceStart, FindsCavitiesOnRequest)
 TEST(DeformableSurfaceStart, BeginsAboutThePartsThatComeInSightFirst)
 {
   // A shell that coarse levels do not show: from a box the way to it would be long.
-  const auto image = BallImage(64, 64, 64, 0.4);
-  vtkDataArray* voxels = image->GetPointData()->GetScalars();
-  ForVoxels({ 64, 64, 64 },
-    [&](int i, int j, int k)
+  const auto image = ImageOf({ 64, 64, 64 },
+    [](int i, int j, int k)
     {
       const double distance = std::hypot(i - 32.0, j - 31.0, k - 33.0);
-      voxels->SetComponent((k * 64 + j) * 64 + i, 0,
-        std::clamp(100.0 * (1.3 - std::abs(distance - 24.0)), 0.0, 100.0));
+      return std::clamp(100.0 * (1.3 - std::abs(distance - 24.0)), 0.0, 100.0);
     });
   const auto filter = SurfaceOf(image, [](vtkDeformableSurface* f) { f->SetIsoValue(50.5); });
   const unsigned int first = FirstLevelOf(filter);
@@ -148,19 +140,12 @@ namespace
 /** A ball with a ramp of about a voxel, 100 inside. */
 vtkSmartPointer<vtkImageData> BallOfRadius(double radius, int size, double ramp = 1.0)
 {
-  auto image = vtkSmartPointer<vtkImageData>::New();
-  image->SetDimensions(size, size, size);
-  image->AllocateScalars(VTK_FLOAT, 1);
-  vtkDataArray* voxels = image->GetPointData()->GetScalars();
-  for (vtkIdType voxel = 0; voxel < voxels->GetNumberOfTuples(); ++voxel)
-  {
-    double p[3];
-    image->GetPoint(voxel, p);
-    const double middle[3] = { 0.5 * size, 0.5 * size, 0.5 * size };
-    const double inside = radius - std::sqrt(vtkMath::Distance2BetweenPoints(p, middle));
-    voxels->SetComponent(voxel, 0, 100.0 * std::clamp(0.5 + inside / ramp, 0.0, 1.0));
-  }
-  return image;
+  return ImageOf({ size, size, size },
+    [=](int i, int j, int k)
+    {
+      const double inside = radius - std::hypot(i - 0.5 * size, j - 0.5 * size, k - 0.5 * size);
+      return 100.0 * std::clamp(0.5 + inside / ramp, 0.0, 1.0);
+    });
 }
 }
 
@@ -172,9 +157,7 @@ TEST(DeformableSurfaceStart, WithoutRecoveryBeginsWhereEnoughOfTheObjectIsLeft)
     SCOPED_TRACE(radius);
     const auto filter = FilterOf(BallOfRadius(radius, 40));
     filter->SetRecovery(vtkDeformableSurface::NoRecovery);
-    const MessagesOf warnings(filter, vtkCommand::WarningEvent);
-    filter->Update();
-    EXPECT_EQ(warnings.Get(), "");
+    EXPECT_EQ(MessagesOfUpdate(filter, vtkCommand::WarningEvent), "");
     EXPECT_EQ(FieldOf(filter->GetOutput(), "NumberOfComponents"), 1);
     const double ball = 4.0 / 3.0 * vtkMath::Pi() * std::pow(radius, 3);
     EXPECT_NEAR(FieldOf(filter->GetOutput(), "Volume") / ball, 1.0, 0.25);
@@ -198,21 +181,17 @@ TEST(DeformableSurfaceStart, StartsFromTheIsoSurfaceWhereAllVoxelsAreObject)
   // Level 0 has a few dark voxels; at the coarsest level there is nothing but object.
   for (const bool isBright : { true, false })
   {
-    auto image = BallOfRadius(1.5, 40);
-    vtkDataArray* voxels = image->GetPointData()->GetScalars();
-    for (vtkIdType voxel = 0; voxel < voxels->GetNumberOfTuples(); ++voxel)
+    const auto image = BallOfRadius(1.5, 40);
+    vtkDataArray* voxels = Voxels(image);
+    for (vtkIdType voxel = 0; isBright && voxel < voxels->GetNumberOfTuples(); ++voxel)
     {
-      const double value = 100.0 - voxels->GetComponent(voxel, 0);
-      voxels->SetComponent(voxel, 0, isBright ? value : 100.0 - value);
+      voxels->SetComponent(voxel, 0, 100.0 - voxels->GetComponent(voxel, 0));
     }
-    vtkNew<vtkDeformableSurface> filter;
-    filter->SetInputData(image);
+    const auto filter = FilterOf(image);
     filter->SetIsoValue(isBright ? 20.0 : 80.0);
     filter->SetObjectIsBright(isBright);
     filter->SetInitializationToIsoSurface();
-    const MessagesOf errors(filter);
-    filter->Update();
-    EXPECT_EQ(errors.Get(), "");
+    EXPECT_EQ(MessagesOfUpdate(filter), "");
     EXPECT_EQ(OpenOrNonManifoldEdges(filter->GetOutput()), 0);
     // The whole image, up to where the field falls to the background beyond the last voxels.
     EXPECT_GT(FieldOf(filter->GetOutput(), "Volume"), 0.97 * std::pow(39.0, 3));
@@ -224,18 +203,14 @@ TEST(DeformableSurfaceStart, TakesAllThatThePyramidMakes)
 {
   // The third axis is down to one voxel, and stays so, while the others still shrink.
   const auto image = BallImage(70, 60, 12, 0.4);
-  vtkNew<vtkImagePyramid> pyramid;
-  pyramid->SetInputData(image);
-  pyramid->SetMinimumLevelSize(1);
-  pyramid->Update();
+  const auto pyramid =
+    Updated<vtkImagePyramid>(image, [](vtkImagePyramid* p) { p->SetMinimumLevelSize(1); });
   ASSERT_GE(pyramid->GetOutput()->GetNumberOfBlocks(), 8u);
   const int* size = Level(pyramid->GetOutput(), 6)->GetDimensions();
   ASSERT_EQ(size[2], 1);
   ASSERT_GT(size[0], 1);
   const auto filter = FilterOf(pyramid->GetOutput());
-  const MessagesOf errors(filter);
-  filter->Update();
-  EXPECT_EQ(errors.Get(), "");
+  EXPECT_EQ(MessagesOfUpdate(filter), "");
   EXPECT_GT(filter->GetOutput()->GetNumberOfPoints(), 50);
   EXPECT_FALSE(filter->GetLevels()->GetBlock(1)) << "too small for a surface: 6 voxels";
 }

@@ -15,35 +15,29 @@ constexpr double Far = 1e9;
 vtkSmartPointer<vtkImageData> BallAt(double base, int scalarType)
 {
   const auto ball = BallImage(40, 40, 40);
-  auto image = vtkSmartPointer<vtkImageData>::New();
-  image->CopyStructure(ball);
-  image->AllocateScalars(scalarType, 1);
-  Voxels(image)->SetName("Voxels");
-  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
-  {
-    Voxels(image)->SetComponent(i, 0, base + std::round(0.5 * Voxels(ball)->GetComponent(i, 0)));
-  }
-  return image;
+  return ImageOf({ 40, 40, 40 },
+    [&](int i, int j, int k)
+    { return base + std::round(0.5 * ball->GetScalarComponentAsDouble(i, j, k, 0)); },
+    scalarType);
+}
+
+vtkSmartPointer<vtkDeformableSurface> SurfaceAbove(
+  double base, int scalarType, const Choice& choose)
+{
+  const auto filter = FilterOf(BallAt(base, scalarType), choose);
+  filter->SetIsoValue(base + 25.5);
+  EXPECT_EQ(MessagesOfUpdate(filter), "");
+  return filter;
 }
 
 class FarFromZero : public ::testing::TestWithParam<int>
 {
 protected:
   /** The surface of the far ball must be that of the same one near zero. */
-  static void ExpectSame(double tolerance, const std::function<void(vtkDeformableSurface*)>& set)
+  static void ExpectSame(double tolerance, const Choice& set)
   {
-    vtkNew<vtkDeformableSurface> nearby;
-    nearby->SetInputDataObject(BallAt(0.0, VTK_SHORT));
-    nearby->SetIsoValue(25.5);
-    set(nearby);
-    nearby->Update();
-    vtkNew<vtkDeformableSurface> far;
-    far->SetInputDataObject(BallAt(Far, GetParam()));
-    far->SetIsoValue(Far + 25.5);
-    set(far);
-    const MessagesOf errors(far);
-    far->Update();
-    ASSERT_EQ(errors.Get(), "");
+    const auto nearby = SurfaceAbove(0.0, VTK_SHORT, set);
+    const auto far = SurfaceAbove(Far, GetParam(), set);
     ASSERT_GT(far->GetOutput()->GetNumberOfPoints(), 100);
     EXPECT_EQ(StopReason(far->GetOutput()), "converged");
     EXPECT_NEAR(FieldOf(far->GetOutput(), "Volume") / FieldOf(nearby->GetOutput(), "Volume"), 1.0,
@@ -100,11 +94,8 @@ TEST(FarFromZeroFloat, VoxelsAreNotRoundedAnyFurther)
 {
   // Steps of 1/16 at 10^6: the voxels hold the ball; what is interpolated between them must not be
   // rounded to such steps.
-  const auto filter = vtkSmartPointer<vtkDeformableSurface>::New();
-  filter->SetInputDataObject(BallAt(1e6, VTK_FLOAT));
-  filter->SetIsoValue(1e6 + 25.5);
-  filter->SetCoarsestLevel(0);
-  filter->Update();
+  const auto filter =
+    SurfaceAbove(1e6, VTK_FLOAT, [](vtkDeformableSurface* f) { f->SetCoarsestLevel(0); });
   vtkDataArray* residual = filter->GetOutput()->GetPointData()->GetArray("Residual");
   ASSERT_TRUE(residual);
   int between = 0;

@@ -110,10 +110,8 @@ TEST(ImagePyramid, IsTheSameBitsForAnyNumberOfThreads)
   const auto filter = PyramidOf(image);
   for (const int threads : { 1, 2, 5 })
   {
-    vtkNew<vtkImagePyramid> other;
-    other->SetInputData(image);
-    other->SetNumberOfThreads(threads);
-    other->Update();
+    const auto other = Updated<vtkImagePyramid>(
+      image, [threads](vtkImagePyramid* p) { p->SetNumberOfThreads(threads); });
     ASSERT_EQ(other->GetOutput()->GetNumberOfBlocks(), filter->GetOutput()->GetNumberOfBlocks());
     for (unsigned int h = 1; h < other->GetOutput()->GetNumberOfBlocks(); ++h)
     {
@@ -198,11 +196,7 @@ namespace
 {
 vtkSmartPointer<vtkImageData> LargeImage()
 {
-  auto image = vtkSmartPointer<vtkImageData>::New();
-  image->SetDimensions(256, 256, 256);
-  image->AllocateScalars(VTK_UNSIGNED_CHAR, 1);
-  image->GetPointData()->GetScalars()->FillComponent(0, 1);
-  return image;
+  return ImageOf({ 256, 256, 256 }, [](int, int, int) { return 1.0; }, VTK_UNSIGNED_CHAR);
 }
 
 class ImagePyramidProgress : public ::testing::Test
@@ -238,8 +232,7 @@ TEST_F(ImagePyramidProgress, CancellingBetweenLevelsKeepsTheFinishedOnes)
   this->Run(0.83); // level 1 is 0.84 of the work
   ASSERT_EQ(this->Filter->GetOutput()->GetNumberOfBlocks(), 2u);
   EXPECT_EQ(StopReason(this->Filter->GetOutput()), "cancelled");
-  auto* level1 = vtkImageData::SafeDownCast(this->Filter->GetOutput()->GetBlock(1));
-  const double* range = level1->GetPointData()->GetScalars()->GetRange();
+  const double* range = Voxels(Level(this->Filter->GetOutput(), 1))->GetRange();
   EXPECT_NEAR(range[0], 1.0, 1e-6) << "what is handed over is finished";
   EXPECT_NEAR(range[1], 1.0, 1e-6);
 }

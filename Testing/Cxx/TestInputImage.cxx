@@ -105,20 +105,14 @@ TEST(InputImage, GridsOfOtherTypesAreRefusedOnceWithTheWayOut)
 TEST(InputImage, TheOnlyImageOfACompositeDatasetIsTaken)
 {
   const auto image = BallImage(40, 40, 40);
-  vtkNew<vtkVolumeToSurface> wanted;
-  wanted->SetInputData(image);
-  wanted->Update();
+  const auto wanted = Updated<vtkVolumeToSurface>(image);
   for (const auto& holder : HoldersOf(image))
   {
     SCOPED_TRACE(holder->GetClassName());
-    vtkNew<vtkVolumeToSurface> filter;
-    filter->SetInputDataObject(holder);
-    filter->Update();
+    const auto filter = Updated<vtkVolumeToSurface>(holder);
     ASSERT_GT(filter->GetOutput()->GetNumberOfPoints(), 100);
     EXPECT_TRUE(AreSameSurfaces(filter->GetOutput(), wanted->GetOutput()));
-    vtkNew<vtkImagePyramid> pyramid;
-    pyramid->SetInputDataObject(holder);
-    pyramid->Update();
+    const auto pyramid = Updated<vtkImagePyramid>(holder);
     ASSERT_GT(pyramid->GetOutput()->GetNumberOfBlocks(), 1u);
     EXPECT_EQ(Voxels(Level(pyramid->GetOutput(), 0)), Voxels(image));
   }

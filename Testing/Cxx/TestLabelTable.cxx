@@ -27,9 +27,7 @@ TEST(LabelTable, ListsTheLabelsOfAnImage)
   const auto image = BallsImage();
   AddNames(image);
   image->GetFieldData()->RemoveArray("LabelColors");
-  vtkNew<vtkLabelTable> table;
-  table->SetInputData(image);
-  table->Update();
+  const auto table = Updated<vtkLabelTable>(image);
   vtkTable* labels = table->GetOutput();
   ASSERT_EQ(labels->GetNumberOfRows(), 3);
   EXPECT_EQ(labels->GetValueByName(0, "Label").ToInt(), 0);
@@ -63,9 +61,7 @@ TEST(LabelTable, TellsWhereLabelsAre)
                                             : 1;
     });
   image->SetExtent(begins[0], begins[0] + 79, begins[1], begins[1] + 69, begins[2], begins[2] + 59);
-  vtkNew<vtkLabelTable> table;
-  table->SetInputData(image);
-  table->Update();
+  const auto table = Updated<vtkLabelTable>(image);
   auto* extents = vtkIntArray::SafeDownCast(table->GetOutput()->GetColumnByName("Extent"));
   ASSERT_EQ(extents->GetNumberOfTuples(), 4);
   EXPECT_EQ(ExtentIn(extents, 0), (Extent{ -2, 77, 5, 74, 70, 129 }));
@@ -78,10 +74,7 @@ TEST(LabelTable, RefusesWhatIsNoLabelMap)
 {
   vtkNew<vtkLabelTable> table;
   table->SetInputData(RandomImage(30, 30, 30));
-  const MessagesOf errors(table);
-  table->Update();
-  EXPECT_TRUE(errors.Has("labels must be integers")) << errors.Get();
-  EXPECT_EQ(table->GetOutput()->GetNumberOfRows(), 0);
+  ExpectErrorOf(table, { "labels must be integers" });
   table->SetInputData(BallsImage());
   table->Update();
   EXPECT_EQ(table->GetOutput()->GetNumberOfRows(), 3);

@@ -123,14 +123,6 @@ void ExpectSameBlocks(vtkAlgorithm* filter, int port)
       first->GetMetaData(block)->Get(vtkCompositeDataSet::NAME()));
   }
 }
-
-/** Points and rows. */
-vtkIdType SizeOfOutput(vtkAlgorithm* filter, int port)
-{
-  vtkDataObject* output = filter->GetOutputDataObject(port);
-  return output->GetNumberOfElements(vtkDataObject::POINT) +
-    output->GetNumberOfElements(vtkDataObject::ROW);
-}
 }
 
 TEST_F(ParallelRequests, TheFirstProcessMakesTheWholeOutputAndTheOthersNone)
@@ -223,7 +215,7 @@ TEST_F(ParallelRequests, HaveTheSameBlocksAfterAnError)
   this->Surface->SetIsoValue(200.0);
   const MessagesOf errors(this->Surface);
   ExpectSameBlocks(this->Surface, 1);
-  EXPECT_NE(errors.Get().find("Iso Value is 200"), std::string::npos);
+  EXPECT_TRUE(Has(errors.Get(), "Iso Value is 200"));
   this->Pyramid->SetSelectedComponent(7);
   const MessagesOf others(this->Pyramid);
   ExpectSameBlocks(this->Pyramid, 0);
@@ -245,7 +237,7 @@ TEST_F(ParallelRequests, AreTheSameInAllProcessesWhereAnImageIsResampled)
     resampled->GetOutputInformation(0)->Get(
       vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(), extent.data());
     EXPECT_EQ(extent, (std::array<int, 6>{ 0, Side - 1, 0, Side - 1, 0, Side - 1 })) << process;
-    EXPECT_EQ(SizeOfOutput(this->Surface, 0) > 0, process == 0);
+    EXPECT_EQ(SizeOfOutput(this->Surface) > 0, process == 0);
   }
 }
 
@@ -257,13 +249,11 @@ TEST_F(ParallelRequests, AreRefusedWhereTheSourceGivesTheFirstProcessAPart)
     SCOPED_TRACE(filter->GetClassName());
     const MessagesOf errors(filter);
     filter->UpdatePiece(0, 2, 0);
-    EXPECT_NE(errors.Get().find("Input port 0: the source gives only 24 x 24 x 13 of the image's "
-                                "24 x 24 x 24 voxels"),
-      std::string::npos)
-      << errors.Get();
-    EXPECT_NE(errors.Get().find("Save it as .pvti"), std::string::npos);
-    EXPECT_EQ(SizeOfOutput(filter, 0), 0);
+    EXPECT_TRUE(Has(errors.Get(), "Input port 0: the source gives only 24 x 24 x 13 of the image's "
+                                  "24 x 24 x 24 voxels"));
+    EXPECT_TRUE(Has(errors.Get(), "Save it as .pvti"));
+    EXPECT_EQ(SizeOfOutput(filter), 0);
     filter->UpdatePiece(1, 2, 0);
-    EXPECT_EQ(SizeOfOutput(filter, 0), 0);
+    EXPECT_EQ(SizeOfOutput(filter), 0);
   }
 }

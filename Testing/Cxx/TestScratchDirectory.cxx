@@ -102,16 +102,14 @@ TEST(ScratchDirectory, HoldsTheLevelsOfAPyramidWhoseLevel0IsTheInput)
 {
   const TemporaryFolder folder;
   const auto image = BallImage(Size, Size, Size);
-  vtkNew<vtkImagePyramid> usual;
-  usual->SetInputData(image);
-  usual->Update();
+  const auto usual = PyramidOf(image);
   vtkNew<vtkImagePyramid> filter;
   filter->SetInputData(image);
   filter->SetScratchDirectory(folder.Path().c_str());
   MostOf(filter, folder);
   EXPECT_GT(BytesFrom(folder), MiB);
   const auto voxels = [](vtkImagePyramid* pyramid, unsigned int level)
-  { return vtkImageData::SafeDownCast(pyramid->GetOutput()->GetBlock(level))->GetPointData(); };
+  { return Level(pyramid->GetOutput(), level)->GetPointData(); };
   EXPECT_EQ(voxels(filter, 0)->GetScalars(), image->GetPointData()->GetScalars());
   ExpectSameArrays(voxels(usual, 1), voxels(filter, 1));
   ExpectSameArrays(voxels(usual, 2), voxels(filter, 2));

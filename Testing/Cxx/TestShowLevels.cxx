@@ -98,11 +98,7 @@ TEST(ShowLevels, IsOverAfterAnErrorAndAtTheTimeLimit)
   filter->GetNeedsUpdate();
   filter->Update();
   filter->SetIsoValue(1e5);
-  {
-    const MessagesOf errors(filter);
-    filter->Update();
-    EXPECT_TRUE(errors.Has("Iso Value is 100000"));
-  }
+  ExpectErrorOf(filter, { "Iso Value is 100000" });
   EXPECT_FALSE(filter->GetNeedsUpdate());
   filter->SetIsoValue(50.0);
   filter->SetTimeLimit(1e-6);

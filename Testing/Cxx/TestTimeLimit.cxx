@@ -54,14 +54,8 @@ void RunOutOfTime(vtkDeformableSurface* filter, const std::string& part, int num
 class TimeLimit : public ::testing::Test
 {
 protected:
-  void SetUp() override
-  {
-    this->Filter->SetInputData(this->Image);
-    this->Filter->SetIsoValue(50.0);
-  }
-
-  vtkSmartPointer<vtkImageData> Image = BallImage(40, 40, 40);
-  vtkNew<vtkDeformableSurface> Filter;
+  const vtkSmartPointer<vtkImageData> Image = BallImage(40, 40, 40);
+  const vtkSmartPointer<vtkDeformableSurface> Filter = FilterOf(this->Image);
 };
 }
 
@@ -129,11 +123,7 @@ TEST_F(TimeLimit, IsRefusedWhereItIsNoTime)
 {
   for (const double seconds : { -1.0, std::numeric_limits<double>::quiet_NaN() })
   {
-    const MessagesOf errors(this->Filter);
     this->Filter->SetTimeLimit(seconds);
-    this->Filter->Update();
-    EXPECT_TRUE(errors.Has("Time Limit is ")) << errors.Get();
-    EXPECT_EQ(this->Filter->GetErrorCode(), vtkErrorCode::UserError);
-    EXPECT_EQ(this->Filter->GetOutput()->GetNumberOfPoints(), 0);
+    ExpectErrorOf(this->Filter, { "Time Limit is " });
   }
 }

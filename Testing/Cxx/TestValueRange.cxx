@@ -19,20 +19,14 @@ constexpr double Inner = 6.0;
 /** One material, 150, about another one, 600, with borders of a voxel. */
 vtkSmartPointer<vtkImageData> TwoMaterials(int type = VTK_SHORT)
 {
-  auto image = vtkSmartPointer<vtkImageData>::New();
-  image->SetDimensions(30, 31, 32);
-  image->AllocateScalars(type, 1);
-  ForVoxels({ 30, 31, 32 },
-    [&](int i, int j, int k)
+  return ImageOf({ 30, 31, 32 },
+    [](int i, int j, int k)
     {
-      const double r =
-        std::sqrt((i - 14.5) * (i - 14.5) + (j - 15.0) * (j - 15.0) + (k - 15.5) * (k - 15.5));
-      const double value = 150.0 * std::clamp(Outer - r + 0.5, 0.0, 1.0) +
-        450.0 * std::clamp(Inner - r + 0.5, 0.0, 1.0);
-      image->SetScalarComponentFromDouble(i, j, k, 0, std::floor(value));
-    });
-  Voxels(image)->SetName("Voxels");
-  return image;
+      const double r = std::hypot(i - 14.5, j - 15.0, k - 15.5);
+      return std::floor(150.0 * std::clamp(Outer - r + 0.5, 0.0, 1.0) +
+        450.0 * std::clamp(Inner - r + 0.5, 0.0, 1.0));
+    },
+    type);
 }
 
 /** What a user could make of it by hand. */
@@ -166,7 +160,6 @@ TEST(ValueRange, WhatIsSetWrongIsNamedWithTheWayOut)
       filter->SetIsoValue(is.Iso);
       filter->SetUpperValue(is.Upper);
       ExpectErrorOf(filter, is.Parts);
-      EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
     }
   }
 }

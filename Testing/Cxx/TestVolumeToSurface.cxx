@@ -31,9 +31,7 @@ vtkSmartPointer<vtkImageData> RowOf(const std::vector<Value>& values)
 
 double ThresholdOf(vtkImageData* image)
 {
-  vtkNew<vtkOtsuThreshold> otsu;
-  otsu->SetInputData(image);
-  otsu->Update();
+  const auto otsu = Updated<vtkOtsuThreshold>(image);
   if (otsu->GetOutput()->GetNumberOfRows() == 1)
   {
     EXPECT_EQ(otsu->GetOutput()->GetValueByName(0, "Threshold").ToDouble(), otsu->GetThreshold());
@@ -70,9 +68,8 @@ TEST(OtsuThreshold, LiesBetweenTheClassesAndOnNoVoxel)
 
 TEST(OtsuThreshold, HasTheHistogramThatItIsFoundBy)
 {
-  vtkNew<vtkOtsuThreshold> otsu;
-  otsu->SetInputData(RowOf<vtkIntArray>(std::vector<int>{ 10, 10, 11, 90, 110, 110 }));
-  otsu->Update();
+  const auto otsu = Updated<vtkOtsuThreshold>(
+    RowOf<vtkIntArray>(std::vector<int>{ 10, 10, 11, 90, 110, 110 }));
   vtkDoubleArray* histogram = otsu->GetHistogram();
   ASSERT_EQ(histogram->GetNumberOfTuples(), 2 + 1024);
   EXPECT_EQ(histogram->GetValue(0), 10.0);
@@ -84,8 +81,7 @@ TEST(OtsuThreshold, HasTheHistogramThatItIsFoundBy)
   EXPECT_EQ(counts[819], 1.0);
   EXPECT_EQ(counts[1023], 2.0);
   otsu->SetInputData(RowOf<vtkIntArray>(std::vector<int>{ 3, 3 }));
-  const MessagesOf errors(otsu);
-  otsu->Update();
+  EXPECT_NE(MessagesOfUpdate(otsu), "");
   EXPECT_EQ(otsu->GetHistogram()->GetNumberOfTuples(), 0);
 }
 
@@ -96,9 +92,7 @@ TEST(OtsuThreshold, HasASecondOneForASmallBrightPart)
     std::vector<int> values(dark, 0);
     values.insert(values.end(), medium, 200);
     values.insert(values.end(), bright, 500);
-    vtkNew<vtkOtsuThreshold> otsu;
-    otsu->SetInputData(RowOf<vtkIntArray>(values));
-    otsu->Update();
+    const auto otsu = Updated<vtkOtsuThreshold>(RowOf<vtkIntArray>(values));
     EXPECT_EQ(otsu->GetThreshold(), 100.5);
     return otsu->GetBrightThreshold();
   };
@@ -110,10 +104,8 @@ TEST(OtsuThreshold, HasASecondOneForASmallBrightPart)
 TEST(OtsuThreshold, LeavesOutNaN)
 {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  vtkNew<vtkOtsuThreshold> otsu;
-  otsu->SetInputData(RowOf<vtkDoubleArray>(std::vector<double>{ nan, 1, nan, 2, nan }));
-  otsu->Update();
-  EXPECT_EQ(otsu->GetThreshold(), 1.5);
+  EXPECT_EQ(
+    ThresholdOf(RowOf<vtkDoubleArray>(std::vector<double>{ nan, 1, nan, 2, nan })), 1.5);
 }
 
 TEST(OtsuThreshold, RefusesWhatNoValueSeparates)
@@ -125,11 +117,8 @@ TEST(OtsuThreshold, RefusesWhatNoValueSeparates)
   {
     vtkNew<vtkOtsuThreshold> otsu;
     otsu->SetInputData(RowOf<vtkDoubleArray>(values));
-    const MessagesOf errors(otsu);
-    otsu->Update();
-    EXPECT_TRUE(errors.Has("array 'Voxels'")) << errors.Get();
+    ExpectErrorOf(otsu, { "array 'Voxels'" });
     EXPECT_TRUE(std::isnan(otsu->GetThreshold()));
-    EXPECT_EQ(otsu->GetErrorCode(), vtkErrorCode::UserError);
     EXPECT_EQ(otsu->GetOutput()->GetNumberOfColumns(), 0);
     otsu->SetInputData(RowOf<vtkDoubleArray>(std::vector<double>{ 1, 2 }));
     otsu->Update();
@@ -140,9 +129,7 @@ TEST(OtsuThreshold, RefusesWhatNoValueSeparates)
 
 TEST(VolumeToSurface, FindsAnObjectWithoutAnyChoice)
 {
-  vtkNew<vtkVolumeToSurface> filter;
-  filter->SetInputData(BallImage(40, 40, 40));
-  filter->Update();
+  const auto filter = Updated<vtkVolumeToSurface>(BallImage(40, 40, 40));
   ExpectSphere(filter->GetOutput(), BallCentre, BallRadius, 0.5);
   EXPECT_EQ(StopReason(filter->GetOutput()), "converged");
 }
@@ -150,15 +137,13 @@ TEST(VolumeToSurface, FindsAnObjectWithoutAnyChoice)
 TEST(VolumeToSurface, GivesWhatTheTwoFiltersGive)
 {
   const auto image = BallImage(40, 40, 40);
-  const auto filter = FilterOf<vtkVolumeToSurface>(image);
-  filter->SetNumberOfLevels(2);
-  filter->SetReductionFactor(1.5);
-  filter->Update();
-  vtkNew<vtkImagePyramid> pyramid;
-  pyramid->SetInputData(image);
-  pyramid->SetNumberOfLevels(2);
-  pyramid->SetReductionFactor(1.5);
-  pyramid->Update();
+  const auto choose = [](auto* f)
+  {
+    f->SetNumberOfLevels(2);
+    f->SetReductionFactor(1.5);
+  };
+  const auto filter = SurfaceOf<vtkVolumeToSurface>(image, choose);
+  const auto pyramid = Updated<vtkImagePyramid>(image, choose);
   EXPECT_EQ(filter->GetLevels()->GetNumberOfBlocks(), 2u);
   EXPECT_TRUE(AreSameSurfaces(filter->GetOutput(), SurfaceOf(pyramid->GetOutput())->GetOutput()));
 }
@@ -169,13 +154,9 @@ TEST(VolumeToSurface, TakesTheCentresOfCellsAsVoxels)
   image->SetOrigin(3, -2, 100);
   image->SetSpacing(0.5, 0.5, 0.5);
   image->SetExtent(-7, 32, 4, 43, 0, 39);
-  vtkNew<vtkVolumeToSurface> ofPoints;
-  ofPoints->SetInputData(image);
-  ofPoints->Update();
+  const auto ofPoints = Updated<vtkVolumeToSurface>(image);
   const auto cells = AsCells(image);
-  vtkNew<vtkVolumeToSurface> ofCells;
-  ofCells->SetInputData(cells);
-  ofCells->Update();
+  const auto ofCells = Updated<vtkVolumeToSurface>(cells);
   ASSERT_GT(ofCells->GetOutput()->GetNumberOfPoints(), 100);
   EXPECT_TRUE(AreSameSurfaces(ofCells->GetOutput(), ofPoints->GetOutput()));
 
@@ -196,12 +177,7 @@ TEST(VolumeToSurface, SaysWhyThereIsNoIsoValue)
   Voxels(image)->Fill(4.0);
   vtkNew<vtkVolumeToSurface> filter;
   filter->SetInputData(image);
-  const MessagesOf errors(filter);
-  filter->Update();
-  EXPECT_TRUE(errors.Has("Iso Value is not set, and can't be found")) << errors.Get();
-  EXPECT_TRUE(errors.Has("ranges from 4 to 4")) << errors.Get();
-  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
-  EXPECT_EQ(filter->GetErrorCode(), vtkErrorCode::UserError);
+  ExpectErrorOf(filter, { "Iso Value is not set, and can't be found", "ranges from 4 to 4" });
   filter->SetInputData(BallImage(20, 20, 20));
   filter->Update();
   EXPECT_EQ(filter->GetErrorCode(), vtkErrorCode::NoError);

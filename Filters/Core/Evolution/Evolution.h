@@ -70,6 +70,24 @@ void Renumber(Evolution& evolution);
 void LayOut(Evolution& evolution);
 void LayGrid(Evolution& evolution);
 void ActivateAll(Evolution& evolution);
+
+/** Call work(v) for all vertices that are alive, on several threads. */
+template <typename Work>
+void ForAlive(const SurfaceMesh& mesh, Executor& executor, const Work& work)
+{
+  constexpr std::size_t grain = 2048;
+  executor.For(static_cast<std::size_t>(mesh.Size()), grain,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
+      {
+        if (mesh.IsAlive(v)) // Other places may take no memory.
+        {
+          work(v);
+        }
+      }
+    });
+}
 std::vector<int> AliveVertices(const Evolution& evolution);
 
 // GivenSurface.cxx: makes a given surface ready.

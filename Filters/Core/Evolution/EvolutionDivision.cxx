@@ -4,7 +4,6 @@
 // The way of a surface to the next level's edge lengths.
 
 #include "Core/Common/Select.h"
-#include "Core/Common/Spans.h"
 #include "Core/Evolution/Evolution.h"
 #include "Core/Mesh/Division.h"
 #include "Core/Surface/Proximity.h"
@@ -14,7 +13,6 @@
 #include <cmath>
 #include <cstddef>
 #include <memory>
-#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -142,31 +140,23 @@ void EdgesToKeep::KeepAbout(const std::vector<Proximity::FacePair>& pairs, int r
   }
 }
 
-/** Vertices that one thread looks at at a time. */
-constexpr std::size_t VertexSpan = 8192;
 /** Sweeps of a descent, and passes in each block; more make no difference to what comes after. */
 constexpr int DescendingSweeps = 2;
 constexpr int DescendingPasses = 2;
 /** Of what is told of a division. */
 constexpr double DescendingShare = 0.3;
 
-/**
- * Calls visit(v, w, squared length) for each edge whose smaller end is in a span; spans may be
- * visited side by side.
- */
+/** Call visit(w, squared length) for each edge from v to a larger vertex. */
 template <typename Visit>
-void VisitEdges(const SurfaceMesh& mesh, std::size_t begin, std::size_t end, const Visit& visit)
+void VisitEdges(const SurfaceMesh& mesh, int v, const Visit& visit)
 {
-  for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
+  const Ring& ring = mesh.Rings[v];
+  for (int i = 0; i < ring.Count; ++i)
   {
-    const Ring& ring = mesh.Rings[v];
-    for (int i = 0; i < ring.Count; ++i)
+    const int w = ring.Item[i];
+    if (v < w)
     {
-      const int w = ring.Item[i];
-      if (v < w)
-      {
-        visit(v, w, SquaredDistance(mesh.Position[v], mesh.Position[w]));
-      }
+      visit(w, SquaredDistance(mesh.Position[v], mesh.Position[w]));
     }
   }
 }
@@ -174,15 +164,10 @@ void VisitEdges(const SurfaceMesh& mesh, std::size_t begin, std::size_t end, con
 float LongestEdge(const Evolution& e)
 {
   const SurfaceMesh& mesh = e.State.Mesh;
-  std::vector<float> longest((mesh.Rings.size() + VertexSpan - 1) / VertexSpan, 0.f);
-  ForSpans(e.Threads, mesh.Rings.size(), VertexSpan,
-    [&](std::size_t span, std::size_t begin, std::size_t end)
-    {
-      VisitEdges(mesh, begin, end,
-        [&](int, int, float squared) { longest[span] = std::max(longest[span], squared); });
-    });
-  return std::sqrt(std::accumulate(longest.begin(), longest.end(), 0.f,
-    [](float most, float ofSpan) { return std::max(most, ofSpan); }));
+  return std::sqrt(JoinVertices(mesh, e.Threads, 0.f,
+    [&mesh](int v, float& longest)
+    { VisitEdges(mesh, v, [&](int, float squared) { longest = std::max(longest, squared); }); },
+    [](float a, float b) { return std::max(a, b); }));
 }
 
 std::vector<Proximity::FacePair> FindIntersections(Evolution& e)
@@ -265,14 +250,13 @@ bool HasEdgeTooLong(const Evolution& e)
 {
   constexpr float share = 1.0001f; // Of the longest that eq. (1) allows.
   const SurfaceMesh& mesh = e.State.Mesh;
-  return CountInSpans(e.Threads, mesh.Rings.size(), VertexSpan,
-           [&](std::size_t begin, std::size_t end)
+  return JoinVertices(mesh, e.Threads, char(0),
+           [&](int v, char& isFound)
            {
-             std::size_t count = 0;
-             VisitEdges(mesh, begin, end,
-               [&](int v, int w, float squared)
-               { count += std::sqrt(squared) > e.State.Sizing.LongestEdge(v, w, share); });
-             return count;
-           }) > 0;
+             VisitEdges(mesh, v,
+               [&](int w, float squared)
+               { isFound |= std::sqrt(squared) > e.State.Sizing.LongestEdge(v, w, share); });
+           },
+           [](char a, char b) { return char(a | b); }) != 0;
 }
 }

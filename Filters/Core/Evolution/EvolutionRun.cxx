@@ -28,24 +28,6 @@ constexpr int SweptPasses = 4;
 /** Vertices that one thread looks at at a time. */
 constexpr std::size_t VertexGrain = 2048;
 
-/** Calls work(v) for all vertices, on several threads. */
-template <typename Work>
-void ForAll(Evolution& e, const Work& work)
-{
-  const SurfaceMesh& mesh = e.State.Mesh;
-  e.Threads.For(static_cast<std::size_t>(mesh.Size()), VertexGrain,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
-      {
-        if (mesh.IsAlive(v)) // Other places may take no memory.
-        {
-          work(v);
-        }
-      }
-    });
-}
-
 StopReason Evolve(Evolution& e)
 {
   const SurfaceOptions& options = e.Task.Options;
@@ -131,16 +113,6 @@ void FitMeanEdge(Evolution& e)
   }
 }
 
-void RunPasses(Evolution& e)
-{
-  for (int sweep = 0; sweep < RegularisingSweeps && !e.Stopped; ++sweep)
-  {
-    Relax(e, SurfaceIteration::Mode::Regularise, SweptPasses,
-      { Monitor::Activity::Regularising, PassesShare * sweep / RegularisingSweeps,
-        PassesShare * (sweep + 1) / RegularisingSweeps });
-  }
-}
-
 void Polish(Evolution& e)
 {
   SurfaceState& s = e.State;
@@ -177,16 +149,21 @@ void Regularise(Evolution& e)
 {
   // The same verified displacements and edits, driven by shape and residual instead of forces.
   SurfaceState& s = e.State;
-  ForAll(e,
+  ForAlive(s.Mesh, e.Threads,
     [&s](int v)
     {
       s.Velocity[v] = Vector();
       s.WasActive[v] = s.Active[v];
     });
   ActivateAll(e);
-  RunPasses(e);
+  for (int sweep = 0; sweep < RegularisingSweeps && !e.Stopped; ++sweep)
+  {
+    Relax(e, SurfaceIteration::Mode::Regularise, SweptPasses,
+      { Monitor::Activity::Regularising, PassesShare * sweep / RegularisingSweeps,
+        PassesShare * (sweep + 1) / RegularisingSweeps });
+  }
   Polish(e);
-  ForAll(e,
+  ForAlive(s.Mesh, e.Threads,
     [&s](int v)
     {
       s.Active[v] = s.WasActive[v];
@@ -272,8 +249,8 @@ bool ActivateWhereOff(Evolution& e, float least)
   SurfaceState& s = e.State;
   const auto n = static_cast<std::size_t>(s.Mesh.Size());
   std::vector<std::uint8_t> isOff(n, 0);
-  ForAll(
-    e, [&](int v) { isOff[v] = e.TheField->IsOff(s.Mesh.Position[v], least * s.Sizing.At(v)); });
+  ForAlive(s.Mesh, e.Threads,
+    [&](int v) { isOff[v] = e.TheField->IsOff(s.Mesh.Position[v], least * s.Sizing.At(v)); });
   return CountInSpans(e.Threads, n, VertexGrain,
            [&](std::size_t begin, std::size_t end)
            {

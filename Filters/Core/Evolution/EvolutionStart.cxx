@@ -3,7 +3,6 @@
 #include "Core/Common/Box.h"
 #include "Core/Common/Refuse.h"
 #include "Core/Common/Select.h"
-#include "Core/Common/Spans.h"
 #include "Core/Evolution/Evolution.h"
 #include "Core/Evolution/InitialSurface.h"
 #include "Core/Evolution/LostParts.h"
@@ -13,7 +12,6 @@
 #include <cmath>
 #include <cstddef>
 #include <memory>
-#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -21,9 +19,6 @@ namespace volumic
 {
 namespace
 {
-/** Vertices that one thread looks at at a time. */
-constexpr std::size_t VertexSpan = 8192;
-
 void Enter(Evolution& e)
 {
   const LevelImage& image = e.Task.Image;
@@ -43,17 +38,9 @@ Box BoxOfGrid(const Evolution& e)
     Vector(static_cast<float>(image.Size[0] * image.Step[0]),
       static_cast<float>(image.Size[1] * image.Step[1]),
       static_cast<float>(image.Size[2] * image.Step[2])) };
-  std::vector<Box> boxes((mesh.Position.size() + VertexSpan - 1) / VertexSpan, ofImage);
-  ForSpans(e.Threads, mesh.Position.size(), VertexSpan,
-    [&](std::size_t span, std::size_t begin, std::size_t end)
-    {
-      for (std::size_t v = begin; v < end; ++v)
-      {
-        boxes[span] = boxes[span].With({ mesh.Position[v], mesh.Position[v] });
-      }
-    });
-  const Box all = std::accumulate(
-    boxes.begin(), boxes.end(), ofImage, [](const Box& a, const Box& b) { return a.With(b); });
+  const Box all = JoinVertices(mesh, e.Threads, ofImage,
+    [&mesh](int v, Box& box) { box = box.With({ mesh.Position[v], mesh.Position[v] }); },
+    [](const Box& a, const Box& b) { return a.With(b); });
   return all.Grown(2 * e.State.Sizing.Largest());
 }
 
@@ -254,17 +241,7 @@ std::vector<int> AliveVertices(const Evolution& e)
 void ActivateAll(Evolution& e)
 {
   SurfaceState& s = e.State;
-  ForSpans(e.Threads, s.Mesh.Rings.size(), VertexSpan,
-    [&](std::size_t, std::size_t begin, std::size_t end)
-    {
-      for (std::size_t v = begin; v < end; ++v)
-      {
-        if (s.Mesh.IsAlive(static_cast<int>(v)))
-        {
-          s.Active[v] = 1;
-        }
-      }
-    });
+  ForAlive(s.Mesh, e.Threads, [&s](int v) { s.Active[v] = 1; });
 }
 
 bool ComeToLevel(Evolution& e, SurfaceAtRest& rest)

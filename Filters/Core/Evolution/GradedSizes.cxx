@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Evolution/GradedSizes.h"
 
-#include "Core/Common/Spans.h"
+#include "Core/Evolution/Evolution.h"
 #include "Core/Image/WayToZero.h"
 #include "Core/Mesh/LimitedSizes.h"
 
@@ -213,17 +213,8 @@ std::vector<int> GradedSizes::Refine()
 {
   const SurfaceState& s = this->State;
   LargeVector<float> offsets(s.Mesh.Rings.size(), 0.f);
-  this->Threads.For(offsets.size(), VertexGrain,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
-      {
-        if (s.Mesh.IsAlive(v))
-        {
-          offsets[v] = this->SignedDistanceAt(s.Mesh.Position[v], s.Normal[v].Axis());
-        }
-      }
-    });
+  ForAlive(s.Mesh, this->Threads,
+    [&](int v) { offsets[v] = this->SignedDistanceAt(s.Mesh.Position[v], s.Normal[v].Axis()); });
   // How far the middles would be if their corners were moved onto the isopotential.
   const auto sag = [&offsets](float distance, const auto& corners)
   {
@@ -261,17 +252,7 @@ std::vector<int> GradedSizes::Change(const std::function<float(int v)>& wanted)
 {
   SurfaceState& s = this->State;
   LargeVector<float> sizes(s.Mesh.Rings.size(), this->Least);
-  this->Threads.For(sizes.size(), VertexGrain,
-    [&](std::size_t begin, std::size_t end)
-    {
-      for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
-      {
-        if (s.Mesh.IsAlive(v))
-        {
-          sizes[v] = wanted(v);
-        }
-      }
-    });
+  ForAlive(s.Mesh, this->Threads, [&](int v) { sizes[v] = wanted(v); });
   sizes = LimitedSizes(sizes, s.Mesh.Position, s.Grid, this->Least,
     static_cast<float>(this->Wanted.Gradation), this->Threads);
   std::vector<int> changed;
@@ -300,13 +281,10 @@ Fit GradedSizes::Measure() const
   };
   const SurfaceState& s = this->State;
   const float tolerance = static_cast<float>(this->Wanted.Tolerance);
-  const std::size_t n = s.Mesh.Rings.size();
-  std::vector<Sum> sums((n + VertexGrain - 1) / VertexGrain);
-  ForSpans(this->Threads, n, VertexGrain,
-    [&](std::size_t span, std::size_t begin, std::size_t end)
+  const Sum all = JoinVertices(s.Mesh, this->Threads, Sum(),
+    [&](int v, Sum& sum)
     {
-      Sum& sum = sums[span];
-      this->VisitMiddles(begin, end,
+      this->VisitMiddles(v, v + 1,
         [&](const Vector& middle, const auto& corners)
         {
           const float distance =
@@ -315,14 +293,9 @@ Fit GradedSizes::Measure() const
           sum.Within += distance <= tolerance;
           ++sum.All;
         });
-    });
-  Sum all;
-  for (const Sum& sum : sums)
-  {
-    all.Largest = std::max(all.Largest, sum.Largest);
-    all.Within += sum.Within;
-    all.All += sum.All;
-  }
+    },
+    [](const Sum& a, const Sum& b)
+    { return Sum{ std::max(a.Largest, b.Largest), a.Within + b.Within, a.All + b.All }; });
   Fit fit;
   fit.LargestDistance = all.Largest;
   fit.WithinTolerance =

@@ -4,6 +4,7 @@
 
 #include "Core/Common/Lattice.h"
 #include "Core/Common/Refuse.h"
+#include "Core/Image/VoxelBox.h"
 #include "Core/Mesh/Division.h"
 
 #include <algorithm>
@@ -261,7 +262,7 @@ float ValueAt(const Field& field, const Point& p)
 std::vector<Point> GridOfSeeds(const Field& field, double spacing)
 {
   const LevelImage& image = field.Image();
-  int count[3];
+  std::array<int, 3> count;
   double first[3];
   for (int k = 0; k < 3; ++k)
   {
@@ -270,20 +271,15 @@ std::vector<Point> GridOfSeeds(const Field& field, double spacing)
     first[k] = 0.5 * (extent - (count[k] - 1) * spacing);
   }
   std::vector<Point> chosen;
-  for (int z = 0; z < count[2]; ++z)
-  {
-    for (int y = 0; y < count[1]; ++y)
+  VoxelBox::Of(count).ForVoxels(
+    [&](int x, int y, int z)
     {
-      for (int x = 0; x < count[0]; ++x)
+      const Point p = { first[0] + x * spacing, first[1] + y * spacing, first[2] + z * spacing };
+      if (ValueAt(field, p) > 0)
       {
-        const Point p = { first[0] + x * spacing, first[1] + y * spacing, first[2] + z * spacing };
-        if (ValueAt(field, p) > 0)
-        {
-          chosen.push_back(p);
-        }
+        chosen.push_back(p);
       }
-    }
-  }
+    });
   return chosen;
 }
 }

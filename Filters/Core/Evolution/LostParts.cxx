@@ -4,6 +4,7 @@
 
 #include "Core/Common/Spans.h"
 #include "Core/Evolution/LostVoxels.h"
+#include "Core/Image/VoxelBox.h"
 #include "Core/Image/VoxelNumbers.h"
 #include "Core/Interfaces/DistanceLattice.h"
 #include "Core/Mesh/LegalEdges.h"
@@ -49,16 +50,8 @@ public:
   {
     const auto place = [&](int axis, int sample)
     { return this->Step[axis] * (voxel[axis] + (sample + 0.5) / this->Samples[axis] - 0.5); };
-    for (int c = 0; c < this->Samples[2]; ++c)
-    {
-      for (int b = 0; b < this->Samples[1]; ++b)
-      {
-        for (int a = 0; a < this->Samples[0]; ++a)
-        {
-          visit(Point{ place(0, a), place(1, b), place(2, c) });
-        }
-      }
-    }
+    VoxelBox::Of(this->Samples).ForVoxels(
+      [&](int a, int b, int c) { visit(Point{ place(0, a), place(1, b), place(2, c) }); });
   }
 
 private:

@@ -206,7 +206,8 @@ bool ReduceLevel(const T* input, const LevelGeometry& inputGeometry,
 }
 
 template <typename T>
-NotFiniteVoxels FindNotFiniteVoxels(const T* values, std::int64_t n, Executor& executor)
+NotFiniteVoxels FindNotFiniteVoxels([[maybe_unused]] const T* values,
+  [[maybe_unused]] std::int64_t n, [[maybe_unused]] Executor& executor)
 {
   NotFiniteVoxels found;
   if constexpr (std::is_floating_point_v<T>)
@@ -233,12 +234,6 @@ NotFiniteVoxels FindNotFiniteVoxels(const T* values, std::int64_t n, Executor& e
       }
       found.Count += counts[span];
     }
-  }
-  else
-  {
-    static_cast<void>(values);
-    static_cast<void>(n);
-    static_cast<void>(executor);
   }
   return found;
 }

@@ -90,9 +90,8 @@ int MaximumNumberOfLevels(const LevelSize& size, double reductionFactor)
 std::vector<LevelGeometry> PlanPyramid(
   const LevelSize& size, const std::array<double, 3>& spacing, const PyramidOptions& options)
 {
-  CheckReductionFactor(options.ReductionFactor);
-  CheckImage(size, spacing);
   const int possible = MaximumNumberOfLevels(size, options.ReductionFactor);
+  CheckImage(size, spacing);
   if (options.NumberOfLevels < 0)
   {
     Refuse("Number Of Levels is ", options.NumberOfLevels,

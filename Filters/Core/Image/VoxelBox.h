@@ -145,24 +145,28 @@ struct VoxelBox
     return parts;
   }
 
+  /** Call visit(i, j, k) for each voxel, x fastest. */
+  template <typename Visitor>
+  void ForVoxels(const Visitor& visit) const
+  {
+    for (int k = this->First[2]; k < this->End[2]; ++k)
+    {
+      for (int j = this->First[1]; j < this->End[1]; ++j)
+      {
+        for (int i = this->First[0]; i < this->End[0]; ++i)
+        {
+          visit(i, j, k);
+        }
+      }
+    }
+  }
+
   bool operator==(const VoxelBox& other) const
   {
     return (this->IsEmpty() && other.IsEmpty()) ||
       (this->First == other.First && this->End == other.End);
   }
 };
-
-/** What is in one of the boxes and not in the other one. */
-inline std::vector<VoxelBox> Without(const std::vector<VoxelBox>& boxes, const VoxelBox& other)
-{
-  std::vector<VoxelBox> rest;
-  for (const VoxelBox& box : boxes)
-  {
-    const std::vector<VoxelBox> parts = box.Without(other);
-    rest.insert(rest.end(), parts.begin(), parts.end());
-  }
-  return rest;
-}
 
 /** Calls visit(first, count) for each row along x of `part`: places in arrays of the voxels of
  * `box`, which contains it. */

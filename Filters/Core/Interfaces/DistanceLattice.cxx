@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Interfaces/DistanceLattice.h"
 
-#include "Core/Common/Spans.h"
+#include "Core/Common/Select.h"
 #include "Core/Interfaces/DualCells.h"
 #include "Core/Interfaces/DualMesh.h"
 
@@ -212,8 +212,7 @@ void DistanceLattice::MakeWellComposed(
   std::vector<LatticePoint> cubes = Joined(executor, ofLayers);
   for (int round = 0; !cubes.empty(); ++round)
   {
-    std::sort(cubes.begin(), cubes.end());
-    cubes.erase(std::unique(cubes.begin(), cubes.end()), cubes.end());
+    SortUnique(cubes);
     std::vector<LatticePoint> changed;
     for (const LatticePoint& cube : cubes)
     {

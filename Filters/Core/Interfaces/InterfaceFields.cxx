@@ -41,20 +41,14 @@ void ForBricks(const VoxelBits& voxels, const VoxelBox& within, Visitor&& visit)
     box.First[axis] /= side;
     box.End[axis] /= side;
   }
-  const VoxelBox all = box.CommonWith(within);
-  for (int k = all.First[2]; k < all.End[2]; ++k)
-  {
-    for (int j = all.First[1]; j < all.End[1]; ++j)
+  box.CommonWith(within).ForVoxels(
+    [&](int i, int j, int k)
     {
-      for (int i = all.First[0]; i < all.End[0]; ++i)
+      if (hasVoxels(i, j, k))
       {
-        if (hasVoxels(i, j, k))
-        {
-          visit(i, j, k);
-        }
+        visit(i, j, k);
       }
-    }
-  }
+    });
 }
 }
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Interfaces/InterfaceMesh.h"
 
+#include "Core/Common/Select.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -189,8 +191,7 @@ void InterfaceMesh::FindObjects(int v, std::vector<int>& objects) const
       objects.push_back(this->Faces[static_cast<std::size_t>(face)].Behind);
       objects.push_back(this->Faces[static_cast<std::size_t>(face)].Front);
     });
-  std::sort(objects.begin(), objects.end());
-  objects.erase(std::unique(objects.begin(), objects.end()), objects.end());
+  SortUnique(objects);
 }
 
 void InterfaceMesh::FindStrata()
@@ -255,8 +256,7 @@ IndexedSurface InterfaceMesh::SurfaceOf(
     const std::array<int, 3>& corners = this->Faces[static_cast<std::size_t>(f)].Vertex;
     vertices.insert(vertices.end(), corners.begin(), corners.end());
   }
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  SortUnique(vertices);
   IndexedSurface surface;
   for (const int v : vertices)
   {

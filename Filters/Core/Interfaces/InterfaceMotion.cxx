@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Interfaces/InterfaceMotion.h"
 
-#include "Core/Common/Spans.h"
+#include "Core/Common/Select.h"
 #include "Core/Interfaces/InterfaceClearance.h"
 #include "Core/Interfaces/InterfaceCrossings.h"
 #include "Core/Interfaces/TriangleShape.h"
@@ -204,8 +204,7 @@ private:
     {
       this->Mesh.ForFaces(v, [&](int f) { faces.push_back(f); });
     }
-    std::sort(faces.begin(), faces.end());
-    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+    SortUnique(faces);
     return faces;
   }
 

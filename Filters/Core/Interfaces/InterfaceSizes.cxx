@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Interfaces/InterfaceSizes.h"
 
+#include "Core/Common/Box.h"
 #include "Core/Common/Spans.h"
 #include "Core/Image/WayToZero.h"
 #include "Core/Mesh/LimitedSizes.h"
@@ -125,14 +126,12 @@ LargeVector<float> FindSags(
 /** The vertices at their places. */
 void LayGrid(VertexGrid& grid, const LargeVector<Vector>& places, float cell, Executor& executor)
 {
-  Vector low = places.front();
-  Vector high = low;
+  Box box = { places.front(), places.front() };
   for (const Vector& p : places)
   {
-    low = Vector(std::min(low.X, p.X), std::min(low.Y, p.Y), std::min(low.Z, p.Z));
-    high = Vector(std::max(high.X, p.X), std::max(high.Y, p.Y), std::max(high.Z, p.Z));
+    box = box.With({ p, p });
   }
-  grid.Reset(low, high, cell);
+  grid.Reset(box.Low, box.High, cell);
   grid.InsertAll(
     places, 0, [](int) { return true; }, executor);
 }

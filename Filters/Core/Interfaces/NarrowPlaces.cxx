@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Interfaces/NarrowPlaces.h"
 
-#include "Core/Common/Spans.h"
+#include "Core/Common/Select.h"
 #include "Core/Interfaces/InterfaceCrossings.h"
 #include "Core/Interfaces/LineWedges.h"
 #include "Core/Interfaces/TriangleShape.h"
@@ -66,14 +66,6 @@ bool AreApart(const MeshTriangle& f, const MeshTriangle& g, double by)
   return isBeyond(f, g) || isBeyond(g, f);
 }
 
-/** Each once. */
-std::vector<int> Sorted(std::vector<int> vertices)
-{
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-  return vertices;
-}
-
 /** Six times the volume of a tetrahedron. */
 double VolumeOf(const VectorD& a, const VectorD& b, const VectorD& c, const VectorD& d)
 {
@@ -113,7 +105,8 @@ void NarrowPlaces::Open(Executor& executor, const std::function<bool()>& goOn)
         }
       }
     }
-    vertices = Sorted(std::move(next));
+    SortUnique(next);
+    vertices.swap(next);
   }
 }
 
@@ -155,7 +148,8 @@ std::vector<int> NarrowPlaces::FindVertices(Executor& executor)
       }
     }
   }
-  return Sorted(std::move(vertices));
+  SortUnique(vertices);
+  return vertices;
 }
 
 template <typename Visitor>
@@ -367,33 +361,27 @@ bool NarrowPlaces::KeepsVoxels(const InterfaceMesh::Face& face, std::ptrdiff_t m
   const int taker = all > 0. ? face.Behind : face.Front;
   const VectorD normal = Normalized(NormalOf(after));
   const std::array<double, 3>& step = this->Fields.Step();
-  const auto cellsOf = [&](double VectorD::*axis, double length)
+  VoxelBox about;
+  int axis = 0;
+  for (double VectorD::*of : { &VectorD::X, &VectorD::Y, &VectorD::Z })
   {
-    const auto [low, high] = std::minmax({ from.*axis, to.*axis, a.*axis, b.*axis });
-    return std::array<int, 2>{ static_cast<int>(std::ceil(low / length)),
-      static_cast<int>(std::floor(high / length)) };
-  };
-  const std::array<int, 2> x = cellsOf(&VectorD::X, step[0]);
-  const std::array<int, 2> y = cellsOf(&VectorD::Y, step[1]);
-  const std::array<int, 2> z = cellsOf(&VectorD::Z, step[2]);
-  for (int k = z[0]; k <= z[1]; ++k)
-  {
-    for (int j = y[0]; j <= y[1]; ++j)
+    const auto [low, high] = std::minmax({ from.*of, to.*of, a.*of, b.*of });
+    about.First[axis] = static_cast<int>(std::ceil(low / step[axis]));
+    about.End[axis] = static_cast<int>(std::floor(high / step[axis])) + 1;
+    ++axis;
+  }
+  bool areKept = true;
+  about.ForVoxels(
+    [&](int i, int j, int k)
     {
-      for (int i = x[0]; i <= x[1]; ++i)
-      {
-        const VectorD centre(i * step[0], j * step[1], k * step[2]);
-        const auto isWithin = [all](double volume) { return volume * all >= 0.; };
-        if (isWithin(VolumeOf(centre, a, b, to)) && isWithin(VolumeOf(from, centre, b, to)) &&
+      const VectorD centre(i * step[0], j * step[1], k * step[2]);
+      const auto isWithin = [all](double volume) { return volume * all >= 0.; };
+      areKept = areKept &&
+        !(isWithin(VolumeOf(centre, a, b, to)) && isWithin(VolumeOf(from, centre, b, to)) &&
           isWithin(VolumeOf(from, a, centre, to)) && isWithin(VolumeOf(from, a, b, centre)) &&
           std::abs(Dot(normal, centre - to)) > this->VoxelTolerance &&
-          this->Fields.Bricks().Map().At(i, j, k) != taker)
-        {
-          return false;
-        }
-      }
-    }
-  }
-  return true;
+          this->Fields.Bricks().Map().At(i, j, k) != taker);
+    });
+  return areKept;
 }
 }

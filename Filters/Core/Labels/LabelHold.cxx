@@ -29,25 +29,21 @@ public:
       this->Reach[axis] =
         std::clamp(static_cast<int>(3. * WideSigma / spacing[axis]), 1, ReachOfHold);
     }
-    for (int k = -this->Reach[2]; k <= this->Reach[2]; ++k)
-    {
-      for (int j = -this->Reach[1]; j <= this->Reach[1]; ++j)
+    const std::array<int, 3>& r = this->Reach;
+    VoxelBox{ { -r[0], -r[1], -r[2] }, { r[0] + 1, r[1] + 1, r[2] + 1 } }.ForVoxels(
+      [&](int i, int j, int k)
       {
-        for (int i = -this->Reach[0]; i <= this->Reach[0]; ++i)
-        {
-          const double x = i * spacing[0];
-          const double y = j * spacing[1];
-          const double z = k * spacing[2];
-          const double square = x * x + y * y + z * z;
-          // Products of kernels are kernels: cut off alone it would be none.
-          const double taper = this->Taper(0, i) * this->Taper(1, j) * this->Taper(2, k);
-          const double wide = std::exp(-0.5 * square / (WideSigma * WideSigma));
-          const double narrow = std::exp(-0.5 * square / (NarrowSigma * NarrowSigma));
-          this->Values.push_back(
-            static_cast<float>(taper * ((1. - NarrowShare) * wide + NarrowShare * narrow)));
-        }
-      }
-    }
+        const double x = i * spacing[0];
+        const double y = j * spacing[1];
+        const double z = k * spacing[2];
+        const double square = x * x + y * y + z * z;
+        // Products of kernels are kernels: cut off alone it would be none.
+        const double taper = this->Taper(0, i) * this->Taper(1, j) * this->Taper(2, k);
+        const double wide = std::exp(-0.5 * square / (WideSigma * WideSigma));
+        const double narrow = std::exp(-0.5 * square / (NarrowSigma * NarrowSigma));
+        this->Values.push_back(
+          static_cast<float>(taper * ((1. - NarrowShare) * wide + NarrowShare * narrow)));
+      });
   }
 
   /** Adds it, times `factor`, to the field; what is beyond the box is left out. */

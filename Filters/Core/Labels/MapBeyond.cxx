@@ -26,18 +26,13 @@ double DifferenceOf(
   first.First[axis] = slices[0];
   first.End[axis] = slices[0] + 1;
   std::int64_t count = 0;
-  for (int k = first.First[2]; k < first.End[2]; ++k)
-  {
-    for (int j = first.First[1]; j < first.End[1]; ++j)
+  first.ForVoxels(
+    [&](int i, int j, int k)
     {
-      for (int i = first.First[0]; i < first.End[0]; ++i)
-      {
-        std::array<int, 3> other = { i, j, k };
-        other[axis] = slices[1];
-        count += map.At(i, j, k) != map.At(other[0], other[1], other[2]) ? 1 : 0;
-      }
-    }
-  }
+      std::array<int, 3> other = { i, j, k };
+      other[axis] = slices[1];
+      count += map.At(i, j, k) != map.At(other[0], other[1], other[2]) ? 1 : 0;
+    });
   return static_cast<double>(count) / static_cast<double>(first.Count());
 }
 }
@@ -49,16 +44,9 @@ void GoOnBeyond(LabelMap& map, const VoxelBox& box, bool isPeriodic)
   };
   for (const VoxelBox& part : VoxelBox::Of(map.Size()).Without(box))
   {
-    for (int k = part.First[2]; k < part.End[2]; ++k)
-    {
-      for (int j = part.First[1]; j < part.End[1]; ++j)
-      {
-        for (int i = part.First[0]; i < part.End[0]; ++i)
-        {
-          map.Set(i, j, k, map.At(sourceOf(i, 0), sourceOf(j, 1), sourceOf(k, 2)));
-        }
-      }
-    }
+    part.ForVoxels(
+      [&](int i, int j, int k)
+      { map.Set(i, j, k, map.At(sourceOf(i, 0), sourceOf(j, 1), sourceOf(k, 2))); });
   }
 }
 

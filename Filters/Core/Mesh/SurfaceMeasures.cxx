@@ -38,23 +38,10 @@ Box BoundsOf(const SurfaceMesh& mesh, Executor& executor)
 {
   constexpr float most = std::numeric_limits<float>::max();
   const Box none = { Vector(most, most, most), Vector(-most, -most, -most) };
-  std::vector<Box> boxes((mesh.Rings.size() + SpanSize - 1) / SpanSize, none);
-  ForSpans(executor, mesh.Rings.size(), SpanSize,
-    [&](std::size_t span, std::size_t begin, std::size_t end)
-    {
-      for (std::size_t v = begin; v < end; ++v)
-      {
-        if (mesh.IsAlive(static_cast<int>(v)))
-        {
-          boxes[span] = boxes[span].With({ mesh.Position[v], mesh.Position[v] });
-        }
-      }
-    });
-  Box box = none;
-  for (const Box& ofSpan : boxes)
-  {
-    box = box.With(ofSpan);
-  }
+  const Box box = JoinVertices(mesh, executor, none,
+    [&mesh](int v, Box& some)
+    { some = mesh.IsAlive(v) ? some.With({ mesh.Position[v], mesh.Position[v] }) : some; },
+    [](const Box& a, const Box& b) { return a.With(b); });
   return mesh.NumberOfVertices() > 0 ? box : Box();
 }
 

@@ -110,14 +110,10 @@ namespace
 std::vector<std::size_t> FirstAlive(const SurfaceMesh& mesh, Executor& executor)
 {
   return FirstOfSpans(executor, mesh.Rings.size(), VertexSpan,
-    [&mesh](std::size_t begin, std::size_t end)
+    [rings = mesh.Rings.data()](std::size_t begin, std::size_t end)
     {
-      std::size_t count = 0;
-      for (std::size_t v = begin; v < end; ++v)
-      {
-        count += mesh.IsAlive(static_cast<int>(v));
-      }
-      return count;
+      return std::count_if(
+        rings + begin, rings + end, [](const Ring& ring) { return ring.Count > 0; });
     });
 }
 }
@@ -402,23 +398,10 @@ std::vector<int> SpaceFillingOrder(const SurfaceMesh& mesh, double cell, Executo
 {
   const std::size_t n = mesh.Rings.size();
   constexpr float most = std::numeric_limits<float>::max();
-  std::vector<Vector> lows((n + VertexSpan - 1) / VertexSpan, Vector(most, most, most));
-  ForSpans(executor, n, VertexSpan,
-    [&](std::size_t span, std::size_t begin, std::size_t end)
-    {
-      for (std::size_t v = begin; v < end; ++v)
-      {
-        if (mesh.IsAlive(static_cast<int>(v)))
-        {
-          lows[span] = Minimum(lows[span], mesh.Position[v]);
-        }
-      }
-    });
-  Vector low(most, most, most);
-  for (const Vector& ofSpan : lows)
-  {
-    low = Minimum(low, ofSpan);
-  }
+  const Vector low = JoinVertices(mesh, executor, Vector(most, most, most),
+    [&](int v, Vector& least)
+    { least = mesh.IsAlive(v) ? Minimum(least, mesh.Position[v]) : least; },
+    [](const Vector& a, const Vector& b) { return Minimum(a, b); });
   const std::vector<std::size_t> first = FirstAlive(mesh, executor);
   LargeVector<std::pair<std::uint64_t, int>> keys;
   MakeZeroed(keys, first.back());

@@ -234,6 +234,30 @@ void Reorder(LargeVector<T>& values, const std::vector<int>& order, VertexSpares
   }
 }
 
+/**
+ * Join what add(v, part) makes of `first` from the vertices of each span, also from those that are
+ * not alive. The spans are joined in their order: the same for any executor.
+ */
+template <typename T, typename Add, typename Join>
+T JoinVertices(
+  const SurfaceMesh& mesh, Executor& executor, const T& first, const Add& add, const Join& join)
+{
+  constexpr std::size_t size = 2048;
+  const std::size_t n = mesh.Rings.size();
+  std::vector<T> parts((n + size - 1) / size, first);
+  ForSpans(executor, n, size,
+    [&](std::size_t span, std::size_t begin, std::size_t end)
+    {
+      T part = first;
+      for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
+      {
+        add(v, part);
+      }
+      parts[span] = part;
+    });
+  return std::accumulate(parts.begin(), parts.end(), first, join);
+}
+
 /** The alive vertices along a Z-order (Morton) curve with cells of side `cell`, those of one by
  * index. */
 std::vector<int> SpaceFillingOrder(

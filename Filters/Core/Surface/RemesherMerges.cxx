@@ -5,6 +5,8 @@
 
 #include "Core/Surface/Remesher.h"
 
+#include "Core/Common/Select.h"
+
 #include <algorithm>
 #include <cstddef>
 #include <tuple>
@@ -138,8 +140,7 @@ void Remesher::Merge(const std::vector<Proximity::ClosePair>& pairs)
       near.push_back({ squared, std::min(pair.V, pair.W), std::max(pair.V, pair.W) });
     }
   }
-  std::sort(near.begin(), near.end());
-  near.erase(std::unique(near.begin(), near.end()), near.end());
+  SortUnique(near);
   std::vector<int> strips;
   for (const NearPair& pair : near)
   {

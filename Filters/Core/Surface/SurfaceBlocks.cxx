@@ -3,6 +3,7 @@
 #include "Core/Surface/SurfaceBlocks.h"
 
 #include "Core/Common/Spans.h"
+#include "Core/Image/VoxelBox.h"
 #include "Core/Surface/Proximity.h"
 
 #include <algorithm>
@@ -155,23 +156,16 @@ std::vector<int> SurfaceBlocks::NeighboursOf(int block) const
 {
   std::vector<int> neighbours;
   const std::array<int, 3> place = this->PlaceOf(block);
-  const std::array<int, 3>& size = this->TheFrame.Size;
-  const auto from = [&place](int axis) { return std::max(place[axis] - 1, 0); };
-  const auto to = [&](int axis) { return std::min(place[axis] + 1, size[axis] - 1); };
-  for (int z = from(2); z <= to(2); ++z)
-  {
-    for (int y = from(1); y <= to(1); ++y)
+  const VoxelBox near = { place, { place[0] + 1, place[1] + 1, place[2] + 1 } };
+  near.Grown(1).CommonWith(VoxelBox::Of(this->TheFrame.Size)).ForVoxels(
+    [&](int x, int y, int z)
     {
-      for (int x = from(0); x <= to(0); ++x)
+      const int other = this->BlockOf({ x, y, z });
+      if (other != block)
       {
-        const int other = this->BlockOf({ x, y, z });
-        if (other != block)
-        {
-          neighbours.push_back(other);
-        }
+        neighbours.push_back(other);
       }
-    }
-  }
+    });
   return neighbours;
 }
 
