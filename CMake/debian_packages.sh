@@ -157,17 +157,15 @@ vtk_free_packages()
 }
 
 vtk_bound_packages() { echo "libvtk9-dev libvtk9-qt-dev python3-vtk9"; }
-
 paraview_product_packages() { echo "paraview paraview-dev python3-paraview"; }
 
 # vtk_packages and paraview_packages: the packages of a flavour that can be installed here.
 vtk_packages()
 {
-  local bound
+  local bound package
   read -ra bound <<< "$(vtk_bound_packages)"
   if vtk_is_beside; then
     # These are unpacked, so what they depend on has to be named.
-    local package
     for package in "${bound[@]}"; do
       dependencies "$package" | grep -vxFf <(printf '%s\n' "${bound[@]}")
     done
@@ -188,9 +186,7 @@ paraview_packages()
     printf '%s\n' "${qt5_packages[@]}"
   fi
   # From 6.1 on Debian's ParaView is built with Debian's VTK, whose headers its own package lacks.
-  if dependencies paraview | grep '^libvtk9' > /dev/null; then
-    printf '%s\n' libvtk9-dev libvtk9-qt-dev
-  fi
+  [ -z "$(dependencies paraview | grep '^libvtk9')" ] || printf '%s\n' libvtk9-dev libvtk9-qt-dev
 }
 
 # ---- Packages beside the system's --------------------------------------------------------------
