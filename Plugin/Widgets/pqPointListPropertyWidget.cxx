@@ -265,13 +265,15 @@ void pqPointListPropertyWidget::pick()
 {
   double position[3];
   auto* view = qobject_cast<pqRenderView*>(this->view());
-  if (view && PickIn(view->getRenderViewProxy(), position))
+  const bool isFound = view && PickIn(view->getRenderViewProxy(), position);
+  if (auto* window = qobject_cast<QMainWindow*>(pqCoreUtilities::mainWidget()))
+  {
+    window->statusBar()->showMessage(
+      isFound ? QString() : tr("No surface or slice under the mouse"));
+  }
+  if (isFound)
   {
     this->addPoint(position);
-  }
-  else if (auto* window = qobject_cast<QMainWindow*>(pqCoreUtilities::mainWidget()))
-  {
-    window->statusBar()->showMessage(tr("No surface or slice under the mouse"), 5000);
   }
 }
 

@@ -187,7 +187,8 @@ void pqAbortButtonBehavior::onStart(vtkObject* filter)
   manager->unblockEvents(true);
   this->connect(this, SIGNAL(progress(const QString&, int)), manager,
     SLOT(setProgress(const QString&, int)), Qt::UniqueConnection);
-  QApplication::setOverrideCursor(Qt::BusyCursor);
+  // Not an override cursor: the progress bar pushes and pops one as the mouse passes it.
+  mainWindow()->setCursor(Qt::BusyCursor);
   QCoreApplication::instance()->installEventFilter(this);
   this->Pause = LeastPause;
   this->SinceUpdate.start();
@@ -222,10 +223,10 @@ void pqAbortButtonBehavior::onEnd()
     return;
   }
   QCoreApplication::instance()->removeEventFilter(this);
-  QApplication::restoreOverrideCursor();
   this->Running = nullptr;
   if (QMainWindow* window = mainWindow())
   {
+    window->unsetCursor();
     window->statusBar()->clearMessage();
   }
   if (pqProgressManager* manager = progressManager())

@@ -19,11 +19,9 @@ from window_testing import (
 SEEDS = f"{PROPERTIES}/SeedPositions"
 ATTRACTING = f"{PROPERTIES}/AttractingPositions"
 REPRESENTATION = f"{gui.WINDOW}/representationToolbar/displayRepresentation/comboBox"
-# Places of the screen in the picture of `two_balls`, whose centre is that of the view.
-LEFT_BALL, BETWEEN, CENTRE = (645, 463), (725, 540), (725, 463)
-
-# As well: of `five_balls`, and beside these.
-LOWER_LEFT, LOWER_RIGHT, BESIDE = (627, 523), (847, 523), (737, 620)
+# Pixels from the centre of the view, which shows `two_balls` or `five_balls`.
+LEFT_BALL, BETWEEN, CENTRE = (-80, 0), (0, 77), (0, 0)
+LOWER_LEFT, LOWER_RIGHT, BESIDE = (-98, 60), (122, 60), (12, 157)
 
 # Runs in the window: tells each run's seeds, its components, and between which x its surface lies.
 TELL_OF_RUNS = window.WATCH_FILTERS + """
@@ -102,7 +100,7 @@ class PointsWindowTest(window.WindowTestCase):
             "points-added")
         # Not applied: the state has none; the view shows both, one in its middle.
         self.assertEqual(len(window.open_state(unsaved, "VolumetoSurface1").SeedPositions), 0)
-        self.assertTrue(self.is_marked(pixels, *CENTRE), "a handle in the middle")
+        self.assertTrue(self.is_marked(pixels, CENTRE), "a handle in the middle")
         self.play(a_slice_of(two_balls()) + FROM_SEEDS + [
             add, *typed("0.0", "46.5"), gui.pause(300), APPLY, gui.pause(300), *save,
             remove, rows(SEEDS, 0), APPLY, gui.pause(300),
@@ -115,8 +113,16 @@ class PointsWindowTest(window.WindowTestCase):
         self.assertGreater(surface.GetBounds()[0], 30.0)
 
     @staticmethod
-    def is_marked(pixels, x, y):
+    def place(pixels, offset):
+        """Position on the screen: the view is between the blue lines of its frame."""
+        row = pixels[600].astype(int)
+        lines = numpy.nonzero((row[:, 2] > 200) & (row[:, :2].max(axis=1) < 60))[0]
+        left = numpy.diff(lines).argmax()
+        return int(lines[left] + lines[left + 1]) // 2 + offset[0], 463 + offset[1]
+
+    def is_marked(self, pixels, offset):
         """Whether a handle is drawn there: nothing else is magenta."""
+        x, y = self.place(pixels, offset)
         near = pixels[y - 12:y + 13, x - 12:x + 13].astype(int)
         return bool((near - (255, 0, 255) == 0).all(axis=2).any())
 
@@ -126,7 +132,7 @@ class PointsWindowTest(window.WindowTestCase):
     def picture_with_a_mark(self, name, place):
         """As soon as a handle is drawn there."""
         end = time.monotonic() + gui.PATIENCE
-        while not self.is_marked(self.picture(name), *place):
+        while not self.is_marked(self.picture(name), place):
             self.assertLess(time.monotonic(), end, f"no handle is drawn; see {name}.png")
             time.sleep(0.2)
         self.session.wait_for_rest()  # The panel has it as well.
@@ -136,7 +142,7 @@ class PointsWindowTest(window.WindowTestCase):
         """The mouse and keys, and the picture with the point that was picked."""
         # ParaView leaves real mouse and keys aside while it plays events.
         hand = x_input.Input(self.session.display)
-        hand.move(*place)
+        hand.move(*self.place(self.session.pixels(), place))
         hand.focus()
         hand.key("p")
         return hand, self.picture_with_a_mark(name, place)
@@ -152,10 +158,10 @@ class PointsWindowTest(window.WindowTestCase):
         self.play(a_slice_of(two_balls()) + FROM_SEEDS + [SHOW_LIST, gui.pause(500)],
                   "points-none", python=TELL_OF_RUNS, live=True)
         hand, picked = self.pick(BETWEEN, "points-picked")
-        self.assertFalse(self.is_marked(picked, *LEFT_BALL))
-        hand.drag(BETWEEN, LEFT_BALL)
+        self.assertFalse(self.is_marked(picked, LEFT_BALL))
+        hand.drag(*[self.place(picked, place) for place in (BETWEEN, LEFT_BALL)])
         dragged = self.picture_with_a_mark("points-dragged", LEFT_BALL)
-        self.assertFalse(self.is_marked(dragged, *BETWEEN))
+        self.assertFalse(self.is_marked(dragged, BETWEEN))
         told = self.applied(hand, dragged)
         self.assertIn("Run:", told, "nothing was applied")
         x, y, z, low, high = [float(n) for n in re.search(
@@ -180,7 +186,7 @@ class PointsWindowTest(window.WindowTestCase):
         self.session.wait_for_rest()
         # The others are faint, and can be picked.
         hand, picked = self.pick(LOWER_RIGHT, "points-faint-component-picked")
-        x, y = LOWER_RIGHT
+        x, y = self.place(picked, LOWER_RIGHT)
         self.assertGreater(abs(picked[y - 20, x].astype(int) - picked[y + 60, x]).max(), 5)
         told = self.applied(hand, picked)
         self.assertIn(" parts: 2 ", told)
@@ -188,10 +194,10 @@ class PointsWindowTest(window.WindowTestCase):
         self.assertLess(low, 10.0)
         self.assertGreater(high, 50.0)
         before = self.picture("points-components-applied")
-        hand.move(*BESIDE)
+        hand.move(*self.place(before, BESIDE))
         hand.focus()
         hand.key("p")
         self.session.wait_for_rest(before)
         after = self.picture("points-beside")
-        self.assertFalse(self.is_marked(after, *BESIDE))
+        self.assertFalse(self.is_marked(after, BESIDE))
         self.assertTrue((before[-25:, :300] != after[-25:, :300]).any(), "the status bar says so")
