@@ -180,7 +180,8 @@ class VolumeReaderTest(testing.PluginTestCase):
         shutil.rmtree(path, ignore_errors=True)
         group = zarr.open_group(path, mode="w")
         create = getattr(group, "create_array", None) or group.create_dataset # as zarr 2 calls it
-        create("0", data=label_maps.values(), chunks=(16, 16, 16))
+        values = label_maps.values()
+        create("0", shape=values.shape, chunks=(16, 16, 16), dtype=values.dtype)[:] = values
         group.attrs["multiscales"] = [{
             "version": "0.4", "axes": [{"name": name, "type": "space", "unit": "micrometer"}
                                        for name in "zyx"],
