@@ -187,8 +187,6 @@ void pqAbortButtonBehavior::onStart(vtkObject* filter)
   manager->unblockEvents(true);
   this->connect(this, SIGNAL(progress(const QString&, int)), manager,
     SLOT(setProgress(const QString&, int)), Qt::UniqueConnection);
-  // Not an override cursor: the progress bar pushes and pops one as the mouse passes it.
-  mainWindow()->setCursor(Qt::BusyCursor);
   QCoreApplication::instance()->installEventFilter(this);
   this->Pause = LeastPause;
   this->SinceUpdate.start();
@@ -226,7 +224,6 @@ void pqAbortButtonBehavior::onEnd()
   this->Running = nullptr;
   if (QMainWindow* window = mainWindow())
   {
-    window->unsetCursor();
     window->statusBar()->clearMessage();
   }
   if (pqProgressManager* manager = progressManager())
