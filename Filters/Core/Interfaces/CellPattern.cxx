@@ -9,7 +9,7 @@ namespace volumic
 {
 namespace
 {
-/** Small sets that are joined. */
+/** Union-find of a few elements. */
 template <std::size_t Size>
 class Joins
 {
@@ -29,12 +29,12 @@ private:
   std::array<int, Size> Parent;
 };
 
-/** A side of a cell: its octants, round about, and the edges between each and the next one. */
+/** A side of a cell: its octants in cyclic order and the edge from each octant to the next one. */
 struct SideOfCell
 {
   std::array<int, 4> Octant;
   std::array<int, 4> Edge;
-  /** Which of the two sides of each edge it is. */
+  /** Index of this side among the two sides of each edge (CellPattern::SidesOf). */
   static constexpr std::array<int, 4> Place = { 1, 0, 1, 0 };
 
   SideOfCell(int axis, int high)
@@ -93,7 +93,7 @@ void CellPattern::FindArcs(
       return labelAt(n) == labelAt(n + 2) && labelAt(n) != labelAt(n + 1) &&
         labelAt(n) != labelAt(n + 3);
     };
-    int joined = -1; // of the octants of this label round about the first one
+    int joined = -1; // first of the two opposite octants that are connected
     if (isAcross(0) && isAcross(1))
     {
       joined = rankOf[labelAt(0)] < rankOf[labelAt(1)] ? 0 : 1;
@@ -107,12 +107,12 @@ void CellPattern::FindArcs(
       this->HasJoins = true;
       regions.Join(side.Octant[joined], side.Octant[joined + 2]);
     }
-    std::array<int, 2> first = { -1, -1 }; // edge of each strand
+    std::array<int, 2> first = { -1, -1 }; // an edge of each strand
     for (int n = 0; n < 4; ++n)
     {
       if (isCrossed[side.Edge[n]])
       {
-        // The two edges beside an octant that is not joined.
+        // A strand joins the two edges at an octant that is not connected.
         const int strand = joined < 0 ? 0 : ((n + (joined == 0 ? 0 : 3)) % 4) / 2;
         this->StrandOf[side.Edge[n]][SideOfCell::Place[n]] = static_cast<signed char>(strand);
         if (first[strand] >= 0)
@@ -170,7 +170,7 @@ void CellPattern::FindCentres(
       }
       return count == 1;
     };
-    // The largest region whose label is there once; if there is none, of the first rank.
+    // Prefer the largest region with a unique label, otherwise the region of the lowest rank.
     const auto before = [&](int a, int b)
     {
       const int rankA = rankOf[labels[a]];

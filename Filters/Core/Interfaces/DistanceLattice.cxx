@@ -17,11 +17,11 @@ namespace
 {
 /** Points of the lattice beyond the box on each side. */
 constexpr int Beside = 2;
-constexpr int AddingRounds = 20; ///< After them points only go out, which ends.
-/** Values of what comes in or goes out, in pitches. */
+constexpr int AddingRounds = 20; ///< Later rounds only remove points, which terminates.
+/** Values of added and removed points, in pitches. */
 constexpr float ComesIn = -0.15f;
 constexpr float GoesOut = 0.3f;
-/** What comes in is at most so far from the surface, in pitches. */
+/** Maximum distance of an added point from the surface, in pitches. */
 constexpr float FarthestIn = 0.9f;
 }
 
@@ -167,7 +167,7 @@ std::vector<LatticePoint> DistanceLattice::FindIllComposed(int layer) const
 {
   std::vector<LatticePoint> cubes;
   const auto size = static_cast<std::size_t>(this->Points[0]);
-  std::vector<std::uint8_t> low(size * this->Points[1]); // whether points are inside
+  std::vector<std::uint8_t> low(size * this->Points[1]); // 1 if the point is inside
   std::vector<std::uint8_t> high(low.size());
   const auto copy = [this](int k, std::vector<std::uint8_t>& inside)
   {
@@ -230,7 +230,7 @@ IndexedSurface DistanceLattice::Boundary(bool isEven, Executor& executor) const
 {
   DualGrid grid;
   grid.Size = this->Points;
-  grid.RankOf = { 1, 0 }; // Of outside, and inside.
+  grid.RankOf = { 1, 0 }; // label 0: outside, label 1: inside
   grid.HasShortDiagonals = isEven;
   for (int axis = 0; axis < 3; ++axis)
   {
@@ -260,7 +260,7 @@ IndexedSurface DistanceLattice::Boundary(bool isEven, Executor& executor) const
   std::transform(faces.begin(), faces.end(), surface.Triangles.begin(),
     [](const InterfaceMesh::Face& face) {
       return Triangle{ face.Vertex[0], face.Vertex[2], face.Vertex[1] };
-    }); // Seen from outside.
+    }); // Reversed: counter-clockwise seen from outside.
   return surface;
 }
 }

@@ -10,11 +10,14 @@ namespace volumic
 {
 namespace
 {
-using Place = std::array<double, 3>; ///< in a cell, from 0 to 1
+using Place = std::array<double, 3>; ///< coordinates in a cell, from 0 to 1
 
-/** How far vertices of a cell or side with several go from its middle to their arcs. */
+/**
+ * Position of the vertices of a cell or side with several of them: fraction of the distance from
+ * the middle to the mean of their arcs.
+ */
 constexpr double Apart = 0.5;
-/** The size of the copy of an opened sheet's rim. */
+/** Scale of the copied boundary loop of an opened sheet. */
 constexpr double Copied = 0.5;
 
 Place SlotOfArc(int edge)
@@ -32,11 +35,13 @@ Place Between(const Place& middle, const Place& end, double share)
     middle[2] + share * (end[2] - middle[2]) };
 }
 
-/** Of a function on the edges of a cell; each is kept near the middle of its edge, for the sake of
- * even triangles. */
+/**
+ * Return the mean of the zeros of a function on the edges of a cell. Zeros are clamped towards the
+ * middle of their edges, which gives triangles of similar size.
+ */
 Place MeanOfZeros(const std::array<float, 8>& values)
 {
-  constexpr double most = 0.24; // from the middle
+  constexpr double most = 0.24; // distance from the middle of the edge
   Place sum = { 0., 0., 0. };
   int count = 0;
   for (int edge = 0; edge < CellPattern::Edges; ++edge)
@@ -62,7 +67,7 @@ Place MeanOfZeros(const std::array<float, 8>& values)
   return sum;
 }
 
-/** What two slices have at the octants of the cell that begins at a place. */
+/** Return the values of two slices at the octants of a cell. */
 template <typename T>
 std::array<T, 8> OctantsAt(
   const std::vector<T>& low, const std::vector<T>& high, std::size_t at, std::size_t row)
@@ -71,7 +76,7 @@ std::array<T, 8> OctantsAt(
     high[at + row], high[at + row + 1] };
 }
 
-/** From a middle so far to the arcs of which use(edge) is true. */
+/** Return a position between `middle` and the mean of the arcs for which use(edge) is true. */
 template <typename Use>
 Place TowardsArcs(const Place& middle, const Use& use)
 {
@@ -217,7 +222,7 @@ void DualCells::AddCell(DualSlab& slab, const std::array<int, 3>& at,
 
 bool DualCells::IsPlainPair(const std::array<Number, 8>& labels) const
 {
-  unsigned others = 0; // than the first one, bits of octants
+  unsigned others = 0; // bits of the octants whose label is not that of the first octant
   Number other = labels[0];
   for (unsigned octant = 1; octant < 8; ++octant)
   {
@@ -242,7 +247,7 @@ float DualCells::CoordinateOf(const std::array<int, 3>& cell, int axis, double a
   const bool isFirst = n == 0;
   if (this->IsAtSide(cell, axis) && (isFirst ? at < 1. : at > 0.))
   {
-    return plane; // Labels meet what is outside there; but those of the side opposite to it do not.
+    return plane; // Except for the points of the inner side, which are not on the box.
   }
   const double end = this->Grid.Centres[axis][at < 0.5 ? n : n + 1];
   return static_cast<float>(plane + (end - plane) * (at < 0.5 ? 1. - 2. * at : 2. * at - 1.));
@@ -297,7 +302,7 @@ void DualCells::AddPointsOfSpecials(DualSlab& slab) const
         const Place place = SlotOfStrand(pattern, sides[n], strand);
         int& inner = special.InnerStrand[sides[n]][strand];
         inner = inner >= 0 ? inner : add(Between(middle, place, Copied));
-        // In the plane of a box's side the copies of this and of others would coincide.
+        // In the plane of a box side, this copy would coincide with copies of other arcs.
         arc = this->IsOppositeToSide(special.At, sides[n]) ? Between(arc, place, 0.5) : arc;
       }
       special.InnerArc[edge] = add(Between(middle, arc, Copied));

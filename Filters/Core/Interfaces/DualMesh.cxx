@@ -17,12 +17,10 @@ namespace
 using Number = LabelMap::Number;
 using Slab = DualSlab;
 
-/** The four cells about a voxel face across an axis, round about: whether they are lower along the
- * two next axes. */
+/** The four cells around a voxel face, in cyclic order: 1 if lower along the next two axes. */
 constexpr std::array<std::array<int, 2>, 4> CellsAbout = { { { 0, 0 }, { 1, 0 }, { 1, 1 },
   { 0, 1 } } };
-/** The sides of these cells that lead to the one before and to the next one: that across the first
- * of the two axes, or the second. */
+/** Axis (first or second of the two) normal to the side towards the previous and the next cell. */
 constexpr std::array<int, 4> SideBefore = { 1, 0, 1, 0 };
 constexpr std::array<int, 4> SideAfter = { 0, 1, 0, 1 };
 
@@ -41,12 +39,12 @@ public:
   }
 
 private:
-  /** What the cells of two layers have, those of the voxel faces of a slice. */
+  /** Contents of the two layers of cells below and above a slice of voxels. */
   struct Layers
   {
-    std::vector<int> Below; ///< as Slab::Has; NoCell
+    std::vector<int> Below; ///< values of DualSlab::Has, or NoCell
     std::vector<int> Above;
-    bool IsBelowBefore = false; ///< in the slab before
+    bool IsBelowBefore = false; ///< Whether Below belongs to the previous slab.
   };
   static constexpr int NoCell = -2147483647;
 
@@ -113,7 +111,7 @@ private:
     }
   }
 
-  /** A triangle with labels behind and in front of it; at a side of a box with its number. */
+  /** Add a triangle between two labels. @param side side of the box, if one label is outside */
   void AddTriangle(
     Slab& slab, const std::array<int, 3>& vertices, Number behind, Number front, int side) const
   {
@@ -137,7 +135,7 @@ private:
     slab.Faces.push_back(face);
   }
 
-  /** The rim of a voxel face's polygon: points as those of Slab::Faces. */
+  /** Boundary loop of a voxel face. Points are encoded as in DualSlab::Faces. */
   struct Ring
   {
     std::array<int, 20> Point;
@@ -145,10 +143,10 @@ private:
   };
 
   /**
-   * Of a voxel face some of whose cells are special.
-   * @param special  which of its cells, round about, are; null: plain
-   * @param has      of these cells, as Slab::Has
-   * @param isBefore whether they are in the slab before
+   * Return the boundary loop of a voxel face with special cells.
+   * @param special  the four cells in cyclic order; null: plain
+   * @param has      their values of DualSlab::Has
+   * @param isBefore whether they are in the previous slab
    */
   static Ring RingAbout(const std::array<const SpecialCell*, 4>& special,
     const std::array<int, 4>& has, const std::array<bool, 4>& isBefore, int axis)
@@ -161,9 +159,9 @@ private:
       const int before = (q + 3) % 4;
       if (here || special[before])
       {
-        // That cell of the two which is special, and if both are, the lower one, has the strand.
+        // The strand belongs to the special cell of the two, and to the lower one if both are.
         const int place = SideBefore[q];
-        const bool isHigh = CellsAbout[q][place] == 1; // of this cell
+        const bool isHigh = CellsAbout[q][place] == 1; // The side is the high one of this cell.
         const bool isOfHere = here && (isHigh || !special[before]);
         const int q0 = isOfHere ? q : before;
         const int edge0 =
@@ -217,8 +215,8 @@ private:
     const int side = 2 * axis + (voxel[axis] == 0 ? 0 : 1);
     if (arePlain)
     {
-      // All diagonals are of cells of one parity, or safe distances would be shorter; alike in
-      // opposite sides of a box.
+      // Diagonals connect cells of one parity: other diagonals reduce the distance of triangles.
+      // Opposite sides of a box have the same diagonals.
       const bool isInSide = this->Cells.IsOutside(behind) || this->Cells.IsOutside(front);
       const auto squared = [&](int q)
       {
@@ -262,7 +260,7 @@ private:
     }
   }
 
-  /** Of an opened sheet, the fans of all regions but that which has the centre. */
+  /** Close the regions of an opened sheet by fans, except for the region at the centre. */
   void AddCaps(Slab& slab, const SpecialCell& special, int sheet)
   {
     const CellPattern& pattern = special.Pattern;
@@ -282,7 +280,7 @@ private:
         {
           continue;
         }
-        int q = 0; // the cell's place about the arc's voxel face
+        int q = 0; // index of this cell around the voxel face of the arc
         while (CellsAbout[q][0] != (edge & 1) || CellsAbout[q][1] != (edge >> 1 & 1))
         {
           ++q;

@@ -13,7 +13,7 @@ namespace volumic
 {
 namespace
 {
-/** Faces that a thread looks at at a time. */
+/** Faces per span of a parallel loop. */
 constexpr std::size_t SpanSize = 4096;
 
 bool Has(const MeshTriangle& face, int v)
@@ -26,7 +26,7 @@ const VectorD& CornerAt(const MeshTriangle& face, int v)
   return face.Corner[std::find(face.Vertex, face.Vertex + 3, v) - face.Vertex];
 }
 
-/** From one face to the other one about the edge: the angle's cosine and sine, times a length. */
+/** Signed dihedral angle between two faces at an edge: cosine and sine, up to a common factor. */
 struct Turn
 {
   double Cosine;
@@ -102,7 +102,7 @@ bool AreInOrder(int u, int v, const std::vector<FaceCoordinates>& faces)
     {
       ++at;
     }
-    // From the opposite vertex on, the edge is gone along in the one direction or the other.
+    // Direction of the edge in the face, from the opposite vertex on.
     const bool isForward = face.Vertex[(at + 1) % 3] == u;
     const VectorD& from = face.Corner[(at + (isForward ? 1 : 2)) % 3];
     if (turns.empty())
@@ -164,7 +164,7 @@ void InterfaceClearance::Reset(Executor& executor)
     });
   this->All = boxes.All;
   this->Reach = 0.5f * boxes.Longest;
-  // A cell is as wide as a box is long in the mean.
+  // Cell size: the mean of the longest sides of the boxes.
   this->Grid.Reset(
     this->All.Low, this->All.High, std::max(static_cast<float>(boxes.MeanSide()), 1e-6f));
   this->Grid.InsertAll(
@@ -366,7 +366,7 @@ bool InterfaceClearance::PassAny(
       const auto old = std::find_if(about.begin(), about.end(), isIt);
       if (old == about.end())
       {
-        continue; // It is new.
+        continue; // The face has no predecessor at this edge.
       }
       const MeshTriangle before =
         TriangleOf(this->Mesh, this->Mesh.Faces[static_cast<std::size_t>(*old)].Vertex);

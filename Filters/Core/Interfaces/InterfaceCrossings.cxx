@@ -15,11 +15,11 @@ namespace volumic
 {
 namespace
 {
-/** Faces, or cubes, that a thread looks at at a time. */
+/** Faces per span of a parallel loop. */
 constexpr std::size_t SpanSize = 2048;
-/** How wide cubes are, in the mean width of faces. */
+/** Edge length of a cube, in mean box sizes of the faces. */
 constexpr float CubeInFaces = 2.f;
-/** Cubes along an axis, at most. */
+/** Maximum number of cubes along an axis. */
 constexpr int MostCubes = 1 << 20;
 
 class CrossingFinder
@@ -71,7 +71,7 @@ private:
     this->Count = { last[0] + 1, last[1] + 1, last[2] + 1 };
   }
 
-  /** The cube of a place, along each axis. */
+  /** Return the indices of the cube at a position. */
   std::array<int, 3> CubeOf(const Vector& place) const
   {
     const Vector from = (place - this->Low) * this->PerCube;
@@ -79,7 +79,7 @@ private:
       std::max(static_cast<int>(from.Z), 0) };
   }
 
-  /** The faces in each layer of cubes along z, sorted. */
+  /** Return the sorted faces in each layer of cubes along z. */
   std::vector<std::vector<int>> FindFacesOfLayers() const
   {
     using LayersOfFace = std::array<int, 3>;
@@ -108,7 +108,7 @@ private:
   void TestLayer(int layer, const std::vector<int>& faces, std::vector<std::array<int, 2>>& pairs,
     std::vector<int>& doubtful) const
   {
-    // The faces of each cube, in one list: counted, then put there.
+    // Counting sort of the faces by cube.
     std::vector<std::size_t> first(
       static_cast<std::size_t>(this->Count[0]) * this->Count[1] + 1, 0);
     const auto forCubes = [&](const auto& visit)
@@ -143,7 +143,7 @@ private:
     }
   }
 
-  /** The faces of a cube. */
+  /** Test the faces of a cube against each other, unless they form one sheet. */
   void TestCube(const std::array<int, 3>& cube, const int* first, const int* last,
     std::vector<std::array<int, 2>>& pairs, std::vector<int>& doubtful) const
   {
@@ -163,7 +163,7 @@ private:
         {
           continue;
         }
-        // In the first cube that both are in.
+        // Test each pair once: in the first cube that both faces overlap.
         if (this->CubeOf(box.Within(other).Low) == cube &&
           TrianglesIntersect(triangle, this->TriangleAt(*g), this->Tolerance))
         {

@@ -13,17 +13,17 @@ namespace volumic
 {
 namespace
 {
-/** Cosine of the angle between two faces whose edge is flipped. */
+/** Least cosine between the normals of two faces whose edge is flipped. */
 constexpr double LeastFlatCosine = 0.85;
-/** The same of two faces of which one is a sliver. */
+/** The same if one of the faces is a sliver. */
 constexpr double LeastSliverCosine = 0.5;
-/** Triangles worse than that, by RadiusRatio(), are made of worse ones only. */
+/** A collapse creates triangles of a smaller RadiusRatio() only if the old ones were worse. */
 constexpr double LeastRatio = 0.3;
-/** Those are slivers, by the same. */
+/** RadiusRatio() below which the normal of a triangle is unreliable. */
 constexpr double MostSliver = 0.15;
-/** Triangles with no smaller angle are good enough, radian. */
+/** Flips are tried for triangles with a smaller angle, in radians. */
 constexpr double MostFlipped = 0.8;
-/** By how much a flip must make the smallest angle larger, radian. */
+/** Least increase of the smallest angle by a flip, in radians. */
 constexpr double LeastGain = 0.02;
 }
 
@@ -106,7 +106,7 @@ bool InterfaceEdits::MayCollapse(int u, int v)
   const bool isOnLine = this->Mesh.IsLine(this->AtEdge);
   if (isOnLine != (lower != Stratum::Interface))
   {
-    return false; // Two lines would meet, or a vertex leave its own.
+    return false; // Two junction lines would meet, or a vertex would leave its line.
   }
   if (lower == Stratum::Corner && !this->ShareObjects(u, v))
   {
@@ -179,7 +179,7 @@ bool InterfaceEdits::TryCollapse(int u, int v)
   const Vector other = this->Mesh.Position[static_cast<std::size_t>(removed)];
   const bool isAlike = rankOf(kept).first == rankOf(removed).first;
   const std::array<Vector, 3> places = { isAlike ? (place + other) * 0.5f : place, place, other };
-  // What is made is looked at first: it is the least work, and what most are refused for.
+  // Test the quality of the new faces first: it is the cheapest test and rejects most collapses.
   bool isAllowed = false;
   for (std::size_t n = 0; n < (isAlike ? places.size() : 1); ++n)
   {
@@ -283,7 +283,7 @@ bool InterfaceEdits::IsFairCollapse(const Vector& place, int kept, int removed)
         const auto k = std::find(after.Vertex, after.Vertex + 3, v) - after.Vertex;
         after.Vertex[k] = kept;
         after.Corner[k] = VectorD(place);
-        // The normals of slivers say nothing.
+        // The normals of slivers are unreliable.
         isFair =
           ratio < MostSliver || CosineOf(NormalOf(before), NormalOf(after)) > LeastTurnCosine;
         this->Made.push_back(after);
@@ -300,7 +300,7 @@ bool InterfaceEdits::IsFairCollapse(const Vector& place, int kept, int removed)
 
 bool InterfaceEdits::MakesLongEdges(const Vector& place, int kept, int removed) const
 {
-  // Short edges at corners bend lines: rather longer ones for a while, which are split elsewhere.
+  // Short edges at junction points bend lines. Allow longer edges instead, which are split later.
   const double longest = this->Longest *
     (this->Mesh.StratumOf[static_cast<std::size_t>(kept)] == Stratum::Corner
         ? CornerClearance * CornerClearance
@@ -345,7 +345,7 @@ int InterfaceEdits::FlipAt(int face)
   const std::array<int, 3> v = this->Mesh.Faces[static_cast<std::size_t>(face)].Vertex;
   if (SmallestAngle(TriangleOf(this->Mesh, v)) > MostFlipped)
   {
-    return 0; // From the worse one of two it is tried, if one is bad.
+    return 0; // The flip is tried from the worse of the two faces.
   }
   for (int k = 0; k < 3; ++k)
   {

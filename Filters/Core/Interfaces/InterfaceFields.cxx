@@ -15,13 +15,13 @@ namespace volumic
 {
 namespace
 {
-/** One of so many is a large part. */
+/** An object with more than 1 / LargePart of the remaining bricks is processed by all threads. */
 constexpr std::int64_t LargePart = 8;
 
-/** Bricks beyond a part in which its field is made, too: further than the Gaussian reaches. */
+/** Bricks by which a part is extended to compute its field: more than the reach of the Gaussian. */
 constexpr int PartMargin = 6;
 
-/** Calls visit(i, j, k) for the bricks within some that have voxels of a set. */
+/** Call visit(i, j, k) for the bricks in a range that contain voxels of a set. */
 template <typename Visitor>
 void ForBricks(const VoxelBits& voxels, const VoxelBox& within, Visitor&& visit)
 {
@@ -58,7 +58,7 @@ InterfaceFields::InterfaceFields(const LabelBricks& bricks, const LabelFieldOpti
   : Map(bricks), Lengths(step), IsPeriodic(isPeriodic)
 {
   const auto count = static_cast<std::size_t>(bricks.Map().NumberOfObjects) + 1;
-  // The largest first, as none should be waited for at the end.
+  // Largest objects first, for load balancing.
   std::vector<int> order(count);
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(),
@@ -94,7 +94,7 @@ InterfaceFields::InterfaceFields(const LabelBricks& bricks, const LabelFieldOpti
   {
     rest += bricks.ExtentOf(object).Bricks.Count();
   }
-  // Those that are a large part of what is left by all threads, the others side by side.
+  // Objects that are a large part of the remaining work use all threads, others one thread each.
   std::size_t first = 0;
   for (; first < count && LargePart * bricks.ExtentOf(order[first]).Bricks.Count() > rest; ++first)
   {
@@ -245,8 +245,8 @@ InterfaceFields::Sample InterfaceFields::Interpolate(int object, const Vector& p
     }
   }
   const auto between = [](float first, float last, float t) { return first + t * (last - first); };
-  float row[2][2];   // by z and y
-  float along[2][2]; // its derivative by x
+  float row[2][2];   // interpolated along x, by z and y
+  float along[2][2]; // derivative of row with respect to x
   for (int c = 0; c < 2; ++c)
   {
     for (int b = 0; b < 2; ++b)

@@ -64,7 +64,7 @@ int InterfaceMesh::AddFace(const Face& face)
   constexpr std::size_t most = std::numeric_limits<int>::max() / 3;
   if (this->Faces.size() >= most)
   {
-    throw std::bad_alloc(); // Corners would have no numbers.
+    throw std::bad_alloc(); // Corner numbers would overflow.
   }
   const int number = static_cast<int>(this->Faces.size());
   this->Faces.push_back(face);

@@ -16,10 +16,10 @@ namespace volumic
 namespace
 {
 constexpr std::size_t SpanSize = 1024;
-/** Cosine of the angle by which a face may turn. */
+/** Least cosine of the angle by which a face may turn. */
 constexpr double LeastTurnCosine = 0.3;
 
-/** Takes back what is not safe. */
+/** Moves vertices of invalid faces back to their initial positions. */
 class Verification
 {
 public:
@@ -42,7 +42,7 @@ public:
       return;
     }
     this->Clearance.Reset(this->Threads);
-    // Each round takes back a vertex more, or is the last one.
+    // Terminates: each round except for the last one moves at least one more vertex back.
     while (!back.empty())
     {
       std::vector<int> faces = this->FindFacesOf(back);
@@ -131,7 +131,7 @@ private:
     }
   }
 
-  /** Of each of some faces one that other(face, room) finds, if it finds one. */
+  /** Return the pairs (face, other(face, scratch)) with a non-negative second face. */
   template <typename Other>
   std::vector<std::array<int, 2>> FindPairs(const std::vector<int>& faces, const Other& other) const
   {
@@ -153,7 +153,7 @@ private:
       [this](int face, std::vector<int>& about) { return this->FindPassed(face, about); });
   }
 
-  /** One with an edge of this face that it has been turned past; -1: none. */
+  /** Return a face at a common edge past which a face has been turned; -1: none. */
   int FindPassed(int face, std::vector<int>& about) const
   {
     const std::array<int, 3>& corners = this->Mesh.Faces[static_cast<std::size_t>(face)].Vertex;
@@ -188,7 +188,7 @@ private:
     return triangle;
   }
 
-  /** What has been taken back is where it is found from now on. */
+  /** Update the search structure for vertices that were moved back. */
   void Follow(const std::vector<int>& back)
   {
     for (const int v : back)
@@ -217,7 +217,7 @@ private:
   std::vector<unsigned char> IsBack;
 };
 
-/** Has images make the shortest of their steps. */
+/** Give all images of a vertex the shortest of their steps. */
 void MoveImagesAlike(const InterfaceMesh& mesh, LargeVector<Vector>& after)
 {
   const auto lengthOf = [&](int v)
@@ -272,7 +272,7 @@ void MoveInterfaces(InterfaceMesh& mesh, const InterfaceFields& fields, int step
   }
   catch (...)
   {
-    mesh.Position = before; // Some steps are not verified.
+    mesh.Position = before; // The steps are not verified.
     throw;
   }
 }

@@ -17,25 +17,25 @@ namespace volumic
 {
 namespace
 {
-/** Faces that a thread looks at at a time. */
+/** Faces per span of a parallel loop. */
 constexpr std::size_t SpanSize = 4096;
 /**
- * In longest edges: how far faces may come out of their cube, and how wide a cube is. An edit
- * writes what is within an edge of its face, and the cells of the grid there, which are as wide as
- * an edge at most. It reads what is within two edges and a half, and the cells there: two cubes of
- * a colour have nothing in common if there are 2 * 1 + 1 + 2.5 + 2 edges between them.
+ * Distance by which faces may extend beyond their cube, and edge length of a cube, both in longest
+ * edge lengths. An edit writes within 1 edge of its face, and reads within 2.5 edges. Both include
+ * the grid cells there, which are at most 1 edge wide. Two cubes of one colour are independent if
+ * they are 2 * 1 + 1 + 2.5 + 2 edges apart.
  */
 constexpr float MarginInEdges = 1.f;
 constexpr float SideInEdges = 7.5f;
-/** Bits of a cube's number along an axis. */
+/** Bits of the index of a cube along an axis. */
 constexpr int Bits = 20;
 constexpr std::uint64_t Last = (std::uint64_t(1) << Bits) - 1;
 
-/** A cube and one of its faces, that whose middle is in it. */
+/** A face and the cube that contains its middle. */
 struct FaceInCube
 {
-  std::uint64_t Colour; ///< the cube's parities: between two of a colour there is another one
-  std::uint64_t Cube;   ///< its numbers along the axes
+  std::uint64_t Colour; ///< parities of the indices of the cube
+  std::uint64_t Cube;   ///< indices of the cube along the axes
   int Face;
 
   bool operator<(const FaceInCube& other) const
@@ -65,17 +65,17 @@ Box BoxOf(std::uint64_t cube, const Vector& low, float side)
   return { from, from + Vector(side, side, side) };
 }
 
-/** What is to be done in a cube. */
+/** Edits of the faces of one cube. */
 class CubeEdits
 {
 public:
-  /** @param share of space, in which edits are made */
+  /** @param share region that may contain the edited faces */
   CubeEdits(const InterfaceMesh& mesh, const InterfaceClearance& clearance, const Box& share)
     : Mesh(mesh), Clearance(clearance), Share(share)
   {
   }
 
-  /** The faces in the cube. */
+  /** Select the faces to edit in this cube. */
   void FindFaces(const FaceInCube* first, const FaceInCube* last)
   {
     for (; first != last; ++first)
@@ -107,11 +107,11 @@ public:
     }
   }
 
-  std::vector<int> Left; ///< what is not done here
-  int Count = 0;         ///< of edits
+  std::vector<int> Left; ///< faces left for the serial pass
+  int Count = 0;         ///< number of edits
 
 private:
-  /** Whether an edit at a face touches nothing that those in other cubes do. */
+  /** Return whether an edit of a face is independent of the edits in other cubes. */
   bool IsNear(int face) const
   {
     const std::array<int, 3>& v = this->Mesh.Faces[static_cast<std::size_t>(face)].Vertex;
@@ -147,7 +147,7 @@ int InterfaceRemesher::SplitLongEdges()
 {
   InterfaceEdits edits = this->Edits();
   int count = 0;
-  // New faces are looked at in their turn.
+  // New faces are appended, and hence visited as well.
   for (std::size_t f = 0; f < this->Mesh.Faces.size() && this->CanContinue(f); ++f)
   {
     count += this->Mesh.Faces[f].IsThere() && edits.TrySplit(static_cast<int>(f)) ? 1 : 0;
@@ -233,7 +233,7 @@ int InterfaceRemesher::VisitInCubes(const Visit& visit)
       }
     }
     first.push_back(n);
-    // What comes out of its cube is found before the first one is edited.
+    // Select the faces of all cubes before the first edit.
     ForSpans(this->Threads, works.size(), 1,
       [&](std::size_t w, std::size_t, std::size_t)
       { works[w].FindFaces(faces.data() + first[w], faces.data() + first[w + 1]); });

@@ -18,17 +18,17 @@ namespace volumic
 namespace
 {
 constexpr std::size_t SpanSize = 1024;
-/** Share of the tolerance that is aimed at: steps move vertices along the interfaces. */
+/** Target error relative to the tolerance, as later steps move vertices along the interfaces. */
 constexpr float AimedShare = 0.8f;
-/** The least factor of a change, so that an edge is split into two or three. */
+/** Least factor of a size change (1 / sqrt(3)): an edge is split into two or three. */
 constexpr float LeastChange = 0.57735f;
-/** Where fields differ less from place to place nothing is said by how much. */
+/** Lower bound of the slope of half the field difference. */
 constexpr float LeastSlope = 0.3f;
-/** How far an interface is looked for, in smallest distances of voxels or tolerances. */
+/** Search distance for an interface, in the smallest voxel spacing and in tolerances. */
 constexpr float Furthest = 2.f;
 constexpr float FurthestInTolerances = 3.f;
 
-/** How far a face's interface is, negative on the side of the object behind it. */
+/** Signed distances from a face to its interface, negative on the side of the object behind. */
 class FaceDistances
 {
 public:
@@ -43,12 +43,12 @@ public:
     }
   }
 
-  /** At its corners. */
+  /** Return the distances at the corners. */
   std::array<float, 3> AtCorners() const
   {
     return { this->At(this->Corner[0]), this->At(this->Corner[1]), this->At(this->Corner[2]) };
   }
-  /** At the middles of its edges, each from the corner of its number on, and at its own. */
+  /** Return the distances at the middles of the edges (0-1, 1-2, 2-0) and at the face centre. */
   std::array<float, 4> AtMiddles() const
   {
     const auto& c = this->Corner;
@@ -75,13 +75,13 @@ private:
 
   const InterfaceFields& Fields;
   const InterfaceMesh::Face& Of;
-  const bool IsOnSide; ///< of a box
-  const float Near;    ///< Distances up to this are told from values and slopes.
+  const bool IsOnSide; ///< Whether the face is on a side of the box.
+  const float Near;    ///< Smaller distances are estimated from the value and the slope.
   const Vector Normal;
   std::array<Vector, 3> Corner;
 };
 
-/** Of each vertex by how far what is about it would be off if its corners were not. */
+/** Return the maximum sag (chord error) of the edges and faces at each vertex. */
 LargeVector<float> FindSags(
   const InterfaceMesh& mesh, const InterfaceFields& fields, double tolerance, Executor& executor)
 {
@@ -114,7 +114,7 @@ LargeVector<float> FindSags(
             const std::array<int, 3>& corners = mesh.Faces[f].Vertex;
             const auto at = static_cast<std::size_t>(
               std::find(corners.begin(), corners.end(), static_cast<int>(v)) - corners.begin());
-            // Of the edges those that begin and end at it.
+            // Both edges at the vertex, and the face.
             sags[v] =
               std::max({ sags[v], ofFaces[f][at], ofFaces[f][(at + 2) % 3], ofFaces[f][3] });
           });
@@ -123,7 +123,7 @@ LargeVector<float> FindSags(
   return sags;
 }
 
-/** The vertices at their places. */
+/** Insert all positions into a grid. */
 void LayGrid(VertexGrid& grid, const LargeVector<Vector>& places, float cell, Executor& executor)
 {
   Box box = { places.front(), places.front() };
@@ -159,7 +159,7 @@ void AdjustSizes(
     LimitedSizes(sizes, mesh.Position, grid, 1.f, static_cast<float>(bounds.Gradation), executor);
   for (std::size_t v = 0; v < sizes.size(); ++v)
   {
-    // Round its ring it meets the least one, and so has each.
+    // All images get the smallest of their sizes.
     for (int w = mesh.NextImage[v]; w != static_cast<int>(v);
          w = mesh.NextImage[static_cast<std::size_t>(w)])
     {

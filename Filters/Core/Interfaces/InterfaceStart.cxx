@@ -15,12 +15,12 @@ namespace
 {
 using Number = LabelMap::Number;
 
-/** Where a layer of voxels of the grid is in the map: of a periodic box the halves are between. */
+/** Voxel layer of the map that corresponds to a layer of the grid. */
 struct LayerOfGrid
 {
   int Voxel = 0;
   bool IsOutside = false;
-  bool IsHalf = false; ///< the outer half of a voxel, also between it and the one before
+  bool IsHalf = false; ///< The outer half-layer of a periodic box, between Voxel - 1 and Voxel.
 };
 
 std::vector<LayerOfGrid> LayersAlong(const InterfaceFields& fields, int axis)
@@ -45,7 +45,10 @@ std::vector<LayerOfGrid> LayersAlong(const InterfaceFields& fields, int axis)
   return layers;
 }
 
-/** Objects by the voxels of all their parts, then by their numbers; 0, and then what is about the box. */
+/**
+ * Return the rank of each object: by the voxels of all its parts, then by number. The background
+ * and then the outside of the box come last.
+ */
 std::vector<int> RanksOf(const LabelBricks& bricks)
 {
   const LabelMap& map = bricks.Map();
@@ -65,7 +68,7 @@ std::vector<int> RanksOf(const LabelBricks& bricks)
   {
     ranks[static_cast<std::size_t>(order[n])] = static_cast<int>(n);
   }
-  // Parts of one object do not meet.
+  // Parts of one object do not meet, so that they can have the same rank.
   for (std::size_t object = 1; object <= count; ++object)
   {
     ranks[object] = ranks[map.Whole(static_cast<int>(object))];
@@ -151,7 +154,7 @@ private:
     }
   }
 
-  /** Between voxels the one of those about it whose field is the largest there. */
+  /** Return the object at a grid point; in half-layers the adjacent one with the largest field. */
   Number ObjectAt(const std::array<LayerOfGrid, 3>& layers) const
   {
     const LabelMap& map = this->Fields.Bricks().Map();
@@ -187,7 +190,7 @@ private:
       std::sort(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(count));
       for (std::size_t v = 0; v < count; ++v)
       {
-        sum += values[v]; // In this order at both of two opposite sides.
+        sum += values[v]; // Sorted, so that opposite sides give bit-identical sums.
       }
       best = sum > most ? about[n] : best;
       most = std::max(most, sum);

@@ -19,32 +19,32 @@ namespace volumic
 {
 namespace
 {
-/** Triangles and wedges of less are opened, radian: a little more than 20 and 10 degrees. */
+/** Angles of triangles and wedges below which they are opened, in radians (25 and 11 degrees). */
 constexpr double NarrowAngle = 0.44;
 constexpr double NarrowWedge = 0.2;
-/** And gaps of less, in wanted edges. */
+/** Width of gaps below which they are opened, relative to the desired edge length. */
 constexpr double NarrowGap = 0.15;
-/** Of the normals of two triangles of one interface about a vertex that do not face each other. */
+/** Two triangles of one interface at a vertex form no gap if their normals have a larger cosine. */
 constexpr double FlatCosine = 0.5;
-/** Faces that a thread looks at at a time. */
+/** Faces per span of a parallel loop. */
 constexpr std::size_t SpanSize = 1024;
-/** The same of gaps, which take longer. */
+/** The same for gaps, which take longer. */
 constexpr std::size_t GapSpanSize = 64;
-/** Vertices between two questions whether to go on. */
+/** Vertices between two calls of the callback. */
 constexpr std::size_t VerticesPerQuestion = 256;
-/** How often what is narrow is visited. */
+/** Maximum number of passes. */
 constexpr int Rounds = 4;
-/** How far a vertex goes at a time, in its wanted edge, at first and at least. */
+/** First and smallest step of a vertex, relative to its desired edge length. */
 constexpr double LargestStep = 0.15;
 constexpr double SmallestStep = 0.015;
-/** How far it may go, in smallest distances of voxels. */
+/** Maximum distance of a vertex from its initial position, in the smallest voxel spacing. */
 constexpr float MostWay = 0.5f;
-/** What an object may win or lose by all moves, as a share of its voxels, or so many of them. */
+/** Maximum volume change of an object: a fraction of its volume, or a number of voxels. */
 constexpr double MostGainShare = 0.001;
 constexpr double MostGain = 2.;
-/** In wanted edges, how far it is moved to see what that does. */
+/** Step of the finite differences, relative to the desired edge length. */
 constexpr float Probe = 1e-3f;
-/** Cosine of the angle by which a step may turn a face. */
+/** Least cosine of the angle by which a step may turn a face. */
 constexpr double LeastTurnCosine = 0.4;
 
 double SquaredLack(double angle, double requested)
@@ -53,7 +53,7 @@ double SquaredLack(double angle, double requested)
   return lack > 0. ? lack * lack : 0.;
 }
 
-/** Whether a plane of one has the other one further away, up to corners that they share. */
+/** Return whether the plane of one triangle has a distance of more than `by` from the other one. */
 bool AreApart(const MeshTriangle& f, const MeshTriangle& g, double by)
 {
   const auto isBeyond = [by](const MeshTriangle& plane, const MeshTriangle& other)
@@ -66,7 +66,7 @@ bool AreApart(const MeshTriangle& f, const MeshTriangle& g, double by)
   return isBeyond(f, g) || isBeyond(g, f);
 }
 
-/** Six times the volume of a tetrahedron. */
+/** Return six times the signed volume of a tetrahedron. */
 double VolumeOf(const VectorD& a, const VectorD& b, const VectorD& c, const VectorD& d)
 {
   return Dot(Cross(b - a, c - a), d - a);
@@ -87,7 +87,7 @@ void NearDegenerateRegions::Open(Executor& executor, const std::function<bool()>
   std::vector<int> vertices = this->FindVertices(executor);
   for (int round = 0; round < Rounds && !vertices.empty() && goOn(); ++round)
   {
-    // Where nothing has moved nothing more will.
+    // Only vertices of changed faces can be moved in the next round.
     std::vector<int> next;
     std::size_t visited = 0;
     for (const int v : vertices)
@@ -113,7 +113,7 @@ void NearDegenerateRegions::Open(Executor& executor, const std::function<bool()>
 std::vector<int> NearDegenerateRegions::FindVertices(Executor& executor)
 {
   const LargeVector<InterfaceMesh::Face>& faces = this->Mesh.Faces;
-  // In one sheet there are no gaps, up to the margin, which is less than the cubes' width.
+  // There are no gaps in one sheet, as the margin is smaller than the cubes of FindCrossings().
   const std::vector<int> doubtful =
     FindCrossings(this->Mesh, NarrowGap * this->Edge, executor).Doubtful;
   auto vertices = CollectInSpans<int>(executor, faces.size(), SpanSize,
@@ -130,7 +130,8 @@ std::vector<int> NearDegenerateRegions::FindVertices(Executor& executor)
     {
       std::vector<int> near;
       bool isNarrow = false;
-      this->ForGapsAt(doubtful[n], near, [&](double) { isNarrow = true; }); // Both find it.
+      // Both faces of a gap find it.
+      this->ForGapsAt(doubtful[n], near, [&](double) { isNarrow = true; });
       const std::array<int, 3>& v = faces[static_cast<std::size_t>(doubtful[n])].Vertex;
       some.insert(some.end(), v.begin(), isNarrow ? v.end() : v.begin());
     });
@@ -169,7 +170,7 @@ void NearDegenerateRegions::ForGapsAt(int face, std::vector<int>& near, Visitor&
       (there.Has(v[0]) || there.Has(v[1]) || there.Has(v[2]));
     if (isBeside && CosineOf(normal, NormalOf(facing)) > FlatCosine)
     {
-      continue; // Or it itself. What is narrow there is one of the triangles.
+      continue; // The face itself, or a neighbour without a gap between them.
     }
     if (AreApart(triangle, facing, requested))
     {
@@ -357,7 +358,7 @@ bool NearDegenerateRegions::KeepsVoxels(const InterfaceMesh::Face& face, std::pt
   const VectorD& a = before.Corner[(moved + 1) % 3];
   const VectorD& b = before.Corner[(moved + 2) % 3];
   const double all = VolumeOf(from, a, b, to);
-  // What it goes through is given to the object behind it where it goes forward.
+  // The swept volume goes to the object behind the face if the face moves forward.
   const int taker = all > 0. ? face.Behind : face.Front;
   const VectorD normal = Normalized(NormalOf(after));
   const std::array<double, 3>& step = this->Fields.Step();

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What InterfaceMesh knows of the opposite sides of a periodic box.
+// Functions of InterfaceMesh for the opposite sides of a periodic box.
 
 #include "Core/Interfaces/InterfaceMesh.h"
 
@@ -30,7 +30,7 @@ void InterfaceMesh::JoinImages(const std::vector<int>& images)
 
 void InterfaceMesh::MatchSides()
 {
-  std::map<Place, std::vector<int>> found; // by their place at the first sides
+  std::map<Place, std::vector<int>> found; // keyed by the position moved to the first sides
   for (std::size_t v = 0; v < this->Position.size(); ++v)
   {
     Place place = CoordinatesOf(this->Position[v]);

@@ -9,14 +9,11 @@ namespace volumic
 {
 namespace
 {
-/** Shorter steps are none. */
+/** Least fraction of a step; a vertex does not move otherwise. */
 constexpr float LeastPart = 0.1f;
-/**
- * How far a junction line's vertices go to between their neighbours: lines follow the stairs of
- * voxels less than interfaces do.
- */
+/** Fraction of the straightening step of junction lines, which reduces the voxel staircase. */
 constexpr float LineSmoothing = 0.8f;
-/** Keeps Newton's steps small where the fields say little, as a share of their squared slopes. */
+/** Damping of the Newton step, relative to the sum of the squared slopes. */
 constexpr double Damping = 0.02;
 }
 
@@ -93,7 +90,7 @@ Vector VertexTargets::AlongInterface(int v) const
         size += this->Mesh.Size[static_cast<std::size_t>(w)] * (1. / 3.);
         middle += VectorD(this->Mesh.Position[static_cast<std::size_t>(w)]) * (1. / 3.);
       }
-      // Larger ones are not to draw vertices from where they are to be smaller.
+      // Divide by the size: large faces must not attract vertices from regions of small faces.
       const double area = Length(across) / (size * size);
       normal += across;
       sum += (middle - place) * area;
@@ -103,7 +100,7 @@ Vector VertexTargets::AlongInterface(int v) const
   {
     return Vector();
   }
-  // The middle of faces is two thirds of the way to that of the neighbours.
+  // The mean of the face centres is at 2/3 of the distance to the mean of the neighbours.
   const VectorD way = sum * (1.5 / areas);
   const VectorD unit = Normalized(normal);
   return Vector(way - unit * Dot(way, unit));

@@ -9,16 +9,16 @@ namespace volumic
 {
 namespace
 {
-/** Of the two Gaussians of the kernel, in smallest distances of voxels. */
+/** Standard deviations of the two Gaussians of the kernel, in the smallest voxel spacing. */
 constexpr double WideSigma = 1.5;
 constexpr double NarrowSigma = 0.6;
-/** Share of the narrow one: it keeps the problem well-posed where signs change at each voxel. */
+/** Weight of the narrow Gaussian. It keeps the problem well-posed if signs alternate by voxel. */
 constexpr double NarrowShare = 0.3;
 constexpr int MostSweeps = 40;
-/** A constraint that is met but for this is met. */
+/** Tolerance of a constraint. */
 constexpr float Tolerance = 0.01f;
 
-/** The kernel about a voxel, by rows along x. */
+/** Kernel at a voxel, x fastest. */
 class Kernel
 {
 public:
@@ -37,7 +37,7 @@ public:
         const double y = j * spacing[1];
         const double z = k * spacing[2];
         const double square = x * x + y * y + z * z;
-        // Products of kernels are kernels: cut off alone it would be none.
+        // A product of positive definite kernels is positive definite; a truncated kernel is not.
         const double taper = this->Taper(0, i) * this->Taper(1, j) * this->Taper(2, k);
         const double wide = std::exp(-0.5 * square / (WideSigma * WideSigma));
         const double narrow = std::exp(-0.5 * square / (NarrowSigma * NarrowSigma));
@@ -46,7 +46,7 @@ public:
       });
   }
 
-  /** Adds it, times `factor`, to the field; what is beyond the box is left out. */
+  /** Add the kernel, times `factor`, to the field within its box. */
   void AddTo(LabelField& field, std::int64_t place, float factor) const
   {
     const std::array<int, 3> size = field.Box.Size();
@@ -81,7 +81,7 @@ private:
   }
 
   std::array<int, 3> Reach;
-  std::vector<float> Values; ///< 1 in the middle
+  std::vector<float> Values; ///< 1 at the middle
 };
 }
 

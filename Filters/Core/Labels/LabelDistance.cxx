@@ -14,14 +14,14 @@ namespace volumic
 {
 namespace
 {
-/** Where the Gaussian loses voxels, one that is narrower by this factor takes its place, */
+/** Factor by which sigma is repeatedly reduced near missed voxels. */
 constexpr double NarrowerBy = 0.7071067811865476;
-/** until it is as narrow as this, in smallest distances of voxels, */
+/** Least sigma of a narrower Gaussian, in the smallest voxel spacing. */
 constexpr double LeastSigma = 0.95;
-/** fading out from them with this one. */
+/** Sigma of the Gaussian that blends the narrower field with the field around it. */
 constexpr double FadingSigma = 1.25;
 
-/** The quantiles of the normal distribution, from a table: the same bits on any machine. */
+/** Quantiles of the normal distribution, tabulated: results are bit-identical on all machines. */
 class NormalQuantile
 {
 public:
@@ -61,7 +61,7 @@ private:
   std::array<float, Steps + 1> Values;
 };
 
-/** Makes the distance of one object. */
+/** Computes the distance of one object. */
 class DistanceMaker
 {
 public:
@@ -72,8 +72,10 @@ public:
   }
 
   /**
-   * With less smoothing where voxels would be lost: for what is held to all voxels once the volume
-   * has been made up for, else before, as a thin part may be made too thick by that.
+   * Compute the distance, with a narrower Gaussian near missed voxels.
+   * @param isHeld whether all voxels are constrained. The volume is then corrected before missed
+   *               voxels are searched, otherwise at the end, as the correction may thicken thin
+   *               parts.
    */
   void Make(double sigma, bool isHeld)
   {
@@ -120,7 +122,7 @@ private:
     return values.data() + this->Field.Box.NumberOf(i, j, k);
   }
 
-  /** @param corrected where the volume is made up for, if it is: some of the rows */
+  /** @param corrected subset of the rows in which the volume is corrected, if isCorrected */
   void MakeWith(
     const VoxelBits& rows, const VoxelBits& corrected, double ofGaussian, bool isCorrected)
   {
@@ -146,7 +148,7 @@ private:
     }
   }
 
-  /** Step 2. @param isHeld as in Make(): what makes a thin part too thick is taken back */
+  /** Run step 2. @param isHeld if false, the correction is reduced at thin parts */
   void CorrectVolume(const VoxelBits& rows, double ofGaussian, bool isHeld)
   {
     const float perShare = static_cast<float>(ofGaussian) * 2.5066283f; // sqrt(2 pi)
@@ -185,7 +187,7 @@ private:
       add, this->Threads);
   }
 
-  /** 1 where a small change of the field changes the volume that it has inside. */
+  /** Write 1 where a small change of the field changes the enclosed volume, else 0. */
   void CopyBoundary(int i, int j, int k, int count, float* values) const
   {
     const float* field = this->At(this->Field.Values, i, j, k);
@@ -195,7 +197,7 @@ private:
     }
   }
 
-  /** The membership less what of each voxel is inside by the field; off the rows there is none. */
+  /** Write the membership minus the fraction of each voxel that is inside; 0 outside the rows. */
   void CopyMissingVolume(int i, int j, int k, int count, float* values) const
   {
     this->Sides.CopyMembership(i, j, k, count, values);
@@ -206,13 +208,13 @@ private:
     }
   }
 
-  /** About the voxels that are lost, fading into what there is. */
+  /** Recompute the field near missed voxels with a smaller sigma, and blend it with the old one. */
   void MakeNarrower(const VoxelBits& rows, const VoxelBits& missed, double sigma, bool isCorrected)
   {
     const double cubed = FadingSigma * FadingSigma * FadingSigma;
     const double voxel = this->Spacing[0] * this->Spacing[1] * this->Spacing[2];
     const auto perShare =
-      static_cast<float>(15.749610 * cubed / voxel); // (2 pi)^1.5: 1 at one alone
+      static_cast<float>(15.749610 * cubed / voxel); // (2 pi)^1.5: weight 1 at a single voxel
     const VoxelBits near = rows & missed.Grown(this->ReachOf(FadingSigma)).InFours();
     LargeVector<float> values = this->Field.Values;
     this->MakeWith(isCorrected ? rows & near.Grown(this->ReachOf(sigma)).InFours() : near, near,
@@ -240,12 +242,12 @@ private:
   }
 
   const LabelSides& Sides;
-  const VoxelBits Varying; ///< where the membership does, along x
+  const VoxelBits Varying; ///< voxels whose membership differs from the next one along x
   const std::array<double, 3> Spacing;
   LabelField& Field;
   Executor& Threads;
   BoundaryGaussian Gaussian;
-  LargeVector<float> Others; ///< what volume is missing
+  LargeVector<float> Others; ///< smoothed missing volume
 };
 }
 

@@ -13,12 +13,14 @@ namespace volumic
 {
 namespace
 {
-/** More voxels than that, of those of a slice, and times the most elsewhere, are another slice's.
+/**
+ * The map is not periodic if the fraction of differing voxels exceeds FewVoxels plus MostTimes the
+ * maximum fraction between neighbouring slices.
  */
 constexpr double FewVoxels = 0.01;
 constexpr double MostTimes = 2.;
 
-/** The share of voxels that differ between two slices across an axis. */
+/** Return the fraction of voxels that differ between two slices normal to an axis. */
 double DifferenceOf(
   const LabelMap& map, const VoxelBox& box, int axis, const std::array<int, 2>& slices)
 {

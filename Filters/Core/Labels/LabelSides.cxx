@@ -12,12 +12,12 @@ namespace volumic
 {
 namespace
 {
-/** Vertices of surfaces stay within that many voxels of the boundary between voxels. */
+/** Maximum distance of surface vertices from the voxel boundary, in voxels. */
 constexpr int LeastReach = 2;
-/** A Gaussian moves the boundary at a cube's corner by .82 sigma along each axis. */
+/** A Gaussian moves the boundary at the corner of a cube by 0.82 sigma along each axis. */
 constexpr double ReachInSigmas = 0.85;
 
-/** Calls visit(neighbors) with the voxels whose neighbor is in the set, for each direction. */
+/** Call visit(axis, isNext, bits.Neighbored(axis, isNext)) for all six directions. */
 template <typename Visitor>
 void ForNeighbors(const VoxelBits& bits, Visitor&& visit)
 {
@@ -44,7 +44,7 @@ LabelSides::LabelSides(const LabelBricks& bricks, int object, const VoxelBox& wi
   const VoxelBox inMap = box.CommonWith(VoxelBox::Of(bricks.Map().Size()));
   for (const VoxelBox& part : object == 0 ? box.Without(inMap) : std::vector<VoxelBox>())
   {
-    this->Members.Add(part); // Outside the map all is 0.
+    this->Members.Add(part); // Voxels outside the map are background.
   }
   bricks.Map().ForParts(inMap,
     [&](const VoxelBox& part, LabelMap::Number other)
