@@ -3,7 +3,6 @@
 #include "Core/Labels/SmallParts.h"
 #include "LabelTestTools.h"
 
-
 using namespace volumic;
 
 namespace
@@ -29,7 +28,8 @@ LabelMap Parts()
 long VoxelsOf(const LabelMap& map, int object)
 {
   long count = 0;
-  map.ForParts(VoxelBox::Of(map.Size()), [&](const VoxelBox& part, LabelMap::Number other)
+  map.ForParts(VoxelBox::Of(map.Size()),
+    [&](const VoxelBox& part, LabelMap::Number other)
     { count += other == object ? static_cast<long>(part.Count()) : 0; });
   return count;
 }
@@ -38,17 +38,17 @@ long VoxelsOf(const LabelMap& map, int object)
 TEST(SmallParts, GoToWhatIsAboutThem)
 {
   LabelMap map = Parts();
-  GiveAwaySmallParts(map, { 1, 2, 3 }, 3, false);
+  ReassignSmallParts(map, { 1, 2, 3 }, 3, false);
   EXPECT_EQ(map.At(8, 4, 4), 2);
   EXPECT_EQ(map.At(9, 4, 4), 2);
   EXPECT_EQ(map.At(11, 2, 2), 0); // More faces of it are at the outside than at 2.
   EXPECT_EQ(VoxelsOf(map, 1), 64);
   map = Parts();
-  GiveAwaySmallParts(map, { 1, 2, 3 }, 2, false);
+  ReassignSmallParts(map, { 1, 2, 3 }, 2, false);
   EXPECT_EQ(map.At(8, 4, 4), 1) << "of the largest size";
   EXPECT_EQ(VoxelsOf(map, 3), 0);
   map = Parts();
-  GiveAwaySmallParts(map, { 1, 2, 3 }, 0, true); // All but the largest.
+  ReassignSmallParts(map, { 1, 2, 3 }, 0, true); // All but the largest.
   EXPECT_EQ(VoxelsOf(map, 1), 64);
   EXPECT_EQ(VoxelsOf(map, 3), 1); // It is the largest of its object.
 }
@@ -56,7 +56,7 @@ TEST(SmallParts, GoToWhatIsAboutThem)
 TEST(SmallParts, GoToNothingThatGoes)
 {
   LabelMap map = Parts();
-  GiveAwaySmallParts(map, { 1, 2, 3 }, 1000000, false);
+  ReassignSmallParts(map, { 1, 2, 3 }, 1000000, false);
   EXPECT_EQ(VoxelsOf(map, 0), static_cast<long>(VoxelBox::Of(map.Size()).Count()));
   // Two voxels of 1 in some of 3 in 2: all of it is 2 then.
   map = MakeLabelMap({ 9, 9, 9 }, 3,
@@ -65,7 +65,7 @@ TEST(SmallParts, GoToNothingThatGoes)
       const bool isNear = std::abs(i - 4) < 2 && std::abs(j - 4) < 2 && std::abs(k - 4) < 2;
       return i == 4 && j == 4 && k > 3 && k < 6 ? 1 : isNear ? 3 : 2;
     });
-  GiveAwaySmallParts(map, { 1, 2, 3 }, 100, false);
+  ReassignSmallParts(map, { 1, 2, 3 }, 100, false);
   EXPECT_EQ(VoxelsOf(map, 2), 729);
 }
 
@@ -77,7 +77,7 @@ TEST(SmallParts, JoinedByACornerAreOne)
     LabelMap map = MakeLabelMap({ 6, 6, 6 }, 1,
       [=](int i, int j, int k)
       { return j == k && j > 0 && j < 5 && i == (sign > 0 ? j : 5 - j) ? 1 : 0; });
-    GiveAwaySmallParts(map, { 1 }, 4, false);
+    ReassignSmallParts(map, { 1 }, 4, false);
     EXPECT_EQ(VoxelsOf(map, 1), 4) << sign;
   }
 }
@@ -85,7 +85,7 @@ TEST(SmallParts, JoinedByACornerAreOne)
 TEST(SmallParts, OfObjectsThatAreNotSelectedStayAndGetOthers)
 {
   LabelMap map = Parts();
-  GiveAwaySmallParts(map, { 1 }, 3, true);
+  ReassignSmallParts(map, { 1 }, 3, true);
   EXPECT_EQ(map.At(8, 4, 4), 2);
   EXPECT_EQ(VoxelsOf(map, 3), 1);
   EXPECT_EQ(VoxelsOf(map, 1), 64);
@@ -121,10 +121,12 @@ TEST(SmallParts, BecomeObjectsOfTheirOwn)
     [](int i, int j, int k)
     {
       const bool isInRow = j == 2 && k == 2;
-      return isInRow && i < 2 ? 1 : isInRow && i > 2 && i < 6 ? 1 : isInRow && i == 7 ? 2
-        : i == 8 && j == 3 && k == 3                         ? 2
-        : i == 11 && j == 0 && k == 4                        ? 1
-                                                             : 0;
+      return isInRow && i < 2         ? 1
+        : isInRow && i > 2 && i < 6   ? 1
+        : isInRow && i == 7           ? 2
+        : i == 8 && j == 3 && k == 3  ? 2
+        : i == 11 && j == 0 && k == 4 ? 1
+                                      : 0;
     });
   SeparateParts(map);
   EXPECT_EQ(map.NumberOfObjects, 4);
@@ -142,7 +144,7 @@ TEST(SmallParts, OthersStayAsTheyAre)
   {
     const LabelMap noise = NoisyLabelMap({ 11, 13, 17 }, 9, seed);
     LabelMap map = noise;
-    GiveAwaySmallParts(map, { 1, 2, 3, 4, 5, 6, 7, 8, 9 }, 4, false);
+    ReassignSmallParts(map, { 1, 2, 3, 4, 5, 6, 7, 8, 9 }, 4, false);
     int given = 0;
     ForVoxels(map.Size(),
       [&](int i, int j, int k)

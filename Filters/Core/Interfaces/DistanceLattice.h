@@ -37,7 +37,7 @@ public:
   double Pitch() const { return this->Distance; }
   const std::array<int, 3>& Size() const { return this->Points; }
   int NumberOfLayers() const { return this->Bricks[2]; }
-  Point IjkOf(int i, int j, int k) const
+  Point PositionOf(int i, int j, int k) const
   {
     return { this->Low[0] + this->Distance * i, this->Low[1] + this->Distance * j,
       this->Low[2] + this->Distance * k };
@@ -45,7 +45,7 @@ public:
   /** Return the index of the first point at or beyond a coordinate along an axis. */
   int FirstFrom(double coordinate, int axis) const;
   /** Return the lattice point nearest to a position. */
-  LatticePoint NearestTo(const Point& place) const;
+  LatticePoint NearestTo(const Point& position) const;
 
   /** Return the value of a point; the pitch if its brick is not stored. */
   float At(int i, int j, int k) const;
@@ -60,17 +60,17 @@ public:
    * Change signs until the surface is a manifold with one vertex per crossed cube. In each cube
    * whose points of one side meet only at an edge or a corner, the outside point nearest to the
    * surface is moved inside. If no such point may be added, the shallowest inside point is removed.
-   * @param mayComeIn whether the point at a position may be moved inside
+   * @param canAdd whether the point at a position may be moved inside
    */
   void MakeWellComposed(
-    const std::function<bool(const Point& place)>& mayComeIn, Executor& executor);
+    const std::function<bool(const Point& position)>& canAdd, Executor& executor);
 
   /**
    * Return the isosurface: closed, oriented outward, and a manifold after MakeWellComposed().
-   * @param isEven cut quadrilaterals along the shorter diagonal. The surface may then intersect
-   *               itself in rare cases, which the caller must test.
+   * @param hasShortDiagonals cut quadrilaterals along the shorter diagonal. The surface may then
+   *                          intersect itself in rare cases, which the caller must test.
    */
-  IndexedSurface Boundary(bool isEven, Executor& executor) const;
+  IndexedSurface Boundary(bool hasShortDiagonals, Executor& executor) const;
 
 private:
   static constexpr int PointsOfBrick = BrickSide * BrickSide * BrickSide;
@@ -88,7 +88,7 @@ private:
   /** Return the values at the corners of a cube. */
   std::array<float, 8> CornersOf(const LatticePoint& cube) const;
   void Compose(const LatticePoint& cube, bool mayAdd,
-    const std::function<bool(const Point& place)>& mayComeIn, std::vector<LatticePoint>& changed);
+    const std::function<bool(const Point& position)>& canAdd, std::vector<LatticePoint>& changed);
 
   Point Low;
   double Distance;
@@ -107,12 +107,12 @@ void DistanceLattice::ForPoints(int layer, Visitor&& visit)
     {
       continue;
     }
-    const int across = static_cast<int>(brick) % this->Bricks[0];
-    const int along = static_cast<int>(brick) / this->Bricks[0];
+    const int brickX = static_cast<int>(brick) % this->Bricks[0];
+    const int brickY = static_cast<int>(brick) / this->Bricks[0];
     for (int n = 0; n < PointsOfBrick; ++n)
     {
-      visit(LatticePoint{ BrickSide * across + n % BrickSide,
-              BrickSide * along + n / BrickSide % BrickSide,
+      visit(LatticePoint{ BrickSide * brickX + n % BrickSide,
+              BrickSide * brickY + n / BrickSide % BrickSide,
               BrickSide * layer + n / (BrickSide * BrickSide) },
         own.Values[static_cast<std::size_t>(own.First[brick] + n)]);
     }

@@ -38,7 +38,7 @@ struct DualSlab
   int End = 0;
   std::vector<std::size_t> Row; ///< first crossed cell of each row of cells, y fastest
   std::vector<int> X;           ///< x index of each crossed cell
-  std::vector<int> Has;         ///< point of each crossed cell, or -1 - index of a special cell
+  std::vector<int> Contents;    ///< point of each crossed cell, or -1 - index of a special cell
   std::vector<SpecialCell> Special;
   std::vector<Vector> Points;
   /** Vertices are points of this slab; a negative v means point -1 - v of the previous slab. */
@@ -83,16 +83,16 @@ public:
 
 private:
   using Number = LabelMap::Number;
-  using Place = std::array<double, 3>; ///< coordinates in a cell, from 0 to 1
+  using CellCoordinates = std::array<double, 3>; ///< coordinates in a cell, from 0 to 1
 
   void FindCells(DualSlab& slab) const;
   /** @param vertex position of the point if the cell is plain */
   void AddCell(DualSlab& slab, const std::array<int, 3>& at, const std::array<Number, 8>& labels,
-    const Place& vertex) const;
+    const CellCoordinates& vertex) const;
   /** Return whether a cell has two labels in a plain pattern: the fast test for most cells. */
   bool IsPlainPair(const std::array<Number, 8>& labels) const;
   float CoordinateOf(const std::array<int, 3>& cell, int axis, double at) const;
-  Vector IjkOf(const std::array<int, 3>& cell, const Place& at) const;
+  Vector PositionOf(const std::array<int, 3>& cell, const CellCoordinates& at) const;
   /** Return whether a cell is at a side of the box and this side of the cell is the inner one. */
   bool IsOppositeToSide(const std::array<int, 3>& cell, int side) const
   {

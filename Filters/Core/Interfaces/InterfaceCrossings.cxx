@@ -32,19 +32,20 @@ public:
 
   InterfaceCrossings Find()
   {
-    this->LayCubes();
+    this->SetUpCubes();
     const std::vector<std::vector<int>> layers = this->FindFacesOfLayers();
     std::vector<std::vector<std::array<int, 2>>> pairs(layers.size());
-    std::vector<std::vector<int>> doubtful(pairs.size());
+    std::vector<std::vector<int>> candidates(pairs.size());
     ForSpans(this->Threads, layers.size(), 1,
-      [&](std::size_t layer, std::size_t, std::size_t)
-      { this->TestLayer(static_cast<int>(layer), layers[layer], pairs[layer], doubtful[layer]); });
+      [&](std::size_t layer, std::size_t, std::size_t) {
+        this->TestLayer(static_cast<int>(layer), layers[layer], pairs[layer], candidates[layer]);
+      });
     InterfaceCrossings found;
     found.Pairs = Joined(this->Threads, pairs);
-    found.Doubtful = Joined(this->Threads, doubtful);
-    Sort(this->Threads, found.Doubtful);
-    found.Doubtful.erase(
-      std::unique(found.Doubtful.begin(), found.Doubtful.end()), found.Doubtful.end());
+    found.Candidates = Joined(this->Threads, candidates);
+    Sort(this->Threads, found.Candidates);
+    found.Candidates.erase(
+      std::unique(found.Candidates.begin(), found.Candidates.end()), found.Candidates.end());
     return found;
   }
 
@@ -59,7 +60,7 @@ private:
     return box;
   }
 
-  void LayCubes()
+  void SetUpCubes()
   {
     const FaceBoxes boxes = FindBoxes(
       this->Mesh, SpanSize, this->Threads, [this](int face) { return this->BoxOf(face); });
@@ -72,9 +73,9 @@ private:
   }
 
   /** Return the indices of the cube at a position. */
-  std::array<int, 3> CubeOf(const Vector& place) const
+  std::array<int, 3> CubeOf(const Vector& position) const
   {
-    const Vector from = (place - this->Low) * this->PerCube;
+    const Vector from = (position - this->Low) * this->PerCube;
     return { std::max(static_cast<int>(from.X), 0), std::max(static_cast<int>(from.Y), 0),
       std::max(static_cast<int>(from.Z), 0) };
   }
@@ -106,7 +107,7 @@ private:
   }
 
   void TestLayer(int layer, const std::vector<int>& faces, std::vector<std::array<int, 2>>& pairs,
-    std::vector<int>& doubtful) const
+    std::vector<int>& candidates) const
   {
     // Counting sort of the faces by cube.
     std::vector<std::size_t> first(
@@ -138,14 +139,14 @@ private:
       {
         const int along = static_cast<int>(cube);
         this->TestCube({ along % this->Count[0], along / this->Count[0], layer },
-          inCubes.data() + first[cube], inCubes.data() + first[cube + 1], pairs, doubtful);
+          inCubes.data() + first[cube], inCubes.data() + first[cube + 1], pairs, candidates);
       }
     }
   }
 
   /** Test the faces of a cube against each other, unless they form one sheet. */
   void TestCube(const std::array<int, 3>& cube, const int* first, const int* last,
-    std::vector<std::array<int, 2>>& pairs, std::vector<int>& doubtful) const
+    std::vector<std::array<int, 2>>& pairs, std::vector<int>& candidates) const
   {
     if (this->AreOneSheet(first, last))
     {
@@ -153,7 +154,7 @@ private:
     }
     for (const int* f = first; f != last; ++f)
     {
-      doubtful.push_back(*f);
+      candidates.push_back(*f);
       const Box box = this->BoxOf(*f);
       const MeshTriangle triangle = this->TriangleAt(*f);
       for (const int* g = f + 1; g != last; ++g)

@@ -15,7 +15,7 @@ namespace volumic
 struct InterfaceCrossings
 {
   std::vector<std::array<int, 2>> Pairs; ///< pairs of intersecting faces
-  std::vector<int> Doubtful;             ///< sorted faces in cubes with more than one sheet
+  std::vector<int> Candidates;           ///< sorted faces in cubes with more than one sheet
 };
 
 /**

@@ -55,14 +55,14 @@ private:
   bool TryCollapse(int u, int v);
   // The next three functions handle all Images of the edge.
   bool MayCollapseImages();
-  bool AreFairCollapses(const Vector& place);
-  void CollapseImages(const Vector& place);
+  bool AreFairCollapses(const Vector& position);
+  void CollapseImages(const Vector& position);
   /** Return the position of the kept vertex of an image, given that of the first image. */
-  Vector PositionOfImage(std::size_t image, const Vector& place) const;
+  Vector PositionOfImage(std::size_t image, const Vector& position) const;
   /** Test the quality of a collapse; append changed faces to Changed and new ones to Made. */
-  bool IsFairCollapse(const Vector& place, int kept, int removed);
-  bool MakesLongEdges(const Vector& place, int kept, int removed) const;
-  void Collapse(const Vector& place, int kept, int removed);
+  bool IsFairCollapse(const Vector& position, int kept, int removed);
+  bool MakesLongEdges(const Vector& position, int kept, int removed) const;
+  void Collapse(const Vector& position, int kept, int removed);
   /** @param flatness least cosine of the angle between the normals of the faces */
   bool TryFlip(int u, int v, double flatness);
   /** Test the quality of a flip; append changed faces to Changed and new ones to Made. */

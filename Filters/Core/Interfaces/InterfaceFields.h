@@ -29,13 +29,13 @@ class InterfaceFields
 public:
   /**
    * @param step       size of a voxel in computational space
-   * @param goOn       progress callback, called on any thread; returns false to cancel, after which
-   *                   the fields are incomplete
+   * @param progress   callback with the completed fraction, called on any thread. Returns false to
+   *                   cancel; the fields are then incomplete.
    * @param isPeriodic whether the box in which voxels are counted is repeated periodically
    */
   InterfaceFields(const LabelBricks& bricks, const LabelFieldOptions& options,
     const std::array<double, 3>& step, Executor& executor,
-    const std::function<bool(double share)>& goOn, bool isPeriodic = false);
+    const std::function<bool(double fraction)>& progress, bool isPeriodic = false);
 
   const LabelBricks& Bricks() const { return this->Map; }
   const std::array<double, 3>& Step() const { return this->Lengths; }
@@ -62,17 +62,17 @@ public:
     Vector Gradient;
   };
   /** Return the trilinear interpolation of the field of an object at a position. */
-  Sample Interpolate(int object, const Vector& place) const;
-  float ValueAt(int object, const Vector& place) const
+  Sample Interpolate(int object, const Vector& position) const;
+  float ValueAt(int object, const Vector& position) const
   {
-    return this->Interpolate(object, place).Value;
+    return this->Interpolate(object, position).Value;
   }
 
   /** Return half the difference of the fields of two objects, which is 0 on their interface. */
-  Sample Between(int object, int other, const Vector& place) const
+  Sample Between(int object, int other, const Vector& position) const
   {
-    const Sample a = this->Interpolate(object, place);
-    const Sample b = this->Interpolate(other, place);
+    const Sample a = this->Interpolate(object, position);
+    const Sample b = this->Interpolate(other, position);
     return { 0.5f * (a.Value - b.Value), (a.Gradient - b.Gradient) * 0.5f };
   }
 

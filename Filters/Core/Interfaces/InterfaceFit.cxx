@@ -19,7 +19,7 @@ namespace
 /** Number of damped Jacobi iterations for the shifts. */
 constexpr int VolumeSweeps = 400;
 /** Change of the fields at a misclassified voxel, in the smallest voxel spacing. */
-constexpr float PushOfWrong = 0.25f;
+constexpr float PushOfMisclassified = 0.25f;
 
 /** Regularization: if objects fill a box, only the differences of shifts are determined. */
 constexpr double PullToZero = 1e-3;
@@ -162,8 +162,8 @@ std::size_t PushMisclassifiedVoxels(
   {
     if (voxel.IsFar)
     {
-      fields.Push(voxel.OfMap, voxel.At, PushOfWrong);
-      fields.Push(voxel.OfMesh, voxel.At, PushOfWrong);
+      fields.Push(voxel.OfMap, voxel.At, PushOfMisclassified);
+      fields.Push(voxel.OfMesh, voxel.At, PushOfMisclassified);
       ++count;
     }
   }

@@ -82,7 +82,7 @@ public:
     return this->Planes[static_cast<std::size_t>(side - this->FirstSide)];
   }
   /** Project a position into the box, and into the planes of the sides that a vertex lies on. */
-  Vector OnSides(int v, const Vector& place) const;
+  Vector ProjectToSides(int v, const Vector& position) const;
 
   /**
    * Next image of each vertex, as a cyclic list. In a periodic box each vertex on a side has an

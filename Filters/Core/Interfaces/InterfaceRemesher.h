@@ -31,10 +31,10 @@ public:
    * @param shortest, longest desired range of edge lengths in computational space, multiplied by
    *                  the sizes of the mesh
    * @param tolerance triangles at a smaller distance count as intersecting
-   * @param goOn      called regularly on the calling thread; returns false to stop editing
+   * @param shouldContinue called regularly on the calling thread; returns false to stop editing
    */
   InterfaceRemesher(InterfaceMesh& mesh, double shortest, double longest, double tolerance,
-    Executor& executor, std::function<bool()> goOn);
+    Executor& executor, std::function<bool()> shouldContinue);
 
   // Each function makes one pass over all faces and returns the number of edits.
   int SplitLongEdges();
@@ -48,9 +48,12 @@ private:
     return InterfaceEdits(this->Mesh, this->Clearance, this->Shortest, this->Longest);
   }
   /** Build the search structure if it is out of date. Splits do not need it. */
-  void LayGrid();
+  void UpdateGrid();
   /** Return whether to continue with a face. Calls the callback for some faces only. */
-  bool CanContinue(std::size_t face) { return face % FacesPerProgressCall != 0 || this->GoOn(); }
+  bool CanContinue(std::size_t face)
+  {
+    return face % FacesPerProgressCall != 0 || this->ShouldContinue();
+  }
   /** Return an upper bound for the length of all edges during a pass. */
   float LongestEdge() const;
   /**
@@ -64,7 +67,7 @@ private:
   static constexpr std::size_t FacesPerProgressCall = 4096;
 
   InterfaceMesh& Mesh;
-  std::function<bool()> GoOn;
+  std::function<bool()> ShouldContinue;
   Executor& Threads;
   InterfaceClearance Clearance;
   bool HasGrid = false; ///< Whether Clearance is up to date.

@@ -19,7 +19,7 @@ namespace
 {
 constexpr std::size_t SpanSize = 1024;
 /** Target error relative to the tolerance, as later steps move vertices along the interfaces. */
-constexpr float AimedShare = 0.8f;
+constexpr float AimedFraction = 0.8f;
 /** Least factor of a size change (1 / sqrt(3)): an edge is split into two or three. */
 constexpr float LeastChange = 0.57735f;
 /** Lower bound of the slope of half the field difference. */
@@ -34,7 +34,7 @@ class FaceDistances
 public:
   FaceDistances(const InterfaceMesh& mesh, const InterfaceFields& fields, double tolerance,
     const InterfaceMesh::Face& face)
-    : Fields(fields), Of(face), IsOnSide(mesh.IsSide(face.Front)),
+    : Fields(fields), OwnFace(face), IsOnSide(mesh.IsSide(face.Front)),
       Near(static_cast<float>(tolerance)), Normal(Normalized(mesh.NormalOf(face)))
   {
     for (std::size_t k = 0; k < 3; ++k)
@@ -57,24 +57,24 @@ public:
   }
 
 private:
-  float At(const Vector& place) const
+  float At(const Vector& position) const
   {
     if (this->IsOnSide)
     {
       return 0.f;
     }
-    const auto sample = this->Fields.Between(this->Of.Behind, this->Of.Front, place);
+    const auto sample = this->Fields.Between(this->OwnFace.Behind, this->OwnFace.Front, position);
     const float near = sample.Value / std::max(Length(sample.Gradient), LeastSlope);
     return std::abs(near) <= this->Near
       ? -near
-      : SignedDistanceToZero(place, this->Normal, sample.Value,
+      : SignedDistanceToZero(position, this->Normal, sample.Value,
           std::max(Furthest, FurthestInTolerances * this->Near),
           [this](const Vector& at)
-          { return this->Fields.Between(this->Of.Behind, this->Of.Front, at).Value; });
+          { return this->Fields.Between(this->OwnFace.Behind, this->OwnFace.Front, at).Value; });
   }
 
   const InterfaceFields& Fields;
-  const InterfaceMesh::Face& Of;
+  const InterfaceMesh::Face& OwnFace;
   const bool IsOnSide; ///< Whether the face is on a side of the box.
   const float Near;    ///< Smaller distances are estimated from the value and the slope.
   const Vector Normal;
@@ -92,13 +92,14 @@ LargeVector<float> FindSags(
       for (std::size_t f = begin; f < end; ++f)
       {
         const FaceDistances distances(mesh, fields, tolerance, mesh.Faces[f]);
-        const std::array<float, 3> off = distances.AtCorners();
-        const std::array<float, 4> there = distances.AtMiddles();
+        const std::array<float, 3> atCorners = distances.AtCorners();
+        const std::array<float, 4> atMiddles = distances.AtMiddles();
         for (std::size_t k = 0; k < 3; ++k)
         {
-          ofFaces[f][k] = std::abs(there[k] - 0.5f * (off[k] + off[(k + 1) % 3]));
+          ofFaces[f][k] = std::abs(atMiddles[k] - 0.5f * (atCorners[k] + atCorners[(k + 1) % 3]));
         }
-        ofFaces[f][3] = std::abs(there[3] - (off[0] + off[1] + off[2]) * (1.f / 3.f));
+        ofFaces[f][3] =
+          std::abs(atMiddles[3] - (atCorners[0] + atCorners[1] + atCorners[2]) * (1.f / 3.f));
       }
     });
   LargeVector<float> sags(mesh.Size.size(), 0.f);
@@ -124,16 +125,17 @@ LargeVector<float> FindSags(
 }
 
 /** Insert all positions into a grid. */
-void LayGrid(VertexGrid& grid, const LargeVector<Vector>& places, float cell, Executor& executor)
+void FillGrid(
+  VertexGrid& grid, const LargeVector<Vector>& positions, float cell, Executor& executor)
 {
-  Box box = { places.front(), places.front() };
-  for (const Vector& p : places)
+  Box box = { positions.front(), positions.front() };
+  for (const Vector& p : positions)
   {
     box = box.With({ p, p });
   }
   grid.Reset(box.Low, box.High, cell);
   grid.InsertAll(
-    places, 0, [](int) { return true; }, executor);
+    positions, 0, [](int) { return true; }, executor);
 }
 }
 
@@ -144,7 +146,7 @@ void AdjustSizes(
   {
     return;
   }
-  const float aimed = AimedShare * static_cast<float>(bounds.Tolerance);
+  const float aimed = AimedFraction * static_cast<float>(bounds.Tolerance);
   const float growth = static_cast<float>(bounds.Growth);
   LargeVector<float> sizes = FindSags(mesh, fields, bounds.Tolerance, executor);
   for (std::size_t v = 0; v < sizes.size(); ++v)
@@ -154,7 +156,7 @@ void AdjustSizes(
       mesh.Size[v] * std::clamp(change, LeastChange, growth), 1.f, static_cast<float>(bounds.Most));
   }
   VertexGrid grid;
-  LayGrid(grid, mesh.Position, static_cast<float>(mesh.MeanEdge()), executor);
+  FillGrid(grid, mesh.Position, static_cast<float>(mesh.MeanEdge()), executor);
   mesh.Size =
     LimitedSizes(sizes, mesh.Position, grid, 1.f, static_cast<float>(bounds.Gradation), executor);
   for (std::size_t v = 0; v < sizes.size(); ++v)

@@ -28,8 +28,8 @@ constexpr int Rounds = 2;
  */
 constexpr int LeastLastRounds = 1;
 constexpr int MostLastRounds = 6;
-constexpr double FewWrong = 0.01;
-constexpr double FairVolume = 0.005;
+constexpr double FewMisclassified = 0.01;
+constexpr double FairVolumeError = 0.005;
 /** With a tolerance: maximum growth factor of the sizes in each of the last rounds. */
 constexpr std::array<double, 3> Growths = { 2.5, 1.5, 1.1 };
 /** First round in which vertices are near enough to the interfaces to correct the fields. */
@@ -44,18 +44,18 @@ constexpr int StepsOfFine = 6;
 /** Maximum length of each of these steps, relative to the shortest edge of the vertex. */
 constexpr double FineStep = 0.2;
 /** Lengths of edges that are split and collapsed, relative to the mean edge length. */
-constexpr double LongestShare = 4. / 3.;
-constexpr double ShortestShare = 4. / 5.;
+constexpr double LongestFactor = 4. / 3.;
+constexpr double ShortestFactor = 4. / 5.;
 /** The same for splits in the last rounds. */
-constexpr double LongestLast = 1.8;
+constexpr double LongestLastFactor = 1.8;
 /** Maximum growth factor of the edge length in a round. */
 constexpr double MostGrowth = 3.;
 /** Least length to which a step may shorten an edge, relative to the desired edge length. */
-constexpr double LeastShare = 0.5;
+constexpr double LeastEdgeFactor = 0.5;
 /** Distance below which triangles count as intersecting, relative to the desired edge length. */
 constexpr double ToleranceOfEdge = 1e-3;
 /** Fraction of the tangential smoothing step. */
-constexpr double StepShare = 0.7;
+constexpr double StepRelaxation = 0.7;
 
 /** Maximum edge length of a small object, relative to the radius of a ball of the same volume. */
 constexpr double EdgeInRadius = 0.8;
@@ -83,8 +83,8 @@ void ShortenEdgesOfSmall(InterfaceMesh& mesh, const InterfaceFields& fields, dou
         static_cast<float>(std::max({ EdgeInRadius * radius / edge, LeastEdge / edge, LeastSize }));
       for (const int v : face.Vertex)
       {
-        float& of = mesh.Size[static_cast<std::size_t>(v)];
-        of = size < 1.f ? std::min(of, size) : of;
+        float& vertexSize = mesh.Size[static_cast<std::size_t>(v)];
+        vertexSize = size < 1.f ? std::min(vertexSize, size) : vertexSize;
       }
     }
   }
@@ -92,13 +92,13 @@ void ShortenEdgesOfSmall(InterfaceMesh& mesh, const InterfaceFields& fields, dou
 
 /** Make the edits of a round. @param hasCollapses if false, only very long edges are split */
 void Edit(InterfaceMesh& mesh, double requested, bool hasCollapses, int sliverRounds,
-  Executor& executor, const std::function<bool()>& goOn)
+  Executor& executor, const std::function<bool()>& shouldContinue)
 {
   // Search cost grows with the squared edge length, so that lengths grow gradually.
   const double edge = std::min(requested, MostGrowth * mesh.MeanEdge());
-  const double longest = (hasCollapses ? LongestShare : LongestLast) * edge;
+  const double longest = (hasCollapses ? LongestFactor : LongestLastFactor) * edge;
   InterfaceRemesher remesher(
-    mesh, ShortestShare * edge, longest, ToleranceOfEdge * requested, executor, goOn);
+    mesh, ShortestFactor * edge, longest, ToleranceOfEdge * requested, executor, shouldContinue);
   remesher.SplitLongEdges();
   if (hasCollapses)
   {
@@ -111,11 +111,11 @@ void Edit(InterfaceMesh& mesh, double requested, bool hasCollapses, int sliverRo
   }
 }
 /**
- * Run all rounds. @param share completed fraction
+ * Run all rounds. @param fraction completed fraction
  * @throws OperationCancelled if cancelled; the mesh is then free of intersections
  */
-void Work(InterfaceMesh& mesh, InterfaceFields& fields, const InterfaceOptions& options,
-  Executor& executor, double& share, const std::function<bool()>& mayResume)
+void RunRounds(InterfaceMesh& mesh, InterfaceFields& fields, const InterfaceOptions& options,
+  Executor& executor, double& fraction, const std::function<bool()>& shouldContinue)
 {
   // The first round takes half of the time, as the initial mesh has many short edges.
   constexpr int all = 2 * (Rounds + LeastLastRounds);
@@ -123,9 +123,9 @@ void Work(InterfaceMesh& mesh, InterfaceFields& fields, const InterfaceOptions& 
   const int rounds = Rounds + (isGraded ? static_cast<int>(Growths.size()) : MostLastRounds);
   const double straightening =
     isGraded ? std::min(options.Tolerance, MostStraightening) : MostStraightening;
-  const auto move = [&](int steps, double stepShare, double leastAngle)
+  const auto move = [&](int steps, double relaxation, double leastAngle)
   {
-    MoveInterfaces(mesh, fields, steps, stepShare, LeastShare * options.Edge,
+    MoveInterfaces(mesh, fields, steps, relaxation, LeastEdgeFactor * options.Edge,
       ToleranceOfEdge * options.Edge, leastAngle, executor, straightening);
   };
   mesh = StartInterfaces(fields, executor);
@@ -134,17 +134,18 @@ void Work(InterfaceMesh& mesh, InterfaceFields& fields, const InterfaceOptions& 
   // are short, as vertices of faces that turn too far are moved back.
   for (int step = 0; step < StepsOfFine && options.Edge < LeastCollapsed; ++step)
   {
-    MoveInterfaces(mesh, fields, 1, StepShare, 0., ToleranceOfEdge * options.Edge, 0., executor,
-      straightening, FineStep);
+    MoveInterfaces(mesh, fields, 1, StepRelaxation, 0., ToleranceOfEdge * options.Edge, 0.,
+      executor, straightening, FineStep);
   }
-  std::size_t wrong = 0;
+  std::size_t misclassified = 0;
   double worstVolume = 0.;
   for (int round = 0; round < rounds; ++round)
   {
-    const bool hasFewWrong =
-      static_cast<double>(wrong) <= FewWrong * static_cast<double>(mesh.Position.size());
+    const bool hasFewMisclassified = static_cast<double>(misclassified) <=
+      FewMisclassified * static_cast<double>(mesh.Position.size());
     const bool isLast = round >= Rounds;
-    if (!isGraded && round >= Rounds + LeastLastRounds && hasFewWrong && worstVolume < FairVolume)
+    if (!isGraded && round >= Rounds + LeastLastRounds && hasFewMisclassified &&
+      worstVolume < FairVolumeError)
     {
       break;
     }
@@ -156,39 +157,40 @@ void Work(InterfaceMesh& mesh, InterfaceFields& fields, const InterfaceOptions& 
         executor);
       ShortenEdgesOfSmall(mesh, fields, options.Edge);
     }
-    Edit(mesh, options.Edge, isGraded || !isLast, round >= FirstFit ? 1 : 0, executor, mayResume);
+    Edit(
+      mesh, options.Edge, isGraded || !isLast, round >= FirstFit ? 1 : 0, executor, shouldContinue);
     mesh.Compact();
     if (round >= FirstFit)
     {
       worstVolume = CorrectVolumes(mesh, fields, options.Tolerance, executor);
-      wrong = PushMisclassifiedVoxels(
+      misclassified = PushMisclassifiedVoxels(
         mesh, fields, options.VoxelTolerance + (isLast ? options.Tolerance : 0.), executor);
     }
-    move(round == 0 ? 1 : Steps, StepShare, 0.);
-    share = std::min(1., static_cast<double>(all / 2 + round) / all);
+    move(round == 0 ? 1 : Steps, StepRelaxation, 0.);
+    fraction = std::min(1., static_cast<double>(all / 2 + round) / all);
   }
   // Remove the slivers of the last steps, and correct the volumes that this changes.
-  Edit(mesh, options.Edge, false, LastSliverRounds, executor, mayResume);
+  Edit(mesh, options.Edge, false, LastSliverRounds, executor, shouldContinue);
   mesh.Compact();
   CorrectVolumes(mesh, fields, options.Tolerance, executor);
   move(1, 0., SliverAngle);
   NearDegenerateRegions(mesh, fields, options.Edge, ToleranceOfEdge * options.Edge,
     options.VoxelTolerance + options.Tolerance)
-    .Open(executor, mayResume);
+    .Open(executor, shouldContinue);
 }
 }
 
 InterfaceMesh MakeInterfaces(InterfaceFields& fields, const InterfaceOptions& options,
-  Executor& executor, const std::function<bool(double share)>& goOn)
+  Executor& executor, const std::function<bool(double fraction)>& progress)
 {
-  double share = 0.;
-  const auto mayResume = [&] { return goOn(share); };
-  CancellableExecutor asking(executor, mayResume);
+  double fraction = 0.;
+  const auto shouldContinue = [&] { return progress(fraction); };
+  CancellableExecutor cancellable(executor, shouldContinue);
   InterfaceMesh mesh;
   try
   {
-    Work(mesh, fields, options, asking, share, mayResume);
-    share = 1.;
+    RunRounds(mesh, fields, options, cancellable, fraction, shouldContinue);
+    fraction = 1.;
   }
   catch (const OperationCancelled&)
   {
@@ -198,7 +200,7 @@ InterfaceMesh MakeInterfaces(InterfaceFields& fields, const InterfaceOptions& op
   {
     mesh.Compact(true); // Opposite sides get the same vertex order.
   }
-  mayResume();
+  shouldContinue();
   return mesh;
 }
 }

@@ -39,13 +39,13 @@ struct InterfaceOptions
  * 4. With a tolerance, lengthen edges in the last rounds as far as it allows (AdjustSizes).
  * 5. Open narrow triangles, wedges and gaps (NearDegenerateRegions).
  *
- * @param fields changed by step 3
- * @param goOn   progress callback with the completed fraction, called on the calling thread several
- *               times a second. Returns false to cancel: the mesh is then free of intersections,
- *               but not smooth, or empty.
+ * @param fields   changed by step 3
+ * @param progress callback with the completed fraction, called on the calling thread several times
+ *                 a second. Returns false to cancel: the mesh is then free of intersections, but not
+ *                 smooth, or empty.
  */
 InterfaceMesh MakeInterfaces(InterfaceFields& fields, const InterfaceOptions& options,
-  Executor& executor, const std::function<bool(double share)>& goOn);
+  Executor& executor, const std::function<bool(double fraction)>& progress);
 }
 
 #endif

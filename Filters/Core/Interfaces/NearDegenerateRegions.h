@@ -34,16 +34,16 @@ public:
   NearDegenerateRegions(InterfaceMesh& mesh, const InterfaceFields& fields, double edge,
     double tolerance, double voxelTolerance);
 
-  /** Open all regions. @param goOn called regularly; returns false to stop */
-  void Open(Executor& executor, const std::function<bool()>& goOn);
+  /** Open all regions. @param shouldContinue called regularly; returns false to stop */
+  void Open(Executor& executor, const std::function<bool()>& shouldContinue);
 
 private:
   /** Return the sorted vertices of narrow triangles and of triangles at narrow wedges and gaps. */
   std::vector<int> FindVertices(Executor& executor);
-  /** Call visit(SquaredLack()) for each narrow gap at a face. @param near scratch memory */
+  /** Call visit(SquaredDeficit()) for each narrow gap at a face. @param near scratch memory */
   template <typename Visitor>
   void ForGapsAt(int face, std::vector<int>& near, Visitor&& visit) const;
-  /** Return the sum of SquaredLack() of all triangles, wedges and gaps at a vertex. */
+  /** Return the sum of SquaredDeficit() of all triangles, wedges and gaps at a vertex. */
   double NarrownessAt(int v);
   double NarrownessOfImages();
   bool TryMove(int v);
@@ -52,8 +52,8 @@ private:
   bool KeepsVoxels(const InterfaceMesh::Face& face, std::ptrdiff_t moved,
     const MeshTriangle& before, const MeshTriangle& after) const;
   /** Add the volume changes of replacing Changed by Made to Gains, unless one becomes too large. */
-  bool TakeVolumes();
-  void Place(const Vector& target);
+  bool AddGains();
+  void MoveTo(const Vector& target);
 
   InterfaceMesh& Mesh;
   const InterfaceFields& Fields;

@@ -10,43 +10,43 @@ namespace volumic
 namespace
 {
 /** Least fraction of a step; a vertex does not move otherwise. */
-constexpr float LeastPart = 0.1f;
+constexpr float LeastFraction = 0.1f;
 /** Fraction of the straightening step of junction lines, which reduces the voxel staircase. */
 constexpr float LineSmoothing = 0.8f;
 /** Damping of the Newton step, relative to the sum of the squared slopes. */
 constexpr double Damping = 0.02;
 }
 
-Vector VertexTargets::Of(int v)
+Vector VertexTargets::TargetOf(int v)
 {
-  const Vector place = this->Mesh.Position[static_cast<std::size_t>(v)];
+  const Vector position = this->Mesh.Position[static_cast<std::size_t>(v)];
   this->Mesh.FindNeighbours(v, this->Neighbours);
   float shortest = SquaredDistance(
-    place, this->Mesh.Position[static_cast<std::size_t>(this->Neighbours.front())]);
+    position, this->Mesh.Position[static_cast<std::size_t>(this->Neighbours.front())]);
   for (const int w : this->Neighbours)
   {
-    shortest =
-      std::min(shortest, SquaredDistance(place, this->Mesh.Position[static_cast<std::size_t>(w)]));
+    shortest = std::min(
+      shortest, SquaredDistance(position, this->Mesh.Position[static_cast<std::size_t>(w)]));
   }
   this->FindObjects(v);
   this->FindEnds();
   const bool isOnLine = !this->Ends.empty();
   const Vector along = isOnLine ? this->AlongLine(v) : this->AlongInterface(v);
-  Vector target = place + Vector(this->AlongSides(VectorD(along))) * this->Share;
+  Vector target = position + Vector(this->AlongSides(VectorD(along))) * this->Relaxation;
   target += this->ToInterfaces(target);
   if (isOnLine)
   {
     target += Vector(this->AlongSides(VectorD(this->Straightening(target))));
   }
-  const Vector way = this->Mesh.OnSides(v, target) - place;
-  const float length = Length(way);
+  const Vector step = this->Mesh.ProjectToSides(v, target) - position;
+  const float length = Length(step);
   const float most = this->Most * std::sqrt(shortest);
-  float part = length > most ? most / length : 1.f;
-  while (part > LeastPart && this->Shortens(place, place + way * part))
+  float fraction = length > most ? most / length : 1.f;
+  while (fraction > LeastFraction && this->Shortens(position, position + step * fraction))
   {
-    part *= 0.5f;
+    fraction *= 0.5f;
   }
-  return part > LeastPart ? place + way * part : place;
+  return fraction > LeastFraction ? position + step * fraction : position;
 }
 
 void VertexTargets::FindObjects(int v)
@@ -60,13 +60,13 @@ void VertexTargets::FindObjects(int v)
   }
 }
 
-bool VertexTargets::Shortens(const Vector& place, const Vector& target) const
+bool VertexTargets::Shortens(const Vector& position, const Vector& target) const
 {
   return std::any_of(this->Neighbours.begin(), this->Neighbours.end(),
     [&](int w)
     {
       const Vector& other = this->Mesh.Position[static_cast<std::size_t>(w)];
-      const float before = Length(other - place);
+      const float before = Length(other - position);
       const float least = 0.5f * (before + std::min(before, this->Shortest));
       return SquaredDistance(other, target) < least * least;
     });
@@ -74,7 +74,7 @@ bool VertexTargets::Shortens(const Vector& place, const Vector& target) const
 
 Vector VertexTargets::AlongInterface(int v) const
 {
-  const VectorD place(this->Mesh.Position[static_cast<std::size_t>(v)]);
+  const VectorD position(this->Mesh.Position[static_cast<std::size_t>(v)]);
   VectorD normal;
   VectorD sum;
   double areas = 0.;
@@ -93,7 +93,7 @@ Vector VertexTargets::AlongInterface(int v) const
       // Divide by the size: large faces must not attract vertices from regions of small faces.
       const double area = Length(across) / (size * size);
       normal += across;
-      sum += (middle - place) * area;
+      sum += (middle - position) * area;
       areas += area;
     });
   if (!(areas > 0.))
@@ -101,9 +101,9 @@ Vector VertexTargets::AlongInterface(int v) const
     return Vector();
   }
   // The mean of the face centres is at 2/3 of the distance to the mean of the neighbours.
-  const VectorD way = sum * (1.5 / areas);
+  const VectorD step = sum * (1.5 / areas);
   const VectorD unit = Normalized(normal);
-  return Vector(way - unit * Dot(way, unit));
+  return Vector(step - unit * Dot(step, unit));
 }
 
 Vector VertexTargets::AlongLine(int v) const
@@ -117,17 +117,17 @@ Vector VertexTargets::AlongLine(int v) const
     Dot(along, this->MiddleOfEnds() - this->Mesh.Position[static_cast<std::size_t>(v)]);
 }
 
-Vector VertexTargets::Straightening(const Vector& place) const
+Vector VertexTargets::Straightening(const Vector& position) const
 {
-  Vector way = this->MiddleOfEnds() - place;
+  Vector step = this->MiddleOfEnds() - position;
   if (this->Ends.size() == 2)
   {
     const Vector along = Normalized(this->Ends[1] - this->Ends[0]);
-    way -= along * Dot(along, way);
+    step -= along * Dot(along, step);
   }
-  const float length = Length(way);
-  return length * LineSmoothing > this->Straightest ? way * (this->Straightest / length)
-                                                    : way * LineSmoothing;
+  const float length = Length(step);
+  return length * LineSmoothing > this->Straightest ? step * (this->Straightest / length)
+                                                    : step * LineSmoothing;
 }
 
 Vector VertexTargets::MiddleOfEnds() const
@@ -147,15 +147,15 @@ void VertexTargets::FindEnds()
     [this](int w) { this->Ends.push_back(this->Mesh.Position[static_cast<std::size_t>(w)]); });
 }
 
-Vector VertexTargets::ToInterfaces(const Vector& place) const
+Vector VertexTargets::ToInterfaces(const Vector& position) const
 {
   double matrix[3][3] = { { 0., 0., 0. }, { 0., 0., 0. }, { 0., 0., 0. } };
   VectorD right;
-  const InterfaceFields::Sample first = this->Fields.Interpolate(this->Objects.front(), place);
+  const InterfaceFields::Sample first = this->Fields.Interpolate(this->Objects.front(), position);
   double slopes = 0.;
   for (std::size_t n = 1; n < this->Objects.size(); ++n)
   {
-    const InterfaceFields::Sample other = this->Fields.Interpolate(this->Objects[n], place);
+    const InterfaceFields::Sample other = this->Fields.Interpolate(this->Objects[n], position);
     const VectorD slope = this->AlongSides(VectorD(other.Gradient - first.Gradient));
     const double difference = static_cast<double>(other.Value) - first.Value;
     const double s[3] = { slope.X, slope.Y, slope.Z };

@@ -29,33 +29,33 @@ class VertexTargets
 public:
   /**
    * Lengths are in computational space.
-   * @param share         fraction of the tangential smoothing step, 0 to 1
+   * @param relaxation    fraction of the tangential smoothing step, 0 to 1
    * @param shortest      no edge is made shorter than this length
    * @param straightening maximum distance by which vertices of junction lines are straightened
    * @param mostOfEdge    maximum length of a step, relative to the shortest edge of the vertex
    */
-  VertexTargets(const InterfaceMesh& mesh, const InterfaceFields& fields, double share,
+  VertexTargets(const InterfaceMesh& mesh, const InterfaceFields& fields, double relaxation,
     double shortest, double straightening = MostStraightening, double mostOfEdge = MostOfEdge)
-    : Mesh(mesh), Fields(fields), Share(static_cast<float>(share)),
-      Most(static_cast<float>(mostOfEdge)),
-      Shortest(static_cast<float>(shortest)), Straightest(static_cast<float>(straightening))
+    : Mesh(mesh), Fields(fields), Relaxation(static_cast<float>(relaxation)),
+      Most(static_cast<float>(mostOfEdge)), Shortest(static_cast<float>(shortest)),
+      Straightest(static_cast<float>(straightening))
   {
   }
 
-  Vector Of(int v);
+  Vector TargetOf(int v);
 
 private:
   /** Find the objects at a vertex, and the axes along which sides of a box allow it to move. */
   void FindObjects(int v);
-  VectorD AlongSides(const VectorD& way) const
+  VectorD AlongSides(const VectorD& step) const
   {
-    return { way.X * this->Free[0], way.Y * this->Free[1], way.Z * this->Free[2] };
+    return { step.X * this->Free[0], step.Y * this->Free[1], step.Z * this->Free[2] };
   }
   /**
    * Return whether a move makes an edge too short if the neighbour moves likewise. Two junction
    * points of the same objects have the same target.
    */
-  bool Shortens(const Vector& place, const Vector& target) const;
+  bool Shortens(const Vector& position, const Vector& target) const;
   /** Return the tangential vector to the area-weighted mean of the faces. */
   Vector AlongInterface(int v) const;
   /** Return the tangential vector to the middle of both neighbours on the line; 0 at a corner. */
@@ -64,15 +64,15 @@ private:
    * Return the displacement towards the straight line between both neighbours on the line. At a
    * corner: towards the mean of its neighbours on all lines.
    */
-  Vector Straightening(const Vector& place) const;
+  Vector Straightening(const Vector& position) const;
   Vector MiddleOfEnds() const;
   void FindEnds();
   /** Return the shortest step that makes the fields of all adjacent objects equal. */
-  Vector ToInterfaces(const Vector& place) const;
+  Vector ToInterfaces(const Vector& position) const;
 
   const InterfaceMesh& Mesh;
   const InterfaceFields& Fields;
-  float Share;
+  float Relaxation;
   float Most; ///< maximum step, relative to the shortest edge
   float Shortest;
   float Straightest;

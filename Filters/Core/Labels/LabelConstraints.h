@@ -17,7 +17,7 @@ constexpr int ConstraintReach = 3;
 /** Constraint on the field value at a voxel: Side * value >= Margin. */
 struct VoxelConstraint
 {
-  std::int64_t Place; ///< index of the voxel in LabelField::Values
+  std::int64_t Index; ///< index of the voxel in LabelField::Values
   float Side;         ///< 1 inside, -1 outside
   float Margin;
 };

@@ -31,12 +31,12 @@ public:
     return table;
   }
 
-  float At(float share) const
+  float At(float probability) const
   {
-    const float place = std::clamp(share, 0.f, 1.f) * Steps;
-    const int step = std::min(static_cast<int>(place), Steps - 1);
+    const float position = std::clamp(probability, 0.f, 1.f) * Steps;
+    const int step = std::min(static_cast<int>(position), Steps - 1);
     const float* values = this->Values.data() + step;
-    return values[0] + (place - static_cast<float>(step)) * (values[1] - values[0]);
+    return values[0] + (position - static_cast<float>(step)) * (values[1] - values[0]);
   }
 
 private:
@@ -46,13 +46,13 @@ private:
   {
     for (int i = 0; i <= Steps; ++i)
     {
-      const double share = std::clamp(i / static_cast<double>(Steps), 1e-5, 1. - 1e-5);
+      const double probability = std::clamp(i / static_cast<double>(Steps), 1e-5, 1. - 1e-5);
       double low = -5.;
       double high = 5.;
       for (int halving = 0; halving < 50; ++halving)
       {
         const double middle = 0.5 * (low + high);
-        (0.5 * std::erfc(-middle / std::sqrt(2.)) < share ? low : high) = middle;
+        (0.5 * std::erfc(-middle / std::sqrt(2.)) < probability ? low : high) = middle;
       }
       this->Values[static_cast<std::size_t>(i)] = static_cast<float>(0.5 * (low + high));
     }
@@ -73,14 +73,14 @@ public:
 
   /**
    * Compute the distance, with a narrower Gaussian near missed voxels.
-   * @param isHeld whether all voxels are constrained. The volume is then corrected before missed
-   *               voxels are searched, otherwise at the end, as the correction may thicken thin
-   *               parts.
+   * @param isConstrained whether all voxels are constrained. The volume is then corrected before
+   *                      missed voxels are searched. Otherwise it is corrected at the end, as the
+   *                      correction may thicken thin parts.
    */
-  void Make(double sigma, bool isHeld)
+  void Make(double sigma, bool isConstrained)
   {
     const VoxelBits& rows = this->Field.Rows;
-    this->MakeWith(rows, rows, sigma, isHeld);
+    this->MakeWith(rows, rows, sigma, isConstrained);
     for (double narrower = sigma * NarrowerBy; narrower > LeastSigma; narrower *= NarrowerBy)
     {
       const VoxelBits missed = this->Sides.FindMissed(this->Field, rows, this->Threads);
@@ -88,9 +88,9 @@ public:
       {
         break;
       }
-      this->MakeNarrower(rows, missed, narrower, isHeld);
+      this->MakeNarrower(rows, missed, narrower, isConstrained);
     }
-    if (!isHeld)
+    if (!isConstrained)
     {
       this->CorrectVolume(rows, sigma, false);
     }
@@ -132,13 +132,13 @@ private:
       rows, this->Varying, this->InVoxels(ofGaussian),
       [this](int i, int j, int k, int count, float* values)
       { this->Sides.CopyMembership(i, j, k, count, values); },
-      [&](int i, int j, int k, int count, const float* shares)
+      [&](int i, int j, int k, int count, const float* smoothed)
       {
         float* values = this->At(this->Field.Values, i, j, k);
         for (int x = 0; x < count; ++x)
         {
           values[x] =
-            std::clamp(sigma * quantiles.At(shares[x]), -LabelField::Far, LabelField::Far);
+            std::clamp(sigma * quantiles.At(smoothed[x]), -LabelField::Far, LabelField::Far);
         }
       },
       this->Threads);
@@ -148,33 +148,33 @@ private:
     }
   }
 
-  /** Run step 2. @param isHeld if false, the correction is reduced at thin parts */
-  void CorrectVolume(const VoxelBits& rows, double ofGaussian, bool isHeld)
+  /** Run step 2. @param isConstrained if false, the correction is reduced at thin parts */
+  void CorrectVolume(const VoxelBits& rows, double ofGaussian, bool isConstrained)
   {
-    const float perShare = static_cast<float>(ofGaussian) * 2.5066283f; // sqrt(2 pi)
-    this->Others.resize(this->Field.Values.size());
+    const float scale = static_cast<float>(ofGaussian) * 2.5066283f; // sqrt(2 pi)
+    this->MissingVolume.resize(this->Field.Values.size());
     this->Gaussian.Smooth(
       rows, this->Field.Rows, this->InVoxels(ofGaussian),
       [this](int i, int j, int k, int count, float* values)
       { this->CopyMissingVolume(i, j, k, count, values); },
       [&](int i, int j, int k, int count, const float* missing)
       {
-        float* more = this->At(this->Others, i, j, k);
+        float* more = this->At(this->MissingVolume, i, j, k);
         std::transform(
-          missing, missing + count, more, [perShare](float share) { return share * perShare; });
+          missing, missing + count, more, [scale](float volume) { return volume * scale; });
       },
       this->Threads);
     const auto add = [&](int i, int j, int k, int count, const float* boundary)
     {
       float* values = this->At(this->Field.Values, i, j, k);
-      const float* more = this->At(this->Others, i, j, k);
+      const float* more = this->At(this->MissingVolume, i, j, k);
       for (int x = 0; x < count; ++x)
       {
-        const float less = boundary ? std::max(1.f, boundary[x] * perShare) : 1.f;
-        values[x] = std::clamp(values[x] + more[x] / less, -LabelField::Far, LabelField::Far);
+        const float divisor = boundary ? std::max(1.f, boundary[x] * scale) : 1.f;
+        values[x] = std::clamp(values[x] + more[x] / divisor, -LabelField::Far, LabelField::Far);
       }
     };
-    if (isHeld)
+    if (isConstrained)
     {
       rows.For(
         this->Threads, [&](int i, int j, int k, int count) { add(i, j, k, count, nullptr); });
@@ -213,7 +213,7 @@ private:
   {
     const double cubed = FadingSigma * FadingSigma * FadingSigma;
     const double voxel = this->Spacing[0] * this->Spacing[1] * this->Spacing[2];
-    const auto perShare =
+    const auto scale =
       static_cast<float>(15.749610 * cubed / voxel); // (2 pi)^1.5: weight 1 at a single voxel
     const VoxelBits near = rows & missed.Grown(this->ReachOf(FadingSigma)).InFours();
     LargeVector<float> values = this->Field.Values;
@@ -222,20 +222,20 @@ private:
     values.swap(this->Field.Values);
     this->Gaussian.Smooth(
       near, missed.Grown(0, 1), this->InVoxels(FadingSigma),
-      [&](int i, int j, int k, int count, float* shares)
+      [&](int i, int j, int k, int count, float* smoothed)
       {
         for (int x = 0; x < count; ++x)
         {
-          shares[x] = missed.Has(i + x, j, k) ? 1.f : 0.f;
+          smoothed[x] = missed.Has(i + x, j, k) ? 1.f : 0.f;
         }
       },
-      [&](int i, int j, int k, int count, const float* shares)
+      [&](int i, int j, int k, int count, const float* smoothed)
       {
         float* to = this->At(this->Field.Values, i, j, k);
         const float* narrow = this->At(values, i, j, k);
         for (int x = 0; x < count; ++x)
         {
-          to[x] += std::min(1.f, perShare * shares[x]) * (narrow[x] - to[x]);
+          to[x] += std::min(1.f, scale * smoothed[x]) * (narrow[x] - to[x]);
         }
       },
       this->Threads);
@@ -247,7 +247,7 @@ private:
   LabelField& Field;
   Executor& Threads;
   BoundaryGaussian Gaussian;
-  LargeVector<float> Others; ///< smoothed missing volume
+  LargeVector<float> MissingVolume; ///< smoothed missing volume
 };
 }
 

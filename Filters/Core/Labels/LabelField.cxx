@@ -19,7 +19,7 @@ namespace volumic
 namespace
 {
 /** Maximum distance of a voxel from the boundary at which it may become misclassified. */
-constexpr float MostWrong = 1.5f;
+constexpr float MostMisclassified = 1.5f;
 /** Maximum curvature: larger values are sharp edges, which the chord correction does not follow. */
 constexpr float MostCurvature = 0.35f;
 /** Least absolute field value at a voxel if not all constraints can be satisfied. */
@@ -29,7 +29,7 @@ constexpr int MostRescues = 4;
 /** Least slope for the chord correction: a flatter field has a ridge. */
 constexpr float LeastSlope = 0.2f;
 /** Maximum distance from the boundary for the chord correction. */
-constexpr float MostBent = 2.5f;
+constexpr float MostCorrected = 2.5f;
 
 /** Computes the field of one object. */
 class FieldMaker
@@ -51,7 +51,7 @@ public:
     if (this->Options.Sigma > 0.)
     {
       MakeLabelDistance(this->Sides, this->Map.Spacing, this->Options, this->Field, this->Threads);
-      this->CorrectBends();
+      this->CorrectChords();
       this->Constrain();
     }
     return std::move(this->Field);
@@ -86,7 +86,7 @@ private:
       });
   }
 
-  void CorrectBends()
+  void CorrectChords()
   {
     const VoxelBox& box = this->Field.Box;
     const LargeVector<float> before = this->Field.Values;
@@ -104,17 +104,17 @@ private:
         const int end = std::min(i + count, box.End[0] - 1);
         for (int x = first - i; x < end - i; ++x)
         {
-          if (std::abs(old[x]) < MostBent)
+          if (std::abs(old[x]) < MostCorrected)
           {
             values[x] -=
-              correction * std::clamp(this->BendAt(old + x), -MostCurvature, MostCurvature);
+              correction * std::clamp(this->CurvatureAt(old + x), -MostCurvature, MostCurvature);
           }
         }
       });
   }
 
   /** Return the curvature term of the chord correction. All 26 neighbours must be in the box. */
-  float BendAt(const float* at) const
+  float CurvatureAt(const float* at) const
   {
     const VoxelBox& box = this->Field.Box;
     const std::array<std::int64_t, 3> step = { 1, box.Length(0),
@@ -243,10 +243,10 @@ private:
       {
         for (int x = 0; x < count; x += Lanes::Count)
         {
-          const bool isHeld = !this->HasTolerance() ||
+          const bool isConstrained = !this->HasTolerance() ||
             this->Field.IsConstrained.FourAt(i + x, j, k) != 0 ||
             this->BesideThin.FourAt(i + x, j, k) != 0;
-          changing.AddFour(i + x, j, k, this->FindLess(i + x, j, k, isHeld ? most : least));
+          changing.AddFour(i + x, j, k, this->FindLess(i + x, j, k, isConstrained ? most : least));
         }
       });
     constexpr int reach = 2 * ConstraintReach;
@@ -283,14 +283,14 @@ private:
       if (side * values[x] > 1.f && this->BesideThin.Has(i + x, j, k) &&
         !this->Thin.Has(i + x, j, k))
       {
-        const double way = this->DistanceToThin(i + x, j, k);
-        if (side * values[x] > way)
+        const double distance = this->DistanceToThin(i + x, j, k);
+        if (side * values[x] > distance)
         {
           constraints.push_back({ this->Field.Box.NumberOf(i + x, j, k), -side,
-            static_cast<float>(-this->Options.MostBesideThin * way) });
+            static_cast<float>(-this->Options.MostBesideThin * distance) });
         }
       }
-      if (side * values[x] < MostWrong)
+      if (side * values[x] < MostMisclassified)
       {
         constraints.push_back({ this->Field.Box.NumberOf(i + x, j, k), side,
           static_cast<float>(this->MarginAt(i + x, j, k)) });

@@ -76,12 +76,12 @@ void LabelMap::PutLayer(int layer, const Number* voxels)
 
 LabelMap LabelMap::Part(const VoxelBox& box) const
 {
-  const auto moved = [](VoxelBox by, const std::array<int, 3>& way, int sign)
+  const auto moved = [](VoxelBox by, const std::array<int, 3>& offset, int sign)
   {
     for (int axis = 0; axis < 3; ++axis)
     {
-      by.First[axis] += sign * way[axis];
-      by.End[axis] += sign * way[axis];
+      by.First[axis] += sign * offset[axis];
+      by.End[axis] += sign * offset[axis];
     }
     return by;
   };

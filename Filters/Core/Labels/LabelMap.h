@@ -120,15 +120,15 @@ private:
       { i * LayerSize, j * LayerSize, k * LayerSize },
       { (i + 1) * LayerSize, (j + 1) * LayerSize, (k + 1) * LayerSize }
     }.CommonWith(box);
-    const std::uint32_t what =
+    const std::uint32_t entry =
       this->OfPart[this->PartAt(i * LayerSize, j * LayerSize, k * LayerSize)];
-    if ((what & IsMixed) == 0)
+    if ((entry & IsMixed) == 0)
     {
-      visit(part, static_cast<Number>(what));
+      visit(part, static_cast<Number>(entry));
       return;
     }
     const Number* voxels =
-      this->Mixed[static_cast<std::size_t>(k)].data() + (what & ~IsMixed) * VoxelsOfPart;
+      this->Mixed[static_cast<std::size_t>(k)].data() + (entry & ~IsMixed) * VoxelsOfPart;
     for (int z = part.First[2]; z < part.End[2]; ++z)
     {
       for (int y = part.First[1]; y < part.End[1]; ++y)

@@ -116,7 +116,7 @@ VoxelBits LabelSides::FindBeside(const VoxelBits& others) const
 VoxelBits LabelSides::FindMissed(
   const LabelField& field, const VoxelBits& rows, Executor& executor) const
 {
-  VoxelBits wrong(this->Box());
+  VoxelBits misclassified(this->Box());
   rows.For(executor,
     [&](int i, int j, int k, int count)
     {
@@ -125,18 +125,18 @@ VoxelBits LabelSides::FindMissed(
       {
         const Lanes four = Lanes::Load(values + x);
         const unsigned members = this->Members.FourAt(i + x, j, k);
-        const unsigned right =
+        const unsigned correct =
           (LessBits(Lanes(0.f), four) & members) | (LessBits(four, Lanes(0.f)) & ~members);
-        wrong.AddFour(i + x, j, k, ~right & 15u);
+        misclassified.AddFour(i + x, j, k, ~correct & 15u);
       }
     });
-  if (!wrong.IsEmpty())
+  if (!misclassified.IsEmpty())
   {
-    const VoxelBits right = VoxelBits(this->Box(), true) - wrong;
+    const VoxelBits correct = VoxelBits(this->Box(), true) - misclassified;
     ForNeighbors(this->Members,
       [&](int axis, bool isNext, VoxelBits neighbors)
-      { wrong -= right.Neighbored(axis, isNext) - (neighbors ^= this->Members); });
+      { misclassified -= correct.Neighbored(axis, isNext) - (neighbors ^= this->Members); });
   }
-  return wrong;
+  return misclassified;
 }
 }

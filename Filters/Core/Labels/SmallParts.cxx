@@ -165,7 +165,7 @@ Number NeighbourOf(const LabelPart& part, const LabelMap& map)
     ->first;
 }
 
-void Give(LabelMap& map, const LabelPart& part, Number object)
+void Assign(LabelMap& map, const LabelPart& part, Number object)
 {
   for (const Run& run : part.Runs)
   {
@@ -192,30 +192,30 @@ std::vector<std::size_t> LargestOf(const std::vector<LabelPart>& parts, const La
 }
 }
 
-void GiveAwaySmallParts(
+void ReassignSmallParts(
   LabelMap& map, const std::vector<int>& objects, std::int64_t leastVoxels, bool keepsLargest)
 {
   const std::vector<LabelPart> parts = PartFinder(map, objects).Find();
   const std::vector<std::size_t> largest = LargestOf(parts, map);
   // Mark all small parts first, so that none is assigned to another small part.
-  constexpr Number nobodys = std::numeric_limits<Number>::max();
+  constexpr Number unassigned = std::numeric_limits<Number>::max();
   for (std::size_t n = 0; n < parts.size(); ++n)
   {
     const bool isSmall = parts[n].Voxels < leastVoxels;
     if (isSmall || (keepsLargest && largest[parts[n].Object] != n))
     {
-      Give(map, parts[n], nobodys);
+      Assign(map, parts[n], unassigned);
     }
   }
-  const std::vector<LabelPart> given = PartFinder(map, { nobodys }).Find();
-  std::vector<Number> to;
-  for (const LabelPart& part : given)
+  const std::vector<LabelPart> unassignedParts = PartFinder(map, { unassigned }).Find();
+  std::vector<Number> neighbours;
+  for (const LabelPart& part : unassignedParts)
   {
-    to.push_back(NeighbourOf(part, map));
+    neighbours.push_back(NeighbourOf(part, map));
   }
-  for (std::size_t n = 0; n < given.size(); ++n)
+  for (std::size_t n = 0; n < unassignedParts.size(); ++n)
   {
-    Give(map, given[n], to[n]);
+    Assign(map, unassignedParts[n], neighbours[n]);
   }
 }
 
@@ -235,13 +235,14 @@ void SeparateParts(LabelMap& map)
   }
   std::stable_sort(others.begin(), others.end(),
     [&](std::size_t a, std::size_t b) { return parts[a].Voxels > parts[b].Voxels; });
-  const auto room = static_cast<std::size_t>(MostObjects - std::min(MostObjects, map.NumberOfObjects));
+  const auto room =
+    static_cast<std::size_t>(MostObjects - std::min(MostObjects, map.NumberOfObjects));
   others.resize(std::min(others.size(), room));
   map.WholeOf.resize(static_cast<std::size_t>(map.NumberOfObjects) + 1);
   std::iota(map.WholeOf.begin(), map.WholeOf.end(), Number(0));
   for (const std::size_t part : others)
   {
-    Give(map, parts[part], static_cast<Number>(map.WholeOf.size()));
+    Assign(map, parts[part], static_cast<Number>(map.WholeOf.size()));
     map.WholeOf.push_back(parts[part].Object);
   }
   map.NumberOfObjects = static_cast<int>(map.WholeOf.size()) - 1;

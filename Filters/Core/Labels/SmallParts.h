@@ -17,7 +17,7 @@ namespace volumic
  * @param leastVoxels  parts with fewer voxels are reassigned
  * @param keepsLargest whether to reassign all parts of an object except for its largest as well
  */
-void GiveAwaySmallParts(
+void ReassignSmallParts(
   LabelMap& map, const std::vector<int>& objects, std::int64_t leastVoxels, bool keepsLargest);
 
 /**

@@ -119,8 +119,8 @@ private:
   template <typename Operation>
   VoxelBits& Combine(const VoxelBits& other, Operation&& combine)
   {
-    std::transform(this->Bits.begin(), this->Bits.end(), other.Bits.begin(), this->Bits.begin(),
-      combine);
+    std::transform(
+      this->Bits.begin(), this->Bits.end(), other.Bits.begin(), this->Bits.begin(), combine);
     return *this;
   }
   Word* RowAt(int j, int k)
@@ -136,10 +136,10 @@ private:
   {
     while (x < count)
     {
-      const Word rest = (row[x / WordSize] ^ inversion) >> x % WordSize;
-      if (rest != 0)
+      const Word remaining = (row[x / WordSize] ^ inversion) >> x % WordSize;
+      if (remaining != 0)
       {
-        return std::min(count, x + LowestBit(rest));
+        return std::min(count, x + LowestBit(remaining));
       }
       x = (x / WordSize + 1) * WordSize;
     }
