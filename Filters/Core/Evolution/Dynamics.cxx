@@ -105,7 +105,7 @@ Vector Dynamics::ForceAt(const SurfaceState& state, int v, float& value) const
   if (most > 0)
   {
     // They know of no background: beyond the margin of the image it takes over, as strong as they.
-    const float share = this->TheField.Margin().DepthAt(state.Mesh.Position[v]).Share;
+    const float share = this->TheField.Margin().DepthAt(state.Mesh.Position[v]).Fraction;
     along += beside - share * (beside + most);
   }
   const Ring& ring = state.Mesh.Rings[v];
@@ -192,7 +192,7 @@ Vector Dynamics::RelaxationOf(const SurfaceState& state, int v, const Relaxation
   }
   if (this->Edges && this->SnapsTo == SurfaceDrive::Goal::Edges)
   {
-    const float share = this->TheField.Margin().DepthAt(state.Mesh.Position[v]).Share;
+    const float share = this->TheField.Margin().DepthAt(state.Mesh.Position[v]).Fraction;
     move += n * ((1 - share) * longest * this->Edges->Along(state.Mesh.Position[v], n));
   }
   const float length = Length(move);
