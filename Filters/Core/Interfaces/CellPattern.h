@@ -14,10 +14,8 @@ namespace volumic
  * Pattern of the label interfaces in a cell, the cube between the centres of eight voxels.
  *
  * - Octant: a corner of the cell, numbered by bits (1: high in x, 2: high in y, 4: high in z).
- * - Arc: the part of a voxel face in the cell. It crosses a cell edge whose octants differ in
- *   label.
- * - Strand: a point at which arcs leave the cell through a side. Their number depends on the
- *   labels:
+ * - Arc: the part of a voxel face in the cell. It crosses a cell edge between different labels.
+ * - Strand: a point at which arcs leave the cell through a side. Their number by labels:
  *
  * | labels around a side | strands |
  * |---|---|
@@ -41,7 +39,7 @@ public:
   /** @param rankOf rank of each label; the label of lower rank is connected across voxel edges */
   CellPattern(const std::array<Number, Octants>& labels, const std::vector<int>& rankOf);
 
-  /** Return the edge along an axis; its coordinates along the next two axes are 0 or 1. */
+  /** Return an edge along an axis, given its coordinates (0 or 1) along the next two axes. */
   static int EdgeAt(int axis, int first, int second) { return 4 * axis + first + 2 * second; }
   /** Return the octants of an edge, the lower one first. */
   static std::array<int, 2> OctantsOf(int edge);
@@ -60,9 +58,8 @@ public:
   bool HasJoins = false; ///< Whether a label is connected across a voxel edge.
 
   /**
-   * Return whether a sheet is opened: the centre of the cell is given to one region. A sheet
-   * between two regions of one label is opened, as the surface of this label would touch itself
-   * otherwise.
+   * Return whether a sheet is opened: the centre of the cell is given to one region. Otherwise the
+   * surface of a label with two regions at the sheet would touch itself.
    */
   bool IsOpened(int sheet) const { return (this->Opened >> sheet & 1) != 0; }
   std::array<signed char, 4> CentreOf; ///< octant of the region at the centre of an opened sheet

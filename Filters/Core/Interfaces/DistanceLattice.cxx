@@ -15,14 +15,12 @@ namespace volumic
 {
 namespace
 {
-/** Points of the lattice beyond the box on each side. */
-constexpr int Margin = 2;
+constexpr int Margin = 2;        ///< points of the lattice beyond each side of the box
 constexpr int AddingRounds = 20; ///< Later rounds only remove points, which terminates.
 /** Values of added and removed points, in pitches. */
 constexpr float AddedValue = -0.15f;
 constexpr float RemovedValue = 0.3f;
-/** Maximum distance of an added point from the surface, in pitches. */
-constexpr float MostAdded = 0.9f;
+constexpr float MostAdded = 0.9f; ///< maximum value of a point before it is added, in pitches
 }
 
 DistanceLattice::DistanceLattice(const Bounds& box, double pitch) : Distance(pitch)

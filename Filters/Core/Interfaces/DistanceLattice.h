@@ -28,10 +28,7 @@ class DistanceLattice
 public:
   static constexpr int BrickSide = 8; ///< points along each axis
 
-  /**
-   * Create a lattice around a box; all points beyond the box are outside.
-   * @param pitch distance of neighbouring points, in computational space
-   */
+  /** Create a lattice around a box. @param pitch distance of points in computational space */
   DistanceLattice(const Bounds& box, double pitch);
 
   double Pitch() const { return this->Distance; }
@@ -85,7 +82,6 @@ private:
   void ForSlice(int k, const Visitor& write) const;
   /** Return the cubes that start in a layer of bricks and are not well composed. */
   std::vector<LatticePoint> FindIllComposed(int layer) const;
-  /** Return the values at the corners of a cube. */
   std::array<float, 8> CornersOf(const LatticePoint& cube) const;
   void Compose(const LatticePoint& cube, bool mayAdd,
     const std::function<bool(const Point& position)>& canAdd, std::vector<LatticePoint>& changed);

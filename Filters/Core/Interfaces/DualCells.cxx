@@ -10,39 +10,34 @@ namespace volumic
 {
 namespace
 {
-using CellCoordinates = std::array<double, 3>; ///< coordinates in a cell, from 0 to 1
+using LocalPoint = std::array<double, 3>; ///< coordinates in a cell, from 0 to 1
 
-/**
- * Position of the vertices of a cell or side with several of them: fraction of the distance from
- * the middle to the mean of their arcs.
- */
+/** Fraction of the distance from the middle to the arcs, for cells or sides of several vertices. */
 constexpr double ArcFraction = 0.5;
 /** Scale of the copied boundary loop of an opened sheet. */
 constexpr double CopyScale = 0.5;
 
-CellCoordinates ArcCoordinates(int edge)
+LocalPoint ArcPoint(int edge)
 {
-  CellCoordinates coordinates;
-  coordinates[edge / 4] = 0.5;
-  coordinates[(edge / 4 + 1) % 3] = edge & 1;
-  coordinates[(edge / 4 + 2) % 3] = edge >> 1 & 1;
-  return coordinates;
+  LocalPoint point;
+  point[edge / 4] = 0.5;
+  point[(edge / 4 + 1) % 3] = edge & 1;
+  point[(edge / 4 + 2) % 3] = edge >> 1 & 1;
+  return point;
 }
 
-CellCoordinates Between(const CellCoordinates& middle, const CellCoordinates& end, double fraction)
+LocalPoint Between(const LocalPoint& middle, const LocalPoint& end, double fraction)
 {
   return { middle[0] + fraction * (end[0] - middle[0]), middle[1] + fraction * (end[1] - middle[1]),
     middle[2] + fraction * (end[2] - middle[2]) };
 }
 
-/**
- * Return the mean of the zeros of a function on the edges of a cell. Zeros are clamped towards the
- * middle of their edges, which gives triangles of similar size.
+/** Return the mean of the zeros on the edges of a cell, clamped to get triangles of similar size.
  */
-CellCoordinates MeanOfZeros(const std::array<float, 8>& values)
+LocalPoint MeanOfZeros(const std::array<float, 8>& values)
 {
   constexpr double most = 0.24; // distance from the middle of the edge
-  CellCoordinates sum = { 0., 0., 0. };
+  LocalPoint sum = { 0., 0., 0. };
   int count = 0;
   for (int edge = 0; edge < CellPattern::Edges; ++edge)
   {
@@ -51,7 +46,7 @@ CellCoordinates MeanOfZeros(const std::array<float, 8>& values)
     const double to = values[high];
     if ((from < 0.) != (to < 0.))
     {
-      CellCoordinates zero = ArcCoordinates(edge);
+      LocalPoint zero = ArcPoint(edge);
       zero[edge / 4] = std::clamp(from / (from - to), 0.5 - most, 0.5 + most);
       for (int axis = 0; axis < 3; ++axis)
       {
@@ -78,15 +73,15 @@ std::array<T, 8> OctantsAt(
 
 /** Return a position between `middle` and the mean of the arcs for which use(edge) is true. */
 template <typename Use>
-CellCoordinates TowardsArcs(const CellCoordinates& middle, const Use& use)
+LocalPoint TowardsArcs(const LocalPoint& middle, const Use& use)
 {
-  CellCoordinates sum = { 0., 0., 0. };
+  LocalPoint sum = { 0., 0., 0. };
   double count = 0.;
   for (int edge = 0; edge < CellPattern::Edges; ++edge)
   {
     if (use(edge))
     {
-      const CellCoordinates arc = ArcCoordinates(edge);
+      const LocalPoint arc = ArcPoint(edge);
       for (int axis = 0; axis < 3; ++axis)
       {
         sum[axis] += arc[axis];
@@ -97,17 +92,17 @@ CellCoordinates TowardsArcs(const CellCoordinates& middle, const Use& use)
   return Between(middle, { sum[0] / count, sum[1] / count, sum[2] / count }, ArcFraction);
 }
 
-CellCoordinates ApexCoordinates(const CellPattern& pattern, int sheet)
+LocalPoint ApexPoint(const CellPattern& pattern, int sheet)
 {
-  const CellCoordinates middle = { 0.5, 0.5, 0.5 };
+  const LocalPoint middle = { 0.5, 0.5, 0.5 };
   return pattern.Sheets == 1
     ? middle
     : TowardsArcs(middle, [&](int edge) { return pattern.SheetOf[edge] == sheet; });
 }
 
-CellCoordinates StrandCoordinates(const CellPattern& pattern, int side, int strand)
+LocalPoint StrandPoint(const CellPattern& pattern, int side, int strand)
 {
-  CellCoordinates middle = { 0.5, 0.5, 0.5 };
+  LocalPoint middle = { 0.5, 0.5, 0.5 };
   middle[side / 2] = side & 1;
   if (pattern.StrandsOn[side] == 1)
   {
@@ -193,7 +188,7 @@ void DualCells::FindCells(DualSlab& slab) const
         {
           this->AddCell(slab, { i, j, k }, labels,
             this->Grid.CopyValues ? MeanOfZeros(OctantsAt(lowValues, highValues, at, row))
-                                  : CellCoordinates{ 0.5, 0.5, 0.5 });
+                                  : LocalPoint{ 0.5, 0.5, 0.5 });
         }
       }
     }
@@ -202,7 +197,7 @@ void DualCells::FindCells(DualSlab& slab) const
 }
 
 void DualCells::AddCell(DualSlab& slab, const std::array<int, 3>& at,
-  const std::array<Number, 8>& labels, const CellCoordinates& vertex) const
+  const std::array<Number, 8>& labels, const LocalPoint& vertex) const
 {
   slab.X.push_back(at[0]);
   CellPattern pattern;
@@ -253,7 +248,7 @@ float DualCells::CoordinateOf(const std::array<int, 3>& cell, int axis, double a
   return static_cast<float>(plane + (end - plane) * (at < 0.5 ? 1. - 2. * at : 2. * at - 1.));
 }
 
-Vector DualCells::PositionOf(const std::array<int, 3>& cell, const CellCoordinates& at) const
+Vector DualCells::PositionOf(const std::array<int, 3>& cell, const LocalPoint& at) const
 {
   return { this->CoordinateOf(cell, 0, at[0]), this->CoordinateOf(cell, 1, at[1]),
     this->CoordinateOf(cell, 2, at[2]) };
@@ -263,7 +258,7 @@ void DualCells::AddPointsOfSpecials(DualSlab& slab) const
 {
   for (SpecialCell& special : slab.Special)
   {
-    const auto add = [&](const CellCoordinates& at)
+    const auto add = [&](const LocalPoint& at)
     {
       slab.Points.push_back(this->PositionOf(special.At, at));
       return static_cast<int>(slab.Points.size()) - 1;
@@ -271,7 +266,7 @@ void DualCells::AddPointsOfSpecials(DualSlab& slab) const
     const CellPattern& pattern = special.Pattern;
     for (int sheet = 0; sheet < pattern.Sheets; ++sheet)
     {
-      special.Apex[sheet] = pattern.IsOpened(sheet) ? -1 : add(ApexCoordinates(pattern, sheet));
+      special.Apex[sheet] = pattern.IsOpened(sheet) ? -1 : add(ApexPoint(pattern, sheet));
     }
     for (int side = 0; side < CellPattern::Sides; ++side)
     {
@@ -281,12 +276,11 @@ void DualCells::AddPointsOfSpecials(DualSlab& slab) const
       for (int strand = 0; strand < 2; ++strand)
       {
         special.InnerStrand[side][strand] = -1;
-        special.Strand[side][strand] = isOwn && strand < pattern.StrandsOn[side]
-          ? add(StrandCoordinates(pattern, side, strand))
-          : -1;
+        special.Strand[side][strand] =
+          isOwn && strand < pattern.StrandsOn[side] ? add(StrandPoint(pattern, side, strand)) : -1;
       }
     }
-    const CellCoordinates middle = { 0.5, 0.5, 0.5 };
+    const LocalPoint middle = { 0.5, 0.5, 0.5 };
     for (int edge = 0; edge < CellPattern::Edges; ++edge)
     {
       special.InnerArc[edge] = -1;
@@ -295,16 +289,16 @@ void DualCells::AddPointsOfSpecials(DualSlab& slab) const
       {
         continue;
       }
-      CellCoordinates arc = ArcCoordinates(edge);
+      LocalPoint arc = ArcPoint(edge);
       const auto sides = CellPattern::SidesOf(edge);
       for (int n = 0; n < 2; ++n)
       {
         const int strand = pattern.StrandOf[edge][n];
-        const CellCoordinates coordinates = StrandCoordinates(pattern, sides[n], strand);
+        const LocalPoint point = StrandPoint(pattern, sides[n], strand);
         int& inner = special.InnerStrand[sides[n]][strand];
-        inner = inner >= 0 ? inner : add(Between(middle, coordinates, CopyScale));
+        inner = inner >= 0 ? inner : add(Between(middle, point, CopyScale));
         // In the plane of a box side, this copy would coincide with copies of other arcs.
-        arc = this->IsOppositeToSide(special.At, sides[n]) ? Between(arc, coordinates, 0.5) : arc;
+        arc = this->IsOppositeToSide(special.At, sides[n]) ? Between(arc, point, 0.5) : arc;
       }
       special.InnerArc[edge] = add(Between(middle, arc, CopyScale));
     }

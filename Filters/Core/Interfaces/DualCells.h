@@ -57,10 +57,7 @@ public:
   /** Find the crossed cells and create their points. */
   void Make(Executor& executor);
 
-  /**
-   * Return whether a pattern of two labels is plain.
-   * @param bits octants of the label of lower rank
-   */
+  /** Return whether a pattern of two labels is plain. @param bits octants of the lower rank */
   static bool IsPlainPattern(unsigned bits);
 
   const DualGrid& Grid;
@@ -83,16 +80,16 @@ public:
 
 private:
   using Number = LabelMap::Number;
-  using CellCoordinates = std::array<double, 3>; ///< coordinates in a cell, from 0 to 1
+  using LocalPoint = std::array<double, 3>; ///< coordinates in a cell, from 0 to 1
 
   void FindCells(DualSlab& slab) const;
   /** @param vertex position of the point if the cell is plain */
   void AddCell(DualSlab& slab, const std::array<int, 3>& at, const std::array<Number, 8>& labels,
-    const CellCoordinates& vertex) const;
+    const LocalPoint& vertex) const;
   /** Return whether a cell has two labels in a plain pattern: the fast test for most cells. */
   bool IsPlainPair(const std::array<Number, 8>& labels) const;
   float CoordinateOf(const std::array<int, 3>& cell, int axis, double at) const;
-  Vector PositionOf(const std::array<int, 3>& cell, const CellCoordinates& at) const;
+  Vector PositionOf(const std::array<int, 3>& cell, const LocalPoint& at) const;
   /** Return whether a cell is at a side of the box and this side of the cell is the inner one. */
   bool IsOppositeToSide(const std::array<int, 3>& cell, int side) const
   {

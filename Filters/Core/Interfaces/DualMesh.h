@@ -48,13 +48,12 @@ struct DualGrid
  * - through a voxel corner in one pattern only: four labels, each at two opposite corners of a
  *   cell. The label of the lowest rank is then connected.
  *
- * The surface of each label is a closed manifold, and no triangles intersect.
+ * The surface of each label is a closed manifold, and no triangles intersect. Vertices at the sides
+ * of a box lie in the planes of these sides.
  *
  * The boundary loop of an opened sheet (CellPattern::IsOpened) on the sides of the cell is copied
  * at half the size around the centre of the cell. Polygons connect both loops. A fan closes each
  * region except for the one at the centre.
- *
- * Vertices at the sides of a box lie in the planes of these sides.
  */
 InterfaceMesh MakeDualMesh(const DualGrid& grid, Executor& executor);
 

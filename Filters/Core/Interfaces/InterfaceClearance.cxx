@@ -13,8 +13,7 @@ namespace volumic
 {
 namespace
 {
-/** Faces per span of a parallel loop. */
-constexpr std::size_t SpanSize = 4096;
+constexpr std::size_t SpanSize = 4096; ///< faces per span of a parallel loop
 
 bool Has(const MeshTriangle& face, int v)
 {

@@ -30,7 +30,6 @@ struct FaceCoordinates : MeshTriangle
 };
 FaceCoordinates FaceCoordinatesOf(const InterfaceMesh& mesh, const InterfaceMesh::Face& face);
 
-/** Return the bounding box of a triangle. */
 Box BoxOf(const MeshTriangle& triangle);
 
 /** Return the non-normalized vector from edge (u, v) to the third corner, normal to the edge. */
@@ -115,7 +114,6 @@ public:
    */
   InterfaceClearance(const InterfaceMesh& mesh, double tolerance);
 
-  /** Rebuild the grid. */
   void Reset(Executor& executor);
   /**
    * Update a face after a change of its vertices or positions, or after its removal. Threads may

@@ -15,12 +15,10 @@ namespace volumic
 {
 namespace
 {
-/** Faces per span of a parallel loop. */
-constexpr std::size_t SpanSize = 2048;
+constexpr std::size_t SpanSize = 2048; ///< faces per span of a parallel loop
 /** Edge length of a cube, in mean box sizes of the faces. */
 constexpr float CubeInFaces = 2.f;
-/** Maximum number of cubes along an axis. */
-constexpr int MostCubes = 1 << 20;
+constexpr int MostCubes = 1 << 20; ///< along an axis
 
 class CrossingFinder
 {

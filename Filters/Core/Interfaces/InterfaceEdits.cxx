@@ -15,8 +15,7 @@ namespace
 {
 /** Least cosine between the normals of two faces whose edge is flipped. */
 constexpr double LeastFlatCosine = 0.85;
-/** The same if one of the faces is a sliver. */
-constexpr double LeastSliverCosine = 0.5;
+constexpr double LeastSliverCosine = 0.5; ///< the same if one of the faces is a sliver
 /** A collapse creates triangles of a smaller RadiusRatio() only if the old ones were worse. */
 constexpr double LeastRatio = 0.3;
 /** RadiusRatio() below which the normal of a triangle is unreliable. */
@@ -304,7 +303,7 @@ bool InterfaceEdits::MakesLongEdges(const Vector& position, int kept, int remove
   // Short edges at junction points bend lines. Allow longer edges instead, which are split later.
   const double longest = this->Longest *
     (this->Mesh.StratumOf[static_cast<std::size_t>(kept)] == Stratum::Corner
-        ? CornerClearance * CornerClearance
+        ? CornerFactor * CornerFactor
         : 1.);
   bool isLong = false;
   for (const int v : { kept, removed })

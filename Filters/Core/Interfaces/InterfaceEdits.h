@@ -28,12 +28,11 @@ class InterfaceEdits
 {
 public:
   /** Factor by which edges at junction points may temporarily exceed the maximum length. */
-  static constexpr double CornerClearance = 4. / 3.;
+  static constexpr double CornerFactor = 4. / 3.;
 
   /**
    * @param clearance of the current mesh; not used by splits
-   * @param shortest, longest desired range of edge lengths in computational space, multiplied by
-   *                  the sizes of the mesh
+   * @param shortest, longest range of edge lengths at size 1, in computational space
    */
   InterfaceEdits(
     InterfaceMesh& mesh, InterfaceClearance& clearance, double shortest, double longest);

@@ -18,8 +18,7 @@ namespace
 /** An object with more than 1 / LargePart of the remaining bricks is processed by all threads. */
 constexpr std::int64_t LargePart = 8;
 
-/** Bricks by which a part is extended to compute its field: more than the reach of the Gaussian. */
-constexpr int PartMargin = 6;
+constexpr int PartMargin = 6; ///< bricks around a part, more than the reach of the Gaussian
 
 /** Call visit(i, j, k) for the bricks in a range that contain voxels of a set. */
 template <typename Visitor>

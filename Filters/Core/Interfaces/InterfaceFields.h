@@ -20,9 +20,8 @@ namespace volumic
  * The fields of all objects of a label map, stored in the bricks near their boundaries. A position
  * belongs to the object with the largest field value. The interface of two objects is the set of
  * positions with equal field values, so that objects cover space without gaps or overlaps. At voxel
- * centres each field has the correct sign, so that the fields reproduce the map.
- *
- * The background, object 0, has a field as well.
+ * centres each field has the correct sign, so that the fields reproduce the map. The background,
+ * object 0, has a field as well.
  */
 class InterfaceFields
 {
@@ -55,13 +54,12 @@ public:
   /** Return the field of an object at a voxel; +-LabelField::Far where no values are stored. */
   float At(int object, int i, int j, int k) const;
 
-  /** Field value and its gradient in computational space. */
+  /** Trilinear interpolation of a field, and its gradient in computational space. */
   struct Sample
   {
     float Value;
     Vector Gradient;
   };
-  /** Return the trilinear interpolation of the field of an object at a position. */
   Sample Interpolate(int object, const Vector& position) const;
   float ValueAt(int object, const Vector& position) const
   {

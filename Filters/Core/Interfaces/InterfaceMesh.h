@@ -92,15 +92,11 @@ public:
    */
   LargeVector<int> NextImage;
   bool HasImages(int v) const { return this->NextImage[static_cast<std::size_t>(v)] != v; }
-  /**
-   * Find the images of all vertices from their positions.
-   * @throws std::logic_error if opposite sides do not match
-   */
+  /** Find all images by position. @throws std::logic_error if opposite sides do not match */
   void MatchSides();
   int NumberOfImages(int v) const; ///< includes v itself
   /** Find the images of an edge (u, v), or of a vertex (v, v), itself first. */
   void FindImages(int u, int v, std::vector<std::array<int, 2>>& images) const;
-  /** Make vertices images of each other. */
   void JoinImages(const std::vector<int>& images);
 
   /** Replace the mesh. All sizes are 1; call FindStrata() afterwards. */
@@ -108,7 +104,6 @@ public:
   int AddVertex(const Vector& position, Stratum stratum, float size = 1.f);
   int AddFace(const Face& face);
   void RemoveFace(int face);
-  /** Replace a vertex of a face. */
   void ReplaceVertex(int face, int old, int vertex);
 
   bool IsVertex(int v) const { return this->Head[static_cast<std::size_t>(v)] >= 0; }
@@ -126,7 +121,6 @@ public:
   }
   /** Return whether the faces at an edge form a line: they are not two faces of one interface. */
   bool IsLine(const std::vector<int>& faces) const;
-  /** Find the faces at an edge. */
   void FindFaces(int u, int v, std::vector<int>& faces) const;
   bool HasEdge(int u, int v) const;
   /**

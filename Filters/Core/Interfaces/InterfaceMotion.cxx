@@ -16,8 +16,7 @@ namespace volumic
 namespace
 {
 constexpr std::size_t SpanSize = 1024;
-/** Least cosine of the angle by which a face may turn. */
-constexpr double LeastTurnCosine = 0.3;
+constexpr double LeastTurnCosine = 0.3; ///< of the angle by which a face may turn
 
 /** Moves vertices of invalid faces back to their initial positions. */
 class Verification

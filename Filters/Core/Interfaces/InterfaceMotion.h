@@ -16,7 +16,7 @@ namespace volumic
  * their initial positions. The result has no intersections, as the initial mesh has none. Lengths
  * are in computational space.
  *
- * @param relaxation    fraction of the tangential smoothing step, 0 to 1
+ * @param relaxation    fraction of the tangential smoothing step
  * @param shortest      no edge is made shorter than this length
  * @param tolerance     triangles at a smaller distance count as intersecting
  * @param leastAngle    no angle of a triangle is reduced below this angle, in radians

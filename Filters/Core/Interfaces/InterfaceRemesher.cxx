@@ -190,7 +190,7 @@ float InterfaceRemesher::LongestEdge() const
     });
   const float now = std::sqrt(*std::max_element(longest.begin(), longest.end()));
   const float size = *std::max_element(largest.begin(), largest.end());
-  return std::max(now, static_cast<float>(this->Longest * InterfaceEdits::CornerClearance) * size);
+  return std::max(now, static_cast<float>(this->Longest * InterfaceEdits::CornerFactor) * size);
 }
 
 template <typename Visit>

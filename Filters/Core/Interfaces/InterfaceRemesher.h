@@ -17,19 +17,17 @@ namespace volumic
 /**
  * Passes of edits (InterfaceEdits) over all faces.
  *
- * Collapses and flips run in parallel. Space is divided into cubes, and each face belongs to the
- * cube that contains its middle. Cubes have eight colours, so that two cubes of one colour are
- * never adjacent. The colours are processed one after another, the cubes of one colour in parallel,
- * and the faces of a cube in order. Faces that extend too far beyond their cube, or have periodic
- * images, are processed serially at the end. Cubes are wider than the reach of an edit, so that
- * results do not depend on the number of threads.
+ * Collapses and flips run in parallel: space is divided into cubes of eight colours. The colours
+ * are processed one after another, the cubes of one colour in parallel, and the faces in a cube in
+ * order. Cubes of one colour are not adjacent and wider than the reach of an edit, so that results
+ * do not depend on the number of threads. Faces that extend too far beyond their cube, or have
+ * periodic images, are processed serially at the end.
  */
 class InterfaceRemesher
 {
 public:
   /**
-   * @param shortest, longest desired range of edge lengths in computational space, multiplied by
-   *                  the sizes of the mesh
+   * @param shortest, longest range of edge lengths at size 1, in computational space
    * @param tolerance triangles at a smaller distance count as intersecting
    * @param shouldContinue called regularly on the calling thread; returns false to stop editing
    */
@@ -50,9 +48,9 @@ private:
   /** Build the search structure if it is out of date. Splits do not need it. */
   void UpdateGrid();
   /** Return whether to continue with a face. Calls the callback for some faces only. */
-  bool CanContinue(std::size_t face)
+  bool CanContinue(std::size_t n)
   {
-    return face % FacesPerProgressCall != 0 || this->ShouldContinue();
+    return n % FacesPerProgressCall != 0 || this->ShouldContinue();
   }
   /** Return an upper bound for the length of all edges during a pass. */
   float LongestEdge() const;

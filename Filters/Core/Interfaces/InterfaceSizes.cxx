@@ -124,7 +124,6 @@ LargeVector<float> FindSags(
   return sags;
 }
 
-/** Insert all positions into a grid. */
 void FillGrid(
   VertexGrid& grid, const LargeVector<Vector>& positions, float cell, Executor& executor)
 {

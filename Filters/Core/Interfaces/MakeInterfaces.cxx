@@ -48,14 +48,12 @@ constexpr double LongestFactor = 4. / 3.;
 constexpr double ShortestFactor = 4. / 5.;
 /** The same for splits in the last rounds. */
 constexpr double LongestLastFactor = 1.8;
-/** Maximum growth factor of the edge length in a round. */
-constexpr double MostGrowth = 3.;
+constexpr double MostGrowth = 3.; ///< of the edge length in a round
 /** Least length to which a step may shorten an edge, relative to the desired edge length. */
 constexpr double LeastEdgeFactor = 0.5;
 /** Distance below which triangles count as intersecting, relative to the desired edge length. */
 constexpr double ToleranceOfEdge = 1e-3;
-/** Fraction of the tangential smoothing step. */
-constexpr double StepRelaxation = 0.7;
+constexpr double StepRelaxation = 0.7; ///< see MoveInterfaces()
 
 /** Maximum edge length of a small object, relative to the radius of a ball of the same volume. */
 constexpr double EdgeInRadius = 0.8;

@@ -28,17 +28,14 @@ constexpr double NarrowGap = 0.15;
 constexpr double FlatCosine = 0.5;
 /** Faces per span of a parallel loop. */
 constexpr std::size_t SpanSize = 1024;
-/** The same for gaps, which take longer. */
-constexpr std::size_t GapSpanSize = 64;
-/** Vertices between two calls of the callback. */
+constexpr std::size_t GapSpanSize = 64; ///< the same for gaps, which take longer
 constexpr std::size_t VerticesPerProgressCall = 256;
-/** Maximum number of passes. */
-constexpr int Rounds = 4;
+constexpr int Rounds = 4; ///< maximum number of passes
 /** First and smallest step of a vertex, relative to its desired edge length. */
 constexpr double LargestStep = 0.15;
 constexpr double SmallestStep = 0.015;
 /** Maximum distance of a vertex from its initial position, in the smallest voxel spacing. */
-constexpr float MostDistance = 0.5f;
+constexpr float MostMove = 0.5f;
 /** Maximum volume change of an object: a fraction of its volume, or a number of voxels. */
 constexpr double MostGainFraction = 0.001;
 constexpr double MostGain = 2.;
@@ -47,8 +44,7 @@ constexpr float Probe = 1e-3f;
 /** Least cosine of the angle by which a step may turn a face. */
 constexpr double LeastTurnCosine = 0.4;
 
-/** Return the squared relative amount by which a value is smaller than the requested one; else 0.
- */
+/** Return the square of the relative difference to the requested value; 0 if it is reached. */
 double SquaredDeficit(double value, double requested)
 {
   const double deficit = 1. - value / requested;
@@ -132,8 +128,7 @@ std::vector<int> NearDegenerateRegions::FindVertices(Executor& executor)
     {
       std::vector<int> near;
       bool isNarrow = false;
-      // Both faces of a gap find it.
-      this->ForGapsAt(candidates[n], near, [&](double) { isNarrow = true; });
+      this->ForGapsAt(candidates[n], near, [&](double) { isNarrow = true; }); // found twice
       const std::array<int, 3>& v = faces[static_cast<std::size_t>(candidates[n])].Vertex;
       some.insert(some.end(), v.begin(), isNarrow ? v.end() : v.begin());
     });
@@ -277,8 +272,7 @@ bool NearDegenerateRegions::TryMove(int v)
 bool NearDegenerateRegions::TryMoveTo(int v, const Vector& requested)
 {
   const Vector target = this->Mesh.ProjectToSides(v, requested);
-  if (SquaredDistance(target, this->Start[static_cast<std::size_t>(v)]) >
-    MostDistance * MostDistance)
+  if (SquaredDistance(target, this->Start[static_cast<std::size_t>(v)]) > MostMove * MostMove)
   {
     return false;
   }
@@ -369,10 +363,9 @@ bool NearDegenerateRegions::KeepsVoxels(const InterfaceMesh::Face& face, std::pt
   const std::array<double, 3>& step = this->Fields.Step();
   VoxelBox box;
   int axis = 0;
-  for (double VectorD::*component : { &VectorD::X, &VectorD::Y, &VectorD::Z })
+  for (double VectorD::*c : { &VectorD::X, &VectorD::Y, &VectorD::Z })
   {
-    const auto [low, high] =
-      std::minmax({ from.*component, to.*component, a.*component, b.*component });
+    const auto [low, high] = std::minmax({ from.*c, to.*c, a.*c, b.*c });
     box.First[axis] = static_cast<int>(std::ceil(low / step[axis]));
     box.End[axis] = static_cast<int>(std::floor(high / step[axis])) + 1;
     ++axis;

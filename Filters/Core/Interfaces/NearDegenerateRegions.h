@@ -15,12 +15,10 @@ namespace volumic
 {
 /**
  * Opens near-degenerate regions of interfaces: triangles with small angles, narrow dihedral wedges
- * at junction lines, and narrow gaps between triangles without a common vertex.
- *
- * Vertices are moved one after another along the gradient of a narrowness measure, in small steps
- * and within a maximum distance of their initial positions. A move is made only if no triangles
- * intersect, no voxel centre is misclassified by more than a tolerance, and the volumes of objects
- * are preserved.
+ * at junction lines, and narrow gaps between triangles (SquaredGapBetween). Vertices are moved one
+ * after another along the gradient of a narrowness measure, in small steps and within a maximum
+ * distance of their initial positions. A move is made only if no triangles intersect, no voxel
+ * centre is misclassified by more than a tolerance, and the volumes of objects are preserved.
  */
 class NearDegenerateRegions
 {

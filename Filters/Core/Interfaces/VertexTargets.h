@@ -29,7 +29,7 @@ class VertexTargets
 public:
   /**
    * Lengths are in computational space.
-   * @param relaxation    fraction of the tangential smoothing step, 0 to 1
+   * @param relaxation    fraction of the tangential smoothing step
    * @param shortest      no edge is made shorter than this length
    * @param straightening maximum distance by which vertices of junction lines are straightened
    * @param mostOfEdge    maximum length of a step, relative to the shortest edge of the vertex
@@ -51,10 +51,7 @@ private:
   {
     return { step.X * this->Free[0], step.Y * this->Free[1], step.Z * this->Free[2] };
   }
-  /**
-   * Return whether a move makes an edge too short if the neighbour moves likewise. Two junction
-   * points of the same objects have the same target.
-   */
+  /** Return whether a move makes an edge too short if the neighbour moves likewise. */
   bool Shortens(const Vector& position, const Vector& target) const;
   /** Return the tangential vector to the area-weighted mean of the faces. */
   Vector AlongInterface(int v) const;

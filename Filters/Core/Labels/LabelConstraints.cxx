@@ -15,8 +15,7 @@ constexpr double NarrowSigma = 0.6;
 /** Weight of the narrow Gaussian. It keeps the problem well-posed if signs alternate by voxel. */
 constexpr double NarrowWeight = 0.3;
 constexpr int MostSweeps = 40;
-/** Tolerance of a constraint. */
-constexpr float Tolerance = 0.01f;
+constexpr float Tolerance = 0.01f; ///< of a constraint
 
 /** Kernel at a voxel, x fastest. */
 class Kernel

@@ -61,7 +61,6 @@ private:
   std::array<float, Steps + 1> Values;
 };
 
-/** Computes the distance of one object. */
 class DistanceMaker
 {
 public:

@@ -31,7 +31,6 @@ constexpr float LeastSlope = 0.2f;
 /** Maximum distance from the boundary for the chord correction. */
 constexpr float MostCorrected = 2.5f;
 
-/** Computes the field of one object. */
 class FieldMaker
 {
 public:

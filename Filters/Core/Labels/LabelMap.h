@@ -40,7 +40,6 @@ public:
   int NumberOfObjects = 0; ///< largest object number
   /** Object to which each object, from 0 on, belongs as a part (SeparateParts); empty: no parts. */
   std::vector<Number> WholeOf;
-  /** Return the object to which an object belongs, itself if it is not a part. */
   Number Whole(int object) const
   {
     return static_cast<std::size_t>(object) < this->WholeOf.size()
@@ -97,7 +96,6 @@ private:
   {
     return (k % LayerSize * LayerSize + j % LayerSize) * LayerSize + i % LayerSize;
   }
-  /** Return the index of the part that contains a voxel. */
   std::size_t PartAt(unsigned i, unsigned j, unsigned k) const
   {
     return i / LayerSize +

@@ -97,7 +97,6 @@ public:
 
   int NumberOfLayers() const { return this->Voxels.Length(2); }
 
-  /** Visit the runs of one slice. */
   template <typename Visitor>
   void ForLayer(int layer, Visitor&& visit) const
   {
