@@ -225,7 +225,7 @@ void LabelInterfaceMaker::CountVoxels(HostThreads& threads)
       this->Settings.VoxelToleranceInUse() + this->Options().Tolerance, threads);
   for (const MismatchedVoxel& voxel : mismatched)
   {
-    const LabelMap::Number of[2] = { map.Whole(voxel.OfMap), map.Whole(voxel.OfMesh) };
+    const LabelMap::Number of[2] = { map.Whole(voxel.MapObject), map.Whole(voxel.MeshObject) };
     for (const LabelMap::Number object : of)
     {
       this->Counts[object].MisclassifiedVoxels += of[0] != of[1] ? 1 : 0;

@@ -200,11 +200,11 @@ std::vector<LatticePoint> DistanceLattice::FindIllComposed(int layer) const
 void DistanceLattice::MakeWellComposed(
   const std::function<bool(const Point& position)>& canAdd, Executor& executor)
 {
-  std::vector<std::vector<LatticePoint>> ofLayers(this->Layers.size());
-  ForSpans(executor, ofLayers.size(), 1,
+  std::vector<std::vector<LatticePoint>> perLayer(this->Layers.size());
+  ForSpans(executor, perLayer.size(), 1,
     [&](std::size_t layer, std::size_t, std::size_t)
-    { ofLayers[layer] = this->FindIllComposed(static_cast<int>(layer)); });
-  std::vector<LatticePoint> cubes = Joined(executor, ofLayers);
+    { perLayer[layer] = this->FindIllComposed(static_cast<int>(layer)); });
+  std::vector<LatticePoint> cubes = Joined(executor, perLayer);
   for (int round = 0; !cubes.empty(); ++round)
   {
     SortUnique(cubes);

@@ -82,7 +82,7 @@ template <typename BoxOfFace>
 FaceBoxes FindBoxes(
   const InterfaceMesh& mesh, std::size_t spanSize, Executor& executor, BoxOfFace&& boxOf)
 {
-  std::vector<FaceBoxes> ofSpans((mesh.Faces.size() + spanSize - 1) / spanSize);
+  std::vector<FaceBoxes> perSpan((mesh.Faces.size() + spanSize - 1) / spanSize);
   ForSpans(executor, mesh.Faces.size(), spanSize,
     [&](std::size_t span, std::size_t begin, std::size_t end)
     {
@@ -92,12 +92,12 @@ FaceBoxes FindBoxes(
         {
           const Box box = boxOf(static_cast<int>(f));
           const float side = LongestSide(box);
-          ofSpans[span].Add({ box, side, side, 1 });
+          perSpan[span].Add({ box, side, side, 1 });
         }
       }
     });
   FaceBoxes all;
-  for (const FaceBoxes& some : ofSpans)
+  for (const FaceBoxes& some : perSpan)
   {
     all.Add(some);
   }

@@ -82,7 +82,7 @@ private:
   std::vector<std::vector<int>> FindFacesOfLayers() const
   {
     using LayersOfFace = std::array<int, 3>;
-    const auto ofFaces =
+    const auto perFace =
       CollectInSpans<LayersOfFace>(this->Threads, this->Mesh.Faces.size(), SpanSize,
         [this](std::size_t f, std::vector<LayersOfFace>& some)
         {
@@ -94,7 +94,7 @@ private:
           }
         });
     std::vector<std::vector<int>> faces(static_cast<std::size_t>(this->Count[2]));
-    for (const auto& [face, low, high] : ofFaces)
+    for (const auto& [face, low, high] : perFace)
     {
       for (int k = low; k <= high; ++k)
       {

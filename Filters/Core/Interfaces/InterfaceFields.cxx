@@ -131,9 +131,9 @@ InterfaceFields::Part InterfaceFields::PartOf(const VoxelBox& within, const Labe
 void InterfaceFields::Join(std::vector<std::vector<Part>>& parts)
 {
   this->First.assign(static_cast<std::size_t>(VoxelBox::Of(this->Map.Size()).Count()) + 1, 0);
-  for (const std::vector<Part>& ofObject : parts)
+  for (const std::vector<Part>& objectParts : parts)
   {
-    for (const Part& part : ofObject)
+    for (const Part& part : objectParts)
     {
       for (const std::size_t brick : part.Bricks)
       {
@@ -142,7 +142,7 @@ void InterfaceFields::Join(std::vector<std::vector<Part>>& parts)
     }
   }
   std::partial_sum(this->First.begin(), this->First.end(), this->First.begin());
-  this->OfBricks.resize(this->First.back());
+  this->BrickEntries.resize(this->First.back());
   std::vector<std::size_t> next(this->First.begin(), this->First.end() - 1);
   for (std::size_t object = 0; object < parts.size(); ++object)
   {
@@ -152,7 +152,7 @@ void InterfaceFields::Join(std::vector<std::vector<Part>>& parts)
       float* values = this->Values.back().data();
       for (const std::size_t brick : part.Bricks)
       {
-        this->OfBricks[next[brick]++] = { values, static_cast<LabelMap::Number>(object) };
+        this->BrickEntries[next[brick]++] = { values, static_cast<LabelMap::Number>(object) };
         values += VoxelsOfBrick;
       }
     }
@@ -163,9 +163,9 @@ float* InterfaceFields::ValuesIn(std::size_t brick, int object) const
 {
   for (std::size_t n = this->First[brick]; n < this->First[brick + 1]; ++n)
   {
-    if (this->OfBricks[n].Object == object)
+    if (this->BrickEntries[n].Object == object)
     {
-      return this->OfBricks[n].Values;
+      return this->BrickEntries[n].Values;
     }
   }
   return nullptr;

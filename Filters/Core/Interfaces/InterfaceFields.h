@@ -125,8 +125,8 @@ private:
   const LabelBricks& Map;
   std::array<double, 3> Lengths;
   bool IsPeriodic;
-  std::vector<std::size_t> First;         ///< first entry of each brick in OfBricks
-  std::vector<Brick> OfBricks;            ///< sorted by brick and object
+  std::vector<std::size_t> First;         ///< first entry of each brick in BrickEntries
+  std::vector<Brick> BrickEntries;        ///< sorted by brick and object
   std::vector<LargeVector<float>> Values; ///< values of all parts
   std::vector<float> Shifts;              ///< shift of each object
 };

@@ -54,7 +54,7 @@ using SumsOfPairs = std::map<std::array<std::size_t, 2>, FaceSums>;
 
 SumsOfPairs SumFaces(const InterfaceMesh& mesh, const InterfaceFields& fields, Executor& executor)
 {
-  std::vector<SumsOfPairs> ofSpans((mesh.Faces.size() + SpanSize - 1) / SpanSize);
+  std::vector<SumsOfPairs> perSpan((mesh.Faces.size() + SpanSize - 1) / SpanSize);
   ForSpans(executor, mesh.Faces.size(), SpanSize,
     [&](std::size_t span, std::size_t begin, std::size_t end)
     {
@@ -65,7 +65,7 @@ SumsOfPairs SumFaces(const InterfaceMesh& mesh, const InterfaceFields& fields, E
         {
           continue;
         }
-        FaceSums& sums = ofSpans[span][{ face.Behind, face.Front }];
+        FaceSums& sums = perSpan[span][{ face.Behind, face.Front }];
         const VectorD across = mesh.NormalOf(face);
         sums.Volume +=
           Dot(across, VectorD(mesh.Position[static_cast<std::size_t>(face.Vertex[0])])) / 6.;
@@ -76,7 +76,7 @@ SumsOfPairs SumFaces(const InterfaceMesh& mesh, const InterfaceFields& fields, E
       }
     });
   SumsOfPairs all;
-  for (const SumsOfPairs& some : ofSpans)
+  for (const SumsOfPairs& some : perSpan)
   {
     for (const auto& [objects, sums] : some)
     {
@@ -95,12 +95,12 @@ double CorrectVolumes(
   const LabelBricks& bricks = fields.Bricks();
   const auto count = static_cast<std::size_t>(bricks.Map().NumberOfObjects) + 1;
   const std::array<double, 3>& step = fields.Step();
-  const double ofVoxel = step[0] * step[1] * step[2];
+  const double voxelVolume = step[0] * step[1] * step[2];
   std::vector<double> missing(count, 0.);
   for (std::size_t object = 1; object < count; ++object)
   {
     missing[object] =
-      ofVoxel * static_cast<double>(bricks.ExtentOf(static_cast<int>(object)).Voxels);
+      voxelVolume * static_cast<double>(bricks.ExtentOf(static_cast<int>(object)).Voxels);
   }
   std::map<std::array<std::size_t, 2>, double> areas;
   for (const auto& [objects, sums] : SumFaces(mesh, fields, executor))
@@ -118,7 +118,8 @@ double CorrectVolumes(
     const std::int64_t voxels = bricks.ExtentOf(static_cast<int>(object)).Voxels;
     if (voxels >= LeastVoxels)
     {
-      worst = std::max(worst, std::abs(missing[object]) / (ofVoxel * static_cast<double>(voxels)));
+      worst =
+        std::max(worst, std::abs(missing[object]) / (voxelVolume * static_cast<double>(voxels)));
     }
   }
   std::vector<double> shifts(count, 0.);
@@ -162,8 +163,8 @@ std::size_t PushMisclassifiedVoxels(
   {
     if (voxel.IsFar)
     {
-      fields.Push(voxel.OfMap, voxel.At, PushOfMisclassified);
-      fields.Push(voxel.OfMesh, voxel.At, PushOfMisclassified);
+      fields.Push(voxel.MapObject, voxel.At, PushOfMisclassified);
+      fields.Push(voxel.MeshObject, voxel.At, PushOfMisclassified);
       ++count;
     }
   }

@@ -85,8 +85,8 @@ private:
 LargeVector<float> FindSags(
   const InterfaceMesh& mesh, const InterfaceFields& fields, double tolerance, Executor& executor)
 {
-  std::vector<std::array<float, 4>> ofFaces(mesh.Faces.size());
-  ForSpans(executor, ofFaces.size(), SpanSize,
+  std::vector<std::array<float, 4>> perFace(mesh.Faces.size());
+  ForSpans(executor, perFace.size(), SpanSize,
     [&](std::size_t, std::size_t begin, std::size_t end)
     {
       for (std::size_t f = begin; f < end; ++f)
@@ -96,9 +96,9 @@ LargeVector<float> FindSags(
         const std::array<float, 4> atMiddles = distances.AtMiddles();
         for (std::size_t k = 0; k < 3; ++k)
         {
-          ofFaces[f][k] = std::abs(atMiddles[k] - 0.5f * (atCorners[k] + atCorners[(k + 1) % 3]));
+          perFace[f][k] = std::abs(atMiddles[k] - 0.5f * (atCorners[k] + atCorners[(k + 1) % 3]));
         }
-        ofFaces[f][3] =
+        perFace[f][3] =
           std::abs(atMiddles[3] - (atCorners[0] + atCorners[1] + atCorners[2]) * (1.f / 3.f));
       }
     });
@@ -117,7 +117,7 @@ LargeVector<float> FindSags(
               std::find(corners.begin(), corners.end(), static_cast<int>(v)) - corners.begin());
             // Both edges at the vertex, and the face.
             sags[v] =
-              std::max({ sags[v], ofFaces[f][at], ofFaces[f][(at + 2) % 3], ofFaces[f][3] });
+              std::max({ sags[v], perFace[f][at], perFace[f][(at + 2) % 3], perFace[f][3] });
           });
       }
     });

@@ -66,7 +66,7 @@ constexpr double LeastEdge = 0.48;
 void ShortenEdgesOfSmall(InterfaceMesh& mesh, const InterfaceFields& fields, double edge)
 {
   const std::array<double, 3>& step = fields.Step();
-  const double ofVoxel = step[0] * step[1] * step[2];
+  const double voxelVolume = step[0] * step[1] * step[2];
   for (const InterfaceMesh::Face& face : mesh.Faces)
   {
     for (const int object : { static_cast<int>(face.Behind), static_cast<int>(face.Front) })
@@ -76,7 +76,7 @@ void ShortenEdgesOfSmall(InterfaceMesh& mesh, const InterfaceFields& fields, dou
         continue;
       }
       const auto voxels = static_cast<double>(fields.Bricks().ExtentOf(object).Voxels);
-      const double radius = std::cbrt(voxels * ofVoxel * 0.2387324); // 3 / (4 pi)
+      const double radius = std::cbrt(voxels * voxelVolume * 0.2387324); // 3 / (4 pi)
       const auto size =
         static_cast<float>(std::max({ EdgeInRadius * radius / edge, LeastEdge / edge, LeastSize }));
       for (const int v : face.Vertex)

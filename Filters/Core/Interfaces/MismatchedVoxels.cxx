@@ -32,8 +32,7 @@ struct FaceCrossing
 
   bool operator<(const FaceCrossing& other) const
   {
-    return std::tie(this->Row, this->X, this->Face) <
-      std::tie(other.Row, other.X, other.Face);
+    return std::tie(this->Row, this->X, this->Face) < std::tie(other.Row, other.X, other.Face);
   }
 };
 
@@ -107,7 +106,7 @@ private:
         windings.erase(at);
       }
     };
-    const auto ofMeshHere = [&]
+    const auto meshObjectHere = [&]
     {
       const auto inside = std::find_if(windings.begin(), windings.end(),
         [](const auto& entry) { return entry.first != 0 && entry.second > 0; });
@@ -115,7 +114,7 @@ private:
     };
     const VoxelBox voxels = { { this->Box.First[0], j, k }, { this->Box.End[0], j + 1, k + 1 } };
     this->Map.ForParts(voxels,
-      [&](const VoxelBox& part, Number ofMap)
+      [&](const VoxelBox& part, Number mapObject)
       {
         for (int i = part.First[0]; i < part.End[0]; ++i)
         {
@@ -129,10 +128,10 @@ private:
               add(face.Front, -next->Winding);
             }
           }
-          const Number ofMesh = ofMeshHere();
-          if (ofMap != ofMesh)
+          const Number meshObject = meshObjectHere();
+          if (mapObject != meshObject)
           {
-            found.push_back({ { i, j, k }, ofMap, ofMesh });
+            found.push_back({ { i, j, k }, mapObject, meshObject });
           }
         }
       });
@@ -148,9 +147,8 @@ private:
 };
 }
 
-std::vector<MismatchedVoxel> FindMismatchedVoxels(const InterfaceMesh& mesh,
-  const LabelMap& map, const VoxelBox& box, const std::array<double, 3>& step, double tolerance,
-  Executor& executor)
+std::vector<MismatchedVoxel> FindMismatchedVoxels(const InterfaceMesh& mesh, const LabelMap& map,
+  const VoxelBox& box, const std::array<double, 3>& step, double tolerance, Executor& executor)
 {
   std::vector<MismatchedVoxel> found = MismatchFinder(mesh, map, box, step, executor).Find();
   if (tolerance <= 0. || found.empty())

@@ -16,8 +16,8 @@ namespace volumic
 struct MismatchedVoxel
 {
   std::array<int, 3> At;
-  LabelMap::Number OfMap;
-  LabelMap::Number OfMesh;
+  LabelMap::Number MapObject;
+  LabelMap::Number MeshObject;
   bool IsFar = true; ///< Whether it is further from the interfaces than the tolerance.
 };
 
@@ -26,9 +26,8 @@ struct MismatchedVoxel
  * @param step      size of a voxel in computational space
  * @param tolerance distance in computational space, see MismatchedVoxel::IsFar
  */
-std::vector<MismatchedVoxel> FindMismatchedVoxels(const InterfaceMesh& mesh,
-  const LabelMap& map, const VoxelBox& box, const std::array<double, 3>& step, double tolerance,
-  Executor& executor);
+std::vector<MismatchedVoxel> FindMismatchedVoxels(const InterfaceMesh& mesh, const LabelMap& map,
+  const VoxelBox& box, const std::array<double, 3>& step, double tolerance, Executor& executor);
 }
 
 #endif

@@ -123,12 +123,12 @@ private:
 
   /** @param corrected subset of the rows in which the volume is corrected, if isCorrected */
   void MakeWith(
-    const VoxelBits& rows, const VoxelBits& corrected, double ofGaussian, bool isCorrected)
+    const VoxelBits& rows, const VoxelBits& corrected, double gaussianSigma, bool isCorrected)
   {
-    const auto sigma = static_cast<float>(ofGaussian);
+    const auto sigma = static_cast<float>(gaussianSigma);
     const NormalQuantile& quantiles = NormalQuantile::Table();
     this->Gaussian.Smooth(
-      rows, this->Varying, this->InVoxels(ofGaussian),
+      rows, this->Varying, this->InVoxels(gaussianSigma),
       [this](int i, int j, int k, int count, float* values)
       { this->Sides.CopyMembership(i, j, k, count, values); },
       [&](int i, int j, int k, int count, const float* smoothed)
@@ -143,17 +143,17 @@ private:
       this->Threads);
     if (isCorrected)
     {
-      this->CorrectVolume(corrected, ofGaussian, true);
+      this->CorrectVolume(corrected, gaussianSigma, true);
     }
   }
 
   /** Run step 2. @param isConstrained if false, the correction is reduced at thin parts */
-  void CorrectVolume(const VoxelBits& rows, double ofGaussian, bool isConstrained)
+  void CorrectVolume(const VoxelBits& rows, double gaussianSigma, bool isConstrained)
   {
-    const float scale = static_cast<float>(ofGaussian) * 2.5066283f; // sqrt(2 pi)
+    const float scale = static_cast<float>(gaussianSigma) * 2.5066283f; // sqrt(2 pi)
     this->MissingVolume.resize(this->Field.Values.size());
     this->Gaussian.Smooth(
-      rows, this->Field.Rows, this->InVoxels(ofGaussian),
+      rows, this->Field.Rows, this->InVoxels(gaussianSigma),
       [this](int i, int j, int k, int count, float* values)
       { this->CopyMissingVolume(i, j, k, count, values); },
       [&](int i, int j, int k, int count, const float* missing)
@@ -180,7 +180,7 @@ private:
       return;
     }
     this->Gaussian.Smooth(
-      rows, this->Field.Rows, this->InVoxels(ofGaussian),
+      rows, this->Field.Rows, this->InVoxels(gaussianSigma),
       [this](int i, int j, int k, int count, float* values)
       { this->CopyBoundary(i, j, k, count, values); },
       add, this->Threads);

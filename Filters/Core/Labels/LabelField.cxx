@@ -25,7 +25,7 @@ constexpr float MostCurvature = 0.35f;
 /** Least absolute field value at a voxel if not all constraints can be satisfied. */
 constexpr float LeastSize = 0.05f;
 /** Maximum number of searches for missed voxels with a tolerance. */
-constexpr int MostRescues = 4;
+constexpr int MostMissedSearches = 4;
 /** Least slope for the chord correction: a flatter field has a ridge. */
 constexpr float LeastSlope = 0.2f;
 /** Maximum distance from the boundary for the chord correction. */
@@ -156,7 +156,8 @@ private:
       this->Field.IsConstrained = VoxelBits(this->Field.Box);
     }
     ConstrainToLabels(this->Field, this->Map.Spacing, this->FindConstraints());
-    for (int round = 0; this->HasTolerance() && round < MostRescues && this->FindMissed(); ++round)
+    for (int round = 0; this->HasTolerance() && round < MostMissedSearches && this->FindMissed();
+         ++round)
     {
       ConstrainToLabels(this->Field, this->Map.Spacing, this->FindConstraints());
     }
@@ -167,7 +168,7 @@ private:
         float* values = this->RowAt(i, j, k);
         for (int x = 0; x < count; ++x)
         {
-          const float side = this->Sides.Of(i + x, j, k);
+          const float side = this->Sides.SideOf(i + x, j, k);
           values[x] = side * std::max(side * values[x], this->LeastAt(i + x, j, k));
         }
       });
@@ -278,7 +279,7 @@ private:
     const float* values = this->RowAt(i, j, k);
     for (int x = 0; x < count; ++x)
     {
-      const float side = this->Sides.Of(i + x, j, k);
+      const float side = this->Sides.SideOf(i + x, j, k);
       if (side * values[x] > 1.f && this->BesideThin.Has(i + x, j, k) &&
         !this->Thin.Has(i + x, j, k))
       {

@@ -86,7 +86,8 @@ public:
   }
 
 private:
-  /** Flag in OfPart: the other bits are an index into Mixed. Otherwise the value is an object. */
+  /** Flag in PartEntries: the other bits are an index into Mixed. Otherwise the value is an object.
+   */
   static constexpr std::uint32_t IsMixed = 0x80000000u;
   static constexpr std::size_t VoxelsOfPart =
     static_cast<std::size_t>(LayerSize) * LayerSize * LayerSize;
@@ -104,7 +105,7 @@ private:
   }
   Number Inside(int i, int j, int k) const
   {
-    const std::uint32_t part = this->OfPart[this->PartAt(i, j, k)];
+    const std::uint32_t part = this->PartEntries[this->PartAt(i, j, k)];
     return (part & IsMixed) == 0
       ? static_cast<Number>(part)
       : this->Mixed[static_cast<unsigned>(k) / LayerSize]
@@ -119,7 +120,7 @@ private:
       { (i + 1) * LayerSize, (j + 1) * LayerSize, (k + 1) * LayerSize }
     }.CommonWith(box);
     const std::uint32_t entry =
-      this->OfPart[this->PartAt(i * LayerSize, j * LayerSize, k * LayerSize)];
+      this->PartEntries[this->PartAt(i * LayerSize, j * LayerSize, k * LayerSize)];
     if ((entry & IsMixed) == 0)
     {
       visit(part, static_cast<Number>(entry));
@@ -148,7 +149,7 @@ private:
 
   std::array<int, 3> Voxels = { 0, 0, 0 };
   std::array<int, 3> Parts = { 0, 0, 0 };
-  std::vector<std::uint32_t> OfPart;
+  std::vector<std::uint32_t> PartEntries;
   std::vector<LargeVector<Number>> Mixed; ///< per layer: voxels of the parts with several objects
 };
 }

@@ -24,7 +24,7 @@ public:
   const VoxelBox& Box() const { return this->Members.Box(); }
   bool IsObject(int i, int j, int k) const { return this->Members.Has(i, j, k); }
   /** Return the side of a voxel: 1 in the object, -1 elsewhere. */
-  float Of(int i, int j, int k) const { return this->IsObject(i, j, k) ? 1.f : -1.f; }
+  float SideOf(int i, int j, int k) const { return this->IsObject(i, j, k) ? 1.f : -1.f; }
 
   /** @see VoxelBits::FourAt */
   unsigned FourAt(int i, int j, int k) const { return this->Members.FourAt(i, j, k); }
