@@ -151,7 +151,7 @@ void CellPattern::FindCentres(
   }
   for (int sheet = 0; sheet < this->Sheets; ++sheet)
   {
-    unsigned regionBits = 0; // bits of regions
+    unsigned regionBits = 0; // regions at the sheet
     for (int edge = 0; edge < Edges; ++edge)
     {
       if (this->SheetOf[edge] == sheet)

@@ -32,8 +32,7 @@ LocalPoint Between(const LocalPoint& middle, const LocalPoint& end, double fract
     middle[2] + fraction * (end[2] - middle[2]) };
 }
 
-/** Return the mean of the zeros on the edges of a cell, clamped to get triangles of similar size.
- */
+/** Return the mean of the zeros on the edges of a cell, clamped for triangles of similar size. */
 LocalPoint MeanOfZeros(const std::array<float, 8>& values)
 {
   constexpr double most = 0.24; // distance from the middle of the edge
@@ -242,7 +241,7 @@ float DualCells::CoordinateOf(const std::array<int, 3>& cell, int axis, double a
   const bool isFirst = n == 0;
   if (this->IsAtSide(cell, axis) && (isFirst ? at < 1. : at > 0.))
   {
-    return plane; // Except for the points of the inner side, which are not on the box.
+    return plane; // All points except for those of the inner side lie in the plane of the box.
   }
   const double end = this->Grid.Centres[axis][at < 0.5 ? n : n + 1];
   return static_cast<float>(plane + (end - plane) * (at < 0.5 ? 1. - 2. * at : 2. * at - 1.));

@@ -23,8 +23,8 @@ namespace
 /** Number of first rounds, in which short edges are collapsed. */
 constexpr int Rounds = 2;
 /**
- * Minimum and maximum number of last rounds, which only split, flip and move. They end when there
- * are few misclassified voxels (relative to the vertices) and the relative volume errors are small.
+ * Without a tolerance: minimum and maximum number of last rounds, which only split, flip and move.
+ * They end when misclassified voxels are few (relative to the vertices) and volume errors small.
  */
 constexpr int LeastLastRounds = 1;
 constexpr int MostLastRounds = 6;

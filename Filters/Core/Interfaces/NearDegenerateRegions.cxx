@@ -128,7 +128,7 @@ std::vector<int> NearDegenerateRegions::FindVertices(Executor& executor)
     {
       std::vector<int> near;
       bool isNarrow = false;
-      this->ForGapsAt(candidates[n], near, [&](double) { isNarrow = true; }); // found twice
+      this->ForGapsAt(candidates[n], near, [&](double) { isNarrow = true; }); // found by both
       const std::array<int, 3>& v = faces[static_cast<std::size_t>(candidates[n])].Vertex;
       some.insert(some.end(), v.begin(), isNarrow ? v.end() : v.begin());
     });

@@ -255,7 +255,7 @@ private:
 
   std::vector<VoxelConstraint> FindConstraints()
   {
-    // With a tolerance, only thin voxels without one are treated as thin.
+    // With a tolerance, only constrained voxels are treated as thin.
     this->Thin = this->Sides.FindThin();
     if (this->HasTolerance())
     {

@@ -68,9 +68,10 @@ struct LabelField
 };
 
 /**
- * Compute the approximate signed distance to the boundary of an object, positive inside. The sign
- * is correct at all voxel centres. The field depends on the voxels of this object only. If two
- * objects meet and no third one is near, one field is the negative of the other.
+ * Compute the approximate signed distance to the boundary of an object, positive inside. Without a
+ * Tolerance, the sign is correct at all voxel centres. The field depends on the voxels of this
+ * object only. If two objects meet and no third one is near, one field is the negative of the
+ * other.
  *
  * 1. Distance: smooth the membership (1 in the object, 0 elsewhere) with a Gaussian of width sigma.
  *    At a flat boundary the result g is the normal distribution of the distance. Hence the distance
@@ -78,9 +79,9 @@ struct LabelField
  *    and at all face neighbours of the same side. Near these voxels sigma is reduced until none is
  *    missed. This is done after step 2, or before step 2 with a Tolerance.
  * 2. Volume correction: d is biased at curved boundaries and thin parts. Smooth the missing volume,
- *    membership - clamp(d + 1/2, 0, 1), with the same Gaussian, and add it times sigma * sqrt(2
- *    pi). With a Tolerance, reduce this factor where two boundaries are near: divide it by the
- *    smoothed indicator of |d| < 1/2.
+ *    membership - clamp(d + 1/2, 0, 1), with the same Gaussian. Add it times sigma * sqrt(2 pi).
+ *    With a Tolerance, reduce this factor where two boundaries are near: divide it by the smoothed
+ *    indicator of |d| < 1/2.
  * 3. Chord correction (ChordCorrection).
  * 4. Constraints: apply the smallest change that gives all voxel centres the sign of the map and at
  *    least the absolute value Margin. The norm is that of the reproducing kernel, a sum of two
