@@ -164,7 +164,7 @@ bool SegmentationRun::Next(RunObserver& observer, LevelMonitor& monitor, HostThr
     outcome = this->Evolve(task, monitor, threads);
   }
   const bool isStopped = outcome.Reason == StopReason::Cancelled;
-  if (outcome.HasReachedEnd)
+  if (outcome.HasReachedLevel)
   {
     this->KeepLevel(level, std::move(outcome), observer, threads);
     if (level == this->EndsAt() && this->PreviewMissesParts(level))

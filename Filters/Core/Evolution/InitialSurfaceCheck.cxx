@@ -78,18 +78,18 @@ EdgeLengths LengthsOf(const IndexedSurface& surface)
 IndexedSurface WithoutUnusedPoints(const IndexedSurface& surface)
 {
   IndexedSurface result;
-  LargeVector<int> place(surface.Points.size(), -1);
+  LargeVector<int> newIndex(surface.Points.size(), -1);
   result.Triangles.reserve(surface.Triangles.size());
   for (Triangle t : surface.Triangles)
   {
     for (int& corner : t)
     {
-      if (place[corner] < 0)
+      if (newIndex[corner] < 0)
       {
-        place[corner] = static_cast<int>(result.Points.size());
+        newIndex[corner] = static_cast<int>(result.Points.size());
         result.Points.push_back(surface.Points[corner]);
       }
-      corner = place[corner];
+      corner = newIndex[corner];
     }
     result.Triangles.push_back(t);
   }
