@@ -131,8 +131,7 @@ void SetVerdict(
   }
 }
 
-/** Set the fit of a surface to the padded image, whose indices are its coordinates, in both
- * metrics. */
+/** Set how a surface, in index coordinates of the padded image, fits it, in both metrics. */
 void SetFit(const TriangleSurface& surface, vtkImageData* padded, double isoValue,
   const std::string& prefix, Figures& figures)
 {
