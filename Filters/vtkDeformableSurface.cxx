@@ -100,13 +100,13 @@ bool vtkDeformableSurface::GetNeedsUpdate()
 {
   vtkInternals& internals = *this->Internals;
   internals.IsWatched = true;
-  if (!internals.Settings.End.ShowLevels || !internals.IsOnTheWay)
+  if (!internals.Settings.End.ShowLevels || !internals.IsBetweenLevels)
   {
     return false;
   }
-  internals.IsOnTheWay = false;
+  internals.IsBetweenLevels = false;
   // The run of level 0 is not kept: level -1 is not reached from there.
-  internals.GoesToTheEnd = !internals.Kept || !internals.Kept->CanGoOn();
+  internals.RunsToTheEnd = !internals.Kept || !internals.Kept->CanResume();
   this->GoOn();
   return true;
 }
@@ -160,7 +160,8 @@ int vtkDeformableSurface::RequestData(
     this, outputVector, "",
     []
     {
-      return "Input port 0: the memory does not suffice for the surface. Set Scratch Directory, set "
+      return "Input port 0: the memory does not suffice for the surface. Set Scratch Directory, "
+             "set "
              "Finest Level to a coarser level, or crop the image.";
     },
     [&]
@@ -180,7 +181,7 @@ int vtkDeformableSurface::RequestData(
   }
   // Not while another run is still to come.
   for (const std::string& text :
-    internals.IsOnTheWay ? std::vector<std::string>() : std::exchange(internals.Warnings, {}))
+    internals.IsBetweenLevels ? std::vector<std::string>() : std::exchange(internals.Warnings, {}))
   {
     vtkWarningMacro(<< text);
   }

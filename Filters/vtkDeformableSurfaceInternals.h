@@ -17,9 +17,9 @@
  * The members of vtkDeformableSurface and the work of RequestData(). Call all methods on the thread
  * that updates the filter. Errors are exceptions, a Refusal for invalid input.
  *
- * The filter keeps its last run for requests that differ in the finest level or the outputs only. The
- * run returns any of its converged levels at once, and resumes if it has ended above level 0. On
- * level 0 it keeps these levels only, because the voxels take too much memory.
+ * The filter keeps its last run for requests that differ in the finest level or the outputs only.
+ * The run returns any of its converged levels at once, and resumes if it has ended above level 0.
+ * On level 0 it keeps these levels only, because the voxels take too much memory.
  */
 class vtkDeformableSurface::vtkInternals
 {
@@ -27,8 +27,8 @@ public:
   explicit vtkInternals(vtkDeformableSurface& filter) : Filter(filter) {}
 
   /** Reuse, resume or replace the kept run, and fill the outputs. */
-  void Update(vtkInformationVector** inputs, vtkInformationVector* outputs,
-    volumic::RunObserver& observer);
+  void Update(
+    vtkInformationVector** inputs, vtkInformationVector* outputs, volumic::RunObserver& observer);
 
   /**
    * Makes null blocks of the levels of a run, as far as the pipeline's information of the image, or
@@ -40,18 +40,18 @@ public:
   void Modify(bool needsRun);
   void ForgetRun() { this->Kept.reset(); }
 
-  volumic::SegmentationSettings Settings; ///< the properties
+  volumic::SegmentationSettings Settings;         ///< the properties
   std::unique_ptr<volumic::SegmentationRun> Kept; ///< the last run; null: none
-  std::vector<std::string> Warnings; ///< to report after the last of several steps
-  int MemoryLimit = 0; ///< deprecated, as the next two
+  std::vector<std::string> Warnings;              ///< to report after the last of several steps
+  int MemoryLimit = 0;                            ///< deprecated, as the next two
   bool Resume = false;
   bool Profile = false;
-  bool HasHinted = false;    ///< The hint at labels is reported once per filter.
+  bool HasHinted = false; ///< The hint at labels is reported once per filter.
   bool IsRunning = false;
-  bool IsAlone = true;       ///< The run is not parallel.
-  bool IsWatched = false;    ///< GetNeedsUpdate() is called, as by ParaView's window.
-  bool IsOnTheWay = false;   ///< A finer level follows at the next Update().
-  bool GoesToTheEnd = false; ///< The next run has no intermediate steps.
+  bool IsAlone = true;          ///< The run is not parallel.
+  bool IsWatched = false;       ///< GetNeedsUpdate() is called, as by ParaView's window.
+  bool IsBetweenLevels = false; ///< A finer level follows at the next Update().
+  bool RunsToTheEnd = false;    ///< The next run has no intermediate steps.
 
 private:
   volumic::SegmentationRequest RequestAsSet(vtkInformationVector** inputs);

@@ -5,7 +5,7 @@
 // the kept run.
 
 #include "Core/Common/FreeMemory.h"
-#include "Core/Common/Refuse.h"
+#include "Core/Common/ThrowInvalidArgument.h"
 #include "Core/Image/PyramidGeometry.h"
 #include "Host/Errors.h"
 #include "Host/Pipeline.h"
@@ -80,7 +80,7 @@ volumic::SegmentationRequest vtkDeformableSurface::vtkInternals::RequestAsSet(
   request.AttractingPoints = vtkPolyData::GetData(inputs[2]);
   request.Selection = this->Filter.GetInputArrayInformation(0);
   request.EdgeSelection = this->Filter.GetInputArrayInformation(1);
-  request.MayGoOn = volumic::MayKeepRun(&this->Filter);
+  request.MayResume = volumic::MayKeepRun(&this->Filter);
   // A user at a window may select other components. Else they would waste memory.
   request.KeepsAll = this->IsWatched && this->Settings.End.ScratchDirectory.empty();
   return request;
@@ -91,11 +91,11 @@ void vtkDeformableSurface::vtkInternals::ChooseStep(volumic::SegmentationRequest
 {
   volumic::SegmentationEnd& end = request.Settings.End;
   const bool isWatched = end.ShowLevels && this->IsWatched && this->IsAlone;
-  if (!isWatched || std::exchange(this->GoesToTheEnd, false))
+  if (!isWatched || std::exchange(this->RunsToTheEnd, false))
   {
     return;
   }
-  if (!this->Kept || !this->Kept->CanGoOn())
+  if (!this->Kept || !this->Kept->CanResume())
   {
     request.IsStep = !end.Preview;
     end.Preview = true;
@@ -103,7 +103,7 @@ void vtkDeformableSurface::vtkInternals::ChooseStep(volumic::SegmentationRequest
   }
   const int next = this->Kept->NextLevel();
   if (!end.Preview && request.Settings.EdgeLength == 0.0 &&
-    !request.Settings.Grading.IsWanted() && next > std::max(end.FinestLevel, 0))
+    !request.Settings.Grading.IsRequested() && next > std::max(end.FinestLevel, 0))
   {
     end.FinestLevel = next;
     request.IsStep = true;
@@ -123,7 +123,7 @@ std::unique_ptr<volumic::SegmentationRun> vtkDeformableSurface::vtkInternals::Ne
   const volumic::Volume volume = volumic::ReadVolume(request, progress);
   if (!volume.HintAtLabels.empty() && !std::exchange(this->HasHinted, true))
   {
-    observer.Warn(volumic::PlaceOfVoxels + volume.HintAtLabels);
+    observer.Warn(volumic::VoxelErrorPrefix + volume.HintAtLabels);
   }
   if (!volume.IsComplete())
   {
@@ -132,7 +132,7 @@ std::unique_ptr<volumic::SegmentationRun> vtkDeformableSurface::vtkInternals::Ne
   auto run = std::make_unique<volumic::SegmentationRun>(request, volume);
   if (!volume.Voxels.AboutNaNs.empty())
   {
-    observer.Warn(volumic::PlaceOfVoxels + volume.Voxels.AboutNaNs);
+    observer.Warn(volumic::VoxelErrorPrefix + volume.Voxels.AboutNaNs);
   }
   if (!volume.IsOfImage && volumic::AreReleased(&this->Filter, 0))
   {
@@ -168,7 +168,7 @@ void vtkDeformableSurface::vtkInternals::MakeEmptyLevels(
       count = static_cast<int>(
         volumic::PlanPyramid({ size[0], size[1], size[2] }, { 1.0, 1.0, 1.0 }, pyramid).size());
     }
-    catch (const volumic::Refusal&)
+    catch (const volumic::InvalidArgument&)
     {
       finest = count = 0; // The first process reports it.
     }
@@ -183,7 +183,7 @@ void vtkDeformableSurface::vtkInternals::Update(
 {
   volumic::SegmentationRequest request = this->RequestAsSet(inputs);
   const bool wantsAllParts = request.Settings.WantsAllParts();
-  this->IsOnTheWay = false;
+  this->IsBetweenLevels = false;
   if (this->TimeOfKept != this->Filter.GetMTime() ||
     this->InputsOfKept != volumic::InputTimesOf(&this->Filter) ||
     (this->Kept && !this->Kept->GradesFor(request)))
@@ -215,14 +215,14 @@ void vtkDeformableSurface::vtkInternals::Update(
   {
     observer.Warn(run->Warning(wantsAllParts));
   }
-  this->IsOnTheWay = request.IsStep && !isFinest && !observer.IsStopped();
+  this->IsBetweenLevels = request.IsStep && !isFinest && !observer.IsStopped();
   if (volumic::MayKeepRun(&this->Filter))
   {
     this->TimeOfKept = this->Filter.GetMTime();
     this->InputsOfKept = volumic::InputTimesOf(&this->Filter);
-    if (!run->CanGoOn())
+    if (!run->CanResume())
     {
-      run->LetGo();
+      run->ReleaseRunData();
     }
     this->Kept = std::move(run);
   }

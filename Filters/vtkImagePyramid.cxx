@@ -3,7 +3,7 @@
 #include "vtkImagePyramid.h"
 
 #include "Core/Common/Join.h"
-#include "Core/Common/Refuse.h"
+#include "Core/Common/ThrowInvalidArgument.h"
 #include "Core/Image/PyramidGeometry.h"
 #include "Host/Errors.h"
 #include "Host/LargeArrays.h"
@@ -72,13 +72,13 @@ vtkMultiBlockDataSet* vtkImagePyramid::GetOutput(int port)
 VOLUMIC_DEPRECATED(vtkImagePyramid, MemoryLimit, int, VOLUMIC_ABOUT_MEMORY)
 
 // The properties, a line each: name, type for Set and Get, and where vtkInternals has it.
-#define VOLUMIC_PYRAMID_FILTER_PROPERTIES(MADE)                    \
-  MADE(ReductionFactor, double, Options.Pyramid.ReductionFactor)   \
-  MADE(NumberOfLevels, int, Options.Pyramid.NumberOfLevels)        \
-  MADE(MinimumLevelSize, int, Options.Pyramid.MinimumLevelSize)    \
-  MADE(SelectedComponent, int, SelectedComponent)                  \
-  MADE(NaNIsBackground, bool, Options.NaNIsBackground)             \
-  MADE(NumberOfThreads, int, Options.NumberOfThreads)              \
+#define VOLUMIC_PYRAMID_FILTER_PROPERTIES(MADE)                  \
+  MADE(ReductionFactor, double, Options.Pyramid.ReductionFactor) \
+  MADE(NumberOfLevels, int, Options.Pyramid.NumberOfLevels)      \
+  MADE(MinimumLevelSize, int, Options.Pyramid.MinimumLevelSize)  \
+  MADE(SelectedComponent, int, SelectedComponent)                \
+  MADE(NaNIsBackground, bool, Options.NaNIsBackground)           \
+  MADE(NumberOfThreads, int, Options.NumberOfThreads)            \
   MADE(ScratchDirectory, const char*, ScratchDirectory)
 
 #define VolumicSetting(name, type, field) \
@@ -90,10 +90,11 @@ int vtkImagePyramid::CountLevels(int sizeX, int sizeY, int sizeZ) const
 {
   try
   {
-    return static_cast<int>(volumic::PlanPyramid({ sizeX, sizeY, sizeZ }, { 1.0, 1.0, 1.0 },
-      this->Internals->Options.Pyramid).size());
+    return static_cast<int>(volumic::PlanPyramid(
+      { sizeX, sizeY, sizeZ }, { 1.0, 1.0, 1.0 }, this->Internals->Options.Pyramid)
+                              .size());
   }
-  catch (const volumic::Refusal&)
+  catch (const volumic::InvalidArgument&)
   {
     return 0;
   }
@@ -159,9 +160,9 @@ volumic::ImageLevels vtkImagePyramid::MakeLevels(
 {
   const volumic::ScratchMemory scratch(this->Internals->ScratchDirectory);
   image = volumic::ImageOf(input);
-  const vtkSmartPointer<vtkDataArray> voxels = volumic::SelectComponent(
-    volumic::ChooseArray(this->GetInputArrayInformation(0), image),
-    this->Internals->SelectedComponent);
+  const vtkSmartPointer<vtkDataArray> voxels =
+    volumic::SelectComponent(volumic::ChooseArray(this->GetInputArrayInformation(0), image),
+      this->Internals->SelectedComponent);
   return volumic::MakeImageLevels(image, voxels, this->Internals->Options,
     [&observer](double share, const std::string& text) { return observer.GoOn(share, text); });
 }
@@ -170,8 +171,7 @@ volumic::ImageLevels vtkImagePyramid::MakeLevels(
 void vtkImagePyramid::MakeEmptyBlocks(vtkInformationVector* input, vtkMultiBlockDataSet* output)
 {
   int extent[6] = { 0, -1, 0, -1, 0, -1 };
-  input->GetInformationObject(0)->Get(
-    vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent);
+  input->GetInformationObject(0)->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent);
   volumic::MakeNullBlocks(output,
     volumic::LevelNames(this->CountLevels(
       extent[1] - extent[0] + 1, extent[3] - extent[2] + 1, extent[5] - extent[4] + 1)));

@@ -3,14 +3,14 @@
 #include "vtkLabelsToSurfaces.h"
 
 #include "Core/Common/FreeMemory.h"
-#include "Core/Common/Refuse.h"
+#include "Core/Common/ThrowInvalidArgument.h"
 #include "Host/Errors.h"
 #include "Host/HostThreads.h"
 #include "Host/LargeArrays.h"
 #include "Host/Pipeline.h"
 #include "Host/RunObserver.h"
+#include "Input/ComputationalSpace.h"
 #include "Input/InputImage.h"
-#include "Input/Workspace.h"
 #include "Labels/LabelBlocks.h"
 #include "Labels/LabelImage.h"
 #include "Labels/LabelInterfaces.h"
@@ -52,7 +52,7 @@ public:
   bool SharedInterfaces = true; ///< has no effect
   unsigned NumberOfThreads = 0;
   double TimeLimit = 0.0; ///< seconds; 0: none
-  int MemoryLimit = 0; ///< has no effect
+  int MemoryLimit = 0;    ///< has no effect
   std::string ScratchDirectory;
   volumic::LabelNames Names;
   bool IsRunning = false;
@@ -94,7 +94,7 @@ vtkLabelsToSurfaces::~vtkLabelsToSurfaces() = default;
   MADE(NumberOfThreads, int, NumberOfThreads)                           \
   MADE(ScratchDirectory, const char*, ScratchDirectory)
 
-#define VolumicSetting(name, type, field)                                                          \
+#define VolumicSetting(name, type, field) \
   VOLUMIC_SET_AND_GET(vtkLabelsToSurfaces, name, type, Internals->field, this->Modified())
 VOLUMIC_LABEL_PROPERTIES(VolumicSetting)
 
@@ -240,8 +240,8 @@ void vtkLabelsToSurfaces::MakeSurfaces(
     vtkWarningMacro("Input port 0: " << aboutScans);
   }
   std::vector<int> objects;
-  volumic::LabelMap map = image->MakeMap(
-    choice.Labels, choice.IsMerged, internals.BackgroundLabel, objects, threads);
+  volumic::LabelMap map =
+    image->MakeMap(choice.Labels, choice.IsMerged, internals.BackgroundLabel, objects, threads);
   volumic::LabelInterfaceMaker maker(
     std::move(map), objects, image->Image(), internals.Settings, threads);
   maker.Make(threads,
@@ -257,8 +257,8 @@ void vtkLabelsToSurfaces::MakeSurfaces(
     image->FindNearest(interfaces, choice.Labels, nearest);
     sides->CopyComponent(0, nearest, 0);
   }
-  observer.Warn(volumic::FillBlocks(choice, *image, internals.Settings, maker.Surfaces(threads),
-    output, observer.StopReason()));
+  observer.Warn(volumic::FillBlocks(
+    choice, *image, internals.Settings, maker.Surfaces(threads), output, observer.StopReason()));
   if (!image->Warning().empty())
   {
     observer.Warn("Input port 0: " + image->Warning());
@@ -299,7 +299,8 @@ int vtkLabelsToSurfaces::RequestData(
     this, outputVector, "",
     []
     {
-      return "Input port 0: the memory does not suffice for the surfaces. Set Scratch Directory, set "
+      return "Input port 0: the memory does not suffice for the surfaces. Set Scratch Directory, "
+             "set "
              "Finest Level to a coarser level, or choose fewer Labels.";
     },
     [&]
@@ -333,8 +334,8 @@ void vtkLabelsToSurfaces::PrintSelf(ostream& os, vtkIndent indent)
     os << " " << label;
   }
   os << endl;
-#define VolumicPrint(name, type, field)                                                            \
-  volumic::PrintSetting(os << indent << #name ": ", this->Internals->field);                       \
+#define VolumicPrint(name, type, field)                                      \
+  volumic::PrintSetting(os << indent << #name ": ", this->Internals->field); \
   os << endl;
   VOLUMIC_LABEL_PROPERTIES(VolumicPrint)
   os << indent << "MemoryLimit: " << this->Internals->MemoryLimit << endl;

@@ -31,7 +31,7 @@ unsigned long RunAlgorithm(vtkAlgorithm* filter, vtkInformationVector* outputs,
     code = vtkErrorCode::UnknownError;
     text = aboutMemory();
   }
-  catch (const Refusal& refused)
+  catch (const InvalidArgument& refused)
   {
     code = vtkErrorCode::UserError;
     text = refused.what();

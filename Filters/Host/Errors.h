@@ -3,7 +3,7 @@
 #ifndef volumicErrors_h
 #define volumicErrors_h
 
-#include "Core/Common/Refuse.h"
+#include "Core/Common/ThrowInvalidArgument.h"
 
 #include <functional>
 #include <string>
@@ -39,9 +39,9 @@ auto PrefixErrors(const std::string& place, const Work& work) -> decltype(work()
   {
     return work();
   }
-  catch (const Refusal& error)
+  catch (const InvalidArgument& error)
   {
-    Refuse(place, error.what());
+    ThrowInvalidArgument(place, error.what());
   }
 }
 }

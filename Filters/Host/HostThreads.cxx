@@ -20,12 +20,12 @@ namespace volumic
 {
 namespace
 {
-int NumberOf(int wanted)
+int NumberOf(int requested)
 {
   int number = NumberOfProcessors();
-  if (wanted > 0)
+  if (requested > 0)
   {
-    return std::min(number, wanted);
+    return std::min(number, requested);
   }
   const auto limit = [&number](int most) { number = most > 0 ? std::min(number, most) : number; };
   limit(QuotaOfProcessors());

@@ -23,7 +23,7 @@
 namespace volumic
 {
 /** Return the information of the requested output, with the piece of the update request. */
-inline vtkInformation* AskedOutput(vtkInformation* request, vtkInformationVector* outputs)
+inline vtkInformation* RequestedOutput(vtkInformation* request, vtkInformationVector* outputs)
 {
   return outputs->GetInformationObject(std::max(0, request->Get(vtkExecutive::FROM_OUTPUT_PORT())));
 }
@@ -35,7 +35,7 @@ inline vtkInformation* AskedOutput(vtkInformation* request, vtkInformationVector
  */
 inline bool IsFirstProcess(vtkInformation* request, vtkInformationVector* outputs)
 {
-  vtkInformation* info = AskedOutput(request, outputs);
+  vtkInformation* info = RequestedOutput(request, outputs);
   using Pipeline = vtkStreamingDemandDrivenPipeline;
   const bool isOfNone = info->Has(Pipeline::UPDATE_NUMBER_OF_PIECES()) &&
     info->Get(Pipeline::UPDATE_NUMBER_OF_PIECES()) == 0;
@@ -45,7 +45,7 @@ inline bool IsFirstProcess(vtkInformation* request, vtkInformationVector* output
 /** Return whether the run is not parallel. */
 inline bool IsOnlyProcess(vtkInformation* request, vtkInformationVector* outputs)
 {
-  return AskedOutput(request, outputs)
+  return RequestedOutput(request, outputs)
            ->Get(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES()) <= 1;
 }
 
@@ -67,9 +67,9 @@ inline bool IsResampled(vtkAlgorithm* source)
 }
 
 /**
- * RequestUpdateExtent of the filters: the first process requests the whole of all inputs. The others
- * request no voxels of images, unless these are resampled. Of data without a whole extent, such as
- * surfaces, they request the piece of their own number, which is small.
+ * RequestUpdateExtent of the filters: the first process requests the whole of all inputs. The
+ * others request no voxels of images, unless these are resampled. Of data without a whole extent,
+ * such as surfaces, they request the piece of their own number, which is small.
  * @param all whether all processes request the whole
  */
 inline void RequestInputs(vtkAlgorithm* filter, vtkInformation* request,

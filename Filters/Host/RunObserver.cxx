@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Host/RunObserver.h"
 
-#include "Core/Common/Refuse.h"
+#include "Core/Common/ThrowInvalidArgument.h"
 #include "Host/Pipeline.h"
 
 #include <algorithm>
@@ -40,13 +40,12 @@ std::string TextOf(const Monitor::Status& status)
 }
 }
 
-RunObserver::RunObserver(
-  vtkAlgorithm* filter, double timeLimit, std::vector<std::string>& warnings)
-  : Filter(filter), TimeLimit(timeLimit), Untold(warnings)
+RunObserver::RunObserver(vtkAlgorithm* filter, double timeLimit, std::vector<std::string>& warnings)
+  : Filter(filter), TimeLimit(timeLimit), PendingWarnings(warnings)
 {
   if (!(timeLimit >= 0.0))
   {
-    Refuse("Time Limit is ", timeLimit, "; it must be 0 (none) or more.");
+    ThrowInvalidArgument("Time Limit is ", timeLimit, "; it must be 0 (none) or more.");
   }
 }
 
@@ -74,9 +73,10 @@ std::string RunObserver::StopReason() const
 void RunObserver::Warn(const std::string& text)
 {
   if (!text.empty() &&
-    std::find(this->Untold.begin(), this->Untold.end(), text) == this->Untold.end())
+    std::find(this->PendingWarnings.begin(), this->PendingWarnings.end(), text) ==
+      this->PendingWarnings.end())
   {
-    this->Untold.push_back(text);
+    this->PendingWarnings.push_back(text);
   }
 }
 

@@ -55,7 +55,7 @@ private:
   Clock::time_point Started = Clock::now();
   bool IsAborted = false;
   bool IsOutOfTime = false;
-  std::vector<std::string>& Untold;
+  std::vector<std::string>& PendingWarnings;
 };
 
 /** Reports the progress of the core on the levels to an observer. The share never decreases. */
@@ -78,7 +78,7 @@ public:
   bool BeginLevel(int level);
 
   /** Add the levels down to `finest`. */
-  void GoOnTo(int finest) { this->Finest = finest; }
+  void ContinueAtLevel(int finest) { this->Finest = finest; }
 
 private:
   bool Report(int level, double fraction, const std::string& text);

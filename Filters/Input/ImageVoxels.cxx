@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Input/ImageVoxels.h"
 
-#include "Core/Common/Refuse.h"
+#include "Core/Common/ThrowInvalidArgument.h"
 #include "Host/LargeArrays.h"
 
 #include <vtkAbstractArray.h>
@@ -95,7 +95,7 @@ std::string ChosenName(vtkInformation* selection)
   return name ? name : "";
 }
 
-bool FloatHolds(double smallest, double largest)
+bool FitsFloat(double smallest, double largest)
 {
   const double size = std::max(std::abs(smallest), std::abs(largest));
   constexpr double rounding = 0.5 * std::numeric_limits<float>::epsilon();
@@ -125,7 +125,7 @@ vtkDataArray* ChooseArray(vtkInformation* selection, vtkImageData* image)
 {
   if (image->GetNumberOfPoints() == 0)
   {
-    Refuse("the image is empty: it has " + SizeOf(image) + " voxels.");
+    ThrowInvalidArgument("the image is empty: it has " + SizeOf(image) + " voxels.");
   }
   // What is not set is 0: points, and scalars.
   const std::string name = ChosenName(selection);
@@ -133,33 +133,34 @@ vtkDataArray* ChooseArray(vtkInformation* selection, vtkImageData* image)
   if (association == vtkDataObject::FIELD_ASSOCIATION_CELLS ||
     association == vtkDataObject::FIELD_ASSOCIATION_NONE)
   {
-    Refuse("the chosen array ", name.empty() ? name : Quote(name.c_str()) + " ",
+    ThrowInvalidArgument("the chosen array ", name.empty() ? name : Quote(name.c_str()) + " ",
       "is not point data; voxels are points. Apply Cell Data to Point Data, or choose a point "
       "array: ",
       ArraysOf(image), ".");
   }
-  vtkAbstractArray* found = name.empty()
-    ? image->GetPointData()->GetAbstractAttribute(
-        selection->Get(vtkDataObject::FIELD_ATTRIBUTE_TYPE()))
-    : image->GetPointData()->GetAbstractArray(name.c_str());
+  vtkAbstractArray* found = name.empty() ? image->GetPointData()->GetAbstractAttribute(
+                                             selection->Get(vtkDataObject::FIELD_ATTRIBUTE_TYPE()))
+                                         : image->GetPointData()->GetAbstractArray(name.c_str());
   if (!found && name.empty())
   {
-    Refuse("the image has no active point scalars; ", ArraysOf(image),
+    ThrowInvalidArgument("the image has no active point scalars; ", ArraysOf(image),
       ". Choose one as Voxels (SetInputArrayToProcess).");
   }
   if (!found)
   {
-    Refuse("the image has no point array ", Quote(name.c_str()), "; ", ArraysOf(image), ".");
+    ThrowInvalidArgument(
+      "the image has no point array ", Quote(name.c_str()), "; ", ArraysOf(image), ".");
   }
   auto* array = vtkDataArray::SafeDownCast(found);
   if (!array)
   {
-    Refuse("array " + Quote(found->GetName()) + " holds " + found->GetDataTypeAsString() +
-      "s, not numbers; choose another one: " + ArraysOf(image) + ".");
+    ThrowInvalidArgument("array " + Quote(found->GetName()) + " holds " +
+      found->GetDataTypeAsString() + "s, not numbers; choose another one: " + ArraysOf(image) +
+      ".");
   }
   if (array->GetNumberOfTuples() != image->GetNumberOfPoints())
   {
-    Refuse(NameOf(array) + " has " + std::to_string(array->GetNumberOfTuples()) +
+    ThrowInvalidArgument(NameOf(array) + " has " + std::to_string(array->GetNumberOfTuples()) +
       " values, but the image has " + SizeOf(image) + " voxels.");
   }
   return array;
@@ -170,7 +171,7 @@ vtkDataArray* ChooseVoxels(vtkInformation* selection, vtkImageData* image)
   vtkDataArray* array = ChooseArray(selection, image);
   if (array->GetNumberOfComponents() != 1)
   {
-    Refuse(NameOf(array), " has ", array->GetNumberOfComponents(),
+    ThrowInvalidArgument(NameOf(array), " has ", array->GetNumberOfComponents(),
       " components; levels of a pyramid and maps of edges have one. Image Pyramid makes the levels "
       "of one component or of the magnitude (Selected Component).");
   }
@@ -182,8 +183,8 @@ vtkSmartPointer<vtkDataArray> SelectComponent(vtkDataArray* array, int component
   const int count = array->GetNumberOfComponents();
   if (count < 1 || component < -1 || component >= count)
   {
-    Refuse("Selected Component is ", component, ", but ", NameOf(array), " has ", count,
-      " component", count == 1 ? "" : "s",
+    ThrowInvalidArgument("Selected Component is ", component, ", but ", NameOf(array), " has ",
+      count, " component", count == 1 ? "" : "s",
       count > 1 ? Join("; it must be 0 to ", count - 1, ", or -1 for the magnitude.")
                 : std::string("; it must be 0, or -1."));
   }
@@ -249,14 +250,14 @@ void ValueRange::Check() const
   }
   if (!std::isfinite(this->Lower))
   {
-    Refuse("Upper Value is ", this->Upper, ", but Iso Value is ",
+    ThrowInvalidArgument("Upper Value is ", this->Upper, ", but Iso Value is ",
       std::isnan(this->Lower) ? std::string("not set") : Join(this->Lower),
       "; set it to the least value of the object. For all that is below a value set Iso Value to "
       "that and switch Object Is Bright off.");
   }
   if (!(this->Lower < this->Upper))
   {
-    Refuse("Upper Value is ", this->Upper, ", but Iso Value is ", this->Lower,
+    ThrowInvalidArgument("Upper Value is ", this->Upper, ", but Iso Value is ", this->Lower,
       "; it must be more: the object has the values between the two.");
   }
 }

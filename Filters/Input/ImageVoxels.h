@@ -33,8 +33,8 @@ vtkDataArray* ChooseArray(vtkInformation* selection, vtkImageData* image);
 vtkDataArray* ChooseVoxels(vtkInformation* selection, vtkImageData* image);
 
 /**
- * Return the array itself if it has one component. Else return a copy of a component, or, for -1, the
- * magnitude of all as real numbers, with the same name.
+ * Return the array itself if it has one component. Else return a copy of a component, or, for -1,
+ * the magnitude of all as real numbers, with the same name.
  * @throws Refusal if there is no such component
  */
 vtkSmartPointer<vtkDataArray> SelectComponent(vtkDataArray* array, int component);
@@ -56,7 +56,7 @@ void VisitVoxels(vtkDataArray* voxels, const Work& work)
 }
 
 /** Return whether rounding to float changes differences by less than 1e-5 of the range. */
-bool FloatHolds(double smallest, double largest);
+bool FitsFloat(double smallest, double largest);
 
 /** `array 'name'`, for messages. */
 std::string NameOf(vtkDataArray* array);

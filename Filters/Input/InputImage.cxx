@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Input/InputImage.h"
 
-#include "Core/Common/Refuse.h"
+#include "Core/Common/ThrowInvalidArgument.h"
 #include "Input/ImageVoxels.h"
 
 #include <vtkCellData.h>
@@ -27,10 +27,10 @@
 
 namespace volumic
 {
-void CheckPlace(vtkImageData* level0, vtkImageData* below, vtkImageData* image, unsigned int h)
+void CheckGeometry(vtkImageData* level0, vtkImageData* below, vtkImageData* image, unsigned int h)
 {
   const auto refuse = [h](const auto&... parts)
-  { Refuse("block ", h, " is not a level of a pyramid: ", parts..., LevelsWayOut); };
+  { ThrowInvalidArgument("block ", h, " is not a level of a pyramid: ", parts..., LevelsWayOut); };
   const Point first0 = FirstVoxelOf(level0);
   const Point first = FirstVoxelOf(image);
   for (int axis = 0; axis < 3; ++axis)
@@ -40,7 +40,8 @@ void CheckPlace(vtkImageData* level0, vtkImageData* below, vtkImageData* image, 
     const double tolerance = 1e-5 * std::abs(real0);
     if (std::abs(real - real0) > tolerance)
     {
-      refuse("its real size along ", "xyz"[axis], " is ", real, ", that of block 0 is ", real0, ".");
+      refuse(
+        "its real size along ", "xyz"[axis], " is ", real, ", that of block 0 is ", real0, ".");
     }
     if (std::abs(first[axis] - first0[axis]) > tolerance)
     {
@@ -50,8 +51,8 @@ void CheckPlace(vtkImageData* level0, vtkImageData* below, vtkImageData* image, 
     // An axis of one voxel stays one while others shrink.
     if (image->GetDimensions()[axis] >= std::max(below->GetDimensions()[axis], 2))
     {
-      refuse("it has ", SizeOf(image), " voxels, and block ", h - 1, " below it ", SizeOf(below),
-        ".");
+      refuse(
+        "it has ", SizeOf(image), " voxels, and block ", h - 1, " below it ", SizeOf(below), ".");
     }
   }
   const double* direction = image->GetDirectionMatrix()->GetData();
@@ -71,20 +72,20 @@ bool AreLevels(const std::vector<vtkImageData*>& images)
   {
     for (unsigned int h = 1; h < images.size(); ++h)
     {
-      CheckPlace(images[0], images[h - 1], images[h], h);
+      CheckGeometry(images[0], images[h - 1], images[h], h);
     }
   }
-  catch (const Refusal&)
+  catch (const InvalidArgument&)
   {
     return false;
   }
   return true;
 }
 
-[[noreturn]] void RefuseType(vtkDataObject* data)
+[[noreturn]] void ThrowInvalidType(vtkDataObject* data)
 {
   const bool isField = !data->IsA("vtkPolyData") && !data->IsA("vtkTable");
-  Refuse("it is a ", data->GetClassName(),
+  ThrowInvalidArgument("it is a ", data->GetClassName(),
     "; an image of evenly spaced voxels (vtkImageData) is needed.",
     isField ? " Apply Resample To Image (vtkResampleToImage) to it first." : "");
 }
@@ -101,15 +102,15 @@ vtkImageData* ImageIn(vtkDataObjectTree* composite)
   }
   if (images.size() > 1)
   {
-    Refuse("the ", composite->GetClassName(), " has ", images.size(),
+    ThrowInvalidArgument("the ", composite->GetClassName(), " has ", images.size(),
       " images, which are not the levels of a pyramid; one is needed. Take one of them by Extract "
       "Block, or make one image of them by Resample To Image (vtkResampleToImage).");
   }
   if (leaves.empty())
   {
-    Refuse("the ", composite->GetClassName(), " is empty: there is no image in it.");
+    ThrowInvalidArgument("the ", composite->GetClassName(), " is empty: there is no image in it.");
   }
-  RefuseType(leaves.size() == 1 ? leaves[0] : composite);
+  ThrowInvalidType(leaves.size() == 1 ? leaves[0] : composite);
 }
 
 /** The array of cells that is meant, if cells are. */
@@ -157,10 +158,11 @@ vtkDataObject* WholeInput(vtkInformationVector* port)
     {
       if (given[2 * axis] > requested[2 * axis] || given[2 * axis + 1] < requested[2 * axis + 1])
       {
-        Refuse("the source gives only ", SizeOf(image), " of the image's ",
+        ThrowInvalidArgument("the source gives only ", SizeOf(image), " of the image's ",
           requested[1] - requested[0] + 1, " x ", requested[3] - requested[2] + 1, " x ",
           requested[5] - requested[4] + 1,
-          " voxels, as one that is distributed over several processes does. The first process needs "
+          " voxels, as one that is distributed over several processes does. The first process "
+          "needs "
           "the whole image. Save it as .pvti, and open that file instead.");
       }
     }
@@ -172,7 +174,7 @@ vtkImageData* ImageOf(vtkDataObject* input)
 {
   if (!input)
   {
-    Refuse("there is no image.");
+    ThrowInvalidArgument("there is no image.");
   }
   if (auto* image = vtkImageData::SafeDownCast(input))
   {
@@ -184,7 +186,7 @@ vtkImageData* ImageOf(vtkDataObject* input)
   {
     return ImageIn(composite);
   }
-  RefuseType(input);
+  ThrowInvalidType(input);
 }
 
 PointVoxels TakeCellsAsPoints(vtkImageData* image, vtkInformation* selection)

@@ -14,8 +14,8 @@ namespace volumic
 {
 /**
  * Return the data at an input port; null if there are none.
- * @throws std::invalid_argument if they are a part of the image that was requested: a source that is
- *         distributed over processes cannot give one process the whole.
+ * @throws std::invalid_argument if they are a part of the image that was requested: a source that
+ * is distributed over processes cannot give one process the whole.
  */
 vtkDataObject* WholeInput(vtkInformationVector* port);
 
@@ -36,7 +36,7 @@ inline constexpr const char* LevelsWayOut =
  * @param below level h - 1
  * @throws std::invalid_argument naming the block and the way out if it is not.
  */
-void CheckPlace(vtkImageData* level0, vtkImageData* below, vtkImageData* image, unsigned int h);
+void CheckGeometry(vtkImageData* level0, vtkImageData* below, vtkImageData* image, unsigned int h);
 
 /** An image whose voxels are points, and which array they are in. */
 struct PointVoxels

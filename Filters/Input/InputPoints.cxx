@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Input/InputPoints.h"
 
-#include "Core/Common/Refuse.h"
+#include "Core/Common/ThrowInvalidArgument.h"
 #include "Host/Errors.h"
 
 #include <vtkCellArray.h>
@@ -43,13 +43,14 @@ std::vector<vtkIdType> IdsMeantBy(vtkPolyData* polyData)
   }
   if (polyData->GetNumberOfVerts() == 0)
   {
-    Refuse("Points are wanted, but the data has lines or polygons and no vertices. Mark the points "
-           "by vertices (vtkVertexGlyphFilter, in ParaView Convert To Point Cloud), or give them "
-           "without any cells.");
+    ThrowInvalidArgument(
+      "Points are wanted, but the data has lines or polygons and no vertices. Mark the points "
+      "by vertices (vtkVertexGlyphFilter, in ParaView Convert To Point Cloud), or give them "
+      "without any cells.");
   }
   if (const std::string fault = FaultOfCells(polyData); !fault.empty())
   {
-    Refuse("The data ", fault);
+    ThrowInvalidArgument("The data ", fault);
   }
   std::vector<bool> isTaken(numberOfPoints, false);
   vtkDataArray* corners = polyData->GetVerts()->GetConnectivityArray();
@@ -72,12 +73,12 @@ Point WorldOf(vtkPolyData* polyData, vtkIdType id)
   return world;
 }
 
-std::vector<Point> PlacesMeantBy(vtkPolyData* polyData, const Workspace& space)
+std::vector<Point> PointPositions(vtkPolyData* polyData, const ComputationalSpace& space)
 {
   std::vector<Point> places;
   for (const vtkIdType id : IdsMeantBy(polyData))
   {
-    places.push_back(space.ToWorkspace(WorldOf(polyData, id)));
+    places.push_back(space.ToComputationalSpace(WorldOf(polyData, id)));
   }
   return places;
 }
@@ -86,17 +87,17 @@ std::vector<Point> PlacesMeantBy(vtkPolyData* polyData, const Workspace& space)
  * A point in the workspace.
  * @param beyond voxels that it may lie behind the end of the image; one is allowed before its begin
  */
-Point PlaceInside(const Point& world, vtkIdType id, const Workspace& space,
+Point CheckInside(const Point& world, vtkIdType id, const ComputationalSpace& space,
   const std::array<int, 3>& size, int beyond)
 {
-  const Point place = space.ToWorkspace(world);
+  const Point place = space.ToComputationalSpace(world);
   for (int axis = 0; axis < 3; ++axis)
   {
     const double step = space.Step()[axis];
     // Written so that NaN is refused too.
     if (!(place[axis] >= -step && place[axis] <= step * (size[axis] + beyond)))
     {
-      Refuse("point ", id, " (", world[0], ", ", world[1], ", ", world[2],
+      ThrowInvalidArgument("point ", id, " (", world[0], ", ", world[1], ", ", world[2],
         ") lies outside the image. Points are in world coordinates; move it into the image, or "
         "remove it.");
     }
@@ -118,36 +119,37 @@ double NumberAt(vtkPolyData* polyData, const char* name, vtkIdType id, double mi
   auto* numbers = vtkDataArray::SafeDownCast(found);
   if (found && (!numbers || numbers->GetNumberOfComponents() != 1))
   {
-    Refuse("the point array ", name, " must hold one number per point.");
+    ThrowInvalidArgument("the point array ", name, " must hold one number per point.");
   }
   const double value = numbers ? numbers->GetComponent(id, 0) : missing;
   if (!(value >= 0.0) || !std::isfinite(value))
   {
-    Refuse(name, " of point ", id, " is ", value, "; it must be 0 or more.");
+    ThrowInvalidArgument(name, " of point ", id, " is ", value, "; it must be 0 or more.");
   }
   return value;
 }
 }
 
-std::vector<Point> SeedsOf(vtkPolyData* port1, const Workspace& space)
+std::vector<Point> SeedsOf(vtkPolyData* port1, const ComputationalSpace& space)
 {
   if (port1 && IsSurfaceOnly(port1))
   {
-    Refuse("The seeds must be vertices or mere points, but the data is a surface. Give the centres "
-           "of the seeds, or set Initialization to Input Surface.");
+    ThrowInvalidArgument(
+      "The seeds must be vertices or mere points, but the data is a surface. Give the centres "
+      "of the seeds, or set Initialization to Input Surface.");
   }
-  return PlacesMeantBy(port1, space);
+  return PointPositions(port1, space);
 }
 
 std::vector<AttractingPoint> AttractingPointsOf(
-  vtkPolyData* port2, const Workspace& space, const std::array<int, 3>& size)
+  vtkPolyData* port2, const ComputationalSpace& space, const std::array<int, 3>& size)
 {
   std::vector<AttractingPoint> attracting;
   for (const vtkIdType id : IdsMeantBy(port2))
   {
     AttractingPoint point;
     // There the field still ramps down to the background.
-    point.Place = PlaceInside(WorldOf(port2, id), id, space, size, 0);
+    point.Place = CheckInside(WorldOf(port2, id), id, space, size, 0);
     point.Weight = NumberAt(port2, "Weight", id, 1.0);
     point.Radius = NumberAt(port2, "Radius", id, 0.0) / space.WorldUnit();
     attracting.push_back(point);
@@ -155,29 +157,30 @@ std::vector<AttractingPoint> AttractingPointsOf(
   return attracting;
 }
 
-std::vector<Point> PlacesOf(vtkPolyData* port1, vtkPolyData* port2, const Workspace& space)
+std::vector<Point> SelectionPositions(
+  vtkPolyData* port1, vtkPolyData* port2, const ComputationalSpace& space)
 {
   std::vector<Point> places;
   if (port1 && !IsSurfaceOnly(port1))
   {
-    places =
-      PrefixErrors("Input port 1 (Initial Surface): ", [&] { return PlacesMeantBy(port1, space); });
+    places = PrefixErrors(
+      "Input port 1 (Initial Surface): ", [&] { return PointPositions(port1, space); });
   }
-  const std::vector<Point> more =
-    PrefixErrors("Input port 2 (Attracting Points): ", [&] { return PlacesMeantBy(port2, space); });
+  const std::vector<Point> more = PrefixErrors(
+    "Input port 2 (Attracting Points): ", [&] { return PointPositions(port2, space); });
   places.insert(places.end(), more.begin(), more.end());
   return places;
 }
 
 std::vector<Point> PositionsOf(const std::vector<Point>& positions, const char* label,
-  const Workspace& space, const std::array<int, 3>& size)
+  const ComputationalSpace& space, const std::array<int, 3>& size)
 {
   std::vector<Point> places;
   for (const Point& world : positions)
   {
     const auto id = static_cast<vtkIdType>(places.size());
-    places.push_back(PrefixErrors(
-      Join(label, ": "), [&] { return PlaceInside(world, id, space, size, 1); }));
+    places.push_back(
+      PrefixErrors(Join(label, ": "), [&] { return CheckInside(world, id, space, size, 1); }));
     for (int axis = 0; axis < 3; ++axis)
     {
       // Not the very end of the box, which the levels have rounded.

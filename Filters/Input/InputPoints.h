@@ -5,7 +5,7 @@
 
 #include "Core/Common/IndexedSurface.h"
 #include "Core/Image/PointAttraction.h"
-#include "Input/Workspace.h"
+#include "Input/ComputationalSpace.h"
 
 #include <vtkType.h>
 
@@ -24,7 +24,7 @@ namespace volumic
  * Port 1 as centres of seeds: the points that it means, in the workspace.
  * @throws std::invalid_argument if it has polygons or lines only.
  */
-std::vector<Point> SeedsOf(vtkPolyData* port1, const Workspace& space);
+std::vector<Point> SeedsOf(vtkPolyData* port1, const ComputationalSpace& space);
 
 /**
  * Port 2 as points known to belong to the object: those that it means; point arrays `Weight` and
@@ -34,14 +34,15 @@ std::vector<Point> SeedsOf(vtkPolyData* port1, const Workspace& space);
  *         that is not numbers of one component, a negative or infinite weight or radius.
  */
 std::vector<AttractingPoint> AttractingPointsOf(
-  vtkPolyData* port2, const Workspace& space, const std::array<int, 3>& size);
+  vtkPolyData* port2, const ComputationalSpace& space, const std::array<int, 3>& size);
 
 /**
  * Both ports as places that components are chosen by: the points that they mean, in the workspace,
  * but for a surface at port 1, which means none.
  * @throws std::invalid_argument for other cells without vertices.
  */
-std::vector<Point> PlacesOf(vtkPolyData* port1, vtkPolyData* port2, const Workspace& space);
+std::vector<Point> SelectionPositions(
+  vtkPolyData* port1, vtkPolyData* port2, const ComputationalSpace& space);
 
 /**
  * A list of positions (world coordinates), in the workspace. One that is out of the box of the
@@ -51,7 +52,7 @@ std::vector<Point> PlacesOf(vtkPolyData* port1, vtkPolyData* port2, const Worksp
  * @throws std::invalid_argument for a position farther outside, or one that is not finite.
  */
 std::vector<Point> PositionsOf(const std::vector<Point>& positions, const char* label,
-  const Workspace& space, const std::array<int, 3>& size);
+  const ComputationalSpace& space, const std::array<int, 3>& size);
 
 /**
  * What is wrong with the cells of data that come from elsewhere, as words behind a name: their

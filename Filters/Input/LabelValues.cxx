@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Input/LabelValues.h"
 
-#include "Core/Common/Refuse.h"
+#include "Core/Common/ThrowInvalidArgument.h"
 #include "Host/LargeArrays.h"
 #include "Input/ImageVoxels.h"
 
@@ -73,7 +73,7 @@ Others<T> FindOthers(const T* voxels, vtkDataArray* array, std::size_t most)
     const double off = std::abs(value - static_cast<double>(whole));
     if (off > mostOff || std::isinf(value))
     {
-      Refuse(NameOf(array), " has the value ", value,
+      ThrowInvalidArgument(NameOf(array), " has the value ", value,
         "; labels must be integers. For the surface of a volume that is no label map apply "
         "Volume to Surface (vtkVolumeToSurface).");
     }
@@ -94,7 +94,7 @@ Others<T> FindOthers(const T* voxels, vtkDataArray* array, std::size_t most)
   const auto room = static_cast<std::size_t>(std::numeric_limits<int>::max() - found.Largest);
   if (found.Wide.size() > std::min(most, room))
   {
-    Refuse(NameOf(array), " has more than ", std::min(most, room),
+    ThrowInvalidArgument(NameOf(array), " has more than ", std::min(most, room),
       " different values that 32 bits don't hold, such as ", DigitsOf(found.Wide.begin()->first),
       ": it is likely no label map. Number them anew if it is.");
   }
@@ -109,10 +109,10 @@ void MakeInts(
   Others<T> found = FindOthers(voxels, array, most);
   if (std::is_floating_point_v<T>)
   {
-    values.Told = Join(NameOf(array), " is of type ", array->GetDataTypeAsString(),
-      found.Farthest > 0.0
-        ? Join("; its values are within ", found.Farthest, " of integers, and are rounded to labels")
-        : std::string("; its values are integers and are taken as labels"),
+    values.Conversions = Join(NameOf(array), " is of type ", array->GetDataTypeAsString(),
+      found.Farthest > 0.0 ? Join("; its values are within ", found.Farthest,
+                               " of integers, and are rounded to labels")
+                           : std::string("; its values are integers and are taken as labels"),
       found.Missing > 0 ? Join("; NaN, at ", found.Missing,
                             found.Missing == 1 ? " voxel" : " voxels", ", is background.")
                         : std::string("."));
@@ -132,10 +132,10 @@ void MakeInts(
   }
   if (const std::size_t n = found.Wide.size(); n > 0)
   {
-    values.Told += Join(values.Told.empty() ? "" : " ", NameOf(array), " has ", n,
+    values.Conversions += Join(values.Conversions.empty() ? "" : " ", NameOf(array), " has ", n,
       n == 1 ? " label" : " labels",
-      " that 32 bits don't hold; they are numbered anew, and named by what they were: ",
-      list, n > mostListed ? " and so on." : ".");
+      " that 32 bits don't hold; they are numbered anew, and named by what they were: ", list,
+      n > mostListed ? " and so on." : ".");
   }
   const auto count = static_cast<std::size_t>(array->GetNumberOfTuples());
   const auto labels = NewLargeArray<vtkIntArray>(count);
@@ -162,8 +162,8 @@ LabelValues LabelValuesOf(vtkDataArray* voxels, int background, std::size_t most
   values.Voxels = voxels;
   if (voxels->GetDataTypeSize() >= 4 && voxels->GetDataType() != VTK_INT)
   {
-    VisitVoxels(voxels,
-      [&](const auto* numbers) { MakeInts(numbers, background, most, threads, values); });
+    VisitVoxels(
+      voxels, [&](const auto* numbers) { MakeInts(numbers, background, most, threads, values); });
   }
   return values;
 }

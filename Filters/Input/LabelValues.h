@@ -19,7 +19,7 @@ struct LabelValues
 {
   vtkSmartPointer<vtkDataArray> Voxels;
   std::map<int, std::string> Numbers; ///< what labels were that no int holds
-  std::string Told;                   ///< what was done; empty: nothing
+  std::string Conversions;            ///< what was done; empty: nothing
 };
 
 /**

@@ -3,7 +3,7 @@
 #include "Input/ValidVoxels.h"
 
 #include "Core/Common/Join.h"
-#include "Core/Common/Refuse.h"
+#include "Core/Common/ThrowInvalidArgument.h"
 #include "Core/Image/LevelReduction.h"
 #include "Input/ImageVoxels.h"
 
@@ -89,8 +89,8 @@ void CountNotFinite(const T* values, LargeVector<std::uint8_t>& marks, NotFinite
 }
 
 /** `array 'name' has 3 NaN voxels (1.5 %), the first at (i, j, k)` */
-std::string Describe(vtkDataArray* array, const char* kind, std::int64_t count,
-  std::int64_t first, vtkImageData* image)
+std::string Describe(vtkDataArray* array, const char* kind, std::int64_t count, std::int64_t first,
+  vtkImageData* image)
 {
   int at[3];
   vtkStructuredData::ComputePointStructuredCoordsForExtent(first, image->GetExtent(), at);
@@ -121,12 +121,12 @@ ValidVoxels FindValidVoxels(vtkDataArray* original, vtkDataArray* contiguous, vt
     });
   if (infinite.Count > 0)
   {
-    Refuse(Describe(original, "infinite", infinite.Count, infinite.First, image),
+    ThrowInvalidArgument(Describe(original, "infinite", infinite.Count, infinite.First, image),
       ". Replace them by numbers, for instance by the value of the background.");
   }
   if (nans.Count > 0 && !nanIsBackground)
   {
-    Refuse(Describe(original, "NaN", nans.Count, nans.First, image),
+    ThrowInvalidArgument(Describe(original, "NaN", nans.Count, nans.First, image),
       ". Turn NaN Is Background on, or replace them by numbers.");
   }
   valid.NaNs = nans.Count;
@@ -161,7 +161,8 @@ void CheckAnyIsValid(vtkDataArray* original, const ValidVoxels& valid)
   if (!valid.Marks.empty() &&
     std::find(valid.Marks.begin(), valid.Marks.end(), std::uint8_t(1)) == valid.Marks.end())
   {
-    Refuse("all voxels of ", NameOf(original), " are NaN or blanked: there is nothing to see.");
+    ThrowInvalidArgument(
+      "all voxels of ", NameOf(original), " are NaN or blanked: there is nothing to see.");
   }
 }
 

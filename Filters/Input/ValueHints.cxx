@@ -3,7 +3,7 @@
 #include "Input/ValueHints.h"
 
 #include "Core/Common/Join.h"
-#include "Core/Common/Refuse.h"
+#include "Core/Common/ThrowInvalidArgument.h"
 #include "Input/ImageVoxels.h"
 #include "Input/ValidVoxels.h"
 
@@ -149,7 +149,7 @@ VoxelHistogram SplitVoxels(const T* voxels, vtkDataArray* array, ValidVoxels& va
   const double size = range[1] - range[0];
   if (!(size > 0.0) || !std::isfinite(size))
   {
-    Refuse(NameOf(array), " ranges from ", range[0], " to ", range[1],
+    ThrowInvalidArgument(NameOf(array), " ranges from ", range[0], " to ", range[1],
       ": no value separates its voxels.");
   }
   VoxelHistogram found;
@@ -203,8 +203,7 @@ void ForSomeRows(const T* voxels, const int size[3], const Use& use)
 {
   constexpr vtkIdType mostVoxels = 1 << 20;
   const vtkIdType rows = static_cast<vtkIdType>(size[1]) * size[2];
-  for (vtkIdType row = 0; row < rows;
-       row += std::max<vtkIdType>(1, rows * size[0] / mostVoxels))
+  for (vtkIdType row = 0; row < rows; row += std::max<vtkIdType>(1, rows * size[0] / mostVoxels))
   {
     use(voxels + row * size[0]);
   }
@@ -231,7 +230,9 @@ std::size_t CountLabels(const T* voxels, const int size[3])
     return 0;
   }
   const double background = std::max_element(counts.begin(), counts.end(),
-    [](const auto& a, const auto& b) { return a.second < b.second; })->first;
+    [](const auto& a, const auto& b) {
+      return a.second < b.second;
+    })->first;
   vtkIdType pairs = 0;
   vtkIdType equal = 0;
   ForSomeRows(voxels, size,
@@ -286,7 +287,8 @@ std::string HintAtScan(vtkDataArray* voxels, const int size[3], std::size_t labe
   return share > mostUnequal
     ? Join(NameOf(voxels), " has ", labels, " labels, and ", std::lround(100.0 * share),
         " % of the neighbours along x have different ones: it looks like a scan, not like a label "
-        "map. For an isosurface of a scan apply Volume to Surface (vtkVolumeToSurface) or Deformable "
+        "map. For an isosurface of a scan apply Volume to Surface (vtkVolumeToSurface) or "
+        "Deformable "
         "Surface (vtkDeformableSurface), or run volumic with --iso.")
     : std::string();
 }

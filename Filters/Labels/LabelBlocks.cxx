@@ -107,9 +107,10 @@ public:
       this->WrongVolumes.push_back(Join(name, percent > 0 ? " (+" : " (", percent, " %)"));
       this->Missing += std::abs(surface.VolumeError) * count;
     }
-    if (surface.WrongParts > 0)
+    if (surface.MisclassifiedParts > 0)
     {
-      this->WrongParts.push_back(Join(name, " (", surface.WrongParts, " of ", surface.Parts, ")"));
+      this->MisclassifiedParts.push_back(
+        Join(name, " (", surface.MisclassifiedParts, " of ", surface.Parts, ")"));
     }
   }
 
@@ -129,7 +130,7 @@ public:
     add("No surface is left of ", this->Empty);
     add("More voxels than half are on the wrong side of the surface of ", this->Missed);
     add("The volume is not that of the voxels of ", this->WrongVolumes);
-    add("Parts have another volume than their voxels, of ", this->WrongParts);
+    add("Parts have another volume than their voxels, of ", this->MisclassifiedParts);
     return text;
   }
 
@@ -162,7 +163,7 @@ private:
   std::vector<std::string> Empty;
   std::vector<std::string> Missed;
   std::vector<std::string> WrongVolumes;
-  std::vector<std::string> WrongParts;
+  std::vector<std::string> MisclassifiedParts;
   double Voxels = 0.0;
   double Missing = 0.0;
 };
@@ -194,21 +195,21 @@ std::string FillBlocks(const LabelChoice& choice, const LabelImage& image,
     AddField<vtkIntArray>(surface, "Label", labels);
     AddNames(surface, labels, choice.Names);
     AddField<vtkIdTypeArray, vtkIdType>(surface, "LabelVoxels", { voxels });
-    AddField<vtkIdTypeArray, vtkIdType>(surface, "WrongVoxels", { made.WrongVoxels });
+    AddField<vtkIdTypeArray, vtkIdType>(surface, "WrongVoxels", { made.MisclassifiedVoxels });
     AddField<vtkIdTypeArray, vtkIdType>(surface, "MissedVoxels", { made.MissedVoxels });
     AddField<vtkDoubleArray, double>(surface, "VolumeError", { made.VolumeError });
     AddField<vtkIdTypeArray, vtkIdType>(surface, "Parts", { made.Parts });
-    AddField<vtkIdTypeArray, vtkIdType>(surface, "WrongParts", { made.WrongParts });
+    AddField<vtkIdTypeArray, vtkIdType>(surface, "WrongParts", { made.MisclassifiedParts });
     output->SetBlock(static_cast<unsigned int>(i), surface);
     losses.Add(names[i], made, voxels, surface->GetNumberOfCells() == 0);
   }
   const std::string text = losses.Text();
   if (!text.empty())
   {
-    vtkNew<vtkStringArray> lost;
-    lost->SetName("LostLabels");
-    lost->InsertNextValue(text);
-    output->GetFieldData()->AddArray(lost);
+    vtkNew<vtkStringArray> missed;
+    missed->SetName("LostLabels");
+    missed->InsertNextValue(text);
+    output->GetFieldData()->AddArray(missed);
   }
   return losses.AreNotable() ? text : "";
 }

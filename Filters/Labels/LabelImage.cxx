@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Labels/LabelImage.h"
 
-#include "Core/Common/Refuse.h"
 #include "Core/Common/Spans.h"
+#include "Core/Common/ThrowInvalidArgument.h"
+#include "Input/ComputationalSpace.h"
 #include "Input/ImageVoxels.h"
 #include "Input/InputImage.h"
 #include "Input/LabelValues.h"
 #include "Input/ValueHints.h"
-#include "Input/Workspace.h"
 #include "Labels/LabelNames.h"
 
 #include <vtkCellArray.h>
@@ -81,14 +81,14 @@ LabelImage::LabelImage(
   const int* size = this->Geometry->GetDimensions();
   if (std::min({ size[0], size[1], size[2] }) < 2)
   {
-    Refuse("the image has ", SizeOf(this->Geometry),
+    ThrowInvalidArgument("the image has ", SizeOf(this->Geometry),
       " voxels; it must have at least 2 along each axis. A label map of one slice has contours "
       "only: apply Contour (vtkFlyingEdges2D) to it.");
   }
   LabelValues values = LabelValuesOf(this->Voxels, background, MostLabels, executor);
   this->Voxels = values.Voxels;
   this->Numbers = std::move(values.Numbers);
-  this->Told = std::move(values.Told);
+  this->Conversions = std::move(values.Conversions);
   this->CountLabels(executor);
 }
 
@@ -129,21 +129,21 @@ void LabelImage::CheckNumberOfLabels() const
 {
   if (this->Counts.size() > MostLabels)
   {
-    Refuse(NameOf(this->Voxels), " has ", this->Counts.size(), " different values, more than ",
-      MostLabels,
+    ThrowInvalidArgument(NameOf(this->Voxels), " has ", this->Counts.size(),
+      " different values, more than ", MostLabels,
       ": it is likely no label map. For the surface of a volume apply Volume to Surface "
       "(vtkVolumeToSurface); of a label map choose some of its Labels.");
   }
 }
 
-std::vector<int> LabelImage::Choose(const std::vector<int>& wanted, int background) const
+std::vector<int> LabelImage::Choose(const std::vector<int>& requested, int background) const
 {
-  std::vector<int> labels = wanted;
-  if (wanted.empty() || wanted.size() > MostLabels)
+  std::vector<int> labels = requested;
+  if (requested.empty() || requested.size() > MostLabels)
   {
     this->CheckNumberOfLabels();
   }
-  if (wanted.empty())
+  if (requested.empty())
   {
     for (const auto& entry : this->Counts)
     {
@@ -157,7 +157,7 @@ std::vector<int> LabelImage::Choose(const std::vector<int>& wanted, int backgrou
   labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
   if (labels.empty())
   {
-    Refuse(NameOf(this->Voxels), " has no label but Background Label, ", background,
+    ThrowInvalidArgument(NameOf(this->Voxels), " has no label but Background Label, ", background,
       ": there is nothing to make a surface of. Choose another Background Label.");
   }
   for (const int label : labels)
@@ -170,7 +170,7 @@ std::vector<int> LabelImage::Choose(const std::vector<int>& wanted, int backgrou
       {
         there.push_back(std::to_string(entry.first));
       }
-      Refuse("Labels: ", NameOf(this->Voxels), " has no label ", label, "; it has ",
+      ThrowInvalidArgument("Labels: ", NameOf(this->Voxels), " has no label ", label, "; it has ",
         Listed(there, mostListed), ".");
     }
   }
@@ -183,7 +183,7 @@ LabelMap LabelImage::MakeMap(const std::vector<int>& selected, bool merge, int b
   constexpr int beyond = 8; // numbers behind all objects that others have
   const int* size = this->Geometry->GetDimensions();
   LabelMap map({ size[0], size[1], size[2] });
-  map.Spacing = Workspace(this->Geometry, Metric::World).Step();
+  map.Spacing = ComputationalSpace(this->Geometry, Metric::World).Step();
   std::unordered_map<int, LabelMap::Number> numbers;
   int room =
     std::numeric_limits<LabelMap::Number>::max() - beyond - static_cast<int>(selected.size());
@@ -234,8 +234,8 @@ std::string LabelImage::ScanWarning(int background) const
 void LabelImage::FindNearest(
   vtkPolyData* surface, const std::vector<int>& labels, vtkIntArray* found) const
 {
-  const Workspace space(this->Geometry, Metric::Voxels);
-  const Point step = Workspace(this->Geometry, Metric::World).Step();
+  const ComputationalSpace space(this->Geometry, Metric::Voxels);
+  const Point step = ComputationalSpace(this->Geometry, Metric::World).Step();
   const int* size = this->Geometry->GetDimensions();
   const VoxelBox all = VoxelBox::Of({ size[0], size[1], size[2] });
   auto cells = vtk::TakeSmartPointer(surface->GetPolys()->NewIterator());
@@ -251,7 +251,7 @@ void LabelImage::FindNearest(
     }
     Point centroid;
     vtkTriangle::TriangleCenter(of[0], of[1], of[2], centroid.data());
-    const Point place = space.ToWorkspace(centroid);
+    const Point place = space.ToComputationalSpace(centroid);
     int nearest = labels.front();
     double least = std::numeric_limits<double>::max();
     // A surface has voxels of its own among the 4 x 4 x 4 about each place.

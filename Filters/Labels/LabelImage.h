@@ -53,7 +53,7 @@ public:
   /** Labels of the image, as texts, that no int holds, by the numbers that they have here. */
   const std::map<int, std::string>& RenumberedLabels() const { return this->Numbers; }
   /** What the user should know: what was done to make labels of the values. Empty: nothing. */
-  const std::string& Warning() const { return this->Told; }
+  const std::string& Warning() const { return this->Conversions; }
 
   /** @throws where there are more than MostLabels. */
   void CheckNumberOfLabels() const;
@@ -62,7 +62,7 @@ public:
    * Sorted: those that are wanted; all but the background where none are.
    * @throws where there are none, or too many, or one is not there.
    */
-  std::vector<int> Choose(const std::vector<int>& wanted, int background) const;
+  std::vector<int> Choose(const std::vector<int>& requested, int background) const;
 
   /**
    * Return a map whose objects are all labels but the background, in the order of their values, so
@@ -87,7 +87,7 @@ private:
   vtkSmartPointer<vtkDataArray> Voxels;
   std::map<int, LabelVoxels> Counts;
   std::map<int, std::string> Numbers;
-  std::string Told;
+  std::string Conversions;
 };
 }
 

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Labels/LabelInterfaces.h"
 
-#include "Core/Common/Refuse.h"
+#include "Core/Common/ThrowInvalidArgument.h"
 #include "Core/Evolution/SurfaceOptions.h"
 #include "Core/Interfaces/MismatchedVoxels.h"
-#include "Core/Labels/MapBeyond.h"
+#include "Core/Labels/LabelMapPadding.h"
 #include "Core/Labels/SmallParts.h"
 #include "Core/Surface/SizingField.h"
 #include "Settings/SegmentationSettings.h"
@@ -99,10 +99,9 @@ LabelInterfaceMaker::LabelInterfaceMaker(LabelMap map, std::vector<int> selected
   }
   if (isFlat)
   {
-    GoOnBeyond(this->Map, this->InImage, settings.IsPeriodic());
+    PadLabelMap(this->Map, this->InImage, settings.IsPeriodic());
   }
-  this->Bricks.emplace(
-    this->Map, threads, isFlat ? this->InImage : VoxelBox::Of(this->Map.Size()));
+  this->Bricks.emplace(this->Map, threads, isFlat ? this->InImage : VoxelBox::Of(this->Map.Size()));
 }
 
 void LabelInterfaceMaker::CheckPeriod() const
@@ -114,7 +113,7 @@ void LabelInterfaceMaker::CheckPeriod() const
     const double period = this->InImage.Length(axis) * this->Space.Step()[axis];
     if (period < LeastPeriod * edge)
     {
-      Refuse("Box Faces are to be periodic, but the volume is only ",
+      ThrowInvalidArgument("Box Faces are to be periodic, but the volume is only ",
         period * this->Space.WorldUnit(), " wide along ", "xyz"[axis], ": it must be ", LeastPeriod,
         " Edge Lengths, which are ", edge * this->Space.WorldUnit(),
         ". Set a shorter Edge Length, or Box Faces to flat.");
@@ -219,7 +218,7 @@ void LabelInterfaceMaker::CountVoxels(HostThreads& threads)
     ofWhole[whole] += volumes[object];
     voxelsOfWhole[whole] += voxels;
     this->Counts[whole].Parts += voxels > 0. ? 1 : 0;
-    this->Counts[whole].WrongParts += isOff(volumes[object], voxels, MostOff) ? 1 : 0;
+    this->Counts[whole].MisclassifiedParts += isOff(volumes[object], voxels, MostOff) ? 1 : 0;
   }
   const std::vector<MismatchedVoxel> mismatched =
     FindMismatchedVoxels(this->Mesh, this->WholeBricks ? this->WholeMap : map, this->InImage, step,
@@ -229,7 +228,7 @@ void LabelInterfaceMaker::CountVoxels(HostThreads& threads)
     const LabelMap::Number of[2] = { map.Whole(voxel.OfMap), map.Whole(voxel.OfMesh) };
     for (const LabelMap::Number object : of)
     {
-      this->Counts[object].WrongVoxels += of[0] != of[1] ? 1 : 0;
+      this->Counts[object].MisclassifiedVoxels += of[0] != of[1] ? 1 : 0;
       this->Counts[object].MissedVoxels += of[0] != of[1] && voxel.IsFar ? 1 : 0;
     }
   }

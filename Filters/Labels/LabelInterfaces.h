@@ -11,7 +11,7 @@
 #include "Core/Labels/LabelBricks.h"
 #include "Core/Labels/LabelMap.h"
 #include "Host/HostThreads.h"
-#include "Input/Workspace.h"
+#include "Input/ComputationalSpace.h"
 #include "Labels/LabelSettings.h"
 
 #include <vtkSmartPointer.h>
@@ -32,12 +32,12 @@ namespace volumic
 struct LabelSurface
 {
   vtkSmartPointer<vtkPolyData> Surface; ///< null: the run was stopped before there was one
-  vtkIdType WrongVoxels = 0;            ///< misclassified voxels
+  vtkIdType MisclassifiedVoxels = 0;    ///< misclassified voxels
   vtkIdType MissedVoxels = 0; ///< misclassified voxels further from the surface than the tolerances
   double VolumeError = 0.0;   ///< enclosed volume over the voxels' volume, less 1
   vtkIdType Parts = 0;        ///< of voxels joined by faces, edges or corners
-  vtkIdType WrongParts = 0;   ///< those whose volume is off by more than a quarter
-  bool IsFinished = false;    ///< The run was not stopped.
+  vtkIdType MisclassifiedParts = 0; ///< those whose volume is off by more than a quarter
+  bool IsFinished = false;          ///< The run was not stopped.
 };
 
 /** Makes one mesh of all objects of a label map, and the surfaces of those that are selected. */
@@ -109,13 +109,13 @@ private:
   LabelMap Map;                           ///< of the box, with its margin
   LabelMap WholeMap; ///< the same with the parts that Keep Components leaves out, if it does
   VoxelBox InImage;  ///< of Map what is in the image
-  Workspace Space;
+  ComputationalSpace Space;
   std::optional<LabelBricks> Bricks;
   std::optional<LabelBricks> WholeBricks; ///< of WholeMap
   std::optional<InterfaceFields> Fields;
   InterfaceMesh Mesh;
   std::vector<LabelSurface> Counts; ///< numbers of each object, parts aside, without a surface
-  std::vector<int> IdOf; ///< of each vertex its point in Interfaces(), -1: it has none
+  std::vector<int> IdOf;            ///< of each vertex its point in Interfaces(), -1: it has none
   bool IsFinished = false;
 };
 }

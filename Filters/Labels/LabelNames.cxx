@@ -3,7 +3,7 @@
 #include "Labels/LabelNames.h"
 
 #include "Core/Common/Join.h"
-#include "Core/Common/Refuse.h"
+#include "Core/Common/ThrowInvalidArgument.h"
 
 #include <vtkDataArray.h>
 #include <vtkDataObject.h>
@@ -19,12 +19,12 @@ namespace volumic
 {
 namespace
 {
-void CheckEntries(vtkAbstractArray* array, vtkIdType wanted)
+void CheckEntries(vtkAbstractArray* array, vtkIdType requested)
 {
-  if (array && array->GetNumberOfTuples() != wanted)
+  if (array && array->GetNumberOfTuples() != requested)
   {
-    Refuse("field array '", array->GetName(), "' has ", array->GetNumberOfTuples(),
-      " entries, 'LabelValues' has ", wanted, "; they must have as many.");
+    ThrowInvalidArgument("field array '", array->GetName(), "' has ", array->GetNumberOfTuples(),
+      " entries, 'LabelValues' has ", requested, "; they must have as many.");
   }
 }
 }
@@ -45,7 +45,7 @@ LabelNames LabelNames::Of(vtkDataObject* image)
   CheckEntries(colors, count);
   if (colors && colors->GetNumberOfComponents() != 3)
   {
-    Refuse("field array 'LabelColors' has ", colors->GetNumberOfComponents(),
+    ThrowInvalidArgument("field array 'LabelColors' has ", colors->GetNumberOfComponents(),
       " components; it needs 3: red, green, blue.");
   }
   for (vtkIdType i = 0; i < count; ++i)

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Labels/LabelSettings.h"
 
-#include "Core/Common/Refuse.h"
+#include "Core/Common/ThrowInvalidArgument.h"
 #include "Core/Evolution/SurfaceOptions.h"
 #include "Pyramid/ImageLevels.h"
 #include "Settings/SegmentationSettings.h"
@@ -33,7 +33,7 @@ void CheckNumber(const char* name, double value)
 {
   if (!(value >= 0.0) || !std::isfinite(value))
   {
-    Refuse(name, " is ", value, "; it must be 0 (none) or more.");
+    ThrowInvalidArgument(name, " is ", value, "; it must be 0 (none) or more.");
   }
 }
 
@@ -54,34 +54,35 @@ void LabelSettings::Check(vtkImageData* image) const
   CheckNumber("Smoothing", this->Smoothing);
   if (this->Smoothing > 10.0)
   {
-    Refuse("Smoothing is ", this->Smoothing, " voxels; it must be at most 10.");
+    ThrowInvalidArgument("Smoothing is ", this->Smoothing, " voxels; it must be at most 10.");
   }
   const bool isOfSmoothing = this->VoxelTolerance == -1.0;
   if (!isOfSmoothing && !(this->VoxelTolerance >= 0.0 && this->VoxelTolerance <= MostTolerance))
   {
-    Refuse("Voxel Tolerance is ", this->VoxelTolerance, "; it must be from 0 (none) to ",
-      MostTolerance, " voxels, or -1 (a quarter of Smoothing).");
+    ThrowInvalidArgument("Voxel Tolerance is ", this->VoxelTolerance,
+      "; it must be from 0 (none) to ", MostTolerance, " voxels, or -1 (a quarter of Smoothing).");
   }
   if (this->BoxFaces < 0 || this->BoxFaces > 2)
   {
-    Refuse("Box Faces is ", this->BoxFaces, "; it must be 0 (rounded), 1 (flat) or 2 (periodic).");
+    ThrowInvalidArgument(
+      "Box Faces is ", this->BoxFaces, "; it must be 0 (rounded), 1 (flat) or 2 (periodic).");
   }
   CheckNumber("Edge Length", this->EdgeLength);
   CheckGrading(this->Grading, this->EdgeLength);
   CheckNumber("Minimum Component Volume", this->MinimumComponentVolume);
   if (this->FinestLevel < -1)
   {
-    Refuse("Finest Level is ", this->FinestLevel, "; it must be -1 or more.");
+    ThrowInvalidArgument("Finest Level is ", this->FinestLevel, "; it must be -1 or more.");
   }
   if (this->Metric != 0 && this->Metric != 1)
   {
-    Refuse("Metric is ", this->Metric, "; it must be 0 (Voxels) or 1 (World).");
+    ThrowInvalidArgument("Metric is ", this->Metric, "; it must be 0 (Voxels) or 1 (World).");
   }
   const auto keep = static_cast<KeepComponentsType>(this->KeepComponents);
   if (keep != KeepComponentsType::AllComponents && keep != KeepComponentsType::LargestComponent &&
     keep != KeepComponentsType::LargeComponents)
   {
-    Refuse("Keep Components is ", this->KeepComponents,
+    ThrowInvalidArgument("Keep Components is ", this->KeepComponents,
       "; for labels it must be 0 (all), 1 (the largest) or 3 (large ones).");
   }
   if (this->EdgeLength > 0.0)

@@ -67,8 +67,7 @@ void FinishedLevels::MakeSurface(
   FinishedLevel& level, SurfaceResult surface, Executor& threads) const
 {
   const bool isAny = !surface.Points.empty();
-  level.Surface =
-    MakePolyData(std::move(surface), level.About, this->Space, this->Choice, threads);
+  level.Surface = MakePolyData(std::move(surface), level.About, this->Space, this->Choice, threads);
   level.KeepsNone = isAny && level.Surface->GetNumberOfPoints() == 0;
 }
 
@@ -94,10 +93,10 @@ void FinishedLevels::Forget(int level)
     this->Snapshots.end());
 }
 
-bool FinishedLevels::HasAtRest(int level) const
+bool FinishedLevels::HasConverged(int level) const
 {
   const auto found = this->Levels.find(level);
-  return found != this->Levels.end() && found->second.IsAtRest;
+  return found != this->Levels.end() && found->second.IsConverged;
 }
 
 vtkSmartPointer<vtkPolyData> FinishedLevels::Outcome(int last) const
@@ -150,7 +149,7 @@ std::string FinishedLevels::WarningOf(int last, bool wantsAll) const
 {
   // The field data tell the rest; what is worth a warning needs another choice to be made.
   const auto end = this->Levels.lower_bound(last);
-  if (end == this->Levels.end() || !end->second.IsAtRest)
+  if (end == this->Levels.end() || !end->second.IsConverged)
   {
     return "";
   }
@@ -171,16 +170,16 @@ std::string FinishedLevels::WarningOf(int last, bool wantsAll) const
         : ": no component is at a seed, as the object is too thin there. Set Finest Level to a "
           "finer level, or move the seeds.");
   }
-  if (about.Lost.MissingBoundary > NotableShare && wantsAll)
+  if (about.Missed.MissingBoundary > NotableShare && wantsAll)
   {
-    const int lost = about.Lost.Found + about.Lost.FoundCavities;
+    const int missed = about.Missed.Found + about.Missed.FoundCavities;
     const std::string parts =
-      Join(lost, lost == 1 ? " part" : " parts", " that coarser levels had lost");
-    const std::string what = about.Lost.Missing == 0 ? "thin ends of " + parts
-      : about.Lost.Missing == lost
+      Join(missed, missed == 1 ? " part" : " parts", " that coarser levels had lost");
+    const std::string what = about.Missed.Missing == 0 ? "thin ends of " + parts
+      : about.Missed.Missing == missed
       ? "all of " + parts
-      : Join(about.Lost.Missing, " of ", parts, ", and thin ends of others");
-    return Join(std::lround(100.0 * about.Lost.MissingBoundary),
+      : Join(about.Missed.Missing, " of ", parts, ", and thin ends of others");
+    return Join(std::lround(100.0 * about.Missed.MissingBoundary),
       " % of the object's boundary at level ", about.Level, " is not on the surface: ", what,
       ", too thin for triangles of this size or too near to the rest. ",
       about.Level > 0

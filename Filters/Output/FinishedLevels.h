@@ -4,7 +4,7 @@
 #define volumicFinishedLevels_h
 
 #include "Core/Evolution/SurfaceEvolution.h"
-#include "Input/Workspace.h"
+#include "Input/ComputationalSpace.h"
 #include "Output/KeepComponents.h"
 #include "Output/SurfaceOutput.h"
 
@@ -25,10 +25,10 @@ namespace volumic
 struct FinishedLevel
 {
   SurfaceDescription About;
-  bool IsAtRest = false;                    ///< false: stopped while it evolved
+  bool IsConverged = false;                 ///< false: stopped while it evolved
   vtkSmartPointer<vtkPolyData> Surface;     ///< the selected components
   std::shared_ptr<const SurfaceResult> All; ///< all components; null: not kept
-  bool KeepsNone = false; ///< KeepComponents has removed all components.
+  bool KeepsNone = false;                   ///< KeepComponents has removed all components.
 };
 
 /** The finished levels of a run. They fill the outputs for any of these as the finest level. */
@@ -40,7 +40,7 @@ public:
 
   FinishedLevels() = default;
   /** @param numberOfLevels number of levels of the pyramid */
-  FinishedLevels(int numberOfLevels, int coarsest, const Workspace& space)
+  FinishedLevels(int numberOfLevels, int coarsest, const ComputationalSpace& space)
     : NumberOfLevels(numberOfLevels), Coarsest(coarsest), Space(space)
   {
   }
@@ -67,7 +67,7 @@ public:
   void SetStopped(const std::string& reason) { this->StopReason = reason; }
 
   /** Return whether the surface of a level is converged. */
-  bool HasAtRest(int level) const;
+  bool HasConverged(int level) const;
   /**
    * Return the components that are left out of output 0 of a run with `last` as its finest level.
    * Null with AllComponents, or if they are not kept.
@@ -93,7 +93,7 @@ private:
 
   int NumberOfLevels = 0;
   int Coarsest = 0;
-  Workspace Space;
+  ComputationalSpace Space;
   ComponentChoice Choice;
   std::map<int, FinishedLevel> Levels;
   std::vector<std::pair<int, std::pair<std::string, vtkSmartPointer<vtkPolyData>>>> Snapshots;

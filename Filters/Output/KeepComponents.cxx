@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Output/KeepComponents.h"
 
-#include "Core/Common/Refuse.h"
 #include "Core/Common/Spans.h"
+#include "Core/Common/ThrowInvalidArgument.h"
 #include "Core/Mesh/RowCrossing.h"
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "Core/Surface/SizingField.h"
+#include "Input/ComputationalSpace.h"
 #include "Input/InputPoints.h"
-#include "Input/Workspace.h"
 #include "Settings/SegmentationSettings.h"
 
 #include <algorithm>
@@ -156,8 +156,8 @@ void LeaveFeatures(
 std::vector<Point> MarkEnclosing(const LargeVector<Point>& points, const DescribedSurface& surface,
   const std::vector<Point>& places, std::vector<bool>& isKept, Executor& executor)
 {
-  const std::vector<int> innermost = InnermostAbout(
-    places, {}, points, surface.Shape.Triangles, surface.Features, executor);
+  const std::vector<int> innermost =
+    InnermostAbout(places, {}, points, surface.Shape.Triangles, surface.Features, executor);
   std::vector<Point> others;
   for (std::size_t i = 0; i < places.size(); ++i)
   {
@@ -178,7 +178,7 @@ void MarkNear(const LargeVector<Point>& points, const DescribedSurface& surface,
   const std::vector<Point>& places, std::vector<bool>& isKept, Executor& executor)
 {
   const LargeVector<Triangle>& triangles = surface.Shape.Triangles;
-  const SortedPlaces sorted(places);
+  const SortedPoints sorted(places);
   const double reach = SizingField::LongestEdgeInDelta * surface.Shape.Delta;
   std::vector<std::vector<int>> touching((triangles.size() + SpanSize - 1) / SpanSize);
   ForSpans(executor, triangles.size(), SpanSize,
@@ -235,8 +235,8 @@ std::vector<int> OwnersOf(
     }
     isDone[component] = true;
   }
-  const std::vector<int> about = InnermostAbout(
-    places, cavities, surface.Points, surface.Triangles, features, executor);
+  const std::vector<int> about =
+    InnermostAbout(places, cavities, surface.Points, surface.Triangles, features, executor);
   for (std::size_t i = 0; i < cavities.size(); ++i)
   {
     const bool isSolid = about[i] >= 0 && features.Components[about[i]].Volume > 0;
@@ -246,14 +246,15 @@ std::vector<int> OwnersOf(
 }
 }
 
-ComponentChoice ChoiceOf(
-  const SegmentationRequest& request, const Workspace& space, const std::array<int, 3>& size)
+ComponentChoice ChoiceOf(const SegmentationRequest& request, const ComputationalSpace& space,
+  const std::array<int, 3>& size)
 {
   const SegmentationEnd& end = request.Settings.End;
   CheckEnumeration("Keep Components", end.KeepComponents, KeepComponentsType::ComponentsNotAtSeeds);
   if (!(end.MinimumComponentVolume >= 0.0))
   {
-    Refuse("Minimum Component Volume is ", end.MinimumComponentVolume, "; it must be 0 or more.");
+    ThrowInvalidArgument(
+      "Minimum Component Volume is ", end.MinimumComponentVolume, "; it must be 0 or more.");
   }
   ComponentChoice choice;
   choice.Mode = end.KeepComponents;
@@ -262,8 +263,8 @@ ComponentChoice ChoiceOf(
   if (isAtPoints || choice.Mode == KeepComponentsType::ComponentsNotAtSeeds)
   {
     // Points known to belong to the object mark nothing that is to go.
-    choice.Places =
-      PlacesOf(request.InitialSurface, isAtPoints ? request.AttractingPoints : nullptr, space);
+    choice.Places = SelectionPositions(
+      request.InitialSurface, isAtPoints ? request.AttractingPoints : nullptr, space);
     const auto add = [&](const std::vector<Point>& more)
     { choice.Places.insert(choice.Places.end(), more.begin(), more.end()); };
     add(PositionsOf(end.SeedPositions, "Seed Positions", space, size));
@@ -276,8 +277,8 @@ ComponentChoice ChoiceOf(
   return choice;
 }
 
-DescribedSurface DescribeSurface(
-  SurfaceResult surface, const Workspace& space, const ComponentChoice& choice, Executor& executor)
+DescribedSurface DescribeSurface(SurfaceResult surface, const ComputationalSpace& space,
+  const ComponentChoice& choice, Executor& executor)
 {
   using Mode = KeepComponentsType;
   const bool dropsMarked = choice.Mode == Mode::ComponentsNotAtSeeds;
@@ -298,8 +299,8 @@ DescribedSurface DescribeSurface(
   std::vector<bool> isAtSeed(n, !hasSeeds);
   if (hasSeeds)
   {
-    MarkNear(points, described,
-      MarkEnclosing(points, described, choice.Seeds, isAtSeed, executor), isAtSeed, executor);
+    MarkNear(points, described, MarkEnclosing(points, described, choice.Seeds, isAtSeed, executor),
+      isAtSeed, executor);
   }
   std::vector<bool> isKept(n, false);
   bool hasLargest = false;
@@ -308,9 +309,8 @@ DescribedSurface DescribeSurface(
     const double volume = described.Features.Components[c].Volume;
     const bool isSolid = volume > 0 && isAtSeed[c];
     isKept[c] = isSolid &&
-      (choice.Mode == Mode::LargeComponents
-          ? volume >= choice.MinimumVolume
-          : choice.Mode == Mode::AllComponents ||
+      (choice.Mode == Mode::LargeComponents ? volume >= choice.MinimumVolume
+                                            : choice.Mode == Mode::AllComponents ||
             (choice.Mode == Mode::LargestComponent && !hasLargest));
     hasLargest = hasLargest || isSolid;
   }

@@ -7,7 +7,7 @@
 #include "Core/Common/IndexedSurface.h"
 #include "Core/Evolution/SurfaceEvolution.h"
 #include "Core/Mesh/SurfaceFeatures.h"
-#include "Input/Workspace.h"
+#include "Input/ComputationalSpace.h"
 #include "Settings/SegmentationSettings.h"
 
 #include <array>
@@ -47,8 +47,8 @@ struct DescribedSurface
  * @param size voxels of level 0 along each axis
  * @throws std::invalid_argument if the settings are out of range
  */
-ComponentChoice ChoiceOf(
-  const SegmentationRequest& request, const Workspace& space, const std::array<int, 3>& size);
+ComponentChoice ChoiceOf(const SegmentationRequest& request, const ComputationalSpace& space,
+  const std::array<int, 3>& size);
 
 /**
  * Select the components of a closed surface, and compute their features. A cavity is kept with its
@@ -57,7 +57,7 @@ ComponentChoice ChoiceOf(
  * it encloses it so, or, if none does, if it is as near. Complexity: O(n log n) in the number of
  * triangles and positions.
  */
-DescribedSurface DescribeSurface(SurfaceResult surface, const Workspace& space,
+DescribedSurface DescribeSurface(SurfaceResult surface, const ComputationalSpace& space,
   const ComponentChoice& choice, Executor& executor);
 }
 

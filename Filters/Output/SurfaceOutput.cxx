@@ -5,7 +5,7 @@
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "Core/Surface/SizingField.h"
 #include "Host/LargeArrays.h"
-#include "Input/Workspace.h"
+#include "Input/ComputationalSpace.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -193,8 +193,8 @@ vtkSmartPointer<Array> AddPointArray(vtkPolyData* polyData, const char* name, st
 }
 
 /** Takes what the surface knows of its points, but for the residuals. */
-void TakePointArrays(
-  vtkPolyData* polyData, SurfaceResult& surface, const Workspace& space, Executor& executor)
+void TakePointArrays(vtkPolyData* polyData, SurfaceResult& surface, const ComputationalSpace& space,
+  Executor& executor)
 {
   const std::size_t n = surface.Normals.size();
   const auto normals = NewLargeArray<vtkFloatArray>(n, 3);
@@ -213,8 +213,7 @@ void TakePointArrays(
   polyData->GetPointData()->SetNormals(normals);
   AddPointArray<vtkFloatArray>(polyData, "Residual", n, surface.Residual);
   AddPointArray<vtkUnsignedCharArray>(polyData, "Motionless", n, surface.Motionless);
-  const auto contact =
-    AddPointArray<vtkUnsignedCharArray>(polyData, "Contact", n, surface.Held);
+  const auto contact = AddPointArray<vtkUnsignedCharArray>(polyData, "Contact", n, surface.Held);
   for (const std::array<int, 2>& pair : surface.Contacts)
   {
     for (const int p : pair)
@@ -224,8 +223,8 @@ void TakePointArrays(
   }
   if (!surface.Size.empty())
   {
-    AddPointArray<vtkFloatArray>(polyData, "EdgeSize", n, surface.Size,
-      SizingField::RestLengthInDelta * space.WorldUnit());
+    AddPointArray<vtkFloatArray>(
+      polyData, "EdgeSize", n, surface.Size, SizingField::RestLengthInDelta * space.WorldUnit());
   }
   if (!surface.Thickness.empty())
   {
@@ -240,10 +239,8 @@ void SetFeatures(vtkPolyData* polyData, const SurfaceFeatures& features,
   const std::size_t n = components.size();
   AddFields(polyData,
     { { "NumberOfComponents", static_cast<int>(n) },
-      { "EulerCharacteristic", features.EulerCharacteristic },
-      { "Genus", features.Genus },
-      { "Area", features.Area },
-      { "Volume", features.Volume } });
+      { "EulerCharacteristic", features.EulerCharacteristic }, { "Genus", features.Genus },
+      { "Area", features.Area }, { "Volume", features.Volume } });
   AddComponentOfCells<vtkIntArray>(
     polyData, "Component", features, executor, [](int c) { return c; });
   AddFeature<vtkFloatArray, vtkDoubleArray>(
@@ -262,8 +259,8 @@ void SetFeatures(vtkPolyData* polyData, const SurfaceFeatures& features,
 }
 
 vtkSmartPointer<vtkPolyData> MakePolyData(SurfaceResult given,
-  const SurfaceDescription& description, const Workspace& space, const ComponentChoice& choice,
-  Executor& executor)
+  const SurfaceDescription& description, const ComputationalSpace& space,
+  const ComponentChoice& choice, Executor& executor)
 {
   auto polyData = vtkSmartPointer<vtkPolyData>::New();
   DescribedSurface described = DescribeSurface(std::move(given), space, choice, executor);
@@ -273,10 +270,8 @@ vtkSmartPointer<vtkPolyData> MakePolyData(SurfaceResult given,
   TakePointArrays(polyData, surface, space, executor);
   HideArrays(polyData->GetPointData(), { "Motionless" });
   AddFields(polyData,
-    { { "Level", description.Level },
-      { "StartLevel", description.StartLevel },
-      { "Delta", surface.Delta * space.WorldUnit() },
-      { "Unit", description.Unit },
+    { { "Level", description.Level }, { "StartLevel", description.StartLevel },
+      { "Delta", surface.Delta * space.WorldUnit() }, { "Unit", description.Unit },
       { "Iterations", description.Iterations },
       { "RemainingContacts", static_cast<int>(surface.Contacts.size()) },
       { "ContactVertices", CountContacts(polyData) },
@@ -288,14 +283,11 @@ vtkSmartPointer<vtkPolyData> MakePolyData(SurfaceResult given,
       { { "LargestDistance", fit->LargestDistance * space.WorldUnit() },
         { "WithinTolerance", fit->WithinTolerance } });
   }
-  const LostParts& lost = description.Lost;
+  const MissedParts& missed = description.Missed;
   AddFields(polyData,
-    { { "LostParts", lost.Found },
-      { "RecoveredParts", lost.Enclosed },
-      { "MissingParts", lost.Missing },
-      { "MissingBoundary", lost.MissingBoundary },
-      { "LostCavities", lost.FoundCavities },
-      { "RecoveredCavities", lost.EnclosedCavities } });
+    { { "LostParts", missed.Found }, { "RecoveredParts", missed.Enclosed },
+      { "MissingParts", missed.Missing }, { "MissingBoundary", missed.MissingBoundary },
+      { "LostCavities", missed.FoundCavities }, { "RecoveredCavities", missed.EnclosedCavities } });
   if (description.TotalIterations >= 0)
   {
     AddFields(polyData, { { "Iteration", description.TotalIterations } });
@@ -331,6 +323,6 @@ vtkSmartPointer<vtkPolyData> MakeStopped(int level, const std::string& reason)
   SurfaceDescription description;
   description.Level = description.StartLevel = level;
   description.StopReason = reason;
-  return MakePolyData(SurfaceResult(), description, Workspace());
+  return MakePolyData(SurfaceResult(), description, ComputationalSpace());
 }
 }

@@ -5,7 +5,7 @@
 
 #include "Core/Common/Executor.h"
 #include "Core/Evolution/SurfaceEvolution.h"
-#include "Input/Workspace.h"
+#include "Input/ComputationalSpace.h"
 #include "Output/KeepComponents.h"
 
 #include <vtkSmartPointer.h>
@@ -27,7 +27,7 @@ struct SurfaceDescription
   int Iterations = 0;       ///< at this level
   int TotalIterations = -1; ///< over all levels; field `Iteration`, -1: none
   std::string StopReason;   ///< empty: none, the surface is still on its way
-  LostParts Lost;
+  MissedParts Missed;
 };
 
 /**
@@ -35,7 +35,7 @@ struct SurfaceDescription
  * documents. Each array of a moved surface is freed once it is copied.
  */
 vtkSmartPointer<vtkPolyData> MakePolyData(SurfaceResult given,
-  const SurfaceDescription& description, const Workspace& space,
+  const SurfaceDescription& description, const ComputationalSpace& space,
   const ComponentChoice& choice = ComponentChoice(), Executor& executor = OnThisThread());
 
 /** Set vtkAbstractArray::GUI_HIDE(): ParaView does not offer the arrays for a choice. */

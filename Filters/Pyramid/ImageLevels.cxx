@@ -3,7 +3,7 @@
 #include "Pyramid/ImageLevels.h"
 
 #include "Core/Common/Join.h"
-#include "Core/Common/Refuse.h"
+#include "Core/Common/ThrowInvalidArgument.h"
 #include "Core/Image/LevelReduction.h"
 #include "Core/Image/ValidReduction.h"
 #include "Host/Errors.h"
@@ -74,7 +74,7 @@ vtkSmartPointer<vtkDataArray> SourceVoxels(
     return contiguous;
   }
   const std::array<double, 2> range = RangeOf(contiguous, valid);
-  if (FloatHolds(range[0], range[1]))
+  if (FitsFloat(range[0], range[1]))
   {
     return contiguous;
   }
@@ -138,8 +138,8 @@ std::vector<vtkSmartPointer<vtkDataArray>> MakeLevelVoxels(const T* level0,
   LargeVector<std::uint8_t> marks;
   for (std::size_t h = 1; h < levels.size(); ++h)
   {
-    const auto array = NewArray<Real>(
-      static_cast<std::int64_t>(levels[h].NumberOfVoxels()), static_cast<int>(h));
+    const auto array =
+      NewArray<Real>(static_cast<std::int64_t>(levels[h].NumberOfVoxels()), static_cast<int>(h));
     Real* values = array->GetPointer(0);
     const bool isFinished = h == 1
       ? reduce(h, level0, valid, values)
@@ -203,16 +203,15 @@ double UnitOfBlock(vtkImageData* level0, vtkImageData* image)
 
 PyramidOptions ImageLevels::Options() const
 {
-  const double factor =
-    this->Levels.size() > 1 ? this->Levels[1].Unit / this->Levels[0].Unit : 0.0;
+  const double factor = this->Levels.size() > 1 ? this->Levels[1].Unit / this->Levels[0].Unit : 0.0;
   PyramidOptions options;
   options.NumberOfLevels = static_cast<int>(this->Levels.size());
   options.ReductionFactor = factor > 1.0 && factor < 2.0 ? factor : std::sqrt(3.0);
   return options;
 }
 
-ImageLevels MakeImageLevels(vtkImageData* image, vtkDataArray* voxels,
-  const LevelsOptions& options, const Progress& progress)
+ImageLevels MakeImageLevels(
+  vtkImageData* image, vtkDataArray* voxels, const LevelsOptions& options, const Progress& progress)
 {
   const std::vector<LevelGeometry> plan = Plan(image, options.Pyramid);
   vtkSmartPointer<vtkDataArray> finest = voxels;
@@ -227,7 +226,8 @@ ImageLevels MakeImageLevels(vtkImageData* image, vtkDataArray* voxels,
   CheckAnyIsValid(voxels, valid);
   const vtkSmartPointer<vtkDataArray> source = SourceVoxels(contiguous, valid, threads);
   std::vector<vtkSmartPointer<vtkDataArray>> made;
-  VisitVoxels(source, [&](const auto* level0)
+  VisitVoxels(source,
+    [&](const auto* level0)
     { made = MakeLevelVoxels(level0, valid.Marks, plan, threads, progress); });
 
   ImageLevels levels;
@@ -250,7 +250,8 @@ ImageLevels LevelsOfBlocks(
 {
   if (blocks->GetNumberOfBlocks() == 0)
   {
-    Refuse("there is no level: the input has no blocks, as after an error of Image Pyramid.",
+    ThrowInvalidArgument(
+      "there is no level: the input has no blocks, as after an error of Image Pyramid.",
       LevelsWayOut);
   }
   ImageLevels levels;
@@ -260,14 +261,14 @@ ImageLevels LevelsOfBlocks(
     auto* image = vtkImageData::SafeDownCast(block);
     if (!image)
     {
-      Refuse("block ", h, " is ", block ? block->GetClassName() : "empty", ", not an image.",
-        LevelsWayOut);
+      ThrowInvalidArgument("block ", h, " is ", block ? block->GetClassName() : "empty",
+        ", not an image.", LevelsWayOut);
     }
     const vtkSmartPointer<vtkDataArray> voxels =
       PrefixErrors(Join("level ", h, ": "), [&] { return ChooseVoxels(selection, image); });
     if (h > 0)
     {
-      CheckPlace(levels.Levels[0].Image, levels.Levels.back().Image, image, h);
+      CheckGeometry(levels.Levels[0].Image, levels.Levels.back().Image, image, h);
     }
     levels.Levels.push_back({ image, voxels, 1.0 });
     levels.Levels.back().Unit = UnitOfBlock(levels.Levels[0].Image, image);
@@ -280,8 +281,8 @@ ImageLevels LevelsOfBlocks(
     const ValidVoxels valid = PrefixErrors("level 0: ",
       [&]
       {
-        return FindValidVoxels(finest.Voxels, ContiguousVoxels(finest.Voxels), finest.Image,
-          nanIsBackground, thread);
+        return FindValidVoxels(
+          finest.Voxels, ContiguousVoxels(finest.Voxels), finest.Image, nanIsBackground, thread);
       });
     levels.AboutNaNs =
       valid.NaNs > 0 ? DescribeNaNs(finest.Voxels, finest.Image, valid) : std::string();
@@ -289,13 +290,14 @@ ImageLevels LevelsOfBlocks(
   return levels;
 }
 
-ImageLevels LevelsOfArray(const ImageLevels& levels, vtkInformation* selection,
-  int numberOfThreads, const Progress& progress)
+ImageLevels LevelsOfArray(const ImageLevels& levels, vtkInformation* selection, int numberOfThreads,
+  const Progress& progress)
 {
   vtkDataArray* voxels = ChooseVoxels(selection, levels.Levels[0].Image);
   const std::string name = ChosenName(selection);
   const bool isEverywhere = !name.empty() &&
-    std::all_of(levels.Levels.begin(), levels.Levels.end(), [&name](const ImageLevel& level)
+    std::all_of(levels.Levels.begin(), levels.Levels.end(),
+      [&name](const ImageLevel& level)
       { return level.Image->GetPointData()->HasArray(name.c_str()); });
   if (!isEverywhere && levels.Levels.size() > 1)
   {

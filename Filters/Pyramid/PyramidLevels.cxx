@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Pyramid/PyramidLevels.h"
 
-#include "Core/Common/Refuse.h"
+#include "Core/Common/ThrowInvalidArgument.h"
 #include "Core/Image/VoxelNumbers.h"
 #include "Host/Errors.h"
 #include "Input/ImageVoxels.h"
@@ -25,12 +25,12 @@ void CheckSize(vtkImageData* image, const std::string& what, const char* wayOut)
   const int* size = image->GetDimensions();
   if (*std::min_element(size, size + 3) == 1)
   {
-    Refuse(what, " is 2D (", SizeOf(image), " voxels); a surface needs a volume.");
+    ThrowInvalidArgument(what, " is 2D (", SizeOf(image), " voxels); a surface needs a volume.");
   }
   if (*std::min_element(size, size + 3) < PyramidLevels::MinimumSize)
   {
-    Refuse(what, " has ", SizeOf(image), " voxels; at least ", PyramidLevels::MinimumSize,
-      " are needed along each axis. ", wayOut);
+    ThrowInvalidArgument(what, " has ", SizeOf(image), " voxels; at least ",
+      PyramidLevels::MinimumSize, " are needed along each axis. ", wayOut);
   }
 }
 
@@ -41,7 +41,7 @@ void CheckSize(vtkImageData* image, const std::string& what, const char* wayOut)
 void ShareVoxels(
   LevelImage& to, vtkDataArray* voxels, const std::array<double, 2>& range, double base)
 {
-  if (voxels->GetDataType() == VTK_FLOAT && FloatHolds(range[0], range[1]))
+  if (voxels->GetDataType() == VTK_FLOAT && FitsFloat(range[0], range[1]))
   {
     to.Values = static_cast<const float*>(voxels->GetVoidPointer(0));
     return;
@@ -73,7 +73,7 @@ PyramidLevels::PyramidLevels(const ImageLevels& levels, Metric metric, bool nanI
 {
   CheckSize(this->Levels[0].Image, "the image",
     "Resample it more finely (vtkImageResize; ParaView: Resample To Image).");
-  this->Space = Workspace(this->Levels[0].Image, metric);
+  this->Space = ComputationalSpace(this->Levels[0].Image, metric);
   for (const ImageLevel& level : this->Levels)
   {
     const int* size = level.Image->GetDimensions();
@@ -108,7 +108,7 @@ double PyramidLevels::UnitOf(int level) const
   return level < 0 ? 1.0 / this->FactorBelow : this->Levels[level].Unit / this->Levels[0].Unit;
 }
 
-bool PyramidLevels::HoldsPart(
+bool PyramidLevels::ContainsPart(
   int level, const PartSize& least, double isoValue, bool objectIsBright) const
 {
   Executor thread;
@@ -145,9 +145,9 @@ std::array<double, 2> PyramidLevels::Range(int level) const
   return this->Ranges[level] = RangeOf(ContiguousVoxels(this->Levels[level].Voxels), valid);
 }
 
-LevelImage PyramidLevels::Load(int wanted, double base, double background, Executor& executor)
+LevelImage PyramidLevels::Load(int requested, double base, double background, Executor& executor)
 {
-  const int level = std::max(wanted, 0);
+  const int level = std::max(requested, 0);
   const std::string name = Join("level ", level);
   CheckSize(this->Levels[level].Image, name, "Set Coarsest Level to a finer level.");
   const vtkSmartPointer<vtkDataArray> voxels = ContiguousVoxels(this->Levels[level].Voxels);
@@ -158,7 +158,7 @@ LevelImage PyramidLevels::Load(int wanted, double base, double background, Execu
   const double size = std::max(std::abs(range[0]), std::abs(range[1]));
   if (size > largest)
   {
-    Refuse(name, ": ", NameOf(this->Levels[level].Voxels), " has values of ", size,
+    ThrowInvalidArgument(name, ": ", NameOf(this->Levels[level].Voxels), " has values of ", size,
       " in size; at most ", largest,
       " can be used, since the surface computes in single precision. Scale the image.");
   }
@@ -179,7 +179,7 @@ LevelImage PyramidLevels::Load(int wanted, double base, double background, Execu
     loaded.Step[axis] =
       this->Space.Step()[axis] * static_cast<double>(this->Sizes[0][axis]) / loaded.Size[axis];
   }
-  loaded.Unit = this->UnitOf(wanted);
+  loaded.Unit = this->UnitOf(requested);
   return loaded;
 }
 

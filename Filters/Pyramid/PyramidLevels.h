@@ -9,8 +9,8 @@
 #include "Core/Image/LevelImage.h"
 #include "Core/Image/ThickPart.h"
 #include "Core/Image/VoxelValues.h"
+#include "Input/ComputationalSpace.h"
 #include "Input/ValidVoxels.h"
-#include "Input/Workspace.h"
 #include "Pyramid/ImageLevels.h"
 
 #include <array>
@@ -34,7 +34,7 @@ public:
   PyramidLevels(const ImageLevels& levels, Metric metric, bool nanIsBackground = true);
 
   int NumberOfLevels() const { return static_cast<int>(this->Levels.size()); }
-  const Workspace& GetWorkspace() const { return this->Space; }
+  const ComputationalSpace& GetComputationalSpace() const { return this->Space; }
 
   /** Whether a surface can evolve on the level: MinimumSize along each axis. Level 0 has it. */
   bool HasRoom(int level) const;
@@ -51,7 +51,7 @@ public:
    * Whether a part of the object, which is above the value (bright) or below, is at least that
    * large at a level (ThickPart.h).
    */
-  bool HoldsPart(int level, const PartSize& least, double isoValue, bool objectIsBright) const;
+  bool ContainsPart(int level, const PartSize& least, double isoValue, bool objectIsBright) const;
 
   /**
    * Smallest and largest voxel of a level among those that are valid (ValidVoxels.h); the first is
@@ -88,7 +88,7 @@ private:
   std::vector<ImageLevel> Levels; ///< without image and voxels where these were let go
   std::vector<std::array<int, 3>> Sizes;
   double FactorBelow; ///< U_0 over the unit of level -1
-  Workspace Space;
+  ComputationalSpace Space;
   vtkSmartPointer<vtkDataArray> Loaded; ///< what the result of the last Load() refers to
   LargeVector<float> Filled;            ///< or this
   bool NaNIsBackground;

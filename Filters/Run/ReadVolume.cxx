@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Run/ReadVolume.h"
 
-#include "Core/Common/Refuse.h"
+#include "Core/Common/ThrowInvalidArgument.h"
 #include "Host/Errors.h"
 #include "Input/ImageVoxels.h"
 #include "Input/InputImage.h"
@@ -41,13 +41,12 @@ vtkSmartPointer<vtkImageData> CompleteImage(
       PrefixErrors("Iso Value is not set, and can't be found: Input port 0: ",
         [&]
         {
-          return FindOtsuThreshold(
-            voxels.Image, voxels.Selection, settings.SelectedComponent)
+          return FindOtsuThreshold(voxels.Image, voxels.Selection, settings.SelectedComponent)
             .Threshold;
         });
   }
   vtkDataArray* values =
-    PrefixErrors(PlaceOfVoxels, [&] { return ChooseArray(voxels.Selection, voxels.Image); });
+    PrefixErrors(VoxelErrorPrefix, [&] { return ChooseArray(voxels.Selection, voxels.Image); });
   if (values->GetNumberOfComponents() == 1 && values->HasStandardMemoryLayout())
   {
     volume.HintAtLabels = HintAtLabels(values, voxels.Image->GetDimensions());
@@ -59,7 +58,7 @@ void ReadImage(Volume& volume, SegmentationRequest& request, const Progress& pro
 {
   SegmentationSettings& settings = request.Settings;
   vtkSmartPointer<vtkImageData> image =
-    PrefixErrors(PlaceOfVoxels, [&] { return ImageOf(request.Volume); });
+    PrefixErrors(VoxelErrorPrefix, [&] { return ImageOf(request.Volume); });
   if (settings.OfImages)
   {
     image = CompleteImage(request, image, volume);
@@ -75,7 +74,7 @@ void ReadImage(Volume& volume, SegmentationRequest& request, const Progress& pro
     factorBelow = plan.ReductionFactor;
   }
   volume.IsOfImage = true;
-  volume.Voxels = PrefixErrors(PlaceOfVoxels,
+  volume.Voxels = PrefixErrors(VoxelErrorPrefix,
     [&]
     {
       vtkDataArray* array = ChooseArray(request.Selection, image);
@@ -95,8 +94,7 @@ ImageLevels ReadBlocks(const SegmentationRequest& request, const Progress& progr
   {
     LevelsOptions options = OptionsAsSet(settings);
     options.Pyramid = levels.Options();
-    levels =
-      MakeImageLevels(levels.Levels[0].Image, levels.Levels[0].Voxels, options, progress);
+    levels = MakeImageLevels(levels.Levels[0].Image, levels.Levels[0].Voxels, options, progress);
     levels.AboutNaNs.clear(); // Image Pyramid has reported them.
   }
   return levels;
@@ -110,15 +108,15 @@ void ReadEdges(Volume& volume, const SegmentationRequest& request, const Progres
       selection->Has(vtkDataObject::FIELD_ATTRIBUTE_TYPE()));
   if (!isChosen)
   {
-    Refuse("Edge Attraction Weight is not 0, but there is no map of edges: choose a second point "
-           "array of the image as Edge Map (SetInputArrayToProcess(1, ...)), such as its gradient "
-           "magnitude.");
+    ThrowInvalidArgument(
+      "Edge Attraction Weight is not 0, but there is no map of edges: choose a second point "
+      "array of the image as Edge Map (SetInputArrayToProcess(1, ...)), such as its gradient "
+      "magnitude.");
   }
-  PrefixErrors(PlaceOfEdges,
+  PrefixErrors(EdgeErrorPrefix,
     [&]
     {
-      volume.Edges = LevelsOfArray(volume.Voxels, selection,
-        request.Settings.End.NumberOfThreads,
+      volume.Edges = LevelsOfArray(volume.Voxels, selection, request.Settings.End.NumberOfThreads,
         [&progress](double, const std::string& text) { return progress(1.0, text); });
     });
 }
@@ -130,7 +128,7 @@ Volume ReadVolume(SegmentationRequest& request, const Progress& progress)
   Volume volume;
   if (vtkMultiBlockDataSet::SafeDownCast(request.Volume) && !request.Settings.OfImages)
   {
-    volume.Voxels = PrefixErrors(PlaceOfVoxels, [&] { return ReadBlocks(request, progress); });
+    volume.Voxels = PrefixErrors(VoxelErrorPrefix, [&] { return ReadBlocks(request, progress); });
   }
   else
   {

@@ -12,8 +12,8 @@
 namespace volumic
 {
 /** Prefixes of messages about the voxels and about the edge map. */
-constexpr const char* PlaceOfVoxels = "Input port 0: ";
-constexpr const char* PlaceOfEdges = "Input port 0, the map of edges: ";
+constexpr const char* VoxelErrorPrefix = "Input port 0: ";
+constexpr const char* EdgeErrorPrefix = "Input port 0, the map of edges: ";
 
 /** The data of input port 0 as levels. */
 struct Volume

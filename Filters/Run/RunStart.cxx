@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Run/RunStart.h"
 
-#include "Core/Common/Refuse.h"
+#include "Core/Common/ThrowInvalidArgument.h"
+#include "Input/ComputationalSpace.h"
 #include "Input/InputPoints.h"
-#include "Input/Workspace.h"
 #include "Pyramid/PyramidLevels.h"
 
 #include <vtkCellArray.h>
@@ -42,19 +42,20 @@ LevelChoice LevelsAsSet(const PyramidLevels& pyramid, const SegmentationSettings
   const int finest = settings.End.FinestLevel;
   if (choice.Coarsest < 0 || choice.Coarsest > last)
   {
-    Refuse("Coarsest Level is ", settings.CoarsestLevel, ", but the pyramid has the levels 0 to ",
-      last, "; use one of them, or -1 for the last.");
+    ThrowInvalidArgument("Coarsest Level is ", settings.CoarsestLevel,
+      ", but the pyramid has the levels 0 to ", last, "; use one of them, or -1 for the last.");
   }
   if (settings.EdgeLength != 0.0 && finest > choice.Coarsest)
   {
-    Refuse("Edge Length is ", settings.EdgeLength, ", for which the finest level is ", finest,
-      ", but Coarsest Level is ", settings.CoarsestLevel,
+    ThrowInvalidArgument("Edge Length is ", settings.EdgeLength, ", for which the finest level is ",
+      finest, ", but Coarsest Level is ", settings.CoarsestLevel,
       "; set it to that level, a coarser one, or -1 for the last.");
   }
   if (finest < -1 || finest > choice.Coarsest)
   {
-    Refuse("Finest Level is ", finest, "; it must lie between 0 and the coarsest level, ",
-      choice.Coarsest, ", or be -1 for a last division beyond the image.");
+    ThrowInvalidArgument("Finest Level is ", finest,
+      "; it must lie between 0 and the coarsest level, ", choice.Coarsest,
+      ", or be -1 for a last division beyond the image.");
   }
   while (choice.Preview < choice.Coarsest &&
     pyramid.NumberOfVoxels(choice.Preview) > LevelChoice::VoxelsOfPreview)
@@ -70,8 +71,8 @@ void CheckFolded(const ValueRange& range, const std::array<double, 2>& folded)
   const bool hasNone = folded[1] <= range.Lower;
   if (hasNone || folded[0] >= range.Lower)
   {
-    Refuse(hasNone ? "no voxel is" : "all voxels are", " between Iso Value, ", range.Lower,
-      ", and Upper Value, ", range.Upper,
+    ThrowInvalidArgument(hasNone ? "no voxel is" : "all voxels are", " between Iso Value, ",
+      range.Lower, ", and Upper Value, ", range.Upper,
       "; set them to the values that the object has and its surroundings have not.");
   }
 }
@@ -80,13 +81,13 @@ void CheckIsoValue(double iso, const std::array<double, 2>& range)
 {
   if (!(range[0] < range[1]))
   {
-    Refuse("all voxels are ", range[0],
+    ThrowInvalidArgument("all voxels are ", range[0],
       ": no value separates an object from the background. Choose another volume, array or "
       "component.");
   }
   if (std::isnan(iso))
   {
-    Refuse(
+    ThrowInvalidArgument(
       "Iso Value is not set. Set it to the value that parts the object from the background; the "
       "voxels range from ",
       range[0], " to ", range[1], ".");
@@ -94,8 +95,8 @@ void CheckIsoValue(double iso, const std::array<double, 2>& range)
   if (iso <= range[0] || iso >= range[1])
   {
     const char* where = iso < range[0] || iso > range[1] ? "outside" : "at an end of";
-    Refuse("Iso Value is ", iso, ", ", where, " the range of the voxels, ", range[0], " to ",
-      range[1], "; set it between them.");
+    ThrowInvalidArgument("Iso Value is ", iso, ", ", where, " the range of the voxels, ", range[0],
+      " to ", range[1], "; set it between them.");
   }
 }
 
@@ -119,26 +120,26 @@ int CoarsestLevelWithObject(
  * Begins at the coarsest level that holds the object, at most `there`, the coarsest with any of it,
  * and at least the level to end at.
  */
-void BeginWhereHeld(
+void StartWhereContained(
   LevelChoice& choice, int there, const SegmentationLevels& levels, const SurfaceOptions& options)
 {
   const int last = std::exchange(choice.Coarsest, there);
   // With recovery a surface that has vanished comes again, and the way on the last level is short.
-  if (!options.Drive().IsFieldAlone || (options.RecoverLostParts && there == last))
+  if (!options.Drive().IsFieldAlone || (options.RecoverMissedParts && there == last))
   {
     return;
   }
   int level = there;
-  while (level > std::max(choice.Last, 0) && !levels.HoldsObject(level, options))
+  while (level > std::max(choice.Last, 0) && !levels.ContainsObject(level, options))
   {
     --level;
   }
-  choice.StartsAtParts = options.RecoverLostParts && levels.HoldsObject(level, options);
-  choice.Coarsest = options.RecoverLostParts && !choice.StartsAtParts ? there : level;
+  choice.StartsAtParts = options.RecoverMissedParts && levels.ContainsObject(level, options);
+  choice.Coarsest = options.RecoverMissedParts && !choice.StartsAtParts ? there : level;
 }
 
 /** @param there the coarsest level that has any of the object, finer than the one to start at */
-[[noreturn]] void RefuseCoarsest(
+[[noreturn]] void ThrowInvalidCoarsestLevel(
   const LevelChoice& choice, const SegmentationSettings& settings, int there)
 {
   const ValueRange range = settings.Range();
@@ -148,12 +149,13 @@ void BeginWhereHeld(
     : Join(settings.Options.ObjectIsBright ? "above" : "below", " Iso Value ", range.Lower);
   if (settings.EdgeLength != 0.0 && choice.Coarsest == choice.Last)
   {
-    Refuse("Edge Length is ", settings.EdgeLength, ", for which the finest level is ", choice.Last,
-      ", but the object is too thin for it: no voxel is ", where,
+    ThrowInvalidArgument("Edge Length is ", settings.EdgeLength, ", for which the finest level is ",
+      choice.Last, ", but the object is too thin for it: no voxel is ", where,
       " there. Give a shorter Edge Length.");
   }
-  Refuse("the object has vanished at level ", choice.Coarsest, ", the coarsest: no voxel is ",
-    where, " there. It is too thin for that level; set Coarsest Level to ", there,
+  ThrowInvalidArgument("the object has vanished at level ", choice.Coarsest,
+    ", the coarsest: no voxel is ", where,
+    " there. It is too thin for that level; set Coarsest Level to ", there,
     ", where it is still there, or less.");
 }
 
@@ -170,11 +172,11 @@ void StartAtObject(
                                      : settings.End.FinestLevel;
   if (!levels.HasPoints() && settings.CoarsestLevel == -1 && there >= choice.Last)
   {
-    BeginWhereHeld(choice, there, levels, settings.Options);
+    StartWhereContained(choice, there, levels, settings.Options);
   }
   else if (there != choice.Coarsest)
   {
-    RefuseCoarsest(choice, settings, there);
+    ThrowInvalidCoarsestLevel(choice, settings, there);
   }
 }
 
@@ -197,20 +199,21 @@ void StartAtSeeds(
   }
   // With recovery the objects of other seeds are recovered.
   const std::size_t inside = levels.SeedsInside(choice.Coarsest);
-  if (inside == 0 || (inside < all && !settings.Options.RecoverLostParts))
+  if (inside == 0 || (inside < all && !settings.Options.RecoverMissedParts))
   {
-    const std::string where = Join(choice.Coarsest, ", where the object is too thin at ",
-      all - inside, " of ", all, " seeds. ");
+    const std::string where = Join(
+      choice.Coarsest, ", where the object is too thin at ", all - inside, " of ", all, " seeds. ");
     if (settings.CoarsestLevel != -1)
     {
-      Refuse("Coarsest Level is ", where, "Set it to ", level, " or less, or to -1 (automatic).");
+      ThrowInvalidArgument(
+        "Coarsest Level is ", where, "Set it to ", level, " or less, or to -1 (automatic).");
     }
     if (settings.EdgeLength != 0.0)
     {
-      Refuse("Edge Length is ", settings.EdgeLength, ", for which the finest level is ", where,
-        "Give a shorter Edge Length.");
+      ThrowInvalidArgument("Edge Length is ", settings.EdgeLength,
+        ", for which the finest level is ", where, "Give a shorter Edge Length.");
     }
-    Refuse("Finest Level is ", where, "Set it to ", level, " or less.");
+    ThrowInvalidArgument("Finest Level is ", where, "Set it to ", level, " or less.");
   }
 }
 }
@@ -256,33 +259,34 @@ IndexedSurface Triangles(vtkPolyData* polyData)
   return surface;
 }
 
-IndexedSurface SurfaceOf(vtkPolyData* polyData, const Workspace& space)
+IndexedSurface SurfaceOf(vtkPolyData* polyData, const ComputationalSpace& space)
 {
   if (!polyData || polyData->GetNumberOfPolys() + polyData->GetNumberOfStrips() == 0)
   {
-    Refuse("The initial surface has no polygons. Give a closed surface, or choose another "
-           "Initialization.");
+    ThrowInvalidArgument(
+      "The initial surface has no polygons. Give a closed surface, or choose another "
+      "Initialization.");
   }
   if (const std::string fault = FaultOfCells(polyData); !fault.empty())
   {
-    Refuse("The initial surface ", fault);
+    ThrowInvalidArgument("The initial surface ", fault);
   }
   vtkNew<vtkTriangleFilter> triangulate;
   triangulate->SetInputData(polyData);
   triangulate->PassVertsOff();
   triangulate->PassLinesOff();
   triangulate->Update();
-  return ToWorkspace(Triangles(triangulate->GetOutput()), space);
+  return ToComputationalSpace(Triangles(triangulate->GetOutput()), space);
 }
 }
 
-SurfaceStart StartOf(const SegmentationRequest& request, const Workspace& space,
+SurfaceStart StartOf(const SegmentationRequest& request, const ComputationalSpace& space,
   const std::vector<Point>& seeds)
 {
   const SegmentationSettings& settings = request.Settings;
   const bool hasSeeds = settings.Initialization == InitializationType::Seeds;
   // Seeds do not grow through thin places, so their extent would depend on the level.
-  const bool selectsLater = hasSeeds && !seeds.empty() && settings.Options.RecoverLostParts &&
+  const bool selectsLater = hasSeeds && !seeds.empty() && settings.Options.RecoverMissedParts &&
     settings.Options.Drive().IsFieldAlone;
   SurfaceStart start;
   start.Seeds = seeds;

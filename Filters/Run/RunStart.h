@@ -5,7 +5,7 @@
 
 #include "Core/Common/Executor.h"
 #include "Core/Evolution/SurfaceEvolution.h"
-#include "Input/Workspace.h"
+#include "Input/ComputationalSpace.h"
 #include "Run/SegmentationLevels.h"
 #include "Settings/SegmentationSettings.h"
 
@@ -45,7 +45,7 @@ LevelChoice ChooseLevels(
  * components at seeds are selected later.
  * @throws std::invalid_argument for an initial surface that cannot be read
  */
-SurfaceStart StartOf(const SegmentationRequest& request, const Workspace& space,
+SurfaceStart StartOf(const SegmentationRequest& request, const ComputationalSpace& space,
   const std::vector<Point>& seeds);
 }
 

@@ -38,7 +38,10 @@ public:
 
   bool HasPoints() const { return this->Points != nullptr; }
   const PyramidLevels& Pyramid() const { return this->Voxels; }
-  const Workspace& GetWorkspace() const { return this->Voxels.GetWorkspace(); }
+  const ComputationalSpace& GetComputationalSpace() const
+  {
+    return this->Voxels.GetComputationalSpace();
+  }
   void SetFactorBelowLevel0(double factor) { this->Voxels.SetFactorBelowLevel0(factor); }
 
   /** Return the range of the valid voxels of a level, in reverse order if none is valid. */
@@ -46,10 +49,10 @@ public:
 
   /**
    * Return whether the object has a part at this level that a start can keep. With recovery it
-   * needs MinimumPartSize voxels, else it must be thick enough. The result of a level is cached, so the
-   * options must not change.
+   * needs MinimumPartSize voxels, else it must be thick enough. The result of a level is cached, so
+   * the options must not change.
    */
-  bool HoldsObject(int level, const SurfaceOptions& options) const;
+  bool ContainsObject(int level, const SurfaceOptions& options) const;
 
   /**
    * Remove the seeds outside the object at level 0, and test the others at all levels from
@@ -81,9 +84,9 @@ private:
   std::unique_ptr<PointAttraction> Points; ///< null: none
   std::unique_ptr<PyramidLevels> Edges;    ///< of the edge map; null: none
   std::vector<float> Bent;                 ///< voxels of the level, modified by the points
-  mutable std::map<int, bool> Holds;       ///< cached results of HoldsObject()
+  mutable std::map<int, bool> Holds;       ///< cached results of ContainsObject()
   std::vector<Point> SeedPoints;           ///< computational space
-  const char* PlaceOfSeeds = "";           ///< prefix of errors
+  const char* SeedErrorPrefix = "";        ///< prefix of errors
   std::vector<std::size_t> Inside;         ///< results of TestSeeds(), by level
 };
 }

@@ -19,11 +19,11 @@ namespace volumic
 namespace
 {
 /** Return null if memory is exhausted. The copy is optional. */
-std::unique_ptr<SurfaceAtRest> CopyIfRoom(const SurfaceAtRest& rest)
+std::unique_ptr<ConvergedSurface> CopyIfRoom(const ConvergedSurface& rest)
 {
   try
   {
-    return std::make_unique<SurfaceAtRest>(rest);
+    return std::make_unique<ConvergedSurface>(rest);
   }
   catch (const std::bad_alloc&)
   {
@@ -37,12 +37,12 @@ SegmentationRun::SegmentationRun(const SegmentationRequest& request, const Volum
 {
   this->Settings.Check();
   SurfaceOptions& options = this->Settings.Options;
-  options.RecoverLostParts = this->Settings.Recovery != RecoveryType::NoRecovery;
+  options.RecoverMissedParts = this->Settings.Recovery != RecoveryType::NoRecovery;
   // Voxels above the range lie inside the object in most images.
-  options.RecoverCavities = options.RecoverLostParts &&
+  options.RecoverCavities = options.RecoverMissedParts &&
     (this->Settings.Recovery == RecoveryType::RecoverObjectsAndCavities ||
       this->Settings.Range().IsUsed());
-  options.SeedRadius /= this->Levels.GetWorkspace().WorldUnit();
+  options.SeedRadius /= this->Levels.GetComputationalSpace().WorldUnit();
   if (this->Settings.EdgeLength != 0.0 && !volume.IsOfImage)
   {
     this->ChooseEdgeLength();
@@ -76,7 +76,7 @@ bool SegmentationRun::Renew(const SegmentationRequest& request)
 {
   HostThreads threads(request.Settings.End.NumberOfThreads);
   const bool hasAll = this->HasAll(request);
-  if (!hasAll && !this->CanGoOn())
+  if (!hasAll && !this->CanResume())
   {
     return false;
   }
@@ -111,7 +111,7 @@ bool SegmentationRun::Renew(const SegmentationRequest& request)
 bool SegmentationRun::ChooseComponents(const SegmentationRequest& request, Executor& threads)
 {
   ComponentChoice choice =
-    ChoiceOf(request, this->Levels.GetWorkspace(), this->Levels.Pyramid().SizeOf(0));
+    ChoiceOf(request, this->Levels.GetComputationalSpace(), this->Levels.Pyramid().SizeOf(0));
   choice.Seeds = this->Levels.Seeds();
   return this->Finished.Choose(choice, threads);
 }
@@ -119,10 +119,10 @@ bool SegmentationRun::ChooseComponents(const SegmentationRequest& request, Execu
 void SegmentationRun::Begin()
 {
   this->Finished = FinishedLevels(this->Levels.Pyramid().NumberOfLevels(), this->Choice.Coarsest,
-    this->Levels.GetWorkspace());
-  this->Rest = SurfaceAtRest();
+    this->Levels.GetComputationalSpace());
+  this->Rest = ConvergedSurface();
   this->Reached = this->Choice.Coarsest + 1;
-  this->GoesOn = true;
+  this->CanContinue = true;
 }
 
 void SegmentationRun::Run(RunObserver& observer, double before)
@@ -136,12 +136,12 @@ void SegmentationRun::Run(RunObserver& observer, double before)
     CheckOptions(this->Settings.Options);
   }
   this->Finished.SetStopped("");
-  if (!this->HasCome())
+  if (!this->HasReachedEnd())
   {
     LevelMonitor monitor(observer, before, this->Choice.Coarsest, this->EndsAt());
     this->Rest.History.StartClock(observer.Start());
     while (
-      this->GoesOn && this->Reached > this->EndsAt() && this->Next(observer, monitor, threads))
+      this->CanContinue && this->Reached > this->EndsAt() && this->Next(observer, monitor, threads))
     {
     }
   }
@@ -152,8 +152,8 @@ bool SegmentationRun::Next(RunObserver& observer, LevelMonitor& monitor, HostThr
 {
   const int level = this->Reached - 1;
   // Kept in case the finer level is stopped.
-  const std::unique_ptr<SurfaceAtRest> before =
-    this->Request.MayGoOn && level < this->Choice.Coarsest ? CopyIfRoom(this->Rest) : nullptr;
+  const std::unique_ptr<ConvergedSurface> before =
+    this->Request.MayResume && level < this->Choice.Coarsest ? CopyIfRoom(this->Rest) : nullptr;
   LevelOutcome outcome;
   if (monitor.BeginLevel(level))
   {
@@ -164,13 +164,13 @@ bool SegmentationRun::Next(RunObserver& observer, LevelMonitor& monitor, HostThr
     outcome = this->Evolve(task, monitor, threads);
   }
   const bool isStopped = outcome.Reason == StopReason::Cancelled;
-  if (outcome.HasCome)
+  if (outcome.HasReachedEnd)
   {
     this->KeepLevel(level, std::move(outcome), observer, threads);
     if (level == this->EndsAt() && this->PreviewMissesParts(level))
     {
       this->Choice.Last = this->Choice.Preview = level - 1;
-      monitor.GoOnTo(level - 1);
+      monitor.ContinueAtLevel(level - 1);
     }
   }
   else
@@ -182,14 +182,14 @@ bool SegmentationRun::Next(RunObserver& observer, LevelMonitor& monitor, HostThr
   {
     this->Rest = std::move(*before);
     this->Reached = level + 1;
-    this->GoesOn = true;
+    this->CanContinue = true;
   }
   return !isStopped;
 }
 
 LevelTask SegmentationRun::TaskOf(int level, const LevelImage& image, HostThreads& threads)
 {
-  const double unit = this->Levels.GetWorkspace().WorldUnit();
+  const double unit = this->Levels.GetComputationalSpace().WorldUnit();
   LevelTask task;
   task.Options = this->Settings.Options;
   task.Image = image;
@@ -202,7 +202,7 @@ LevelTask SegmentationRun::TaskOf(int level, const LevelImage& image, HostThread
     task.Grading.Tolerance /= unit;
     task.Grading.MaximumEdgeLength /= unit;
   }
-  task.Look = [this, level, &threads](int iteration, const std::function<SurfaceResult()>& take)
+  task.Observe = [this, level, &threads](int iteration, const std::function<SurfaceResult()>& take)
   { this->TakeSnapshot(level, iteration, take, threads); };
   return task;
 }
@@ -218,7 +218,7 @@ LevelOutcome SegmentationRun::Evolve(LevelTask& task, LevelMonitor& monitor, Hos
     [&]
     {
       SurfaceStart start =
-        StartOf(this->Request, this->Levels.GetWorkspace(), this->Levels.Seeds());
+        StartOf(this->Request, this->Levels.GetComputationalSpace(), this->Levels.Seeds());
       if (start.From == SurfaceStart::Kind::Enclosing && this->Choice.StartsAtParts)
       {
         start.From = SurfaceStart::Kind::EnclosingParts;
@@ -237,8 +237,8 @@ void SegmentationRun::TakeSnapshot(
     return;
   }
   // Surfaces exist at the end of a sweep of several iterations only.
-  const bool isDue = iteration == 0 || iteration / interval > this->SnapshotLook / interval;
-  this->SnapshotLook = iteration;
+  const bool isDue = iteration == 0 || iteration / interval > this->LastSnapshotIteration / interval;
+  this->LastSnapshotIteration = iteration;
   SurfaceResult surface = isDue ? take() : SurfaceResult();
   if (!surface.Points.empty())
   {
@@ -252,7 +252,7 @@ void SegmentationRun::TakeSnapshot(
     choice.Seeds = this->Levels.Seeds();
     this->Finished.AddSnapshot(level, Join("Level ", level, ", iteration ", iteration),
       MakePolyData(
-        std::move(surface), about, this->Levels.GetWorkspace(), choice, threads));
+        std::move(surface), about, this->Levels.GetComputationalSpace(), choice, threads));
   }
 }
 
@@ -261,15 +261,15 @@ void SegmentationRun::KeepLevel(
 {
   const StopReason reason = outcome.Reason;
   FinishedLevel finished;
-  finished.IsAtRest = reason != StopReason::Cancelled;
+  finished.IsConverged = reason != StopReason::Cancelled;
   finished.About.Level = level;
   finished.About.StartLevel = this->Choice.Coarsest;
   finished.About.Unit = this->Levels.Pyramid().UnitInWorld(level);
   finished.About.Iterations = outcome.Iterations;
-  finished.About.StopReason = finished.IsAtRest ? Describe(reason) : observer.StopReason();
+  finished.About.StopReason = finished.IsConverged ? Describe(reason) : observer.StopReason();
   if (level < this->Choice.Coarsest || this->Choice.StartsAtParts)
   {
-    finished.About.Lost = outcome.Lost;
+    finished.About.Missed = outcome.Missed;
   }
   if (outcome.Verified.Found > 0)
   {
@@ -280,22 +280,22 @@ void SegmentationRun::KeepLevel(
   this->Rest.History.EndLevel();
   this->Reached = level;
   // With recovery a finer level may recover a vanished surface.
-  this->GoesOn = reason == StopReason::Converged || reason == StopReason::LimitCycle ||
+  this->CanContinue = reason == StopReason::Converged || reason == StopReason::LimitCycle ||
     reason == StopReason::IterationLimit ||
-    (reason == StopReason::Vanished && this->Settings.Options.RecoverLostParts);
+    (reason == StopReason::Vanished && this->Settings.Options.RecoverMissedParts);
 }
 
 bool SegmentationRun::PreviewMissesParts(int level) const
 {
-  return this->Settings.End.Preview && this->GoesOn &&
+  return this->Settings.End.Preview && this->CanContinue &&
     level > std::max(this->Settings.End.FinestLevel, 0) &&
     this->Settings.Recovery != RecoveryType::NoRecovery &&
-    this->Finished.About(level).Lost.MissingBoundary > FinishedLevels::NotableShare;
+    this->Finished.About(level).Missed.MissingBoundary > FinishedLevels::NotableShare;
 }
 
-void SegmentationRun::LetGo()
+void SegmentationRun::ReleaseRunData()
 {
   this->Levels.ReleaseCoarserThan(PyramidLevels::AllLevels);
-  this->Rest = SurfaceAtRest();
+  this->Rest = ConvergedSurface();
 }
 }

@@ -37,13 +37,13 @@ public:
   /** Return whether the graded level, if any, is the finest level of another request. */
   bool GradesFor(const SegmentationRequest& request) const
   {
-    return !this->Settings.Grading.IsWanted() ||
+    return !this->Settings.Grading.IsRequested() ||
       request.Settings.End.FinestLevel == this->Settings.End.FinestLevel;
   }
   /** Return whether the finished levels suffice for another request. */
   bool HasAll(const SegmentationRequest& request) const
   {
-    return this->Finished.HasAtRest(this->EndOf(request.Settings.End));
+    return this->Finished.HasConverged(this->EndOf(request.Settings.End));
   }
   /**
    * Replace the request for the next Run(). With EdgeLength the planned finest level remains.
@@ -65,11 +65,14 @@ public:
   /** Return the finest level of the request. */
   int EndsAt() const { return this->Choice.Last; }
   /** Return the level after the finest converged one, or EndsAt() if that is not reached. */
-  int NextLevel() const { return this->HasCome() ? this->Reached - 1 : this->EndsAt(); }
+  int NextLevel() const { return this->HasReachedEnd() ? this->Reached - 1 : this->EndsAt(); }
   /** Return whether Run() can compute a finer level. At level 0 only a stopped run can. */
-  bool CanGoOn() const { return this->GoesOn && !(this->Reached <= 0 && this->HasCome()); }
-  /** Release everything but the finished levels, if CanGoOn() is false. */
-  void LetGo();
+  bool CanResume() const
+  {
+    return this->CanContinue && !(this->Reached <= 0 && this->HasReachedEnd());
+  }
+  /** Release everything but the finished levels, if CanResume() is false. */
+  void ReleaseRunData();
 
   void FillOutputs(vtkInformationVector* outputs) const
   {
@@ -87,7 +90,7 @@ public:
   }
 
 private:
-  bool HasCome() const { return this->Finished.HasAtRest(this->EndsAt()); }
+  bool HasReachedEnd() const { return this->Finished.HasConverged(this->EndsAt()); }
   /** Return the finest level of a request. */
   int EndOf(const SegmentationEnd& end) const;
   /** Apply EdgeLength to existing levels: finest level, sampling ratio, factor below level 0. */
@@ -105,8 +108,8 @@ private:
   LevelTask TaskOf(int level, const LevelImage& image, HostThreads& threads);
   LevelOutcome Evolve(LevelTask& task, LevelMonitor& monitor, HostThreads& threads);
   /** Keep a snapshot at the end of a sweep, at the intervals of SnapshotInterval. */
-  void TakeSnapshot(int level, int iteration, const std::function<SurfaceResult()>& take,
-    HostThreads& threads);
+  void TakeSnapshot(
+    int level, int iteration, const std::function<SurfaceResult()>& take, HostThreads& threads);
   void KeepLevel(int level, LevelOutcome outcome, RunObserver& observer, HostThreads& threads);
   /** Return whether a preview must continue beyond a level because too much is missing. */
   bool PreviewMissesParts(int level) const;
@@ -117,10 +120,10 @@ private:
   LevelChoice Choice;
   bool HasBegun = false;
   FinishedLevels Finished;
-  SurfaceAtRest Rest; ///< converged surface of level Reached
+  ConvergedSurface Rest; ///< converged surface of level Reached
   int Reached = 0;
-  bool GoesOn = false;  ///< A finer level can start from Rest.
-  int SnapshotLook = 0; ///< iteration of the last call of TakeSnapshot()
+  bool CanContinue = false; ///< A finer level can start from Rest.
+  int LastSnapshotIteration = 0; ///< iteration of the last call of TakeSnapshot()
 };
 }
 

@@ -122,23 +122,23 @@ void PrintSetting(std::ostream& os, const Setting& setting)
 
 // As vtkGetMacro() and vtkSetMacro() of vtkSetGet.h, but for where the value is: a member of the
 // class, or of what it holds. When it has changed, `modified` is called.
-#define VOLUMIC_SET_AND_GET(Class, name, type, setting, modified)                \
-  type Class::Get##name()                                                        \
-  {                                                                              \
-    const auto value = volumic::ValueOf<type>(this->setting);                    \
-    vtkDebugMacro(<< "returning " #name " of " << value);                        \
-    return value;                                                                \
-  }                                                                              \
-  void Class::Set##name(type value)                                              \
-  {                                                                              \
-    auto& now = this->setting;                                                   \
-    const auto wanted = volumic::SettingOf<std::decay_t<decltype(now)>>(value);  \
-    vtkDebugMacro(<< "setting " #name " to " << volumic::ValueOf<type>(wanted)); \
-    if (now != wanted)                                                           \
-    {                                                                            \
-      now = wanted;                                                              \
-      modified;                                                                  \
-    }                                                                            \
+#define VOLUMIC_SET_AND_GET(Class, name, type, setting, modified)                   \
+  type Class::Get##name()                                                           \
+  {                                                                                 \
+    const auto value = volumic::ValueOf<type>(this->setting);                       \
+    vtkDebugMacro(<< "returning " #name " of " << value);                           \
+    return value;                                                                   \
+  }                                                                                 \
+  void Class::Set##name(type value)                                                 \
+  {                                                                                 \
+    auto& now = this->setting;                                                      \
+    const auto requested = volumic::SettingOf<std::decay_t<decltype(now)>>(value);  \
+    vtkDebugMacro(<< "setting " #name " to " << volumic::ValueOf<type>(requested)); \
+    if (now != requested)                                                           \
+    {                                                                               \
+      now = requested;                                                              \
+      modified;                                                                     \
+    }                                                                               \
   }
 
 // Set and Get of a deprecated property without effect. Set reports a warning.

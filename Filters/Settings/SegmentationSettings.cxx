@@ -23,19 +23,20 @@ void CheckGrading(const Grading& grading, double edgeLength)
   {
     if (!(value >= 0.0 && std::isfinite(value)))
     {
-      Refuse(name, " is ", value, "; it must be 0 (", zero, ") or more, in world units.");
+      ThrowInvalidArgument(
+        name, " is ", value, "; it must be 0 (", zero, ") or more, in world units.");
     }
   };
   checkLength("Tolerance", grading.Tolerance, "edges of one length");
   checkLength("Maximum Edge Length", grading.MaximumEdgeLength, "automatic");
   if (!(grading.Gradation > 0.0) || grading.Gradation > Grading::MostGradation)
   {
-    Refuse("Gradation is ", grading.Gradation, "; it must be more than 0 and at most ",
-      Grading::MostGradation, ".");
+    ThrowInvalidArgument("Gradation is ", grading.Gradation,
+      "; it must be more than 0 and at most ", Grading::MostGradation, ".");
   }
-  if (grading.IsWanted() && edgeLength != 0.0)
+  if (grading.IsRequested() && edgeLength != 0.0)
   {
-    Refuse(WhatGrades(grading), " and Edge Length is ", edgeLength, ": edges either ",
+    ThrowInvalidArgument(WhatGrades(grading), " and Edge Length is ", edgeLength, ": edges either ",
       grading.HasTolerance() ? "keep a tolerance" : "are shorter in thin parts",
       " or are of one length. Set Edge Length to 0, or switch ",
       grading.HasTolerance() && grading.ThinParts ? "Tolerance and Thin Parts" : "the other",
@@ -51,21 +52,23 @@ void SegmentationSettings::Check() const
   CheckEnumeration("Recovery", this->Recovery, RecoveryType::RecoverObjectsAndCavities);
   if (options.MaximumNumberOfIterations < 1)
   {
-    Refuse("Maximum Number Of Iterations is ", options.MaximumNumberOfIterations,
+    ThrowInvalidArgument("Maximum Number Of Iterations is ", options.MaximumNumberOfIterations,
       "; it must be at least 1.");
   }
   if (this->SnapshotInterval < 0)
   {
-    Refuse("Snapshot Interval is ", this->SnapshotInterval, "; it must be 0 (off) or more.");
+    ThrowInvalidArgument(
+      "Snapshot Interval is ", this->SnapshotInterval, "; it must be 0 (off) or more.");
   }
   if (options.SeedRadius < 0.0 || !std::isfinite(options.SeedRadius))
   {
-    Refuse("Seed Radius is ", options.SeedRadius, "; it must be 0 (automatic) or more.");
+    ThrowInvalidArgument(
+      "Seed Radius is ", options.SeedRadius, "; it must be 0 (automatic) or more.");
   }
   CheckGrading(this->Grading, this->EdgeLength);
-  if (this->Grading.IsWanted() && !options.Drive().LiesAtIsoValue)
+  if (this->Grading.IsRequested() && !options.Drive().LiesAtIsoValue)
   {
-    Refuse(WhatGrades(this->Grading), ", but ",
+    ThrowInvalidArgument(WhatGrades(this->Grading), ", but ",
       options.SnapToIsoValue ? "Isopotential Weight is not more than Edge Attraction Weight"
                              : "Snap To Iso Value is off",
       ": the surface does not lie at the iso-value, from which ",

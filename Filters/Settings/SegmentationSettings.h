@@ -5,11 +5,11 @@
 
 #include "Core/Common/Grading.h"
 #include "Core/Common/IndexedSurface.h"
-#include "Core/Common/Refuse.h"
+#include "Core/Common/ThrowInvalidArgument.h"
 #include "Core/Evolution/SurfaceOptions.h"
 #include "Core/Image/PyramidGeometry.h"
+#include "Input/ComputationalSpace.h"
 #include "Input/ImageVoxels.h"
-#include "Input/Workspace.h"
 
 #include <vtkDataObject.h>
 #include <vtkInformation.h>
@@ -29,7 +29,7 @@ void CheckEnumeration(const char* name, Enumeration value, Enumeration last)
   const int number = static_cast<int>(value);
   if (number < 0 || value > last)
   {
-    Refuse(name, " is ", number, "; it must be 0 to ", static_cast<int>(last), ".");
+    ThrowInvalidArgument(name, " is ", number, "; it must be 0 to ", static_cast<int>(last), ".");
   }
 }
 
@@ -88,7 +88,7 @@ struct SegmentationSettings
 {
   SegmentationSettings() { this->Options.IsoValue = std::numeric_limits<double>::quiet_NaN(); }
 
-  /** SeedRadius in world units; Recovery decides on RecoverLostParts and RecoverCavities. */
+  /** SeedRadius in world units; Recovery decides on RecoverMissedParts and RecoverCavities. */
   SurfaceOptions Options;
   SegmentationEnd End;
 
@@ -102,7 +102,7 @@ struct SegmentationSettings
   volumic::Grading Grading; ///< at the finest level, world units
   double EdgeLength = 0.0;  ///< mean at the finest level, world units; 0: as FinestLevel has it
   InitializationType Initialization = InitializationType::EnclosingIcosahedron;
-  int CoarsestLevel = -1; ///< -1: the last that serves
+  int CoarsestLevel = -1;                 ///< -1: the last that serves
   std::vector<Point> AttractingPositions; ///< world, beside those of input port 2
   RecoveryType Recovery = RecoveryType::RecoverObjects;
   int SnapshotInterval = 0; ///< iterations; 0: no snapshots
@@ -140,12 +140,12 @@ struct SegmentationRequest
   vtkSmartPointer<vtkDataObject> Volume;         ///< input port 0
   vtkSmartPointer<vtkPolyData> InitialSurface;   ///< input port 1, may be missing
   vtkSmartPointer<vtkPolyData> AttractingPoints; ///< input port 2, may be missing
-  vtkSmartPointer<vtkInformation> Selection; ///< of the voxels, as GetInputArrayInformation()
-  vtkInformation* EdgeSelection = nullptr;   ///< of the edge map; ignored at weight 0
+  vtkSmartPointer<vtkInformation> Selection;     ///< of the voxels, as GetInputArrayInformation()
+  vtkInformation* EdgeSelection = nullptr;       ///< of the edge map; ignored at weight 0
 
-  bool IsStep = false;   ///< A finer level follows, so warnings about the surface would be early.
-  bool MayGoOn = false;  ///< Keep the converged surface while a finer level evolves.
-  bool KeepsAll = false; ///< Keep all components for another selection.
+  bool IsStep = false;    ///< A finer level follows, so warnings about the surface would be early.
+  bool MayResume = false; ///< Keep the converged surface while a finer level evolves.
+  bool KeepsAll = false;  ///< Keep all components for another selection.
 };
 }
 

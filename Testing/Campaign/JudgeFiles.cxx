@@ -16,9 +16,9 @@
  * may be on either side. The indices of the misclassified voxels, x fastest, end the line.
  */
 
+#include "MisclassifiedVoxels.h"
 #include "SupportVtkConversions.h"
 #include "SurfaceJudge.h"
-#include "WrongVoxels.h"
 
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
@@ -54,7 +54,7 @@ struct NamedSurface : TriangleSurface
   std::vector<double> Deltas; ///< of the points; empty if the file has none
   std::size_t Crossing = 0;   ///< intersections of all surfaces together
   std::size_t CentresOn = 0;  ///< voxels with centres on the surface
-  std::vector<std::size_t> WrongVoxels;
+  std::vector<std::size_t> MisclassifiedVoxels;
 };
 
 NamedSurface ReadSurface(const std::string& file)
@@ -124,7 +124,7 @@ std::size_t CountCentresOn(const TriangleSurface& inIndices, const std::array<in
   return found.size();
 }
 
-void FindWrongVoxels(NamedSurface& surface, vtkImageData* map)
+void FindMisclassifiedVoxels(NamedSurface& surface, vtkImageData* map)
 {
   TriangleSurface inIndices = surface;
   for (std::size_t p = 0; p < surface.Points.size(); ++p)
@@ -141,7 +141,7 @@ void FindWrongVoxels(NamedSurface& surface, vtkImageData* map)
     const double label = map->GetPointData()->GetScalars()->GetTuple1(static_cast<vtkIdType>(v));
     if (surface.Labels.count(label) != static_cast<std::size_t>(enclosed[v]))
     {
-      surface.WrongVoxels.push_back(v);
+      surface.MisclassifiedVoxels.push_back(v);
     }
   }
 }
@@ -185,7 +185,7 @@ void JudgeLabels(std::vector<NamedSurface>& surfaces, const std::string& mapFile
   const std::size_t crossing = JudgeIntersections(Together(surfaces)).Pairs;
   for (NamedSurface& surface : surfaces)
   {
-    FindWrongVoxels(surface, reader->GetOutput());
+    FindMisclassifiedVoxels(surface, reader->GetOutput());
     surface.Crossing = crossing;
   }
 }
@@ -215,8 +215,8 @@ void Judge(const NamedSurface& surface)
   const ShapeVerdict shapes = JudgeShapes(surface);
   std::cout << ' ' << shapes.Mean << ' ' << shapes.Quantile01 << ' ' << shapes.Least << ' '
             << cavities << ' ' << surface.Crossing << ' ' << surface.CentresOn << ' '
-            << surface.WrongVoxels.size();
-  for (const std::size_t voxel : surface.WrongVoxels)
+            << surface.MisclassifiedVoxels.size();
+  for (const std::size_t voxel : surface.MisclassifiedVoxels)
   {
     std::cout << ' ' << voxel;
   }

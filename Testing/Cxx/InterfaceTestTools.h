@@ -7,7 +7,7 @@
 #include "Core/Interfaces/InterfaceClearance.h"
 #include "Core/Interfaces/InterfaceFields.h"
 #include "Core/Interfaces/InterfaceMesh.h"
-#include "Core/Labels/MapBeyond.h"
+#include "Core/Labels/LabelMapPadding.h"
 #include "Core/Mesh/SelfIntersections.h"
 #include "LabelTestTools.h"
 #include "SurfaceTopology.h"
@@ -29,7 +29,7 @@ struct InterfaceScene
   InterfaceScene(LabelMap map, const VoxelBox& inside, bool isPeriodic = false)
     : Map(std::move(map))
   {
-    GoOnBeyond(this->Map, inside, isPeriodic);
+    PadLabelMap(this->Map, inside, isPeriodic);
     this->Bricks.emplace(this->Map, OnThisThread(), inside);
     this->Fields.emplace(
       *this->Bricks, LabelFieldOptions(), this->Map.Spacing, OnThisThread(),
@@ -209,10 +209,10 @@ inline void ExpectSound(const InterfaceMesh& mesh)
   for (const std::array<int, 2>& line : found)
   {
     mesh.FindFaces(line[0], line[1], about);
-    std::vector<PlacedFace> placed;
+    std::vector<FaceCoordinates> placed;
     for (const int f : about)
     {
-      placed.push_back(PlacedFaceOf(mesh, mesh.Faces[static_cast<std::size_t>(f)]));
+      placed.push_back(FaceCoordinatesOf(mesh, mesh.Faces[static_cast<std::size_t>(f)]));
       placed.back().Front =
         mesh.IsSide(placed.back().Front) ? LabelMap::Number(0) : placed.back().Front;
     }

@@ -100,7 +100,7 @@ SurfaceResult DivideWithin(const IndexedSurface& given, double unit)
   const TestVolume volume = BallVolume(16, 4.);
   SurfaceOptions options = IsoHalf();
   options.SamplingRatio = 1.;
-  options.RecoverLostParts = false;
+  options.RecoverMissedParts = false;
   options.SnapToIsoValue = false; // Else it is led to the field before it is divided.
   TestEvolution evolution(options, Threads, Silent);
   evolution.StartSurface(volume.Image, 1, given);

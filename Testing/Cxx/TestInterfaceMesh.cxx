@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Interfaces/LineWedges.h"
+#include "Core/Interfaces/JunctionWedges.h"
 #include "InterfaceTestTools.h"
 
 using namespace volumic;
@@ -31,8 +31,7 @@ InterfaceMesh TwoTetrahedra()
 TEST(InterfaceMesh, HasLinesWhereThreeFacesMeet)
 {
   const InterfaceMesh mesh = TwoTetrahedra();
-  EXPECT_EQ(mesh.FindLines(),
-    (std::vector<std::array<int, 2>>{ { 0, 1 }, { 0, 2 }, { 1, 2 } }));
+  EXPECT_EQ(mesh.FindLines(), (std::vector<std::array<int, 2>>{ { 0, 1 }, { 0, 2 }, { 1, 2 } }));
   EXPECT_EQ(mesh.StratumOf[0], Stratum::Line);
   EXPECT_EQ(mesh.StratumOf[3], Stratum::Interface);
   ExpectSound(mesh);
@@ -49,8 +48,8 @@ InterfaceMesh FacesAt(const std::array<double, 4>& angles)
   for (int n = 0; n < 4; ++n)
   {
     const double angle = angles[static_cast<std::size_t>(n)] * std::acos(-1.) / 180.;
-    const int outer = mesh.AddVertex(Vector(static_cast<float>(std::cos(angle)),
-                                       static_cast<float>(std::sin(angle)), 0.5f),
+    const int outer = mesh.AddVertex(
+      Vector(static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle)), 0.5f),
       Stratum::Interface);
     // Object n + 1 is at smaller angles, the next one at larger ones.
     const auto before = static_cast<LabelMap::Number>(n + 1);
@@ -62,11 +61,11 @@ InterfaceMesh FacesAt(const std::array<double, 4>& angles)
 }
 }
 
-TEST(LineWedges, AreBetweenFacesThatAreNextToEachOther)
+TEST(JunctionWedges, AreBetweenFacesThatAreNextToEachOther)
 {
   const double degree = std::acos(-1.) / 180.;
   EXPECT_NEAR(NarrowestWedge(FacesAt({ 0., 90., 175., 270. })).Angle, 85. * degree, 1e-6);
-  const LineWedge across = NarrowestWedge(FacesAt({ 3., 100., 200., 355. }));
+  const JunctionWedge across = NarrowestWedge(FacesAt({ 3., 100., 200., 355. }));
   EXPECT_NEAR(across.Angle, 8. * degree, 1e-6);
   EXPECT_EQ(across.Edge, (std::array<int, 2>{ 0, 1 }));
   EXPECT_EQ(across.Faces, (std::array<int, 2>{ 3, 0 }));
@@ -78,10 +77,10 @@ TEST(InterfaceClearance, KnowsFacesThatAreTurnedPastOthers)
   const auto areInOrder = [](const std::array<double, 4>& angles, int u, int v)
   {
     const InterfaceMesh mesh = FacesAt(angles);
-    std::vector<PlacedFace> faces;
+    std::vector<FaceCoordinates> faces;
     for (const InterfaceMesh::Face& face : mesh.Faces)
     {
-      faces.push_back(PlacedFaceOf(mesh, face));
+      faces.push_back(FaceCoordinatesOf(mesh, face));
     }
     return AreInOrder(u, v, faces);
   };
@@ -98,7 +97,7 @@ TEST(InterfaceClearance, LetsNoFaceBeTurnedPastAnother)
   InterfaceClearance clearance(mesh, 1e-3);
   clearance.Reset(OnThisThread());
   std::vector<int> near;
-  std::vector<PlacedFace> made = { PlacedFaceOf(mesh, mesh.Faces[1]) };
+  std::vector<FaceCoordinates> made = { FaceCoordinatesOf(mesh, mesh.Faces[1]) };
   EXPECT_TRUE(clearance.AreClear(made, { 1 }, near));
   made.front().Corner[0] = VectorD(-0.9, 0.3, 0.5); // Before that of 180 degrees.
   EXPECT_TRUE(clearance.AreClear(made, { 1 }, near));
@@ -116,7 +115,7 @@ TEST(InterfaceClearance, LetsNoFaceIntersectThoseThatStay)
   InterfaceClearance clearance(mesh, 1e-3);
   clearance.Reset(OnThisThread());
   std::vector<int> near;
-  std::vector<PlacedFace> made = { PlacedFaceOf(mesh, mesh.Faces[beside]) };
+  std::vector<FaceCoordinates> made = { FaceCoordinatesOf(mesh, mesh.Faces[beside]) };
   EXPECT_TRUE(clearance.AreClear(made, { beside }, near));
   made.front().Corner[0] = VectorD(0.4, -0.2, 0.5); // Through the face at 0 degrees.
   EXPECT_FALSE(clearance.AreClear(made, { beside }, near));

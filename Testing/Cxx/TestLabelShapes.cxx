@@ -49,7 +49,7 @@ TEST_P(LabelPromises, AreKept)
     ASSERT_EQ(FieldOf(block, "Label"), shape.Label);
     ExpectGoodTriangles(block);
     const TriangleSurface surface = ToTriangleSurface(block);
-    const WrongVoxelVerdict voxels = JudgeVoxels(surface, shapes.Map, shape.Label);
+    const MisclassifiedVoxelVerdict voxels = JudgeVoxels(surface, shapes.Map, shape.Label);
     EXPECT_EQ(FieldOf(block, "LabelVoxels"), voxels.Label);
     EXPECT_EQ(FieldOf(block, "WrongVoxels"), voxels.Wrong()) << "judge and filter differ";
     EXPECT_LE(voxels.Wrong(), promise.Wrong * voxels.Label)

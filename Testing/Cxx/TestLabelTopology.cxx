@@ -23,8 +23,8 @@ struct LabelScene
   std::string Name;
   VoxelScene Voxels;
   Choose Settings = [](vtkLabelsToSurfaces*) {};
-  double Excess = 1.; ///< by how much volumes are further off than is aimed at
-  int WrongParts = 0; ///< of few voxels, at most
+  double Excess = 1.;         ///< by how much volumes are further off than is aimed at
+  int MisclassifiedParts = 0; ///< of few voxels, at most
 };
 
 void PrintTo(const LabelScene& scene, std::ostream* stream)
@@ -35,8 +35,8 @@ void PrintTo(const LabelScene& scene, std::ostream* stream)
 vtkSmartPointer<vtkImageData> ImageOf(const VoxelScene& scene)
 {
   const auto& [nx, ny, nz] = scene.Size;
-  const auto image = LabelImageOf(nx - 2, ny - 2, nz - 2,
-    [&](int i, int j, int k) { return scene.At(i + 1, j + 1, k + 1); });
+  const auto image = LabelImageOf(
+    nx - 2, ny - 2, nz - 2, [&](int i, int j, int k) { return scene.At(i + 1, j + 1, k + 1); });
   image->SetSpacing(scene.Spacing.data());
   return image;
 }
@@ -77,7 +77,8 @@ void ExpectContactsOfVoxels(const VoxelScene& scene, const InterfaceMesh& mesh)
   ForBox({ 1, 1, 1 }, scene.Size,
     [&](int i, int j, int k)
     {
-      for (const int other : { scene.At(i - 1, j, k), scene.At(i, j - 1, k), scene.At(i, j, k - 1) })
+      for (const int other :
+        { scene.At(i - 1, j, k), scene.At(i, j - 1, k), scene.At(i, j, k - 1) })
       {
         contacts.insert(std::minmax(other, scene.At(i, j, k)));
       }
@@ -104,7 +105,7 @@ void ExpectVolumes(vtkLabelsToSurfaces* filter, const LabelScene& scene)
     SCOPED_TRACE(FieldOf(surface, "Label"));
     const double voxels = FieldOf(surface, "LabelVoxels");
     EXPECT_NEAR(FieldOf(surface, "VolumeError"), 0., scene.Excess * MostOff(voxels)) << voxels;
-    EXPECT_LE(FieldOf(surface, "WrongParts"), scene.WrongParts);
+    EXPECT_LE(FieldOf(surface, "WrongParts"), scene.MisclassifiedParts);
   }
 }
 
@@ -222,12 +223,12 @@ std::vector<LabelScene> ScatteredLabels()
 {
   const auto rods = [](int i, int j, int k)
   {
-    return i == 21 && j >= 6 && j <= 12 && k == 18 - j    ? 1
-      : (i == 15 || i == 16) && j >= 19 && k / 2 == 4      ? 2
-      : i == 23 && j == 1 && k == 12                       ? 3
-      : i == 18 && j >= 6 && j <= 9 && k == j + 5          ? 5
-      : j == 13 && i >= 17 && i <= 22 && k == 31 - i - 1   ? 6
-                                                           : 0;
+    return i == 21 && j >= 6 && j <= 12 && k == 18 - j   ? 1
+      : (i == 15 || i == 16) && j >= 19 && k / 2 == 4    ? 2
+      : i == 23 && j == 1 && k == 12                     ? 3
+      : i == 18 && j >= 6 && j <= 9 && k == j + 5        ? 5
+      : j == 13 && i >= 17 && i <= 22 && k == 31 - i - 1 ? 6
+                                                         : 0;
   };
   const auto parts = [](int i, int j, int k)
   {
@@ -290,9 +291,9 @@ TEST(LabelParts, AreReported)
     EXPECT_EQ(FieldOf(BlockOf(filter, block), "Parts"), block == 0 ? 3. : 2.);
     EXPECT_EQ(FieldOf(BlockOf(filter, block), "WrongParts"), 2.) << "single voxels are too small";
   }
-  vtkAbstractArray* lost = filter->GetOutput()->GetFieldData()->GetAbstractArray("LostLabels");
-  ASSERT_TRUE(lost);
-  EXPECT_EQ(vtkStringArray::SafeDownCast(lost)->GetValue(0),
+  vtkAbstractArray* missed = filter->GetOutput()->GetFieldData()->GetAbstractArray("LostLabels");
+  ASSERT_TRUE(missed);
+  EXPECT_EQ(vtkStringArray::SafeDownCast(missed)->GetValue(0),
     "Parts have another volume than their voxels, of Label 1 (2 of 3), Label 2 (2 of 2): too "
     "small, scattered, or too thin for the triangles.");
 }

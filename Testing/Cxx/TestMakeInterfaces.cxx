@@ -4,7 +4,7 @@
 
 #include "Core/Interfaces/InterfaceFit.h"
 #include "Core/Interfaces/InterfaceSizes.h"
-#include "Core/Interfaces/LineWedges.h"
+#include "Core/Interfaces/JunctionWedges.h"
 #include "Core/Interfaces/TriangleShape.h"
 #include "Core/Mesh/TriangleDistance.h"
 #include "InterfaceTestTools.h"
@@ -103,7 +103,7 @@ TEST(MakeInterfaces, KeepsVolumesAndVoxelsWithGoodTriangles)
   }
   EXPECT_GT(sum / static_cast<double>(mesh.Faces.size()), 0.94);
   EXPECT_GT(least, 0.5);
-  EXPECT_LT(static_cast<double>(PushWrongVoxels(mesh, *scene.Fields, 0., OnThisThread())),
+  EXPECT_LT(static_cast<double>(PushMisclassifiedVoxels(mesh, *scene.Fields, 0., OnThisThread())),
     0.03 * static_cast<double>(mesh.Position.size()));
 }
 
@@ -302,7 +302,8 @@ TEST_P(GradedInterfaces, AreSoundWhateverTheMap)
 {
   const auto seed = static_cast<unsigned>(GetParam());
   InterfaceScene scene(ManyCells(26, 3 + 4 * GetParam(), seed));
-  const InterfaceMesh mesh = Make(scene, OnThisThread(), [](double) { return true; }, 0.1 * (1 + GetParam()));
+  const InterfaceMesh mesh = Make(
+    scene, OnThisThread(), [](double) { return true; }, 0.1 * (1 + GetParam()));
   ExpectSound(mesh);
 }
 

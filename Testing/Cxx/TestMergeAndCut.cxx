@@ -40,7 +40,7 @@ struct Scene : Bench
       this->Volume = MakeVolume(33, image);
       this->TheField = std::make_unique<Field>(this->Volume.Image, SurfaceOptions(), this->Threads);
     }
-    this->Near.Examine(this->State, this->All(), OnThisThread());
+    this->Near.Test(this->State, this->All(), OnThisThread());
   }
 
   int Merges(bool topologyChanges = true)
@@ -112,10 +112,10 @@ Image Between(double middle, double ends)
 
 TEST(Merging, JoinsTwoBallsWhereTheImageIsObjectBetweenThem)
 {
-  Scene wanted(TwoBalls(), Everywhere(1));
-  ASSERT_FALSE(wanted.Near.Pairs().empty());
-  EXPECT_EQ(wanted.Merges(), 1);
-  EXPECT_EQ(ComputeFeatures(wanted.State.Mesh.ToIndexed()).Components.size(), 1u);
+  Scene requested(TwoBalls(), Everywhere(1));
+  ASSERT_FALSE(requested.Near.Pairs().empty());
+  EXPECT_EQ(requested.Merges(), 1);
+  EXPECT_EQ(ComputeFeatures(requested.State.Mesh.ToIndexed()).Components.size(), 1u);
   EXPECT_EQ(Scene(TwoBalls(), Everywhere(-1)).Merges(), 0) << "background";
   EXPECT_EQ(Scene(TwoBalls(), Everywhere(1)).Merges(false), 0) << "the topology must stay";
 }

@@ -81,14 +81,14 @@ TEST(RowGrid, FindsTheCrossingsOfAllItsRows)
     {
       for (std::int64_t j = rows.First[1]; j < rows.End[1]; ++j)
       {
-        const RowCrossing wanted =
+        const RowCrossing requested =
           RowCrossing::Of(t[0], t[1], t[2], rows.Coordinate(1, j), rows.Coordinate(2, k));
-        if (wanted.Winding != 0)
+        if (requested.Winding != 0)
         {
           ASSERT_NE(place, found.end());
           EXPECT_EQ(place->Row, rows.RowOf(j, k));
-          EXPECT_EQ(place->Where.Winding, wanted.Winding);
-          EXPECT_EQ((place++)->Where.X, wanted.X);
+          EXPECT_EQ(place->Where.Winding, requested.Winding);
+          EXPECT_EQ((place++)->Where.X, requested.X);
         }
       }
     }
@@ -126,4 +126,3 @@ TEST(ComponentsAbout, AreThoseThatEncloseAPlaceButItsOwn)
   EXPECT_EQ(ComponentsAbout(places, { 0, 1, 1, -1, 2 }, nested.size(), facesOf, threads),
     (Lists{ {}, { 0, 2 }, { 0 }, {}, {} }));
 }
-

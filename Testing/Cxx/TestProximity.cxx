@@ -13,7 +13,7 @@ TEST(Proximity, FindsThePairsOfTwoSpheresAsBruteForceDoes)
   AddSurface(surface, DividedIcosahedron({ 12.8, 0, 0 }, 6, 1.6));
   LiveSurface state(surface);
   Proximity proximity;
-  proximity.Examine(state, state.All(), OnThisThread());
+  proximity.Test(state, state.All(), OnThisThread());
   std::set<std::pair<int, int>> expected;
   for (int v = 0; v < second; ++v)
   {
@@ -54,7 +54,7 @@ TEST(Proximity, FindsWhetherTwoBodiesIntersectAtEveryDistance)
     AddSurface(surface, DividedIcosahedron({ distance, 0.3, 0.2 }, 5.5, 1.7));
     LiveSurface state(surface);
     Proximity proximity;
-    proximity.Examine(state, state.All(), OnThisThread());
+    proximity.Test(state, state.All(), OnThisThread());
     const bool intersects = CountSelfIntersections(surface, 1) > 0;
     // The tolerance may find a touch where there is none by less than it; never the other way.
     if (intersects)
@@ -79,8 +79,8 @@ TEST(Proximity, ToldRoomIsThere)
     AddSurface(surface, DividedIcosahedron({ distance, 0.3, 0.2 }, 6, 1.7));
     LiveSurface state(surface);
     Proximity proximity;
-    proximity.Examine(state, state.All(), OnThisThread());
-    const auto& slack = state.Slack.AsVector();
+    proximity.Test(state, state.All(), OnThisThread());
+    const auto& slack = state.ClearanceAtTest.AsVector();
     const float room = *std::min_element(slack.begin(), slack.end());
     if (!proximity.Intersections().empty() || room <= 0.f)
     {
@@ -103,7 +103,7 @@ TEST(Proximity, KeepsPairsOfVerticesThatWereNotExaminedAnew)
   AddSurface(surface, DividedIcosahedron({ 12.8, 0, 0 }, 6, 1.6));
   LiveSurface state(surface);
   Proximity proximity;
-  proximity.Examine(state, state.All(), OnThisThread());
+  proximity.Test(state, state.All(), OnThisThread());
   const std::size_t pairs = proximity.Pairs().size();
   ASSERT_GT(pairs, 3u);
   for (const Proximity::ClosePair& pair : proximity.Pairs())
@@ -112,9 +112,9 @@ TEST(Proximity, KeepsPairsOfVerticesThatWereNotExaminedAnew)
     EXPECT_EQ(state.NearOthers[pair.W], 1);
     EXPECT_NE(pair.V < second, pair.W < second) << "never neighbours along the surface";
   }
-  proximity.Examine(state, { 0 }, OnThisThread());
+  proximity.Test(state, { 0 }, OnThisThread());
   EXPECT_EQ(proximity.Pairs().size(), pairs);
-  proximity.Examine(state, state.All(), OnThisThread());
+  proximity.Test(state, state.All(), OnThisThread());
   EXPECT_EQ(proximity.Pairs().size(), pairs);
 }
 
@@ -158,7 +158,7 @@ TEST(Proximity, FindsAStarThatIsFoldedOntoItself)
   state.UpdateShape(state.All(), OnThisThread());
   ASSERT_GT(CountSelfIntersections(state.Mesh.ToIndexed(), 1), 0);
   Proximity proximity;
-  proximity.Examine(state, state.All(), OnThisThread());
+  proximity.Test(state, state.All(), OnThisThread());
   EXPECT_FALSE(proximity.Intersections().empty());
   for (const Proximity::FacePair& pair : proximity.Intersections())
   {
@@ -166,7 +166,7 @@ TEST(Proximity, FindsAStarThatIsFoldedOntoItself)
     {
       for (int corner : face)
       {
-        EXPECT_EQ(state.Slack[corner], 0) << "no room";
+        EXPECT_EQ(state.ClearanceAtTest[corner], 0) << "no room";
       }
     }
   }
@@ -181,8 +181,8 @@ TEST(Proximity, FindsLargeFacesFromTheSmallOnesThatTheyCross)
   Point middle{};
   for (int axis = 0; axis < 3; ++axis)
   {
-    middle[axis] = (large.Points[cut[0]][axis] + large.Points[cut[1]][axis] +
-                     large.Points[cut[2]][axis]) / 3.;
+    middle[axis] =
+      (large.Points[cut[0]][axis] + large.Points[cut[1]][axis] + large.Points[cut[2]][axis]) / 3.;
   }
   IndexedSurface both = large;
   AddSurface(both, DividedIcosahedron(middle, 1.2, 0.8));

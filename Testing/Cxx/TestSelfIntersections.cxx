@@ -83,7 +83,7 @@ TEST(SelfIntersections, OfLargeTrianglesAboutSmallOnesAreLookedForWhereTheyPass)
 {
   // The boxes of these triangles hold the whole sphere, their planes pass it by.
   const IndexedSurface sphere = DividedIcosahedron({ 0, 0, 0 }, 1, 0.02);
-  IntersectionWork own;
+  IntersectionCounters own;
   EXPECT_EQ(CountSelfIntersections(sphere, 0, &own), 0);
   IndexedSurface surface;
   constexpr int sheets = 100;
@@ -95,7 +95,7 @@ TEST(SelfIntersections, OfLargeTrianglesAboutSmallOnesAreLookedForWhereTheyPass)
     surface.Triangles.push_back({ 3 * i, 3 * i + 1, 3 * i + 2 });
   }
   AddSurface(surface, sphere);
-  IntersectionWork work;
+  IntersectionCounters work;
   EXPECT_EQ(CountSelfIntersections(surface, 0, &work), 0);
   EXPECT_LT(work.Pairs, own.Pairs + sheets * static_cast<long long>(sphere.Triangles.size()) / 3);
   // And a cube that passes the sphere is found.

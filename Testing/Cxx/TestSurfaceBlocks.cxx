@@ -39,7 +39,7 @@ SurfaceBlocks::Frame FrameAbout(const SurfaceMesh& mesh, float side)
 /** Of a block, those that are alive. */
 std::vector<int> VerticesOf(SurfaceBlocks& blocks, const SurfaceMesh& mesh, int block)
 {
-  BlockVisit visit = blocks.Open(block);
+  BlockPass visit = blocks.Open(block);
   std::vector<int> vertices;
   for (int v = visit.First; v < visit.End(); ++v)
   {
@@ -134,7 +134,7 @@ TEST(SurfaceBlocks, OwnTheNewVerticesOfTheirVisits)
   LiveSurface state(Balls(3));
   SurfaceBlocks blocks(state, FrameAbout(state.Mesh, 10.f), Thread);
   const int before = state.Mesh.NumberOfVertices();
-  BlockVisit visit = blocks.Open(1);
+  BlockPass visit = blocks.Open(1);
   visit.Share.Region = visit.Share.Region.Grown(1000.f);
   SurfaceEditor editor(state, &visit.Share);
   const int end = visit.End();
@@ -162,7 +162,7 @@ TEST(SurfaceBlocks, GetMoreRoomWhereTheyHaveTakenIt)
   SurfaceBlocks blocks(state, FrameAbout(state.Mesh, 10.f), Thread);
   const auto takeAll = [&]
   {
-    BlockVisit visit = blocks.Open(1);
+    BlockPass visit = blocks.Open(1);
     const int size = visit.Share.Room.End - visit.Share.Room.Next;
     visit.Share.Room.Next = visit.Share.Room.End; // As if edits had made and removed so many.
     blocks.Close(std::move(visit));
@@ -170,7 +170,7 @@ TEST(SurfaceBlocks, GetMoreRoomWhereTheyHaveTakenIt)
   };
   const int first = takeAll();
   EXPECT_GT(first, 0);
-  BlockVisit visit = blocks.Open(1);
+  BlockPass visit = blocks.Open(1);
   SurfaceEditor editor(state, &visit.Share);
   EXPECT_FALSE(visit.Share.Room.Has(1));
   EXPECT_FALSE(editor.Split(visit.First, state.Mesh.Rings[visit.First].Item[0])) << "there is none";
@@ -186,7 +186,7 @@ TEST(SurfaceBlocks, AreEditedNoFurtherThanTheirRegion)
 {
   LiveSurface state(Balls(3));
   SurfaceBlocks blocks(state, FrameAbout(state.Mesh, 10.f), Thread);
-  BlockVisit visit = blocks.Open(1);
+  BlockPass visit = blocks.Open(1);
   SurfaceEditor editor(state, &visit.Share);
   const float end = blocks.BoxOf(1).High.X;
   int beyond = 0;
@@ -245,13 +245,13 @@ TEST(SurfaceIteration, MovesNothingFarFromTheBlock)
 {
   LiveSurface s(Balls(3));
   SurfaceBlocks blocks(s, FrameAbout(s.Mesh, 10.f), Thread);
-  const auto movedIn = [&](BlockVisit& visit, const Vector& place)
+  const auto movedIn = [&](BlockPass& visit, const Vector& place)
   {
     const std::vector<int> active = SurfaceIteration(s, visit, nullptr, true).ActiveVertices();
     return std::any_of(active.begin(), active.end(),
       [&](int v) { return SquaredDistance(s.Mesh.Position[v], place) == 0.f; });
   };
-  BlockVisit visit = blocks.Open(1);
+  BlockPass visit = blocks.Open(1);
   const float end = blocks.BoxOf(1).High.X;
   const Vector near(end + 0.9f * SurfaceBlocks::MovingInDelta, 0, 0);
   const Vector far(end + 1.1f * SurfaceBlocks::MovingInDelta, 0, 0);

@@ -10,7 +10,7 @@ namespace
 {
 std::string ErrorOf(const IndexedSurface& surface)
 {
-  return RefusalOf([&] { CheckInitialSurface(surface); });
+  return ErrorMessageOf([&] { CheckInitialSurface(surface); });
 }
 
 std::string OutsideErrorOf(const IndexedSurface& surface)
@@ -18,7 +18,7 @@ std::string OutsideErrorOf(const IndexedSurface& surface)
   const TestVolume volume = MakeVolume(20, [](double, double, double) { return 0.; });
   LevelImage image = volume.Image;
   image.Step = { 1, 1, 2 }; // 20 x 20 x 40
-  return RefusalOf([&] { CheckOverlapsImage(surface, image); });
+  return ErrorMessageOf([&] { CheckOverlapsImage(surface, image); });
 }
 
 IndexedSurface Ball(double x = 0, double radius = 2)

@@ -17,8 +17,9 @@ struct Grading
   double Tolerance = 0.0;
   /** 0: AutomaticGrowth times what edges may be elsewhere; from that to MostGrowth times that. */
   double MaximumEdgeLength = 0.0;
-  double Gradation = 0.2;         ///< By how much delta grows per length walked.
-  /** Edges are shorter than those of the level before only where the object, or the air, is thin. */
+  double Gradation = 0.2; ///< By how much delta grows per length walked.
+  /** Edges are shorter than those of the level before only where the object, or the air, is thin.
+   */
   bool ThinParts = false;
 
   static constexpr double MostGradation = 0.3;
@@ -27,7 +28,7 @@ struct Grading
   static constexpr float AutomaticGrowth = 4.f;
   static constexpr float MostGrowth = 5.f;
 
-  bool IsWanted() const { return this->HasTolerance() || this->ThinParts; }
+  bool IsRequested() const { return this->HasTolerance() || this->ThinParts; }
   bool HasTolerance() const { return this->Tolerance != 0.0; }
   /** How many times longer edges may become that may be up to `longest` elsewhere. */
   double Growth(double longest) const

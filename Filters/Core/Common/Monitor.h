@@ -12,7 +12,7 @@ namespace volumic
  * [0, 1]; the answer false means stop. Asked on the thread that does the work, never from within an
  * executor.
  */
-using ProgressQuestion = std::function<bool(double share)>;
+using ProgressCallback = std::function<bool(double share)>;
 
 /** For work that nobody follows. */
 inline bool NeverStop(double)
@@ -40,16 +40,16 @@ public:
 
   struct Status
   {
-    int Level = 0;           ///< Level that is running; 0 is the finest.
+    int Level = 0; ///< Level that is running; 0 is the finest.
     Activity Doing = Activity::Iterating;
-    int Iteration = 0;       ///< Iterations done on this level.
-    int Sweep = 0;           ///< Number of the level's sweep, from 1; 0 before the first.
-    int Block = 0;           ///< Blocks that were visited in this sweep, and
-    int Blocks = 0;          ///< how many there are at most.
-    int Vertices = 0;        ///< Vertices of the surface now.
-    int ActiveVertices = 0;  ///< How many of them are not frozen.
-    double Fraction = 0;     ///< Estimate of the share of this level that is done, in [0, 1]. It
-                             ///< never becomes less.
+    int Iteration = 0;      ///< Iterations done on this level.
+    int Sweep = 0;          ///< Number of the level's sweep, from 1; 0 before the first.
+    int Block = 0;          ///< Blocks that were visited in this sweep, and
+    int Blocks = 0;         ///< how many there are at most.
+    int Vertices = 0;       ///< Vertices of the surface now.
+    int ActiveVertices = 0; ///< How many of them are not frozen.
+    double Fraction = 0;    ///< Estimate of the share of this level that is done, in [0, 1]. It
+                            ///< never becomes less.
   };
 
   virtual ~Monitor() = default;

@@ -13,8 +13,8 @@
 namespace volumic
 {
 /** The indices i below n for which isWanted(i), which is called on any thread, in order. */
-template <typename IsWanted>
-std::vector<int> SelectIndices(Executor& executor, std::size_t n, IsWanted&& isWanted)
+template <typename IsRequested>
+std::vector<int> SelectIndices(Executor& executor, std::size_t n, IsRequested&& isRequested)
 {
   constexpr std::size_t size = 2048;
   std::vector<std::vector<int>> spans((n + size - 1) / size);
@@ -25,7 +25,7 @@ std::vector<int> SelectIndices(Executor& executor, std::size_t n, IsWanted&& isW
       std::size_t count = 0;
       for (std::size_t i = begin; i < end; ++i)
       {
-        if (isWanted(i))
+        if (isRequested(i))
         {
           found[count++] = static_cast<int>(i);
         }

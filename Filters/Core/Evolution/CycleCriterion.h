@@ -13,12 +13,12 @@ namespace volumic
 /**
  * Recognises a level that never rests though it gets nowhere: what it merges it cuts again, or its
  * vertices swing, and the enclosed volume goes to and fro. Fed with the volume at every fifth
- * iteration, as RestCriterion. Volumes: any unit.
+ * iteration, as ConvergenceCriterion. Volumes: any unit.
  *
  * Over the last 80 iterations the mean of the younger half is that of the older, within what counts
- * as rest at the pace of RestCriterion (its limit over 20 iterations), or within a quarter of the
- * swing. A volume that grows or shrinks steadily, however slowly, differs between the halves by
- * more than it does within one.
+ * as rest at the pace of ConvergenceCriterion (its limit over 20 iterations), or within a quarter
+ * of the swing. A volume that grows or shrinks steadily, however slowly, differs between the halves
+ * by more than it does within one.
  */
 class CycleCriterion
 {

@@ -20,9 +20,9 @@ constexpr float VisibleIfLeft = 0.08f;
 constexpr float Visible = 0.3f;
 /** Where what is missing is left to the regularisation, what is so near to the isopotential, in
  * delta, rests at once; but what is near another part of the surface, which contacts hold off. */
-constexpr float RestsWithin = 0.25f;
+constexpr float ConvergedWithin = 0.25f;
 /** Iterations without visible motion after which a vertex is motionless. */
-constexpr int RestingIterations = 3;
+constexpr int IterationsToConverge = 3;
 
 /** Gradient of the image over TypicalSlope at which the gradient force is as strong as it gets. */
 constexpr float FullGradient = 0.5f;
@@ -46,9 +46,7 @@ float Clamp(float x)
 }
 
 Dynamics::Dynamics(const Field& field, const SurfaceOptions& options, Executor& executor)
-  : TheField(field)
-  , Options(options)
-  , SnapsTo(options.Drive().SnapsTo)
+  : TheField(field), Options(options), SnapsTo(options.Drive().SnapsTo)
 {
   if (options.EdgeAttractionWeight > 0 && field.Image().Edges)
   {
@@ -59,9 +57,8 @@ Dynamics::Dynamics(const Field& field, const SurfaceOptions& options, Executor& 
 
 void Dynamics::SetPace()
 {
-  const float drive =
-    static_cast<float>(this->Options.IsopotentialWeight + this->Options.GradientWeight +
-      (this->Edges ? this->Options.EdgeAttractionWeight : 0.));
+  const float drive = static_cast<float>(this->Options.IsopotentialWeight +
+    this->Options.GradientWeight + (this->Edges ? this->Options.EdgeAttractionWeight : 0.));
   // Strong forces oscillate like weak ones: friction grows with them as it would have to if only
   // the unit of time were another.
   this->Drag = static_cast<float>(this->Options.Friction) * std::sqrt(std::max(drive, 1.f));
@@ -76,8 +73,7 @@ void Dynamics::SetPace()
   const float stable =
     (this->Drag + std::sqrt(this->Drag * this->Drag + 4 * stiffness)) / std::max(stiffness, 1e-6f);
   this->Longest = std::min(this->Longest, std::max(stable, this->Longest / Shortening));
-  const float most =
-    (4 + 2 * this->Drag * this->Longest) / (this->Longest * this->Longest) - outer;
+  const float most = (4 + 2 * this->Drag * this->Longest) / (this->Longest * this->Longest) - outer;
   this->InnerShare = inner > 0 && inner > most ? std::max(most, 0.f) / inner : 1.f;
 }
 
@@ -178,8 +174,7 @@ void Dynamics::Relax(SurfaceState& state, const std::vector<int>& vertices,
   this->ApplyContacts(state, vertices, pairs, step);
 }
 
-Vector Dynamics::RelaxationOf(
-  const SurfaceState& state, int v, const Relaxation& relaxation) const
+Vector Dynamics::RelaxationOf(const SurfaceState& state, int v, const Relaxation& relaxation) const
 {
   if (relaxation.LeavesThin && state.NearOthers[v])
   {
@@ -268,8 +263,8 @@ void Dynamics::ApplyContacts(SurfaceState& state, const std::vector<int>& moving
 }
 
 Vector Dynamics::CorrectionOf(const SurfaceState& state,
-  const std::vector<Proximity::ClosePair>& pairs, const ContactsOfVertex& contacts,
-  bool separates, float time) const
+  const std::vector<Proximity::ClosePair>& pairs, const ContactsOfVertex& contacts, bool separates,
+  float time) const
 {
   const int v = contacts.Vertex;
   Vector sum;
@@ -307,8 +302,7 @@ Vector Dynamics::CorrectionOf(const SurfaceState& state,
   return sum * (1.f / static_cast<float>(std::max(count, 1)));
 }
 
-void Dynamics::Displace(
-  SurfaceState& state, const std::vector<int>& active, const Step& step) const
+void Dynamics::Displace(SurfaceState& state, const std::vector<int>& active, const Step& step) const
 {
   for (const int v : active)
   {
@@ -354,7 +348,7 @@ void Dynamics::Freeze(
         [&state](int w) { return (state.Marks[w] & HasMoved) != 0; });
     const auto isOff = [&](float least)
     { return this->TheField.IsOff(state.Mesh.Position[v], least * state.Sizing.At(v)); };
-    if (this->Leaves && state.Active[v] && !state.NearOthers[v] && !isOff(RestsWithin))
+    if (this->Leaves && state.Active[v] && !state.NearOthers[v] && !isOff(ConvergedWithin))
     {
       state.Active[v] = 0;
       state.Velocity[v] = Vector();
@@ -364,7 +358,7 @@ void Dynamics::Freeze(
       state.Activate(v);
     }
     else if (this->Options.FreezeMotionlessVertices && state.Active[v] &&
-      ++state.RestCount[v] >= RestingIterations)
+      ++state.ConvergedIterations[v] >= IterationsToConverge)
     {
       state.Active[v] = 0;
       state.Velocity[v] = Vector();

@@ -4,7 +4,7 @@
 #define volumicEvolution_h
 
 #include "Core/Evolution/Dynamics.h"
-#include "Core/Evolution/LostBoundary.h"
+#include "Core/Evolution/MissedBoundary.h"
 #include "Core/Evolution/SurfaceEvolution.h"
 #include "Core/Evolution/SurfaceIteration.h"
 #include "Core/Image/Field.h"
@@ -41,8 +41,8 @@ struct Evolution
   std::unique_ptr<SurfaceBlocks> Blocks; ///< While the surface lies on a level, else null.
   SurfaceComponents Components;          ///< As they were labelled last.
   int Unchecked = 1; ///< Starts, cuts and deletions since components were judged from outside in.
-  LostParts Lost;
-  LostBoundary Boundary;     ///< Of the parts that were lost when it came to the level.
+  MissedParts Missed;
+  MissedBoundary Boundary;   ///< Of the parts that were lost when it came to the level.
   bool HasDescended = false; ///< See DescendField.
   Verdict Verified;
 
@@ -52,18 +52,18 @@ struct Evolution
    */
   bool GoOn(Monitor::Activity doing, double share);
   /** The same for work whose own shares lie between two of the activity's. */
-  ProgressQuestion QuestionOf(Monitor::Activity doing, double from = 0., double to = 1.);
+  ProgressCallback ProgressCallbackOf(Monitor::Activity doing, double from = 0., double to = 1.);
   /** Of the voxels as they are now. */
   void MakeField();
   /** Between sweeps. */
-  void LookAt();
+  void Observe();
   SurfaceResult Result();
 };
 
 // EvolutionStart.cxx: comes to a level.
 
 /** @return false if it was stopped before anything was done: the rest is as it was */
-bool ComeToLevel(Evolution& evolution, SurfaceAtRest& rest);
+bool ReachLevel(Evolution& evolution, ConvergedSurface& rest);
 /** Forgets all but the mesh, numbers its vertices along a curve, and lays it out. */
 void Renumber(Evolution& evolution);
 /** Makes grid, blocks and labels of a mesh of which nothing else is known; splits long edges. */
@@ -90,7 +90,7 @@ void ForAlive(const SurfaceMesh& mesh, Executor& executor, const Work& work)
 }
 std::vector<int> AliveVertices(const Evolution& evolution);
 
-// GivenSurface.cxx: makes a given surface ready.
+// InitialSurfaceCheck.cxx: makes a given surface ready.
 
 void TakeGiven(Evolution& evolution, const IndexedSurface& surface);
 /** Another mesh of it. */
@@ -114,21 +114,21 @@ bool HasEdgeTooLong(const Evolution& evolution);
  * @return false where a tolerance asks for them at more than half of the vertices: then all is to
  * be divided, and laid out
  */
-bool DivideWhereWanted(Evolution& evolution, double delta);
+bool DivideWhereRequested(Evolution& evolution, double delta);
 /** The same about parts that are lost, so that these can be enclosed beside it. */
-void DivideNear(Evolution& evolution, const LostBoundary& lost);
+void DivideNear(Evolution& evolution, const MissedBoundary& missed);
 void Grade(Evolution& evolution);
 
-// EvolutionVisits.cxx: visits of blocks, and sums over them.
+// EvolutionPasses.cxx: visits of blocks, and sums over them.
 
 /** A sweep over blocks. */
 struct Sweep
 {
   Monitor::Activity Doing = Monitor::Activity::Iterating;
-  double From = 0.;       ///< The share of the activity that is done before the sweep, and
-  double To = 1.;         ///< after it.
-  bool OnlyActive = true; ///< Blocks in which nothing may move are left out.
-  bool IsAsked = true;    ///< The listener is told, and may stop it.
+  double From = 0.;        ///< The share of the activity that is done before the sweep, and
+  double To = 1.;          ///< after it.
+  bool OnlyActive = true;  ///< Blocks in which nothing may move are left out.
+  bool IsMonitored = true; ///< The listener is told, and may stop it.
 };
 
 void MakeBlocks(Evolution& evolution);   ///< Those of the mesh as it is.
@@ -137,8 +137,8 @@ void ForgetBlocks(Evolution& evolution); ///< Before the mesh is numbered otherw
  * After a stop some blocks were not visited; the surface is valid all the same. State.Counts is
  * then the sum of what the visits have edited. @param visit called on any thread
  */
-void VisitBlocks(
-  Evolution& evolution, const Sweep& sweep, const std::function<void(BlockVisit& visit)>& visit);
+void RunBlockPasses(
+  Evolution& evolution, const Sweep& sweep, const std::function<void(BlockPass& visit)>& visit);
 /** A few iterations of evolution, which the history tells of; labels the components. */
 void RunSweep(Evolution& evolution);
 /** Some iterations in each block with active vertices; the history has no rows of them. */

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // A surface is divided only where it is asked for, and where it rests gets longer edges as far as a
-// tolerance allows; in the same visits, with the same verified displacements and edits as everything
-// else.
+// tolerance allows; in the same visits, with the same verified displacements and edits as
+// everything else.
 
 #include "Core/Common/Select.h"
 #include "Core/Evolution/Evolution.h"
@@ -25,7 +25,8 @@ namespace
 constexpr float Growths[] = { 2.5f, 1.5f, 1.1f };
 /** Passes in each block after the sizes have changed. */
 constexpr int Passes = 2;
-/** Where more than this share of a surface asks for division all of it is divided: that is faster. */
+/** Where more than this share of a surface asks for division all of it is divided: that is faster.
+ */
 constexpr double MostDivided = 0.5;
 /** Of a division's progress, once it is known where it is wanted. */
 constexpr double HalfDivided = 0.5;
@@ -46,7 +47,7 @@ void ApplySizes(Evolution& e, const std::vector<int>& changed, const Sweep& swee
   for (const int v : stars)
   {
     s.Active[v] = 1;
-    s.Drift[v] = SurfaceState::NotExamined;
+    s.MotionSinceTest[v] = SurfaceState::NeverTested;
   }
   s.UpdateShape(stars, e.Threads);
   if (HasEdgeTooLong(e))
@@ -56,7 +57,7 @@ void ApplySizes(Evolution& e, const std::vector<int>& changed, const Sweep& swee
 }
 }
 
-bool DivideWhereWanted(Evolution& e, double delta)
+bool DivideWhereRequested(Evolution& e, double delta)
 {
   SurfaceState& s = e.State;
   ForgetBlocks(e);
@@ -86,20 +87,20 @@ bool DivideWhereWanted(Evolution& e, double delta)
   return true;
 }
 
-void DivideNear(Evolution& e, const LostBoundary& lost)
+void DivideNear(Evolution& e, const MissedBoundary& missed)
 {
   const LevelImage& image = e.Task.Image;
   const VoxelNumbers numbers(image.Size);
   std::vector<Vector> places;
-  for (const std::int64_t voxel : lost.Voxels())
+  for (const std::int64_t voxel : missed.Voxels())
   {
-    const std::array<int, 3> index = numbers.PlaceOf(voxel);
+    const std::array<int, 3> index = numbers.IjkOf(voxel);
     places.emplace_back(static_cast<float>(index[0] * image.Step[0]),
       static_cast<float>(index[1] * image.Step[1]), static_cast<float>(index[2] * image.Step[2]));
   }
   GradedSizes sizes(e.State, *e.TheField, e.Task.Grading, e.Threads);
   Sweep sweep;
-  sweep.IsAsked = false;
+  sweep.IsMonitored = false;
   ApplySizes(e, sizes.ShrinkNear(places), sweep);
 }
 

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Common/Refuse.h"
 #include "Core/Common/Spans.h"
+#include "Core/Common/ThrowInvalidArgument.h"
+#include "Core/Evolution/ConvergenceCriterion.h"
 #include "Core/Evolution/CycleCriterion.h"
 #include "Core/Evolution/Evolution.h"
-#include "Core/Evolution/RestCriterion.h"
 #include "Core/Surface/NewFaces.h"
-#include "Core/Surface/SurfacePolish.h"
+#include "Core/Surface/SurfaceOptimization.h"
 
 #include <algorithm>
 #include <cmath>
@@ -32,7 +32,7 @@ StopReason Evolve(Evolution& e)
 {
   const SurfaceOptions& options = e.Task.Options;
   const SurfaceMesh& mesh = e.State.Mesh;
-  RestCriterion rest;
+  ConvergenceCriterion rest;
   CycleCriterion cycle;
   if (e.HasDescended)
   {
@@ -50,7 +50,7 @@ StopReason Evolve(Evolution& e)
       return StopReason::IterationLimit;
     }
     RunSweep(e);
-    e.LookAt();
+    e.Observe();
     if (!e.GoOn(Monitor::Activity::Iterating, 0.) || mesh.NumberOfVertices() == 0)
     {
       continue;
@@ -59,7 +59,7 @@ StopReason Evolve(Evolution& e)
     {
       return StopReason::Converged; // Nothing would ever move again.
     }
-    if (e.History.Iterations() % RestCriterion::Interval == 0)
+    if (e.History.Iterations() % ConvergenceCriterion::Interval == 0)
     {
       const double volume = VolumeOf(e);
       const double limit = std::max(cube, options.ConvergenceTolerance * std::abs(volume));
@@ -113,7 +113,7 @@ void FitMeanEdge(Evolution& e)
   }
 }
 
-void Polish(Evolution& e)
+void Optimize(Evolution& e)
 {
   SurfaceState& s = e.State;
   const SurfaceOptions& options = e.Task.Options;
@@ -121,22 +121,22 @@ void Polish(Evolution& e)
   {
     return;
   }
-  VisitBlocks(e, { Monitor::Activity::Regularising, PassesShare, 1., false },
-    [&](BlockVisit& visit)
+  RunBlockPasses(e, { Monitor::Activity::Regularising, PassesShare, 1., false },
+    [&](BlockPass& visit)
     {
-      std::vector<int> wanted;
+      std::vector<int> requested;
       for (int v = visit.First; v < visit.End(); ++v)
       {
         if (s.Mesh.IsAlive(v))
         {
-          wanted.push_back(v);
+          requested.push_back(v);
         }
       }
       const bool snaps = options.Drive().SnapsTo == SurfaceDrive::Goal::IsoValue;
-      SurfacePolish polish(
+      SurfaceOptimization optimize(
         s, snaps ? e.TheField.get() : nullptr, options.TopologyChanges, &visit.Share);
-      polish.Run(wanted);
-      SurfaceIteration::UpdateChanged(s, polish.TakeChanged());
+      optimize.Run(requested);
+      SurfaceIteration::UpdateChanged(s, optimize.TakeChanged());
     });
   if (s.Counts.Cuts > 0)
   {
@@ -162,7 +162,7 @@ void Regularise(Evolution& e)
       { Monitor::Activity::Regularising, PassesShare * sweep / RegularisingSweeps,
         PassesShare * (sweep + 1) / RegularisingSweeps });
   }
-  Polish(e);
+  Optimize(e);
   ForAlive(s.Mesh, e.Threads,
     [&s](int v)
     {
@@ -179,12 +179,12 @@ void DeleteThoseInsideOut(Evolution& e)
   }
 }
 
-void FindMissing(Evolution& e)
+void MeasureMissedBoundary(Evolution& e)
 {
-  const LostBoundary::Missing missing =
+  const MissedBoundary::Missing missing =
     e.Boundary.MissedBy(e.State, AreaOf(e), *e.TheField, e.Threads);
-  e.Lost.Missing = missing.Parts;
-  e.Lost.MissingBoundary = missing.Share;
+  e.Missed.Missing = missing.Parts;
+  e.Missed.MissingBoundary = missing.Share;
 }
 
 /** The last look at what a level hands on: see SurfaceIteration for why it finds nothing. */
@@ -206,7 +206,7 @@ void Verify(Evolution& e)
   {
     TakeRemeshed(e, before.ToIndexed(e.Threads));
   }
-  catch (const Refusal&) // The mended surface is too thin or too small for the level.
+  catch (const InvalidArgument&) // The mended surface is too thin or too small for the level.
   {
     e.State.Mesh = before;
     LayGrid(e);
@@ -229,7 +229,7 @@ void Finish(Evolution& e)
     e.Task.Grading.HasTolerance() && !e.Stopped && e.State.Mesh.NumberOfVertices() > 0;
   if (isGraded)
   {
-    FindMissing(e); // Before: it asks for vertices that are near.
+    MeasureMissedBoundary(e); // Before: it asks for vertices that are near.
     Grade(e);
   }
   Regularise(e);
@@ -238,7 +238,7 @@ void Finish(Evolution& e)
   e.History.Finish(NumbersOf(e));
   if (!isGraded)
   {
-    FindMissing(e);
+    MeasureMissedBoundary(e);
   }
   ForgetBlocks(e);
 }
@@ -278,7 +278,7 @@ StopReason RunLevel(Evolution& e)
   {
     Verify(e);
     e.History.Finish(NumbersOf(e));
-    FindMissing(e);
+    MeasureMissedBoundary(e);
     ForgetBlocks(e);
     return reason;
   }

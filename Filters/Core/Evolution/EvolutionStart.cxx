@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Common/Box.h"
-#include "Core/Common/Refuse.h"
 #include "Core/Common/Select.h"
+#include "Core/Common/ThrowInvalidArgument.h"
 #include "Core/Evolution/Evolution.h"
 #include "Core/Evolution/InitialSurface.h"
-#include "Core/Evolution/LostParts.h"
+#include "Core/Evolution/MissedParts.h"
 #include "Core/Mesh/SurfaceCheck.h"
 
 #include <algorithm>
@@ -38,22 +38,25 @@ Box BoxOfGrid(const Evolution& e)
     Vector(static_cast<float>(image.Size[0] * image.Step[0]),
       static_cast<float>(image.Size[1] * image.Step[1]),
       static_cast<float>(image.Size[2] * image.Step[2])) };
-  const Box all = JoinVertices(mesh, e.Threads, ofImage,
-    [&mesh](int v, Box& box) { box = box.With({ mesh.Position[v], mesh.Position[v] }); },
+  const Box all = JoinVertices(
+    mesh, e.Threads, ofImage,
+    [&mesh](int v, Box& box) {
+      box = box.With({ mesh.Position[v], mesh.Position[v] });
+    },
     [](const Box& a, const Box& b) { return a.With(b); });
   return all.Grown(2 * e.State.Sizing.Largest());
 }
 
-LostPartCover FindParts(
-  Evolution& e, PartKind kind, int minimumSize, CoverShape shape, double from, double to)
+RecoverySurfaces FindParts(
+  Evolution& e, PartKind kind, int minimumSize, RecoveryShape shape, double from, double to)
 {
   const auto look = [&]
   {
-    return FindLostParts(e.State, *e.TheField, kind, minimumSize, shape, e.Threads,
-      e.QuestionOf(Monitor::Activity::Recovering, from, to));
+    return FindMissedParts(e.State, *e.TheField, kind, minimumSize, shape, e.Threads,
+      e.ProgressCallbackOf(Monitor::Activity::Recovering, from, to));
   };
-  LostPartCover cover = look();
-  if (cover.Found > 0 && e.Task.Options.RecoverLostParts && e.State.Sizing.IsGraded())
+  RecoverySurfaces cover = look();
+  if (cover.Found > 0 && e.Task.Options.RecoverMissedParts && e.State.Sizing.IsGraded())
   {
     DivideNear(e, cover.Boundary); // Else nothing that is near would be clear of it.
     cover = look();
@@ -85,33 +88,34 @@ void Recover(Evolution& e, bool isStart = false)
   {
     return;
   }
-  const bool recovers = options.RecoverLostParts || isStart;
-  const bool hasCavities = options.RecoverLostParts && options.RecoverCavities && !isStart;
+  const bool recovers = options.RecoverMissedParts || isStart;
+  const bool hasCavities = options.RecoverMissedParts && options.RecoverCavities && !isStart;
   const int size = isStart ? 1 : options.MinimumPartSize;
   const double objectShare = hasCavities ? 0.5 : 1.;
-  LostPartCover objects = FindParts(e, PartKind::Object, size, CoverShape::Even, 0., objectShare);
-  LostPartCover cavities;
+  RecoverySurfaces objects =
+    FindParts(e, PartKind::Object, size, RecoveryShape::Even, 0., objectShare);
+  RecoverySurfaces cavities;
   if (hasCavities && !e.Stopped)
   {
-    cavities = FindParts(e, PartKind::Cavity, size, CoverShape::Even, objectShare, 1.);
+    cavities = FindParts(e, PartKind::Cavity, size, RecoveryShape::Even, objectShare, 1.);
   }
   if (e.Stopped)
   {
     return;
   }
-  e.Lost.Found = objects.Found;
-  e.Lost.Enclosed = recovers ? objects.Covered : 0;
-  e.Lost.FoundCavities = cavities.Found;
-  e.Lost.EnclosedCavities = cavities.Covered;
+  e.Missed.Found = objects.Found;
+  e.Missed.Enclosed = recovers ? objects.Enclosed : 0;
+  e.Missed.FoundCavities = cavities.Found;
+  e.Missed.EnclosedCavities = cavities.Enclosed;
   e.Boundary.Add(objects.Boundary);
   e.Boundary.Add(cavities.Boundary);
   for (const PartKind kind : { PartKind::Object, PartKind::Cavity })
   {
-    const LostPartCover& cover = kind == PartKind::Object ? objects : cavities;
-    if (recovers && cover.Covered > 0)
+    const RecoverySurfaces& cover = kind == PartKind::Object ? objects : cavities;
+    if (recovers && cover.Enclosed > 0)
     {
       Enclose(e, cover.Surface,
-        [&] { return FindParts(e, kind, size, CoverShape::Safe, 1., 1.).Surface; });
+        [&] { return FindParts(e, kind, size, RecoveryShape::Safe, 1., 1.).Surface; });
     }
   }
 }
@@ -119,8 +123,8 @@ void Recover(Evolution& e, bool isStart = false)
 void PlaceSeeds(Evolution& e, const std::vector<Point>& centres)
 {
   const double delta = e.State.Sizing.OfLevel();
-  const double wanted = e.Task.Options.SeedRadius;
-  const double radius = std::max(wanted > 0. ? wanted : 1.2 * delta, SmallestSeed * delta);
+  const double requested = e.Task.Options.SeedRadius;
+  const double radius = std::max(requested > 0. ? requested : 1.2 * delta, SmallestSeed * delta);
   for (const Point& centre : ChooseSeeds(*e.TheField, centres, 2. * radius + 1.6 * delta))
   {
     e.State.Mesh.Append(DividedIcosahedron(centre, radius, 2. * delta));
@@ -143,7 +147,8 @@ void Start(Evolution& e, const SurfaceStart& start)
     Renumber(e);
     Recover(e, isIso);
   }
-  const bool isEnclosed = e.Lost.Enclosed > 0 || (start.From == Kind::EnclosingParts && e.Stopped);
+  const bool isEnclosed =
+    e.Missed.Enclosed > 0 || (start.From == Kind::EnclosingParts && e.Stopped);
   if (start.From == Kind::Surface)
   {
     TakeGiven(e, start.Surface);
@@ -152,8 +157,9 @@ void Start(Evolution& e, const SurfaceStart& start)
   {
     if (!isEnclosed)
     {
-      Refuse("there is no isosurface to start from: no voxel of this level lies in the object. "
-             "Choose another Iso Value, a finer Coarsest Level, or another Initialization.");
+      ThrowInvalidArgument(
+        "there is no isosurface to start from: no voxel of this level lies in the object. "
+        "Choose another Iso Value, a finer Coarsest Level, or another Initialization.");
     }
     e.HasDescended = true;
     ActivateWhereOff(e, Dynamics::LeftOff);
@@ -170,7 +176,7 @@ void Start(Evolution& e, const SurfaceStart& start)
   }
 }
 
-void Divide(Evolution& e, const SurfaceAtRest& rest)
+void Divide(Evolution& e, const ConvergedSurface& rest)
 {
   e.Unchecked = rest.Unchecked;
   const double coarse = rest.Delta;
@@ -180,16 +186,16 @@ void Divide(Evolution& e, const SurfaceAtRest& rest)
   const int divisions = static_cast<int>(std::lround(
     std::log(coarse / e.State.Sizing.OfLevel()) / std::log(SizingField::DivisionFactor)));
   // After each of these steps the surface is one to hand over.
-  const bool isGraded = e.Task.Grading.IsWanted();
+  const bool isGraded = e.Task.Grading.IsRequested();
   // What is too thin for the undivided mesh is lost in a descent, and must be found again. Beyond
   // the image the field is that of the level before.
-  const bool descends = e.Task.Options.Drive().IsPredictable && e.Task.Options.RecoverLostParts;
+  const bool descends = e.Task.Options.Drive().IsPredictable && e.Task.Options.RecoverMissedParts;
   if (descends && !isGraded && divisions > 0 && e.Task.Level >= 0)
   {
     DescendField(e, coarse);
   }
   bool goesOn = true;
-  if (!isGraded || divisions == 0 || !DivideWhereWanted(e, coarse))
+  if (!isGraded || divisions == 0 || !DivideWhereRequested(e, coarse))
   {
     goesOn = DivideAll(e, divisions);
   }
@@ -220,7 +226,7 @@ void LayOut(Evolution& e)
   LayGrid(e);
   MakeBlocks(e);
   Sweep sweep;
-  sweep.IsAsked = false;
+  sweep.IsMonitored = false;
   SplitLongEdges(e, sweep);
   LabelComponents(e);
 }
@@ -244,7 +250,7 @@ void ActivateAll(Evolution& e)
   ForAlive(s.Mesh, e.Threads, [&s](int v) { s.Active[v] = 1; });
 }
 
-bool ComeToLevel(Evolution& e, SurfaceAtRest& rest)
+bool ReachLevel(Evolution& e, ConvergedSurface& rest)
 {
   if (e.Task.Start)
   {

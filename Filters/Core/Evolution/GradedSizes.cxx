@@ -3,7 +3,7 @@
 #include "Core/Evolution/GradedSizes.h"
 
 #include "Core/Evolution/Evolution.h"
-#include "Core/Image/WayToZero.h"
+#include "Core/Image/DistanceToZero.h"
 #include "Core/Mesh/LimitedSizes.h"
 
 #include <algorithm>
@@ -20,8 +20,8 @@ namespace
 /** Vertices that one thread looks at at a time. */
 constexpr std::size_t VertexGrain = 2048;
 /**
- * Share of the tolerance that is aimed at: the regularisation moves vertices along the surface. With
- * 1 a tenth fewer vertices keep it at 97 % of the points of GradedSurface.HasFewerTriangles*.
+ * Share of the tolerance that is aimed at: the regularisation moves vertices along the surface.
+ * With 1 a tenth fewer vertices keep it at 97 % of the points of GradedSurface.HasFewerTriangles*.
  */
 constexpr float AimedShare = 0.8f;
 /** The least factor of a change: a level's, so that an edge is split into two or three. */
@@ -33,9 +33,9 @@ constexpr float LeastChange = 0.57735f;
 constexpr float MostOffset = 0.5f;
 /**
  * From a lost voxel to what must have the least delta for a part about it to be enclosed, in that:
- * twice the circumradius of a cell of the cover, and the longest reach. See FindLostParts.
+ * twice the circumradius of a cell of the cover, and the longest reach. See FindMissedParts.
  */
-constexpr float NearLostInDelta = 9.f;
+constexpr float NearMissedInDelta = 9.f;
 /** Changes of a size that are worth no visit, as a share of it. */
 constexpr float SmallChange = 0.02f;
 /**
@@ -52,16 +52,12 @@ constexpr float FurthestInTolerances = 3.f;
 
 GradedSizes::GradedSizes(
   SurfaceState& state, const Field& field, const Grading& grading, Executor& executor)
-  : State(state)
-  , TheField(field)
-  , Wanted(grading)
-  , Threads(executor)
-  , Near(grading.HasTolerance()
-        ? static_cast<float>(grading.Tolerance)
-        : MostOffset * static_cast<float>(field.Image().Unit))
-  , Least(state.Sizing.OfLevel())
-  , Most(static_cast<float>(
-      grading.Growth(SizingField::LongestEdgeInDelta * static_cast<double>(state.Sizing.OfLevel()))) *
+  : State(state), TheField(field), Requested(grading), Threads(executor),
+    Near(grading.HasTolerance() ? static_cast<float>(grading.Tolerance)
+                                : MostOffset * static_cast<float>(field.Image().Unit)),
+    Least(state.Sizing.OfLevel()),
+    Most(static_cast<float>(grading.Growth(
+           SizingField::LongestEdgeInDelta * static_cast<double>(state.Sizing.OfLevel()))) *
       state.Sizing.OfLevel())
 {
 }
@@ -70,7 +66,7 @@ void GradedSizes::Begin(float delta)
 {
   // A surface that evolves brings parts together whose sizes know nothing of each other.
   constexpr float any = 1.f;
-  const float most = this->Wanted.HasTolerance() ? this->Most : delta;
+  const float most = this->Requested.HasTolerance() ? this->Most : delta;
   const float first = std::max(this->Least, std::min(delta, most));
   this->State.Size.Fill(first);
   this->State.Sizing = this->State.Sizing.Graded(this->State.Size.AsVector(), first, any);
@@ -78,14 +74,14 @@ void GradedSizes::Begin(float delta)
 
 void GradedSizes::Widen()
 {
-  this->State.Sizing = this->State.Sizing.Graded(this->State.Size.AsVector(), this->Most,
-    static_cast<float>(this->Wanted.Gradation));
+  this->State.Sizing = this->State.Sizing.Graded(
+    this->State.Size.AsVector(), this->Most, static_cast<float>(this->Requested.Gradation));
 }
 
 float GradedSizes::Furthest() const
 {
   return std::max(FurthestInUnits * static_cast<float>(this->TheField.Image().Unit),
-    FurthestInTolerances * static_cast<float>(this->Wanted.Tolerance));
+    FurthestInTolerances * static_cast<float>(this->Requested.Tolerance));
 }
 
 float GradedSizes::SignedDistanceAt(const Vector& position, const Vector& normal) const
@@ -97,23 +93,23 @@ float GradedSizes::SignedDistanceAt(const Vector& position, const Vector& normal
     return -near;
   }
   // Where the image is steeper, or flatter, than here that is a guess: look.
-  return SignedWayToZero(position, normal, sample.Value, this->Furthest(),
+  return SignedDistanceToZero(position, normal, sample.Value, this->Furthest(),
     [this](const Vector& place) { return this->TheField.ValueAt(place); });
 }
 
-template <typename Look>
-void GradedSizes::VisitMiddles(std::size_t begin, std::size_t end, const Look& look) const
+template <typename Visit>
+void GradedSizes::VisitMiddles(std::size_t begin, std::size_t end, const Visit& visit) const
 {
   const LargeVector<Vector>& place = this->State.Mesh.Position;
   this->State.Mesh.VisitFaces(begin, end,
     [&](int a, int b, int c)
     {
-      look((place[a] + place[b] + place[c]) * (1.f / 3.f), std::array<int, 3>{ a, b, c });
+      visit((place[a] + place[b] + place[c]) * (1.f / 3.f), std::array<int, 3>{ a, b, c });
       for (const auto& [u, v] : { std::pair<int, int>{ a, b }, { b, c }, { c, a } })
       {
         if (u < v) // Of the two faces at an edge one.
         {
-          look((place[u] + place[v]) * 0.5f, std::array<int, 2>{ u, v });
+          visit((place[u] + place[v]) * 0.5f, std::array<int, 2>{ u, v });
         }
       }
     });
@@ -145,7 +141,7 @@ GradedSizes::Largest GradedSizes::LargestAbout(const OfMiddle& of) const
   return largest;
 }
 
-float GradedSizes::WayToWall(int v, float side, float from, float most) const
+float GradedSizes::DistanceToWall(int v, float side, float from, float most) const
 {
   const Vector p = this->State.Mesh.Position[v];
   const Vector normal = this->State.Normal[v].Axis();
@@ -172,7 +168,7 @@ float GradedSizes::MostBetweenWalls(int v, float size) const
   for (const float side : { -1.f, 1.f })
   {
     const float most = WallInDelta * size;
-    const float way = this->WayToWall(v, side, this->Least, most);
+    const float way = this->DistanceToWall(v, side, this->Least, most);
     size = way < most ? std::max(way / WallInDelta, this->Least) : size;
   }
   return size;
@@ -182,12 +178,13 @@ float GradedSizes::ThicknessAt(int v) const
 {
   const float most = Grading::MostThickness * this->Least;
   const float from = WallStep * this->Least;
-  return std::min(this->WayToWall(v, -1.f, from, most), this->WayToWall(v, 1.f, from, most));
+  return std::min(
+    this->DistanceToWall(v, -1.f, from, most), this->DistanceToWall(v, 1.f, from, most));
 }
 
-float GradedSizes::WantedSize(int v, float distance, float growth) const
+float GradedSizes::RequestedSize(int v, float distance, float growth) const
 {
-  const float aimed = AimedShare * static_cast<float>(this->Wanted.Tolerance);
+  const float aimed = AimedShare * static_cast<float>(this->Requested.Tolerance);
   const float change = distance > 0.f ? std::sqrt(aimed / distance) : growth;
   const float size = std::clamp(
     this->State.Sizing.At(v) * std::clamp(change, LeastChange, growth), this->Least, this->Most);
@@ -201,9 +198,9 @@ float GradedSizes::RefinedSize(int v, float offset, float sag) const
   {
     return this->Least;
   }
-  if (this->Wanted.HasTolerance())
+  if (this->Requested.HasTolerance())
   {
-    const float aimed = AimedShare * static_cast<float>(this->Wanted.Tolerance);
+    const float aimed = AimedShare * static_cast<float>(this->Requested.Tolerance);
     size *= sag > aimed ? std::sqrt(aimed / sag) : 1.f;
   }
   return size > this->Least ? this->MostBetweenWalls(v, size) : this->Least;
@@ -226,7 +223,7 @@ std::vector<int> GradedSizes::Refine()
     return std::abs(distance - moved / static_cast<float>(corners.size()));
   };
   const Largest sags =
-    this->Wanted.HasTolerance() ? this->LargestAbout(sag) : Largest(offsets.size());
+    this->Requested.HasTolerance() ? this->LargestAbout(sag) : Largest(offsets.size());
   return this->Change([&](int v) { return this->RefinedSize(v, offsets[v], sags[v]); });
 }
 
@@ -236,7 +233,7 @@ std::vector<int> GradedSizes::ShrinkNear(const std::vector<Vector>& places)
   LargeVector<std::uint8_t> isNear(s.Mesh.Rings.size(), 0);
   for (const Vector& place : places)
   {
-    s.Grid.Visit(place, NearLostInDelta * this->Least, [&](int v) { isNear[v] = 1; });
+    s.Grid.Visit(place, NearMissedInDelta * this->Least, [&](int v) { isNear[v] = 1; });
   }
   return this->Change([&](int v) { return isNear[v] ? this->Least : s.Sizing.At(v); });
 }
@@ -245,16 +242,16 @@ std::vector<int> GradedSizes::Adjust(float growth)
 {
   const Largest distances =
     this->LargestAbout([](float distance, const auto&) { return std::abs(distance); });
-  return this->Change([&](int v) { return this->WantedSize(v, distances[v], growth); });
+  return this->Change([&](int v) { return this->RequestedSize(v, distances[v], growth); });
 }
 
-std::vector<int> GradedSizes::Change(const std::function<float(int v)>& wanted)
+std::vector<int> GradedSizes::Change(const std::function<float(int v)>& requested)
 {
   SurfaceState& s = this->State;
   LargeVector<float> sizes(s.Mesh.Rings.size(), this->Least);
-  ForAlive(s.Mesh, this->Threads, [&](int v) { sizes[v] = wanted(v); });
+  ForAlive(s.Mesh, this->Threads, [&](int v) { sizes[v] = requested(v); });
   sizes = LimitedSizes(sizes, s.Mesh.Position, s.Grid, this->Least,
-    static_cast<float>(this->Wanted.Gradation), this->Threads);
+    static_cast<float>(this->Requested.Gradation), this->Threads);
   std::vector<int> changed;
   for (int v = 0; v < s.Mesh.Size(); ++v)
   {
@@ -280,8 +277,9 @@ Fit GradedSizes::Measure() const
     std::size_t All = 0;
   };
   const SurfaceState& s = this->State;
-  const float tolerance = static_cast<float>(this->Wanted.Tolerance);
-  const Sum all = JoinVertices(s.Mesh, this->Threads, Sum(),
+  const float tolerance = static_cast<float>(this->Requested.Tolerance);
+  const Sum all = JoinVertices(
+    s.Mesh, this->Threads, Sum(),
     [&](int v, Sum& sum)
     {
       this->VisitMiddles(v, v + 1,
@@ -294,8 +292,9 @@ Fit GradedSizes::Measure() const
           ++sum.All;
         });
     },
-    [](const Sum& a, const Sum& b)
-    { return Sum{ std::max(a.Largest, b.Largest), a.Within + b.Within, a.All + b.All }; });
+    [](const Sum& a, const Sum& b) {
+      return Sum{ std::max(a.Largest, b.Largest), a.Within + b.Within, a.All + b.All };
+    });
   Fit fit;
   fit.LargestDistance = all.Largest;
   fit.WithinTolerance =

@@ -66,11 +66,11 @@ private:
   float SignedDistanceAt(const Vector& position, const Vector& normal) const;
   float Furthest() const;
   /**
-   * Calls look(place, corners) for the centroid of each face and the middle of each edge; those of
+   * Calls visit(place, corners) for the centroid of each face and the middle of each edge; those of
    * all ranges are all.
    */
-  template <typename Look>
-  void VisitMiddles(std::size_t begin, std::size_t end, const Look& look) const;
+  template <typename Visit>
+  void VisitMiddles(std::size_t begin, std::size_t end, const Visit& visit) const;
   /** For each vertex the largest value of `of` at the middles about it. */
   template <typename OfMiddle>
   Largest LargestAbout(const OfMiddle& of) const;
@@ -78,19 +78,19 @@ private:
    * How far the next side of the object (side -1), or of the air (1), is along the normal: at least
    * `from`, at most `most`.
    */
-  float WayToWall(int v, float side, float from, float most) const;
+  float DistanceToWall(int v, float side, float from, float most) const;
   /** What the thickness of the object, or of the air in it, allows. */
   float MostBetweenWalls(int v, float size) const;
   /** @param distance of what is furthest from the isopotential about it */
-  float WantedSize(int v, float distance, float growth) const;
+  float RequestedSize(int v, float distance, float growth) const;
   /** @param offset its SignedDistanceAt @param sag the distance, once the offsets are gone */
   float RefinedSize(int v, float offset, float sag) const;
   /** Gives all vertices what `wanted` tells, as far as the gradation allows. @return see Adjust */
-  std::vector<int> Change(const std::function<float(int v)>& wanted);
+  std::vector<int> Change(const std::function<float(int v)>& requested);
 
   SurfaceState& State;
   const Field& TheField;
-  const Grading Wanted;
+  const Grading Requested;
   Executor& Threads;
   const float Near; ///< Distances up to this are told from value and slope.
   const float Least;

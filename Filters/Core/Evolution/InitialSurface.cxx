@@ -3,7 +3,7 @@
 #include "Core/Evolution/InitialSurface.h"
 
 #include "Core/Common/Lattice.h"
-#include "Core/Common/Refuse.h"
+#include "Core/Common/ThrowInvalidArgument.h"
 #include "Core/Image/VoxelBox.h"
 #include "Core/Mesh/Division.h"
 
@@ -24,17 +24,17 @@ IndexedSurface Icosahedron(const Point& centre, double radius)
   const double s = scale;
   const double l = scale * golden;
   IndexedSurface surface;
-  for (const Point& p : { Point{ -s, l, 0 }, Point{ s, l, 0 }, Point{ -s, -l, 0 },
-         Point{ s, -l, 0 }, Point{ 0, -s, l }, Point{ 0, s, l }, Point{ 0, -s, -l },
-         Point{ 0, s, -l }, Point{ l, 0, -s }, Point{ l, 0, s }, Point{ -l, 0, -s },
-         Point{ -l, 0, s } })
+  for (const Point& p :
+    { Point{ -s, l, 0 }, Point{ s, l, 0 }, Point{ -s, -l, 0 }, Point{ s, -l, 0 }, Point{ 0, -s, l },
+      Point{ 0, s, l }, Point{ 0, -s, -l }, Point{ 0, s, -l }, Point{ l, 0, -s }, Point{ l, 0, s },
+      Point{ -l, 0, -s }, Point{ -l, 0, s } })
   {
     surface.Points.push_back({ p[0] + centre[0], p[1] + centre[1], p[2] + centre[2] });
   }
   surface.Triangles = { { 0, 11, 5 }, { 0, 5, 1 }, { 0, 1, 7 }, { 0, 7, 10 }, { 0, 10, 11 },
-    { 1, 5, 9 }, { 5, 11, 4 }, { 11, 10, 2 }, { 10, 7, 6 }, { 7, 1, 8 }, { 3, 9, 4 },
-    { 3, 4, 2 }, { 3, 2, 6 }, { 3, 6, 8 }, { 3, 8, 9 }, { 4, 9, 5 }, { 2, 4, 11 },
-    { 6, 2, 10 }, { 8, 6, 7 }, { 9, 8, 1 } };
+    { 1, 5, 9 }, { 5, 11, 4 }, { 11, 10, 2 }, { 10, 7, 6 }, { 7, 1, 8 }, { 3, 9, 4 }, { 3, 4, 2 },
+    { 3, 2, 6 }, { 3, 6, 8 }, { 3, 8, 9 }, { 4, 9, 5 }, { 2, 4, 11 }, { 6, 2, 10 }, { 8, 6, 7 },
+    { 9, 8, 1 } };
   return surface;
 }
 
@@ -84,7 +84,8 @@ IndexedSurface DividedIcosahedron(const Point& centre, double radius, double mea
 
 namespace
 {
-/** Edges of the enclosing surface along its sides, in delta; across them they are sqrt 2 as long. */
+/** Edges of the enclosing surface along its sides, in delta; across them they are sqrt 2 as long.
+ */
 constexpr double EnclosingEdge = 1.4;
 /** Radius of its rounding for such an edge: the chord of 45 degrees, 1 / (2 sin(pi / 8)). */
 constexpr double RoundingOfEdge = 1.3065629648763766;
@@ -97,9 +98,7 @@ class RoundedBox
 public:
   /** About a box of half the widths `half`. */
   RoundedBox(const Point& centre, const Point& half, double edge)
-    : Centre(centre)
-    , Edge(edge)
-    , Radius(RoundingOfEdge * edge)
+    : Centre(centre), Edge(edge), Radius(RoundingOfEdge * edge)
   {
     for (int k = 0; k < 3; ++k)
     {
@@ -215,9 +214,9 @@ void CheckNumberOfVertices(double area, const LevelImage& image, double delta)
   if (!(vertices <= MostVertices))
   {
     const auto [least, most] = std::minmax_element(image.Step.begin(), image.Step.end());
-    Refuse("The surface to start from would have ", std::round(vertices / 1e6),
-      " million vertices, as the image's voxels are ",
-      *most / *least, " times as long as wide. Check the Spacing, resample the image, or set "
+    ThrowInvalidArgument("The surface to start from would have ", std::round(vertices / 1e6),
+      " million vertices, as the image's voxels are ", *most / *least,
+      " times as long as wide. Check the Spacing, resample the image, or set "
       "Metric to Voxels (0).");
   }
 }
@@ -234,7 +233,7 @@ void CheckOverlapsImage(const IndexedSurface& surface, const LevelImage& image)
   }
   if (widest > MaximumWidth * widestImage)
   {
-    Refuse("The initial surface is too large for the image: it is ", widest,
+    ThrowInvalidArgument("The initial surface is too large for the image: it is ", widest,
       " voxel distances wide, the image ", widestImage,
       ". Are its coordinates in another unit than the image's, for example micrometres instead of "
       "millimetres? Scale it to the image's.");
@@ -243,9 +242,10 @@ void CheckOverlapsImage(const IndexedSurface& surface, const LevelImage& image)
   {
     if (bounds.High[k] < 0. || bounds.Low[k] > image.Size[k] * image.Step[k])
     {
-      Refuse("The initial surface lies wholly outside the image: along axis ", k, " it runs from ",
-        bounds.Low[k], " to ", bounds.High[k], " voxel distances, the image from 0 to ",
-        image.Size[k] * image.Step[k], ". Check that both use the same space.");
+      ThrowInvalidArgument("The initial surface lies wholly outside the image: along axis ", k,
+        " it runs from ", bounds.Low[k], " to ", bounds.High[k],
+        " voxel distances, the image from 0 to ", image.Size[k] * image.Step[k],
+        ". Check that both use the same space.");
     }
   }
 }
@@ -295,8 +295,9 @@ std::vector<float> ValuesAtSeeds(const Field& field, const std::vector<Point>& c
     {
       if (!(p[k] >= 0. && p[k] <= image.Size[k] * image.Step[k]))
       {
-        Refuse("Seed ", i, " lies outside the image: ", p[k], " voxel distances along axis ", k,
-          ", the image has ", image.Size[k] * image.Step[k], ".");
+        ThrowInvalidArgument("Seed ", i, " lies outside the image: ", p[k],
+          " voxel distances along axis ", k, ", the image has ", image.Size[k] * image.Step[k],
+          ".");
       }
     }
     values.push_back(ValueAt(field, p));
@@ -312,8 +313,9 @@ std::vector<Point> ChooseSeeds(
     std::vector<Point> grid = GridOfSeeds(field, spacing);
     if (grid.empty())
     {
-      Refuse("No point of the grid of seeds lies inside the object. Set Seed Positions, a smaller "
-             "Seed Radius, a finer Coarsest Level or another Iso Value.");
+      ThrowInvalidArgument(
+        "No point of the grid of seeds lies inside the object. Set Seed Positions, a smaller "
+        "Seed Radius, a finer Coarsest Level or another Iso Value.");
     }
     return grid;
   }
@@ -332,7 +334,7 @@ std::vector<Point> ChooseSeeds(
   }
   if (chosen.empty())
   {
-    Refuse("No seed lies inside the object.");
+    ThrowInvalidArgument("No seed lies inside the object.");
   }
   return chosen;
 }

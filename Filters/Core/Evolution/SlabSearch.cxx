@@ -157,16 +157,16 @@ void SlabSearch::AddRuns(std::int64_t row, const std::uint64_t* open,
     const int end = std::min(i + BitsOfWord, this->Size[0]);
     for (std::uint64_t bits = open[w]; bits != 0 && i < end; bits >>= 1, ++i)
     {
-      const bool isLost = (bits & 1) != 0 && (values[i] > 0) == (this->Kind == PartKind::Object);
-      if (isLost && isOnRun)
+      const bool isMissed = (bits & 1) != 0 && (values[i] > 0) == (this->Kind == PartKind::Object);
+      if (isMissed && isOnRun)
       {
         ++runs.back().Length;
       }
-      else if (isLost)
+      else if (isMissed)
       {
         runs.push_back({ row + i, 1, 0 });
       }
-      isOnRun = isLost;
+      isOnRun = isMissed;
     }
     isOnRun = isOnRun && i == end;
   }

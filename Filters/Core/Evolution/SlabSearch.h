@@ -34,7 +34,7 @@ enum class PartKind
 
 /**
  * The search of one slab, a range of layers of an image, for the voxels that a surface has lost:
- * see LostVoxels.
+ * see MissedVoxels.
  */
 class SlabSearch
 {

@@ -3,7 +3,7 @@
 #include "Core/Evolution/SurfaceEvolution.h"
 
 #include "Core/Common/FreeMemory.h"
-#include "Core/Common/Refuse.h"
+#include "Core/Common/ThrowInvalidArgument.h"
 #include "Core/Evolution/Evolution.h"
 #include "Core/Surface/NewFaces.h"
 
@@ -46,7 +46,7 @@ void CheckRange(const char* name, double value, double low, double high)
 {
   if (!(value >= low && value <= high))
   {
-    Refuse(name, " is ", value, ", it must lie in [", low, ", ", high, "].");
+    ThrowInvalidArgument(name, " is ", value, ", it must lie in [", low, ", ", high, "].");
   }
 }
 }
@@ -104,19 +104,20 @@ bool Evolution::GoOn(Monitor::Activity doing, double share)
   return !this->Stopped;
 }
 
-ProgressQuestion Evolution::QuestionOf(Monitor::Activity doing, double from, double to)
+ProgressCallback Evolution::ProgressCallbackOf(Monitor::Activity doing, double from, double to)
 {
   return [this, doing, from, to](double share)
   { return this->GoOn(doing, from + (to - from) * std::clamp(share, 0., 1.)); };
 }
 
-void Evolution::LookAt()
+void Evolution::Observe()
 {
-  if (this->Task.Look)
+  if (this->Task.Observe)
   {
-    const auto take = [this]
-    { return CountIntersecting(this->State, this->Threads) == 0 ? this->Result() : SurfaceResult(); };
-    this->Task.Look(this->History.Iterations(), take);
+    const auto take = [this] {
+      return CountIntersecting(this->State, this->Threads) == 0 ? this->Result() : SurfaceResult();
+    };
+    this->Task.Observe(this->History.Iterations(), take);
   }
 }
 
@@ -132,24 +133,24 @@ void Evolution::MakeField()
 }
 
 LevelOutcome EvolveOnLevel(
-  const LevelTask& task, SurfaceAtRest& rest, Executor& executor, Monitor& monitor)
+  const LevelTask& task, ConvergedSurface& rest, Executor& executor, Monitor& monitor)
 {
   Evolution e(task, rest.History, executor, monitor);
   LevelOutcome outcome;
-  outcome.HasCome = ComeToLevel(e, rest);
-  if (!outcome.HasCome)
+  outcome.HasReachedEnd = ReachLevel(e, rest);
+  if (!outcome.HasReachedEnd)
   {
     return outcome;
   }
   GiveBackFreeMemory();
-  e.LookAt();
+  e.Observe();
   outcome.Reason = RunLevel(e);
   e.State.ForgetMotion(); // So that there is room for the result.
   GiveBackFreeMemory();
   outcome.Surface = e.Result();
   outcome.Reason = e.Stopped ? StopReason::Cancelled : outcome.Reason;
   outcome.Iterations = e.History.Iterations();
-  outcome.Lost = e.Lost;
+  outcome.Missed = e.Missed;
   outcome.Verified = e.Verified;
   rest.Mesh = std::move(e.State.Mesh);
   rest.Level = task.Level;

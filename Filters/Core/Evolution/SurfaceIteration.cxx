@@ -34,12 +34,10 @@ const Dynamics::Relaxation& RelaxationOf(SurfaceIteration::Mode mode)
 }
 }
 
-SurfaceIteration::SurfaceIteration(SurfaceState& state, BlockVisit& visit, const Field* evidence,
+SurfaceIteration::SurfaceIteration(SurfaceState& state, BlockPass& visit, const Field* evidence,
   bool topologyChanges, Executor& threads)
-  : State(state)
-  , Visit(visit)
-  , Threads(threads)
-  , Edits(state, evidence, topologyChanges, &visit.Share)
+  : State(state), Visit(visit), Threads(threads),
+    Edits(state, evidence, topologyChanges, &visit.Share)
 {
   SurfaceState& s = this->State;
   this->CollectActive();
@@ -47,17 +45,17 @@ SurfaceIteration::SurfaceIteration(SurfaceState& state, BlockVisit& visit, const
   std::vector<int> crowded;
   for (const int v : this->Active)
   {
-    if (this->IsSuspect(v))
+    if (this->IsDirty(v))
     {
-      this->Suspects.push_back(v);
-      s.Drift[v] = 0;
+      this->DirtyVertices.push_back(v);
+      s.MotionSinceTest[v] = 0;
     }
     else if (s.NearOthers[v])
     {
       crowded.push_back(v);
     }
   }
-  this->Near.Examine(s, this->Suspects, threads);
+  this->Near.Test(s, this->DirtyVertices, threads);
   this->Near.AddPairs(s, crowded);
   this->Watch.LabelSmall(s, visit.First, visit.End(), visit.Written, visit.Large);
   this->Labelled = visit.Share.Counts;
@@ -117,17 +115,17 @@ void SurfaceIteration::AddUnmoved(int v)
   }
 }
 
-bool SurfaceIteration::IsSuspect(int v) const
+bool SurfaceIteration::IsDirty(int v) const
 {
   // A star that had some room when it was examined needs no new look before it has used half of
   // it: whatever comes near has used half of its own and is examined itself.
-  return this->State.Drift[v] > 0.5f * this->State.Slack[v];
+  return this->State.MotionSinceTest[v] > 0.5f * this->State.ClearanceAtTest[v];
 }
 
-void SurfaceIteration::CollectSuspects()
+void SurfaceIteration::CollectDirtyVertices()
 {
   SurfaceState& s = this->State;
-  this->Suspects.clear();
+  this->DirtyVertices.clear();
   for (const int v : this->Working)
   {
     const Ring& ring = s.Mesh.Rings[v];
@@ -136,12 +134,12 @@ void SurfaceIteration::CollectSuspects()
     {
       moved = std::max(moved, s.Displacement[ring.Item[k]]);
     }
-    s.Drift[v] += moved;
+    s.MotionSinceTest[v] += moved;
     s.IsSlow[v] = moved < SlowDisplacement * s.Sizing.At(v);
-    if (this->IsSuspect(v))
+    if (this->IsDirty(v))
     {
-      this->Suspects.push_back(v);
-      s.Drift[v] = 0;
+      this->DirtyVertices.push_back(v);
+      s.MotionSinceTest[v] = 0;
     }
   }
   for (const int v : this->Active)
@@ -157,7 +155,7 @@ void SurfaceIteration::UpdateChanged(SurfaceState& state, std::vector<int> chang
   {
     if (state.Mesh.IsAlive(v))
     {
-      state.Drift[v] = SurfaceState::NotExamined; // Its star is another one.
+      state.MotionSinceTest[v] = SurfaceState::NeverTested; // Its star is another one.
       state.UpdateShape(v);
     }
   }
@@ -171,7 +169,7 @@ void SurfaceIteration::RollBackVertex(int v)
   s.Velocity[v] = Vector();
   s.RollbackCount[v] = static_cast<std::uint8_t>(std::min(s.RollbackCount[v] + 2, most));
   s.Activate(v);
-  s.Drift[v] = SurfaceState::NotExamined;
+  s.MotionSinceTest[v] = SurfaceState::NeverTested;
 }
 
 void SurfaceIteration::RollBack()
@@ -206,19 +204,19 @@ void SurfaceIteration::RollBack()
     }
     SortUnique(back);
     // What is not in the working list has not moved; its previous position is an old one.
-    back.erase(std::remove_if(back.begin(), back.end(),
-                 [&s](int v) { return !(s.Marks[v] & IsWorking); }),
+    back.erase(
+      std::remove_if(back.begin(), back.end(), [&s](int v) { return !(s.Marks[v] & IsWorking); }),
       back.end());
-    std::vector<int> examined = back;
+    std::vector<int> tested = back;
     for (const int v : back)
     {
       this->RollBackVertex(v);
       const Ring& ring = s.Mesh.Rings[v];
-      examined.insert(examined.end(), ring.Item, ring.Item + ring.Count);
+      tested.insert(tested.end(), ring.Item, ring.Item + ring.Count);
     }
-    SortUnique(examined);
-    s.UpdateShape(examined, OnThisThread());
-    this->Recheck.Examine(s, examined, OnThisThread());
+    SortUnique(tested);
+    s.UpdateShape(tested, OnThisThread());
+    this->Recheck.Test(s, tested, OnThisThread());
     this->Recheck.Clear();
     intersections = &this->Recheck.Intersections();
   }
@@ -284,13 +282,13 @@ void SurfaceIteration::WatchComponents()
   // A component may become a small one without any change of topology. After a merge a small cavity
   // may be a part of the main component, and must not be judged as the cavity it was: labels are
   // made afresh before anything is deleted.
-  EditShare& share = this->Visit.Share;
+  EditContext& share = this->Visit.Share;
   const EditCounts& then = this->Labelled;
   if (share.Counts.Merges + share.Counts.Cuts > then.Merges + then.Cuts ||
     share.Counts.Collapses > then.Collapses + SuspiciousCollapses)
   {
-    this->Watch.LabelSmall(this->State, this->Visit.First, this->Visit.End(),
-      this->Visit.Written, this->Visit.Large.After(share.Counts));
+    this->Watch.LabelSmall(this->State, this->Visit.First, this->Visit.End(), this->Visit.Written,
+      this->Visit.Large.After(share.Counts));
     this->Labelled = share.Counts;
   }
   this->Watch.DeleteDegenerate(this->State, &share);
@@ -311,7 +309,7 @@ double SurfaceIteration::KineticEnergy() const
 HistoryRow SurfaceIteration::Run(const Dynamics& dynamics, Mode mode)
 {
   SurfaceState& s = this->State;
-  EditShare& share = this->Visit.Share;
+  EditContext& share = this->Visit.Share;
   const EditCounts counts = share.Counts;
   const int added = share.Room.Added;
   const int characteristic = share.EulerCharacteristic;
@@ -358,8 +356,8 @@ void SurfaceIteration::Move(const Dynamics& dynamics, Mode mode)
 
   this->SplitBeforeVerification();
 
-  this->CollectSuspects();
-  this->Near.Examine(s, this->Suspects, this->Threads);
+  this->CollectDirtyVertices();
+  this->Near.Test(s, this->DirtyVertices, this->Threads);
   this->RollBack();
   if (evolves)
   {

@@ -37,10 +37,10 @@ namespace volumic
  *   half a delta at most. What intersects is rolled back, and more about it, in the last round all:
  *   that is the mesh of before, which needs no test.
  * - Deletions take whole components away.
- * Divisions are tested like displacements. The tests are conservative (TrianglesIntersect). The bound
- * of 30 degrees is an observation: so all faces are tested against all others, whatever their normals
- * are, wherever a surface is handed out: a given start, a snapshot, the end of a level and a run that
- * was stopped (CountIntersecting).
+ * Divisions are tested like displacements. The tests are conservative (TrianglesIntersect). The
+ * bound of 30 degrees is an observation: so all faces are tested against all others, whatever their
+ * normals are, wherever a surface is handed out: a given start, a snapshot, the end of a level and
+ * a run that was stopped (CountIntersecting).
  */
 class SurfaceIteration
 {
@@ -56,11 +56,11 @@ public:
 
   /**
    * Works on the vertices of a visit, which must have a shape that is up to date; all others keep
-   * still, as if they were not active. Components are watched that are small and lie where the visit
-   * may write.
+   * still, as if they were not active. Components are watched that are small and lie where the
+   * visit may write.
    * @param evidence, topologyChanges see Remesher
    */
-  SurfaceIteration(SurfaceState& state, BlockVisit& visit, const Field* evidence,
+  SurfaceIteration(SurfaceState& state, BlockPass& visit, const Field* evidence,
     bool topologyChanges, Executor& threads = OnThisThread());
   ~SurfaceIteration();
   SurfaceIteration(const SurfaceIteration&) = delete;
@@ -83,8 +83,8 @@ private:
   void CollectActive();
   void CollectWorking();
   void AddUnmoved(int v);
-  bool IsSuspect(int v) const;
-  void CollectSuspects();
+  bool IsDirty(int v) const;
+  void CollectDirtyVertices();
   void RollBack();
   void RollBackVertex(int v);
   void SplitBeforeVerification();
@@ -93,7 +93,7 @@ private:
   double KineticEnergy() const;
 
   SurfaceState& State;
-  BlockVisit& Visit;
+  BlockPass& Visit;
   Executor& Threads;
   Remesher Edits;
   Proximity Near;    ///< Of all; keeps the pairs.
@@ -101,9 +101,9 @@ private:
   ComponentWatch Watch;
   Dynamics::Step Step;
   std::vector<int> Active;
-  std::vector<int> Working;  ///< See CollectWorking; they have the mark IsWorking.
-  std::vector<int> Suspects; ///< See CollectSuspects.
-  EditCounts Labelled;       ///< Of the share, when components were labelled.
+  std::vector<int> Working;       ///< See CollectWorking; they have the mark IsWorking.
+  std::vector<int> DirtyVertices; ///< See CollectDirtyVertices.
+  EditCounts Labelled;            ///< Of the share, when components were labelled.
 };
 }
 

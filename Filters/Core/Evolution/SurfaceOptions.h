@@ -42,19 +42,19 @@ struct SurfaceOptions : FieldOptions
   double SeedRadius = 0.;      ///< Radius of seeds, workspace; 0 = 1.2 delta.
   double SamplingRatio = 0.85; ///< delta_h / U_h, in [sqrt(3)/2.5, 1] (eq. 7).
 
-  double TensionWeight = 0.2;      ///< F_c, towards the barycentre of the neighbours.
-  double ElasticityWeight = 0.1;   ///< F_e, springs along edges, rest length 1.6 delta.
-  double IsopotentialWeight = 1.;  ///< F_i, along the normal, bounded by 1.
-  double GradientWeight = 0.;      ///< F_di, descent along the discrete gradient; see Dynamics.h.
+  double TensionWeight = 0.2;        ///< F_c, towards the barycentre of the neighbours.
+  double ElasticityWeight = 0.1;     ///< F_e, springs along edges, rest length 1.6 delta.
+  double IsopotentialWeight = 1.;    ///< F_i, along the normal, bounded by 1.
+  double GradientWeight = 0.;        ///< F_di, descent along the discrete gradient; see Dynamics.h.
   double PointAttractionWeight = 1.; ///< Of points known to belong to the object; PointAttraction.h
   /**
    * Of the edges of LevelImage::Edges, which stop the surface where this is more than
    * IsopotentialWeight; see EdgeAttraction.h.
    */
   double EdgeAttractionWeight = 0.;
-  double Friction = 3.;            ///< Per unit of time, see Dynamics.h for strong forces.
+  double Friction = 3.; ///< Per unit of time, see Dynamics.h for strong forces.
 
-  bool TopologyChanges = true;     ///< Off: contacts only stop the surface.
+  bool TopologyChanges = true; ///< Off: contacts only stop the surface.
 
   int MaximumNumberOfIterations = 1000; ///< Per level.
   /**
@@ -73,9 +73,9 @@ struct SurfaceOptions : FieldOptions
    * After a division, parts of the object that the coarser level did not resolve, and that the
    * surface therefore has lost, are enclosed again (Documentation/differences.md).
    */
-  bool RecoverLostParts = true;
+  bool RecoverMissedParts = true;
   bool RecoverCavities = false; ///< The same for background that the object encloses.
-  int MinimumPartSize = 20; ///< Voxels of the level that a lost part must have to be recovered.
+  int MinimumPartSize = 20;     ///< Voxels of the level that a lost part must have to be recovered.
 
   double MaximumStep = 0.5; ///< Largest displacement of an iteration, in delta; at most 0.5.
   /**

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Image/AxisOperator.h"
 
-#include "Core/Common/Refuse.h"
+#include "Core/Common/ThrowInvalidArgument.h"
 
 #include <algorithm>
 #include <array>
@@ -68,7 +68,8 @@ AxisOperator::AxisOperator(std::int64_t inputSize, std::int64_t outputSize, doub
 {
   if (inputSize < 1 || outputSize < 1 || !(offset >= 0.0 && offset <= 1.0))
   {
-    Refuse("AxisOperator: ", inputSize, " to ", outputSize, " voxels with an offset of ", offset,
+    ThrowInvalidArgument("AxisOperator: ", inputSize, " to ", outputSize,
+      " voxels with an offset of ", offset,
       " voxels; sizes must be at least 1, the offset in [0, 1].");
   }
   std::vector<Band> bands(outputSize);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Image/Field.h"
 
-#include "Core/Common/Refuse.h"
+#include "Core/Common/ThrowInvalidArgument.h"
 #include "Core/Image/VoxelRows.h"
 
 #include <algorithm>
@@ -30,15 +30,12 @@ constexpr float Beyond = 3.f;
 }
 
 Field::Field(const LevelImage& image, const FieldOptions& options, Executor& executor)
-  : Level(image)
-  , Around(image)
-  , Iso(static_cast<float>(options.IsoValue - image.Base))
-  , Sign(options.ObjectIsBright ? 1.f : -1.f)
-  , Replicate(options.BorderValue == Border::Replicate)
+  : Level(image), Around(image), Iso(static_cast<float>(options.IsoValue - image.Base)),
+    Sign(options.ObjectIsBright ? 1.f : -1.f), Replicate(options.BorderValue == Border::Replicate)
 {
   if (!image.Values || image.Size[0] < 1 || image.Size[1] < 1 || image.Size[2] < 1)
   {
-    Refuse("The image of a level has no voxels.");
+    ThrowInvalidArgument("The image of a level has no voxels.");
   }
   for (int k = 0; k < 3; ++k)
   {
@@ -269,8 +266,8 @@ Field::Sample Field::Interpolated(const Cell& cell, const Voxels& voxels, std::p
   const float z = cell.Z;
   // Rows at y = -1, 0, 1, 2 in the slices at z = 0 and 1; those at y = 0, 1 at z = -1 and 2.
   const std::ptrdiff_t corner = first - 1 - row;
-  const VoxelRows near = ReadRows(
-    voxels, { corner, corner + row, corner + 2 * row, corner + 3 * row });
+  const VoxelRows near =
+    ReadRows(voxels, { corner, corner + row, corner + 2 * row, corner + 3 * row });
   const std::ptrdiff_t next = corner + slice;
   const VoxelRows far = ReadRows(voxels, { next, next + row, next + 2 * row, next + 3 * row });
   const std::ptrdiff_t before = corner + row - slice;
@@ -291,19 +288,17 @@ Field::Sample Field::Interpolated(const Cell& cell, const Voxels& voxels, std::p
   slope(near).Store(slopes[0]);
   slope(far).Store(slopes[1]);
   const auto between = [y](const float* v, int j) { return v[j] + y * (v[j + 1] - v[j]); };
-  const auto slopeY = [y](const float* v)
-  { return (1 - y) * (v[2] - v[0]) + y * (v[3] - v[1]); };
+  const auto slopeY = [y](const float* v) { return (1 - y) * (v[2] - v[0]) + y * (v[3] - v[1]); };
   const float low = between(values[0], 1);
   const float high = between(values[1], 1);
   const float gx = (1 - z) * ((1 - y) * slopes[0][1] + y * slopes[0][2]) +
     z * ((1 - y) * slopes[1][1] + y * slopes[1][2]);
   const float gy = (1 - z) * slopeY(values[0]) + z * slopeY(values[1]);
-  const float gz =
-    (1 - z) * (high - between(values[2], 0)) + z * (between(values[2], 2) - low);
+  const float gz = (1 - z) * (high - between(values[2], 0)) + z * (between(values[2], 2) - low);
   const float half = 0.5f * this->Sign;
   return { this->Sign * (low + z * (high - low) - this->Iso),
-    Vector(half * gx * this->Inverse[0], half * gy * this->Inverse[1],
-      half * gz * this->Inverse[2]) };
+    Vector(
+      half * gx * this->Inverse[0], half * gy * this->Inverse[1], half * gz * this->Inverse[2]) };
 }
 
 Field::Sample Field::At(const Vector& position) const

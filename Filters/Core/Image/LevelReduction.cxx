@@ -72,9 +72,9 @@ public:
 
   Reduction(const T* input, const LevelGeometry& inputGeometry, Real* output,
     const LevelGeometry& outputGeometry)
-    : Input(input), Output(output), InputSize(inputGeometry.Size),
-      OutputSize(outputGeometry.Size), X(inputGeometry, outputGeometry, 0),
-      Y(inputGeometry, outputGeometry, 1), Z(inputGeometry, outputGeometry, 2),
+    : Input(input), Output(output), InputSize(inputGeometry.Size), OutputSize(outputGeometry.Size),
+      X(inputGeometry, outputGeometry, 0), Y(inputGeometry, outputGeometry, 1),
+      Z(inputGeometry, outputGeometry, 2),
       Stride((InputSize[0] + RowsAtOnce - 1) / RowsAtOnce * RowsAtOnce)
   {
     const std::int64_t rowBytes = InputSize[0] * Z.Taps * static_cast<std::int64_t>(sizeof(T));
@@ -107,7 +107,7 @@ public:
 
 private:
   /** Rows in work, of one thread. */
-  struct WorkSpace
+  struct RowBuffers
   {
     // Enough for the rows of one band along y: the ring's size is a power of two over six.
     static constexpr std::int64_t RingRows = 8;
@@ -115,7 +115,7 @@ private:
     std::vector<Real> Rows;    ///< rows combined along z and y
     std::vector<Real> Columns; ///< work space of ReduceRows
 
-    explicit WorkSpace(std::int64_t stride)
+    explicit RowBuffers(std::int64_t stride)
       : Ring(RingRows * stride), Rows(RowsAtOnce * stride), Columns(RowsAtOnce * stride)
     {
     }
@@ -123,7 +123,7 @@ private:
 
   void RunTasks(std::int64_t begin, std::int64_t end) const
   {
-    WorkSpace work(this->Stride);
+    RowBuffers work(this->Stride);
     for (std::int64_t task = begin; task < end; ++task)
     {
       const std::int64_t tile = task / this->OutputSize[2];
@@ -134,7 +134,7 @@ private:
   }
 
   /** Output rows [begin, end) of one output slice. */
-  void MakeRows(std::int64_t slice, std::int64_t begin, std::int64_t end, WorkSpace& work) const
+  void MakeRows(std::int64_t slice, std::int64_t begin, std::int64_t end, RowBuffers& work) const
   {
     std::int64_t made = this->Y.First[begin]; // rows of the ring before this one are done
     for (std::int64_t first = begin; first < end; first += RowsAtOnce)
@@ -157,9 +157,9 @@ private:
     }
   }
 
-  Real* RingRow(WorkSpace& work, std::int64_t y) const
+  Real* RingRow(RowBuffers& work, std::int64_t y) const
   {
-    return work.Ring.data() + (y % WorkSpace::RingRows) * this->Stride;
+    return work.Ring.data() + (y % RowBuffers::RingRows) * this->Stride;
   }
 
   void CombineAlongZ(std::int64_t slice, std::int64_t y, Real* out) const
@@ -173,7 +173,7 @@ private:
     CombineRows(rows.data(), this->Z.Weight(slice), this->Z.Taps, out, this->InputSize[0]);
   }
 
-  void CombineAlongY(std::int64_t y, WorkSpace& work, Real* out) const
+  void CombineAlongY(std::int64_t y, RowBuffers& work, Real* out) const
   {
     std::array<const Real*, AxisOperator::MaximumNumberOfTaps> rows{};
     for (int t = 0; t < this->Y.Taps; ++t)
@@ -213,8 +213,7 @@ NotFiniteVoxels FindNotFiniteVoxels([[maybe_unused]] const T* values,
   if constexpr (std::is_floating_point_v<T>)
   {
     std::vector<std::int64_t> counts((n + ScanSpan - 1) / ScanSpan);
-    const auto sizeOf = [n](std::int64_t span)
-    { return std::min(ScanSpan, n - span * ScanSpan); };
+    const auto sizeOf = [n](std::int64_t span) { return std::min(ScanSpan, n - span * ScanSpan); };
     executor.For(counts.size(), ScanGrain,
       [&](std::size_t begin, std::size_t end)
       {
@@ -239,8 +238,8 @@ NotFiniteVoxels FindNotFiniteVoxels([[maybe_unused]] const T* values,
 }
 
 #define VOLUMIC_INSTANTIATE(T)                                                   \
-  template bool ReduceLevel<T>(const T*, const LevelGeometry&, RealOf<T>::Type*,  \
-    const LevelGeometry&, Executor&, const LevelProgress&);                       \
+  template bool ReduceLevel<T>(const T*, const LevelGeometry&, RealOf<T>::Type*, \
+    const LevelGeometry&, Executor&, const LevelProgress&);                      \
   template NotFiniteVoxels FindNotFiniteVoxels<T>(const T*, std::int64_t, Executor&);
 VOLUMIC_FOR_EACH_SCALAR(VOLUMIC_INSTANTIATE)
 #undef VOLUMIC_INSTANTIATE

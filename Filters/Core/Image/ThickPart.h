@@ -35,8 +35,8 @@ class ThickParts
 {
 public:
   ThickParts(const IsObject& isObject, const std::array<int, 3>& size, const PartSize& least)
-    : Object(isObject), Size(size), Numbers(size), Least(least.Voxels), More(least.Thickness - 1)
-    , NumberOfCorners(least.Thickness == 1 ? 1 : 8)
+    : Object(isObject), Size(size), Numbers(size), Least(least.Voxels), More(least.Thickness - 1),
+      NumberOfCorners(least.Thickness == 1 ? 1 : 8)
   {
     for (int c = 0; c < this->NumberOfCorners; ++c)
     {
@@ -90,8 +90,8 @@ private:
   }
 
   /**
-   * Whether the part of a voxel is large enough. Only asked of what may be the first voxel of its part:
-   * where there is one before it, the part has been looked at, and has fewer.
+   * Whether the part of a voxel is large enough. Only asked of what may be the first voxel of its
+   * part: where there is one before it, the part has been looked at, and has fewer.
    */
   bool StartsPart(std::int64_t first)
   {
@@ -102,7 +102,7 @@ private:
       {
         return true;
       }
-      const std::array<int, 3> place = this->Numbers.PlaceOf(this->Part[n]);
+      const std::array<int, 3> place = this->Numbers.IjkOf(this->Part[n]);
       for (int axis = 0; axis < 3; ++axis)
       {
         for (int side : { -1, 1 })
@@ -143,8 +143,7 @@ private:
  * size: of cubes of them, joined by faces. What is thinner doesn't count.
  */
 template <typename IsObject>
-bool HasThickPart(
-  const IsObject& isObject, const std::array<int, 3>& size, const PartSize& least)
+bool HasThickPart(const IsObject& isObject, const std::array<int, 3>& size, const PartSize& least)
 {
   return ThickParts<IsObject>(isObject, size, least).HaveOne();
 }

@@ -30,7 +30,7 @@ public:
     return i + j * this->Strides[1] + k * this->Strides[2];
   }
 
-  constexpr std::array<int, 3> PlaceOf(std::int64_t number) const
+  constexpr std::array<int, 3> IjkOf(std::int64_t number) const
   {
     const std::int64_t inSlice = number % this->Strides[2];
     return { static_cast<int>(inSlice % this->Strides[1]),

@@ -21,7 +21,7 @@ struct PlainVoxels
 
 /** Voxels less a base: the difference in double, rounded to float. */
 template <typename T>
-struct WideVoxels
+struct DoubleVoxels
 {
   using Stored = T;
   const T* Voxels;
@@ -41,7 +41,7 @@ struct WideVoxels
  * two floats: that needs bits further down than a base of 24 bits has.)
  */
 template <typename T>
-struct NarrowVoxels
+struct Int32Voxels
 {
   static_assert(std::is_integral_v<T> && sizeof(T) <= 2, "not every such number is a float");
   using Stored = T;
@@ -68,15 +68,15 @@ public:
   /** Less a base. */
   template <typename T>
   VoxelValues(const T* voxels, double base)
-    : Voxels(voxels), Base(base), Held(TypeOf<T>()), IsPlain(false)
-    , IsNarrow(sizeof(T) <= 2 && static_cast<double>(static_cast<float>(base)) == base)
+    : Voxels(voxels), Base(base), Held(TypeOf<T>()), IsPlain(false),
+      IsNarrow(sizeof(T) <= 2 && static_cast<double>(static_cast<float>(base)) == base)
   {
   }
 
   explicit operator bool() const { return this->Voxels != nullptr; }
 
   /**
-   * Calls visit(voxels) with a PlainVoxels, NarrowVoxels or WideVoxels: voxels[i] is the value of
+   * Calls visit(voxels) with a PlainVoxels, Int32Voxels or DoubleVoxels: voxels[i] is the value of
    * the i-th. To be called once per sample or loop, as it looks up the type.
    */
   template <typename Visitor>
@@ -89,25 +89,25 @@ public:
     switch (this->Held)
     {
       case Type::SignedChar:
-        return this->VisitNarrow<std::int8_t>(visit);
+        return this->VisitAsFloat<std::int8_t>(visit);
       case Type::UnsignedChar:
-        return this->VisitNarrow<std::uint8_t>(visit);
+        return this->VisitAsFloat<std::uint8_t>(visit);
       case Type::Short:
-        return this->VisitNarrow<std::int16_t>(visit);
+        return this->VisitAsFloat<std::int16_t>(visit);
       case Type::UnsignedShort:
-        return this->VisitNarrow<std::uint16_t>(visit);
+        return this->VisitAsFloat<std::uint16_t>(visit);
       case Type::Int:
-        return this->VisitWide<std::int32_t>(visit);
+        return this->VisitAsDouble<std::int32_t>(visit);
       case Type::UnsignedInt:
-        return this->VisitWide<std::uint32_t>(visit);
+        return this->VisitAsDouble<std::uint32_t>(visit);
       case Type::Long:
-        return this->VisitWide<std::int64_t>(visit);
+        return this->VisitAsDouble<std::int64_t>(visit);
       case Type::UnsignedLong:
-        return this->VisitWide<std::uint64_t>(visit);
+        return this->VisitAsDouble<std::uint64_t>(visit);
       case Type::Double:
-        return this->VisitWide<double>(visit);
+        return this->VisitAsDouble<double>(visit);
       default:
-        return this->VisitWide<float>(visit);
+        return this->VisitAsDouble<float>(visit);
     }
   }
 
@@ -164,26 +164,26 @@ private:
   }
 
   template <typename T, typename Visitor>
-  std::invoke_result_t<Visitor, PlainVoxels> VisitNarrow(Visitor&& visit) const
+  std::invoke_result_t<Visitor, PlainVoxels> VisitAsFloat(Visitor&& visit) const
   {
     if (this->IsNarrow)
     {
       return visit(
-        NarrowVoxels<T>{ static_cast<const T*>(this->Voxels), static_cast<float>(this->Base) });
+        Int32Voxels<T>{ static_cast<const T*>(this->Voxels), static_cast<float>(this->Base) });
     }
-    return this->VisitWide<T>(visit);
+    return this->VisitAsDouble<T>(visit);
   }
   template <typename T, typename Visitor>
-  std::invoke_result_t<Visitor, PlainVoxels> VisitWide(Visitor&& visit) const
+  std::invoke_result_t<Visitor, PlainVoxels> VisitAsDouble(Visitor&& visit) const
   {
-    return visit(WideVoxels<T>{ static_cast<const T*>(this->Voxels), this->Base });
+    return visit(DoubleVoxels<T>{ static_cast<const T*>(this->Voxels), this->Base });
   }
 
   const void* Voxels = nullptr;
   double Base = 0.;
   Type Held = Type::Float;
   bool IsPlain = true;
-  bool IsNarrow = false; ///< See NarrowVoxels.
+  bool IsNarrow = false; ///< See Int32Voxels.
 };
 }
 

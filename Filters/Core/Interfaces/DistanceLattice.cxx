@@ -63,10 +63,9 @@ float DistanceLattice::At(int i, int j, int k) const
   const Layer& layer = this->Layers[static_cast<std::size_t>(k / BrickSide)];
   const int first =
     layer.First[static_cast<std::size_t>(j / BrickSide) * this->Bricks[0] + i / BrickSide];
-  return first < 0
-    ? static_cast<float>(this->Distance)
-    : layer.Values[static_cast<std::size_t>(
-        first + i % BrickSide + BrickSide * (j % BrickSide + BrickSide * (k % BrickSide)))];
+  return first < 0 ? static_cast<float>(this->Distance)
+                   : layer.Values[static_cast<std::size_t>(first + i % BrickSide +
+                       BrickSide * (j % BrickSide + BrickSide * (k % BrickSide)))];
 }
 
 float& DistanceLattice::Write(int i, int j, int k)
@@ -77,8 +76,7 @@ float& DistanceLattice::Write(int i, int j, int k)
   if (first < 0)
   {
     first = static_cast<int>(layer.Values.size());
-    layer.Values.resize(
-      layer.Values.size() + PointsOfBrick, static_cast<float>(this->Distance));
+    layer.Values.resize(layer.Values.size() + PointsOfBrick, static_cast<float>(this->Distance));
   }
   return layer.Values[static_cast<std::size_t>(
     first + i % BrickSide + BrickSide * (j % BrickSide + BrickSide * (k % BrickSide)))];
@@ -89,8 +87,8 @@ std::array<float, 8> DistanceLattice::CornersOf(const LatticePoint& cube) const
   std::array<float, 8> values;
   for (int corner = 0; corner < 8; ++corner)
   {
-    values[static_cast<std::size_t>(corner)] = this->At(
-      cube[0] + (corner & 1), cube[1] + (corner >> 1 & 1), cube[2] + (corner >> 2));
+    values[static_cast<std::size_t>(corner)] =
+      this->At(cube[0] + (corner & 1), cube[1] + (corner >> 1 & 1), cube[2] + (corner >> 2));
   }
   return values;
 }
@@ -123,7 +121,7 @@ void DistanceLattice::Compose(const LatticePoint& cube, bool mayAdd,
       p[1] + 1 < this->Points[1] && p[2] + 1 < this->Points[2];
     if (value >= 0.f && value < FarthestIn * pitch && isWithin &&
       (best < 0 || value < values[static_cast<std::size_t>(best)]) &&
-      mayComeIn(this->PlaceOf(p[0], p[1], p[2])))
+      mayComeIn(this->IjkOf(p[0], p[1], p[2])))
     {
       best = corner;
     }
@@ -173,8 +171,7 @@ std::vector<LatticePoint> DistanceLattice::FindIllComposed(int layer) const
   std::vector<std::uint8_t> high(low.size());
   const auto copy = [this](int k, std::vector<std::uint8_t>& inside)
   {
-    this->ForSlice(
-      k, [&inside](std::size_t at, float value) { inside[at] = value < 0.f ? 1 : 0; });
+    this->ForSlice(k, [&inside](std::size_t at, float value) { inside[at] = value < 0.f ? 1 : 0; });
   };
   const int first = layer * BrickSide;
   copy(first, high);
@@ -247,19 +244,23 @@ IndexedSurface DistanceLattice::Boundary(bool isEven, Executor& executor) const
   }
   grid.CopyValues = [&](int k, float* values)
   { this->ForSlice(k, [values](std::size_t at, float value) { values[at] = value; }); };
-  grid.CopySlice = [&](int k, LabelMap::Number* labels)
-  { this->ForSlice(k, [labels](std::size_t at, float value) { labels[at] = value < 0.f ? 1 : 0; }); };
+  grid.CopySlice = [&](int k, LabelMap::Number* labels) {
+    this->ForSlice(k, [labels](std::size_t at, float value) { labels[at] = value < 0.f ? 1 : 0; });
+  };
   LargeVector<Vector> points;
   LargeVector<InterfaceMesh::Face> faces;
   MakeDualFaces(grid, executor, points, faces);
   IndexedSurface surface;
   surface.Points.resize(points.size());
   std::transform(points.begin(), points.end(), surface.Points.begin(),
-    [](const Vector& p) { return Point{ p.X, p.Y, p.Z }; });
+    [](const Vector& p) {
+      return Point{ p.X, p.Y, p.Z };
+    });
   surface.Triangles.resize(faces.size());
   std::transform(faces.begin(), faces.end(), surface.Triangles.begin(),
-    [](const InterfaceMesh::Face& face)
-    { return Triangle{ face.Vertex[0], face.Vertex[2], face.Vertex[1] }; }); // Seen from outside.
+    [](const InterfaceMesh::Face& face) {
+      return Triangle{ face.Vertex[0], face.Vertex[2], face.Vertex[1] };
+    }); // Seen from outside.
   return surface;
 }
 }

@@ -20,8 +20,8 @@ namespace volumic
  * are zero: what a surface starts from. It is the dual mesh of the lattice (MakeDualFaces), with a
  * vertex at the mean of the zeros on the edges of each cube.
  *
- * Memory grows with the surface: points are kept in bricks, and those of bricks without any have one
- * value. Points of different layers of bricks may be written at once.
+ * Memory grows with the surface: points are kept in bricks, and those of bricks without any have
+ * one value. Points of different layers of bricks may be written at once.
  */
 class DistanceLattice
 {
@@ -34,7 +34,7 @@ public:
   double Pitch() const { return this->Distance; }
   const std::array<int, 3>& Size() const { return this->Points; }
   int NumberOfLayers() const { return this->Bricks[2]; }
-  Point PlaceOf(int i, int j, int k) const
+  Point IjkOf(int i, int j, int k) const
   {
     return { this->Low[0] + this->Distance * i, this->Low[1] + this->Distance * j,
       this->Low[2] + this->Distance * k };
@@ -55,16 +55,16 @@ public:
 
   /**
    * Changes signs until the surface is a manifold with a vertex in each cube: where points of one
-   * side meet in an edge or a corner of a cube alone, what is nearest to the surface comes in, if it
-   * may, and else what is least deep goes out.
+   * side meet in an edge or a corner of a cube alone, what is nearest to the surface comes in, if
+   * it may, and else what is least deep goes out.
    */
   void MakeWellComposed(
     const std::function<bool(const Point& place)>& mayComeIn, Executor& executor);
 
   /**
    * Closed, outward, and a manifold where it is well composed.
-   * @param isEven squares are cut along their shorter diagonals; then it may intersect itself, which
-   *               is rare and must be asked
+   * @param isEven squares are cut along their shorter diagonals; then it may intersect itself,
+   * which is rare and must be asked
    */
   IndexedSurface Boundary(bool isEven, Executor& executor) const;
 

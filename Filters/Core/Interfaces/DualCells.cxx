@@ -17,7 +17,7 @@ constexpr double Apart = 0.5;
 /** The size of the copy of an opened sheet's rim. */
 constexpr double Copied = 0.5;
 
-Place PlaceOfArc(int edge)
+Place SlotOfArc(int edge)
 {
   Place place;
   place[edge / 4] = 0.5;
@@ -46,7 +46,7 @@ Place MeanOfZeros(const std::array<float, 8>& values)
     const double to = values[high];
     if ((from < 0.) != (to < 0.))
     {
-      Place zero = PlaceOfArc(edge);
+      Place zero = SlotOfArc(edge);
       zero[edge / 4] = std::clamp(from / (from - to), 0.5 - most, 0.5 + most);
       for (int axis = 0; axis < 3; ++axis)
       {
@@ -81,7 +81,7 @@ Place TowardsArcs(const Place& middle, const Use& use)
   {
     if (use(edge))
     {
-      const Place arc = PlaceOfArc(edge);
+      const Place arc = SlotOfArc(edge);
       for (int axis = 0; axis < 3; ++axis)
       {
         sum[axis] += arc[axis];
@@ -92,7 +92,7 @@ Place TowardsArcs(const Place& middle, const Use& use)
   return Between(middle, { sum[0] / count, sum[1] / count, sum[2] / count }, Apart);
 }
 
-Place PlaceOfApex(const CellPattern& pattern, int sheet)
+Place SlotOfApex(const CellPattern& pattern, int sheet)
 {
   const Place middle = { 0.5, 0.5, 0.5 };
   return pattern.Sheets == 1
@@ -100,7 +100,7 @@ Place PlaceOfApex(const CellPattern& pattern, int sheet)
     : TowardsArcs(middle, [&](int edge) { return pattern.SheetOf[edge] == sheet; });
 }
 
-Place PlaceOfStrand(const CellPattern& pattern, int side, int strand)
+Place SlotOfStrand(const CellPattern& pattern, int side, int strand)
 {
   Place middle = { 0.5, 0.5, 0.5 };
   middle[side / 2] = side & 1;
@@ -183,8 +183,8 @@ void DualCells::FindCells(DualSlab& slab) const
       {
         const std::size_t at = static_cast<std::size_t>(j) * row + static_cast<std::size_t>(i);
         const std::array<Number, 8> labels = OctantsAt(low, high, at, row);
-        if (std::any_of(labels.begin(), labels.end(),
-              [&labels](Number label) { return label != labels[0]; }))
+        if (std::any_of(
+              labels.begin(), labels.end(), [&labels](Number label) { return label != labels[0]; }))
         {
           this->AddCell(slab, { i, j, k }, labels,
             this->Grid.CopyValues ? MeanOfZeros(OctantsAt(lowValues, highValues, at, row))
@@ -204,7 +204,7 @@ void DualCells::AddCell(DualSlab& slab, const std::array<int, 3>& at,
   if (this->IsPlainPair(labels) || (pattern = CellPattern(labels, this->Grid.RankOf)).IsPlain())
   {
     slab.Has.push_back(static_cast<int>(slab.Points.size()));
-    slab.Points.push_back(this->PlaceOf(at, vertex));
+    slab.Points.push_back(this->IjkOf(at, vertex));
     return;
   }
   slab.Has.push_back(-1 - static_cast<int>(slab.Special.size()));
@@ -248,7 +248,7 @@ float DualCells::CoordinateOf(const std::array<int, 3>& cell, int axis, double a
   return static_cast<float>(plane + (end - plane) * (at < 0.5 ? 1. - 2. * at : 2. * at - 1.));
 }
 
-Vector DualCells::PlaceOf(const std::array<int, 3>& cell, const Place& at) const
+Vector DualCells::IjkOf(const std::array<int, 3>& cell, const Place& at) const
 {
   return { this->CoordinateOf(cell, 0, at[0]), this->CoordinateOf(cell, 1, at[1]),
     this->CoordinateOf(cell, 2, at[2]) };
@@ -260,14 +260,13 @@ void DualCells::AddPointsOfSpecials(DualSlab& slab) const
   {
     const auto add = [&](const Place& at)
     {
-      slab.Points.push_back(this->PlaceOf(special.At, at));
+      slab.Points.push_back(this->IjkOf(special.At, at));
       return static_cast<int>(slab.Points.size()) - 1;
     };
     const CellPattern& pattern = special.Pattern;
     for (int sheet = 0; sheet < pattern.Sheets; ++sheet)
     {
-      special.Apex[sheet] =
-        pattern.IsOpened(sheet) ? -1 : add(PlaceOfApex(pattern, sheet));
+      special.Apex[sheet] = pattern.IsOpened(sheet) ? -1 : add(SlotOfApex(pattern, sheet));
     }
     for (int side = 0; side < CellPattern::Sides; ++side)
     {
@@ -277,9 +276,8 @@ void DualCells::AddPointsOfSpecials(DualSlab& slab) const
       for (int strand = 0; strand < 2; ++strand)
       {
         special.InnerStrand[side][strand] = -1;
-        special.Strand[side][strand] = isOwn && strand < pattern.StrandsOn[side]
-          ? add(PlaceOfStrand(pattern, side, strand))
-          : -1;
+        special.Strand[side][strand] =
+          isOwn && strand < pattern.StrandsOn[side] ? add(SlotOfStrand(pattern, side, strand)) : -1;
       }
     }
     const Place middle = { 0.5, 0.5, 0.5 };
@@ -291,12 +289,12 @@ void DualCells::AddPointsOfSpecials(DualSlab& slab) const
       {
         continue;
       }
-      Place arc = PlaceOfArc(edge);
+      Place arc = SlotOfArc(edge);
       const auto sides = CellPattern::SidesOf(edge);
       for (int n = 0; n < 2; ++n)
       {
         const int strand = pattern.StrandOf[edge][n];
-        const Place place = PlaceOfStrand(pattern, sides[n], strand);
+        const Place place = SlotOfStrand(pattern, sides[n], strand);
         int& inner = special.InnerStrand[sides[n]][strand];
         inner = inner >= 0 ? inner : add(Between(middle, place, Copied));
         // In the plane of a box's side the copies of this and of others would coincide.
@@ -318,7 +316,6 @@ bool DualCells::IsSpecial(const std::array<int, 3>& cell) const
   const auto first = slab.X.begin() + static_cast<std::ptrdiff_t>(slab.Row[row]);
   const auto end = slab.X.begin() + static_cast<std::ptrdiff_t>(slab.Row[row + 1]);
   const auto at = std::lower_bound(first, end, cell[0]);
-  return at != end && *at == cell[0] &&
-    slab.Has[static_cast<std::size_t>(at - slab.X.begin())] < 0;
+  return at != end && *at == cell[0] && slab.Has[static_cast<std::size_t>(at - slab.X.begin())] < 0;
 }
 }

@@ -90,7 +90,7 @@ private:
   /** Whether there are two labels, in a pattern that is plain: most cells, and quickly found. */
   bool IsPlainPair(const std::array<Number, 8>& labels) const;
   float CoordinateOf(const std::array<int, 3>& cell, int axis, double at) const;
-  Vector PlaceOf(const std::array<int, 3>& cell, const Place& at) const;
+  Vector IjkOf(const std::array<int, 3>& cell, const Place& at) const;
   /** Whether a cell is at the side of a box, with this one of its own sides within the box. */
   bool IsOppositeToSide(const std::array<int, 3>& cell, int side) const
   {

@@ -150,8 +150,8 @@ private:
    * @param has      of these cells, as Slab::Has
    * @param isBefore whether they are in the slab before
    */
-  static Ring RingAbout(const std::array<const SpecialCell*, 4>& special, const std::array<int, 4>& has,
-    const std::array<bool, 4>& isBefore, int axis)
+  static Ring RingAbout(const std::array<const SpecialCell*, 4>& special,
+    const std::array<int, 4>& has, const std::array<bool, 4>& isBefore, int axis)
   {
     Ring ring;
     for (int q = 0; q < 4; ++q)
@@ -166,13 +166,11 @@ private:
         const bool isHigh = CellsAbout[q][place] == 1; // of this cell
         const bool isOfHere = here && (isHigh || !special[before]);
         const int q0 = isOfHere ? q : before;
-        const int edge0 = isOfHere
-          ? edge
-          : CellPattern::EdgeAt(axis, CellsAbout[before][0], CellsAbout[before][1]);
+        const int edge0 =
+          isOfHere ? edge : CellPattern::EdgeAt(axis, CellsAbout[before][0], CellsAbout[before][1]);
         const int strand = special[q0]->Pattern.StrandOf[edge0][place];
         const int sideOfCell = CellPattern::SidesOf(edge0)[place];
-        ring.Point[ring.Count++] =
-          Refer(special[q0]->Strand[sideOfCell][strand], isBefore[q0]);
+        ring.Point[ring.Count++] = Refer(special[q0]->Strand[sideOfCell][strand], isBefore[q0]);
       }
       if (!here)
       {
@@ -210,9 +208,9 @@ private:
       cells[q][across[0]] -= CellsAbout[q][0];
       cells[q][across[1]] -= CellsAbout[q][1];
       const bool isBelow = cells[q][2] < voxel[2];
-      has[q] = (isBelow ? layers.Below
-                        : layers.Above)[static_cast<std::size_t>(cells[q][1]) * this->Grid.Size[0] +
-        cells[q][0]];
+      has[q] = (isBelow
+          ? layers.Below
+          : layers.Above)[static_cast<std::size_t>(cells[q][1]) * this->Grid.Size[0] + cells[q][0]];
       isBefore[q] = isBelow && layers.IsBelowBefore;
       arePlain = arePlain && has[q] >= 0;
     }
@@ -259,8 +257,8 @@ private:
     slab.Points.push_back({ place[0], place[1], place[2] });
     for (int n = 0; n < ring.Count; ++n)
     {
-      this->AddTriangle(slab, { centre, ring.Point[n], ring.Point[(n + 1) % ring.Count] }, behind,
-        front, side);
+      this->AddTriangle(
+        slab, { centre, ring.Point[n], ring.Point[(n + 1) % ring.Count] }, behind, front, side);
     }
   }
 
@@ -271,12 +269,11 @@ private:
     const int centre = pattern.CentreOf[sheet];
     for (int region = 0; region < CellPattern::Octants; ++region)
     {
-      if (pattern.RegionOf[region] != region ||
-        special.Labels[region] == special.Labels[centre])
+      if (pattern.RegionOf[region] != region || special.Labels[region] == special.Labels[centre])
       {
         continue;
       }
-      std::vector<std::array<int, 2>> rim; // counter-clockwise, seen from the centre
+      std::vector<std::array<int, 2>> link; // counter-clockwise, seen from the centre
       for (int edge = 0; edge < CellPattern::Edges; ++edge)
       {
         const auto [low, high] = CellPattern::OctantsOf(edge);
@@ -291,27 +288,25 @@ private:
           ++q;
         }
         const int arc = special.InnerArc[edge];
-        rim.push_back(
-          { special.InnerStrandAt(edge, isLow ? SideAfter[q] : SideBefore[q]), arc });
-        rim.push_back(
-          { arc, special.InnerStrandAt(edge, isLow ? SideBefore[q] : SideAfter[q]) });
+        link.push_back({ special.InnerStrandAt(edge, isLow ? SideAfter[q] : SideBefore[q]), arc });
+        link.push_back({ arc, special.InnerStrandAt(edge, isLow ? SideBefore[q] : SideAfter[q]) });
       }
-      if (!rim.empty())
+      if (!link.empty())
       {
-        this->AddCap(slab, special, rim, special.Labels[region], special.Labels[centre]);
+        this->AddCap(slab, special, link, special.Labels[region], special.Labels[centre]);
       }
     }
   }
 
-  void AddCap(Slab& slab, const SpecialCell& special, const std::vector<std::array<int, 2>>& rim,
+  void AddCap(Slab& slab, const SpecialCell& special, const std::vector<std::array<int, 2>>& link,
     Number inside, Number outside)
   {
     VectorD sum;
-    for (const std::array<int, 2>& piece : rim)
+    for (const std::array<int, 2>& piece : link)
     {
       sum += VectorD(slab.Points[static_cast<std::size_t>(piece[0])]);
     }
-    Vector middle(sum * (1. / static_cast<double>(rim.size())));
+    Vector middle(sum * (1. / static_cast<double>(link.size())));
     int side = 0;
     for (int axis = 0; axis < 3; ++axis)
     {
@@ -324,7 +319,7 @@ private:
     }
     const int centre = static_cast<int>(slab.Points.size());
     slab.Points.push_back(middle);
-    for (const std::array<int, 2>& piece : rim)
+    for (const std::array<int, 2>& piece : link)
     {
       this->AddTriangle(slab, { centre, piece[0], piece[1] }, inside, outside, side);
     }

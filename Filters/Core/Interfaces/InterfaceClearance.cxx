@@ -44,16 +44,17 @@ Turn TurnAt(int u, int v, const std::array<MeshTriangle, 2>& faces)
 
 VectorD AcrossEdge(const MeshTriangle& face, int u, int v)
 {
-  const int at = static_cast<int>(std::find_if(face.Vertex, face.Vertex + 3,
-    [&](int w) { return w != u && w != v; }) - face.Vertex);
+  const int at = static_cast<int>(
+    std::find_if(face.Vertex, face.Vertex + 3, [&](int w) { return w != u && w != v; }) -
+    face.Vertex);
   const VectorD& from = CornerAt(face, u);
   const VectorD axis = CornerAt(face, v) - from;
   const VectorD way = face.Corner[at] - from;
   return way * SquaredLength(axis) - axis * Dot(axis, way);
 }
 
-bool HavePassed(int u, int v, const std::array<MeshTriangle, 2>& before,
-  const std::array<MeshTriangle, 2>& after)
+bool HavePassed(
+  int u, int v, const std::array<MeshTriangle, 2>& before, const std::array<MeshTriangle, 2>& after)
 {
   const Turn from = TurnAt(u, v, before);
   const Turn to = TurnAt(u, v, after);
@@ -77,12 +78,12 @@ Box BoxOf(const MeshTriangle& t)
   return Box::Of(Vector(t.Corner[0]), Vector(t.Corner[1]), Vector(t.Corner[2]));
 }
 
-PlacedFace PlacedFaceOf(const InterfaceMesh& mesh, const InterfaceMesh::Face& face)
+FaceCoordinates FaceCoordinatesOf(const InterfaceMesh& mesh, const InterfaceMesh::Face& face)
 {
   return { TriangleOf(mesh, face.Vertex), face.Behind, face.Front };
 }
 
-bool AreInOrder(int u, int v, const std::vector<PlacedFace>& faces)
+bool AreInOrder(int u, int v, const std::vector<FaceCoordinates>& faces)
 {
   struct Side
   {
@@ -94,7 +95,7 @@ bool AreInOrder(int u, int v, const std::vector<PlacedFace>& faces)
   VectorD axis;
   VectorD first;
   VectorD second;
-  for (const PlacedFace& face : faces)
+  for (const FaceCoordinates& face : faces)
   {
     int at = 0;
     while (face.Vertex[at] == u || face.Vertex[at] == v)
@@ -118,8 +119,8 @@ bool AreInOrder(int u, int v, const std::vector<PlacedFace>& faces)
     turns.push_back({ std::atan2(Dot(second, across), Dot(first, across)),
       isForward ? face.Behind : face.Front, isForward ? face.Front : face.Behind });
   }
-  std::sort(turns.begin(), turns.end(),
-    [](const Side& a, const Side& b) { return a.Angle < b.Angle; });
+  std::sort(
+    turns.begin(), turns.end(), [](const Side& a, const Side& b) { return a.Angle < b.Angle; });
   for (std::size_t n = 0; n < turns.size(); ++n)
   {
     if (turns[n].After != turns[(n + 1) % turns.size()].Before)
@@ -221,7 +222,7 @@ int InterfaceClearance::FindIntersecting(int face, std::vector<int>& near) const
   return -1;
 }
 
-bool InterfaceClearance::AreClear(const std::vector<PlacedFace>& faces,
+bool InterfaceClearance::AreClear(const std::vector<FaceCoordinates>& faces,
   const std::vector<int>& replaced, std::vector<int>& near) const
 {
   if (faces.empty())
@@ -230,7 +231,7 @@ bool InterfaceClearance::AreClear(const std::vector<PlacedFace>& faces,
   }
   Box all = volumic::BoxOf(faces.front());
   std::vector<Box> boxes;
-  for (const PlacedFace& triangle : faces)
+  for (const FaceCoordinates& triangle : faces)
   {
     const Box box = volumic::BoxOf(triangle);
     all = all.With(box);
@@ -248,7 +249,8 @@ bool InterfaceClearance::AreClear(const std::vector<PlacedFace>& faces,
   }
   std::vector<const Sheet*> sheetOf;
   std::transform(faces.begin(), faces.end(), std::back_inserter(sheetOf),
-    [&](const PlacedFace& face) -> const Sheet* {
+    [&](const FaceCoordinates& face) -> const Sheet*
+    {
       return &*std::find_if(
         sheets.begin(), sheets.end(), [&](const Sheet& sheet) { return sheet.Has(face); });
     });
@@ -264,7 +266,7 @@ bool InterfaceClearance::AreClear(const std::vector<PlacedFace>& faces,
     }
   }
   const bool isAtLine = std::any_of(faces.begin(), faces.end(),
-    [this](const PlacedFace& face) { return this->IsAtLine(face); });
+    [this](const FaceCoordinates& face) { return this->IsAtLine(face); });
   std::vector<int> others;
   for (const int face : near)
   {
@@ -280,8 +282,7 @@ bool InterfaceClearance::AreClear(const std::vector<PlacedFace>& faces,
     const Box& box = this->BoxOf(face);
     for (std::size_t n = 0; n < faces.size(); ++n)
     {
-      if (!(sheetOf[n]->IsOne && sheetOf[n]->Has(there)) &&
-        !box.IsApartFrom(boxes[n]) &&
+      if (!(sheetOf[n]->IsOne && sheetOf[n]->Has(there)) && !box.IsApartFrom(boxes[n]) &&
         TrianglesIntersect(faces[n], TriangleOf(this->Mesh, there.Vertex), this->Tolerance))
       {
         return false;
@@ -292,7 +293,7 @@ bool InterfaceClearance::AreClear(const std::vector<PlacedFace>& faces,
 }
 
 std::vector<InterfaceClearance::Sheet> InterfaceClearance::FindSheets(
-  const std::vector<PlacedFace>& faces, const std::vector<int>& near) const
+  const std::vector<FaceCoordinates>& faces, const std::vector<int>& near) const
 {
   std::vector<Sheet> sheets;
   const auto sheetOf = [&](const auto& face)
@@ -300,7 +301,7 @@ std::vector<InterfaceClearance::Sheet> InterfaceClearance::FindSheets(
     return std::find_if(
       sheets.begin(), sheets.end(), [&](const Sheet& sheet) { return sheet.Has(face); });
   };
-  for (const PlacedFace& face : faces)
+  for (const FaceCoordinates& face : faces)
   {
     auto sheet = sheetOf(face);
     if (sheet == sheets.end())
@@ -314,10 +315,8 @@ std::vector<InterfaceClearance::Sheet> InterfaceClearance::FindSheets(
     sheet.Along = Normalized(sheet.Along);
   }
   const auto look = [](Sheet& sheet, const VectorD& normal)
-  {
-    sheet.IsOne = sheet.IsOne && Dot(normal, sheet.Along) > LeastSheetCosine * Length(normal);
-  };
-  for (const PlacedFace& face : faces)
+  { sheet.IsOne = sheet.IsOne && Dot(normal, sheet.Along) > LeastSheetCosine * Length(normal); };
+  for (const FaceCoordinates& face : faces)
   {
     look(*sheetOf(face), NormalOf(face));
   }
@@ -338,15 +337,15 @@ std::vector<InterfaceClearance::Sheet> InterfaceClearance::FindSheets(
 }
 
 bool InterfaceClearance::PassAny(
-  const std::vector<PlacedFace>& faces, const std::vector<int>& replaced) const
+  const std::vector<FaceCoordinates>& faces, const std::vector<int>& replaced) const
 {
   std::vector<int> about;
-  const auto stays = [this](const PlacedFace& face, int k)
+  const auto stays = [this](const FaceCoordinates& face, int k)
   {
     const Vector& place = this->Mesh.Position[static_cast<std::size_t>(face.Vertex[k])];
     return SquaredDistance(face.Corner[k], VectorD(place)) == 0.;
   };
-  for (const PlacedFace& face : faces)
+  for (const FaceCoordinates& face : faces)
   {
     for (int k = 0; k < 3; ++k)
     {
@@ -385,20 +384,18 @@ bool InterfaceClearance::PassAny(
   return false;
 }
 
-bool InterfaceClearance::IsAtLine(const PlacedFace& face) const
+bool InterfaceClearance::IsAtLine(const FaceCoordinates& face) const
 {
   return std::count_if(face.Vertex, face.Vertex + 3,
            [this](int v)
-           {
-             return this->Mesh.StratumOf[static_cast<std::size_t>(v)] != Stratum::Interface;
-           }) > 1;
+           { return this->Mesh.StratumOf[static_cast<std::size_t>(v)] != Stratum::Interface; }) > 1;
 }
 
 bool InterfaceClearance::AreInOrderAtLines(
-  const std::vector<PlacedFace>& faces, const std::vector<int>& others) const
+  const std::vector<FaceCoordinates>& faces, const std::vector<int>& others) const
 {
-  std::vector<PlacedFace> about;
-  for (const PlacedFace& face : faces)
+  std::vector<FaceCoordinates> about;
+  for (const FaceCoordinates& face : faces)
   {
     for (int k = 0; k < 3; ++k)
     {
@@ -411,16 +408,16 @@ bool InterfaceClearance::AreInOrderAtLines(
       }
       about.clear();
       std::copy_if(faces.begin(), faces.end(), std::back_inserter(about),
-        [&](const PlacedFace& other) { return Has(other, u) && Has(other, v); });
+        [&](const FaceCoordinates& other) { return Has(other, u) && Has(other, v); });
       for (const int other : others)
       {
         const InterfaceMesh::Face& there = this->Mesh.Faces[static_cast<std::size_t>(other)];
         if (there.Has(u) && there.Has(v))
         {
-          about.push_back(PlacedFaceOf(this->Mesh, there));
+          about.push_back(FaceCoordinatesOf(this->Mesh, there));
         }
       }
-      for (PlacedFace& placed : about)
+      for (FaceCoordinates& placed : about)
       {
         placed.Front = this->Mesh.IsSide(placed.Front) ? LabelMap::Number(0) : placed.Front;
       }

@@ -23,12 +23,12 @@ constexpr double LeastSheetCosine = 0.1;
 MeshTriangle TriangleOf(const InterfaceMesh& mesh, const std::array<int, 3>& vertices);
 
 /** A face that there is, or may be. */
-struct PlacedFace : MeshTriangle
+struct FaceCoordinates : MeshTriangle
 {
   LabelMap::Number Behind;
   LabelMap::Number Front;
 };
-PlacedFace PlacedFaceOf(const InterfaceMesh& mesh, const InterfaceMesh::Face& face);
+FaceCoordinates FaceCoordinatesOf(const InterfaceMesh& mesh, const InterfaceMesh::Face& face);
 
 /** What a triangle lies in. */
 Box BoxOf(const MeshTriangle& triangle);
@@ -41,7 +41,7 @@ VectorD AcrossEdge(const MeshTriangle& face, int u, int v);
  * on its one side the next one has on that side, too. Where one has been turned past another,
  * objects overlap, though nothing intersects.
  */
-bool AreInOrder(int u, int v, const std::vector<PlacedFace>& faces);
+bool AreInOrder(int u, int v, const std::vector<FaceCoordinates>& faces);
 
 /**
  * Whether two faces at an edge have been turned past each other: a flat part passes through itself
@@ -138,7 +138,7 @@ public:
    * Whether faces may take the place of some: they intersect nothing else, nor each other, are in
    * order at junction lines, and pass nothing that they share an edge with. @param near room for it
    */
-  bool AreClear(const std::vector<PlacedFace>& faces, const std::vector<int>& replaced,
+  bool AreClear(const std::vector<FaceCoordinates>& faces, const std::vector<int>& replaced,
     std::vector<int>& near) const;
 
 private:
@@ -148,7 +148,7 @@ private:
     LabelMap::Number Behind;
     LabelMap::Number Front;
     VectorD Along;
-    bool IsOne = true;   ///< They all face about one way, see FindCrossings: none intersects others.
+    bool IsOne = true; ///< They all face about one way, see FindCrossings: none intersects others.
     bool IsAlone = true; ///< None near is between other objects.
 
     template <typename AnyFace>
@@ -158,21 +158,21 @@ private:
     }
   };
   std::vector<Sheet> FindSheets(
-    const std::vector<PlacedFace>& faces, const std::vector<int>& near) const;
+    const std::vector<FaceCoordinates>& faces, const std::vector<int>& near) const;
   /** Whether one of its edges may be of a junction line. */
-  bool IsAtLine(const PlacedFace& face) const;
+  bool IsAtLine(const FaceCoordinates& face) const;
   /** @param others faces that stay, among them all that share an edge with these */
   bool AreInOrderAtLines(
-    const std::vector<PlacedFace>& faces, const std::vector<int>& others) const;
+    const std::vector<FaceCoordinates>& faces, const std::vector<int>& others) const;
 
   /** Whether one of these comes past a face that stays, about an edge that stays where it is. */
-  bool PassAny(const std::vector<PlacedFace>& faces, const std::vector<int>& replaced) const;
+  bool PassAny(const std::vector<FaceCoordinates>& faces, const std::vector<int>& replaced) const;
 
   const InterfaceMesh& Mesh;
   double Tolerance;
   LargeVector<Box> Boxes; ///< of each face, which the grid has at its middle
   Box All;                ///< of them when the grid was laid
-  float Reach = 0.f;              ///< half of the longest side of a box, at least
+  float Reach = 0.f;      ///< half of the longest side of a box, at least
   VertexGrid Grid;
 };
 }

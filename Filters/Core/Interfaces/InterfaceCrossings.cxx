@@ -38,7 +38,7 @@ public:
     std::vector<std::vector<int>> doubtful(pairs.size());
     ForSpans(this->Threads, layers.size(), 1,
       [&](std::size_t layer, std::size_t, std::size_t)
-      { this->LookAtLayer(static_cast<int>(layer), layers[layer], pairs[layer], doubtful[layer]); });
+      { this->TestLayer(static_cast<int>(layer), layers[layer], pairs[layer], doubtful[layer]); });
     InterfaceCrossings found;
     found.Pairs = Joined(this->Threads, pairs);
     found.Doubtful = Joined(this->Threads, doubtful);
@@ -83,17 +83,17 @@ private:
   std::vector<std::vector<int>> FindFacesOfLayers() const
   {
     using LayersOfFace = std::array<int, 3>;
-    const auto ofFaces = CollectInSpans<LayersOfFace>(this->Threads, this->Mesh.Faces.size(),
-      SpanSize,
-      [this](std::size_t f, std::vector<LayersOfFace>& some)
-      {
-        if (this->Mesh.Faces[f].IsThere())
+    const auto ofFaces =
+      CollectInSpans<LayersOfFace>(this->Threads, this->Mesh.Faces.size(), SpanSize,
+        [this](std::size_t f, std::vector<LayersOfFace>& some)
         {
-          const Box box = this->BoxOf(static_cast<int>(f));
-          some.push_back(
-            { static_cast<int>(f), this->CubeOf(box.Low)[2], this->CubeOf(box.High)[2] });
-        }
-      });
+          if (this->Mesh.Faces[f].IsThere())
+          {
+            const Box box = this->BoxOf(static_cast<int>(f));
+            some.push_back(
+              { static_cast<int>(f), this->CubeOf(box.Low)[2], this->CubeOf(box.High)[2] });
+          }
+        });
     std::vector<std::vector<int>> faces(static_cast<std::size_t>(this->Count[2]));
     for (const auto& [face, low, high] : ofFaces)
     {
@@ -105,11 +105,12 @@ private:
     return faces;
   }
 
-  void LookAtLayer(int layer, const std::vector<int>& faces, std::vector<std::array<int, 2>>& pairs,
+  void TestLayer(int layer, const std::vector<int>& faces, std::vector<std::array<int, 2>>& pairs,
     std::vector<int>& doubtful) const
   {
     // The faces of each cube, in one list: counted, then put there.
-    std::vector<std::size_t> first(static_cast<std::size_t>(this->Count[0]) * this->Count[1] + 1, 0);
+    std::vector<std::size_t> first(
+      static_cast<std::size_t>(this->Count[0]) * this->Count[1] + 1, 0);
     const auto forCubes = [&](const auto& visit)
     {
       for (const int f : faces)
@@ -136,14 +137,14 @@ private:
       if (first[cube + 1] > first[cube])
       {
         const int along = static_cast<int>(cube);
-        this->LookAt({ along % this->Count[0], along / this->Count[0], layer },
+        this->TestCube({ along % this->Count[0], along / this->Count[0], layer },
           inCubes.data() + first[cube], inCubes.data() + first[cube + 1], pairs, doubtful);
       }
     }
   }
 
   /** The faces of a cube. */
-  void LookAt(const std::array<int, 3>& cube, const int* first, const int* last,
+  void TestCube(const std::array<int, 3>& cube, const int* first, const int* last,
     std::vector<std::array<int, 2>>& pairs, std::vector<int>& doubtful) const
   {
     if (this->AreOneSheet(first, last))

@@ -212,7 +212,7 @@ bool InterfaceEdits::MayCollapseImages()
     });
 }
 
-Vector InterfaceEdits::PlaceOfImage(std::size_t image, const Vector& place) const
+Vector InterfaceEdits::PositionOfImage(std::size_t image, const Vector& place) const
 {
   return image == 0 ? place : this->Mesh.OnSides(this->Images[image][0], place);
 }
@@ -224,7 +224,7 @@ bool InterfaceEdits::AreFairCollapses(const Vector& place)
   for (std::size_t n = 0; n < this->Images.size(); ++n)
   {
     const std::array<int, 2>& edge = this->Images[n];
-    if (!this->IsFairCollapse(this->PlaceOfImage(n, place), edge[0], edge[1]))
+    if (!this->IsFairCollapse(this->PositionOfImage(n, place), edge[0], edge[1]))
     {
       return false;
     }
@@ -237,7 +237,7 @@ void InterfaceEdits::CollapseImages(const Vector& place)
   for (std::size_t n = 0; n < this->Images.size(); ++n)
   {
     const std::array<int, 2>& edge = this->Images[n];
-    this->Collapse(this->PlaceOfImage(n, place), edge[0], edge[1]);
+    this->Collapse(this->PositionOfImage(n, place), edge[0], edge[1]);
   }
   for (const int f : this->Changed)
   {
@@ -271,7 +271,7 @@ bool InterfaceEdits::IsFairCollapse(const Vector& place, int kept, int removed)
         {
           return;
         }
-        const PlacedFace before = PlacedFaceOf(this->Mesh, face);
+        const FaceCoordinates before = FaceCoordinatesOf(this->Mesh, face);
         const double ratio = RadiusRatio(before);
         worst = std::min(worst, ratio);
         this->Changed.push_back(f);
@@ -279,7 +279,7 @@ bool InterfaceEdits::IsFairCollapse(const Vector& place, int kept, int removed)
         {
           return;
         }
-        PlacedFace after = before;
+        FaceCoordinates after = before;
         const auto k = std::find(after.Vertex, after.Vertex + 3, v) - after.Vertex;
         after.Vertex[k] = kept;
         after.Corner[k] = VectorD(place);
@@ -303,7 +303,7 @@ bool InterfaceEdits::MakesLongEdges(const Vector& place, int kept, int removed) 
   // Short edges at corners bend lines: rather longer ones for a while, which are split elsewhere.
   const double longest = this->Longest *
     (this->Mesh.StratumOf[static_cast<std::size_t>(kept)] == Stratum::Corner
-        ? CornerSlack * CornerSlack
+        ? CornerClearance * CornerClearance
         : 1.);
   bool isLong = false;
   for (const int v : { kept, removed })
@@ -366,9 +366,8 @@ bool InterfaceEdits::RemoveSliver(int face)
   }
   std::array<int, 3> order = { 0, 1, 2 };
   std::sort(order.begin(), order.end(),
-    [&](int a, int b) {
-      return this->SquaredEdge(v[a], v[(a + 1) % 3]) < this->SquaredEdge(v[b], v[(b + 1) % 3]);
-    });
+    [&](int a, int b)
+    { return this->SquaredEdge(v[a], v[(a + 1) % 3]) < this->SquaredEdge(v[b], v[(b + 1) % 3]); });
   const int shortest = order[0];
   const int longest = order[2];
   return this->TryFlip(v[longest], v[(longest + 1) % 3], LeastSliverCosine) ||
@@ -425,7 +424,8 @@ bool InterfaceEdits::IsFairFlip(int u, int v, double flatness)
     TriangleOf(this->Mesh, second.Vertex) };
   std::replace(first.Vertex.begin(), first.Vertex.end(), v, q);
   std::replace(second.Vertex.begin(), second.Vertex.end(), u, p);
-  const PlacedFace after[2] = { PlacedFaceOf(this->Mesh, first), PlacedFaceOf(this->Mesh, second) };
+  const FaceCoordinates after[2] = { FaceCoordinatesOf(this->Mesh, first),
+    FaceCoordinatesOf(this->Mesh, second) };
   if (std::min(SmallestAngle(after[0]), SmallestAngle(after[1])) <
     std::min(SmallestAngle(before[0]), SmallestAngle(before[1])) + LeastGain)
   {

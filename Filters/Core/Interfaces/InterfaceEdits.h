@@ -29,7 +29,7 @@ class InterfaceEdits
 {
 public:
   /** Of edges at corners, by how much they may be longer than others for a while. */
-  static constexpr double CornerSlack = 4. / 3.;
+  static constexpr double CornerClearance = 4. / 3.;
 
   /**
    * @param clearance of the mesh as it is, for all edits but splits, which change nothing for
@@ -60,7 +60,7 @@ private:
   bool AreFairCollapses(const Vector& place);
   void CollapseImages(const Vector& place);
   /** Where the vertex that an image keeps is, if that of the first one is at a place. */
-  Vector PlaceOfImage(std::size_t image, const Vector& place) const;
+  Vector PositionOfImage(std::size_t image, const Vector& place) const;
   /** Adds what the faces of both would be to Made, and which these are to Changed. */
   bool IsFairCollapse(const Vector& place, int kept, int removed);
   bool MakesLongEdges(const Vector& place, int kept, int removed) const;
@@ -96,7 +96,7 @@ private:
   std::vector<int> First;
   std::vector<int> Second;
   std::vector<int> Common; ///< of these two
-  std::vector<PlacedFace> Made;
+  std::vector<FaceCoordinates> Made;
 };
 }
 

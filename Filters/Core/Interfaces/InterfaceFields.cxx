@@ -79,8 +79,8 @@ InterfaceFields::InterfaceFields(const LabelBricks& bricks, const LabelFieldOpti
       {
         if (goesOn)
         {
-          parts[static_cast<std::size_t>(object)].push_back(this->PartOf(within,
-            MakeLabelField(bricks, object, options, threads, within.Grown(PartMargin))));
+          parts[static_cast<std::size_t>(object)].push_back(this->PartOf(
+            within, MakeLabelField(bricks, object, options, threads, within.Grown(PartMargin))));
         }
       }
     }
@@ -179,7 +179,7 @@ float InterfaceFields::At(int object, int x, int y, int z) const
   {
     return this->Map.Map().At(i, j, k) == object ? LabelField::Far : -LabelField::Far;
   }
-  return values[PlaceInBrick(i, j, k)];
+  return values[IndexInBrick(i, j, k)];
 }
 
 void InterfaceFields::Push(int object, const std::array<int, 3>& voxel, float by)
@@ -192,7 +192,7 @@ void InterfaceFields::Push(int object, const std::array<int, 3>& voxel, float by
     const std::size_t brick = this->NumberOfBrick(at[0] / Side, at[1] / Side, at[2] / Side);
     if (float* values = this->ValuesIn(brick, object))
     {
-      values[PlaceInBrick(at[0], at[1], at[2])] += own == object ? size : -size;
+      values[IndexInBrick(at[0], at[1], at[2])] += own == object ? size : -size;
     }
   };
   add(voxel, by);

@@ -100,7 +100,7 @@ private:
   {
     return static_cast<std::size_t>(VoxelBox::Of(this->Map.Size()).NumberOf(i, j, k));
   }
-  static std::size_t PlaceInBrick(int i, int j, int k)
+  static std::size_t IndexInBrick(int i, int j, int k)
   {
     return static_cast<std::size_t>(((k % Side) * Side + j % Side) * Side + i % Side);
   }

@@ -147,19 +147,18 @@ double CorrectVolumes(
   }
   for (std::size_t object = 1; object < count; ++object)
   {
-    fields.Shift(static_cast<int>(object), static_cast<float>(shifts[object]),
-      static_cast<float>(tolerance));
+    fields.Shift(
+      static_cast<int>(object), static_cast<float>(shifts[object]), static_cast<float>(tolerance));
   }
   return worst;
 }
 
-std::size_t PushWrongVoxels(const InterfaceMesh& mesh, InterfaceFields& fields, double tolerance,
-  Executor& executor)
+std::size_t PushMisclassifiedVoxels(
+  const InterfaceMesh& mesh, InterfaceFields& fields, double tolerance, Executor& executor)
 {
   std::size_t count = 0;
-  for (const MismatchedVoxel& voxel :
-    FindMismatchedVoxels(
-      mesh, fields.Bricks().Map(), fields.Bricks().Inside(), fields.Step(), tolerance, executor))
+  for (const MismatchedVoxel& voxel : FindMismatchedVoxels(
+         mesh, fields.Bricks().Map(), fields.Bricks().Inside(), fields.Step(), tolerance, executor))
   {
     if (voxel.IsFar)
     {

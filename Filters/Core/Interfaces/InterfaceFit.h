@@ -28,8 +28,8 @@ double CorrectVolumes(
  * @param tolerance those nearer to the interfaces are not wrong, in smallest distances of voxels
  * @return how many there are
  */
-std::size_t PushWrongVoxels(const InterfaceMesh& mesh, InterfaceFields& fields, double tolerance,
-  Executor& executor);
+std::size_t PushMisclassifiedVoxels(
+  const InterfaceMesh& mesh, InterfaceFields& fields, double tolerance, Executor& executor);
 }
 
 #endif

@@ -45,7 +45,7 @@ struct FaceInCube
   }
 };
 
-FaceInCube PlaceOf(const Vector& fromLow, float side, int face)
+FaceInCube IjkOf(const Vector& fromLow, float side, int face)
 {
   FaceInCube place = { 0, 0, face };
   for (const float length : { fromLow.Z, fromLow.Y, fromLow.X })
@@ -66,11 +66,11 @@ Box BoxOf(std::uint64_t cube, const Vector& low, float side)
 }
 
 /** What is to be done in a cube. */
-class CubeWork
+class CubeEdits
 {
 public:
   /** @param share of space, in which edits are made */
-  CubeWork(const InterfaceMesh& mesh, const InterfaceClearance& clearance, const Box& share)
+  CubeEdits(const InterfaceMesh& mesh, const InterfaceClearance& clearance, const Box& share)
     : Mesh(mesh), Clearance(clearance), Share(share)
   {
   }
@@ -148,7 +148,7 @@ int InterfaceRemesher::SplitLongEdges()
   InterfaceEdits edits = this->Edits();
   int count = 0;
   // New faces are looked at in their turn.
-  for (std::size_t f = 0; f < this->Mesh.Faces.size() && this->GoesOn(f); ++f)
+  for (std::size_t f = 0; f < this->Mesh.Faces.size() && this->CanContinue(f); ++f)
   {
     count += this->Mesh.Faces[f].IsThere() && edits.TrySplit(static_cast<int>(f)) ? 1 : 0;
   }
@@ -161,7 +161,7 @@ int InterfaceRemesher::RemoveSlivers()
   this->LayGrid();
   InterfaceEdits edits = this->Edits();
   int count = 0;
-  for (std::size_t f = 0; f < this->Mesh.Faces.size() && this->GoesOn(f); ++f)
+  for (std::size_t f = 0; f < this->Mesh.Faces.size() && this->CanContinue(f); ++f)
   {
     count += this->Mesh.Faces[f].IsThere() && edits.RemoveSliver(static_cast<int>(f)) ? 1 : 0;
   }
@@ -190,7 +190,7 @@ float InterfaceRemesher::LongestEdge() const
     });
   const float now = std::sqrt(*std::max_element(longest.begin(), longest.end()));
   const float size = *std::max_element(largest.begin(), largest.end());
-  return std::max(now, static_cast<float>(this->Longest * InterfaceEdits::CornerSlack) * size);
+  return std::max(now, static_cast<float>(this->Longest * InterfaceEdits::CornerClearance) * size);
 }
 
 template <typename Visit>
@@ -211,7 +211,7 @@ int InterfaceRemesher::VisitInCubes(const Visit& visit)
       if (this->Mesh.Faces[f].IsThere())
       {
         const int face = static_cast<int>(f);
-        some.push_back(PlaceOf(this->Clearance.BoxOf(face).Middle() - low, side, face));
+        some.push_back(IjkOf(this->Clearance.BoxOf(face).Middle() - low, side, face));
       }
     });
   Sort(this->Threads, faces);
@@ -221,7 +221,7 @@ int InterfaceRemesher::VisitInCubes(const Visit& visit)
   {
     // The cubes of one colour.
     const std::uint64_t colour = faces[n].Colour;
-    std::vector<CubeWork> works;
+    std::vector<CubeEdits> works;
     std::vector<std::size_t> first;
     for (; n < faces.size() && faces[n].Colour == colour; ++n)
     {
@@ -239,7 +239,7 @@ int InterfaceRemesher::VisitInCubes(const Visit& visit)
       { works[w].FindFaces(faces.data() + first[w], faces.data() + first[w + 1]); });
     ForSpans(this->Threads, works.size(), 1,
       [&](std::size_t w, std::size_t, std::size_t) { works[w].Run(this->Edits(), visit); });
-    for (CubeWork& work : works)
+    for (CubeEdits& work : works)
     {
       count += work.Count;
       left.push_back(std::move(work.Left));
@@ -248,7 +248,7 @@ int InterfaceRemesher::VisitInCubes(const Visit& visit)
   std::vector<int> rest = Joined(this->Threads, left);
   std::sort(rest.begin(), rest.end());
   InterfaceEdits edits = this->Edits();
-  for (std::size_t n = 0; n < rest.size() && this->GoesOn(n); ++n)
+  for (std::size_t n = 0; n < rest.size() && this->CanContinue(n); ++n)
   {
     const int face = rest[n];
     count += this->Mesh.Faces[static_cast<std::size_t>(face)].IsThere() ? visit(edits, face) : 0;

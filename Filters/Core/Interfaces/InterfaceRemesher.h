@@ -49,7 +49,7 @@ private:
   /** For edits that are tried against what is near; splits change nothing for anybody. */
   void LayGrid();
   /** Whether to look at this face and those after it. */
-  bool GoesOn(std::size_t face) { return face % FacesPerQuestion != 0 || this->GoOn(); }
+  bool CanContinue(std::size_t face) { return face % FacesPerProgressCall != 0 || this->GoOn(); }
   /** Longer than this no edge is, nor becomes. */
   float LongestEdge() const;
   /**
@@ -60,7 +60,7 @@ private:
   template <typename Visit>
   int VisitInCubes(const Visit& visit);
 
-  static constexpr std::size_t FacesPerQuestion = 4096;
+  static constexpr std::size_t FacesPerProgressCall = 4096;
 
   InterfaceMesh& Mesh;
   std::function<bool()> GoOn;

@@ -4,7 +4,7 @@
 
 #include "Core/Common/Box.h"
 #include "Core/Common/Spans.h"
-#include "Core/Image/WayToZero.h"
+#include "Core/Image/DistanceToZero.h"
 #include "Core/Mesh/LimitedSizes.h"
 #include "Core/Mesh/VertexGrid.h"
 
@@ -67,7 +67,7 @@ private:
     const float near = sample.Value / std::max(Length(sample.Gradient), LeastSlope);
     return std::abs(near) <= this->Near
       ? -near
-      : SignedWayToZero(place, this->Normal, sample.Value,
+      : SignedDistanceToZero(place, this->Normal, sample.Value,
           std::max(Furthest, FurthestInTolerances * this->Near),
           [this](const Vector& at)
           { return this->Fields.Between(this->Of.Behind, this->Of.Front, at).Value; });

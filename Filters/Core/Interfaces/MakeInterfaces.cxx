@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Interfaces/MakeInterfaces.h"
 
-#include "Core/Common/AskingExecutor.h"
+#include "Core/Common/CancellableExecutor.h"
 #include "Core/Interfaces/InterfaceFit.h"
-#include "Core/Interfaces/InterfaceStart.h"
 #include "Core/Interfaces/InterfaceMotion.h"
 #include "Core/Interfaces/InterfaceRemesher.h"
 #include "Core/Interfaces/InterfaceSizes.h"
-#include "Core/Interfaces/NarrowPlaces.h"
+#include "Core/Interfaces/InterfaceStart.h"
+#include "Core/Interfaces/NearDegenerateRegions.h"
 #include "Core/Interfaces/TriangleShape.h"
 
 #include <algorithm>
@@ -80,8 +80,7 @@ void ShortenEdgesOfSmall(InterfaceMesh& mesh, const InterfaceFields& fields, dou
       const auto voxels = static_cast<double>(fields.Bricks().ExtentOf(object).Voxels);
       const double radius = std::cbrt(voxels * ofVoxel * 0.2387324); // 3 / (4 pi)
       const auto size =
-        static_cast<float>(
-          std::max({ EdgeInRadius * radius / edge, LeastEdge / edge, LeastSize }));
+        static_cast<float>(std::max({ EdgeInRadius * radius / edge, LeastEdge / edge, LeastSize }));
       for (const int v : face.Vertex)
       {
         float& of = mesh.Size[static_cast<std::size_t>(v)];
@@ -92,14 +91,14 @@ void ShortenEdgesOfSmall(InterfaceMesh& mesh, const InterfaceFields& fields, dou
 }
 
 /** A round's edits. @param hasCollapses else edges are split that steps have drawn out */
-void Edit(InterfaceMesh& mesh, double wanted, bool hasCollapses, int sliverRounds,
+void Edit(InterfaceMesh& mesh, double requested, bool hasCollapses, int sliverRounds,
   Executor& executor, const std::function<bool()>& goOn)
 {
   // What is searched near goes with the square of the lengths: they grow by rounds.
-  const double edge = std::min(wanted, MostGrowth * mesh.MeanEdge());
+  const double edge = std::min(requested, MostGrowth * mesh.MeanEdge());
   const double longest = (hasCollapses ? LongestShare : LongestLast) * edge;
   InterfaceRemesher remesher(
-    mesh, ShortestShare * edge, longest, ToleranceOfEdge * wanted, executor, goOn);
+    mesh, ShortestShare * edge, longest, ToleranceOfEdge * requested, executor, goOn);
   remesher.SplitLongEdges();
   if (hasCollapses)
   {
@@ -111,9 +110,9 @@ void Edit(InterfaceMesh& mesh, double wanted, bool hasCollapses, int sliverRound
     remesher.RemoveSlivers();
   }
 }
-/** All rounds. @param goOn as MakeInterfaces(); throws StoppedWork, with the mesh safe */
+/** All rounds. @param goOn as MakeInterfaces(); throws OperationCancelled, with the mesh safe */
 void Work(InterfaceMesh& mesh, InterfaceFields& fields, const InterfaceOptions& options,
-  Executor& executor, double& share, const std::function<bool()>& mayGoOn)
+  Executor& executor, double& share, const std::function<bool()>& mayResume)
 {
   // The first round is as much work as all others, as the start has many short edges.
   constexpr int all = 2 * (Rounds + LeastLastRounds);
@@ -154,25 +153,25 @@ void Work(InterfaceMesh& mesh, InterfaceFields& fields, const InterfaceOptions& 
         executor);
       ShortenEdgesOfSmall(mesh, fields, options.Edge);
     }
-    Edit(mesh, options.Edge, isGraded || !isLast, round >= FirstFit ? 1 : 0, executor, mayGoOn);
+    Edit(mesh, options.Edge, isGraded || !isLast, round >= FirstFit ? 1 : 0, executor, mayResume);
     mesh.Compact();
     if (round >= FirstFit)
     {
       worstVolume = CorrectVolumes(mesh, fields, options.Tolerance, executor);
-      wrong = PushWrongVoxels(
+      wrong = PushMisclassifiedVoxels(
         mesh, fields, options.VoxelTolerance + (isLast ? options.Tolerance : 0.), executor);
     }
     move(round == 0 ? 1 : Steps, StepShare, 0.);
     share = std::min(1., static_cast<double>(all / 2 + round) / all);
   }
   // Of the last steps some slivers are left; without them volumes are a little different again.
-  Edit(mesh, options.Edge, false, LastSliverRounds, executor, mayGoOn);
+  Edit(mesh, options.Edge, false, LastSliverRounds, executor, mayResume);
   mesh.Compact();
   CorrectVolumes(mesh, fields, options.Tolerance, executor);
   move(1, 0., SliverAngle);
-  NarrowPlaces(mesh, fields, options.Edge, ToleranceOfEdge * options.Edge,
+  NearDegenerateRegions(mesh, fields, options.Edge, ToleranceOfEdge * options.Edge,
     options.VoxelTolerance + options.Tolerance)
-    .Open(executor, mayGoOn);
+    .Open(executor, mayResume);
 }
 }
 
@@ -180,15 +179,15 @@ InterfaceMesh MakeInterfaces(InterfaceFields& fields, const InterfaceOptions& op
   Executor& executor, const std::function<bool(double share)>& goOn)
 {
   double share = 0.;
-  const auto mayGoOn = [&] { return goOn(share); };
-  AskingExecutor asking(executor, mayGoOn);
+  const auto mayResume = [&] { return goOn(share); };
+  CancellableExecutor asking(executor, mayResume);
   InterfaceMesh mesh;
   try
   {
-    Work(mesh, fields, options, asking, share, mayGoOn);
+    Work(mesh, fields, options, asking, share, mayResume);
     share = 1.;
   }
-  catch (const StoppedWork&)
+  catch (const OperationCancelled&)
   {
     mesh.Compact(); // What is removed is not handed out.
   }
@@ -196,7 +195,7 @@ InterfaceMesh MakeInterfaces(InterfaceFields& fields, const InterfaceOptions& op
   {
     mesh.Compact(true); // In both of two opposite sides vertices are numbered in the same order.
   }
-  mayGoOn();
+  mayResume();
   return mesh;
 }
 }

@@ -36,7 +36,7 @@ struct InterfaceOptions
  * 3. Meanwhile fields are shifted so that each object keeps the volume of its voxels, and changed
  * at voxels that triangles cut off, until these are few.
  * 4. With a tolerance the last rounds are others: edges become as long as it allows (AdjustSizes).
- * 5. At the end narrow triangles, wedges and gaps are opened (NarrowPlaces).
+ * 5. At the end narrow triangles, wedges and gaps are opened (NearDegenerateRegions).
  *
  * @param fields   are changed, see 3
  * @param goOn     told the share that is done, on the calling thread, several times a second; after

@@ -49,12 +49,12 @@ void InterfaceMesh::MatchSides()
   }
   for (const auto& [place, images] : found)
   {
-    std::size_t wanted = 1;
+    std::size_t requested = 1;
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
-      wanted *= place[axis] == this->Planes[2 * axis] ? 2 : 1;
+      requested *= place[axis] == this->Planes[2 * axis] ? 2 : 1;
     }
-    if (images.size() != wanted)
+    if (images.size() != requested)
     {
       throw std::logic_error("opposite sides of a periodic box do not match");
     }

@@ -67,8 +67,7 @@ class DistanceMaker
 public:
   DistanceMaker(const LabelSides& sides, const std::array<double, 3>& spacing, LabelField& field,
     Executor& executor)
-    : Sides(sides), Varying(sides.FindChanges(0)), Spacing(spacing), Field(field),
-      Threads(executor)
+    : Sides(sides), Varying(sides.FindChanges(0)), Spacing(spacing), Field(field), Threads(executor)
   {
   }
 
@@ -82,12 +81,12 @@ public:
     this->MakeWith(rows, rows, sigma, isHeld);
     for (double narrower = sigma * NarrowerBy; narrower > LeastSigma; narrower *= NarrowerBy)
     {
-      const VoxelBits lost = this->Sides.FindLost(this->Field, rows, this->Threads);
-      if (lost.IsEmpty())
+      const VoxelBits missed = this->Sides.FindMissed(this->Field, rows, this->Threads);
+      if (missed.IsEmpty())
       {
         break;
       }
-      this->MakeNarrower(rows, lost, narrower, isHeld);
+      this->MakeNarrower(rows, missed, narrower, isHeld);
     }
     if (!isHeld)
     {
@@ -127,7 +126,8 @@ private:
   {
     const auto sigma = static_cast<float>(ofGaussian);
     const NormalQuantile& quantiles = NormalQuantile::Table();
-    this->Gaussian.Smooth(rows, this->Varying, this->InVoxels(ofGaussian),
+    this->Gaussian.Smooth(
+      rows, this->Varying, this->InVoxels(ofGaussian),
       [this](int i, int j, int k, int count, float* values)
       { this->Sides.CopyMembership(i, j, k, count, values); },
       [&](int i, int j, int k, int count, const float* shares)
@@ -135,8 +135,8 @@ private:
         float* values = this->At(this->Field.Values, i, j, k);
         for (int x = 0; x < count; ++x)
         {
-          values[x] = std::clamp(
-            sigma * quantiles.At(shares[x]), -LabelField::Far, LabelField::Far);
+          values[x] =
+            std::clamp(sigma * quantiles.At(shares[x]), -LabelField::Far, LabelField::Far);
         }
       },
       this->Threads);
@@ -151,7 +151,8 @@ private:
   {
     const float perShare = static_cast<float>(ofGaussian) * 2.5066283f; // sqrt(2 pi)
     this->Others.resize(this->Field.Values.size());
-    this->Gaussian.Smooth(rows, this->Field.Rows, this->InVoxels(ofGaussian),
+    this->Gaussian.Smooth(
+      rows, this->Field.Rows, this->InVoxels(ofGaussian),
       [this](int i, int j, int k, int count, float* values)
       { this->CopyMissingVolume(i, j, k, count, values); },
       [&](int i, int j, int k, int count, const float* missing)
@@ -173,11 +174,12 @@ private:
     };
     if (isHeld)
     {
-      rows.For(this->Threads,
-        [&](int i, int j, int k, int count) { add(i, j, k, count, nullptr); });
+      rows.For(
+        this->Threads, [&](int i, int j, int k, int count) { add(i, j, k, count, nullptr); });
       return;
     }
-    this->Gaussian.Smooth(rows, this->Field.Rows, this->InVoxels(ofGaussian),
+    this->Gaussian.Smooth(
+      rows, this->Field.Rows, this->InVoxels(ofGaussian),
       [this](int i, int j, int k, int count, float* values)
       { this->CopyBoundary(i, j, k, count, values); },
       add, this->Threads);
@@ -205,24 +207,24 @@ private:
   }
 
   /** About the voxels that are lost, fading into what there is. */
-  void MakeNarrower(
-    const VoxelBits& rows, const VoxelBits& lost, double sigma, bool isCorrected)
+  void MakeNarrower(const VoxelBits& rows, const VoxelBits& missed, double sigma, bool isCorrected)
   {
     const double cubed = FadingSigma * FadingSigma * FadingSigma;
     const double voxel = this->Spacing[0] * this->Spacing[1] * this->Spacing[2];
     const auto perShare =
       static_cast<float>(15.749610 * cubed / voxel); // (2 pi)^1.5: 1 at one alone
-    const VoxelBits near = rows & lost.Grown(this->ReachOf(FadingSigma)).InFours();
+    const VoxelBits near = rows & missed.Grown(this->ReachOf(FadingSigma)).InFours();
     LargeVector<float> values = this->Field.Values;
     this->MakeWith(isCorrected ? rows & near.Grown(this->ReachOf(sigma)).InFours() : near, near,
       sigma, isCorrected);
     values.swap(this->Field.Values);
-    this->Gaussian.Smooth(near, lost.Grown(0, 1), this->InVoxels(FadingSigma),
+    this->Gaussian.Smooth(
+      near, missed.Grown(0, 1), this->InVoxels(FadingSigma),
       [&](int i, int j, int k, int count, float* shares)
       {
         for (int x = 0; x < count; ++x)
         {
-          shares[x] = lost.Has(i + x, j, k) ? 1.f : 0.f;
+          shares[x] = missed.Has(i + x, j, k) ? 1.f : 0.f;
         }
       },
       [&](int i, int j, int k, int count, const float* shares)

@@ -4,8 +4,8 @@
 
 #include "Core/Common/Lanes.h"
 #include "Core/Common/Spans.h"
+#include "Core/Labels/LabelConstraints.h"
 #include "Core/Labels/LabelDistance.h"
-#include "Core/Labels/LabelHold.h"
 #include "Core/Labels/LabelSides.h"
 
 #include <algorithm>
@@ -38,8 +38,7 @@ public:
   FieldMaker(const LabelBricks& bricks, int object, const LabelFieldOptions& options,
     Executor& executor, const VoxelBox& within)
     : Map(bricks.Map()), Sides(bricks, object, within), Options(options), Threads(executor),
-      Rows(this->Sides.NearBoundary(
-        LabelSides::ReachOfFields(options.Sigma, bricks.Map().Spacing)))
+      Rows(this->Sides.NearBoundary(LabelSides::ReachOfFields(options.Sigma, bricks.Map().Spacing)))
   {
   }
 
@@ -51,10 +50,9 @@ public:
     this->Field.Rows = this->Rows;
     if (this->Options.Sigma > 0.)
     {
-      MakeLabelDistance(
-        this->Sides, this->Map.Spacing, this->Options, this->Field, this->Threads);
+      MakeLabelDistance(this->Sides, this->Map.Spacing, this->Options, this->Field, this->Threads);
       this->CorrectBends();
-      this->Hold();
+      this->Constrain();
     }
     return std::move(this->Field);
   }
@@ -152,16 +150,16 @@ private:
     return square > LeastSlope * LeastSlope ? laplacian - across / square : 0.f;
   }
 
-  void Hold()
+  void Constrain()
   {
-    if (this->HasTolerance() && !(this->Field.IsStrict.Box() == this->Field.Box))
+    if (this->HasTolerance() && !(this->Field.IsConstrained.Box() == this->Field.Box))
     {
-      this->Field.IsStrict = VoxelBits(this->Field.Box);
+      this->Field.IsConstrained = VoxelBits(this->Field.Box);
     }
-    HoldToLabels(this->Field, this->Map.Spacing, this->FindConstraints());
-    for (int round = 0; this->HasTolerance() && round < MostRescues && this->FindLost(); ++round)
+    ConstrainToLabels(this->Field, this->Map.Spacing, this->FindConstraints());
+    for (int round = 0; this->HasTolerance() && round < MostRescues && this->FindMissed(); ++round)
     {
-      HoldToLabels(this->Field, this->Map.Spacing, this->FindConstraints());
+      ConstrainToLabels(this->Field, this->Map.Spacing, this->FindConstraints());
     }
     this->Rows.For(this->Threads,
       [&](int i, int j, int k, int count)
@@ -187,26 +185,26 @@ private:
 
   float LeastAt(int i, int j, int k) const
   {
-    return this->IsStrict(i, j, k) ? LeastSize
-                                   : LeastSize - static_cast<float>(this->Options.Tolerance);
+    return this->IsConstrained(i, j, k) ? LeastSize
+                                        : LeastSize - static_cast<float>(this->Options.Tolerance);
   }
 
-  bool IsStrict(int i, int j, int k) const
+  bool IsConstrained(int i, int j, int k) const
   {
-    return !this->HasTolerance() || this->Field.IsStrict.Has(i, j, k);
+    return !this->HasTolerance() || this->Field.IsConstrained.Has(i, j, k);
   }
 
   /** Has those be strict that are wrong, as are all of their side beside them. @return any new */
-  bool FindLost()
+  bool FindMissed()
   {
-    const VoxelBits lost =
-      this->Sides.FindLost(this->Field, this->Rows, this->Threads) - this->Field.IsStrict;
-    this->Field.IsStrict |= lost;
-    return !lost.IsEmpty();
+    const VoxelBits missed =
+      this->Sides.FindMissed(this->Field, this->Rows, this->Threads) - this->Field.IsConstrained;
+    this->Field.IsConstrained |= missed;
+    return !missed.IsEmpty();
   }
 
   /** Of a voxel beside one of the other side that is thin: how far the nearest one is. */
-  double WayToThin(int i, int j, int k) const
+  double DistanceToThin(int i, int j, int k) const
   {
     const bool side = this->Sides.IsObject(i, j, k);
     double least = 0.;
@@ -228,9 +226,9 @@ private:
 
   double MarginAt(int i, int j, int k) const
   {
-    return this->Thin.Has(i, j, k)     ? this->Options.ThinMargin
+    return this->Thin.Has(i, j, k)    ? this->Options.ThinMargin
       : this->BesideThin.Has(i, j, k) ? this->Options.MarginBesideThin
-      : this->IsStrict(i, j, k)       ? this->Options.Margin
+      : this->IsConstrained(i, j, k)  ? this->Options.Margin
                                       : this->Options.Margin - this->Options.Tolerance;
   }
 
@@ -246,13 +244,12 @@ private:
         for (int x = 0; x < count; x += Lanes::Count)
         {
           const bool isHeld = !this->HasTolerance() ||
-            this->Field.IsStrict.FourAt(i + x, j, k) != 0 ||
+            this->Field.IsConstrained.FourAt(i + x, j, k) != 0 ||
             this->BesideThin.FourAt(i + x, j, k) != 0;
-          changing.AddFour(
-            i + x, j, k, this->FindLess(i + x, j, k, isHeld ? most : least));
+          changing.AddFour(i + x, j, k, this->FindLess(i + x, j, k, isHeld ? most : least));
         }
       });
-    constexpr int reach = 2 * ReachOfHold;
+    constexpr int reach = 2 * ConstraintReach;
     return this->Rows & changing.Grown({ reach, reach, reach });
   }
 
@@ -262,7 +259,7 @@ private:
     this->Thin = this->Sides.FindThin();
     if (this->HasTolerance())
     {
-      this->Thin &= this->Field.IsStrict;
+      this->Thin &= this->Field.IsConstrained;
     }
     this->BesideThin = this->Sides.FindBeside(this->Thin);
     const VoxelBits rows = this->FindChanging();
@@ -286,7 +283,7 @@ private:
       if (side * values[x] > 1.f && this->BesideThin.Has(i + x, j, k) &&
         !this->Thin.Has(i + x, j, k))
       {
-        const double way = this->WayToThin(i + x, j, k);
+        const double way = this->DistanceToThin(i + x, j, k);
         if (side * values[x] > way)
         {
           constraints.push_back({ this->Field.Box.NumberOf(i + x, j, k), -side,

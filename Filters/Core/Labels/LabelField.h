@@ -47,8 +47,8 @@ struct LabelFieldOptions
    */
   double ChordCorrection = 0.3;
   /**
-   * Of InterfaceFields: a field in a box of more than eight parts, each so many bricks wide, is made
-   * in such parts, as its memory grows with the box.
+   * Of InterfaceFields: a field in a box of more than eight parts, each so many bricks wide, is
+   * made in such parts, as its memory grows with the box.
    */
   int PartSize = 48;
 };
@@ -64,7 +64,7 @@ struct LabelField
   /** The voxels whose values are computed. */
   VoxelBits Rows;
   /** With a tolerance: the voxels without one, as no voxel beside them is where it belongs. */
-  VoxelBits IsStrict;
+  VoxelBits IsConstrained;
 };
 
 /**

@@ -26,7 +26,7 @@ void LabelMap::Set(int i, int j, int k, Number object)
     part = static_cast<std::uint32_t>(mixed.size() / VoxelsOfPart) | IsMixed;
     mixed.resize(mixed.size() + VoxelsOfPart, all);
   }
-  mixed[(part & ~IsMixed) * VoxelsOfPart + PlaceInPart(i, j, k)] = object;
+  mixed[(part & ~IsMixed) * VoxelsOfPart + IndexInPart(i, j, k)] = object;
 }
 
 VoxelBox LabelMap::Layer(int layer) const
@@ -61,7 +61,7 @@ void LabelMap::PutLayer(int layer, const Number* voxels)
           isMixed = isMixed ||
             std::any_of(
               row, row + box.Length(0), [first](Number object) { return object != first; });
-          std::copy_n(row, box.Length(0), part.begin() + PlaceInPart(0, y, z));
+          std::copy_n(row, box.Length(0), part.begin() + IndexInPart(0, y, z));
         }
       }
       this->OfPart[this->PartAt(box.First[0], box.First[1], box.First[2])] =

@@ -91,7 +91,7 @@ private:
     static_cast<std::size_t>(LayerSize) * LayerSize * LayerSize;
 
   /** Of a voxel. Divisions without a sign are faster. */
-  static std::size_t PlaceInPart(unsigned i, unsigned j, unsigned k)
+  static std::size_t IndexInPart(unsigned i, unsigned j, unsigned k)
   {
     return (k % LayerSize * LayerSize + j % LayerSize) * LayerSize + i % LayerSize;
   }
@@ -108,7 +108,7 @@ private:
     return (part & IsMixed) == 0
       ? static_cast<Number>(part)
       : this->Mixed[static_cast<unsigned>(k) / LayerSize]
-                   [(part & ~IsMixed) * VoxelsOfPart + PlaceInPart(i, j, k)];
+                   [(part & ~IsMixed) * VoxelsOfPart + IndexInPart(i, j, k)];
   }
 
   template <typename Visitor>
@@ -118,7 +118,8 @@ private:
       { i * LayerSize, j * LayerSize, k * LayerSize },
       { (i + 1) * LayerSize, (j + 1) * LayerSize, (k + 1) * LayerSize }
     }.CommonWith(box);
-    const std::uint32_t what = this->OfPart[this->PartAt(i * LayerSize, j * LayerSize, k * LayerSize)];
+    const std::uint32_t what =
+      this->OfPart[this->PartAt(i * LayerSize, j * LayerSize, k * LayerSize)];
     if ((what & IsMixed) == 0)
     {
       visit(part, static_cast<Number>(what));
@@ -130,7 +131,7 @@ private:
     {
       for (int y = part.First[1]; y < part.End[1]; ++y)
       {
-        const Number* row = voxels + PlaceInPart(0, y, z);
+        const Number* row = voxels + IndexInPart(0, y, z);
         for (int x = part.First[0]; x < part.End[0];)
         {
           const Number object = row[x % LayerSize];

@@ -113,7 +113,7 @@ VoxelBits LabelSides::FindBeside(const VoxelBits& others) const
   return beside;
 }
 
-VoxelBits LabelSides::FindLost(
+VoxelBits LabelSides::FindMissed(
   const LabelField& field, const VoxelBits& rows, Executor& executor) const
 {
   VoxelBits wrong(this->Box());
@@ -125,8 +125,8 @@ VoxelBits LabelSides::FindLost(
       {
         const Lanes four = Lanes::Load(values + x);
         const unsigned members = this->Members.FourAt(i + x, j, k);
-        const unsigned right = (LessBits(Lanes(0.f), four) & members) |
-          (LessBits(four, Lanes(0.f)) & ~members);
+        const unsigned right =
+          (LessBits(Lanes(0.f), four) & members) | (LessBits(four, Lanes(0.f)) & ~members);
         wrong.AddFour(i + x, j, k, ~right & 15u);
       }
     });

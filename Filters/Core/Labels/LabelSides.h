@@ -56,7 +56,7 @@ public:
    * at all voxels of the same side beside them.
    * @param rows where it may have
    */
-  VoxelBits FindLost(const LabelField& field, const VoxelBits& rows, Executor& executor) const;
+  VoxelBits FindMissed(const LabelField& field, const VoxelBits& rows, Executor& executor) const;
 
 private:
   VoxelBits Members;

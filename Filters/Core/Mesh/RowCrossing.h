@@ -113,10 +113,10 @@ struct RowGrid
 };
 
 /** Places by y: what is near a triangle or a vertex is found without a search of all. */
-class SortedPlaces
+class SortedPoints
 {
 public:
-  explicit SortedPlaces(const std::vector<Point>& places) : Places(places), Order(places.size())
+  explicit SortedPoints(const std::vector<Point>& places) : Places(places), Order(places.size())
   {
     std::iota(this->Order.begin(), this->Order.end(), 0);
     std::sort(this->Order.begin(), this->Order.end(),
@@ -169,7 +169,7 @@ std::vector<std::vector<int>> ComponentsAbout(const std::vector<Point>& places,
     }
     crossings.resize(count);
   };
-  const SortedPlaces sorted(places);
+  const SortedPoints sorted(places);
   std::vector<std::vector<Crossing>> spans((n + spanSize - 1) / spanSize);
   ForSpans(executor, n, spanSize,
     [&](std::size_t span, std::size_t begin, std::size_t end)

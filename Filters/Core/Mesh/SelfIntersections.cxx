@@ -94,7 +94,7 @@ double LargestCoordinate(const IndexedSurface& surface)
 }
 }
 
-int CountSelfIntersections(const IndexedSurface& surface, int limit, IntersectionWork* work)
+int CountSelfIntersections(const IndexedSurface& surface, int limit, IntersectionCounters* work)
 {
   const int count = static_cast<int>(surface.Triangles.size());
   double sum = 0.;
@@ -141,8 +141,8 @@ int CountSelfIntersections(const IndexedSurface& surface, int limit, Intersectio
 std::vector<int> FindIntersecting(const IndexedSurface& surface, const IndexedSurface& other,
   const TriangleTree& tree, double tolerance)
 {
-  const double margin = tolerance +
-    RoundingOfExtent * std::max(LargestCoordinate(surface), LargestCoordinate(other));
+  const double margin =
+    tolerance + RoundingOfExtent * std::max(LargestCoordinate(surface), LargestCoordinate(other));
   std::vector<int> found;
   for (int i = 0; i < static_cast<int>(surface.Triangles.size()); ++i)
   {

@@ -12,7 +12,7 @@ namespace volumic
 class TriangleTree;
 
 /** What a search for intersections has looked at. */
-struct IntersectionWork
+struct IntersectionCounters
 {
   long long Boxes = 0; ///< Of the tree.
   long long Pairs = 0; ///< Of triangles.
@@ -20,11 +20,12 @@ struct IntersectionWork
 
 /**
  * Number of intersecting pairs of triangles, neighbours included, by conservative tests
- * (TrianglesIntersect) of the points rounded to float. Triangles of all sizes may be mixed: the time is that of n log n boxes, and of
- * the pairs whose boxes overlap. Stops counting at `limit` (0: never).
+ * (TrianglesIntersect) of the points rounded to float. Triangles of all sizes may be mixed: the
+ * time is that of n log n boxes, and of the pairs whose boxes overlap. Stops counting at `limit`
+ * (0: never).
  */
 int CountSelfIntersections(
-  const IndexedSurface& surface, int limit = 0, IntersectionWork* work = nullptr);
+  const IndexedSurface& surface, int limit = 0, IntersectionCounters* work = nullptr);
 
 /**
  * The triangles, from first to last, that another surface intersects, or comes nearer to than

@@ -41,7 +41,7 @@ private:
     int Second; ///< Place on the rim of V, against its ring.
   };
   /** False where the rims touch or an edge joins them. */
-  bool MeasureRims(const SurfaceMesh& mesh);
+  bool MeasureLinks(const SurfaceMesh& mesh);
   void ChooseBridgeEdges();
   /** The best strip that begins at this place of the second rim. @return whether it is under best.
    */
@@ -52,8 +52,8 @@ private:
   void MakeTriangles();
   void InsertBridgeEdges(SurfaceMesh& mesh, bool first) const;
 
-  Ring FirstRim;
-  Ring SecondRim;                                ///< Reversed.
+  Ring FirstLink;
+  Ring SecondLink;                               ///< Reversed.
   float Squared[Ring::Capacity][Ring::Capacity]; ///< Distances from rim to rim.
   std::vector<BridgeEdge> BridgeEdges;
   std::vector<BridgeEdge> Candidate;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Mesh/SurfaceCheck.h"
 
-#include "Core/Common/Refuse.h"
+#include "Core/Common/ThrowInvalidArgument.h"
 #include "Core/Mesh/ObliqueRotation.h"
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "Core/Mesh/TriangleTree.h"
@@ -18,16 +18,16 @@ namespace volumic
 namespace
 {
 template <typename... Parts>
-[[noreturn]] void RefuseSurface(const Parts&... parts)
+[[noreturn]] void ThrowInvalidSurface(const Parts&... parts)
 {
-  Refuse("The initial surface ", parts...);
+  ThrowInvalidArgument("The initial surface ", parts...);
 }
 
 void CheckIndices(const IndexedSurface& surface)
 {
   if (surface.Triangles.empty())
   {
-    RefuseSurface("is empty: it has no triangles. Give a closed triangle mesh.");
+    ThrowInvalidSurface("is empty: it has no triangles. Give a closed triangle mesh.");
   }
   const int n = static_cast<int>(surface.Points.size());
   for (std::size_t i = 0; i < surface.Triangles.size(); ++i)
@@ -37,20 +37,20 @@ void CheckIndices(const IndexedSurface& surface)
     {
       if (corner < 0 || corner >= n)
       {
-        RefuseSurface(
+        ThrowInvalidSurface(
           "has triangle ", i, " with point ", corner, ", but there are ", n, " points.");
       }
       for (double x : surface.Points[corner])
       {
         if (!std::isfinite(x))
         {
-          RefuseSurface("has a coordinate that is not finite at point ", corner, ".");
+          ThrowInvalidSurface("has a coordinate that is not finite at point ", corner, ".");
         }
       }
     }
     if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0])
     {
-      RefuseSurface("has a degenerate triangle (number ", i,
+      ThrowInvalidSurface("has a degenerate triangle (number ", i,
         " uses a point twice). Clean it first, for example with vtkCleanPolyData.");
     }
   }
@@ -83,19 +83,19 @@ void CheckEdges(const IndexedSurface& surface)
   }
   if (open > 0)
   {
-    RefuseSurface("is open: ", open,
+    ThrowInvalidSurface("is open: ", open,
       " edges have one triangle only. Close its holes, for example with vtkFillHolesFilter, or, "
       "where triangles have points of their own at the same places, merge these with "
       "vtkCleanPolyData.");
   }
   if (nonManifold > 0)
   {
-    RefuseSurface(
+    ThrowInvalidSurface(
       "is not manifold: ", nonManifold, " edges have more than two triangles. Clean it first.");
   }
   if (misoriented > 0)
   {
-    RefuseSurface("is not oriented: ", misoriented,
+    ThrowInvalidSurface("is not oriented: ", misoriented,
       " edges have two triangles that disagree on their orientation. Orient it, for example with "
       "vtkPolyDataNormals and ConsistencyOn.");
   }
@@ -131,7 +131,7 @@ void CheckVertices(const IndexedSurface& surface)
   }
   if (pinched > 0)
   {
-    RefuseSurface("is not manifold: at ", pinched,
+    ThrowInvalidSurface("is not manifold: at ", pinched,
       " points several fans of triangles touch. Give each fan a point of its own.");
   }
 }
@@ -147,12 +147,12 @@ void CheckOrientation(const IndexedSurface& surface)
   }
   if (largest < 0.)
   {
-    RefuseSurface("is inside out: it encloses a volume of ", largest,
+    ThrowInvalidSurface("is inside out: it encloses a volume of ", largest,
       ". Reverse it, for example with vtkReverseSense.");
   }
   if (largest == 0.)
   {
-    RefuseSurface("encloses no volume.");
+    ThrowInvalidSurface("encloses no volume.");
   }
 }
 
@@ -203,7 +203,7 @@ void CheckNesting(const IndexedSurface& surface)
   }
   if (wrong > 0)
   {
-    RefuseSurface("is not the boundary of a volume: ", wrong, " of its ", count,
+    ThrowInvalidSurface("is not the boundary of a volume: ", wrong, " of its ", count,
       " components face the wrong way. Those inside another one are cavities and must face inward, "
       "those inside a cavity or outside of all must face outward.");
   }
@@ -220,7 +220,7 @@ void CheckInitialSurface(const IndexedSurface& surface)
   const int pairs = CountSelfIntersections(surface, limit);
   if (pairs > 0)
   {
-    RefuseSurface("intersects itself: ", pairs >= limit ? "at least " : "", pairs,
+    ThrowInvalidSurface("intersects itself: ", pairs >= limit ? "at least " : "", pairs,
       " pairs of triangles meet. Repair it before it is given.");
   }
   CheckNesting(surface);

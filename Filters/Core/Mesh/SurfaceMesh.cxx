@@ -4,9 +4,9 @@
 
 #include "Core/Common/Box.h"
 #include "Core/Common/Grow.h"
-#include "Core/Common/Refuse.h"
 #include "Core/Common/Sort.h"
 #include "Core/Common/Spans.h"
+#include "Core/Common/ThrowInvalidArgument.h"
 
 #include <algorithm>
 #include <atomic>
@@ -226,11 +226,12 @@ Ring RingOf(int vertex, CornersOfPoints& corners, std::vector<DirectedEdge>& edg
   const int count = corners.Count(static_cast<std::size_t>(vertex));
   if (count < 3)
   {
-    Refuse("the surface is not closed: vertex ", vertex, " has ", count, " triangles");
+    ThrowInvalidArgument(
+      "the surface is not closed: vertex ", vertex, " has ", count, " triangles");
   }
   if (count > Ring::Capacity)
   {
-    Refuse(
+    ThrowInvalidArgument(
       "vertex ", vertex, " of the surface has ", count, " neighbours, more than ", Ring::Capacity);
   }
   corners.FindOppositeEdges(static_cast<std::size_t>(vertex), edges);
@@ -252,7 +253,7 @@ Ring RingOf(int vertex, CornersOfPoints& corners, std::vector<DirectedEdge>& edg
     const bool closesEarly = i + 1 < count && edges[i].second == edges[0].first;
     if (!follows || closesEarly)
     {
-      Refuse("the surface is not a closed oriented manifold at vertex ", vertex);
+      ThrowInvalidArgument("the surface is not a closed oriented manifold at vertex ", vertex);
     }
   }
   return ring;
@@ -398,7 +399,8 @@ std::vector<int> SpaceFillingOrder(const SurfaceMesh& mesh, double cell, Executo
 {
   const std::size_t n = mesh.Rings.size();
   constexpr float most = std::numeric_limits<float>::max();
-  const Vector low = JoinVertices(mesh, executor, Vector(most, most, most),
+  const Vector low = JoinVertices(
+    mesh, executor, Vector(most, most, most),
     [&](int v, Vector& least)
     { least = mesh.IsAlive(v) ? Minimum(least, mesh.Position[v]) : least; },
     [](const Vector& a, const Vector& b) { return Minimum(a, b); });

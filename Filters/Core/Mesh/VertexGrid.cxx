@@ -114,7 +114,7 @@ int& VertexGrid::HeadOf(std::uint32_t cell)
   {
     brick = this->MakeBrick(number);
   }
-  return (*brick)[PlaceInBrick(x, y, z)];
+  return (*brick)[IndexInBrick(x, y, z)];
 }
 
 void VertexGrid::Link(int v, std::uint32_t cell)
@@ -141,12 +141,12 @@ void VertexGrid::Insert(int v, const Vector& position)
 namespace
 {
 /** What threads have to do in layers that they can work in side by side. */
-class LayeredWork
+class LayeredTasks
 {
 public:
   /** @param put(i, add): calls add(layer, vertex) for the item, or not. */
   template <typename Put>
-  LayeredWork(Executor& executor, std::size_t items, std::size_t layers, Put&& put)
+  LayeredTasks(Executor& executor, std::size_t items, std::size_t layers, Put&& put)
     : Layers(layers), Lists((items + InsertedSpan - 1) / InsertedSpan)
   {
     ForSpans(executor, items, InsertedSpan,
@@ -188,7 +188,7 @@ void VertexGrid::InsertAll(const LargeVector<Vector>& positions, std::size_t fir
 {
   this->Resize(positions.size());
   const auto layers = static_cast<std::size_t>((this->Size[2] + Mask) >> Bits);
-  const LayeredWork linking(executor, positions.size() - first, layers,
+  const LayeredTasks linking(executor, positions.size() - first, layers,
     [&](std::size_t i, auto&& add)
     {
       const int v = static_cast<int>(first + i);

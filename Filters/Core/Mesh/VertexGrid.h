@@ -130,7 +130,7 @@ private:
     std::array<int, std::size_t(1) << (3 * Bits)>; ///< First vertex of each cell, or -1.
   static constexpr std::uint32_t NoCell = 0xffffffff;
 
-  static std::size_t PlaceInBrick(int x, int y, int z)
+  static std::size_t IndexInBrick(int x, int y, int z)
   {
     return static_cast<std::size_t>((((z & Mask) << Bits) + (y & Mask)) << Bits) + (x & Mask);
   }
@@ -168,7 +168,7 @@ private:
   void AddRow(int x0, int x1, int y, int z, FirstVertices& firsts, Visitor&& visit) const
   {
     const auto* bricks = this->Bricks.data() + this->NumberOfBrick(0, y, z);
-    const std::size_t row = PlaceInBrick(0, y, z);
+    const std::size_t row = IndexInBrick(0, y, z);
     for (int x = x0; x <= x1;)
     {
       // The part of the row that lies in one brick.

@@ -146,7 +146,7 @@ bool ComponentWatch::FindVertices(SurfaceState& state, const SmallComponent& sma
   return true;
 }
 
-bool ComponentWatch::DeleteDegenerate(SurfaceState& state, EditShare* share)
+bool ComponentWatch::DeleteDegenerate(SurfaceState& state, EditContext* share)
 {
   bool deleted = false;
   for (SmallComponent& small : this->Watched)

@@ -53,15 +53,15 @@ public:
    * and are watched; the others are left as they are.
    * @param large components that need no test
    */
-  void LabelSmall(SurfaceState& state, int begin, int end, const Box& within,
-    const LargeComponents& large = {});
+  void LabelSmall(
+    SurfaceState& state, int begin, int end, const Box& within, const LargeComponents& large = {});
 
   /**
    * Deletes those of them that must go.
    * @param share of the visit, which keeps the books; null: the state does
    * @return whether anything was deleted.
    */
-  bool DeleteDegenerate(SurfaceState& state, EditShare* share = nullptr);
+  bool DeleteDegenerate(SurfaceState& state, EditContext* share = nullptr);
 
 private:
   struct SmallComponent

@@ -4,8 +4,8 @@
 
 #include "Core/Common/Spans.h"
 #include "Core/Mesh/TriangleTests.h"
-#include "Core/Surface/ReachOfStar.h"
 #include "Core/Surface/StarFaces.h"
+#include "Core/Surface/StarReach.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,13 +22,13 @@ constexpr float LeastRoom = 2e-3f;
 /** Room that the test of triangles looks for first, to spare some tests to come. */
 constexpr float SomeRoom = 0.01f;
 /** Vertices that one thread examines at a time, as each may take long. */
-constexpr std::size_t ExaminedSpan = 64;
+constexpr std::size_t TestedSpan = 64;
 /** Room along the normals that needs no look for more along the line between the vertices. */
 constexpr float EnoughRoom = 0.02f;
 /** Slack of a vertex with nothing else in reach. */
-constexpr float ReachSlack = 0.1f;
+constexpr float ReachClearance = 0.1f;
 /** Pairs are kept while their vertices use up their slack: look a little further. */
-constexpr float PairReach = SizingField::LambdaInDelta + ReachSlack;
+constexpr float PairReach = SizingField::LambdaInDelta + ReachClearance;
 
 /** Least cosine between two faces at an edge that are certainly not folded onto each other. */
 constexpr float Unfolded = -0.99f;
@@ -39,24 +39,24 @@ constexpr float RoundedReach = 0.999f;
 constexpr float FloatRounding = 1.2f;
 
 /** Room between two stars along a unit direction, the first below; negative: none. */
-float RoomAlong(const StarRim& first, const StarRim& second, const Vector& direction)
+float RoomAlong(const StarLink& first, const StarLink& second, const Vector& direction)
 {
   const VectorLanes along = AllLanes(direction);
   Lanes highest(Dot(direction, first.Place));
   for (int i = 0; i < first.Count; i += Lanes::Count)
   {
-    highest = Maximum(highest, Dot(along, first.Rim.At(i)));
+    highest = Maximum(highest, Dot(along, first.Link.At(i)));
   }
   Lanes lowest(Dot(direction, second.Place));
   for (int i = 0; i < second.Count; i += Lanes::Count)
   {
-    lowest = Minimum(lowest, Dot(along, second.Rim.At(i)));
+    lowest = Minimum(lowest, Dot(along, second.Link.At(i)));
   }
   return LeastOf(lowest) - GreatestOf(highest);
 }
 
 /** The larger room along two directions. The stars must not have a common vertex. */
-float RoomBetween(const SurfaceState& state, const StarRim& first, const StarRim& second)
+float RoomBetween(const SurfaceState& state, const StarLink& first, const StarLink& second)
 {
   const Vector across = second.Place - first.Place;
   Vector direction = state.Normal[first.Centre].Axis() - state.Normal[second.Centre].Axis();
@@ -76,10 +76,7 @@ class FacesBeside
 public:
   /** @param from the star whose planes tell @param other the one whose faces are told apart */
   FacesBeside(const StarFaces& from, const StarFaces& other, float room)
-    : From(from)
-    , Other(other)
-    , Room(room)
-    , WithCentre(other.Matching(from.Centre))
+    : From(from), Other(other), Room(room), WithCentre(other.Matching(from.Centre))
   {
     for (int i = 0; i < from.Count; ++i)
     {
@@ -107,7 +104,7 @@ public:
     const VectorLanes place = AllLanes(this->From.Place);
     for (int k = 0; k < this->Other.Count; k += Lanes::Count)
     {
-      const Lanes heights = Dot(normals, this->Other.Rim.At(k) - place);
+      const Lanes heights = Dot(normals, this->Other.Link.At(k) - place);
       above |= LessBits(Lanes(this->Room), heights) << k;
       below |= LessBits(heights, Lanes(-this->Room)) << k;
     }
@@ -151,9 +148,9 @@ unsigned FacesNear(const StarFaces& from, int i, const StarFaces& other, float m
   {
     const VectorLanes otherLow = other.Low.At(k);
     const VectorLanes otherHigh = other.High.At(k);
-    apart |= (LessBits(otherHigh.X, low.X) | LessBits(high.X, otherLow.X) |
-               LessBits(otherHigh.Y, low.Y) | LessBits(high.Y, otherLow.Y) |
-               LessBits(otherHigh.Z, low.Z) | LessBits(high.Z, otherLow.Z))
+    apart |=
+      (LessBits(otherHigh.X, low.X) | LessBits(high.X, otherLow.X) | LessBits(otherHigh.Y, low.Y) |
+        LessBits(high.Y, otherLow.Y) | LessBits(otherHigh.Z, low.Z) | LessBits(high.Z, otherLow.Z))
       << k;
   }
   return ~apart & other.All();
@@ -173,9 +170,7 @@ class FirstPair
 {
 public:
   FirstPair(const SurfaceState& state, int v, int w)
-    : State(state)
-    , V(std::min(v, w))
-    , W(std::max(v, w))
+    : State(state), V(std::min(v, w)), W(std::max(v, w))
   {
   }
 
@@ -194,8 +189,8 @@ public:
         const int x = std::min(a, b);
         const int y = std::max(a, b);
         if ((x < this->V || (x == this->V && y < this->W)) &&
-          ((this->State.Marks[x] | this->State.Marks[y]) & IsListed) && this->IsWithinReach(x, y, most) &&
-          this->State.AreOpposed(x, y))
+          ((this->State.Marks[x] | this->State.Marks[y]) & IsListed) &&
+          this->IsWithinReach(x, y, most) && this->State.AreOpposed(x, y))
         {
           return false;
         }
@@ -275,16 +270,14 @@ float TestStars(const SurfaceState& state, const StarFaces& first, const StarFac
 class Search
 {
 public:
-  Search(SurfaceState& state)
-    : State(state)
-  {
-  }
+  Search(SurfaceState& state) : State(state) {}
 
-  /** Calls visit(w, squared distance) for those within a radius whose cone of normals is opposed. */
+  /** Calls visit(w, squared distance) for those within a radius whose cone of normals is opposed.
+   */
   template <typename Visitor>
   void VisitOpposed(int v, float radius, const Visitor& visit);
   /** Sets NearOthers and Slack of a vertex, but for faces without room: see Findings::Tight. */
-  void Examine(int v, Proximity::Findings& found);
+  void Test(int v, Proximity::Findings& found);
 
 private:
   /** Fill Near with the vertices within a radius of a position. Return their number. */
@@ -354,8 +347,7 @@ void Search::VisitOpposed(int v, float radius, const Visitor& visit)
   for (std::size_t i = 0; i < count; i += Lanes::Count)
   {
     const int* w = near + i; // Valid indices follow after the last one.
-    unsigned opposed =
-      OpposedBits(cone, cones[w[0]], cones[w[1]], cones[w[2]], cones[w[3]]);
+    unsigned opposed = OpposedBits(cone, cones[w[0]], cones[w[1]], cones[w[2]], cones[w[3]]);
     opposed &= ~(~0u << std::min<std::size_t>(count - i, Lanes::Count));
     for (; opposed != 0; opposed &= opposed - 1)
     {
@@ -368,16 +360,16 @@ void Search::VisitOpposed(int v, float radius, const Visitor& visit)
   }
 }
 
-void Search::Examine(int v, Proximity::Findings& found)
+void Search::Test(int v, Proximity::Findings& found)
 {
   SurfaceState& state = this->State;
   const SurfaceMesh& mesh = state.Mesh;
   const float delta = state.Sizing.At(v);
   const float most = state.Sizing.Reach(v);
-  const ReachOfStar reaches(state, v);
+  const StarReach reaches(state, v);
   const float further = most + (state.IsSlow[v] ? Proximity::FurtherReachInDelta * delta : 0.f);
   const float near = PairReach * delta;
-  const float least = ReachSlack * delta;
+  const float least = ReachClearance * delta;
   this->Own.clear();
   const auto star = [&]() -> const StarFaces&
   {
@@ -403,8 +395,7 @@ void Search::Examine(int v, Proximity::Findings& found)
         slack = std::min(slack, std::sqrt(squared) - reach + least);
         return;
       }
-      slack = std::min(
-        slack, std::max(least, std::sqrt(squared) - state.Sizing.Clearance(v, w)));
+      slack = std::min(slack, std::max(least, std::sqrt(squared) - state.Sizing.Clearance(v, w)));
       anything = true;
       if (squared < near * near && !mesh.AreNeighbours(v, w))
       {
@@ -427,7 +418,7 @@ void Search::Examine(int v, Proximity::Findings& found)
                                   : SomeRoom * delta);
     });
   state.NearOthers[v] = anything;
-  state.Slack[v] = slack;
+  state.ClearanceAtTest[v] = slack;
 }
 }
 
@@ -447,8 +438,7 @@ void Proximity::AddPairs(SurfaceState& state, const std::vector<int>& vertices)
   }
 }
 
-void Proximity::Examine(
-  SurfaceState& state, const std::vector<int>& vertices, Executor& executor)
+void Proximity::Test(SurfaceState& state, const std::vector<int>& vertices, Executor& executor)
 {
   for (const int v : vertices)
   {
@@ -458,11 +448,11 @@ void Proximity::Examine(
   this->AllPairs.erase(std::remove_if(this->AllPairs.begin(), this->AllPairs.end(),
                          [&state](const ClosePair& pair)
                          {
-                           return (state.Marks[pair.V] & IsListed) ||
-                             !state.Mesh.IsAlive(pair.V) || !state.Mesh.IsAlive(pair.W);
+                           return (state.Marks[pair.V] & IsListed) || !state.Mesh.IsAlive(pair.V) ||
+                             !state.Mesh.IsAlive(pair.W);
                          }),
     this->AllPairs.end());
-  const std::size_t spans = (vertices.size() + ExaminedSpan - 1) / ExaminedSpan;
+  const std::size_t spans = (vertices.size() + TestedSpan - 1) / TestedSpan;
   this->OfSpans.resize(std::max(this->OfSpans.size(), spans));
   executor.For(spans, 1,
     [&](std::size_t begin, std::size_t end)
@@ -474,12 +464,12 @@ void Proximity::Examine(
         found.Pairs.clear();
         found.Intersections.clear();
         found.Tight.clear();
-        const std::size_t last = std::min(vertices.size(), (span + 1) * ExaminedSpan);
-        for (std::size_t i = span * ExaminedSpan; i < last; ++i)
+        const std::size_t last = std::min(vertices.size(), (span + 1) * TestedSpan);
+        for (std::size_t i = span * TestedSpan; i < last; ++i)
         {
           if (state.Mesh.IsAlive(vertices[i]))
           {
-            search.Examine(vertices[i], found);
+            search.Test(vertices[i], found);
           }
         }
       }
@@ -494,7 +484,7 @@ void Proximity::Examine(
     // A pair of faces is tested once, but all its corners must know that it has no room.
     for (const int v : found.Tight)
     {
-      state.Slack[v] = 0;
+      state.ClearanceAtTest[v] = 0;
     }
   }
   for (const int v : vertices)
@@ -507,7 +497,7 @@ std::vector<Proximity::FacePair> Proximity::FindIntersections(
   SurfaceState& state, const std::vector<int>& vertices, Executor& executor)
 {
   Proximity all;
-  all.Examine(state, vertices, executor);
+  all.Test(state, vertices, executor);
   return std::move(all.AllIntersections);
 }
 }

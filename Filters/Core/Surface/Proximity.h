@@ -51,7 +51,7 @@ public:
    * room that their stars have: two stars can't intersect while neither has moved by half of it.
    * Threads share the list; what is found does not depend on them.
    */
-  void Examine(SurfaceState& state, const std::vector<int>& vertices, Executor& executor);
+  void Test(SurfaceState& state, const std::vector<int>& vertices, Executor& executor);
 
   /**
    * Opposed pairs nearer than about lambda delta, grouped by V; a pair of two listed occurs twice.

@@ -15,7 +15,7 @@ namespace
 /** Distances a rounding under the bound don't count. */
 constexpr double Rounding = 1e-6;
 /** Distance, in lambda delta, within which another part of the surface may hold a vertex. */
-constexpr float HoldingReach = 1.15f;
+constexpr float ContactReach = 1.15f;
 /** Distance to the isopotential, in delta, that counts as held. */
 constexpr float FarFromIso = 0.1f;
 
@@ -47,7 +47,7 @@ RemainingContacts FindRemainingContacts(
         }
         const VectorD p(mesh.Position[v]);
         const double bound = BoundOf(state.Sizing, v);
-        const float reach = state.Sizing.LargestClearance(v, HoldingReach);
+        const float reach = state.Sizing.LargestClearance(v, ContactReach);
         bool hasOther = false;
         state.Grid.Visit(mesh.Position[v], reach,
           [&](int w)
@@ -58,8 +58,7 @@ RemainingContacts FindRemainingContacts(
             // What holds a vertex faces it.
             const bool mayHold = !hasOther && squared < static_cast<double>(reach) * reach &&
               Dot(state.Normal[v].Axis(), state.Normal[w].Axis()) < 0;
-            if (w != v && ((isForbidden && w > v) || mayHold) &&
-              mesh.AreFarApart(v, w))
+            if (w != v && ((isForbidden && w > v) || mayHold) && mesh.AreFarApart(v, w))
             {
               hasOther = hasOther || mayHold;
               if (isForbidden && w > v)
@@ -71,8 +70,8 @@ RemainingContacts FindRemainingContacts(
         if (hasOther)
         {
           const Field::Sample sample = field.At(mesh.Position[v]);
-          contacts.Held[i] = std::abs(sample.Value) >
-            FarFromIso * state.Sizing.At(v) * field.SlopeOf(sample);
+          contacts.Held[i] =
+            std::abs(sample.Value) > FarFromIso * state.Sizing.At(v) * field.SlopeOf(sample);
         }
       }
       std::sort(spans[b].begin(), spans[b].end());

@@ -15,7 +15,8 @@ namespace volumic
 /**
  * Restores the constraints of eq. (1) after a displacement and decides on merges and cuts, the
  * paper's changes of topology, with the rules of Documentation/differences.md (Constraints,
- * Changes of topology). Each operation is a pass over the vertices that it concerns, in their order.
+ * Changes of topology). Each operation is a pass over the vertices that it concerns, in their
+ * order.
  */
 class Remesher
 {
@@ -25,11 +26,8 @@ public:
    * @param share of the visit; null: nobody else edits
    */
   Remesher(
-    SurfaceState& state, const Field* field, bool topologyChanges, EditShare* share = nullptr)
-    : State(state)
-    , Editor(state, share)
-    , TheField(field)
-    , TopologyChanges(topologyChanges)
+    SurfaceState& state, const Field* field, bool topologyChanges, EditContext* share = nullptr)
+    : State(state), Editor(state, share), TheField(field), TopologyChanges(topologyChanges)
   {
   }
 
@@ -61,7 +59,7 @@ private:
   /** Whether what lies opposite to an edge is so near to its middle that a split would. */
   bool MakesNeedles(int u, int v, const EdgeFlip& across) const;
   void SplitAt(int v, std::vector<int>& added);
-  bool IsMergeWanted(int u, int v) const;
+  bool AreApproaching(int u, int v) const;
   bool FlipBetween(int u, int v);
   void MergeOrFlip(int u, int v, std::vector<int>& strip);
   void CollapseAt(int v);

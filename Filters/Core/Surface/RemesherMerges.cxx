@@ -36,7 +36,7 @@ struct NearPair
 };
 }
 
-bool Remesher::IsMergeWanted(int u, int v) const
+bool Remesher::AreApproaching(int u, int v) const
 {
   const SurfaceState& s = this->State;
   const Vector across = s.Mesh.Position[v] - s.Mesh.Position[u];
@@ -101,7 +101,7 @@ void Remesher::MergeOrFlip(int u, int v, std::vector<int>& strip)
 {
   SurfaceState& s = this->State;
   if (!s.Mesh.IsAlive(u) || !s.Mesh.IsAlive(v) || s.Mesh.AreNeighbours(u, v) ||
-    this->FlipBetween(u, v) || !this->TopologyChanges || !this->IsMergeWanted(u, v))
+    this->FlipBetween(u, v) || !this->TopologyChanges || !this->AreApproaching(u, v))
   {
     return;
   }

@@ -6,10 +6,8 @@
 
 namespace volumic
 {
-StarRim::StarRim(const SurfaceMesh& mesh, int v)
-  : Centre(v)
-  , Count(mesh.Rings[v].Count)
-  , Place(mesh.Position[v])
+StarLink::StarLink(const SurfaceMesh& mesh, int v)
+  : Centre(v), Count(mesh.Rings[v].Count), Place(mesh.Position[v])
 {
   std::copy(mesh.Rings[v].Item, mesh.Rings[v].Item + Ring::Capacity, this->Item);
   this->Item[Ring::Capacity] = -1;
@@ -17,19 +15,18 @@ StarRim::StarRim(const SurfaceMesh& mesh, int v)
   { return mesh.Position[this->Item[i < this->Count ? i : 0]]; };
   for (int i = 0; i < this->Count; i += Lanes::Count)
   {
-    this->Rim.Set(i, Gather(place(i), place(i + 1), place(i + 2), place(i + 3)));
+    this->Link.Set(i, Gather(place(i), place(i + 1), place(i + 2), place(i + 3)));
   }
-  this->Rim.Close(this->Count);
+  this->Link.Close(this->Count);
 }
 
-StarFaces::StarFaces(const SurfaceMesh& mesh, int v)
-  : StarRim(mesh, v)
+StarFaces::StarFaces(const SurfaceMesh& mesh, int v) : StarLink(mesh, v)
 {
   const VectorLanes place = AllLanes(this->Place);
   for (int i = 0; i < this->Count; i += Lanes::Count)
   {
-    const VectorLanes a = this->Rim.At(i);
-    const VectorLanes b = this->Rim.At(i + 1);
+    const VectorLanes a = this->Link.At(i);
+    const VectorLanes b = this->Link.At(i + 1);
     this->Low.Set(i, Minimum(place, Minimum(a, b)));
     this->High.Set(i, Maximum(place, Maximum(a, b)));
     this->Normal.Set(i, Normalized(Cross(a - place, b - place)));

@@ -65,9 +65,9 @@ struct StarVectors
  * A vertex and the places of its neighbours. Sets of these, or of the faces, are bits: face i lies
  * between the neighbours i and i + 1.
  */
-struct StarRim
+struct StarLink
 {
-  StarRim(const SurfaceMesh& mesh, int v);
+  StarLink(const SurfaceMesh& mesh, int v);
 
   int After(int i) const { return i + 1 < this->Count ? i + 1 : 0; }
   std::array<int, 3> Face(int i) const
@@ -105,11 +105,11 @@ struct StarRim
   int Count;
   int Item[Ring::Capacity + 1]; ///< The neighbours; four may be read from every fourth on.
   Vector Place;
-  StarVectors Rim; ///< Places of the neighbours; after the last follow the first two.
+  StarVectors Link; ///< Places of the neighbours; after the last follow the first two.
 };
 
 /** A star with what tells its faces from those of others. */
-struct StarFaces : StarRim
+struct StarFaces : StarLink
 {
   StarFaces(const SurfaceMesh& mesh, int v);
 

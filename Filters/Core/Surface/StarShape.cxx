@@ -8,13 +8,12 @@
 
 namespace volumic
 {
-StarShape::StarShape(const SurfaceMesh& mesh, int v)
-  : StarRim(mesh, v)
+StarShape::StarShape(const SurfaceMesh& mesh, int v) : StarLink(mesh, v)
 {
   const VectorLanes place = AllLanes(this->Place);
   for (int i = 0; i < this->Count; i += Lanes::Count)
   {
-    const VectorLanes edge = this->Rim.At(i) - place;
+    const VectorLanes edge = this->Link.At(i) - place;
     this->Edge.Set(i, edge);
     this->Length.Set(i, SquareRoot(Dot(edge, edge)));
   }

@@ -9,7 +9,7 @@
 namespace volumic
 {
 /** The edges of a star, from its vertex on, and the faces between them. */
-struct StarShape : StarRim
+struct StarShape : StarLink
 {
   StarShape(const SurfaceMesh& mesh, int v);
 

@@ -103,7 +103,7 @@ SurfaceBlocks::SurfaceBlocks(SurfaceState& state, const Frame& frame, Executor& 
   this->FindOrder();
 }
 
-std::array<int, 3> SurfaceBlocks::PlaceOf(const Vector& position) const
+std::array<int, 3> SurfaceBlocks::IjkOf(const Vector& position) const
 {
   const Vector from = position - this->TheFrame.Low;
   const float along[3] = { from.X, from.Y, from.Z };
@@ -117,7 +117,7 @@ std::array<int, 3> SurfaceBlocks::PlaceOf(const Vector& position) const
   return places;
 }
 
-std::array<int, 3> SurfaceBlocks::PlaceOf(int block) const
+std::array<int, 3> SurfaceBlocks::IjkOf(int block) const
 {
   const std::array<int, 3>& size = this->TheFrame.Size;
   return { block % size[0], block / size[0] % size[1], block / size[0] / size[1] };
@@ -131,13 +131,13 @@ int SurfaceBlocks::BlockOf(const std::array<int, 3>& place) const
 
 int SurfaceBlocks::BlockAt(const Vector& position) const
 {
-  return this->BlockOf(this->PlaceOf(position));
+  return this->BlockOf(this->IjkOf(position));
 }
 
 Box SurfaceBlocks::BoxOf(int block) const
 {
   constexpr float endless = 1e9f;
-  const std::array<int, 3> place = this->PlaceOf(block);
+  const std::array<int, 3> place = this->IjkOf(block);
   const Vector& origin = this->TheFrame.Low;
   const float origins[3] = { origin.X, origin.Y, origin.Z };
   float low[3];
@@ -155,17 +155,19 @@ Box SurfaceBlocks::BoxOf(int block) const
 std::vector<int> SurfaceBlocks::NeighboursOf(int block) const
 {
   std::vector<int> neighbours;
-  const std::array<int, 3> place = this->PlaceOf(block);
+  const std::array<int, 3> place = this->IjkOf(block);
   const VoxelBox near = { place, { place[0] + 1, place[1] + 1, place[2] + 1 } };
-  near.Grown(1).CommonWith(VoxelBox::Of(this->TheFrame.Size)).ForVoxels(
-    [&](int x, int y, int z)
-    {
-      const int other = this->BlockOf({ x, y, z });
-      if (other != block)
+  near.Grown(1)
+    .CommonWith(VoxelBox::Of(this->TheFrame.Size))
+    .ForVoxels(
+      [&](int x, int y, int z)
       {
-        neighbours.push_back(other);
-      }
-    });
+        const int other = this->BlockOf({ x, y, z });
+        if (other != block)
+        {
+          neighbours.push_back(other);
+        }
+      });
   return neighbours;
 }
 
@@ -249,7 +251,7 @@ void SurfaceBlocks::FindOrder()
     }
   }
   // Slab by slab, which touches memory less often than a colour after the other.
-  this->Visits = std::make_unique<VisitSchedule>(
+  this->Passes = std::make_unique<BlockSchedule>(
     std::move(order), [this](int block) { return this->NeighboursOf(block); });
 }
 
@@ -260,8 +262,7 @@ bool SurfaceBlocks::Append(const IndexedSurface& surface, bool isInParts, Execut
   s.Append(surface, executor);
   std::vector<int> added(static_cast<std::size_t>(s.Mesh.Size() - first));
   std::iota(added.begin(), added.end(), first);
-  const std::vector<Proximity::FacePair> found =
-    Proximity::FindIntersections(s, added, executor);
+  const std::vector<Proximity::FacePair> found = Proximity::FindIntersections(s, added, executor);
   std::vector<int> wrong;
   for (const Proximity::FacePair& pair : found)
   {
@@ -278,10 +279,10 @@ bool SurfaceBlocks::Append(const IndexedSurface& surface, bool isInParts, Execut
   return found.empty();
 }
 
-BlockVisit SurfaceBlocks::Open(int block)
+BlockPass SurfaceBlocks::Open(int block)
 {
   const OfBlock& own = this->All[block];
-  BlockVisit visit;
+  BlockPass visit;
   visit.Block = block;
   visit.First = own.First;
   visit.Share.Room = { own.Next, own.End };
@@ -307,7 +308,7 @@ double SurfaceBlocks::SumUp(const std::function<double(int v)>& ofVertex, Execut
     });
 }
 
-void SurfaceBlocks::Close(BlockVisit&& visit)
+void SurfaceBlocks::Close(BlockPass&& visit)
 {
   SurfaceState& s = this->State;
   OfBlock& own = this->All[visit.Block];

@@ -3,8 +3,8 @@
 #ifndef volumicSurfaceBlocks_h
 #define volumicSurfaceBlocks_h
 
+#include "Core/Common/BlockSchedule.h"
 #include "Core/Common/Box.h"
-#include "Core/Common/VisitSchedule.h"
 #include "Core/Surface/ComponentWatch.h"
 #include "Core/Surface/SurfaceEditor.h"
 #include "Core/Surface/SurfaceState.h"
@@ -22,13 +22,13 @@ namespace volumic
  * A visit of a block, while it is open: what of the surface it may change, and what it keeps for
  * itself so that visits of blocks that do not touch can be made at the same time.
  */
-struct BlockVisit
+struct BlockPass
 {
   int Block = 0;
   int First = 0; ///< Its vertices are those of [First, End()): the block's, then those it has made.
-  Box Moving;    ///< Vertices that lie in it may move; EditShare::Region is for edits.
+  Box Moving;    ///< Vertices that lie in it may move; EditContext::Region is for edits.
   Box Written;   ///< Beyond it nothing is changed.
-  EditShare Share;
+  EditContext Share;
   LargeComponents Large; ///< At its begin.
 
   /** Some places of the range may be without a vertex. */
@@ -87,7 +87,7 @@ public:
   SurfaceBlocks& operator=(const SurfaceBlocks&) = delete;
 
   /** The order of their visits, and what waits for what; some have no vertices. */
-  const VisitSchedule& Schedule() const { return *this->Visits; }
+  const BlockSchedule& Schedule() const { return *this->Passes; }
   int NumberOfBlocks() const { return static_cast<int>(this->All.size()); }
   /** Those of the surface; what open visits add or remove counts when these end. On any thread. */
   int NumberOfVertices() const
@@ -100,12 +100,12 @@ public:
    * Begins a visit. On any thread, while no block is open that touches this one. Until Close() the
    * block's vertices, and what lies about them, are the visit's alone.
    */
-  BlockVisit Open(int block);
+  BlockPass Open(int block);
   /**
    * Ends it, on the thread that made it: the state's number of vertices and chi are those after the
    * visit.
    */
-  void Close(BlockVisit&& visit);
+  void Close(BlockPass&& visit);
 
   /** Whether a vertex of the block may move. */
   bool HasActive(int block) const;
@@ -123,7 +123,7 @@ public:
   /** The box that a block fills; at the border of the frame it goes on without end. */
   Box BoxOf(int block) const;
   /** Its place in the frame, along each axis. */
-  std::array<int, 3> PlaceOf(int block) const;
+  std::array<int, 3> IjkOf(int block) const;
   /** Those that touch it, in order of their number. */
   std::vector<int> NeighboursOf(int block) const;
   const Frame& GetFrame() const { return this->TheFrame; }
@@ -143,7 +143,7 @@ private:
     int Taken = 0;         ///< Its last visit has made so many.
     bool IsAstray = false; ///< A vertex has left it.
   };
-  std::array<int, 3> PlaceOf(const Vector& position) const;
+  std::array<int, 3> IjkOf(const Vector& position) const;
   int BlockOf(const std::array<int, 3>& place) const;
   void Reorder(Executor& executor, bool isNew);
   void FindOrder();
@@ -152,7 +152,7 @@ private:
   Frame TheFrame;
   std::vector<OfBlock> All;
   VertexSpares Spares; ///< See SurfaceMesh::Reorder.
-  std::unique_ptr<VisitSchedule> Visits;
+  std::unique_ptr<BlockSchedule> Passes;
   mutable std::mutex Closing; ///< Held while a visit changes what all visits share.
 };
 }

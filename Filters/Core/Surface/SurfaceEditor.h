@@ -37,7 +37,7 @@ struct Edit
 };
 
 /** What an editor has to itself where others are at work elsewhere: see SurfaceBlocks. */
-struct EditShare
+struct EditContext
 {
   Box Region;        ///< The vertices whose stars are edited lie in it; others are refused.
   VertexRoom Room;   ///< For new vertices; edits that find too little of it are refused.
@@ -48,16 +48,16 @@ struct EditShare
 /**
  * Verified edits of the live surface: each checks the mesh (manifold), the constraints (lengths,
  * normals that turn little) and, by conservative tests of the faces that it would make, that none
- * will intersect another; only then it edits and keeps grid, properties, chi and counts in step. A split
- * changes no geometry and needs no test.
- * Sequential, in the order called; others may edit elsewhere at the same time, see EditShare.
+ * will intersect another; only then it edits and keeps grid, properties, chi and counts in step. A
+ * split changes no geometry and needs no test. Sequential, in the order called; others may edit
+ * elsewhere at the same time, see EditContext.
  */
 class SurfaceEditor
 {
 public:
   /** @param share null: nobody else edits; counts go to the state, new vertices follow the last
    * one. */
-  explicit SurfaceEditor(SurfaceState& state, EditShare* share = nullptr)
+  explicit SurfaceEditor(SurfaceState& state, EditContext* share = nullptr)
     : State(state), Share(share)
   {
   }
@@ -110,7 +110,7 @@ private:
   void AddToEulerCharacteristic(int change);
 
   SurfaceState& State;
-  EditShare* Share;
+  EditContext* Share;
   std::vector<MeshTriangle> Faces; ///< New ones of the edit that is being tried.
   std::vector<int> Log;
 };

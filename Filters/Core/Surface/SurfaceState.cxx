@@ -51,14 +51,13 @@ void SurfaceState::ForgetMotion()
     property->Forget();
   }
   for (VertexProperty<float>* property :
-    { &this->FieldValue, &this->Displacement, &this->Drift, &this->Slack })
+    { &this->FieldValue, &this->Displacement, &this->MotionSinceTest, &this->ClearanceAtTest })
   {
     property->Forget();
   }
 }
 
-void SurfaceState::Reorder(
-  const std::vector<int>& order, VertexSpares& spares, Executor& executor)
+void SurfaceState::Reorder(const std::vector<int>& order, VertexSpares& spares, Executor& executor)
 {
   // What means nothing between visits lends its memory.
   const auto swapSpares = [&]

@@ -29,9 +29,8 @@ struct EditCounts
   EditCounts operator-(const EditCounts& less) const
   {
     EditCounts counts = less;
-    for (int EditCounts::*count :
-      { &EditCounts::Merges, &EditCounts::Cuts, &EditCounts::Splits, &EditCounts::Collapses,
-        &EditCounts::Flips, &EditCounts::Removed })
+    for (int EditCounts::*count : { &EditCounts::Merges, &EditCounts::Cuts, &EditCounts::Splits,
+           &EditCounts::Collapses, &EditCounts::Flips, &EditCounts::Removed })
     {
       counts.*count = this->*count - less.*count;
     }
@@ -101,7 +100,7 @@ public:
   SizingField Sizing;
   ImageMargin Margin;          ///< Of the level: no vertex is moved further out.
   int EulerCharacteristic = 0; ///< Kept by the edits; tests hold it against a count.
-  EditCounts Counts;           ///< Of edits that no visit (EditShare) keeps for itself.
+  EditCounts Counts;           ///< Of edits that no visit (EditContext) keeps for itself.
 
   // Motion: Dynamics. An edit gives a vertex the mean of those that it comes of.
   VertexProperty<Vector> Velocity{ this->Properties, Vector() };
@@ -118,7 +117,7 @@ public:
    */
   VertexProperty<std::uint8_t> WasActive{ this->Properties, 1, 1 };
   /** Iterations since it has moved visibly. */
-  VertexProperty<std::uint8_t> RestCount{ this->Properties, 0, 0 };
+  VertexProperty<std::uint8_t> ConvergedIterations{ this->Properties, 0, 0 };
   /** Grows with each roll back, shrinks otherwise. */
   VertexProperty<std::uint8_t> RollbackCount{ this->Properties, 0, 0 };
   /** Edited or rolled back since the regularisation has cleared it. */
@@ -133,9 +132,10 @@ public:
   VertexProperty<std::uint8_t> RemeshFlags{ this->Properties, 0, 0 }; ///< Bits of RemeshFlag.
 
   // Proximity.
-  /** How far its star has moved since it was last examined; NotExamined: it must be examined. */
-  VertexProperty<float> Drift{ this->Properties, NotExamined, NotExamined };
-  VertexProperty<float> Slack{ this->Properties, 0.f, 0.f }; ///< The room it had then: Proximity.
+  /** How far its star has moved since it was last examined; NeverTested: it must be examined. */
+  VertexProperty<float> MotionSinceTest{ this->Properties, NeverTested, NeverTested };
+  VertexProperty<float> ClearanceAtTest{ this->Properties, 0.f,
+    0.f }; ///< The room it had then: Proximity.
   /** Whether another iteration like the last one would use up little of that room. */
   VertexProperty<std::uint8_t> IsSlow{ this->Properties, 1, 0 };
   /** Something that is not the smooth surface about it lies within reach. */
@@ -150,7 +150,7 @@ public:
   VertexProperty<int> Component{ this->Properties, Unlabelled }; ///< ComponentWatch.
 
   static constexpr int Unlabelled = 1 << 30; ///< More than any label of SurfaceComponents.
-  static constexpr float NotExamined = 1e6f; ///< More than any slack.
+  static constexpr float NeverTested = 1e6f; ///< More than any slack.
 
   /** Lets go of all that only iterations need: a reset must come before others. */
   void ForgetMotion();
@@ -180,7 +180,7 @@ public:
   void Activate(int v)
   {
     this->Active[v] = 1;
-    this->RestCount[v] = 0;
+    this->ConvergedIterations[v] = 0;
     this->Disturbed[v] = 1;
   }
 

@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Surface/SurfaceOptimization.h"
+
+#include "Core/Common/Select.h"
+#include "Core/Surface/StarImprovement.h"
+#include "Core/Surface/StarScore.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+
+namespace volumic
+{
+namespace
+{
+constexpr int Rounds = 8;
+constexpr int SeparatingRounds = 4;
+}
+
+int SurfaceOptimization::EndOfNew() const
+{
+  return this->Share ? this->Share->Room.Next : this->State.Mesh.Size();
+}
+
+std::vector<int> SurfaceOptimization::AliveOnes() const
+{
+  const SurfaceState& s = this->State;
+  std::vector<int> alive;
+  std::copy_if(this->Within.begin(), this->Within.end(), std::back_inserter(alive),
+    [&s](int v) { return s.Mesh.IsAlive(v); });
+  for (int v = this->FirstNew; v < this->EndOfNew(); ++v)
+  {
+    if (s.Mesh.IsAlive(v))
+    {
+      alive.push_back(v);
+    }
+  }
+  return alive;
+}
+
+void SurfaceOptimization::SeparateAll()
+{
+  SurfaceState& s = this->State;
+  std::vector<int> crowded = this->AliveOnes();
+  crowded.erase(
+    std::remove_if(crowded.begin(), crowded.end(), [&s](int v) { return s.NearOthers[v] == 0; }),
+    crowded.end());
+  bool isDone = crowded.empty();
+  for (int round = 0; round < SeparatingRounds && !isDone; ++round)
+  {
+    isDone = true;
+    for (const int v : crowded)
+    {
+      if (SquaredLength(PushAt(s, v)) > 0)
+      {
+        isDone = !StarImprovement(s, this->Editor, this->SnapTo, false).Separate(v) && isDone;
+      }
+    }
+  }
+}
+
+int SurfaceOptimization::ImproveAll(float good, bool mayCut)
+{
+  SurfaceState& s = this->State;
+  const auto score = [&s](int v)
+  { return s.Mesh.IsAlive(v) ? StarScore(s, v, s.Mesh.Position[v]) : 1.f; };
+  const int characteristic = this->Editor.EulerCharacteristic();
+  std::vector<int> list = this->AliveOnes();
+  std::vector<int> poor;
+  for (int round = 0; round < Rounds && !list.empty(); ++round)
+  {
+    const auto edited = static_cast<std::ptrdiff_t>(this->Editor.Changed().size());
+    std::vector<int> again;
+    for (const int v : list)
+    {
+      const float now = score(v);
+      if (now < GoodStar)
+      {
+        poor.push_back(v);
+      }
+      if (now < good && !StarImprovement(s, this->Editor, this->SnapTo, mayCut).Improve(v) &&
+        now < BadStar)
+      {
+        again.push_back(v); // What is edited next to it may help.
+      }
+    }
+    const std::vector<int>& changed = this->Editor.Changed();
+    again.insert(again.end(), changed.begin() + edited, changed.end());
+    SortUnique(again);
+    list.swap(again);
+  }
+  // Other stars stay good: they score as before until they are changed.
+  poor.insert(poor.end(), this->Editor.Changed().begin(), this->Editor.Changed().end());
+  SortUnique(poor);
+  std::vector<int> within;
+  std::set_intersection(
+    this->Within.begin(), this->Within.end(), poor.begin(), poor.end(), std::back_inserter(within));
+  this->Within.swap(within);
+  return (this->Editor.EulerCharacteristic() - characteristic) / 2;
+}
+
+void SurfaceOptimization::Run(const std::vector<int>& vertices)
+{
+  this->Within = vertices;
+  this->FirstNew = this->EndOfNew();
+  // A collapse may bring together what is far apart on the surface, and what is pushed apart may
+  // get ill-shaped faces.
+  this->SeparateAll();
+  this->ImproveAll(GoodStar, false);
+  this->SeparateAll();
+  // What could not be mended before may be now; if not, a cycle of three stands in the way.
+  this->ImproveAll(BadStar, false);
+  if (this->ImproveAll(0.f, this->TopologyChanges) > 0)
+  {
+    this->SeparateAll(); // The two sides of a cut are near each other.
+    this->ImproveAll(BadStar, this->TopologyChanges);
+  }
+}
+}
