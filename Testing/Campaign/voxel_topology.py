@@ -18,7 +18,7 @@ OCTANTS = list(itertools.product((0, 1), repeat=3))  # number 4 z + 2 y + x; axe
 def ring(axis, high):
     """Return the octants at a side of a cell, in cyclic order."""
     bits = [4, 2, 1]
-    own, b, c = bits[axis], *(bit for bit in bits if bit != bits[axis])
+    own, b, c = bits[axis], *(n for n in bits if n != bits[axis])
     return [high * own + n for n in (0, b, b + c, c)]
 
 
