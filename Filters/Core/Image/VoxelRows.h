@@ -95,7 +95,7 @@ VoxelRows ReadRows(const Voxels& voxels, const std::ptrdiff_t (&first)[4])
     return rows;
   }
 #if defined(__SSE2__)
-  else if constexpr (std::is_same_v<Voxels, Int32Voxels<T>>)
+  else if constexpr (std::is_same_v<Voxels, SmallIntegerVoxels<T>>)
   {
     const RowsOfIntegers integers = ReadIntegers(from[0], from[1], from[2], from[3]);
     const Lanes base = voxels.Base;

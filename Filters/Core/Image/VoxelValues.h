@@ -41,7 +41,7 @@ struct DoubleVoxels
  * two floats: that needs bits further down than a base of 24 bits has.)
  */
 template <typename T>
-struct Int32Voxels
+struct SmallIntegerVoxels
 {
   static_assert(std::is_integral_v<T> && sizeof(T) <= 2, "not every such number is a float");
   using Stored = T;
@@ -69,14 +69,14 @@ public:
   template <typename T>
   VoxelValues(const T* voxels, double base)
     : Voxels(voxels), Base(base), Held(TypeOf<T>()), IsPlain(false),
-      IsNarrow(sizeof(T) <= 2 && static_cast<double>(static_cast<float>(base)) == base)
+      IsSmallInteger(sizeof(T) <= 2 && static_cast<double>(static_cast<float>(base)) == base)
   {
   }
 
   explicit operator bool() const { return this->Voxels != nullptr; }
 
   /**
-   * Calls visit(voxels) with a PlainVoxels, Int32Voxels or DoubleVoxels: voxels[i] is the value of
+   * Calls visit(voxels) with a PlainVoxels, SmallIntegerVoxels or DoubleVoxels: voxels[i] is the value of
    * the i-th. To be called once per sample or loop, as it looks up the type.
    */
   template <typename Visitor>
@@ -166,10 +166,10 @@ private:
   template <typename T, typename Visitor>
   std::invoke_result_t<Visitor, PlainVoxels> VisitAsFloat(Visitor&& visit) const
   {
-    if (this->IsNarrow)
+    if (this->IsSmallInteger)
     {
       return visit(
-        Int32Voxels<T>{ static_cast<const T*>(this->Voxels), static_cast<float>(this->Base) });
+        SmallIntegerVoxels<T>{ static_cast<const T*>(this->Voxels), static_cast<float>(this->Base) });
     }
     return this->VisitAsDouble<T>(visit);
   }
@@ -183,7 +183,7 @@ private:
   double Base = 0.;
   Type Held = Type::Float;
   bool IsPlain = true;
-  bool IsNarrow = false; ///< See Int32Voxels.
+  bool IsSmallInteger = false; ///< See SmallIntegerVoxels.
 };
 }
 
