@@ -122,7 +122,7 @@ class ExportTest(testing.PluginTestCase):
                                      LowerThreshold=1e9, UpperThreshold=2e9)
         with testing.CapturedMessages() as messages:
             self.assertEqual(self.export("w.stl", threshold), {})
-        self.assertIn("w.stl: not written, as there are no triangles in it", messages.text)
+        self.assertIn("w.stl: not written, because there are no triangles", messages.text)
 
     def test_one_surface_is_one_file(self):
         source = simple.VolumetoSurface(simple.Wavelet(), IsoValue=150.0)
