@@ -16,7 +16,7 @@ import gui_session as gui
 import plugin_testing as testing
 import window_testing as window
 
-# What Documentation/paraview.md tells to write below the import.
+# Documentation/paraview.md: the line to add below the import.
 IMPORT = "from paraview.simple import *"
 LOAD = f"LoadPlugin({testing.plugin_path()!r}, ns=globals())"
 REPORT = """
