@@ -31,8 +31,7 @@ void SetCategories(vtkSMProxy* colors, const std::vector<ColorCategory>& categor
 /** Return the categories. */
 std::vector<ColorCategory> CategoriesOf(vtkSMProxy* colors);
 
-/** Compare categories. ParaView's colour map editor rounds colours to 16 bits, also without an
- * edit. */
+/** Compare categories. ParaView's colour map editor rounds colours to 16 bits without an edit. */
 bool AreSame(const std::vector<ColorCategory>& one, const std::vector<ColorCategory>& other);
 }
 

@@ -22,8 +22,7 @@ bool IsDownstreamOfSurface(pqPipelineSource* source);
 /** Return the StopReason of a stopped run; empty for a finished run. */
 std::string UnfinishedReason(vtkPVDataInformation* surfaces);
 
-/** Return the properties panels of the window. There are none yet when a plugin is loaded at
- * startup. */
+/** Return the properties panels of the window. There are none before its startup has finished. */
 QList<pqPropertiesPanel*> PropertiesPanels();
 }
 
