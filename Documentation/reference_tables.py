@@ -91,12 +91,14 @@ def table(class_name):
     kind = getattr(volumic, class_name)
     header = read_header(class_name)
     comments = {name: text for text, name in COMMENT.findall(header)}
+    is_other, previous = class_name != "vtkDeformableSurface", ""
     rows, lists = ["| property | default | meaning |", "|---|---|---|"], {}
     for name in sorted(property_names(kind()), key=lambda name: header.find(f"Set{name}(")):
-        # Properties that share a comment have it at the first one.
-        text = meaning(kind, comments.get(name, "As vtkDeformableSurface."))
+        # The first of several properties has the comment of all.
+        shared = "As vtkDeformableSurface." if is_other else f"See `{previous}`."
+        text, previous = meaning(kind, comments.get(name, shared)), name
         default = default_of(class_name, name)
-        like = re.match(r"As (?:in )?`?(vtkDeformableSurface)", text)
+        like = re.match(r"(?:As|See)(?: in| of)? `?(vtkDeformableSurface)", text)
         if re.match("Deprecated|(Has n|N)o effect", text):
             lists.setdefault("Deprecated, without effect", []).append(name)
         elif class_name != "vtkImagePyramid" and default == default_of("vtkImagePyramid", name):
