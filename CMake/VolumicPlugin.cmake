@@ -5,7 +5,7 @@
 
 set(volumic_plugin_subdirectory
   "paraview-${ParaView_VERSION_MAJOR}.${ParaView_VERSION_MINOR}/plugins")
-# Folder of the built plugin, for those who load it from the build.
+# Folder of the plugin in the build tree.
 set(VOLUMIC_PLUGIN_DIR
   "${CMAKE_BINARY_DIR}/${CMAKE_INSTALL_LIBDIR}/${volumic_plugin_subdirectory}/Volumic")
 
