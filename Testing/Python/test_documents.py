@@ -98,13 +98,24 @@ class CodeTest(FolderTestCase):
         self.check_surface()
 
     def test_python_of_the_tutorial(self):
-        pieces = blocks("Documentation/tutorial.md", "python")
+        pieces = [code for code in blocks("Documentation/tutorial.md", "python")
+                  if "ome_zarr" not in code]
         self.assertTrue(pieces)
         for code in pieces:
             run = self.run_here(sys.executable, "-c", code
                                 + "\nprint(surface.GetOutput().GetNumberOfPolys())")
             self.assertEqual(run.stderr, "")
             self.assertGreater(int(run.stdout), 500)
+
+    @unittest.skipUnless(test_ome_zarr.zarr and shutil.which("draco_encoder"),
+                         "no zarr or no draco (Debian: python3-zarr, draco)")
+    def test_microscopy_of_the_tutorial(self):
+        test_ome_zarr.write_labels(self.path("scan.ome.zarr"), "cells", ring_voxels() > 125)
+        code, = (code for code in blocks("Documentation/tutorial.md", "python")
+                 if "ome_zarr" in code)
+        self.run_here(sys.executable, "-c", code)
+        for name in ("label-1.ply", "labels.csv", "precomputed/info", "multilod_draco/1.index"):
+            self.assertTrue(os.path.exists(self.path(f"meshes/{name}")), name)
 
     def test_arrays_of_the_page_on_python(self):
         arrays, files = blocks("Documentation/python.md", "python")
